@@ -119,7 +119,7 @@ po: $(TEMPLATE)
 # ---- a fresh machine ----
 
 DEBIAN := gcc libc6-dev make libncurses-dev libgsl-dev libyaml-dev libunistring-dev librandom123-dev libcmocka-dev mandoc gettext pkgconf python3 \
-	tmux zsh locales parallel
+	tmux zsh locales parallel clang-format
 
 deps:
 	@missing=; for p in $(DEBIAN); do \

@@ -106,11 +106,11 @@ static const char *const bash_head =
     "    case $prev in";
 
 /* Names of the scenes among the profiles, a line each, from the program's list. */
-#define SCENES \
-    "--list-profiles 2>/dev/null |\n" \
+#define SCENES                                                                                                                 \
+    "--list-profiles 2>/dev/null |\n"                                                                                          \
     "            awk 'match($0, /\\.yaml +scene /) {$0 = substr($0, 1, RSTART - 1); sub(/.*\\//, \"\"); print}'"
-#define PARAMETERS(after) \
-    "--list-parameters 2>/dev/null |\n" \
+#define PARAMETERS(after)                                                                                                      \
+    "--list-parameters 2>/dev/null |\n"                                                                                        \
     "            awk 'NR > 1 && !NF {exit} NR > 1 {print $1 \"" after "\"}'"
 
 static void put_bash(const struct option_row *rows, size_t n)
@@ -126,9 +126,10 @@ static void put_bash(const struct option_row *rows, size_t n)
             printf(" _ceduo_offer < <(printf '%%s\\n' %s); return;;\n", words);
         else if (takes_path(&rows[i]))
             puts("\n"
-                 "        _ceduo_offer < <(\"$program\" " PARAMETERS("=") ")\n"
-                 "        [[ ${COMPREPLY-} == *= ]] && compopt -o nospace 2>/dev/null\n"
-                 "        return;;");
+                 "        _ceduo_offer < <(\"$program\" " PARAMETERS(
+                     "=") ")\n"
+                          "        [[ ${COMPREPLY-} == *= ]] && compopt -o nospace 2>/dev/null\n"
+                          "        return;;");
         else if (takes_file(&rows[i]))
             puts(" _ceduo_files ''; return;;");
         else
@@ -182,17 +183,18 @@ static void put_zsh(const struct option_row *rows, size_t n)
          "_ceduo_parameters()\n"
          "{\n"
          "    local -a paths\n"
-         "    paths=(${(f)\"$(\"${(Q)${words[1]/#\\~\\//$HOME/}}\" " PARAMETERS("") ")\"})\n"
-         "    compadd -S = -a paths\n"
-         "}\n"
-         "_ceduo_scenes()\n"
-         "{\n"
-         "    local -a names\n"
-         "    names=(${(f)\"$(\"${(Q)${words[1]/#\\~\\//$HOME/}}\" " SCENES ")\"})\n"
-         "    compadd -a names\n"
-         "    _files -g '*.(yaml|yml|jsonl)(-.)'\n"
-         "}\n"
-         "_arguments -s \\");
+         "    paths=(${(f)\"$(\"${(Q)${words[1]/#\\~\\//$HOME/}}\" " PARAMETERS(
+             "") ")\"})\n"
+                 "    compadd -S = -a paths\n"
+                 "}\n"
+                 "_ceduo_scenes()\n"
+                 "{\n"
+                 "    local -a names\n"
+                 "    names=(${(f)\"$(\"${(Q)${words[1]/#\\~\\//$HOME/}}\" " SCENES ")\"})\n"
+                 "    compadd -a names\n"
+                 "    _files -g '*.(yaml|yml|jsonl)(-.)'\n"
+                 "}\n"
+                 "_arguments -s \\");
     for (size_t i = 0; i < n; i++) {
         bool letter = rows[i].letter != 0;
         fputs("    ", stdout);

@@ -35,8 +35,7 @@ static void add_row(struct points *points, const char *line)
         strcmp(quantity, "mean_energy_kJ") != 0)
         return;
     for (size_t i = 0; i < SERIES; i++)
-        if (strcmp(what, all_series[i].what) == 0 && strcmp(numbers, all_series[i].numbers) == 0 &&
-            points[i].n < POINTS_MOST) {
+        if (strcmp(what, all_series[i].what) == 0 && strcmp(numbers, all_series[i].numbers) == 0 && points[i].n < POINTS_MOST) {
             points[i].x[points[i].n] = log10(seconds);
             points[i].y[points[i].n++] = log10(error);
         }

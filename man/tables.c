@@ -133,7 +133,10 @@ static void put_ranges(FILE *out)
         const char *end = strrchr(ranges[i].path, '.');
         fputs(".It Va ", out);
         put(out, end + 1);
-        fputs(strstr(ranges[i].path, "stools") ? " of stools\n" : strstr(ranges[i].path, "trees") ? " of shoots and trees\n" : "\n", out);
+        fputs(strstr(ranges[i].path, "stools")  ? " of stools\n"
+              : strstr(ranges[i].path, "trees") ? " of shoots and trees\n"
+                                                : "\n",
+              out);
         put_range(out, &ranges[i]);
     }
     fputs(".El\n", out);
@@ -191,7 +194,11 @@ int main(int argc, char **argv)
     static const struct {
         const char *name;
         void (*put)(FILE *out);
-    } tables[] = {{"keys", put_keys}, {"goals", put_goals}, {"ranges", put_ranges}, {"search", put_search}, {"figures", put_figure_lists}};
+    } tables[] = {{"keys", put_keys},
+                  {"goals", put_goals},
+                  {"ranges", put_ranges},
+                  {"search", put_search},
+                  {"figures", put_figure_lists}};
     if (argc != 3 && argc != 4)
         return 2;
     if (argc == 4) {

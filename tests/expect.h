@@ -38,24 +38,27 @@ static inline struct shown shown_unsigned(unsigned long long value)
     return s;
 }
 
-#define SHOWN(x)                                                                                              \
-    (_Generic((x), double: shown_number, float: shown_number, unsigned long: shown_unsigned,                  \
-         unsigned long long: shown_unsigned, default: shown_signed)(x)                                        \
+#define SHOWN(x)                                                                                                               \
+    (_Generic((x), double                                                                                                      \
+              : shown_number, float                                                                                            \
+              : shown_number, unsigned long                                                                                    \
+              : shown_unsigned, unsigned long long                                                                             \
+              : shown_unsigned, default                                                                                        \
+              : shown_signed)(x)                                                                                               \
          .text)
 
 /* EXPECT(found.value, <=, 5.5) */
-#define EXPECT(left, op, right)                                                                               \
-    do {                                                                                                      \
-        if (!((left)op(right)))                                                                               \
-            fail_msg("%s is %s, wanted %s %s, which is %s", #left, SHOWN(left), #op, #right, SHOWN(right));  \
+#define EXPECT(left, op, right)                                                                                                \
+    do {                                                                                                                       \
+        if (!((left)op(right)))                                                                                                \
+            fail_msg("%s is %s, wanted %s %s, which is %s", #left, SHOWN(left), #op, #right, SHOWN(right));                    \
     } while (0)
 
 /* |left - right| <= most; false where either is NaN. */
-#define EXPECT_NEAR(left, right, most)                                                                        \
-    do {                                                                                                      \
-        if (!(fabs((left) - (right)) <= (most)))                                                              \
-            fail_msg("%s is %s, wanted %s, which is %s, within %s", #left, SHOWN(left), #right, SHOWN(right), \
-                     SHOWN(most));                                                                            \
+#define EXPECT_NEAR(left, right, most)                                                                                         \
+    do {                                                                                                                       \
+        if (!(fabs((left) - (right)) <= (most)))                                                                               \
+            fail_msg("%s is %s, wanted %s, which is %s, within %s", #left, SHOWN(left), #right, SHOWN(right), SHOWN(most));    \
     } while (0)
 
 #endif

@@ -6,11 +6,11 @@
 
 /* The forms of the Average Distance between Contacts. AUTO is the rule of Ciabocco et al. 2009: rock smaller than the
  * spacing of the shoots → gsteiger-stems, otherwise interception; without stools gsteiger-stems. */
-#define CEDUO_RULES(X)                                                                                                     \
-    X(RULE_AUTO, "auto")                                                                                                   \
-    X(GSTEIGER_STOOLS, "gsteiger-stools") /* Eq. 1 as the paper computed it: A/[(Nc + Ns)(B + mean d)] */                  \
-    X(GSTEIGER_STEMS, "gsteiger-stems")   /* Eq. 1 with every stem: A/[sum N(B + d)], the mean free path */                \
-    X(INTERCEPTION, "interception")       /* Eq. 6: A/[(Nc + Ns)B + Nc(mean shoot d + s) + sum N d of trees] */            \
+#define CEDUO_RULES(X)                                                                                                         \
+    X(RULE_AUTO, "auto")                                                                                                       \
+    X(GSTEIGER_STOOLS, "gsteiger-stools") /* Eq. 1 as the paper computed it: A/[(Nc + Ns)(B + mean d)] */                      \
+    X(GSTEIGER_STEMS, "gsteiger-stems")   /* Eq. 1 with every stem: A/[sum N(B + d)], the mean free path */                    \
+    X(INTERCEPTION, "interception")       /* Eq. 6: A/[(Nc + Ns)B + Nc(mean shoot d + s) + sum N d of trees] */                \
     X(CROFTON, "crofton") /* A/[Nc(B + mean shoot d + P/pi) + sum N(B + d) of trees]: stools met (Cauchy, Crofton) */
 
 enum ceduo_rule {
@@ -47,27 +47,27 @@ double ceduo_energy_per_metre(const struct ceduo_stand *stand, double b, enum ce
 
 /* What a reader should know of a stand and a rock. A set of bits. */
 enum ceduo_stand_warning {
-    CEDUO_WARN_BELOW_FREE_PATH = 1 << 0,   /* interception < gsteiger-stems: s > (n - 1)(B + d): no path can have it */
-    CEDUO_WARN_NEAR_JUMP = 1 << 1,         /* B within 10 % of s, where the rule auto jumps */
-    CEDUO_WARN_DORREN_THIN = 1 << 2,       /* dorren below 10 cm: outside its data */
-    CEDUO_WARN_FORM_FACTOR = 1 << 3,       /* a volume by form factor, outside the species' equation */
-    CEDUO_WARN_RATIO_ASSUMED = 1 << 5,     /* fracture ratio 1 assumed for a species without one */
-    CEDUO_WARN_U_ASSUMED = 1 << 4,         /* U of beech assumed for another species */
-    CEDUO_WARN_WIDE_SPACING = 1 << 6,      /* s > B + d: the rock can pass between two shoots; crofton is not exact */
-    CEDUO_WARN_LOW = 1 << 8,               /* stumps or logs: contacts, but no stems that count */
-    CEDUO_WARN_INERTIA = 1 << 7,           /* inertia: an assumption, and Eq. 4 has no meaning */
-    CEDUO_WARN_BASAL_AREA = 1 << 9,        /* what hardly any stand has, so that it may be a mistake: more than these */
+    CEDUO_WARN_BELOW_FREE_PATH = 1 << 0, /* interception < gsteiger-stems: s > (n - 1)(B + d): no path can have it */
+    CEDUO_WARN_NEAR_JUMP = 1 << 1,       /* B within 10 % of s, where the rule auto jumps */
+    CEDUO_WARN_DORREN_THIN = 1 << 2,     /* dorren below 10 cm: outside its data */
+    CEDUO_WARN_FORM_FACTOR = 1 << 3,     /* a volume by form factor, outside the species' equation */
+    CEDUO_WARN_RATIO_ASSUMED = 1 << 5,   /* fracture ratio 1 assumed for a species without one */
+    CEDUO_WARN_U_ASSUMED = 1 << 4,       /* U of beech assumed for another species */
+    CEDUO_WARN_WIDE_SPACING = 1 << 6,    /* s > B + d: the rock can pass between two shoots; crofton is not exact */
+    CEDUO_WARN_LOW = 1 << 8,             /* stumps or logs: contacts, but no stems that count */
+    CEDUO_WARN_INERTIA = 1 << 7,         /* inertia: an assumption, and Eq. 4 has no meaning */
+    CEDUO_WARN_BASAL_AREA = 1 << 9,      /* what hardly any stand has, so that it may be a mistake: more than these */
     CEDUO_WARN_MANY_SHOOTS = 1 << 10,
     CEDUO_WARN_SLENDER = 1 << 11,
-    CEDUO_WARN_STOUT = 1 << 12,            /* or less than this */
-    CEDUO_WARN_THICK = 1 << 13,            /* thicker than any stem that its species' volumes were measured on */
-    CEDUO_WARN_UNLIKELY = 31 << 9          /* any of the last five */
+    CEDUO_WARN_STOUT = 1 << 12,   /* or less than this */
+    CEDUO_WARN_THICK = 1 << 13,   /* thicker than any stem that its species' volumes were measured on */
+    CEDUO_WARN_UNLIKELY = 31 << 9 /* any of the last five */
 };
 
 /* Beyond these a stand is unlikely (assumed). */
-#define CEDUO_BASAL_AREA_MOST 60   /* m2/ha */
-#define CEDUO_SHOOTS_MOST 15       /* on a stool, all cohorts together */
-#define CEDUO_SLENDERNESS_MOST 150 /* height over dbh */
+#define CEDUO_BASAL_AREA_MOST   60  /* m2/ha */
+#define CEDUO_SHOOTS_MOST       15  /* on a stool, all cohorts together */
+#define CEDUO_SLENDERNESS_MOST  150 /* height over dbh */
 #define CEDUO_SLENDERNESS_LEAST 25
 
 /* How one kind of stem is unlikely: of SLENDER, STOUT and THICK. */

@@ -8,18 +8,18 @@
 enum ceduo_light { CEDUO_UNKNOWN, CEDUO_PASS, CEDUO_FAIL };
 
 #define CEDUO_FREE_RUN_MOST 0.1  /* chance of a free run that a belt may leave */
-#define CEDUO_EXCEED_MOST 0.05   /* share of the released that may pass with too much energy */
-#define CEDUO_ARRIVE_LEAST 1000  /* of so many released one must arrive without forest */
+#define CEDUO_EXCEED_MOST   0.05 /* share of the released that may pass with too much energy */
+#define CEDUO_ARRIVE_LEAST  1000 /* of so many released one must arrive without forest */
 
 /* One belt of an option, as the index sees it. */
 struct ceduo_stand_result {
     double length; /* m */
     double stems_per_ha, stools_per_ha, trees_per_ha, basal_area;
     bool bare;
-    bool felled;            /* of a year: it is what a cut of this year left */
-    enum ceduo_rule rule;   /* the one that was applied; without meaning where bare */
-    struct ceduo_adc adc;   /* infinite where bare */
-    double adc_m;           /* of that rule */
+    bool felled;                 /* of a year: it is what a cut of this year left */
+    enum ceduo_rule rule;        /* the one that was applied; without meaning where bare */
+    struct ceduo_adc adc;        /* infinite where bare */
+    double adc_m;                /* of that rule */
     bool passes_threshold;       /* counting stems from simulation.contact_dbh on */
     double free_run_probability; /* no contact over the threshold: exp(-T/crofton); counting likewise */
     double contacts;             /* L/ADC (Eq. 2) */
@@ -28,7 +28,7 @@ struct ceduo_stand_result {
     double per_100m;             /* J: of that */
     unsigned warnings;           /* enum ceduo_stand_warning */
     struct ceduo_compliance rules;
-    double grouped_per_ha;       /* of the trees */
+    double grouped_per_ha; /* of the trees */
     double stumps_per_ha, logs_per_ha;
 };
 
@@ -44,16 +44,16 @@ struct ceduo_meeting {
 
 /* The belts between the release and one control, as the index sees them. */
 struct ceduo_index {
-    double length;          /* wooded metres */
-    double longest_gap;     /* m without forest, from the release to the control */
+    double length;      /* wooded metres */
+    double longest_gap; /* m without forest, from the release to the control */
     double contacts, meet_nothing_probability;
-    double dissipated;      /* J (Eq. 4); NaN where contacts of a belt take shares */
-    double per_100m;        /* J: of that, over what is wooded; 0 without forest */
-    double residual;        /* Eq. 5: max(0, bare mean - dissipated), or what shares and amounts leave of it; NaN where
+    double dissipated; /* J (Eq. 4); NaN where contacts of a belt take shares */
+    double per_100m;   /* J: of that, over what is wooded; 0 without forest */
+    double residual;   /* Eq. 5: max(0, bare mean - dissipated), or what shares and amounts leave of it; NaN where
                              * no rock reaches */
-    bool exhausted;         /* it was cut at 0 */
-    double measured;        /* J: half M v2 of the measured speed; NaN without one */
-    double worst_adc, worst_free_run;        /* as in struct ceduo_meeting, of stems from simulation.contact_dbh on */
+    bool exhausted;    /* it was cut at 0 */
+    double measured;   /* J: half M v2 of the measured speed; NaN without one */
+    double worst_adc, worst_free_run; /* as in struct ceduo_meeting, of stems from simulation.contact_dbh on */
     enum ceduo_light contact, free_run, energy;
     struct ceduo_meeting thick; /* of stems from CEDUO_THICK_DBH on, or from contact_dbh if that is more */
 };

@@ -11,7 +11,7 @@ struct ceduo_block {
     double adc;            /* m, by the scene's rule: the worst belt before the control; infinite where there is none */
     double contacts;       /* with stems up to the control, by that rule (Eq. 2 of Ciabocco et al. 2009) */
     struct ceduo_arrivals arrivals; /* through the forest; 0 released: not simulated, or left out as too dear */
-    bool own;              /* the scene's own block */
+    bool own;                       /* the scene's own block */
 };
 
 /* 0.05, 0.2, 1, 5 m3: the limits of the rock classes of the Swiss guideline NaiS (Frehner et al. 2005), and 1 m3 between;

@@ -10,14 +10,14 @@
  * the simplex of Nelder and Mead finds the best values; then adaptive Metropolis chains (Haario, Saksman and Tamminen 2001)
  * draw from all values that what was seen does not refute, each as likely before within its bounds. */
 
-#define CEDUO_CALIBRATION_MOST   12    /* values fitted at once */
+#define CEDUO_CALIBRATION_MOST   12 /* values fitted at once */
 #define CEDUO_CALIBRATION_CHAINS 4
-#define CEDUO_CALIBRATION_DRAWS  200   /* that predictions are made from */
+#define CEDUO_CALIBRATION_DRAWS  200 /* that predictions are made from */
 #define CEDUO_CALIBRATION_ROCKS  2000
-#define CEDUO_RHAT_MOST          1.05  /* chains agree (Gelman and Rubin 1992) */
-#define CEDUO_EFFECTIVE_LEAST    200   /* independent draws that theirs are worth */
-#define CEDUO_NOT_DETERMINED     0.8   /* of the bounds: a wider range says nothing */
-#define CEDUO_MISFIT             0.05  /* p below it: the model cannot give what was seen */
+#define CEDUO_RHAT_MOST          1.05 /* chains agree (Gelman and Rubin 1992) */
+#define CEDUO_EFFECTIVE_LEAST    200  /* independent draws that theirs are worth */
+#define CEDUO_NOT_DETERMINED     0.8  /* of the bounds: a wider range says nothing */
+#define CEDUO_MISFIT             0.05 /* p below it: the model cannot give what was seen */
 
 /* One scene, with the places of the fitted values in it: inputs of kind CEDUO_INPUT_RANGE, the same number in each scene, of
  * the same bounds. One that the scene does not have has no places. */
@@ -45,8 +45,8 @@ struct ceduo_calibration_def {
     uint64_t rocks;          /* of each evaluation and setting */
     uint64_t seed;
     unsigned threads;
-    size_t steps_most;         /* of each chain; 0: as many as is usual */
-    const atomic_bool *cancel; /* may be NULL */
+    size_t steps_most;                                                            /* of each chain; 0: as many as is usual */
+    const atomic_bool *cancel;                                                    /* may be NULL */
     void (*progress)(void *context, const struct ceduo_calibration_state *state); /* may be NULL; by one thread at a time */
     void *context;
 };
@@ -60,7 +60,7 @@ struct ceduo_fitted {
 struct ceduo_predicted {
     size_t scene, observation;
     struct ceduo_counterpart at_best;
-    double p_value;  /* share of samples from the fit that lie as far from it as what was seen, or further */
+    double p_value;      /* share of samples from the fit that lie as far from it as what was seen, or further */
     double seen, lo, hi; /* the mean that was seen, or the count; 95 % of what the fit predicts of it */
     bool inside;
     double one_lo, one_hi; /* 95 % of the values of single rocks; NaN: not known */
@@ -73,9 +73,9 @@ struct ceduo_calibration {
     double correlation[CEDUO_CALIBRATION_MOST][CEDUO_CALIBRATION_MOST];
     size_t predicted_count;
     struct ceduo_predicted *predicted; /* of all scenes */
-    bool misfit;     /* of something that was to be fitted */
-    bool refuted;    /* something that was to check the fit is not as predicted */
-    bool settled;    /* the chains agree and are long enough */
+    bool misfit;                       /* of something that was to be fitted */
+    bool refuted;                      /* something that was to check the fit is not as predicted */
+    bool settled;                      /* the chains agree and are long enough */
     uint64_t evaluations;
     double rhat, effective_size;
     size_t draws_count;

@@ -26,8 +26,8 @@
 #include "stand.h"
 #include "statistics.h"
 #include "status.h"
-#include "version.h"
 #include "trajectory.h"
+#include "version.h"
 #include "years.h"
 
 #endif

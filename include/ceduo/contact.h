@@ -3,9 +3,9 @@
 #define CEDUO_CONTACT_H
 
 /* The laws of an impact on the ground. A new law is a file like src/core/law_crsp.h and a line here. */
-#define CEDUO_LAWS(X) \
-    X(LUMPED, lumped) \
-    X(CRSP, crsp)     \
+#define CEDUO_LAWS(X)                                                                                                          \
+    X(LUMPED, lumped)                                                                                                          \
+    X(CRSP, crsp)                                                                                                              \
     X(ARM, arm)
 
 enum ceduo_law {

@@ -15,9 +15,10 @@ enum ceduo_input_kind {
     CEDUO_INPUT_RANGE,  /* uniform between lo and hi */
     CEDUO_INPUT_FACTOR, /* its value in the scene times a factor, uniform between lo and hi */
     CEDUO_INPUT_NORMAL, /* normal, cut at three standard deviations: lo and hi */
-    CEDUO_INPUT_GAMMA,  /* gamma, cut where a normal one would be: of what cannot be below 0 and has an error above a third of it */
-    CEDUO_INPUT_WORDS,  /* one of several words, each as likely */
-    CEDUO_INPUT_DRAWS   /* one of several rows, each with a value for each place: what a calibration left open */
+    /* gamma, cut where a normal one would be: of what cannot be below 0 and has an error above a third of it */
+    CEDUO_INPUT_GAMMA,
+    CEDUO_INPUT_WORDS, /* one of several words, each as likely */
+    CEDUO_INPUT_DRAWS  /* one of several rows, each with a value for each place: what a calibration left open */
 };
 
 /* One thing that is not known. It may stand at several places of the scene, which then change together. */
@@ -30,7 +31,8 @@ struct ceduo_input {
     const int *words; /* values of the choice */
     size_t places_count;
     size_t draws_count;
-    const double *const *draws; /* CEDUO_INPUT_DRAWS: of each place its values, row by row; the places are sorted by their names */
+    /* CEDUO_INPUT_DRAWS: of each place its values, row by row; the places are sorted by their names */
+    const double *const *draws;
     const char *const *places; /* paths, each with its place in brackets: forest[0].stand.trees[0].per_ha */
 };
 
@@ -51,9 +53,9 @@ enum ceduo_doubt_kind {
     CEDUO_DOUBT_KINDS
 };
 
-#define CEDUO_DOUBT_POINTS 256
+#define CEDUO_DOUBT_POINTS      256
 #define CEDUO_DOUBT_POINTS_MOST 100000
-#define CEDUO_DOUBT_FIRST  32 /* base points of a first look that ranks more inputs than can have an index */
+#define CEDUO_DOUBT_FIRST       32 /* base points of a first look that ranks more inputs than can have an index */
 
 struct ceduo_doubt_def {
     const struct ceduo_scene *scene;
@@ -63,7 +65,7 @@ struct ceduo_doubt_def {
     size_t first;   /* base points of a first look that ranks more inputs than can have an index, >= 2; 0: CEDUO_DOUBT_FIRST */
     uint64_t rocks; /* of each evaluation, >= 2 */
     unsigned threads;
-    const atomic_bool *cancel; /* may be NULL */
+    const atomic_bool *cancel;                                    /* may be NULL */
     void (*progress)(void *context, uint64_t done, uint64_t all); /* may be NULL; by one thread at a time */
     void *context;
 };
@@ -77,7 +79,8 @@ struct ceduo_doubt_figure {
     double p5, p50, p95;                    /* over what may be true */
     struct ceduo_indices indices;
     double at[CEDUO_SENSITIVITY_GROUPS][2]; /* with one input at its lower, at its upper end, all others as they are */
-    double left[CEDUO_SENSITIVITY_GROUPS];  /* p95 - p5 that would be left, on the mean, if this input were known; NaN: of several */
+    /* p95 - p5 that would be left, on the mean, if this input were known; NaN: of several */
+    double left[CEDUO_SENSITIVITY_GROUPS];
 };
 
 /* Of two neighbours in rank: in how much of what may be true the one is better, worse, and neither by more than the noise of
@@ -88,10 +91,10 @@ struct ceduo_doubt_order {
 };
 
 struct ceduo_doubt_answer {
-    size_t groups;                             /* what has an index */
-    size_t input[CEDUO_SENSITIVITY_GROUPS];    /* its input; of the last of several together: their number */
-    size_t together;                           /* inputs that move as one, the last of `groups`; 0: none */
-    size_t *moved;                             /* those inputs */
+    size_t groups;                          /* what has an index */
+    size_t input[CEDUO_SENSITIVITY_GROUPS]; /* its input; of the last of several together: their number */
+    size_t together;                        /* inputs that move as one, the last of `groups`; 0: none */
+    size_t *moved;                          /* those inputs */
     size_t figures_count;
     struct ceduo_doubt_figure *figures; /* by option and kind, then the differences; see ceduo_doubt_figure_of() */
     enum ceduo_doubt_kind main;         /* too much energy where that is known, otherwise energy */
@@ -107,8 +110,8 @@ void ceduo_doubt_free(struct ceduo_doubt_answer *answer);
 
 /* Part 1…parts of the same as bytes, for the caller to free: base points are shared out. Each part ranks more inputs than
  * can have an index for itself. */
-enum ceduo_status ceduo_doubt_ask_part(const struct ceduo_doubt_def *def, uint64_t part, uint64_t parts,
-                                       unsigned char **bytes, size_t *n);
+enum ceduo_status ceduo_doubt_ask_part(const struct ceduo_doubt_def *def, uint64_t part, uint64_t parts, unsigned char **bytes,
+                                       size_t *n);
 
 /* The answer of all parts in their order, bit for bit that of ceduo_doubt_ask(). CEDUO_BAD_PART where one does not fit. */
 struct ceduo_doubt_part {

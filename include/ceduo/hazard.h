@@ -20,7 +20,7 @@ struct ceduo_return {
 /* Classes of intensity and of return period of Swiss practice: below 30 kJ, 30 to 300 kJ, above 300 kJ (BAFU 2016); to 30,
  * to 100, to 300 years. */
 #define CEDUO_INTENSITIES 3
-#define CEDUO_RETURNS     4 /* 10 years beside them */
+#define CEDUO_RETURNS     4                                      /* 10 years beside them */
 extern const double ceduo_intensity_from[CEDUO_INTENSITIES + 1]; /* J; the last is infinite */
 extern const unsigned ceduo_return_years[CEDUO_RETURNS];
 
@@ -28,11 +28,11 @@ extern const unsigned ceduo_return_years[CEDUO_RETURNS];
 int ceduo_intensity_of(double energy);
 
 struct ceduo_intensity {
-    const char *word;                   /* weak, medium, strong */
-    double from, to;                    /* J; to: infinite of the last */
-    struct ceduo_rate within;           /* rocks of this intensity a year */
-    double left;                        /* share of those without forest; NaN: there are none */
-    bool of_return[CEDUO_RETURNS];      /* whether the energy of that return period is of this intensity */
+    const char *word;              /* weak, medium, strong */
+    double from, to;               /* J; to: infinite of the last */
+    struct ceduo_rate within;      /* rocks of this intensity a year */
+    double left;                   /* share of those without forest; NaN: there are none */
+    bool of_return[CEDUO_RETURNS]; /* whether the energy of that return period is of this intensity */
 };
 
 /* Energies at which the curve of rates is given: ten to a decade, 0.1 kJ to 10^6 kJ. */
@@ -53,7 +53,7 @@ struct ceduo_hazard {
     struct ceduo_return returns[CEDUO_RETURNS];
     struct ceduo_rate reach;    /* rocks that arrive */
     struct ceduo_rate accepted; /* rocks that arrive with more than is accepted; NaN where that is not said */
-    double left; /* share of the rate without forest of what is feared; NaN: it is 0 there, or not known */
+    double left;                /* share of the rate without forest of what is feared; NaN: it is 0 there, or not known */
     struct ceduo_intensity intensity[CEDUO_INTENSITIES];
 };
 

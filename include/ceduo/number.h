@@ -4,8 +4,8 @@
 
 #include <stdbool.h>
 
-#define CEDUO_SPREAD_KINDS(X) \
-    X(NORMAL, "normal")       \
+#define CEDUO_SPREAD_KINDS(X)                                                                                                  \
+    X(NORMAL, "normal")                                                                                                        \
     X(UNIFORM, "uniform")
 
 enum ceduo_spread_kind {

@@ -9,8 +9,8 @@
 /* What was seen of real rocks on a slope, and what simulated rocks do there: the ground between them is fitted to the one
  * by the other, see calibrate.h. */
 
-#define CEDUO_OBSERVED_USES(X) \
-    X(FIT, "fit")              \
+#define CEDUO_OBSERVED_USES(X)                                                                                                 \
+    X(FIT, "fit")                                                                                                              \
     X(CHECK, "check") /* only predicted, to see whether the fit holds */
 
 enum ceduo_observed_use {
@@ -20,11 +20,11 @@ enum ceduo_observed_use {
 };
 
 enum ceduo_observed_kind {
-    CEDUO_OBSERVED_STOPS,  /* where rocks came to rest or were stopped */
-    CEDUO_OBSERVED_PASSED, /* how many passed a place */
-    CEDUO_OBSERVED_SPEED,  /* of those that passed a place: m/s, */
-    CEDUO_OBSERVED_HEIGHT, /* clearance of the underside, m, */
-    CEDUO_OBSERVED_ENERGY, /* J */
+    CEDUO_OBSERVED_STOPS,         /* where rocks came to rest or were stopped */
+    CEDUO_OBSERVED_PASSED,        /* how many passed a place */
+    CEDUO_OBSERVED_SPEED,         /* of those that passed a place: m/s, */
+    CEDUO_OBSERVED_HEIGHT,        /* clearance of the underside, m, */
+    CEDUO_OBSERVED_ENERGY,        /* J */
     CEDUO_OBSERVED_LARGEST_SPEED, /* of each rock on its way */
     CEDUO_OBSERVED_LARGEST_HEIGHT,
     CEDUO_OBSERVED_WAY_SPEED, /* each rock's mean along a stretch, metre by metre, of those that enter it */
@@ -38,19 +38,19 @@ enum ceduo_observed_kind {
 struct ceduo_observation {
     enum ceduo_observed_kind kind;
     enum ceduo_observed_use use;
-    const char *name;      /* as the scene has it, or made from what it is */
-    bool named;            /* it is the scene's */
-    size_t option;         /* through whose forest */
-    const struct ceduo_rock_def *rock;    /* NULL: the scene's */
-    const struct ceduo_release *release;  /* NULL: the scene's */
-    double x;              /* of passed, speed, height, energy */
-    double from, to;       /* of a stretch; `from` of stops: what stopped before it was not looked for; NaN: everywhere */
-    size_t n;              /* values, or what the mean is of */
-    const double *values;  /* NULL: only their mean and sd are known */
+    const char *name;                    /* as the scene has it, or made from what it is */
+    bool named;                          /* it is the scene's */
+    size_t option;                       /* through whose forest */
+    const struct ceduo_rock_def *rock;   /* NULL: the scene's */
+    const struct ceduo_release *release; /* NULL: the scene's */
+    double x;                            /* of passed, speed, height, energy */
+    double from, to;      /* of a stretch; `from` of stops: what stopped before it was not looked for; NaN: everywhere */
+    size_t n;             /* values, or what the mean is of */
+    const double *values; /* NULL: only their mean and sd are known */
     double mean, sd;
-    uint64_t count;        /* of passed */
-    uint64_t of;           /* rocks released; 0: not known */
-    double share_seen;     /* of scars; NaN: not known */
+    uint64_t count;    /* of passed */
+    uint64_t of;       /* rocks released; 0: not known */
+    double share_seen; /* of scars; NaN: not known */
 };
 
 /* A list is compared in classes between its own quantiles: as many as there are times five values, at most ten, at least
@@ -61,15 +61,15 @@ struct ceduo_observation {
 /* What simulated rocks say of one observation. */
 #define CEDUO_SOME_VALUES 40
 struct ceduo_counterpart {
-    uint64_t rocks;    /* simulated rocks that it is of */
-    size_t classes;    /* 0: compared by their means */
+    uint64_t rocks;                                             /* simulated rocks that it is of */
+    size_t classes;                                             /* 0: compared by their means */
     double seen[CEDUO_CLASSES_MOST], count[CEDUO_CLASSES_MOST]; /* in each class: seen, simulated */
-    double mean, sd;   /* of the simulated values */
+    double mean, sd;                                            /* of the simulated values */
     size_t some_count; /* the first of them: rocks are alike, so that they stand for all */
     double some[CEDUO_SOME_VALUES];
     double seen_mean;
-    double variance;   /* of the difference of the means: the error of both sides */
-    double scars, scars_variance; /* expected, of the rocks released; NaN: not asked for */
+    double variance;                 /* of the difference of the means: the error of both sides */
+    double scars, scars_variance;    /* expected, of the rocks released; NaN: not asked for */
     double log_likelihood, deviance; /* deviance: twice the logarithm that is missing to a model that fits perfectly */
 };
 
@@ -87,12 +87,12 @@ void ceduo_observer_free(struct ceduo_observer *observer);
 
 /* Simulates `rocks` rocks of each kind in a scene, always the same, on this thread, and fills `to`, one counterpart for each
  * observation. `cancel` may be NULL. CEDUO_CANCELLED, CEDUO_NO_MEMORY or what ceduo_scene_check() says. */
-enum ceduo_status ceduo_observer_look(const struct ceduo_observer *observer, const struct ceduo_scene *scene,
-                                      uint64_t rocks, const atomic_bool *cancel, struct ceduo_counterpart *to);
+enum ceduo_status ceduo_observer_look(const struct ceduo_observer *observer, const struct ceduo_scene *scene, uint64_t rocks,
+                                      const atomic_bool *cancel, struct ceduo_counterpart *to);
 
 /* The same of one observation, value by value: *values is the caller's to free, NaN where a rock has none. Of scars one value
  * for each blow. */
-enum ceduo_status ceduo_observer_values(const struct ceduo_observer *observer, const struct ceduo_scene *scene,
-                                        size_t which, uint64_t rocks, double **values, size_t *n);
+enum ceduo_status ceduo_observer_values(const struct ceduo_observer *observer, const struct ceduo_scene *scene, size_t which,
+                                        uint64_t rocks, double **values, size_t *n);
 
 #endif

@@ -14,17 +14,17 @@
  *         printf("%g\n", answer.result->options[0].wooded.arrivals[0].reach_probability);
  *     ceduo_answer_release(&answer); */
 struct ceduo_question {
-    struct ceduo_run_def run; /* the scene, and how its rocks are simulated; its option is not looked at */
-    uint64_t rocks;           /* in each run; 0: none, for what stands and index say without */
-    double tolerance;         /* > 0: fewer, as soon as ceduo_pool_until() knows the mean energies to this */
-    size_t only;              /* the run of this option alone: through its forest, by the index without forest. Of what
+    struct ceduo_run_def run;   /* the scene, and how its rocks are simulated; its option is not looked at */
+    uint64_t rocks;             /* in each run; 0: none, for what stands and index say without */
+    double tolerance;           /* > 0: fewer, as soon as ceduo_pool_until() knows the mean energies to this */
+    size_t only;                /* the run of this option alone: through its forest, by the index without forest. Of what
                                * was not simulated nothing is known. CEDUO_ALL_OPTIONS: without forest and through each */
-    bool years;               /* each option year by year, with as many rocks */
+    bool years;                 /* each option year by year, with as many rocks */
     struct ceduo_window window; /* those years; step 0: of each option those of ceduo_window_in() */
-    uint64_t year_rocks;  /* > 0: in each year at the most so many; with years_most in all years of an option a few times
+    uint64_t year_rocks;        /* > 0: in each year at the most so many; with years_most in all years of an option a few times
                            * the rocks of a run */
-    unsigned years_most;  /* > 0: at the most so many years, evenly spread over those */
-    uint64_t block_rocks; /* > 0: blocks of other sizes to the last control, at the most so many of each, and no dearer
+    unsigned years_most;        /* > 0: at the most so many years, evenly spread over those */
+    uint64_t block_rocks;       /* > 0: blocks of other sizes to the last control, at the most so many of each, and no dearer
                            * than the runs without forest and through it */
 };
 #define CEDUO_ALL_OPTIONS SIZE_MAX
@@ -44,12 +44,11 @@ struct ceduo_answer {
 /* `pool` (may be NULL) keeps the runs from one question to the next, see ceduo_pool_for(): *pool is NULL at first, and
  * the caller's to free. What the scene points to must outlive answer and pool. CEDUO_CANCELLED, CEDUO_NO_MEMORY or what
  * ceduo_scene_check() says: then the answer is empty. Release it in any case. */
-enum ceduo_status ceduo_ask(const struct ceduo_question *question, struct ceduo_pool **pool,
-                            struct ceduo_answer *answer);
+enum ceduo_status ceduo_ask(const struct ceduo_question *question, struct ceduo_pool **pool, struct ceduo_answer *answer);
 void ceduo_answer_release(struct ceduo_answer *answer);
 
 /* Part 1…parts of the runs of a question as bytes, for the caller to free; see part.h. */
-enum ceduo_status ceduo_ask_part(const struct ceduo_question *question, uint64_t part, uint64_t parts,
-                                 unsigned char **bytes, size_t *n);
+enum ceduo_status ceduo_ask_part(const struct ceduo_question *question, uint64_t part, uint64_t parts, unsigned char **bytes,
+                                 size_t *n);
 
 #endif

@@ -15,7 +15,7 @@ struct ceduo_stretch {
 
 /* Means along a stretch, over the horizontal metres that a rock covers of it. */
 struct ceduo_stretch_means {
-    double length; /* those metres; 0: it did not enter it, and the others are NaN */
+    double length;                /* those metres; 0: it did not enter it, and the others are NaN */
     double speed, height, energy; /* m/s; clearance of the underside, m; J */
 };
 
@@ -26,7 +26,7 @@ struct ceduo_blow {
 };
 
 struct ceduo_record_def {
-    const struct ceduo_scene *scene; /* checked */
+    const struct ceduo_scene *scene;   /* checked */
     const struct ceduo_option *option; /* NULL: without forest */
     uint64_t rocks;
     size_t stretches_count;
@@ -37,17 +37,17 @@ struct ceduo_record_def {
 
 struct ceduo_rock_record {
     double mass, moment;
-    double stop_x; /* NaN: it did not stop on the slope */
+    double stop_x;                        /* NaN: it did not stop on the slope */
     double largest_speed, largest_height; /* m/s; clearance of the underside, m; from its release on */
 };
 
 struct ceduo_record {
     uint64_t rocks_count;
     struct ceduo_rock_record *rocks;
-    struct ceduo_crossing *crossings;    /* [rock][control] */
-    struct ceduo_stretch_means *means;   /* [rock][stretch] */
+    struct ceduo_crossing *crossings;  /* [rock][control] */
+    struct ceduo_stretch_means *means; /* [rock][stretch] */
     size_t blows_count;
-    struct ceduo_blow *blows;            /* in the order of the rocks */
+    struct ceduo_blow *blows; /* in the order of the rocks */
 };
 
 /* CEDUO_NO_MEMORY, CEDUO_CANCELLED, with nothing to release, or CEDUO_OK. */

@@ -23,14 +23,13 @@ struct ceduo_regulation {
 
 /* How a coppice stands to it. */
 struct ceduo_compliance {
-    const struct ceduo_regulation *of; /* NULL: there is none, or the stand is no coppice */
+    const struct ceduo_regulation *of;                              /* NULL: there is none, or the stand is no coppice */
     const struct ceduo_regulation_item *standards_item, *turn_item; /* NULL: it says nothing of this species */
-    double standards; /* per ha: those that a cut leaves; where the stand does not say, its trees */
-    double turn;      /* years: age of the oldest shoots at a cut; NaN: the stand is never cut */
+    double standards;             /* per ha: those that a cut leaves; where the stand does not say, its trees */
+    double turn;                  /* years: age of the oldest shoots at a cut; NaN: the stand is never cut */
     bool standards_met, turn_met; /* where there is an item, and a turn */
 };
 
-struct ceduo_compliance ceduo_regulation_check(const struct ceduo_regulation *regulation,
-                                               const struct ceduo_stand *stand);
+struct ceduo_compliance ceduo_regulation_check(const struct ceduo_regulation *regulation, const struct ceduo_stand *stand);
 
 #endif

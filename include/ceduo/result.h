@@ -24,18 +24,18 @@ void ceduo_flown_free(struct ceduo_flown *flown);
 
 /* What is found for one option. */
 struct ceduo_option_result {
-    struct ceduo_stand_result *stands; /* one for each belt */
-    struct ceduo_index *controls;      /* one for each control, in the scene's order */
-    struct ceduo_flown wooded;         /* through its forest; with the contact model index: without forest */
+    struct ceduo_stand_result *stands;    /* one for each belt */
+    struct ceduo_index *controls;         /* one for each control, in the scene's order */
+    struct ceduo_flown wooded;            /* through its forest; with the contact model index: without forest */
     struct ceduo_difference *differences; /* of that to the first option; all NaN where not known */
-    struct ceduo_other_energy *others; /* one for each control: the same rocks under the other energy law */
+    struct ceduo_other_energy *others;    /* one for each control: the same rocks under the other energy law */
 };
 
 /* All that is found for a scene: plain columns, to be shown or written. */
 struct ceduo_result {
     const struct ceduo_scene *scene;
-    struct ceduo_rock rock; /* of the means */
-    bool wooded;            /* rocks went through the forests; otherwise the contact model is index */
+    struct ceduo_rock rock;  /* of the means */
+    bool wooded;             /* rocks went through the forests; otherwise the contact model is index */
     struct ceduo_flown bare; /* without forest, the same for all options */
     size_t last_control;     /* the one farthest along x */
     size_t options_count;
@@ -52,8 +52,7 @@ enum ceduo_status ceduo_result_create(const struct ceduo_scene *scene, const str
  * yet. `differences` and `others` (may be NULL): one for each option and control, in rows by option. With the contact model
  * index none of the three is looked at. */
 enum ceduo_status ceduo_result_assess(const struct ceduo_scene *scene, const struct ceduo_flown *bare,
-                                      const struct ceduo_flown *const *wooded,
-                                      const struct ceduo_difference *differences,
+                                      const struct ceduo_flown *const *wooded, const struct ceduo_difference *differences,
                                       const struct ceduo_other_energy *others, struct ceduo_result **result);
 void ceduo_result_free(struct ceduo_result *result);
 

@@ -5,10 +5,10 @@
 #include "number.h"
 #include "status.h"
 
-#define CEDUO_SHAPES(X)       \
-    X(SPHERE, "sphere")       \
-    X(CYLINDER, "cylinder")   \
-    X(ELLIPSOID, "ellipsoid") \
+#define CEDUO_SHAPES(X)                                                                                                        \
+    X(SPHERE, "sphere")                                                                                                        \
+    X(CYLINDER, "cylinder")                                                                                                    \
+    X(ELLIPSOID, "ellipsoid")                                                                                                  \
     X(BLOCK, "block")
 
 enum ceduo_shape {
@@ -22,12 +22,12 @@ enum ceduo_shape {
  * given, a mass replaces volume × density. */
 struct ceduo_rock_def {
     enum ceduo_shape shape;
-    struct ceduo_number diameter;  /* m, > 0 */
-    struct ceduo_number height;    /* m, > 0 */
-    struct ceduo_number volume;    /* m3, > 0 */
-    struct ceduo_number mass;      /* kg, > 0 */
-    struct ceduo_number density;   /* kg/m3, > 0 */
-    struct ceduo_number axes[3];   /* m, > 0 */
+    struct ceduo_number diameter; /* m, > 0 */
+    struct ceduo_number height;   /* m, > 0 */
+    struct ceduo_number volume;   /* m3, > 0 */
+    struct ceduo_number mass;     /* kg, > 0 */
+    struct ceduo_number density;  /* kg/m3, > 0 */
+    struct ceduo_number axes[3];  /* m, > 0 */
 };
 
 /* One rock. */

@@ -14,7 +14,7 @@
  * and read at any time between. */
 struct ceduo_run;
 
-#define CEDUO_BLOCK_ROCKS 1024                       /* rocks summed as one */
+#define CEDUO_BLOCK_ROCKS 1024                        /* rocks summed as one */
 #define CEDUO_EXACT_BYTES ((size_t)256 * 1024 * 1024) /* samples kept for exact percentiles */
 
 /* How rocks are simulated: one by one, or 8 or 32 at once in the lanes of wide registers. All give the same bits.
@@ -22,19 +22,19 @@ struct ceduo_run;
 enum ceduo_kernel { CEDUO_KERNEL_BEST, CEDUO_KERNEL_SCALAR, CEDUO_KERNEL_AVX2, CEDUO_KERNEL_AVX512 };
 
 struct ceduo_run_def {
-    const struct ceduo_scene *scene; /* checked; what it points to must outlive the run */
+    const struct ceduo_scene *scene;   /* checked; what it points to must outlive the run */
     const struct ceduo_option *option; /* whose forest the rocks go through; NULL: none. It must outlive the run */
-    unsigned threads;                /* >= 1; the results do not depend on it */
-    enum ceduo_kernel kernel;        /* nor on this */
-    uint64_t rocks_most;             /* no longer than this will it be made */
-    size_t cells;                    /* envelopes at this many places, 0: none */
-    const double *cell_x;            /* rising, on the slope */
-    bool arrivals_only;              /* trajectories stop behind the last control or cell: their ends are not known */
-    size_t exact_bytes;              /* beyond this percentiles come from a histogram */
-    bool other_energy;               /* of a pool: each forest under the other energy law as well, see other.h */
-    bool part;                       /* of a run of rocks_most: only rocks from `first` on, to be saved; see part.h */
-    uint64_t first;                  /* a multiple of CEDUO_BLOCK_ROCKS */
-    const atomic_bool *cancel;       /* may be NULL; raised by another thread: the call returns soon */
+    unsigned threads;                  /* >= 1; the results do not depend on it */
+    enum ceduo_kernel kernel;          /* nor on this */
+    uint64_t rocks_most;               /* no longer than this will it be made */
+    size_t cells;                      /* envelopes at this many places, 0: none */
+    const double *cell_x;              /* rising, on the slope */
+    bool arrivals_only;                /* trajectories stop behind the last control or cell: their ends are not known */
+    size_t exact_bytes;                /* beyond this percentiles come from a histogram */
+    bool other_energy;                 /* of a pool: each forest under the other energy law as well, see other.h */
+    bool part;                         /* of a run of rocks_most: only rocks from `first` on, to be saved; see part.h */
+    uint64_t first;                    /* a multiple of CEDUO_BLOCK_ROCKS */
+    const atomic_bool *cancel;         /* may be NULL; raised by another thread: the call returns soon */
     void (*progress)(void *context, uint64_t rocks); /* may be NULL; called now and then by a worker, one at a time */
     void *context;
 };
@@ -52,7 +52,7 @@ enum ceduo_status ceduo_run_extend(struct ceduo_run *run, uint64_t rocks);
 
 uint64_t ceduo_run_rocks(const struct ceduo_run *run);
 size_t ceduo_run_sample_bytes(const struct ceduo_run *run); /* taken by what is kept of single rocks */
-uint64_t ceduo_run_contacts(const struct ceduo_run *run); /* ground contacts of all rocks */
+uint64_t ceduo_run_contacts(const struct ceduo_run *run);   /* ground contacts of all rocks */
 
 /* Stems along all trajectories. */
 struct ceduo_stem_counts {
@@ -65,19 +65,19 @@ struct ceduo_stem_counts ceduo_run_stems(const struct ceduo_run *run);
 /* What arrives at a control. Means and percentiles are over the rocks that reached it. Where the scene has blocks, counts are
  * of the rocks that were drawn; shares, means and percentiles are of the blocks that come down. */
 struct ceduo_arrivals {
-    uint64_t released, reached, exceeded, unfinished; /* unfinished: before this control */
-    uint64_t ended[CEDUO_ENDS];                       /* that did not reach it, by how they ended: with those that
+    uint64_t released, reached, exceeded, unfinished;             /* unfinished: before this control */
+    uint64_t ended[CEDUO_ENDS];                                   /* that did not reach it, by how they ended: with those that
                                                        * reached it, all released */
-    double missed[CEDUO_ENDS];                        /* shares of the same */
-    double reach_probability, reach_lo, reach_hi;     /* hi counts the unfinished as reached */
-    double exceed_probability, exceed_lo, exceed_hi;  /* NaN without an accepted energy */
+    double missed[CEDUO_ENDS];                                    /* shares of the same */
+    double reach_probability, reach_lo, reach_hi;                 /* hi counts the unfinished as reached */
+    double exceed_probability, exceed_lo, exceed_hi;              /* NaN without an accepted energy */
     struct ceduo_distribution speed, energy, translation, height; /* m/s, J, J, m */
     double energy_per_released, energy_per_released_se;           /* J */
     double top_p95; /* m: 95th percentile of the height of the rocks' tops above the ground, their underside's and their mean
                      * diameter; NaN where the scene asks for no design values, or sizes differ and samples are not kept */
-    double contacts, contacts_se;                                 /* with stems, of those that reached; NaN: bare run */
-    struct ceduo_hazard hazard;                                   /* where the scene has blocks */
-    bool exact;                                                   /* percentiles from every sample */
+    double contacts, contacts_se; /* with stems, of those that reached; NaN: bare run */
+    struct ceduo_hazard hazard;   /* where the scene has blocks */
+    bool exact;                   /* percentiles from every sample */
 };
 
 /* CEDUO_NO_MEMORY or CEDUO_OK. `control` counts in the scene's order. */
@@ -105,8 +105,7 @@ struct ceduo_difference {
  * forests, the smaller the error of the difference. In runs too long to keep their samples the standard error comes
  * from the first CEDUO_PAIRED_ROCKS at most, whose energies are kept as far as exact_bytes goes. */
 #define CEDUO_PAIRED_ROCKS ((uint64_t)1 << 20)
-struct ceduo_difference ceduo_run_difference(const struct ceduo_run *run, const struct ceduo_run *baseline,
-                                             size_t control);
+struct ceduo_difference ceduo_run_difference(const struct ceduo_run *run, const struct ceduo_run *baseline, size_t control);
 
 /* Between two that are the same: 0, without an error. `accepted` NaN: what exceeds it is not known. */
 struct ceduo_difference ceduo_no_difference(double accepted);
@@ -123,7 +122,8 @@ struct ceduo_ends {
     uint64_t count[CEDUO_ENDS];
     double share[CEDUO_ENDS]; /* of all released */
     uint64_t uphill;          /* rocks that left the slope over its upper end */
-    uint64_t early;           /* rocks that stems stopped within CEDUO_EARLY_M of the mean release, where they have no speed yet */
+    /* rocks that stems stopped within CEDUO_EARLY_M of the mean release, where they have no speed yet */
+    uint64_t early;
     struct ceduo_moments stop_x;
     double stop_p50, stop_p95, stop_max; /* m, relative; NaN where none stopped */
 };

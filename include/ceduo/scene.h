@@ -13,9 +13,9 @@
 #include "slope.h"
 #include "stand.h"
 
-#define CEDUO_GRAVITY 9.81
-#define CEDUO_THRESHOLD_M 30 /* Bozzolo 1987 as cited by Ciabocco et al. 2009 */
-#define CEDUO_ROCKS_MOST 10000000
+#define CEDUO_GRAVITY          9.81
+#define CEDUO_THRESHOLD_M      30 /* Bozzolo 1987 as cited by Ciabocco et al. 2009 */
+#define CEDUO_ROCKS_MOST       10000000
 #define CEDUO_SIZED_ROCKS_MOST 1048576 /* with blocks: each rock is kept, with its weight */
 
 /* How a rock starts. Each number may have a spread. */
@@ -42,7 +42,7 @@ struct ceduo_belt {
     double from_given, to_given; /* as the user wrote them */
     char *name;                  /* of the stand */
     bool assumed;                /* some value of the stand is an assumption */
-    bool changed; /* numbers of a stand from a file were changed, and no name of its own was given */
+    bool changed;                /* numbers of a stand from a file were changed, and no name of its own was given */
     bool felled;                 /* of a year: a cut of this year left this stand */
     double cut_year;             /* a year in which it is cut, as in ceduo_first_cut(); NaN: when it is old enough */
     struct ceduo_stand stand;
@@ -56,9 +56,9 @@ struct ceduo_option {
 };
 
 /* What becomes of a rock among stems. */
-#define CEDUO_CONTACT_MODELS(X)                                                                                            \
-    X(INDEX, "index")     /* nothing: only Eq. 5 of Ciabocco et al. 2009 is computed */                                    \
-    X(POISSON, "poisson") /* contacts at random, as many as the rule of the ADC says; each takes its stratum's mean energy */ \
+#define CEDUO_CONTACT_MODELS(X)                                                                                                \
+    X(INDEX, "index")     /* nothing: only Eq. 5 of Ciabocco et al. 2009 is computed */                                        \
+    X(POISSON, "poisson") /* contacts at random, as many as the rule of the ADC says; each takes its stratum's mean energy */  \
     X(STEMS, "stems")     /* stools and trees stand at random in the plane; each stem in a rock's path is hit by itself */
 
 enum ceduo_contact_model {
@@ -73,10 +73,10 @@ struct ceduo_simulation {
     uint64_t seed;  /* 0…2^53 */
     enum ceduo_contact_model contact_model;
     enum ceduo_rule rule;
-    double threshold; /* m */
+    double threshold;   /* m */
     double contact_dbh; /* m: ADC, free run and index count stems from this dbh on */
-    double gravity;   /* m/s2 */
-    bool scale_rn;    /* lumped: Rn divided by 1 + (Vn/9.144 m/s)2 */
+    double gravity;     /* m/s2 */
+    bool scale_rn;      /* lumped: Rn divided by 1 + (Vn/9.144 m/s)2 */
 };
 
 /* Blocks of some sizes that come down. Number above a volume v goes with v^-exponent, cut at the largest; 0: as many in
@@ -89,8 +89,8 @@ struct ceduo_block_class {
 };
 
 /* How good a survey is: of the ground, of the blocks. */
-#define CEDUO_QUALITIES(X) \
-    X(GOOD, "good")        \
+#define CEDUO_QUALITIES(X)                                                                                                     \
+    X(GOOD, "good")                                                                                                            \
     X(POOR, "poor")
 
 enum ceduo_quality {
@@ -118,10 +118,10 @@ struct ceduo_scene {
     struct ceduo_option *options;   /* the first is the baseline */
     struct ceduo_simulation simulation;
     struct ceduo_design_values design;
-    double rocks_per_year;          /* that come down; NaN: not said */
-    double year_first, year_last;   /* of the years to come that are looked at; NaN: one whole rotation of each option */
-    double reserves_minimum;        /* single trees per ha that a forest must keep; NaN: not said */
-    struct ceduo_regulation rules;  /* of the region */
+    double rocks_per_year;         /* that come down; NaN: not said */
+    double year_first, year_last;  /* of the years to come that are looked at; NaN: one whole rotation of each option */
+    double reserves_minimum;       /* single trees per ha that a forest must keep; NaN: not said */
+    struct ceduo_regulation rules; /* of the region */
 };
 
 /* Whatever has a default has it; there is no slope, control or option yet. */

@@ -9,8 +9,8 @@
 #include "status.h"
 
 /* Which way the ground's small facets are turned: always against the rock, or to both sides. */
-#define CEDUO_FACETS(X)   \
-    X(AGAINST, "against") \
+#define CEDUO_FACETS(X)                                                                                                        \
+    X(AGAINST, "against")                                                                                                      \
     X(BOTH, "both")
 
 enum ceduo_facets {

@@ -6,12 +6,12 @@
 #include <stddef.h>
 
 /* Silvicultural systems. */
-#define CEDUO_SYSTEMS(X)                              \
-    X(SIMPLE_COPPICE, "simple-coppice")               \
-    X(COPPICE_WITH_STANDARDS, "coppice-with-standards") \
-    X(SELECTION_COPPICE, "selection-coppice")         \
-    X(LARGE_RESERVES, "large-reserves")               \
-    X(HIGH_FOREST, "high-forest")                     \
+#define CEDUO_SYSTEMS(X)                                                                                                       \
+    X(SIMPLE_COPPICE, "simple-coppice")                                                                                        \
+    X(COPPICE_WITH_STANDARDS, "coppice-with-standards")                                                                        \
+    X(SELECTION_COPPICE, "selection-coppice")                                                                                  \
+    X(LARGE_RESERVES, "large-reserves")                                                                                        \
+    X(HIGH_FOREST, "high-forest")                                                                                              \
     X(BARE, "bare")
 
 enum ceduo_system {
@@ -22,9 +22,9 @@ enum ceduo_system {
 
 /* The laws of what a contact with a stem takes from a rock. A new law is a file like src/core/energy_dorren.h and a line
  * here. */
-#define CEDUO_ENERGY_MODELS(X) \
-    X(BRAUNER, brauner)        \
-    X(DORREN, dorren)      \
+#define CEDUO_ENERGY_MODELS(X)                                                                                                 \
+    X(BRAUNER, brauner)                                                                                                        \
+    X(DORREN, dorren)                                                                                                          \
     X(INERTIA, inertia)
 
 enum ceduo_energy_model {
@@ -34,8 +34,8 @@ enum ceduo_energy_model {
 };
 
 /* What brauner takes where a stem is hit beside its middle. */
-#define CEDUO_ENERGY_OFFSETS(X)                                                                        \
-    X(WHOLE, "whole")          /* as much as in its middle: Ciabocco et al. 2009 */                     \
+#define CEDUO_ENERGY_OFFSETS(X)                                                                                                \
+    X(WHOLE, "whole")            /* as much as in its middle: Ciabocco et al. 2009 */                                          \
     X(BY_ECCENTRICITY, "dorren") /* the share of Dorren et al. 2006, ceduo_dorren_share() */
 
 enum ceduo_energy_offset {
@@ -46,12 +46,12 @@ enum ceduo_energy_offset {
 
 /* Stems of one kind: shoots of one age on the stools, or trees of one class. Densities are per horizontal hectare. */
 struct ceduo_stems {
-    double per_ha; /* >= 0; of 0 there is nothing, whatever else is said */
-    double dbh;    /* m, > 0 */
-    double height; /* m, > 0 */
-    double volume; /* m3 of a stem; NaN: from species, dbh and height */
-    double dbh_sd; /* m; 0: all alike */
-    double age;    /* years; NaN: unknown */
+    double per_ha;       /* >= 0; of 0 there is nothing, whatever else is said */
+    double dbh;          /* m, > 0 */
+    double height;       /* m, > 0 */
+    double volume;       /* m3 of a stem; NaN: from species, dbh and height */
+    double dbh_sd;       /* m; 0: all alike */
+    double age;          /* years; NaN: unknown */
     unsigned group;      /* of single trees: so many stand in a group; 0 or 1: each by itself */
     double group_radius; /* m, >= 0: of the disc in which they stand; NaN: not said */
     double per_stool;    /* of shoots: so many on each stool, where that was given instead of per_ha; NaN or 0: it was not */
@@ -79,7 +79,7 @@ struct ceduo_growth {
     double shoots_young, shoots_old; /* shoots on a stool just after a cut, and in the end: >= shoots_old >= 1 */
     double sdi_most;                 /* stand density index that the shoots are thinned to, > 0; 0: they are not */
     double trees_sdi_most; /* that of the trees at which they take all growing space; 0: CEDUO_TREES_SPACE of sdi_most */
-    unsigned stump_years;            /* so long the stumps stay after a cut */
+    unsigned stump_years;  /* so long the stumps stay after a cut */
 };
 
 /* Trees whose crowns grow in the open occupy a site fully from about 35 % of the greatest density on (Long 1985); that this
@@ -97,20 +97,20 @@ struct ceduo_cutting {
 /* A stand. Nothing in it: no forest. Shoots stand on stools; stools without shoots are as none. */
 struct ceduo_stand {
     enum ceduo_system system;
-    int species;           /* index into ceduo_species_list(); -1: not said */
-    double stools_per_ha;  /* Nc; 0: none */
-    double spacing;        /* s, m: between neighbouring shoots of a stool (dbh_int of Ciabocco et al. 2009) */
+    int species;          /* index into ceduo_species_list(); -1: not said */
+    double stools_per_ha; /* Nc; 0: none */
+    double spacing;       /* s, m: between neighbouring shoots of a stool (dbh_int of Ciabocco et al. 2009) */
     size_t shoots_count, trees_count;
     struct ceduo_stems *shoots; /* cohorts on the stools */
     struct ceduo_stems *trees;  /* classes of single trees: standards, reserves, maidens */
     struct ceduo_stumps stumps;
     struct ceduo_logs logs;
     enum ceduo_energy_model energy;
-    double u;              /* J/m3, brauner; NaN: the species' */
-    double fracture_ratio; /* dorren; NaN: the species' */
-    double green_density;  /* kg/m3, inertia */
+    double u;                        /* J/m3, brauner; NaN: the species' */
+    double fracture_ratio;           /* dorren; NaN: the species' */
+    double green_density;            /* kg/m3, inertia */
     enum ceduo_energy_offset offset; /* brauner */
-    double hit_below; /* m: a hit takes nothing where the rock's centre is higher above the ground; 0: every hit takes */
+    double hit_below;    /* m: a hit takes nothing where the rock's centre is higher above the ground; 0: every hit takes */
     double counted_from; /* m: the forms of the ADC count stems from this dbh on (adc.h); rocks meet all */
     struct ceduo_growth growth;
     struct ceduo_cutting cutting;
@@ -122,7 +122,7 @@ void ceduo_stand_count_shoots(struct ceduo_stand *stand);
 /* Sums over a stand, per hectare. */
 double ceduo_stand_shoots(const struct ceduo_stand *stand);
 double ceduo_stand_trees(const struct ceduo_stand *stand);
-double ceduo_stand_stay(const struct ceduo_stand *stand); /* single trees that a cut leaves */
+double ceduo_stand_stay(const struct ceduo_stand *stand);       /* single trees that a cut leaves */
 double ceduo_stand_basal_area(const struct ceduo_stand *stand); /* m2/ha: sum of N pi d2/4 */
 bool ceduo_stand_has_shoots(const struct ceduo_stand *stand);
 bool ceduo_stand_has_stems(const struct ceduo_stand *stand); /* that stand: shoots or trees */

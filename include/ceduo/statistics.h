@@ -3,8 +3,8 @@
 #define CEDUO_STATISTICS_H
 
 #include <math.h>
-#include <stddef.h>
 #include <stdbool.h>
+#include <stddef.h>
 #include <stdint.h>
 
 #define CEDUO_Z95 1.959963984540054 /* the normal law's 97.5 % quantile */
@@ -49,7 +49,8 @@ void ceduo_wilson_share(double share, double n, double *lo, double *hi);
 /* The mean of differences between pairs: the same rocks under two conditions. */
 struct ceduo_paired {
     double mean, se; /* NaN where it does not exist; se: or where no pair differs */
-    double below;    /* shares: where no pair differs, the share of pairs that may differ all the same (Wilson, 95 %); otherwise 0 */
+    /* shares: where no pair differs, the share of pairs that may differ all the same (Wilson, 95 %); otherwise 0 */
+    double below;
 };
 #define CEDUO_NOT_PAIRED ((struct ceduo_paired){NAN, NAN, 0})
 

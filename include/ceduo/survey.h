@@ -12,17 +12,17 @@
 /* From the stems on sample plots to a stand. Each plot gives its own figures per hectare; a stand has their mean, and the
  * standard error of that mean over the plots. */
 
-#define CEDUO_SURVEY_KINDS(X) \
-    X(SHOOT, "shoot")         \
-    X(STANDARD, "standard")   \
-    X(TREE, "tree")           \
+#define CEDUO_SURVEY_KINDS(X)                                                                                                  \
+    X(SHOOT, "shoot")                                                                                                          \
+    X(STANDARD, "standard")                                                                                                    \
+    X(TREE, "tree")                                                                                                            \
     X(STUMP, "stump")
 
 enum ceduo_survey_kind {
 #define X(NAME, word) CEDUO_SURVEY_##NAME,
     CEDUO_SURVEY_KINDS(X)
 #undef X
-    CEDUO_SURVEY_KINDS_COUNT
+        CEDUO_SURVEY_KINDS_COUNT
 };
 
 struct ceduo_survey_stem {
@@ -52,7 +52,7 @@ struct ceduo_estimate {
     double mean, se, lo, hi;
 };
 
-#define CEDUO_SURVEY_CLASS 0.05 /* m of dbh: the width of a class */
+#define CEDUO_SURVEY_CLASS   0.05 /* m of dbh: the width of a class */
 #define CEDUO_SURVEY_SPACING 0.35 /* m between the shoots of a stool where nobody measured it: assumed, as in the presets */
 
 /* Stems of one kind and one class of dbh. */

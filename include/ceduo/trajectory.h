@@ -11,7 +11,7 @@ enum ceduo_end { CEDUO_AT_REST, CEDUO_LEFT_SLOPE, CEDUO_UNFINISHED, CEDUO_STOPPE
 
 /* More contacts than this, or more stems drawn along its trajectory, and a rock counts as unfinished. */
 #define CEDUO_CONTACTS_MOST 1000000
-#define CEDUO_STEMS_MOST 1000000
+#define CEDUO_STEMS_MOST    1000000
 
 /* A piece of a trajectory, from (x, z) to (x1, z1): in flight the parabola that starts with (vx, vz), in a roll the
  * straight line along the ground, speeds (vx, vz) at its start and (vx1, vz1) at its end. */
@@ -26,19 +26,19 @@ struct ceduo_piece {
 
 /* A stem that a rock reached. Coordinates relative to the slope's first vertex. */
 struct ceduo_stem_passed {
-    double x, y;        /* m: place along the trajectory, offset to the side; y NaN with the contact model poisson */
-    double dbh, height; /* m; NaN and infinite with poisson */
-    bool shoot;         /* of a stool; otherwise a single tree */
-    uint64_t stool;     /* the same number for the shoots of one stool */
-    bool hit;           /* otherwise the rock flew over it */
-    double clearance;   /* m: the rock's underside above the ground there */
+    double x, y;          /* m: place along the trajectory, offset to the side; y NaN with the contact model poisson */
+    double dbh, height;   /* m; NaN and infinite with poisson */
+    bool shoot;           /* of a stool; otherwise a single tree */
+    uint64_t stool;       /* the same number for the shoots of one stool */
+    bool hit;             /* otherwise the rock flew over it */
+    double clearance;     /* m: the rock's underside above the ground there */
     double before, taken; /* J: energy of the rock as it came, and what the stem took of it; 0 where it was not hit */
 };
 
 /* Who watches a trajectory as it is computed: each may be NULL. */
 struct ceduo_watch {
     bool (*enough)(void *context); /* asked every few milliseconds: true ends it there, CEDUO_CANCELLED */
-    void (*piece)(void *context, const struct ceduo_piece *piece);      /* each piece, in order */
+    void (*piece)(void *context, const struct ceduo_piece *piece);     /* each piece, in order */
     void (*stem)(void *context, const struct ceduo_stem_passed *stem); /* each stem, after the piece that leads to it */
     void *context;
 };
@@ -55,7 +55,7 @@ struct ceduo_trajectory {
     struct ceduo_rock rock;
     double x0, z0, vx0, vz0, spin0; /* as released */
     enum ceduo_end end;
-    double x, z; /* where it ended */
+    double x, z;          /* where it ended */
     uint64_t contacts;    /* with the ground */
     uint64_t stems_hit;   /* or contacts of the contact model poisson */
     uint64_t stools_met;  /* stools and single trees of which a stem was hit */
@@ -67,16 +67,15 @@ struct ceduo_trajectory {
  * have passed ceduo_scene_check(). CEDUO_NO_MEMORY, CEDUO_CANCELLED (`trajectory` is what is known up to there), otherwise
  * CEDUO_OK. */
 enum ceduo_status ceduo_trajectory_follow(const struct ceduo_scene *scene, const struct ceduo_option *option, uint64_t rock,
-                                   const struct ceduo_watch *watch, struct ceduo_trajectory *trajectory,
-                                   struct ceduo_crossing *crossings);
+                                          const struct ceduo_watch *watch, struct ceduo_trajectory *trajectory,
+                                          struct ceduo_crossing *crossings);
 
 /* The same for many rocks, one at a time: what they share of the scene is prepared once. NULL without memory, or where
  * the scene has not passed ceduo_scene_check(). */
 struct ceduo_follower;
 struct ceduo_follower *ceduo_follower_create(const struct ceduo_scene *scene, const struct ceduo_option *option);
-enum ceduo_status ceduo_follower_follow(struct ceduo_follower *follower, uint64_t rock,
-                                        const struct ceduo_watch *watch, struct ceduo_trajectory *trajectory,
-                                        struct ceduo_crossing *crossings);
+enum ceduo_status ceduo_follower_follow(struct ceduo_follower *follower, uint64_t rock, const struct ceduo_watch *watch,
+                                        struct ceduo_trajectory *trajectory, struct ceduo_crossing *crossings);
 void ceduo_follower_free(struct ceduo_follower *follower);
 
 #endif

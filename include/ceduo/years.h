@@ -9,13 +9,13 @@
  * year's forest. */
 
 struct ceduo_year {
-    unsigned year;                    /* counted from the stands as filed */
-    bool cut;                         /* some belt is cut in it */
-    struct ceduo_option option;       /* the forest of this year; belts bare of stems where nothing stands */
-    struct ceduo_grown_stand *grown;  /* what its belts hold: owned */
+    unsigned year;                     /* counted from the stands as filed */
+    bool cut;                          /* some belt is cut in it */
+    struct ceduo_option option;        /* the forest of this year; belts bare of stems where nothing stands */
+    struct ceduo_grown_stand *grown;   /* what its belts hold: owned */
     struct ceduo_stand_result *stands; /* one for each belt */
-    struct ceduo_index *controls;     /* one for each control */
-    struct ceduo_flown wooded;        /* rocks 0: not simulated; with the contact model index never */
+    struct ceduo_index *controls;      /* one for each control */
+    struct ceduo_flown wooded;         /* rocks 0: not simulated; with the contact model index never */
 };
 
 /* Why these years of an option and no others. */
@@ -50,7 +50,7 @@ struct ceduo_window ceduo_window_in(const struct ceduo_scene *scene, const struc
 struct ceduo_years {
     struct ceduo_scene scene; /* what it points to must outlive the years */
     struct ceduo_window window;
-    uint64_t key;             /* for the caller, to tell what they were made of; 0 at first */
+    uint64_t key; /* for the caller, to tell what they were made of; 0 at first */
     size_t count;
     struct ceduo_year *years; /* rising */
     size_t last_control;      /* the one farthest along x */
@@ -85,12 +85,12 @@ struct ceduo_years_summary {
     size_t years, flown;
     bool nothing; /* nothing can be said of the forest (ceduo_says_nothing()): no light fails and none passes */
     size_t unprotected_contact, unprotected_free_run, unprotected_energy; /* years in which that light fails */
-    size_t thick_contact, thick_free_run; /* and where only stems from CEDUO_THICK_DBH on count */
-    struct ceduo_paired reach, exceed; /* of the released */
-    struct ceduo_paired energy_per_released; /* J */
-    unsigned worst_year;               /* with the largest share that exceeds, or where that is not said arrives; by the
+    size_t thick_contact, thick_free_run;     /* and where only stems from CEDUO_THICK_DBH on count */
+    struct ceduo_paired reach, exceed;        /* of the released */
+    struct ceduo_paired energy_per_released;  /* J */
+    unsigned worst_year;                      /* with the largest share that exceeds, or where that is not said arrives; by the
                                         * index the one with the largest ADC */
-    double worst;                      /* that share, or that ADC in m */
+    double worst;                             /* that share, or that ADC in m */
     double passes_per_year, exceeds_per_year; /* expected, where the scene says how many rocks come down a year */
 };
 struct ceduo_years_summary ceduo_years_sum(const struct ceduo_years *years, size_t control);

@@ -18,12 +18,12 @@ struct ceduo_felling {
 };
 
 struct ceduo_yield {
-    double cut_per_year;      /* m3/ha and year, over a whole rotation of each belt; NaN where growth or cuts are not
+    double cut_per_year;  /* m3/ha and year, over a whole rotation of each belt; NaN where growth or cuts are not
                                * known */
-    double died_per_year;     /* likewise */
-    double standing;          /* m3/ha: the mean of that rotation's years */
-    double volume_today;      /* m3/ha as filed; NaN without a forest */
-    double space;             /* the largest share of the growing space that trees take before a cut; above 1 the ground
+    double died_per_year; /* likewise */
+    double standing;      /* m3/ha: the mean of that rotation's years */
+    double volume_today;  /* m3/ha as filed; NaN without a forest */
+    double space;         /* the largest share of the growing space that trees take before a cut; above 1 the ground
                                * does not bear so many: their growth, and so the yield, is not known */
     size_t fellings_count;
     struct ceduo_felling *fellings; /* by year, then by belt */

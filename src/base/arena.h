@@ -10,8 +10,8 @@
 struct arena_page;
 struct arena {
     struct arena_page *page;
-    size_t bytes; /* asked for so far */
-    bool failed;  /* some call returned NULL */
+    size_t bytes;        /* asked for so far */
+    bool failed;         /* some call returned NULL */
     struct shelf *shelf; /* NULL: what is read into this memory comes from the disk; see file.h */
 };
 

@@ -14,7 +14,7 @@ struct bytes {
     size_t length, at;
     unsigned char *to; /* written; to be freed by the caller */
     size_t room;
-    bool bad;          /* more was read than there is: what came then is 0 */
+    bool bad; /* more was read than there is: what came then is 0 */
     bool no_memory;
 };
 

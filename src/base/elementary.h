@@ -42,11 +42,11 @@ static inline double elementary_real(uint64_t i)
     return x;
 }
 
-#define REAL double
-#define BITS uint64_t
-#define AS_BITS(p) elementary_bits(p)
-#define AS_REAL(p) elementary_real(p)
-#define PICK(m, p, q) ((m) ? (p) : (q))
+#define REAL             double
+#define BITS             uint64_t
+#define AS_BITS(p)       elementary_bits(p)
+#define AS_REAL(p)       elementary_real(p)
+#define PICK(m, p, q)    ((m) ? (p) : (q))
 #define ELEMENTARY(name) elementary_##name
 #include "elementary_text.h"
 

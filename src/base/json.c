@@ -12,8 +12,7 @@ static void put_escape(struct text *text, uint32_t code)
     if (code <= 0xffff)
         ceduo_text_format(text, "\\u%04x", (unsigned)code);
     else
-        ceduo_text_format(text, "\\u%04x\\u%04x", (unsigned)(0xd7c0 + (code >> 10)),
-                          (unsigned)(0xdc00 + (code & 0x3ff)));
+        ceduo_text_format(text, "\\u%04x\\u%04x", (unsigned)(0xd7c0 + (code >> 10)), (unsigned)(0xdc00 + (code & 0x3ff)));
 }
 
 static void put_string(struct text *text, const char *string)

@@ -14,22 +14,36 @@
 /* Exit statuses, as the manual has them. */
 enum exit_status { EXIT_DONE = 0, EXIT_RUN = 1, EXIT_USAGE = 2, EXIT_INPUT = 3, EXIT_OUTPUT = 4 };
 
-enum mode { MODE_TERMINAL, MODE_BATCH, MODE_MERGE, MODE_FIND, MODE_SENSITIVITY, MODE_CALIBRATE, MODE_REPORT, MODE_CHECK, MODE_PARAMETERS, MODE_PROFILES, MODE_SURVEY, MODE_HELP, MODE_VERSION };
+enum mode {
+    MODE_TERMINAL,
+    MODE_BATCH,
+    MODE_MERGE,
+    MODE_FIND,
+    MODE_SENSITIVITY,
+    MODE_CALIBRATE,
+    MODE_REPORT,
+    MODE_CHECK,
+    MODE_PARAMETERS,
+    MODE_PROFILES,
+    MODE_SURVEY,
+    MODE_HELP,
+    MODE_VERSION
+};
 
 struct arguments {
     enum mode mode;
     uint64_t given; /* options, as bits: see ceduo_option_given() */
     enum ceduo_format format;
-    enum ceduo_plot plot;       /* a picture instead of the page */
+    enum ceduo_plot plot;        /* a picture instead of the page */
     int plot_width, plot_height; /* cells, title and all */
-    const char *script; /* keys and commands for the terminal program; NULL: none */
+    const char *script;          /* keys and commands for the terminal program; NULL: none */
     enum ceduo_charset charset;
     int language;       /* a word of the option's row */
     const char *output; /* NULL: standard output */
     int stands;         /* CSV rows are stands */
     bool quiet;
-    uint64_t rocks;     /* 0: the scene's */
-    double tolerance;   /* 0: none */
+    uint64_t rocks;   /* 0: the scene's */
+    double tolerance; /* 0: none */
     unsigned threads;
     struct part_words sets; /* PATH=VALUE, in their order, --seed among them */
     struct part_words options;
@@ -37,14 +51,14 @@ struct arguments {
     char **scenes;
     size_t scenes_count;
     char seed[64];
-    bool years;         /* every option year by year */
+    bool years;                 /* every option year by year */
     struct ceduo_window window; /* those years; step 0: one whole rotation of each */
-    const char *find;   /* PATH of the value looked for; NULL: none */
+    const char *find;           /* PATH of the value looked for; NULL: none */
     double find_lo, find_hi;
     enum ceduo_goal goal;
-    double goal_value;  /* NaN: the light's own limit */
-    size_t points;      /* of --sensitivity */
-    const char *survey; /* a CSV file of plots; NULL: none */
+    double goal_value;      /* NaN: the light's own limit */
+    size_t points;          /* of --sensitivity */
+    const char *survey;     /* a CSV file of plots; NULL: none */
     uint64_t shard, shards; /* only this part of so many, from 1; 0: all */
 };
 

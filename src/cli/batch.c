@@ -38,14 +38,10 @@ enum exit_status ceduo_batch_shard(const struct arguments *a, const char *path, 
                         .rocks = a->points > 0 ? ceduo_sensitivity_rocks(a) : q.rocks,
                         .points = a->points};
     part.key = ceduo_part_key(file, part.rocks, part.points);
-    const struct part_inputs inputs = {.path = path,
-                                       .sets = a->sets,
-                                       .options = a->options,
-                                       .shelf = *shelf};
+    const struct part_inputs inputs = {.path = path, .sets = a->sets, .options = a->options, .shelf = *shelf};
     unsigned char *runs, *texts = NULL;
-    enum ceduo_status status = a->points > 0
-                                   ? ceduo_sensitivity_part(a, file, &progress, &runs, &part.runs_length)
-                                   : ceduo_ask_part(&q, a->shard, a->shards, &runs, &part.runs_length);
+    enum ceduo_status status = a->points > 0 ? ceduo_sensitivity_part(a, file, &progress, &runs, &part.runs_length)
+                                             : ceduo_ask_part(&q, a->shard, a->shards, &runs, &part.runs_length);
     ceduo_progress_end(&progress);
     part.seconds = ceduo_clock() - progress.start;
     if (status == CEDUO_OK && part.key == 0)
@@ -68,8 +64,7 @@ static enum exit_status batch_scene(const struct arguments *a, size_t i, struct 
     enum exit_status status = ceduo_batch_read(a, a->scenes[i], a->shards > 0 ? &shelf : NULL, &file);
     if (status == EXIT_DONE) {
         ceduo_interrupt_catch();
-        status =
-            a->shards > 0 ? ceduo_batch_shard(a, a->scenes[i], &shelf, &file, i + 1, out) : print_scene(a, &file, out);
+        status = a->shards > 0 ? ceduo_batch_shard(a, a->scenes[i], &shelf, &file, i + 1, out) : print_scene(a, &file, out);
     }
     ceduo_scene_release(&file);
     return status;

@@ -58,7 +58,8 @@ static enum exit_status check_mu(const struct job *j, size_t i)
     if (arms == 0)
         return ceduo_usage("calibrate", _("'%s' has no part in this law; only arm knows it"), j->paths[i]);
     if (!ceduo_calibration_tells_mu(j->scenes, j->scenes_count))
-        return ceduo_usage("calibrate", _("'%s' cannot be told from rocks of one shape; observe rocks of two, or leave it as it is"),
+        return ceduo_usage("calibrate",
+                           _("'%s' cannot be told from rocks of one shape; observe rocks of two, or leave it as it is"),
                            j->paths[i]);
     return EXIT_DONE;
 }
@@ -81,7 +82,8 @@ static enum exit_status find_value(struct job *j, size_t i)
         struct ceduo_input *input = &j->inputs[s * j->parameters_count + i];
         const struct field *field = ceduo_input_find(&j->files[s], path, input);
         if (!field)
-            return ceduo_usage("calibrate", _("'%s' is not a number of a scene that can be fitted; ceduo --list-parameters shows all"), path);
+            return ceduo_usage(
+                "calibrate", _("'%s' is not a number of a scene that can be fitted; ceduo --list-parameters shows all"), path);
         j->fields[i] = field;
         input->lo = j->lo[i];
         input->hi = j->hi[i];
@@ -214,8 +216,8 @@ static bool edit_scene(const struct job *j, const struct ceduo_calibration_repor
     bool good = ceduo_document_open(document, a->scenes[0], problems);
     free(document->recovery); /* what the terminal program keeps of the scene is not ours */
     document->recovery = NULL;
-    good = good && (a->sets.n == 0 ||
-                    ceduo_document_set_all(document, (const char *const *)a->sets.items, a->sets.n, "", problems));
+    good = good &&
+           (a->sets.n == 0 || ceduo_document_set_all(document, (const char *const *)a->sets.items, a->sets.n, "", problems));
     good = good && ceduo_keep_fit(document, &fit, problems);
     ceduo_text_free(&source);
     return good;

@@ -59,8 +59,8 @@ void ceduo_arguments_help(struct text *text)
     for (size_t i = 0; i < n; i++) {
         char head[64];
         int width = snprintf(head, sizeof head, rows[i].letter ? "  -%c, --%s%s%s" : "    %c --%s%s%s",
-                             rows[i].letter ? rows[i].letter : ' ', rows[i].name, rows[i].value && rows[i].value[1] != '=' ? " " : "",
-                             rows[i].value ? rows[i].value : "");
+                             rows[i].letter ? rows[i].letter : ' ', rows[i].name,
+                             rows[i].value && rows[i].value[1] != '=' ? " " : "", rows[i].value ? rows[i].value : "");
         ceduo_text_format(text, "%-30s%s", head, width >= 30 ? "\n                              " : "");
         put_help(text, _(rows[i].help));
     }
@@ -150,9 +150,11 @@ static enum exit_status check_arguments(struct arguments *a)
                                    ceduo_option_given(a, "output") || ceduo_option_given(a, "calibrate")))
         return ceduo_usage(NULL, _("--report names its file; it cannot be used with --output, --plot, --format, --rows, --find "
                                    "or --calibrate"));
-    if (a->mode == MODE_SENSITIVITY && ((a->plot != CEDUO_PLOT_NONE && a->plot != CEDUO_PLOT_DOUBT) || a->years || a->tolerance > 0 || a->stands))
+    if (a->mode == MODE_SENSITIVITY &&
+        ((a->plot != CEDUO_PLOT_NONE && a->plot != CEDUO_PLOT_DOUBT) || a->years || a->tolerance > 0 || a->stands))
         return ceduo_usage(NULL, _("--sensitivity cannot be used with --plot, --years, --tolerance or --rows"));
-    if (a->mode == MODE_CALIBRATE && (a->plot != CEDUO_PLOT_NONE || a->years || a->tolerance > 0 || a->stands || a->options.n > 0))
+    if (a->mode == MODE_CALIBRATE &&
+        (a->plot != CEDUO_PLOT_NONE || a->years || a->tolerance > 0 || a->stands || a->options.n > 0))
         return ceduo_usage(NULL, _("--calibrate cannot be used with --plot, --years, --tolerance, --rows or --option"));
     if (wants_scene && a->scenes_count == 0)
         return ceduo_usage(NULL,

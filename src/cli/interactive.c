@@ -40,8 +40,8 @@ enum exit_status ceduo_interactive_run(const struct arguments *a)
         return no_terminal(why);
     struct app app;
     struct problems problems = {0};
-    bool good = ceduo_program_create(&app, a->scenes_count > 0 ? a->scenes[0] : NULL, ceduo_option_charset(a),
-                                     a->threads, a->script != NULL, &problems);
+    bool good = ceduo_program_create(&app, a->scenes_count > 0 ? a->scenes[0] : NULL, ceduo_option_charset(a), a->threads,
+                                     a->script != NULL, &problems);
     ceduo_problems_close(&problems);
     ceduo_say(&problems.text);
     ceduo_problems_free(&problems);

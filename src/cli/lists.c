@@ -50,11 +50,9 @@ static enum exit_status print_table(const struct arguments *a, struct text *rows
 /* ---- parameters ---- */
 
 static const char *const type_names[] = {
-    [FIELD_TEXT] = "text",          [FIELD_FILE] = "file",          [FIELD_NUMBER] = "number",
-    [FIELD_SPREAD] = "number~",     [FIELD_SPREADS] = "3 numbers~", [FIELD_COUNT] = "count",
-    [FIELD_CHOICE] = "word",        [FIELD_FLAG] = "flag",          [FIELD_NUMBERS] = "numbers",
-    [FIELD_WORDS] = "words",
-    [FIELD_POINTS] = "points"};
+    [FIELD_TEXT] = "text",          [FIELD_FILE] = "file",   [FIELD_NUMBER] = "number", [FIELD_SPREAD] = "number~",
+    [FIELD_SPREADS] = "3 numbers~", [FIELD_COUNT] = "count", [FIELD_CHOICE] = "word",   [FIELD_FLAG] = "flag",
+    [FIELD_NUMBERS] = "numbers",    [FIELD_WORDS] = "words", [FIELD_POINTS] = "points"};
 
 static void put_parameter(void *context, const char *path, const struct field *f)
 {

@@ -31,8 +31,8 @@ struct parts {
 };
 
 /* A line on standard error about a place in a file; what was read before is bad by it. */
-__attribute__((format(printf, 4, 5))) static void complain(struct parts *all, const char *file, size_t line,
-                                                           const char *format, ...)
+__attribute__((format(printf, 4, 5))) static void complain(struct parts *all, const char *file, size_t line, const char *format,
+                                                           ...)
 {
     struct text what = {0}, why = {0};
     ceduo_text_put(&what, strcmp(file, "-") == 0 ? _("standard input") : file);
@@ -66,17 +66,18 @@ static bool add_line(struct parts *all, const char *file, size_t line, char *byt
 {
     struct part part = {.file = file, .line = line};
     enum part_fault fault = ceduo_part_read(&all->arena, &part, bytes, n);
-    static const char *const faults[] = {
-        [PART_NONE] = N_("not a part written by --shard"),
-        [PART_CUT] = N_("the part is incomplete; compute this shard again"),
-        [PART_CHANGED] = N_("the part was changed after it was written; compute this shard again")};
+    static const char *const faults[] = {[PART_NONE] = N_("not a part written by --shard"),
+                                         [PART_CUT] = N_("the part is incomplete; compute this shard again"),
+                                         [PART_CHANGED] =
+                                             N_("the part was changed after it was written; compute this shard again")};
     if (fault == PART_GOOD)
         add_part(all, &part);
     else if (fault == PART_FORMAT)
         complain(all, file, line, _("the part has a format that this version (%s) cannot read"), CEDUO_VERSION);
     else if (fault == PART_VERSION)
-        complain(all, file, line, _("the part is from version %s, but this is %s; compute and merge all shards with one version"),
-                 part.scene, CEDUO_VERSION);
+        complain(all, file, line,
+                 _("the part is from version %s, but this is %s; compute and merge all shards with one version"), part.scene,
+                 CEDUO_VERSION);
     else if (fault == PART_MEMORY)
         all->no_memory = true;
     else
@@ -122,8 +123,7 @@ static int by_scene(const void *a, const void *b)
 /* The same scene in the same number of shards. */
 static bool belong_together(const struct part *p, const struct part *q)
 {
-    return p->place == q->place && p->key == q->key && p->shards == q->shards && p->rocks == q->rocks &&
-           p->points == q->points;
+    return p->place == q->place && p->key == q->key && p->shards == q->shards && p->rocks == q->rocks && p->points == q->points;
 }
 
 /* One scene may have been given by another path on another machine: its parts go by the name of the first shard. */
@@ -245,7 +245,7 @@ static enum exit_status report(struct parts *all, size_t from, size_t end, const
     enum ceduo_status made = ceduo_pool_create(&q.run, &pool);
     if (made == CEDUO_OK)
         made = ceduo_pool_fill(pool);
-    enum exit_status status = made == CEDUO_OK ? adopt(all, from, end, pool, &seconds)
+    enum exit_status status = made == CEDUO_OK          ? adopt(all, from, end, pool, &seconds)
                               : made == CEDUO_NO_MEMORY ? out_of_memory(&all->items[from])
                                                         : unusable(all, &all->items[from]);
     if (status == EXIT_DONE)

@@ -170,9 +170,8 @@ static enum exit_status set_years(struct arguments *a, const struct option_row *
         return ceduo_usage(row->name, _("%s ends before it begins, or after year 100000"), value);
     if ((parts[1] - parts[0]) / parts[2] >= CEDUO_YEARS_MOST)
         return ceduo_usage(row->name, _("%s is more than %d years"), value, CEDUO_YEARS_MOST);
-    a->window = (struct ceduo_window){.first = (unsigned)parts[0],
-                                      .last = (unsigned)parts[1],
-                                      .step = parts[2] > 100000 ? 100000 : (unsigned)parts[2]};
+    a->window = (struct ceduo_window){
+        .first = (unsigned)parts[0], .last = (unsigned)parts[1], .step = parts[2] > 100000 ? 100000 : (unsigned)parts[2]};
     return EXIT_DONE;
 }
 
@@ -235,8 +234,10 @@ static enum exit_status set_report(struct arguments *a, const struct option_row 
     const char *dot = strrchr(value, '.');
     bool standard = strcmp(value, "-") == 0;
     if (!standard && !(dot && (strcasecmp(dot, ".html") == 0 || strcasecmp(dot, ".htm") == 0)))
-        return ceduo_usage(row->name, _("'%s' does not end in .html or .htm; name the page, or - for standard output, then the "
-                                        "scenes: --report page.html scene.yaml"), value);
+        return ceduo_usage(row->name,
+                           _("'%s' does not end in .html or .htm; name the page, or - for standard output, then the "
+                             "scenes: --report page.html scene.yaml"),
+                           value);
     a->output = standard ? NULL : value;
     return EXIT_DONE;
 }
@@ -299,9 +300,9 @@ static const struct option_row rows[] = {
     {"rows", 0, "controls|stands", set_word, AT(stands), MODE_TERMINAL, NOT_SHARD | NOT_CHECK,
      N_("what each row of CSV describes (controls)")},
     {"seed", 0, "N", set_seed, 0, MODE_TERMINAL, NOT_MERGE, N_("seed of the random numbers, 0 to 2^53")},
-    {"threads", 'j', "N", set_threads, 0, MODE_TERMINAL, 0,
-     N_("number of threads; it does not change the result (all cores)")},
-    {"option", 0, "NAME", add_word, AT(options), MODE_TERMINAL, NOT_MERGE, N_("compute only this option of the scene; may be repeated")},
+    {"threads", 'j', "N", set_threads, 0, MODE_TERMINAL, 0, N_("number of threads; it does not change the result (all cores)")},
+    {"option", 0, "NAME", add_word, AT(options), MODE_TERMINAL, NOT_MERGE,
+     N_("compute only this option of the scene; may be repeated")},
     {"years", 0, "[A:B[:STEP]]", set_years, 0, MODE_BATCH, NOT_PART | NOT_CHECK,
      N_("compute every option year by year: one whole rotation after its first cut, or the years A to B; the stands as "
         "filed are year 0")},
@@ -316,8 +317,7 @@ static const struct option_row rows[] = {
     {"calibrate", 0, "PATH=LO:HI", add_calibrate, 0, MODE_CALIBRATE, NOT_PART | NOT_CHECK,
      N_("fit this value to what was observed, between LO and HI; may be repeated; -o FILE.yaml writes the first scene with "
         "what was found")},
-    {"shard", 0, "I/N", set_shard, 0, MODE_BATCH, NOT_MERGE,
-     N_("compute part I of N of each scene and write it for --merge")},
+    {"shard", 0, "I/N", set_shard, 0, MODE_BATCH, NOT_MERGE, N_("compute part I of N of each scene and write it for --merge")},
     {"merge", 0, NULL, NULL, 0, MODE_MERGE, 0, N_("merge the parts written by --shard and print the result")},
     {"plot", 0, "WHAT", set_plot, 0, MODE_BATCH, NOT_PART | NOT_CHECK,
      N_("print a picture: profile, energy, height, histogram, adc, rotation, stand, compare, tradeoff, doubt or hazard")},

@@ -11,8 +11,9 @@
  * A new option is a row, and a function where its value is like no other's. */
 struct option_row {
     const char *name;
-    char letter;       /* 0: none */
-    const char *value; /* as the help shows it, "a|b|c" where it is one of these; "[=N]": it may have one; NULL: it takes none */
+    char letter; /* 0: none */
+    /* as the help shows it, "a|b|c" where it is one of these; "[=N]": it may have one; NULL: it takes none */
+    const char *value;
     enum exit_status (*set)(struct arguments *arguments, const struct option_row *row, char *value); /* may be NULL */
     size_t at;         /* of the member that is set, for the setters that several options share */
     enum mode mode;    /* that it asks for; MODE_TERMINAL: none */

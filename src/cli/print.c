@@ -139,8 +139,8 @@ static void add_plots(const struct arguments *a, const struct ceduo_scene *scene
     }
 }
 
-static enum ceduo_status add_flown_plots(const struct arguments *a, const struct ceduo_question *q,
-                                         struct ceduo_pool **pool, struct text *out, enum exit_status *done)
+static enum ceduo_status add_flown_plots(const struct arguments *a, const struct ceduo_question *q, struct ceduo_pool **pool,
+                                         struct text *out, enum exit_status *done)
 {
     struct ceduo_answer answer;
     struct ceduo_outlook *outlook = NULL;

@@ -27,8 +27,7 @@
 static void put_word(struct text *text, const char *before, const char *word)
 {
     ceduo_text_put(text, before);
-    if (*word &&
-        strspn(word, "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./=:,+%@") == strlen(word)) {
+    if (*word && strspn(word, "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./=:,+%@") == strlen(word)) {
         ceduo_text_put(text, word);
         return;
     }
@@ -134,8 +133,8 @@ static enum ceduo_status ask_doubt(const struct arguments *a, struct scene_file 
     return status;
 }
 
-static void write_chapter(const struct arguments *a, const struct scene_file *file, const struct chapter *c,
-                          size_t number, struct ceduo_html *html)
+static void write_chapter(const struct arguments *a, const struct scene_file *file, const struct chapter *c, size_t number,
+                          struct ceduo_html *html)
 {
     struct text command = {0};
     struct ceduo_page page = {.width = CEDUO_PAGE_REPORT_WIDTH};
@@ -153,8 +152,7 @@ static void write_chapter(const struct arguments *a, const struct scene_file *fi
     ceduo_text_free(&command);
 }
 
-static enum exit_status add_chapter(const struct arguments *a, struct scene_file *file, size_t number,
-                                    struct ceduo_html *html)
+static enum exit_status add_chapter(const struct arguments *a, struct scene_file *file, size_t number, struct ceduo_html *html)
 {
     struct progress progress = ceduo_progress_begin(a);
     struct chapter c = {0};
@@ -165,8 +163,7 @@ static enum exit_status add_chapter(const struct arguments *a, struct scene_file
     ceduo_progress_end(&progress);
     if (status == CEDUO_OK) {
         write_chapter(a, file, &c, number, html);
-        done = ceduo_result_unfinished(c.answer.result) * 1000 > ceduo_result_rocks(c.answer.result) ? EXIT_RUN
-                                                                                                     : EXIT_DONE;
+        done = ceduo_result_unfinished(c.answer.result) * 1000 > ceduo_result_rocks(c.answer.result) ? EXIT_RUN : EXIT_DONE;
     }
     release(&c);
     return status == CEDUO_OK ? done : ceduo_batch_failed(file, status);

@@ -71,8 +71,7 @@ static enum exit_status check(const struct arguments *a, const struct scene_file
     return EXIT_DONE;
 }
 
-enum exit_status ceduo_batch_read(const struct arguments *a, const char *path, struct shelf *shelf,
-                                  struct scene_file *file)
+enum exit_status ceduo_batch_read(const struct arguments *a, const char *path, struct shelf *shelf, struct scene_file *file)
 {
     struct problems problems = {0};
     struct shelf own = {0}; /* what is read from the disk, for -o */
@@ -169,8 +168,7 @@ static uint64_t rocks_wanted(const struct arguments *a, const struct scene_file 
     return a->tolerance > 0 ? CEDUO_ROCKS_MOST : file->scene.simulation.rocks;
 }
 
-struct ceduo_question ceduo_batch_question(const struct arguments *a, const struct scene_file *file,
-                                           struct progress *progress)
+struct ceduo_question ceduo_batch_question(const struct arguments *a, const struct scene_file *file, struct progress *progress)
 {
     struct ceduo_question q = ceduo_question_default(&file->scene);
     q.rocks = q.run.rocks_most = rocks_wanted(a, file);

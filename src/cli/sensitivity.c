@@ -95,8 +95,8 @@ enum ceduo_status ceduo_sensitivity_part(const struct arguments *a, struct scene
     return inputs.n > 0 ? ceduo_doubt_ask_part(&def, a->shard, a->shards, bytes, n) : CEDUO_OK;
 }
 
-enum exit_status ceduo_sensitivity_join(const struct arguments *a, struct scene_file *file, const struct part *parts,
-                                        size_t n, bool *bad, struct text *out)
+enum exit_status ceduo_sensitivity_join(const struct arguments *a, struct scene_file *file, const struct part *parts, size_t n,
+                                        bool *bad, struct text *out)
 {
     struct asked_doubt d = {0};
     struct progress progress = ceduo_progress_begin(a);

@@ -89,8 +89,7 @@ static double stool_width(const struct ceduo_stand *stand, enum ceduo_rule rule)
     case CEDUO_INTERCEPTION:
         return mean_shoot_dbh(stand) + stand->spacing;
     default:
-        return mean_shoot_dbh(stand) +
-               ceduo_stool_perimeter(shoots(stand) / stools(stand), stand->spacing) / M_PI;
+        return mean_shoot_dbh(stand) + ceduo_stool_perimeter(shoots(stand) / stools(stand), stand->spacing) / M_PI;
     }
 }
 
@@ -147,7 +146,8 @@ struct stratum ceduo_stratum(const struct ceduo_stand *stand, enum ceduo_rule ru
         return low_stratum(stand, i - n - stand->trees_count);
     const struct ceduo_stems *s = i < n ? &stand->shoots[i] : &stand->trees[i - n];
     double width = rule == CEDUO_GSTEIGER_STOOLS ? mean_dbh(stand) : s->dbh;
-    return (struct stratum){counts(stand, s) ? s->per_ha : 0, width, ceduo_contact_energy(stand, s), ceduo_contact_share(stand, s, mass)};
+    return (struct stratum){counts(stand, s) ? s->per_ha : 0, width, ceduo_contact_energy(stand, s),
+                            ceduo_contact_share(stand, s, mass)};
 }
 
 /* The form's denominator for a rock of diameter b, m per ha: A/ADC. */
@@ -225,8 +225,9 @@ unsigned ceduo_stem_unlikely(const struct ceduo_stand *stand, const struct ceduo
 
 static unsigned unlikely(const struct ceduo_stand *stand)
 {
-    unsigned warnings = (ABOVE(ceduo_stand_basal_area(stand), CEDUO_BASAL_AREA_MOST) ? CEDUO_WARN_BASAL_AREA : 0u) |
-                        (ABOVE(ceduo_stand_shoots(stand), CEDUO_SHOOTS_MOST * stand->stools_per_ha) ? CEDUO_WARN_MANY_SHOOTS : 0u);
+    unsigned warnings =
+        (ABOVE(ceduo_stand_basal_area(stand), CEDUO_BASAL_AREA_MOST) ? CEDUO_WARN_BASAL_AREA : 0u) |
+        (ABOVE(ceduo_stand_shoots(stand), CEDUO_SHOOTS_MOST * stand->stools_per_ha) ? CEDUO_WARN_MANY_SHOOTS : 0u);
     for (size_t i = 0; i < stand->shoots_count; i++)
         warnings |= ceduo_stem_unlikely(stand, &stand->shoots[i]);
     for (size_t i = 0; i < stand->trees_count; i++)

@@ -85,8 +85,7 @@ static void add_meeting(const struct ceduo_scene *scene, const struct ceduo_stan
         meeting->contact = CEDUO_FAIL;
 }
 
-static void judge_meeting(const struct ceduo_scene *scene, bool forest, double longest_gap,
-                          struct ceduo_meeting *meeting)
+static void judge_meeting(const struct ceduo_scene *scene, bool forest, double longest_gap, struct ceduo_meeting *meeting)
 {
     if (!forest)
         *meeting = (struct ceduo_meeting){.worst_adc = INFINITY, .worst_free_run = 1};
@@ -207,8 +206,8 @@ static double behind(const struct ceduo_scene *scene, const struct ceduo_stand *
     return energy * (1 - lost) - amount * (rate > 0 ? lost / rate : length);
 }
 
-static void pass_belt(const struct ceduo_scene *scene, const struct ceduo_stand *stand, double length,
-                      double dissipated, struct left *left)
+static void pass_belt(const struct ceduo_scene *scene, const struct ceduo_stand *stand, double length, double dissipated,
+                      struct left *left)
 {
     if (ceduo_stand_is_bare(stand) || !ceduo_stand_takes_share(stand)) {
         left->taken += dissipated;

@@ -32,9 +32,9 @@ static inline struct stem_energy stem_energy_of(const struct ceduo_stand *stand,
 {
     struct stem_energy e = {.model = stand->energy};
     switch (stand->energy) {
-#define X(NAME, name)                                 \
-    case CEDUO_##NAME:                                \
-        e.by.name = energy_##name(stand, stems);      \
+#define X(NAME, name)                                                                                                          \
+    case CEDUO_##NAME:                                                                                                         \
+        e.by.name = energy_##name(stand, stems);                                                                               \
         break;
         CEDUO_ENERGY_MODELS(X)
 #undef X
@@ -47,9 +47,9 @@ static inline void stem_energy_hash(uint64_t *hash, const struct stem_energy *e)
 {
     hash_count(hash, (uint64_t)e->model);
     switch (e->model) {
-#define X(NAME, name)                                                                          \
-    case CEDUO_##NAME:                                                                         \
-        hash_doubles(hash, &e->by.name, sizeof e->by.name / sizeof(double));                   \
+#define X(NAME, name)                                                                                                          \
+    case CEDUO_##NAME:                                                                                                         \
+        hash_doubles(hash, &e->by.name, sizeof e->by.name / sizeof(double));                                                   \
         break;
         CEDUO_ENERGY_MODELS(X)
 #undef X
@@ -59,8 +59,8 @@ static inline void stem_energy_hash(uint64_t *hash, const struct stem_energy *e)
 static inline double stem_energy_mean(const struct stem_energy *e)
 {
     switch (e->model) {
-#define X(NAME, name)  \
-    case CEDUO_##NAME: \
+#define X(NAME, name)                                                                                                          \
+    case CEDUO_##NAME:                                                                                                         \
         return name##_mean(&e->by.name);
         CEDUO_ENERGY_MODELS(X)
 #undef X
@@ -71,8 +71,8 @@ static inline double stem_energy_mean(const struct stem_energy *e)
 static inline double stem_energy_hit(const struct stem_energy *e, double dbh, double share)
 {
     switch (e->model) {
-#define X(NAME, name)  \
-    case CEDUO_##NAME: \
+#define X(NAME, name)                                                                                                          \
+    case CEDUO_##NAME:                                                                                                         \
         return name##_hit(&e->by.name, dbh, share);
         CEDUO_ENERGY_MODELS(X)
 #undef X
@@ -83,8 +83,8 @@ static inline double stem_energy_hit(const struct stem_energy *e, double dbh, do
 static inline bool stem_energy_by_eccentricity(const struct stem_energy *e)
 {
     switch (e->model) {
-#define X(NAME, name)  \
-    case CEDUO_##NAME: \
+#define X(NAME, name)                                                                                                          \
+    case CEDUO_##NAME:                                                                                                         \
         return name##_by_eccentricity(&e->by.name);
         CEDUO_ENERGY_MODELS(X)
 #undef X
@@ -95,8 +95,8 @@ static inline bool stem_energy_by_eccentricity(const struct stem_energy *e)
 static inline double stem_energy_mean_share(const struct stem_energy *e, double mass)
 {
     switch (e->model) {
-#define X(NAME, name)  \
-    case CEDUO_##NAME: \
+#define X(NAME, name)                                                                                                          \
+    case CEDUO_##NAME:                                                                                                         \
         return name##_mean_share(&e->by.name, mass);
         CEDUO_ENERGY_MODELS(X)
 #undef X
@@ -108,8 +108,8 @@ static inline double stem_energy_mean_share(const struct stem_energy *e, double 
 static inline double stem_energy_share(const struct stem_energy *e, double mass, double dbh, double eccentricity)
 {
     switch (e->model) {
-#define X(NAME, name)  \
-    case CEDUO_##NAME: \
+#define X(NAME, name)                                                                                                          \
+    case CEDUO_##NAME:                                                                                                         \
         return name##_share(&e->by.name, mass, dbh, eccentricity);
         CEDUO_ENERGY_MODELS(X)
 #undef X
@@ -120,8 +120,8 @@ static inline double stem_energy_share(const struct stem_energy *e, double mass,
 static inline unsigned stem_energy_warnings(const struct ceduo_stand *stand, const struct ceduo_stems *stems)
 {
     switch (stand->energy) {
-#define X(NAME, name)  \
-    case CEDUO_##NAME: \
+#define X(NAME, name)                                                                                                          \
+    case CEDUO_##NAME:                                                                                                         \
         return name##_warnings(stand, stems);
         CEDUO_ENERGY_MODELS(X)
 #undef X

@@ -13,7 +13,6 @@ struct energy_brauner {
     struct stem_volume volume;
 };
 
-
 static inline struct energy_brauner energy_brauner(const struct ceduo_stand *stand, const struct ceduo_stems *stems)
 {
     return (struct energy_brauner){.by_eccentricity = stand->offset == CEDUO_OFFSET_BY_ECCENTRICITY,

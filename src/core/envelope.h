@@ -8,14 +8,13 @@
 
 /* Coarse counts for pictures: 1/32 of an octave, 40 octaves; the first bin holds all that is smaller, the last all that is
  * larger. */
-#define ENVELOPE_BINS (40 * 32)
+#define ENVELOPE_BINS       (40 * 32)
 #define ENVELOPE_QUANTITIES 3 /* speed, height, energy */
-#define ENVELOPE_VECTOR 8 /* numbers that a vector may read or write behind the last cell */
+#define ENVELOPE_VECTOR     8 /* numbers that a vector may read or write behind the last cell */
 
 /* The smallest octaves begin at a millimetre, or a millimetre a second, and at 1/16 J. */
 static const double envelope_least[ENVELOPE_QUANTITIES] = {0x1p-10, 0x1p-10, 0x1p-4};
-static const double envelope_most[ENVELOPE_QUANTITIES] = {0x1.fffffffffffffp29, 0x1.fffffffffffffp29,
-                                                          0x1.fffffffffffffp35};
+static const double envelope_most[ENVELOPE_QUANTITIES] = {0x1.fffffffffffffp29, 0x1.fffffffffffffp29, 0x1.fffffffffffffp35};
 
 /* What is counted of a value within them: its exponent, and the first 5 bits behind the point. */
 #define ENVELOPE_SHIFT 47

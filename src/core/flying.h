@@ -45,8 +45,8 @@ static uint64_t next_pause(const struct walker *w)
 
 static inline void pass_mark(struct walker *w, double vx, double vz, double spin, double height)
 {
-    struct ceduo_crossing c = {.reached = true, .vx = vx, .vz = vz, .spin = spin, .height = height > 0 ? height : 0,
-                               .stems_hit = w->stems_hit};
+    struct ceduo_crossing c = {
+        .reached = true, .vx = vx, .vz = vz, .spin = spin, .height = height > 0 ? height : 0, .stems_hit = w->stems_hit};
     w->cross(w->context, w, w->next_mark++, &c);
 }
 
@@ -78,9 +78,7 @@ static inline struct flight flight_to(const struct walker *w, const struct fligh
 {
     double t = (x - at->x) / at->vx;
     t = t < t_end ? t : t_end;
-    return (struct flight){.vx = at->vx,
-                           .vz = at->vz - w->g->gravity * t,
-                           .z = at->z + (at->vz - w->g->half_g * t) * t};
+    return (struct flight){.vx = at->vx, .vz = at->vz - w->g->gravity * t, .z = at->z + (at->vz - w->g->half_g * t) * t};
 }
 
 /* The marks that the flight from `at` to `l` passes. */
@@ -130,8 +128,7 @@ HOT void fly(struct walker *w, struct flight *at, const struct landing *l)
 
 /* ---- stems ---- */
 
-SELDOM void show_stem(const struct walker *w, const struct stem *stem, double x, double clearance, double before,
-                      double taken)
+SELDOM void show_stem(const struct walker *w, const struct stem *stem, double x, double clearance, double before, double taken)
 {
     struct ceduo_stem_passed p = {.x = x,
                                   .y = stem->y,
@@ -179,9 +176,7 @@ static inline void count_hit(struct walker *w, const struct stem *stem)
 /* A stem is hit at x by a rock of kinetic energy `energy`: the share of its speed that is left, 0 where all is lost. */
 static double hit_stem(struct walker *w, struct stem *stem, double x, double clearance, double energy)
 {
-    struct hit hit = {.energy = energy,
-                      .cost = stem->energy,
-                      .part = ceduo_stem_part(w->stems, stem, &w->rock)};
+    struct hit hit = {.energy = energy, .cost = stem->energy, .part = ceduo_stem_part(w->stems, stem, &w->rock)};
     count_hit(w, stem);
     double share = speed_kept(hit);
     if (w->watch && w->watch->stem)
@@ -199,8 +194,7 @@ static size_t segment_between(const struct ground *g, size_t a, size_t b, double
  * True where one stops the rock (or the trajectory is given up), at `at`. Behind a hit no landing is looked for while
  * the next stem stands over the same segment and the rock is still above the ground there: the parabola is concave, so
  * there was no contact before. */
-static __attribute__((noinline)) bool fly_past_stems(struct walker *w, struct flight *at, struct landing *l,
-                                                     bool knows_landing)
+static __attribute__((noinline)) bool fly_past_stems(struct walker *w, struct flight *at, struct landing *l, bool knows_landing)
 {
     const struct ground *g = w->g;
     int side = at->vx > 0 ? 0 : 1;
@@ -293,9 +287,14 @@ HOT double largest_facet(const struct walker *w, size_t j)
 HOT struct ground_point ground_point(const struct walker *w, size_t j)
 {
     const struct ground_segment *s = &w->g->segments[j];
-    struct ground_point p = {
-        .rn = s->rn, .rt = s->rt, .radius = w->rock.radius, .k = w->k, .scale_rn = w->scale_rn,
-        .mu = s->mu, .friction = s->friction, .section = &w->section};
+    struct ground_point p = {.rn = s->rn,
+                             .rt = s->rt,
+                             .radius = w->rock.radius,
+                             .k = w->k,
+                             .scale_rn = w->scale_rn,
+                             .mu = s->mu,
+                             .friction = s->friction,
+                             .section = &w->section};
     if (w->g->rn_varies)
         p.rn = ceduo_number_draw(w->g->given[j]->rn, w->rn_u, 0, 1);
     if (w->g->rt_varies)
@@ -350,13 +349,12 @@ HOT void strike(struct walker *w, struct flight *at, struct velocity *v, struct 
     if (law == CEDUO_LAW_ARM)
         turn_section(w, &point.sine, &point.cosine);
     double inward = v->along * sine - v->off * cosine;
-    struct impact in = {
-        .vn = inward > 0 ? inward : 0, .vt = v->along * cosine + v->off * sine, .spin = w->spin};
+    struct impact in = {.vn = inward > 0 ? inward : 0, .vt = v->along * cosine + v->off * sine, .spin = w->spin};
     struct impact out;
     switch (law) {
-#define X(NAME, name)            \
-    case CEDUO_LAW_##NAME:       \
-        out = law_##name(in, &point); \
+#define X(NAME, name)                                                                                                          \
+    case CEDUO_LAW_##NAME:                                                                                                     \
+        out = law_##name(in, &point);                                                                                          \
         break;
         CEDUO_LAWS(X)
 #undef X

@@ -37,8 +37,8 @@ static bool same_roughness(const struct ceduo_segment *a, const struct ceduo_seg
 
 static bool same_ground(const struct ceduo_segment *a, const struct ceduo_segment *b)
 {
-    return same_roughness(a, b) && a->friction == b->friction && a->mu == b->mu &&
-           same_number(a->rn, b->rn) && same_number(a->rt, b->rt);
+    return same_roughness(a, b) && a->friction == b->friction && a->mu == b->mu && same_number(a->rn, b->rn) &&
+           same_number(a->rt, b->rt);
 }
 
 /* Lines from one vertex: steepest and gentlest that pass as near to all vertices so far as rounding allows, and likewise

@@ -8,7 +8,7 @@
 #include "ceduo/slope.h"
 
 /* The walk is one body from contact to contact, so that a flight stays in registers; what happens seldom is called. */
-#define HOT static inline __attribute__((always_inline))
+#define HOT    static inline __attribute__((always_inline))
 #define SELDOM static __attribute__((noinline))
 
 /* A slope made ready for many rocks: what the walk needs at each vertex and segment, in pairs as the wide walk looks them
@@ -59,11 +59,11 @@ struct ground_roll {
 
 /* Neighbours on one line with the same ground are one segment here, so its numbers are not those of the slope. */
 struct ground {
-    size_t n; /* segments */
+    size_t n;                 /* segments */
     struct ground_vertex *at; /* n + 1; with one before and GROUND_BEHIND behind: walls without top, so that a flight over
                                * the profile's end is one that strikes a wall */
-    double *x, *along; /* n + 1; x once more, for searches; along: metres of ground from the first vertex */
-    struct ground_segment *segments; /* n; with an empty one before and two behind, which lanes beyond a wall read */
+    double *x, *along;        /* n + 1; x once more, for searches; along: metres of ground from the first vertex */
+    struct ground_segment *segments;    /* n; with an empty one before and two behind, which lanes beyond a wall read */
     const struct ceduo_segment **given; /* n: the slope's, for spreads and roughness heights */
     enum ceduo_facets facets;
     bool rn_varies, rt_varies, theta_varies; /* from rock to rock */
@@ -71,7 +71,7 @@ struct ground {
     int top; /* level; level l has blocks of 2^(GROUND_BITS l) segments, from 1 on, and only whole ones */
     struct ground_block *levels[GROUND_LEVELS];
     struct ground_corner *corners; /* n + 1; NULL where a rock that rolls seldom comes to a vertex */
-    double reach; /* m; corners and rolls hold for rocks of at least this radius */
+    double reach;                  /* m; corners and rolls hold for rocks of at least this radius */
     int roll_top;
     struct ground_roll *rolls[2][GROUND_LEVELS]; /* along +x, along -x; as the blocks above, of 2^(ROLL_BITS l) */
 };

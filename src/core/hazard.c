@@ -148,8 +148,7 @@ static void read_curve(const struct curve *c, double accepted, struct ceduo_haza
     }
 }
 
-bool ceduo_hazard_read(const struct released *all, struct weighted *energies, size_t n, double accepted,
-                       struct ceduo_hazard *h)
+bool ceduo_hazard_read(const struct released *all, struct weighted *energies, size_t n, double accepted, struct ceduo_hazard *h)
 {
     struct weighted_sum *sums = malloc((n + 1) * sizeof *sums);
     *h = ceduo_hazard_none();

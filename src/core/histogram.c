@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define BINS ((size_t)1 << HISTOGRAM_BITS)
+#define BINS            ((size_t)1 << HISTOGRAM_BITS)
 #define LOWEST_EXPONENT (-64)
 
 /* Octave and bin of a value, from its bits; false below the smallest octave. */

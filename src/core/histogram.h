@@ -11,7 +11,7 @@
 /* Counts of values >= 0 in bins of equal relative width, 1/16384 of an octave (6.1e-5), an octave's bins made when it is
  * first met. Counts only: histograms merge in any order to the same bits. */
 #define HISTOGRAM_OCTAVES 128
-#define HISTOGRAM_BITS 14
+#define HISTOGRAM_BITS    14
 
 struct histogram {
     uint64_t n, zeros;                   /* zeros: values below the smallest octave, 2^-64 */

@@ -14,10 +14,10 @@ struct impact {
 
 /* What a law needs to know of rock and ground. */
 struct ground_point {
-    double rn, rt; /* 0…1 */
-    double radius; /* R, m */
-    double k;      /* I/(MR2) */
-    bool scale_rn; /* lumped only: Rn divided by 1 + (Vn/K)2 */
+    double rn, rt;                 /* 0…1 */
+    double radius;                 /* R, m */
+    double k;                      /* I/(MR2) */
+    bool scale_rn;                 /* lumped only: Rn divided by 1 + (Vn/K)2 */
     double mu, friction;           /* arm only */
     const struct section *section; /* arm only, and how that is turned: */
     double sine, cosine;

@@ -83,11 +83,8 @@ HOT struct landing land_nowhere(const struct ground *g, const struct flight *f, 
 {
     size_t p = dir > 0 ? g->n : 0;
     double t = (g->at[p].x - f->x) * inv;
-    return (struct landing){.t = t,
-                            .x = g->at[p].x,
-                            .z = f->z + (f->vz - g->half_g * t) * t,
-                            .segment = dir > 0 ? p - 1 : p,
-                            .left = true};
+    return (struct landing){
+        .t = t, .x = g->at[p].x, .z = f->z + (f->vz - g->half_g * t) * t, .segment = dir > 0 ? p - 1 : p, .left = true};
 }
 
 /* Follows the flight from vertex p, which it clears, towards dir: the first segment at whose far vertex it would be
@@ -108,8 +105,8 @@ HOT struct landing land_beyond(const struct ground *g, const struct flight *f, s
 
 /* The same on a long profile, p being cleared by h. Blocks are passed as wholes where the flight is high enough above
  * their chord: from where it is, be it within the block, to the block's end. */
-SELDOM __attribute__((unused)) struct landing land_far(const struct ground *g, const struct flight *f, size_t p,
-                                                       double h, int dir, double inv)
+SELDOM __attribute__((unused)) struct landing land_far(const struct ground *g, const struct flight *f, size_t p, double h,
+                                                       int dir, double inv)
 {
     size_t last = dir > 0 ? g->n : 0, barrier = SIZE_MAX; /* end of the block that may not be passed as a whole */
     int level = 0, most = g->top;

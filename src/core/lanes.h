@@ -31,29 +31,29 @@ typedef __m512i part_ints;
 typedef __mmask8 part_flags;
 typedef uint64_t part_bits __attribute__((vector_size(64))); /* for sums and shifts, which wrap */
 
-#define PART_LESS(p, q) _mm512_cmp_pd_mask(p, q, _CMP_LT_OQ)
-#define PART_AT_LEAST(p, q) _mm512_cmp_pd_mask(p, q, _CMP_GE_OQ)
-#define PART_EQUAL(p, q) _mm512_cmp_pd_mask(p, q, _CMP_EQ_OQ)
-#define PART_SAME(p, q) _mm512_cmpeq_epi64_mask(p, q)
-#define PART_MORE(p, q) _mm512_cmpgt_epi64_mask(p, q)
-#define PART_BOTH(p, q) ((__mmask8)((p) & (q)))
-#define PART_EITHER(p, q) ((__mmask8)((p) | (q)))
-#define PART_BUT(p, q) ((__mmask8)((p) & ~(unsigned)(q)))
-#define PART_BITS(p) ((unsigned)(p))
-#define PART_FLAGS(bits) ((__mmask8)(bits))
-#define PART_PICK(m, p, q) _mm512_mask_blend_pd(m, q, p)
+#define PART_LESS(p, q)         _mm512_cmp_pd_mask(p, q, _CMP_LT_OQ)
+#define PART_AT_LEAST(p, q)     _mm512_cmp_pd_mask(p, q, _CMP_GE_OQ)
+#define PART_EQUAL(p, q)        _mm512_cmp_pd_mask(p, q, _CMP_EQ_OQ)
+#define PART_SAME(p, q)         _mm512_cmpeq_epi64_mask(p, q)
+#define PART_MORE(p, q)         _mm512_cmpgt_epi64_mask(p, q)
+#define PART_BOTH(p, q)         ((__mmask8)((p) & (q)))
+#define PART_EITHER(p, q)       ((__mmask8)((p) | (q)))
+#define PART_BUT(p, q)          ((__mmask8)((p) & ~(unsigned)(q)))
+#define PART_BITS(p)            ((unsigned)(p))
+#define PART_FLAGS(bits)        ((__mmask8)(bits))
+#define PART_PICK(m, p, q)      _mm512_mask_blend_pd(m, q, p)
 #define PART_PICK_INTS(m, p, q) _mm512_mask_blend_epi64(m, q, p)
-#define PART_SQRT(p) _mm512_sqrt_pd(p)
-#define PART_LEAST(p, q) _mm512_min_pd(p, q)
-#define PART_MOST(p, q) _mm512_max_pd(p, q)
-#define PART_ALL(x) _mm512_set1_pd(x)
-#define PART_ALL_INTS(x) _mm512_set1_epi64((long long)(x))
-#define PART_LOAD(from) _mm512_load_pd(from)
-#define PART_LOAD_INTS(from) _mm512_load_si512(from)
-#define PART_STORE(to, p) _mm512_store_pd(to, p)
-#define PART_STORE_INTS(to, p) _mm512_store_si512(to, p)
-#define PART_AS_INTS(p) _mm512_castpd_si512(p)
-#define PART_AS_REALS(p) _mm512_castsi512_pd(p)
+#define PART_SQRT(p)            _mm512_sqrt_pd(p)
+#define PART_LEAST(p, q)        _mm512_min_pd(p, q)
+#define PART_MOST(p, q)         _mm512_max_pd(p, q)
+#define PART_ALL(x)             _mm512_set1_pd(x)
+#define PART_ALL_INTS(x)        _mm512_set1_epi64((long long)(x))
+#define PART_LOAD(from)         _mm512_load_pd(from)
+#define PART_LOAD_INTS(from)    _mm512_load_si512(from)
+#define PART_STORE(to, p)       _mm512_store_pd(to, p)
+#define PART_STORE_INTS(to, p)  _mm512_store_si512(to, p)
+#define PART_AS_INTS(p)         _mm512_castpd_si512(p)
+#define PART_AS_REALS(p)        _mm512_castsi512_pd(p)
 /* One of the first 16 numbers of a table. */
 #define PART_CHOOSE(table, i) _mm512_permutex2var_pd(_mm512_load_pd(table), i, _mm512_load_pd((table) + 8))
 
@@ -68,33 +68,33 @@ LANE part_reals part_of_ints(part_ints p)
 typedef __m256d part_reals;
 typedef __m256i part_ints;
 typedef uint64_t part_bits __attribute__((vector_size(32))); /* for sums and shifts, which wrap */
-typedef __m256d part_flags; /* all bits of a lane set, or none */
+typedef __m256d part_flags;                                  /* all bits of a lane set, or none */
 
-#define PART_LESS(p, q) _mm256_cmp_pd(p, q, _CMP_LT_OQ)
+#define PART_LESS(p, q)     _mm256_cmp_pd(p, q, _CMP_LT_OQ)
 #define PART_AT_LEAST(p, q) _mm256_cmp_pd(p, q, _CMP_GE_OQ)
-#define PART_EQUAL(p, q) _mm256_cmp_pd(p, q, _CMP_EQ_OQ)
-#define PART_SAME(p, q) _mm256_castsi256_pd(_mm256_cmpeq_epi64(p, q))
-#define PART_MORE(p, q) _mm256_castsi256_pd(_mm256_cmpgt_epi64(p, q))
-#define PART_BOTH(p, q) _mm256_and_pd(p, q)
-#define PART_EITHER(p, q) _mm256_or_pd(p, q)
-#define PART_BUT(p, q) _mm256_andnot_pd(q, p)
-#define PART_BITS(p) ((unsigned)_mm256_movemask_pd(p))
-#define PART_FLAGS(bits) \
-    PART_SAME(_mm256_and_si256(_mm256_set1_epi64x((long long)(bits)), _mm256_set_epi64x(8, 4, 2, 1)), \
+#define PART_EQUAL(p, q)    _mm256_cmp_pd(p, q, _CMP_EQ_OQ)
+#define PART_SAME(p, q)     _mm256_castsi256_pd(_mm256_cmpeq_epi64(p, q))
+#define PART_MORE(p, q)     _mm256_castsi256_pd(_mm256_cmpgt_epi64(p, q))
+#define PART_BOTH(p, q)     _mm256_and_pd(p, q)
+#define PART_EITHER(p, q)   _mm256_or_pd(p, q)
+#define PART_BUT(p, q)      _mm256_andnot_pd(q, p)
+#define PART_BITS(p)        ((unsigned)_mm256_movemask_pd(p))
+#define PART_FLAGS(bits)                                                                                                       \
+    PART_SAME(_mm256_and_si256(_mm256_set1_epi64x((long long)(bits)), _mm256_set_epi64x(8, 4, 2, 1)),                          \
               _mm256_set_epi64x(8, 4, 2, 1))
-#define PART_PICK(m, p, q) _mm256_blendv_pd(q, p, m)
+#define PART_PICK(m, p, q)      _mm256_blendv_pd(q, p, m)
 #define PART_PICK_INTS(m, p, q) _mm256_castpd_si256(PART_PICK(m, _mm256_castsi256_pd(p), _mm256_castsi256_pd(q)))
-#define PART_SQRT(p) _mm256_sqrt_pd(p)
-#define PART_LEAST(p, q) _mm256_min_pd(p, q)
-#define PART_MOST(p, q) _mm256_max_pd(p, q)
-#define PART_ALL(x) _mm256_set1_pd(x)
-#define PART_ALL_INTS(x) _mm256_set1_epi64x((long long)(x))
-#define PART_LOAD(from) _mm256_load_pd(from)
-#define PART_LOAD_INTS(from) _mm256_load_si256((const __m256i *)(const void *)(from))
-#define PART_STORE(to, p) _mm256_store_pd(to, p)
-#define PART_STORE_INTS(to, p) _mm256_store_si256((__m256i *)(void *)(to), p)
-#define PART_AS_INTS(p) _mm256_castpd_si256(p)
-#define PART_AS_REALS(p) _mm256_castsi256_pd(p)
+#define PART_SQRT(p)            _mm256_sqrt_pd(p)
+#define PART_LEAST(p, q)        _mm256_min_pd(p, q)
+#define PART_MOST(p, q)         _mm256_max_pd(p, q)
+#define PART_ALL(x)             _mm256_set1_pd(x)
+#define PART_ALL_INTS(x)        _mm256_set1_epi64x((long long)(x))
+#define PART_LOAD(from)         _mm256_load_pd(from)
+#define PART_LOAD_INTS(from)    _mm256_load_si256((const __m256i *)(const void *)(from))
+#define PART_STORE(to, p)       _mm256_store_pd(to, p)
+#define PART_STORE_INTS(to, p)  _mm256_store_si256((__m256i *)(void *)(to), p)
+#define PART_AS_INTS(p)         _mm256_castpd_si256(p)
+#define PART_AS_REALS(p)        _mm256_castsi256_pd(p)
 
 /* AVX2 does not convert 64-bit integers: the two 32-bit parts are put into doubles as bits. Exact below 2^53. */
 LANE part_reals part_of_ints(part_ints p)
@@ -112,15 +112,15 @@ LANE part_reals part_of_ints(part_ints p)
 #ifdef WIDE_AVX512
 #define PARTS      4
 #define PART_NAMES a, b, c, d
-#define OF_EACH(macro, ...)                                                                                     \
+#define OF_EACH(macro, ...)                                                                                                    \
     macro(a, 0, __VA_ARGS__) macro(b, PART, __VA_ARGS__) macro(c, 2 * PART, __VA_ARGS__) macro(d, 3 * PART, __VA_ARGS__)
 #else
-#define PARTS      2
-#define PART_NAMES a, b
+#define PARTS               2
+#define PART_NAMES          a, b
 #define OF_EACH(macro, ...) macro(a, 0, __VA_ARGS__) macro(b, PART, __VA_ARGS__)
 #endif
 
-#define LANES (PARTS * PART)
+#define LANES     (PARTS * PART)
 #define ALL_LANES ((unsigned)(((uint64_t)1 << LANES) - 1))
 
 typedef struct {
@@ -134,23 +134,23 @@ typedef struct {
 } flags;
 
 /* Defines a function that does the same with each part: EACH(result, name, (parameters), what with part P of each). */
-#define EACH(result, name, parameters, ...)             \
-    LANE result name parameters                         \
-    {                                                   \
-        return (result){OF_EACH(ONE_OF, __VA_ARGS__)};  \
+#define EACH(result, name, parameters, ...)                                                                                    \
+    LANE result name parameters                                                                                                \
+    {                                                                                                                          \
+        return (result){OF_EACH(ONE_OF, __VA_ARGS__)};                                                                         \
     }
 #define ONE_OF(part, first, macro, ...) macro(part, first, __VA_ARGS__),
 
 /* What a macro makes of part `x`, whose first lane is lane `at`. */
-#define OF_ONE(x, at, op)      op(p.x)
-#define OF_TWO(x, at, op)      op(p.x, q.x)
-#define OF_THREE(x, at, op)    op(m.x, p.x, q.x)
-#define OF_SCALAR(x, at, op)   op(s)
-#define OF_PLACE(x, at, op)    op(from + (at))
-#define OF_BITS(x, at, op)     op(bits >> (at))
-#define OF_SIGN(x, at, sign)   p.x sign q.x
-#define OF_WRAPPING(x, at, sign) (part_ints)((part_bits)p.x sign (part_bits)q.x)
-#define OF_SHIFT(x, at, sign)  (part_ints)((part_bits)p.x sign n)
+#define OF_ONE(x, at, op)        op(p.x)
+#define OF_TWO(x, at, op)        op(p.x, q.x)
+#define OF_THREE(x, at, op)      op(m.x, p.x, q.x)
+#define OF_SCALAR(x, at, op)     op(s)
+#define OF_PLACE(x, at, op)      op(from + (at))
+#define OF_BITS(x, at, op)       op(bits >> (at))
+#define OF_SIGN(x, at, sign)     p.x sign q.x
+#define OF_WRAPPING(x, at, sign) (part_ints)((part_bits)p.x sign(part_bits) q.x)
+#define OF_SHIFT(x, at, sign)    (part_ints)((part_bits)p.x sign n)
 
 EACH(reals, all, (double s), OF_SCALAR, PART_ALL)
 EACH(ints, all_ints, (uint64_t s), OF_SCALAR, PART_ALL_INTS)
@@ -159,23 +159,15 @@ EACH(ints, load_ints, (const uint64_t *from), OF_PLACE, PART_LOAD_INTS)
 
 #define STORE_ONE(x, at, op) op(to + (at), p.x);
 
-LANE void store(double *to, reals p)
-{
-    OF_EACH(STORE_ONE, PART_STORE)
-}
+LANE void store(double *to, reals p){OF_EACH(STORE_ONE, PART_STORE)}
 
-LANE void store_ints(uint64_t *to, ints p)
-{
-    OF_EACH(STORE_ONE, PART_STORE_INTS)
-}
+LANE void store_ints(uint64_t *to, ints p){OF_EACH(STORE_ONE, PART_STORE_INTS)}
 
-EACH(reals, add, (reals p, reals q), OF_SIGN, +)
-EACH(reals, sub, (reals p, reals q), OF_SIGN, -)
-EACH(reals, mul, (reals p, reals q), OF_SIGN, *)
-EACH(reals, over, (reals p, reals q), OF_SIGN, /)
-EACH(reals, root_of, (reals p), OF_ONE, PART_SQRT)
+EACH(reals, add, (reals p, reals q), OF_SIGN, +) EACH(reals, sub, (reals p, reals q), OF_SIGN, -)
+    EACH(reals, mul, (reals p, reals q), OF_SIGN, *) EACH(reals, over, (reals p, reals q), OF_SIGN, /)
+        EACH(reals, root_of, (reals p), OF_ONE, PART_SQRT)
 
-LANE void add_to(double *to, reals p)
+            LANE void add_to(double *to, reals p)
 {
     store(to, add(load(to), p));
 }
@@ -278,8 +270,8 @@ EACH(reals, choose, (const double *table, ints p), OF_TABLE, PART_CHOOSE)
 /* ---- one part alone: a row of neighbours ---- */
 
 #ifdef WIDE_AVX512
-#define PART_NONE_BUT(p) ((unsigned)(uint8_t)~(p)) /* bits of those that are not */
-#define PART_LOAD_ROW(from) _mm512_loadu_pd(from)
+#define PART_NONE_BUT(p)      ((unsigned)(uint8_t) ~(p)) /* bits of those that are not */
+#define PART_LOAD_ROW(from)   _mm512_loadu_pd(from)
 #define PART_STORE_ROW(to, p) _mm512_storeu_pd(to, p)
 
 /* The upper 17 bits of each, which are below 2^16. */
@@ -315,8 +307,8 @@ LANE part_reals part_shifted(part_reals p, double last)
     return _mm512_castsi512_pd(_mm512_alignr_epi64(_mm512_castpd_si512(PART_ALL(last)), _mm512_castpd_si512(p), 1));
 }
 #else
-#define PART_NONE_BUT(p) (~PART_BITS(p) & 15)
-#define PART_LOAD_ROW(from) _mm256_loadu_pd(from)
+#define PART_NONE_BUT(p)      (~PART_BITS(p) & 15)
+#define PART_LOAD_ROW(from)   _mm256_loadu_pd(from)
 #define PART_STORE_ROW(to, p) _mm256_storeu_pd(to, p)
 
 LANE void part_store_upper(uint16_t *to, part_reals p)

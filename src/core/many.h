@@ -15,23 +15,29 @@
 typedef double many_reals __attribute__((vector_size(8 * MANY)));
 typedef uint64_t many_bits __attribute__((vector_size(8 * MANY)));
 
-#define REAL many_reals
-#define BITS many_bits
-#define AS_BITS(p) ((many_bits)(p))
-#define AS_REAL(p) ((many_reals)(p))
-#define PICK(m, p, q) ((many_reals)(((many_bits)(m) & (many_bits)(p)) | (~(many_bits)(m) & (many_bits)(q))))
+#define REAL             many_reals
+#define BITS             many_bits
+#define AS_BITS(p)       ((many_bits)(p))
+#define AS_REAL(p)       ((many_reals)(p))
+#define PICK(m, p, q)    ((many_reals)(((many_bits)(m) & (many_bits)(p)) | (~(many_bits)(m) & (many_bits)(q))))
 #define ELEMENTARY(name) many_##name
 #include "base/elementary_text.h"
 
 /* n, n + step, n + 2 step … */
 MANY_INLINE void many_from(uint64_t n, uint64_t step, many_bits *result)
 {
-    static const many_bits places = {0, 1,
+    static const many_bits places = {
+        0,
+        1,
 #if MANY > 2
-                                     2, 3,
+        2,
+        3,
 #endif
 #if MANY > 4
-                                     4, 5, 6, 7
+        4,
+        5,
+        6,
+        7
 #endif
     };
     *result = places * step + n;
@@ -57,13 +63,16 @@ MANY_INLINE unsigned many_count(const many_bits *which)
 }
 #elif defined MANY_AVX2
 #define HALVES(lane) ((uint64_t)(2 * (lane) + 1) << 32 | 2 * (lane))
-#define KEPT(a, b, c, d) {HALVES(a), HALVES(b), HALVES(c), HALVES(d)}
+#define KEPT(a, b, c, d)                                                                                                       \
+    {                                                                                                                          \
+        HALVES(a), HALVES(b), HALVES(c), HALVES(d)                                                                             \
+    }
 MANY_INLINE void many_keep(const many_bits *which, const many_bits *from, void *to)
 {
-    static const many_bits kept[] = {
-        KEPT(0, 0, 0, 0), KEPT(0, 0, 0, 0), KEPT(1, 0, 0, 0), KEPT(0, 1, 0, 0), KEPT(2, 0, 0, 0), KEPT(0, 2, 0, 0),
-        KEPT(1, 2, 0, 0), KEPT(0, 1, 2, 0), KEPT(3, 0, 0, 0), KEPT(0, 3, 0, 0), KEPT(1, 3, 0, 0), KEPT(0, 1, 3, 0),
-        KEPT(2, 3, 0, 0), KEPT(0, 2, 3, 0), KEPT(1, 2, 3, 0), KEPT(0, 1, 2, 3)};
+    static const many_bits kept[] = {KEPT(0, 0, 0, 0), KEPT(0, 0, 0, 0), KEPT(1, 0, 0, 0), KEPT(0, 1, 0, 0),
+                                     KEPT(2, 0, 0, 0), KEPT(0, 2, 0, 0), KEPT(1, 2, 0, 0), KEPT(0, 1, 2, 0),
+                                     KEPT(3, 0, 0, 0), KEPT(0, 3, 0, 0), KEPT(1, 3, 0, 0), KEPT(0, 1, 3, 0),
+                                     KEPT(2, 3, 0, 0), KEPT(0, 2, 3, 0), KEPT(1, 2, 3, 0), KEPT(0, 1, 2, 3)};
     int mask = _mm256_movemask_pd((__m256d)*which);
     _mm256_storeu_si256(to, _mm256_permutevar8x32_epi32((__m256i)*from, (__m256i)kept[mask]));
 }
@@ -99,15 +108,15 @@ MANY_INLINE void many_threefry(uint64_t seed, uint64_t rock, many_bits *p, many_
 {
     const uint64_t a = seed, b = rock, c = 0x1BD11BDAA9FC1A22 ^ seed ^ rock;
     many_bits x = *p + a, y = *q + b;
-#define ROUND(turn) \
-    x += y;         \
+#define ROUND(turn)                                                                                                            \
+    x += y;                                                                                                                    \
     y = (y << turn | y >> (64 - turn)) ^ x
-#define FOUR(r1, r2, r3, r4, key, next, n) \
-    ROUND(r1);                             \
-    ROUND(r2);                             \
-    ROUND(r3);                             \
-    ROUND(r4);                             \
-    x += key;                              \
+#define FOUR(r1, r2, r3, r4, key, next, n)                                                                                     \
+    ROUND(r1);                                                                                                                 \
+    ROUND(r2);                                                                                                                 \
+    ROUND(r3);                                                                                                                 \
+    ROUND(r4);                                                                                                                 \
+    x += key;                                                                                                                  \
     y += next + n
     FOUR(16, 42, 12, 31, b, c, 1);
     FOUR(16, 32, 24, 21, c, a, 2);

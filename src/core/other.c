@@ -62,9 +62,8 @@ static bool has_stems(const struct ceduo_option *option)
 enum ceduo_status ceduo_other_read(const struct ceduo_option *option, const struct ceduo_run *run,
                                    const struct ceduo_run *first, size_t control, struct ceduo_other_energy *other)
 {
-    *other = (struct ceduo_other_energy){.known = run && ceduo_run_rocks(run) > 0,
-                                         .stems = has_stems(option),
-                                         .model = ceduo_other_law(option)};
+    *other = (struct ceduo_other_energy){
+        .known = run && ceduo_run_rocks(run) > 0, .stems = has_stems(option), .model = ceduo_other_law(option)};
     if (!other->known)
         return CEDUO_OK;
     struct ceduo_arrivals a;

@@ -43,15 +43,14 @@ static bool make_marks(struct marks *marks, const struct ceduo_scene *scene)
     return true;
 }
 
-enum ceduo_status ceduo_prepared_init(struct prepared *to, const struct ceduo_scene *scene,
-                                      const struct ceduo_option *option, size_t cells, const double *cell_x)
+enum ceduo_status ceduo_prepared_init(struct prepared *to, const struct ceduo_scene *scene, const struct ceduo_option *option,
+                                      size_t cells, const double *cell_x)
 {
     *to = (struct prepared){.scene = *scene};
     enum ceduo_status status = ceduo_rock_of_means(&scene->rock, &to->mean);
     if (status != CEDUO_OK)
         return status;
-    bool good = ceduo_sizes_init(&to->sizes, scene) &&
-                ceduo_wood_init(&to->wood, &scene->simulation, option, &to->mean) &&
+    bool good = ceduo_sizes_init(&to->sizes, scene) && ceduo_wood_init(&to->wood, &scene->simulation, option, &to->mean) &&
                 make_marks(&to->marks, scene) && make_cells(&to->marks, scene, cells, cell_x) &&
                 ceduo_ground_init(&to->ground, &scene->slope, scene->simulation.gravity, to->mean.radius,
                                   ceduo_scene_rock_varies(scene));

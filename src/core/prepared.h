@@ -33,8 +33,8 @@ struct prepared {
 
 /* `option` NULL: without forest. `cell_x`: places of envelopes. CEDUO_BAD_ROCK or CEDUO_NO_MEMORY; release it in any
  * case. */
-enum ceduo_status ceduo_prepared_init(struct prepared *to, const struct ceduo_scene *scene,
-                                      const struct ceduo_option *option, size_t cells, const double *cell_x);
+enum ceduo_status ceduo_prepared_init(struct prepared *to, const struct ceduo_scene *scene, const struct ceduo_option *option,
+                                      size_t cells, const double *cell_x);
 void ceduo_prepared_release(struct prepared *p);
 
 /* Rock `number` of a run, of its own size. What ceduo_rock_draw() says. */

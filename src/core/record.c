@@ -12,7 +12,7 @@
 /* Sums along a stretch; they become means at the end. */
 struct along {
     double length, speed, height, speed2; /* integrals over x */
-    double spin2, roll2; /* of the spin in flight; of the speed in a roll, which goes with the spin */
+    double spin2, roll2;                  /* of the spin in flight; of the speed in a roll, which goes with the spin */
 };
 
 struct recorder {
@@ -114,8 +114,7 @@ static double speed_integral(double vx, double s)
     return (s * sqrt(vx * vx + s * s) + vx * vx * asinh(s / fabs(vx))) / 2;
 }
 
-static void add_flight(const struct ceduo_scene *scene, const struct ceduo_piece *p, double lo, double hi,
-                       struct along *a)
+static void add_flight(const struct ceduo_scene *scene, const struct ceduo_piece *p, double lo, double hi, struct along *a)
 {
     double gravity = scene->simulation.gravity, v = fabs(p->vx);
     double first = ((p->vx > 0 ? lo : hi) - p->x) / p->vx, last = ((p->vx > 0 ? hi : lo) - p->x) / p->vx;
@@ -207,8 +206,8 @@ static enum ceduo_status record_rock(struct recorder *r, struct ceduo_follower *
     *r->rock = (struct ceduo_rock_record){.stop_x = NAN};
     for (size_t i = 0; i < def->stretches_count; i++)
         r->along[i] = (struct along){0};
-    enum ceduo_status status = ceduo_follower_follow(follower, rock, &watch, &way,
-                                                     &r->record->crossings[rock * def->scene->controls_count]);
+    enum ceduo_status status =
+        ceduo_follower_follow(follower, rock, &watch, &way, &r->record->crossings[rock * def->scene->controls_count]);
     if (status != CEDUO_OK || r->no_memory)
         return r->no_memory ? CEDUO_NO_MEMORY : status;
     r->rock->mass = way.rock.mass;

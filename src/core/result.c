@@ -81,9 +81,8 @@ static void put_out(struct ceduo_index *index)
     index->thick.contact = index->thick.free_run = CEDUO_UNKNOWN;
 }
 
-void ceduo_result_read(const struct ceduo_scene *scene, const struct ceduo_option *option,
-                       const struct ceduo_flown *bare, const struct ceduo_flown *wooded,
-                       struct ceduo_stand_result *stands, struct ceduo_index *controls)
+void ceduo_result_read(const struct ceduo_scene *scene, const struct ceduo_option *option, const struct ceduo_flown *bare,
+                       const struct ceduo_flown *wooded, struct ceduo_stand_result *stands, struct ceduo_index *controls)
 {
     for (size_t k = 0; k < option->belts_count; k++)
         stands[k] = ceduo_assess_stand(scene, &option->belts[k]);
@@ -149,8 +148,7 @@ static enum ceduo_status finish(struct ceduo_result *r, enum ceduo_status status
             if (!r->wooded)
                 o->differences[c] = ceduo_no_difference(scene->controls[c].accepted);
             else if (o->others[c].known)
-                o->others[c].judgement =
-                    judge_other(&r->bare.arrivals[c], ceduo_result_wooded(r, i, c), &o->others[c]);
+                o->others[c].judgement = judge_other(&r->bare.arrivals[c], ceduo_result_wooded(r, i, c), &o->others[c]);
         ceduo_result_read(scene, &scene->options[i], &r->bare, r->wooded ? &o->wooded : &none, o->stands, o->controls);
     }
     if (status == CEDUO_OK)
@@ -161,8 +159,7 @@ static enum ceduo_status finish(struct ceduo_result *r, enum ceduo_status status
 }
 
 enum ceduo_status ceduo_result_assess(const struct ceduo_scene *scene, const struct ceduo_flown *bare,
-                                      const struct ceduo_flown *const *wooded,
-                                      const struct ceduo_difference *differences,
+                                      const struct ceduo_flown *const *wooded, const struct ceduo_difference *differences,
                                       const struct ceduo_other_energy *others, struct ceduo_result **result)
 {
     size_t controls = scene->controls_count;
@@ -213,8 +210,8 @@ enum ceduo_status ceduo_result_create(const struct ceduo_scene *scene, const str
         for (size_t c = 0; c < controls; c++)
             r->options[i].differences[c] = ceduo_run_difference(run, baseline, c);
         if (run) /* that of an option without stems is the one without forest */
-            status = run == bare ? copy(&r->bare, &r->options[i].wooded)
-                                 : ceduo_flown_read(run, controls, &r->options[i].wooded);
+            status =
+                run == bare ? copy(&r->bare, &r->options[i].wooded) : ceduo_flown_read(run, controls, &r->options[i].wooded);
     }
     if (r->wooded && status == CEDUO_OK)
         status = read_others(scene, pool, r->options);

@@ -178,8 +178,7 @@ static enum after_roll roll_over_vertex(struct walker *w, struct roll *r, struct
     bool surely = knows_corners(w) && r->u2 < g->gravity * g->corners[r->dir > 0 ? next : j].surely[r->dir > 0 ? 0 : 1];
     if (turn < 0 && !surely) {
         double u = r->dir * sqrt(r->u2);
-        struct flight off = {
-            .x = w->at.x, .z = w->at.z, .vx = u * a->c, .vz = u * a->s, .segment = next, .on_ground = true};
+        struct flight off = {.x = w->at.x, .z = w->at.z, .vx = u * a->c, .vz = u * a->s, .segment = next, .on_ground = true};
         *l = next_landing(g, &off);
         if (!is_roll(w, &off, off.vz * b->c - off.vx * b->s, l)) {
             w->at = off;
@@ -204,8 +203,7 @@ HOT bool pass_block(const struct ground *g, int dir, int level, double next_x, s
     size_t to = dir > 0 ? p->vertex + many : p->vertex - many;
     const struct ground_roll *b = dir > 0 ? &g->rolls[0][level][i] : &g->rolls[1][level][i - 1];
     double way = dir * (g->along[to] - g->along[p->vertex]);
-    if (!(way < p->left && p->u2 > p->pull * b->above && p->u2 < g->gravity * b->below) ||
-        (dir > 0 && next_x <= g->at[to].x))
+    if (!(way < p->left && p->u2 > p->pull * b->above && p->u2 < g->gravity * b->below) || (dir > 0 && next_x <= g->at[to].x))
         return false;
     p->u2 = b->kept * p->u2 + p->pull * b->gained;
     p->left -= way;

@@ -11,7 +11,7 @@
 #include "base/elementary.h"
 
 #define SHOOTS_FALL 5.0  /* years in which the surplus of shoots falls to 1/e; assumed */
-#define GROWS_MOST  1e9 /* times as wide or as high: beyond that an age is as good as 0 */
+#define GROWS_MOST  1e9  /* times as wide or as high: beyond that an age is as good as 0 */
 #define AGE_GRAIN   1e-6 /* years: an age that comes from a curve is no better known */
 
 /* ---- curves ---- */
@@ -181,8 +181,7 @@ bool ceduo_is_cut_year(const struct ceduo_stand *stand, double first_cut, unsign
 
 /* ---- the stand of a year ---- */
 
-static enum ceduo_status make(const struct ceduo_stand *stand, size_t shoots, size_t trees,
-                              struct ceduo_grown_stand *out)
+static enum ceduo_status make(const struct ceduo_stand *stand, size_t shoots, size_t trees, struct ceduo_grown_stand *out)
 {
     *out = (struct ceduo_grown_stand){.stems = NULL};
     if (shoots + trees > 0 && !(out->stems = calloc(shoots + trees, sizeof *out->stems)))
@@ -251,9 +250,8 @@ static void grow_stems(struct ceduo_stems *stems, const struct ceduo_curve *curv
 static void grow_shoots(struct ceduo_stand *stand, const struct ceduo_growth *growth, double years, size_t young)
 {
     if (young > 0) /* as many cohorts as each stool has */
-        stand->shoots[0] =
-            stems_of_age(&growth->shoots,
-                         stand->stools_per_ha * shoots_on_stool(growth, years) / (double)stand->shoots_count, years);
+        stand->shoots[0] = stems_of_age(
+            &growth->shoots, stand->stools_per_ha * shoots_on_stool(growth, years) / (double)stand->shoots_count, years);
     double least = fmin(stand->stools_per_ha, ceduo_stand_shoots(stand));
     for (size_t i = young; i < stand->shoots_count; i++) {
         struct ceduo_stems *s = &stand->shoots[i];

@@ -25,9 +25,9 @@ struct worker {
     struct stems *stems;    /* likewise; NULL: no forest */
     struct walker first;    /* a rock at its release: where all are alike, they are as this one */
     struct block *block;
-    uint64_t from, next, to;         /* rocks of the block: the first, the next to begin, behind the last */
-    struct arrival *arrivals;        /* [control][CEDUO_BLOCK_ROCKS] */
-    double stops[CEDUO_BLOCK_ROCKS]; /* NaN: it did not stop */
+    uint64_t from, next, to;               /* rocks of the block: the first, the next to begin, behind the last */
+    struct arrival *arrivals;              /* [control][CEDUO_BLOCK_ROCKS] */
+    double stops[CEDUO_BLOCK_ROCKS];       /* NaN: it did not stop */
     unsigned char ends[CEDUO_BLOCK_ROCKS]; /* enum ceduo_end, where rocks have weights */
     struct histogram *bins;
     struct envelopes cells;
@@ -64,11 +64,11 @@ static void on_cross(void *context, const struct walker *walker, size_t mark, co
     double translation = 0.5 * rock->mass * (speed * speed);
     double energy = translation + 0.5 * rock->moment * (c->spin * c->spin);
     bool exceeds = energy > w->run->ready.scene.controls[control].accepted; /* never, where that is NaN */
-    *arrival_of(w, control, walker->number) = (struct arrival){
-        .of = {[SPEED] = speed, [HEIGHT] = c->height, [ENERGY] = energy, [TRANSLATION] = translation},
-        .stems_hit = (double)c->stems_hit,
-        .arrives = true,
-        .exceeds = exceeds};
+    *arrival_of(w, control, walker->number) =
+        (struct arrival){.of = {[SPEED] = speed, [HEIGHT] = c->height, [ENERGY] = energy, [TRANSLATION] = translation},
+                         .stems_hit = (double)c->stems_hit,
+                         .arrives = true,
+                         .exceeds = exceeds};
 }
 
 /* A rock counts at each control that it did not reach. */
@@ -107,8 +107,7 @@ static void note_end(void *context, size_t lane, enum ceduo_end end)
     w->block->contacts += walker->contacts;
     w->block->ends[end]++;
     w->block->uphill += end == CEDUO_LEFT_SLOPE && !(walker->at.x > 0);
-    w->block->early += end == CEDUO_STOPPED_BY_STEMS &&
-                       walker->at.x < w->run->ready.scene.release.x.mean + CEDUO_EARLY_M;
+    w->block->early += end == CEDUO_STOPPED_BY_STEMS && walker->at.x < w->run->ready.scene.release.x.mean + CEDUO_EARLY_M;
     w->ends[walker->number - w->from] = (unsigned char)end;
     note_missed(w, walker, end);
     end_row(w, lane);
@@ -318,8 +317,8 @@ static bool init_stems(struct worker *w)
     if (!w->stems)
         return false;
     for (size_t i = 0; i < run->lanes; i++) {
-        if (!ceduo_stems_init(&w->stems[i], &run->ready.wood,
-                              run->ready.scene.simulation.contact_model == CEDUO_POISSON, run->def.kernel))
+        if (!ceduo_stems_init(&w->stems[i], &run->ready.wood, run->ready.scene.simulation.contact_model == CEDUO_POISSON,
+                              run->def.kernel))
             return false;
         w->walkers[i].stems = &w->stems[i];
     }

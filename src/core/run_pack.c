@@ -108,15 +108,13 @@ static bool good_block(const struct ceduo_run *run, const struct block *block, u
 {
     uint64_t stops = block->ends[CEDUO_AT_REST] + block->ends[CEDUO_STOPPED_BY_STEMS];
     if (block->uphill > block->ends[CEDUO_LEFT_SLOPE] || block->early > block->ends[CEDUO_STOPPED_BY_STEMS] ||
-        !good_ends(block->ends, rocks) || !good_moments(&block->stop_x, stops) ||
-        !good_weights(block->ended))
+        !good_ends(block->ends, rocks) || !good_moments(&block->stop_x, stops) || !good_weights(block->ended))
         return false;
     for (size_t c = 0; c < run->controls; c++) {
         const struct sums *s = &block->controls[c];
         uint64_t reached = s->of[SPEED].n;
         if (reached > rocks || !good_ends(s->ended, rocks - reached) || s->exceeded > reached ||
-            !good_moments(&s->contacts, run->ready.wood.bare ? 0 : reached) ||
-            !good_weights(s->missed) || !good_sum(&s->hits))
+            !good_moments(&s->contacts, run->ready.wood.bare ? 0 : reached) || !good_weights(s->missed) || !good_sum(&s->hits))
             return false;
         for (int q = 0; q < QUANTITIES; q++)
             if (!good_moments(&s->of[q], reached))
@@ -139,14 +137,8 @@ static void pack_head(struct bytes *b, struct part_head *h)
 
 static struct part_head head_of(const struct ceduo_run *run, uint64_t first, uint64_t end)
 {
-    return (struct part_head){first,
-                              end,
-                              run->def.rocks_most,
-                              run->controls,
-                              (uint64_t)run->kept,
-                              run->ready.wood.bare,
-                              run->exact,
-                              run->pairs_room};
+    return (struct part_head){
+        first, end, run->def.rocks_most, run->controls, (uint64_t)run->kept, run->ready.wood.bare, run->exact, run->pairs_room};
 }
 
 /* The first rocks' energies that lie in a part. */
@@ -178,8 +170,7 @@ static bool pack_samples(struct ceduo_run *run, struct bytes *b, uint64_t first,
     }
     n = (size_t)pairs_of(run, first, end);
     for (size_t c = 0; n > 0 && c < run->controls; c++)
-        if (!ceduo_bytes_column(b, &run->pairs[c * run->pairs_room + first], n, &there) ||
-            (b->reads && there > reached[c]))
+        if (!ceduo_bytes_column(b, &run->pairs[c * run->pairs_room + first], n, &there) || (b->reads && there > reached[c]))
             return false;
     return true;
 }
@@ -201,8 +192,7 @@ enum ceduo_status ceduo_run_pack(const struct ceduo_run *run, struct bytes *b)
     uint64_t *reached = calloc(run->controls + 1, sizeof *reached);
     pack_head(b, &head);
     save_blocks(run, b);
-    bool good = reached && (run->rocks == run->first ||
-                            pack_samples(&from, b, run->first, run->rocks, from.bins, reached));
+    bool good = reached && (run->rocks == run->first || pack_samples(&from, b, run->first, run->rocks, from.bins, reached));
     free(reached);
     return good && !b->no_memory ? CEDUO_OK : CEDUO_NO_MEMORY;
 }

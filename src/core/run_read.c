@@ -17,8 +17,8 @@ static size_t gather(const struct ceduo_run *run, const double *column, double *
     return n;
 }
 
-static struct ceduo_distribution distribution(const struct ceduo_run *run, size_t control, int q,
-                                              const struct ceduo_moments *m, double *scratch)
+static struct ceduo_distribution distribution(const struct ceduo_run *run, size_t control, int q, const struct ceduo_moments *m,
+                                              double *scratch)
 {
     if (!run->exact)
         return ceduo_distribution_binned(bins_of(run->bins, run, control, q), m);
@@ -191,8 +191,7 @@ struct ceduo_difference ceduo_no_difference(double accepted)
     return (struct ceduo_difference){none, isnan(accepted) ? CEDUO_NOT_PAIRED : none, none};
 }
 
-struct ceduo_difference ceduo_run_difference(const struct ceduo_run *run, const struct ceduo_run *baseline,
-                                             size_t control)
+struct ceduo_difference ceduo_run_difference(const struct ceduo_run *run, const struct ceduo_run *baseline, size_t control)
 {
     bool alike = run && baseline && run->rocks == baseline->rocks;
     if (!run || !baseline || run->rocks == 0 || baseline->rocks == 0 || (!alike && !(run->exact && baseline->exact)))

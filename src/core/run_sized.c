@@ -92,8 +92,8 @@ static void read_shares(const struct released *all, const struct weighted *energ
 }
 
 /* Stems hit before the control, of the n rocks that reach it. No sample is kept of them, but sums. */
-static void read_contacts(const struct released *all, const struct weighted *arrived, size_t n,
-                          const struct weighted_sum *hits, struct ceduo_arrivals *a)
+static void read_contacts(const struct released *all, const struct weighted *arrived, size_t n, const struct weighted_sum *hits,
+                          struct ceduo_arrivals *a)
 {
     struct weighted_sum ones = {0};
     for (size_t i = 0; i < n; i++)

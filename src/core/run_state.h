@@ -28,15 +28,15 @@ enum quantity { SPEED, HEIGHT, ENERGY, TRANSLATION, QUANTITIES };
 /* What is summed at one control. Released rocks that do not arrive are known from the counts. */
 struct sums {
     struct ceduo_moments of[QUANTITIES], contacts; /* contacts: stems hit before */
-    uint64_t exceeded, ended[CEDUO_ENDS]; /* ended: rocks that did not arrive, by how they ended */
-    double missed[CEDUO_ENDS];            /* the same by their weights, where rocks have any */
-    struct weighted_sum hits;             /* contacts by them */
+    uint64_t exceeded, ended[CEDUO_ENDS];          /* ended: rocks that did not arrive, by how they ended */
+    double missed[CEDUO_ENDS];                     /* the same by their weights, where rocks have any */
+    struct weighted_sum hits;                      /* contacts by them */
 };
 
 /* Rocks done in order, summed in order: blocks are summed rock by rock and merged block by block. */
 struct block {
     uint64_t contacts, ends[CEDUO_ENDS];
-    uint64_t uphill, early; /* of those that left the slope, and of those that stems stopped: see struct ceduo_ends */
+    uint64_t uphill, early;   /* of those that left the slope, and of those that stems stopped: see struct ceduo_ends */
     double ended[CEDUO_ENDS]; /* ends by the weights of the rocks, where they have any */
     struct ceduo_stem_counts stems;
     struct ceduo_moments stop_x;
@@ -50,27 +50,27 @@ struct ceduo_run {
     wide_walk_fn *wide_walk; /* NULL: rocks are simulated one by one */
     size_t lanes;            /* rocks that a thread simulates at once */
     size_t controls, last_control;
-    double stems_from;     /* as ceduo_option_stems_from(): the option may be gone when the run is read */
-    int kept;              /* quantities whose samples are kept; without spin and spread, energy follows from speed */
-    size_t columns;        /* of samples: controls times kept, and the stops */
-    uint64_t rocks;        /* done; of a part: with those before it */
-    uint64_t first;        /* rocks before a part, otherwise 0 */
+    double stems_from;         /* as ceduo_option_stems_from(): the option may be gone when the run is read */
+    int kept;                  /* quantities whose samples are kept; without spin and spread, energy follows from speed */
+    size_t columns;            /* of samples: controls times kept, and the stops */
+    uint64_t rocks;            /* done; of a part: with those before it */
+    uint64_t first;            /* rocks before a part, otherwise 0 */
     struct block *kept_blocks; /* of a part: the whole blocks one by one */
     size_t kept_count, kept_room;
-    size_t chunk;          /* blocks to take on next */
-    struct block whole;    /* all whole blocks */
-    struct block tail;     /* the block that is not full yet */
-    struct block *slots;   /* in work, `slots_count` */
-    size_t slots_count;    /* CHUNK_BLOCKS, or as many as the run can have */
-    bool sized;            /* rocks have weights; their samples are always kept, and read by run_sized.c */
-    double *weights;       /* [room] */
-    bool alike;            /* the rocks differ in nothing but their numbers */
-    bool exact;            /* samples are kept; otherwise histograms */
-    uint64_t room;         /* rocks that the samples have room for */
-    double **samples;      /* [control, quantity][room], NaN where a rock did not arrive; then one of the stops: NaN where
+    size_t chunk;           /* blocks to take on next */
+    struct block whole;     /* all whole blocks */
+    struct block tail;      /* the block that is not full yet */
+    struct block *slots;    /* in work, `slots_count` */
+    size_t slots_count;     /* CHUNK_BLOCKS, or as many as the run can have */
+    bool sized;             /* rocks have weights; their samples are always kept, and read by run_sized.c */
+    double *weights;        /* [room] */
+    bool alike;             /* the rocks differ in nothing but their numbers */
+    bool exact;             /* samples are kept; otherwise histograms */
+    uint64_t room;          /* rocks that the samples have room for */
+    double **samples;       /* [control, quantity][room], NaN where a rock did not arrive; then one of the stops: NaN where
                             * it did not stop */
-    uint64_t pairs_room;   /* where samples are not kept: the first rocks' energies, for differences */
-    double *pairs;         /* [control][pairs_room], NaN where a rock did not arrive */
+    uint64_t pairs_room;    /* where samples are not kept: the first rocks' energies, for differences */
+    double *pairs;          /* [control][pairs_room], NaN where a rock did not arrive */
     struct histogram *bins; /* [control][quantity], then one of the stops */
     struct envelope_cell *cells;
 };

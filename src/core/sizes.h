@@ -20,7 +20,7 @@ struct sizes {
         double from, length; /* ln(volume) */
         double exponent;
         double weight; /* at `from`; it goes with exp(-exponent (ln v - from)) */
-    } *classes;
+    } * classes;
 };
 
 struct size {

@@ -133,8 +133,8 @@ struct ceduo_distribution ceduo_distribution_by(ceduo_ranks_fn *of_ranks, void *
     d.max = m->max;
     const struct {
         double p, *at, *lo, *hi;
-    } percentiles[RANKS / 3] = {{0.5, &d.p50, &d.p50_lo, &d.p50_hi}, {0.95, &d.p95, &d.p95_lo, &d.p95_hi},
-                                {0.99, &d.p99, &d.p99_lo, &d.p99_hi}};
+    } percentiles[RANKS / 3] = {
+        {0.5, &d.p50, &d.p50_lo, &d.p50_hi}, {0.95, &d.p95, &d.p95_lo, &d.p95_hi}, {0.99, &d.p99, &d.p99_lo, &d.p99_hi}};
     struct wanted wanted[RANKS];
     size_t count = 0, ranks[RANKS];
     double values[RANKS];

@@ -288,11 +288,8 @@ static void make_single(struct stems *s, int i_side)
     double d = kind->dbh;
     if (kind->shape > 0) /* met with a chance that goes with b + d */
         d = draw_dbh(s, kind, event, RANDOM_DBH, u * (s->b + d) >= s->b);
-    side->single = (struct stem){.along = p->at[k],
-                                 .y = s->poisson ? NAN : p->offset[k] * (s->b + d),
-                                 .dbh = d,
-                                 .kind = kind,
-                                 .stool = event};
+    side->single = (struct stem){
+        .along = p->at[k], .y = s->poisson ? NAN : p->offset[k] * (s->b + d), .dbh = d, .kind = kind, .stool = event};
     set_hit(s, &side->single);
     p->next++;
 }

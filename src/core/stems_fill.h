@@ -77,8 +77,7 @@ static inline const struct belt_rates *rates_in(struct stems *s, int side, size_
         const struct wood_belt *from = &s->wood->along[side][belt];
         *r = (struct belt_rates){.b = s->b};
         for (size_t k = 0; k < from->strata_count; k++)
-            r->rate[stream_of(&from->strata[k])] +=
-                from->strata[k].still + from->strata[k].per_b * s->b;
+            r->rate[stream_of(&from->strata[k])] += from->strata[k].still + from->strata[k].per_b * s->b;
         for (int k = 0; k < STREAMS; k++)
             r->metres[k] = 1 / r->rate[k];
     }
@@ -230,8 +229,7 @@ static inline bool is_plain_stool(const struct stems *s, int side)
     const struct points *p = &s->side[side].streams[STREAM_STOOLS];
     const struct wood_stools *stools = s->wood->along[side][p->belt[p->next]].stools;
     unsigned most = stools->cohorts > 1 ? 4 * COHORT_GROUPS : SHOOTS_FEW;
-    return !stools->spread && stools->n + 1 < most &&
-           (side == 1 || p->at[p->next] >= s->start + s->wood->reach);
+    return !stools->spread && stools->n + 1 < most && (side == 1 || p->at[p->next] >= s->start + s->wood->reach);
 }
 
 #define ROW_SHOOTS 6 /* of so many a stool is made by itself; only speed depends on it */
@@ -277,8 +275,8 @@ static inline void add_row(const struct stems *s, const struct stool *t, struct 
 }
 
 /* The kinds of shoot i of stools from place k on. */
-static inline void choose_kinds(const struct points *p, const struct wood_stools *t, unsigned i, unsigned k,
-                                many_bits *kind, many_reals *dbh)
+static inline void choose_kinds(const struct points *p, const struct wood_stools *t, unsigned i, unsigned k, many_bits *kind,
+                                many_reals *dbh)
 {
     many_bits bits;
     many_reals u;

@@ -32,8 +32,7 @@ struct ceduo_follower *ceduo_follower_create(const struct ceduo_scene *scene, co
     if (!f)
         return NULL;
     if (ceduo_prepared_init(&f->ready, scene, option, 0, NULL) == CEDUO_OK &&
-        ceduo_stems_init(&f->stems, &f->ready.wood, scene->simulation.contact_model == CEDUO_POISSON,
-                         CEDUO_KERNEL_BEST))
+        ceduo_stems_init(&f->stems, &f->ready.wood, scene->simulation.contact_model == CEDUO_POISSON, CEDUO_KERNEL_BEST))
         return f;
     ceduo_follower_free(f);
     return NULL;
@@ -51,8 +50,8 @@ enum ceduo_status ceduo_follower_follow(struct ceduo_follower *f, uint64_t rock,
     enum ceduo_status status = ceduo_walk_release(&w, &f->ready, rock);
     if (status != CEDUO_OK)
         return status;
-    *to = (struct ceduo_trajectory){
-        .rock = w.rock, .x0 = w.at.x, .z0 = w.at.z, .vx0 = w.at.vx, .vz0 = w.at.vz, .spin0 = w.spin};
+    *to =
+        (struct ceduo_trajectory){.rock = w.rock, .x0 = w.at.x, .z0 = w.at.z, .vx0 = w.at.vx, .vz0 = w.at.vz, .spin0 = w.spin};
     to->end = ceduo_walk(&w, scene->simulation.law);
     to->x = w.at.x;
     to->z = w.at.z;
@@ -74,8 +73,8 @@ void ceduo_follower_free(struct ceduo_follower *f)
     free(f);
 }
 
-enum ceduo_status ceduo_trajectory_follow(const struct ceduo_scene *scene, const struct ceduo_option *option,
-                                          uint64_t rock, const struct ceduo_watch *watch, struct ceduo_trajectory *to,
+enum ceduo_status ceduo_trajectory_follow(const struct ceduo_scene *scene, const struct ceduo_option *option, uint64_t rock,
+                                          const struct ceduo_watch *watch, struct ceduo_trajectory *to,
                                           struct ceduo_crossing *crossings)
 {
     if (isnan(ceduo_rock_mean(&scene->rock).mass))

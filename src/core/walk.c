@@ -148,15 +148,14 @@ HOT bool come_down(struct walker *w, struct flight *at, struct landing *l, bool 
 }
 
 /* The same for a rock that rolls after a contact which it leaves with `along`: to the next contact, or into a flight. */
-static __attribute__((noinline)) bool roll_further(struct walker *w, double along, struct course *c,
-                                                   enum ceduo_end *end)
+static __attribute__((noinline)) bool roll_further(struct walker *w, double along, struct course *c, enum ceduo_end *end)
 {
     w->at = c->at;
     enum after_ground then = go_on_ground(w, along, &c->l);
     c->at = w->at;
     c->v = (struct velocity){.along = w->along, .off = 0};
     c->flies = then == GROUND_FLIES;
-    *end = then == GROUND_RESTS    ? CEDUO_AT_REST
+    *end = then == GROUND_RESTS     ? CEDUO_AT_REST
            : then == GROUND_LEAVES  ? CEDUO_LEFT_SLOPE
            : then == GROUND_STOPPED ? CEDUO_STOPPED_BY_STEMS
                                     : CEDUO_UNFINISHED;
@@ -211,8 +210,8 @@ HOT enum ceduo_end walk_by(struct walker *w, struct course c, enum ceduo_law law
 enum ceduo_end ceduo_walk_on(struct walker *w, const struct course *c, enum ceduo_law law)
 {
     switch (law) {
-#define X(NAME, name)                                                                                                      \
-    case CEDUO_LAW_##NAME:                                                                                                 \
+#define X(NAME, name)                                                                                                          \
+    case CEDUO_LAW_##NAME:                                                                                                     \
         return w->g->top > 0 ? walk_by(w, *c, CEDUO_LAW_##NAME, true) : walk_by(w, *c, CEDUO_LAW_##NAME, false);
         CEDUO_LAWS(X)
 #undef X

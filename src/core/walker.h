@@ -22,35 +22,35 @@ struct walker {
     uint64_t seed, number;
     bool scale_rn;
     struct ceduo_rock rock;
-    double k; /* 0 where the law knows no spin */
-    bool has_section;       /* under the law arm */
+    double k;         /* 0 where the law knows no spin */
+    bool has_section; /* under the law arm */
     struct section section;
     double rn_u, rt_u; /* quantiles of this rock's ground */
-    struct flight at; /* where it is now */
-    double along;     /* after a roll: speed along the segment */
+    struct flight at;  /* where it is now */
+    double along;      /* after a roll: speed along the segment */
     double spin;
     uint64_t contacts;
-    uint64_t pause;   /* contacts after which to look up: at the most, or whether to stop */
+    uint64_t pause;       /* contacts after which to look up: at the most, or whether to stop */
     uint64_t stems_pause; /* the same, of the effort spent on stems */
     size_t next_mark, next_cell;
-    double mark_x;    /* of that mark, infinite behind the last; */
-    double next_x;    /* or of that cell, which comes first */
-    struct envelope_row row; /* what it brings to the cells */
-    struct stems *stems;       /* NULL: no forest */
+    double mark_x;                  /* of that mark, infinite behind the last; */
+    double next_x;                  /* or of that cell, which comes first */
+    struct envelope_row row;        /* what it brings to the cells */
+    struct stems *stems;            /* NULL: no forest */
     double stem_ahead, stem_behind; /* x of the next stem in either direction; infinite: none */
     uint64_t stems_hit, stools_met;
     uint64_t facets_of;        /* i, of */
     struct random_pair facets; /* the draws of contacts 2i and 2i + 1 */
     uint64_t turns_of;
-    struct random_pair turns;  /* likewise, how the section is turned */
+    struct random_pair turns; /* likewise, how the section is turned */
     /* at a control */
     void (*cross)(void *context, const struct walker *w, size_t mark, const struct ceduo_crossing *crossing);
     const struct ceduo_watch *watch; /* NULL: nobody looks */
     void *context;                   /* of cross */
-    bool arrivals_only;        /* nothing is asked behind the last mark: it stops soon after, CEDUO_UNFINISHED */
-    const atomic_bool *cancel; /* looked at now and then on long trajectories; may be NULL */
-    bool cancelled;            /* it was raised, or memory ran out: the trajectory is not at its end */
-    bool gives_up;             /* among stems: cancelled, or there were too many */
+    bool arrivals_only;              /* nothing is asked behind the last mark: it stops soon after, CEDUO_UNFINISHED */
+    const atomic_bool *cancel;       /* looked at now and then on long trajectories; may be NULL */
+    bool cancelled;                  /* it was raised, or memory ran out: the trajectory is not at its end */
+    bool gives_up;                   /* among stems: cancelled, or there were too many */
 };
 
 /* Velocity in the axes of the segment under the rock. */

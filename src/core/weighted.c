@@ -87,8 +87,8 @@ double ceduo_weighted_quantile(const struct weighted *values, size_t n, double p
 }
 
 /* A percentile with its interval. The share below it is a mean over the n values, whose error moves it up and down. */
-static void percentile(const struct released *all, const struct weighted *values, size_t n, double p, double *at,
-                       double *lo, double *hi)
+static void percentile(const struct released *all, const struct weighted *values, size_t n, double p, double *at, double *lo,
+                       double *hi)
 {
     double w = weight_of(values, n);
     struct weighted_sum below = {0};

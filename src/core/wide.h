@@ -39,8 +39,8 @@ wide_walk_fn *ceduo_wide_walk(enum ceduo_kernel kernel, size_t *lanes);
 struct wide_job {
     const struct wide_ground *ground;
     enum ceduo_law law;
-    bool alike;             /* the rocks differ in nothing but their numbers */
-    struct walker *walkers; /* one for each lane, all of one run */
+    bool alike;                               /* the rocks differ in nothing but their numbers */
+    struct walker *walkers;                   /* one for each lane, all of one run */
     bool (*next)(void *context, size_t lane); /* releases the next rock into that lane's walker; false: none left */
     void (*ended)(void *context, size_t lane, enum ceduo_end end);
     void *context;

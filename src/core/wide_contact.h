@@ -34,10 +34,10 @@ LANE void draw_pair(uint64_t seed, ints rock, ints event, uint64_t kind, reals *
 {
     ints a = all_ints(seed), b = rock, c = xor_ints(all_ints(0x1BD11BDAA9FC1A22 ^ seed), rock);
     ints p = add_ints(event, a), q = add_ints(all_ints(kind), b);
-#define FOUR(r1, r2, r3, r4)      \
-    threefry_round(&p, &q, r1); \
-    threefry_round(&p, &q, r2); \
-    threefry_round(&p, &q, r3); \
+#define FOUR(r1, r2, r3, r4)                                                                                                   \
+    threefry_round(&p, &q, r1);                                                                                                \
+    threefry_round(&p, &q, r2);                                                                                                \
+    threefry_round(&p, &q, r3);                                                                                                \
     threefry_round(&p, &q, r4)
     FOUR(16, 42, 12, 31);
     threefry_key(&p, &q, b, c, 1);
@@ -178,10 +178,8 @@ LANE struct impact_lanes crsp_lanes(struct impact_lanes in, reals rn, reals rt, 
 LANE struct impact_lanes arm_lanes(struct form form, struct wide *k, struct impact_lanes in, ints segment, reals e)
 {
     reals gyration = load(k->section.gyration), minus = all(-1);
-    struct arm_blow blow = {.wide = load(k->section.wide),
-                            .high = load(k->section.high),
-                            .reach = load(k->section.reach),
-                            .e = e};
+    struct arm_blow blow = {
+        .wide = load(k->section.wide), .high = load(k->section.high), .reach = load(k->section.reach), .e = e};
     look_up(&k->ground->grip, segment, form.small, &blow.mu, &blow.friction);
     reals angle = mul(sub(next_draw(form, k, k->turn), all(0.5)), all(HALF_TURN));
     sincos_lanes(angle, &blow.sine, &blow.cosine);
@@ -253,8 +251,7 @@ LANE struct rocks rocks_down(struct form form, const struct wide *k)
 
 LANE struct velocities velocities_on(const struct wide *k, const struct rocks *r)
 {
-    struct velocities v = {.along = add(mul(r->vx, r->c), mul(r->vz, r->s)),
-                           .off = sub(mul(r->vz, r->c), mul(r->vx, r->s))};
+    struct velocities v = {.along = add(mul(r->vx, r->c), mul(r->vz, r->s)), .off = sub(mul(r->vz, r->c), mul(r->vx, r->s))};
     if (k->rolls) {
         flags rolls = flags_of(k->rolls);
         v.along = pick(rolls, load(k->along), v.along);

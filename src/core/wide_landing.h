@@ -145,8 +145,8 @@ LANE void is_within(const struct rocks *r, flags steep, reals x, reals z, reals 
 }
 
 /* Those that roll, as is_roll(); `unsure`: where the scalar walk looks again, as those that land on another segment. */
-LANE unsigned rolling(struct form form, const struct wide *k, const struct rocks *r, reals off,
-                      const struct landings *l, flags steep, unsigned *unsure)
+LANE unsigned rolling(struct form form, const struct wide *k, const struct rocks *r, reals off, const struct landings *l,
+                      flags steep, unsigned *unsure)
 {
     reals radius = load(k->radius);
     unsigned lands = k->live & ~in_the_air(form, k);
@@ -177,8 +177,8 @@ LANE void roll_point_lanes(const struct rocks *r, flags steep, reals c, reals s,
 
 /* Rolls those of `rolls` that stay on their segment, do not stop and meet nothing, for a radius to the next contact; as
  * roll_on(). Returns them. */
-LANE unsigned roll_lanes(struct form form, struct wide *k, struct rocks *r, reals along, flags steep,
-                         unsigned rolls, struct landings *l)
+LANE unsigned roll_lanes(struct form form, struct wide *k, struct rocks *r, reals along, flags steep, unsigned rolls,
+                         struct landings *l)
 {
     reals zero = all(0), radius = load(k->radius), u = along, share = all(1);
     if (form.law != CEDUO_LAW_LUMPED) {

@@ -56,25 +56,24 @@ struct wide {
     double radius[LANES], k[LANES], mass[LANES], moment[LANES];
     double rn[LANES], rt[LANES]; /* where the ground varies */
     uint64_t contacts[LANES], pause[LANES], number[LANES];
-    double tallest;         /* m: all stems that may wait are less tall */
+    double tallest; /* m: all stems that may wait are less tall */
 
     /* bit i is lane i */
-    unsigned live;  /* has a rock */
-    unsigned there; /* is at its next contact already */
-    unsigned rolls; /* of these: with speed `along` on the ground */
-    unsigned left;  /* lands off the slope */
-    unsigned fresh; /* has no draws yet */
-    unsigned aloft; /* behind a stem: where it lands is looked for now */
-    unsigned waits; /* among stems: it stays as it is while others land */
-    unsigned lost;  /* of these: where it lands is not known */
+    unsigned live;   /* has a rock */
+    unsigned there;  /* is at its next contact already */
+    unsigned rolls;  /* of these: with speed `along` on the ground */
+    unsigned left;   /* lands off the slope */
+    unsigned fresh;  /* has no draws yet */
+    unsigned aloft;  /* behind a stem: where it lands is looked for now */
+    unsigned waits;  /* among stems: it stays as it is while others land */
+    unsigned lost;   /* of these: where it lands is not known */
     unsigned paused; /* what stands next is not known */
-    bool empty;     /* no rock waits */
+    bool empty;      /* no rock waits */
     bool same_start; /* every rock comes to its first contact as `start`, without passing a mark */
     struct course start;
 };
 
-_Static_assert(offsetof(struct wide, contacts) % 64 == 0,
-               "what is for lanes is loaded from whole lines of the cache");
+_Static_assert(offsetof(struct wide, contacts) % 64 == 0, "what is for lanes is loaded from whole lines of the cache");
 
 /* Lanes that come to no contact in this step. */
 LANE unsigned in_the_air(struct form form, const struct wide *k)
@@ -218,11 +217,7 @@ static struct course course_of(struct wide *k, size_t i)
                            .flies = !(k->there & bit),
                            .aloft = (k->aloft | k->lost) & bit,
                            .v = {.along = k->along[i], .off = 0},
-                           .l = {.t = k->t[i],
-                                 .x = k->to_x[i],
-                                 .z = k->to_z[i],
-                                 .segment = to,
-                                 .left = left}};
+                           .l = {.t = k->t[i], .x = k->to_x[i], .z = k->to_z[i], .segment = to, .left = left}};
 }
 
 /* An empty lane goes through the motions where it is, and is never looked at. */

@@ -15,10 +15,10 @@
 /* Flights on their way past stems, and over which segments. */
 struct passing {
     reals x, z, vx, vz, spin;
-    ints segment, last;       /* under the rock; the last that its flight may come to */
-    ints here;                /* under the stem */
-    reals end;                /* x where `segment` ends */
-    reals x0, z0, x1, z1, m;  /* of `here` */
+    ints segment, last;      /* under the rock; the last that its flight may come to */
+    ints here;               /* under the stem */
+    reals end;               /* x where `segment` ends */
+    reals x0, z0, x1, z1, m; /* of `here` */
     /* bit i is lane i */
     unsigned under_way;
     unsigned knows;   /* its landing */
@@ -184,8 +184,8 @@ LANE void pass_stem(struct form form, struct wide *k, struct passing *p)
         p->x = pick(h, to, p->x);
         p->z = pick(h, z, p->z);
         p->vz = pick(h, sub(p->vz, mul(all(k->g->gravity), t)), p->vz);
-        struct hit blow = {.energy = flying_energy(load(k->mass), load(k->moment), p->vx, p->vz, p->spin), .cost = cost,
-                           .part = part};
+        struct hit blow = {
+            .energy = flying_energy(load(k->mass), load(k->moment), p->vx, p->vz, p->spin), .cost = cost, .part = part};
         reals share = speed_kept(blow);
         p->vx = pick(h, mul(p->vx, share), p->vx);
         p->vz = pick(h, mul(p->vz, share), p->vz);

@@ -106,8 +106,7 @@ static struct wood_stratum contact_stratum(const struct ceduo_stand *stand, enum
     struct stratum s = ceduo_stratum(stand, rule, i, mass);
     *kind = (struct wood_kind){.dbh = NAN, .height = INFINITY, .below = INFINITY, .energy = s.energy};
     if (s.share > 0)
-        kind->by_hit =
-            (struct stem_energy){.model = CEDUO_INERTIA, .by.inertia = inertia_of_contact(s.share, mass)};
+        kind->by_hit = (struct stem_energy){.model = CEDUO_INERTIA, .by.inertia = inertia_of_contact(s.share, mass)};
     return (struct wood_stratum){s.per_ha * s.width / HECTARE, s.per_ha / HECTARE, kind, 0, 0};
 }
 
@@ -257,8 +256,8 @@ bool ceduo_wood_init(struct wood *wood, const struct ceduo_simulation *simulatio
         wood->bare = false;
         wood->shares |= ceduo_stand_takes_share(&belt->stand);
         if (simulation->contact_model == CEDUO_POISSON)
-            make_contacts(&belt->stand, ceduo_adc_rule(&belt->stand, b, simulation->rule), mean->mass,
-                          &wood->kinds[used], &wood->strata_room[used], to);
+            make_contacts(&belt->stand, ceduo_adc_rule(&belt->stand, b, simulation->rule), mean->mass, &wood->kinds[used],
+                          &wood->strata_room[used], to);
         else if (!make_stems(wood, i, &belt->stand, &wood->kinds[used], &wood->strata_room[used], to))
             goto fail;
         used += kinds_in(belt) + 1;
@@ -377,8 +376,7 @@ bool ceduo_wood_hash(uint64_t *hash, const struct ceduo_simulation *simulation, 
         hash_double(hash, belt->from);
         hash_double(hash, belt->to);
         if (simulation->contact_model == CEDUO_POISSON)
-            hash_contacts(hash, &belt->stand, ceduo_adc_rule(&belt->stand, mean->mean_diameter, simulation->rule),
-                          mean->mass);
+            hash_contacts(hash, &belt->stand, ceduo_adc_rule(&belt->stand, mean->mean_diameter, simulation->rule), mean->mass);
         else
             hash_stems(hash, &belt->stand);
     }

@@ -27,7 +27,7 @@ struct wood_kind {
 
 /* What is met at random places along x: so many per metre for a rock of diameter b: still + per_b·b. */
 struct wood_stratum {
-    double still, per_b; /* hashed as they stand */
+    double still, per_b;          /* hashed as they stand */
     const struct wood_kind *kind; /* NULL: stools */
     unsigned group;               /* trees of a group; 0: each by itself */
     double radius;                /* m: of the disc in which they stand */
@@ -58,9 +58,9 @@ struct wood_belt {
 };
 
 struct wood {
-    bool bare; /* nothing to be met */
+    bool bare;            /* nothing to be met */
     bool by_eccentricity; /* what stems of some kinds take depends on where they are hit */
-    bool shares; /* a hit takes a share of the energy, see stem_energy_share() */
+    bool shares;          /* a hit takes a share of the energy, see stem_energy_share() */
     size_t belts;
     struct wood_belt *along[2]; /* the same belts for rocks going +x and -x, in the order they are reached */
     double reach;               /* m: the largest radius of any ring */

@@ -157,8 +157,7 @@ static bool keep_weights(struct ceduo_years *years, const double *weights)
 }
 
 /* Simulates a year and reads it; rocks that bring too much get a mark. */
-static enum ceduo_status fly_year(struct ceduo_years *years, struct ceduo_year *y, struct ceduo_pool *pool,
-                                  uint64_t rocks)
+static enum ceduo_status fly_year(struct ceduo_years *years, struct ceduo_year *y, struct ceduo_pool *pool, uint64_t rocks)
 {
     struct ceduo_run *run;
     enum ceduo_status status = ceduo_pool_fly(pool, &y->option, rocks, &run);

@@ -105,8 +105,7 @@ static enum ceduo_status list_fellings(const struct ceduo_option *option, unsign
     for (size_t i = 0; i < option->belts_count && status == CEDUO_OK; i++) {
         const struct ceduo_belt *belt = &option->belts[i];
         unsigned year = ceduo_first_cut(&belt->stand, belt->cut_year);
-        for (size_t k = count_fellings(belt, last); k-- > 0 && status == CEDUO_OK;
-             year += belt->stand.cutting.rotation) {
+        for (size_t k = count_fellings(belt, last); k-- > 0 && status == CEDUO_OK; year += belt->stand.cutting.rotation) {
             struct ceduo_felling *f = &yield->fellings[yield->fellings_count++];
             *f = (struct ceduo_felling){.year = year, .belt = i};
             status = fell(belt, f);

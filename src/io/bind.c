@@ -25,13 +25,12 @@ struct binder {
 
 /* ---- reporting ---- */
 
-__attribute__((format(printf, 5, 0))) static void report_v(struct problems *problems, const struct node *node,
-                                                           bool at_key, const char *path, const char *format,
-                                                           va_list args)
+__attribute__((format(printf, 5, 0))) static void report_v(struct problems *problems, const struct node *node, bool at_key,
+                                                           const char *path, const char *format, va_list args)
 {
     bool key = at_key && node->key_line > 0;
-    ceduo_problem_v(problems, node->source, key ? node->key_line : node->line, key ? node->key_column : node->column,
-                    path, format, args);
+    ceduo_problem_v(problems, node->source, key ? node->key_line : node->line, key ? node->key_column : node->column, path,
+                    format, args);
 }
 
 void ceduo_node_problem(struct problems *problems, const struct node *node, const char *path, const char *format, ...)
@@ -52,8 +51,7 @@ static const char *path_here(const struct binder *b)
 static void note_bad(struct binder *b)
 {
     struct bad_values *bad = b->bad;
-    if (bad->n < CEDUO_BAD_MOST &&
-        !(bad->paths[bad->n] = ceduo_arena_string(b->arena, ceduo_text_string(&b->path))))
+    if (bad->n < CEDUO_BAD_MOST && !(bad->paths[bad->n] = ceduo_arena_string(b->arena, ceduo_text_string(&b->path))))
         ceduo_problem_memory(b->problems);
     else
         bad->n++;
@@ -67,8 +65,7 @@ static bool is_bad(const struct binder *b)
     return false;
 }
 
-__attribute__((format(printf, 3, 4))) static void report(struct binder *b, const struct node *node, const char *format,
-                                                         ...)
+__attribute__((format(printf, 3, 4))) static void report(struct binder *b, const struct node *node, const char *format, ...)
 {
     va_list args;
     va_start(args, format);
@@ -77,8 +74,7 @@ __attribute__((format(printf, 3, 4))) static void report(struct binder *b, const
     note_bad(b);
 }
 
-__attribute__((format(printf, 3, 4))) static void report_key(struct binder *b, const struct node *node,
-                                                             const char *format, ...)
+__attribute__((format(printf, 3, 4))) static void report_key(struct binder *b, const struct node *node, const char *format, ...)
 {
     va_list args;
     va_start(args, format);
@@ -147,8 +143,8 @@ static const char *kind_name(const struct node *node)
 
 static void report_kind(struct binder *b, const struct node *node, const char *wanted)
 {
-    ceduo_problem_own(b->problems, node->source, node->line, node->column, path_here(b), _("expected %s, not %s"),
-                      wanted, kind_name(node));
+    ceduo_problem_own(b->problems, node->source, node->line, node->column, path_here(b), _("expected %s, not %s"), wanted,
+                      kind_name(node));
     note_bad(b);
 }
 

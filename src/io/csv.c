@@ -181,9 +181,8 @@ bool ceduo_csv_number(struct csv *csv, struct csv_span f, double lo, double hi, 
         room[f.n] = '\0';
     }
     bool one_decimal = !fits || take_decimal(csv, room);
-    enum ceduo_number_reading reading = fits && one_decimal && !memchr(room, '\0', f.n)
-                                            ? ceduo_number_read(room, value)
-                                            : CEDUO_NUMBER_NONE;
+    enum ceduo_number_reading reading =
+        fits && one_decimal && !memchr(room, '\0', f.n) ? ceduo_number_read(room, value) : CEDUO_NUMBER_NONE;
     if (reading == CEDUO_NUMBER_GOOD && *value <= hi && *value >= lo)
         return true;
     if (f.n == 0)

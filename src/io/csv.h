@@ -17,8 +17,8 @@ struct csv_span {
 
 struct csv {
     struct source *source;
-    size_t at, number;     /* bytes read; number of the present line, from 1 */
-    struct csv_span line;  /* the present line */
+    size_t at, number;    /* bytes read; number of the present line, from 1 */
+    struct csv_span line; /* the present line */
     struct csv_span header;
     char separator;
     char decimal; /* ',' or '.', once a number has shown it; '\0' before */

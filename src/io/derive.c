@@ -18,8 +18,7 @@ void ceduo_derive_complain(struct deriver *d, const char *path, const char *form
     va_end(args);
 }
 
-void ceduo_derive_refuse(struct deriver *d, const char *path, const char *within, const char *format, double x,
-                         double y)
+void ceduo_derive_refuse(struct deriver *d, const char *path, const char *within, const char *format, double x, double y)
 {
     char room[CEDUO_NUMBER_ROOM];
     struct text message = {0};
@@ -136,9 +135,9 @@ static void refuse_other_sizes(struct deriver *d, const struct rock_place *rock,
             continue;
         const char *path = ceduo_derive_text(d, "%s.%s", rock->path, sizes[i]);
         if (said && said->source->is_option) /* nothing of the file can be taken out there */
-            ceduo_derive_complain(
-                d, path, _("does not belong to the shape '%s'; give the whole rock: -s 'rock={shape: %s, %s}'"), name,
-                name, shapes[shape].example);
+            ceduo_derive_complain(d, path,
+                                  _("does not belong to the shape '%s'; give the whole rock: -s 'rock={shape: %s, %s}'"), name,
+                                  name, shapes[shape].example);
         else
             ceduo_derive_complain(d, path, _("does not belong to the shape '%s'; remove it"), name);
     }
@@ -159,7 +158,8 @@ static void check_sizes(struct deriver *d, const struct rock_place *rock, enum c
         ceduo_derive_complain(d, rock->path,
                               _("a sphere is given by one of diameter_m, volume_m3 and mass_kg, here %d are given"), n);
     if (shape != CEDUO_SPHERE && ceduo_node_get(rock->node, "mass_kg") && ceduo_node_get(rock->node, "density_kg_m3"))
-        ceduo_derive_complain(d, ceduo_derive_text(d, "%s.density_kg_m3", rock->path), _("mass_kg already says this; keep one of the two"));
+        ceduo_derive_complain(d, ceduo_derive_text(d, "%s.density_kg_m3", rock->path),
+                              _("mass_kg already says this; keep one of the two"));
 }
 
 void ceduo_derive_rock(struct deriver *d, const char *path, const struct node *node, const struct ceduo_rock_def *def)
@@ -172,9 +172,8 @@ void ceduo_derive_rock(struct deriver *d, const char *path, const struct node *n
     bool by_mass = def->shape != CEDUO_SPHERE && is_given(d, &place, "mass_kg");
     bool of_scene = strcmp(path, "rock") == 0;
     if (of_scene && !is_given(d, &place, "density_kg_m3") && !by_mass)
-        ceduo_derive_assume(
-            d, "rock.density_kg_m3",
-            ceduo_derive_text(d, _("density of limestone, %g kg/m3"), ceduo_scene_default().rock.density.mean));
+        ceduo_derive_assume(d, "rock.density_kg_m3",
+                            ceduo_derive_text(d, _("density of limestone, %g kg/m3"), ceduo_scene_default().rock.density.mean));
     struct ceduo_rock rock;
     if (before == d->problems->met && ceduo_derive_sound(d, path) && ceduo_rock_of_means(def, &rock) != CEDUO_OK)
         ceduo_derive_complain(d, path, _("the rock is too small or too large to compute"));

@@ -26,7 +26,7 @@ struct deriver {
     const struct node *draws; /* of doubt: a table of values that a calibration left open; NULL: none */
     size_t observations_count;
     struct ceduo_observation *observations;
-    double origin;       /* what was taken off every x */
+    double origin; /* what was taken off every x */
 };
 
 /* What was made of a slope before: where its part of the document is still the same it is taken over. */
@@ -75,8 +75,7 @@ void ceduo_observed_arrange(struct deriver *d);
 
 /* ---- for its steps ---- */
 
-void ceduo_derive_complain(struct deriver *d, const char *path, const char *format, ...)
-    __attribute__((format(printf, 3, 4)));
+void ceduo_derive_complain(struct deriver *d, const char *path, const char *format, ...) __attribute__((format(printf, 3, 4)));
 
 /* The same at a path and what it goes on with. In the format %s stands for x, a second one for y. */
 void ceduo_derive_refuse(struct deriver *d, const char *path, const char *within, const char *format, double x, double y);

@@ -114,8 +114,7 @@ static const struct field *row_of(struct deriver *d, const char *path)
 {
     const char *key, *ground = ground_of(d, path, &key);
     if (ground)
-        return ceduo_choice_find(&ceduo_material_words, ground) < 0 ? NULL
-                                                                   : ceduo_schema_field(ceduo_schema_segment(), key);
+        return ceduo_choice_find(&ceduo_material_words, ground) < 0 ? NULL : ceduo_schema_field(ceduo_schema_segment(), key);
     return ceduo_schema_at(first_of(d, path));
 }
 
@@ -196,7 +195,8 @@ static bool read_range(struct deriver *d, const char *at, const struct doubt *ro
     }
     if (!(input->lo < input->hi)) {
         ceduo_derive_complain(d, ceduo_derive_text(d, "%s.%s", at, normal ? "sd" : "hi"),
-                              normal ? _("the range is empty; sd must be above 0") : _("the range is empty; hi must be above lo"));
+                              normal ? _("the range is empty; sd must be above 0")
+                                     : _("the range is empty; hi must be above lo"));
         return false;
     }
     return !complain_range(d, at, normal ? "mean" : "lo", field, input->lo) &&
@@ -235,7 +235,8 @@ static bool check_form(struct deriver *d, const char *at, const struct doubt *ro
     if (!one)
         ceduo_derive_complain(d, at, choice ? _("give one_of: the words that it may be") : _("give lo and hi, or mean and sd"));
     else if (words != choice)
-        ceduo_derive_complain(d, at, choice ? _("'%s' is a word; give one_of") : _("'%s' is a number; give lo and hi, or mean and sd"),
+        ceduo_derive_complain(d, at,
+                              choice ? _("'%s' is a word; give one_of") : _("'%s' is a number; give lo and hi, or mean and sd"),
                               field->key);
     return one && words == choice;
 }
@@ -247,9 +248,8 @@ static bool make_input(struct deriver *d, const struct said *said, struct ceduo_
     const struct field *field = find_places(d, said, &places);
     if (!field || !check_form(d, said->at, said->row, field))
         return false;
-    *input = (struct ceduo_input){.path = said->within[0] ? places.items[0] : said->row->path,
-                                  .places = places.items,
-                                  .places_count = places.n};
+    *input = (struct ceduo_input){
+        .path = said->within[0] ? places.items[0] : said->row->path, .places = places.items, .places_count = places.n};
     return field->type == FIELD_CHOICE ? read_words(d, said->at, said->row, field, input)
                                        : read_range(d, said->at, said->row, field, input);
 }

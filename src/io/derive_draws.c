@@ -40,7 +40,8 @@ static bool complain_no_value(struct draws *t, char *path)
 {
     if (t->csv.source->foreign)
         path[ceduo_utf8_cut(path, CEDUO_FOREIGN_MOST)] = '\0';
-    ceduo_node_problem(t->d->problems, t->d->draws, "doubt.draws", _("the table has a column '%s', which is no value of this scene"), path);
+    ceduo_node_problem(t->d->problems, t->d->draws, "doubt.draws",
+                       _("the table has a column '%s', which is no value of this scene"), path);
     return false;
 }
 

@@ -264,7 +264,8 @@ static bool take_values(const struct seen_place *p, struct seen_values *v)
     } else if (list && v->values_count == 0)
         ceduo_derive_complain(d, within(p, p->kind->list), _("the list is empty"));
     else if (v->column || v->only)
-        ceduo_derive_complain(d, within(p, v->column ? "column" : "only"), _("names something of a table; name the table, csv"));
+        ceduo_derive_complain(d, within(p, v->column ? "column" : "only"),
+                              _("names something of a table; name the table, csv"));
     return d->problems->met == before;
 }
 
@@ -276,7 +277,8 @@ static bool check_form(const struct seen_place *p, const struct seen_values *v)
     if (listed && means > 0)
         ceduo_derive_complain(p->d, p->at, _("values and their mean together; keep one"));
     else if (!listed && means < 3)
-        ceduo_derive_complain(p->d, p->at, means == 0 ? _("give values, or their mean, sd and n") : _("a mean needs sd and n too"));
+        ceduo_derive_complain(p->d, p->at,
+                              means == 0 ? _("give values, or their mean, sd and n") : _("a mean needs sd and n too"));
     return listed ? means == 0 : means == 3;
 }
 
@@ -288,8 +290,10 @@ static bool on_slope(const struct seen_place *p, const char *at, double x)
     double lo = p->d->origin, hi = s->x[s->vertices - 1] + p->d->origin;
     if (isnan(x) || (x >= lo && x <= hi))
         return true;
-    ceduo_derive_refuse(p->d, at, "", x < lo ? _("%s lies before the slope, which begins at %s m")
-                                            : _("%s lies beyond the slope, which ends at %s m"), x, x < lo ? lo : hi);
+    ceduo_derive_refuse(p->d, at, "",
+                        x < lo ? _("%s lies before the slope, which begins at %s m")
+                               : _("%s lies beyond the slope, which ends at %s m"),
+                        x, x < lo ? lo : hi);
     return false;
 }
 
@@ -311,9 +315,10 @@ static bool check_negative(const struct seen_place *p, const struct seen_values 
 {
     for (size_t i = 0; i < v->values_count; i++)
         if (v->values[i] < 0) {
-            ceduo_derive_refuse(p->d, ceduo_node_get(p->node, "csv") ? within(p, "csv")
-                                      : ceduo_derive_text(p->d, "%s.%s[%zu]", p->at, p->kind->list, i), "",
-                                _("%s is below 0"), v->values[i], 0);
+            ceduo_derive_refuse(p->d,
+                                ceduo_node_get(p->node, "csv") ? within(p, "csv")
+                                                               : ceduo_derive_text(p->d, "%s.%s[%zu]", p->at, p->kind->list, i),
+                                "", _("%s is below 0"), v->values[i], 0);
             return false;
         }
     return true;
@@ -344,7 +349,8 @@ static bool check_place(const struct seen_place *p, double x, const struct ceduo
 
 static bool check_stretch(const struct seen_place *p, const char *at, double from, double to)
 {
-    if (!on_slope(p, ceduo_derive_text(p->d, "%s.from_m", at), from) || !on_slope(p, ceduo_derive_text(p->d, "%s.to_m", at), to))
+    if (!on_slope(p, ceduo_derive_text(p->d, "%s.from_m", at), from) ||
+        !on_slope(p, ceduo_derive_text(p->d, "%s.to_m", at), to))
         return false;
     if (to <= from)
         ceduo_derive_refuse(p->d, at, ".to_m", _("%s does not lie beyond from_m, %s"), to, from);
@@ -355,10 +361,9 @@ static bool check_stretch(const struct seen_place *p, const char *at, double fro
 
 static struct seen_values *values_of(struct seen *row, enum ceduo_observed_kind kind)
 {
-    struct seen_values *const all[] = {&row->stops,          &row->passed,    &row->speed,
-                                       &row->height,         &row->energy,    &row->largest_speed,
-                                       &row->largest_height, &row->way_speed, &row->way_height,
-                                       &row->way_energy,     &row->scars};
+    struct seen_values *const all[] = {&row->stops,      &row->passed,        &row->speed,          &row->height,
+                                       &row->energy,     &row->largest_speed, &row->largest_height, &row->way_speed,
+                                       &row->way_height, &row->way_energy,    &row->scars};
     return all[kind];
 }
 
@@ -489,7 +494,8 @@ static void derive_row(struct deriver *d, size_t i)
         }
     }
     if (!found)
-        ceduo_derive_complain(d, at, _("say what was seen: stops, passed, speed, height, energy, largest, on_the_way or scars"));
+        ceduo_derive_complain(d, at,
+                              _("say what was seen: stops, passed, speed, height, energy, largest, on_the_way or scars"));
 }
 
 static void check_names(struct deriver *d)

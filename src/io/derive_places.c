@@ -25,8 +25,7 @@ void ceduo_derive_release(struct deriver *d, const char *path, struct ceduo_rele
     double end = scene->slope.x[scene->slope.vertices - 1];
     double first = ceduo_number_lowest(*x), last = ceduo_number_highest(*x);
     if (!(first >= 0) || !(last < end))
-        ceduo_derive_complain(d, path,
-                              _("%s lies beyond the slope; a release may be anywhere from %s to before %s m"),
+        ceduo_derive_complain(d, path, _("%s lies beyond the slope; a release may be anywhere from %s to before %s m"),
                               ceduo_number_shortest((first >= 0 ? last : first) + d->origin, a),
                               ceduo_number_shortest(d->origin, b), ceduo_number_shortest(end + d->origin, c));
 }
@@ -38,8 +37,7 @@ static void check_control(struct deriver *d, const char *path, const struct cedu
     bool starts = d->profile && ceduo_derive_sound(d, "release.x_m");
     double last = starts ? ceduo_number_highest(scene->release.x) : -INFINITY;
     if (c->x > end) {
-        ceduo_derive_refuse(d, path, "", _("%s lies beyond the slope, which ends at %s m"), c->x_given,
-                            end + d->origin);
+        ceduo_derive_refuse(d, path, "", _("%s lies beyond the slope, which ends at %s m"), c->x_given, end + d->origin);
         return;
     }
     if (c->x <= last) {
@@ -81,8 +79,7 @@ void ceduo_derive_controls(struct deriver *d)
     if (!ceduo_derive_known(d, "controls") || !ceduo_derive_known(d, "controls_m"))
         return;
     if (n == 0) {
-        ceduo_derive_complain(d, "",
-                              _("'controls' is missing: name at least one place where passing rocks are counted"));
+        ceduo_derive_complain(d, "", _("'controls' is missing: name at least one place where passing rocks are counted"));
         return;
     }
     if (ceduo_derive_too_many(d, path, n) || (!listed && !list_controls(d, n)))
@@ -101,21 +98,17 @@ void ceduo_derive_controls(struct deriver *d)
 
 static enum ceduo_system system_of(const struct ceduo_stand *stand)
 {
-    return ceduo_stand_has_shoots(stand)   ? CEDUO_SIMPLE_COPPICE
-           : ceduo_stand_has_stems(stand) ? CEDUO_HIGH_FOREST
-                                          : CEDUO_BARE;
+    return ceduo_stand_has_shoots(stand) ? CEDUO_SIMPLE_COPPICE : ceduo_stand_has_stems(stand) ? CEDUO_HIGH_FOREST : CEDUO_BARE;
 }
 
 /* Wider spreads are no diameters of one cohort or class: nearly all of its stems would be hair, and few very thick. */
-static void check_spreads(struct deriver *d, const char *path, const char *list, const struct ceduo_stems *stems,
-                          size_t n)
+static void check_spreads(struct deriver *d, const char *path, const char *list, const struct ceduo_stems *stems, size_t n)
 {
     for (size_t i = 0; i < n; i++)
         if (stems[i].dbh_sd > stems[i].dbh) /* not where one of them could not be read: NaN, and 0 */
-            ceduo_derive_refuse(
-                d, ceduo_derive_text(d, "%s.%s[%zu].dbh_sd_m", path, list, i), "",
-                _("%s m is more than the diameter itself, %s m: make two entries of stems so different"),
-                stems[i].dbh_sd, stems[i].dbh);
+            ceduo_derive_refuse(d, ceduo_derive_text(d, "%s.%s[%zu].dbh_sd_m", path, list, i), "",
+                                _("%s m is more than the diameter itself, %s m: make two entries of stems so different"),
+                                stems[i].dbh_sd, stems[i].dbh);
 }
 
 /* Whether a value that is needed is not there; one that could not be read is told already. */
@@ -155,14 +148,13 @@ static void check_low(struct deriver *d, const char *path, const struct ceduo_st
 {
     const struct ceduo_stumps *t = &s->stumps;
     const struct ceduo_logs *l = &s->logs;
-    if (t->per_ha > 0 && (lacks(d, t->diameter, path, ".stumps.diameter_m") ||
-                          lacks(d, t->height, path, ".stumps.height_m") || lacks(d, t->energy, path, ".stumps.energy_kJ")))
-        ceduo_derive_refuse(d, path, ".stumps",
-                            _("stumps need diameter_m, height_m and energy_kJ; nothing is assumed here"), 0, 0);
-    if (l->per_ha > 0 && (lacks(d, l->length, path, ".logs.length_m") ||
-                          lacks(d, l->diameter, path, ".logs.diameter_m") || lacks(d, l->energy, path, ".logs.energy_kJ")))
-        ceduo_derive_refuse(d, path, ".logs",
-                            _("logs need length_m, diameter_m and energy_kJ; nothing is assumed here"), 0, 0);
+    if (t->per_ha > 0 && (lacks(d, t->diameter, path, ".stumps.diameter_m") || lacks(d, t->height, path, ".stumps.height_m") ||
+                          lacks(d, t->energy, path, ".stumps.energy_kJ")))
+        ceduo_derive_refuse(d, path, ".stumps", _("stumps need diameter_m, height_m and energy_kJ; nothing is assumed here"), 0,
+                            0);
+    if (l->per_ha > 0 && (lacks(d, l->length, path, ".logs.length_m") || lacks(d, l->diameter, path, ".logs.diameter_m") ||
+                          lacks(d, l->energy, path, ".logs.energy_kJ")))
+        ceduo_derive_refuse(d, path, ".logs", _("logs need length_m, diameter_m and energy_kJ; nothing is assumed here"), 0, 0);
     for (size_t i = 0; i < s->trees_count; i++) {
         const char *groups = ceduo_derive_text(d, "%s.trees[%zu].groups", path, i);
         if (s->trees[i].group > 1 && lacks(d, s->trees[i].group_radius, groups, ".radius_m"))
@@ -183,8 +175,7 @@ static void derive_stand(struct deriver *d, const char *path, struct ceduo_stand
         ceduo_derive_refuse(d, path, ".growth.shoots_young", _("%s is below shoots_old, %s: shoots only become fewer"),
                             s->growth.shoots_young, s->growth.shoots_old);
     if (s->system == CEDUO_BARE && ceduo_stand_has_stems(s))
-        ceduo_derive_refuse(d, path, ".system", _("'bare', but there are stems; name the system or remove them"), 0,
-                            0);
+        ceduo_derive_refuse(d, path, ".system", _("'bare', but there are stems; name the system or remove them"), 0, 0);
     check_densities(d, path, s);
     check_spreads(d, path, "shoots", s->shoots, s->shoots_count);
     check_spreads(d, path, "trees", s->trees, s->trees_count);
@@ -195,8 +186,7 @@ static void derive_stand(struct deriver *d, const char *path, struct ceduo_stand
         ceduo_derive_refuse(d, path, ".shoots", _("%s shoots on each stool are more than the %s that can be drawn"),
                             ceduo_stand_shoots(s) / s->stools_per_ha, SHOOTS_MOST);
     if (ceduo_stand_has_shoots(s) && !(s->stools_per_ha > 0))
-        ceduo_derive_refuse(d, path, ".shoots", _("shoots without stools; add 'stools: {per_ha: …, spacing_m: …}'"), 0,
-                            0);
+        ceduo_derive_refuse(d, path, ".shoots", _("shoots without stools; add 'stools: {per_ha: …, spacing_m: …}'"), 0, 0);
     else if (s->shoots_count == 0 && s->stools_per_ha > 0 && !ceduo_stand_sprouts(s))
         ceduo_derive_refuse(d, path, ".stools",
                             _("stools without shoots; add 'shoots', or 'growth' if they were just cut, or remove the "
@@ -216,12 +206,10 @@ static void check_belt(struct deriver *d, const char *path, const struct ceduo_b
         return;
     }
     if (before && f->from_given < before->to_given)
-        ceduo_derive_refuse(d, path, ".from_m",
-                            _("%s lies before the end of the belt before it, %s; belts must not overlap"),
+        ceduo_derive_refuse(d, path, ".from_m", _("%s lies before the end of the belt before it, %s; belts must not overlap"),
                             f->from_given, before->to_given);
     else if (f->from_given < begin)
-        ceduo_derive_refuse(d, path, ".from_m", _("%s lies before the slope, which begins at %s m"), f->from_given,
-                            begin);
+        ceduo_derive_refuse(d, path, ".from_m", _("%s lies before the slope, which begins at %s m"), f->from_given, begin);
     if (f->to_given > end)
         ceduo_derive_refuse(d, path, ".to_m", _("%s lies beyond the slope, which ends at %s m"), f->to_given, end);
 }

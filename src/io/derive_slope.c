@@ -13,8 +13,8 @@ static bool read_vertices(struct deriver *d, struct points *p)
 {
     bool csv = ceduo_derive_given(d, "slope", "csv"), list = ceduo_derive_given(d, "slope", "vertices_m");
     if (csv == list) {
-        ceduo_derive_complain(
-            d, "slope", csv ? _("vertices_m and csv together; keep one") : _("'vertices_m' is missing: the profile"));
+        ceduo_derive_complain(d, "slope",
+                              csv ? _("vertices_m and csv together; keep one") : _("'vertices_m' is missing: the profile"));
         return false;
     }
     if (!csv) {
@@ -47,10 +47,9 @@ static bool check_vertices(struct deriver *d, const struct points *p)
     }
     for (size_t i = 1; i < p->n; i++)
         if (p->x[i] <= p->x[i - 1]) {
-            ceduo_derive_refuse(
-                d, ceduo_derive_text(d, "slope.vertices_m[%zu]", i), "",
-                _("x %s does not lie beyond %s; x must rise: write a wall with a small run, such as 0.01 m"), p->x[i],
-                p->x[i - 1]);
+            ceduo_derive_refuse(d, ceduo_derive_text(d, "slope.vertices_m[%zu]", i), "",
+                                _("x %s does not lie beyond %s; x must rise: write a wall with a small run, such as 0.01 m"),
+                                p->x[i], p->x[i - 1]);
             rising = false;
         }
     return rising && (csv || ceduo_derive_sound(d, "slope.vertices_m"));
@@ -68,8 +67,8 @@ static bool check_downward(struct deriver *d, const struct points *p)
                               "'reversed: true' in slope, which mirrors it with its ground"),
                             first, last);
     else if (last < first && reversed)
-        ceduo_derive_refuse(d, "slope.reversed", "",
-                            _("the profile falls already, from %s to %s m; leave 'reversed' out"), first, last);
+        ceduo_derive_refuse(d, "slope.reversed", "", _("the profile falls already, from %s to %s m; leave 'reversed' out"),
+                            first, last);
     return reversed ? last >= first : last <= first;
 }
 
@@ -102,8 +101,8 @@ static void check_segments(struct deriver *d, size_t n)
     double smooth = ceduo_schema_default(ceduo_schema_field(ceduo_schema_segment(), "roughness_rad"));
     if (n > 0 && given != 1 && given != n)
         ceduo_derive_complain(d, "slope.segments",
-                              _("%zu segments for %zu stretches between vertices; give one for each, or one for all"),
-                              given, n);
+                              _("%zu segments for %zu stretches between vertices; give one for each, or one for all"), given,
+                              n);
     for (size_t i = 0; i < given; i++) {
         struct ceduo_segment *g = &s->segments[i];
         if (!isnan(g->roughness_m) && !isnan(g->roughness_rad))
@@ -229,8 +228,7 @@ static void make_materials(struct deriver *d)
     s->segments = ceduo_bind_take(d->arena, s->vertices - 1, sizeof *s->segments, d->problems);
     if (!s->segments)
         return;
-    ceduo_derive_assume(d, "slope.materials",
-                        _("roughness and friction of the library's grounds, and all of its rows -v4"));
+    ceduo_derive_assume(d, "slope.materials", _("roughness and friction of the library's grounds, and all of its rows -v4"));
     if (uses_mu(d))
         ceduo_derive_assume(d, "slope.materials", text_of_mu(d));
     for (size_t j = 0, row = 0; j + 1 < s->vertices; j++) {

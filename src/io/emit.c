@@ -275,8 +275,7 @@ static bool reads_back(const struct text *text, const struct node *root, bool *n
     return same;
 }
 
-bool ceduo_emit_patched(struct text *text, const struct source *source, const struct node *old,
-                        const struct node *root)
+bool ceduo_emit_patched(struct text *text, const struct source *source, const struct node *old, const struct node *root)
 {
     struct text out = {0};
     struct patcher p = {&out, source, 0};

@@ -14,8 +14,7 @@ const struct node *ceduo_emit_unresolve(struct arena *arena, const struct node *
 /* Writes `root` (unresolved) as the text of `source`, whose tree is `old`, with the changed values alone put in place, so
  * that comments and layout stay. False where more than values has changed: then nothing is added; and without memory
  * (text->failed). */
-bool ceduo_emit_patched(struct text *text, const struct source *source, const struct node *old,
-                        const struct node *root);
+bool ceduo_emit_patched(struct text *text, const struct source *source, const struct node *old, const struct node *root);
 
 /* Adds any tree on one line. */
 void ceduo_emit_flow(struct text *text, const struct node *node);

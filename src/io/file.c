@@ -229,8 +229,8 @@ static const char *keep(struct arena *arena, const char *string)
     return string ? ceduo_arena_string(arena, string) : NULL;
 }
 
-bool ceduo_shelf_find(struct arena *arena, struct shelf *shelf, const char *name, const char *beside,
-                      const char *folder, const char *path)
+bool ceduo_shelf_find(struct arena *arena, struct shelf *shelf, const char *name, const char *beside, const char *folder,
+                      const char *path)
 {
     struct shelf_find *find = ceduo_arena_take(arena, sizeof *find);
     if (!find)
@@ -251,8 +251,7 @@ bool ceduo_shelf_file(struct arena *arena, struct shelf *shelf, const char *path
     struct shelf_file *file = ceduo_arena_take(arena, sizeof *file);
     if (!file)
         return false;
-    *file = (struct shelf_file){
-        .path = keep(arena, path), .bytes = bytes, .length = length, .before = shelf->files};
+    *file = (struct shelf_file){.path = keep(arena, path), .bytes = bytes, .length = length, .before = shelf->files};
     if (arena->failed)
         return false;
     shelf->files = file;
@@ -657,8 +656,8 @@ void ceduo_file_tidy(const char *path)
 bool ceduo_file_same(const char *a, const char *b)
 {
     struct stat x, y;
-    return stat(a, &x) == 0 && (is_standard(b) ? fstat(STDIN_FILENO, &y) : stat(b, &y)) == 0 &&
-           S_ISREG(x.st_mode) && x.st_dev == y.st_dev && x.st_ino == y.st_ino;
+    return stat(a, &x) == 0 && (is_standard(b) ? fstat(STDIN_FILENO, &y) : stat(b, &y)) == 0 && S_ISREG(x.st_mode) &&
+           x.st_dev == y.st_dev && x.st_ino == y.st_ino;
 }
 
 bool ceduo_file_can_write(const char *path)

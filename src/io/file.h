@@ -9,7 +9,7 @@
 #include "temporary.h"
 
 #define YAML_BYTES_MOST ((size_t)16 * 1024 * 1024)
-#define CSV_BYTES_MOST ((size_t)64 * 1024 * 1024)
+#define CSV_BYTES_MOST  ((size_t)64 * 1024 * 1024)
 
 /* A copy of a source with its name and its string of bytes, for as long as the arena. NULL without memory, which is told. */
 const struct source *ceduo_source_keep(struct arena *arena, struct source source, struct problems *problems);
@@ -31,7 +31,7 @@ const char *const *ceduo_file_list(struct arena *arena, const char *folder, cons
 
 /* What was looked for and read for one scene: kept beside it, or on another machine in place of the disk. Starts as {0};
  * an arena's `shelf` makes all that is read into that arena go by it. Lives in that arena. */
-struct shelf_find { /* ceduo_file_find() with these words led to this path */
+struct shelf_find {                     /* ceduo_file_find() with these words led to this path */
     const char *name, *beside, *folder; /* the last two may be NULL */
     const char *path;
     const struct shelf_find *before;
@@ -48,8 +48,8 @@ struct shelf {
 };
 
 /* Add to it. False without memory. */
-bool ceduo_shelf_find(struct arena *arena, struct shelf *shelf, const char *name, const char *beside,
-                      const char *folder, const char *path);
+bool ceduo_shelf_find(struct arena *arena, struct shelf *shelf, const char *name, const char *beside, const char *folder,
+                      const char *path);
 bool ceduo_shelf_file(struct arena *arena, struct shelf *shelf, const char *path, const char *bytes, size_t length);
 
 /* What an errno of reading means. */

@@ -101,7 +101,8 @@ static bool law_knows(const struct finder *f, const char *key)
 static void consider(struct finder *f, const struct field *field, const struct node *node)
 {
     bool instead = !node && field->flags & FIELD_ONE_OF && !field->value; /* another key says it */
-    const struct range *range = instead || field->flags & FIELD_YEARS ? NULL : ceduo_range_of(field); /* today is in doubt, not the years */
+    /* today is in doubt, not the years */
+    const struct range *range = instead || field->flags & FIELD_YEARS ? NULL : ceduo_range_of(field);
     const char *path = range ? text_of(f, "%s", ceduo_text_string(&f->path)) : NULL;
     struct value v;
     if (!path || !law_knows(f, field->key) || !ceduo_value_find(&f->file->scene, path, &v) || isnan(ceduo_value_get(&v)))
@@ -154,8 +155,8 @@ static void walk(struct finder *f, const struct object *object, const struct nod
 
 /* ---- grounds of the library ---- */
 
-size_t ceduo_input_ground(struct arena *arena, const struct node *root, const struct ceduo_scene *scene,
-                          const char *material, const char *key, const char **places)
+size_t ceduo_input_ground(struct arena *arena, const struct node *root, const struct ceduo_scene *scene, const char *material,
+                          const char *key, const char **places)
 {
     const struct ceduo_slope *s = &scene->slope;
     const struct node *rows = ceduo_node_get(ceduo_node_get(root, "slope"), "materials");
@@ -228,7 +229,9 @@ static bool make_input(struct finder *f, const struct found *first, size_t most,
         if (strcmp(one->origin, first->origin) == 0 && !is_named(f->file, one->path))
             places[n++] = one->path;
     bool ground = strncmp(first->origin, "slope.materials", 15) == 0;
-    *input = (struct ceduo_input){.path = ground ? first->origin : n > 0 ? places[0] : first->path,
+    *input = (struct ceduo_input){.path = ground  ? first->origin
+                                          : n > 0 ? places[0]
+                                                  : first->path,
                                   .kind = first->range.kind,
                                   .lo = first->range.lo,
                                   .hi = first->range.hi,

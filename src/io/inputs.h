@@ -27,7 +27,7 @@ bool ceduo_input_shares(const struct ceduo_input *a, const struct ceduo_input *b
 const struct ceduo_belt *ceduo_input_belt(const struct ceduo_scene *scene, const char *place);
 
 /* Paths of the segments of a ground of the library, one for each stretch; returns how many. */
-size_t ceduo_input_ground(struct arena *arena, const struct node *root, const struct ceduo_scene *scene,
-                          const char *material, const char *key, const char **places);
+size_t ceduo_input_ground(struct arena *arena, const struct node *root, const struct ceduo_scene *scene, const char *material,
+                          const char *key, const char **places);
 
 #endif

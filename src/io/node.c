@@ -35,7 +35,8 @@ double ceduo_node_number(const struct node *node, const char *key)
 
 double ceduo_node_item_number(const struct node *list, size_t i)
 {
-    return list->kind == NODE_LIST && i < list->n && list->items[i]->kind == NODE_SCALAR ? number_of(list->items[i]->text) : NAN;
+    return list->kind == NODE_LIST && i < list->n && list->items[i]->kind == NODE_SCALAR ? number_of(list->items[i]->text)
+                                                                                         : NAN;
 }
 
 /* A copy with room for n items, of which none is set. */
@@ -59,8 +60,7 @@ void ceduo_node_keep_written(const struct node *made, const struct node *from)
     node->followed = from->followed;
 }
 
-const struct node *ceduo_node_replaced(struct arena *arena, const struct node *node, size_t i,
-                                       const struct node *value)
+const struct node *ceduo_node_replaced(struct arena *arena, const struct node *node, size_t i, const struct node *value)
 {
     const struct node **items;
     struct node *copy = copy_shell(arena, node, node->n, &items);
@@ -71,8 +71,7 @@ const struct node *ceduo_node_replaced(struct arena *arena, const struct node *n
     return copy;
 }
 
-const struct node *ceduo_node_inserted(struct arena *arena, const struct node *node, size_t i,
-                                       const struct node *value)
+const struct node *ceduo_node_inserted(struct arena *arena, const struct node *node, size_t i, const struct node *value)
 {
     const struct node **items;
     struct node *copy = copy_shell(arena, node, node->n + 1, &items);
@@ -109,8 +108,7 @@ const struct node *ceduo_node_renamed(struct arena *arena, const struct node *va
     return key && !copy->key ? NULL : copy;
 }
 
-const struct node *ceduo_node_with(struct arena *arena, const struct node *map, const char *key,
-                                   const struct node *value)
+const struct node *ceduo_node_with(struct arena *arena, const struct node *map, const char *key, const struct node *value)
 {
     const struct node *named = ceduo_node_renamed(arena, value, key);
     if (!named)
@@ -142,8 +140,7 @@ const struct node *ceduo_node_scalar(struct arena *arena, const struct source *s
     struct node *node = ceduo_arena_take(arena, sizeof *node);
     if (!node)
         return NULL;
-    *node = (struct node){
-        .kind = NODE_SCALAR, .quoted = quoted, .source = source, .text = ceduo_arena_string(arena, text)};
+    *node = (struct node){.kind = NODE_SCALAR, .quoted = quoted, .source = source, .text = ceduo_arena_string(arena, text)};
     return node->text ? node : NULL;
 }
 

@@ -13,19 +13,19 @@ enum node_kind { NODE_SCALAR, NODE_MAP, NODE_LIST };
  * the rest, so that every earlier state of a document stays whole. */
 struct node {
     enum node_kind kind;
-    bool quoted;                      /* a scalar in quotes: text, never a number */
-    bool flow;                        /* a mapping or list in brackets */
-    bool broken;                      /* a reference that leads nowhere, or a mapping that starts from one: told already */
-    uint32_t line, column;            /* of the value, from 1 */
-    uint32_t end_line, end_column;    /* of a scalar, or what is in brackets: just after it */
-    uint32_t key_line, key_column;    /* of its key; 0: none */
+    bool quoted;                   /* a scalar in quotes: text, never a number */
+    bool flow;                     /* a mapping or list in brackets */
+    bool broken;                   /* a reference that leads nowhere, or a mapping that starts from one: told already */
+    uint32_t line, column;         /* of the value, from 1 */
+    uint32_t end_line, end_column; /* of a scalar, or what is in brackets: just after it */
+    uint32_t key_line, key_column; /* of its key; 0: none */
     const struct source *source;
-    const char *key;                  /* in a mapping */
-    const char *text;                 /* of a scalar */
-    const struct node *const *items;  /* of a mapping or list */
+    const char *key;                 /* in a mapping */
+    const char *text;                /* of a scalar */
+    const struct node *const *items; /* of a mapping or list */
     size_t n;
-    const struct node *written;       /* what is written here where a file was followed: its path, or base and changes */
-    const struct node *followed;      /* and what that led to, before any edit */
+    const struct node *written;  /* what is written here where a file was followed: its path, or base and changes */
+    const struct node *followed; /* and what that led to, before any edit */
 };
 
 /* Reads one YAML document. NULL where it is not well-formed; what is wrong is in `problems`. Aliases, anchors, tags,
@@ -49,15 +49,12 @@ double ceduo_node_number(const struct node *node, const char *key);
 double ceduo_node_item_number(const struct node *list, size_t i);
 
 /* A mapping with the entry put in place of one with its key, or added. NULL without memory. */
-const struct node *ceduo_node_with(struct arena *arena, const struct node *map, const char *key,
-                                   const struct node *value);
+const struct node *ceduo_node_with(struct arena *arena, const struct node *map, const char *key, const struct node *value);
 const struct node *ceduo_node_without(struct arena *arena, const struct node *map, const char *key);
 
 /* A list or mapping with item i replaced; with one put in before i (i = n: at the end); with item i taken out. */
-const struct node *ceduo_node_replaced(struct arena *arena, const struct node *node, size_t i,
-                                       const struct node *value);
-const struct node *ceduo_node_inserted(struct arena *arena, const struct node *node, size_t i,
-                                       const struct node *value);
+const struct node *ceduo_node_replaced(struct arena *arena, const struct node *node, size_t i, const struct node *value);
+const struct node *ceduo_node_inserted(struct arena *arena, const struct node *node, size_t i, const struct node *value);
 const struct node *ceduo_node_removed(struct arena *arena, const struct node *node, size_t i);
 
 /* The same value under another key (NULL: none). */

@@ -38,8 +38,7 @@ const struct source_note *ceduo_notes_find(const struct source_note *notes, cons
         if (!ceduo_path_leads_to(note->path, path))
             continue;
         size_t n = strlen(note->path), most = best ? strlen(best->path) : 0;
-        if (!best || n > most ||
-            (n == most && strcmp(best->kind, "changed") == 0)) /* its own goes before what is around */
+        if (!best || n > most || (n == most && strcmp(best->kind, "changed") == 0)) /* its own goes before what is around */
             best = note;
     }
     return best;

@@ -71,9 +71,9 @@ static bool take_base64(char *text, size_t n, size_t *length)
 
 /* ---- the line ---- */
 
-#define START  "{\"format\": \"ceduo-part-"
-#define FORMAT "1"
-#define SUM    ", \"sum\": \""
+#define START      "{\"format\": \"ceduo-part-"
+#define FORMAT     "1"
+#define SUM        ", \"sum\": \""
 #define SUM_LENGTH (sizeof SUM - 1 + 16 + 2) /* with 16 digits, a quote and a brace */
 
 void ceduo_part_write(struct text *out, const struct part *part)
@@ -251,10 +251,9 @@ enum part_fault ceduo_part_read(struct arena *arena, struct part *part, char *li
     bool good = take_count(&c, ", \"place\": ", 1, 1e9, &part->place) &&
                 take_count(&c, ", \"shard\": ", 1, SHARDS_MOST, &part->shard) &&
                 take_count(&c, ", \"shards\": ", (double)part->shard, SHARDS_MOST, &part->shards) &&
-                take_count(&c, ", \"rocks\": ", 1, CEDUO_ROCKS_MOST, &part->rocks) &&
-                take_points(&c, &part->points) && take(&c, ", \"seconds\": ") &&
-                take_seconds(&c, &part->seconds) && take(&c, ", \"hash\": \"") && take_hex(&c, 16, &part->key) &&
-                take_data(&c, "\", \"inputs\": \"", &part->inputs, &part->inputs_length) &&
+                take_count(&c, ", \"rocks\": ", 1, CEDUO_ROCKS_MOST, &part->rocks) && take_points(&c, &part->points) &&
+                take(&c, ", \"seconds\": ") && take_seconds(&c, &part->seconds) && take(&c, ", \"hash\": \"") &&
+                take_hex(&c, 16, &part->key) && take_data(&c, "\", \"inputs\": \"", &part->inputs, &part->inputs_length) &&
                 take_data(&c, ", \"runs\": \"", &part->runs, &part->runs_length) && c.at == c.end;
     return good ? PART_GOOD : PART_CHANGED;
 }

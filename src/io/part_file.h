@@ -12,10 +12,10 @@
 struct part {
     const char *file; /* that it was read from, and its line there */
     size_t line;
-    char *scene;      /* as it was given */
+    char *scene;                   /* as it was given */
     uint64_t shard, shards, place; /* from 1; place: of the scene among those that were given */
-    uint64_t rocks, key; /* of the whole run, or of each evaluation of a sensitivity; ceduo_part_key() */
-    uint64_t points;     /* base points of a sensitivity; 0: a part of a run */
+    uint64_t rocks, key;           /* of the whole run, or of each evaluation of a sensitivity; ceduo_part_key() */
+    uint64_t points;               /* base points of a sensitivity; 0: a part of a run */
     double seconds;
     const unsigned char *inputs, *runs; /* ceduo_part_inputs(), ceduo_pool_save() or ceduo_doubt_ask_part(); no inputs:
                                          * length 0 */
@@ -48,7 +48,7 @@ struct part_words {
     size_t n;
 };
 struct part_inputs {
-    const char *path; /* as it was given */
+    const char *path;                /* as it was given */
     struct part_words sets, options; /* PATH=VALUE; names */
     struct shelf shelf;
 };

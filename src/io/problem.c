@@ -64,8 +64,7 @@ static void show_line(struct text *out, const struct source *s, size_t line, siz
         at += n;
     }
     if (s->foreign && at < to)
-        ceduo_text_format(out, "\xe2\x80\xa6 %s",
-                          _("(nothing says that this file is one of ceduo's: no more of it is shown)"));
+        ceduo_text_format(out, "\xe2\x80\xa6 %s", _("(nothing says that this file is one of ceduo's: no more of it is shown)"));
     ceduo_text_char(out, '\n');
     ceduo_text_put(&caret, "^\n");
     if (!s->foreign || (line == 1 && column <= c))
@@ -108,8 +107,7 @@ static bool is_known(const struct problems *problems, uint64_t hash)
     return false;
 }
 
-static void add(struct problems *problems, const struct source *source, size_t line, size_t column,
-                const struct text *message)
+static void add(struct problems *problems, const struct source *source, size_t line, size_t column, const struct text *message)
 {
     struct text one = {0};
     if (source) {
@@ -150,8 +148,8 @@ static void put_path(struct text *out, const char *path)
         ceduo_text_format(out, "%s: ", path);
 }
 
-void ceduo_problem_v(struct problems *problems, const struct source *source, size_t line, size_t column,
-                     const char *path, const char *format, va_list args)
+void ceduo_problem_v(struct problems *problems, const struct source *source, size_t line, size_t column, const char *path,
+                     const char *format, va_list args)
 {
     struct text message = {0};
     if (!counts(problems, source))
@@ -166,8 +164,7 @@ void ceduo_problem_v(struct problems *problems, const struct source *source, siz
     ceduo_text_free(&message);
 }
 
-void ceduo_problem(struct problems *problems, const struct source *source, size_t line, size_t column,
-                   const char *format, ...)
+void ceduo_problem(struct problems *problems, const struct source *source, size_t line, size_t column, const char *format, ...)
 {
     va_list args;
     va_start(args, format);
@@ -175,8 +172,8 @@ void ceduo_problem(struct problems *problems, const struct source *source, size_
     va_end(args);
 }
 
-void ceduo_problem_own(struct problems *problems, const struct source *source, size_t line, size_t column,
-                       const char *path, const char *format, ...)
+void ceduo_problem_own(struct problems *problems, const struct source *source, size_t line, size_t column, const char *path,
+                       const char *format, ...)
 {
     struct text message = {0};
     va_list args;

@@ -11,7 +11,7 @@ struct source {
     const char *name; /* as the user knows it */
     const char *bytes;
     size_t length;
-    bool is_option;   /* a --set: what is wrong with it is a usage error */
+    bool is_option;     /* a --set: what is wrong with it is a usage error */
     const char *beside; /* of an option: the file that its paths are looked for beside */
     bool foreign;       /* a file that does not say that it is one of ours: it may be anything, and nobody's business */
 };
@@ -33,16 +33,16 @@ bool ceduo_source_line(const struct source *source, size_t line, size_t *from, s
 struct problems {
     struct text text;
     size_t count;
-    size_t met;  /* with those that were known already: whether a step went well */
+    size_t met;                          /* with those that were known already: whether a step went well */
     uint64_t shown[CEDUO_PROBLEMS_MOST]; /* hashes of those printed in full */
-    bool usage;  /* at least one is about the command line */
-    bool memory; /* memory ran out: the list may lack some */
+    bool usage;                          /* at least one is about the command line */
+    bool memory;                         /* memory ran out: the list may lack some */
 };
 
 /* Adds one. line and column count from 1; 0: no place known (the source's name alone is shown). Of a foreign source the message
  * is without its values, and of its lines only the beginning of the first is shown. */
-void ceduo_problem(struct problems *problems, const struct source *source, size_t line, size_t column,
-                   const char *format, ...) __attribute__((format(printf, 5, 6)));
+void ceduo_problem(struct problems *problems, const struct source *source, size_t line, size_t column, const char *format, ...)
+    __attribute__((format(printf, 5, 6)));
 /* The same at the path of a value in the source; NULL or "": none. */
 void ceduo_problem_v(struct problems *problems, const struct source *source, size_t line, size_t column, const char *path,
                      const char *format, va_list args) __attribute__((format(printf, 6, 0)));

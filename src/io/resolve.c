@@ -69,8 +69,7 @@ static const char *locate(struct arena *arena, const struct node *node, const ch
         ceduo_problem_memory(problems);
     else if (!path)
         ceduo_node_problem(problems, node, node->key,
-                           _("cannot find '%s' beside this file or among the profiles (ceduo --list-profiles)"),
-                           node->text);
+                           _("cannot find '%s' beside this file or among the profiles (ceduo --list-profiles)"), node->text);
     return path;
 }
 
@@ -115,8 +114,7 @@ static const struct node *merge(struct arena *arena, const struct node *base, co
     return merged;
 }
 
-static const struct node *merge_base(struct resolver *r, const struct object *object, const struct node *node,
-                                     int depth)
+static const struct node *merge_base(struct resolver *r, const struct object *object, const struct node *node, int depth)
 {
     const struct node *base = ceduo_node_get(node, "base");
     if (!base || object != ceduo_schema_stand())
@@ -197,8 +195,7 @@ const struct node *ceduo_resolve(struct arena *arena, const struct object *objec
 
 /* A list with item i replaced. `*own`: it was made here before, and nobody else has seen it: a long list is copied
  * once, not for each of its items. */
-static const struct node *put_item(struct arena *arena, const struct node *list, bool *own, size_t i,
-                                   const struct node *item)
+static const struct node *put_item(struct arena *arena, const struct node *list, bool *own, size_t i, const struct node *item)
 {
     if (*own) {
         ((const struct node **)(uintptr_t)list->items)[i] = item;
@@ -234,8 +231,7 @@ static const struct node *resolve_entry(struct resolver *r, const struct field *
     if (f->type != FIELD_LIST || entry->kind != NODE_LIST)
         return entry;
     if (strcmp(f->key, "forest") == 0 && entry->n > CEDUO_ITEMS_MOST) { /* before so many files are looked for */
-        ceduo_node_problem(r->problems, entry, f->key, _("%zu items; at most %d can be computed"), entry->n,
-                           CEDUO_ITEMS_MOST);
+        ceduo_node_problem(r->problems, entry, f->key, _("%zu items; at most %d can be computed"), entry->n, CEDUO_ITEMS_MOST);
         return broken(r, entry);
     }
     return resolve_items(r, f->object, entry);
@@ -321,15 +317,14 @@ struct setter {
     struct problems *problems;
 };
 
-static const struct node *set_in(struct setter *s, const struct field *f, const struct object *object,
-                                 const struct node *node, size_t at);
+static const struct node *set_in(struct setter *s, const struct field *f, const struct object *object, const struct node *node,
+                                 size_t at);
 
 static const struct node *fail_at(struct setter *s, const struct path_step *step, const char *what)
 {
     struct text word = {0};
     ceduo_text_add(&word, step->p, step->n);
-    ceduo_problem(s->problems, s->set, 1, (size_t)(step->p - s->set->bytes) + 1, "'%s': %s", ceduo_text_string(&word),
-                  what);
+    ceduo_problem(s->problems, s->set, 1, (size_t)(step->p - s->set->bytes) + 1, "'%s': %s", ceduo_text_string(&word), what);
     ceduo_text_free(&word);
     return NULL;
 }
@@ -469,8 +464,8 @@ static const struct node *set_item(struct setter *s, const struct field *f, cons
 }
 
 /* The node with what lies from `at` on along the path replaced. A node that was followed stays marked as such. */
-static const struct node *set_in(struct setter *s, const struct field *f, const struct object *object,
-                                 const struct node *node, size_t at)
+static const struct node *set_in(struct setter *s, const struct field *f, const struct object *object, const struct node *node,
+                                 size_t at)
 {
     if (at >= s->length)
         return s->value;
@@ -484,16 +479,15 @@ static const struct node *set_in(struct setter *s, const struct field *f, const 
         return fail_at(s, &step, _("there is no list here"));
     if (!step.bracket && node->kind != NODE_MAP)
         return fail_at(s, &step, _("there is no mapping here"));
-    const struct node *changed =
-        step.bracket ? set_item(s, f, node, &step, at) : set_entry(s, object, node, &step, at);
+    const struct node *changed = step.bracket ? set_item(s, f, node, &step, at) : set_entry(s, object, node, &step, at);
     if (!changed)
         return NULL;
     ceduo_node_keep_written(changed, node);
     return changed;
 }
 
-const struct node *ceduo_resolve_set(struct arena *arena, const struct node *root, const struct source *set,
-                                     size_t path_length, const struct node *value, struct problems *problems)
+const struct node *ceduo_resolve_set(struct arena *arena, const struct node *root, const struct source *set, size_t path_length,
+                                     const struct node *value, struct problems *problems)
 {
     struct setter s = {.arena = arena, .set = set, .length = path_length, .value = value, .problems = problems};
     size_t before = problems->met;

@@ -17,8 +17,8 @@ const struct node *ceduo_resolve_scene(struct arena *arena, const struct node *r
 const char *ceduo_resolve_path(struct arena *arena, const struct node *node, const char *folder);
 
 /* Puts `value` at `path` below root, through references. `set` is the whole PATH=VALUE, for messages. */
-const struct node *ceduo_resolve_set(struct arena *arena, const struct node *root, const struct source *set,
-                                     size_t path_length, const struct node *value, struct problems *problems);
+const struct node *ceduo_resolve_set(struct arena *arena, const struct node *root, const struct source *set, size_t path_length,
+                                     const struct node *value, struct problems *problems);
 
 /* The item of a list that a bracket means: by its place, or the first of its name. False where there is none. */
 bool ceduo_resolve_item(const struct node *list, const struct path_step *step, size_t *index);

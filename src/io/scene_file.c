@@ -163,16 +163,14 @@ static bool is_good_with(const struct source *source, const char *const *sets, s
 
 /* A change that is right by itself may not fit the rest, and what is wrong is then found at a value of the file: the
  * change is named before that. It is the one after which the scene was never good again. */
-static void name_change(const struct source *source, const char *const *sets, size_t n,
-                        struct problems *problems)
+static void name_change(const struct source *source, const char *const *sets, size_t n, struct problems *problems)
 {
     if (n == 0 || problems->usage || problems->memory || !is_good_with(source, sets, 0, problems))
         return;
     size_t last = n - 1;
     while (last > 0 && !problems->memory && !is_good_with(source, sets, last, problems))
         last--;
-    const struct source set = {
-        .name = "--set", .bytes = sets[last], .length = strlen(sets[last]), .is_option = true};
+    const struct source set = {.name = "--set", .bytes = sets[last], .length = strlen(sets[last]), .is_option = true};
     struct problems head = {0};
     ceduo_problem(&head, &set, 1, (size_t)(equals_of(sets[last]) - sets[last]) + 2,
                   _("the scene is valid without this change, but not with it:"));
@@ -183,8 +181,8 @@ static void name_change(const struct source *source, const char *const *sets, si
     problems->usage = true;
 }
 
-static bool read_source(struct scene_file *file, const struct source *source, const char *const *sets,
-                        size_t sets_count, struct problems *problems)
+static bool read_source(struct scene_file *file, const struct source *source, const char *const *sets, size_t sets_count,
+                        struct problems *problems)
 {
     if (make_scene(file, source, sets, sets_count, problems))
         return true;
@@ -210,8 +208,7 @@ bool ceduo_scene_read_by(struct scene_file *file, struct shelf *shelf, const cha
 bool ceduo_scene_read_text(struct scene_file *file, const char *name, const char *text, struct problems *problems)
 {
     *file = (struct scene_file){.path = name};
-    const struct source *source =
-        ceduo_source_keep(&file->arena, (struct source){.name = name, .bytes = text}, problems);
+    const struct source *source = ceduo_source_keep(&file->arena, (struct source){.name = name, .bytes = text}, problems);
     return source && read_source(file, source, NULL, 0, problems);
 }
 

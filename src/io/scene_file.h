@@ -2,8 +2,8 @@
 #ifndef CEDUO_SCENE_FILE_H
 #define CEDUO_SCENE_FILE_H
 
-#include "ceduo/scene.h"
 #include "bind.h"
+#include "ceduo/scene.h"
 
 /* A scene as read from its files. Everything that it points to lives in its arena. */
 struct scene_file {
@@ -14,12 +14,12 @@ struct scene_file {
     struct ceduo_scene scene;
     const struct source_note *notes; /* where values come from, last first */
     const struct node *slope_node;   /* that scene.slope was made from */
-    size_t inputs_count; /* what it says is not known, then what its stands say */
+    size_t inputs_count;             /* what it says is not known, then what its stands say */
     size_t inputs_of_scene;
     const struct ceduo_input *inputs;
     size_t observations_count; /* what was seen there */
     const struct ceduo_observation *observations;
-    bool ground_assumed;             /* the slope's file says no ground: talus was taken */
+    bool ground_assumed; /* the slope's file says no ground: talus was taken */
 };
 
 /* Reads a scene ("-": standard input; a name without a file: a shipped scene), applies `sets` (PATH=VALUE, from left to

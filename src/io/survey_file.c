@@ -14,31 +14,34 @@
 
 #define PLOTS_MOST 1000
 #define STEMS_MOST 200000
-#define SLOPE_MOST 85 /* degrees */
-#define STUMP_MOST 20 /* m of height, as in a stand */
+#define SLOPE_MOST 85  /* degrees */
+#define STUMP_MOST 20  /* m of height, as in a stand */
 #define DBH_MOST   300 /* cm: beyond it a diameter is in mm rather than of such a tree (assumed) */
 
 enum column { PLOT, AREA, RADIUS, SLOPE, SPECIES, KIND, STOOL, DBH, HEIGHT, SPACING, ENERGY, COLUMNS };
 
 /* Names of a column, the first one is that of the manual; in other languages as their spreadsheets have them. */
-static const char *const names[COLUMNS][5] = {
-    [PLOT] = {"plot", "saggio", "area_di_saggio", "probefl\xc3\xa4" "che"},
-    [AREA] = {"area_m2", "superficie_m2", "fl\xc3\xa4" "che_m2"},
-    [RADIUS] = {"radius_m", "raggio_m"},
-    [SLOPE] = {"slope_deg", "pendenza_gradi", "neigung_grad"},
-    [SPECIES] = {"species", "specie", "baumart"},
-    [KIND] = {"kind", "tipo", "typ"},
-    [STOOL] = {"stool", "ceppaia", "stock"},
-    [DBH] = {"dbh_cm", "diametro_cm", "bhd_cm"},
-    [HEIGHT] = {"height_m", "altezza_m", "h\xc3\xb6he_m"},
-    [SPACING] = {"spacing_m", "distanza_m", "abstand_m"},
-    [ENERGY] = {"energy_kJ", "energia_kJ", "energie_kJ"}};
+static const char *const names[COLUMNS][5] = {[PLOT] = {"plot", "saggio", "area_di_saggio",
+                                                        "probefl\xc3\xa4"
+                                                        "che"},
+                                              [AREA] = {"area_m2", "superficie_m2",
+                                                        "fl\xc3\xa4"
+                                                        "che_m2"},
+                                              [RADIUS] = {"radius_m", "raggio_m"},
+                                              [SLOPE] = {"slope_deg", "pendenza_gradi", "neigung_grad"},
+                                              [SPECIES] = {"species", "specie", "baumart"},
+                                              [KIND] = {"kind", "tipo", "typ"},
+                                              [STOOL] = {"stool", "ceppaia", "stock"},
+                                              [DBH] = {"dbh_cm", "diametro_cm", "bhd_cm"},
+                                              [HEIGHT] = {"height_m", "altezza_m", "h\xc3\xb6he_m"},
+                                              [SPACING] = {"spacing_m", "distanza_m", "abstand_m"},
+                                              [ENERGY] = {"energy_kJ", "energia_kJ", "energie_kJ"}};
 
 static const struct {
     double lo, hi;
     const char *unit;
-} ranges[COLUMNS] = {[AREA] = {1, 1e6, "m2"},   [RADIUS] = {0.5, 500, "m"}, [SLOPE] = {0, SLOPE_MOST, "degrees"},
-                     [DBH] = {0.1, 1e6, "cm"},  [HEIGHT] = {0, 150, "m"},   [SPACING] = {0.01, 20, "m"},
+} ranges[COLUMNS] = {[AREA] = {1, 1e6, "m2"},  [RADIUS] = {0.5, 500, "m"}, [SLOPE] = {0, SLOPE_MOST, "degrees"},
+                     [DBH] = {0.1, 1e6, "cm"}, [HEIGHT] = {0, 150, "m"},   [SPACING] = {0.01, 20, "m"},
                      [ENERGY] = {0, 1e6, "kJ"}};
 
 /* Words of a kind of stem, the first one is that of the manual. */
@@ -49,7 +52,7 @@ static const char *const kinds[CEDUO_SURVEY_KINDS_COUNT][4] = {[CEDUO_SURVEY_SHO
 
 struct plot {
     struct csv_span name;
-    size_t line;                 /* where it comes first */
+    size_t line;                  /* where it comes first */
     double area, radius, degrees; /* NaN: not said */
 };
 
@@ -137,8 +140,8 @@ static bool same(struct csv_span a, struct csv_span b)
 static bool read_number(struct reader *r, enum column c, double *value)
 {
     *value = NAN;
-    return r->fields[c].n == 0 || ceduo_csv_number(&r->csv, r->fields[c], ranges[c].lo, ranges[c].hi, ranges[c].unit, value,
-                                                   r->problems);
+    return r->fields[c].n == 0 ||
+           ceduo_csv_number(&r->csv, r->fields[c], ranges[c].lo, ranges[c].hi, ranges[c].unit, value, r->problems);
 }
 
 /* What is said of a plot; said again it must be the same. */
@@ -149,8 +152,8 @@ static bool read_of_plot(struct reader *r, enum column c, double *value)
         return false;
     bool differs = !isnan(now) && !isnan(*value) && now != *value;
     if (differs)
-        ceduo_csv_complain(&r->csv, r->fields[c], r->problems, _("'%s' is %g elsewhere for this plot, here %g"),
-                           names[c][0], *value, now);
+        ceduo_csv_complain(&r->csv, r->fields[c], r->problems, _("'%s' is %g elsewhere for this plot, here %g"), names[c][0],
+                           *value, now);
     *value = isnan(*value) ? now : *value;
     return !differs;
 }
@@ -249,7 +252,8 @@ static bool read_sizes(struct reader *r, struct ceduo_survey_stem *stem)
     if (isnan(stem->dbh))
         ceduo_csv_complain(&r->csv, r->fields[DBH], r->problems, _("the diameter is missing"));
     else if (stem->dbh > DBH_MOST)
-        ceduo_csv_complain(&r->csv, r->fields[DBH], r->problems, _("%g cm: more than %d cm; is it in mm?"), stem->dbh, DBH_MOST);
+        ceduo_csv_complain(&r->csv, r->fields[DBH], r->problems, _("%g cm: more than %d cm; is it in mm?"), stem->dbh,
+                           DBH_MOST);
     else if (stem->kind != CEDUO_SURVEY_STUMP && stem->height <= CEDUO_BREAST_HEIGHT)
         ceduo_csv_complain(&r->csv, r->fields[HEIGHT], r->problems,
                            _("%g m: a stem with a diameter at breast height is higher than %g m"), stem->height,

@@ -83,8 +83,8 @@ static void remark_heights(struct writer *w, const char *name, const struct cedu
         return;
     ceduo_text_format(w->out, "# heights of %s: %zu measured; %zu ", name, h->given, h->missing);
     if (h->from == CEDUO_HEIGHTS_CURVE)
-        ceduo_text_format(w->out, "by Näslund's curve, h = 1.3 + d2/(%.4g + %.4g d)2, d in cm, residual %.2g m",
-                          h->curve.a, h->curve.b, h->curve.rmse);
+        ceduo_text_format(w->out, "by Näslund's curve, h = 1.3 + d2/(%.4g + %.4g d)2, d in cm, residual %.2g m", h->curve.a,
+                          h->curve.b, h->curve.rmse);
     else
         ceduo_text_format(w->out, "are the mean of these, %.3g m: assumed", h->mean);
     if (h->beyond > 0)
@@ -100,8 +100,8 @@ static void remark_volumes(struct writer *w)
             ceduo_text_format(w->out,
                               "# volume: %zu of %zu %s of %.0f to %.0f cm lie outside the equation of their species; "
                               "its form factor at the nearest size, or %g without one, assumed\n",
-                              c->form_factor, c->stems, kinds[c->kind], c->from * 100,
-                              (c->from + CEDUO_SURVEY_CLASS) * 100, CEDUO_FORM_FACTOR);
+                              c->form_factor, c->stems, kinds[c->kind], c->from * 100, (c->from + CEDUO_SURVEY_CLASS) * 100,
+                              CEDUO_FORM_FACTOR);
     }
 }
 
@@ -136,8 +136,9 @@ static void remark_stumps(struct writer *w)
     const struct ceduo_survey_answer *a = w->answer;
     if (!(a->per_ha[CEDUO_SURVEY_STUMP].mean > 0) || has_stumps(w))
         return;
-    ceduo_text_put(w->out, "# The stumps are not in the stand: they need a height_m, and the energy_kJ that one takes from a rock,\n"
-                           "# in at least one row of the survey, or here:\n");
+    ceduo_text_put(w->out,
+                   "# The stumps are not in the stand: they need a height_m, and the energy_kJ that one takes from a rock,\n"
+                   "# in at least one row of the survey, or here:\n");
     put_number(w->out, "# stumps: {per_ha: ", a->per_ha[CEDUO_SURVEY_STUMP].mean);
     put_number(w->out, ", diameter_m: ", a->stump_diameter);
     if (!isnan(a->stump_height))
@@ -365,9 +366,10 @@ static bool check_curve(const struct writer *w, const struct ceduo_survey_height
     double tallest = h->from == CEDUO_HEIGHTS_CURVE ? ceduo_naslund_height(&h->curve, h->thickest) : 0;
     if (tallest <= most)
         return true;
-    ceduo_problem(problems, &(struct source){.name = w->file->name}, 0, 0,
-                  _("Näslund's curve makes a stem of %.4g cm %.0f m tall, more than %.0f; measure the heights of thick stems, too"),
-                  h->thickest * 100, tallest, most);
+    ceduo_problem(
+        problems, &(struct source){.name = w->file->name}, 0, 0,
+        _("Näslund's curve makes a stem of %.4g cm %.0f m tall, more than %.0f; measure the heights of thick stems, too"),
+        h->thickest * 100, tallest, most);
     return false;
 }
 
@@ -379,8 +381,8 @@ bool ceduo_survey_stand(const struct survey_file *file, struct text *yaml, struc
         ceduo_problem_memory(problems);
         return false;
     }
-    bool good = check_densities(&w, problems) && check_curve(&w, &answer.shoots, problems) &&
-                check_curve(&w, &answer.trees, problems);
+    bool good =
+        check_densities(&w, problems) && check_curve(&w, &answer.shoots, problems) && check_curve(&w, &answer.trees, problems);
     if (good) {
         remark(&w);
         put_stand(&w);

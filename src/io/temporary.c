@@ -73,8 +73,8 @@ static void remove_dead(const char *path)
     int fd = open(path, O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
     if (fd < 0)
         return;
-    if (flock(fd, LOCK_EX | LOCK_NB) == 0 && fstat(fd, &opened) == 0 && S_ISREG(opened.st_mode) &&
-        lstat(path, &there) == 0 && opened.st_dev == there.st_dev && opened.st_ino == there.st_ino)
+    if (flock(fd, LOCK_EX | LOCK_NB) == 0 && fstat(fd, &opened) == 0 && S_ISREG(opened.st_mode) && lstat(path, &there) == 0 &&
+        opened.st_dev == there.st_dev && opened.st_ino == there.st_ino)
         unlink(path);
     close(fd);
 }

@@ -11,10 +11,10 @@
 #include "base/utf8.h"
 #include "node.h"
 
-#define DEPTH_MOST 16
-#define KEYS_MOST 64 /* of one mapping: several times what any has */
+#define DEPTH_MOST  16
+#define KEYS_MOST   64     /* of one mapping: several times what any has */
 #define VALUES_MOST 250000 /* of one file: 80000 vertices. Each takes some 160 bytes, whatever it says. */
-#define TEXT_MOST 65536 /* bytes of one value */
+#define TEXT_MOST   65536  /* bytes of one value */
 
 struct reader {
     struct arena *arena;
@@ -37,10 +37,10 @@ static size_t column_of(const struct reader *r, yaml_mark_t mark)
 }
 
 /* None of its values is a word of the file. */
-#define STOP(r, mark, ...)                                                                                       \
-    do {                                                                                                         \
-        ceduo_problem_own((r)->problems, (r)->source, line_of(mark), column_of(r, mark), NULL, __VA_ARGS__);   \
-        (r)->stopped = true;                                                                                     \
+#define STOP(r, mark, ...)                                                                                                     \
+    do {                                                                                                                       \
+        ceduo_problem_own((r)->problems, (r)->source, line_of(mark), column_of(r, mark), NULL, __VA_ARGS__);                   \
+        (r)->stopped = true;                                                                                                   \
     } while (0)
 
 static void stop_for_memory(struct reader *r)
@@ -134,10 +134,8 @@ static struct node *new_node(struct reader *r, enum node_kind kind, yaml_mark_t 
         stop_for_memory(r);
         return NULL;
     }
-    *node = (struct node){.kind = kind,
-                          .source = r->source,
-                          .line = (uint32_t)line_of(mark),
-                          .column = (uint32_t)column_of(r, mark)};
+    *node = (struct node){
+        .kind = kind, .source = r->source, .line = (uint32_t)line_of(mark), .column = (uint32_t)column_of(r, mark)};
     return node;
 }
 
@@ -349,8 +347,8 @@ static struct node *read_document(struct reader *r)
         yaml_event_type_t type = event.type;
         if (type == YAML_DOCUMENT_START_EVENT && root)
             STOP(r, event.start_mark, _("a second document; keep one to a file"));
-        else if (type != YAML_STREAM_START_EVENT && type != YAML_DOCUMENT_START_EVENT &&
-                 type != YAML_DOCUMENT_END_EVENT && type != YAML_STREAM_END_EVENT)
+        else if (type != YAML_STREAM_START_EVENT && type != YAML_DOCUMENT_START_EVENT && type != YAML_DOCUMENT_END_EVENT &&
+                 type != YAML_STREAM_END_EVENT)
             root = read_value(r, &event, 0);
         if (type == YAML_STREAM_END_EVENT && !root && r->skip > 0 && r->source->is_option)
             ceduo_problem(r->problems, r->source, 1, r->skip_column + 1, _("there is no value after the ="));

@@ -72,8 +72,7 @@ static void fill_sizes(struct changes *c, enum ceduo_shape shape, const struct c
         fill_in(c, "height_m", ceduo_changes_rounded(scale * s[2], 3, b));
     } else {
         snprintf(all, sizeof all, "[%s, %s, %s]", ceduo_changes_rounded(scale * s[0], 3, a),
-                 ceduo_changes_rounded(scale * s[1], 3, b),
-                 ceduo_changes_rounded(scale * s[2], 3, third));
+                 ceduo_changes_rounded(scale * s[1], 3, b), ceduo_changes_rounded(scale * s[2], 3, third));
         fill_in(c, "axes_m", all);
     }
 }

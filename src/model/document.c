@@ -121,8 +121,7 @@ bool ceduo_document_unsaved(const struct document *d)
 
 /* ---- opening ---- */
 
-const struct node *ceduo_document_parse(struct document *d, const char *name, const char *text,
-                                        struct problems *problems)
+const struct node *ceduo_document_parse(struct document *d, const char *name, const char *text, struct problems *problems)
 {
     /* its own copy of the path: the document may be saved elsewhere, what was typed is looked for where it was typed */
     const struct source *source = ceduo_source_keep(

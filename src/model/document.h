@@ -18,17 +18,17 @@ struct document_state {
 };
 
 struct document {
-    struct scene_file file;      /* as it is now; always a scene that can be computed */
-    const struct node *raw;      /* the tree on disk, before references are followed; NULL for a new scene */
+    struct scene_file file; /* as it is now; always a scene that can be computed */
+    const struct node *raw; /* the tree on disk, before references are followed; NULL for a new scene */
     struct document_state *states;
-    size_t count, room, at;      /* states; the one shown */
-    size_t trimmed;              /* what the arena held when the oldest were last forgotten */
-    size_t saved;                /* the one on disk; count + 1: none */
-    char *path;                  /* where it is saved; NULL: nowhere yet */
-    bool shipped;                /* the file belongs to the program: never written */
-    struct timespec modified;    /* of the file when it was read */
+    size_t count, room, at;   /* states; the one shown */
+    size_t trimmed;           /* what the arena held when the oldest were last forgotten */
+    size_t saved;             /* the one on disk; count + 1: none */
+    char *path;               /* where it is saved; NULL: nowhere yet */
+    bool shipped;             /* the file belongs to the program: never written */
+    struct timespec modified; /* of the file when it was read */
     off_t size;
-    char *recovery;              /* path of the copy that survives a crash; NULL: none can be kept */
+    char *recovery; /* path of the copy that survives a crash; NULL: none can be kept */
 };
 
 /* Opens a scene (as ceduo_scene_read()). False with the reason in `problems`. */
@@ -45,8 +45,7 @@ bool ceduo_document_delete(struct document *document, const char *path, struct p
 bool ceduo_document_duplicate(struct document *document, const char *list, size_t index, struct problems *problems);
 bool ceduo_document_insert(struct document *document, const char *list, size_t index, const char *text,
                            struct problems *problems);
-bool ceduo_document_move(struct document *document, const char *list, size_t from, size_t to,
-                         struct problems *problems);
+bool ceduo_document_move(struct document *document, const char *list, size_t from, size_t to, struct problems *problems);
 /* A new option after the last: the belts of the first with `stand` in each. A scene that has only a forest gets options
  * first, "current" the first of them. */
 bool ceduo_document_add_option(struct document *document, const char *stand, struct problems *problems);
@@ -63,8 +62,8 @@ bool ceduo_document_set_all(struct document *document, const char *const *sets, 
                             struct problems *problems);
 
 /* A copy of item `list[index]` after it, and a change (PATH=VALUE) to each of the two. */
-bool ceduo_document_split(struct document *document, const char *list, size_t index, const char *first,
-                          const char *second, struct problems *problems);
+bool ceduo_document_split(struct document *document, const char *list, size_t index, const char *first, const char *second,
+                          struct problems *problems);
 /* A vertex ([x, z]) within segment `index` of the slope, both parts of the same ground. `apart`: of a ground that was one for
  * all segments each gets its own. */
 bool ceduo_document_split_segment(struct document *document, size_t index, const char *vertex, bool apart,
@@ -106,8 +105,7 @@ const struct node *ceduo_document_node(const struct document *document, const ch
 
 /* Makes `root` the scene and adds it as a new state. Returns false and changes nothing if `root` is not a valid scene, or
  * is NULL: then an edit failed, for want of memory unless there is a problem already. */
-bool ceduo_document_commit(struct document *document, const struct node *root, const char *what,
-                           struct problems *problems);
+bool ceduo_document_commit(struct document *document, const struct node *root, const char *what, struct problems *problems);
 
 /* Parses YAML that was typed or read; `name` appears in messages. NULL with the reason in `problems`. */
 const struct node *ceduo_document_parse(struct document *document, const char *name, const char *text,

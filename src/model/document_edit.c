@@ -86,8 +86,7 @@ static const struct node *shift_doubts(struct document *d, const struct node *ro
 
 /* root without the entry of a mapping or the item of a list. A list that is empty then is taken out whole, unless it is
  * that of options: `*path` is what was taken out. */
-static const struct node *without(struct document *d, const struct node *root, const char **path,
-                                  struct problems *problems)
+static const struct node *without(struct document *d, const struct node *root, const char **path, struct problems *problems)
 {
     char *parent, *last;
     if (!split_path(d, *path, &parent, &last))
@@ -128,8 +127,7 @@ static const struct node *with_item(struct document *d, const struct node *root,
 }
 
 /* root with PATH=VALUE, or PATH:=VALUE, or without PATH. */
-static const struct node *with_set(struct document *d, const struct node *root, const char *set,
-                                   struct problems *problems)
+static const struct node *with_set(struct document *d, const struct node *root, const char *set, struct problems *problems)
 {
     const char *equals = strchr(set, '=');
     if (!equals)
@@ -151,8 +149,7 @@ bool ceduo_document_set(struct document *d, const char *path, const char *value,
     return node && ceduo_document_commit(d, put(d, d->file.root, path, node, problems), path, problems);
 }
 
-bool ceduo_document_set_all(struct document *d, const char *const *sets, size_t n, const char *what,
-                            struct problems *problems)
+bool ceduo_document_set_all(struct document *d, const char *const *sets, size_t n, const char *what, struct problems *problems)
 {
     const struct node *root = d->file.root;
     for (size_t i = 0; root && i < n; i++)
@@ -168,12 +165,10 @@ bool ceduo_document_delete(struct document *d, const char *path, struct problems
 
 /* ---- lists ---- */
 
-bool ceduo_document_insert(struct document *d, const char *list, size_t index, const char *text,
-                           struct problems *problems)
+bool ceduo_document_insert(struct document *d, const char *list, size_t index, const char *text, struct problems *problems)
 {
     const struct node *item = ceduo_document_parse(d, list, text, problems);
-    return item &&
-           ceduo_document_commit(d, with_item(d, d->file.root, list, index, item, problems), list, problems);
+    return item && ceduo_document_commit(d, with_item(d, d->file.root, list, index, item, problems), list, problems);
 }
 
 /* Bytes of a name without the number of a copy, " (2)", and that number: 1 where there is none. A larger one is a year. */
@@ -259,8 +254,7 @@ static const struct node *with_grounds(struct document *d, const struct node *ro
     return root;
 }
 
-bool ceduo_document_split_segment(struct document *d, size_t index, const char *vertex, bool apart,
-                                  struct problems *problems)
+bool ceduo_document_split_segment(struct document *d, size_t index, const char *vertex, bool apart, struct problems *problems)
 {
     const struct node *item = ceduo_document_parse(d, vertices_list, vertex, problems);
     const struct node *root = with_item(d, d->file.root, vertices_list, index + 1, item, problems);
@@ -324,8 +318,8 @@ bool ceduo_document_add_option(struct document *d, const char *stand, struct pro
     struct text yaml = {0};
     ceduo_text_format(&yaml, "{name: \"%s\", forest: [", stand);
     for (size_t i = 0; i < first->belts_count; i++)
-        ceduo_text_format(&yaml, "%s{from_m: %.10g, to_m: %.10g, stand: %s}", i ? ", " : "",
-                          first->belts[i].from_given, first->belts[i].to_given, stand);
+        ceduo_text_format(&yaml, "%s{from_m: %.10g, to_m: %.10g, stand: %s}", i ? ", " : "", first->belts[i].from_given,
+                          first->belts[i].to_given, stand);
     if (first->belts_count == 0)
         ceduo_text_format(&yaml, "{from_m: %.10g, to_m: %.10g, stand: %s}", d->file.scene.slope.origin_x, c->x_given, stand);
     ceduo_text_put(&yaml, "]}");
@@ -343,7 +337,8 @@ bool ceduo_document_copy_option(struct document *d, size_t index, struct problem
     const struct node *root = with_options(d, d->file.root, problems);
     const struct node *list = root ? ceduo_node_get(root, "options") : NULL;
     const struct node *item = list && index < list->n ? with_new_name(d, list, list->items[index]) : NULL;
-    return ceduo_document_commit(d, item ? with_item(d, root, "options", index + 1, item, problems) : NULL, "options", problems);
+    return ceduo_document_commit(d, item ? with_item(d, root, "options", index + 1, item, problems) : NULL, "options",
+                                 problems);
 }
 
 /* A node with every `option: old` in it as `name`; NULL without memory. */

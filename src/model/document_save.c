@@ -73,8 +73,7 @@ bool ceduo_document_changed_on_disk(const struct document *d)
         return false;
     if (stat(d->path, &st) != 0)
         return errno == ENOENT;
-    return st.st_size != d->size || st.st_mtim.tv_sec != d->modified.tv_sec ||
-           st.st_mtim.tv_nsec != d->modified.tv_nsec;
+    return st.st_size != d->size || st.st_mtim.tv_sec != d->modified.tv_sec || st.st_mtim.tv_nsec != d->modified.tv_nsec;
 }
 
 /* ---- saving ---- */
@@ -107,15 +106,15 @@ static const struct node *draws_from(struct document *d, const struct node *node
     bool beside = now && then && ceduo_file_same(now, then);
     const struct node *scalar = beside ? ceduo_node_scalar(&d->file.arena, node->source, name, false) : NULL;
     ceduo_arena_free(&found);
-    return beside ? (scalar ? ceduo_node_renamed(&d->file.arena, scalar, node->key) : NULL) : reference_from(d, node, "scenes", to);
+    return beside ? (scalar ? ceduo_node_renamed(&d->file.arena, scalar, node->key) : NULL)
+                  : reference_from(d, node, "scenes", to);
 }
 
 /* All paths of an unresolved tree, for a scene that lies at `to`. */
 static const struct node *references_from(struct document *d, const struct node *node, const char *to)
 {
-    static const char *const keys[][2] = {{"slope", "slopes"}, {"stand", "stands"},  {"base", "stands"},
-                                          {"csv", "slopes"},   {"x_m", "scenes"},    {"values", "scenes"},
-                                          {"height_m", "scenes"}};
+    static const char *const keys[][2] = {{"slope", "slopes"}, {"stand", "stands"},  {"base", "stands"},    {"csv", "slopes"},
+                                          {"x_m", "scenes"},   {"values", "scenes"}, {"height_m", "scenes"}};
     double number; /* the last three may be a table of what was seen */
     bool path = node->kind == NODE_SCALAR && node->key && ceduo_number_read(node->text, &number) == CEDUO_NUMBER_NONE;
     for (size_t i = 0; i < sizeof keys / sizeof keys[0] && path; i++)
@@ -137,8 +136,7 @@ static bool has_own_layout(const struct node *raw)
 {
     struct text text = {0};
     ceduo_emit(&text, raw);
-    bool same = !text.failed && text.length == raw->source->length &&
-                memcmp(text.bytes, raw->source->bytes, text.length) == 0;
+    bool same = !text.failed && text.length == raw->source->length && memcmp(text.bytes, raw->source->bytes, text.length) == 0;
     ceduo_text_free(&text);
     return same;
 }

@@ -33,8 +33,7 @@ static const struct node *with_index(struct arena *arena, const struct node *row
     return with_path(arena, row, &path);
 }
 
-const struct node *ceduo_doubt_shifted(struct arena *arena, const struct node *root, const char *list, size_t index,
-                                       int by)
+const struct node *ceduo_doubt_shifted(struct arena *arena, const struct node *root, const char *list, size_t index, int by)
 {
     const struct node *rows = ceduo_node_get(root, "doubt"), *left = rows;
     if (!root || !rows || rows->kind != NODE_LIST)

@@ -9,8 +9,7 @@
 
 /* The scene with the rows about items of a list where these are once an item was put in before `index` (by 1) or that item
  * was taken out (by -1), whose rows go with it. NULL without memory, or for NULL. */
-const struct node *ceduo_doubt_shifted(struct arena *arena, const struct node *root, const char *list, size_t index,
-                                       int by);
+const struct node *ceduo_doubt_shifted(struct arena *arena, const struct node *root, const char *list, size_t index, int by);
 
 /* The same once an item was moved from one place of the list to another. */
 const struct node *ceduo_doubt_moved(struct arena *arena, const struct node *root, const char *list, size_t from, size_t to);

@@ -8,8 +8,8 @@ static const struct {
     uint64_t rocks;
 } levels[DOUBT_LEVELS] = {{8, 4, 100}, {32, 8, 400}, {64, 32, 1000}};
 
-enum ceduo_status ceduo_doubted_make(const struct scene_file *file, size_t level, unsigned threads,
-                                     const atomic_bool *cancel, struct doubted **doubted)
+enum ceduo_status ceduo_doubted_make(const struct scene_file *file, size_t level, unsigned threads, const atomic_bool *cancel,
+                                     struct doubted **doubted)
 {
     struct scene_file own = *file;
     struct doubted *d = calloc(1, sizeof *d);

@@ -19,8 +19,8 @@ struct doubted {
 
 /* Computes one level. `file` must have an arena of its own, which is the answer's from then on, whatever comes of it.
  * CEDUO_CANCELLED, CEDUO_NO_MEMORY: *doubted is NULL. */
-enum ceduo_status ceduo_doubted_make(const struct scene_file *file, size_t level, unsigned threads,
-                                     const atomic_bool *cancel, struct doubted **doubted);
+enum ceduo_status ceduo_doubted_make(const struct scene_file *file, size_t level, unsigned threads, const atomic_bool *cancel,
+                                     struct doubted **doubted);
 void ceduo_doubted_free(struct doubted *doubted);
 
 #endif

@@ -15,9 +15,8 @@
 /* mu acts through the shape of the rock, in one law; only rocks of two shapes tell it. */
 static bool is_told(const struct scene_file *file, const struct field *field)
 {
-    const struct ceduo_calibration_scene scene = {.observations_count = file->observations_count,
-                                                  .observations = file->observations,
-                                                  .scene = &file->scene};
+    const struct ceduo_calibration_scene scene = {
+        .observations_count = file->observations_count, .observations = file->observations, .scene = &file->scene};
     return strcmp(field->key, "mu") != 0 ||
            (file->scene.simulation.law == CEDUO_LAW_ARM && ceduo_calibration_tells_mu(&scene, 1));
 }

@@ -15,7 +15,7 @@ struct fit_wish {
     char paths[CEDUO_CALIBRATION_MOST][FIT_PATH_ROOM];
     const struct field *fields[CEDUO_CALIBRATION_MOST];
     double lo[CEDUO_CALIBRATION_MOST], hi[CEDUO_CALIBRATION_MOST]; /* in the unit of the file */
-    uint64_t rocks; /* of each evaluation */
+    uint64_t rocks;                                                /* of each evaluation */
 };
 
 struct fit {

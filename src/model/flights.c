@@ -81,8 +81,7 @@ static bool precise(const struct ceduo_outlook *o)
 }
 
 /* Hands over what is known so far; what has not changed is shared with what is kept. */
-static enum ceduo_status hand_over(struct flights *f, const struct ceduo_scene *scene, flights_publish *publish,
-                                   void *context)
+static enum ceduo_status hand_over(struct flights *f, const struct ceduo_scene *scene, flights_publish *publish, void *context)
 {
     struct ceduo_outlook *mine, *theirs;
     struct ceduo_outlook_def def = {.scene = scene,
@@ -114,8 +113,8 @@ static enum ceduo_status fly_forest(struct flights *f, const struct ceduo_option
 }
 
 /* Hands over after each forest: once something is known it is shown with its own error until better is known. */
-enum ceduo_status ceduo_flights_figures(struct flights *f, const struct ceduo_scene *scene, size_t shown,
-                                        uint64_t rocks, flights_publish *publish, void *context, bool *enough)
+enum ceduo_status ceduo_flights_figures(struct flights *f, const struct ceduo_scene *scene, size_t shown, uint64_t rocks,
+                                        flights_publish *publish, void *context, bool *enough)
 {
     bool wooded = scene->simulation.contact_model != CEDUO_INDEX;
     enum ceduo_status status = turn(f, scene);
@@ -193,8 +192,7 @@ enum ceduo_status ceduo_flights_years(struct flights *f, const struct ceduo_scen
     const struct ceduo_option *o = &scene->options[option];
     enum ceduo_status status = turn(f, scene);
     if (status == CEDUO_OK)
-        status = f->last && f->last->bare ? ceduo_years_create(scene, o, ceduo_window_in(scene, o), years)
-                                          : CEDUO_NO_MEMORY;
+        status = f->last && f->last->bare ? ceduo_years_create(scene, o, ceduo_window_in(scene, o), years) : CEDUO_NO_MEMORY;
     if (status == CEDUO_OK)
         status = ceduo_years_fly(*years, f->years, &f->last->bare->flown, rocks);
     if (status == CEDUO_OK)

@@ -24,8 +24,8 @@ typedef void flights_publish(void *context, struct ceduo_outlook *outlook);
 
 /* One step of the figures: so many rocks without forest and through every option, that of `shown` first. `*enough`: no
  * finer step is needed. CEDUO_CANCELLED: the next call continues. */
-enum ceduo_status ceduo_flights_figures(struct flights *flights, const struct ceduo_scene *scene, size_t shown,
-                                        uint64_t rocks, flights_publish *publish, void *context, bool *enough);
+enum ceduo_status ceduo_flights_figures(struct flights *flights, const struct ceduo_scene *scene, size_t shown, uint64_t rocks,
+                                        flights_publish *publish, void *context, bool *enough);
 
 /* One step of the other energy law: so many rocks through every option under it. To `others`, one for each option and
  * control, in rows by option. */
@@ -36,7 +36,7 @@ enum ceduo_status ceduo_flights_others(struct flights *flights, const struct ced
 uint64_t ceduo_flights_years_key(const struct ceduo_scene *scene, size_t option);
 
 /* One step of the years of an option, which keep that number. A step of the figures goes before it. */
-enum ceduo_status ceduo_flights_years(struct flights *flights, const struct ceduo_scene *scene, size_t option,
-                                      uint64_t rocks, struct ceduo_years **years);
+enum ceduo_status ceduo_flights_years(struct flights *flights, const struct ceduo_scene *scene, size_t option, uint64_t rocks,
+                                      struct ceduo_years **years);
 
 #endif

@@ -86,8 +86,8 @@ static void move_neighbour(struct changes *c, const struct place *place, bool to
                           end);
     snprintf(path, sizeof path, "%.190s[%zu].%s", place->list, other, to ? "from_m" : "to_m");
     ceduo_changes_add(c, "%s=%s", path, ceduo_number_shortest(now, room));
-    ceduo_text_format(&c->followed,
-                      to ? _("what comes next begins at %s m now") : _("what comes before ends at %s m now"), room);
+    ceduo_text_format(&c->followed, to ? _("what comes next begins at %s m now") : _("what comes before ends at %s m now"),
+                      room);
 }
 
 static void follow_border(struct changes *c, const char *path, double now)
@@ -167,8 +167,9 @@ static void follow_diameter(struct changes *c, const char *path, const struct ce
 static void compare_standards(struct changes *c, const struct ceduo_stand *s, double stand, double stay, bool today)
 {
     if (s->cutting.rotation > 0 && fabs(stand - stay) > 0.5)
-        ceduo_text_format(&c->followed, today ? _("a cut still leaves %g trees per ha: see 'trees that stay'")
-                                              : _("today %g trees per ha stand: see 'single trees'"),
+        ceduo_text_format(&c->followed,
+                          today ? _("a cut still leaves %g trees per ha: see 'trees that stay'")
+                                : _("today %g trees per ha stand: see 'single trees'"),
                           today ? stay : stand);
 }
 

@@ -106,8 +106,7 @@ static enum ceduo_status step_others(struct jobs *q, struct job *job)
 {
     size_t options = job->scene.options_count, controls = job->scene.controls_count;
     struct ceduo_other_energy *others = calloc(options * controls + 1, sizeof *others);
-    enum ceduo_status status =
-        others ? ceduo_flights_others(q->flights, &job->scene, job->rocks, others) : CEDUO_NO_MEMORY;
+    enum ceduo_status status = others ? ceduo_flights_others(q->flights, &job->scene, job->rocks, others) : CEDUO_NO_MEMORY;
     job->wanted = job->rocks < FLIGHTS_OTHERS;
     if (status != CEDUO_OK || !lock_result(q, OTHERS, job->number)) {
         free(others);

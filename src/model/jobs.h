@@ -51,8 +51,8 @@ void ceduo_jobs_stop_fit(struct jobs *jobs);
 /* What a search came to. */
 struct sought {
     enum ceduo_status status;
-    double target; /* that was looked for */
-    bool rotation; /* it looked at one whole rotation */
+    double target;            /* that was looked for */
+    bool rotation;            /* it looked at one whole rotation */
     struct ceduo_yield yield; /* at that value */
     struct ceduo_found found;
     struct problems problems;
@@ -63,27 +63,27 @@ void ceduo_sought_free(struct sought *sought);
 int ceduo_jobs_fd(const struct jobs *jobs);
 
 struct jobs_news {
-    struct ceduo_outlook *outlook; /* newest, NULL where none is new; the caller's from now on */
-    uint64_t key;                  /* of its scene: ceduo_jobs_key() */
-    double seconds;                /* from the request to it */
-    struct ceduo_years **years;    /* newest of each option, as far as there are new ones; NULL: there are none. The
+    struct ceduo_outlook *outlook;     /* newest, NULL where none is new; the caller's from now on */
+    uint64_t key;                      /* of its scene: ceduo_jobs_key() */
+    double seconds;                    /* from the request to it */
+    struct ceduo_years **years;        /* newest of each option, as far as there are new ones; NULL: there are none. The
                                     * caller's from now on */
-    size_t years_count;            /* options */
+    size_t years_count;                /* options */
     struct ceduo_other_energy *others; /* newest under the other energy law, one for each option and control, in rows by
                                         * option; NULL: none are new. The caller's from now on */
     size_t others_options, others_controls;
-    struct doubted *doubted;       /* newest; NULL: none is new. The caller's from now on */
-    struct sighted *sighted;       /* likewise */
-    struct fit *fit;               /* likewise: it is done */
-    bool fitting;                  /* a fit is under way, and has come so far: */
+    struct doubted *doubted; /* newest; NULL: none is new. The caller's from now on */
+    struct sighted *sighted; /* likewise */
+    struct fit *fit;         /* likewise: it is done */
+    bool fitting;            /* a fit is under way, and has come so far: */
     struct ceduo_calibration_state fit_state;
-    size_t done, all;              /* of the step under way in the years: options, of so many; all 0: none is */
-    uint64_t rocks;                /* of each run of that step, or of the figures' */
-    struct sought *sought;         /* NULL: none is done; the caller's from now on */
-    bool foresaw;                  /* what a change would do is known: */
+    size_t done, all;      /* of the step under way in the years: options, of so many; all 0: none is */
+    uint64_t rocks;        /* of each run of that step, or of the figures' */
+    struct sought *sought; /* NULL: none is done; the caller's from now on */
+    bool foresaw;          /* what a change would do is known: */
     struct foreseen foreseen;
-    bool busy;                     /* some job is not done */
-    bool failed;                   /* out of memory */
+    bool busy;   /* some job is not done */
+    bool failed; /* out of memory */
 };
 struct jobs_news ceduo_jobs_news(struct jobs *jobs);
 void ceduo_jobs_free_years(struct ceduo_years **years, size_t n);

@@ -77,9 +77,8 @@ static enum ceduo_status goal_at(void *context, double value, double *goal)
     q.years = search->rotation;
     enum ceduo_status status = ceduo_ask(&q, &s->pool, &answer);
     if (status == CEDUO_OK)
-        *goal = !search->rotation
-                    ? ceduo_goal_reached(search->goal, answer.result, search->option)
-                    : ceduo_goal_over_years(search->goal, answer.years[search->option], &answer.result->bare);
+        *goal = !search->rotation ? ceduo_goal_reached(search->goal, answer.result, search->option)
+                                  : ceduo_goal_over_years(search->goal, answer.years[search->option], &answer.result->bare);
     ceduo_answer_release(&answer);
     return status;
 }
@@ -118,13 +117,11 @@ static bool is_askable(const struct seek *s, struct problems *problems)
     bool needs_accepted = s->search.goal == CEDUO_GOAL_EXCEED;
     for (size_t c = 0; needs_accepted && c < s->file->scene.controls_count; c++)
         if (isnan(s->file->scene.controls[c].accepted)) {
-            ceduo_problem(problems, &goal_source, 0, 0,
-                          _("exceed: controls[%zu] has no accepted_kJ; add it"), c);
+            ceduo_problem(problems, &goal_source, 0, 0, _("exceed: controls[%zu] has no accepted_kJ; add it"), c);
             return false;
         }
     if (needs_accepted && s->file->scene.simulation.contact_model == CEDUO_INDEX) {
-        ceduo_problem(problems, &goal_source, 0, 0,
-                      _("exceed: with contact_model index no rock is simulated in the forest"));
+        ceduo_problem(problems, &goal_source, 0, 0, _("exceed: with contact_model index no rock is simulated in the forest"));
         return false;
     }
     return true;
@@ -142,8 +139,7 @@ enum ceduo_status ceduo_seek(struct seek *seek, struct ceduo_found *found, struc
     struct ceduo_find_def def = {.lo = search->lo,
                                  .hi = search->hi,
                                  .whole = is_whole(field_at(search->path)),
-                                 .target =
-                                     ceduo_goals[search->goal].below ? nextafter(search->target, 0) : search->target,
+                                 .target = ceduo_goals[search->goal].below ? nextafter(search->target, 0) : search->target,
                                  .goal = goal_at,
                                  .context = &s,
                                  .tolerance = 1e-4,

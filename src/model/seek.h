@@ -3,9 +3,9 @@
 #define CEDUO_SEEK_H
 
 #include "ceduo/find.h"
+#include "ceduo/yield.h"
 #include "io/scene_file.h"
 #include "study/goal.h"
-#include "ceduo/yield.h"
 
 /* The value of one parameter of a scene for which one option reaches a goal at its worst control: reserves per ha, a
  * rotation, the length of a belt … Every value is tried with the same rocks, so that the answer is the same each

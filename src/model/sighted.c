@@ -52,9 +52,8 @@ enum ceduo_status ceduo_sighted_make(const struct scene_file *file, size_t level
     *s = (struct sighted){.file = *file, .rocks = levels[level]};
     s->predicted = calloc(file->observations_count + 1, sizeof *s->predicted);
     s->stops = calloc(file->observations_count + 1, sizeof *s->stops);
-    const struct ceduo_calibration_scene scene = {.scene = &s->file.scene,
-                                                  .observations_count = file->observations_count,
-                                                  .observations = file->observations};
+    const struct ceduo_calibration_scene scene = {
+        .scene = &s->file.scene, .observations_count = file->observations_count, .observations = file->observations};
     enum ceduo_status status = s->predicted && s->stops ? CEDUO_OK : CEDUO_NO_MEMORY;
     if (status == CEDUO_OK)
         status = ceduo_calibration_as_it_is(&scene, s->rocks, cancel, s->predicted);

@@ -10,10 +10,10 @@
 #define SIGHT_LEVELS 2
 
 struct sighted {
-    struct scene_file file; /* as it was; its nodes are the document's */
-    uint64_t rocks;         /* of each setting */
+    struct scene_file file;            /* as it was; its nodes are the document's */
+    uint64_t rocks;                    /* of each setting */
     struct ceduo_predicted *predicted; /* one for each observation */
-    struct ceduo_seen_stops *stops; /* likewise: empty for all that is no list of stops */
+    struct ceduo_seen_stops *stops;    /* likewise: empty for all that is no list of stops */
 };
 
 /* Computes one level. `file` must have an arena of its own, which is the answer's from then on, whatever comes of it.

@@ -5,7 +5,7 @@
 
 #include "base/elementary.h"
 
-#define CUT_SD 3.0 /* a normal law is cut here */
+#define CUT_SD    3.0                   /* a normal law is cut here */
 #define BELOW_CUT 0.0013498980316300946 /* chance of less than -CUT_SD */
 
 struct ceduo_number ceduo_number(double mean)

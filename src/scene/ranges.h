@@ -8,12 +8,12 @@
 
 /* How far a value that is only assumed may be from what is true, if the scene does not say it. */
 struct range {
-    const char *path;            /* of such a value */
+    const char *path; /* of such a value */
     enum ceduo_input_kind kind;
-    double lo, hi;               /* as in struct ceduo_input; unused for words */
-    const char *words[3];        /* CEDUO_INPUT_WORDS: each; NULL behind the last */
-    const char *source;          /* where the range comes from; marked for translation */
-    const char *measured;        /* what would measure the value; marked for translation; NULL: nothing can */
+    double lo, hi;        /* as in struct ceduo_input; unused for words */
+    const char *words[3]; /* CEDUO_INPUT_WORDS: each; NULL behind the last */
+    const char *source;   /* where the range comes from; marked for translation */
+    const char *measured; /* what would measure the value; marked for translation; NULL: nothing can */
 };
 
 /* All rows, for the manual. */

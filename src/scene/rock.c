@@ -107,7 +107,8 @@ enum ceduo_status ceduo_rock_of_means(const struct ceduo_rock_def *def, struct c
 struct ceduo_rock ceduo_rock_mean(const struct ceduo_rock_def *def)
 {
     struct ceduo_rock rock;
-    return ceduo_rock_of_means(def, &rock) == CEDUO_OK ? rock : (struct ceduo_rock){NAN, NAN, NAN, NAN, NAN, NAN, {NAN, NAN, NAN}};
+    return ceduo_rock_of_means(def, &rock) == CEDUO_OK ? rock
+                                                       : (struct ceduo_rock){NAN, NAN, NAN, NAN, NAN, NAN, {NAN, NAN, NAN}};
 }
 
 bool ceduo_rock_varies(const struct ceduo_rock_def *def)

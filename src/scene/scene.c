@@ -5,8 +5,7 @@
 
 static bool is_good_class(const struct ceduo_block_class *b)
 {
-    return b->volumes_count == 2 && b->volumes[0] > 0 && b->volumes[1] > b->volumes[0] && b->per_year > 0 &&
-           b->exponent >= 0;
+    return b->volumes_count == 2 && b->volumes[0] > 0 && b->volumes[1] > b->volumes[0] && b->per_year > 0 && b->exponent >= 0;
 }
 
 enum ceduo_status ceduo_scene_check(const struct ceduo_scene *scene, size_t *where)

@@ -167,8 +167,8 @@ bool ceduo_schema_range_text(const struct field *f, struct text *text)
     if (low)
         ceduo_text_format(text, "%.5g", f->lo);
     if (high)
-        ceduo_text_format(text, f->hi > 1e15 ? "\xe2\x80\xa6%s%.17g" : "\xe2\x80\xa6%s%.5g",
-                          f->flags & FIELD_UNDER ? "<" : "", f->hi);
+        ceduo_text_format(text, f->hi > 1e15 ? "\xe2\x80\xa6%s%.17g" : "\xe2\x80\xa6%s%.5g", f->flags & FIELD_UNDER ? "<" : "",
+                          f->hi);
     return low || high;
 }
 

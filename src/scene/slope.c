@@ -50,8 +50,8 @@ static bool good_segment(const struct ceduo_segment *s)
 {
     bool rough = isnan(s->roughness_m) ? s->roughness_rad >= 0 && s->roughness_rad < M_PI_2
                                        : s->roughness_m >= 0 && isnan(s->roughness_rad);
-    return rough && unit_interval(s->rn) && unit_interval(s->rt) && s->friction >= 0 && isfinite(s->friction) &&
-           s->mu >= 0 && isfinite(s->mu);
+    return rough && unit_interval(s->rn) && unit_interval(s->rt) && s->friction >= 0 && isfinite(s->friction) && s->mu >= 0 &&
+           isfinite(s->mu);
 }
 
 enum ceduo_status ceduo_slope_check(const struct ceduo_slope *slope)

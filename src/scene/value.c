@@ -167,12 +167,8 @@ static bool find_number(struct finder *f, const struct field *field, struct valu
 
 bool ceduo_value_find(struct ceduo_scene *scene, const char *path, struct value *value)
 {
-    struct finder f = {.scene = scene,
-                       .path = path,
-                       .length = strlen(path),
-                       .object = ceduo_schema_scene(),
-                       .item = (char *)scene,
-                       .n = 1};
+    struct finder f = {
+        .scene = scene, .path = path, .length = strlen(path), .object = ceduo_schema_scene(), .item = (char *)scene, .n = 1};
     const struct field *field = find_leaf(&f);
     return field && !(field->flags & (FIELD_NOWHERE | FIELD_DRAFT)) && find_number(&f, field, value);
 }

@@ -10,10 +10,10 @@
  * inside its rectangle of dbh and height, beyond it with the form factor of its nearest point, so that a volume has no jump
  * (assumed); without a species form factor × basal area × height. */
 struct stem_volume {
-    double given;      /* m3, of the mean stem; NaN: not given */
-    double squares;    /* m2: the mean of dbh2 */
-    double dbh;        /* m, of the mean stem */
-    double height;     /* m */
+    double given;                        /* m3, of the mean stem; NaN: not given */
+    double squares;                      /* m2: the mean of dbh2 */
+    double dbh;                          /* m, of the mean stem */
+    double height;                       /* m */
     const struct ceduo_species *species; /* NULL: not said */
 };
 

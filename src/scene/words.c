@@ -7,8 +7,8 @@
 #include "ceduo/scene.h"
 
 /* One list of words for each X-macro; those of species and materials stand beside their rows. */
-#define WORDS(name, LIST)                                     \
-    static const char *const name##_names[] = {LIST(X_WORD)}; \
+#define WORDS(name, LIST)                                                                                                      \
+    static const char *const name##_names[] = {LIST(X_WORD)};                                                                  \
     const struct choices ceduo_##name##_words = {name##_names, sizeof name##_names / sizeof name##_names[0]}
 #define X_WORD(NAME, word) word,
 

@@ -18,13 +18,14 @@
 #include "chains.h"
 #include "fitting.h"
 
-#define POINTS      256
-#define REFINED     3    /* simplex starts */
-#define FAR_OUT     9    /* |y| beyond which u is a bound, for the simplex */
-#define SIMPLEX     0.5  /* size of the first one, in y */
-#define SMALL       0.02 /* of the last */
-#define FIRST_STEP  0.3  /* of a chain */
-#define FLATTER     0.7  /* times the guess: its tails are to reach farther than those of the density, or chains get stuck there */
+#define POINTS     256
+#define REFINED    3    /* simplex starts */
+#define FAR_OUT    9    /* |y| beyond which u is a bound, for the simplex */
+#define SIMPLEX    0.5  /* size of the first one, in y */
+#define SMALL      0.02 /* of the last */
+#define FIRST_STEP 0.3  /* of a chain */
+/* times the guess: its tails are to reach farther than those of the density, or chains get stuck there */
+#define FLATTER     0.7
 #define STEPS_LEAST 250
 #define STEPS_MOST  8000
 #define NEAR_BOUND  0.02 /* of the bounds: a best value there lies at a bound, */

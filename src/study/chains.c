@@ -30,7 +30,7 @@ struct work {
     const struct chains_def *def;
     struct chains *chains;
     struct walk walks[CEDUO_CHAINS_MOST];
-    gsl_matrix *root; /* lower triangle: of the covariance of steps */
+    gsl_matrix *root;                         /* lower triangle: of the covariance of steps */
     gsl_matrix *proposals, *normals, *trials; /* a row for each chain */
     double factor;
     bool guessing;
@@ -111,8 +111,8 @@ static void *walk_chains(void *context)
     int good = CEDUO_OK, status = CEDUO_OK;
     for (size_t c; status == CEDUO_OK && (c = atomic_fetch_add(&w->next, 1)) < w->def->chains;)
         for (size_t i = 0; i < CEDUO_CHAINS_ROUND && status == CEDUO_OK && atomic_load(&w->status) == CEDUO_OK; i++)
-            status = (int)step_on(w, c, w->chains->steps + i, w->chains->tried_density + w->chains->tried_count +
-                                                                  c * CEDUO_CHAINS_ROUND + i);
+            status = (int)step_on(w, c, w->chains->steps + i,
+                                  w->chains->tried_density + w->chains->tried_count + c * CEDUO_CHAINS_ROUND + i);
     if (status != CEDUO_OK)
         atomic_compare_exchange_strong(&w->status, &good, status);
     return NULL;
@@ -176,8 +176,7 @@ static enum ceduo_status learn(struct work *w)
     bool now = w->rounds < 8 || (w->rounds & (w->rounds - 1)) == 0;
     if (!def->guess || !now)
         return CEDUO_OK;
-    enum ceduo_status status =
-        def->learn(def->context, w->chains->tried, w->chains->tried_density, w->chains->tried_count);
+    enum ceduo_status status = def->learn(def->context, w->chains->tried, w->chains->tried_density, w->chains->tried_count);
     w->guessing = true;
     for (size_t c = 0; c < def->chains && status == CEDUO_OK; c++)
         w->walks[c].guess = def->guess(def->context, draw_at(w->chains, c, w->chains->steps - 1));
@@ -272,8 +271,7 @@ static enum ceduo_status end(struct work *w, enum ceduo_status status)
 enum ceduo_status ceduo_chains_run(const struct chains_def *def, struct chains *chains)
 {
     struct work w = {.def = def, .chains = chains};
-    *chains = (struct chains){
-        .dimensions = def->dimensions, .chains = def->chains, .rhat = NAN, .effective_size = NAN};
+    *chains = (struct chains){.dimensions = def->dimensions, .chains = def->chains, .rhat = NAN, .effective_size = NAN};
     atomic_init(&w.next, 0);
     atomic_init(&w.status, CEDUO_OK);
     enum ceduo_status status = begin(&w);

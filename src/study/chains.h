@@ -15,8 +15,8 @@
  * the density decides where the guess was wrong (delayed acceptance: Liu 2001, 9.4.3; Christen and Fox 2005). The draws of the
  * first half are not read. Bits do not depend on the number of threads. */
 
-#define CEDUO_CHAINS_MOST     8
-#define CEDUO_CHAINS_ROUND    50 /* steps between two looks at all chains */
+#define CEDUO_CHAINS_MOST  8
+#define CEDUO_CHAINS_ROUND 50 /* steps between two looks at all chains */
 
 struct chains_def {
     size_t dimensions, chains;
@@ -38,10 +38,10 @@ struct chains_def {
 
 struct chains {
     size_t dimensions, chains, steps, room;
-    double *x;       /* [chain][room][dimension] */
+    double *x; /* [chain][room][dimension] */
     size_t tried_count;
     double *tried, *tried_density; /* proposals: [round][chain][step][dimension] */
-    double rhat, effective_size; /* the worst of all dimensions; NaN before two rounds */
+    double rhat, effective_size;   /* the worst of all dimensions; NaN before two rounds */
     bool settled;
 };
 

@@ -14,8 +14,8 @@
 #include "ceduo/question.h"
 #include "doubt_plan.h"
 
-#define GROUPS CEDUO_SENSITIVITY_GROUPS
-#define COARSE       4 /* times fewer rocks in a first look, */
+#define GROUPS       CEDUO_SENSITIVITY_GROUPS
+#define COARSE       4  /* times fewer rocks in a first look, */
 #define COARSE_LEAST 50 /* but so many */
 
 static const struct ceduo_arrivals *arrivals_of(const struct ceduo_result *r, size_t option)
@@ -50,7 +50,8 @@ struct ranked {
 static int heavier_first(const void *a, const void *b)
 {
     const struct ranked *x = a, *y = b;
-    return x->weight != y->weight ? (x->weight < y->weight) - (x->weight > y->weight) : (x->input > y->input) - (x->input < y->input);
+    return x->weight != y->weight ? (x->weight < y->weight) - (x->weight > y->weight)
+                                  : (x->input > y->input) - (x->input < y->input);
 }
 
 /* Ranks the inputs in lots of as many as a design has groups, all others moving together beside them, and gives the
@@ -448,8 +449,8 @@ static size_t items_before(const struct plan *p, uint64_t part, uint64_t parts)
     return (size_t)(ceduo_plan_items(p) * part / parts);
 }
 
-enum ceduo_status ceduo_doubt_ask_part(const struct ceduo_doubt_def *def, uint64_t part, uint64_t parts,
-                                       unsigned char **bytes, size_t *n)
+enum ceduo_status ceduo_doubt_ask_part(const struct ceduo_doubt_def *def, uint64_t part, uint64_t parts, unsigned char **bytes,
+                                       size_t *n)
 {
     struct ceduo_doubt_answer answer;
     struct inquiry q;

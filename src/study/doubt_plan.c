@@ -88,8 +88,8 @@ static void read_lights(const struct ceduo_scene *scene, size_t option, struct c
     }
 }
 
-static enum ceduo_status evaluate(const struct ceduo_doubt_def *def, const struct ceduo_scene *scene,
-                                  struct memory *memory, struct ceduo_halves *values)
+static enum ceduo_status evaluate(const struct ceduo_doubt_def *def, const struct ceduo_scene *scene, struct memory *memory,
+                                  struct ceduo_halves *values)
 {
     size_t options = scene->options_count;
     uint64_t key = ceduo_scene_key(scene);
@@ -228,8 +228,8 @@ static void *run_items(void *context)
     return NULL;
 }
 
-enum ceduo_status ceduo_plan_run(const struct ceduo_doubt_def *def, struct plan *p, size_t from, size_t to,
-                                 uint64_t *done, uint64_t all)
+enum ceduo_status ceduo_plan_run(const struct ceduo_doubt_def *def, struct plan *p, size_t from, size_t to, uint64_t *done,
+                                 uint64_t all)
 {
     struct work w = {.def = def, .plan = p, .to = to, .before = *done, .all = all};
     unsigned n = def->threads, started = 0;

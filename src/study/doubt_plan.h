@@ -26,8 +26,8 @@ size_t ceduo_plan_evaluations(const struct plan *plan); /* of all items */
 
 /* Computes items from `from` up to `to`. For the progress of all calls together `*done` of `all` evaluations came before;
  * it is moved on. */
-enum ceduo_status ceduo_plan_run(const struct ceduo_doubt_def *def, struct plan *plan, size_t from, size_t to,
-                                 uint64_t *done, uint64_t all);
+enum ceduo_status ceduo_plan_run(const struct ceduo_doubt_def *def, struct plan *plan, size_t from, size_t to, uint64_t *done,
+                                 uint64_t all);
 
 /* Values of one figure in the order of the design. */
 void ceduo_plan_column(const struct plan *plan, size_t figures, size_t figure, struct ceduo_halves *column);

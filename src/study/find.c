@@ -255,10 +255,8 @@ static void look_back(const struct hunt *h, struct ceduo_found *found)
 
 enum ceduo_status ceduo_find(const struct ceduo_find_def *def, struct ceduo_found *found)
 {
-    *found = (struct ceduo_found){
-        .value = NAN, .goal_at_value = NAN, .monotone = true, .nearest = NAN, .goal_at_nearest = NAN};
-    struct hunt h = {
-        .def = def, .lo = def->whole ? ceil(def->lo) : def->lo, .hi = def->whole ? floor(def->hi) : def->hi};
+    *found = (struct ceduo_found){.value = NAN, .goal_at_value = NAN, .monotone = true, .nearest = NAN, .goal_at_nearest = NAN};
+    struct hunt h = {.def = def, .lo = def->whole ? ceil(def->lo) : def->lo, .hi = def->whole ? floor(def->hi) : def->hi};
     if (h.lo <= h.hi)
         search(&h, found);
     look_back(&h, found);

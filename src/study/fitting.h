@@ -36,7 +36,7 @@ struct fitting {
     pthread_mutex_t lock, talking;
     double best[CEDUO_CALIBRATION_MOST], most; /* under `lock`, as are: */
     uint64_t evaluations;
-    const double *draws; /* that predictions are made from: [draw][parameter] in 0…1; the last is the best */
+    const double *draws;             /* that predictions are made from: [draw][parameter] in 0…1; the last is the best */
     struct ceduo_counterpart *drawn; /* [draw][observation] */
 };
 

@@ -13,12 +13,15 @@ const struct ceduo_goal_row ceduo_goals[CEDUO_GOALS] = {
                              "the chance of a free run in the worst belt", "0.1"},
     [CEDUO_GOAL_ENERGY] = {"energy", N_("mean energy"), "kJ", false, true,
                            "the mean energy of the rocks that arrive through the forest (with contact_model: index what the "
-                           "index leaves of the mean without forest)", NULL},
+                           "index leaves of the mean without forest)",
+                           NULL},
     [CEDUO_GOAL_EXCEED] = {"exceed", N_("share with too much energy"), "%", false, true,
-                           "the share of the released that arrive through the forest with more than the place withstands", "0.05"},
+                           "the share of the released that arrive through the forest with more than the place withstands",
+                           "0.05"},
     [CEDUO_GOAL_ARRIVE] = {"arrive", N_("share that arrives"), "%", false, true,
                            "the share of the released that arrive through the forest (with contact_model: index without "
-                           "forest)", NULL}};
+                           "forest)",
+                           NULL}};
 
 bool ceduo_goal_is_share(enum ceduo_goal goal)
 {
@@ -81,8 +84,8 @@ double ceduo_goal_over_years(enum ceduo_goal goal, const struct ceduo_years *yea
         double worst_year = -INFINITY, sum = 0;
         for (size_t i = 0; i < years->count; i++) {
             const struct ceduo_year *y = &years->years[i];
-            double value = value_at(goal, &y->controls[c], y->wooded.rocks > 0 ? &y->wooded.arrivals[c] : NULL,
-                                    &bare->arrivals[c]);
+            double value =
+                value_at(goal, &y->controls[c], y->wooded.rocks > 0 ? &y->wooded.arrivals[c] : NULL, &bare->arrivals[c]);
             worst_year = worse_of(worst_year, value);
             sum += value;
         }

@@ -7,14 +7,7 @@
 
 /* What a search for one number of a scene can ask for at the worst control. A goal is a name here, a row in goal.c and its
  * value in ceduo_goal_reached(). */
-enum ceduo_goal {
-    CEDUO_GOAL_ADC,
-    CEDUO_GOAL_FREE_RUN,
-    CEDUO_GOAL_ENERGY,
-    CEDUO_GOAL_EXCEED,
-    CEDUO_GOAL_ARRIVE,
-    CEDUO_GOALS
-};
+enum ceduo_goal { CEDUO_GOAL_ADC, CEDUO_GOAL_FREE_RUN, CEDUO_GOAL_ENERGY, CEDUO_GOAL_EXCEED, CEDUO_GOAL_ARRIVE, CEDUO_GOALS };
 
 struct ceduo_goal_row {
     const char *word;    /* on the command line */

@@ -64,8 +64,7 @@ static enum ceduo_status reduce(const struct guess *g, const struct known *known
     size_t columns = g->terms + 1, row = columns;
     for (size_t i = 0; i < known->n; i++) {
         if (isfinite(known->values[i])) {
-            double *to = gsl_matrix_ptr(rows, row++, 0),
-                   root = exp((known->values[i] - known->best) / known->reach / 2);
+            double *to = gsl_matrix_ptr(rows, row++, 0), root = exp((known->values[i] - known->best) / known->reach / 2);
             fill_terms(g, known->u + i * g->dimensions, to);
             to[g->terms] = known->values[i];
             for (size_t k = 0; k < columns; k++)
@@ -108,8 +107,7 @@ static enum ceduo_status solve(struct guess *g, gsl_matrix *rows)
     return good ? CEDUO_OK : CEDUO_NO_MEMORY;
 }
 
-enum ceduo_status ceduo_guess_learn(struct guess *g, const double *u, const double *values, size_t n,
-                                    const atomic_bool *cancel)
+enum ceduo_status ceduo_guess_learn(struct guess *g, const double *u, const double *values, size_t n, const atomic_bool *cancel)
 {
     struct known known = {u, values, n, .cancel = cancel};
     double *down = malloc((n + 1) * sizeof *down);

@@ -68,8 +68,8 @@ static void drop_per_stool(struct input_scene *copy, const char *place)
     ceduo_text_free(&other);
 }
 
-enum ceduo_status ceduo_inputs_open(struct input_scene *copy, const struct ceduo_scene *scene,
-                                    const struct ceduo_input *inputs, size_t n)
+enum ceduo_status ceduo_inputs_open(struct input_scene *copy, const struct ceduo_scene *scene, const struct ceduo_input *inputs,
+                                    size_t n)
 {
     size_t places = 0;
     *copy = (struct input_scene){.scene = *scene, .given = scene, .inputs = inputs, .inputs_count = n};

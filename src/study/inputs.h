@@ -17,8 +17,8 @@ struct input_scene {
 };
 
 /* CEDUO_NO_MEMORY; CEDUO_BAD_SLOPE where a place is not one of the scene's. Release it in any case. */
-enum ceduo_status ceduo_inputs_open(struct input_scene *copy, const struct ceduo_scene *scene,
-                                    const struct ceduo_input *inputs, size_t n);
+enum ceduo_status ceduo_inputs_open(struct input_scene *copy, const struct ceduo_scene *scene, const struct ceduo_input *inputs,
+                                    size_t n);
 void ceduo_inputs_release(struct input_scene *copy);
 
 /* Sets each input to the value at u[i] of its range, 0…1; NaN: as the scene has it. Shoots that are given per stool follow

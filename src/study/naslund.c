@@ -9,7 +9,7 @@
 #include <stdlib.h>
 
 #define STEPS_MOST 200
-#define EXACT 1e-12
+#define EXACT      1e-12
 
 struct pairs {
     size_t n;

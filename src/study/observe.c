@@ -77,8 +77,7 @@ static size_t control_of(struct setting *s, double x)
     while (i < s->controls_count && s->controls[i].x != x)
         i++;
     if (i == s->controls_count)
-        s->controls[s->controls_count++] =
-            (struct ceduo_control){.x = x, .x_given = x, .accepted = NAN, .measured_speed = NAN};
+        s->controls[s->controls_count++] = (struct ceduo_control){.x = x, .x_given = x, .accepted = NAN, .measured_speed = NAN};
     return i;
 }
 
@@ -380,8 +379,7 @@ static bool compare_scars(const struct plan *p, const struct flown *f, struct ce
 }
 
 /* False without memory. */
-static bool compare(const struct plan *p, const struct flown *f, const double *values, size_t n,
-                    struct ceduo_counterpart *c)
+static bool compare(const struct plan *p, const struct flown *f, const double *values, size_t n, struct ceduo_counterpart *c)
 {
     const struct ceduo_observation *seen = p->seen;
     *c = (struct ceduo_counterpart){.classes = p->classes, .seen_mean = mean_seen(seen), .scars = NAN, .scars_variance = NAN};

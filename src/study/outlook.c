@@ -12,7 +12,7 @@
 
 /* ---- trajectories ---- */
 
-#define LINE_POINTS_MOST  20000 /* of a rock that hops on and on: what comes later is left out */
+#define LINE_POINTS_MOST   20000 /* of a rock that hops on and on: what comes later is left out */
 #define FLIGHT_POINTS_MOST 64
 #define RESOLUTION         2000 /* parts of the slope's length that a picture may show */
 
@@ -48,8 +48,7 @@ static bool make_room(struct tracer *t)
 static void add_point(struct tracer *t, double x, double z, bool always)
 {
     struct ceduo_polyline *line = t->line;
-    bool near =
-        line->n > 0 && fabs(x - line->x[line->n - 1]) < t->step && fabs(z - line->z[line->n - 1]) < t->step;
+    bool near = line->n > 0 && fabs(x - line->x[line->n - 1]) < t->step && fabs(z - line->z[line->n - 1]) < t->step;
     if ((near || line->n >= LINE_POINTS_MOST) && !always)
         return;
     if (t->failed || !make_room(t))
@@ -98,7 +97,7 @@ void ceduo_polyline_free(struct ceduo_polyline *line)
 }
 
 static enum ceduo_status follow_trajectories(struct ceduo_follower *follower, const struct ceduo_outlook_def *def,
-                                       struct ceduo_sight *s)
+                                             struct ceduo_sight *s)
 {
     size_t trajectories = def->trajectories < s->flown.rocks ? def->trajectories : (size_t)s->flown.rocks;
     s->trajectories = calloc(trajectories + 1, sizeof *s->trajectories);
@@ -124,8 +123,7 @@ size_t ceduo_outlook_places(const struct ceduo_scene *scene, double *x)
 
 #define FLOWN_MOST 4000 /* rocks simulated once more where a run is too long to keep its samples */
 
-static enum ceduo_status fly_energies(struct ceduo_follower *follower, const atomic_bool *cancel,
-                                      struct ceduo_sight *s)
+static enum ceduo_status fly_energies(struct ceduo_follower *follower, const atomic_bool *cancel, struct ceduo_sight *s)
 {
     struct tracer waits = {.cancel = cancel};
     const struct ceduo_watch watch = {.enough = is_cancelled, .context = &waits};
@@ -138,8 +136,8 @@ static enum ceduo_status fly_energies(struct ceduo_follower *follower, const ato
         status = ceduo_follower_follow(follower, rock, &watch, &way, crossings);
         for (size_t c = 0; c < controls && status == CEDUO_OK; c++) {
             const struct ceduo_crossing *at = &crossings[c];
-            double energy = 0.5 * way.rock.mass * (at->vx * at->vx + at->vz * at->vz) +
-                            0.5 * way.rock.moment * (at->spin * at->spin);
+            double energy =
+                0.5 * way.rock.mass * (at->vx * at->vx + at->vz * at->vz) + 0.5 * way.rock.moment * (at->spin * at->spin);
             if (at->reached)
                 s->energies[c].values[s->energies[c].n++] = energy;
         }
@@ -148,8 +146,8 @@ static enum ceduo_status fly_energies(struct ceduo_follower *follower, const ato
     return status;
 }
 
-static enum ceduo_status read_energies(struct ceduo_follower *follower, const struct ceduo_run *run,
-                                       const atomic_bool *cancel, struct ceduo_sight *s)
+static enum ceduo_status read_energies(struct ceduo_follower *follower, const struct ceduo_run *run, const atomic_bool *cancel,
+                                       struct ceduo_sight *s)
 {
     bool kept = true;
     for (size_t c = 0; c < s->flown.controls; c++) {
@@ -314,8 +312,7 @@ void ceduo_outlook_free(struct ceduo_outlook *o)
     free(o);
 }
 
-const struct ceduo_sight *ceduo_outlook_sight(const struct ceduo_outlook *o, const struct ceduo_scene *scene,
-                                              size_t option)
+const struct ceduo_sight *ceduo_outlook_sight(const struct ceduo_outlook *o, const struct ceduo_scene *scene, size_t option)
 {
     if (!o || scene->simulation.contact_model == CEDUO_INDEX)
         return o ? o->bare : NULL;

@@ -27,13 +27,13 @@ struct ceduo_energies {
 /* One run, as it was at some moment. It is shared: each who keeps it has a reference. */
 struct ceduo_sight {
     atomic_uint references;
-    uint64_t key;           /* ceduo_option_key() of its forest */
+    uint64_t key; /* ceduo_option_key() of its forest */
     struct ceduo_flown flown;
-    uint64_t picture_rocks; /* of the envelopes */
+    uint64_t picture_rocks;           /* of the envelopes */
     struct ceduo_envelope *envelopes; /* one for each cell */
     struct ceduo_energies *energies;  /* one for each control: the first CEDUO_OUTLOOK_SAMPLE at most */
     size_t trajectories_count;
-    struct ceduo_polyline *trajectories;       /* of the first rocks */
+    struct ceduo_polyline *trajectories; /* of the first rocks */
 };
 
 /* All runs of a scene. */
@@ -45,9 +45,9 @@ struct ceduo_outlook {
     struct ceduo_difference *differences; /* of those to the first option: options × controls, in rows by option */
 };
 
-#define CEDUO_OUTLOOK_CELLS  200    /* places along the slope where a run should keep envelopes */
+#define CEDUO_OUTLOOK_CELLS        200    /* places along the slope where a run should keep envelopes */
 #define CEDUO_OUTLOOK_TRAJECTORIES 200    /* trajectories that make a dense picture */
-#define CEDUO_OUTLOOK_SAMPLE 100000 /* energies kept for a histogram */
+#define CEDUO_OUTLOOK_SAMPLE       100000 /* energies kept for a histogram */
 
 /* Writes CEDUO_OUTLOOK_CELLS places, evenly from the release to the end of the slope, for a run's cells; returns how
  * many: none where the release may lie at the end. */
@@ -62,9 +62,9 @@ struct ceduo_outlook_def {
                                         * where one is as long or longer, figures are read from it too */
     size_t cells;
     const double *cell_x;
-    size_t trajectories;                     /* trajectories that are followed for each */
-    const atomic_bool *cancel;         /* may be NULL; raised by another thread: the call returns soon */
-    const struct ceduo_outlook *last;  /* whose sights are taken over where nothing has changed; NULL: none. It must be
+    size_t trajectories;              /* trajectories that are followed for each */
+    const atomic_bool *cancel;        /* may be NULL; raised by another thread: the call returns soon */
+    const struct ceduo_outlook *last; /* whose sights are taken over where nothing has changed; NULL: none. It must be
                                         * of the same scene but for its forests */
 };
 

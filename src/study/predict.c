@@ -12,16 +12,15 @@
 #include "base/cancel.h"
 #include "fitting.h"
 
-#define SAMPLES     20 /* for each draw; not more than CEDUO_SOME_VALUES */
-#define SINGLE_LEAST 400  /* values that tell 95 % of them */
-#define SAMPLES_ONE 2000 /* of a scene as it is */
-#define OTHER_ROCKS 0x5eed /* in the seed */
+#define SAMPLES      20     /* for each draw; not more than CEDUO_SOME_VALUES */
+#define SINGLE_LEAST 400    /* values that tell 95 % of them */
+#define SAMPLES_ONE  2000   /* of a scene as it is */
+#define OTHER_ROCKS  0x5eed /* in the seed */
 
 static enum ceduo_status look_at_draw(struct fitting *f, size_t worker, size_t i)
 {
     struct ceduo_counterpart *to = f->drawn + i * f->all_count;
-    enum ceduo_status status =
-        ceduo_fitting_look(f, worker, f->draws + i * f->def->parameters_count, true, to);
+    enum ceduo_status status = ceduo_fitting_look(f, worker, f->draws + i * f->def->parameters_count, true, to);
     return status == CEDUO_OK || status == CEDUO_CANCELLED ? status : CEDUO_NO_MEMORY;
 }
 

@@ -212,7 +212,8 @@ enum ceduo_status ceduo_design_read(const struct ceduo_design *d, const struct c
     for (size_t i = 0; i < RESAMPLES; i++)
         wholes[i] = whole_of(&resamples[i], hidden);
     double whole = whole_of(&all, hidden);
-    *indices = (struct ceduo_indices){.mean = (middle.half[0] + middle.half[1]) / 2, .variance = fmax(0, all.variance), .noise = all.noise};
+    *indices = (struct ceduo_indices){
+        .mean = (middle.half[0] + middle.half[1]) / 2, .variance = fmax(0, all.variance), .noise = all.noise};
     for (size_t g = 0; g < d->groups; g++) {
         indices->first[g] = share_of(d, all.first[g], whole, &resamples->first[g], wholes);
         indices->total[g] = share_of(d, all.total[g], whole, &resamples->total[g], wholes);

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define HECTARE 10000
+#define HECTARE      10000
 #define CLASSES_MOST 1000 /* of dbh; thicker stems share the last */
 
 struct surveyor {
@@ -247,8 +247,7 @@ static bool compute(struct surveyor *s)
     a->stump_diameter = of_stumps(s->survey, offsetof(struct ceduo_survey_stem, dbh));
     a->stump_height = of_stumps(s->survey, offsetof(struct ceduo_survey_stem, height));
     a->stump_energy = of_stumps(s->survey, offsetof(struct ceduo_survey_stem, energy));
-    return count_stools(s) && complete_heights(s, true, &a->shoots) && complete_heights(s, false, &a->trees) &&
-           make_classes(s);
+    return count_stools(s) && complete_heights(s, true, &a->shoots) && complete_heights(s, false, &a->trees) && make_classes(s);
 }
 
 enum ceduo_status ceduo_survey_ask(const struct ceduo_survey *survey, struct ceduo_survey_answer *answer)

@@ -40,7 +40,6 @@ struct ceduo_paired ceduo_share_to_first(const struct ceduo_result *r, size_t op
     return compared(r, &r->options[option].differences[r->last_control]);
 }
 
-
 /* ---- which is best ---- */
 
 /* A figure of one option less that of another, with its standard error. */
@@ -151,8 +150,7 @@ static bool is_beaten(struct ceduo_years *const *years, const struct ceduo_verdi
     for (size_t i = 0; i < v->n; i++) {
         double other = v->choices[i].yield.cut_per_year;
         bool clear = is_clearly_worse(difference_over_years, years, option, i);
-        if (i != option && other >= yield &&
-            (clear || (other > yield && difference_over_years(years, option, i).mean >= 0)))
+        if (i != option && other >= yield && (clear || (other > yield && difference_over_years(years, option, i).mean >= 0)))
             return true;
     }
     return false;
@@ -234,15 +232,14 @@ static enum ceduo_status judge(const struct ceduo_result *r, struct ceduo_years 
     return !v->wooded || find_turned(r, v) ? CEDUO_OK : CEDUO_NO_MEMORY;
 }
 
-enum ceduo_status ceduo_verdict_make(const struct ceduo_result *r, struct ceduo_years *const *years,
-                                     struct ceduo_verdict *v)
+enum ceduo_status ceduo_verdict_make(const struct ceduo_result *r, struct ceduo_years *const *years, struct ceduo_verdict *v)
 {
     size_t n = r->options_count;
-    *v = (struct ceduo_verdict){.wooded = r->wooded && r->scene->controls_count > 0,
-                                .accepted = r->scene->controls_count > 0 &&
-                                            !isnan(r->scene->controls[r->last_control].accepted),
-                                .nothing = r->scene->controls_count > 0 && ceduo_says_nothing(&r->bare.arrivals[r->last_control]),
-                                .choices = calloc(n + 1, sizeof *v->choices)};
+    *v = (struct ceduo_verdict){
+        .wooded = r->wooded && r->scene->controls_count > 0,
+        .accepted = r->scene->controls_count > 0 && !isnan(r->scene->controls[r->last_control].accepted),
+        .nothing = r->scene->controls_count > 0 && ceduo_says_nothing(&r->bare.arrivals[r->last_control]),
+        .choices = calloc(n + 1, sizeof *v->choices)};
     v->today.rival = calloc(n + 1, sizeof *v->today.rival);
     v->rotation.rival = calloc(n + 1, sizeof *v->rotation.rival);
     enum ceduo_status status = v->choices && v->today.rival && v->rotation.rival ? CEDUO_OK : CEDUO_NO_MEMORY;

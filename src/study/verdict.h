@@ -33,11 +33,11 @@ struct ceduo_paired ceduo_share_to_first(const struct ceduo_result *result, size
 struct ceduo_choice {
     struct ceduo_portion today, worst, mean; /* worst and mean: of the years */
     unsigned worst_year;
-    size_t years, flown;                     /* flown: years in which rocks were simulated */
-    uint64_t rocks;                          /* in each of them, which may be fewer than today */
-    size_t no_contact, free_runs, too_much;  /* years in which that light fails */
-    bool energy_known;                       /* too_much is */
-    bool nothing;                            /* none of the three is: nothing can be said */
+    size_t years, flown;                    /* flown: years in which rocks were simulated */
+    uint64_t rocks;                         /* in each of them, which may be fewer than today */
+    size_t no_contact, free_runs, too_much; /* years in which that light fails */
+    bool energy_known;                      /* too_much is */
+    bool nothing;                           /* none of the three is: nothing can be said */
     bool beaten; /* another option yields as much and lets clearly fewer rocks through, or yields more and lets no more
                   * through */
     struct ceduo_window window;

@@ -167,7 +167,8 @@ void ceduo_app_refresh(struct app *app)
     ceduo_figures_follow(&app->figures, scene, app->option, view->years);
     app->doubts |= view->doubt;
     ceduo_figures_doubt(&app->figures, &app->document.file, doubt_levels(app));
-    ceduo_figures_look(&app->figures, &app->document.file, view->seen && app->document.file.observations_count > 0 ? SIGHT_LEVELS : 0);
+    ceduo_figures_look(&app->figures, &app->document.file,
+                       view->seen && app->document.file.observations_count > 0 ? SIGHT_LEVELS : 0);
     for (int v = 0; v < VIEW_COUNT; v++)
         ceduo_form_clear(&app->views[v].form);
     if (view->build) {
@@ -228,8 +229,7 @@ bool ceduo_app_follow_rock(struct app *app)
 {
     uint64_t key = app->figures.asked;
     hash_count(&key, app->option);
-    bool good = ceduo_rock_trajectory_follow(&app->way, &app->document.file.scene, ceduo_app_option(app), key,
-                                             app->rock);
+    bool good = ceduo_rock_trajectory_follow(&app->way, &app->document.file.scene, ceduo_app_option(app), key, app->rock);
     if (!good)
         ceduo_rock_trajectory_free(&app->way);
     return good;
@@ -298,8 +298,8 @@ static void took_document(struct app *app)
     ceduo_app_show(app, app->view);
 }
 
-bool ceduo_app_create(struct app *app, const char *path, enum ceduo_charset charset, unsigned threads,
-                      bool no_recovery, struct problems *problems)
+bool ceduo_app_create(struct app *app, const char *path, enum ceduo_charset charset, unsigned threads, bool no_recovery,
+                      struct problems *problems)
 {
     *app = (struct app){.charset = charset, .no_recovery = no_recovery, .doubts = !no_recovery};
     if (!ceduo_document_open(&app->document, path ? path : "paper-site", problems))

@@ -35,17 +35,17 @@ struct bar_key {
 
 /* Describes a view: what it shows and how it handles keys. */
 struct view {
-    const char *title; /* marked for translation */
-    int panes;         /* that Tab goes through; the first is the form */
-    bool years;        /* compute the years to come while it is open */
-    bool doubt;        /* compute the doubt as finely as may be while it is open */
-    bool seen;         /* look at what was seen while it is open */
-    bool result;       /* it shows nothing before the first result */
-    void (*build)(struct app *app, struct form *form);        /* NULL: it has no form */
+    const char *title;                                 /* marked for translation */
+    int panes;                                         /* that Tab goes through; the first is the form */
+    bool years;                                        /* compute the years to come while it is open */
+    bool doubt;                                        /* compute the doubt as finely as may be while it is open */
+    bool seen;                                         /* look at what was seen while it is open */
+    bool result;                                       /* it shows nothing before the first result */
+    void (*build)(struct app *app, struct form *form); /* NULL: it has no form */
     void (*draw)(struct app *app, struct ceduo_area area);
     bool (*act)(struct app *app, enum action action); /* true: done; NULL: no keys of its own */
     void (*follow)(struct app *app);                  /* after each key; NULL: nothing */
-    struct bar_key bar[8]; /* its own keys, the most needed first; a word of NULL ends them */
+    struct bar_key bar[8];                            /* its own keys, the most needed first; a word of NULL ends them */
 };
 
 #define V(NAME, name, key, word, help) extern const struct view ceduo_view_##name;
@@ -58,7 +58,7 @@ struct view_state {
     struct form form;
     struct ceduo_area form_area; /* where it was drawn, for the mouse */
     int pane;
-    int scroll;                  /* of text that is longer than its pane */
+    int scroll; /* of text that is longer than its pane */
 };
 
 /* A cursor along the slope of view 1. */
@@ -78,28 +78,28 @@ struct app {
     int theme; /* 0 dark, 1 light, 2 none */
     enum view_number view;
     struct view_state views[VIEW_COUNT];
-    size_t option, belt;   /* that the views show */
-    size_t year;           /* index of the one under the cursor */
-    struct place place;    /* the cursor along the slope */
-    uint64_t rock;         /* whose trajectory is shown */
+    size_t option, belt;        /* that the views show */
+    size_t year;                /* index of the one under the cursor */
+    struct place place;         /* the cursor along the slope */
+    uint64_t rock;              /* whose trajectory is shown */
     struct rock_trajectory way; /* that trajectory */
     bool editing;
-    struct line line;      /* what is typed into the field */
-    char message[512];     /* of the last action; shown until the next key */
+    struct line line;  /* what is typed into the field */
+    char message[512]; /* of the last action; shown until the next key */
     bool message_bad;
     char search[128];
     struct popup *popup;
-    bool opened;           /* a document was just opened: offer unsaved work that was left behind */
-    bool no_recovery;      /* for a script: offer no unsaved work and keep no copy */
-    bool doubts;           /* compute the doubt behind the figures; a script does so once it has looked at it */
+    bool opened;                         /* a document was just opened: offer unsaved work that was left behind */
+    bool no_recovery;                    /* for a script: offer no unsaved work and keep no copy */
+    bool doubts;                         /* compute the doubt behind the figures; a script does so once it has looked at it */
     void (*once_saved)(struct app *app); /* what goes on once the scene is saved; NULL: nothing */
-    bool quit, redraw;     /* redraw: paint the whole terminal again */
-    bool stopped;          /* out of memory: cannot go on */
+    bool quit, redraw;                   /* redraw: paint the whole terminal again */
+    bool stopped;                        /* out of memory: cannot go on */
 };
 
 /* Opens a scene, or the shipped site of the paper where `path` is NULL. False with the reason in `problems`. */
-bool ceduo_app_create(struct app *app, const char *path, enum ceduo_charset charset, unsigned threads,
-                      bool no_recovery, struct problems *problems);
+bool ceduo_app_create(struct app *app, const char *path, enum ceduo_charset charset, unsigned threads, bool no_recovery,
+                      struct problems *problems);
 void ceduo_app_free(struct app *app);
 
 /* Opens another document in place of this one, which must be saved or given up before. */

@@ -179,8 +179,7 @@ static bool put_doubt(struct pen *pen, bool energy)
     char range[64], name[64];
     if (!doubt_of(app, &report) || (report.answer->main == CEDUO_DOUBT_ENERGY) != energy)
         return false;
-    const struct ceduo_doubt_figure *f =
-        ceduo_doubt_figure_of(report.answer, app->option, report.answer->main, false);
+    const struct ceduo_doubt_figure *f = ceduo_doubt_figure_of(report.answer, app->option, report.answer->main, false);
     if (energy)
         snprintf(range, sizeof range, "%.3g-%.3g", f->p5 * KILO, f->p95 * KILO);
     else
@@ -249,8 +248,7 @@ static void put_causes(struct pen *pen, enum ceduo_doubt_kind light)
     ceduo_text_free(&causes);
 }
 
-static void put_contact(struct pen *pen, const char *name, double adc, enum ceduo_light light, double threshold,
-                        bool forest)
+static void put_contact(struct pen *pen, const char *name, double adc, enum ceduo_light light, double threshold, bool forest)
 {
     char what[64];
     if (isinf(adc))
@@ -295,8 +293,7 @@ static void put_thick(struct pen *pen, const struct ceduo_index *index, double t
                                                "8 cm: free run FAILS"));
 }
 
-static void put_lights(struct pen *pen, const struct ceduo_index *index, const struct ceduo_arrivals *wood,
-                       double threshold)
+static void put_lights(struct pen *pen, const struct ceduo_index *index, const struct ceduo_arrivals *wood, double threshold)
 {
     char what[64] = "";
     bool wide = pen->area.width >= 30;
@@ -328,8 +325,8 @@ static void put_index(struct pen *pen, const struct ceduo_index *index)
     else if (index->exhausted)
         line(pen, CEDUO_ROLE_DIM, _("index: %.3g kJ, used up"), index->dissipated * KILO);
     else
-        line(pen, CEDUO_ROLE_DIM, _("index: %s%.3g, left %.3g kJ"), index->dissipated > 0 ? "-" : "",
-             index->dissipated * KILO, index->residual * KILO);
+        line(pen, CEDUO_ROLE_DIM, _("index: %s%.3g, left %.3g kJ"), index->dissipated > 0 ? "-" : "", index->dissipated * KILO,
+             index->residual * KILO);
     if (!isnan(index->measured) && pen->area.height >= HEIGHT_FOR_ALL)
         line(pen, CEDUO_ROLE_DIM, _("seen: %.3g kJ (one rock)"), index->measured * KILO);
 }
@@ -351,8 +348,7 @@ static void add_rule(void *context, bool met, const char *sentence)
 static void keep_whole(struct app *app, struct text *sentences, struct ceduo_area area)
 {
     size_t left = 0;
-    while (sentences->length > 0 &&
-           ceduo_app_text_lines(app, sentences->bytes, area.width) + (left > 0) > area.height) {
+    while (sentences->length > 0 && ceduo_app_text_lines(app, sentences->bytes, area.width) + (left > 0) > area.height) {
         char *end = sentences->bytes + sentences->length - 1;
         while (end > sentences->bytes && end[-1] != '\n')
             end--;
@@ -430,8 +426,7 @@ void ceduo_column_draw(struct app *app, struct ceduo_area area)
     const struct forest f = forest_shown(app);
     if (f.year)
         line(&pen, CEDUO_ROLE_TITLE, f.year->cut ? _("Year %u, just cut") : _("Year %u"), f.year->year);
-    put_arrivals(&pen, &r->scene->controls[c], f.wood, &r->bare.arrivals[c],
-                 f.year ? NULL : &ceduo_app_found(app)->others[c]);
+    put_arrivals(&pen, &r->scene->controls[c], f.wood, &r->bare.arrivals[c], f.year ? NULL : &ceduo_app_found(app)->others[c]);
     bool said = !ceduo_says_nothing(&r->bare.arrivals[c]);
     if (said)
         put_lights(&pen, f.index, f.wood, r->scene->simulation.threshold);

@@ -27,7 +27,7 @@ static bool set_value(struct app *app, const struct form_cell *cell, const char 
 {
     char path[FORM_PATH];
     snprintf(path, sizeof path, "%s", cell->path); /* the form is made anew below */
-    if (value[0] == '\0') /* nothing: back to the default */
+    if (value[0] == '\0')                          /* nothing: back to the default */
         return ceduo_app_edited(app, ceduo_document_delete(&app->document, path, &app->problems));
     struct text written = {0};
     if (cell->field && cell->field->type == FIELD_TEXT)

@@ -70,10 +70,10 @@ static void assess(struct figures *f, const struct ceduo_scene *scene, const str
         in_order = in_order && sight == o->wooded[i];
     }
     for (size_t i = 0; differences && i < n * controls; i++)
-        differences[i] = in_order ? o->differences[i] : (struct ceduo_difference){CEDUO_NOT_PAIRED, CEDUO_NOT_PAIRED, CEDUO_NOT_PAIRED};
+        differences[i] =
+            in_order ? o->differences[i] : (struct ceduo_difference){CEDUO_NOT_PAIRED, CEDUO_NOT_PAIRED, CEDUO_NOT_PAIRED};
     if (!wooded || !differences ||
-        ceduo_result_assess(scene, &o->bare->flown, wooded, differences, fitting_others(f, scene),
-                             &f->result) != CEDUO_OK)
+        ceduo_result_assess(scene, &o->bare->flown, wooded, differences, fitting_others(f, scene), &f->result) != CEDUO_OK)
         f->result = NULL;
     free(differences);
     free(wooded);
@@ -177,7 +177,8 @@ bool ceduo_figures_news(struct figures *f, const struct ceduo_scene *scene, bool
 {
     struct jobs_news news = ceduo_jobs_news(f->jobs);
     bool changed = news.busy != f->busy || news.outlook || news.years || news.others || news.doubted || news.sighted ||
-                   news.fit || news.fit_state.evaluations != f->fit_state.evaluations || news.sought || news.foresaw || news.failed;
+                   news.fit || news.fit_state.evaluations != f->fit_state.evaluations || news.sought || news.foresaw ||
+                   news.failed;
     f->busy = news.busy;
     *failed = news.failed;
     if (news.outlook) {

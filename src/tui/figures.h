@@ -9,27 +9,27 @@
  * what the rocks meet. */
 struct figures {
     struct jobs *jobs;
-    struct ceduo_outlook *outlook; /* newest; NULL before the first */
-    struct ceduo_result *result;   /* the scene as it is now, by the newest outlook; NULL before the first */
+    struct ceduo_outlook *outlook;     /* newest; NULL before the first */
+    struct ceduo_result *result;       /* the scene as it is now, by the newest outlook; NULL before the first */
     struct ceduo_other_energy *others; /* newest, as jobs_news has them; NULL before the first */
     size_t others_options, others_controls;
-    struct doubted *doubted;       /* newest; NULL before the first, and where it is not asked for */
-    struct sighted *sighted;       /* newest look at what was seen; likewise */
-    struct fit *fit;               /* that is done, and nobody has taken or dropped; NULL: none */
-    struct fit_wish wish;          /* that was asked for last */
-    bool fitting;                  /* it is under way, and has come so far: */
+    struct doubted *doubted; /* newest; NULL before the first, and where it is not asked for */
+    struct sighted *sighted; /* newest look at what was seen; likewise */
+    struct fit *fit;         /* that is done, and nobody has taken or dropped; NULL: none */
+    struct fit_wish wish;    /* that was asked for last */
+    bool fitting;            /* it is under way, and has come so far: */
     struct ceduo_calibration_state fit_state;
-    struct ceduo_years **years;    /* newest of each option, NULL: not computed */
-    size_t years_count;            /* options that there is room for */
-    struct ceduo_verdict verdict;  /* of the result and of the years that fit the scene; n 0: none */
-    size_t done, all;              /* of the step under way in the years: options; all 0: none */
-    uint64_t rocks;                /* of that step */
-    bool foresaw;              /* what a change would do is known, until somebody takes it: */
+    struct ceduo_years **years;   /* newest of each option, NULL: not computed */
+    size_t years_count;           /* options that there is room for */
+    struct ceduo_verdict verdict; /* of the result and of the years that fit the scene; n 0: none */
+    size_t done, all;             /* of the step under way in the years: options; all 0: none */
+    uint64_t rocks;               /* of that step */
+    bool foresaw;                 /* what a change would do is known, until somebody takes it: */
     struct foreseen foreseen;
-    struct sought *sought;         /* what a search came to, until it is taken; NULL: nothing new */
-    uint64_t asked, shown;         /* keys of the runs that were asked for last, and of the outlook */
+    struct sought *sought; /* what a search came to, until it is taken; NULL: nothing new */
+    uint64_t asked, shown; /* keys of the runs that were asked for last, and of the outlook */
     bool busy;
-    double seconds;                /* from the edit to the outlook */
+    double seconds; /* from the edit to the outlook */
 };
 
 /* False where no thread can be started. */

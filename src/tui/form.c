@@ -342,7 +342,8 @@ static void draw_cell(const struct form_cell *cell, struct ceduo_cells *cells, i
     snprintf(shown, sizeof shown, "%s%s", ceduo_text_string(&words), cell->assumed ? "*" : "");
     ceduo_text_free(&words);
     double number;
-    if ((int)ceduo_utf8_width(shown) > span && strchr(shown, '.') && ceduo_number_read(cell->text, &number) == CEDUO_NUMBER_GOOD)
+    if ((int)ceduo_utf8_width(shown) > span && strchr(shown, '.') &&
+        ceduo_number_read(cell->text, &number) == CEDUO_NUMBER_GOOD)
         snprintf(shown, sizeof shown, "%.4g%s", number, cell->assumed ? "*" : "");
     char *more = cell->field && cell->field->type == FIELD_CHOICE ? strstr(shown, " (") : NULL;
     if (more && (int)ceduo_utf8_width(shown) > span) /* the common name of a species has room */
@@ -367,8 +368,8 @@ static const char *head_of(const struct form_cell *cell, int span)
     return fits ? _(shown->label) : ceduo_translate_in(shown->brief);
 }
 
-static void draw_row(const struct form *form, size_t i, struct ceduo_cells *cells, int left, int y, int width,
-                     bool focused, const char *edit)
+static void draw_row(const struct form *form, size_t i, struct ceduo_cells *cells, int left, int y, int width, bool focused,
+                     const char *edit)
 {
     const struct form_row *row = &form->rows[i];
     if (row->kind == FORM_HEADING || row->kind == FORM_NOTE) {
@@ -380,8 +381,7 @@ static void draw_row(const struct form *form, size_t i, struct ceduo_cells *cell
     int label = label_columns(form, width);
     if (row->kind == FORM_FIELDS) {
         int span = row->n == 0 ? width : row->list[0] ? 3 : label - 1;
-        ceduo_canvas_put(&cells->canvas, left, y, span, here && row->n == 0 ? CEDUO_ROLE_CURSOR : CEDUO_ROLE_DIM,
-                         row->label);
+        ceduo_canvas_put(&cells->canvas, left, y, span, here && row->n == 0 ? CEDUO_ROLE_CURSOR : CEDUO_ROLE_DIM, row->label);
     }
     for (size_t k = 0; k < row->n; k++) {
         int from, span;

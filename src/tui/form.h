@@ -7,15 +7,15 @@
 
 /* A form: lines of fields of the document, made anew after each edit. Fields come from the table of parameters. */
 
-#define FORM_PATH 160
+#define FORM_PATH    160
 #define FORM_COLUMNS 8
 
 struct form_cell {
     char path[FORM_PATH]; /* of the value, as in --set */
     const struct field *field;
-    char text[64]; /* as it is shown, see view/typed.h */
+    char text[64];    /* as it is shown, see view/typed.h */
     char written[64]; /* a single word or number, as in the file; "": nothing, or more than that */
-    bool given;    /* written in the scene, not a default */
+    bool given;       /* written in the scene, not a default */
     bool assumed;
 };
 
@@ -26,7 +26,7 @@ struct form_row {
     char label[64];
     size_t n;
     struct form_cell cells[FORM_COLUMNS]; /* of the head of a table: the fields alone */
-    char list[FORM_PATH]; /* the list that the row is an item of; "": none */
+    char list[FORM_PATH];                 /* the list that the row is an item of; "": none */
     size_t index;
 };
 

@@ -16,8 +16,8 @@ struct item {
     char list[FORM_PATH]; /* path of its list */
     const char *key;      /* last word of that path */
     size_t index;
-    bool there;           /* false: the list is empty */
-    double at;            /* where along the slope, m, as given; NAN: in the middle of what is split */
+    bool there; /* false: the list is empty */
+    double at;  /* where along the slope, m, as given; NAN: in the middle of what is split */
 };
 
 static bool find_item(struct app *app, struct item *item)
@@ -167,9 +167,9 @@ static bool add_shoots(struct app *app, const struct item *item)
 
 static bool add_trees(struct app *app, const struct item *item)
 {
-    return item->there ? copy_item(app, item)
-                       : ceduo_document_insert(&app->document, item->list, 0, "{per_ha: 60, dbh_m: 0.2, height_m: 12}",
-                                               &app->problems);
+    return item->there
+               ? copy_item(app, item)
+               : ceduo_document_insert(&app->document, item->list, 0, "{per_ha: 60, dbh_m: 0.2, height_m: 12}", &app->problems);
 }
 
 /* A class of blocks larger than those there are, ten times as rare; where there are none, a power law. */
@@ -208,8 +208,8 @@ static bool delete_ground(struct app *app, const struct item *item, const char *
     char border[FORM_PATH + 64];
     bool first = item->index == 0;
     double end = number_of(app, item, item->index, first ? "from_m" : "to_m");
-    snprintf(border, sizeof border, "%s[%zu].%s=%.10g", item->list, first ? 1 : item->index - 1,
-             first ? "from_m" : "to_m", end);
+    snprintf(border, sizeof border, "%s[%zu].%s=%.10g", item->list, first ? 1 : item->index - 1, first ? "from_m" : "to_m",
+             end);
     const char *const sets[] = {border, path};
     return ceduo_document_set_all(&app->document, sets, 2, item->list, &app->problems);
 }
@@ -246,14 +246,10 @@ typedef bool item_function(struct app *app, const struct item *item);
 static const struct {
     const char *key;
     item_function *add, *duplicate;
-} kinds[] = {{"forest", add_belt, split_stretch},
-             {"controls", add_control, add_control},
-             {"controls_m", add_control, add_control},
-             {"materials", add_ground, split_stretch},
-             {"segments", split_segment, split_segment},
-             {"vertices_m", split_point, split_point},
-             {"shoots", add_shoots, copy_item},
-             {"trees", add_trees, copy_item},
+} kinds[] = {{"forest", add_belt, split_stretch},        {"controls", add_control, add_control},
+             {"controls_m", add_control, add_control},   {"materials", add_ground, split_stretch},
+             {"segments", split_segment, split_segment}, {"vertices_m", split_point, split_point},
+             {"shoots", add_shoots, copy_item},          {"trees", add_trees, copy_item},
              {"blocks", add_blocks, add_blocks}};
 
 static item_function *function_for(const struct item *item, bool add)

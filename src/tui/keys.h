@@ -39,64 +39,64 @@ enum key {
 
 /* The views. A new one is a file with a `struct view` (app.h) and a line here: name, the same in small, key, its word, what
  * the key does. */
-#define VIEWS(V)                                                                                             \
-    V(SLOPE, slope, '1', "1", N_("view: slope")) \
-    V(STAND, stand, '2', "2", N_("view: stand")) \
-    V(ROCK, rock, '3', "3", N_("view: rock and release")) \
-    V(RESULTS, results, '4', "4", N_("view: results")) \
-    V(COMPARE, compare, '5', "5", N_("view: compare")) \
-    V(ROTATION, rotation, '6', "6", N_("view: rotation")) \
-    V(DOUBT, doubt, '7', "7", N_("view: doubt")) \
+#define VIEWS(V)                                                                                                               \
+    V(SLOPE, slope, '1', "1", N_("view: slope"))                                                                               \
+    V(STAND, stand, '2', "2", N_("view: stand"))                                                                               \
+    V(ROCK, rock, '3', "3", N_("view: rock and release"))                                                                      \
+    V(RESULTS, results, '4', "4", N_("view: results"))                                                                         \
+    V(COMPARE, compare, '5', "5", N_("view: compare"))                                                                         \
+    V(ROTATION, rotation, '6', "6", N_("view: rotation"))                                                                      \
+    V(DOUBT, doubt, '7', "7", N_("view: doubt"))                                                                               \
     V(SEEN, seen, '8', "8", N_("view: what was seen"))
 
 #define VIEW_ACTION(NAME, name, key, word, help) X(VIEW_##NAME, key, word, K_NONE, "", 0, help)
 
 /* The one table of actions: keys, bar, help and manual come from it.
  * name, first key, its word, second key, its word, in the bar, what it does */
-#define ACTIONS(X)                                                                                           \
-    X(UP, K_UP, "Up", 'k', "k", 0, N_("move up"))                                                      \
-    X(DOWN, K_DOWN, "Down", 'j', "j", 0, N_("move down"))                                              \
-    X(LEFT, K_LEFT, "Left", 'h', "h", 0, N_("move left"))                                              \
-    X(RIGHT, K_RIGHT, "Right", 'l', "l", 0, N_("move right"))                                          \
-    X(TOP, K_HOME, "Home", 'g', "g", 0, N_("to the first line"))                                       \
-    X(BOTTOM, K_END, "End", 'G', "G", 0, N_("to the last line"))                                       \
-    X(PAGE_UP, K_PAGE_UP, "PgUp", K_NONE, "", 0, N_("a page up"))                                    \
-    X(PAGE_DOWN, K_PAGE_DOWN, "PgDn", K_NONE, "", 0, N_("a page down"))                              \
-    X(NEXT_PANE, K_TAB, "Tab", K_NONE, "", 0, N_("pane"))                                             \
-    X(LAST_PANE, K_SHIFT_TAB, "Shift-Tab", K_NONE, "", 0, N_("the pane before"))                     \
-    X(EDIT, K_ENTER, "Enter", K_NONE, "", 1, N_("edit"))                                              \
-    X(MORE, '+', "+", '=', "=", 0, N_("a step more"))                                                    \
-    X(LESS, '-', "-", '_', "_", 0, N_("a step less"))                                                    \
-    X(ADD, 'a', "a", K_NONE, "", 1, N_("add"))                                                          \
-    X(DELETE, 'd', "d", K_DELETE, "Del", 0, N_("delete"))                                               \
-    X(DUPLICATE, 'y', "y", K_NONE, "", 0, N_("duplicate"))                                              \
-    X(EARLIER, '<', "<", K_NONE, "", 0, N_("move this item before the one before it"))                 \
-    X(LATER, '>', ">", K_NONE, "", 0, N_("move this item after the next"))                             \
-    X(UNDO, 'u', "u", K_NONE, "", 2, N_("undo"))                                                        \
-    X(REDO, K_CTRL_R, "Ctrl-R", K_NONE, "", 0, N_("redo"))                                           \
-    X(PRESETS, 'p', "p", K_F5, "F5", 1, N_("presets"))                                                  \
-    X(COUNTS, 'c', "c", K_NONE, "", 0, N_("stand from the counts of a sample plot"))                   \
-    VIEWS(VIEW_ACTION)                                                                                 \
-    X(STOP, K_ESCAPE, "Esc", K_NONE, "", 0, N_("stop a fit, or leave what it found"))                  \
-    X(FIND, 'f', "f", K_NONE, "", 1, N_("find the value here that reaches a goal"))                    \
-    X(NEXT_OPTION, ']', "]", K_NONE, "", 0, N_("next option"))                                   \
-    X(LAST_OPTION, '[', "[", K_NONE, "", 0, N_("the option before"))                             \
-    X(NEXT_ROCK, '.', ".", K_NONE, "", 0, N_("next rock's way"))                                       \
-    X(LAST_ROCK, ',', ",", K_NONE, "", 0, N_("the rock's way before"))                                 \
-    X(ZOOM, 'z', "z", K_NONE, "", 0, N_("nearer to the slope, at the cursor along it"))                 \
-    X(UNZOOM, 'Z', "Z", K_NONE, "", 0, N_("farther from the slope"))                                   \
-    X(SEARCH, '/', "/", K_F3, "F3", 0, N_("search"))                                                   \
-    X(AGAIN, 'N', "N", K_NONE, "", 0, N_("search again"))                                              \
-    X(COMMANDS, ':', ":", K_NONE, "", 0, N_("commands by their names")) \
-    X(NEW, 'n', "n", K_F7, "F7", 0, N_("new scene"))                                                   \
-    X(OPEN, 'o', "o", K_F4, "F4", 0, N_("open a scene"))                                               \
-    X(SAVE, 's', "s", K_F2, "F2", 2, N_("save"))                                                        \
-    X(SAVE_AS, 'S', "S", K_NONE, "", 0, N_("save under another name"))                                 \
-    X(EXPORT, 'w', "w", K_F6, "F6", 1, N_("export"))                                                    \
-    X(CHARSET, 'b', "b", K_NONE, "", 0, N_("braille, blocks or ASCII"))                                \
-    X(THEME, 't', "t", K_NONE, "", 0, N_("colours: dark, light, none"))                                \
-    X(REDRAW, K_CTRL_L, "Ctrl-L", K_NONE, "", 0, N_("draw the screen anew"))                         \
-    X(HELP, '?', "?", K_F1, "F1", 2, N_("help"))                                                        \
+#define ACTIONS(X)                                                                                                             \
+    X(UP, K_UP, "Up", 'k', "k", 0, N_("move up"))                                                                              \
+    X(DOWN, K_DOWN, "Down", 'j', "j", 0, N_("move down"))                                                                      \
+    X(LEFT, K_LEFT, "Left", 'h', "h", 0, N_("move left"))                                                                      \
+    X(RIGHT, K_RIGHT, "Right", 'l', "l", 0, N_("move right"))                                                                  \
+    X(TOP, K_HOME, "Home", 'g', "g", 0, N_("to the first line"))                                                               \
+    X(BOTTOM, K_END, "End", 'G', "G", 0, N_("to the last line"))                                                               \
+    X(PAGE_UP, K_PAGE_UP, "PgUp", K_NONE, "", 0, N_("a page up"))                                                              \
+    X(PAGE_DOWN, K_PAGE_DOWN, "PgDn", K_NONE, "", 0, N_("a page down"))                                                        \
+    X(NEXT_PANE, K_TAB, "Tab", K_NONE, "", 0, N_("pane"))                                                                      \
+    X(LAST_PANE, K_SHIFT_TAB, "Shift-Tab", K_NONE, "", 0, N_("the pane before"))                                               \
+    X(EDIT, K_ENTER, "Enter", K_NONE, "", 1, N_("edit"))                                                                       \
+    X(MORE, '+', "+", '=', "=", 0, N_("a step more"))                                                                          \
+    X(LESS, '-', "-", '_', "_", 0, N_("a step less"))                                                                          \
+    X(ADD, 'a', "a", K_NONE, "", 1, N_("add"))                                                                                 \
+    X(DELETE, 'd', "d", K_DELETE, "Del", 0, N_("delete"))                                                                      \
+    X(DUPLICATE, 'y', "y", K_NONE, "", 0, N_("duplicate"))                                                                     \
+    X(EARLIER, '<', "<", K_NONE, "", 0, N_("move this item before the one before it"))                                         \
+    X(LATER, '>', ">", K_NONE, "", 0, N_("move this item after the next"))                                                     \
+    X(UNDO, 'u', "u", K_NONE, "", 2, N_("undo"))                                                                               \
+    X(REDO, K_CTRL_R, "Ctrl-R", K_NONE, "", 0, N_("redo"))                                                                     \
+    X(PRESETS, 'p', "p", K_F5, "F5", 1, N_("presets"))                                                                         \
+    X(COUNTS, 'c', "c", K_NONE, "", 0, N_("stand from the counts of a sample plot"))                                           \
+    VIEWS(VIEW_ACTION)                                                                                                         \
+    X(STOP, K_ESCAPE, "Esc", K_NONE, "", 0, N_("stop a fit, or leave what it found"))                                          \
+    X(FIND, 'f', "f", K_NONE, "", 1, N_("find the value here that reaches a goal"))                                            \
+    X(NEXT_OPTION, ']', "]", K_NONE, "", 0, N_("next option"))                                                                 \
+    X(LAST_OPTION, '[', "[", K_NONE, "", 0, N_("the option before"))                                                           \
+    X(NEXT_ROCK, '.', ".", K_NONE, "", 0, N_("next rock's way"))                                                               \
+    X(LAST_ROCK, ',', ",", K_NONE, "", 0, N_("the rock's way before"))                                                         \
+    X(ZOOM, 'z', "z", K_NONE, "", 0, N_("nearer to the slope, at the cursor along it"))                                        \
+    X(UNZOOM, 'Z', "Z", K_NONE, "", 0, N_("farther from the slope"))                                                           \
+    X(SEARCH, '/', "/", K_F3, "F3", 0, N_("search"))                                                                           \
+    X(AGAIN, 'N', "N", K_NONE, "", 0, N_("search again"))                                                                      \
+    X(COMMANDS, ':', ":", K_NONE, "", 0, N_("commands by their names"))                                                        \
+    X(NEW, 'n', "n", K_F7, "F7", 0, N_("new scene"))                                                                           \
+    X(OPEN, 'o', "o", K_F4, "F4", 0, N_("open a scene"))                                                                       \
+    X(SAVE, 's', "s", K_F2, "F2", 2, N_("save"))                                                                               \
+    X(SAVE_AS, 'S', "S", K_NONE, "", 0, N_("save under another name"))                                                         \
+    X(EXPORT, 'w', "w", K_F6, "F6", 1, N_("export"))                                                                           \
+    X(CHARSET, 'b', "b", K_NONE, "", 0, N_("braille, blocks or ASCII"))                                                        \
+    X(THEME, 't', "t", K_NONE, "", 0, N_("colours: dark, light, none"))                                                        \
+    X(REDRAW, K_CTRL_L, "Ctrl-L", K_NONE, "", 0, N_("draw the screen anew"))                                                   \
+    X(HELP, '?', "?", K_F1, "F1", 2, N_("help"))                                                                               \
     X(QUIT, 'q', "q", K_F10, "F10", 2, N_("quit"))
 
 enum action {
@@ -110,7 +110,7 @@ enum action {
 struct action_info {
     int key, key2;
     const char *word, *word2;
-    int bar; /* 2: always in the bar, 1: where the view's own keys leave room */
+    int bar;          /* 2: always in the bar, 1: where the view's own keys leave room */
     const char *help; /* marked for translation */
 };
 

@@ -21,8 +21,8 @@ struct picker {
     size_t count, room;
     size_t *order; /* those that match, best first; as they were added where nothing is typed */
     size_t matches, order_room;
-    size_t at;     /* among those that match */
-    int top;       /* the first line shown */
+    size_t at; /* among those that match */
+    int top;   /* the first line shown */
 };
 
 void ceduo_picker_clear(struct picker *picker);

@@ -11,9 +11,9 @@
 #include "popup.h"
 #include "view/plot_parts.h"
 
-#define ZOOM_MOST   7
-#define STEPS       100   /* of the cursor, over what is shown */
-#define NEAR        0.015 /* of what is shown: so near a point or a control is where the cursor is */
+#define ZOOM_MOST 7
+#define STEPS     100   /* of the cursor, over what is shown */
+#define NEAR      0.015 /* of what is shown: so near a point or a control is where the cursor is */
 
 /* ---- where it is ---- */
 
@@ -119,15 +119,15 @@ void ceduo_place_say(struct app *app)
     size_t belt = belt_at(app, x);
     const struct ceduo_envelope *e = passing(o, ceduo_outlook_sight(o, scene, app->option), x);
     struct text text = {0};
-    ceduo_text_format(&text, _("%.1f m: %.0f\xc2\xb0 steep, %s"), x + scene->slope.origin_x, atan(ceduo_slope_fall(&scene->slope, x)) * 180 / M_PI,
-                      belt < ceduo_app_option(app)->belts_count ? ceduo_app_option(app)->belts[belt].name
-                                                               : _("no forest"));
+    ceduo_text_format(&text, _("%.1f m: %.0f\xc2\xb0 steep, %s"), x + scene->slope.origin_x,
+                      atan(ceduo_slope_fall(&scene->slope, x)) * 180 / M_PI,
+                      belt < ceduo_app_option(app)->belts_count ? ceduo_app_option(app)->belts[belt].name : _("no forest"));
     if (e) {
         struct text height = {0}, energy = {0};
         ceduo_words_number(&height, e->height.p95, 2);
         ceduo_words_number(&energy, e->mean_energy * KILO, 3);
         ceduo_text_then(&text, "; ", _("of 100 rocks that pass the underside of 95 is below %s m; %s kJ on average"),
-                          ceduo_text_string(&height), ceduo_text_string(&energy));
+                        ceduo_text_string(&height), ceduo_text_string(&energy));
         ceduo_text_free(&height);
         ceduo_text_free(&energy);
     }
@@ -166,9 +166,9 @@ static void chose(struct app *app, struct popup *p, const char *value)
     ceduo_app_state(app)->pane = 0;
     app->message[0] = '\0'; /* it was about the cursor */
     if (add)
-        ceduo_items_add_at(app, list, index, strncmp(list, "slope.", 6) == 0
-                                                 ? written(app, ceduo_place_x(app))
-                                                 : ceduo_place_x(app) + app->document.file.scene.slope.origin_x);
+        ceduo_items_add_at(app, list, index,
+                           strncmp(list, "slope.", 6) == 0 ? written(app, ceduo_place_x(app))
+                                                           : ceduo_place_x(app) + app->document.file.scene.slope.origin_x);
     else
         ceduo_form_go(ceduo_app_form(app), list, index);
 }
@@ -226,8 +226,10 @@ static void offer_ground(struct app *app, struct popup *p, double x)
     if (vertices && vertices->n <= 200) {
         double a = ceduo_node_item_number(vertices->items[j], 0), b = ceduo_node_item_number(vertices->items[j + 1], 0);
         bool first = there - a < b - there;
-        offer(p, line_of(room, _("edit the nearest point of the profile: number %zu, at %.4g m"), j + (first ? 1 : 2),
-                         ceduo_slope_mirrored(s, first ? a : b)), "", "slope.vertices_m", j + (first ? 0 : 1));
+        offer(p,
+              line_of(room, _("edit the nearest point of the profile: number %zu, at %.4g m"), j + (first ? 1 : 2),
+                      ceduo_slope_mirrored(s, first ? a : b)),
+              "", "slope.vertices_m", j + (first ? 0 : 1));
         offer(p, _("a new point of the profile here"), "+", "slope.vertices_m", j);
     }
 }

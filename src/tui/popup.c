@@ -170,13 +170,20 @@ static bool may_leave(struct app *app, struct popup *p)
 static int lines_of(int key)
 {
     switch (key) {
-    case K_UP: return -1;
-    case K_DOWN: return 1;
-    case K_PAGE_UP: return -10;
-    case K_PAGE_DOWN: return 10;
-    case K_HOME: return -100000;
-    case K_END: return 100000;
-    default: return 0;
+    case K_UP:
+        return -1;
+    case K_DOWN:
+        return 1;
+    case K_PAGE_UP:
+        return -10;
+    case K_PAGE_DOWN:
+        return 10;
+    case K_HOME:
+        return -100000;
+    case K_END:
+        return 100000;
+    default:
+        return 0;
     }
 }
 
@@ -390,10 +397,9 @@ static const struct {
     void (*key)(struct app *app, struct popup *popup, int key);
     void (*draw)(struct app *app, struct popup *popup);
     const char *bar;
-} kinds[] = {
-    [POPUP_TEXT] = {text_key, draw_text, N_("Up Down PgUp PgDn read on  any other key closes")},
-    [POPUP_LIST] = {list_key, draw_list, N_("type to search  Enter choose  Esc cancel  Tab completes  Up Down move")},
-    [POPUP_FIELDS] = {fields_key, draw_fields, N_("Enter next, at the last one done  Esc one back  Tab completes")}};
+} kinds[] = {[POPUP_TEXT] = {text_key, draw_text, N_("Up Down PgUp PgDn read on  any other key closes")},
+             [POPUP_LIST] = {list_key, draw_list, N_("type to search  Enter choose  Esc cancel  Tab completes  Up Down move")},
+             [POPUP_FIELDS] = {fields_key, draw_fields, N_("Enter next, at the last one done  Esc one back  Tab completes")}};
 
 void ceduo_popup_key(struct app *app, int key)
 {

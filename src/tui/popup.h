@@ -39,8 +39,8 @@ struct popup {
     int top;               /* the first line shown of a text */
     struct ceduo_area box; /* where it was drawn */
     char message[256];
-    char path[1024];       /* what a choice is for */
-    char *kept;            /* a text that goes with it */
+    char path[1024]; /* what a choice is for */
+    char *kept;      /* a text that goes with it */
     popup_chosen *chosen;
     popup_chosen *preview; /* puts `text` anew for the item under the cursor; NULL: it stays */
     char previewed[256];   /* the item that `text` is about */
@@ -49,7 +49,7 @@ struct popup {
     popup_filled *filled;
     void (*picture)(struct app *app, struct popup *popup, struct ceduo_area area); /* below fields, where nothing is offered */
     bool (*check)(struct app *app, struct popup *popup, size_t field); /* as a field is left; false: it is said why */
-    void (*then)(struct app *app); /* what goes on once unsaved work is saved or given up */
+    void (*then)(struct app *app);                                     /* what goes on once unsaved work is saved or given up */
 };
 
 /* Each opens a popup in place of any other. NULL, with a warning, if there is no memory. */

@@ -25,7 +25,7 @@ enum {
 };
 
 #define ALONG_SLOPE "slope"
-#define ON_MAP "map"
+#define ON_MAP      "map"
 
 struct plot {
     double values[COUNTS]; /* as typed */
@@ -114,7 +114,7 @@ static bool read_plot(struct app *app, struct popup *p, struct plot *plot)
 /* ---- the stand ---- */
 
 #define CHANGES_MOST 5
-#define SPACING 0.35 /* m, where the stand had no stools yet: assumed as in the presets */
+#define SPACING      0.35 /* m, where the stand had no stools yet: assumed as in the presets */
 
 struct changes {
     char sets[CHANGES_MOST][FORM_PATH + 128];
@@ -133,8 +133,8 @@ __attribute__((format(printf, 2, 3))) static void change(struct changes *c, cons
 }
 
 /* One class of stems in the place of those that stand there, or none. */
-static void change_stems(struct app *app, struct changes *c, const char *stand, const char *key,
-                         const struct plot *plot, size_t count)
+static void change_stems(struct app *app, struct changes *c, const char *stand, const char *key, const struct plot *plot,
+                         size_t count)
 {
     char path[FORM_PATH + 16];
     const double *v = &plot->values[count];
@@ -172,8 +172,7 @@ static bool filled_counts(struct app *app, struct popup *p)
     change_stand(app, &changes, p->path, &plot);
     bool good = ceduo_document_set_all(&app->document, changes.list, changes.n, _("counts of a plot"), &app->problems);
     if (ceduo_app_edited(app, good))
-        ceduo_app_say(app, _("a plot of %.4g m2, horizontal: each stem counted stands for %.4g per ha"), plot.area,
-                      plot.per);
+        ceduo_app_say(app, _("a plot of %.4g m2, horizontal: each stem counted stands for %.4g per ha"), plot.area, plot.per);
     return good;
 }
 

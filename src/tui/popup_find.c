@@ -21,12 +21,11 @@ static const struct {
     enum ceduo_goal goal;
     const char *words, *unit;
     double per; /* so many of that unit are one of the goal's */
-} goals[] = {
-    {CEDUO_GOAL_ADC, N_("mean distance between hits below … m (ADC)"), "m", 1},
-    {CEDUO_GOAL_FREE_RUN, N_("chance of a free run at most … %"), "%", 100},
-    {CEDUO_GOAL_EXCEED, N_("at most … of 1000 arrive with too much"), N_("of 1000"), 1000},
-    {CEDUO_GOAL_ARRIVE, N_("at most … of 1000 arrive"), N_("of 1000"), 1000},
-    {CEDUO_GOAL_ENERGY, N_("mean energy of arrivals at most … kJ"), "kJ", 1}};
+} goals[] = {{CEDUO_GOAL_ADC, N_("mean distance between hits below … m (ADC)"), "m", 1},
+             {CEDUO_GOAL_FREE_RUN, N_("chance of a free run at most … %"), "%", 100},
+             {CEDUO_GOAL_EXCEED, N_("at most … of 1000 arrive with too much"), N_("of 1000"), 1000},
+             {CEDUO_GOAL_ARRIVE, N_("at most … of 1000 arrive"), N_("of 1000"), 1000},
+             {CEDUO_GOAL_ENERGY, N_("mean energy of arrivals at most … kJ"), "kJ", 1}};
 #define GOALS_OFFERED (sizeof goals / sizeof goals[0])
 
 static void offer_goals(struct app *app, struct popup *p, const char *typed)
@@ -60,8 +59,7 @@ static bool read_word(struct app *app, const char *typed, struct ceduo_search *s
     if (reading == CEDUO_GOAL_NO_SHARE)
         ceduo_app_warn(app, "%s", _("a share is 0 to 1, as 0.05 for 5 %"));
     else if (reading != CEDUO_GOAL_GOOD)
-        ceduo_app_warn(app, "%s",
-                       _("the goal is one of the list, or adc, free-run, energy=KJ, exceed=SHARE, arrive=SHARE"));
+        ceduo_app_warn(app, "%s", _("the goal is one of the list, or adc, free-run, energy=KJ, exceed=SHARE, arrive=SHARE"));
     return reading == CEDUO_GOAL_GOOD;
 }
 
@@ -107,8 +105,7 @@ static bool read_end(struct app *app, const struct popup *p, size_t field, doubl
 /* What the fields ask for; the path is the popup's. */
 static bool read_fields(struct app *app, struct popup *p, struct seek *seek)
 {
-    *seek = (struct seek){.file = &app->document.file,
-                          .search = {.path = p->path, .option = app->option, .rocks = FIND_ROCKS}};
+    *seek = (struct seek){.file = &app->document.file, .search = {.path = p->path, .option = app->option, .rocks = FIND_ROCKS}};
     if (!read_goal(app, p, &seek->search) || !read_end(app, p, FIND_LO, &seek->search.lo) ||
         !read_end(app, p, FIND_HI, &seek->search.hi))
         return false;
@@ -159,8 +156,7 @@ static void put_found(struct text *text, const struct popup *p, const struct ced
 static void put_none(struct text *text, const struct popup *p, const struct ceduo_found *f, const char *reached)
 {
     char room[CEDUO_NUMBER_ROOM];
-    ceduo_text_format(text, _("no value from %s to %s reaches the goal"), p->fields[FIND_LO].text,
-                      p->fields[FIND_HI].text);
+    ceduo_text_format(text, _("no value from %s to %s reaches the goal"), p->fields[FIND_LO].text, p->fields[FIND_HI].text);
     if (!isnan(f->nearest))
         ceduo_text_then(text, "; ", _("nearest is %s with %s"), shown(ceduo_schema_at(p->path), f->nearest, room), reached);
 }
@@ -171,9 +167,8 @@ static void put_words(struct app *app, struct popup *p, const struct ceduo_searc
     const struct form_cell *cell = ceduo_form_cell(ceduo_app_form(app));
     size_t row = row_of(s->goal);
     if (f->found && f->whole_range) { /* then the value that is there is as good as another */
-        ceduo_text_format(text, _("every value from %s to %s reaches the goal; the field stays %s"),
-                          p->fields[FIND_LO].text, p->fields[FIND_HI].text,
-                          cell && cell->text[0] ? cell->text : _("as it is"));
+        ceduo_text_format(text, _("every value from %s to %s reaches the goal; the field stays %s"), p->fields[FIND_LO].text,
+                          p->fields[FIND_HI].text, cell && cell->text[0] ? cell->text : _("as it is"));
         return;
     }
     struct text reached = {0};
@@ -182,7 +177,7 @@ static void put_words(struct app *app, struct popup *p, const struct ceduo_searc
     text->failed |= reached.failed;
     ceduo_text_free(&reached);
     ceduo_text_then(text, " ", ceduo_goals[s->goal].below ? _("(below %g %s is wanted)") : _("(at most %g %s is wanted)"),
-                      s->target * goals[row].per, _(goals[row].unit));
+                    s->target * goals[row].per, _(goals[row].unit));
     if (!f->monotone)
         ceduo_text_then(text, "; ", _("not monotone: there may be other values"));
 }
@@ -289,8 +284,8 @@ static void propose(struct app *app, const struct form_cell *cell, double *lo, d
 void ceduo_popup_find(struct app *app)
 {
     const struct form_cell *cell = ceduo_form_cell(ceduo_app_form(app));
-    bool number = cell && cell->field && (cell->field->type == FIELD_NUMBER || cell->field->type == FIELD_COUNT ||
-                                          cell->field->type == FIELD_SPREAD);
+    bool number = cell && cell->field &&
+                  (cell->field->type == FIELD_NUMBER || cell->field->type == FIELD_COUNT || cell->field->type == FIELD_SPREAD);
     if (!number || (cell->field->flags & FIELD_NOWHERE)) {
         ceduo_app_warn(app, "%s", _("put the cursor on a number first: f looks for its value that reaches a goal"));
         return;
@@ -304,8 +299,10 @@ void ceduo_popup_find(struct app *app)
     snprintf(p->path, sizeof p->path, "%s", cell->path);
     struct text path = {0};
     ceduo_shown_path(cell->path, &path);
-    ceduo_text_format(&p->text, _("The value of: %s. The same rocks for every value; the goal counts at the worst control. "
-                                  "What is found is put into the field; u takes it back."), ceduo_text_string(&path));
+    ceduo_text_format(&p->text,
+                      _("The value of: %s. The same rocks for every value; the goal counts at the worst control. "
+                        "What is found is put into the field; u takes it back."),
+                      ceduo_text_string(&path));
     p->text.failed |= path.failed;
     ceduo_text_free(&path);
     ceduo_popup_choice(p, _("goal"), _(goals[0].words), offer_goals);

@@ -85,8 +85,9 @@ static bool filled_fit(struct app *app, struct popup *p)
 
 static void put_about(struct popup *p, const struct fit_wish *w)
 {
-    ceduo_text_format(&p->text, _("Each value between its bounds; an empty field is not fitted. Every scene that is tried has %llu rocks."),
-                      (unsigned long long)w->rocks);
+    ceduo_text_format(
+        &p->text, _("Each value between its bounds; an empty field is not fitted. Every scene that is tried has %llu rocks."),
+        (unsigned long long)w->rocks);
     for (size_t i = FILLED; i < w->n; i++) {
         ceduo_text_put(&p->text, i == FILLED ? " " : "; ");
         if (i == FILLED)

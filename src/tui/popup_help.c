@@ -8,12 +8,9 @@
 static const struct {
     enum action first;
     const char *heading;
-} groups[] = {{ACTION_UP, N_("Moving")},
-              {ACTION_EDIT, N_("Changing")},
-              {ACTION_VIEW_SLOPE, N_("Views")},
-              {ACTION_FIND, N_("Looking further")},
-              {ACTION_NEW, N_("Files")},
-              {ACTION_CHARSET, N_("Screen")}};
+} groups[] = {{ACTION_UP, N_("Moving")},        {ACTION_EDIT, N_("Changing")},
+              {ACTION_VIEW_SLOPE, N_("Views")}, {ACTION_FIND, N_("Looking further")},
+              {ACTION_NEW, N_("Files")},        {ACTION_CHARSET, N_("Screen")}};
 
 /* What words and signs of the field mean here. */
 static const struct {

@@ -75,9 +75,9 @@ static bool make_profile(struct answers *a, const char *more)
 {
     struct text yaml = {0};
     struct problems problems = {0};
-    ceduo_text_format(&yaml,
-                      "ceduo: scene/1\nrock: {diameter_m: 1}\ncontrols_m: [%.17g]\nslope:\n  %s\n  segments: [{rn: 0.3, rt: 0.8}]\n%s",
-                      a->last, ceduo_text_string(&a->slope), more);
+    ceduo_text_format(
+        &yaml, "ceduo: scene/1\nrock: {diameter_m: 1}\ncontrols_m: [%.17g]\nslope:\n  %s\n  segments: [{rn: 0.3, rt: 0.8}]\n%s",
+        a->last, ceduo_text_string(&a->slope), more);
     ceduo_scene_release(&a->profile);
     bool good = ceduo_scene_read_text(&a->profile, "", ceduo_text_string(&yaml), &problems);
     ceduo_problems_free(&problems);
@@ -150,8 +150,8 @@ static void describe(struct popup *p, const struct answers *a)
     size_t n = s->vertices - 1;
     double at = steepest(s), degrees = 180 / M_PI;
     ceduo_text_free(&p->text);
-    ceduo_text_format(&p->text, _("The profile is %.4g m long and falls by %.4g m; it is steepest at %.4g m, %.0f\xc2\xb0."), s->x[n], -s->z[n],
-                      at + s->origin_x, atan(ceduo_slope_fall(s, at)) * degrees);
+    ceduo_text_format(&p->text, _("The profile is %.4g m long and falls by %.4g m; it is steepest at %.4g m, %.0f\xc2\xb0."),
+                      s->x[n], -s->z[n], at + s->origin_x, atan(ceduo_slope_fall(s, at)) * degrees);
     if (s->reversed)
         ceduo_text_then(&p->text, " ", "%s", _("It was drawn upward and is turned round."));
     if (a->release >= a->first && a->release < a->last)
@@ -235,9 +235,8 @@ static bool read_answers(struct app *app, struct popup *p, size_t upto, struct a
 {
     a->has_accepted = p->fields[NEW_ACCEPTED].text[0] != '\0';
     return (upto < NEW_PROFILE || read_profile(app, p, a)) && (upto < NEW_RELEASE || read_release(app, p, a)) &&
-           (upto < NEW_FACE || read_face(app, p, a)) &&
-           (upto < NEW_MATERIAL || read_material(app, p)) && (upto < NEW_ROCK || read_rock(app, p, a)) &&
-           (upto < NEW_CONTROL || read_control(app, p, a)) &&
+           (upto < NEW_FACE || read_face(app, p, a)) && (upto < NEW_MATERIAL || read_material(app, p)) &&
+           (upto < NEW_ROCK || read_rock(app, p, a)) && (upto < NEW_CONTROL || read_control(app, p, a)) &&
            (upto < NEW_ACCEPTED || read_number(app, p, NEW_ACCEPTED, 0, &a->accepted)) &&
            (upto < NEW_STAND || read_stand(app, p, a));
 }

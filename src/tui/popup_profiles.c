@@ -21,12 +21,11 @@
 /* How common a system is: Table 7 of Ciabocco et al. 2009, Marche. */
 static const char *how_common(const char *name)
 {
-    static const char *const texts[] = {
-        [CEDUO_SIMPLE_COPPICE] = N_("87 050 ha, 43.4 % of Marche: with reserves"),
-        [CEDUO_COPPICE_WITH_STANDARDS] = N_("13 250 ha, 6.6 % of Marche: with standards"),
-        [CEDUO_SELECTION_COPPICE] = N_("350 ha, 0.2 % of Marche: selection system"),
-        [CEDUO_LARGE_RESERVES] = N_("30 275 ha, 15.1 % of Marche: a lot of reserves"),
-        [CEDUO_HIGH_FOREST] = N_("28 550 ha, 14.2 % of Marche: natural high forest")};
+    static const char *const texts[] = {[CEDUO_SIMPLE_COPPICE] = N_("87 050 ha, 43.4 % of Marche: with reserves"),
+                                        [CEDUO_COPPICE_WITH_STANDARDS] = N_("13 250 ha, 6.6 % of Marche: with standards"),
+                                        [CEDUO_SELECTION_COPPICE] = N_("350 ha, 0.2 % of Marche: selection system"),
+                                        [CEDUO_LARGE_RESERVES] = N_("30 275 ha, 15.1 % of Marche: a lot of reserves"),
+                                        [CEDUO_HIGH_FOREST] = N_("28 550 ha, 14.2 % of Marche: natural high forest")};
     for (size_t i = 0; i < sizeof texts / sizeof texts[0]; i++)
         if (strncmp(name, ceduo_system_words.names[i], strlen(ceduo_system_words.names[i])) == 0)
             return _(texts[i]);
@@ -224,9 +223,8 @@ static void put_stand(struct app *app, struct text *text, const char *value)
             ceduo_text_format(text, _("with this rock: ADC %.3g m, free run %.1f %%; contacts take shares (%s)\n"), r.adc_m,
                               r.free_run_probability * 100, ceduo_rule_words.names[r.rule]);
         else
-            ceduo_text_format(text, _("with this rock: ADC %.3g m, free run %.1f %%, %.3g kJ/100 m (%s)\n"),
-                              r.adc_m, r.free_run_probability * 100, r.dissipated * KILO,
-                              ceduo_rule_words.names[r.rule]);
+            ceduo_text_format(text, _("with this rock: ADC %.3g m, free run %.1f %%, %.3g kJ/100 m (%s)\n"), r.adc_m,
+                              r.free_run_probability * 100, r.dissipated * KILO, ceduo_rule_words.names[r.rule]);
     }
     ceduo_text_free(&yaml);
     ceduo_problems_free(&problems);
@@ -241,7 +239,8 @@ static void preview_stand(struct app *app, struct popup *p, const char *value)
         return;
     }
     if (strcmp(value, STAND_SURVEY) == 0) {
-        ceduo_text_put(&p->text, _("asks for the CSV file, and takes densities with their errors, classes and heights from it"));
+        ceduo_text_put(&p->text,
+                       _("asks for the CSV file, and takes densities with their errors, classes and heights from it"));
         return;
     }
     put_stand(app, &p->text, value);

@@ -8,8 +8,8 @@
 
 #include "base/language.h"
 #include "io/emit.h"
-#include "popup.h"
 #include "model/recovery.h"
+#include "popup.h"
 #include "popups.h"
 
 /* ---- saving ---- */
@@ -47,8 +47,7 @@ static bool save_to(struct app *app, const char *path)
 static bool filled_save(struct app *app, struct popup *p)
 {
     const char *path = p->fields[0].text;
-    bool own = app->document.path && strcmp(app->document.path, path) == 0 &&
-               !ceduo_document_changed_on_disk(&app->document);
+    bool own = app->document.path && strcmp(app->document.path, path) == 0 && !ceduo_document_changed_on_disk(&app->document);
     if (path[0] == '\0') {
         ceduo_app_warn(app, "%s", _("a name is needed"));
         return false;
@@ -67,7 +66,7 @@ void ceduo_popup_offer_files(struct app *app, struct popup *p, const char *typed
 static bool filled_stand(struct app *app, struct popup *p)
 {
     struct text value = {0};
-    void (*then)(struct app *app) = p->then;
+    void (*then)(struct app * app) = p->then;
     if (p->fields[0].text[0] == '\0') {
         ceduo_app_warn(app, "%s", _("a name is needed"));
         return false;
@@ -156,8 +155,8 @@ static void chose_disk(struct app *app, struct popup *p, const char *value)
 static void ask_which(struct app *app)
 {
     bool gone = access(app->document.path, F_OK) != 0;
-    struct popup *p = ceduo_popup_list(app, gone ? _("The file is no longer there")
-                                                 : _("The file has changed on disk since it was read"), chose_disk);
+    struct popup *p = ceduo_popup_list(
+        app, gone ? _("The file is no longer there") : _("The file has changed on disk since it was read"), chose_disk);
     ceduo_popup_item(p, _("never mind: do not save now"), "");
     ceduo_popup_item(p, _("save under another name"), "as");
     ceduo_popup_item(p, gone ? _("write it again") : _("write over what is there"), "write");
@@ -179,7 +178,7 @@ void ceduo_popup_save(struct app *app)
 
 static void chose_unsaved(struct app *app, struct popup *p, const char *value)
 {
-    void (*then)(struct app *app) = p->then;
+    void (*then)(struct app * app) = p->then;
     if (strcmp(value, "save") == 0) {
         app->once_saved = then; /* once a name is given, where one is asked for */
         ceduo_popup_save(app);

@@ -58,8 +58,9 @@ void ceduo_popup_survey(struct app *app)
     if (!p)
         return;
     ceduo_app_stand(app, p->path, sizeof p->path);
-    ceduo_text_put(&p->text, _("Columns: plot, area_m2 or radius_m, slope_deg, species, kind, stool, dbh_cm, height_m, spacing_m; "
-                               "see ceduo-stand(5)."));
+    ceduo_text_put(&p->text,
+                   _("Columns: plot, area_m2 or radius_m, slope_deg, species, kind, stool, dbh_cm, height_m, spacing_m; "
+                     "see ceduo-stand(5)."));
     p->offers[0] = offer_surveys;
     p->endings = ".csv";
 }

@@ -45,7 +45,7 @@ bool ceduo_popup_take_recovery(struct app *app, const char *value);
 void ceduo_popup_offer_files(struct app *app, struct popup *popup, const char *typed);
 
 #define STAND_COUNTED "from a sample plot" /* in the place of a stand: what a sample plot counts */
-#define STAND_SURVEY "from a survey" /* what a CSV file of plots holds */
+#define STAND_SURVEY  "from a survey"      /* what a CSV file of plots holds */
 void ceduo_popup_offer_stands(struct app *app, struct popup *popup, const char *typed);
 void ceduo_popup_offer_grounds(struct app *app, struct popup *popup, const char *typed);
 

@@ -98,50 +98,134 @@ static void act(struct app *app, enum action action)
 {
     int page = app->height > 12 ? app->height / 2 : 5;
     switch (action) {
-    case ACTION_UP: move_cursor(app, -1, 0); break;
-    case ACTION_DOWN: move_cursor(app, 1, 0); break;
-    case ACTION_LEFT: move_cursor(app, 0, -1); break;
-    case ACTION_RIGHT: move_cursor(app, 0, 1); break;
-    case ACTION_TOP: move_cursor(app, -100000, 0); break;
-    case ACTION_BOTTOM: move_cursor(app, ceduo_app_state(app)->pane == 0 ? 100000 : 50, 0); break;
-    case ACTION_PAGE_UP: move_cursor(app, -page, 0); break;
-    case ACTION_PAGE_DOWN: move_cursor(app, page, 0); break;
-    case ACTION_EDIT: ceduo_edit_start(app); break;
-    case ACTION_MORE: ceduo_edit_step(app, 1); break;
-    case ACTION_LESS: ceduo_edit_step(app, -1); break;
-    case ACTION_ADD: ceduo_items_add(app); break;
-    case ACTION_DELETE: ceduo_items_delete(app); break;
-    case ACTION_DUPLICATE: ceduo_items_duplicate(app); break;
-    case ACTION_EARLIER: ceduo_items_move(app, -1); break;
-    case ACTION_LATER: ceduo_items_move(app, 1); break;
-    case ACTION_UNDO: undo_or_redo(app, false); break;
-    case ACTION_REDO: undo_or_redo(app, true); break;
-    case ACTION_PRESETS: ceduo_popup_presets(app); break;
-    case ACTION_COUNTS: ceduo_popup_counts(app); break;
-    case ACTION_NEXT_PANE: next_pane(app, 1); break;
-    case ACTION_LAST_PANE: next_pane(app, -1); break;
-#define V(NAME, name, key, word, help) case ACTION_VIEW_##NAME: ceduo_app_show(app, VIEW_##NAME); break;
-    VIEWS(V)
+    case ACTION_UP:
+        move_cursor(app, -1, 0);
+        break;
+    case ACTION_DOWN:
+        move_cursor(app, 1, 0);
+        break;
+    case ACTION_LEFT:
+        move_cursor(app, 0, -1);
+        break;
+    case ACTION_RIGHT:
+        move_cursor(app, 0, 1);
+        break;
+    case ACTION_TOP:
+        move_cursor(app, -100000, 0);
+        break;
+    case ACTION_BOTTOM:
+        move_cursor(app, ceduo_app_state(app)->pane == 0 ? 100000 : 50, 0);
+        break;
+    case ACTION_PAGE_UP:
+        move_cursor(app, -page, 0);
+        break;
+    case ACTION_PAGE_DOWN:
+        move_cursor(app, page, 0);
+        break;
+    case ACTION_EDIT:
+        ceduo_edit_start(app);
+        break;
+    case ACTION_MORE:
+        ceduo_edit_step(app, 1);
+        break;
+    case ACTION_LESS:
+        ceduo_edit_step(app, -1);
+        break;
+    case ACTION_ADD:
+        ceduo_items_add(app);
+        break;
+    case ACTION_DELETE:
+        ceduo_items_delete(app);
+        break;
+    case ACTION_DUPLICATE:
+        ceduo_items_duplicate(app);
+        break;
+    case ACTION_EARLIER:
+        ceduo_items_move(app, -1);
+        break;
+    case ACTION_LATER:
+        ceduo_items_move(app, 1);
+        break;
+    case ACTION_UNDO:
+        undo_or_redo(app, false);
+        break;
+    case ACTION_REDO:
+        undo_or_redo(app, true);
+        break;
+    case ACTION_PRESETS:
+        ceduo_popup_presets(app);
+        break;
+    case ACTION_COUNTS:
+        ceduo_popup_counts(app);
+        break;
+    case ACTION_NEXT_PANE:
+        next_pane(app, 1);
+        break;
+    case ACTION_LAST_PANE:
+        next_pane(app, -1);
+        break;
+#define V(NAME, name, key, word, help)                                                                                         \
+    case ACTION_VIEW_##NAME:                                                                                                   \
+        ceduo_app_show(app, VIEW_##NAME);                                                                                      \
+        break;
+        VIEWS(V)
 #undef V
-    case ACTION_FIND: ceduo_popup_find(app); break;
-    case ACTION_NEXT_OPTION: next_option(app, 1); break;
-    case ACTION_LAST_OPTION: next_option(app, -1); break;
-    case ACTION_NEXT_ROCK: ceduo_app_next_rock(app, 1); break;
-    case ACTION_LAST_ROCK: ceduo_app_next_rock(app, -1); break;
-    case ACTION_SEARCH: ask_for_word(app); break;
-    case ACTION_AGAIN: ceduo_app_search(app); break;
-    case ACTION_COMMANDS: list_commands(app); break;
-    case ACTION_NEW: ceduo_popup_new(app); break;
-    case ACTION_OPEN: ceduo_popup_open(app); break;
-    case ACTION_SAVE: ceduo_popup_save(app); break;
-    case ACTION_SAVE_AS: ceduo_popup_save_as(app); break;
-    case ACTION_EXPORT: ceduo_popup_export(app); break;
-    case ACTION_CHARSET: next_charset(app); break;
-    case ACTION_THEME: app->theme = (app->theme + 1) % 3; break;
-    case ACTION_REDRAW: app->redraw = true; break;
-    case ACTION_HELP: ceduo_popup_help(app); break;
-    case ACTION_QUIT: ceduo_popup_quit(app); break;
-    default: break;
+    case ACTION_FIND:
+        ceduo_popup_find(app);
+        break;
+    case ACTION_NEXT_OPTION:
+        next_option(app, 1);
+        break;
+    case ACTION_LAST_OPTION:
+        next_option(app, -1);
+        break;
+    case ACTION_NEXT_ROCK:
+        ceduo_app_next_rock(app, 1);
+        break;
+    case ACTION_LAST_ROCK:
+        ceduo_app_next_rock(app, -1);
+        break;
+    case ACTION_SEARCH:
+        ask_for_word(app);
+        break;
+    case ACTION_AGAIN:
+        ceduo_app_search(app);
+        break;
+    case ACTION_COMMANDS:
+        list_commands(app);
+        break;
+    case ACTION_NEW:
+        ceduo_popup_new(app);
+        break;
+    case ACTION_OPEN:
+        ceduo_popup_open(app);
+        break;
+    case ACTION_SAVE:
+        ceduo_popup_save(app);
+        break;
+    case ACTION_SAVE_AS:
+        ceduo_popup_save_as(app);
+        break;
+    case ACTION_EXPORT:
+        ceduo_popup_export(app);
+        break;
+    case ACTION_CHARSET:
+        next_charset(app);
+        break;
+    case ACTION_THEME:
+        app->theme = (app->theme + 1) % 3;
+        break;
+    case ACTION_REDRAW:
+        app->redraw = true;
+        break;
+    case ACTION_HELP:
+        ceduo_popup_help(app);
+        break;
+    case ACTION_QUIT:
+        ceduo_popup_quit(app);
+        break;
+    default:
+        break;
     }
 }
 
@@ -215,8 +299,8 @@ void ceduo_program_wheel(struct app *app, int lines)
         move_cursor(app, lines, 0);
 }
 
-bool ceduo_program_create(struct app *app, const char *path, enum ceduo_charset charset, unsigned threads,
-                          bool no_recovery, struct problems *problems)
+bool ceduo_program_create(struct app *app, const char *path, enum ceduo_charset charset, unsigned threads, bool no_recovery,
+                          struct problems *problems)
 {
     if (!ceduo_app_create(app, path, charset, threads, no_recovery, problems))
         return false;

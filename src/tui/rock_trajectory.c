@@ -9,8 +9,8 @@
 #include "base/language.h"
 
 #define FLIGHT_POINTS 24 /* of a parabola: enough for any screen */
-#define PIECES_MOST 20000
-#define SECONDS_MOST 0.05 /* that a key may take */
+#define PIECES_MOST   20000
+#define SECONDS_MOST  0.05 /* that a key may take */
 
 static bool is_enough(void *context)
 {
@@ -75,8 +75,8 @@ static bool draw_trail(struct rock_trajectory *s, double gravity)
     return true;
 }
 
-bool ceduo_rock_trajectory_follow(struct rock_trajectory *s, const struct ceduo_scene *scene,
-                                  const struct ceduo_option *option, uint64_t key, uint64_t rock)
+bool ceduo_rock_trajectory_follow(struct rock_trajectory *s, const struct ceduo_scene *scene, const struct ceduo_option *option,
+                                  uint64_t key, uint64_t rock)
 {
     bool same = s->n > 0 && s->key == key && s->rock == rock;
     if (!same) {
@@ -121,9 +121,10 @@ static void say_stem(const struct rock_trajectory *s, struct text *text)
         if (isnan(p->dbh))
             ceduo_text_then(text, "; ", _("a contact takes %.2g of %.3g kJ"), p->taken / 1e3, p->before / 1e3);
         else
-            ceduo_text_then(text, "; ", p->shoot ? _("hits a shoot of %.2g cm: %.2g of %.3g kJ")
-                                                 : _("hits a tree of %.2g cm: %.2g of %.3g kJ"),
-                              p->dbh * 100, p->taken / 1e3, p->before / 1e3);
+            ceduo_text_then(text, "; ",
+                            p->shoot ? _("hits a shoot of %.2g cm: %.2g of %.3g kJ")
+                                     : _("hits a tree of %.2g cm: %.2g of %.3g kJ"),
+                            p->dbh * 100, p->taken / 1e3, p->before / 1e3);
     }
 }
 
@@ -152,11 +153,10 @@ void ceduo_rock_trajectory_say(const struct rock_trajectory *s, const struct ced
     ceduo_text_format(text, _("rock %llu, piece %zu of %zu"), (unsigned long long)s->rock, s->at, s->n);
     if (p->rolls)
         ceduo_text_then(text, ": ", _("rolls from %.2f to %.2f m, %.1f to %.1f m/s"), p->x + origin, p->x1 + origin,
-                          hypot(p->vx, p->vz), hypot(p->vx1, p->vz1));
+                        hypot(p->vx, p->vz), hypot(p->vx1, p->vz1));
     else
-        ceduo_text_then(text, ": ", _("flies from %.2f to %.2f m, %.1f m/s, top %.1f m over the ground"),
-                          p->x + origin, p->x1 + origin, hypot(p->vx1, p->vz1),
-                          fmax(0, z - ceduo_slope_height(&scene->slope, x)));
+        ceduo_text_then(text, ": ", _("flies from %.2f to %.2f m, %.1f m/s, top %.1f m over the ground"), p->x + origin,
+                        p->x1 + origin, hypot(p->vx1, p->vz1), fmax(0, z - ceduo_slope_height(&scene->slope, x)));
     say_stem(s, text);
 }
 

@@ -13,8 +13,8 @@ struct rock_trajectory {
     struct ceduo_stem_passed *stems; /* that it comes to */
     size_t *stem_piece;              /* the piece, counted from 1, on which or at whose end each of them stands */
     size_t stems_count, stems_room;
-    double begun;             /* s: when the following began */
-    bool cut_short;           /* it took too long to be followed to its end */
+    double begun;   /* s: when the following began */
+    bool cut_short; /* it took too long to be followed to its end */
     struct ceduo_trajectory way;
     struct ceduo_polyline line; /* what is shown of it */
 };

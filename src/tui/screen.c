@@ -55,8 +55,7 @@ static void draw_title(struct app *app)
     int x = 0;
     for (int v = 0; v < VIEW_COUNT; x += title_columns(app, v++))
         ceduo_app_label(app, x, 0, v == (int)app->view ? CEDUO_ROLE_CURSOR : CEDUO_ROLE_DIM,
-                        app->width < WIDE ? " %d %s" : " %d %s ", v + 1,
-                        ceduo_translate_in(ceduo_views[v]->title));
+                        app->width < WIDE ? " %d %s" : " %d %s ", v + 1, ceduo_translate_in(ceduo_views[v]->title));
     put_scene_title(app, app->width - x - 1);
 }
 

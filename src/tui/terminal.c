@@ -89,10 +89,10 @@ static void ask_for_pastes(bool on)
 static struct termios saved_mode;
 static char restore_string[128];
 static size_t restore_length;
-static volatile sig_atomic_t ending;   /* SIGTERM or SIGHUP */
+static volatile sig_atomic_t ending;      /* SIGTERM or SIGHUP */
 static volatile sig_atomic_t interrupted; /* Ctrl-C */
-static volatile sig_atomic_t suspended; /* Ctrl-Z */
-static volatile sig_atomic_t continued; /* after it, or after what stopped the program unasked */
+static volatile sig_atomic_t suspended;   /* Ctrl-Z */
+static volatile sig_atomic_t continued;   /* after it, or after what stopped the program unasked */
 static int wake[2] = {-1, -1};
 
 /* What brings the terminal back, made before it is needed: a handler may only write it. */
@@ -148,8 +148,7 @@ static void set_handlers(void)
 {
     static const int crashes[] = {SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGABRT}, others[] = {SIGTERM, SIGHUP, SIGINT, SIGCONT};
     for (size_t i = 0; i < 5; i++)
-        sigaction(crashes[i], &(struct sigaction){.sa_handler = on_crash, .sa_flags = (int)(SA_RESETHAND | SA_NODEFER)},
-                  NULL);
+        sigaction(crashes[i], &(struct sigaction){.sa_handler = on_crash, .sa_flags = (int)(SA_RESETHAND | SA_NODEFER)}, NULL);
     for (size_t i = 0; i < 4; i++)
         catch_signal(others[i]);
     struct sigaction now;
@@ -195,17 +194,9 @@ static int special_key(wint_t code)
 {
     static const struct {
         int from, to;
-    } keys[] = {{KEY_UP, K_UP},
-                {KEY_DOWN, K_DOWN},
-                {KEY_LEFT, K_LEFT},
-                {KEY_RIGHT, K_RIGHT},
-                {KEY_HOME, K_HOME},
-                {KEY_END, K_END},
-                {KEY_PPAGE, K_PAGE_UP},
-                {KEY_NPAGE, K_PAGE_DOWN},
-                {KEY_DC, K_DELETE},
-                {KEY_BTAB, K_SHIFT_TAB},
-                {KEY_ENTER, K_ENTER}};
+    } keys[] = {{KEY_UP, K_UP},     {KEY_DOWN, K_DOWN},      {KEY_LEFT, K_LEFT},     {KEY_RIGHT, K_RIGHT},
+                {KEY_HOME, K_HOME}, {KEY_END, K_END},        {KEY_PPAGE, K_PAGE_UP}, {KEY_NPAGE, K_PAGE_DOWN},
+                {KEY_DC, K_DELETE}, {KEY_BTAB, K_SHIFT_TAB}, {KEY_ENTER, K_ENTER}};
     for (size_t i = 0; i < sizeof keys / sizeof keys[0]; i++)
         if ((wint_t)keys[i].from == code)
             return keys[i].to;
@@ -218,11 +209,11 @@ static int special_key(wint_t code)
  * swallowed whole, also if they come in pieces, and what stands between the two sequences of a paste is gathered. */
 static struct {
     enum { PLAIN, ESCAPED, CONTROL, STRING, STRING_ESCAPED, CHARACTERS } state;
-    int number;      /* the one parameter of CSI; -1: none, 9999: more or other than that */
-    int characters;  /* still to be swallowed */
-    double last;     /* when the last character came */
+    int number;     /* the one parameter of CSI; -1: none, 9999: more or other than that */
+    int characters; /* still to be swallowed */
+    double last;    /* when the last character came */
     bool pasting;
-    char pasted[sizeof ((struct line *)NULL)->text + 8]; /* whatever fills it is too long for a line */
+    char pasted[sizeof((struct line *)NULL)->text + 8]; /* whatever fills it is too long for a line */
     size_t length;
 } input;
 

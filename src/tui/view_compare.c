@@ -164,8 +164,7 @@ static const char *mark_of(const struct ceduo_verdict *v, size_t i)
     if (i == v->rotation.best)
         return v->rotation.rivals == 0 ? _("best") : "";
     for (size_t k = 0; k < v->n; k++)
-        if (k != i &&
-            v->choices[k].mean.mean + v->choices[k].mean.half >= v->choices[i].mean.mean - v->choices[i].mean.half)
+        if (k != i && v->choices[k].mean.mean + v->choices[k].mean.half >= v->choices[i].mean.mean - v->choices[i].mean.half)
             return "";
     return _("worst");
 }
@@ -186,8 +185,8 @@ static void draw_figure(struct app *app, int x, int y, size_t i, enum column col
         return;
     }
     if (column == MARK) {
-        ceduo_cells_label(app->cells, x + 1, y,
-                          i == app->figures.verdict.rotation.best ? CEDUO_ROLE_GOOD : CEDUO_ROLE_BAD, mark);
+        ceduo_cells_label(app->cells, x + 1, y, i == app->figures.verdict.rotation.best ? CEDUO_ROLE_GOOD : CEDUO_ROLE_BAD,
+                          mark);
         return;
     }
     struct text text = {0};
@@ -240,8 +239,7 @@ static void put_place(struct app *app, struct ceduo_area area, int width)
         return;
     const struct ceduo_control *control = &r->scene->controls[r->last_control];
     if (r->wooded && !isnan(control->accepted))
-        ceduo_text_format(&text, _("Of 1000 rocks, more than %g kJ at %.6g m"), control->accepted * KILO,
-                          control->x_given);
+        ceduo_text_format(&text, _("Of 1000 rocks, more than %g kJ at %.6g m"), control->accepted * KILO, control->x_given);
     else if (r->wooded)
         ceduo_text_format(&text, _("Of 1000 rocks, those that arrive at %.6g m"), control->x_given);
     else
@@ -256,12 +254,12 @@ static void put_place(struct app *app, struct ceduo_area area, int width)
 
 static void draw_head(struct app *app, const struct layout *l, struct ceduo_area area)
 {
-    static const char *const simulated[COLUMNS] = {[TODAY] = N_("today"), [EVERY] = N_("every, y"), [WORST] = N_("worst year"),
-                                                   [MEAN] = N_("rotation"), [MARK] = "", [FAILS] = N_("fail"),
-                                                   [YIELD] = N_("m\xc2\xb3/ha y"), [LIGHTS] = N_("CFE now")};
-    static const char *const by_index[COLUMNS] = {[TODAY] = N_("ADC m"), [EVERY] = "", [WORST] = N_("worst"),
-                                                  [MEAN] = N_("kJ/100m"), [MARK] = "", [FAILS] = N_("fail"),
-                                                  [YIELD] = N_("m\xc2\xb3/ha y"), [LIGHTS] = N_("CFE now")};
+    static const char *const simulated[COLUMNS] = {
+        [TODAY] = N_("today"), [EVERY] = N_("every, y"), [WORST] = N_("worst year"),     [MEAN] = N_("rotation"),
+        [MARK] = "",           [FAILS] = N_("fail"),     [YIELD] = N_("m\xc2\xb3/ha y"), [LIGHTS] = N_("CFE now")};
+    static const char *const by_index[COLUMNS] = {
+        [TODAY] = N_("ADC m"), [EVERY] = "",         [WORST] = N_("worst"),          [MEAN] = N_("kJ/100m"),
+        [MARK] = "",           [FAILS] = N_("fail"), [YIELD] = N_("m\xc2\xb3/ha y"), [LIGHTS] = N_("CFE now")};
     const struct ceduo_result *r = app->figures.result;
     put_place(app, area, l->lights_left > 0 ? area.width - widths[LIGHTS] : area.width);
     if (l->lights_left > 0)
@@ -315,8 +313,7 @@ static void say_verdict(struct app *app, struct text *words)
         ceduo_text_char(words, '\n');
     }
     if (v->n < 2) {
-        ceduo_text_put(words,
-                       _("One way to treat this wood so far. a adds another from a preset, y a copy of this one.\n"));
+        ceduo_text_put(words, _("One way to treat this wood so far. a adds another from a preset, y a copy of this one.\n"));
     } else {
         ceduo_words_best(words, r->scene, v);
         if (words->length > 0)
@@ -330,13 +327,11 @@ static void say_verdict(struct app *app, struct text *words)
     if (v->wooded && !v->accepted)
         ceduo_text_put(words, _("What the place withstands is not given (view 3): energy is not judged.\n"));
     if (!r->wooded)
-        ceduo_text_put(words,
-                       _("Without forest every option sees the same rocks; the index says what stems could take, "
-                         "not what a rock loses.\n"));
+        ceduo_text_put(words, _("Without forest every option sees the same rocks; the index says what stems could take, "
+                                "not what a rock loses.\n"));
     say_progress(app, words);
     if (v->n > 1 && r->wooded && v->accepted)
-        ceduo_text_format(words, _("fail: years in which more than %.0f of 1000 bring too much."),
-                          CEDUO_EXCEED_MOST * 1000);
+        ceduo_text_format(words, _("fail: years in which more than %.0f of 1000 bring too much."), CEDUO_EXCEED_MOST * 1000);
     if (v->rotation.known && !v->rotation.uneven) {
         ceduo_text_char(words, ' ');
         ceduo_words_counted(words, v->choices[0].rocks);
@@ -399,8 +394,9 @@ static void draw(struct app *app, struct ceduo_area area)
     bool beside = area.width >= BESIDE_LEAST && app->figures.verdict.n > 1;
     if (pane != PANE_TABLE) {
         if (!app->message[0])
-            ceduo_app_say(app, "%s", pane == PANE_COMPARE ? _("Tab: protection against yield; up, down: another option")
-                                                          : _("Tab: back to the table; up, down: another option"));
+            ceduo_app_say(app, "%s",
+                          pane == PANE_COMPARE ? _("Tab: protection against yield; up, down: another option")
+                                               : _("Tab: back to the table; up, down: another option"));
         draw_picture(app, pane == PANE_COMPARE ? CEDUO_PLOT_COMPARE : CEDUO_PLOT_TRADEOFF, area);
         return;
     }
@@ -498,7 +494,15 @@ static bool act(struct app *app, enum action action)
     }
 }
 
-const struct view ceduo_view_compare = {
-    .title = NP_("view", "compare"), .panes = PANES, .years = true, .result = true, .build = build, .draw = draw, .act = act,
-    .bar = {{ACTION_ADD, N_("add")}, {ACTION_NEXT_PANE, N_("picture")}, {ACTION_DUPLICATE, N_("copy")},
-            {ACTION_DELETE, N_("delete")}, {ACTION_EDIT, N_("name")}}};
+const struct view ceduo_view_compare = {.title = NP_("view", "compare"),
+                                        .panes = PANES,
+                                        .years = true,
+                                        .result = true,
+                                        .build = build,
+                                        .draw = draw,
+                                        .act = act,
+                                        .bar = {{ACTION_ADD, N_("add")},
+                                                {ACTION_NEXT_PANE, N_("picture")},
+                                                {ACTION_DUPLICATE, N_("copy")},
+                                                {ACTION_DELETE, N_("delete")},
+                                                {ACTION_EDIT, N_("name")}}};

@@ -174,7 +174,13 @@ static bool act(struct app *app, enum action action)
     return action == ACTION_ADD;
 }
 
-const struct view ceduo_view_doubt = {
-    .title = NP_("view", "doubt"), .panes = 1, .doubt = true, .build = build, .draw = draw, .act = act,
-    .bar = {{ACTION_EDIT, N_("edit")}, {ACTION_ADD, N_("a range")}, {ACTION_DELETE, N_("delete")},
-            {ACTION_NEXT_OPTION, N_("next option")}}};
+const struct view ceduo_view_doubt = {.title = NP_("view", "doubt"),
+                                      .panes = 1,
+                                      .doubt = true,
+                                      .build = build,
+                                      .draw = draw,
+                                      .act = act,
+                                      .bar = {{ACTION_EDIT, N_("edit")},
+                                              {ACTION_ADD, N_("a range")},
+                                              {ACTION_DELETE, N_("delete")},
+                                              {ACTION_NEXT_OPTION, N_("next option")}}};

@@ -57,5 +57,8 @@ static void draw(struct app *app, struct ceduo_area area)
 }
 
 const struct view ceduo_view_results = {
-    .title = NP_("view", "results"), .panes = 1, .result = true, .draw = draw,
+    .title = NP_("view", "results"),
+    .panes = 1,
+    .result = true,
+    .draw = draw,
     .bar = {{ACTION_DOWN, N_("read on")}, {ACTION_EXPORT, N_("export")}, {ACTION_NEXT_OPTION, N_("next option")}}};

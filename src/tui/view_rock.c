@@ -78,8 +78,9 @@ static void draw(struct app *app, struct ceduo_area area)
     ceduo_text_format(&text, _("%.4g kg, %.3g m3, mean diameter B %.3g m, moment %.3g kg m2."), rock.mass, rock.volume,
                       rock.mean_diameter, rock.moment);
     if (area.width >= WIDE && app->document.file.scene.simulation.law == CEDUO_LAW_LUMPED)
-        ceduo_text_then(&text, " ", "%s", _("The lumped law knows neither mass nor shape: on the ground they scale the "
-                                            "energy alone."));
+        ceduo_text_then(&text, " ", "%s",
+                        _("The lumped law knows neither mass nor shape: on the ground they scale the "
+                          "energy alone."));
     int lines = ceduo_app_text_lines(app, ceduo_text_string(&text), area.width);
     ceduo_app_draw_form(app, (struct ceduo_area){area.left, area.top, area.width, area.height - lines - 1}, true);
     struct ceduo_area foot = {area.left, area.top + area.height - lines, area.width, lines};
@@ -87,6 +88,8 @@ static void draw(struct app *app, struct ceduo_area area)
 }
 
 const struct view ceduo_view_rock = {
-    .title = NP_("view", "rock"), .panes = 1, .build = build, .draw = draw,
-    .bar = {{ACTION_EDIT, N_("edit")}, {ACTION_MORE, N_("more")}, {ACTION_LESS, N_("less")},
-            {ACTION_PRESETS, N_("presets")}}};
+    .title = NP_("view", "rock"),
+    .panes = 1,
+    .build = build,
+    .draw = draw,
+    .bar = {{ACTION_EDIT, N_("edit")}, {ACTION_MORE, N_("more")}, {ACTION_LESS, N_("less")}, {ACTION_PRESETS, N_("presets")}}};

@@ -107,7 +107,8 @@ static void say_year(struct app *app, const struct ceduo_years *years, struct te
     else
         ceduo_text_format(text, _("mean distance between stem hits (ADC) %s m"), WRITTEN(adc, 3));
     if (ceduo_index_hangs_on_thin(&y->controls[c]))
-        ceduo_text_then(text, ", ", isinf(thick) ? _("of stems from 8 cm on %s") : _("of stems from 8 cm on %s m"), WRITTEN(thick, 3));
+        ceduo_text_then(text, ", ", isinf(thick) ? _("of stems from 8 cm on %s") : _("of stems from 8 cm on %s m"),
+                        WRITTEN(thick, 3));
     ceduo_text_put(text, ". ");
     say_felled(app, y->year, text);
     for (size_t i = 0; i < y->option.belts_count; i++)
@@ -143,8 +144,9 @@ static void say_all(struct app *app, const struct ceduo_years *years, struct tex
     if (w->kind == CEDUO_WINDOW_ALIKE)
         ceduo_text_then(text, before, _("Each:"));
     else
-        ceduo_text_then(text, before, w->kind == CEDUO_WINDOW_ROTATION ? _("One whole rotation, years %u to %u:") : _("Years %u to %u:"),
-                          w->first, w->last);
+        ceduo_text_then(text, before,
+                        w->kind == CEDUO_WINDOW_ROTATION ? _("One whole rotation, years %u to %u:") : _("Years %u to %u:"),
+                        w->first, w->last);
     if (s.flown > 0)
         ceduo_text_then(text, " ", _("mean %.0f \xc2\xb1%.0f of 1000, worst %.0f (year %u)."), mean.mean * 1000,
                         ceil(mean.se * CEDUO_Z95 * 1000), s.worst * 1000, s.worst_year);
@@ -256,5 +258,11 @@ static bool act(struct app *app, enum action action)
 }
 
 const struct view ceduo_view_rotation = {
-    .title = NP_("view", "rotation"), .panes = 2, .years = true, .build = build, .draw = draw, .act = act, .follow = ceduo_app_follow_belt,
+    .title = NP_("view", "rotation"),
+    .panes = 2,
+    .years = true,
+    .build = build,
+    .draw = draw,
+    .act = act,
+    .follow = ceduo_app_follow_belt,
     .bar = {{ACTION_EDIT, N_("edit")}, {ACTION_NEXT_PANE, N_("years")}, {ACTION_NEXT_OPTION, N_("next option")}}};

@@ -15,10 +15,10 @@
 
 /* ---- rows: observed, simulated with its band ---- */
 
-#define SEEN_WIDTH 8
-#define BAND_WIDTH 11
-#define WORD_WIDTH 10
-#define NAME_WIDTH(width) ((width) - SEEN_WIDTH - BAND_WIDTH - WORD_WIDTH - 3)
+#define SEEN_WIDTH        8
+#define BAND_WIDTH        11
+#define WORD_WIDTH        10
+#define NAME_WIDTH(width) ((width)-SEEN_WIDTH - BAND_WIDTH - WORD_WIDTH - 3)
 
 /* A cell of at least so many columns. */
 static void put_cell(struct text *row, const char *string, int columns, bool right)
@@ -82,7 +82,7 @@ static void put_observation(struct text *text, const struct scene_file *file, co
     ceduo_text_put(&band, RANGE);
     put_number(&band, o, p->hi, origin);
     put_row(text, width, ceduo_text_string(&name), ceduo_text_string(&seen), isnan(p->lo) ? "-" : ceduo_text_string(&band),
-            !p->inside                      ? _("OUTSIDE")
+            !p->inside                  ? _("OUTSIDE")
             : p->p_value < CEDUO_MISFIT ? _("mean only") /* what is refuted below is how the values are spread */
                                         : _("inside"));
     ceduo_text_free(&name);
@@ -158,7 +158,8 @@ static void say_fitting(const struct figures *f, struct text *text)
         ceduo_text_format(text, _("%llu scenes; R-hat %.3f (at most 1.05 is wanted), effective size %.0f (200).\n"),
                           (unsigned long long)s->evaluations, s->rhat, s->effective_size);
     else
-        ceduo_text_format(text, _("%llu scenes; log-likelihood %.2f.\n"), (unsigned long long)s->evaluations, s->log_likelihood);
+        ceduo_text_format(text, _("%llu scenes; log-likelihood %.2f.\n"), (unsigned long long)s->evaluations,
+                          s->log_likelihood);
     ceduo_text_put(text, _("The best values so far:\n"));
     for (size_t i = 0; i < f->wish.n; i++) {
         ceduo_text_put(text, "  ");
@@ -182,9 +183,10 @@ static struct ceduo_calibration_report report_of(const struct fit *f)
 static void say_draws(const struct fit *f, struct text *text)
 {
     char lo[CEDUO_NUMBER_ROOM], hi[CEDUO_NUMBER_ROOM];
-    ceduo_text_put(text, _("Enter keeps the best values and, as their source, these ranges. It does not keep all that fits as well, "
-                           "the draws. Once the scene is saved, as SCENE.yaml, this writes them to FITTED.draws.csv, and "
-                           "FITTED.yaml, which reads them:\n"));
+    ceduo_text_put(text,
+                   _("Enter keeps the best values and, as their source, these ranges. It does not keep all that fits as well, "
+                     "the draws. Once the scene is saved, as SCENE.yaml, this writes them to FITTED.draws.csv, and "
+                     "FITTED.yaml, which reads them:\n"));
     ceduo_text_put(text, "  ceduo");
     for (size_t i = 0; i < f->wish.n; i++) {
         struct text value = {0};
@@ -200,7 +202,8 @@ static void say_draws(const struct fit *f, struct text *text)
 static void say_fit(const struct fit *f, struct text *text, int width)
 {
     const struct ceduo_calibration_report r = report_of(f);
-    ceduo_text_put(text, _("Fitted. Enter takes these values into the scene, Esc leaves it as it is, as the picture shows it.\n"));
+    ceduo_text_put(text,
+                   _("Fitted. Enter takes these values into the scene, Esc leaves it as it is, as the picture shows it.\n"));
     for (size_t i = 0; i < f->wish.n; i++) {
         const struct ceduo_fitted *one = &f->answer.parameters[i];
         ceduo_text_put(text, "  ");
@@ -224,11 +227,13 @@ static void say_fit(const struct fit *f, struct text *text, int width)
 static void say_nothing_seen(struct text *text)
 {
     ceduo_text_put(text, _("This scene does not say what was seen on its slope.\n\n"));
-    ceduo_text_put(text, _("Where rocks have stopped, how many passed a place, how fast or how high they were, scars on stems: what of it "
-                           "is known is written into the scene's file, for example:\n\n"));
+    ceduo_text_put(
+        text, _("Where rocks have stopped, how many passed a place, how fast or how high they were, scars on stems: what of it "
+                "is known is written into the scene's file, for example:\n\n"));
     ceduo_text_put(text, "observed:\n  - stops: {x_m: [41, 44.5, 52, 61], of: 6}\n  - passed: {x_m: 60, count: 2, of: 6}\n\n");
-    ceduo_text_put(text, _("That is four rocks that stopped, of six released, and two of six that passed a road. All kinds stand in "
-                           "man ceduo-scene. Here it is then compared with simulated rocks, and c fits the ground to it.\n"));
+    ceduo_text_put(text,
+                   _("That is four rocks that stopped, of six released, and two of six that passed a road. All kinds stand in "
+                     "man ceduo-scene. Here it is then compared with simulated rocks, and c fits the ground to it.\n"));
 }
 
 /* ---- drawing ---- */
@@ -298,8 +303,9 @@ static void take(struct app *app)
 {
     const struct fit *f = app->figures.fit;
     if (!f) {
-        ceduo_app_say(app, "%s", app->figures.fitting ?
-                                     _("the fit is not done yet; Esc stops it") : _("c fits the ground to what was seen"));
+        ceduo_app_say(app, "%s",
+                      app->figures.fitting ? _("the fit is not done yet; Esc stops it")
+                                           : _("c fits the ground to what was seen"));
         return;
     }
     const struct ceduo_calibration_report r = report_of(f);
@@ -327,14 +333,27 @@ static void stop(struct app *app)
 static bool act(struct app *app, enum action action)
 {
     switch (action) {
-    case ACTION_COUNTS: start(app); return true;
-    case ACTION_EDIT: take(app); return true;
-    case ACTION_STOP: stop(app); return true;
-    default: return false;
+    case ACTION_COUNTS:
+        start(app);
+        return true;
+    case ACTION_EDIT:
+        take(app);
+        return true;
+    case ACTION_STOP:
+        stop(app);
+        return true;
+    default:
+        return false;
     }
 }
 
-const struct view ceduo_view_seen = {
-    .title = NP_("view", "seen"), .panes = 1, .seen = true, .draw = draw, .act = act,
-    .bar = {{ACTION_COUNTS, N_("fit")}, {ACTION_EDIT, N_("take the fit")}, {ACTION_STOP, N_("leave it")},
-            {ACTION_DOWN, N_("read on")}, {ACTION_NEXT_OPTION, N_("next option")}}};
+const struct view ceduo_view_seen = {.title = NP_("view", "seen"),
+                                     .panes = 1,
+                                     .seen = true,
+                                     .draw = draw,
+                                     .act = act,
+                                     .bar = {{ACTION_COUNTS, N_("fit")},
+                                             {ACTION_EDIT, N_("take the fit")},
+                                             {ACTION_STOP, N_("leave it")},
+                                             {ACTION_DOWN, N_("read on")},
+                                             {ACTION_NEXT_OPTION, N_("next option")}}};

@@ -22,8 +22,7 @@ static void build_ground(struct app *app, struct form *form)
     if (segments) {
         bool by_height = segments->n > 0 && ceduo_node_get(segments->items[0], "roughness_m");
         bool arm = d->file.scene.simulation.law == CEDUO_LAW_ARM; /* which knows mu, the others Rt */
-        const char *const ground[] = {"rn", arm ? "mu" : "rt", by_height ? "roughness_m" : "roughness_rad", "friction",
-                                      NULL};
+        const char *const ground[] = {"rn", arm ? "mu" : "rt", by_height ? "roughness_m" : "roughness_rad", "friction", NULL};
         ceduo_form_table(form, d, ceduo_schema_field(slope, "segments")->object, "slope.segments", ground, "");
     }
 }
@@ -56,8 +55,7 @@ static void build(struct app *app, struct form *form)
     ceduo_form_table(form, &app->document, ceduo_schema_field(scene, "forest")->object, forest, belt_columns, "");
     ceduo_form_heading(form, _("Controls"));
     if (ceduo_document_node(&app->document, "controls"))
-        ceduo_form_table(form, &app->document, ceduo_schema_field(scene, "controls")->object, "controls",
-                         control_columns, "");
+        ceduo_form_table(form, &app->document, ceduo_schema_field(scene, "controls")->object, "controls", control_columns, "");
     else
         ceduo_form_field(form, &app->document, scene, "", "controls_m", NULL);
     build_ground(app, form);
@@ -113,13 +111,24 @@ static void draw(struct app *app, struct ceduo_area area)
 static bool act_on_place(struct app *app, enum action action)
 {
     switch (action) {
-    case ACTION_RIGHT: ceduo_place_move(app, 1); return true;
-    case ACTION_LEFT: ceduo_place_move(app, -1); return true;
-    case ACTION_DOWN: ceduo_place_jump(app, 1); return true;
-    case ACTION_UP: ceduo_place_jump(app, -1); return true;
+    case ACTION_RIGHT:
+        ceduo_place_move(app, 1);
+        return true;
+    case ACTION_LEFT:
+        ceduo_place_move(app, -1);
+        return true;
+    case ACTION_DOWN:
+        ceduo_place_jump(app, 1);
+        return true;
+    case ACTION_UP:
+        ceduo_place_jump(app, -1);
+        return true;
     case ACTION_EDIT:
-    case ACTION_ADD: ceduo_place_choose(app); return true;
-    default: return false;
+    case ACTION_ADD:
+        ceduo_place_choose(app);
+        return true;
+    default:
+        return false;
     }
 }
 
@@ -127,11 +136,20 @@ static bool act_on_place(struct app *app, enum action action)
 static bool act_on_rocks(struct app *app, enum action action)
 {
     switch (action) {
-    case ACTION_RIGHT: ceduo_app_next_rock(app, 1); return true;
-    case ACTION_LEFT: ceduo_app_next_rock(app, -1); return true;
-    case ACTION_DOWN: ceduo_app_step_rock(app, 1); return true;
-    case ACTION_UP: ceduo_app_step_rock(app, -1); return true;
-    default: return false;
+    case ACTION_RIGHT:
+        ceduo_app_next_rock(app, 1);
+        return true;
+    case ACTION_LEFT:
+        ceduo_app_next_rock(app, -1);
+        return true;
+    case ACTION_DOWN:
+        ceduo_app_step_rock(app, 1);
+        return true;
+    case ACTION_UP:
+        ceduo_app_step_rock(app, -1);
+        return true;
+    default:
+        return false;
     }
 }
 
@@ -146,7 +164,14 @@ static bool act(struct app *app, enum action action)
     return pane == PANE_PLACE ? act_on_place(app, action) : pane == PANE_ROCKS && act_on_rocks(app, action);
 }
 
-const struct view ceduo_view_slope = {
-    .title = NP_("view", "slope"), .panes = PANES, .build = build, .draw = draw, .act = act,
-    .bar = {{ACTION_EDIT, N_("edit")}, {ACTION_ADD, N_("add")}, {ACTION_DELETE, N_("delete")},
-            {ACTION_NEXT_PANE, N_("picture")}, {ACTION_ZOOM, N_("nearer")}, {ACTION_NEXT_ROCK, N_("a rock")}}};
+const struct view ceduo_view_slope = {.title = NP_("view", "slope"),
+                                      .panes = PANES,
+                                      .build = build,
+                                      .draw = draw,
+                                      .act = act,
+                                      .bar = {{ACTION_EDIT, N_("edit")},
+                                              {ACTION_ADD, N_("add")},
+                                              {ACTION_DELETE, N_("delete")},
+                                              {ACTION_NEXT_PANE, N_("picture")},
+                                              {ACTION_ZOOM, N_("nearer")},
+                                              {ACTION_NEXT_ROCK, N_("a rock")}}};

@@ -143,9 +143,9 @@ static int draw_figures(struct app *app, struct ceduo_area area)
     ceduo_text_format(&text, _("%.0f stems/ha, basal area %.1f m2/ha."), r.stems_per_ha, r.basal_area);
     ceduo_text_char(&text, ' ');
     if (!r.bare)
-        ceduo_text_format(&text, _("ADC %.3g m by %s (stools %.3g, stems %.3g, Eq. 6 %.3g, crofton %.3g)"),
-                          r.adc_m, ceduo_rule_words.names[r.rule], r.adc.gsteiger_stools, r.adc.gsteiger_stems,
-                          r.adc.interception, r.adc.crofton);
+        ceduo_text_format(&text, _("ADC %.3g m by %s (stools %.3g, stems %.3g, Eq. 6 %.3g, crofton %.3g)"), r.adc_m,
+                          ceduo_rule_words.names[r.rule], r.adc.gsteiger_stools, r.adc.gsteiger_stems, r.adc.interception,
+                          r.adc.crofton);
     if (!r.bare && !isnan(r.per_100m))
         ceduo_text_then(&text, "; ", _("%.3g kJ per 100 m"), r.per_100m * KILO);
     ceduo_app_put(app, area, CEDUO_ROLE_DIM, &text);
@@ -193,7 +193,13 @@ static void draw(struct app *app, struct ceduo_area area)
         draw_plan(app, beside);
 }
 
-const struct view ceduo_view_stand = {
-    .title = NP_("view", "stand"), .panes = 1, .build = build, .draw = draw, .follow = ceduo_app_follow_belt,
-    .bar = {{ACTION_EDIT, N_("edit")}, {ACTION_PRESETS, N_("stands")}, {ACTION_COUNTS, N_("sample plot")},
-            {ACTION_ADD, N_("add")}, {ACTION_DELETE, N_("delete")}}};
+const struct view ceduo_view_stand = {.title = NP_("view", "stand"),
+                                      .panes = 1,
+                                      .build = build,
+                                      .draw = draw,
+                                      .follow = ceduo_app_follow_belt,
+                                      .bar = {{ACTION_EDIT, N_("edit")},
+                                              {ACTION_PRESETS, N_("stands")},
+                                              {ACTION_COUNTS, N_("sample plot")},
+                                              {ACTION_ADD, N_("add")},
+                                              {ACTION_DELETE, N_("delete")}}};

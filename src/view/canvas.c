@@ -29,8 +29,8 @@ bool ceduo_frame_valid(const struct ceduo_frame *frame)
 
 static struct ceduo_raster raster_of(const struct ceduo_canvas *canvas, const struct ceduo_frame *frame)
 {
-    return (struct ceduo_raster){frame->left * canvas->dots_x, frame->top * canvas->dots_y,
-                                 frame->width * canvas->dots_x, frame->height * canvas->dots_y};
+    return (struct ceduo_raster){frame->left * canvas->dots_x, frame->top * canvas->dots_y, frame->width * canvas->dots_x,
+                                 frame->height * canvas->dots_y};
 }
 
 /* False if the point is not finite, or too far off for its place to be. */
@@ -47,8 +47,8 @@ static bool inside(const struct ceduo_raster *raster, struct ceduo_position p)
     return p.x >= -0.5 && p.x <= raster->nx - 0.5 && p.y >= -0.5 && p.y <= raster->ny - 0.5;
 }
 
-bool ceduo_frame_true_scale(struct ceduo_frame *frame, const struct ceduo_canvas *canvas, double x_lo, double x_hi,
-                            double y_lo, double y_hi)
+bool ceduo_frame_true_scale(struct ceduo_frame *frame, const struct ceduo_canvas *canvas, double x_lo, double x_hi, double y_lo,
+                            double y_hi)
 {
     double x_range = x_hi - x_lo;
     double y_range = y_hi - y_lo;
@@ -77,8 +77,8 @@ static int cell_of(double position, int n, int dots)
     return (int)lround(fmin(fmax(position, 0.0), n - 1)) / dots;
 }
 
-bool ceduo_frame_cell(const struct ceduo_frame *frame, const struct ceduo_canvas *canvas, double x, double y,
-                      int *column, int *row)
+bool ceduo_frame_cell(const struct ceduo_frame *frame, const struct ceduo_canvas *canvas, double x, double y, int *column,
+                      int *row)
 {
     if (!ceduo_frame_valid(frame))
         return false;
@@ -91,8 +91,8 @@ bool ceduo_frame_cell(const struct ceduo_frame *frame, const struct ceduo_canvas
     return true;
 }
 
-bool ceduo_frame_place(const struct ceduo_frame *frame, const struct ceduo_canvas *canvas, double x, double y,
-                       double *across, double *down)
+bool ceduo_frame_place(const struct ceduo_frame *frame, const struct ceduo_canvas *canvas, double x, double y, double *across,
+                       double *down)
 {
     struct ceduo_raster raster = raster_of(canvas, frame);
     struct ceduo_position p;
@@ -133,8 +133,8 @@ static bool clip(const struct ceduo_raster *raster, struct ceduo_position *a, st
     return true;
 }
 
-static void draw_line(struct ceduo_canvas *canvas, const struct ceduo_frame *frame, struct ceduo_pen *pen, double ax,
-                      double ay, double bx, double by)
+static void draw_line(struct ceduo_canvas *canvas, const struct ceduo_frame *frame, struct ceduo_pen *pen, double ax, double ay,
+                      double bx, double by)
 {
     struct ceduo_position a, b;
     if (place(frame, &pen->raster, ax, ay, &a) && place(frame, &pen->raster, bx, by, &b) && clip(&pen->raster, &a, &b))
@@ -170,8 +170,8 @@ static void draw_straight(struct ceduo_canvas *canvas, const struct ceduo_frame 
     draw_line(canvas, frame, &pen, x[0], y[0], x[1], y[1]);
 }
 
-void ceduo_canvas_line(struct ceduo_canvas *canvas, const struct ceduo_frame *frame, enum ceduo_role role, double ax,
-                       double ay, double bx, double by)
+void ceduo_canvas_line(struct ceduo_canvas *canvas, const struct ceduo_frame *frame, enum ceduo_role role, double ax, double ay,
+                       double bx, double by)
 {
     draw_straight(canvas, frame, role, CEDUO_STROKE_PLAIN, (double[]){ax, bx}, (double[]){ay, by});
 }
@@ -199,8 +199,8 @@ void ceduo_canvas_stairs(struct ceduo_canvas *canvas, const struct ceduo_frame *
 }
 
 /* Where the surface draws discs itself. */
-static void draw_disc(struct ceduo_canvas *canvas, const struct ceduo_frame *frame, enum ceduo_role role, double x,
-                      double y, double radius)
+static void draw_disc(struct ceduo_canvas *canvas, const struct ceduo_frame *frame, enum ceduo_role role, double x, double y,
+                      double radius)
 {
     struct ceduo_raster raster = raster_of(canvas, frame);
     struct ceduo_position centre;
@@ -211,8 +211,8 @@ static void draw_disc(struct ceduo_canvas *canvas, const struct ceduo_frame *fra
     canvas->surface->disc(canvas->to, &raster, role, centre, radii);
 }
 
-void ceduo_canvas_disc(struct ceduo_canvas *canvas, const struct ceduo_frame *frame, enum ceduo_role role, double x,
-                       double y, double radius)
+void ceduo_canvas_disc(struct ceduo_canvas *canvas, const struct ceduo_frame *frame, enum ceduo_role role, double x, double y,
+                       double radius)
 {
     if (canvas->surface->disc) {
         draw_disc(canvas, frame, role, x, y, radius);
@@ -226,8 +226,7 @@ void ceduo_canvas_disc(struct ceduo_canvas *canvas, const struct ceduo_frame *fr
     }
 }
 
-void ceduo_canvas_bar(struct ceduo_canvas *canvas, int column, int row, int width, double fraction,
-                      enum ceduo_role role)
+void ceduo_canvas_bar(struct ceduo_canvas *canvas, int column, int row, int width, double fraction, enum ceduo_role role)
 {
     if (fraction > 0.0 && width >= 1 && width <= CEDUO_CANVAS_MAX_WIDTH)
         canvas->surface->bar(canvas->to, column, row, width, fmin(fraction, 1.0), role);

@@ -16,26 +16,26 @@
 
 /* A role says what a mark is about; the surface chooses its colour. BLANK draws nothing. Each line: name, letter in dumps,
  * rank. Where marks meet in a cell the highest rank gives the role: thin marks win over those that fill. */
-#define CEDUO_ROLES(X)                                                                                                 \
-    X(BLANK, ' ', 0)                                                                                                   \
-    X(TEXT, 't', 19)                                                                                                   \
-    X(DIM, 'd', 1)                                                                                                     \
-    X(TITLE, 'T', 18)                                                                                                  \
-    X(AXIS, 'a', 2)                                                                                                    \
-    X(GROUND, 'g', 4)                                                                                                  \
-    X(CLOUD, 'c', 3)    /* all trajectories together */                                                                \
-    X(ENVELOPE, 'e', 8) /* quantiles of the trajectories */                                                            \
-    X(MEAN, 'm', 11)                                                                                                   \
-    X(WAY, 'w', 16) /* the trajectory of the selected rock */                                                          \
-    X(STEM, 's', 7)                                                                                                    \
-    X(STOOL, 'S', 6)                                                                                                   \
-    X(BELT, 'b', 5) /* a stretch of forest along the slope */                                                          \
-    X(CONTROL, 'C', 15)                                                                                                \
-    X(GOOD, 'G', 12)                                                                                                   \
-    X(BAD, 'B', 14)                                                                                                    \
-    X(WARN, 'W', 13)                                                                                                   \
-    X(BARE, 'r', 9)  /* a curve of the bare slope */                                                                   \
-    X(WOOD, 'o', 10) /* the same curve of the wooded slope */                                                          \
+#define CEDUO_ROLES(X)                                                                                                         \
+    X(BLANK, ' ', 0)                                                                                                           \
+    X(TEXT, 't', 19)                                                                                                           \
+    X(DIM, 'd', 1)                                                                                                             \
+    X(TITLE, 'T', 18)                                                                                                          \
+    X(AXIS, 'a', 2)                                                                                                            \
+    X(GROUND, 'g', 4)                                                                                                          \
+    X(CLOUD, 'c', 3)    /* all trajectories together */                                                                        \
+    X(ENVELOPE, 'e', 8) /* quantiles of the trajectories */                                                                    \
+    X(MEAN, 'm', 11)                                                                                                           \
+    X(WAY, 'w', 16) /* the trajectory of the selected rock */                                                                  \
+    X(STEM, 's', 7)                                                                                                            \
+    X(STOOL, 'S', 6)                                                                                                           \
+    X(BELT, 'b', 5) /* a stretch of forest along the slope */                                                                  \
+    X(CONTROL, 'C', 15)                                                                                                        \
+    X(GOOD, 'G', 12)                                                                                                           \
+    X(BAD, 'B', 14)                                                                                                            \
+    X(WARN, 'W', 13)                                                                                                           \
+    X(BARE, 'r', 9)  /* a curve of the bare slope */                                                                           \
+    X(WOOD, 'o', 10) /* the same curve of the wooded slope */                                                                  \
     X(CURSOR, 'x', 17)
 
 enum ceduo_role {
@@ -137,22 +137,22 @@ struct ceduo_surface {
  * fit, and that they lie in the middle. False, and the frame as it was, if its cells are out of range,
  * an extent is not finite or runs backwards, or both are empty.
  */
-bool ceduo_frame_true_scale(struct ceduo_frame *frame, const struct ceduo_canvas *canvas, double x_lo, double x_hi,
-                            double y_lo, double y_hi);
+bool ceduo_frame_true_scale(struct ceduo_frame *frame, const struct ceduo_canvas *canvas, double x_lo, double x_hi, double y_lo,
+                            double y_hi);
 
 /* The cell in which the data point (x, y) is drawn. False, and nothing written, if outside the frame. */
-bool ceduo_frame_cell(const struct ceduo_frame *frame, const struct ceduo_canvas *canvas, double x, double y,
-                      int *column, int *row);
+bool ceduo_frame_cell(const struct ceduo_frame *frame, const struct ceduo_canvas *canvas, double x, double y, int *column,
+                      int *row);
 
 /* The same in parts of cells; outside the frame, too. False where the point has no place. */
-bool ceduo_frame_place(const struct ceduo_frame *frame, const struct ceduo_canvas *canvas, double x, double y,
-                       double *across, double *down);
+bool ceduo_frame_place(const struct ceduo_frame *frame, const struct ceduo_canvas *canvas, double x, double y, double *across,
+                       double *down);
 
 /* ---- Drawing data: every function cuts at the edges of the frame ---- */
 
 /* The straight line from (ax, ay) to (bx, by); drawn too where it only crosses the frame. */
-void ceduo_canvas_line(struct ceduo_canvas *canvas, const struct ceduo_frame *frame, enum ceduo_role role, double ax,
-                       double ay, double bx, double by);
+void ceduo_canvas_line(struct ceduo_canvas *canvas, const struct ceduo_frame *frame, enum ceduo_role role, double ax, double ay,
+                       double bx, double by);
 
 /* Straight lines through n points. One that is not finite breaks the line; one left alone is a dot. */
 void ceduo_canvas_polyline(struct ceduo_canvas *canvas, const struct ceduo_frame *frame, enum ceduo_role role, size_t n,
@@ -170,15 +170,14 @@ void ceduo_canvas_rule_y(struct ceduo_canvas *canvas, const struct ceduo_frame *
 void ceduo_canvas_rule_x(struct ceduo_canvas *canvas, const struct ceduo_frame *frame, enum ceduo_role role, double x);
 
 /* A disc of at least one dot; its radius is of the scale of each axis. */
-void ceduo_canvas_disc(struct ceduo_canvas *canvas, const struct ceduo_frame *frame, enum ceduo_role role, double x,
-                       double y, double radius);
+void ceduo_canvas_disc(struct ceduo_canvas *canvas, const struct ceduo_frame *frame, enum ceduo_role role, double x, double y,
+                       double radius);
 
 /*
  * A horizontal bar, `fraction` (0..1) of `width` cells long. Above 1 it is full. 0, less and NaN give nothing, but what
  * is above 0 always shows something.
  */
-void ceduo_canvas_bar(struct ceduo_canvas *canvas, int column, int row, int width, double fraction,
-                      enum ceduo_role role);
+void ceduo_canvas_bar(struct ceduo_canvas *canvas, int column, int row, int width, double fraction, enum ceduo_role role);
 
 /*
  * A cloud of many trajectories. Start it (false if there is no memory; then adding and showing do nothing), add

@@ -54,8 +54,7 @@ static void draw_bar(void *to, int column, int row, int width, double fraction, 
         ceduo_cells_set_code(to, column + length / parts, row, role, (uint32_t)(eighth_block + 1 - length % parts));
 }
 
-static void draw_axis_left(void *to, const struct ceduo_frame *frame, int count,
-                           const struct ceduo_tick *ticks)
+static void draw_axis_left(void *to, const struct ceduo_frame *frame, int count, const struct ceduo_tick *ticks)
 {
     for (int row = frame->top; row < frame->top + frame->height; ++row)
         ceduo_cells_label(to, frame->left - 1, row, CEDUO_ROLE_AXIS, "\xe2\x94\x82");
@@ -67,8 +66,7 @@ static void draw_axis_left(void *to, const struct ceduo_frame *frame, int count,
 }
 
 /* Meets the left axis in a corner if that was drawn before. */
-static void draw_axis_bottom(void *to, const struct ceduo_frame *frame, int count,
-                             const struct ceduo_tick *ticks)
+static void draw_axis_bottom(void *to, const struct ceduo_frame *frame, int count, const struct ceduo_tick *ticks)
 {
     int row = frame->top + frame->height;
     const struct ceduo_cell *above = ceduo_cells_at(to, frame->left - 1, row - 1);

@@ -23,27 +23,27 @@ struct ceduo_value {
 struct ceduo_place {
     const struct ceduo_report *report;
     size_t option, belt, control, felling;
-    const struct ceduo_year *year;     /* NULL: the stands as filed */
-    struct ceduo_years_summary sum;    /* of the option's years, where they are asked for */
+    const struct ceduo_year *year;  /* NULL: the stands as filed */
+    struct ceduo_years_summary sum; /* of the option's years, where they are asked for */
 };
 
 /* A row is a value, an object or list of objects (`of`), or sentences (`say`). A row with none of them ends a table. */
 struct ceduo_figure {
-    const char *key;     /* NULL: the figures of `of` stand here without an object of their own */
-    const char *unit;    /* "": none */
-    const char *meaning; /* for the manual, as is */
-    const char *null;    /* when it is null; NULL: never */
+    const char *key;                         /* NULL: the figures of `of` stand here without an object of their own */
+    const char *unit;                        /* "": none */
+    const char *meaning;                     /* for the manual, as is */
+    const char *null;                        /* when it is null; NULL: never */
     const void *(*from)(const void *object); /* the object to read from; NULL: the same */
     struct ceduo_value (*value)(const struct ceduo_figure *figure, const void *object);
-    size_t offset;       /* in the object */
-    double scale;        /* of numbers, and of all numbers in `of`; 0: 1 */
+    size_t offset; /* in the object */
+    double scale;  /* of numbers, and of all numbers in `of`; 0: 1 */
     const struct ceduo_figure *of;
     bool (*enter)(struct ceduo_place *place, size_t i); /* a list: goes to item i; false after the last */
     const void *(*item)(const void *object, size_t i);  /* a list within any object; NULL after the last */
     const char *const *columns; /* of such a list: its items in CSV, up to NULL; without them it has no columns */
     void (*say)(const struct ceduo_place *place, ceduo_words_say *say, void *context);
-    bool one;            /* of sentences: there is one, and JSON has it as text, not as a list */
-    bool optional;       /* JSON omits it if it is null or empty */
+    bool one;      /* of sentences: there is one, and JSON has it as text, not as a list */
+    bool optional; /* JSON omits it if it is null or empty */
 };
 
 static inline bool ceduo_figure_is_end(const struct ceduo_figure *f)

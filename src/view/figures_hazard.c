@@ -3,9 +3,9 @@
 #include "figures_parts.h"
 #include "words.h"
 
-#define TOO_RARE  "rocks arrive less often"
-#define UNBOUND   "the rocks that arrive do not bound it"
-#define NEVER     "the rate is 0"
+#define TOO_RARE "rocks arrive less often"
+#define UNBOUND  "the rocks that arrive do not bound it"
+#define NEVER    "the rate is 0"
 
 const void *ceduo_hazard_of(const void *arrivals)
 {
@@ -31,16 +31,14 @@ static const void *intensity_item(const void *object, size_t i)
 
 VALUE(years_of, hazard, NUMBER(1 / *(const double *)member(f, o)))
 
-const struct ceduo_figure ceduo_rate_figures[] = {
-    {"per_year", "1/y", "rocks a year", AT(rate, rate)},
-    {"lo", "1/y", "lower end of its 95 % interval", AT(rate, lo)},
-    {"hi", "1/y", "upper end of its 95 % interval", AT(rate, hi)},
-    END};
+const struct ceduo_figure ceduo_rate_figures[] = {{"per_year", "1/y", "rocks a year", AT(rate, rate)},
+                                                  {"lo", "1/y", "lower end of its 95 % interval", AT(rate, lo)},
+                                                  {"hi", "1/y", "upper end of its 95 % interval", AT(rate, hi)},
+                                                  END};
 
-static const struct ceduo_figure exceed_rate[] = {
-    {"energy_kJ", "kJ", "energy", AT(exceeding, energy), .scale = KILO},
-    {.of = ceduo_rate_figures, .offset = offsetof(struct ceduo_exceeding, rate)},
-    END};
+static const struct ceduo_figure exceed_rate[] = {{"energy_kJ", "kJ", "energy", AT(exceeding, energy), .scale = KILO},
+                                                  {.of = ceduo_rate_figures, .offset = offsetof(struct ceduo_exceeding, rate)},
+                                                  END};
 
 static const struct ceduo_figure returns[] = {
     {"years", "y", "return period", AT(return, years)},
@@ -82,6 +80,8 @@ const struct ceduo_figure ceduo_hazard_figures[] = {
      .offset = offsetof(struct ceduo_hazard, accepted.lo), .null = UNSAID ", or " UNBOUND},
     {"matrix", "", "classes of intensity, by classes of return period", .of = matrix, .item = intensity_item,
      .columns = intensity_columns},
-    {"rate_left", "", "share of the rate without forest: of what exceeds accepted_kJ, or of all that arrive where that is not "
-     "given", AT(hazard, left), .null = "it is 0 without forest"},
+    {"rate_left", "",
+     "share of the rate without forest: of what exceeds accepted_kJ, or of all that arrive where that is not "
+     "given",
+     AT(hazard, left), .null = "it is 0 without forest"},
     END};

@@ -7,11 +7,11 @@
 
 #include <math.h>
 
-#define NOTHING     ((struct ceduo_value){.kind = CEDUO_NULL})
-#define NUMBER(of)  ((struct ceduo_value){.kind = CEDUO_VALUE_NUMBER, .number = (of)})
-#define COUNT(of)   ((struct ceduo_value){.kind = CEDUO_VALUE_COUNT, .count = (of)})
-#define IS(of)      ((struct ceduo_value){.kind = CEDUO_VALUE_FLAG, .flag = (of)})
-#define WORD(of)    ((struct ceduo_value){.kind = CEDUO_VALUE_TEXT, .text = (of)})
+#define NOTHING    ((struct ceduo_value){.kind = CEDUO_NULL})
+#define NUMBER(of) ((struct ceduo_value){.kind = CEDUO_VALUE_NUMBER, .number = (of)})
+#define COUNT(of)  ((struct ceduo_value){.kind = CEDUO_VALUE_COUNT, .count = (of)})
+#define IS(of)     ((struct ceduo_value){.kind = CEDUO_VALUE_FLAG, .flag = (of)})
+#define WORD(of)   ((struct ceduo_value){.kind = CEDUO_VALUE_TEXT, .text = (of)})
 
 static inline const void *member(const struct ceduo_figure *f, const void *object)
 {
@@ -19,11 +19,11 @@ static inline const void *member(const struct ceduo_figure *f, const void *objec
 }
 
 /* For `value`: a member of type `type`, m. */
-#define READ(name, type, result)                                                              \
-    static inline struct ceduo_value name(const struct ceduo_figure *f, const void *object)   \
-    {                                                                                         \
-        type const m = *(type const *)member(f, object);                                      \
-        return result;                                                                        \
+#define READ(name, type, result)                                                                                               \
+    static inline struct ceduo_value name(const struct ceduo_figure *f, const void *object)                                    \
+    {                                                                                                                          \
+        type const m = *(type const *)member(f, object);                                                                       \
+        return result;                                                                                                         \
     }
 READ(number_at, double, NUMBER(m))
 READ(count_at, uint64_t, COUNT(m))
@@ -33,26 +33,29 @@ READ(text_at, char *, WORD(m))
 READ(fixed_text_at, char const *, WORD(m))
 
 /* A member of a struct, read by its type; numbers in an object of their own there. */
-#define AT(object, member)                                                                                             \
+#define AT(object, member)                                                                                                     \
     .value = _Generic(((struct ceduo_##object *)0)->member, double: number_at, uint64_t: count_at,                     \
                       unsigned: unsigned_at, bool: flag_at, char *: text_at, const char *: fixed_text_at),             \
     .offset = offsetof(struct ceduo_##object, member)
 #define IN(object, member, table) .of = table, .offset = offsetof(struct ceduo_##object, member)
-#define END                       {.key = NULL}
+#define END                                                                                                                    \
+    {                                                                                                                          \
+        .key = NULL                                                                                                            \
+    }
 
 /* For `value`: o is the object, f the row. */
-#define VALUE(name, type, result)                                                             \
-    static struct ceduo_value name(const struct ceduo_figure *f, const void *object)          \
-    {                                                                                         \
-        const struct ceduo_##type *o = object;                                                \
-        (void)f, (void)o;                                                                     \
-        return result;                                                                        \
+#define VALUE(name, type, result)                                                                                              \
+    static struct ceduo_value name(const struct ceduo_figure *f, const void *object)                                           \
+    {                                                                                                                          \
+        const struct ceduo_##type *o = object;                                                                                 \
+        (void)f, (void)o;                                                                                                      \
+        return result;                                                                                                         \
     }
 
 /* Why something is not known. */
-#define NO_ROCK  "no rock arrives"
-#define FEW      "fewer than two rocks arrive"
-#define UNSAID   "the control has no accepted_kJ"
+#define NO_ROCK "no rock arrives"
+#define FEW     "fewer than two rocks arrive"
+#define UNSAID  "the control has no accepted_kJ"
 
 /* What comes down how often; without it NULL. */
 extern const struct ceduo_figure ceduo_hazard_figures[], ceduo_rate_figures[];

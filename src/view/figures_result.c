@@ -52,13 +52,13 @@ static const struct ceduo_yield *yield_at(const struct ceduo_place *p)
 }
 
 /* For `from`: p is the place, r its result. */
-#define OBJECT(name, object)                                \
-    static const void *name(const void *place)              \
-    {                                                       \
-        const struct ceduo_place *p = place;                \
-        const struct ceduo_result *r = p->report->result;   \
-        (void)r;                                            \
-        return object;                                      \
+#define OBJECT(name, object)                                                                                                   \
+    static const void *name(const void *place)                                                                                 \
+    {                                                                                                                          \
+        const struct ceduo_place *p = place;                                                                                   \
+        const struct ceduo_result *r = p->report->result;                                                                      \
+        (void)r;                                                                                                               \
+        return object;                                                                                                         \
     }
 OBJECT(report_of, p->report)
 OBJECT(scene_of, r->scene)
@@ -252,22 +252,23 @@ static const struct ceduo_figure paired[] = {
     END};
 
 /* Two of the means of arrivals are members side by side, as in a struct ceduo_paired. */
-#define IS_PAIRED(member) \
-    _Static_assert(offsetof(struct ceduo_arrivals, member##_se) - offsetof(struct ceduo_arrivals, member) == \
-                   offsetof(struct ceduo_paired, se), "side by side")
+#define IS_PAIRED(member)                                                                                                      \
+    _Static_assert(offsetof(struct ceduo_arrivals, member##_se) - offsetof(struct ceduo_arrivals, member) ==                   \
+                       offsetof(struct ceduo_paired, se),                                                                      \
+                   "side by side")
 IS_PAIRED(energy_per_released);
 IS_PAIRED(contacts);
 
-static const struct ceduo_figure missed[] = {
-    {"stopped_by_stems", "", "share of the released that stems stop before it", .value = missed_at,
-     .offset = offsetof(struct ceduo_arrivals, missed[CEDUO_STOPPED_BY_STEMS])},
-    {"came_to_rest", "", "share that comes to rest before it", .value = missed_at,
-     .offset = offsetof(struct ceduo_arrivals, missed[CEDUO_AT_REST])},
-    {"left_slope", "", "share that leaves the profile before it", .value = missed_at,
-     .offset = offsetof(struct ceduo_arrivals, missed[CEDUO_LEFT_SLOPE])},
-    {"unfinished", "", "share that was still moving before it", .value = missed_at,
-     .offset = offsetof(struct ceduo_arrivals, missed[CEDUO_UNFINISHED])},
-    END};
+static const struct ceduo_figure missed[] = {{"stopped_by_stems", "", "share of the released that stems stop before it",
+                                              .value = missed_at,
+                                              .offset = offsetof(struct ceduo_arrivals, missed[CEDUO_STOPPED_BY_STEMS])},
+                                             {"came_to_rest", "", "share that comes to rest before it", .value = missed_at,
+                                              .offset = offsetof(struct ceduo_arrivals, missed[CEDUO_AT_REST])},
+                                             {"left_slope", "", "share that leaves the profile before it", .value = missed_at,
+                                              .offset = offsetof(struct ceduo_arrivals, missed[CEDUO_LEFT_SLOPE])},
+                                             {"unfinished", "", "share that was still moving before it", .value = missed_at,
+                                              .offset = offsetof(struct ceduo_arrivals, missed[CEDUO_UNFINISHED])},
+                                             END};
 
 static const struct ceduo_figure arrivals[] = {
     {"rocks_reached", "", "rocks that reach the control", .value = reached_of, .null = "nothing was flown"},
@@ -327,11 +328,12 @@ static const struct ceduo_figure stand_result[] = {
     {"logs_per_ha", "1/ha", "lying logs", AT(stand_result, logs_per_ha)},
     END};
 
-#define SILENT "the rules say nothing of its species"
+#define SILENT    "the rules say nothing of its species"
 #define NEVER_CUT "the stand says nothing of its cutting"
 static const struct ceduo_figure rules[] = {
     {"region", "", "whose rules", .value = region_of},
-    {"standards_per_ha", "1/ha", "standards that a cut leaves, or without cutting the trees that stand", AT(compliance, standards)},
+    {"standards_per_ha", "1/ha", "standards that a cut leaves, or without cutting the trees that stand",
+     AT(compliance, standards)},
     {"standards_least", "1/ha", "standards asked for at least", .value = least_standards, .null = SILENT},
     {"standards_most", "1/ha", "at most", .value = most_standards, .null = "there is no such limit"},
     {"standards_met", "", "whether that is kept", .value = standards_met, .null = SILENT},
@@ -351,14 +353,17 @@ static const struct ceduo_figure stand_columns[] = {
     {"to_m", "m", "where it ends", .from = belt_of, AT(belt, to_given)},
     {.from = stand_of, .of = stand_result},
     END};
-#define STAND_WARNINGS {"warnings", "", "sentences about this stand", .say = say_of_stand}
+#define STAND_WARNINGS                                                                                                         \
+    {                                                                                                                          \
+        "warnings", "", "sentences about this stand", .say = say_of_stand                                                      \
+    }
 
-static const struct ceduo_figure stand[] = {
-    {.of = stand_columns},
-    STAND_WARNINGS,
-    {"rules", "", "what the rules of the region ask of a coppice, and whether it is kept", .from = rules_of, .of = rules,
-     .optional = true},
-    END};
+static const struct ceduo_figure stand[] = {{.of = stand_columns},
+                                            STAND_WARNINGS,
+                                            {"rules", "",
+                                             "what the rules of the region ask of a coppice, and whether it is kept",
+                                             .from = rules_of, .of = rules, .optional = true},
+                                            END};
 
 static const struct ceduo_figure summary[] = {
     {"length_m", "m", "wooded length", AT(index, length)},
@@ -375,8 +380,8 @@ static const struct ceduo_figure summary[] = {
 static const struct ceduo_figure by_index[] = {
     {"dissipated_kJ", "kJ", "energy that the stems between the release and this control could take", AT(index, dissipated),
      .scale = KILO, .null = SHARES},
-    {"residual_kJ", "kJ", "the mean of bare.energy_kJ less that, and not below 0; of shares their product", AT(index, residual), .scale = KILO,
-     .null = "no rock arrives without forest"},
+    {"residual_kJ", "kJ", "the mean of bare.energy_kJ less that, and not below 0; of shares their product", AT(index, residual),
+     .scale = KILO, .null = "no rock arrives without forest"},
     {"exhausted", "", "whether it was cut at 0", .value = exhausted_of, .null = "no rock arrives without forest"},
     {"measured_kJ", "kJ", "energy of translation of the rock at measured_speed_m_s; only where the control gives that",
      AT(index, measured), .scale = KILO, .optional = true},
@@ -385,8 +390,10 @@ static const struct ceduo_figure by_index[] = {
 static const struct ceduo_figure lights[] = {
     {"contact", "", "whether the stand makes contact often enough", LIGHT_AT(contact)},
     {"free_run", "", "whether long runs without contact are rare enough", LIGHT_AT(free_run)},
-    {"energy", "", "whether few enough rocks arrive with too much energy; unknown without accepted_kJ and with "
-     "contact_model: index", LIGHT_AT(energy)},
+    {"energy", "",
+     "whether few enough rocks arrive with too much energy; unknown without accepted_kJ and with "
+     "contact_model: index",
+     LIGHT_AT(energy)},
     {"contact_8cm", "", "contact, counting only stems from 8 cm on (from contact_dbh_m if that is more)",
      LIGHT_AT(thick.contact)},
     {"free_run_8cm", "", "free_run, counting likewise", LIGHT_AT(thick.free_run)},
@@ -395,7 +402,8 @@ static const struct ceduo_figure lights[] = {
 #define ANSWERS "yes, no, not-decided (the 95 % interval holds the limit), nothing (hardly a rock arrives even without forest)"
 static const struct ceduo_figure verdict_of_other[] = {
     {"answer", "", "the same by that law, but depends where one law says yes and the other no", .value = judgement_of_other,
-     .null = UNSAID}, END};
+     .null = UNSAID},
+    END};
 
 static const struct ceduo_figure other_energy[] = {
     {"model", "", "that law: dorren, or brauner where all stems of the option follow dorren", .value = energy_model_at,
@@ -404,19 +412,19 @@ static const struct ceduo_figure other_energy[] = {
     {"reach_probability", "", "share of these that reach the control", AT(other_energy, reach_probability)},
     {"reach_lo", "", "lower end of its 95 % interval", AT(other_energy, reach_lo)},
     {"reach_hi", "", "upper end of its 95 % interval", AT(other_energy, reach_hi)},
-    {"exceed_probability", "", "share of these that reach it with more than accepted_kJ",
-     AT(other_energy, exceed_probability), .null = UNSAID},
+    {"exceed_probability", "", "share of these that reach it with more than accepted_kJ", AT(other_energy, exceed_probability),
+     .null = UNSAID},
     {"exceed_lo", "", "lower end of its 95 % interval", AT(other_energy, exceed_lo), .null = UNSAID},
     {"exceed_hi", "", "upper end of its 95 % interval", AT(other_energy, exceed_hi), .null = UNSAID},
     {"energy_kJ_mean", "kJ", "mean energy of the rocks that reach it", AT(other_energy, energy), .scale = KILO,
      .null = NO_ROCK},
-    {"energy_kJ_se", "kJ", "standard error of that", AT(other_energy, energy_se), .scale = KILO,
-     .null = FEW},
+    {"energy_kJ_se", "kJ", "standard error of that", AT(other_energy, energy_se), .scale = KILO, .null = FEW},
     {"verdict", "", "what is said of the control", .of = verdict_of_other},
     END};
 
 static const struct ceduo_figure verdict[] = {
-    {"answer", "", "whether the forest keeps rocks with more than accepted_kJ to at most 5 of 100: " ANSWERS, .value = judgement_of, .null = UNSAID ", or contact_model is index"},
+    {"answer", "", "whether the forest keeps rocks with more than accepted_kJ to at most 5 of 100: " ANSWERS,
+     .value = judgement_of, .null = UNSAID ", or contact_model is index"},
     {"because", "", "why, in a sentence", .say = say_because, .one = true},
     END};
 
@@ -442,8 +450,7 @@ static const struct ceduo_figure ends[] = {
      .offset = offsetof(struct ceduo_flown, ends.share[CEDUO_AT_REST])},
     {"left_slope", "", "share that leaves the profile", .value = share_at,
      .offset = offsetof(struct ceduo_flown, ends.share[CEDUO_LEFT_SLOPE])},
-    {"unfinished", "", "count of rocks that were still moving after 1000000 contacts",
-     AT(flown, ends.count[CEDUO_UNFINISHED])},
+    {"unfinished", "", "count of rocks that were still moving after 1000000 contacts", AT(flown, ends.count[CEDUO_UNFINISHED])},
     END};
 
 static const struct ceduo_figure stops[] = {
@@ -452,17 +459,30 @@ static const struct ceduo_figure stops[] = {
     {"max", "m", "farthest", .value = stop_at, .offset = offsetof(struct ceduo_ends, stop_max)},
     END};
 
-#define SUMMARY  {"summary", "", "the forest between the release and the last control", .from = last_index_of, .of = summary}
-#define STANDS   {"stands", "", "an object for each belt, in order", .of = stand, .enter = enter_belt}
-#define CONTROLS {"controls", "", "an object for each control, in the scene's order", .of = control, .enter = enter_control}
-#define ENDS \
-    {"ends", "", "how the rocks end, over the whole profile, through the forest (with contact_model: index without it)", \
-     .from = flown_of, .of = ends}, \
-    {"stop_x_m", "m", "places where rocks were stopped by stems or came to rest", .from = stops_of, .of = stops, \
-     .null = "no rock was stopped or came to rest"}
-#define YEAR \
-    {"year", "", "year, counted from the stands as filed", .from = year_of, AT(year, year)}, \
-    {"cut", "", "whether a belt is cut in it", .from = year_of, AT(year, cut)}
+#define SUMMARY                                                                                                                \
+    {                                                                                                                          \
+        "summary", "", "the forest between the release and the last control", .from = last_index_of, .of = summary             \
+    }
+#define STANDS                                                                                                                 \
+    {                                                                                                                          \
+        "stands", "", "an object for each belt, in order", .of = stand, .enter = enter_belt                                    \
+    }
+#define CONTROLS                                                                                                               \
+    {                                                                                                                          \
+        "controls", "", "an object for each control, in the scene's order", .of = control, .enter = enter_control              \
+    }
+#define ENDS                                                                                                                   \
+    {"ends", "", "how the rocks end, over the whole profile, through the forest (with contact_model: index without it)",       \
+     .from = flown_of, .of = ends},                                                                                            \
+    {                                                                                                                          \
+        "stop_x_m", "m", "places where rocks were stopped by stems or came to rest",                                           \
+            .from = stops_of, .of = stops, .null = "no rock was stopped or came to rest"                                       \
+    }
+#define YEAR                                                                                                                   \
+    {"year", "", "year, counted from the stands as filed", .from = year_of, AT(year, year)},                                   \
+    {                                                                                                                          \
+        "cut", "", "whether a belt is cut in it", .from = year_of, AT(year, cut)                                               \
+    }
 
 static const struct ceduo_figure felling[] = {
     {"year", "", "year, counted from the stands as filed", .from = felling_of, AT(felling, year)},
@@ -472,15 +492,28 @@ static const struct ceduo_figure felling[] = {
     {"volume_m3_ha", "m3/ha", "their volume", .from = felling_of, AT(felling, volume)},
     END};
 
-#define YIELD \
-    {"cut_m3_ha_per_year", "m3/ha", "volume felled per hectare of forest and year over a whole rotation", .from = yield_of, \
-     AT(yield, cut_per_year), .null = "a stand says nothing of growth or cutting"}, \
-    {"standing_m3_ha_mean", "m3/ha", "volume standing, in the mean of that rotation", .from = yield_of, \
-     AT(yield, standing), .null = "a stand says nothing of growth or cutting"}, \
-    {"died_m3_ha_per_year", "m3/ha", "volume of the stems that die between two cuts", .from = yield_of, \
-     AT(yield, died_per_year), .null = "a stand says nothing of growth or cutting"}
-static const struct ceduo_figure yield[] = {
-    YIELD, {"cuts", "", "an object for each cut, up to the one that ends the first whole rotation", .of = felling, .enter = enter_felling}, END};
+#define YIELD                                                                                                                  \
+    {"cut_m3_ha_per_year",                                                                                                     \
+     "m3/ha",                                                                                                                  \
+     "volume felled per hectare of forest and year over a whole rotation",                                                     \
+     .from = yield_of,                                                                                                         \
+     AT(yield, cut_per_year),                                                                                                  \
+     .null = "a stand says nothing of growth or cutting"},                                                                     \
+        {"standing_m3_ha_mean",                                                                                                \
+         "m3/ha",                                                                                                              \
+         "volume standing, in the mean of that rotation",                                                                      \
+         .from = yield_of,                                                                                                     \
+         AT(yield, standing),                                                                                                  \
+         .null = "a stand says nothing of growth or cutting"},                                                                 \
+    {                                                                                                                          \
+        "died_m3_ha_per_year", "m3/ha", "volume of the stems that die between two cuts",                                       \
+            .from = yield_of, AT(yield, died_per_year), .null = "a stand says nothing of growth or cutting"                    \
+    }
+static const struct ceduo_figure yield[] = {YIELD,
+                                            {"cuts", "",
+                                             "an object for each cut, up to the one that ends the first whole rotation",
+                                             .of = felling, .enter = enter_felling},
+                                            END};
 static const struct ceduo_figure yield_columns[] = {YIELD, END};
 
 static const struct ceduo_figure year[] = {YEAR, STANDS, SUMMARY, CONTROLS, END};
@@ -498,8 +531,7 @@ static const struct ceduo_figure rotation[] = {
      .null = "the control has no accepted_kJ, contact_model is index, or " NOTHING_SAID},
     {"reach_probability", "", "plain mean over the years", IN(place, sum.reach, paired)},
     {"exceed_probability", "", "plain mean over the years", IN(place, sum.exceed, paired)},
-    {"energy_per_released_kJ", "kJ", "plain mean over the years", IN(place, sum.energy_per_released, paired),
-     .scale = KILO},
+    {"energy_per_released_kJ", "kJ", "plain mean over the years", IN(place, sum.energy_per_released, paired), .scale = KILO},
     {"worst_year", "", "year with the largest share that exceeds (or arrives, or with the largest ADC)",
      AT(place, sum.worst_year)},
     {"passes_per_year", "1/y", "rocks to be expected to pass", AT(place, sum.passes_per_year),
@@ -534,12 +566,11 @@ static const struct ceduo_figure differences[] = {
      IN(difference, energy_per_released, paired), .scale = KILO},
     END};
 
-static const struct ceduo_figure difference[] = {
-    {"option", "", "option that is compared", .from = option_of, AT(option, name)},
-    {"against", "", "the first option", .from = first_option_of, AT(option, name)},
-    {"x_m", "m", "control", .from = control_of, AT(control, x_given)},
-    {.from = difference_of, .of = differences},
-    END};
+static const struct ceduo_figure difference[] = {{"option", "", "option that is compared", .from = option_of, AT(option, name)},
+                                                 {"against", "", "the first option", .from = first_option_of, AT(option, name)},
+                                                 {"x_m", "m", "control", .from = control_of, AT(control, x_given)},
+                                                 {.from = difference_of, .of = differences},
+                                                 END};
 
 static const struct ceduo_figure rock[] = {
     {"mass_kg", "kg", "mass", AT(rock, mass)},
@@ -558,8 +589,10 @@ static const struct ceduo_figure scene[] = {
     END};
 
 static const struct ceduo_figure work[] = {
-    {"rocks_flown", "", "rocks of all runs: one without forest, and one for each forest that differs, under "
-     "each energy law", AT(report, work.rocks)},
+    {"rocks_flown", "",
+     "rocks of all runs: one without forest, and one for each forest that differs, under "
+     "each energy law",
+     AT(report, work.rocks)},
     {"contacts", "", "contacts with the ground, of all rocks", AT(report, work.contacts)},
     {"stems_drawn", "", "stems made up along their ways, hit or not", AT(report, work.stems.drawn)},
     {"runs", "", "runs computed", AT(report, work.runs)},
@@ -571,12 +604,14 @@ const struct ceduo_figure ceduo_result_figures[] = {
     {"format", "", "always ceduo-result-1", .value = format_of},
     {"version", "", "version of the program", .value = version_of},
     {.of = scene},
-    {"warnings", "", "sentences about the whole run: tolerance not met, rocks unfinished, shares too close to call, ground "
-     "assumed, percentiles from a histogram", .say = say_of_run},
-    {"options", "", "an object for each option, in the scene's order; a scene with forest has one, named current",
-     .of = option, .enter = enter_option},
-    {"differences", "", "an object for each option but the first, and each control; [] with one option",
-     .of = difference, .enter = enter_difference},
+    {"warnings", "",
+     "sentences about the whole run: tolerance not met, rocks unfinished, shares too close to call, ground "
+     "assumed, percentiles from a histogram",
+     .say = say_of_run},
+    {"options", "", "an object for each option, in the scene's order; a scene with forest has one, named current", .of = option,
+     .enter = enter_option},
+    {"differences", "", "an object for each option but the first, and each control; [] with one option", .of = difference,
+     .enter = enter_difference},
     {"work", "", "what it took", .from = report_of, .of = work},
     END};
 
@@ -584,55 +619,89 @@ const struct ceduo_figure ceduo_result_figures[] = {
 
 #define NONE "no value reaches the goal"
 #define ONE  "a value reaches it"
-#define SOUGHT \
-    {"scene", "", "path of the file", .value = find_path}, \
-    {"path", "", "path of the parameter", .from = search_of, AT(search, path)}, \
-    {"option", "", "name of the option", .value = find_option}, \
-    {"goal", "", "goal that was asked for", .from = search_of, .value = goal_of}, \
-    {"target", "", "value that it is to stay below, or at most at", .from = search_of, AT(search, target)}, \
-    {"lo", "", "lower end of the range", .from = search_of, AT(search, lo)}, \
-    {"hi", "", "upper end of the range", .from = search_of, AT(search, hi)}
-#define FOUND   {"found", "", "whether a value reaches the goal", .from = found_of, AT(found, found)}
-#define REACHED {"value", "", "the value", .from = found_of, AT(found, value), .null = NONE}
-#define SIDE \
-    {"side", "", "smallest or largest: which of the values that reach it this is", .from = found_of, .value = side_of, \
-     .null = NONE}
-#define GOALS \
-    {"goal_at_value", "", "goal at this value", .from = found_of, AT(found, goal_at_value), .null = NONE}, \
-    {"nearest", "", "value that comes nearest", .from = found_of, .value = nearest_of, .null = ONE}, \
-    {"goal_at_nearest", "", "goal at that value", .from = found_of, .value = nearest_goal, .null = ONE}
-#define COST \
-    {"monotone", "", "whether the goal only rises or only falls over the range", .from = found_of, AT(found, monotone)}, \
-    {"evaluations", "", "values looked at", .from = found_of, AT(found, evaluations)}, \
-    {"rocks", "", "rocks flown for each", .from = search_of, AT(search, rocks)}
+#define SOUGHT                                                                                                                 \
+    {"scene", "", "path of the file", .value = find_path},                                                                     \
+        {"path", "", "path of the parameter", .from = search_of, AT(search, path)},                                            \
+        {"option", "", "name of the option", .value = find_option},                                                            \
+        {"goal", "", "goal that was asked for", .from = search_of, .value = goal_of},                                          \
+        {"target", "", "value that it is to stay below, or at most at", .from = search_of, AT(search, target)},                \
+        {"lo", "", "lower end of the range", .from = search_of, AT(search, lo)},                                               \
+    {                                                                                                                          \
+        "hi", "", "upper end of the range", .from = search_of, AT(search, hi)                                                  \
+    }
+#define FOUND                                                                                                                  \
+    {                                                                                                                          \
+        "found", "", "whether a value reaches the goal", .from = found_of, AT(found, found)                                    \
+    }
+#define REACHED                                                                                                                \
+    {                                                                                                                          \
+        "value", "", "the value", .from = found_of, AT(found, value), .null = NONE                                             \
+    }
+#define SIDE                                                                                                                   \
+    {                                                                                                                          \
+        "side", "", "smallest or largest: which of the values that reach it this is", .from = found_of, .value = side_of,      \
+                                                                                      .null = NONE                             \
+    }
+#define GOALS                                                                                                                  \
+    {"goal_at_value", "", "goal at this value", .from = found_of, AT(found, goal_at_value), .null = NONE},                     \
+        {"nearest", "", "value that comes nearest", .from = found_of, .value = nearest_of, .null = ONE},                       \
+    {                                                                                                                          \
+        "goal_at_nearest", "", "goal at that value", .from = found_of, .value = nearest_goal, .null = ONE                      \
+    }
+#define COST                                                                                                                   \
+    {"monotone", "", "whether the goal only rises or only falls over the range", .from = found_of, AT(found, monotone)},       \
+        {"evaluations", "", "values looked at", .from = found_of, AT(found, evaluations)},                                     \
+    {                                                                                                                          \
+        "rocks", "", "rocks flown for each", .from = search_of, AT(search, rocks)                                              \
+    }
 
-#define OVER {"over", "", "today, or rotation: over one whole rotation, where the parameter is one of growth or cutting", \
-              .from = search_of, .value = over_of}
+#define OVER                                                                                                                   \
+    {                                                                                                                          \
+        "over", "", "today, or rotation: over one whole rotation, where the parameter is one of growth or cutting",            \
+            .from = search_of, .value = over_of                                                                                \
+    }
 static const struct ceduo_figure found_yield[] = {
-    {"cut_m3_ha_per_year", "m3/ha", "volume felled per hectare of forest and year over a whole rotation", AT(yield, cut_per_year)},
+    {"cut_m3_ha_per_year", "m3/ha", "volume felled per hectare of forest and year over a whole rotation",
+     AT(yield, cut_per_year)},
     {"standing_m3_ha_mean", "m3/ha", "volume standing, in the mean of that rotation", AT(yield, standing)},
     {"died_m3_ha_per_year", "m3/ha", "volume of the stems that die between two cuts", AT(yield, died_per_year)},
     END};
-#define FOUND_YIELD {"yield", "", "stem wood that the option yields at this value", .from = found_yield_of, .of = found_yield, \
-                     .null = "a stand says nothing of growth or cutting"}
+#define FOUND_YIELD                                                                                                            \
+    {                                                                                                                          \
+        "yield", "", "stem wood that the option yields at this value", .from = found_yield_of, .of = found_yield,              \
+                                                                       .null = "a stand says nothing of growth or cutting"     \
+    }
 
-const struct ceduo_figure ceduo_find_figures[] = {
-    {"format", "", "always ceduo-find-1", .value = find_format},
-    {"version", "", "version of the program", .value = version_of},
-    SOUGHT, FOUND, REACHED, SIDE, GOALS, COST, OVER, FOUND_YIELD, END};
+const struct ceduo_figure ceduo_find_figures[] = {{"format", "", "always ceduo-find-1", .value = find_format},
+                                                  {"version", "", "version of the program", .value = version_of},
+                                                  SOUGHT,
+                                                  FOUND,
+                                                  REACHED,
+                                                  SIDE,
+                                                  GOALS,
+                                                  COST,
+                                                  OVER,
+                                                  FOUND_YIELD,
+                                                  END};
 const struct ceduo_figure ceduo_find_columns[] = {SOUGHT, REACHED, GOALS, FOUND, SIDE, COST, OVER, FOUND_YIELD, END};
 
 /* ---- rows of CSV ---- */
 
-#define OPTION {"option", "", "", .from = option_of, AT(option, name)}
-#define REST \
-    SUMMARY, {.of = control}, ENDS, {"difference", "", "", .from = difference_of, .of = differences}, \
-    {"yield", "", "", .of = yield_columns}, {"warnings", "", "", .say = say_of_all}
+#define OPTION                                                                                                                 \
+    {                                                                                                                          \
+        "option", "", "", .from = option_of, AT(option, name)                                                                  \
+    }
+#define REST                                                                                                                   \
+    SUMMARY, {.of = control}, ENDS, {"difference", "", "", .from = difference_of, .of = differences},                          \
+        {"yield", "", "", .of = yield_columns},                                                                                \
+    {                                                                                                                          \
+        "warnings", "", "", .say = say_of_all                                                                                  \
+    }
 
 const struct ceduo_figure ceduo_control_columns[] = {{.of = scene}, OPTION, REST, END};
 const struct ceduo_figure ceduo_year_columns[] = {{.of = scene}, OPTION, YEAR, REST, END};
-const struct ceduo_figure ceduo_stand_columns[] = {{.of = scene}, OPTION, {.of = stand_columns},
-    {"rules", "", "", .from = rules_of, .of = rules}, STAND_WARNINGS, END};
+const struct ceduo_figure ceduo_stand_columns[] = {
+    {.of = scene}, OPTION, {.of = stand_columns}, {"rules", "", "", .from = rules_of, .of = rules}, STAND_WARNINGS, END};
 
 /* ---- the manual ---- */
 

@@ -11,10 +11,10 @@ struct ceduo_svg;
 
 enum ceduo_page_kind {
     CEDUO_PAGE_TITLE,
-    CEDUO_PAGE_FACT,     /* a label and what it is */
-    CEDUO_PAGE_SECTION,  /* heading of an option, of a comparison */
-    CEDUO_PAGE_PLACE,    /* heading of a control in it */
-    CEDUO_PAGE_CAPTION,  /* of the table that follows */
+    CEDUO_PAGE_FACT,    /* a label and what it is */
+    CEDUO_PAGE_SECTION, /* heading of an option, of a comparison */
+    CEDUO_PAGE_PLACE,   /* heading of a control in it */
+    CEDUO_PAGE_CAPTION, /* of the table that follows */
     CEDUO_PAGE_TABLE,
     CEDUO_PAGE_SENTENCE, /* of a place */
     CEDUO_PAGE_DETAIL,   /* of what stands before */

@@ -37,17 +37,14 @@ static void ask(struct ceduo_page *page, const struct subject *s)
     const char *where = ceduo_text_string(&s->where);
     size_t n = s->result->scene->options_count;
     if (n == 1 && s->accepted)
-        ceduo_text_format(text, _("Does the forest protect what lies at %s and withstands %s kJ?"), where,
-                          s->withstands);
+        ceduo_text_format(text, _("Does the forest protect what lies at %s and withstands %s kJ?"), where, s->withstands);
     else if (n == 1)
         ceduo_text_format(text, _("How many rocks does the forest keep from what lies at %s?"), where);
     else if (s->accepted)
-        ceduo_text_format(
-            text, _("Which of %zu ways to treat the forest protects best what lies at %s and withstands %s kJ?"), n,
-            where, s->withstands);
+        ceduo_text_format(text, _("Which of %zu ways to treat the forest protects best what lies at %s and withstands %s kJ?"),
+                          n, where, s->withstands);
     else
-        ceduo_text_format(text, _("Which of %zu ways to treat the forest keeps most rocks from what lies at %s?"), n,
-                          where);
+        ceduo_text_format(text, _("Which of %zu ways to treat the forest keeps most rocks from what lies at %s?"), n, where);
 }
 
 /* ---- the first sentence ---- */
@@ -58,8 +55,7 @@ static void answer_one(struct text *text, const struct subject *s)
     enum ceduo_judgement judgement = ceduo_judge(s->bare, s->arrivals);
     double through = share_of(s, s->arrivals), bare = share_of(s, s->bare), most = 1000 * CEDUO_EXCEED_MOST;
     if (!s->accepted)
-        ceduo_text_format(text, _("Of 1000 rocks %.0f arrive through the forest, and %.0f would without it."), through,
-                          bare);
+        ceduo_text_format(text, _("Of 1000 rocks %.0f arrive through the forest, and %.0f would without it."), through, bare);
     else if (judgement == CEDUO_NOT_DECIDED)
         ceduo_text_format(
             text,
@@ -67,17 +63,15 @@ static void answer_one(struct text *text, const struct subject *s)
               "allowed; without forest %.0f would."),
             through, most, bare);
     else if (judgement == CEDUO_YES)
-        ceduo_text_format(
-            text,
-            _("Yes: of 1000 rocks %.0f arrive through the forest with more than that, where %.0f are allowed; "
-              "without forest %.0f would."),
-            through, most, bare);
+        ceduo_text_format(text,
+                          _("Yes: of 1000 rocks %.0f arrive through the forest with more than that, where %.0f are allowed; "
+                            "without forest %.0f would."),
+                          through, most, bare);
     else
-        ceduo_text_format(
-            text,
-            _("No: of 1000 rocks %.0f arrive through the forest with more than that, where %.0f are allowed; "
-              "without forest %.0f would."),
-            through, most, bare);
+        ceduo_text_format(text,
+                          _("No: of 1000 rocks %.0f arrive through the forest with more than that, where %.0f are allowed; "
+                            "without forest %.0f would."),
+                          through, most, bare);
 }
 
 /* By the index (Eq. 4 and 5). */
@@ -89,17 +83,15 @@ static void answer_by_index(struct text *text, const struct subject *s)
     ceduo_plot_number(s->bare->energy.mean * KILO, 3, mean);
     ceduo_plot_number(index->residual * KILO, 3, left);
     if (s->result->scene->options_count > 1)
-        ceduo_text_format(
-            text,
-            _("By the index (Eq. 4 and 5) '%s' leaves least of the %s kJ that a rock brings in the mean: %s "
-              "kJ."),
-            s->option->name, mean, left);
+        ceduo_text_format(text,
+                          _("By the index (Eq. 4 and 5) '%s' leaves least of the %s kJ that a rock brings in the mean: %s "
+                            "kJ."),
+                          s->option->name, mean, left);
     else
-        ceduo_text_format(
-            text,
-            _("By the index (Eq. 4 and 5) stems could take %s of the %s kJ that a rock brings in the mean: %s "
-              "kJ are left."),
-            taken, mean, left);
+        ceduo_text_format(text,
+                          _("By the index (Eq. 4 and 5) stems could take %s of the %s kJ that a rock brings in the mean: %s "
+                            "kJ are left."),
+                          taken, mean, left);
 }
 
 static void answer_many(struct text *text, const struct subject *s)
@@ -122,15 +114,13 @@ static void say_sampling(struct text *text, const struct subject *s)
     if (!a) {
         char half[PLOT_NUMBER_ROOM];
         ceduo_plot_number(ceduo_half_width(s->bare->energy.se, s->bare->reached) * KILO, 2, half);
-        ceduo_text_format(
-            text,
-            _("Error of the rocks: %llu were simulated, which gives the mean to within %s kJ (95 %%); more "
-              "rocks make that less."),
-            rocks, half);
+        ceduo_text_format(text,
+                          _("Error of the rocks: %llu were simulated, which gives the mean to within %s kJ (95 %%); more "
+                            "rocks make that less."),
+                          rocks, half);
         return;
     }
-    double lo = 1000 * (s->accepted ? a->exceed_lo : a->reach_lo),
-           hi = 1000 * (s->accepted ? a->exceed_hi : a->reach_hi);
+    double lo = 1000 * (s->accepted ? a->exceed_lo : a->reach_lo), hi = 1000 * (s->accepted ? a->exceed_hi : a->reach_hi);
     if (s->result->scene->options_count > 1)
         ceduo_text_format(
             text,
@@ -138,11 +128,10 @@ static void say_sampling(struct text *text, const struct subject *s)
               "of 1000 (95 %%); more rocks make that less."),
             rocks, s->option->name, lo, hi);
     else
-        ceduo_text_format(
-            text,
-            _("Error of the rocks: %llu were simulated, which gives the figure as %.0f\xe2\x80\x93%.0f of 1000 "
-              "(95 %%); more rocks make that less."),
-            rocks, lo, hi);
+        ceduo_text_format(text,
+                          _("Error of the rocks: %llu were simulated, which gives the figure as %.0f\xe2\x80\x93%.0f of 1000 "
+                            "(95 %%); more rocks make that less."),
+                          rocks, lo, hi);
 }
 
 /* ---- the third: the doubt ---- */
@@ -160,13 +149,12 @@ static void say_range(struct text *text, const struct subject *s, const struct c
         snprintf(lo, sizeof lo, "%.0f", 1000 * f->p5);
         snprintf(hi, sizeof hi, "%.0f", 1000 * f->p95);
     }
-    ceduo_text_format(
-        text,
-        energy ? _("Doubt: what is not known of the scene makes the energy per released rock anything from %s to "
-                   "%s kJ (90 %% of what may be true); only measuring makes that less.")
-               : _("Doubt: what is not known of the scene makes it anything from %s to %s of 1000 (90 %% of what "
-                   "may be true); only measuring makes that less."),
-        lo, hi);
+    ceduo_text_format(text,
+                      energy ? _("Doubt: what is not known of the scene makes the energy per released rock anything from %s to "
+                                 "%s kJ (90 %% of what may be true); only measuring makes that less.")
+                             : _("Doubt: what is not known of the scene makes it anything from %s to %s of 1000 (90 %% of what "
+                                 "may be true); only measuring makes that less."),
+                      lo, hi);
     if (answer->orders_count == 0 || answer->orders[0].better != s->index)
         return;
     ceduo_text_char(text, ' ');
@@ -182,9 +170,8 @@ static void say_doubt(struct text *text, const struct subject *s)
     else if (doubt)
         ceduo_text_put(text, ceduo_doubt_none(doubt));
     else
-        ceduo_text_put(text,
-                       _("Doubt: what is not known of the scene was not computed for this page; the command at its end "
-                         "does."));
+        ceduo_text_put(text, _("Doubt: what is not known of the scene was not computed for this page; the command at its end "
+                               "does."));
 }
 
 /* ---- all ---- */

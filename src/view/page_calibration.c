@@ -10,8 +10,8 @@
 
 #define TOGETHER 0.7 /* correlation that is told */
 
-static const struct ceduo_page_column seen_columns[] = {{N_("seen"), 26, 2, 0},      {N_("use"), 5, 2, 0},
-                                                        {N_("rocks"), -5, 2, 0},     {N_("mean"), -8, 2, 0},
+static const struct ceduo_page_column seen_columns[] = {{N_("seen"), 26, 2, 0},       {N_("use"), 5, 2, 0},
+                                                        {N_("rocks"), -5, 2, 0},      {N_("mean"), -8, 2, 0},
                                                         {N_("fit, 95 %"), -15, 2, 0}, {N_("p"), -5, 2, 0}};
 
 static void put_range(struct text *t, double lo, double hi)
@@ -59,10 +59,8 @@ static void put_seen(struct ceduo_page *page, const struct ceduo_calibration_rep
     }
 }
 
-static const struct ceduo_page_column value_columns[] = {{N_("fitted"), 26, 2, 0},
-                                                         {N_("between"), -13, 2, 0},
-                                                         {N_("best"), -8, 2, 0},
-                                                         {N_("not refuted, 95 %"), -18, 2, 0}};
+static const struct ceduo_page_column value_columns[] = {
+    {N_("fitted"), 26, 2, 0}, {N_("between"), -13, 2, 0}, {N_("best"), -8, 2, 0}, {N_("not refuted, 95 %"), -18, 2, 0}};
 
 static void put_values(struct ceduo_page *page, const struct ceduo_calibration_report *r)
 {
@@ -150,8 +148,9 @@ static void put_single(struct ceduo_page *page, const struct ceduo_calibration_r
         return;
     put_seen_name(&name, r, p);
     put_range(&range, ceduo_seen_shown(o->kind, p->one_lo, origin), ceduo_seen_shown(o->kind, p->one_hi, origin));
-    ceduo_text_format(ceduo_page_add(page, CEDUO_PAGE_ITEM), _("%s: of %zu values %zu lie within the 95 %% predicted of single rocks, %s."),
-                      ceduo_text_string(&name), o->n, p->one_inside, ceduo_text_string(&range));
+    ceduo_text_format(ceduo_page_add(page, CEDUO_PAGE_ITEM),
+                      _("%s: of %zu values %zu lie within the 95 %% predicted of single rocks, %s."), ceduo_text_string(&name),
+                      o->n, p->one_inside, ceduo_text_string(&range));
     page->failed |= name.failed || range.failed;
     ceduo_text_free(&name);
     ceduo_text_free(&range);
@@ -164,7 +163,8 @@ static void put_misfits(struct ceduo_page *page, const struct ceduo_calibration_
         const struct ceduo_predicted *p = &a->predicted[i];
         const struct ceduo_observation *o = ceduo_seen_of(r, p);
         if (p->p_value < CEDUO_MISFIT && o->use == CEDUO_OBSERVED_FIT && p->inside)
-            put_one_misfit(page, r, p, _("This model can give the mean of what was seen here, but not how the values are spread: %s."));
+            put_one_misfit(page, r, p,
+                           _("This model can give the mean of what was seen here, but not how the values are spread: %s."));
         else if (p->p_value < CEDUO_MISFIT && o->use == CEDUO_OBSERVED_FIT)
             put_one_misfit(page, r, p, _("This model cannot give what was seen here: %s."));
         else if (p->p_value < CEDUO_MISFIT)
@@ -172,8 +172,9 @@ static void put_misfits(struct ceduo_page *page, const struct ceduo_calibration_
         if (o->use == CEDUO_OBSERVED_CHECK)
             put_single(page, r, p);
         if (o->kind == CEDUO_OBSERVED_SCARS && o->of > 0 && isnan(o->share_seen))
-            put_one_misfit(page, r, p, _("A survey finds too few scars, and %s does not say what share it found (share_seen): the "
-                                      "number of blows is taken too low."));
+            put_one_misfit(page, r, p,
+                           _("A survey finds too few scars, and %s does not say what share it found (share_seen): the "
+                             "number of blows is taken too low."));
     }
     if (!a->misfit)
         ceduo_text_put(ceduo_page_add(page, CEDUO_PAGE_NOTE), _("The model can give all that it was fitted to."));
@@ -185,8 +186,9 @@ static void put_end(struct ceduo_page *page, const struct ceduo_calibration_repo
     if (!a->settled)
         ceduo_text_put(ceduo_page_add(page, CEDUO_PAGE_WARNING),
                        _("The chains do not agree yet, so the ranges are rough: fit fewer values, or observe more."));
-    ceduo_text_put(ceduo_page_add(page, CEDUO_PAGE_NOTE),
-                   _("A ground that is fitted on a profile holds for this profile; a hundred metres beside it may be another."));
+    ceduo_text_put(
+        ceduo_page_add(page, CEDUO_PAGE_NOTE),
+        _("A ground that is fitted on a profile holds for this profile; a hundred metres beside it may be another."));
     ceduo_text_format(ceduo_page_add(page, CEDUO_PAGE_NOTE),
                       _("%llu scenes were computed with %llu rocks each; R-hat %.3f, effective size %.0f."),
                       (unsigned long long)a->evaluations, (unsigned long long)r->rocks, a->rhat, a->effective_size);

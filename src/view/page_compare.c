@@ -46,13 +46,21 @@ static void add_row(struct ceduo_page *page, const struct ceduo_result *r, size_
         add_by_index(page, s);
 }
 
-#define OPTION     {N_("option"), 23, 2, 0}
-#define BY_CONTACT {N_("ADC m"), -7, 0, 0}, {"", 5, 1, 0}, {NP_("head", "free run"), -7, 0, CEDUO_SPAN}
+#define OPTION                                                                                                                 \
+    {                                                                                                                          \
+        N_("option"), 23, 2, 0                                                                                                 \
+    }
+#define BY_CONTACT                                                                                                             \
+    {N_("ADC m"), -7, 0, 0}, {"", 5, 1, 0},                                                                                    \
+    {                                                                                                                          \
+        NP_("head", "free run"), -7, 0, CEDUO_SPAN                                                                             \
+    }
 
 static void add_table(struct ceduo_page *page, const struct ceduo_result *r)
 {
     static const struct ceduo_page_column wooded[] = {
-        OPTION, {NULL, -10, 0, 0}, {NP_("head", "to first"), -11, 0, 0}, {NP_("head", "energy"), 6, 2, 0}, BY_CONTACT, {"", 0, 1, 0}};
+        OPTION,     {NULL, -10, 0, 0}, {NP_("head", "to first"), -11, 0, 0}, {NP_("head", "energy"), 6, 2, 0},
+        BY_CONTACT, {"", 0, 1, 0}};
     static const struct ceduo_page_column by_index[] = {
         OPTION, BY_CONTACT, {"", 5, 1, 0}, {N_("kJ/100 m"), -10, 0, 0}, {NP_("head", "left kJ"), -10, 0, 0}};
     if (r->wooded) {
@@ -66,7 +74,8 @@ static void add_table(struct ceduo_page *page, const struct ceduo_result *r)
 }
 
 /* A test that all options pass, or none, says nothing about which to choose. */
-static void say_separation(struct ceduo_page *page, const struct ceduo_result *r, size_t light, const char *all, const char *none)
+static void say_separation(struct ceduo_page *page, const struct ceduo_result *r, size_t light, const char *all,
+                           const char *none)
 {
     size_t n = r->scene->options_count, pass = 0;
     for (size_t i = 0; i < n; i++) {
@@ -111,25 +120,33 @@ static void add_choice(struct ceduo_page *page, const char *name, const struct c
 
 static void add_years_table(struct ceduo_page *page, const struct ceduo_result *r, const struct ceduo_verdict *v)
 {
-    static const struct ceduo_page_column flown[] = {
-        {N_("option"), 22, 2, 0},   {NULL, -10, 0, 0},        {NP_("head", "worst year"), -11, 0, 0}, {NP_("head", "contact"), -8, 0, 0},
-        {NP_("head", "free run"), -9, 0, 0}, {NP_("head", "energy"), -7, 0, 0}, {NP_("head", "m3/y"), -5, 0, 0},        {N_("m3"), -6, 0, 0}};
-    static const struct ceduo_page_column by_index[] = {{N_("option"), 23, 2, 0},  {NP_("head", "ADC m, worst"), -14, 0, 0},
-                                                        {NP_("head", "contact"), -8, 0, 0}, {NP_("head", "free run"), -9, 0, 0},
-                                                        {NP_("head", "m3/y"), -6, 0, 0},    {N_("m3"), -7, 0, 0}};
+    static const struct ceduo_page_column flown[] = {{N_("option"), 22, 2, 0},
+                                                     {NULL, -10, 0, 0},
+                                                     {NP_("head", "worst year"), -11, 0, 0},
+                                                     {NP_("head", "contact"), -8, 0, 0},
+                                                     {NP_("head", "free run"), -9, 0, 0},
+                                                     {NP_("head", "energy"), -7, 0, 0},
+                                                     {NP_("head", "m3/y"), -5, 0, 0},
+                                                     {N_("m3"), -6, 0, 0}};
+    static const struct ceduo_page_column by_index[] = {
+        {N_("option"), 23, 2, 0},           {NP_("head", "ADC m, worst"), -14, 0, 0},
+        {NP_("head", "contact"), -8, 0, 0}, {NP_("head", "free run"), -9, 0, 0},
+        {NP_("head", "m3/y"), -6, 0, 0},    {N_("m3"), -7, 0, 0}};
     struct text *caption = ceduo_page_add(page, CEDUO_PAGE_CAPTION);
     struct text span = {0};
     ceduo_words_span(&span, v);
     if (v->wooded)
-        ceduo_text_format(caption,
-                          _("Over %s: of 1000 released, in the mean and in the worst of these years, counted from today, with %llu "
-                            "rocks in each; years in which a test fails; wood felled per hectare and year, and standing:"),
-                          ceduo_text_string(&span), (unsigned long long)v->choices[0].rocks);
+        ceduo_text_format(
+            caption,
+            _("Over %s: of 1000 released, in the mean and in the worst of these years, counted from today, with %llu "
+              "rocks in each; years in which a test fails; wood felled per hectare and year, and standing:"),
+            ceduo_text_string(&span), (unsigned long long)v->choices[0].rocks);
     else
-        ceduo_text_format(caption,
-                          _("Over %s: the worst year, counted from today; years in which a test fails; wood felled per hectare and "
-                            "year, and standing:"),
-                          ceduo_text_string(&span));
+        ceduo_text_format(
+            caption,
+            _("Over %s: the worst year, counted from today; years in which a test fails; wood felled per hectare and "
+              "year, and standing:"),
+            ceduo_text_string(&span));
     caption->failed |= span.failed;
     ceduo_text_free(&span);
     if (v->choices[0].flown > 0) {
@@ -154,12 +171,14 @@ static void say_yield(struct ceduo_page *page, const struct ceduo_result *r, con
     for (size_t i = 0; i < v->n; i++) {
         known |= !isnan(v->choices[i].yield.cut_per_year);
         if (v->choices[i].yield.space > 1)
-            ceduo_text_format(ceduo_page_add(page, CEDUO_PAGE_NOTE),
-                              _("'%s' keeps more standards than the ground bears (%.0f %% of the growing space): its yield is not computed."),
-                              r->scene->options[i].name, 100 * v->choices[i].yield.space);
+            ceduo_text_format(
+                ceduo_page_add(page, CEDUO_PAGE_NOTE),
+                _("'%s' keeps more standards than the ground bears (%.0f %% of the growing space): its yield is not computed."),
+                r->scene->options[i].name, 100 * v->choices[i].yield.space);
     }
     if (known)
-        add_note(page, _("Yield: standards take growing space from the shoots (assumed). Side light, roots and the quality of the wood are not modelled."));
+        add_note(page, _("Yield: standards take growing space from the shoots (assumed). Side light, roots and the quality of "
+                         "the wood are not modelled."));
 }
 
 static void say_best(struct ceduo_page *page, const struct ceduo_result *r, const struct ceduo_verdict *v)
@@ -208,8 +227,7 @@ void ceduo_page_comparison(struct ceduo_page *page, const struct ceduo_report *r
     if (v)
         say_best(page, r, v);
     if (!r->wooded)
-        ceduo_text_put(
-            ceduo_page_add(page, CEDUO_PAGE_NOTE),
-            _("Without forest every option sees the same rocks: what arrives does not separate them. The index "
-              "says what stems could take, not what a rock loses; no column decides alone."));
+        ceduo_text_put(ceduo_page_add(page, CEDUO_PAGE_NOTE),
+                       _("Without forest every option sees the same rocks: what arrives does not separate them. The index "
+                         "says what stems could take, not what a rock loses; no column decides alone."));
 }

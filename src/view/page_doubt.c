@@ -31,8 +31,7 @@ static void put_section(struct ceduo_page *page, const struct ceduo_doubt_report
         ceduo_text_format(t, _("How sure is it? %s at %g m, of 1000 rocks those with more than %g kJ"),
                           ceduo_text_string(&name), c->x_given, ceduo_words_accepted(c));
     else
-        ceduo_text_format(t, _("How sure is it? %s at %g m, kJ per released rock"), ceduo_text_string(&name),
-                          c->x_given);
+        ceduo_text_format(t, _("How sure is it? %s at %g m, kJ per released rock"), ceduo_text_string(&name), c->x_given);
     t->failed |= name.failed;
     ceduo_text_free(&name);
 }
@@ -110,9 +109,9 @@ static void put_inputs(struct ceduo_page *page, const struct ceduo_doubt_report 
         ceduo_text_put(ceduo_page_add(page, CEDUO_PAGE_NOTE),
                        _("No input stands out; more base points (--sensitivity=N) may tell."));
     else if (rest > 0)
-        ceduo_text_format(
-            ceduo_page_add(page, CEDUO_PAGE_NOTE),
-            ngettext("%zu other input has hardly any effect.", "%zu other inputs have hardly any effect.", rest), rest);
+        ceduo_text_format(ceduo_page_add(page, CEDUO_PAGE_NOTE),
+                          ngettext("%zu other input has hardly any effect.", "%zu other inputs have hardly any effect.", rest),
+                          rest);
 }
 
 #define SURE   0.95
@@ -167,8 +166,7 @@ static void put_causes(struct text *text, const struct ceduo_doubt_report *r, co
     }
 }
 
-bool ceduo_doubt_causes(struct text *text, const struct ceduo_doubt_report *r, size_t option,
-                        enum ceduo_doubt_kind light)
+bool ceduo_doubt_causes(struct text *text, const struct ceduo_doubt_report *r, size_t option, enum ceduo_doubt_kind light)
 {
     size_t groups[2], n = ceduo_doubt_depends(&r->file->scene, r->answer, option, light, groups);
     if (n > 0)
@@ -176,8 +174,7 @@ bool ceduo_doubt_causes(struct text *text, const struct ceduo_doubt_report *r, s
     return n > 0;
 }
 
-void ceduo_doubt_light_words(struct text *text, const struct ceduo_doubt_report *r, size_t option,
-                             enum ceduo_doubt_kind light)
+void ceduo_doubt_light_words(struct text *text, const struct ceduo_doubt_report *r, size_t option, enum ceduo_doubt_kind light)
 {
     struct text causes = {0};
     if (!ceduo_doubt_causes(&causes, r, option, light))

@@ -22,7 +22,8 @@ static double shown(const struct ceduo_search *s, const struct ceduo_found *f)
     double scale = pow(10, fmax(0, 3 - floor(log10(fabs(f->value)))));
     if (f->whole_range || !isfinite(scale) || f->value == floor(f->value))
         return f->value;
-    return f->side == CEDUO_SMALLEST ? fmin(s->hi, ceil(f->value * scale) / scale) : fmax(s->lo, floor(f->value * scale) / scale);
+    return f->side == CEDUO_SMALLEST ? fmin(s->hi, ceil(f->value * scale) / scale)
+                                     : fmax(s->lo, floor(f->value * scale) / scale);
 }
 
 static void put_found(struct text *text, const struct ceduo_search *s, const struct ceduo_found *f, const char *path,
@@ -52,7 +53,9 @@ static void put_wanted(struct text *text, const struct ceduo_search *s, const ch
 {
     const struct ceduo_goal_row *goal = &ceduo_goals[s->goal];
     double target = ceduo_goal_is_share(s->goal) ? s->target * 100 : s->target;
-    ceduo_text_then(text, " ", goal->below ? _("(below %g %s is wanted), option '%s', %s") : _("(at most %g %s is wanted), option '%s', %s"),
+    ceduo_text_then(text, " ",
+                    goal->below ? _("(below %g %s is wanted), option '%s', %s")
+                                : _("(at most %g %s is wanted), option '%s', %s"),
                     target, goal->unit, option,
                     !s->rotation                  ? _("worst control")
                     : ceduo_goal_is_mean(s->goal) ? _("worst control, in the mean of one whole rotation")
@@ -79,7 +82,8 @@ void ceduo_find_page(struct text *text, const struct ceduo_find_report *report)
         ceduo_text_char(text, '\n');
     }
     if (!f->monotone) {
-        ceduo_text_then(text, "  ! ", _("The goal does not only rise or only fall over this range: there may be other values."));
+        ceduo_text_then(text, "  ! ",
+                        _("The goal does not only rise or only fall over this range: there may be other values."));
         ceduo_text_char(text, '\n');
     }
     text->failed |= path.failed || option.failed || goal.failed;

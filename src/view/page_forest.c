@@ -26,8 +26,8 @@ static void add_belts_table(struct ceduo_page *page, const struct ceduo_scene *s
                             const struct ceduo_option_result *found)
 {
     static const struct ceduo_page_column columns[] = {
-        {N_("m"), 10, 4, CEDUO_WHOLE}, {N_("stand"), 27, 0, 0}, {N_("ADC m"), -7, 0, 0},   {NULL, 6, 1, 0},
-        {NP_("head", "free run"), -9, 0, 0},    {N_("kJ"), -7, 0, 0},    {N_("kJ/100 m"), -9, 0, 0}};
+        {N_("m"), 10, 4, CEDUO_WHOLE},       {N_("stand"), 27, 0, 0}, {N_("ADC m"), -7, 0, 0},   {NULL, 6, 1, 0},
+        {NP_("head", "free run"), -9, 0, 0}, {N_("kJ"), -7, 0, 0},    {N_("kJ/100 m"), -9, 0, 0}};
     char room[CEDUO_NUMBER_ROOM];
     ceduo_page_table(page, columns, sizeof columns / sizeof columns[0]);
     ceduo_text_format(&ceduo_page_head(page)->text, "<%s m", ceduo_number_shortest(scene->simulation.threshold, room));
@@ -50,8 +50,7 @@ static void say_belt(struct ceduo_page *page, const struct ceduo_belt *b, const 
 
 static void say_other_forms(struct ceduo_page *page, const struct ceduo_belt *b, const struct ceduo_stand_result *s)
 {
-    static const enum ceduo_rule rules[] = {CEDUO_GSTEIGER_STOOLS, CEDUO_GSTEIGER_STEMS, CEDUO_INTERCEPTION,
-                                            CEDUO_CROFTON};
+    static const enum ceduo_rule rules[] = {CEDUO_GSTEIGER_STOOLS, CEDUO_GSTEIGER_STEMS, CEDUO_INTERCEPTION, CEDUO_CROFTON};
     struct text *line = ceduo_page_add(page, CEDUO_PAGE_DETAIL);
     ceduo_text_format(line, _("%s by %s; other forms:"), b->name, ceduo_rule_words.names[s->rule]);
     for (size_t k = 0, n = 0; k < sizeof rules / sizeof rules[0]; k++) {
@@ -103,20 +102,22 @@ static void say_measured(struct ceduo_page *page, const struct ceduo_control *c,
 }
 
 /* Where contacts take shares, so that Eq. 4 has no meaning. */
-static void say_share_left(struct text *line, const char *rule, const struct ceduo_index *index,
-                           const struct ceduo_arrivals *a)
+static void say_share_left(struct text *line, const char *rule, const struct ceduo_index *index, const struct ceduo_arrivals *a)
 {
     if (a->reached == 0)
-        ceduo_text_format(line, _("By the index (%s) every contact takes a share; no rock arrives, nothing is left to "
-                                  "compare."),
+        ceduo_text_format(line,
+                          _("By the index (%s) every contact takes a share; no rock arrives, nothing is left to "
+                            "compare."),
                           rule);
     else if (index->exhausted)
-        ceduo_text_format(line, _("By the index (%s) contacts take shares and amounts, more than the mean rock brings: "
-                                  "used up on average. Some rocks still pass."),
+        ceduo_text_format(line,
+                          _("By the index (%s) contacts take shares and amounts, more than the mean rock brings: "
+                            "used up on average. Some rocks still pass."),
                           rule);
     else
-        ceduo_text_format(line, _("By the index (%s) every contact takes a share, so that Eq. 4 has no meaning; of %s kJ "
-                                  "%s kJ are left."),
+        ceduo_text_format(line,
+                          _("By the index (%s) every contact takes a share, so that Eq. 4 has no meaning; of %s kJ "
+                            "%s kJ are left."),
                           rule, WRITTEN(a->energy.mean * KILO, 4), WRITTEN(index->residual * KILO, 3));
 }
 
@@ -124,7 +125,8 @@ static void say_share_left(struct text *line, const char *rule, const struct ced
 static void say_difference(struct text *line, double mean, double taken, double left)
 {
     int decimals = (int)fmax(0, 3 - floor(log10(mean)));
-    ceduo_text_then(line, "; ", _("left (Eq. 5): %.*f \xe2\x88\x92 %.*f = %.*f kJ."), decimals, mean, decimals, taken, decimals, left);
+    ceduo_text_then(line, "; ", _("left (Eq. 5): %.*f \xe2\x88\x92 %.*f = %.*f kJ."), decimals, mean, decimals, taken, decimals,
+                    left);
 }
 
 static void say_amount_left(struct text *line, const char *rule, const struct ceduo_index *index,

@@ -10,15 +10,15 @@
 /* What arrives at a control without forest (item 0) and through the forest of each option. NULL: not known. */
 static const struct ceduo_hazard *hazard_of(const struct ceduo_result *r, size_t item, size_t control)
 {
-    const struct ceduo_arrivals *a =
-        item == 0 ? &r->bare.arrivals[control] : ceduo_result_wooded(r, item - 1, control);
+    const struct ceduo_arrivals *a = item == 0 ? &r->bare.arrivals[control] : ceduo_result_wooded(r, item - 1, control);
     return a ? &a->hazard : NULL;
 }
 
 static const char *name_of(const struct ceduo_result *r, size_t item)
 {
-    return item == 0 ? _("without forest") : r->scene->options_count == 1 ? _("through the wood")
-                                                                           : r->scene->options[item - 1].name;
+    return item == 0                      ? _("without forest")
+           : r->scene->options_count == 1 ? _("through the wood")
+                                          : r->scene->options[item - 1].name;
 }
 
 /* ---- in words ---- */
@@ -74,9 +74,8 @@ void ceduo_words_hazard(struct text *text, const struct ceduo_result *r, size_t 
                           kJ, where, years, wood, r->scene->options[option].name);
     else if (wooded)
         ceduo_text_format(
-            text,
-            _("A rock with more than %s kJ reaches %s every %s years without forest, every %s years through the wood."), kJ,
-            where, years, wood);
+            text, _("A rock with more than %s kJ reaches %s every %s years without forest, every %s years through the wood."),
+            kJ, where, years, wood);
     else
         ceduo_text_format(text, _("A rock with more than %s kJ reaches %s every %s years without forest."), kJ, where, years);
     text->failed |= place.failed || without.failed || with.failed;
@@ -123,10 +122,8 @@ static void add_return(struct ceduo_page *page, const struct ceduo_return *back)
 
 static void add_returns(struct ceduo_page *page, const struct ceduo_result *r, size_t control)
 {
-    static const struct ceduo_page_column columns[] = {{"", 22, 4, CEDUO_WHOLE},
-                                                       {N_("30 years"), -17, 1, 0},
-                                                       {N_("100 years"), -17, 1, 0},
-                                                       {N_("300 years"), -17, 1, 0}};
+    static const struct ceduo_page_column columns[] = {
+        {"", 22, 4, CEDUO_WHOLE}, {N_("30 years"), -17, 1, 0}, {N_("100 years"), -17, 1, 0}, {N_("300 years"), -17, 1, 0}};
     ceduo_text_put(ceduo_page_add(page, CEDUO_PAGE_CAPTION),
                    _("Energy that is reached or exceeded once in so many years, kJ (95 % interval):"));
     ceduo_page_table(page, columns, sizeof columns / sizeof columns[0]);
@@ -234,12 +231,15 @@ static void add_rates(struct ceduo_page *page, const struct ceduo_result *r, siz
     struct text *caption = ceduo_page_add(page, CEDUO_PAGE_CAPTION);
     char room[CEDUO_NUMBER_ROOM];
     if (isnan(c->accepted))
-        ceduo_text_put(caption, _("Years from one rock to the next, and what arrives weak, medium and strong, in % of what does without forest:"));
+        ceduo_text_put(
+            caption,
+            _("Years from one rock to the next, and what arrives weak, medium and strong, in % of what does without forest:"));
     else
-        ceduo_text_format(caption,
-                          _("Years from one rock with more than %s kJ to the next, and what arrives weak, medium and strong, in "
-                            "%% of what does without forest:"),
-                          ceduo_number_shortest(ceduo_words_accepted(c), room));
+        ceduo_text_format(
+            caption,
+            _("Years from one rock with more than %s kJ to the next, and what arrives weak, medium and strong, in "
+              "%% of what does without forest:"),
+            ceduo_number_shortest(ceduo_words_accepted(c), room));
     ceduo_page_table(page, columns, sizeof columns / sizeof columns[0]);
     for (size_t i = 0; i <= r->scene->options_count; i++) {
         const struct ceduo_hazard *h = hazard_of(r, i, control);

@@ -102,8 +102,7 @@ static void put_cell(struct ceduo_html *html, const struct ceduo_page_block *tab
 }
 
 /* One with heads alone says nothing. */
-static void put_table(struct ceduo_html *html, const struct ceduo_page_block *table,
-                      const struct ceduo_page_block *caption)
+static void put_table(struct ceduo_html *html, const struct ceduo_page_block *table, const struct ceduo_page_block *caption)
 {
     size_t n = table->columns_count;
     if (table->cells_count < 2 * n)
@@ -149,12 +148,11 @@ static const char *list_of(enum ceduo_page_kind kind)
 /* The element of a kind, and its class; no element: not shown by this. */
 static const struct {
     const char *element, *class;
-} elements[] = {[CEDUO_PAGE_TITLE] = {"h1", NULL},       [CEDUO_PAGE_SECTION] = {"h2", NULL},
-                [CEDUO_PAGE_PLACE] = {"h3", NULL},       [CEDUO_PAGE_CAPTION] = {"p", "detail"},
-                [CEDUO_PAGE_SENTENCE] = {"p", NULL},     [CEDUO_PAGE_DETAIL] = {"p", "detail"},
-                [CEDUO_PAGE_NOTE] = {"p", NULL},         [CEDUO_PAGE_ITEM] = {"li", NULL},
-                [CEDUO_PAGE_WARNING] = {"p", "warning"}, [CEDUO_PAGE_QUESTION] = {"p", "question"},
-                [CEDUO_PAGE_ANSWER] = {"p", NULL},       [CEDUO_PAGE_CODE] = {"pre", NULL}};
+} elements[] = {
+    [CEDUO_PAGE_TITLE] = {"h1", NULL},         [CEDUO_PAGE_SECTION] = {"h2", NULL}, [CEDUO_PAGE_PLACE] = {"h3", NULL},
+    [CEDUO_PAGE_CAPTION] = {"p", "detail"},    [CEDUO_PAGE_SENTENCE] = {"p", NULL}, [CEDUO_PAGE_DETAIL] = {"p", "detail"},
+    [CEDUO_PAGE_NOTE] = {"p", NULL},           [CEDUO_PAGE_ITEM] = {"li", NULL},    [CEDUO_PAGE_WARNING] = {"p", "warning"},
+    [CEDUO_PAGE_QUESTION] = {"p", "question"}, [CEDUO_PAGE_ANSWER] = {"p", NULL},   [CEDUO_PAGE_CODE] = {"pre", NULL}};
 
 static void put_block(struct ceduo_html *html, const struct ceduo_page_block *block)
 {

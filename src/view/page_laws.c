@@ -53,13 +53,10 @@ static void put_option(struct ceduo_page *page, const struct ceduo_result *r, si
 
 static void put_table(struct ceduo_page *page, const struct ceduo_result *r)
 {
-    static const struct ceduo_page_column columns[] = {{N_("option"), 23, 2, 0},
-                                                       {NP_("head", "law of the scene"), 16, 1, 0},
-                                                       {NP_("head", "of 1000"), -8, 0, 0},
-                                                       {NP_("head", "mean kJ"), -8, 0, 0},
-                                                       {NP_("head", "other law"), 11, 2, 0},
-                                                       {NP_("head", "of 1000"), -8, 0, 0},
-                                                       {NP_("head", "mean kJ"), -8, 0, 0}};
+    static const struct ceduo_page_column columns[] = {
+        {N_("option"), 23, 2, 0},           {NP_("head", "law of the scene"), 16, 1, 0}, {NP_("head", "of 1000"), -8, 0, 0},
+        {NP_("head", "mean kJ"), -8, 0, 0}, {NP_("head", "other law"), 11, 2, 0},        {NP_("head", "of 1000"), -8, 0, 0},
+        {NP_("head", "mean kJ"), -8, 0, 0}};
     ceduo_page_table(page, columns, sizeof columns / sizeof columns[0]);
     for (size_t i = 0; i < r->scene->options_count; i++)
         put_option(page, r, i);
@@ -72,10 +69,9 @@ void ceduo_page_laws(struct ceduo_page *page, const struct ceduo_result *r)
     if (!any_is_known(r))
         return;
     ceduo_text_put(ceduo_page_add(page, CEDUO_PAGE_SECTION), _("One energy law against the other"));
-    ceduo_text_put(
-        ceduo_page_add(page, CEDUO_PAGE_NOTE),
-        _("Two published laws disagree about what thin stems take from a rock (Brauner et al. 2005; Dorren et al. "
-          "2006), and nobody knows yet which of them holds there. What differs here, more rocks cannot decide."));
+    ceduo_text_put(ceduo_page_add(page, CEDUO_PAGE_NOTE),
+                   _("Two published laws disagree about what thin stems take from a rock (Brauner et al. 2005; Dorren et al. "
+                     "2006), and nobody knows yet which of them holds there. What differs here, more rocks cannot decide."));
     ceduo_number_shortest(c->x_given, x);
     struct text *caption = ceduo_page_add(page, CEDUO_PAGE_CAPTION);
     if (isnan(c->accepted))

@@ -33,8 +33,7 @@ void ceduo_page_sizes(struct ceduo_page *page, const struct ceduo_result *result
 /* An option year by year; all options side by side, as filed and over the years. */
 void ceduo_page_years(struct ceduo_page *page, const struct ceduo_report *report, size_t option);
 /* What is to be said of the years together. */
-void ceduo_page_years_words(struct ceduo_page *page, const struct ceduo_result *result,
-                            const struct ceduo_years *years);
+void ceduo_page_years_words(struct ceduo_page *page, const struct ceduo_result *result, const struct ceduo_years *years);
 void ceduo_page_comparison(struct ceduo_page *page, const struct ceduo_report *report);
 
 /* The energy law of the scene against the other one; nothing where that is not known. */

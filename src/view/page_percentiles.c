@@ -66,24 +66,27 @@ void ceduo_page_design(struct ceduo_page *page, const struct ceduo_report *repor
         return;
     double way = survey * model, energy = KILO * way * way * blocks;
     if (wooded && !isnan(wooded->speed.p95))
-        ceduo_text_format(ceduo_page_add(page, CEDUO_PAGE_SENTENCE),
-                          _("Design values of UNI 11211-4, as long as the wood stands as in this option: speed %s m/s, energy %s "
-                            "kJ, height of the block's top %s m."),
-                          WRITTEN(wooded->speed.p95 * way, 3), WRITTEN(wooded->energy.p95 * energy, 3),
-                          WRITTEN(wooded->top_p95, DIGITS(wooded->top_p95)));
+        ceduo_text_format(
+            ceduo_page_add(page, CEDUO_PAGE_SENTENCE),
+            _("Design values of UNI 11211-4, as long as the wood stands as in this option: speed %s m/s, energy %s "
+              "kJ, height of the block's top %s m."),
+            WRITTEN(wooded->speed.p95 * way, 3), WRITTEN(wooded->energy.p95 * energy, 3),
+            WRITTEN(wooded->top_p95, DIGITS(wooded->top_p95)));
     ceduo_text_format(ceduo_page_add(page, CEDUO_PAGE_SENTENCE),
                       _("Design values of UNI 11211-4, without forest: speed %s m/s, energy %s kJ, height of the block's "
                         "top %s m."),
-                      WRITTEN(bare->speed.p95 * way, 3), WRITTEN(bare->energy.p95 * energy, 3), WRITTEN(bare->top_p95, DIGITS(bare->top_p95)));
+                      WRITTEN(bare->speed.p95 * way, 3), WRITTEN(bare->energy.p95 * energy, 3),
+                      WRITTEN(bare->top_p95, DIGITS(bare->top_p95)));
     ceduo_text_format(ceduo_page_add(page, CEDUO_PAGE_DETAIL),
-                      calibrated ? _("Speed: 95th percentile times %.2f for the survey of the ground and %.2f for the model, "
-                                     "fitted to what was seen. Energy: 95th percentile times the square of both and %.2f for "
-                                     "the survey of the blocks. Height: 95th percentile of the block's top, its underside and its "
-                                     "mean diameter, without a factor.")
-                                 : _("Speed: 95th percentile times %.2f for the survey of the ground and %.2f for the model, "
-                                     "not fitted here. Energy: 95th percentile times the square of both and %.2f for the "
-                                     "survey of the blocks. Height: 95th percentile of the block's top, its underside and its mean "
-                                     "diameter, without a factor."),
+                      calibrated
+                          ? _("Speed: 95th percentile times %.2f for the survey of the ground and %.2f for the model, "
+                              "fitted to what was seen. Energy: 95th percentile times the square of both and %.2f for "
+                              "the survey of the blocks. Height: 95th percentile of the block's top, its underside and its "
+                              "mean diameter, without a factor.")
+                          : _("Speed: 95th percentile times %.2f for the survey of the ground and %.2f for the model, "
+                              "not fitted here. Energy: 95th percentile times the square of both and %.2f for the "
+                              "survey of the blocks. Height: 95th percentile of the block's top, its underside and its mean "
+                              "diameter, without a factor."),
                       survey, model, blocks);
 }
 

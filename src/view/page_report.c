@@ -51,10 +51,10 @@ static bool has(const struct ceduo_chapter *c, enum left_out what)
 {
     const struct ceduo_scene *scene = c->report->result->scene;
     bool several = scene->options_count > 1;
-    return what == OTHER_PLACES   ? scene->controls_count > 1 && several
+    return what == OTHER_PLACES            ? scene->controls_count > 1 && several
            : what == BARS || what == PAIRS ? several
-           : what == HAZARD_DRAWN ? ceduo_report_has_hazard(c->report)
-                                  : scene->controls_count > 0;
+           : what == HAZARD_DRAWN          ? ceduo_report_has_hazard(c->report)
+                                           : scene->controls_count > 0;
 }
 
 static void say_left_out(struct ceduo_page *page, const struct ceduo_chapter *c, enum left_out least)
@@ -95,15 +95,13 @@ static void add_slope(struct ceduo_page *page, const struct ceduo_chapter *c, en
     struct ceduo_picture picture = picture_of(c, ceduo_chapter_option(c));
     section(page, _("The slope and the rocks"));
     ceduo_page_facts(page, c->report);
-    add_picture(
-        page, CEDUO_PLOT_PROFILE, WHOLE, SLOPE_ROWS, &picture,
-        _("The slope from the side with the forest on it, the ways of some rocks as thin lines, and the controls as "
-          "upright lines."));
+    add_picture(page, CEDUO_PLOT_PROFILE, WHOLE, SLOPE_ROWS, &picture,
+                _("The slope from the side with the forest on it, the ways of some rocks as thin lines, and the controls as "
+                  "upright lines."));
     if (c->outlook && c->report->result->scene->controls_count > 0 && least < ENERGY_DRAWN)
-        add_picture(
-            page, CEDUO_PLOT_ENERGY, WHOLE, ENERGY_ROWS, &picture,
-            _("Curves along the slope: mean and 95th percentile of the energy of the rocks that pass each place, "
-              "through the forest and without it."));
+        add_picture(page, CEDUO_PLOT_ENERGY, WHOLE, ENERGY_ROWS, &picture,
+                    _("Curves along the slope: mean and 95th percentile of the energy of the rocks that pass each place, "
+                      "through the forest and without it."));
 }
 
 /* Of one option they stand with all its figures; of several those of the one that is drawn. */
@@ -132,10 +130,9 @@ static void add_compared(struct ceduo_page *page, const struct ceduo_chapter *c,
     ceduo_page_comparison(page, c->report);
     if (least >= BARS)
         return;
-    add_picture(
-        page, CEDUO_PLOT_COMPARE, WIDE, rows, &picture,
-        _("Bars for each option: its average distance between contacts, how many of 1000 rocks arrive with too much "
-          "energy, and their mean energy."));
+    add_picture(page, CEDUO_PLOT_COMPARE, WIDE, rows, &picture,
+                _("Bars for each option: its average distance between contacts, how many of 1000 rocks arrive with too much "
+                  "energy, and their mean energy."));
 }
 
 static void add_doubt(struct ceduo_page *page, const struct ceduo_chapter *c, enum left_out least)
@@ -170,10 +167,9 @@ static void draw_years(struct ceduo_page *page, const struct ceduo_verdict *v, c
     if (both)
         ceduo_text_put(ceduo_page_add(page, CEDUO_PAGE_DETAIL),
                        _("Numbers beside points stand for the options in the order of the tables."));
-    add_picture(
-        page, CEDUO_PLOT_ROTATION, both ? HALF : WHOLE, YEARS_ROWS, picture,
-        _("Two curves over the years after a cut, the average distance between contacts and how many of 1000 rocks "
-          "arrive with too much energy, and below them which tests each year passes."));
+    add_picture(page, CEDUO_PLOT_ROTATION, both ? HALF : WHOLE, YEARS_ROWS, picture,
+                _("Two curves over the years after a cut, the average distance between contacts and how many of 1000 rocks "
+                  "arrive with too much energy, and below them which tests each year passes."));
     if (both)
         add_picture(page, CEDUO_PLOT_TRADEOFF, HALF, YEARS_ROWS, picture,
                     _("A point for each option: wood felled per hectare and year to the right, rocks that get through "
@@ -258,9 +254,10 @@ static void add_hazard(struct ceduo_page *page, const struct ceduo_chapter *c, e
         ceduo_page_hazard(page, c->report, k, k == first);
     if (least >= HAZARD_DRAWN)
         return;
-    add_picture(page, CEDUO_PLOT_HAZARD, WHOLE, HAZARD_ROWS, &picture,
-                _("Falling curves, one without forest and one for each option: how many years pass from one rock with more than "
-                  "an energy to the next. Rules mark 30 and 300 kJ, 30, 100 and 300 years."));
+    add_picture(
+        page, CEDUO_PLOT_HAZARD, WHOLE, HAZARD_ROWS, &picture,
+        _("Falling curves, one without forest and one for each option: how many years pass from one rock with more than "
+          "an energy to the next. Rules mark 30 and 300 kJ, 30, 100 and 300 years."));
 }
 
 static void build(struct ceduo_page *page, const struct ceduo_chapter *c, enum left_out least)

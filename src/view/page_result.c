@@ -11,8 +11,10 @@
 /* ---- head ---- */
 
 /* Words of files, as they are shown. */
-static const char *const shapes[] = {
-    [CEDUO_SPHERE] = N_("sphere"), [CEDUO_CYLINDER] = N_("cylinder"), [CEDUO_ELLIPSOID] = N_("ellipsoid"), [CEDUO_BLOCK] = N_("block")};
+static const char *const shapes[] = {[CEDUO_SPHERE] = N_("sphere"),
+                                     [CEDUO_CYLINDER] = N_("cylinder"),
+                                     [CEDUO_ELLIPSOID] = N_("ellipsoid"),
+                                     [CEDUO_BLOCK] = N_("block")};
 static const char *const facets[] = {[CEDUO_AGAINST] = N_("against"), [CEDUO_BOTH] = N_("both")};
 
 static const char *assumed_mark(const struct ceduo_report *report, const char *path)
@@ -25,9 +27,10 @@ static void add_rock(struct ceduo_page *page, const struct ceduo_report *report)
     const struct ceduo_result *r = report->result;
     struct text *line = ceduo_page_fact(page, _("Rock"));
     ceduo_text_format(line,
-                      r->scene->blocks_count > 0 ? _("%s; rocks are the blocks below, the index is of %s kg, mean diameter %s m")
+                      r->scene->blocks_count > 0
+                          ? _("%s; rocks are the blocks below, the index is of %s kg, mean diameter %s m")
                       : ceduo_rock_varies(&r->scene->rock) ? _("%s, %s kg, mean diameter %s m (means of its spread)")
-                                                         : _("%s, %s kg, mean diameter %s m"),
+                                                           : _("%s, %s kg, mean diameter %s m"),
                       _(shapes[r->scene->rock.shape]), WRITTEN(r->rock.mass, 4), WRITTEN(r->rock.mean_diameter, 3));
     ceduo_text_put(line, assumed_mark(report, "rock"));
 }
@@ -54,8 +57,8 @@ static void add_slope(struct ceduo_page *page, const struct ceduo_report *report
     ceduo_text_format(line,
                       ngettext("%s m long, %s m high, %zu segment; law %s, facets %s%s",
                                "%s m long, %s m high, %zu segments; law %s, facets %s%s", slope->vertices - 1),
-                      WRITTEN(slope->x[slope->vertices - 1], 4), WRITTEN(high - low, 4), slope->vertices - 1, ceduo_law_words.names[s->simulation.law],
-                      _(facets[slope->facets]), assumed_mark(report, "slope"));
+                      WRITTEN(slope->x[slope->vertices - 1], 4), WRITTEN(high - low, 4), slope->vertices - 1,
+                      ceduo_law_words.names[s->simulation.law], _(facets[slope->facets]), assumed_mark(report, "slope"));
 }
 
 void ceduo_page_facts(struct ceduo_page *page, const struct ceduo_report *report)
@@ -64,8 +67,8 @@ void ceduo_page_facts(struct ceduo_page *page, const struct ceduo_report *report
     add_rock(page, report);
     add_blocks(page, r->scene);
     add_slope(page, report);
-    ceduo_text_format(ceduo_page_fact(page, _("Rocks")), _("%llu, seed %llu"),
-                      (unsigned long long)ceduo_result_rocks(r), (unsigned long long)r->scene->simulation.seed);
+    ceduo_text_format(ceduo_page_fact(page, _("Rocks")), _("%llu, seed %llu"), (unsigned long long)ceduo_result_rocks(r),
+                      (unsigned long long)r->scene->simulation.seed);
 }
 
 /* ---- what arrives at a control ---- */
@@ -81,7 +84,7 @@ static void add_place(struct ceduo_page *page, const struct ceduo_report *report
     ceduo_text_format(&where, "controls[%zu].accepted_kJ", i);
     if (!isnan(c->accepted))
         ceduo_text_then(place, ", ", _("withstands %s kJ%s"), ceduo_number_shortest(ceduo_words_accepted(c), room),
-                          where.bytes && ceduo_scene_assumes_value(report->file, where.bytes) ? "*" : "");
+                        where.bytes && ceduo_scene_assumes_value(report->file, where.bytes) ? "*" : "");
     ceduo_text_free(&where);
 }
 
@@ -104,15 +107,17 @@ static void add_arrivals_row(struct ceduo_page *page, const char *name, const st
 }
 
 /* The two runs below one another; what arrives with more than is withstood comes first. */
-static void add_arrivals_table(struct ceduo_page *page, const struct ceduo_control *c,
-                               const struct ceduo_arrivals *wooded, const struct ceduo_arrivals *bare)
+static void add_arrivals_table(struct ceduo_page *page, const struct ceduo_control *c, const struct ceduo_arrivals *wooded,
+                               const struct ceduo_arrivals *bare)
 {
     static const struct ceduo_page_column columns[] = {
-        {NP_("head", "of 1000"), 16, 4, 0}, {NULL, -16, 0, 0}, {N_("arrive"), -16, 0, 0},
+        {NP_("head", "of 1000"), 16, 4, 0},      {NULL, -16, 0, 0},      {N_("arrive"), -16, 0, 0},
         {NP_("head", "arriving kJ"), -12, 0, 0}, {N_("95 %"), -6, 0, 0}, {N_("m/s"), -5, 0, 0}};
-    static const struct ceduo_page_column not_accepted[] = {
-        {NP_("head", "of 1000"), 16, 4, 0}, {N_("arrive"), -16, 0, 0},
-        {NP_("head", "arriving kJ"), -12, 0, 0}, {N_("95 %"), -6, 0, 0}, {N_("m/s"), -5, 0, 0}};
+    static const struct ceduo_page_column not_accepted[] = {{NP_("head", "of 1000"), 16, 4, 0},
+                                                            {N_("arrive"), -16, 0, 0},
+                                                            {NP_("head", "arriving kJ"), -12, 0, 0},
+                                                            {N_("95 %"), -6, 0, 0},
+                                                            {N_("m/s"), -5, 0, 0}};
     if (isnan(c->accepted)) {
         ceduo_page_table(page, not_accepted, sizeof not_accepted / sizeof not_accepted[0]);
     } else {
@@ -147,37 +152,35 @@ static void say_fates(struct ceduo_page *page, const struct ceduo_flown *f, cons
 {
     const double *missed = a->missed, *all = f->ends.share;
     struct text *line = ceduo_page_add(page, CEDUO_PAGE_SENTENCE);
-    ceduo_text_format(
-        line,
-        _("Of 1000, %.0f arrive; before that %.0f are stopped by stems, %.0f come to rest, %.0f leave the "
-          "slope"),
-        a->reach_probability * 1000, missed[CEDUO_STOPPED_BY_STEMS] * 1000, missed[CEDUO_AT_REST] * 1000,
-        missed[CEDUO_LEFT_SLOPE] * 1000);
+    ceduo_text_format(line,
+                      _("Of 1000, %.0f arrive; before that %.0f are stopped by stems, %.0f come to rest, %.0f leave the "
+                        "slope"),
+                      a->reach_probability * 1000, missed[CEDUO_STOPPED_BY_STEMS] * 1000, missed[CEDUO_AT_REST] * 1000,
+                      missed[CEDUO_LEFT_SLOPE] * 1000);
     if (a->unfinished > 0)
         ceduo_text_then(line, "; ", _("%llu of %llu never come to an end"), (unsigned long long)a->unfinished,
-                          (unsigned long long)f->rocks);
+                        (unsigned long long)f->rocks);
     if (a->reached > 0)
         ceduo_text_then(line, "; ", _("one that arrives here has hit %.3g stems"), a->contacts);
     ceduo_text_char(line, '.');
     if (last)
-        ceduo_text_format(
-            ceduo_page_add(page, CEDUO_PAGE_SENTENCE),
-            _("On the whole profile: of 1000, %.0f are stopped by stems, %.0f come to rest, %.0f leave it."),
-            all[CEDUO_STOPPED_BY_STEMS] * 1000, all[CEDUO_AT_REST] * 1000, all[CEDUO_LEFT_SLOPE] * 1000);
+        ceduo_text_format(ceduo_page_add(page, CEDUO_PAGE_SENTENCE),
+                          _("On the whole profile: of 1000, %.0f are stopped by stems, %.0f come to rest, %.0f leave it."),
+                          all[CEDUO_STOPPED_BY_STEMS] * 1000, all[CEDUO_AT_REST] * 1000, all[CEDUO_LEFT_SLOPE] * 1000);
 }
 
 /* What reads as harm is that the small and the slow ones are stopped. */
 static void say_sorted(struct ceduo_page *page, const struct ceduo_arrivals *wooded, const struct ceduo_arrivals *bare)
 {
     if (wooded && wooded->energy.mean - bare->energy.mean > CEDUO_Z95 * hypot(wooded->energy.se, bare->energy.se))
-        ceduo_text_put(ceduo_page_add(page, CEDUO_PAGE_SENTENCE),
-                       _("Fewer arrive through the wood, but larger or faster ones, as stems stop the others first: their mean is "
-                         "higher."));
+        ceduo_text_put(
+            ceduo_page_add(page, CEDUO_PAGE_SENTENCE),
+            _("Fewer arrive through the wood, but larger or faster ones, as stems stop the others first: their mean is "
+              "higher."));
 }
 
 /* The mean that cannot mislead: of all released. It is no energy that the place must withstand. */
-static void say_energy_of_all(struct ceduo_page *page, const struct ceduo_arrivals *wooded,
-                              const struct ceduo_arrivals *bare)
+static void say_energy_of_all(struct ceduo_page *page, const struct ceduo_arrivals *wooded, const struct ceduo_arrivals *bare)
 {
     struct text *line = ceduo_page_add(page, CEDUO_PAGE_SENTENCE);
     const char *mean = WRITTEN(bare->energy_per_released * KILO, 3);
@@ -211,8 +214,7 @@ static void add_arrivals(struct ceduo_page *page, const struct ceduo_result *r, 
         say_fates(page, &r->options[option].wooded, wooded, control == r->last_control);
     if (wooded && none_arrives(wooded) && !none_arrives(bare))
         ceduo_text_format(ceduo_page_add(page, CEDUO_PAGE_SENTENCE),
-                          _("Through the wood no rock arrives (of 1000, below %.1f with 95 %%)."),
-                          wooded->reach_hi * 1000);
+                          _("Through the wood no rock arrives (of 1000, below %.1f with 95 %%)."), wooded->reach_hi * 1000);
 }
 
 static void say_lights(struct ceduo_page *page, const struct ceduo_result *r, size_t option, size_t control)

@@ -81,10 +81,9 @@ static const struct ceduo_regulation *regulation_of(const struct ceduo_result *r
 
 void ceduo_page_rules(struct ceduo_page *page, const struct ceduo_result *r)
 {
-    static const struct ceduo_page_column columns[] = {{N_("stand"), 26, 2, CEDUO_WHOLE}, {N_("standards/ha"), -13, 0, 0},
-                                                       {N_("asked for"), -13, 0, 0},      {N_("kept"), 5, 1, 0},
-                                                       {N_("turn, years"), -12, 0, 0},    {N_("asked for"), -13, 0, 0},
-                                                       {N_("kept"), 0, 1, 0}};
+    static const struct ceduo_page_column columns[] = {
+        {N_("stand"), 26, 2, CEDUO_WHOLE}, {N_("standards/ha"), -13, 0, 0}, {N_("asked for"), -13, 0, 0}, {N_("kept"), 5, 1, 0},
+        {N_("turn, years"), -12, 0, 0},    {N_("asked for"), -13, 0, 0},    {N_("kept"), 0, 1, 0}};
     const struct ceduo_regulation *rules = regulation_of(r);
     struct text sources = {0};
     if (!rules)
@@ -95,7 +94,8 @@ void ceduo_page_rules(struct ceduo_page *page, const struct ceduo_result *r)
     if (sources.length > 0)
         ceduo_text_format(ceduo_page_add(page, CEDUO_PAGE_DETAIL), _("Sources: %s."), ceduo_text_string(&sources));
     if (rules->note)
-        ceduo_text_format(ceduo_page_add(page, CEDUO_PAGE_NOTE), _("%s: check the text in force; %s."), rules->name, ceduo_words_shipped(rules->note));
+        ceduo_text_format(ceduo_page_add(page, CEDUO_PAGE_NOTE), _("%s: check the text in force; %s."), rules->name,
+                          ceduo_words_shipped(rules->note));
     else
         ceduo_text_format(ceduo_page_add(page, CEDUO_PAGE_NOTE), _("%s: check the text in force."), rules->name);
     page->failed |= sources.failed;

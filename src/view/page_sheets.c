@@ -8,17 +8,17 @@
 #include "page_html.h"
 #include "svg.h"
 
-#define SHEET  273.0 /* between the margins */
-#define WIDTH  172.0
+#define SHEET   273.0 /* between the margins */
+#define WIDTH   172.0
 #define COLUMNS 2.0 /* of code */
 
 /* How text of a kind is set: characters and height of a line, what stands around it. */
 static const struct {
     double characters, line, around;
-} set[] = {[CEDUO_PAGE_TITLE] = {55, 7.2, 4},     [CEDUO_PAGE_SECTION] = {85, 4.9, 5},     [CEDUO_PAGE_PLACE] = {95, 4.8, 4},
-           [CEDUO_PAGE_CAPTION] = {125, 3.5, 1},  [CEDUO_PAGE_SENTENCE] = {118, 4.13, 1},  [CEDUO_PAGE_DETAIL] = {118, 3.9, 1},
-           [CEDUO_PAGE_NOTE] = {118, 4.13, 1},    [CEDUO_PAGE_ITEM] = {112, 4.13, 0.2},    [CEDUO_PAGE_WARNING] = {110, 4.13, 1},
-           [CEDUO_PAGE_QUESTION] = {76, 5.5, 3},  [CEDUO_PAGE_ANSWER] = {90, 4.8, 3},      [CEDUO_PAGE_FACT] = {95, 4.13, 0.5}};
+} set[] = {[CEDUO_PAGE_TITLE] = {55, 7.2, 4},    [CEDUO_PAGE_SECTION] = {85, 4.9, 5},    [CEDUO_PAGE_PLACE] = {95, 4.8, 4},
+           [CEDUO_PAGE_CAPTION] = {125, 3.5, 1}, [CEDUO_PAGE_SENTENCE] = {118, 4.13, 1}, [CEDUO_PAGE_DETAIL] = {118, 3.9, 1},
+           [CEDUO_PAGE_NOTE] = {118, 4.13, 1},   [CEDUO_PAGE_ITEM] = {112, 4.13, 0.2},   [CEDUO_PAGE_WARNING] = {110, 4.13, 1},
+           [CEDUO_PAGE_QUESTION] = {76, 5.5, 3}, [CEDUO_PAGE_ANSWER] = {90, 4.8, 3},     [CEDUO_PAGE_FACT] = {95, 4.13, 0.5}};
 
 static double of_text(const struct ceduo_page_block *b)
 {

@@ -49,11 +49,10 @@ static void put_safe(const struct printer *p, struct text *to, const char *strin
 static const struct {
     const char *first;
     size_t indent;
-} styles[] = {
-    [CEDUO_PAGE_TITLE] = {"", 0},        [CEDUO_PAGE_FACT] = {"", 9},        [CEDUO_PAGE_SECTION] = {"", 2},
-    [CEDUO_PAGE_PLACE] = {"  ", 4},      [CEDUO_PAGE_CAPTION] = {"    ", 4}, [CEDUO_PAGE_SENTENCE] = {"    ", 6},
-    [CEDUO_PAGE_DETAIL] = {"      ", 8}, [CEDUO_PAGE_NOTE] = {"  ", 2},      [CEDUO_PAGE_ITEM] = {"  ", 4},
-    [CEDUO_PAGE_WARNING] = {"    ! ", 6}};
+} styles[] = {[CEDUO_PAGE_TITLE] = {"", 0},        [CEDUO_PAGE_FACT] = {"", 9},        [CEDUO_PAGE_SECTION] = {"", 2},
+              [CEDUO_PAGE_PLACE] = {"  ", 4},      [CEDUO_PAGE_CAPTION] = {"    ", 4}, [CEDUO_PAGE_SENTENCE] = {"    ", 6},
+              [CEDUO_PAGE_DETAIL] = {"      ", 8}, [CEDUO_PAGE_NOTE] = {"  ", 2},      [CEDUO_PAGE_ITEM] = {"  ", 4},
+              [CEDUO_PAGE_WARNING] = {"    ! ", 6}};
 
 /* Of several blanks one is left, of those at the end none. */
 static void squeeze(struct text *text)
@@ -216,8 +215,8 @@ void ceduo_page_write_cell(struct text *to, const struct ceduo_page_cell *cell, 
     }
 }
 
-static void put_cell(const struct printer *p, const struct ceduo_page_column *column,
-                     const struct ceduo_page_cell *cell, int width)
+static void put_cell(const struct printer *p, const struct ceduo_page_column *column, const struct ceduo_page_cell *cell,
+                     int width)
 {
     struct text text = {0};
     put_blanks(p->text, (size_t)column->gap);

@@ -29,10 +29,15 @@ static void add_year(struct ceduo_page *page, const struct ceduo_year *y, size_t
 
 static void add_years_table(struct ceduo_page *page, const struct ceduo_result *r, const struct ceduo_years *years)
 {
-    static const struct ceduo_page_column columns[] = {
-        {N_("year"), 9, 4, 0},  {N_("ADC m"), -7, 0, 0},    {"", 5, 1, 0},     {NP_("head", "free run"), -7, 0, CEDUO_SPAN},
-        {"", 5, 1, 0},          {N_("kJ/100 m"), -9, 0, 0}, {NULL, -16, 0, 0}, {NP_("head", "arr. kJ"), -8, 0, 0},
-        {NP_("head", "energy"), 0, 2, 0}};
+    static const struct ceduo_page_column columns[] = {{N_("year"), 9, 4, 0},
+                                                       {N_("ADC m"), -7, 0, 0},
+                                                       {"", 5, 1, 0},
+                                                       {NP_("head", "free run"), -7, 0, CEDUO_SPAN},
+                                                       {"", 5, 1, 0},
+                                                       {N_("kJ/100 m"), -9, 0, 0},
+                                                       {NULL, -16, 0, 0},
+                                                       {NP_("head", "arr. kJ"), -8, 0, 0},
+                                                       {NP_("head", "energy"), 0, 2, 0}};
     char room[CEDUO_NUMBER_ROOM];
     ceduo_text_format(ceduo_page_add(page, CEDUO_PAGE_CAPTION), _("Year by year, up to %s m:"),
                       ceduo_number_shortest(last_control(r)->x_given, room));
@@ -43,16 +48,15 @@ static void add_years_table(struct ceduo_page *page, const struct ceduo_result *
 }
 
 /* How many rocks are to be expected, where the scene says how many come down. */
-static void say_expected(struct text *line, const struct ceduo_scene *scene, const struct ceduo_years_summary *s,
-                         bool says)
+static void say_expected(struct text *line, const struct ceduo_scene *scene, const struct ceduo_years_summary *s, bool says)
 {
     ceduo_text_then(line, " ", _("With %g rocks a year %s a year are to be expected to pass"), scene->rocks_per_year,
-                      WRITTEN(s->passes_per_year, 2));
+                    WRITTEN(s->passes_per_year, 2));
     if (says)
         ceduo_text_then(line, ", ", _("%s of them with too much energy"), WRITTEN(s->exceeds_per_year, 2));
     if (says)
-        ceduo_text_then(line, "; ", _("in all %zu years %s and %s"), s->years, WRITTEN(s->passes_per_year * (double)s->years, 2),
-                        WRITTEN(s->exceeds_per_year * (double)s->years, 2));
+        ceduo_text_then(line, "; ", _("in all %zu years %s and %s"), s->years,
+                        WRITTEN(s->passes_per_year * (double)s->years, 2), WRITTEN(s->exceeds_per_year * (double)s->years, 2));
     else
         ceduo_text_then(line, "; ", _("in all %zu years %s"), s->years, WRITTEN(s->passes_per_year * (double)s->years, 2));
     ceduo_text_char(line, '.');
@@ -64,7 +68,8 @@ void ceduo_page_years_words(struct ceduo_page *page, const struct ceduo_result *
     bool says = !isnan(last_control(r)->accepted);
     struct text *line = ceduo_page_add(page, CEDUO_PAGE_SENTENCE);
     if (s.nothing) {
-        ceduo_text_format(line, ngettext("Of this %zu year nothing can be said.", "Of these %zu years nothing can be said.", s.years),
+        ceduo_text_format(line,
+                          ngettext("Of this %zu year nothing can be said.", "Of these %zu years nothing can be said.", s.years),
                           s.years);
         return;
     }

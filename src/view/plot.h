@@ -2,8 +2,8 @@
 #ifndef CEDUO_PLOT_H
 #define CEDUO_PLOT_H
 
-#include "canvas.h"
 #include "base/text.h"
+#include "canvas.h"
 #include "ceduo/years.h"
 #include "study/outlook.h"
 #include "study/seen.h"
@@ -30,12 +30,12 @@ struct ceduo_picture {
     double from, to;                       /* the stretch of slope shown, m, relative; from = to: all of it */
     const struct ceduo_stem_passed *stems; /* those that the selected rock came to, in its order; NULL: not known */
     size_t stems_count;
-    const struct ceduo_years *years; /* of the option; NULL: not computed */
-    size_t year;                     /* index of the one under the cursor; beyond them all: none */
+    const struct ceduo_years *years;     /* of the option; NULL: not computed */
+    size_t year;                         /* index of the one under the cursor; beyond them all: none */
     const struct ceduo_verdict *verdict; /* of all options; NULL: not computed */
     struct ceduo_span *span; /* where the slope stands: a profile writes it, strips stand in it; NULL: the area's own */
     const struct ceduo_doubt_report *doubt; /* NULL: not computed */
-    bool no_x_axis;          /* of a strip that another one stands below */
+    bool no_x_axis;                         /* of a strip that another one stands below */
 };
 
 /* The pictures: name, word, whether one needs a run, and envelopes of it, and whether there is one for each option.
@@ -61,17 +61,17 @@ struct ceduo_picture {
  *   for each option, marked where another is better in both.
  * hazard: how often which energy is exceeded at the control, without forest and with each option, where the scene has
  *   blocks: years against energy, both by decades, with the limits of intensity and return period of Swiss practice. */
-#define CEDUO_PLOT_LIST(X)                                                                                             \
-    X(PROFILE, profile, true, false, true)                                                                             \
-    X(ENERGY, energy, true, true, true)                                                                                \
-    X(HEIGHT, height, true, true, true)                                                                                \
-    X(HISTOGRAM, histogram, true, false, true)                                                                         \
-    X(ADC, adc, false, false, true)                                                                                    \
-    X(ROTATION, rotation, true, false, true)                                                                           \
-    X(STAND, stand, false, false, true)                                                                                \
-    X(COMPARE, compare, true, false, false)                                                                            \
-    X(TRADEOFF, tradeoff, true, false, false)                                                                          \
-    X(DOUBT, doubt, false, false, true)                                                                                \
+#define CEDUO_PLOT_LIST(X)                                                                                                     \
+    X(PROFILE, profile, true, false, true)                                                                                     \
+    X(ENERGY, energy, true, true, true)                                                                                        \
+    X(HEIGHT, height, true, true, true)                                                                                        \
+    X(HISTOGRAM, histogram, true, false, true)                                                                                 \
+    X(ADC, adc, false, false, true)                                                                                            \
+    X(ROTATION, rotation, true, false, true)                                                                                   \
+    X(STAND, stand, false, false, true)                                                                                        \
+    X(COMPARE, compare, true, false, false)                                                                                    \
+    X(TRADEOFF, tradeoff, true, false, false)                                                                                  \
+    X(DOUBT, doubt, false, false, true)                                                                                        \
     X(HAZARD, hazard, true, false, false)
 
 enum ceduo_plot {

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <math.h>
 
-#include "ceduo/assess.h"
 #include "base/language.h"
+#include "ceduo/assess.h"
 #include "plot_parts.h"
 #include "scene/words.h"
 
@@ -74,12 +74,10 @@ static void draw_scale(const struct adc_picture *p, int row)
         free_from = column + width + 2;
     }
     ceduo_text_free(&threshold);
-    ceduo_plot_say(p->canvas, end + 4, row, p->area->left + p->area->width - end - 4, CEDUO_ROLE_AXIS, "%s",
-                   _("logarithmic"));
+    ceduo_plot_say(p->canvas, end + 4, row, p->area->left + p->area->width - end - 4, CEDUO_ROLE_AXIS, "%s", _("logarithmic"));
     if (row + 2 < p->end)
         ceduo_plot_say(p->canvas, p->area->left, row + 2, p->area->width, CEDUO_ROLE_DIM,
-                       _("\xe2\x94\x82 %g m: in this distance without a contact a rock reaches its full speed."),
-                       p->threshold);
+                       _("\xe2\x94\x82 %g m: in this distance without a contact a rock reaches its full speed."), p->threshold);
 }
 
 /* ---- rows ---- */
@@ -111,7 +109,7 @@ static void draw_belt(struct adc_picture *p, const struct ceduo_belt *belt, cons
     struct text name = {0};
     ceduo_plot_belt_name(&name, belt);
     ceduo_text_then(&name, ", ", "%s\xe2\x80\x93%s m", ceduo_number_shortest(belt->from_given, from),
-                      ceduo_number_shortest(belt->to_given, to));
+                    ceduo_number_shortest(belt->to_given, to));
     if (r->bare)
         ceduo_text_then(&name, ": ", _("no stems, nothing to meet: NO"));
     ceduo_plot_put_fitting(p->canvas, p->area->left, p->row++, p->area->width, CEDUO_ROLE_BELT, 1, &name);
@@ -171,8 +169,7 @@ static void draw_belts(struct adc_picture *p, const struct ceduo_option *option)
     draw_scale(p, p->row);
 }
 
-const char *ceduo_plot_adc(struct ceduo_canvas *canvas, const struct ceduo_area *area,
-                           const struct ceduo_picture *picture)
+const char *ceduo_plot_adc(struct ceduo_canvas *canvas, const struct ceduo_area *area, const struct ceduo_picture *picture)
 {
     const struct ceduo_option *option = ceduo_plot_option(picture);
     if (!option || option->belts_count == 0)

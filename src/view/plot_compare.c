@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <math.h>
 
-#include "ceduo/assess.h"
 #include "base/language.h"
+#include "ceduo/assess.h"
 #include "plot_parts.h"
 #include "study/verdict.h"
 
@@ -215,14 +215,13 @@ static void write_last_head(const struct comparison *c, struct text *heads)
 static void put_heads(const struct comparison *c, int row)
 {
     struct text heads[3][HEADS] = {{{0}}};
-    ceduo_text_format(&heads[0][0], _("ADC, m, logarithmic (\xe2\x94\x82 %g)"),
-                      c->picture->scene->simulation.threshold);
+    ceduo_text_format(&heads[0][0], _("ADC, m, logarithmic (\xe2\x94\x82 %g)"), c->picture->scene->simulation.threshold);
     ceduo_text_format(&heads[0][1], _("ADC, m, log (\xe2\x94\x82 %g)"), c->picture->scene->simulation.threshold);
     write_middle_head(c, heads[1]);
     write_last_head(c, heads[2]);
     for (int i = 0; i < 3; i++)
-        ceduo_plot_put_fitting(c->canvas, column_left(c, i), row, i < c->columns ? c->bar + 1 + VALUE : 0,
-                               CEDUO_ROLE_TITLE, HEADS, heads[i]);
+        ceduo_plot_put_fitting(c->canvas, column_left(c, i), row, i < c->columns ? c->bar + 1 + VALUE : 0, CEDUO_ROLE_TITLE,
+                               HEADS, heads[i]);
 }
 
 /* What is to be held against the options. */
@@ -235,8 +234,7 @@ static void write_bare(const struct comparison *c, struct text *feet)
         ceduo_text_put(&feet[0], a ? _("Without forest no rock arrives: nothing is left to compare.")
                                    : _("Energies are not computed yet."));
     } else if (!c->wooded) {
-        ceduo_text_format(&feet[0], _("left = %s kJ (mean, without forest) less what the stems could take (index)"),
-                          mean);
+        ceduo_text_format(&feet[0], _("left = %s kJ (mean, without forest) less what the stems could take (index)"), mean);
         ceduo_text_format(&feet[1], _("left of %s kJ (mean, without forest), by the index"), mean);
     } else if (isnan(a->exceed_probability)) {
         ceduo_text_format(&feet[1], _("without forest: %.0f of 1000, mean %s kJ"), 1000 * a->reach_probability, mean);
@@ -253,14 +251,12 @@ static void put_foot(const struct comparison *c, int first_free)
     int row = c->area->top + c->area->height - 1;
     double threshold = c->picture->scene->simulation.threshold;
     struct text rule[HEADS] = {{0}}, bare[HEADS] = {{0}};
-    ceduo_text_format(&rule[0], _("ADC of the worst belt; pass: every belt below %g m and no gap longer than that"),
-                      threshold);
+    ceduo_text_format(&rule[0], _("ADC of the worst belt; pass: every belt below %g m and no gap longer than that"), threshold);
     ceduo_text_format(&rule[1], _("pass: ADC of every belt and every gap below %g m"), threshold);
     write_bare(c, bare);
-    ceduo_plot_put_fitting(c->canvas, c->area->left, row - 1, first_free < row ? c->area->width : 0, CEDUO_ROLE_DIM,
-                           HEADS, rule);
-    ceduo_plot_put_fitting(c->canvas, c->area->left, row, c->area->width, CEDUO_ROLE_DIM, bare[1].bytes ? HEADS : 1,
-                           bare);
+    ceduo_plot_put_fitting(c->canvas, c->area->left, row - 1, first_free < row ? c->area->width : 0, CEDUO_ROLE_DIM, HEADS,
+                           rule);
+    ceduo_plot_put_fitting(c->canvas, c->area->left, row, c->area->width, CEDUO_ROLE_DIM, bare[1].bytes ? HEADS : 1, bare);
 }
 
 /* ---- the picture ---- */
@@ -287,8 +283,7 @@ static void place_columns(struct comparison *c)
     }
 }
 
-const char *ceduo_plot_compare(struct ceduo_canvas *canvas, const struct ceduo_area *area,
-                               const struct ceduo_picture *picture)
+const char *ceduo_plot_compare(struct ceduo_canvas *canvas, const struct ceduo_area *area, const struct ceduo_picture *picture)
 {
     const struct ceduo_scene *scene = picture->scene;
     const struct ceduo_arrivals *arrivals = ceduo_plot_bare_arrivals(picture, picture->control);

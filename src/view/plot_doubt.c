@@ -43,7 +43,10 @@ static void draw_range(const struct sure *s, size_t option)
     struct ceduo_doubt_now now = ceduo_doubt_now_of(s->report, option);
     int from = column_of(s, f->p5), to = column_of(s, f->p95);
     for (int x = from; x <= to; x++)
-        ceduo_canvas_label(s->canvas, x, s->y, CEDUO_ROLE_MEAN, x == from ? "\xe2\x94\x9c" : x == to ? "\xe2\x94\xa4" : "\xe2\x94\x80");
+        ceduo_canvas_label(s->canvas, x, s->y, CEDUO_ROLE_MEAN,
+                           x == from ? "\xe2\x94\x9c"
+                           : x == to ? "\xe2\x94\xa4"
+                                     : "\xe2\x94\x80");
     for (int x = column_of(s, now.lo); x <= column_of(s, now.hi); x++)
         ceduo_canvas_bar(s->canvas, x, s->y, 1, 1, CEDUO_ROLE_TITLE);
 }
@@ -87,8 +90,7 @@ static void draw_options(struct sure *s)
     size_t n = scene->options_count, room = options_room(n, (size_t)(s->end - s->y - 1)), first = 0;
     if (s->option >= room)
         first = s->option - room + 1;
-    ceduo_plot_say_right(s->canvas, s->left + s->width - 1, s->y, s->values, CEDUO_ROLE_AXIS, "%s",
-                         _("now (doubt, 90 %)"));
+    ceduo_plot_say_right(s->canvas, s->left + s->width - 1, s->y, s->values, CEDUO_ROLE_AXIS, "%s", _("now (doubt, 90 %)"));
     put_caption(s, &scene->controls[ceduo_scene_last_control(scene)]);
     s->y++;
     for (size_t i = first; i < n && i < first + room; i++)
@@ -133,8 +135,7 @@ static void draw_inputs(struct sure *s)
             draw_input(s, order[i]);
 }
 
-const char *ceduo_plot_doubt(struct ceduo_canvas *canvas, const struct ceduo_area *area,
-                             const struct ceduo_picture *picture)
+const char *ceduo_plot_doubt(struct ceduo_canvas *canvas, const struct ceduo_area *area, const struct ceduo_picture *picture)
 {
     const struct ceduo_doubt_report *r = picture->doubt;
     if (!r)

@@ -150,9 +150,9 @@ static bool place(struct hazard_plot *h, const struct ceduo_area *area)
                                     .x1 = last > 0 ? log10(bare->exceed[last - 1].energy * KILO * 1.3) : 0,
                                     .y0 = RAREST,
                                     .y1 = ceil(logarithm(bare->reach.rate) + 1e-9)};
-    h->legend = beside ? (struct ceduo_area){area->left + area->width - LEGEND_WIDTH, area->top + 1, LEGEND_WIDTH,
-                                             area->height - 1}
-                       : (struct ceduo_area){area->left, area->top + area->height - below, area->width, below};
+    h->legend =
+        beside ? (struct ceduo_area){area->left + area->width - LEGEND_WIDTH, area->top + 1, LEGEND_WIDTH, area->height - 1}
+               : (struct ceduo_area){area->left, area->top + area->height - below, area->width, below};
     return h->frame.x1 > 0 && h->frame.y1 > RAREST;
 }
 

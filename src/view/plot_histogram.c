@@ -68,8 +68,8 @@ static void bin_label(const struct histogram *h, int i, struct text *text)
 static void add_mark(const struct histogram *h, int i, double value, const char *name, struct text *text)
 {
     if (!isnan(value) && bin_of(&h->bins, value * KILO) == i)
-        ceduo_text_format(text, "%s%s%s%.3g", text->length > 0 ? ", " : "\xe2\x97\x80 ", name,
-                          name[0] == '>' ? "" : " ", value * KILO);
+        ceduo_text_format(text, "%s%s%s%.3g", text->length > 0 ? ", " : "\xe2\x97\x80 ", name, name[0] == '>' ? "" : " ",
+                          value * KILO);
 }
 
 static void marks_of(const struct histogram *h, int i, struct text *text)
@@ -207,8 +207,8 @@ static void write_wooded_heads(const struct histogram *h, struct text *heads)
     ceduo_text_format(&heads[2], _("of 1000: %.0f arrive (\xe2\x94\x82 bare %.0f)"), reach, bare_reach);
     ceduo_text_format(&heads[3], _("of 1000: %.0f (\xe2\x94\x82 bare %.0f)"), reach, bare_reach);
     for (int i = 1; i < HEADS && !isnan(exceed); i++)
-        ceduo_text_then(&heads[i], ", ", i == 1 ? _("%.0f (%.0f) with more than %g kJ") : "%.0f (%.0f) > %g kJ",
-                          exceed, bare_exceed, h->control->accepted * KILO);
+        ceduo_text_then(&heads[i], ", ", i == 1 ? _("%.0f (%.0f) with more than %g kJ") : "%.0f (%.0f) > %g kJ", exceed,
+                        bare_exceed, h->control->accepted * KILO);
 }
 
 static void write_bare_heads(const struct histogram *h, struct text *heads)
@@ -220,9 +220,8 @@ static void write_bare_heads(const struct histogram *h, struct text *heads)
     ceduo_text_format(&heads[2], _("n = %llu of %llu"), reached, released);
     ceduo_text_format(&heads[3], _("n = %llu"), reached);
     for (int i = 1; i < HEADS && !isnan(exceed); i++)
-        ceduo_text_then(&heads[i], "; ",
-                        i == 1 ? _("of 1000 released, %.0f with more than %g kJ") : _("of 1000: %.0f > %g kJ"),
-                          exceed, h->control->accepted * KILO);
+        ceduo_text_then(&heads[i], "; ", i == 1 ? _("of 1000 released, %.0f with more than %g kJ") : _("of 1000: %.0f > %g kJ"),
+                        exceed, h->control->accepted * KILO);
 }
 
 static void put_head(const struct histogram *h)

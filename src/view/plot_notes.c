@@ -105,14 +105,14 @@ static void note_control(struct notes *n, size_t c)
         note(n, CEDUO_ROLE_CONTROL, _("At %s m, wood (bare)"), room);
         note_in(n, _("%.0f (%.0f) of 1000"), a->reach_probability * 1000, bare->reach_probability * 1000);
         if (!isnan(a->exceed_probability))
-            note_in(n, "%.0f (%.0f) > %g kJ", a->exceed_probability * 1000, bare->exceed_probability * 1000, n->picture->scene->controls[c].accepted * KILO);
+            note_in(n, "%.0f (%.0f) > %g kJ", a->exceed_probability * 1000, bare->exceed_probability * 1000,
+                    n->picture->scene->controls[c].accepted * KILO);
         return;
     }
     note(n, CEDUO_ROLE_CONTROL, _("At %s m without forest"), room);
     note_in(n, _("%.0f of 1000 arrive"), a->reach_probability * 1000);
     if (!isnan(a->exceed_probability))
-        note_in(n, _("%.0f with > %g kJ"), a->exceed_probability * 1000,
-             n->picture->scene->controls[c].accepted * KILO);
+        note_in(n, _("%.0f with > %g kJ"), a->exceed_probability * 1000, n->picture->scene->controls[c].accepted * KILO);
 }
 
 /* The factor alone, at the right of the top row. */
@@ -129,8 +129,8 @@ static void put_factor(struct ceduo_canvas *canvas, const struct ceduo_area *are
     ceduo_plot_put_right(canvas, area->left + area->width - 1, area->top, area->width / 2, CEDUO_ROLE_WARN, &text);
 }
 
-bool ceduo_plot_profile_notes(struct ceduo_canvas *canvas, const struct ceduo_area *area,
-                              const struct ceduo_picture *picture, const struct ceduo_frame *frame, double factor)
+bool ceduo_plot_profile_notes(struct ceduo_canvas *canvas, const struct ceduo_area *area, const struct ceduo_picture *picture,
+                              const struct ceduo_frame *frame, double factor)
 {
     int end = area->left + area->width, left = frame->left + frame->width + 2;
     if (end - left < SIDE_LEAST) {

@@ -11,8 +11,8 @@
 
 /* ---- text ---- */
 
-int ceduo_plot_put_fitting(struct ceduo_canvas *canvas, int column, int row, int most, enum ceduo_role role,
-                           size_t count, struct text *texts)
+int ceduo_plot_put_fitting(struct ceduo_canvas *canvas, int column, int row, int most, enum ceduo_role role, size_t count,
+                           struct text *texts)
 {
     size_t i = 0;
     while (i + 1 < count && ceduo_canvas_label_width(canvas, ceduo_text_string(&texts[i])) > most)
@@ -23,8 +23,7 @@ int ceduo_plot_put_fitting(struct ceduo_canvas *canvas, int column, int row, int
     return cells;
 }
 
-int ceduo_plot_say(struct ceduo_canvas *canvas, int column, int row, int most, enum ceduo_role role, const char *format,
-                   ...)
+int ceduo_plot_say(struct ceduo_canvas *canvas, int column, int row, int most, enum ceduo_role role, const char *format, ...)
 {
     struct text text = {0};
     va_list args;
@@ -49,16 +48,15 @@ void ceduo_plot_put_ends(struct ceduo_canvas *canvas, int column, int row, int m
     ceduo_text_free(&safe);
 }
 
-void ceduo_plot_put_right(struct ceduo_canvas *canvas, int column, int row, int most, enum ceduo_role role,
-                          struct text *text)
+void ceduo_plot_put_right(struct ceduo_canvas *canvas, int column, int row, int most, enum ceduo_role role, struct text *text)
 {
     int width = ceduo_canvas_label_width(canvas, ceduo_text_string(text));
     width = width < most ? width : most;
     ceduo_plot_put_fitting(canvas, column + 1 - width, row, width, role, 1, text);
 }
 
-void ceduo_plot_say_right(struct ceduo_canvas *canvas, int column, int row, int most, enum ceduo_role role,
-                          const char *format, ...)
+void ceduo_plot_say_right(struct ceduo_canvas *canvas, int column, int row, int most, enum ceduo_role role, const char *format,
+                          ...)
 {
     struct text text = {0};
     va_list args;

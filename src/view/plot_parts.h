@@ -15,21 +15,20 @@ CEDUO_PLOT_LIST(X)
 #undef X
 
 /* As ceduo_canvas_put(), formatted. */
-int ceduo_plot_say(struct ceduo_canvas *canvas, int column, int row, int most, enum ceduo_role role, const char *format,
-                   ...) __attribute__((format(printf, 6, 7)));
+int ceduo_plot_say(struct ceduo_canvas *canvas, int column, int row, int most, enum ceduo_role role, const char *format, ...)
+    __attribute__((format(printf, 6, 7)));
 
 /* A name that is too long for `most` columns loses its middle: names often differ at their ends. */
 void ceduo_plot_put_ends(struct ceduo_canvas *canvas, int column, int row, int most, enum ceduo_role role, const char *name);
 
 /* The same, its last cell in column `column`. Frees the text. */
-void ceduo_plot_put_right(struct ceduo_canvas *canvas, int column, int row, int most, enum ceduo_role role,
-                          struct text *text);
-void ceduo_plot_say_right(struct ceduo_canvas *canvas, int column, int row, int most, enum ceduo_role role,
-                          const char *format, ...) __attribute__((format(printf, 6, 7)));
+void ceduo_plot_put_right(struct ceduo_canvas *canvas, int column, int row, int most, enum ceduo_role role, struct text *text);
+void ceduo_plot_say_right(struct ceduo_canvas *canvas, int column, int row, int most, enum ceduo_role role, const char *format,
+                          ...) __attribute__((format(printf, 6, 7)));
 
 /* The first of `count` texts that has room, the last one cut where none has. Frees them all. */
-int ceduo_plot_put_fitting(struct ceduo_canvas *canvas, int column, int row, int most, enum ceduo_role role,
-                           size_t count, struct text *texts);
+int ceduo_plot_put_fitting(struct ceduo_canvas *canvas, int column, int row, int most, enum ceduo_role role, size_t count,
+                           struct text *texts);
 
 /* A number as words_number writes it. */
 #define PLOT_NUMBER_ROOM 48
@@ -75,7 +74,7 @@ void ceduo_plot_belt_name(struct text *text, const struct ceduo_belt *belt);
 
 /* What the profile is, in words: to the right of its frame where there is room, otherwise the factor alone in the top
  * row. Returns whether there was room. */
-bool ceduo_plot_profile_notes(struct ceduo_canvas *canvas, const struct ceduo_area *area,
-                              const struct ceduo_picture *picture, const struct ceduo_frame *frame, double factor);
+bool ceduo_plot_profile_notes(struct ceduo_canvas *canvas, const struct ceduo_area *area, const struct ceduo_picture *picture,
+                              const struct ceduo_frame *frame, double factor);
 
 #endif

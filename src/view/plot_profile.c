@@ -320,8 +320,7 @@ static void draw_belts(const struct profile *p)
     const struct ceduo_option *option = ceduo_plot_option(p->picture);
     int row = p->area->top + p->area->height - 1;
     if (option && option->belts_count == 0)
-        ceduo_canvas_put(p->canvas, p->frame.left, row, area_end(p->area) - p->frame.left, CEDUO_ROLE_BELT,
-                       _("no forest"));
+        ceduo_canvas_put(p->canvas, p->frame.left, row, area_end(p->area) - p->frame.left, CEDUO_ROLE_BELT, _("no forest"));
     for (size_t i = 0; option && i < option->belts_count; i++)
         draw_belt_bar(p, &option->belts[i], row);
 }
@@ -348,8 +347,7 @@ static void place_frame(struct profile *p)
     }
 }
 
-const char *ceduo_plot_profile(struct ceduo_canvas *canvas, const struct ceduo_area *area,
-                               const struct ceduo_picture *picture)
+const char *ceduo_plot_profile(struct ceduo_canvas *canvas, const struct ceduo_area *area, const struct ceduo_picture *picture)
 {
     struct profile p = {
         .canvas = canvas, .area = area, .picture = picture, .names = area->height >= 8, .belts = area->height >= 6};

@@ -45,8 +45,7 @@ static double share_of(const struct rotation *r, const struct ceduo_year *year)
 static void draw_strip(struct rotation *r, int top, int height, double most, double limit, const char *caption,
                        double (*of)(const struct rotation *, const struct ceduo_year *))
 {
-    ceduo_canvas_put(r->canvas, r->frame.left, top, r->area->left + r->area->width - r->frame.left, CEDUO_ROLE_AXIS,
-                   caption);
+    ceduo_canvas_put(r->canvas, r->frame.left, top, r->area->left + r->area->width - r->frame.left, CEDUO_ROLE_AXIS, caption);
     r->frame.top = top + 1;
     r->frame.height = height - 1;
     r->frame.y0 = 0;
@@ -136,8 +135,7 @@ static void draw(struct rotation *r)
     else
         draw_strip(r, a->top + 1, first, ADC_TOP * threshold, threshold, ceduo_text_string(&adc), adc_of);
     draw_strip(r, a->top + 1 + first, strips - first, most_share(r),
-               r->flown && !isnan(r->control->accepted) ? CEDUO_EXCEED_MOST * 1000 : NAN,
-               ceduo_text_string(&share), share_of);
+               r->flown && !isnan(r->control->accepted) ? CEDUO_EXCEED_MOST * 1000 : NAN, ceduo_text_string(&share), share_of);
     ceduo_canvas_axis_bottom(r->canvas, &r->frame, _("years"));
     draw_lights(r, a->top + a->height - LIGHTS);
     draw_cuts(r, a->top);
@@ -145,8 +143,7 @@ static void draw(struct rotation *r)
     ceduo_text_free(&share);
 }
 
-const char *ceduo_plot_rotation(struct ceduo_canvas *canvas, const struct ceduo_area *area,
-                                const struct ceduo_picture *picture)
+const char *ceduo_plot_rotation(struct ceduo_canvas *canvas, const struct ceduo_area *area, const struct ceduo_picture *picture)
 {
     const struct ceduo_years *years = picture->years;
     struct rotation r = {.canvas = canvas,

@@ -14,7 +14,8 @@ static void draw_caption(struct ceduo_canvas *canvas, const struct ceduo_area *a
     ceduo_plot_put_fitting(canvas, area->left, area->top, area->width, CEDUO_ROLE_AXIS, 2, words);
 }
 
-void ceduo_plot_seen(struct ceduo_canvas *canvas, const struct ceduo_area *area, const struct ceduo_seen_stops *s, double origin)
+void ceduo_plot_seen(struct ceduo_canvas *canvas, const struct ceduo_area *area, const struct ceduo_seen_stops *s,
+                     double origin)
 {
     if (area->width < WIDTH_LEAST || area->height < HEIGHT_LEAST) {
         ceduo_canvas_put(canvas, area->left, area->top, area->width, CEDUO_ROLE_TEXT, _("too narrow"));

@@ -188,7 +188,7 @@ static void put_words(const struct plan *p, const struct ceduo_area *area)
 {
     if (!ceduo_stand_has_stems(p->stand)) {
         ceduo_canvas_put(p->canvas, area->left, area->top + area->height - 1, area->width, CEDUO_ROLE_TEXT,
-                       _("No stems: nothing stands in a rock's way."));
+                         _("No stems: nothing stands in a rock's way."));
         return;
     }
     char room[PLOT_NUMBER_ROOM];
@@ -233,8 +233,7 @@ static bool find_patch(const struct ceduo_picture *picture, const struct ceduo_b
     return true;
 }
 
-static bool is_shown(const struct plan *p, const struct ceduo_belt *belt, double from,
-                     const struct ceduo_stem_passed *stem)
+static bool is_shown(const struct plan *p, const struct ceduo_belt *belt, double from, const struct ceduo_stem_passed *stem)
 {
     return is_in(belt, stem) && stem->x >= from && stem->x <= from + p->width;
 }
@@ -264,10 +263,10 @@ static void put_words_of_way(const struct plan *p, const struct ceduo_area *area
     struct text words[4] = {{0}}; /* the longest first */
     ceduo_text_format(&words[3], ngettext("This rock: %zu hit in %.3g m", "This rock: %zu hits in %.3g m", t->hit), t->hit,
                       t->metres);
-    ceduo_text_format(&words[2],
-                      ngettext("The way of this rock: %zu stem hit in %.3g m",
-                               "The way of this rock: %zu stems hit in %.3g m", t->hit),
-                      t->hit, t->metres);
+    ceduo_text_format(
+        &words[2],
+        ngettext("The way of this rock: %zu stem hit in %.3g m", "The way of this rock: %zu stems hit in %.3g m", t->hit),
+        t->hit, t->metres);
     for (int i = 0; i < 2; i++) {
         ceduo_text_put(&words[i], ceduo_text_string(&words[2]));
         if (t->flown_over > 0 && i == 0)
@@ -289,8 +288,8 @@ static void draw_way(struct plan *p, const struct ceduo_area *area, const struct
             continue;
         t.hit += stem->hit;
         t.flown_over += !stem->hit;
-        ceduo_canvas_disc(p->canvas, &p->frame, stem->hit ? CEDUO_ROLE_WAY : CEDUO_ROLE_DIM, stem->x - from, p->height / 2 + stem->y,
-                  stem->dbh / 2);
+        ceduo_canvas_disc(p->canvas, &p->frame, stem->hit ? CEDUO_ROLE_WAY : CEDUO_ROLE_DIM, stem->x - from,
+                          p->height / 2 + stem->y, stem->dbh / 2);
     }
     draw_strip(p);
     struct ceduo_frame given = ceduo_plot_given(&p->frame, from + picture->scene->slope.origin_x, 0);
@@ -301,19 +300,17 @@ static void draw_way(struct plan *p, const struct ceduo_area *area, const struct
 
 /* ---- the picture ---- */
 
-const char *ceduo_plot_stand(struct ceduo_canvas *canvas, const struct ceduo_area *area,
-                             const struct ceduo_picture *picture)
+const char *ceduo_plot_stand(struct ceduo_canvas *canvas, const struct ceduo_area *area, const struct ceduo_picture *picture)
 {
     const struct ceduo_belt *belt = ceduo_plot_belt(picture);
     if (!belt || area->width < 4 || area->height < 4)
         return _("no forest");
     bool words = area->height >= 7;
     double from;
-    struct plan p = {
-        .canvas = canvas,
-        .stand = &belt->stand,
-        .strip = ceduo_rock_mean(&picture->scene->rock).mean_diameter,
-        .frame = {.left = area->left, .top = area->top, .width = area->width, .height = area->height - 2 - words}};
+    struct plan p = {.canvas = canvas,
+                     .stand = &belt->stand,
+                     .strip = ceduo_rock_mean(&picture->scene->rock).mean_diameter,
+                     .frame = {.left = area->left, .top = area->top, .width = area->width, .height = area->height - 2 - words}};
     if (!ceduo_frame_true_scale(&p.frame, canvas, 0, PATCH_M, 0, 0))
         return NULL;
     p.width = PATCH_M;

@@ -55,8 +55,7 @@ static const struct content contents[2][3] = {
        {N_("wood p50"), CEDUO_ROLE_WOOD, 1, 1, false, OF(height.p50)}}},
      {N_("underside p95, m"),
       2,
-      {{N_("bare"), CEDUO_ROLE_BARE, 1, 2, true, OF(height.p95)},
-       {N_("wood"), CEDUO_ROLE_WOOD, 1, 1, false, OF(height.p95)}}}},
+      {{N_("bare"), CEDUO_ROLE_BARE, 1, 2, true, OF(height.p95)}, {N_("wood"), CEDUO_ROLE_WOOD, 1, 1, false, OF(height.p95)}}}},
     {{N_("energy, kJ"),
       4,
       {{N_("p95"), CEDUO_ROLE_ENVELOPE, 1, 2, false, OF(energy.p95)},
@@ -246,8 +245,7 @@ static void name_curves(const struct strip *s)
 static bool is_free(const struct strip *s, int column, int row, int width)
 {
     const struct ceduo_frame *f = &s->frame;
-    bool inside = row >= f->top && row < f->top + f->height && column >= f->left &&
-                  column + width <= f->left + f->width;
+    bool inside = row >= f->top && row < f->top + f->height && column >= f->left && column + width <= f->left + f->width;
     for (int i = -1; inside && i <= width; i++) /* a blank on either side, so that it is no part of a curve */
         inside = ceduo_canvas_is_blank(s->canvas, column + i, row);
     return inside;
@@ -401,14 +399,12 @@ static const char *draw_strip(struct strip *s)
     return NULL;
 }
 
-const char *ceduo_plot_height(struct ceduo_canvas *canvas, const struct ceduo_area *area,
-                              const struct ceduo_picture *picture)
+const char *ceduo_plot_height(struct ceduo_canvas *canvas, const struct ceduo_area *area, const struct ceduo_picture *picture)
 {
     return draw_strip(&(struct strip){.canvas = canvas, .area = area, .picture = picture});
 }
 
-const char *ceduo_plot_energy(struct ceduo_canvas *canvas, const struct ceduo_area *area,
-                              const struct ceduo_picture *picture)
+const char *ceduo_plot_energy(struct ceduo_canvas *canvas, const struct ceduo_area *area, const struct ceduo_picture *picture)
 {
     return draw_strip(&(struct strip){.canvas = canvas, .area = area, .picture = picture, .energy = true});
 }

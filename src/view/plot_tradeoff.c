@@ -38,9 +38,8 @@ static enum ceduo_role role_of(const struct tradeoff *t, size_t i)
 
 static void draw_error(const struct tradeoff *t, const struct ceduo_choice *c)
 {
-    ceduo_canvas_line(t->canvas, &t->frame, CEDUO_ROLE_MEAN, c->yield.cut_per_year,
-                      1000 * (c->mean.mean - c->mean.half), c->yield.cut_per_year,
-                      1000 * (c->mean.mean + c->mean.half));
+    ceduo_canvas_line(t->canvas, &t->frame, CEDUO_ROLE_MEAN, c->yield.cut_per_year, 1000 * (c->mean.mean - c->mean.half),
+                      c->yield.cut_per_year, 1000 * (c->mean.mean + c->mean.half));
 }
 
 /* The number of an option beside its point; a little lower where another stands there. */
@@ -70,8 +69,7 @@ static void draw_legend(const struct tradeoff *t)
         if (is_known(c))
             ceduo_plot_say(t->canvas, a->left, a->top + (int)i, a->width, role_of(t, i), "%s %s", sign, name);
         else
-            ceduo_plot_say(t->canvas, a->left, a->top + (int)i, a->width, CEDUO_ROLE_AXIS, _("- %s: no yield known"),
-                           name);
+            ceduo_plot_say(t->canvas, a->left, a->top + (int)i, a->width, CEDUO_ROLE_AXIS, _("- %s: no yield known"), name);
     }
     if ((int)t->verdict->n < a->height)
         ceduo_plot_say(t->canvas, a->left, a->top + (int)t->verdict->n, a->width, CEDUO_ROLE_AXIS,
@@ -104,26 +102,24 @@ static void place(struct tradeoff *t, const struct ceduo_area *area)
     t->frame.width = area->width - AXIS_WIDTH - 1 - (beside ? LEGEND_WIDTH + 2 : 0);
     t->frame.top = area->top + 1;
     t->frame.height = area->height - 3 - below;
-    t->legend = beside ? (struct ceduo_area){area->left + area->width - LEGEND_WIDTH, area->top + 1, LEGEND_WIDTH,
-                                             area->height - 1}
-                       : (struct ceduo_area){area->left, area->top + area->height - below, area->width, below};
+    t->legend =
+        beside ? (struct ceduo_area){area->left + area->width - LEGEND_WIDTH, area->top + 1, LEGEND_WIDTH, area->height - 1}
+               : (struct ceduo_area){area->left, area->top + area->height - below, area->width, below};
 }
 
 static void put_caption(const struct tradeoff *t, const struct ceduo_area *a)
 {
     struct text words[2] = {{0}};
     bool danger = t->verdict->accepted;
-    ceduo_text_put(
-        &words[0],
-        danger ? _("dangerous rocks of 1000 over a rotation, against wood felled, m\xc2\xb3 per ha and year")
-               : _("rocks of 1000 that arrive over a rotation, against wood felled, m\xc2\xb3 per ha and year"));
+    ceduo_text_put(&words[0],
+                   danger ? _("dangerous rocks of 1000 over a rotation, against wood felled, m\xc2\xb3 per ha and year")
+                          : _("rocks of 1000 that arrive over a rotation, against wood felled, m\xc2\xb3 per ha and year"));
     ceduo_text_put(&words[1], danger ? _("dangerous of 1000, against m\xc2\xb3 per ha and year")
                                      : _("arriving of 1000, against m\xc2\xb3 per ha and year"));
     ceduo_plot_put_fitting(t->canvas, a->left, a->top, a->width, CEDUO_ROLE_AXIS, 2, words);
 }
 
-const char *ceduo_plot_tradeoff(struct ceduo_canvas *canvas, const struct ceduo_area *area,
-                                const struct ceduo_picture *picture)
+const char *ceduo_plot_tradeoff(struct ceduo_canvas *canvas, const struct ceduo_area *area, const struct ceduo_picture *picture)
 {
     const struct ceduo_verdict *v = picture->verdict;
     struct tradeoff t = {.canvas = canvas, .picture = picture, .verdict = v};

@@ -6,8 +6,7 @@
 #include "base/language.h"
 
 const struct ceduo_plot_kind ceduo_plot_kinds[CEDUO_PLOTS] = {
-#define X(NAME, name, needs_run, needs_cells, by_option)                                                               \
-    [CEDUO_PLOT_##NAME] = {#name, needs_run, needs_cells, by_option},
+#define X(NAME, name, needs_run, needs_cells, by_option) [CEDUO_PLOT_##NAME] = {#name, needs_run, needs_cells, by_option},
     CEDUO_PLOT_LIST(X)
 #undef X
 };
@@ -37,8 +36,7 @@ void ceduo_plot_draw(enum ceduo_plot plot, struct ceduo_canvas *canvas, const st
         return;
     int width = ceduo_canvas_label_width(canvas, why);
     int column = width < area->width ? (area->width - width) / 2 : 0;
-    ceduo_canvas_put(canvas, area->left + column, area->top + (area->height - 1) / 2, area->width, CEDUO_ROLE_TEXT,
-                     why);
+    ceduo_canvas_put(canvas, area->left + column, area->top + (area->height - 1) / 2, area->width, CEDUO_ROLE_TEXT, why);
 }
 
 /* ---- titles ---- */
@@ -50,8 +48,7 @@ static void put_subject(struct text *text, enum ceduo_plot plot, const struct ce
     bool wooded = ceduo_plot_wooded(p);
     switch (plot) {
     case CEDUO_PLOT_PROFILE:
-        ceduo_text_put(text,
-                       wooded ? _("slope, forest, and ways through it") : _("slope, forest, and ways without forest"));
+        ceduo_text_put(text, wooded ? _("slope, forest, and ways through it") : _("slope, forest, and ways without forest"));
         break;
     case CEDUO_PLOT_ADC:
         ceduo_text_put(text, _("average distance between contacts, m"));

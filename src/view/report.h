@@ -18,10 +18,10 @@ struct ceduo_report {
     const struct ceduo_result *result;
     struct ceduo_run_remarks remarks;
     struct ceduo_work work;
-    const struct ceduo_block *blocks; /* CEDUO_BLOCKS for each option; NULL: none to show */
-    double seconds; /* that the runs took */
-    uint64_t rocks_asked; /* where rows of stands are wanted and none is flown; otherwise 0 */
-    struct ceduo_years *const *years; /* one for each option; NULL: not asked for */
+    const struct ceduo_block *blocks;    /* CEDUO_BLOCKS for each option; NULL: none to show */
+    double seconds;                      /* that the runs took */
+    uint64_t rocks_asked;                /* where rows of stands are wanted and none is flown; otherwise 0 */
+    struct ceduo_years *const *years;    /* one for each option; NULL: not asked for */
     const struct ceduo_verdict *verdict; /* of all options; NULL: not known */
 };
 

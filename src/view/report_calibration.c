@@ -196,7 +196,8 @@ void ceduo_calibration_draws(struct text *text, const struct ceduo_calibration *
     for (size_t k = 0; k < a->draws_count; k++) {
         char room[CEDUO_NUMBER_ROOM];
         for (size_t i = 0; i < a->parameters_count; i++)
-            ceduo_text_format(text, "%s%s", i > 0 ? "," : "", ceduo_number_shortest(a->draws[k * a->parameters_count + i], room));
+            ceduo_text_format(text, "%s%s", i > 0 ? "," : "",
+                              ceduo_number_shortest(a->draws[k * a->parameters_count + i], room));
         ceduo_text_char(text, '\n');
     }
 }

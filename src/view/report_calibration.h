@@ -11,7 +11,7 @@
 struct ceduo_calibration_report {
     size_t scenes_count;
     const struct scene_file *files;
-    const char *const *paths;           /* of the fitted values, as they were given */
+    const char *const *paths; /* of the fitted values, as they were given */
     const struct field *const *fields;
     uint64_t rocks, seed;
     const struct ceduo_calibration *answer;
@@ -30,7 +30,7 @@ void ceduo_calibration_page(struct text *text, const struct ceduo_calibration_re
 /* What the page says in words: misfit, what is not determined, what is known only together. */
 void ceduo_calibration_words(struct text *text, const struct ceduo_calibration_report *report, size_t width);
 void ceduo_calibration_json(struct text *text, const struct ceduo_calibration_report *report); /* "ceduo-calibration-1" */
-void ceduo_calibration_csv(struct text *text, const struct ceduo_calibration_report *report); /* a row for each value */
+void ceduo_calibration_csv(struct text *text, const struct ceduo_calibration_report *report);  /* a row for each value */
 
 /* The draws, a column for each fitted value, for `doubt: {draws: …}`; `heads`: what to call them. */
 void ceduo_calibration_draws(struct text *text, const struct ceduo_calibration *answer, const char *const *heads);

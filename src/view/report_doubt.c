@@ -6,8 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/language.h"
 #include "base/json.h"
+#include "base/language.h"
 #include "ceduo/version.h"
 #include "scene/ranges.h"
 #include "scene/value.h"
@@ -22,10 +22,11 @@ bool ceduo_doubt_is_off(const struct ceduo_doubt_report *r)
 
 const char *ceduo_doubt_none(const struct ceduo_doubt_report *r)
 {
-    return ceduo_doubt_is_off(r)
-               ? _("Doubt: not computed, because the scene says 'doubt: none'. What is not known may change the answer more than "
-                   "chance does.")
-               : _("Doubt: nothing in this scene is marked as assumed or named by 'doubt', so its values are taken as they are.");
+    return ceduo_doubt_is_off(r) ? _("Doubt: not computed, because the scene says 'doubt: none'. What is not known may change "
+                                     "the answer more than "
+                                     "chance does.")
+                                 : _("Doubt: nothing in this scene is marked as assumed or named by 'doubt', so its values are "
+                                     "taken as they are.");
 }
 
 /* ---- inputs ---- */

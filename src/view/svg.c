@@ -12,10 +12,10 @@
 
 #include "svg_parts.h"
 
-#define DOT       (SVG_CELL / 2.0) /* units: cells have 2 x 4 dots */
-#define TOLERANCE 0.3              /* units */
-#define TO_AND_FRO 400             /* lines of a way that gets no farther: by then all of it is to be seen */
-#define BELOW     19               /* units from the top of the bottom axis to the foot of its labels */
+#define DOT        (SVG_CELL / 2.0) /* units: cells have 2 x 4 dots */
+#define TOLERANCE  0.3              /* units */
+#define TO_AND_FRO 400              /* lines of a way that gets no farther: by then all of it is to be seen */
+#define BELOW      19               /* units from the top of the bottom axis to the foot of its labels */
 
 enum style { PLAIN, DOTTED, CLOUD, FILLED, STYLES };
 
@@ -42,17 +42,16 @@ struct ceduo_svg {
 
 /* Lightness and width tell roles apart, too. */
 static const struct ceduo_svg_theme paper = {
-    .font = "sans-serif",
-    .looks = {[CEDUO_ROLE_BLANK] = {"#1c1c1c", 1, NULL},  [CEDUO_ROLE_TEXT] = {"#1c1c1c", 1.4, NULL},
-              [CEDUO_ROLE_DIM] = {"#595959", 1, NULL},    [CEDUO_ROLE_TITLE] = {"#1c1c1c", 1.4, NULL},
-              [CEDUO_ROLE_AXIS] = {"#4a4a4a", 1, NULL},   [CEDUO_ROLE_GROUND] = {"#4e3620", 2.4, NULL},
-              [CEDUO_ROLE_CLOUD] = {"#3f678c", 1, NULL},  [CEDUO_ROLE_ENVELOPE] = {"#3f678c", 1.6, NULL},
-              [CEDUO_ROLE_MEAN] = {"#111111", 2.2, NULL}, [CEDUO_ROLE_WAY] = {"#8a1c7c", 2, NULL},
-              [CEDUO_ROLE_STEM] = {"#2f6b2f", 1.6, NULL}, [CEDUO_ROLE_STOOL] = {"#5b7f2a", 1, NULL},
-              [CEDUO_ROLE_BELT] = {"#2f6b2f", 1.4, NULL}, [CEDUO_ROLE_CONTROL] = {"#a3161c", 1.6, NULL},
-              [CEDUO_ROLE_GOOD] = {"#20702c", 1.6, NULL}, [CEDUO_ROLE_BAD] = {"#a3161c", 2, NULL},
-              [CEDUO_ROLE_WARN] = {"#7a4a00", 1.6, NULL}, [CEDUO_ROLE_BARE] = {"#9a4a10", 2.6, NULL},
-              [CEDUO_ROLE_WOOD] = {"#14532d", 2, NULL},   [CEDUO_ROLE_CURSOR] = {"#1c1c1c", 1.4, NULL}}};
+    .font = "sans-serif", .looks = {[CEDUO_ROLE_BLANK] = {"#1c1c1c", 1, NULL},  [CEDUO_ROLE_TEXT] = {"#1c1c1c", 1.4, NULL},
+                                    [CEDUO_ROLE_DIM] = {"#595959", 1, NULL},    [CEDUO_ROLE_TITLE] = {"#1c1c1c", 1.4, NULL},
+                                    [CEDUO_ROLE_AXIS] = {"#4a4a4a", 1, NULL},   [CEDUO_ROLE_GROUND] = {"#4e3620", 2.4, NULL},
+                                    [CEDUO_ROLE_CLOUD] = {"#3f678c", 1, NULL},  [CEDUO_ROLE_ENVELOPE] = {"#3f678c", 1.6, NULL},
+                                    [CEDUO_ROLE_MEAN] = {"#111111", 2.2, NULL}, [CEDUO_ROLE_WAY] = {"#8a1c7c", 2, NULL},
+                                    [CEDUO_ROLE_STEM] = {"#2f6b2f", 1.6, NULL}, [CEDUO_ROLE_STOOL] = {"#5b7f2a", 1, NULL},
+                                    [CEDUO_ROLE_BELT] = {"#2f6b2f", 1.4, NULL}, [CEDUO_ROLE_CONTROL] = {"#a3161c", 1.6, NULL},
+                                    [CEDUO_ROLE_GOOD] = {"#20702c", 1.6, NULL}, [CEDUO_ROLE_BAD] = {"#a3161c", 2, NULL},
+                                    [CEDUO_ROLE_WARN] = {"#7a4a00", 1.6, NULL}, [CEDUO_ROLE_BARE] = {"#9a4a10", 2.6, NULL},
+                                    [CEDUO_ROLE_WOOD] = {"#14532d", 2, NULL},   [CEDUO_ROLE_CURSOR] = {"#1c1c1c", 1.4, NULL}}};
 
 /* ---- paths ---- */
 
@@ -224,8 +223,7 @@ static void draw_axis_left(void *to, const struct ceduo_frame *frame, int count,
 {
     struct ceduo_svg *svg = to;
     double x = frame->left * SVG_CELL - 2.5;
-    ceduo_text_format(&svg->axes, "M%.1f %dV%d", x, frame->top * 2 * SVG_CELL,
-                      (frame->top + frame->height) * 2 * SVG_CELL);
+    ceduo_text_format(&svg->axes, "M%.1f %dV%d", x, frame->top * 2 * SVG_CELL, (frame->top + frame->height) * 2 * SVG_CELL);
     for (int i = 0; i < count; i++) {
         double y = floor(ticks[i].at * 2 * SVG_CELL) + 0.5;
         ceduo_text_format(&svg->axes, "M%.1f %.1fh-4", x, y);
@@ -243,8 +241,7 @@ static void draw_axis_bottom(void *to, const struct ceduo_frame *frame, int coun
     struct ceduo_svg *svg = to;
     int row = frame->top + frame->height;
     double y = row * 2 * SVG_CELL + 2.5;
-    ceduo_text_format(&svg->axes, "M%.1f %.1fH%d", frame->left * SVG_CELL - 2.5, y,
-                      (frame->left + frame->width) * SVG_CELL);
+    ceduo_text_format(&svg->axes, "M%.1f %.1fH%d", frame->left * SVG_CELL - 2.5, y, (frame->left + frame->width) * SVG_CELL);
     for (int i = 0; i < count; i++) {
         int length = (int)strlen(ticks[i].label);
         double x = floor(ticks[i].at * SVG_CELL) + 0.5;
@@ -377,8 +374,8 @@ static void open_picture(struct ceduo_html *html, const struct ceduo_svg *svg, c
     snprintf(down, sizeof down, "%d", height);
     snprintf(id, sizeof id, "%s-d", words->id ? words->id : "picture");
     ceduo_html_open(html, "svg", "viewBox", box, "role", "img", "aria-label", words->title, "aria-describedby", id,
-                    file ? "xmlns" : "class", file, file ? "width" : "class", file ? across : NULL,
-                    file ? "height" : "class", file ? down : NULL, NULL);
+                    file ? "xmlns" : "class", file, file ? "width" : "class", file ? across : NULL, file ? "height" : "class",
+                    file ? down : NULL, NULL);
     ceduo_html_leaf(html, "title", words->title, NULL);
     ceduo_html_leaf(html, "desc", words->description, "id", id, NULL);
     if (file)

@@ -29,16 +29,16 @@ void ceduo_svg_number(struct text *text, double value)
         ceduo_text_format(text, ".%ld", labs(tenths) % 10);
 }
 
-void ceduo_svg_stroke(struct ceduo_html *html, const struct ceduo_svg_look *look, const struct text *path,
-                      const char *extra, const char *value)
+void ceduo_svg_stroke(struct ceduo_html *html, const struct ceduo_svg_look *look, const struct text *path, const char *extra,
+                      const char *value)
 {
     struct text width = {0};
     html->text->failed |= path->failed;
     if (path->length == 0)
         return;
     ceduo_svg_number(&width, look->width);
-    ceduo_html_empty(html, "path", "fill", "none", "stroke", look->colour, "stroke-width", ceduo_text_string(&width),
-                     "d", path->bytes, extra, value, NULL);
+    ceduo_html_empty(html, "path", "fill", "none", "stroke", look->colour, "stroke-width", ceduo_text_string(&width), "d",
+                     path->bytes, extra, value, NULL);
     ceduo_text_free(&width);
 }
 
@@ -163,8 +163,8 @@ static bool is_text(const struct painter *p, const struct ceduo_cell *cell, int 
         return true;
     bool block = add_block(&ignored, code, 0, 0);
     ceduo_text_free(&ignored);
-    bool sign = code == 0x2713 || code == 0x2714 || code == 0x2717 || code == 0x2718 || code == 0x25B2 ||
-                code == 0x25BC || code == 0x25B6 || code == 0x25C0;
+    bool sign = code == 0x2713 || code == 0x2714 || code == 0x2717 || code == 0x2718 || code == 0x25B2 || code == 0x25BC ||
+                code == 0x25B6 || code == 0x25C0;
     return !block && !sign && arms_of(code) == 0;
 }
 
@@ -173,8 +173,7 @@ static int run_end(const struct painter *p, const struct ceduo_cell *row, int co
 {
     int end = column, width = p->cells->width;
     for (; end < width && is_text(p, &row[end], end) && row[end].role == row[column].role; end++)
-        if (row[column].role != CEDUO_ROLE_CURSOR && row[end].code == ' ' && end + 1 < width &&
-            row[end + 1].code == ' ')
+        if (row[column].role != CEDUO_ROLE_CURSOR && row[end].code == ' ' && end + 1 < width && row[end + 1].code == ' ')
             break;
     return end;
 }
@@ -288,11 +287,11 @@ void ceduo_svg_screen(struct text *text, const struct ceduo_cells *cells, const 
              cells->height * HIGH + 2 * MARGIN);
     snprintf(width, sizeof width, "%d", cells->width * CELL + 2 * MARGIN);
     snprintf(height, sizeof height, "%d", cells->height * HIGH + 2 * MARGIN);
-    ceduo_html_open(&html, "svg", "xmlns", "http://www.w3.org/2000/svg", "width", width, "height", height, "viewBox",
-                    box, "role", "img", NULL);
+    ceduo_html_open(&html, "svg", "xmlns", "http://www.w3.org/2000/svg", "width", width, "height", height, "viewBox", box,
+                    "role", "img", NULL);
     ceduo_html_leaf(&html, "title", title, NULL);
-    ceduo_html_empty(&html, "rect", "x", "-8", "y", "-8", "width", width, "height", height, "rx", "6", "fill",
-                     terminal.paper, NULL);
+    ceduo_html_empty(&html, "rect", "x", "-8", "y", "-8", "width", width, "height", height, "rx", "6", "fill", terminal.paper,
+                     NULL);
     ceduo_html_open(&html, "g", "font-family", terminal.font, "font-size", "13", NULL);
     ceduo_svg_cells(&html, cells, &terminal);
     ceduo_html_close(&html);

@@ -30,7 +30,7 @@ void ceduo_svg_number(struct text *text, double value);
 void ceduo_svg_cells(struct ceduo_html *html, const struct ceduo_cells *cells, const struct ceduo_svg_theme *theme);
 
 /* Adds a path of a role's colour; `extra`: one more attribute and its value, or NULL. */
-void ceduo_svg_stroke(struct ceduo_html *html, const struct ceduo_svg_look *look, const struct text *path,
-                      const char *extra, const char *value);
+void ceduo_svg_stroke(struct ceduo_html *html, const struct ceduo_svg_look *look, const struct text *path, const char *extra,
+                      const char *value);
 
 #endif

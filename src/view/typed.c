@@ -141,8 +141,7 @@ void ceduo_typed_value(const struct field *f, const char *typed, struct text *va
         return;
     if (f->type == FIELD_SPREAD && put_spread(f, typed, value))
         return;
-    if (is_number(f) && (f->shown.per != 1 || strchr(typed, ',')) &&
-        ceduo_typed_number(typed, &number) == CEDUO_NUMBER_GOOD)
+    if (is_number(f) && (f->shown.per != 1 || strchr(typed, ',')) && ceduo_typed_number(typed, &number) == CEDUO_NUMBER_GOOD)
         typed = as_file(f, number, room);
     ceduo_text_put(value, typed);
 }
@@ -215,9 +214,15 @@ static void put_species(const struct ceduo_species *s, struct text *shown)
 /* Words of files that are people's words, too; others stay as files have them. */
 static const char *people_say(const char *words)
 {
-    static const char *const known[] = {N_("simple coppice"),    N_("coppice with standards"), N_("selection coppice"),
-                                        N_("large reserves"),    N_("high forest"),            N_("bare"),
-                                        N_("sphere"),            N_("cylinder"),               N_("ellipsoid"),
+    static const char *const known[] = {N_("simple coppice"),
+                                        N_("coppice with standards"),
+                                        N_("selection coppice"),
+                                        N_("large reserves"),
+                                        N_("high forest"),
+                                        N_("bare"),
+                                        N_("sphere"),
+                                        N_("cylinder"),
+                                        N_("ellipsoid"),
                                         N_("block")};
     for (size_t i = 0; i < sizeof known / sizeof known[0]; i++)
         if (strcmp(known[i], words) == 0)

@@ -54,8 +54,7 @@ static size_t form_factor_stems(const struct ceduo_stand *stand, const struct ce
 {
     size_t n = 0;
     for (size_t i = 0; i < stand->shoots_count + stand->trees_count; i++) {
-        const struct ceduo_stems *s =
-            i < stand->shoots_count ? &stand->shoots[i] : &stand->trees[i - stand->shoots_count];
+        const struct ceduo_stems *s = i < stand->shoots_count ? &stand->shoots[i] : &stand->trees[i - stand->shoots_count];
         enum ceduo_volume_from from;
         ceduo_stem_volume(stand, s, &from);
         if (from != CEDUO_VOLUME_FORM_FACTOR || !(s->per_ha > 0) || ceduo_stem_unlikely(stand, s) & CEDUO_WARN_THICK)
@@ -65,8 +64,8 @@ static size_t form_factor_stems(const struct ceduo_stand *stand, const struct ce
     return n;
 }
 
-static void say_geometry(const struct ceduo_scene *scene, const struct ceduo_belt *belt,
-                         const struct ceduo_stand_result *r, ceduo_words_say *say, void *context)
+static void say_geometry(const struct ceduo_scene *scene, const struct ceduo_belt *belt, const struct ceduo_stand_result *r,
+                         ceduo_words_say *say, void *context)
 {
     const struct ceduo_stand *s = &belt->stand;
     double b = ceduo_rock_mean(&scene->rock).mean_diameter, per_stool = ceduo_stand_shoots(s) / s->stools_per_ha;
@@ -104,8 +103,9 @@ void ceduo_words_unlikely(const struct ceduo_belt *belt, const struct ceduo_stan
     const struct ceduo_stems *thick = first_unlikely(s, CEDUO_WARN_THICK);
     size_t n;
     if (r->warnings & CEDUO_WARN_BASAL_AREA)
-        say_format(say, context, _("%s: %.1f m2/ha of basal area are more than %d: check the stems per ha and their diameters."),
-                   belt->name, r->basal_area, CEDUO_BASAL_AREA_MOST);
+        say_format(say, context,
+                   _("%s: %.1f m2/ha of basal area are more than %d: check the stems per ha and their diameters."), belt->name,
+                   r->basal_area, CEDUO_BASAL_AREA_MOST);
     if (r->warnings & CEDUO_WARN_MANY_SHOOTS)
         say_format(say, context, _("%s: %.1f shoots a stool are more than %d: check stools and shoots."), belt->name,
                    ceduo_stand_shoots(s) / s->stools_per_ha, CEDUO_SHOOTS_MOST);
@@ -117,10 +117,11 @@ void ceduo_words_unlikely(const struct ceduo_belt *belt, const struct ceduo_stan
                    belt->name, stout->dbh * 100, stout->height, CEDUO_SLENDERNESS_LEAST);
     if (thick)
         say_format(say, context,
-                   isnan(thick->volume) ? _("%s: stems of %.3g cm are thicker than the thickest that the volumes of their species "
-                                            "were measured on, %g cm; the form factor there is assumed.")
-                                        : _("%s: stems of %.3g cm are thicker than the thickest that the volumes of their species "
-                                            "were measured on, %g cm: check them."),
+                   isnan(thick->volume)
+                       ? _("%s: stems of %.3g cm are thicker than the thickest that the volumes of their species "
+                           "were measured on, %g cm; the form factor there is assumed.")
+                       : _("%s: stems of %.3g cm are thicker than the thickest that the volumes of their species "
+                           "were measured on, %g cm: check them."),
                    belt->name, thick->dbh * 100, ceduo_species_list(&n)[s->species].d_hi);
 }
 
@@ -166,12 +167,12 @@ void ceduo_words_stand_warnings(const struct ceduo_scene *scene, const struct ce
                                   n),
                    belt->name, n, first->dbh * 100, first->height);
     if (r->warnings & CEDUO_WARN_U_ASSUMED)
-        say_format(say, context, _("%s: the work of breaking is that of beech, %g J/m3, assumed for this species."),
-                   belt->name, ceduo_stand_u(s));
+        say_format(say, context, _("%s: the work of breaking is that of beech, %g J/m3, assumed for this species."), belt->name,
+                   ceduo_stand_u(s));
 }
 
-static void say_tolerance(const struct ceduo_result *result, const struct ceduo_run_remarks *remarks,
-                          ceduo_words_say *say, void *context)
+static void say_tolerance(const struct ceduo_result *result, const struct ceduo_run_remarks *remarks, ceduo_words_say *say,
+                          void *context)
 {
     if (remarks->tolerance > 0 && !remarks->tolerance_met)
         say_format(say, context, _("The tolerance of %g was not met with %llu rocks."), remarks->tolerance,
@@ -183,8 +184,7 @@ static void say_tolerance(const struct ceduo_result *result, const struct ceduo_
             fewest = a && a->reached < fewest ? a->reached : fewest;
         }
         if (fewest < CEDUO_FEW_ROCKS)
-            say_format(say, context,
-                       _("At %g m only %llu rocks arrive: its mean energy was left out of the tolerance."),
+            say_format(say, context, _("At %g m only %llu rocks arrive: its mean energy was left out of the tolerance."),
                        result->scene->controls[i].x_given, (unsigned long long)fewest);
     }
 }
@@ -192,8 +192,7 @@ static void say_tolerance(const struct ceduo_result *result, const struct ceduo_
 /* Whether the interval of a share holds the limit of the energy light, and more rocks can help. */
 static bool is_close(const struct ceduo_arrivals *a)
 {
-    return a->exceed_lo <= CEDUO_EXCEED_MOST && a->exceed_hi > CEDUO_EXCEED_MOST &&
-           ceduo_energy_light(a) != CEDUO_UNKNOWN;
+    return a->exceed_lo <= CEDUO_EXCEED_MOST && a->exceed_hi > CEDUO_EXCEED_MOST && ceduo_energy_light(a) != CEDUO_UNKNOWN;
 }
 
 static void say_close_calls(const struct ceduo_result *result, ceduo_words_say *say, void *context)
@@ -243,8 +242,8 @@ static void say_early(const struct ceduo_result *result, ceduo_words_say *say, v
                    result->scene->options[option].name, most * 1000, CEDUO_EARLY_M);
 }
 
-void ceduo_words_run_warnings(const struct ceduo_result *result, const struct ceduo_run_remarks *remarks,
-                              ceduo_words_say *say, void *context)
+void ceduo_words_run_warnings(const struct ceduo_result *result, const struct ceduo_run_remarks *remarks, ceduo_words_say *say,
+                              void *context)
 {
     if (!remarks->nothing_said)
         ceduo_words_still(result, say, context);
@@ -311,19 +310,17 @@ void ceduo_words_contact(struct text *text, const struct ceduo_result *result, s
     else if (!(s->length > 0))
         ceduo_text_put(text, _("There is no forest on the way."));
     else if (s->longest_gap > limit)
-        ceduo_text_format(text, _("A gap of %.3g m has no forest; a rock reaches full speed in %g m."), s->longest_gap,
-                          limit);
+        ceduo_text_format(text, _("A gap of %.3g m has no forest; a rock reaches full speed in %g m."), s->longest_gap, limit);
     else if (isinf(s->worst_adc))
         ceduo_text_format(text, _("In a belt no stem counts; a rock reaches full speed in %g m."), limit);
     else
-        ceduo_text_format(text, _("A belt has an ADC of %.3g m; a rock reaches full speed in %g m."), s->worst_adc,
-                          limit);
+        ceduo_text_format(text, _("A belt has an ADC of %.3g m; a rock reaches full speed in %g m."), s->worst_adc, limit);
     say_what_counts(text, result->scene);
     if (s->thick.contact != s->contact && isinf(s->thick.worst_adc))
         ceduo_text_then(text, " ", _("Counting only stems from %g cm on it fails: there are none."), thick_cm(result->scene));
     else if (s->thick.contact != s->contact)
         ceduo_text_then(text, " ", _("Counting only stems from %g cm on it fails: %.3g m."), thick_cm(result->scene),
-                          s->thick.worst_adc);
+                        s->thick.worst_adc);
 }
 
 void ceduo_words_free_run(struct text *text, const struct ceduo_result *result, size_t option, size_t control)
@@ -333,15 +330,16 @@ void ceduo_words_free_run(struct text *text, const struct ceduo_result *result, 
     ceduo_text_format(text, _("Free run: %s."), ceduo_words_verdict(s->free_run));
     ceduo_text_char(text, ' ');
     if (s->length > 0 && s->longest_gap > limit)
-        ceduo_text_format(text, _("A gap of %.3g m has no forest: every rock runs more than %g m there."), s->longest_gap, limit);
+        ceduo_text_format(text, _("A gap of %.3g m has no forest: every rock runs more than %g m there."), s->longest_gap,
+                          limit);
     else if (s->length > 0)
-        ceduo_text_format(text, _("Chance of %g m without a contact at worst %.1f %% (10 %% is allowed)."),
-                          limit, s->worst_free_run * 100);
+        ceduo_text_format(text, _("Chance of %g m without a contact at worst %.1f %% (10 %% is allowed)."), limit,
+                          s->worst_free_run * 100);
     else
         ceduo_text_put(text, _("No stem stands on the way."));
     if (s->thick.free_run != s->free_run)
         ceduo_text_then(text, " ", _("Counting only stems from %g cm on it fails: %.1f %%."), thick_cm(result->scene),
-                          s->thick.worst_free_run * 100);
+                        s->thick.worst_free_run * 100);
 }
 
 const char *ceduo_words_shown_of_1000(double p, double lo, double hi, char room[CEDUO_NUMBER_ROOM])
@@ -372,7 +370,8 @@ void ceduo_words_energy(struct text *text, const struct ceduo_result *result, si
                           WRITTEN_OF_1000(a->exceed_probability, a->exceed_lo, a->exceed_hi), c->accepted * KILO,
                           CEDUO_EXCEED_MOST * 1000);
         if (result->options[option].controls[control].energy == CEDUO_UNKNOWN)
-            ceduo_text_then(text, " ", _("%llu rocks never came to an end, and may arrive."), (unsigned long long)a->unfinished);
+            ceduo_text_then(text, " ", _("%llu rocks never came to an end, and may arrive."),
+                            (unsigned long long)a->unfinished);
         else if (is_close(a))
             ceduo_text_then(text, " ", _("Too close to call with so few rocks."));
     }

@@ -2,8 +2,8 @@
 #ifndef CEDUO_WORDS_H
 #define CEDUO_WORDS_H
 
-#include "ceduo/result.h"
 #include "base/text.h"
+#include "ceduo/result.h"
 #include "study/verdict.h"
 
 #define KILO 1e-3 /* J in kJ */
@@ -37,8 +37,8 @@ struct ceduo_run_remarks {
     bool ground_assumed;
     bool nothing_said; /* where nothing can be said, that stands elsewhere on the page */
 };
-void ceduo_words_run_warnings(const struct ceduo_result *result, const struct ceduo_run_remarks *remarks,
-                              ceduo_words_say *say, void *context);
+void ceduo_words_run_warnings(const struct ceduo_result *result, const struct ceduo_run_remarks *remarks, ceduo_words_say *say,
+                              void *context);
 
 /* Why nothing can be said of a control (ceduo_says_nothing()): what arrives, how far rocks come, from where, and what to do. The
  * same of the first control of which that holds, as a warning. */
@@ -99,7 +99,7 @@ void ceduo_words_number(struct text *text, double value, int digits);
 /* The same two in a string, for a sentence: it lives as long as the block in which it is made. */
 const char *ceduo_words_shown(double value, int digits, char room[CEDUO_NUMBER_ROOM]);
 const char *ceduo_words_shown_of_1000(double probability, double lo, double hi, char room[CEDUO_NUMBER_ROOM]);
-#define WRITTEN(value, digits) ceduo_words_shown(value, digits, (char[CEDUO_NUMBER_ROOM]){0})
+#define WRITTEN(value, digits)     ceduo_words_shown(value, digits, (char[CEDUO_NUMBER_ROOM]){0})
 #define WRITTEN_OF_1000(p, lo, hi) ceduo_words_shown_of_1000(p, lo, hi, (char[CEDUO_NUMBER_ROOM]){0})
 
 #endif

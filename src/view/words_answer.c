@@ -8,9 +8,9 @@
 
 const char *ceduo_words_judgement(enum ceduo_judgement judgement)
 {
-    static const char *const words[] = {[CEDUO_UNANSWERED] = NULL, [CEDUO_YES] = "yes", [CEDUO_NO] = "no",
-                                        [CEDUO_NOT_DECIDED] = "not-decided", [CEDUO_DEPENDS] = "depends",
-                                        [CEDUO_NOTHING] = "nothing"};
+    static const char *const words[] = {
+        [CEDUO_UNANSWERED] = NULL,           [CEDUO_YES] = "yes",         [CEDUO_NO] = "no",
+        [CEDUO_NOT_DECIDED] = "not-decided", [CEDUO_DEPENDS] = "depends", [CEDUO_NOTHING] = "nothing"};
     return words[judgement];
 }
 
@@ -42,8 +42,9 @@ static void say_what_to_do(struct text *text, const struct ceduo_result *r)
     const struct ceduo_slope *s = &r->scene->slope;
     double start = r->scene->release.x.mean, face = ceduo_slope_face(s), farthest = r->bare.ends.stop_max;
     if (face > start && !(farthest > face))
-        ceduo_text_then(text, " ", _("The ground is steeper than 45\xc2\xb0 from %.4g m on: if they start there, write release.x_m: %.4g."),
-                        face + s->origin_x, face + s->origin_x);
+        ceduo_text_then(
+            text, " ", _("The ground is steeper than 45\xc2\xb0 from %.4g m on: if they start there, write release.x_m: %.4g."),
+            face + s->origin_x, face + s->origin_x);
     else if (!(farthest > s->x[ceduo_slope_segment(s, start) + 1]))
         ceduo_text_then(text, " ", "%s",
                         _("Write where they start (release.x_m), or what sets them in motion (release.height_m, vx_m_s)."));
@@ -57,8 +58,9 @@ void ceduo_words_nothing(struct text *text, const struct ceduo_result *r, size_t
     struct text where = {0};
     ceduo_plot_control_name(&where, &r->scene->controls[control]);
     ceduo_text_format(text,
-                      bare->reached == 0 ? _("Nothing can be said of the wood above %s: of %llu rocks none arrives, even without forest.")
-                                         : _("Nothing can be said of the wood above %s: of %llu rocks %llu arrive, even without forest."),
+                      bare->reached == 0
+                          ? _("Nothing can be said of the wood above %s: of %llu rocks none arrives, even without forest.")
+                          : _("Nothing can be said of the wood above %s: of %llu rocks %llu arrive, even without forest."),
                       ceduo_text_string(&where), (unsigned long long)bare->released, (unsigned long long)bare->reached);
     say_how_far(text, r);
     say_what_to_do(text, r);
@@ -99,8 +101,8 @@ void ceduo_words_because(struct text *text, const struct ceduo_result *r, size_t
     }
     const struct ceduo_arrivals *shown = wooded ? wooded : bare;
     ceduo_text_format(text, _("%s of 1000 arrive with more than %g kJ (%.0f are allowed)."),
-                      WRITTEN_OF_1000(shown->exceed_probability, shown->exceed_lo, shown->exceed_hi),
-                      ceduo_words_accepted(c), CEDUO_EXCEED_MOST * 1000);
+                      WRITTEN_OF_1000(shown->exceed_probability, shown->exceed_lo, shown->exceed_hi), ceduo_words_accepted(c),
+                      CEDUO_EXCEED_MOST * 1000);
     if (judgement == CEDUO_NOT_DECIDED)
         ceduo_text_then(text, " ", _("So many rocks do not decide it (%llu): more do."), (unsigned long long)shown->released);
     else if (also_bare)

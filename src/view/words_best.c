@@ -45,8 +45,7 @@ void ceduo_words_window(struct text *text, const struct ceduo_option *option, co
                           option->name, still->name);
 }
 
-void ceduo_words_windows(const struct ceduo_scene *scene, const struct ceduo_verdict *v, ceduo_words_say *say,
-                         void *context)
+void ceduo_words_windows(const struct ceduo_scene *scene, const struct ceduo_verdict *v, ceduo_words_say *say, void *context)
 {
     for (size_t i = 0; i < v->n; i++) {
         struct text sentence = {0};
@@ -135,17 +134,15 @@ static void say_best(struct text *text, const struct ceduo_scene *scene, const s
 }
 
 /* One sentence where the same option is clearly best over the years and today. */
-static bool say_both(struct text *text, const struct ceduo_scene *scene, const struct ceduo_verdict *v,
-                     const char *when)
+static bool say_both(struct text *text, const struct ceduo_scene *scene, const struct ceduo_verdict *v, const char *when)
 {
     const struct ceduo_leader *a = &v->rotation, *b = &v->today;
     if (!b->known || b->uneven || a->best != b->best || a->rivals > 0 || b->rivals > 0)
         return false;
     ceduo_text_format(text,
-                      v->accepted
-                          ? _("%s '%s' lets the fewest dangerous rocks through, as it does today: %.0f and %.0f of "
-                              "1000.")
-                          : _("%s '%s' lets the fewest rocks through, as it does today: %.0f and %.0f of 1000."),
+                      v->accepted ? _("%s '%s' lets the fewest dangerous rocks through, as it does today: %.0f and %.0f of "
+                                      "1000.")
+                                  : _("%s '%s' lets the fewest rocks through, as it does today: %.0f and %.0f of 1000."),
                       when, scene->options[a->best].name, mean_of(v, true, a->best), mean_of(v, false, a->best));
     return true;
 }

@@ -22,15 +22,16 @@ void ceduo_words_other(struct text *text, const struct ceduo_result *r, size_t o
     const char *half = WRITTEN(ceduo_half_width(o->energy_se, o->reached) * KILO, 2);
     const char *reach = WRITTEN_OF_1000(o->reach_probability, o->reach_lo, o->reach_hi);
     if (isnan(o->exceed_probability))
-        ceduo_text_format(text, _("With the energy law %s: %s of 1000 arrive; their mean is %s \xc2\xb1%s kJ."), law, reach, mean,
-                          half);
+        ceduo_text_format(text, _("With the energy law %s: %s of 1000 arrive; their mean is %s \xc2\xb1%s kJ."), law, reach,
+                          mean, half);
     else
         ceduo_text_format(text,
                           _("With the energy law %s: %s of 1000 arrive, %s with more than it withstands; the mean of those "
                             "that arrive is %s \xc2\xb1%s kJ."),
                           law, reach, WRITTEN_OF_1000(o->exceed_probability, o->exceed_lo, o->exceed_hi), mean, half);
     if (o->rocks < ceduo_result_rocks(r))
-        ceduo_text_then(text, " ", _("Under this law the first %llu rocks alone were simulated."), (unsigned long long)o->rocks);
+        ceduo_text_then(text, " ", _("Under this law the first %llu rocks alone were simulated."),
+                        (unsigned long long)o->rocks);
 }
 
 static double of_1000(const struct ceduo_result *r, size_t option, bool other)
@@ -57,9 +58,8 @@ void ceduo_words_turned(const struct ceduo_result *r, const struct ceduo_verdict
             ceduo_text_format(&sentence,
                               _("'%s' or '%s' is undecided: the order depends on the energy law. As the scene has it %.0f "
                                 "and %.0f of 1000, with %s %.0f and %.0f."),
-                              r->scene->options[a].name, r->scene->options[b].name, of_1000(r, a, false),
-                              of_1000(r, b, false), ceduo_energy_words.names[o->model], of_1000(r, a, true),
-                              of_1000(r, b, true));
+                              r->scene->options[a].name, r->scene->options[b].name, of_1000(r, a, false), of_1000(r, b, false),
+                              ceduo_energy_words.names[o->model], of_1000(r, a, true), of_1000(r, b, true));
         }
         if (sentence.bytes)
             say(context, sentence.bytes);

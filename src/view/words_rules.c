@@ -5,8 +5,8 @@
 #include "base/language.h"
 #include "words.h"
 
-__attribute__((format(printf, 4, 5))) static void say_format(ceduo_words_rule *say, void *context, bool met,
-                                                             const char *format, ...)
+__attribute__((format(printf, 4, 5))) static void say_format(ceduo_words_rule *say, void *context, bool met, const char *format,
+                                                             ...)
 {
     struct text text = {0};
     va_list args;
@@ -24,12 +24,12 @@ static const char *species_of(const struct ceduo_belt *belt)
     return _(ceduo_species_list(&count)[belt->stand.species].common);
 }
 
-static void say_standards(const struct ceduo_belt *belt, const struct ceduo_compliance *c, ceduo_words_rule *say,
-                          void *context)
+static void say_standards(const struct ceduo_belt *belt, const struct ceduo_compliance *c, ceduo_words_rule *say, void *context)
 {
     const struct ceduo_regulation_item *item = c->standards_item;
     if (!item)
-        say_format(say, context, true, _("%s: the rules of %s as filed name no number of standards for this species (%s); none is checked."),
+        say_format(say, context, true,
+                   _("%s: the rules of %s as filed name no number of standards for this species (%s); none is checked."),
                    belt->name, c->of->name, species_of(belt));
     else if (isnan(item->most))
         say_format(say, context, c->standards_met,
@@ -47,8 +47,8 @@ static void say_turn(const struct ceduo_belt *belt, const struct ceduo_complianc
 {
     const struct ceduo_regulation_item *item = c->turn_item;
     if (!item) {
-        say_format(say, context, true, _("%s: the rules of %s as filed name no turn for this species (%s); none is checked."), belt->name,
-                   c->of->name, species_of(belt));
+        say_format(say, context, true, _("%s: the rules of %s as filed name no turn for this species (%s); none is checked."),
+                   belt->name, c->of->name, species_of(belt));
         return;
     }
     if (isnan(c->turn))

@@ -13,18 +13,40 @@
 
 #include "../physics/paper_site.h"
 
-#define ACCEPTED 100e3
+#define ACCEPTED   100e3
 #define TRUE_ROCKS 2000000
 
 enum {
-    BARE_MEAN, BARE_P95, BARE_REACH, BARE_EXCEED, BARE_RELEASED,
-    WOOD_MEAN, WOOD_P95, WOOD_REACH, WOOD_EXCEED, WOOD_RELEASED, WOOD_CONTACTS,
-    LESS_REACH, LESS_EXCEED, LESS_RELEASED, FIGURES
+    BARE_MEAN,
+    BARE_P95,
+    BARE_REACH,
+    BARE_EXCEED,
+    BARE_RELEASED,
+    WOOD_MEAN,
+    WOOD_P95,
+    WOOD_REACH,
+    WOOD_EXCEED,
+    WOOD_RELEASED,
+    WOOD_CONTACTS,
+    LESS_REACH,
+    LESS_EXCEED,
+    LESS_RELEASED,
+    FIGURES
 };
-static const char *const names[FIGURES] = {
-    "bare mean energy", "bare 95 % energy", "bare reach", "bare exceed", "bare energy per released",
-    "wooded mean energy", "wooded 95 % energy", "wooded reach", "wooded exceed", "wooded energy per released",
-    "wooded contacts", "difference of reach", "difference of exceed", "difference of energy per released"};
+static const char *const names[FIGURES] = {"bare mean energy",
+                                           "bare 95 % energy",
+                                           "bare reach",
+                                           "bare exceed",
+                                           "bare energy per released",
+                                           "wooded mean energy",
+                                           "wooded 95 % energy",
+                                           "wooded reach",
+                                           "wooded exceed",
+                                           "wooded energy per released",
+                                           "wooded contacts",
+                                           "difference of reach",
+                                           "difference of exceed",
+                                           "difference of energy per released"};
 
 struct figure {
     double value, lo, hi;

@@ -6,9 +6,9 @@
 #include <stdlib.h>
 #include <time.h>
 
-#include "measure.h"
 #include "ceduo/doubt.h"
 #include "io/inputs.h"
+#include "measure.h"
 
 #define REPEATS_MOST 101
 #define GOAL_SECONDS 30 /* with 256 base points and 2000 rocks on two cores */

@@ -16,19 +16,19 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "measure.h"
 #include "../physics/paper_site.h"
+#include "measure.h"
 #include "plain_loop.h"
 
 enum { MEAN, P95, REACH, EXCEED, QUANTITIES };
 static const char *const quantity_names[QUANTITIES] = {"mean_energy_kJ", "p95_energy_kJ", "reach", "exceed"};
 
-#define ACCEPTED 100e3 /* J: about half of the rocks bring more */
-#define TRUE_ROCKS 8000000
+#define ACCEPTED         100e3 /* J: about half of the rocks bring more */
+#define TRUE_ROCKS       8000000
 #define TRUE_ROCKS_STEMS 1000000
 #define PLAIN_TRUE_ROCKS 4000000
-#define SOBOL_MOST 40
-#define STARTS 4 /* numbers of a start */
+#define SOBOL_MOST       40
+#define STARTS           4 /* numbers of a start */
 
 static void fail(const char *why)
 {
@@ -83,8 +83,8 @@ static void print_row(const char *what, const char *numbers, uint64_t rocks, con
         double rms = sqrt(row->error2[q] / (double)row->repeats);
         if (!(rms >= 2 * true_se[q]))
             continue;
-        printf("%s,%s,%" PRIu64 ",%zu,%.3g,%s,%.4g,", what, numbers, rocks, row->repeats,
-               row->seconds / (double)row->repeats, quantity_names[q], rms);
+        printf("%s,%s,%" PRIu64 ",%zu,%.3g,%s,%.4g,", what, numbers, rocks, row->repeats, row->seconds / (double)row->repeats,
+               quantity_names[q], rms);
         if (!isnan(row->se[q]))
             printf("%.4g", row->se[q] / (double)row->repeats);
         putchar(',');
@@ -124,9 +124,9 @@ static const char *const numbers_names[NUMBERS] = {"plain", "antithetic-starts",
 
 struct source {
     enum numbers kind;
-    bool spread;      /* starts differ */
+    bool spread; /* starts differ */
     uint64_t seed, state;
-    bool mirrored;    /* the second rock of a pair */
+    bool mirrored; /* the second rock of a pair */
     gsl_qrng *sobol;
     double point[SOBOL_MOST], shift[SOBOL_MOST];
     double *energies;

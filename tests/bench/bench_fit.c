@@ -20,7 +20,8 @@ int main(int argc, char **argv)
         struct ceduo_calibration a;
         double truth[QUARRY_VALUES_MOST], start = ceduo_clock();
         clock_t processor = clock();
-        struct quarry_trial trial = {.number = i, .values = 4, .kinds = 1, .seen = 48, .rocks = CEDUO_CALIBRATION_ROCKS, .threads = 2};
+        struct quarry_trial trial = {
+            .number = i, .values = 4, .kinds = 1, .seen = 48, .rocks = CEDUO_CALIBRATION_ROCKS, .threads = 2};
         if (!quarry_try(&trial, truth, &a))
             continue;
         printf("%zu,%zu,%llu,%llu,%llu,%d,%.0f,%.1f,%.1f\n", i, trial.values, (unsigned long long)trial.seen,

@@ -34,7 +34,8 @@ static void wait_for(struct app *app, uint64_t rocks)
         struct pollfd fd = {.fd = ceduo_jobs_fd(app->figures.jobs), .events = POLLIN};
         poll(&fd, 1, 1000);
         ceduo_app_news(app);
-    } while (!app->figures.result || app->figures.outlook->bare->flown.rocks < rocks || app->figures.asked != app->figures.shown);
+    } while (!app->figures.result || app->figures.outlook->bare->flown.rocks < rocks ||
+             app->figures.asked != app->figures.shown);
     ceduo_screen_draw(app);
 }
 
@@ -64,11 +65,11 @@ int main(int argc, char **argv)
     struct app app;
     struct problems problems = {0};
     long cores = sysconf(_SC_NPROCESSORS_ONLN);
-    double *first = calloc(repeats, sizeof *first), *all = calloc(repeats, sizeof *all), *stand = calloc(repeats, sizeof *stand),
-           *wooded = calloc(repeats, sizeof *wooded);
+    double *first = calloc(repeats, sizeof *first), *all = calloc(repeats, sizeof *all),
+           *stand = calloc(repeats, sizeof *stand), *wooded = calloc(repeats, sizeof *wooded);
     if (!first || !all || !stand || !wooded ||
         !ceduo_program_create(&app, "profiles/scenes/paper-site.yaml", CEDUO_CHARSET_BRAILLE, (unsigned)cores, false,
-                          &problems))
+                              &problems))
         return 1;
     ceduo_app_resize(&app, 120, 40);
     ceduo_jobs_wait(app.figures.jobs);

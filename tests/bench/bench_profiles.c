@@ -13,8 +13,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "measure.h"
 #include "ceduo/ceduo.h"
+#include "measure.h"
 #include "physics/line_scene.h"
 #include "physics/paper_site.h"
 
@@ -109,8 +109,7 @@ static void make_profiles(struct profile *p, const struct ceduo_slope *paper, si
 
 /* ---- measuring ---- */
 
-static void measure(const struct ceduo_scene *site, const struct profile *p, uint64_t rocks, struct measure *m,
-                    size_t repeat)
+static void measure(const struct ceduo_scene *site, const struct profile *p, uint64_t rocks, struct measure *m, size_t repeat)
 {
     struct ceduo_scene scene = *site;
     enum ceduo_facets facets = scene.slope.facets;
@@ -149,9 +148,9 @@ static void measure_law(enum ceduo_law law, size_t repeats, uint64_t rocks, size
         double each = fly / contacts;
         first = k == 0 ? make + fly : first;
         first_each = k == 0 ? each : first_each;
-        printf("%s,%s,%zu,%" PRIu64 ",%.4f,%.4f,%.2f,%.1f,%.2f,%.2f\n", p[k].name,
-               law == CEDUO_LAW_CRSP ? "crsp" : "lumped", p[k].slope.vertices, rocks, make, fly,
-               contacts / (double)rocks, 1e9 * each, (make + fly) / first, each / first_each);
+        printf("%s,%s,%zu,%" PRIu64 ",%.4f,%.4f,%.2f,%.1f,%.2f,%.2f\n", p[k].name, law == CEDUO_LAW_CRSP ? "crsp" : "lumped",
+               p[k].slope.vertices, rocks, make, fly, contacts / (double)rocks, 1e9 * each, (make + fly) / first,
+               each / first_each);
         fflush(stdout);
     }
     for (size_t k = 1; k < KINDS; k++) {

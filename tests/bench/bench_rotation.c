@@ -6,9 +6,9 @@
 #include <stdlib.h>
 #include <time.h>
 
-#include "measure.h"
 #include "ceduo/years.h"
 #include "io/scene_file.h"
+#include "measure.h"
 
 #define REPEATS_MOST 101
 #define FIRST        1 /* just cut, to the end of the rotation */
@@ -36,8 +36,8 @@ static void fly(const struct ceduo_scene *scene, unsigned threads, uint64_t rock
         exit(1);
     for (size_t i = 0; i < scene->options_count; i++) {
         struct ceduo_years *years;
-        if (ceduo_years_create(scene, &scene->options[i],
-                               (struct ceduo_window){.first = FIRST, .last = LAST, .step = 1}, &years) != CEDUO_OK ||
+        if (ceduo_years_create(scene, &scene->options[i], (struct ceduo_window){.first = FIRST, .last = LAST, .step = 1},
+                               &years) != CEDUO_OK ||
             ceduo_years_fly(years, pool, &bare, rocks) != CEDUO_OK)
             exit(1);
         ceduo_years_free(years);
@@ -66,8 +66,8 @@ static void measure(const char *path, size_t repeats, uint64_t rocks, unsigned t
     qsort(seconds, repeats, sizeof *seconds, by_value);
     qsort(busy, repeats, sizeof *busy, by_value);
     printf("%s,%zu,%d,%" PRIu64 ",%u,%" PRIu64 ",%" PRIu64 ",%" PRIu64 ",%.3f,%.3f,%d\n", path, file.scene.options_count,
-           LAST - FIRST + 1, rocks, threads, work.runs, work.rocks, work.stems.drawn, seconds[repeats / 2],
-           busy[repeats / 2], GOAL_SECONDS);
+           LAST - FIRST + 1, rocks, threads, work.runs, work.rocks, work.stems.drawn, seconds[repeats / 2], busy[repeats / 2],
+           GOAL_SECONDS);
     ceduo_problems_free(&problems);
     ceduo_scene_release(&file);
 }

@@ -17,8 +17,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "measure.h"
 #include "ceduo/ceduo.h"
+#include "measure.h"
 #include "physics/paper_site.h"
 
 #define ROCKS_MOST 1000000
@@ -58,8 +58,8 @@ static void fly(struct ceduo_follower *f, uint64_t rock, int mode, struct track 
 {
     t->contacts = 0;
     fesetround(mode);
-    enum ceduo_status status = ceduo_follower_follow(f, rock, &(struct ceduo_watch){.piece = note, .context = t},
-                                                     &t->way, &t->crossing);
+    enum ceduo_status status =
+        ceduo_follower_follow(f, rock, &(struct ceduo_watch){.piece = note, .context = t}, &t->way, &t->crossing);
     fesetround(FE_TONEAREST);
     if (status != CEDUO_OK)
         fail("no memory");

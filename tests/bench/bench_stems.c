@@ -5,9 +5,9 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "measure.h"
 #include "ceduo/ceduo.h"
 #include "io/scene_file.h"
+#include "measure.h"
 
 #define REPEATS_MOST 101
 
@@ -54,9 +54,8 @@ static void measure(const char *path, size_t repeats, uint64_t rocks)
         double seconds = kinds[k].seconds[repeats / 2];
         double rate = (double)(kinds[k].contacts + kinds[k].stems.met) / seconds;
         bare = k == 0 ? rate : bare;
-        printf("%s,%s,%" PRIu64 ",%.4f,%" PRIu64 ",%" PRIu64 ",%" PRIu64 ",%" PRIu64 ",%.0f,%.3f\n", path,
-               kinds[k].what, rocks, seconds, kinds[k].contacts, kinds[k].stems.met, kinds[k].stems.hit,
-               kinds[k].stems.drawn, rate, rate / bare);
+        printf("%s,%s,%" PRIu64 ",%.4f,%" PRIu64 ",%" PRIu64 ",%" PRIu64 ",%" PRIu64 ",%.0f,%.3f\n", path, kinds[k].what, rocks,
+               seconds, kinds[k].contacts, kinds[k].stems.met, kinds[k].stems.hit, kinds[k].stems.drawn, rate, rate / bare);
     }
     ceduo_problems_free(&problems);
     ceduo_scene_release(&file);

@@ -20,7 +20,7 @@
 #include "core/landing.h"
 
 #define STEPS_MOST 100000000
-#define MISSED 1.0 /* m */
+#define MISSED     1.0 /* m */
 
 struct launch {
     struct flight from;

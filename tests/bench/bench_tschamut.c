@@ -20,11 +20,11 @@
 #include "io/scene_file.h"
 #include "physics/stops.h"
 
-#define BLOCKS 3
-#define VALUES 4
+#define BLOCKS      3
+#define VALUES      4
 #define POINTS_MOST 4096
-#define STARTS 3
-#define STEPS 60
+#define STARTS      3
+#define STEPS       60
 
 static const double lowest[VALUES] = {0.02, 0, 0.1, 0}, highest[VALUES] = {0.95, 0.8, 1.2, 0};
 

@@ -34,8 +34,8 @@ static size_t clear_best(const struct ceduo_leader *leader)
     return leader->known && leader->rivals == 0 ? leader->best : NOBODY;
 }
 
-static void look(const struct ceduo_scene *scene, struct ceduo_pool **pool, unsigned threads, size_t step,
-                 struct said *today, struct said *rotation)
+static void look(const struct ceduo_scene *scene, struct ceduo_pool **pool, unsigned threads, size_t step, struct said *today,
+                 struct said *rotation)
 {
     struct ceduo_question q = ceduo_question_default(scene);
     struct ceduo_answer answer;
@@ -46,8 +46,7 @@ static void look(const struct ceduo_scene *scene, struct ceduo_pool **pool, unsi
     q.run.arrivals_only = true;
     q.years = true;
     q.years_most = YEAR_STEP;
-    if (ceduo_ask(&q, pool, &answer) != CEDUO_OK ||
-        ceduo_verdict_make(answer.result, answer.years, &verdict) != CEDUO_OK)
+    if (ceduo_ask(&q, pool, &answer) != CEDUO_OK || ceduo_verdict_make(answer.result, answer.years, &verdict) != CEDUO_OK)
         exit(1);
     today->best[step] = clear_best(&verdict.today);
     rotation->best[step] = clear_best(&verdict.rotation);

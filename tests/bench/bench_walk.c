@@ -13,8 +13,8 @@
 #include <string.h>
 #include <sys/resource.h>
 
-#include "measure.h"
 #include "ceduo/ceduo.h"
+#include "measure.h"
 #include "plain_loop.h"
 
 #define SEGMENTS     13
@@ -79,8 +79,7 @@ static void init_scene(struct site *site, enum ceduo_law law, bool height)
                                                    .roughness_rad = height ? NAN : ground[2],
                                                    .friction = ceduo_segment_default().friction};
     }
-    site->control =
-        (struct ceduo_control){.x = CONTROL_X, .x_given = CONTROL_X, .accepted = NAN, .measured_speed = NAN};
+    site->control = (struct ceduo_control){.x = CONTROL_X, .x_given = CONTROL_X, .accepted = NAN, .measured_speed = NAN};
     site->option = (struct ceduo_option){.belts_count = 0, .belts = &site->belt};
     struct ceduo_scene *scene = &site->scene;
     scene->rock = ceduo_scene_default().rock;
@@ -190,13 +189,12 @@ static void mean_of(double sum, double sum2, double n, double *mean, double *se)
     *se = sqrt((sum2 / n - *mean * *mean) / (n - 1));
 }
 
-static bool agrees(const struct site *site, const char *what, double plain, double plain_se, double core,
-                   double core_se)
+static bool agrees(const struct site *site, const char *what, double plain, double plain_se, double core, double core_se)
 {
     double off = fabs(plain - core) / hypot(plain_se, core_se);
     bool good = off <= AGREE;
-    fprintf(stderr, "%s %s %-17s plain %10.4f  ceduo %10.4f  apart %.1f standard errors%s\n", site->law,
-            site->roughness, what, plain, core, off, good ? "" : ": DISAGREE");
+    fprintf(stderr, "%s %s %-17s plain %10.4f  ceduo %10.4f  apart %.1f standard errors%s\n", site->law, site->roughness, what,
+            plain, core, off, good ? "" : ": DISAGREE");
     return good;
 }
 
@@ -210,8 +208,7 @@ static bool check_agreement(const struct site *site, const struct measure *m)
     bool good = agrees(site, "contacts per rock", mean, se, core_contacts, se * sqrt(rocks / released));
     double share = passed / rocks, both = (passed + (double)a->reached) / (rocks + released);
     double spread = sqrt(both * (1 - both)) + 1e-300; /* all pass: they agree */
-    good &=
-        agrees(site, "share that passes", share, spread / sqrt(rocks), a->reach_probability, spread / sqrt(released));
+    good &= agrees(site, "share that passes", share, spread / sqrt(rocks), a->reach_probability, spread / sqrt(released));
     mean_of(p->speed, p->speed2, passed, &mean, &se);
     good &= agrees(site, "speed, m/s", mean, se, a->speed.mean, a->speed.se);
     mean_of(p->energy / 1e3, p->energy2 / 1e6, passed, &mean, &se);

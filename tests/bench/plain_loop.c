@@ -213,8 +213,7 @@ static void set_rolling(const struct plain_def *def, struct rock *r, double u)
 }
 
 /* Moves along the segment to x, the square of the speed going from u2 to u2_end. */
-static void roll_to(const struct plain_def *def, struct rock *r, double x, double u2, double u2_end,
-                    struct plain_sums *sums)
+static void roll_to(const struct plain_def *def, struct rock *r, double x, double u2, double u2_end, struct plain_sums *sums)
 {
     if (!r->passed && r->x < def->control && x >= def->control) {
         double u = sqrt(u2 + (u2_end - u2) * (def->control - r->x) / (x - r->x));

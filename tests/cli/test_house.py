@@ -111,11 +111,18 @@ def knows_curses():
             re.search(r"#include <(ncurses|curses)", (ROOT / path).read_text())]
 
 
+def formatted_otherwise():
+    files = sorted(str(p) for folder in ("src", "include", "tests", "man") for p in (ROOT / folder).rglob("*.[ch]"))
+    done = subprocess.run(["clang-format", "--dry-run", *files], stderr=subprocess.PIPE, text=True, cwd=ROOT)
+    return sorted({line.split(":")[0] for line in done.stderr.splitlines() if "warning:" in line} | ({str(done.returncode)} - {"0"}))
+
+
 def main():
     tests = [("each room knows only those it stands on", who_knows_whom), ("no file includes another that includes it", circles),
              ("scene and core reach for nothing outside", reached_for),
              ("a rock's trajectory calls no function that differs between machines", differs_between_machines),
-             ("every exported symbol begins with ceduo_", exported), ("one file alone knows curses", knows_curses)]
+             ("every exported symbol begins with ceduo_", exported), ("one file alone knows curses", knows_curses),
+             ("every file is as clang-format has it", formatted_otherwise)]
     failed = 0
     for number, (name, test) in enumerate(tests, 1):
         bad = test()

@@ -20,10 +20,10 @@
 #include "fuzz.h"
 #include "io/part_file.h"
 
-#define LENGTH(a) (sizeof(a) / sizeof(a)[0])
-#define SCENE     "fuzz.yaml"
-#define STAND     "stand.yaml"
-#define ROCKS     12
+#define LENGTH(a)  (sizeof(a) / sizeof(a)[0])
+#define SCENE      "fuzz.yaml"
+#define STAND      "stand.yaml"
+#define ROCKS      12
 #define ROCKS_MOST ((uint64_t)1 << 16) /* of a pool for a scene that may be any: beyond it is slow for nothing */
 
 enum { LINE, SEALED, PARTS, INPUTS, POOLS };
@@ -161,8 +161,8 @@ static void check_written(struct arena *arena, const struct part *part)
         expect(!lines[i].failed && lines[i].bytes[lines[i].length - 1] == '\n', "a line without its end");
         char *copy = ceduo_arena_copy(arena, lines[i].bytes, lines[i].length - 1);
         expect(ceduo_part_read(arena, &again, copy, lines[i].length - 1) == PART_GOOD, "a written part is not read");
-        expect(again.place == was.place && again.shard == was.shard && again.shards == was.shards &&
-                   again.rocks == was.rocks && again.key == was.key && again.seconds == was.seconds &&
+        expect(again.place == was.place && again.shard == was.shard && again.shards == was.shards && again.rocks == was.rocks &&
+                   again.key == was.key && again.seconds == was.seconds &&
                    same_bytes(again.inputs, again.inputs_length, was.inputs, was.inputs_length) &&
                    same_bytes(again.runs, again.runs_length, was.runs, was.runs_length),
                "read again it is another part");
@@ -284,9 +284,7 @@ static bool take_inputs(const uint8_t *data, size_t n)
     expect(!arena.failed, "out of memory");
     if (good) {
         check_inputs(&in, data, n);
-        const struct arguments a = {.sets = in.sets,
-                                    .options = in.options,
-                                    .threads = 1};
+        const struct arguments a = {.sets = in.sets, .options = in.options, .threads = 1};
         struct scene_file file;
         enum exit_status status = ceduo_batch_read(&a, in.path, &in.shelf, &file);
         expect(status != EXIT_DONE || in.shelf.files, "a scene that the inputs do not hold");

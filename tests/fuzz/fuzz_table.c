@@ -12,9 +12,9 @@
 #include "io/inputs.h"
 #include "io/scene_file.h"
 
-#define SCENE                                                                                                              \
-    "ceduo: scene/1\nrock: {diameter_m: 0.5}\nslope: {vertices_m: [[0, 50], [60, 20], [100, 0]], materials: [{from_m: 0, " \
-    "to_m: 100, material: talus}]}\ncontrols_m: [90]\nforest: [{from_m: 10, to_m: 80, stand: {trees: [{per_ha: 300, "      \
+#define SCENE                                                                                                                  \
+    "ceduo: scene/1\nrock: {diameter_m: 0.5}\nslope: {vertices_m: [[0, 50], [60, 20], [100, 0]], materials: [{from_m: 0, "     \
+    "to_m: 100, material: talus}]}\ncontrols_m: [90]\nforest: [{from_m: 10, to_m: 80, stand: {trees: [{per_ha: 300, "          \
     "dbh_m: 0.2, height_m: 12}]}}]\n"
 
 static const char *const uses[] = {

@@ -40,8 +40,7 @@ static void show(const char *name, const struct ceduo_scene *scene, const struct
     if (ends.stop_x.n > 100)
         printf("%s-stop %.15g %.3g\n", name, ends.stop_x.mean, ceduo_moments_se(&ends.stop_x));
     if (option)
-        printf("%s-stems %.15g %.3g\n", name, (double)ceduo_run_stems(run).hit / n,
-               sqrt((double)ceduo_run_stems(run).hit) / n);
+        printf("%s-stems %.15g %.3g\n", name, (double)ceduo_run_stems(run).hit / n, sqrt((double)ceduo_run_stems(run).hit) / n);
     ceduo_run_free(run);
 }
 

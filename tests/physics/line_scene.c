@@ -21,8 +21,8 @@ void line_scene_init(struct line_scene *s, size_t vertices, const double *x, con
     struct ceduo_scene *scene = &s->scene;
     scene->rock = ceduo_scene_default().rock;
     scene->rock.diameter = ceduo_number(2 * radius);
-    scene->slope = (struct ceduo_slope){
-        .facets = CEDUO_AGAINST, .vertices = vertices, .x = s->x, .z = s->z, .segments = s->segments};
+    scene->slope =
+        (struct ceduo_slope){.facets = CEDUO_AGAINST, .vertices = vertices, .x = s->x, .z = s->z, .segments = s->segments};
     scene->controls = &s->control;
     scene->options = &s->option;
     scene->options_count = 1;
@@ -155,8 +155,7 @@ void line_scene_random(struct line_scene *s, uint64_t number, unsigned lasting_e
     struct line_random random = {.state = number * 0xd1342543de82ef95U + 17}, *r = &random;
     bool lasting = lasting_every > 0 && number % lasting_every == lasting_every - 1;
     double radius = line_log_uniform(r, 0.005, 5);
-    line_scene_init(s, 0, s->x, s->z, (struct line_ground){0}, radius,
-                    line_chance(r, 0.5) ? CEDUO_LAW_LUMPED : CEDUO_LAW_CRSP);
+    line_scene_init(s, 0, s->x, s->z, (struct line_ground){0}, radius, line_chance(r, 0.5) ? CEDUO_LAW_LUMPED : CEDUO_LAW_CRSP);
     struct ceduo_scene *scene = &s->scene;
     scene->slope.vertices = random_profile(s, r);
     scene->slope.facets = line_chance(r, 0.5) ? CEDUO_AGAINST : CEDUO_BOTH;
@@ -218,5 +217,5 @@ enum ceduo_status line_scene_follow(const struct line_scene *s, struct line_way 
 {
     to->count = 0;
     return ceduo_trajectory_follow(&s->scene, NULL, 0, &(struct ceduo_watch){.piece = line_keep_piece, .context = to}, &to->way,
-                            &to->crossing);
+                                   &to->crossing);
 }

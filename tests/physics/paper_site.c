@@ -13,11 +13,8 @@ const double paper_y[PAPER_VERTICES] = {126, 106, 86, 76, 66, 61, 56, 46, 36, 26
 
 static const double first_theta[2] = {0.25, 0.001}, first_rn[2] = {0.31, 0.40}, first_rt[2] = {0.87, 0.90};
 
-const struct ceduo_growth paper_growth = {.shoots = {.16, .022, 14, .035},
-                                          .trees = {.45, .014, 20, .03},
-                                          .shoots_young = 16,
-                                          .shoots_old = 3,
-                                          .sdi_most = 1000};
+const struct ceduo_growth paper_growth = {
+    .shoots = {.16, .022, 14, .035}, .trees = {.45, .014, 20, .03}, .shoots_young = 16, .shoots_old = 3, .sdi_most = 1000};
 
 double paper_theta(size_t segment)
 {
@@ -28,8 +25,7 @@ void paper_plot_init(struct paper_plot *plot, int number)
 {
     bool one = number == 1;
     double all = one ? 9076 : 4641, single = one ? 750 : 542;
-    struct ceduo_stems mean = {
-        .dbh = one ? 0.061 : 0.047, .height = one ? 6 : 4, .volume = one ? 0.0107 : 0.0059, .age = NAN};
+    struct ceduo_stems mean = {.dbh = one ? 0.061 : 0.047, .height = one ? 6 : 4, .volume = one ? 0.0107 : 0.0059, .age = NAN};
     plot->shoots = plot->trees = mean;
     plot->shoots.per_ha = all - single;
     plot->trees.per_ha = single;
@@ -71,12 +67,8 @@ static void init_forest(struct paper_site *site)
     for (int i = 0; i < 2; i++) {
         paper_plot_init(&site->plots[i], i + 1);
         double from = 67.5 * i, to = from + 67.5;
-        site->belts[i] = (struct ceduo_belt){.from = from,
-                                             .to = to,
-                                             .from_given = from,
-                                             .to_given = to,
-                                             .name = names[i],
-                                             .stand = site->plots[i].stand};
+        site->belts[i] = (struct ceduo_belt){
+            .from = from, .to = to, .from_given = from, .to_given = to, .name = names[i], .stand = site->plots[i].stand};
     }
     site->option = (struct ceduo_option){.belts_count = 2, .belts = site->belts};
 }

@@ -93,8 +93,7 @@ static double half_width_of(const struct ceduo_stand *stand, double b)
     for (size_t i = 0; i < stand->trees_count; i++)
         thickest = fmax(thickest, stand->trees[i].dbh);
     if (stand->shoots_count > 0)
-        r = ring_radius((unsigned)ceil(sum_of(stand->shoots, stand->shoots_count) / stand->stools_per_ha),
-                        stand->spacing);
+        r = ring_radius((unsigned)ceil(sum_of(stand->shoots, stand->shoots_count) / stand->stools_per_ha), stand->spacing);
     return r + (b + thickest) / 2 + 1;
 }
 

@@ -64,7 +64,8 @@ static bool see(const struct quarry_site *s, const struct quarry_trial *trial, d
     struct ceduo_observer *observer = NULL;
     bool good = true;
     for (size_t k = 0; k < trial->kinds; k++)
-        seen[k] = (struct ceduo_observation){.kind = kinds[k], .name = "", .x = PLACE, .from = NAN, .to = NAN, .share_seen = NAN};
+        seen[k] =
+            (struct ceduo_observation){.kind = kinds[k], .name = "", .x = PLACE, .from = NAN, .to = NAN, .share_seen = NAN};
     if (ceduo_observer_create(seen, trial->kinds, &observer) != CEDUO_OK)
         return false;
     for (size_t k = 0; k < trial->kinds && good; k++) {

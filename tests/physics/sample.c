@@ -47,8 +47,7 @@ double spread_variance_se(const struct spread *s)
 void expect_close(const char *what, double value, double se, double expected, double expected_se)
 {
     double both = hypot(se, expected_se);
-    print_message("# %s: %.6g ± %.2g, expected %.6g (%+.1f se)\n", what, value, se, expected,
-                  (value - expected) / both);
+    print_message("# %s: %.6g ± %.2g, expected %.6g (%+.1f se)\n", what, value, se, expected, (value - expected) / both);
     if (!(fabs(value - expected) <= 4 * both))
         fail_msg("%s: %.8g ± %.3g is not %.8g", what, value, se, expected);
 }

@@ -150,8 +150,8 @@ struct met meet(uint64_t rocks, double metres)
     return m;
 }
 
-struct ceduo_run *run_of(const struct ceduo_scene *scene, const struct ceduo_option *option, uint64_t rocks,
-                         unsigned threads, size_t exact_bytes)
+struct ceduo_run *run_of(const struct ceduo_scene *scene, const struct ceduo_option *option, uint64_t rocks, unsigned threads,
+                         size_t exact_bytes)
 {
     struct ceduo_run_def def = ceduo_run_def_default(scene);
     def.option = option;

@@ -67,7 +67,7 @@ struct met {
 
 struct met meet(uint64_t rocks, double metres);
 
-struct ceduo_run *run_of(const struct ceduo_scene *scene, const struct ceduo_option *option, uint64_t rocks,
-                         unsigned threads, size_t exact_bytes);
+struct ceduo_run *run_of(const struct ceduo_scene *scene, const struct ceduo_option *option, uint64_t rocks, unsigned threads,
+                         size_t exact_bytes);
 
 #endif

@@ -9,9 +9,9 @@
 #include "core/law_arm.h"
 #include "line_scene.h"
 
-#define BLOWS 1000000
+#define BLOWS   1000000
 #define STEPPED 1500
-#define ROCKS 20000
+#define ROCKS   20000
 
 /* A blow in plain units: half-axes and R, turn of the section, ground, and what comes in. */
 struct blow {
@@ -24,12 +24,8 @@ static struct impact struck(const struct blow *c)
     double k2 = (c->a * c->a + c->b * c->b) / 5, gyration = sqrt(k2);
     struct section section = {
         .wide = c->a * c->a / k2, .high = c->b * c->b / k2, .reach = c->radius / gyration, .gyration = gyration};
-    struct ground_point at = {.rn = c->e,
-                              .mu = c->mu,
-                              .friction = c->friction,
-                              .section = &section,
-                              .sine = sin(c->turn),
-                              .cosine = cos(c->turn)};
+    struct ground_point at = {
+        .rn = c->e, .mu = c->mu, .friction = c->friction, .section = &section, .sine = sin(c->turn), .cosine = cos(c->turn)};
     return law_arm(c->in, &at);
 }
 
@@ -48,7 +44,9 @@ static struct blow random_blow(struct line_random *r)
                          .b = high ? a : b,
                          .radius = radius * line_uniform(r, 0.8, 1.2), /* other pairs of axes count, too */
                          .turn = line_uniform(r, -M_PI / 2, M_PI / 2),
-                         .e = line_chance(r, 0.1) ? 0 : line_chance(r, 0.1) ? 1 : line_uniform(r, 0, 1),
+                         .e = line_chance(r, 0.1)   ? 0
+                              : line_chance(r, 0.1) ? 1
+                                                    : line_uniform(r, 0, 1),
                          .mu = line_chance(r, 0.1) ? 0 : line_uniform(r, 0, 3),
                          .friction = line_chance(r, 0.3) ? 0 : line_uniform(r, 0, 2),
                          .in = {.vn = line_chance(r, 0.1) ? 0 : line_uniform(r, 0, 20),
@@ -305,8 +303,7 @@ static void settle(struct stepper *s, long double h, long double lo, long double
 static struct stepper stepper_of(const struct blow *c)
 {
     struct point p = point_of(c, c->in, -c->in.vn);
-    return (struct stepper){
-        .vt = c->in.vt, .vn = -c->in.vn, .spin = c->in.spin, .r = p.r, .h = p.h, .k2 = p.k2, .mu = c->mu};
+    return (struct stepper){.vt = c->in.vt, .vn = -c->in.vn, .spin = c->in.spin, .r = p.r, .h = p.h, .k2 = p.k2, .mu = c->mu};
 }
 
 static struct stepper stepped(const struct blow *c)

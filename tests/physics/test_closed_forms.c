@@ -477,9 +477,8 @@ static bool same_pieces(const struct line_way *a, const struct line_way *b, doub
     for (size_t i = 0; same && i < a->count; i++) {
         const struct ceduo_piece *p = &a->pieces[i], *q = &b->pieces[i];
         same = p->rolls == q->rolls && p->x * length == q->x && p->z * length == q->z && p->x1 * length == q->x1 &&
-               p->z1 * length == q->z1 && p->vx * speed == q->vx && p->vz * speed == q->vz &&
-               p->vx1 * speed == q->vx1 && p->vz1 * speed == q->vz1 && p->contacts == q->contacts &&
-               p->seconds * (length / speed) == q->seconds;
+               p->z1 * length == q->z1 && p->vx * speed == q->vx && p->vz * speed == q->vz && p->vx1 * speed == q->vx1 &&
+               p->vz1 * speed == q->vz1 && p->contacts == q->contacts && p->seconds * (length / speed) == q->seconds;
     }
     return same;
 }
@@ -781,7 +780,8 @@ static void percentiles_of_many_values(void **state)
             struct ceduo_distribution d = ceduo_distribution_exact(values, n, &m);
             const struct {
                 double p, at, lo, hi;
-            } percentiles[] = {{.5, d.p50, d.p50_lo, d.p50_hi}, {.95, d.p95, d.p95_lo, d.p95_hi}, {.99, d.p99, d.p99_lo, d.p99_hi}};
+            } percentiles[] = {
+                {.5, d.p50, d.p50_lo, d.p50_hi}, {.95, d.p95, d.p95_lo, d.p95_hi}, {.99, d.p99, d.p99_lo, d.p99_hi}};
             for (size_t i = 0; i < 3; i++) {
                 size_t lo, hi;
                 ceduo_quantile_interval(n, percentiles[i].p, &lo, &hi);

@@ -159,9 +159,8 @@ static void inverse_and_forward_agree(void **state)
     (void)state;
     unsigned most = 0, sum = 0, crossings = 0;
     for (int i = 0; i < GOALS; i++) {
-        struct asked a = {
-            .goal = curve,
-            .p = {uniform(.1, 100) * (i % 2 ? -1 : 1), floor(uniform(0, 7)), uniform(.2, 4), uniform(0, 1)}};
+        struct asked a = {.goal = curve,
+                          .p = {uniform(.1, 100) * (i % 2 ? -1 : 1), floor(uniform(0, 7)), uniform(.2, 4), uniform(0, 1)}};
         bool whole = uniform(0, 1) < .5;
         double lo = floor(uniform(0, 400)), hi = floor(uniform(lo, 1000));
         double target = curve(&a, uniform(lo - .05 * (hi - lo), hi + .05 * (hi - lo)));

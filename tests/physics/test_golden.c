@@ -195,7 +195,7 @@ static void two_contacts_on_the_slope_of_table_3(void **state)
     site.scene.release.vz = ceduo_number(0);
     walked.count = 0;
     assert_int_equal(ceduo_trajectory_follow(&site.scene, NULL, 0, &(struct ceduo_watch){.piece = keep, .context = &walked},
-                                      &walked.way, NULL),
+                                             &walked.way, NULL),
                      CEDUO_OK);
     EXPECT(walked.count, >=, 3);
     const struct ceduo_piece *p = walked.pieces;
@@ -333,7 +333,11 @@ static void stumps_where_no_tree_is_left(void **state)
 {
     (void)state;
     struct ceduo_stems felled = {.per_ha = 0, .dbh = 0.20, .height = 14, .volume = NAN, .age = NAN};
-    struct ceduo_stand stand = {.system = CEDUO_SIMPLE_COPPICE, .species = -1, .trees_count = 1, .trees = &felled, .u = NAN,
+    struct ceduo_stand stand = {.system = CEDUO_SIMPLE_COPPICE,
+                                .species = -1,
+                                .trees_count = 1,
+                                .trees = &felled,
+                                .u = NAN,
                                 .stumps = {.per_ha = 400, .diameter = 0.25, .height = 0.4}};
     struct ceduo_adc adc = ceduo_adc(&stand, 0.75);
     expect_exact(adc.gsteiger_stools, 25); /* 10 000 m2 / (400 x 1 m) */
@@ -346,8 +350,7 @@ static void reserves_after_a_cut(void **state)
 {
     (void)state;
     struct ceduo_stems reserves = {.per_ha = 60, .dbh = 0.20, .height = 14, .volume = NAN, .age = NAN};
-    struct ceduo_stand stand = {
-        .system = CEDUO_SIMPLE_COPPICE, .species = -1, .trees_count = 1, .trees = &reserves, .u = NAN};
+    struct ceduo_stand stand = {.system = CEDUO_SIMPLE_COPPICE, .species = -1, .trees_count = 1, .trees = &reserves, .u = NAN};
     struct ceduo_adc adc = ceduo_adc(&stand, PAPER_B);
     expect_decimals(adc.gsteiger_stems, 189.394, 3);
     EXPECT(adc.gsteiger_stools, ==, adc.gsteiger_stems);
@@ -365,8 +368,7 @@ static void the_threshold_in_a_belt(void **state)
     struct paper_site site;
     paper_site_init(&site);
     struct ceduo_stems reserves = {.per_ha = 378, .dbh = 0.20, .height = 14, .volume = NAN, .age = NAN};
-    struct ceduo_belt belt = {
-        .from = 0, .to = 135, .stand = {.species = -1, .trees_count = 1, .trees = &reserves, .u = NAN}};
+    struct ceduo_belt belt = {.from = 0, .to = 135, .stand = {.species = -1, .trees_count = 1, .trees = &reserves, .u = NAN}};
     assert_false(ceduo_assess_stand(&site.scene, &belt).passes_threshold);
     reserves.per_ha = 379;
     struct ceduo_stand_result r = ceduo_assess_stand(&site.scene, &belt);
@@ -480,7 +482,8 @@ static void volumes_of_tabacchi(void **state)
         /* beyond the rectangle d2 h times that of its nearest point */
         {"ostrya-carpinifolia", 4.7, 4, (-1.4983 + 0.038828 * 25 * 5) * (4.7 * 4.7 * 4) / (25 * 5), CEDUO_VOLUME_FORM_FACTOR},
         {"ostrya-carpinifolia", 36, 20, (-1.4983 + 0.038828 * 35 * 35 * 20) * (36 * 36.) / (35 * 35), CEDUO_VOLUME_FORM_FACTOR},
-        {"castanea-sativa", 3, 40, (-2.001 + 0.036524 * 36 * 30 + 0.74466 * 6) * (9 * 40.) / (36 * 30), CEDUO_VOLUME_FORM_FACTOR},
+        {"castanea-sativa", 3, 40, (-2.001 + 0.036524 * 36 * 30 + 0.74466 * 6) * (9 * 40.) / (36 * 30),
+         CEDUO_VOLUME_FORM_FACTOR},
         {"acer", 20, 25, (1.6905 + 0.037082 * 400 * 24) * 25 / 24, CEDUO_VOLUME_FORM_FACTOR},
     };
     for (size_t i = 0; i < LENGTH(rows); i++) {
@@ -508,7 +511,8 @@ static void volumes_have_no_jump(void **state)
             double before = 0;
             for (int k = -1; k <= 1; k += 2) {
                 double more = 1 + 1e-9 * k;
-                struct ceduo_stems stems = {.per_ha = 1, .volume = NAN, .dbh = edges[e][0] / 100 * more, .height = edges[e][1] * more};
+                struct ceduo_stems stems = {
+                    .per_ha = 1, .volume = NAN, .dbh = edges[e][0] / 100 * more, .height = edges[e][1] * more};
                 double volume = ceduo_stem_volume(&stand, &stems, NULL);
                 if (k > 0) {
                     EXPECT(volume, >, before);
@@ -564,8 +568,7 @@ static void each_stratum_takes_its_own_energy(void **state)
     const double d = (150 + 100 + 20 + 8) / 4120., t = (100 * .9 * 2e4 + 20 * 1.1 * 1e5) / a;
     expect_exact(ceduo_energy_per_metre(&stand, b, CEDUO_INTERCEPTION), 2000 * (b + dc + .3) * wc / a + t);
     expect_exact(ceduo_energy_per_metre(&stand, b, CEDUO_CROFTON), 2000 * (b + dc + .6 / acos(-1)) * wc / a + t);
-    expect_exact(ceduo_energy_per_metre(&stand, b, CEDUO_GSTEIGER_STOOLS),
-                 (b + d) * (2000 * wc + 100 * 2e4 + 20 * 1e5) / a);
+    expect_exact(ceduo_energy_per_metre(&stand, b, CEDUO_GSTEIGER_STOOLS), (b + d) * (2000 * wc + 100 * 2e4 + 20 * 1e5) / a);
     expect_exact(ceduo_energy_per_metre(&stand, b, CEDUO_GSTEIGER_STEMS),
                  (3000 * (b + .05) * 1e3 + 1000 * (b + .1) * 4e3) / a + t);
     struct ceduo_adc adc = ceduo_adc(&stand, b);
@@ -615,8 +618,7 @@ static void warnings_of_energies_and_spacing(void **state)
     expect_bits(ceduo_stand_warnings(&plot.stand, PAPER_B, CEDUO_RULE_AUTO), CEDUO_WARN_DORREN_THIN,
                 CEDUO_WARN_U_ASSUMED | CEDUO_WARN_FORM_FACTOR);
     plot.stand.fracture_ratio = NAN; /* hop hornbeam has none */
-    expect_bits(ceduo_stand_warnings(&plot.stand, PAPER_B, CEDUO_RULE_AUTO), CEDUO_WARN_RATIO_ASSUMED,
-                CEDUO_WARN_WIDE_SPACING);
+    expect_bits(ceduo_stand_warnings(&plot.stand, PAPER_B, CEDUO_RULE_AUTO), CEDUO_WARN_RATIO_ASSUMED, CEDUO_WARN_WIDE_SPACING);
     plot.shoots.dbh = plot.trees.dbh = .1;
     expect_bits(ceduo_stand_warnings(&plot.stand, PAPER_B, CEDUO_RULE_AUTO), 0, CEDUO_WARN_DORREN_THIN);
     plot.trees.dbh = .099;

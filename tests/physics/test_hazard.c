@@ -283,7 +283,7 @@ static void few_rocks_bound_what_they_can(void **state)
         expect_near(h.intensity[i].within.rate, 0.0005, 1e-15);
     assert_true(isnan(h.returns[3].energy) && isnan(h.returns[3].lo)); /* 0.0015 a year: less than one in 300 years */
     expect_near(h.returns[3].hi, 1e5, 0); /* 1/150 of the blocks: more than one of N may be by Wilson, two may not */
-    assert_true(isnan(h.returns[1].hi)); /* one in 30 years is more than all three may be */
+    assert_true(isnan(h.returns[1].hi));  /* one in 30 years is more than all three may be */
     assert_true(ceduo_hazard_read(&all, energies, 3, NAN, &h));
     assert_true(isnan(h.accepted.rate));
     expect_near(ceduo_hazard_feared(&h).rate, 0.0015, 1e-15);

@@ -46,9 +46,9 @@ struct field {
     unsigned decides; /* about what */
 };
 
-#define FIELD(of, member, kind, decides)                                                                               \
-    {                                                                                                                  \
-#of "." #member, offsetof(struct of, member), sizeof((struct of *)0)->member, kind, decides                    \
+#define FIELD(of, member, kind, decides)                                                                                       \
+    {                                                                                                                          \
+#of "." #member, offsetof(struct of, member), sizeof((struct of *)0)->member, kind, decides                            \
     }
 
 /* Makes it another of its kind; a count becomes smaller, for there is no more than is counted. */
@@ -187,8 +187,7 @@ static const struct field slope_fields[] = {
     FIELD(ceduo_slope, facets, WORD, FLIGHT),   FIELD(ceduo_slope, vertices, COUNT, FLIGHT),
     FIELD(ceduo_slope, x, ELSEWHERE, 0),        FIELD(ceduo_slope, z, ELSEWHERE, 0),
     FIELD(ceduo_slope, segments, ELSEWHERE, 0), FIELD(ceduo_slope, segments_given, ELSEWHERE, 0),
-    FIELD(ceduo_slope, origin_x, NUMBER, 0),
-    FIELD(ceduo_slope, origin_z, NUMBER, 0),
+    FIELD(ceduo_slope, origin_x, NUMBER, 0),    FIELD(ceduo_slope, origin_z, NUMBER, 0),
 };
 
 static const struct field segment_fields[] = {
@@ -274,7 +273,7 @@ static const struct field log_fields[] = {
 static const struct field growth_fields[] = {
     FIELD(ceduo_growth, shoots, ELSEWHERE, 0),        FIELD(ceduo_growth, trees, ELSEWHERE, 0),
     FIELD(ceduo_growth, shoots_young, NUMBER, YEARS), FIELD(ceduo_growth, shoots_old, NUMBER, YEARS),
-    FIELD(ceduo_growth, sdi_most, NUMBER, YEARS),      FIELD(ceduo_growth, stump_years, WORD, YEARS),
+    FIELD(ceduo_growth, sdi_most, NUMBER, YEARS),     FIELD(ceduo_growth, stump_years, WORD, YEARS),
 };
 
 static const struct field curve_fields[] = {

@@ -222,8 +222,7 @@ static void a_difference_counts_no_rock_with_the_accepted_energy(void **state)
 {
     (void)state;
     struct ceduo_stems trees = {.per_ha = 2000, .dbh = .25, .height = 90, .volume = 1, .age = NAN};
-    struct ceduo_belt belt = {
-        .from = 1, .to = 4, .stand = {.species = -1, .trees_count = 1, .trees = &trees, .u = 1e5}};
+    struct ceduo_belt belt = {.from = 1, .to = 4, .stand = {.species = -1, .trees_count = 1, .trees = &trees, .u = 1e5}};
     struct ceduo_option wood = {.belts_count = 1, .belts = &belt};
     drop(25);
     struct ceduo_run *through = fly(&wood), *bare = fly(NULL);
@@ -248,8 +247,7 @@ static void a_difference_by_stems_from_the_control_on_is_none(void **state)
 {
     (void)state;
     struct ceduo_stems trees = {.per_ha = 2000, .dbh = .25, .height = 90, .volume = 1, .age = NAN};
-    struct ceduo_belt belt = {
-        .from = 4, .to = 8, .stand = {.species = -1, .trees_count = 1, .trees = &trees, .u = 1e5}};
+    struct ceduo_belt belt = {.from = 4, .to = 8, .stand = {.species = -1, .trees_count = 1, .trees = &trees, .u = 1e5}};
     struct ceduo_option wood = {.belts_count = 1, .belts = &belt};
     drop(20);
     EXPECT(flat.control.x, ==, belt.from);

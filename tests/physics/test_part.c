@@ -89,8 +89,8 @@ static void expect_same(const struct ceduo_run *a, const struct ceduo_run *b)
     assert_memory_equal(&e, &f, sizeof e);
 }
 
-static void expect_same_difference(const struct ceduo_run *a, const struct ceduo_run *bare_a,
-                                   const struct ceduo_run *b, const struct ceduo_run *bare_b)
+static void expect_same_difference(const struct ceduo_run *a, const struct ceduo_run *bare_a, const struct ceduo_run *b,
+                                   const struct ceduo_run *bare_b)
 {
     struct ceduo_difference d = ceduo_run_difference(a, bare_a, 0), e = ceduo_run_difference(b, bare_b, 0);
     assert_memory_equal(&d, &e, sizeof d);
@@ -221,8 +221,13 @@ static void put_count(struct saved *s, size_t at, uint64_t value)
 
 /* Behind the head its first block: contacts, ends, two counts of them and stems, then moments of four numbers each, of the
  * stops, and at the control of four quantities and of the stems hit before; then how many exceed, and ends. */
-enum { AT_END = 8, AT_UPHILL = 8 * 8 + 8 * (1 + CEDUO_ENDS), AT_STOPS = AT_UPHILL + 8 * (2 + 3), AT_CONTROL = AT_STOPS + 4 * 8,
-       AT_HITS = AT_CONTROL + 4 * 4 * 8 };
+enum {
+    AT_END = 8,
+    AT_UPHILL = 8 * 8 + 8 * (1 + CEDUO_ENDS),
+    AT_STOPS = AT_UPHILL + 8 * (2 + 3),
+    AT_CONTROL = AT_STOPS + 4 * 8,
+    AT_HITS = AT_CONTROL + 4 * 4 * 8
+};
 
 static void figures_that_are_none_are_refused(void **state)
 {
@@ -251,7 +256,8 @@ static void figures_that_are_none_are_refused(void **state)
         put_count(&first, AT_UPHILL + 8 * i, 0);
     }
     assert_int_equal(ceduo_run_adopt(run, first.bytes, first.n), CEDUO_OK);
-    const uint64_t ends[] = {0, CEDUO_BLOCK_ROCKS, 6 * CEDUO_BLOCK_ROCKS, ROCKS + 1}; /* before the first rock, or behind the last */
+    /* before the first rock, or behind the last */
+    const uint64_t ends[] = {0, CEDUO_BLOCK_ROCKS, 6 * CEDUO_BLOCK_ROCKS, ROCKS + 1};
     for (size_t i = 0; i < LENGTH(ends); i++) {
         put_count(&second, AT_END, ends[i]);
         assert_int_equal(ceduo_run_adopt(run, second.bytes, second.n), CEDUO_BAD_PART);
@@ -265,8 +271,11 @@ static void figures_that_are_none_are_refused(void **state)
 
 /* With blocks of all sizes the weights of the ends come behind the stops, and at the control, behind what it has without, those of the
  * rocks that did not come there, and three sums of those that did. */
-enum { AT_ENDED = AT_STOPS + 4 * 8, AT_MISSED = AT_ENDED + 8 * CEDUO_ENDS + 5 * 4 * 8 + 8 + 8 * CEDUO_ENDS,
-       AT_SUMS = AT_MISSED + 8 * CEDUO_ENDS };
+enum {
+    AT_ENDED = AT_STOPS + 4 * 8,
+    AT_MISSED = AT_ENDED + 8 * CEDUO_ENDS + 5 * 4 * 8 + 8 + 8 * CEDUO_ENDS,
+    AT_SUMS = AT_MISSED + 8 * CEDUO_ENDS
+};
 
 static void weights_that_are_none_are_refused(void **state)
 {
@@ -279,7 +288,8 @@ static void weights_that_are_none_are_refused(void **state)
     struct ceduo_run_def def = def_of(CEDUO_EXACT_BYTES, true);
     struct saved first = part_of(def, 1, 2, 1);
     struct ceduo_run *run = run_of(def, 0);
-    const size_t places[] = {AT_ENDED, AT_ENDED + 8 * (CEDUO_ENDS - 1), AT_MISSED, AT_SUMS - 8, AT_SUMS, AT_SUMS + 8, AT_SUMS + 16};
+    const size_t places[] = {AT_ENDED,    AT_ENDED + 8 * (CEDUO_ENDS - 1), AT_MISSED, AT_SUMS - 8, AT_SUMS, AT_SUMS + 8,
+                             AT_SUMS + 16};
     const double none[] = {-1, NAN, INFINITY, -0.};
     for (size_t i = 0; i < LENGTH(places); i++)
         for (size_t k = 0; k < LENGTH(none); k++) {

@@ -401,8 +401,7 @@ static void blocks_are_rolled_over_as_their_segments(void **state)
         for (int side = 0; side < 2; side++)
             for (int level = 1; level <= g.roll_top; level++)
                 for (size_t i = 0; i < g.n >> (ROLL_BITS * level); i++)
-                    expect_block(&g, &fine, side, level, i, line_uniform(&r, 0, 1), i % 2 ? 0.4 : 0,
-                                 &passed[side][level]);
+                    expect_block(&g, &fine, side, level, i, line_uniform(&r, 0, 1), i % 2 ? 0.4 : 0, &passed[side][level]);
         ceduo_ground_release(&g);
         free_slope(&fine);
     }
@@ -452,8 +451,8 @@ static void rolls_are_the_same_whoever_looks_on(void **state)
                 struct ceduo_watch watch = {.piece = nobody_minds};
                 assert_int_equal(ceduo_follower_follow(f, rock, NULL, &v, &c), CEDUO_OK);
                 assert_int_equal(ceduo_follower_follow(f, rock, &watch, &w, &d), CEDUO_OK);
-                bool alike = v.end == w.end && v.contacts == w.contacts && fabs(v.x - w.x) < 1e-6 &&
-                             c.reached == d.reached && fabs(c.vx - d.vx) < 1e-6 * (1 + fabs(d.vx));
+                bool alike = v.end == w.end && v.contacts == w.contacts && fabs(v.x - w.x) < 1e-6 && c.reached == d.reached &&
+                             fabs(c.vx - d.vx) < 1e-6 * (1 + fabs(d.vx));
                 same += alike;
                 rolled += v.x != w.x || v.z != w.z || (c.reached && c.vx != d.vx);
                 all++;
@@ -462,8 +461,7 @@ static void rolls_are_the_same_whoever_looks_on(void **state)
             free_slope(&fine);
         }
     }
-    print_message("%ju rocks, %ju the same to 1e-6, %ju to other bits\n", (uintmax_t)all, (uintmax_t)same,
-                  (uintmax_t)rolled);
+    print_message("%ju rocks, %ju the same to 1e-6, %ju to other bits\n", (uintmax_t)all, (uintmax_t)same, (uintmax_t)rolled);
     EXPECT((double)same, >, .98 * (double)all); /* rounding grows from contact to contact */
     EXPECT(rolled, >, 0);                       /* something was passed as a whole */
 }

@@ -10,9 +10,9 @@
 
 #include "quarry_site.h"
 
-#define SITES  20
-#define VALUES 2
-#define SELDOM 1e-4
+#define SITES      20
+#define VALUES     2
+#define SELDOM     1e-4
 #define TRUE_SITES 400
 
 /* How many of n are to be so at the least where each is with probability p. */
@@ -57,8 +57,13 @@ static void what_another_law_made_is_found_out(void **state)
     for (size_t i = 0; i < SITES / 2; i++) {
         struct ceduo_calibration a;
         double truth[QUARRY_VALUES_MOST];
-        struct quarry_trial trial = {.number = i, .values = VALUES, .kinds = QUARRY_KINDS, .made_by = CEDUO_LAW_CRSP,
-                                     .seen = 200, .rocks = 200, .steps_most = 110};
+        struct quarry_trial trial = {.number = i,
+                                     .values = VALUES,
+                                     .kinds = QUARRY_KINDS,
+                                     .made_by = CEDUO_LAW_CRSP,
+                                     .seen = 200,
+                                     .rocks = 200,
+                                     .steps_most = 110};
         if (!quarry_try(&trial, truth, &a))
             continue;
         flagged += a.misfit;

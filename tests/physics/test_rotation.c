@@ -262,8 +262,7 @@ static void the_years_of_cuts(void **state)
     struct sample s;
     init(&s);
     const struct ceduo_stand *stand = &s.stand;
-    static const double given[] = {0, 7, 6.2, 30, -1, -5, -25, -26, -50.5, -75},
-                        first[] = {0, 7, 7, 30, 24, 20, 0, 24, 0, 0};
+    static const double given[] = {0, 7, 6.2, 30, -1, -5, -25, -26, -50.5, -75}, first[] = {0, 7, 7, 30, 24, 20, 0, 24, 0, 0};
     for (size_t i = 0; i < LENGTH(given); i++)
         assert_int_equal(ceduo_first_cut(stand, given[i]), (unsigned)first[i]);
     EXPECT(ceduo_first_cut(stand, INFINITY), ==, CEDUO_NEVER);
@@ -491,16 +490,17 @@ static void random_stand(struct sample *s)
     memset(s, 0, sizeof *s);
     double old = uniform(1, 8);
     struct ceduo_stand *stand = &s->stand;
-    *stand = (struct ceduo_stand){
-        .species = -1,
-        .stools_per_ha = uniform(0, 1) < .1 ? 0 : uniform(200, 4000),
-        .spacing = .3,
-        .trees_count = (size_t)uniform(0, 5),
-        .shoots = s->shoots,
-        .trees = s->trees,
-        .u = NAN,
-        .growth = {random_curve(.16), random_curve(.45), old + uniform(0, 15), old, uniform(-500, 2000), uniform(0, 1) < .5 ? 0 : uniform(100, 2000), 0},
-        .cutting = {(unsigned)uniform(1, 40), (unsigned)uniform(0, 5), (size_t)uniform(0, 5), s->stay}};
+    *stand =
+        (struct ceduo_stand){.species = -1,
+                             .stools_per_ha = uniform(0, 1) < .1 ? 0 : uniform(200, 4000),
+                             .spacing = .3,
+                             .trees_count = (size_t)uniform(0, 5),
+                             .shoots = s->shoots,
+                             .trees = s->trees,
+                             .u = NAN,
+                             .growth = {random_curve(.16), random_curve(.45), old + uniform(0, 15), old, uniform(-500, 2000),
+                                        uniform(0, 1) < .5 ? 0 : uniform(100, 2000), 0},
+                             .cutting = {(unsigned)uniform(1, 40), (unsigned)uniform(0, 5), (size_t)uniform(0, 5), s->stay}};
     stand->growth.sdi_most = fmax(0, stand->growth.sdi_most);
     stand->shoots_count = stand->stools_per_ha > 0 ? (size_t)uniform(1, 5) : 0;
     for (size_t i = 0; i < stand->shoots_count; i++)

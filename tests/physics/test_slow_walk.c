@@ -216,8 +216,7 @@ static uint64_t part(const struct trace *a, const struct trace *b, const struct 
         return n + 1;
     *by = larger(fabs(a->x - b->x), fabs(a->z - b->z)) / s->length;
     if (a->reached) {
-        *by = larger(*by,
-                     larger(fabs(a->crossing[0] - b->crossing[0]), fabs(a->crossing[1] - b->crossing[1])) / s->speed);
+        *by = larger(*by, larger(fabs(a->crossing[0] - b->crossing[0]), fabs(a->crossing[1] - b->crossing[1])) / s->speed);
         *by = larger(*by, fabs(a->crossing[2] - b->crossing[2]) * s->radius / s->speed);
         *by = larger(*by, fabs(a->crossing[3] - b->crossing[3]) / s->length);
     }
@@ -304,8 +303,7 @@ static void compare(const struct ceduo_scene *scene, uint64_t rock, struct tally
     tally->contacts += slow.contacts;
     tally->cut_short += slow.end < 0;
     uint64_t at = part(&fast, &slow, &s, SAME, &by);
-    if (at == 0 && fast.after[1].known && slow.after[1].known &&
-        apart(&fast.after[1], &slow.after[1], &s) > SAME_FIRST) {
+    if (at == 0 && fast.after[1].known && slow.after[1].known && apart(&fast.after[1], &slow.after[1], &s) > SAME_FIRST) {
         at = 1;
         by = SAME_FIRST;
     }
@@ -330,11 +328,10 @@ static void compare(const struct ceduo_scene *scene, uint64_t rock, struct tally
 
 static void expect_agreement(const struct tally *t, const char *what)
 {
-    print_message(
-        "%s: %ju rocks, %ju contacts: %ju the same, %ju apart by growth of rounding (%ju at the first contact), "
-        "%ju with no more energy than rounding, %ju sent off by rounding alone; %ju longer than %d contacts\n",
-        what, (uintmax_t)t->rocks, (uintmax_t)t->contacts, (uintmax_t)t->same, (uintmax_t)t->excused,
-        (uintmax_t)t->first_apart, (uintmax_t)t->still, (uintmax_t)t->aimless, (uintmax_t)t->cut_short, CONTACTS);
+    print_message("%s: %ju rocks, %ju contacts: %ju the same, %ju apart by growth of rounding (%ju at the first contact), "
+                  "%ju with no more energy than rounding, %ju sent off by rounding alone; %ju longer than %d contacts\n",
+                  what, (uintmax_t)t->rocks, (uintmax_t)t->contacts, (uintmax_t)t->same, (uintmax_t)t->excused,
+                  (uintmax_t)t->first_apart, (uintmax_t)t->still, (uintmax_t)t->aimless, (uintmax_t)t->cut_short, CONTACTS);
     EXPECT(t->same + t->excused + t->still + t->aimless, ==, t->rocks);
     EXPECT((double)t->same, >=, .99 * (double)t->rocks);
     EXPECT((double)t->first_apart, <=, .001 * (double)t->rocks);

@@ -610,8 +610,8 @@ static void grounds_are_drawn_as_they_are_spread(void **state)
         struct ceduo_trajectory w;
         f.seen = false;
         assert_int_equal(ceduo_trajectory_follow(&flat.scene, NULL, rock,
-                                          &(struct ceduo_watch){.piece = look_at_first_contact, .context = &f}, &w,
-                                          NULL),
+                                                 &(struct ceduo_watch){.piece = look_at_first_contact, .context = &f}, &w,
+                                                 NULL),
                          CEDUO_OK);
         assert_true(f.seen);
     }
@@ -623,8 +623,8 @@ static void grounds_are_drawn_as_they_are_spread(void **state)
         struct ceduo_trajectory w;
         f.seen = false;
         assert_int_equal(ceduo_trajectory_follow(&flat.scene, NULL, rock,
-                                          &(struct ceduo_watch){.piece = look_at_first_contact, .context = &f}, &w,
-                                          NULL),
+                                                 &(struct ceduo_watch){.piece = look_at_first_contact, .context = &f}, &w,
+                                                 NULL),
                          CEDUO_OK);
     }
     double a = -3, b = .25, pi = acos(-1), p = (erfc(-b / sqrt(2)) - erfc(-a / sqrt(2))) / 2;

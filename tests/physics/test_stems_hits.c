@@ -223,8 +223,8 @@ static void rocks_fly_over_stems_that_are_lower(void **state)
             double above = s->x < landing ? fall - g / 2 * (s->x / v) * (s->x / v) : 0;
             if (s->hit != (s->clearance < s->height) || fabs(s->clearance - above) > 1e-9 ||
                 (!s->hit && (s->taken != 0 || s->before != 0)))
-                fail_msg("at %.17g the rock is %.17g high, not %.17g, a stem of %.3g m hit: %d", s->x, s->clearance,
-                         above, s->height, s->hit);
+                fail_msg("at %.17g the rock is %.17g high, not %.17g, a stem of %.3g m hit: %d", s->x, s->clearance, above,
+                         s->height, s->hit);
             hits += s->hit;
         }
         if (hits != sweep.way.stems_hit || different(false) != sweep.way.stools_met)
@@ -381,7 +381,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(dorrens_hits_take_the_share_of_their_eccentricity),
-    cmocka_unit_test(hits_beside_the_middle_take_their_share),
+        cmocka_unit_test(hits_beside_the_middle_take_their_share),
         cmocka_unit_test(a_hit_scales_speed_and_spin_by_what_is_left_of_the_energy),
         cmocka_unit_test(a_control_where_a_stem_stands_is_passed_before_the_hit),
         cmocka_unit_test(rocks_fly_over_stems_that_are_lower),

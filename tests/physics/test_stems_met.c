@@ -224,8 +224,7 @@ static void clumping_changes_the_spread_but_not_the_mean(void **state)
     expect_close("hits on 50 m, one beside the other", spread_mean(&clumped), spread_se(&clumped), spread_mean(&single),
                  spread_se(&single));
     expect_variance("variance on 50 m, single stems", &single, mean);
-    expect_variance("variance on 50 m, stools of 6", &clumped,
-                    mean + 50 * per_metre(1000, pairs_of_ring(6, spacing, B + d)));
+    expect_variance("variance on 50 m, stools of 6", &clumped, mean + 50 * per_metre(1000, pairs_of_ring(6, spacing, B + d)));
     EXPECT(spread_variance(&clumped), >,
            spread_variance(&single) + 10 * hypot(spread_variance_se(&single), spread_variance_se(&clumped)));
 }
@@ -247,8 +246,7 @@ static struct biased biased_of(double mean, double sd)
 static double biased_cdf(double d, const void *of)
 {
     const struct biased *l = of;
-    return (B * gsl_cdf_gamma_P(d, l->shape, l->scale) + l->mean * gsl_cdf_gamma_P(d, l->shape + 1, l->scale)) /
-           (B + l->mean);
+    return (B * gsl_cdf_gamma_P(d, l->shape, l->scale) + l->mean * gsl_cdf_gamma_P(d, l->shape + 1, l->scale)) / (B + l->mean);
 }
 
 /* The k-th moment of the gamma law. */

@@ -22,8 +22,7 @@ struct site_row {
 static void rocks_on_the_papers_site_arrive_as_in_independent_implementations(void **state)
 {
     (void)state;
-    static const struct site_row rows[] = {{CEDUO_POISSON, 66.75, 15.29, 83.9, 15.2},
-                                           {CEDUO_STEMS, 62.06, 14.67, 83.2, 15.4}};
+    static const struct site_row rows[] = {{CEDUO_POISSON, 66.75, 15.29, 83.9, 15.2}, {CEDUO_STEMS, 62.06, 14.67, 83.2, 15.4}};
     const uint64_t rocks = FULL_OR(300000, 100000);
     for (size_t i = 0; i < LENGTH(rows); i++) {
         const struct site_row *r = &rows[i];
@@ -105,8 +104,7 @@ static struct pair_moments pairs_of(const struct ceduo_option *a, const struct c
     return m;
 }
 
-static void expect_pair(const char *what, const struct ceduo_paired *d, const struct ceduo_moments *m, double a,
-                        double b)
+static void expect_pair(const char *what, const struct ceduo_paired *d, const struct ceduo_moments *m, double a, double b)
 {
     print_message("# %s: %.6g ± %.3g\n", what, d->mean, d->se);
     if (fabs(d->mean - (a - b)) > 1e-12 * (fabs(a) + fabs(b)))
@@ -130,10 +128,9 @@ static void differences_have_the_error_of_differences_rock_by_rock(void **state)
         struct ceduo_arrivals a, b;
         assert_int_equal(ceduo_run_arrivals(run, 0, &a), CEDUO_OK);
         assert_int_equal(ceduo_run_arrivals(base, 0, &b), CEDUO_OK);
-        expect_pair("difference of shares that pass", &d.reach_probability, &m.reach, a.reach_probability,
-                    b.reach_probability);
-        expect_pair("difference of shares above what is accepted", &d.exceed_probability, &m.exceed,
-                    a.exceed_probability, b.exceed_probability);
+        expect_pair("difference of shares that pass", &d.reach_probability, &m.reach, a.reach_probability, b.reach_probability);
+        expect_pair("difference of shares above what is accepted", &d.exceed_probability, &m.exceed, a.exceed_probability,
+                    b.exceed_probability);
         expect_pair("difference of J per released", &d.energy_per_released, &m.energy, a.energy_per_released,
                     b.energy_per_released);
         double apart = hypot(a.energy_per_released_se, b.energy_per_released_se);
@@ -255,8 +252,8 @@ static void a_run_among_stems_flies_the_rocks_that_can_be_followed(void **state)
         struct ceduo_trajectory w;
         struct ceduo_crossing c;
         struct before before = {0};
-        assert_int_equal(ceduo_follower_follow(f, rock, &(struct ceduo_watch){.stem = count_before, .context = &before}, &w, &c),
-                         CEDUO_OK);
+        assert_int_equal(
+            ceduo_follower_follow(f, rock, &(struct ceduo_watch){.stem = count_before, .context = &before}, &w, &c), CEDUO_OK);
         assert_int_equal(w.stems_hit, before.all);
         assert_true(!c.reached || c.stems_hit == before.control);
         sum.drawn += w.stems_drawn;
@@ -397,9 +394,8 @@ static void stems_that_take_nothing_leave_the_way_as_it_is(void **state)
         struct ceduo_crossing c, d;
         assert_int_equal(ceduo_follower_follow(bare, rock, NULL, &v, &c), CEDUO_OK);
         sweep.count = 0;
-        assert_int_equal(
-            ceduo_follower_follow(f, rock, &(struct ceduo_watch){.stem = note_stem, .context = &sweep}, &w, &d),
-            CEDUO_OK);
+        assert_int_equal(ceduo_follower_follow(f, rock, &(struct ceduo_watch){.stem = note_stem, .context = &sweep}, &w, &d),
+                         CEDUO_OK);
         same += v.end == w.end && v.contacts == w.contacts && fabs(v.x - w.x) < 1e-6 && c.reached == d.reached &&
                 fabs(c.vx - d.vx) < 1e-6 && fabs(c.vz - d.vz) < 1e-6 && fabs(c.height - d.height) < 1e-6;
         if (w.x < 137)

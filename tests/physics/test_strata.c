@@ -363,7 +363,7 @@ struct group_case {
 static void free_runs_past_groups(void **state)
 {
     (void)state;
-    static const struct group_case cases[] = {{2, .1, 600, 10}, {5, 2, 400, 30}, {6, 4, 300, 20},
+    static const struct group_case cases[] = {{2, .1, 600, 10}, {5, 2, 400, 30},  {6, 4, 300, 20},
                                               {10, 8, 500, 30}, {5, 12, 300, 15}, {30, 3, 900, 4}};
     gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
     for (size_t k = 0; k < LENGTH(cases); k++) {
@@ -544,15 +544,20 @@ static void stumps_and_groups_over_the_years(void **state)
     static double stay[] = {40};
     const struct ceduo_curve curve = {.dbh_most = .3, .dbh_rate = .03, .height_most = 15, .height_rate = .05};
     struct ceduo_stems shoots = {.per_ha = 4000, .dbh = .06, .height = 6, .volume = NAN, .age = 4};
-    struct ceduo_stems trees[] = {{.per_ha = 20, .dbh = .4, .height = 15, .volume = NAN, .age = 60},
-                                  {.per_ha = 40, .dbh = .2, .height = 12, .volume = NAN, .age = 30, .group = 8,
-                                   .group_radius = 3}};
-    struct ceduo_stand stand = {.species = -1, .stools_per_ha = 1000, .spacing = .3, .shoots = &shoots,
-                                .shoots_count = 1, .trees = trees, .trees_count = 2,
-                                .growth = {.shoots = curve, .trees = curve, .shoots_young = 6, .shoots_old = 3,
-                                           .stump_years = 7},
-                                .cutting = {.rotation = 20, .stay_count = 1, .stay_per_ha = stay},
-                                .stumps = {.per_ha = 900, .diameter = .1, .height = .2, .energy = 1e3}};
+    struct ceduo_stems trees[] = {
+        {.per_ha = 20, .dbh = .4, .height = 15, .volume = NAN, .age = 60},
+        {.per_ha = 40, .dbh = .2, .height = 12, .volume = NAN, .age = 30, .group = 8, .group_radius = 3}};
+    struct ceduo_stand stand = {
+        .species = -1,
+        .stools_per_ha = 1000,
+        .spacing = .3,
+        .shoots = &shoots,
+        .shoots_count = 1,
+        .trees = trees,
+        .trees_count = 2,
+        .growth = {.shoots = curve, .trees = curve, .shoots_young = 6, .shoots_old = 3, .stump_years = 7},
+        .cutting = {.rotation = 20, .stay_count = 1, .stay_per_ha = stay},
+        .stumps = {.per_ha = 900, .diameter = .1, .height = .2, .energy = 1e3}};
     struct ceduo_grown_stand grown;
     for (unsigned year = 0; year < 40; year++) {
         assert_int_equal(ceduo_stand_at(&stand, NAN, year, &grown), CEDUO_OK);

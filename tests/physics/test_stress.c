@@ -17,7 +17,7 @@
 
 #include "invariants.h"
 
-#define LENGTH(a) (sizeof(a) / sizeof *(a))
+#define LENGTH(a)     (sizeof(a) / sizeof *(a))
 #define LASTING_EVERY 5000
 #define RUN_EVERY     64 /* scenes of which one is flown as a run, too */
 #define CONTROLS      5
@@ -103,8 +103,8 @@ static void expect_counts(const struct line_scene *s)
     double x0 = scene.release.x.mean, x1 = scene.slope.x[scene.slope.vertices - 1];
     size_t n = 0;
     for (size_t i = 0; i < CONTROLS; i++) {
-        controls[n] = (struct ceduo_control){
-            .x = x0 + (x1 - x0) * (double)(i + 1) / CONTROLS, .accepted = 1, .measured_speed = NAN};
+        controls[n] =
+            (struct ceduo_control){.x = x0 + (x1 - x0) * (double)(i + 1) / CONTROLS, .accepted = 1, .measured_speed = NAN};
         n += controls[n].x > x0 && controls[n].x <= x1;
     }
     scene.controls = controls;

@@ -8,7 +8,7 @@
 #include "stops.h"
 
 #define BLOCKS 3
-#define ROCKS 3000
+#define ROCKS  3000
 
 static struct scene_file file;
 

@@ -61,13 +61,11 @@ static void compare_places(const char *scene, const struct ceduo_run *a, const s
         compare_control(scene, a, b, c);
 }
 
-static void compare(const char *scene, const struct ceduo_run *a, const struct ceduo_run *b,
-                    const struct ceduo_run_def *def)
+static void compare(const char *scene, const struct ceduo_run *a, const struct ceduo_run *b, const struct ceduo_run_def *def)
 {
     assert_int_equal(ceduo_run_rocks(a), ceduo_run_rocks(b));
     if (ceduo_run_contacts(a) != ceduo_run_contacts(b))
-        fail_msg("%s: %ju contacts, scalar %ju", scene, (uintmax_t)ceduo_run_contacts(b),
-                 (uintmax_t)ceduo_run_contacts(a));
+        fail_msg("%s: %ju contacts, scalar %ju", scene, (uintmax_t)ceduo_run_contacts(b), (uintmax_t)ceduo_run_contacts(a));
     struct ceduo_stem_counts s = ceduo_run_stems(a), t = ceduo_run_stems(b);
     expect_same_bits(scene, "stems", &s, &t, sizeof s);
     struct ceduo_ends e, f;
@@ -351,11 +349,8 @@ static void a_long_profile(void **state)
             z[i] -= 1;
     }
     for (size_t j = 0; j + 1 < LONG_VERTICES; j++)
-        segments[j] = (struct ceduo_segment){.rn = ceduo_number(0.4),
-                                             .rt = ceduo_number(0.9),
-                                             .roughness_m = NAN,
-                                             .roughness_rad = 0.2,
-                                             .friction = 0.4};
+        segments[j] = (struct ceduo_segment){
+            .rn = ceduo_number(0.4), .rt = ceduo_number(0.9), .roughness_m = NAN, .roughness_rad = 0.2, .friction = 0.4};
     for (int law = 0; law < CEDUO_LAW_COUNT; law++) {
         struct line_scene line;
         line_scene_init(&line, 2, x, z, (struct line_ground){0.4, 0.9, 0.4}, 0.3, (enum ceduo_law)law);

@@ -94,7 +94,8 @@ static struct ceduo_years *grown(unsigned first, unsigned last, unsigned step)
 {
     struct ceduo_years *years;
     assert_int_equal(ceduo_years_create(&wood.site.scene, &wood.option,
-                                        (struct ceduo_window){.first = first, .last = last, .step = step}, &years), CEDUO_OK);
+                                        (struct ceduo_window){.first = first, .last = last, .step = step}, &years),
+                     CEDUO_OK);
     return years;
 }
 
@@ -265,8 +266,7 @@ static void expect_direct(const struct ceduo_year *y, const struct ceduo_flown *
     }
     for (size_t c = 0; c < CONTROLS; c++) {
         expect_same_arrivals(&y->wooded.arrivals[c], &direct.arrivals[c]);
-        struct ceduo_index index =
-            ceduo_assess_index(scene, &option, &scene->controls[c], bare->arrivals[c].energy.mean);
+        struct ceduo_index index = ceduo_assess_index(scene, &option, &scene->controls[c], bare->arrivals[c].energy.mean);
         index.energy = ceduo_energy_light(&direct.arrivals[c]);
         expect_same_index(&y->controls[c], &index);
     }
@@ -456,14 +456,16 @@ static void expect_sum(const struct ceduo_years *years, size_t c)
     EXPECT(s.unprotected_free_run, ==, free_run);
     EXPECT(s.unprotected_energy, ==, light);
     expect_same("worst", s.worst, worst);
-    const double pairs[][2] = {{s.reach.mean, reach},   {s.reach.se, reach_se},
-                               {s.exceed.mean, exceed}, {s.exceed.se, exceed_se},
-                               {s.energy_per_released.mean, energy}, {s.energy_per_released.se, energy_se},
+    const double pairs[][2] = {{s.reach.mean, reach},
+                               {s.reach.se, reach_se},
+                               {s.exceed.mean, exceed},
+                               {s.exceed.se, exceed_se},
+                               {s.energy_per_released.mean, energy},
+                               {s.energy_per_released.se, energy_se},
                                {s.passes_per_year, reach * years->scene.rocks_per_year},
                                {s.exceeds_per_year, exceed * years->scene.rocks_per_year}};
     for (size_t i = 0; i < sizeof pairs / sizeof pairs[0]; i++)
-        if (!(fabs(pairs[i][0] - pairs[i][1]) <= 1e-12 * fabs(pairs[i][1])) &&
-            !(isnan(pairs[i][0]) && isnan(pairs[i][1])))
+        if (!(fabs(pairs[i][0] - pairs[i][1]) <= 1e-12 * fabs(pairs[i][1])) && !(isnan(pairs[i][0]) && isnan(pairs[i][1])))
             fail_msg("figure %zu: %.17g is not %.17g", i, pairs[i][0], pairs[i][1]);
 }
 
@@ -553,8 +555,8 @@ static void years_of_blocks(void **state)
             wx += (weights[r] - w1) * (x[r] - x1);
             xx += (x[r] - x1) * (x[r] - x1);
         }
-        struct ceduo_paired found = of < 2 ? ceduo_years_sum(years[of], years[of]->last_control).exceed
-                                           : ceduo_years_difference(years[0], years[1]);
+        struct ceduo_paired found =
+            of < 2 ? ceduo_years_sum(years[of], years[of]->last_control).exceed : ceduo_years_difference(years[0], years[1]);
         EXPECT_NEAR(found.mean, x1 / w1, 1e-12);
         EXPECT_NEAR(found.se, sqrt((xx - wx * wx / ww) / FEW / (FEW - 1)) / w1, 1e-12);
         EXPECT(fabs(found.mean), >, 0);

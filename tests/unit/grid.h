@@ -49,7 +49,7 @@ static inline const struct ceduo_canvas *kind_of(enum ceduo_charset charset)
 }
 
 static inline void draw_point(struct ceduo_cells *cells, const struct ceduo_frame *frame, enum ceduo_role role, double x,
-                       double y)
+                              double y)
 {
     ceduo_canvas_line(&cells->canvas, frame, role, x, y, x, y);
 }

@@ -45,11 +45,8 @@ static void set_ground(struct site *s)
     memcpy(s->x, x, sizeof x);
     memcpy(s->z, z, sizeof z);
     for (int i = 0; i < 2; i++)
-        s->segments[i] = (struct ceduo_segment){.rn = ceduo_number(0.4),
-                                                .rt = ceduo_number(0.9),
-                                                .roughness_m = NAN,
-                                                .roughness_rad = 0.1,
-                                                .friction = 0.3};
+        s->segments[i] = (struct ceduo_segment){
+            .rn = ceduo_number(0.4), .rt = ceduo_number(0.9), .roughness_m = NAN, .roughness_rad = 0.1, .friction = 0.3};
     s->scene.slope = (struct ceduo_slope){
         .facets = CEDUO_AGAINST, .vertices = 3, .x = s->x, .z = s->z, .segments = s->segments, .origin_z = 60};
 }

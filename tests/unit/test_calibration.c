@@ -32,8 +32,8 @@ static struct ceduo_scene flight(double spread)
     scene.release.vx = (struct ceduo_number){.mean = 15, .spread = spread};
     scene.options = &option;
     scene.options_count = 1;
-    input = (struct ceduo_input){
-        .path = place, .kind = CEDUO_INPUT_RANGE, .lo = LO, .hi = HI, .places_count = 1, .places = &place};
+    input =
+        (struct ceduo_input){.path = place, .kind = CEDUO_INPUT_RANGE, .lo = LO, .hi = HI, .places_count = 1, .places = &place};
     return scene;
 }
 

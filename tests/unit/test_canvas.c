@@ -2,8 +2,7 @@
 #include "unit/grid.h"
 
 /* A way of one straight part. */
-static void count_line(struct ceduo_cells *cells, const struct ceduo_frame *frame, double ax, double ay, double bx,
-                       double by)
+static void count_line(struct ceduo_cells *cells, const struct ceduo_frame *frame, double ax, double ay, double bx, double by)
 {
     ceduo_canvas_cloud_add(&cells->canvas, frame, 2, (double[]){ax, bx}, (double[]){ay, by});
 }
@@ -196,14 +195,10 @@ static void bars_go_by_eighths(void **state)
         double fraction;
         const char *utf8, *ascii;
     } bars[] = {
-        {-1, "\n", "\n"},           {0, "\n", "\n"},
-        {1e-9, "▏\n", "#\n"},       {1. / 16, "▏\n", "#\n"},
-        {2. / 16, "▎\n", "#\n"},    {3. / 16, "▍\n", "#\n"},
-        {4. / 16, "▌\n", "#\n"},    {5. / 16, "▋\n", "#\n"},
-        {6. / 16, "▊\n", "#\n"},    {7. / 16, "▉\n", "#\n"},
-        {8. / 16, "█\n", "#\n"},    {9. / 16, "█▏\n", "#\n"},
-        {15. / 16, "█▉\n", "##\n"}, {1, "██\n", "##\n"},
-        {7, "██\n", "##\n"},        {(double)INFINITY, "██\n", "##\n"},
+        {-1, "\n", "\n"},           {0, "\n", "\n"},         {1e-9, "▏\n", "#\n"},    {1. / 16, "▏\n", "#\n"},
+        {2. / 16, "▎\n", "#\n"},    {3. / 16, "▍\n", "#\n"}, {4. / 16, "▌\n", "#\n"}, {5. / 16, "▋\n", "#\n"},
+        {6. / 16, "▊\n", "#\n"},    {7. / 16, "▉\n", "#\n"}, {8. / 16, "█\n", "#\n"}, {9. / 16, "█▏\n", "#\n"},
+        {15. / 16, "█▉\n", "##\n"}, {1, "██\n", "##\n"},     {7, "██\n", "##\n"},     {(double)INFINITY, "██\n", "##\n"},
     };
     struct ceduo_cells *utf8 = cells_in(4, 1, BRAILLE);
     struct ceduo_cells *ascii = cells_in(4, 1, ASCII);
@@ -239,7 +234,7 @@ static void density_shows_the_most_travelled_dots(void **state)
         ceduo_canvas_cloud_show(&cells->canvas, 0);
         for (int i = 0; i < 4; ++i)
             count_line(cells, &frame, 0, 0, i, 0); /* passed 4, 3, 2, 1 times */
-        expect_text(cells, "\n"); /* counting draws nothing */
+        expect_text(cells, "\n");                  /* counting draws nothing */
         ceduo_canvas_cloud_show(&cells->canvas, shown[k].quantile);
         expect_text(cells, shown[k].text);
         assert_int_equal(ceduo_cells_role(cells, 0, 0), CEDUO_ROLE_CLOUD);
@@ -346,8 +341,7 @@ static void frame_cell_is_where_the_point_is_drawn(void **state)
     for (int i = 0; i <= LAST_CHARSET; ++i) {
         enum ceduo_charset charset = (enum ceduo_charset)i;
         struct ceduo_cells *cells = cells_in(9, 6, charset);
-        struct ceduo_frame frame = {
-            .left = 2, .top = 1, .width = 5, .height = 3, .x0 = -3, .x1 = 7, .y0 = 10, .y1 = 12};
+        struct ceduo_frame frame = {.left = 2, .top = 1, .width = 5, .height = 3, .x0 = -3, .x1 = 7, .y0 = 10, .y1 = 12};
         for (double x = -3; x <= 7; x += 0.37) {
             int column = -1;
             int row = -1;

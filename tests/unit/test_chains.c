@@ -2,8 +2,8 @@
 /* Chains on densities whose moments are known, and what is read of them. */
 #include "expect.h"
 
-#include <stdatomic.h>
 #include <signal.h>
+#include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/time.h>
@@ -469,10 +469,14 @@ int main(void)
         cmocka_unit_test(a_look_at_all_chains_is_ended),
         cmocka_unit_test(one_chain_ends_all),
         cmocka_unit_test(chains_that_stand_still),
-        cmocka_unit_test(a_normal_law_is_drawn_from),        cmocka_unit_test(a_wrong_guess_changes_nothing),
-        cmocka_unit_test(threads_change_no_bit),             cmocka_unit_test(chains_apart_do_not_agree),
-        cmocka_unit_test(short_chains_by_hand),              cmocka_unit_test(draws_that_alternate),
-        cmocka_unit_test(draws_that_hang_together_count_less), cmocka_unit_test(a_guess_learns_a_quadratic),
+        cmocka_unit_test(a_normal_law_is_drawn_from),
+        cmocka_unit_test(a_wrong_guess_changes_nothing),
+        cmocka_unit_test(threads_change_no_bit),
+        cmocka_unit_test(chains_apart_do_not_agree),
+        cmocka_unit_test(short_chains_by_hand),
+        cmocka_unit_test(draws_that_alternate),
+        cmocka_unit_test(draws_that_hang_together_count_less),
+        cmocka_unit_test(a_guess_learns_a_quadratic),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -23,8 +23,9 @@ static const char scene[] = "# my comment\n"
                             "forest:\n"
                             "  - {from_m: 10, to_m: 80, stand: stand.yaml}   # below the rock\n";
 
-static const char stand[] = "ceduo: stand/1\nname: S\nstools: {per_ha: 2000, spacing_m: 0.4}\n"
-                            "shoots: [{per_ha: 6000, dbh_m: 0.06, height_m: 6}]\ntrees: [{per_ha: 60, dbh_m: 0.2, height_m: 12}]\n";
+static const char stand[] =
+    "ceduo: stand/1\nname: S\nstools: {per_ha: 2000, spacing_m: 0.4}\n"
+    "shoots: [{per_ha: 6000, dbh_m: 0.06, height_m: 6}]\ntrees: [{per_ha: 60, dbh_m: 0.2, height_m: 12}]\n";
 
 static char path[256];
 
@@ -151,7 +152,8 @@ static void a_stand_is_given_more(void **state)
     open_scene(&d);
     set(&d, "forest[0].stand.species", "fagus-sylvatica");
     assert_true(ceduo_document_save(&d, path, &anew));
-    assert_non_null(strstr(read_file("scene.yaml"), "stand: {base: stand.yaml, species: fagus-sylvatica}}   # below the rock\n"));
+    assert_non_null(
+        strstr(read_file("scene.yaml"), "stand: {base: stand.yaml, species: fagus-sylvatica}}   # below the rock\n"));
     ceduo_document_close(&d);
     open_scene(&d);
     assert_int_equal(d.file.scene.options[0].belts[0].stand.species, ceduo_species_find("fagus-sylvatica"));
@@ -727,7 +729,8 @@ static void scatter(const char *slope_reference)
              slope_reference);
     write_file("a/scenes/s.yaml", text);
     write_file("a/slopes/line.csv", "distance,elevation\n0,50\n40,20\n100,0\n");
-    write_file("a/slopes/line.yaml", "ceduo: slope/1\nvertices_m: [[0, 50], [40, 20], [100, 0]]\nsegments: [{rn: 0.3, rt: 0.8}]\n");
+    write_file("a/slopes/line.yaml",
+               "ceduo: slope/1\nvertices_m: [[0, 50], [40, 20], [100, 0]]\nsegments: [{rn: 0.3, rt: 0.8}]\n");
     write_file("a/slopes/by-csv.yaml", "ceduo: slope/1\ncsv: line.csv\nsegments: [{rn: 0.3, rt: 0.8}]\n");
     write_file("a/stands/wood.yaml", stand);
     write_file("b/stands/wood.yaml", "ceduo: stand/1\ntrees: [{per_ha: 7, dbh_m: 0.2, height_m: 12}]\n");

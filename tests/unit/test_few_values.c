@@ -7,8 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "ceduo/ceduo.h"
 #include "base/bytes.h"
+#include "ceduo/ceduo.h"
 #include "core/envelope.h"
 #include "core/histogram.h"
 #include "core/run_pack.h"
@@ -76,15 +76,13 @@ static void distributions_of_few_values(void **state)
             assert_true(ceduo_histogram_add(&h, values[i]));
         }
         qsort(sorted, n, sizeof *sorted, by_value);
-        struct ceduo_distribution binned = ceduo_distribution_binned(&h, &m),
-                                  exact = ceduo_distribution_exact(values, n, &m);
+        struct ceduo_distribution binned = ceduo_distribution_binned(&h, &m), exact = ceduo_distribution_exact(values, n, &m);
         size_t lo = 0, hi = 0;
         if (n > 0)
             ceduo_quantile_interval(n, .95, &lo, &hi);
         const double wanted[] = {n > 0 ? sorted[ceduo_quantile_rank(n, .5) - 1] : NAN,
                                  n > 0 ? sorted[ceduo_quantile_rank(n, .95) - 1] : NAN,
-                                 n > 0 ? sorted[ceduo_quantile_rank(n, .99) - 1] : NAN,
-                                 lo > 0 ? sorted[lo - 1] : NAN,
+                                 n > 0 ? sorted[ceduo_quantile_rank(n, .99) - 1] : NAN, lo > 0 ? sorted[lo - 1] : NAN,
                                  n > 0 && hi <= n ? sorted[hi - 1] : NAN};
         const double of_exact[] = {exact.p50, exact.p95, exact.p99, exact.p95_lo, exact.p95_hi};
         const double of_binned[] = {binned.p50, binned.p95, binned.p99, binned.p95_lo, binned.p95_hi};
@@ -157,8 +155,8 @@ static void columns_are_refused(void **state)
     const struct {
         size_t at;
         unsigned char bytes[2];
-    } rows[] = {{0, {0xb6, 0x0c}},     /* as many bits, one of them behind the last */
-                {0, {0xb7, 0x05}},     /* one more */
+    } rows[] = {{0, {0xb6, 0x0c}},      /* as many bits, one of them behind the last */
+                {0, {0xb7, 0x05}},      /* one more */
                 {2 + 6, {0xf0, 0x7f}}}; /* infinite */
     for (size_t i = 0; i < 3; i++) {
         unsigned char was[2];
@@ -302,14 +300,10 @@ static void few_values_and_too_many(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(intervals_of_few_values),
-        cmocka_unit_test(distributions_of_few_values),
-        cmocka_unit_test(values_beyond_every_bin),
-        cmocka_unit_test(columns_are_refused),
-        cmocka_unit_test(cells_take_any_value),
-        cmocka_unit_test(goals_without_end),
-        cmocka_unit_test(a_search_ends_at_once),
-        cmocka_unit_test(few_values_and_too_many),
+        cmocka_unit_test(intervals_of_few_values), cmocka_unit_test(distributions_of_few_values),
+        cmocka_unit_test(values_beyond_every_bin), cmocka_unit_test(columns_are_refused),
+        cmocka_unit_test(cells_take_any_value),    cmocka_unit_test(goals_without_end),
+        cmocka_unit_test(a_search_ends_at_once),   cmocka_unit_test(few_values_and_too_many),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -73,7 +73,8 @@ static void folders_of_the_environment(void **state)
     put("file/ceduo", "x");
     const struct {
         const char *data, *home, *first;
-    } rows[] = {{folder, home, own}, {file, home, NULL}, {NULL, home, path}, {"relative", home, path}, {"", home, path}, {NULL, "", NULL}, {NULL, NULL, NULL}};
+    } rows[] = {{folder, home, own}, {file, home, NULL}, {NULL, home, path}, {"relative", home, path},
+                {"", home, path},    {NULL, "", NULL},   {NULL, NULL, NULL}};
     for (size_t i = 0; i < LENGTH(rows); i++) {
         struct arena arena = {0};
         rows[i].data ? setenv("XDG_DATA_HOME", rows[i].data, 1) : unsetenv("XDG_DATA_HOME");
@@ -97,12 +98,14 @@ static void folders_are_listed(void **state)
     size_t n = 1;
     assert_null(ceduo_file_list(&arena, own, "slopes", &n));
     assert_int_equal(n, 0);
-    const char *const names[] = {"ceduo/stands/a-b.yaml", "ceduo/stands/a.yaml", "ceduo/stands/letter.txt", "ceduo/stands/.yaml",
-                                 "ceduo/stands/.c.yaml", "ceduo/stands/B.yaml", "ceduo/stands/x", "ceduo/stands/aaaa.yaml",
-                                 "ceduo/stands/aa.yaml", "ceduo/stands/aaaaa.yaml", "ceduo/stands/aaa.yaml"};
+    const char *const names[] = {"ceduo/stands/a-b.yaml",   "ceduo/stands/a.yaml",    "ceduo/stands/letter.txt",
+                                 "ceduo/stands/.yaml",      "ceduo/stands/.c.yaml",   "ceduo/stands/B.yaml",
+                                 "ceduo/stands/x",          "ceduo/stands/aaaa.yaml", "ceduo/stands/aa.yaml",
+                                 "ceduo/stands/aaaaa.yaml", "ceduo/stands/aaa.yaml"};
     for (size_t i = 0; i < LENGTH(names); i++)
         put(names[i], "x");
-    const char *const wanted[] = {"B.yaml", "a.yaml", "a-b.yaml", "aa.yaml", "aaa.yaml", "aaaa.yaml", "aaaaa.yaml", "folder.yaml"};
+    const char *const wanted[] = {"B.yaml",   "a.yaml",    "a-b.yaml",   "aa.yaml",
+                                  "aaa.yaml", "aaaa.yaml", "aaaaa.yaml", "folder.yaml"};
     const char *const *list = ceduo_file_list(&arena, own, "stands", &n);
     assert_int_equal(n, LENGTH(wanted));
     for (size_t i = 0; i < n; i++)
@@ -158,10 +161,18 @@ static void only_dead_temporaries_are_removed(void **state)
     static const struct {
         const char *name;
         bool goes;
-    } rows[] = {{"out.ceduo-tmp-17-0", true},    {"out.ceduo-tmp-4194304-99", true}, {"out.ceduo-tmp-17-1", false},
-                {"out.ceduo-tmp-17", false},     {"out.ceduo-tmp-17-", false},       {"out.ceduo-tmp--1", false},
-                {"out.ceduo-tmp-17-0x", false},  {"out.ceduo-tmp-x-0", false},       {"out.ceduo-tmp-17-0.yaml", false},
-                {"other.ceduo-tmp-17-0", false}, {"out.bak.ceduo-tmp-17-0", false},  {"out.AbCdEf", false},
+    } rows[] = {{"out.ceduo-tmp-17-0", true},
+                {"out.ceduo-tmp-4194304-99", true},
+                {"out.ceduo-tmp-17-1", false},
+                {"out.ceduo-tmp-17", false},
+                {"out.ceduo-tmp-17-", false},
+                {"out.ceduo-tmp--1", false},
+                {"out.ceduo-tmp-17-0x", false},
+                {"out.ceduo-tmp-x-0", false},
+                {"out.ceduo-tmp-17-0.yaml", false},
+                {"other.ceduo-tmp-17-0", false},
+                {"out.bak.ceduo-tmp-17-0", false},
+                {"out.AbCdEf", false},
                 {"out.ceduo-tmp-12345678901234567890-12345678", false}};
     char path[256], link[256];
     int held = -1;
@@ -431,7 +442,7 @@ static void a_closed_shelf_is_all_there_is(void **state)
     assert_null(ceduo_file_read(&arena, folder, 100, &problems));
     assert_non_null(strstr(problems.text.bytes, "cannot read it"));
     assert_non_null(ceduo_file_find(&arena, "real.yaml", path, NULL));
-    assert_null(ceduo_file_find(&arena, "real.yaml", NULL, NULL));  /* other words */
+    assert_null(ceduo_file_find(&arena, "real.yaml", NULL, NULL)); /* other words */
     assert_null(ceduo_file_find(&arena, "real.yaml", path, "stands"));
     assert_null(ceduo_file_find(&arena, path, NULL, NULL));
     ceduo_problems_free(&problems);

@@ -12,8 +12,8 @@ static void letters_stand_in_their_order(void **state)
     static const struct {
         const char *typed, *text;
         bool matches;
-    } cases[] = {{"", "anything", true},       {"sc", "simple-coppice", true}, {"cs", "simple-coppice", false},
-                 {"SIMPLE", "simple", true},   {"simples", "simple", false},   {"x", "", false},
+    } cases[] = {{"", "anything", true},        {"sc", "simple-coppice", true}, {"cs", "simple-coppice", false},
+                 {"SIMPLE", "simple", true},    {"simples", "simple", false},   {"x", "", false},
                  {"hop", "hop hornbeam", true}, {"ss", "simple", false},        {"h\xc3\xb6", "H\xc3\xb6he", true}};
     (void)state;
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++)
@@ -81,8 +81,8 @@ static void paths_are_completed(void **state)
 
 int main(void)
 {
-    static const struct CMUnitTest tests[] = {
-        cmocka_unit_test(letters_stand_in_their_order), cmocka_unit_test(beginnings_and_runs_are_better),
-        cmocka_unit_test(the_best_stands_first), cmocka_unit_test(paths_are_completed)};
+    static const struct CMUnitTest tests[] = {cmocka_unit_test(letters_stand_in_their_order),
+                                              cmocka_unit_test(beginnings_and_runs_are_better),
+                                              cmocka_unit_test(the_best_stands_first), cmocka_unit_test(paths_are_completed)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -44,13 +44,9 @@ static void release(struct jobs_news *news)
 
 static struct seek seek_of(uint64_t rocks)
 {
-    return (struct seek){.file = &file,
-                         .search = {.path = "rock.diameter_m",
-                                    .goal = CEDUO_GOAL_EXCEED,
-                                    .target = .3,
-                                    .lo = .2,
-                                    .hi = 1.5,
-                                    .rocks = rocks}};
+    return (struct seek){
+        .file = &file,
+        .search = {.path = "rock.diameter_m", .goal = CEDUO_GOAL_EXCEED, .target = .3, .lo = .2, .hi = 1.5, .rocks = rocks}};
 }
 
 static void figures_and_years_come_to_an_end(void **state)

@@ -368,8 +368,9 @@ static bool ask_both_laws(void)
 }
 
 static const char *const density = "rock.density_kg_m3", *const speed = "release.vx_m_s";
-static const struct ceduo_input inputs[2] = {{"rock.density_kg_m3", CEDUO_INPUT_RANGE, 2400, 2750, .places_count = 1, .places = &density},
-                                             {"release.vx_m_s", CEDUO_INPUT_RANGE, 0.5, 5, .places_count = 1, .places = &speed}};
+static const struct ceduo_input inputs[2] = {
+    {"rock.density_kg_m3", CEDUO_INPUT_RANGE, 2400, 2750, .places_count = 1, .places = &density},
+    {"release.vx_m_s", CEDUO_INPUT_RANGE, 0.5, 5, .places_count = 1, .places = &speed}};
 
 /* A doubt, whole where `parts` is 0. */
 static bool ask_doubt(const struct ceduo_doubt_def *def, uint64_t parts)
@@ -398,8 +399,10 @@ static bool ask_doubt(const struct ceduo_doubt_def *def, uint64_t parts)
 static bool doubt(uint64_t parts)
 {
     init(CEDUO_STEMS, CEDUO_LAW_LUMPED);
-    return ask_doubt(&(struct ceduo_doubt_def){.scene = &site.scene, .inputs_count = 2, .inputs = inputs, .points = 2, .rocks = 8, .threads = 2},
-                     parts);
+    return ask_doubt(
+        &(struct ceduo_doubt_def){
+            .scene = &site.scene, .inputs_count = 2, .inputs = inputs, .points = 2, .rocks = 8, .threads = 2},
+        parts);
 }
 
 /* One input more than can have an index: a first look ranks them, by two base points. */
@@ -410,9 +413,10 @@ static bool doubt_of_many(void)
     init(CEDUO_STEMS, CEDUO_LAW_LUMPED);
     for (size_t i = 0; i < MANY; i++)
         many[i] = inputs[1];
-    return ask_doubt(&(struct ceduo_doubt_def){.scene = &site.scene, .inputs_count = MANY, .inputs = many, .points = 2, .first = 2,
-                                               .rocks = 2, .threads = 1},
-                     0);
+    return ask_doubt(
+        &(struct ceduo_doubt_def){
+            .scene = &site.scene, .inputs_count = MANY, .inputs = many, .points = 2, .first = 2, .rocks = 2, .threads = 1},
+        0);
 }
 
 static bool doubt_whole(void)
@@ -447,10 +451,14 @@ static enum ceduo_status doubt_on_two_threads(uint64_t rocks, void (*meanwhile)(
     init(CEDUO_STEMS, CEDUO_LAW_LUMPED);
     told.most_inside = told.times = 0;
     told.meanwhile = meanwhile;
-    enum ceduo_status status =
-        ceduo_doubt_ask(&(struct ceduo_doubt_def){.scene = &site.scene, .inputs_count = 2, .inputs = inputs, .points = 100,
-                                                  .rocks = rocks, .threads = 2, .progress = tell},
-                        &answer);
+    enum ceduo_status status = ceduo_doubt_ask(&(struct ceduo_doubt_def){.scene = &site.scene,
+                                                                         .inputs_count = 2,
+                                                                         .inputs = inputs,
+                                                                         .points = 100,
+                                                                         .rocks = rocks,
+                                                                         .threads = 2,
+                                                                         .progress = tell},
+                                               &answer);
     if (status == CEDUO_OK)
         ceduo_doubt_free(&answer);
     return status;
@@ -539,9 +547,10 @@ static void a_place_that_is_not_there(void **state)
     const struct ceduo_input input = {"rock.colour", CEDUO_INPUT_RANGE, 0, 1, .places_count = 1, .places = &colour};
     init(CEDUO_STEMS, CEDUO_LAW_LUMPED);
     struct ceduo_doubt_answer answer;
-    assert_int_equal(ceduo_doubt_ask(&(struct ceduo_doubt_def){.scene = &site.scene, .inputs_count = 1, .inputs = &input, .points = 2,
-                                                               .rocks = 8, .threads = 1},
-                                     &answer),
+    assert_int_equal(ceduo_doubt_ask(
+                         &(struct ceduo_doubt_def){
+                             .scene = &site.scene, .inputs_count = 1, .inputs = &input, .points = 2, .rocks = 8, .threads = 1},
+                         &answer),
                      CEDUO_BAD_SLOPE);
 }
 
@@ -643,7 +652,8 @@ static void make_roll(void)
     site.x[1] = 160;
     site.z[1] = site.z[0] - 80;
     site.segments[0] = (struct ceduo_segment){ceduo_number(0), ceduo_number(1), NAN, 0, .1, .6};
-    site.scene.release = (struct ceduo_release){ceduo_number(1), ceduo_number(0), ceduo_number(2), ceduo_number(-1), ceduo_number(0), false};
+    site.scene.release =
+        (struct ceduo_release){ceduo_number(1), ceduo_number(0), ceduo_number(2), ceduo_number(-1), ceduo_number(0), false};
     for (int i = 0; i < 2; i++) {
         struct ceduo_stand *stand = &site.belts[i].stand;
         stand->stools_per_ha = 300;
@@ -671,8 +681,8 @@ static bool record_roll(void)
 {
     make_roll();
     struct ceduo_record record;
-    enum ceduo_status status =
-        ceduo_record(&(struct ceduo_record_def){.scene = &site.scene, .option = &site.option, .rocks = 1, .blows = true}, &record);
+    enum ceduo_status status = ceduo_record(
+        &(struct ceduo_record_def){.scene = &site.scene, .option = &site.option, .rocks = 1, .blows = true}, &record);
     assert_true(status == CEDUO_OK || status == CEDUO_NO_MEMORY);
     if (status == CEDUO_OK) {
         assert_true(record.blows_count > 100);

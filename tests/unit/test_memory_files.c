@@ -14,20 +14,22 @@
 #include "io/survey_file.h"
 #include "model/document.h"
 
-static const char scene[] = "# my comment\n"
-                            "ceduo: scene/1\n"
-                            "rock: {diameter_m: {mean: 0.5, spread: 0.1, source: {kind: assumed, text: a guess, except: [spread]}}}\n"
-                            "slope: slope.yaml\n"
-                            "controls: [{x_m: 90, name: road, accepted_kJ: 50, source: {kind: assumed, text: said}}]\n"
-                            "forest:\n"
-                            "  - {from_m: 10, to_m: 50, stand: stand.yaml}\n"
-                            "  - {from_m: 50, to_m: 80, stand: {base: stand.yaml, stools: {per_ha: 1500}}}\n";
+static const char scene[] =
+    "# my comment\n"
+    "ceduo: scene/1\n"
+    "rock: {diameter_m: {mean: 0.5, spread: 0.1, source: {kind: assumed, text: a guess, except: [spread]}}}\n"
+    "slope: slope.yaml\n"
+    "controls: [{x_m: 90, name: road, accepted_kJ: 50, source: {kind: assumed, text: said}}]\n"
+    "forest:\n"
+    "  - {from_m: 10, to_m: 50, stand: stand.yaml}\n"
+    "  - {from_m: 50, to_m: 80, stand: {base: stand.yaml, stools: {per_ha: 1500}}}\n";
 
 static const char slope[] = "ceduo: slope/1\ncsv: profile.csv\n"
                             "materials: [{from_m: 0, to_m: 30, material: cliff}, {from_m: 30, to_m: 100, material: talus}]\n";
 
-static const char stand[] = "ceduo: stand/1\nname: wood\nstools: {per_ha: 2000, spacing_m: 0.4}\n"
-                            "shoots: [{per_ha: 6000, dbh_m: 0.06, height_m: 6}]\ntrees: [{per_ha: 60, dbh_m: 0.2, height_m: 12}]\n";
+static const char stand[] =
+    "ceduo: stand/1\nname: wood\nstools: {per_ha: 2000, spacing_m: 0.4}\n"
+    "shoots: [{per_ha: 6000, dbh_m: 0.06, height_m: 6}]\ntrees: [{per_ha: 60, dbh_m: 0.2, height_m: 12}]\n";
 
 static const char faulty[] = "ceduo: scene/1\nrock: {diameter_m: -1, size: 2}\nslope: {vertices_m: [[0, 1], 2]}\n"
                              "release: {x_m: [1]}\nsimulation: {law: lumpd, rocks: 1.5, seed: 'a'}\ncontrols: 1\n"
@@ -35,14 +37,16 @@ static const char faulty[] = "ceduo: scene/1\nrock: {diameter_m: -1, size: 2}\ns
 
 static const char by_csv[] = "ceduo: scene/1\nrock: {diameter_m: 0.5}\nslope: profile.csv\ncontrols_m: [90]\n";
 
-static const char seen[] = "ceduo: scene/1\nrock: {diameter_m: 0.5}\nslope: profile.csv\ncontrols_m: [90]\nrelease: {height_m: 1}\n"
-                           "observed:\n"
-                           "  - {name: few, stops: {x_m: stops.csv, only: block=1, use: check}, release: {vx_m_s: 3}, rock: {diameter_m: 0.4}}\n"
-                           "  - {passed: {x_m: 30, count: 1, of: 2}, on_the_way: {from_m: 5, to_m: 9, height_m: {mean: 1, sd: 1, n: 4}}}\n"
-                           "doubt: {draws: draws.csv, rows: [{path: release.vx_m_s, lo: 1, hi: 3}]}\n";
+static const char seen[] =
+    "ceduo: scene/1\nrock: {diameter_m: 0.5}\nslope: profile.csv\ncontrols_m: [90]\nrelease: {height_m: 1}\n"
+    "observed:\n"
+    "  - {name: few, stops: {x_m: stops.csv, only: block=1, use: check}, release: {vx_m_s: 3}, rock: {diameter_m: 0.4}}\n"
+    "  - {passed: {x_m: 30, count: 1, of: 2}, on_the_way: {from_m: 5, to_m: 9, height_m: {mean: 1, sd: 1, n: 4}}}\n"
+    "doubt: {draws: draws.csv, rows: [{path: release.vx_m_s, lo: 1, hi: 3}]}\n";
 
 static const char kinds[] = "ceduo: scene/1\nrock: {diameter_m: 0.5}\nslope: profile.csv\ncontrols_m: [90]\n"
-                            "observed: {speed: [{x_m: 30, values: [4, 5]}, {x_m: 40, mean: 3, sd: 1, n: 4}], scars: {from_m: 2, to_m: 9, height_m: [1]}}\n";
+                            "observed: {speed: [{x_m: 30, values: [4, 5]}, {x_m: 40, mean: 3, sd: 1, n: 4}], scars: {from_m: "
+                            "2, to_m: 9, height_m: [1]}}\n";
 
 static const char doubted[] = "ceduo: scene/1\nrock: {diameter_m: 0.5}\nslope: profile.csv\ncontrols_m: [90]\n"
                               "blocks: {per_year: 1, exponent: 0.7, volume_m3: [0.1, 2]}\n"
@@ -55,8 +59,9 @@ static const char doubted[] = "ceduo: scene/1\nrock: {diameter_m: 0.5}\nslope: p
 static const char doubtful[] = "ceduo: stand/1\ntrees: [{per_ha: 60, dbh_m: 0.2, height_m: 12}]\n"
                                "doubt: [{path: 'trees[*].per_ha', lo: 50, hi: 70}]\n";
 
-static const char survey[] = "plot,area_m2,kind,stool,species,dbh_cm,height_m,note\n1,100,shoot,1,beech,6,7,x\n1,100,shoot,1,,5,,\n"
-                             "2,120,standard,,quercus-cerris,20,13,\n2,,stump,,,30,0.2,\n";
+static const char survey[] =
+    "plot,area_m2,kind,stool,species,dbh_cm,height_m,note\n1,100,shoot,1,beech,6,7,x\n1,100,shoot,1,,5,,\n"
+    "2,120,standard,,quercus-cerris,20,13,\n2,,stump,,,30,0.2,\n";
 
 static char seen_path[256], kinds_path[256], doubted_path[256], survey_path[256];
 static char scene_path[256], faulty_path[256], csv_path[256], link_path[256], linked_path[256], elsewhere_path[256];
@@ -120,8 +125,7 @@ char *__real_ceduo_arena_vformat(struct arena *arena, const char *format, va_lis
 void *__wrap_ceduo_arena_take(struct arena *arena, size_t size);
 char *__wrap_ceduo_arena_copy(struct arena *arena, const char *bytes, size_t n);
 char *__wrap_ceduo_arena_string(struct arena *arena, const char *string);
-__attribute__((format(printf, 2, 0))) char *__wrap_ceduo_arena_vformat(struct arena *arena, const char *format,
-                                                                       va_list args);
+__attribute__((format(printf, 2, 0))) char *__wrap_ceduo_arena_vformat(struct arena *arena, const char *format, va_list args);
 
 static bool arena_fails(struct arena *arena)
 {
@@ -345,17 +349,17 @@ static bool read_ambiguous(void)
 /* ---- editing ---- */
 
 /* An edit that failed left all as it was, and can be made again. */
-#define EDIT(edit)                                   \
-    do {                                             \
-        size_t at = d.at;                            \
-        if (!(edit)) {                               \
-            assert_true(problems.memory);            \
-            assert_int_equal(d.at, at);              \
-            relieve();                               \
-            ceduo_problems_free(&problems);          \
-            assert_true(edit);                       \
-        }                                            \
-        assert_int_equal(d.at, at + 1);              \
+#define EDIT(edit)                                                                                                             \
+    do {                                                                                                                       \
+        size_t at = d.at;                                                                                                      \
+        if (!(edit)) {                                                                                                         \
+            assert_true(problems.memory);                                                                                      \
+            assert_int_equal(d.at, at);                                                                                        \
+            relieve();                                                                                                         \
+            ceduo_problems_free(&problems);                                                                                    \
+            assert_true(edit);                                                                                                 \
+        }                                                                                                                      \
+        assert_int_equal(d.at, at + 1);                                                                                        \
     } while (0)
 
 static void add_scene(const struct scene_file *file)
@@ -389,8 +393,8 @@ static bool edit_document(void)
     static const char *const sets[] = {"rock.diameter_m=0.6", "release.height_m=1"};
     EDIT(ceduo_document_set(&d, "forest[0].stand.stools.per_ha", "2500", &problems));
     EDIT(ceduo_document_copy_option(&d, 0, &problems));
-    EDIT(ceduo_document_split(&d, "options[1].forest", 0, "options[1].forest[0].to_m=45",
-                              "options[1].forest[1].from_m=45", &problems));
+    EDIT(ceduo_document_split(&d, "options[1].forest", 0, "options[1].forest[0].to_m=45", "options[1].forest[1].from_m=45",
+                              &problems));
     EDIT(ceduo_document_move(&d, "options", 1, 0, &problems));
     EDIT(ceduo_document_insert(&d, "controls", 1, "{x_m: 95}", &problems));
     EDIT(ceduo_document_delete(&d, "controls[0]", &problems));
@@ -447,8 +451,16 @@ static bool write_part(void)
 {
     static const unsigned char bytes[] = "some bytes";
     char name[] = "scene \xc3\xa0 \x01";
-    struct part part = {.scene = name, .shard = 1, .shards = 2, .place = 1, .rocks = 10, .seconds = 0.5, .inputs = bytes,
-                        .runs = bytes, .inputs_length = 5, .runs_length = sizeof bytes};
+    struct part part = {.scene = name,
+                        .shard = 1,
+                        .shards = 2,
+                        .place = 1,
+                        .rocks = 10,
+                        .seconds = 0.5,
+                        .inputs = bytes,
+                        .runs = bytes,
+                        .inputs_length = 5,
+                        .runs_length = sizeof bytes};
     struct text text = {0};
     struct arena arena = {0};
     ceduo_part_write(&text, &part);

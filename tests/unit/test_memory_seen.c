@@ -32,9 +32,10 @@ static void make_ground(void)
     *s = ceduo_scene_default();
     ground.x[1] = 200;
     ground.z[1] = -80;
-    ground.segment = (struct ceduo_segment){.rn = ceduo_number(0.4), .rt = ceduo_number(0.9), .roughness_m = NAN,
-                                            .roughness_rad = 0.2, .friction = 0.5, .mu = 0.5};
-    s->slope = (struct ceduo_slope){.vertices = 2, .x = ground.x, .z = ground.z, .segments = &ground.segment, .segments_given = 1};
+    ground.segment = (struct ceduo_segment){
+        .rn = ceduo_number(0.4), .rt = ceduo_number(0.9), .roughness_m = NAN, .roughness_rad = 0.2, .friction = 0.5, .mu = 0.5};
+    s->slope =
+        (struct ceduo_slope){.vertices = 2, .x = ground.x, .z = ground.z, .segments = &ground.segment, .segments_given = 1};
     s->rock.shape = CEDUO_SPHERE;
     s->rock.diameter = ceduo_number(1);
     s->rock.density = ceduo_number(2600);
@@ -44,7 +45,8 @@ static void make_ground(void)
     s->controls_count = 1;
     ground.tree = (struct ceduo_stems){.per_ha = 400, .dbh = 0.2, .height = 15, .volume = 0.2, .age = NAN};
     ground.belt = (struct ceduo_belt){.from = 1, .to = 100, .to_given = 100, .cut_year = NAN};
-    ground.belt.stand = (struct ceduo_stand){.species = -1, .trees_count = 1, .trees = &ground.tree, .u = 1000, .fracture_ratio = NAN};
+    ground.belt.stand =
+        (struct ceduo_stand){.species = -1, .trees_count = 1, .trees = &ground.tree, .u = 1000, .fracture_ratio = NAN};
     ground.options[0] = (struct ceduo_option){.name = (char *)(uintptr_t) "wood", .belts_count = 1, .belts = &ground.belt};
     ground.options[1] = (struct ceduo_option){.name = (char *)(uintptr_t) "bare"};
     s->options = ground.options;
@@ -94,7 +96,8 @@ static double stops[3] = {60, 80, 120}, scars[3] = {0.4, 0.5, 0.6};
 
 static struct ceduo_observation something(enum ceduo_observed_kind kind)
 {
-    return (struct ceduo_observation){.kind = kind, .x = 20, .from = 10, .to = 40, .n = 3, .mean = 5, .sd = 1, .share_seen = NAN};
+    return (struct ceduo_observation){
+        .kind = kind, .x = 20, .from = 10, .to = 40, .n = 3, .mean = 5, .sd = 1, .share_seen = NAN};
 }
 
 static void see(struct ceduo_observation seen[4])
@@ -162,13 +165,8 @@ static bool fit(void)
     make_ground();
     seen.option = 1;
     const struct ceduo_calibration_scene scene = {&ground.scene, &input, 1, &seen}, scenes[2] = {scene, scene};
-    const struct ceduo_calibration_def def = {.scenes_count = 2,
-                                              .scenes = scenes,
-                                              .parameters_count = 1,
-                                              .rocks = 1,
-                                              .seed = 1,
-                                              .threads = 1,
-                                              .steps_most = 1};
+    const struct ceduo_calibration_def def = {
+        .scenes_count = 2, .scenes = scenes, .parameters_count = 1, .rocks = 1, .seed = 1, .threads = 1, .steps_most = 1};
     struct ceduo_calibration a;
     enum ceduo_status status = ceduo_calibrate(&def, &a);
     if (status == CEDUO_OK) {
@@ -215,9 +213,14 @@ static enum ceduo_status fit_of_one_round(unsigned threads, uint64_t rocks, void
     told.stage = stage;
     told.at = at;
     told.most_inside = told.times = 0;
-    enum ceduo_status status = ceduo_calibrate(&(struct ceduo_calibration_def){.scenes_count = 1, .scenes = &scene, .parameters_count = 1,
-                                                                               .rocks = rocks, .seed = 1, .threads = threads,
-                                                                               .steps_most = 1, .progress = tell},
+    enum ceduo_status status = ceduo_calibrate(&(struct ceduo_calibration_def){.scenes_count = 1,
+                                                                               .scenes = &scene,
+                                                                               .parameters_count = 1,
+                                                                               .rocks = rocks,
+                                                                               .seed = 1,
+                                                                               .threads = threads,
+                                                                               .steps_most = 1,
+                                                                               .progress = tell},
                                                &a);
     if (status == CEDUO_OK) {
         add(&a.parameters[0].best, sizeof a.parameters[0].best);
@@ -312,9 +315,19 @@ static bool draw(void)
 {
     static const double starts[2] = {-1, 1}, scale = 1;
     struct guess guess = ceduo_guess_begin(1);
-    const struct chains_def def = {.dimensions = 1, .chains = 2, .starts = starts, .scales = &scale, .seed = 1, .threads = 2,
-                                   .steps_most = 201, .rhat_most = 1.01, .effective_least = 1e9, .density = normal,
-                                   .guess = guess_at, .learn = learn, .context = &guess};
+    const struct chains_def def = {.dimensions = 1,
+                                   .chains = 2,
+                                   .starts = starts,
+                                   .scales = &scale,
+                                   .seed = 1,
+                                   .threads = 2,
+                                   .steps_most = 201,
+                                   .rhat_most = 1.01,
+                                   .effective_least = 1e9,
+                                   .density = normal,
+                                   .guess = guess_at,
+                                   .learn = learn,
+                                   .context = &guess};
     struct chains chains;
     enum ceduo_status status = ceduo_chains_run(&def, &chains);
     if (status == CEDUO_OK)
@@ -331,8 +344,11 @@ static bool survey(void)
     struct ceduo_survey_stem stems[8];
     const double area = 100;
     for (size_t i = 0; i < 8; i++)
-        stems[i] = (struct ceduo_survey_stem){.kind = i < 7 ? CEDUO_SURVEY_SHOOT : CEDUO_SURVEY_TREE, .dbh = 0.05 + 0.01 * (double)i,
-                                              .height = i == 6 ? NAN : 5 + sqrt((double)i), .spacing = 0.3, .energy = NAN};
+        stems[i] = (struct ceduo_survey_stem){.kind = i < 7 ? CEDUO_SURVEY_SHOOT : CEDUO_SURVEY_TREE,
+                                              .dbh = 0.05 + 0.01 * (double)i,
+                                              .height = i == 6 ? NAN : 5 + sqrt((double)i),
+                                              .spacing = 0.3,
+                                              .energy = NAN};
     const struct ceduo_survey s = {.plots_count = 1, .areas = &area, .stools_count = 1, .stems_count = 8, .stems = stems};
     struct ceduo_survey_answer answer;
     enum ceduo_status status = ceduo_survey_ask(&s, &answer);

@@ -51,7 +51,8 @@ static struct ceduo_counterpart look(const struct ground *g, struct ceduo_observ
 
 static struct ceduo_observation something(enum ceduo_observed_kind kind)
 {
-    return (struct ceduo_observation){.kind = kind, .x = NAN, .from = NAN, .to = NAN, .mean = NAN, .sd = NAN, .share_seen = NAN};
+    return (struct ceduo_observation){
+        .kind = kind, .x = NAN, .from = NAN, .to = NAN, .mean = NAN, .sd = NAN, .share_seen = NAN};
 }
 
 /* ---- counts and classes ---- */

@@ -7,8 +7,7 @@
 #include "unit/site.h"
 
 /* The runs of a scene, flown. */
-static struct ceduo_pool *pool_of(const struct site *s, uint64_t rocks, size_t cells, const double *cell_x,
-                                  size_t exact_bytes)
+static struct ceduo_pool *pool_of(const struct site *s, uint64_t rocks, size_t cells, const double *cell_x, size_t exact_bytes)
 {
     struct ceduo_run_def def = ceduo_run_def_default(&s->scene);
     struct ceduo_pool *pool;
@@ -103,8 +102,7 @@ static void a_forest_without_stems_is_the_bare_slope(void **state)
     static struct site s;
     wooded_site_init(&s);
     struct ceduo_pool *pool = pool_of(&s, 300, 0, NULL, CEDUO_EXACT_BYTES);
-    struct ceduo_outlook *o =
-        outlook_of(&(struct ceduo_outlook_def){.scene = &s.scene, .figures = pool, .pictures = pool});
+    struct ceduo_outlook *o = outlook_of(&(struct ceduo_outlook_def){.scene = &s.scene, .figures = pool, .pictures = pool});
     assert_int_equal(ceduo_pool_work(pool).runs, 2);
     assert_ptr_equal(o->wooded[1], o->bare);
     assert_ptr_not_equal(o->wooded[0], o->bare);
@@ -124,8 +122,7 @@ static void the_index_looks_at_the_bare_slope(void **state)
     static struct site s;
     site_init(&s);
     struct ceduo_pool *pool = pool_of(&s, 300, 0, NULL, CEDUO_EXACT_BYTES);
-    struct ceduo_outlook *o =
-        outlook_of(&(struct ceduo_outlook_def){.scene = &s.scene, .figures = pool, .pictures = pool});
+    struct ceduo_outlook *o = outlook_of(&(struct ceduo_outlook_def){.scene = &s.scene, .figures = pool, .pictures = pool});
     assert_int_equal(ceduo_pool_work(pool).runs, 1);
     assert_null(o->wooded[0]);
     assert_null(o->wooded[1]);
@@ -171,8 +168,7 @@ static void figures_come_from_the_longer_run(void **state)
     size_t cells = ceduo_outlook_places(&s.scene, x);
     struct ceduo_pool *figures = pool_of(&s, 600, 0, NULL, CEDUO_EXACT_BYTES);
     struct ceduo_pool *pictures = pool_of(&s, 300, cells, x, CEDUO_EXACT_BYTES);
-    struct ceduo_outlook_def def = {
-        .scene = &s.scene, .figures = figures, .pictures = pictures, .cells = cells, .cell_x = x};
+    struct ceduo_outlook_def def = {.scene = &s.scene, .figures = figures, .pictures = pictures, .cells = cells, .cell_x = x};
     struct ceduo_outlook *o = outlook_of(&def);
     assert_int_equal(o->wooded[0]->flown.rocks, 600);
     assert_int_equal(o->wooded[0]->picture_rocks, 300);
@@ -200,8 +196,7 @@ static void pictures_may_be_behind(void **state)
     run_def.cells = cells;
     run_def.cell_x = x;
     assert_int_equal(ceduo_pool_create(&run_def, &pictures), CEDUO_OK);
-    struct ceduo_outlook_def def = {
-        .scene = &s.scene, .figures = figures, .pictures = pictures, .cells = cells, .cell_x = x};
+    struct ceduo_outlook_def def = {.scene = &s.scene, .figures = figures, .pictures = pictures, .cells = cells, .cell_x = x};
     const uint64_t rocks[] = {0, 300, 400};
     struct ceduo_outlook *o[3];
     for (int i = 0; i < 3; i++) {
@@ -230,8 +225,7 @@ static void a_changed_forest_shows_what_it_was(void **state)
     wooded_site_init(&a);
     wooded_site_init(&b);
     struct ceduo_pool *pool = pool_of(&a, 100, 0, NULL, CEDUO_EXACT_BYTES);
-    struct ceduo_outlook *o =
-        outlook_of(&(struct ceduo_outlook_def){.scene = &a.scene, .figures = pool, .pictures = pool});
+    struct ceduo_outlook *o = outlook_of(&(struct ceduo_outlook_def){.scene = &a.scene, .figures = pool, .pictures = pool});
     struct ceduo_option options[4] = {b.options[0], b.options[1], a.options[0], b.options[0]};
     b.scene.options = options;
     b.belts[0].stand.u = 50e3;
@@ -320,10 +314,8 @@ static void energies_are_flown_where_they_were_not_kept(void **state)
     static struct site s;
     wooded_site_init(&s);
     struct ceduo_pool *kept = pool_of(&s, 300, 0, NULL, CEDUO_EXACT_BYTES), *binned = pool_of(&s, 300, 0, NULL, 0);
-    struct ceduo_outlook *a =
-        outlook_of(&(struct ceduo_outlook_def){.scene = &s.scene, .figures = kept, .pictures = kept});
-    struct ceduo_outlook *b =
-        outlook_of(&(struct ceduo_outlook_def){.scene = &s.scene, .figures = binned, .pictures = binned});
+    struct ceduo_outlook *a = outlook_of(&(struct ceduo_outlook_def){.scene = &s.scene, .figures = kept, .pictures = kept});
+    struct ceduo_outlook *b = outlook_of(&(struct ceduo_outlook_def){.scene = &s.scene, .figures = binned, .pictures = binned});
     expect_same_energies(a->bare, b->bare);
     expect_same_energies(a->wooded[0], b->wooded[0]);
     ceduo_outlook_free(a);
@@ -339,8 +331,8 @@ static void trajectories_follow_the_rocks(void **state)
     static struct site s;
     wooded_site_init(&s);
     struct ceduo_pool *pool = pool_of(&s, 20, 0, NULL, CEDUO_EXACT_BYTES);
-    struct ceduo_outlook *o = outlook_of(
-        &(struct ceduo_outlook_def){.scene = &s.scene, .figures = pool, .pictures = pool, .trajectories = 20});
+    struct ceduo_outlook *o =
+        outlook_of(&(struct ceduo_outlook_def){.scene = &s.scene, .figures = pool, .pictures = pool, .trajectories = 20});
     uint64_t hit = 0;
     for (uint64_t i = 0; i < 40; i++) {
         const struct ceduo_option *option = i % 2 ? &s.options[0] : NULL;
@@ -371,8 +363,8 @@ static void flights_are_sampled_finely(void **state)
     s.scene.release.vx = ceduo_number(10);
     s.scene.release.vz = ceduo_number(10);
     struct ceduo_pool *pool = pool_of(&s, 1, 0, NULL, CEDUO_EXACT_BYTES);
-    struct ceduo_outlook *o = outlook_of(
-        &(struct ceduo_outlook_def){.scene = &s.scene, .figures = pool, .pictures = pool, .trajectories = 1});
+    struct ceduo_outlook *o =
+        outlook_of(&(struct ceduo_outlook_def){.scene = &s.scene, .figures = pool, .pictures = pool, .trajectories = 1});
     const struct ceduo_polyline t = o->bare->trajectories[0];
     size_t checked = 0;
     for (size_t i = 1; i < t.n && t.x[i] < 20; i++, checked++) {
@@ -402,8 +394,8 @@ static void an_endless_trajectory_is_drawn_in_part(void **state)
     static struct site s;
     init_endless(&s);
     struct ceduo_pool *pool = pool_of(&s, 1, 0, NULL, CEDUO_EXACT_BYTES);
-    struct ceduo_outlook *o = outlook_of(
-        &(struct ceduo_outlook_def){.scene = &s.scene, .figures = pool, .pictures = pool, .trajectories = 1});
+    struct ceduo_outlook *o =
+        outlook_of(&(struct ceduo_outlook_def){.scene = &s.scene, .figures = pool, .pictures = pool, .trajectories = 1});
     const struct ceduo_polyline t = o->bare->trajectories[0];
     struct ceduo_trajectory way;
     assert_int_equal(ceduo_trajectory_follow(&s.scene, NULL, 0, NULL, &way, NULL), CEDUO_OK);
@@ -423,8 +415,7 @@ static void nobody_waits_for_an_endless_trajectory(void **state)
     init_endless(&s);
     atomic_bool cancel = true;
     struct ceduo_pool *pool = pool_of(&s, 1, 0, NULL, CEDUO_EXACT_BYTES);
-    struct ceduo_outlook_def def = {
-        .scene = &s.scene, .figures = pool, .pictures = pool, .trajectories = 1, .cancel = &cancel};
+    struct ceduo_outlook_def def = {.scene = &s.scene, .figures = pool, .pictures = pool, .trajectories = 1, .cancel = &cancel};
     struct ceduo_outlook *o;
     assert_int_equal(ceduo_outlook_create(&def, &o), CEDUO_CANCELLED);
     assert_null(o);

@@ -66,8 +66,14 @@ static struct ceduo_page table(void)
     ceduo_page_table(&page, columns, 5);
     ceduo_text_put(&ceduo_page_head(&page)->text, "> 1234567 kJ");
     ceduo_text_put(&ceduo_page_head(&page)->shorter, "> 1 GJ");
-    add_row(&page, "0\xe2\x80\x93""20", "oak", 12.34);
-    add_row(&page, "1000\xe2\x80\x93""2000", "hornbeam", 1234567);
+    add_row(&page,
+            "0\xe2\x80\x93"
+            "20",
+            "oak", 12.34);
+    add_row(&page,
+            "1000\xe2\x80\x93"
+            "2000",
+            "hornbeam", 1234567);
     add_row(&page, "5", "\xe6\xa3\xae\xe6\x9e\x97", 0.00001234);
     add_row(&page, "by the brook, below the seven beeches with the shrine", "ash", 1);
     return page;
@@ -81,13 +87,19 @@ static void cells_stand_below_one_another(void **state)
     struct ceduo_page page = table();
     expect_page(&page, false,
                 " place name kJ           > 1 GJ\n"
-                " 0\xe2\x80\x93""20  oak    12.3 yes 12.3\xc2\xb1""1.3\n"
-                " 1000\xe2\x80\x93""2000\n"
-                "       horn\xe2\x80\xa6   1e6 yes  (1\xc2\xb1""1)e6\n"
-                " 5     \xe6\xa3\xae\xe6\x9e\x97   1e-5 yes (1\xc2\xb1""1)e-5\n"
+                " 0\xe2\x80\x93"
+                "20  oak    12.3 yes 12.3\xc2\xb1"
+                "1.3\n"
+                " 1000\xe2\x80\x93"
+                "2000\n"
+                "       horn\xe2\x80\xa6   1e6 yes  (1\xc2\xb1"
+                "1)e6\n"
+                " 5     \xe6\xa3\xae\xe6\x9e\x97   1e-5 yes (1\xc2\xb1"
+                "1)e-5\n"
                 " by the brook, below the seven beeches\n"
                 " with the shrine\n"
-                "       ash    1.00 yes  1.0\xc2\xb1""0.1\n");
+                "       ash    1.00 yes  1.0\xc2\xb1"
+                "0.1\n");
 }
 
 /* A number too small to have a power of ten of its own is 0, not inf. */
@@ -98,7 +110,8 @@ static void the_least_numbers_are_0(void **state)
     ceduo_page_table(&page, columns, 5);
     add_row(&page, "9", "oak", 3e-323);
     char *text = printed(&page, false);
-    if (!strstr(text, " 0 \xc2\xb1" "0\n"))
+    if (!strstr(text, " 0 \xc2\xb1"
+                      "0\n"))
         fail_msg("%s", text);
     assert_null(strstr(text, "inf"));
     free(text);
@@ -153,7 +166,8 @@ static struct scene_file file;
 static struct ceduo_answer answer;
 static struct ceduo_verdict verdict;
 static struct ceduo_report report;
-static const struct ceduo_search search = {.path = "forest[0].from_m", .goal = CEDUO_GOAL_ENERGY, .target = 50, .hi = 9, .rocks = 7};
+static const struct ceduo_search search = {
+    .path = "forest[0].from_m", .goal = CEDUO_GOAL_ENERGY, .target = 50, .hi = 9, .rocks = 7};
 static const struct ceduo_found found_none = {.nearest = 3, .goal_at_nearest = 60, .value = NAN, .goal_at_value = NAN};
 static const struct ceduo_find_report find = {&file, &search, &found_none, NULL};
 
@@ -171,7 +185,11 @@ static int set_up(void **state)
     if (!good || ceduo_ask(&question, NULL, &answer) != CEDUO_OK ||
         ceduo_verdict_make(answer.result, answer.years, &verdict) != CEDUO_OK)
         return 1;
-    report = (struct ceduo_report){.file = &file, .result = answer.result, .years = answer.years, .blocks = answer.blocks, .verdict = &verdict,
+    report = (struct ceduo_report){.file = &file,
+                                   .result = answer.result,
+                                   .years = answer.years,
+                                   .blocks = answer.blocks,
+                                   .verdict = &verdict,
                                    .work = answer.work};
     return 0;
 }
@@ -277,11 +295,9 @@ static void a_row_has_a_field_for_each_name(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(paragraphs_are_wrapped),
-        cmocka_unit_test(cells_stand_below_one_another),
-        cmocka_unit_test(the_least_numbers_are_0), cmocka_unit_test(signs_are_plain_for_a_plain_terminal),
-        cmocka_unit_test(every_figure_says_what_it_is),
-        cmocka_unit_test(a_row_has_a_field_for_each_name),
+        cmocka_unit_test(paragraphs_are_wrapped),       cmocka_unit_test(cells_stand_below_one_another),
+        cmocka_unit_test(the_least_numbers_are_0),      cmocka_unit_test(signs_are_plain_for_a_plain_terminal),
+        cmocka_unit_test(every_figure_says_what_it_is), cmocka_unit_test(a_row_has_a_field_for_each_name),
         cmocka_unit_test(what_is_cut_short_is_told),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);

@@ -15,8 +15,17 @@ static struct text part_line(void)
 {
     static const unsigned char bytes[] = "seven!\n";
     char name[] = "a \"scene\" \xc3\xa0 \x01 \xc2\x85 \xe2\x80\xa8 \xf0\x9f\xbf\xbe";
-    struct part part = {.scene = name, .shard = 1, .shards = 2, .place = 3, .rocks = 10, .points = 8, .seconds = 0.5, .inputs = bytes,
-                        .runs = bytes, .inputs_length = 7, .runs_length = 5};
+    struct part part = {.scene = name,
+                        .shard = 1,
+                        .shards = 2,
+                        .place = 3,
+                        .rocks = 10,
+                        .points = 8,
+                        .seconds = 0.5,
+                        .inputs = bytes,
+                        .runs = bytes,
+                        .inputs_length = 7,
+                        .runs_length = 5};
     struct text text = {0};
     ceduo_part_write(&text, &part);
     text.bytes[--text.length] = '\0'; /* without its end */
@@ -99,18 +108,35 @@ static void parts_of_another_kind(void **state)
     assert_int_equal(changed(&line, "\"points\": 8, ", ""), PART_GOOD); /* as parts of runs have it */
     assert_int_equal(changed(&line, "ceduo-part-1", "ceduo-part-2"), PART_FORMAT);
     assert_int_equal(changed(&line, "\"version\": \"", "\"version\": \"9"), PART_VERSION);
-    const char *const rows[][2] = {
-        {"\"scene\"", "\"Scene\""},          {"\"place\": 3", "\"place\": 0"},    {"\"place\": 3", "\"place\": "},
-        {"\"place\": 3", "\"place\": 2.5"},  {"\"place\": 3", "\"place\": 3000000000"},
-        {"\"place\": 3", "\"place\": 1111111111111111111111111111111"},           {"\"shard\": 1", "\"shard\": 3"},
-        {"\"shard\": 1", "\"hard\": 1"},     {"\"shards\": 2", "\"shards\": x"},  {"\"rocks\": 10", "\"rocks\": 0"},
-        {"\"rocks\": 10", "\"rocks\": 1e99"}, {"\"points\": 8", "\"points\": 1"},
-        {"\"points\": 8", "\"points\": x"}, {"c2V2ZW4=\"", "c2V2ZW4=\", \"x\": 1"}, {"\"seconds\"", "\"second\""},      {"\"seconds\": 0.5", "\"seconds\": -1"},
-        {"\"seconds\": 0.5", "\"seconds\": x"},
-        {"\"seconds\": 0.5", "\"seconds\": 0.50000000000000000000000000000000000000"}, {"\"hash\"", "\"Hash\""},
-        {"\"hash\": \"0", "\"hash\": \"g"},  {"\"inputs\"", "\"Inputs\""},        {"\"runs\"", "\"Runs\""},
-        {"\"inputs\": \"", "\"inputs\": \"!!!!"}, {"\"inputs\": \"", "\"inputs\": \"a"}, {"c2V2ZW4=", "c2V2ZW4"}, {"\"runs\": \"", "\"runs\": \"===="},
-        {"\\u0001", "\\u0000"},              {"\\u0001", "\\u00g1"},              {"\\u0001", "\\u00"}};
+    const char *const rows[][2] = {{"\"scene\"", "\"Scene\""},
+                                   {"\"place\": 3", "\"place\": 0"},
+                                   {"\"place\": 3", "\"place\": "},
+                                   {"\"place\": 3", "\"place\": 2.5"},
+                                   {"\"place\": 3", "\"place\": 3000000000"},
+                                   {"\"place\": 3", "\"place\": 1111111111111111111111111111111"},
+                                   {"\"shard\": 1", "\"shard\": 3"},
+                                   {"\"shard\": 1", "\"hard\": 1"},
+                                   {"\"shards\": 2", "\"shards\": x"},
+                                   {"\"rocks\": 10", "\"rocks\": 0"},
+                                   {"\"rocks\": 10", "\"rocks\": 1e99"},
+                                   {"\"points\": 8", "\"points\": 1"},
+                                   {"\"points\": 8", "\"points\": x"},
+                                   {"c2V2ZW4=\"", "c2V2ZW4=\", \"x\": 1"},
+                                   {"\"seconds\"", "\"second\""},
+                                   {"\"seconds\": 0.5", "\"seconds\": -1"},
+                                   {"\"seconds\": 0.5", "\"seconds\": x"},
+                                   {"\"seconds\": 0.5", "\"seconds\": 0.50000000000000000000000000000000000000"},
+                                   {"\"hash\"", "\"Hash\""},
+                                   {"\"hash\": \"0", "\"hash\": \"g"},
+                                   {"\"inputs\"", "\"Inputs\""},
+                                   {"\"runs\"", "\"Runs\""},
+                                   {"\"inputs\": \"", "\"inputs\": \"!!!!"},
+                                   {"\"inputs\": \"", "\"inputs\": \"a"},
+                                   {"c2V2ZW4=", "c2V2ZW4"},
+                                   {"\"runs\": \"", "\"runs\": \"===="},
+                                   {"\\u0001", "\\u0000"},
+                                   {"\\u0001", "\\u00g1"},
+                                   {"\\u0001", "\\u00"}};
     for (size_t i = 0; i < LENGTH(rows); i++)
         if (changed(&line, rows[i][0], rows[i][1]) != PART_CHANGED)
             fail_msg("%s for %s", rows[i][1], rows[i][0]);
@@ -125,7 +151,8 @@ static void parts_that_are_cut_within(void **state)
     struct text line = part_line();
     struct arena arena = {0};
     struct part part;
-    size_t length = (size_t)(strstr(line.bytes, sum) - line.bytes), place = (size_t)(strstr(line.bytes, "\"place\"") - line.bytes);
+    size_t length = (size_t)(strstr(line.bytes, sum) - line.bytes),
+           place = (size_t)(strstr(line.bytes, "\"place\"") - line.bytes);
     for (int nul = 0; nul < 2; nul++)
         for (size_t i = nul ? place : 0; i < length; i++) {
             struct text text = {0};

@@ -29,7 +29,7 @@ static struct ceduo_picture picture_of(const struct site *s)
 }
 
 static struct ceduo_cells *draw(enum ceduo_plot plot, const struct ceduo_picture *p, int width, int height,
-                                 enum ceduo_charset charset)
+                                enum ceduo_charset charset)
 {
     struct ceduo_cells *cells = ceduo_cells_create(width, height, charset);
     assert_non_null(cells);
@@ -38,8 +38,8 @@ static struct ceduo_cells *draw(enum ceduo_plot plot, const struct ceduo_picture
     return cells;
 }
 
-static void expect(enum ceduo_plot plot, const struct ceduo_picture *p, int width, int height,
-                   enum ceduo_charset charset, const char *expected)
+static void expect(enum ceduo_plot plot, const struct ceduo_picture *p, int width, int height, enum ceduo_charset charset,
+                   const char *expected)
 {
     struct ceduo_cells *cells = draw(plot, p, width, height, charset);
     char *text = ceduo_cells_dump(cells);
@@ -1067,8 +1067,8 @@ static void nothing_is_drawn_beside_the_area(void **state)
                     bool in = column >= area.left && column < area.left + area.width && row >= area.top &&
                               row < area.top + area.height;
                     if (!in && ceduo_cells_role(cells, column, row) != CEDUO_ROLE_BLANK)
-                        fail_msg("plot %d, charset %d, %dx%d: drawn at %d, %d", plot, (int)charset, area.width,
-                                 area.height, column - area.left, row - area.top);
+                        fail_msg("plot %d, charset %d, %dx%d: drawn at %d, %d", plot, (int)charset, area.width, area.height,
+                                 column - area.left, row - area.top);
                 }
             ceduo_cells_free(cells);
         }
@@ -1163,8 +1163,8 @@ static void pictures_draw_on_another_surface(void **state)
         ceduo_plot_draw((enum ceduo_plot)plot, &canvas, &area, &p);
         if (page.labels == 0 || page.strayed)
             fail_msg("%s: %d labels, strayed: %d", ceduo_plot_kinds[plot].name, page.labels, page.strayed);
-        bool computed = plot != CEDUO_PLOT_ROTATION && plot != CEDUO_PLOT_TRADEOFF && plot != CEDUO_PLOT_DOUBT &&
-                        plot != CEDUO_PLOT_HAZARD;
+        bool computed =
+            plot != CEDUO_PLOT_ROTATION && plot != CEDUO_PLOT_TRADEOFF && plot != CEDUO_PLOT_DOUBT && plot != CEDUO_PLOT_HAZARD;
         if (computed && (bars ? page.bars == 0 : page.lines == 0 || page.axes == 0))
             fail_msg("%s: %d lines, %d bars, %d axes", ceduo_plot_kinds[plot].name, page.lines, page.bars, page.axes);
         if (plot == CEDUO_PLOT_PROFILE && page.ways == 0)
@@ -1190,7 +1190,8 @@ static void a_point_for_each_option(void **state)
     const struct ceduo_verdict verdict = {.wooded = true, .accepted = true, .n = 3, .choices = choices};
     struct ceduo_picture p = picture_of(&s);
     p.verdict = &verdict;
-    expect(CEDUO_PLOT_TRADEOFF, &p, 60, 16, ASCII, "dangerous of 1000, against m3 per ha and year\n"
+    expect(CEDUO_PLOT_TRADEOFF, &p, 60, 16, ASCII,
+           "dangerous of 1000, against m3 per ha and year\n"
            "  600+\n"
            "     |                       :(2)\n"
            "     |                       :\n"
@@ -1293,8 +1294,7 @@ static enum exit_status read(struct arguments *a, int argc, char **argv)
     return ceduo_arguments_read(a, argc, argv);
 }
 
-#define READ(a, ...)                                                                                                   \
-    read(a, sizeof((char *[]){"ceduo", __VA_ARGS__}) / sizeof(char *), (char *[]){"ceduo", __VA_ARGS__, NULL})
+#define READ(a, ...) read(a, sizeof((char *[]){"ceduo", __VA_ARGS__}) / sizeof(char *), (char *[]){"ceduo", __VA_ARGS__, NULL})
 
 static void a_picture_is_asked_for(void **state)
 {

@@ -208,8 +208,13 @@ static void a_stand_just_cut_yields(void **state)
     struct ceduo_yield alone, beside;
     paper_site_init(&site);
     belts[0] = site.belts[0];
-    belts[0].stand = (struct ceduo_stand){.species = site.belts[0].stand.species, .stools_per_ha = 2000, .spacing = 0.3, .shoots = none,
-                                          .fracture_ratio = NAN, .growth = paper_growth, .cutting = {.rotation = 10}};
+    belts[0].stand = (struct ceduo_stand){.species = site.belts[0].stand.species,
+                                          .stools_per_ha = 2000,
+                                          .spacing = 0.3,
+                                          .shoots = none,
+                                          .fracture_ratio = NAN,
+                                          .growth = paper_growth,
+                                          .cutting = {.rotation = 10}};
     belts[0].cut_year = 10;
     belts[1] = belts[0];
     belts[1].stand = (struct ceduo_stand){.species = -1, .fracture_ratio = NAN};

@@ -70,16 +70,12 @@ static void scenes_are_refused(void **state)
         double *number, value;
         enum ceduo_status wanted;
         size_t where;
-    } rows[] = {{&scene->rock.diameter.mean, 0, CEDUO_BAD_ROCK, 9},
-                {&scene->release.x.mean, -1, CEDUO_RELEASE_OFF_SLOPE, 9},
-                {&scene->release.x.mean, NAN, CEDUO_RELEASE_OFF_SLOPE, 9},
-                {&scene->release.x.mean, end, CEDUO_RELEASE_OFF_SLOPE, 9},
-                {&scene->release.x.spread, 1, CEDUO_RELEASE_OFF_SLOPE, 9},
-                {&scene->release.height.mean, -1, CEDUO_RELEASE_BELOW, 9},
-                {&scene->release.height.spread, 1, CEDUO_RELEASE_BELOW, 9},
-                {&controls[0].x, end + 1, CEDUO_CONTROL_OFF_SLOPE, 0},
-                {&controls[1].x, NAN, CEDUO_CONTROL_OFF_SLOPE, 1},
-                {&controls[1].x, 0, CEDUO_CONTROL_BEHIND, 1}};
+    } rows[] = {
+        {&scene->rock.diameter.mean, 0, CEDUO_BAD_ROCK, 9},         {&scene->release.x.mean, -1, CEDUO_RELEASE_OFF_SLOPE, 9},
+        {&scene->release.x.mean, NAN, CEDUO_RELEASE_OFF_SLOPE, 9},  {&scene->release.x.mean, end, CEDUO_RELEASE_OFF_SLOPE, 9},
+        {&scene->release.x.spread, 1, CEDUO_RELEASE_OFF_SLOPE, 9},  {&scene->release.height.mean, -1, CEDUO_RELEASE_BELOW, 9},
+        {&scene->release.height.spread, 1, CEDUO_RELEASE_BELOW, 9}, {&controls[0].x, end + 1, CEDUO_CONTROL_OFF_SLOPE, 0},
+        {&controls[1].x, NAN, CEDUO_CONTROL_OFF_SLOPE, 1},          {&controls[1].x, 0, CEDUO_CONTROL_BEHIND, 1}};
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         size_t where = 9;
         double was = *rows[i].number;
@@ -100,7 +96,8 @@ static void blocks_are_refused(void **state)
     struct ceduo_block_class b[2] = {{1, 1, 2, volumes}, {1, 1, 2, volumes}};
     const struct {
         double *number, value;
-    } rows[] = {{&volumes[0], 0}, {&volumes[0], NAN}, {&volumes[0], 2}, {&b[1].per_year, 0}, {&b[1].per_year, NAN}, {&b[1].exponent, -1}};
+    } rows[] = {{&volumes[0], 0},    {&volumes[0], NAN},    {&volumes[0], 2},
+                {&b[1].per_year, 0}, {&b[1].per_year, NAN}, {&b[1].exponent, -1}};
     paper_site_init(&site);
     site.scene.blocks = b;
     site.scene.blocks_count = 2;
@@ -232,8 +229,8 @@ static void alike_neighbours_are_one(void **state)
     }
     *b = *a;
     assert_int_equal(segments_made(), 1);
-    double *const numbers[] = {&b->rn.mean, &b->rt.mean, &b->friction, &b->mu, &b->roughness_rad,
-                               &b->rn.spread, &b->rt.spread, &slope->z[1]};
+    double *const numbers[] = {&b->rn.mean,       &b->rt.mean,   &b->friction,  &b->mu,
+                               &b->roughness_rad, &b->rn.spread, &b->rt.spread, &slope->z[1]};
     for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; i++) {
         double was = *numbers[i];
         *numbers[i] += .01;

@@ -245,7 +245,8 @@ static void a_rock_without_end(void **state)
     slope->z[1] = slope->z[0];
     slope->segments[0] = (struct ceduo_segment){ceduo_number(1), ceduo_number(1), NAN, 0, .5, .6};
     site.control.x = slope->x[1];
-    site.scene.release = (struct ceduo_release){ceduo_number(.5), ceduo_number(1), ceduo_number(0), ceduo_number(0), ceduo_number(0), false};
+    site.scene.release =
+        (struct ceduo_release){ceduo_number(.5), ceduo_number(1), ceduo_number(0), ceduo_number(0), ceduo_number(0), false};
     struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
     def.cells = 2;
     def.cell_x = cells;
@@ -279,7 +280,8 @@ static void differences_of_the_first_rocks(void **state)
     binned[0] = run_of(&def, CEDUO_PAIRED_ROCKS + 30000); /* with samples until here */
     assert_int_equal(ceduo_run_extend(binned[0], ROCKS), CEDUO_OK);
     binned[1] = run_of(&other, ROCKS);
-    struct ceduo_difference all = ceduo_run_difference(exact[0], exact[1], 0), first = ceduo_run_difference(binned[0], binned[1], 0);
+    struct ceduo_difference all = ceduo_run_difference(exact[0], exact[1], 0),
+                            first = ceduo_run_difference(binned[0], binned[1], 0);
     struct ceduo_arrivals a;
     assert_int_equal(ceduo_run_arrivals(binned[0], 0, &a), CEDUO_OK);
     assert_false(a.exact);
@@ -305,7 +307,8 @@ static void differences_of_blocks(void **state)
     struct ceduo_run_def bare = ceduo_run_def_default(&site.scene), wood = bare;
     wood.option = &site.option;
     double none[1], stops[1];
-    struct ceduo_run *few = run_of(&wood, 50), *many = run_of(&wood, 120), *least = run_of(&bare, 50), *most = run_of(&bare, 120);
+    struct ceduo_run *few = run_of(&wood, 50), *many = run_of(&wood, 120), *least = run_of(&bare, 50),
+                     *most = run_of(&bare, 120);
     struct ceduo_run *empty = run_of(&bare, 0);
     struct ceduo_difference wanted = ceduo_run_difference(few, least, 0);
     EXPECT(wanted.energy_per_released.mean, <, 0);
@@ -407,8 +410,8 @@ static void years_before_they_are_flown(void **state)
     struct ceduo_flown bare;
     struct ceduo_years *years;
     assert_int_equal(ceduo_flown_read(run, 1, &bare), CEDUO_OK);
-    assert_int_equal(ceduo_years_create(&site.scene, &site.option, (struct ceduo_window){.last = 3, .step = 1},
-                                        &years), CEDUO_OK);
+    assert_int_equal(ceduo_years_create(&site.scene, &site.option, (struct ceduo_window){.last = 3, .step = 1}, &years),
+                     CEDUO_OK);
     ceduo_years_assess(years, &site.scene, &bare);
     struct ceduo_years_summary s = ceduo_years_sum(years, 0);
     EXPECT(s.years, ==, 4);
@@ -431,8 +434,8 @@ static void little_is_asked_of_a_run(void **state)
     paper_site_init(&site);
     site.scene.simulation.rocks = 300;
     site.scene.slope.segments[0].friction = 9; /* holds all that are released without speed */
-    site.scene.release = (struct ceduo_release){ceduo_number(.1), ceduo_number(0), ceduo_number(0), ceduo_number(0),
-                                                ceduo_number(0), false};
+    site.scene.release =
+        (struct ceduo_release){ceduo_number(.1), ceduo_number(0), ceduo_number(0), ceduo_number(0), ceduo_number(0), false};
     struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
     def.threads = 0; /* as one */
     def.cells = 2;

@@ -16,9 +16,12 @@
 static char *scene_with(const char *line)
 {
     static const char *const lines[] = {
-        "ceduo: scene/1\n", "rock: {diameter_m: 0.5, density_kg_m3: 2600}\n", "release: {vx_m_s: 1}\n",
+        "ceduo: scene/1\n",
+        "rock: {diameter_m: 0.5, density_kg_m3: 2600}\n",
+        "release: {vx_m_s: 1}\n",
         "slope: {vertices_m: [[0, 50], [40, 20], [100, 0]], segments: [{rn: 0.3, rt: 0.8, friction: 0.5}]}\n",
-        "controls: [{x_m: 90}]\n", "simulation: {rocks: 10}\n",
+        "controls: [{x_m: 90}]\n",
+        "simulation: {rocks: 10}\n",
         ("forest: [{from_m: 10, to_m: 80, stand: {stools: {per_ha: 2000, spacing_m: 0.4}, shoots: [{per_ha: 6000, dbh_m: "
          "0.06, height_m: 6}]}}]\n")};
     struct text text = {0};
@@ -67,7 +70,8 @@ static void wrong_scenes_are_told(void **state)
         {"simulation: 3", "simulation: expected a mapping, not a single value"},
         {"ceduo: [scene/1]", "ceduo: expected scene/1, not a list"},
         {"ceduo: slope/1", "'slope/1': expected 'scene/1'"},
-        {"rock: {diameter_m: {mean: 0.5, wide: 1}}", "rock.diameter_m.wide: unknown key; known here: mean, spread, kind, source"},
+        {"rock: {diameter_m: {mean: 0.5, wide: 1}}",
+         "rock.diameter_m.wide: unknown key; known here: mean, spread, kind, source"},
         {"rock: {diameter_m: {spread: 0.1}}", "rock.diameter_m: 'mean' is missing"},
         {"rock: {diameter_m: {mean: 0.5, spread: 0.4}}", "the spread reaches from -0.7 to 1.7 m"},
         {"rock: {diameter_m: {mean: 999, spread: 1}}", "the spread reaches from 996 to 1002 m"},
@@ -110,12 +114,15 @@ static void wrong_scenes_are_told(void **state)
         free(told);
     }
     const char *const fine[] = {
-        "simulation: {scale_rn: true}", "simulation: {scale_rn: false}", "release: {x_m: {spread: 0}}",
+        "simulation: {scale_rn: true}",
+        "simulation: {scale_rn: false}",
+        "release: {x_m: {spread: 0}}",
         "rock: {shape: cylinder, diameter_m: 1, height_m: 1, mass_kg: 9}",
         "rock: {diameter_m: {mean: 0.5, spread: 0.1, kind: uniform, source: {kind: measured}}}",
         ("slope: {vertices_m: [[0, 50], [40, 20], [100, 0]], materials: [{from_m: 0, to_m: 40, material: cliff}, {from_m: 40, "
          "to_m: 120, material: talus}, {from_m: 120, to_m: 150, material: cliff}]}"),
-        "forest: [{from_m: 10, to_m: 80, stand: {name: none}}]", "forest: [{from_m: 10, to_m: 80, stand: {}}]"};
+        "forest: [{from_m: 10, to_m: 80, stand: {name: none}}]",
+        "forest: [{from_m: 10, to_m: 80, stand: {}}]"};
     for (size_t i = 0; i < LENGTH(fine); i++) {
         char *told = problems_of(fine[i], &good);
         if (!good)
@@ -130,13 +137,14 @@ static void one_fault_is_told_once(void **state)
     (void)state;
     const struct {
         const char *line, *told;
-    } rows[] = {{"slope: {csv: [1]}", "slope.csv: expected a text, not a list"},
-                {"forest: [{from_m: 10, to_m: 80, stand: {growth: {shoots_young: x, shoots_old: 3}}}]",
-                 "growth.shoots_young: 'x' is not a number"},
-                /* a line that ends at U+2028 ends later for the eye, so the place may lie behind its end */
-                {"forest: [] # \xe2\x80\xa8#\nx:                                                                                   "
-                 "                                                                                    @\n#",
-                 "no value can start with this character"}};
+    } rows[] = {
+        {"slope: {csv: [1]}", "slope.csv: expected a text, not a list"},
+        {"forest: [{from_m: 10, to_m: 80, stand: {growth: {shoots_young: x, shoots_old: 3}}}]",
+         "growth.shoots_young: 'x' is not a number"},
+        /* a line that ends at U+2028 ends later for the eye, so the place may lie behind its end */
+        {"forest: [] # \xe2\x80\xa8#\nx:                                                                                   "
+         "                                                                                    @\n#",
+         "no value can start with this character"}};
     bool good;
     for (size_t i = 0; i < LENGTH(rows); i++) {
         char *told = problems_of(rows[i].line, &good), *first = strstr(told, "scene:");
@@ -156,14 +164,15 @@ static void files_that_are_followed(void **state)
     const struct {
         const char *line, *told;
         const char *const *set;
-    } rows[] = {{"forest: [{from_m: 10, to_m: 80, stand: five.yaml}]", "expected a mapping, not a single value", NULL},
-                {"forest: [{from_m: 10, to_m: 80, stand: list.yaml}]", "expected a mapping, not a list", NULL},
-                {"forest: [{from_m: 10, to_m: 80, stand: {base: five.yaml, name: x}}]",
-                 "expected a mapping, not a single value", NULL},
-                {"forest: [{from_m: 10, to_m: 80, stand: {}}]", NULL, with_base}};
+    } rows[] = {
+        {"forest: [{from_m: 10, to_m: 80, stand: five.yaml}]", "expected a mapping, not a single value", NULL},
+        {"forest: [{from_m: 10, to_m: 80, stand: list.yaml}]", "expected a mapping, not a list", NULL},
+        {"forest: [{from_m: 10, to_m: 80, stand: {base: five.yaml, name: x}}]", "expected a mapping, not a single value", NULL},
+        {"forest: [{from_m: 10, to_m: 80, stand: {}}]", NULL, with_base}};
     put("five.yaml", "5\n");
     put("list.yaml", "- 5\n");
-    put("stand.yaml", "ceduo: stand/1\nstools: {per_ha: 2000, spacing_m: 0.4}\nshoots: [{per_ha: 6000, dbh_m: 0.06, height_m: 6}]\n");
+    put("stand.yaml",
+        "ceduo: stand/1\nstools: {per_ha: 2000, spacing_m: 0.4}\nshoots: [{per_ha: 6000, dbh_m: 0.06, height_m: 6}]\n");
     for (size_t i = 0; i < LENGTH(rows); i++) {
         struct scene_file file;
         struct problems problems = {0};
@@ -282,7 +291,8 @@ static void sources_of_changes(void **state)
                 {"by hand", "rock.diameter_m=0.6", "source: expected a mapping {kind, text}"},
                 {"{kind: measured, except: volume_m3}", "rock.diameter_m=0.6", "source.except: expected a list of keys"},
                 {"{kind: measured, except: [[volume_m3]]}", "rock.diameter_m=0.6", "source.except: expected a key, not a list"},
-                {"{kind: measured}", "rock.source.wide=1", "--set:1:18: rock.source.wide: unknown key; known here: kind, text, except"}};
+                {"{kind: measured}", "rock.source.wide=1",
+                 "--set:1:18: rock.source.wide: unknown key; known here: kind, text, except"}};
     for (size_t i = 0; i < LENGTH(rows); i++) {
         struct scene_file file;
         struct problems problems = {0};
@@ -301,8 +311,9 @@ static void sources_of_changes(void **state)
             fail_msg("%s: %s", rows[i].set, problems.text.bytes);
         if (!rows[i].told) {
             ceduo_emit_flow(&rock, ceduo_node_get(file.root, "rock"));
-            assert_string_equal(rock.bytes, "{diameter_m: 0.6, density_kg_m3: 2600, source: {kind: measured, except: [volume_m3, "
-                                            "diameter_m]}}");
+            assert_string_equal(rock.bytes,
+                                "{diameter_m: 0.6, density_kg_m3: 2600, source: {kind: measured, except: [volume_m3, "
+                                "diameter_m]}}");
         }
         ceduo_text_free(&rock);
         ceduo_text_free(&line);
@@ -394,8 +405,10 @@ static void problems_are_put_together(void **state)
     ceduo_problem(&problems, &source, 4, 300, "far behind");
     ceduo_problem(&problems, &source, 0, 0, "whole");
     ceduo_problem(&problems, NULL, 3, 3, "nowhere");
-    assert_string_equal(problems.text.bytes, "file:1:2: a\n  one\n   ^\nfile:2:3: b\n   two\n    ^\nfile:3:1: empty\n"
-                                             "file:9:1: beyond\nfile:4:90: behind\n  four\n      ^\nfile:4:300: far behind\n  \n  ^\nfile: whole\nnowhere\n");
+    assert_string_equal(
+        problems.text.bytes,
+        "file:1:2: a\n  one\n   ^\nfile:2:3: b\n   two\n    ^\nfile:3:1: empty\n"
+        "file:9:1: beyond\nfile:4:90: behind\n  four\n      ^\nfile:4:300: far behind\n  \n  ^\nfile: whole\nnowhere\n");
     assert_int_equal(problems.count, 8);
     assert_int_equal(problems.met, 9);
     ceduo_problems_free(&problems);
@@ -438,8 +451,10 @@ static void notes_are_found(void **state)
         "stools: {per_ha: 2000, spacing_m: 0.4, source: {kind: assumed, text: stools}}, shoots: [{per_ha: 6000, dbh_m: 0.06, "
         "height_m: 6}]}}, "
         /* its own source goes before one that is not of it, whichever is given first */
-        "{from_m: 80, to_m: 84, stand: {source: {kind: measured, except: [energy]}, energy: {source: {kind: assumed, text: own}}}}, "
-        "{from_m: 84, to_m: 90, stand: {energy: {source: {kind: assumed, text: own}}, source: {kind: measured, except: [energy]}}}]");
+        "{from_m: 80, to_m: 84, stand: {source: {kind: measured, except: [energy]}, energy: {source: {kind: assumed, text: "
+        "own}}}}, "
+        "{from_m: 84, to_m: 90, stand: {energy: {source: {kind: assumed, text: own}}, source: {kind: measured, except: "
+        "[energy]}}}]");
     if (!ceduo_scene_read_text(&file, "scene", text, &problems))
         fail_msg("%s", problems.text.bytes);
     const struct {
@@ -480,10 +495,22 @@ static void ranges_are_told(void **state)
         double lo, hi;
         unsigned flags;
         const char *text;
-    } rows[] = {{-INFINITY, INFINITY, 0, ""},  {0, INFINITY, 0, ">= 0"},      {0, INFINITY, FIELD_ABOVE, "> 0"},
-                {0, 1, 0, "0\xe2\x80\xa6" "1"}, {0, 1, FIELD_ABOVE | FIELD_UNDER, ">0\xe2\x80\xa6<1"},
-                {-INFINITY, 5, 0, "\xe2\x80\xa6" "5"}, {-1e9, 1e9, 0, "-1e+09\xe2\x80\xa6" "1e+09"},
-                {0, 9007199254740992.0, 0, "0\xe2\x80\xa6" "9007199254740992"}};
+    } rows[] = {{-INFINITY, INFINITY, 0, ""},
+                {0, INFINITY, 0, ">= 0"},
+                {0, INFINITY, FIELD_ABOVE, "> 0"},
+                {0, 1, 0,
+                 "0\xe2\x80\xa6"
+                 "1"},
+                {0, 1, FIELD_ABOVE | FIELD_UNDER, ">0\xe2\x80\xa6<1"},
+                {-INFINITY, 5, 0,
+                 "\xe2\x80\xa6"
+                 "5"},
+                {-1e9, 1e9, 0,
+                 "-1e+09\xe2\x80\xa6"
+                 "1e+09"},
+                {0, 9007199254740992.0, 0,
+                 "0\xe2\x80\xa6"
+                 "9007199254740992"}};
     for (size_t i = 0; i < LENGTH(rows); i++) {
         struct text text = {0};
         const struct field f = {.lo = rows[i].lo, .hi = rows[i].hi, .flags = rows[i].flags};

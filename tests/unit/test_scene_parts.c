@@ -46,16 +46,16 @@ static void read_scene(struct scene_file *file, const char *lines, const char *c
     ceduo_problems_free(&problems);
 }
 
-#define SHOOTS "stools: {per_ha: 2000, spacing_m: 0.4}, shoots: [{per_ha: 6000, dbh_m: 0.06, height_m: 6}]"
-#define BELT "from_m: 10, to_m: 80, stand: {" SHOOTS
+#define SHOOTS     "stools: {per_ha: 2000, spacing_m: 0.4}, shoots: [{per_ha: 6000, dbh_m: 0.06, height_m: 6}]"
+#define BELT       "from_m: 10, to_m: 80, stand: {" SHOOTS
 #define GROUND_ROW "doubt: [{path: 'slope.materials[talus].rn', lo: 0.2, hi: 0.4}]"
-#define CLIFF_AND_TALUS                                                                                      \
-    "slope: {vertices_m: [[0, 50], [40, 20], [100, 0]], materials: [{from_m: 0, to_m: 40, material: cliff}, " \
+#define CLIFF_AND_TALUS                                                                                                        \
+    "slope: {vertices_m: [[0, 50], [40, 20], [100, 0]], materials: [{from_m: 0, to_m: 40, material: cliff}, "                  \
     "{from_m: 40, to_m: 100, material: talus}]}"
 #define FOREST "forest: [{from_m: 10, to_m: 80, stand: {"
-#define TREE "dbh_m: 0.2, height_m: 9"
+#define TREE   "dbh_m: 0.2, height_m: 9"
 #define GROUPS "groups: {stems: 5, radius_m: 2}"
-#define STOPS "stops: {x_m: [40, 50]}"
+#define STOPS  "stops: {x_m: [40, 50]}"
 
 static void one_fault_is_told_once(void **state)
 {
@@ -71,27 +71,25 @@ static void one_fault_is_told_once(void **state)
         {FOREST "stumps: {per_ha: 9, height_m: 0.3, energy_kJ: 9}}}]", "stumps need diameter_m"},
         {FOREST "stumps: {per_ha: 9, diameter_m: 0.3, energy_kJ: 9}}}]", "stumps need diameter_m"},
         {FOREST "stumps: {per_ha: 9, diameter_m: 0.3, height_m: 0.3}}}]", "stumps need diameter_m"},
-        {FOREST "stumps: {per_ha: 9, diameter_m: x, height_m: 0.3, energy_kJ: 9}}}]",
-         "stumps.diameter_m: 'x' is not a number"},
+        {FOREST "stumps: {per_ha: 9, diameter_m: x, height_m: 0.3, energy_kJ: 9}}}]", "stumps.diameter_m: 'x' is not a number"},
         {FOREST "logs: {per_ha: 9, diameter_m: 0.3, energy_kJ: 9}}}]", "logs need length_m"},
         {FOREST "logs: {per_ha: 9, length_m: 5, energy_kJ: 9}}}]", "logs need length_m"},
         {FOREST "logs: {per_ha: 9, length_m: 5, diameter_m: 0.3}}}]", "logs need length_m"},
         {"rules: {name: here, standards: [{per_ha: 50, article: a, year: 2000, species: beech}]}",
          "rules.standards[0].species: expected a list, not a single value"},
-        {"forest: [{" BELT ", doubt: [{lo: 1, hi: 2}, {path: stools.per_ha, lo: 1, hi: 2}]}}]",
-         "doubt[0]: 'path' is missing"},
-        {"doubt: [{path: rock.density_kg_m3, lo: 1, hi: 2}]\nslope: {csv: [1]}",
-         "slope.csv: expected a text, not a list"},
+        {"forest: [{" BELT ", doubt: [{lo: 1, hi: 2}, {path: stools.per_ha, lo: 1, hi: 2}]}}]", "doubt[0]: 'path' is missing"},
+        {"doubt: [{path: rock.density_kg_m3, lo: 1, hi: 2}]\nslope: {csv: [1]}", "slope.csv: expected a text, not a list"},
         {"doubt: {rows: []}", "doubt: expected a list, not a mapping"},
         {"doubt: [{path: 'controls[*].accepted_kJ', lo: 1, hi: 2}]\ncontrols: 5", "controls: expected a list"},
         {GROUND_ROW "\nslope: {vertices_m: [[0, 50], [100, 0]], materials: 6}", "slope.materials: expected a list"},
         {GROUND_ROW "\nslope: {vertices_m: [[0, 50], [100, 0]], materials: []}", "slope.materials: the list is empty"},
-        {GROUND_ROW "\nslope: {vertices_m: [[0, 50], [100, 0]], materials: [{from_m: 0, to_m: 100}]}",
-         "'material' is missing"},
+        {GROUND_ROW "\nslope: {vertices_m: [[0, 50], [100, 0]], materials: [{from_m: 0, to_m: 100}]}", "'material' is missing"},
         {GROUND_ROW "\nslope: {vertices_m: [[0, 50], [100, 0]], materials: [{from_m: 0, to_m: 40, material: cliff}, "
-         "{to_m: 100, material: talus}]}", "'from_m' is missing"},
+                    "{to_m: 100, material: talus}]}",
+         "'from_m' is missing"},
         {GROUND_ROW "\nslope: {vertices_m: [[0, 50], [100, 0]], materials: [{from_m: 0, to_m: 40, material: cliff}, "
-         "{from_m: x, to_m: 100, material: talus}]}", "materials[1].from_m: 'x' is not a number"},
+                    "{from_m: x, to_m: 100, material: talus}]}",
+         "materials[1].from_m: 'x' is not a number"},
         {"release: {x_m: 5, source: {kind: guessed}}\nobserved: [{" STOPS ", release: {vx_m_s: 3}}]",
          "release.source.kind: 'guessed'"},
         {"observed: [{use: check}]", "observed[0]: say what was seen"},
@@ -110,10 +108,19 @@ static void one_fault_is_told_once(void **state)
 static void rows_of_doubt_are_told(void **state)
 {
     (void)state;
-    const char *const paths[] = {"title", "rock", "rock.axes_m", "rock.axes_m[0]", "rock.diameter_m.mean",
-                                 "slope.vertices_m", "controls_m", "forest", "simulation.scale_rn",
-                                 "slope.materials[talus", "slope.materials[talus]_rn",
-                                 "slope.materials[talus].hardness", "slope.materials[gold].rn"};
+    const char *const paths[] = {"title",
+                                 "rock",
+                                 "rock.axes_m",
+                                 "rock.axes_m[0]",
+                                 "rock.diameter_m.mean",
+                                 "slope.vertices_m",
+                                 "controls_m",
+                                 "forest",
+                                 "simulation.scale_rn",
+                                 "slope.materials[talus",
+                                 "slope.materials[talus]_rn",
+                                 "slope.materials[talus].hardness",
+                                 "slope.materials[gold].rn"};
     for (size_t i = 0; i < LENGTH(paths); i++) {
         struct scene_file file;
         char row[256], told[256];
@@ -122,9 +129,16 @@ static void rows_of_doubt_are_told(void **state)
         read_scene(&file, row, NULL, 0, told);
         ceduo_scene_release(&file);
     }
-    const char *const forms[] = {"lo: 1", "hi: 2", "lo: 1, sd: 2", "mean: 1", "lo: 1, hi: 2, mean: 1",
-                                 "lo: 1, hi: 2, one_of: [a, b]", "mean: 1, sd: 2, lo: 1",
-                                 "mean: 1, sd: 2, one_of: [a, b]", "one_of: [a, b], lo: 1", "one_of: [a, b], sd: 1"};
+    const char *const forms[] = {"lo: 1",
+                                 "hi: 2",
+                                 "lo: 1, sd: 2",
+                                 "mean: 1",
+                                 "lo: 1, hi: 2, mean: 1",
+                                 "lo: 1, hi: 2, one_of: [a, b]",
+                                 "mean: 1, sd: 2, lo: 1",
+                                 "mean: 1, sd: 2, one_of: [a, b]",
+                                 "one_of: [a, b], lo: 1",
+                                 "one_of: [a, b], sd: 1"};
     for (size_t i = 0; i < LENGTH(forms); i++)
         for (int word = 0; word < 2; word++) {
             struct scene_file file;
@@ -132,8 +146,7 @@ static void rows_of_doubt_are_told(void **state)
             snprintf(row, sizeof row, "doubt: [{path: '%s', %s}]\nforest: [{" BELT "}}]",
                      word ? "forest[0].stand.energy.model" : "rock.density_kg_m3", forms[i]);
             read_scene(&file, row, NULL, 0,
-                       word ? "doubt[0]: give one_of: the words that it may be"
-                            : "doubt[0]: give lo and hi, or mean and sd");
+                       word ? "doubt[0]: give one_of: the words that it may be" : "doubt[0]: give lo and hi, or mean and sd");
             ceduo_scene_release(&file);
         }
     struct text many = {0};
@@ -176,7 +189,8 @@ static void rows_of_doubt_mean_places(void **state)
                   "options[1].forest[0].to_m");
     /* one stand says it, the other that nothing is in doubt */
     expect_places("forest: [{" BELT ", doubt: none}}, {from_m: 80, to_m: 90, stand: {trees: [{per_ha: 10, " TREE "}], "
-                  "doubt: [{path: 'trees[0].per_ha', lo: 1, hi: 90}]}}]", "forest[1].stand.trees[0].per_ha");
+                  "doubt: [{path: 'trees[0].per_ha', lo: 1, hi: 90}]}}]",
+                  "forest[1].stand.trees[0].per_ha");
     expect_places(CLIFF_AND_TALUS "\n" GROUND_ROW, "slope.segments[1].rn");
 }
 
@@ -191,9 +205,11 @@ static void places_by_name(void **state)
         struct scene_file file;
         struct scene_inputs inputs;
         size_t found = 0;
-        ceduo_text_format(&lines, "doubt: [{path: 'options[wood].forest[trees].stand.trees[0].per_ha', lo: 70, hi: 90}]\n"
+        ceduo_text_format(&lines,
+                          "doubt: [{path: 'options[wood].forest[trees].stand.trees[0].per_ha', lo: 70, hi: 90}]\n"
                           "options: [{name: bare}, {name: wood, forest: [{from_m: 10, to_m: 80, stand: {name: trees, "
-                          "trees: [{per_ha: 80, " TREE "}], energy: {model: brauner, u_J_m3: 1e5}, %s}}]}]", more[i]);
+                          "trees: [{per_ha: 80, " TREE "}], energy: {model: brauner, u_J_m3: 1e5}, %s}}]}]",
+                          more[i]);
         read_scene(&file, lines.bytes, NULL, 0, NULL);
         assert_true(ceduo_inputs_of(&file, &inputs));
         for (size_t k = 0; k < inputs.n; k++)
@@ -293,8 +309,7 @@ static void draws_of_an_assumed_ground(void **state)
     assert_int_equal(file.inputs[0].places_count, 1);
     assert_string_equal(file.inputs[0].places[0], "slope.segments[1].rn");
     ceduo_scene_release(&file);
-    const char *const heads[] = {"slope.materials[cliff].rn", "forest[5].to_m", "options[*].forest[*].to_m",
-                                 "simulation.law"};
+    const char *const heads[] = {"slope.materials[cliff].rn", "forest[5].to_m", "options[*].forest[*].to_m", "simulation.law"};
     for (size_t i = 0; i < LENGTH(heads); i++) {
         char told[128];
         snprintf(told, sizeof told, "the table has a column '%s', which is no value of this scene", heads[i]);
@@ -350,8 +365,8 @@ static void places_have_belts(void **state)
     read_scene(&file, "options: [{name: bare}, {name: wood, forest: [{" BELT "}}]}]", NULL, 0, NULL);
     const struct ceduo_scene *s = &file.scene;
     assert_ptr_equal(ceduo_input_belt(s, "options[1].forest[0].stand.stools.per_ha"), &s->options[1].belts[0]);
-    const char *const none[] = {"options[0].forest[0].to_m", "options[1].forest[1].to_m",
-                                "options[4000000000].forest[0].to_m", "forest[0].to_m", "rock.density_kg_m3"};
+    const char *const none[] = {"options[0].forest[0].to_m", "options[1].forest[1].to_m", "options[4000000000].forest[0].to_m",
+                                "forest[0].to_m", "rock.density_kg_m3"};
     for (size_t i = 0; i < LENGTH(none); i++)
         assert_null(ceduo_input_belt(s, none[i]));
     ceduo_scene_release(&file);
@@ -376,7 +391,8 @@ static void strength_is_of_a_species(void **state)
     for (int i = 0; i < 2; i++)
         ceduo_text_format(&lines,
                           "  - {name: n%d, forest: [{from_m: 10, to_m: 20, stand: {species: acer, %s}}, "
-                          "{from_m: 30, to_m: 40, stand: {species: fagus-sylvatica, %s}}]}\n", i, wood, wood);
+                          "{from_m: 30, to_m: 40, stand: {species: fagus-sylvatica, %s}}]}\n",
+                          i, wood, wood);
     read_scene(&file, lines.bytes, NULL, 0, NULL);
     assert_true(ceduo_inputs_of(&file, &inputs));
     size_t strengths = 0;
@@ -396,8 +412,10 @@ static void groups_are_of_trees(void **state)
 {
     (void)state;
     struct scene_file file;
-    read_scene(&file, "forest: [{from_m: 10, to_m: 80, stand: {trees: [{per_ha: 0, " TREE ", " GROUPS "}, "
-               "{per_ha: 10, " TREE ", " GROUPS "}, {per_ha: 10, " TREE "}]}}]", NULL, 0, NULL);
+    read_scene(&file,
+               "forest: [{from_m: 10, to_m: 80, stand: {trees: [{per_ha: 0, " TREE ", " GROUPS "}, "
+               "{per_ha: 10, " TREE ", " GROUPS "}, {per_ha: 10, " TREE "}]}}]",
+               NULL, 0, NULL);
     const struct ceduo_stems *trees = file.scene.options[0].belts[0].stand.trees;
     assert_false(ceduo_stems_are_grouped(&trees[0]));
     assert_true(ceduo_stems_are_grouped(&trees[1]));
@@ -465,21 +483,11 @@ static void another_law_assumes_other_things(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        IN_FOLDER(one_fault_is_told_once),
-        IN_FOLDER(rows_of_doubt_are_told),
-        IN_FOLDER(rows_of_doubt_mean_places),
-        IN_FOLDER(places_by_name),
-        IN_FOLDER(all_places_are_meant),
-        IN_FOLDER(sources_of_ranges_are_no_notes),
-        IN_FOLDER(entries_have_numbers),
-        IN_FOLDER(draws_of_an_assumed_ground),
-        IN_FOLDER(draws_of_many_columns),
-        IN_FOLDER(places_have_belts),
-        IN_FOLDER(strength_is_of_a_species),
-        IN_FOLDER(groups_are_of_trees),
-        IN_FOLDER(a_name_of_its_own),
-        IN_FOLDER(a_change_of_nothing),
-        IN_FOLDER(another_law_assumes_other_things),
+        IN_FOLDER(one_fault_is_told_once), IN_FOLDER(rows_of_doubt_are_told),     IN_FOLDER(rows_of_doubt_mean_places),
+        IN_FOLDER(places_by_name),         IN_FOLDER(all_places_are_meant),       IN_FOLDER(sources_of_ranges_are_no_notes),
+        IN_FOLDER(entries_have_numbers),   IN_FOLDER(draws_of_an_assumed_ground), IN_FOLDER(draws_of_many_columns),
+        IN_FOLDER(places_have_belts),      IN_FOLDER(strength_is_of_a_species),   IN_FOLDER(groups_are_of_trees),
+        IN_FOLDER(a_name_of_its_own),      IN_FOLDER(a_change_of_nothing),        IN_FOLDER(another_law_assumes_other_things),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -37,8 +37,8 @@ static bool read_scene(struct scene_file *file, char told[4096])
 
 /* ---- bases ---- */
 
-#define REST                                                                                                       \
-    "ceduo: scene/1\nrock: {diameter_m: 0.5}\ncontrols: [{x_m: 90}]\n"                                              \
+#define REST                                                                                                                   \
+    "ceduo: scene/1\nrock: {diameter_m: 0.5}\ncontrols: [{x_m: 90}]\n"                                                         \
     "slope: {vertices_m: [[0, 50], [100, 0]], segments: [{rn: 0.3, rt: 0.8}]}\n"
 
 /* Stands 0 to n, each of which starts from the next; each says one thing of its own. */
@@ -133,15 +133,17 @@ static void expect_cut(double x, double z, const char *materials, const struct v
 {
     struct scene_file file;
     char told[4096];
-    write_file("line.csv", "distance,elevation\n%.17g,%.17g\n%.17g,%.17g\n%.17g,%.17g\n", x, z + 50, x + 40, z + 20, x + 100, z);
+    write_file("line.csv", "distance,elevation\n%.17g,%.17g\n%.17g,%.17g\n%.17g,%.17g\n", x, z + 50, x + 40, z + 20, x + 100,
+               z);
     struct text profile = {0};
     if (csv)
         ceduo_text_put(&profile, "csv: line.csv");
     else
         ceduo_text_format(&profile, "vertices_m: [[%.17g, %.17g], [%.17g, %.17g], [%.17g, %.17g]]", x, z + 50, x + 40, z + 20,
                           x + 100, z);
-    write_file("scene.yaml", "ceduo: scene/1\nrock: {diameter_m: 0.5}\ncontrols: [{x_m: %.17g}]\nslope: {%s, materials: [%s]}\n",
-               x + 90, profile.bytes, materials);
+    write_file("scene.yaml",
+               "ceduo: scene/1\nrock: {diameter_m: 0.5}\ncontrols: [{x_m: %.17g}]\nslope: {%s, materials: [%s]}\n", x + 90,
+               profile.bytes, materials);
     ceduo_text_free(&profile);
     if (!read_scene(&file, told))
         fail_msg("%s", told);
@@ -167,21 +169,27 @@ static void grounds_meet_anywhere(void **state)
         double borders[4]; /* from the profile's begin; NAN: its end */
         const char *grounds[3];
         struct vertex wanted[6];
-    } rows[] = {
-        {{0, 10, 70, 100}, {"cliff", "talus", "colluvium"},
-         {{0, 50, "cliff"}, {10, 42.5, "talus"}, {40, 20, "talus"}, {70, 10, "colluvium"}}},
-        {{0, 10, 20, 100}, {"cliff", "talus", "cliff"}, /* two in one segment */
-         {{0, 50, "cliff"}, {10, 42.5, "talus"}, {20, 35, "cliff"}, {40, 20, "cliff"}}},
-        {{0, 55, 85, 100}, {"talus", "colluvium", "talus"}, /* in the last one */
-         {{0, 50, "talus"}, {40, 20, "talus"}, {55, 15, "colluvium"}, {85, 5, "talus"}}},
-        {{0, 40, 70, 100}, {"cliff", "talus", "colluvium"}, /* at a vertex */
-         {{0, 50, "cliff"}, {40, 20, "talus"}, {70, 10, "colluvium"}}},
-        {{-30, 10, 70, 400}, {"cliff", "talus", "colluvium"}, /* beyond both ends */
-         {{0, 50, "cliff"}, {10, 42.5, "talus"}, {40, 20, "talus"}, {70, 10, "colluvium"}}},
-        {{-30, -10, 100, 400}, {"cliff", "talus", "colluvium"}, /* outside: of no segment */
-         {{0, 50, "talus"}, {40, 20, "talus"}}},
-        {{0, 0.25, 99.75, 100}, {"cliff", "talus", "cliff"}, /* close to the ends */
-         {{0, 50, "cliff"}, {0.25, 49.8125, "talus"}, {40, 20, "talus"}, {99.75, 1. / 12, "cliff"}}}};
+    } rows[] = {{{0, 10, 70, 100},
+                 {"cliff", "talus", "colluvium"},
+                 {{0, 50, "cliff"}, {10, 42.5, "talus"}, {40, 20, "talus"}, {70, 10, "colluvium"}}},
+                {{0, 10, 20, 100},
+                 {"cliff", "talus", "cliff"}, /* two in one segment */
+                 {{0, 50, "cliff"}, {10, 42.5, "talus"}, {20, 35, "cliff"}, {40, 20, "cliff"}}},
+                {{0, 55, 85, 100},
+                 {"talus", "colluvium", "talus"}, /* in the last one */
+                 {{0, 50, "talus"}, {40, 20, "talus"}, {55, 15, "colluvium"}, {85, 5, "talus"}}},
+                {{0, 40, 70, 100},
+                 {"cliff", "talus", "colluvium"}, /* at a vertex */
+                 {{0, 50, "cliff"}, {40, 20, "talus"}, {70, 10, "colluvium"}}},
+                {{-30, 10, 70, 400},
+                 {"cliff", "talus", "colluvium"}, /* beyond both ends */
+                 {{0, 50, "cliff"}, {10, 42.5, "talus"}, {40, 20, "talus"}, {70, 10, "colluvium"}}},
+                {{-30, -10, 100, 400},
+                 {"cliff", "talus", "colluvium"}, /* outside: of no segment */
+                 {{0, 50, "talus"}, {40, 20, "talus"}}},
+                {{0, 0.25, 99.75, 100},
+                 {"cliff", "talus", "cliff"}, /* close to the ends */
+                 {{0, 50, "cliff"}, {0.25, 49.8125, "talus"}, {40, 20, "talus"}, {99.75, 1. / 12, "cliff"}}}};
     const double places[][2] = {{0, 0}, {480000, 0}, {480000.5, 4321.25}, {-120.25, -3000}, {500000000, 8000}};
     for (size_t i = 0; i < LENGTH(rows); i++)
         for (size_t k = 0; k < LENGTH(places); k++) {
@@ -202,19 +210,24 @@ static void grounds_that_do_not_meet_are_told(void **state)
     const struct {
         double from[2], to[2];
         const char *told; /* NULL: good */
-    } rows[] = {{{480000.5, 480050}, {480050, 480100.5}, NULL},
-                {{480000.50000000006, 480050}, {480050, 480100.5},
-                 "from_m: 480000.50000000006 leaves a gap or overlaps; it must begin at 480000.5"},
-                {{480000.5, 480050.00000000006}, {480050, 480100.5},
-                 "from_m: 480050.00000000006 leaves a gap or overlaps; it must begin at 480050"},
-                {{480000.5, 480049.99999999994}, {480050, 480100.5},
-                 "from_m: 480049.99999999994 leaves a gap or overlaps; it must begin at 480050"},
-                {{480000.5, 480050}, {480050, 480100.49999999994}, "to_m: 480100.49999999994 ends before the profile, at 480100.5"},
-                {{480000.5, 480050}, {480050, 480050}, "to_m: 480050 does not lie beyond from_m, 480050"}};
+    } rows[] = {
+        {{480000.5, 480050}, {480050, 480100.5}, NULL},
+        {{480000.50000000006, 480050},
+         {480050, 480100.5},
+         "from_m: 480000.50000000006 leaves a gap or overlaps; it must begin at 480000.5"},
+        {{480000.5, 480050.00000000006},
+         {480050, 480100.5},
+         "from_m: 480050.00000000006 leaves a gap or overlaps; it must begin at 480050"},
+        {{480000.5, 480049.99999999994},
+         {480050, 480100.5},
+         "from_m: 480049.99999999994 leaves a gap or overlaps; it must begin at 480050"},
+        {{480000.5, 480050}, {480050, 480100.49999999994}, "to_m: 480100.49999999994 ends before the profile, at 480100.5"},
+        {{480000.5, 480050}, {480050, 480050}, "to_m: 480050 does not lie beyond from_m, 480050"}};
     for (size_t i = 0; i < LENGTH(rows); i++) {
         struct scene_file file;
         char told[4096];
-        write_file("scene.yaml", "ceduo: scene/1\nrock: {diameter_m: 0.5}\ncontrols: [{x_m: 480090}]\n"
+        write_file("scene.yaml",
+                   "ceduo: scene/1\nrock: {diameter_m: 0.5}\ncontrols: [{x_m: 480090}]\n"
                    "slope: {vertices_m: [[480000.5, 64], [480100.5, 0]], materials: [{from_m: %.17g, to_m: %.17g, "
                    "material: talus}, {from_m: %.17g, to_m: %.17g, material: cliff}]}\n",
                    rows[i].from[0], rows[i].to[0], rows[i].from[1], rows[i].to[1]);
@@ -261,19 +274,29 @@ static void expect_source(const struct scene_file *file, const char *map, const 
 static void changed_values_leave_their_source(void **state)
 {
     (void)state;
-    static const char *const maps[][2] = {{"", "m"}, {"rock", "m"}, {"rock.diameter_m", "a"}, {"release", "a"},
-                                          {"controls[0]", "a"}, {"controls[1]", NULL}, {"forest[0]", NULL},
-                                          {"forest[0].stand", "m"}, {"forest[0].stand.trees[0]", NULL},
-                                          {"forest[0].stand.trees[1]", "a"}, {"forest[1].stand", "a"}};
+    static const char *const maps[][2] = {{"", "m"},
+                                          {"rock", "m"},
+                                          {"rock.diameter_m", "a"},
+                                          {"release", "a"},
+                                          {"controls[0]", "a"},
+                                          {"controls[1]", NULL},
+                                          {"forest[0]", NULL},
+                                          {"forest[0].stand", "m"},
+                                          {"forest[0].stand.trees[0]", NULL},
+                                          {"forest[0].stand.trees[1]", "a"},
+                                          {"forest[1].stand", "a"}};
     const struct {
         const char *sets[2], *map, *source; /* which source is another then */
     } rows[] = {
         {{"controls[0].accepted_kJ=60"}, "controls[0]", "{kind: assumed, text: a, except: [accepted_kJ]}"},
-        {{"controls[0].accepted_kJ=60", "controls[0].accepted_kJ=70"}, "controls[0]",
+        {{"controls[0].accepted_kJ=60", "controls[0].accepted_kJ=70"},
+         "controls[0]",
          "{kind: assumed, text: a, except: [accepted_kJ]}"},
-        {{"controls[0].accepted_kJ=60", "controls[0].x_m=85"}, "controls[0]",
+        {{"controls[0].accepted_kJ=60", "controls[0].x_m=85"},
+         "controls[0]",
          "{kind: assumed, text: a, except: [accepted_kJ, x_m]}"},
-        {{"controls[0].measured_speed_m_s=9"}, "controls[0]",
+        {{"controls[0].measured_speed_m_s=9"},
+         "controls[0]",
          "{kind: assumed, text: a, except: [measured_speed_m_s]}"}, /* a new one */
         {{"controls[1].x_m=85"}, "", "{kind: measured, text: m, except: [controls]}"},
         {{"controls[1].x_m=85", "controls[1].x_m=86"}, "", "{kind: measured, text: m, except: [controls]}"},
@@ -282,11 +305,13 @@ static void changed_values_leave_their_source(void **state)
         {{"rock.diameter_m.mean=0.6"}, "rock.diameter_m", "{kind: assumed, text: a, except: [mean]}"},
         {{"rock.diameter_m.kind=uniform"}, "rock.diameter_m", "{kind: assumed, text: a, except: [kind]}"},
         {{"release.vx_m_s.spread=0.1"}, "release", "{kind: assumed, text: a, except: [vx_m_s.spread]}"},
-        {{"release.vx_m_s=2", "release.vx_m_s.spread=0.1"}, "release",
+        {{"release.vx_m_s=2", "release.vx_m_s.spread=0.1"},
+         "release",
          "{kind: assumed, text: a, except: [vx_m_s, vx_m_s.spread]}"},
         /* of a file, and of what starts from it */
         {{"forest[0].stand.stools.per_ha=1000"}, "forest[0].stand", "{kind: measured, text: m, except: [stools.per_ha]}"},
-        {{"forest[0].stand.stools={per_ha: 1000, spacing_m: 0.4}"}, "forest[0].stand",
+        {{"forest[0].stand.stools={per_ha: 1000, spacing_m: 0.4}"},
+         "forest[0].stand",
          "{kind: measured, text: m, except: [stools]}"},
         {{"forest[0].stand.species=acer"}, "forest[0].stand", "{kind: measured, text: m, except: [species]}"},
         {{"forest[0].stand.trees[0].per_ha=50"}, "forest[0].stand", "{kind: measured, text: m, except: [trees]}"},
@@ -299,13 +324,17 @@ static void changed_values_leave_their_source(void **state)
         {{"controls[0].source.kind=measured"}, "controls[0]", "{kind: measured, text: a}"},
         {{"controls[0].source={kind: measured}"}, "controls[0]", "{kind: measured}"},
         {{"rock.diameter_m.source.text=b"}, "rock.diameter_m", "{kind: assumed, text: b}"},
-        {{"controls[0].accepted_kJ=60", "controls[0].source.text=b"}, "controls[0]",
+        {{"controls[0].accepted_kJ=60", "controls[0].source.text=b"},
+         "controls[0]",
          "{kind: assumed, text: b, except: [accepted_kJ]}"},
-        {{"controls[0].accepted_kJ=60", "controls[0].source={kind: measured, text: b}"}, "controls[0]",
+        {{"controls[0].accepted_kJ=60", "controls[0].source={kind: measured, text: b}"},
+         "controls[0]",
          "{kind: measured, text: b}"},
-        {{"controls[0].source={kind: measured, text: b}", "controls[0].accepted_kJ=60"}, "controls[0]",
+        {{"controls[0].source={kind: measured, text: b}", "controls[0].accepted_kJ=60"},
+         "controls[0]",
          "{kind: measured, text: b, except: [accepted_kJ]}"},
-        {{"controls[0].source.except=[x_m]", "controls[0].accepted_kJ=60"}, "controls[0]",
+        {{"controls[0].source.except=[x_m]", "controls[0].accepted_kJ=60"},
+         "controls[0]",
          "{kind: assumed, text: a, except: [x_m, accepted_kJ]}"},
         {{"controls[1].source.kind=measured"}, "controls[1]", "{kind: measured}"},
         /* nothing that a source is of */
@@ -329,7 +358,8 @@ static void changed_values_leave_their_source(void **state)
         for (size_t k = 0; k < LENGTH(maps); k++) {
             const char *map = maps[k][0], *text = maps[k][1];
             bool here = rows[i].map && strcmp(rows[i].map, map) == 0;
-            snprintf(plain, sizeof plain, "{kind: %s, text: %s}", text && *text == 'm' ? "measured" : "assumed", text ? text : "");
+            snprintf(plain, sizeof plain, "{kind: %s, text: %s}", text && *text == 'm' ? "measured" : "assumed",
+                     text ? text : "");
             expect_source(&file, map, here ? rows[i].source : text ? plain : "", rows[i].sets[0]);
         }
         if (!ceduo_scene_bind(&file, &problems))

@@ -122,7 +122,8 @@ static void two_shapes_tell_mu(void **state)
     plate.axes[1] = ceduo_number(0.1);
     for (int i = 0; i < 3; i++)
         larger.axes[i] = ceduo_number(0.8);
-    struct ceduo_observation o[3] = {{.kind = CEDUO_OBSERVED_STOPS}, {.kind = CEDUO_OBSERVED_STOPS}, {.kind = CEDUO_OBSERVED_STOPS}};
+    struct ceduo_observation o[3] = {
+        {.kind = CEDUO_OBSERVED_STOPS}, {.kind = CEDUO_OBSERVED_STOPS}, {.kind = CEDUO_OBSERVED_STOPS}};
     const struct ceduo_calibration_scene scenes[2] = {{.scene = &scene, .observations_count = 3, .observations = o},
                                                       {.scene = &scene, .observations_count = 1, .observations = o}};
     o[1].rock = &larger;

@@ -225,7 +225,8 @@ static const char wood[] =
     "ceduo: scene/1\nrelease: {vx_m_s: 1}\nrock: {diameter_m: 0.8}\ncontrols: [{x_m: 19, accepted_kJ: 50}]\n"
     "slope: {vertices_m: [[0, 20], [20, 0]], segments: [{rn: 0.3, rt: 0.8}]}\n"
     "simulation: {contact_model: index, rule: gsteiger-stems, contact_dbh_m: 0.1}\n"
-    "forest: [{from_m: 1, to_m: 18, stand: {stools: {per_ha: 600, spacing_m: 0.4}, shoots: [{per_ha: 2000, dbh_m: 0.02, height_m: 3}],\n"
+    "forest: [{from_m: 1, to_m: 18, stand: {stools: {per_ha: 600, spacing_m: 0.4}, shoots: [{per_ha: 2000, dbh_m: 0.02, "
+    "height_m: 3}],\n"
     "  trees: [{per_ha: 1000, dbh_m: 0.2, height_m: 12}, {per_ha: 1000, dbh_m: 0.2, height_m: 12}]}}]\n";
 
 static struct scene_file file;
@@ -242,7 +243,8 @@ static void open_wood(void)
 /* Uniform between lo and hi, at one place. */
 static struct ceduo_input range_of(const char *const *place, double lo, double hi)
 {
-    return (struct ceduo_input){.path = *place, .kind = CEDUO_INPUT_RANGE, .lo = lo, .hi = hi, .places_count = 1, .places = place};
+    return (struct ceduo_input){
+        .path = *place, .kind = CEDUO_INPUT_RANGE, .lo = lo, .hi = hi, .places_count = 1, .places = place};
 }
 
 /* Contacts per metre of 1000 to 2000 trees per ha of either class: 0.1·(2 + U + V), a triangular law with p5 at sqrt(0.1), p50 at 1
@@ -251,8 +253,10 @@ static struct ceduo_input range_of(const char *const *place, double lo, double h
 static void doubt_of_a_known_law(void **state)
 {
     (void)state;
-    static const char *const places[] = {"forest[0].stand.trees[0].per_ha", "forest[0].stand.trees[1].per_ha", "rock.density_kg_m3"};
-    const struct ceduo_input inputs[] = {range_of(&places[2], 2400, 2700), range_of(&places[0], 1000, 2000), range_of(&places[1], 1000, 2000)};
+    static const char *const places[] = {"forest[0].stand.trees[0].per_ha", "forest[0].stand.trees[1].per_ha",
+                                         "rock.density_kg_m3"};
+    const struct ceduo_input inputs[] = {range_of(&places[2], 2400, 2700), range_of(&places[0], 1000, 2000),
+                                         range_of(&places[1], 1000, 2000)};
     struct ceduo_doubt_answer a;
     size_t order[CEDUO_SENSITIVITY_GROUPS];
     open_wood();
@@ -306,9 +310,18 @@ static void words_and_rows_share_the_range(void **state)
     static const char *const places[] = {"simulation.rule", "rock.density_kg_m3"};
     const int words[] = {CEDUO_INTERCEPTION, CEDUO_CROFTON};
     const double rows[] = {2500, 2700}, *const draws[] = {rows};
-    const struct ceduo_input inputs[] = {
-        {.path = places[0], .kind = CEDUO_INPUT_WORDS, .words_count = 2, .words = words, .places_count = 1, .places = &places[0]},
-        {.path = places[1], .kind = CEDUO_INPUT_DRAWS, .draws_count = 2, .draws = draws, .places_count = 1, .places = &places[1]}};
+    const struct ceduo_input inputs[] = {{.path = places[0],
+                                          .kind = CEDUO_INPUT_WORDS,
+                                          .words_count = 2,
+                                          .words = words,
+                                          .places_count = 1,
+                                          .places = &places[0]},
+                                         {.path = places[1],
+                                          .kind = CEDUO_INPUT_DRAWS,
+                                          .draws_count = 2,
+                                          .draws = draws,
+                                          .places_count = 1,
+                                          .places = &places[1]}};
     const double u[] = {0, .4999, .5, 1};
     struct input_scene copy;
     open_wood();
@@ -341,7 +354,8 @@ static void stools_are_not_more_than_their_shoots(void **state)
     (void)state;
     static const char *const places[] = {"forest[0].stand.stools.per_ha", "forest[0].stand.shoots[0].per_ha"};
     const struct ceduo_input inputs[] = {range_of(&places[0], 600, 3000), range_of(&places[1], 500, 2500)};
-    static const double cases[][4] = {{1, NAN, 2000, 2000}, {0, NAN, 600, 2000}, {1, 0, 500, 500}, {NAN, 0, 500, 500}, {NAN, NAN, 600, 2000}};
+    static const double cases[][4] = {
+        {1, NAN, 2000, 2000}, {0, NAN, 600, 2000}, {1, 0, 500, 500}, {NAN, 0, 500, 500}, {NAN, NAN, 600, 2000}};
     struct input_scene copy;
     open_wood();
     EXPECT(ceduo_inputs_open(&copy, &file.scene, inputs, 2), ==, CEDUO_OK);

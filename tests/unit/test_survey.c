@@ -6,11 +6,11 @@
 #include "ceduo/survey.h"
 #include "expect.h"
 
-#define SIDE 500.0 /* m of the made-up forest */
-#define STOOLS 20000
-#define PLOTS 6
+#define SIDE    500.0 /* m of the made-up forest */
+#define STOOLS  20000
+#define PLOTS   6
 #define SAMPLES 200
-#define RADIUS 8.0
+#define RADIUS  8.0
 
 static uint64_t state;
 
@@ -53,8 +53,13 @@ static size_t visit(const struct forest *f, struct ceduo_survey_stem *stems, siz
             if (hypot(f->x[i] - x, f->y[i] - y) > RADIUS)
                 continue;
             for (int k = 0; k < f->shoots[i]; k++)
-                stems[n++] = (struct ceduo_survey_stem){
-                    .plot = p, .kind = CEDUO_SURVEY_SHOOT, .species = 0, .stool = *stools, .dbh = .06, .height = 6, .spacing = NAN};
+                stems[n++] = (struct ceduo_survey_stem){.plot = p,
+                                                        .kind = CEDUO_SURVEY_SHOOT,
+                                                        .species = 0,
+                                                        .stool = *stools,
+                                                        .dbh = .06,
+                                                        .height = 6,
+                                                        .spacing = NAN};
             ++*stools;
         }
     }
@@ -106,7 +111,8 @@ static void densities_by_hand(void **context)
     size_t n = 0;
     for (size_t p = 0; p < 3; p++)
         for (size_t i = 0; i < count[p]; i++)
-            stems[n++] = (struct ceduo_survey_stem){.plot = p, .kind = CEDUO_SURVEY_TREE, .species = -1, .dbh = .12, .height = 9, .spacing = NAN};
+            stems[n++] = (struct ceduo_survey_stem){
+                .plot = p, .kind = CEDUO_SURVEY_TREE, .species = -1, .dbh = .12, .height = 9, .spacing = NAN};
     struct ceduo_survey s = {.plots_count = 3, .areas = areas, .stems_count = n, .stems = stems};
     struct ceduo_survey_answer a;
     assert_int_equal(ceduo_survey_ask(&s, &a), CEDUO_OK);
@@ -201,7 +207,8 @@ static void naslund_is_refused(void **context)
 
 static struct ceduo_survey_stem stem(enum ceduo_survey_kind kind, int species, double dbh, double height)
 {
-    return (struct ceduo_survey_stem){.kind = kind, .species = species, .dbh = dbh, .height = height, .spacing = NAN, .energy = NAN};
+    return (struct ceduo_survey_stem){
+        .kind = kind, .species = species, .dbh = dbh, .height = height, .spacing = NAN, .energy = NAN};
 }
 
 /* Classes of 5 cm, each kind by itself, with mean, sd and the volume of each stem by its own species. */
@@ -210,10 +217,11 @@ static void classes_by_hand(void **context)
     (void)context;
     const int cerris = ceduo_species_find("quercus-cerris"), beech = ceduo_species_find("fagus-sylvatica");
     const double area = 100;
-    struct ceduo_survey_stem stems[] = {stem(CEDUO_SURVEY_STANDARD, cerris, .15, 10), stem(CEDUO_SURVEY_STANDARD, beech, .19, 12),
-                                        stem(CEDUO_SURVEY_TREE, cerris, .16, 11),     stem(CEDUO_SURVEY_SHOOT, beech, .049, 4),
-                                        stem(CEDUO_SURVEY_SHOOT, beech, .03, 3),      stem(CEDUO_SURVEY_STUMP, beech, .4, .2),
-                                        stem(CEDUO_SURVEY_STUMP, -1, 80, NAN)};
+    struct ceduo_survey_stem stems[] = {
+        stem(CEDUO_SURVEY_STANDARD, cerris, .15, 10), stem(CEDUO_SURVEY_STANDARD, beech, .19, 12),
+        stem(CEDUO_SURVEY_TREE, cerris, .16, 11),     stem(CEDUO_SURVEY_SHOOT, beech, .049, 4),
+        stem(CEDUO_SURVEY_SHOOT, beech, .03, 3),      stem(CEDUO_SURVEY_STUMP, beech, .4, .2),
+        stem(CEDUO_SURVEY_STUMP, -1, 80, NAN)};
     stems[3].stool = stems[4].stool = 0;
     stems[4].spacing = .3;
     stems[5].energy = 3000;
@@ -233,7 +241,8 @@ static void classes_by_hand(void **context)
     EXPECT_NEAR(c[1].per_ha.mean, 200, 1e-9);
     EXPECT_NEAR(c[1].dbh, .17, 1e-12);
     EXPECT_NEAR(c[1].dbh_sd, .04 / sqrt(2), 1e-12);
-    double v1 = (-0.043221 + 0.038079 * 225 * 10) / 1000, v2 = (0.81151 + 0.038965 * 361 * 12) / 1000; /* Tabacchi et al. 2011 */
+    /* Tabacchi et al. 2011 */
+    double v1 = (-0.043221 + 0.038079 * 225 * 10) / 1000, v2 = (0.81151 + 0.038965 * 361 * 12) / 1000;
     EXPECT_NEAR(c[1].volume, (v1 + v2) / 2, 1e-12);
     assert_int_equal(c[1].form_factor, 0);
     assert_int_equal(c[2].kind, CEDUO_SURVEY_TREE);
@@ -287,11 +296,9 @@ static void heights_that_are_missing(void **context)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(intervals_hold_the_truth), cmocka_unit_test(densities_by_hand),
-        cmocka_unit_test(slopes_by_hand),           cmocka_unit_test(naslund_is_recovered),
-        cmocka_unit_test(naslund_is_refused),       cmocka_unit_test(classes_by_hand),
-        cmocka_unit_test(heights_that_are_missing),
-        cmocka_unit_test(what_six_heights_leave),
+        cmocka_unit_test(intervals_hold_the_truth), cmocka_unit_test(densities_by_hand),      cmocka_unit_test(slopes_by_hand),
+        cmocka_unit_test(naslund_is_recovered),     cmocka_unit_test(naslund_is_refused),     cmocka_unit_test(classes_by_hand),
+        cmocka_unit_test(heights_that_are_missing), cmocka_unit_test(what_six_heights_leave),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -148,8 +148,7 @@ static void text_and_signs(void **state)
     ceduo_canvas_label(canvas, 1, 3, CEDUO_ROLE_TITLE, "(\xe2\x94\x82 30)");
     char *picture = put(svg);
     expect_has(picture, "<text x=\"8\" y=\"12\" fill=\"#1c1c1c\">one two</text>");
-    expect_has(picture,
-               "<text x=\"80\" y=\"12\" fill=\"#1c1c1c\">&lt;three&gt;</text>"); /* at its own cell after two blanks */
+    expect_has(picture, "<text x=\"80\" y=\"12\" fill=\"#1c1c1c\">&lt;three&gt;</text>"); /* at its own cell after two blanks */
     expect_not(picture, "\xe2\x9c\x94");
     expect_not(picture, "\xe2\x94\x9c");
     expect_has(picture, "M12 40H16M12 32V48M16 40H24"); /* the corner and the line of a belt */

@@ -23,9 +23,9 @@ struct derived_member {
     size_t offset, size;
 };
 
-#define DERIVED(object, type, member)                                                                                  \
-    {                                                                                                                  \
-        object, offsetof(struct type, member), sizeof((struct type *)0)->member                                        \
+#define DERIVED(object, type, member)                                                                                          \
+    {                                                                                                                          \
+        object, offsetof(struct type, member), sizeof((struct type *)0)->member                                                \
     }
 
 static void mark(bool *seen, size_t from, size_t n)
@@ -59,13 +59,13 @@ static void mark_rows(bool *seen, const struct object *object, size_t size)
 #endif
 #ifdef PADDING_IS_KNOWN
 #define SHORTEST_GAP 1
-#define MARK_PADDING(seen, type)                                                                                       \
-    do {                                                                                                               \
-        type whole;                                                                                                    \
-        memset(&whole, 0xff, sizeof whole);                                                                            \
-        __builtin_clear_padding(&whole);                                                                               \
-        for (size_t i = 0; i < sizeof whole; i++)                                                                      \
-            seen[i] |= ((unsigned char *)&whole)[i] == 0;                                                              \
+#define MARK_PADDING(seen, type)                                                                                               \
+    do {                                                                                                                       \
+        type whole;                                                                                                            \
+        memset(&whole, 0xff, sizeof whole);                                                                                    \
+        __builtin_clear_padding(&whole);                                                                                       \
+        for (size_t i = 0; i < sizeof whole; i++)                                                                              \
+            seen[i] |= ((unsigned char *)&whole)[i] == 0;                                                                      \
     } while (0)
 #else
 #define SHORTEST_GAP             sizeof(double)
@@ -102,11 +102,11 @@ static const struct object *object_of(const struct object *object, const char *k
     return ceduo_schema_field(object, key)->object;
 }
 
-#define EXPECT_WHOLE(object, type)                                                                                     \
-    do {                                                                                                               \
-        bool seen[sizeof(struct type)] = {false};                                                                      \
-        MARK_PADDING(seen, struct type);                                                                               \
-        expect_whole(#type, object, seen, sizeof seen);                                                                \
+#define EXPECT_WHOLE(object, type)                                                                                             \
+    do {                                                                                                                       \
+        bool seen[sizeof(struct type)] = {false};                                                                              \
+        MARK_PADDING(seen, struct type);                                                                                       \
+        expect_whole(#type, object, seen, sizeof seen);                                                                        \
     } while (0)
 
 static void every_member_has_a_row(void **state)
@@ -232,35 +232,34 @@ static void paths_of_rows(void **state)
 #define SLOPE    "vertices_m: [[100, 60], [130, 30], [160, 12], [200, 0]]"
 #define SEGMENTS ", segments: [{rn: 0.3, rt: 0.8, roughness_rad: 0.1}, {rn: 0.3, rt: 0.8}, {rn: 0.3, rt: 0.8}]"
 #define CURVE    "{dbh_most_m: 0.3, dbh_rate_1_y: 0.05, height_most_m: 15, height_rate_1_y: 0.06}"
-#define STAND                                                                                                          \
-    "{name: wood, species: quercus-cerris, stools: {per_ha: 900, spacing_m: 0.4}, "                                    \
-    "shoots: [{per_ha: 2000, dbh_m: 0.1, height_m: 9, dbh_sd_m: 0.02, age_y: 12}], "                                   \
-    "trees: [{per_ha: 80, dbh_m: 0.3, height_m: 14, age_y: 40, groups: {stems: 5, radius_m: 4}}], "                    \
-    "stumps: {per_ha: 900, diameter_m: 0.2, height_m: 0.25, energy_kJ: 2}, "                                           \
-    "logs: {per_ha: 40, length_m: 4, diameter_m: 0.25, energy_kJ: 10}, "                                               \
-    "growth: {shoots: " CURVE ", trees: " CURVE ", shoots_young: 9, shoots_old: 3, sdi_most: 900, stump_years: 4}, "                   \
+#define STAND                                                                                                                  \
+    "{name: wood, species: quercus-cerris, stools: {per_ha: 900, spacing_m: 0.4}, "                                            \
+    "shoots: [{per_ha: 2000, dbh_m: 0.1, height_m: 9, dbh_sd_m: 0.02, age_y: 12}], "                                           \
+    "trees: [{per_ha: 80, dbh_m: 0.3, height_m: 14, age_y: 40, groups: {stems: 5, radius_m: 4}}], "                            \
+    "stumps: {per_ha: 900, diameter_m: 0.2, height_m: 0.25, energy_kJ: 2}, "                                                   \
+    "logs: {per_ha: 40, length_m: 4, diameter_m: 0.25, energy_kJ: 10}, "                                                       \
+    "growth: {shoots: " CURVE ", trees: " CURVE ", shoots_young: 9, shoots_old: 3, sdi_most: 900, stump_years: 4}, "           \
     "cutting: {rotation_years: 20, cohorts: 2, stay_per_ha: [60, 20]}"
-#define BELT     "{from_m: 110, to_m: 190, cut_year: 3, stand: " STAND
-#define RULES                                                                                                       \
-    "rules: {name: r, note: n, standards: [{species: [acer], system: bare, per_ha: 1, most_per_ha: 9, article: a, " \
+#define BELT "{from_m: 110, to_m: 190, cut_year: 3, stand: " STAND
+#define RULES                                                                                                                  \
+    "rules: {name: r, note: n, standards: [{species: [acer], system: bare, per_ha: 1, most_per_ha: 9, article: a, "            \
     "year: 2000}], turns: [{species: [acer], system: bare, least_y: 1, most_y: 9, article: a, year: 2000}]}\n"
 #define REST     "\nrelease: {x_m: 101, height_m: 1}\nrocks_per_year: 3\nminimum: {reserves_per_ha: 50}\n" RULES
 #define CONTROLS "controls: [{x_m: 180, name: road, accepted_kJ: 80, measured_speed_m_s: 12}]\n"
 
 /* Together they give every key. */
 static const char *const scenes[] = {
-    "ceduo: scene/1\ntitle: one\nrock: {shape: cylinder, diameter_m: 0.5, height_m: 0.7}\nslope: {name: s, " SLOPE
-        SEGMENTS "}\n" CONTROLS "forest: [" BELT "}}]" REST,
-    "ceduo: scene/1\nrock: {diameter_m: 0.5}\nslope: {" SLOPE
-    ", segments: [{rn: 0.3, rt: 0.8, roughness_m: 0.05}]}\n" CONTROLS "options: [{name: a, forest: [" BELT
-    ", energy: {model: dorren}}}]}, {name: b, forest: []}]" REST,
+    "ceduo: scene/1\ntitle: one\nrock: {shape: cylinder, diameter_m: 0.5, height_m: 0.7}\nslope: {name: s, " SLOPE SEGMENTS
+    "}\n" CONTROLS "forest: [" BELT "}}]" REST,
+    "ceduo: scene/1\nrock: {diameter_m: 0.5}\nslope: {" SLOPE ", segments: [{rn: 0.3, rt: 0.8, roughness_m: 0.05}]}\n" CONTROLS
+    "options: [{name: a, forest: [" BELT ", energy: {model: dorren}}}]}, {name: b, forest: []}]" REST,
     "ceduo: scene/1\nrock: {volume_m3: 0.2}\nslope: {" SLOPE
     ", materials: [{from_m: 100, to_m: 150, material: cliff}, {from_m: 150, to_m: 300, material: talus}]}\n"
     "controls_m: [170, 190]\nforest: [{from_m: 110, to_m: 190, stand: {base: "
     "a.yaml}}]" REST,
     "ceduo: scene/1\nrock: {mass_kg: 400}\nslope: {csv: a.csv}\n" CONTROLS REST,
-    "ceduo: scene/1\nrock: {shape: block, axes_m: [0.4, 0.5, 0.6]}\nslope: {" SLOPE SEGMENTS "}\n" CONTROLS
-    "forest: [" BELT ", energy: {model: dorren}}}]" REST,
+    "ceduo: scene/1\nrock: {shape: block, axes_m: [0.4, 0.5, 0.6]}\nslope: {" SLOPE SEGMENTS "}\n" CONTROLS "forest: [" BELT
+    ", energy: {model: dorren}}}]" REST,
     "ceduo: scene/1\nrock: {diameter_m: 0.5}\nslope: {" SLOPE SEGMENTS "}\n" CONTROLS
     "simulation: {contact_model: poisson}\nforest: [" BELT ", energy: {model: inertia}}}]" REST,
     "ceduo: scene/1\nrock: {diameter_m: 0.5}\nslope: {" SLOPE SEGMENTS "}\n" CONTROLS
@@ -320,22 +319,22 @@ static bool keys_with(const char *text, const char *path, const char *value, str
 /* Values to try, most of which are refused somewhere. */
 static size_t other_values(const struct field *f, const char **to)
 {
-    static const char *const numbers[] = {"0.55", "1.5", "15",   "150", "350", "2",
-                                          "3",    "0.2", "0.05", "115", "185", "3000", "2010"};
+    static const char *const numbers[] = {"0.55", "1.5",  "15",  "150", "350",  "2",   "3",
+                                          "0.2",  "0.05", "115", "185", "3000", "2010"};
     static const char *const flags[] = {"true", "false"}, *const texts[] = {"other"}, *const words[] = {"[quercus-ilex]"},
                              *const files[] = {"a.csv", "b.csv", "a.yaml", "b.yaml"};
-    const char *const *from = f->type == FIELD_CHOICE ? f->choices->names
-                              : f->type == FIELD_FLAG ? flags
-                              : f->type == FIELD_TEXT ? texts
+    const char *const *from = f->type == FIELD_CHOICE  ? f->choices->names
+                              : f->type == FIELD_FLAG  ? flags
+                              : f->type == FIELD_TEXT  ? texts
                               : f->type == FIELD_WORDS ? words
-                              : f->type == FIELD_FILE ? files
-                                                      : numbers;
-    size_t n = f->type == FIELD_CHOICE ? f->choices->n
-               : f->type == FIELD_FLAG ? LENGTH(flags)
-               : f->type == FIELD_TEXT ? LENGTH(texts)
+                              : f->type == FIELD_FILE  ? files
+                                                       : numbers;
+    size_t n = f->type == FIELD_CHOICE  ? f->choices->n
+               : f->type == FIELD_FLAG  ? LENGTH(flags)
+               : f->type == FIELD_TEXT  ? LENGTH(texts)
                : f->type == FIELD_WORDS ? LENGTH(words)
-               : f->type == FIELD_FILE ? LENGTH(files)
-                                       : LENGTH(numbers);
+               : f->type == FIELD_FILE  ? LENGTH(files)
+                                        : LENGTH(numbers);
     memcpy(to, from, n * sizeof *to);
     return n;
 }
@@ -348,9 +347,7 @@ static void first_place(const char *path, const struct field *f, struct text *to
         if (*path == '[')
             ceduo_text_char(to, '0');
     }
-    ceduo_text_put(to, f->type == FIELD_POINTS                                ? "[1][1]"
-                       : f->type == FIELD_NUMBERS || f->type == FIELD_SPREADS ? "[0]"
-                                                                              : "");
+    ceduo_text_put(to, f->type == FIELD_POINTS ? "[1][1]" : f->type == FIELD_NUMBERS || f->type == FIELD_SPREADS ? "[0]" : "");
 }
 
 static void check_row(void *context, const char *path, const struct field *f)
@@ -359,8 +356,8 @@ static void check_row(void *context, const char *path, const struct field *f)
     struct text place = {0};
     bool taken = false, flight = false, years = false;
     if (f->type == FIELD_TAG || (strncmp(path, "slope.materials[]", 17) == 0 && f->type == FIELD_NUMBER) ||
-        strcmp(f->key, "base") == 0 || strcmp(path, "slope.reversed") == 0 || strstr(path, "doubt[]") || strncmp(path, "observed[]", 10) == 0 ||
-        strncmp(path, "options[].forest[].", 19) == 0)
+        strcmp(f->key, "base") == 0 || strcmp(path, "slope.reversed") == 0 || strstr(path, "doubt[]") ||
+        strncmp(path, "observed[]", 10) == 0 || strncmp(path, "options[].forest[].", 19) == 0)
         return; /* grounds must meet, so that no end of one can be changed alone; a base is followed before it is set;
                  * options hold what the forest does; a profile says itself whether it is reversed; of a doubt nothing can be changed alone; what was seen has test_observed.py */
     first_place(path, f, &place);
@@ -404,8 +401,7 @@ static void every_row_decides_about_what_it_says(void **state)
     ceduo_schema_visit(ceduo_schema_scene(), "", check_row, before);
     struct keys moved;
     assert_true(keys_with(scenes[2], "slope.materials",
-                          "[{from_m: 100, to_m: 140, material: cliff}, {from_m: 140, to_m: 300, material: talus}]",
-                          &moved));
+                          "[{from_m: 100, to_m: 140, material: cliff}, {from_m: 140, to_m: 300, material: talus}]", &moved));
     EXPECT(moved.flight, !=, before[2].flight);
     assert_true(keys_with(scenes[2], "forest[0].stand", "{base: b.yaml}", &moved));
     EXPECT(moved.flight, !=, before[2].flight);
@@ -500,13 +496,12 @@ static void paths_of_numbers(void **state)
     assert_true(ceduo_value_find(s, "simulation.seed", &v));
     assert_true(ceduo_value_put(&v, 7));
     EXPECT(s->simulation.seed, ==, 7);
-    assert_false(ceduo_value_put(&v, 7.5) || ceduo_value_put(&v, -1) || ceduo_value_put(&v, NAN) ||
-                 ceduo_value_put(&v, 1e17));
+    assert_false(ceduo_value_put(&v, 7.5) || ceduo_value_put(&v, -1) || ceduo_value_put(&v, NAN) || ceduo_value_put(&v, 1e17));
     const char *const none[] = {"",
                                 "rock",
                                 "rock.",
                                 "rock.size",
-                                
+
                                 "title",
                                 "slope.segments[1].rn",
                                 "slope.vertices_m[0][0]",

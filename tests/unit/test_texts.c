@@ -31,14 +31,14 @@ static void utf8_is_decoded(void **state)
                 {"\xf0\x90\x80\x80", 4, 0x10000},
                 {"\xf4\x8f\xbf\xbf", 4, 0x10ffff},
                 {"\x80", 0, 0},
-                {"\xc1\xbf", 0, 0},         /* too long a form */
+                {"\xc1\xbf", 0, 0}, /* too long a form */
                 {"\xe0\x9f\xbf", 0, 0},
                 {"\xf0\x8f\xbf\xbf", 0, 0},
-                {"\xed\xa0\x80", 0, 0},     /* half a pair */
+                {"\xed\xa0\x80", 0, 0}, /* half a pair */
                 {"\xed\xbf\xbf", 0, 0},
                 {"\xf4\x90\x80\x80", 0, 0}, /* beyond the last */
                 {"\xf5\x80\x80\x80", 0, 0},
-                {"\xc3", 0, 0},             /* cut */
+                {"\xc3", 0, 0}, /* cut */
                 {"\xe2\x80", 0, 0},
                 {"\xc3g", 0, 0},
                 {"\xe2\x80g", 0, 0}};
@@ -131,8 +131,26 @@ static void expect_shortest(double value)
 static void numbers_are_short(void **state)
 {
     (void)state;
-    const double few[] = {1, -1, .1, 1. / 3, 1e-5, 1e-6, 123456789, 1e14, 1e15, 1e16, 1e17, 12345678901234567., 1e22, 4.9e-324,
-                          2.2250738585072014e-308, 1.7976931348623157e308, 9007199254740993., .3, 2.5e-310, 999999999999999.9};
+    const double few[] = {1,
+                          -1,
+                          .1,
+                          1. / 3,
+                          1e-5,
+                          1e-6,
+                          123456789,
+                          1e14,
+                          1e15,
+                          1e16,
+                          1e17,
+                          12345678901234567.,
+                          1e22,
+                          4.9e-324,
+                          2.2250738585072014e-308,
+                          1.7976931348623157e308,
+                          9007199254740993.,
+                          .3,
+                          2.5e-310,
+                          999999999999999.9};
     for (size_t i = 0; i < LENGTH(few); i++) {
         expect_shortest(few[i]);
         expect_shortest(-few[i]);
@@ -157,7 +175,8 @@ static void numbers_are_read(void **state)
 {
     (void)state;
     const char *const good[] = {"0", "12", "-0.5", "+.5", "1.", "1e3", "1E-3", "1e+3", "0.0"};
-    const char *const none[] = {"", "-", ".", "e3", "1e", "1e+", "1,5", "0x10", "010", "inf", "nan", " 1", "1 ", "1_0", "--1", "1e3x"};
+    const char *const none[] = {"",    "-",   ".",   "e3", "1e", "1e+", "1,5", "0x10",
+                                "010", "inf", "nan", " 1", "1 ", "1_0", "--1", "1e3x"};
     double value;
     uint64_t count;
     for (size_t i = 0; i < LENGTH(good); i++) {

@@ -15,8 +15,8 @@ static const struct node *parse(struct arena *arena, const struct text *text)
 {
     struct source *source = ceduo_arena_take(arena, sizeof *source);
     struct problems problems = {0};
-    *source = (struct source){
-        .name = "test", .bytes = ceduo_arena_copy(arena, text->bytes, text->length), .length = text->length};
+    *source =
+        (struct source){.name = "test", .bytes = ceduo_arena_copy(arena, text->bytes, text->length), .length = text->length};
     const struct node *root = ceduo_yaml_read(arena, source, &problems);
     if (!root)
         fail_msg("%s\n%s", text->bytes, problems.text.bytes);
@@ -61,13 +61,83 @@ static void expect_back(struct arena *arena, const struct node *node)
 static void scalars_are_read_back(void **state)
 {
     (void)state;
-    const char *const words[] = {
-        "",     " a",   "a ",  "true", "false", "null", "yes", "~",    "y",   "-",   "- a", "-a",   "--",  "a-b", "a:b",
-        "a: b", "#x",   "a #b", "\"q\"", "\\",  "\n",   "a\nb", "\x01", "\x7f", "0.5", "1e5", "007", "+1",  "\xc3\xa0", "[a]",
-        "{a}",  "&a",   "*a",  "!a",   "%a",    "@a",   "`a`", "|",    ">",   "?",   "? a", ":",    "a,b", "=",   "<<",
-        "_",    ".",    "/",   "a/b",  "..",    "---",  "...", "'",    "a'b", "AZaz09", "on", "null x", "a\tb", "\\n", "no",
-        "a\xc2\x80", "a\xc2\x85z", "\xc2\x9f", "\xc2\xa0", "a\xe2\x80\xa8z", "\xe2\x80\xa9", ("\xef\xbb\xbf" "a"), "\xef\xbf\xbe", "\xef\xbf\xbf",
-        "\xf4\x8f\xbf\xbf", "\xef\xb7\x90", "\xe2\x80\xae", "a\rb", "a  b", " ", "\t"};
+    const char *const words[] = {"",
+                                 " a",
+                                 "a ",
+                                 "true",
+                                 "false",
+                                 "null",
+                                 "yes",
+                                 "~",
+                                 "y",
+                                 "-",
+                                 "- a",
+                                 "-a",
+                                 "--",
+                                 "a-b",
+                                 "a:b",
+                                 "a: b",
+                                 "#x",
+                                 "a #b",
+                                 "\"q\"",
+                                 "\\",
+                                 "\n",
+                                 "a\nb",
+                                 "\x01",
+                                 "\x7f",
+                                 "0.5",
+                                 "1e5",
+                                 "007",
+                                 "+1",
+                                 "\xc3\xa0",
+                                 "[a]",
+                                 "{a}",
+                                 "&a",
+                                 "*a",
+                                 "!a",
+                                 "%a",
+                                 "@a",
+                                 "`a`",
+                                 "|",
+                                 ">",
+                                 "?",
+                                 "? a",
+                                 ":",
+                                 "a,b",
+                                 "=",
+                                 "<<",
+                                 "_",
+                                 ".",
+                                 "/",
+                                 "a/b",
+                                 "..",
+                                 "---",
+                                 "...",
+                                 "'",
+                                 "a'b",
+                                 "AZaz09",
+                                 "on",
+                                 "null x",
+                                 "a\tb",
+                                 "\\n",
+                                 "no",
+                                 "a\xc2\x80",
+                                 "a\xc2\x85z",
+                                 "\xc2\x9f",
+                                 "\xc2\xa0",
+                                 "a\xe2\x80\xa8z",
+                                 "\xe2\x80\xa9",
+                                 ("\xef\xbb\xbf"
+                                  "a"),
+                                 "\xef\xbf\xbe",
+                                 "\xef\xbf\xbf",
+                                 "\xf4\x8f\xbf\xbf",
+                                 "\xef\xb7\x90",
+                                 "\xe2\x80\xae",
+                                 "a\rb",
+                                 "a  b",
+                                 " ",
+                                 "\t"};
     struct arena arena = {0};
     const struct node *empty = parsed(&arena, "{}");
     for (size_t i = 0; i < LENGTH(words); i++)
@@ -76,7 +146,8 @@ static void scalars_are_read_back(void **state)
             expect_back(&arena, ceduo_node_with(&arena, empty, "key", word));
             const struct node *list = parsed(&arena, "[a, [b], {c: d}]");
             expect_back(&arena, ceduo_node_replaced(&arena, list, 0, word));
-            expect_back(&arena, ceduo_node_replaced(&arena, parsed(&arena, "[[a, b]]"), 0, ceduo_node_replaced(&arena, list, 2, word)));
+            expect_back(&arena,
+                        ceduo_node_replaced(&arena, parsed(&arena, "[[a, b]]"), 0, ceduo_node_replaced(&arena, list, 2, word)));
         }
     ceduo_arena_free(&arena);
 }
@@ -85,10 +156,13 @@ static void trees_are_read_back(void **state)
 {
     (void)state;
     const char *const trees[] = {
-        "a: {}\nb: []\n", "- - - 1\n    - 2\n  - []\n", "- {}\n- a: 1\n  b: [1, 2]\n",
+        "a: {}\nb: []\n",
+        "- - - 1\n    - 2\n  - []\n",
+        "- {}\n- a: 1\n  b: [1, 2]\n",
         "a: [[1, 2], [3, 4], {b: [5, {c: 6}]}]\n",
         "a: [aaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaa, bbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbb, ccccccccccccccccccccccccccccccc]\n",
-        "a: [[aaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaa, bbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbb, cccccccccccccccccccccccccccc], [], 1]\n",
+        "a: [[aaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaa, bbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbb, cccccccccccccccccccccccccccc], [], "
+        "1]\n",
         "- [[aaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaa, bbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbb, cccccccccccccccccccccccccccc], [], 1]\n",
         "- {a: aaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaa, b: bbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbb, c: ccccccccccc}\n"};
     struct arena arena = {0};
@@ -103,9 +177,18 @@ static void trees_are_compared(void **state)
     const struct {
         const char *a, *b;
         bool equal;
-    } rows[] = {{"1", "1", true},           {"1", "1.0", false},     {"1", "'1'", false},      {"a", "'a'", true},
-                {"a", "[a]", false},        {"[a]", "[a, b]", false}, {"[a, b]", "[a, c]", false}, {"{a: 1}", "{a: 1}", true},
-                {"{a: 1}", "{b: 1}", false}, {"{a: 1}", "{a: 2}", false}, {"'1'", "'1'", true},  {"{a: 1}", "[1]", false}};
+    } rows[] = {{"1", "1", true},
+                {"1", "1.0", false},
+                {"1", "'1'", false},
+                {"a", "'a'", true},
+                {"a", "[a]", false},
+                {"[a]", "[a, b]", false},
+                {"[a, b]", "[a, c]", false},
+                {"{a: 1}", "{a: 1}", true},
+                {"{a: 1}", "{b: 1}", false},
+                {"{a: 1}", "{a: 2}", false},
+                {"'1'", "'1'", true},
+                {"{a: 1}", "[1]", false}};
     struct arena arena = {0};
     for (size_t i = 0; i < LENGTH(rows); i++) {
         const struct node *a = parsed(&arena, rows[i].a), *b = parsed(&arena, rows[i].b);
@@ -142,7 +225,11 @@ static void texts_are_patched(void **state)
         const char *before, *now, *wanted;
     } rows[] = {
         {"a: 1 # c\n", "a: 2", "a: 2 # c\n"},
-        {"\xef\xbb\xbf" "a: 1 # c\n", "a: 2", "\xef\xbb\xbf" "a: 2 # c\n"},
+        {"\xef\xbb\xbf"
+         "a: 1 # c\n",
+         "a: 2",
+         "\xef\xbb\xbf"
+         "a: 2 # c\n"},
         {"'\xc3\xa0': 1 # c\nb: [1, 2] # d", "{'\xc3\xa0': 5, b: [1, 3]}", "'\xc3\xa0': 5 # c\nb: [1, 3] # d"},
         {"a: [1, 2] # c\n", "a: [1, 2, 3]", "a: [1, 2, 3] # c\n"},
         {"a: {b: 1} # c\n", "a: {c: 1}", "a: {c: 1} # c\n"},
@@ -181,7 +268,8 @@ static void walks_end_where_there_is_nothing(void **state)
 {
     (void)state;
     struct arena arena = {0};
-    const struct node *root = parsed(&arena, "{forest: [{to_m: 1}, {to_m: 2}], rock: {a: 3}}"), *forest = ceduo_node_get(root, "forest");
+    const struct node *root = parsed(&arena, "{forest: [{to_m: 1}, {to_m: 2}], rock: {a: 3}}"),
+                      *forest = ceduo_node_get(root, "forest");
     const char *within;
     size_t used;
     assert_string_equal(ceduo_resolve_walk(root, "forest[1].to_m", &within, &used)->text, "2");

@@ -24,8 +24,8 @@ static void numbers_have_one_sign(void **state)
     static const struct {
         const char *typed;
         double value; /* NaN: none */
-    } cases[] = {{"7.5", 7.5}, {"7,5", 7.5},   {" 7,5 ", 7.5}, {"-0,5", -0.5}, {",5", 0.5},  {"1e3", 1000},
-                 {"9", 9},     {"1.000,5", NAN}, {"1,000,5", NAN}, {"7,", 7},  {"", NAN}, {"x", NAN}, {"0x10", NAN}};
+    } cases[] = {{"7.5", 7.5},     {"7,5", 7.5},     {" 7,5 ", 7.5}, {"-0,5", -0.5}, {",5", 0.5}, {"1e3", 1000}, {"9", 9},
+                 {"1.000,5", NAN}, {"1,000,5", NAN}, {"7,", 7},      {"", NAN},      {"x", NAN},  {"0x10", NAN}};
     (void)state;
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         double value = NAN;
@@ -182,10 +182,13 @@ static void every_key_has_a_label(void **state)
 
 int main(void)
 {
-    static const struct CMUnitTest tests[] = {
-        cmocka_unit_test(numbers_have_one_sign), cmocka_unit_test(files_keep_their_units),
-        cmocka_unit_test(screens_have_words_and_centimetres), cmocka_unit_test(every_diameter_reads_back),
-        cmocka_unit_test(ranges_and_doubts), cmocka_unit_test(profiles_are_typed), cmocka_unit_test(paths_in_words),
-        cmocka_unit_test(every_key_has_a_label)};
+    static const struct CMUnitTest tests[] = {cmocka_unit_test(numbers_have_one_sign),
+                                              cmocka_unit_test(files_keep_their_units),
+                                              cmocka_unit_test(screens_have_words_and_centimetres),
+                                              cmocka_unit_test(every_diameter_reads_back),
+                                              cmocka_unit_test(ranges_and_doubts),
+                                              cmocka_unit_test(profiles_are_typed),
+                                              cmocka_unit_test(paths_in_words),
+                                              cmocka_unit_test(every_key_has_a_label)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

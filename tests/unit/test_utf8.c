@@ -14,9 +14,18 @@ static void decoding(void **state)
         size_t length;
         uint32_t code;
     } cases[] = {
-        {"a", 1, 'a'}, {"\xc3\xa0", 2, 0xe0}, {"\xe2\x80\xa6", 3, 0x2026}, {"\xf0\x9f\x8c\xb3", 4, 0x1f333},
-        {"\x80", 0, 0}, {"\xc3", 0, 0}, {"\xc3(", 0, 0}, {"\xc0\xaf", 0, 0}, {"\xe0\x80\xaf", 0, 0}, /* overlong */
-        {"\xed\xa0\x80", 0, 0}, {"\xf4\x90\x80\x80", 0, 0}, {"\xff", 0, 0}, /* a surrogate; beyond the last; never */
+        {"a", 1, 'a'},
+        {"\xc3\xa0", 2, 0xe0},
+        {"\xe2\x80\xa6", 3, 0x2026},
+        {"\xf0\x9f\x8c\xb3", 4, 0x1f333},
+        {"\x80", 0, 0},
+        {"\xc3", 0, 0},
+        {"\xc3(", 0, 0},
+        {"\xc0\xaf", 0, 0},
+        {"\xe0\x80\xaf", 0, 0}, /* overlong */
+        {"\xed\xa0\x80", 0, 0},
+        {"\xf4\x90\x80\x80", 0, 0},
+        {"\xff", 0, 0}, /* a surrogate; beyond the last; never */
     };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         uint32_t code = 0;
@@ -39,10 +48,10 @@ static void columns(void **state)
 {
     (void)state;
     assert_int_equal(ceduo_utf8_width("citt\xc3\xa0"), 5);
-    assert_int_equal(ceduo_utf8_width("e\xcc\x80"), 1);         /* e and a grave accent on it */
-    assert_int_equal(ceduo_utf8_width("\xe6\x9c\xa8"), 2);      /* a Chinese tree */
-    assert_int_equal(ceduo_utf8_width("\xf0\x9f\x8c\xb3"), 2);  /* a tree */
-    assert_int_equal(ceduo_utf8_width("a\xff\x1b"), 3);         /* a byte that is no character, a control */
+    assert_int_equal(ceduo_utf8_width("e\xcc\x80"), 1);        /* e and a grave accent on it */
+    assert_int_equal(ceduo_utf8_width("\xe6\x9c\xa8"), 2);     /* a Chinese tree */
+    assert_int_equal(ceduo_utf8_width("\xf0\x9f\x8c\xb3"), 2); /* a tree */
+    assert_int_equal(ceduo_utf8_width("a\xff\x1b"), 3);        /* a byte that is no character, a control */
     assert_int_equal(ceduo_utf8_cut("\xe6\x9c\xa8\xe6\x9c\xa8", 3), 3);
     assert_int_equal(ceduo_utf8_cut("e\xcc\x80x", 1), 3);
     assert_string_equal(ceduo_utf8_end("citt\xc3\xa0", 2), "t\xc3\xa0");
@@ -75,11 +84,19 @@ static void lines(void **state)
     lines_are("dell'acqua \xc3\xa8 cos\xc3\xac", 11, (const char *[]){"dell'acqua", "\xc3\xa8 cos\xc3\xac", NULL});
     lines_are("dell'acqua \xc3\xa8 cos\xc3\xac", 12, (const char *[]){"dell'acqua \xc3\xa8", "cos\xc3\xac", NULL});
     lines_are("one\ntwo", 20, (const char *[]){"one", "two", NULL});
-    lines_are("of 984\xe2\x80\x93" "995 kJ/m3", 8, (const char *[]){"of", "984\xe2\x80\x93" "995", "kJ/m3", NULL});
+    lines_are("of 984\xe2\x80\x93"
+              "995 kJ/m3",
+              8,
+              (const char *[]){"of",
+                               "984\xe2\x80\x93"
+                               "995",
+                               "kJ/m3", NULL});
     lines_are("coppice-with-standards", 10, (const char *[]){"coppice-", "with-", "standards", NULL});
     lines_are("abcdefgh", 3, (const char *[]){"abc", "def", "gh", NULL});
     lines_are("\xe6\x9c\xa8\xe6\x9c\xa8", 1, (const char *[]){"\xe6\x9c\xa8", "\xe6\x9c\xa8", NULL}); /* never none at all */
-    lines_are("a\xff\xff" "b c", 3, (const char *[]){"a\xff\xff", "b c", NULL});
+    lines_are("a\xff\xff"
+              "b c",
+              3, (const char *[]){"a\xff\xff", "b c", NULL});
 }
 
 int main(void)

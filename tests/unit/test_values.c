@@ -18,14 +18,14 @@
 /* ---- ranges ---- */
 
 /* A scene in which every parameter has its place, but for those that exclude each other. */
-#define HEAD "ceduo: scene/1\nrelease: {vx_m_s: 1}\n"
+#define HEAD  "ceduo: scene/1\nrelease: {vx_m_s: 1}\n"
 #define CURVE "{dbh_most_m: 0.1, dbh_rate_1_y: 0.1, height_most_m: 9, height_rate_1_y: 0.1}"
-#define STAND                                                                                                       \
-    "{stools: {per_ha: 2000, spacing_m: 0.4}, shoots: [{per_ha: 6000, dbh_m: 0.06, height_m: 6}], "                 \
-    "trees: [{per_ha: 60, dbh_m: 0.2, height_m: 12}], energy: {model: brauner}, "                                   \
+#define STAND                                                                                                                  \
+    "{stools: {per_ha: 2000, spacing_m: 0.4}, shoots: [{per_ha: 6000, dbh_m: 0.06, height_m: 6}], "                            \
+    "trees: [{per_ha: 60, dbh_m: 0.2, height_m: 12}], energy: {model: brauner}, "                                              \
     "growth: {shoots: " CURVE ", trees: " CURVE "}, cutting: {rotation_years: 20, stay_per_ha: [10]}}"
-#define RULES                                                                                              \
-    "rules: {name: r, standards: [{per_ha: 1, most_per_ha: 9, article: a, year: 2000}], turns: [{least_y: 1, " \
+#define RULES                                                                                                                  \
+    "rules: {name: r, standards: [{per_ha: 1, most_per_ha: 9, article: a, year: 2000}], turns: [{least_y: 1, "                 \
     "most_y: 9, article: a, year: 2000}]}\n"
 static const char *const scenes[] = {
     HEAD "rock: {shape: block, axes_m: [1, 1, 1]}\ncontrols: [{x_m: 90}]\n"
@@ -240,11 +240,14 @@ static void expect_text(const char *word)
 static void names_stay_texts(void **state)
 {
     (void)state;
-    const char *const words[] = {
-        "", " ", "a ", " a", "\ta", "~", "null", "Null", "NULL", "y", "N", "yes", "Yes", "YES", "no", "No", "NO", "true", "True",
-        "TRUE", "false", "on", "On", "off", "OFF", "0x10", "-0x1F", "0b101", "0o17", "017", "+12", "1_000", "1e3", "1E+3", ".5",
-        "5.", "-.5e-3", ".", "..", "1.2.3", "1:30", "1:30.5", ".inf", "-.Inf", "+.INF", ".nan", ".NaN", "2024-01-31",
-        "2024-1-3 10:00", "<<", "=", "0", "-0"};
+    const char *const words[] = {"",     " ",      "a ",    " a",    "\ta",   "~",          "null",
+                                 "Null", "NULL",   "y",     "N",     "yes",   "Yes",        "YES",
+                                 "no",   "No",     "NO",    "true",  "True",  "TRUE",       "false",
+                                 "on",   "On",     "off",   "OFF",   "0x10",  "-0x1F",      "0b101",
+                                 "0o17", "017",    "+12",   "1_000", "1e3",   "1E+3",       ".5",
+                                 "5.",   "-.5e-3", ".",     "..",    "1.2.3", "1:30",       "1:30.5",
+                                 ".inf", "-.Inf",  "+.INF", ".nan",  ".NaN",  "2024-01-31", "2024-1-3 10:00",
+                                 "<<",   "=",      "0",     "-0"};
     for (size_t i = 0; i < LENGTH(words); i++) {
         assert_true(is_another_type(words[i]));
         expect_text(words[i]);
@@ -265,8 +268,22 @@ static void names_stay_texts(void **state)
 static void plain_names_stay_plain(void **state)
 {
     (void)state;
-    const char *const words[] = {"ADS 1", "simple-coppice", "../stands/ads-1.yaml", "25 years", "10 m", "1st", "No wood",
-                                 "yesterday", "a", "nil", "x", "0.5 m", "1 2", "on the road", "profile_1.csv", "./s.yaml"};
+    const char *const words[] = {"ADS 1",
+                                 "simple-coppice",
+                                 "../stands/ads-1.yaml",
+                                 "25 years",
+                                 "10 m",
+                                 "1st",
+                                 "No wood",
+                                 "yesterday",
+                                 "a",
+                                 "nil",
+                                 "x",
+                                 "0.5 m",
+                                 "1 2",
+                                 "on the road",
+                                 "profile_1.csv",
+                                 "./s.yaml"};
     for (size_t i = 0; i < LENGTH(words); i++)
         for (int quoted = 0; quoted < 2; quoted++) {
             struct text text = {0};

@@ -156,8 +156,11 @@ static void make_alike(void)
                                         .options = made.found};
     for (size_t i = 0; i < OPTIONS; i++) {
         made.options[i] = file.scene.options[0];
-        made.wooded[i] = (struct ceduo_arrivals){
-            .released = ROCKS, .reached = ROCKS / 2, .reach_probability = .5, .exceed_probability = .5, .hazard = {.per_year = NAN}};
+        made.wooded[i] = (struct ceduo_arrivals){.released = ROCKS,
+                                                 .reached = ROCKS / 2,
+                                                 .reach_probability = .5,
+                                                 .exceed_probability = .5,
+                                                 .hazard = {.per_year = NAN}};
         made.differences[i] = ceduo_no_difference(50e3);
         made.others[i] = (struct ceduo_other_energy){.known = true, .stems = true, .to_first = ceduo_no_difference(50e3)};
         made.found[i] = (struct ceduo_option_result){.wooded = {.rocks = ROCKS, .controls = 1, .arrivals = &made.wooded[i]},
@@ -166,8 +169,13 @@ static void make_alike(void)
         made.year[i] = (struct ceduo_year){.controls = &made.index, .wooded = made.found[i].wooded};
         for (size_t r = 0; r < ROCKS; r++)
             made.marks[i][r] = r % 2;
-        made.years[i] = (struct ceduo_years){
-            .scene = file.scene, .window.step = 1, .count = 1, .years = &made.year[i], .rocks = ROCKS, .marked = ROCKS, .marks = made.marks[i]};
+        made.years[i] = (struct ceduo_years){.scene = file.scene,
+                                             .window.step = 1,
+                                             .count = 1,
+                                             .years = &made.year[i],
+                                             .rocks = ROCKS,
+                                             .marked = ROCKS,
+                                             .marks = made.marks[i]};
         made.of[i] = &made.years[i];
     }
     file.scene.options = made.options;

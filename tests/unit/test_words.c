@@ -19,9 +19,16 @@ static void numbers_are_shown_with_their_digits(void **state)
         double value;
         int digits;
         const char *shown;
-    } rows[] = {{12.345, 3, "12.3"},         {999999999, 2, "999999999"}, {1e9, 2, "1e+09"},    {1.26e9, 2, "1.3e+09"},
-                {-2.5e9, 2, "-2.5e+09"},     {0.0123, 2, "0.012"},        {0.00012, 2, "0.00012"}, {1.2e-8, 2, "1.2e-08"},
-                {0, 3, "0"},                 {NAN, 3, "-"}};
+    } rows[] = {{12.345, 3, "12.3"},
+                {999999999, 2, "999999999"},
+                {1e9, 2, "1e+09"},
+                {1.26e9, 2, "1.3e+09"},
+                {-2.5e9, 2, "-2.5e+09"},
+                {0.0123, 2, "0.012"},
+                {0.00012, 2, "0.00012"},
+                {1.2e-8, 2, "1.2e-08"},
+                {0, 3, "0"},
+                {NAN, 3, "-"}};
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++)
         assert_string_equal(WRITTEN(rows[i].value, rows[i].digits), rows[i].shown);
 }
