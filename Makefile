@@ -53,8 +53,8 @@ ALL_CFLAGS = -std=c17 -D_GNU_SOURCE -Iinclude -Isrc $(WARNINGS) -ffp-contract=of
 LIBRARY_LIBS := -lunistring -lgsl -lgslcblas -lm
 LIBS = -lncursesw -ltinfo -lyaml $(LIBRARY_LIBS)
 
-# The rooms of the library; the other rooms use them.
-rooms = $(wildcard $(patsubst %,src/%/*.c,$(1)))
+# The rooms of the library, with their folders; the other rooms use them.
+rooms = $(wildcard $(patsubst %,src/%/*.c,$(1)) $(patsubst %,src/%/*/*.c,$(1)))
 CORE := $(call rooms,base scene core study)
 REST := $(filter-out src/cli/main.c,$(call rooms,io model view tui cli))
 object = $(patsubst %.c,$(BUILD)/%.o,$(1))
@@ -104,7 +104,7 @@ TEMPLATE := $(BUILD)/ceduo.pot
 .PHONY: $(TEMPLATE)
 $(TEMPLATE):
 	@mkdir -p $(@D)
-	@ls src/*/*.[ch] | LC_ALL=C sort | xgettext -f - -o $@ --force-po --from-code=UTF-8 -L C -k -k_ -kN_ -kngettext:1,2 -kP_:1c,2 -kNP_:1c,2 --flag=N_:1:no-c-format --add-location=file -c'Translators:' \
+	@find src -name '*.[ch]' | LC_ALL=C sort | xgettext -f - -o $@ --force-po --from-code=UTF-8 -L C -k -k_ -kN_ -kngettext:1,2 -kP_:1c,2 -kNP_:1c,2 --flag=N_:1:no-c-format --add-location=file -c'Translators:' \
 	    --package-name=ceduo --copyright-holder=
 	@awk -v RS= '!/%[-+\#0-9.*]*(ll|l|z|h)?[diouxXeEfgGscp%]/ { sub(/\#, c-format\n/, "") } { gsub(/"POT-Creation-Date[^\n]*\n/, ""); print $$0 "\n" }' \
 	    $@ >$@.tmp && mv $@.tmp $@
@@ -259,9 +259,9 @@ CPPCHECK := -q --error-exitcode=1 --std=c11 --enable=warning,performance,portabi
 CLANG_DEFINES := -std=c17 -D_GNU_SOURCE -Iinclude -Isrc -Itests "-DCEDUO_DATADIR=\"\"" "-DCEDUO_LOCALEDIR=\"\""
 do-lint:
 	@+$(MAKE) --no-print-directory DEBIAN="$(DEBIAN_LINT)" deps
-	ls src/*/*.c tests/*/*.c | xargs -P $(CORES) -n 8 clang -fsyntax-only -Werror $(WARNINGS) $(CLANG_DEFINES)
+	find src tests -name '*.c' | xargs -P $(CORES) -n 8 clang -fsyntax-only -Werror $(WARNINGS) $(CLANG_DEFINES)
 	cppcheck $(CPPCHECK) -D_GNU_SOURCE -Iinclude -Isrc src
-	ls src/*/*.c | xargs -P $(CORES) -n 4 sh -c 'clang-tidy --quiet "$$@" -- $(CLANG_DEFINES) 2>/dev/null' tidy
+	find src -name '*.c' | xargs -P $(CORES) -n 4 sh -c 'clang-tidy --quiet "$$@" -- $(CLANG_DEFINES) 2>/dev/null' tidy
 
 # Runs tests on a build that counts branches, then compares the branches not taken with tests/coverage.txt. Tests of the screen
 # and of whole workflows are left out: what they take of these parts others take sooner, and they would take most of the time.

@@ -41,7 +41,7 @@ class Line:
 
 def read(build):
     """Path and number of each line that is code -> Line."""
-    notes = sorted(p.resolve() for part in PARTS for p in (build / part).glob("*.gcno"))
+    notes = sorted(p.resolve() for part in PARTS for p in (build / part).rglob("*.gcno"))
     if not notes:
         sys.exit(f"{build}: no build with --coverage")
     with tempfile.TemporaryDirectory() as folder:

@@ -3,8 +3,8 @@
 
 #include <math.h>
 
-#include "groups.h"
-#include "strata.h"
+#include "core/wood/groups.h"
+#include "core/wood/strata.h"
 
 /* ---- stems that count ---- */
 

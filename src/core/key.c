@@ -2,8 +2,8 @@
 #include "ceduo/key.h"
 
 #include "base/hash.h"
+#include "core/wood/wood.h"
 #include "scene/schema.h"
-#include "wood.h"
 
 /* Ground, rock, release and controls are hashed as the table of the scene has them: walkers read those members, and a new
  * row is in the key unless it says that it decides about something else. A forest is hashed as it is made ready. */

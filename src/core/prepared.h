@@ -3,9 +3,9 @@
 #define CEDUO_PREPARED_H
 
 #include "ceduo/scene.h"
-#include "ground.h"
+#include "core/walk/ground.h"
+#include "core/wood/wood.h"
 #include "sizes.h"
-#include "wood.h"
 
 /* A place where something is noted of a rock's first passage going +x: a control. */
 struct mark {

@@ -3,8 +3,8 @@
 #include <stdlib.h>
 
 #include "base/clock.h"
+#include "core/walk/walk.h"
 #include "run_state.h"
-#include "walk.h"
 
 #define CHUNK_SECONDS 0.5 /* about so long a chunk takes: somebody waits for a sign of progress */
 

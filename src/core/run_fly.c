@@ -8,8 +8,8 @@
 #include <string.h>
 
 #include "base/cancel.h"
+#include "core/walk/walk.h"
 #include "run_state.h"
-#include "walk.h"
 
 /* What a rock brings to a control; all 0 where it does not arrive. */
 struct arrival {

@@ -3,11 +3,11 @@
 #define CEDUO_RUN_STATE_H
 
 #include "ceduo/run.h"
-#include "envelope.h"
+#include "core/walk/envelope.h"
+#include "core/walk/wide.h"
 #include "histogram.h"
 #include "prepared.h"
 #include "weighted.h"
-#include "wide.h"
 
 /* A run from inside; only the run*.c include this.
  *

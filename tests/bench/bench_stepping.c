@@ -17,7 +17,7 @@
 #include <time.h>
 
 #include "../physics/paper_site.h"
-#include "core/landing.h"
+#include "core/walk/landing.h"
 
 #define STEPS_MOST 100000000
 #define MISSED     1.0 /* m */

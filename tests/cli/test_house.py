@@ -19,7 +19,7 @@ LIBRARY = ("base", "scene", "core", "study")
 SCIENCE = ("scene", "core")  # reaches for nothing outside
 OUTSIDE = re.compile(r"(.*printf|f?open|getenv|setlocale|yaml_.*|initscr|newterm|stdout|stderr|puts|exit|abort|d?c?n?gettext)$")
 # A rock is the same on every machine: what decides about its trajectory, and about the stand of a year, takes only what
-# rounds the same everywhere.
+# rounds the same everywhere. A file is named by its room, in whichever folder of it.
 TRAJECTORY = ("base/elementary", "scene/number", "scene/rock", "scene/slope", "scene/stand", "core/adc", "core/energy",
               "core/ground", "core/prepared", "core/rotation", "core/run_fly", "core/stems", "core/stems_avx2",
               "core/stems_avx512", "core/trajectory", "core/walk", "core/wide", "core/wide_avx2", "core/wide_avx512",
@@ -82,6 +82,14 @@ def circles():
     return sorted(set(bad))
 
 
+def named_twice():
+    """Within a room its folders do not matter to who looks for a file."""
+    found = defaultdict(list)
+    for path in sources():
+        found[room_of(path), path.name].append(str(path))
+    return [" and ".join(paths) for paths in found.values() if len(paths) > 1]
+
+
 def symbols(what, *files):
     done = subprocess.run(["nm", *what, *map(str, files)], stdout=subprocess.PIPE, check=True, text=True)
     return [line.split() for line in done.stdout.splitlines() if line.split() and not line.endswith(":")]
@@ -90,15 +98,16 @@ def symbols(what, *files):
 def reached_for():
     bad = []
     for room in SCIENCE:
-        for source in sorted((ROOT / "src" / room).glob("*.c")):
-            found = {words[-1] for words in symbols(["-u"], BUILD / "src" / room / f"{source.stem}.o")}
-            bad += [f"src/{room}/{source.name}: {name}" for name in sorted(found) if OUTSIDE.match(name)]
+        for source in (path for path in sources() if room_of(path) == room and path.suffix == ".c"):
+            found = {words[-1] for words in symbols(["-u"], BUILD / source.with_suffix(".o"))}
+            bad += [f"{source}: {name}" for name in sorted(found) if OUTSIDE.match(name)]
     return bad
 
 
 def differs_between_machines():
-    return [f"src/{name}.c: {words[-1]}" for name in TRAJECTORY
-            for words in symbols(["-u"], BUILD / "src" / f"{name}.o") if DIFFERS.match(words[-1])]
+    named = {f"{room_of(path)}/{path.stem}": path for path in sources() if path.suffix == ".c"}
+    return [f"{named[name]}: {words[-1]}" for name in TRAJECTORY
+            for words in symbols(["-u"], BUILD / named[name].with_suffix(".o")) if DIFFERS.match(words[-1])]
 
 
 def exported():
@@ -119,7 +128,7 @@ def formatted_otherwise():
 
 def main():
     tests = [("each room knows only those it stands on", who_knows_whom), ("no file includes another that includes it", circles),
-             ("scene and core reach for nothing outside", reached_for),
+             ("no two files of a room have one name", named_twice), ("scene and core reach for nothing outside", reached_for),
              ("a rock's trajectory calls no function that differs between machines", differs_between_machines),
              ("every exported symbol begins with ceduo_", exported), ("one file alone knows curses", knows_curses),
              ("every file is as clang-format has it", formatted_otherwise)]

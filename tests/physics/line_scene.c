@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "core/random.h"
+#include "core/walk/random.h"
 
 void line_scene_init(struct line_scene *s, size_t vertices, const double *x, const double *z, struct line_ground ground,
                      double radius, enum ceduo_law law)

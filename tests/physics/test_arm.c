@@ -6,7 +6,7 @@
 #include <math.h>
 #include <stdbool.h>
 
-#include "core/law_arm.h"
+#include "core/walk/law_arm.h"
 #include "line_scene.h"
 
 #define BLOWS   1000000

@@ -10,11 +10,11 @@ n=0
 inlining=-Dalways_inline=unused
 [ -z "$FULL" ] || inlining=
 # The library that is built; what else is compiled goes before it.
-core="$(echo src/scene/*.c src/core/*.c)"
+core="$(find src/scene src/core -name '*.c')"
 library=${BUILD:-none}/libceduo.a
 case ${BUILD:-none} in
 *release) ;;
-*) library="$(echo src/base/*.c src/scene/*.c src/core/*.c src/study/*.c)" core= ;;
+*) library="$(find src/base src/scene src/core src/study -name '*.c')" core= ;;
 esac
 compile() { # name compiler level sources
     name=$1 cc=$2 level=$3

@@ -45,16 +45,16 @@ defines() {
 # The files in which the constants stand, and the sources that any of these goes into, as the compiler noted it.
 homes=
 for d in $half; do
-    home=$(grep -lx "#ifndef ${d%%=*}" src/core/*.[ch]) || echo "not ok - nothing reads ${d%%=*}"
+    home=$(grep -lx "#ifndef ${d%%=*}" $(find src/core -name '*.[ch]')) || echo "not ok - nothing reads ${d%%=*}"
     homes="$homes -e $home"
 done
-sources=$(grep -lF $homes "$BUILD"/src/core/*.d | sed "s|^$BUILD/||; s|d$|c|" | xargs ls 2>/dev/null) # without those of sources that are gone
+sources=$(grep -lF $homes $(find "$BUILD/src/core" -name '*.d') | sed "s|^$BUILD/||; s|d$|c|" | xargs ls 2>/dev/null) # without those of sources that are gone
 [ -n "$sources" ] || echo "not ok - no source reads a constant"
 library=$BUILD/libceduo.a
 case $BUILD in
 *release) ;;
 *) # linked with more than is said here
-    compile "$dir/usual" "" src/base/*.c src/scene/*.c src/core/*.c src/study/*.c
+    compile "$dir/usual" "" $(find src/base src/scene src/core src/study -name '*.c')
     library=$dir/usual.a
     ar rcs "$library" "$dir"/usual/*.o
     ;;

@@ -4,8 +4,8 @@
 
 #include <math.h>
 
-#include "core/law_crsp.h"
-#include "core/law_lumped.h"
+#include "core/walk/law_crsp.h"
+#include "core/walk/law_lumped.h"
 #include "line_scene.h"
 #include "paper_site.h"
 

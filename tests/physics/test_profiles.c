@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/landing.h"
+#include "core/walk/landing.h"
 #include "line_scene.h"
 #include "paper_site.h"
 

@@ -6,8 +6,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "core/envelope.h"
 #include "core/histogram.h"
+#include "core/walk/envelope.h"
 
 /* ---- cells along the slope: 32 bins an octave ---- */
 

@@ -7,8 +7,8 @@
 #include <math.h>
 
 #include "base/elementary.h"
-#include "core/many.h"
-#include "core/random.h"
+#include "core/walk/many.h"
+#include "core/walk/random.h"
 
 #define PLACES 200000
 

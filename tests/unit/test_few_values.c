@@ -9,9 +9,9 @@
 
 #include "base/bytes.h"
 #include "ceduo/ceduo.h"
-#include "core/envelope.h"
 #include "core/histogram.h"
 #include "core/run_pack.h"
+#include "core/walk/envelope.h"
 
 /* ---- few values ---- */
 

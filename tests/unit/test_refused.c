@@ -5,8 +5,8 @@
 #include <math.h>
 
 #include "ceduo/ceduo.h"
-#include "core/ground.h"
-#include "core/wood.h"
+#include "core/walk/ground.h"
+#include "core/wood/wood.h"
 #include "physics/paper_site.h"
 
 /* ---- scenes that are refused ---- */

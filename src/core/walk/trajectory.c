@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "prepared.h"
+#include "core/prepared.h"
 #include "walk.h"
 
 struct noter {

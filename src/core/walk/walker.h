@@ -8,12 +8,12 @@
 
 #include "base/elementary.h"
 #include "ceduo/trajectory.h"
+#include "core/prepared.h"
+#include "core/wood/stems.h"
 #include "envelope.h"
 #include "landing.h"
-#include "prepared.h"
 #include "random.h"
 #include "section.h"
-#include "stems.h"
 
 /* One rock on its trajectory. */
 struct walker {

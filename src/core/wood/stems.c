@@ -11,8 +11,8 @@
 #include <string.h>
 
 #include "base/elementary.h"
-#include "kernel.h"
-#include "random.h"
+#include "core/walk/kernel.h"
+#include "core/walk/random.h"
 #define MANY 2
 #include "stems_fill.h"
 
