@@ -7,6 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "must.h"
+
 #define PAGE ((size_t)16 * 1024)
 
 struct arena_page {
@@ -30,12 +32,11 @@ static bool add_page(struct arena *arena, size_t size)
 void *ceduo_arena_take(struct arena *arena, size_t size)
 {
     size_t align = alignof(max_align_t);
-    if (size > SIZE_MAX / 2) {
-        arena->failed = true;
-        return NULL;
-    }
-    size = (size + align - 1) / align * align;
-    if ((!arena->page || arena->page->size - arena->page->used < size) && !add_page(arena, size)) {
+    bool too_much = size > SIZE_MAX / 2;
+    size = too_much ? size : (size + align - 1) / align * align;
+    bool fits = arena->page && arena->page->size - arena->page->used >= size;
+    if (too_much || (!fits && !add_page(arena, size))) {
+        ceduo_no_memory();
         arena->failed = true;
         return NULL;
     }

@@ -4,6 +4,8 @@
 
 #include <stdlib.h>
 
+#include "must.h"
+
 /* Makes room for one more item in an array of n items of `size` bytes; `*room` is how many it can hold. Returns the array,
  * which may have moved; NULL without memory, and the array stays as it was. */
 static inline void *ceduo_grow(void *items, size_t n, size_t *room, size_t size)
@@ -12,6 +14,8 @@ static inline void *ceduo_grow(void *items, size_t n, size_t *room, size_t size)
         return items;
     size_t more = *room > 0 ? 2 * *room : 32;
     void *grown = realloc(items, more * size);
+    if (!grown)
+        ceduo_no_memory();
     *room = grown ? more : *room;
     return grown;
 }

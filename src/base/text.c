@@ -9,6 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "must.h"
 #include "utf8.h"
 
 static _Thread_local bool lost;
@@ -31,6 +32,7 @@ static bool reserve(struct text *text, size_t more)
         room *= 2;
     char *bytes = realloc(text->bytes, room);
     if (!bytes) {
+        ceduo_no_memory();
         text->failed = lost = true;
         return false;
     }

@@ -8,15 +8,15 @@
 #include <stdint.h>
 
 /* A string that grows. Starts zeroed; `bytes` is NULL or ends in NUL. Once memory fails, `failed` stays set and nothing
- * more is added: check it once at the end. */
+ * more is added: the library checks it once at the end. In the program it never fails (must.h). */
 struct text {
     char *bytes;
     size_t length, room;
     bool failed;
 };
 
-/* Whether some text of this thread was cut short since this was asked last. A page is made of many that are used and
- * freed on the way: one that lacks a word must not pass for whole. */
+/* Whether some text of this thread was cut short since this was asked last: what the library makes of many that are used and
+ * freed on the way must not pass for whole. */
 bool ceduo_text_lost(void);
 
 void ceduo_text_add(struct text *text, const char *bytes, size_t n);

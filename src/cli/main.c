@@ -2,14 +2,32 @@
 #include <fcntl.h>
 #include <gsl/gsl_errno.h>
 #include <signal.h>
+#include <stdatomic.h>
+#include <stdio.h>
 #include <unistd.h>
 
+#include "base/language.h"
+#include "base/must.h"
 #include "batch.h"
 #include "ceduo/version.h"
 #include "command_line.h"
 #include "language.h"
 #include "output.h"
 #include "say.h"
+#include "tui/terminal.h"
+
+/* Ends the program without memory, from any thread; nothing here allocates. What a person has edited is in the recovery
+ * copy already, which each edit writes; a file is put in its place whole or not at all. */
+static void end_without_memory(void)
+{
+    static atomic_flag ends = ATOMIC_FLAG_INIT;
+    while (atomic_flag_test_and_set(&ends)) /* another thread does it */
+        pause();
+    fputs(ceduo_terminal_restore() ? _("ceduo: out of memory; unsaved work was kept and is offered at the next start\n")
+                                   : _("ceduo: out of memory\n"),
+          stderr);
+    _exit(EXIT_RUN);
+}
 
 /* A file opened later must not become standard output by chance. Reading from or writing to a closed one then fails as
  * it should: /dev/null is opened the wrong way round. */
@@ -71,6 +89,7 @@ static enum exit_status act(const struct arguments *a)
 
 int main(int argc, char **argv)
 {
+    ceduo_memory_hook = end_without_memory;
     keep_standard_streams();
     ceduo_language_start();
     signal(SIGXFSZ, SIG_IGN);    /* a file that is too large for its limit is an error like a full disk */

@@ -11,6 +11,7 @@
 #include <unistd.h>
 
 #include "base/clock.h"
+#include "base/must.h"
 #include "ceduo/key.h"
 
 /* Of two steps as coarse the first goes first. */
@@ -318,9 +319,10 @@ static bool has_levels(enum kind kind)
 static void end_step(struct jobs *q, enum kind kind, const struct job *done, enum ceduo_status status)
 {
     struct job *job = &q->jobs[kind];
+    if (status == CEDUO_NO_MEMORY)
+        ceduo_no_memory();
     if (job->number != done->number || status == CEDUO_CANCELLED)
         return;
-    q->news.failed |= status != CEDUO_OK;
     job->wanted = status == CEDUO_OK && (has_levels(kind) ? job->level < job->levels : done->wanted);
     job->rocks = kind == DOUBT ? rocks_before(job->level) : job->rocks * 10;
 }
@@ -426,7 +428,6 @@ static void ask(struct jobs *q, enum kind kind, const struct job *job)
     q->jobs[kind].wanted = true;
     q->jobs[kind].number = ++q->requests;
     q->jobs[kind].asked = ceduo_clock();
-    q->news.failed = false;
     atomic_store(&q->cancel, true);
     pthread_cond_broadcast(&q->changed);
 }

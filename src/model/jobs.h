@@ -82,8 +82,7 @@ struct jobs_news {
     struct sought *sought; /* NULL: none is done; the caller's from now on */
     bool foresaw;          /* what a change would do is known: */
     struct foreseen foreseen;
-    bool busy;   /* some job is not done */
-    bool failed; /* out of memory */
+    bool busy; /* some job is not done */
 };
 struct jobs_news ceduo_jobs_news(struct jobs *jobs);
 void ceduo_jobs_free_years(struct ceduo_years **years, size_t n);

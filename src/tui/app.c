@@ -8,6 +8,7 @@
 
 #include "base/hash.h"
 #include "base/language.h"
+#include "base/must.h"
 #include "base/utf8.h"
 #include "model/alternatives.h"
 
@@ -16,18 +17,9 @@
 __attribute__((format(printf, 3, 0))) static void say(struct app *app, bool bad, const char *format, va_list args)
 {
     struct text text = {0}, safe = {0};
-    va_list again;
-    va_copy(again, args);
     ceduo_text_vformat(&text, format, args);
     ceduo_text_safe(&safe, ceduo_text_string(&text));
-    if (text.failed || safe.failed) { /* said even so: of it ASCII is safe */
-        vsnprintf(app->message, sizeof app->message, format, again);
-        for (char *p = app->message; *p; p++)
-            *p = *p >= ' ' && *p <= '~' ? *p : '?';
-    } else {
-        snprintf(app->message, sizeof app->message, "%s", ceduo_text_string(&safe));
-    }
-    va_end(again);
+    snprintf(app->message, sizeof app->message, "%s", ceduo_text_string(&safe));
     app->message_bad = bad;
     ceduo_text_free(&text);
     ceduo_text_free(&safe);
@@ -52,7 +44,7 @@ void ceduo_app_warn(struct app *app, const char *format, ...)
 /* The first problem's message, without the place, which the cursor shows. */
 static void say_problem(struct app *app)
 {
-    const char *text = app->problems.text.bytes ? app->problems.text.bytes : _("out of memory\n");
+    const char *text = ceduo_text_string(&app->problems.text);
     char first[400];
     snprintf(first, sizeof first, "%.*s", (int)strcspn(text, "\n"), text);
     const char *colon = strstr(first, ": ");
@@ -205,12 +197,10 @@ void ceduo_app_follow_belt(struct app *app)
 
 bool ceduo_app_news(struct app *app)
 {
-    bool failed, changed = ceduo_figures_news(&app->figures, &app->document.file.scene, &failed);
+    bool changed = ceduo_figures_news(&app->figures, &app->document.file.scene);
     const struct ceduo_years *years = ceduo_figures_years(&app->figures, &app->document.file.scene, app->option);
     if (years && app->year >= years->count)
         app->year = 0;
-    if (failed)
-        ceduo_app_warn(app, "%s", _("out of memory: the figures are not up to date"));
     return changed;
 }
 
@@ -360,11 +350,7 @@ void ceduo_app_resize(struct app *app, int width, int height)
 {
     width = width < 1 ? 1 : width > CEDUO_CANVAS_MAX_WIDTH ? CEDUO_CANVAS_MAX_WIDTH : width;
     height = height < 1 ? 1 : height > CEDUO_CANVAS_MAX_HEIGHT ? CEDUO_CANVAS_MAX_HEIGHT : height;
-    struct ceduo_cells *cells = ceduo_cells_create(width, height, app->charset);
-    if (!cells) {
-        app->stopped = app->cells == NULL;
-        return;
-    }
+    struct ceduo_cells *cells = ceduo_must(ceduo_cells_create(width, height, app->charset));
     ceduo_cells_free(app->cells);
     app->cells = cells;
     app->width = width;
@@ -430,8 +416,6 @@ void ceduo_app_end_in_more(struct app *app, struct text *text, int width, int li
     for (bool fits = false; !fits;) {
         size_t end = text->length;
         ceduo_text_put(text, " ..."); /* as wide as the sign is in ASCII */
-        if (text->failed)
-            return;
         fits = ceduo_app_text_lines(app, text->bytes, width) <= lines;
         text->length = end;
         text->bytes[end] = '\0';

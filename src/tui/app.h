@@ -94,7 +94,6 @@ struct app {
     bool doubts;                         /* compute the doubt behind the figures; a script does so once it has looked at it */
     void (*once_saved)(struct app *app); /* what goes on once the scene is saved; NULL: nothing */
     bool quit, redraw;                   /* redraw: paint the whole terminal again */
-    bool stopped;                        /* out of memory: cannot go on */
 };
 
 /* Opens a scene, or the shipped site of the paper where `path` is NULL. False with the reason in `problems`. */

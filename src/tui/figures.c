@@ -173,14 +173,12 @@ void ceduo_figures_drop_fit(struct figures *f)
     f->fit_state = (struct ceduo_calibration_state){0};
 }
 
-bool ceduo_figures_news(struct figures *f, const struct ceduo_scene *scene, bool *failed)
+bool ceduo_figures_news(struct figures *f, const struct ceduo_scene *scene)
 {
     struct jobs_news news = ceduo_jobs_news(f->jobs);
     bool changed = news.busy != f->busy || news.outlook || news.years || news.others || news.doubted || news.sighted ||
-                   news.fit || news.fit_state.evaluations != f->fit_state.evaluations || news.sought || news.foresaw ||
-                   news.failed;
+                   news.fit || news.fit_state.evaluations != f->fit_state.evaluations || news.sought || news.foresaw;
     f->busy = news.busy;
-    *failed = news.failed;
     if (news.outlook) {
         ceduo_outlook_free(f->outlook);
         f->outlook = news.outlook;

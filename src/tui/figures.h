@@ -55,8 +55,8 @@ const struct sighted *ceduo_figures_sighted(const struct figures *figures, const
 void ceduo_figures_fit(struct figures *figures, const struct scene_file *file, const struct fit_wish *wish);
 void ceduo_figures_drop_fit(struct figures *figures);
 
-/* Takes the news of the jobs; true where something has changed. `*failed`: there is no memory for more. */
-bool ceduo_figures_news(struct figures *figures, const struct ceduo_scene *scene, bool *failed);
+/* Takes the news of the jobs; true where something has changed. */
+bool ceduo_figures_news(struct figures *figures, const struct ceduo_scene *scene);
 
 /* What fits a scene: an edit may have added a control since it was asked for. NULL: none does. */
 const struct ceduo_outlook *ceduo_figures_outlook(const struct figures *figures, const struct ceduo_scene *scene);

@@ -89,6 +89,7 @@ static void ask_for_pastes(bool on)
 static struct termios saved_mode;
 static char restore_string[128];
 static size_t restore_length;
+static volatile sig_atomic_t is_open;     /* curses shows the program */
 static volatile sig_atomic_t ending;      /* SIGTERM or SIGHUP */
 static volatile sig_atomic_t interrupted; /* Ctrl-C */
 static volatile sig_atomic_t suspended;   /* Ctrl-Z */
@@ -110,13 +111,21 @@ static void prepare_restore(void)
     }
 }
 
-static void on_crash(int number)
+bool ceduo_terminal_restore(void)
 {
     static const char mouse_off[] = "\033[?1000l\033[?1006l";
+    if (!is_open)
+        return false;
     ssize_t unused = write(STDOUT_FILENO, mouse_off, sizeof mouse_off - 1);
     unused = write(STDOUT_FILENO, restore_string, restore_length);
     (void)unused;
     tcsetattr(STDIN_FILENO, TCSANOW, &saved_mode);
+    return true;
+}
+
+static void on_crash(int number)
+{
+    ceduo_terminal_restore();
     signal(number, SIG_DFL);
     raise(number);
 }
@@ -175,8 +184,6 @@ static void show(struct app *app, bool colours)
 {
     if (app->width != COLS || app->height != LINES || !app->cells)
         ceduo_app_resize(app, COLS, LINES);
-    if (!app->cells)
-        return;
     ceduo_screen_draw(app);
     if (app->redraw)
         clearok(curscr, TRUE);
@@ -376,7 +383,7 @@ static void suspend(void)
 static void loop(struct app *app, bool colours)
 {
     show(app, colours);
-    while (!app->quit && !app->stopped && !ending) {
+    while (!app->quit && !ending) {
         struct pollfd fds[3] = {{.fd = STDIN_FILENO, .events = POLLIN},
                                 {.fd = ceduo_jobs_fd(app->figures.jobs), .events = POLLIN},
                                 {.fd = wake[0], .events = POLLIN}};
@@ -447,8 +454,10 @@ enum terminal_end ceduo_terminal_run(struct app *app)
     tcgetattr(STDIN_FILENO, &saved_mode); /* as it was before curses */
     set_handlers();
     FILE *keys = open_keys();
+    is_open = true;
     SCREEN *screen = newterm(NULL, stdout, keys ? keys : stdin);
     if (!screen) {
+        is_open = false;
         if (keys)
             fclose(keys);
         return TERMINAL_NONE;
@@ -468,6 +477,7 @@ enum terminal_end ceduo_terminal_run(struct app *app)
     loop(app, colours_wanted());
     ask_for_pastes(false);
     endwin();
+    is_open = false;
     delscreen(screen);
     if (keys)
         fclose(keys);
@@ -475,5 +485,5 @@ enum terminal_end ceduo_terminal_run(struct app *app)
         signal(ending, SIG_DFL);
         raise(ending);
     }
-    return app->stopped ? TERMINAL_FAILED : TERMINAL_DONE;
+    return TERMINAL_DONE;
 }

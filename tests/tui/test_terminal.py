@@ -5,6 +5,7 @@ import fcntl
 import os
 import pty
 import re
+import shlex
 import shutil
 import signal
 import struct
@@ -16,7 +17,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 from play import FAST, Place, check_good, home  # noqa: E402
-from harness import CEDUO, SLOWER, USAGE, Failure, Skip, Suite, expect, expect_equal, expect_in, tests_of  # noqa: E402
+from harness import CEDUO, SANITIZED, SLOWER, USAGE, Failure, Skip, Suite, expect, expect_equal, expect_in, tests_of  # noqa: E402
 
 PATIENCE = 20 * SLOWER  # seconds until something that must come counts as missing; none of it is ever waited for in full
 ASAN = b"__asan_init" in Path(CEDUO).read_bytes()
@@ -398,6 +399,40 @@ def test_signal_status():
             t.sees("? help", "1 slope")
             os.kill(t.process(), number)
             t.sees(f"STATUS-{128 + number}-")
+
+
+def test_no_memory():
+    """Without memory the program says one sentence, leaves the terminal as it was, and the edits to be taken up again."""
+    if SANITIZED:
+        raise Skip("the sanitizers have their own malloc")
+    kept = 0
+    for at in (3000, 6000, 9000, 12000, 15000):
+        with Place() as place, Tmux(place) as t:
+            faults = Path(__file__).resolve().parents[1] / "cli/faults.c"
+            subprocess.run([*shlex.split(os.environ.get("CC") or "gcc"), "-D_GNU_SOURCE", "-shared", "-fPIC", "-O1", "-o",
+                            place.path / "faults.so", faults, "-ldl"], check=True)
+            before = mode(t)
+            place.write("start", f"LD_PRELOAD=./faults.so FAULT=memory FAULT_ON=1 FAULT_AT={at} '{CEDUO}' fast.yaml\necho STATUS-$?-\n")
+            t.text("clear; sh start")
+            t.keys("Enter")
+            for _ in range(100):
+                if "STATUS-" in t.screen():
+                    break
+                t.keys("2", "+")
+            screen = t.sees("STATUS-1-", "READY>")
+            t.keys("C-u")  # what was pressed too late
+            after_ending(t, before, "running out of memory")
+            lines = [line for line in screen.split("\n") if line.strip()]
+            expect_in("ceduo: out of memory; unsaved work was kept and is offered at the next start", "".join(lines))
+            expect_equal(place.text("fast.yaml"), FAST, "the scene on disk")
+            copies = left_behind(place)
+            kept += len(copies)
+            if copies:
+                expect(re.search(r"- from_m: (5\.[1-9]|[6-9])", place.text(f"state/ceduo/{copies[0]}")), place.text(f"state/ceduo/{copies[0]}"))
+                t.start("fast.yaml", sees=("Unsaved work was left behind",))
+                t.keys("Enter")
+                t.sees("your work is back", "* fast")
+    expect(kept > 0, "no edit was kept")
 
 
 def test_forget():
