@@ -224,9 +224,9 @@ static bool edit_scene(const struct job *j, const struct ceduo_calibration_repor
 }
 
 /* The scene is made while the table lies under a name of its own, and is to name it as it will be called. */
-static void name_draws(struct text *scene, const struct temporary *draws)
+static void name_draws(struct text *scene, const struct pending_file *draws)
 {
-    const char *mark = draws->path + strlen(draws->target);
+    const char *mark = draws->temporary + strlen(draws->target);
     char *at = scene->failed ? NULL : strstr(scene->bytes, mark);
     if (at) {
         scene->length -= strlen(mark);
@@ -259,13 +259,13 @@ static enum exit_status place_both(const struct job *j, const struct ceduo_calib
     struct problems problems = {0};
     struct text scene = {0};
     enum exit_status status = EXIT_OUTPUT;
-    if (!edit_scene(j, r, draws->temporary.path, &document, &problems)) {
+    if (!edit_scene(j, r, draws->temporary, &document, &problems)) {
         ceduo_problems_close(&problems);
         ceduo_say(&problems.text);
         status = EXIT_RUN;
     } else {
         ceduo_document_text(&document, output, &scene);
-        name_draws(&scene, &draws->temporary);
+        name_draws(&scene, draws);
         draws->wait = false; /* for their folder: the scene waits for it, and nothing comes between the two */
         if (prepare(file, output, &scene) && place(draws) && place(file))
             status = EXIT_DONE;
@@ -282,14 +282,14 @@ static enum exit_status write_scene(const struct job *j, const struct ceduo_cali
 {
     const char *output = j->arguments->output;
     struct text path = {0}, draws = {0};
-    struct pending_file beside = {.temporary.fd = -1}, file = {.temporary.fd = -1};
+    struct pending_file beside = {0}, file = {0};
     enum exit_status status = EXIT_OUTPUT;
     ceduo_text_format(&path, "%.*s.draws.csv", (int)(strrchr(output, '.') - output), output);
     put_draws(j, r->answer, &draws);
     if (prepare(&beside, ceduo_text_string(&path), &draws)) {
         if (!beside.target) /* a device, a pipe */
             ceduo_say_why(beside.path, strerror(EINVAL));
-        else if (strncmp(beside.temporary.path, beside.target, strlen(beside.target)) != 0) /* of a long name only a part */
+        else if (strncmp(beside.temporary, beside.target, strlen(beside.target)) != 0) /* of a long name only a part */
             ceduo_say_why(beside.path, strerror(ENAMETOOLONG));
         else
             status = place_both(j, r, &beside, &file);

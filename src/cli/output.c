@@ -45,8 +45,6 @@ bool ceduo_output_check(const struct arguments *a)
     bool good = !a->output || ceduo_file_can_write(a->output);
     if (!good)
         ceduo_say_why(*a->output ? a->output : "--output", *a->output ? strerror(errno) : _("name a file"));
-    if (a->output && good)
-        ceduo_file_tidy(a->output);
     for (size_t i = 0; a->output && good && i < a->scenes_count; i++) {
         const char *path = a->scenes[i];
         if (a->mode != MODE_MERGE && strcmp(path, "-") != 0)

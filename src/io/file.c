@@ -1,14 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Reads and writes whole files, and finds them. A file is written beside its target and then takes its place
- * (temporary.c); what is no regular file is written straight. Reading never waits for ever. What is read lies in the
- * arena of the caller; where this has a shelf, each file is read once and kept there. */
+/* Reads and writes whole files, and finds them. A file is written beside its target and then takes its place; what is no
+ * regular file is written straight. What is read lies in the arena of the caller; where this has a shelf, each file is read
+ * once and kept there. */
 #include "file.h"
 
 #include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <limits.h>
-#include <poll.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -17,204 +16,102 @@
 #include <unistd.h>
 
 #include "base/language.h"
-#include "temporary.h"
+#include "base/utf8.h"
 
 /* ---- reading ---- */
 
 #define ROOM_FIRST ((size_t)64 * 1024)
-#define FIFO_WAIT  3000 /* ms */
-#define PART       8192 /* bytes read or written at a time: a stack may be small */
-#define BEGINNING  4096 /* bytes of a file in which it says what it is */
-
-/* Reasons of our own, by numbers that no call here gives. */
-#define NOBODY_WRITES ETIME
-#define NO_FILE       ENOSTR
-#define NO_END        ENOSR
-
-/* Some of the system's files, /proc/kmsg for one, seem empty and never end: who reads on waits for ever. */
-static bool waits_for_more(int fd)
-{
-    struct pollfd poll_fd = {.fd = fd, .events = POLLIN};
-    struct stat st;
-    return fstat(fd, &st) == 0 && S_ISREG(st.st_mode) && st.st_size == 0 && poll(&poll_fd, 1, 0) == 0;
-}
-
-/* As read(), but what writes to a FIFO may begin later: a reader that came first waits for it, though not for ever.
- * `first`: nothing was read yet. */
-static ssize_t read_part(int fd, char *to, size_t room, bool first)
-{
-    struct pollfd poll_fd = {.fd = fd, .events = POLLIN};
-    struct stat st;
-    if (waits_for_more(fd)) {
-        errno = NO_END;
-        return -1;
-    }
-    for (bool waited = false, came = false;;) {
-        ssize_t n = read(fd, to, room);
-        if (n < 0 && errno == EINTR)
-            continue;
-        if (n < 0 && errno == EAGAIN && fstat(fd, &st) == 0 && S_ISREG(st.st_mode)) {
-            errno = NO_END;
-            return -1;
-        }
-        if (n < 0 && errno == EAGAIN) { /* it is there, and has nothing to say yet */
-            came = true;
-            poll(&poll_fd, 1, -1);
-            continue;
-        }
-        if (n != 0 || came || !first || fstat(fd, &st) != 0 || !S_ISFIFO(st.st_mode))
-            return n;
-        if (waited) {
-            errno = NOBODY_WRITES;
-            return -1;
-        }
-        int ready = poll(&poll_fd, 1, FIFO_WAIT);
-        if (ready > 0 && !(poll_fd.revents & POLLIN)) /* it came and went */
-            return 0;
-        waited = ready == 0;
-    }
-}
-
-/* What a file holds, straight into the arena: a large one is in memory once. `size` is what the file says of itself; a
- * device or pipe says nothing. */
-static bool read_all(int fd, struct arena *arena, size_t size, size_t most, struct source *into)
-{
-    size_t room = size > 0 ? size + 1 : ROOM_FIRST, n = 0; /* one more, to see the end */
-    char *bytes = ceduo_arena_take(arena, room + 1);
-    while (bytes) {
-        ssize_t got = read_part(fd, bytes + n, room - n, n == 0);
-        if (got < 0)
-            return false;
-        n += (size_t)got;
-        into->bytes = bytes;
-        into->length = n;
-        if (got == 0)
-            return true;
-        if (n > most) {
-            errno = EFBIG;
-            return false;
-        }
-        if (n < room)
-            continue;
-        room *= 2;
-        char *more = ceduo_arena_take(arena, room + 1);
-        if (more)
-            memcpy(more, bytes, n);
-        bytes = more;
-    }
-    errno = ENOMEM;
-    return false;
-}
-
-static bool read_text(int fd, struct text *into, size_t most)
-{
-    char part[PART];
-    for (;;) {
-        ssize_t n = read_part(fd, part, sizeof part, into->length == 0);
-        if (n < 0)
-            return false;
-        if (n == 0)
-            return true;
-        ceduo_text_add(into, part, (size_t)n);
-        if (into->failed) {
-            errno = ENOMEM;
-            return false;
-        }
-        if (into->length > most) {
-            errno = EFBIG;
-            return false;
-        }
-    }
-}
+#define PART       8192   /* bytes copied at a time: a stack may be small */
+#define BEGINNING  4096   /* bytes of a file in which it says what it is */
+#define NO_FILE    ENOSTR /* a reason of our own, by a number that no call here gives */
 
 static bool is_standard(const char *path)
 {
     return strcmp(path, "-") == 0;
 }
 
-/* 0, or why this is not read: only files, pipes and terminals come to an end, and /dev/null. A socket can only be standard
- * input, as some programs give it. */
-static int why_not(int fd, const struct stat *st)
-{
-    struct stat null;
-    switch (st->st_mode & S_IFMT) {
-    case S_IFREG:
-    case S_IFIFO:
-    case S_IFSOCK:
-        return 0;
-    case S_IFDIR:
-        return EISDIR;
-    case S_IFCHR:
-        return isatty(fd) || (stat("/dev/null", &null) == 0 && null.st_rdev == st->st_rdev) ? 0 : NO_FILE;
-    default:
-        return NO_FILE;
-    }
-}
-
-/* Does not wait for somebody to open the other end of a FIFO: read_part() does, but not for ever. */
-static int open_to_read(const char *path)
-{
-    bool standard = is_standard(path);
-    int fd = standard ? STDIN_FILENO : open(path, O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
-    struct stat st = {0};
-    if (fd < 0 && errno == ENXIO) /* a socket, or a device that is not there */
-        errno = NO_FILE;
-    int why = fd >= 0 && fstat(fd, &st) == 0 ? why_not(fd, &st) : 0;
-    if (why != 0) {
-        if (!standard)
-            close(fd);
-        errno = why;
-        return -1;
-    }
-    if (fd >= 0 && !standard && !S_ISFIFO(st.st_mode) && !(S_ISREG(st.st_mode) && st.st_size == 0))
-        fcntl(fd, F_SETFL, fcntl(fd, F_GETFL) & ~O_NONBLOCK);
-    return fd;
-}
-
 const char *ceduo_file_why(int why)
 {
-    switch (why) {
-    case NOBODY_WRITES:
-        return _("no program writes to this FIFO");
-    case NO_FILE:
-        return _("a device or a socket; name a file");
-    case NO_END:
-        return _("this file has no end; name a regular file");
-    default:
-        return strerror(why);
-    }
+    return why == NO_FILE ? _("a device or a socket; name a file") : strerror(why);
 }
 
-/* Keeps the errno of what was done before. */
-static void close_read(const char *path, int fd)
+/* Standard input may be anything; what has a name must be a regular file or a FIFO, for a device may have no end. */
+static int open_to_read(const char *path)
 {
+    struct stat st;
+    if (is_standard(path))
+        return STDIN_FILENO;
+    if (stat(path, &st) != 0)
+        return -1;
+    if (S_ISREG(st.st_mode) || S_ISFIFO(st.st_mode))
+        return open(path, O_RDONLY | O_NOCTTY | O_CLOEXEC);
+    errno = S_ISDIR(st.st_mode) ? EISDIR : NO_FILE;
+    return -1;
+}
+
+/* What an open file holds, straight into the arena: a large one is in memory once. A regular file that says that it is empty
+ * is not read, for some of the system's never end. */
+static bool read_all(int fd, struct arena *arena, size_t max, struct source *into)
+{
+    struct stat st;
+    if (fstat(fd, &st) != 0)
+        return false;
+    bool sized = S_ISREG(st.st_mode);
+    size_t room = sized ? (size_t)st.st_size + 1 : ROOM_FIRST, n = 0; /* one more, to see the end */
+    if (sized && (uintmax_t)st.st_size > max) {
+        errno = EFBIG;
+        return false;
+    }
+    char *bytes = ceduo_arena_take(arena, room + 1);
+    for (ssize_t got = sized ? st.st_size : 1; bytes && got > 0;) {
+        got = read(fd, bytes + n, room - n);
+        if (got < 0 && errno == EINTR)
+            got = 1;
+        else if (got < 0)
+            return false;
+        else
+            n += (size_t)got;
+        if (n > max) {
+            errno = EFBIG;
+            return false;
+        }
+        if (n < room)
+            continue;
+        char *more = ceduo_arena_take(arena, 2 * room + 1);
+        if (more)
+            memcpy(more, bytes, n);
+        bytes = more;
+        room *= 2;
+    }
+    into->bytes = bytes;
+    into->length = n;
+    if (!bytes)
+        errno = ENOMEM;
+    return bytes != NULL;
+}
+
+static bool read_file(struct arena *arena, const char *path, size_t max, struct source *into)
+{
+    int fd = open_to_read(path);
+    bool good = fd >= 0 && read_all(fd, arena, max, into);
     int why = errno;
-    if (fd >= 0 && !is_standard(path))
+    if (fd > STDIN_FILENO)
         close(fd);
     errno = why;
-}
-
-static bool read_file(struct arena *arena, const char *path, size_t most, struct source *source)
-{
-    int fd = open_to_read(path);
-    struct stat st;
-    bool sized = fd >= 0 && fstat(fd, &st) == 0 && S_ISREG(st.st_mode) && st.st_size > 0;
-    bool good = fd >= 0;
-    if (sized && (uintmax_t)st.st_size > most) {
-        errno = EFBIG; /* told without reading it */
-        good = false;
-    }
-    good = good && read_all(fd, arena, sized ? (size_t)st.st_size : 0, most, source);
-    close_read(path, fd);
     return good;
 }
 
-bool ceduo_file_take(const char *path, struct text *text, size_t most)
+bool ceduo_file_take(const char *path, struct text *text, size_t max)
 {
-    int fd = open_to_read(path);
-    bool good = fd >= 0 && read_text(fd, text, most);
-    close_read(path, fd);
-    return good;
+    struct arena arena = {0};
+    struct source source = {0};
+    bool good = read_file(&arena, path, max, &source);
+    int why = errno;
+    if (good)
+        ceduo_text_add(text, source.bytes, source.length);
+    ceduo_arena_free(&arena);
+    errno = good ? ENOMEM : why;
+    return good && !text->failed;
 }
 
 /* ---- the shelf ---- */
@@ -519,39 +416,22 @@ bool ceduo_file_fill(int fd, const char *bytes, size_t n, const atomic_bool *can
     return true;
 }
 
-static bool write_content(int fd, const struct pending_file *file)
+/* First all of the open file `before` (-1: none), then the bytes. Closes `fd`: some file systems say only then that there is no
+ * room. */
+static bool write_and_close(int fd, const struct pending_file *file)
 {
     char part[PART];
     ssize_t n = 0;
-    off_t at = 0;
-    while (file->before >= 0 && (n = pread(file->before, part, sizeof part, at)) > 0) {
-        if (!ceduo_file_fill(fd, part, (size_t)n, NULL))
-            return false;
-        at += n;
-    }
-    return n == 0 && ceduo_file_fill(fd, file->bytes, file->n, NULL);
-}
-
-static bool write_straight(const struct pending_file *file)
-{
-    int fd = open(file->path, O_WRONLY | O_CLOEXEC);
-    if (fd < 0)
-        return false;
-    bool good = write_content(fd, file);
+    bool good = true;
+    for (off_t at = 0; good && file->before >= 0 && (n = pread(file->before, part, sizeof part, at)) > 0; at += n)
+        good = ceduo_file_fill(fd, part, (size_t)n, NULL);
+    good =
+        good && n == 0 && ceduo_file_fill(fd, file->bytes, file->n, NULL) && (!file->wait || !file->target || fsync(fd) == 0);
     int why = errno;
     if (close(fd) != 0 && good)
         return false;
     errno = why;
     return good;
-}
-
-/* It stays open, and so locked, until it is in its place. */
-static bool fill_temporary(const struct pending_file *file, mode_t mode)
-{
-    int fd = file->temporary.fd;
-    bool good = fchmod(fd, mode) == 0 && write_content(fd, file) && (!file->wait || fsync(fd) == 0);
-    int once_more = good ? dup(fd) : -1; /* some file systems say only now that there is no room */
-    return once_more >= 0 && close(once_more) == 0;
 }
 
 static mode_t usual_mode(void)
@@ -588,35 +468,85 @@ static char *follow_links(const char *path)
     return NULL;
 }
 
+/* Opens a file beside the target. Of a name as long as a file system takes them, a part is used, cut between two characters. */
+static int open_temporary(struct pending_file *file)
+{
+    static const char mark[] = ".ceduo-tmp-XXXXXX";
+    struct text name = {0};
+    const char *slash = strrchr(file->target, '/');
+    size_t folder = slash ? (size_t)(slash - file->target) + 1 : 0, n = strlen(file->target + folder);
+    if (n > NAME_MAX - sizeof mark)
+        for (n = NAME_MAX - sizeof mark; ceduo_utf8_inside(file->target[folder + n]); n--)
+            ;
+    ceduo_text_add(&name, file->target, folder + n);
+    ceduo_text_put(&name, mark);
+    errno = ENOMEM;
+    int fd = name.failed ? -1 : mkostemp(name.bytes, O_CLOEXEC);
+    if (fd >= 0)
+        file->temporary = name.bytes;
+    else
+        ceduo_text_free(&name);
+    return fd;
+}
+
 static bool prepare(struct pending_file *file)
 {
     struct stat st;
     bool exists = stat(file->path, &st) == 0;
-    file->temporary.fd = -1;
     if (exists && !S_ISREG(st.st_mode))
         return true;
     if (exists && access(file->path, W_OK) != 0)
         return false;
     file->target = exists ? realpath(file->path, NULL) : follow_links(file->path); /* a link stays a link */
-    return file->target && ceduo_temporary_begin(&file->temporary, file->target) &&
-           fill_temporary(file, exists ? st.st_mode & 07777 : usual_mode());
+    int fd = file->target ? open_temporary(file) : -1;
+    if (fd < 0)
+        return false;
+    bool good = fchmod(fd, exists ? st.st_mode & 07777 : usual_mode()) == 0;
+    return write_and_close(fd, file) && good;
 }
 
 bool ceduo_file_prepare(struct pending_file *file, const char *path, const char *bytes, size_t n)
 {
     *file = (struct pending_file){.path = path, .before = -1, .bytes = bytes, .n = n, .wait = true};
-    return prepare(file) && (!file->target || ceduo_temporary_name(&file->temporary));
+    return prepare(file);
+}
+
+/* The rename itself must survive a power cut; where the folder cannot be synced, nothing is lost by going on. */
+static void sync_folder(const char *target)
+{
+    const char *slash = strrchr(target, '/');
+    char *folder = strdup(slash ? target : ".");
+    if (folder && slash)
+        folder[slash - target + 1] = '\0';
+    int fd = folder ? open(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC) : -1;
+    if (fd >= 0) {
+        fsync(fd);
+        close(fd);
+    }
+    free(folder);
 }
 
 bool ceduo_file_place(struct pending_file *file)
 {
-    return file->target ? ceduo_temporary_place(&file->temporary, file->wait) : write_straight(file);
+    if (!file->target) {
+        int fd = open(file->path, O_WRONLY | O_CLOEXEC);
+        return fd >= 0 && write_and_close(fd, file);
+    }
+    if (rename(file->temporary, file->target) != 0)
+        return false;
+    free(file->temporary);
+    file->temporary = NULL;
+    if (file->wait)
+        sync_folder(file->target);
+    return true;
 }
 
 void ceduo_file_drop(struct pending_file *file)
 {
     int why = errno;
-    ceduo_temporary_end(&file->temporary);
+    if (file->temporary)
+        unlink(file->temporary);
+    free(file->temporary);
     free(file->target);
     errno = why;
 }
@@ -641,16 +571,6 @@ bool ceduo_file_write_quickly(const char *path, const char *bytes, size_t n)
 bool ceduo_file_write_after(int before, const char *path, const char *bytes, size_t n)
 {
     return write_file((struct pending_file){.path = path, .before = before, .bytes = bytes, .n = n, .wait = true});
-}
-
-void ceduo_file_tidy(const char *path)
-{
-    struct stat st;
-    bool exists = stat(path, &st) == 0;
-    char *target = !exists ? follow_links(path) : S_ISREG(st.st_mode) ? realpath(path, NULL) : NULL;
-    if (target)
-        ceduo_temporary_tidy(target);
-    free(target);
 }
 
 bool ceduo_file_same(const char *a, const char *b)

@@ -6,7 +6,6 @@
 
 #include "base/arena.h"
 #include "problem.h"
-#include "temporary.h"
 
 #define YAML_BYTES_MOST ((size_t)16 * 1024 * 1024)
 #define CSV_BYTES_MOST  ((size_t)64 * 1024 * 1024)
@@ -78,9 +77,9 @@ struct pending_file {
     int before; /* first all of this open file; -1: none */
     const char *bytes;
     size_t n;
-    bool wait;    /* for the disk */
-    char *target; /* NULL: no regular file */
-    struct temporary temporary;
+    bool wait;       /* for the disk */
+    char *target;    /* NULL: no regular file */
+    char *temporary; /* TARGET.ceduo-tmp-…, until it takes its place */
 };
 
 /* Fills it under a name of its own beside its place. False with errno set; to be dropped even then. */
@@ -89,10 +88,6 @@ bool ceduo_file_prepare(struct pending_file *file, const char *path, const char 
 bool ceduo_file_place(struct pending_file *file);
 /* Takes away what has not taken its place. */
 void ceduo_file_drop(struct pending_file *file);
-
-/* Takes away what a program left behind that was killed while it wrote this file; what a living one writes stays. Each
- * write does so first. */
-void ceduo_file_tidy(const char *path);
 
 /* Whether two paths lead to one regular file; `b` may be "-", standard input. */
 bool ceduo_file_same(const char *a, const char *b);

@@ -151,8 +151,6 @@ bool ceduo_document_open(struct document *d, const char *path, struct problems *
     d->raw = d->file.raw;
     d->path = strcmp(path, "-") == 0 ? NULL : strdup(d->file.path);
     d->shipped = d->path && ceduo_document_is_shipped(d->path);
-    if (d->path && !d->shipped)
-        ceduo_document_tidy(d->path);
     ceduo_document_note_disk(d);
     d->recovery = ceduo_recovery_path(d->path);
     return first_state(d, true, problems);

@@ -114,7 +114,4 @@ const struct node *ceduo_document_parse(struct document *document, const char *n
 /* Notes size and time of the file on disk, to see later whether it has changed. */
 void ceduo_document_note_disk(struct document *document);
 
-/* Removes what a killed save may have left beside the file. */
-void ceduo_document_tidy(const char *path);
-
 #endif

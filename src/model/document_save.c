@@ -56,16 +56,6 @@ static void put_backup(struct text *name, const char *path)
     ceduo_text_format(name, "%s.bak", path);
 }
 
-void ceduo_document_tidy(const char *path)
-{
-    struct text backup = {0};
-    put_backup(&backup, path);
-    ceduo_file_tidy(path);
-    if (!backup.failed)
-        ceduo_file_tidy(backup.bytes);
-    ceduo_text_free(&backup);
-}
-
 bool ceduo_document_changed_on_disk(const struct document *d)
 {
     struct stat st;

@@ -89,15 +89,6 @@ char *ceduo_recovery_text(const char *path)
     return copy;
 }
 
-static void tidy(const char *folder, const char *name)
-{
-    struct text path = {0};
-    ceduo_text_format(&path, "%s/%s", folder, name);
-    if (!path.failed)
-        ceduo_file_tidy(path.bytes);
-    ceduo_text_free(&path);
-}
-
 /* The next copy in the folder whose process has ended: its name is put, and the number of its scene's place. */
 static bool next_left(DIR *dir, const struct text *folder, struct text *name, uint64_t *number)
 {
@@ -107,16 +98,16 @@ static bool next_left(DIR *dir, const struct text *folder, struct text *name, ui
         int used = 0;
         if (sscanf(e->d_name, "%16llx-%ld.yaml%n", &of, &process, &used) != 2 || used == 0)
             continue;
-        if (e->d_name[used] != '\0') { /* its writer was killed, and it may be half of one */
-            e->d_name[used] = '\0';
-            tidy(folder->bytes, e->d_name);
-            continue;
-        }
         if (process == (long)getpid() || kill((pid_t)process, 0) == 0 || errno == EPERM)
             continue; /* its program still runs */
         ceduo_text_free(name);
         ceduo_text_format(name, "%s/%s", folder->bytes, e->d_name);
         *number = of;
+        if (e->d_name[used] != '\0') { /* its writer was killed, and it may be half of one */
+            if (name->bytes)
+                unlink(name->bytes);
+            continue;
+        }
         return name->bytes != NULL;
     }
     return false;

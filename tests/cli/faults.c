@@ -2,13 +2,10 @@
 /* Put before the C library by LD_PRELOAD: one call of a kind goes wrong. The test says which:
  *   FAULT=memory  FAULT_AT=n  allocation n fails; with FAULT_ON=1 all after it, too
  *   FAULT=call    FAULT_AT=n  call n that opens, writes, syncs, closes, links, renames or removes fails with EIO
- *   FAULT=kill    FAULT_AT=n  SIGKILL just before that call
- *   FAULT=stop    FAULT_AT=n  SIGSTOP just before that call; of both only the first thread's calls count: the others'
- *                             come in another order each time
- *   FAULT=taken   FAULT_AT=1  the first file that is to be locked is locked by another, who then takes it away; 2: is gone already
+ *   FAULT=kill    FAULT_AT=n  SIGKILL just before that call; only the first thread's calls count: the others' come in another
+ *                             order each time
  *   FAULT=short               every write takes one byte, or is interrupted
  *   FAULT=threads             no thread can be started
- * FAULT_NAMED: no file can be without a name, as on some file systems.
  * FAULT_FROM=name: only what the first thread does once a file of this name was put in its place counts.
  * FAULT_MARK names a file that is made when it happens. After main all goes well again: a build with gcc's --coverage
  * writes its counts then, and fails badly where it cannot. */
@@ -23,7 +20,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/file.h>
 #include <sys/stat.h>
 #include <sys/syscall.h>
 #include <unistd.h>
@@ -32,7 +28,7 @@ void *__libc_malloc(size_t n);
 void *__libc_calloc(size_t n, size_t size);
 void *__libc_realloc(void *p, size_t n);
 
-static enum fault { NOTHING, MEMORY, CALL, KILL, STOP, TAKEN, SHORT, THREADS } fault;
+static enum fault { NOTHING, MEMORY, CALL, KILL, SHORT, THREADS } fault;
 static unsigned long fault_at;
 static bool fault_on;
 static const char *fault_from; /* NULL: everything counts */
@@ -41,9 +37,9 @@ static atomic_ulong count;
 
 __attribute__((constructor)) static void set_up(void)
 {
-    static const char *const names[] = {"", "memory", "call", "kill", "stop", "taken", "short", "threads"};
+    static const char *const names[] = {"", "memory", "call", "kill", "short", "threads"};
     const char *name = getenv("FAULT"), *at = getenv("FAULT_AT");
-    for (int i = 1; name && i < 8; i++)
+    for (int i = 1; name && i < 6; i++)
         if (strcmp(name, names[i]) == 0)
             fault = (enum fault)i;
     fault_at = at ? strtoul(at, NULL, 10) : 0;
@@ -61,7 +57,7 @@ static void mark(void)
 
 static bool happens(void)
 {
-    bool first_only = fault_from || fault == KILL || fault == STOP;
+    bool first_only = fault_from || fault == KILL;
     if (atomic_load(&waits) || (first_only && gettid() != getpid()))
         return false;
     unsigned long n = atomic_fetch_add(&count, 1) + 1;
@@ -96,12 +92,10 @@ void *realloc(void *p, size_t n)
 /* True where this call is to fail. */
 static bool fails(void)
 {
-    if ((fault != CALL && fault != KILL && fault != STOP) || !happens())
+    if ((fault != CALL && fault != KILL) || !happens())
         return false;
-    if (fault != CALL)
-        raise(fault == KILL ? SIGKILL : SIGSTOP);
-    if (fault == STOP)
-        return false;
+    if (fault == KILL)
+        raise(SIGKILL);
     errno = EIO;
     return true;
 }
@@ -114,16 +108,12 @@ int open(const char *path, int flags, ...)
     va_start(args, flags);
     int mode = va_arg(args, int);
     va_end(args);
-    if (getenv("FAULT_NAMED") && (flags & O_TMPFILE) == O_TMPFILE) {
-        errno = EOPNOTSUPP;
-        return -1;
-    }
     return fails() ? -1 : (int)syscall(SYS_openat, AT_FDCWD, path, flags, mode);
 }
 
-int linkat(int from_folder, const char *from, int to_folder, const char *to, int flags)
+int mkostemp(char *name, int flags)
 {
-    return fails() ? -1 : (int)syscall(SYS_linkat, from_folder, from, to_folder, to, flags);
+    return fails() ? -1 : NEXT(mkostemp)(name, flags);
 }
 
 int fchmod(int fd, mode_t mode)
@@ -145,33 +135,6 @@ ssize_t write(int fd, const void *bytes, size_t n)
     return fails() ? -1 : syscall(SYS_write, fd, bytes, n);
 }
 
-static char taken[4096]; /* what another program is about to take away */
-
-static void take_away(void)
-{
-    if (taken[0])
-        syscall(SYS_unlinkat, AT_FDCWD, taken, 0);
-    taken[0] = '\0';
-}
-
-/* Another program that tidies up comes between the making of a file and its lock. */
-int flock(int fd, int operation)
-{
-    if (fault == TAKEN && atomic_fetch_add(&count, 1) == 0) {
-        char link[64];
-        snprintf(link, sizeof link, "/proc/self/fd/%d", fd);
-        ssize_t n = readlink(link, taken, sizeof taken - 1);
-        taken[n < 0 ? 0 : n] = '\0';
-        mark();
-        if (fault_at == 1) {
-            errno = EWOULDBLOCK;
-            return -1;
-        }
-        take_away();
-    }
-    return (int)syscall(SYS_flock, fd, operation);
-}
-
 /* Without memory the disk is not what is looked at, and waiting for it takes most of the time. */
 int fsync(int fd)
 {
@@ -183,7 +146,6 @@ int fsync(int fd)
 int close(int fd)
 {
     bool bad = fails();
-    take_away();
     int done = (int)syscall(SYS_close, fd); /* it is closed even so */
     return bad ? -1 : done;
 }

@@ -8,7 +8,6 @@ import os
 import resource
 import shlex
 import shutil
-import signal
 import subprocess
 import sys
 from pathlib import Path
@@ -37,15 +36,14 @@ class Place(Folder):
                         Path(__file__).parent / "faults.c", "-ldl"], check=True)
         return self
 
-    def with_fault(self, fault, at=0, on=False, after=None, named=False):
-        """The environment of a program with the fault. `after`: only behind the writing of this file. `named`: on a file
-        system whose files all have names."""
+    def with_fault(self, fault, at=0, on=False, after=None):
+        """The environment of a program with the fault. `after`: only behind the writing of this file."""
         if SANITIZED:
             raise Skip("the sanitizers have their own malloc")
         mark = self.path / "mark"
         mark.unlink(missing_ok=True)
         return environment(LD_PRELOAD=str(self.preload), FAULT=fault, FAULT_AT=str(at), FAULT_MARK=str(mark),
-                           FAULT_ON="1" if on else None, FAULT_FROM=after, FAULT_NAMED="1" if named else None)
+                           FAULT_ON="1" if on else None, FAULT_FROM=after)
 
     def run(self, *words, **fault):
         """Runs the program with the fault. Says whether it came to it."""
@@ -201,26 +199,8 @@ def saves(place):
             ("a save of the terminal program", ("--script", "../play.txt", "scene.yaml"), place.work / "scene.yaml"))
 
 
-def only_start(place, what):
-    """The program begins, and writes nothing."""
-    words = ("--batch", "-o", "out.csv", "none.yaml") if what == "-o" else ("--script", "../quit.txt", "scene.yaml")
-    place.write("quit.txt", "key q\n")
-    done, _ = place.run(*words, fault="none")
-    expect_equal(done.returncode, INPUT if what == "-o" else DONE, told(done, 0))
-
-
-def files_have_names(folder):
-    """Whether this file system cannot do without."""
-    try:
-        os.close(os.open(folder, os.O_TMPFILE | os.O_RDWR))
-        return False
-    except OSError:
-        return True
-
-
-def one_call(fault, status_tells, named):
+def one_call(fault):
     with Place() as place:
-        named = named or files_have_names(place.work)
         for what, command, file in saves(place):
             left_behind = 0
             old = file.read_bytes() if file.exists() else b"old"
@@ -235,55 +215,34 @@ def one_call(fault, status_tells, named):
                     if p.name not in FILES:
                         p.unlink()
                 file.write_bytes(old)
-                done, reached = place.run(*command, fault=fault, at=at, named=named)
+                done, reached = place.run(*command, fault=fault, at=at)
                 if not reached:
                     break
                 found = file.read_bytes()
                 seen.add(found)
                 expect(found in (old, new), what, "half a file", told(done, at), repr(found[:200]))
-                if status_tells:
-                    expect(0 <= done.returncode <= 4, what, told(done, at))
-                    left = {p.name for p in place.work.iterdir()} - set(FILES) - {file.name}
-                    expect(not left, what, f"left behind: {left}", told(done, at))
-                    if what == "-o":
-                        expect((done.returncode == DONE) == (found == new), what, told(done, at))
-                else:
+                left = [p for p in place.work.iterdir() if p.name not in FILES and p != file]
+                left_behind += len(left)
+                if fault == "kill":
                     expect_equal(done.returncode, -9, told(done, at))
-                    left = [p for p in place.work.iterdir() if p.name not in FILES and p != file]
                     expect(all(not p.name.endswith(".yaml") for p in left), f"{left} would be taken for scenes")
-                    expect(named or all(p.read_bytes() == new for p in left), what, "half a file has a name", told(done, at))
-                    left_behind += len(left)
-                    for next_one in ("start", "write") if left else ():  # either takes it away
-                        kept = [(p, p.read_bytes()) for p in left]
-                        if next_one == "start":
-                            only_start(place, what)
-                            expect_equal(file.read_bytes(), found, what)
-                        else:
-                            place.run(*command, fault="none")
-                            expect_equal(file.read_bytes(), new, what)
-                        names = {p.name for p in place.work.iterdir()} - set(FILES) - {file.name}
-                        expect(not names, what, f"left by the next {next_one}: {names}", told(done, at))
-                        for p, content in kept:
-                            p.write_bytes(content)
+                else:
+                    expect(0 <= done.returncode <= 4, what, told(done, at))
+                    expect(not left, what, f"left behind: {left}", told(done, at))
+                    expect(what != "-o" or (done.returncode == DONE) == (found == new), what, told(done, at))
             print(f"# {what}: {at - 1} calls, {left_behind} times a file was left behind")
-            expect(status_tells or left_behind >= (4 if named else 1), what, "no file is ever left behind: is the library loaded?")
+            expect(fault != "kill" or left_behind >= 4, what, "no file is ever left behind: is the library loaded?")
             expect_equal(seen, {old, new}, what)
 
 
 def test_calls():
     """Each call that opens, writes, syncs, closes, renames or removes fails once: status, old file or new one whole, nothing left"""
-    one_call("call", True, named=False)
-    one_call("call", True, named=True)
+    one_call("call")
 
 
 def test_kill():
-    """SIGKILL before each call of a save: the old file or the new one is whole; the next start or write tidies up"""
-    one_call("kill", False, named=False)
-
-
-def test_kill_named():
-    """The same where files cannot be without a name"""
-    one_call("kill", False, named=True)
+    """SIGKILL before each call of a save: the old file or the new one is whole, what is left behind is no scene"""
+    one_call("kill")
 
 
 def pair_with(fault):
@@ -335,48 +294,6 @@ def test_kill_pair():
     expect_equal(statuses, {-9})
 
 
-def halted(process):
-    """Waits until a program is stopped (True) or at its end (False)."""
-    _, status = os.waitpid(process.pid, os.WUNTRACED)
-    if not os.WIFSTOPPED(status):
-        process.returncode = os.waitstatus_to_exitcode(status)  # it is waited for: Popen must not look again
-    return os.WIFSTOPPED(status)
-
-
-def test_two_writers():
-    """A program that is held at any call of a save keeps its temporary file while others write and start; both files are whole"""
-    with Place() as place:
-        for named in (False, True):
-            for what, command, file in saves(place):
-                other = ("--batch", "-o", file.name, *BATCH[3:-1], "paper-site")
-                old, at, seen = file.read_bytes() if file.exists() else b"old", 0, 0
-                (place.work / "out.csv").unlink(missing_ok=True)
-                while True:
-                    at += 1
-                    file.write_bytes(old)
-                    first = subprocess.Popen([CEDUO, *map(str, command)], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
-                                             stderr=subprocess.PIPE, env=place.with_fault(fault="stop", at=at, named=named),
-                                             cwd=place.work)
-                    if not halted(first):
-                        break
-                    there = {p.name for p in place.work.iterdir()} - set(FILES) - {file.name}
-                    seen += len(there)
-                    only_start(place, what)
-                    done, _ = place.run(*other, fault="none")
-                    theirs = file.read_bytes()
-                    expect(done.returncode == DONE and theirs != old, what, told(done, at))
-                    left = {p.name for p in place.work.iterdir()} - set(FILES) - {file.name}
-                    expect_equal(left, there, f"{what}, held at {at}: temporary files")
-                    os.kill(first.pid, signal.SIGCONT)
-                    err = first.communicate(timeout=60)[1]
-                    expect(first.returncode in (DONE, INPUT) and (err == b"") == (first.returncode == DONE), what, at, err)
-                    left = {p.name for p in place.work.iterdir()} - set(FILES) - {file.name}
-                    expect(not left, what, f"held at {at}, left behind: {left}")
-                    expect(file.read_bytes() != old or what != "-o", what, f"held at {at}: the old file")
-                print(f"# {what}: {at - 1} calls, {seen} times a file lay there")
-                expect(seen >= (4 if named else 1), what, "no temporary file is ever seen: is the library loaded?")
-
-
 def test_calls_on():
     """From some call on all fail: a status that tells, old file or new one whole; what could not be removed is no scene"""
     with Place() as place:
@@ -411,38 +328,6 @@ def test_calls_straight():
                        done.returncode == DONE and done.stderr == b"", told(done, at))
                 failed += done.returncode == OUTPUT
             expect(failed >= 3, f"{failed} of {at - 1} calls fail the output: to open, to write and to close it")
-
-
-def test_taken_names():
-    """A temporary file that another program takes away at once, or whose name is taken: the next name, the file whole"""
-    with Place() as place:
-        wanted, _ = place.run(*BATCH, fault="none")
-        for at in (1, 2):
-            done, reached = place.run(*BATCH, "-o", "out.csv", fault="taken", at=at, named=True)
-            expect(reached and done.returncode == DONE and done.stderr == b"", told(done, at))
-            expect_equal((place.work / "out.csv").read_bytes(), wanted.stdout, f"the file, at {at}")
-            expect_equal(sorted(p.name for p in place.work.iterdir()), sorted([*FILES, "out.csv"]), told(done, at))
-            (place.work / "out.csv").unlink()
-
-        def take():
-            for i in range(names):
-                os.mkdir(f"out.csv.ceduo-tmp-{os.getpid()}-{i}")
-
-        for named in (False, True):
-            for names in (3, 100):
-                done = subprocess.run([CEDUO, *map(str, BATCH), "-o", "out.csv"], cwd=place.work, preexec_fn=take, stderr=subprocess.PIPE,
-                                      env=place.with_fault(fault="none", named=named), stdout=subprocess.PIPE, check=False)
-                taken = [p for p in place.work.iterdir() if p.is_dir()]
-                others = sorted(p.name for p in place.work.iterdir() if not p.is_dir())
-                if names == 3:
-                    expect(done.returncode == DONE and done.stderr == b"", told(done, names))
-                    expect_equal((place.work / "out.csv").read_bytes(), wanted.stdout, "the file beside taken names")
-                    (place.work / "out.csv").unlink()
-                else:
-                    expect(done.returncode == OUTPUT and b"out.csv: File exists" in done.stderr, told(done, names))
-                expect_equal((len(taken), others), (names, sorted([*FILES, "out.csv"] if names == 3 else FILES)), told(done, names))
-                for path in taken:
-                    path.rmdir()
 
 
 def test_short_writes():

@@ -569,22 +569,6 @@ static void the_newest_copies_come_first(void **state)
     free(own);
 }
 
-static void what_a_killed_save_left_is_taken_away(void **state)
-{
-    (void)state;
-    static const char *const names[] = {"scene.yaml.ceduo-tmp-1-0", "scene.yaml.bak.ceduo-tmp-1-0", "stand.yaml.ceduo-tmp-1-0"};
-    struct document d;
-    for (int i = 0; i < 3; i++)
-        write_file(names[i], "rock: {");
-    open_scene(&d);
-    for (int i = 0; i < 3; i++) {
-        char left[256];
-        in_folder(left, names[i]);
-        assert_int_equal(access(left, F_OK) == 0, i == 2); /* the program saves no stand */
-    }
-    ceduo_document_close(&d);
-}
-
 /* The copy that is kept of unsaved work; NULL: there is none. */
 static const char *copy_of(const struct document *d)
 {
@@ -885,7 +869,6 @@ int main(void)
         cmocka_unit_test_setup_teardown(what_only_moves_keeps_its_source, set_up, folder_tear_down),
         cmocka_unit_test_setup_teardown(unsaved_work_is_found_again, set_up, folder_tear_down),
         cmocka_unit_test_setup_teardown(the_newest_copies_come_first, set_up, folder_tear_down),
-        cmocka_unit_test_setup_teardown(what_a_killed_save_left_is_taken_away, set_up, folder_tear_down),
         cmocka_unit_test_setup_teardown(half_a_copy_is_taken_away, set_up, folder_tear_down),
         cmocka_unit_test_setup_teardown(unsaved_work_belongs_to_the_name_saved_under, set_up, folder_tear_down),
         cmocka_unit_test_setup_teardown(a_file_changed_on_disk_is_noticed, set_up, folder_tear_down),
