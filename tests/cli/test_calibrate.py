@@ -9,7 +9,7 @@ import subprocess
 from pathlib import Path
 
 from harness import (CEDUO, DONE, INPUT, OUTPUT, ROOT, SLOWER, USAGE, Folder, ceduo, environment, expect, expect_equal, expect_in, expect_near,
-                     run_all, scene)
+                     good, run_all, scene, stand)
 
 GROUND = {"rn": 0.35, "rt": 0.88, "roughness_rad": 0.25, "friction": 0.5}
 # stops of 30 rocks on that ground, of seed 777: the same law, so that the fit must be able to give them
@@ -119,6 +119,34 @@ def test_held_back():
         expect(found and 11 <= int(found[1]) <= 15 and float(found[2]) < 115 and float(found[3]) > 130, page)
         expect("stops: of" not in page, "of what was fitted it says nothing of the kind")
         expect("199 m: of" not in page, "no rock gets there")
+
+
+FLIGHT = {"title": "flight", "rock": {"shape": "sphere", "diameter_m": 0.5}, "release": {"height_m": 1, "vx_m_s": 10, "vz_m_s": 0},
+          "slope": {"vertices_m": [[0, 100], [1, 0], [60, 0]], "segments": [GROUND]}, "controls": [{"x_m": 20}],
+          "forest": [{"from_m": 30, "to_m": 50, "stand": stand(stools=None, shoots=None, trees=[
+              {"per_ha": 100, "dbh_m": 0.2, "height_m": 12, "volume_m3": 0.2}])}]}
+
+
+def test_page_of_a_flight():
+    """Speeds along and upward do the same to the speed that was seen; diameters stand in cm; a p of some per cent has three digits"""
+    seen = [{"name": "first day", "speed": {"x_m": 20, "n": 5, "mean": 22, "sd": 0.5}},
+            {"name": "other day", "speed": {"x_m": 20, "n": 5, "mean": 21.3, "sd": 0.5}, "use": "check"}]
+    fits = [f"--calibrate={row}" for row in ("release.vx_m_s=8:12", "release.vz_m_s=-2:2", "forest[0].stand.trees[0].dbh_m=0.1:0.3")]
+    with Folder() as f:
+        path = f.write("s.yaml", scene(**FLIGHT, observed=seen))
+        page, found = good("-n", 100, *fits, path).out, good("-f", "json", "-n", 100, *fits, path).json()[0]
+    together = found["correlation"][0][1]
+    expect(together < -0.9, "hypot(v, vz - 20 g / v) falls with either of them", found)
+    expect_in(f"speed along, m/s falls where speed upward, m/s rises (correlation {together:.2f})", " ".join(page.split()))
+    rows = dict(re.findall(r"^ +(speed along|diameter).*? {2,}(\S+ +\S+ +\S+)$", page, re.M))
+    for name, per, value in (("speed along", 1, found["parameters"][0]), ("diameter", 100, found["parameters"][2])):
+        shown = [float(number) for number in re.findall(r"[\d.]+", rows[name])]
+        for number, key in zip(shown, ("lo", "hi", "best", "p2_5", "p97_5")):
+            expect_near(number, per * value[key], 0.006 * per * value[key], f"{name}, {key}")
+        expect_equal(len(shown), 5, rows)
+    p = [row["p_value"] for row in found["observations"]]
+    expect(p[0] > 0.1 and 0.01 < p[1] < 0.1, "two errors apart", p)
+    expect(re.search(rf"first day .* {p[0]:.2f}$", page, re.M) and re.search(rf"other day .* {p[1]:.3f}$", page, re.M), page)
 
 
 def test_several():

@@ -76,6 +76,26 @@ def check_power_law(classes, hazard):
             expect(back["hi"] is None or rate_above(classes, back["hi"]) <= 1 / back["years"], back)
 
 
+def test_curve_at_the_frame():
+    """The curve leaves its picture where it falls below once in 1000 years, between two energies of the table"""
+    with Folder() as f:
+        path = f.write("s.yaml", falls(POWER))
+        rows = hazard_of(good("--batch", "-f", "json", "-n", 2000, path).json()[0])["exceed_rate"]
+        page = good("--report", "-", "-n", 2000, path).out
+    (ax, ay), (bx, by) = next(((math.log10(a["energy_kJ"]), math.log10(a["per_year"])), (math.log10(b["energy_kJ"]), math.log10(b["per_year"])))
+                              for a, b in zip(rows, rows[1:]) if a["per_year"] > 1e-3 >= b["per_year"] > 0)
+    energy = ax + (bx - ax) * (ay + 3) / (ay - by)
+    picture = re.search(r'<svg[^>]*aria-label="How often, and with how much.*?</svg>', page, re.S).group()
+    rules = re.search(r' d="([^"]*)" stroke-dasharray', picture).group(1)
+    x30, x300 = (float(x) for x in re.findall(r"M([\d.]+) [\d.]+L\1 ", rules))
+    y30, y100, y300 = (float(y) for y in re.findall(r"M[\d.]+ ([\d.]+)L[\d.]+ \1(?![\d.])", rules))
+    ends = [tuple(map(float, end)) for end in re.findall(r'd="M[^"]*L([\d.]+) ([\d.]+)"/>', picture)[:2]]
+    expect(ax + 0.02 < energy < bx - 0.02 and y30 < y100 < y300, energy, ax, bx)
+    for x, y in ends:  # without forest and through none: the same
+        expect_near((x - x30) / (x300 - x30) + math.log10(30), energy, 0.005)
+        expect_near(y, y100 + (y300 - y30), 0.5)  # from 100 to 1000 years as from 30 to 300
+
+
 def test_power_law():
     """In a free fall the curve is the power law of the sizes, whatever the exponent and the number of classes"""
     for classes in ([POWER], [{**POWER, "exponent": 0}], [{**POWER, "exponent": 0.5}, {"per_year": 0.02, "volume_m3": [20, 30]}],

@@ -7,8 +7,10 @@ import sys
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
-from harness import PROFILES, expect, expect_equal, expect_near, good, result, run_all
+from harness import PROFILES, Folder, expect, expect_equal, expect_near, good, result, run_all, scene
 from runs import FOUR, MODELS, PAPER, expect_run, through, wilson
+
+MASS = math.pi / 6 * 2600  # kg, of a sphere of 1 m
 
 
 def test_json_shape():
@@ -163,6 +165,33 @@ def test_golden_wooded():
         for found, wanted, what in ((wooded["reach_probability"], reach, "reach"),
                                     (option["ends"]["stopped_by_stems"], stopped, "stopped by stems")):
             expect_near(found, wanted, 4 * math.sqrt(wanted * (1 - wanted) / n) + 0.0005, f"{model}: {what}")
+
+
+def test_percentiles_in_closed_form():
+    """Rocks that leave a cliff at 8 to 12 m/s, uniform: each percentile lies as many ranks from its bounds as the binomial law has"""
+    n = 20000
+    site = scene(rock={"diameter_m": 1}, release={"vx_m_s": {"mean": 10, "spread": 2, "kind": "uniform"}}, controls=[{"x_m": 20}], forest=[],
+                 slope={"vertices_m": [[0, 100], [1, 0], [60, 0]], "segments": [{"rn": 0, "rt": 0}]})
+    with Folder() as f:
+        bare = result(f.write("s.yaml", site), "-n", n)["options"][0]["controls"][0]["bare"]
+    speed = bare["speed_m_s"]
+
+    def below(v):
+        """The share of rocks that pass with less: the slower they leave the longer they have fallen."""
+        lo, hi = 8.0, 12.0
+        for _ in range(60):
+            middle = (lo + hi) / 2
+            lo, hi = (middle, hi) if math.hypot(middle, 9.81 * 20 / middle) > v else (lo, middle)
+        return (12 - lo) / 4
+
+    for q in (0.5, 0.95, 0.99):
+        at = below(speed[f"p{100 * q:.0f}"])
+        ranks = 1.96 * math.sqrt(n * q * (1 - q))
+        expect_near(at, q, 4 * math.sqrt(q * (1 - q) / n), q)
+        for side, key in ((-1, "lo"), (1, "hi")):  # the ranks between two values differ by their root
+            found = n * (below(speed[f"p{100 * q:.0f}_{key}"]) - at)
+            expect_near(side * found, ranks, 4 * math.sqrt(ranks), f"p{100 * q:.0f}_{key}: ranks from the percentile")
+            expect_near(bare["energy_kJ"][f"p{100 * q:.0f}_{key}"], MASS * speed[f"p{100 * q:.0f}_{key}"] ** 2 / 2000, 1e-9)
 
 
 def test_statistics():

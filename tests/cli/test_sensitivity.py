@@ -326,6 +326,27 @@ def test_left_without_effect():
         expect_near(sum(shares) / 10, 1, 0.1, f"{points} points: {shares}")
 
 
+def test_page_of_shares():
+    """The page names an input whose share is more than two errors and 1 %, as at most 100 %, and counts the others"""
+    what = measured(forest=[{"from_m": 92, "to_m": 99, "stand": wood()}], release={"x_m": 5}, controls=[{"x_m": 90}],
+                    doubt=[CLOSED[0], {**CLOSED[1], "lo": 9.7, "hi": 9.9}, IDLE])
+    between = above = 0
+    with Folder() as f:
+        path = f.write("s.yaml", what)
+        for seed in range(1, 9):
+            arguments = ["--sensitivity=8", "-n", 200, "--seed", seed, path]
+            found = figure(good("-f", "json", *arguments).json()[0], "energy_per_released_kJ")
+            page = good(*arguments).out
+            told = [i for i in found["inputs"] if i["total"] > 2 * i["total_se"] and i["total"] >= 0.01]
+            shares = [f"{min(100, 100 * i['total']):.0f}" for i in told]
+            table = page[page.index("it depends on"):].split("\n\n")[0]
+            expect_equal(re.findall(r" (\d+) %", table), shares, f"seed {seed}: {page}")
+            expect_in(f"{3 - len(told)} other input" if told else "No input stands out", " ".join(page.split()))
+            between += any(i["total_se"] < i["total"] < 2 * i["total_se"] and i["total"] > 0.01 for i in found["inputs"])
+            above += any(i["total"] > 1.01 for i in told)
+    expect(between > 0 and above > 0, "the seeds hold both cases", between, above)
+
+
 def test_many():
     """Sixty inputs: the least move together, and it is said how many"""
     belts = [{"from_m": 4 * i, "to_m": 4 * i + 4, "stand": wood()} for i in range(20)]

@@ -95,6 +95,17 @@ def test_rows():
                    "only a fit says what of it is determined.", "Simulated: 2000 rocks.")
 
 
+def test_unknown():
+    """What no simulated rock does has no probability and no range, and is told"""
+    with Place() as place:
+        place.write("flight.yaml", FLIGHT.replace("height_m: 1, ", "").replace("rt: 0.9", "rt: 0") + "observed:\n"
+                    "  - {name: at the end, speed: {x_m: 59, n: 5, mean: 3, sd: 1}}\n"
+                    "  - {name: at the gate, speed: {x_m: 20, n: 5, mean: 22, sd: 1}}\nsimulation: {rocks: 100}\n")
+        screen = place.play("resize 120 40\nkey 8\nwait idle\ndump", "flight.yaml")[0]
+    says(screen, "does not give what was seen: at the end (no simulated rock does that).")
+    expect(re.search(r"^at the end +3.00 m/s +- OUTSIDE$", screen.body, re.M), screen)
+
+
 def test_spread():
     """What 'does not give what was seen' names is not called inside in the row above it: of block 1 the mean alone fits"""
     with Place() as place:

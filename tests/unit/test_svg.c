@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The vector surface: where lines, axes, bars and discs stand on a page, what is text and what a drawing; and the
  * writer of HTML. A cell is 8 units wide and 16 high, so that places can be told by hand. */
+#include "expect.h"
+
 #include "unit/grid.h"
 
 #include <stdio.h>
@@ -57,32 +59,83 @@ static void lines_are_where_they_are(void **state)
     free(picture);
 }
 
-/* Half a circle of many points keeps within 0.3 units of them with far fewer. */
+/* Half a circle of many points keeps within 0.3 units of them with far fewer, drawn from either end. */
 static void curves_need_few_points(void **state)
 {
     (void)state;
     enum { N = 1000 };
     static double x[N], y[N];
-    struct ceduo_svg *svg = ceduo_svg_create(60, 20);
-    struct ceduo_frame frame = {.width = 60, .height = 20, .x1 = 119, .y1 = 79};
-    for (int i = 0; i < N; i++) {
-        x[i] = 60 - 50 * cos(M_PI * i / (N - 1));
-        y[i] = 10 + 50 * sin(M_PI * i / (N - 1));
+    for (int side = -1; side <= 1; side += 2) {
+        struct ceduo_svg *svg = ceduo_svg_create(60, 20);
+        struct ceduo_frame frame = {.width = 60, .height = 20, .x1 = 119, .y1 = 79};
+        for (int i = 0; i < N; i++) {
+            x[i] = 60 + side * 50 * cos(M_PI * i / (N - 1));
+            y[i] = 10 + 50 * sin(M_PI * i / (N - 1));
+        }
+        ceduo_canvas_polyline(ceduo_svg_canvas(svg), &frame, CEDUO_ROLE_MEAN, N, x, y);
+        char *picture = put(svg), *at = strstr(picture, "d=\"M") + 4;
+        double px, py, qx, qy;
+        int points = 1, used;
+        assert_int_equal(sscanf(at, "%lf %lf%n", &px, &py, &used), 2);
+        for (at += used; *at == 'L'; at += used, points++, px = qx, py = qy) {
+            assert_int_equal(sscanf(at, "L%lf %lf%n", &qx, &qy, &used), 2);
+            /* the middle of a chord is within its height above it of a circle of 200 units around (242, 278) */
+            double off = fabs(hypot((px + qx) / 2 - 242, (py + qy) / 2 - 278) - 200);
+            if (off > 0.7)
+                fail_msg("off by %g units after %d points", off, points);
+        }
+        EXPECT(points, <=, 80);
+        free(picture);
     }
-    ceduo_canvas_polyline(ceduo_svg_canvas(svg), &frame, CEDUO_ROLE_MEAN, N, x, y);
-    char *picture = put(svg), *at = strstr(picture, "d=\"M") + 4;
-    double px, py, qx, qy;
-    int points = 1, used;
-    assert_int_equal(sscanf(at, "%lf %lf%n", &px, &py, &used), 2);
-    for (at += used; *at == 'L'; at += used, points++, px = qx, py = qy) {
-        assert_int_equal(sscanf(at, "L%lf %lf%n", &qx, &qy, &used), 2);
-        /* the middle of a chord is within its height above it of a circle of 200 units around (242, 278) */
-        double off = fabs(hypot((px + qx) / 2 - 242, (py + qy) / 2 - 278) - 200);
-        if (off > 0.7)
-            fail_msg("off by %g units after %d points", off, points);
+}
+
+/* A line to the left, whose angle is pi or -pi, is one as long as its points lie within 0.3 units of it; where they are 0.4 off
+ * to either side, it bends. */
+static void angles_go_round(void **state)
+{
+    (void)state;
+    for (int bent = 0; bent < 2; bent++) {
+        struct ceduo_svg *svg = ceduo_svg_create(60, 20);
+        struct ceduo_frame frame = {.width = 60, .height = 20, .x1 = 119, .y1 = 79};
+        double x[11], y[11];
+        for (int i = 0; i < 11; i++) {
+            x[i] = 110 - 10 * i;
+            y[i] = 39 + (i == 0 ? 0 : (bent ? 0.1 : 0.0125) * (i % 2 ? 1 : -1)); /* dots of 4 units */
+        }
+        y[10] = 39;
+        ceduo_canvas_polyline(ceduo_svg_canvas(svg), &frame, CEDUO_ROLE_MEAN, 11, x, y);
+        char *picture = put(svg), *path = strstr(picture, "d=\"M");
+        int points = 0;
+        for (char *at = path; *at != '/'; at++)
+            points += *at == 'L';
+        if (!bent)
+            expect_has(picture, "d=\"M442 162L42 162\"");
+        else
+            EXPECT(points, >=, 9);
+        free(picture);
     }
-    if (points > 80)
-        fail_msg("%d points", points);
+}
+
+/* The least disc has a radius of one unit; cells under a disc are taken, those beside it are not. */
+static void discs(void **state)
+{
+    (void)state;
+    struct ceduo_svg *svg = ceduo_svg_create(30, 10);
+    struct ceduo_canvas *canvas = ceduo_svg_canvas(svg);
+    struct ceduo_frame frame = {.width = 30, .height = 10, .x1 = 59, .y1 = 39};
+    ceduo_canvas_disc(canvas, &frame, CEDUO_ROLE_STEM, 10, 20, 0.01);
+    ceduo_canvas_disc(canvas, &frame, CEDUO_ROLE_STEM, 40, 20, 8); /* 32 units around (162, 78) */
+    for (int column = 0; column < 30; column++)
+        for (int row = 0; row < 10; row++) {
+            double x = 8 * column + 4, y = 16 * row + 8; /* the middle of the cell */
+            bool far = fabs(x - 162) > 32 + 8 || fabs(y - 78) > 32 + 12, near = fabs(x - 162) < 32 - 4 && fabs(y - 78) < 32 - 8;
+            bool other = fabs(x - 42) < 8 && fabs(y - 78) < 12;
+            if (near || (far && !other))
+                EXPECT(ceduo_canvas_is_blank(canvas, column, row), ==, !near);
+        }
+    char *picture = put(svg);
+    expect_has(picture, "M41 78A1 1 0 0 0 43 78A1 1 0 0 0 41 78");
+    expect_has(picture, "M130 78A32 32 0 0 0 194 78A32 32 0 0 0 130 78");
     free(picture);
 }
 
@@ -197,6 +250,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(lines_are_where_they_are),
         cmocka_unit_test(curves_need_few_points),
+        cmocka_unit_test(angles_go_round),
+        cmocka_unit_test(discs),
         cmocka_unit_test(ways_that_get_nowhere_are_short),
         cmocka_unit_test(axes_and_bars),
         cmocka_unit_test(text_and_signs),
