@@ -90,10 +90,11 @@ static struct termios saved_mode;
 static char restore_string[128];
 static size_t restore_length;
 static volatile sig_atomic_t is_open;     /* curses shows the program */
-static volatile sig_atomic_t ending;      /* SIGTERM or SIGHUP */
-static volatile sig_atomic_t interrupted; /* Ctrl-C */
-static volatile sig_atomic_t suspended;   /* Ctrl-Z */
+static volatile sig_atomic_t ending;      /* SIGTERM or SIGHUP, or Ctrl-\ */
+static volatile sig_atomic_t interrupted; /* SIGINT, or Ctrl-C */
+static volatile sig_atomic_t suspended;   /* SIGTSTP, or Ctrl-Z */
 static volatile sig_atomic_t continued;   /* after it, or after what stopped the program unasked */
+static bool may_suspend;                  /* a shell without jobs has switched it off */
 static int wake[2] = {-1, -1};
 
 /* What brings the terminal back, made before it is needed: a handler may only write it. */
@@ -161,7 +162,8 @@ static void set_handlers(void)
     for (size_t i = 0; i < 4; i++)
         catch_signal(others[i]);
     struct sigaction now;
-    if (sigaction(SIGTSTP, NULL, &now) == 0 && now.sa_handler != SIG_IGN) /* a shell without jobs has switched it off */
+    may_suspend = sigaction(SIGTSTP, NULL, &now) == 0 && now.sa_handler != SIG_IGN;
+    if (may_suspend)
         catch_signal(SIGTSTP);
     signal(SIGPIPE, SIG_IGN);
 }
@@ -226,6 +228,7 @@ static struct {
 
 /* What waits longer for its end was no sequence, but Alt with '[', 'O' or ']'. */
 #define SEQUENCE_SECONDS 1
+#define STRINGS          "]PX^_" /* OSC, DCS, SOS, PM and APC begin a string that ST ends */
 
 static bool is_unfinished(void)
 {
@@ -237,11 +240,20 @@ static bool is_quiet(void)
     return ceduo_clock() - input.last > SEQUENCE_SECONDS;
 }
 
+/* The terminal itself makes no signals of keys, because those in a paste are its text. */
+static bool is_signal(wint_t c)
+{
+    int number = c == CTRL('C') ? SIGINT : c == CTRL('Z') ? SIGTSTP : c == CTRL('\\') ? SIGQUIT : 0;
+    if (number == SIGTSTP ? may_suspend : number != 0)
+        on_signal(number);
+    return number != 0;
+}
+
 static void press(struct app *app, wint_t c)
 {
-    if (!input.pasting)
+    if (!input.pasting && !is_signal(c))
         ceduo_program_key(app, c == '\n' || c == '\r' ? K_ENTER : c == 127 || c == 8 ? K_BACKSPACE : (int)c);
-    else if (c != 0 && input.length + 4 < sizeof input.pasted)
+    else if (input.pasting && c != 0 && input.length + 4 < sizeof input.pasted)
         input.length += ceduo_utf8_encode(c, input.pasted + input.length);
 }
 
@@ -268,10 +280,31 @@ static void end_control(struct app *app, wint_t last)
     }
 }
 
+static void take_character(struct app *app, wint_t c);
+
+#define C1     0x80 /* controls of 8 bits, which begin as ESC and a character of 7 does */
+#define C1_END 0xa0
+
+static void take_c1(struct app *app, wint_t c)
+{
+    bool ends = c == 0x9c && (input.state == STRING || input.state == STRING_ESCAPED);
+    wint_t second = c - 0x40;
+    if (ends || second == '[' || second == 'O' || strchr(STRINGS, (int)second)) {
+        take_character(app, K_ESCAPE);
+        take_character(app, second);
+    }
+}
+
 static void take_character(struct app *app, wint_t c)
 {
+    bool lost = input.pasting && c == CTRL('C') && is_quiet(); /* the end of the paste */
     input.last = ceduo_clock();
-    if (input.state == PLAIN && c != K_ESCAPE) {
+    if (lost) {
+        input.pasting = false;
+        input.state = PLAIN;
+    } else if (c >= C1 && c < C1_END) {
+        take_c1(app, c);
+    } else if (input.state == PLAIN && c != K_ESCAPE) {
         press(app, c);
     } else if (input.state == STRING || input.state == STRING_ESCAPED) {
         bool ends = input.state == STRING ? c == '\a' : c == '\\';
@@ -284,7 +317,7 @@ static void take_character(struct app *app, wint_t c)
         input.number = -1;
     } else if (input.state == ESCAPED && !input.pasting && c == 'O') {
         swallow(1);
-    } else if (input.state == ESCAPED && !input.pasting && (c == ']' || c == 'P')) {
+    } else if (input.state == ESCAPED && !input.pasting && c < C1 && c > ' ' && strchr(STRINGS, (int)c)) {
         input.state = STRING;
     } else if (input.state == ESCAPED) {
         input.state = PLAIN;
@@ -341,7 +374,7 @@ static bool take_keys(struct app *app)
 {
     bool any = false;
     wint_t code;
-    for (int kind; !app->quit && (kind = get_wch(&code)) != ERR; any = true) {
+    for (int kind; !app->quit && !interrupted && !suspended && !ending && (kind = get_wch(&code)) != ERR; any = true) {
         if (kind == KEY_CODE_YES && code == KEY_RESIZE)
             continue;
         if (kind == KEY_CODE_YES && code == KEY_MOUSE) {
@@ -374,6 +407,8 @@ static void suspend(void)
     suspended = 0;
     ask_for_pastes(false);
     endwin();
+    signal(SIGTSTP, SIG_IGN);
+    kill(0, SIGTSTP); /* the others of this job, as the terminal does */
     signal(SIGTSTP, SIG_DFL);
     raise(SIGTSTP);
     catch_signal(SIGTSTP);
@@ -395,10 +430,7 @@ static void loop(struct app *app, bool colours)
             break; /* the window is gone */
         if (interrupted) {
             interrupted = 0;
-            if (input.pasting) /* a Ctrl-C of its text is not the person's, who has lost its end */
-                input.pasting = !is_quiet();
-            else
-                ceduo_program_key(app, app->editing || app->popup ? K_ESCAPE : 'q');
+            ceduo_program_key(app, app->editing || app->popup ? K_ESCAPE : 'q');
         }
         if (suspended)
             suspend();
@@ -466,7 +498,7 @@ enum terminal_end ceduo_terminal_run(struct app *app)
     ask_for_pastes(true);
     prepare_restore();
     start_colours();
-    cbreak();
+    raw();
     noecho();
     nonl();
     keypad(stdscr, TRUE);

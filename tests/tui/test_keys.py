@@ -22,6 +22,9 @@ ON, OFF = b"\x1b[?2004h", b"\x1b[?2004l"
 UNKNOWN = {"CSI": "\x1b[99;99s", "CSI with a private mark": "\x1b[?1;2c", "CSI with an intermediate": "\x1b[1;2 q",
            "CSI of one letter": "\x1b[s", "a function key of Linux": "\x1b[[s", "SS3": "\x1bOs",
            "OSC to BEL": "\x1b]11;rgb:qsno\a", "OSC to ST": "\x1b]52;c;qsno\x1b\\", "DCS": "\x1bP1+qsno=qs\x1b\\",
+           "APC": "\x1b_qsno\x1b\\", "PM": "\x1b^qsno\x1b\\", "SOS": "\x1bXqsno\x1b\\",
+           "CSI of 8 bits": "\x9b99;99s", "SS3 of 8 bits": "\x8fs", "OSC of 8 bits": "\x9d52;c;qsno\x9c", "DCS of 8 bits": "\x901+qsno\x9c",
+           "SOS of 8 bits": "\x98qs\x9c", "PM of 8 bits": "\x9eqs\x9c", "APC of 8 bits": "\x9fqs\x1b\\", "other controls": "\x84\x88\x9c",
            "one after the other": "\x1b[9s\x1b[9s\x1bOs\x1b]s\x1b[9s"}
 PAUSE = 0.1  # longer than Esc waits, shorter than what makes a key of the beginning of a sequence
 
@@ -60,7 +63,7 @@ def test_in_pieces():
     with Place() as place, Tmux(place) as t:
         changed(t)
         for what, sequence in UNKNOWN.items():
-            for cut in (2, len(sequence) - 1):
+            for cut in (2 - (sequence[0] > "\x80"), len(sequence) - 1):
                 t.text(sequence[:cut])
                 time.sleep(PAUSE)
                 t.text(sequence[cut:])
@@ -244,6 +247,39 @@ class Pty:
             self.read()
         os.close(self.fd)
         return self.out
+
+
+def test_paste_of_signals():
+    """Ctrl-C, Ctrl-Z and Ctrl-\\ in a paste are its text; the key that comes after it is a key"""
+    with Place() as place:
+        program = Pty(place, "xterm")
+        os.write(program.fd, b"\x1b[200~a\x03q\x1a\x1cq\x1b[201~")
+        program.writes(b"nowhere")
+        os.write(program.fd, b"3G\r\x15\x1b[200~a\x03b\x1ac\x1b[201~")
+        program.writes(b"abc")
+        os.write(program.fd, b"\x03")  # leaves the field
+        os.write(program.fd, b"\x03")
+        until("the program ends", lambda: program.read() and os.waitpid(program.pid, os.WNOHANG)[0] == program.pid)
+        expect_equal(place.text("fast.yaml"), FAST)
+
+
+def test_paste_of_8_bits():
+    """A paste between controls of 8 bits"""
+    with Place() as place, Tmux(place) as t:
+        changed(t)
+        t.text("\x9b200~qs\x9b201~")
+        t.sees("goes nowhere")
+        unharmed(t, place, "a paste of 8 bits")
+
+
+def test_quit():
+    """Ctrl-\\ ends the program by its signal, with the terminal restored"""
+    with Place() as place:
+        program = Pty(place, "xterm")
+        os.write(program.fd, b"\x1c")
+        ended = until("the program ends", lambda: (lambda pid, status: pid and [status])(*os.waitpid(program.pid, os.WNOHANG)))
+        expect(os.WIFSIGNALED(ended[0]) and os.WTERMSIG(ended[0]) == signal.SIGQUIT, ended)
+        expect(OFF in program.read(), program.out[-300:])
 
 
 def test_asked():
