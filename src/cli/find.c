@@ -3,7 +3,7 @@
 #include "base/language.h"
 #include "batch.h"
 #include "interrupt.h"
-#include "model/seek.h"
+#include "model/search.h"
 #include "say.h"
 
 static void put(struct text *out, const struct arguments *a, const struct ceduo_find_report *report)
@@ -43,24 +43,24 @@ static enum exit_status choose(const struct arguments *a, const struct scene_fil
 /* Looks for the value in one scene. */
 static enum exit_status look(const struct arguments *a, struct scene_file *file, size_t option, struct text *out)
 {
-    struct seek seek = {.file = file,
-                        .search = {.path = a->find,
-                                   .option = option,
-                                   .goal = a->goal,
-                                   .target = a->goal_value,
-                                   .lo = a->find_lo,
-                                   .hi = a->find_hi,
-                                   .rotation = a->years,
-                                   .rocks = a->rocks > 0 ? a->rocks : file->scene.simulation.rocks},
-                        .threads = a->threads,
-                        .cancel = ceduo_interrupt_flag()};
+    struct search search = {.file = file,
+                            .def = {.path = a->find,
+                                    .option = option,
+                                    .goal = a->goal,
+                                    .target = a->goal_value,
+                                    .lo = a->find_lo,
+                                    .hi = a->find_hi,
+                                    .rotation = a->years,
+                                    .rocks = a->rocks > 0 ? a->rocks : file->scene.simulation.rocks},
+                            .threads = a->threads,
+                            .cancel = ceduo_interrupt_flag()};
     struct ceduo_found found;
     struct problems problems = {0};
-    enum ceduo_status status = ceduo_seek(&seek, &found, &problems);
+    enum ceduo_status status = ceduo_search(&search, &found, &problems);
     ceduo_problems_close(&problems);
     ceduo_say(&problems.text);
     if (status == CEDUO_OK)
-        put(out, a, &(struct ceduo_find_report){file, &seek.search, &found, &seek.yield});
+        put(out, a, &(struct ceduo_find_report){file, &search.def, &found, &search.yield});
     bool usage = problems.count > 0;
     ceduo_problems_free(&problems);
     return status == CEDUO_OK ? EXIT_DONE : usage ? EXIT_USAGE : EXIT_RUN;

@@ -3,9 +3,9 @@
 
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
+#include "base/must.h"
 #include "io/inputs.h"
 #include "scene/ranges.h"
 #include "scene/value.h"
@@ -21,7 +21,7 @@ static bool is_told(const struct scene_file *file, const struct field *field)
            (file->scene.simulation.law == CEDUO_LAW_ARM && ceduo_calibration_tells_mu(&scene, 1));
 }
 
-static void offer(const struct scene_file *file, struct fit_wish *to, const char *path, double lo, double hi)
+static void offer(const struct scene_file *file, struct fit_request *to, const char *path, double lo, double hi)
 {
     struct scene_file own = *file;
     struct ceduo_input input = {0};
@@ -37,7 +37,7 @@ static void offer(const struct scene_file *file, struct fit_wish *to, const char
     to->hi[to->n++] = hi;
 }
 
-static void offer_named(const struct scene_file *file, struct fit_wish *to)
+static void offer_named(const struct scene_file *file, struct fit_request *to)
 {
     for (size_t i = 0; i < file->inputs_of_scene; i++) {
         const struct ceduo_input *input = &file->inputs[i];
@@ -93,7 +93,7 @@ static struct range range_around(const struct scene_file *file, const char *key)
 
 /* The ground of all stretches as one. What it is, is known where nothing was said of it: talus; otherwise it may be all that the
  * library has, and what is near the scene's own values. Roughness as a length has no library. */
-static void offer_everywhere(const struct scene_file *file, struct fit_wish *to)
+static void offer_everywhere(const struct scene_file *file, struct fit_request *to)
 {
     bool length = !isnan(file->scene.slope.segments[0].roughness_m);
     for (size_t k = 0; k < KEYS; k++) {
@@ -110,7 +110,7 @@ static void offer_everywhere(const struct scene_file *file, struct fit_wish *to)
     }
 }
 
-static void offer_material(const struct scene_file *file, const struct ceduo_material *m, struct fit_wish *to)
+static void offer_material(const struct scene_file *file, const struct ceduo_material *m, struct fit_request *to)
 {
     for (size_t k = 0; k < KEYS; k++) {
         char path[FIT_PATH_ROOM];
@@ -121,7 +121,7 @@ static void offer_material(const struct scene_file *file, const struct ceduo_mat
     }
 }
 
-static void offer_materials(const struct scene_file *file, const struct node *rows, struct fit_wish *to)
+static void offer_materials(const struct scene_file *file, const struct node *rows, struct fit_request *to)
 {
     size_t n;
     const struct ceduo_material *library = ceduo_materials(&n);
@@ -136,11 +136,11 @@ static void offer_materials(const struct scene_file *file, const struct node *ro
     }
 }
 
-void ceduo_fit_offer(const struct scene_file *file, struct fit_wish *to)
+void ceduo_fit_offer(const struct scene_file *file, struct fit_request *to)
 {
     const struct node *rows = ceduo_node_get(ceduo_node_get(file->root, "slope"), "materials");
     uint64_t own = file->scene.simulation.rocks;
-    *to = (struct fit_wish){.rocks = own > 0 && own < CEDUO_CALIBRATION_ROCKS ? own : CEDUO_CALIBRATION_ROCKS};
+    *to = (struct fit_request){.rocks = own > 0 && own < CEDUO_CALIBRATION_ROCKS ? own : CEDUO_CALIBRATION_ROCKS};
     offer_named(file, to);
     if (to->n > 0)
         return;
@@ -150,7 +150,7 @@ void ceduo_fit_offer(const struct scene_file *file, struct fit_wish *to)
         offer_everywhere(file, to);
 }
 
-bool ceduo_fit_has_seen(const struct scene_file *file)
+bool ceduo_fit_has_observations(const struct scene_file *file)
 {
     for (size_t i = 0; i < file->observations_count; i++)
         if (file->observations[i].use == CEDUO_OBSERVED_FIT)
@@ -160,41 +160,28 @@ bool ceduo_fit_has_seen(const struct scene_file *file)
 
 /* ---- fitting ---- */
 
-static bool find_places(struct fit *f)
-{
-    for (size_t i = 0; i < f->wish.n; i++) {
-        f->paths[i] = f->wish.paths[i];
-        const struct field *field = ceduo_input_find(&f->file, f->wish.paths[i], &f->inputs[i]);
-        f->inputs[i].lo = f->wish.lo[i];
-        f->inputs[i].hi = f->wish.hi[i];
-        if (!field)
-            return false;
-    }
-    return true;
-}
-
-enum ceduo_status ceduo_fit_make(const struct scene_file *file, const struct fit_wish *wish, const struct fit_run *run,
+enum ceduo_status ceduo_fit_make(const struct scene_file *file, const struct fit_request *request, const struct fit_run *run,
                                  struct fit **fit)
 {
-    struct fit *f = *fit = calloc(1, sizeof *f);
-    if (!f) {
-        struct arena arena = file->arena;
-        ceduo_arena_free(&arena);
-        return CEDUO_NO_MEMORY;
+    struct fit *f = *fit = ceduo_must(calloc(1, sizeof *f));
+    *f = (struct fit){.file = *file, .request = *request, .done = true};
+    for (size_t i = 0; i < request->n; i++) {
+        f->paths[i] = f->request.paths[i];
+        ceduo_input_find(&f->file, f->paths[i], &f->inputs[i]); /* it was offered: it is there */
+        f->inputs[i].lo = request->lo[i];
+        f->inputs[i].hi = request->hi[i];
     }
-    f->file = *file;
-    f->wish = *wish;
     const struct ceduo_calibration_scene scene = {&f->file.scene, f->inputs, file->observations_count, file->observations};
     const struct ceduo_calibration_def def = {.scenes_count = 1,
                                               .scenes = &scene,
-                                              .parameters_count = wish->n,
-                                              .rocks = wish->rocks,
+                                              .parameters_count = request->n,
+                                              .rocks = request->rocks,
                                               .seed = file->scene.simulation.seed,
                                               .threads = run->threads,
                                               .cancel = run->cancel,
                                               .progress = run->progress,
                                               .context = run->context};
-    enum ceduo_status status = find_places(f) ? ceduo_calibrate(&def, &f->answer) : CEDUO_NO_MEMORY;
+    enum ceduo_status status = ceduo_calibrate(&def, &f->answer);
     if (status != CEDUO_OK) {
         ceduo_fit_free(f);
         *fit = NULL;
@@ -204,8 +191,6 @@ enum ceduo_status ceduo_fit_make(const struct scene_file *file, const struct fit
 
 void ceduo_fit_free(struct fit *f)
 {
-    if (!f)
-        return;
     ceduo_calibration_free(&f->answer);
     ceduo_arena_free(&f->file.arena);
     free(f);

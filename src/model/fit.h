@@ -5,12 +5,12 @@
 #include "ceduo/calibrate.h"
 #include "io/scene_file.h"
 
-/* Values of the scene of the live program, fitted to what was seen there. */
+/* Values of the scene of the live program, fitted to what was observed there. */
 
 #define FIT_PATH_ROOM 160
 
 /* What is to be fitted. */
-struct fit_wish {
+struct fit_request {
     size_t n;
     char paths[CEDUO_CALIBRATION_MOST][FIT_PATH_ROOM];
     const struct field *fields[CEDUO_CALIBRATION_MOST];
@@ -19,19 +19,21 @@ struct fit_wish {
 };
 
 struct fit {
-    struct scene_file file; /* as it was; its nodes are the document's */
-    struct fit_wish wish;
-    const char *paths[CEDUO_CALIBRATION_MOST]; /* of the wish */
+    struct fit_request request;
+    bool done;                                 /* false: under way, and has come so far: */
+    struct ceduo_calibration_state state;      /* nothing below is known yet */
+    struct scene_file file;                    /* as it was; its nodes are the document's */
+    const char *paths[CEDUO_CALIBRATION_MOST]; /* of the request */
     struct ceduo_input inputs[CEDUO_CALIBRATION_MOST];
     struct ceduo_calibration answer;
 };
 
 /* What may be fitted: values whose range the scene names under `doubt`, or where it names none rn, rt, roughness and
  * friction of its grounds with the ranges of the library of grounds. */
-void ceduo_fit_offer(const struct scene_file *file, struct fit_wish *offer);
+void ceduo_fit_offer(const struct scene_file *file, struct fit_request *offer);
 
-/* Whether something was seen that a fit may rest on. */
-bool ceduo_fit_has_seen(const struct scene_file *file);
+/* Whether something was observed that a fit may rest on. */
+bool ceduo_fit_has_observations(const struct scene_file *file);
 
 struct fit_run {
     unsigned threads;
@@ -40,9 +42,9 @@ struct fit_run {
     void *context;
 };
 
-/* Fits. `file` must have an arena of its own, which is the answer's from then on, whatever comes of it. CEDUO_CANCELLED,
- * CEDUO_NO_MEMORY: *fit is NULL. */
-enum ceduo_status ceduo_fit_make(const struct scene_file *file, const struct fit_wish *wish, const struct fit_run *run,
+/* Fits. `file` must have an arena of its own, which is the answer's from then on, whatever comes of it. Otherwise than
+ * CEDUO_OK: *fit is NULL. */
+enum ceduo_status ceduo_fit_make(const struct scene_file *file, const struct fit_request *request, const struct fit_run *run,
                                  struct fit **fit);
 void ceduo_fit_free(struct fit *fit);
 

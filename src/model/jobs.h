@@ -2,19 +2,67 @@
 #ifndef CEDUO_JOBS_H
 #define CEDUO_JOBS_H
 
-#include "doubted.h"
+#include "comparison.h"
 #include "fit.h"
-#include "flights.h"
-#include "foresee.h"
-#include "seek.h"
-#include "sighted.h"
+#include "runs.h"
+#include "search.h"
+#include "uncertainty.h"
 
-/* The queue of jobs of the live program: one thread in the background simulates rocks on a snapshot of the scene. A job goes
- * in steps from coarse to fine, and the coarsest step of all jobs is next. There is one job of a kind: a new one cancels
- * the one before, and any new one interrupts the step under way, which is continued later. */
-struct jobs;
+/* The queue of jobs of the live program: one thread in the background computes on a snapshot of the scene. A job goes in
+ * levels from coarse to fine, and the coarsest step of all jobs is next. There is one job of a kind: a new one replaces
+ * the one before, and any new one interrupts the step under way, which is repeated later. What a step computes goes into
+ * the slot of its kind, from which the program takes it. */
+
+/* The kinds, the first first where two steps are as coarse: name, slot, what it holds. */
+#define JOBS(X)                                                                                                                \
+    X(SEARCH, search, struct search_answer)                                                                                    \
+    X(PREVIEW, preview, struct preview)                                                                                        \
+    X(SNAPSHOT, snapshot, struct snapshot)                                                                                     \
+    X(OTHERS, others, struct others)                                                                                           \
+    X(COMPARISON, comparison, struct comparison)                                                                               \
+    X(FIT, fit, struct fit)                                                                                                    \
+    X(YEARS, years, struct years_known)                                                                                        \
+    X(UNCERTAINTY, uncertainty, struct uncertainty)
+
+enum job_kind {
+#define X(NAME, name, type) JOB_##NAME,
+    JOBS(X)
+#undef X
+        JOB_KINDS
+};
+
+/* The newest result of each kind; NULL: none. */
+union results {
+    void *slots[JOB_KINDS];
+    struct {
+#define X(NAME, name, type) type *name;
+        JOBS(X)
+#undef X
+    };
+};
+
+/* The figures of a scene. */
+struct snapshot {
+    struct ceduo_outlook *outlook;
+    uint64_t key;   /* of the scene: ceduo_jobs_key() */
+    double seconds; /* from the request to it */
+};
+
+/* The figures under the other energy law, one for each option and control, in rows by option. */
+struct others {
+    size_t options, controls;
+    struct ceduo_other_energy items[];
+};
+
+/* The years of each option. */
+struct years_known {
+    size_t n, done; /* options; of them the newest step has done so many */
+    uint64_t rocks; /* of each run of that step */
+    struct ceduo_years *items[];
+};
 
 /* NULL where no thread can be started. */
+struct jobs;
 struct jobs *ceduo_jobs_create(unsigned threads);
 void ceduo_jobs_free(struct jobs *jobs);
 unsigned ceduo_jobs_threads(const struct jobs *jobs);
@@ -22,74 +70,54 @@ unsigned ceduo_jobs_threads(const struct jobs *jobs);
 /* A number for all that decides the runs of a scene: two scenes of one number have the same figures. */
 uint64_t ceduo_jobs_key(const struct ceduo_scene *scene);
 
-/* Asks for the figures of a scene, those of option `shown` and without forest first. `key`: its ceduo_jobs_key(). Runs of
- * forests that have not changed since the last request are kept; what asks for the same runs changes nothing. `years`: the
- * years of all options as well, those of `shown` first. What the scene points to must stay until the jobs are freed (an arena that is never
- * emptied); the struct itself is copied. True where something is to be done. */
-bool ceduo_jobs_show(struct jobs *jobs, const struct ceduo_scene *scene, uint64_t key, size_t shown, bool years);
+/* ---- requests: all copy the scene as it is now. What it points to must stay until the jobs are freed (an arena that is
+ * never emptied). True where something is to be done. ---- */
 
-/* Asks for a search. Threads and cancel are set here; the path is copied, and the scene as it is now. */
-void ceduo_jobs_seek(struct jobs *jobs, const struct seek *seek);
-void ceduo_jobs_stop_seek(struct jobs *jobs);
+/* Asks for the figures of a scene, those of option `shown` and without forest first; with `years` those of all options as
+ * well. Runs of forests that have not changed since the last request are kept; what asks for the same runs changes nothing. */
+bool ceduo_jobs_show(struct jobs *jobs, const struct scene_file *file, size_t shown, bool years);
 
-/* Asks what a change (PATH=VALUE, shorter than 1024 bytes) would do to the lights of an option. The scene is copied as
- * it is now. */
-void ceduo_jobs_foresee(struct jobs *jobs, const struct scene_file *file, const char *set, size_t option);
+/* Asks for a search; its path is copied. */
+void ceduo_jobs_search(struct jobs *jobs, const struct scene_file *file, const struct ceduo_search *search);
 
-/* Asks what doubt does to a scene, up to so many levels (doubted.h); 0: nothing. A scene whose nodes are the same is asked for
- * once. Figures and years of as many rocks go before it. True where something is to be done. */
+/* Asks what a change (PATH=VALUE, shorter than JOB_TEXT bytes) would do to the lights of an option. */
+#define JOB_TEXT 1024
+void ceduo_jobs_preview(struct jobs *jobs, const struct scene_file *file, const char *set, size_t option);
+
+/* Asks what doubt does to a scene, up to so many levels (uncertainty.h); 0: nothing. A scene whose nodes are the same is
+ * asked for once. Figures and years of as many rocks go before it. */
 bool ceduo_jobs_doubt(struct jobs *jobs, const struct scene_file *file, size_t levels);
 
-/* Asks what a scene says of what was seen there, up to so many levels (sighted.h); 0: nothing. True where something is to be done. A
- * fit of another scene is stopped, and forgotten. */
-bool ceduo_jobs_look(struct jobs *jobs, const struct scene_file *file, size_t levels);
+/* Asks for the comparison of a scene with what was observed there, up to so many levels (comparison.h); 0: nothing. A fit of
+ * another scene is stopped, and forgotten. */
+bool ceduo_jobs_compare(struct jobs *jobs, const struct scene_file *file, size_t levels);
 
-/* Asks for a fit of a scene to what was seen there. What interrupts it lets it begin again. */
-void ceduo_jobs_fit(struct jobs *jobs, const struct scene_file *file, const struct fit_wish *wish);
-void ceduo_jobs_stop_fit(struct jobs *jobs);
+/* Asks for a fit of a scene to what was observed there. What interrupts it lets it begin again. */
+void ceduo_jobs_fit(struct jobs *jobs, const struct scene_file *file, const struct fit_request *request);
 
-/* What a search came to. */
-struct sought {
-    enum ceduo_status status;
-    double target;            /* that was looked for */
-    bool rotation;            /* it looked at one whole rotation */
-    struct ceduo_yield yield; /* at that value */
-    struct ceduo_found found;
-    struct problems problems;
-};
-void ceduo_sought_free(struct sought *sought);
+/* Stops a search or a fit, and forgets its result. */
+void ceduo_jobs_stop(struct jobs *jobs, enum job_kind kind);
 
-/* A file descriptor that becomes readable when there is news; read by ceduo_jobs_news(). */
+/* ---- results ---- */
+
+/* A file descriptor that becomes readable when there is news; read by ceduo_jobs_take(). */
 int ceduo_jobs_fd(const struct jobs *jobs);
 
-struct jobs_news {
-    struct ceduo_outlook *outlook;     /* newest, NULL where none is new; the caller's from now on */
-    uint64_t key;                      /* of its scene: ceduo_jobs_key() */
-    double seconds;                    /* from the request to it */
-    struct ceduo_years **years;        /* newest of each option, as far as there are new ones; NULL: there are none. The
-                                    * caller's from now on */
-    size_t years_count;                /* options */
-    struct ceduo_other_energy *others; /* newest under the other energy law, one for each option and control, in rows by
-                                        * option; NULL: none are new. The caller's from now on */
-    size_t others_options, others_controls;
-    struct doubted *doubted; /* newest; NULL: none is new. The caller's from now on */
-    struct sighted *sighted; /* likewise */
-    struct fit *fit;         /* likewise: it is done */
-    bool fitting;            /* a fit is under way, and has come so far: */
-    struct ceduo_calibration_state fit_state;
-    size_t done, all;      /* of the step under way in the years: options, of so many; all 0: none is */
-    uint64_t rocks;        /* of each run of that step, or of the figures' */
-    struct sought *sought; /* NULL: none is done; the caller's from now on */
-    bool foresaw;          /* what a change would do is known: */
-    struct foreseen foreseen;
-    bool busy; /* some job is not done */
+struct jobs_state {
+    unsigned fresh; /* kinds with a new result: 1 << JOB_SEARCH … */
+    bool busy;      /* some job is not done */
+    bool fitting;
 };
-struct jobs_news ceduo_jobs_news(struct jobs *jobs);
-void ceduo_jobs_free_years(struct ceduo_years **years, size_t n);
+
+/* Puts the new results in the place of the older ones; of years the newest of each option stay. */
+struct jobs_state ceduo_jobs_take(struct jobs *jobs, union results *results);
+
+void ceduo_results_drop(union results *results, enum job_kind kind);
+void ceduo_results_free(union results *results);
 
 /* Waits until no job is left. */
 void ceduo_jobs_wait(struct jobs *jobs);
-/* Waits until no search and nothing to foresee is left; true where there is news of one. */
-bool ceduo_jobs_wait_seek(struct jobs *jobs);
+/* Waits until no search and no preview is left; true where there is a result of one. */
+bool ceduo_jobs_wait_search(struct jobs *jobs);
 
 #endif

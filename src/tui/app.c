@@ -71,12 +71,12 @@ const struct ceduo_option *ceduo_app_option(const struct app *app)
 
 const struct ceduo_option_result *ceduo_app_found(const struct app *app)
 {
-    return app->figures.result ? &app->figures.result->options[app->option] : NULL;
+    return app->live.result ? &app->live.result->options[app->option] : NULL;
 }
 
 const struct ceduo_arrivals *ceduo_app_shown(const struct app *app)
 {
-    const struct ceduo_result *r = app->figures.result;
+    const struct ceduo_result *r = app->live.result;
     const struct ceduo_arrivals *wood = r ? ceduo_result_wooded(r, app->option, r->last_control) : NULL;
     return wood || !r ? wood : &r->bare.arrivals[r->last_control];
 }
@@ -101,50 +101,50 @@ struct ceduo_picture ceduo_app_picture(const struct app *app)
     const struct ceduo_scene *scene = &app->document.file.scene;
     size_t stems = ceduo_rock_trajectory_stems(&app->way);
     return (struct ceduo_picture){.scene = scene,
-                                  .outlook = ceduo_figures_outlook(&app->figures, scene),
+                                  .outlook = ceduo_live_outlook(&app->live, scene),
                                   .option = app->option,
                                   .belt = app->belt,
                                   .control = ceduo_scene_last_control(scene),
                                   .selected = app->way.line.n > 0 ? &app->way.line : NULL,
                                   .stems = stems > 0 ? app->way.stems : NULL,
                                   .stems_count = stems,
-                                  .years = ceduo_figures_years(&app->figures, scene, app->option),
-                                  .verdict = app->figures.verdict.n > 0 ? &app->figures.verdict : NULL,
+                                  .years = ceduo_live_years(&app->live, scene, app->option),
+                                  .verdict = app->live.verdict.n > 0 ? &app->live.verdict : NULL,
                                   .year = app->year};
 }
 
 struct ceduo_report ceduo_app_report(const struct app *app)
 {
     return (struct ceduo_report){.file = &app->document.file,
-                                 .result = app->figures.result,
-                                 .verdict = app->figures.verdict.n > 0 ? &app->figures.verdict : NULL,
+                                 .result = app->live.result,
+                                 .verdict = app->live.verdict.n > 0 ? &app->live.verdict : NULL,
                                  .remarks = {.ground_assumed = app->document.file.ground_assumed},
-                                 .seconds = app->figures.seconds};
+                                 .seconds = app->live.results.snapshot ? app->live.results.snapshot->seconds : 0};
 }
 
 bool ceduo_app_doubt(const struct app *app, struct ceduo_doubt_report *report)
 {
-    const struct doubted *d = ceduo_figures_doubted(&app->figures, &app->document.file);
-    struct doubted *own = (struct doubted *)(uintptr_t)d; /* its scene is only read */
+    const struct uncertainty *d = ceduo_live_uncertainty(&app->live, &app->document.file);
+    struct uncertainty *own = (struct uncertainty *)(uintptr_t)d; /* its scene is only read */
     if (d)
         *report = (struct ceduo_doubt_report){.file = &own->file,
                                               .inputs = &own->inputs,
                                               .answer = own->inputs.n > 0 ? &own->answer : NULL,
                                               .points = own->points,
                                               .rocks = own->rocks,
-                                              .finer = app->figures.result};
+                                              .finer = app->live.result};
     return d != NULL;
 }
 
 static size_t doubt_levels(const struct app *app)
 {
-    return ceduo_views[app->view]->doubt ? DOUBT_LEVELS : app->doubts ? DOUBT_BEHIND : 0;
+    return ceduo_views[app->view]->doubt ? UNCERTAINTY_LEVELS : app->doubts ? UNCERTAINTY_BEHIND : 0;
 }
 
 bool ceduo_app_doubt_is_rough(const struct app *app)
 {
-    const struct doubted *d = ceduo_figures_doubted(&app->figures, &app->document.file);
-    return app->figures.busy && d && d->level + 1 < doubt_levels(app);
+    const struct uncertainty *d = ceduo_live_uncertainty(&app->live, &app->document.file);
+    return app->live.busy && d && d->level + 1 < doubt_levels(app);
 }
 
 void ceduo_app_refresh(struct app *app)
@@ -156,11 +156,11 @@ void ceduo_app_refresh(struct app *app)
     size_t belts = ceduo_app_option(app)->belts_count;
     if (app->belt >= belts)
         app->belt = belts > 0 ? belts - 1 : 0;
-    ceduo_figures_follow(&app->figures, scene, app->option, view->years);
+    ceduo_live_follow(&app->live, &app->document.file, app->option, view->years);
     app->doubts |= view->doubt;
-    ceduo_figures_doubt(&app->figures, &app->document.file, doubt_levels(app));
-    ceduo_figures_look(&app->figures, &app->document.file,
-                       view->seen && app->document.file.observations_count > 0 ? SIGHT_LEVELS : 0);
+    ceduo_live_doubt(&app->live, &app->document.file, doubt_levels(app));
+    ceduo_live_compare(&app->live, &app->document.file,
+                       view->seen && app->document.file.observations_count > 0 ? COMPARISON_LEVELS : 0);
     for (int v = 0; v < VIEW_COUNT; v++)
         ceduo_form_clear(&app->views[v].form);
     if (view->build) {
@@ -197,8 +197,8 @@ void ceduo_app_follow_belt(struct app *app)
 
 bool ceduo_app_news(struct app *app)
 {
-    bool changed = ceduo_figures_news(&app->figures, &app->document.file.scene);
-    const struct ceduo_years *years = ceduo_figures_years(&app->figures, &app->document.file.scene, app->option);
+    bool changed = ceduo_live_news(&app->live, &app->document.file.scene);
+    const struct ceduo_years *years = ceduo_live_years(&app->live, &app->document.file.scene, app->option);
     if (years && app->year >= years->count)
         app->year = 0;
     return changed;
@@ -217,7 +217,7 @@ static void say_way(struct app *app)
 
 bool ceduo_app_follow_rock(struct app *app)
 {
-    uint64_t key = app->figures.asked;
+    uint64_t key = app->live.asked;
     hash_count(&key, app->option);
     bool good = ceduo_rock_trajectory_follow(&app->way, &app->document.file.scene, ceduo_app_option(app), key, app->rock);
     if (!good)
@@ -294,7 +294,7 @@ bool ceduo_app_create(struct app *app, const char *path, enum ceduo_charset char
     *app = (struct app){.charset = charset, .no_recovery = no_recovery, .doubts = !no_recovery};
     if (!ceduo_document_open(&app->document, path ? path : "paper-site", problems))
         return false;
-    if (!ceduo_figures_create(&app->figures, threads)) {
+    if (!ceduo_live_create(&app->live, threads)) {
         ceduo_problem_memory(problems);
         ceduo_document_close(&app->document);
         return false;
@@ -305,7 +305,7 @@ bool ceduo_app_create(struct app *app, const char *path, enum ceduo_charset char
 
 void ceduo_app_free(struct app *app)
 {
-    ceduo_figures_free(&app->figures);
+    ceduo_live_free(&app->live);
     for (int v = 0; v < VIEW_COUNT; v++)
         ceduo_form_free(&app->views[v].form);
     ceduo_rock_trajectory_free(&app->way);
@@ -320,7 +320,7 @@ static bool take_opened(struct app *app, struct document *next, bool good)
 {
     if (!good) {
         say_problem(app);
-    } else if (!ceduo_figures_restart(&app->figures)) {
+    } else if (!ceduo_live_restart(&app->live)) {
         ceduo_document_close(next);
         ceduo_app_warn(app, "%s", _("out of memory"));
         good = false;

@@ -2,11 +2,11 @@
 #ifndef CEDUO_APP_H
 #define CEDUO_APP_H
 
-#include "figures.h"
 #include "form.h"
 #include "keys.h"
 #include "line.h"
 #include "model/document.h"
+#include "model/live.h"
 #include "rock_trajectory.h"
 #include "view/cells.h"
 #include "view/plot.h"
@@ -71,7 +71,7 @@ struct place {
 struct app {
     struct document document;
     struct problems problems; /* of the edit that is under way */
-    struct figures figures;
+    struct live live;
     struct ceduo_cells *cells;
     int width, height;
     enum ceduo_charset charset;

@@ -367,10 +367,10 @@ static void put_warnings(struct pen *pen)
     const struct ceduo_option *o = ceduo_app_option(app);
     const struct ceduo_option_result *found = ceduo_app_found(app);
     struct ceduo_run_remarks remarks = {.ground_assumed = app->document.file.ground_assumed, .nothing_said = true};
-    ceduo_words_still(app->figures.result, add_warning, &w);
+    ceduo_words_still(app->live.result, add_warning, &w);
     for (size_t i = 0; i < o->belts_count; i++)
-        ceduo_words_stand_warnings(app->figures.result->scene, &o->belts[i], &found->stands[i], add_warning, &w);
-    ceduo_words_run_warnings(app->figures.result, &remarks, add_warning, &w);
+        ceduo_words_stand_warnings(app->live.result->scene, &o->belts[i], &found->stands[i], add_warning, &w);
+    ceduo_words_run_warnings(app->live.result, &remarks, add_warning, &w);
     for (size_t i = 0; i < o->belts_count; i++)
         ceduo_words_rules(&o->belts[i], &found->stands[i].rules, add_rule, &w);
     struct ceduo_area rest = {pen->area.left, pen->y, pen->area.width, pen->area.top + pen->area.height - pen->y};
@@ -383,7 +383,7 @@ static void put_mark(struct pen *pen, const struct ceduo_arrivals *a)
 {
     struct app *app = pen->app;
     struct text text = {0};
-    ceduo_text_format(&text, app->figures.busy ? _("computing, %llu rocks") : _("finished, %llu rocks"),
+    ceduo_text_format(&text, app->live.busy ? _("computing, %llu rocks") : _("finished, %llu rocks"),
                       (unsigned long long)a->released);
     if (a->reached >= CEDUO_FEW && pen->area.width >= 34)
         ceduo_text_format(&text, ", \xc2\xb1%.2g %%", ceduo_half_width(a->energy.se, a->reached) / a->energy.mean * 100);
@@ -400,11 +400,10 @@ struct forest {
 
 static struct forest forest_shown(const struct app *app)
 {
-    const struct ceduo_result *r = app->figures.result;
+    const struct ceduo_result *r = app->live.result;
     size_t c = r->last_control;
     struct forest f = {.index = &ceduo_app_found(app)->controls[c], .wood = ceduo_result_wooded(r, app->option, c)};
-    const struct ceduo_years *years =
-        app->view == VIEW_ROTATION ? ceduo_figures_years(&app->figures, r->scene, app->option) : NULL;
+    const struct ceduo_years *years = app->view == VIEW_ROTATION ? ceduo_live_years(&app->live, r->scene, app->option) : NULL;
     if (!years || app->year >= years->count)
         return f;
     f.year = &years->years[app->year];
@@ -417,11 +416,11 @@ void ceduo_column_draw(struct app *app, struct ceduo_area area)
 {
     struct pen pen = {app, area, area.top};
     put_scene(&pen);
-    if (!app->figures.result) {
+    if (!app->live.result) {
         line(&pen, CEDUO_ROLE_DIM, "%s", _("the first rocks are falling \xe2\x80\xa6"));
         return;
     }
-    const struct ceduo_result *r = app->figures.result;
+    const struct ceduo_result *r = app->live.result;
     size_t c = r->last_control;
     const struct forest f = forest_shown(app);
     if (f.year)

@@ -47,10 +47,10 @@ static bool is_meant(struct app *app, const struct form_cell *cell, const char *
 {
     struct text why = {0};
     bool good = !cell->field || ceduo_typed_in_range(cell->field, typed, &why);
-    bool sure = !good || app->line.doubted || !cell->field || !ceduo_typed_unusual(cell->field, typed, &why);
+    bool sure = !good || app->line.asked || !cell->field || !ceduo_typed_unusual(cell->field, typed, &why);
     if (!good || !sure)
         ceduo_app_warn(app, "%s", ceduo_text_string(&why));
-    app->line.doubted = good && !sure;
+    app->line.asked = good && !sure;
     ceduo_text_free(&why);
     return good && sure;
 }

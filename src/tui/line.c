@@ -16,7 +16,7 @@ void ceduo_line_set(struct line *line, const char *text)
     line->text[n] = '\0';
     line->at = n;
     line->fresh = true;
-    line->doubted = false;
+    line->asked = false;
 }
 
 static void cut(struct line *line, size_t from, size_t to)
@@ -40,7 +40,7 @@ static bool insert(struct line *line, int key)
 bool ceduo_line_key(struct line *line, int key)
 {
     bool fresh = line->fresh;
-    line->fresh = line->doubted = false;
+    line->fresh = line->asked = false;
     if (fresh && ((key >= ' ' && key < K_SPECIAL) || key == K_BACKSPACE))
         cut(line, 0, strlen(line->text));
     const char *at = line->text + line->at;

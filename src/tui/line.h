@@ -8,9 +8,9 @@
 /* A line that is typed: a value, a file name, something to search. */
 struct line {
     char text[1024];
-    size_t at;    /* byte of the cursor */
-    bool fresh;   /* nothing typed yet: the first character replaces it all */
-    bool doubted; /* it was asked whether this is meant */
+    size_t at;  /* byte of the cursor */
+    bool fresh; /* nothing typed yet: the first character replaces it all */
+    bool asked; /* it was asked whether this is meant */
 };
 
 void ceduo_line_set(struct line *line, const char *text);

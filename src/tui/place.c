@@ -114,7 +114,7 @@ static const struct ceduo_envelope *passing(const struct ceduo_outlook *o, const
 void ceduo_place_say(struct app *app)
 {
     const struct ceduo_scene *scene = &app->document.file.scene;
-    const struct ceduo_outlook *o = ceduo_figures_outlook(&app->figures, scene);
+    const struct ceduo_outlook *o = ceduo_live_outlook(&app->live, scene);
     double x = ceduo_place_x(app);
     size_t belt = belt_at(app, x);
     const struct ceduo_envelope *e = passing(o, ceduo_outlook_sight(o, scene, app->option), x);

@@ -253,7 +253,7 @@ static void fields_key(struct app *app, struct popup *p, int key)
     int by = lines_of(key);
     bool vertical = key == K_UP || key == K_DOWN || key == K_PAGE_UP || key == K_PAGE_DOWN;
     p->message[0] = '\0';
-    ceduo_jobs_stop_seek(app->figures.jobs); /* that these fields asked for */
+    ceduo_jobs_stop(app->live.jobs, JOB_SEARCH); /* that these fields asked for */
     if (key == K_ESCAPE && p->at == 0) {
         ceduo_popup_close(app);
     } else if (key == K_ESCAPE || key == K_SHIFT_TAB || (key == K_UP && !listed)) {
@@ -412,7 +412,7 @@ bool ceduo_popup_paste(struct app *app, const char *text)
     if (p->kind == POPUP_TEXT)
         return false;
     if (p->kind == POPUP_FIELDS)
-        ceduo_jobs_stop_seek(app->figures.jobs); /* as a key does */
+        ceduo_jobs_stop(app->live.jobs, JOB_SEARCH); /* as a key does */
     p->message[0] = '\0';
     if (ceduo_line_paste(&p->fields[p->at], text))
         offer(app, p);
@@ -439,12 +439,12 @@ void ceduo_popup_look(struct app *app)
     p->preview(app, p, pick->value);
 }
 
-void ceduo_popup_foreseen(struct app *app, const struct foreseen *foreseen)
+void ceduo_popup_previewed(struct app *app, const struct preview *preview)
 {
     struct popup *p = app->popup;
     if (!p || p->kind == POPUP_TEXT || !p->preview || !p->previewed[0])
         return;
-    p->ahead = *foreseen;
+    p->ahead = *preview;
     p->ahead_known = true;
     p->preview(app, p, p->previewed);
 }

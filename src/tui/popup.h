@@ -5,7 +5,6 @@
 #include <stdio.h>
 
 #include "app.h"
-#include "model/foresee.h"
 #include "picker.h"
 
 enum popup_kind { POPUP_TEXT, POPUP_LIST, POPUP_FIELDS };
@@ -44,7 +43,7 @@ struct popup {
     popup_chosen *chosen;
     popup_chosen *preview; /* puts `text` anew for the item under the cursor; NULL: it stays */
     char previewed[256];   /* the item that `text` is about */
-    struct foreseen ahead; /* what it would do to the lights, once that is computed */
+    struct preview ahead;  /* what it would do to the lights, once that is computed */
     bool ahead_known;
     popup_filled *filled;
     void (*picture)(struct app *app, struct popup *popup, struct ceduo_area area); /* below fields, where nothing is offered */
@@ -76,7 +75,7 @@ void ceduo_popup_draw(struct app *app);
 /* After a key: the note over a list is about the item under the cursor. */
 void ceduo_popup_look(struct app *app);
 /* What that item would do to the lights is known. */
-void ceduo_popup_foreseen(struct app *app, const struct foreseen *foreseen);
+void ceduo_popup_previewed(struct app *app, const struct preview *preview);
 const char *ceduo_popup_bar(const struct app *app); /* its keys */
 void ceduo_popup_key(struct app *app, int key);
 bool ceduo_popup_paste(struct app *app, const char *text); /* false: nothing is typed there */

@@ -76,8 +76,8 @@ static bool is_usual(struct app *app, struct popup *p, const struct plot *plot)
         struct line *line = &p->fields[sizes[i].field];
         const struct field *f = ceduo_schema_at(sizes[i].path);
         bool needed = is_needed(plot, sizes[i].field), good = !needed || ceduo_typed_in_range(f, line->text, &why);
-        bool asked = good && needed && !line->doubted && ceduo_typed_unusual(f, line->text, &why);
-        line->doubted |= asked;
+        bool asked = good && needed && !line->asked && ceduo_typed_unusual(f, line->text, &why);
+        line->asked |= asked;
         if (why.bytes)
             ceduo_app_warn(app, "%s", why.bytes);
         ceduo_text_free(&why);

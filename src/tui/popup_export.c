@@ -33,8 +33,8 @@ static void show_command(struct app *app, struct popup *p, const char *value)
     ceduo_text_char(&p->text, '\n');
     if (shown)
         ceduo_text_format(&p->text,
-                          app->figures.busy ? _("\nThe figures on the screen are of %llu rocks; more are falling.\n")
-                                            : _("\nThe figures on the screen are of %llu rocks.\n"),
+                          app->live.busy ? _("\nThe figures on the screen are of %llu rocks; more are falling.\n")
+                                         : _("\nThe figures on the screen are of %llu rocks.\n"),
                           (unsigned long long)shown->released);
     else
         ceduo_text_put(&p->text, _("\nThere are no figures yet: -n is what the scene says.\n"));
@@ -67,7 +67,7 @@ static struct ceduo_years **years_shown(const struct app *app)
     const struct ceduo_scene *scene = &app->document.file.scene;
     struct ceduo_years **years = calloc(scene->options_count, sizeof *years);
     for (size_t i = 0; years && i < scene->options_count; i++)
-        years[i] = ceduo_figures_years(&app->figures, scene, i);
+        years[i] = ceduo_live_years(&app->live, scene, i);
     return years;
 }
 
@@ -82,7 +82,7 @@ static void put_report(struct app *app, struct text *text)
     struct text command = {0};
     put_command(app, &command, "--report report.html");
     const struct ceduo_chapter chapter = {.report = &report,
-                                          .outlook = ceduo_figures_outlook(&app->figures, scene),
+                                          .outlook = ceduo_live_outlook(&app->live, scene),
                                           .years = years,
                                           .command = ceduo_text_string(&command)};
     ceduo_page_chapter(&page, &chapter);
@@ -137,7 +137,7 @@ static bool filled_export(struct app *app, struct popup *p)
     if (!ceduo_popup_may_write(app, p))
         return false;
     size_t i = export_of(p->path);
-    if (app->figures.result || exports[i].put == put_screen || exports[i].put == put_drawing)
+    if (app->live.result || exports[i].put == put_screen || exports[i].put == put_drawing)
         exports[i].put(app, &text);
     if (!text.bytes) {
         ceduo_app_warn(app, "%s", _("nothing is computed yet"));

@@ -4,8 +4,6 @@
 #include <string.h>
 
 #include "base/language.h"
-#include "model/foresee.h"
-#include "model/seek.h"
 #include "popup.h"
 #include "popups.h"
 #include "view/typed.h"
@@ -103,13 +101,12 @@ static bool read_end(struct app *app, const struct popup *p, size_t field, doubl
 }
 
 /* What the fields ask for; the path is the popup's. */
-static bool read_fields(struct app *app, struct popup *p, struct seek *seek)
+static bool read_fields(struct app *app, struct popup *p, struct ceduo_search *search)
 {
-    *seek = (struct seek){.file = &app->document.file, .search = {.path = p->path, .option = app->option, .rocks = FIND_ROCKS}};
-    if (!read_goal(app, p, &seek->search) || !read_end(app, p, FIND_LO, &seek->search.lo) ||
-        !read_end(app, p, FIND_HI, &seek->search.hi))
+    *search = (struct ceduo_search){.path = p->path, .option = app->option, .rocks = FIND_ROCKS};
+    if (!read_goal(app, p, search) || !read_end(app, p, FIND_LO, &search->lo) || !read_end(app, p, FIND_HI, &search->hi))
         return false;
-    if (seek->search.lo <= seek->search.hi)
+    if (search->lo <= search->hi)
         return true;
     ceduo_app_warn(app, "%s", _("from and to are numbers, the smaller first"));
     return false;
@@ -118,9 +115,9 @@ static bool read_fields(struct app *app, struct popup *p, struct seek *seek)
 /* Starts the search; the popup stays until it is done. */
 static bool filled_find(struct app *app, struct popup *p)
 {
-    struct seek seek;
-    if (read_fields(app, p, &seek)) {
-        ceduo_jobs_seek(app->figures.jobs, &seek);
+    struct ceduo_search search;
+    if (read_fields(app, p, &search)) {
+        ceduo_jobs_search(app->live.jobs, &app->document.file, &search);
         ceduo_app_say(app, "%s", _("computing … Esc or another key stops it"));
     }
     return false;
@@ -192,20 +189,20 @@ static void put_yield(const struct ceduo_search *s, const struct ceduo_yield *yi
 }
 
 /* Puts the value that was found into the field, and says it. */
-static bool take(struct app *app, struct popup *p, struct sought *sought)
+static bool take(struct app *app, struct popup *p, struct search_answer *answer)
 {
-    struct seek seek;
-    const struct ceduo_found *found = &sought->found;
-    app->problems = sought->problems;
-    sought->problems = (struct problems){0};
-    if (sought->status != CEDUO_OK || !read_fields(app, p, &seek))
+    struct ceduo_search search;
+    const struct ceduo_found *found = &answer->found;
+    app->problems = answer->problems;
+    answer->problems = (struct problems){0};
+    if (answer->status != CEDUO_OK || !read_fields(app, p, &search))
         return ceduo_app_edited(app, false);
-    seek.search.target = sought->target;
-    seek.search.rotation = sought->rotation;
+    search.target = answer->target;
+    search.rotation = answer->rotation;
     struct text words = {0};
     bool set = true;
-    put_words(app, p, &seek.search, found, &words);
-    put_yield(&seek.search, &sought->yield, &words);
+    put_words(app, p, &search, found, &words);
+    put_yield(&search, &answer->yield, &words);
     if (found->found && !found->whole_range) {
         char room[CEDUO_NUMBER_ROOM];
         set = ceduo_document_set(&app->document, p->path, ceduo_number_shortest(found->value, room), &app->problems);
@@ -219,13 +216,13 @@ static bool take(struct app *app, struct popup *p, struct sought *sought)
     return true;
 }
 
-void ceduo_popup_found(struct app *app, struct sought *sought)
+void ceduo_popup_found(struct app *app, struct search_answer *answer)
 {
     struct popup *p = app->popup;
     if (!p || p->filled != filled_find)
         return;
     app->message[0] = '\0';
-    if (take(app, p, sought))
+    if (take(app, p, answer))
         ceduo_popup_close(app);
     else
         snprintf(p->message, sizeof p->message, "%.*s", (int)sizeof p->message - 1, app->message);
@@ -236,7 +233,7 @@ void ceduo_popup_found(struct app *app, struct sought *sought)
 static bool fits(const struct app *app, const char *path, double value)
 {
     char room[CEDUO_NUMBER_ROOM];
-    return ceduo_foresee_fits(&app->document.file, path, ceduo_number_shortest(value, room));
+    return ceduo_preview_fits(&app->document.file, path, ceduo_number_shortest(value, room));
 }
 
 /* A value of three digits between `now` and `end`, as near to the end as the scene allows; `now` itself is allowed. */

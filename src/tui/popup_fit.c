@@ -12,7 +12,7 @@
 
 /* ---- bounds ---- */
 
-static void put_bounds(struct text *text, const struct fit_wish *w, size_t i)
+static void put_bounds(struct text *text, const struct fit_request *w, size_t i)
 {
     char lo[CEDUO_NUMBER_ROOM], hi[CEDUO_NUMBER_ROOM];
     ceduo_text_format(text, "%s:%s", ceduo_shown_number(w->fields[i], w->lo[i], lo),
@@ -56,11 +56,11 @@ static bool read_bounds(struct app *app, const struct popup *p, size_t i, const 
 /* ---- the popup ---- */
 
 /* Values that follow are moved into the place of those that are not fitted. */
-static bool read_wish(struct app *app, struct popup *p, struct fit_wish *w)
+static bool read_request(struct app *app, struct popup *p, struct fit_request *w)
 {
-    struct fit_wish all;
+    struct fit_request all;
     ceduo_fit_offer(&app->document.file, &all);
-    *w = (struct fit_wish){.rocks = all.rocks};
+    *w = (struct fit_request){.rocks = all.rocks};
     for (size_t i = 0; i < all.n; i++) {
         if (p->fields[i].text[0] == '\0')
             continue;
@@ -76,14 +76,14 @@ static bool read_wish(struct app *app, struct popup *p, struct fit_wish *w)
 
 static bool filled_fit(struct app *app, struct popup *p)
 {
-    struct fit_wish wish;
-    if (!read_wish(app, p, &wish))
+    struct fit_request request;
+    if (!read_request(app, p, &request))
         return false;
-    ceduo_figures_fit(&app->figures, &app->document.file, &wish);
+    ceduo_live_fit(&app->live, &app->document.file, &request);
     return true;
 }
 
-static void put_about(struct popup *p, const struct fit_wish *w)
+static void put_about(struct popup *p, const struct fit_request *w)
 {
     ceduo_text_format(
         &p->text, _("Each value between its bounds; an empty field is not fitted. Every scene that is tried has %llu rocks."),
@@ -100,17 +100,17 @@ static void put_about(struct popup *p, const struct fit_wish *w)
 
 void ceduo_popup_fit(struct app *app)
 {
-    struct fit_wish wish;
-    ceduo_fit_offer(&app->document.file, &wish);
+    struct fit_request request;
+    ceduo_fit_offer(&app->document.file, &request);
     struct popup *p = ceduo_popup_fields(app, _("What is fitted to what was seen?"), filled_fit);
     if (!p)
         return;
-    put_about(p, &wish);
-    for (size_t i = 0; i < wish.n; i++) {
+    put_about(p, &request);
+    for (size_t i = 0; i < request.n; i++) {
         struct text label = {0}, bounds = {0};
-        ceduo_calibration_name(&label, wish.paths[i], wish.fields[i]);
+        ceduo_calibration_name(&label, request.paths[i], request.fields[i]);
         if (i < FILLED)
-            put_bounds(&bounds, &wish, i);
+            put_bounds(&bounds, &request, i);
         ceduo_popup_field(p, ceduo_text_string(&label), ceduo_text_string(&bounds));
         ceduo_text_free(&label);
         ceduo_text_free(&bounds);

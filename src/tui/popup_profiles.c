@@ -11,7 +11,6 @@
 #include "base/utf8.h"
 #include "ceduo/material.h"
 #include "io/file.h"
-#include "model/foresee.h"
 #include "popup.h"
 #include "popups.h"
 #include "scene/words.h"
@@ -138,9 +137,9 @@ static void put_light(struct text *text, const char *name, enum ceduo_light ligh
         ceduo_text_then(text, " ", _("(now %s)"), ceduo_words_verdict(now));
 }
 
-static void put_lights(struct app *app, struct text *text, const struct foreseen *f)
+static void put_lights(struct app *app, struct text *text, const struct preview *f)
 {
-    const struct ceduo_result *r = app->figures.result;
+    const struct ceduo_result *r = app->live.result;
     const struct ceduo_index *now = r ? ceduo_result_last_index(r, app->option) : &f->index;
     put_light(text, _("Contact"), f->index.contact, now->contact);
     if (isfinite(f->index.worst_adc))
@@ -171,7 +170,7 @@ static void put_change(struct app *app, struct popup *p, const char *value)
     else
         ceduo_text_format(&set, "%s=%s", p->path, value);
     if (set.bytes && set.length < CHANGE_MOST)
-        ceduo_jobs_foresee(app->figures.jobs, &app->document.file, set.bytes, app->option);
+        ceduo_jobs_preview(app->live.jobs, &app->document.file, set.bytes, app->option);
     ceduo_text_free(&set);
 }
 

@@ -19,7 +19,7 @@ void ceduo_popup_survey(struct app *app);
 void ceduo_popup_fit(struct app *app);
 
 /* What the search came to that ceduo_popup_find() started. */
-void ceduo_popup_found(struct app *app, struct sought *sought);
+void ceduo_popup_found(struct app *app, struct search_answer *sought);
 
 /* ---- saving, and unsaved work (popup_save.c) ---- */
 

@@ -317,13 +317,12 @@ void ceduo_program_free(struct app *app)
 bool ceduo_program_news(struct app *app)
 {
     bool changed = ceduo_app_news(app);
-    struct sought *sought = app->figures.sought;
-    if (app->figures.foresaw)
-        ceduo_popup_foreseen(app, &app->figures.foreseen);
-    app->figures.foresaw = false;
-    app->figures.sought = NULL;
-    if (sought)
-        ceduo_popup_found(app, sought);
-    ceduo_sought_free(sought);
+    union results *results = &app->live.results;
+    if (results->preview)
+        ceduo_popup_previewed(app, results->preview);
+    if (results->search)
+        ceduo_popup_found(app, results->search);
+    ceduo_results_drop(results, JOB_PREVIEW);
+    ceduo_results_drop(results, JOB_SEARCH);
     return changed;
 }

@@ -156,7 +156,7 @@ void ceduo_screen_draw(struct app *app)
     for (int y = now.top; y < now.top + now.height; y++)
         ceduo_cells_label(app->cells, now.left - 2, y, CEDUO_ROLE_AXIS, "\xe2\x94\x82");
     ceduo_column_draw(app, now);
-    if (ceduo_views[app->view]->result && !app->figures.result)
+    if (ceduo_views[app->view]->result && !app->live.result)
         ceduo_app_text(app, body, CEDUO_ROLE_DIM, _("the first rocks are falling \xe2\x80\xa6"), NULL);
     else
         ceduo_views[app->view]->draw(app, body);

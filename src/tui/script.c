@@ -35,7 +35,7 @@ static const char *beginning(char *word)
 static void press_key(struct app *app, int key)
 {
     ceduo_program_key(app, key);
-    if (ceduo_jobs_wait_seek(app->figures.jobs))
+    if (ceduo_jobs_wait_search(app->live.jobs))
         ceduo_program_news(app);
 }
 
@@ -64,7 +64,7 @@ static void type(struct app *app, const char *text)
 
 static void wait_idle(struct app *app)
 {
-    ceduo_jobs_wait(app->figures.jobs);
+    ceduo_jobs_wait(app->live.jobs);
     ceduo_program_news(app);
 }
 

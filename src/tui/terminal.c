@@ -420,7 +420,7 @@ static void loop(struct app *app, bool colours)
     show(app, colours);
     while (!app->quit && !ending) {
         struct pollfd fds[3] = {{.fd = STDIN_FILENO, .events = POLLIN},
-                                {.fd = ceduo_jobs_fd(app->figures.jobs), .events = POLLIN},
+                                {.fd = ceduo_jobs_fd(app->live.jobs), .events = POLLIN},
                                 {.fd = wake[0], .events = POLLIN}};
         int n = poll(fds, 3, is_unfinished() ? 1000 * SEQUENCE_SECONDS : -1);
         if (n < 0 && errno != EINTR)

@@ -56,9 +56,9 @@ static const enum column dispensable[] = {LIGHTS, YIELD, WORST, MARK, FAILS, EVE
 static struct layout lay_out(const struct app *app, struct ceduo_area area)
 {
     struct layout l = {.lines = 1};
-    const struct ceduo_verdict *v = &app->figures.verdict;
+    const struct ceduo_verdict *v = &app->live.verdict;
     for (int c = 0; c < COLUMNS; c++)
-        l.has[c] = c != EVERY || (v->wooded && app->figures.result->scene->blocks_count > 0);
+        l.has[c] = c != EVERY || (v->wooded && app->live.result->scene->blocks_count > 0);
     int all = width_of(&l), rest = area.width - all;
     bool two_fit = 2 * (int)v->n + 8 <= area.height;
     if (rest < NAME_LEAST + SPARK_LEAST + 4 && two_fit)
@@ -90,7 +90,7 @@ static void draw_name(struct app *app, int left, int y, int width, size_t i)
     enum ceduo_role role = i == app->option ? CEDUO_ROLE_CURSOR : CEDUO_ROLE_TEXT;
     for (int x = 0; role == CEDUO_ROLE_CURSOR && x < width; x++)
         ceduo_cells_label(app->cells, left + x, y, role, " ");
-    ceduo_plot_put_ends(&app->cells->canvas, left, y, width, role, app->figures.result->scene->options[i].name);
+    ceduo_plot_put_ends(&app->cells->canvas, left, y, width, role, app->live.result->scene->options[i].name);
 }
 
 static void put_share(struct text *text, struct ceduo_portion share)
@@ -115,9 +115,9 @@ static void put_worst(struct text *text, const struct ceduo_choice *c, bool wood
 
 static void put_figure(struct text *text, const struct app *app, size_t i, enum column column)
 {
-    const struct ceduo_verdict *v = &app->figures.verdict;
+    const struct ceduo_verdict *v = &app->live.verdict;
     const struct ceduo_choice *c = &v->choices[i];
-    const struct ceduo_index *index = ceduo_result_last_index(app->figures.result, i);
+    const struct ceduo_index *index = ceduo_result_last_index(app->live.result, i);
     switch (column) {
     case TODAY:
         if (v->wooded)
@@ -126,7 +126,7 @@ static void put_figure(struct text *text, const struct app *app, size_t i, enum 
             ceduo_words_number(text, index->worst_adc, 3);
         break;
     case EVERY: {
-        const struct ceduo_arrivals *a = ceduo_result_wooded(app->figures.result, i, app->figures.result->last_control);
+        const struct ceduo_arrivals *a = ceduo_result_wooded(app->live.result, i, app->live.result->last_control);
         if (a)
             ceduo_words_every(text, ceduo_hazard_feared(&a->hazard));
         else
@@ -171,7 +171,7 @@ static const char *mark_of(const struct ceduo_verdict *v, size_t i)
 
 static void draw_lights(struct app *app, int x, int y, size_t i)
 {
-    const struct ceduo_index *s = ceduo_result_last_index(app->figures.result, i);
+    const struct ceduo_index *s = ceduo_result_last_index(app->live.result, i);
     const enum ceduo_light lights[3] = {s->contact, s->free_run, s->energy};
     for (int k = 0; k < 3; k++)
         ceduo_cells_label(app->cells, x + k, y, ceduo_plot_light_role(lights[k]), ceduo_plot_light_mark(lights[k]));
@@ -179,14 +179,13 @@ static void draw_lights(struct app *app, int x, int y, size_t i)
 
 static void draw_figure(struct app *app, int x, int y, size_t i, enum column column)
 {
-    const char *mark = mark_of(&app->figures.verdict, i);
+    const char *mark = mark_of(&app->live.verdict, i);
     if (column == LIGHTS) {
         draw_lights(app, x + 2, y, i);
         return;
     }
     if (column == MARK) {
-        ceduo_cells_label(app->cells, x + 1, y, i == app->figures.verdict.rotation.best ? CEDUO_ROLE_GOOD : CEDUO_ROLE_BAD,
-                          mark);
+        ceduo_cells_label(app->cells, x + 1, y, i == app->live.verdict.rotation.best ? CEDUO_ROLE_GOOD : CEDUO_ROLE_BAD, mark);
         return;
     }
     struct text text = {0};
@@ -201,8 +200,8 @@ static void draw_spark(struct app *app, const struct layout *l, int y, size_t i)
     static const char *const levels[2][9] = {{" ", "\xe2\x96\x81", "\xe2\x96\x82", "\xe2\x96\x83", "\xe2\x96\x84",
                                               "\xe2\x96\x85", "\xe2\x96\x86", "\xe2\x96\x87", "\xe2\x96\x88"},
                                              {"0", "1", "2", "3", "4", "5", "6", "7", "8"}};
-    const struct ceduo_years *years = ceduo_figures_years(&app->figures, app->figures.result->scene, i);
-    if (!years || l->spark == 0 || !app->figures.verdict.wooded)
+    const struct ceduo_years *years = ceduo_live_years(&app->live, app->live.result->scene, i);
+    if (!years || l->spark == 0 || !app->live.verdict.wooded)
         return;
     int n = (int)years->count, columns = n < l->spark ? n : l->spark;
     for (int x = 0; x < columns; x++) {
@@ -233,7 +232,7 @@ static void draw_row(struct app *app, const struct layout *l, struct ceduo_area 
 /* What is counted and where; the name of the place only where there is room. */
 static void put_place(struct app *app, struct ceduo_area area, int width)
 {
-    const struct ceduo_result *r = app->figures.result;
+    const struct ceduo_result *r = app->live.result;
     struct text text = {0};
     if (r->scene->controls_count == 0)
         return;
@@ -260,7 +259,7 @@ static void draw_head(struct app *app, const struct layout *l, struct ceduo_area
     static const char *const by_index[COLUMNS] = {
         [TODAY] = N_("ADC m"), [EVERY] = "",         [WORST] = N_("worst"),          [MEAN] = N_("kJ/100m"),
         [MARK] = "",           [FAILS] = N_("fail"), [YIELD] = N_("m\xc2\xb3/ha y"), [LIGHTS] = N_("CFE now")};
-    const struct ceduo_result *r = app->figures.result;
+    const struct ceduo_result *r = app->live.result;
     put_place(app, area, l->lights_left > 0 ? area.width - widths[LIGHTS] : area.width);
     if (l->lights_left > 0)
         ceduo_canvas_label_right(&app->cells->canvas, l->lights_left + 2, area.top, CEDUO_ROLE_TITLE, _("CFE now"));
@@ -282,11 +281,11 @@ static void add_sentence(void *context, const char *sentence)
 
 static void say_progress(const struct app *app, struct text *words)
 {
-    const struct figures *f = &app->figures;
-    if (f->busy && f->all > 0 && f->done < f->all)
+    const struct years_known *y = app->live.results.years;
+    if (app->live.busy && y && y->done < y->n)
         ceduo_text_format(words, _("Computing: %llu rocks in each year, %zu of %zu options done.\n"),
-                          (unsigned long long)f->rocks, f->done, f->all);
-    else if (f->busy)
+                          (unsigned long long)y->rocks, y->done, y->n);
+    else if (app->live.busy)
         ceduo_text_put(words, _("Computing: the figures become finer.\n"));
 }
 
@@ -306,8 +305,8 @@ static void say_thin(const struct ceduo_result *r, struct text *words)
 
 static void say_verdict(struct app *app, struct text *words)
 {
-    const struct ceduo_result *r = app->figures.result;
-    const struct ceduo_verdict *v = &app->figures.verdict;
+    const struct ceduo_result *r = app->live.result;
+    const struct ceduo_verdict *v = &app->live.verdict;
     if (r->scene->blocks_count > 0 && r->scene->controls_count > 0) {
         ceduo_words_hazard(words, r, app->option, r->last_control);
         ceduo_text_char(words, '\n');
@@ -354,7 +353,7 @@ static void draw_picture(struct app *app, enum ceduo_plot plot, struct ceduo_are
 /* The pictures that have room below the table. */
 static void draw_below(struct app *app, struct ceduo_area area, bool compare)
 {
-    int rows = (int)app->figures.verdict.n + COMPARE_MORE;
+    int rows = (int)app->live.verdict.n + COMPARE_MORE;
     bool tradeoff = area.height >= TRADEOFF_LEAST;
     compare = compare && area.height >= rows + (tradeoff ? TRADEOFF_LEAST + 1 : 0);
     if (compare)
@@ -367,7 +366,7 @@ static void draw_below(struct app *app, struct ceduo_area area, bool compare)
 
 static void draw_table(struct app *app, struct ceduo_area area, bool compare)
 {
-    size_t n = app->figures.verdict.n;
+    size_t n = app->live.verdict.n;
     struct layout l = lay_out(app, area);
     struct text words = {0};
     say_verdict(app, &words);
@@ -391,7 +390,7 @@ static void draw_table(struct app *app, struct ceduo_area area, bool compare)
 static void draw(struct app *app, struct ceduo_area area)
 {
     int pane = ceduo_app_state(app)->pane;
-    bool beside = area.width >= BESIDE_LEAST && app->figures.verdict.n > 1;
+    bool beside = area.width >= BESIDE_LEAST && app->live.verdict.n > 1;
     if (pane != PANE_TABLE) {
         if (!app->message[0])
             ceduo_app_say(app, "%s",

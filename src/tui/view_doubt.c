@@ -26,7 +26,7 @@ static void build(struct app *app, struct form *form)
 
 /* ---- what it says ---- */
 
-static void say_state(const struct app *app, const struct doubted *d, struct text *words)
+static void say_state(const struct app *app, const struct uncertainty *d, struct text *words)
 {
     if (ceduo_app_doubt_is_rough(app))
         ceduo_text_format(words, _("Rough so far: %llu scenes of %llu rocks; being refined.\n"),
@@ -43,7 +43,7 @@ static void end_line(struct text *words, size_t before)
         ceduo_text_char(words, '\n');
 }
 
-static void say_all(const struct app *app, const struct doubted *d, const struct ceduo_doubt_report *r, struct text *words)
+static void say_all(const struct app *app, const struct uncertainty *d, const struct ceduo_doubt_report *r, struct text *words)
 {
     static const enum ceduo_doubt_kind lights[] = {CEDUO_DOUBT_CONTACT, CEDUO_DOUBT_FREE_RUN, CEDUO_DOUBT_EXCEED};
     size_t before = words->length;
@@ -87,7 +87,7 @@ static int picture_lines(const struct ceduo_doubt_report *r)
 
 static void draw(struct app *app, struct ceduo_area area)
 {
-    const struct doubted *d = ceduo_figures_doubted(&app->figures, &app->document.file);
+    const struct uncertainty *d = ceduo_live_uncertainty(&app->live, &app->document.file);
     struct text words = {0};
     int form = ceduo_app_form(app)->n > 1 ? area.height / 4 : 1;
     struct ceduo_area below = {area.left, area.top + area.height - form, area.width, form};
@@ -128,7 +128,7 @@ static bool is_named(const struct node *rows, const char *path)
 /* Names the most important input that the scene does not name yet, with the range that it has now. */
 static void add(struct app *app)
 {
-    const struct doubted *d = ceduo_figures_doubted(&app->figures, &app->document.file);
+    const struct uncertainty *d = ceduo_live_uncertainty(&app->live, &app->document.file);
     const struct node *rows = ceduo_node_get(app->document.file.root, "doubt");
     size_t order[CEDUO_SENSITIVITY_GROUPS];
     if (!d || d->inputs.n == 0 || (rows && rows->kind != NODE_LIST)) {

@@ -75,7 +75,7 @@ static void say_belt(struct text *text, const struct ceduo_belt *belt)
 /* What a cut of this year fells. */
 static void say_felled(const struct app *app, unsigned year, struct text *text)
 {
-    const struct ceduo_verdict *v = &app->figures.verdict;
+    const struct ceduo_verdict *v = &app->live.verdict;
     const struct ceduo_yield *yield = app->option < v->n ? &v->choices[app->option].yield : NULL;
     for (size_t i = 0; yield && i < yield->fellings_count; i++)
         if (yield->fellings[i].year == year) {
@@ -87,8 +87,8 @@ static void say_felled(const struct app *app, unsigned year, struct text *text)
 
 static void say_year(struct app *app, const struct ceduo_years *years, struct text *text)
 {
-    size_t c = app->figures.result->last_control;
-    const struct ceduo_control *control = &app->figures.result->scene->controls[c];
+    size_t c = app->live.result->last_control;
+    const struct ceduo_control *control = &app->live.result->scene->controls[c];
     const struct ceduo_year *y = &years->years[app->year < years->count ? app->year : 0];
     ceduo_text_format(text, y->cut ? _("Year %u, cut:") : _("Year %u:"), y->year);
     ceduo_text_char(text, ' ');
@@ -118,10 +118,10 @@ static void say_year(struct app *app, const struct ceduo_years *years, struct te
 /* The same year of the other options. */
 static void say_others(struct app *app, unsigned year, struct text *text)
 {
-    const struct ceduo_result *r = app->figures.result;
+    const struct ceduo_result *r = app->live.result;
     struct text others = {0};
     for (size_t i = 0; i < r->options_count; i++) {
-        const struct ceduo_years *years = ceduo_figures_years(&app->figures, r->scene, i);
+        const struct ceduo_years *years = ceduo_live_years(&app->live, r->scene, i);
         for (size_t k = 0; years && i != app->option && k < years->count; k++)
             if (years->years[k].year == year && years->years[k].wooded.rocks > 0)
                 ceduo_text_then(&others, others.length > 0 ? ", " : "", "'%s' %.0f", r->scene->options[i].name,
@@ -135,7 +135,7 @@ static void say_others(struct app *app, unsigned year, struct text *text)
 
 static void say_all(struct app *app, const struct ceduo_years *years, struct text *text)
 {
-    struct ceduo_years_summary s = ceduo_years_sum(years, app->figures.result->last_control);
+    struct ceduo_years_summary s = ceduo_years_sum(years, app->live.result->last_control);
     const struct ceduo_window *w = &years->window;
     bool says = !isnan(s.exceed.mean);
     struct ceduo_paired mean = says ? s.exceed : s.reach;
@@ -168,7 +168,7 @@ static void say_all(struct app *app, const struct ceduo_years *years, struct tex
     else if (!isnan(s.passes_per_year))
         ceduo_text_format(text, _("Expected a year: %s pass."), WRITTEN(s.passes_per_year, 2));
     ceduo_text_put(text, isnan(s.passes_per_year) ? "" : " ");
-    const struct ceduo_verdict *v = &app->figures.verdict;
+    const struct ceduo_verdict *v = &app->live.verdict;
     if (app->option < v->n && !isnan(v->choices[app->option].yield.cut_per_year))
         ceduo_text_format(text, _("Yield %.2g m\xc2\xb3 per ha and year."), v->choices[app->option].yield.cut_per_year);
     ceduo_text_char(text, ' ');
@@ -204,7 +204,7 @@ static void draw(struct app *app, struct ceduo_area area)
     struct ceduo_picture picture = ceduo_app_picture(app);
     bool alone = ceduo_app_state(app)->pane == 1;
     struct text text = {0};
-    if (picture.years && app->figures.result && picture.years->count > 0) {
+    if (picture.years && app->live.result && picture.years->count > 0) {
         say_all(app, picture.years, &text);
         ceduo_text_char(&text, '\n');
         say_year(app, picture.years, &text);
@@ -232,7 +232,7 @@ static void draw(struct app *app, struct ceduo_area area)
 
 static bool go_to_year(struct app *app, long year)
 {
-    const struct ceduo_years *years = ceduo_figures_years(&app->figures, &app->document.file.scene, app->option);
+    const struct ceduo_years *years = ceduo_live_years(&app->live, &app->document.file.scene, app->option);
     long n = years ? (long)years->count : 0;
     if (n > 0)
         app->year = (size_t)(year < 0 ? 0 : year >= n ? n - 1 : year);

@@ -31,11 +31,11 @@ static void report(const char *what, double *ms, size_t n, double goal_median, d
 static void wait_for(struct app *app, uint64_t rocks)
 {
     do {
-        struct pollfd fd = {.fd = ceduo_jobs_fd(app->figures.jobs), .events = POLLIN};
+        struct pollfd fd = {.fd = ceduo_jobs_fd(app->live.jobs), .events = POLLIN};
         poll(&fd, 1, 1000);
         ceduo_app_news(app);
-    } while (!app->figures.result || app->figures.outlook->bare->flown.rocks < rocks ||
-             app->figures.asked != app->figures.shown);
+    } while (!app->live.result || app->live.results.snapshot->outlook->bare->flown.rocks < rocks ||
+             app->live.asked != app->live.results.snapshot->key);
     ceduo_screen_draw(app);
 }
 
@@ -72,7 +72,7 @@ int main(int argc, char **argv)
                               &problems))
         return 1;
     ceduo_app_resize(&app, 120, 40);
-    ceduo_jobs_wait(app.figures.jobs);
+    ceduo_jobs_wait(app.live.jobs);
     printf("what,edits,median_ms,p99_ms,goal_median_ms,goal_p99_ms\n");
     for (size_t i = 0; i < repeats; i++) {
         ceduo_program_key(&app, '3');

@@ -9,6 +9,7 @@
 
 static struct scene_file file;
 static struct jobs *jobs;
+static union results results;
 
 static int set_up(void **state)
 {
@@ -23,6 +24,7 @@ static int set_up(void **state)
 static int tear_down(void **state)
 {
     (void)state;
+    ceduo_results_free(&results);
     ceduo_jobs_free(jobs);
     ceduo_scene_release(&file);
     return 0;
@@ -30,23 +32,19 @@ static int tear_down(void **state)
 
 static bool show(bool years)
 {
-    return ceduo_jobs_show(jobs, &file.scene, ceduo_jobs_key(&file.scene), 0, years);
+    return ceduo_jobs_show(jobs, &file, 0, years);
 }
 
-static void release(struct jobs_news *news)
+static struct jobs_state take(void)
 {
-    ceduo_outlook_free(news->outlook);
-    ceduo_jobs_free_years(news->years, news->years_count);
-    ceduo_sought_free(news->sought);
-    ceduo_doubted_free(news->doubted);
-    free(news->others);
+    ceduo_results_free(&results);
+    return ceduo_jobs_take(jobs, &results);
 }
 
-static struct seek seek_of(uint64_t rocks)
+static struct ceduo_search search_of(uint64_t rocks)
 {
-    return (struct seek){
-        .file = &file,
-        .search = {.path = "rock.diameter_m", .goal = CEDUO_GOAL_EXCEED, .target = .3, .lo = .2, .hi = 1.5, .rocks = rocks}};
+    return (struct ceduo_search){
+        .path = "rock.diameter_m", .goal = CEDUO_GOAL_EXCEED, .target = .3, .lo = .2, .hi = 1.5, .rocks = rocks};
 }
 
 static void figures_and_years_come_to_an_end(void **state)
@@ -55,28 +53,24 @@ static void figures_and_years_come_to_an_end(void **state)
     assert_true(show(false));
     assert_false(show(false)); /* the same runs */
     assert_true(show(true));   /* and years */
-    assert_true(ceduo_jobs_news(jobs).busy);
+    assert_true(take().busy);
     ceduo_jobs_wait(jobs);
-    struct jobs_news news = ceduo_jobs_news(jobs);
-    assert_false(news.busy);
-    assert_non_null(news.outlook);
-    assert_int_equal(news.key, ceduo_jobs_key(&file.scene));
-    assert_int_equal(news.outlook->bare->flown.rocks, FLIGHTS_MOST);
-    assert_int_equal(news.outlook->wooded[0]->flown.rocks, FLIGHTS_MOST);
-    assert_non_null(news.years);
-    assert_int_equal(news.years_count, 1);
-    assert_int_equal(news.years[0]->years[0].wooded.rocks, FLIGHTS_YEAR);
-    assert_true(news.years[0]->key == ceduo_flights_years_key(&file.scene, 0));
-    assert_int_equal(news.done, 1);
-    assert_int_equal(news.all, 1);
-    release(&news);
+    assert_false(take().busy);
+    assert_non_null(results.snapshot);
+    assert_int_equal(results.snapshot->key, ceduo_jobs_key(&file.scene));
+    assert_int_equal(results.snapshot->outlook->bare->flown.rocks, RUNS_MAX);
+    assert_int_equal(results.snapshot->outlook->wooded[0]->flown.rocks, RUNS_MAX);
+    assert_non_null(results.years);
+    assert_int_equal(results.years->n, 1);
+    assert_int_equal(results.years->items[0]->years[0].wooded.rocks, 10 * RUNS_FIRST);
+    assert_true(results.years->items[0]->key == ceduo_runs_years_key(&file.scene, 0));
+    assert_int_equal(results.years->done, 1);
+    assert_int_equal(results.years->rocks, 10 * RUNS_FIRST);
     assert_false(show(false));
     assert_false(show(true)); /* they are known */
     file.scene.rock.diameter.mean *= 1.1;
     assert_true(show(true));
-    news = ceduo_jobs_news(jobs);
-    assert_true(news.busy);
-    release(&news);
+    assert_true(take().busy);
 }
 
 /* What was computed and not yet taken is of no use once the scene is another. */
@@ -87,13 +81,12 @@ static void nothing_of_an_older_scene_is_news(void **state)
     ceduo_jobs_wait(jobs);
     file.scene.rock.diameter.mean *= 1.1;
     assert_true(show(true));
-    struct jobs_news news = ceduo_jobs_news(jobs);
-    if (news.outlook)
-        assert_true(news.key == ceduo_jobs_key(&file.scene));
-    for (size_t i = 0; i < news.years_count; i++)
-        if (news.years && news.years[i])
-            assert_true(news.years[i]->key == ceduo_flights_years_key(&file.scene, i));
-    release(&news);
+    take();
+    if (results.snapshot)
+        assert_true(results.snapshot->key == ceduo_jobs_key(&file.scene));
+    for (size_t i = 0; results.years && i < results.years->n; i++)
+        if (results.years->items[i])
+            assert_true(results.years->items[i]->key == ceduo_runs_years_key(&file.scene, i));
 }
 
 /* Where nothing stands rocks do the same by every contact model, but by the index none is simulated. */
@@ -113,29 +106,27 @@ static void a_contact_model_makes_another_key(void **state)
 static void a_search_comes_first(void **state)
 {
     (void)state;
-    struct seek seek = seek_of(500);
+    struct ceduo_search search = search_of(500);
     double diameter = file.scene.rock.diameter.mean;
     show(false);
-    ceduo_jobs_seek(jobs, &seek);
-    assert_true(ceduo_jobs_wait_seek(jobs));
-    struct jobs_news news = ceduo_jobs_news(jobs);
-    assert_non_null(news.sought);
-    assert_int_equal(news.sought->status, CEDUO_OK);
+    ceduo_jobs_search(jobs, &file, &search);
+    assert_true(ceduo_jobs_wait_search(jobs));
+    take();
+    assert_non_null(results.search);
+    assert_int_equal(results.search->status, CEDUO_OK);
     EXPECT(file.scene.rock.diameter.mean, ==, diameter);
     struct ceduo_found alone;
     struct problems problems = {0};
-    seek.threads = 1;
-    assert_int_equal(ceduo_seek(&seek, &alone, &problems), CEDUO_OK);
+    struct search here = {.file = &file, .def = search, .threads = 1};
+    assert_int_equal(ceduo_search(&here, &alone, &problems), CEDUO_OK);
     assert_true(alone.found);
-    EXPECT(alone.value, ==, news.sought->found.value);
-    assert_int_equal(alone.evaluations, news.sought->found.evaluations);
-    release(&news);
-    assert_false(ceduo_jobs_wait_seek(jobs));
+    EXPECT(alone.value, ==, results.search->found.value);
+    assert_int_equal(alone.evaluations, results.search->found.evaluations);
+    assert_false(ceduo_jobs_wait_search(jobs));
     ceduo_jobs_wait(jobs);
-    news = ceduo_jobs_news(jobs);
-    assert_non_null(news.outlook);
-    assert_null(news.sought);
-    release(&news);
+    take();
+    assert_non_null(results.snapshot);
+    assert_null(results.search);
 }
 
 /* The other energy law beside the figures: of as many rocks as said, and asked for again where it alone changes. */
@@ -144,59 +135,55 @@ static void the_other_law_comes_along(void **state)
     (void)state;
     show(false);
     ceduo_jobs_wait(jobs);
-    struct jobs_news news = ceduo_jobs_news(jobs);
-    assert_non_null(news.others);
-    assert_int_equal(news.others_options, 1);
-    assert_int_equal(news.others_controls, file.scene.controls_count);
-    assert_true(news.others[0].known && news.others[0].stems);
-    assert_int_equal(news.others[0].model, CEDUO_DORREN);
-    double before = news.others[0].reach_probability;
-    release(&news);
+    take();
+    assert_non_null(results.others);
+    assert_int_equal(results.others->options, 1);
+    assert_int_equal(results.others->controls, file.scene.controls_count);
+    assert_true(results.others->items[0].known && results.others->items[0].stems);
+    assert_int_equal(results.others->items[0].model, CEDUO_DORREN);
+    double before = results.others->items[0].reach_probability;
     for (size_t i = 0; i < 2; i++)
         file.scene.options[0].belts[i].stand.fracture_ratio = 3; /* the scene's own law does not know it */
     assert_true(show(false));
     ceduo_jobs_wait(jobs);
-    news = ceduo_jobs_news(jobs);
-    assert_non_null(news.others);
-    EXPECT(news.others[0].reach_probability, <, before);
-    assert_null(news.outlook);
-    release(&news);
+    take();
+    assert_non_null(results.others);
+    EXPECT(results.others->items[0].reach_probability, <, before);
+    assert_null(results.snapshot);
     file.scene.simulation.contact_model = CEDUO_INDEX;
     show(false);
     ceduo_jobs_wait(jobs);
-    news = ceduo_jobs_news(jobs);
-    assert_null(news.others);
-    release(&news);
+    take();
+    assert_null(results.others);
 }
 
-/* The doubt goes from level to level; the same scene is asked for once, more levels go on where it is, none stops it. */
-static void the_doubt_comes_last(void **state)
+/* The uncertainty goes from level to level; the same scene is asked for once, more levels go on where it is, none stops it. */
+static void the_uncertainty_comes_last(void **state)
 {
     (void)state;
     assert_true(ceduo_jobs_doubt(jobs, &file, 1));
     assert_false(ceduo_jobs_doubt(jobs, &file, 1));
     ceduo_jobs_wait(jobs);
-    struct jobs_news news = ceduo_jobs_news(jobs);
-    assert_non_null(news.doubted);
-    assert_int_equal(news.doubted->level, 0);
-    assert_int_equal(news.doubted->inputs.n, 12);
-    assert_true(news.doubted->file.root == file.root);
-    EXPECT(news.doubted->answer.figures[CEDUO_DOUBT_EXCEED].p5, <, news.doubted->answer.figures[CEDUO_DOUBT_EXCEED].p95);
-    release(&news);
+    take();
+    const struct uncertainty *u = results.uncertainty;
+    assert_non_null(u);
+    assert_int_equal(u->level, 0);
+    assert_int_equal(u->inputs.n, 12);
+    assert_true(u->file.root == file.root);
+    EXPECT(u->answer.figures[CEDUO_DOUBT_EXCEED].p5, <, u->answer.figures[CEDUO_DOUBT_EXCEED].p95);
     assert_true(ceduo_jobs_doubt(jobs, &file, 2));
     assert_false(ceduo_jobs_doubt(jobs, &file, 1)); /* fewer are enough */
     ceduo_jobs_doubt(jobs, &file, 0);
     ceduo_jobs_wait(jobs);
-    news = ceduo_jobs_news(jobs);
-    assert_null(news.doubted);
-    release(&news);
+    take();
+    assert_null(results.uncertainty);
+    ceduo_jobs_stop(jobs, JOB_UNCERTAINTY); /* the same nodes: of another scene it would be asked anew */
     file.scene.controls_count = 0;
     assert_true(ceduo_jobs_doubt(jobs, &file, 2));
     ceduo_jobs_wait(jobs);
-    news = ceduo_jobs_news(jobs);
-    assert_non_null(news.doubted); /* without a control there is nothing to be in doubt of */
-    assert_int_equal(news.doubted->inputs.n, 0);
-    release(&news);
+    take();
+    assert_non_null(results.uncertainty); /* without a control there is nothing to be in doubt of */
+    assert_int_equal(results.uncertainty->inputs.n, 0);
     file.scene.controls_count = 1;
 }
 
@@ -204,17 +191,17 @@ static void the_doubt_comes_last(void **state)
 static void a_search_is_stopped(void **state)
 {
     (void)state;
-    struct seek seek = seek_of(CEDUO_ROCKS_MOST);
-    ceduo_jobs_seek(jobs, &seek);
+    struct ceduo_search search = search_of(CEDUO_ROCKS_MOST);
+    ceduo_jobs_search(jobs, &file, &search);
     struct timespec moment = {.tv_nsec = 200000000};
     nanosleep(&moment, NULL);
-    assert_true(ceduo_jobs_news(jobs).busy);
+    assert_true(take().busy);
     double start = ceduo_clock();
-    ceduo_jobs_stop_seek(jobs);
+    ceduo_jobs_stop(jobs, JOB_SEARCH);
     ceduo_jobs_wait(jobs);
     EXPECT(ceduo_clock() - start, <, 1); /* 0.1 s where nobody else wants the machine */
-    struct jobs_news news = ceduo_jobs_news(jobs);
-    assert_null(news.sought);
+    take();
+    assert_null(results.search);
 }
 
 int main(void)
@@ -225,7 +212,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(a_contact_model_makes_another_key, set_up, tear_down),
         cmocka_unit_test_setup_teardown(a_search_is_stopped, set_up, tear_down),
         cmocka_unit_test_setup_teardown(the_other_law_comes_along, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(the_doubt_comes_last, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(the_uncertainty_comes_last, set_up, tear_down),
         cmocka_unit_test_setup_teardown(figures_and_years_come_to_an_end, set_up, tear_down),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

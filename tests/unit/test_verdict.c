@@ -6,21 +6,21 @@
 #include <math.h>
 #include <poll.h>
 
-#include "tui/figures.h"
+#include "model/live.h"
 
 static struct scene_file file;
-static struct figures figures;
+static struct live live;
 
 static void open_scene(const char *path)
 {
     struct problems problems = {0};
     assert_true(ceduo_scene_read(&file, path, NULL, 0, &problems));
-    assert_true(ceduo_figures_create(&figures, 2));
+    assert_true(ceduo_live_create(&live, 2));
 }
 
 static void close_scene(void)
 {
-    ceduo_figures_free(&figures);
+    ceduo_live_free(&live);
     ceduo_scene_release(&file);
 }
 
@@ -53,9 +53,9 @@ static void watch(struct watch *w, const struct ceduo_leader *leader, uint64_t r
 static uint64_t fewest_rocks(void)
 {
     uint64_t fewest = UINT64_MAX;
-    for (size_t i = 0; i < figures.result->options_count; i++)
-        if (figures.result->options[i].wooded.rocks < fewest)
-            fewest = figures.result->options[i].wooded.rocks;
+    for (size_t i = 0; i < live.result->options_count; i++)
+        if (live.result->options[i].wooded.rocks < fewest)
+            fewest = live.result->options[i].wooded.rocks;
     return fewest;
 }
 
@@ -70,32 +70,30 @@ static void what_is_clear_stays(void **state)
     (void)state;
     struct watch today = {.best = SIZE_MAX}, rotation = {.best = SIZE_MAX};
     size_t looks = 0, shares = 0;
-    bool failed;
     open_scene("profiles/scenes/rotation.yaml");
-    ceduo_figures_follow(&figures, &file.scene, 1, true);
-    while (figures.busy) {
-        struct pollfd fd = {.fd = ceduo_jobs_fd(figures.jobs), .events = POLLIN};
+    ceduo_live_follow(&live, &file, 1, true);
+    while (live.busy) {
+        struct pollfd fd = {.fd = ceduo_jobs_fd(live.jobs), .events = POLLIN};
         poll(&fd, 1, 1000);
-        if (!ceduo_figures_news(&figures, &file.scene, &failed) || !figures.result)
+        if (!ceduo_live_news(&live, &file.scene) || !live.result)
             continue;
-        assert_false(failed);
         size_t known = 0;
-        for (size_t i = 0; i < figures.verdict.n; i++)
-            known += isnan(figures.verdict.choices[i].mean.mean) ? 0 : 1;
+        for (size_t i = 0; i < live.verdict.n; i++)
+            known += isnan(live.verdict.choices[i].mean.mean) ? 0 : 1;
         assert_true(known >= shares); /* no share goes back to unknown */
         shares = known;
-        watch(&today, &figures.verdict.today, fewest_rocks());
-        watch(&rotation, &figures.verdict.rotation, figures.rocks);
+        watch(&today, &live.verdict.today, fewest_rocks());
+        watch(&rotation, &live.verdict.rotation, live.results.years ? live.results.years->rocks : 0);
         looks++;
     }
     assert_true(today.known && rotation.known);
-    EXPECT(today.rocks, ==, FLIGHTS_FIRST); /* told from the first thousand rocks */
-    EXPECT(rotation.rocks, ==, FLIGHTS_FIRST);
+    EXPECT(today.rocks, ==, RUNS_FIRST); /* told from the first thousand rocks */
+    EXPECT(rotation.rocks, ==, RUNS_FIRST);
     EXPECT(today.best, ==, 0);    /* the simple coppice before its cut, */
     EXPECT(rotation.best, ==, 3); /* the large reserves over the rotation: 127 and 277 of 1000 */
     EXPECT(looks, >, 6);          /* progress is shown */
-    EXPECT(figures.done, ==, figures.all);
-    expect_beaten(&figures.verdict);
+    EXPECT(live.results.years->done, ==, 4);
+    expect_beaten(&live.verdict);
     close_scene();
 }
 
@@ -103,24 +101,23 @@ static void what_is_clear_stays(void **state)
 static void an_edit_asks_for_its_years_alone(void **state)
 {
     (void)state;
-    bool failed;
     open_scene("profiles/scenes/rotation.yaml");
     file.scene.options_count = 2;
-    ceduo_figures_follow(&figures, &file.scene, 0, true);
-    ceduo_jobs_wait(figures.jobs);
-    ceduo_figures_news(&figures, &file.scene, &failed);
-    assert_true(figures.verdict.rotation.known);
+    ceduo_live_follow(&live, &file, 0, true);
+    ceduo_jobs_wait(live.jobs);
+    ceduo_live_news(&live, &file.scene);
+    assert_true(live.verdict.rotation.known);
     struct ceduo_belt *belt = &file.scene.options[1].belts[0];
-    double before = figures.verdict.choices[1].mean.mean;
+    double before = live.verdict.choices[1].mean.mean;
     belt->stand.cutting.stay_per_ha[1] *= 4;
-    ceduo_figures_follow(&figures, &file.scene, 0, true);
-    EXPECT(figures.verdict.choices[0].mean.mean, >, 0);
-    assert_true(isnan(figures.verdict.choices[1].mean.mean)); /* not that of the stand before */
-    assert_false(figures.verdict.rotation.known);
-    ceduo_jobs_wait(figures.jobs);
-    ceduo_figures_news(&figures, &file.scene, &failed);
-    assert_true(figures.verdict.rotation.known);
-    EXPECT(figures.verdict.choices[1].mean.mean, <, before); /* four times as many of the second oldest */
+    ceduo_live_follow(&live, &file, 0, true);
+    EXPECT(live.verdict.choices[0].mean.mean, >, 0);
+    assert_true(isnan(live.verdict.choices[1].mean.mean)); /* not that of the stand before */
+    assert_false(live.verdict.rotation.known);
+    ceduo_jobs_wait(live.jobs);
+    ceduo_live_news(&live, &file.scene);
+    assert_true(live.verdict.rotation.known);
+    EXPECT(live.verdict.choices[1].mean.mean, <, before); /* four times as many of the second oldest */
     close_scene();
 }
 

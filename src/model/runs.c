@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "flights.h"
+#include "runs.h"
 
 #include <stdlib.h>
 
+#include "base/must.h"
 #include "ceduo/key.h"
 
-struct flights {
+struct runs {
     unsigned threads;
     const atomic_bool *cancel;
     uint64_t scene_key;
@@ -16,48 +17,47 @@ struct flights {
     struct ceduo_outlook *last; /* what was last made of the runs */
 };
 
-struct flights *ceduo_flights_create(unsigned threads, const atomic_bool *cancel)
+struct runs *ceduo_runs_create(unsigned threads, const atomic_bool *cancel)
 {
-    struct flights *f = calloc(1, sizeof *f);
-    if (f)
-        *f = (struct flights){.threads = threads, .cancel = cancel};
-    return f;
+    struct runs *r = ceduo_must(calloc(1, sizeof *r));
+    *r = (struct runs){.threads = threads, .cancel = cancel};
+    return r;
 }
 
-void ceduo_flights_free(struct flights *f)
+void ceduo_runs_free(struct runs *r)
 {
-    if (!f)
+    if (!r)
         return;
-    ceduo_outlook_free(f->last);
-    ceduo_pool_free(f->figures);
-    ceduo_pool_free(f->years);
-    ceduo_pool_free(f->others);
-    ceduo_pool_free(f->pictures);
-    ceduo_other_scene_release(&f->other);
-    free(f);
+    ceduo_outlook_free(r->last);
+    ceduo_pool_free(r->figures);
+    ceduo_pool_free(r->years);
+    ceduo_pool_free(r->others);
+    ceduo_pool_free(r->pictures);
+    ceduo_other_scene_release(&r->other);
+    free(r);
 }
 
 /* Turns all to a scene. What was made of the runs of another one is of no use. */
-static enum ceduo_status turn(struct flights *f, const struct ceduo_scene *scene)
+static enum ceduo_status turn(struct runs *r, const struct ceduo_scene *scene)
 {
     uint64_t key = ceduo_scene_key(scene);
-    if (f->last && key != f->scene_key) {
-        ceduo_outlook_free(f->last);
-        f->last = NULL;
+    if (r->last && key != r->scene_key) {
+        ceduo_outlook_free(r->last);
+        r->last = NULL;
     }
-    f->scene_key = key;
+    r->scene_key = key;
     struct ceduo_run_def def = ceduo_run_def_default(scene);
-    def.threads = f->threads;
-    def.rocks_most = FLIGHTS_MOST;
-    def.cancel = f->cancel;
-    enum ceduo_status status = ceduo_pool_for(&def, &f->figures);
+    def.threads = r->threads;
+    def.rocks_most = RUNS_MAX;
+    def.cancel = r->cancel;
+    enum ceduo_status status = ceduo_pool_for(&def, &r->figures);
     def.arrivals_only = true;
     if (status == CEDUO_OK)
-        status = ceduo_pool_for(&def, &f->years);
+        status = ceduo_pool_for(&def, &r->years);
     def.arrivals_only = false;
-    def.cells = f->cells_count = ceduo_outlook_places(scene, f->cells);
-    def.cell_x = f->cells;
-    return status == CEDUO_OK ? ceduo_pool_for(&def, &f->pictures) : status;
+    def.cells = r->cells_count = ceduo_outlook_places(scene, r->cells);
+    def.cell_x = r->cells;
+    return status == CEDUO_OK ? ceduo_pool_for(&def, &r->pictures) : status;
 }
 
 /* ---- figures ---- */
@@ -66,7 +66,7 @@ static bool is_precise(const struct ceduo_sight *s)
 {
     for (size_t i = 0; s && i < s->flown.controls; i++) {
         const struct ceduo_arrivals *a = &s->flown.arrivals[i];
-        if (!ceduo_mean_is_precise(a->reached, a->energy.mean, a->energy.se, FLIGHTS_TOLERANCE))
+        if (!ceduo_mean_is_precise(a->reached, a->energy.mean, a->energy.se, RUNS_TOLERANCE))
             return false;
     }
     return true;
@@ -81,22 +81,22 @@ static bool precise(const struct ceduo_outlook *o)
 }
 
 /* Hands over what is known so far; what has not changed is shared with what is kept. */
-static enum ceduo_status hand_over(struct flights *f, const struct ceduo_scene *scene, flights_publish *publish, void *context)
+static enum ceduo_status hand_over(struct runs *r, const struct ceduo_scene *scene, runs_publish *publish, void *context)
 {
     struct ceduo_outlook *mine, *theirs;
     struct ceduo_outlook_def def = {.scene = scene,
-                                    .figures = f->figures,
-                                    .pictures = f->pictures,
-                                    .cells = f->cells_count,
-                                    .cell_x = f->cells,
+                                    .figures = r->figures,
+                                    .pictures = r->pictures,
+                                    .cells = r->cells_count,
+                                    .cell_x = r->cells,
                                     .trajectories = CEDUO_OUTLOOK_TRAJECTORIES,
-                                    .cancel = f->cancel,
-                                    .last = f->last};
+                                    .cancel = r->cancel,
+                                    .last = r->last};
     enum ceduo_status status = ceduo_outlook_create(&def, &mine);
     if (status != CEDUO_OK)
         return status;
-    ceduo_outlook_free(f->last);
-    def.last = f->last = mine;
+    ceduo_outlook_free(r->last);
+    def.last = r->last = mine;
     status = ceduo_outlook_create(&def, &theirs);
     if (status == CEDUO_OK)
         publish(context, theirs);
@@ -104,67 +104,67 @@ static enum ceduo_status hand_over(struct flights *f, const struct ceduo_scene *
 }
 
 /* Makes the run of one forest as long as `rocks`. */
-static enum ceduo_status fly_forest(struct flights *f, const struct ceduo_option *option, uint64_t rocks)
+static enum ceduo_status simulate_forest(struct runs *r, const struct ceduo_option *option, uint64_t rocks)
 {
-    struct ceduo_pool *pool = rocks <= FLIGHTS_PICTURE ? f->pictures : f->figures;
+    struct ceduo_pool *pool = rocks <= RUNS_PICTURE ? r->pictures : r->figures;
     struct ceduo_run *run;
-    enum ceduo_status status = ceduo_pool_run(f->pictures, option, &run);
+    enum ceduo_status status = ceduo_pool_run(r->pictures, option, &run);
     return status == CEDUO_OK ? ceduo_pool_fly(pool, option, rocks, &run) : status;
 }
 
 /* Hands over after each forest: once something is known it is shown with its own error until better is known. */
-enum ceduo_status ceduo_flights_figures(struct flights *f, const struct ceduo_scene *scene, size_t shown, uint64_t rocks,
-                                        flights_publish *publish, void *context, bool *enough)
+enum ceduo_status ceduo_runs_figures(struct runs *r, const struct ceduo_scene *scene, size_t shown, uint64_t rocks,
+                                     runs_publish *publish, void *context, bool *enough)
 {
     bool wooded = scene->simulation.contact_model != CEDUO_INDEX;
-    enum ceduo_status status = turn(f, scene);
+    enum ceduo_status status = turn(r, scene);
     if (status == CEDUO_OK)
-        status = fly_forest(f, NULL, rocks);
+        status = simulate_forest(r, NULL, rocks);
     for (size_t k = 0, n = scene->options_count; wooded && k < n && status == CEDUO_OK; k++) {
-        status = fly_forest(f, &scene->options[(shown + k) % n], rocks);
-        bool says = k + 1 < n && (k == 0 || rocks >= FLIGHTS_MOST);
+        status = simulate_forest(r, &scene->options[(shown + k) % n], rocks);
+        bool says = k + 1 < n && (k == 0 || rocks >= RUNS_MAX);
         if (status == CEDUO_OK && says)
-            status = hand_over(f, scene, publish, context);
+            status = hand_over(r, scene, publish, context);
     }
     if (status == CEDUO_OK)
-        status = hand_over(f, scene, publish, context);
+        status = hand_over(r, scene, publish, context);
     if (status == CEDUO_OK)
-        *enough = rocks * 10 > FLIGHTS_MOST || (rocks >= FLIGHTS_PICTURE && precise(f->last));
+        *enough = rocks * 10 > RUNS_MAX || (rocks >= RUNS_PICTURE && precise(r->last));
     return status;
 }
 
 /* ---- the other energy law ---- */
 
 /* Turns its pool, and its pool alone. */
-static enum ceduo_status turn_others(struct flights *f, const struct ceduo_scene *scene)
+static enum ceduo_status turn_others(struct runs *r, const struct ceduo_scene *scene)
 {
     struct ceduo_scene other;
     enum ceduo_status status = ceduo_other_scene(scene, &other) ? CEDUO_OK : CEDUO_NO_MEMORY;
     struct ceduo_run_def def = ceduo_run_def_default(&other);
-    def.threads = f->threads;
-    def.rocks_most = FLIGHTS_MOST;
-    def.cancel = f->cancel;
+    def.threads = r->threads;
+    def.rocks_most = RUNS_MAX;
+    def.cancel = r->cancel;
     def.arrivals_only = true;
     if (status == CEDUO_OK)
-        status = ceduo_pool_for(&def, &f->others);
+        status = ceduo_pool_for(&def, &r->others);
     if (status != CEDUO_OK) {
         ceduo_other_scene_release(&other);
         return status;
     }
-    ceduo_other_scene_release(&f->other);
-    f->other = other;
+    ceduo_other_scene_release(&r->other);
+    r->other = other;
     return CEDUO_OK;
 }
 
-enum ceduo_status ceduo_flights_others(struct flights *f, const struct ceduo_scene *scene, uint64_t rocks,
-                                       struct ceduo_other_energy *others)
+enum ceduo_status ceduo_runs_others(struct runs *r, const struct ceduo_scene *scene, uint64_t rocks,
+                                    struct ceduo_other_energy *others)
 {
-    enum ceduo_status status = turn_others(f, scene);
+    enum ceduo_status status = turn_others(r, scene);
     size_t n = scene->options_count, controls = scene->controls_count;
     struct ceduo_run *first = NULL;
     for (size_t i = 0; i < n && status == CEDUO_OK; i++) {
         struct ceduo_run *run;
-        status = ceduo_pool_fly(f->others, &f->other.options[i], rocks, &run);
+        status = ceduo_pool_fly(r->others, &r->other.options[i], rocks, &run);
         first = i == 0 ? run : first;
         for (size_t c = 0; c < controls && status == CEDUO_OK; c++)
             status = ceduo_other_read(&scene->options[i], run, first, c, &others[i * controls + c]);
@@ -174,7 +174,7 @@ enum ceduo_status ceduo_flights_others(struct flights *f, const struct ceduo_sce
 
 /* ---- years ---- */
 
-uint64_t ceduo_flights_years_key(const struct ceduo_scene *scene, size_t option)
+uint64_t ceduo_runs_years_key(const struct ceduo_scene *scene, size_t option)
 {
     struct ceduo_window w = ceduo_window_in(scene, &scene->options[option]);
     uint64_t key = ceduo_scene_key(scene);
@@ -185,18 +185,18 @@ uint64_t ceduo_flights_years_key(const struct ceduo_scene *scene, size_t option)
     return key;
 }
 
-enum ceduo_status ceduo_flights_years(struct flights *f, const struct ceduo_scene *scene, size_t option, uint64_t rocks,
-                                      struct ceduo_years **years)
+enum ceduo_status ceduo_runs_years(struct runs *r, const struct ceduo_scene *scene, size_t option, uint64_t rocks,
+                                   struct ceduo_years **years)
 {
     *years = NULL;
     const struct ceduo_option *o = &scene->options[option];
-    enum ceduo_status status = turn(f, scene);
+    enum ceduo_status status = turn(r, scene);
     if (status == CEDUO_OK)
-        status = f->last && f->last->bare ? ceduo_years_create(scene, o, ceduo_window_in(scene, o), years) : CEDUO_NO_MEMORY;
+        status = r->last && r->last->bare ? ceduo_years_create(scene, o, ceduo_window_in(scene, o), years) : CEDUO_NO_MEMORY;
     if (status == CEDUO_OK)
-        status = ceduo_years_fly(*years, f->years, &f->last->bare->flown, rocks);
+        status = ceduo_years_fly(*years, r->years, &r->last->bare->flown, rocks);
     if (status == CEDUO_OK)
-        (*years)->key = ceduo_flights_years_key(scene, option);
+        (*years)->key = ceduo_runs_years_key(scene, option);
     if (status != CEDUO_OK) {
         ceduo_years_free(*years);
         *years = NULL;

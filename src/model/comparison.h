@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef CEDUO_SIGHTED_H
-#define CEDUO_SIGHTED_H
+#ifndef CEDUO_COMPARISON_H
+#define CEDUO_COMPARISON_H
 
 #include "ceduo/calibrate.h"
 #include "io/scene_file.h"
 #include "study/seen.h"
 
-/* What the scene of the live program, as it is, says of what was seen there; in levels from coarse to fine. */
-#define SIGHT_LEVELS 2
+/* The scene of the live program, as it is, compared with what was observed there; in levels from coarse to fine. */
+#define COMPARISON_LEVELS 2
 
-struct sighted {
+struct comparison {
     struct scene_file file;            /* as it was; its nodes are the document's */
     uint64_t rocks;                    /* of each setting */
     struct ceduo_predicted *predicted; /* one for each observation */
@@ -17,9 +17,9 @@ struct sighted {
 };
 
 /* Computes one level. `file` must have an arena of its own, which is the answer's from then on, whatever comes of it.
- * Otherwise than CEDUO_OK: *sighted is NULL. */
-enum ceduo_status ceduo_sighted_make(const struct scene_file *file, size_t level, const atomic_bool *cancel,
-                                     struct sighted **sighted);
-void ceduo_sighted_free(struct sighted *sighted);
+ * Otherwise than CEDUO_OK: *comparison is NULL. */
+enum ceduo_status ceduo_comparison_make(const struct scene_file *file, size_t level, const atomic_bool *cancel,
+                                        struct comparison **comparison);
+void ceduo_comparison_free(struct comparison *comparison);
 
 #endif

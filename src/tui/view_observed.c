@@ -129,30 +129,31 @@ static void put_misfits(struct text *text, const struct scene_file *file, const 
 static void say_as_it_is(struct app *app, struct text *text, int width)
 {
     const struct scene_file *file = &app->document.file;
-    const struct sighted *s = ceduo_figures_sighted(&app->figures, file);
+    const struct comparison *s = ceduo_live_comparison(&app->live, file);
     if (!s) {
         ceduo_text_put(text, _("not computed yet"));
         return;
     }
     put_rows(text, file, s->predicted, width);
     put_misfits(text, file, s->predicted);
-    if (ceduo_fit_has_seen(file))
+    if (ceduo_fit_has_observations(file))
         ceduo_text_put(text, _("c fits the ground to what was seen; only a fit says what of it is determined.\n"));
     ceduo_text_format(text, _("Simulated: %llu rocks.\n"), (unsigned long long)s->rocks);
 }
 
-static void put_best(struct text *text, const struct fit_wish *w, size_t i, double best)
+static void put_best(struct text *text, const struct fit_request *w, size_t i, double best)
 {
     ceduo_calibration_name(text, w->paths[i], w->fields[i]);
     ceduo_text_char(text, ' ');
     ceduo_calibration_number(text, w->fields[i], best);
 }
 
-static void say_fitting(const struct figures *f, struct text *text)
+static void say_fitting(const struct live *live, struct text *text)
 {
-    const struct ceduo_calibration_state *s = &f->fit_state;
+    const struct fit *f = live->results.fit; /* NULL: nothing is known yet */
+    const struct ceduo_calibration_state *s = f ? &f->state : NULL;
     ceduo_text_put(text, _("A fit is under way. Esc stops it, and nothing of it is kept.\n"));
-    if (s->evaluations == 0)
+    if (!s || s->evaluations == 0)
         return;
     if (s->stage == CEDUO_CHAINS && isfinite(s->rhat))
         ceduo_text_format(text, _("%llu scenes; R-hat %.3f (at most 1.05 is wanted), effective size %.0f (200).\n"),
@@ -161,9 +162,9 @@ static void say_fitting(const struct figures *f, struct text *text)
         ceduo_text_format(text, _("%llu scenes; log-likelihood %.2f.\n"), (unsigned long long)s->evaluations,
                           s->log_likelihood);
     ceduo_text_put(text, _("The best values so far:\n"));
-    for (size_t i = 0; i < f->wish.n; i++) {
+    for (size_t i = 0; i < f->request.n; i++) {
         ceduo_text_put(text, "  ");
-        put_best(text, &f->wish, i, s->best[i]);
+        put_best(text, &f->request, i, s->best[i]);
         ceduo_text_char(text, '\n');
     }
 }
@@ -173,8 +174,8 @@ static struct ceduo_calibration_report report_of(const struct fit *f)
     return (struct ceduo_calibration_report){.scenes_count = 1,
                                              .files = &f->file,
                                              .paths = f->paths,
-                                             .fields = f->wish.fields,
-                                             .rocks = f->wish.rocks,
+                                             .fields = f->request.fields,
+                                             .rocks = f->request.rocks,
                                              .seed = f->file.scene.simulation.seed,
                                              .answer = &f->answer};
 }
@@ -188,15 +189,15 @@ static void say_draws(const struct fit *f, struct text *text)
                      "the draws. Once the scene is saved, as SCENE.yaml, this writes them to FITTED.draws.csv, and "
                      "FITTED.yaml, which reads them:\n"));
     ceduo_text_put(text, "  ceduo");
-    for (size_t i = 0; i < f->wish.n; i++) {
+    for (size_t i = 0; i < f->request.n; i++) {
         struct text value = {0};
-        ceduo_text_format(&value, "%s=%s:%s", f->wish.paths[i], ceduo_number_shortest(f->wish.lo[i], lo),
-                          ceduo_number_shortest(f->wish.hi[i], hi));
+        ceduo_text_format(&value, "%s=%s:%s", f->request.paths[i], ceduo_number_shortest(f->request.lo[i], lo),
+                          ceduo_number_shortest(f->request.hi[i], hi));
         ceduo_text_put(text, " --calibrate ");
         ceduo_text_quoted(text, ceduo_text_string(&value));
         ceduo_text_free(&value);
     }
-    ceduo_text_format(text, " -n %llu -o FITTED.yaml SCENE.yaml\n", (unsigned long long)f->wish.rocks);
+    ceduo_text_format(text, " -n %llu -o FITTED.yaml SCENE.yaml\n", (unsigned long long)f->request.rocks);
 }
 
 static void say_fit(const struct fit *f, struct text *text, int width)
@@ -204,14 +205,14 @@ static void say_fit(const struct fit *f, struct text *text, int width)
     const struct ceduo_calibration_report r = report_of(f);
     ceduo_text_put(text,
                    _("Fitted. Enter takes these values into the scene, Esc leaves it as it is, as the picture shows it.\n"));
-    for (size_t i = 0; i < f->wish.n; i++) {
+    for (size_t i = 0; i < f->request.n; i++) {
         const struct ceduo_fitted *one = &f->answer.parameters[i];
         ceduo_text_put(text, "  ");
-        put_best(text, &f->wish, i, one->best);
+        put_best(text, &f->request, i, one->best);
         ceduo_text_put(text, " (");
-        ceduo_calibration_number(text, f->wish.fields[i], one->p2_5);
+        ceduo_calibration_number(text, f->request.fields[i], one->p2_5);
         ceduo_text_put(text, RANGE);
-        ceduo_calibration_number(text, f->wish.fields[i], one->p97_5);
+        ceduo_calibration_number(text, f->request.fields[i], one->p97_5);
         ceduo_text_put(text, ")");
         if (!one->determined)
             ceduo_text_format(text, ", %s", _("not determined"));
@@ -239,7 +240,7 @@ static void say_nothing_seen(struct text *text)
 /* ---- drawing ---- */
 
 /* Stops of the option that is shown, otherwise the first there are; NULL: none. */
-static const struct ceduo_seen_stops *stops_of(const struct app *app, const struct sighted *s)
+static const struct ceduo_seen_stops *stops_of(const struct app *app, const struct comparison *s)
 {
     const struct ceduo_seen_stops *first = NULL;
     for (size_t i = 0; s && i < s->file.observations_count; i++) {
@@ -262,16 +263,16 @@ static void draw_text(struct app *app, struct ceduo_area area, struct text *text
 static void draw(struct app *app, struct ceduo_area area)
 {
     const struct scene_file *file = &app->document.file;
-    const struct figures *f = &app->figures;
-    const struct ceduo_seen_stops *stops = stops_of(app, ceduo_figures_sighted(f, file));
+    const struct live *f = &app->live;
+    const struct ceduo_seen_stops *stops = stops_of(app, ceduo_live_comparison(f, file));
     struct text text = {0};
     area.width -= 2; /* the mark of more below stands beside the text */
     if (file->observations_count == 0)
         say_nothing_seen(&text);
     else if (f->fitting)
         say_fitting(f, &text);
-    else if (f->fit)
-        say_fit(f->fit, &text, area.width);
+    else if (ceduo_live_fitted(f))
+        say_fit(ceduo_live_fitted(f), &text, area.width);
     else
         say_as_it_is(app, &text, area.width);
     int most = area.height - ceduo_app_text_lines(app, ceduo_text_string(&text), area.width) - 1;
@@ -292,7 +293,7 @@ static void start(struct app *app)
     if (app->document.file.observations_count == 0)
         ceduo_app_warn(app, "%s",
                        _("nothing was seen here that could be fitted: write it under 'observed' in the scene's file"));
-    else if (!ceduo_fit_has_seen(&app->document.file))
+    else if (!ceduo_fit_has_observations(&app->document.file))
         ceduo_app_warn(app, "%s", _("all that was seen is to check a fit: mark what is to be fitted 'use: fit'"));
     else
         ceduo_popup_fit(app);
@@ -301,20 +302,19 @@ static void start(struct app *app)
 /* The best values into the scene, as one edit. */
 static void take(struct app *app)
 {
-    const struct fit *f = app->figures.fit;
+    const struct fit *f = ceduo_live_fitted(&app->live);
     if (!f) {
         ceduo_app_say(app, "%s",
-                      app->figures.fitting ? _("the fit is not done yet; Esc stops it")
-                                           : _("c fits the ground to what was seen"));
+                      app->live.fitting ? _("the fit is not done yet; Esc stops it") : _("c fits the ground to what was seen"));
         return;
     }
     const struct ceduo_calibration_report r = report_of(f);
     struct text source = {0};
     double best[CEDUO_CALIBRATION_MOST];
-    for (size_t i = 0; i < f->wish.n; i++)
+    for (size_t i = 0; i < f->request.n; i++)
         best[i] = f->answer.parameters[i].best;
     ceduo_calibration_sources(&source, &r);
-    const struct fit_values values = {f->wish.n, f->inputs, f->wish.fields, best, ceduo_text_string(&source), NULL};
+    const struct fit_values values = {f->request.n, f->inputs, f->request.fields, best, ceduo_text_string(&source), NULL};
     bool good = !source.failed && ceduo_keep_fit(&app->document, &values, &app->problems);
     if (ceduo_app_edited(app, good))
         ceduo_app_say(app, "%s", _("the scene has the values and their ranges, not the draws; u takes them back"));
@@ -323,11 +323,11 @@ static void take(struct app *app)
 
 static void stop(struct app *app)
 {
-    if (app->figures.fitting)
+    if (app->live.fitting)
         ceduo_app_say(app, "%s", _("the fit is stopped; the scene is as it was"));
-    else if (app->figures.fit)
+    else if (ceduo_live_fitted(&app->live))
         ceduo_app_say(app, "%s", _("the scene is left as it was"));
-    ceduo_figures_drop_fit(&app->figures);
+    ceduo_live_drop_fit(&app->live);
 }
 
 static bool act(struct app *app, enum action action)

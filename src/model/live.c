@@ -1,0 +1,176 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "live.h"
+
+#include "base/must.h"
+
+bool ceduo_live_create(struct live *l, unsigned threads)
+{
+    *l = (struct live){.jobs = ceduo_jobs_create(threads)};
+    return l->jobs != NULL;
+}
+
+void ceduo_live_free(struct live *l)
+{
+    ceduo_jobs_free(l->jobs);
+    ceduo_result_free(l->result);
+    ceduo_verdict_release(&l->verdict);
+    ceduo_results_free(&l->results);
+    *l = (struct live){0};
+}
+
+bool ceduo_live_restart(struct live *l)
+{
+    struct live next;
+    if (!ceduo_live_create(&next, ceduo_jobs_threads(l->jobs)))
+        return false;
+    ceduo_live_free(l);
+    *l = next;
+    return true;
+}
+
+const struct ceduo_outlook *ceduo_live_outlook(const struct live *l, const struct ceduo_scene *scene)
+{
+    const struct ceduo_outlook *o = l->results.snapshot ? l->results.snapshot->outlook : NULL;
+    return o && o->controls == scene->controls_count ? o : NULL;
+}
+
+struct ceduo_years *ceduo_live_years(const struct live *l, const struct ceduo_scene *scene, size_t option)
+{
+    const struct years_known *known = l->results.years;
+    struct ceduo_years *years = known && option < known->n ? known->items[option] : NULL;
+    return years && years->scene.controls_count == scene->controls_count ? years : NULL;
+}
+
+const struct uncertainty *ceduo_live_uncertainty(const struct live *l, const struct scene_file *file)
+{
+    const struct uncertainty *u = l->results.uncertainty;
+    return u && u->file.root == file->root ? u : NULL;
+}
+
+const struct comparison *ceduo_live_comparison(const struct live *l, const struct scene_file *file)
+{
+    const struct comparison *c = l->results.comparison;
+    return c && c->file.root == file->root ? c : NULL;
+}
+
+const struct fit *ceduo_live_fitted(const struct live *l)
+{
+    return l->results.fit && l->results.fit->done ? l->results.fit : NULL;
+}
+
+/* ---- the scene as it is, by what is known ---- */
+
+/* The other energy law as far as it fits: what was known before an edit stays until better is, but for that of another
+ * law. */
+static const struct ceduo_other_energy *fitting_others(struct live *l, const struct ceduo_scene *scene)
+{
+    struct others *o = l->results.others;
+    if (!o || o->options != scene->options_count || o->controls != scene->controls_count)
+        return NULL;
+    for (size_t i = 0; i < o->options * o->controls; i++)
+        o->items[i].known &= o->items[i].model == ceduo_other_law(&scene->options[i / o->controls]);
+    return o->items;
+}
+
+/* Assesses the scene by what was simulated through the forests of each option. */
+static void assess(struct live *l, const struct ceduo_scene *scene, const struct ceduo_outlook *o)
+{
+    size_t n = scene->options_count, controls = scene->controls_count;
+    const struct ceduo_flown **wooded = ceduo_must(calloc(n + 1, sizeof *wooded));
+    struct ceduo_difference *differences = ceduo_must(calloc(n * controls + 1, sizeof *differences));
+    bool in_order = o->options == n;
+    for (size_t i = 0; i < n; i++) {
+        const struct ceduo_sight *sight = ceduo_outlook_sight(o, scene, i);
+        wooded[i] = sight ? &sight->flown : NULL;
+        in_order = in_order && sight == o->wooded[i];
+    }
+    for (size_t i = 0; i < n * controls; i++)
+        differences[i] =
+            in_order ? o->differences[i] : (struct ceduo_difference){CEDUO_NOT_PAIRED, CEDUO_NOT_PAIRED, CEDUO_NOT_PAIRED};
+    if (ceduo_result_assess(scene, &o->bare->flown, wooded, differences, fitting_others(l, scene), &l->result) != CEDUO_OK)
+        l->result = NULL;
+    free(differences);
+    free(wooded);
+}
+
+/* Judges by the years of the scene as it is now: those of an earlier one do not count. */
+static void judge(struct live *l, const struct ceduo_scene *scene)
+{
+    struct ceduo_years **fit = ceduo_must(calloc(scene->options_count + 1, sizeof *fit));
+    for (size_t i = 0; i < scene->options_count; i++) {
+        struct ceduo_years *years = ceduo_live_years(l, scene, i);
+        fit[i] = years && years->key == ceduo_runs_years_key(scene, i) ? years : NULL;
+    }
+    if (ceduo_verdict_make(l->result, fit, &l->verdict) != CEDUO_OK)
+        l->verdict = (struct ceduo_verdict){0};
+    free(fit);
+}
+
+static void refresh(struct live *l, const struct ceduo_scene *scene)
+{
+    const struct ceduo_outlook *o = ceduo_live_outlook(l, scene);
+    ceduo_result_free(l->result);
+    l->result = NULL;
+    ceduo_verdict_release(&l->verdict);
+    if (!o || !o->bare)
+        return;
+    assess(l, scene, o);
+    for (size_t i = 0; i < scene->options_count; i++) {
+        struct ceduo_years *years = ceduo_live_years(l, scene, i);
+        if (years)
+            ceduo_years_assess(years, scene, &o->bare->flown);
+    }
+    if (l->result)
+        judge(l, scene);
+}
+
+/* ---- requests and news ---- */
+
+void ceduo_live_follow(struct live *l, const struct scene_file *file, size_t option, bool years)
+{
+    bool asked = ceduo_jobs_show(l->jobs, file, option, years);
+    l->asked = ceduo_jobs_key(&file->scene);
+    l->busy |= asked;
+    if (asked && l->results.years)
+        l->results.years->done = l->results.years->n; /* that step is over */
+    refresh(l, &file->scene);
+}
+
+void ceduo_live_doubt(struct live *l, const struct scene_file *file, size_t levels)
+{
+    l->busy |= ceduo_jobs_doubt(l->jobs, file, levels);
+}
+
+void ceduo_live_compare(struct live *l, const struct scene_file *file, size_t levels)
+{
+    const struct fit *fit = ceduo_live_fitted(l);
+    if (fit && fit->file.root != file->root)
+        ceduo_live_drop_fit(l);
+    l->busy |= ceduo_jobs_compare(l->jobs, file, levels);
+}
+
+void ceduo_live_fit(struct live *l, const struct scene_file *file, const struct fit_request *request)
+{
+    ceduo_live_drop_fit(l);
+    l->fit = *request;
+    ceduo_jobs_fit(l->jobs, file, request);
+    l->busy = l->fitting = true;
+}
+
+void ceduo_live_drop_fit(struct live *l)
+{
+    ceduo_jobs_stop(l->jobs, JOB_FIT);
+    ceduo_results_drop(&l->results, JOB_FIT);
+    l->fitting = false;
+}
+
+bool ceduo_live_news(struct live *l, const struct ceduo_scene *scene)
+{
+    struct jobs_state state = ceduo_jobs_take(l->jobs, &l->results);
+    bool changed = state.fresh != 0 || state.busy != l->busy;
+    l->busy = state.busy;
+    l->fitting = state.fitting;
+    if (state.fresh & (1u << JOB_SNAPSHOT | 1u << JOB_YEARS | 1u << JOB_OTHERS))
+        refresh(l, scene);
+    return changed;
+}

@@ -1,0 +1,51 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef CEDUO_LIVE_H
+#define CEDUO_LIVE_H
+
+#include "jobs.h"
+#include "study/verdict.h"
+
+/* The figures of the scene while it is edited. After an edit they are assessed again at once; runs are asked for only
+ * where the edit changes what the rocks meet. */
+struct live {
+    struct jobs *jobs;
+    union results results;        /* newest of each kind; what the scene has no longer stays until better is known */
+    struct ceduo_result *result;  /* the scene as it is now, by the newest snapshot; NULL before the first */
+    struct ceduo_verdict verdict; /* of the result and of the years that fit the scene; n 0: none */
+    struct fit_request fit;       /* that was asked for last */
+    uint64_t asked;               /* key of the runs that were asked for last */
+    bool busy, fitting;
+};
+
+/* False where no thread can be started. */
+bool ceduo_live_create(struct live *live, unsigned threads);
+void ceduo_live_free(struct live *live);
+
+/* Forgets all, and lets go of the memory of the scene they were of. False, and nothing changed, where no thread can be
+ * started. */
+bool ceduo_live_restart(struct live *live);
+
+/* The scene has changed. `years`: the years to come of the option as well. */
+void ceduo_live_follow(struct live *live, const struct scene_file *file, size_t option, bool years);
+
+/* The uncertainty of the scene up to so many levels, see ceduo_jobs_doubt(); its comparison with what was observed, likewise. A
+ * fit of another scene is forgotten. */
+void ceduo_live_doubt(struct live *live, const struct scene_file *file, size_t levels);
+void ceduo_live_compare(struct live *live, const struct scene_file *file, size_t levels);
+
+void ceduo_live_fit(struct live *live, const struct scene_file *file, const struct fit_request *request);
+void ceduo_live_drop_fit(struct live *live);
+
+/* Takes the new results of the jobs; true where something has changed. */
+bool ceduo_live_news(struct live *live, const struct ceduo_scene *scene);
+
+/* What fits a scene: an edit may have added a control since it was asked for. NULL: none does. */
+const struct ceduo_outlook *ceduo_live_outlook(const struct live *live, const struct ceduo_scene *scene);
+struct ceduo_years *ceduo_live_years(const struct live *live, const struct ceduo_scene *scene, size_t option);
+
+/* What is known of this very scene; NULL: nothing yet. */
+const struct uncertainty *ceduo_live_uncertainty(const struct live *live, const struct scene_file *file);
+const struct comparison *ceduo_live_comparison(const struct live *live, const struct scene_file *file);
+const struct fit *ceduo_live_fitted(const struct live *live); /* a fit that is done */
+
+#endif

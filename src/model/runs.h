@@ -1,0 +1,41 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef CEDUO_RUNS_H
+#define CEDUO_RUNS_H
+
+#include "ceduo/years.h"
+#include "study/outlook.h"
+
+/* The runs that the live program keeps from request to request, simulated in steps from coarse to fine. Short runs carry the
+ * envelopes of the pictures, long ones the figures, and those of years only what arrives. */
+struct runs;
+
+#define RUNS_FIRST     1024   /* rocks of the first level; each further one simulates ten times as many */
+#define RUNS_LEVELS    3      /* of each forest; of each year and of the other energy law one less */
+#define RUNS_PICTURE   10240  /* enough for envelopes */
+#define RUNS_MAX       102400 /* of each forest */
+#define RUNS_TOLERANCE 0.004  /* fewer once mean energies are known to this (95 %) */
+
+struct runs *ceduo_runs_create(unsigned threads, const atomic_bool *cancel);
+void ceduo_runs_free(struct runs *runs);
+
+/* Takes an outlook, which is its own from then on, as soon as it is known. */
+typedef void runs_publish(void *context, struct ceduo_outlook *outlook);
+
+/* One step of the figures: so many rocks without forest and through every option, that of `shown` first. `*enough`: no
+ * finer step is needed. CEDUO_CANCELLED: the next call continues. */
+enum ceduo_status ceduo_runs_figures(struct runs *runs, const struct ceduo_scene *scene, size_t shown, uint64_t rocks,
+                                     runs_publish *publish, void *context, bool *enough);
+
+/* One step of the other energy law: so many rocks through every option under it. To `others`, one for each option and
+ * control, in rows by option. */
+enum ceduo_status ceduo_runs_others(struct runs *runs, const struct ceduo_scene *scene, uint64_t rocks,
+                                    struct ceduo_other_energy *others);
+
+/* A number for all that decides about the years of an option. */
+uint64_t ceduo_runs_years_key(const struct ceduo_scene *scene, size_t option);
+
+/* One step of the years of an option, which keep that number. A step of the figures goes before it. */
+enum ceduo_status ceduo_runs_years(struct runs *runs, const struct ceduo_scene *scene, size_t option, uint64_t rocks,
+                                   struct ceduo_years **years);
+
+#endif
