@@ -19,20 +19,60 @@ enum ceduo_observed_use {
 #undef X
 };
 
-enum ceduo_observed_kind {
-    CEDUO_OBSERVED_STOPS,         /* where rocks came to rest or were stopped */
-    CEDUO_OBSERVED_PASSED,        /* how many passed a place */
-    CEDUO_OBSERVED_SPEED,         /* of those that passed a place: m/s, */
-    CEDUO_OBSERVED_HEIGHT,        /* clearance of the underside, m, */
-    CEDUO_OBSERVED_ENERGY,        /* J */
-    CEDUO_OBSERVED_LARGEST_SPEED, /* of each rock on its way */
-    CEDUO_OBSERVED_LARGEST_HEIGHT,
-    CEDUO_OBSERVED_WAY_SPEED, /* each rock's mean along a stretch, metre by metre, of those that enter it */
-    CEDUO_OBSERVED_WAY_HEIGHT,
-    CEDUO_OBSERVED_WAY_ENERGY,
-    CEDUO_OBSERVED_SCARS, /* heights of blows on stems along a stretch: of the rock's centre above the ground */
-    CEDUO_OBSERVED_KINDS
+/* Where something is observed, and so which keys it has and which simulated values are compared with it. */
+enum ceduo_where {
+    CEDUO_WHERE_AT_REST,  /* where a rock came to rest or was stopped */
+    CEDUO_WHERE_AT_PLACE, /* on rocks that pass a place */
+    CEDUO_WHERE_LARGEST,  /* the largest of each rock on its way */
+    CEDUO_WHERE_ALONG,    /* each rock's mean along a stretch, metre by metre, of those that enter it */
+    CEDUO_WHERE_ON_STEMS  /* where rocks strike stems along a stretch: their centre */
 };
+
+/* What is observed; its row has the unit. Heights are those of the underside above the ground, on stems of the centre. */
+enum ceduo_quantity {
+    CEDUO_QUANTITY_PLACE,
+    CEDUO_QUANTITY_COUNT,
+    CEDUO_QUANTITY_SPEED,
+    CEDUO_QUANTITY_HEIGHT,
+    CEDUO_QUANTITY_ENERGY
+};
+
+/* The kinds: name, path in a row of the file, the key of a list of values (NULL: it has none), where and what. A new one is a row
+ * here, and its keys in scene/fields_observed.c. */
+#define CEDUO_OBSERVED_LIST(X)                                                                                                 \
+    X(STOPS, "stops", "x_m", AT_REST, PLACE)                                                                                   \
+    X(PASSED, "passed", NULL, AT_PLACE, COUNT)                                                                                 \
+    X(SPEED, "speed", "values", AT_PLACE, SPEED)                                                                               \
+    X(HEIGHT, "height", "values", AT_PLACE, HEIGHT)                                                                            \
+    X(ENERGY, "energy", "values", AT_PLACE, ENERGY)                                                                            \
+    X(LARGEST_SPEED, "largest.speed_m_s", "values", LARGEST, SPEED)                                                            \
+    X(LARGEST_HEIGHT, "largest.height_m", "values", LARGEST, HEIGHT)                                                           \
+    X(WAY_SPEED, "on_the_way.speed_m_s", "values", ALONG, SPEED)                                                               \
+    X(WAY_HEIGHT, "on_the_way.height_m", "values", ALONG, HEIGHT)                                                              \
+    X(WAY_ENERGY, "on_the_way.energy_kJ", "values", ALONG, ENERGY)                                                             \
+    X(SCARS, "scars", "height_m", ON_STEMS, HEIGHT)
+
+enum ceduo_observed_kind {
+#define X(NAME, path, list, where, quantity) CEDUO_OBSERVED_##NAME,
+    CEDUO_OBSERVED_LIST(X)
+#undef X
+        CEDUO_OBSERVED_KINDS
+};
+
+struct ceduo_observed_row {
+    const char *path, *list;
+    enum ceduo_where where;
+    enum ceduo_quantity quantity;
+};
+
+struct ceduo_quantity_row {
+    const char *unit;       /* in files and for people; "": of a count */
+    double scale;           /* SI per unit */
+    const char *columns[6]; /* of a table that holds the values, ended by NULL */
+};
+
+const struct ceduo_observed_row *ceduo_observed_row(enum ceduo_observed_kind kind);
+const struct ceduo_quantity_row *ceduo_observed_quantity(enum ceduo_observed_kind kind);
 
 /* One thing that was seen. Places are relative to the slope's first vertex, all is SI. */
 struct ceduo_observation {

@@ -1,8 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A profile from a CSV file: the header names the columns, each row is checked against the one before. */
+#include "csv_slope.h"
 #include "base/language.h"
 #include "csv.h"
-#include "derive.h"
+
+#include "bind.h"
 
 /* Names of a column, the better ones first; in other languages as their spreadsheets have them. */
 static const char *const distances[] = {"distance", "distanza", "progressiva", "entfernung", "distanz", "x", NULL};

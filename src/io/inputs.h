@@ -2,7 +2,7 @@
 #ifndef CEDUO_IO_INPUTS_H
 #define CEDUO_IO_INPUTS_H
 
-#include "derive.h"
+#include "ceduo/doubt.h"
 #include "scene_file.h"
 
 /* The inputs of a scene: what its `doubt` names, and every value that is marked as assumed and has a range (ranges.h).

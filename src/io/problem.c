@@ -72,8 +72,7 @@ static void show_line(struct text *out, const struct source *s, size_t line, siz
     ceduo_text_free(&caret);
 }
 
-/* The words of a format, which has no %%, without the values. */
-static void put_words(struct text *out, const char *format)
+void ceduo_problem_words(struct text *out, const char *format)
 {
     for (; *format; format++) {
         ceduo_text_put(out, *format == '%' ? "\xe2\x80\xa6" : (char[2]){*format});
@@ -155,7 +154,7 @@ void ceduo_problem_v(struct problems *problems, const struct source *source, siz
     if (!counts(problems, source))
         return;
     if (source && source->foreign) {
-        put_words(&message, format);
+        ceduo_problem_words(&message, format);
     } else {
         put_path(&message, path);
         ceduo_text_vformat(&message, format, args);

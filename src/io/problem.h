@@ -50,6 +50,9 @@ void ceduo_problem_v(struct problems *problems, const struct source *source, siz
 void ceduo_problem_own(struct problems *problems, const struct source *source, size_t line, size_t column, const char *path,
                        const char *format, ...) __attribute__((format(printf, 6, 7)));
 
+/* Adds the words of a format, which has no %%, with dots in place of the values. */
+void ceduo_problem_words(struct text *text, const char *format);
+
 void ceduo_problem_memory(struct problems *problems);
 
 /* Ends the list: the number of those that were not printed. */

@@ -10,9 +10,9 @@
 #include <unistd.h>
 
 #include "base/language.h"
-#include "derive.h"
 #include "file.h"
 #include "resolve.h"
+#include "validate.h"
 
 static const char *title_of(struct scene_file *file, const char *title)
 {
@@ -24,9 +24,9 @@ static const char *title_of(struct scene_file *file, const char *title)
 
 bool ceduo_scene_bind(struct scene_file *file, struct problems *problems)
 {
-    const struct derived last = {file->slope_node, file->scene.slope, file->notes, file->ground_assumed,
-                                 file->scene.simulation.law};
-    struct deriver d = {.arena = &file->arena, .root = file->root, .problems = problems, .last = &last};
+    const struct previous_slope previous = {file->slope_node, file->scene.slope, file->notes, file->ground_assumed,
+                                            file->scene.simulation.law};
+    struct validator v = {.arena = &file->arena, .root = file->root, .problems = problems, .previous = &previous};
     size_t before = problems->count;
     bool failed = file->arena.failed;
     file->notes = NULL;
@@ -34,19 +34,19 @@ bool ceduo_scene_bind(struct scene_file *file, struct problems *problems)
     file->scene = (struct ceduo_scene){0};
     file->slope_node = NULL;
     file->arena.failed = false;
-    bool derived = ceduo_derive(&d);
+    bool validated = ceduo_validate(&v);
     problems->memory |= file->arena.failed; /* a name without room is taken for one that is not known */
     file->arena.failed |= failed;
-    if (!derived)
+    if (!validated)
         return false;
-    file->notes = d.notes;
-    file->ground_assumed = d.ground_assumed;
-    file->inputs = d.inputs;
-    file->inputs_count = d.inputs_count;
-    file->inputs_of_scene = d.inputs_of_scene;
-    file->observations = d.observations;
-    file->observations_count = d.observations_count;
-    file->scene = d.draft.scene;
+    file->notes = v.notes;
+    file->ground_assumed = v.ground_assumed;
+    file->inputs = v.inputs;
+    file->inputs_count = v.inputs_count;
+    file->inputs_of_scene = v.inputs_of_scene;
+    file->observations = v.observations;
+    file->observations_count = v.observations_count;
+    file->scene = v.draft.scene;
     file->scene.title = (char *)(uintptr_t)title_of(file, file->scene.title);
     bool good = problems->count == before && !problems->memory;
     file->slope_node = good ? ceduo_node_get(file->root, "slope") : NULL;

@@ -80,7 +80,7 @@ _Static_assert(offsetof(struct ceduo_slope, z) == offsetof(struct ceduo_slope, x
 
 enum { REQUIRED = FIELD_REQUIRED, ABOVE = FIELD_ABOVE, ZERO = FIELD_ZERO, YEARS = FIELD_YEARS, UNFLOWN = FIELD_UNFLOWN };
 
-/* The rock, its release, and what was seen of real rocks. */
-extern const struct object ceduo_rock_object, ceduo_release_object, ceduo_seen_object;
+/* The rock, its release, and what was observed of real rocks. */
+extern const struct object ceduo_rock_object, ceduo_release_object, ceduo_observed_object;
 
 #endif

@@ -4,6 +4,7 @@
 
 #include "base/path.h"
 #include "base/text.h"
+#include "ceduo/observe.h"
 #include "ceduo/scene.h"
 #include "words.h"
 
@@ -95,8 +96,8 @@ struct doubt {
     char **one_of;
 };
 
-/* Something that was seen, as a scene says it: values, or what they have in common. */
-struct seen_values {
+/* Something that was observed, as a scene says it: values, or what they have in common. */
+struct observed_values {
     double x, from, to; /* m; NaN: not given, as all numbers here */
     size_t values_count;
     double *values;
@@ -106,26 +107,25 @@ struct seen_values {
     double seen_from, share_seen;
 };
 
-/* One row of `observed`: one of these. */
-struct seen {
+/* One row of `observed`: at least one of the kinds. */
+struct observed {
     char *name, *option;
     int use;
     struct ceduo_rock_def rock;
     struct ceduo_release release;
-    struct seen_values stops, passed, speed, height, energy, largest_speed, largest_height, scars;
     double way_from, way_to;
-    struct seen_values way_speed, way_height, way_energy;
+    struct observed_values values[CEDUO_OBSERVED_KINDS];
 };
 
 /* A scene as its files give it. Behind struct ceduo_scene stands what the files may say in another form. */
 struct scene_draft {
     struct ceduo_scene scene;
-    size_t materials_count, controls_m_count, belts_count, doubts_count, seen_count;
+    size_t materials_count, controls_m_count, belts_count, doubts_count, observed_count;
     struct material_belt *materials; /* instead of segments */
     double *controls_m;              /* instead of controls */
     struct ceduo_belt *belts;        /* instead of options */
     struct doubt *doubts;
-    struct seen *seen;
+    struct observed *observed;
 };
 
 /* The scene, the root of all: it fills a struct scene_draft. */

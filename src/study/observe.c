@@ -31,6 +31,7 @@ struct setting {
 /* How an observation is compared. */
 struct plan {
     const struct ceduo_observation *seen;
+    const struct ceduo_observed_row *row;
     size_t setting, control, stretch;
     size_t bounds_count;
     double bounds[CEDUO_CLASSES_MOST]; /* between classes: a value on a bound is below it */
@@ -47,14 +48,26 @@ struct ceduo_observer {
 
 /* ---- making ready ---- */
 
-static bool is_crossing(enum ceduo_observed_kind kind)
+const struct ceduo_observed_row *ceduo_observed_row(enum ceduo_observed_kind kind)
 {
-    return kind >= CEDUO_OBSERVED_PASSED && kind <= CEDUO_OBSERVED_ENERGY;
+    static const struct ceduo_observed_row rows[] = {
+#define X(NAME, path, list, where, quantity)                                                                                   \
+    [CEDUO_OBSERVED_##NAME] = {path, list, CEDUO_WHERE_##where, CEDUO_QUANTITY_##quantity},
+        CEDUO_OBSERVED_LIST(X)
+#undef X
+    };
+    return &rows[kind];
 }
 
-static bool is_stretch(enum ceduo_observed_kind kind)
+const struct ceduo_quantity_row *ceduo_observed_quantity(enum ceduo_observed_kind kind)
 {
-    return kind >= CEDUO_OBSERVED_WAY_SPEED;
+    static const struct ceduo_quantity_row rows[] = {
+        [CEDUO_QUANTITY_PLACE] = {"m", 1, {"x_m", "distance", "distanza", "progressiva", "x"}},
+        [CEDUO_QUANTITY_COUNT] = {"", 1, {NULL}},
+        [CEDUO_QUANTITY_SPEED] = {"m/s", 1, {"speed_m_s", "speed", "velocity"}},
+        [CEDUO_QUANTITY_HEIGHT] = {"m", 1, {"height_m", "height"}},
+        [CEDUO_QUANTITY_ENERGY] = {"kJ", 1000, {"energy_kJ", "energy"}}};
+    return &rows[ceduo_observed_row(kind)->quantity];
 }
 
 static struct setting *setting_of(struct ceduo_observer *o, const struct ceduo_observation *seen, size_t *index)
@@ -79,12 +92,6 @@ static size_t control_of(struct setting *s, double x)
     if (i == s->controls_count)
         s->controls[s->controls_count++] = (struct ceduo_control){.x = x, .x_given = x, .accepted = NAN, .measured_speed = NAN};
     return i;
-}
-
-static size_t stretch_of(struct setting *s, double from, double to)
-{
-    s->stretches[s->stretches_count] = (struct ceduo_stretch){from, to};
-    return s->stretches_count++;
 }
 
 static size_t class_of(const struct plan *p, double value)
@@ -120,12 +127,15 @@ static bool make_plan(struct ceduo_observer *o, const struct ceduo_observation *
     if (!s)
         return false;
     p->seen = seen;
-    if (is_crossing(seen->kind))
+    p->row = ceduo_observed_row(seen->kind);
+    if (p->row->where == CEDUO_WHERE_AT_PLACE)
         p->control = control_of(s, seen->x);
-    if (is_stretch(seen->kind))
-        p->stretch = stretch_of(s, seen->from, seen->to);
-    s->follows |= seen->kind >= CEDUO_OBSERVED_LARGEST_SPEED;
-    s->blows |= seen->kind == CEDUO_OBSERVED_SCARS;
+    if (p->row->where == CEDUO_WHERE_ALONG) {
+        p->stretch = s->stretches_count++;
+        s->stretches[p->stretch] = (struct ceduo_stretch){seen->from, seen->to};
+    }
+    s->follows |= p->row->where >= CEDUO_WHERE_LARGEST;
+    s->blows |= p->row->where == CEDUO_WHERE_ON_STEMS;
     if (seen->values) {
         make_classes(p);
     } else if (seen->kind == CEDUO_OBSERVED_PASSED) {
@@ -210,38 +220,23 @@ static void land(struct flown *f)
     ceduo_record_release(&f->record);
 }
 
-static double of_crossing(const struct flown *f, uint64_t rock, const struct plan *p)
-{
-    const struct ceduo_crossing *c = &f->record.crossings[rock * f->setting->controls_count + p->control];
-    const struct ceduo_rock_record *r = &f->record.rocks[rock];
-    double speed2 = c->vx * c->vx + c->vz * c->vz;
-    if (!c->reached)
-        return NAN;
-    return p->seen->kind == CEDUO_OBSERVED_HEIGHT   ? c->height
-           : p->seen->kind == CEDUO_OBSERVED_ENERGY ? (r->mass * speed2 + r->moment * (c->spin * c->spin)) / 2
-                                                    : sqrt(speed2);
-}
-
+/* The value of a rock that was followed; NaN: it has none. */
 static double of_record(const struct flown *f, uint64_t rock, const struct plan *p)
 {
     const struct ceduo_rock_record *r = &f->record.rocks[rock];
     const struct ceduo_stretch_means *m = &f->record.means[rock * f->setting->stretches_count + p->stretch];
-    switch (p->seen->kind) {
-    case CEDUO_OBSERVED_STOPS:
+    const struct ceduo_crossing *c = &f->record.crossings[rock * f->setting->controls_count + p->control];
+    enum ceduo_quantity quantity = p->row->quantity;
+    if (p->row->where == CEDUO_WHERE_AT_REST)
         return r->stop_x;
-    case CEDUO_OBSERVED_LARGEST_SPEED:
-        return r->largest_speed;
-    case CEDUO_OBSERVED_LARGEST_HEIGHT:
-        return r->largest_height;
-    case CEDUO_OBSERVED_WAY_SPEED:
-        return m->speed;
-    case CEDUO_OBSERVED_WAY_HEIGHT:
-        return m->height;
-    case CEDUO_OBSERVED_WAY_ENERGY:
-        return m->energy;
-    default:
-        return of_crossing(f, rock, p);
-    }
+    if (p->row->where == CEDUO_WHERE_LARGEST)
+        return quantity == CEDUO_QUANTITY_HEIGHT ? r->largest_height : r->largest_speed;
+    if (p->row->where == CEDUO_WHERE_ALONG)
+        return quantity == CEDUO_QUANTITY_HEIGHT ? m->height : quantity == CEDUO_QUANTITY_ENERGY ? m->energy : m->speed;
+    if (!c->reached || quantity == CEDUO_QUANTITY_HEIGHT)
+        return c->reached ? c->height : NAN;
+    double speed2 = c->vx * c->vx + c->vz * c->vz;
+    return quantity == CEDUO_QUANTITY_ENERGY ? (r->mass * speed2 + r->moment * (c->spin * c->spin)) / 2 : sqrt(speed2);
 }
 
 static bool on_stretch(const struct ceduo_blow *b, const struct plan *p)
@@ -249,40 +244,35 @@ static bool on_stretch(const struct ceduo_blow *b, const struct plan *p)
     return b->x >= p->seen->from && b->x <= p->seen->to;
 }
 
-static size_t take_blows(const struct flown *f, const struct plan *p, double *values)
+static size_t values_max(const struct flown *f, const struct plan *p)
 {
-    size_t n = 0;
-    for (size_t i = 0; i < f->record.blows_count; i++)
-        if (on_stretch(&f->record.blows[i], p))
-            values[n++] = f->record.blows[i].height;
-    return n;
+    return p->row->where == CEDUO_WHERE_ON_STEMS ? f->record.blows_count : (size_t)f->rocks;
 }
 
-static size_t values_most(const struct flown *f, const struct plan *p)
-{
-    return p->seen->kind == CEDUO_OBSERVED_SCARS ? f->record.blows_count : (size_t)f->rocks;
-}
-
-/* The values of one observation, as many as values_most() at the most; returns how many. */
+/* The values of one observation, as many as values_max() at the most; returns how many. */
 static size_t take_values(const struct flown *f, const struct plan *p, double *values)
 {
-    size_t n = (size_t)f->rocks;
-    if (p->seen->kind == CEDUO_OBSERVED_SCARS)
-        return take_blows(f, p, values);
-    if (f->run && p->seen->kind == CEDUO_OBSERVED_STOPS)
+    size_t n = 0;
+    enum ceduo_quantity quantity = p->row->quantity;
+    for (size_t i = 0; p->row->where == CEDUO_WHERE_ON_STEMS && i < f->record.blows_count; i++)
+        if (on_stretch(&f->record.blows[i], p))
+            values[n++] = f->record.blows[i].height;
+    if (p->row->where == CEDUO_WHERE_ON_STEMS)
+        return n;
+    n = (size_t)f->rocks;
+    if (f->run && p->row->where == CEDUO_WHERE_AT_REST)
         ceduo_run_stops(f->run, values);
     else if (f->run)
         ceduo_run_values(f->run, p->control,
-                         p->seen->kind == CEDUO_OBSERVED_HEIGHT   ? CEDUO_SAMPLE_HEIGHT
-                         : p->seen->kind == CEDUO_OBSERVED_ENERGY ? CEDUO_SAMPLE_ENERGY
-                                                                  : CEDUO_SAMPLE_SPEED,
+                         quantity == CEDUO_QUANTITY_HEIGHT   ? CEDUO_SAMPLE_HEIGHT
+                         : quantity == CEDUO_QUANTITY_ENERGY ? CEDUO_SAMPLE_ENERGY
+                                                             : CEDUO_SAMPLE_SPEED,
                          values);
-    else
-        for (size_t i = 0; i < n; i++)
-            values[i] = of_record(f, i, p);
-    if (p->seen->kind == CEDUO_OBSERVED_STOPS && !isnan(p->seen->from))
-        for (size_t i = 0; i < n; i++)
-            values[i] = values[i] < p->seen->from ? NAN : values[i];
+    for (size_t i = 0; i < n; i++) {
+        values[i] = f->run ? values[i] : of_record(f, i, p);
+        if (p->row->where == CEDUO_WHERE_AT_REST && values[i] < p->seen->from)
+            values[i] = NAN;
+    }
     return n;
 }
 
@@ -395,7 +385,7 @@ static bool compare(const struct plan *p, const struct flown *f, const double *v
 
 static enum ceduo_status look_at_one(const struct plan *p, const struct flown *f, struct ceduo_counterpart *to)
 {
-    double *values = malloc((values_most(f, p) + 1) * sizeof *values);
+    double *values = malloc((values_max(f, p) + 1) * sizeof *values);
     bool good = values && compare(p, f, values, take_values(f, p, values), to);
     free(values);
     return good ? CEDUO_OK : CEDUO_NO_MEMORY;
@@ -424,7 +414,7 @@ enum ceduo_status ceduo_observer_values(const struct ceduo_observer *o, const st
     *values = NULL;
     *n = 0;
     enum ceduo_status status = fly(&o->settings[p->setting], scene, rocks, NULL, &f);
-    if (status == CEDUO_OK && (*values = malloc((values_most(&f, p) + 1) * sizeof **values)))
+    if (status == CEDUO_OK && (*values = malloc((values_max(&f, p) + 1) * sizeof **values)))
         *n = take_values(&f, p, *values);
     land(&f);
     return status == CEDUO_OK && !*values ? CEDUO_NO_MEMORY : status;

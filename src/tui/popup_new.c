@@ -7,7 +7,7 @@
 
 #include "base/language.h"
 #include "ceduo/material.h"
-#include "io/derive.h"
+#include "io/csv_slope.h"
 #include "io/emit.h"
 #include "io/file.h"
 #include "popup.h"

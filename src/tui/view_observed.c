@@ -43,23 +43,6 @@ static void put_row(struct text *row, int width, const char *name, const char *s
     ceduo_text_format(row, " %s\n", word);
 }
 
-static const char *unit_of(enum ceduo_observed_kind kind)
-{
-    switch (kind) {
-    case CEDUO_OBSERVED_PASSED:
-        return "";
-    case CEDUO_OBSERVED_SPEED:
-    case CEDUO_OBSERVED_LARGEST_SPEED:
-    case CEDUO_OBSERVED_WAY_SPEED:
-        return "m/s";
-    case CEDUO_OBSERVED_ENERGY:
-    case CEDUO_OBSERVED_WAY_ENERGY:
-        return "kJ";
-    default:
-        return "m";
-    }
-}
-
 static void put_number(struct text *text, const struct ceduo_observation *o, double value, double origin)
 {
     if (o->kind == CEDUO_OBSERVED_PASSED)
@@ -77,7 +60,8 @@ static void put_observation(struct text *text, const struct scene_file *file, co
     if (o->use == CEDUO_OBSERVED_CHECK)
         ceduo_text_format(&name, " %s", _("(check)"));
     put_number(&seen, o, p->seen, origin);
-    ceduo_text_format(&seen, "%s%s", unit_of(o->kind)[0] ? " " : "", unit_of(o->kind));
+    const char *unit = ceduo_observed_quantity(o->kind)->unit;
+    ceduo_text_format(&seen, "%s%s", unit[0] ? " " : "", unit);
     put_number(&band, o, p->lo, origin);
     ceduo_text_put(&band, RANGE);
     put_number(&band, o, p->hi, origin);

@@ -31,9 +31,8 @@ void ceduo_calibration_number(struct text *text, const struct field *field, doub
 
 double ceduo_seen_shown(enum ceduo_observed_kind kind, double value, double origin)
 {
-    if (kind == CEDUO_OBSERVED_STOPS)
-        return value + origin;
-    return kind == CEDUO_OBSERVED_ENERGY || kind == CEDUO_OBSERVED_WAY_ENERGY ? value * KILO : value;
+    bool place = ceduo_observed_row(kind)->quantity == CEDUO_QUANTITY_PLACE;
+    return place ? value + origin : value * (1 / ceduo_observed_quantity(kind)->scale);
 }
 
 const struct ceduo_observation *ceduo_seen_of(const struct ceduo_calibration_report *r, const struct ceduo_predicted *p)

@@ -7,7 +7,7 @@
 #include <unistd.h>
 
 #include "fuzz.h"
-#include "io/derive.h"
+#include "io/csv_slope.h"
 #include "io/survey_file.h"
 
 /* The stand of a survey is one that a scene takes. */

@@ -1,0 +1,597 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What a scene and its stands say is not known: each row becomes an input, with the places that it stands for. What a
+ * calibration left open is one more, from a table with a column for each fitted value, whose head is its path, or several with
+ * blanks between them. Each row is one draw; all values of a row belong together. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/language.h"
+#include "base/utf8.h"
+#include "csv.h"
+#include "inputs.h"
+#include "resolve.h"
+#include "scene/value.h"
+#include "validate.h"
+
+/* A row, where it stands, and what its path begins at: "" or a stand and a dot. */
+struct row {
+    const struct doubt *doubt;
+    const char *at, *within;
+};
+
+/* ---- places ---- */
+
+struct places {
+    struct validator *v;
+    const char **items;
+    size_t n, room;
+};
+
+/* For so many more. False without memory. */
+static bool make_room(struct places *p, size_t more)
+{
+    const char **items = ceduo_bind_room(p->v->arena, p->items, p->n, more, &p->room, sizeof *items, p->v->problems);
+    p->items = items ? items : p->items;
+    return items != NULL;
+}
+
+/* The list that a path before its [*] leads to; NULL: none. */
+static const struct node *list_at(const struct node *root, const char *path)
+{
+    const char *within;
+    size_t used;
+    const struct node *node = ceduo_resolve_walk(root, path, &within, &used);
+    return path[used] == '\0' && node->kind == NODE_LIST ? node : NULL;
+}
+
+/* The path with the number of an item in place of its name: paths of one place are alike. */
+static const char *with_numbers(struct validator *v, const char *path)
+{
+    struct path_step step;
+    size_t at = 0, place;
+    while (ceduo_path_next(path, strlen(path), &at, &step)) {
+        if (!step.bracket || ceduo_path_index(&step, &place))
+            continue;
+        int before = (int)(step.p - path);
+        const struct node *list = list_at(v->root, ceduo_format(v, "%.*s", before - 1, path));
+        if (list && ceduo_resolve_item(list, &step, &place))
+            return with_numbers(v, ceduo_format(v, "%.*s%zu%s", before, path, place, step.p + step.n));
+    }
+    return path;
+}
+
+static void add_place(struct places *p, const char *path)
+{
+    if (make_room(p, 1))
+        p->items[p->n++] = ceduo_format(p->v, "%s", with_numbers(p->v, path));
+}
+
+/* The path, with every [*] replaced by each item in turn; where there is no such list nothing is added. */
+static void add_all(struct places *p, const char *path)
+{
+    const char *star = strstr(path, "[*]");
+    if (!star) {
+        add_place(p, path);
+        return;
+    }
+    const char *before = ceduo_format(p->v, "%.*s", (int)(star - path), path);
+    const struct node *list = list_at(p->v->root, before);
+    for (size_t i = 0; list && i < list->n; i++)
+        add_all(p, ceduo_format(p->v, "%s[%zu]%s", before, i, star + 3));
+}
+
+#define GROUND   "slope.materials["
+#define SEGMENTS "slope.segments[*]."
+
+/* The name and the key of slope.materials[NAME].KEY; NULL: the path is not of that form. */
+static const char *ground_of(struct validator *v, const char *path, const char **key)
+{
+    const size_t before = sizeof GROUND - 1;
+    const char *end = strchr(path, ']');
+    if (strncmp(path, GROUND, before) != 0 || !end || end[1] != '.')
+        return NULL;
+    *key = end + 2;
+    return ceduo_format(v, "%.*s", (int)(end - path - (ptrdiff_t)before), path + before);
+}
+
+/* A ground that stands in no list of segments: one place for each stretch. */
+static void add_stretches(struct places *p, const char *key)
+{
+    size_t stretches = p->v->draft.scene.slope.vertices - 1;
+    for (size_t j = 0; j < stretches; j++)
+        add_place(p, ceduo_format(p->v, "slope.segments[%zu].%s", j, key));
+}
+
+/* All places of a path that the scene has. `fitted`: a ground may be wherever it is, whether the files have a list of it or not;
+ * `talus`: it was taken for all of the slope. */
+static void find_places(struct places *p, const char *path, bool fitted, bool talus)
+{
+    struct validator *v = p->v;
+    const char *key = NULL, *name = ground_of(v, path, &key);
+    struct value value;
+    size_t n = 0;
+    if (fitted && name && talus && strcmp(name, ceduo_material_talus()->name) == 0)
+        add_stretches(p, key);
+    else if (fitted && !name && v->draft.scene.slope.segments_given == 0 && strncmp(path, SEGMENTS, sizeof SEGMENTS - 1) == 0)
+        add_stretches(p, path + sizeof SEGMENTS - 1);
+    else if (!name)
+        add_all(p, path);
+    else if (make_room(p, v->draft.scene.slope.vertices))
+        p->n = ceduo_input_ground(v->arena, v->root, &v->draft.scene, name, key, p->items);
+    for (size_t i = 0; i < p->n; i++)
+        if (ceduo_value_find(&v->draft.scene, p->items[i], &value))
+            p->items[n++] = p->items[i];
+    p->n = n;
+}
+
+/* The path of the first item where it says [*]. */
+static const char *first_of(struct validator *v, const char *path)
+{
+    char *first = ceduo_arena_string(v->arena, path);
+    for (char *p = first; p && *p; p++)
+        if (p[0] == '[' && p[1] == '*')
+            p[1] = '0';
+    return first ? first : "";
+}
+
+/* The row of the table of keys that a path means, whether the scene has such an item or not; NULL: it is of no number and no
+ * word. */
+static const struct field *field_of(struct validator *v, const char *path)
+{
+    const char *key, *ground = ground_of(v, path, &key);
+    const struct field *f = ground ? NULL : ceduo_schema_at(first_of(v, path));
+    if (ground && ceduo_choice_find(&ceduo_material_words, ground) >= 0)
+        f = ceduo_schema_field(ceduo_schema_segment(), key);
+    bool value = f && (f->type == FIELD_NUMBER || f->type == FIELD_SPREAD || f->type == FIELD_COUNT || f->type == FIELD_CHOICE);
+    return value ? f : NULL;
+}
+
+/* ---- ranges ---- */
+
+/* Whether the end of a range that `key` gives lies within what is possible. */
+static bool check_end(struct validator *v, const char *at, const char *key, const struct field *field, double value)
+{
+    struct text range = {0};
+    bool good = ceduo_schema_in_range(field, value);
+    ceduo_schema_range_text(field, &range);
+    if (!good)
+        ceduo_complain(v, at, key, _("%s is outside the range of %s: %s"), ceduo_decimal(v, value), field->key,
+                       ceduo_text_string(&range));
+    ceduo_text_free(&range);
+    return good;
+}
+
+static bool read_range(struct validator *v, const struct row *row, const struct field *field, struct ceduo_input *input)
+{
+    double mean = row->doubt->mean, sd = row->doubt->sd;
+    bool normal = !isnan(mean), gamma = normal && field->lo >= 0 && mean > 0 && sd > mean / 3;
+    input->kind = gamma ? CEDUO_INPUT_GAMMA : normal ? CEDUO_INPUT_NORMAL : CEDUO_INPUT_RANGE;
+    input->mean = mean;
+    input->sd = sd;
+    if (gamma && sd > CEDUO_GAMMA_MOST * mean) {
+        ceduo_complain(v, row->at, "sd", _("sd is more than %g times the mean; give lo and hi"), CEDUO_GAMMA_MOST);
+        return false;
+    }
+    input->lo = gamma ? ceduo_input_quantile(input, 0) : normal ? mean - 3 * sd : row->doubt->lo;
+    input->hi = gamma ? ceduo_input_quantile(input, 1) : normal ? mean + 3 * sd : row->doubt->hi;
+    if (!(input->lo < input->hi)) {
+        ceduo_complain(v, row->at, normal ? "sd" : "hi",
+                       normal ? _("the range is empty; sd must be above 0") : _("the range is empty; hi must be above lo"));
+        return false;
+    }
+    return check_end(v, row->at, normal ? "mean" : "lo", field, input->lo) &&
+           check_end(v, row->at, normal ? "sd" : "hi", field, input->hi);
+}
+
+static bool read_words(struct validator *v, const struct row *row, const struct field *field, struct ceduo_input *input)
+{
+    size_t n = row->doubt->one_of_count;
+    int *words = ceduo_room(v, n, sizeof *words);
+    input->kind = CEDUO_INPUT_WORDS;
+    input->words = words;
+    input->words_count = n;
+    if (n < 2)
+        ceduo_complain(v, row->at, "one_of", _("name at least two words"));
+    for (size_t i = 0; words && i < n; i++) {
+        words[i] = ceduo_choice_find(field->choices, row->doubt->one_of[i]);
+        if (words[i] >= 0)
+            continue;
+        struct text all = {0};
+        ceduo_text_words(&all, field->choices->names, field->choices->n, ", ");
+        ceduo_complain(v, ceduo_format(v, "%s.one_of[%zu]", row->at, i), "", _("'%s' is unknown; one of: %s"),
+                       row->doubt->one_of[i], ceduo_text_string(&all));
+        ceduo_text_free(&all);
+        return false;
+    }
+    return words && n >= 2;
+}
+
+/* Which of its three forms a row has; exactly one. */
+static bool check_form(struct validator *v, const struct row *row, const struct field *field)
+{
+    const struct doubt *d = row->doubt;
+    int range = !isnan(d->lo) + !isnan(d->hi), normal = !isnan(d->mean) + !isnan(d->sd);
+    bool words = d->one_of != NULL, choice = field->type == FIELD_CHOICE;
+    bool one = range == 2 ? normal == 0 && !words : normal == 2 ? range == 0 && !words : words && range + normal == 0;
+    if (!one)
+        ceduo_complain(v, row->at, "",
+                       choice ? _("give one_of: the words that it may be") : _("give lo and hi, or mean and sd"));
+    else if (words != choice)
+        ceduo_complain(v, row->at, "",
+                       choice ? _("'%s' is a word; give one_of") : _("'%s' is a number; give lo and hi, or mean and sd"),
+                       field->key);
+    return one && words == choice;
+}
+
+/* One input of a row. False if the scene has no such place, as of a stand that was exchanged, or the row is unusable, which has
+ * been reported. */
+static bool make_input(struct validator *v, const struct row *row, struct ceduo_input *input)
+{
+    struct places places = {.v = v};
+    const char *path = ceduo_format(v, "%s%s", row->within, row->doubt->path);
+    const struct field *field = field_of(v, path);
+    bool of_stand = row->within[0] != '\0';
+    if (!field || ceduo_schema_is_settled(first_of(v, path))) {
+        ceduo_complain(v, row->at, "path",
+                       field ? _("no answer is in doubt because of '%s'; name a value of the rock, its release, the slope, a "
+                                 "stand or the law")
+                       : of_stand ? _("'%s' is not a number or a word of a stand")
+                                  : _("'%s' is not a number or a word of a scene"),
+                       row->doubt->path);
+        return false;
+    }
+    find_places(&places, path, false, false);
+    if (places.n == 0 || !check_form(v, row, field))
+        return false;
+    *input = (struct ceduo_input){
+        .path = of_stand ? places.items[0] : row->doubt->path, .places = places.items, .places_count = places.n};
+    return field->type == FIELD_CHOICE ? read_words(v, row, field, input) : read_range(v, row, field, input);
+}
+
+static void complain_twice(struct validator *v, const struct row *row)
+{
+    ceduo_complain(v, row->at, "path", _("'%s' is given twice"), row->doubt->path);
+}
+
+static int by_name(const void *a, const void *b)
+{
+    return strcmp(*(const char *const *)a, *(const char *const *)b);
+}
+
+/* Whether an input before a row has its path, by whatever name of an item, or is draws of one of its places. */
+static bool is_before(struct validator *v, const struct ceduo_input *before, const struct ceduo_input *row)
+{
+    if (before->kind != CEDUO_INPUT_DRAWS)
+        return ceduo_schema_same(with_numbers(v, before->path), with_numbers(v, row->path));
+    for (size_t i = 0; i < row->places_count; i++)
+        if (bsearch(&row->places[i], before->places, before->places_count, sizeof *before->places, by_name))
+            return true;
+    return false;
+}
+
+static void add_row(struct validator *v, size_t i)
+{
+    const struct row row = {&v->draft.doubts[i], ceduo_format(v, "doubt[%zu]", i), ""};
+    struct ceduo_input input;
+    if (!make_input(v, &row, &input))
+        return;
+    for (size_t k = 0; k < v->inputs_count; k++)
+        if (is_before(v, &v->inputs[k], &input)) {
+            complain_twice(v, &row);
+            return;
+        }
+    v->inputs[v->inputs_count++] = input;
+}
+
+/* ---- of stands ---- */
+
+/* A row of a stand. Many belts may have the stand: then it stands for the places in all of them. */
+struct stand_row {
+    const struct node *node;
+    size_t input; /* SIZE_MAX: none, as the row is unusable or about what the stand has not */
+};
+
+struct stand_rows {
+    struct validator *v;
+    struct stand_row *items; /* NULL: they are only counted */
+    size_t n;
+};
+
+static bool is_of_scene(const struct validator *v, const char *place)
+{
+    for (size_t i = 0; i < v->inputs_of_scene; i++)
+        for (size_t k = 0; k < v->inputs[i].places_count; k++)
+            if (ceduo_schema_same(v->inputs[i].places[k], place))
+                return true;
+    return false;
+}
+
+/* Adds the places of one input to those of another, but for what the scene itself names. */
+static void join(struct validator *v, struct ceduo_input *to, const struct ceduo_input *from)
+{
+    const char **all = ceduo_room(v, to->places_count + from->places_count, sizeof *all);
+    size_t n = 0;
+    for (size_t i = 0; all && i < to->places_count; i++)
+        all[n++] = to->places[i];
+    for (size_t i = 0; all && i < from->places_count; i++)
+        if (!is_of_scene(v, from->places[i]))
+            all[n++] = from->places[i];
+    to->places = all;
+    to->places_count = n;
+}
+
+static void add_stand_row(struct stand_rows *s, const struct row *row, const struct node *node)
+{
+    struct validator *v = s->v;
+    struct stand_row *known = s->items;
+    struct ceduo_input input;
+    while (known < s->items + s->n && known->node != node)
+        known++;
+    bool is_new = known == s->items + s->n;
+    if (is_new) {
+        *known = (struct stand_row){node, SIZE_MAX};
+        s->n++;
+    } else if (known->input == SIZE_MAX) {
+        return;
+    }
+    if (!make_input(v, row, &input))
+        return;
+    if (is_new) {
+        known->input = v->inputs_count++;
+        v->inputs[known->input] = input;
+        v->inputs[known->input].places_count = 0;
+    }
+    join(v, &v->inputs[known->input], &input);
+}
+
+static void take_stand(struct stand_rows *s, const char *within, const struct node *rows)
+{
+    const struct object *object = ceduo_schema_field(ceduo_schema_stand(), "doubt")->object;
+    struct validator *v = s->v;
+    for (size_t i = 0; i < rows->n; i++) {
+        struct doubt doubt;
+        const struct source_note *notes = NULL;
+        const struct row row = {&doubt, ceduo_format(v, "%sdoubt[%zu]", within, i), within};
+        bool twice = false;
+        if (!ceduo_is_sound(v, row.at))
+            continue;
+        ceduo_schema_init(object, &doubt);
+        ceduo_bind(v->arena, object, rows->items[i], &doubt, v->problems, &notes, &v->bad);
+        for (size_t k = 0; k < i; k++) {
+            const char *other = ceduo_node_text(rows->items[k], "path");
+            twice |= other && ceduo_schema_same(other, doubt.path);
+        }
+        if (twice)
+            complain_twice(v, &row);
+        else
+            add_stand_row(s, &row, rows->items[i]);
+    }
+}
+
+/* The rows of the stands of all belts: counts them, or takes them. */
+static void take_stands(struct stand_rows *s)
+{
+    struct validator *v = s->v;
+    const struct node *options = ceduo_node_get(v->root, "options");
+    bool several = options && options->kind == NODE_LIST;
+    for (size_t i = 0; i < (several ? options->n : 1); i++) {
+        const struct node *forest = ceduo_node_get(several ? options->items[i] : v->root, "forest");
+        for (size_t k = 0; forest && forest->kind == NODE_LIST && k < forest->n; k++) {
+            const struct node *rows = ceduo_node_get(ceduo_node_get(forest->items[k], "stand"), "doubt");
+            if (!rows || rows->kind != NODE_LIST)
+                continue;
+            if (!s->items)
+                s->n += rows->n;
+            else if (several)
+                take_stand(s, ceduo_format(v, "options[%zu].forest[%zu].stand.", i, k), rows);
+            else
+                take_stand(s, ceduo_format(v, "forest[%zu].stand.", k), rows);
+        }
+    }
+}
+
+/* ---- draws of a calibration ---- */
+
+/* A place, and the draws of its column. */
+struct drawn {
+    const char *place;
+    const double *values;
+};
+
+/* What the draws of a column are. */
+struct head {
+    size_t column;
+    const struct field *field;
+};
+
+struct draws {
+    struct validator *v;
+    struct csv csv;
+    size_t columns, rows;
+    double **values; /* [column][row] */
+    size_t heads_count, heads_room, places_count, places_room;
+    struct head *heads; /* column by column */
+    struct drawn *places;
+};
+
+/* All places of a path that is fitted, to input->places; NULL where it is no number of a scene. */
+static const struct field *find_fitted(struct validator *v, const char *path, bool talus, struct ceduo_input *input)
+{
+    struct places p = {.v = v};
+    const struct field *field = field_of(v, path);
+    *input = (struct ceduo_input){.path = path, .kind = CEDUO_INPUT_RANGE};
+    if (!field || field->type == FIELD_CHOICE || ceduo_schema_is_settled(first_of(v, path)))
+        return NULL;
+    find_places(&p, path, true, talus);
+    input->places = p.items;
+    input->places_count = p.n;
+    return v->arena->failed ? NULL : field;
+}
+
+/* The places that one path in the head of a column sets; it must name one. Of a foreign table only the beginning is told. */
+static bool take_path(struct draws *t, size_t column, char *path)
+{
+    struct validator *v = t->v;
+    struct ceduo_input found;
+    const struct field *f = path[0] ? find_fitted(v, path, v->ground_assumed, &found) : NULL;
+    t->csv.source->foreign &= f == NULL;
+    if (!f || found.places_count == 0) {
+        if (t->csv.source->foreign)
+            path[ceduo_utf8_cut(path, CEDUO_FOREIGN_MOST)] = '\0';
+        ceduo_node_problem(v->problems, v->draws, "doubt.draws",
+                           _("the table has a column '%s', which is no value of this scene"), path);
+        return false;
+    }
+    t->heads = ceduo_bind_room(v->arena, t->heads, t->heads_count, 1, &t->heads_room, sizeof *t->heads, v->problems);
+    t->places = ceduo_bind_room(v->arena, t->places, t->places_count, found.places_count, &t->places_room, sizeof *t->places,
+                                v->problems);
+    if (!t->heads || !t->places)
+        return false;
+    const struct head *last = t->heads_count > 0 ? &t->heads[t->heads_count - 1] : NULL;
+    if (!last || last->column != column || last->field != f) /* not another item of the same list */
+        t->heads[t->heads_count++] = (struct head){column, f};
+    for (size_t i = 0; i < found.places_count; i++)
+        t->places[t->places_count++] = (struct drawn){found.places[i], t->values[column]};
+    return true;
+}
+
+static int by_place(const void *a, const void *b)
+{
+    return strcmp(((const struct drawn *)a)->place, ((const struct drawn *)b)->place);
+}
+
+/* The first line; afterwards the places are sorted, and none may be there twice. */
+static bool take_header(struct draws *t)
+{
+    struct csv_span left = t->csv.header, field;
+    for (size_t c = 0; ceduo_csv_step(&t->csv, &left, &field); c++) {
+        char *head = ceduo_arena_copy(t->v->arena, field.p, field.n), *rest = head;
+        char *path = head ? strtok_r(head, " ", &rest) : NULL;
+        if (!head || (!path && !take_path(t, c, head)))
+            return false;
+        for (; path; path = strtok_r(NULL, " ", &rest))
+            if (!take_path(t, c, path))
+                return false;
+    }
+    qsort(t->places, t->places_count, sizeof *t->places, by_place);
+    for (size_t i = 1; i < t->places_count; i++)
+        if (by_place(&t->places[i - 1], &t->places[i]) == 0)
+            ceduo_problem(t->v->problems, t->csv.source, 1, 1, _("'%s' is given twice"), t->places[i].place);
+    return true;
+}
+
+static void check_draw(struct draws *t, struct csv_span field, const struct field *f, double value)
+{
+    struct text range = {0};
+    if (ceduo_schema_in_range(f, value))
+        return;
+    ceduo_schema_range_text(f, &range);
+    ceduo_csv_complain(&t->csv, field, t->v->problems, _("%s is outside the range of %s: %s"), ceduo_decimal(t->v, value),
+                       f->key, ceduo_text_string(&range));
+    ceduo_text_free(&range);
+}
+
+static void read_row(struct draws *t)
+{
+    struct csv_span left = t->csv.line, field;
+    size_t c = 0, h = 0;
+    for (; c < t->columns && ceduo_csv_step(&t->csv, &left, &field); c++) {
+        double *to = &t->values[c][t->rows];
+        bool good = ceduo_csv_number(&t->csv, field, -1e12, 1e12, "", to, t->v->problems);
+        for (; h < t->heads_count && t->heads[h].column == c; h++)
+            if (good)
+                check_draw(t, field, t->heads[h].field, *to);
+    }
+    if (c < t->columns)
+        ceduo_problem(t->v->problems, t->csv.source, t->csv.number, 1, _("too few columns"));
+    else if (ceduo_csv_step(&t->csv, &left, &field))
+        ceduo_csv_complain(&t->csv, field, t->v->problems, _("more columns than the first line has"));
+    t->rows++;
+}
+
+static bool make_columns(struct draws *t)
+{
+    struct text names = {0};
+    size_t lines = ceduo_csv_lines(&t->csv);
+    t->columns = ceduo_csv_columns(&t->csv, &names);
+    ceduo_text_free(&names);
+    t->values = ceduo_room(t->v, t->columns, sizeof *t->values);
+    bool good = t->values != NULL;
+    for (size_t c = 0; good && c < t->columns; c++)
+        good = (t->values[c] = ceduo_room(t->v, lines, sizeof **t->values)) != NULL;
+    return good;
+}
+
+static bool read_table(struct draws *t, const char *path)
+{
+    struct problems *problems = t->v->problems;
+    size_t before = problems->met;
+    if (!ceduo_csv_open(&t->csv, t->v->arena, path, problems) || !make_columns(t) || !take_header(t))
+        return false;
+    while (ceduo_csv_next(&t->csv))
+        read_row(t);
+    if (t->rows == 0)
+        ceduo_node_problem(problems, t->v->draws, "doubt.draws", _("the table has no row"));
+    return problems->met == before;
+}
+
+/* Adds what a calibration left open as one input. */
+static void add_draws(struct validator *v)
+{
+    struct draws t = {.v = v};
+    if (v->draws->kind != NODE_SCALAR) {
+        ceduo_node_problem(v->problems, v->draws, "doubt.draws", _("expected the path of a table"));
+        return;
+    }
+    const char *path = ceduo_resolve_path(v->arena, v->draws, "scenes");
+    if (!path)
+        ceduo_node_problem(v->problems, v->draws, "doubt.draws", _("cannot find '%s' beside this file"), v->draws->text);
+    if (!path || !read_table(&t, path))
+        return;
+    const char **places = ceduo_room(v, t.places_count, sizeof *places);
+    const double **draws = ceduo_room(v, t.places_count, sizeof *draws);
+    for (size_t i = 0; places && draws && i < t.places_count; i++) {
+        places[i] = t.places[i].place;
+        draws[i] = t.places[i].values;
+    }
+    if (places && draws)
+        v->inputs[v->inputs_count++] = (struct ceduo_input){.path = "draws",
+                                                            .kind = CEDUO_INPUT_DRAWS,
+                                                            .lo = NAN,
+                                                            .hi = NAN,
+                                                            .places_count = t.places_count,
+                                                            .places = places,
+                                                            .draws_count = t.rows,
+                                                            .draws = draws};
+}
+
+/* ---- all ---- */
+
+void ceduo_validate_doubt(struct validator *v)
+{
+    size_t n = ceduo_is_sound(v, "doubt") ? v->draft.doubts_count : 0;
+    struct stand_rows stands = {.v = v};
+    take_stands(&stands);
+    if (n + stands.n + (v->draws != NULL) == 0 || !v->profile || ceduo_is_too_long(v, "doubt", n))
+        return;
+    struct stand_row *items = ceduo_room(v, stands.n, sizeof *items);
+    v->inputs = ceduo_room(v, n + stands.n + 1, sizeof *v->inputs);
+    if (!items || !v->inputs)
+        return;
+    if (v->draws)
+        add_draws(v);
+    for (size_t i = 0; i < n; i++)
+        add_row(v, i);
+    v->inputs_of_scene = v->inputs_count;
+    stands = (struct stand_rows){.v = v, .items = items};
+    take_stands(&stands);
+}
+
+const struct field *ceduo_input_find(struct scene_file *file, const char *path, struct ceduo_input *input)
+{
+    struct problems problems = {0};
+    struct validator v = {.arena = &file->arena, .root = file->root, .problems = &problems};
+    v.draft.scene = file->scene;
+    return find_fitted(&v, path, file->ground_assumed, input);
+}

@@ -1,0 +1,457 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What was observed of real rocks. It may be written as a list of rows or as a mapping from kinds to rows, lists inline or as
+ * tables: ceduo_arrange_observed() brings all into the one form that the table of keys has, before it is read. Then each row
+ * becomes one or several observations; what is particular to a kind stands in ceduo/observe.h. */
+#include <gsl/gsl_sort.h>
+#include <math.h>
+#include <string.h>
+
+#include "base/language.h"
+#include "csv.h"
+#include "resolve.h"
+#include "validate.h"
+
+/* ---- one form ---- */
+
+/* What may stand beside a kind or within it. */
+static bool is_beside(const char *key)
+{
+    static const char *const keys[] = {"name", "use", "option", "rock", "release", "source"};
+    for (size_t i = 0; i < sizeof keys / sizeof keys[0]; i++)
+        if (strcmp(key, keys[i]) == 0)
+            return true;
+    return false;
+}
+
+static bool is_number(const struct node *node)
+{
+    double value;
+    return !node->quoted && ceduo_number_read(node->text, &value) != CEDUO_NUMBER_NONE;
+}
+
+/* A path in place of the values is a table. */
+static const struct node *name_tables(struct arena *arena, const struct node *kind)
+{
+    static const char *const lists[] = {"x_m", "values", "height_m"};
+    bool place = ceduo_node_get(kind, "values") || ceduo_node_get(kind, "mean"); /* then x_m is a number */
+    for (size_t i = place ? 1 : 0; kind && i < 3; i++) {
+        const struct node *list = ceduo_node_get(kind, lists[i]);
+        if (!list || list->kind != NODE_SCALAR || is_number(list) || ceduo_node_get(kind, "csv"))
+            continue;
+        const struct node *without = ceduo_node_without(arena, kind, lists[i]);
+        kind = without ? ceduo_node_with(arena, without, "csv", ceduo_node_renamed(arena, list, "csv")) : NULL;
+    }
+    return kind;
+}
+
+/* Takes out of a kind what belongs beside it. */
+static const struct node *lift(struct arena *arena, const struct node *row, const char *key)
+{
+    const struct node *kind = ceduo_node_get(row, key);
+    for (size_t i = kind->kind == NODE_MAP ? kind->n : 0; row && kind && i-- > 0;) {
+        const struct node *entry = kind->items[i];
+        if (!is_beside(entry->key) || ceduo_node_get(row, entry->key))
+            continue;
+        kind = ceduo_node_without(arena, kind, entry->key);
+        row = ceduo_node_with(arena, row, entry->key, entry);
+    }
+    if (kind && kind->kind == NODE_MAP)
+        kind = name_tables(arena, kind);
+    return row && kind ? ceduo_node_with(arena, row, key, kind) : NULL;
+}
+
+/* A row whose kinds have nothing in them that belongs beside them, and whose release says all that the scene's says. */
+static const struct node *arrange_row(struct validator *v, const struct node *row)
+{
+    const struct node *arranged = row, *scene = ceduo_node_get(v->root, "release");
+    if (row->kind != NODE_MAP)
+        return row;
+    for (size_t i = 0; arranged && i < row->n; i++)
+        if (!is_beside(row->items[i]->key))
+            arranged = lift(v->arena, arranged, row->items[i]->key);
+    const struct node *own = arranged ? ceduo_node_get(arranged, "release") : NULL;
+    for (size_t i = 0; own && own->kind == NODE_MAP && scene && scene->kind == NODE_MAP && i < scene->n; i++)
+        if (!ceduo_node_get(own, scene->items[i]->key) && strcmp(scene->items[i]->key, "source") != 0)
+            own = ceduo_node_with(v->arena, own, scene->items[i]->key, scene->items[i]);
+    return own ? ceduo_node_with(v->arena, arranged, "release", own) : arranged;
+}
+
+/* Adds rows of one kind, from a mapping or a list of such. NULL without memory. */
+static const struct node *add_kind(struct arena *arena, const struct node *list, const struct node *kind)
+{
+    size_t n = kind->kind == NODE_LIST ? kind->n : 1;
+    for (size_t i = 0; list && i < n; i++) {
+        const struct node *empty = ceduo_node_empty(arena, NODE_MAP, kind->source);
+        const struct node *value = kind->kind == NODE_LIST ? kind->items[i] : kind;
+        const struct node *made = empty ? ceduo_node_with(arena, empty, kind->key, value) : NULL;
+        struct node *row = made ? ceduo_arena_take(arena, sizeof *row) : NULL;
+        if (!row)
+            return NULL;
+        *row = *made;
+        row->line = value->line;
+        row->column = value->column;
+        list = ceduo_node_inserted(arena, list, list->n, row);
+    }
+    return list;
+}
+
+/* doubt: {draws: FILE, rows: […]}: the rows are the list that may stand there alone. NULL without memory. */
+static const struct node *arrange_doubt(struct validator *v)
+{
+    const struct node *doubt = ceduo_node_get(v->root, "doubt"), *rows = ceduo_node_get(doubt, "rows");
+    if (!doubt || doubt->kind != NODE_MAP || !(v->draws = ceduo_node_get(doubt, "draws")))
+        return v->root;
+    for (size_t i = 0; i < doubt->n; i++)
+        if (strcmp(doubt->items[i]->key, "draws") != 0 && strcmp(doubt->items[i]->key, "rows") != 0)
+            ceduo_node_problem(v->problems, doubt->items[i], "doubt", _("unknown key; known here: draws, rows"));
+    const struct node *root = ceduo_node_without(v->arena, v->root, "doubt");
+    return root && rows ? ceduo_node_with(v->arena, root, "doubt", ceduo_node_renamed(v->arena, rows, "doubt")) : root;
+}
+
+void ceduo_arrange_observed(struct validator *v)
+{
+    const struct node *root = arrange_doubt(v), *all = ceduo_node_get(root, "observed"), *list = all;
+    if (all && all->kind == NODE_MAP) {
+        list = ceduo_node_empty(v->arena, NODE_LIST, all->source);
+        for (size_t i = 0; list && i < all->n; i++)
+            list = add_kind(v->arena, list, all->items[i]);
+    }
+    for (size_t i = 0; list && list->kind == NODE_LIST && i < list->n; i++) {
+        const struct node *row = arrange_row(v, list->items[i]);
+        list = row == list->items[i] ? list : row ? ceduo_node_replaced(v->arena, list, i, row) : NULL;
+    }
+    if (list != all)
+        root = list ? ceduo_node_with(v->arena, root, "observed", list) : NULL;
+    if (root)
+        v->root = root;
+    else
+        ceduo_problem_memory(v->problems);
+}
+
+/* ---- values ---- */
+
+/* What is checked: a row, and one of its kinds. */
+struct place {
+    struct validator *v;
+    struct observed *row;
+    const char *row_path;                /* observed[0] */
+    const struct ceduo_release *release; /* of the row */
+    enum ceduo_observed_kind kind;
+    const struct ceduo_observed_row *is;
+    struct observed_values *values;
+    const char *at; /* observed[0].stops */
+    const struct node *node;
+};
+
+/* The column of a table that holds the values; CEDUO_CSV_NONE if there is none, which is reported. */
+static size_t find_column(const struct place *p, struct csv *csv, const char *named, const char *key)
+{
+    const char *const own[] = {named, NULL};
+    struct text all = {0};
+    size_t known = ceduo_csv_column(csv, ceduo_observed_quantity(p->kind)->columns);
+    size_t column = named ? ceduo_csv_column(csv, own) : known;
+    csv->source->foreign = known == CEDUO_CSV_NONE;
+    size_t n = ceduo_csv_columns(csv, &all);
+    if (column == CEDUO_CSV_NONE && !named && n == 1)
+        column = 0;
+    key = ceduo_node_get(p->node, key) ? key : "csv";
+    if (column == CEDUO_CSV_TWICE)
+        ceduo_complain(p->v, p->at, key, _("the table has this column twice; rename one: %s"), ceduo_text_string(&all));
+    else if (column == CEDUO_CSV_NONE && named)
+        ceduo_complain(p->v, p->at, key, _("the table has no column '%s'; it has: %s"), named, ceduo_text_string(&all));
+    else if (column == CEDUO_CSV_NONE)
+        ceduo_complain(p->v, p->at, key, _("name the column that holds the values (column); the table has: %s"),
+                       ceduo_text_string(&all));
+    p->v->problems->memory |= all.failed;
+    ceduo_text_free(&all);
+    return column == CEDUO_CSV_TWICE ? CEDUO_CSV_NONE : column;
+}
+
+/* The rows that are wanted: those with a word in a column; CEDUO_CSV_NONE if all are. False if that makes no sense, which is
+ * reported. */
+static bool find_only(const struct place *p, struct csv *csv, const char *only, size_t *column, const char **word)
+{
+    const char *equals = only ? strchr(only, '=') : NULL;
+    *column = CEDUO_CSV_NONE;
+    if (!only)
+        return true;
+    if (!equals || equals == only) {
+        ceduo_complain(p->v, p->at, "only", _("'%s' is not COLUMN=WORD, such as block=1"), only);
+        return false;
+    }
+    *word = equals + 1;
+    *column = find_column(p, csv, ceduo_format(p->v, "%.*s", (int)(equals - only), only), "only");
+    return *column != CEDUO_CSV_NONE;
+}
+
+static void read_table(const struct place *p, const char *path)
+{
+    struct validator *v = p->v;
+    struct observed_values *to = p->values;
+    struct csv csv;
+    struct csv_span field;
+    size_t only;
+    const char *word = NULL;
+    if (!ceduo_csv_open(&csv, v->arena, path, v->problems))
+        return;
+    size_t column = find_column(p, &csv, to->column, "column");
+    if (column == CEDUO_CSV_NONE || !find_only(p, &csv, to->only, &only, &word) ||
+        !(to->values = ceduo_room(v, ceduo_csv_lines(&csv), sizeof *to->values)))
+        return;
+    while (ceduo_csv_next(&csv)) {
+        bool other = only != CEDUO_CSV_NONE && (!ceduo_csv_field(&csv, only, &field) || !ceduo_csv_is(field, word));
+        if (other)
+            continue;
+        if (!ceduo_csv_field(&csv, column, &field))
+            ceduo_problem(v->problems, csv.source, csv.number, 1, _("too few columns"));
+        else if (ceduo_csv_number(&csv, field, -1e9, 1e9, "", &to->values[to->values_count], v->problems))
+            to->values_count++;
+    }
+    if (to->values_count == 0)
+        ceduo_complain(v, p->at, "csv", _("the table has no such row"));
+}
+
+/* Values from a table, if they are not listed. False if there is a problem. */
+static bool take_values(const struct place *p)
+{
+    struct validator *v = p->v;
+    const struct observed_values *values = p->values;
+    size_t before = v->problems->met;
+    const struct node *csv = ceduo_node_get(p->node, "csv"), *list = ceduo_node_get(p->node, p->is->list);
+    const char *path = csv && !list ? ceduo_resolve_path(v->arena, csv, "scenes") : NULL;
+    if (csv && list)
+        ceduo_complain(v, p->at, "csv", _("%s already says this; keep one of the two"), p->is->list);
+    else if (path)
+        read_table(p, path);
+    else if (csv)
+        ceduo_complain(v, p->at, "csv", _("cannot find '%s' beside this file"), csv->text);
+    else if (list && values->values_count == 0)
+        ceduo_complain(v, p->at, p->is->list, _("the list is empty"));
+    else if (values->column || values->only)
+        ceduo_complain(v, p->at, values->column ? "column" : "only", _("names something of a table; name the table, csv"));
+    return v->problems->met == before;
+}
+
+/* Either values, or their mean, sd and number. */
+static bool check_form(const struct place *p)
+{
+    const struct observed_values *values = p->values;
+    int means = !isnan(values->mean) + !isnan(values->sd) + (values->n > 0);
+    bool listed = values->values_count > 0;
+    if (listed && means > 0)
+        ceduo_complain(p->v, p->at, "", _("values and their mean together; keep one"));
+    else if (!listed && means < 3)
+        ceduo_complain(p->v, p->at, "",
+                       means == 0 ? _("give values, or their mean, sd and n") : _("a mean needs sd and n too"));
+    return listed ? means == 0 : means == 3;
+}
+
+/* The path of value i. */
+static const char *path_of(const struct place *p, size_t i)
+{
+    return ceduo_node_get(p->node, "csv") ? ceduo_format(p->v, "%s.csv", p->at)
+                                          : ceduo_format(p->v, "%s.%s[%zu]", p->at, p->is->list, i);
+}
+
+static bool check_on_slope(const struct place *p, const char *path, const char *key, double x)
+{
+    const struct ceduo_slope *s = &p->v->draft.scene.slope;
+    double lo = p->v->origin, hi = s->x[s->vertices - 1] + lo;
+    if (x < lo)
+        ceduo_complain(p->v, path, key, _("%s lies before the slope, which begins at %s m"), ceduo_decimal(p->v, x),
+                       ceduo_decimal(p->v, lo));
+    else if (x > hi)
+        ceduo_complain(p->v, path, key, _("%s lies beyond the slope, which ends at %s m"), ceduo_decimal(p->v, x),
+                       ceduo_decimal(p->v, hi));
+    return !(x < lo) && !(x > hi);
+}
+
+static bool check_stops(const struct place *p)
+{
+    const struct observed_values *values = p->values;
+    bool good = check_on_slope(p, p->at, "seen_from_m", values->seen_from);
+    for (size_t i = 0; i < values->values_count && good; i++) {
+        double x = values->values[i];
+        const char *path = path_of(p, i);
+        good = check_on_slope(p, path, "", x);
+        if (good && x < values->seen_from) {
+            ceduo_complain(p->v, path, "", _("%s lies before seen_from_m, %s"), ceduo_decimal(p->v, x),
+                           ceduo_decimal(p->v, values->seen_from));
+            good = false;
+        }
+    }
+    return good;
+}
+
+static bool check_negative(const struct place *p)
+{
+    for (size_t i = 0; i < p->values->values_count; i++)
+        if (p->values->values[i] < 0) {
+            ceduo_complain(p->v, path_of(p, i), "", _("%s is below 0"), ceduo_decimal(p->v, p->values->values[i]));
+            return false;
+        }
+    return true;
+}
+
+/* No more than were released. */
+static bool check_released(const struct place *p)
+{
+    const struct observed_values *values = p->values;
+    unsigned long long seen = p->is->list ? values->values_count : values->count;
+    if (values->of == 0 || seen <= values->of)
+        return true;
+    ceduo_complain(p->v, p->at, "of", _("%llu were seen of %llu released"), seen, (unsigned long long)values->of);
+    return false;
+}
+
+/* A place where rocks pass, beyond the release. */
+static bool check_place(const struct place *p)
+{
+    double x = p->values->x, last = ceduo_number_highest(p->release->x) + p->v->origin;
+    if (!check_on_slope(p, p->at, "x_m", x))
+        return false;
+    if (!(x > last))
+        ceduo_complain(p->v, p->at, "x_m", _("%s does not lie beyond the release, %s m"), ceduo_decimal(p->v, x),
+                       ceduo_decimal(p->v, last));
+    return x > last;
+}
+
+static bool check_stretch(const struct place *p, const char *path, double from, double to)
+{
+    if (!check_on_slope(p, path, "from_m", from) || !check_on_slope(p, path, "to_m", to))
+        return false;
+    if (to <= from)
+        ceduo_complain(p->v, path, "to_m", _("%s does not lie beyond from_m, %s"), ceduo_decimal(p->v, to),
+                       ceduo_decimal(p->v, from));
+    return to > from;
+}
+
+static bool check_values(const struct place *p)
+{
+    const struct observed_values *values = p->values;
+    switch (p->is->where) {
+    case CEDUO_WHERE_AT_REST:
+        return check_stops(p) && check_released(p);
+    case CEDUO_WHERE_AT_PLACE:
+        return p->is->list ? check_form(p) && check_place(p) && check_negative(p) : check_place(p) && check_released(p);
+    case CEDUO_WHERE_ON_STEMS: /* of which a rock may strike several */
+        return check_stretch(p, p->at, values->from, values->to) && check_negative(p);
+    case CEDUO_WHERE_LARGEST:
+        return check_form(p) && check_negative(p);
+    case CEDUO_WHERE_ALONG:
+        return check_form(p) && check_negative(p) &&
+               check_stretch(p, ceduo_format(p->v, "%s.on_the_way", p->row_path), p->row->way_from, p->row->way_to);
+    }
+    return false;
+}
+
+/* ---- rows ---- */
+
+static const char *make_name(const struct place *p)
+{
+    if (p->is->where == CEDUO_WHERE_AT_PLACE)
+        return ceduo_format(p->v, "%s at %s m", p->is->path, ceduo_decimal(p->v, p->values->x));
+    if (p->is->where == CEDUO_WHERE_ALONG)
+        return ceduo_format(p->v, "%s %s-%s m", p->is->path, ceduo_decimal(p->v, p->row->way_from),
+                            ceduo_decimal(p->v, p->row->way_to));
+    return p->is->path;
+}
+
+/* `o`: what the kinds of a row share. */
+static void set_observation(const struct place *p, struct ceduo_observation *o)
+{
+    struct observed_values *values = p->values;
+    bool along = p->is->where == CEDUO_WHERE_ALONG, at_rest = p->is->where == CEDUO_WHERE_AT_REST;
+    double scale = ceduo_observed_quantity(p->kind)->scale, origin = p->v->origin;
+    for (size_t i = 0; i < values->values_count; i++)
+        values->values[i] = values->values[i] * scale - (at_rest ? origin : 0);
+    gsl_sort(values->values, 1, values->values_count);
+    o->kind = p->kind;
+    o->named = p->row->name != NULL;
+    o->name = p->row->name ? p->row->name : make_name(p);
+    o->x = values->x - origin;
+    o->from = (along ? p->row->way_from : at_rest ? values->seen_from : values->from) - origin;
+    o->to = (along ? p->row->way_to : values->to) - origin;
+    o->values = values->values_count > 0 ? values->values : NULL;
+    o->n = values->values_count > 0 ? values->values_count : (size_t)values->n;
+    o->mean = values->mean * scale;
+    o->sd = values->sd * scale;
+    o->count = values->count;
+    o->of = values->of;
+    o->share_seen = values->share_seen;
+}
+
+static bool find_option(struct validator *v, const char *path, const struct observed *row, size_t *option)
+{
+    const struct ceduo_scene *s = &v->draft.scene;
+    for (*option = 0; *option < s->options_count; ++*option)
+        if (!row->option || (s->options[*option].name && strcmp(s->options[*option].name, row->option) == 0))
+            return true;
+    struct text all = {0};
+    for (size_t i = 0; i < s->options_count; i++)
+        ceduo_text_then(&all, i > 0 ? ", " : "", "%s", s->options[i].name ? s->options[i].name : "");
+    if (row->option)
+        ceduo_complain(v, path, "option", _("the scene has no option '%s'; it has: %s"), row->option, ceduo_text_string(&all));
+    ceduo_text_free(&all);
+    return false;
+}
+
+/* The node at a path such as largest.speed_m_s below a row. */
+static const struct node *node_of(const struct node *row, const char *path)
+{
+    const char *dot = strchr(path, '.');
+    for (size_t i = 0; i < row->n && dot; i++)
+        if (strncmp(row->items[i]->key, path, (size_t)(dot - path)) == 0)
+            return ceduo_node_get(row->items[i], dot + 1);
+    return dot ? NULL : ceduo_node_get(row, path);
+}
+
+static void validate_row(struct validator *v, const char *path, const struct node *node, struct observed *row)
+{
+    struct ceduo_observation shared = {.use = (enum ceduo_observed_use)row->use};
+    size_t before = v->problems->met;
+    bool any = false;
+    if (ceduo_node_get(node, "rock")) {
+        ceduo_validate_rock(v, ceduo_format(v, "%s.rock", path), ceduo_node_get(node, "rock"), &row->rock);
+        shared.rock = &row->rock;
+    }
+    if (ceduo_node_get(node, "release")) {
+        ceduo_validate_release(v, ceduo_format(v, "%s.release", path), &row->release);
+        shared.release = &row->release;
+    }
+    bool good = find_option(v, path, row, &shared.option) && v->problems->met == before;
+    for (int kind = 0; kind < CEDUO_OBSERVED_KINDS; kind++) {
+        const struct ceduo_observed_row *is = ceduo_observed_row((enum ceduo_observed_kind)kind);
+        const struct place p = {.v = v,
+                                .row = row,
+                                .row_path = path,
+                                .release = shared.release ? shared.release : &v->draft.scene.release,
+                                .kind = (enum ceduo_observed_kind)kind,
+                                .is = is,
+                                .values = &row->values[kind],
+                                .at = ceduo_format(v, "%s.%s", path, is->path),
+                                .node = node_of(node, is->path)};
+        any |= p.node != NULL;
+        if (p.node && (!is->list || take_values(&p)) && check_values(&p) && good) {
+            struct ceduo_observation *o = &v->observations[v->observations_count++];
+            *o = shared;
+            set_observation(&p, o);
+        }
+    }
+    if (!any)
+        ceduo_complain(v, path, "", _("say what was seen: stops, passed, speed, height, energy, largest, on_the_way or scars"));
+}
+
+void ceduo_validate_observed(struct validator *v)
+{
+    struct observed *rows = v->draft.observed;
+    size_t n = v->draft.observed_count;
+    if (n == 0 || !ceduo_is_sound(v, "observed") || !v->profile || ceduo_is_too_long(v, "observed", n))
+        return;
+    v->observations = ceduo_room(v, n * CEDUO_OBSERVED_KINDS, sizeof *v->observations);
+    for (size_t i = 0; v->observations && i < n; i++)
+        validate_row(v, ceduo_format(v, "observed[%zu]", i), ceduo_node_get(v->root, "observed")->items[i], &rows[i]);
+    for (size_t i = 0; i < n; i++)
+        for (size_t k = 0; k < i; k++)
+            ceduo_check_name(v, "observed", i, rows[i].name, rows[k].name);
+}

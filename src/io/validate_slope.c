@@ -1,0 +1,297 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The slope: vertices from the scene or a CSV file, made relative to the first; then the ground of each segment, given
+ * directly, by materials, or talus. A slope whose nodes are those of the last time is taken over whole. */
+#include <math.h>
+#include <string.h>
+
+#include "base/language.h"
+#include "csv_slope.h"
+#include "resolve.h"
+#include "validate.h"
+
+static bool is_given(struct validator *v, const char *key)
+{
+    return ceduo_is_given(v, "slope", ceduo_node_get(v->root, "slope"), key);
+}
+
+/* ---- the profile ---- */
+
+static bool read_csv(struct validator *v, struct points *p)
+{
+    if (!ceduo_is_known(v, "slope.csv"))
+        return false;
+    const struct node *node = ceduo_node_get(ceduo_node_get(v->root, "slope"), "csv");
+    const char *path = ceduo_resolve_path(v->arena, node, "slopes");
+    if (!path && v->arena->failed)
+        ceduo_problem_memory(v->problems);
+    else if (!path)
+        ceduo_complain(v, "slope.csv", "", _("cannot find '%s' beside this file"), node->text);
+    bool good = path && ceduo_csv_slope_read(v->arena, path, p, v->problems);
+    if (good && p->commas)
+        ceduo_assume(v, "slope.csv", _("commas in the file of the profile stand for decimals: 12,5 is 12.5"));
+    return good;
+}
+
+static bool read_vertices(struct validator *v, struct points *p)
+{
+    const struct ceduo_slope *s = &v->draft.scene.slope;
+    bool csv = is_given(v, "csv"), list = is_given(v, "vertices_m");
+    if (csv && list)
+        ceduo_complain(v, "slope", "", _("vertices_m and csv together; keep one"));
+    else if (!csv && !list)
+        ceduo_complain(v, "slope", "", _("'vertices_m' is missing: the profile"));
+    else if (csv)
+        return read_csv(v, p);
+    else
+        *p = (struct points){.x = s->x, .z = s->z, .n = s->vertices};
+    return list && !csv && ceduo_is_known(v, "slope.vertices_m");
+}
+
+/* Rocks go along x, so x must rise and the profile fall; one that was drawn from below is known by its ends. */
+static bool check_vertices(struct validator *v, const struct points *p)
+{
+    bool csv = is_given(v, "csv"), reversed = v->draft.scene.slope.reversed, rising = true;
+    const char *path = csv ? "slope.csv" : "slope.vertices_m";
+    if (p->n < 2) {
+        ceduo_complain(v, path, "", _("a profile needs two vertices or more"));
+        return false;
+    }
+    for (size_t i = 1; i < p->n; i++)
+        if (p->x[i] <= p->x[i - 1]) {
+            ceduo_complain(v, ceduo_format(v, "slope.vertices_m[%zu]", i), "",
+                           _("x %s does not lie beyond %s; x must rise: write a wall with a small run, such as 0.01 m"),
+                           ceduo_decimal(v, p->x[i]), ceduo_decimal(v, p->x[i - 1]));
+            rising = false;
+        }
+    if (!rising || (!csv && !ceduo_is_sound(v, "slope.vertices_m")))
+        return false;
+    double first = p->z[0], last = p->z[p->n - 1];
+    if (last > first && !reversed)
+        ceduo_complain(v, path, "",
+                       _("the profile rises, from %s to %s m, and rocks go along x: if it was drawn upward, write "
+                         "'reversed: true' in slope, which mirrors it with its ground"),
+                       ceduo_decimal(v, first), ceduo_decimal(v, last));
+    else if (last < first && reversed)
+        ceduo_complain(v, "slope.reversed", "", _("the profile falls already, from %s to %s m; leave 'reversed' out"),
+                       ceduo_decimal(v, first), ceduo_decimal(v, last));
+    return reversed ? last >= first : last <= first;
+}
+
+/* Vertices relative to the first, with room for so many more. */
+static bool make_vertices(struct validator *v, const struct points *p, size_t extra)
+{
+    struct ceduo_slope *s = &v->draft.scene.slope;
+    size_t last = p->n - 1;
+    s->x = ceduo_room(v, p->n + extra, sizeof(double));
+    s->z = ceduo_room(v, p->n + extra, sizeof(double));
+    if (!s->x || !s->z)
+        return false;
+    s->vertices = p->n;
+    s->origin_x = p->x[0];
+    s->origin_z = s->reversed ? p->z[last] : p->z[0];
+    for (size_t i = 0; i < p->n; i++) {
+        s->x[i] = s->reversed ? p->x[last] - p->x[last - i] : p->x[i] - s->origin_x;
+        s->z[i] = p->z[s->reversed ? last - i : i] - s->origin_z;
+    }
+    v->origin = s->origin_x;
+    v->profile = true;
+    return true;
+}
+
+/* ---- the ground ---- */
+
+/* `n`: stretches of the profile; 0: not known */
+static void check_segments(struct validator *v, size_t n)
+{
+    struct ceduo_slope *s = &v->draft.scene.slope;
+    size_t given = s->segments_given;
+    double smooth = ceduo_schema_default(ceduo_schema_field(ceduo_schema_segment(), "roughness_rad"));
+    if (n > 0 && given != 1 && given != n)
+        ceduo_complain(v, "slope.segments", "",
+                       _("%zu segments for %zu stretches between vertices; give one for each, or one for all"), given, n);
+    for (size_t i = 0; i < given; i++) {
+        struct ceduo_segment *g = &s->segments[i];
+        if (!isnan(g->roughness_m) && !isnan(g->roughness_rad))
+            ceduo_complain(v, ceduo_format(v, "slope.segments[%zu]", i), "roughness_m",
+                           _("roughness_rad already says this; keep one"));
+        if (isnan(g->roughness_m) && isnan(g->roughness_rad))
+            g->roughness_rad = smooth;
+    }
+}
+
+/* `p`: the profile, as far as it is known */
+static void check_materials(struct validator *v, const struct points *p)
+{
+    const struct material_belt *rows = v->draft.materials;
+    size_t n = v->draft.materials_count, before = v->problems->met;
+    if (n == 0)
+        ceduo_complain(v, "slope.materials", "", _("the list is empty"));
+    for (size_t i = 0; i < n; i++) {
+        double wanted = i > 0 ? rows[i - 1].to : p->n > 0 ? p->x[0] : NAN;
+        if (rows[i].to <= rows[i].from)
+            ceduo_complain(v, ceduo_format(v, "slope.materials[%zu]", i), "to_m", _("%s does not lie beyond from_m, %s"),
+                           ceduo_decimal(v, rows[i].to), ceduo_decimal(v, rows[i].from));
+        else if (rows[i].from > wanted || (i > 0 && rows[i].from < wanted))
+            ceduo_complain(v, ceduo_format(v, "slope.materials[%zu]", i), "from_m",
+                           _("%s leaves a gap or overlaps; it must begin at %s"), ceduo_decimal(v, rows[i].from),
+                           ceduo_decimal(v, wanted));
+    }
+    if (v->problems->met == before && p->n > 0 && rows[n - 1].to < p->x[p->n - 1])
+        ceduo_complain(v, ceduo_format(v, "slope.materials[%zu]", n - 1), "to_m", _("%s ends before the profile, at %s"),
+                       ceduo_decimal(v, rows[n - 1].to), ceduo_decimal(v, p->x[p->n - 1]));
+}
+
+/* What no file says: only the law arm has a mu. */
+static void assume_mu(struct validator *v, const char *path)
+{
+    if (v->draft.scene.simulation.law == CEDUO_LAW_ARM)
+        ceduo_assume(v, path, ceduo_format(v, _("friction mu %g where a rock strikes"), ceduo_segment_default().mu));
+}
+
+/* The first segment that does not say `key`; NULL: each says it. */
+static const char *lacking(struct validator *v, const char *key)
+{
+    const struct node *nodes = ceduo_node_get(ceduo_node_get(v->root, "slope"), "segments");
+    for (size_t i = 0; i < nodes->n; i++)
+        if (!ceduo_node_get(nodes->items[i], key))
+            return ceduo_format(v, "slope.segments[%zu]", i);
+    return NULL;
+}
+
+static void make_segments(struct validator *v)
+{
+    struct ceduo_slope *s = &v->draft.scene.slope;
+    const char *friction = lacking(v, "friction"), *mu = lacking(v, "mu");
+    if (friction)
+        ceduo_assume(v, friction, ceduo_format(v, _("friction %g of a rolling rock"), ceduo_segment_default().friction));
+    if (mu)
+        assume_mu(v, mu);
+    for (size_t i = 0, k = s->segments_given - 1; s->reversed && i < k; i++, k--) {
+        const struct ceduo_segment swap = s->segments[i];
+        s->segments[i] = s->segments[k];
+        s->segments[k] = swap;
+    }
+    if (s->segments_given != 1)
+        return;
+    const struct ceduo_segment all = s->segments[0];
+    s->segments = ceduo_room(v, s->vertices - 1, sizeof *s->segments);
+    for (size_t i = 0; s->segments && i + 1 < s->vertices; i++)
+        s->segments[i] = all;
+}
+
+static struct ceduo_segment segment_of(const struct ceduo_material *row)
+{
+    struct ceduo_segment segment = ceduo_segment_default();
+    segment.rn = ceduo_number(row->rn);
+    segment.rt = ceduo_number(row->rt);
+    segment.roughness_rad = row->roughness_rad;
+    segment.mu = row->mu;
+    return segment;
+}
+
+/* A vertex where the ground changes within a segment; on the line, so that it changes nothing else. */
+static void split_at(struct ceduo_slope *s, double x)
+{
+    size_t j = ceduo_slope_segment(s, x);
+    if (!(x > s->x[j]) || !(x < s->x[j + 1]))
+        return;
+    double z = ceduo_slope_height(s, x);
+    memmove(s->x + j + 2, s->x + j + 1, (s->vertices - j - 1) * sizeof *s->x);
+    memmove(s->z + j + 2, s->z + j + 1, (s->vertices - j - 1) * sizeof *s->z);
+    s->x[j + 1] = x;
+    s->z[j + 1] = z;
+    s->vertices++;
+}
+
+/* The rows as they lie on a profile that was mirrored. */
+static const struct material_belt *mirrored(struct validator *v)
+{
+    const struct ceduo_slope *s = &v->draft.scene.slope;
+    size_t n = v->draft.materials_count;
+    struct material_belt *rows = ceduo_room(v, n, sizeof *rows);
+    for (size_t i = 0; rows && i < n; i++) {
+        const struct material_belt *row = &v->draft.materials[n - 1 - i];
+        rows[i] = (struct material_belt){ceduo_slope_mirrored(s, row->to), ceduo_slope_mirrored(s, row->from), row->material};
+    }
+    return rows;
+}
+
+static void make_materials(struct validator *v)
+{
+    struct ceduo_slope *s = &v->draft.scene.slope;
+    size_t n = v->draft.materials_count, count;
+    const struct ceduo_material *library = ceduo_materials(&count);
+    const struct material_belt *rows = s->reversed ? mirrored(v) : v->draft.materials;
+    for (size_t i = 1; rows && i < n; i++)
+        split_at(s, rows[i].from - v->origin);
+    s->segments = rows ? ceduo_room(v, s->vertices - 1, sizeof *s->segments) : NULL;
+    if (!s->segments)
+        return;
+    ceduo_assume(v, "slope.materials", _("roughness and friction of the library's grounds, and all of its rows -v4"));
+    assume_mu(v, "slope.materials");
+    for (size_t j = 0, row = 0; j + 1 < s->vertices; j++) {
+        while (row + 1 < n && s->x[j] >= rows[row + 1].from - v->origin)
+            row++;
+        s->segments[j] = segment_of(&library[rows[row].material]);
+    }
+}
+
+static void make_talus(struct validator *v)
+{
+    struct ceduo_slope *s = &v->draft.scene.slope;
+    v->ground_assumed = true;
+    ceduo_assume(v, "slope", _("talus everywhere, its roughness and friction too"));
+    assume_mu(v, "slope");
+    s->segments = ceduo_room(v, s->vertices - 1, sizeof *s->segments);
+    for (size_t j = 0; s->segments && j + 1 < s->vertices; j++)
+        s->segments[j] = segment_of(ceduo_material_talus());
+}
+
+/* The slope as it was made before, where its part of the document is the same one: an edit elsewhere costs nothing,
+ * however long the profile. */
+static bool reuse_slope(struct validator *v)
+{
+    const struct previous_slope *previous = v->previous;
+    const struct node *node = ceduo_node_get(v->root, "slope");
+    bool same_law = previous->law == v->draft.scene.simulation.law; /* which decides what is assumed */
+    if (!node || node != previous->node || !same_law)
+        return false;
+    v->draft.scene.slope = previous->slope;
+    v->origin = previous->slope.origin_x;
+    v->profile = true;
+    v->ground_assumed = previous->ground_assumed;
+    for (const struct source_note *n = previous->notes; n; n = n->before)
+        if (strcmp(n->kind, "assumed") == 0 && strncmp(n->path, "slope", 5) == 0 && n->made)
+            ceduo_assume(v, n->path, n->text);
+    return true;
+}
+
+void ceduo_validate_slope(struct validator *v)
+{
+    struct points p = {0};
+    if (reuse_slope(v) || !ceduo_is_known(v, "slope"))
+        return;
+    bool profile = read_vertices(v, &p) && check_vertices(v, &p);
+    bool segments = is_given(v, "segments"), materials = is_given(v, "materials");
+    if (profile && !make_vertices(v, &p, v->draft.materials_count))
+        return;
+    size_t before = v->problems->met;
+    if (segments && materials)
+        ceduo_complain(v, "slope.materials", "", _("segments already give the ground; keep one of the two"));
+    if (!segments && !materials && !is_given(v, "csv"))
+        ceduo_complain(v, "slope", "", _("'segments' or 'materials' is missing: the ground"));
+    if (segments && ceduo_is_known(v, "slope.segments"))
+        check_segments(v, p.n > 0 ? p.n - 1 : 0);
+    if (materials && !segments && ceduo_is_known(v, "slope.materials"))
+        check_materials(v, &p);
+    if (!v->profile || v->problems->met > before || !ceduo_is_sound(v, "slope"))
+        return;
+    if (segments)
+        make_segments(v);
+    else if (materials)
+        make_materials(v);
+    else
+        make_talus(v);
+    if (!v->problems->memory && ceduo_slope_check(&v->draft.scene.slope) != CEDUO_OK)
+        ceduo_complain(v, "slope", "", _("two vertices lie too close together for their distance from the first"));
+}

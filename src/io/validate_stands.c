@@ -1,0 +1,225 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Options, their belts and the stands of these: whether they fit together and lie on the slope. */
+#include <math.h>
+#include <string.h>
+
+#include "base/language.h"
+#include "ceduo/rotation.h"
+#include "resolve.h"
+#include "validate.h"
+
+#define SHOOTS_MAX 10000 /* on a stool */
+
+static enum ceduo_system system_of(const struct ceduo_stand *stand)
+{
+    return ceduo_stand_has_shoots(stand) ? CEDUO_SIMPLE_COPPICE : ceduo_stand_has_stems(stand) ? CEDUO_HIGH_FOREST : CEDUO_BARE;
+}
+
+/* Wider spreads are no diameters of one cohort or class: nearly all of its stems would be hair, and few very thick. */
+static void check_spreads(struct validator *v, const char *path, const char *list, const struct ceduo_stems *stems, size_t n)
+{
+    for (size_t i = 0; i < n; i++)
+        if (stems[i].dbh_sd > stems[i].dbh) /* not where one of them could not be read: NaN, and 0 */
+            ceduo_complain(v, ceduo_format(v, "%s.%s[%zu]", path, list, i), "dbh_sd_m",
+                           _("%s m is more than the diameter itself, %s m: make two entries of stems so different"),
+                           ceduo_decimal(v, stems[i].dbh_sd), ceduo_decimal(v, stems[i].dbh));
+}
+
+/* Whether a value that is needed is not there; one that could not be read is told already. */
+static bool lacks(struct validator *v, double value, const char *path, const char *key)
+{
+    return isnan(value) && ceduo_is_known(v, "%s%s", path, key);
+}
+
+/* Whether something is written at a path. */
+static bool is_written(struct validator *v, const char *path)
+{
+    const char *within;
+    size_t used;
+    ceduo_resolve_walk(v->root, path, &within, &used);
+    return path[used] == '\0';
+}
+
+/* Shoots are given per hectare or per stool. */
+static void check_densities(struct validator *v, const char *path, const struct ceduo_stand *s)
+{
+    for (size_t i = 0; i < s->shoots_count; i++) {
+        const struct ceduo_stems *stems = &s->shoots[i];
+        const char *here = ceduo_format(v, "%s.shoots[%zu]", path, i);
+        bool each = is_written(v, ceduo_format(v, "%s.per_stool", here));
+        if (each && is_written(v, ceduo_format(v, "%s.per_ha", here)))
+            ceduo_complain(v, here, "per_stool", _("per_ha already says this; keep one of the two"));
+        else if (!each && lacks(v, stems->per_ha, here, ".per_ha") && ceduo_is_known(v, "%s.per_stool", here))
+            ceduo_complain(v, here, "", _("'per_ha' or 'per_stool' is missing: how many shoots there are"));
+        else if (each && !is_written(v, ceduo_format(v, "%s.stools.per_ha", path)) &&
+                 ceduo_is_known(v, "%s.stools.per_ha", path))
+            ceduo_complain(v, path, "shoots", _("shoots without stools; add 'stools: {per_ha: …, spacing_m: …}'"));
+    }
+}
+
+/* Of what is in the way besides stems no figure is assumed. */
+static void check_low(struct validator *v, const char *path, const struct ceduo_stand *s)
+{
+    const struct ceduo_stumps *t = &s->stumps;
+    const struct ceduo_logs *l = &s->logs;
+    if (t->per_ha > 0 && (lacks(v, t->diameter, path, ".stumps.diameter_m") || lacks(v, t->height, path, ".stumps.height_m") ||
+                          lacks(v, t->energy, path, ".stumps.energy_kJ")))
+        ceduo_complain(v, path, "stumps", _("stumps need diameter_m, height_m and energy_kJ; nothing is assumed here"));
+    if (l->per_ha > 0 && (lacks(v, l->length, path, ".logs.length_m") || lacks(v, l->diameter, path, ".logs.diameter_m") ||
+                          lacks(v, l->energy, path, ".logs.energy_kJ")))
+        ceduo_complain(v, path, "logs", _("logs need length_m, diameter_m and energy_kJ; nothing is assumed here"));
+    for (size_t i = 0; i < s->trees_count; i++) {
+        const char *groups = ceduo_format(v, "%s.trees[%zu].groups", path, i);
+        if (s->trees[i].group > 1 && lacks(v, s->trees[i].group_radius, groups, ".radius_m"))
+            ceduo_complain(v, groups, "", _("groups of %s trees need radius_m, the radius of the disc in which they stand"),
+                           ceduo_decimal(v, s->trees[i].group));
+    }
+}
+
+static void check_stand(struct validator *v, const char *path, struct ceduo_stand *s)
+{
+    ceduo_stand_count_shoots(s);
+    if ((int)s->system < 0)
+        s->system = system_of(s);
+    if (!ceduo_is_known(v, "%s", path)) /* what it starts from is not there */
+        return;
+    if (s->growth.shoots_young < s->growth.shoots_old && ceduo_is_known(v, "%s.growth.shoots_young", path))
+        ceduo_complain(v, path, "growth.shoots_young", _("%s is below shoots_old, %s: shoots only become fewer"),
+                       ceduo_decimal(v, s->growth.shoots_young), ceduo_decimal(v, s->growth.shoots_old));
+    if (s->system == CEDUO_BARE && ceduo_stand_has_stems(s))
+        ceduo_complain(v, path, "system", _("'bare', but there are stems; name the system or remove them"));
+    check_densities(v, path, s);
+    check_spreads(v, path, "shoots", s->shoots, s->shoots_count);
+    check_spreads(v, path, "trees", s->trees, s->trees_count);
+    check_low(v, path, s);
+    if (!ceduo_is_known(v, "%s.stools.per_ha", path) || !ceduo_is_known(v, "%s.shoots", path))
+        return;
+    if (s->stools_per_ha > 0 && ceduo_stand_shoots(s) / s->stools_per_ha > SHOOTS_MAX)
+        ceduo_complain(v, path, "shoots", _("%s shoots on each stool are more than the %s that can be drawn"),
+                       ceduo_decimal(v, ceduo_stand_shoots(s) / s->stools_per_ha), ceduo_decimal(v, SHOOTS_MAX));
+    if (ceduo_stand_has_shoots(s) && !(s->stools_per_ha > 0))
+        ceduo_complain(v, path, "shoots", _("shoots without stools; add 'stools: {per_ha: …, spacing_m: …}'"));
+    else if (s->shoots_count == 0 && s->stools_per_ha > 0 && !ceduo_stand_sprouts(s))
+        ceduo_complain(v, path, "stools",
+                       _("stools without shoots; add 'shoots', or 'growth' if they were just cut, or remove the "
+                         "stools"));
+    else if (ceduo_stand_has_shoots(s) && ceduo_stand_shoots(s) < s->stools_per_ha * (1 - 1e-12)) /* .4 and .6 per stool */
+        ceduo_complain(v, path, "stools.per_ha", _("%s shoots on %s stools: a stool has one shoot at least"),
+                       ceduo_decimal(v, ceduo_stand_shoots(s)), ceduo_decimal(v, s->stools_per_ha));
+}
+
+static void check_belt(struct validator *v, const char *path, const struct ceduo_belt *f, const struct ceduo_belt *before)
+{
+    const struct ceduo_slope *s = &v->draft.scene.slope;
+    double begin = v->profile ? v->origin : -INFINITY, end = v->profile ? s->x[s->vertices - 1] + v->origin : INFINITY;
+    if (f->to_given <= f->from_given) {
+        ceduo_complain(v, path, "to_m", _("%s does not lie beyond from_m, %s"), ceduo_decimal(v, f->to_given),
+                       ceduo_decimal(v, f->from_given));
+        return;
+    }
+    if (before && f->from_given < before->to_given)
+        ceduo_complain(v, path, "from_m", _("%s lies before the end of the belt before it, %s; belts must not overlap"),
+                       ceduo_decimal(v, f->from_given), ceduo_decimal(v, before->to_given));
+    else if (f->from_given < begin)
+        ceduo_complain(v, path, "from_m", _("%s lies before the slope, which begins at %s m"), ceduo_decimal(v, f->from_given),
+                       ceduo_decimal(v, begin));
+    if (f->to_given > end)
+        ceduo_complain(v, path, "to_m", _("%s lies beyond the slope, which ends at %s m"), ceduo_decimal(v, f->to_given),
+                       ceduo_decimal(v, end));
+}
+
+/* Whether two stands say the same but for name and source. */
+static bool says_the_same(struct validator *v, const struct node *a, const struct node *b)
+{
+    static const char *const beside[] = {"name", "source"};
+    for (size_t i = 0; a && b && i < 2; i++) {
+        a = ceduo_node_get(a, beside[i]) ? ceduo_node_without(v->arena, a, beside[i]) : a;
+        b = ceduo_node_get(b, beside[i]) ? ceduo_node_without(v->arena, b, beside[i]) : b;
+    }
+    if (!a || !b)
+        ceduo_problem_memory(v->problems);
+    return a && b && ceduo_node_equal(a, b);
+}
+
+/* Whether numbers of a stand from a file were changed, and it still has the name of that file. */
+static bool has_name_of_another(struct validator *v, const struct node *stand)
+{
+    const struct node *written = stand->written, *followed = stand->followed; /* there or not together */
+    if (!written || stand->kind != NODE_MAP)
+        return false;
+    const char *name = ceduo_node_text(stand, "name"), *before = ceduo_node_text(followed, "name");
+    bool renamed = !name || !before || strcmp(name, before) != 0 || ceduo_node_text(written, "name");
+    if (renamed)
+        return false;
+    size_t changes = 0;
+    for (size_t i = 0; written->kind == NODE_MAP && i < written->n; i++)
+        changes += strcmp(written->items[i]->key, "base") != 0 && strcmp(written->items[i]->key, "source") != 0;
+    return changes > 0 || !says_the_same(v, stand, followed);
+}
+
+/* What the stand calls itself, or else its file. `changed`: it is no longer what its name says. */
+static const char *stand_name(struct validator *v, const char *path, const struct ceduo_stand *stand, bool *changed)
+{
+    const char *within;
+    size_t used;
+    const struct node *node = ceduo_resolve_walk(v->root, path, &within, &used);
+    const char *name = ceduo_node_text(node, "name");
+    if (!name && node->written && node->written->kind == NODE_SCALAR)
+        name = node->written->text;
+    *changed = name && has_name_of_another(v, node);
+    if (*changed)
+        return ceduo_format(v, "%s (changed)", name);
+    return name ? name : ceduo_stand_is_bare(stand) ? "bare" : "stand";
+}
+
+static void make_belts(struct validator *v, const char *path, struct ceduo_option *option)
+{
+    for (size_t i = 0; i < option->belts_count; i++) {
+        struct ceduo_belt *belt = &option->belts[i];
+        const char *here = ceduo_format(v, "%s[%zu]", path, i), *stand = ceduo_format(v, "%s.stand", here);
+        check_belt(v, here, belt, i > 0 ? belt - 1 : NULL);
+        belt->from = belt->from_given - v->origin;
+        belt->to = belt->to_given - v->origin;
+        belt->name = (char *)(uintptr_t)stand_name(v, stand, &belt->stand, &belt->changed);
+        belt->assumed = ceduo_notes_assume(v->notes, stand);
+        check_stand(v, stand, &belt->stand);
+    }
+}
+
+/* A scene without options has one, its forest. */
+static void make_forest(struct validator *v)
+{
+    struct ceduo_scene *scene = &v->draft.scene;
+    if (!(scene->options = ceduo_room(v, 1, sizeof *scene->options)))
+        return;
+    scene->options[0] = (struct ceduo_option){
+        .name = (char *)(uintptr_t) "current", .belts_count = v->draft.belts_count, .belts = v->draft.belts};
+    scene->options_count = 1;
+    make_belts(v, "forest", &scene->options[0]);
+}
+
+void ceduo_validate_options(struct validator *v)
+{
+    struct ceduo_scene *scene = &v->draft.scene;
+    bool many = ceduo_node_get(v->root, "options") != NULL;
+    size_t n = scene->options_count;
+    scene->options_count = 0;
+    if (many && ceduo_node_get(v->root, "forest")) {
+        ceduo_complain(v, "forest", "", _("options already say this; keep one of the two"));
+        return;
+    }
+    if (!ceduo_is_known(v, "options"))
+        return;
+    if (many && n == 0)
+        ceduo_complain(v, "options", "", _("the list is empty"));
+    if (!many)
+        make_forest(v);
+    if (n == 0 || ceduo_is_too_long(v, "options", n))
+        return;
+    for (size_t i = 0; i < n; i++) {
+        for (size_t k = 0; k < i; k++)
+            ceduo_check_name(v, "options", i, scene->options[i].name, scene->options[k].name);
+        make_belts(v, ceduo_format(v, "options[%zu].forest", i), &scene->options[i]);
+    }
+    scene->options_count = n;
+}

@@ -1,0 +1,98 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "validator.h"
+
+#include <string.h>
+
+#include "base/language.h"
+#include "resolve.h"
+
+void ceduo_complain(struct validator *v, const char *path, const char *key, const char *format, ...)
+{
+    struct text message = {0};
+    const char *within;
+    size_t used;
+    const struct node *node = ceduo_resolve_walk(v->root, key[0] ? ceduo_format(v, "%s.%s", path, key) : path, &within, &used);
+    va_list args;
+    va_start(args, format);
+    if (node->source->foreign)
+        ceduo_problem_words(&message, format);
+    else
+        ceduo_text_vformat(&message, format, args);
+    va_end(args);
+    ceduo_problem_own(v->problems, node->source, node->line, node->column, within, "%s", ceduo_text_string(&message));
+    v->problems->memory |= message.failed;
+    ceduo_text_free(&message);
+}
+
+const char *ceduo_format(struct validator *v, const char *format, ...)
+{
+    va_list args;
+    va_start(args, format);
+    const char *text = ceduo_arena_vformat(v->arena, format, args);
+    va_end(args);
+    if (!text)
+        ceduo_problem_memory(v->problems);
+    return text ? text : "";
+}
+
+const char *ceduo_decimal(struct validator *v, double x)
+{
+    char room[CEDUO_NUMBER_ROOM];
+    return ceduo_format(v, "%s", ceduo_number_shortest(x, room));
+}
+
+void *ceduo_room(struct validator *v, size_t n, size_t size)
+{
+    return ceduo_bind_take(v->arena, n, size, v->problems);
+}
+
+bool ceduo_is_known(struct validator *v, const char *format, ...)
+{
+    struct text path = {0};
+    va_list args;
+    va_start(args, format);
+    if (v->bad.n > 0)
+        ceduo_text_vformat(&path, format, args);
+    va_end(args);
+    bool good = !path.failed;
+    for (size_t i = 0; good && i < v->bad.n; i++)
+        good = !ceduo_path_leads_to(v->bad.paths[i], path.bytes);
+    v->problems->memory |= path.failed;
+    ceduo_text_free(&path);
+    return good;
+}
+
+bool ceduo_is_sound(struct validator *v, const char *path)
+{
+    for (size_t i = 0; i < v->bad.n; i++)
+        if (ceduo_path_leads_to(path, v->bad.paths[i]))
+            return false;
+    return ceduo_is_known(v, "%s", path);
+}
+
+bool ceduo_is_given(struct validator *v, const char *path, const struct node *map, const char *key)
+{
+    return ceduo_node_get(map, key) || !ceduo_is_known(v, "%s.%s", path, key);
+}
+
+void ceduo_assume(struct validator *v, const char *path, const char *text)
+{
+    struct source_note *note = ceduo_room(v, 0, sizeof *note);
+    if (!note)
+        return;
+    *note = (struct source_note){.path = path, .kind = "assumed", .text = text, .before = v->notes, .made = true};
+    v->notes = note;
+}
+
+bool ceduo_is_too_long(struct validator *v, const char *path, size_t n)
+{
+    if (n > CEDUO_ITEMS_MOST)
+        ceduo_complain(v, path, "", _("%zu items; at most %d can be computed"), n, CEDUO_ITEMS_MOST);
+    return n > CEDUO_ITEMS_MOST;
+}
+
+void ceduo_check_name(struct validator *v, const char *list, size_t i, const char *name, const char *other)
+{
+    if (name && other && strcmp(name, other) == 0)
+        ceduo_complain(v, ceduo_format(v, "%s[%zu]", list, i), "name", _("'%s' is given twice; names must differ"), name);
+}

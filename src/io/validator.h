@@ -1,0 +1,69 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef CEDUO_VALIDATOR_H
+#define CEDUO_VALIDATOR_H
+
+#include "bind.h"
+#include "ceduo/doubt.h"
+#include "ceduo/material.h"
+#include "ceduo/observe.h"
+
+/* A scene that is being checked, and what every check needs: each subject has a file of its own, validate_*.c. */
+
+/* What was made of a slope before: where its part of the document is still the same it is taken over. */
+struct previous_slope {
+    const struct node *node; /* NULL: none */
+    struct ceduo_slope slope;
+    const struct source_note *notes;
+    bool ground_assumed;
+    enum ceduo_law law;
+};
+
+struct validator {
+    struct arena *arena;
+    const struct node *root; /* the scene, with what it refers to in place */
+    struct problems *problems;
+    const struct previous_slope *previous;
+    struct scene_draft draft; /* its scene is the result */
+    const struct source_note *notes;
+    struct bad_values bad;
+    bool profile;                         /* the slope has its vertices */
+    bool ground_assumed;                  /* the slope's file says no ground: talus was taken */
+    double origin;                        /* the slope's first x, which is taken off every x */
+    size_t inputs_count, inputs_of_scene; /* what the scene says is not known comes before what its stands say */
+    struct ceduo_input *inputs;
+    const struct node *draws; /* of doubt: a table of values that a calibration left open; NULL: none */
+    size_t observations_count;
+    struct ceduo_observation *observations;
+};
+
+/* Reports a problem at a path, or at a key ("": none) of the mapping there, with the line and column of the deepest node. Of a
+ * file that may be none of ceduo's, the message is without its values. */
+void ceduo_complain(struct validator *v, const char *path, const char *key, const char *format, ...)
+    __attribute__((format(printf, 4, 5)));
+
+/* Strings in the arena, "" without memory: a number as the files have it; as printf() makes it, such as the path of an item. */
+const char *ceduo_decimal(struct validator *v, double x);
+const char *ceduo_format(struct validator *v, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+/* Room for n + 1 items in the arena. NULL without memory, which is reported. */
+void *ceduo_room(struct validator *v, size_t n, size_t size);
+
+/* Whether nothing is wrong with a value or what it stands in; what is wrong within it does not count. */
+bool ceduo_is_known(struct validator *v, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+/* The same, and nothing is wrong within it. */
+bool ceduo_is_sound(struct validator *v, const char *path);
+
+/* Whether something stands there, though it may be wrong; the second for a key of a mapping at `path`. */
+bool ceduo_is_given(struct validator *v, const char *path, const struct node *map, const char *key);
+
+/* Adds an assumption of the program itself to those of the files. */
+void ceduo_assume(struct validator *v, const char *path, const char *text);
+
+/* Reports a list that is longer than anybody reads. */
+bool ceduo_is_too_long(struct validator *v, const char *path, size_t n);
+
+/* Reports a name that one of the first i - 1 items of a list has, too. */
+void ceduo_check_name(struct validator *v, const char *list, size_t i, const char *name, const char *other);
+
+#endif
