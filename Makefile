@@ -151,7 +151,7 @@ TAPS := $(UNIT:=.tap) $(patsubst tests/%,$(T)/%.tap,$(SCRIPTS))
 # These take longest and start first, so that none runs alone at the end. Many mostly wait, so there is one job more than
 # there are cores.
 SLOW := test_bits.sh test_workflows.py test_years.py test_editing.py test_faults.py test_hangs.py test_popups.py test_alternatives.py \
-	test_shard.py test_constants.sh test_random_scenes.py test_terminal.py test_rotation.py test_ways.py test_memory test_memory_files \
+	test_constants.sh test_random_scenes.py test_terminal.py test_rotation.py test_ways.py test_memory test_memory_files \
 	test_install.py test_input_streams.py
 TAPS_SLOW := $(foreach t,$(SLOW),$(filter %/$t.tap,$(TAPS)))
 JOBS := $(shell expr $(CORES) + 1)
@@ -206,18 +206,10 @@ CHANGES_csv := 60000
 CHANGES_set := 3000
 CHANGES_table := 1000
 CHANGES_keys := 2000
-CHANGES_part := 6000
 SEEDS_scene := profiles/scenes/*.yaml
-SEEDS_part := $(T)/fuzz/seeds/part/*
 $(REPLAYS:%=$(T)/fuzz/%): $(T)/fuzz/replay_%: $(BUILD)/tests/fuzz/fuzz_%.o $(BUILD)/tests/fuzz/replay.o $(PARTS) $(LIBRARY)
 	@mkdir -p $(@D)
 	$(CC) $(ALL_CFLAGS) $(LDFLAGS) -o $@ $^ $(LIBS)
-
-# Parts contain the version and numbers that depend on the scene, so the harness of this build makes them.
-$(T)/fuzz/seeds/part: $(T)/fuzz/replay_part
-	@rm -rf $@ && mkdir -p $@
-	@FUZZ_SEEDS=$@ $< part 0 /dev/null
-do-replay_part do-fuzz_part: $(T)/fuzz/seeds/part
 
 $(REPLAYS:%=do-%): do-replay_%: $(T)/fuzz/replay_%
 	@printf '#!/bin/sh\nexec ./$< $* $(CHANGES_$*) $(wildcard tests/fuzz/seeds/$*/*) $(SEEDS_$*)\n' >$<.sh
@@ -290,15 +282,15 @@ do-check-all: do-check
 	@+$(MAKE) --no-print-directory VARIANT=tsan do-check-threads
 	@+$(MAKE) --no-print-directory do-check-memory do-check-slurm do-check-dist do-check-deb
 
-# These tests use threads: workers of a run and of a pool, of the terminal program, of years and parts.
-THREADED := $(addprefix $(T)/,unit/test_jobs $(addprefix physics/test_,statistics_of_runs part years))
+# These tests use threads: workers of a run and of a pool, of the terminal program, and of years.
+THREADED := $(addprefix $(T)/,unit/test_jobs $(addprefix physics/test_,statistics_of_runs years))
 do-check-threads: $(THREADED) $(PROGRAM)
 	set -e; for t in $(THREADED); do $$t; done
-	set -e; for t in tests/tui/test_screens.py tests/tui/test_editing.py tests/tui/test_rotation.py tests/cli/test_shard.py tests/cli/test_years.py \
+	set -e; for t in tests/tui/test_screens.py tests/tui/test_editing.py tests/tui/test_rotation.py tests/cli/test_years.py \
 	    tests/cli/test_sensitivity.py; do \
 	    CEDUO=$(call quoted,$(CURDIR)/$(PROGRAM)) $$t; done
 
-# Runs these under valgrind: every scene as a batch, a picture, years, a search, a merge of parts, and the terminal program
+# Runs these under valgrind: every scene as a batch, a picture, years, a search, and the terminal program
 # with a script.
 VALGRIND := valgrind -q --error-exitcode=9 --leak-check=full --show-leak-kinds=definite,possible
 do-check-memory: all
@@ -308,8 +300,6 @@ do-check-memory: all
 	$(VALGRIND) $(PROGRAM) --years 0:3 -f json -n 100 profiles/scenes/rotation.yaml >/dev/null
 	$(VALGRIND) $(PROGRAM) --sensitivity=3 -n 50 profiles/scenes/paper-site.yaml profiles/scenes/four-systems.yaml >/dev/null
 	$(VALGRIND) $(PROGRAM) --find forest[0].stand.stools.per_ha=500:5000 --goal adc=30 profiles/scenes/paper-site.yaml >/dev/null
-	set -e; for i in 1 2; do $(VALGRIND) $(PROGRAM) --shard $$i/2 -n 3000 -o $(BUILD)/part-$$i.jsonl profiles/scenes/paper-site.yaml; done
-	$(VALGRIND) $(PROGRAM) --merge $(BUILD)/part-1.jsonl $(BUILD)/part-2.jsonl >/dev/null
 	printf '%s\n' 'key 2 Down Down Enter' 'type 0.5' 'key Enter u Ctrl-R' 'resize 120 40' 'key 1 a 3 4 5 6 ? Esc' 'dump -' \
 	    >$(BUILD)/valgrind.keys
 	$(VALGRIND) $(PROGRAM) --script $(BUILD)/valgrind.keys profiles/scenes/paper-site.yaml >/dev/null

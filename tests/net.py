@@ -39,8 +39,7 @@ from harness import PROFILES, SLOWER  # noqa: E402
 # would make differ in every JSON.
 BLANKED = [(re.compile(pattern), blank) for pattern, blank in (
     (rb'"seconds": [-+.0-9e]+', b'"seconds": -'),
-    (rb'"version": "[^"]*"', b'"version": "-"'),
-    (rb'"sum": "[0-9a-f]*"', b'"sum": "-"'))]  # of a part: it is taken of both
+    (rb'"version": "[^"]*"', b'"version": "-"'))]
 
 SHOWN = 20  # lines of a difference
 LOOKED = 400  # lines from the first that differs on: more would take long to lay beside each other
@@ -292,7 +291,7 @@ def years():
     yield Case("years/index", ["--years", "0:26", "-s", "simulation.contact_model=index", *FEW, "rotation"])
 
 
-# ---- what is looked for, parts, lists ----
+# ---- what is looked for, lists ----
 
 def goals():
     stools = "forest[0].stand.stools.per_ha=100:5000"
@@ -305,32 +304,6 @@ def goals():
                    ["--find", path, "--goal", goal, *FEW, "-f", "json", "-s", "simulation.contact_model=index", "paper-site"])
     yield Case("find/option", ["--find", "options[2].forest[0].stand.trees[0].per_ha=10:500", "--goal", "adc=25", "--option",
                                "coppice with standards", *FEW, "four-systems"])
-
-
-def parts():
-    fly = [["--shard", f"{i}/3", "-j", 1, "-n", 3000, "-o", f"{i}.jsonl", "paper-site", "road-below"] for i in (1, 2, 3)]
-    yield Case("parts/merge", *fly, *(["--merge", *words, "3.jsonl", "1.jsonl", "2.jsonl"] for words in FORMATS.values()))
-    yield Case("parts/faults", *fly, ["--merge", "1.jsonl", "3.jsonl"], ["--merge", "1.jsonl", "2.jsonl", "2.jsonl", "3.jsonl"],
-               ["--merge", "none.jsonl"], ["--merge", "s.yaml"], files={"s.yaml": SMALL})
-    yield Case("parts/standard output", ["--shard", "1/1", *FEW, "four-systems"])
-
-
-def lists():
-    for words in (["--list-parameters"], ["--list-profiles"], ["--help"], ["--version"], []):
-        name = " ".join(words) or "no words"
-        yield Case(f"list/{name}", words)
-        yield Case(f"list/{name} in C", words, LC_ALL="C")
-    yield Case("list/to a file", ["--list-parameters", "-o", "list.txt"])
-    for shell in ("bash", "zsh"):
-        yield Case(f"list/completion of {shell}", ["@completion", shell])
-    for kind, page in (("scene", "ceduo-scene.5"), ("slope", "ceduo-slope.5"), ("stand", "ceduo-stand.5"), ("keys", "ceduo.1")):
-        yield Case(f"list/manual of {kind}", ["@tables", kind, page], files={page: (ROOT / "man" / page).read_text()})
-
-
-# ---- input, good and bad ----
-
-def both(name, scene, files, **more):
-    return Case(name, ["--check", scene], ["-b", *FEW, scene], files=files, **more)
 
 
 def standard_input():
@@ -373,7 +346,7 @@ def faults():
 
 def all_cases():
     """What takes longest comes first, so that the cores end together."""
-    chapters = (screens, pictures, pages, years, goals, parts, standard_input, faults, lists)
+    chapters = (screens, pictures, pages, years, goals, standard_input, faults, lists)
     return [case for chapter in chapters for case in chapter()]
 
 

@@ -13,7 +13,6 @@
 #include "number.h"
 #include "observe.h"
 #include "other.h"
-#include "part.h"
 #include "pool.h"
 #include "question.h"
 #include "record.h"

@@ -108,19 +108,6 @@ struct ceduo_doubt_answer {
 enum ceduo_status ceduo_doubt_ask(const struct ceduo_doubt_def *def, struct ceduo_doubt_answer *answer);
 void ceduo_doubt_free(struct ceduo_doubt_answer *answer);
 
-/* Part 1…parts of the same as bytes, for the caller to free: base points are shared out. Each part ranks more inputs than
- * can have an index for itself. */
-enum ceduo_status ceduo_doubt_ask_part(const struct ceduo_doubt_def *def, uint64_t part, uint64_t parts, unsigned char **bytes,
-                                       size_t *n);
-
-/* The answer of all parts in their order, bit for bit that of ceduo_doubt_ask(). CEDUO_BAD_PART where one does not fit. */
-struct ceduo_doubt_part {
-    const unsigned char *bytes;
-    size_t length;
-};
-enum ceduo_status ceduo_doubt_join(const struct ceduo_doubt_def *def, const struct ceduo_doubt_part *parts, size_t n,
-                                   struct ceduo_doubt_answer *answer);
-
 const struct ceduo_doubt_figure *ceduo_doubt_figure_of(const struct ceduo_doubt_answer *answer, size_t option,
                                                        enum ceduo_doubt_kind kind, bool difference);
 

@@ -16,7 +16,7 @@ struct ceduo_naslund {
 };
 
 /* Fits the curve to n pairs of dbh (m) and height (m, above 1.3) by least squares of the heights. CEDUO_NO_MEMORY;
- * CEDUO_BAD_PART where no curve that rises and stays finite fits: too few pairs, dbh all alike, heights that fall. */
+ * CEDUO_NO_FIT where no curve that rises and stays finite fits: too few pairs, dbh all alike, heights that fall. */
 enum ceduo_status ceduo_naslund_fit(size_t n, const double *dbh, const double *height, struct ceduo_naslund *curve);
 
 /* Height (m) at a dbh (m). */

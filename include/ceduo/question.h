@@ -47,8 +47,4 @@ struct ceduo_answer {
 enum ceduo_status ceduo_ask(const struct ceduo_question *question, struct ceduo_pool **pool, struct ceduo_answer *answer);
 void ceduo_answer_release(struct ceduo_answer *answer);
 
-/* Part 1…parts of the runs of a question as bytes, for the caller to free; see part.h. */
-enum ceduo_status ceduo_ask_part(const struct ceduo_question *question, uint64_t part, uint64_t parts, unsigned char **bytes,
-                                 size_t *n);
-
 #endif

@@ -32,8 +32,6 @@ struct ceduo_run_def {
     bool arrivals_only;                /* trajectories stop behind the last control or cell: their ends are not known */
     size_t exact_bytes;                /* beyond this percentiles come from a histogram */
     bool other_energy;                 /* of a pool: each forest under the other energy law as well, see other.h */
-    bool part;                         /* of a run of rocks_most: only rocks from `first` on, to be saved; see part.h */
-    uint64_t first;                    /* a multiple of CEDUO_BLOCK_ROCKS */
     const atomic_bool *cancel;         /* may be NULL; raised by another thread: the call returns soon */
     void (*progress)(void *context, uint64_t rocks); /* may be NULL; called now and then by a worker, one at a time */
     void *context;

@@ -14,7 +14,7 @@ enum ceduo_status {
     CEDUO_RELEASE_BELOW,     /* the release, or a part of its spread, lies below the ground */
     CEDUO_CONTROL_OFF_SLOPE, /* a control lies beyond the slope */
     CEDUO_CONTROL_BEHIND,    /* a control does not lie beyond the release */
-    CEDUO_BAD_PART           /* bytes that are no part of this run, or not the next one */
+    CEDUO_NO_FIT             /* no curve goes through these pairs */
 };
 
 #endif

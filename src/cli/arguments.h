@@ -5,7 +5,6 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "io/part_file.h"
 #include "study/goal.h"
 #include "view/cells.h"
 #include "view/plot.h"
@@ -17,7 +16,6 @@ enum exit_status { EXIT_DONE = 0, EXIT_RUN = 1, EXIT_USAGE = 2, EXIT_INPUT = 3, 
 enum mode {
     MODE_TERMINAL,
     MODE_BATCH,
-    MODE_MERGE,
     MODE_FIND,
     MODE_SENSITIVITY,
     MODE_CALIBRATE,
@@ -28,6 +26,11 @@ enum mode {
     MODE_SURVEY,
     MODE_HELP,
     MODE_VERSION
+};
+
+struct word_list {
+    const char **items;
+    size_t n;
 };
 
 struct arguments {
@@ -45,9 +48,9 @@ struct arguments {
     uint64_t rocks;   /* 0: the scene's */
     double tolerance; /* 0: none */
     unsigned threads;
-    struct part_words sets; /* PATH=VALUE, in their order, --seed among them */
-    struct part_words options;
-    struct part_words calibrates; /* PATH=LO:HI */
+    struct word_list sets; /* PATH=VALUE, in their order, --seed among them */
+    struct word_list options;
+    struct word_list calibrates; /* PATH=LO:HI */
     char **scenes;
     size_t scenes_count;
     char seed[64];
@@ -56,10 +59,9 @@ struct arguments {
     const char *find;           /* PATH of the value looked for; NULL: none */
     double find_lo, find_hi;
     enum ceduo_goal goal;
-    double goal_value;      /* NaN: the light's own limit */
-    size_t points;          /* of --sensitivity */
-    const char *survey;     /* a CSV file of plots; NULL: none */
-    uint64_t shard, shards; /* only this part of so many, from 1; 0: all */
+    double goal_value;  /* NaN: the light's own limit */
+    size_t points;      /* of --sensitivity */
+    const char *survey; /* a CSV file of plots; NULL: none */
 };
 
 #endif

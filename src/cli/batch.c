@@ -1,12 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Scene by scene: --batch, --plot, --shard and --check; and what other modes share of that. */
+/* Scene by scene: --batch, --plot and --check; and what other modes share of that. */
 #include "batch.h"
 
 #include <stdlib.h>
 
-#include "base/clock.h"
 #include "interrupt.h"
-#include "io/part_file.h"
 #include "output.h"
 #include "print.h"
 #include "say.h"
@@ -26,45 +24,13 @@ static enum exit_status print_scene(const struct arguments *a, struct scene_file
     return ceduo_print_report(a, file, &question, NULL, -1, out);
 }
 
-enum exit_status ceduo_batch_shard(const struct arguments *a, const char *path, const struct shelf *shelf,
-                                   struct scene_file *file, size_t place, struct text *out)
-{
-    struct progress progress = ceduo_progress_begin(a);
-    const struct ceduo_question q = ceduo_batch_question(a, file, &progress);
-    struct part part = {.scene = (char *)(uintptr_t)path, /* only read */
-                        .shard = a->shard,
-                        .shards = a->shards,
-                        .place = place,
-                        .rocks = a->points > 0 ? ceduo_sensitivity_rocks(a) : q.rocks,
-                        .points = a->points};
-    part.key = ceduo_part_key(file, part.rocks, part.points);
-    const struct part_inputs inputs = {.path = path, .sets = a->sets, .options = a->options, .shelf = *shelf};
-    unsigned char *runs, *texts = NULL;
-    enum ceduo_status status = a->points > 0 ? ceduo_sensitivity_part(a, file, &progress, &runs, &part.runs_length)
-                                             : ceduo_ask_part(&q, a->shard, a->shards, &runs, &part.runs_length);
-    ceduo_progress_end(&progress);
-    part.seconds = ceduo_clock() - progress.start;
-    if (status == CEDUO_OK && part.key == 0)
-        status = CEDUO_NO_MEMORY;
-    if (status == CEDUO_OK && part.shard == 1 && !(texts = ceduo_part_inputs(&inputs, &part.inputs_length)))
-        status = CEDUO_NO_MEMORY;
-    part.runs = runs;
-    part.inputs = texts;
-    if (status == CEDUO_OK)
-        ceduo_part_write(out, &part);
-    free(runs);
-    free(texts);
-    return status == CEDUO_OK ? EXIT_DONE : ceduo_batch_failed(file, status);
-}
-
 static enum exit_status batch_scene(const struct arguments *a, size_t i, struct text *out)
 {
     struct scene_file file;
-    struct shelf shelf = {0};
-    enum exit_status status = ceduo_batch_read(a, a->scenes[i], a->shards > 0 ? &shelf : NULL, &file);
+    enum exit_status status = ceduo_batch_read(a, a->scenes[i], &file);
     if (status == EXIT_DONE) {
         ceduo_interrupt_catch();
-        status = a->shards > 0 ? ceduo_batch_shard(a, a->scenes[i], &shelf, &file, i + 1, out) : print_scene(a, &file, out);
+        status = print_scene(a, &file, out);
     }
     ceduo_scene_release(&file);
     return status;
@@ -117,7 +83,7 @@ enum exit_status ceduo_batch_each(const struct arguments *a, void (*header)(stru
         header(&out);
     for (size_t i = 0; i < a->scenes_count; i++) {
         struct scene_file file;
-        enum exit_status done = ceduo_batch_read(a, a->scenes[i], NULL, &file);
+        enum exit_status done = ceduo_batch_read(a, a->scenes[i], &file);
         if (done == EXIT_DONE) {
             ceduo_interrupt_catch();
             done = one(a, &file, &out);
@@ -138,7 +104,7 @@ enum exit_status ceduo_batch_check(const struct arguments *a)
     enum exit_status status = EXIT_DONE;
     for (size_t i = 0; i < a->scenes_count; i++) {
         struct scene_file file;
-        enum exit_status one = ceduo_batch_read(a, a->scenes[i], NULL, &file);
+        enum exit_status one = ceduo_batch_read(a, a->scenes[i], &file);
         if (one == EXIT_DONE)
             ceduo_batch_warn(a, &file);
         ceduo_scene_release(&file);
@@ -149,6 +115,6 @@ enum exit_status ceduo_batch_check(const struct arguments *a)
 
 enum exit_status ceduo_batch_sensitivity(const struct arguments *a)
 {
-    bool scene_by_scene = a->shards > 0 || a->plot != CEDUO_PLOT_NONE;
-    return scene_by_scene ? ceduo_batch_run(a) : ceduo_batch_each(a, ceduo_doubt_csv_header, ceduo_sensitivity_whole);
+    return a->plot != CEDUO_PLOT_NONE ? ceduo_batch_run(a)
+                                      : ceduo_batch_each(a, ceduo_doubt_csv_header, ceduo_sensitivity_whole);
 }

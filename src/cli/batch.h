@@ -6,7 +6,6 @@
 
 /* Each prints to standard output or to --output and returns the exit status. */
 enum exit_status ceduo_batch_run(const struct arguments *arguments);
-enum exit_status ceduo_batch_merge(const struct arguments *arguments);
 enum exit_status ceduo_batch_find(const struct arguments *arguments);
 enum exit_status ceduo_batch_sensitivity(const struct arguments *arguments);
 enum exit_status ceduo_batch_report(const struct arguments *arguments);
@@ -21,10 +20,6 @@ enum exit_status ceduo_batch_survey(const struct arguments *arguments);
 enum exit_status ceduo_batch_each(const struct arguments *arguments, void (*header)(struct text *out),
                                   enum exit_status (*one)(const struct arguments *arguments, struct scene_file *file,
                                                           struct text *out));
-
-/* Adds the shard of a scene, the `place`-th given, that was read through a shelf. */
-enum exit_status ceduo_batch_shard(const struct arguments *arguments, const char *path, const struct shelf *shelf,
-                                   struct scene_file *file, size_t place, struct text *out);
 
 /* Opens the terminal program, or feeds it the script that was given. */
 enum exit_status ceduo_interactive_run(const struct arguments *arguments);

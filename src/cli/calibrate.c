@@ -121,7 +121,7 @@ static enum exit_status open_job(struct job *j)
     if (!j->files || !j->scenes || !j->inputs)
         return ceduo_usage_no_memory();
     for (size_t s = 0; s < j->scenes_count; s++) {
-        enum exit_status read = ceduo_batch_read(a, a->scenes[s], NULL, &j->files[s]);
+        enum exit_status read = ceduo_batch_read(a, a->scenes[s], &j->files[s]);
         status = read > status ? read : status;
         j->scenes[s] = (struct ceduo_calibration_scene){.scene = &j->files[s].scene,
                                                         .inputs = j->inputs + s * j->parameters_count,

@@ -48,8 +48,6 @@ void ceduo_arguments_help(struct text *text)
                            "usage: ceduo [SCENE.yaml]\n"
                            "       ceduo --batch [OPTION...] SCENE.yaml...\n"
                            "       ceduo --plot WHAT [OPTION...] SCENE.yaml...\n"
-                           "       ceduo --shard I/N [OPTION...] SCENE.yaml...\n"
-                           "       ceduo --merge [OPTION...] PART...\n"
                            "       ceduo --check SCENE.yaml...\n"
                            "       ceduo --survey PLOTS.csv [-o STAND.yaml]\n"
                            "       ceduo --list-parameters | --list-profiles\n\n"
@@ -71,26 +69,14 @@ void ceduo_arguments_help(struct text *text)
 
 /* ---- what goes together ---- */
 
-/* Says which option does not go with `one`. */
-static enum exit_status check_with(const struct arguments *a, const char *one, unsigned not_with, const char *why)
+static enum exit_status check_without_run(const struct arguments *a)
 {
     size_t n;
     const struct option_row *rows = ceduo_option_rows(&n);
     for (size_t i = 0; i < n; i++)
-        if ((a->given >> i & 1) && (rows[i].not_with & not_with))
-            return ceduo_usage(NULL, _("--%s cannot be used with --%s: %s"), one, rows[i].name, why);
+        if ((a->given >> i & 1) && rows[i].computes)
+            return ceduo_usage(NULL, _("--check cannot be used with --%s: it computes nothing"), rows[i].name);
     return EXIT_DONE;
-}
-
-static enum exit_status check_parts(struct arguments *a)
-{
-    if (ceduo_option_given(a, "merge"))
-        return check_with(a, "merge", NOT_MERGE, _("the parts are computed already"));
-    if (a->shards == 0)
-        return EXIT_DONE;
-    enum exit_status status = check_with(a, "shard", NOT_SHARD, _("it writes a part of one run; --merge prints the result"));
-    a->format = CEDUO_JSON; /* lines, one for each scene */
-    return status;
 }
 
 /* What would otherwise be passed over without a word. */
@@ -127,14 +113,10 @@ static enum exit_status check_survey(const struct arguments *a)
 /* Whether the options go together, and as many scenes are named as they want. */
 static enum exit_status check_arguments(struct arguments *a)
 {
-    if (a->mode < MODE_HELP && check_parts(a) != EXIT_DONE)
-        return EXIT_USAGE;
     if (a->mode == MODE_SURVEY)
         return check_survey(a);
-    if (a->mode == MODE_CHECK && check_with(a, "check", NOT_CHECK, _("it computes nothing")) != EXIT_DONE)
+    if (a->mode == MODE_CHECK && check_without_run(a) != EXIT_DONE)
         return EXIT_USAGE;
-    if (a->mode == MODE_MERGE && a->scenes_count == 0)
-        return ceduo_usage(NULL, _("--merge needs files written by --shard, or '-' for standard input"));
     bool wants_scene = a->mode >= MODE_BATCH && a->mode <= MODE_CHECK;
     if (a->mode == MODE_FIND && !ceduo_option_given(a, "goal"))
         return ceduo_usage(NULL, _("--find requires a --goal"));

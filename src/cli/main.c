@@ -60,8 +60,6 @@ static enum exit_status act(const struct arguments *a)
     switch (a->mode) {
     case MODE_BATCH:
         return ceduo_batch_run(a);
-    case MODE_MERGE:
-        return ceduo_batch_merge(a);
     case MODE_FIND:
         return ceduo_batch_find(a);
     case MODE_SENSITIVITY:

@@ -10,7 +10,6 @@
 #include "base/language.h"
 #include "ceduo/calibrate.h"
 #include "ceduo/years.h"
-#include "io/part_file.h"
 #include "language.h"
 #include "say.h"
 
@@ -59,7 +58,7 @@ static enum exit_status set_language(struct arguments *a, const struct option_ro
 
 static enum exit_status add_word(struct arguments *a, const struct option_row *row, char *value)
 {
-    struct part_words *words = (void *)((char *)a + row->at);
+    struct word_list *words = (void *)((char *)a + row->at);
     words->items[words->n++] = value;
     return EXIT_DONE;
 }
@@ -257,20 +256,6 @@ static enum exit_status add_calibrate(struct arguments *a, const struct option_r
     return EXIT_DONE;
 }
 
-/* "I/N" */
-static enum exit_status set_shard(struct arguments *a, const struct option_row *row, char *value)
-{
-    double n[2];
-    bool good = read_numbers(value, "/", 2, 2, n) && is_whole(n[0]) && is_whole(n[1]) && n[0] >= 1 && n[0] <= n[1] &&
-                n[1] <= SHARDS_MOST;
-    if (!good)
-        return ceduo_usage(row->name, _("'%s' is not a part; write I/N with I from 1 to N, such as 3/8; N is at most %d"),
-                           value, SHARDS_MOST);
-    a->shard = (uint64_t)n[0];
-    a->shards = (uint64_t)n[1];
-    return EXIT_DONE;
-}
-
 static enum exit_status set_threads(struct arguments *a, const struct option_row *row, char *value)
 {
     uint64_t n;
@@ -283,61 +268,56 @@ static enum exit_status set_threads(struct arguments *a, const struct option_row
 /* ---- the table ---- */
 
 #define AT(member) offsetof(struct arguments, member)
-#define NOT_PART   (NOT_SHARD | NOT_MERGE)
 
 static const struct option_row rows[] = {
-    {"batch", 'b', NULL, NULL, 0, MODE_BATCH, 0, N_("compute the scenes and print the result, without a terminal")},
-    {"format", 'f', "table|csv|json", set_word, AT(format), MODE_TERMINAL, NOT_SHARD | NOT_CHECK,
-     N_("format of the output (table)")},
-    {"output", 'o', "FILE", set_text, AT(output), MODE_TERMINAL, NOT_CHECK,
+    {"batch", 'b', NULL, NULL, 0, MODE_BATCH, false, N_("compute the scenes and print the result, without a terminal")},
+    {"format", 'f', "table|csv|json", set_word, AT(format), MODE_TERMINAL, true, N_("format of the output (table)")},
+    {"output", 'o', "FILE", set_text, AT(output), MODE_TERMINAL, true,
      N_("write to FILE; a regular file is written completely or not at all")},
-    {"set", 's', "PATH=VALUE", add_word, AT(sets), MODE_TERMINAL, NOT_MERGE,
+    {"set", 's', "PATH=VALUE", add_word, AT(sets), MODE_TERMINAL, false,
      N_("change a parameter of the scene; may be repeated")},
-    {"rocks", 'n', "N", set_rocks, 0, MODE_TERMINAL, NOT_MERGE | NOT_CHECK,
-     N_("number of rocks; with --tolerance the maximum")},
-    {"tolerance", 'e', "REL", set_tolerance, 0, MODE_TERMINAL, NOT_PART | NOT_CHECK,
+    {"rocks", 'n', "N", set_rocks, 0, MODE_TERMINAL, true, N_("number of rocks; with --tolerance the maximum")},
+    {"tolerance", 'e', "REL", set_tolerance, 0, MODE_TERMINAL, true,
      N_("simulate until the 95 % error of each mean energy is below REL of it")},
-    {"rows", 0, "controls|stands", set_word, AT(stands), MODE_TERMINAL, NOT_SHARD | NOT_CHECK,
-     N_("what each row of CSV describes (controls)")},
-    {"seed", 0, "N", set_seed, 0, MODE_TERMINAL, NOT_MERGE, N_("seed of the random numbers, 0 to 2^53")},
-    {"threads", 'j', "N", set_threads, 0, MODE_TERMINAL, 0, N_("number of threads; it does not change the result (all cores)")},
-    {"option", 0, "NAME", add_word, AT(options), MODE_TERMINAL, NOT_MERGE,
+    {"rows", 0, "controls|stands", set_word, AT(stands), MODE_TERMINAL, true, N_("what each row of CSV describes (controls)")},
+    {"seed", 0, "N", set_seed, 0, MODE_TERMINAL, false, N_("seed of the random numbers, 0 to 2^53")},
+    {"threads", 'j', "N", set_threads, 0, MODE_TERMINAL, false,
+     N_("number of threads; it does not change the result (all cores)")},
+    {"option", 0, "NAME", add_word, AT(options), MODE_TERMINAL, false,
      N_("compute only this option of the scene; may be repeated")},
-    {"years", 0, "[A:B[:STEP]]", set_years, 0, MODE_BATCH, NOT_PART | NOT_CHECK,
+    {"years", 0, "[A:B[:STEP]]", set_years, 0, MODE_BATCH, true,
      N_("compute every option year by year: one whole rotation after its first cut, or the years A to B; the stands as "
         "filed are year 0")},
-    {"find", 0, "PATH=LO:HI", set_find, 0, MODE_FIND, NOT_PART | NOT_CHECK,
+    {"find", 0, "PATH=LO:HI", set_find, 0, MODE_FIND, true,
      N_("find the value of a parameter that reaches --goal at the worst control")},
-    {"goal", 0, "GOAL[=VALUE]", set_goal, 0, MODE_TERMINAL, NOT_CHECK,
+    {"goal", 0, "GOAL[=VALUE]", set_goal, 0, MODE_TERMINAL, true,
      N_("adc, free-run (at most the light's limit), energy (mean kJ) or exceed (share, 0.05)")},
-    {"sensitivity", 0, "[=N]", set_sensitivity, 0, MODE_SENSITIVITY, NOT_MERGE | NOT_CHECK,
+    {"sensitivity", 0, "[=N]", set_sensitivity, 0, MODE_SENSITIVITY, true,
      N_("show how sure the result is, and what that depends on; N base points (256)")},
-    {"report", 0, "FILE", set_report, 0, MODE_REPORT, NOT_PART | NOT_CHECK,
+    {"report", 0, "FILE", set_report, 0, MODE_REPORT, true,
      N_("write a page to hand in as HTML, with pictures; several scenes give chapters; - is standard output")},
-    {"calibrate", 0, "PATH=LO:HI", add_calibrate, 0, MODE_CALIBRATE, NOT_PART | NOT_CHECK,
+    {"calibrate", 0, "PATH=LO:HI", add_calibrate, 0, MODE_CALIBRATE, true,
      N_("fit this value to what was observed, between LO and HI; may be repeated; -o FILE.yaml writes the first scene with "
         "what was found")},
-    {"shard", 0, "I/N", set_shard, 0, MODE_BATCH, NOT_MERGE, N_("compute part I of N of each scene and write it for --merge")},
-    {"merge", 0, NULL, NULL, 0, MODE_MERGE, 0, N_("merge the parts written by --shard and print the result")},
-    {"plot", 0, "WHAT", set_plot, 0, MODE_BATCH, NOT_PART | NOT_CHECK,
+    {"plot", 0, "WHAT", set_plot, 0, MODE_BATCH, true,
      N_("print a picture: profile, energy, height, histogram, adc, rotation, stand, compare, tradeoff, doubt or hazard")},
-    {"size", 0, "WxH", set_size, 0, MODE_TERMINAL, NOT_CHECK, N_("size of a picture in columns and lines (80x24)")},
-    {"charset", 0, "braille|block|ascii", set_word, AT(charset), MODE_TERMINAL, NOT_CHECK,
+    {"size", 0, "WxH", set_size, 0, MODE_TERMINAL, true, N_("size of a picture in columns and lines (80x24)")},
+    {"charset", 0, "braille|block|ascii", set_word, AT(charset), MODE_TERMINAL, true,
      N_("characters that pictures are made of (from the locale)")},
-    {"language", 0, "it|en", set_language, AT(language), MODE_TERMINAL, 0,
+    {"language", 0, "it|en", set_language, AT(language), MODE_TERMINAL, false,
      N_("language of tables, screens and messages (from the locale)")},
-    {"script", 0, "FILE", set_text, AT(script), MODE_TERMINAL, NOT_PART | NOT_CHECK,
+    {"script", 0, "FILE", set_text, AT(script), MODE_TERMINAL, true,
      N_("feed keys and commands to the terminal program; needs no terminal")},
-    {"check", 0, NULL, NULL, 0, MODE_CHECK, NOT_PART, N_("check the scenes and print every problem; compute nothing")},
-    {"list-parameters", 0, NULL, NULL, 0, MODE_PARAMETERS, NOT_PART,
+    {"check", 0, NULL, NULL, 0, MODE_CHECK, false, N_("check the scenes and print every problem; compute nothing")},
+    {"list-parameters", 0, NULL, NULL, 0, MODE_PARAMETERS, false,
      N_("list path, type, unit, range, default and meaning of each parameter")},
-    {"list-profiles", 0, NULL, NULL, 0, MODE_PROFILES, NOT_PART,
+    {"list-profiles", 0, NULL, NULL, 0, MODE_PROFILES, false,
      N_("list the scenes, slopes, stands and rules that can be named")},
-    {"survey", 0, "FILE.csv", set_text, AT(survey), MODE_SURVEY, NOT_PART | NOT_CHECK,
+    {"survey", 0, "FILE.csv", set_text, AT(survey), MODE_SURVEY, true,
      N_("write the stand of a survey: a CSV file with a row for each stem on sample plots")},
-    {"quiet", 'q', NULL, set_quiet, 0, MODE_TERMINAL, 0, N_("print no progress")},
-    {"help", 0, NULL, NULL, 0, MODE_HELP, 0, N_("print this help")},
-    {"version", 0, NULL, NULL, 0, MODE_VERSION, 0, N_("print the version")},
+    {"quiet", 'q', NULL, set_quiet, 0, MODE_TERMINAL, false, N_("print no progress")},
+    {"help", 0, NULL, NULL, 0, MODE_HELP, false, N_("print this help")},
+    {"version", 0, NULL, NULL, 0, MODE_VERSION, false, N_("print the version")},
 };
 
 #define ROWS (sizeof rows / sizeof rows[0])
@@ -348,6 +328,8 @@ static const struct {
     const char *name, *instead;
 } gone[] = {
     {"plain", N_("shares and means are always as counted; leave it out")},
+    {"shard", N_("a scene is computed at once; give each machine scenes of its own, see man ceduo-workflows")},
+    {"merge", N_("results of several scenes are printed together; see man ceduo-workflows")},
 };
 
 const char *ceduo_option_gone(const char *word)

@@ -15,13 +15,11 @@ struct option_row {
     /* as the help shows it, "a|b|c" where it is one of these; "[=N]": it may have one; NULL: it takes none */
     const char *value;
     enum exit_status (*set)(struct arguments *arguments, const struct option_row *row, char *value); /* may be NULL */
-    size_t at;         /* of the member that is set, for the setters that several options share */
-    enum mode mode;    /* that it asks for; MODE_TERMINAL: none */
-    unsigned not_with; /* NOT_…: the others that it does not go with */
+    size_t at;      /* of the member that is set, for the setters that several options share */
+    enum mode mode; /* that it asks for; MODE_TERMINAL: none */
+    bool computes;  /* it does not go with --check */
     const char *help;
 };
-
-enum { NOT_SHARD = 1, NOT_MERGE = 2, NOT_CHECK = 4 };
 
 const struct option_row *ceduo_option_rows(size_t *n);
 

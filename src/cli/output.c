@@ -47,7 +47,7 @@ bool ceduo_output_check(const struct arguments *a)
         ceduo_say_why(*a->output ? a->output : "--output", *a->output ? strerror(errno) : _("name a file"));
     for (size_t i = 0; a->output && good && i < a->scenes_count; i++) {
         const char *path = a->scenes[i];
-        if (a->mode != MODE_MERGE && strcmp(path, "-") != 0)
+        if (strcmp(path, "-") != 0)
             path = ceduo_file_find(&arena, path, NULL, "scenes");
         good = !ceduo_output_is(a, path);
     }

@@ -176,7 +176,7 @@ static enum exit_status read_and_add(const struct arguments *a, const char *path
                                      struct ceduo_html *html)
 {
     struct scene_file file;
-    enum exit_status done = ceduo_batch_read(a, path, NULL, &file);
+    enum exit_status done = ceduo_batch_read(a, path, &file);
     if (done == EXIT_DONE) {
         size_t before = html->text->length;
         ceduo_interrupt_catch();

@@ -71,21 +71,19 @@ static enum exit_status check(const struct arguments *a, const struct scene_file
     return EXIT_DONE;
 }
 
-enum exit_status ceduo_batch_read(const struct arguments *a, const char *path, struct shelf *shelf, struct scene_file *file)
+enum exit_status ceduo_batch_read(const struct arguments *a, const char *path, struct scene_file *file)
 {
     struct problems problems = {0};
-    struct shelf own = {0}; /* what is read from the disk, for -o */
-    bool good = ceduo_scene_read_by(file, shelf ? shelf : &own, path, a->sets.items, a->sets.n, &problems);
+    struct shelf read = {0}; /* for -o */
+    bool good = ceduo_scene_read_by(file, &read, path, a->sets.items, a->sets.n, &problems);
     ceduo_problems_close(&problems);
     ceduo_say(&problems.text);
     enum exit_status status = good ? EXIT_DONE : problems.usage ? EXIT_USAGE : EXIT_INPUT;
     ceduo_problems_free(&problems);
-    const struct shelf *read = shelf ? shelf : &own;
-    for (const struct shelf_file *f = read->closed ? NULL : read->files; f && status != EXIT_OUTPUT; f = f->before)
+    for (const struct shelf_file *f = read.files; f && status != EXIT_OUTPUT; f = f->before)
         if (ceduo_output_is(a, f->path))
             status = EXIT_OUTPUT;
-    if (!shelf)
-        file->arena.shelf = NULL;
+    file->arena.shelf = NULL;
     if (status == EXIT_DONE)
         status = check(a, file);
     return status == EXIT_DONE && a->mode != MODE_FIND && a->mode != MODE_CALIBRATE ? choose(a, file) : status;

@@ -6,12 +6,9 @@
 #include "ceduo/question.h"
 #include "io/scene_file.h"
 
-struct shelf;
-
 /* Reads a scene with the changes and the options of the command line (with --find all of its options); what is wrong with
- * it goes to standard error. EXIT_OUTPUT where --output is one of the files that it was read from. `shelf`: see io/file.h; may be NULL. */
-enum exit_status ceduo_batch_read(const struct arguments *arguments, const char *path, struct shelf *shelf,
-                                  struct scene_file *file);
+ * it goes to standard error. EXIT_OUTPUT where --output is one of the files that it was read from. */
+enum exit_status ceduo_batch_read(const struct arguments *arguments, const char *path, struct scene_file *file);
 
 /* The option of a name. EXIT_USAGE where there is none, once that is told. */
 enum exit_status ceduo_batch_option(const struct scene_file *file, const char *name, size_t *index);

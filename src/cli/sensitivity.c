@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* --sensitivity: what doubt does to the figures of a scene; whole, as a part of it, and joined from parts. */
+/* --sensitivity: what doubt does to the figures of a scene. */
 #include "sensitivity.h"
 
 #include <stdlib.h>
@@ -31,11 +31,6 @@ static void put(struct text *out, const struct arguments *a, const struct ceduo_
     ceduo_text_free(&page);
 }
 
-uint64_t ceduo_sensitivity_rocks(const struct arguments *a)
-{
-    return a->rocks > 0 ? a->rocks : ROCKS_USUAL;
-}
-
 static struct ceduo_doubt_def def_of(const struct arguments *a, const struct scene_file *file,
                                      const struct scene_inputs *inputs, struct progress *progress)
 {
@@ -43,7 +38,7 @@ static struct ceduo_doubt_def def_of(const struct arguments *a, const struct sce
                                     .inputs_count = inputs->n,
                                     .inputs = inputs->items,
                                     .points = a->points > 0 ? a->points : CEDUO_DOUBT_POINTS,
-                                    .rocks = ceduo_sensitivity_rocks(a),
+                                    .rocks = a->rocks > 0 ? a->rocks : ROCKS_USUAL,
                                     .threads = a->threads,
                                     .cancel = ceduo_interrupt_flag(),
                                     .progress = ceduo_progress_steps,
@@ -75,45 +70,6 @@ enum exit_status ceduo_sensitivity_whole(const struct arguments *a, struct scene
         return ceduo_batch_failed(file, status);
     if (a->format == CEDUO_TABLE && out->length > 0)
         ceduo_text_char(out, '\n');
-    put(out, a, &d.report);
-    if (d.report.answer)
-        ceduo_doubt_free(&d.answer);
-    return EXIT_DONE;
-}
-
-/* ---- parts ---- */
-
-enum ceduo_status ceduo_sensitivity_part(const struct arguments *a, struct scene_file *file, struct progress *progress,
-                                         unsigned char **bytes, size_t *n)
-{
-    struct scene_inputs inputs;
-    *bytes = NULL;
-    *n = 0;
-    if (!ceduo_inputs_of(file, &inputs))
-        return CEDUO_NO_MEMORY;
-    struct ceduo_doubt_def def = def_of(a, file, &inputs, progress);
-    return inputs.n > 0 ? ceduo_doubt_ask_part(&def, a->shard, a->shards, bytes, n) : CEDUO_OK;
-}
-
-enum exit_status ceduo_sensitivity_join(const struct arguments *a, struct scene_file *file, const struct part *parts, size_t n,
-                                        bool *bad, struct text *out)
-{
-    struct asked_doubt d = {0};
-    struct progress progress = ceduo_progress_begin(a);
-    struct ceduo_doubt_part *all = calloc(n + 1, sizeof *all);
-    for (size_t i = 0; all && i < n; i++)
-        all[i] = (struct ceduo_doubt_part){parts[i].runs, parts[i].runs_length};
-    enum ceduo_status status = all && ceduo_inputs_of(file, &d.inputs) ? CEDUO_OK : CEDUO_NO_MEMORY;
-    struct ceduo_doubt_def def = def_of(a, file, &d.inputs, &progress);
-    d.report = (struct ceduo_doubt_report){.file = file, .inputs = &d.inputs, .points = def.points, .rocks = def.rocks};
-    if (status == CEDUO_OK && d.inputs.n > 0) {
-        status = ceduo_doubt_join(&def, all, n, &d.answer);
-        d.report.answer = status == CEDUO_OK ? &d.answer : NULL;
-    }
-    free(all);
-    *bad = status == CEDUO_BAD_PART;
-    if (status != CEDUO_OK)
-        return *bad ? EXIT_INPUT : ceduo_batch_failed(file, status);
     put(out, a, &d.report);
     if (d.report.answer)
         ceduo_doubt_free(&d.answer);

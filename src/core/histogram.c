@@ -44,58 +44,6 @@ bool ceduo_histogram_add(struct histogram *h, double value)
     return true;
 }
 
-/* An octave (NULL: empty) as the counts that are not 0, each with its bin. */
-static void write_octave(struct bytes *b, const uint32_t *bins)
-{
-    uint64_t filled = 0;
-    for (size_t i = 0; bins && i < BINS; i++)
-        filled += bins[i] > 0;
-    ceduo_bytes_count(b, &filled);
-    for (size_t i = 0; bins && i < BINS; i++)
-        if (bins[i] > 0) {
-            uint64_t both = (uint64_t)bins[i] << 32 | i;
-            ceduo_bytes_count(b, &both);
-        }
-}
-
-static bool read_octave(struct bytes *b, struct histogram *h, size_t o, uint64_t most)
-{
-    uint64_t filled, both;
-    ceduo_bytes_count(b, &filled);
-    if (filled == 0 || filled > BINS || filled > ceduo_bytes_left(b) / 8)
-        return filled == 0 && !b->bad;
-    uint32_t *bins = octave_of(h, o);
-    if (!bins) {
-        b->no_memory = true;
-        return false;
-    }
-    for (size_t i = 0, least = 0; i < filled; i++) {
-        ceduo_bytes_count(b, &both);
-        size_t bin = (size_t)(both & UINT32_MAX);
-        if (bin < least || bin >= BINS || both >> 32 == 0 || both >> 32 > most - h->n)
-            return false;
-        bins[bin] = (uint32_t)(both >> 32);
-        h->n += both >> 32;
-        least = bin + 1;
-    }
-    return true;
-}
-
-bool ceduo_histogram_pack(struct histogram *h, struct bytes *b, uint64_t most)
-{
-    ceduo_bytes_count(b, &h->zeros);
-    if (b->reads && (b->bad || h->zeros > most))
-        return false;
-    h->n = b->reads ? h->zeros : h->n;
-    for (size_t o = 0; o < HISTOGRAM_OCTAVES; o++) {
-        if (!b->reads)
-            write_octave(b, h->octave[o]);
-        else if (!read_octave(b, h, o, most))
-            return false;
-    }
-    return !b->no_memory;
-}
-
 void ceduo_histogram_clear(struct histogram *h)
 {
     for (size_t o = 0; o < HISTOGRAM_OCTAVES; o++)

@@ -5,7 +5,6 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "base/bytes.h"
 #include "ceduo/statistics.h"
 
 /* Counts of values >= 0 in bins of equal relative width, 1/16384 of an octave (6.1e-5), an octave's bins made when it is
@@ -20,10 +19,6 @@ struct histogram {
 
 /* False without memory; the value is then not counted. */
 bool ceduo_histogram_add(struct histogram *h, double value);
-
-/* Writes it or reads it into an empty one. False without memory (b->no_memory), or where what is read is none of at most
- * `most` values. */
-bool ceduo_histogram_pack(struct histogram *h, struct bytes *b, uint64_t most);
 
 void ceduo_histogram_clear(struct histogram *h);
 

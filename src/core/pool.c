@@ -8,8 +8,6 @@
 #include "base/grow.h"
 #include "ceduo/key.h"
 #include "ceduo/other.h"
-#include "ceduo/part.h"
-#include "run_pack.h"
 
 struct pooled {
     uint64_t key;
@@ -269,63 +267,4 @@ struct ceduo_work ceduo_pool_work(const struct ceduo_pool *pool)
     for (size_t i = 0; i < pool->count; i++)
         add_work(&work, pool->runs[i].run);
     return work;
-}
-
-/* ---- parts ---- */
-
-void ceduo_part_range(uint64_t rocks, uint64_t part, uint64_t parts, uint64_t *first, uint64_t *end)
-{
-    uint64_t blocks = rocks / CEDUO_BLOCK_ROCKS + (rocks % CEDUO_BLOCK_ROCKS != 0);
-    *first = blocks * (part - 1) / parts * CEDUO_BLOCK_ROCKS;
-    *end = blocks * part / parts * CEDUO_BLOCK_ROCKS;
-    *first = *first < rocks ? *first : rocks;
-    *end = *end < rocks ? *end : rocks;
-}
-
-/* The runs in their order, each with its key and its length. */
-enum ceduo_status ceduo_pool_save(const struct ceduo_pool *pool, unsigned char **bytes, size_t *n)
-{
-    struct bytes b = {0};
-    uint64_t count = pool->count;
-    enum ceduo_status status = CEDUO_OK;
-    ceduo_bytes_count(&b, &count);
-    for (size_t i = 0; i < pool->count && status == CEDUO_OK; i++) {
-        uint64_t key = pool->runs[i].key, size = 0;
-        ceduo_bytes_count(&b, &key);
-        size_t place = b.length;
-        ceduo_bytes_count(&b, &size); /* not known yet */
-        status = ceduo_run_pack(pool->runs[i].run, &b);
-        size = b.length - place - 8;
-        size_t end = b.length;
-        b.length = place;
-        ceduo_bytes_count(&b, &size);
-        b.length = end;
-    }
-    *bytes = b.to;
-    *n = b.length;
-    if (status == CEDUO_OK && !b.no_memory)
-        return CEDUO_OK;
-    free(b.to);
-    *bytes = NULL;
-    return CEDUO_NO_MEMORY;
-}
-
-enum ceduo_status ceduo_pool_adopt(struct ceduo_pool *pool, const unsigned char *bytes, size_t n)
-{
-    struct bytes b = {.reads = true, .from = bytes, .length = n};
-    uint64_t count, key, size;
-    ceduo_bytes_count(&b, &count);
-    if (count != pool->count)
-        return CEDUO_BAD_PART;
-    for (size_t i = 0; i < pool->count; i++) {
-        ceduo_bytes_count(&b, &key);
-        ceduo_bytes_count(&b, &size);
-        const unsigned char *run = size <= ceduo_bytes_left(&b) ? ceduo_bytes_read(&b, (size_t)size) : NULL;
-        if (!run || key != pool->runs[i].key)
-            return CEDUO_BAD_PART;
-        enum ceduo_status status = ceduo_run_adopt(pool->runs[i].run, run, (size_t)size);
-        if (status != CEDUO_OK)
-            return status;
-    }
-    return ceduo_bytes_left(&b) == 0 ? CEDUO_OK : CEDUO_BAD_PART;
 }

@@ -3,8 +3,6 @@
 
 #include <stdlib.h>
 
-#include "ceduo/part.h"
-
 struct ceduo_question ceduo_question_default(const struct ceduo_scene *scene)
 {
     return (struct ceduo_question){
@@ -124,24 +122,4 @@ void ceduo_answer_release(struct ceduo_answer *a)
     free(a->blocks);
     ceduo_result_free(a->result);
     *a = (struct ceduo_answer){0};
-}
-
-enum ceduo_status ceduo_ask_part(const struct ceduo_question *q, uint64_t part, uint64_t parts, unsigned char **bytes,
-                                 size_t *n)
-{
-    struct ceduo_run_def def = q->run;
-    struct ceduo_pool *pool;
-    uint64_t end;
-    def.part = true;
-    ceduo_part_range(def.rocks_most, part, parts, &def.first, &end);
-    enum ceduo_status status = ceduo_pool_create(&def, &pool);
-    if (status == CEDUO_OK)
-        status = ceduo_pool_fill(pool);
-    if (status == CEDUO_OK)
-        status = ceduo_pool_extend(pool, end);
-    *bytes = NULL;
-    if (status == CEDUO_OK)
-        status = ceduo_pool_save(pool, bytes, n);
-    ceduo_pool_free(pool);
-    return status;
 }

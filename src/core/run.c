@@ -42,20 +42,12 @@ enum ceduo_status ceduo_run_extend(struct ceduo_run *run, uint64_t rocks)
             return status;
         choose_chunk(run, (size_t)(run->rocks / CEDUO_BLOCK_ROCKS - block), ceduo_clock() - start);
         if (run->def.progress)
-            run->def.progress(run->def.context, run->rocks - run->first);
+            run->def.progress(run->def.context, run->rocks);
     }
     return CEDUO_OK;
 }
 
 /* ---- making and freeing ---- */
-
-/* A part keeps what the whole run would keep. It has no rocks if it begins where the run ends. */
-static bool begin_part(struct ceduo_run *run)
-{
-    bool within = run->def.first < run->def.rocks_most;
-    run->rocks = run->first = within ? run->def.first : run->def.rocks_most;
-    return ceduo_run_samples_fit(run, run->def.rocks_most) || ceduo_run_samples_bin(run);
-}
 
 static bool allocate(struct ceduo_run *run)
 {
@@ -96,7 +88,7 @@ enum ceduo_status ceduo_run_create(const struct ceduo_run_def *def, struct ceduo
     uint64_t blocks = run->def.rocks_most / CEDUO_BLOCK_ROCKS + 1;
     run->slots_count = blocks < CHUNK_BLOCKS ? (size_t)blocks : CHUNK_BLOCKS;
     run->chunk = run->def.threads < CHUNK_BLOCKS ? run->def.threads : CHUNK_BLOCKS;
-    if (!allocate(run) || (def->part && !begin_part(run))) {
+    if (!allocate(run)) {
         ceduo_run_free(run);
         return CEDUO_NO_MEMORY;
     }
@@ -114,9 +106,6 @@ void ceduo_run_free(struct ceduo_run *run)
     for (size_t i = 0; run->slots && i < run->slots_count; i++)
         free(run->slots[i].controls);
     free(run->slots);
-    for (size_t i = 0; i < run->kept_room; i++)
-        free(run->kept_blocks[i].controls);
-    free(run->kept_blocks);
     ceduo_histograms_free(run->bins, run->columns);
     ceduo_run_samples_free(run);
     free(run->pairs);

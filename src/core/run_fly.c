@@ -212,7 +212,7 @@ static bool keep_arrivals(struct worker *w, size_t control)
 {
     struct ceduo_run *run = w->run;
     const struct arrival *arrivals = &w->arrivals[control * CEDUO_BLOCK_ROCKS];
-    size_t n = (size_t)(w->to - w->from), from = (size_t)(w->from - run->first);
+    size_t n = (size_t)(w->to - w->from), from = (size_t)w->from;
     for (int q = 0; q < run->kept; q++) {
         double block[CEDUO_BLOCK_ROCKS], *column = run->exact ? samples_of(run, control, q) + from : block;
         for (size_t i = 0; i < n; i++)
@@ -231,7 +231,7 @@ static bool keep_stops(struct worker *w)
     size_t n = (size_t)(w->to - w->from);
     if (!run->exact)
         return bin_column(&w->bins[run->columns - 1], w->stops, n);
-    memcpy(stops_of(run) + (w->from - run->first), w->stops, n * sizeof *w->stops);
+    memcpy(stops_of(run) + w->from, w->stops, n * sizeof *w->stops);
     return true;
 }
 
@@ -239,7 +239,7 @@ static bool keep_stops(struct worker *w)
 static void weigh_ends(struct worker *w)
 {
     struct ceduo_run *run = w->run;
-    const double *weights = run->weights + (w->from - run->first);
+    const double *weights = run->weights + w->from;
     for (uint64_t i = 0; i < w->to - w->from; i++) {
         w->block->ended[w->ends[i]] += weights[i];
         for (size_t c = 0; c < run->controls; c++) {
@@ -375,22 +375,6 @@ static void run_workers(struct worker *workers, unsigned n)
     free(threads);
 }
 
-/* Room for the blocks of a chunk; only a part keeps them. */
-static bool grow_kept(struct ceduo_run *run, size_t more)
-{
-    if (!run->def.part || run->kept_count + more <= run->kept_room)
-        return true;
-    size_t room = 2 * run->kept_room + more;
-    struct block *blocks = realloc(run->kept_blocks, room * sizeof *blocks);
-    if (!blocks)
-        return false;
-    run->kept_blocks = blocks;
-    for (; run->kept_room < room; run->kept_room++)
-        if (!ceduo_run_block_init(&blocks[run->kept_room], run->controls))
-            return false;
-    return true;
-}
-
 static enum ceduo_status finish_chunk(struct ceduo_run *run, struct chunk *chunk, struct worker *workers, unsigned n)
 {
     bool no_memory = false;
@@ -400,8 +384,6 @@ static enum ceduo_status finish_chunk(struct ceduo_run *run, struct chunk *chunk
         return CEDUO_NO_MEMORY;
     if (atomic_load(&chunk->stop))
         return CEDUO_CANCELLED;
-    if (!grow_kept(run, chunk->blocks))
-        return CEDUO_NO_MEMORY;
     for (unsigned i = 0; i < n; i++)
         if (workers[i].bins && !ceduo_histograms_reserve(run->bins, workers[i].bins, run->columns))
             return CEDUO_NO_MEMORY;
@@ -409,8 +391,6 @@ static enum ceduo_status finish_chunk(struct ceduo_run *run, struct chunk *chunk
         worker_merge(&workers[i]);
     for (size_t i = 0; i < chunk->blocks; i++) {
         bool full = i + 1 < chunk->blocks || chunk->end % CEDUO_BLOCK_ROCKS == 0;
-        if (full && run->def.part)
-            ceduo_run_block_merge(&run->kept_blocks[run->kept_count++], &run->slots[i], run->controls);
         struct block tail = run->tail;
         if (full) {
             ceduo_run_block_merge(&run->whole, &run->slots[i], run->controls);

@@ -62,7 +62,7 @@ struct sums ceduo_run_sums_at(const struct ceduo_run *run, size_t control)
 /* ---- samples ---- */
 
 /* With one column more, in which they are sorted. */
-bool ceduo_run_samples_fit(const struct ceduo_run *run, uint64_t rocks)
+static bool samples_fit(const struct ceduo_run *run, uint64_t rocks)
 {
     return run->sized || (double)rocks * (double)(run->columns + 1) * sizeof(double) <= (double)run->def.exact_bytes;
 }
@@ -74,18 +74,17 @@ static bool grow_weights(struct ceduo_run *run, uint64_t room)
         return false;
     run->weights = weights;
     for (uint64_t i = run->room; i < room; i++)
-        weights[i] = ceduo_size_of(&run->ready.sizes, run->first + i).weight;
+        weights[i] = ceduo_size_of(&run->ready.sizes, i).weight;
     return true;
 }
 
 /* Makes room for the samples of `rocks` rocks. Each column grows by itself: never are all there twice. */
 static bool grow_samples(struct ceduo_run *run, uint64_t rocks)
 {
-    rocks -= run->first;
     if (rocks <= run->room)
         return true;
     uint64_t room = 2 * run->room;
-    room = room < rocks || !ceduo_run_samples_fit(run, room) ? rocks : room;
+    room = room < rocks || !samples_fit(run, room) ? rocks : room;
     if (run->sized && !grow_weights(run, room))
         return false;
     if (!run->samples && !(run->samples = calloc(run->columns, sizeof *run->samples)))
@@ -148,7 +147,7 @@ static bool fill_bins(const struct ceduo_run *run, struct histogram *bins)
 }
 
 /* From samples to histograms: there are now too many rocks to keep. */
-bool ceduo_run_samples_bin(struct ceduo_run *run)
+static bool bin_samples(struct ceduo_run *run)
 {
     struct histogram *bins = calloc(run->columns, sizeof *bins);
     if (!bins || !fill_bins(run, bins) || !keep_pairs(run)) {
@@ -165,5 +164,5 @@ bool ceduo_run_samples_prepare(struct ceduo_run *run, uint64_t rocks)
 {
     if (!run->exact)
         return true;
-    return ceduo_run_samples_fit(run, rocks) ? grow_samples(run, rocks) : ceduo_run_samples_bin(run);
+    return samples_fit(run, rocks) ? grow_samples(run, rocks) : bin_samples(run);
 }

@@ -16,8 +16,7 @@
  *     run_samples.c  sums of a block, merged in the order of the blocks; what is kept of single rocks: every value, or
  *                    histograms where there are too many
  *     run_read.c     arrivals, differences and ends, read from sums and samples
- *     run_sized.c    the same where rocks have weights, read from samples alone
- *     run_pack.c     parts as bytes, and back */
+ *     run_sized.c    the same where rocks have weights, read from samples alone */
 
 #ifndef CHUNK_BLOCKS
 #define CHUNK_BLOCKS 256 /* blocks in work at a time: this bounds the memory of their sums */
@@ -50,13 +49,10 @@ struct ceduo_run {
     wide_walk_fn *wide_walk; /* NULL: rocks are simulated one by one */
     size_t lanes;            /* rocks that a thread simulates at once */
     size_t controls, last_control;
-    double stems_from;         /* as ceduo_option_stems_from(): the option may be gone when the run is read */
-    int kept;                  /* quantities whose samples are kept; without spin and spread, energy follows from speed */
-    size_t columns;            /* of samples: controls times kept, and the stops */
-    uint64_t rocks;            /* done; of a part: with those before it */
-    uint64_t first;            /* rocks before a part, otherwise 0 */
-    struct block *kept_blocks; /* of a part: the whole blocks one by one */
-    size_t kept_count, kept_room;
+    double stems_from;      /* as ceduo_option_stems_from(): the option may be gone when the run is read */
+    int kept;               /* quantities whose samples are kept; without spin and spread, energy follows from speed */
+    size_t columns;         /* of samples: controls times kept, and the stops */
+    uint64_t rocks;         /* done */
     size_t chunk;           /* blocks to take on next */
     struct block whole;     /* all whole blocks */
     struct block tail;      /* the block that is not full yet */
@@ -101,10 +97,8 @@ struct sums ceduo_run_sums_at(const struct ceduo_run *run, size_t control);
 
 /* ---- samples ---- */
 
-bool ceduo_run_samples_fit(const struct ceduo_run *run, uint64_t rocks);
 /* Makes room for so many rocks; where they do not fit, turns samples into histograms. False without memory. */
 bool ceduo_run_samples_prepare(struct ceduo_run *run, uint64_t rocks);
-bool ceduo_run_samples_bin(struct ceduo_run *run);
 void ceduo_run_samples_free(struct ceduo_run *run);
 /* Energy of a rock at a control, from the samples; NaN where it did not arrive. */
 double ceduo_run_sample_energy(const struct ceduo_run *run, size_t control, uint64_t rock);

@@ -116,34 +116,12 @@ bool ceduo_file_take(const char *path, struct text *text, size_t max)
 
 /* ---- the shelf ---- */
 
-static bool same(const char *a, const char *b)
-{
-    return a && b ? strcmp(a, b) == 0 : a == b;
-}
-
 static const char *keep(struct arena *arena, const char *string)
 {
     return string ? ceduo_arena_string(arena, string) : NULL;
 }
 
-bool ceduo_shelf_find(struct arena *arena, struct shelf *shelf, const char *name, const char *beside, const char *folder,
-                      const char *path)
-{
-    struct shelf_find *find = ceduo_arena_take(arena, sizeof *find);
-    if (!find)
-        return false;
-    *find = (struct shelf_find){.name = keep(arena, name),
-                                .beside = keep(arena, beside),
-                                .folder = keep(arena, folder),
-                                .path = keep(arena, path),
-                                .before = shelf->finds};
-    if (arena->failed) /* its words are not all there */
-        return false;
-    shelf->finds = find;
-    return true;
-}
-
-bool ceduo_shelf_file(struct arena *arena, struct shelf *shelf, const char *path, const char *bytes, size_t length)
+static bool keep_file(struct arena *arena, struct shelf *shelf, const char *path, const char *bytes, size_t length)
 {
     struct shelf_file *file = ceduo_arena_take(arena, sizeof *file);
     if (!file)
@@ -177,10 +155,9 @@ static bool read_into(struct arena *arena, const char *path, size_t most, struct
         source->length = known->length;
         return true;
     }
-    errno = ENOENT;
-    bool good = !(shelf && shelf->closed) && read_file(arena, path, most, source);
+    bool good = read_file(arena, path, most, source);
     int why = errno;
-    if (good && shelf && !ceduo_shelf_file(arena, shelf, path, source->bytes, source->length)) {
+    if (good && shelf && !keep_file(arena, shelf, path, source->bytes, source->length)) {
         good = false;
         why = ENOMEM;
     }
@@ -329,7 +306,7 @@ static const char *find_in(struct arena *arena, const char *root, const char *na
     return is_file(longer) ? longer : NULL;
 }
 
-static const char *find(struct arena *arena, const char *name, const char *beside, const char *folder)
+const char *ceduo_file_find(struct arena *arena, const char *name, const char *beside, const char *folder)
 {
     if (name[0] == '/')
         return is_file(name) ? name : NULL;
@@ -342,18 +319,6 @@ static const char *find(struct arena *arena, const char *name, const char *besid
         if ((path = find_in(arena, folders[i], name, folder)))
             return path;
     return NULL;
-}
-
-const char *ceduo_file_find(struct arena *arena, const char *name, const char *beside, const char *folder)
-{
-    struct shelf *shelf = arena->shelf;
-    if (!shelf)
-        return find(arena, name, beside, folder);
-    for (const struct shelf_find *f = shelf->finds; f; f = f->before)
-        if (strcmp(f->name, name) == 0 && same(f->beside, beside) && same(f->folder, folder))
-            return f->path;
-    const char *path = shelf->closed ? NULL : find(arena, name, beside, folder);
-    return path && ceduo_shelf_find(arena, shelf, name, beside, folder, path) ? path : NULL;
 }
 
 static int by_name(const void *a, const void *b)

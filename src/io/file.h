@@ -28,28 +28,16 @@ const char *const *ceduo_file_folders(struct arena *arena);
 /* Names of the .yaml files in `folder`/`shelf`, sorted; `*n` of them. */
 const char *const *ceduo_file_list(struct arena *arena, const char *folder, const char *shelf, size_t *n);
 
-/* What was looked for and read for one scene: kept beside it, or on another machine in place of the disk. Starts as {0};
- * an arena's `shelf` makes all that is read into that arena go by it. Lives in that arena. */
-struct shelf_find {                     /* ceduo_file_find() with these words led to this path */
-    const char *name, *beside, *folder; /* the last two may be NULL */
-    const char *path;
-    const struct shelf_find *before;
-};
+/* The files that were read for one scene, each once. Starts as {0}; an arena's `shelf` keeps all that is read into that
+ * arena. Lives in it. */
 struct shelf_file {
     const char *path, *bytes;
     size_t length;
     const struct shelf_file *before;
 };
 struct shelf {
-    bool closed; /* nothing is looked for or read but what stands here; otherwise it is added */
-    const struct shelf_find *finds;
     const struct shelf_file *files;
 };
-
-/* Add to it. False without memory. */
-bool ceduo_shelf_find(struct arena *arena, struct shelf *shelf, const char *name, const char *beside, const char *folder,
-                      const char *path);
-bool ceduo_shelf_file(struct arena *arena, struct shelf *shelf, const char *path, const char *bytes, size_t length);
 
 /* What an errno of reading means. */
 const char *ceduo_file_why(int why);

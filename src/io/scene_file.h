@@ -26,8 +26,7 @@ struct scene_file {
  * right) and checks it. False where something is wrong: see `problems`. Release it in any case. */
 bool ceduo_scene_read(struct scene_file *file, const char *path, const char *const *sets, size_t sets_count,
                       struct problems *problems);
-/* The same through a shelf (see file.h), which must outlive the scene; NULL: as above. What stands on it already must
- * live elsewhere. */
+/* The same; what is read is kept on a shelf (see file.h), which must outlive the scene. NULL: as above. */
 bool ceduo_scene_read_by(struct scene_file *file, struct shelf *shelf, const char *path, const char *const *sets,
                          size_t sets_count, struct problems *problems);
 /* The same from text in memory. */

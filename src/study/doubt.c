@@ -10,7 +10,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/bytes.h"
 #include "ceduo/question.h"
 #include "doubt_plan.h"
 
@@ -416,79 +415,6 @@ enum ceduo_status ceduo_doubt_ask(const struct ceduo_doubt_def *def, struct cedu
         status = find_plan(&q);
     if (status == CEDUO_OK)
         status = ceduo_plan_run(def, &q.plan, 0, ceduo_plan_items(&q.plan), &q.done, answer->evaluations);
-    if (status == CEDUO_OK)
-        status = read_plan(&q);
-    return end(&q, status);
-}
-
-/* ---- parts ---- */
-
-/* Groups and values of items from `from` up to `to`, written or read. */
-static void pass(struct bytes *b, struct inquiry *q, size_t from, size_t to)
-{
-    uint64_t count = q->def->inputs_count;
-    ceduo_bytes_count(b, &count);
-    b->bad |= count != q->def->inputs_count;
-    for (size_t i = 0; i < q->def->inputs_count; i++) {
-        uint64_t group = q->group[i];
-        ceduo_bytes_count(b, &group);
-        b->bad |= group >= q->answer->groups || (q->plan.values && group != q->group[i]);
-        q->group[i] = b->bad ? 0 : (size_t)group;
-    }
-    for (size_t item = from; item < to; item++) {
-        size_t n;
-        struct ceduo_halves *values = ceduo_plan_values(&q->plan, q->answer->figures_count, item, &n);
-        for (size_t i = 0; i < n; i++)
-            for (size_t h = 0; h < 2; h++)
-                ceduo_bytes_number(b, &values[i].half[h]);
-    }
-}
-
-static size_t items_before(const struct plan *p, uint64_t part, uint64_t parts)
-{
-    return (size_t)(ceduo_plan_items(p) * part / parts);
-}
-
-enum ceduo_status ceduo_doubt_ask_part(const struct ceduo_doubt_def *def, uint64_t part, uint64_t parts, unsigned char **bytes,
-                                       size_t *n)
-{
-    struct ceduo_doubt_answer answer;
-    struct inquiry q;
-    struct bytes b = {0};
-    enum ceduo_status status = begin(&q, def, &answer);
-    if (status == CEDUO_OK)
-        status = find_plan(&q);
-    if (status == CEDUO_OK) {
-        size_t from = items_before(&q.plan, part - 1, parts), to = items_before(&q.plan, part, parts);
-        status = ceduo_plan_run(def, &q.plan, from, to, &q.done, answer.evaluations);
-        pass(&b, &q, from, to);
-    }
-    if (end(&q, status) == CEDUO_OK)
-        ceduo_doubt_free(&answer);
-    if (status == CEDUO_OK && b.no_memory)
-        status = CEDUO_NO_MEMORY;
-    if (status != CEDUO_OK)
-        free(b.to);
-    *bytes = status == CEDUO_OK ? b.to : NULL;
-    *n = b.length;
-    return status;
-}
-
-enum ceduo_status ceduo_doubt_join(const struct ceduo_doubt_def *def, const struct ceduo_doubt_part *parts, size_t n,
-                                   struct ceduo_doubt_answer *answer)
-{
-    struct inquiry q;
-    enum ceduo_status status = begin(&q, def, answer);
-    if (status == CEDUO_OK) { /* the groups alone */
-        struct bytes b = {.reads = true, .from = parts[0].bytes, .length = parts[0].length};
-        pass(&b, &q, 0, 0);
-        status = b.bad ? CEDUO_BAD_PART : make_plan(&q);
-    }
-    for (size_t i = 0; i < n && status == CEDUO_OK; i++) {
-        struct bytes b = {.reads = true, .from = parts[i].bytes, .length = parts[i].length};
-        pass(&b, &q, items_before(&q.plan, i, n), items_before(&q.plan, i + 1, n));
-        status = b.bad || ceduo_bytes_left(&b) > 0 ? CEDUO_BAD_PART : CEDUO_OK;
-    }
     if (status == CEDUO_OK)
         status = read_plan(&q);
     return end(&q, status);

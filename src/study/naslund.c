@@ -73,7 +73,7 @@ enum ceduo_status ceduo_naslund_fit(size_t n, const double *dbh, const double *h
     struct pairs pairs = {n, dbh, height};
     double x[2];
     if (n < CEDUO_NASLUND_LEAST || !(range_of(dbh, n) > 0))
-        return CEDUO_BAD_PART;
+        return CEDUO_NO_FIT;
     if (!begin(&pairs, x))
         return CEDUO_NO_MEMORY;
     gsl_multifit_nlinear_parameters how = gsl_multifit_nlinear_default_parameters();
@@ -94,5 +94,5 @@ enum ceduo_status ceduo_naslund_fit(size_t n, const double *dbh, const double *h
     }
     curve->rmse = sqrt(sum / (double)n);
     gsl_multifit_nlinear_free(w);
-    return curve->a >= 0 && curve->b > 0 && isfinite(curve->rmse) ? CEDUO_OK : CEDUO_BAD_PART;
+    return curve->a >= 0 && curve->b > 0 && isfinite(curve->rmse) ? CEDUO_OK : CEDUO_NO_FIT;
 }

@@ -140,7 +140,7 @@ static bool complete_heights(struct surveyor *s, bool shoots, struct ceduo_surve
         sum += stem->height;
     }
     h->mean = h->given > 0 ? sum / (double)h->given : NAN;
-    enum ceduo_status fitted = h->missing > 0 ? ceduo_naslund_fit(h->given, dbh, height, &h->curve) : CEDUO_BAD_PART;
+    enum ceduo_status fitted = h->missing > 0 ? ceduo_naslund_fit(h->given, dbh, height, &h->curve) : CEDUO_NO_FIT;
     h->from = h->missing == 0 ? CEDUO_HEIGHTS_MEASURED : fitted == CEDUO_OK ? CEDUO_HEIGHTS_CURVE : CEDUO_HEIGHTS_MEAN;
     for (size_t i = 0; i < survey->stems_count; i++) {
         const struct ceduo_survey_stem *stem = &survey->stems[i];

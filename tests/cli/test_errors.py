@@ -471,6 +471,9 @@ CASES = {
     "standard input can be read only once": Words("--batch", "-", "-"),
     "unknown or ambiguous option '--xyz'": Words("--xyz"),
     "'--plain' is gone: shares and means are always as counted; leave it out": Words("--plain", "x.yaml"),
+    "'--shard' is gone: a scene is computed at once; ...": lambda row: [
+        Words(*words, "x.yaml")(row.replace("--shard", words[0])) for words in (("--shard", "1/2"), ("--shard=1/2",))],
+    "'--merge' is gone: results of several scenes are printed together; ...": Words("--merge", "x.jsonl"),
     "'-f' needs a value": Words("--batch", "@", "-f"),
     "--format: 'xml' is unknown; one of table, csv, json": Words("--batch", "-f", "xml", "@"),
     "--rows: 'x' is unknown; one of controls, stands": Words("--batch", "--rows", "x", "@"),
@@ -527,21 +530,6 @@ CASES = {
     "standard output: No space left on device (status 4)": full,
     "out.csv: Permission denied (status 4)": lambda row: as_nobody(row, "--batch", "-f", "csv", "-o", "out.csv", "scene.yaml",
                                                                   forbidden="out.csv", status=OUTPUT, start="out.csv: "),
-    # Parts of a run
-    "'mine.yaml' has 8 shards; these are missing: 3, 5-7": Elsewhere("tests/cli/test_shard.py", "def test_missing"),
-    "the part is from version 0.1.0, but this is 0.3.0; ...": Elsewhere("tests/cli/test_shard.py", "def test_version"),
-    "the part has a format that this version (0.3.0) cannot read": Elsewhere("tests/cli/test_shard.py", "def test_version"),
-    "the part is incomplete; compute this shard again": Elsewhere("tests/cli/test_shard.py", "def test_cut"),
-    "the part was changed after it was written; compute this shard again": Elsewhere("tests/cli/test_shard.py", "def test_edited"),
-    "contains no part": Elsewhere("tests/cli/test_shard.py", "def test_no_parts"),
-    "not a part written by --shard": Elsewhere("tests/cli/test_shard.py", "def test_no_parts"),
-    "shard 2 of 3 of 'mine.yaml', of which a.jsonl:1 is one of 8": Elsewhere("tests/cli/test_shard.py", "def test_foreign"),
-    "shard 2 of 8 of 'mine.yaml' does not fit the others; compute it again": Elsewhere("tests/cli/test_shard.py", "def test_forged"),
-    "shard 3 of 8 of 'mine.yaml' is given twice; it is also in b.jsonl:1": Elsewhere("tests/cli/test_shard.py", "def test_doubled"),
-    "shard 3 of 8 of another 'mine.yaml' than that of a.jsonl:1: ...": Elsewhere("tests/cli/test_shard.py", "def test_foreign"),
-    "--merge cannot be used with --rocks: the parts are computed already": Words("--merge", "-n", 5, "@"),
-    "--merge needs files written by --shard, ...": Words("--merge"),
-    "--shard cannot be used with --format: it writes a part of one run; ...": Words("--shard", "1/2", "-f", "csv", "@"),
     "--check cannot be used with --format: it computes nothing": lambda row: [
         Words("--check", *words, "@")(row.replace("--format", f"--{name}")) for name, words in (
             ("format", ("-f", "json")), ("rocks", ("-n", 5)), ("output", ("-o", "x")), ("plot", ("--plot", "adc")),
@@ -552,7 +540,6 @@ CASES = {
     "--charset requires --plot or the terminal program": Words("--batch", "--charset", "ascii", "@"),
     "--script is for the terminal program; it cannot be used with --batch": Words("--batch", "--script", "x", "@"),
     "--years cannot be used with --plot, except --plot rotation and --plot tradeoff": Words("--years", "0:5", "--plot", "profile", "@"),
-    "--shard: '0/3' is not a part; write I/N ...": Words("--shard", "0/3", "@"),
 }
 
 

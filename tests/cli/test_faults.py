@@ -414,18 +414,15 @@ def test_small_stack():
                       ("--batch", "-s", "simulation.law=crsp", *few), ("--batch", "-s", "simulation.contact_model=poisson", *few),
                       *(("--plot", plot, *few) for plot in ("profile", "histogram", "rotation", "stand", "compare")),
                       ("--years", "0:3", "-n", 200, "rotation"), (*find, "paper-site"), ("--check", "paper-site"),
-                      ("--list-parameters",), ("--list-profiles",), ("--shard", "1/2", *few), ("--shard", "2/2", *few),
-                      ("--merge", "part-1", "part-2"), ("--script", "play.txt", "paper-site")):
-            out = "part-" + words[1][0] if words[0] == "--shard" else "new.yaml" if words[0] == "--script" else "out"
+                      ("--list-parameters",), ("--list-profiles",), ("--script", "play.txt", "paper-site")):
+            out = "new.yaml" if words[0] == "--script" else "out"
             into = () if words[0] in ("--check", "--script") else ("-o", out)
             done = subprocess.run([CEDUO, *map(str, (*words, *into))], cwd=f.path, env=environment(), preexec_fn=limit,
                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE, check=False, timeout=300)
             expect(done.returncode == DONE and done.stderr == b"", words, told(done, 0))
-            kept = ["play.txt"] + [name for name in ("part-1", "part-2") if (f.path / name).exists()]
-            expect_equal(f.names(), sorted(kept if words[0] == "--check" else {*kept, out}), words)
+            expect_equal(f.names(), sorted({"play.txt"} if words[0] == "--check" else {"play.txt", out}), words)
             expect(words[0] == "--check" or (f.path / out).stat().st_size > 0, words, "an empty file")
-            if not out.startswith("part-"):
-                (f.path / out).unlink(missing_ok=True)
+            (f.path / out).unlink(missing_ok=True)
 
 
 # ---- disks ----

@@ -80,12 +80,12 @@ def test_private_files():
 
 
 def test_private_elsewhere():
-    """Given as a survey, a script or a part"""
+    """Given as a survey or a script"""
     with Folder() as f:
         for name, text in PRIVATE.items():
             path = f.write(name, text)
             script = f.write("script", text.lstrip("# only a comment\n"))  # which says the beginning of its first command
-            for words in (("--survey", path), ("--script", script, "paper-site"), ("--merge", path)):
+            for words in (("--survey", path), ("--script", script, "paper-site")):
                 check_silent(name, ceduo(*words), text.lstrip("# only a comment\n")[:20])
 
 

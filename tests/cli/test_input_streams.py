@@ -67,7 +67,7 @@ def test_no_files():
         f.write("s.yaml", flat_scene())
         blocks = [p for p in Path("/dev").iterdir() if p.is_block_device() and os.access(p, os.R_OK)][:1]
         for path in (f.path / "socket.yaml", Path("/dev/null"), Path("/dev/zero"), *blocks):
-            for words in (("--check", path), ("--batch", path), ("--merge", path), ("--script", path, "s.yaml")):
+            for words in (("--check", path), ("--batch", path), ("--script", path, "s.yaml")):
                 expect_refused(ceduo(*words, cwd=f.path, timeout=20, preexec_fn=bounded), path, DEVICE)
             for change in ({"slope": str(path)}, {"slope": {"csv": str(path)}},
                            {"forest": [{"from_m": 10, "to_m": 20, "stand": {"base": str(path)}}]}):
@@ -190,12 +190,7 @@ def test_names_in_every_mode():
                 run("--find", f"{path}=500:5000", "--goal", goal, "-f", form, *scenes, status=DONE)
         for plot in ("profile", "energy", "height", "histogram", "adc", "rotation", "stand", "compare"):
             run("--plot", plot, name, status=DONE)
-        for i in (1, 2):
-            run("--shard", f"{i}/2", "-o", f"{NASTY}{i}", name, status=DONE)
-        run("--merge", f"{NASTY}1", f"{NASTY}2", status=DONE)
-        expect_in("is given twice", run("--merge", f"{NASTY}1", f"{NASTY}1", f"{NASTY}2", status=INPUT).err)
-        expect_in("missing: 2", run("--merge", f"{NASTY}1", status=INPUT).err)
-        for words in (("--merge", f"{NASTY}0"), ("--merge", name), ("--check", f"{NASTY}0"), ("--script", f"{NASTY}0", name)):
+        for words in (("--check", f"{NASTY}0"), ("--script", f"{NASTY}0", name)):
             run(*words, status=INPUT)
         run("--list-profiles", status=DONE)
         head = f"plot,area_m2,kind,dbh_cm,height_m,{NASTY}".replace("\n", "")
@@ -206,7 +201,7 @@ def test_names_in_every_mode():
             f.write(NASTY, text)
             done = run("--script", NASTY, name, status=status)
             expect(status == DONE or len(done.err.splitlines()) == 1, ascii(done.err))
-        for option in ("format", "rows", "plot", "charset", "rocks", "tolerance", "size", "find", "goal", "shard", "seed",
+        for option in ("format", "rows", "plot", "charset", "rocks", "tolerance", "size", "find", "goal", "seed",
                        "threads", "option", "set", NASTY, f"check={NASTY}"):
             run("--batch", f"--{option}", f"{NASTY}?", name, status=USAGE)
         for word in (f"-{NASTY}", f"--{NASTY}", f"--batch={NASTY}", f"--years={NASTY}", f"--sensitivity={NASTY}"):

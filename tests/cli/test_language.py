@@ -79,15 +79,14 @@ def test_whole():
 
 
 def test_data():
-    """JSON, CSV and parts are the same bytes in every language"""
+    """JSON and CSV are the same bytes in every language"""
     for form in ("json", "csv"):
         for path in sorted((PROFILES / "scenes").glob("*.yaml")):
             expect_equal(*map(without_seconds, both("--batch", "-f", form, "-n", 30, path)), f"{path.name}, {form}")
         for words in (("--sensitivity=3", "-n", 20, PAPER), ("--batch", "--years", "0:2", "-n", 20, FOUR),
                       ("--find", "forest[0].stand.stools.per_ha=500:5000", "--goal", "adc=30", PAPER)):
             expect_equal(*map(without_seconds, both("-f", form, *words)), f"{words}, {form}")
-    parts = [re.sub(r'"(seconds|sum)": ("\w*"|[0-9.e-]*)', "", text) for text in both("--shard", "1/2", "-n", 50, PAPER)]
-    expect_equal(*parts, "a part")
+
 
 
 def test_pages():

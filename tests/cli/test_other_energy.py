@@ -43,7 +43,7 @@ def test_both_ways():
 
 
 def test_few_are_enough():
-    """Beyond 10240 rocks those first ones show the other law, with their own interval; in parts, too"""
+    """Beyond 10240 rocks those first ones show the other law, with their own interval"""
     most, more = 10240, ("-n", 25000)
     run, turned = result(PAPER, *more), result(PAPER, "-n", most, *law("dorren"))
     for part in (run, result(PAPER, *more, "-j", 2)):
@@ -53,15 +53,6 @@ def test_few_are_enough():
     page = " ".join(good("--batch", *more, PAPER).out.split())
     expect_in("Under this law the first 10240 rocks alone were simulated.", page)
     expect("rocks alone were simulated" not in good("--batch", "-n", most, PAPER).out, "all of them")
-    with Folder() as f:
-        parts = [f.path / f"{i}.jsonl" for i in range(5)]
-        for i, path in enumerate(parts):
-            good("--shard", f"{i + 1}/5", *more, "-o", path, PAPER)
-        merged = json.loads(good("--merge", "-f", "json", *parts).out)
-        for one in (merged, run):
-            del one["work"]
-        expect_equal(merged, run)
-
 
 def test_none():
     """JSON: null by the index, without stems and in years; without an accepted energy there is none to exceed"""

@@ -157,7 +157,7 @@ def test_output_told_first():
     """That -o cannot be written is told before anything is read or computed"""
     with Folder() as f:
         for target in (f.path, f.path / "no" / "out.txt", "", f.path / ("x" * 300)):
-            for words in (["--batch"], ["--merge"], ["--find", "rock.diameter_m=0.2:1", "--goal", "adc=30"]):
+            for words in (["--batch"], ["--find", "rock.diameter_m=0.2:1", "--goal", "adc=30"]):
                 done = ceduo(*words, "-o", target, f.path / "no-scene.yaml", cwd=f.path)
                 expect_equal(done.status, OUTPUT, done)
                 expect(done.out == "" and "no-scene" not in done.err, done)
@@ -252,7 +252,7 @@ def test_closed_pipe():
 
 
 def test_output_is_input():
-    """-o leaves every file alone that is read in the same run: scenes, what they refer to, parts, by any name"""
+    """-o leaves every file alone that is read in the same run: scenes, what they refer to, by any name"""
     with Folder() as f:
         f.write("line.csv", "distance,elevation\n0,64\n100,0\n")
         f.write("stand.yaml", stand(ceduo="stand/1"))
@@ -261,14 +261,12 @@ def test_output_is_input():
         f.write("plain.yaml", scene())
         os.link(f.path / "s.yaml", f.path / "hard.yaml")
         (f.path / "soft.yaml").symlink_to("s.yaml")
-        (f.path / "part").write_bytes(good("--shard", "1/1", "s.yaml", cwd=f.path).out_bytes)
         before = {n: (f.path / n).read_bytes() for n in f.names()}
         with open(f.path / "s.yaml", "rb") as stdin:
             runs = [("-b", "-o", n, "plain.yaml", "s.yaml") for n in
                     ("s.yaml", "./s.yaml", "hard.yaml", "soft.yaml", "stand.yaml", "line.csv", "plain.yaml")]
-            runs += [("-b", "-o", "line.csv", "plain.yaml", "bad.yaml"), ("--merge", "-o", "part", "part"),
-                     ("--find", "rock.diameter_m=0.4:0.5", "--goal", "adc", "-o", "stand.yaml", "s.yaml"),
-                     ("--shard", "1/2", "-o", "line.csv", "s.yaml")]
+            runs += [("-b", "-o", "line.csv", "plain.yaml", "bad.yaml"),
+                     ("--find", "rock.diameter_m=0.4:0.5", "--goal", "adc", "-o", "stand.yaml", "s.yaml")]
             for arguments in runs:
                 done = ceduo(*arguments, cwd=f.path)
                 expect(done.status == OUTPUT and done.out == "" and "is read in this run" in done.err, done)

@@ -216,7 +216,7 @@ def test_chapters():
 
 def test_refused():
     """What the report cannot do is told before anything is computed"""
-    for arguments in (("-o", "x.html"), ("--plot", "profile"), ("-f", "json"), ("--rows", "stands", "-f", "csv"), ("--shard", "1/2"),
+    for arguments in (("-o", "x.html"), ("--plot", "profile"), ("-f", "json"), ("--rows", "stands", "-f", "csv"),
                       ("--find", "rock.diameter_m=1:2", "--goal", "adc"), ("--calibrate", "rock.diameter_m=1:2")):
         done = ceduo("--report", "-", *arguments, "paper-site")
         expect(done.status == USAGE and done.out == "", done)

@@ -248,35 +248,6 @@ def test_threads():
     expect_equal({r["path"] for r in rows}, {LAW["path"], DENSITY["path"]})
 
 
-def test_shards():
-    """Parts of a sensitivity, merged in any order, are one run to the last bit, in every format and with any threads"""
-    what = measured(doubt=[LAW, DENSITY])
-    with Folder() as f:
-        path, other = f.write("s.yaml", what), f.write("t.yaml", measured())
-        for n in (3, 12):  # of 8 base points and the ends: some parts are empty
-            parts = [f.write(f"{i}.part", good("--sensitivity=8", "--shard", f"{i}/{n}", "-n", 100, "-j", 1 + i % 2, path, other).out)
-                     for i in range(1, n + 1)]
-            for form in ("json", "csv", "table"):
-                whole = good("--sensitivity=8", "-n", 100, "-f", form, path, other).out
-                expect_equal(good("--merge", "-f", form, *reversed(parts)).out, whole, f"{n} parts, {form}")
-        r = ceduo("--merge", *parts[1:])
-        expect_equal(r.status, INPUT, r)
-        expect_in("has 12 shards; these are missing: 1", r.err)
-        changed = f.write("9.part", good("--sensitivity=9", "--shard", "1/12", "-n", 100, path, other).out)
-        expect_equal(ceduo("--merge", changed, *parts[1:]).status, INPUT, "other base points")
-
-
-def test_shards_of_many():
-    """Parts of more inputs than have an index: each ranks them, and they agree"""
-    doubt = [{"path": f"forest[{i}].stand.{key}", "lo": lo, "hi": hi} for i in range(11)
-             for key, lo, hi in (("trees[0].dbh_m", 0.1, 0.14), ("energy.u_J_m3", 8e4, 12e4))]
-    belts = [{"from_m": 7 * i, "to_m": 7 * i + 7, "stand": wood()} for i in range(11)]
-    with Folder() as f:
-        path = f.write("s.yaml", measured(forest=belts, doubt=doubt))
-        parts = [f.write(f"{i}.part", good("--sensitivity=4", "--shard", f"{i}/2", "-n", 20, path).out) for i in (1, 2)]
-        expect_equal(good("--merge", "-f", "json", *parts).out, good("--sensitivity=4", "-f", "json", "-n", 20, path).out)
-
-
 def test_no_effect():
     """What has no effect on a figure has no share of it: with the law lumped mass moves no trajectory"""
     slope = {"vertices_m": [[0, 50], [60, 8], [160, 0]],

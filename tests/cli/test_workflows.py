@@ -181,10 +181,10 @@ def write_readme():
 def test_marks():
     """The marked blocks of the page are found"""
     for way, least in (("four-systems", 4), ("survey", 6), ("two-cuts", 7), ("reserves", 3), ("groups", 2), ("doubt", 2), ("hazard", 2), ("fit", 2),
-                       ("page", 3), ("sections", 2), ("shards", 4), ("valley", 6)):
+                       ("page", 3), ("sections", 2), ("scenes", 7), ("valley", 6)):
         expect(len(blocks(way)) >= least, f"{way}: {len(blocks(way))} blocks")
     marks = re.findall(r'^\.\\" run ', PAGE.read_text(), re.M)
-    ways = ("four-systems", "survey", "two-cuts", "reserves", "groups", "doubt", "hazard", "fit", "page", "sections", "shards", "valley")
+    ways = ("four-systems", "survey", "two-cuts", "reserves", "groups", "doubt", "hazard", "fit", "page", "sections", "scenes", "valley")
     expect_equal(len(marks), sum(len(blocks(way)) for way in ways), "marks with a block")
 
 
@@ -514,26 +514,33 @@ def needs_parallel():
         raise harness.Skip("no GNU parallel here")
 
 
-@functools.cache
-def walked_shards():
+def test_scenes():
+    """Many scenes: by a pipe, by files and by a job array the rows of one call; what failed is computed again alone"""
     needs_parallel()
-    # the parts come in the order in which they are done
-    missing = r"incomplete\.jsonl:[1-7]: 'paper-site' has 8 shards; these are missing: 3\n"
-    return Walk("shards", lambda err: re.fullmatch(missing, err) is not None)
+    walk = walked("scenes")
+    wanted = walk.read("one-call.csv")
+    expect_equal(len(wanted.splitlines()), 13, "rows")
+    for name in ("piped.csv", "files.csv", "slurm.csv"):
+        expect_equal(walk.read(name), wanted, name)
+    expect_equal(walk.read("missing.txt"), "scenes/s03.yaml\nscenes/s07.yaml\n", "missing")
 
 
-def without_path(rows):
-    """CSV without the scene's path, which is another where the profiles were found another way."""
-    return [row.split(",", 1)[1] for row in rows.splitlines()]
-
-
-def test_shards():
-    """One large scene: parts by GNU parallel and by a job array come to one run"""
-    walk = walked_shards()
-    expect_equal(walk.outputs[0], harness.good("--batch", "-n", "20000", "paper-site").out, "page")
-    wanted = harness.good("--batch", "-f", "csv", "-n", "20000", "paper-site").out
-    for name in ("page.csv", "slurm.csv"):
-        expect_equal(without_path(walk.read(name)), without_path(wanted), name)
+def test_two_hundred_scenes():
+    """Of 200 scenes a pipe through GNU parallel, and a job array, give the bytes of one call"""
+    needs_parallel()
+    with Folder() as work, Machine() as machine:
+        names = [work.write(f"s{i:03}.yaml", harness.scene(simulation={"rocks": 200, "seed": i})).name for i in range(200)]
+        work.write("list.txt", "".join(f"{name}\n" for name in names))
+        one = harness.good("--batch", "-f", "csv", "-n", 30, *names, cwd=work.path).out
+        expect_equal(len(one.splitlines()), 201, "rows")
+        many = machine.run("parallel -k -j 3 -a list.txt ceduo --batch -j 1 -f csv -n 30 | "
+                           "awk 'NR == 1 { head = $0; print } $0 != head'", work.path)
+        expect_equal((many.returncode, many.stderr), (0, ""), "parallel")
+        expect_equal(many.stdout, one, "by a pipe")
+        done = machine.run(f"sbatch --array=1-200 {ROOT}/profiles/jobs/ceduo-array.sbatch scene list.txt rows -n 30", work.path)
+        expect_equal(done.returncode, 0, done)
+        rows = [(work.path / "rows" / f"{name[:-5]}.csv").read_text().splitlines(keepends=True) for name in names]
+        expect_equal("".join([rows[0][0], *(row for _, row in rows)]), one, "by Slurm")
 
 
 def test_valley():
@@ -556,22 +563,22 @@ def test_job_array():
     expect(script.read_text().count("#SBATCH") >= 4, "directives")
     with Folder() as f:
         profiles = f.write("list.txt", "a.csv\n")
-        for words, task, say in ((("shard", "2", "out"), "1", "usage"), (("what", "2", "out", "x"), "1", "usage"),
+        for words, task, say in ((("scene", "list"), "1", "usage"), (("what", profiles, "out", "x"), "1", "usage"),
                                  (("profile", profiles, "out", "x"), "2", "has no line 2"),
-                                 (("shard", "2", "out", "x"), None, "SLURM_ARRAY_TASK_ID")):
+                                 (("scene", profiles, "out"), None, "SLURM_ARRAY_TASK_ID")):
             done = subprocess.run(["sh", script, *map(str, words)], capture_output=True, text=True, check=False, cwd=f.path,
                                   env=harness.environment(SLURM_ARRAY_TASK_ID=task))
             expect(done.returncode != 0 and say in done.stderr, words, done)
 
 
 def test_job_array_again():
-    """Of a job array some tasks die: no half file is left, --merge names their shards, and they alone are flown again"""
+    """Of a job array some tasks die: no half file is left, and they alone are computed again"""
     with Folder() as work, Machine() as machine:
         machine.write("share/array", (ROOT / "profiles/jobs/ceduo-array.sbatch").read_text())
         (machine.path / "bin/ceduo").unlink()
         machine.write("bin/ceduo", f"""#!/bin/sh
 case $*:$(cat {work.path}/well) in
-*" 2/5 "*: | *" 4/5 "*:)
+*s2.yaml: | *s4.yaml:)
     {CEDUO} "$@" -n 100000000 & # hours
     sleep 0.5
     kill -9 $!
@@ -581,18 +588,16 @@ case $*:$(cat {work.path}/well) in
 esac
 """).chmod(0o755)
         work.write("well", "")
-        script = f"{machine.path}/share/array shard 5 parts -n 5000 paper-site"
+        names = [work.write(f"s{i}.yaml", harness.scene(simulation={"rocks": 200, "seed": i})).name for i in range(1, 6)]
+        work.write("list.txt", "".join(f"{name}\n" for name in names))
+        script = f"{machine.path}/share/array scene list.txt rows -n 5000"
         done = machine.run(f"sbatch --array=1-5 {script} || echo some failed", work.path)
         expect_in("some failed", done.stdout, done)
-        expect_equal(sorted(os.listdir(work.path / "parts")), ["part-1.jsonl", "part-3.jsonl", "part-5.jsonl"], "files")
-        merged = machine.run("ceduo --merge -f csv parts/part-*.jsonl", work.path)
-        expect_equal((merged.returncode, merged.stdout), (harness.INPUT, ""), merged.stderr)
-        expect_in("has 5 shards; these are missing: 2, 4", merged.stderr, merged)
+        expect_equal(sorted(os.listdir(work.path / "rows")), ["s1.csv", "s3.csv", "s5.csv"], "files")
         work.write("well", "yes")
-        done = machine.run(f"sbatch --array=2,4 {script}\nceduo --merge -f csv -o all.csv parts/part-*.jsonl", work.path)
-        expect_equal((done.returncode, done.stderr), (0, ""), done.stdout)
-        wanted = harness.good("--batch", "-f", "csv", "-n", "5000", "paper-site").out
-        expect_equal(without_path((work.path / "all.csv").read_text()), without_path(wanted), "rows")
+        done = machine.run(f"sbatch --array=2,4 {script}\nawk 'NR == 1 || FNR > 1' rows/*.csv >all.csv", work.path)
+        expect_equal(done.returncode, 0, done)
+        expect_equal((work.path / "all.csv").read_text(), harness.good("--batch", "-f", "csv", "-n", 5000, *names, cwd=work.path).out, "rows")
 
 
 if __name__ == "__main__":

@@ -5,8 +5,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/run_pack.h"
-
 const double paper_x[PAPER_VERTICES] = {0,     10,    13,    26.95,  42.8,   48.11,  56.36,
                                         70.69, 84.66, 97.43, 115.42, 134.59, 144.33, 152.68};
 const double paper_y[PAPER_VERTICES] = {126, 106, 86, 76, 66, 61, 56, 46, 36, 26, 16, 6, 2, 0};
@@ -113,15 +111,4 @@ void paper_site_sphere(struct paper_site *site)
 {
     site->scene.rock = ceduo_scene_default().rock;
     site->scene.rock.diameter = ceduo_number(PAPER_B);
-}
-
-enum ceduo_status paper_run_save(const struct ceduo_run *run, unsigned char **bytes, size_t *n)
-{
-    struct bytes b = {0};
-    enum ceduo_status status = ceduo_run_pack(run, &b);
-    if (status != CEDUO_OK)
-        free(b.to);
-    *bytes = status == CEDUO_OK ? b.to : NULL;
-    *n = b.length;
-    return status;
 }

@@ -50,7 +50,4 @@ void paper_site_smooth(struct paper_site *site);
 /* The rock as a sphere of the same mean diameter. */
 void paper_site_sphere(struct paper_site *site);
 
-/* The bytes of one run of a part, as in those of a pool; NULL unless CEDUO_OK. */
-enum ceduo_status paper_run_save(const struct ceduo_run *run, unsigned char **bytes, size_t *n);
-
 #endif

@@ -7,10 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/bytes.h"
 #include "ceduo/ceduo.h"
 #include "core/histogram.h"
-#include "core/run_pack.h"
 #include "core/walk/envelope.h"
 
 /* ---- few values ---- */
@@ -121,52 +119,7 @@ static void values_beyond_every_bin(void **state)
     for (uint64_t rank = 1; rank <= 10; rank++)
         EXPECT(ceduo_histogram_value(&more, rank), ==, ceduo_histogram_value(&h, (rank + 1) / 2));
     ceduo_histogram_clear(&more);
-    struct bytes b = {0};
-    assert_true(ceduo_histogram_pack(&h, &b, 0));
-    for (size_t n = 0; n <= b.length; n++)
-        for (uint64_t most = 0; most < 7; most++) { /* short of bytes, or more values than there may be */
-            struct bytes from = {.reads = true, .from = b.to, .length = n};
-            bool good = ceduo_histogram_pack(&more, &from, most);
-            assert_int_equal(good, n == b.length && most >= 5);
-            assert_true(!good || (more.n == 5 && more.zeros == 2));
-            ceduo_histogram_clear(&more);
-        }
-    free(b.to);
     ceduo_histogram_clear(&h);
-}
-
-static void columns_are_refused(void **state)
-{
-    (void)state;
-    double column[11], back[11];
-    uint64_t there, again;
-    for (size_t i = 0; i < 11; i++)
-        column[i] = i % 3 == 0 ? NAN : (double)i;
-    struct bytes b = {0};
-    assert_true(ceduo_bytes_column(&b, column, 11, &there));
-    assert_int_equal(there, 7);
-    assert_int_equal(b.length, 2 + 7 * 8);
-    for (size_t n = 0; n <= b.length; n++) {
-        struct bytes from = {.reads = true, .from = b.to, .length = n};
-        assert_int_equal(ceduo_bytes_column(&from, back, 11, &again), n == b.length);
-    }
-    for (size_t i = 0; i < 11; i++)
-        assert_true(isnan(column[i]) ? isnan(back[i]) : back[i] == column[i]);
-    const struct {
-        size_t at;
-        unsigned char bytes[2];
-    } rows[] = {{0, {0xb6, 0x0c}},      /* as many bits, one of them behind the last */
-                {0, {0xb7, 0x05}},      /* one more */
-                {2 + 6, {0xf0, 0x7f}}}; /* infinite */
-    for (size_t i = 0; i < 3; i++) {
-        unsigned char was[2];
-        memcpy(was, b.to + rows[i].at, 2);
-        memcpy(b.to + rows[i].at, rows[i].bytes, 2);
-        struct bytes from = {.reads = true, .from = b.to, .length = b.length};
-        assert_false(ceduo_bytes_column(&from, back, 11, &again));
-        memcpy(b.to + rows[i].at, was, 2);
-    }
-    free(b.to);
 }
 
 /* The highest and fastest of all: its size is kept, whatever its bin. */
@@ -301,9 +254,9 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(intervals_of_few_values), cmocka_unit_test(distributions_of_few_values),
-        cmocka_unit_test(values_beyond_every_bin), cmocka_unit_test(columns_are_refused),
-        cmocka_unit_test(cells_take_any_value),    cmocka_unit_test(goals_without_end),
-        cmocka_unit_test(a_search_ends_at_once),   cmocka_unit_test(few_values_and_too_many),
+        cmocka_unit_test(values_beyond_every_bin), cmocka_unit_test(cells_take_any_value),
+        cmocka_unit_test(goals_without_end),       cmocka_unit_test(a_search_ends_at_once),
+        cmocka_unit_test(few_values_and_too_many),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -6,7 +6,6 @@
 
 #include "ceduo/doubt.h"
 #include "ceduo/record.h"
-#include "core/run_pack.h"
 #include "physics/paper_site.h"
 #include "study/inputs.h"
 #include "study/outlook.h"
@@ -160,92 +159,7 @@ static bool fly_histograms(void)
     return fly(def_of(true, 2000));
 }
 
-/* ---- parts ---- */
-
-static bool join_parts(size_t exact_bytes)
-{
-    init(CEDUO_STEMS, CEDUO_LAW_LUMPED);
-    struct ceduo_run_def def = def_of(true, exact_bytes), part = def;
-    struct ceduo_run *whole, *run = NULL;
-    unsigned char *bytes = NULL;
-    size_t n;
-    bool good = ceduo_run_create(&def, &whole) == CEDUO_OK;
-    for (uint64_t i = 1; i <= 3 && good; i++) { /* of two blocks: one part has no rocks */
-        uint64_t end;
-        part.part = true;
-        ceduo_part_range(1500, i, 3, &part.first, &end);
-        good = ceduo_run_create(&part, &run) == CEDUO_OK;
-        if (!good)
-            break;
-        assert_int_equal(extend(run, end), CEDUO_OK);
-        good = paper_run_save(run, &bytes, &n) == CEDUO_OK;
-        if (!good)
-            assert_null(bytes);
-        ceduo_run_free(run);
-        if (!good)
-            break;
-        enum ceduo_status status = ceduo_run_adopt(whole, bytes, n);
-        if (status != CEDUO_OK) {
-            assert_int_equal(status, CEDUO_NO_MEMORY);
-            relieve();
-            assert_int_equal(ceduo_run_adopt(whole, bytes, n), CEDUO_OK);
-        }
-        free(bytes);
-    }
-    good = good && add_run(whole);
-    ceduo_run_free(whole);
-    return good;
-}
-
-static bool join_exact(void)
-{
-    return join_parts(CEDUO_EXACT_BYTES);
-}
-
-static bool join_histograms(void)
-{
-    return join_parts(2000);
-}
-
 /* ---- what stands on runs ---- */
-
-static bool join_pools(void)
-{
-    init(CEDUO_STEMS, CEDUO_LAW_LUMPED);
-    site.scene.simulation.rocks = 30;
-    struct ceduo_run_def def = def_of(false, CEDUO_EXACT_BYTES), part = def;
-    struct ceduo_pool *whole = NULL, *pool = NULL;
-    unsigned char *bytes = NULL;
-    size_t n;
-    part.part = true;
-    enum ceduo_status status = ceduo_pool_create(&part, &pool);
-    if (status == CEDUO_OK)
-        status = ceduo_pool_save(pool, &bytes, &n); /* of no runs */
-    free(bytes);
-    bytes = NULL;
-    if (status == CEDUO_OK)
-        status = ceduo_pool_fill(pool);
-    if (status == CEDUO_OK)
-        status = ceduo_pool_extend(pool, 30);
-    if (status == CEDUO_OK)
-        status = ceduo_pool_save(pool, &bytes, &n);
-    if (status == CEDUO_OK)
-        status = ceduo_pool_create(&def, &whole);
-    if (status == CEDUO_OK)
-        status = ceduo_pool_fill(whole);
-    if (status == CEDUO_OK)
-        status = ceduo_pool_adopt(whole, bytes, n);
-    if (status == CEDUO_OK) {
-        struct ceduo_work work = ceduo_pool_work(whole);
-        assert_int_equal(work.rocks, 60);
-        add(&work, sizeof work);
-    }
-    free(bytes);
-    ceduo_pool_free(pool);
-    ceduo_pool_free(whole);
-    assert_true(status == CEDUO_OK || status == CEDUO_NO_MEMORY);
-    return status == CEDUO_OK;
-}
 
 /* Now the second option is clearly worse, and by the other energy law clearly better. */
 static void turn(struct ceduo_result *r)
@@ -372,37 +286,24 @@ static const struct ceduo_input inputs[2] = {
     {"rock.density_kg_m3", CEDUO_INPUT_RANGE, 2400, 2750, .places_count = 1, .places = &density},
     {"release.vx_m_s", CEDUO_INPUT_RANGE, 0.5, 5, .places_count = 1, .places = &speed}};
 
-/* A doubt, whole where `parts` is 0. */
-static bool ask_doubt(const struct ceduo_doubt_def *def, uint64_t parts)
+static bool ask_doubt(const struct ceduo_doubt_def *def)
 {
     struct ceduo_doubt_answer answer;
-    struct ceduo_doubt_part written[3] = {{0}};
-    enum ceduo_status status = CEDUO_OK;
-    for (uint64_t i = 0; i < parts && status == CEDUO_OK; i++) {
-        unsigned char *bytes;
-        status = ceduo_doubt_ask_part(def, i + 1, parts, &bytes, &written[i].length);
-        written[i].bytes = bytes;
-    }
-    if (status == CEDUO_OK)
-        status = parts > 0 ? ceduo_doubt_join(def, written, parts, &answer) : ceduo_doubt_ask(def, &answer);
+    enum ceduo_status status = ceduo_doubt_ask(def, &answer);
     if (status == CEDUO_OK) {
         add(&answer.figures[CEDUO_DOUBT_ENERGY].p50, sizeof answer.figures[CEDUO_DOUBT_ENERGY].p50);
         add(answer.orders, answer.orders_count * sizeof answer.orders[0]);
         ceduo_doubt_free(&answer);
     }
-    for (uint64_t i = 0; i < parts; i++)
-        free((void *)(uintptr_t)written[i].bytes);
     assert_true(status == CEDUO_OK || status == CEDUO_NO_MEMORY);
     return status == CEDUO_OK;
 }
 
-static bool doubt(uint64_t parts)
+static bool doubt(void)
 {
     init(CEDUO_STEMS, CEDUO_LAW_LUMPED);
-    return ask_doubt(
-        &(struct ceduo_doubt_def){
-            .scene = &site.scene, .inputs_count = 2, .inputs = inputs, .points = 2, .rocks = 8, .threads = 2},
-        parts);
+    return ask_doubt(&(struct ceduo_doubt_def){
+        .scene = &site.scene, .inputs_count = 2, .inputs = inputs, .points = 2, .rocks = 8, .threads = 2});
 }
 
 /* One input more than can have an index: a first look ranks them, by two base points. */
@@ -413,20 +314,8 @@ static bool doubt_of_many(void)
     init(CEDUO_STEMS, CEDUO_LAW_LUMPED);
     for (size_t i = 0; i < MANY; i++)
         many[i] = inputs[1];
-    return ask_doubt(
-        &(struct ceduo_doubt_def){
-            .scene = &site.scene, .inputs_count = MANY, .inputs = many, .points = 2, .first = 2, .rocks = 2, .threads = 1},
-        0);
-}
-
-static bool doubt_whole(void)
-{
-    return doubt(0);
-}
-
-static bool doubt_in_parts(void)
-{
-    return doubt(3);
+    return ask_doubt(&(struct ceduo_doubt_def){
+        .scene = &site.scene, .inputs_count = MANY, .inputs = many, .points = 2, .first = 2, .rocks = 2, .threads = 1});
 }
 
 /* What was told of a doubt on two threads: the first time something happens meanwhile. */
@@ -487,58 +376,6 @@ static void one_thread_ends_all(void **state)
     assert_true(told.times < 100);
 }
 
-/* Bytes that are not those of this doubt. */
-static void parts_that_do_not_fit(void **state)
-{
-    (void)state;
-    init(CEDUO_STEMS, CEDUO_LAW_LUMPED);
-    const struct ceduo_doubt_def def = {
-        .scene = &site.scene, .inputs_count = 1, .inputs = &inputs[1], .points = 2, .rocks = 8, .threads = 1};
-    struct ceduo_doubt_answer answer;
-    unsigned char *bytes;
-    size_t n;
-    assert_int_equal(ceduo_doubt_ask_part(&def, 1, 1, &bytes, &n), CEDUO_OK);
-    for (size_t length = 0; length <= n; length += 8) {
-        struct ceduo_doubt_part part = {bytes, length};
-        enum ceduo_status status = ceduo_doubt_join(&def, &part, 1, &answer);
-        assert_int_equal(status, length == n ? CEDUO_OK : CEDUO_BAD_PART);
-        if (status == CEDUO_OK)
-            ceduo_doubt_free(&answer);
-    }
-    bytes[8] = 1; /* a group that is not there */
-    assert_int_equal(ceduo_doubt_join(&def, &(struct ceduo_doubt_part){bytes, n}, 1, &answer), CEDUO_BAD_PART);
-    free(bytes);
-}
-
-/* Parts of two inputs, of which the second ranks them otherwise than the first, or is longer than it should be. */
-static void parts_that_do_not_fit_together(void **state)
-{
-    (void)state;
-    init(CEDUO_STEMS, CEDUO_LAW_LUMPED);
-    const struct ceduo_doubt_def def = {
-        .scene = &site.scene, .inputs_count = 2, .inputs = inputs, .points = 2, .rocks = 8, .threads = 1};
-    struct ceduo_doubt_answer answer;
-    struct ceduo_doubt_part parts[2];
-    unsigned char *bytes[2];
-    for (uint64_t i = 0; i < 2; i++) {
-        assert_int_equal(ceduo_doubt_ask_part(&def, i + 1, 2, &bytes[i], &parts[i].length), CEDUO_OK);
-        bytes[i] = realloc(bytes[i], parts[i].length + 8);
-        assert_non_null(bytes[i]);
-        memset(bytes[i] + parts[i].length, 0, 8);
-        parts[i].bytes = bytes[i];
-    }
-    parts[1].length += 8;
-    assert_int_equal(ceduo_doubt_join(&def, parts, 2, &answer), CEDUO_BAD_PART);
-    parts[1].length -= 8;
-    bytes[1][8] = 1, bytes[1][16] = 0;
-    assert_int_equal(ceduo_doubt_join(&def, parts, 2, &answer), CEDUO_BAD_PART);
-    bytes[1][8] = 0, bytes[1][16] = 1;
-    assert_int_equal(ceduo_doubt_join(&def, parts, 2, &answer), CEDUO_OK);
-    ceduo_doubt_free(&answer);
-    free(bytes[0]);
-    free(bytes[1]);
-}
-
 /* What is in doubt has to be in the scene. */
 static void a_place_that_is_not_there(void **state)
 {
@@ -587,22 +424,6 @@ static bool ask_of_one_option(void)
     struct ceduo_question q = ceduo_question_default(&site.scene);
     q.only = 0;
     return ask(q);
-}
-
-static bool ask_part(void)
-{
-    init(CEDUO_STEMS, CEDUO_LAW_LUMPED);
-    struct ceduo_question q = ceduo_question_default(&site.scene);
-    unsigned char *bytes = NULL;
-    size_t n = 0;
-    q.run.rocks_most = 30;
-    enum ceduo_status status = ceduo_ask_part(&q, 1, 1, &bytes, &n);
-    assert_true(status == CEDUO_OK || status == CEDUO_NO_MEMORY);
-    assert_int_equal(bytes != NULL, status == CEDUO_OK);
-    if (status == CEDUO_OK)
-        add(bytes, n);
-    free(bytes);
-    return status == CEDUO_OK;
 }
 
 /* What was read before. */
@@ -795,27 +616,17 @@ static void runs_go_on(void **state)
         without_memory(tasks[i]);
 }
 
-static void parts_are_joined(void **state)
-{
-    (void)state;
-    without_memory(join_exact);
-    without_memory(join_histograms);
-}
-
 static void what_stands_on_runs(void **state)
 {
     (void)state;
-    without_memory(join_pools);
     without_memory(question);
     without_memory(years_of_blocks);
     without_memory(ask_by_index);
     without_memory(ask_both_laws);
-    without_memory(doubt_whole);
-    without_memory(doubt_in_parts);
+    without_memory(doubt);
     without_memory(doubt_of_many);
     without_memory(copy_belts);
     without_memory(ask_of_one_option);
-    without_memory(ask_part);
     without_memory(assess);
     without_memory(assess_index);
     without_memory(follow);
@@ -829,10 +640,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(runs_go_on),
-        cmocka_unit_test(parts_are_joined),
         cmocka_unit_test(what_stands_on_runs),
-        cmocka_unit_test(parts_that_do_not_fit),
-        cmocka_unit_test(parts_that_do_not_fit_together),
         cmocka_unit_test(a_place_that_is_not_there),
         cmocka_unit_test(one_is_told_at_a_time),
         cmocka_unit_test(one_thread_ends_all),

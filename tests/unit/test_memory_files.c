@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Files, documents and parts without memory. */
+/* Files and documents without memory. */
 #include "unit/failing.h"
 
 #include <unistd.h>
@@ -9,7 +9,6 @@
 #include "io/emit.h"
 #include "io/file.h"
 #include "io/inputs.h"
-#include "io/part_file.h"
 #include "io/scene_file.h"
 #include "io/survey_file.h"
 #include "model/document.h"
@@ -178,26 +177,6 @@ static bool format_text(void)
 
 /* ---- reading ---- */
 
-static bool add_inputs(const struct part_inputs *in)
-{
-    size_t n;
-    unsigned char *bytes = ceduo_part_inputs(in, &n);
-    if (!bytes)
-        return false;
-    struct arena arena = {0};
-    struct part_inputs again;
-    bool good = ceduo_part_inputs_read(&arena, &again, bytes, n);
-    if (good) {
-        assert_string_equal(again.path, in->path);
-        assert_int_equal(again.sets.n, in->sets.n);
-        assert_true(again.shelf.closed);
-        add(bytes, n);
-    }
-    ceduo_arena_free(&arena);
-    free(bytes);
-    return good;
-}
-
 static bool read_scene(void)
 {
     ceduo_text_lost(); /* of a task before */
@@ -210,11 +189,10 @@ static bool read_scene(void)
     struct text text = {0};
     bool good = ceduo_scene_read_by(&file, &shelf, scene_path, sets, 5, &problems);
     if (good) {
-        uint64_t key = ceduo_part_key(&file, 10, 0);
+        uint64_t key = ceduo_scene_key(&file.scene);
         add(&key, sizeof key);
         ceduo_emit(&text, file.root);
-        struct part_inputs in = {.path = scene_path, .sets = {sets, 5}, .shelf = shelf};
-        good = key != 0 && !text.failed && add_inputs(&in) && !ceduo_text_lost();
+        good = !text.failed && !ceduo_text_lost();
         if (good)
             add_text(&text);
     } else {
@@ -445,42 +423,6 @@ static bool save_elsewhere(void)
     return save_to(elsewhere_path);
 }
 
-/* ---- parts ---- */
-
-static bool write_part(void)
-{
-    static const unsigned char bytes[] = "some bytes";
-    char name[] = "scene \xc3\xa0 \x01";
-    struct part part = {.scene = name,
-                        .shard = 1,
-                        .shards = 2,
-                        .place = 1,
-                        .rocks = 10,
-                        .seconds = 0.5,
-                        .inputs = bytes,
-                        .runs = bytes,
-                        .inputs_length = 5,
-                        .runs_length = sizeof bytes};
-    struct text text = {0};
-    struct arena arena = {0};
-    ceduo_part_write(&text, &part);
-    bool good = !text.failed;
-    if (good) {
-        struct part again = {0};
-        enum part_fault fault = ceduo_part_read(&arena, &again, text.bytes, text.length - 1);
-        good = fault == PART_GOOD;
-        assert_true(good || fault == PART_MEMORY);
-        if (good) {
-            assert_string_equal(again.scene, name);
-            assert_memory_equal(again.runs, bytes, sizeof bytes);
-        }
-    }
-    ceduo_arena_free(&arena);
-    ceduo_text_free(&text);
-    ceduo_text_lost();
-    return good;
-}
-
 /* ---- folders ---- */
 
 /* Through a link to a file that is not there yet. */
@@ -541,10 +483,9 @@ static void documents_are_edited(void **state)
     without_memory(save_elsewhere);
 }
 
-static void parts_and_folders(void **state)
+static void folders(void **state)
 {
     (void)state;
-    without_memory(write_part);
     without_memory(list_profiles);
     without_memory(write_link);
     without_memory(ask_to_write);
@@ -555,7 +496,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(scenes_are_read, set_up, folder_tear_down),
         cmocka_unit_test_setup_teardown(documents_are_edited, set_up, folder_tear_down),
-        cmocka_unit_test_setup_teardown(parts_and_folders, set_up, folder_tear_down),
+        cmocka_unit_test_setup_teardown(folders, set_up, folder_tear_down),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -6,7 +6,6 @@
 #include <stdlib.h>
 
 #include "ceduo/ceduo.h"
-#include "core/run_pack.h"
 #include "physics/paper_site.h"
 
 static struct paper_site site;
@@ -90,33 +89,6 @@ static struct ceduo_run *run_of(const struct ceduo_run_def *def, uint64_t rocks)
     assert_int_equal(ceduo_run_create(def, &run), CEDUO_OK);
     assert_int_equal(ceduo_run_extend(run, rocks), CEDUO_OK);
     return run;
-}
-
-static void runs_that_take_no_part(void **state)
-{
-    (void)state;
-    static const double cells[] = {10};
-    paper_site_init(&site);
-    site.scene.simulation.rocks = 1500;
-    struct ceduo_run_def def = ceduo_run_def_default(&site.scene), part = def, other;
-    part.part = true;
-    struct ceduo_run *from = run_of(&part, 1024), *to;
-    unsigned char *bytes;
-    size_t n;
-    assert_int_equal(paper_run_save(from, &bytes, &n), CEDUO_OK);
-    to = run_of(&def, 0);
-    assert_int_equal(ceduo_run_adopt(to, bytes, n), CEDUO_OK);
-    ceduo_run_free(to);
-    for (int i = 0; i < 3; i++) {
-        other = i == 0 ? part : def;
-        other.cells = i == 1 ? 1 : 0;
-        other.cell_x = cells;
-        to = run_of(&other, i == 2 ? 10 : 0);
-        assert_int_equal(ceduo_run_adopt(to, bytes, n), CEDUO_BAD_PART); /* a part; with cells; within a block */
-        ceduo_run_free(to);
-    }
-    free(bytes);
-    ceduo_run_free(from);
 }
 
 /* Rocks of which some are drawn too light to compute with: these, and only these, are unfinished, at each control. */
@@ -392,7 +364,6 @@ static void what_needs_samples(void **state)
     double values[40];
     assert_true(ceduo_run_values(exact, 0, CEDUO_SAMPLE_SPEED, values) && ceduo_run_stops(exact, values));
     assert_false(ceduo_run_values(binned, 0, CEDUO_SAMPLE_SPEED, values) || ceduo_run_stops(binned, values));
-    assert_int_equal(ceduo_run_adopt(exact, (const unsigned char *)"", 0), CEDUO_BAD_PART); /* nor anything in nothing */
     assert_true(isnan(ceduo_run_difference(exact, binned, 0).reach_probability.mean));
     assert_true(isnan(ceduo_run_difference(binned, exact, 0).reach_probability.mean));
     ceduo_run_free(exact);
@@ -515,47 +486,19 @@ static void little_is_asked_of_a_run(void **state)
     assert_null(pool);
 }
 
-/* The pool of a scene as it flies it, or as a part of that. */
-static struct ceduo_pool *pool_of(bool part)
-{
-    struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
-    struct ceduo_pool *pool;
-    def.part = part;
-    assert_int_equal(ceduo_pool_create(&def, &pool), CEDUO_OK);
-    assert_int_equal(ceduo_pool_fill(pool), CEDUO_OK);
-    return pool;
-}
-
-static void pools_of_another_kind(void **state)
+static void a_result_of_no_control(void **state)
 {
     (void)state;
     paper_site_init(&site);
     site.scene.simulation.rocks = 20;
     site.scene.options = &site.option;
     site.scene.options_count = 1;
-    struct ceduo_pool *part = pool_of(true);
-    unsigned char *bytes;
-    size_t n;
-    assert_int_equal(ceduo_pool_extend(part, 20), CEDUO_OK);
-    assert_int_equal(ceduo_pool_save(part, &bytes, &n), CEDUO_OK);
-    bytes = realloc(bytes, n + 1);
-    assert_non_null(bytes);
-    bytes[n] = 0;
-    for (int i = 0; i < 5; i++) { /* as it is; of other runs, of another forest, shorter, longer */
-        struct ceduo_pool *whole = pool_of(false);
-        bytes[0] ^= i == 1;
-        bytes[8] ^= i == 2;
-        size_t length = i == 3 ? n - 1 : i == 4 ? n + 1 : n;
-        assert_int_equal(ceduo_pool_adopt(whole, bytes, length), i == 0 ? CEDUO_OK : CEDUO_BAD_PART);
-        bytes[0] ^= i == 1;
-        bytes[8] ^= i == 2;
-        ceduo_pool_free(whole);
-    }
-    free(bytes);
-    ceduo_pool_free(part);
-    site.scene.controls_count = 0; /* and a result of no control at all */
-    struct ceduo_pool *pool = pool_of(false);
+    site.scene.controls_count = 0;
+    struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
+    struct ceduo_pool *pool;
     struct ceduo_result *result;
+    assert_int_equal(ceduo_pool_create(&def, &pool), CEDUO_OK);
+    assert_int_equal(ceduo_pool_fill(pool), CEDUO_OK);
     assert_int_equal(ceduo_pool_extend(pool, 20), CEDUO_OK);
     assert_int_equal(ceduo_result_create(&site.scene, pool, &result), CEDUO_OK);
     assert_int_equal(ceduo_result_rocks(result), 20);
@@ -593,11 +536,6 @@ static void a_pool_forgets_what_is_old(void **state)
         assert_int_equal(ceduo_pool_find(pool, &site.option) != NULL, i == 1 || i > MORE - CEDUO_POOL_SPARE + 1);
     }
     site.belts[1].to = to;
-    unsigned char *bytes;
-    size_t n;
-    assert_int_equal(ceduo_pool_save(pool, &bytes, &n), CEDUO_OK);
-    assert_int_equal(ceduo_pool_adopt(pool, bytes, 8), CEDUO_BAD_PART);
-    free(bytes);
     ceduo_pool_free(pool);
 }
 
@@ -605,7 +543,6 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(keys_tell_what_rocks_meet),
-        cmocka_unit_test(runs_that_take_no_part),
         cmocka_unit_test(rocks_that_cannot_be_drawn),
         cmocka_unit_test(each_spread_is_drawn),
         cmocka_unit_test(looking_on_changes_nothing),
@@ -618,7 +555,7 @@ int main(void)
         cmocka_unit_test(years_before_they_are_flown),
         cmocka_unit_test(little_is_asked_of_a_run),
         cmocka_unit_test(a_pool_forgets_what_is_old),
-        cmocka_unit_test(pools_of_another_kind),
+        cmocka_unit_test(a_result_of_no_control),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

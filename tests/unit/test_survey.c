@@ -198,10 +198,10 @@ static void naslund_is_refused(void **context)
     const double dbh[] = {.05, .1, .15, .2, .25}, same[] = {.1, .1, .1, .1, .1};
     const double rises[] = {5, 8, 10, 11, 12}, falls[] = {12, 9, 6, 4, 2}, runs_away[] = {1.35, 1.7, 2.65, 4.5, 7.55};
     struct ceduo_naslund curve;
-    assert_int_equal(ceduo_naslund_fit(4, dbh, rises, &curve), CEDUO_BAD_PART);
-    assert_int_equal(ceduo_naslund_fit(5, same, rises, &curve), CEDUO_BAD_PART);
-    assert_int_equal(ceduo_naslund_fit(5, dbh, falls, &curve), CEDUO_BAD_PART);
-    assert_int_equal(ceduo_naslund_fit(5, dbh, runs_away, &curve), CEDUO_BAD_PART); /* as d3: b is below 0 */
+    assert_int_equal(ceduo_naslund_fit(4, dbh, rises, &curve), CEDUO_NO_FIT);
+    assert_int_equal(ceduo_naslund_fit(5, same, rises, &curve), CEDUO_NO_FIT);
+    assert_int_equal(ceduo_naslund_fit(5, dbh, falls, &curve), CEDUO_NO_FIT);
+    assert_int_equal(ceduo_naslund_fit(5, dbh, runs_away, &curve), CEDUO_NO_FIT); /* as d3: b is below 0 */
     assert_int_equal(ceduo_naslund_fit(5, dbh, rises, &curve), CEDUO_OK);
 }
 
