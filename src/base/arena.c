@@ -71,6 +71,15 @@ char *ceduo_arena_vformat(struct arena *arena, const char *format, va_list args)
     return p;
 }
 
+char *ceduo_arena_format(struct arena *arena, const char *format, ...)
+{
+    va_list args;
+    va_start(args, format);
+    char *p = ceduo_arena_vformat(arena, format, args);
+    va_end(args);
+    return p;
+}
+
 void ceduo_arena_free(struct arena *arena)
 {
     while (arena->page) {

@@ -23,6 +23,7 @@ char *ceduo_arena_copy(struct arena *arena, const char *bytes, size_t n);
 char *ceduo_arena_string(struct arena *arena, const char *string);
 
 /* A string as printf() makes it. NULL without memory. */
+char *ceduo_arena_format(struct arena *arena, const char *format, ...) __attribute__((format(printf, 2, 3)));
 char *ceduo_arena_vformat(struct arena *arena, const char *format, va_list args) __attribute__((format(printf, 2, 0)));
 
 void ceduo_arena_free(struct arena *arena);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "alternatives.h"
+#include "changes.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -7,7 +7,6 @@
 #include <string.h>
 
 #include "base/language.h"
-#include "changes.h"
 
 /* What people call a value: its label without the unit. */
 static const struct field *put_name(struct text *text, const char *map, const char *key)
@@ -152,20 +151,16 @@ bool ceduo_document_set_alone(struct document *d, const char *path, const char *
         keep_one_of_all(&c, path);
     ceduo_changes_follow(&c, path, value);
     ceduo_changes_add(&c, "%s=%s", path, value);
-    if (c.failed)
-        ceduo_problem_memory(problems);
-    else if (c.refused.length)
-        ceduo_problem(problems, &(struct source){.name = path, .is_option = true}, 0, 0, "%s", c.refused.bytes);
-    bool good = !c.failed && !c.refused.length && ceduo_document_set_all(d, c.sets, c.n, path, problems);
-    if (good && c.filled.length)
+    if (c.filled.length)
         ceduo_text_format(said, _("filled in for the same volume: %s"), c.filled.bytes);
-    if (good && c.taken.length)
+    if (c.taken.length)
         ceduo_text_format(said, _("%sremoved: %s"), said->length ? "; " : "", c.taken.bytes);
-    if (good && c.followed.length)
+    if (c.followed.length)
         ceduo_text_format(said, "%s%s", said->length ? "; " : "", c.followed.bytes);
-    ceduo_text_free(&c.followed);
-    ceduo_text_free(&c.refused);
-    ceduo_text_free(&c.taken);
-    ceduo_text_free(&c.filled);
-    return good;
+    bool refused = c.refused.length > 0;
+    if (refused) {
+        ceduo_problem(problems, &(struct source){.name = path, .is_option = true}, 0, 0, "%s", c.refused.bytes);
+        c.n = 0;
+    }
+    return ceduo_changes_make(&c, path, problems) && !refused;
 }

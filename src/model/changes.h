@@ -4,20 +4,22 @@
 
 #include "document.h"
 
-/* What is to be changed at once, and how that is said: for the files that know what goes with a value. */
-
-#define CHANGES_MOST 64
-
+/* What is to be changed as one edit, and how that is said. Starts with the document alone. */
 struct changes {
     struct document *d;
-    const char *sets[CHANGES_MOST]; /* as of ceduo_document_set_all() */
-    size_t n;
+    const char **sets; /* as of ceduo_document_set_all() */
+    size_t n, room;
     struct text taken, filled, followed;
     struct text refused; /* why it cannot be; "": it can, as far as is known */
-    bool failed;
 };
 
 void ceduo_changes_add(struct changes *changes, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+/* Adds that an entry is taken out, if it is there. */
+void ceduo_changes_remove(struct changes *changes, const char *path);
+
+/* Makes the edit, and frees the changes. */
+bool ceduo_changes_make(struct changes *changes, const char *what, struct problems *problems);
 
 /* A number of so many digits as text. */
 const char *ceduo_changes_rounded(double value, int digits, char room[CEDUO_NUMBER_ROOM]);
@@ -25,5 +27,12 @@ const char *ceduo_changes_rounded(double value, int digits, char room[CEDUO_NUMB
 /* Adds what follows a value that is changed: the neighbours of a border, so that there is no new gap and no overlap; a
  * height that is assumed, by its diameter. Says what does not follow: shoots that are given per hectare, standards. */
 void ceduo_changes_follow(struct changes *changes, const char *path, const char *value);
+
+/* As ceduo_document_set(), but what would then be said twice is taken out in the same state: a sphere has one of three
+ * sizes, a rock a mass or a density, the ground a roughness in m or rad, shoots a number per ha or per stool. Another
+ * shape takes the sizes out that do not belong to it and gets its own, of the same volume. Neighbours follow a border,
+ * assumed heights their diameter. What was done beside the change is added to `said`. */
+bool ceduo_document_set_alone(struct document *document, const char *path, const char *value, struct text *said,
+                              struct problems *problems);
 
 #endif

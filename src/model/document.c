@@ -9,19 +9,12 @@
 
 #include "base/grow.h"
 #include "base/language.h"
+#include "base/must.h"
 #include "io/file.h"
 #include "io/resolve.h"
 #include "recovery.h"
 
 /* ---- states ---- */
-
-/* Room for one more state. */
-static bool reserve_state(struct document *d)
-{
-    struct document_state *states = ceduo_grow(d->states, d->count, &d->room, sizeof *states);
-    d->states = states ? states : d->states;
-    return states != NULL;
-}
 
 static void push_state(struct document *d, const struct node *root, const char *what)
 {
@@ -29,6 +22,7 @@ static void push_state(struct document *d, const struct node *root, const char *
         d->saved = SIZE_MAX; /* the state on disk can no longer be reached by redo */
     if (d->count > 0)
         d->count = d->at + 1;
+    d->states = ceduo_grow(d->states, d->count, &d->room, sizeof *d->states);
     d->states[d->count] = (struct document_state){root, what};
     d->at = d->count++;
 }
@@ -67,24 +61,14 @@ static bool adopt(struct document *d, const struct node *root, struct problems *
 
 bool ceduo_document_commit(struct document *d, const struct node *root, const char *what, struct problems *problems)
 {
-    if (!root) {
-        if (problems->count == 0)
-            ceduo_problem_memory(problems);
-        return false;
-    }
     const struct node *before = d->file.root;
-    const char *kept = ceduo_arena_string(&d->file.arena, what);
-    if (!kept || !reserve_state(d)) { /* before anything changes */
-        ceduo_problem_memory(problems);
-        return false;
-    }
     if (!adopt(d, root, problems))
         return false;
     if (ceduo_node_equal(before, d->file.root)) { /* nothing has changed: no state for it */
         d->file.root = before;
         return true;
     }
-    push_state(d, d->file.root, kept);
+    push_state(d, d->file.root, ceduo_arena_string(&d->file.arena, what));
     trim_history(d);
     ceduo_document_keep(d);
     return true;
@@ -126,16 +110,12 @@ const struct node *ceduo_document_parse(struct document *d, const char *name, co
     /* its own copy of the path: the document may be saved elsewhere, what was typed is looked for where it was typed */
     const struct source *source = ceduo_source_keep(
         &d->file.arena, (struct source){.name = name, .bytes = text, .is_option = true, .beside = d->path}, problems);
-    return source ? ceduo_yaml_read(&d->file.arena, source, problems) : NULL;
+    return ceduo_yaml_read(&d->file.arena, source, problems);
 }
 
 /* The state that was read, or nothing where it was not. */
-static bool first_state(struct document *d, bool good, struct problems *problems)
+static bool first_state(struct document *d, bool good)
 {
-    if (good && !reserve_state(d)) {
-        ceduo_problem_memory(problems);
-        good = false;
-    }
     if (good)
         push_state(d, d->file.root, "");
     else
@@ -147,19 +127,19 @@ bool ceduo_document_open(struct document *d, const char *path, struct problems *
 {
     *d = (struct document){0};
     if (!ceduo_scene_read(&d->file, path, NULL, 0, problems))
-        return first_state(d, false, problems);
+        return first_state(d, false);
     d->raw = d->file.raw;
-    d->path = strcmp(path, "-") == 0 ? NULL : strdup(d->file.path);
+    d->path = strcmp(path, "-") == 0 ? NULL : ceduo_must(strdup(d->file.path));
     d->shipped = d->path && ceduo_document_is_shipped(d->path);
     ceduo_document_note_disk(d);
     d->recovery = ceduo_recovery_path(d->path);
-    return first_state(d, true, problems);
+    return first_state(d, true);
 }
 
 bool ceduo_document_new(struct document *d, const char *text, struct problems *problems)
 {
     *d = (struct document){.saved = SIZE_MAX};
-    if (!first_state(d, ceduo_scene_read_text(&d->file, _("new scene"), text, problems), problems))
+    if (!first_state(d, ceduo_scene_read_text(&d->file, _("new scene"), text, problems)))
         return false;
     d->recovery = ceduo_recovery_path(NULL);
     ceduo_document_keep(d);

@@ -95,7 +95,7 @@ void ceduo_document_text(struct document *document, const char *path, struct tex
 /* Recovery: a copy of unsaved work, kept while there is some. */
 void ceduo_document_keep(struct document *document);
 void ceduo_document_forget(struct document *document);
-/* Puts the text of a copy that was left behind (ceduo_recovery_find()) in place, as one state that can be undone. */
+/* Puts the text of a copy that was left behind (ceduo_recovery_list()) in place, as one state that can be undone. */
 bool ceduo_document_recover(struct document *document, const char *text, struct problems *problems);
 
 /* Node at a path, NULL where there is none. */
@@ -103,8 +103,7 @@ const struct node *ceduo_document_node(const struct document *document, const ch
 
 /* ---- for the files that implement it ---- */
 
-/* Makes `root` the scene and adds it as a new state. Returns false and changes nothing if `root` is not a valid scene, or
- * is NULL: then an edit failed, for want of memory unless there is a problem already. */
+/* Makes `root` the scene and adds it as a new state. Returns false and changes nothing if `root` is not a valid scene. */
 bool ceduo_document_commit(struct document *document, const struct node *root, const char *what, struct problems *problems);
 
 /* Parses YAML that was typed or read; `name` appears in messages. NULL with the reason in `problems`. */

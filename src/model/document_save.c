@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include "base/language.h"
+#include "base/must.h"
 #include "io/emit.h"
 #include "io/file.h"
 #include "io/resolve.h"
@@ -51,11 +52,6 @@ void ceduo_document_note_disk(struct document *d)
     }
 }
 
-static void put_backup(struct text *name, const char *path)
-{
-    ceduo_text_format(name, "%s.bak", path);
-}
-
 bool ceduo_document_changed_on_disk(const struct document *d)
 {
     struct stat st;
@@ -69,8 +65,7 @@ bool ceduo_document_changed_on_disk(const struct document *d)
 /* ---- saving ---- */
 
 /* A path to a file as it must be written in a scene that lies at `to`: as it is where it leads to the same file from
- * there, otherwise whole. It stays a path of the file that it was read from, wherever the scene was saved since. NULL
- * without memory. */
+ * there, otherwise whole. It stays a path of the file that it was read from, wherever the scene was saved since. */
 static const struct node *reference_from(struct document *d, const struct node *node, const char *folder, const char *to)
 {
     const struct source *s = node->source;
@@ -79,12 +74,13 @@ static const struct node *reference_from(struct document *d, const struct node *
     struct arena found = {0};
     const char *now = ceduo_resolve_path(&found, node, folder);
     const char *then = now ? ceduo_file_find(&found, node->text, to, folder) : NULL;
-    bool stays = !found.failed && (!now || (then && ceduo_file_same(now, then)));
-    char *whole = found.failed || stays ? NULL : realpath(now, NULL);
-    const struct node *scalar = whole ? ceduo_node_scalar(&d->file.arena, s, whole, false) : NULL;
-    free(whole);
+    if (now && !(then && ceduo_file_same(now, then))) {
+        char *whole = ceduo_must(realpath(now, NULL));
+        node = ceduo_node_renamed(&d->file.arena, ceduo_node_scalar(&d->file.arena, s, whole, false), node->key);
+        free(whole);
+    }
     ceduo_arena_free(&found);
-    return stays ? node : scalar ? ceduo_node_renamed(&d->file.arena, scalar, node->key) : NULL;
+    return node;
 }
 
 /* A table of draws lies beside the scene that was written with it: then its bare name is enough. */
@@ -94,10 +90,10 @@ static const struct node *draws_from(struct document *d, const struct node *node
     struct arena found = {0};
     const char *now = ceduo_resolve_path(&found, node, "scenes"), *then = ceduo_file_find(&found, name, to, "scenes");
     bool beside = now && then && ceduo_file_same(now, then);
-    const struct node *scalar = beside ? ceduo_node_scalar(&d->file.arena, node->source, name, false) : NULL;
     ceduo_arena_free(&found);
-    return beside ? (scalar ? ceduo_node_renamed(&d->file.arena, scalar, node->key) : NULL)
-                  : reference_from(d, node, "scenes", to);
+    if (!beside)
+        return reference_from(d, node, "scenes", to);
+    return ceduo_node_renamed(&d->file.arena, ceduo_node_scalar(&d->file.arena, node->source, name, false), node->key);
 }
 
 /* All paths of an unresolved tree, for a scene that lies at `to`. */
@@ -113,10 +109,10 @@ static const struct node *references_from(struct document *d, const struct node 
     if (node->kind == NODE_SCALAR && node->key && strcmp(node->key, "draws") == 0)
         return draws_from(d, node, to);
     const struct node *out = node;
-    for (size_t i = 0; node->kind != NODE_SCALAR && out && i < node->n; i++) {
+    for (size_t i = 0; node->kind != NODE_SCALAR && i < node->n; i++) {
         const struct node *item = references_from(d, node->items[i], to);
         if (item != node->items[i])
-            out = item ? ceduo_node_replaced(&d->file.arena, out, i, item) : NULL;
+            out = ceduo_node_replaced(&d->file.arena, out, i, item);
     }
     return out;
 }
@@ -126,41 +122,25 @@ static bool has_own_layout(const struct node *raw)
 {
     struct text text = {0};
     ceduo_emit(&text, raw);
-    bool same = !text.failed && text.length == raw->source->length && memcmp(text.bytes, raw->source->bytes, text.length) == 0;
+    bool same = text.length == raw->source->length && memcmp(text.bytes, raw->source->bytes, text.length) == 0;
     ceduo_text_free(&text);
     return same;
 }
 
-static bool fill_text(struct document *d, const char *to, struct text *text, bool *laid_out_anew)
+/* The text for a scene that lies at `to` (NULL: nowhere yet). True where it is laid out anew. */
+static bool fill_text(struct document *d, const char *to, struct text *text)
 {
     const struct node *root = ceduo_emit_unresolve(&d->file.arena, d->file.root);
-    root = root && to ? references_from(d, root, to) : root;
-    *laid_out_anew = false;
-    if (!root)
+    root = to ? references_from(d, root, to) : root;
+    if (d->raw && ceduo_emit_patched(text, d->raw->source, d->raw, root))
         return false;
-    (void)ceduo_text_lost(); /* what was shown before does not matter */
-    if (!d->raw || !ceduo_emit_patched(text, d->raw->source, d->raw, root)) {
-        *laid_out_anew = d->raw && !has_own_layout(d->raw);
-        ceduo_emit(text, root);
-    }
-    return !text->failed && !ceduo_text_lost();
+    ceduo_emit(text, root);
+    return d->raw && !has_own_layout(d->raw);
 }
 
 void ceduo_document_text(struct document *d, const char *path, struct text *text)
 {
-    bool anew;
-    const char *own = d->path ? d->path : d->recovery;
-    if (!fill_text(d, path ? path : own, text, &anew))
-        text->failed = true;
-}
-
-static bool keep_backup(const struct document *d, const char *path)
-{
-    struct text backup = {0};
-    put_backup(&backup, path);
-    bool good = !backup.failed && ceduo_file_write(backup.bytes, d->raw->source->bytes, d->raw->source->length);
-    ceduo_text_free(&backup);
-    return good;
+    fill_text(d, path ? path : d->path ? d->path : d->recovery, text);
 }
 
 /* From now on this text is what lies on disk. */
@@ -168,16 +148,11 @@ static void saved_to(struct document *d, const char *path, const char *text)
 {
     struct problems problems = {0};
     bool same = d->path && strcmp(path, d->path) == 0;
-    char *copy = strdup(path);
-    const struct node *raw = ceduo_document_parse(d, path, text, &problems);
-    if (raw && copy) {
-        free(d->path);
-        d->path = copy;
-        d->raw = raw;
-        d->shipped = false;
-    } else {
-        free(copy);
-    }
+    char *copy = ceduo_must(strdup(path)); /* it may be the document's own */
+    free(d->path);
+    d->path = copy;
+    d->raw = ceduo_document_parse(d, path, text, &problems);
+    d->shipped = false;
     ceduo_problems_free(&problems);
     d->saved = d->at;
     ceduo_document_note_disk(d);
@@ -190,15 +165,15 @@ static void saved_to(struct document *d, const char *path, const char *text)
 
 bool ceduo_document_save(struct document *d, const char *path, bool *laid_out_anew)
 {
-    struct text text = {0};
-    bool good = fill_text(d, path, &text, laid_out_anew);
-    if (!good)
-        errno = ENOMEM;
-    bool same = d->path && strcmp(path, d->path) == 0;
-    if (good && *laid_out_anew && same)
-        good = keep_backup(d, path);
+    struct text text = {0}, backup = {0};
+    bool good = true;
+    *laid_out_anew = fill_text(d, path, &text);
+    ceduo_text_format(&backup, "%s.bak", path);
+    if (*laid_out_anew && d->path && strcmp(path, d->path) == 0)
+        good = ceduo_file_write(backup.bytes, d->raw->source->bytes, d->raw->source->length);
     good = good && ceduo_file_write(path, text.bytes, text.length);
     int why = errno;
+    ceduo_text_free(&backup);
     if (good)
         saved_to(d, path, text.bytes);
     ceduo_text_free(&text);
@@ -214,8 +189,7 @@ void ceduo_document_keep(struct document *d)
     if (!d->recovery)
         return;
     ceduo_document_text(d, NULL, &text);
-    if (!text.failed && text.bytes)
-        ceduo_recovery_write(d->recovery, d->path, text.bytes, text.length);
+    ceduo_recovery_write(d->recovery, d->path, ceduo_text_string(&text), text.length);
     ceduo_text_free(&text);
 }
 

@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/grow.h"
 #include "base/language.h"
 #include "ceduo/rotation.h"
 #include "changes.h"
@@ -16,12 +17,27 @@ void ceduo_changes_add(struct changes *c, const char *format, ...)
 {
     va_list args;
     va_start(args, format);
-    const char *kept = ceduo_arena_vformat(&c->d->file.arena, format, args);
+    c->sets = ceduo_grow(c->sets, c->n, &c->room, sizeof *c->sets);
+    c->sets[c->n++] = ceduo_arena_vformat(&c->d->file.arena, format, args);
     va_end(args);
-    if (kept && c->n < CHANGES_MOST)
-        c->sets[c->n++] = kept;
-    else
-        c->failed = true;
+}
+
+void ceduo_changes_remove(struct changes *c, const char *path)
+{
+    if (ceduo_document_node(c->d, path))
+        ceduo_changes_add(c, "%s", path);
+}
+
+bool ceduo_changes_make(struct changes *c, const char *what, struct problems *problems)
+{
+    bool good = ceduo_document_set_all(c->d, c->sets, c->n, what, problems);
+    ceduo_text_free(&c->taken);
+    ceduo_text_free(&c->filled);
+    ceduo_text_free(&c->followed);
+    ceduo_text_free(&c->refused);
+    free(c->sets);
+    *c = (struct changes){.d = c->d};
+    return good;
 }
 
 const char *ceduo_changes_rounded(double value, int digits, char room[CEDUO_NUMBER_ROOM])

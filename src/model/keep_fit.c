@@ -2,31 +2,21 @@
 #include "keep_fit.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/language.h"
+#include "changes.h"
 #include "io/emit.h"
 #include "io/inputs.h"
 #include "scene/value.h"
 
 #define SEGMENTS "slope.segments["
 
-/* The changes of one edit. */
-struct changes {
-    struct arena arena;
-    const char **items;
-    size_t n, room;
-};
-
+/* Adds a text, and frees it. */
 static void add(struct changes *c, struct text *change)
 {
-    char *item = change->failed || c->n == c->room ? NULL : ceduo_arena_string(&c->arena, ceduo_text_string(change));
+    ceduo_changes_add(c, "%s", ceduo_text_string(change));
     ceduo_text_free(change);
-    if (item)
-        c->items[c->n++] = item;
-    else
-        c->arena.failed = true;
 }
 
 /* ---- ground that stands in no list of segments ---- */
@@ -76,56 +66,42 @@ static void add_segments(struct changes *c, const struct ceduo_slope *s)
 
 static void add_ground(struct changes *c, const struct document *d)
 {
-    struct text without = {0};
     const struct node *slope = ceduo_node_get(d->file.root, "slope");
     static const char *const keys[] = {"materials", "csv", "reversed"}; /* vertices are written as they lie now */
     for (size_t i = 0; i < sizeof keys / sizeof keys[0]; i++)
-        if (ceduo_node_get(slope, keys[i])) {
-            ceduo_text_format(&without, "slope.%s", keys[i]);
-            add(c, &without);
-        }
+        if (ceduo_node_get(slope, keys[i]))
+            ceduo_changes_add(c, "slope.%s", keys[i]);
     add_vertices(c, &d->file.scene.slope);
     add_segments(c, &d->file.scene.slope);
 }
 
 /* ---- values ---- */
 
-/* The mapping that a value stands in; false where that is the scene itself. */
-static bool holder_of(const char *place, struct text *holder)
-{
-    const char *dot = strrchr(place, '.');
-    if (dot)
-        ceduo_text_add(holder, place, (size_t)(dot - place));
-    return dot != NULL;
-}
-
 static void add_value(struct changes *c, const struct ceduo_scene *scene, const char *place, double best)
 {
-    struct text t = {0};
+    char room[CEDUO_NUMBER_ROOM];
     struct value v;
     bool spread = ceduo_value_find((struct ceduo_scene *)(uintptr_t)scene, place, &v) && v.field->type == FIELD_SPREAD &&
                   ((const struct ceduo_number *)v.at)->spread > 0;
-    ceduo_text_format(&t, "%s%s", place, spread ? ".mean" : "");
-    put_number(&t, "=", best);
-    add(c, &t);
+    ceduo_changes_add(c, "%s%s=%s", place, spread ? ".mean" : "", ceduo_number_shortest(best, room));
 }
 
 static void add_source(struct changes *c, const char *place, const char *source)
 {
+    const char *dot = strrchr(place, '.'); /* without one the value stands in the scene itself */
     struct text t = {0};
-    if (!holder_of(place, &t)) {
-        ceduo_text_free(&t);
+    bool known = false;
+    if (!dot)
         return;
-    }
-    ceduo_text_put(&t, ".source={kind: calibrated, text: ");
+    ceduo_text_format(&t, "%.*s.source={kind: calibrated, text: ", (int)(dot - place), place);
     ceduo_emit_scalar(&t, source, true);
     ceduo_text_put(&t, "}");
     for (size_t i = 0; i < c->n; i++)
-        if (strcmp(c->items[i], ceduo_text_string(&t)) == 0) {
-            ceduo_text_free(&t);
-            return;
-        }
-    add(c, &t);
+        known |= strcmp(c->sets[i], t.bytes) == 0;
+    if (known)
+        ceduo_text_free(&t);
+    else
+        add(c, &t);
 }
 
 /* Whether a row of doubt is about a fitted value. */
@@ -161,25 +137,16 @@ static void add_draws(struct changes *c, const struct document *d, const struct 
 
 bool ceduo_keep_fit(struct document *d, const struct fit_values *fit, struct problems *problems)
 {
-    struct changes c = {0};
-    bool segments = is_of_segments(fit) && d->file.scene.slope.segments_given == 0;
-    for (size_t i = 0; i < fit->n; i++)
-        c.room += 2 * fit->inputs[i].places_count;
-    c.room += 8;
-    c.items = ceduo_arena_take(&c.arena, c.room * sizeof *c.items);
-    if (c.items && segments)
+    struct changes c = {.d = d};
+    if (is_of_segments(fit) && d->file.scene.slope.segments_given == 0)
         add_ground(&c, d);
-    for (size_t i = 0; c.items && i < fit->n; i++)
+    for (size_t i = 0; i < fit->n; i++)
         for (size_t k = 0; k < fit->inputs[i].places_count; k++)
             add_value(&c, &d->file.scene, fit->inputs[i].places[k], fit->best[i]);
-    for (size_t i = 0; c.items && i < fit->n; i++)
+    for (size_t i = 0; i < fit->n; i++)
         for (size_t k = 0; k < fit->inputs[i].places_count; k++)
             add_source(&c, fit->inputs[i].places[k], fit->source);
-    if (c.items && fit->draws)
+    if (fit->draws)
         add_draws(&c, d, fit);
-    if (c.arena.failed)
-        ceduo_problem_memory(problems);
-    bool good = !c.arena.failed && ceduo_document_set_all(d, c.items, c.n, _("fitted values"), problems);
-    ceduo_arena_free(&c.arena);
-    return good;
+    return ceduo_changes_make(&c, _("fitted values"), problems);
 }

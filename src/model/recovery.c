@@ -11,6 +11,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "base/must.h"
 #include "io/file.h"
 
 #define UNSAVED "# unsaved work on " /* begins the first line of a copy */
@@ -37,7 +38,7 @@ static bool state_folder(struct text *folder)
         ceduo_text_format(folder, "%s/ceduo", state);
     else if (home && home[0] == '/')
         ceduo_text_format(folder, "%s/.local/state/ceduo", home);
-    return !folder->failed && folder->bytes && make_folders(folder->bytes);
+    return folder->bytes && make_folders(folder->bytes);
 }
 
 /* A number for a scene's place: FNV-1a of its whole path. */
@@ -59,8 +60,6 @@ char *ceduo_recovery_path(const char *path)
         return NULL;
     }
     ceduo_text_format(&name, "/%016llx-%ld.yaml", (unsigned long long)number_of(path), (long)getpid());
-    if (name.failed)
-        ceduo_text_free(&name);
     return name.bytes;
 }
 
@@ -72,7 +71,7 @@ bool ceduo_recovery_write(const char *recovery, const char *path, const char *by
     ceduo_text_safe(&text, real ? real : "a new scene");
     ceduo_text_char(&text, '\n');
     ceduo_text_add(&text, bytes, n);
-    bool good = !text.failed && ceduo_file_write_quickly(recovery, text.bytes, text.length);
+    bool good = ceduo_file_write_quickly(recovery, text.bytes, text.length);
     free(real);
     ceduo_text_free(&text);
     return good;
@@ -83,57 +82,33 @@ char *ceduo_recovery_text(const char *path)
     struct arena arena = {0};
     struct problems problems = {0};
     const struct source *source = ceduo_file_read(&arena, path, YAML_BYTES_MOST, &problems);
-    char *copy = source ? strdup(source->bytes) : NULL;
+    char *copy = source ? ceduo_must(strdup(source->bytes)) : NULL;
     ceduo_problems_free(&problems);
     ceduo_arena_free(&arena);
     return copy;
 }
 
-/* The next copy in the folder whose process has ended: its name is put, and the number of its scene's place. */
-static bool next_left(DIR *dir, const struct text *folder, struct text *name, uint64_t *number)
+/* The next copy in the folder whose process has ended: its name is put. */
+static bool next_left(DIR *dir, const struct text *folder, struct text *name)
 {
     for (struct dirent *e; (e = readdir(dir));) {
-        unsigned long long of;
+        unsigned long long place;
         long process;
         int used = 0;
-        if (sscanf(e->d_name, "%16llx-%ld.yaml%n", &of, &process, &used) != 2 || used == 0)
+        if (sscanf(e->d_name, "%16llx-%ld.yaml%n", &place, &process, &used) != 2 || used == 0)
             continue;
         if (process == (long)getpid() || kill((pid_t)process, 0) == 0 || errno == EPERM)
             continue; /* its program still runs */
-        ceduo_text_free(name);
+        name->length = 0;
         ceduo_text_format(name, "%s/%s", folder->bytes, e->d_name);
-        *number = of;
-        if (e->d_name[used] != '\0') { /* its writer was killed, and it may be half of one */
-            if (name->bytes)
-                unlink(name->bytes);
-            continue;
-        }
-        return name->bytes != NULL;
+        if (e->d_name[used] == '\0')
+            return true;
+        unlink(name->bytes); /* its writer was killed, and it may be half of one */
     }
     return false;
 }
 
-char *ceduo_recovery_find(const char *path, char **file)
-{
-    struct text folder = {0}, name = {0};
-    uint64_t number, wanted = number_of(path);
-    char *found = NULL;
-    DIR *dir = state_folder(&folder) ? opendir(folder.bytes) : NULL;
-    while (dir && !found && next_left(dir, &folder, &name, &number))
-        found = number == wanted ? ceduo_recovery_text(name.bytes) : NULL;
-    if (found)
-        *file = name.bytes;
-    else
-        ceduo_text_free(&name);
-    if (dir)
-        closedir(dir);
-    ceduo_text_free(&folder);
-    return found;
-}
-
-/* ---- all of them ---- */
-
-#define LISTED_MOST 100
+#define LISTED_MAX 100
 
 static int newest_first(const void *a, const void *b)
 {
@@ -167,22 +142,20 @@ static bool read_head(struct arena *arena, const char *file, struct recovery *r)
                            .title = title ? title : "",
                            .when = st.st_mtime};
     free(text);
-    return r->file != NULL;
+    return true;
 }
 
 struct recovery *ceduo_recovery_list(struct arena *arena, size_t *n)
 {
     struct text folder = {0}, name = {0};
-    uint64_t number;
-    struct recovery *list = ceduo_arena_take(arena, LISTED_MOST * sizeof *list);
-    DIR *dir = list && state_folder(&folder) ? opendir(folder.bytes) : NULL;
+    struct recovery *list = ceduo_arena_take(arena, LISTED_MAX * sizeof *list);
+    DIR *dir = state_folder(&folder) ? opendir(folder.bytes) : NULL;
     *n = 0;
-    while (dir && *n < LISTED_MOST && next_left(dir, &folder, &name, &number))
+    while (dir && *n < LISTED_MAX && next_left(dir, &folder, &name))
         *n += read_head(arena, name.bytes, &list[*n]);
     if (dir)
         closedir(dir);
-    if (list)
-        qsort(list, *n, sizeof *list, newest_first);
+    qsort(list, *n, sizeof *list, newest_first);
     ceduo_text_free(&name);
     ceduo_text_free(&folder);
     return list;

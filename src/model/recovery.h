@@ -18,9 +18,6 @@ char *ceduo_recovery_path(const char *path);
 /* Writes it, the scene's path in a first comment line. */
 bool ceduo_recovery_write(const char *recovery, const char *path, const char *bytes, size_t n);
 
-/* Text of a copy for `path` whose process has ended, and in `*file` where it lies; both to be freed. NULL: none. */
-char *ceduo_recovery_find(const char *path, char **file);
-
 /* A copy that was left behind. */
 struct recovery {
     const char *file;  /* where it lies */

@@ -10,7 +10,7 @@
 #include "base/language.h"
 #include "base/must.h"
 #include "base/utf8.h"
-#include "model/alternatives.h"
+#include "model/changes.h"
 
 /* ---- saying things ---- */
 

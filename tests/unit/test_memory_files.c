@@ -11,7 +11,6 @@
 #include "io/inputs.h"
 #include "io/scene_file.h"
 #include "io/survey_file.h"
-#include "model/document.h"
 
 static const char scene[] =
     "# my comment\n"
@@ -63,7 +62,7 @@ static const char survey[] =
     "2,120,standard,,quercus-cerris,20,13,\n2,,stump,,,30,0.2,\n";
 
 static char seen_path[256], kinds_path[256], doubted_path[256], survey_path[256];
-static char scene_path[256], faulty_path[256], csv_path[256], link_path[256], linked_path[256], elsewhere_path[256];
+static char scene_path[256], faulty_path[256], csv_path[256], link_path[256], linked_path[256];
 
 static int set_up(void **state)
 {
@@ -83,7 +82,6 @@ static int set_up(void **state)
     in_folder(survey_path, "survey.csv");
     in_folder(link_path, "link");
     in_folder(linked_path, "linked");
-    in_folder(elsewhere_path, "elsewhere/scene.yaml");
     assert_int_equal(symlink("linked", link_path), 0);
     put("scene.yaml", scene);
     put("slope.yaml", slope);
@@ -324,105 +322,6 @@ static bool read_ambiguous(void)
     return read_wrong(scene_path, sets, 1);
 }
 
-/* ---- editing ---- */
-
-/* An edit that failed left all as it was, and can be made again. */
-#define EDIT(edit)                                                                                                             \
-    do {                                                                                                                       \
-        size_t at = d.at;                                                                                                      \
-        if (!(edit)) {                                                                                                         \
-            assert_true(problems.memory);                                                                                      \
-            assert_int_equal(d.at, at);                                                                                        \
-            relieve();                                                                                                         \
-            ceduo_problems_free(&problems);                                                                                    \
-            assert_true(edit);                                                                                                 \
-        }                                                                                                                      \
-        assert_int_equal(d.at, at + 1);                                                                                        \
-    } while (0)
-
-static void add_scene(const struct scene_file *file)
-{
-    uint64_t key = ceduo_scene_key(&file->scene);
-    add(&key, sizeof key);
-    for (size_t i = 0; i < file->scene.options_count; i++) {
-        key = ceduo_option_key(&file->scene, &file->scene.options[i]);
-        add(&key, sizeof key);
-    }
-}
-
-static bool open_document(struct document *d, struct problems *problems)
-{
-    ceduo_text_lost();
-    bool good = ceduo_document_open(d, scene_path, problems);
-    if (!good) {
-        assert_true(problems->memory);
-        ceduo_problems_free(problems);
-    }
-    return good;
-}
-
-static bool edit_document(void)
-{
-    struct document d;
-    struct problems problems = {0};
-    struct text text = {0};
-    if (!open_document(&d, &problems))
-        return false;
-    static const char *const sets[] = {"rock.diameter_m=0.6", "release.height_m=1"};
-    EDIT(ceduo_document_set(&d, "forest[0].stand.stools.per_ha", "2500", &problems));
-    EDIT(ceduo_document_copy_option(&d, 0, &problems));
-    EDIT(ceduo_document_split(&d, "options[1].forest", 0, "options[1].forest[0].to_m=45", "options[1].forest[1].from_m=45",
-                              &problems));
-    EDIT(ceduo_document_move(&d, "options", 1, 0, &problems));
-    EDIT(ceduo_document_insert(&d, "controls", 1, "{x_m: 95}", &problems));
-    EDIT(ceduo_document_delete(&d, "controls[0]", &problems));
-    EDIT(ceduo_document_set_all(&d, sets, 2, "two", &problems));
-    add_scene(&d.file);
-    ceduo_document_text(&d, NULL, &text);
-    bool good = !text.failed;
-    ceduo_text_free(&text);
-    ceduo_problems_free(&problems);
-    ceduo_document_forget(&d);
-    ceduo_document_close(&d);
-    return good;
-}
-
-/* What was saved means the same, though without memory a stand may be written out that else names its file. */
-static bool save_to(const char *path)
-{
-    struct document d;
-    struct scene_file file;
-    struct problems problems = {0};
-    bool anew;
-    if (!open_document(&d, &problems))
-        return false;
-    EDIT(ceduo_document_set(&d, "forest[1].stand.stools.spacing_m", "0.5", &problems));
-    bool good = ceduo_document_save(&d, path, &anew);
-    if (!good) {
-        assert_int_equal(errno, ENOMEM);
-        relieve();
-        assert_true(ceduo_document_save(&d, path, &anew));
-    }
-    ceduo_document_close(&d);
-    relieve();
-    assert_true(ceduo_scene_read(&file, path, NULL, 0, &problems));
-    add_scene(&file);
-    ceduo_problems_free(&problems);
-    ceduo_scene_release(&file);
-    put("scene.yaml", scene);
-    return good;
-}
-
-static bool save_document(void)
-{
-    return save_to(scene_path);
-}
-
-static bool save_elsewhere(void)
-{
-    return save_to(elsewhere_path);
-}
-
 /* ---- folders ---- */
 
 /* Through a link to a file that is not there yet. */
@@ -475,14 +374,6 @@ static void scenes_are_read(void **state)
     without_memory(read_ambiguous);
 }
 
-static void documents_are_edited(void **state)
-{
-    (void)state;
-    without_memory(edit_document);
-    without_memory(save_document);
-    without_memory(save_elsewhere);
-}
-
 static void folders(void **state)
 {
     (void)state;
@@ -495,7 +386,6 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(scenes_are_read, set_up, folder_tear_down),
-        cmocka_unit_test_setup_teardown(documents_are_edited, set_up, folder_tear_down),
         cmocka_unit_test_setup_teardown(folders, set_up, folder_tear_down),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
