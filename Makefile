@@ -10,7 +10,7 @@
 #   make deb        build packages for Debian, in build/deb
 #   make man        write the tables of the program into the manual
 #   make pictures   draw the pictures of README
-#   make po         bring the marked text of the sources into src/po/*.po
+#   make po         bring the marked text of the sources and the manual into src/po/*.po, src/po/man/it.po
 #   make lint       run clang's warnings, cppcheck and clang-tidy
 #   make fuzz       run libFuzzer, FUZZ_SECONDS=600 for each reader
 #   make net        compare what the program prints with an earlier commit: BEFORE=v0.2 ONLY=plot
@@ -63,13 +63,15 @@ PARTS := $(BUILD)/libparts.a
 PROGRAM := $(BUILD)/ceduo
 LANGUAGES := $(patsubst src/po/%.po,%,$(wildcard src/po/*.po))
 MO := $(LANGUAGES:%=$(BUILD)/locale/%/LC_MESSAGES/ceduo.mo)
+# The Italian manual is made from the English one and src/po/man/it.po; what is not translated stays English.
+PAGES_IT := $(addprefix $(BUILD)/man/it/,ceduo.1 ceduo-workflows.7)
 
 ifeq ($(VARIANT),release)
-all: ceduo $(MO)
+all: ceduo $(MO) $(PAGES_IT)
 ceduo: $(PROGRAM)
 	cp -f $(PROGRAM) $@
 else
-all: $(PROGRAM) $(MO)
+all: $(PROGRAM) $(MO) $(PAGES_IT)
 endif
 
 $(LIBRARY): $(call object,$(CORE))
@@ -109,7 +111,14 @@ $(TEMPLATE):
 	@awk -v RS= '!/%[-+\#0-9.*]*(ll|l|z|h)?[diouxXeEfgGscp%]/ { sub(/\#, c-format\n/, "") } { gsub(/"POT-Creation-Date[^\n]*\n/, ""); print $$0 "\n" }' \
 	    $@ >$@.tmp && mv $@.tmp $@
 
+$(PAGES_IT): $(BUILD)/man/it/%: man/% src/po/man/it.po
+	@mkdir -p $(@D)
+	@po4a-translate -f man -m $< -M UTF-8 -L UTF-8 -p src/po/man/it.po -l $@ -k 0 >$@.log 2>&1 || { cat $@.log; exit 1; }
+
 po: $(TEMPLATE)
+	@mkdir -p $(BUILD)/man
+	po4a -f --variable build=$(BUILD) --no-translations --msgmerge-opt=--compendium=$(CURDIR)/src/po/it.po src/po/man/po4a.cfg
+	@sed -i '/^"POT-Creation-Date/d' src/po/man/it.po && msgfmt --statistics -o /dev/null src/po/man/it.po
 	@for l in $(LANGUAGES); do msgmerge -q --update --backup=none --no-wrap --add-location=file src/po/$$l.po $(TEMPLATE) && \
 	    msgfmt -c --statistics -o /dev/null src/po/$$l.po || exit 1; done
 
@@ -118,7 +127,7 @@ po: $(TEMPLATE)
 
 # ---- a fresh machine ----
 
-DEBIAN := gcc libc6-dev make libncurses-dev libgsl-dev libyaml-dev libunistring-dev librandom123-dev libcmocka-dev mandoc gettext pkgconf python3 \
+DEBIAN := gcc libc6-dev make libncurses-dev libgsl-dev libyaml-dev libunistring-dev librandom123-dev libcmocka-dev mandoc gettext po4a pkgconf python3 \
 	tmux zsh locales parallel clang-format
 
 deps:
@@ -185,7 +194,7 @@ $(T)/unit/test_memory $(T)/unit/test_memory_files $(T)/unit/test_memory_seen $(T
 $(UNIT:=.tap): %.tap: %
 	@tests/run $@ $<
 
-$(patsubst tests/%,$(T)/%.tap,$(SCRIPTS)): $(T)/%.tap: tests/% $(PROGRAM) $(MO)
+$(patsubst tests/%,$(T)/%.tap,$(SCRIPTS)): $(T)/%.tap: tests/% $(PROGRAM) $(MO) $(PAGES_IT)
 	@CEDUO=$(call quoted,$(CURDIR)/$(PROGRAM)) CC="$(CC)" BUILD=$(BUILD) tests/run $@ $<
 
 # This test also compares what these print.
@@ -340,18 +349,16 @@ do-bench: all $(BENCH)
 # ---- the manual ----
 
 PAGES := $(wildcard man/*.[1357])
-PAGES_IT := $(wildcard man/it/*.[17])
 TABLES := $(T)/tables
 $(TABLES): $(BUILD)/man/tables.o $(PARTS) $(LIBRARY)
 	@mkdir -p $(@D)
 	$(CC) $(ALL_CFLAGS) $(LDFLAGS) -o $@ $^ $(LIBS)
 
 # Writes the tables of parameters, keys, goals and figures into the manual pages.
-man: $(TABLES) $(MO)
+man: $(TABLES)
 	@for page in scene slope stand; do $(TABLES) $$page man/ceduo-$$page.5; done
 	@$(TABLES) ranges man/ceduo-scene.5
 	@for table in keys goals search figures; do $(TABLES) $$table man/ceduo.1; done
-	@LC_ALL=C.UTF-8 $(TABLES) keys man/it/ceduo.1 it
 
 # Draws what README shows: screens by key scripts, and the error against run time as `make bench` last found it.
 ERROR_PICTURE := $(BUILD)/man/error_picture

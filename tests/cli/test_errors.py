@@ -579,7 +579,7 @@ def begins(text, pieces):
 
 def test_table_italian():
     """The Italian page has a row for each of the English one, each with words that the program says in Italian"""
-    english, italian = rows(), rows("man/it/ceduo.1", "DIAGNOSTICA")
+    english, italian = rows(), rows(os.environ.get("BUILD", "build/release") + "/man/it/ceduo.1", "DIAGNOSTICA")
     counts = [[list(table.values()).count(s) for s in dict.fromkeys(table.values())] for table in (english, italian)]
     expect_equal(counts[1], counts[0], "rows of each section")
     said = said_in_italian()

@@ -18,9 +18,10 @@ import harness
 from harness import CEDUO, ROOT, Folder, expect, expect_equal, expect_in, expect_near
 
 PAGE = ROOT / "man" / "ceduo-workflows.7"
-PAGINA = ROOT / "man" / "it" / "ceduo-workflows.7"
+PAGINA = ROOT / os.environ.get("BUILD", "build/release") / "man/it/ceduo-workflows.7"
 README = ROOT / "README.md"
-RUN = re.compile(r'^\.\\" run (\S+)\n\.Bd -literal[^\n]*\n(.*?)^\.Ed$', re.M | re.S)
+# po4a puts a comment before the paragraph that it stands in.
+RUN = re.compile(r'^\.\\" run (\S+)\n(?:(?!\.Bd|\.\\")[^\n]*\n)*\.Bd -literal[^\n]*\n(.*?)^\.Ed$', re.M | re.S)
 KEYS_MOST = 25
 
 
@@ -353,7 +354,7 @@ def test_survey():
 
 def test_survey_in_italian():
     """The whole way in Italian, from two CSV files to the page: no sentence of it stays English, and the figures are the same"""
-    walk = Walk("rilievo", page=PAGINA, LANGUAGE="it")
+    walk = Walk("survey", page=PAGINA, LANGUAGE="it")
     english = walked("survey")
     expect_equal(len(walk.outputs), len(english.outputs), "steps")
     head = walk.read("popolamento.yaml")
@@ -388,7 +389,7 @@ wait idle
 
 def test_survey_on_the_italian_screen():
     """What the page says at its end: 2, p and 'da un rilievo' take the survey for the belt that is shown"""
-    texts = blocks("rilievo", PAGINA)[:3]
+    texts = blocks("survey", PAGINA)[:3]
     with Folder() as work, Machine() as machine:
         work.write("keys", KEYS)
         edit = "sed -i '/^options:/,/^rules:/d' strada.yaml\necho 'forest: [{from_m: 15, to_m: 115, stand: simple-coppice}]' >> strada.yaml"
