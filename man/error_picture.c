@@ -108,7 +108,7 @@ int main(int argc, char **argv)
         add_row(points, line);
     fclose(in);
     draw(ceduo_svg_canvas(svg), points);
-    ceduo_svg_put(&html, svg,
+    ceduo_svg_write(&html, svg,
                   &(struct ceduo_svg_words){.title = "Error of the mean energy against run time",
                                             .description = "Five falling lines on logarithmic axes: ten times the time "
                                                            "leaves a third of the error; ceduo needs the least time."});

@@ -90,19 +90,12 @@ void ceduo_page_number(struct ceduo_page *page, double value, int digits)
     cell->digits = digits;
 }
 
-struct text *ceduo_page_picture(struct ceduo_page *page, struct ceduo_svg *svg, bool half, struct text **description)
+struct ceduo_page_block *ceduo_page_picture(struct ceduo_page *page, struct ceduo_svg *svg, bool half)
 {
-    struct ceduo_page_block *block = svg ? add_block(page, CEDUO_PAGE_PICTURE) : NULL;
-    if (!block) {
-        ceduo_svg_free(svg);
-        fail(page);
-        *description = &page->lost.shorter;
-        return &page->lost.text;
-    }
+    struct ceduo_page_block *block = add_block(page, CEDUO_PAGE_PICTURE);
     block->svg = svg;
     block->half = half;
-    *description = &block->description;
-    return &block->text;
+    return block;
 }
 
 bool ceduo_page_failed(const struct ceduo_page *page)

@@ -82,9 +82,8 @@ struct ceduo_page_cell *ceduo_page_cell(struct ceduo_page *page);
 struct text *ceduo_page_text(struct ceduo_page *page); /* of a new cell */
 void ceduo_page_number(struct ceduo_page *page, double value, int digits);
 
-/* Adds a picture, which is the page's from then on (NULL: there was no memory), and returns its title; its description
- * is for the caller to fill, too. */
-struct text *ceduo_page_picture(struct ceduo_page *page, struct ceduo_svg *svg, bool half, struct text **description);
+/* Adds a picture, which is the page's from then on; its title (`text`) and description are for the caller to fill. */
+struct ceduo_page_block *ceduo_page_picture(struct ceduo_page *page, struct ceduo_svg *svg, bool half);
 
 void ceduo_page_free(struct ceduo_page *page);
 

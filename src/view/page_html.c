@@ -134,7 +134,7 @@ static void put_picture(struct ceduo_html *html, const struct ceduo_page_block *
     snprintf(id, sizeof id, "c%zu-p%zu", number, picture);
     const struct ceduo_svg_words words = {id, ceduo_text_string(&block->text), ceduo_text_string(&block->description)};
     ceduo_html_open(html, "figure", "class", block->half ? "half" : NULL, NULL);
-    ceduo_svg_put(html, block->svg, &words);
+    ceduo_svg_write(html, block->svg, &words);
     ceduo_html_leaf(html, "figcaption", words.title, NULL);
     ceduo_html_close(html);
 }

@@ -14,7 +14,4 @@ void ceduo_page_html_end(struct ceduo_html *html);
 /* A page as a chapter. `number`, from 1, makes what it is called within the file unique. */
 void ceduo_page_html(struct ceduo_html *html, const struct ceduo_page *page, size_t number);
 
-/* How many sheets of A4 it fills, within a tenth or so (page_sheets.c). */
-double ceduo_page_sheets(const struct ceduo_page *page);
-
 #endif

@@ -17,6 +17,7 @@
 #define WHOLE 92  /* cells of a picture across the page */
 #define HALF  46  /* of one that has another beside it */
 #define WIDE  112 /* of one whose rows are few in many columns */
+#define CROWD 4   /* options; more of them with blocks are too many for one page */
 
 /* Adds one, so many cells large. */
 static void add_picture(struct ceduo_page *page, enum ceduo_plot plot, int columns, int rows,
@@ -24,46 +25,10 @@ static void add_picture(struct ceduo_page *page, enum ceduo_plot plot, int colum
 {
     struct ceduo_svg *svg = ceduo_svg_create(columns, rows);
     struct ceduo_area area = {.width = columns, .height = rows};
-    struct text *told, *title;
-    if (svg)
-        ceduo_plot_draw(plot, ceduo_svg_canvas(svg), &area, picture);
-    title = ceduo_page_picture(page, svg, columns == HALF, &told);
-    ceduo_plot_title(title, plot, picture);
-    ceduo_text_put(told, description);
-}
-
-/* ---- what has no room ---- */
-
-/* What a page of more than four sheets leaves out, one after the other, until it has no more. */
-enum left_out { NOTHING, BARS, ENERGY_DRAWN, YEARS_DRAWN, OTHER_PLACES, OTHER_LAW, PAIRS, HAZARD_DRAWN, ALL };
-
-static const char *const left_out[] = {
-    [BARS] = N_("The options as bars; 'ceduo --plot compare' draws them."),
-    [ENERGY_DRAWN] = N_("The energy along the slope; 'ceduo --plot energy' draws it."),
-    [YEARS_DRAWN] = N_("The pictures of the years; 'ceduo --plot rotation' and 'ceduo --plot tradeoff' draw them."),
-    [OTHER_PLACES] = N_("Percentiles and rates at the controls before the last; 'ceduo --batch' prints them."),
-    [OTHER_LAW] = N_("The other energy law, option by option; 'ceduo --batch' prints it."),
-    [PAIRS] = N_("How sure the order of the options is, pair by pair; 'ceduo --sensitivity' prints it."),
-    [HAZARD_DRAWN] = N_("The curves of how often; 'ceduo --plot hazard' draws them.")};
-
-/* Whether the scene has it at all. */
-static bool has(const struct ceduo_chapter *c, enum left_out what)
-{
-    const struct ceduo_scene *scene = c->report->result->scene;
-    bool several = scene->options_count > 1;
-    return what == OTHER_PLACES            ? scene->controls_count > 1 && several
-           : what == BARS || what == PAIRS ? several
-           : what == HAZARD_DRAWN          ? ceduo_report_has_hazard(c->report)
-                                           : scene->controls_count > 0;
-}
-
-static void say_left_out(struct ceduo_page *page, const struct ceduo_chapter *c, enum left_out least)
-{
-    if (least > NOTHING)
-        ceduo_text_put(ceduo_page_add(page, CEDUO_PAGE_SECTION), _("Left out, to keep to four sheets"));
-    for (int i = BARS; i <= (int)least; i++)
-        if (has(c, (enum left_out)i))
-            ceduo_text_put(ceduo_page_add(page, CEDUO_PAGE_ITEM), _(left_out[i]));
+    ceduo_plot_draw(plot, ceduo_svg_canvas(svg), &area, picture);
+    struct ceduo_page_block *block = ceduo_page_picture(page, svg, columns == HALF);
+    ceduo_plot_title(&block->text, plot, picture);
+    ceduo_text_put(&block->description, description);
 }
 
 static struct ceduo_picture picture_of(const struct ceduo_chapter *c, size_t option)
@@ -78,6 +43,12 @@ static struct ceduo_picture picture_of(const struct ceduo_chapter *c, size_t opt
                                   .year = SIZE_MAX};
 }
 
+/* Whether the scene asks for more than fits on four sheets: then what other commands show is left to them. */
+static bool is_crowded(const struct ceduo_chapter *c)
+{
+    return ceduo_report_has_hazard(c->report) && c->report->result->scene->options_count > CROWD;
+}
+
 static struct text *section(struct ceduo_page *page, const char *title)
 {
     struct text *text = ceduo_page_add(page, CEDUO_PAGE_SECTION);
@@ -90,7 +61,7 @@ static struct text *section(struct ceduo_page *page, const char *title)
 #define SLOPE_ROWS  19
 #define ENERGY_ROWS 11
 
-static void add_slope(struct ceduo_page *page, const struct ceduo_chapter *c, enum left_out least)
+static void add_slope(struct ceduo_page *page, const struct ceduo_chapter *c)
 {
     struct ceduo_picture picture = picture_of(c, ceduo_chapter_option(c));
     section(page, _("The slope and the rocks"));
@@ -98,20 +69,20 @@ static void add_slope(struct ceduo_page *page, const struct ceduo_chapter *c, en
     add_picture(page, CEDUO_PLOT_PROFILE, WHOLE, SLOPE_ROWS, &picture,
                 _("The slope from the side with the forest on it, the ways of some rocks as thin lines, and the controls as "
                   "upright lines."));
-    if (c->outlook && c->report->result->scene->controls_count > 0 && least < ENERGY_DRAWN)
+    if (c->outlook && c->report->result->scene->controls_count > 0)
         add_picture(page, CEDUO_PLOT_ENERGY, WHOLE, ENERGY_ROWS, &picture,
                     _("Curves along the slope: mean and 95th percentile of the energy of the rocks that pass each place, "
                       "through the forest and without it."));
 }
 
 /* Of one option they stand with all its figures; of several those of the one that is drawn. */
-static void add_percentiles(struct ceduo_page *page, const struct ceduo_chapter *c, enum left_out least)
+static void add_percentiles(struct ceduo_page *page, const struct ceduo_chapter *c)
 {
     const struct ceduo_result *r = c->report->result;
     size_t option = ceduo_chapter_option(c);
     if (r->scene->options_count < 2 || r->bare.rocks == 0)
         return;
-    for (size_t k = least >= OTHER_PLACES ? r->last_control : 0; k < r->scene->controls_count; k++) {
+    for (size_t k = is_crowded(c) ? r->last_control : 0; k < r->scene->controls_count; k++) {
         struct text place = {0};
         ceduo_plot_control_name(&place, &r->scene->controls[k]);
         ceduo_text_format(ceduo_page_add(page, CEDUO_PAGE_PLACE), _("At %s, with '%s'"), ceduo_text_string(&place),
@@ -122,23 +93,23 @@ static void add_percentiles(struct ceduo_page *page, const struct ceduo_chapter 
     }
 }
 
-static void add_compared(struct ceduo_page *page, const struct ceduo_chapter *c, enum left_out least)
+static void add_compared(struct ceduo_page *page, const struct ceduo_chapter *c)
 {
     const struct ceduo_scene *scene = c->report->result->scene;
     struct ceduo_picture picture = picture_of(c, 0);
     int rows = 4 + (int)(scene->options_count < 16 ? scene->options_count : 16);
     ceduo_page_comparison(page, c->report);
-    if (least >= BARS)
-        return;
-    add_picture(page, CEDUO_PLOT_COMPARE, WIDE, rows, &picture,
-                _("Bars for each option: its average distance between contacts, how many of 1000 rocks arrive with too much "
-                  "energy, and their mean energy."));
+    if (!ceduo_report_has_hazard(c->report))
+        add_picture(
+            page, CEDUO_PLOT_COMPARE, WIDE, rows, &picture,
+            _("Bars for each option: its average distance between contacts, how many of 1000 rocks arrive with too much "
+              "energy, and their mean energy."));
 }
 
-static void add_doubt(struct ceduo_page *page, const struct ceduo_chapter *c, enum left_out least)
+static void add_doubt(struct ceduo_page *page, const struct ceduo_chapter *c)
 {
     if (c->doubt && c->doubt->answer)
-        ceduo_doubt_blocks(page, c->doubt, least >= PAIRS ? CEDUO_DOUBT_SHORT : CEDUO_DOUBT_ORDER);
+        ceduo_doubt_blocks(page, c->doubt, is_crowded(c) ? CEDUO_DOUBT_SHORT : CEDUO_DOUBT_ORDER);
 }
 
 #define YEARS_ROWS 17
@@ -177,7 +148,7 @@ static void draw_years(struct ceduo_page *page, const struct ceduo_verdict *v, c
 }
 
 /* The option that is best over the years. */
-static void add_years(struct ceduo_page *page, const struct ceduo_chapter *c, enum left_out least)
+static void add_years(struct ceduo_page *page, const struct ceduo_chapter *c)
 {
     const struct ceduo_verdict *v = c->report->verdict;
     size_t option = v && v->rotation.known ? v->rotation.best : ceduo_chapter_option(c);
@@ -189,7 +160,7 @@ static void add_years(struct ceduo_page *page, const struct ceduo_chapter *c, en
     if (scene->options_count > 1)
         ceduo_text_put(ceduo_page_add(page, CEDUO_PAGE_PLACE), scene->options[option].name);
     ceduo_page_years_words(page, c->report->result, c->years[option]);
-    if (least < YEARS_DRAWN)
+    if (!is_crowded(c))
         draw_years(page, v, &picture);
 }
 
@@ -243,44 +214,42 @@ static void add_origin(struct ceduo_page *page, const struct ceduo_chapter *c)
 #define HAZARD_ROWS 16
 
 /* How often at each place, and at the last one as curves. */
-static void add_hazard(struct ceduo_page *page, const struct ceduo_chapter *c, enum left_out least)
+static void add_hazard(struct ceduo_page *page, const struct ceduo_chapter *c)
 {
     const struct ceduo_scene *scene = c->report->result->scene;
     struct ceduo_picture picture = picture_of(c, ceduo_chapter_option(c));
     if (!ceduo_report_has_hazard(c->report))
         return;
-    size_t first = least >= OTHER_PLACES ? picture.control : 0;
+    size_t first = is_crowded(c) ? picture.control : 0;
     for (size_t k = first; k < scene->controls_count; k++)
         ceduo_page_hazard(page, c->report, k, k == first);
-    if (least >= HAZARD_DRAWN)
-        return;
     add_picture(
         page, CEDUO_PLOT_HAZARD, WHOLE, HAZARD_ROWS, &picture,
         _("Falling curves, one without forest and one for each option: how many years pass from one rock with more than "
           "an energy to the next. Rules mark 30 and 300 kJ, 30, 100 and 300 years."));
 }
 
-static void build(struct ceduo_page *page, const struct ceduo_chapter *c, enum left_out least)
+void ceduo_page_chapter(struct ceduo_page *page, const struct ceduo_chapter *c)
 {
     const struct ceduo_scene *scene = c->report->result->scene;
     bool controls = scene->controls_count > 0, several = scene->options_count > 1;
     ceduo_text_put(ceduo_page_add(page, CEDUO_PAGE_TITLE), ceduo_words_shipped(scene->title));
     if (controls)
         ceduo_page_answer(page, c);
-    add_slope(page, c, least);
-    add_percentiles(page, c, least);
+    add_slope(page, c);
+    add_percentiles(page, c);
     if (several && controls) {
-        add_compared(page, c, least);
+        add_compared(page, c);
     } else if (!several) {
         section(page, _("Through the forest, and without it"));
         ceduo_page_option_blocks(page, c->report, 0);
     }
-    if (controls && least < OTHER_LAW)
+    if (controls && !is_crowded(c))
         ceduo_page_laws(page, c->report->result);
     if (controls) {
-        add_doubt(page, c, least);
-        add_years(page, c, least);
-        add_hazard(page, c, least);
+        add_doubt(page, c);
+        add_years(page, c);
+        add_hazard(page, c);
     }
     if (several)
         ceduo_page_rules(page, c->report->result);
@@ -288,20 +257,10 @@ static void build(struct ceduo_page *page, const struct ceduo_chapter *c, enum l
     if (several)
         ceduo_page_stand_warnings(page, c->report->result, 0, scene->options_count);
     add_limits(page, c->report->result);
-    say_left_out(page, c, least);
+    if (is_crowded(c))
+        ceduo_text_put(ceduo_page_add(page, CEDUO_PAGE_NOTE),
+                       _("Not on this page, as it would be too long: the controls before the last, the other energy law and "
+                         "the years as pictures ('ceduo --batch', 'ceduo --plot'), the order of the options pair by pair "
+                         "('ceduo --sensitivity')."));
     add_origin(page, c);
-}
-
-#define SHEETS_MOST 3.95 /* of four */
-
-void ceduo_page_chapter(struct ceduo_page *page, const struct ceduo_chapter *c)
-{
-    enum left_out least = NOTHING;
-    build(page, c, least);
-    while (ceduo_page_sheets(page) > SHEETS_MOST && ++least < ALL) {
-        if (!has(c, least))
-            continue;
-        ceduo_page_free(page);
-        build(page, c, least);
-    }
 }

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Draws pictures as vectors. Lines that follow one another become one path, from which points are left out as long as
- * the path stays within TOLERANCE of them; paths are put in the order of their roles' ranks. A grid of cells is drawn
- * on along with it: it holds the text, and knows what is taken. */
+ * the path stays within TOLERANCE of them; paths are written in the order of their roles' ranks. A grid of cells is drawn
+ * on along with it: it holds the text, and knows what is taken. All characters, also those of a screen, are <text> in the
+ * reader's monospace font, set to the width of their cells. */
 #include "svg.h"
 
 #include <limits.h>
@@ -10,12 +11,17 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "svg_parts.h"
+#include "base/must.h"
+#include "base/utf8.h"
 
-#define DOT        (SVG_CELL / 2.0) /* units: cells have 2 x 4 dots */
-#define TOLERANCE  0.3              /* units */
-#define TO_AND_FRO 400              /* lines of a way that gets no farther: by then all of it is to be seen */
-#define BELOW      19               /* units from the top of the bottom axis to the foot of its labels */
+#define CELL       8            /* units across a cell */
+#define HIGH       (2 * CELL)   /* and down */
+#define BASELINE   12           /* of the text in a cell */
+#define DRAWN      0xE000       /* code of a cell whose content is a vector */
+#define DOT        (CELL / 2.0) /* cells have 2 x 4 dots */
+#define TOLERANCE  0.3          /* units */
+#define TO_AND_FRO 400          /* lines of a way that gets no farther: by then all of it is to be seen */
+#define BELOW      19           /* units from the top of the bottom axis to the foot of its labels */
 
 enum style { PLAIN, DOTTED, CLOUD, FILLED, STYLES };
 
@@ -40,27 +46,54 @@ struct ceduo_svg {
     int idle;              /* its lines since that grew by a unit */
 };
 
-/* Lightness and width tell roles apart, too. */
-static const struct ceduo_svg_theme paper = {
-    .font = "sans-serif", .looks = {[CEDUO_ROLE_BLANK] = {"#1c1c1c", 1, NULL},  [CEDUO_ROLE_TEXT] = {"#1c1c1c", 1.4, NULL},
-                                    [CEDUO_ROLE_DIM] = {"#595959", 1, NULL},    [CEDUO_ROLE_TITLE] = {"#1c1c1c", 1.4, NULL},
-                                    [CEDUO_ROLE_AXIS] = {"#4a4a4a", 1, NULL},   [CEDUO_ROLE_GROUND] = {"#4e3620", 2.4, NULL},
-                                    [CEDUO_ROLE_CLOUD] = {"#3f678c", 1, NULL},  [CEDUO_ROLE_ENVELOPE] = {"#3f678c", 1.6, NULL},
-                                    [CEDUO_ROLE_MEAN] = {"#111111", 2.2, NULL}, [CEDUO_ROLE_WAY] = {"#8a1c7c", 2, NULL},
-                                    [CEDUO_ROLE_STEM] = {"#2f6b2f", 1.6, NULL}, [CEDUO_ROLE_STOOL] = {"#5b7f2a", 1, NULL},
-                                    [CEDUO_ROLE_BELT] = {"#2f6b2f", 1.4, NULL}, [CEDUO_ROLE_CONTROL] = {"#a3161c", 1.6, NULL},
-                                    [CEDUO_ROLE_GOOD] = {"#20702c", 1.6, NULL}, [CEDUO_ROLE_BAD] = {"#a3161c", 2, NULL},
-                                    [CEDUO_ROLE_WARN] = {"#7a4a00", 1.6, NULL}, [CEDUO_ROLE_BARE] = {"#9a4a10", 2.6, NULL},
-                                    [CEDUO_ROLE_WOOD] = {"#14532d", 2, NULL},   [CEDUO_ROLE_CURSOR] = {"#1c1c1c", 1.4, NULL}}};
+struct look {
+    const char *colour;
+    double width;       /* of lines, units */
+    const char *weight; /* of text; NULL: normal */
+};
 
+/* Lightness and width tell roles apart, too. */
+static const struct look paper[CEDUO_ROLE_COUNT] = {
+    [CEDUO_ROLE_BLANK] = {"#1c1c1c", 1, NULL},  [CEDUO_ROLE_TEXT] = {"#1c1c1c", 1.4, NULL},
+    [CEDUO_ROLE_DIM] = {"#595959", 1, NULL},    [CEDUO_ROLE_TITLE] = {"#1c1c1c", 1.4, NULL},
+    [CEDUO_ROLE_AXIS] = {"#4a4a4a", 1, NULL},   [CEDUO_ROLE_GROUND] = {"#4e3620", 2.4, NULL},
+    [CEDUO_ROLE_CLOUD] = {"#3f678c", 1, NULL},  [CEDUO_ROLE_ENVELOPE] = {"#3f678c", 1.6, NULL},
+    [CEDUO_ROLE_MEAN] = {"#111111", 2.2, NULL}, [CEDUO_ROLE_WAY] = {"#8a1c7c", 2, NULL},
+    [CEDUO_ROLE_STEM] = {"#2f6b2f", 1.6, NULL}, [CEDUO_ROLE_STOOL] = {"#5b7f2a", 1, NULL},
+    [CEDUO_ROLE_BELT] = {"#2f6b2f", 1.4, NULL}, [CEDUO_ROLE_CONTROL] = {"#a3161c", 1.6, NULL},
+    [CEDUO_ROLE_GOOD] = {"#20702c", 1.6, NULL}, [CEDUO_ROLE_BAD] = {"#a3161c", 2, NULL},
+    [CEDUO_ROLE_WARN] = {"#7a4a00", 1.6, NULL}, [CEDUO_ROLE_BARE] = {"#9a4a10", 2.6, NULL},
+    [CEDUO_ROLE_WOOD] = {"#14532d", 2, NULL},   [CEDUO_ROLE_CURSOR] = {"#1c1c1c", 1.4, NULL}};
+
+/* As a dark terminal shows the roles; text has a contrast of 4.5 to what is behind it at least. */
+#define DARK "#15181c"
+static const struct look terminal[CEDUO_ROLE_COUNT] = {
+    [CEDUO_ROLE_BLANK] = {"#d6dbe1", 1, NULL},  [CEDUO_ROLE_TEXT] = {"#d6dbe1", 1, NULL},
+    [CEDUO_ROLE_DIM] = {"#8d96a0", 1, NULL},    [CEDUO_ROLE_TITLE] = {"#f2f5f8", 1, "bold"},
+    [CEDUO_ROLE_AXIS] = {"#8d96a0", 1, NULL},   [CEDUO_ROLE_GROUND] = {"#d9b45b", 1, NULL},
+    [CEDUO_ROLE_CLOUD] = {"#56b6c2", 1, NULL},  [CEDUO_ROLE_ENVELOPE] = {"#7aa7f0", 1, NULL},
+    [CEDUO_ROLE_MEAN] = {"#f2f5f8", 1, "bold"}, [CEDUO_ROLE_WAY] = {"#e08ce0", 1, "bold"},
+    [CEDUO_ROLE_STEM] = {"#7ec46b", 1, NULL},   [CEDUO_ROLE_STOOL] = {"#7ec46b", 1, NULL},
+    [CEDUO_ROLE_BELT] = {"#7ec46b", 1, NULL},   [CEDUO_ROLE_CONTROL] = {"#f2777a", 1, NULL},
+    [CEDUO_ROLE_GOOD] = {"#8fd97a", 1, "bold"}, [CEDUO_ROLE_BAD] = {"#ff8a85", 1, "bold"},
+    [CEDUO_ROLE_WARN] = {"#d9b45b", 1, NULL},   [CEDUO_ROLE_BARE] = {"#56b6c2", 1, NULL},
+    [CEDUO_ROLE_WOOD] = {"#7ec46b", 1, NULL},   [CEDUO_ROLE_CURSOR] = {"#d6dbe1", 1, NULL}};
 /* ---- paths ---- */
 
-static void put_point(struct text *path, char command, struct ceduo_position p)
+static void append_number(struct text *text, double value)
+{
+    long tenths = lround(value * 10);
+    ceduo_text_format(text, "%s%ld", tenths < 0 ? "-" : "", labs(tenths) / 10);
+    if (labs(tenths) % 10 > 0)
+        ceduo_text_format(text, ".%ld", labs(tenths) % 10);
+}
+
+static void append_point(struct text *path, char command, struct ceduo_position p)
 {
     ceduo_text_char(path, command);
-    ceduo_svg_number(path, p.x);
+    append_number(path, p.x);
     ceduo_text_char(path, ' ');
-    ceduo_svg_number(path, p.y);
+    append_number(path, p.y);
 }
 
 static struct text *path_of(struct ceduo_svg *svg)
@@ -74,7 +107,7 @@ static void end_stroke(struct ceduo_svg *svg)
     if (!s->open)
         return;
     if (s->straight)
-        put_point(path_of(svg), 'L', s->last);
+        append_point(path_of(svg), 'L', s->last);
     else
         ceduo_text_put(path_of(svg), "h0"); /* a dot */
     s->open = false;
@@ -84,7 +117,7 @@ static void begin_stroke(struct ceduo_svg *svg, enum ceduo_role role, enum style
 {
     end_stroke(svg);
     svg->stroke = (struct stroke){.open = true, .role = role, .style = style, .start = from, .last = from};
-    put_point(path_of(svg), 'M', from);
+    append_point(path_of(svg), 'M', from);
 }
 
 /* An angle seen from another, -pi..pi. */
@@ -103,7 +136,7 @@ static void go_on(struct ceduo_svg *svg, struct ceduo_position to)
     double angle = atan2(dy, dx), half = asin(fmin(TOLERANCE / length, 1));
     bool ahead = hypot(dx, dy) >= hypot(s->last.x - s->start.x, s->last.y - s->start.y);
     if (s->straight && (!ahead || turn(s->lo, angle) < 0 || turn(angle, s->hi) < 0)) {
-        put_point(path_of(svg), 'L', s->last);
+        append_point(path_of(svg), 'L', s->last);
         s->start = s->last;
         s->straight = false;
         dx = to.x - s->start.x;
@@ -169,10 +202,10 @@ static void draw_disc(void *to, const struct ceduo_raster *raster, enum ceduo_ro
     struct ceduo_position c = unit_of(raster, centre), r = {fmax(radii.x * DOT, 1), fmax(radii.y * DOT, 1)};
     for (int half = 1; half >= -1; half -= 2) {
         if (half > 0)
-            put_point(path, 'M', (struct ceduo_position){c.x - r.x, c.y});
-        put_point(path, 'A', r);
+            append_point(path, 'M', (struct ceduo_position){c.x - r.x, c.y});
+        append_point(path, 'A', r);
         ceduo_text_put(path, " 0 0 0");
-        put_point(path, ' ', (struct ceduo_position){c.x + half * r.x, c.y});
+        append_point(path, ' ', (struct ceduo_position){c.x + half * r.x, c.y});
     }
     for (double y = c.y - r.y; y <= c.y + r.y; y += DOT)
         for (double x = c.x - r.x; x <= c.x + r.x; x += DOT)
@@ -189,32 +222,32 @@ static int label_width(const void *to, const char *text)
 static void mark_drawn(struct ceduo_svg *svg, int column, int row, int width)
 {
     for (int i = 0; i < width; i++)
-        ceduo_cells_set_code(svg->cells, column + i, row, CEDUO_ROLE_AXIS, SVG_DRAWN);
+        ceduo_cells_set_code(svg->cells, column + i, row, CEDUO_ROLE_AXIS, DRAWN);
 }
 
 static void draw_bar(void *to, int column, int row, int width, double fraction, enum ceduo_role role)
 {
     struct ceduo_svg *svg = to;
     struct text *path = &svg->paths[role][FILLED];
-    double length = fmax(fraction * width * SVG_CELL, 1);
-    put_point(path, 'M', (struct ceduo_position){column * SVG_CELL, row * 2 * SVG_CELL + 3});
+    double length = fmax(fraction * width * CELL, 1);
+    append_point(path, 'M', (struct ceduo_position){column * CELL, row * HIGH + 3});
     ceduo_text_char(path, 'h');
-    ceduo_svg_number(path, length);
+    append_number(path, length);
     ceduo_text_put(path, "v10h");
-    ceduo_svg_number(path, -length);
+    append_number(path, -length);
     ceduo_text_char(path, 'z');
-    mark_drawn(svg, column, row, (int)ceil(length / SVG_CELL));
+    mark_drawn(svg, column, row, (int)ceil(length / CELL));
 }
 
 /* The label of a tick; `anchor`: as SVG names it. */
-static void put_number(struct ceduo_svg *svg, double x, double y, const char *anchor, const char *label)
+static void append_label(struct ceduo_svg *svg, double x, double y, const char *anchor, const char *label)
 {
     struct ceduo_html html = {.text = &svg->numbers};
     struct text across = {0}, down = {0};
-    ceduo_svg_number(&across, x);
-    ceduo_svg_number(&down, y);
+    append_number(&across, x);
+    append_number(&down, y);
     ceduo_html_leaf(&html, "text", label, "x", ceduo_text_string(&across), "y", ceduo_text_string(&down), "fill",
-                    paper.looks[CEDUO_ROLE_AXIS].colour, "text-anchor", anchor, NULL);
+                    paper[CEDUO_ROLE_AXIS].colour, "text-anchor", anchor, NULL);
     ceduo_text_free(&across);
     ceduo_text_free(&down);
 }
@@ -222,14 +255,14 @@ static void put_number(struct ceduo_svg *svg, double x, double y, const char *an
 static void draw_axis_left(void *to, const struct ceduo_frame *frame, int count, const struct ceduo_tick *ticks)
 {
     struct ceduo_svg *svg = to;
-    double x = frame->left * SVG_CELL - 2.5;
-    ceduo_text_format(&svg->axes, "M%.1f %dV%d", x, frame->top * 2 * SVG_CELL, (frame->top + frame->height) * 2 * SVG_CELL);
+    double x = frame->left * CELL - 2.5;
+    ceduo_text_format(&svg->axes, "M%.1f %dV%d", x, frame->top * HIGH, (frame->top + frame->height) * HIGH);
     for (int i = 0; i < count; i++) {
-        double y = floor(ticks[i].at * 2 * SVG_CELL) + 0.5;
+        double y = floor(ticks[i].at * HIGH) + 0.5;
         ceduo_text_format(&svg->axes, "M%.1f %.1fh-4", x, y);
         if (ticks[i].start < 0)
             continue;
-        put_number(svg, x - 6, y + 4, "end", ticks[i].label);
+        append_label(svg, x - 6, y + 4, "end", ticks[i].label);
         mark_drawn(svg, ticks[i].start, ticks[i].cell, (int)strlen(ticks[i].label));
     }
     for (int row = frame->top; row < frame->top + frame->height; row++)
@@ -240,15 +273,14 @@ static void draw_axis_bottom(void *to, const struct ceduo_frame *frame, int coun
 {
     struct ceduo_svg *svg = to;
     int row = frame->top + frame->height;
-    double y = row * 2 * SVG_CELL + 2.5;
-    ceduo_text_format(&svg->axes, "M%.1f %.1fH%d", frame->left * SVG_CELL - 2.5, y, (frame->left + frame->width) * SVG_CELL);
+    double y = row * HIGH + 2.5;
+    ceduo_text_format(&svg->axes, "M%.1f %.1fH%d", frame->left * CELL - 2.5, y, (frame->left + frame->width) * CELL);
     for (int i = 0; i < count; i++) {
         int length = (int)strlen(ticks[i].label);
-        double x = floor(ticks[i].at * SVG_CELL) + 0.5;
+        double x = floor(ticks[i].at * CELL) + 0.5;
         bool moved = ticks[i].start != ticks[i].cell - (length - 1) / 2;
         ceduo_text_format(&svg->axes, "M%.1f %.1fv4", x, y);
-        put_number(svg, moved ? (ticks[i].start + length / 2.0) * SVG_CELL : x, row * 2 * SVG_CELL + BELOW, "middle",
-                   ticks[i].label);
+        append_label(svg, moved ? (ticks[i].start + length / 2.0) * CELL : x, row * HIGH + BELOW, "middle", ticks[i].label);
         mark_drawn(svg, ticks[i].start, row + 1, length);
     }
     mark_drawn(svg, frame->left, row, frame->width);
@@ -257,7 +289,7 @@ static void draw_axis_bottom(void *to, const struct ceduo_frame *frame, int coun
 static void draw_axis_unit(void *to, int column, int row, const char *unit)
 {
     struct ceduo_svg *svg = to;
-    put_number(svg, column * SVG_CELL, (row - 1) * 2 * SVG_CELL + BELOW, "start", unit);
+    append_label(svg, column * CELL, (row - 1) * HIGH + BELOW, "start", unit);
     mark_drawn(svg, column, row, label_width(NULL, unit));
 }
 
@@ -275,7 +307,7 @@ static void show_cloud(void *to, double quantile)
     ceduo_cells_surface.cloud_show(svg->cells, quantile);
 }
 
-static int put_label(void *to, int column, int row, enum ceduo_role role, const char *text)
+static int draw_label(void *to, int column, int row, enum ceduo_role role, const char *text)
 {
     struct ceduo_svg *svg = to;
     return ceduo_cells_label(svg->cells, column, row, role, text);
@@ -288,7 +320,7 @@ static bool is_blank(const void *to, int column, int row)
 }
 
 static const struct ceduo_surface surface = {
-    .label = put_label,
+    .label = draw_label,
     .label_width = label_width,
     .is_blank = is_blank,
     .line = draw_line,
@@ -305,14 +337,8 @@ static const struct ceduo_surface surface = {
 
 struct ceduo_svg *ceduo_svg_create(int width, int height)
 {
-    struct ceduo_svg *svg = calloc(1, sizeof *svg);
-    if (!svg)
-        return NULL;
+    struct ceduo_svg *svg = ceduo_must(calloc(1, sizeof *svg));
     svg->cells = ceduo_cells_create(width, height, CEDUO_CHARSET_BRAILLE);
-    if (!svg->cells) {
-        free(svg);
-        return NULL;
-    }
     svg->canvas = (struct ceduo_canvas){&surface, svg, svg->cells->canvas.dots_x, svg->cells->canvas.dots_y};
     return svg;
 }
@@ -335,19 +361,28 @@ struct ceduo_canvas *ceduo_svg_canvas(struct ceduo_svg *svg)
     return &svg->canvas;
 }
 
-static void put_role(struct ceduo_html *html, struct ceduo_svg *svg, unsigned role)
+static void write_path(struct ceduo_html *html, const struct look *look, const struct text *path, const char *extra,
+                       const char *value)
 {
-    const struct ceduo_svg_look *look = &paper.looks[role];
-    struct text *paths = svg->paths[role];
-    html->text->failed |= paths[FILLED].failed;
-    if (paths[FILLED].length > 0)
-        ceduo_html_empty(html, "path", "fill", look->colour, "d", paths[FILLED].bytes, NULL);
-    ceduo_svg_stroke(html, look, &paths[CLOUD], "stroke-opacity", ".3");
-    ceduo_svg_stroke(html, look, &paths[DOTTED], "stroke-dasharray", "4 4");
-    ceduo_svg_stroke(html, look, &paths[PLAIN], NULL, NULL);
+    char width[16];
+    snprintf(width, sizeof width, "%g", look->width);
+    if (path->length > 0)
+        ceduo_html_empty(html, "path", "fill", "none", "stroke", look->colour, "stroke-width", width, "d", path->bytes, extra,
+                         value, NULL);
 }
 
-static void put_marks(struct ceduo_html *html, struct ceduo_svg *svg)
+static void write_role(struct ceduo_html *html, struct ceduo_svg *svg, unsigned role)
+{
+    const struct look *look = &paper[role];
+    struct text *paths = svg->paths[role];
+    if (paths[FILLED].length > 0)
+        ceduo_html_empty(html, "path", "fill", look->colour, "d", paths[FILLED].bytes, NULL);
+    write_path(html, look, &paths[CLOUD], "stroke-opacity", ".3");
+    write_path(html, look, &paths[DOTTED], "stroke-dasharray", "4 4");
+    write_path(html, look, &paths[PLAIN], NULL, NULL);
+}
+
+static void write_marks(struct ceduo_html *html, struct ceduo_svg *svg)
 {
     static const int ranks[CEDUO_ROLE_COUNT] = {
 #define X(NAME, letter, rank) rank,
@@ -358,15 +393,15 @@ static void put_marks(struct ceduo_html *html, struct ceduo_svg *svg)
     for (int rank = 0; rank <= CEDUO_ROLE_COUNT; rank++)
         for (unsigned role = 0; role < CEDUO_ROLE_COUNT; role++)
             if (ranks[role] == rank)
-                put_role(html, svg, role);
+                write_role(html, svg, role);
     ceduo_html_close(html);
-    ceduo_svg_stroke(html, &paper.looks[CEDUO_ROLE_AXIS], &svg->axes, NULL, NULL);
+    write_path(html, &paper[CEDUO_ROLE_AXIS], &svg->axes, NULL, NULL);
 }
 
 /* The element with its title and description; a file of its own brings its size and its paper. */
 static void open_picture(struct ceduo_html *html, const struct ceduo_svg *svg, const struct ceduo_svg_words *words)
 {
-    int width = svg->cells->width * SVG_CELL, height = svg->cells->height * 2 * SVG_CELL;
+    int width = svg->cells->width * CELL, height = svg->cells->height * HIGH;
     char box[64], across[16], down[16], id[64];
     const char *file = words->id ? NULL : "http://www.w3.org/2000/svg";
     snprintf(box, sizeof box, "0 0 %d %d", width, height);
@@ -382,20 +417,91 @@ static void open_picture(struct ceduo_html *html, const struct ceduo_svg *svg, c
         ceduo_html_empty(html, "rect", "width", across, "height", down, "fill", "#fff", NULL);
 }
 
-double ceduo_svg_aspect(const struct ceduo_svg *svg)
+/* ---- characters ---- */
+
+/* What a cell shows as text: of a picture no dots, which are vectors there. */
+static uint32_t character(const struct ceduo_cells *cells, bool screen, int column, int row)
 {
-    return 2.0 * svg->cells->height / svg->cells->width;
+    uint32_t code = ceduo_cells_at(cells, column, row)->code;
+    return code == DRAWN || (code == 0 && !screen) ? ' ' : ceduo_cells_glyph(cells, column, row);
 }
 
-void ceduo_svg_put(struct ceduo_html *html, struct ceduo_svg *svg, const struct ceduo_svg_words *words)
+/* Writes the text of a row: one element for each run of a role, which two blanks end. The cursor is written reversed. */
+static void write_row(struct ceduo_html *html, const struct ceduo_cells *cells, bool screen, int row)
+{
+    const struct look *looks = screen ? terminal : paper;
+    for (int from = 0, end; from < cells->width; from = end) {
+        enum ceduo_role role = ceduo_cells_role(cells, from, row);
+        bool reversed = role == CEDUO_ROLE_CURSOR && ceduo_cells_at(cells, from, row)->code != 0;
+        struct text word = {0};
+        char x[16], y[16], width[16];
+        size_t length = 0; /* up to the last that is no blank */
+        int used = 0;
+        for (end = from; end < cells->width && ceduo_cells_role(cells, end, row) == role; end++) {
+            char bytes[4];
+            uint32_t code = character(cells, screen, end, row);
+            if (code == ' ' && !reversed && (used == 0 || end > from + used))
+                break;
+            ceduo_text_add(&word, bytes, ceduo_utf8_encode(code, bytes));
+            if (code != ' ') {
+                used = end + 1 - from;
+                length = word.length;
+            }
+        }
+        end += end == from;
+        snprintf(x, sizeof x, "%d", from * CELL);
+        if (reversed) {
+            snprintf(y, sizeof y, "%d", row * HIGH);
+            snprintf(width, sizeof width, "%d", (end - from) * CELL);
+            ceduo_html_empty(html, "rect", "x", x, "y", y, "width", width, "height", "16", "fill", looks[role].colour, NULL);
+        }
+        snprintf(y, sizeof y, "%d", row * HIGH + BASELINE);
+        snprintf(width, sizeof width, "%d", used * CELL);
+        if (used > 0) {
+            word.bytes[length] = '\0';
+            ceduo_html_leaf(html, "text", word.bytes, "x", x, "y", y, "textLength", width, "fill",
+                            !reversed ? looks[role].colour
+                            : screen  ? DARK
+                                      : "#fff",
+                            "font-weight", looks[role].weight, NULL);
+        }
+        ceduo_text_free(&word);
+    }
+}
+
+static void write_cells(struct ceduo_html *html, const struct ceduo_cells *cells, bool screen)
+{
+    for (int row = 0; row < cells->height; row++)
+        write_row(html, cells, screen, row);
+}
+
+#define FONT "font-family", "monospace", "font-size", "13.3", "xml:space", "preserve"
+
+void ceduo_svg_write(struct ceduo_html *html, struct ceduo_svg *svg, const struct ceduo_svg_words *words)
 {
     end_stroke(svg);
     open_picture(html, svg, words);
-    put_marks(html, svg);
-    ceduo_html_open(html, "g", "font-family", paper.font, "font-size", "12.5", NULL);
+    write_marks(html, svg);
+    ceduo_html_open(html, "g", FONT, NULL);
     ceduo_text_add(html->text, ceduo_text_string(&svg->numbers), svg->numbers.length);
-    html->text->failed |= svg->numbers.failed;
-    ceduo_svg_cells(html, svg->cells, &paper);
+    write_cells(html, svg->cells, false);
     ceduo_html_close(html);
     ceduo_html_close(html);
+}
+
+void ceduo_svg_screen(struct text *text, const struct ceduo_cells *cells, const char *title)
+{
+    struct ceduo_html html = {.text = text};
+    char box[64], width[16], height[16];
+    snprintf(width, sizeof width, "%d", (cells->width + 2) * CELL);
+    snprintf(height, sizeof height, "%d", cells->height * HIGH + 2 * CELL);
+    snprintf(box, sizeof box, "%d %d %s %s", -CELL, -CELL, width, height);
+    ceduo_html_open(&html, "svg", "xmlns", "http://www.w3.org/2000/svg", "width", width, "height", height, "viewBox", box,
+                    "role", "img", NULL);
+    ceduo_html_leaf(&html, "title", title, NULL);
+    ceduo_html_empty(&html, "rect", "x", "-8", "y", "-8", "width", width, "height", height, "rx", "6", "fill", DARK, NULL);
+    ceduo_html_open(&html, "g", FONT, NULL);
+    write_cells(&html, cells, true);
+    ceduo_html_close(&html);
+    ceduo_html_close(&html);
 }

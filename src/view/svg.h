@@ -7,8 +7,8 @@
 
 /*
  * The second surface of the canvas: vectors for a page. A picture is laid out in the same cells as in a terminal;
- * lines, axes, bars and discs are drawn where they are and not at the nearest dot, text in the reader's own fonts. A
- * grid of cells goes along that holds the text and knows which cells are taken.
+ * lines, axes, bars and discs are drawn where they are and not at the nearest dot; text is in the reader's monospace
+ * font, each word as wide as its cells. A grid of cells goes along that holds the text and knows which cells are taken.
  *
  * Colours have a contrast of 4.5 to white at least, and differ in lightness and stroke, too, so that a grey print can
  * be read.
@@ -16,15 +16,12 @@
 
 struct ceduo_svg;
 
-/* Its size in cells, as that of ceduo_cells_create(). NULL if there is no memory or a size is out of range. */
+/* Its size in cells, as that of ceduo_cells_create(). */
 struct ceduo_svg *ceduo_svg_create(int width, int height);
 void ceduo_svg_free(struct ceduo_svg *svg); /* NULL is allowed */
 
 /* To draw on. */
 struct ceduo_canvas *ceduo_svg_canvas(struct ceduo_svg *svg);
-
-/* Its height over its width. */
-double ceduo_svg_aspect(const struct ceduo_svg *svg);
 
 /* What is told of a picture beside what is drawn. `id` is unlike that of every other picture of the page; NULL: the
  * picture is a file of its own. */
@@ -33,9 +30,9 @@ struct ceduo_svg_words {
 };
 
 /* Adds the picture as an element of a page. May be called once. */
-void ceduo_svg_put(struct ceduo_html *html, struct ceduo_svg *svg, const struct ceduo_svg_words *words);
+void ceduo_svg_write(struct ceduo_html *html, struct ceduo_svg *svg, const struct ceduo_svg_words *words);
 
-/* A screen of the terminal program as a file of its own: its characters and dots, in the colours of a dark terminal. */
+/* A screen of the terminal program as a file of its own, in the colours of a dark terminal. */
 void ceduo_svg_screen(struct text *text, const struct ceduo_cells *cells, const char *title);
 
 #endif
