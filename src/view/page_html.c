@@ -14,7 +14,7 @@
 static const char style[] =
     "@page{size:A4;margin:12mm 15mm}\n"
     "*{box-sizing:border-box}\n"
-    "html{background:#fff;color:#1c1c1c;font:9pt/1.3 sans-serif;-webkit-print-color-adjust:exact;"
+    "html{background:#fff;color:#1c1c1c;font:9pt/1.3 'Liberation Sans',Arial,Helvetica,sans-serif;-webkit-print-color-adjust:exact;"
     "print-color-adjust:exact}\n"
     "body{max-width:180mm;margin:0 auto;padding:0 4mm}\n"
     "h1{font-size:17pt;line-height:1.2;margin:2mm 0 2mm;overflow-wrap:anywhere}\n"

@@ -17,7 +17,7 @@
 #define WHOLE 92  /* cells of a picture across the page */
 #define HALF  46  /* of one that has another beside it */
 #define WIDE  112 /* of one whose rows are few in many columns */
-#define CROWD 4   /* options; more of them with blocks are too many for one page */
+#define CROWD 4   /* options; more are a page full */
 
 /* Adds one, so many cells large. */
 static void add_picture(struct ceduo_page *page, enum ceduo_plot plot, int columns, int rows,
@@ -97,9 +97,9 @@ static void add_compared(struct ceduo_page *page, const struct ceduo_chapter *c)
 {
     const struct ceduo_scene *scene = c->report->result->scene;
     struct ceduo_picture picture = picture_of(c, 0);
-    int rows = 4 + (int)(scene->options_count < 16 ? scene->options_count : 16);
+    int rows = 4 + (int)scene->options_count;
     ceduo_page_comparison(page, c->report);
-    if (!ceduo_report_has_hazard(c->report))
+    if (!ceduo_report_has_hazard(c->report) && scene->options_count <= CROWD) /* the table says it all */
         add_picture(
             page, CEDUO_PLOT_COMPARE, WIDE, rows, &picture,
             _("Bars for each option: its average distance between contacts, how many of 1000 rocks arrive with too much "
