@@ -30,6 +30,9 @@ void ceduo_text_vformat(struct text *text, const char *format, va_list args) __a
 void ceduo_text_then(struct text *text, const char *between, const char *format, ...) __attribute__((format(printf, 3, 4)));
 void ceduo_text_free(struct text *text);
 
+/* A text that is freed where its block ends. */
+#define LOCAL_TEXT(name) __attribute__((cleanup(ceduo_text_free))) struct text name = {0}
+
 /* The words with a separator between them. */
 void ceduo_text_words(struct text *text, const char *const *words, size_t n, const char *separator);
 

@@ -181,7 +181,7 @@ static bool put_doubt(struct pen *pen, bool energy)
         return false;
     const struct ceduo_doubt_figure *f = ceduo_doubt_figure_of(report.answer, app->option, report.answer->main, false);
     if (energy)
-        snprintf(range, sizeof range, "%.3g-%.3g", f->p5 * KILO, f->p95 * KILO);
+        snprintf(range, sizeof range, "%.3g-%.3g", f->p5 * J_TO_KJ, f->p95 * J_TO_KJ);
     else
         snprintf(range, sizeof range, "%.0f-%.0f", f->p5 * 1000, f->p95 * 1000);
     snprintf(name, sizeof name, "  %s", P_("view", "doubt"));
@@ -214,7 +214,7 @@ static void put_arrivals(struct pen *pen, const struct ceduo_control *c, const s
     if (!isnan(c->accepted)) {
         compared_share(a, sizeof a, wood, pen->area.width >= 34);
         share(b, sizeof b, bare->exceed_probability, 0, 0, false);
-        snprintf(limit, sizeof limit, ">%.4g kJ", c->accepted * KILO);
+        snprintf(limit, sizeof limit, ">%.4g kJ", c->accepted * J_TO_KJ);
         put_pair_in(pen, limit, a, b);
         put_other(pen, other);
         told = put_doubt(pen, false);
@@ -222,12 +222,12 @@ static void put_arrivals(struct pen *pen, const struct ceduo_control *c, const s
     if (blocks)
         put_every(pen, wood, bare);
     put_released(pen, wood, bare, isnan(c->accepted) ? other : NULL);
-    put_figures(pen, _("kJ a rock"), wood->energy_per_released * KILO, bare->energy_per_released * KILO);
+    put_figures(pen, _("kJ a rock"), wood->energy_per_released * J_TO_KJ, bare->energy_per_released * J_TO_KJ);
     told |= put_doubt(pen, true);
     if (!blocks) /* of them the large arrive: a mean of those would read as if the wood did harm */
-        put_figures(pen, _("arriving kJ"), wood->energy.mean * KILO, bare->energy.mean * KILO);
+        put_figures(pen, _("arriving kJ"), wood->energy.mean * J_TO_KJ, bare->energy.mean * J_TO_KJ);
     if (!blocks && pen->area.height >= (told ? HEIGHT_FOR_ALL : HEIGHT_FOR_MOST))
-        put_figures(pen, "  95 % kJ", wood->energy.p95 * KILO, bare->energy.p95 * KILO);
+        put_figures(pen, "  95 % kJ", wood->energy.p95 * J_TO_KJ, bare->energy.p95 * J_TO_KJ);
     if (pen->area.height >= HEIGHT_FOR_ALL)
         put_figures(pen, _(" 95% m under"), wood->height.p95, bare->height.p95);
 }
@@ -319,16 +319,16 @@ static void put_index(struct pen *pen, const struct ceduo_index *index)
     if (isnan(index->dissipated) && isnan(index->residual))
         line(pen, CEDUO_ROLE_DIM, "%s", _("index: contacts take shares"));
     else if (isnan(index->dissipated))
-        line(pen, CEDUO_ROLE_DIM, _("index: shares, left %.3g kJ"), index->residual * KILO);
+        line(pen, CEDUO_ROLE_DIM, _("index: shares, left %.3g kJ"), index->residual * J_TO_KJ);
     else if (isnan(index->residual))
-        line(pen, CEDUO_ROLE_DIM, _("index: takes %.3g kJ"), index->dissipated * KILO);
+        line(pen, CEDUO_ROLE_DIM, _("index: takes %.3g kJ"), index->dissipated * J_TO_KJ);
     else if (index->exhausted)
-        line(pen, CEDUO_ROLE_DIM, _("index: %.3g kJ, used up"), index->dissipated * KILO);
+        line(pen, CEDUO_ROLE_DIM, _("index: %.3g kJ, used up"), index->dissipated * J_TO_KJ);
     else
-        line(pen, CEDUO_ROLE_DIM, _("index: %s%.3g, left %.3g kJ"), index->dissipated > 0 ? "-" : "", index->dissipated * KILO,
-             index->residual * KILO);
+        line(pen, CEDUO_ROLE_DIM, _("index: %s%.3g, left %.3g kJ"), index->dissipated > 0 ? "-" : "", index->dissipated * J_TO_KJ,
+             index->residual * J_TO_KJ);
     if (!isnan(index->measured) && pen->area.height >= HEIGHT_FOR_ALL)
-        line(pen, CEDUO_ROLE_DIM, _("seen: %.3g kJ (one rock)"), index->measured * KILO);
+        line(pen, CEDUO_ROLE_DIM, _("seen: %.3g kJ (one rock)"), index->measured * J_TO_KJ);
 }
 
 static void add_warning(void *context, const char *sentence)

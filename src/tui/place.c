@@ -125,7 +125,7 @@ void ceduo_place_say(struct app *app)
     if (e) {
         struct text height = {0}, energy = {0};
         ceduo_words_number(&height, e->height.p95, 2);
-        ceduo_words_number(&energy, e->mean_energy * KILO, 3);
+        ceduo_words_number(&energy, e->mean_energy * J_TO_KJ, 3);
         ceduo_text_then(&text, "; ", _("of 100 rocks that pass the underside of 95 is below %s m; %s kJ on average"),
                         ceduo_text_string(&height), ceduo_text_string(&energy));
         ceduo_text_free(&height);

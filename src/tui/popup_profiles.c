@@ -223,7 +223,7 @@ static void put_stand(struct app *app, struct text *text, const char *value)
                               r.free_run_probability * 100, ceduo_rule_words.names[r.rule]);
         else
             ceduo_text_format(text, _("with this rock: ADC %.3g m, free run %.1f %%, %.3g kJ/100 m (%s)\n"), r.adc_m,
-                              r.free_run_probability * 100, r.dissipated * KILO, ceduo_rule_words.names[r.rule]);
+                              r.free_run_probability * 100, r.dissipated * J_TO_KJ, ceduo_rule_words.names[r.rule]);
     }
     ceduo_text_free(&yaml);
     ceduo_problems_free(&problems);

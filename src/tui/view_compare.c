@@ -140,7 +140,7 @@ static void put_figure(struct text *text, const struct app *app, size_t i, enum 
         if (v->wooded)
             put_share(text, c->mean);
         else
-            ceduo_words_number(text, index->per_100m * KILO, 3);
+            ceduo_words_number(text, index->per_100m * J_TO_KJ, 3);
         break;
     case FAILS:
         if (c->years == 0)
@@ -238,7 +238,7 @@ static void put_place(struct app *app, struct ceduo_area area, int width)
         return;
     const struct ceduo_control *control = &r->scene->controls[r->last_control];
     if (r->wooded && !isnan(control->accepted))
-        ceduo_text_format(&text, _("Of 1000 rocks, more than %g kJ at %.6g m"), control->accepted * KILO, control->x_given);
+        ceduo_text_format(&text, _("Of 1000 rocks, more than %g kJ at %.6g m"), control->accepted * J_TO_KJ, control->x_given);
     else if (r->wooded)
         ceduo_text_format(&text, _("Of 1000 rocks, those that arrive at %.6g m"), control->x_given);
     else

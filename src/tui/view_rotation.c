@@ -98,7 +98,7 @@ static void say_year(struct app *app, const struct ceduo_years *years, struct te
         ceduo_text_format(text,
                           isnan(a->exceed_probability) ? _("of 1000 %.0f \xc2\xb1%.0f arrive")
                                                        : _("of 1000 %.0f \xc2\xb1%.0f with more than %g kJ"),
-                          share.mean * 1000, ceil(1000 * share.half), control->accepted * KILO);
+                          share.mean * 1000, ceil(1000 * share.half), control->accepted * J_TO_KJ);
         ceduo_text_put(text, "; ");
     }
     double adc = y->controls[c].worst_adc, thick = y->controls[c].thick.worst_adc;

@@ -147,7 +147,7 @@ static int draw_figures(struct app *app, struct ceduo_area area)
                           ceduo_rule_words.names[r.rule], r.adc.gsteiger_stools, r.adc.gsteiger_stems, r.adc.interception,
                           r.adc.crofton);
     if (!r.bare && !isnan(r.per_100m))
-        ceduo_text_then(&text, "; ", _("%.3g kJ per 100 m"), r.per_100m * KILO);
+        ceduo_text_then(&text, "; ", _("%.3g kJ per 100 m"), r.per_100m * J_TO_KJ);
     ceduo_app_put(app, area, CEDUO_ROLE_DIM, &text);
     return lines;
 }

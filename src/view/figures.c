@@ -1,27 +1,285 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Writes tables of figures as JSON and CSV. What they say in sentences is English in every language. */
 #include "figures.h"
 
+#include <inttypes.h>
 #include <math.h>
 
-double ceduo_figure_scale(const struct ceduo_figure *f, double scale)
+#include "base/json.h"
+#include "base/language.h"
+
+static double scale_of(const struct ceduo_figure *f, double scale)
 {
     return f->scale > 0 ? scale * f->scale : scale;
 }
 
-struct ceduo_value ceduo_figure_value(const struct ceduo_figure *f, const void *object, double scale)
+/* What a row is read from; NULL: there is none. */
+static const void *source_of(const struct ceduo_figure *f, const void *object)
 {
-    const void *from = object && f->from ? f->from(object) : object;
+    return object && f->from ? f->from(object) : object;
+}
+
+static const void *object_of(const struct ceduo_figure *f, const void *object)
+{
+    const void *from = source_of(f, object);
+    return from ? (const char *)from + f->offset : NULL;
+}
+
+static struct ceduo_value value_of(const struct ceduo_figure *f, const void *object, double scale)
+{
+    const void *from = source_of(f, object);
     struct ceduo_value v = from ? f->value(f, from) : (struct ceduo_value){.kind = CEDUO_NULL};
     if (v.kind == CEDUO_VALUE_NUMBER)
-        v.number *= ceduo_figure_scale(f, scale);
-    bool exists = v.kind != CEDUO_VALUE_NUMBER || isfinite(v.number);
-    if (!exists || (v.kind == CEDUO_VALUE_TEXT && !v.text))
+        v.number *= scale_of(f, scale);
+    if ((v.kind == CEDUO_VALUE_NUMBER && !isfinite(v.number)) || (v.kind == CEDUO_VALUE_TEXT && !v.text))
         v.kind = CEDUO_NULL;
     return v;
 }
 
-const void *ceduo_figure_object(const struct ceduo_figure *f, const void *object)
+static void say(const struct ceduo_figure *f, const struct ceduo_place *place, ceduo_words_say *to, void *context)
 {
-    const void *from = object && f->from ? f->from(object) : object;
-    return from ? (const char *)from + f->offset : NULL;
+    ceduo_language_of_data(true);
+    f->say(place, to, context);
+    ceduo_language_of_data(false);
+}
+
+/* ---- JSON ---- */
+
+/* Where sentences go: items of a list, or the one of a key. */
+struct sentences {
+    struct json *json;
+    const char *key;
+};
+
+static void write_sentence(void *context, const char *sentence)
+{
+    const struct sentences *to = context;
+    ceduo_json_string(to->json, to->key, sentence);
+}
+
+static void write_value(struct json *j, const struct ceduo_figure *f, struct ceduo_value v)
+{
+    if (v.kind == CEDUO_VALUE_NUMBER)
+        ceduo_json_number(j, f->key, v.number);
+    else if (v.kind == CEDUO_VALUE_COUNT)
+        ceduo_json_count(j, f->key, v.count);
+    else if (v.kind == CEDUO_VALUE_FLAG)
+        ceduo_json_flag(j, f->key, v.flag);
+    else if (v.kind == CEDUO_VALUE_TEXT || !f->optional)
+        ceduo_json_string(j, f->key, v.kind == CEDUO_VALUE_TEXT ? v.text : NULL);
+}
+
+static void write_figures(struct json *j, const struct ceduo_figure *f, const void *object, double scale);
+
+static void write_item(struct json *j, const struct ceduo_figure *f, const void *item, double scale)
+{
+    if (!f->plain)
+        ceduo_json_open(j, NULL, '{');
+    write_figures(j, f->of, item, scale);
+    if (!f->plain)
+        ceduo_json_close(j, '}');
+}
+
+static void write_list(struct json *j, const struct ceduo_figure *f, const void *object, double scale)
+{
+    struct ceduo_place place;
+    const void *item;
+    if (f->enter && f->optional && (place = *(const struct ceduo_place *)object, !f->enter(&place, 0)))
+        return;
+    ceduo_json_open(j, f->key, '[');
+    for (size_t i = 0; f->item && (item = f->item(object, i)); i++)
+        write_item(j, f, item, scale_of(f, scale));
+    for (size_t i = 0; f->enter && (place = *(const struct ceduo_place *)object, f->enter(&place, i)); i++)
+        write_item(j, f, &place, 1);
+    ceduo_json_close(j, ']');
+}
+
+static void write_object(struct json *j, const struct ceduo_figure *f, const void *object, double scale)
+{
+    if (!object) {
+        write_value(j, f, (struct ceduo_value){.kind = CEDUO_NULL});
+        return;
+    }
+    if (f->key)
+        ceduo_json_open(j, f->key, '{');
+    write_figures(j, f->of, object, scale_of(f, scale));
+    if (f->key)
+        ceduo_json_close(j, '}');
+}
+
+static void write_sentences(struct json *j, const struct ceduo_figure *f, const struct ceduo_place *place)
+{
+    struct sentences to = {j, f->one ? f->key : NULL};
+    if (!place)
+        return;
+    if (!f->one)
+        ceduo_json_open(j, f->key, '[');
+    say(f, place, write_sentence, &to);
+    if (!f->one)
+        ceduo_json_close(j, ']');
+}
+
+static void write_figures(struct json *j, const struct ceduo_figure *f, const void *object, double scale)
+{
+    for (; !ceduo_figure_is_end(f); f++) {
+        if (f->value)
+            write_value(j, f, value_of(f, object, scale));
+        else if (f->enter || f->item)
+            write_list(j, f, object, scale);
+        else if (f->of)
+            write_object(j, f, object_of(f, object), scale);
+        else
+            write_sentences(j, f, source_of(f, object));
+    }
+}
+
+void ceduo_figures_json(struct text *text, const struct ceduo_figure *figures, const void *object)
+{
+    struct json json = {.text = text};
+    ceduo_json_open(&json, NULL, '{');
+    write_figures(&json, figures, object, 1);
+    ceduo_json_close(&json, '}');
+    ceduo_text_char(text, '\n');
+}
+
+/* ---- CSV ---- */
+
+/* A row, or the header that names its cells: the same tables make both. */
+struct row {
+    struct text *text;
+    bool header, more;
+    const struct path *group; /* the objects that the cell lies in */
+};
+
+struct path {
+    const struct path *before;
+    const char *key;
+};
+
+static void append_path(struct text *text, const struct path *path)
+{
+    if (!path)
+        return;
+    append_path(text, path->before);
+    ceduo_text_format(text, "%s.", path->key);
+}
+
+static void append_value(struct text *text, struct ceduo_value v)
+{
+    char room[CEDUO_NUMBER_ROOM];
+    if (v.kind == CEDUO_VALUE_NUMBER)
+        ceduo_text_put(text, ceduo_number_shortest(v.number, room));
+    else if (v.kind == CEDUO_VALUE_COUNT)
+        ceduo_text_format(text, "%" PRIu64, v.count);
+    else if (v.kind == CEDUO_VALUE_FLAG)
+        ceduo_text_put(text, v.flag ? "true" : "false");
+    else if (v.kind == CEDUO_VALUE_TEXT)
+        ceduo_text_csv(text, v.text);
+}
+
+/* Sentences joined by "; ". */
+static void join(void *context, const char *sentence)
+{
+    struct text *all = context;
+    ceduo_text_put(all, all->length > 0 ? "; " : "");
+    ceduo_text_put(all, sentence);
+}
+
+static void append_cell(struct row *row, const struct ceduo_figure *f, const void *object, double scale)
+{
+    LOCAL_TEXT(all);
+    if (row->more)
+        ceduo_text_char(row->text, ',');
+    row->more = true;
+    if (row->header) {
+        append_path(row->text, row->group);
+        ceduo_text_put(row->text, f->key);
+    } else if (f->value) {
+        append_value(row->text, value_of(f, object, scale));
+    } else {
+        say(f, object, join, &all);
+        if (all.bytes)
+            ceduo_text_csv(row->text, all.bytes);
+    }
+}
+
+/* `object` NULL: empty cells. */
+static void append_cells(struct row *row, const struct ceduo_figure *f, const void *object, double scale)
+{
+    const struct path *group = row->group;
+    for (; !ceduo_figure_is_end(f); f++) {
+        const struct path path = {group, f->key};
+        double inner = scale_of(f, scale);
+        if (!f->of)
+            append_cell(row, f, object, scale);
+        for (size_t i = 0; f->item && f->columns && f->columns[i]; i++) { /* each item with the name of its columns */
+            const struct path item = {&path, f->columns[i]};
+            row->group = &item;
+            append_cells(row, f->of, object ? f->item(object, i) : NULL, inner);
+        }
+        row->group = f->key ? &path : group;
+        if (f->of && !f->item)
+            append_cells(row, f->of, object_of(f, object), inner);
+        row->group = group;
+    }
+}
+
+void ceduo_figures_csv(struct text *text, const struct ceduo_figure *columns, const void *object)
+{
+    struct row row = {.text = text, .header = !object};
+    append_cells(&row, columns, object, 1);
+    ceduo_text_char(text, '\n');
+}
+
+/* ---- results and searches ---- */
+
+void ceduo_report_json(struct text *text, const struct ceduo_report *report)
+{
+    ceduo_figures_json(text, ceduo_result_figures, &(struct ceduo_place){.report = report});
+}
+
+void ceduo_report_csv_header(struct text *text, bool stands, bool years)
+{
+    ceduo_figures_csv(text, stands ? ceduo_stand_columns : years ? ceduo_year_columns : ceduo_control_columns, NULL);
+}
+
+/* Rows of the option, or of one of its years. */
+static void append_rows(struct text *text, struct ceduo_place p, const struct ceduo_figure *columns)
+{
+    const struct ceduo_scene *scene = p.report->result->scene;
+    bool stands = columns == ceduo_stand_columns;
+    size_t n = stands ? scene->options[p.option].belts_count : scene->controls_count;
+    for (size_t i = 0; i < n; i++) {
+        *(stands ? &p.belt : &p.control) = i;
+        ceduo_figures_csv(text, columns, &p);
+    }
+}
+
+void ceduo_report_csv(struct text *text, const struct ceduo_report *report, bool stands)
+{
+    struct ceduo_place p = {.report = report};
+    for (; p.option < report->result->scene->options_count; p.option++) {
+        if (stands || !report->years)
+            append_rows(text, p, stands ? ceduo_stand_columns : ceduo_control_columns);
+        for (size_t y = 0; !stands && report->years && y < report->years[p.option]->count; y++) {
+            p.year = &report->years[p.option]->years[y];
+            append_rows(text, p, ceduo_year_columns);
+        }
+        p.year = NULL;
+    }
+}
+
+void ceduo_find_json(struct text *text, const struct ceduo_find_report *report)
+{
+    ceduo_figures_json(text, ceduo_find_figures, report);
+}
+
+void ceduo_find_csv_header(struct text *text)
+{
+    ceduo_figures_csv(text, ceduo_find_columns, NULL);
+}
+
+void ceduo_find_csv(struct text *text, const struct ceduo_find_report *report)
+{
+    ceduo_figures_csv(text, ceduo_find_columns, report);
 }

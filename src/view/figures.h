@@ -3,8 +3,10 @@
 #define CEDUO_FIGURES_H
 
 #include "report.h"
+#include "report_calibration.h"
+#include "report_doubt.h"
 
-/* The figures of a result: one table for each kind of object. JSON nests the tables as they name each other, CSV joins
+/* The figures of an answer: one table for each kind of object. JSON nests the tables as they name each other, CSV joins
  * their keys with dots, the manual lists them. To add a figure, add a member to its struct and a row to figures_result.c. */
 
 enum ceduo_value_kind { CEDUO_NULL, CEDUO_VALUE_NUMBER, CEDUO_VALUE_COUNT, CEDUO_VALUE_FLAG, CEDUO_VALUE_TEXT };
@@ -19,12 +21,16 @@ struct ceduo_value {
     };
 };
 
-/* A place in a report. The figures of an option, a belt, a control or a year are read from it. */
+/* A place in one of the three reports. The figures of an option, a belt, a control or a year are read from it; of a sensitivity
+ * those of a figure, an input or a pair of options; of a calibration those of a value or an observation. */
 struct ceduo_place {
     const struct ceduo_report *report;
+    const struct ceduo_doubt_report *doubt;
+    const struct ceduo_calibration_report *calibration;
     size_t option, belt, control, felling;
-    const struct ceduo_year *year;  /* NULL: the stands as filed */
-    struct ceduo_years_summary sum; /* of the option's years, where they are asked for */
+    size_t item, column, figure, input; /* item, column: in a list of the last two reports */
+    const struct ceduo_year *year;      /* NULL: the stands as filed */
+    struct ceduo_years_summary sum;     /* of the option's years, where they are asked for */
 };
 
 /* A row is a value, an object or list of objects (`of`), or sentences (`say`). A row with none of them ends a table. */
@@ -44,6 +50,7 @@ struct ceduo_figure {
     void (*say)(const struct ceduo_place *place, ceduo_words_say *say, void *context);
     bool one;      /* of sentences: there is one, and JSON has it as text, not as a list */
     bool optional; /* JSON omits it if it is null or empty */
+    bool plain;    /* of a list: its items are values, not objects */
 };
 
 static inline bool ceduo_figure_is_end(const struct ceduo_figure *f)
@@ -51,15 +58,14 @@ static inline bool ceduo_figure_is_end(const struct ceduo_figure *f)
     return !f->value && !f->of && !f->say;
 }
 
-/* The value of a row in an object, which may be NULL; `scale` is that of the table. */
-struct ceduo_value ceduo_figure_value(const struct ceduo_figure *figure, const void *object, double scale);
+/* Writes what a table says of an object: one line of JSON; a row of CSV, or with object NULL the row of its heads. */
+void ceduo_figures_json(struct text *text, const struct ceduo_figure *figures, const void *object);
+void ceduo_figures_csv(struct text *text, const struct ceduo_figure *columns, const void *object);
 
-/* The object of a row with `of`, NULL if there is none; the scale of its numbers. */
-const void *ceduo_figure_object(const struct ceduo_figure *figure, const void *object);
-double ceduo_figure_scale(const struct ceduo_figure *figure, double scale);
-
-/* The whole of a result, read from a struct ceduo_place; and of a search, read from a struct ceduo_find_report. */
+/* The whole of a result, a sensitivity and a calibration, read from a struct ceduo_place; and of a search, read from a struct
+ * ceduo_find_report. */
 extern const struct ceduo_figure ceduo_result_figures[], ceduo_find_figures[];
+extern const struct ceduo_figure ceduo_doubt_figures[], ceduo_calibration_figures[];
 
 /* The columns of CSV, read from a struct ceduo_place: of a control, of a control in a year, of a belt. */
 extern const struct ceduo_figure ceduo_control_columns[], ceduo_year_columns[], ceduo_stand_columns[];

@@ -36,22 +36,22 @@ const struct ceduo_figure ceduo_rate_figures[] = {{"per_year", "1/y", "rocks a y
                                                   {"hi", "1/y", "upper end of its 95 % interval", AT(rate, hi)},
                                                   END};
 
-static const struct ceduo_figure exceed_rate[] = {{"energy_kJ", "kJ", "energy", AT(exceeding, energy), .scale = KILO},
+static const struct ceduo_figure exceed_rate[] = {{"energy_kJ", "kJ", "energy", AT(exceeding, energy), .scale = J_TO_KJ},
                                                   {.of = ceduo_rate_figures, .offset = offsetof(struct ceduo_exceeding, rate)},
                                                   END};
 
 static const struct ceduo_figure returns[] = {
     {"years", "y", "return period", AT(return, years)},
-    {"energy_kJ", "kJ", "energy that is reached or exceeded once in so many years", AT(return, energy), .scale = KILO,
+    {"energy_kJ", "kJ", "energy that is reached or exceeded once in so many years", AT(return, energy), .scale = J_TO_KJ,
      .null = TOO_RARE},
-    {"lo", "kJ", "lower end of its 95 % interval", AT(return, lo), .scale = KILO, .null = UNBOUND},
-    {"hi", "kJ", "upper end of its 95 % interval", AT(return, hi), .scale = KILO, .null = UNBOUND},
+    {"lo", "kJ", "lower end of its 95 % interval", AT(return, lo), .scale = J_TO_KJ, .null = UNBOUND},
+    {"hi", "kJ", "upper end of its 95 % interval", AT(return, hi), .scale = J_TO_KJ, .null = UNBOUND},
     END};
 
 static const struct ceduo_figure matrix[] = {
     {"intensity", "", "weak, medium or strong: below 30 kJ, 30 to 300 kJ, above 300 kJ (BAFU 2016)", AT(intensity, word)},
-    {"from_kJ", "kJ", "lower limit of the class", AT(intensity, from), .scale = KILO},
-    {"to_kJ", "kJ", "upper limit", AT(intensity, to), .scale = KILO, .null = "there is none"},
+    {"from_kJ", "kJ", "lower limit of the class", AT(intensity, from), .scale = J_TO_KJ},
+    {"to_kJ", "kJ", "upper limit", AT(intensity, to), .scale = J_TO_KJ, .null = "there is none"},
     {.of = ceduo_rate_figures, .offset = offsetof(struct ceduo_intensity, within)},
     {"rate_left", "", "share of the rate without forest", AT(intensity, left), .null = "none arrive without forest"},
     {"to_30_years", "", "whether the energy of 30 years is in this class: a mark of the matrix", AT(intensity, of_return[1])},

@@ -165,10 +165,9 @@ static void say_of_stand(const struct ceduo_place *p, ceduo_words_say *say, void
 
 static void say_because(const struct ceduo_place *p, ceduo_words_say *say, void *context)
 {
-    struct text why = {0};
+    LOCAL_TEXT(why);
     ceduo_words_because(&why, p->report->result, p->control, through_the_wood(p));
     say(context, ceduo_text_string(&why));
-    ceduo_text_free(&why);
 }
 
 static void say_of_all(const struct ceduo_place *place, ceduo_words_say *say, void *context)
@@ -281,11 +280,11 @@ static const struct ceduo_figure arrivals[] = {
     {"exceed_lo", "", "lower end of its 95 % interval", AT(arrivals, exceed_lo), .null = UNSAID},
     {"exceed_hi", "", "upper end of its 95 % interval", AT(arrivals, exceed_hi), .null = UNSAID},
     {"speed_m_s", "m/s", "speed of the rocks that reach it", IN(arrivals, speed, distribution)},
-    {"energy_kJ", "kJ", "their energy of translation and rotation", IN(arrivals, energy, distribution), .scale = KILO},
-    {"translation_kJ", "kJ", "their energy of translation alone", IN(arrivals, translation, distribution), .scale = KILO},
+    {"energy_kJ", "kJ", "their energy of translation and rotation", IN(arrivals, energy, distribution), .scale = J_TO_KJ},
+    {"translation_kJ", "kJ", "their energy of translation alone", IN(arrivals, translation, distribution), .scale = J_TO_KJ},
     {"height_m", "m", "height of their underside above the ground", IN(arrivals, height, distribution)},
     {"energy_per_released_kJ", "kJ", "energy over all released rocks; one that does not arrive counts as 0",
-     IN(arrivals, energy_per_released, paired), .scale = KILO},
+     IN(arrivals, energy_per_released, paired), .scale = J_TO_KJ},
     {"missed", "", "how the released end that do not reach it; with reach_probability these make 1", .of = missed},
     {"hazard", "", "how often, and with how much", .from = ceduo_hazard_of, .of = ceduo_hazard_figures,
      .null = "the scene has no blocks"},
@@ -320,9 +319,9 @@ static const struct ceduo_figure stand_result[] = {
     {"contacts", "", "contacts over the whole belt: length over ADC", AT(stand_result, contacts)},
     {"energy_per_contact_J", "J", "energy that one contact by the index could take on average",
      AT(stand_result, energy_per_contact), .null = NO_STEMS ", or " SHARES},
-    {"dissipated_kJ", "kJ", "energy that the stems of the belt could take", AT(stand_result, dissipated), .scale = KILO,
+    {"dissipated_kJ", "kJ", "energy that the stems of the belt could take", AT(stand_result, dissipated), .scale = J_TO_KJ,
      .null = SHARES},
-    {"dissipated_kJ_per_100m", "kJ", "the same per 100 m", AT(stand_result, per_100m), .scale = KILO, .null = SHARES},
+    {"dissipated_kJ_per_100m", "kJ", "the same per 100 m", AT(stand_result, per_100m), .scale = J_TO_KJ, .null = SHARES},
     {"grouped_per_ha", "1/ha", "single trees that stand in groups", AT(stand_result, grouped_per_ha)},
     {"stumps_per_ha", "1/ha", "stumps", AT(stand_result, stumps_per_ha)},
     {"logs_per_ha", "1/ha", "lying logs", AT(stand_result, logs_per_ha)},
@@ -371,20 +370,20 @@ static const struct ceduo_figure summary[] = {
     {"adc_m", "m", "length_m over contacts", .value = mean_adc, .null = "there are no contacts"},
     {"contacts", "", "contacts in all belts", AT(index, contacts)},
     {"meet_nothing_probability", "", "chance of meeting no stem in any belt", AT(index, meet_nothing_probability)},
-    {"dissipated_kJ", "kJ", "energy that the stems could take", AT(index, dissipated), .scale = KILO, .null = SHARES},
-    {"dissipated_kJ_per_100m", "kJ", "the same per 100 m of wooded length", .value = index_per_100m, .scale = KILO,
+    {"dissipated_kJ", "kJ", "energy that the stems could take", AT(index, dissipated), .scale = J_TO_KJ, .null = SHARES},
+    {"dissipated_kJ_per_100m", "kJ", "the same per 100 m of wooded length", .value = index_per_100m, .scale = J_TO_KJ,
      .null = "there is no forest, or " SHARES},
     {"passes_threshold", "", "whether lights.contact of the last control is pass", .value = passes_contact},
     END};
 
 static const struct ceduo_figure by_index[] = {
     {"dissipated_kJ", "kJ", "energy that the stems between the release and this control could take", AT(index, dissipated),
-     .scale = KILO, .null = SHARES},
+     .scale = J_TO_KJ, .null = SHARES},
     {"residual_kJ", "kJ", "the mean of bare.energy_kJ less that, and not below 0; of shares their product", AT(index, residual),
-     .scale = KILO, .null = "no rock arrives without forest"},
+     .scale = J_TO_KJ, .null = "no rock arrives without forest"},
     {"exhausted", "", "whether it was cut at 0", .value = exhausted_of, .null = "no rock arrives without forest"},
     {"measured_kJ", "kJ", "energy of translation of the rock at measured_speed_m_s; only where the control gives that",
-     AT(index, measured), .scale = KILO, .optional = true},
+     AT(index, measured), .scale = J_TO_KJ, .optional = true},
     END};
 
 static const struct ceduo_figure lights[] = {
@@ -416,9 +415,9 @@ static const struct ceduo_figure other_energy[] = {
      .null = UNSAID},
     {"exceed_lo", "", "lower end of its 95 % interval", AT(other_energy, exceed_lo), .null = UNSAID},
     {"exceed_hi", "", "upper end of its 95 % interval", AT(other_energy, exceed_hi), .null = UNSAID},
-    {"energy_kJ_mean", "kJ", "mean energy of the rocks that reach it", AT(other_energy, energy), .scale = KILO,
+    {"energy_kJ_mean", "kJ", "mean energy of the rocks that reach it", AT(other_energy, energy), .scale = J_TO_KJ,
      .null = NO_ROCK},
-    {"energy_kJ_se", "kJ", "standard error of that", AT(other_energy, energy_se), .scale = KILO, .null = FEW},
+    {"energy_kJ_se", "kJ", "standard error of that", AT(other_energy, energy_se), .scale = J_TO_KJ, .null = FEW},
     {"verdict", "", "what is said of the control", .of = verdict_of_other},
     END};
 
@@ -531,7 +530,7 @@ static const struct ceduo_figure rotation[] = {
      .null = "the control has no accepted_kJ, contact_model is index, or " NOTHING_SAID},
     {"reach_probability", "", "plain mean over the years", IN(place, sum.reach, paired)},
     {"exceed_probability", "", "plain mean over the years", IN(place, sum.exceed, paired)},
-    {"energy_per_released_kJ", "kJ", "plain mean over the years", IN(place, sum.energy_per_released, paired), .scale = KILO},
+    {"energy_per_released_kJ", "kJ", "plain mean over the years", IN(place, sum.energy_per_released, paired), .scale = J_TO_KJ},
     {"worst_year", "", "year with the largest share that exceeds (or arrives, or with the largest ADC)",
      AT(place, sum.worst_year)},
     {"passes_per_year", "1/y", "rocks to be expected to pass", AT(place, sum.passes_per_year),
@@ -563,7 +562,7 @@ static const struct ceduo_figure differences[] = {
     {"reach_probability", "", "difference of the shares that arrive", IN(difference, reach_probability, share_difference)},
     {"exceed_probability", "", "difference of the shares that exceed", IN(difference, exceed_probability, share_difference)},
     {"energy_per_released_kJ", "kJ", "difference of the energies over all released",
-     IN(difference, energy_per_released, paired), .scale = KILO},
+     IN(difference, energy_per_released, paired), .scale = J_TO_KJ},
     END};
 
 static const struct ceduo_figure difference[] = {{"option", "", "option that is compared", .from = option_of, AT(option, name)},

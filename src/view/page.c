@@ -7,18 +7,9 @@
 #include "base/language.h"
 #include "svg.h"
 
-static void fail(struct ceduo_page *page)
-{
-    page->failed = page->lost.text.failed = page->lost.shorter.failed = true;
-}
-
 static struct ceduo_page_block *add_block(struct ceduo_page *page, enum ceduo_page_kind kind)
 {
-    struct ceduo_page_block *block = calloc(1, sizeof *block);
-    if (!block) {
-        fail(page);
-        return NULL;
-    }
+    struct ceduo_page_block *block = ceduo_must(calloc(1, sizeof *block));
     block->kind = kind;
     *(page->last ? &page->last->next : &page->first) = block;
     page->last = block;
@@ -27,15 +18,20 @@ static struct ceduo_page_block *add_block(struct ceduo_page *page, enum ceduo_pa
 
 struct text *ceduo_page_add(struct ceduo_page *page, enum ceduo_page_kind kind)
 {
-    struct ceduo_page_block *block = add_block(page, kind);
-    return block ? &block->text : &page->lost.text;
+    return &add_block(page, kind)->text;
+}
+
+void ceduo_page_say(struct ceduo_page *page, enum ceduo_page_kind kind, const char *format, ...)
+{
+    va_list args;
+    va_start(args, format);
+    ceduo_text_vformat(ceduo_page_add(page, kind), format, args);
+    va_end(args);
 }
 
 struct text *ceduo_page_fact(struct ceduo_page *page, const char *label)
 {
     struct ceduo_page_block *block = add_block(page, CEDUO_PAGE_FACT);
-    if (!block)
-        return &page->lost.text;
     block->label = label;
     return &block->text;
 }
@@ -43,43 +39,39 @@ struct text *ceduo_page_fact(struct ceduo_page *page, const char *label)
 void ceduo_page_table(struct ceduo_page *page, const struct ceduo_page_column *columns, size_t n)
 {
     struct ceduo_page_block *table = add_block(page, CEDUO_PAGE_TABLE);
-    if (!table)
-        return;
     table->columns = columns;
     table->columns_count = n;
-    for (size_t i = 0; i < n; i++) {
-        struct text *head = ceduo_page_text(page);
-        if (columns[i].head && columns[i].head[0])
-            ceduo_text_put(head, ceduo_translate_in(columns[i].head));
-    }
+    for (size_t i = 0; i < n; i++)
+        ceduo_page_write(page, "%s", columns[i].head && columns[i].head[0] ? ceduo_translate_in(columns[i].head) : "");
 }
 
 struct ceduo_page_cell *ceduo_page_head(struct ceduo_page *page)
 {
-    const struct ceduo_page_block *table = page->last;
-    for (size_t i = 0; !page->failed && i < table->columns_count; i++)
-        if (!table->columns[i].head)
-            return &table->cells[i];
-    return &page->lost;
+    size_t i = 0;
+    while (page->last->columns[i].head)
+        i++;
+    return &page->last->cells[i];
 }
 
 struct ceduo_page_cell *ceduo_page_cell(struct ceduo_page *page)
 {
     struct ceduo_page_block *table = page->last;
-    struct ceduo_page_cell *cells =
-        page->failed ? NULL : ceduo_grow(table->cells, table->cells_count, &table->cells_room, sizeof *cells);
-    if (!cells) {
-        fail(page);
-        return &page->lost;
-    }
-    table->cells = cells;
-    cells[table->cells_count] = (struct ceduo_page_cell){.kind = CEDUO_CELL_TEXT};
-    return &cells[table->cells_count++];
+    table->cells = ceduo_must(ceduo_grow(table->cells, table->cells_count, &table->cells_room, sizeof *table->cells));
+    table->cells[table->cells_count] = (struct ceduo_page_cell){.kind = CEDUO_CELL_TEXT};
+    return &table->cells[table->cells_count++];
 }
 
 struct text *ceduo_page_text(struct ceduo_page *page)
 {
     return &ceduo_page_cell(page)->text;
+}
+
+void ceduo_page_write(struct ceduo_page *page, const char *format, ...)
+{
+    va_list args;
+    va_start(args, format);
+    ceduo_text_vformat(ceduo_page_text(page), format, args);
+    va_end(args);
 }
 
 void ceduo_page_number(struct ceduo_page *page, double value, int digits)
@@ -96,17 +88,6 @@ struct ceduo_page_block *ceduo_page_picture(struct ceduo_page *page, struct cedu
     block->svg = svg;
     block->half = half;
     return block;
-}
-
-bool ceduo_page_failed(const struct ceduo_page *page)
-{
-    bool failed = page->failed;
-    for (const struct ceduo_page_block *block = page->first; block; block = block->next) {
-        failed |= block->text.failed || block->description.failed;
-        for (size_t i = 0; i < block->cells_count; i++)
-            failed |= block->cells[i].text.failed || block->cells[i].shorter.failed;
-    }
-    return failed;
 }
 
 void ceduo_page_free(struct ceduo_page *page)

@@ -3,9 +3,10 @@
 #define CEDUO_PAGE_H
 
 #include "base/text.h"
+#include "cells.h"
 
-/* A page is a list of blocks. page_result.c and its neighbours build it from a result, page_text.c prints it for a
- * terminal, page_html.c writes it as HTML. Another sink is one more file that walks the same blocks. */
+/* A page is a list of blocks. page_result.c and its neighbours build it from a result. page_text.c prints it at a width, for a
+ * terminal or in a pane; page_html.c writes it as HTML. Another sink is one more file that walks the same blocks. */
 
 struct ceduo_svg;
 
@@ -29,7 +30,7 @@ enum ceduo_page_kind {
 };
 
 struct ceduo_page_column {
-    const char *head; /* NULL: the page's own, see ceduo_page_head() */
+    const char *head; /* marked for translation; NULL: the page's own, see ceduo_page_head() */
     int width;        /* in characters; negative: set to the right; 0: the last, as wide as it comes */
     int gap;          /* blanks before it */
     unsigned flags;
@@ -44,6 +45,7 @@ enum ceduo_page_cell_kind { CEDUO_CELL_TEXT, CEDUO_CELL_NUMBER, CEDUO_CELL_MEAN 
 
 struct ceduo_page_cell {
     enum ceduo_page_cell_kind kind;
+    enum ceduo_role role;      /* of its text in a pane; BLANK: as the others */
     struct text text, shorter; /* shorter: where there is no room for the other; may be empty */
     double value, half;        /* a number; half the width of a mean's interval, NaN where it has none */
     int digits;                /* of the number, where there is room for them */
@@ -63,23 +65,26 @@ struct ceduo_page_block {
     struct ceduo_page_block *next;
 };
 
-/* Starts zeroed but for its width. Once memory fails, `failed` stays set, and nothing more is added. */
+/* Starts zeroed but for its width. */
 struct ceduo_page {
     size_t width; /* columns of the paper or pane */
     struct ceduo_page_block *first, *last;
-    struct ceduo_page_cell lost; /* takes what there was no memory for */
-    bool failed;
 };
 
-/* Adds a block and returns its text, which the caller fills. */
+#define CEDUO_PAGE_FORMAT(n) __attribute__((format(printf, n, (n) + 1)))
+
+/* Adds a block and returns its text, which the caller fills; or fills it. */
 struct text *ceduo_page_add(struct ceduo_page *page, enum ceduo_page_kind kind);
+void ceduo_page_say(struct ceduo_page *page, enum ceduo_page_kind kind, const char *format, ...) CEDUO_PAGE_FORMAT(3);
 struct text *ceduo_page_fact(struct ceduo_page *page, const char *label);
 
 /* Adds a table with its heads; then its cells, row by row, to the block added last. */
 void ceduo_page_table(struct ceduo_page *page, const struct ceduo_page_column *columns, size_t n);
+#define CEDUO_PAGE_TABLE_OF(page, columns) ceduo_page_table(page, columns, sizeof(columns) / sizeof(columns)[0])
 struct ceduo_page_cell *ceduo_page_head(struct ceduo_page *page); /* of the column whose head is NULL */
 struct ceduo_page_cell *ceduo_page_cell(struct ceduo_page *page);
-struct text *ceduo_page_text(struct ceduo_page *page); /* of a new cell */
+struct text *ceduo_page_text(struct ceduo_page *page);                                        /* of a new cell */
+void ceduo_page_write(struct ceduo_page *page, const char *format, ...) CEDUO_PAGE_FORMAT(2); /* a new cell */
 void ceduo_page_number(struct ceduo_page *page, double value, int digits);
 
 /* Adds a picture, which is the page's from then on; its title (`text`) and description are for the caller to fill. */
@@ -90,10 +95,11 @@ void ceduo_page_free(struct ceduo_page *page);
 /* What a cell says, with as many digits as its column has room for. `plain`: its signs in ASCII. */
 void ceduo_page_write_cell(struct text *text, const struct ceduo_page_cell *cell, size_t width, bool plain);
 
-/* Whether memory failed for the page or for a text of it. */
-bool ceduo_page_failed(const struct ceduo_page *page);
-
 /* Prints the page, `page->width` columns wide. `plain`: its signs in ASCII. */
 void ceduo_page_print(struct text *text, const struct ceduo_page *page, bool plain);
+
+/* Draws the page into an area of cells, which is as wide as the page, from its line `first` on: headings, warnings and verdicts
+ * in roles of their own. Returns how many lines the page has. */
+int ceduo_page_draw(const struct ceduo_page *page, struct ceduo_cells *cells, struct ceduo_area area, int first);
 
 #endif

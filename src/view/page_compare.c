@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The options side by side at the last control. */
+/* The options side by side at the last control, today and over the years; and one option year by year. */
 #include <math.h>
 #include <string.h>
 
@@ -7,84 +7,95 @@
 #include "page_parts.h"
 #include "study/verdict.h"
 
+static const struct ceduo_control *last_control(const struct ceduo_result *r)
+{
+    return &r->scene->controls[r->last_control];
+}
+
+/* ---- today ---- */
+
 static void add_simulated(struct ceduo_page *page, const struct ceduo_result *r, size_t i)
 {
-    const struct ceduo_arrivals *a = ceduo_result_wooded(r, i, r->last_control);
-    struct ceduo_portion share = ceduo_share_at(a);
+    struct ceduo_portion share = ceduo_share_at(ceduo_result_wooded(r, i, r->last_control));
     struct ceduo_paired to_first = ceduo_share_to_first(r, i);
     ceduo_page_per_1000(page, share.mean, share.half, false);
     if (to_first.below > 0)
-        ceduo_text_format(ceduo_page_text(page), "< %.0f", ceil(to_first.below * 1000));
+        ceduo_page_write(page, "< %.0f", ceil(to_first.below * 1000));
     else if (i > 0 && to_first.mean == 0 && to_first.se == 0)
-        ceduo_text_put(ceduo_page_text(page), _("the same"));
+        ceduo_page_write(page, "%s", _("the same"));
     else
         ceduo_page_per_1000(page, i == 0 ? NAN : to_first.mean, CEDUO_Z95 * to_first.se, true);
     ceduo_page_verdict(page, ceduo_result_last_index(r, i)->energy);
 }
 
-static void add_by_index(struct ceduo_page *page, const struct ceduo_index *s)
+/* ADC and free run with their tests. */
+static void add_contacts(struct ceduo_page *page, const struct ceduo_index *s)
 {
-    ceduo_page_number(page, s->per_100m * KILO, 3);
-    if (s->exhausted)
-        ceduo_text_put(ceduo_page_text(page), _("used up"));
-    else
-        ceduo_page_number(page, s->residual * KILO, 3);
-}
-
-/* What arrives with more than is withstood comes first. */
-static void add_row(struct ceduo_page *page, const struct ceduo_result *r, size_t i)
-{
-    const struct ceduo_index *s = ceduo_result_last_index(r, i);
-    ceduo_text_put(ceduo_page_text(page), r->scene->options[i].name);
-    if (r->wooded)
-        add_simulated(page, r, i);
     ceduo_page_number(page, s->worst_adc, 3);
     ceduo_page_verdict(page, s->contact);
     ceduo_page_percent(page, s->worst_free_run);
     ceduo_page_verdict(page, s->free_run);
-    if (!r->wooded)
-        add_by_index(page, s);
 }
 
 #define OPTION                                                                                                                 \
     {                                                                                                                          \
         N_("option"), 23, 2, 0                                                                                                 \
     }
-#define BY_CONTACT                                                                                                             \
+#define CONTACTS                                                                                                               \
     {N_("ADC m"), -7, 0, 0}, {"", 5, 1, 0},                                                                                    \
     {                                                                                                                          \
         NP_("head", "free run"), -7, 0, CEDUO_SPAN                                                                             \
     }
 
-static void add_table(struct ceduo_page *page, const struct ceduo_result *r)
+/* What arrives with more than is withstood comes first. */
+static void add_today(struct ceduo_page *page, const struct ceduo_result *r)
 {
     static const struct ceduo_page_column wooded[] = {
-        OPTION,     {NULL, -10, 0, 0}, {NP_("head", "to first"), -11, 0, 0}, {NP_("head", "energy"), 6, 2, 0},
-        BY_CONTACT, {"", 0, 1, 0}};
+        OPTION,   {NULL, -10, 0, 0}, {NP_("head", "to first"), -11, 0, 0}, {NP_("head", "energy"), 6, 2, 0},
+        CONTACTS, {"", 0, 1, 0}};
     static const struct ceduo_page_column by_index[] = {
-        OPTION, BY_CONTACT, {"", 5, 1, 0}, {N_("kJ/100 m"), -10, 0, 0}, {NP_("head", "left kJ"), -10, 0, 0}};
+        OPTION, CONTACTS, {"", 5, 1, 0}, {N_("kJ/100 m"), -10, 0, 0}, {NP_("head", "left kJ"), -10, 0, 0}};
     if (r->wooded) {
-        ceduo_page_table(page, wooded, sizeof wooded / sizeof wooded[0]);
-        ceduo_page_limit(page, &r->scene->controls[r->last_control], _("arrive"));
+        CEDUO_PAGE_TABLE_OF(page, wooded);
+        ceduo_page_limit(page, last_control(r), CEDUO_SHORT_HEAD);
     } else {
-        ceduo_page_table(page, by_index, sizeof by_index / sizeof by_index[0]);
+        CEDUO_PAGE_TABLE_OF(page, by_index);
     }
-    for (size_t i = 0; i < r->scene->options_count; i++)
-        add_row(page, r, i);
+    for (size_t i = 0; i < r->scene->options_count; i++) {
+        const struct ceduo_index *s = ceduo_result_last_index(r, i);
+        ceduo_page_write(page, "%s", r->scene->options[i].name);
+        if (r->wooded)
+            add_simulated(page, r, i);
+        add_contacts(page, s);
+        if (r->wooded)
+            continue;
+        ceduo_page_number(page, s->per_100m * J_TO_KJ, 3);
+        if (s->exhausted)
+            ceduo_page_write(page, "%s", _("used up"));
+        else
+            ceduo_page_number(page, s->residual * J_TO_KJ, 3);
+    }
 }
 
 /* A test that all options pass, or none, says nothing about which to choose. */
-static void say_separation(struct ceduo_page *page, const struct ceduo_result *r, size_t light, const char *all,
-                           const char *none)
+static void say_separation(struct ceduo_page *page, const struct ceduo_result *r)
 {
-    size_t n = r->scene->options_count, pass = 0;
+    static const char *const all[] = {N_("Today all options pass the test of contact: it does not separate them."),
+                                      N_("Today all options pass the test of free run: it does not separate them."),
+                                      N_("Today all options pass the test of energy: it does not separate them.")};
+    static const char *const none[] = {N_("Today no option passes the test of contact: it does not separate them."),
+                                       N_("Today no option passes the test of free run: it does not separate them."),
+                                       N_("Today no option passes the test of energy: it does not separate them.")};
+    size_t n = r->scene->options_count, passes[3] = {0};
     for (size_t i = 0; i < n; i++) {
         const struct ceduo_index *s = ceduo_result_last_index(r, i);
-        const enum ceduo_light lights[] = {s->contact, s->free_run, s->energy};
-        pass += lights[light] == CEDUO_PASS;
+        passes[0] += s->contact == CEDUO_PASS;
+        passes[1] += s->free_run == CEDUO_PASS;
+        passes[2] += s->energy == CEDUO_PASS;
     }
-    if (pass == n || (pass == 0 && ceduo_result_last_index(r, 0)->contact != CEDUO_UNKNOWN))
-        ceduo_text_put(ceduo_page_add(page, CEDUO_PAGE_NOTE), pass == n ? all : none);
+    for (size_t k = 0; k < (r->wooded && !isnan(last_control(r)->accepted) ? 3u : 2u); k++)
+        if (passes[k] == n || (passes[k] == 0 && ceduo_result_last_index(r, 0)->contact != CEDUO_UNKNOWN))
+            ceduo_page_note(page, passes[k] == n ? _(all[k]) : _(none[k]));
 }
 
 /* ---- over the years ---- */
@@ -92,23 +103,20 @@ static void say_separation(struct ceduo_page *page, const struct ceduo_result *r
 /* `known`: false also where nothing can be said. */
 static void add_fails(struct ceduo_page *page, const struct ceduo_choice *c, size_t fails, bool known)
 {
-    struct text *text = ceduo_page_text(page);
     if (known)
-        ceduo_text_format(text, "%zu/%zu", fails, c->years);
+        ceduo_page_write(page, "%zu/%zu", fails, c->years);
     else
-        ceduo_text_char(text, '-');
+        ceduo_page_write(page, "-");
 }
 
 static void add_choice(struct ceduo_page *page, const char *name, const struct ceduo_choice *c)
 {
-    ceduo_text_put(ceduo_page_text(page), name);
+    ceduo_page_write(page, "%s", name);
     if (c->flown > 0) {
         ceduo_page_per_1000(page, c->mean.mean, c->mean.half, false);
-        ceduo_text_format(ceduo_page_text(page), "%.0f (%u)", c->worst.mean * 1000, c->worst_year);
+        ceduo_page_write(page, "%.0f (%u)", c->worst.mean * 1000, c->worst_year);
     } else {
-        struct text *worst = ceduo_page_text(page);
-        ceduo_words_number(worst, c->worst.mean, 3);
-        ceduo_text_format(worst, " (%u)", c->worst_year);
+        ceduo_page_write(page, "%s (%u)", WRITTEN(c->worst.mean, 3), c->worst_year);
     }
     add_fails(page, c, c->no_contact, !c->nothing);
     add_fails(page, c, c->free_runs, !c->nothing);
@@ -118,50 +126,42 @@ static void add_choice(struct ceduo_page *page, const char *name, const struct c
     ceduo_page_number(page, c->yield.standing, 3);
 }
 
-static void add_years_table(struct ceduo_page *page, const struct ceduo_result *r, const struct ceduo_verdict *v)
+static void add_rotations(struct ceduo_page *page, const struct ceduo_result *r, const struct ceduo_verdict *v)
 {
-    static const struct ceduo_page_column flown[] = {{N_("option"), 22, 2, 0},
-                                                     {NULL, -10, 0, 0},
-                                                     {NP_("head", "worst year"), -11, 0, 0},
-                                                     {NP_("head", "contact"), -8, 0, 0},
-                                                     {NP_("head", "free run"), -9, 0, 0},
-                                                     {NP_("head", "energy"), -7, 0, 0},
-                                                     {NP_("head", "m3/y"), -5, 0, 0},
-                                                     {N_("m3"), -6, 0, 0}};
+    static const struct ceduo_page_column simulated[] = {{N_("option"), 22, 2, 0},
+                                                         {NULL, -10, 0, 0},
+                                                         {NP_("head", "worst year"), -11, 0, 0},
+                                                         {NP_("head", "contact"), -8, 0, 0},
+                                                         {NP_("head", "free run"), -9, 0, 0},
+                                                         {NP_("head", "energy"), -7, 0, 0},
+                                                         {NP_("head", "m3/y"), -5, 0, 0},
+                                                         {N_("m3"), -6, 0, 0}};
     static const struct ceduo_page_column by_index[] = {
         {N_("option"), 23, 2, 0},           {NP_("head", "ADC m, worst"), -14, 0, 0},
         {NP_("head", "contact"), -8, 0, 0}, {NP_("head", "free run"), -9, 0, 0},
         {NP_("head", "m3/y"), -6, 0, 0},    {N_("m3"), -7, 0, 0}};
-    struct text *caption = ceduo_page_add(page, CEDUO_PAGE_CAPTION);
-    struct text span = {0};
+    LOCAL_TEXT(span);
     ceduo_words_span(&span, v);
     if (v->wooded)
-        ceduo_text_format(
-            caption,
+        ceduo_page_say(
+            page, CEDUO_PAGE_CAPTION,
             _("Over %s: of 1000 released, in the mean and in the worst of these years, counted from today, with %llu "
               "rocks in each; years in which a test fails; wood felled per hectare and year, and standing:"),
             ceduo_text_string(&span), (unsigned long long)v->choices[0].rocks);
     else
-        ceduo_text_format(
-            caption,
+        ceduo_page_say(
+            page, CEDUO_PAGE_CAPTION,
             _("Over %s: the worst year, counted from today; years in which a test fails; wood felled per hectare and "
               "year, and standing:"),
             ceduo_text_string(&span));
-    caption->failed |= span.failed;
-    ceduo_text_free(&span);
     if (v->choices[0].flown > 0) {
-        ceduo_page_table(page, flown, sizeof flown / sizeof flown[0]);
-        ceduo_page_limit(page, &r->scene->controls[r->last_control], _("arrive"));
+        CEDUO_PAGE_TABLE_OF(page, simulated);
+        ceduo_page_limit(page, last_control(r), CEDUO_SHORT_HEAD);
     } else {
-        ceduo_page_table(page, by_index, sizeof by_index / sizeof by_index[0]);
+        CEDUO_PAGE_TABLE_OF(page, by_index);
     }
     for (size_t i = 0; i < v->n; i++)
         add_choice(page, r->scene->options[i].name, &v->choices[i]);
-}
-
-static void add_note(void *page, const char *sentence)
-{
-    ceduo_text_put(ceduo_page_add(page, CEDUO_PAGE_NOTE), sentence);
 }
 
 /* What a yield leaves out. */
@@ -171,63 +171,146 @@ static void say_yield(struct ceduo_page *page, const struct ceduo_result *r, con
     for (size_t i = 0; i < v->n; i++) {
         known |= !isnan(v->choices[i].yield.cut_per_year);
         if (v->choices[i].yield.space > 1)
-            ceduo_text_format(
-                ceduo_page_add(page, CEDUO_PAGE_NOTE),
+            ceduo_page_say(
+                page, CEDUO_PAGE_NOTE,
                 _("'%s' keeps more standards than the ground bears (%.0f %% of the growing space): its yield is not computed."),
                 r->scene->options[i].name, 100 * v->choices[i].yield.space);
     }
     if (known)
-        add_note(page, _("Yield: standards take growing space from the shoots (assumed). Side light, roots and the quality of "
-                         "the wood are not modelled."));
+        ceduo_page_note(page, _("Yield: standards take growing space from the shoots (assumed). Side light, roots and the "
+                                "quality of the wood are not modelled."));
 }
 
 static void say_best(struct ceduo_page *page, const struct ceduo_result *r, const struct ceduo_verdict *v)
 {
-    struct text best = {0};
+    LOCAL_TEXT(best);
     ceduo_words_best(&best, r->scene, v);
     char *second = best.bytes ? strchr(best.bytes, '\n') : NULL;
     if (second)
         *second++ = '\0';
     if (best.length > 0)
-        add_note(page, best.bytes);
+        ceduo_page_note(page, best.bytes);
     if (second)
-        add_note(page, second);
-    page->failed |= best.failed;
-    ceduo_text_free(&best);
-    ceduo_words_turned(r, v, add_note, page);
+        ceduo_page_note(page, second);
+    ceduo_words_turned(r, v, ceduo_page_note, page);
     if (v->choices[0].years > 0)
-        ceduo_words_windows(r->scene, v, add_note, page);
+        ceduo_words_windows(r->scene, v, ceduo_page_note, page);
     if (v->wooded && !v->accepted)
-        add_note(page, _("What the place withstands is not given (accepted_kJ): energy is not judged."));
+        ceduo_page_note(page, _("What the place withstands is not given (accepted_kJ): energy is not judged."));
 }
 
 void ceduo_page_comparison(struct ceduo_page *page, const struct ceduo_report *report)
 {
     const struct ceduo_result *r = report->result;
     const struct ceduo_verdict *v = report->verdict;
-    const struct ceduo_control *c = &r->scene->controls[r->last_control];
-    char room[CEDUO_NUMBER_ROOM];
-    ceduo_text_format(ceduo_page_add(page, CEDUO_PAGE_SECTION),
-                      r->wooded ? _("Side by side, up to %s m: the same rocks through each wood, of 1000 released")
-                                : _("Side by side, up to %s m (kJ per 100 m and left: by the rule named above)"),
-                      ceduo_number_shortest(c->x_given, room));
-    ceduo_text_put(ceduo_page_add(page, CEDUO_PAGE_CAPTION), _("Today:"));
-    add_table(page, r);
-    say_separation(page, r, 0, _("Today all options pass the test of contact: it does not separate them."),
-                   _("Today no option passes the test of contact: it does not separate them."));
-    say_separation(page, r, 1, _("Today all options pass the test of free run: it does not separate them."),
-                   _("Today no option passes the test of free run: it does not separate them."));
-    if (r->wooded && !isnan(c->accepted))
-        say_separation(page, r, 2, _("Today all options pass the test of energy: it does not separate them."),
-                       _("Today no option passes the test of energy: it does not separate them."));
+    ceduo_page_say(page, CEDUO_PAGE_SECTION,
+                   r->wooded ? _("Side by side, up to %s m: the same rocks through each wood, of 1000 released")
+                             : _("Side by side, up to %s m (kJ per 100 m and left: by the rule named above)"),
+                   SHORTEST(last_control(r)->x_given));
+    ceduo_page_say(page, CEDUO_PAGE_CAPTION, _("Today:"));
+    add_today(page, r);
+    say_separation(page, r);
     if (v && v->choices[0].years > 0) {
-        add_years_table(page, r, v);
+        add_rotations(page, r, v);
         say_yield(page, r, v);
     }
     if (v)
         say_best(page, r, v);
     if (!r->wooded)
-        ceduo_text_put(ceduo_page_add(page, CEDUO_PAGE_NOTE),
-                       _("Without forest every option sees the same rocks: what arrives does not separate them. The index "
-                         "says what stems could take, not what a rock loses; no column decides alone."));
+        ceduo_page_note(page,
+                        _("Without forest every option sees the same rocks: what arrives does not separate them. The index "
+                          "says what stems could take, not what a rock loses; no column decides alone."));
+}
+
+/* ---- one option year by year ---- */
+
+static void add_years_table(struct ceduo_page *page, const struct ceduo_result *r, const struct ceduo_years *years)
+{
+    static const struct ceduo_page_column columns[] = {
+        {N_("year"), 9, 4, 0},           CONTACTS,          {"", 5, 1, 0},
+        {N_("kJ/100 m"), -9, 0, 0},      {NULL, -16, 0, 0}, {NP_("head", "arr. kJ"), -8, 0, 0},
+        {NP_("head", "energy"), 0, 2, 0}};
+    ceduo_page_say(page, CEDUO_PAGE_CAPTION, _("Year by year, up to %s m:"), SHORTEST(last_control(r)->x_given));
+    CEDUO_PAGE_TABLE_OF(page, columns);
+    ceduo_page_limit(page, last_control(r), CEDUO_HEAD);
+    for (size_t i = 0; i < years->count; i++) {
+        const struct ceduo_year *y = &years->years[i];
+        const struct ceduo_index *s = &y->controls[r->last_control];
+        const struct ceduo_arrivals *a = y->wooded.rocks > 0 ? &y->wooded.arrivals[r->last_control] : NULL;
+        const struct ceduo_measure share = ceduo_judged(last_control(r), a);
+        ceduo_page_write(page, "%4u %s", y->year, y->cut ? P_("head", "cut") : "");
+        add_contacts(page, s);
+        ceduo_page_number(page, s->per_100m * J_TO_KJ, 3);
+        ceduo_page_interval(page, &share);
+        ceduo_page_number(page, a ? a->energy.mean * J_TO_KJ : NAN, 3);
+        ceduo_page_verdict(page, s->energy);
+    }
+}
+
+/* How many rocks are to be expected, where the scene says how many come down. */
+static void say_expected(struct text *line, const struct ceduo_scene *scene, const struct ceduo_years_summary *s, bool says)
+{
+    const char *passes = WRITTEN(s->passes_per_year * (double)s->years, 2);
+    ceduo_text_then(line, " ", _("With %g rocks a year %s a year are to be expected to pass"), scene->rocks_per_year,
+                    WRITTEN(s->passes_per_year, 2));
+    if (says) {
+        ceduo_text_then(line, ", ", _("%s of them with too much energy"), WRITTEN(s->exceeds_per_year, 2));
+        ceduo_text_then(line, "; ", _("in all %zu years %s and %s"), s->years, passes,
+                        WRITTEN(s->exceeds_per_year * (double)s->years, 2));
+    } else {
+        ceduo_text_then(line, "; ", _("in all %zu years %s"), s->years, passes);
+    }
+    ceduo_text_char(line, '.');
+}
+
+void ceduo_page_years_words(struct ceduo_page *page, const struct ceduo_result *r, const struct ceduo_years *years)
+{
+    const struct ceduo_years_summary s = ceduo_years_sum(years, r->last_control);
+    bool says = !isnan(last_control(r)->accepted);
+    struct text *line = ceduo_page_add(page, CEDUO_PAGE_SENTENCE);
+    if (s.nothing) {
+        ceduo_text_format(line,
+                          ngettext("Of this %zu year nothing can be said.", "Of these %zu years nothing can be said.", s.years),
+                          s.years);
+        return;
+    }
+    ceduo_text_format(line,
+                      ngettext("Of this %zu year: without contact %zu, with long free runs %zu",
+                               "Of these %zu years: without contact %zu, with long free runs %zu", s.years),
+                      s.years, s.unprotected_contact, s.unprotected_free_run);
+    if (s.flown > 0 && says)
+        ceduo_text_then(line, ", ", _("with too much energy %zu"), s.unprotected_energy);
+    ceduo_text_put(line, ". ");
+    if (s.thick_contact > s.unprotected_contact || s.thick_free_run > s.unprotected_free_run)
+        ceduo_text_format(line, _("Counting only stems from %g cm on, contact fails in %zu and free run in %zu. "),
+                          CEDUO_THICK_DBH * 100, s.thick_contact, s.thick_free_run);
+    struct ceduo_paired mean = says ? s.exceed : s.reach;
+    LOCAL_TEXT(share);
+    ceduo_text_format(&share, "%.0f", mean.mean * 1000);
+    if (!isnan(mean.se)) /* of one rock */
+        ceduo_text_format(&share, " \xc2\xb1%.0f", ceil(mean.se * CEDUO_Z95 * 1000));
+    if (s.flown > 0)
+        ceduo_text_format(line,
+                          says ? _("In the mean %s of 1000 arrive with too much energy, at worst %.0f in year %u.")
+                               : _("In the mean %s of 1000 arrive, at worst %.0f in year %u."),
+                          ceduo_text_string(&share), s.worst * 1000, s.worst_year);
+    else
+        ceduo_text_format(line, _("The ADC is largest in year %u."), s.worst_year);
+    if (r->scene->options_count < 2) { /* otherwise it stands below the table of all */
+        ceduo_text_char(line, ' ');
+        ceduo_words_counted(line, years->rocks);
+    }
+    if (s.flown > 0 && !isnan(r->scene->rocks_per_year))
+        say_expected(line, r->scene, &s, says);
+    double felled = ceduo_years_felled(years);
+    if (felled > 0)
+        ceduo_text_then(line, " ", _("Felled: %g m of forest along the slope."), felled);
+}
+
+void ceduo_page_years(struct ceduo_page *page, const struct ceduo_report *report, size_t option)
+{
+    if (page->width < CEDUO_PAGE_WIDTH)
+        return;
+    add_years_table(page, report->result, report->years[option]);
+    ceduo_page_years_words(page, report->result, report->years[option]);
 }

@@ -5,7 +5,7 @@
 #include "base/language.h"
 #include "report.h"
 
-static void put_goal(struct text *text, enum ceduo_goal goal, double value)
+static void append_goal(struct text *text, enum ceduo_goal goal, double value)
 {
     ceduo_text_format(text, "%s ", _(ceduo_goals[goal].name));
     if (ceduo_goal_is_share(goal))
@@ -26,68 +26,43 @@ static double shown(const struct ceduo_search *s, const struct ceduo_found *f)
                                      : fmax(s->lo, floor(f->value * scale) / scale);
 }
 
-static void put_found(struct text *text, const struct ceduo_search *s, const struct ceduo_found *f, const char *path,
-                      const char *goal)
-{
-    char room[CEDUO_NUMBER_ROOM];
-    ceduo_text_format(text, "%s = %s\n  ", path, ceduo_number_shortest(shown(s, f), room));
-    ceduo_text_format(text,
-                      f->whole_range              ? _("every value of the range reaches the goal: %s")
-                      : f->side == CEDUO_SMALLEST ? _("the smallest value that reaches the goal: %s")
-                                                  : _("the largest value that reaches the goal: %s"),
-                      goal);
-}
-
-static void put_none(struct text *text, const struct ceduo_search *s, const struct ceduo_found *f, const char *path,
-                     const char *goal)
-{
-    char lo[CEDUO_NUMBER_ROOM], hi[CEDUO_NUMBER_ROOM], near[CEDUO_NUMBER_ROOM];
-    ceduo_text_format(text, _("no value of %s from %s to %s reaches the goal"), path, ceduo_number_shortest(s->lo, lo),
-                      ceduo_number_shortest(s->hi, hi));
-    if (!isnan(f->nearest))
-        ceduo_text_then(text, "\n  ", _("nearest: %s, %s"), ceduo_number_shortest(f->nearest, near), goal);
-}
-
-/* What is wanted, of which option, and where that counts. */
-static void put_wanted(struct text *text, const struct ceduo_search *s, const char *option)
-{
-    const struct ceduo_goal_row *goal = &ceduo_goals[s->goal];
-    double target = ceduo_goal_is_share(s->goal) ? s->target * 100 : s->target;
-    ceduo_text_then(text, " ",
-                    goal->below ? _("(below %g %s is wanted), option '%s', %s")
-                                : _("(at most %g %s is wanted), option '%s', %s"),
-                    target, goal->unit, option,
-                    !s->rotation                  ? _("worst control")
-                    : ceduo_goal_is_mean(s->goal) ? _("worst control, in the mean of one whole rotation")
-                                                  : _("worst control, in the worst year of one whole rotation"));
-    ceduo_text_char(text, '\n');
-}
-
 void ceduo_find_page(struct text *text, const struct ceduo_find_report *report)
 {
     const struct ceduo_search *s = report->search;
     const struct ceduo_found *f = report->found;
-    struct text path = {0}, option = {0}, goal = {0};
+    const struct ceduo_goal_row *row = &ceduo_goals[s->goal];
+    LOCAL_TEXT(path);
+    LOCAL_TEXT(option);
+    LOCAL_TEXT(goal);
     ceduo_text_safe(&path, s->path);
     ceduo_text_safe(&option, report->file->scene.options[s->option].name);
-    put_goal(&goal, s->goal, f->found ? f->goal_at_value : f->goal_at_nearest);
-    if (f->found)
-        put_found(text, s, f, ceduo_text_string(&path), ceduo_text_string(&goal));
-    else
-        put_none(text, s, f, ceduo_text_string(&path), ceduo_text_string(&goal));
-    put_wanted(text, s, ceduo_text_string(&option));
+    append_goal(&goal, s->goal, f->found ? f->goal_at_value : f->goal_at_nearest);
+    if (f->found) {
+        ceduo_text_format(text, "%s = %s\n  ", path.bytes, SHORTEST(shown(s, f)));
+        ceduo_text_format(text,
+                          f->whole_range              ? _("every value of the range reaches the goal: %s")
+                          : f->side == CEDUO_SMALLEST ? _("the smallest value that reaches the goal: %s")
+                                                      : _("the largest value that reaches the goal: %s"),
+                          goal.bytes);
+    } else {
+        ceduo_text_format(text, _("no value of %s from %s to %s reaches the goal"), path.bytes, SHORTEST(s->lo),
+                          SHORTEST(s->hi));
+        if (!isnan(f->nearest))
+            ceduo_text_then(text, "\n  ", _("nearest: %s, %s"), SHORTEST(f->nearest), goal.bytes);
+    }
+    ceduo_text_then(
+        text, " ", row->below ? _("(below %g %s is wanted), option '%s', %s") : _("(at most %g %s is wanted), option '%s', %s"),
+        ceduo_goal_is_share(s->goal) ? s->target * 100 : s->target, row->unit, ceduo_text_string(&option),
+        !s->rotation                  ? _("worst control")
+        : ceduo_goal_is_mean(s->goal) ? _("worst control, in the mean of one whole rotation")
+                                      : _("worst control, in the worst year of one whole rotation"));
+    ceduo_text_char(text, '\n');
     if (report->yield && !isnan(report->yield->cut_per_year)) {
         ceduo_text_then(text, "  ", _("yield: %.3g m\xc2\xb3 felled per hectare and year, %.3g m\xc2\xb3 standing per hectare"),
                         report->yield->cut_per_year, report->yield->standing);
         ceduo_text_char(text, '\n');
     }
-    if (!f->monotone) {
-        ceduo_text_then(text, "  ! ",
+    if (!f->monotone)
+        ceduo_text_then(text, "  ! ", "%s\n",
                         _("The goal does not only rise or only fall over this range: there may be other values."));
-        ceduo_text_char(text, '\n');
-    }
-    text->failed |= path.failed || option.failed || goal.failed;
-    ceduo_text_free(&path);
-    ceduo_text_free(&option);
-    ceduo_text_free(&goal);
 }

@@ -9,43 +9,37 @@
 
 /* ---- belts ---- */
 
-static void add_belt(struct ceduo_page *page, const struct ceduo_belt *b, const struct ceduo_stand_result *s)
-{
-    char from[CEDUO_NUMBER_ROOM], to[CEDUO_NUMBER_ROOM];
-    ceduo_text_format(ceduo_page_text(page), "%s\xe2\x80\x93%s", ceduo_number_shortest(b->from_given, from),
-                      ceduo_number_shortest(b->to_given, to));
-    ceduo_text_format(ceduo_page_text(page), "%s%s", b->name, b->assumed ? "*" : "");
-    ceduo_page_number(page, s->adc_m, 3);
-    ceduo_text_put(ceduo_page_text(page), s->passes_threshold ? _("yes") : _("NO"));
-    ceduo_page_percent(page, s->free_run_probability);
-    ceduo_page_number(page, s->dissipated * KILO, 3);
-    ceduo_page_number(page, s->per_100m * KILO, 3);
-}
-
 static void add_belts_table(struct ceduo_page *page, const struct ceduo_scene *scene, const struct ceduo_option *o,
                             const struct ceduo_option_result *found)
 {
     static const struct ceduo_page_column columns[] = {
         {N_("m"), 10, 4, CEDUO_WHOLE},       {N_("stand"), 27, 0, 0}, {N_("ADC m"), -7, 0, 0},   {NULL, 6, 1, 0},
         {NP_("head", "free run"), -9, 0, 0}, {N_("kJ"), -7, 0, 0},    {N_("kJ/100 m"), -9, 0, 0}};
-    char room[CEDUO_NUMBER_ROOM];
-    ceduo_page_table(page, columns, sizeof columns / sizeof columns[0]);
-    ceduo_text_format(&ceduo_page_head(page)->text, "<%s m", ceduo_number_shortest(scene->simulation.threshold, room));
-    for (size_t i = 0; i < o->belts_count; i++)
-        add_belt(page, &o->belts[i], &found->stands[i]);
+    CEDUO_PAGE_TABLE_OF(page, columns);
+    ceduo_text_format(&ceduo_page_head(page)->text, "<%s m", SHORTEST(scene->simulation.threshold));
+    for (size_t i = 0; i < o->belts_count; i++) {
+        const struct ceduo_belt *b = &o->belts[i];
+        const struct ceduo_stand_result *s = &found->stands[i];
+        ceduo_page_write(page, "%s\xe2\x80\x93%s", SHORTEST(b->from_given), SHORTEST(b->to_given));
+        ceduo_page_write(page, "%s%s", b->name, b->assumed ? "*" : "");
+        ceduo_page_number(page, s->adc_m, 3);
+        ceduo_page_yes(page, s->passes_threshold);
+        ceduo_page_percent(page, s->free_run_probability);
+        ceduo_page_number(page, s->dissipated * J_TO_KJ, 3);
+        ceduo_page_number(page, s->per_100m * J_TO_KJ, 3);
+    }
 }
 
 /* The same in a sentence. */
 static void say_belt(struct ceduo_page *page, const struct ceduo_belt *b, const struct ceduo_stand_result *s)
 {
-    struct text *line = ceduo_page_add(page, CEDUO_PAGE_SENTENCE);
-    if (s->bare) {
-        ceduo_text_format(line, "%s%s: %s", b->name, b->assumed ? "*" : "", _("no stems"));
-        return;
-    }
-    ceduo_text_format(line, _("%s%s: ADC %s m, free run %.1f %%, %s kJ per 100 m (%s)"), b->name, b->assumed ? "*" : "",
-                      WRITTEN(s->adc_m, 3), s->free_run_probability * 100, WRITTEN(s->per_100m * KILO, 3),
-                      ceduo_rule_words.names[s->rule]);
+    const char *mark = b->assumed ? "*" : "";
+    if (s->bare)
+        ceduo_page_say(page, CEDUO_PAGE_SENTENCE, "%s%s: %s", b->name, mark, _("no stems"));
+    else
+        ceduo_page_say(page, CEDUO_PAGE_SENTENCE, _("%s%s: ADC %s m, free run %.1f %%, %s kJ per 100 m (%s)"), b->name, mark,
+                       WRITTEN(s->adc_m, 3), s->free_run_probability * 100, WRITTEN(s->per_100m * J_TO_KJ, 3),
+                       ceduo_rule_words.names[s->rule]);
 }
 
 static void say_other_forms(struct ceduo_page *page, const struct ceduo_belt *b, const struct ceduo_stand_result *s)
@@ -53,13 +47,10 @@ static void say_other_forms(struct ceduo_page *page, const struct ceduo_belt *b,
     static const enum ceduo_rule rules[] = {CEDUO_GSTEIGER_STOOLS, CEDUO_GSTEIGER_STEMS, CEDUO_INTERCEPTION, CEDUO_CROFTON};
     struct text *line = ceduo_page_add(page, CEDUO_PAGE_DETAIL);
     ceduo_text_format(line, _("%s by %s; other forms:"), b->name, ceduo_rule_words.names[s->rule]);
-    for (size_t k = 0, n = 0; k < sizeof rules / sizeof rules[0]; k++) {
-        if (rules[k] == s->rule)
-            continue;
-        ceduo_text_format(line, "%s %s ", n++ ? "," : "", ceduo_rule_words.names[rules[k]]);
-        ceduo_words_number(line, ceduo_adc_value(&s->adc, rules[k]), 3);
-        ceduo_text_put(line, " m");
-    }
+    for (size_t k = 0, n = 0; k < sizeof rules / sizeof rules[0]; k++)
+        if (rules[k] != s->rule)
+            ceduo_text_format(line, "%s %s %s m", n++ ? "," : "", ceduo_rule_words.names[rules[k]],
+                              WRITTEN(ceduo_adc_value(&s->adc, rules[k]), 3));
 }
 
 void ceduo_page_belts(struct ceduo_page *page, const struct ceduo_report *report, size_t option)
@@ -67,10 +58,10 @@ void ceduo_page_belts(struct ceduo_page *page, const struct ceduo_report *report
     const struct ceduo_scene *scene = report->result->scene;
     const struct ceduo_option *o = &scene->options[option];
     const struct ceduo_option_result *found = &report->result->options[option];
-    bool wide = page->width >= CEDUO_PAGE_WIDTH;
-    if (wide && o->belts_count > 0)
+    bool table = page->width >= CEDUO_PAGE_WIDTH;
+    if (table && o->belts_count > 0)
         add_belts_table(page, scene, o, found);
-    for (size_t i = 0; i < o->belts_count && !wide; i++)
+    for (size_t i = 0; i < o->belts_count && !table; i++)
         say_belt(page, &o->belts[i], &found->stands[i]);
     for (size_t i = 0; i < o->belts_count; i++)
         if (!found->stands[i].bare)
@@ -84,21 +75,12 @@ static const char *rule_of(const struct ceduo_option *o, const struct ceduo_opti
 {
     const char *rule = NULL;
     for (size_t i = 0; i < o->belts_count; i++) {
-        if (found->stands[i].bare)
-            continue;
         const char *here = ceduo_rule_words.names[found->stands[i].rule];
-        if (rule && strcmp(rule, here) != 0)
+        if (!found->stands[i].bare && rule && strcmp(rule, here) != 0)
             return _("each belt's own rule");
-        rule = here;
+        rule = found->stands[i].bare ? rule : here;
     }
     return rule ? rule : _("no rule");
-}
-
-static void say_measured(struct ceduo_page *page, const struct ceduo_control *c, const struct ceduo_index *index)
-{
-    struct text *line = ceduo_page_add(page, CEDUO_PAGE_SENTENCE);
-    ceduo_text_format(line, _("Measured here on one rock: %s kJ (%g m/s). One rock is no validation."),
-                      WRITTEN(index->measured * KILO, 3), c->measured_speed);
 }
 
 /* Where contacts take shares, so that Eq. 4 has no meaning. */
@@ -118,31 +100,27 @@ static void say_share_left(struct text *line, const char *rule, const struct ced
         ceduo_text_format(line,
                           _("By the index (%s) every contact takes a share, so that Eq. 4 has no meaning; of %s kJ "
                             "%s kJ are left."),
-                          rule, WRITTEN(a->energy.mean * KILO, 4), WRITTEN(index->residual * KILO, 3));
-}
-
-/* All three with the decimals of the first, so that what is written is true. */
-static void say_difference(struct text *line, double mean, double taken, double left)
-{
-    int decimals = (int)fmax(0, 3 - floor(log10(mean)));
-    ceduo_text_then(line, "; ", _("left (Eq. 5): %.*f \xe2\x88\x92 %.*f = %.*f kJ."), decimals, mean, decimals, taken, decimals,
-                    left);
+                          rule, WRITTEN(a->energy.mean * J_TO_KJ, 4), WRITTEN(index->residual * J_TO_KJ, 3));
 }
 
 static void say_amount_left(struct text *line, const char *rule, const struct ceduo_index *index,
                             const struct ceduo_arrivals *a)
 {
-    ceduo_text_format(line, _("By the index (Eq. 4, %s) stems could take %s kJ"), rule, WRITTEN(index->dissipated * KILO, 3));
+    double mean = a->energy.mean * J_TO_KJ, taken = index->dissipated * J_TO_KJ, left = index->residual * J_TO_KJ;
+    ceduo_text_format(line, _("By the index (Eq. 4, %s) stems could take %s kJ"), rule, WRITTEN(taken, 3));
     if (index->length > 0)
-        ceduo_text_then(line, ", ", _("%s kJ per 100 m (%s)"), WRITTEN(index->per_100m * KILO, 3), rule);
-    if (a->reached == 0)
+        ceduo_text_then(line, ", ", _("%s kJ per 100 m (%s)"), WRITTEN(index->per_100m * J_TO_KJ, 3), rule);
+    if (a->reached == 0) {
         ceduo_text_then(line, "; ", _("no rock arrives, nothing is left to compare."));
-    else if (index->exhausted)
+    } else if (index->exhausted) {
         ceduo_text_then(line, ", ", _("more than the mean rock brings: used up on average. Some rocks still pass."));
-    else if (index->dissipated == 0)
-        ceduo_text_then(line, "; ", _("left (Eq. 5): all of %s kJ."), WRITTEN(index->residual * KILO, 3));
-    else
-        say_difference(line, a->energy.mean * KILO, index->dissipated * KILO, index->residual * KILO);
+    } else if (taken == 0) {
+        ceduo_text_then(line, "; ", _("left (Eq. 5): all of %s kJ."), WRITTEN(left, 3));
+    } else { /* all three with the decimals of the first, so that what is written is true */
+        int decimals = (int)fmax(0, 3 - floor(log10(mean)));
+        ceduo_text_then(line, "; ", _("left (Eq. 5): %.*f \xe2\x88\x92 %.*f = %.*f kJ."), decimals, mean, decimals, taken,
+                        decimals, left);
+    }
 }
 
 void ceduo_page_residual(struct ceduo_page *page, const struct ceduo_result *r, size_t option, size_t control)
@@ -156,27 +134,11 @@ void ceduo_page_residual(struct ceduo_page *page, const struct ceduo_result *r, 
     else
         say_amount_left(line, rule, index, a);
     if (!isnan(index->measured))
-        say_measured(page, &r->scene->controls[control], index);
+        ceduo_page_say(page, CEDUO_PAGE_SENTENCE, _("Measured here on one rock: %s kJ (%g m/s). One rock is no validation."),
+                       WRITTEN(index->measured * J_TO_KJ, 3), r->scene->controls[control].measured_speed);
 }
 
 /* ---- blocks of other sizes ---- */
-
-static void add_size(struct ceduo_page *page, const struct ceduo_block *b)
-{
-    ceduo_text_put(ceduo_page_text(page), b->own ? "  >" : "");
-    ceduo_page_number(page, b->volume, 3);
-    ceduo_page_number(page, b->mass, 3);
-    ceduo_page_number(page, b->diameter, 3);
-    ceduo_page_number(page, b->adc, 3);
-    ceduo_page_number(page, b->contacts, 3);
-    ceduo_page_share(page, b->arrivals.released > 0 ? &b->arrivals : NULL);
-}
-
-/* Of sizes less than an octave apart the order would be chance: the scene's own stands for them. */
-static bool is_told_apart(const struct ceduo_block *b, double own)
-{
-    return b->own || b->volume >= 2 * own || 2 * b->volume <= own;
-}
 
 #define SIZES_WIDTH 68
 
@@ -187,26 +149,32 @@ void ceduo_page_sizes(struct ceduo_page *page, const struct ceduo_result *r, con
                                                        {N_("ADC m"), -8, 0, 0}, {N_("contacts"), -10, 0, 0},
                                                        {NULL, -18, 0, 0}};
     const struct ceduo_control *c = &r->scene->controls[r->last_control];
-    char room[CEDUO_NUMBER_ROOM];
     double own = NAN;
     if (page->width < SIZES_WIDTH)
         return;
     for (size_t i = 0; i < CEDUO_BLOCKS; i++)
         own = blocks[i].own ? blocks[i].volume : own;
-    ceduo_text_format(ceduo_page_add(page, CEDUO_PAGE_CAPTION),
-                      _("Blocks of other sizes, same shape and release, of 1000 to %s m (> this scene's):"),
-                      ceduo_number_shortest(c->x_given, room));
-    ceduo_page_table(page, columns, sizeof columns / sizeof columns[0]);
-    ceduo_page_limit(page, c, _("of 1000 arrive"));
+    ceduo_page_say(page, CEDUO_PAGE_CAPTION,
+                   _("Blocks of other sizes, same shape and release, of 1000 to %s m (> this scene's):"), SHORTEST(c->x_given));
+    CEDUO_PAGE_TABLE_OF(page, columns);
+    ceduo_page_limit(page, c, CEDUO_HEAD);
     bool left_out = false;
     for (size_t i = 0; i < CEDUO_BLOCKS; i++) {
-        if (!is_told_apart(&blocks[i], own))
-            continue;
-        add_size(page, &blocks[i]);
-        left_out |= blocks[i].arrivals.released == 0;
+        const struct ceduo_block *b = &blocks[i];
+        if (!b->own && b->volume < 2 * own && 2 * b->volume > own)
+            continue; /* less than an octave apart the order would be chance: the scene's own stands for it */
+        const struct ceduo_measure share = ceduo_judged(c, b->arrivals.released > 0 ? &b->arrivals : NULL);
+        ceduo_page_write(page, "%s", b->own ? "  >" : "");
+        ceduo_page_number(page, b->volume, 3);
+        ceduo_page_number(page, b->mass, 3);
+        ceduo_page_number(page, b->diameter, 3);
+        ceduo_page_number(page, b->adc, 3);
+        ceduo_page_number(page, b->contacts, 3);
+        ceduo_page_interval(page, &share);
+        left_out |= b->arrivals.released == 0;
     }
     if (left_out && r->scene->simulation.contact_model != CEDUO_INDEX && ceduo_result_rocks(r) > 0)
-        ceduo_text_put(ceduo_page_add(page, CEDUO_PAGE_SENTENCE),
+        ceduo_page_say(page, CEDUO_PAGE_SENTENCE,
                        _("A size with a dash was left out: its rocks come to so many stems that they would cost far more than "
                          "those of the scene."));
 }

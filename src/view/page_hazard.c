@@ -5,7 +5,6 @@
 
 #include "base/language.h"
 #include "page_parts.h"
-#include "words.h"
 
 /* What arrives at a control without forest (item 0) and through the forest of each option. NULL: not known. */
 static const struct ceduo_hazard *hazard_of(const struct ceduo_result *r, size_t item, size_t control)
@@ -36,52 +35,38 @@ void ceduo_words_every(struct text *text, struct ceduo_rate rate)
 void ceduo_words_years(struct text *text, struct ceduo_rate rate)
 {
     ceduo_words_every(text, rate);
-    if (!(rate.rate > 0))
-        return;
-    if (rate.lo > 0)
+    if (rate.rate > 0 && rate.lo > 0)
         ceduo_text_format(text, " (%s\xe2\x80\x93%s)", WRITTEN(1 / rate.hi, 2), WRITTEN(1 / rate.lo, 2));
-    else
+    else if (rate.rate > 0)
         ceduo_text_format(text, " (> %s)", WRITTEN(1 / rate.hi, 2));
 }
 
 void ceduo_words_hazard(struct text *text, const struct ceduo_result *r, size_t option, size_t control)
 {
     const struct ceduo_control *c = &r->scene->controls[control];
-    const struct ceduo_hazard *bare = hazard_of(r, 0, control), *wooded = hazard_of(r, option + 1, control);
-    char room[CEDUO_NUMBER_ROOM];
-    struct text place = {0}, without = {0}, with = {0};
+    const struct ceduo_hazard *wooded = hazard_of(r, option + 1, control);
+    LOCAL_TEXT(place);
+    LOCAL_TEXT(bare);
+    LOCAL_TEXT(wood);
+    LOCAL_TEXT(rock);
     if (c->name)
         ceduo_text_format(&place, "'%s'", c->name);
     else
-        ceduo_text_format(&place, _("the place at %s m"), ceduo_number_shortest(c->x_given, room));
-    ceduo_words_years(&without, ceduo_hazard_feared(bare));
-    if (wooded)
-        ceduo_words_years(&with, ceduo_hazard_feared(wooded));
-    const char *where = ceduo_text_string(&place), *wood = ceduo_text_string(&with), *years = ceduo_text_string(&without);
-    const char *kJ = ceduo_number_shortest(ceduo_words_accepted(c), room);
-    bool several = r->scene->options_count > 1;
-    if (isnan(c->accepted) && wooded && several)
-        ceduo_text_format(text, _("A rock reaches %s every %s years without forest, every %s years with '%s'."), where, years,
-                          wood, r->scene->options[option].name);
-    else if (isnan(c->accepted) && wooded)
-        ceduo_text_format(text, _("A rock reaches %s every %s years without forest, every %s years through the wood."), where,
-                          years, wood);
-    else if (isnan(c->accepted))
-        ceduo_text_format(text, _("A rock reaches %s every %s years without forest."), where, years);
-    else if (wooded && several)
-        ceduo_text_format(text,
-                          _("A rock with more than %s kJ reaches %s every %s years without forest, every %s years with '%s'."),
-                          kJ, where, years, wood, r->scene->options[option].name);
-    else if (wooded)
-        ceduo_text_format(
-            text, _("A rock with more than %s kJ reaches %s every %s years without forest, every %s years through the wood."),
-            kJ, where, years, wood);
+        ceduo_text_format(&place, _("the place at %s m"), SHORTEST(c->x_given));
+    if (isnan(c->accepted))
+        ceduo_text_put(&rock, _("A rock"));
     else
-        ceduo_text_format(text, _("A rock with more than %s kJ reaches %s every %s years without forest."), kJ, where, years);
-    text->failed |= place.failed || without.failed || with.failed;
-    ceduo_text_free(&place);
-    ceduo_text_free(&without);
-    ceduo_text_free(&with);
+        ceduo_text_format(&rock, _("A rock with more than %s kJ"), SHORTEST(ceduo_words_accepted(c)));
+    ceduo_words_years(&bare, ceduo_hazard_feared(hazard_of(r, 0, control)));
+    ceduo_text_format(text, _("%s reaches %s every %s years without forest"), rock.bytes, place.bytes, bare.bytes);
+    if (wooded) {
+        ceduo_words_years(&wood, ceduo_hazard_feared(wooded));
+        if (r->scene->options_count > 1)
+            ceduo_text_then(text, ", ", _("every %s years with '%s'"), wood.bytes, r->scene->options[option].name);
+        else
+            ceduo_text_then(text, ", ", _("every %s years through the wood"), wood.bytes);
+    }
+    ceduo_text_char(text, '.');
 }
 
 /* ---- energies of return periods ---- */
@@ -93,7 +78,7 @@ const char *ceduo_words_intensity(int intensity)
 }
 
 /* A figure and its interval, of which hi may be NaN, as 1.2 (1.1–1.3)e7: where there is no room for more. */
-static void put_shorter(struct text *text, double value, double lo, double hi)
+static void append_shorter(struct text *text, double value, double lo, double hi)
 {
     int e = value > 0 ? (int)floor(log10(value)) : 0;
     double unit = pow(10, e);
@@ -107,31 +92,31 @@ static void put_shorter(struct text *text, double value, double lo, double hi)
 static void add_return(struct ceduo_page *page, const struct ceduo_return *back)
 {
     struct ceduo_page_cell *cell = ceduo_page_cell(page);
-    if (isnan(back->energy)) {
+    double value = back->energy * J_TO_KJ, lo = back->lo * J_TO_KJ, hi = back->hi * J_TO_KJ;
+    if (isnan(value)) {
         ceduo_text_put(&cell->text, _("none"));
         return;
     }
-    ceduo_text_put(&cell->text, WRITTEN(back->energy * KILO, 3));
-    const char *lo = isnan(back->lo) ? "0" : WRITTEN(back->lo * KILO, 3);
-    if (isnan(back->hi))
-        ceduo_text_format(&cell->text, " (> %s)", lo);
+    const char *from = isnan(lo) ? "0" : WRITTEN(lo, 3);
+    if (isnan(hi))
+        ceduo_text_format(&cell->text, "%s (> %s)", WRITTEN(value, 3), from);
     else
-        ceduo_text_format(&cell->text, " (%s\xe2\x80\x93%s)", lo, WRITTEN(back->hi * KILO, 3));
-    put_shorter(&cell->shorter, back->energy * KILO, isnan(back->lo) ? 0 : back->lo * KILO, back->hi * KILO);
+        ceduo_text_format(&cell->text, "%s (%s\xe2\x80\x93%s)", WRITTEN(value, 3), from, WRITTEN(hi, 3));
+    append_shorter(&cell->shorter, value, isnan(lo) ? 0 : lo, hi);
 }
 
 static void add_returns(struct ceduo_page *page, const struct ceduo_result *r, size_t control)
 {
     static const struct ceduo_page_column columns[] = {
         {"", 22, 4, CEDUO_WHOLE}, {N_("30 years"), -17, 1, 0}, {N_("100 years"), -17, 1, 0}, {N_("300 years"), -17, 1, 0}};
-    ceduo_text_put(ceduo_page_add(page, CEDUO_PAGE_CAPTION),
+    ceduo_page_say(page, CEDUO_PAGE_CAPTION, "%s",
                    _("Energy that is reached or exceeded once in so many years, kJ (95 % interval):"));
-    ceduo_page_table(page, columns, sizeof columns / sizeof columns[0]);
+    CEDUO_PAGE_TABLE_OF(page, columns);
     for (size_t i = 0; i <= r->scene->options_count; i++) {
         const struct ceduo_hazard *h = hazard_of(r, i, control);
         if (!h)
             continue;
-        ceduo_text_put(ceduo_page_text(page), name_of(r, i));
+        ceduo_page_write(page, "%s", name_of(r, i));
         for (size_t t = 1; t < CEDUO_RETURNS; t++)
             add_return(page, &h->returns[t]);
     }
@@ -143,15 +128,12 @@ static void add_returns(struct ceduo_page *page, const struct ceduo_result *r, s
 static void add_mark(struct ceduo_page *page, const struct ceduo_result *r, size_t control, size_t t, int intensity)
 {
     struct text *cell = ceduo_page_text(page);
-    bool several = false;
     for (size_t i = 0; i <= r->scene->options_count; i++) {
         const struct ceduo_hazard *h = hazard_of(r, i, control);
-        if (!h || ceduo_intensity_of(h->returns[t].energy) != intensity)
-            continue;
-        ceduo_text_format(cell, several ? " %zu" : "%zu", i);
-        several = true;
+        if (h && ceduo_intensity_of(h->returns[t].energy) == intensity)
+            ceduo_text_format(cell, cell->length > 0 ? " %zu" : "%zu", i);
     }
-    if (!several)
+    if (cell->length == 0)
         ceduo_text_put(cell, "\xc2\xb7");
 }
 
@@ -163,11 +145,10 @@ static void add_square(struct ceduo_page *page, const struct ceduo_result *r, si
                                                        {N_("to 300 years"), 0, 0, 0}};
     static const char *const rows[] = {N_("none arrives"), N_("weak, below 30 kJ"), N_("medium, 30 to 300 kJ"),
                                        N_("strong, above 300 kJ")};
-    ceduo_text_put(ceduo_page_add(page, CEDUO_PAGE_CAPTION),
-                   _("Intensity by return period, in the classes of Swiss practice (BAFU 2016):"));
-    ceduo_page_table(page, columns, sizeof columns / sizeof columns[0]);
+    ceduo_page_say(page, CEDUO_PAGE_CAPTION, _("Intensity by return period, in the classes of Swiss practice (BAFU 2016):"));
+    CEDUO_PAGE_TABLE_OF(page, columns);
     for (int i = CEDUO_INTENSITIES - 1; i >= -1; i--) {
-        ceduo_text_put(ceduo_page_text(page), _(rows[i + 1]));
+        ceduo_page_write(page, "%s", _(rows[i + 1]));
         for (size_t t = 1; t < CEDUO_RETURNS; t++)
             add_mark(page, r, control, t, i);
     }
@@ -186,17 +167,15 @@ static void add_square(struct ceduo_page *page, const struct ceduo_result *r, si
 static void say_left(struct ceduo_page *page, const struct ceduo_result *r, size_t option, size_t control)
 {
     const struct ceduo_hazard *h = hazard_of(r, option + 1, control);
-    struct text said = {0};
+    LOCAL_TEXT(said);
     for (size_t i = 0; h && i < CEDUO_INTENSITIES; i++)
         if (!isnan(h->intensity[i].left)) /* without forest some arrive */
-            ceduo_text_then(&said, said.length > 0 ? ", " : "", _("%s %s %%"), ceduo_words_intensity((int)i),
+            ceduo_text_then(&said, said.length > 0 ? ", " : "", "%s %s %%", ceduo_words_intensity((int)i),
                             WRITTEN(h->intensity[i].left * 100, 2));
     if (said.length > 0)
-        ceduo_text_format(ceduo_page_add(page, CEDUO_PAGE_SENTENCE),
-                          _("Of what arrives without forest, so much arrives with '%s', each rock by its energy here: %s."),
-                          r->scene->options[option].name, ceduo_text_string(&said));
-    page->failed |= said.failed;
-    ceduo_text_free(&said);
+        ceduo_page_say(page, CEDUO_PAGE_SENTENCE,
+                       _("Of what arrives without forest, so much arrives with '%s', each rock by its energy here: %s."),
+                       r->scene->options[option].name, said.bytes);
 }
 
 /* The option with which what is feared is rarest. */
@@ -211,14 +190,6 @@ static size_t rarest(const struct ceduo_result *r, size_t control)
     return best;
 }
 
-static void add_years(struct ceduo_page *page, struct ceduo_rate rate)
-{
-    struct ceduo_page_cell *cell = ceduo_page_cell(page);
-    ceduo_words_years(&cell->text, rate);
-    if (rate.rate > 0)
-        put_shorter(&cell->shorter, 1 / rate.rate, 1 / rate.hi, rate.lo > 0 ? 1 / rate.lo : NAN);
-}
-
 /* The same of all options, side by side. */
 static void add_rates(struct ceduo_page *page, const struct ceduo_result *r, size_t control)
 {
@@ -228,45 +199,30 @@ static void add_rates(struct ceduo_page *page, const struct ceduo_result *r, siz
                                                        {N_("% medium"), -9, 0, 0},
                                                        {N_("% strong"), -9, 0, 0}};
     const struct ceduo_control *c = &r->scene->controls[control];
-    struct text *caption = ceduo_page_add(page, CEDUO_PAGE_CAPTION);
-    char room[CEDUO_NUMBER_ROOM];
-    if (isnan(c->accepted))
-        ceduo_text_put(
-            caption,
-            _("Years from one rock to the next, and what arrives weak, medium and strong, in % of what does without forest:"));
-    else
-        ceduo_text_format(
-            caption,
-            _("Years from one rock with more than %s kJ to the next, and what arrives weak, medium and strong, in "
-              "%% of what does without forest:"),
-            ceduo_number_shortest(ceduo_words_accepted(c), room));
-    ceduo_page_table(page, columns, sizeof columns / sizeof columns[0]);
+    LOCAL_TEXT(limit);
+    if (!isnan(c->accepted))
+        ceduo_text_format(&limit, _(" with more than %s kJ"), SHORTEST(ceduo_words_accepted(c)));
+    ceduo_page_say(page, CEDUO_PAGE_CAPTION,
+                   _("Years from one rock%s to the next, and what arrives weak, medium and strong, in %% of what does without "
+                     "forest:"),
+                   ceduo_text_string(&limit));
+    CEDUO_PAGE_TABLE_OF(page, columns);
     for (size_t i = 0; i <= r->scene->options_count; i++) {
         const struct ceduo_hazard *h = hazard_of(r, i, control);
         if (!h)
             continue;
-        ceduo_text_put(ceduo_page_text(page), name_of(r, i));
-        add_years(page, ceduo_hazard_feared(h));
+        struct ceduo_rate rate = ceduo_hazard_feared(h);
+        ceduo_page_write(page, "%s", name_of(r, i));
+        struct ceduo_page_cell *cell = ceduo_page_cell(page);
+        ceduo_words_years(&cell->text, rate);
+        if (rate.rate > 0)
+            append_shorter(&cell->shorter, 1 / rate.rate, 1 / rate.hi, rate.lo > 0 ? 1 / rate.lo : NAN);
         for (size_t k = 0; k < CEDUO_INTENSITIES; k++) {
             if (isnan(h->intensity[k].left))
-                ceduo_text_put(ceduo_page_text(page), _("none"));
+                ceduo_page_write(page, "%s", _("none"));
             else
                 ceduo_page_number(page, i == 0 ? 100 : h->intensity[k].left * 100, i == 0 ? 3 : 2);
         }
-    }
-}
-
-static void add_words(struct ceduo_page *page, const struct ceduo_result *r, size_t control)
-{
-    if (r->scene->options_count > FEW && ceduo_result_wooded(r, 0, control)) {
-        ceduo_words_hazard(ceduo_page_add(page, CEDUO_PAGE_SENTENCE), r, rarest(r, control), control);
-        add_rates(page, r, control);
-        return;
-    }
-    for (size_t i = 0; i < r->scene->options_count; i++) {
-        if (i == 0 || hazard_of(r, i + 1, control))
-            ceduo_words_hazard(ceduo_page_add(page, CEDUO_PAGE_SENTENCE), r, i, control);
-        say_left(page, r, i, control);
     }
 }
 
@@ -276,20 +232,24 @@ void ceduo_page_hazard(struct ceduo_page *page, const struct ceduo_report *repor
     const struct ceduo_control *control = &r->scene->controls[c];
     if (!ceduo_report_has_hazard(report))
         return;
-    struct text *head = ceduo_page_add(page, CEDUO_PAGE_SECTION);
-    char place[CEDUO_NUMBER_ROOM];
-    const char *x = ceduo_number_shortest(control->x_given, place);
-    if (control->name)
-        ceduo_text_format(head, _("How often, at %s m, %s"), x, control->name);
-    else
-        ceduo_text_format(head, _("How often, at %s m"), x);
+    ceduo_page_say(page, CEDUO_PAGE_SECTION, _("How often, at %s m%s%s"), SHORTEST(control->x_given), control->name ? ", " : "",
+                   control->name ? control->name : "");
     if (first)
-        ceduo_text_format(ceduo_page_add(page, CEDUO_PAGE_SENTENCE),
-                          _("%g blocks come down a year. Rare large ones were simulated as often as small ones and "
-                            "weighted; %llu rocks know the whole as well as %.0f equal ones would."),
-                          r->bare.arrivals[c].hazard.per_year, (unsigned long long)r->bare.rocks,
-                          r->bare.arrivals[c].hazard.effective);
-    add_words(page, r, c);
+        ceduo_page_say(page, CEDUO_PAGE_SENTENCE,
+                       _("%g blocks come down a year. Rare large ones were simulated as often as small ones and "
+                         "weighted; %llu rocks know the whole as well as %.0f equal ones would."),
+                       r->bare.arrivals[c].hazard.per_year, (unsigned long long)r->bare.rocks,
+                       r->bare.arrivals[c].hazard.effective);
+    bool many = r->scene->options_count > FEW && ceduo_result_wooded(r, 0, c);
+    for (size_t i = 0; !many && i < r->scene->options_count; i++) {
+        if (i == 0 || hazard_of(r, i + 1, c))
+            ceduo_words_hazard(ceduo_page_add(page, CEDUO_PAGE_SENTENCE), r, i, c);
+        say_left(page, r, i, c);
+    }
+    if (many) {
+        ceduo_words_hazard(ceduo_page_add(page, CEDUO_PAGE_SENTENCE), r, rarest(r, c), c);
+        add_rates(page, r, c);
+    }
     add_returns(page, r, c);
     add_square(page, r, c);
 }

@@ -8,13 +8,15 @@
 
 #include "base/language.h"
 #include "svg.h"
+#include "words.h"
 
 /* Colours of text have a contrast of 4.5 to what is behind them at least. What must stay together on paper is not
  * broken between two sheets. */
 static const char style[] =
     "@page{size:A4;margin:12mm 15mm}\n"
     "*{box-sizing:border-box}\n"
-    "html{background:#fff;color:#1c1c1c;font:9pt/1.3 'Liberation Sans',Arial,Helvetica,sans-serif;-webkit-print-color-adjust:exact;"
+    "html{background:#fff;color:#1c1c1c;font:9pt/1.3 'Liberation "
+    "Sans',Arial,Helvetica,sans-serif;-webkit-print-color-adjust:exact;"
     "print-color-adjust:exact}\n"
     "body{max-width:180mm;margin:0 auto;padding:0 4mm}\n"
     "h1{font-size:17pt;line-height:1.2;margin:2mm 0 2mm;overflow-wrap:anywhere}\n"
@@ -87,22 +89,20 @@ static bool is_number(const struct ceduo_page_column *column)
     return column->width < 0;
 }
 
-static void put_cell(struct ceduo_html *html, const struct ceduo_page_block *table, size_t row, size_t i)
+static void write_cell(struct ceduo_html *html, const struct ceduo_page_block *table, size_t row, size_t i)
 {
     const struct ceduo_page_column *column = &table->columns[i];
-    struct text text = {0};
+    LOCAL_TEXT(text);
     ceduo_page_write_cell(&text, &table->cells[row + i], WIDTH, false);
     const char *name = (row == 0 || i == 0) && text.length > 0 ? "th" : "td";
     const char *scope = name[1] != 'h' ? NULL : row == 0 ? "col" : "row";
     bool spans = row == 0 && (column->flags & CEDUO_SPAN);
     ceduo_html_leaf(html, name, ceduo_text_string(&text), "scope", scope, "class", is_number(column) ? "n" : NULL,
                     spans ? "colspan" : "class", spans ? "2" : NULL, NULL);
-    html->text->failed |= text.failed;
-    ceduo_text_free(&text);
 }
 
 /* One with heads alone says nothing. */
-static void put_table(struct ceduo_html *html, const struct ceduo_page_block *table, const struct ceduo_page_block *caption)
+static void write_table(struct ceduo_html *html, const struct ceduo_page_block *table, const struct ceduo_page_block *caption)
 {
     size_t n = table->columns_count;
     if (table->cells_count < 2 * n)
@@ -115,7 +115,7 @@ static void put_table(struct ceduo_html *html, const struct ceduo_page_block *ta
             ceduo_html_open(html, row == 0 ? "thead" : "tbody", NULL);
         ceduo_html_open(html, "tr", NULL);
         for (size_t i = 0; i < n; i++) {
-            put_cell(html, table, row, i);
+            write_cell(html, table, row, i);
             i += row == 0 && (table->columns[i].flags & CEDUO_SPAN);
         }
         ceduo_html_close(html);
@@ -128,7 +128,7 @@ static void put_table(struct ceduo_html *html, const struct ceduo_page_block *ta
 
 /* ---- the other blocks ---- */
 
-static void put_picture(struct ceduo_html *html, const struct ceduo_page_block *block, size_t number, size_t picture)
+static void write_picture(struct ceduo_html *html, const struct ceduo_page_block *block, size_t number, size_t picture)
 {
     char id[48];
     snprintf(id, sizeof id, "c%zu-p%zu", number, picture);
@@ -154,7 +154,7 @@ static const struct {
     [CEDUO_PAGE_NOTE] = {"p", NULL},           [CEDUO_PAGE_ITEM] = {"li", NULL},    [CEDUO_PAGE_WARNING] = {"p", "warning"},
     [CEDUO_PAGE_QUESTION] = {"p", "question"}, [CEDUO_PAGE_ANSWER] = {"p", NULL},   [CEDUO_PAGE_CODE] = {"pre", NULL}};
 
-static void put_block(struct ceduo_html *html, const struct ceduo_page_block *block)
+static void write_block(struct ceduo_html *html, const struct ceduo_page_block *block)
 {
     const char *text = ceduo_text_string(&block->text);
     if (block->kind == CEDUO_PAGE_FACT) {
@@ -171,7 +171,6 @@ static void put_block(struct ceduo_html *html, const struct ceduo_page_block *bl
 void ceduo_page_html(struct ceduo_html *html, const struct ceduo_page *page, size_t number)
 {
     size_t pictures = 0;
-    html->text->failed |= ceduo_page_failed(page);
     ceduo_html_open(html, "section", NULL);
     ceduo_text_char(html->text, '\n');
     for (const struct ceduo_page_block *b = page->first, *last = NULL; b; last = b, b = b->next) {
@@ -180,11 +179,11 @@ void ceduo_page_html(struct ceduo_html *html, const struct ceduo_page *page, siz
         if (list && !follows)
             ceduo_html_open(html, list, "class", b->kind == CEDUO_PAGE_ANSWER ? "answer" : NULL, NULL);
         if (b->kind == CEDUO_PAGE_TABLE)
-            put_table(html, b, last && last->kind == CEDUO_PAGE_CAPTION ? last : NULL);
+            write_table(html, b, last && last->kind == CEDUO_PAGE_CAPTION ? last : NULL);
         else if (b->kind == CEDUO_PAGE_PICTURE)
-            put_picture(html, b, number, ++pictures);
+            write_picture(html, b, number, ++pictures);
         else if (b->kind != CEDUO_PAGE_CAPTION || !b->next || b->next->kind != CEDUO_PAGE_TABLE)
-            put_block(html, b);
+            write_block(html, b);
         if (list && !goes_on)
             ceduo_html_close(html);
     }

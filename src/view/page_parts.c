@@ -5,15 +5,9 @@
 
 #include "base/language.h"
 
-void ceduo_page_share(struct ceduo_page *page, const struct ceduo_arrivals *a)
+void ceduo_page_interval(struct ceduo_page *page, const struct ceduo_measure *m)
 {
-    struct text *text = ceduo_page_text(page);
-    if (!a)
-        ceduo_text_put(text, "-");
-    else if (!isnan(a->exceed_probability))
-        ceduo_words_of_1000(text, a->exceed_probability, a->exceed_lo, a->exceed_hi);
-    else
-        ceduo_words_of_1000(text, a->reach_probability, a->reach_lo, a->reach_hi);
+    ceduo_measure_interval(ceduo_page_text(page), m);
 }
 
 void ceduo_page_per_1000(struct ceduo_page *page, double mean, double half, bool sign)
@@ -27,30 +21,46 @@ void ceduo_page_per_1000(struct ceduo_page *page, double mean, double half, bool
         ceduo_text_format(text, sign ? "%+.0f \xc2\xb1%.0f" : "%.0f \xc2\xb1%.0f", mean * 1000, ceil(half * 1000));
 }
 
-void ceduo_page_limit(struct ceduo_page *page, const struct ceduo_control *c, const char *otherwise)
+void ceduo_page_limit(struct ceduo_page *page, const struct ceduo_control *c, enum ceduo_measure_name otherwise)
 {
-    char room[CEDUO_NUMBER_ROOM];
     struct ceduo_page_cell *head = ceduo_page_head(page);
-    if (isnan(c->accepted)) {
-        ceduo_text_put(&head->text, otherwise);
-        return;
-    }
+    struct ceduo_measure m = ceduo_judged(c, NULL);
     bool kilo = fabs(c->accepted) < 1e6;
-    ceduo_text_format(&head->text, "> %s kJ", ceduo_number_shortest(ceduo_words_accepted(c), room));
-    ceduo_text_format(&head->shorter, kilo ? "> %.3g kJ" : "> %.3g MJ", c->accepted * (kilo ? 1e-3 : 1e-6));
+    ceduo_measure_name(&head->text, &m, isnan(c->accepted) ? otherwise : CEDUO_SHORT_HEAD);
+    if (!isnan(c->accepted))
+        ceduo_text_format(&head->shorter, kilo ? "> %.3g kJ" : "> %.3g MJ", c->accepted * (kilo ? 1e-3 : 1e-6));
 }
 
 void ceduo_page_percent(struct ceduo_page *page, double share)
 {
-    ceduo_text_format(ceduo_page_text(page), "%.1f %%", share * 100);
+    ceduo_page_write(page, "%.1f %%", share * 100);
+}
+
+/* A word in green or red. */
+static void write_word(struct ceduo_page *page, const char *word, bool good, bool bad)
+{
+    struct ceduo_page_cell *cell = ceduo_page_cell(page);
+    cell->role = good ? CEDUO_ROLE_GOOD : bad ? CEDUO_ROLE_BAD : CEDUO_ROLE_BLANK;
+    ceduo_text_put(&cell->text, word);
 }
 
 void ceduo_page_verdict(struct ceduo_page *page, enum ceduo_light light)
 {
-    ceduo_text_put(ceduo_page_text(page), light == CEDUO_PASS ? _("pass") : light == CEDUO_FAIL ? _("FAIL") : "?");
+    bool good = light == CEDUO_PASS, bad = light == CEDUO_FAIL;
+    write_word(page, good ? _("pass") : bad ? _("FAIL") : "?", good, bad);
+}
+
+void ceduo_page_yes(struct ceduo_page *page, bool yes)
+{
+    write_word(page, yes ? _("yes") : _("NO"), yes, !yes);
 }
 
 void ceduo_page_warn(void *page, const char *sentence)
 {
-    ceduo_text_put(ceduo_page_add(page, CEDUO_PAGE_WARNING), sentence);
+    ceduo_page_say(page, CEDUO_PAGE_WARNING, "%s", sentence);
+}
+
+void ceduo_page_note(void *page, const char *sentence)
+{
+    ceduo_page_say(page, CEDUO_PAGE_NOTE, "%s", sentence);
 }

@@ -2,6 +2,7 @@
 #ifndef CEDUO_PAGE_PARTS_H
 #define CEDUO_PAGE_PARTS_H
 
+#include "measure.h"
 #include "page.h"
 #include "report.h"
 
@@ -19,9 +20,8 @@ void ceduo_page_rules(struct ceduo_page *page, const struct ceduo_result *result
 /* Rock, slope and rocks, a line each. */
 void ceduo_page_facts(struct ceduo_page *page, const struct ceduo_report *report);
 
+/* All of an option at each control, but for its heading. */
 void ceduo_page_option(struct ceduo_page *page, const struct ceduo_report *report, size_t option);
-/* The same without its heading. */
-void ceduo_page_option_blocks(struct ceduo_page *page, const struct ceduo_report *report, size_t option);
 
 /* The belts of an option and what their stems could take, by the index. */
 void ceduo_page_belts(struct ceduo_page *page, const struct ceduo_report *report, size_t option);
@@ -51,18 +51,20 @@ void ceduo_page_design(struct ceduo_page *page, const struct ceduo_report *repor
 /* Warnings of the whole run, and assumptions. */
 void ceduo_page_notes(struct ceduo_page *page, const struct ceduo_report *report);
 
-/* ---- words that several of them use ---- */
+/* ---- words and cells that several of them use ---- */
 
-/* A cell: how many of 1000 arrive with too much energy, or arrive at all if no accepted energy is given; "-" for NULL. */
-void ceduo_page_share(struct ceduo_page *page, const struct ceduo_arrivals *arrivals);
+/* A cell: "480 (453–501)"; "-" where it is not known. */
+void ceduo_page_interval(struct ceduo_page *page, const struct ceduo_measure *measure);
 /* A cell: "480 ±10" of 1000, or "+480 ±10" if `sign`; "-" for NaN. */
 void ceduo_page_per_1000(struct ceduo_page *page, double mean, double half, bool sign);
-/* The head of a column of shares: "> 50 kJ", or `otherwise` if the control has no accepted energy. */
-void ceduo_page_limit(struct ceduo_page *page, const struct ceduo_control *control, const char *otherwise);
+/* The head of the column of the share that a control is judged by: "> 50 kJ", or `otherwise` without an accepted energy. */
+void ceduo_page_limit(struct ceduo_page *page, const struct ceduo_control *control, enum ceduo_measure_name otherwise);
 void ceduo_page_percent(struct ceduo_page *page, double share);
 void ceduo_page_verdict(struct ceduo_page *page, enum ceduo_light light); /* pass, FAIL, ? */
+void ceduo_page_yes(struct ceduo_page *page, bool yes);                   /* yes, NO */
 
-/* Adds a warning; the context is the page. */
+/* Adds a warning, or a note; the context is the page. */
 void ceduo_page_warn(void *page, const char *sentence);
+void ceduo_page_note(void *page, const char *sentence);
 
 #endif

@@ -83,11 +83,10 @@ static void add_percentiles(struct ceduo_page *page, const struct ceduo_chapter 
     if (r->scene->options_count < 2 || r->bare.rocks == 0)
         return;
     for (size_t k = is_crowded(c) ? r->last_control : 0; k < r->scene->controls_count; k++) {
-        struct text place = {0};
+        LOCAL_TEXT(place);
         ceduo_plot_control_name(&place, &r->scene->controls[k]);
         ceduo_text_format(ceduo_page_add(page, CEDUO_PAGE_PLACE), _("At %s, with '%s'"), ceduo_text_string(&place),
                           r->scene->options[option].name);
-        ceduo_text_free(&place);
         ceduo_page_percentiles(page, r, option, k);
         ceduo_page_design(page, c->report, option, k);
     }
@@ -195,7 +194,6 @@ static void put_scene(struct text *text, const struct scene_file *file)
     const struct node *root = ceduo_emit_unresolve(&arena, file->root);
     if (root)
         ceduo_emit(text, root);
-    text->failed |= !root;
     ceduo_arena_free(&arena);
 }
 
@@ -242,7 +240,7 @@ void ceduo_page_chapter(struct ceduo_page *page, const struct ceduo_chapter *c)
         add_compared(page, c);
     } else if (!several) {
         section(page, _("Through the forest, and without it"));
-        ceduo_page_option_blocks(page, c->report, 0);
+        ceduo_page_option(page, c->report, 0);
     }
     if (controls && !is_crowded(c))
         ceduo_page_laws(page, c->report->result);
@@ -258,9 +256,9 @@ void ceduo_page_chapter(struct ceduo_page *page, const struct ceduo_chapter *c)
         ceduo_page_stand_warnings(page, c->report->result, 0, scene->options_count);
     add_limits(page, c->report->result);
     if (is_crowded(c))
-        ceduo_text_put(ceduo_page_add(page, CEDUO_PAGE_NOTE),
-                       _("Not on this page, as it would be too long: the controls before the last, the other energy law and "
-                         "the years as pictures ('ceduo --batch', 'ceduo --plot'), the order of the options pair by pair "
-                         "('ceduo --sensitivity')."));
+        ceduo_page_note(page,
+                        _("Not on this page, as it would be too long: the controls before the last, the other energy law and "
+                          "the years as pictures ('ceduo --batch', 'ceduo --plot'), the order of the options pair by pair "
+                          "('ceduo --sensitivity')."));
     add_origin(page, c);
 }

@@ -28,7 +28,4 @@ void ceduo_page_answer(struct ceduo_page *page, const struct ceduo_chapter *chap
 /* The option to show: the best one today. */
 size_t ceduo_chapter_option(const struct ceduo_chapter *chapter);
 
-/* The figure of doubt that the answer is about; NULL where none was computed. */
-const struct ceduo_doubt_figure *ceduo_chapter_doubt(const struct ceduo_chapter *chapter, size_t option);
-
 #endif

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The page of a result: what was flown, then each option at each control, then the options side by side. */
+/* The page of a result: what was simulated, then each option at each control, then the options side by side; below, warnings of
+ * the whole run, and each assumption with the first place that makes it. */
 #include <math.h>
 #include <string.h>
 
@@ -22,53 +23,33 @@ static const char *assumed_mark(const struct ceduo_report *report, const char *p
     return ceduo_notes_assume(report->file->notes, path) ? "*" : "";
 }
 
-static void add_rock(struct ceduo_page *page, const struct ceduo_report *report)
+void ceduo_page_facts(struct ceduo_page *page, const struct ceduo_report *report)
 {
     const struct ceduo_result *r = report->result;
+    const struct ceduo_scene *s = r->scene;
+    const struct ceduo_slope *slope = &s->slope;
     struct text *line = ceduo_page_fact(page, _("Rock"));
     ceduo_text_format(line,
-                      r->scene->blocks_count > 0
-                          ? _("%s; rocks are the blocks below, the index is of %s kg, mean diameter %s m")
-                      : ceduo_rock_varies(&r->scene->rock) ? _("%s, %s kg, mean diameter %s m (means of its spread)")
-                                                           : _("%s, %s kg, mean diameter %s m"),
-                      _(shapes[r->scene->rock.shape]), WRITTEN(r->rock.mass, 4), WRITTEN(r->rock.mean_diameter, 3));
+                      s->blocks_count > 0 ? _("%s; rocks are the blocks below, the index is of %s kg, mean diameter %s m")
+                      : ceduo_rock_varies(&s->rock) ? _("%s, %s kg, mean diameter %s m (means of its spread)")
+                                                    : _("%s, %s kg, mean diameter %s m"),
+                      _(shapes[s->rock.shape]), WRITTEN(r->rock.mass, 4), WRITTEN(r->rock.mean_diameter, 3));
     ceduo_text_put(line, assumed_mark(report, "rock"));
-}
-
-static void add_blocks(struct ceduo_page *page, const struct ceduo_scene *s)
-{
-    for (size_t i = 0; i < s->blocks_count; i++) {
-        const struct ceduo_block_class *b = &s->blocks[i];
-        ceduo_text_format(ceduo_page_fact(page, _("Blocks")), _("%g a year of %g to %g m3, exponent %g"), b->per_year,
-                          b->volumes[0], b->volumes[1], b->exponent);
-    }
-}
-
-static void add_slope(struct ceduo_page *page, const struct ceduo_report *report)
-{
-    const struct ceduo_scene *s = report->result->scene;
-    const struct ceduo_slope *slope = &s->slope;
+    for (size_t i = 0; i < s->blocks_count; i++)
+        ceduo_text_format(ceduo_page_fact(page, _("Blocks")), _("%g a year of %g to %g m3, exponent %g"), s->blocks[i].per_year,
+                          s->blocks[i].volumes[0], s->blocks[i].volumes[1], s->blocks[i].exponent);
     double low = 0, high = 0;
     for (size_t i = 0; i < slope->vertices; i++) {
         low = fmin(low, slope->z[i]);
         high = fmax(high, slope->z[i]);
     }
-    struct text *line = ceduo_page_fact(page, _("Slope"));
-    ceduo_text_format(line,
+    ceduo_text_format(ceduo_page_fact(page, _("Slope")),
                       ngettext("%s m long, %s m high, %zu segment; law %s, facets %s%s",
                                "%s m long, %s m high, %zu segments; law %s, facets %s%s", slope->vertices - 1),
                       WRITTEN(slope->x[slope->vertices - 1], 4), WRITTEN(high - low, 4), slope->vertices - 1,
                       ceduo_law_words.names[s->simulation.law], _(facets[slope->facets]), assumed_mark(report, "slope"));
-}
-
-void ceduo_page_facts(struct ceduo_page *page, const struct ceduo_report *report)
-{
-    const struct ceduo_result *r = report->result;
-    add_rock(page, report);
-    add_blocks(page, r->scene);
-    add_slope(page, report);
     ceduo_text_format(ceduo_page_fact(page, _("Rocks")), _("%llu, seed %llu"), (unsigned long long)ceduo_result_rocks(r),
-                      (unsigned long long)r->scene->simulation.seed);
+                      (unsigned long long)s->simulation.seed);
 }
 
 /* ---- what arrives at a control ---- */
@@ -76,33 +57,34 @@ void ceduo_page_facts(struct ceduo_page *page, const struct ceduo_report *report
 static void add_place(struct ceduo_page *page, const struct ceduo_report *report, size_t i)
 {
     const struct ceduo_control *c = &report->result->scene->controls[i];
-    char room[CEDUO_NUMBER_ROOM];
-    struct text *place = ceduo_page_add(page, CEDUO_PAGE_PLACE), where = {0};
-    ceduo_text_format(place, _("At %s m"), ceduo_number_shortest(c->x_given, room));
+    struct text *place = ceduo_page_add(page, CEDUO_PAGE_PLACE);
+    LOCAL_TEXT(where);
+    ceduo_text_format(place, _("At %s m"), SHORTEST(c->x_given));
     if (c->name)
         ceduo_text_format(place, ", %s", c->name);
     ceduo_text_format(&where, "controls[%zu].accepted_kJ", i);
     if (!isnan(c->accepted))
-        ceduo_text_then(place, ", ", _("withstands %s kJ%s"), ceduo_number_shortest(ceduo_words_accepted(c), room),
-                        where.bytes && ceduo_scene_assumes_value(report->file, where.bytes) ? "*" : "");
-    ceduo_text_free(&where);
+        ceduo_text_then(place, ", ", _("withstands %s kJ%s"), SHORTEST(ceduo_words_accepted(c)),
+                        ceduo_scene_assumes_value(report->file, where.bytes) ? "*" : "");
 }
 
-static void add_arrivals_row(struct ceduo_page *page, const char *name, const struct ceduo_arrivals *a)
+static void add_arrivals_row(struct ceduo_page *page, const char *name, const struct ceduo_control *c,
+                             const struct ceduo_arrivals *a)
 {
-    ceduo_text_put(ceduo_page_text(page), name);
-    if (!isnan(a->exceed_probability))
-        ceduo_words_of_1000(ceduo_page_text(page), a->exceed_probability, a->exceed_lo, a->exceed_hi);
-    ceduo_words_of_1000(ceduo_page_text(page), a->reach_probability, a->reach_lo, a->reach_hi);
+    const struct ceduo_measure judged = ceduo_judged(c, a), arriving = ceduo_arriving(a);
+    ceduo_page_write(page, "%s", name);
+    if (!isnan(c->accepted))
+        ceduo_page_interval(page, &judged);
+    ceduo_page_interval(page, &arriving);
     struct ceduo_page_cell *mean = ceduo_page_cell(page);
     if (a->reached > 0) {
         mean->kind = CEDUO_CELL_MEAN;
-        mean->value = a->energy.mean * KILO;
-        mean->half = ceduo_half_width(a->energy.se, a->reached) * KILO;
+        mean->value = a->energy.mean * J_TO_KJ;
+        mean->half = ceduo_half_width(a->energy.se, a->reached) * J_TO_KJ;
     } else {
         ceduo_text_put(&mean->text, "-");
     }
-    ceduo_page_number(page, a->energy.p95 * KILO, 3);
+    ceduo_page_number(page, a->energy.p95 * J_TO_KJ, 3);
     ceduo_page_number(page, a->speed.mean, 3);
 }
 
@@ -110,40 +92,41 @@ static void add_arrivals_row(struct ceduo_page *page, const char *name, const st
 static void add_arrivals_table(struct ceduo_page *page, const struct ceduo_control *c, const struct ceduo_arrivals *wooded,
                                const struct ceduo_arrivals *bare)
 {
-    static const struct ceduo_page_column columns[] = {
-        {NP_("head", "of 1000"), 16, 4, 0},      {NULL, -16, 0, 0},      {N_("arrive"), -16, 0, 0},
-        {NP_("head", "arriving kJ"), -12, 0, 0}, {N_("95 %"), -6, 0, 0}, {N_("m/s"), -5, 0, 0}};
-    static const struct ceduo_page_column not_accepted[] = {{NP_("head", "of 1000"), 16, 4, 0},
-                                                            {N_("arrive"), -16, 0, 0},
-                                                            {NP_("head", "arriving kJ"), -12, 0, 0},
-                                                            {N_("95 %"), -6, 0, 0},
-                                                            {N_("m/s"), -5, 0, 0}};
+#define NAME                                                                                                                   \
+    {                                                                                                                          \
+        NP_("head", "of 1000"), 16, 4, 0                                                                                       \
+    }
+#define FIGURES                                                                                                                \
+    {N_("arrive"), -16, 0, 0}, {NP_("head", "arriving kJ"), -12, 0, 0}, {N_("95 %"), -6, 0, 0},                                \
+    {                                                                                                                          \
+        N_("m/s"), -5, 0, 0                                                                                                    \
+    }
+    static const struct ceduo_page_column columns[] = {NAME, {NULL, -16, 0, 0}, FIGURES}, not_accepted[] = {NAME, FIGURES};
     if (isnan(c->accepted)) {
-        ceduo_page_table(page, not_accepted, sizeof not_accepted / sizeof not_accepted[0]);
+        CEDUO_PAGE_TABLE_OF(page, not_accepted);
     } else {
-        ceduo_page_table(page, columns, sizeof columns / sizeof columns[0]);
-        ceduo_page_limit(page, c, "");
+        CEDUO_PAGE_TABLE_OF(page, columns);
+        ceduo_page_limit(page, c, CEDUO_HEAD);
     }
     if (wooded)
-        add_arrivals_row(page, _("through the wood"), wooded);
-    add_arrivals_row(page, _("without forest"), bare);
+        add_arrivals_row(page, _("through the wood"), c, wooded);
+    add_arrivals_row(page, _("without forest"), c, bare);
 }
 
 /* The same in sentences. */
 static void say_arrivals(struct ceduo_page *page, const char *name, const struct ceduo_arrivals *a)
 {
     struct text *line = ceduo_page_add(page, CEDUO_PAGE_SENTENCE);
+    const char *arrive = WRITTEN_OF_1000(a->reach_probability, a->reach_lo, a->reach_hi);
     if (!isnan(a->exceed_probability))
         ceduo_text_format(line, _("%s: %s of 1000 arrive with more than it withstands, %s at all"), name,
-                          WRITTEN_OF_1000(a->exceed_probability, a->exceed_lo, a->exceed_hi),
-                          WRITTEN_OF_1000(a->reach_probability, a->reach_lo, a->reach_hi));
+                          WRITTEN_OF_1000(a->exceed_probability, a->exceed_lo, a->exceed_hi), arrive);
     else
-        ceduo_text_format(line, _("%s: %s of 1000 arrive"), name,
-                          WRITTEN_OF_1000(a->reach_probability, a->reach_lo, a->reach_hi));
+        ceduo_text_format(line, _("%s: %s of 1000 arrive"), name, arrive);
     if (a->reached > 0)
         ceduo_text_then(line, "; ", _("of those that arrive the mean is %s \xc2\xb1 %s kJ, 95 %% below %s"),
-                        WRITTEN(a->energy.mean * KILO, 4), WRITTEN(ceduo_half_width(a->energy.se, a->reached) * KILO, 2),
-                        WRITTEN(a->energy.p95 * KILO, 3));
+                        WRITTEN(a->energy.mean * J_TO_KJ, 4), WRITTEN(ceduo_half_width(a->energy.se, a->reached) * J_TO_KJ, 2),
+                        WRITTEN(a->energy.p95 * J_TO_KJ, 3));
     ceduo_text_char(line, '.');
 }
 
@@ -164,33 +147,9 @@ static void say_fates(struct ceduo_page *page, const struct ceduo_flown *f, cons
         ceduo_text_then(line, "; ", _("one that arrives here has hit %.3g stems"), a->contacts);
     ceduo_text_char(line, '.');
     if (last)
-        ceduo_text_format(ceduo_page_add(page, CEDUO_PAGE_SENTENCE),
-                          _("On the whole profile: of 1000, %.0f are stopped by stems, %.0f come to rest, %.0f leave it."),
-                          all[CEDUO_STOPPED_BY_STEMS] * 1000, all[CEDUO_AT_REST] * 1000, all[CEDUO_LEFT_SLOPE] * 1000);
-}
-
-/* What reads as harm is that the small and the slow ones are stopped. */
-static void say_sorted(struct ceduo_page *page, const struct ceduo_arrivals *wooded, const struct ceduo_arrivals *bare)
-{
-    if (wooded && wooded->energy.mean - bare->energy.mean > CEDUO_Z95 * hypot(wooded->energy.se, bare->energy.se))
-        ceduo_text_put(
-            ceduo_page_add(page, CEDUO_PAGE_SENTENCE),
-            _("Fewer arrive through the wood, but larger or faster ones, as stems stop the others first: their mean is "
-              "higher."));
-}
-
-/* The mean that cannot mislead: of all released. It is no energy that the place must withstand. */
-static void say_energy_of_all(struct ceduo_page *page, const struct ceduo_arrivals *wooded, const struct ceduo_arrivals *bare)
-{
-    struct text *line = ceduo_page_add(page, CEDUO_PAGE_SENTENCE);
-    const char *mean = WRITTEN(bare->energy_per_released * KILO, 3);
-    const char *half = WRITTEN(ceduo_half_width(bare->energy_per_released_se, bare->released) * KILO, 2);
-    if (wooded)
-        ceduo_text_format(line, _("Energy per released rock: %s \xc2\xb1%s kJ through the wood, %s \xc2\xb1%s without it."),
-                          WRITTEN(wooded->energy_per_released * KILO, 3),
-                          WRITTEN(ceduo_half_width(wooded->energy_per_released_se, wooded->released) * KILO, 2), mean, half);
-    else
-        ceduo_text_format(line, _("Energy per released rock: %s \xc2\xb1%s kJ."), mean, half);
+        ceduo_page_say(page, CEDUO_PAGE_SENTENCE,
+                       _("On the whole profile: of 1000, %.0f are stopped by stems, %.0f come to rest, %.0f leave it."),
+                       all[CEDUO_STOPPED_BY_STEMS] * 1000, all[CEDUO_AT_REST] * 1000, all[CEDUO_LEFT_SLOPE] * 1000);
 }
 
 static bool none_arrives(const struct ceduo_arrivals *a)
@@ -209,18 +168,23 @@ static void add_arrivals(struct ceduo_page *page, const struct ceduo_result *r, 
             say_arrivals(page, _("Through the wood"), through);
         say_arrivals(page, _("Without forest"), bare);
     }
-    say_sorted(page, through, bare);
+    /* what reads as harm is that the small and the slow ones are stopped */
+    if (through && through->energy.mean - bare->energy.mean > CEDUO_Z95 * hypot(through->energy.se, bare->energy.se))
+        ceduo_page_say(page, CEDUO_PAGE_SENTENCE,
+                       _("Fewer arrive through the wood, but larger or faster ones, as stems stop the others first: their mean "
+                         "is higher."));
     if (wooded)
         say_fates(page, &r->options[option].wooded, wooded, control == r->last_control);
     if (wooded && none_arrives(wooded) && !none_arrives(bare))
-        ceduo_text_format(ceduo_page_add(page, CEDUO_PAGE_SENTENCE),
-                          _("Through the wood no rock arrives (of 1000, below %.1f with 95 %%)."), wooded->reach_hi * 1000);
+        ceduo_page_say(page, CEDUO_PAGE_SENTENCE, _("Through the wood no rock arrives (of 1000, below %.1f with 95 %%)."),
+                       wooded->reach_hi * 1000);
 }
 
 static void say_lights(struct ceduo_page *page, const struct ceduo_result *r, size_t option, size_t control)
 {
-    if (ceduo_says_nothing(&r->bare.arrivals[control])) { /* why stands at the head of the page */
-        ceduo_text_put(ceduo_page_add(page, CEDUO_PAGE_SENTENCE), _("Contact, free run and energy: nothing can be said."));
+    const struct ceduo_arrivals *bare = &r->bare.arrivals[control];
+    if (ceduo_says_nothing(bare)) { /* why stands at the head of the page */
+        ceduo_page_say(page, CEDUO_PAGE_SENTENCE, _("Contact, free run and energy: nothing can be said."));
         return;
     }
     ceduo_words_contact(ceduo_page_add(page, CEDUO_PAGE_SENTENCE), r, option, control);
@@ -228,75 +192,66 @@ static void say_lights(struct ceduo_page *page, const struct ceduo_result *r, si
     ceduo_words_energy(ceduo_page_add(page, CEDUO_PAGE_SENTENCE), r, option, control);
     if (r->options[option].others[control].known && r->options[option].others[control].stems)
         ceduo_words_other(ceduo_page_add(page, CEDUO_PAGE_SENTENCE), r, option, control);
-    say_energy_of_all(page, r->scene->options[option].belts_count > 0 ? ceduo_result_wooded(r, option, control) : NULL,
-                      &r->bare.arrivals[control]);
+    /* the mean that cannot mislead: of all released; it is no energy that the place must withstand */
+    const struct ceduo_arrivals *wooded =
+        r->scene->options[option].belts_count > 0 ? ceduo_result_wooded(r, option, control) : NULL;
+    const char *mean = WRITTEN(bare->energy_per_released * J_TO_KJ, 3);
+    const char *half = WRITTEN(ceduo_half_width(bare->energy_per_released_se, bare->released) * J_TO_KJ, 2);
+    if (wooded)
+        ceduo_page_say(page, CEDUO_PAGE_SENTENCE,
+                       _("Energy per released rock: %s \xc2\xb1%s kJ through the wood, %s \xc2\xb1%s without it."),
+                       WRITTEN(wooded->energy_per_released * J_TO_KJ, 3),
+                       WRITTEN(ceduo_half_width(wooded->energy_per_released_se, wooded->released) * J_TO_KJ, 2), mean, half);
+    else
+        ceduo_page_say(page, CEDUO_PAGE_SENTENCE, _("Energy per released rock: %s \xc2\xb1%s kJ."), mean, half);
 }
 
 /* ---- an option ---- */
 
-/* Warnings of stands, after the block `since`. */
+/* Sentences about stands, after the block `since`. Belts of one stand share them: each stands on the page once. */
 struct stand_warnings {
     struct ceduo_page *page;
     const struct ceduo_page_block *since;
 };
 
-/* Belts of one stand share what is said of them: each sentence stands on the page once. */
-static bool is_said(const struct stand_warnings *w, const char *sentence)
+static void say_rule_once(void *context, bool met, const char *sentence)
 {
+    const struct stand_warnings *w = context;
     for (const struct ceduo_page_block *b = w->since ? w->since->next : NULL; b; b = b->next)
         if (b->text.bytes && strcmp(b->text.bytes, sentence) == 0)
-            return true;
-    return false;
+            return;
+    ceduo_page_say(w->page, met ? CEDUO_PAGE_SENTENCE : CEDUO_PAGE_WARNING, "%s", sentence);
 }
 
 static void warn_once(void *context, const char *sentence)
 {
-    const struct stand_warnings *w = context;
-    if (!is_said(w, sentence))
-        ceduo_page_warn(w->page, sentence);
+    say_rule_once(context, false, sentence);
 }
 
-static void say_rule_once(void *context, bool met, const char *sentence)
-{
-    const struct stand_warnings *w = context;
-    if (!met)
-        warn_once(context, sentence);
-    else if (!is_said(w, sentence))
-        ceduo_text_put(ceduo_page_add(w->page, CEDUO_PAGE_SENTENCE), sentence);
-}
-
-static void warn_of_stands(const struct ceduo_result *r, const struct ceduo_option *o, const struct ceduo_option_result *found,
-                           struct stand_warnings *w)
-{
-    for (size_t k = 0; k < o->belts_count; k++)
-        ceduo_words_stand_warnings(r->scene, &o->belts[k], &found->stands[k], warn_once, w);
-}
-
-void ceduo_page_stand_warnings(struct ceduo_page *page, const struct ceduo_result *r, size_t first, size_t n)
-{
-    struct stand_warnings w = {page, page->last};
-    for (size_t i = first; i < first + n; i++)
-        warn_of_stands(r, &r->scene->options[i], &r->options[i], &w);
-}
-
-void ceduo_page_stands(struct ceduo_page *page, const struct ceduo_result *r, size_t first, size_t n)
+static void say_stands(struct ceduo_page *page, const struct ceduo_result *r, size_t first, size_t n, bool rules)
 {
     struct stand_warnings w = {page, page->last};
     for (size_t i = first; i < first + n; i++) {
         const struct ceduo_option *o = &r->scene->options[i];
-        warn_of_stands(r, o, &r->options[i], &w);
+        const struct ceduo_stand_result *stands = r->options[i].stands;
         for (size_t k = 0; k < o->belts_count; k++)
-            ceduo_words_rules(&o->belts[k], &r->options[i].stands[k].rules, say_rule_once, &w);
+            ceduo_words_stand_warnings(r->scene, &o->belts[k], &stands[k], warn_once, &w);
+        for (size_t k = 0; rules && k < o->belts_count; k++)
+            ceduo_words_rules(&o->belts[k], &stands[k].rules, say_rule_once, &w);
     }
 }
 
-void ceduo_page_option(struct ceduo_page *page, const struct ceduo_report *report, size_t i)
+void ceduo_page_stand_warnings(struct ceduo_page *page, const struct ceduo_result *r, size_t first, size_t n)
 {
-    ceduo_text_put(ceduo_page_add(page, CEDUO_PAGE_SECTION), report->result->scene->options[i].name);
-    ceduo_page_option_blocks(page, report, i);
+    say_stands(page, r, first, n, false);
 }
 
-void ceduo_page_option_blocks(struct ceduo_page *page, const struct ceduo_report *report, size_t i)
+void ceduo_page_stands(struct ceduo_page *page, const struct ceduo_result *r, size_t first, size_t n)
+{
+    say_stands(page, r, first, n, true);
+}
+
+void ceduo_page_option(struct ceduo_page *page, const struct ceduo_report *report, size_t i)
 {
     const struct ceduo_result *r = report->result;
     for (size_t k = 0; k < r->scene->controls_count; k++) {
@@ -317,6 +272,65 @@ void ceduo_page_option_blocks(struct ceduo_page *page, const struct ceduo_report
     ceduo_page_stands(page, r, i, 1);
 }
 
+/* ---- notes ---- */
+
+static bool is_shown(const struct ceduo_report *report, const struct source_note *note)
+{
+    return strcmp(note->kind, "assumed") == 0 && (report->years || !ceduo_note_of_years(note));
+}
+
+/* How many notes say the same; 0 where one of them is before `note` in the files, that is, later in the list. */
+static size_t first_of(const struct source_note *last, const struct source_note *note)
+{
+    size_t times = 0;
+    const struct source_note *first = NULL;
+    for (const struct source_note *n = last; n; n = n->before) {
+        if (strcmp(n->kind, "assumed") != 0 || strcmp(n->text, note->text) != 0)
+            continue;
+        times++;
+        first = n;
+    }
+    return first == note ? times : 0;
+}
+
+/* The notes are kept last first. */
+static void add_assumed(struct ceduo_page *page, const struct ceduo_report *report, const struct source_note *note)
+{
+    if (!note)
+        return;
+    add_assumed(page, report, note->before);
+    size_t times = is_shown(report, note) ? first_of(report->file->notes, note) : 0;
+    const char *said = ceduo_words_shipped(note->text), *place = note->path[0] ? note->path : _("the scene");
+    if (times > 1)
+        ceduo_page_say(page, CEDUO_PAGE_ITEM, ngettext("%s (%s and %zu more)", "%s (%s and %zu more)", times - 1), said, place,
+                       times - 1);
+    else if (times == 1)
+        ceduo_page_say(page, CEDUO_PAGE_ITEM, "%s (%s)", said, place);
+}
+
+/* A warning of the run; a gap before the first. */
+static void warn_of_run(void *context, const char *sentence)
+{
+    struct stand_warnings *w = context;
+    if (w->page->last == w->since)
+        ceduo_page_add(w->page, CEDUO_PAGE_GAP);
+    ceduo_page_warn(w->page, sentence);
+}
+
+void ceduo_page_notes(struct ceduo_page *page, const struct ceduo_report *report)
+{
+    struct ceduo_run_remarks remarks = report->remarks;
+    remarks.nothing_said = true; /* at the head of the page */
+    ceduo_words_run_warnings(report->result, &remarks, warn_of_run, &(struct stand_warnings){page, page->last});
+    const struct source_note *note = report->file->notes;
+    while (note && !is_shown(report, note))
+        note = note->before;
+    if (!note)
+        return;
+    ceduo_page_say(page, CEDUO_PAGE_SECTION, _("* Assumed, not measured:"));
+    add_assumed(page, report, report->file->notes);
+}
+
 /* ---- the page ---- */
 
 /* The errors on the page are of the sample alone. */
@@ -328,20 +342,22 @@ static void say_doubt(struct ceduo_page *page, const struct scene_file *file)
         assumed = strcmp(n->kind, "assumed") == 0 && (!value || value->object || ceduo_range_of(value));
     }
     if (assumed)
-        ceduo_text_put(ceduo_page_add(page, CEDUO_PAGE_NOTE),
-                       _("The errors above are of the rocks alone: 'ceduo --sensitivity' shows how far what is not known may "
-                         "move the answer."));
+        ceduo_page_note(page,
+                        _("The errors above are of the rocks alone: 'ceduo --sensitivity' shows how far what is not known "
+                          "may move the answer."));
 }
 
 void ceduo_report_table(struct text *text, const struct ceduo_report *report, bool plain)
 {
     const struct ceduo_scene *scene = report->result->scene;
     struct ceduo_page page = {.width = CEDUO_PAGE_WIDTH};
-    ceduo_text_put(ceduo_page_add(&page, CEDUO_PAGE_TITLE), ceduo_words_shipped(scene->title));
+    ceduo_page_say(&page, CEDUO_PAGE_TITLE, "%s", ceduo_words_shipped(scene->title));
     ceduo_page_facts(&page, report);
     ceduo_words_still(report->result, ceduo_page_warn, &page);
-    for (size_t i = 0; i < scene->options_count; i++)
+    for (size_t i = 0; i < scene->options_count; i++) {
+        ceduo_page_say(&page, CEDUO_PAGE_SECTION, "%s", scene->options[i].name);
         ceduo_page_option(&page, report, i);
+    }
     if (scene->options_count > 1 && scene->controls_count > 0)
         ceduo_page_comparison(&page, report);
     for (size_t c = 0; c < scene->controls_count; c++)
@@ -355,6 +371,7 @@ void ceduo_report_table(struct text *text, const struct ceduo_report *report, bo
 void ceduo_report_option(struct text *text, const struct ceduo_report *report, size_t option, int width)
 {
     struct ceduo_page page = {.width = width > 20 ? (size_t)width : 20};
+    ceduo_page_say(&page, CEDUO_PAGE_SECTION, "%s", report->result->scene->options[option].name);
     ceduo_page_option(&page, report, option);
     ceduo_page_print(text, &page, false);
     ceduo_page_free(&page);

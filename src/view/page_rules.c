@@ -1,35 +1,92 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What the law asks of the stands of all options: a row for each stand, the articles below. */
+/* What the law asks of the stands of all options: a row for each stand, the articles below; and the same in sentences. */
 #include <math.h>
 #include <string.h>
 
 #include "base/language.h"
 #include "page_parts.h"
-#include "words.h"
 
 typedef const struct ceduo_regulation_item item;
 
-static void put_asked(struct ceduo_page *page, item *asked, bool species)
+/* ---- sentences ---- */
+
+static const char *note_of(const struct ceduo_regulation *rules, struct text *text)
 {
-    struct text *cell = ceduo_page_text(page);
-    if (!asked)
-        ceduo_text_put(cell, species ? _("not named") : _("no species"));
-    else if (isnan(asked->most))
-        ceduo_text_format(cell, "\xe2\x89\xa5 %g", asked->least);
+    if (rules->note)
+        ceduo_text_format(text, _("%s: check the text in force; %s."), rules->name, ceduo_words_shipped(rules->note));
     else
-        ceduo_text_format(cell, "%g\xe2\x80\x93%g", asked->least, asked->most);
+        ceduo_text_format(text, _("%s: check the text in force."), rules->name);
+    return text->bytes;
 }
 
-/* What is, what is asked for, and whether it is kept. */
-static void put_rule(struct ceduo_page *page, double is, item *asked, bool met, bool species)
+static void say_rule(const struct ceduo_belt *belt, const struct ceduo_compliance *c, bool turn, ceduo_words_rule *say,
+                     void *context)
 {
-    struct text *cell = ceduo_page_text(page);
-    if (isnan(is))
-        ceduo_text_char(cell, '-');
+    item *asked = turn ? c->turn_item : c->standards_item;
+    size_t count;
+    LOCAL_TEXT(sentence);
+    LOCAL_TEXT(wanted);
+    bool met = turn ? c->turn_met : c->standards_met;
+    if (!asked) {
+        ceduo_text_format(&sentence,
+                          turn ? _("%s: the rules of %s as filed name no turn for this species (%s); none is checked.")
+                               : _("%s: the rules of %s as filed name no number of standards for this species (%s); none is "
+                                   "checked."),
+                          belt->name, c->of->name, _(ceduo_species_list(&count)[belt->stand.species].common));
+        say(context, true, sentence.bytes);
+        return;
+    }
+    if (isnan(asked->most))
+        ceduo_text_format(&wanted, turn ? _("a turn of %g years at least") : _("%g standards a hectare at least"),
+                          asked->least);
     else
-        ceduo_text_format(cell, "%.4g", is);
-    put_asked(page, asked, species);
-    ceduo_text_put(ceduo_page_text(page), !asked || isnan(is) ? "-" : met ? _("yes") : _("NO"));
+        ceduo_text_format(&wanted, turn ? _("a turn of %g to %g years") : _("%g to %g standards a hectare"), asked->least,
+                          asked->most);
+    ceduo_text_format(&sentence,
+                      turn ? _("%s: %s asks for %s (%s, %u); shoots are cut at %.4g: %s.")
+                           : _("%s: %s asks for %s (%s, %u); %.4g are kept: %s."),
+                      belt->name, c->of->name, wanted.bytes, asked->article, asked->year, turn ? c->turn : c->standards,
+                      met ? _("met") : _("NOT met"));
+    say(context, met, sentence.bytes);
+}
+
+void ceduo_words_rules(const struct ceduo_belt *belt, const struct ceduo_compliance *c, ceduo_words_rule *say, void *context)
+{
+    LOCAL_TEXT(sentence);
+    LOCAL_TEXT(note);
+    if (!c->of)
+        return;
+    if (belt->stand.species < 0) {
+        ceduo_text_format(&sentence, _("%s: the stand names no species; nothing that %s asks is checked."), belt->name,
+                          c->of->name);
+        say(context, true, sentence.bytes);
+    } else {
+        say_rule(belt, c, false, say, context);
+        if (!c->turn_item || !isnan(c->turn))
+            say_rule(belt, c, true, say, context);
+    }
+    say(context, true, note_of(c->of, &note));
+}
+
+/* ---- the table ---- */
+
+/* What is, what is asked for, and whether it is kept. */
+static void add_rule(struct ceduo_page *page, double is, item *asked, bool met, bool species)
+{
+    if (isnan(is))
+        ceduo_page_write(page, "-");
+    else
+        ceduo_page_write(page, "%.4g", is);
+    if (!asked)
+        ceduo_page_write(page, "%s", species ? _("not named") : _("no species"));
+    else if (isnan(asked->most))
+        ceduo_page_write(page, "\xe2\x89\xa5 %g", asked->least);
+    else
+        ceduo_page_write(page, "%g\xe2\x80\x93%g", asked->least, asked->most);
+    if (!asked || isnan(is))
+        ceduo_page_write(page, "-");
+    else
+        ceduo_page_yes(page, met);
 }
 
 /* Whether an earlier belt of any option has the same stand. */
@@ -43,40 +100,14 @@ static bool is_listed(const struct ceduo_result *r, size_t option, size_t belt)
     return false;
 }
 
-static void put_source(struct text *sources, item *asked)
+static void add_source(struct text *sources, item *asked)
 {
-    struct text source = {0};
+    LOCAL_TEXT(source);
     if (!asked)
         return;
     ceduo_text_format(&source, "%s (%u)", asked->article, asked->year);
-    if (source.bytes && !strstr(ceduo_text_string(sources), source.bytes))
+    if (!strstr(ceduo_text_string(sources), source.bytes))
         ceduo_text_format(sources, sources->length > 0 ? "; %s" : "%s", source.bytes);
-    ceduo_text_free(&source);
-}
-
-static void put_rows(struct ceduo_page *page, const struct ceduo_result *r, struct text *sources)
-{
-    for (size_t i = 0; i < r->scene->options_count; i++)
-        for (size_t k = 0; k < r->scene->options[i].belts_count; k++) {
-            const struct ceduo_compliance *c = &r->options[i].stands[k].rules;
-            if (!c->of || is_listed(r, i, k))
-                continue;
-            bool species = r->scene->options[i].belts[k].stand.species >= 0;
-            ceduo_text_put(ceduo_page_text(page), r->scene->options[i].belts[k].name);
-            put_rule(page, c->standards, c->standards_item, c->standards_met, species);
-            put_rule(page, c->turn, c->turn_item, c->turn_met, species);
-            put_source(sources, c->standards_item);
-            put_source(sources, isnan(c->turn) ? NULL : c->turn_item);
-        }
-}
-
-static const struct ceduo_regulation *regulation_of(const struct ceduo_result *r)
-{
-    for (size_t i = 0; i < r->scene->options_count; i++)
-        for (size_t k = 0; k < r->scene->options[i].belts_count; k++)
-            if (r->options[i].stands[k].rules.of)
-                return r->options[i].stands[k].rules.of;
-    return NULL;
 }
 
 void ceduo_page_rules(struct ceduo_page *page, const struct ceduo_result *r)
@@ -84,20 +115,31 @@ void ceduo_page_rules(struct ceduo_page *page, const struct ceduo_result *r)
     static const struct ceduo_page_column columns[] = {
         {N_("stand"), 26, 2, CEDUO_WHOLE}, {N_("standards/ha"), -13, 0, 0}, {N_("asked for"), -13, 0, 0}, {N_("kept"), 5, 1, 0},
         {N_("turn, years"), -12, 0, 0},    {N_("asked for"), -13, 0, 0},    {N_("kept"), 0, 1, 0}};
-    const struct ceduo_regulation *rules = regulation_of(r);
-    struct text sources = {0};
+    const struct ceduo_regulation *rules = NULL;
+    LOCAL_TEXT(sources);
+    LOCAL_TEXT(note);
+    for (size_t i = 0; i < r->scene->options_count; i++)
+        for (size_t k = 0; k < r->scene->options[i].belts_count; k++) {
+            const struct ceduo_compliance *c = &r->options[i].stands[k].rules;
+            if (!c->of)
+                continue;
+            if (!rules) {
+                rules = c->of;
+                ceduo_page_say(page, CEDUO_PAGE_SECTION, _("What the rules of %s ask"), rules->name);
+                CEDUO_PAGE_TABLE_OF(page, columns);
+            }
+            if (is_listed(r, i, k))
+                continue;
+            bool species = r->scene->options[i].belts[k].stand.species >= 0;
+            ceduo_page_write(page, "%s", r->scene->options[i].belts[k].name);
+            add_rule(page, c->standards, c->standards_item, c->standards_met, species);
+            add_rule(page, c->turn, c->turn_item, c->turn_met, species);
+            add_source(&sources, c->standards_item);
+            add_source(&sources, isnan(c->turn) ? NULL : c->turn_item);
+        }
     if (!rules)
         return;
-    ceduo_text_format(ceduo_page_add(page, CEDUO_PAGE_SECTION), _("What the rules of %s ask"), rules->name);
-    ceduo_page_table(page, columns, sizeof columns / sizeof columns[0]);
-    put_rows(page, r, &sources);
     if (sources.length > 0)
-        ceduo_text_format(ceduo_page_add(page, CEDUO_PAGE_DETAIL), _("Sources: %s."), ceduo_text_string(&sources));
-    if (rules->note)
-        ceduo_text_format(ceduo_page_add(page, CEDUO_PAGE_NOTE), _("%s: check the text in force; %s."), rules->name,
-                          ceduo_words_shipped(rules->note));
-    else
-        ceduo_text_format(ceduo_page_add(page, CEDUO_PAGE_NOTE), _("%s: check the text in force."), rules->name);
-    page->failed |= sources.failed;
-    ceduo_text_free(&sources);
+        ceduo_page_say(page, CEDUO_PAGE_DETAIL, _("Sources: %s."), ceduo_text_string(&sources));
+    ceduo_page_note(page, note_of(rules, &note));
 }

@@ -1,34 +1,55 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Prints a page for a terminal: paragraphs are wrapped, cells set below one another, numbers written with as many digits as
- * their column has room for. */
+/* Prints a page for a terminal or a pane: paragraphs are wrapped, cells set below one another, numbers written with as many
+ * digits as their column has room for. What has a role of its own is noted by where it begins. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/grow.h"
 #include "base/utf8.h"
 #include "page.h"
 #include "words.h"
 
 #define SMALLEST 1e-290 /* a number below it is written as 0: powers of ten with more digits than it has do not exist */
 
+/* From this byte of what is printed on, in this role. */
+struct mark {
+    size_t at;
+    enum ceduo_role role;
+};
+
+struct marks {
+    struct mark *items;
+    size_t n, room;
+};
+
 struct printer {
     struct text *text;
     size_t width;
-    bool plain; /* ASCII alone */
+    bool plain;          /* ASCII alone */
+    struct marks *marks; /* NULL: not wanted */
 };
 
-static void put_blanks(struct text *text, size_t n)
+static void set_role(const struct printer *p, enum ceduo_role role)
 {
-    while (n-- > 0)
-        ceduo_text_char(text, ' ');
+    struct marks *m = p->marks;
+    if (!m)
+        return;
+    m->items = ceduo_must(ceduo_grow(m->items, m->n, &m->room, sizeof *m->items));
+    m->items[m->n++] = (struct mark){p->text->length, role};
+}
+
+static void append_blanks(struct text *text, size_t n)
+{
+    ceduo_text_format(text, "%*s", (int)n, "");
 }
 
 /* What may be printed: no control characters, and the signs of a page in ASCII where the terminal knows no other. */
-static void put_safe(const struct printer *p, struct text *to, const char *string)
+static void append_safe(const struct printer *p, struct text *to, const char *string)
 {
     static const char *const signs[][2] = {{"\xe2\x80\x93", "-"}, {"\xe2\x88\x92", "-"}, {"\xc2\xb1", "+-"}};
-    struct text safe = {0};
+    LOCAL_TEXT(safe);
     ceduo_text_safe(&safe, string);
     for (const char *at = ceduo_text_string(&safe); *at;) {
         size_t i = 0, n = 1;
@@ -40,19 +61,21 @@ static void put_safe(const struct printer *p, struct text *to, const char *strin
             ceduo_text_add(to, at, n = i < 3 ? n : 1);
         at += n;
     }
-    ceduo_text_free(&safe);
 }
 
 /* ---- paragraphs ---- */
 
-/* How a kind of block begins, and how far its other lines are indented. */
+/* How a kind of block begins, how far its other lines are indented, and its role. */
 static const struct {
     const char *first;
     size_t indent;
-} styles[] = {[CEDUO_PAGE_TITLE] = {"", 0},        [CEDUO_PAGE_FACT] = {"", 9},        [CEDUO_PAGE_SECTION] = {"", 2},
-              [CEDUO_PAGE_PLACE] = {"  ", 4},      [CEDUO_PAGE_CAPTION] = {"    ", 4}, [CEDUO_PAGE_SENTENCE] = {"    ", 6},
-              [CEDUO_PAGE_DETAIL] = {"      ", 8}, [CEDUO_PAGE_NOTE] = {"  ", 2},      [CEDUO_PAGE_ITEM] = {"  ", 4},
-              [CEDUO_PAGE_WARNING] = {"    ! ", 6}};
+    enum ceduo_role role;
+} styles[] = {[CEDUO_PAGE_TITLE] = {"", 0, CEDUO_ROLE_TITLE},      [CEDUO_PAGE_FACT] = {"", 9, CEDUO_ROLE_TEXT},
+              [CEDUO_PAGE_SECTION] = {"", 2, CEDUO_ROLE_TITLE},    [CEDUO_PAGE_PLACE] = {"  ", 4, CEDUO_ROLE_TITLE},
+              [CEDUO_PAGE_CAPTION] = {"    ", 4, CEDUO_ROLE_DIM},  [CEDUO_PAGE_SENTENCE] = {"    ", 6, CEDUO_ROLE_TEXT},
+              [CEDUO_PAGE_DETAIL] = {"      ", 8, CEDUO_ROLE_DIM}, [CEDUO_PAGE_NOTE] = {"  ", 2, CEDUO_ROLE_TEXT},
+              [CEDUO_PAGE_ITEM] = {"  ", 4, CEDUO_ROLE_TEXT},      [CEDUO_PAGE_WARNING] = {"    ! ", 6, CEDUO_ROLE_WARN},
+              [CEDUO_PAGE_QUESTION] = {"", 0, CEDUO_ROLE_TITLE},   [CEDUO_PAGE_ANSWER] = {"  ", 2, CEDUO_ROLE_TEXT}};
 
 /* Of several blanks one is left, of those at the end none. */
 static void squeeze(struct text *text)
@@ -69,46 +92,48 @@ static void squeeze(struct text *text)
 }
 
 /* A text that begins at `column`; its other lines are indented. */
-static void put_wrapped(const struct printer *p, const char *string, size_t column, size_t indent)
+static void print_wrapped(const struct printer *p, const char *string, size_t column, size_t indent)
 {
     for (const char *at = string, *next; *at; at = next) {
         size_t n = ceduo_utf8_wrap(at, p->width > column ? p->width - column : 1, &next);
         if (at > string) {
             ceduo_text_char(p->text, '\n');
-            put_blanks(p->text, indent);
+            append_blanks(p->text, indent);
         }
         ceduo_text_add(p->text, at, n);
         column = indent;
     }
 }
 
-static void put_paragraph(const struct printer *p, const struct ceduo_page_block *block)
+static void print_paragraph(const struct printer *p, const struct ceduo_page_block *block)
 {
-    size_t indent = styles[block->kind].indent, column;
-    struct text first = {0}, rest = {0};
+    size_t indent = styles[block->kind].indent;
+    LOCAL_TEXT(first);
+    LOCAL_TEXT(rest);
     ceduo_text_put(&first, block->label ? block->label : styles[block->kind].first);
-    if (block->label && ceduo_utf8_width(ceduo_text_string(&first)) < indent)
-        put_blanks(&first, indent - ceduo_utf8_width(ceduo_text_string(&first)));
-    put_safe(p, &rest, ceduo_text_string(&block->text));
+    size_t column = ceduo_utf8_width(ceduo_text_string(&first));
+    if (block->label && column < indent) {
+        append_blanks(&first, indent - column);
+        column = indent;
+    }
+    append_safe(p, &rest, ceduo_text_string(&block->text));
     squeeze(&rest);
     if (block->kind == CEDUO_PAGE_SECTION)
         ceduo_text_char(p->text, '\n');
+    set_role(p, styles[block->kind].role);
     ceduo_text_put(p->text, ceduo_text_string(&first));
-    column = ceduo_utf8_width(ceduo_text_string(&first));
-    put_wrapped(p, ceduo_text_string(&rest), column, indent);
+    print_wrapped(p, ceduo_text_string(&rest), column, indent);
     ceduo_text_char(p->text, '\n');
-    ceduo_text_free(&first);
-    ceduo_text_free(&rest);
 }
 
 /* ---- cells ---- */
 
 /* Set into so many columns and cut where it is longer; negative: to the right; 0: as it comes. */
-static void put_padded(const struct printer *p, const char *string, int width)
+static void print_padded(const struct printer *p, const char *string, int width)
 {
     size_t want = (size_t)abs(width), have = ceduo_utf8_width(string);
     if (width < 0 && have < want)
-        put_blanks(p->text, want - have);
+        append_blanks(p->text, want - have);
     if (have <= want || want == 0) {
         ceduo_text_put(p->text, string);
     } else {
@@ -118,7 +143,7 @@ static void put_padded(const struct printer *p, const char *string, int width)
         have = ceduo_utf8_width_of(string, n) + 1;
     }
     if (width > 0 && have < want)
-        put_blanks(p->text, want - have);
+        append_blanks(p->text, want - have);
 }
 
 /* Whether it has room in a column, with a blank before it. */
@@ -208,30 +233,30 @@ void ceduo_page_write_cell(struct text *to, const struct ceduo_page_cell *cell, 
     else if (cell->kind == CEDUO_CELL_MEAN)
         write_mean(to, cell->value, cell->half, width, plain ? "+-" : "\xc2\xb1");
     else
-        put_safe(&p, to, ceduo_text_string(&cell->text));
+        append_safe(&p, to, ceduo_text_string(&cell->text));
     if (cell->shorter.length > 0 && !fits(to, width)) {
         ceduo_text_free(to);
-        put_safe(&p, to, ceduo_text_string(&cell->shorter));
+        append_safe(&p, to, ceduo_text_string(&cell->shorter));
     }
 }
 
-static void put_cell(const struct printer *p, const struct ceduo_page_column *column, const struct ceduo_page_cell *cell,
-                     int width)
+static void print_cell(const struct printer *p, const struct ceduo_page_column *column, const struct ceduo_page_cell *cell,
+                       int width)
 {
-    struct text text = {0};
-    put_blanks(p->text, (size_t)column->gap);
+    LOCAL_TEXT(text);
+    append_blanks(p->text, (size_t)column->gap);
     ceduo_page_write_cell(&text, cell, (size_t)abs(width), p->plain);
+    set_role(p, cell->role ? cell->role : CEDUO_ROLE_TEXT);
     if ((column->flags & CEDUO_WHOLE) && !fits(&text, (size_t)width)) {
-        put_wrapped(p, ceduo_text_string(&text), (size_t)column->gap, (size_t)column->gap);
+        print_wrapped(p, ceduo_text_string(&text), (size_t)column->gap, (size_t)column->gap);
         ceduo_text_char(p->text, '\n');
-        put_blanks(p->text, (size_t)(column->gap + width));
+        append_blanks(p->text, (size_t)(column->gap + width));
     } else {
-        put_padded(p, ceduo_text_string(&text), width);
+        print_padded(p, ceduo_text_string(&text), width);
     }
-    ceduo_text_free(&text);
 }
 
-static void put_table(const struct printer *p, const struct ceduo_page_block *table)
+static void print_table(const struct printer *p, const struct ceduo_page_block *table)
 {
     size_t n = table->columns_count;
     for (size_t row = 0; row + n <= table->cells_count; row += n) {
@@ -243,23 +268,52 @@ static void put_table(const struct printer *p, const struct ceduo_page_block *ta
                 width = abs(width) + c[1].gap + c[1].width;
             else if (row == 0 && i == n - 1 && width > 0) /* the last head is never cut */
                 width = 0;
-            put_cell(p, c, &table->cells[row + i], width);
+            print_cell(p, c, &table->cells[row + i], width);
             i += spans;
         }
         ceduo_text_char(p->text, '\n');
     }
 }
 
-void ceduo_page_print(struct text *text, const struct ceduo_page *page, bool plain)
+static void print_page(const struct printer *p, const struct ceduo_page *page)
 {
-    const struct printer p = {text, page->width, plain};
-    text->failed |= ceduo_page_failed(page);
     for (const struct ceduo_page_block *block = page->first; block; block = block->next) {
         if (block->kind == CEDUO_PAGE_TABLE)
-            put_table(&p, block);
+            print_table(p, block);
         else if (block->kind == CEDUO_PAGE_GAP)
-            ceduo_text_char(text, '\n');
-        else if (block->kind <= CEDUO_PAGE_WARNING)
-            put_paragraph(&p, block);
+            ceduo_text_char(p->text, '\n');
+        else if (block->kind < CEDUO_PAGE_PICTURE)
+            print_paragraph(p, block);
     }
+}
+
+void ceduo_page_print(struct text *text, const struct ceduo_page *page, bool plain)
+{
+    print_page(&(struct printer){.text = text, .width = page->width, .plain = plain}, page);
+}
+
+int ceduo_page_draw(const struct ceduo_page *page, struct ceduo_cells *cells, struct ceduo_area area, int first)
+{
+    LOCAL_TEXT(text);
+    struct marks marks = {0};
+    print_page(&(struct printer){&text, page->width, false, &marks}, page);
+    int line = 0, column = 0;
+    size_t mark = 0;
+    for (size_t at = 0, end; at < text.length; at = end) {
+        while (mark < marks.n && marks.items[mark].at <= at)
+            mark++;
+        size_t next = mark < marks.n ? marks.items[mark].at : text.length;
+        const char *from = text.bytes + at, *stop = memchr(from, '\n', next - at);
+        end = stop ? (size_t)(stop - text.bytes) + 1 : next;
+        if (line >= first && line - first < area.height) {
+            LOCAL_TEXT(piece);
+            ceduo_text_add(&piece, from, end - at - (stop != NULL));
+            column += ceduo_cells_label(cells, area.left + column, area.top + line - first,
+                                        mark > 0 ? marks.items[mark - 1].role : CEDUO_ROLE_TEXT, ceduo_text_string(&piece));
+        }
+        line += stop != NULL;
+        column = stop ? 0 : column;
+    }
+    free(marks.items);
+    return line;
 }

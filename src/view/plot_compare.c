@@ -42,8 +42,8 @@ static struct measures measures_of(const struct comparison *c, size_t i)
     const struct ceduo_arrivals *bare = ceduo_plot_bare_arrivals(c->picture, c->picture->control);
     bool nothing = bare && ceduo_says_nothing(bare); /* then no light is on */
     struct measures m = {.adc = index.worst_adc,
-                         .middle = index.per_100m * KILO,
-                         .last = index.residual * KILO,
+                         .middle = index.per_100m * J_TO_KJ,
+                         .last = index.residual * J_TO_KJ,
                          .contact = nothing ? CEDUO_UNKNOWN : index.contact,
                          .exhausted = index.exhausted};
     if (!c->wooded)
@@ -54,7 +54,7 @@ static struct measures measures_of(const struct comparison *c, size_t i)
     m.exhausted = false;
     m.awaited = !a;
     m.middle = a ? 1000 * ceduo_share_of(a) : NAN;
-    m.last = a ? a->energy.mean * KILO : NAN;
+    m.last = a ? a->energy.mean * J_TO_KJ : NAN;
     m.energy = nothing ? CEDUO_UNKNOWN : ceduo_energy_light(a);
     return m;
 }
@@ -65,7 +65,7 @@ static void find_scales(struct comparison *c)
     double threshold = scene->simulation.threshold;
     c->adc_lo = threshold / 10;
     c->adc_hi = threshold * 2;
-    c->last_most = c->bare * KILO;
+    c->last_most = c->bare * J_TO_KJ;
     c->middle_most = c->wooded ? 1000 : 0;
     for (size_t i = 0; i < scene->options_count; i++) {
         struct measures m = measures_of(c, i);
@@ -76,7 +76,7 @@ static void find_scales(struct comparison *c)
         c->middle_most = fmax(c->middle_most, m.middle);
         c->last_most = fmax(c->last_most, m.last);
     }
-    double accepted = c->control->accepted * KILO;
+    double accepted = c->control->accepted * J_TO_KJ;
     if (accepted <= 2 * c->last_most)
         c->last_most = fmax(c->last_most, accepted);
 }
@@ -159,7 +159,7 @@ static void draw_middle(const struct comparison *c, const struct measures *m, in
 static void draw_last(const struct comparison *c, const struct measures *m, int row)
 {
     char room[PLOT_NUMBER_ROOM];
-    double accepted = c->control->accepted * KILO;
+    double accepted = c->control->accepted * J_TO_KJ;
     const struct value v = {.share = m->last / c->last_most,
                             .limit = accepted / c->last_most,
                             .role = c->wooded             ? CEDUO_ROLE_WOOD
@@ -188,7 +188,7 @@ static void draw_option(const struct comparison *c, size_t i, int row)
 
 static void write_middle_head(const struct comparison *c, struct text *heads)
 {
-    double accepted = c->control->accepted * KILO;
+    double accepted = c->control->accepted * J_TO_KJ;
     if (!c->wooded) {
         ceduo_text_put(&heads[0], _("taken, kJ/100 m"));
         ceduo_text_put(&heads[1], _("taken"));
@@ -203,7 +203,7 @@ static void write_middle_head(const struct comparison *c, struct text *heads)
 
 static void write_last_head(const struct comparison *c, struct text *heads)
 {
-    double accepted = c->control->accepted * KILO;
+    double accepted = c->control->accepted * J_TO_KJ;
     for (int i = 0; i < HEADS; i++)
         ceduo_text_put(&heads[i], c->wooded ? _("mean, kJ") : _("left, kJ"));
     if (!isnan(accepted)) {
@@ -229,7 +229,7 @@ static void write_bare(const struct comparison *c, struct text *feet)
 {
     char room[PLOT_NUMBER_ROOM];
     const struct ceduo_arrivals *a = c->arrivals;
-    const char *mean = ceduo_plot_number(c->bare * KILO, 4, room);
+    const char *mean = ceduo_plot_number(c->bare * J_TO_KJ, 4, room);
     if (!a || isnan(c->bare)) {
         ceduo_text_put(&feet[0], a ? _("Without forest no rock arrives: nothing is left to compare.")
                                    : _("Energies are not computed yet."));
@@ -240,7 +240,7 @@ static void write_bare(const struct comparison *c, struct text *feet)
         ceduo_text_format(&feet[1], _("without forest: %.0f of 1000, mean %s kJ"), 1000 * a->reach_probability, mean);
     } else {
         ceduo_text_format(&feet[1], _("without forest: %.0f of 1000 > %g kJ, mean %s kJ"), 1000 * a->exceed_probability,
-                          c->control->accepted * KILO, mean);
+                          c->control->accepted * J_TO_KJ, mean);
     }
     if (!feet[0].bytes && feet[1].bytes)
         ceduo_text_format(&feet[0], _("%s; mean: of those that arrive"), feet[1].bytes);

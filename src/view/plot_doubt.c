@@ -157,7 +157,7 @@ const char *ceduo_plot_doubt(struct ceduo_canvas *canvas, const struct ceduo_are
                      .bars = rest - name - 2,
                      .y = area->top,
                      .end = area->top + area->height,
-                     .scale = r->answer->main == CEDUO_DOUBT_ENERGY ? KILO : 1000};
+                     .scale = r->answer->main == CEDUO_DOUBT_ENERGY ? J_TO_KJ : 1000};
     for (size_t i = 0; i < r->file->scene.options_count; i++)
         s.most = fmax(s.most, fmax(main_of(&s, i)->p95, ceduo_doubt_now_of(r, i).hi) * s.scale);
     s.most = s.most > 0 ? s.scale > 1 ? 1000 : ceduo_plot_round(s.most, true) : 1;

@@ -52,7 +52,7 @@ static double logarithm(double value)
 static void draw_step(const struct hazard_plot *h, enum ceduo_role role, const struct ceduo_exceeding *a,
                       const struct ceduo_exceeding *b)
 {
-    double x0 = log10(a->energy * KILO), y0 = logarithm(a->rate.rate), x1 = log10(b->energy * KILO);
+    double x0 = log10(a->energy * J_TO_KJ), y0 = logarithm(a->rate.rate), x1 = log10(b->energy * J_TO_KJ);
     double y1 = logarithm(b->rate.rate);
     if (y0 < RAREST)
         return;
@@ -65,7 +65,7 @@ static void draw_step(const struct hazard_plot *h, enum ceduo_role role, const s
 
 static void draw_interval(const struct hazard_plot *h, const struct ceduo_exceeding *e)
 {
-    double x = log10(e->energy * KILO);
+    double x = log10(e->energy * J_TO_KJ);
     if (x >= h->frame.x0 && logarithm(e->rate.hi) > RAREST)
         ceduo_canvas_line(h->canvas, &h->frame, CEDUO_ROLE_MEAN, x, fmax(RAREST, logarithm(e->rate.lo)), x,
                           fmin(h->frame.y1, logarithm(e->rate.hi)));
@@ -80,8 +80,8 @@ static void draw_sign(const struct hazard_plot *h, const struct ceduo_hazard *ha
     snprintf(sign, sizeof sign, "%zu", item);
     while (i > 0 && (i >= hazard->energies || logarithm(hazard->exceed[i].rate.rate) < RAREST))
         i--;
-    if (!ceduo_frame_cell(&h->frame, h->canvas, log10(hazard->exceed[i].energy * KILO), logarithm(hazard->exceed[i].rate.rate),
-                          &column, &row))
+    if (!ceduo_frame_cell(&h->frame, h->canvas, log10(hazard->exceed[i].energy * J_TO_KJ),
+                          logarithm(hazard->exceed[i].rate.rate), &column, &row))
         return;
     while (row + 1 < h->frame.top + h->frame.height && !ceduo_canvas_is_blank(h->canvas, column, row))
         row++;
@@ -147,7 +147,7 @@ static bool place(struct hazard_plot *h, const struct ceduo_area *area)
                                     .width = area->width - AXIS_WIDTH - 1 - (beside ? LEGEND_WIDTH + 2 : 0),
                                     .height = area->height - 2 - below,
                                     .x0 = 0,
-                                    .x1 = last > 0 ? log10(bare->exceed[last - 1].energy * KILO * 1.3) : 0,
+                                    .x1 = last > 0 ? log10(bare->exceed[last - 1].energy * J_TO_KJ * 1.3) : 0,
                                     .y0 = RAREST,
                                     .y1 = ceil(logarithm(bare->reach.rate) + 1e-9)};
     h->legend =

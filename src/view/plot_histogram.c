@@ -67,15 +67,15 @@ static void bin_label(const struct histogram *h, int i, struct text *text)
 
 static void add_mark(const struct histogram *h, int i, double value, const char *name, struct text *text)
 {
-    if (!isnan(value) && bin_of(&h->bins, value * KILO) == i)
+    if (!isnan(value) && bin_of(&h->bins, value * J_TO_KJ) == i)
         ceduo_text_format(text, "%s%s%s%.3g", text->length > 0 ? ", " : "\xe2\x97\x80 ", name, name[0] == '>' ? "" : " ",
-                          value * KILO);
+                          value * J_TO_KJ);
 }
 
 static void marks_of(const struct histogram *h, int i, struct text *text)
 {
     const struct ceduo_distribution *e = &h->arrivals->energy;
-    double kj = h->control->accepted * KILO, end = h->bins.first + h->bins.count * h->bins.width;
+    double kj = h->control->accepted * J_TO_KJ, end = h->bins.first + h->bins.count * h->bins.width;
     if (kj >= h->bins.first && (kj < end || h->bins.over))
         add_mark(h, i, h->control->accepted, h->area->width < WORD_LEAST ? ">" : _("withstands"), text);
     add_mark(h, i, e->p50, "p50", text);
@@ -84,7 +84,7 @@ static void marks_of(const struct histogram *h, int i, struct text *text)
 
 static enum ceduo_role role_of(const struct histogram *h, int i)
 {
-    double kj = h->control->accepted * KILO, from = h->bins.first + i * h->bins.width;
+    double kj = h->control->accepted * J_TO_KJ, from = h->bins.first + i * h->bins.width;
     if (isnan(kj))
         return CEDUO_ROLE_MEAN;
     return from >= kj ? CEDUO_ROLE_BAD : from + h->bins.width <= kj ? CEDUO_ROLE_GOOD : CEDUO_ROLE_WARN;
@@ -208,7 +208,7 @@ static void write_wooded_heads(const struct histogram *h, struct text *heads)
     ceduo_text_format(&heads[3], _("of 1000: %.0f (\xe2\x94\x82 bare %.0f)"), reach, bare_reach);
     for (int i = 1; i < HEADS && !isnan(exceed); i++)
         ceduo_text_then(&heads[i], ", ", i == 1 ? _("%.0f (%.0f) with more than %g kJ") : "%.0f (%.0f) > %g kJ", exceed,
-                        bare_exceed, h->control->accepted * KILO);
+                        bare_exceed, h->control->accepted * J_TO_KJ);
 }
 
 static void write_bare_heads(const struct histogram *h, struct text *heads)
@@ -221,7 +221,7 @@ static void write_bare_heads(const struct histogram *h, struct text *heads)
     ceduo_text_format(&heads[3], _("n = %llu"), reached);
     for (int i = 1; i < HEADS && !isnan(exceed); i++)
         ceduo_text_then(&heads[i], "; ", i == 1 ? _("of 1000 released, %.0f with more than %g kJ") : _("of 1000: %.0f > %g kJ"),
-                        exceed, h->control->accepted * KILO);
+                        exceed, h->control->accepted * J_TO_KJ);
 }
 
 static void put_head(const struct histogram *h)
@@ -241,7 +241,7 @@ static size_t *count_in(const struct bins *bins, const struct ceduo_energies *e)
 {
     size_t *counts = calloc((size_t)bins->count, sizeof *counts);
     for (size_t i = 0; counts && i < e->n; i++)
-        counts[bin_of(bins, e->values[i] * KILO)]++;
+        counts[bin_of(bins, e->values[i] * J_TO_KJ)]++;
     return counts;
 }
 
@@ -258,7 +258,7 @@ static bool count(struct histogram *h, const struct ceduo_energies *e, const str
         memcpy(all + e->n, bare->values, bare->n * sizeof *all);
     gsl_stats_minmax(&least, &most, all, 1, n);
     double p99 = gsl_stats_select(all, 1, n, ceduo_quantile_rank(n, 0.99) - 1);
-    h->bins = bins_for(least * KILO, p99 * KILO, most * KILO, rows);
+    h->bins = bins_for(least * J_TO_KJ, p99 * J_TO_KJ, most * J_TO_KJ, rows);
     free(all);
     h->n = e->n;
     h->counts = count_in(&h->bins, e);

@@ -106,13 +106,13 @@ static void note_control(struct notes *n, size_t c)
         note_in(n, _("%.0f (%.0f) of 1000"), a->reach_probability * 1000, bare->reach_probability * 1000);
         if (!isnan(a->exceed_probability))
             note_in(n, "%.0f (%.0f) > %g kJ", a->exceed_probability * 1000, bare->exceed_probability * 1000,
-                    n->picture->scene->controls[c].accepted * KILO);
+                    n->picture->scene->controls[c].accepted * J_TO_KJ);
         return;
     }
     note(n, CEDUO_ROLE_CONTROL, _("At %s m without forest"), room);
     note_in(n, _("%.0f of 1000 arrive"), a->reach_probability * 1000);
     if (!isnan(a->exceed_probability))
-        note_in(n, _("%.0f with > %g kJ"), a->exceed_probability * 1000, n->picture->scene->controls[c].accepted * KILO);
+        note_in(n, _("%.0f with > %g kJ"), a->exceed_probability * 1000, n->picture->scene->controls[c].accepted * J_TO_KJ);
 }
 
 /* The factor alone, at the right of the top row. */

@@ -36,7 +36,7 @@ static double share_of(const struct rotation *r, const struct ceduo_year *year)
 {
     const struct ceduo_index *index = &year->controls[r->c];
     if (!r->flown)
-        return index->per_100m * KILO;
+        return index->per_100m * J_TO_KJ;
     if (year->wooded.rocks == 0)
         return NAN;
     return 1000 * ceduo_share_of(&year->wooded.arrivals[r->c]);
@@ -129,7 +129,7 @@ static void draw(struct rotation *r)
         ceduo_text_format(&share,
                           r->area->width >= 60 ? _("of 1000 released with more than %g kJ (limit %g)")
                                                : _("of 1000 released with > %g kJ (limit %g)"),
-                          r->control->accepted * KILO, CEDUO_EXCEED_MOST * 1000);
+                          r->control->accepted * J_TO_KJ, CEDUO_EXCEED_MOST * 1000);
     if (strips < 2 * STRIP_LEAST) /* room for one: what gets through */
         first = 0;
     else

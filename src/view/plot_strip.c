@@ -77,7 +77,7 @@ static const struct content contents[2][3] = {
 static double value_at(const struct strip *s, const struct curve *curve, size_t cell)
 {
     const struct ceduo_envelope *e = &(curve->bare ? s->bare : s->sight)->envelopes[cell];
-    return *(const double *)(const void *)((const char *)e + curve->offset) * (s->energy ? KILO : 1);
+    return *(const double *)(const void *)((const char *)e + curve->offset) * (s->energy ? J_TO_KJ : 1);
 }
 
 /* Columns for the names of the curves and a blank on either side. */
@@ -131,7 +131,7 @@ static double highest_accepted(const struct strip *s, double most)
 {
     double highest = 0;
     for (size_t c = 0; c < s->picture->scene->controls_count; c++) {
-        double accepted = s->picture->scene->controls[c].accepted * KILO;
+        double accepted = s->picture->scene->controls[c].accepted * J_TO_KJ;
         if (accepted <= most)
             highest = fmax(highest, accepted);
     }
@@ -268,7 +268,7 @@ static bool find_free(const struct strip *s, int before, int behind, int width, 
 
 static void draw_accepted(const struct strip *s, const struct ceduo_control *c)
 {
-    double accepted = c->accepted * KILO, reach = 0.03 * (s->frame.x1 - s->frame.x0);
+    double accepted = c->accepted * J_TO_KJ, reach = 0.03 * (s->frame.x1 - s->frame.x0);
     int column, row;
     if (isnan(accepted) || !ceduo_frame_cell(&s->frame, s->canvas, c->x, accepted, &column, &row))
         return;

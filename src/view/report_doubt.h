@@ -27,10 +27,18 @@ struct ceduo_doubt_now {
 };
 struct ceduo_doubt_now ceduo_doubt_now_of(const struct ceduo_doubt_report *report, size_t option);
 
+/* By what the main figure is shown, of 1000 rocks or kJ per released rock; and a value of it, whole or with three digits. */
+double ceduo_doubt_scale(const struct ceduo_doubt_report *report);
+void ceduo_doubt_value(struct text *text, const struct ceduo_doubt_report *report, double value);
+
+/* An input with an index of its own; NULL: the last group, of several inputs together. */
+const struct ceduo_input *ceduo_doubt_input(const struct ceduo_doubt_report *report, size_t group);
+
 /* What people call an input: "diameter, ADS 1"; "energy law". */
 void ceduo_doubt_input_name(struct text *text, const struct ceduo_doubt_report *report, size_t group);
 
-/* An end of an input's range, 0 or 1, as files have it; of words the first and the last. */
+/* An end of an input's range, 0 or 1, as files have it; of words `*word` is the first or the last, and the value NaN. */
+double ceduo_doubt_input_value(const struct ceduo_doubt_report *report, size_t group, int end, const char **word);
 void ceduo_doubt_input_end(struct text *text, const struct ceduo_doubt_report *report, size_t group, int end);
 
 /* The same in the unit that people use, and short. */

@@ -243,13 +243,12 @@ static void draw_bar(void *to, int column, int row, int width, double fraction, 
 static void append_label(struct ceduo_svg *svg, double x, double y, const char *anchor, const char *label)
 {
     struct ceduo_html html = {.text = &svg->numbers};
-    struct text across = {0}, down = {0};
+    LOCAL_TEXT(across);
+    LOCAL_TEXT(down);
     append_number(&across, x);
     append_number(&down, y);
     ceduo_html_leaf(&html, "text", label, "x", ceduo_text_string(&across), "y", ceduo_text_string(&down), "fill",
                     paper[CEDUO_ROLE_AXIS].colour, "text-anchor", anchor, NULL);
-    ceduo_text_free(&across);
-    ceduo_text_free(&down);
 }
 
 static void draw_axis_left(void *to, const struct ceduo_frame *frame, int count, const struct ceduo_tick *ticks)
@@ -433,7 +432,7 @@ static void write_row(struct ceduo_html *html, const struct ceduo_cells *cells, 
     for (int from = 0, end; from < cells->width; from = end) {
         enum ceduo_role role = ceduo_cells_role(cells, from, row);
         bool reversed = role == CEDUO_ROLE_CURSOR && ceduo_cells_at(cells, from, row)->code != 0;
-        struct text word = {0};
+        LOCAL_TEXT(word);
         char x[16], y[16], width[16];
         size_t length = 0; /* up to the last that is no blank */
         int used = 0;
@@ -465,7 +464,6 @@ static void write_row(struct ceduo_html *html, const struct ceduo_cells *cells, 
                                       : "#fff",
                             "font-weight", looks[role].weight, NULL);
         }
-        ceduo_text_free(&word);
     }
 }
 

@@ -239,12 +239,10 @@ static void put_word(const struct field *f, const char *written, struct text *sh
         put_species(&species[i], shown);
     if (i >= 0)
         return;
-    struct text words = {0};
+    LOCAL_TEXT(words);
     for (const char *c = written; *c; c++)
         ceduo_text_char(&words, *c == '-' ? ' ' : *c);
     ceduo_text_put(shown, people_say(ceduo_text_string(&words)));
-    shown->failed |= words.failed;
-    ceduo_text_free(&words);
 }
 
 void ceduo_shown_value(const struct field *f, const char *written, struct text *shown)
@@ -264,7 +262,7 @@ void ceduo_shown_value(const struct field *f, const char *written, struct text *
 static void put_place(const struct path_step *step, const char *item, struct text *places)
 {
     size_t i;
-    struct text place = {0};
+    LOCAL_TEXT(place);
     if (ceduo_path_index(step, &i))
         ceduo_text_format(&place, "%s %zu", item, i + 1);
     else
@@ -275,7 +273,6 @@ static void put_place(const struct path_step *step, const char *item, struct tex
         ceduo_text_free(places);
     }
     ceduo_text_put(places, ceduo_text_string(&place));
-    ceduo_text_free(&place);
 }
 
 void ceduo_shown_path(const char *path, struct text *text)
@@ -283,7 +280,7 @@ void ceduo_shown_path(const char *path, struct text *text)
     const struct object *object = ceduo_schema_scene();
     const struct field *f = NULL, *named = NULL;
     struct path_step step;
-    struct text places = {0};
+    LOCAL_TEXT(places);
     size_t at = 0, n = strlen(path);
     while (ceduo_path_next(path, n, &at, &step)) {
         if (step.bracket && f) {
@@ -298,5 +295,4 @@ void ceduo_shown_path(const char *path, struct text *text)
     if (named)
         ceduo_text_format(text, "%s%s", _(named->shown.label), places.length ? ", " : "");
     ceduo_text_put(text, named || places.length ? ceduo_text_string(&places) : path);
-    ceduo_text_free(&places);
 }

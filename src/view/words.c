@@ -367,7 +367,7 @@ void ceduo_words_energy(struct text *text, const struct ceduo_result *result, si
         ceduo_text_put(text, _("Not computed yet."));
     } else {
         ceduo_text_format(text, _("%s of 1000 arrive with more than %g kJ (%.0f are allowed)."),
-                          WRITTEN_OF_1000(a->exceed_probability, a->exceed_lo, a->exceed_hi), c->accepted * KILO,
+                          WRITTEN_OF_1000(a->exceed_probability, a->exceed_lo, a->exceed_hi), c->accepted * J_TO_KJ,
                           CEDUO_EXCEED_MOST * 1000);
         if (result->options[option].controls[control].energy == CEDUO_UNKNOWN)
             ceduo_text_then(text, " ", _("%llu rocks never came to an end, and may arrive."),

@@ -6,7 +6,7 @@
 #include "ceduo/result.h"
 #include "study/verdict.h"
 
-#define KILO 1e-3 /* J in kJ */
+#define J_TO_KJ 1e-3
 
 /* Results as sentences that a forester understands. Each function adds to `text`. */
 
@@ -101,5 +101,6 @@ const char *ceduo_words_shown(double value, int digits, char room[CEDUO_NUMBER_R
 const char *ceduo_words_shown_of_1000(double probability, double lo, double hi, char room[CEDUO_NUMBER_ROOM]);
 #define WRITTEN(value, digits)     ceduo_words_shown(value, digits, (char[CEDUO_NUMBER_ROOM]){0})
 #define WRITTEN_OF_1000(p, lo, hi) ceduo_words_shown_of_1000(p, lo, hi, (char[CEDUO_NUMBER_ROOM]){0})
+#define SHORTEST(value)            ceduo_number_shortest(value, (char[CEDUO_NUMBER_ROOM]){0})
 
 #endif

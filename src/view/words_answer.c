@@ -55,7 +55,7 @@ static void say_what_to_do(struct text *text, const struct ceduo_result *r)
 void ceduo_words_nothing(struct text *text, const struct ceduo_result *r, size_t control)
 {
     const struct ceduo_arrivals *bare = &r->bare.arrivals[control];
-    struct text where = {0};
+    LOCAL_TEXT(where);
     ceduo_plot_control_name(&where, &r->scene->controls[control]);
     ceduo_text_format(text,
                       bare->reached == 0
@@ -64,19 +64,16 @@ void ceduo_words_nothing(struct text *text, const struct ceduo_result *r, size_t
                       ceduo_text_string(&where), (unsigned long long)bare->released, (unsigned long long)bare->reached);
     say_how_far(text, r);
     say_what_to_do(text, r);
-    text->failed |= where.failed;
-    ceduo_text_free(&where);
 }
 
 void ceduo_words_still(const struct ceduo_result *r, ceduo_words_say *say, void *context)
 {
     for (size_t c = 0; c < r->scene->controls_count; c++) {
-        struct text sentence = {0};
+        LOCAL_TEXT(sentence);
         if (!ceduo_says_nothing(&r->bare.arrivals[c]))
             continue;
         ceduo_words_nothing(&sentence, r, c);
         say(context, ceduo_text_string(&sentence));
-        ceduo_text_free(&sentence);
         return; /* what lies behind it is not reached either */
     }
 }

@@ -48,11 +48,10 @@ void ceduo_words_window(struct text *text, const struct ceduo_option *option, co
 void ceduo_words_windows(const struct ceduo_scene *scene, const struct ceduo_verdict *v, ceduo_words_say *say, void *context)
 {
     for (size_t i = 0; i < v->n; i++) {
-        struct text sentence = {0};
+        LOCAL_TEXT(sentence);
         ceduo_words_window(&sentence, &scene->options[i], &v->choices[i].window);
         if (sentence.length > 0)
             say(context, sentence.bytes);
-        ceduo_text_free(&sentence);
     }
 }
 
@@ -77,10 +76,10 @@ static double mean_of(const struct ceduo_verdict *v, bool rotation, size_t i)
 static void put_leaders(struct text *text, const struct ceduo_scene *scene, const struct ceduo_verdict *v,
                         const struct ceduo_leader *leader, bool rotation, bool names)
 {
-    struct text said = {0};
+    LOCAL_TEXT(said);
     size_t left = leader->rivals + 1;
     for (size_t i = 0; i < v->n; i++) {
-        struct text one = {0};
+        LOCAL_TEXT(one);
         if (i != leader->best && !leader->rival[i])
             continue;
         if (names)
@@ -91,13 +90,9 @@ static void put_leaders(struct text *text, const struct ceduo_scene *scene, cons
             ceduo_text_format(&said, "%s%s", said.length > 0 ? ", " : "", ceduo_text_string(&one));
         else
             ceduo_text_format(text, _("%s and %s"), ceduo_text_string(&said), ceduo_text_string(&one));
-        text->failed |= one.failed;
-        ceduo_text_free(&one);
     }
     if (leader->rivals == 0)
         ceduo_text_put(text, ceduo_text_string(&said));
-    text->failed |= said.failed;
-    ceduo_text_free(&said);
 }
 
 /* "Over a whole rotation 'large reserves' lets the fewest dangerous rocks through: 314 of 1000." */
@@ -105,7 +100,8 @@ static void say_best(struct text *text, const struct ceduo_scene *scene, const s
                      const char *when)
 {
     const struct ceduo_leader *leader = rotation ? &v->rotation : &v->today;
-    struct text names = {0}, numbers = {0};
+    LOCAL_TEXT(names);
+    LOCAL_TEXT(numbers);
     ceduo_text_format(text, "%s ", when);
     put_leaders(&names, scene, v, leader, rotation, true);
     put_leaders(&numbers, scene, v, leader, rotation, false);
@@ -128,9 +124,6 @@ static void say_best(struct text *text, const struct ceduo_scene *scene, const s
                           v->accepted ? _("%s let the fewest dangerous rocks through and cannot be told apart: %s of 1000.")
                                       : _("%s let the fewest rocks through and cannot be told apart: %s of 1000."),
                           ceduo_text_string(&names), ceduo_text_string(&numbers));
-    text->failed |= names.failed || numbers.failed;
-    ceduo_text_free(&names);
-    ceduo_text_free(&numbers);
 }
 
 /* One sentence where the same option is clearly best over the years and today. */

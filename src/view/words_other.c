@@ -18,8 +18,8 @@ void ceduo_words_other(struct text *text, const struct ceduo_result *r, size_t o
         ceduo_text_format(text, _("With the energy law %s no rock arrives."), law);
         return;
     }
-    const char *mean = WRITTEN(o->energy * KILO, 3);
-    const char *half = WRITTEN(ceduo_half_width(o->energy_se, o->reached) * KILO, 2);
+    const char *mean = WRITTEN(o->energy * J_TO_KJ, 3);
+    const char *half = WRITTEN(ceduo_half_width(o->energy_se, o->reached) * J_TO_KJ, 2);
     const char *reach = WRITTEN_OF_1000(o->reach_probability, o->reach_lo, o->reach_hi);
     if (isnan(o->exceed_probability))
         ceduo_text_format(text, _("With the energy law %s: %s of 1000 arrive; their mean is %s \xc2\xb1%s kJ."), law, reach,
@@ -45,7 +45,7 @@ void ceduo_words_turned(const struct ceduo_result *r, const struct ceduo_verdict
 {
     for (size_t i = 0; i < v->turned_count; i++) {
         size_t a = v->turned[i].better, b = v->turned[i].than, left = v->turned_count - i;
-        struct text sentence = {0};
+        LOCAL_TEXT(sentence);
         if (i >= TURNED_MOST) {
             ceduo_text_format(&sentence,
                               ngettext("The order of %zu other pair of options depends on the energy law, too.",
@@ -63,6 +63,5 @@ void ceduo_words_turned(const struct ceduo_result *r, const struct ceduo_verdict
         }
         if (sentence.bytes)
             say(context, sentence.bytes);
-        ceduo_text_free(&sentence);
     }
 }

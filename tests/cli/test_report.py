@@ -129,7 +129,8 @@ def test_answer():
     _, page = report("paper-site", few=DOUBT)
     answer = page.text["div"]
     expect_in(f"of 1000 rocks {1000 * wooded['exceed_probability']:.0f} arrive", answer)
-    expect_in(f"{1000 * wooded['exceed_lo']:.0f}\u2013{1000 * wooded['exceed_hi']:.0f} of 1000 (95 %)", answer)
+    lo, hi = math.floor(1000 * wooded["exceed_lo"]), math.ceil(1000 * wooded["exceed_hi"])
+    expect_in(f"{lo}\u2013{hi} of 1000 (95 %)", answer)
     expect_in("Doubt: what is not known of the scene makes it anything from ", answer)
     for words, scene in (("not computed, because the scene says", ("-s", "doubt=none")), ("By the index (Eq. 4 and 5)",
                          ("-s", "simulation.contact_model=index"))):

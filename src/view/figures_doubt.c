@@ -1,0 +1,362 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The figures of a sensitivity and of a calibration. */
+#include "figures_parts.h"
+
+#include "ceduo/version.h"
+
+#define VERSION                                                                                                                \
+    {                                                                                                                          \
+        "version", "", "version of the program", .value = version_of                                                           \
+    }
+VALUE(version_of, place, WORD(CEDUO_VERSION))
+
+/* ---- a sensitivity ---- */
+
+static const struct ceduo_doubt_figure *figure_of(const struct ceduo_place *p)
+{
+    return &p->doubt->answer->figures[p->figure];
+}
+
+static const struct ceduo_scene *scene_of(const struct ceduo_place *p)
+{
+    return &p->doubt->file->scene;
+}
+
+/* Energies are shown in kJ. */
+static double shown(const struct ceduo_place *p, double value)
+{
+    return figure_of(p)->kind == CEDUO_DOUBT_ENERGY ? value * J_TO_KJ : value;
+}
+
+static const struct ceduo_doubt_order *order_of(const struct ceduo_place *p)
+{
+    return &p->doubt->answer->orders[p->item];
+}
+
+static bool enter_figure(struct ceduo_place *p, size_t i)
+{
+    const struct ceduo_doubt_answer *a = p->doubt->answer;
+    for (p->figure = 0; a && p->figure < a->figures_count; p->figure++)
+        if (a->figures[p->figure].kind < CEDUO_DOUBT_SHOWN && i-- == 0)
+            return true;
+    return false;
+}
+
+/* By what is left of the doubt if they are known, least first. */
+static bool enter_input(struct ceduo_place *p, size_t i)
+{
+    size_t order[CEDUO_SENSITIVITY_GROUPS];
+    if (i >= p->doubt->answer->groups)
+        return false;
+    ceduo_doubt_order_of(p->doubt->answer, figure_of(p), order);
+    p->input = order[i];
+    return true;
+}
+
+static bool enter_order(struct ceduo_place *p, size_t i)
+{
+    p->item = i;
+    return p->doubt->answer && i < p->doubt->answer->orders_count;
+}
+
+static void say_path(const struct ceduo_place *p, ceduo_words_say *say, void *context)
+{
+    const struct ceduo_input *input = ceduo_doubt_input(p->doubt, p->input);
+    LOCAL_TEXT(together);
+    ceduo_text_format(&together, "%zu inputs together", p->doubt->answer->together);
+    say(context, input ? input->path : ceduo_text_string(&together));
+}
+
+static void say_moved(const struct ceduo_place *p, ceduo_words_say *say, void *context)
+{
+    for (size_t i = 0; i < p->doubt->answer->together; i++)
+        say(context, p->doubt->inputs->items[p->doubt->answer->moved[i]].path);
+}
+
+static const void *together_of(const void *place)
+{
+    const struct ceduo_place *p = place;
+    return ceduo_doubt_input(p->doubt, p->input) ? NULL : p;
+}
+
+static struct ceduo_value end_of(const struct ceduo_place *p, int end)
+{
+    const char *word;
+    double value = ceduo_doubt_input_value(p->doubt, p->input, end, &word);
+    return word ? WORD(word) : NUMBER(value);
+}
+
+static const char *const figure_keys[CEDUO_DOUBT_SHOWN] = {"reach_probability", "exceed_probability", "energy_per_released_kJ"};
+
+VALUE(doubt_format, place, WORD("ceduo-sensitivity-1"))
+VALUE(doubt_scene, place, WORD(o->doubt->file->path))
+VALUE(doubt_title, place, WORD(scene_of(o)->title))
+VALUE(doubt_seed, place, COUNT(scene_of(o)->simulation.seed))
+VALUE(doubt_rocks, place, COUNT(o->doubt->rocks))
+VALUE(doubt_points, place, COUNT(o->doubt->points))
+VALUE(doubt_evaluations, place, COUNT(o->doubt->answer ? o->doubt->answer->evaluations : 0))
+VALUE(doubt_option, place, WORD(scene_of(o)->options[figure_of(o)->option].name))
+VALUE(doubt_against, place, WORD(figure_of(o)->difference ? scene_of(o)->options[0].name : NULL))
+VALUE(doubt_x, place, NUMBER(scene_of(o)->controls[ceduo_scene_last_control(scene_of(o))].x_given))
+VALUE(doubt_figure, place, WORD(figure_keys[figure_of(o)->kind]))
+VALUE(figure_number, place, NUMBER(shown(o, *(const double *)member(f, figure_of(o)))))
+#define FIGURE(member) .value = figure_number, .offset = offsetof(struct ceduo_doubt_figure, member)
+VALUE(input_places, place,
+      COUNT(ceduo_doubt_input(o->doubt, o->input) ? ceduo_doubt_input(o->doubt, o->input)->places_count
+                                                  : o->doubt->answer->together))
+VALUE(input_source, place,
+      WORD(ceduo_doubt_input(o->doubt, o->input) ? o->doubt->inputs->sources[o->doubt->answer->input[o->input]] : NULL))
+VALUE(input_measured, place, WORD(ceduo_doubt_measured(o->doubt, o->input)))
+VALUE(input_lo, place, end_of(o, 0))
+VALUE(input_hi, place, end_of(o, 1))
+VALUE(input_first, place, NUMBER(figure_of(o)->indices.first[o->input].value))
+VALUE(input_first_se, place, NUMBER(figure_of(o)->indices.first[o->input].se))
+VALUE(input_total, place, NUMBER(figure_of(o)->indices.total[o->input].value))
+VALUE(input_total_se, place, NUMBER(figure_of(o)->indices.total[o->input].se))
+VALUE(input_at_lo, place, NUMBER(shown(o, figure_of(o)->at[o->input][0])))
+VALUE(input_at_hi, place, NUMBER(shown(o, figure_of(o)->at[o->input][1])))
+VALUE(input_left, place, NUMBER(shown(o, figure_of(o)->left[o->input])))
+VALUE(order_better, place, WORD(scene_of(o)->options[order_of(o)->better].name))
+VALUE(order_than, place, WORD(scene_of(o)->options[order_of(o)->than].name))
+VALUE(order_number, place, NUMBER(*(const double *)member(f, order_of(o))))
+#define ORDER(member) .value = order_number, .offset = offsetof(struct ceduo_doubt_order, member)
+
+#define FEW_POINTS "the points do not tell it"
+
+static const struct ceduo_figure doubt_scene_rows[] = {{"scene", "", "path of the file", .value = doubt_scene},
+                                                       {"title", "", "title of the scene", .value = doubt_title},
+                                                       {"seed", "", "seed of the random numbers", .value = doubt_seed},
+                                                       {"rocks", "", "rocks of each scene computed", .value = doubt_rocks},
+                                                       {"points", "", "base points", .value = doubt_points},
+                                                       END};
+
+static const struct ceduo_figure doubt_figure_rows[] = {
+    {"option", "", "name of the option", .value = doubt_option},
+    {"against", "", "of a difference: the first option", .value = doubt_against, .null = "the figure is no difference"},
+    {"x_m", "m", "the last control", .value = doubt_x},
+    {"figure", "", "reach_probability, exceed_probability or energy_per_released_kJ", .value = doubt_figure},
+    {"value", "", "in the scene as it is", FIGURE(value), .null = UNSAID},
+    {"sampling_lo", "", "lower end of its 95 % interval, by the rocks", FIGURE(sampling_lo), .null = UNSAID},
+    {"sampling_hi", "", "upper end of its 95 % interval", FIGURE(sampling_hi), .null = UNSAID},
+    {"doubt_p5", "", "5th percentile of what may be true", FIGURE(p5), .null = UNSAID},
+    {"doubt_p50", "", "median of what may be true", FIGURE(p50), .null = UNSAID},
+    {"doubt_p95", "", "95th percentile of what may be true", FIGURE(p95), .null = UNSAID},
+    END};
+
+static const struct ceduo_figure input_range_rows[] = {
+    {"lo", "", "lower end of its range, or its first word", .value = input_lo, .null = "it has no one range"},
+    {"hi", "", "upper end of its range, or its last word", .value = input_hi, .null = "it has no one range"},
+    {"first", "", "first-order index", .value = input_first, .null = FEW_POINTS},
+    {"first_se", "", "its standard error", .value = input_first_se, .null = FEW_POINTS},
+    {"total", "", "total index", .value = input_total, .null = FEW_POINTS},
+    {"total_se", "", "its standard error", .value = input_total_se, .null = FEW_POINTS},
+    {"at_lo", "", "the figure with this input at its lower end, all others as they are", .value = input_at_lo, .null = UNSAID},
+    {"at_hi", "", "the same at its upper end", .value = input_at_hi, .null = UNSAID},
+    {"width_if_known", "", "doubt_p95 less doubt_p5 that would be left if it were known", .value = input_left,
+     .null = "it stands for several"},
+    END};
+
+static const struct ceduo_figure input_rows[] = {
+    {"path", "", "path of the input, or how many are together", .say = say_path, .one = true},
+    {"places", "", "how many values of the scene move with it", .value = input_places},
+    {"source", "", "where its range comes from", .value = input_source, .null = "it stands for several"},
+    {"measured_by", "", "what would measure it", .value = input_measured, .null = "nothing that is known"},
+    {.of = input_range_rows},
+    {"together", "", "paths of the inputs that move as one", .from = together_of, .say = say_moved, .optional = true},
+    END};
+
+static const struct ceduo_figure doubt_figure_object[] = {
+    {.of = doubt_figure_rows},
+    {"inputs", "", "an object for each input, the heaviest first", .of = input_rows, .enter = enter_input},
+    END};
+
+static const struct ceduo_figure ranking_rows[] = {
+    {"better", "", "name of the better option", .value = order_better},
+    {"than", "", "name of the next one", .value = order_than},
+    {"x_m", "m", "the last control", .value = doubt_x},
+    {"probability", "", "share of what may be true in which it is better", ORDER(probability)},
+    {"equal", "", "in which neither is", ORDER(equal)},
+    {"worse", "", "in which it is worse", ORDER(worse)},
+    END};
+
+const struct ceduo_figure ceduo_doubt_figures[] = {
+    {"format", "", "always ceduo-sensitivity-1", .value = doubt_format},
+    VERSION,
+    {.of = doubt_scene_rows},
+    {"figures", "", "an object for each figure and option", .of = doubt_figure_object, .enter = enter_figure},
+    {"ranking", "", "an object for each two neighbours in rank", .of = ranking_rows, .enter = enter_order},
+    {"evaluations", "", "scenes computed", .value = doubt_evaluations},
+    END};
+
+static const struct ceduo_figure doubt_columns[] = {{.of = doubt_scene_rows},
+                                                    {.of = doubt_figure_rows},
+                                                    {"path", "", "", .say = say_path, .one = true},
+                                                    {.of = input_range_rows},
+                                                    END};
+
+void ceduo_doubt_json(struct text *text, const struct ceduo_doubt_report *r)
+{
+    ceduo_figures_json(text, ceduo_doubt_figures, &(struct ceduo_place){.doubt = r});
+}
+
+void ceduo_doubt_csv_header(struct text *text)
+{
+    ceduo_figures_csv(text, doubt_columns, NULL);
+}
+
+void ceduo_doubt_csv(struct text *text, const struct ceduo_doubt_report *r)
+{
+    struct ceduo_place p = {.doubt = r};
+    for (size_t i = 0; enter_figure(&p, i); i++)
+        for (size_t k = 0; enter_input(&p, k); k++)
+            ceduo_figures_csv(text, doubt_columns, &p);
+}
+
+/* ---- a calibration ---- */
+
+static const struct ceduo_calibration *answer_of(const struct ceduo_place *p)
+{
+    return p->calibration->answer;
+}
+
+static const struct ceduo_predicted *predicted_of(const struct ceduo_place *p)
+{
+    return &answer_of(p)->predicted[p->item];
+}
+
+static const struct ceduo_observation *observed_of(const struct ceduo_place *p)
+{
+    return ceduo_seen_of(p->calibration, predicted_of(p));
+}
+
+static const struct scene_file *file_of(const struct ceduo_place *p)
+{
+    return &p->calibration->files[predicted_of(p)->scene];
+}
+
+static const void *fitted_of(const void *place)
+{
+    const struct ceduo_place *p = place;
+    return &answer_of(p)->parameters[p->item];
+}
+
+static const void *calibration_of(const void *place)
+{
+    return answer_of(place);
+}
+
+static bool enter_fitted(struct ceduo_place *p, size_t i)
+{
+    p->item = i;
+    return i < answer_of(p)->parameters_count;
+}
+
+static bool enter_column(struct ceduo_place *p, size_t i)
+{
+    p->column = i;
+    return i < answer_of(p)->parameters_count;
+}
+
+static bool enter_predicted(struct ceduo_place *p, size_t i)
+{
+    p->item = i;
+    return i < answer_of(p)->predicted_count;
+}
+
+static void say_scenes(const struct ceduo_place *p, ceduo_words_say *say, void *context)
+{
+    for (size_t i = 0; i < p->calibration->scenes_count; i++)
+        say(context, p->calibration->files[i].path);
+}
+
+VALUE(calibration_format, place, WORD("ceduo-calibration-1"))
+VALUE(calibration_seed, place, COUNT(o->calibration->seed))
+VALUE(calibration_rocks, place, COUNT(o->calibration->rocks))
+VALUE(first_scene, place, WORD(o->calibration->files[0].path))
+VALUE(fitted_path, place, WORD(o->calibration->paths[o->item]))
+VALUE(correlation, place, NUMBER(answer_of(o)->correlation[o->item][o->column]))
+VALUE(observed_what, place, WORD(observed_of(o)->name))
+VALUE(observed_scene, place, WORD(file_of(o)->path))
+VALUE(observed_option, place, WORD(file_of(o)->scene.options[observed_of(o)->option].name))
+VALUE(observed_use, place, WORD(observed_of(o)->use == CEDUO_OBSERVED_FIT ? "fit" : "check"))
+VALUE(observed_n, place, COUNT(ceduo_seen_number(observed_of(o))))
+VALUE(deviance, place, NUMBER(predicted_of(o)->at_best.deviance))
+VALUE(p_value, place, NUMBER(predicted_of(o)->p_value))
+VALUE(inside, place, IS(predicted_of(o)->inside))
+VALUE(seen_number, place,
+      NUMBER(ceduo_seen_shown(observed_of(o)->kind, *(const double *)member(f, predicted_of(o)),
+                              file_of(o)->scene.slope.origin_x)))
+#define SEEN(member) .value = seen_number, .offset = offsetof(struct ceduo_predicted, member)
+VALUE(single_inside, place,
+      observed_of(o)->values && !isnan(predicted_of(o)->one_lo) ? COUNT(predicted_of(o)->one_inside) : NOTHING)
+
+#define NO_RANGE "the draws do not tell it"
+
+static const struct ceduo_figure fitted_rows[] = {
+    {"path", "", "path of the value", .value = fitted_path},
+    {"lo", "", "lower bound that was given", .from = fitted_of, AT(fitted, lo)},
+    {"hi", "", "upper bound that was given", .from = fitted_of, AT(fitted, hi)},
+    {"best", "", "value that fits best", .from = fitted_of, AT(fitted, best)},
+    {"p2_5", "", "lower end of what is not refuted, 95 %", .from = fitted_of, AT(fitted, p2_5), .null = NO_RANGE},
+    {"p50", "", "its median", .from = fitted_of, AT(fitted, p50), .null = NO_RANGE},
+    {"p97_5", "", "its upper end", .from = fitted_of, AT(fitted, p97_5), .null = NO_RANGE},
+    {"determined", "", "whether the observations determine it", .from = fitted_of, AT(fitted, determined)},
+    {"at_bound", "", "whether it lies at a bound", .from = fitted_of, AT(fitted, at_bound)},
+    END};
+
+static const struct ceduo_figure correlation_cell[] = {{NULL, "", "", .value = correlation}, END};
+static const struct ceduo_figure correlation_row[] = {
+    {NULL, "", "", .of = correlation_cell, .enter = enter_column, .plain = true}, END};
+
+static const struct ceduo_figure observation_rows[] = {
+    {"what", "", "name of the observation", .value = observed_what},
+    {"scene", "", "path of its scene", .value = observed_scene},
+    {"option", "", "name of its option", .value = observed_option},
+    {"use", "", "fit or check", .value = observed_use},
+    {"n", "", "how many rocks were observed", .value = observed_n},
+    {"deviance", "", "deviance at the best values", .value = deviance},
+    {"p_value", "", "how often simulated rocks deviate as much", .value = p_value, .null = NO_RANGE},
+    {"seen", "", "mean of what was observed", SEEN(seen)},
+    {"predicted_lo", "", "lower end of what the fit predicts of that mean, 95 %", SEEN(lo), .null = NO_RANGE},
+    {"predicted_hi", "", "its upper end", SEEN(hi), .null = NO_RANGE},
+    {"inside", "", "whether the mean lies between the two", .value = inside},
+    {"single_lo", "", "lower end of what the fit predicts of single rocks, 95 %", SEEN(one_lo), .null = NO_RANGE},
+    {"single_hi", "", "its upper end", SEEN(one_hi), .null = NO_RANGE},
+    {"single_inside", "", "how many of the values lie between the two", .value = single_inside, .optional = true},
+    END};
+
+const struct ceduo_figure ceduo_calibration_figures[] = {
+    {"format", "", "always ceduo-calibration-1", .value = calibration_format},
+    VERSION,
+    {"scenes", "", "paths of the files", .say = say_scenes},
+    {"seed", "", "seed of the random numbers", .value = calibration_seed},
+    {"rocks", "", "rocks of each scene computed", .value = calibration_rocks},
+    {"parameters", "", "an object for each fitted value", .of = fitted_rows, .enter = enter_fitted},
+    {"correlation", "", "of these values, row by row", .of = correlation_row, .enter = enter_fitted, .plain = true},
+    {"observations", "", "an object for each observation", .of = observation_rows, .enter = enter_predicted},
+    {"misfit", "", "whether the model cannot give something that it was fitted to", .from = calibration_of,
+     AT(calibration, misfit)},
+    {"refuted", "", "whether the fit does not hold for what was to check it", .from = calibration_of, AT(calibration, refuted)},
+    {"settled", "", "whether the chains agree", .from = calibration_of, AT(calibration, settled)},
+    {"evaluations", "", "scenes computed", .from = calibration_of, AT(calibration, evaluations)},
+    {"rhat", "", "largest potential scale reduction of the values", .from = calibration_of, AT(calibration, rhat)},
+    {"effective_size", "", "smallest effective size of the values", .from = calibration_of, AT(calibration, effective_size)},
+    END};
+
+static const struct ceduo_figure calibration_columns[] = {{"scene", "", "", .value = first_scene},
+                                                          {.of = fitted_rows},
+                                                          {"misfit", "", "", .from = calibration_of, AT(calibration, misfit)},
+                                                          END};
+
+void ceduo_calibration_json(struct text *text, const struct ceduo_calibration_report *r)
+{
+    ceduo_figures_json(text, ceduo_calibration_figures, &(struct ceduo_place){.calibration = r});
+}
+
+void ceduo_calibration_csv(struct text *text, const struct ceduo_calibration_report *r)
+{
+    struct ceduo_place p = {.calibration = r};
+    ceduo_figures_csv(text, calibration_columns, NULL);
+    for (size_t i = 0; enter_fitted(&p, i); i++)
+        ceduo_figures_csv(text, calibration_columns, &p);
+}

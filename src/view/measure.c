@@ -1,0 +1,98 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "measure.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/language.h"
+#include "words.h"
+
+static struct ceduo_measure of_1000(double p, double lo, double hi)
+{
+    return (struct ceduo_measure){.value = 1000 * p,
+                                  .lo = floor(1000 * lo),
+                                  .hi = ceil(1000 * hi),
+                                  .unit = N_("of 1000"),
+                                  .names = {N_("of 1000 arrive"), N_("arrive"), N_("arrive")}};
+}
+
+struct ceduo_measure ceduo_arriving(const struct ceduo_arrivals *a)
+{
+    return a ? of_1000(a->reach_probability, a->reach_lo, a->reach_hi) : of_1000(NAN, NAN, NAN);
+}
+
+struct ceduo_measure ceduo_judged(const struct ceduo_control *c, const struct ceduo_arrivals *a)
+{
+    if (isnan(c->accepted))
+        return ceduo_arriving(a);
+    struct ceduo_measure m = a ? of_1000(a->exceed_probability, a->exceed_lo, a->exceed_hi) : of_1000(NAN, NAN, NAN);
+    m.limit = ceduo_words_accepted(c);
+    m.names[CEDUO_HEAD] = N_("of 1000 > %s kJ");
+    m.names[CEDUO_SHORT_HEAD] = N_("> %s kJ");
+    m.names[CEDUO_PHRASE] = N_("arrive with more than %s kJ");
+    return m;
+}
+
+static struct ceduo_measure energy(double mean, double half, int digits, const char *head)
+{
+    return (struct ceduo_measure){.value = mean * J_TO_KJ,
+                                  .lo = (mean - half) * J_TO_KJ,
+                                  .hi = (mean + half) * J_TO_KJ,
+                                  .digits = digits,
+                                  .unit = N_("kJ"),
+                                  .names = {head, head, head}};
+}
+
+struct ceduo_measure ceduo_mean_energy(const struct ceduo_arrivals *a)
+{
+    return energy(a->energy.mean, ceduo_half_width(a->energy.se, a->reached), 4, N_("mean, kJ"));
+}
+
+struct ceduo_measure ceduo_energy_p95(const struct ceduo_arrivals *a)
+{
+    return energy(a->energy.p95, NAN, 3, N_("95 % below, kJ"));
+}
+
+struct ceduo_measure ceduo_energy_released(const struct ceduo_arrivals *a)
+{
+    return energy(a->energy_per_released, ceduo_half_width(a->energy_per_released_se, a->released), 3, N_("kJ a rock"));
+}
+
+void ceduo_append_with(struct text *text, const char *sentence, const char *string)
+{
+    const char *at = strstr(sentence, "%s");
+    size_t n = at ? (size_t)(at - sentence) : strlen(sentence);
+    ceduo_text_add(text, sentence, n);
+    if (!at)
+        return;
+    ceduo_text_put(text, string);
+    ceduo_text_put(text, at + 2);
+}
+
+void ceduo_measure_name(struct text *text, const struct ceduo_measure *m, enum ceduo_measure_name name)
+{
+    ceduo_append_with(text, _(m->names[name]), SHORTEST(m->limit));
+}
+
+void ceduo_measure_value(struct text *text, const struct ceduo_measure *m)
+{
+    if (isnan(m->value) || m->digits > 0)
+        ceduo_words_number(text, m->value, m->digits);
+    else
+        ceduo_text_format(text, "%.0f", m->value);
+}
+
+void ceduo_measure_interval(struct text *text, const struct ceduo_measure *m)
+{
+    struct ceduo_measure end = *m;
+    ceduo_measure_value(text, m);
+    if (isnan(m->value) || isnan(m->lo) || isnan(m->hi))
+        return;
+    ceduo_text_put(text, " (");
+    end.value = m->lo;
+    ceduo_measure_value(text, &end);
+    ceduo_text_put(text, "\xe2\x80\x93");
+    end.value = m->hi;
+    ceduo_measure_value(text, &end);
+    ceduo_text_char(text, ')');
+}

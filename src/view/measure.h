@@ -1,0 +1,42 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef CEDUO_MEASURE_H
+#define CEDUO_MEASURE_H
+
+#include "base/text.h"
+#include "study/verdict.h"
+
+/* A figure of an answer and what people call it: made here once, for pages, pictures, panes and the column. */
+
+enum ceduo_measure_name {
+    CEDUO_HEAD,       /* of a column that has room: "of 1000 > 50 kJ" */
+    CEDUO_SHORT_HEAD, /* "> 50 kJ" */
+    CEDUO_PHRASE,     /* in a sentence: "arrive with more than 50 kJ" */
+    CEDUO_MEASURE_NAMES
+};
+
+struct ceduo_measure {
+    double value, lo, hi;                          /* in the unit shown; NaN: not known, or no interval */
+    int digits;                                    /* significant; 0: a whole number */
+    const char *unit, *names[CEDUO_MEASURE_NAMES]; /* marked for translation; %s in a name is the limit */
+    double limit;
+};
+
+/* Of 1000 rocks released those that arrive, and those that a control is judged by: that arrive with more than it withstands, or
+ * at all where that is not given. `arrivals` NULL: not known. */
+struct ceduo_measure ceduo_arriving(const struct ceduo_arrivals *arrivals);
+struct ceduo_measure ceduo_judged(const struct ceduo_control *control, const struct ceduo_arrivals *arrivals);
+
+/* The mean energy of the rocks that arrive, that below which 95 % of them stay, and that of all released, in kJ. */
+struct ceduo_measure ceduo_mean_energy(const struct ceduo_arrivals *arrivals);
+struct ceduo_measure ceduo_energy_p95(const struct ceduo_arrivals *arrivals);
+struct ceduo_measure ceduo_energy_released(const struct ceduo_arrivals *arrivals);
+
+/* Adds a name of a measure; its value, "-" where it is not known; "480 (453–501)". */
+void ceduo_measure_name(struct text *text, const struct ceduo_measure *m, enum ceduo_measure_name name);
+void ceduo_measure_value(struct text *text, const struct ceduo_measure *m);
+void ceduo_measure_interval(struct text *text, const struct ceduo_measure *m);
+
+/* A sentence with a string in the place of its one %s. */
+void ceduo_append_with(struct text *text, const char *sentence, const char *string);
+
+#endif
