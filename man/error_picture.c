@@ -109,9 +109,9 @@ int main(int argc, char **argv)
     fclose(in);
     draw(ceduo_svg_canvas(svg), points);
     ceduo_svg_write(&html, svg,
-                  &(struct ceduo_svg_words){.title = "Error of the mean energy against run time",
-                                            .description = "Five falling lines on logarithmic axes: ten times the time "
-                                                           "leaves a third of the error; ceduo needs the least time."});
+                    &(struct ceduo_svg_words){.title = "Error of the mean energy against run time",
+                                              .description = "Five falling lines on logarithmic axes: ten times the time "
+                                                             "leaves a third of the error; ceduo needs the least time."});
     ceduo_svg_free(svg);
     FILE *out = text.failed ? NULL : fopen(argv[2], "w");
     bool good = out && fwrite(text.bytes, 1, text.length, out) == text.length;

@@ -325,8 +325,8 @@ static void put_index(struct pen *pen, const struct ceduo_index *index)
     else if (index->exhausted)
         line(pen, CEDUO_ROLE_DIM, _("index: %.3g kJ, used up"), index->dissipated * J_TO_KJ);
     else
-        line(pen, CEDUO_ROLE_DIM, _("index: %s%.3g, left %.3g kJ"), index->dissipated > 0 ? "-" : "", index->dissipated * J_TO_KJ,
-             index->residual * J_TO_KJ);
+        line(pen, CEDUO_ROLE_DIM, _("index: %s%.3g, left %.3g kJ"), index->dissipated > 0 ? "-" : "",
+             index->dissipated * J_TO_KJ, index->residual * J_TO_KJ);
     if (!isnan(index->measured) && pen->area.height >= HEIGHT_FOR_ALL)
         line(pen, CEDUO_ROLE_DIM, _("seen: %.3g kJ (one rock)"), index->measured * J_TO_KJ);
 }
