@@ -15,6 +15,7 @@
 #include <string.h>
 
 #include "base/cancel.h"
+#include "base/parallel.h"
 #include "chains.h"
 #include "fitting.h"
 
@@ -122,53 +123,14 @@ static enum ceduo_status evaluate(struct fitting *f, size_t worker, const double
     return CEDUO_OK;
 }
 
-/* ---- on many threads ---- */
-
-struct crowd {
-    struct fitting *f;
-    enum ceduo_status (*one)(struct fitting *f, size_t worker, size_t item);
-    size_t items;
-    atomic_size_t next, workers;
-    atomic_int status;
-};
-
-static void *work(void *context)
-{
-    struct crowd *c = context;
-    size_t worker = atomic_fetch_add(&c->workers, 1);
-    int good = CEDUO_OK, status = CEDUO_OK;
-    for (size_t i; status == CEDUO_OK && atomic_load(&c->status) == CEDUO_OK && (i = atomic_fetch_add(&c->next, 1)) < c->items;)
-        status = (int)c->one(c->f, worker, i);
-    if (status != CEDUO_OK)
-        atomic_compare_exchange_strong(&c->status, &good, status);
-    return NULL;
-}
-
-enum ceduo_status ceduo_fitting_each(struct fitting *f, size_t items,
-                                     enum ceduo_status (*one)(struct fitting *f, size_t worker, size_t item))
-{
-    struct crowd c = {.f = f, .one = one, .items = items};
-    size_t n = f->def->threads < items ? f->def->threads : items, started = 0;
-    pthread_t *threads = n > 1 ? calloc(n - 1, sizeof *threads) : NULL;
-    atomic_init(&c.next, 0);
-    atomic_init(&c.workers, 0);
-    atomic_init(&c.status, CEDUO_OK);
-    while (threads && started + 1 < n && pthread_create(&threads[started], NULL, work, &c) == 0)
-        started++;
-    work(&c);
-    while (started > 0)
-        pthread_join(threads[--started], NULL);
-    free(threads);
-    return (enum ceduo_status)atomic_load(&c.status);
-}
-
 /* ---- search ---- */
 
-static enum ceduo_status look_at_point(struct fitting *f, size_t worker, size_t i)
+static int look_at_point(void *context, size_t i, size_t worker)
 {
+    struct fitting *f = context;
     enum ceduo_status status = evaluate(f, worker, f->points + i * f->def->parameters_count, &f->at_points[i]);
     tell(f, CEDUO_SEARCH, NAN, NAN);
-    return status;
+    return (int)status;
 }
 
 static enum ceduo_status search(struct fitting *f)
@@ -184,7 +146,7 @@ static enum ceduo_status search(struct fitting *f)
     for (size_t i = 0; i < POINTS; i++)
         gsl_qrng_get(sequence, f->points + i * d);
     gsl_qrng_free(sequence);
-    return ceduo_fitting_each(f, POINTS, look_at_point);
+    return (enum ceduo_status)ceduo_parallel(&(struct parallel){POINTS, f->def->threads, look_at_point, f});
 }
 
 /* ---- refining ---- */
@@ -224,8 +186,9 @@ static void descend(struct descent *d, double *y, gsl_multimin_fminimizer *m, gs
         y[i] = fmax(-FAR_OUT, fmin(FAR_OUT, gsl_vector_get(m->x, i)));
 }
 
-static enum ceduo_status refine_one(struct fitting *f, size_t worker, size_t start)
+static int refine_one(void *context, size_t start, size_t worker)
 {
+    struct fitting *f = context;
     size_t n = f->def->parameters_count;
     struct descent d = {f, worker, CEDUO_OK};
     gsl_multimin_fminimizer *m = gsl_multimin_fminimizer_alloc(gsl_multimin_fminimizer_nmsimplex2, n);
@@ -238,7 +201,7 @@ static enum ceduo_status refine_one(struct fitting *f, size_t worker, size_t sta
     gsl_vector_free(from);
     gsl_vector_free(step);
     tell(f, CEDUO_REFINE, NAN, NAN);
-    return d.status;
+    return (int)d.status;
 }
 
 /* From the best points; of those that are as good the first ones. */
@@ -251,7 +214,7 @@ static enum ceduo_status refine(struct fitting *f)
     for (size_t c = 0; c < CHAINS; c++)
         for (size_t i = 0; i < d; i++)
             f->starts[c * d + i] = logit(f->points[order[c] * d + i]);
-    return ceduo_fitting_each(f, REFINED, refine_one);
+    return (enum ceduo_status)ceduo_parallel(&(struct parallel){REFINED, f->def->threads, refine_one, f});
 }
 
 /* ---- chains ---- */

@@ -8,12 +8,11 @@
 #include <gsl/gsl_randist.h>
 #include <gsl/gsl_rng.h>
 #include <math.h>
-#include <pthread.h>
-#include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/cancel.h"
+#include "base/parallel.h"
 
 #define WANTED 0.28 /* share of accepted steps */
 #define INNER  100  /* steps that the guess decides, for one that the density decides */
@@ -35,8 +34,6 @@ struct work {
     double factor;
     bool guessing;
     size_t rounds;
-    atomic_size_t next;
-    atomic_int status;
 };
 
 static double *draw_at(const struct chains *c, size_t chain, size_t step)
@@ -105,30 +102,15 @@ static enum ceduo_status step_on(struct work *w, size_t chain, size_t step, doub
     return CEDUO_OK;
 }
 
-static void *walk_chains(void *context)
+static int walk_chain(void *context, size_t c, size_t worker)
 {
     struct work *w = context;
-    int good = CEDUO_OK, status = CEDUO_OK;
-    for (size_t c; status == CEDUO_OK && (c = atomic_fetch_add(&w->next, 1)) < w->def->chains;)
-        for (size_t i = 0; i < CEDUO_CHAINS_ROUND && status == CEDUO_OK && atomic_load(&w->status) == CEDUO_OK; i++)
-            status = (int)step_on(w, c, w->chains->steps + i,
-                                  w->chains->tried_density + w->chains->tried_count + c * CEDUO_CHAINS_ROUND + i);
-    if (status != CEDUO_OK)
-        atomic_compare_exchange_strong(&w->status, &good, status);
-    return NULL;
-}
-
-static enum ceduo_status walk_round(struct work *w)
-{
-    pthread_t threads[CEDUO_CHAINS_MOST];
-    unsigned n = w->def->threads < w->def->chains ? w->def->threads : (unsigned)w->def->chains, started = 0;
-    atomic_store(&w->next, 0);
-    while (started + 1 < n && pthread_create(&threads[started], NULL, walk_chains, w) == 0)
-        started++;
-    walk_chains(w);
-    while (started > 0)
-        pthread_join(threads[--started], NULL);
-    return (enum ceduo_status)atomic_load(&w->status);
+    enum ceduo_status status = CEDUO_OK;
+    (void)worker;
+    for (size_t i = 0; i < CEDUO_CHAINS_ROUND && status == CEDUO_OK; i++)
+        status =
+            step_on(w, c, w->chains->steps + i, w->chains->tried_density + w->chains->tried_count + c * CEDUO_CHAINS_ROUND + i);
+    return (int)status;
 }
 
 /* ---- all chains ---- */
@@ -272,11 +254,10 @@ enum ceduo_status ceduo_chains_run(const struct chains_def *def, struct chains *
 {
     struct work w = {.def = def, .chains = chains};
     *chains = (struct chains){.dimensions = def->dimensions, .chains = def->chains, .rhat = NAN, .effective_size = NAN};
-    atomic_init(&w.next, 0);
-    atomic_init(&w.status, CEDUO_OK);
+    const struct parallel round = {def->chains, def->threads, walk_chain, &w};
     enum ceduo_status status = begin(&w);
     for (bool done = false; status == CEDUO_OK && !done;) {
-        status = grow(chains, chains->steps + CEDUO_CHAINS_ROUND) ? walk_round(&w) : CEDUO_NO_MEMORY;
+        status = grow(chains, chains->steps + CEDUO_CHAINS_ROUND) ? (enum ceduo_status)ceduo_parallel(&round) : CEDUO_NO_MEMORY;
         if (status != CEDUO_OK)
             break;
         chains->steps += CEDUO_CHAINS_ROUND;

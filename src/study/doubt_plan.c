@@ -10,6 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/parallel.h"
 #include "ceduo/assess.h"
 #include "ceduo/key.h"
 #include "ceduo/run.h"
@@ -166,22 +167,17 @@ void ceduo_plan_column(const struct plan *p, size_t figures, size_t figure, stru
         column[e] = p->values[e * figures + figure];
 }
 
-struct ceduo_halves *ceduo_plan_values(const struct plan *p, size_t figures, size_t item, size_t *n)
-{
-    size_t evaluations, start = item_start(p, item, &evaluations);
-    *n = evaluations * figures;
-    return p->values + start * figures;
-}
-
 /* ---- threads ---- */
 
 struct work {
     const struct ceduo_doubt_def *def;
     const struct plan *plan;
-    size_t to;
+    size_t from;
     uint64_t before, all; /* for the progress: of all calls together */
-    atomic_size_t next, done;
-    atomic_int status;
+    atomic_size_t done;
+    atomic_bool failed;         /* nothing more once any thread has failed */
+    struct input_scene *copies; /* [thread] */
+    struct memory *memories;
     pthread_mutex_t talking;
 };
 
@@ -194,57 +190,61 @@ static void tell(struct work *w)
     pthread_mutex_unlock(&w->talking);
 }
 
-/* Nothing more once any thread has failed. */
-static enum ceduo_status run_item(struct work *w, size_t item, struct input_scene *copy, struct memory *memory)
-{
-    const struct ceduo_doubt_def *def = w->def;
-    size_t figures = ceduo_plan_figures(def->scene), n, start = item_start(w->plan, item, &n);
-    enum ceduo_status status = CEDUO_OK;
-    memory->n = 0;
-    for (size_t e = start; e < start + n && status == CEDUO_OK && atomic_load(&w->status) == CEDUO_OK; e++) {
-        ceduo_inputs_set(copy, w->plan->u + e * def->inputs_count);
-        status = evaluate(def, &copy->scene, memory, w->plan->values + e * figures);
-        tell(w);
-    }
-    return status;
-}
-
-static void *run_items(void *context)
+static int run_item(void *context, size_t item, size_t thread)
 {
     struct work *w = context;
     const struct ceduo_doubt_def *def = w->def;
-    size_t most = w->plan->design.groups + 2 > 2 * w->plan->ends ? w->plan->design.groups + 2 : 2 * w->plan->ends;
-    struct memory memory = {.items = calloc(most * def->scene->options_count, sizeof *memory.items)};
-    struct input_scene copy;
-    int good = CEDUO_OK, status = (int)ceduo_inputs_open(&copy, def->scene, def->inputs, def->inputs_count);
-    if (!memory.items)
-        status = CEDUO_NO_MEMORY;
-    for (size_t item; status == CEDUO_OK && (item = atomic_fetch_add(&w->next, 1)) < w->to;)
-        status = (int)run_item(w, item, &copy, &memory);
-    ceduo_inputs_release(&copy);
-    free(memory.items);
+    struct memory *memory = &w->memories[thread];
+    size_t figures = ceduo_plan_figures(def->scene), n, start = item_start(w->plan, w->from + item, &n);
+    enum ceduo_status status = CEDUO_OK;
+    memory->n = 0;
+    for (size_t e = start; e < start + n && status == CEDUO_OK && !atomic_load(&w->failed); e++) {
+        ceduo_inputs_set(&w->copies[thread], w->plan->u + e * def->inputs_count);
+        status = evaluate(def, &w->copies[thread].scene, memory, w->plan->values + e * figures);
+        tell(w);
+    }
     if (status != CEDUO_OK)
-        atomic_compare_exchange_strong(&w->status, &good, status);
-    return NULL;
+        atomic_store(&w->failed, true);
+    return (int)status;
+}
+
+/* What each thread has for itself: a copy of the scene, and what it knows of an item. */
+static enum ceduo_status open_threads(struct work *w)
+{
+    const struct ceduo_doubt_def *def = w->def;
+    size_t stride = w->plan->design.groups + 2, most = stride > 2 * w->plan->ends ? stride : 2 * w->plan->ends;
+    enum ceduo_status status = CEDUO_OK;
+    w->copies = calloc(def->threads, sizeof *w->copies);
+    w->memories = calloc(def->threads, sizeof *w->memories);
+    for (size_t i = 0; w->copies && w->memories && i < def->threads && status == CEDUO_OK; i++) {
+        status = ceduo_inputs_open(&w->copies[i], def->scene, def->inputs, def->inputs_count);
+        w->memories[i].items = calloc(most * def->scene->options_count, sizeof *w->memories[i].items);
+        if (!w->memories[i].items)
+            status = CEDUO_NO_MEMORY;
+    }
+    return w->copies && w->memories ? status : CEDUO_NO_MEMORY;
+}
+
+static void close_threads(struct work *w)
+{
+    for (size_t i = 0; w->copies && w->memories && i < w->def->threads; i++) {
+        ceduo_inputs_release(&w->copies[i]);
+        free(w->memories[i].items);
+    }
+    free(w->copies);
+    free(w->memories);
 }
 
 enum ceduo_status ceduo_plan_run(const struct ceduo_doubt_def *def, struct plan *p, size_t from, size_t to, uint64_t *done,
                                  uint64_t all)
 {
-    struct work w = {.def = def, .plan = p, .to = to, .before = *done, .all = all};
-    unsigned n = def->threads, started = 0;
-    pthread_t *threads = n > 1 ? calloc(n - 1, sizeof *threads) : NULL;
-    atomic_init(&w.next, from);
-    atomic_init(&w.done, 0);
-    atomic_init(&w.status, CEDUO_OK);
+    struct work w = {.def = def, .plan = p, .from = from, .before = *done, .all = all};
     pthread_mutex_init(&w.talking, NULL);
-    while (threads && started < n - 1 && pthread_create(&threads[started], NULL, run_items, &w) == 0)
-        started++;
-    run_items(&w);
-    while (started > 0)
-        pthread_join(threads[--started], NULL);
+    enum ceduo_status status = open_threads(&w);
+    if (status == CEDUO_OK)
+        status = (enum ceduo_status)ceduo_parallel(&(struct parallel){to - from, def->threads, run_item, &w});
+    close_threads(&w);
     pthread_mutex_destroy(&w.talking);
-    free(threads);
     *done += atomic_load(&w.done);
-    return (enum ceduo_status)atomic_load(&w.status);
+    return status;
 }

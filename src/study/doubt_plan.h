@@ -32,7 +32,4 @@ enum ceduo_status ceduo_plan_run(const struct ceduo_doubt_def *def, struct plan 
 /* Values of one figure in the order of the design. */
 void ceduo_plan_column(const struct plan *plan, size_t figures, size_t figure, struct ceduo_halves *column);
 
-/* Values of the evaluations of an item, `*n` of them. */
-struct ceduo_halves *ceduo_plan_values(const struct plan *plan, size_t figures, size_t item, size_t *n);
-
 #endif

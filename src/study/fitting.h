@@ -40,10 +40,6 @@ struct fitting {
     struct ceduo_counterpart *drawn; /* [draw][observation] */
 };
 
-/* Calls `one` for each item, on all threads. */
-enum ceduo_status ceduo_fitting_each(struct fitting *f, size_t items,
-                                     enum ceduo_status (*one)(struct fitting *f, size_t worker, size_t item));
-
 /* What rocks do at a place: one counterpart for each observation, of all, or of those that are fitted. */
 enum ceduo_status ceduo_fitting_look(struct fitting *f, size_t worker, const double *u, bool all, struct ceduo_counterpart *to);
 

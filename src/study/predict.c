@@ -10,6 +10,7 @@
 #include <stdlib.h>
 
 #include "base/cancel.h"
+#include "base/parallel.h"
 #include "fitting.h"
 
 #define SAMPLES      20     /* for each draw; not more than CEDUO_SOME_VALUES */
@@ -17,11 +18,12 @@
 #define SAMPLES_ONE  2000   /* of a scene as it is */
 #define OTHER_ROCKS  0x5eed /* in the seed */
 
-static enum ceduo_status look_at_draw(struct fitting *f, size_t worker, size_t i)
+static int look_at_draw(void *context, size_t i, size_t worker)
 {
+    struct fitting *f = context;
     struct ceduo_counterpart *to = f->drawn + i * f->all_count;
     enum ceduo_status status = ceduo_fitting_look(f, worker, f->draws + i * f->def->parameters_count, true, to);
-    return status == CEDUO_OK || status == CEDUO_CANCELLED ? status : CEDUO_NO_MEMORY;
+    return (int)(status == CEDUO_OK || status == CEDUO_CANCELLED ? status : CEDUO_NO_MEMORY);
 }
 
 /* ---- samples ---- */
@@ -209,7 +211,7 @@ enum ceduo_status ceduo_fitting_predict(struct fitting *f, struct ceduo_calibrat
         for (size_t s = 0; s < f->def->scenes_count; s++)
             f->workers[w].copies[s].scene.simulation.seed ^= OTHER_ROCKS;
     if (status == CEDUO_OK)
-        status = ceduo_fitting_each(f, draws + 1, look_at_draw);
+        status = (enum ceduo_status)ceduo_parallel(&(struct parallel){draws + 1, f->def->threads, look_at_draw, f});
     if (status == CEDUO_OK) {
         gsl_rng_set(random, (unsigned long)f->def->seed + 1);
         read_all(f, draws, random, values, a);

@@ -5,8 +5,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "core/sizes.h"
-#include "core/weighted.h"
+#include "core/runs/weighted.h"
+#include "core/walk/sizes.h"
 
 #define LENGTH(a) (sizeof(a) / sizeof(a)[0])
 #define ROCKS     100000

@@ -6,7 +6,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "core/histogram.h"
+#include "core/runs/histogram.h"
 #include "core/walk/envelope.h"
 
 /* ---- cells along the slope: 32 bins an octave ---- */

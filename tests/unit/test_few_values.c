@@ -8,7 +8,7 @@
 #include <string.h>
 
 #include "ceduo/ceduo.h"
-#include "core/histogram.h"
+#include "core/runs/histogram.h"
 #include "core/walk/envelope.h"
 
 /* ---- few values ---- */

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/prepared.h"
+#include "prepared.h"
 #include "walk.h"
 
 struct noter {

@@ -8,10 +8,10 @@
 
 #include "base/elementary.h"
 #include "ceduo/trajectory.h"
-#include "core/prepared.h"
 #include "core/wood/stems.h"
 #include "envelope.h"
 #include "landing.h"
+#include "prepared.h"
 #include "random.h"
 #include "section.h"
 

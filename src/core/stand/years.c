@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "weighted.h"
+#include "core/runs/weighted.h"
 
 /* ---- windows ---- */
 

@@ -3,8 +3,8 @@
 #define CEDUO_PREPARED_H
 
 #include "ceduo/scene.h"
-#include "core/walk/ground.h"
 #include "core/wood/wood.h"
+#include "ground.h"
 #include "sizes.h"
 
 /* A place where something is noted of a rock's first passage going +x: a control. */

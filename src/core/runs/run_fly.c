@@ -3,11 +3,11 @@
  * walkers, stems and histograms, and writes samples of its rocks into the columns of the run, where no two rocks share a place.
  * A block is summed in the order of its rocks, blocks are merged in their order: the result does not depend on threads. */
 #include <math.h>
-#include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/cancel.h"
+#include "base/parallel.h"
 #include "core/walk/walk.h"
 #include "run_state.h"
 
@@ -38,8 +38,8 @@ struct worker {
 struct chunk {
     uint64_t first, end; /* rocks */
     size_t blocks;
-    atomic_size_t next;
     atomic_bool stop;
+    struct worker *workers;
 };
 
 /* ---- one rock ---- */
@@ -292,20 +292,15 @@ static bool fly_block(struct worker *w)
     return true;
 }
 
-static void *work(void *argument)
+static int take_block(void *context, size_t i, size_t worker)
 {
-    struct worker *w = argument;
-    struct chunk *chunk = w->chunk;
-    uint64_t first_block = chunk->first / CEDUO_BLOCK_ROCKS;
-    for (size_t i; (i = atomic_fetch_add(&chunk->next, 1)) < chunk->blocks;) {
-        uint64_t from = (first_block + i) * CEDUO_BLOCK_ROCKS, to = from + CEDUO_BLOCK_ROCKS;
-        w->from = from < chunk->first ? chunk->first : from;
-        w->to = to > chunk->end ? chunk->end : to;
-        w->block = &w->run->slots[i];
-        if (!fly_block(w))
-            return NULL;
-    }
-    return NULL;
+    struct chunk *chunk = context;
+    struct worker *w = &chunk->workers[worker];
+    uint64_t from = (chunk->first / CEDUO_BLOCK_ROCKS + i) * CEDUO_BLOCK_ROCKS, to = from + CEDUO_BLOCK_ROCKS;
+    w->from = from < chunk->first ? chunk->first : from;
+    w->to = to > chunk->end ? chunk->end : to;
+    w->block = &w->run->slots[i];
+    return fly_block(w) ? CEDUO_OK : CEDUO_CANCELLED;
 }
 
 /* ---- threads ---- */
@@ -362,21 +357,9 @@ static void worker_merge(struct worker *w)
         ceduo_envelopes_merge(run->cells, &w->cells);
 }
 
-/* Runs a chunk on as many threads as can be started; this one works too. */
-static void run_workers(struct worker *workers, unsigned n)
+static enum ceduo_status finish_chunk(struct ceduo_run *run, struct chunk *chunk, unsigned n)
 {
-    pthread_t *threads = n > 1 ? malloc((n - 1) * sizeof *threads) : NULL;
-    unsigned started = 0;
-    while (threads && started < n - 1 && pthread_create(&threads[started], NULL, work, &workers[started + 1]) == 0)
-        started++;
-    work(&workers[0]);
-    for (unsigned i = 0; i < started; i++)
-        pthread_join(threads[i], NULL);
-    free(threads);
-}
-
-static enum ceduo_status finish_chunk(struct ceduo_run *run, struct chunk *chunk, struct worker *workers, unsigned n)
-{
+    struct worker *workers = chunk->workers;
     bool no_memory = false;
     for (unsigned i = 0; i < n; i++)
         no_memory |= workers[i].no_memory;
@@ -410,7 +393,7 @@ enum ceduo_status ceduo_run_fly_chunk(struct ceduo_run *run, uint64_t end)
     uint64_t last_block = (end - 1) / CEDUO_BLOCK_ROCKS;
     struct chunk chunk = {.first = run->rocks, .end = end, .blocks = (size_t)(last_block - first_block + 1)};
     unsigned n = run->def.threads < chunk.blocks ? run->def.threads : (unsigned)chunk.blocks;
-    struct worker *workers = calloc(n, sizeof *workers);
+    struct worker *workers = chunk.workers = calloc(n, sizeof *workers);
     if (!workers)
         return CEDUO_NO_MEMORY;
     bool ready = true;
@@ -422,8 +405,8 @@ enum ceduo_status ceduo_run_fly_chunk(struct ceduo_run *run, uint64_t end)
         ceduo_run_block_merge(&run->slots[0], &run->tail, run->controls);
     enum ceduo_status status = CEDUO_NO_MEMORY;
     if (ready) {
-        run_workers(workers, n);
-        status = finish_chunk(run, &chunk, workers, n);
+        ceduo_parallel(&(struct parallel){chunk.blocks, n, take_block, &chunk});
+        status = finish_chunk(run, &chunk, n);
     }
     if (status != CEDUO_OK)
         for (size_t i = 0; i < chunk.blocks; i++)

@@ -4,8 +4,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "core/walk/envelope.h"
-#include "core/walk/random.h"
+#include "envelope.h"
+#include "random.h"
 
 static int by_x(const void *a, const void *b)
 {

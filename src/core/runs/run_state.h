@@ -4,9 +4,9 @@
 
 #include "ceduo/run.h"
 #include "core/walk/envelope.h"
+#include "core/walk/prepared.h"
 #include "core/walk/wide.h"
 #include "histogram.h"
-#include "prepared.h"
 #include "weighted.h"
 
 /* A run from inside; only the run*.c include this.

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 
 #include "base/elementary.h"
-#include "core/walk/random.h"
+#include "random.h"
 
 #define GOLDEN 0x9E3779B97F4A7C15u /* 2^64 over the golden ratio */
 
