@@ -264,7 +264,7 @@ do-lint:
 	cppcheck $(CPPCHECK) -D_GNU_SOURCE -Iinclude -Isrc src
 	find src -name '*.c' | xargs -P $(CORES) -n 4 sh -c 'clang-tidy --quiet "$$@" -- $(CLANG_DEFINES) 2>/dev/null' tidy
 
-# Runs tests on a build that counts branches, then compares the branches not taken with tests/coverage.txt. Tests of the screen
+# Runs tests on a build that counts branches, then names the branches not taken that no comment explains. Tests of the screen
 # and of whole workflows are left out: what they take of these parts others take sooner, and they would take most of the time.
 # Failures do not count here, as this build is too slow for some tests that depend on the clock; `make check` judges them.
 COUNTED := $(patsubst $(T)/%,build/cov/tests/%,$(filter-out $(T)/tui/% %/test_workflows.py.tap,$(TAPS)))

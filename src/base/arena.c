@@ -64,7 +64,7 @@ char *ceduo_arena_vformat(struct arena *arena, const char *format, va_list args)
     va_list again;
     va_copy(again, args);
     int n = vsnprintf(NULL, 0, format, args);
-    char *p = n >= 0 ? ceduo_arena_take(arena, (size_t)n + 1) : NULL;
+    char *p = n >= 0 ? ceduo_arena_take(arena, (size_t)n + 1) : NULL; /* untaken: system */
     if (p)
         vsnprintf(p, (size_t)n + 1, format, again);
     va_end(again);

@@ -74,7 +74,7 @@ void ceduo_text_vformat(struct text *text, const char *format, va_list args)
     va_list again;
     va_copy(again, args);
     int n = vsnprintf(NULL, 0, format, args);
-    if (n >= 0 && reserve(text, (size_t)n)) {
+    if (n >= 0 && reserve(text, (size_t)n)) { /* untaken: system */
         vsnprintf(text->bytes + text->length, (size_t)n + 1, format, again);
         text->length += (size_t)n;
     }

@@ -112,7 +112,7 @@ static void report_unknown_key(struct binder *b, const struct object *object, co
     const char *instead = ceduo_schema_gone(object, entry->key);
     const char *words[KEYS_SHOWN_MOST] = {0};
     size_t n = 0;
-    for (size_t i = 0; i < object->n && n < KEYS_SHOWN_MOST; i++)
+    for (size_t i = 0; i < object->n && n < KEYS_SHOWN_MOST; i++) /* untaken: large */
         words[n++] = object->fields[i].key;
     const char *near = ceduo_text_nearest(entry->key, words, n);
     size_t before = enter(b, entry->key);
@@ -441,7 +441,7 @@ static void bind_field(struct binder *b, const struct field *f, const struct nod
         note_bad(b);
     if (node->broken && node->kind != NODE_MAP)
         return;
-    switch (f->type) {
+    switch (f->type) { /* untaken: table */
     case FIELD_TAG:
         bind_tag(b, f, node);
         break;

@@ -45,11 +45,12 @@ static void put_quoted(struct text *text, const char *s)
     for (size_t n = strlen(s), length; n > 0; s += length, n -= length) {
         uint32_t c = 0;
         size_t known = ceduo_utf8_decode(s, n, &c);
-        length = known ? known : 1;
+        length = known ? known : 1; /* untaken: table */
         if (c == '"' || c == '\\')
             ceduo_text_format(text, "\\%c", (int)c);
         else if (c == '\n')
             ceduo_text_put(text, "\\n");
+        /* untaken: table */
         else if (known && (!ceduo_utf8_printable(c) || c == 0xfeff)) /* a mark of byte order, which no YAML holds */
             ceduo_text_format(text, c < 0x100 ? "\\x%02x" : c <= 0xffff ? "\\u%04x" : "\\U%08x", c);
         else

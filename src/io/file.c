@@ -78,7 +78,7 @@ static bool read_all(int fd, struct arena *arena, size_t max, struct source *int
         if (n < room)
             continue;
         char *more = ceduo_arena_take(arena, 2 * room + 1);
-        if (more)
+        if (more) /* untaken: memory */
             memcpy(more, bytes, n);
         bytes = more;
         room *= 2;
@@ -246,11 +246,11 @@ static size_t program_folders(struct arena *arena, const char **folders)
     static const char *const near[] = {"profiles", "../../profiles", "../share/ceduo"};
     char self[PATH_MAX];
     ssize_t n = readlink("/proc/self/exe", self, sizeof self - 1);
-    if (n <= 0)
+    if (n <= 0) /* untaken: machine */
         return 0;
     self[n] = '\0';
     char *slash = strrchr(self, '/');
-    if (!slash)
+    if (!slash) /* untaken: machine */
         return 0;
     for (size_t i = 0; i < 3; i++)
         folders[i] = join(arena, self, (size_t)(slash - self), near[i]);

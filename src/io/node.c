@@ -64,7 +64,7 @@ const struct node *ceduo_node_replaced(struct arena *arena, const struct node *n
 {
     const struct node **items;
     struct node *copy = copy_shell(arena, node, node->n, &items);
-    if (!copy || !value)
+    if (!copy || !value) /* untaken: memory */
         return NULL;
     memcpy(items, node->items, node->n * sizeof *items);
     items[i] = value;
@@ -75,7 +75,7 @@ const struct node *ceduo_node_inserted(struct arena *arena, const struct node *n
 {
     const struct node **items;
     struct node *copy = copy_shell(arena, node, node->n + 1, &items);
-    if (!copy || !value)
+    if (!copy || !value) /* untaken: memory */
         return NULL;
     if (i > 0)
         memcpy(items, node->items, i * sizeof *items);

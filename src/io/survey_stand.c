@@ -246,7 +246,7 @@ static double stools_of(const struct writer *w)
         if (w->answer->classes[i].kind == CEDUO_SURVEY_SHOOT)
             shoots += rounded(w->answer->classes[i].per_ha.mean);
     double stools = rounded(w->answer->stools.mean);
-    return stools <= shoots ? stools : rounded(stools * (1 - 1e-5));
+    return stools <= shoots ? stools : rounded(stools * (1 - 1e-5)); /* untaken: rounding */
 }
 
 static void put_stools(struct writer *w)

@@ -69,6 +69,7 @@ static yaml_mark_t within_text(const struct reader *r, yaml_mark_t mark)
 {
     const char *bytes = r->source->bytes + r->skip;
     size_t length = r->source->length - r->skip;
+    /* untaken: table */
     while (length > 0 && (bytes[length - 1] == '\n' || bytes[length - 1] == '\r' || bytes[length - 1] == ' '))
         length--;
     yaml_mark_t end = mark_of_byte(bytes, length);

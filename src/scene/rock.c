@@ -69,7 +69,7 @@ static enum ceduo_status rock_from_sizes(enum ceduo_shape shape, union sizes *s,
 {
     if (!good_sizes(shape, s))
         return CEDUO_BAD_ROCK;
-    switch (shape) {
+    switch (shape) { /* untaken: table */
     case CEDUO_SPHERE:
         complete_sphere(s, rock);
         break;

@@ -181,7 +181,7 @@ void ceduo_schema_visit(const struct object *object, const char *prefix,
         const struct field *f = &object->fields[i];
         struct text path = {0};
         ceduo_text_format(&path, "%s%s%s%s", prefix, prefix[0] ? "." : "", f->key, f->type == FIELD_LIST ? "[]" : "");
-        if (path.failed)
+        if (path.failed) /* untaken: memory */
             return;
         if (f->type == FIELD_GROUP || f->type == FIELD_LIST)
             ceduo_schema_visit(f->object, path.bytes, visit, context);

@@ -139,7 +139,7 @@ static enum ceduo_status search(struct fitting *f)
     gsl_qrng *sequence = gsl_qrng_alloc(gsl_qrng_sobol, (unsigned)d);
     f->points = calloc(POINTS * d, sizeof *f->points);
     f->at_points = calloc(POINTS, sizeof *f->at_points);
-    if (!sequence || !f->points || !f->at_points) {
+    if (!sequence || !f->points || !f->at_points) { /* untaken: gsl */
         gsl_qrng_free(sequence);
         return CEDUO_NO_MEMORY;
     }
@@ -180,7 +180,7 @@ static void descend(struct descent *d, double *y, gsl_multimin_fminimizer *m, gs
     gsl_vector_set_all(step, SIMPLEX);
     gsl_multimin_fminimizer_set(m, &f, from, step);
     for (size_t k = 0; k < 40 + 20 * n && d->status == CEDUO_OK; k++)
-        if (gsl_multimin_fminimizer_iterate(m) != 0 || gsl_multimin_fminimizer_size(m) < SMALL)
+        if (gsl_multimin_fminimizer_iterate(m) != 0 || gsl_multimin_fminimizer_size(m) < SMALL) /* untaken: gsl */
             break;
     for (size_t i = 0; i < n && d->status == CEDUO_OK; i++)
         y[i] = fmax(-FAR_OUT, fmin(FAR_OUT, gsl_vector_get(m->x, i)));
@@ -193,7 +193,7 @@ static int refine_one(void *context, size_t start, size_t worker)
     struct descent d = {f, worker, CEDUO_OK};
     gsl_multimin_fminimizer *m = gsl_multimin_fminimizer_alloc(gsl_multimin_fminimizer_nmsimplex2, n);
     gsl_vector *from = gsl_vector_alloc(n), *step = gsl_vector_alloc(n);
-    if (m && from && step)
+    if (m && from && step) /* untaken 3: gsl */
         descend(&d, f->starts + start * n, m, from, step);
     else
         d.status = CEDUO_NO_MEMORY;
@@ -446,7 +446,7 @@ enum ceduo_status ceduo_calibrate(const struct ceduo_calibration_def *def, struc
         status = CEDUO_NO_MEMORY;
     if (status == CEDUO_OK)
         status = ceduo_fitting_predict(&f, a);
-    if (status == CEDUO_OK && ceduo_cancelled(def->cancel))
+    if (status == CEDUO_OK && ceduo_cancelled(def->cancel)) /* untaken: race */
         status = CEDUO_CANCELLED;
     a->evaluations = f.evaluations;
     a->rhat = chains.rhat;

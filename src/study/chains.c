@@ -222,13 +222,13 @@ static enum ceduo_status begin(struct work *w)
     w->proposals = gsl_matrix_calloc(def->chains, d);
     w->normals = gsl_matrix_calloc(def->chains, d);
     w->trials = gsl_matrix_calloc(def->chains, d);
-    if (!w->root || !w->proposals || !w->normals || !w->trials || !grow(w->chains, CEDUO_CHAINS_ROUND))
+    if (!w->root || !w->proposals || !w->normals || !w->trials || !grow(w->chains, CEDUO_CHAINS_ROUND)) /* untaken 4: gsl */
         return CEDUO_NO_MEMORY;
     for (size_t i = 0; i < d; i++)
         gsl_matrix_set(w->root, i, i, def->scales[i]);
     w->factor = 2.38 / sqrt((double)d);
     for (size_t c = 0; c < def->chains && status == CEDUO_OK; c++) {
-        if (!(w->walks[c].random = gsl_rng_alloc(gsl_rng_mt19937)))
+        if (!(w->walks[c].random = gsl_rng_alloc(gsl_rng_mt19937))) /* untaken: gsl */
             return CEDUO_NO_MEMORY;
         gsl_rng_set(w->walks[c].random, (unsigned long)(def->seed * CEDUO_CHAINS_MOST + c + 1));
         memcpy(draw_at(w->chains, c, 0), def->starts + c * d, d * sizeof(double));

@@ -88,11 +88,11 @@ static enum ceduo_status solve(struct guess *g, gsl_matrix *rows)
     gsl_vector *c = gsl_vector_alloc(g->terms);
     gsl_matrix *covariance = gsl_matrix_alloc(g->terms, g->terms);
     double chisq, *kept = malloc(g->terms * sizeof *kept);
-    bool good = work && c && covariance && kept;
+    bool good = work && c && covariance && kept; /* untaken 3: gsl */
     if (good) {
         gsl_matrix_view triangle = gsl_matrix_submatrix(rows, 0, 0, g->terms, g->terms);
         gsl_vector_view values = gsl_matrix_subcolumn(rows, g->terms, 0, g->terms);
-        if (gsl_multifit_linear(&triangle.matrix, &values.vector, c, covariance, &chisq, work) == 0) {
+        if (gsl_multifit_linear(&triangle.matrix, &values.vector, c, covariance, &chisq, work) == 0) { /* untaken: gsl */
             for (size_t i = 0; i < g->terms; i++)
                 kept[i] = gsl_vector_get(c, i);
             free(g->coefficients);
@@ -119,7 +119,7 @@ enum ceduo_status ceduo_guess_learn(struct guess *g, const double *u, const doub
         return CEDUO_OK;
     gsl_matrix *rows = gsl_matrix_calloc(g->terms + 1 + BLOCK, g->terms + 1);
     gsl_vector *tau = gsl_vector_alloc(g->terms + 1);
-    enum ceduo_status status = rows && tau ? reduce(g, &known, rows, tau) : CEDUO_NO_MEMORY;
+    enum ceduo_status status = rows && tau ? reduce(g, &known, rows, tau) : CEDUO_NO_MEMORY; /* untaken 2: gsl */
     if (status == CEDUO_OK)
         status = solve(g, rows);
     gsl_matrix_free(rows);

@@ -400,7 +400,7 @@ enum ceduo_status ceduo_observer_look(const struct ceduo_observer *o, const stru
         status = fly(&o->settings[s], scene, rocks, cancel, &f);
         for (size_t i = 0; i < o->n && status == CEDUO_OK; i++)
             if (o->plans[i].setting == s)
-                status = ceduo_cancelled(cancel) ? CEDUO_CANCELLED : look_at_one(&o->plans[i], &f, &to[i]);
+                status = ceduo_cancelled(cancel) ? CEDUO_CANCELLED : look_at_one(&o->plans[i], &f, &to[i]); /* untaken: race */
         land(&f);
     }
     return status;

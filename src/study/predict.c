@@ -175,6 +175,7 @@ static void read_all(struct fitting *f, size_t draws, gsl_rng *random, double *v
 {
     size_t which = 0;
     for (size_t s = 0; s < f->def->scenes_count; s++)
+        /* untaken: race */
         for (size_t i = 0; i < f->def->scenes[s].observations_count && !ceduo_cancelled(f->def->cancel); i++, which++) {
             const struct ceduo_observation *o = &f->def->scenes[s].observations[i];
             struct ceduo_predicted *to = &a->predicted[which];
@@ -199,6 +200,7 @@ enum ceduo_status ceduo_fitting_predict(struct fitting *f, struct ceduo_calibrat
     f->drawn = calloc((draws + 1) * f->all_count + 1, sizeof *f->drawn);
     a->predicted = calloc(f->all_count + 1, sizeof *a->predicted);
     a->predicted_count = f->all_count;
+    /* untaken: gsl */
     enum ceduo_status status = places && values && random && f->drawn && a->predicted ? CEDUO_OK : CEDUO_NO_MEMORY;
     for (size_t k = 0; k <= draws && status == CEDUO_OK; k++)
         for (size_t i = 0; i < d; i++) {
@@ -233,7 +235,7 @@ enum ceduo_status ceduo_calibration_as_it_is(const struct ceduo_calibration_scen
     struct ceduo_counterpart *found = calloc(n + 1, sizeof *found);
     double *values = calloc(SAMPLES_ONE, sizeof *values);
     gsl_rng *random = gsl_rng_alloc(gsl_rng_mt19937);
-    enum ceduo_status status = found && values && random ? CEDUO_OK : CEDUO_NO_MEMORY;
+    enum ceduo_status status = found && values && random ? CEDUO_OK : CEDUO_NO_MEMORY; /* untaken: gsl */
     if (status == CEDUO_OK)
         status = ceduo_observer_create(scene->observations, n, &observer);
     if (status == CEDUO_OK)

@@ -74,7 +74,7 @@ enum ceduo_status ceduo_design_fill(const struct ceduo_design *d, double *u)
 {
     double sobol[2 * CEDUO_SENSITIVITY_GROUPS];
     gsl_qrng *sequence = gsl_qrng_alloc(gsl_qrng_sobol, (unsigned)(2 * d->groups));
-    if (!sequence)
+    if (!sequence) /* untaken: gsl */
         return CEDUO_NO_MEMORY;
     for (size_t row = 0, block = 0; row < d->points; row++) {
         double *a = u + row * (d->groups + 2) * d->inputs, *b = a + d->inputs;

@@ -173,7 +173,7 @@ static size_t sample_bytes(const struct ceduo_pool *pool)
 
 void ceduo_pool_trim(struct ceduo_pool *pool)
 {
-    for (size_t spare = mark_needed(pool); spare > 0 && sample_bytes(pool) > CEDUO_EXACT_BYTES; spare--)
+    for (size_t spare = mark_needed(pool); spare > 0 && sample_bytes(pool) > CEDUO_EXACT_BYTES; spare--) /* untaken: large */
         drop_oldest(pool);
 }
 

@@ -19,7 +19,7 @@ struct ceduo_run_def ceduo_run_def_default(const struct ceduo_scene *scene)
 static void choose_chunk(struct ceduo_run *run, size_t blocks, double seconds)
 {
     size_t threads = run->def.threads, most = 2 * run->chunk;
-    double wanted = seconds > 0 ? (double)blocks * CHUNK_SECONDS / seconds : (double)most;
+    double wanted = seconds > 0 ? (double)blocks * CHUNK_SECONDS / seconds : (double)most; /* untaken: system */
     run->chunk = wanted < (double)most ? (size_t)wanted : most;
     run->chunk = (run->chunk + threads - 1) / threads * threads;
     run->chunk = run->chunk < threads ? threads : run->chunk;

@@ -130,7 +130,7 @@ static bool keep_pairs(struct ceduo_run *run)
         return false;
     run->pairs_room = room;
     for (size_t c = 0; c < run->controls; c++)
-        for (uint64_t r = 0; run->room > 0 && r < run->rocks && r < room; r++)
+        for (uint64_t r = 0; run->room > 0 && r < run->rocks && r < room; r++) /* untaken: large */
             run->pairs[c * room + r] = ceduo_run_sample_energy(run, c, r);
     return true;
 }

@@ -163,7 +163,7 @@ size_t ceduo_run_sized_energies(const struct ceduo_run *run, size_t control, dou
             reached++;
         }
     most = reached < most ? reached : most;
-    for (uint64_t r = 0; n < most && r < run->rocks; r++)
+    for (uint64_t r = 0; n < most && r < run->rocks; r++) /* untaken: rounding */
         if (!isnan(energy[r]))
             for (before += run->weights[r]; n < most && ((double)n + 0.5) * all <= before * (double)most; n++)
                 to[n] = energy[r];

@@ -23,7 +23,7 @@ static double volume_died(const struct ceduo_stand *now, const struct ceduo_stan
 {
     double sum = 0;
     enum ceduo_volume_from from;
-    for (size_t i = 1; i <= now->shoots_count && i <= next->shoots_count; i++) {
+    for (size_t i = 1; i <= now->shoots_count && i <= next->shoots_count; i++) { /* untaken: bound */
         const struct ceduo_stems *before = &now->shoots[now->shoots_count - i];
         const struct ceduo_stems *after = &next->shoots[next->shoots_count - i];
         sum += fmax(0, before->per_ha - after->per_ha) * ceduo_stem_volume(now, before, &from);

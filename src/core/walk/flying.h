@@ -115,7 +115,7 @@ SELDOM void show_flight(const struct walker *w, struct flight at, double x1, dou
 HOT void fly(struct walker *w, struct flight *at, const struct landing *l)
 {
     double vz = at->vz - w->g->gravity * l->t;
-    if (w->next_x <= l->x && at->vx > 0)
+    if (w->next_x <= l->x && at->vx > 0) /* untaken: rounding */
         pass_in_flight(w, *at, l->x, l->t);
     if (w->watch && w->watch->piece)
         show_flight(w, *at, l->x, l->z, vz, l->t);
@@ -224,7 +224,7 @@ static __attribute__((noinline)) bool fly_past_stems(struct walker *w, struct fl
                 return true;
             continue;
         }
-        clearance = clearance > 0 ? clearance : 0;
+        clearance = clearance > 0 ? clearance : 0; /* untaken: rounding */
         if (!(clearance < stem.height)) {
             if (w->watch && w->watch->stem)
                 show_stem(w, &stem, x, clearance, 0, 0);
@@ -241,7 +241,7 @@ static __attribute__((noinline)) bool fly_past_stems(struct walker *w, struct fl
             return true;
         knows_landing = false;
     }
-    if (!knows_landing)
+    if (!knows_landing) /* untaken: rounding */
         *l = next_landing(g, at);
     return false;
 }
@@ -351,7 +351,7 @@ HOT void strike(struct walker *w, struct flight *at, struct velocity *v, struct 
     double inward = v->along * sine - v->off * cosine;
     struct impact in = {.vn = inward > 0 ? inward : 0, .vt = v->along * cosine + v->off * sine, .spin = w->spin};
     struct impact out;
-    switch (law) {
+    switch (law) { /* untaken: table */
 #define X(NAME, name)                                                                                                          \
     case CEDUO_LAW_##NAME:                                                                                                     \
         out = law_##name(in, &point);                                                                                          \

@@ -154,7 +154,7 @@ static void bound_block(const struct ground *g, int level, size_t i)
 
 static bool build_levels(struct ground *g, double margin)
 {
-    for (int level = 1; level < GROUND_LEVELS && g->n >> (GROUND_BITS * level) >= 2; level++) {
+    for (int level = 1; level < GROUND_LEVELS && g->n >> (GROUND_BITS * level) >= 2; level++) { /* untaken: large */
         size_t blocks = g->n >> (GROUND_BITS * level);
         struct ground_block *to = calloc(blocks + 1 + GROUND_GROUP, sizeof *to);
         if (!to)

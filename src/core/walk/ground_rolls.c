@@ -119,7 +119,7 @@ bool ceduo_ground_prepare_rolls(struct ground *g, double radius, bool radius_var
     if (!g->corners)
         return false;
     set_corners(g);
-    for (int level = 1; level < GROUND_LEVELS && g->n >> (ROLL_BITS * level) > 0; level++) {
+    for (int level = 1; level < GROUND_LEVELS && g->n >> (ROLL_BITS * level) > 0; level++) { /* untaken: large */
         each *= (double)(1 << ROLL_BITS);
         if (!(each < radius))
             break;

@@ -66,6 +66,7 @@ HOT struct landing land_on(const struct ground *g, const struct flight *f, size_
     double m = slope_of(g, j, blocks);
     double c = f->on_ground && j == f->segment ? 0 : f->z - (g->at[j].z + m * (f->x - g->at[j].x));
     double t = later_root(c, f->vz - m * f->vx, g->gravity);
+    /* untaken: rounding */
     return land_at(g, f, j, m, t > t_most ? t_most : t); /* t_most may be NaN where vx is hardly more than 0 */
 }
 

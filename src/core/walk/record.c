@@ -59,7 +59,7 @@ static bool part_above(const struct ceduo_slope *s, const struct ceduo_piece *p,
     double lo = larger(s->x[j], from), hi = fmin(s->x[j + 1], to);
     double first = p->vx > 0 ? lo : hi, last = p->vx > 0 ? hi : lo;
     *part = (struct part_of_flight){j, fmax(0, (first - p->x) / p->vx), fmin(p->seconds, (last - p->x) / p->vx)};
-    return hi > lo && part->t1 > part->t0;
+    return hi > lo && part->t1 > part->t0; /* untaken: rounding */
 }
 
 static double height_in(const struct ceduo_slope *s, const struct ceduo_piece *p, double gravity, size_t j, double t)
@@ -130,7 +130,7 @@ static void add_roll(const struct ceduo_piece *p, double lo, double hi, struct a
     double start = square(p->vx) + square(p->vz), rate = (square(p->vx1) + square(p->vz1) - start) / (p->x1 - p->x);
     double a2 = fmax(0, start + rate * (lo - p->x)), b2 = fmax(0, start + rate * (hi - p->x));
     double sum = sqrt(a2) + sqrt(b2);
-    a->speed += sum > 0 ? (hi - lo) * 2 / 3 * (a2 + sqrt(a2 * b2) + b2) / sum : 0;
+    a->speed += sum > 0 ? (hi - lo) * 2 / 3 * (a2 + sqrt(a2 * b2) + b2) / sum : 0; /* untaken: rounding */
     a->speed2 += (hi - lo) * (a2 + b2) / 2;
     a->roll2 += (hi - lo) * (a2 + b2) / 2;
 }

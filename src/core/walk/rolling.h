@@ -73,7 +73,7 @@ static inline double speed_at(const struct walker *w, const struct roll *r, doub
 SELDOM void pass_in_roll(struct walker *w, const struct roll *r, double ds, double u2_end, double x)
 {
     const struct ground_segment *s = &w->g->segments[w->at.segment];
-    double rate = ds > 0 ? (u2_end - r->u2) / ds : 0;
+    double rate = ds > 0 ? (u2_end - r->u2) / ds : 0; /* untaken: rounding */
     while (comes_to_cells(w, x)) {
         double u = speed_at(w, r, rate, w->marks->cell_x[w->next_cell], w->marks->cell_z[w->next_cell]);
         note_in_cell(w, u * s->c, u * s->s, w->k > 0 ? u / w->rock.radius : 0, 0);
@@ -146,7 +146,7 @@ static __attribute__((noinline)) enum at_stem roll_to_stem(struct walker *w, str
         }
         double z = ground_height(g, j, x), way = ground_length(&g->segments[j], w->at.x, w->at.z, x, z);
         double u2 = r->u2 + rate * way;
-        roll_to(w, r, way, u2 > 0 ? u2 : 0, x, z);
+        roll_to(w, r, way, u2 > 0 ? u2 : 0, x, z); /* untaken: rounding */
         r->left -= way;
         double share = hit_stem(w, &stem, x, 0, 0.5 * w->rock.mass * r->u2 * (1 + w->k));
         r->u2 *= share * share;
@@ -283,9 +283,9 @@ SELDOM enum after_roll roll_on(struct walker *w, double u, struct landing *l)
             enum at_stem then = roll_to_stem(w, &r, ds, rate);
             if (then == STOPPED_AT_STEM)
                 return STOPPED;
-            if (then == PASSED_STEM && r.left > 0)
+            if (then == PASSED_STEM && r.left > 0) /* untaken: rounding */
                 continue;
-            if (then == PASSED_STEM)
+            if (then == PASSED_STEM) /* untaken: rounding */
                 return ROLLED;
         }
         if (stands) {

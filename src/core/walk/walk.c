@@ -209,7 +209,7 @@ HOT enum ceduo_end walk_by(struct walker *w, struct course c, enum ceduo_law law
 
 enum ceduo_end ceduo_walk_on(struct walker *w, const struct course *c, enum ceduo_law law)
 {
-    switch (law) {
+    switch (law) { /* untaken: table */
 #define X(NAME, name)                                                                                                          \
     case CEDUO_LAW_##NAME:                                                                                                     \
         return w->g->top > 0 ? walk_by(w, *c, CEDUO_LAW_##NAME, true) : walk_by(w, *c, CEDUO_LAW_##NAME, false);

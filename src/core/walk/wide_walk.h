@@ -98,7 +98,7 @@ LANE void step_lanes(struct form form, struct wide *k, bool even)
     unsigned still_aloft = form.wood ? alone & k->aloft : 0;
     alone &= ~still_aloft;
     k->aloft = still_aloft;
-    for (; still_aloft; still_aloft &= still_aloft - 1)
+    for (; still_aloft; still_aloft &= still_aloft - 1) /* untaken: rounding */
         come_down_alone(k, (size_t)__builtin_ctz(still_aloft));
     if (alone)
         go_off_one_by_one(k, alone, l.far, &v);

@@ -31,7 +31,7 @@ struct stem_energy {
 static inline struct stem_energy stem_energy_of(const struct ceduo_stand *stand, const struct ceduo_stems *stems)
 {
     struct stem_energy e = {.model = stand->energy};
-    switch (stand->energy) {
+    switch (stand->energy) { /* untaken: table */
 #define X(NAME, name)                                                                                                          \
     case CEDUO_##NAME:                                                                                                         \
         e.by.name = energy_##name(stand, stems);                                                                               \
@@ -46,7 +46,7 @@ static inline struct stem_energy stem_energy_of(const struct ceduo_stand *stand,
 static inline void stem_energy_hash(uint64_t *hash, const struct stem_energy *e)
 {
     hash_count(hash, (uint64_t)e->model);
-    switch (e->model) {
+    switch (e->model) { /* untaken: table */
 #define X(NAME, name)                                                                                                          \
     case CEDUO_##NAME:                                                                                                         \
         hash_doubles(hash, &e->by.name, sizeof e->by.name / sizeof(double));                                                   \
@@ -58,7 +58,7 @@ static inline void stem_energy_hash(uint64_t *hash, const struct stem_energy *e)
 
 static inline double stem_energy_mean(const struct stem_energy *e)
 {
-    switch (e->model) {
+    switch (e->model) { /* untaken: table */
 #define X(NAME, name)                                                                                                          \
     case CEDUO_##NAME:                                                                                                         \
         return name##_mean(&e->by.name);
@@ -70,7 +70,7 @@ static inline double stem_energy_mean(const struct stem_energy *e)
 
 static inline double stem_energy_hit(const struct stem_energy *e, double dbh, double share)
 {
-    switch (e->model) {
+    switch (e->model) { /* untaken: table */
 #define X(NAME, name)                                                                                                          \
     case CEDUO_##NAME:                                                                                                         \
         return name##_hit(&e->by.name, dbh, share);
@@ -82,7 +82,7 @@ static inline double stem_energy_hit(const struct stem_energy *e, double dbh, do
 
 static inline bool stem_energy_by_eccentricity(const struct stem_energy *e)
 {
-    switch (e->model) {
+    switch (e->model) { /* untaken: table */
 #define X(NAME, name)                                                                                                          \
     case CEDUO_##NAME:                                                                                                         \
         return name##_by_eccentricity(&e->by.name);
@@ -94,7 +94,7 @@ static inline bool stem_energy_by_eccentricity(const struct stem_energy *e)
 
 static inline double stem_energy_mean_share(const struct stem_energy *e, double mass)
 {
-    switch (e->model) {
+    switch (e->model) { /* untaken: table */
 #define X(NAME, name)                                                                                                          \
     case CEDUO_##NAME:                                                                                                         \
         return name##_mean_share(&e->by.name, mass);
@@ -107,7 +107,7 @@ static inline double stem_energy_mean_share(const struct stem_energy *e, double 
 /* The share of the energy of a rock of `mass` kg that a hit takes at the most. */
 static inline double stem_energy_share(const struct stem_energy *e, double mass, double dbh, double eccentricity)
 {
-    switch (e->model) {
+    switch (e->model) { /* untaken: table */
 #define X(NAME, name)                                                                                                          \
     case CEDUO_##NAME:                                                                                                         \
         return name##_share(&e->by.name, mass, dbh, eccentricity);
@@ -119,7 +119,7 @@ static inline double stem_energy_share(const struct stem_energy *e, double mass,
 
 static inline unsigned stem_energy_warnings(const struct ceduo_stand *stand, const struct ceduo_stems *stems)
 {
-    switch (stand->energy) {
+    switch (stand->energy) { /* untaken: table */
 #define X(NAME, name)                                                                                                          \
     case CEDUO_##NAME:                                                                                                         \
         return name##_warnings(stand, stems);

@@ -206,7 +206,7 @@ static const struct wood_stratum *stratum_at(struct stems *s, int side, const st
 {
     double left = mark * rates_in(s, side, j)->rate[stream], rate = 0;
     const struct wood_stratum *found = NULL;
-    for (size_t k = 0; k < belt->strata_count; k++) {
+    for (size_t k = 0; k < belt->strata_count; k++) { /* untaken: rounding */
         const struct wood_stratum *stratum = &belt->strata[k];
         if (stream_of(stratum) != stream)
             continue;
@@ -305,7 +305,7 @@ static bool pauses(const struct stems *s)
 /* Makes the stools or groups that have a centre up to `to` along a side; false where it stopped before. */
 static bool make_to(struct stems *s, int side, enum stem_stream stream, double to)
 {
-    for (double at; (at = next_place(s, side, stream)) <= to && at < INFINITY;) {
+    for (double at; (at = next_place(s, side, stream)) <= to && at < INFINITY;) { /* untaken: rounding */
         if (pauses(s))
             return false;
         if (stream == STREAM_GROUPS)

@@ -100,7 +100,7 @@ static inline void place_points(struct stems *s, int side, enum stem_stream stre
         double room = at < belt->to ? (belt->to - at) * rate : 0;
         for (; left < room; room = (belt->to - at) * rate) {
             at += left * metres;
-            at = at < belt->to ? at : belt->to;
+            at = at < belt->to ? at : belt->to; /* untaken: rounding */
             p->at[i] = at;
             p->belt[i] = j;
             if (++i == p->size)
