@@ -15,8 +15,8 @@ struct ceduo_regulation_item {
 };
 
 struct ceduo_regulation {
-    char *name; /* of the region; NULL: there is none */
-    char *note; /* NULL: none */
+    char *name;           /* of the region; NULL: there is none */
+    char *note, *note_it; /* NULL: none; in Italian, NULL: not said */
     size_t standards_count, turns_count;
     struct ceduo_regulation_item *standards, *turns; /* the first that is about a stand counts */
 };

@@ -107,6 +107,7 @@ struct ceduo_design_values {
 /* Everything that a run depends on. */
 struct ceduo_scene {
     char *title;
+    char *title_it; /* in Italian; NULL: not said */
     struct ceduo_rock_def rock;
     size_t blocks_count;              /* classes that do not overlap; 0: every rock is `rock` */
     struct ceduo_block_class *blocks; /* sizes that `rock` has, scaled */

@@ -16,6 +16,11 @@ const char *ceduo_translate(const char *string)
     return of_data || !string[0] ? string : gettext(string); /* the translation of nothing is the header of the file */
 }
 
+const char *ceduo_in_language(const char *english, const char *italian)
+{
+    return italian && strcmp(ceduo_translate(N_("en")), "it") == 0 ? italian : english; /* whose translation is its own code */
+}
+
 const char *ceduo_translate_n(const char *one, const char *many, unsigned long n)
 {
     return of_data ? n == 1 ? one : many : dcngettext(NULL, one, many, n, LC_MESSAGES);

@@ -24,6 +24,9 @@ const char *ceduo_translate(const char *string) __attribute__((format_arg(1)));
 const char *ceduo_translate_n(const char *one, const char *many, unsigned long n) __attribute__((format_arg(1), format_arg(2)));
 const char *ceduo_translate_in(const char *marked);
 
+/* What a file says in English, and perhaps in Italian (NULL: not): that of the language. */
+const char *ceduo_in_language(const char *english, const char *italian);
+
 /* Until it is taken back, text of this thread stays English: sentences in JSON and CSV are the same in every language. */
 void ceduo_language_of_data(bool on);
 

@@ -87,9 +87,9 @@ static const char *title_of(struct arena *arena, const char *path)
     struct problems problems = {0};
     const struct source *source = ceduo_file_read(arena, path, YAML_BYTES_MOST, &problems);
     const struct node *root = source ? ceduo_yaml_read(arena, source, &problems) : NULL;
-    const char *title = ceduo_node_text(root, "title");
+    const char *title = ceduo_in_language(ceduo_node_text(root, "title"), ceduo_node_text(root, "title_it"));
     if (!title)
-        title = ceduo_node_text(root, "name");
+        title = ceduo_in_language(ceduo_node_text(root, "name"), ceduo_node_text(root, "name_it"));
     ceduo_problems_free(&problems);
     return title ? title : root ? "" : _("(cannot be read)");
 }

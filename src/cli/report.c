@@ -183,7 +183,7 @@ static enum exit_status read_and_add(const struct arguments *a, const char *path
         done = add_chapter(a, &file, *chapters + 1, html);
         ceduo_interrupt_release();
         if (html->text->length > before && ++*chapters == 1)
-            ceduo_text_put(title, ceduo_words_shipped(file.scene.title));
+            ceduo_text_put(title, ceduo_in_language(file.scene.title, file.scene.title_it));
     }
     ceduo_scene_release(&file);
     return done;

@@ -485,19 +485,25 @@ static void bind_field(struct binder *b, const struct field *f, const struct nod
     }
 }
 
-static void add_note(struct binder *b, const char *path, const char *kind, const char *text)
+/* `text_it` may be NULL. */
+static void add_note(struct binder *b, const char *kind, const char *text, const char *text_it)
 {
+    const char *path = ceduo_text_string(&b->path);
     bool of_range = ceduo_path_leads_to("doubt", path) || strstr(path, ".stand.doubt[");
     if (of_range || ceduo_path_leads_to("observed", path)) /* not of a value that is computed with */
         return;
-    struct source_note *note = ceduo_arena_take(b->arena, sizeof *note);
-    char *own_path = ceduo_arena_string(b->arena, path), *own_text = ceduo_arena_string(b->arena, text);
-    if (!note || !own_path || !own_text) {
-        ceduo_problem_memory(b->problems);
+    struct source_note *note = ceduo_bind_take(b->arena, 0, sizeof *note, b->problems);
+    if (!note)
         return;
-    }
-    *note = (struct source_note){.path = own_path, .kind = kind, .text = own_text, .before = *b->notes};
-    *b->notes = note;
+    *note = (struct source_note){.path = ceduo_arena_string(b->arena, path),
+                                 .kind = kind,
+                                 .text = ceduo_arena_string(b->arena, text),
+                                 .text_it = text_it ? ceduo_arena_string(b->arena, text_it) : NULL,
+                                 .before = *b->notes};
+    if (note->path && note->text && (note->text_it || !text_it))
+        *b->notes = note;
+    else
+        ceduo_problem_memory(b->problems);
 }
 
 /* The values that a source says it is not of: they get notes of their own, and its text names them. */
@@ -505,11 +511,11 @@ static void except_values(struct binder *b, const struct node *list, struct text
 {
     for (size_t i = 0; i < list->n; i++) {
         if (i == 0)
-            ceduo_text_then(text, "; ", _("changed since: %s"), list->items[i]->text);
+            ceduo_text_format(text, _("changed since: %s"), list->items[i]->text);
         else
-            ceduo_text_then(text, ", ", "%s", list->items[i]->text);
+            ceduo_text_format(text, ", %s", list->items[i]->text);
         size_t before = enter(b, list->items[i]->text);
-        add_note(b, ceduo_text_string(&b->path), "changed", _("the source around it is not of this value"));
+        add_note(b, "changed", _("the source around it is not of this value"), NULL);
         leave(b, before);
     }
 }
@@ -526,13 +532,13 @@ static bool check_except(struct binder *b, const struct node *list)
     return true;
 }
 
-/* source: {kind: measured|literature|assumed|calibrated, text: …, except: […]} may stand in any mapping. */
+/* source: {kind: measured|literature|assumed|calibrated, text: …, text_it: …, except: […]} may stand in any mapping. */
 static void bind_source(struct binder *b, const struct node *node)
 {
     static const char *const kinds[] = {"measured", "literature", "assumed", "calibrated"};
     static const struct choices kind_choices = {kinds, 4};
     size_t before = enter(b, "source");
-    const char *text = "";
+    const char *texts[2] = {"", NULL}; /* in English, in Italian */
     const struct node *except = NULL;
     int kind = -1;
     if (node->kind != NODE_MAP)
@@ -543,11 +549,13 @@ static void bind_source(struct binder *b, const struct node *node)
         if (strcmp(entry->key, "kind") == 0)
             bind_choice(b, &kind_choices, entry, &kind);
         else if (strcmp(entry->key, "text") == 0)
-            bind_text(b, entry, &text);
+            bind_text(b, entry, &texts[0]);
+        else if (strcmp(entry->key, "text_it") == 0)
+            bind_text(b, entry, &texts[1]);
         else if (strcmp(entry->key, "except") == 0)
             except = check_except(b, entry) ? entry : NULL;
         else
-            report_key(b, entry, _("unknown key; known here: kind, text, except"));
+            report_key(b, entry, _("unknown key; known here: kind, text, text_it, except"));
         leave(b, outer);
     }
     if (node->kind == NODE_MAP && !ceduo_node_get(node, "kind"))
@@ -555,13 +563,19 @@ static void bind_source(struct binder *b, const struct node *node)
     leave(b, before);
     if (kind < 0)
         return;
-    struct text whole = {0};
-    ceduo_text_put(&whole, text);
+    struct text changed = {0}, whole[2] = {{0}, {0}};
     if (except)
-        except_values(b, except, &whole);
-    add_note(b, ceduo_text_string(&b->path), kinds[kind], ceduo_text_string(&whole));
-    b->problems->memory |= whole.failed;
-    ceduo_text_free(&whole);
+        except_values(b, except, &changed);
+    for (int i = 0; i < 2; i++) {
+        ceduo_text_put(&whole[i], texts[i] ? texts[i] : "");
+        if (changed.length > 0)
+            ceduo_text_then(&whole[i], "; ", "%s", ceduo_text_string(&changed));
+    }
+    add_note(b, kinds[kind], ceduo_text_string(&whole[0]), texts[1] ? ceduo_text_string(&whole[1]) : NULL);
+    b->problems->memory |= changed.failed || whole[0].failed || whole[1].failed;
+    ceduo_text_free(&changed);
+    ceduo_text_free(&whole[0]);
+    ceduo_text_free(&whole[1]);
 }
 
 static void report_missing(struct binder *b, const struct object *object, const struct node *node)

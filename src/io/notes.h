@@ -6,10 +6,10 @@
 
 /* A note of where a value comes from. */
 struct source_note {
-    const char *path; /* of the mapping that it stands in, or of a value in it that it is not of */
-    const char *kind; /* measured, literature, assumed; changed: of a value that the source around it is not of */
-    const char *text;
-    bool made; /* by the program, not in the files */
+    const char *path;           /* of the mapping that it stands in, or of a value in it that it is not of */
+    const char *kind;           /* measured, literature, assumed; changed: of a value that the source around it is not of */
+    const char *text, *text_it; /* in Italian; NULL: not said */
+    bool made;                  /* by the program, not in the files */
     const struct source_note *before;
 };
 

@@ -99,6 +99,19 @@ static const struct node *broken(struct resolver *r, const struct node *node)
     return copy;
 }
 
+/* The mapping without the translation of a text that is replaced, unless `by` brings another one (NULL: it does not). NULL
+ * without memory. */
+static const struct node *without_translation(struct arena *arena, const struct node *map, const char *key,
+                                              const struct node *by)
+{
+    struct text name = {0};
+    ceduo_text_format(&name, "%s_it", key);
+    if (name.failed || !ceduo_node_get(by, name.bytes))
+        map = name.failed ? NULL : ceduo_node_without(arena, map, name.bytes);
+    ceduo_text_free(&name);
+    return map;
+}
+
 /* The entries of `over` put over those of `base`: mappings are merged, anything else replaced. */
 static const struct node *merge(struct arena *arena, const struct node *base, const struct node *over)
 {
@@ -109,7 +122,9 @@ static const struct node *merge(struct arena *arena, const struct node *base, co
             continue;
         if (old && old->kind == NODE_MAP && entry->kind == NODE_MAP)
             entry = merge(arena, old, entry);
-        merged = entry ? ceduo_node_with(arena, merged, entry->key, entry) : NULL;
+        else if (old)
+            merged = without_translation(arena, merged, entry->key, over);
+        merged = entry && merged ? ceduo_node_with(arena, merged, entry->key, entry) : NULL;
     }
     return merged;
 }
@@ -409,8 +424,9 @@ static const struct node *set_entry(struct setter *s, const struct object *objec
     child = set_in(s, f, f && f->type == FIELD_GROUP ? f->object : NULL, child, at);
     map = child ? tell_source(s, map, step) : NULL;
     const char *other = object ? ceduo_schema_other(object, key) : NULL;
-    if (map && other && ceduo_node_get(map, other))
+    if (map && other)
         map = ceduo_node_without(s->arena, map, other);
+    map = map && last ? without_translation(s->arena, map, key, NULL) : map;
     return map ? ceduo_node_with(s->arena, map, key, child) : NULL;
 }
 

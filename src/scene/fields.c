@@ -5,6 +5,10 @@
 
 #include <string.h>
 
+#define NAME_IT                                                                                                                \
+    TEXT("name_it", NAMED(N_("name, in Italian"), NULL), NOWHERE, FIELD_NOWHERE | UNFLOWN,                                     \
+         N_("its name in Italian lists of profiles; without it the name"))
+
 /* ---- rock ---- */
 
 static const struct field rock_fields[] = {
@@ -84,6 +88,7 @@ static const struct object material_object = OBJECT(material_belt, material_fiel
 static const struct field slope_fields[] = {
     TAG("slope/1"),
     TEXT("name", NAMED(N_("name"), NULL), NOWHERE, FIELD_NOWHERE | UNFLOWN, N_("name of the slope")),
+    NAME_IT,
     WORD("facets", NAMED(N_("facets"), NULL), AT(ceduo_slope, facets), 0, "against",
          N_("which way the ground's small facets are turned"), &ceduo_facets_words),
     NUM(FIELD_POINTS, "vertices_m", NAMED(N_("point of the profile"), NULL), POINTS(ceduo_slope, x, vertices), "m", 1, -FAR,
@@ -135,6 +140,8 @@ static const struct field rules_fields[] = {
     TEXT("name", NAMED(N_("region"), NULL), AT(ceduo_regulation, name), REQUIRED | UNFLOWN, N_("name of the region")),
     TEXT("note", NAMED(N_("note"), NULL), AT(ceduo_regulation, note), UNFLOWN,
          N_("what must be known beside; it is printed with the rules")),
+    TEXT("note_it", NAMED(N_("note, in Italian"), NULL), AT(ceduo_regulation, note_it), UNFLOWN,
+         N_("its note on Italian pages; without it the note")),
     ITEMS("standards", NAMED(N_("standards"), NULL), LIST(ceduo_regulation, standards, standards_count), UNFLOWN,
           N_("standards that a cut must leave; the first row about a stand counts"), &standards_object),
     ITEMS("turns", NAMED(N_("turns"), NULL), LIST(ceduo_regulation, turns, turns_count), UNFLOWN,
@@ -326,6 +333,7 @@ static const struct object cutting_object = OBJECT(ceduo_stand, cutting_fields, 
 static const struct field stand_fields[] = {
     TAG("stand/1"),
     TEXT("name", NAMED(N_("name"), NULL), NOWHERE, FIELD_NOWHERE | UNFLOWN, N_("name of the stand")),
+    NAME_IT,
     OTHER(FIELD_FILE, "base", NAMED(N_("made from"), NULL), NOWHERE, FIELD_NOWHERE, NULL,
           N_("a stand file to start from: mappings given here are merged into it, lists replaced"), NULL, NULL),
     WORD("system", NAMED(N_("system"), NULL), AT(ceduo_stand, system), UNFLOWN, NULL,
@@ -435,6 +443,8 @@ static const struct object window_object = OBJECT(scene_draft, window_fields, NU
 static const struct field scene_fields[] = {
     TAG("scene/1"),
     TEXT("title", NAMED(N_("title"), NULL), AT(scene_draft, scene.title), UNFLOWN, N_("title of the scene")),
+    TEXT("title_it", NAMED(N_("title, in Italian"), NULL), AT(scene_draft, scene.title_it), UNFLOWN,
+         N_("its title on Italian pages; without it the title")),
     GROUP("rock", NAMED(N_("rock"), NULL), AT(scene_draft, scene.rock), REQUIRED, N_("the rock"), &ceduo_rock_object),
     ITEMS("blocks", NAMED(N_("blocks that come down"), NULL), LIST(scene_draft, scene.blocks, scene.blocks_count), FIELD_OR_ONE,
           N_("sizes of the blocks that come down and how many a year; of one class, a mapping instead of the list"),

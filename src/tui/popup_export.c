@@ -86,7 +86,7 @@ static void put_report(struct app *app, struct text *text)
                                           .years = years,
                                           .command = ceduo_text_string(&command)};
     ceduo_page_chapter(&page, &chapter);
-    ceduo_page_html_begin(&html, ceduo_words_shipped(scene->title));
+    ceduo_page_html_begin(&html, ceduo_in_language(scene->title, scene->title_it));
     ceduo_page_html(&html, &page, 1);
     ceduo_page_html_end(&html);
     text->failed |= command.failed || !years;

@@ -173,7 +173,7 @@ void ceduo_calibration_page(struct text *text, const struct ceduo_calibration_re
         struct text *title = ceduo_page_add(&page, CEDUO_PAGE_TITLE);
         if (r->scenes_count > 1)
             ceduo_text_format(title, "%zu ", s + 1);
-        ceduo_text_safe(title, ceduo_words_shipped(r->files[s].scene.title));
+        ceduo_text_safe(title, ceduo_in_language(r->files[s].scene.title, r->files[s].scene.title_it));
     }
     ceduo_page_say(&page, CEDUO_PAGE_SECTION, _("Fitted to what was seen"));
     add_values(&page, r);

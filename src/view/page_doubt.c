@@ -287,7 +287,7 @@ void ceduo_doubt_blocks(struct ceduo_page *page, const struct ceduo_doubt_report
 void ceduo_doubt_page(struct text *text, const struct ceduo_doubt_report *r, bool plain)
 {
     struct ceduo_page page = {.width = CEDUO_PAGE_WIDTH};
-    ceduo_text_safe(ceduo_page_add(&page, CEDUO_PAGE_TITLE), ceduo_words_shipped(r->file->scene.title));
+    ceduo_text_safe(ceduo_page_add(&page, CEDUO_PAGE_TITLE), ceduo_in_language(r->file->scene.title, r->file->scene.title_it));
     if (r->answer)
         ceduo_doubt_blocks(&page, r, CEDUO_DOUBT_ALL);
     else

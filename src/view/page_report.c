@@ -231,7 +231,7 @@ void ceduo_page_chapter(struct ceduo_page *page, const struct ceduo_chapter *c)
 {
     const struct ceduo_scene *scene = c->report->result->scene;
     bool controls = scene->controls_count > 0, several = scene->options_count > 1;
-    ceduo_text_put(ceduo_page_add(page, CEDUO_PAGE_TITLE), ceduo_words_shipped(scene->title));
+    ceduo_text_put(ceduo_page_add(page, CEDUO_PAGE_TITLE), ceduo_in_language(scene->title, scene->title_it));
     if (controls)
         ceduo_page_answer(page, c);
     add_slope(page, c);

@@ -300,7 +300,7 @@ static void add_assumed(struct ceduo_page *page, const struct ceduo_report *repo
         return;
     add_assumed(page, report, note->before);
     size_t times = is_shown(report, note) ? first_of(report->file->notes, note) : 0;
-    const char *said = ceduo_words_shipped(note->text), *place = note->path[0] ? note->path : _("the scene");
+    const char *said = ceduo_in_language(note->text, note->text_it), *place = note->path[0] ? note->path : _("the scene");
     if (times > 1)
         ceduo_page_say(page, CEDUO_PAGE_ITEM, ngettext("%s (%s and %zu more)", "%s (%s and %zu more)", times - 1), said, place,
                        times - 1);
@@ -351,7 +351,7 @@ void ceduo_report_table(struct text *text, const struct ceduo_report *report, bo
 {
     const struct ceduo_scene *scene = report->result->scene;
     struct ceduo_page page = {.width = CEDUO_PAGE_WIDTH};
-    ceduo_page_say(&page, CEDUO_PAGE_TITLE, "%s", ceduo_words_shipped(scene->title));
+    ceduo_page_say(&page, CEDUO_PAGE_TITLE, "%s", ceduo_in_language(scene->title, scene->title_it));
     ceduo_page_facts(&page, report);
     ceduo_words_still(report->result, ceduo_page_warn, &page);
     for (size_t i = 0; i < scene->options_count; i++) {

@@ -26,10 +26,6 @@ typedef void ceduo_words_rule(void *context, bool met, const char *sentence);
 void ceduo_words_rules(const struct ceduo_belt *belt, const struct ceduo_compliance *rules, ceduo_words_rule *say,
                        void *context);
 
-/* In the language of the page: a title or source of a scene or stand that comes with the program, or a note of its regions.
- * Text of others stands as it is written. */
-const char *ceduo_words_shipped(const char *text);
-
 /* What is to be said of a run as a whole. `tolerance` is 0 where none was asked for. */
 struct ceduo_run_remarks {
     double tolerance;

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Text in the language of the locale or of --language; data the same in each."""
+import json
 import os
 import re
 import shutil
@@ -137,6 +138,30 @@ def test_shipped_title():
     for words, wanted in (((), 1), (("-f", "json"), 0)):
         out = good("--sensitivity=2", "-n", 10, *words, "--language", "it", PAPER).out
         expect_equal([title in out for title in titles], [wanted == 0, wanted == 1], words)
+
+
+def test_texts_of_files():
+    """A file says a text in both languages; one that is changed, or that stands over that of a base, loses the old Italian one"""
+    title = "title: plain\ntitle_it: piano\n"
+    source = "source: {kind: assumed, text: guessed, text_it: stimato}"
+    with Folder() as f:
+        f.write("base.yaml", f"ceduo: stand/1\nname: wood\nname_it: bosco\ntrees: [{{per_ha: 300, dbh_m: 0.3, height_m: 9}}]\n{source}\n")
+        f.write("over.yaml", "ceduo: stand/1\nbase: base.yaml\nname: mine\nsource: {text: mine as well}\n")
+        scene = (f"ceduo: scene/1\n{title}rock: {{diameter_m: 0.5}}\ncontrols_m: [75]\n"
+                 "slope: {vertices_m: [[0, 64], [100, 0]], segments: [{rn: 0.3, rt: 0.8}]}\n"
+                 "forest: [{from_m: 10, to_m: 60, stand: STAND.yaml}]\n")
+        for stand, texts in (("base", ("guessed", "stimato")), ("over", ("mine as well", "mine as well"))):
+            path = f.write("s.yaml", scene.replace("STAND", stand))
+            for page, head, text in zip(both("--batch", "-n", 5, path), ("plain", "piano"), texts):
+                expect_equal(page.splitlines()[0], head)
+                expect_in(text, page)
+            expect(not {"stimato", "guessed"} & set(texts) or stand == "base", texts)
+        for page in both("--batch", "-n", 5, "-s", "title=other", path):
+            expect_equal(page.splitlines()[0], "other")
+            expect("guessed" not in page and "stimato" not in page, page)
+        italian = both("--batch", "-n", 5, "-s", "title=other", "-s", "title_it=altro", path)[1]
+        expect_equal(italian.splitlines()[0], "altro")
+        expect_equal([json.loads(out)["title"] for out in both("--batch", "-f", "json", "-n", 5, path)], ["plain"] * 2)
 
 
 def test_pictures():

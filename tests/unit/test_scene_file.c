@@ -292,7 +292,7 @@ static void sources_of_changes(void **state)
                 {"{kind: measured, except: volume_m3}", "rock.diameter_m=0.6", "source.except: expected a list of keys"},
                 {"{kind: measured, except: [[volume_m3]]}", "rock.diameter_m=0.6", "source.except: expected a key, not a list"},
                 {"{kind: measured}", "rock.source.wide=1",
-                 "--set:1:18: rock.source.wide: unknown key; known here: kind, text, except"}};
+                 "--set:1:18: rock.source.wide: unknown key; known here: kind, text, text_it, except"}};
     for (size_t i = 0; i < LENGTH(rows); i++) {
         struct scene_file file;
         struct problems problems = {0};
