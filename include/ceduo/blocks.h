@@ -21,13 +21,21 @@ struct ceduo_block {
 /* A rock of the same shape and density `factor` times as long in every dimension; spreads are scaled with the sizes. */
 struct ceduo_rock_def ceduo_rock_scaled(const struct ceduo_rock_def *def, double factor);
 
-/* Simulates `rocks` blocks of each size through the forest of `option` to a control; sorted by volume. A size may cost
- * about `effort`, in contacts and stems drawn: where that is not enough it has fewer blocks, and below 10, or where they meet
- * hundreds of times as many stems as the scene's own, none. `own`: what is known already of the scene's own block, taken if
- * at least as many were simulated; may be NULL. With the contact model index none is simulated. `cancel` may be NULL.
- * CEDUO_CANCELLED, CEDUO_NO_MEMORY, or what ceduo_run_create() says. */
-enum ceduo_status ceduo_blocks(const struct ceduo_scene *scene, const struct ceduo_option *option, size_t control,
-                               uint64_t rocks, double effort, const struct ceduo_arrivals *own, unsigned threads,
-                               const atomic_bool *cancel, struct ceduo_block blocks[CEDUO_BLOCKS]);
+struct ceduo_blocks_def {
+    const struct ceduo_scene *scene;
+    const struct ceduo_option *option;
+    size_t control;
+    uint64_t rocks; /* of each size */
+    /* A size may cost about so much, in contacts and stems drawn: where that is not enough it has fewer blocks, and below 10, or
+     * where they meet hundreds of times as many stems as the scene's own, none. */
+    double effort;
+    const struct ceduo_arrivals *own; /* of the scene's own block, taken if at least as many were simulated; may be NULL */
+    unsigned threads;
+    const atomic_bool *cancel; /* may be NULL */
+};
+
+/* Simulates blocks of each size through the forest to the control; sorted by volume. With the contact model index none is
+ * simulated. CEDUO_CANCELLED, CEDUO_NO_MEMORY, or what ceduo_run_create() says. */
+enum ceduo_status ceduo_blocks(const struct ceduo_blocks_def *def, struct ceduo_block blocks[CEDUO_BLOCKS]);
 
 #endif

@@ -26,6 +26,7 @@
 #include "statistics.h"
 #include "status.h"
 #include "trajectory.h"
+#include "variants.h"
 #include "version.h"
 #include "years.h"
 

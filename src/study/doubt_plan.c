@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Evaluations. Each thread has a copy of the scene of its own, takes item by item, and writes to the item's own rows: so the
  * bits do not depend on the threads. Of the evaluations of one item most share something: an input that moves one stand
- * changes no other option, and one that only one energy law reads changes nothing under the other. A thread therefore keeps
- * what it found in its item, by the keys of scene and forest, and simulates nothing twice. */
+ * changes no other option, and one that only one energy law reads changes nothing under the other. An item
+ * is therefore one list of variants, of which no two that are equal are simulated. */
 #include "doubt_plan.h"
 
 #include <math.h>
@@ -12,8 +12,7 @@
 
 #include "base/parallel.h"
 #include "ceduo/assess.h"
-#include "ceduo/key.h"
-#include "ceduo/run.h"
+#include "ceduo/variants.h"
 #include "inputs.h"
 
 size_t ceduo_plan_figures(const struct ceduo_scene *scene)
@@ -24,96 +23,6 @@ size_t ceduo_plan_figures(const struct ceduo_scene *scene)
 size_t ceduo_plan_figure(size_t options, size_t option, enum ceduo_doubt_kind kind, bool difference)
 {
     return (difference ? options + option - 1 : option) * CEDUO_DOUBT_KINDS + kind;
-}
-
-/* ---- one evaluation ---- */
-
-/* What is known of a forest: the figures of both halves of the rocks. */
-struct known {
-    uint64_t scene, forest;
-    struct ceduo_halves values[CEDUO_DOUBT_SHOWN];
-};
-
-struct memory {
-    size_t n;
-    struct known *items;
-};
-
-/* The figures of the first and the second half of the rocks. Shares and means over all released come from sums. */
-static enum ceduo_status fly(const struct ceduo_doubt_def *def, const struct ceduo_scene *scene,
-                             const struct ceduo_option *option, struct ceduo_halves *values)
-{
-    struct ceduo_run_def run_def = ceduo_run_def_default(scene);
-    struct ceduo_run *run;
-    uint64_t before = 0;
-    run_def.option = option;
-    run_def.rocks_most = def->rocks;
-    run_def.arrivals_only = true;
-    run_def.cancel = def->cancel;
-    enum ceduo_status status = ceduo_run_create(&run_def, &run);
-    for (int h = 0; h < 2 && status == CEDUO_OK; h++) {
-        uint64_t rocks = h == 0 ? def->rocks / 2 : def->rocks;
-        status = ceduo_run_extend(run, rocks);
-        if (status != CEDUO_OK)
-            break;
-        struct ceduo_brief brief = ceduo_run_brief(run, ceduo_scene_last_control(scene));
-        const double means[CEDUO_DOUBT_SHOWN] = {[CEDUO_DOUBT_REACH] = brief.reach_probability,
-                                                 [CEDUO_DOUBT_EXCEED] = brief.exceed_probability,
-                                                 [CEDUO_DOUBT_ENERGY] = brief.energy_per_released};
-        for (size_t k = 0; k < CEDUO_DOUBT_SHOWN; k++) {
-            double first = h == 0 ? 0 : values[k].half[0] * (double)before;
-            values[k].half[h] = (means[k] * (double)rocks - first) / (double)(rocks - before);
-        }
-        before = rocks;
-    }
-    ceduo_run_free(run);
-    return status;
-}
-
-static struct known *find(struct memory *memory, uint64_t scene, uint64_t forest)
-{
-    for (size_t i = 0; i < memory->n; i++)
-        if (memory->items[i].scene == scene && memory->items[i].forest == forest)
-            return &memory->items[i];
-    return NULL;
-}
-
-/* What no rock decides: the same in both halves. */
-static void read_lights(const struct ceduo_scene *scene, size_t option, struct ceduo_halves *values)
-{
-    const struct ceduo_control *control = &scene->controls[ceduo_scene_last_control(scene)];
-    struct ceduo_index index = ceduo_assess_index(scene, &scene->options[option], control, NAN);
-    for (int h = 0; h < 2; h++) {
-        values[CEDUO_DOUBT_CONTACT].half[h] = 1 / index.worst_adc;
-        values[CEDUO_DOUBT_FREE_RUN].half[h] = index.worst_free_run;
-    }
-}
-
-static enum ceduo_status evaluate(const struct ceduo_doubt_def *def, const struct ceduo_scene *scene, struct memory *memory,
-                                  struct ceduo_halves *values)
-{
-    size_t options = scene->options_count;
-    uint64_t key = ceduo_scene_key(scene);
-    for (size_t i = 0; i < options; i++) {
-        uint64_t forest = ceduo_option_key(scene, &scene->options[i]);
-        struct known *known = find(memory, key, forest);
-        if (!known) {
-            known = &memory->items[memory->n];
-            *known = (struct known){key, forest, {{{0}}}};
-            enum ceduo_status status = fly(def, scene, forest != 0 ? &scene->options[i] : NULL, known->values);
-            if (status != CEDUO_OK)
-                return status;
-            memory->n++;
-        }
-        memcpy(&values[i * CEDUO_DOUBT_KINDS], known->values, sizeof known->values);
-        read_lights(scene, i, &values[i * CEDUO_DOUBT_KINDS]);
-    }
-    for (size_t i = 1; i < options; i++)
-        for (size_t k = 0; k < CEDUO_DOUBT_KINDS; k++)
-            for (int h = 0; h < 2; h++)
-                values[ceduo_plan_figure(options, i, (enum ceduo_doubt_kind)k, true)].half[h] =
-                    values[i * CEDUO_DOUBT_KINDS + k].half[h] - values[k].half[h];
-    return CEDUO_OK;
 }
 
 /* ---- the plan ---- */
@@ -177,7 +86,6 @@ struct work {
     atomic_size_t done;
     atomic_bool failed;         /* nothing more once any thread has failed */
     struct input_scene *copies; /* [thread] */
-    struct memory *memories;
     pthread_mutex_t talking;
 };
 
@@ -190,49 +98,101 @@ static void tell(struct work *w)
     pthread_mutex_unlock(&w->talking);
 }
 
-static int run_item(void *context, size_t item, size_t thread)
+/* An item as variants: every option of every evaluation. */
+struct item {
+    struct work *work;
+    struct input_scene *copy;
+    const double *u;             /* of its first evaluation */
+    struct ceduo_halves *values; /* likewise */
+};
+
+/* The figures of an option in an evaluation. */
+static struct ceduo_halves *values_of(const struct item *item, size_t i)
+{
+    size_t options = item->copy->scene.options_count;
+    return item->values + i / options * ceduo_plan_figures(&item->copy->scene) + i % options * CEDUO_DOUBT_KINDS;
+}
+
+static enum ceduo_status make_variant(void *context, size_t i, struct ceduo_variant *variant)
+{
+    struct item *item = context;
+    const struct ceduo_doubt_def *def = item->work->def;
+    const struct ceduo_scene *scene = &item->copy->scene;
+    if (atomic_load(&item->work->failed))
+        return CEDUO_CANCELLED;
+    if (i % scene->options_count == 0)
+        ceduo_inputs_set(item->copy, item->u + i / scene->options_count * def->inputs_count);
+    variant->run = ceduo_run_def_default(scene);
+    variant->run.option = &scene->options[i % scene->options_count];
+    variant->run.rocks_most = def->rocks;
+    variant->run.arrivals_only = true;
+    variant->run.cancel = def->cancel;
+    variant->rocks = def->rocks / 2;
+    return CEDUO_OK;
+}
+
+/* What no rock decides is the same in both halves. After the last option come the differences to the first. */
+static void end_variant(const struct item *item, size_t i)
+{
+    const struct ceduo_scene *scene = &item->copy->scene;
+    const struct ceduo_control *control = &scene->controls[ceduo_scene_last_control(scene)];
+    size_t options = scene->options_count, option = i % options;
+    struct ceduo_halves *values = values_of(item, i), *all = values_of(item, i - option);
+    struct ceduo_index index = ceduo_assess_index(scene, &scene->options[option], control, NAN);
+    for (int h = 0; h < 2; h++) {
+        values[CEDUO_DOUBT_CONTACT].half[h] = 1 / index.worst_adc;
+        values[CEDUO_DOUBT_FREE_RUN].half[h] = index.worst_free_run;
+    }
+    if (option + 1 < options)
+        return;
+    for (size_t o = 1; o < options; o++)
+        for (size_t k = 0; k < CEDUO_DOUBT_KINDS; k++)
+            for (int h = 0; h < 2; h++)
+                all[ceduo_plan_figure(options, o, (enum ceduo_doubt_kind)k, true)].half[h] =
+                    all[o * CEDUO_DOUBT_KINDS + k].half[h] - all[k].half[h];
+    tell(item->work);
+}
+
+/* The figures of the first and the second half of the rocks. Shares and means over all released come from sums. */
+static enum ceduo_status read_variant(void *context, size_t i, struct ceduo_run *run, uint64_t *rocks)
+{
+    struct item *item = context;
+    uint64_t all = item->work->def->rocks, now = *rocks, before = now < all ? 0 : all / 2;
+    struct ceduo_halves *values = values_of(item, i);
+    struct ceduo_brief brief = ceduo_run_brief(run, ceduo_scene_last_control(&item->copy->scene));
+    const double means[CEDUO_DOUBT_SHOWN] = {[CEDUO_DOUBT_REACH] = brief.reach_probability,
+                                             [CEDUO_DOUBT_EXCEED] = brief.exceed_probability,
+                                             [CEDUO_DOUBT_ENERGY] = brief.energy_per_released};
+    for (size_t k = 0; k < CEDUO_DOUBT_SHOWN; k++) {
+        double first = now < all ? 0 : values[k].half[0] * (double)before;
+        values[k].half[now < all ? 0 : 1] = (means[k] * (double)now - first) / (double)(now - before);
+    }
+    *rocks = all;
+    if (now == all)
+        end_variant(item, i);
+    return CEDUO_OK;
+}
+
+static void same_variant(void *context, size_t i, size_t first)
+{
+    struct item *item = context;
+    memcpy(values_of(item, i), values_of(item, first), CEDUO_DOUBT_SHOWN * sizeof(struct ceduo_halves));
+    end_variant(item, i);
+}
+
+static int run_item(void *context, size_t i, size_t thread)
 {
     struct work *w = context;
-    const struct ceduo_doubt_def *def = w->def;
-    struct memory *memory = &w->memories[thread];
-    size_t figures = ceduo_plan_figures(def->scene), n, start = item_start(w->plan, w->from + item, &n);
-    enum ceduo_status status = CEDUO_OK;
-    memory->n = 0;
-    for (size_t e = start; e < start + n && status == CEDUO_OK && !atomic_load(&w->failed); e++) {
-        ceduo_inputs_set(&w->copies[thread], w->plan->u + e * def->inputs_count);
-        status = evaluate(def, &w->copies[thread].scene, memory, w->plan->values + e * figures);
-        tell(w);
-    }
-    if (status != CEDUO_OK)
-        atomic_store(&w->failed, true);
-    return (int)status;
-}
-
-/* What each thread has for itself: a copy of the scene, and what it knows of an item. */
-static enum ceduo_status open_threads(struct work *w)
-{
-    const struct ceduo_doubt_def *def = w->def;
-    size_t stride = w->plan->design.groups + 2, most = stride > 2 * w->plan->ends ? stride : 2 * w->plan->ends;
-    enum ceduo_status status = CEDUO_OK;
-    w->copies = calloc(def->threads, sizeof *w->copies);
-    w->memories = calloc(def->threads, sizeof *w->memories);
-    for (size_t i = 0; w->copies && w->memories && i < def->threads && status == CEDUO_OK; i++) {
-        status = ceduo_inputs_open(&w->copies[i], def->scene, def->inputs, def->inputs_count);
-        w->memories[i].items = calloc(most * def->scene->options_count, sizeof *w->memories[i].items);
-        if (!w->memories[i].items)
-            status = CEDUO_NO_MEMORY;
-    }
-    return w->copies && w->memories ? status : CEDUO_NO_MEMORY;
-}
-
-static void close_threads(struct work *w)
-{
-    for (size_t i = 0; w->copies && w->memories && i < w->def->threads; i++) {
-        ceduo_inputs_release(&w->copies[i]);
-        free(w->memories[i].items);
-    }
-    free(w->copies);
-    free(w->memories);
+    size_t n, start = item_start(w->plan, w->from + i, &n);
+    struct item item = {w, &w->copies[thread], w->plan->u + start * w->def->inputs_count,
+                        w->plan->values + start * ceduo_plan_figures(w->def->scene)};
+    enum ceduo_status status = ceduo_variants_run(&(const struct ceduo_variants){.n = n * w->def->scene->options_count,
+                                                                                 .make = make_variant,
+                                                                                 .read = read_variant,
+                                                                                 .same = same_variant,
+                                                                                 .context = &item});
+    /* of threads that end because another one failed, none says so */
+    return status == CEDUO_OK || atomic_exchange(&w->failed, true) ? CEDUO_OK : (int)status;
 }
 
 enum ceduo_status ceduo_plan_run(const struct ceduo_doubt_def *def, struct plan *p, size_t from, size_t to, uint64_t *done,
@@ -240,10 +200,15 @@ enum ceduo_status ceduo_plan_run(const struct ceduo_doubt_def *def, struct plan 
 {
     struct work w = {.def = def, .plan = p, .from = from, .before = *done, .all = all};
     pthread_mutex_init(&w.talking, NULL);
-    enum ceduo_status status = open_threads(&w);
+    w.copies = calloc(def->threads, sizeof *w.copies);
+    enum ceduo_status status = w.copies ? CEDUO_OK : CEDUO_NO_MEMORY;
+    for (size_t i = 0; i < def->threads && status == CEDUO_OK; i++)
+        status = ceduo_inputs_open(&w.copies[i], def->scene, def->inputs, def->inputs_count);
     if (status == CEDUO_OK)
         status = (enum ceduo_status)ceduo_parallel(&(struct parallel){to - from, def->threads, run_item, &w});
-    close_threads(&w);
+    for (size_t i = 0; w.copies && i < def->threads; i++)
+        ceduo_inputs_release(&w.copies[i]);
+    free(w.copies);
     pthread_mutex_destroy(&w.talking);
     *done += atomic_load(&w.done);
     return status;

@@ -117,7 +117,13 @@ static void drop(struct ceduo_rock_def rock, double accepted)
 
 static void size_up(struct ceduo_block blocks[CEDUO_BLOCKS])
 {
-    enum ceduo_status status = ceduo_blocks(&scene.scene, &scene.option, 0, BLOCKS_FLOWN, INFINITY, NULL, 1, NULL, blocks);
+    enum ceduo_status status = ceduo_blocks(&(const struct ceduo_blocks_def){.scene = &scene.scene,
+                                                                             .option = &scene.option,
+                                                                             .rocks = BLOCKS_FLOWN,
+                                                                             .effort = INFINITY,
+                                                                             .own = NULL,
+                                                                             .threads = 1},
+                                            blocks);
     assert_int_equal(status, CEDUO_OK);
 }
 
@@ -203,7 +209,14 @@ static void the_own_block_is_not_simulated_twice(void **state)
     for (uint64_t released = BLOCKS_FLOWN - 1; released <= BLOCKS_FLOWN; released++) {
         const struct ceduo_arrivals own = {.released = released, .reached = 77};
         drop(slab(0.5), 1e3);
-        assert_int_equal(ceduo_blocks(&scene.scene, &scene.option, 0, BLOCKS_FLOWN, INFINITY, &own, 1, NULL, blocks), CEDUO_OK);
+        assert_int_equal(ceduo_blocks(&(const struct ceduo_blocks_def){.scene = &scene.scene,
+                                                                       .option = &scene.option,
+                                                                       .rocks = BLOCKS_FLOWN,
+                                                                       .effort = INFINITY,
+                                                                       .own = &own,
+                                                                       .threads = 1},
+                                      blocks),
+                         CEDUO_OK);
         for (size_t i = 0; i < CEDUO_BLOCKS; i++)
             EXPECT(blocks[i].arrivals.reached == 77, ==, (blocks[i].own && released == BLOCKS_FLOWN));
     }

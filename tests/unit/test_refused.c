@@ -134,7 +134,12 @@ static void no_rock_no_figures(void **state)
     assert_null(ceduo_follower_create(&site.scene, NULL));
     for (int model = CEDUO_INDEX; model <= CEDUO_STEMS; model++) {
         site.scene.simulation.contact_model = (enum ceduo_contact_model)model;
-        assert_int_equal(ceduo_blocks(&site.scene, &site.option, 0, 10, INFINITY, NULL, 1, NULL, blocks), CEDUO_BAD_ROCK);
+        assert_int_equal(
+            ceduo_blocks(
+                &(const struct ceduo_blocks_def){
+                    .scene = &site.scene, .option = &site.option, .rocks = 10, .effort = INFINITY, .own = NULL, .threads = 1},
+                blocks),
+            CEDUO_BAD_ROCK);
     }
     /* good itself, but too heavy when it is as large as the others */
     site.scene.rock = ceduo_scene_default().rock;
@@ -143,7 +148,12 @@ static void no_rock_no_figures(void **state)
     assert_int_equal(ceduo_scene_check(&site.scene, NULL), CEDUO_OK);
     for (int model = CEDUO_INDEX; model <= CEDUO_STEMS; model++) {
         site.scene.simulation.contact_model = (enum ceduo_contact_model)model;
-        assert_int_equal(ceduo_blocks(&site.scene, &site.option, 0, 10, INFINITY, NULL, 1, NULL, blocks), CEDUO_BAD_ROCK);
+        assert_int_equal(
+            ceduo_blocks(
+                &(const struct ceduo_blocks_def){
+                    .scene = &site.scene, .option = &site.option, .rocks = 10, .effort = INFINITY, .own = NULL, .threads = 1},
+                blocks),
+            CEDUO_BAD_ROCK);
     }
 }
 

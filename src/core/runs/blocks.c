@@ -4,8 +4,8 @@
 #include <math.h>
 
 #include "base/elementary.h"
-
 #include "ceduo/assess.h"
+#include "ceduo/variants.h"
 
 static struct ceduo_number scaled(struct ceduo_number n, double factor)
 {
@@ -43,33 +43,6 @@ static uint64_t affordable(const struct ceduo_run *run, uint64_t rocks, double m
     return (double)rocks < n ? rocks : (uint64_t)n;
 }
 
-/* One rock, then four times as many each time: the first may stop where the others go on. What cannot be paid is left out. */
-static enum ceduo_status fly_block(const struct ceduo_scene *scene, const struct ceduo_option *option, size_t control,
-                                   uint64_t rocks, double effort, unsigned threads, const atomic_bool *cancel,
-                                   struct ceduo_block *b)
-{
-    struct ceduo_run_def def = ceduo_run_def_default(scene);
-    def.option = option;
-    def.threads = threads;
-    def.rocks_most = rocks;
-    def.cancel = cancel;
-    def.arrivals_only = true;
-    struct ceduo_run *run;
-    enum ceduo_status status = ceduo_run_create(&def, &run);
-    if (status != CEDUO_OK)
-        return status;
-    uint64_t most = rocks;
-    for (uint64_t n = 1; n > ceduo_run_rocks(run) && status == CEDUO_OK; n = n < most ? n : most) {
-        status = ceduo_run_extend(run, n);
-        most = affordable(run, rocks, effort);
-        n *= 4;
-    }
-    if (status == CEDUO_OK && ceduo_run_rocks(run) >= (rocks < FEWEST ? rocks : FEWEST))
-        status = ceduo_run_arrivals(run, control, &b->arrivals);
-    ceduo_run_free(run);
-    return status;
-}
-
 /* The volumes to show, rising: `own` in its place. */
 static void sort_volumes(double own, struct ceduo_block blocks[CEDUO_BLOCKS])
 {
@@ -87,36 +60,68 @@ static void sort_volumes(double own, struct ceduo_block blocks[CEDUO_BLOCKS])
         blocks[n] = (struct ceduo_block){.volume = own, .own = true};
 }
 
-enum ceduo_status ceduo_blocks(const struct ceduo_scene *scene, const struct ceduo_option *option, size_t control,
-                               uint64_t rocks, double effort, const struct ceduo_arrivals *own, unsigned threads,
-                               const atomic_bool *cancel, struct ceduo_block blocks[CEDUO_BLOCKS])
+/* Sizes as variants of a scene. */
+struct sizes_run {
+    const struct ceduo_blocks_def *def;
+    struct ceduo_block *blocks;
+    struct ceduo_scene scene; /* with the size at hand */
+    double volume, contacts;  /* of the scene's own rock */
+};
+
+static enum ceduo_status make_size(void *context, size_t i, struct ceduo_variant *variant)
 {
-    struct ceduo_rock mean, rock;
-    enum ceduo_status status = ceduo_rock_of_means(&scene->rock, &mean);
+    struct sizes_run *r = context;
+    const struct ceduo_blocks_def *def = r->def;
+    struct ceduo_block *b = &r->blocks[i];
+    struct ceduo_rock rock;
+    r->scene = *def->scene;
+    r->scene.blocks_count = 0;
+    if (!b->own)
+        r->scene.rock = ceduo_rock_scaled(&def->scene->rock, ceduo_cbrt(b->volume / r->volume));
+    enum ceduo_status status = ceduo_rock_of_means(&r->scene.rock, &rock);
+    if (status != CEDUO_OK)
+        return status;
+    struct ceduo_index index = ceduo_assess_index(&r->scene, def->option, &def->scene->controls[def->control], NAN);
+    b->mass = rock.mass;
+    b->diameter = rock.mean_diameter;
+    b->adc = index.worst_adc;
+    b->contacts = index.contacts;
+    bool flies = def->scene->simulation.contact_model != CEDUO_INDEX;
+    bool known = b->own && def->own && def->own->released >= def->rocks && def->scene->blocks_count == 0;
+    if (flies && known)
+        b->arrivals = *def->own;
+    variant->skip = !flies || known || index.contacts > TIMES_MOST * r->contacts;
+    variant->rocks = 1;
+    variant->run = ceduo_run_def_default(&r->scene);
+    variant->run.option = def->option;
+    variant->run.threads = def->threads;
+    variant->run.rocks_most = def->rocks;
+    variant->run.cancel = def->cancel;
+    variant->run.arrivals_only = true;
+    return CEDUO_OK;
+}
+
+/* One rock, then four times as many each time: the first may stop where the others go on. What cannot be paid is left out. */
+static enum ceduo_status read_size(void *context, size_t i, struct ceduo_run *run, uint64_t *rocks)
+{
+    struct sizes_run *r = context;
+    const struct ceduo_blocks_def *def = r->def;
+    uint64_t most = affordable(run, def->rocks, fmin(def->effort, EFFORT_MOST));
+    *rocks = 4 * *rocks < most ? 4 * *rocks : most;
+    if (*rocks > ceduo_run_rocks(run) || ceduo_run_rocks(run) < (def->rocks < FEWEST ? def->rocks : FEWEST))
+        return CEDUO_OK;
+    return ceduo_run_arrivals(run, def->control, &r->blocks[i].arrivals);
+}
+
+enum ceduo_status ceduo_blocks(const struct ceduo_blocks_def *def, struct ceduo_block blocks[CEDUO_BLOCKS])
+{
+    struct ceduo_rock mean;
+    enum ceduo_status status = ceduo_rock_of_means(&def->scene->rock, &mean);
     if (status != CEDUO_OK)
         return status;
     sort_volumes(mean.volume, blocks);
-    effort = fmin(effort, EFFORT_MOST);
-    double contacts = ceduo_assess_index(scene, option, &scene->controls[control], NAN).contacts;
-    bool flies = scene->simulation.contact_model != CEDUO_INDEX;
-    for (size_t i = 0; i < CEDUO_BLOCKS && status == CEDUO_OK; i++) {
-        struct ceduo_block *b = &blocks[i];
-        struct ceduo_scene other = *scene;
-        other.blocks_count = 0;
-        if (!b->own)
-            other.rock = ceduo_rock_scaled(&scene->rock, ceduo_cbrt(b->volume / mean.volume));
-        status = ceduo_rock_of_means(&other.rock, &rock);
-        if (status != CEDUO_OK)
-            break;
-        struct ceduo_index index = ceduo_assess_index(&other, option, &scene->controls[control], NAN);
-        b->mass = rock.mass;
-        b->diameter = rock.mean_diameter;
-        b->adc = index.worst_adc;
-        b->contacts = index.contacts;
-        if (flies && b->own && own && own->released >= rocks && scene->blocks_count == 0)
-            b->arrivals = *own;
-        else if (flies && index.contacts <= TIMES_MOST * contacts)
-            status = fly_block(&other, option, control, rocks, effort, threads, cancel, b);
-    }
-    return status;
+    struct sizes_run r = {.def = def, .blocks = blocks, .volume = mean.volume};
+    r.contacts = ceduo_assess_index(def->scene, def->option, &def->scene->controls[def->control], NAN).contacts;
+    return ceduo_variants_run(
+        &(const struct ceduo_variants){.n = CEDUO_BLOCKS, .make = make_size, .read = read_size, .context = &r});
 }

@@ -77,10 +77,16 @@ static enum ceduo_status fly_blocks(const struct ceduo_question *q, const struct
     a->blocks = calloc(scene->options_count * CEDUO_BLOCKS + 1, sizeof *a->blocks);
     enum ceduo_status status = a->blocks ? CEDUO_OK : CEDUO_NO_MEMORY;
     for (size_t i = 0; i < scene->options_count && status == CEDUO_OK; i++)
-        status = ceduo_blocks(scene, &scene->options[i], a->result->last_control, rocks,
-                              effort_of(pool, NULL) + effort_of(pool, &scene->options[i]),
-                              ceduo_result_wooded(a->result, i, a->result->last_control), q->run.threads, q->run.cancel,
-                              &a->blocks[i * CEDUO_BLOCKS]);
+        status =
+            ceduo_blocks(&(const struct ceduo_blocks_def){.scene = scene,
+                                                          .option = &scene->options[i],
+                                                          .control = a->result->last_control,
+                                                          .rocks = rocks,
+                                                          .effort = effort_of(pool, NULL) + effort_of(pool, &scene->options[i]),
+                                                          .own = ceduo_result_wooded(a->result, i, a->result->last_control),
+                                                          .threads = q->run.threads,
+                                                          .cancel = q->run.cancel},
+                         &a->blocks[i * CEDUO_BLOCKS]);
     if (status == CEDUO_OK || status == CEDUO_NO_MEMORY || status == CEDUO_CANCELLED)
         return status;
     free(a->blocks);

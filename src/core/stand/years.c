@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "ceduo/variants.h"
 #include "core/runs/weighted.h"
 
 /* ---- windows ---- */
@@ -156,15 +157,42 @@ static bool keep_weights(struct ceduo_years *years, const double *weights)
     return years->weights != NULL;
 }
 
-/* Simulates a year and reads it; rocks that bring too much get a mark. */
-static enum ceduo_status fly_year(struct ceduo_years *years, struct ceduo_year *y, struct ceduo_pool *pool, uint64_t rocks)
+/* Simulating years, as variants of a scene that differ in their forests. */
+struct years_run {
+    struct ceduo_years *years;
+    struct ceduo_pool *pool;
+    const struct ceduo_flown *bare;
+    uint64_t rocks; /* 0: nothing is simulated */
+};
+
+static void read_year(const struct years_run *r, struct ceduo_year *y)
 {
-    struct ceduo_run *run;
-    enum ceduo_status status = ceduo_pool_fly(pool, &y->option, rocks, &run);
-    if (status != CEDUO_OK)
-        return status;
+    ceduo_flown_compare(&y->wooded, r->bare);
+    ceduo_result_read(&r->years->scene, &y->option, r->bare, &y->wooded, y->stands, y->controls);
+    ceduo_pool_trim(r->pool);
+}
+
+static enum ceduo_status make_year(void *context, size_t i, struct ceduo_variant *variant)
+{
+    struct years_run *r = context;
+    struct ceduo_year *y = &r->years->years[i];
+    variant->run.option = &y->option;
+    variant->rocks = r->rocks;
+    variant->skip = r->rocks == 0;
+    if (variant->skip)
+        read_year(r, y);
+    return CEDUO_OK;
+}
+
+/* Rocks that bring too much get a mark. */
+static enum ceduo_status take_year(void *context, size_t i, struct ceduo_run *run, uint64_t *rocks)
+{
+    struct years_run *r = context;
+    struct ceduo_years *years = r->years;
+    struct ceduo_year *y = &years->years[i];
+    (void)rocks;
     ceduo_flown_free(&y->wooded);
-    status = ceduo_flown_read(run, years->scene.controls_count, &y->wooded);
+    enum ceduo_status status = ceduo_flown_read(run, years->scene.controls_count, &y->wooded);
     if (status != CEDUO_OK)
         return status;
     ceduo_flown_meets_nothing(&y->wooded);
@@ -172,6 +200,7 @@ static enum ceduo_status fly_year(struct ceduo_years *years, struct ceduo_year *
         return CEDUO_NO_MEMORY;
     if (years->scene.controls_count > 0)
         years->marked = ceduo_run_mark(run, years->last_control, years->marks, years->marked);
+    read_year(r, y);
     return CEDUO_OK;
 }
 
@@ -189,21 +218,13 @@ static bool clear_marks(struct ceduo_years *years, uint64_t rocks)
 enum ceduo_status ceduo_years_fly(struct ceduo_years *years, struct ceduo_pool *pool, const struct ceduo_flown *bare,
                                   uint64_t rocks)
 {
-    const struct ceduo_scene *scene = &years->scene;
-    bool flies = scene->simulation.contact_model != CEDUO_INDEX && rocks > 0;
-    if (flies && !clear_marks(years, rocks))
+    struct years_run r = {years, pool, bare, years->scene.simulation.contact_model != CEDUO_INDEX ? rocks : 0};
+    if (r.rocks > 0 && !clear_marks(years, rocks))
         return CEDUO_NO_MEMORY;
-    for (size_t i = 0; i < years->count; i++) {
-        struct ceduo_year *y = &years->years[i];
-        enum ceduo_status status = flies ? fly_year(years, y, pool, rocks) : CEDUO_OK;
-        if (status != CEDUO_OK)
-            return status;
-        ceduo_flown_compare(&y->wooded, bare);
-        ceduo_result_read(scene, &y->option, bare, &y->wooded, y->stands, y->controls);
-        ceduo_pool_trim(pool);
-    }
-    years->rocks = flies ? rocks : 0;
-    return CEDUO_OK;
+    enum ceduo_status status = ceduo_variants_run(
+        &(const struct ceduo_variants){.n = years->count, .make = make_year, .read = take_year, .pool = pool, .context = &r});
+    years->rocks = status == CEDUO_OK ? r.rocks : years->rocks;
+    return status;
 }
 
 /* ---- all years together ---- */
