@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/text.h"
 #include "base/utf8.h"
 
 /* ---- Frames ---- */
@@ -234,9 +235,9 @@ void ceduo_canvas_bar(struct ceduo_canvas *canvas, int column, int row, int widt
 
 /* ---- Clouds ---- */
 
-bool ceduo_canvas_cloud_start(struct ceduo_canvas *canvas)
+void ceduo_canvas_cloud_start(struct ceduo_canvas *canvas)
 {
-    return canvas->surface->cloud_start(canvas->to);
+    canvas->surface->cloud_start(canvas->to);
 }
 
 void ceduo_canvas_cloud_add(struct ceduo_canvas *canvas, const struct ceduo_frame *frame, size_t n, const double *x,
@@ -279,16 +280,13 @@ int ceduo_canvas_put(struct ceduo_canvas *canvas, int column, int row, int most,
     if (ceduo_canvas_label_width(canvas, text) <= most)
         return ceduo_canvas_label(canvas, column, row, role, text);
     const char *mark = ceduo_canvas_label_width(canvas, "\xe2\x80\xa6") > 1 ? "~" : "\xe2\x80\xa6";
-    char *cut = strdup(text), *end = cut ? cut + strlen(cut) : NULL;
-    int cells = 0;
-    if (cut) {
-        while (end > cut && ceduo_canvas_label_width(canvas, cut) > most - 1) {
-            end = cut + (ceduo_utf8_back(cut, end) - cut);
-            *end = '\0';
-        }
-        cells = ceduo_canvas_label(canvas, column, row, role, cut);
-        cells += ceduo_canvas_label(canvas, column + cells, row, role, mark);
+    LOCAL_TEXT(cut);
+    ceduo_text_put(&cut, text);
+    char *end = cut.bytes + cut.length;
+    while (end > cut.bytes && ceduo_canvas_label_width(canvas, cut.bytes) > most - 1) {
+        end = cut.bytes + (ceduo_utf8_back(cut.bytes, end) - cut.bytes);
+        *end = '\0';
     }
-    free(cut);
-    return cells;
+    int cells = ceduo_canvas_label(canvas, column, row, role, cut.bytes);
+    return cells + ceduo_canvas_label(canvas, column + cells, row, role, mark);
 }

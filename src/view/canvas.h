@@ -122,7 +122,7 @@ struct ceduo_surface {
     void (*axis_left)(void *to, const struct ceduo_frame *frame, int count, const struct ceduo_tick *ticks);
     void (*axis_bottom)(void *to, const struct ceduo_frame *frame, int count, const struct ceduo_tick *ticks);
     void (*axis_unit)(void *to, int column, int row, const char *unit); /* among the labels of the bottom axis */
-    bool (*cloud_start)(void *to);
+    void (*cloud_start)(void *to);
     void (*cloud_show)(void *to, double quantile);
     /* A disc, its radii across and down in dots; NULL: it is drawn as lines. */
     void (*disc)(void *to, const struct ceduo_raster *raster, enum ceduo_role role, struct ceduo_position centre,
@@ -180,11 +180,10 @@ void ceduo_canvas_disc(struct ceduo_canvas *canvas, const struct ceduo_frame *fr
 void ceduo_canvas_bar(struct ceduo_canvas *canvas, int column, int row, int width, double fraction, enum ceduo_role role);
 
 /*
- * A cloud of many trajectories. Start it (false if there is no memory; then adding and showing do nothing), add
- * trajectories, which draws nothing, and show it: the dots that were passed at least as often as the given quantile
+ * A cloud of many trajectories. Start it, add trajectories, which draws nothing, and show it: the dots that were passed at least as often as the given quantile
  * (0..1) of all dots that were passed. 0 shows every one, 0.9 the most travelled tenth, 1 those passed most.
  */
-bool ceduo_canvas_cloud_start(struct ceduo_canvas *canvas);
+void ceduo_canvas_cloud_start(struct ceduo_canvas *canvas);
 void ceduo_canvas_cloud_add(struct ceduo_canvas *canvas, const struct ceduo_frame *frame, size_t n, const double *x,
                             const double *y);
 void ceduo_canvas_cloud_show(struct ceduo_canvas *canvas, double quantile);

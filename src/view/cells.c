@@ -7,6 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/must.h"
+#include "base/text.h"
 #include "base/utf8.h"
 
 /* ---- The grid ---- */
@@ -25,19 +27,13 @@ struct ceduo_cells *ceduo_cells_create(int width, int height, enum ceduo_charset
 {
     if (width < 1 || width > CEDUO_CANVAS_MAX_WIDTH || height < 1 || height > CEDUO_CANVAS_MAX_HEIGHT)
         return NULL;
-    struct ceduo_cells *cells = calloc(1, sizeof *cells);
-    if (!cells)
-        return NULL;
+    struct ceduo_cells *cells = ceduo_must(calloc(1, sizeof *cells));
     cells->width = width;
     cells->height = height;
     cells->charset = charset;
     cells->canvas = (struct ceduo_canvas){&ceduo_cells_surface, cells, charset == CEDUO_CHARSET_ASCII ? 1 : 2,
                                           charset == CEDUO_CHARSET_BRAILLE ? 4 : 2};
-    cells->cell = calloc(cell_count(cells), sizeof *cells->cell);
-    if (!cells->cell) {
-        free(cells);
-        return NULL;
-    }
+    cells->cell = ceduo_must(calloc(cell_count(cells), sizeof *cells->cell));
     return cells;
 }
 
@@ -275,19 +271,15 @@ size_t ceduo_cells_text(const struct ceduo_cells *cells, int row, size_t size, c
 
 char *ceduo_cells_dump(const struct ceduo_cells *cells)
 {
-    size_t size = 1;
-    for (int row = 0; row < cells->height; ++row)
-        size += ceduo_cells_text(cells, row, 0, NULL) + 1;
-    char *dump = malloc(size);
-    if (dump == NULL)
-        return NULL;
-    char *to = dump;
+    struct text text = {0};
     for (int row = 0; row < cells->height; ++row) {
-        to += ceduo_cells_text(cells, row, size - (size_t)(to - dump), to);
-        *to++ = '\n';
+        size_t size = ceduo_cells_text(cells, row, 0, NULL) + 1;
+        LOCAL_TEXT(line);
+        ceduo_text_format(&line, "%*s", (int)size, "");
+        ceduo_cells_text(cells, row, size, line.bytes);
+        ceduo_text_format(&text, "%s\n", line.bytes);
     }
-    *to = '\0';
-    return dump;
+    return text.bytes;
 }
 
 char *ceduo_cells_roles(const struct ceduo_cells *cells)
@@ -297,10 +289,7 @@ char *ceduo_cells_roles(const struct ceduo_cells *cells)
         CEDUO_ROLES(X)
 #undef X
     };
-    char *roles = malloc(((size_t)cells->width + 1) * (size_t)cells->height + 1);
-    if (roles == NULL)
-        return NULL;
-    char *to = roles;
+    char *roles = ceduo_must(malloc(((size_t)cells->width + 1) * (size_t)cells->height + 1)), *to = roles;
     for (int row = 0; row < cells->height; ++row) {
         char *end = to;
         for (int column = 0; column < cells->width; ++column) {

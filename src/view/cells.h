@@ -39,7 +39,7 @@ struct ceduo_cells {
 
 /*
  * A new, blank grid of width x height cells (1..CEDUO_CANVAS_MAX_WIDTH, 1..CEDUO_CANVAS_MAX_HEIGHT),
- * to be freed by ceduo_cells_free. NULL if there is no memory or a size is out of range.
+ * to be freed by ceduo_cells_free. NULL if a size is out of range.
  */
 struct ceduo_cells *ceduo_cells_create(int width, int height, enum ceduo_charset charset);
 
@@ -93,10 +93,10 @@ enum ceduo_role ceduo_cells_role(const struct ceduo_cells *cells, int column, in
  */
 size_t ceduo_cells_text(const struct ceduo_cells *cells, int row, size_t size, char *buffer);
 
-/* All rows as one UTF-8 string, each ended by a newline; to be freed by the caller. NULL: no memory. */
+/* All rows as one UTF-8 string, each ended by a newline; to be freed by the caller. */
 char *ceduo_cells_dump(const struct ceduo_cells *cells);
 
-/* The role of each cell as its letter, in rows like those of ceduo_cells_dump; to be freed by the caller. NULL: no memory. */
+/* The role of each cell as its letter, in rows like those of ceduo_cells_dump; to be freed by the caller. */
 char *ceduo_cells_roles(const struct ceduo_cells *cells);
 
 #endif

@@ -5,6 +5,8 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "base/must.h"
+
 /* The nearest of n dots. */
 static int nearest(double position, int n)
 {
@@ -85,12 +87,11 @@ static void draw_axis_unit(void *to, int column, int row, const char *unit)
     ceduo_cells_label(to, column, row, CEDUO_ROLE_AXIS, unit);
 }
 
-static bool start_cloud(void *to)
+static void start_cloud(void *to)
 {
     struct ceduo_cells *cells = to;
     free(cells->density);
-    cells->density = calloc(ceduo_cells_dots(cells), sizeof *cells->density);
-    return cells->density != NULL;
+    cells->density = ceduo_must(calloc(ceduo_cells_dots(cells), sizeof *cells->density));
 }
 
 /* How many dots were passed, but no more than `limit` times. */

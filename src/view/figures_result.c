@@ -88,6 +88,16 @@ OBJECT(felling_of, &yield_at(p)->fellings[p->felling])
 OBJECT(felled_belt_of, &r->scene->options[p->option].belts[yield_at(p)->fellings[p->felling].belt])
 OBJECT(rotation_of, p->report->years ? p : NULL)
 
+static const void *standards_of(const void *compliance)
+{
+    return ((const struct ceduo_compliance *)compliance)->standards_item;
+}
+
+static const void *turn_of(const void *compliance)
+{
+    return ((const struct ceduo_compliance *)compliance)->turn_item;
+}
+
 static const void *search_of(const void *find)
 {
     return ((const struct ceduo_find_report *)find)->search;
@@ -189,17 +199,8 @@ VALUE(accepted_of, control, NUMBER(ceduo_words_accepted(o)))
 VALUE(reached_of, arrivals, isnan(o->reach_probability) ? NOTHING : COUNT(o->reached))
 VALUE(rule_of, stand_result, WORD(isinf(o->adc_m) ? NULL : ceduo_rule_words.names[o->rule]))
 VALUE(region_of, compliance, WORD(o->of->name))
-#define OF_ITEM(which, value) (o->which ? (value) : NOTHING)
-VALUE(least_standards, compliance, OF_ITEM(standards_item, NUMBER(o->standards_item->least)))
-VALUE(most_standards, compliance, OF_ITEM(standards_item, NUMBER(o->standards_item->most)))
-VALUE(standards_met, compliance, OF_ITEM(standards_item, IS(o->standards_met)))
-VALUE(standards_article, compliance, OF_ITEM(standards_item, WORD(o->standards_item->article)))
-VALUE(standards_year, compliance, OF_ITEM(standards_item, COUNT(o->standards_item->year)))
-VALUE(least_turn, compliance, OF_ITEM(turn_item, NUMBER(o->turn_item->least)))
-VALUE(most_turn, compliance, OF_ITEM(turn_item, NUMBER(o->turn_item->most)))
-VALUE(turn_met, compliance, OF_ITEM(turn_item && !isnan(o->turn), IS(o->turn_met)))
-VALUE(turn_article, compliance, OF_ITEM(turn_item, WORD(o->turn_item->article)))
-VALUE(turn_year, compliance, OF_ITEM(turn_item, COUNT(o->turn_item->year)))
+VALUE(standards_met, compliance, o->standards_item ? IS(o->standards_met) : NOTHING)
+VALUE(turn_met, compliance, o->turn_item && !isnan(o->turn) ? IS(o->turn_met) : NOTHING)
 VALUE(index_per_100m, index, NUMBER(o->length > 0 ? o->per_100m : NAN))
 VALUE(mean_adc, index, NUMBER(o->contacts > 0 ? o->length / o->contacts : NAN))
 VALUE(passes_contact, index, IS(o->contact == CEDUO_PASS))
@@ -333,17 +334,18 @@ static const struct ceduo_figure rules[] = {
     {"region", "", "whose rules", .value = region_of},
     {"standards_per_ha", "1/ha", "standards that a cut leaves, or without cutting the trees that stand",
      AT(compliance, standards)},
-    {"standards_least", "1/ha", "standards asked for at least", .value = least_standards, .null = SILENT},
-    {"standards_most", "1/ha", "at most", .value = most_standards, .null = "there is no such limit"},
+    {"standards_least", "1/ha", "standards asked for at least", .from = standards_of, AT(regulation_item, least),
+     .null = SILENT},
+    {"standards_most", "1/ha", "at most", .from = standards_of, AT(regulation_item, most), .null = "there is no such limit"},
     {"standards_met", "", "whether that is kept", .value = standards_met, .null = SILENT},
-    {"standards_article", "", "article and act", .value = standards_article, .null = SILENT},
-    {"standards_year", "", "year of that act", .value = standards_year, .null = SILENT},
+    {"standards_article", "", "article and act", .from = standards_of, AT(regulation_item, article), .null = SILENT},
+    {"standards_year", "", "year of that act", .from = standards_of, AT(regulation_item, year), .null = SILENT},
     {"turn_y", "y", "age of the oldest shoots at a cut", AT(compliance, turn), .null = NEVER_CUT},
-    {"turn_least", "y", "age asked for at least", .value = least_turn, .null = SILENT},
-    {"turn_most", "y", "at most", .value = most_turn, .null = "there is no such limit"},
+    {"turn_least", "y", "age asked for at least", .from = turn_of, AT(regulation_item, least), .null = SILENT},
+    {"turn_most", "y", "at most", .from = turn_of, AT(regulation_item, most), .null = "there is no such limit"},
     {"turn_met", "", "whether that is kept", .value = turn_met, .null = SILENT ", or " NEVER_CUT},
-    {"turn_article", "", "article and act", .value = turn_article, .null = SILENT},
-    {"turn_year", "", "year of that act", .value = turn_year, .null = SILENT},
+    {"turn_article", "", "article and act", .from = turn_of, AT(regulation_item, article), .null = SILENT},
+    {"turn_year", "", "year of that act", .from = turn_of, AT(regulation_item, year), .null = SILENT},
     END};
 
 static const struct ceduo_figure stand_columns[] = {
@@ -352,13 +354,10 @@ static const struct ceduo_figure stand_columns[] = {
     {"to_m", "m", "where it ends", .from = belt_of, AT(belt, to_given)},
     {.from = stand_of, .of = stand_result},
     END};
-#define STAND_WARNINGS                                                                                                         \
-    {                                                                                                                          \
-        "warnings", "", "sentences about this stand", .say = say_of_stand                                                      \
-    }
+static const struct ceduo_figure stand_warnings[] = {{"warnings", "", "sentences about this stand", .say = say_of_stand}, END};
 
 static const struct ceduo_figure stand[] = {{.of = stand_columns},
-                                            STAND_WARNINGS,
+                                            {.of = stand_warnings},
                                             {"rules", "",
                                              "what the rules of the region ask of a coppice, and whether it is kept",
                                              .from = rules_of, .of = rules, .optional = true},
@@ -458,30 +457,24 @@ static const struct ceduo_figure stops[] = {
     {"max", "m", "farthest", .value = stop_at, .offset = offsetof(struct ceduo_ends, stop_max)},
     END};
 
-#define SUMMARY                                                                                                                \
-    {                                                                                                                          \
-        "summary", "", "the forest between the release and the last control", .from = last_index_of, .of = summary             \
-    }
-#define STANDS                                                                                                                 \
-    {                                                                                                                          \
-        "stands", "", "an object for each belt, in order", .of = stand, .enter = enter_belt                                    \
-    }
-#define CONTROLS                                                                                                               \
-    {                                                                                                                          \
-        "controls", "", "an object for each control, in the scene's order", .of = control, .enter = enter_control              \
-    }
-#define ENDS                                                                                                                   \
-    {"ends", "", "how the rocks end, over the whole profile, through the forest (with contact_model: index without it)",       \
-     .from = flown_of, .of = ends},                                                                                            \
-    {                                                                                                                          \
-        "stop_x_m", "m", "places where rocks were stopped by stems or came to rest",                                           \
-            .from = stops_of, .of = stops, .null = "no rock was stopped or came to rest"                                       \
-    }
-#define YEAR                                                                                                                   \
-    {"year", "", "year, counted from the stands as filed", .from = year_of, AT(year, year)},                                   \
-    {                                                                                                                          \
-        "cut", "", "whether a belt is cut in it", .from = year_of, AT(year, cut)                                               \
-    }
+/* Rows that stand in several objects. */
+static const struct ceduo_figure summary_row[] = {
+    {"summary", "", "the forest between the release and the last control", .from = last_index_of, .of = summary}, END};
+static const struct ceduo_figure forest_rows[] = {
+    {"stands", "", "an object for each belt, in order", .of = stand, .enter = enter_belt},
+    {.of = summary_row},
+    {"controls", "", "an object for each control, in the scene's order", .of = control, .enter = enter_control},
+    END};
+static const struct ceduo_figure end_rows[] = {
+    {"ends", "", "how the rocks end, over the whole profile, through the forest (with contact_model: index without it)",
+     .from = flown_of, .of = ends},
+    {"stop_x_m", "m", "places where rocks were stopped by stems or came to rest", .from = stops_of, .of = stops,
+     .null = "no rock was stopped or came to rest"},
+    END};
+static const struct ceduo_figure year_rows[] = {
+    {"year", "", "year, counted from the stands as filed", .from = year_of, AT(year, year)},
+    {"cut", "", "whether a belt is cut in it", .from = year_of, AT(year, cut)},
+    END};
 
 static const struct ceduo_figure felling[] = {
     {"year", "", "year, counted from the stands as filed", .from = felling_of, AT(felling, year)},
@@ -491,31 +484,22 @@ static const struct ceduo_figure felling[] = {
     {"volume_m3_ha", "m3/ha", "their volume", .from = felling_of, AT(felling, volume)},
     END};
 
-#define YIELD                                                                                                                  \
-    {"cut_m3_ha_per_year",                                                                                                     \
-     "m3/ha",                                                                                                                  \
-     "volume felled per hectare of forest and year over a whole rotation",                                                     \
-     .from = yield_of,                                                                                                         \
-     AT(yield, cut_per_year),                                                                                                  \
-     .null = "a stand says nothing of growth or cutting"},                                                                     \
-        {"standing_m3_ha_mean",                                                                                                \
-         "m3/ha",                                                                                                              \
-         "volume standing, in the mean of that rotation",                                                                      \
-         .from = yield_of,                                                                                                     \
-         AT(yield, standing),                                                                                                  \
-         .null = "a stand says nothing of growth or cutting"},                                                                 \
-    {                                                                                                                          \
-        "died_m3_ha_per_year", "m3/ha", "volume of the stems that die between two cuts",                                       \
-            .from = yield_of, AT(yield, died_per_year), .null = "a stand says nothing of growth or cutting"                    \
-    }
-static const struct ceduo_figure yield[] = {YIELD,
+#define NO_GROWTH "a stand says nothing of growth or cutting"
+static const struct ceduo_figure yield_rows[] = {
+    {"cut_m3_ha_per_year", "m3/ha", "volume felled per hectare of forest and year over a whole rotation",
+     AT(yield, cut_per_year), .null = NO_GROWTH},
+    {"standing_m3_ha_mean", "m3/ha", "volume standing, in the mean of that rotation", AT(yield, standing), .null = NO_GROWTH},
+    {"died_m3_ha_per_year", "m3/ha", "volume of the stems that die between two cuts", AT(yield, died_per_year),
+     .null = NO_GROWTH},
+    END};
+static const struct ceduo_figure yield_columns[] = {{.from = yield_of, .of = yield_rows}, END};
+static const struct ceduo_figure yield[] = {{.of = yield_columns},
                                             {"cuts", "",
                                              "an object for each cut, up to the one that ends the first whole rotation",
                                              .of = felling, .enter = enter_felling},
                                             END};
-static const struct ceduo_figure yield_columns[] = {YIELD, END};
 
-static const struct ceduo_figure year[] = {YEAR, STANDS, SUMMARY, CONTROLS, END};
+static const struct ceduo_figure year[] = {{.of = year_rows}, {.of = forest_rows}, END};
 
 #define FAILS(which) .value = fails_of, .offset = offsetof(struct ceduo_place, sum.which), .null = NOTHING_SAID
 #define NOTHING_SAID "nothing can be said"
@@ -541,15 +525,12 @@ static const struct ceduo_figure rotation[] = {
 
 static const struct ceduo_figure option[] = {
     {"name", "", "name of the option", .from = option_of, AT(option, name)},
-    STANDS,
-    SUMMARY,
-    CONTROLS,
-    ENDS,
+    {.of = forest_rows},
+    {.of = end_rows},
     {"years", "", "with --years: an object for each year", .of = year, .enter = enter_year, .optional = true},
     {"rotation", "", "with --years: the years together, at the last control", .from = rotation_of, .of = rotation,
      .optional = true},
-    {"yield", "", "stem wood that the option yields", .from = place_of_yield, .of = yield,
-     .null = "a stand says nothing of growth or cutting"},
+    {"yield", "", "stem wood that the option yields", .from = place_of_yield, .of = yield, .null = NO_GROWTH},
     END};
 
 static const struct ceduo_figure share_difference[] = {
@@ -618,89 +599,65 @@ const struct ceduo_figure ceduo_result_figures[] = {
 
 #define NONE "no value reaches the goal"
 #define ONE  "a value reaches it"
-#define SOUGHT                                                                                                                 \
-    {"scene", "", "path of the file", .value = find_path},                                                                     \
-        {"path", "", "path of the parameter", .from = search_of, AT(search, path)},                                            \
-        {"option", "", "name of the option", .value = find_option},                                                            \
-        {"goal", "", "goal that was asked for", .from = search_of, .value = goal_of},                                          \
-        {"target", "", "value that it is to stay below, or at most at", .from = search_of, AT(search, target)},                \
-        {"lo", "", "lower end of the range", .from = search_of, AT(search, lo)},                                               \
-    {                                                                                                                          \
-        "hi", "", "upper end of the range", .from = search_of, AT(search, hi)                                                  \
-    }
-#define FOUND                                                                                                                  \
-    {                                                                                                                          \
-        "found", "", "whether a value reaches the goal", .from = found_of, AT(found, found)                                    \
-    }
-#define REACHED                                                                                                                \
-    {                                                                                                                          \
-        "value", "", "the value", .from = found_of, AT(found, value), .null = NONE                                             \
-    }
-#define SIDE                                                                                                                   \
-    {                                                                                                                          \
-        "side", "", "smallest or largest: which of the values that reach it this is", .from = found_of, .value = side_of,      \
-                                                                                      .null = NONE                             \
-    }
-#define GOALS                                                                                                                  \
-    {"goal_at_value", "", "goal at this value", .from = found_of, AT(found, goal_at_value), .null = NONE},                     \
-        {"nearest", "", "value that comes nearest", .from = found_of, .value = nearest_of, .null = ONE},                       \
-    {                                                                                                                          \
-        "goal_at_nearest", "", "goal at that value", .from = found_of, .value = nearest_goal, .null = ONE                      \
-    }
-#define COST                                                                                                                   \
-    {"monotone", "", "whether the goal only rises or only falls over the range", .from = found_of, AT(found, monotone)},       \
-        {"evaluations", "", "values looked at", .from = found_of, AT(found, evaluations)},                                     \
-    {                                                                                                                          \
-        "rocks", "", "rocks flown for each", .from = search_of, AT(search, rocks)                                              \
-    }
-
-#define OVER                                                                                                                   \
-    {                                                                                                                          \
-        "over", "", "today, or rotation: over one whole rotation, where the parameter is one of growth or cutting",            \
-            .from = search_of, .value = over_of                                                                                \
-    }
-static const struct ceduo_figure found_yield[] = {
-    {"cut_m3_ha_per_year", "m3/ha", "volume felled per hectare of forest and year over a whole rotation",
-     AT(yield, cut_per_year)},
-    {"standing_m3_ha_mean", "m3/ha", "volume standing, in the mean of that rotation", AT(yield, standing)},
-    {"died_m3_ha_per_year", "m3/ha", "volume of the stems that die between two cuts", AT(yield, died_per_year)},
+static const struct ceduo_figure sought[] = {
+    {"scene", "", "path of the file", .value = find_path},
+    {"path", "", "path of the parameter", .from = search_of, AT(search, path)},
+    {"option", "", "name of the option", .value = find_option},
+    {"goal", "", "goal that was asked for", .from = search_of, .value = goal_of},
+    {"target", "", "value that it is to stay below, or at most at", .from = search_of, AT(search, target)},
+    {"lo", "", "lower end of the range", .from = search_of, AT(search, lo)},
+    {"hi", "", "upper end of the range", .from = search_of, AT(search, hi)},
     END};
-#define FOUND_YIELD                                                                                                            \
-    {                                                                                                                          \
-        "yield", "", "stem wood that the option yields at this value", .from = found_yield_of, .of = found_yield,              \
-                                                                       .null = "a stand says nothing of growth or cutting"     \
-    }
+static const struct ceduo_figure found_row[] = {
+    {"found", "", "whether a value reaches the goal", .from = found_of, AT(found, found)}, END};
+static const struct ceduo_figure value_row[] = {{"value", "", "the value", .from = found_of, AT(found, value), .null = NONE},
+                                                END};
+static const struct ceduo_figure side_row[] = {{"side", "", "smallest or largest: which of the values that reach it this is",
+                                                .from = found_of, .value = side_of, .null = NONE},
+                                               END};
+static const struct ceduo_figure goal_rows[] = {
+    {"goal_at_value", "", "goal at this value", .from = found_of, AT(found, goal_at_value), .null = NONE},
+    {"nearest", "", "value that comes nearest", .from = found_of, .value = nearest_of, .null = ONE},
+    {"goal_at_nearest", "", "goal at that value", .from = found_of, .value = nearest_goal, .null = ONE},
+    END};
+static const struct ceduo_figure search_rows[] = {
+    {"monotone", "", "whether the goal only rises or only falls over the range", .from = found_of, AT(found, monotone)},
+    {"evaluations", "", "values looked at", .from = found_of, AT(found, evaluations)},
+    {"rocks", "", "rocks flown for each", .from = search_of, AT(search, rocks)},
+    {"over", "", "today, or rotation: over one whole rotation, where the parameter is one of growth or cutting",
+     .from = search_of, .value = over_of},
+    {"yield", "", "stem wood that the option yields at this value", .from = found_yield_of, .of = yield_rows,
+     .null = NO_GROWTH},
+    END};
 
 const struct ceduo_figure ceduo_find_figures[] = {{"format", "", "always ceduo-find-1", .value = find_format},
                                                   {"version", "", "version of the program", .value = version_of},
-                                                  SOUGHT,
-                                                  FOUND,
-                                                  REACHED,
-                                                  SIDE,
-                                                  GOALS,
-                                                  COST,
-                                                  OVER,
-                                                  FOUND_YIELD,
+                                                  {.of = sought},
+                                                  {.of = found_row},
+                                                  {.of = value_row},
+                                                  {.of = side_row},
+                                                  {.of = goal_rows},
+                                                  {.of = search_rows},
                                                   END};
-const struct ceduo_figure ceduo_find_columns[] = {SOUGHT, REACHED, GOALS, FOUND, SIDE, COST, OVER, FOUND_YIELD, END};
+const struct ceduo_figure ceduo_find_columns[] = {
+    {.of = sought}, {.of = value_row}, {.of = goal_rows}, {.of = found_row}, {.of = side_row}, {.of = search_rows}, END};
 
 /* ---- rows of CSV ---- */
 
-#define OPTION                                                                                                                 \
-    {                                                                                                                          \
-        "option", "", "", .from = option_of, AT(option, name)                                                                  \
-    }
-#define REST                                                                                                                   \
-    SUMMARY, {.of = control}, ENDS, {"difference", "", "", .from = difference_of, .of = differences},                          \
-        {"yield", "", "", .of = yield_columns},                                                                                \
-    {                                                                                                                          \
-        "warnings", "", "", .say = say_of_all                                                                                  \
-    }
+static const struct ceduo_figure option_row[] = {{"option", "", "", .from = option_of, AT(option, name)}, END};
+static const struct ceduo_figure rest[] = {{.of = summary_row},
+                                           {.of = control},
+                                           {.of = end_rows},
+                                           {"difference", "", "", .from = difference_of, .of = differences},
+                                           {"yield", "", "", .of = yield_columns},
+                                           {"warnings", "", "", .say = say_of_all},
+                                           END};
 
-const struct ceduo_figure ceduo_control_columns[] = {{.of = scene}, OPTION, REST, END};
-const struct ceduo_figure ceduo_year_columns[] = {{.of = scene}, OPTION, YEAR, REST, END};
-const struct ceduo_figure ceduo_stand_columns[] = {
-    {.of = scene}, OPTION, {.of = stand_columns}, {"rules", "", "", .from = rules_of, .of = rules}, STAND_WARNINGS, END};
+const struct ceduo_figure ceduo_control_columns[] = {{.of = scene}, {.of = option_row}, {.of = rest}, END};
+const struct ceduo_figure ceduo_year_columns[] = {{.of = scene}, {.of = option_row}, {.of = year_rows}, {.of = rest}, END};
+const struct ceduo_figure ceduo_stand_columns[] = {{.of = scene},          {.of = option_row},
+                                                   {.of = stand_columns},  {"rules", "", "", .from = rules_of, .of = rules},
+                                                   {.of = stand_warnings}, END};
 
 /* ---- the manual ---- */
 

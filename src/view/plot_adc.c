@@ -59,7 +59,7 @@ static void find_scale(struct adc_picture *p, const struct ceduo_option *option)
 static void draw_scale(const struct adc_picture *p, int row)
 {
     int free_from = bar_left(p), end = bar_left(p) + p->bar;
-    struct text threshold = {0};
+    LOCAL_TEXT(threshold);
     ceduo_text_format(&threshold, _("%g m"), p->threshold);
     const char *limit = ceduo_text_string(&threshold);
     int at = column_of(p, p->threshold), limit_end = at + ceduo_canvas_label_width(p->canvas, limit);
@@ -73,7 +73,6 @@ static void draw_scale(const struct adc_picture *p, int row)
         ceduo_canvas_label(p->canvas, column, row, CEDUO_ROLE_AXIS, text);
         free_from = column + width + 2;
     }
-    ceduo_text_free(&threshold);
     ceduo_plot_say(p->canvas, end + 4, row, p->area->left + p->area->width - end - 4, CEDUO_ROLE_AXIS, "%s", _("logarithmic"));
     if (row + 2 < p->end)
         ceduo_plot_say(p->canvas, p->area->left, row + 2, p->area->width, CEDUO_ROLE_DIM,
@@ -84,14 +83,13 @@ static void draw_scale(const struct adc_picture *p, int row)
 
 static void draw_bar(const struct adc_picture *p, double metres, enum ceduo_role role)
 {
-    char room[PLOT_NUMBER_ROOM];
     int at = column_of(p, p->threshold);
     if (isfinite(metres))
         ceduo_canvas_bar(p->canvas, bar_left(p), p->row, p->bar, share_of(p, metres), role);
     if (ceduo_canvas_is_blank(p->canvas, at, p->row))
         ceduo_canvas_label(p->canvas, at, p->row, CEDUO_ROLE_CONTROL, "\xe2\x94\x82");
     ceduo_plot_say_right(p->canvas, bar_left(p) + p->bar + VALUE - 1, p->row, VALUE - 1, CEDUO_ROLE_TEXT,
-                         isfinite(metres) ? _("%s m") : "%s", ceduo_plot_number(metres, 3, room));
+                         isfinite(metres) ? _("%s m") : "%s", WRITTEN(metres, 3));
 }
 
 static void put_verdict(const struct adc_picture *p, const struct ceduo_stand_result *r, bool in_words)
@@ -105,11 +103,9 @@ static void put_verdict(const struct adc_picture *p, const struct ceduo_stand_re
 /* Draws a belt in five rows: its name and its four rules. */
 static void draw_belt(struct adc_picture *p, const struct ceduo_belt *belt, const struct ceduo_stand_result *r)
 {
-    char from[CEDUO_NUMBER_ROOM], to[CEDUO_NUMBER_ROOM];
     struct text name = {0};
     ceduo_plot_belt_name(&name, belt);
-    ceduo_text_then(&name, ", ", "%s\xe2\x80\x93%s m", ceduo_number_shortest(belt->from_given, from),
-                    ceduo_number_shortest(belt->to_given, to));
+    ceduo_text_then(&name, ", ", "%s\xe2\x80\x93%s m", SHORTEST(belt->from_given), SHORTEST(belt->to_given));
     if (r->bare)
         ceduo_text_then(&name, ": ", _("no stems, nothing to meet: NO"));
     ceduo_plot_put_fitting(p->canvas, p->area->left, p->row++, p->area->width, CEDUO_ROLE_BELT, 1, &name);

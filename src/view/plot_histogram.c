@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/language.h"
+#include "base/must.h"
 #include "plot_parts.h"
 
 /* Energies at a control as horizontal bars. */
@@ -42,6 +43,7 @@ struct histogram {
     const struct ceduo_area *area;
     const struct ceduo_control *control;
     const struct ceduo_arrivals *arrivals, *bare; /* bare NULL: there is nothing to be held against */
+    double accepted;                              /* kJ */
     struct bins bins;
     int top, label, bar, numbers, marks; /* row of the first bar; columns they take */
     int digits, bare_digits;             /* of the largest numbers of 1000 */
@@ -49,9 +51,11 @@ struct histogram {
     size_t n, *counts, bare_n, *bare_counts;
 };
 
-static void bin_label(const struct histogram *h, int i, struct text *text)
+/* ---- what stands in a row ---- */
+
+static void write_bin(const struct histogram *h, int i, struct text *text)
 {
-    char lo[PLOT_NUMBER_ROOM], hi[PLOT_NUMBER_ROOM];
+    char lo[CEDUO_TICK_LABEL_SIZE], hi[CEDUO_TICK_LABEL_SIZE];
     double from = h->bins.first + i * h->bins.width;
     ceduo_tick_label(from, h->bins.width, sizeof lo, lo);
     ceduo_tick_label(from + h->bins.width, h->bins.width, sizeof hi, hi);
@@ -61,51 +65,47 @@ static void bin_label(const struct histogram *h, int i, struct text *text)
         ceduo_text_format(text, "%s\xe2\x80\x93%s kJ", lo, hi);
 }
 
-/* ---- marks ---- */
+/* Of 1000 released, those in bin i: bare or not. */
+static double per_1000(const struct histogram *h, bool bare, int i)
+{
+    const struct ceduo_arrivals *a = bare ? h->bare : h->arrivals;
+    const size_t *counts = bare ? h->bare_counts : h->counts, n = bare ? h->bare_n : h->n;
+    return n > 0 ? 1000 * a->reach_probability * (double)counts[i] / (double)n : 0;
+}
+
+static void write_numbers(const struct histogram *h, int i, struct text *text)
+{
+    if (h->bare)
+        ceduo_text_format(text, "%*.0f (%*.0f)", h->digits, per_1000(h, false, i), h->bare_digits, per_1000(h, true, i));
+    else
+        ceduo_text_format(text, "%zu %5.1f %%", h->counts[i], 100.0 * (double)h->counts[i] / (double)h->n);
+}
 
 #define WORD_LEAST 60 /* columns that leave room for a word in a mark */
 
-static void add_mark(const struct histogram *h, int i, double value, const char *name, struct text *text)
+static void add_mark(const struct histogram *h, int i, double kj, const char *name, struct text *text)
 {
-    if (!isnan(value) && bin_of(&h->bins, value * J_TO_KJ) == i)
-        ceduo_text_format(text, "%s%s%s%.3g", text->length > 0 ? ", " : "\xe2\x97\x80 ", name, name[0] == '>' ? "" : " ",
-                          value * J_TO_KJ);
+    if (!isnan(kj) && bin_of(&h->bins, kj) == i)
+        ceduo_text_format(text, "%s%s%s%.3g", text->length > 0 ? ", " : "\xe2\x97\x80 ", name, name[0] == '>' ? "" : " ", kj);
 }
 
-static void marks_of(const struct histogram *h, int i, struct text *text)
+static void write_marks(const struct histogram *h, int i, struct text *text)
 {
     const struct ceduo_distribution *e = &h->arrivals->energy;
-    double kj = h->control->accepted * J_TO_KJ, end = h->bins.first + h->bins.count * h->bins.width;
-    if (kj >= h->bins.first && (kj < end || h->bins.over))
-        add_mark(h, i, h->control->accepted, h->area->width < WORD_LEAST ? ">" : _("withstands"), text);
-    add_mark(h, i, e->p50, "p50", text);
-    add_mark(h, i, e->p95, "p95", text);
+    double end = h->bins.first + h->bins.count * h->bins.width;
+    if (h->accepted >= h->bins.first && (h->accepted < end || h->bins.over))
+        add_mark(h, i, h->accepted, h->area->width < WORD_LEAST ? ">" : _("withstands"), text);
+    add_mark(h, i, e->p50 * J_TO_KJ, "p50", text);
+    add_mark(h, i, e->p95 * J_TO_KJ, "p95", text);
 }
 
 static enum ceduo_role role_of(const struct histogram *h, int i)
 {
-    double kj = h->control->accepted * J_TO_KJ, from = h->bins.first + i * h->bins.width;
-    if (isnan(kj))
-        return CEDUO_ROLE_MEAN;
-    return from >= kj ? CEDUO_ROLE_BAD : from + h->bins.width <= kj ? CEDUO_ROLE_GOOD : CEDUO_ROLE_WARN;
-}
-
-/* ---- rows ---- */
-
-/* Of 1000 released, those in bin i. */
-static double per_1000(const struct ceduo_arrivals *a, const size_t *counts, size_t n, int i)
-{
-    return n > 0 ? 1000 * a->reach_probability * (double)counts[i] / (double)n : 0;
-}
-
-static void number_of(const struct histogram *h, int i, struct text *text)
-{
-    if (h->bare) {
-        ceduo_text_format(text, "%*.0f (%*.0f)", h->digits, per_1000(h->arrivals, h->counts, h->n, i), h->bare_digits,
-                          per_1000(h->bare, h->bare_counts, h->bare_n, i));
-        return;
-    }
-    ceduo_text_format(text, "%zu %5.1f %%", h->counts[i], 100.0 * (double)h->counts[i] / (double)h->n);
+    double from = h->bins.first + i * h->bins.width;
+    return isnan(h->accepted)                    ? CEDUO_ROLE_MEAN
+           : from >= h->accepted                 ? CEDUO_ROLE_BAD
+           : from + h->bins.width <= h->accepted ? CEDUO_ROLE_GOOD
+                                                 : CEDUO_ROLE_WARN;
 }
 
 /* How many columns the widest of a kind of text takes. */
@@ -113,11 +113,10 @@ static int widest(const struct histogram *h, void (*write)(const struct histogra
 {
     int width = 0;
     for (int i = 0; i < h->bins.count; i++) {
-        struct text text = {0};
+        LOCAL_TEXT(text);
         write(h, i, &text);
-        int w = text.bytes ? ceduo_canvas_label_width(h->canvas, text.bytes) : 0;
+        int w = ceduo_canvas_label_width(h->canvas, ceduo_text_string(&text));
         width = w > width ? w : width;
-        ceduo_text_free(&text);
     }
     return width;
 }
@@ -125,40 +124,25 @@ static int widest(const struct histogram *h, void (*write)(const struct histogra
 /* What the bars are drawn to: counts, or with two runs those of 1000 released. */
 static double length_of(const struct histogram *h, int i)
 {
-    return h->bare ? per_1000(h->arrivals, h->counts, h->n, i) : (double)h->counts[i];
+    return h->bare ? per_1000(h, false, i) : (double)h->counts[i];
 }
 
 static void draw_row(const struct histogram *h, int i, double most)
 {
     int row = h->top + i, column = h->area->left + h->label + 1;
     struct text label = {0}, number = {0}, marks = {0};
-    bin_label(h, i, &label);
-    number_of(h, i, &number);
-    marks_of(h, i, &marks);
+    write_bin(h, i, &label);
+    write_numbers(h, i, &number);
+    write_marks(h, i, &marks);
     ceduo_plot_put_right(h->canvas, column - 2, row, h->label, CEDUO_ROLE_AXIS, &label);
     ceduo_canvas_bar(h->canvas, column, row, h->bar, length_of(h, i) / most, role_of(h, i));
     if (h->bare && h->bare_counts[i] > 0) {
-        double share = per_1000(h->bare, h->bare_counts, h->bare_n, i) / most;
-        int at = column + (int)fmin(floor(share * h->bar), h->bar - 1);
+        int at = column + (int)fmin(floor(per_1000(h, true, i) / most * h->bar), h->bar - 1);
         ceduo_canvas_label(h->canvas, at, row, CEDUO_ROLE_BARE, "\xe2\x94\x82");
     }
     column += h->bar + 1;
     ceduo_plot_put_right(h->canvas, column + h->numbers - 1, row, h->numbers, CEDUO_ROLE_TEXT, &number);
     ceduo_plot_put_fitting(h->canvas, column + h->numbers + 1, row, h->marks, CEDUO_ROLE_TITLE, 1, &marks);
-}
-
-static int digits_of(double number)
-{
-    char digits[PLOT_NUMBER_ROOM];
-    return snprintf(digits, sizeof digits, "%.0f", number);
-}
-
-/* What the two numbers are, in the row above them. */
-static void put_number_head(const struct histogram *h)
-{
-    int end = h->area->left + h->label + 1 + h->bar + 1 + h->numbers;
-    if (h->heads && h->bare && h->numbers > 0)
-        ceduo_plot_say_right(h->canvas, end - 1, h->top - 1, end - h->area->left, CEDUO_ROLE_AXIS, "%s", _("wood (bare)"));
 }
 
 /* Returns NULL, or why there is no bar. */
@@ -167,15 +151,13 @@ static const char *draw_rows(struct histogram *h)
     double most = 0, most_bare = 0;
     for (int i = 0; i < h->bins.count; i++) {
         most = fmax(most, length_of(h, i));
-        if (h->bare)
-            most_bare = fmax(most_bare, per_1000(h->bare, h->bare_counts, h->bare_n, i));
+        most_bare = fmax(most_bare, h->bare ? per_1000(h, true, i) : 0);
     }
-    h->digits = digits_of(most);
-    h->bare_digits = digits_of(most_bare);
-    most = fmax(most, most_bare);
-    h->label = widest(h, bin_label);
-    h->numbers = widest(h, number_of);
-    h->marks = widest(h, marks_of);
+    h->digits = snprintf(NULL, 0, "%.0f", most);
+    h->bare_digits = snprintf(NULL, 0, "%.0f", most_bare);
+    h->label = widest(h, write_bin);
+    h->numbers = widest(h, write_numbers);
+    h->marks = widest(h, write_marks);
     h->bar = h->area->width - h->label - h->numbers - h->marks - 3;
     if (h->bar < 4) { /* rather bars without words than no bars */
         h->bar += h->marks;
@@ -187,41 +169,41 @@ static const char *draw_rows(struct histogram *h)
     }
     if (h->bar < 1)
         return _("too narrow");
-    put_number_head(h);
+    int end = h->label + 1 + h->bar + 1 + h->numbers;
+    if (h->heads && h->bare && h->numbers > 0)
+        ceduo_plot_say_right(h->canvas, h->area->left + end - 1, h->top - 1, end, CEDUO_ROLE_AXIS, "%s", _("wood (bare)"));
     for (int i = 0; i < h->bins.count; i++)
-        draw_row(h, i, most);
+        draw_row(h, i, fmax(most, most_bare));
     return NULL;
 }
 
-/* ---- the picture ---- */
+/* ---- the head ---- */
 
 #define HEADS 4 /* the longest first; the first one has a remark as well */
 
 /* With the forest and (without). */
 static void write_wooded_heads(const struct histogram *h, struct text *heads)
 {
-    const struct ceduo_arrivals *a = h->arrivals;
-    double reach = a->reach_probability * 1000, bare_reach = h->bare->reach_probability * 1000;
-    double exceed = a->exceed_probability * 1000, bare_exceed = h->bare->exceed_probability * 1000;
+    double reach = h->arrivals->reach_probability * 1000, bare_reach = h->bare->reach_probability * 1000;
+    double exceed = h->arrivals->exceed_probability * 1000, bare_exceed = h->bare->exceed_probability * 1000;
     ceduo_text_format(&heads[1], _("of 1000 released %.0f arrive (\xe2\x94\x82 bare %.0f)"), reach, bare_reach);
     ceduo_text_format(&heads[2], _("of 1000: %.0f arrive (\xe2\x94\x82 bare %.0f)"), reach, bare_reach);
     ceduo_text_format(&heads[3], _("of 1000: %.0f (\xe2\x94\x82 bare %.0f)"), reach, bare_reach);
     for (int i = 1; i < HEADS && !isnan(exceed); i++)
         ceduo_text_then(&heads[i], ", ", i == 1 ? _("%.0f (%.0f) with more than %g kJ") : "%.0f (%.0f) > %g kJ", exceed,
-                        bare_exceed, h->control->accepted * J_TO_KJ);
+                        bare_exceed, h->accepted);
 }
 
 static void write_bare_heads(const struct histogram *h, struct text *heads)
 {
-    const struct ceduo_arrivals *a = h->arrivals;
-    unsigned long long reached = a->reached, released = a->released;
-    double exceed = a->exceed_probability * 1000;
+    unsigned long long reached = h->arrivals->reached, released = h->arrivals->released;
+    double exceed = h->arrivals->exceed_probability * 1000;
     ceduo_text_format(&heads[1], _("n = %llu of %llu rocks arrive"), reached, released);
     ceduo_text_format(&heads[2], _("n = %llu of %llu"), reached, released);
     ceduo_text_format(&heads[3], _("n = %llu"), reached);
     for (int i = 1; i < HEADS && !isnan(exceed); i++)
         ceduo_text_then(&heads[i], "; ", i == 1 ? _("of 1000 released, %.0f with more than %g kJ") : _("of 1000: %.0f > %g kJ"),
-                        exceed, h->control->accepted * J_TO_KJ);
+                        exceed, h->accepted);
 }
 
 static void put_head(const struct histogram *h)
@@ -237,21 +219,21 @@ static void put_head(const struct histogram *h)
     ceduo_plot_put_fitting(h->canvas, h->area->left, h->area->top, h->area->width, CEDUO_ROLE_TEXT, HEADS, heads);
 }
 
+/* ---- the picture ---- */
+
 static size_t *count_in(const struct bins *bins, const struct ceduo_energies *e)
 {
-    size_t *counts = calloc((size_t)bins->count, sizeof *counts);
-    for (size_t i = 0; counts && i < e->n; i++)
+    size_t *counts = ceduo_must(calloc((size_t)bins->count, sizeof *counts));
+    for (size_t i = 0; i < e->n; i++)
         counts[bin_of(bins, e->values[i] * J_TO_KJ)]++;
     return counts;
 }
 
-/* Puts the energies into bins that both kinds of rocks share; false without memory. */
-static bool count(struct histogram *h, const struct ceduo_energies *e, const struct ceduo_energies *bare, int rows)
+/* Puts the energies into bins that both kinds of rocks share. */
+static void count(struct histogram *h, const struct ceduo_energies *e, const struct ceduo_energies *bare, int rows)
 {
     size_t n = e->n + (bare ? bare->n : 0);
-    double *all = malloc((n + 1) * sizeof *all), least, most;
-    if (!all)
-        return false;
+    double *all = ceduo_must(malloc((n + 1) * sizeof *all)), least, most;
     if (e->n > 0)
         memcpy(all, e->values, e->n * sizeof *all);
     if (bare && bare->n > 0)
@@ -262,11 +244,8 @@ static bool count(struct histogram *h, const struct ceduo_energies *e, const str
     free(all);
     h->n = e->n;
     h->counts = count_in(&h->bins, e);
-    if (bare) {
-        h->bare_n = bare->n;
-        h->bare_counts = count_in(&h->bins, bare);
-    }
-    return h->counts && (!bare || h->bare_counts);
+    h->bare_n = bare ? bare->n : 0;
+    h->bare_counts = bare ? count_in(&h->bins, bare) : NULL;
 }
 
 const char *ceduo_plot_histogram(struct ceduo_canvas *canvas, const struct ceduo_area *area,
@@ -274,28 +253,28 @@ const char *ceduo_plot_histogram(struct ceduo_canvas *canvas, const struct ceduo
 {
     size_t c = picture->control;
     const struct ceduo_sight *sight = ceduo_plot_sight(picture), *bare = ceduo_plot_bare(picture);
-    bool wooded = ceduo_plot_wooded(picture);
+    bool wooded = ceduo_plot_wooded(picture), head = area->height >= 4;
     struct histogram h = {.canvas = canvas,
                           .area = area,
                           .control = ceduo_plot_control(picture),
                           .arrivals = ceduo_plot_arrivals(picture, c),
-                          .bare = wooded ? ceduo_plot_bare_arrivals(picture, c) : NULL};
-    bool head = area->height >= 4;
-    h.heads = area->height >= 10;
+                          .bare = wooded ? ceduo_plot_bare_arrivals(picture, c) : NULL,
+                          .heads = area->height >= 10};
     int rows = area->height - head - h.heads;
-    const char *why = NULL;
     if (!h.control)
         return _("no control");
     if (!h.arrivals || (wooded && !h.bare))
         return _("not computed yet");
     if (sight->energies[c].n == 0 && bare->energies[c].n == 0)
         return _("no rock arrives");
-    if (rows >= 1 && count(&h, &sight->energies[c], wooded ? &bare->energies[c] : NULL, rows)) {
-        h.top = area->top + head + h.heads;
-        if (head)
-            put_head(&h);
-        why = draw_rows(&h);
-    }
+    if (rows < 1)
+        return NULL;
+    h.accepted = h.control->accepted * J_TO_KJ;
+    h.top = area->top + head + h.heads;
+    count(&h, &sight->energies[c], wooded ? &bare->energies[c] : NULL, rows);
+    if (head)
+        put_head(&h);
+    const char *why = draw_rows(&h);
     free(h.counts);
     free(h.bare_counts);
     return why;

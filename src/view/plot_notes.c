@@ -14,34 +14,25 @@ struct notes {
     int left, width, row, end;
 };
 
-static void put_line(struct notes *n, enum ceduo_role role, struct text *line)
-{
-    bool room = n->row < n->end;
-    ceduo_plot_put_fitting(n->canvas, n->left, n->row, room ? n->width : 0, role, 1, line);
-    n->row += room;
-}
-
 __attribute__((format(printf, 3, 4))) static void note(struct notes *n, enum ceduo_role role, const char *format, ...)
 {
     struct text line = {0};
     va_list args;
+    bool room = n->row < n->end;
     va_start(args, format);
     ceduo_text_vformat(&line, format, args);
     va_end(args);
-    put_line(n, role, &line);
+    ceduo_plot_put_fitting(n->canvas, n->left, n->row, room ? n->width : 0, role, 1, &line);
+    n->row += room;
 }
 
 /* Under a heading, set in by a blank. */
-__attribute__((format(printf, 2, 3))) static void note_in(struct notes *n, const char *format, ...)
-{
-    struct text line = {0};
-    va_list args;
-    ceduo_text_char(&line, ' ');
-    va_start(args, format);
-    ceduo_text_vformat(&line, format, args);
-    va_end(args);
-    put_line(n, CEDUO_ROLE_TEXT, &line);
-}
+#define NOTE_IN(n, ...)                                                                                                        \
+    do {                                                                                                                       \
+        LOCAL_TEXT(in);                                                                                                        \
+        ceduo_text_format(&in, __VA_ARGS__);                                                                                   \
+        note(n, CEDUO_ROLE_TEXT, " %s", in.bytes);                                                                             \
+    } while (0)
 
 static void note_scale(struct notes *n, double factor)
 {
@@ -74,45 +65,41 @@ static void note_ways(struct notes *n)
 
 static void note_belt(struct notes *n, const struct ceduo_belt *belt)
 {
-    char from[CEDUO_NUMBER_ROOM], to[CEDUO_NUMBER_ROOM];
-    struct text name = {0};
+    LOCAL_TEXT(name);
     ceduo_plot_belt_name(&name, belt);
     if (n->row + 3 < n->end)
         n->row++;
     note(n, CEDUO_ROLE_BELT, "%s", ceduo_text_string(&name));
-    ceduo_text_free(&name);
-    note(n, CEDUO_ROLE_TEXT, " %s\xe2\x80\x93%s m", ceduo_number_shortest(belt->from_given, from),
-         ceduo_number_shortest(belt->to_given, to));
+    note(n, CEDUO_ROLE_TEXT, " %s\xe2\x80\x93%s m", SHORTEST(belt->from_given), SHORTEST(belt->to_given));
     double count = ceduo_stand_shoots(&belt->stand) + ceduo_stand_trees(&belt->stand);
     if (!(count > 0)) {
         note(n, CEDUO_ROLE_TEXT, " %s", _("no stems"));
         return;
     }
-    note_in(n, _("%.*f stems/ha"), count < 10 ? 1 : 0, count);
-    note_in(n, _("up to %g m high"), ceduo_plot_tallest(&belt->stand));
+    NOTE_IN(n, _("%.*f stems/ha"), count < 10 ? 1 : 0, count);
+    NOTE_IN(n, _("up to %g m high"), ceduo_plot_tallest(&belt->stand));
 }
 
 static void note_control(struct notes *n, size_t c)
 {
     const struct ceduo_arrivals *a = ceduo_plot_arrivals(n->picture, c);
     const struct ceduo_arrivals *bare = ceduo_plot_bare_arrivals(n->picture, c);
-    char room[CEDUO_NUMBER_ROOM];
+    const struct ceduo_control *control = &n->picture->scene->controls[c];
     if (!a || !bare || n->row + 2 >= n->end)
         return;
     n->row++;
-    ceduo_number_shortest(n->picture->scene->controls[c].x_given, room);
     if (ceduo_plot_wooded(n->picture)) {
-        note(n, CEDUO_ROLE_CONTROL, _("At %s m, wood (bare)"), room);
-        note_in(n, _("%.0f (%.0f) of 1000"), a->reach_probability * 1000, bare->reach_probability * 1000);
+        note(n, CEDUO_ROLE_CONTROL, _("At %s m, wood (bare)"), SHORTEST(control->x_given));
+        NOTE_IN(n, _("%.0f (%.0f) of 1000"), a->reach_probability * 1000, bare->reach_probability * 1000);
         if (!isnan(a->exceed_probability))
-            note_in(n, "%.0f (%.0f) > %g kJ", a->exceed_probability * 1000, bare->exceed_probability * 1000,
-                    n->picture->scene->controls[c].accepted * J_TO_KJ);
+            NOTE_IN(n, "%.0f (%.0f) > %g kJ", a->exceed_probability * 1000, bare->exceed_probability * 1000,
+                    control->accepted * J_TO_KJ);
         return;
     }
-    note(n, CEDUO_ROLE_CONTROL, _("At %s m without forest"), room);
-    note_in(n, _("%.0f of 1000 arrive"), a->reach_probability * 1000);
+    note(n, CEDUO_ROLE_CONTROL, _("At %s m without forest"), SHORTEST(control->x_given));
+    NOTE_IN(n, _("%.0f of 1000 arrive"), a->reach_probability * 1000);
     if (!isnan(a->exceed_probability))
-        note_in(n, _("%.0f with > %g kJ"), a->exceed_probability * 1000, n->picture->scene->controls[c].accepted * J_TO_KJ);
+        NOTE_IN(n, _("%.0f with > %g kJ"), a->exceed_probability * 1000, control->accepted * J_TO_KJ);
 }
 
 /* The factor alone, at the right of the top row. */

@@ -35,7 +35,7 @@ int ceduo_plot_say(struct ceduo_canvas *canvas, int column, int row, int most, e
 
 void ceduo_plot_put_ends(struct ceduo_canvas *canvas, int column, int row, int most, enum ceduo_role role, const char *name)
 {
-    struct text safe = {0};
+    LOCAL_TEXT(safe);
     ceduo_text_safe(&safe, name);
     const char *string = ceduo_text_string(&safe), *end = string;
     int tail = most * 2 / 5;
@@ -45,7 +45,6 @@ void ceduo_plot_put_ends(struct ceduo_canvas *canvas, int column, int row, int m
         end += ceduo_utf8_step(end);
     if (!whole)
         ceduo_canvas_label_right(canvas, column + most - 1, row, role, end);
-    ceduo_text_free(&safe);
 }
 
 void ceduo_plot_put_right(struct ceduo_canvas *canvas, int column, int row, int most, enum ceduo_role role, struct text *text)
@@ -66,23 +65,19 @@ void ceduo_plot_say_right(struct ceduo_canvas *canvas, int column, int row, int 
     ceduo_plot_put_right(canvas, column, row, most, role, &text);
 }
 
-const char *ceduo_plot_number(double value, int digits, char room[PLOT_NUMBER_ROOM])
+int ceduo_plot_say_fitting(struct ceduo_canvas *canvas, int column, int row, int most, enum ceduo_role role, const char *words,
+                           const char *fewer)
 {
-    struct text text = {0};
-    ceduo_words_number(&text, value, digits);
-    snprintf(room, PLOT_NUMBER_ROOM, "%s", ceduo_text_string(&text));
-    ceduo_text_free(&text);
-    return room;
+    bool fits = ceduo_canvas_label_width(canvas, words) <= most;
+    return ceduo_canvas_put(canvas, column, row, most, role, fits ? words : fewer);
 }
 
 void ceduo_plot_control_name(struct text *text, const struct ceduo_control *control)
 {
-    char room[CEDUO_NUMBER_ROOM];
-    const char *x = ceduo_number_shortest(control->x_given, room);
     if (control->name)
-        ceduo_text_format(text, _("%s (%s m)"), control->name, x);
+        ceduo_text_format(text, _("%s (%s m)"), control->name, SHORTEST(control->x_given));
     else
-        ceduo_text_format(text, _("%s m"), x);
+        ceduo_text_format(text, _("%s m"), SHORTEST(control->x_given));
 }
 
 void ceduo_plot_belt_name(struct text *text, const struct ceduo_belt *belt)
@@ -171,6 +166,35 @@ void ceduo_plot_axes(struct ceduo_canvas *canvas, const struct ceduo_frame *fram
     ceduo_canvas_axis_left(canvas, &given);
     if (unit)
         ceduo_canvas_axis_bottom(canvas, &given, unit);
+}
+
+struct ceduo_chart ceduo_chart_place(struct ceduo_canvas *canvas, const struct ceduo_area *area,
+                                     const struct ceduo_chart_size *size)
+{
+    bool beside = area->width >= size->width + size->axis + size->legend + 16;
+    int below = !beside && area->height - size->lines >= size->height + 3 ? size->lines : 0;
+    struct ceduo_chart c = {.canvas = canvas,
+                            .frame = {.left = area->left + size->axis,
+                                      .top = area->top + 1,
+                                      .width = area->width - size->axis - 1 - (beside ? size->legend + 2 : 0),
+                                      .height = area->height - 1 - size->below - below},
+                            .legend = {area->left, area->top + area->height - below, area->width, below}};
+    if (beside)
+        c.legend = (struct ceduo_area){area->left + area->width - size->legend, area->top + 1, size->legend, area->height - 1};
+    return c;
+}
+
+void ceduo_chart_sign(const struct ceduo_chart *c, double x, double y, bool beside, enum ceduo_role role, const char *sign)
+{
+    const struct ceduo_frame *f = &c->frame;
+    int column, row, width = ceduo_canvas_label_width(c->canvas, sign);
+    if (!ceduo_frame_cell(f, c->canvas, x, y, &column, &row))
+        return;
+    if (beside)
+        column += column + 1 + width > f->left + f->width ? -width : 1;
+    while (row + 1 < f->top + f->height && !ceduo_canvas_is_blank(c->canvas, column, row))
+        row++;
+    ceduo_canvas_label(c->canvas, column, row, role, sign);
 }
 
 double ceduo_plot_round(double value, bool up)

@@ -29,10 +29,8 @@ void ceduo_plot_say_right(struct ceduo_canvas *canvas, int column, int row, int 
 /* The first of `count` texts that has room, the last one cut where none has. Frees them all. */
 int ceduo_plot_put_fitting(struct ceduo_canvas *canvas, int column, int row, int most, enum ceduo_role role, size_t count,
                            struct text *texts);
-
-/* A number as words_number writes it. */
-#define PLOT_NUMBER_ROOM 48
-const char *ceduo_plot_number(double value, int digits, char room[PLOT_NUMBER_ROOM]);
+int ceduo_plot_say_fitting(struct ceduo_canvas *canvas, int column, int row, int most, enum ceduo_role role, const char *words,
+                           const char *fewer);
 
 /* "end of the forest (135 m)", or "135 m". */
 void ceduo_plot_control_name(struct text *text, const struct ceduo_control *control);
@@ -62,6 +60,23 @@ struct ceduo_frame ceduo_plot_given(const struct ceduo_frame *frame, double x, d
 
 /* The left axis of a frame in the user's coordinates, and the bottom axis in `unit` (NULL: none). */
 void ceduo_plot_axes(struct ceduo_canvas *canvas, const struct ceduo_frame *frame, double x, double y, const char *unit);
+
+/* A frame with a legend: beside it where the area is wide, otherwise below it, and nowhere where that leaves no `height`. */
+struct ceduo_chart {
+    struct ceduo_canvas *canvas;
+    struct ceduo_frame frame; /* its ranges are 0 */
+    struct ceduo_area legend; /* of no height: it has no room */
+};
+struct ceduo_chart_size {
+    int axis, below;   /* columns of the left axis, rows of the bottom axis */
+    int legend, lines; /* columns and rows of the legend */
+    int width, height; /* the least of the picture */
+};
+struct ceduo_chart ceduo_chart_place(struct ceduo_canvas *canvas, const struct ceduo_area *area,
+                                     const struct ceduo_chart_size *size);
+
+/* A sign at a point, or beside it; a little lower where another stands there. */
+void ceduo_chart_sign(const struct ceduo_chart *chart, double x, double y, bool beside, enum ceduo_role role, const char *sign);
 
 /* The largest 1, 2 or 5 times a power of ten that is not above a value, or the least that is not below. */
 double ceduo_plot_round(double value, bool up);

@@ -187,7 +187,8 @@ static void draw_passed(const struct profile *p)
 static void draw_ways(const struct profile *p)
 {
     const struct ceduo_sight *s = ceduo_plot_sight(p->picture);
-    if (s && ceduo_canvas_cloud_start(p->canvas)) {
+    if (s) {
+        ceduo_canvas_cloud_start(p->canvas);
         for (size_t i = 0; i < s->trajectories_count; i++)
             ceduo_canvas_cloud_add(p->canvas, &p->frame, s->trajectories[i].n, s->trajectories[i].x, s->trajectories[i].z);
         ceduo_canvas_cloud_show(p->canvas, RARE);
@@ -221,7 +222,7 @@ static void name_control(const struct profile *p, const struct ceduo_control *co
     int column, row;
     if (!ceduo_frame_cell(&p->frame, p->canvas, control->x, p->frame.y0, &column, &row))
         return;
-    struct text name = {0};
+    LOCAL_TEXT(name);
     ceduo_plot_control_name(&name, control);
     const char *bytes = ceduo_text_string(&name);
     int width = ceduo_canvas_label_width(p->canvas, bytes);
@@ -235,7 +236,6 @@ static void name_control(const struct profile *p, const struct ceduo_control *co
             ceduo_canvas_label(p->canvas, column, y, CEDUO_ROLE_CONTROL, "\xe2\x96\xbc");
         break;
     }
-    ceduo_text_free(&name);
 }
 
 static void mark_release(const struct profile *p)
@@ -274,7 +274,7 @@ static void name_forest(const struct profile *p)
     const struct ceduo_option *option = ceduo_plot_option(p->picture);
     if (!ceduo_plot_wooded(p->picture) || !ceduo_plot_sight(p->picture) || !option || !option->name)
         return;
-    struct text name = {0};
+    LOCAL_TEXT(name);
     ceduo_text_format(&name, _("ways: %s"), option->name);
     const char *bytes = ceduo_text_string(&name);
     int width = ceduo_canvas_label_width(p->canvas, bytes), most = 0, row = 0;
@@ -286,7 +286,6 @@ static void name_forest(const struct profile *p)
     }
     if (most == width || most >= FOREST_LEAST)
         ceduo_plot_say_right(p->canvas, area_end(p->area) - 1, p->area->top + row, most, CEDUO_ROLE_CLOUD, "%s", bytes);
-    ceduo_text_free(&name);
 }
 
 /* ├── ADS 1 ──┤ below the axis. */
@@ -304,7 +303,7 @@ static void draw_belt_bar(const struct profile *p, const struct ceduo_belt *belt
                            : column == from   ? "\xe2\x94\x9c"
                            : column == to - 1 ? "\xe2\x94\xa4"
                                               : "\xe2\x94\x80");
-    struct text name = {0};
+    LOCAL_TEXT(name);
     ceduo_text_char(&name, ' ');
     ceduo_plot_belt_name(&name, belt);
     ceduo_text_char(&name, ' ');
@@ -312,7 +311,6 @@ static void draw_belt_bar(const struct profile *p, const struct ceduo_belt *belt
     int width = ceduo_canvas_label_width(p->canvas, bytes), room = to - from - 2;
     int start = width < room ? from + 1 + (room - width) / 2 : from + 1;
     ceduo_canvas_put(p->canvas, start, row, room, CEDUO_ROLE_BELT, bytes);
-    ceduo_text_free(&name);
 }
 
 static void draw_belts(const struct profile *p)

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 
 #include "base/language.h"
+#include "base/must.h"
 #include "base/utf8.h"
 #include "plot_parts.h"
 #include "study/verdict.h"
@@ -115,7 +116,8 @@ static void draw(struct rotation *r)
     const struct ceduo_area *a = r->area;
     double threshold = r->picture->scene->simulation.threshold;
     int strips = a->height - 1 - 2 - LIGHTS, first = strips / 2;
-    struct text adc = {0}, share = {0};
+    LOCAL_TEXT(adc);
+    LOCAL_TEXT(share);
     if (a->width >= 60)
         ceduo_text_format(&adc, _("ADC of the worst belt, m (limit %g; at the top: %g or more)"), threshold,
                           ADC_TOP * threshold);
@@ -139,8 +141,6 @@ static void draw(struct rotation *r)
     ceduo_canvas_axis_bottom(r->canvas, &r->frame, _("years"));
     draw_lights(r, a->top + a->height - LIGHTS);
     draw_cuts(r, a->top);
-    ceduo_text_free(&adc);
-    ceduo_text_free(&share);
 }
 
 const char *ceduo_plot_rotation(struct ceduo_canvas *canvas, const struct ceduo_area *area, const struct ceduo_picture *picture)
@@ -157,23 +157,21 @@ const char *ceduo_plot_rotation(struct ceduo_canvas *canvas, const struct ceduo_
         return !r.control ? _("no control") : _("not computed yet");
     if (area->height < 1 + STRIP_LEAST + 2 + LIGHTS || area->width < 24)
         return _("too narrow");
-    r.x = malloc((years->count + 1) * sizeof *r.x);
-    r.y = malloc((years->count + 1) * sizeof *r.y);
-    if (r.x && r.y) {
-        for (size_t i = 0; i < years->count; i++)
-            r.x[i] = years->years[i].year;
-        double last = r.x[years->count - 1];
-        r.frame = (struct ceduo_frame){.left = area->left + 6,
-                                       .width = area->width - 8,
-                                       .x0 = r.x[0],
-                                       .x_whole = true,
-                                       .x1 = last > r.x[0] ? last : r.x[0] + 1};
-        /* a whole number of columns for each year, where there are as many, so that marks stand at even distances */
-        int steps = (int)years->count - 1, step = steps > 0 ? (r.frame.width - 1) / steps : 0;
-        if (step > 0)
-            r.frame.width = step * steps + 1;
-        draw(&r);
-    }
+    r.x = ceduo_must(malloc((years->count + 1) * sizeof *r.x));
+    r.y = ceduo_must(malloc((years->count + 1) * sizeof *r.y));
+    for (size_t i = 0; i < years->count; i++)
+        r.x[i] = years->years[i].year;
+    double last = r.x[years->count - 1];
+    r.frame = (struct ceduo_frame){.left = area->left + 6,
+                                   .width = area->width - 8,
+                                   .x0 = r.x[0],
+                                   .x_whole = true,
+                                   .x1 = last > r.x[0] ? last : r.x[0] + 1};
+    /* a whole number of columns for each year, where there are as many, so that marks stand at even distances */
+    int steps = (int)years->count - 1, step = steps > 0 ? (r.frame.width - 1) / steps : 0;
+    if (step > 0)
+        r.frame.width = step * steps + 1;
+    draw(&r);
     free(r.x);
     free(r.y);
     return NULL;

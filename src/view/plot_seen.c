@@ -6,14 +6,6 @@
 #define WIDTH_LEAST  30
 #define HEIGHT_LEAST 6
 
-static void draw_caption(struct ceduo_canvas *canvas, const struct ceduo_area *area)
-{
-    struct text words[2] = {{0}, {0}};
-    ceduo_text_put(&words[0], _("share that lies farther: a line what was seen, shaded 95 % of simulated samples"));
-    ceduo_text_put(&words[1], _("lies farther: line seen, shaded simulated"));
-    ceduo_plot_put_fitting(canvas, area->left, area->top, area->width, CEDUO_ROLE_AXIS, 2, words);
-}
-
 void ceduo_plot_seen(struct ceduo_canvas *canvas, const struct ceduo_area *area, const struct ceduo_seen_stops *s,
                      double origin)
 {
@@ -31,7 +23,9 @@ void ceduo_plot_seen(struct ceduo_canvas *canvas, const struct ceduo_area *area,
     int axis = ceduo_frame_axis_width(&frame, canvas);
     frame.left += axis;
     frame.width -= axis;
-    draw_caption(canvas, area);
+    ceduo_plot_say_fitting(canvas, area->left, area->top, area->width, CEDUO_ROLE_AXIS,
+                           _("share that lies farther: a line what was seen, shaded 95 % of simulated samples"),
+                           _("lies farther: line seen, shaded simulated"));
     for (size_t i = 0; i < CEDUO_SEEN_PLACES; i++)
         ceduo_canvas_line(canvas, &frame, CEDUO_ROLE_DIM, s->x[i], s->lo[i], s->x[i], s->hi[i]);
     ceduo_canvas_polyline(canvas, &frame, CEDUO_ROLE_ENVELOPE, CEDUO_SEEN_PLACES, s->x, s->lo);

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include "base/language.h"
+#include "base/must.h"
 #include "plot_parts.h"
 
 /* A stand from above, or a rock's trajectory through it. Places of a stand are drawn from a generator of its
@@ -165,9 +166,7 @@ static void draw_stems(struct plan *p)
     size_t stools = ceduo_stand_has_shoots(s) ? count_in(p, s->stools_per_ha) : 0, all = stools;
     for (size_t k = 0; k < s->trees_count; k++)
         all += count_in(p, s->trees[k].per_ha);
-    p->feet = malloc((all + 1) * sizeof *p->feet);
-    if (!p->feet)
-        return;
+    p->feet = ceduo_must(malloc((all + 1) * sizeof *p->feet));
     for (size_t k = 0; k < s->trees_count; k++)
         for (size_t i = 0, n = count_in(p, s->trees[k].per_ha); i < n; i++)
             draw_tree(p, k, i);
@@ -191,10 +190,9 @@ static void put_words(const struct plan *p, const struct ceduo_area *area)
                          _("No stems: nothing stands in a rock's way."));
         return;
     }
-    char room[PLOT_NUMBER_ROOM];
     struct text words[3] = {{0}}; /* the longest first */
     ceduo_text_format(&words[0], _("One pattern of many. The rock (%s m wide) meets %zu stools or trees in %g m."),
-                      ceduo_plot_number(p->strip, 2, room), p->met, PATCH_M);
+                      WRITTEN(p->strip, 2), p->met, PATCH_M);
     ceduo_text_format(&words[1], _("One pattern of many: %zu stools or trees are met"), p->met);
     ceduo_text_format(&words[2], _("One pattern of many: %zu met"), p->met);
     ceduo_plot_put_fitting(p->canvas, area->left, area->top + area->height - 1, area->width, CEDUO_ROLE_TEXT, 3, words);

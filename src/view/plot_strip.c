@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "base/language.h"
+#include "base/must.h"
 #include "plot_parts.h"
 
 /* Strips along the slope: curves of what the rocks that pass each place have in height or energy. */
@@ -110,9 +111,9 @@ static size_t add_peak(const struct strip *s, const struct curve *curve, struct 
 {
     const struct ceduo_outlook *o = s->picture->outlook;
     const struct ceduo_envelope *cells = (curve->bare ? s->bare : s->sight)->envelopes;
-    double *values = malloc((o->cells + 1) * sizeof *values);
+    double *values = ceduo_must(malloc((o->cells + 1) * sizeof *values));
     size_t n = 0;
-    for (size_t i = 0; values && i < o->cells; i++) {
+    for (size_t i = 0; i < o->cells; i++) {
         double v = value_at(s, curve, i);
         if (!shown(s, i) || cells[i].passed == 0 || isnan(v))
             continue;
@@ -273,14 +274,13 @@ static void draw_accepted(const struct strip *s, const struct ceduo_control *c)
     if (isnan(accepted) || !ceduo_frame_cell(&s->frame, s->canvas, c->x, accepted, &column, &row))
         return;
     ceduo_canvas_line(s->canvas, &s->frame, CEDUO_ROLE_BAD, c->x - reach, accepted, c->x + reach, accepted);
-    struct text label = {0};
+    LOCAL_TEXT(label);
     ceduo_text_format(&label, _("withstands %g kJ"), accepted);
-    int width = label.bytes ? ceduo_canvas_label_width(s->canvas, label.bytes) : 0, left, right;
+    int width = ceduo_canvas_label_width(s->canvas, label.bytes), left, right;
     ceduo_frame_cell(&s->frame, s->canvas, fmax(c->x - reach, s->frame.x0), accepted, &left, &row);
     ceduo_frame_cell(&s->frame, s->canvas, fmin(c->x + reach, s->frame.x1), accepted, &right, &row);
-    if (width > 0 && find_free(s, left - 1 - width, right + 2, width, &column, &row))
+    if (find_free(s, left - 1 - width, right + 2, width, &column, &row))
         ceduo_canvas_label(s->canvas, column, row, CEDUO_ROLE_BAD, label.bytes);
-    ceduo_text_free(&label);
 }
 
 static void draw_controls(const struct strip *s)
@@ -336,12 +336,10 @@ static int put_legend(const struct strip *s, int column, int room)
 /* What lies beyond the top, in as many words as there is room for. */
 static void put_cut(const struct strip *s, const struct peak *peak, int column, int room)
 {
-    char value[PLOT_NUMBER_ROOM], at[PLOT_NUMBER_ROOM];
-    const char *name = _(peak->curve), *unit = s->energy ? _("kJ") : _("m");
+    const char *name = _(peak->curve), *unit = s->energy ? _("kJ") : _("m"), *value = WRITTEN(peak->largest, 3);
     struct text words[3] = {{0}};
-    ceduo_plot_number(peak->largest, 3, value);
-    ceduo_plot_number(peak->at + s->picture->scene->slope.origin_x, 3, at);
-    ceduo_text_then(&words[0], "; ", _("%s beyond the top: %s %s at %s m"), name, value, unit, at);
+    ceduo_text_then(&words[0], "; ", _("%s beyond the top: %s %s at %s m"), name, value, unit,
+                    WRITTEN(peak->at + s->picture->scene->slope.origin_x, 3));
     ceduo_text_then(&words[1], "; ", _("%s up to %s %s"), name, value, unit);
     ceduo_text_then(&words[2], "; ", _("up to %s"), value);
     ceduo_plot_put_fitting(s->canvas, column, s->area->top, room, CEDUO_ROLE_WARN, 3, words);

@@ -292,10 +292,10 @@ static void draw_axis_unit(void *to, int column, int row, const char *unit)
     mark_drawn(svg, column, row, label_width(NULL, unit));
 }
 
-static bool start_cloud(void *to)
+static void start_cloud(void *to)
 {
     struct ceduo_svg *svg = to;
-    return ceduo_cells_surface.cloud_start(svg->cells);
+    ceduo_cells_surface.cloud_start(svg->cells);
 }
 
 /* The ways stand on the page already, each as a thin line: where many pass it is dark. */

@@ -124,7 +124,7 @@ static void useless_frames_draw_nothing(void **state)
     };
     const double x[] = {0, 1};
     struct ceduo_cells *cells = cells_in(4, 2, BRAILLE);
-    assert_true(ceduo_canvas_cloud_start(&cells->canvas));
+    ceduo_canvas_cloud_start(&cells->canvas);
     for (size_t i = 0; i < sizeof frames / sizeof frames[0]; ++i) {
         const struct ceduo_frame *frame = &frames[i];
         int column;
@@ -230,7 +230,7 @@ static void density_shows_the_most_travelled_dots(void **state)
         count_line(cells, &frame, 0, 0, 3, 0); /* not started */
         ceduo_canvas_cloud_show(&cells->canvas, 0);
         expect_text(cells, "\n");
-        assert_true(ceduo_canvas_cloud_start(&cells->canvas));
+        ceduo_canvas_cloud_start(&cells->canvas);
         ceduo_canvas_cloud_show(&cells->canvas, 0);
         for (int i = 0; i < 4; ++i)
             count_line(cells, &frame, 0, 0, i, 0); /* passed 4, 3, 2, 1 times */
@@ -253,7 +253,7 @@ static void a_way_counts_once_where_its_parts_meet(void **state)
     for (int i = 0; i <= LAST_CHARSET; ++i) {
         struct ceduo_cells *cells = cells_in(4, 1, (enum ceduo_charset)i);
         struct ceduo_frame frame = dots_of(cells);
-        assert_true(ceduo_canvas_cloud_start(&cells->canvas));
+        ceduo_canvas_cloud_start(&cells->canvas);
         ceduo_canvas_cloud_add(&cells->canvas, &frame, 8, x, y);
         ceduo_canvas_cloud_show(&cells->canvas, 1);
         ceduo_canvas_cloud_add(&cells->canvas, &frame, 8, x, y);
@@ -267,7 +267,7 @@ static void density_counts_only_within_the_canvas(void **state)
     (void)state;
     struct ceduo_cells *cells = cells_in(2, 1, BRAILLE);
     struct ceduo_frame frame = {.left = -3, .top = -3, .width = 12, .height = 9, .x1 = 1, .y1 = 1};
-    assert_true(ceduo_canvas_cloud_start(&cells->canvas));
+    ceduo_canvas_cloud_start(&cells->canvas);
     count_line(cells, &frame, 0, 0, 1, 1);
     count_line(cells, &frame, 0, 1, 1, 0);
     count_line(cells, &frame, 0, 0.65, 1, 0.65);

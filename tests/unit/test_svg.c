@@ -149,7 +149,7 @@ static void ways_that_get_nowhere_are_short(void **state)
             y[i] = 40 + 30 * sin(1.7 * i);
         }
         struct ceduo_canvas *canvas = ceduo_svg_canvas(svg);
-        assert_true(ceduo_canvas_cloud_start(canvas));
+        ceduo_canvas_cloud_start(canvas);
         ceduo_canvas_cloud_add(canvas, &frame, (size_t)n, x, y);
         ceduo_canvas_cloud_show(canvas, 0);
         char *picture = put(svg);
