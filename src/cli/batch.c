@@ -51,20 +51,16 @@ enum exit_status ceduo_batch_run(const struct arguments *a)
     enum exit_status status = EXIT_DONE, written = EXIT_DONE;
     bool first = true;
     for (size_t i = 0; i < a->scenes_count && written == EXIT_DONE; i++) {
-        struct text one = {0};
+        LOCAL_TEXT(one);
         enum exit_status result = batch_scene(a, i, &one);
         status = worse(status, result);
-        if (result == EXIT_OUTPUT) { /* nothing is written over what was read */
-            ceduo_text_free(&one);
+        if (result == EXIT_OUTPUT) /* nothing is written over what was read */
             break;
-        }
         if (result <= EXIT_RUN && one.bytes && !atomic_load(ceduo_interrupt_flag())) {
             begin_result(a, first, &out.text);
             ceduo_text_add(&out.text, one.bytes, one.length);
             first = false;
         }
-        out.text.failed |= one.failed;
-        ceduo_text_free(&one);
         written = ceduo_output_next(&out);
         status = worse(status, written);
         if (written == EXIT_DONE)
@@ -77,7 +73,7 @@ enum exit_status ceduo_batch_each(const struct arguments *a, void (*header)(stru
                                   enum exit_status (*one)(const struct arguments *arguments, struct scene_file *file,
                                                           struct text *out))
 {
-    struct text out = {0};
+    LOCAL_TEXT(out);
     enum exit_status status = EXIT_DONE;
     if (a->format == CEDUO_CSV)
         header(&out);
@@ -93,9 +89,8 @@ enum exit_status ceduo_batch_each(const struct arguments *a, void (*header)(stru
         status = worse(status, done);
     }
     ceduo_say_plainly(&out);
-    if (status != EXIT_OUTPUT && (out.length > 0 || out.failed) && !atomic_load(ceduo_interrupt_flag()))
+    if (status != EXIT_OUTPUT && out.length > 0 && !atomic_load(ceduo_interrupt_flag()))
         status = worse(status, ceduo_output_write(a, &out));
-    ceduo_text_free(&out);
     return status;
 }
 
@@ -115,6 +110,5 @@ enum exit_status ceduo_batch_check(const struct arguments *a)
 
 enum exit_status ceduo_batch_sensitivity(const struct arguments *a)
 {
-    return a->plot != CEDUO_PLOT_NONE ? ceduo_batch_run(a)
-                                      : ceduo_batch_each(a, ceduo_doubt_csv_header, ceduo_sensitivity_whole);
+    return a->plot != CEDUO_PLOT_NONE ? ceduo_batch_run(a) : ceduo_batch_each(a, ceduo_doubt_csv_header, ceduo_sensitivity_add);
 }

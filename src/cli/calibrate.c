@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/language.h"
+#include "base/must.h"
 #include "batch.h"
 #include "interrupt.h"
 #include "io/file.h"
@@ -35,16 +36,13 @@ struct job {
 
 static enum exit_status check_range(const struct job *j, size_t i)
 {
-    struct text range = {0};
+    LOCAL_TEXT(range);
     double bad = !ceduo_schema_in_range(j->fields[i], j->lo[i]) ? j->lo[i] : j->hi[i];
-    char room[CEDUO_NUMBER_ROOM];
     if (ceduo_schema_in_range(j->fields[i], bad))
         return EXIT_DONE;
     ceduo_schema_range_text(j->fields[i], &range);
-    enum exit_status status = ceduo_usage("calibrate", _("%s is outside the range of %s: %s"), ceduo_number_shortest(bad, room),
-                                          j->paths[i], ceduo_text_string(&range));
-    ceduo_text_free(&range);
-    return status;
+    return ceduo_usage("calibrate", _("%s is outside the range of %s: %s"), SHORTEST(bad), j->paths[i],
+                       ceduo_text_string(&range));
 }
 
 /* mu acts through the shape of the rock, in one law. */
@@ -69,11 +67,7 @@ static enum exit_status find_value(struct job *j, size_t i)
 {
     const char *given = j->arguments->calibrates.items[i], *equals = strrchr(given, '=');
     size_t places = 0;
-    char *path = malloc((size_t)(equals - given) + 1);
-    if (!path)
-        return ceduo_usage_no_memory();
-    memcpy(path, given, (size_t)(equals - given));
-    path[equals - given] = '\0';
+    char *path = ceduo_must(strndup(given, (size_t)(equals - given)));
     j->paths[i] = path;
     char *end;
     j->lo[i] = strtod(equals + 1, &end);
@@ -115,11 +109,9 @@ static enum exit_status open_job(struct job *j)
     enum exit_status status = EXIT_DONE;
     j->scenes_count = a->scenes_count;
     j->parameters_count = a->calibrates.n;
-    j->files = calloc(j->scenes_count, sizeof *j->files);
-    j->scenes = calloc(j->scenes_count, sizeof *j->scenes);
-    j->inputs = calloc(j->scenes_count * j->parameters_count, sizeof *j->inputs);
-    if (!j->files || !j->scenes || !j->inputs)
-        return ceduo_usage_no_memory();
+    j->files = ceduo_must(calloc(j->scenes_count, sizeof *j->files));
+    j->scenes = ceduo_must(calloc(j->scenes_count, sizeof *j->scenes));
+    j->inputs = ceduo_must(calloc(j->scenes_count * j->parameters_count, sizeof *j->inputs));
     for (size_t s = 0; s < j->scenes_count; s++) {
         enum exit_status read = ceduo_batch_read(a, a->scenes[s], &j->files[s]);
         status = read > status ? read : status;
@@ -135,7 +127,7 @@ static enum exit_status open_job(struct job *j)
 
 static void close_job(struct job *j)
 {
-    for (size_t s = 0; j->files && s < j->scenes_count; s++)
+    for (size_t s = 0; s < j->scenes_count; s++)
         ceduo_scene_release(&j->files[s]);
     for (size_t i = 0; i < j->parameters_count; i++)
         free((char *)(uintptr_t)j->paths[i]);
@@ -149,7 +141,7 @@ static void close_job(struct job *j)
 static void show(void *context, const struct ceduo_calibration_state *state)
 {
     struct progress *p = context;
-    struct text line = {0};
+    LOCAL_TEXT(line);
     double seconds;
     if (!ceduo_progress_due(p, &seconds))
         return;
@@ -160,10 +152,9 @@ static void show(void *context, const struct ceduo_calibration_state *state)
         ceduo_text_format(&line, _("%llu scenes; log-likelihood %.2f; %.0f s"), (unsigned long long)state->evaluations,
                           state->log_likelihood, seconds);
     fprintf(stderr, "\r%-78s", ceduo_text_string(&line));
-    ceduo_text_free(&line);
 }
 
-static void put(const struct job *j, const struct ceduo_calibration_report *report, struct text *out)
+static void print(const struct job *j, const struct ceduo_calibration_report *report, struct text *out)
 {
     if (j->arguments->format == CEDUO_JSON)
         ceduo_calibration_json(out, report);
@@ -182,32 +173,25 @@ static bool writes_scene(const struct arguments *a)
 }
 
 /* The heads of the table of draws: the places of each value in the first scene. */
-static void put_heads(const struct job *j, struct text *heads, const char **to)
-{
-    for (size_t i = 0; i < j->parameters_count; i++) {
-        for (size_t k = 0; k < j->inputs[i].places_count; k++)
-            ceduo_text_format(&heads[i], "%s%s", k > 0 ? " " : "", j->inputs[i].places[k]);
-        to[i] = heads[i].length > 0 ? ceduo_text_string(&heads[i]) : j->paths[i];
-    }
-}
-
-static void put_draws(const struct job *j, const struct ceduo_calibration *answer, struct text *out)
+static void append_draws(const struct job *j, const struct ceduo_calibration *answer, struct text *out)
 {
     struct text heads[MOST] = {{0}};
     const char *names[MOST];
-    put_heads(j, heads, names);
-    ceduo_calibration_draws(out, answer, names);
     for (size_t i = 0; i < j->parameters_count; i++) {
-        out->failed |= heads[i].failed;
-        ceduo_text_free(&heads[i]);
+        for (size_t k = 0; k < j->inputs[i].places_count; k++)
+            ceduo_text_format(&heads[i], "%s%s", k > 0 ? " " : "", j->inputs[i].places[k]);
+        names[i] = heads[i].length > 0 ? ceduo_text_string(&heads[i]) : j->paths[i];
     }
+    ceduo_calibration_draws(out, answer, names);
+    for (size_t i = 0; i < j->parameters_count; i++)
+        ceduo_text_free(&heads[i]);
 }
 
 static bool edit_scene(const struct job *j, const struct ceduo_calibration_report *r, const char *draws,
                        struct document *document, struct problems *problems)
 {
     const struct arguments *a = j->arguments;
-    struct text source = {0};
+    LOCAL_TEXT(source);
     double best[MOST];
     ceduo_calibration_sources(&source, r);
     for (size_t i = 0; i < j->parameters_count; i++)
@@ -219,7 +203,6 @@ static bool edit_scene(const struct job *j, const struct ceduo_calibration_repor
     good = good &&
            (a->sets.n == 0 || ceduo_document_set_all(document, (const char *const *)a->sets.items, a->sets.n, "", problems));
     good = good && ceduo_keep_fit(document, &fit, problems);
-    ceduo_text_free(&source);
     return good;
 }
 
@@ -227,7 +210,7 @@ static bool edit_scene(const struct job *j, const struct ceduo_calibration_repor
 static void name_draws(struct text *scene, const struct pending_file *draws)
 {
     const char *mark = draws->temporary + strlen(draws->target);
-    char *at = scene->failed ? NULL : strstr(scene->bytes, mark);
+    char *at = strstr(scene->bytes, mark);
     if (at) {
         scene->length -= strlen(mark);
         memmove(at, at + strlen(mark), strlen(at + strlen(mark)) + 1);
@@ -236,8 +219,7 @@ static void name_draws(struct text *scene, const struct pending_file *draws)
 
 static bool prepare(struct pending_file *file, const char *path, const struct text *text)
 {
-    errno = ENOMEM;
-    bool good = !text->failed && ceduo_file_prepare(file, path, ceduo_text_string(text), text->length);
+    bool good = ceduo_file_prepare(file, path, ceduo_text_string(text), text->length);
     if (!good)
         ceduo_say_why(path, strerror(errno));
     return good;
@@ -257,7 +239,7 @@ static enum exit_status place_both(const struct job *j, const struct ceduo_calib
     const char *output = j->arguments->output;
     struct document document = {0};
     struct problems problems = {0};
-    struct text scene = {0};
+    LOCAL_TEXT(scene);
     enum exit_status status = EXIT_OUTPUT;
     if (!edit_scene(j, r, draws->temporary, &document, &problems)) {
         ceduo_problems_close(&problems);
@@ -272,7 +254,6 @@ static enum exit_status place_both(const struct job *j, const struct ceduo_calib
     }
     ceduo_document_close(&document);
     ceduo_problems_free(&problems);
-    ceduo_text_free(&scene);
     return status;
 }
 
@@ -281,11 +262,12 @@ static enum exit_status place_both(const struct job *j, const struct ceduo_calib
 static enum exit_status write_scene(const struct job *j, const struct ceduo_calibration_report *r)
 {
     const char *output = j->arguments->output;
-    struct text path = {0}, draws = {0};
+    LOCAL_TEXT(path);
+    LOCAL_TEXT(draws);
     struct pending_file beside = {0}, file = {0};
     enum exit_status status = EXIT_OUTPUT;
     ceduo_text_format(&path, "%.*s.draws.csv", (int)(strrchr(output, '.') - output), output);
-    put_draws(j, r->answer, &draws);
+    append_draws(j, r->answer, &draws);
     if (prepare(&beside, ceduo_text_string(&path), &draws)) {
         if (!beside.target) /* a device, a pipe */
             ceduo_say_why(beside.path, strerror(EINVAL));
@@ -296,8 +278,6 @@ static enum exit_status write_scene(const struct job *j, const struct ceduo_cali
     }
     ceduo_file_drop(&beside);
     ceduo_file_drop(&file);
-    ceduo_text_free(&draws);
-    ceduo_text_free(&path);
     return status;
 }
 
@@ -313,7 +293,7 @@ static enum exit_status compute(struct job *j)
 {
     const struct arguments *a = j->arguments;
     struct ceduo_calibration answer;
-    struct text out = {0};
+    LOCAL_TEXT(out);
     j->progress = ceduo_progress_begin(a);
     struct ceduo_calibration_def def = {.scenes_count = j->scenes_count,
                                         .scenes = j->scenes,
@@ -335,13 +315,12 @@ static enum exit_status compute(struct job *j)
                                               .rocks = def.rocks,
                                               .seed = def.seed,
                                               .answer = &answer};
-    put(j, &report, &out);
+    print(j, &report, &out);
     ceduo_say_plainly(&out);
     bool ended = atomic_load(ceduo_interrupt_flag()); /* from here on all is written */
     enum exit_status written = ended ? EXIT_RUN : print_answer(j, &out);
     if (written == EXIT_DONE && writes_scene(a))
         written = write_scene(j, &report);
-    ceduo_text_free(&out);
     ceduo_calibration_free(&answer);
     return written;
 }

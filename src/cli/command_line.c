@@ -11,6 +11,7 @@
 #include <unistd.h>
 
 #include "base/language.h"
+#include "base/must.h"
 #include "base/utf8.h"
 #include "options.h"
 #include "say.h"
@@ -69,55 +70,42 @@ void ceduo_arguments_help(struct text *text)
 
 /* ---- what goes together ---- */
 
-static enum exit_status check_without_run(const struct arguments *a)
+/* Says which option does not go with what is asked for. A format of its own is one that is not the page. */
+static enum exit_status check_with(const struct arguments *a)
 {
     size_t n;
+    const char *mode = "batch";
     const struct option_row *rows = ceduo_option_rows(&n);
     for (size_t i = 0; i < n; i++)
-        if ((a->given >> i & 1) && rows[i].computes)
-            return ceduo_usage(NULL, _("--check cannot be used with --%s: it computes nothing"), rows[i].name);
-    return EXIT_DONE;
-}
-
-/* What would otherwise be passed over without a word. */
-static enum exit_status check_unused(const struct arguments *a)
-{
-    if (ceduo_option_given(a, "rows") && a->format != CEDUO_CSV)
-        return ceduo_usage(NULL, _("--rows requires --format csv"));
-    if (ceduo_option_given(a, "charset") && a->plot == CEDUO_PLOT_NONE && a->mode != MODE_TERMINAL)
-        return ceduo_usage(NULL, _("--charset requires --plot or the terminal program"));
-    if (a->script && a->mode != MODE_TERMINAL)
-        return ceduo_usage(NULL, _("--script is for the terminal program; it cannot be used with --batch"));
-    if (a->years && a->plot != CEDUO_PLOT_NONE && a->plot != CEDUO_PLOT_ROTATION && a->plot != CEDUO_PLOT_TRADEOFF)
-        return ceduo_usage(NULL, _("--years cannot be used with --plot, except --plot rotation and --plot tradeoff"));
-    return EXIT_DONE;
-}
-
-/* A survey becomes a stand, and nothing else is done. */
-static enum exit_status check_survey(const struct arguments *a)
-{
-    static const char *const with[] = {"survey", "output", "quiet", "language"};
-    size_t n;
-    const struct option_row *rows = ceduo_option_rows(&n);
+        if (rows[i].mode == a->mode && (a->given >> i & 1))
+            mode = rows[i].name;
     for (size_t i = 0; i < n; i++) {
-        bool goes = !(a->given >> i & 1);
-        for (size_t k = 0; k < sizeof with / sizeof with[0]; k++)
-            goes |= strcmp(rows[i].name, with[k]) == 0;
-        if (!goes)
-            return ceduo_usage(NULL, _("--survey cannot be used with --%s: it writes a stand"), rows[i].name);
+        bool page = strcmp(rows[i].name, "format") == 0 && a->format == CEDUO_TABLE;
+        bool doubt = a->mode == MODE_SENSITIVITY && strcmp(rows[i].name, "plot") == 0 && a->plot != CEDUO_PLOT_DOUBT;
+        if (!(a->given >> i & 1) || !(doubt || (rows[i].without >> a->mode & 1)))
+            continue;
+        if (a->mode == MODE_TERMINAL)
+            return ceduo_usage(NULL, _("options such as -s, -n, -f and -o require --batch"));
+        if (!page || a->mode != MODE_REPORT)
+            return ceduo_usage(NULL, _("--%s cannot be used with --%s"), mode, rows[i].name);
     }
-    return a->scenes_count == 0 ? EXIT_DONE
-                                : ceduo_usage(NULL, _("--survey takes one CSV file, and no scene: '%s'"), a->scenes[0]);
+    return EXIT_DONE;
 }
 
 /* Whether the options go together, and as many scenes are named as they want. */
-static enum exit_status check_arguments(struct arguments *a)
+static enum exit_status check_arguments(const struct arguments *a)
 {
-    if (a->mode == MODE_SURVEY)
-        return check_survey(a);
-    if (a->mode == MODE_CHECK && check_without_run(a) != EXIT_DONE)
+    bool plot = a->plot != CEDUO_PLOT_NONE, wants_scene = a->mode >= MODE_BATCH && a->mode <= MODE_CHECK;
+    bool by_years = a->plot == CEDUO_PLOT_ROTATION || a->plot == CEDUO_PLOT_TRADEOFF;
+    size_t standard = 0;
+    for (size_t i = 0; i < a->scenes_count; i++)
+        standard += strcmp(a->scenes[i], "-") == 0;
+    if (a->mode >= MODE_HELP)
+        return EXIT_DONE;
+    if (check_with(a) != EXIT_DONE)
         return EXIT_USAGE;
-    bool wants_scene = a->mode >= MODE_BATCH && a->mode <= MODE_CHECK;
+    if (a->mode == MODE_SURVEY && a->scenes_count > 0)
+        return ceduo_usage(NULL, _("--survey takes one CSV file, and no scene: '%s'"), a->scenes[0]);
     if (a->mode == MODE_FIND && !ceduo_option_given(a, "goal"))
         return ceduo_usage(NULL, _("--find requires a --goal"));
     if (ceduo_option_given(a, "goal") && a->mode != MODE_FIND)
@@ -126,38 +114,27 @@ static enum exit_status check_arguments(struct arguments *a)
         return ceduo_usage(NULL, a->goal == CEDUO_GOAL_ENERGY
                                      ? _("--goal energy needs the mean energy in kJ, such as energy=50")
                                      : _("--goal arrive needs the share of the rocks, such as arrive=0.5"));
-    if (a->mode == MODE_FIND && (a->plot != CEDUO_PLOT_NONE || a->window.step > 0 || a->tolerance > 0))
-        return ceduo_usage(NULL, _("--find cannot be used with --plot, a range of --years or --tolerance"));
-    if (a->mode == MODE_REPORT && (a->plot != CEDUO_PLOT_NONE || a->format != CEDUO_TABLE || a->stands || a->find ||
-                                   ceduo_option_given(a, "output") || ceduo_option_given(a, "calibrate")))
-        return ceduo_usage(NULL, _("--report names its file; it cannot be used with --output, --plot, --format, --rows, --find "
-                                   "or --calibrate"));
-    if (a->mode == MODE_SENSITIVITY &&
-        ((a->plot != CEDUO_PLOT_NONE && a->plot != CEDUO_PLOT_DOUBT) || a->years || a->tolerance > 0 || a->stands))
-        return ceduo_usage(NULL, _("--sensitivity cannot be used with --plot, --years, --tolerance or --rows"));
-    if (a->mode == MODE_CALIBRATE &&
-        (a->plot != CEDUO_PLOT_NONE || a->years || a->tolerance > 0 || a->stands || a->options.n > 0))
-        return ceduo_usage(NULL, _("--calibrate cannot be used with --plot, --years, --tolerance, --rows or --option"));
+    if (a->mode == MODE_FIND && a->window.step > 0)
+        return ceduo_usage(NULL, _("--find takes --years without a range"));
     if (wants_scene && a->scenes_count == 0)
         return ceduo_usage(NULL,
                            _("no scene given; name a file, a shipped scene such as 'paper-site', or '-' for standard input"));
-    if (!wants_scene && a->mode != MODE_TERMINAL && a->scenes_count > 0 && a->mode < MODE_HELP)
+    if (!wants_scene && a->mode != MODE_TERMINAL && a->scenes_count > 0)
         return ceduo_usage(NULL, _("the --list options take no scene: '%s'"), a->scenes[0]);
-    if (a->plot != CEDUO_PLOT_NONE && a->format != CEDUO_TABLE)
+    if (plot && a->format != CEDUO_TABLE)
         return ceduo_usage(NULL, _("--plot prints a picture; it cannot be used with --format csv or json"));
-    if (a->plot_width > 0 && a->plot == CEDUO_PLOT_NONE)
+    if (a->plot_width > 0 && !plot)
         return ceduo_usage(NULL, _("--size requires --plot"));
-    if (a->mode < MODE_HELP && check_unused(a) != EXIT_DONE)
-        return EXIT_USAGE;
-    bool batch_only = a->rocks > 0 || a->tolerance > 0 || a->sets.n > 0 || a->options.n > 0 || a->output ||
-                      a->format != CEDUO_TABLE || a->stands;
-    if (a->mode == MODE_TERMINAL && batch_only)
-        return ceduo_usage(NULL, _("options such as -s, -n, -f and -o require --batch"));
+    if (ceduo_option_given(a, "rows") && a->format != CEDUO_CSV)
+        return ceduo_usage(NULL, _("--rows requires --format csv"));
+    if (ceduo_option_given(a, "charset") && !plot && a->mode != MODE_TERMINAL)
+        return ceduo_usage(NULL, _("--charset requires --plot or the terminal program"));
+    if (a->script && a->mode != MODE_TERMINAL)
+        return ceduo_usage(NULL, _("--script is for the terminal program; it cannot be used with --batch"));
+    if (a->years && plot && !by_years)
+        return ceduo_usage(NULL, _("--years cannot be used with --plot, except --plot rotation and --plot tradeoff"));
     if (a->mode == MODE_TERMINAL && a->scenes_count > 1)
         return ceduo_usage(NULL, _("the terminal program opens one scene; --batch takes several"));
-    size_t standard = 0;
-    for (size_t i = 0; i < a->scenes_count; i++)
-        standard += strcmp(a->scenes[i], "-") == 0;
     if (standard > 1)
         return ceduo_usage(NULL, _("standard input can be read only once"));
     return EXIT_DONE;
@@ -209,11 +186,9 @@ enum exit_status ceduo_arguments_read(struct arguments *a, int argc, char **argv
     size_t most = (size_t)argc + 1;
     *a = (struct arguments){.threads = cores(),
                             .goal_value = NAN,
-                            .sets.items = calloc(most, sizeof *a->sets.items),
-                            .options.items = calloc(most, sizeof *a->options.items),
-                            .calibrates.items = calloc(most, sizeof *a->calibrates.items)};
-    if (!a->sets.items || !a->options.items || !a->calibrates.items)
-        return ceduo_usage_no_memory();
+                            .sets.items = ceduo_must(calloc(most, sizeof *a->sets.items)),
+                            .options.items = ceduo_must(calloc(most, sizeof *a->options.items)),
+                            .calibrates.items = ceduo_must(calloc(most, sizeof *a->calibrates.items))};
     opterr = 0;
     for (int letter; (letter = getopt_long(argc, argv, shorts, longs, NULL)) != -1;) {
         const char *word = argv[optind - 1];

@@ -29,22 +29,17 @@ static enum exit_status set_word(struct arguments *a, const struct option_row *r
 {
     int i = 0;
     size_t length = strlen(value);
-    struct text all = {0};
+    LOCAL_TEXT(all);
     for (const char *word = row->value; *word; i++) {
         size_t n = strcspn(word, "|");
         if (n == length && strncmp(word, value, n) == 0) {
             memcpy((char *)a + row->at, &i, sizeof i);
-            ceduo_text_free(&all);
             return EXIT_DONE;
         }
         ceduo_text_format(&all, "%s%.*s", i > 0 ? ", " : "", (int)n, word);
         word += n + (word[n] == '|');
     }
-    enum exit_status status = all.bytes && !all.failed
-                                  ? ceduo_usage(row->name, _("'%s' is unknown; one of %s"), value, all.bytes)
-                                  : ceduo_usage_no_memory();
-    ceduo_text_free(&all);
-    return status;
+    return ceduo_usage(row->name, _("'%s' is unknown; one of %s"), value, all.bytes);
 }
 
 /* At once: what is wrong with a later option is said in this language. */
@@ -87,6 +82,14 @@ static enum exit_status read_count(const char *name, const char *value, double l
 static enum exit_status set_rocks(struct arguments *a, const struct option_row *row, char *value)
 {
     return read_count(row->name, value, 1, CEDUO_ROCKS_MOST, &a->rocks);
+}
+
+static enum exit_status set_threads(struct arguments *a, const struct option_row *row, char *value)
+{
+    uint64_t n = a->threads;
+    enum exit_status status = read_count(row->name, value, 1, THREADS_MOST, &n);
+    a->threads = (unsigned)n;
+    return status;
 }
 
 static enum exit_status set_tolerance(struct arguments *a, const struct option_row *row, char *value)
@@ -191,22 +194,15 @@ static enum exit_status set_find(struct arguments *a, const struct option_row *r
     return EXIT_DONE;
 }
 
-static enum exit_status unknown_goal(const struct option_row *row, const char *value)
-{
-    struct text words = {0};
-    ceduo_goal_words(&words);
-    enum exit_status status = ceduo_usage(row->name, _("'%s' is unknown; one of %s"), value, ceduo_text_string(&words));
-    ceduo_text_free(&words);
-    return status;
-}
-
 static enum exit_status set_goal(struct arguments *a, const struct option_row *row, char *value)
 {
     enum ceduo_goal_reading reading = ceduo_goal_read(value, &a->goal, &a->goal_value);
     const char *number = value + strlen(value) + 1;
+    LOCAL_TEXT(words);
     switch (reading) {
     case CEDUO_GOAL_UNKNOWN:
-        return unknown_goal(row, value);
+        ceduo_goal_words(&words);
+        return ceduo_usage(row->name, _("'%s' is unknown; one of %s"), value, ceduo_text_string(&words));
     case CEDUO_GOAL_NO_NUMBER:
         return ceduo_usage(row->name, _("'%s' is not a number"), number);
     case CEDUO_GOAL_NEGATIVE:
@@ -256,68 +252,73 @@ static enum exit_status add_calibrate(struct arguments *a, const struct option_r
     return EXIT_DONE;
 }
 
-static enum exit_status set_threads(struct arguments *a, const struct option_row *row, char *value)
-{
-    uint64_t n;
-    enum exit_status status = read_count(row->name, value, 1, THREADS_MOST, &n);
-    if (status == EXIT_DONE)
-        a->threads = (unsigned)n;
-    return status;
-}
-
 /* ---- the table ---- */
 
 #define AT(member) offsetof(struct arguments, member)
 
+/* Modes with which an option does not go. */
+enum {
+    CHECK = 1u << MODE_CHECK,
+    FIND = 1u << MODE_FIND,
+    DOUBT = 1u << MODE_SENSITIVITY,
+    FIT = 1u << MODE_CALIBRATE,
+    PAGE = 1u << MODE_REPORT,
+    SURVEY = 1u << MODE_SURVEY,
+    SCREEN = 1u << MODE_TERMINAL
+};
+
 static const struct option_row rows[] = {
-    {"batch", 'b', NULL, NULL, 0, MODE_BATCH, false, N_("compute the scenes and print the result, without a terminal")},
-    {"format", 'f', "table|csv|json", set_word, AT(format), MODE_TERMINAL, true, N_("format of the output (table)")},
-    {"output", 'o', "FILE", set_text, AT(output), MODE_TERMINAL, true,
+    {"batch", 'b', NULL, NULL, 0, MODE_BATCH, SURVEY, N_("compute the scenes and print the result, without a terminal")},
+    {"format", 'f', "table|csv|json", set_word, AT(format), MODE_TERMINAL, CHECK | PAGE | SURVEY | SCREEN,
+     N_("format of the output (table)")},
+    {"output", 'o', "FILE", set_text, AT(output), MODE_TERMINAL, CHECK | PAGE | SCREEN,
      N_("write to FILE; a regular file is written completely or not at all")},
-    {"set", 's', "PATH=VALUE", add_word, AT(sets), MODE_TERMINAL, false,
+    {"set", 's', "PATH=VALUE", add_word, AT(sets), MODE_TERMINAL, SURVEY | SCREEN,
      N_("change a parameter of the scene; may be repeated")},
-    {"rocks", 'n', "N", set_rocks, 0, MODE_TERMINAL, true, N_("number of rocks; with --tolerance the maximum")},
-    {"tolerance", 'e', "REL", set_tolerance, 0, MODE_TERMINAL, true,
+    {"rocks", 'n', "N", set_rocks, 0, MODE_TERMINAL, CHECK | SURVEY | SCREEN,
+     N_("number of rocks; with --tolerance the maximum")},
+    {"tolerance", 'e', "REL", set_tolerance, 0, MODE_TERMINAL, CHECK | FIND | DOUBT | FIT | SURVEY | SCREEN,
      N_("simulate until the 95 % error of each mean energy is below REL of it")},
-    {"rows", 0, "controls|stands", set_word, AT(stands), MODE_TERMINAL, true, N_("what each row of CSV describes (controls)")},
-    {"seed", 0, "N", set_seed, 0, MODE_TERMINAL, false, N_("seed of the random numbers, 0 to 2^53")},
-    {"threads", 'j', "N", set_threads, 0, MODE_TERMINAL, false,
+    {"rows", 0, "controls|stands", set_word, AT(stands), MODE_TERMINAL, CHECK | DOUBT | FIT | PAGE | SURVEY | SCREEN,
+     N_("what each row of CSV describes (controls)")},
+    {"seed", 0, "N", set_seed, 0, MODE_TERMINAL, SURVEY | SCREEN, N_("seed of the random numbers, 0 to 2^53")},
+    {"threads", 'j', "N", set_threads, 0, MODE_TERMINAL, SURVEY,
      N_("number of threads; it does not change the result (all cores)")},
-    {"option", 0, "NAME", add_word, AT(options), MODE_TERMINAL, false,
+    {"option", 0, "NAME", add_word, AT(options), MODE_TERMINAL, FIT | SURVEY | SCREEN,
      N_("compute only this option of the scene; may be repeated")},
-    {"years", 0, "[A:B[:STEP]]", set_years, 0, MODE_BATCH, true,
+    {"years", 0, "[A:B[:STEP]]", set_years, 0, MODE_BATCH, CHECK | DOUBT | FIT | SURVEY,
      N_("compute every option year by year: one whole rotation after its first cut, or the years A to B; the stands as "
         "filed are year 0")},
-    {"find", 0, "PATH=LO:HI", set_find, 0, MODE_FIND, true,
+    {"find", 0, "PATH=LO:HI", set_find, 0, MODE_FIND, CHECK | PAGE | SURVEY,
      N_("find the value of a parameter that reaches --goal at the worst control")},
-    {"goal", 0, "GOAL[=VALUE]", set_goal, 0, MODE_TERMINAL, true,
+    {"goal", 0, "GOAL[=VALUE]", set_goal, 0, MODE_TERMINAL, CHECK | SURVEY,
      N_("adc, free-run (at most the light's limit), energy (mean kJ) or exceed (share, 0.05)")},
-    {"sensitivity", 0, "[=N]", set_sensitivity, 0, MODE_SENSITIVITY, true,
+    {"sensitivity", 0, "[=N]", set_sensitivity, 0, MODE_SENSITIVITY, CHECK | SURVEY,
      N_("show how sure the result is, and what that depends on; N base points (256)")},
-    {"report", 0, "FILE", set_report, 0, MODE_REPORT, true,
+    {"report", 0, "FILE", set_report, 0, MODE_REPORT, CHECK | SURVEY,
      N_("write a page to hand in as HTML, with pictures; several scenes give chapters; - is standard output")},
-    {"calibrate", 0, "PATH=LO:HI", add_calibrate, 0, MODE_CALIBRATE, true,
+    {"calibrate", 0, "PATH=LO:HI", add_calibrate, 0, MODE_CALIBRATE, CHECK | PAGE | SURVEY,
      N_("fit this value to what was observed, between LO and HI; may be repeated; -o FILE.yaml writes the first scene with "
         "what was found")},
-    {"plot", 0, "WHAT", set_plot, 0, MODE_BATCH, true,
+    {"plot", 0, "WHAT", set_plot, 0, MODE_BATCH, CHECK | FIND | FIT | PAGE | SURVEY,
      N_("print a picture: profile, energy, height, histogram, adc, rotation, stand, compare, tradeoff, doubt or hazard")},
-    {"size", 0, "WxH", set_size, 0, MODE_TERMINAL, true, N_("size of a picture in columns and lines (80x24)")},
-    {"charset", 0, "braille|block|ascii", set_word, AT(charset), MODE_TERMINAL, true,
+    {"size", 0, "WxH", set_size, 0, MODE_TERMINAL, CHECK | SURVEY, N_("size of a picture in columns and lines (80x24)")},
+    {"charset", 0, "braille|block|ascii", set_word, AT(charset), MODE_TERMINAL, CHECK | SURVEY,
      N_("characters that pictures are made of (from the locale)")},
-    {"language", 0, "it|en", set_language, AT(language), MODE_TERMINAL, false,
+    {"language", 0, "it|en", set_language, AT(language), MODE_TERMINAL, 0,
      N_("language of tables, screens and messages (from the locale)")},
-    {"script", 0, "FILE", set_text, AT(script), MODE_TERMINAL, true,
+    {"script", 0, "FILE", set_text, AT(script), MODE_TERMINAL, CHECK | SURVEY,
      N_("feed keys and commands to the terminal program; needs no terminal")},
-    {"check", 0, NULL, NULL, 0, MODE_CHECK, false, N_("check the scenes and print every problem; compute nothing")},
-    {"list-parameters", 0, NULL, NULL, 0, MODE_PARAMETERS, false,
+    {"check", 0, NULL, NULL, 0, MODE_CHECK, SURVEY, N_("check the scenes and print every problem; compute nothing")},
+    {"list-parameters", 0, NULL, NULL, 0, MODE_PARAMETERS, SURVEY,
      N_("list path, type, unit, range, default and meaning of each parameter")},
-    {"list-profiles", 0, NULL, NULL, 0, MODE_PROFILES, false,
+    {"list-profiles", 0, NULL, NULL, 0, MODE_PROFILES, SURVEY,
      N_("list the scenes, slopes, stands and rules that can be named")},
-    {"survey", 0, "FILE.csv", set_text, AT(survey), MODE_SURVEY, true,
+    {"survey", 0, "FILE.csv", set_text, AT(survey), MODE_SURVEY, CHECK,
      N_("write the stand of a survey: a CSV file with a row for each stem on sample plots")},
-    {"quiet", 'q', NULL, set_quiet, 0, MODE_TERMINAL, false, N_("print no progress")},
-    {"help", 0, NULL, NULL, 0, MODE_HELP, false, N_("print this help")},
-    {"version", 0, NULL, NULL, 0, MODE_VERSION, false, N_("print the version")},
+    {"quiet", 'q', NULL, set_quiet, 0, MODE_TERMINAL, 0, N_("print no progress")},
+    {"help", 0, NULL, NULL, 0, MODE_HELP, 0, N_("print this help")},
+    {"version", 0, NULL, NULL, 0, MODE_VERSION, 0, N_("print the version")},
 };
 
 #define ROWS (sizeof rows / sizeof rows[0])

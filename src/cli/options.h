@@ -15,9 +15,9 @@ struct option_row {
     /* as the help shows it, "a|b|c" where it is one of these; "[=N]": it may have one; NULL: it takes none */
     const char *value;
     enum exit_status (*set)(struct arguments *arguments, const struct option_row *row, char *value); /* may be NULL */
-    size_t at;      /* of the member that is set, for the setters that several options share */
-    enum mode mode; /* that it asks for; MODE_TERMINAL: none */
-    bool computes;  /* it does not go with --check */
+    size_t at;        /* of the member that is set, for the setters that several options share */
+    enum mode mode;   /* that it asks for; MODE_TERMINAL: none */
+    unsigned without; /* modes with which it does not go: a bit for each */
     const char *help;
 };
 

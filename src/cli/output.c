@@ -13,10 +13,6 @@
 /* First what the open file `before` holds (-1: nothing). */
 static enum exit_status write_after(int before, const struct arguments *a, const struct text *text)
 {
-    if (ceduo_text_lost() || text->failed) {
-        ceduo_say_why("ceduo", _("out of memory"));
-        return EXIT_RUN;
-    }
     const char *bytes = ceduo_text_string(text);
     bool good = a->output ? ceduo_file_write_after(before, a->output, bytes, text->length)
                           : ceduo_file_fill(STDOUT_FILENO, bytes, text->length, ceduo_interrupt_flag());
@@ -64,7 +60,7 @@ bool ceduo_output_check(const struct arguments *a)
  * more memory than one. Where there is no room for such a file they stay in memory. */
 static void set_aside(struct output *o)
 {
-    if (o->text.failed || o->text.length < HELD_MOST)
+    if (o->text.length < HELD_MOST)
         return;
     if (!o->spool && (o->spool = tmpfile()))
         setvbuf(o->spool, NULL, _IONBF, 0);
@@ -82,7 +78,7 @@ enum exit_status ceduo_output_next(struct output *o)
     enum exit_status status = EXIT_DONE;
     if (o->arguments->output) {
         set_aside(o);
-    } else if ((o->text.length > 0 || o->text.failed) && !atomic_load(ceduo_interrupt_flag())) {
+    } else if (o->text.length > 0 && !atomic_load(ceduo_interrupt_flag())) {
         status = ceduo_output_write(o->arguments, &o->text);
         o->text.length = 0;
     }
@@ -91,7 +87,7 @@ enum exit_status ceduo_output_next(struct output *o)
 
 enum exit_status ceduo_output_end(struct output *o, bool writes)
 {
-    bool waits = o->arguments->output && (writes || o->text.failed);
+    bool waits = o->arguments->output && writes;
     enum exit_status status = waits ? write_after(o->spool ? fileno(o->spool) : -1, o->arguments, &o->text) : EXIT_DONE;
     if (o->spool)
         fclose(o->spool);

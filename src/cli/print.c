@@ -24,23 +24,17 @@ static void write_report(const struct arguments *a, const struct ceduo_report *r
         ceduo_report_csv(out, report, a->stands);
         return;
     }
-    struct text page = {0};
-    bool plain = !ceduo_say_utf8();
-    ceduo_report_table(&page, report, plain);
-    if (plain)
-        ceduo_say_plainly(&page);
-    if (page.bytes)
-        ceduo_text_add(out, page.bytes, page.length);
-    out->failed |= page.failed;
-    ceduo_text_free(&page);
+    LOCAL_TEXT(page);
+    ceduo_report_table(&page, report, !ceduo_say_utf8());
+    ceduo_say_plainly(&page);
+    ceduo_text_put(out, ceduo_text_string(&page));
 }
 
 #define BLOCK_ROCKS 512  /* of each other size at the most: their intervals stand beside them */
 #define YEAR_ROCKS  1024 /* of each year at the most, where options stand side by side and --years is not given */
 #define YEARS_MOST  50   /* of each option then; of a longer rotation some */
 
-/* Of 1000 rocks at most one may be unfinished. */
-static enum exit_status finished(const struct ceduo_result *result)
+enum exit_status ceduo_finished(const struct ceduo_result *result)
 {
     return ceduo_result_unfinished(result) * 1000 > ceduo_result_rocks(result) ? EXIT_RUN : EXIT_DONE;
 }
@@ -82,7 +76,7 @@ enum exit_status ceduo_print_report(const struct arguments *a, const struct scen
                                         .rocks_asked = stands ? rocks : 0,
                                         .remarks = {q->tolerance, answer.tolerance_met, file->ground_assumed}};
     write_report(a, &report, out);
-    enum exit_status done = finished(answer.result);
+    enum exit_status done = ceduo_finished(answer.result);
     ceduo_verdict_release(&verdict);
     ceduo_answer_release(&answer);
     return done;
@@ -100,20 +94,15 @@ static void add_plot(const struct arguments *a, const struct ceduo_picture *pict
     int height = a->plot_width > 0 ? a->plot_height : PLOT_HEIGHT;
     struct ceduo_cells *cells = ceduo_cells_create(width, height, ceduo_option_charset(a));
     struct ceduo_area area = {.top = 1, .width = width, .height = height - 1};
-    struct text title = {0};
+    LOCAL_TEXT(title);
     ceduo_plot_title(&title, a->plot, picture);
-    char *rows = NULL;
-    if (cells) {
-        ceduo_plot_draw(a->plot, &cells->canvas, &area, picture);
-        ceduo_cells_label(cells, 0, 0, CEDUO_ROLE_TITLE, ceduo_text_string(&title));
-        rows = ceduo_cells_dump(cells);
-    }
+    ceduo_plot_draw(a->plot, &cells->canvas, &area, picture);
+    ceduo_cells_label(cells, 0, 0, CEDUO_ROLE_TITLE, ceduo_text_string(&title));
+    char *rows = ceduo_cells_dump(cells);
     if (out->length > start)
         ceduo_text_char(out, '\n');
-    ceduo_text_put(out, rows ? rows : "");
-    out->failed |= !rows || title.failed;
+    ceduo_text_put(out, rows);
     free(rows);
-    ceduo_text_free(&title);
     ceduo_cells_free(cells);
 }
 
@@ -139,47 +128,43 @@ static void add_plots(const struct arguments *a, const struct ceduo_scene *scene
     }
 }
 
-static enum ceduo_status add_flown_plots(const struct arguments *a, const struct ceduo_question *q, struct ceduo_pool **pool,
-                                         struct text *out, enum exit_status *done)
+enum ceduo_status ceduo_ask_pictures(struct ceduo_question *q, bool cells, size_t trajectories, struct answered *a)
 {
-    struct ceduo_answer answer;
-    struct ceduo_outlook *outlook = NULL;
-    enum ceduo_status status = ceduo_ask(q, pool, &answer);
+    double cell_x[CEDUO_OUTLOOK_CELLS];
+    *a = (struct answered){0};
+    q->run.cells = cells ? ceduo_outlook_places(q->run.scene, cell_x) : 0;
+    q->run.cell_x = cell_x;
+    enum ceduo_status status = ceduo_ask(q, &a->pool, &a->answer);
     const struct ceduo_outlook_def def = {.scene = q->run.scene,
-                                          .figures = *pool,
-                                          .pictures = *pool,
+                                          .figures = a->pool,
+                                          .pictures = a->pool,
                                           .cells = q->run.cells,
-                                          .cell_x = q->run.cell_x,
-                                          .trajectories = a->plot == CEDUO_PLOT_PROFILE ? CEDUO_OUTLOOK_TRAJECTORIES : 0,
+                                          .cell_x = cell_x,
+                                          .trajectories = trajectories,
                                           .cancel = q->run.cancel};
-    struct ceduo_verdict verdict = {0};
     if (status == CEDUO_OK)
-        status = ceduo_outlook_create(&def, &outlook);
-    if (status == CEDUO_OK)
-        status = ceduo_verdict_make(answer.result, answer.years, &verdict);
-    if (status == CEDUO_OK) {
-        add_plots(a, q->run.scene, outlook, answer.years, &verdict, out);
-        *done = finished(answer.result);
-    }
-    ceduo_outlook_free(outlook);
-    ceduo_verdict_release(&verdict);
-    ceduo_answer_release(&answer);
-    return status;
+        status = ceduo_outlook_create(&def, &a->outlook);
+    return status == CEDUO_OK ? ceduo_verdict_make(a->answer.result, a->answer.years, &a->verdict) : status;
+}
+
+void ceduo_answered_release(struct answered *a)
+{
+    ceduo_verdict_release(&a->verdict);
+    ceduo_outlook_free(a->outlook);
+    ceduo_answer_release(&a->answer);
+    ceduo_pool_free(a->pool);
 }
 
 static enum exit_status print_doubt(const struct arguments *a, struct scene_file *file, struct text *out)
 {
     struct asked_doubt d;
-    enum ceduo_status status = ceduo_sensitivity_ask(a, file, &d);
-    if (status != CEDUO_OK)
-        return ceduo_batch_failed(file, status);
+    enum ceduo_status status = ceduo_sensitivity_of(a, file, &d);
     struct ceduo_picture picture = {
         .scene = &file->scene, .control = ceduo_scene_last_control(&file->scene), .doubt = &d.report};
-    for (size_t start = out->length; picture.option < file->scene.options_count; picture.option++)
+    for (size_t start = out->length; status == CEDUO_OK && picture.option < file->scene.options_count; picture.option++)
         add_plot(a, &picture, start, out);
-    if (d.report.answer)
-        ceduo_doubt_free(&d.answer);
-    return EXIT_DONE;
+    ceduo_sensitivity_release(&d);
+    return status == CEDUO_OK ? EXIT_DONE : ceduo_batch_failed(file, status);
 }
 
 enum exit_status ceduo_print_plots(const struct arguments *a, struct scene_file *file, struct text *out)
@@ -193,15 +178,17 @@ enum exit_status ceduo_print_plots(const struct arguments *a, struct scene_file 
     ceduo_batch_warn(a, file);
     struct progress progress = ceduo_progress_begin(a);
     struct ceduo_question q = ceduo_batch_question(a, file, &progress);
-    struct ceduo_pool *pool = NULL;
-    double cell_x[CEDUO_OUTLOOK_CELLS];
+    struct answered answered;
     enum exit_status done = EXIT_DONE;
     q.run.other_energy = false;
-    q.run.cells = ceduo_plot_kinds[a->plot].needs_cells ? ceduo_outlook_places(&file->scene, cell_x) : 0;
-    q.run.cell_x = cell_x;
     q.years |= a->plot == CEDUO_PLOT_ROTATION || a->plot == CEDUO_PLOT_TRADEOFF;
-    enum ceduo_status status = add_flown_plots(a, &q, &pool, out, &done);
+    enum ceduo_status status = ceduo_ask_pictures(&q, ceduo_plot_kinds[a->plot].needs_cells,
+                                                  a->plot == CEDUO_PLOT_PROFILE ? CEDUO_OUTLOOK_TRAJECTORIES : 0, &answered);
+    if (status == CEDUO_OK) {
+        add_plots(a, &file->scene, answered.outlook, answered.answer.years, &answered.verdict, out);
+        done = ceduo_finished(answered.answer.result);
+    }
     ceduo_progress_end(&progress);
-    ceduo_pool_free(pool);
+    ceduo_answered_release(&answered);
     return status == CEDUO_OK ? done : ceduo_batch_failed(file, status);
 }

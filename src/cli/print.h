@@ -3,12 +3,28 @@
 #define CEDUO_PRINT_H
 
 #include "scenes.h"
+#include "study/outlook.h"
 
 /* Asks, and adds the answer as --format says. `pool`: see ceduo_ask(). `seconds`: that the runs took; below 0: from
  * `start` until now. */
 enum exit_status ceduo_print_report(const struct arguments *arguments, const struct scene_file *file,
                                     struct ceduo_question *question, struct ceduo_pool **pool, double seconds,
                                     struct text *out);
+
+/* What is asked once for pages and pictures. */
+struct answered {
+    struct ceduo_pool *pool;
+    struct ceduo_answer answer;
+    struct ceduo_outlook *outlook;
+    struct ceduo_verdict verdict;
+};
+/* Asks for runs; with envelopes along the slope (`cells`), and so many trajectories. Release it in any case. */
+enum ceduo_status ceduo_ask_pictures(struct ceduo_question *question, bool cells, size_t trajectories,
+                                     struct answered *answered);
+void ceduo_answered_release(struct answered *answered);
+
+/* EXIT_RUN where more than one rock of 1000 is unfinished. */
+enum exit_status ceduo_finished(const struct ceduo_result *result);
 
 /* Adds the pictures of a scene, from runs where they need any. */
 enum exit_status ceduo_print_plots(const struct arguments *arguments, struct scene_file *file, struct text *out);

@@ -55,46 +55,32 @@ void ceduo_say_plainly(struct text *text)
 void ceduo_say(struct text *text)
 {
     ceduo_say_plainly(text);
-    if (text->bytes)
-        fputs(text->bytes, stderr);
-    if (text->failed)
-        fputs(_("ceduo: out of memory\n"), stderr); /* what was to be said is cut short */
+    fputs(ceduo_text_string(text), stderr);
 }
 
 void ceduo_say_why(const char *what, const char *why)
 {
-    struct text line = {0};
+    LOCAL_TEXT(line);
     ceduo_text_safe(&line, what);
     ceduo_text_put(&line, ": ");
     ceduo_text_safe(&line, why);
     ceduo_text_char(&line, '\n');
     ceduo_say(&line);
-    ceduo_text_free(&line);
-}
-
-enum exit_status ceduo_usage_no_memory(void)
-{
-    fputs(_("ceduo: out of memory\n"), stderr);
-    return EXIT_RUN;
 }
 
 enum exit_status ceduo_usage(const char *option, const char *format, ...)
 {
-    struct text message = {0}, safe = {0};
+    LOCAL_TEXT(message);
+    LOCAL_TEXT(safe);
+    LOCAL_TEXT(line);
     va_list args;
     if (option)
         ceduo_text_format(&message, "--%s: ", option);
     va_start(args, format);
     ceduo_text_vformat(&message, format, args);
     va_end(args);
-    ceduo_text_safe(&safe, ceduo_text_string(&message));
-    bool good = !message.failed && !safe.failed && safe.bytes;
-    ceduo_text_free(&message);
-    if (good) {
-        ceduo_text_format(&message, _("ceduo: %s\ntry 'ceduo --help'\n"), safe.bytes);
-        ceduo_say(&message);
-    }
-    ceduo_text_free(&message);
-    ceduo_text_free(&safe);
-    return good ? EXIT_USAGE : ceduo_usage_no_memory();
+    ceduo_text_safe(&safe, message.bytes);
+    ceduo_text_format(&line, _("ceduo: %s\ntry 'ceduo --help'\n"), safe.bytes);
+    ceduo_say(&line);
+    return EXIT_USAGE;
 }

@@ -18,11 +18,7 @@ void ceduo_say_plainly(struct text *text);
 /* Whether the locale is UTF-8. */
 bool ceduo_say_utf8(void);
 
-/* Says on standard error what is wrong with the command line, or with this option of it. EXIT_USAGE; EXIT_RUN without
- * memory. */
+/* Says on standard error what is wrong with the command line, or with this option of it. EXIT_USAGE. */
 enum exit_status ceduo_usage(const char *option, const char *format, ...) __attribute__((format(printf, 2, 3)));
-
-/* Says that there is no memory. EXIT_RUN. */
-enum exit_status ceduo_usage_no_memory(void);
 
 #endif

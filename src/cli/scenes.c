@@ -29,13 +29,12 @@ enum exit_status ceduo_batch_option(const struct scene_file *file, const char *n
     for (*index = 0; *index < scene->options_count; ++*index)
         if (strcmp(scene->options[*index].name, name) == 0)
             return EXIT_DONE;
-    struct text message = {0}, names = {0};
+    LOCAL_TEXT(message);
+    LOCAL_TEXT(names);
     for (size_t i = 0; i < scene->options_count; i++)
         ceduo_text_format(&names, "%s'%s'", i > 0 ? ", " : "", scene->options[i].name);
     ceduo_text_format(&message, _("--option: no option '%s' in %s; it has: %s"), name, file->path, ceduo_text_string(&names));
     ceduo_say_why("ceduo", ceduo_text_string(&message));
-    ceduo_text_free(&names);
-    ceduo_text_free(&message);
     return EXIT_USAGE;
 }
 
@@ -64,10 +63,8 @@ static enum exit_status choose(const struct arguments *a, struct scene_file *fil
 /* What the scene does not bear of the command line. */
 static enum exit_status check(const struct arguments *a, const struct scene_file *file)
 {
-    char room[CEDUO_NUMBER_ROOM];
     if (file->scene.blocks_count > 0 && a->rocks > CEDUO_SIZED_ROCKS_MOST)
-        return ceduo_usage("rocks", _("with blocks each rock is kept: at most %s rocks"),
-                           ceduo_number_shortest(CEDUO_SIZED_ROCKS_MOST, room));
+        return ceduo_usage("rocks", _("with blocks each rock is kept: at most %s rocks"), SHORTEST(CEDUO_SIZED_ROCKS_MOST));
     return EXIT_DONE;
 }
 
@@ -96,11 +93,7 @@ enum exit_status ceduo_batch_read(const struct arguments *a, const char *path, s
 static void warn(void *context, const char *sentence)
 {
     const struct scene_file *file = context;
-    struct text plain = {0};
-    ceduo_text_put(&plain, sentence);
-    ceduo_say_plainly(&plain);
-    ceduo_say_why(file->path, ceduo_text_string(&plain));
-    ceduo_text_free(&plain);
+    ceduo_say_why(file->path, sentence);
 }
 
 void ceduo_batch_warn(const struct arguments *a, const struct scene_file *file)

@@ -501,11 +501,9 @@ CASES = {
         Words("--find", "a=1:9", "--goal", "free-run=2", "@")(row.replace("5 is", "2 is"))),
     "--goal requires --find": Words("--batch", "--goal", "adc", "@"),
     "--find: the scene has several options; name one with --option": Words("--find", "rock.diameter_m=1:2", "--goal", "adc", "four-systems"),
-    "--find cannot be used with --plot, a range of --years or --tolerance": Words("--find", "a=1:9", "--goal", "adc", "--years", "0:5", "@"),
+    "--find takes --years without a range": Words("--find", "a=1:9", "--goal", "adc", "--years", "0:5", "@"),
     "--report: 'other.yaml' does not end in .html or .htm; name the page, or - for standard output, then the scenes: ...":
         Words("--report", "other.yaml", "@"),
-    "--report names its file; it cannot be used with --output, --plot, --format, --rows, --find or --calibrate":
-        Words("--report", "x.html", "-f", "json", "@"),
     "--size requires --plot": Words("--batch", "--size", "80x24", "@"),
     "--plot prints a picture; it cannot be used with --format csv or json": Words("--plot", "adc", "-f", "csv", "@"),
     "--option: no option 'x' in mine.yaml; it has: 'current'": lambda row: [
@@ -530,7 +528,11 @@ CASES = {
     "standard output: No space left on device (status 4)": full,
     "out.csv: Permission denied (status 4)": lambda row: as_nobody(row, "--batch", "-f", "csv", "-o", "out.csv", "scene.yaml",
                                                                   forbidden="out.csv", status=OUTPUT, start="out.csv: "),
-    "--check cannot be used with --format: it computes nothing": lambda row: [
+    "--check cannot be used with --format": lambda row: [
+        Words(*mode, *words, "@")(row.replace("--check", mode[0]).replace("--format", f"--{name}")) for mode, name, words in (
+            (("--find", "a=1:9", "--goal", "adc"), "plot", ("--plot", "adc")), (("--find", "a=1:9", "--goal", "adc"), "tolerance", ("-e", 0.1)),
+            (("--report", "x.html"), "format", ("-f", "json")), (("--report", "x.html"), "plot", ("--plot", "adc")),
+            (("--sensitivity",), "years", ("--years", "0:2")), (("--calibrate", "a=1:2"), "option", ("--option", "x")))] + [
         Words("--check", *words, "@")(row.replace("--format", f"--{name}")) for name, words in (
             ("format", ("-f", "json")), ("rocks", ("-n", 5)), ("output", ("-o", "x")), ("plot", ("--plot", "adc")),
             ("find", ("--find", "a=1:2", "--goal", "adc")), ("tolerance", ("-e", 0.1)), ("years", ("--years", "0:2")),
