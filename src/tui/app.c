@@ -11,17 +11,39 @@
 #include "base/must.h"
 #include "base/utf8.h"
 #include "model/changes.h"
+#include "view/typed.h"
 
-/* ---- saying things ---- */
+/* ---- strings ---- */
+
+char *ceduo_app_format(const struct app *app, const char *format, ...)
+{
+    va_list args;
+    va_start(args, format);
+    char *string = ceduo_arena_vformat(app->scratch, format, args);
+    va_end(args);
+    return string;
+}
+
+const char *ceduo_app_kept(const struct app *app, struct text *text)
+{
+    const char *string = ceduo_arena_string(app->scratch, ceduo_text_string(text));
+    ceduo_text_free(text);
+    return string;
+}
+
+const char *ceduo_app_path(const struct app *app, const char *path)
+{
+    struct text words = {0};
+    ceduo_shown_path(path, &words);
+    return ceduo_app_kept(app, &words);
+}
 
 __attribute__((format(printf, 3, 0))) static void say(struct app *app, bool bad, const char *format, va_list args)
 {
-    struct text text = {0}, safe = {0};
-    ceduo_text_vformat(&text, format, args);
-    ceduo_text_safe(&safe, ceduo_text_string(&text));
+    struct text safe = {0};
+    ceduo_text_safe(&safe, ceduo_arena_vformat(app->scratch, format, args));
     snprintf(app->message, sizeof app->message, "%s", ceduo_text_string(&safe));
     app->message_bad = bad;
-    ceduo_text_free(&text);
     ceduo_text_free(&safe);
 }
 
@@ -45,9 +67,7 @@ void ceduo_app_warn(struct app *app, const char *format, ...)
 static void say_problem(struct app *app)
 {
     const char *text = ceduo_text_string(&app->problems.text);
-    char first[400];
-    snprintf(first, sizeof first, "%.*s", (int)strcspn(text, "\n"), text);
-    const char *colon = strstr(first, ": ");
+    const char *first = ceduo_app_format(app, "%.*s", (int)strcspn(text, "\n"), text), *colon = strstr(first, ": ");
     snprintf(app->message, sizeof app->message, "%s", colon ? colon + 2 : first);
     app->message_bad = true;
 }
@@ -81,19 +101,15 @@ const struct ceduo_arrivals *ceduo_app_shown(const struct app *app)
     return wood || !r ? wood : &r->bare.arrivals[r->last_control];
 }
 
-void ceduo_app_forest(const struct app *app, char *path, size_t size)
+const char *ceduo_app_forest(const struct app *app)
 {
-    if (ceduo_node_get(app->document.file.root, "options"))
-        snprintf(path, size, "options[%zu].forest", app->option);
-    else
-        snprintf(path, size, "forest");
+    bool options = ceduo_node_get(app->document.file.root, "options");
+    return options ? ceduo_app_format(app, "options[%zu].forest", app->option) : "forest";
 }
 
-void ceduo_app_stand(const struct app *app, char *path, size_t size)
+const char *ceduo_app_stand(const struct app *app)
 {
-    char forest[64];
-    ceduo_app_forest(app, forest, sizeof forest);
-    snprintf(path, size, "%s[%zu].stand", forest, app->belt);
+    return ceduo_app_format(app, "%s[%zu].stand", ceduo_app_forest(app), app->belt);
 }
 
 struct ceduo_picture ceduo_app_picture(const struct app *app)
@@ -187,9 +203,7 @@ void ceduo_app_show_option(struct app *app, size_t option)
 void ceduo_app_follow_belt(struct app *app)
 {
     struct form_row *row = ceduo_form_row(ceduo_app_form(app));
-    char forest[64];
-    ceduo_app_forest(app, forest, sizeof forest);
-    if (!row || row->n == 0 || strcmp(row->list, forest) != 0 || row->index == app->belt)
+    if (!row || row->n == 0 || strcmp(row->list, ceduo_app_forest(app)) != 0 || row->index == app->belt)
         return;
     app->belt = row->index;
     ceduo_app_refresh(app);
@@ -210,9 +224,7 @@ static void say_way(struct app *app)
 {
     struct text text = {0};
     ceduo_rock_trajectory_say(&app->way, &app->document.file.scene, &text);
-    if (text.bytes)
-        ceduo_app_say(app, "%s", text.bytes);
-    ceduo_text_free(&text);
+    ceduo_app_say(app, "%s", ceduo_app_kept(app, &text));
 }
 
 bool ceduo_app_follow_rock(struct app *app)
@@ -255,9 +267,9 @@ bool ceduo_app_set(struct app *app, const char *path, const char *value)
 {
     struct text said = {0};
     bool good = ceduo_app_edited(app, ceduo_document_set_alone(&app->document, path, value, &said, &app->problems));
-    if (good && said.bytes)
-        ceduo_app_say(app, "%s", said.bytes);
-    ceduo_text_free(&said);
+    const char *words = ceduo_app_kept(app, &said);
+    if (good && words[0])
+        ceduo_app_say(app, "%s", words);
     return good;
 }
 
@@ -292,9 +304,10 @@ bool ceduo_app_create(struct app *app, const char *path, enum ceduo_charset char
                       struct problems *problems)
 {
     *app = (struct app){.charset = charset, .no_recovery = no_recovery, .doubts = !no_recovery};
+    app->scratch = ceduo_must(calloc(1, sizeof *app->scratch));
     if (!ceduo_document_open(&app->document, path ? path : "paper-site", problems))
         return false;
-    if (!ceduo_live_create(&app->live, threads)) {
+    if (!ceduo_live_create(&app->live, threads)) { /* no thread */
         ceduo_problem_memory(problems);
         ceduo_document_close(&app->document);
         return false;
@@ -311,6 +324,8 @@ void ceduo_app_free(struct app *app)
     ceduo_rock_trajectory_free(&app->way);
     ceduo_cells_free(app->cells);
     ceduo_document_close(&app->document);
+    ceduo_arena_free(app->scratch);
+    free(app->scratch);
     *app = (struct app){0};
 }
 
@@ -361,14 +376,10 @@ void ceduo_app_resize(struct app *app, int width, int height)
 
 void ceduo_app_label(struct app *app, int x, int y, enum ceduo_role role, const char *format, ...)
 {
-    struct text text = {0};
     va_list args;
     va_start(args, format);
-    ceduo_text_vformat(&text, format, args);
+    ceduo_cells_label(app->cells, x, y, role, ceduo_arena_vformat(app->scratch, format, args));
     va_end(args);
-    if (text.bytes)
-        ceduo_cells_label(app->cells, x, y, role, text.bytes);
-    ceduo_text_free(&text);
 }
 
 static int draw_wrapped(struct app *app, struct ceduo_area area, enum ceduo_role role, const char *text, int skip)

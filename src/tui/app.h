@@ -33,6 +33,15 @@ struct bar_key {
     const char *word;
 };
 
+/* What an action does; a table of them ends with a function of NULL. */
+struct act {
+    enum action action;
+    void (*function)(struct app *app, int by);
+    int by;
+};
+
+#define VIEW_PANES 3
+
 /* Describes a view: what it shows and how it handles keys. */
 struct view {
     const char *title;                                 /* marked for translation */
@@ -43,9 +52,9 @@ struct view {
     bool result;                                       /* it shows nothing before the first result */
     void (*build)(struct app *app, struct form *form); /* NULL: it has no form */
     void (*draw)(struct app *app, struct ceduo_area area);
-    bool (*act)(struct app *app, enum action action); /* true: done; NULL: no keys of its own */
-    void (*follow)(struct app *app);                  /* after each key; NULL: nothing */
-    struct bar_key bar[8];                            /* its own keys, the most needed first; a word of NULL ends them */
+    const struct act *acts[VIEW_PANES]; /* its own keys in each pane; NULL: none */
+    void (*follow)(struct app *app);    /* after each key; NULL: nothing */
+    struct bar_key bar[8];              /* its own keys, the most needed first; a word of NULL ends them */
 };
 
 #define V(NAME, name, key, word, help) extern const struct view ceduo_view_##name;
@@ -70,6 +79,7 @@ struct place {
 
 struct app {
     struct document document;
+    struct arena *scratch;    /* strings until the next key */
     struct problems problems; /* of the edit that is under way */
     struct live live;
     struct ceduo_cells *cells;
@@ -110,6 +120,11 @@ void ceduo_app_resize(struct app *app, int width, int height);
 /* Takes the news of the jobs. True where the screen has changed. */
 bool ceduo_app_news(struct app *app);
 
+/* A string that lives until the next key; what a path means in words, likewise. */
+char *ceduo_app_format(const struct app *app, const char *format, ...) __attribute__((format(printf, 2, 3)));
+const char *ceduo_app_path(const struct app *app, const char *path);
+const char *ceduo_app_kept(const struct app *app, struct text *text); /* frees the text */
+
 void ceduo_app_say(struct app *app, const char *format, ...) __attribute__((format(printf, 2, 3)));
 void ceduo_app_warn(struct app *app, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
@@ -145,9 +160,10 @@ bool ceduo_app_doubt(const struct app *app, struct ceduo_doubt_report *report);
 /* Whether finer figures of it are on their way. */
 bool ceduo_app_doubt_is_rough(const struct app *app);
 
-/* Writes the path of the forest of the option shown, "forest" or "options[2].forest"; of the stand of the belt shown. */
-void ceduo_app_forest(const struct app *app, char *path, size_t size);
-void ceduo_app_stand(const struct app *app, char *path, size_t size);
+/* The path of the forest of the option shown, "forest" or "options[2].forest"; of the stand of the belt shown. Until the next
+ * key. */
+const char *ceduo_app_forest(const struct app *app);
+const char *ceduo_app_stand(const struct app *app);
 const struct ceduo_option *ceduo_app_option(const struct app *app);
 const struct ceduo_option_result *ceduo_app_found(const struct app *app);
 

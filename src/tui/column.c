@@ -3,7 +3,6 @@
 #include "screen.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 #include "base/language.h"
@@ -21,29 +20,15 @@ struct pen {
 
 __attribute__((format(printf, 3, 4))) static void line(struct pen *pen, enum ceduo_role role, const char *format, ...)
 {
-    struct text text = {0}, safe = {0};
+    struct text safe = {0};
     va_list args;
     va_start(args, format);
-    ceduo_text_vformat(&text, format, args);
+    ceduo_text_safe(&safe, ceduo_arena_vformat(pen->app->scratch, format, args));
     va_end(args);
-    ceduo_text_safe(&safe, ceduo_text_string(&text));
-    if (pen->y < pen->area.top + pen->area.height && safe.bytes)
-        ceduo_canvas_put(&pen->app->cells->canvas, pen->area.left, pen->y, pen->area.width, role, safe.bytes);
+    if (pen->y < pen->area.top + pen->area.height)
+        ceduo_canvas_put(&pen->app->cells->canvas, pen->area.left, pen->y, pen->area.width, role, ceduo_text_string(&safe));
     pen->y++;
-    ceduo_text_free(&text);
     ceduo_text_free(&safe);
-}
-
-/* No single size stands for blocks. */
-static void put_blocks(struct pen *pen, const struct ceduo_scene *s)
-{
-    double least = INFINITY, most = 0, per_year = 0;
-    for (size_t i = 0; i < s->blocks_count; i++) {
-        least = fmin(least, s->blocks[i].volumes[0]);
-        most = fmax(most, s->blocks[i].volumes[1]);
-        per_year += s->blocks[i].per_year;
-    }
-    line(pen, CEDUO_ROLE_TEXT, _("Blocks  %.3g-%.3g m\xc2\xb3  %.3g/year"), least, most, per_year);
 }
 
 static void put_scene(struct pen *pen)
@@ -51,8 +36,14 @@ static void put_scene(struct pen *pen)
     const struct ceduo_scene *s = &pen->app->document.file.scene;
     const struct ceduo_option *o = ceduo_app_option(pen->app);
     struct ceduo_rock rock = ceduo_rock_mean(&s->rock);
-    if (s->blocks_count > 0)
-        put_blocks(pen, s);
+    double min = INFINITY, max = 0, per_year = 0;
+    for (size_t i = 0; i < s->blocks_count; i++) {
+        min = fmin(min, s->blocks[i].volumes[0]);
+        max = fmax(max, s->blocks[i].volumes[1]);
+        per_year += s->blocks[i].per_year;
+    }
+    if (s->blocks_count > 0) /* no single size stands for them */
+        line(pen, CEDUO_ROLE_TEXT, _("Blocks  %.3g-%.3g m\xc2\xb3  %.3g/year"), min, max, per_year);
     else if (!isnan(rock.mass))
         line(pen, CEDUO_ROLE_TEXT, _("Rock  %.3g m  %.4g kg%s"), rock.mean_diameter, rock.mass,
              ceduo_notes_assume(pen->app->document.file.notes, "rock") ? "*" : "");
@@ -63,38 +54,38 @@ static void put_scene(struct pen *pen)
              o->belts_count > 1 && s->options_count < 2 ? " \xc2\xb7 \xe2\x80\xa6" : "");
 }
 
-/* Of 1000: "832 (831-834)" where there is room, otherwise "832±2"; without an interval where lo = hi. */
-static void share(char *to, size_t size, double p, double lo, double hi, bool wide)
+/* Of 1000: "832\xc2\xb12"; without an interval where lo = hi. */
+static const char *share(const struct pen *pen, double p, double lo, double hi)
 {
     if (isnan(p))
-        snprintf(to, size, "-");
-    else if (wide)
-        snprintf(to, size, "%.0f (%.0f-%.0f)", p * 1000, floor(lo * 1000), ceil(hi * 1000));
-    else if (hi > lo)
-        snprintf(to, size, "%.0f\xc2\xb1%.0f", p * 1000, ceil(fmax(hi - p, p - lo) * 1000));
-    else
-        snprintf(to, size, "%.0f", p * 1000);
+        return "-";
+    if (hi > lo)
+        return ceduo_app_format(pen->app, "%.0f\xc2\xb1%.0f", p * 1000, ceil(fmax(hi - p, p - lo) * 1000));
+    return ceduo_app_format(pen->app, "%.0f", p * 1000);
 }
 
-/* The share that the options are compared by: with the same error as in the other views. */
-static void compared_share(char *to, size_t size, const struct ceduo_arrivals *a, bool wide)
+/* The same as "832 (831-834)" where there is room. */
+static bool is_wide(const struct pen *pen)
 {
-    double half = wide ? 0 : ceduo_share_at(a).half;
-    if (wide)
-        share(to, size, a->exceed_probability, a->exceed_lo, a->exceed_hi, true);
-    else
-        share(to, size, a->exceed_probability, a->exceed_probability - half, a->exceed_probability + half, false);
+    return pen->area.width >= 34;
 }
 
-static void figure(char *to, size_t size, double value)
+static const char *wide_share(const struct pen *pen, double p, double lo, double hi)
 {
-    snprintf(to, size, isnan(value) ? "-" : "%.3g", value);
+    if (isnan(p))
+        return "-";
+    return ceduo_app_format(pen->app, "%.0f (%.0f-%.0f)", p * 1000, floor(lo * 1000), ceil(hi * 1000));
+}
+
+static const char *figure(const struct pen *pen, double value)
+{
+    return isnan(value) ? "-" : ceduo_app_format(pen->app, "%.3g", value);
 }
 
 /* A line of the figures, those of the forest first: the column without forest stands beside it. */
 static void put_pair(struct pen *pen, enum ceduo_role role, const char *name, const char *wood, const char *bare)
 {
-    int column = pen->area.width >= 34 ? 15 : 7;
+    int column = is_wide(pen) ? 15 : 7;
     int wider = strstr(wood, "\xc2\xb1") ? 1 : 0; /* a byte more than columns */
     line(pen, role, "%-*s%*s%*s", ceduo_utf8_field(name, 11), name, column + wider, wood, 8, bare);
 }
@@ -102,41 +93,27 @@ static void put_pair(struct pen *pen, enum ceduo_role role, const char *name, co
 /* A part of the pair above: its name is set in by a blank. */
 static void put_pair_in(struct pen *pen, const char *name, const char *wood, const char *bare)
 {
-    char set_in[64];
-    snprintf(set_in, sizeof set_in, " %s", name);
-    put_pair(pen, CEDUO_ROLE_TEXT, set_in, wood, bare);
+    put_pair(pen, CEDUO_ROLE_TEXT, ceduo_app_format(pen->app, " %s", name), wood, bare);
 }
 
 static void put_figures(struct pen *pen, const char *name, double wood, double bare)
 {
-    char a[32], b[32];
-    figure(a, sizeof a, wood);
-    figure(b, sizeof b, bare);
-    put_pair(pen, CEDUO_ROLE_TEXT, name, a, b);
+    put_pair(pen, CEDUO_ROLE_TEXT, name, figure(pen, wood), figure(pen, bare));
 }
 
 /* Rocks that end before the control. */
 static void put_missed(struct pen *pen, const char *name, enum ceduo_end end, const struct ceduo_arrivals *wood,
-                       const struct ceduo_arrivals *bare, bool always)
+                       const struct ceduo_arrivals *bare)
 {
-    char a[32] = "-", b[32];
-    if (!always && wood->ended[end] == 0 && bare->ended[end] == 0)
-        return;
-    if (wood->released > 0)
-        share(a, sizeof a, wood->missed[end], 0, 0, false);
-    share(b, sizeof b, bare->missed[end], 0, 0, false);
-    put_pair_in(pen, name, a, b);
+    put_pair_in(pen, name, wood->released > 0 ? share(pen, wood->missed[end], 0, 0) : "-", share(pen, bare->missed[end], 0, 0));
 }
 
 /* The share in the line above, under the other energy law; `other` may be NULL. */
 static void put_other(struct pen *pen, const struct ceduo_other_energy *other)
 {
-    char a[32], name[32];
-    if (!other || !other->known || !other->stems)
-        return;
-    share(a, sizeof a, ceduo_share_by_other_law(other), 0, 0, false);
-    snprintf(name, sizeof name, "  %s", ceduo_energy_words.names[other->model]);
-    put_pair(pen, CEDUO_ROLE_DIM, name, a, "");
+    if (other && other->known && other->stems)
+        put_pair(pen, CEDUO_ROLE_DIM, ceduo_app_format(pen->app, "  %s", ceduo_energy_words.names[other->model]),
+                 share(pen, ceduo_share_by_other_law(other), 0, 0), "");
 }
 
 /* Years from one dangerous rock to the next: what matters where blocks of all sizes come down. */
@@ -145,24 +122,28 @@ static void put_every(struct pen *pen, const struct ceduo_arrivals *wood, const 
     struct text a = {0}, b = {0};
     ceduo_words_every(&a, ceduo_hazard_feared(&wood->hazard));
     ceduo_words_every(&b, ceduo_hazard_feared(&bare->hazard));
-    put_pair_in(pen, _("years apart"), ceduo_text_string(&a), ceduo_text_string(&b));
-    ceduo_text_free(&a);
-    ceduo_text_free(&b);
+    put_pair_in(pen, _("years apart"), ceduo_app_kept(pen->app, &a), ceduo_app_kept(pen->app, &b));
 }
 
 /* Where all released end: on the way, or here. */
 static void put_released(struct pen *pen, const struct ceduo_arrivals *wood, const struct ceduo_arrivals *bare,
                          const struct ceduo_other_energy *other)
 {
-    char a[32], b[32];
-    share(a, sizeof a, wood->reach_probability, wood->reach_lo, wood->reach_hi, pen->area.width >= 34);
-    share(b, sizeof b, bare->reach_probability, 0, 0, false);
-    put_pair_in(pen, _("arrive"), a, b);
+    static const struct {
+        const char *name;
+        enum ceduo_end end;
+        bool always;
+    } rows[] = {{N_("stems stop"), CEDUO_STOPPED_BY_STEMS, true},
+                {N_("at rest"), CEDUO_AT_REST, true},
+                {N_("left"), CEDUO_LEFT_SLOPE, false},
+                {N_("unfinished"), CEDUO_UNFINISHED, false}};
+    put_pair_in(pen, _("arrive"),
+                (is_wide(pen) ? wide_share : share)(pen, wood->reach_probability, wood->reach_lo, wood->reach_hi),
+                share(pen, bare->reach_probability, 0, 0));
     put_other(pen, other);
-    put_missed(pen, _("stems stop"), CEDUO_STOPPED_BY_STEMS, wood, bare, true);
-    put_missed(pen, _("at rest"), CEDUO_AT_REST, wood, bare, true);
-    put_missed(pen, _("left"), CEDUO_LEFT_SLOPE, wood, bare, false);
-    put_missed(pen, _("unfinished"), CEDUO_UNFINISHED, wood, bare, false);
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++)
+        if (rows[i].always || wood->ended[rows[i].end] > 0 || bare->ended[rows[i].end] > 0)
+            put_missed(pen, _(rows[i].name), rows[i].end, wood, bare);
 }
 
 /* How sure the figures shown are: not those of a year to come; false where nothing is known. */
@@ -176,17 +157,23 @@ static bool put_doubt(struct pen *pen, bool energy)
 {
     struct app *app = pen->app;
     struct ceduo_doubt_report report;
-    char range[64], name[64];
     if (!doubt_of(app, &report) || (report.answer->main == CEDUO_DOUBT_ENERGY) != energy)
         return false;
     const struct ceduo_doubt_figure *f = ceduo_doubt_figure_of(report.answer, app->option, report.answer->main, false);
-    if (energy)
-        snprintf(range, sizeof range, "%.3g-%.3g", f->p5 * J_TO_KJ, f->p95 * J_TO_KJ);
-    else
-        snprintf(range, sizeof range, "%.0f-%.0f", f->p5 * 1000, f->p95 * 1000);
-    snprintf(name, sizeof name, "  %s", P_("view", "doubt"));
-    put_pair(pen, CEDUO_ROLE_DIM, name, range, ceduo_app_doubt_is_rough(app) ? _("rough") : "");
+    const char *range = energy ? ceduo_app_format(app, "%.3g-%.3g", f->p5 * J_TO_KJ, f->p95 * J_TO_KJ)
+                               : ceduo_app_format(app, "%.0f-%.0f", f->p5 * 1000, f->p95 * 1000);
+    put_pair(pen, CEDUO_ROLE_DIM, ceduo_app_format(app, "  %s", P_("view", "doubt")), range,
+             ceduo_app_doubt_is_rough(app) ? _("rough") : "");
     return true;
+}
+
+/* The share that the options are compared by, with the same error as in the other views. */
+static void put_exceed(struct pen *pen, double accepted, const struct ceduo_arrivals *wood, const struct ceduo_arrivals *bare)
+{
+    double p = wood->exceed_probability, half = ceduo_share_at(wood).half;
+    put_pair_in(pen, ceduo_app_format(pen->app, ">%.4g kJ", accepted * J_TO_KJ),
+                is_wide(pen) ? wide_share(pen, p, wood->exceed_lo, wood->exceed_hi) : share(pen, p, p - half, p + half),
+                share(pen, bare->exceed_probability, 0, 0));
 }
 
 /* What arrives through the forest beside what arrives without it; `wood` NULL: not known yet, or never (index). `other`
@@ -195,7 +182,6 @@ static void put_arrivals(struct pen *pen, const struct ceduo_control *c, const s
                          const struct ceduo_arrivals *bare, const struct ceduo_other_energy *other)
 {
     const struct ceduo_distribution none = ceduo_distribution_none();
-    bool nothing_said = ceduo_says_nothing(bare);
     const struct ceduo_arrivals nothing = {.reach_probability = NAN,
                                            .exceed_probability = NAN,
                                            .energy_per_released = NAN,
@@ -203,30 +189,26 @@ static void put_arrivals(struct pen *pen, const struct ceduo_control *c, const s
                                            .hazard = ceduo_hazard_none(),
                                            .height = none};
     wood = wood ? wood : &nothing;
-    char a[32], b[32], limit[32];
-    bool told = false, blocks = !isnan(bare->hazard.per_year);
+    bool doubted = false, blocks = !isnan(bare->hazard.per_year);
     line(pen, CEDUO_ROLE_TITLE, _("At %g m%s%s"), c->x_given, c->name ? ", " : "", c->name ? c->name : "");
     put_pair(pen, CEDUO_ROLE_DIM, _("of 1000"), _("forest"), _("without"));
-    if (nothing_said) { /* why stands below, and takes the room */
+    if (ceduo_says_nothing(bare)) { /* why stands below, and takes the room */
         put_released(pen, wood, bare, NULL);
         return;
     }
     if (!isnan(c->accepted)) {
-        compared_share(a, sizeof a, wood, pen->area.width >= 34);
-        share(b, sizeof b, bare->exceed_probability, 0, 0, false);
-        snprintf(limit, sizeof limit, ">%.4g kJ", c->accepted * J_TO_KJ);
-        put_pair_in(pen, limit, a, b);
+        put_exceed(pen, c->accepted, wood, bare);
         put_other(pen, other);
-        told = put_doubt(pen, false);
+        doubted = put_doubt(pen, false);
     }
     if (blocks)
         put_every(pen, wood, bare);
     put_released(pen, wood, bare, isnan(c->accepted) ? other : NULL);
     put_figures(pen, _("kJ a rock"), wood->energy_per_released * J_TO_KJ, bare->energy_per_released * J_TO_KJ);
-    told |= put_doubt(pen, true);
+    doubted |= put_doubt(pen, true);
     if (!blocks) /* of them the large arrive: a mean of those would read as if the wood did harm */
         put_figures(pen, _("arriving kJ"), wood->energy.mean * J_TO_KJ, bare->energy.mean * J_TO_KJ);
-    if (!blocks && pen->area.height >= (told ? HEIGHT_FOR_ALL : HEIGHT_FOR_MOST))
+    if (!blocks && pen->area.height >= (doubted ? HEIGHT_FOR_ALL : HEIGHT_FOR_MOST))
         put_figures(pen, "  95 % kJ", wood->energy.p95 * J_TO_KJ, bare->energy.p95 * J_TO_KJ);
     if (pen->area.height >= HEIGHT_FOR_ALL)
         put_figures(pen, _(" 95% m under"), wood->height.p95, bare->height.p95);
@@ -248,42 +230,38 @@ static void put_causes(struct pen *pen, enum ceduo_doubt_kind light)
     ceduo_text_free(&causes);
 }
 
+/* Columns with room for limits beside the figures. */
+static bool has_limits(const struct pen *pen)
+{
+    return pen->area.width >= 30;
+}
+
 static void put_contact(struct pen *pen, const char *name, double adc, enum ceduo_light light, double threshold, bool forest)
 {
-    char what[64];
-    if (isinf(adc))
-        snprintf(what, sizeof what, "%s", forest ? _("no stems") : _("no forest"));
-    else
-        snprintf(what, sizeof what, pen->area.width >= 30 ? "%.3g m (<%g)" : "%.3g m", adc, threshold);
+    const char *what = isinf(adc)        ? forest ? _("no stems") : _("no forest")
+                              : has_limits(pen) ? ceduo_app_format(pen->app, "%.3g m (<%g)", adc, threshold)
+                                         : ceduo_app_format(pen->app, "%.3g m", adc);
     put_light(pen, name, what, light);
 }
 
 /* A share and its limit, where there is room; whole is "100", as in Italian 100.0 would have none. */
 static void put_percent(struct pen *pen, const char *name, double share, double most, enum ceduo_light light)
 {
-    char what[64];
-    int n = snprintf(what, sizeof what, "%.*f %%", share >= 0.9995 ? 0 : 1, share * 100);
-    if (pen->area.width >= 30)
-        snprintf(what + n, sizeof what - (size_t)n, " (\xe2\x89\xa4%g)", most * 100);
-    put_light(pen, name, what, light);
+    const char *limit = has_limits(pen) ? ceduo_app_format(pen->app, " (\xe2\x89\xa4%g)", most * 100) : "";
+    put_light(pen, name, ceduo_app_format(pen->app, "%.*f %%%s", share >= 0.9995 ? 0 : 1, share * 100, limit), light);
 }
 
 /* Where thin shoots alone decide: the same of stems from 8 cm on; in few columns in one line. */
 static void put_thick(struct pen *pen, const struct ceduo_index *index, double threshold)
 {
+    static const char name[] = " \xe2\x89\xa5\x38 cm";
     const struct ceduo_meeting *thick = &index->thick;
     bool contact = thick->contact != index->contact, free_run = thick->free_run != index->free_run;
-    if (contact && pen->area.width >= 30)
-        put_contact(pen,
-                    " \xe2\x89\xa5"
-                    "8 cm",
-                    thick->worst_adc, thick->contact, threshold, index->length > 0);
-    if (free_run && pen->area.width >= 30)
-        put_percent(pen,
-                    " \xe2\x89\xa5"
-                    "8 cm",
-                    thick->worst_free_run, CEDUO_FREE_RUN_MOST, thick->free_run);
-    if ((contact || free_run) && pen->area.width < 30)
+    if (contact && has_limits(pen))
+        put_contact(pen, name, thick->worst_adc, thick->contact, threshold, index->length > 0);
+    if (free_run && has_limits(pen))
+        put_percent(pen, name, thick->worst_free_run, CEDUO_FREE_RUN_MOST, thick->free_run);
+    if ((contact || free_run) && !has_limits(pen))
         line(pen, CEDUO_ROLE_BAD, "%s %s", ceduo_plot_light_mark(CEDUO_FAIL),
              contact && free_run ? _("\xe2\x89\xa5"
                                      "8 cm alone: both FAIL")
@@ -295,14 +273,13 @@ static void put_thick(struct pen *pen, const struct ceduo_index *index, double t
 
 static void put_lights(struct pen *pen, const struct ceduo_index *index, const struct ceduo_arrivals *wood, double threshold)
 {
-    char what[64] = "";
-    bool wide = pen->area.width >= 30;
-    if (index->length > 0 && index->longest_gap > threshold) { /* the reason in the page, too */
-        snprintf(what, sizeof what, wide ? _("gap %.3g m (>%g)") : _("gap %.3g m"), index->longest_gap, threshold);
-        put_light(pen, _("Contact"), what, index->contact);
-    } else {
+    if (index->length > 0 && index->longest_gap > threshold) /* the reason in the page, too */
+        put_light(pen, _("Contact"),
+                  has_limits(pen) ? ceduo_app_format(pen->app, _("gap %.3g m (>%g)"), index->longest_gap, threshold)
+                                  : ceduo_app_format(pen->app, _("gap %.3g m"), index->longest_gap),
+                  index->contact);
+    else
         put_contact(pen, _("Contact"), index->worst_adc, index->contact, threshold, index->length > 0);
-    }
     put_causes(pen, CEDUO_DOUBT_CONTACT);
     put_percent(pen, _("Free run"), index->worst_free_run, CEDUO_FREE_RUN_MOST, index->free_run);
     put_causes(pen, CEDUO_DOUBT_FREE_RUN);
@@ -325,8 +302,8 @@ static void put_index(struct pen *pen, const struct ceduo_index *index)
     else if (index->exhausted)
         line(pen, CEDUO_ROLE_DIM, _("index: %.3g kJ, used up"), index->dissipated * J_TO_KJ);
     else
-        line(pen, CEDUO_ROLE_DIM, _("index: %s%.3g, left %.3g kJ"), index->dissipated > 0 ? "-" : "",
-             index->dissipated * J_TO_KJ, index->residual * J_TO_KJ);
+        line(pen, CEDUO_ROLE_DIM, _("index: %s%.3g, left %.3g kJ"), index->dissipated > 0 ? "-" : "", index->dissipated * J_TO_KJ,
+             index->residual * J_TO_KJ);
     if (!isnan(index->measured) && pen->area.height >= HEIGHT_FOR_ALL)
         line(pen, CEDUO_ROLE_DIM, _("seen: %.3g kJ (one rock)"), index->measured * J_TO_KJ);
 }
@@ -385,10 +362,9 @@ static void put_mark(struct pen *pen, const struct ceduo_arrivals *a)
     struct text text = {0};
     ceduo_text_format(&text, app->live.busy ? _("computing, %llu rocks") : _("finished, %llu rocks"),
                       (unsigned long long)a->released);
-    if (a->reached >= CEDUO_FEW && pen->area.width >= 34)
+    if (a->reached >= CEDUO_FEW && is_wide(pen))
         ceduo_text_format(&text, ", \xc2\xb1%.2g %%", ceduo_half_width(a->energy.se, a->reached) / a->energy.mean * 100);
-    line(pen, CEDUO_ROLE_DIM, "%s", ceduo_text_string(&text));
-    ceduo_text_free(&text);
+    line(pen, CEDUO_ROLE_DIM, "%s", ceduo_app_kept(app, &text));
 }
 
 /* The forest that the column is of: of view 6 in the year under its cursor, otherwise as it is today. */

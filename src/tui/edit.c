@@ -13,21 +13,18 @@
 /* A refusal begins with the field's label, not with its key or path. */
 static void name_field(struct app *app, const struct field *field)
 {
-    char rest[sizeof app->message];
     size_t n = strcspn(app->message, " ");
     bool key = n > 1 && app->message[n - 1] == ':' &&
                ((size_t)strcspn(app->message, "_.[") < n || strncmp(app->message, field->key, n - 1) == 0);
     if (!key || !app->message[n])
         return;
-    snprintf(rest, sizeof rest, "%s", app->message + n + 1);
-    ceduo_app_warn(app, "%s: %s", _(field->shown.label), rest);
+    ceduo_app_warn(app, "%s: %s", _(field->shown.label), ceduo_app_format(app, "%s", app->message + n + 1));
 }
 
 static bool set_value(struct app *app, const struct form_cell *cell, const char *value)
 {
-    char path[FORM_PATH];
-    snprintf(path, sizeof path, "%s", cell->path); /* the form is made anew below */
-    if (value[0] == '\0')                          /* nothing: back to the default */
+    const char *path = ceduo_app_format(app, "%s", cell->path); /* the form is made anew below */
+    if (value[0] == '\0')                                       /* nothing: back to the default */
         return ceduo_app_edited(app, ceduo_document_delete(&app->document, path, &app->problems));
     struct text written = {0};
     if (cell->field && cell->field->type == FIELD_TEXT)
@@ -35,7 +32,7 @@ static bool set_value(struct app *app, const struct form_cell *cell, const char 
     else if (cell->field)
         ceduo_typed_value(cell->field, value, &written);
     const struct field *field = cell->field;
-    bool good = ceduo_app_set(app, path, written.bytes ? written.bytes : value);
+    bool good = ceduo_app_set(app, path, field ? ceduo_text_string(&written) : value);
     if (!good && field)
         name_field(app, field);
     ceduo_text_free(&written);

@@ -28,11 +28,7 @@ void ceduo_form_free(struct form *form)
 
 static struct form_row *add_row(struct form *form, enum form_kind kind, const char *label)
 {
-    static struct form_row spare; /* for want of memory: a line that nobody sees */
-    struct form_row *rows = ceduo_grow(form->rows, form->n, &form->room, sizeof *rows);
-    if (!rows)
-        return &spare;
-    form->rows = rows;
+    form->rows = ceduo_grow(form->rows, form->n, &form->room, sizeof *form->rows);
     struct form_row *row = &form->rows[form->n++];
     memset(row, 0, sizeof *row);
     row->kind = kind;
@@ -126,6 +122,13 @@ void ceduo_form_field(struct form *form, const struct document *d, const struct 
     snprintf(path, sizeof path, "%s%s%s", prefix, prefix[0] ? "." : "", key);
     fill_cell(&row->cells[0], d, field, path);
     row->n = 1;
+}
+
+void ceduo_form_fields(struct form *form, const struct document *d, const struct object *object, const char *prefix,
+                       const char *const *keys)
+{
+    for (; *keys; keys++)
+        ceduo_form_field(form, d, object, prefix, *keys, NULL);
 }
 
 static bool has_path(const struct form *form, const char *path)

@@ -47,6 +47,10 @@ void ceduo_form_note(struct form *form, const char *text);
 void ceduo_form_field(struct form *form, const struct document *d, const struct object *object, const char *prefix,
                       const char *key, const char *label);
 
+/* A line for each key; `keys` ends in NULL. */
+void ceduo_form_fields(struct form *form, const struct document *d, const struct object *object, const char *prefix,
+                       const char *const *keys);
+
 /* A line for each field of a group (such as growth.shoots) that has none yet: what the table of the scene has and a view
  * does not name. */
 void ceduo_form_rest(struct form *form, const struct document *d, const struct object *object, const char *prefix,

@@ -2,35 +2,36 @@
 /* Adds, deletes, duplicates and moves items of the list under the cursor: belts, controls, segments, cohorts, classes. */
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/language.h"
 #include "ceduo/material.h"
 #include "edit.h"
-#include "place.h"
-#include "view/typed.h"
+#include "model/changes.h"
 
 /* The item under the cursor, copied because each edit builds the form again. */
 struct item {
-    char list[FORM_PATH]; /* path of its list */
-    const char *key;      /* last word of that path */
+    const char *list; /* path of its list */
+    const char *key;  /* last word of that path */
     size_t index;
     bool there; /* false: the list is empty */
     double at;  /* where along the slope, m, as given; NAN: in the middle of what is split */
 };
+
+static struct item item_of(const struct app *app, const char *list, size_t index)
+{
+    list = ceduo_app_format(app, "%s", list);
+    const char *dot = strrchr(list, '.');
+    return (struct item){.list = list, .key = dot ? dot + 1 : list, .index = index, .there = true, .at = NAN};
+}
 
 static bool find_item(struct app *app, struct item *item)
 {
     const struct form_row *row = ceduo_form_row(ceduo_app_form(app));
     if (!row || !row->list[0])
         return false;
-    snprintf(item->list, sizeof item->list, "%s", row->list);
-    const char *dot = strrchr(item->list, '.');
-    item->key = dot ? dot + 1 : item->list;
-    item->index = row->index;
+    *item = item_of(app, row->list, row->index);
     item->there = row->n > 0;
-    item->at = NAN;
     return true;
 }
 
@@ -39,27 +40,23 @@ static bool find_item(struct app *app, struct item *item)
 /* The number at `list[index].key`; NaN where there is none. */
 static double number_of(const struct app *app, const struct item *item, size_t index, const char *key)
 {
-    char path[FORM_PATH + 32];
-    snprintf(path, sizeof path, "%s[%zu]", item->list, index);
-    const struct node *node = ceduo_document_node(&app->document, path);
+    const struct node *node = ceduo_document_node(&app->document, ceduo_app_format(app, "%s[%zu]", item->list, index));
     return node ? ceduo_node_number(node, key) : NAN;
 }
 
 /* A stretch from_m to to_m in two halves of the same kind: two cannot lie in one place. */
 static bool split_stretch(struct app *app, const struct item *item)
 {
-    char first[FORM_PATH + 64], second[FORM_PATH + 64];
     double middle = (number_of(app, item, item->index, "from_m") + number_of(app, item, item->index, "to_m")) / 2;
     middle = isnan(item->at) ? middle : item->at;
-    snprintf(first, sizeof first, "%s[%zu].to_m=%.10g", item->list, item->index, middle);
-    snprintf(second, sizeof second, "%s[%zu].from_m=%.10g", item->list, item->index + 1, middle);
+    const char *first = ceduo_app_format(app, "%s[%zu].to_m=%.10g", item->list, item->index, middle);
+    const char *second = ceduo_app_format(app, "%s[%zu].from_m=%.10g", item->list, item->index + 1, middle);
     return ceduo_document_split(&app->document, item->list, item->index, first, second, &app->problems);
 }
 
 /* A point on a segment of the profile, `at` along the slope (NAN: in its middle). */
 static bool split_at(struct app *app, size_t segment, bool apart, double at)
 {
-    char vertex[96];
     const struct node *vertices = ceduo_document_node(&app->document, "slope.vertices_m");
     if (!vertices || segment + 1 >= vertices->n) {
         ceduo_app_warn(app, "%s", _("the profile comes from a CSV file: its points are edited there"));
@@ -73,8 +70,21 @@ static bool split_at(struct app *app, size_t segment, bool apart, double at)
     if (isnan(x[0] + x[1] + z[0] + z[1]))
         return false;
     double share = isnan(at) ? 0.5 : (at - x[0]) / (x[1] - x[0]);
-    snprintf(vertex, sizeof vertex, "[%.10g, %.10g]", isnan(at) ? (x[0] + x[1]) / 2 : at, z[0] + share * (z[1] - z[0]));
+    const char *vertex =
+        ceduo_app_format(app, "[%.10g, %.10g]", isnan(at) ? (x[0] + x[1]) / 2 : at, z[0] + share * (z[1] - z[0]));
     return ceduo_document_split_segment(&app->document, segment, vertex, apart, &app->problems);
+}
+
+size_t ceduo_items_stretch_of(const struct app *app, double x_written)
+{
+    const struct ceduo_slope *s = &app->document.file.scene.slope;
+    const struct node *vertices = ceduo_document_node(&app->document, "slope.vertices_m");
+    size_t j = ceduo_slope_segment(s, ceduo_slope_mirrored(s, x_written) - s->origin_x);
+    if (!vertices) /* a CSV file */
+        return s->reversed ? s->vertices - 2 - j : j;
+    for (j = 0; j + 2 < vertices->n && x_written >= ceduo_node_item_number(vertices->items[j + 1], 0);)
+        j++;
+    return j;
 }
 
 /* A segment in two, each with a ground of its own; of one ground for all segments that in the middle of the slope. */
@@ -84,7 +94,7 @@ static bool split_segment(struct app *app, const struct item *item)
     const struct node *segments = ceduo_document_node(&app->document, "slope.segments");
     bool all = segments && segments->n == 1;
     double at = isnan(item->at) ? s->origin_x + s->x[s->vertices - 1] / 2 : item->at;
-    return split_at(app, all ? ceduo_place_stretch_of(app, at) : item->index, true, item->at);
+    return split_at(app, all ? ceduo_items_stretch_of(app, at) : item->index, true, item->at);
 }
 
 /* A point between this one and the next, or before the last. */
@@ -96,6 +106,11 @@ static bool split_point(struct app *app, const struct item *item)
 }
 
 /* ---- adding ---- */
+
+static bool insert(struct app *app, const struct item *item, size_t index, const char *yaml)
+{
+    return ceduo_document_insert(&app->document, item->list, index, yaml, &app->problems);
+}
 
 /* The stretch without forest behind a belt; without belts the slope behind the release. */
 static bool stretch_behind(const struct app *app, const struct item *item, double *from, double *to)
@@ -113,25 +128,22 @@ static bool stretch_behind(const struct app *app, const struct item *item, doubl
 static bool add_belt(struct app *app, const struct item *item)
 {
     double from, to;
-    char belt[256];
     bool behind = stretch_behind(app, item, &from, &to);
     if (item->there && !(behind && ceduo_app_form(app)->column == 1))
         return split_stretch(app, item);
-    snprintf(belt, sizeof belt, "{from_m: %.10g, to_m: %.10g, stand: simple-coppice}", from, to);
-    size_t index = item->there ? item->index + 1 : 0;
-    return ceduo_document_insert(&app->document, item->list, index, belt, &app->problems);
+    return insert(app, item, item->there ? item->index + 1 : 0,
+                  ceduo_app_format(app, "{from_m: %.10g, to_m: %.10g, stand: simple-coppice}", from, to));
 }
 
 /* Ground of the library, where none is said yet: that which was assumed. */
 static bool add_ground(struct app *app, const struct item *item)
 {
     const struct ceduo_slope *s = &app->document.file.scene.slope;
-    char ground[128];
     if (item->there)
         return split_stretch(app, item);
-    snprintf(ground, sizeof ground, "{from_m: %.10g, to_m: %.10g, material: %s}", s->origin_x,
-             s->origin_x + s->x[s->vertices - 1], ceduo_material_talus()->name);
-    return ceduo_document_insert(&app->document, item->list, 0, ground, &app->problems);
+    return insert(app, item, 0,
+                  ceduo_app_format(app, "{from_m: %.10g, to_m: %.10g, material: %s}", s->origin_x,
+                                   s->origin_x + s->x[s->vertices - 1], ceduo_material_talus()->name));
 }
 
 static bool add_control(struct app *app, const struct item *item)
@@ -143,9 +155,8 @@ static bool add_control(struct app *app, const struct item *item)
     double start = s->release.x.mean + s->release.x.spread * 3;
     double x = (last < end ? (last + end) / 2 : (start + s->controls[0].x) / 2) + s->slope.origin_x;
     bool plain = strcmp(item->key, "controls_m") == 0;
-    char control[64];
-    snprintf(control, sizeof control, plain ? "%.6g" : "{x_m: %.6g}", isnan(item->at) ? x : item->at);
-    return ceduo_document_insert(&app->document, item->list, 1000000, control, &app->problems);
+    x = isnan(item->at) ? x : item->at;
+    return insert(app, item, 1000000, plain ? ceduo_app_format(app, "%.6g", x) : ceduo_app_format(app, "{x_m: %.6g}", x));
 }
 
 static bool copy_item(struct app *app, const struct item *item)
@@ -158,25 +169,21 @@ static bool add_shoots(struct app *app, const struct item *item)
 {
     if (item->there)
         return copy_item(app, item);
-    char stools[FORM_PATH + 64], shoots[FORM_PATH + 64];
-    snprintf(stools, sizeof stools, "%.*sstools={per_ha: 2500, spacing_m: 0.35}", (int)(item->key - item->list), item->list);
-    snprintf(shoots, sizeof shoots, "%s=[{per_stool: 3, dbh_m: 0.07, height_m: 8}]", item->list);
-    const char *const sets[] = {stools, shoots};
-    return ceduo_document_set_all(&app->document, sets, 2, item->list, &app->problems);
+    struct changes c = {.d = &app->document};
+    ceduo_changes_add(&c, "%.*sstools={per_ha: 2500, spacing_m: 0.35}", (int)(item->key - item->list), item->list);
+    ceduo_changes_add(&c, "%s=[{per_stool: 3, dbh_m: 0.07, height_m: 8}]", item->list);
+    return ceduo_changes_make(&c, item->list, &app->problems);
 }
 
 static bool add_trees(struct app *app, const struct item *item)
 {
-    return item->there
-               ? copy_item(app, item)
-               : ceduo_document_insert(&app->document, item->list, 0, "{per_ha: 60, dbh_m: 0.2, height_m: 12}", &app->problems);
+    return item->there ? copy_item(app, item) : insert(app, item, 0, "{per_ha: 60, dbh_m: 0.2, height_m: 12}");
 }
 
 /* A class of blocks larger than those there are, ten times as rare; where there are none, a power law. */
 static bool add_blocks(struct app *app, const struct item *item)
 {
     const struct ceduo_scene *s = &app->document.file.scene;
-    char class[160];
     double largest = 0, per_year = 0;
     for (size_t i = 0; i < s->blocks_count; i++)
         if (s->blocks[i].volumes[1] > largest) {
@@ -185,9 +192,10 @@ static bool add_blocks(struct app *app, const struct item *item)
         }
     if (item->there && !(largest > 0))
         return copy_item(app, item);
-    snprintf(class, sizeof class, "{per_year: %.4g, volume_m3: [%.10g, %.10g]}", per_year / 10, largest, 10 * largest);
-    return ceduo_document_insert(&app->document, item->list, item->there ? s->blocks_count : 0,
-                                 item->there ? class : "{per_year: 1, volume_m3: [0.05, 1], exponent: 1}", &app->problems);
+    if (!item->there)
+        return insert(app, item, 0, "{per_year: 1, volume_m3: [0.05, 1], exponent: 1}");
+    return insert(app, item, s->blocks_count,
+                  ceduo_app_format(app, "{per_year: %.4g, volume_m3: [%.10g, %.10g]}", per_year / 10, largest, 10 * largest));
 }
 
 /* ---- deleting ---- */
@@ -195,23 +203,23 @@ static bool add_blocks(struct app *app, const struct item *item)
 /* The stools go with their last shoots. */
 static bool delete_shoots(struct app *app, const struct item *item)
 {
-    char stand[FORM_PATH], stools[FORM_PATH + 8];
-    snprintf(stand, sizeof stand, "%.*s", (int)(item->key - item->list) - 1, item->list);
-    snprintf(stools, sizeof stools, "%s.stools", stand);
-    const char *const sets[] = {stools, item->list};
-    return ceduo_document_set_all(&app->document, sets, 2, stand, &app->problems);
+    const char *stand = ceduo_app_format(app, "%.*s", (int)(item->key - item->list) - 1, item->list);
+    struct changes c = {.d = &app->document};
+    ceduo_changes_add(&c, "%s.stools", stand);
+    ceduo_changes_add(&c, "%s", item->list);
+    return ceduo_changes_make(&c, stand, &app->problems);
 }
 
 /* The ground before it, or behind the first, takes its place. */
 static bool delete_ground(struct app *app, const struct item *item, const char *path)
 {
-    char border[FORM_PATH + 64];
     bool first = item->index == 0;
-    double end = number_of(app, item, item->index, first ? "from_m" : "to_m");
-    snprintf(border, sizeof border, "%s[%zu].%s=%.10g", item->list, first ? 1 : item->index - 1, first ? "from_m" : "to_m",
-             end);
-    const char *const sets[] = {border, path};
-    return ceduo_document_set_all(&app->document, sets, 2, item->list, &app->problems);
+    const char *end = first ? "from_m" : "to_m";
+    struct changes c = {.d = &app->document};
+    ceduo_changes_add(&c, "%s[%zu].%s=%.10g", item->list, first ? 1 : item->index - 1, end,
+                      number_of(app, item, item->index, end));
+    ceduo_changes_add(&c, "%s", path);
+    return ceduo_changes_make(&c, item->list, &app->problems);
 }
 
 static bool delete_item(struct app *app, const struct item *item, const char *path)
@@ -277,23 +285,20 @@ void ceduo_items_add(struct app *app)
         return;
     }
     put_item(app, &item, function_for(&item, true)(app, &item));
-    if (item.key && strcmp(item.key, "forest") == 0 && !app->message[0])
+    if (strcmp(item.key, "forest") == 0 && !app->message[0])
         ceduo_app_say(app, "%s", _("a belt of its own now: p chooses its stand, c takes it from a sample plot"));
 }
 
 void ceduo_items_add_at(struct app *app, const char *list, size_t index, double at)
 {
-    struct item item = {.index = index, .there = true, .at = at};
-    snprintf(item.list, sizeof item.list, "%s", list);
-    const char *dot = strrchr(item.list, '.');
-    item.key = dot ? dot + 1 : item.list;
+    struct item item = item_of(app, list, index);
+    item.at = at;
     put_item(app, &item, function_for(&item, false)(app, &item));
 }
 
 void ceduo_items_delete(struct app *app)
 {
     struct item item;
-    char path[FORM_PATH + 32];
     if (!find_item(app, &item) || !item.there) {
         ceduo_app_say(app, "%s", _("d deletes an item of a list: put the cursor on one"));
         return;
@@ -303,13 +308,10 @@ void ceduo_items_delete(struct app *app)
         ceduo_app_say(app, "%s", _("the only place where rocks are counted stays"));
         return;
     }
-    snprintf(path, sizeof path, "%s[%zu]", item.list, item.index);
+    const char *path = ceduo_app_format(app, "%s[%zu]", item.list, item.index);
     if (ceduo_app_edited(app, delete_item(app, &item, path))) {
-        struct text words = {0};
         stay_in_list(app, item.list);
-        ceduo_shown_path(path, &words);
-        ceduo_app_say(app, _("deleted: %s; u brings it back"), ceduo_text_string(&words));
-        ceduo_text_free(&words);
+        ceduo_app_say(app, _("deleted: %s; u brings it back"), ceduo_app_path(app, path));
     }
 }
 

@@ -22,25 +22,18 @@ void ceduo_picker_clear(struct picker *p)
 
 void ceduo_picker_add(struct picker *p, const char *text, const char *value, bool now)
 {
-    struct pick *picks = ceduo_grow(p->picks, p->count, &p->room, sizeof *picks);
-    p->picks = picks ? picks : p->picks;
-    size_t *order = ceduo_grow(p->order, p->count, &p->order_room, sizeof *order);
-    p->order = order ? order : p->order;
-    if (!picks || !order)
-        return;
     struct text safe = {0};
+    p->picks = ceduo_grow(p->picks, p->count, &p->room, sizeof *p->picks);
+    p->order = ceduo_grow(p->order, p->count, &p->order_room, sizeof *p->order);
     ceduo_text_safe(&safe, text);
     if (now)
         ceduo_text_then(&safe, "  ", _("(now)"));
     const char *shown = ceduo_arena_string(&p->arena, ceduo_text_string(&safe));
-    const char *kept = ceduo_arena_string(&p->arena, value);
     ceduo_text_free(&safe);
-    if (!shown || !kept)
-        return;
     if (now)
         p->at = p->matches;
     p->order[p->matches++] = p->count;
-    p->picks[p->count++] = (struct pick){shown, kept, now, 0};
+    p->picks[p->count++] = (struct pick){shown, ceduo_arena_string(&p->arena, value), now, 0};
 }
 
 bool ceduo_picker_has(const struct picker *p, const char *value)
@@ -141,11 +134,10 @@ void ceduo_picker_add_files(struct picker *p, const char *typed, const char *end
         const char *name = entries[i]->d_name;
         path.length = 0;
         ceduo_text_format(&path, "%s%s", ceduo_text_string(&folder), name);
-        bool is_folder = path.bytes && stat(path.bytes, &st) == 0 && S_ISDIR(st.st_mode);
+        bool is_folder = stat(path.bytes, &st) == 0 && S_ISDIR(st.st_mode);
         if (is_folder)
             ceduo_text_put(&path, "/");
-        if (i < FILES_MOST && name[0] != '.' && path.bytes && (is_folder || ends_in(name, endings)) &&
-            !ceduo_picker_has(p, path.bytes))
+        if (i < FILES_MOST && name[0] != '.' && (is_folder || ends_in(name, endings)) && !ceduo_picker_has(p, path.bytes))
             ceduo_picker_add(p, path.bytes, path.bytes, false);
         free(entries[i]);
     }

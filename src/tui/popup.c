@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include "base/language.h"
+#include "base/must.h"
 #include "base/utf8.h"
 #include "view/typed.h"
 
@@ -16,11 +17,7 @@
 static struct popup *open_popup(struct app *app, enum popup_kind kind, const char *title)
 {
     ceduo_popup_close(app);
-    struct popup *p = calloc(1, sizeof *p);
-    if (!p) {
-        ceduo_app_warn(app, "%s", _("out of memory"));
-        return NULL;
-    }
+    struct popup *p = ceduo_must(calloc(1, sizeof *p));
     p->kind = kind;
     snprintf(p->title, sizeof p->title, "%s", title);
     app->popup = p;
@@ -46,8 +43,7 @@ void ceduo_popup_close(struct app *app)
 struct popup *ceduo_popup_list(struct app *app, const char *title, popup_chosen *chosen)
 {
     struct popup *p = open_popup(app, POPUP_LIST, title);
-    if (p)
-        p->chosen = chosen;
+    p->chosen = chosen;
     return p;
 }
 
@@ -59,20 +55,13 @@ struct popup *ceduo_popup_text(struct app *app, const char *title)
 struct popup *ceduo_popup_fields(struct app *app, const char *title, popup_filled *filled)
 {
     struct popup *p = open_popup(app, POPUP_FIELDS, title);
-    if (p)
-        p->filled = filled;
+    p->filled = filled;
     return p;
 }
 
 void ceduo_popup_item(struct popup *p, const char *text, const char *value)
 {
-    ceduo_popup_item_now(p, text, value, false);
-}
-
-void ceduo_popup_item_now(struct popup *p, const char *text, const char *value, bool now)
-{
-    if (p)
-        ceduo_picker_add(&p->picker, text, value, now);
+    ceduo_picker_add(&p->picker, text, value, false);
 }
 
 void ceduo_popup_field(struct popup *p, const char *label, const char *value)
@@ -82,7 +71,7 @@ void ceduo_popup_field(struct popup *p, const char *label, const char *value)
 
 void ceduo_popup_choice(struct popup *p, const char *label, const char *value, popup_offer *offer)
 {
-    if (!p || p->fields_count == POPUP_FIELDS_MOST)
+    if (p->fields_count == POPUP_FIELDS_MOST)
         return;
     snprintf(p->labels[p->fields_count], sizeof p->labels[0], "%s", label);
     p->offers[p->fields_count] = offer;
@@ -97,13 +86,26 @@ bool ceduo_popup_number(struct app *app, const struct popup *p, size_t field, do
     return false;
 }
 
+bool ceduo_popup_value(struct app *app, const struct field *field, const char *typed, double *value)
+{
+    struct text written = {0}, why = {0};
+    bool good = !field || ceduo_typed_in_range(field, typed, &why);
+    if (!good)
+        ceduo_app_warn(app, "%s", ceduo_text_string(&why));
+    ceduo_typed_value(field, typed, &written);
+    good = good && ceduo_number_read(ceduo_text_string(&written), value) == CEDUO_NUMBER_GOOD;
+    ceduo_text_free(&written);
+    ceduo_text_free(&why);
+    return good;
+}
+
 bool ceduo_popup_may_write(struct app *app, struct popup *p)
 {
     const char *path = p->fields[0].text;
     if (access(path, F_OK) != 0 || (p->kept && strcmp(p->kept, path) == 0))
         return true;
     free(p->kept);
-    p->kept = strdup(path);
+    p->kept = ceduo_must(strdup(path));
     ceduo_app_warn(app, "%s", _("there is such a file already; Enter once more replaces it"));
     return false;
 }

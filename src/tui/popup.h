@@ -51,19 +51,21 @@ struct popup {
     void (*then)(struct app *app);                                     /* what goes on once unsaved work is saved or given up */
 };
 
-/* Each opens a popup in place of any other. NULL, with a warning, if there is no memory. */
+/* Each opens a popup in place of any other. */
 struct popup *ceduo_popup_text(struct app *app, const char *title);
 struct popup *ceduo_popup_list(struct app *app, const char *title, popup_chosen *chosen);
 struct popup *ceduo_popup_fields(struct app *app, const char *title, popup_filled *filled);
-/* All do nothing for NULL. `now`: what is there at present, where the cursor begins. */
 void ceduo_popup_item(struct popup *popup, const char *text, const char *value);
-void ceduo_popup_item_now(struct popup *popup, const char *text, const char *value, bool now);
 void ceduo_popup_field(struct popup *popup, const char *label, const char *value);
 /* A field with a list of what may stand in it; what matches what is typed is taken. */
 void ceduo_popup_choice(struct popup *popup, const char *label, const char *value, popup_offer *offer);
 
 /* Reads a number that was typed into a field, with a dot or a comma; false where it is none, which is said. */
 bool ceduo_popup_number(struct app *app, const struct popup *popup, size_t field, double *value);
+
+/* Reads a value that was typed as its field is shown, which may be NULL, into the unit of the file; false where it is none or
+ * out of range, which is said. */
+bool ceduo_popup_value(struct app *app, const struct field *field, const char *typed, double *value);
 
 /* Returns whether the file named in the first field may be written. For an existing file it asks for Enter once more. */
 bool ceduo_popup_may_write(struct app *app, struct popup *popup);

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/language.h"
+#include "model/changes.h"
 #include "popup.h"
 #include "popups.h"
 #include "view/typed.h"
@@ -113,65 +114,43 @@ static bool read_plot(struct app *app, struct popup *p, struct plot *plot)
 
 /* ---- the stand ---- */
 
-#define CHANGES_MOST 5
-#define SPACING      0.35 /* m, where the stand had no stools yet: assumed as in the presets */
-
-struct changes {
-    char sets[CHANGES_MOST][FORM_PATH + 128];
-    const char *list[CHANGES_MOST];
-    size_t n;
-};
-
-__attribute__((format(printf, 2, 3))) static void change(struct changes *c, const char *format, ...)
-{
-    va_list args;
-    va_start(args, format);
-    vsnprintf(c->sets[c->n], sizeof c->sets[0], format, args);
-    va_end(args);
-    c->list[c->n] = c->sets[c->n];
-    c->n++;
-}
+#define SPACING 0.35 /* m, where the stand had no stools yet: assumed as in the presets */
 
 /* One class of stems in the place of those that stand there, or none. */
-static void change_stems(struct app *app, struct changes *c, const char *stand, const char *key, const struct plot *plot,
-                         size_t count)
+static void change_stems(struct changes *c, const char *path, const struct plot *plot, size_t count)
 {
-    char path[FORM_PATH + 16];
     const double *v = &plot->values[count];
-    snprintf(path, sizeof path, "%.160s.%s", stand, key);
     if (v[0] > 0)
-        change(c, "%s=[{per_ha: %.6g, dbh_m: %.10g, height_m: %.10g}]", path, v[0] * plot->per, v[1] / 100, v[2]);
-    else if (ceduo_document_node(&app->document, path))
-        change(c, "%s", path);
+        ceduo_changes_add(c, "%s=[{per_ha: %.6g, dbh_m: %.10g, height_m: %.10g}]", path, v[0] * plot->per, v[1] / 100, v[2]);
+    else
+        ceduo_changes_remove(c, path);
 }
 
 static void change_stand(struct app *app, struct changes *c, const char *stand, const struct plot *plot)
 {
     const struct ceduo_stand *now = &ceduo_app_option(app)->belts[app->belt].stand;
-    char path[FORM_PATH + 16];
-    snprintf(path, sizeof path, "%.160s.stools", stand);
+    const char *stools = ceduo_app_format(app, "%s.stools", stand);
     if (plot->values[COUNT_STOOLS] > 0)
-        change(c, "%s={per_ha: %.6g, spacing_m: %.10g}", path, plot->values[COUNT_STOOLS] * plot->per,
-               now->stools_per_ha > 0 ? now->spacing : SPACING);
-    else if (ceduo_document_node(&app->document, path))
-        change(c, "%s", path);
-    change_stems(app, c, stand, "shoots", plot, COUNT_SHOOTS);
-    change_stems(app, c, stand, "trees", plot, COUNT_TREES);
-    snprintf(path, sizeof path, "%.160s.system", stand);
-    if (now->system == CEDUO_BARE && ceduo_document_node(&app->document, path))
-        change(c, "%s", path);
-    change(c, "%s.name=%s", stand, _("sample plot"));
+        ceduo_changes_add(c, "%s={per_ha: %.6g, spacing_m: %.10g}", stools, plot->values[COUNT_STOOLS] * plot->per,
+                          now->stools_per_ha > 0 ? now->spacing : SPACING);
+    else
+        ceduo_changes_remove(c, stools);
+    change_stems(c, ceduo_app_format(app, "%s.shoots", stand), plot, COUNT_SHOOTS);
+    change_stems(c, ceduo_app_format(app, "%s.trees", stand), plot, COUNT_TREES);
+    if (now->system == CEDUO_BARE)
+        ceduo_changes_remove(c, ceduo_app_format(app, "%s.system", stand));
+    ceduo_changes_add(c, "%s.name=%s", stand, _("sample plot"));
 }
 
 static bool filled_counts(struct app *app, struct popup *p)
 {
     struct plot plot;
-    struct changes changes = {.n = 0};
+    struct changes changes = {.d = &app->document};
     if (!read_plot(app, p, &plot))
         return false;
     change_stand(app, &changes, p->path, &plot);
-    bool good = ceduo_document_set_all(&app->document, changes.list, changes.n, _("counts of a plot"), &app->problems);
-    if (ceduo_app_edited(app, good))
+    bool good = ceduo_app_edited(app, ceduo_changes_make(&changes, _("counts of a plot"), &app->problems));
+    if (good)
         ceduo_app_say(app, _("a plot of %.4g m2, horizontal: each stem counted stands for %.4g per ha"), plot.area, plot.per);
     return good;
 }
@@ -212,9 +191,7 @@ void ceduo_popup_counts(struct app *app)
     const struct ceduo_belt *belt = &ceduo_app_option(app)->belts[app->belt];
     const struct ceduo_stand *stand = &belt->stand;
     struct popup *p = ceduo_popup_fields(app, _("Stand from the counts of a sample plot"), filled_counts);
-    if (!p)
-        return;
-    ceduo_app_stand(app, p->path, sizeof p->path);
+    snprintf(p->path, sizeof p->path, "%s", ceduo_app_stand(app));
     ceduo_text_format(&p->text,
                       _("Densities are per horizontal hectare: 400 m2 along a slope of 40 degrees are 306 m2. "
                         "Nothing counted is nothing there. Species, growth and cuts stay those of %s."),

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/language.h"
+#include "base/must.h"
 #include "io/file.h"
 #include "popup.h"
 #include "popups.h"
@@ -65,8 +66,8 @@ static void put_json(struct app *app, struct text *text)
 static struct ceduo_years **years_shown(const struct app *app)
 {
     const struct ceduo_scene *scene = &app->document.file.scene;
-    struct ceduo_years **years = calloc(scene->options_count, sizeof *years);
-    for (size_t i = 0; years && i < scene->options_count; i++)
+    struct ceduo_years **years = ceduo_must(calloc(scene->options_count, sizeof *years));
+    for (size_t i = 0; i < scene->options_count; i++)
         years[i] = ceduo_live_years(&app->live, scene, i);
     return years;
 }
@@ -89,7 +90,6 @@ static void put_report(struct app *app, struct text *text)
     ceduo_page_html_begin(&html, ceduo_in_language(scene->title, scene->title_it));
     ceduo_page_html(&html, &page, 1);
     ceduo_page_html_end(&html);
-    text->failed |= command.failed || !years;
     ceduo_page_free(&page);
     ceduo_text_free(&command);
     free(years);
@@ -156,14 +156,10 @@ static void chose_export(struct app *app, struct popup *p, const char *value)
     size_t i = export_of(value);
     (void)p;
     if (!exports[i].put) {
-        struct popup *q = ceduo_popup_text(app, _("The batch command that gives the same"));
-        if (q)
-            q->preview = show_command;
+        ceduo_popup_text(app, _("The batch command that gives the same"))->preview = show_command;
         return;
     }
     struct popup *q = ceduo_popup_fields(app, _("Export to a file"), filled_export);
-    if (!q)
-        return;
     snprintf(q->path, sizeof q->path, "%s", value);
     q->endings = strrchr(exports[i].file, '.');
     q->typed_wins = true;
@@ -173,6 +169,6 @@ static void chose_export(struct app *app, struct popup *p, const char *value)
 void ceduo_popup_export(struct app *app)
 {
     struct popup *p = ceduo_popup_list(app, _("Export"), chose_export);
-    for (size_t i = 0; p && i < EXPORTS; i++)
+    for (size_t i = 0; i < EXPORTS; i++)
         ceduo_popup_item(p, _(exports[i].what), exports[i].name);
 }

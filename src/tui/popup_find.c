@@ -45,15 +45,13 @@ static size_t row_of(enum ceduo_goal goal)
 /* Words of the list, or what the command line takes: energy=50. */
 static bool read_word(struct app *app, const char *typed, struct ceduo_search *search)
 {
-    char goal[64];
     for (size_t i = 0; i < GOALS_OFFERED; i++)
         if (strcmp(typed, _(goals[i].words)) == 0) {
             search->goal = goals[i].goal;
             search->target = NAN;
             return true;
         }
-    snprintf(goal, sizeof goal, "%.63s", typed);
-    enum ceduo_goal_reading reading = ceduo_goal_read(goal, &search->goal, &search->target);
+    enum ceduo_goal_reading reading = ceduo_goal_read(ceduo_app_format(app, "%s", typed), &search->goal, &search->target);
     if (reading == CEDUO_GOAL_NO_SHARE)
         ceduo_app_warn(app, "%s", _("a share is 0 to 1, as 0.05 for 5 %"));
     else if (reading != CEDUO_GOAL_GOOD)
@@ -86,18 +84,8 @@ static bool read_goal(struct app *app, struct popup *p, struct ceduo_search *sea
 
 static bool read_end(struct app *app, const struct popup *p, size_t field, double *end)
 {
-    const struct field *f = ceduo_schema_at(p->path);
-    struct text value = {0}, why = {0};
-    if (!ceduo_popup_number(app, p, field, end))
-        return false;
-    bool good = !f || ceduo_typed_in_range(f, p->fields[field].text, &why);
-    if (!good)
-        ceduo_app_warn(app, "%s", ceduo_text_string(&why));
-    ceduo_typed_value(f, p->fields[field].text, &value);
-    good = good && value.bytes && ceduo_number_read(value.bytes, end) == CEDUO_NUMBER_GOOD;
-    ceduo_text_free(&value);
-    ceduo_text_free(&why);
-    return good;
+    return ceduo_popup_number(app, p, field, end) &&
+           ceduo_popup_value(app, ceduo_schema_at(p->path), p->fields[field].text, end);
 }
 
 /* What the fields ask for; the path is the popup's. */
@@ -170,9 +158,7 @@ static void put_words(struct app *app, struct popup *p, const struct ceduo_searc
     }
     struct text reached = {0};
     put_reached(&reached, s->goal, f->found ? f->goal_at_value : f->goal_at_nearest);
-    (f->found ? put_found : put_none)(text, p, f, ceduo_text_string(&reached));
-    text->failed |= reached.failed;
-    ceduo_text_free(&reached);
+    (f->found ? put_found : put_none)(text, p, f, ceduo_app_kept(app, &reached));
     ceduo_text_then(text, " ", ceduo_goals[s->goal].below ? _("(below %g %s is wanted)") : _("(at most %g %s is wanted)"),
                     s->target * goals[row].per, _(goals[row].unit));
     if (!f->monotone)
@@ -210,9 +196,9 @@ static bool take(struct app *app, struct popup *p, struct search_answer *answer)
     } else {
         ceduo_problems_free(&app->problems);
     }
-    if (set && words.bytes)
-        ceduo_app_say(app, "%s", words.bytes);
-    ceduo_text_free(&words);
+    const char *said = ceduo_app_kept(app, &words);
+    if (set)
+        ceduo_app_say(app, "%s", said);
     return true;
 }
 
@@ -291,17 +277,11 @@ void ceduo_popup_find(struct app *app)
     double lo, hi;
     propose(app, cell, &lo, &hi);
     struct popup *p = ceduo_popup_fields(app, _("Which value reaches a goal?"), filled_find);
-    if (!p)
-        return;
     snprintf(p->path, sizeof p->path, "%s", cell->path);
-    struct text path = {0};
-    ceduo_shown_path(cell->path, &path);
     ceduo_text_format(&p->text,
                       _("The value of: %s. The same rocks for every value; the goal counts at the worst control. "
                         "What is found is put into the field; u takes it back."),
-                      ceduo_text_string(&path));
-    p->text.failed |= path.failed;
-    ceduo_text_free(&path);
+                      ceduo_app_path(app, cell->path));
     ceduo_popup_choice(p, _("goal"), _(goals[0].words), offer_goals);
     ceduo_popup_field(p, _("how many (empty: usual limit)"), "");
     ceduo_popup_field(p, _("values from"), ceduo_shown_number(cell->field, lo, lo_room));

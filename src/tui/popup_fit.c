@@ -22,30 +22,17 @@ static void put_bounds(struct text *text, const struct fit_request *w, size_t i)
 /* One end in the unit that is shown; false where it is none, which is said. */
 static bool read_end(struct app *app, const struct field *field, const char *typed, double *end)
 {
-    struct text value = {0}, why = {0};
-    double plain;
-    bool number = ceduo_typed_number(typed, &plain) == CEDUO_NUMBER_GOOD;
-    bool good = number && ceduo_typed_in_range(field, typed, &why);
-    ceduo_typed_value(field, typed, &value);
-    good = good && value.bytes && ceduo_number_read(value.bytes, end) == CEDUO_NUMBER_GOOD;
-    if (!number)
-        ceduo_app_warn(app, "%s", _("bounds are two numbers, as 0.3:0.4; an empty field is not fitted"));
-    else if (!good)
-        ceduo_app_warn(app, "%s", ceduo_text_string(&why));
-    ceduo_text_free(&value);
-    ceduo_text_free(&why);
-    return good;
+    if (ceduo_typed_number(typed, end) == CEDUO_NUMBER_GOOD)
+        return ceduo_popup_value(app, field, typed, end);
+    ceduo_app_warn(app, "%s", _("bounds are two numbers, as 0.3:0.4; an empty field is not fitted"));
+    return false;
 }
 
 static bool read_bounds(struct app *app, const struct popup *p, size_t i, const struct field *field, double *lo, double *hi)
 {
-    char typed[sizeof p->fields[i].text];
-    snprintf(typed, sizeof typed, "%s", p->fields[i].text);
-    char *colon = strchr(typed, ':');
-    const char *second = colon ? colon + 1 : "";
-    if (colon)
-        *colon = '\0';
-    if (!read_end(app, field, typed, lo) || !read_end(app, field, second, hi))
+    const char *typed = p->fields[i].text, *colon = strchr(typed, ':');
+    const char *first = colon ? ceduo_app_format(app, "%.*s", (int)(colon - typed), typed) : typed;
+    if (!read_end(app, field, first, lo) || !read_end(app, field, colon ? colon + 1 : "", hi))
         return false;
     if (*lo < *hi)
         return true;
@@ -103,16 +90,12 @@ void ceduo_popup_fit(struct app *app)
     struct fit_request request;
     ceduo_fit_offer(&app->document.file, &request);
     struct popup *p = ceduo_popup_fields(app, _("What is fitted to what was seen?"), filled_fit);
-    if (!p)
-        return;
     put_about(p, &request);
     for (size_t i = 0; i < request.n; i++) {
         struct text label = {0}, bounds = {0};
         ceduo_calibration_name(&label, request.paths[i], request.fields[i]);
         if (i < FILLED)
             put_bounds(&bounds, &request, i);
-        ceduo_popup_field(p, ceduo_text_string(&label), ceduo_text_string(&bounds));
-        ceduo_text_free(&label);
-        ceduo_text_free(&bounds);
+        ceduo_popup_field(p, ceduo_app_kept(app, &label), ceduo_app_kept(app, &bounds));
     }
 }

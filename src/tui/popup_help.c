@@ -52,8 +52,6 @@ static void put_glossary(struct text *text)
 void ceduo_popup_help(struct app *app)
 {
     struct popup *p = ceduo_popup_text(app, _("Keys"));
-    if (!p)
-        return;
     const struct form_cell *cell = ceduo_app_state(app)->pane == 0 ? ceduo_form_cell(ceduo_app_form(app)) : NULL;
     struct text field = {0};
     if (cell)

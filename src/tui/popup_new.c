@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/language.h"
+#include "base/must.h"
 #include "ceduo/material.h"
 #include "io/csv_slope.h"
 #include "io/emit.h"
@@ -126,7 +127,7 @@ static void guess_face(struct popup *p, const struct answers *a)
     if (p->kept && strcmp(p->kept, p->fields[NEW_PROFILE].text) == 0) /* for this profile that was done */
         return;
     free(p->kept);
-    p->kept = strdup(p->fields[NEW_PROFILE].text);
+    p->kept = ceduo_must(strdup(p->fields[NEW_PROFILE].text));
     put_number(&p->fields[NEW_RELEASE], isnan(edge) ? a->first : place_of(s, edge));
     ceduo_line_set(&p->fields[NEW_FACE], "");
     if (!isnan(edge))
@@ -178,23 +179,17 @@ static bool read_stand(struct app *app, struct popup *p, struct answers *a)
     return false;
 }
 
-static bool read_release(struct app *app, const struct popup *p, struct answers *a)
+/* Where rocks start, or where the face ends. */
+static bool read_place(struct app *app, const struct popup *p, const struct answers *a, size_t field, double *x)
 {
-    if (!read_number(app, p, NEW_RELEASE, a->first, &a->release))
+    if (!read_number(app, p, field, a->first, x))
         return false;
-    if (a->release >= a->first && a->release < a->last)
+    if (*x >= a->first && *x < a->last)
         return true;
-    ceduo_app_warn(app, _("rocks start at %g m, outside the profile from %g to %g m"), a->release, a->first, a->last);
-    return false;
-}
-
-static bool read_face(struct app *app, const struct popup *p, struct answers *a)
-{
-    if (!read_number(app, p, NEW_FACE, a->first, &a->face))
-        return false;
-    if (a->face >= a->first && a->face < a->last)
-        return true;
-    ceduo_app_warn(app, _("the face ends at %g m, outside the profile from %g to %g m"), a->face, a->first, a->last);
+    ceduo_app_warn(app,
+                   field == NEW_RELEASE ? _("rocks start at %g m, outside the profile from %g to %g m")
+                                        : _("the face ends at %g m, outside the profile from %g to %g m"),
+                   *x, a->first, a->last);
     return false;
 }
 
@@ -211,14 +206,10 @@ static bool read_control(struct app *app, const struct popup *p, struct answers 
 
 static bool read_rock(struct app *app, const struct popup *p, struct answers *a)
 {
-    struct text why = {0};
-    bool good = ceduo_popup_number(app, p, NEW_ROCK, &a->rock);
-    if (good && !ceduo_typed_in_range(ceduo_schema_at("rock.diameter_m"), p->fields[NEW_ROCK].text, &why)) {
-        ceduo_app_warn(app, "%s", ceduo_text_string(&why));
-        good = false;
-    }
-    ceduo_text_free(&why);
-    return good;
+    const char *typed = p->fields[NEW_ROCK].text;
+    double unused;
+    return ceduo_popup_number(app, p, NEW_ROCK, &a->rock) &&
+           ceduo_popup_value(app, ceduo_schema_at("rock.diameter_m"), typed, &unused);
 }
 
 static bool read_material(struct app *app, const struct popup *p)
@@ -234,8 +225,9 @@ static bool read_material(struct app *app, const struct popup *p)
 static bool read_answers(struct app *app, struct popup *p, size_t upto, struct answers *a)
 {
     a->has_accepted = p->fields[NEW_ACCEPTED].text[0] != '\0';
-    return (upto < NEW_PROFILE || read_profile(app, p, a)) && (upto < NEW_RELEASE || read_release(app, p, a)) &&
-           (upto < NEW_FACE || read_face(app, p, a)) && (upto < NEW_MATERIAL || read_material(app, p)) &&
+    return (upto < NEW_PROFILE || read_profile(app, p, a)) &&
+           (upto < NEW_RELEASE || read_place(app, p, a, NEW_RELEASE, &a->release)) &&
+           (upto < NEW_FACE || read_place(app, p, a, NEW_FACE, &a->face)) && (upto < NEW_MATERIAL || read_material(app, p)) &&
            (upto < NEW_ROCK || read_rock(app, p, a)) && (upto < NEW_CONTROL || read_control(app, p, a)) &&
            (upto < NEW_ACCEPTED || read_number(app, p, NEW_ACCEPTED, 0, &a->accepted)) &&
            (upto < NEW_STAND || read_stand(app, p, a));
@@ -249,7 +241,7 @@ static bool check_new(struct app *app, struct popup *p, size_t field)
     if (good && field == NEW_PROFILE)
         guess_face(p, &a);
     if (good && field == NEW_PROFILE)
-        good = read_release(app, p, &a);
+        good = read_place(app, p, &a, NEW_RELEASE, &a.release);
     if (good && (field == NEW_PROFILE || field == NEW_RELEASE))
         describe(p, &a);
     release_answers(&a);
@@ -325,7 +317,7 @@ static void draw_profile(struct app *app, struct popup *p, struct ceduo_area are
 {
     struct answers a = {.release = NAN};
     bool good = p->at > NEW_PROFILE && read_answers(app, p, NEW_RELEASE, &a);
-    double face = good && read_face(app, p, &a) ? a.face - a.first : NAN;
+    double face = good && read_place(app, p, &a, NEW_FACE, &a.face) ? a.face - a.first : NAN;
     app->message[0] = '\0';
     if (good) {
         a.profile.scene.release.x.mean = a.release - a.first;
@@ -344,8 +336,6 @@ static void offer_profiles(struct app *app, struct popup *p, const char *typed)
 static void ask(struct app *app)
 {
     struct popup *p = ceduo_popup_fields(app, _("New scene"), filled_new);
-    if (!p)
-        return;
     ceduo_text_put(&p->text, _("The profile: a CSV file (distance, elevation), or points typed as x z, x z, … What is "
                                "left empty is not there; rocks are then counted at the end. All can be changed later."));
     p->endings = ".csv";

@@ -41,7 +41,7 @@ static void add_file(struct popup *p, const char *name, const char *value, const
     snprintf(line, sizeof line, "%-*s %s", ceduo_utf8_field(name, 27), name, about);
     for (size_t n = strlen(line); n > 0 && line[n - 1] == ' ';)
         line[--n] = '\0';
-    ceduo_popup_item_now(p, line, value, now && strcmp(now, value) == 0);
+    ceduo_picker_add(&p->picker, line, value, now && strcmp(now, value) == 0);
 }
 
 #define HEAD_BYTES 4096 /* where a file says what it is */
@@ -84,7 +84,7 @@ static void add_beside(struct app *app, struct popup *p, const char *tag, bool w
     for (int i = 0; i < n; i++) {
         struct text path = {0};
         ceduo_text_format(&path, "%s%s", ceduo_text_string(&folder), entries[i]->d_name);
-        if (i < FILES_MOST && path.bytes && is_kind(path.bytes, tag))
+        if (i < FILES_MOST && is_kind(path.bytes, tag))
             add_file(p, entries[i]->d_name, whole ? path.bytes : entries[i]->d_name, _("yours, beside the scene"), now);
         ceduo_text_free(&path);
         free(entries[i]);
@@ -113,17 +113,13 @@ static void add_profiles(struct popup *p, const char *kind, const char *now)
 
 /* ---- what a choice would do ---- */
 
-#define CHANGE_MOST 1024 /* bytes that a job takes */
-
 static popup_chosen chose_new_option;
 
 /* The forest of the option that is shown with a stand in every belt, as one change. */
 static void put_all_belts(struct app *app, const char *stand, struct text *set)
 {
     const struct ceduo_option *o = ceduo_app_option(app);
-    char forest[64];
-    ceduo_app_forest(app, forest, sizeof forest);
-    ceduo_text_format(set, "%s=[", forest);
+    ceduo_text_format(set, "%s=[", ceduo_app_forest(app));
     for (size_t i = 0; i < o->belts_count; i++)
         ceduo_text_format(set, "%s{from_m: %.10g, to_m: %.10g, stand: %s}", i ? ", " : "", o->belts[i].from_given,
                           o->belts[i].to_given, stand);
@@ -169,7 +165,7 @@ static void put_change(struct app *app, struct popup *p, const char *value)
         put_all_belts(app, value, &set);
     else
         ceduo_text_format(&set, "%s=%s", p->path, value);
-    if (set.bytes && set.length < CHANGE_MOST)
+    if (set.length < JOB_TEXT)
         ceduo_jobs_preview(app->live.jobs, &app->document.file, set.bytes, app->option);
     ceduo_text_free(&set);
 }
@@ -209,7 +205,7 @@ static void put_stand(struct app *app, struct text *text, const char *value)
                       "[{rn: 0.3, rt: 0.8}]}, controls_m: [90], forest: [{from_m: 0, to_m: 100, stand: %s}]}",
                       value);
     const char *name = app->document.path ? app->document.path : "preset";
-    if (yaml.bytes && ceduo_scene_read_text(&file, name, yaml.bytes, &problems)) {
+    if (ceduo_scene_read_text(&file, name, yaml.bytes, &problems)) {
         file.scene.rock = app->document.file.scene.rock;
         file.scene.simulation = app->document.file.scene.simulation;
         const struct ceduo_belt *b = &file.scene.options[0].belts[0];
@@ -296,9 +292,7 @@ static struct popup *list_stands(struct app *app, const char *title, popup_chose
 {
     char now[256];
     struct popup *p = ceduo_popup_list(app, title, chosen);
-    if (!p)
-        return NULL;
-    ceduo_app_stand(app, p->path, sizeof p->path);
+    snprintf(p->path, sizeof p->path, "%s", ceduo_app_stand(app));
     if (chosen == chose_stand) {
         ceduo_popup_item(p, _("from a sample plot: what was counted and measured"), STAND_COUNTED);
         ceduo_popup_item(p, _("from a survey: a CSV file of plots and stems"), STAND_SURVEY);
@@ -323,7 +317,7 @@ static void add_word(struct popup *p, const struct field *f, const char *word, c
 {
     struct text shown = {0};
     ceduo_shown_value(f, word, &shown);
-    ceduo_popup_item_now(p, ceduo_text_string(&shown), word, now && strcmp(word, now) == 0);
+    ceduo_picker_add(&p->picker, ceduo_text_string(&shown), word, now && strcmp(word, now) == 0);
     ceduo_text_free(&shown);
 }
 
@@ -352,18 +346,12 @@ void ceduo_popup_new_option(struct app *app)
 void ceduo_popup_choices(struct app *app, const struct form_cell *cell)
 {
     const struct field *f = cell->field;
-    char title[160], now[256];
+    char now[256];
     if (f->object == ceduo_schema_stand()) {
         ceduo_popup_presets(app);
         return;
     }
-    struct text words = {0};
-    ceduo_shown_path(cell->path, &words);
-    snprintf(title, sizeof title, "%.150s", ceduo_text_string(&words));
-    ceduo_text_free(&words);
-    struct popup *p = ceduo_popup_list(app, title, chose_word);
-    if (!p)
-        return;
+    struct popup *p = ceduo_popup_list(app, ceduo_app_path(app, cell->path), chose_word);
     snprintf(p->path, sizeof p->path, "%s", cell->path);
     if (f->type == FIELD_CHOICE) {
         bool ground = f->choices == &ceduo_material_words;
@@ -401,8 +389,6 @@ static void chose_scene(struct app *app, struct popup *p, const char *value)
 static void list_scenes(struct app *app)
 {
     struct popup *p = ceduo_popup_list(app, _("Open a scene: a name, or the path of a file"), chose_scene);
-    if (!p)
-        return;
     p->offers[0] = offer_scenes;
     p->endings = ".yaml";
 }

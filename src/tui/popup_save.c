@@ -88,9 +88,9 @@ static bool asks_for_stand(struct app *app, void (*then)(struct app *app))
     for (size_t o = 0; o < scene->options_count; o++)
         for (size_t b = 0; b < scene->options[o].belts_count; b++) {
             const struct ceduo_belt *belt = &scene->options[o].belts[b];
-            struct popup *p = belt->changed ? ceduo_popup_fields(app, _("A stand was changed: its name"), filled_stand) : NULL;
-            if (!p)
+            if (!belt->changed)
                 continue;
+            struct popup *p = ceduo_popup_fields(app, _("A stand was changed: its name"), filled_stand);
             if (options)
                 snprintf(p->path, sizeof p->path, "options[%zu].forest[%zu].stand.name", o, b);
             else
@@ -110,8 +110,6 @@ static bool asks_for_stand(struct app *app, void (*then)(struct app *app))
 static void ask_for_name(struct app *app, const char *why)
 {
     struct popup *p = ceduo_popup_fields(app, _("Save as"), filled_save);
-    if (!p)
-        return;
     const struct document *d = &app->document;
     if (why)
         ceduo_text_format(&p->text, _("It could not be saved: %s. Give another name, or one in another folder."), why);
@@ -133,14 +131,9 @@ void ceduo_popup_save_as(struct app *app)
 /* Writes where the scene came from. */
 static void write_back(struct app *app)
 {
-    char *path = strdup(app->document.path); /* saving makes the document's own anew */
-    bool good = path && save_to(app, path);
-    int why = errno;
-    if (!path)
-        ceduo_app_warn(app, "%s: %s", app->document.path, strerror(why));
-    free(path);
-    if (!good)
-        ask_for_name(app, strerror(why));
+    const char *path = ceduo_app_format(app, "%s", app->document.path); /* saving makes the document's own anew */
+    if (!save_to(app, path))
+        ask_for_name(app, strerror(errno));
 }
 
 static void chose_disk(struct app *app, struct popup *p, const char *value)
@@ -194,8 +187,6 @@ void ceduo_popup_once_saved(struct app *app, void (*then)(struct app *app))
         return;
     }
     struct popup *p = ceduo_popup_list(app, _("There is unsaved work"), chose_unsaved);
-    if (!p)
-        return;
     p->then = then;
     ceduo_popup_item(p, _("stay"), "");
     ceduo_popup_item(p, _("save it, then go on"), "save");
@@ -236,7 +227,7 @@ void ceduo_popup_offer_recoveries(struct popup *p)
 {
     size_t n;
     struct recovery *list = ceduo_recovery_list(&p->arena, &n);
-    for (size_t i = 0; list && i < n; i++)
+    for (size_t i = 0; i < n; i++)
         add_recovery(p, &list[i]);
 }
 
@@ -260,7 +251,7 @@ bool ceduo_popup_take_recovery(struct app *app, const char *value)
     if (strncmp(value, RECOVERY, strlen(RECOVERY)) != 0)
         return false;
     const struct recovery *list = ceduo_recovery_list(&arena, &n);
-    for (size_t i = 0; list && i < n; i++) {
+    for (size_t i = 0; i < n; i++) {
         if (strcmp(list[i].file, value + strlen(RECOVERY)) != 0)
             continue;
         char *text = ceduo_recovery_text(list[i].file);
@@ -298,14 +289,16 @@ void ceduo_popup_recover(struct app *app)
     struct arena arena = {0};
     size_t n, due = 0;
     const struct recovery *list = ceduo_recovery_list(&arena, &n);
-    for (size_t i = 0; list && i < n; i++)
+    for (size_t i = 0; i < n; i++)
         due += is_due(app, &list[i]);
-    struct popup *p = due > 0 ? ceduo_popup_list(app, _("Unsaved work was left behind"), chose_recover) : NULL;
-    for (int other = 0; p && other < 2; other++)
-        for (size_t i = 0; i < n; i++)
-            if (is_due(app, &list[i]) == !other)
-                add_recovery(p, &list[i]);
-    ceduo_popup_item(p, _("leave it for later: o lists it, too"), "");
-    ceduo_popup_item(p, n > 1 ? _("forget all of it") : _("forget it"), "forget");
+    if (due > 0) {
+        struct popup *p = ceduo_popup_list(app, _("Unsaved work was left behind"), chose_recover);
+        for (int other = 0; other < 2; other++)
+            for (size_t i = 0; i < n; i++)
+                if (is_due(app, &list[i]) == !other)
+                    add_recovery(p, &list[i]);
+        ceduo_popup_item(p, _("leave it for later: o lists it, too"), "");
+        ceduo_popup_item(p, n > 1 ? _("forget all of it") : _("forget it"), "forget");
+    }
     ceduo_arena_free(&arena);
 }

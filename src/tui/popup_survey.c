@@ -39,7 +39,7 @@ static bool read_stand(const char *path, struct text *value, struct problems *pr
         ceduo_emit_flow(value, root);
     ceduo_text_free(&yaml);
     ceduo_arena_free(&arena);
-    return root && !value->failed;
+    return root != NULL;
 }
 
 static void chose_survey(struct app *app, struct popup *p, const char *path)
@@ -55,9 +55,7 @@ static void chose_survey(struct app *app, struct popup *p, const char *path)
 void ceduo_popup_survey(struct app *app)
 {
     struct popup *p = ceduo_popup_list(app, _("A survey: a CSV file with a row for each stem"), chose_survey);
-    if (!p)
-        return;
-    ceduo_app_stand(app, p->path, sizeof p->path);
+    snprintf(p->path, sizeof p->path, "%s", ceduo_app_stand(app));
     ceduo_text_put(&p->text,
                    _("Columns: plot, area_m2 or radius_m, slope_deg, species, kind, stool, dbh_cm, height_m, spacing_m; "
                      "see ceduo-stand(5)."));

@@ -9,26 +9,18 @@
 #include "popup.h"
 #include "popups.h"
 #include "screen.h"
-#include "view/typed.h"
 
-static void undo_or_redo(struct app *app, bool redo)
+static void undo_or_redo(struct app *app, int by)
 {
     struct document *d = &app->document;
-    const char *what = redo ? (d->at + 1 < d->count ? d->states[d->at + 1].what : "") : d->states[d->at].what;
-    char line[200];
-    struct text words = {0};
-    ceduo_shown_path(what, &words);
-    snprintf(line, sizeof line, "%.199s", ceduo_text_string(&words));
-    ceduo_text_free(&words);
+    bool redo = by > 0, there = redo ? d->at + 1 < d->count : true;
+    const char *what = ceduo_app_path(app, there ? d->states[d->at + redo].what : "");
     if (!(redo ? ceduo_document_redo(d) : ceduo_document_undo(d))) {
         ceduo_app_say(app, "%s", redo ? _("nothing to redo") : _("nothing to undo"));
         return;
     }
     ceduo_app_refresh(app);
-    if (redo)
-        ceduo_app_say(app, _("again: %s"), line);
-    else
-        ceduo_app_say(app, _("undone: %s"), line);
+    ceduo_app_say(app, redo ? _("again: %.199s") : _("undone: %.199s"), what);
 }
 
 static void next_option(struct app *app, int by)
@@ -44,13 +36,29 @@ static void next_pane(struct app *app, int by)
     ceduo_app_state(app)->pane = (ceduo_app_state(app)->pane + panes + by) % panes;
 }
 
-static void move_cursor(struct app *app, int lines, int columns)
+#define ALL_LINES 100000
+
+static void move_lines(struct app *app, int lines)
 {
     struct view_state *state = ceduo_app_state(app);
     if (state->pane == 0 && state->form.n > 0)
-        ceduo_form_move(&state->form, lines, columns);
+        ceduo_form_move(&state->form, lines, 0);
+    else if (lines == ALL_LINES && state->pane > 0)
+        state->scroll += 50;
     else
         state->scroll = state->scroll + lines > 0 ? state->scroll + lines : 0;
+}
+
+static void move_page(struct app *app, int by)
+{
+    move_lines(app, by * (app->height > 12 ? app->height / 2 : 5));
+}
+
+static void move_column(struct app *app, int by)
+{
+    struct view_state *state = ceduo_app_state(app);
+    if (state->pane == 0 && state->form.n > 0)
+        ceduo_form_move(&state->form, 0, by);
 }
 
 static bool filled_search(struct app *app, struct popup *p)
@@ -62,9 +70,7 @@ static bool filled_search(struct app *app, struct popup *p)
 
 static void ask_for_word(struct app *app)
 {
-    struct popup *p = ceduo_popup_fields(app, _("Search in this view"), filled_search);
-    if (p)
-        ceduo_popup_field(p, _("word"), app->search);
+    ceduo_popup_field(ceduo_popup_fields(app, _("Search in this view"), filled_search), _("word"), app->search);
 }
 
 static void next_charset(struct app *app)
@@ -84,149 +90,88 @@ static void chose_command(struct app *app, struct popup *p, const char *value)
 static void list_commands(struct app *app)
 {
     struct popup *p = ceduo_popup_list(app, _("Commands"), chose_command);
-    for (int i = 0; p && i < ACTION_COUNT; i++) {
-        char line[160], value[16];
-        if (i == ACTION_COMMANDS)
-            continue;
-        snprintf(line, sizeof line, "%-10s %s", ceduo_actions[i].word, _(ceduo_actions[i].help));
-        snprintf(value, sizeof value, "%d", i);
-        ceduo_popup_item(p, line, value);
-    }
+    for (int i = 0; i < ACTION_COUNT; i++)
+        if (i != ACTION_COMMANDS)
+            ceduo_popup_item(p, ceduo_app_format(app, "%-10s %s", ceduo_actions[i].word, _(ceduo_actions[i].help)),
+                             ceduo_app_format(app, "%d", i));
 }
 
+static void show_view(struct app *app, int view)
+{
+    ceduo_app_show(app, (enum view_number)view);
+}
+
+static void next_theme(struct app *app)
+{
+    app->theme = (app->theme + 1) % 3;
+}
+
+static void redraw(struct app *app)
+{
+    app->redraw = true;
+}
+
+/* What the actions of all views do: a function with a number, or one without. */
+static const struct {
+    void (*function)(struct app *app, int by);
+    int by;
+    void (*plain)(struct app *app);
+} acts[ACTION_COUNT] = {[ACTION_UP] = {move_lines, -1},
+                        [ACTION_DOWN] = {move_lines, 1},
+                        [ACTION_LEFT] = {move_column, -1},
+                        [ACTION_RIGHT] = {move_column, 1},
+                        [ACTION_TOP] = {move_lines, -ALL_LINES},
+                        [ACTION_BOTTOM] = {move_lines, ALL_LINES},
+                        [ACTION_PAGE_UP] = {move_page, -1},
+                        [ACTION_PAGE_DOWN] = {move_page, 1},
+                        [ACTION_NEXT_PANE] = {next_pane, 1},
+                        [ACTION_LAST_PANE] = {next_pane, -1},
+                        [ACTION_EDIT] = {.plain = ceduo_edit_start},
+                        [ACTION_MORE] = {ceduo_edit_step, 1},
+                        [ACTION_LESS] = {ceduo_edit_step, -1},
+                        [ACTION_ADD] = {.plain = ceduo_items_add},
+                        [ACTION_DELETE] = {.plain = ceduo_items_delete},
+                        [ACTION_DUPLICATE] = {.plain = ceduo_items_duplicate},
+                        [ACTION_EARLIER] = {ceduo_items_move, -1},
+                        [ACTION_LATER] = {ceduo_items_move, 1},
+                        [ACTION_UNDO] = {undo_or_redo, -1},
+                        [ACTION_REDO] = {undo_or_redo, 1},
+                        [ACTION_PRESETS] = {.plain = ceduo_popup_presets},
+                        [ACTION_COUNTS] = {.plain = ceduo_popup_counts},
+#define V(NAME, name, key, word, help) [ACTION_VIEW_##NAME] = {show_view, VIEW_##NAME},
+                        VIEWS(V)
+#undef V
+                            [ACTION_FIND] = {.plain = ceduo_popup_find},
+                        [ACTION_NEXT_OPTION] = {next_option, 1},
+                        [ACTION_LAST_OPTION] = {next_option, -1},
+                        [ACTION_NEXT_ROCK] = {ceduo_app_next_rock, 1},
+                        [ACTION_LAST_ROCK] = {ceduo_app_next_rock, -1},
+                        [ACTION_SEARCH] = {.plain = ask_for_word},
+                        [ACTION_AGAIN] = {.plain = ceduo_app_search},
+                        [ACTION_COMMANDS] = {.plain = list_commands},
+                        [ACTION_NEW] = {.plain = ceduo_popup_new},
+                        [ACTION_OPEN] = {.plain = ceduo_popup_open},
+                        [ACTION_SAVE] = {.plain = ceduo_popup_save},
+                        [ACTION_SAVE_AS] = {.plain = ceduo_popup_save_as},
+                        [ACTION_EXPORT] = {.plain = ceduo_popup_export},
+                        [ACTION_CHARSET] = {.plain = next_charset},
+                        [ACTION_THEME] = {.plain = next_theme},
+                        [ACTION_REDRAW] = {.plain = redraw},
+                        [ACTION_HELP] = {.plain = ceduo_popup_help},
+                        [ACTION_QUIT] = {.plain = ceduo_popup_quit}};
+
+/* The view's own, or that of all views. */
 static void act(struct app *app, enum action action)
 {
-    int page = app->height > 12 ? app->height / 2 : 5;
-    switch (action) {
-    case ACTION_UP:
-        move_cursor(app, -1, 0);
-        break;
-    case ACTION_DOWN:
-        move_cursor(app, 1, 0);
-        break;
-    case ACTION_LEFT:
-        move_cursor(app, 0, -1);
-        break;
-    case ACTION_RIGHT:
-        move_cursor(app, 0, 1);
-        break;
-    case ACTION_TOP:
-        move_cursor(app, -100000, 0);
-        break;
-    case ACTION_BOTTOM:
-        move_cursor(app, ceduo_app_state(app)->pane == 0 ? 100000 : 50, 0);
-        break;
-    case ACTION_PAGE_UP:
-        move_cursor(app, -page, 0);
-        break;
-    case ACTION_PAGE_DOWN:
-        move_cursor(app, page, 0);
-        break;
-    case ACTION_EDIT:
-        ceduo_edit_start(app);
-        break;
-    case ACTION_MORE:
-        ceduo_edit_step(app, 1);
-        break;
-    case ACTION_LESS:
-        ceduo_edit_step(app, -1);
-        break;
-    case ACTION_ADD:
-        ceduo_items_add(app);
-        break;
-    case ACTION_DELETE:
-        ceduo_items_delete(app);
-        break;
-    case ACTION_DUPLICATE:
-        ceduo_items_duplicate(app);
-        break;
-    case ACTION_EARLIER:
-        ceduo_items_move(app, -1);
-        break;
-    case ACTION_LATER:
-        ceduo_items_move(app, 1);
-        break;
-    case ACTION_UNDO:
-        undo_or_redo(app, false);
-        break;
-    case ACTION_REDO:
-        undo_or_redo(app, true);
-        break;
-    case ACTION_PRESETS:
-        ceduo_popup_presets(app);
-        break;
-    case ACTION_COUNTS:
-        ceduo_popup_counts(app);
-        break;
-    case ACTION_NEXT_PANE:
-        next_pane(app, 1);
-        break;
-    case ACTION_LAST_PANE:
-        next_pane(app, -1);
-        break;
-#define V(NAME, name, key, word, help)                                                                                         \
-    case ACTION_VIEW_##NAME:                                                                                                   \
-        ceduo_app_show(app, VIEW_##NAME);                                                                                      \
-        break;
-        VIEWS(V)
-#undef V
-    case ACTION_FIND:
-        ceduo_popup_find(app);
-        break;
-    case ACTION_NEXT_OPTION:
-        next_option(app, 1);
-        break;
-    case ACTION_LAST_OPTION:
-        next_option(app, -1);
-        break;
-    case ACTION_NEXT_ROCK:
-        ceduo_app_next_rock(app, 1);
-        break;
-    case ACTION_LAST_ROCK:
-        ceduo_app_next_rock(app, -1);
-        break;
-    case ACTION_SEARCH:
-        ask_for_word(app);
-        break;
-    case ACTION_AGAIN:
-        ceduo_app_search(app);
-        break;
-    case ACTION_COMMANDS:
-        list_commands(app);
-        break;
-    case ACTION_NEW:
-        ceduo_popup_new(app);
-        break;
-    case ACTION_OPEN:
-        ceduo_popup_open(app);
-        break;
-    case ACTION_SAVE:
-        ceduo_popup_save(app);
-        break;
-    case ACTION_SAVE_AS:
-        ceduo_popup_save_as(app);
-        break;
-    case ACTION_EXPORT:
-        ceduo_popup_export(app);
-        break;
-    case ACTION_CHARSET:
-        next_charset(app);
-        break;
-    case ACTION_THEME:
-        app->theme = (app->theme + 1) % 3;
-        break;
-    case ACTION_REDRAW:
-        app->redraw = true;
-        break;
-    case ACTION_HELP:
-        ceduo_popup_help(app);
-        break;
-    case ACTION_QUIT:
-        ceduo_popup_quit(app);
-        break;
-    default:
-        break;
-    }
+    const struct act *own = ceduo_views[app->view]->acts[ceduo_app_state(app)->pane];
+    while (own && own->function && own->action != action)
+        own++;
+    if (own && own->function)
+        own->function(app, own->by);
+    else if (acts[action].function)
+        acts[action].function(app, acts[action].by);
+    else if (acts[action].plain)
+        acts[action].plain(app);
 }
 
 /* What a key or a choice has led to. */
@@ -243,8 +188,8 @@ static void settle(struct app *app)
 
 void ceduo_program_key(struct app *app, int key)
 {
-    const struct view *view = ceduo_views[app->view];
     enum action action = ceduo_action_of(key);
+    ceduo_arena_free(app->scratch);
     if (app->popup) {
         ceduo_popup_key(app, key);
     } else if (app->editing) {
@@ -253,7 +198,7 @@ void ceduo_program_key(struct app *app, int key)
     } else {
         app->message[0] = '\0';
         app->once_saved = NULL;
-        if (action != ACTION_NONE && !(view->act && view->act(app, action)))
+        if (action != ACTION_NONE)
             act(app, action);
     }
     settle(app);
@@ -296,7 +241,7 @@ void ceduo_program_wheel(struct app *app, int lines)
         ceduo_popup_key(app, lines < 0 ? K_UP : K_DOWN);
         settle(app);
     } else if (!app->editing)
-        move_cursor(app, lines, 0);
+        move_lines(app, lines);
 }
 
 bool ceduo_program_create(struct app *app, const char *path, enum ceduo_charset charset, unsigned threads, bool no_recovery,
@@ -316,6 +261,7 @@ void ceduo_program_free(struct app *app)
 
 bool ceduo_program_news(struct app *app)
 {
+    ceduo_arena_free(app->scratch);
     bool changed = ceduo_app_news(app);
     union results *results = &app->live.results;
     if (results->preview)

@@ -21,10 +21,9 @@ static bool is_enough(void *context)
 static void add_piece(void *context, const struct ceduo_piece *piece)
 {
     struct rock_trajectory *s = context;
-    struct ceduo_piece *pieces = s->n < PIECES_MOST ? ceduo_grow(s->pieces, s->n, &s->room, sizeof *pieces) : NULL;
-    if (!pieces)
+    if (s->n == PIECES_MOST)
         return;
-    s->pieces = pieces;
+    s->pieces = ceduo_grow(s->pieces, s->n, &s->room, sizeof *s->pieces);
     s->pieces[s->n++] = *piece;
 }
 
@@ -34,12 +33,8 @@ static void add_stem(void *context, const struct ceduo_stem_passed *stem)
     if (s->n >= PIECES_MOST)
         return;
     size_t room = s->stems_room; /* of both arrays */
-    struct ceduo_stem_passed *stems = ceduo_grow(s->stems, s->stems_count, &room, sizeof *stems);
-    s->stems = stems ? stems : s->stems;
-    size_t *pieces = stems ? ceduo_grow(s->stem_piece, s->stems_count, &s->stems_room, sizeof *pieces) : NULL;
-    if (!pieces)
-        return;
-    s->stem_piece = pieces;
+    s->stems = ceduo_grow(s->stems, s->stems_count, &room, sizeof *s->stems);
+    s->stem_piece = ceduo_grow(s->stem_piece, s->stems_count, &s->stems_room, sizeof *s->stem_piece);
     s->stem_piece[s->stems_count] = stem->hit ? s->n : s->n + 1; /* flown over: on the piece that is under way */
     s->stems[s->stems_count++] = *stem;
 }
@@ -60,19 +55,16 @@ static void add_to_line(struct ceduo_polyline *t, const struct ceduo_piece *p, d
 }
 
 /* The line of the pieces that are shown. */
-static bool draw_trail(struct rock_trajectory *s, double gravity)
+static void draw_trail(struct rock_trajectory *s, double gravity)
 {
     size_t shown = s->at > 0 ? s->at : s->n, room = shown * FLIGHT_POINTS + 1;
     ceduo_polyline_free(&s->line);
-    s->line.x = malloc(room * sizeof(double));
-    s->line.z = malloc(room * sizeof(double));
+    s->line.x = ceduo_must(malloc(room * sizeof(double)));
+    s->line.z = ceduo_must(malloc(room * sizeof(double)));
     s->line.n = 0;
-    if (!s->line.x || !s->line.z)
-        return false;
     add_point(&s->line, s->way.x0, s->way.z0);
     for (size_t i = 0; i < shown; i++)
         add_to_line(&s->line, &s->pieces[i], gravity / 2);
-    return true;
 }
 
 bool ceduo_rock_trajectory_follow(struct rock_trajectory *s, const struct ceduo_scene *scene, const struct ceduo_option *option,
@@ -90,7 +82,8 @@ bool ceduo_rock_trajectory_follow(struct rock_trajectory *s, const struct ceduo_
         if (status != CEDUO_OK && !s->cut_short)
             return false;
     }
-    return draw_trail(s, scene->simulation.gravity);
+    draw_trail(s, scene->simulation.gravity);
+    return true;
 }
 
 void ceduo_rock_trajectory_move(struct rock_trajectory *s, int by)

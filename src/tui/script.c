@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/language.h"
+#include "base/must.h"
 #include "base/utf8.h"
 #include "io/file.h"
 #include "program.h"
@@ -19,7 +20,7 @@ static enum script_end fail(const char *path, size_t line, const char *what, con
     ceduo_text_safe(&message, path);
     ceduo_text_format(&message, ":%zu: %s: ", line, what);
     ceduo_text_safe(&message, word);
-    fprintf(stderr, "%s\n", message.failed ? what : message.bytes); /* even without memory */
+    fprintf(stderr, "%s\n", message.bytes);
     ceduo_text_free(&message);
     return SCRIPT_WRONG;
 }
@@ -68,7 +69,7 @@ static void wait_idle(struct app *app)
     ceduo_program_news(app);
 }
 
-/* The screen as text, as letters of its roles, or as a drawing; NULL without memory. */
+/* The screen as text, as letters of its roles, or as a drawing. */
 static char *screen_as(struct app *app, const char *what)
 {
     struct text drawing = {0};
@@ -77,8 +78,6 @@ static char *screen_as(struct app *app, const char *what)
     if (strcmp(what, "dump") == 0)
         return ceduo_cells_dump(app->cells);
     ceduo_svg_screen(&drawing, app->cells, app->document.file.scene.title);
-    if (drawing.failed)
-        ceduo_text_free(&drawing);
     return drawing.bytes;
 }
 
@@ -86,12 +85,9 @@ static enum script_end dump(struct app *app, const char *what, const char *name,
 {
     ceduo_program_news(app);
     ceduo_screen_draw(app);
-    char *text = screen_as(app, what);
-    bool good = text != NULL;
-    if (good && strcmp(name, "-") == 0)
-        good = fputs(text, stdout) >= 0 && fflush(stdout) == 0;
-    else if (good)
-        good = ceduo_file_write(name, text, strlen(text));
+    char *text = ceduo_must(screen_as(app, what));
+    bool good =
+        strcmp(name, "-") == 0 ? fputs(text, stdout) >= 0 && fflush(stdout) == 0 : ceduo_file_write(name, text, strlen(text));
     if (!good)
         fail(path, line, strerror(errno), name);
     free(text);

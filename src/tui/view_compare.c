@@ -299,7 +299,6 @@ static void say_thin(const struct ceduo_result *r, struct text *words)
     if (names.length > 0)
         ceduo_text_format(words, _("Counting only stems from %g cm on, contact or free run fails today: %s.\n"),
                           CEDUO_THICK_DBH * 100, ceduo_text_string(&names));
-    words->failed |= names.failed;
     ceduo_text_free(&names);
 }
 
@@ -412,23 +411,33 @@ static void choose(struct app *app, long i)
     ceduo_app_show_option(app, (size_t)(i < 0 ? 0 : i >= n ? n - 1 : i));
 }
 
-static void copy_option(struct app *app)
+static void next_option(struct app *app, int by)
 {
+    choose(app, (long)app->option + by);
+}
+
+static void add_option(struct app *app, int unused)
+{
+    (void)unused;
+    ceduo_popup_new_option(app);
+}
+
+static void copy_option(struct app *app, int unused)
+{
+    (void)unused;
     size_t at = app->option;
     if (ceduo_app_edited(app, ceduo_document_copy_option(&app->document, at, &app->problems)))
         choose(app, (long)at + 1);
 }
 
-static void delete_option(struct app *app)
+static void delete_option(struct app *app, int unused)
 {
-    char path[64], name[200];
-    if (app->document.file.scene.options_count < 2) {
+    (void)unused;
+    const char *path = ceduo_app_format(app, "options[%zu]", app->option);
+    const char *name = ceduo_app_format(app, "%s", ceduo_app_option(app)->name);
+    if (app->document.file.scene.options_count < 2)
         ceduo_app_say(app, "%s", _("the only option stays"));
-        return;
-    }
-    snprintf(path, sizeof path, "options[%zu]", app->option);
-    snprintf(name, sizeof name, "%s", ceduo_app_option(app)->name);
-    if (ceduo_app_edited(app, ceduo_document_delete(&app->document, path, &app->problems)))
+    else if (ceduo_app_edited(app, ceduo_document_delete(&app->document, path, &app->problems)))
         ceduo_app_say(app, _("deleted '%s'; u brings it back"), name);
 }
 
@@ -447,51 +456,25 @@ static bool filled_name(struct app *app, struct popup *p)
     return ceduo_app_edited(app, ceduo_document_rename_option(&app->document, app->option, p->fields[0].text, &app->problems));
 }
 
-static void rename_option(struct app *app)
+static void rename_option(struct app *app, int unused)
 {
-    struct popup *p = ceduo_popup_fields(app, _("Name of this option"), filled_name);
-    if (p)
-        ceduo_popup_field(p, _("name"), ceduo_app_option(app)->name);
+    (void)unused;
+    if (ceduo_node_get(app->document.file.root, "options"))
+        ceduo_popup_field(ceduo_popup_fields(app, _("Name of this option"), filled_name), _("name"),
+                          ceduo_app_option(app)->name);
 }
 
-static bool act(struct app *app, enum action action)
-{
-    switch (action) {
-    case ACTION_UP:
-        choose(app, (long)app->option - 1);
-        return true;
-    case ACTION_DOWN:
-        choose(app, (long)app->option + 1);
-        return true;
-    case ACTION_TOP:
-        choose(app, 0);
-        return true;
-    case ACTION_BOTTOM:
-        choose(app, 1000000);
-        return true;
-    case ACTION_ADD:
-        ceduo_popup_new_option(app);
-        return true;
-    case ACTION_DUPLICATE:
-        copy_option(app);
-        return true;
-    case ACTION_DELETE:
-        delete_option(app);
-        return true;
-    case ACTION_EARLIER:
-        move_option(app, -1);
-        return true;
-    case ACTION_LATER:
-        move_option(app, 1);
-        return true;
-    case ACTION_EDIT:
-        if (ceduo_node_get(app->document.file.root, "options"))
-            rename_option(app);
-        return true;
-    default:
-        return false;
-    }
-}
+static const struct act acts[] = {{ACTION_UP, next_option, -1},
+                                  {ACTION_DOWN, next_option, 1},
+                                  {ACTION_TOP, next_option, -1000000},
+                                  {ACTION_BOTTOM, next_option, 1000000},
+                                  {ACTION_ADD, add_option, 0},
+                                  {ACTION_DUPLICATE, copy_option, 0},
+                                  {ACTION_DELETE, delete_option, 0},
+                                  {ACTION_EARLIER, move_option, -1},
+                                  {ACTION_LATER, move_option, 1},
+                                  {ACTION_EDIT, rename_option, 0},
+                                  {0}};
 
 const struct view ceduo_view_compare = {.title = NP_("view", "compare"),
                                         .panes = PANES,
@@ -499,7 +482,7 @@ const struct view ceduo_view_compare = {.title = NP_("view", "compare"),
                                         .result = true,
                                         .build = build,
                                         .draw = draw,
-                                        .act = act,
+                                        .acts = {acts, acts, acts},
                                         .bar = {{ACTION_ADD, N_("add")},
                                                 {ACTION_NEXT_PANE, N_("picture")},
                                                 {ACTION_DUPLICATE, N_("copy")},

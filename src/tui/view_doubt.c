@@ -126,8 +126,9 @@ static bool is_named(const struct node *rows, const char *path)
 }
 
 /* Names the most important input that the scene does not name yet, with the range that it has now. */
-static void add(struct app *app)
+static void add(struct app *app, int unused)
 {
+    (void)unused;
     const struct uncertainty *d = ceduo_live_uncertainty(&app->live, &app->document.file);
     const struct node *rows = ceduo_node_get(app->document.file.root, "doubt");
     size_t order[CEDUO_SENSITIVITY_GROUPS];
@@ -149,37 +150,23 @@ static void add(struct app *app)
         ceduo_text_put(&row, ", hi: ");
         ceduo_doubt_input_end(&row, &r, order[i], 1);
         ceduo_text_char(&row, '}');
-        if (!rows)
-            ceduo_text_put(&row, "]");
         size_t n = rows ? rows->n : 0;
-        bool good = rows ? ceduo_document_insert(&app->document, "doubt", n, ceduo_text_string(&row), &app->problems) : false;
-        if (!rows) {
-            struct text list = {0};
-            ceduo_text_format(&list, "[%s", ceduo_text_string(&row));
-            good = ceduo_document_set(&app->document, "doubt", ceduo_text_string(&list), &app->problems);
-            ceduo_text_free(&list);
-        }
-        ceduo_text_free(&row);
-        if (ceduo_app_edited(app, good))
+        const char *item = ceduo_app_kept(app, &row);
+        if (ceduo_app_edited(app, ceduo_document_insert(&app->document, "doubt", n, item, &app->problems)))
             ceduo_form_go(ceduo_app_form(app), "doubt", n);
         return;
     }
     ceduo_app_say(app, "%s", _("every single value in doubt has a range of the scene already"));
 }
 
-static bool act(struct app *app, enum action action)
-{
-    if (action == ACTION_ADD)
-        add(app);
-    return action == ACTION_ADD;
-}
+static const struct act acts[] = {{ACTION_ADD, add, 0}, {0}};
 
 const struct view ceduo_view_doubt = {.title = NP_("view", "doubt"),
                                       .panes = 1,
                                       .doubt = true,
                                       .build = build,
                                       .draw = draw,
-                                      .act = act,
+                                      .acts = {acts},
                                       .bar = {{ACTION_EDIT, N_("edit")},
                                               {ACTION_ADD, N_("a range")},
                                               {ACTION_DELETE, N_("delete")},

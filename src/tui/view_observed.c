@@ -106,7 +106,6 @@ static void put_misfits(struct text *text, const struct scene_file *file, const 
         ceduo_text_format(text, _("The scene as it is does not give what was seen: %s.\n"), ceduo_text_string(&bad));
     else
         ceduo_text_put(text, _("The scene as it is can give all that was seen.\n"));
-    text->failed |= bad.failed;
     ceduo_text_free(&bad);
 }
 
@@ -272,8 +271,9 @@ static void draw(struct app *app, struct ceduo_area area)
 
 /* ---- keys ---- */
 
-static void start(struct app *app)
+static void start(struct app *app, int unused)
 {
+    (void)unused;
     if (app->document.file.observations_count == 0)
         ceduo_app_warn(app, "%s",
                        _("nothing was seen here that could be fitted: write it under 'observed' in the scene's file"));
@@ -284,8 +284,9 @@ static void start(struct app *app)
 }
 
 /* The best values into the scene, as one edit. */
-static void take(struct app *app)
+static void take(struct app *app, int unused)
 {
+    (void)unused;
     const struct fit *f = ceduo_live_fitted(&app->live);
     if (!f) {
         ceduo_app_say(app, "%s",
@@ -299,14 +300,15 @@ static void take(struct app *app)
         best[i] = f->answer.parameters[i].best;
     ceduo_calibration_sources(&source, &r);
     const struct fit_values values = {f->request.n, f->inputs, f->request.fields, best, ceduo_text_string(&source), NULL};
-    bool good = !source.failed && ceduo_keep_fit(&app->document, &values, &app->problems);
+    bool good = ceduo_keep_fit(&app->document, &values, &app->problems);
     if (ceduo_app_edited(app, good))
         ceduo_app_say(app, "%s", _("the scene has the values and their ranges, not the draws; u takes them back"));
     ceduo_text_free(&source);
 }
 
-static void stop(struct app *app)
+static void stop(struct app *app, int unused)
 {
+    (void)unused;
     if (app->live.fitting)
         ceduo_app_say(app, "%s", _("the fit is stopped; the scene is as it was"));
     else if (ceduo_live_fitted(&app->live))
@@ -314,28 +316,13 @@ static void stop(struct app *app)
     ceduo_live_drop_fit(&app->live);
 }
 
-static bool act(struct app *app, enum action action)
-{
-    switch (action) {
-    case ACTION_COUNTS:
-        start(app);
-        return true;
-    case ACTION_EDIT:
-        take(app);
-        return true;
-    case ACTION_STOP:
-        stop(app);
-        return true;
-    default:
-        return false;
-    }
-}
+static const struct act acts[] = {{ACTION_COUNTS, start, 0}, {ACTION_EDIT, take, 0}, {ACTION_STOP, stop, 0}, {0}};
 
 const struct view ceduo_view_seen = {.title = NP_("view", "seen"),
                                      .panes = 1,
                                      .seen = true,
                                      .draw = draw,
-                                     .act = act,
+                                     .acts = {acts},
                                      .bar = {{ACTION_COUNTS, N_("fit")},
                                              {ACTION_EDIT, N_("take the fit")},
                                              {ACTION_STOP, N_("leave it")},

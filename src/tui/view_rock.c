@@ -5,64 +5,47 @@
 #include "app.h"
 #include "base/language.h"
 
-static void add(struct app *app, struct form *form, const char *group, const char *key)
-{
-    const struct field *f = ceduo_schema_field(ceduo_schema_scene(), group);
-    ceduo_form_field(form, &app->document, f->object, group, key, NULL);
-}
-
 /* What comes down: a power law, or a list of classes. */
 static void build_blocks(struct app *app, struct form *form)
 {
     static const char *const columns[] = {"per_year", "volume_m3", "exponent", NULL};
+    static const char *const design[] = {"design.survey", "design.blocks", NULL};
     const struct document *d = &app->document;
     const struct node *blocks = ceduo_document_node(d, "blocks");
     const struct object *object = ceduo_schema_field(ceduo_schema_scene(), "blocks")->object;
     ceduo_form_heading(form, _("Blocks that come down"));
     if (blocks && blocks->kind == NODE_MAP)
-        for (size_t i = 0; columns[i]; i++)
-            ceduo_form_field(form, d, object, "blocks", columns[i], NULL);
+        ceduo_form_fields(form, d, object, "blocks", columns);
     else
         ceduo_form_table(form, d, object, "blocks", columns, "");
-    add(app, form, "design", "survey");
-    add(app, form, "design", "blocks");
+    ceduo_form_fields(form, d, ceduo_schema_scene(), "", design);
 }
 
 static void build(struct app *app, struct form *form)
 {
-    enum ceduo_shape shape = app->document.file.scene.rock.shape;
-    bool round = shape == CEDUO_SPHERE || shape == CEDUO_CYLINDER;
+    static const char *const sizes[][5] = {[CEDUO_SPHERE] = {"rock.shape", "rock.diameter_m", "rock.volume_m3"},
+                                           [CEDUO_CYLINDER] = {"rock.shape", "rock.diameter_m", "rock.height_m"},
+                                           [CEDUO_ELLIPSOID] = {"rock.shape", "rock.axes_m"},
+                                           [CEDUO_BLOCK] = {"rock.shape", "rock.axes_m"}};
+    static const char *const weight[] = {"rock.mass_kg", "rock.density_kg_m3", NULL};
+    static const char *const release[] = {"release.x_m",    "release.height_m",   "release.vx_m_s",
+                                          "release.vz_m_s", "release.spin_rad_s", NULL};
+    static const char *const simulation[] = {"simulation.law",         "simulation.contact_model", "simulation.rule",
+                                             "simulation.threshold_m", "simulation.scale_rn",      "simulation.gravity_m_s2",
+                                             "simulation.seed",        "simulation.rocks",         NULL};
+    const struct document *d = &app->document;
+    const struct object *scene = ceduo_schema_scene();
     ceduo_form_heading(form, _("Rock"));
-    add(app, form, "rock", "shape");
-    if (round)
-        add(app, form, "rock", "diameter_m");
-    if (shape == CEDUO_CYLINDER)
-        add(app, form, "rock", "height_m");
-    if (!round)
-        add(app, form, "rock", "axes_m");
-    if (shape == CEDUO_SPHERE)
-        add(app, form, "rock", "volume_m3");
-    add(app, form, "rock", "mass_kg");
-    add(app, form, "rock", "density_kg_m3");
+    ceduo_form_fields(form, d, scene, "", sizes[d->file.scene.rock.shape]);
+    ceduo_form_fields(form, d, scene, "", weight);
     ceduo_form_heading(form, _("Release"));
-    add(app, form, "release", "x_m");
-    add(app, form, "release", "height_m");
-    add(app, form, "release", "vx_m_s");
-    add(app, form, "release", "vz_m_s");
-    add(app, form, "release", "spin_rad_s");
-    ceduo_form_rest(form, &app->document, ceduo_schema_scene(), "", "release");
+    ceduo_form_fields(form, d, scene, "", release);
+    ceduo_form_rest(form, d, scene, "", "release");
     ceduo_form_heading(form, _("Simulation"));
-    add(app, form, "simulation", "law");
-    add(app, form, "simulation", "contact_model");
-    add(app, form, "simulation", "rule");
-    add(app, form, "simulation", "threshold_m");
-    add(app, form, "simulation", "scale_rn");
-    add(app, form, "simulation", "gravity_m_s2");
-    add(app, form, "simulation", "seed");
-    add(app, form, "simulation", "rocks");
-    ceduo_form_rest(form, &app->document, ceduo_schema_scene(), "", "simulation");
+    ceduo_form_fields(form, d, scene, "", simulation);
+    ceduo_form_rest(form, d, scene, "", "simulation");
     build_blocks(app, form);
-    ceduo_form_field(form, &app->document, ceduo_schema_scene(), "", "title", NULL);
+    ceduo_form_field(form, d, scene, "", "title", NULL);
 }
 
 #define WIDE 70 /* columns that leave room for a remark */

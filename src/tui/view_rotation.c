@@ -29,14 +29,10 @@ static void build(struct app *app, struct form *form)
     static const char *const groups[] = {"cutting", "growth", "growth.shoots", "growth.trees"};
     const struct document *d = &app->document;
     const struct object *scene = ceduo_schema_scene();
-    char forest[64], stand[FORM_PATH], heading[128];
-    ceduo_app_forest(app, forest, sizeof forest);
-    ceduo_form_table(form, d, ceduo_schema_field(scene, "forest")->object, forest, belt_columns, "");
+    ceduo_form_table(form, d, ceduo_schema_field(scene, "forest")->object, ceduo_app_forest(app), belt_columns, "");
     if (ceduo_app_option(app)->belts_count > 0) {
-        ceduo_app_stand(app, stand, sizeof stand);
-        snprintf(heading, sizeof heading, _("Stand of belt %zu: %.60s"), app->belt + 1,
-                 ceduo_app_option(app)->belts[app->belt].name);
-        ceduo_form_heading(form, heading);
+        const char *stand = ceduo_app_stand(app), *name = ceduo_app_option(app)->belts[app->belt].name;
+        ceduo_form_heading(form, ceduo_app_format(app, _("Stand of belt %zu: %.60s"), app->belt + 1, name));
         for (size_t i = 0; i < sizeof fields / sizeof fields[0]; i++)
             ceduo_form_field(form, d, ceduo_schema_stand(), stand, fields[i].key, _(fields[i].label));
         for (size_t i = 0; i < sizeof groups / sizeof groups[0]; i++)
@@ -129,7 +125,6 @@ static void say_others(struct app *app, unsigned year, struct text *text)
     }
     if (others.length > 0)
         ceduo_text_format(text, _("In that year %s of 1000."), ceduo_text_string(&others));
-    text->failed |= others.failed;
     ceduo_text_free(&others);
 }
 
@@ -230,32 +225,19 @@ static void draw(struct app *app, struct ceduo_area area)
     ceduo_app_draw_form(app, below, true);
 }
 
-static bool go_to_year(struct app *app, long year)
+static void next_year(struct app *app, int by)
 {
     const struct ceduo_years *years = ceduo_live_years(&app->live, &app->document.file.scene, app->option);
-    long n = years ? (long)years->count : 0;
+    long n = years ? (long)years->count : 0, year = (long)app->year + by;
     if (n > 0)
         app->year = (size_t)(year < 0 ? 0 : year >= n ? n - 1 : year);
-    return true;
 }
 
-static bool act(struct app *app, enum action action)
-{
-    if (ceduo_app_state(app)->pane != 1)
-        return false;
-    switch (action) {
-    case ACTION_RIGHT:
-        return go_to_year(app, (long)app->year + 1);
-    case ACTION_LEFT:
-        return go_to_year(app, (long)app->year - 1);
-    case ACTION_TOP:
-        return go_to_year(app, 0);
-    case ACTION_BOTTOM:
-        return go_to_year(app, 100000);
-    default:
-        return false;
-    }
-}
+static const struct act acts[] = {{ACTION_RIGHT, next_year, 1},
+                                  {ACTION_LEFT, next_year, -1},
+                                  {ACTION_TOP, next_year, -1000000},
+                                  {ACTION_BOTTOM, next_year, 1000000},
+                                  {0}};
 
 const struct view ceduo_view_rotation = {
     .title = NP_("view", "rotation"),
@@ -263,6 +245,6 @@ const struct view ceduo_view_rotation = {
     .years = true,
     .build = build,
     .draw = draw,
-    .act = act,
+    .acts = {NULL, acts},
     .follow = ceduo_app_follow_belt,
     .bar = {{ACTION_EDIT, N_("edit")}, {ACTION_NEXT_PANE, N_("years")}, {ACTION_NEXT_OPTION, N_("next option")}}};

@@ -1,9 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* View 1: the slope, trajectories over it, height and energy along it; its ground, belts and controls to edit. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
 
-#include "app.h"
 #include "base/language.h"
-#include "place.h"
+#include "edit.h"
+#include "popup.h"
+#include "view/plot_parts.h"
+
+/* ---- the form ---- */
 
 static void build_ground(struct app *app, struct form *form)
 {
@@ -49,10 +55,9 @@ static void build(struct app *app, struct form *form)
     static const char *const belt_columns[] = {"from_m", "to_m", "stand", NULL};
     static const char *const control_columns[] = {"x_m", "name", "accepted_kJ", "measured_speed_m_s", NULL};
     const struct object *scene = ceduo_schema_scene();
-    char forest[64];
-    ceduo_app_forest(app, forest, sizeof forest);
     ceduo_form_heading(form, _("Belts of forest"));
-    ceduo_form_table(form, &app->document, ceduo_schema_field(scene, "forest")->object, forest, belt_columns, "");
+    ceduo_form_table(form, &app->document, ceduo_schema_field(scene, "forest")->object, ceduo_app_forest(app), belt_columns,
+                     "");
     ceduo_form_heading(form, _("Controls"));
     if (ceduo_document_node(&app->document, "controls"))
         ceduo_form_table(form, &app->document, ceduo_schema_field(scene, "controls")->object, "controls", control_columns, "");
@@ -62,6 +67,238 @@ static void build(struct app *app, struct form *form)
     build_vertices(app, form);
 }
 
+#define ZOOM_MAX 7
+#define STEPS    100   /* of the cursor, over what is shown */
+#define NEAR     0.015 /* of what is shown: so near a point or a control is where the cursor is */
+
+/* ---- the cursor along the slope: where it is ---- */
+
+static double length_of(const struct app *app)
+{
+    const struct ceduo_slope *s = &app->document.file.scene.slope;
+    return s->x[s->vertices - 1];
+}
+
+/* m, relative: in the middle of the slope until it is moved. */
+static double place_x(const struct app *app)
+{
+    double length = length_of(app);
+    return app->place.put ? fmin(app->place.x, length) : length / 2;
+}
+
+/* The stretch of slope that the picture shows, m, relative: around the cursor once it is nearer than the whole. */
+static void shown_stretch(const struct app *app, double *from, double *to)
+{
+    double length = length_of(app), shown = ldexp(length, -app->place.zoom);
+    *from = fmin(fmax(0, place_x(app) - shown / 2), length - shown);
+    *to = *from + shown;
+}
+
+static void put_place(struct app *app, double x)
+{
+    app->place.x = fmin(fmax(0, x), length_of(app));
+    app->place.put = true;
+}
+
+/* By a hundredth of what is shown, onto a round number. */
+static void move_place(struct app *app, int by)
+{
+    double origin = app->document.file.scene.slope.origin_x;
+    double step = ceduo_plot_round(ldexp(length_of(app), -app->place.zoom) / STEPS * 2, false);
+    double at = (place_x(app) + origin) / step;
+    put_place(app, (by > 0 ? floor(at + 1e-9) + by : ceil(at - 1e-9) + by) * step - origin);
+}
+
+/* Takes in a place if it lies on that side of the cursor and nearer than the best so far. */
+static void nearer(double here, int side, double x, double *best)
+{
+    bool beyond = side > 0 ? x > here + 1e-9 : x < here - 1e-9;
+    if (beyond && (isnan(*best) || fabs(x - here) < fabs(*best - here)))
+        *best = x;
+}
+
+/* To the next of all points, borders and controls. */
+static void jump(struct app *app, int by)
+{
+    const struct ceduo_scene *scene = &app->document.file.scene;
+    const struct ceduo_option *option = ceduo_app_option(app);
+    double here = place_x(app), best = NAN;
+    nearer(here, by, scene->release.x.mean, &best);
+    for (size_t i = 0; i < scene->slope.vertices; i++)
+        nearer(here, by, scene->slope.x[i], &best);
+    for (size_t i = 0; i < scene->controls_count; i++)
+        nearer(here, by, scene->controls[i].x, &best);
+    for (size_t i = 0; i < option->belts_count; i++) {
+        nearer(here, by, option->belts[i].from, &best);
+        nearer(here, by, option->belts[i].to, &best);
+    }
+    if (!isnan(best))
+        put_place(app, best);
+}
+
+static void zoom_by(struct app *app, int by)
+{
+    int zoom = app->place.zoom + by;
+    if (zoom < 0)
+        ceduo_app_say(app, "%s", _("this is the whole slope"));
+    else if (zoom > ZOOM_MAX)
+        ceduo_app_say(app, "%s", _("this is as near as it gets"));
+    else
+        app->place.zoom = zoom;
+}
+
+/* ---- what is there ---- */
+
+/* The belt that it stands in; belts_count where it stands in none. */
+static size_t belt_at(const struct app *app, double x)
+{
+    const struct ceduo_option *o = ceduo_app_option(app);
+    size_t i = 0;
+    while (i < o->belts_count && !(x >= o->belts[i].from && x <= o->belts[i].to))
+        i++;
+    return i;
+}
+
+/* The envelope of the cell that is nearest; NULL where none is near, or no rock passes. */
+static const struct ceduo_envelope *passing(const struct ceduo_outlook *o, const struct ceduo_sight *sight, double x)
+{
+    size_t best = 0;
+    if (!o || !sight || !sight->envelopes || o->cells < 2)
+        return NULL;
+    for (size_t i = 1; i < o->cells; i++)
+        best = fabs(o->cell_x[i] - x) < fabs(o->cell_x[best] - x) ? i : best;
+    bool near = fabs(o->cell_x[best] - x) <= fabs(o->cell_x[1] - o->cell_x[0]);
+    return near && sight->envelopes[best].passed > 0 ? &sight->envelopes[best] : NULL;
+}
+
+static void say_place(struct app *app)
+{
+    const struct ceduo_scene *scene = &app->document.file.scene;
+    const struct ceduo_outlook *o = ceduo_live_outlook(&app->live, scene);
+    double x = place_x(app);
+    size_t belt = belt_at(app, x);
+    const struct ceduo_envelope *e = passing(o, ceduo_outlook_sight(o, scene, app->option), x);
+    struct text text = {0}, height = {0}, energy = {0};
+    ceduo_text_format(&text, _("%.1f m: %.0f\xc2\xb0 steep, %s"), x + scene->slope.origin_x,
+                      atan(ceduo_slope_fall(&scene->slope, x)) * 180 / M_PI,
+                      belt < ceduo_app_option(app)->belts_count ? ceduo_app_option(app)->belts[belt].name : _("no forest"));
+    if (e) {
+        ceduo_words_number(&height, e->height.p95, 2);
+        ceduo_words_number(&energy, e->mean_energy * J_TO_KJ, 3);
+        ceduo_text_then(&text, "; ", _("of 100 rocks that pass the underside of 95 is below %s m; %s kJ on average"),
+                        ceduo_app_kept(app, &height), ceduo_app_kept(app, &energy));
+    }
+    ceduo_app_say(app, "%s", ceduo_app_kept(app, &text));
+}
+
+/* ---- what can be done there ---- */
+
+/* x as the file of the slope has it. */
+static double written(const struct app *app, double x)
+{
+    const struct ceduo_slope *s = &app->document.file.scene.slope;
+    return ceduo_slope_mirrored(s, x + s->origin_x);
+}
+
+/* "list#index": to edit; "+list#index": to add at the cursor. */
+static void offer_place(struct app *app, const char *line, const char *sign, const char *list, size_t index)
+{
+    ceduo_popup_item(app->popup, line, ceduo_app_format(app, "%s%s#%zu", sign, list, index));
+}
+
+static void chose_place(struct app *app, struct popup *p, const char *value)
+{
+    (void)p;
+    bool add = value[0] == '+';
+    char *list = ceduo_app_format(app, "%s", value + add), *mark = strrchr(list, '#');
+    *mark = '\0';
+    size_t index = strtoul(mark + 1, NULL, 10);
+    ceduo_app_state(app)->pane = 0;
+    app->message[0] = '\0'; /* it was about the cursor */
+    if (add)
+        ceduo_items_add_at(app, list, index,
+                           strncmp(list, "slope.", 6) == 0 ? written(app, place_x(app))
+                                                           : place_x(app) + app->document.file.scene.slope.origin_x);
+    else
+        ceduo_form_go(ceduo_app_form(app), list, index);
+}
+
+/* The item of slope.materials that holds it, in metres of its file; SIZE_MAX: none. */
+static size_t material_at(const struct app *app, double x)
+{
+    const struct node *list = ceduo_document_node(&app->document, "slope.materials");
+    for (size_t i = 0; list && i < list->n; i++) {
+        const struct node *item = list->items[i];
+        if (x >= ceduo_node_number(item, "from_m") && x <= ceduo_node_number(item, "to_m"))
+            return i;
+    }
+    return SIZE_MAX;
+}
+
+static void offer_ground(struct app *app, double x)
+{
+    const struct ceduo_slope *s = &app->document.file.scene.slope;
+    const struct node *segments = ceduo_document_node(&app->document, "slope.segments");
+    const struct node *vertices = ceduo_document_node(&app->document, "slope.vertices_m");
+    double there = written(app, x);
+    size_t j = ceduo_items_stretch_of(app, there), material = material_at(app, there);
+    if (segments && segments->n > 0) {
+        size_t i = segments->n == 1 ? 0 : j;
+        offer_place(app, ceduo_app_format(app, _("edit the ground here: number %zu"), i + 1), "", "slope.segments", i);
+        if (vertices)
+            offer_place(app, _("another ground from here on"), "+", "slope.segments", i);
+    } else if (material != SIZE_MAX) {
+        offer_place(app, ceduo_app_format(app, _("edit the ground here: number %zu"), material + 1), "", "slope.materials",
+                    material);
+        offer_place(app, _("another ground from here on"), "+", "slope.materials", material);
+    }
+    if (vertices && vertices->n <= 200) {
+        double a = ceduo_node_item_number(vertices->items[j], 0), b = ceduo_node_item_number(vertices->items[j + 1], 0);
+        bool first = there - a < b - there;
+        offer_place(app,
+                    ceduo_app_format(app, _("edit the nearest point of the profile: number %zu, at %.4g m"),
+                                     j + (first ? 1 : 2), ceduo_slope_mirrored(s, first ? a : b)),
+                    "", "slope.vertices_m", j + (first ? 0 : 1));
+        offer_place(app, _("a new point of the profile here"), "+", "slope.vertices_m", j);
+    }
+}
+
+static void offer_belt(struct app *app, double x)
+{
+    const struct ceduo_option *o = ceduo_app_option(app);
+    size_t belt = belt_at(app, x);
+    const char *forest = ceduo_app_forest(app);
+    if (belt == o->belts_count)
+        return;
+    offer_place(app, ceduo_app_format(app, _("edit the belt here: %.100s"), o->belts[belt].name), "", forest, belt);
+    offer_place(app, _("two belts: end this one here and begin another"), "+", forest, belt);
+}
+
+static void offer_control(struct app *app, double x)
+{
+    const struct ceduo_scene *s = &app->document.file.scene;
+    const char *list = ceduo_document_node(&app->document, "controls_m") ? "controls_m" : "controls";
+    double near = NEAR * ldexp(length_of(app), -app->place.zoom);
+    for (size_t i = 0; i < s->controls_count; i++)
+        if (fabs(s->controls[i].x - x) <= near)
+            offer_place(app, ceduo_app_format(app, _("edit the control at %.4g m"), s->controls[i].x_given), "", list, i);
+    offer_place(app, _("count rocks here too: a new control"), "+", list, s->controls_count);
+}
+
+/* Lists what it stands on, to be edited, and what can be put there. */
+static void choose_at_place(struct app *app, int unused)
+{
+    (void)unused;
+    const struct ceduo_slope *s = &app->document.file.scene.slope;
+    double x = place_x(app);
+    ceduo_popup_list(app, ceduo_app_format(app, _("At %.4g m"), x + s->origin_x), chose_place);
+    offer_belt(app, x);
+    offer_ground(app, x);
+    offer_control(app, x);
+}
+
+/* ---- the pictures ---- */
+
 enum { PANE_FORM, PANE_ROCKS, PANE_PLACE, PANES };
 
 static void say_how(struct app *app)
@@ -69,7 +306,7 @@ static void say_how(struct app *app)
     if (ceduo_app_state(app)->pane == PANE_ROCKS)
         ceduo_app_say(app, "%s", _("left, right: another rock; down, up: along its way; Tab: along the slope"));
     else
-        ceduo_place_say(app);
+        say_place(app);
 }
 
 /* The picture alone where it has the focus, otherwise with the form below it. */
@@ -78,11 +315,11 @@ static void draw(struct app *app, struct ceduo_area area)
     ceduo_app_follow_rock(app);
     struct ceduo_span span;
     struct ceduo_picture picture = ceduo_app_picture(app);
-    double mark = ceduo_place_x(app);
+    double mark = place_x(app);
     picture.span = &span;
     bool alone = ceduo_app_state(app)->pane != PANE_FORM;
     if (app->place.zoom > 0)
-        ceduo_place_stretch(app, &picture.from, &picture.to);
+        shown_stretch(app, &picture.from, &picture.to);
     int form_height = alone ? 0 : area.height / 3;
     bool place = ceduo_app_state(app)->pane == PANE_PLACE; /* no strips: all rows for the slope at true scale */
     int room = area.height - form_height;
@@ -107,68 +344,42 @@ static void draw(struct app *app, struct ceduo_area area)
     ceduo_app_draw_form(app, below, true);
 }
 
-/* Along the slope: left and right by steps, up and down from one point, border or control to the next. */
-static bool act_on_place(struct app *app, enum action action)
+static void zoom(struct app *app, int by)
 {
-    switch (action) {
-    case ACTION_RIGHT:
-        ceduo_place_move(app, 1);
-        return true;
-    case ACTION_LEFT:
-        ceduo_place_move(app, -1);
-        return true;
-    case ACTION_DOWN:
-        ceduo_place_jump(app, 1);
-        return true;
-    case ACTION_UP:
-        ceduo_place_jump(app, -1);
-        return true;
-    case ACTION_EDIT:
-    case ACTION_ADD:
-        ceduo_place_choose(app);
-        return true;
-    default:
-        return false;
-    }
+    struct view_state *state = ceduo_app_state(app);
+    state->pane = state->pane == PANE_FORM ? PANE_PLACE : state->pane;
+    zoom_by(app, by);
 }
+
+#define ZOOM_ACTS                                                                                                              \
+    {ACTION_ZOOM, zoom, 1}, {ACTION_UNZOOM, zoom, -1},                                                                         \
+    {                                                                                                                          \
+        0                                                                                                                      \
+    }
+
+static const struct act form_acts[] = {ZOOM_ACTS};
 
 /* In the picture left and right go from rock to rock, up and down along its trajectory. */
-static bool act_on_rocks(struct app *app, enum action action)
-{
-    switch (action) {
-    case ACTION_RIGHT:
-        ceduo_app_next_rock(app, 1);
-        return true;
-    case ACTION_LEFT:
-        ceduo_app_next_rock(app, -1);
-        return true;
-    case ACTION_DOWN:
-        ceduo_app_step_rock(app, 1);
-        return true;
-    case ACTION_UP:
-        ceduo_app_step_rock(app, -1);
-        return true;
-    default:
-        return false;
-    }
-}
+static const struct act rock_acts[] = {{ACTION_RIGHT, ceduo_app_next_rock, 1},
+                                       {ACTION_LEFT, ceduo_app_next_rock, -1},
+                                       {ACTION_DOWN, ceduo_app_step_rock, 1},
+                                       {ACTION_UP, ceduo_app_step_rock, -1},
+                                       ZOOM_ACTS};
 
-static bool act(struct app *app, enum action action)
-{
-    int pane = ceduo_app_state(app)->pane;
-    if (action == ACTION_ZOOM || action == ACTION_UNZOOM) {
-        ceduo_app_state(app)->pane = pane == PANE_FORM ? PANE_PLACE : pane;
-        ceduo_place_zoom(app, action == ACTION_ZOOM ? 1 : -1);
-        return true;
-    }
-    return pane == PANE_PLACE ? act_on_place(app, action) : pane == PANE_ROCKS && act_on_rocks(app, action);
-}
+/* Along the slope: left and right by steps, up and down from one point, border or control to the next. */
+static const struct act place_acts[] = {{ACTION_RIGHT, move_place, 1},
+                                        {ACTION_LEFT, move_place, -1},
+                                        {ACTION_DOWN, jump, 1},
+                                        {ACTION_UP, jump, -1},
+                                        {ACTION_EDIT, choose_at_place, 0},
+                                        {ACTION_ADD, choose_at_place, 0},
+                                        ZOOM_ACTS};
 
 const struct view ceduo_view_slope = {.title = NP_("view", "slope"),
                                       .panes = PANES,
                                       .build = build,
                                       .draw = draw,
-                                      .act = act,
+                                      .acts = {form_acts, rock_acts, place_acts},
                                       .bar = {{ACTION_EDIT, N_("edit")},
                                               {ACTION_ADD, N_("add")},
                                               {ACTION_DELETE, N_("delete")},

@@ -12,17 +12,15 @@
 #define FIGURES 3 /* lines */
 
 /* Of each class of trees. The radius comes first: a group must have one. */
-static void put_groups(struct form *form, const struct document *d, const char *list, size_t classes)
+static void put_groups(const struct app *app, struct form *form, const char *list, size_t classes)
 {
     static const char *const keys[] = {"groups.radius_m", "groups.stems"};
     const struct object *trees = ceduo_schema_field(ceduo_schema_stand(), "trees")->object;
+    const struct document *d = &app->document;
     for (size_t i = 0; i < classes; i++)
-        for (size_t k = 0; k < 2; k++) {
-            char item[2 * FORM_PATH], label[64];
-            snprintf(item, sizeof item, "%.180s[%zu]", list, i);
-            snprintf(label, sizeof label, k == 0 ? _("trees %zu: a group, m") : _("trees %zu: in a group"), i + 1);
-            ceduo_form_field(form, d, trees, item, keys[k], label);
-        }
+        for (size_t k = 0; k < 2; k++)
+            ceduo_form_field(form, d, trees, ceduo_app_format(app, "%s[%zu]", list, i), keys[k],
+                             ceduo_app_format(app, k == 0 ? _("trees %zu: a group, m") : _("trees %zu: in a group"), i + 1));
 }
 
 /* How many there are comes last: then nothing of them may be missing. */
@@ -38,12 +36,10 @@ static void put_low(struct form *form, const struct document *d, const char *pat
 }
 
 /* Shoots on a stool, where no one value says it. */
-static void put_per_stool(struct form *form, const struct ceduo_stand *s)
+static void put_per_stool(const struct app *app, struct form *form, const struct ceduo_stand *s)
 {
-    char note[64];
-    snprintf(note, sizeof note, _("%.4g shoots per stool"), ceduo_stand_shoots(s) / s->stools_per_ha);
     if (ceduo_stand_has_shoots(s) && (s->shoots_count > 1 || !(s->shoots[0].per_stool > 0)))
-        ceduo_form_note(form, note);
+        ceduo_form_note(form, ceduo_app_format(app, _("%.4g shoots per stool"), ceduo_stand_shoots(s) / s->stools_per_ha));
 }
 
 /* Cohorts by what the stand gives of them: shoots per stool, per hectare, or of some the one and of some the other. */
@@ -61,56 +57,46 @@ static void put_shoots(struct form *form, const struct document *d, const char *
 }
 
 /* What a cut leaves stands beside the trees of today: to change one does not change the other. */
-static void put_stay(struct form *form, const struct document *d, const char *path, const struct ceduo_stand *s)
+static void put_stay(const struct app *app, struct form *form, const char *path, const struct ceduo_stand *s)
 {
-    char note[64];
     double today = ceduo_stand_trees(s), stay = ceduo_stand_stay(s);
     if (s->cutting.rotation == 0)
         return;
-    ceduo_form_field(form, d, ceduo_schema_stand(), path, "cutting.stay_per_ha", _("trees that stay, per ha"));
-    snprintf(note, sizeof note, _("! today %g, after a cut %g: two things"), today, stay);
+    ceduo_form_field(form, &app->document, ceduo_schema_stand(), path, "cutting.stay_per_ha", _("trees that stay, per ha"));
     if (fabs(today - stay) > 0.5)
-        ceduo_form_note(form, note);
+        ceduo_form_note(form, ceduo_app_format(app, _("! today %g, after a cut %g: two things"), today, stay));
 }
 
 static void build(struct app *app, struct form *form)
 {
     static const char *const belt_columns[] = {"from_m", "to_m", "stand", NULL};
+    static const char *const what[] = {"system", "species", "stools.per_ha", NULL};
+    static const char *const energy[] = {"energy.model",  "energy.u_J_m3",      "energy.fracture_ratio",
+                                         "energy.offset", "energy.hit_below_m", NULL};
     static const char *const stem_columns[] = {"per_ha", "dbh_m", "height_m", "volume_m3", "dbh_sd_m", NULL};
     const struct document *d = &app->document;
     const struct object *stand = ceduo_schema_stand();
     const struct object *belt = ceduo_schema_field(ceduo_schema_scene(), "forest")->object;
-    char forest[64], path[FORM_PATH], list[FORM_PATH + 32];
-    ceduo_app_forest(app, forest, sizeof forest);
-    ceduo_form_table(form, d, belt, forest, belt_columns, "");
+    const char *path = ceduo_app_stand(app);
+    ceduo_form_table(form, d, belt, ceduo_app_forest(app), belt_columns, "");
     if (ceduo_app_option(app)->belts_count == 0)
         return;
-    ceduo_app_stand(app, path, sizeof path);
-    char heading[128];
-    snprintf(heading, sizeof heading, _("Stand of belt %zu: %.60s"), app->belt + 1,
-             ceduo_app_option(app)->belts[app->belt].name);
-    ceduo_form_heading(form, heading);
-    ceduo_form_field(form, d, stand, path, "system", NULL);
-    ceduo_form_field(form, d, stand, path, "species", NULL);
-    ceduo_form_field(form, d, stand, path, "stools.per_ha", NULL);
+    ceduo_form_heading(form, ceduo_app_format(app, _("Stand of belt %zu: %.60s"), app->belt + 1,
+                                              ceduo_app_option(app)->belts[app->belt].name));
+    ceduo_form_fields(form, d, stand, path, what);
     const struct ceduo_stand *s = &ceduo_app_option(app)->belts[app->belt].stand;
-    put_per_stool(form, s);
+    put_per_stool(app, form, s);
     ceduo_form_field(form, d, stand, path, "stools.spacing_m", NULL);
     ceduo_form_rest(form, d, stand, path, "stools");
     ceduo_form_heading(form, _("Shoots on the stools"));
-    snprintf(list, sizeof list, "%s.shoots", path);
-    put_shoots(form, d, list, s);
+    put_shoots(form, d, ceduo_app_format(app, "%s.shoots", path), s);
     ceduo_form_heading(form, _("Single trees: standards, reserves"));
-    snprintf(list, sizeof list, "%s.trees", path);
+    const char *list = ceduo_app_format(app, "%s.trees", path);
     ceduo_form_table(form, d, ceduo_schema_field(stand, "trees")->object, list, stem_columns, "");
-    put_stay(form, d, path, s);
-    put_groups(form, d, list, s->trees_count);
+    put_stay(app, form, path, s);
+    put_groups(app, form, list, s->trees_count);
     ceduo_form_heading(form, _("Energy of a contact"));
-    ceduo_form_field(form, d, stand, path, "energy.model", NULL);
-    ceduo_form_field(form, d, stand, path, "energy.u_J_m3", NULL);
-    ceduo_form_field(form, d, stand, path, "energy.fracture_ratio", NULL);
-    ceduo_form_field(form, d, stand, path, "energy.offset", NULL);
-    ceduo_form_field(form, d, stand, path, "energy.hit_below_m", NULL);
+    ceduo_form_fields(form, d, stand, path, energy);
     ceduo_form_rest(form, d, stand, path, "energy");
     ceduo_form_heading(form, _("Stumps"));
     put_low(form, d, path, "stumps");
