@@ -48,30 +48,27 @@ void ceduo_form_note(struct form *form, const char *text)
 
 /* ---- cells ---- */
 
-static void show_spread(char *to, size_t size, const struct node *node)
+/* A value as it is shown: one word in the words and the unit of the field, a spread, a list, a mapping by its name. */
+static void show_node(struct text *to, const struct node *node, const struct field *field)
 {
-    const char *mean = ceduo_node_text(node, "mean"), *spread = ceduo_node_text(node, "spread");
-    const char *kind = ceduo_node_text(node, "kind");
-    snprintf(to, size, "%s \xc2\xb1 %s%s", mean ? mean : "?", spread ? spread : "0",
-             kind && strcmp(kind, "uniform") == 0 ? " u" : "");
-}
-
-static void show_list(char *to, size_t size, const struct node *node)
-{
-    size_t at = 0;
-    to[0] = '\0';
-    for (size_t i = 0; i < node->n && at < size; i++)
-        at += (size_t)snprintf(to + at, size - at, "%s%s", i ? " " : "",
-                               node->items[i]->kind == NODE_SCALAR ? node->items[i]->text : "~");
-}
-
-/* A value that is written as one word, in the words and the unit of the field. */
-static void show_scalar(char *to, size_t size, const struct field *field, const char *written)
-{
-    struct text shown = {0};
-    ceduo_shown_value(field, written, &shown);
-    snprintf(to, size, "%s", ceduo_text_string(&shown));
-    ceduo_text_free(&shown);
+    const char *name = node->kind == NODE_MAP ? ceduo_node_text(node, "name") : NULL;
+    if (name && field && field->flags & FIELD_FOLLOWS) {
+        ceduo_text_put(to, name);
+    } else if (node->written && node->written->kind == NODE_SCALAR) {
+        ceduo_text_put(to, node->written->text);
+    } else if (node->kind == NODE_SCALAR) {
+        ceduo_shown_value(field, node->text, to);
+    } else if (node->kind == NODE_MAP && field && field->type == FIELD_SPREAD) {
+        const char *mean = ceduo_node_text(node, "mean"), *spread = ceduo_node_text(node, "spread");
+        const char *kind = ceduo_node_text(node, "kind");
+        ceduo_text_format(to, "%s \xc2\xb1 %s%s", mean ? mean : "?", spread ? spread : "0",
+                          kind && strcmp(kind, "uniform") == 0 ? " u" : "");
+    } else if (node->kind == NODE_LIST) {
+        for (size_t i = 0; i < node->n; i++)
+            ceduo_text_then(to, i ? " " : "", "%s", node->items[i]->kind == NODE_SCALAR ? node->items[i]->text : "~");
+    } else {
+        ceduo_text_put(to, "{}");
+    }
 }
 
 static void fill_cell(struct form_cell *cell, const struct document *d, const struct field *field, const char *path)
@@ -84,21 +81,13 @@ static void fill_cell(struct form_cell *cell, const struct document *d, const st
     const char *usual = !node && field && field->value ? field->value : "";
     const char *written = node && node->kind == NODE_SCALAR ? node->text : usual;
     snprintf(cell->written, sizeof cell->written, "%s", written);
-    const char *name = node && node->kind == NODE_MAP ? ceduo_node_text(node, "name") : NULL;
-    if (name && field && field->flags & FIELD_FOLLOWS)
-        snprintf(cell->text, sizeof cell->text, "%s", name);
-    else if (node && node->written && node->written->kind == NODE_SCALAR)
-        snprintf(cell->text, sizeof cell->text, "%s", node->written->text);
-    else if (node && node->kind == NODE_SCALAR)
-        show_scalar(cell->text, sizeof cell->text, field, node->text);
-    else if (node && node->kind == NODE_MAP && field && field->type == FIELD_SPREAD)
-        show_spread(cell->text, sizeof cell->text, node);
-    else if (node && node->kind == NODE_LIST)
-        show_list(cell->text, sizeof cell->text, node);
-    else if (node)
-        snprintf(cell->text, sizeof cell->text, "%s", "{}");
+    struct text shown = {0};
+    if (node)
+        show_node(&shown, node, field);
     else
-        show_scalar(cell->text, sizeof cell->text, field, field && field->value ? field->value : "");
+        ceduo_shown_value(field, usual, &shown);
+    snprintf(cell->text, sizeof cell->text, "%s", ceduo_text_string(&shown));
+    ceduo_text_free(&shown);
 }
 
 /* The field at a key that may hold a dot: of a group within the object. */
@@ -131,14 +120,6 @@ void ceduo_form_fields(struct form *form, const struct document *d, const struct
         ceduo_form_field(form, d, object, prefix, *keys, NULL);
 }
 
-static bool has_path(const struct form *form, const char *path)
-{
-    for (size_t i = 0; i < form->n; i++)
-        if (form->rows[i].n > 0 && strcmp(form->rows[i].cells[0].path, path) == 0)
-            return true;
-    return false;
-}
-
 void ceduo_form_rest(struct form *form, const struct document *d, const struct object *object, const char *prefix,
                      const char *group)
 {
@@ -148,7 +129,10 @@ void ceduo_form_rest(struct form *form, const struct document *d, const struct o
         char key[FORM_PATH], path[2 * FORM_PATH];
         snprintf(key, sizeof key, "%.60s.%.60s", group, f->key);
         snprintf(path, sizeof path, "%s%s%s", prefix, prefix[0] ? "." : "", key);
-        if (f->type != FIELD_GROUP && f->type != FIELD_LIST && !has_path(form, path))
+        bool there = f->type == FIELD_GROUP || f->type == FIELD_LIST;
+        for (size_t k = 0; k < form->n; k++)
+            there |= form->rows[k].n > 0 && strcmp(form->rows[k].cells[0].path, path) == 0;
+        if (!there)
             ceduo_form_field(form, d, object, prefix, key, NULL);
     }
 }
@@ -156,9 +140,8 @@ void ceduo_form_rest(struct form *form, const struct document *d, const struct o
 /* A line for item i of a list. */
 static struct form_row *add_item(struct form *form, const char *list, size_t i)
 {
-    char label[32];
-    snprintf(label, sizeof label, "%zu", i + 1);
-    struct form_row *row = add_row(form, FORM_FIELDS, label);
+    struct form_row *row = add_row(form, FORM_FIELDS, "");
+    snprintf(row->label, sizeof row->label, "%zu", i + 1);
     snprintf(row->list, sizeof row->list, "%s", list);
     row->index = i;
     return row;
@@ -464,26 +447,22 @@ static double step_of(double value, const struct field *f)
     return f->type == FIELD_COUNT && step < 1 ? 1 : step;
 }
 
-static void step_word(const struct form_cell *cell, int direction, struct text *value)
-{
-    const struct choices *c = cell->field->choices;
-    int now = ceduo_choice_find(c, cell->written);
-    size_t at = now < 0 ? 0 : ((size_t)now + (direction > 0 ? 1 : c->n - 1)) % c->n;
-    ceduo_text_put(value, c->names[at]);
-}
-
 bool ceduo_form_step(const struct document *d, const struct form_cell *cell, int direction, struct text *value)
 {
     const struct field *f = cell->field;
     double now;
     if (!f)
         return false;
-    if (f->type == FIELD_CHOICE)
-        step_word(cell, direction, value);
-    else if (f->type == FIELD_FLAG)
-        ceduo_text_put(value, strcmp(cell->written, "true") == 0 ? "false" : "true");
-    if (f->type == FIELD_CHOICE || f->type == FIELD_FLAG)
+    if (f->type == FIELD_CHOICE) {
+        const struct choices *c = f->choices;
+        int at = ceduo_choice_find(c, cell->written);
+        ceduo_text_put(value, c->names[at < 0 ? 0 : ((size_t)at + (direction > 0 ? 1 : c->n - 1)) % c->n]);
         return true;
+    }
+    if (f->type == FIELD_FLAG) {
+        ceduo_text_put(value, strcmp(cell->written, "true") == 0 ? "false" : "true");
+        return true;
+    }
     const struct node *node = ceduo_document_node(d, cell->path);
     bool scalar = !node || node->kind == NODE_SCALAR;
     if (!scalar || (f->type != FIELD_NUMBER && f->type != FIELD_SPREAD && f->type != FIELD_COUNT) ||

@@ -25,16 +25,15 @@ static void cut(struct line *line, size_t from, size_t to)
     line->at = from;
 }
 
-static bool insert(struct line *line, int key)
+static void insert(struct line *line, int key)
 {
     char bytes[4];
     size_t n = ceduo_utf8_encode((uint32_t)key, bytes), length = strlen(line->text);
     if (length + n + 1 > sizeof line->text)
-        return true; /* full */
+        return; /* full */
     memmove(line->text + line->at + n, line->text + line->at, length - line->at + 1);
     memcpy(line->text + line->at, bytes, n);
     line->at += n;
-    return true;
 }
 
 bool ceduo_line_key(struct line *line, int key)
@@ -46,31 +45,25 @@ bool ceduo_line_key(struct line *line, int key)
     const char *at = line->text + line->at;
     size_t before = (size_t)(ceduo_utf8_back(line->text, at) - line->text);
     size_t after = line->at + (*at ? ceduo_utf8_step(at) : 0);
-    switch (key) {
-    case K_LEFT:
+    if (key == K_LEFT)
         line->at = before;
-        return true;
-    case K_RIGHT:
+    else if (key == K_RIGHT)
         line->at = after;
-        return true;
-    case K_HOME:
+    else if (key == K_HOME)
         line->at = 0;
-        return true;
-    case K_END:
+    else if (key == K_END)
         line->at = strlen(line->text);
-        return true;
-    case K_BACKSPACE:
+    else if (key == K_BACKSPACE)
         cut(line, before, line->at);
-        return true;
-    case K_DELETE:
+    else if (key == K_DELETE)
         cut(line, line->at, after);
-        return true;
-    case K_CTRL_U:
+    else if (key == K_CTRL_U)
         cut(line, 0, line->at);
-        return true;
-    default:
-        return key < K_SPECIAL && ceduo_utf8_printable((uint32_t)key) && insert(line, key);
-    }
+    else if (key < K_SPECIAL && ceduo_utf8_printable((uint32_t)key))
+        insert(line, key);
+    else
+        return false;
+    return true;
 }
 
 bool ceduo_line_paste(struct line *line, const char *text)

@@ -112,6 +112,12 @@ bool ceduo_popup_may_write(struct app *app, struct popup *p)
 
 /* ---- what is offered ---- */
 
+/* Shows in the popup what was said. */
+static void take_message(struct app *app, struct popup *p)
+{
+    snprintf(p->message, sizeof p->message, "%.*s", (int)sizeof p->message - 1, app->message);
+}
+
 /* A file that is typed and not there is said at once, not after the last question. */
 static void say_missing(struct popup *p, const char *typed)
 {
@@ -161,45 +167,29 @@ static bool may_leave(struct app *app, struct popup *p)
     app->message[0] = '\0';
     bool good = !p->check || p->check(app, p, p->at);
     if (!good)
-        snprintf(p->message, sizeof p->message, "%.*s", (int)sizeof p->message - 1, app->message);
+        take_message(app, p);
     app->message[0] = '\0';
     return good;
 }
 
 /* ---- keys ---- */
 
-/* Returns how many lines a key moves by; 0 if it does not move. */
-static int lines_of(int key)
+/* Returns how many lines a key moves by, letters only where nothing is typed; 0 if it does not move. */
+static int lines_of(int key, bool letters)
 {
-    switch (key) {
-    case K_UP:
-        return -1;
-    case K_DOWN:
-        return 1;
-    case K_PAGE_UP:
-        return -10;
-    case K_PAGE_DOWN:
-        return 10;
-    case K_HOME:
-        return -100000;
-    case K_END:
-        return 100000;
-    default:
-        return 0;
-    }
-}
-
-static int lines_of_text(int key)
-{
-    static const char letters[] = "kjgG";
-    static const int lines[] = {-1, 1, -100000, 100000};
-    const char *at = key > 0 && key < 128 ? strchr(letters, key) : NULL;
-    return at ? lines[at - letters] : lines_of(key);
+    static const struct {
+        int key, letter, lines;
+    } keys[] = {{K_UP, 'k', -1},      {K_DOWN, 'j', 1},       {K_PAGE_UP, 0, -10},
+                {K_PAGE_DOWN, 0, 10}, {K_HOME, 'g', -100000}, {K_END, 'G', 100000}};
+    for (size_t i = 0; i < sizeof keys / sizeof keys[0]; i++)
+        if (key == keys[i].key || (letters && key != 0 && key == keys[i].letter))
+            return keys[i].lines;
+    return 0;
 }
 
 static void text_key(struct app *app, struct popup *p, int key)
 {
-    int by = lines_of_text(key);
+    int by = lines_of(key, true);
     p->top = p->top + by > 0 ? p->top + by : 0;
     if (by == 0)
         ceduo_popup_close(app);
@@ -219,7 +209,7 @@ static void choose(struct app *app, struct popup *p)
 
 static void list_key(struct app *app, struct popup *p, int key)
 {
-    int by = lines_of(key);
+    int by = lines_of(key, false);
     p->message[0] = '\0';
     if (key == K_ESCAPE) {
         ceduo_popup_close(app);
@@ -246,13 +236,13 @@ static void submit(struct app *app, struct popup *p)
     if (app->popup) /* it opened another */
         ceduo_popup_close(app);
     app->popup = p;
-    snprintf(p->message, sizeof p->message, "%.*s", (int)sizeof p->message - 1, app->message);
+    take_message(app, p);
 }
 
 static void fields_key(struct app *app, struct popup *p, int key)
 {
     bool last = p->at + 1 >= p->fields_count, listed = p->offers[p->at] && p->picker.matches > 0;
-    int by = lines_of(key);
+    int by = lines_of(key, false);
     bool vertical = key == K_UP || key == K_DOWN || key == K_PAGE_UP || key == K_PAGE_DOWN;
     p->message[0] = '\0';
     ceduo_jobs_stop(app->live.jobs, JOB_SEARCH); /* that these fields asked for */
@@ -347,11 +337,6 @@ static void draw_line(struct app *app, const struct line *line, int x, int y, in
         ceduo_cells_label(app->cells, x + n, y, CEDUO_ROLE_CURSOR, "_");
 }
 
-static void draw_message(struct app *app, const struct popup *p, struct ceduo_area area)
-{
-    ceduo_app_text(app, area, CEDUO_ROLE_WARN, p->message, NULL);
-}
-
 static void draw_list(struct app *app, struct popup *p)
 {
     int lines = p->picker.count > 2 ? (int)p->picker.count : 2;
@@ -362,7 +347,7 @@ static void draw_list(struct app *app, struct popup *p)
     in.top++;
     in.height--;
     if (p->message[0])
-        draw_message(app, p, in);
+        ceduo_app_text(app, in, CEDUO_ROLE_WARN, p->message, NULL);
     else if (p->picker.matches == 0)
         ceduo_app_text(app, in, CEDUO_ROLE_DIM, _("nothing matches"), NULL);
     else
@@ -386,7 +371,8 @@ static void draw_fields(struct app *app, struct popup *p)
     }
     in.top += (int)p->fields_count;
     in.height -= (int)p->fields_count;
-    draw_message(app, p, (struct ceduo_area){in.left, in.top, in.width, in.height < 2 ? in.height : 2});
+    struct ceduo_area first = {in.left, in.top, in.width, in.height < 2 ? in.height : 2};
+    ceduo_app_text(app, first, CEDUO_ROLE_WARN, p->message, NULL);
     if (p->picture && !p->offers[p->at] && !p->message[0])
         p->picture(app, p, (struct ceduo_area){in.left, in.top + 1, in.width, in.height - 1});
     else if (!p->message[0])

@@ -165,21 +165,9 @@ static void offer_how(struct app *app, struct popup *p, const char *typed)
     ceduo_popup_item(p, _("map: horizontal"), ON_MAP);
 }
 
-/* The mean angle of the slope within the belt, in degrees. */
-static double angle_of(const struct app *app)
+static void field_number(struct app *app, const char *label, double value)
 {
-    const struct ceduo_slope *s = &app->document.file.scene.slope;
-    const struct ceduo_belt *b = &ceduo_app_option(app)->belts[app->belt];
-    double fall = ceduo_slope_height(s, b->from) - ceduo_slope_height(s, b->to);
-    return round(atan2(fabs(fall), b->to - b->from) * 180 / M_PI);
-}
-
-static void field_number(struct popup *p, const char *label, double value)
-{
-    char room[CEDUO_NUMBER_ROOM] = "";
-    if (value > 0)
-        snprintf(room, sizeof room, "%.6g", value);
-    ceduo_popup_field(p, label, room);
+    ceduo_popup_field(app->popup, label, value > 0 ? ceduo_app_format(app, "%.6g", value) : "");
 }
 
 void ceduo_popup_counts(struct app *app)
@@ -190,20 +178,22 @@ void ceduo_popup_counts(struct app *app)
     }
     const struct ceduo_belt *belt = &ceduo_app_option(app)->belts[app->belt];
     const struct ceduo_stand *stand = &belt->stand;
+    const struct ceduo_slope *s = &app->document.file.scene.slope;
+    double fall = ceduo_slope_height(s, belt->from) - ceduo_slope_height(s, belt->to);
     struct popup *p = ceduo_popup_fields(app, _("Stand from the counts of a sample plot"), filled_counts);
     snprintf(p->path, sizeof p->path, "%s", ceduo_app_stand(app));
     ceduo_text_format(&p->text,
                       _("Densities are per horizontal hectare: 400 m2 along a slope of 40 degrees are 306 m2. "
                         "Nothing counted is nothing there. Species, growth and cuts stay those of %s."),
                       belt->name);
-    field_number(p, _("size of the plot, m2"), 400);
+    field_number(app, _("size of the plot, m2"), 400);
     ceduo_popup_choice(p, _("measured along the slope or map"), ALONG_SLOPE, offer_how);
-    field_number(p, _("angle of the slope, degrees"), angle_of(app));
+    field_number(app, _("angle of the slope, degrees"), round(atan2(fabs(fall), belt->to - belt->from) * 180 / M_PI));
     ceduo_popup_field(p, _("stools counted"), "");
     ceduo_popup_field(p, _("shoots counted on them"), "");
-    field_number(p, _("their mean diameter, cm"), stand->shoots_count ? stand->shoots[0].dbh * 100 : 0);
-    field_number(p, _("their mean height, m"), stand->shoots_count ? stand->shoots[0].height : 0);
+    field_number(app, _("their mean diameter, cm"), stand->shoots_count ? stand->shoots[0].dbh * 100 : 0);
+    field_number(app, _("their mean height, m"), stand->shoots_count ? stand->shoots[0].height : 0);
     ceduo_popup_field(p, _("single trees counted"), "");
-    field_number(p, _("their mean diameter, cm"), stand->trees_count ? stand->trees[0].dbh * 100 : 0);
-    field_number(p, _("their mean height, m"), stand->trees_count ? stand->trees[0].height : 0);
+    field_number(app, _("their mean diameter, cm"), stand->trees_count ? stand->trees[0].dbh * 100 : 0);
+    field_number(app, _("their mean height, m"), stand->trees_count ? stand->trees[0].height : 0);
 }

@@ -5,7 +5,6 @@
 #include <string.h>
 
 #include "base/language.h"
-#include "base/must.h"
 #include "io/file.h"
 #include "popup.h"
 #include "popups.h"
@@ -62,37 +61,27 @@ static void put_json(struct app *app, struct text *text)
     ceduo_report_json(text, &report);
 }
 
-/* Years of the scene as it is, one for each option. */
-static struct ceduo_years **years_shown(const struct app *app)
-{
-    const struct ceduo_scene *scene = &app->document.file.scene;
-    struct ceduo_years **years = ceduo_must(calloc(scene->options_count, sizeof *years));
-    for (size_t i = 0; i < scene->options_count; i++)
-        years[i] = ceduo_live_years(&app->live, scene, i);
-    return years;
-}
-
 /* Of the figures as they are: nobody waits for doubt while a screen is to be used. */
 static void put_report(struct app *app, struct text *text)
 {
     const struct ceduo_scene *scene = &app->document.file.scene;
-    struct ceduo_years **years = years_shown(app);
+    struct ceduo_years **years = ceduo_arena_take(app->scratch, scene->options_count * sizeof *years);
     struct ceduo_report report = ceduo_app_report(app);
     struct ceduo_html html = {.text = text};
     struct ceduo_page page = {.width = CEDUO_PAGE_REPORT_WIDTH};
     struct text command = {0};
+    for (size_t i = 0; i < scene->options_count; i++)
+        years[i] = ceduo_live_years(&app->live, scene, i);
     put_command(app, &command, "--report report.html");
     const struct ceduo_chapter chapter = {.report = &report,
                                           .outlook = ceduo_live_outlook(&app->live, scene),
                                           .years = years,
-                                          .command = ceduo_text_string(&command)};
+                                          .command = ceduo_app_kept(app, &command)};
     ceduo_page_chapter(&page, &chapter);
     ceduo_page_html_begin(&html, ceduo_in_language(scene->title, scene->title_it));
     ceduo_page_html(&html, &page, 1);
     ceduo_page_html_end(&html);
     ceduo_page_free(&page);
-    ceduo_text_free(&command);
-    free(years);
 }
 
 static void put_drawing(struct app *app, struct text *text)

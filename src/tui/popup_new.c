@@ -38,12 +38,6 @@ static void release_answers(struct answers *a)
 
 /* ---- the profile ---- */
 
-static bool ends_in_csv(const char *name)
-{
-    size_t n = strlen(name);
-    return n > 4 && strcmp(name + n - 4, ".csv") == 0;
-}
-
 static bool read_csv(struct app *app, struct popup *p, const char *path, struct answers *a)
 {
     struct problems problems = {0};
@@ -60,15 +54,6 @@ static bool read_csv(struct app *app, struct popup *p, const char *path, struct 
     }
     ceduo_problems_free(&problems);
     return good;
-}
-
-static bool read_points(struct app *app, const char *typed, struct answers *a)
-{
-    ceduo_text_put(&a->slope, "vertices_m: ");
-    if (ceduo_typed_points(typed, &a->slope, &a->first, &a->last))
-        return true;
-    ceduo_app_warn(app, "%s", _("the profile: a file that ends in .csv, or points x z, x z, … with x rising"));
-    return false;
 }
 
 /* The profile as a scene of its own; `more`: keys of the slope besides. */
@@ -90,8 +75,17 @@ static bool make_profile(struct answers *a, const char *more)
 static bool read_profile(struct app *app, struct popup *p, struct answers *a)
 {
     const char *typed = p->fields[NEW_PROFILE].text;
-    if (!(ends_in_csv(typed) ? read_csv(app, p, typed, a) : read_points(app, typed, a)))
-        return false;
+    size_t n = strlen(typed);
+    if (n > 4 && strcmp(typed + n - 4, ".csv") == 0) {
+        if (!read_csv(app, p, typed, a))
+            return false;
+    } else {
+        ceduo_text_put(&a->slope, "vertices_m: ");
+        if (!ceduo_typed_points(typed, &a->slope, &a->first, &a->last)) {
+            ceduo_app_warn(app, "%s", _("the profile: a file that ends in .csv, or points x z, x z, … with x rising"));
+            return false;
+        }
+    }
     if (make_profile(a, "") || make_profile(a, "  reversed: true\n"))
         return true;
     ceduo_app_warn(app, "%s", _("two points of the profile lie too close together for their distance from the first"));
@@ -102,15 +96,6 @@ static bool read_profile(struct app *app, struct popup *p, struct answers *a)
 static double place_of(const struct ceduo_slope *s, double x)
 {
     return round((x + s->origin_x) * 100) / 100;
-}
-
-/* Where the face that begins at x (relative) ends. */
-static double face_end(const struct ceduo_slope *s, double x)
-{
-    size_t j = ceduo_slope_segment(s, x);
-    while (j + 1 < s->vertices && ceduo_slope_fall(s, s->x[j]) > CEDUO_FACE_FALL)
-        j++;
-    return s->x[j];
 }
 
 static void put_number(struct line *line, double value)
@@ -124,6 +109,9 @@ static void guess_face(struct popup *p, const struct answers *a)
 {
     const struct ceduo_slope *s = &a->profile.scene.slope;
     double edge = ceduo_slope_face(s);
+    size_t end = isnan(edge) ? 0 : ceduo_slope_segment(s, edge);
+    while (end + 1 < s->vertices && ceduo_slope_fall(s, s->x[end]) > CEDUO_FACE_FALL)
+        end++;
     if (p->kept && strcmp(p->kept, p->fields[NEW_PROFILE].text) == 0) /* for this profile that was done */
         return;
     free(p->kept);
@@ -131,25 +119,18 @@ static void guess_face(struct popup *p, const struct answers *a)
     put_number(&p->fields[NEW_RELEASE], isnan(edge) ? a->first : place_of(s, edge));
     ceduo_line_set(&p->fields[NEW_FACE], "");
     if (!isnan(edge))
-        put_number(&p->fields[NEW_FACE], place_of(s, face_end(s, edge)));
-}
-
-/* x (relative) of the steepest stretch. */
-static double steepest(const struct ceduo_slope *s)
-{
-    size_t best = 0;
-    for (size_t j = 1; j + 1 < s->vertices; j++)
-        if (ceduo_slope_fall(s, s->x[j]) > ceduo_slope_fall(s, s->x[best]))
-            best = j;
-    return s->x[best];
+        put_number(&p->fields[NEW_FACE], place_of(s, s->x[end]));
 }
 
 /* What is known of the profile, over the fields. */
 static void describe(struct popup *p, const struct answers *a)
 {
     const struct ceduo_slope *s = &a->profile.scene.slope;
-    size_t n = s->vertices - 1;
-    double at = steepest(s), degrees = 180 / M_PI;
+    size_t n = s->vertices - 1, steepest = 0;
+    for (size_t j = 1; j < n; j++)
+        if (ceduo_slope_fall(s, s->x[j]) > ceduo_slope_fall(s, s->x[steepest]))
+            steepest = j;
+    double at = s->x[steepest], degrees = 180 / M_PI;
     ceduo_text_free(&p->text);
     ceduo_text_format(&p->text, _("The profile is %.4g m long and falls by %.4g m; it is steepest at %.4g m, %.0f\xc2\xb0."),
                       s->x[n], -s->z[n], at + s->origin_x, atan(ceduo_slope_fall(s, at)) * degrees);
@@ -215,10 +196,10 @@ static bool read_rock(struct app *app, const struct popup *p, struct answers *a)
 static bool read_material(struct app *app, const struct popup *p)
 {
     const char *ground = p->fields[NEW_MATERIAL].text;
-    if (ceduo_choice_find(&ceduo_material_words, ground) >= 0)
-        return true;
-    ceduo_app_warn(app, _("no ground '%s' in the library"), ground);
-    return false;
+    bool known = ceduo_choice_find(&ceduo_material_words, ground) >= 0;
+    if (!known)
+        ceduo_app_warn(app, _("no ground '%s' in the library"), ground);
+    return known;
 }
 
 /* All fields up to one. */
@@ -327,12 +308,6 @@ static void draw_profile(struct app *app, struct popup *p, struct ceduo_area are
     release_answers(&a);
 }
 
-static void offer_profiles(struct app *app, struct popup *p, const char *typed)
-{
-    (void)app;
-    ceduo_picker_add_files(&p->picker, typed, ".csv");
-}
-
 static void ask(struct app *app)
 {
     struct popup *p = ceduo_popup_fields(app, _("New scene"), filled_new);
@@ -342,7 +317,7 @@ static void ask(struct app *app)
     p->check = check_new;
     p->picture = draw_profile;
     ceduo_popup_field(p, _("title"), _("My slope"));
-    ceduo_popup_choice(p, _("profile (CSV file or points)"), "0 90, 10 65, 60 30, 120 0", offer_profiles);
+    ceduo_popup_choice(p, _("profile (CSV file or points)"), "0 90, 10 65, 60 30, 120 0", ceduo_popup_offer_files);
     ceduo_popup_field(p, _("rocks start at x, m"), "");
     ceduo_popup_field(p, _("face from the top to x, m"), "");
     ceduo_popup_choice(p, _("ground below it"), ceduo_material_talus()->name, ceduo_popup_offer_grounds);

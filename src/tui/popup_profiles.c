@@ -33,15 +33,12 @@ static const char *how_common(const char *name)
 
 /* ---- files ---- */
 
-static void add_file(struct popup *p, const char *name, const char *value, const char *about, const char *now)
+static void add_file(const struct app *app, struct popup *p, const char *name, const char *value, const char *about,
+                     const char *now)
 {
-    char line[320];
-    if (ceduo_picker_has(&p->picker, value))
-        return;
-    snprintf(line, sizeof line, "%-*s %s", ceduo_utf8_field(name, 27), name, about);
-    for (size_t n = strlen(line); n > 0 && line[n - 1] == ' ';)
-        line[--n] = '\0';
-    ceduo_picker_add(&p->picker, line, value, now && strcmp(now, value) == 0);
+    const char *line = about[0] ? ceduo_app_format(app, "%-*s %s", ceduo_utf8_field(name, 27), name, about) : name;
+    if (!ceduo_picker_has(&p->picker, value))
+        ceduo_picker_add(&p->picker, line, value, now && strcmp(now, value) == 0);
 }
 
 #define HEAD_BYTES 4096 /* where a file says what it is */
@@ -58,43 +55,32 @@ static bool is_kind(const char *path, const char *tag)
     return strstr(head, tag) != NULL;
 }
 
-/* The folder of the scene, with a slash; "": the one that the program runs in. */
-static void put_folder(const struct app *app, struct text *folder)
-{
-    const char *path = app->document.path && !app->document.shipped ? app->document.path : "";
-    const char *slash = strrchr(path, '/');
-    ceduo_text_add(folder, path, slash ? (size_t)(slash - path) + 1 : 0);
-}
-
 static int ends_in_yaml(const struct dirent *entry)
 {
     size_t n = strlen(entry->d_name);
     return n > 5 && n < 200 && entry->d_name[0] != '.' && strcmp(entry->d_name + n - 5, ".yaml") == 0;
 }
 
-#define FILES_MOST 500 /* beside a scene: more are not looked into */
+#define FILES_MAX 500 /* beside a scene: more are not looked into */
 
 /* The user's own files of a kind beside the scene; `whole`: with the folder in their name. */
 static void add_beside(struct app *app, struct popup *p, const char *tag, bool whole, const char *now)
 {
     struct dirent **entries = NULL;
-    struct text folder = {0};
-    put_folder(app, &folder);
-    int n = scandir(folder.length ? folder.bytes : ".", &entries, ends_in_yaml, alphasort);
+    const char *scene = app->document.path && !app->document.shipped ? app->document.path : "", *slash = strrchr(scene, '/');
+    const char *folder = ceduo_app_format(app, "%.*s", slash ? (int)(slash - scene) + 1 : 0, scene); /* "": the current one */
+    int n = scandir(folder[0] ? folder : ".", &entries, ends_in_yaml, alphasort);
     for (int i = 0; i < n; i++) {
-        struct text path = {0};
-        ceduo_text_format(&path, "%s%s", ceduo_text_string(&folder), entries[i]->d_name);
-        if (i < FILES_MOST && is_kind(path.bytes, tag))
-            add_file(p, entries[i]->d_name, whole ? path.bytes : entries[i]->d_name, _("yours, beside the scene"), now);
-        ceduo_text_free(&path);
+        const char *name = entries[i]->d_name, *path = ceduo_app_format(app, "%s%s", folder, name);
+        if (i < FILES_MAX && is_kind(path, tag))
+            add_file(app, p, name, whole ? path : name, _("yours, beside the scene"), now);
         free(entries[i]);
     }
     free(entries);
-    ceduo_text_free(&folder);
 }
 
 /* Files of a kind ("stands", …): the user's own first, then those of the program, the first of each name. */
-static void add_profiles(struct popup *p, const char *kind, const char *now)
+static void add_profiles(const struct app *app, struct popup *p, const char *kind, const char *now)
 {
     const char *const *folders = ceduo_file_folders(&p->arena);
     for (int shipped = 0; shipped < 2; shipped++)
@@ -102,11 +88,10 @@ static void add_profiles(struct popup *p, const char *kind, const char *now)
             size_t n;
             const char *const *names = ceduo_file_list(&p->arena, folders[i], kind, &n);
             for (size_t k = 0; k < n; k++) {
-                char name[128], path[1024];
-                snprintf(name, sizeof name, "%.*s", (int)(strlen(names[k]) - 5), names[k]);
-                snprintf(path, sizeof path, "%.700s/%.60s/%.200s", folders[i], kind, names[k]);
+                const char *name = ceduo_app_format(app, "%.*s", (int)(strlen(names[k]) - 5), names[k]);
+                const char *path = ceduo_app_format(app, "%s/%s/%s", folders[i], kind, names[k]);
                 if (ceduo_document_is_shipped(path) == (shipped == 1))
-                    add_file(p, name, name, shipped ? how_common(name) : _("yours"), now);
+                    add_file(app, p, name, name, shipped ? how_common(name) : _("yours"), now);
             }
         }
 }
@@ -172,26 +157,16 @@ static void put_change(struct app *app, struct popup *p, const char *value)
 
 static void preview_word(struct app *app, struct popup *p, const char *value)
 {
+    size_t n;
+    const struct ceduo_material *rows = ceduo_materials(&n);
+    const struct field *f = ceduo_schema_at(p->path);
+    int i = f && f->choices == &ceduo_material_words ? ceduo_choice_find(f->choices, value) : -1;
     ceduo_text_free(&p->text);
+    if (i >= 0)
+        ceduo_text_format(&p->text, _("Rn %.3g, Rt %.3g; %s\n"), rows[i].rn, rows[i].rt, rows[i].source);
     put_change(app, p, value);
     if (!p->text.bytes)
         ceduo_text_put(&p->text, " ");
-}
-
-static void put_ground(struct text *text, const char *name)
-{
-    size_t n;
-    const struct ceduo_material *rows = ceduo_materials(&n);
-    int i = ceduo_choice_find(&ceduo_material_words, name);
-    if (i >= 0)
-        ceduo_text_format(text, _("Rn %.3g, Rt %.3g; %s\n"), rows[i].rn, rows[i].rt, rows[i].source);
-}
-
-static void preview_ground(struct app *app, struct popup *p, const char *value)
-{
-    ceduo_text_free(&p->text);
-    put_ground(&p->text, value);
-    put_change(app, p, value);
 }
 
 /* What a preset would give, in the lines over the list. */
@@ -260,22 +235,16 @@ static void chose_new_option(struct app *app, struct popup *p, const char *value
     }
 }
 
-/* The file that a node was read from; NULL where it is no reference. */
-static const char *reference_of(const struct app *app, const char *path)
+/* The file that a node was read from, by its bare name, as the list has it; "": it is no reference. */
+static const char *listed_name(const struct app *app, const char *path)
 {
     const struct node *node = ceduo_document_node(&app->document, path);
-    return node && node->written && node->written->kind == NODE_SCALAR ? node->written->text : NULL;
-}
-
-/* The same by the bare name, as the list has it. */
-static const char *listed_name(const struct app *app, const char *path, char *room, size_t size)
-{
-    const char *file = reference_of(app, path), *slash = file ? strrchr(file, '/') : NULL;
-    snprintf(room, size, "%s", slash ? slash + 1 : file ? file : "");
-    size_t n = strlen(room);
-    if (slash && n > 5 && strcmp(room + n - 5, ".yaml") == 0)
-        room[n - 5] = '\0';
-    return room;
+    bool reference = node && node->written && node->written->kind == NODE_SCALAR;
+    const char *file = reference ? node->written->text : "", *slash = strrchr(file, '/');
+    size_t n = slash ? strlen(slash + 1) : 0;
+    if (!slash)
+        return file;
+    return n > 5 && strcmp(slash + 1 + n - 5, ".yaml") == 0 ? ceduo_app_format(app, "%.*s", (int)n - 5, slash + 1) : slash + 1;
 }
 
 static void chose_stand(struct app *app, struct popup *p, const char *value)
@@ -290,7 +259,6 @@ static void chose_stand(struct app *app, struct popup *p, const char *value)
 
 static struct popup *list_stands(struct app *app, const char *title, popup_chosen *chosen)
 {
-    char now[256];
     struct popup *p = ceduo_popup_list(app, title, chosen);
     snprintf(p->path, sizeof p->path, "%s", ceduo_app_stand(app));
     if (chosen == chose_stand) {
@@ -299,9 +267,9 @@ static struct popup *list_stands(struct app *app, const char *title, popup_chose
     }
     p->preview = preview_stand;
     ceduo_text_put(&p->text, " "); /* lines for it */
-    listed_name(app, p->path, now, sizeof now);
+    const char *now = listed_name(app, p->path);
     add_beside(app, p, "ceduo: stand/", false, now);
-    add_profiles(p, "stands", now);
+    add_profiles(app, p, "stands", now);
     return p;
 }
 
@@ -310,7 +278,7 @@ void ceduo_popup_offer_stands(struct app *app, struct popup *p, const char *type
     (void)typed;
     ceduo_popup_item(p, _("from a sample plot: what was counted and measured"), STAND_COUNTED);
     add_beside(app, p, "ceduo: stand/", true, NULL);
-    add_profiles(p, "stands", NULL);
+    add_profiles(app, p, "stands", NULL);
 }
 
 static void add_word(struct popup *p, const struct field *f, const char *word, const char *now)
@@ -346,7 +314,6 @@ void ceduo_popup_new_option(struct app *app)
 void ceduo_popup_choices(struct app *app, const struct form_cell *cell)
 {
     const struct field *f = cell->field;
-    char now[256];
     if (f->object == ceduo_schema_stand()) {
         ceduo_popup_presets(app);
         return;
@@ -354,16 +321,15 @@ void ceduo_popup_choices(struct app *app, const struct form_cell *cell)
     struct popup *p = ceduo_popup_list(app, ceduo_app_path(app, cell->path), chose_word);
     snprintf(p->path, sizeof p->path, "%s", cell->path);
     if (f->type == FIELD_CHOICE) {
-        bool ground = f->choices == &ceduo_material_words;
         for (size_t i = 0; i < f->choices->n; i++)
             add_word(p, f, f->choices->names[i], cell->written);
-        p->preview = ground ? preview_ground : preview_word;
+        p->preview = preview_word;
         ceduo_text_put(&p->text, " ");
         return;
     }
-    listed_name(app, cell->path, now, sizeof now);
+    const char *now = listed_name(app, p->path);
     add_beside(app, p, strcmp(f->object->folder, "rules") == 0 ? "ceduo: rules/" : "ceduo: slope/", false, now);
-    add_profiles(p, f->object->folder, now);
+    add_profiles(app, p, f->object->folder, now);
 }
 
 /* ---- a scene to open ---- */
@@ -372,9 +338,9 @@ static void offer_scenes(struct app *app, struct popup *p, const char *typed)
 {
     const char *own = app->document.path && !app->document.shipped ? app->document.path : NULL;
     if (!strchr(typed, '/')) {
-        ceduo_popup_offer_recoveries(p);
+        ceduo_popup_offer_recoveries(app, p);
         add_beside(app, p, "ceduo: scene/", true, own);
-        add_profiles(p, "scenes", NULL);
+        add_profiles(app, p, "scenes", NULL);
     }
     ceduo_picker_add_files(&p->picker, typed, ".yaml");
 }

@@ -72,9 +72,7 @@ static bool filled_stand(struct app *app, struct popup *p)
         return false;
     }
     ceduo_emit_scalar(&value, p->fields[0].text, true);
-    bool good = value.bytes && ceduo_document_set(&app->document, p->path, value.bytes, &app->problems);
-    ceduo_text_free(&value);
-    if (!ceduo_app_edited(app, good))
+    if (!ceduo_app_edited(app, ceduo_document_set(&app->document, p->path, ceduo_app_kept(app, &value), &app->problems)))
         return false;
     then(app);
     return true;
@@ -84,17 +82,15 @@ static bool filled_stand(struct app *app, struct popup *p)
 static bool asks_for_stand(struct app *app, void (*then)(struct app *app))
 {
     const struct ceduo_scene *scene = &app->document.file.scene;
-    const char *options = ceduo_node_get(app->document.file.root, "options") ? "options" : NULL;
+    bool options = ceduo_node_get(app->document.file.root, "options");
     for (size_t o = 0; o < scene->options_count; o++)
         for (size_t b = 0; b < scene->options[o].belts_count; b++) {
             const struct ceduo_belt *belt = &scene->options[o].belts[b];
             if (!belt->changed)
                 continue;
             struct popup *p = ceduo_popup_fields(app, _("A stand was changed: its name"), filled_stand);
-            if (options)
-                snprintf(p->path, sizeof p->path, "options[%zu].forest[%zu].stand.name", o, b);
-            else
-                snprintf(p->path, sizeof p->path, "forest[%zu].stand.name", b);
+            const char *option = options ? ceduo_app_format(app, "options[%zu].", o) : "";
+            snprintf(p->path, sizeof p->path, "%sforest[%zu].stand.name", option, b);
             ceduo_text_format(&p->text, _("It stands from %g to %g m in '%s' and is no longer what its name said."),
                               belt->from_given, belt->to_given, scene->options[o].name);
             p->then = then;
@@ -208,38 +204,42 @@ void ceduo_popup_quit(struct app *app)
 
 #define RECOVERY "recover:" /* before the path of the copy */
 
-static void add_recovery(struct popup *p, const struct recovery *r)
+static void add_recovery(const struct app *app, struct popup *p, const struct recovery *r)
 {
-    char date[32] = "", value[1200];
+    char date[32] = "";
     struct tm tm;
-    struct text line = {0};
     if (localtime_r(&r->when, &tm))
         strftime(date, sizeof date, "%Y-%m-%d %H:%M", &tm);
     const char *slash = r->scene ? strrchr(r->scene, '/') : NULL;
-    ceduo_text_format(&line, _("unsaved work of %s: %s, %s"), date, r->title[0] ? r->title : _("no title"),
-                      slash ? slash + 1 : _("never saved"));
-    snprintf(value, sizeof value, RECOVERY "%.1100s", r->file);
-    ceduo_popup_item(p, ceduo_text_string(&line), value);
-    ceduo_text_free(&line);
+    ceduo_popup_item(p,
+                     ceduo_app_format(app, _("unsaved work of %s: %s, %s"), date, r->title[0] ? r->title : _("no title"),
+                                      slash ? slash + 1 : _("never saved")),
+                     ceduo_app_format(app, RECOVERY "%s", r->file));
 }
 
-void ceduo_popup_offer_recoveries(struct popup *p)
+void ceduo_popup_offer_recoveries(const struct app *app, struct popup *p)
 {
     size_t n;
     struct recovery *list = ceduo_recovery_list(&p->arena, &n);
     for (size_t i = 0; i < n; i++)
-        add_recovery(p, &list[i]);
+        add_recovery(app, p, &list[i]);
+}
+
+/* Whether a copy is of this scene. */
+static bool is_of_this(const struct app *app, const struct recovery *r)
+{
+    char *here = app->document.path ? realpath(app->document.path, NULL) : NULL;
+    bool same = r->scene && here && strcmp(here, r->scene) == 0;
+    free(here);
+    return same;
 }
 
 /* Puts a copy in place: in this document where it is of this one, otherwise in its own. */
 static bool take_up(struct app *app, const struct recovery *r, const char *text)
 {
-    char *here = app->document.path ? realpath(app->document.path, NULL) : NULL;
-    bool same = r->scene && here && strcmp(here, r->scene) == 0;
-    free(here);
     if (!r->scene)
         return ceduo_app_open_text(app, text);
-    if (!same && !ceduo_app_open(app, r->scene))
+    if (!is_of_this(app, r) && !ceduo_app_open(app, r->scene))
         return false;
     return ceduo_app_edited(app, ceduo_document_recover(&app->document, text, &app->problems));
 }
@@ -278,10 +278,7 @@ static void chose_recover(struct app *app, struct popup *p, const char *value)
 /* Whether a copy is of this scene, or of one that has no other place. */
 static bool is_due(const struct app *app, const struct recovery *r)
 {
-    char *here = app->document.path ? realpath(app->document.path, NULL) : NULL;
-    bool due = !r->scene || (here && strcmp(here, r->scene) == 0);
-    free(here);
-    return due;
+    return !r->scene || is_of_this(app, r);
 }
 
 void ceduo_popup_recover(struct app *app)
@@ -296,7 +293,7 @@ void ceduo_popup_recover(struct app *app)
         for (int other = 0; other < 2; other++)
             for (size_t i = 0; i < n; i++)
                 if (is_due(app, &list[i]) == !other)
-                    add_recovery(p, &list[i]);
+                    add_recovery(app, p, &list[i]);
         ceduo_popup_item(p, _("leave it for later: o lists it, too"), "");
         ceduo_popup_item(p, n > 1 ? _("forget all of it") : _("forget it"), "forget");
     }

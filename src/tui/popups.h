@@ -36,7 +36,7 @@ void ceduo_popup_once_saved(struct app *app, void (*then)(struct app *app));
 /* Lists unsaved work that earlier processes left behind, where some of it is on this document or has no file. */
 void ceduo_popup_recover(struct app *app);
 /* Adds all of it to a list; takes up the one that was chosen, false where the value is none. */
-void ceduo_popup_offer_recoveries(struct popup *popup);
+void ceduo_popup_offer_recoveries(const struct app *app, struct popup *popup);
 bool ceduo_popup_take_recovery(struct app *app, const char *value);
 
 /* ---- what fields of popups may hold ---- */

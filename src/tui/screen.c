@@ -37,17 +37,14 @@ enum view_number ceduo_screen_view_at(const struct app *app, int column)
 /* The scene's title: beside the views, or below them where `room` columns are too few for all of it. */
 static void put_scene_title(struct app *app, int room)
 {
-    struct text title = {0};
-    ceduo_text_safe(&title, app->document.file.scene.title);
-    bool below = title.bytes && ceduo_cells_label_width(app->charset, title.bytes) + 2 >= room;
-    struct text shown = {0};
-    ceduo_text_format(&shown, "%s%s", ceduo_document_unsaved(&app->document) ? "* " : "", ceduo_text_string(&title));
-    int columns = ceduo_cells_label_width(app->charset, ceduo_text_string(&shown));
-    if (title.bytes)
-        ceduo_canvas_put(&app->cells->canvas, below ? 1 : app->width - columns, below, app->width - 1, CEDUO_ROLE_TITLE,
-                         ceduo_text_string(&shown));
-    ceduo_text_free(&title);
-    ceduo_text_free(&shown);
+    struct text safe = {0};
+    ceduo_text_safe(&safe, app->document.file.scene.title);
+    const char *title = ceduo_app_kept(app, &safe);
+    const char *shown = ceduo_app_format(app, "%s%s", ceduo_document_unsaved(&app->document) ? "* " : "", title);
+    bool below = ceduo_cells_label_width(app->charset, title) + 2 >= room;
+    int left = below ? 1 : app->width - ceduo_cells_label_width(app->charset, shown);
+    if (title[0])
+        ceduo_canvas_put(&app->cells->canvas, left, below, app->width - 1, CEDUO_ROLE_TITLE, shown);
 }
 
 static void draw_title(struct app *app)
@@ -70,15 +67,14 @@ static void draw_explanation(struct app *app)
     } else if (cell && ceduo_app_state(app)->pane == 0) {
         ceduo_form_explain(&app->document, cell, &text);
     }
-    ceduo_text_safe(&safe, ceduo_text_string(&text));
+    ceduo_text_safe(&safe, ceduo_app_kept(app, &text));
     struct ceduo_area lines = {0, app->height - 3, app->width, 2};
     ceduo_app_shorten(app, &safe, lines.width, lines.height);
-    if (safe.bytes && (int)ceduo_utf8_width(safe.bytes) > app->width)
-        ceduo_app_text(app, lines, role, safe.bytes, NULL);
-    else if (safe.bytes)
-        ceduo_canvas_put(&app->cells->canvas, 0, app->height - 2, app->width, role, safe.bytes);
-    ceduo_text_free(&text);
-    ceduo_text_free(&safe);
+    const char *shown = ceduo_app_kept(app, &safe);
+    if ((int)ceduo_utf8_width(shown) > app->width)
+        ceduo_app_text(app, lines, role, shown, NULL);
+    else
+        ceduo_canvas_put(&app->cells->canvas, 0, app->height - 2, app->width, role, shown);
 }
 
 static int bar_width(const struct bar_key *k)
@@ -94,20 +90,15 @@ static int put_key(struct app *app, int x, const struct bar_key *k)
     return x + bar_width(k);
 }
 
-static bool is_own(const struct view *view, enum action action)
-{
-    bool own = false;
-    for (const struct bar_key *k = view->bar; k->word; k++)
-        own |= k->action == action;
-    return own;
-}
-
 /* Puts the keys of all views with this rank, as long as there is room. */
 static int put_common(struct app *app, int x, int rank, int *room)
 {
     for (int i = 0; i < ACTION_COUNT; i++) {
         struct bar_key k = {(enum action)i, ceduo_actions[i].help};
-        if (ceduo_actions[i].bar != rank || is_own(ceduo_views[app->view], k.action) || bar_width(&k) > *room)
+        bool own = false;
+        for (const struct bar_key *of_view = ceduo_views[app->view]->bar; of_view->word; of_view++)
+            own |= of_view->action == k.action;
+        if (ceduo_actions[i].bar != rank || own || bar_width(&k) > *room)
             continue;
         *room -= bar_width(&k);
         x = put_key(app, x, &k);
@@ -138,14 +129,12 @@ static void draw_bar(struct app *app)
 
 void ceduo_screen_draw(struct app *app)
 {
-    if (!app->cells)
-        return;
     ceduo_cells_clear(app->cells);
     if (app->width < WIDTH_LEAST || app->height < HEIGHT_LEAST) {
         struct ceduo_area all = {0, 0, app->width, app->height};
-        char text[128];
-        snprintf(text, sizeof text, _("ceduo needs a window of %d x %d; this one is %d x %d. Make it larger; q quits."),
-                 WIDTH_LEAST, HEIGHT_LEAST, app->width, app->height);
+        const char *text =
+            ceduo_app_format(app, _("ceduo needs a window of %d x %d; this one is %d x %d. Make it larger; q quits."),
+                             WIDTH_LEAST, HEIGHT_LEAST, app->width, app->height);
         ceduo_app_text(app, all, CEDUO_ROLE_WARN, text, NULL);
         return;
     }

@@ -26,45 +26,36 @@ static void build(struct app *app, struct form *form)
 
 /* ---- what it says ---- */
 
-static void say_state(const struct app *app, const struct uncertainty *d, struct text *words)
+/* Ends a line that was added since, if there is one. */
+static void end_line(struct text *words, size_t *before)
 {
-    if (ceduo_app_doubt_is_rough(app))
-        ceduo_text_format(words, _("Rough so far: %llu scenes of %llu rocks; being refined.\n"),
-                          (unsigned long long)d->answer.evaluations, (unsigned long long)d->rocks);
-    else
-        ceduo_text_format(words, _("%llu scenes of %llu rocks.\n"), (unsigned long long)d->answer.evaluations,
-                          (unsigned long long)d->rocks);
-}
-
-/* Each in a line of its own, where there is anything to say. */
-static void end_line(struct text *words, size_t before)
-{
-    if (words->length > before)
+    if (words->length > *before)
         ceduo_text_char(words, '\n');
+    *before = words->length;
 }
 
-static void say_all(const struct app *app, const struct uncertainty *d, const struct ceduo_doubt_report *r, struct text *words)
+static void say_all(const struct app *app, const struct uncertainty *u, const struct ceduo_doubt_report *r, struct text *words)
 {
     static const enum ceduo_doubt_kind lights[] = {CEDUO_DOUBT_CONTACT, CEDUO_DOUBT_FREE_RUN, CEDUO_DOUBT_EXCEED};
     size_t before = words->length;
     ceduo_doubt_both(words, r, app->option);
-    end_line(words, before);
-    before = words->length;
+    end_line(words, &before);
     ceduo_doubt_advice(words, r, app->option, 0);
-    end_line(words, before);
+    end_line(words, &before);
     for (size_t i = 0; i < r->answer->orders_count; i++) {
         const struct ceduo_doubt_order *o = &r->answer->orders[i];
-        before = words->length;
         if (o->better == app->option || o->than == app->option)
             ceduo_doubt_order_words(words, r, i);
-        end_line(words, before);
+        end_line(words, &before);
     }
     for (size_t i = 0; i < 3; i++) {
-        before = words->length;
         ceduo_doubt_light_words(words, r, app->option, lights[i]);
-        end_line(words, before);
+        end_line(words, &before);
     }
-    say_state(app, d, words);
+    ceduo_text_format(words,
+                      ceduo_app_doubt_is_rough(app) ? _("Rough so far: %llu scenes of %llu rocks; being refined.\n")
+                                                    : _("%llu scenes of %llu rocks.\n"),
+                      (unsigned long long)u->answer.evaluations, (unsigned long long)u->rocks);
 }
 
 /* ---- drawing ---- */
@@ -87,7 +78,7 @@ static int picture_lines(const struct ceduo_doubt_report *r)
 
 static void draw(struct app *app, struct ceduo_area area)
 {
-    const struct uncertainty *d = ceduo_live_uncertainty(&app->live, &app->document.file);
+    const struct uncertainty *u = ceduo_live_uncertainty(&app->live, &app->document.file);
     struct text words = {0};
     int form = ceduo_app_form(app)->n > 1 ? area.height / 4 : 1;
     struct ceduo_area below = {area.left, area.top + area.height - form, area.width, form};
@@ -97,8 +88,8 @@ static void draw(struct app *app, struct ceduo_area area)
     int said = 0;
     if (ceduo_app_doubt(app, &r))
         picture.doubt = &r;
-    if (d && r.answer) {
-        say_all(app, d, &r, &words);
+    if (u && r.answer) {
+        say_all(app, u, &r, &words);
         said = ceduo_app_text_lines(app, ceduo_text_string(&words), area.width);
         int most = area.height - picture_least(&r);
         said = said > most ? most : said;
@@ -129,19 +120,19 @@ static bool is_named(const struct node *rows, const char *path)
 static void add(struct app *app, int unused)
 {
     (void)unused;
-    const struct uncertainty *d = ceduo_live_uncertainty(&app->live, &app->document.file);
+    const struct uncertainty *u = ceduo_live_uncertainty(&app->live, &app->document.file);
     const struct node *rows = ceduo_node_get(app->document.file.root, "doubt");
     size_t order[CEDUO_SENSITIVITY_GROUPS];
-    if (!d || d->inputs.n == 0 || (rows && rows->kind != NODE_LIST)) {
-        ceduo_app_say(app, "%s", d ? _("nothing here has a range") : _("not computed yet"));
+    if (!u || u->inputs.n == 0 || (rows && rows->kind != NODE_LIST)) {
+        ceduo_app_say(app, "%s", u ? _("nothing here has a range") : _("not computed yet"));
         return;
     }
-    ceduo_doubt_order_of(&d->answer, ceduo_doubt_figure_of(&d->answer, app->option, d->answer.main, false), order);
+    ceduo_doubt_order_of(&u->answer, ceduo_doubt_figure_of(&u->answer, app->option, u->answer.main, false), order);
     struct ceduo_doubt_report r;
     ceduo_app_doubt(app, &r);
-    for (size_t i = 0; i < d->answer.groups; i++) {
-        const struct ceduo_input *input = &d->inputs.items[d->answer.input[order[i]]];
-        bool several = d->answer.together > 0 && order[i] + 1 == d->answer.groups;
+    for (size_t i = 0; i < u->answer.groups; i++) {
+        const struct ceduo_input *input = &u->inputs.items[u->answer.input[order[i]]];
+        bool several = u->answer.together > 0 && order[i] + 1 == u->answer.groups;
         if (several || input->kind == CEDUO_INPUT_WORDS || input->places_count != 1 || is_named(rows, input->places[0]))
             continue;
         struct text row = {0};

@@ -68,19 +68,6 @@ static void say_belt(struct text *text, const struct ceduo_belt *belt)
     ceduo_text_put(text, ". ");
 }
 
-/* What a cut of this year fells. */
-static void say_felled(const struct app *app, unsigned year, struct text *text)
-{
-    const struct ceduo_verdict *v = &app->live.verdict;
-    const struct ceduo_yield *yield = app->option < v->n ? &v->choices[app->option].yield : NULL;
-    for (size_t i = 0; yield && i < yield->fellings_count; i++)
-        if (yield->fellings[i].year == year) {
-            ceduo_text_format(text, _("Felled: %.0f m\xc2\xb3 per ha, %.0f stems."), yield->fellings[i].volume,
-                              yield->fellings[i].stems_per_ha);
-            ceduo_text_char(text, ' ');
-        }
-}
-
 static void say_year(struct app *app, const struct ceduo_years *years, struct text *text)
 {
     size_t c = app->live.result->last_control;
@@ -106,7 +93,14 @@ static void say_year(struct app *app, const struct ceduo_years *years, struct te
         ceduo_text_then(text, ", ", isinf(thick) ? _("of stems from 8 cm on %s") : _("of stems from 8 cm on %s m"),
                         WRITTEN(thick, 3));
     ceduo_text_put(text, ". ");
-    say_felled(app, y->year, text);
+    const struct ceduo_verdict *v = &app->live.verdict;
+    const struct ceduo_yield *yield = app->option < v->n ? &v->choices[app->option].yield : NULL;
+    for (size_t i = 0; yield && i < yield->fellings_count; i++)
+        if (yield->fellings[i].year == y->year) {
+            ceduo_text_format(text, _("Felled: %.0f m\xc2\xb3 per ha, %.0f stems."), yield->fellings[i].volume,
+                              yield->fellings[i].stems_per_ha);
+            ceduo_text_char(text, ' ');
+        }
     for (size_t i = 0; i < y->option.belts_count; i++)
         say_belt(text, &y->option.belts[i]);
 }
