@@ -182,11 +182,14 @@ static void publish_snapshot(void *context, struct ceduo_outlook *outlook)
 static enum ceduo_status step_snapshot(struct jobs *q, struct job *job, void **result)
 {
     struct publisher publisher = {.queue = q, .job = job};
-    bool enough = false;
-    enum ceduo_status status =
-        ceduo_runs_figures(q->runs, &job->file.scene, job->option, rocks_of(job->level), publish_snapshot, &publisher, &enough);
+    struct runs_step step = {.scene = &job->file.scene,
+                             .shown = job->option,
+                             .rocks = rocks_of(job->level),
+                             .publish = publish_snapshot,
+                             .context = &publisher};
+    enum ceduo_status status = ceduo_runs_figures(q->runs, &step);
     *result = NULL;
-    job->level = enough ? LEVELS_MAX : job->level;
+    job->level = step.enough ? LEVELS_MAX : job->level;
     return status;
 }
 

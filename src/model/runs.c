@@ -81,10 +81,10 @@ static bool precise(const struct ceduo_outlook *o)
 }
 
 /* Hands over what is known so far; what has not changed is shared with what is kept. */
-static enum ceduo_status hand_over(struct runs *r, const struct ceduo_scene *scene, runs_publish *publish, void *context)
+static enum ceduo_status hand_over(struct runs *r, const struct runs_step *step)
 {
     struct ceduo_outlook *mine, *theirs;
-    struct ceduo_outlook_def def = {.scene = scene,
+    struct ceduo_outlook_def def = {.scene = step->scene,
                                     .figures = r->figures,
                                     .pictures = r->pictures,
                                     .cells = r->cells_count,
@@ -99,7 +99,7 @@ static enum ceduo_status hand_over(struct runs *r, const struct ceduo_scene *sce
     def.last = r->last = mine;
     status = ceduo_outlook_create(&def, &theirs);
     if (status == CEDUO_OK)
-        publish(context, theirs);
+        step->publish(step->context, theirs);
     return status;
 }
 
@@ -113,23 +113,23 @@ static enum ceduo_status simulate_forest(struct runs *r, const struct ceduo_opti
 }
 
 /* Hands over after each forest: once something is known it is shown with its own error until better is known. */
-enum ceduo_status ceduo_runs_figures(struct runs *r, const struct ceduo_scene *scene, size_t shown, uint64_t rocks,
-                                     runs_publish *publish, void *context, bool *enough)
+enum ceduo_status ceduo_runs_figures(struct runs *r, struct runs_step *step)
 {
+    const struct ceduo_scene *scene = step->scene;
     bool wooded = scene->simulation.contact_model != CEDUO_INDEX;
     enum ceduo_status status = turn(r, scene);
     if (status == CEDUO_OK)
-        status = simulate_forest(r, NULL, rocks);
+        status = simulate_forest(r, NULL, step->rocks);
     for (size_t k = 0, n = scene->options_count; wooded && k < n && status == CEDUO_OK; k++) {
-        status = simulate_forest(r, &scene->options[(shown + k) % n], rocks);
-        bool says = k + 1 < n && (k == 0 || rocks >= RUNS_MAX);
+        status = simulate_forest(r, &scene->options[(step->shown + k) % n], step->rocks);
+        bool says = k + 1 < n && (k == 0 || step->rocks >= RUNS_MAX);
         if (status == CEDUO_OK && says)
-            status = hand_over(r, scene, publish, context);
+            status = hand_over(r, step);
     }
     if (status == CEDUO_OK)
-        status = hand_over(r, scene, publish, context);
+        status = hand_over(r, step);
     if (status == CEDUO_OK)
-        *enough = rocks * 10 > RUNS_MAX || (rocks >= RUNS_PICTURE && precise(r->last));
+        step->enough = step->rocks * 10 > RUNS_MAX || (step->rocks >= RUNS_PICTURE && precise(r->last));
     return status;
 }
 

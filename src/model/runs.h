@@ -21,10 +21,18 @@ void ceduo_runs_free(struct runs *runs);
 /* Takes an outlook, which is its own from then on, as soon as it is known. */
 typedef void runs_publish(void *context, struct ceduo_outlook *outlook);
 
-/* One step of the figures: so many rocks without forest and through every option, that of `shown` first. `*enough`: no
- * finer step is needed. CEDUO_CANCELLED: the next call continues. */
-enum ceduo_status ceduo_runs_figures(struct runs *runs, const struct ceduo_scene *scene, size_t shown, uint64_t rocks,
-                                     runs_publish *publish, void *context, bool *enough);
+/* One step of the figures: so many rocks without forest and through every option, that of `shown` first. */
+struct runs_step {
+    const struct ceduo_scene *scene;
+    size_t shown;
+    uint64_t rocks;
+    runs_publish *publish;
+    void *context;
+    bool enough; /* set: no finer step is needed */
+};
+
+/* CEDUO_CANCELLED: the next call continues. */
+enum ceduo_status ceduo_runs_figures(struct runs *runs, struct runs_step *step);
 
 /* One step of the other energy law: so many rocks through every option under it. To `others`, one for each option and
  * control, in rows by option. */

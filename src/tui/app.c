@@ -115,14 +115,14 @@ const char *ceduo_app_stand(const struct app *app)
 struct ceduo_picture ceduo_app_picture(const struct app *app)
 {
     const struct ceduo_scene *scene = &app->document.file.scene;
-    size_t stems = ceduo_rock_trajectory_stems(&app->way);
+    size_t stems = ceduo_rock_trajectory_stems(&app->trajectory);
     return (struct ceduo_picture){.scene = scene,
                                   .outlook = ceduo_live_outlook(&app->live, scene),
                                   .option = app->option,
                                   .belt = app->belt,
                                   .control = ceduo_scene_last_control(scene),
-                                  .selected = app->way.line.n > 0 ? &app->way.line : NULL,
-                                  .stems = stems > 0 ? app->way.stems : NULL,
+                                  .selected = app->trajectory.line.n > 0 ? &app->trajectory.line : NULL,
+                                  .stems = stems > 0 ? app->trajectory.stems : NULL,
                                   .stems_count = stems,
                                   .years = ceduo_live_years(&app->live, scene, app->option),
                                   .verdict = app->live.verdict.n > 0 ? &app->live.verdict : NULL,
@@ -154,7 +154,7 @@ bool ceduo_app_doubt(const struct app *app, struct ceduo_doubt_report *report)
 
 static size_t doubt_levels(const struct app *app)
 {
-    return ceduo_views[app->view]->doubt ? UNCERTAINTY_LEVELS : app->doubts ? UNCERTAINTY_BEHIND : 0;
+    return ceduo_views[app->view]->uncertainty ? UNCERTAINTY_LEVELS : app->doubts ? UNCERTAINTY_BEHIND : 0;
 }
 
 bool ceduo_app_doubt_is_rough(const struct app *app)
@@ -173,10 +173,10 @@ void ceduo_app_refresh(struct app *app)
     if (app->belt >= belts)
         app->belt = belts > 0 ? belts - 1 : 0;
     ceduo_live_follow(&app->live, &app->document.file, app->option, view->years);
-    app->doubts |= view->doubt;
+    app->doubts |= view->uncertainty;
     ceduo_live_doubt(&app->live, &app->document.file, doubt_levels(app));
     ceduo_live_compare(&app->live, &app->document.file,
-                       view->seen && app->document.file.observations_count > 0 ? COMPARISON_LEVELS : 0);
+                       view->observed && app->document.file.observations_count > 0 ? COMPARISON_LEVELS : 0);
     for (int v = 0; v < VIEW_COUNT; v++)
         ceduo_form_clear(&app->views[v].form);
     if (view->build) {
@@ -220,10 +220,10 @@ bool ceduo_app_news(struct app *app)
 
 /* ---- the trajectory of a rock ---- */
 
-static void say_way(struct app *app)
+static void say_trajectory(struct app *app)
 {
     struct text text = {0};
-    ceduo_rock_trajectory_say(&app->way, &app->document.file.scene, &text);
+    ceduo_rock_trajectory_say(&app->trajectory, &app->document.file.scene, &text);
     ceduo_app_say(app, "%s", ceduo_app_kept(app, &text));
 }
 
@@ -231,9 +231,10 @@ bool ceduo_app_follow_rock(struct app *app)
 {
     uint64_t key = app->live.asked;
     hash_count(&key, app->option);
-    bool good = ceduo_rock_trajectory_follow(&app->way, &app->document.file.scene, ceduo_app_option(app), key, app->rock);
+    bool good =
+        ceduo_rock_trajectory_follow(&app->trajectory, &app->document.file.scene, ceduo_app_option(app), key, app->rock);
     if (!good)
-        ceduo_rock_trajectory_free(&app->way);
+        ceduo_rock_trajectory_free(&app->trajectory);
     return good;
 }
 
@@ -241,13 +242,13 @@ void ceduo_app_next_rock(struct app *app, int by)
 {
     app->rock = by > 0 || app->rock > 0 ? app->rock + (uint64_t)by : 0;
     if (ceduo_app_follow_rock(app))
-        say_way(app);
+        say_trajectory(app);
 }
 
 void ceduo_app_step_rock(struct app *app, int by)
 {
-    ceduo_rock_trajectory_move(&app->way, by);
-    say_way(app);
+    ceduo_rock_trajectory_move(&app->trajectory, by);
+    say_trajectory(app);
 }
 
 /* ---- edits ---- */
@@ -321,7 +322,7 @@ void ceduo_app_free(struct app *app)
     ceduo_live_free(&app->live);
     for (int v = 0; v < VIEW_COUNT; v++)
         ceduo_form_free(&app->views[v].form);
-    ceduo_rock_trajectory_free(&app->way);
+    ceduo_rock_trajectory_free(&app->trajectory);
     ceduo_cells_free(app->cells);
     ceduo_document_close(&app->document);
     ceduo_arena_free(app->scratch);

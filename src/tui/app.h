@@ -47,8 +47,8 @@ struct view {
     const char *title;                                 /* marked for translation */
     int panes;                                         /* that Tab goes through; the first is the form */
     bool years;                                        /* compute the years to come while it is open */
-    bool doubt;                                        /* compute the doubt as finely as may be while it is open */
-    bool seen;                                         /* look at what was seen while it is open */
+    bool uncertainty;                                  /* compute it as finely as may be while it is open */
+    bool observed;                                     /* look at what was seen while it is open */
     bool result;                                       /* it shows nothing before the first result */
     void (*build)(struct app *app, struct form *form); /* NULL: it has no form */
     void (*draw)(struct app *app, struct ceduo_area area);
@@ -88,11 +88,11 @@ struct app {
     int theme; /* 0 dark, 1 light, 2 none */
     enum view_number view;
     struct view_state views[VIEW_COUNT];
-    size_t option, belt;        /* that the views show */
-    size_t year;                /* index of the one under the cursor */
-    struct place place;         /* the cursor along the slope */
-    uint64_t rock;              /* whose trajectory is shown */
-    struct rock_trajectory way; /* that trajectory */
+    size_t option, belt;               /* that the views show */
+    size_t year;                       /* index of the one under the cursor */
+    struct place place;                /* the cursor along the slope */
+    uint64_t rock;                     /* whose trajectory is shown */
+    struct rock_trajectory trajectory; /* that trajectory */
     bool editing;
     struct line line;  /* what is typed into the field */
     char message[512]; /* of the last action; shown until the next key */

@@ -9,8 +9,8 @@
 #include "base/utf8.h"
 #include "scene/words.h"
 
-#define HEIGHT_FOR_ALL  24 /* lines with room for everything and some warnings */
-#define HEIGHT_FOR_MOST 17 /* with room for the lights behind all but the heights */
+#define HEIGHT_FOR_ALL 24 /* lines with room for everything and some warnings */
+#define HEIGHT_FOR_MAX 17 /* with room for the lights behind all but the heights */
 
 struct pen {
     struct app *app;
@@ -31,7 +31,7 @@ __attribute__((format(printf, 3, 4))) static void line(struct pen *pen, enum ced
     ceduo_text_free(&safe);
 }
 
-static void put_scene(struct pen *pen)
+static void draw_scene(struct pen *pen)
 {
     const struct ceduo_scene *s = &pen->app->document.file.scene;
     const struct ceduo_option *o = ceduo_app_option(pen->app);
@@ -83,7 +83,7 @@ static const char *figure(const struct pen *pen, double value)
 }
 
 /* A line of the figures, those of the forest first: the column without forest stands beside it. */
-static void put_pair(struct pen *pen, enum ceduo_role role, const char *name, const char *wood, const char *bare)
+static void draw_pair(struct pen *pen, enum ceduo_role role, const char *name, const char *wood, const char *bare)
 {
     int column = is_wide(pen) ? 15 : 7;
     int wider = strstr(wood, "\xc2\xb1") ? 1 : 0; /* a byte more than columns */
@@ -91,43 +91,44 @@ static void put_pair(struct pen *pen, enum ceduo_role role, const char *name, co
 }
 
 /* A part of the pair above: its name is set in by a blank. */
-static void put_pair_in(struct pen *pen, const char *name, const char *wood, const char *bare)
+static void draw_pair_in(struct pen *pen, const char *name, const char *wood, const char *bare)
 {
-    put_pair(pen, CEDUO_ROLE_TEXT, ceduo_app_format(pen->app, " %s", name), wood, bare);
+    draw_pair(pen, CEDUO_ROLE_TEXT, ceduo_app_format(pen->app, " %s", name), wood, bare);
 }
 
-static void put_figures(struct pen *pen, const char *name, double wood, double bare)
+static void draw_figures(struct pen *pen, const char *name, double wood, double bare)
 {
-    put_pair(pen, CEDUO_ROLE_TEXT, name, figure(pen, wood), figure(pen, bare));
+    draw_pair(pen, CEDUO_ROLE_TEXT, name, figure(pen, wood), figure(pen, bare));
 }
 
 /* Rocks that end before the control. */
-static void put_missed(struct pen *pen, const char *name, enum ceduo_end end, const struct ceduo_arrivals *wood,
-                       const struct ceduo_arrivals *bare)
+static void draw_missed(struct pen *pen, const char *name, enum ceduo_end end, const struct ceduo_arrivals *wood,
+                        const struct ceduo_arrivals *bare)
 {
-    put_pair_in(pen, name, wood->released > 0 ? share(pen, wood->missed[end], 0, 0) : "-", share(pen, bare->missed[end], 0, 0));
+    draw_pair_in(pen, name, wood->released > 0 ? share(pen, wood->missed[end], 0, 0) : "-",
+                 share(pen, bare->missed[end], 0, 0));
 }
 
 /* The share in the line above, under the other energy law; `other` may be NULL. */
-static void put_other(struct pen *pen, const struct ceduo_other_energy *other)
+static void draw_other(struct pen *pen, const struct ceduo_other_energy *other)
 {
     if (other && other->known && other->stems)
-        put_pair(pen, CEDUO_ROLE_DIM, ceduo_app_format(pen->app, "  %s", ceduo_energy_words.names[other->model]),
-                 share(pen, ceduo_share_by_other_law(other), 0, 0), "");
+        draw_pair(pen, CEDUO_ROLE_DIM, ceduo_app_format(pen->app, "  %s", ceduo_energy_words.names[other->model]),
+                  share(pen, ceduo_share_by_other_law(other), 0, 0), "");
 }
 
 /* Years from one dangerous rock to the next: what matters where blocks of all sizes come down. */
-static void put_every(struct pen *pen, const struct ceduo_arrivals *wood, const struct ceduo_arrivals *bare)
+static void draw_every(struct pen *pen, const struct ceduo_arrivals *wood, const struct ceduo_arrivals *bare)
 {
     struct text a = {0}, b = {0};
     ceduo_words_every(&a, ceduo_hazard_feared(&wood->hazard));
     ceduo_words_every(&b, ceduo_hazard_feared(&bare->hazard));
-    put_pair_in(pen, _("years apart"), ceduo_app_kept(pen->app, &a), ceduo_app_kept(pen->app, &b));
+    draw_pair_in(pen, _("years apart"), ceduo_app_kept(pen->app, &a), ceduo_app_kept(pen->app, &b));
 }
 
 /* Where all released end: on the way, or here. */
-static void put_released(struct pen *pen, const struct ceduo_arrivals *wood, const struct ceduo_arrivals *bare,
-                         const struct ceduo_other_energy *other)
+static void draw_released(struct pen *pen, const struct ceduo_arrivals *wood, const struct ceduo_arrivals *bare,
+                          const struct ceduo_other_energy *other)
 {
     static const struct {
         const char *name;
@@ -137,13 +138,13 @@ static void put_released(struct pen *pen, const struct ceduo_arrivals *wood, con
                 {N_("at rest"), CEDUO_AT_REST, true},
                 {N_("left"), CEDUO_LEFT_SLOPE, false},
                 {N_("unfinished"), CEDUO_UNFINISHED, false}};
-    put_pair_in(pen, _("arrive"),
-                (is_wide(pen) ? wide_share : share)(pen, wood->reach_probability, wood->reach_lo, wood->reach_hi),
-                share(pen, bare->reach_probability, 0, 0));
-    put_other(pen, other);
+    draw_pair_in(pen, _("arrive"),
+                 (is_wide(pen) ? wide_share : share)(pen, wood->reach_probability, wood->reach_lo, wood->reach_hi),
+                 share(pen, bare->reach_probability, 0, 0));
+    draw_other(pen, other);
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++)
         if (rows[i].always || wood->ended[rows[i].end] > 0 || bare->ended[rows[i].end] > 0)
-            put_missed(pen, _(rows[i].name), rows[i].end, wood, bare);
+            draw_missed(pen, _(rows[i].name), rows[i].end, wood, bare);
 }
 
 /* How sure the figures shown are: not those of a year to come; false where nothing is known. */
@@ -153,7 +154,7 @@ static bool doubt_of(const struct app *app, struct ceduo_doubt_report *report)
 }
 
 /* The range of what may be true of the figure in the line above, once it is known: in the unit of that line. */
-static bool put_doubt(struct pen *pen, bool energy)
+static bool draw_doubt(struct pen *pen, bool energy)
 {
     struct app *app = pen->app;
     struct ceduo_doubt_report report;
@@ -162,24 +163,24 @@ static bool put_doubt(struct pen *pen, bool energy)
     const struct ceduo_doubt_figure *f = ceduo_doubt_figure_of(report.answer, app->option, report.answer->main, false);
     const char *range = energy ? ceduo_app_format(app, "%.3g-%.3g", f->p5 * J_TO_KJ, f->p95 * J_TO_KJ)
                                : ceduo_app_format(app, "%.0f-%.0f", f->p5 * 1000, f->p95 * 1000);
-    put_pair(pen, CEDUO_ROLE_DIM, ceduo_app_format(app, "  %s", P_("view", "doubt")), range,
-             ceduo_app_doubt_is_rough(app) ? _("rough") : "");
+    draw_pair(pen, CEDUO_ROLE_DIM, ceduo_app_format(app, "  %s", P_("view", "doubt")), range,
+              ceduo_app_doubt_is_rough(app) ? _("rough") : "");
     return true;
 }
 
 /* The share that the options are compared by, with the same error as in the other views. */
-static void put_exceed(struct pen *pen, double accepted, const struct ceduo_arrivals *wood, const struct ceduo_arrivals *bare)
+static void draw_exceed(struct pen *pen, double accepted, const struct ceduo_arrivals *wood, const struct ceduo_arrivals *bare)
 {
     double p = wood->exceed_probability, half = ceduo_share_at(wood).half;
-    put_pair_in(pen, ceduo_app_format(pen->app, ">%.4g kJ", accepted * J_TO_KJ),
-                is_wide(pen) ? wide_share(pen, p, wood->exceed_lo, wood->exceed_hi) : share(pen, p, p - half, p + half),
-                share(pen, bare->exceed_probability, 0, 0));
+    draw_pair_in(pen, ceduo_app_format(pen->app, ">%.4g kJ", accepted * J_TO_KJ),
+                 is_wide(pen) ? wide_share(pen, p, wood->exceed_lo, wood->exceed_hi) : share(pen, p, p - half, p + half),
+                 share(pen, bare->exceed_probability, 0, 0));
 }
 
 /* What arrives through the forest beside what arrives without it; `wood` NULL: not known yet, or never (index). `other`
  * may be NULL. */
-static void put_arrivals(struct pen *pen, const struct ceduo_control *c, const struct ceduo_arrivals *wood,
-                         const struct ceduo_arrivals *bare, const struct ceduo_other_energy *other)
+static void draw_arrivals(struct pen *pen, const struct ceduo_control *c, const struct ceduo_arrivals *wood,
+                          const struct ceduo_arrivals *bare, const struct ceduo_other_energy *other)
 {
     const struct ceduo_distribution none = ceduo_distribution_none();
     const struct ceduo_arrivals nothing = {.reach_probability = NAN,
@@ -191,37 +192,37 @@ static void put_arrivals(struct pen *pen, const struct ceduo_control *c, const s
     wood = wood ? wood : &nothing;
     bool doubted = false, blocks = !isnan(bare->hazard.per_year);
     line(pen, CEDUO_ROLE_TITLE, _("At %g m%s%s"), c->x_given, c->name ? ", " : "", c->name ? c->name : "");
-    put_pair(pen, CEDUO_ROLE_DIM, _("of 1000"), _("forest"), _("without"));
+    draw_pair(pen, CEDUO_ROLE_DIM, _("of 1000"), _("forest"), _("without"));
     if (ceduo_says_nothing(bare)) { /* why stands below, and takes the room */
-        put_released(pen, wood, bare, NULL);
+        draw_released(pen, wood, bare, NULL);
         return;
     }
     if (!isnan(c->accepted)) {
-        put_exceed(pen, c->accepted, wood, bare);
-        put_other(pen, other);
-        doubted = put_doubt(pen, false);
+        draw_exceed(pen, c->accepted, wood, bare);
+        draw_other(pen, other);
+        doubted = draw_doubt(pen, false);
     }
     if (blocks)
-        put_every(pen, wood, bare);
-    put_released(pen, wood, bare, isnan(c->accepted) ? other : NULL);
-    put_figures(pen, _("kJ a rock"), wood->energy_per_released * J_TO_KJ, bare->energy_per_released * J_TO_KJ);
-    doubted |= put_doubt(pen, true);
+        draw_every(pen, wood, bare);
+    draw_released(pen, wood, bare, isnan(c->accepted) ? other : NULL);
+    draw_figures(pen, _("kJ a rock"), wood->energy_per_released * J_TO_KJ, bare->energy_per_released * J_TO_KJ);
+    doubted |= draw_doubt(pen, true);
     if (!blocks) /* of them the large arrive: a mean of those would read as if the wood did harm */
-        put_figures(pen, _("arriving kJ"), wood->energy.mean * J_TO_KJ, bare->energy.mean * J_TO_KJ);
-    if (!blocks && pen->area.height >= (doubted ? HEIGHT_FOR_ALL : HEIGHT_FOR_MOST))
-        put_figures(pen, "  95 % kJ", wood->energy.p95 * J_TO_KJ, bare->energy.p95 * J_TO_KJ);
+        draw_figures(pen, _("arriving kJ"), wood->energy.mean * J_TO_KJ, bare->energy.mean * J_TO_KJ);
+    if (!blocks && pen->area.height >= (doubted ? HEIGHT_FOR_ALL : HEIGHT_FOR_MAX))
+        draw_figures(pen, "  95 % kJ", wood->energy.p95 * J_TO_KJ, bare->energy.p95 * J_TO_KJ);
     if (pen->area.height >= HEIGHT_FOR_ALL)
-        put_figures(pen, _(" 95% m under"), wood->height.p95, bare->height.p95);
+        draw_figures(pen, _(" 95% m under"), wood->height.p95, bare->height.p95);
 }
 
-static void put_light(struct pen *pen, const char *name, const char *what, enum ceduo_light light)
+static void draw_light(struct pen *pen, const char *name, const char *what, enum ceduo_light light)
 {
     line(pen, ceduo_plot_light_role(light), "%s %-*s%s %s", ceduo_plot_light_mark(light), ceduo_utf8_field(name, 9), name,
          ceduo_words_verdict(light), what);
 }
 
 /* Below a light that changes within what may be true: by what. */
-static void put_causes(struct pen *pen, enum ceduo_doubt_kind light)
+static void draw_causes(struct pen *pen, enum ceduo_doubt_kind light)
 {
     struct ceduo_doubt_report report;
     struct text causes = {0};
@@ -236,31 +237,31 @@ static bool has_limits(const struct pen *pen)
     return pen->area.width >= 30;
 }
 
-static void put_contact(struct pen *pen, const char *name, double adc, enum ceduo_light light, double threshold, bool forest)
+static void draw_contact(struct pen *pen, const char *name, double adc, enum ceduo_light light, double threshold, bool forest)
 {
     const char *what = isinf(adc)        ? forest ? _("no stems") : _("no forest")
                               : has_limits(pen) ? ceduo_app_format(pen->app, "%.3g m (<%g)", adc, threshold)
                                          : ceduo_app_format(pen->app, "%.3g m", adc);
-    put_light(pen, name, what, light);
+    draw_light(pen, name, what, light);
 }
 
 /* A share and its limit, where there is room; whole is "100", as in Italian 100.0 would have none. */
-static void put_percent(struct pen *pen, const char *name, double share, double most, enum ceduo_light light)
+static void draw_percent(struct pen *pen, const char *name, double share, double most, enum ceduo_light light)
 {
     const char *limit = has_limits(pen) ? ceduo_app_format(pen->app, " (\xe2\x89\xa4%g)", most * 100) : "";
-    put_light(pen, name, ceduo_app_format(pen->app, "%.*f %%%s", share >= 0.9995 ? 0 : 1, share * 100, limit), light);
+    draw_light(pen, name, ceduo_app_format(pen->app, "%.*f %%%s", share >= 0.9995 ? 0 : 1, share * 100, limit), light);
 }
 
 /* Where thin shoots alone decide: the same of stems from 8 cm on; in few columns in one line. */
-static void put_thick(struct pen *pen, const struct ceduo_index *index, double threshold)
+static void draw_thick(struct pen *pen, const struct ceduo_index *index, double threshold)
 {
     static const char name[] = " \xe2\x89\xa5\x38 cm";
     const struct ceduo_meeting *thick = &index->thick;
     bool contact = thick->contact != index->contact, free_run = thick->free_run != index->free_run;
     if (contact && has_limits(pen))
-        put_contact(pen, name, thick->worst_adc, thick->contact, threshold, index->length > 0);
+        draw_contact(pen, name, thick->worst_adc, thick->contact, threshold, index->length > 0);
     if (free_run && has_limits(pen))
-        put_percent(pen, name, thick->worst_free_run, CEDUO_FREE_RUN_MOST, thick->free_run);
+        draw_percent(pen, name, thick->worst_free_run, CEDUO_FREE_RUN_MOST, thick->free_run);
     if ((contact || free_run) && !has_limits(pen))
         line(pen, CEDUO_ROLE_BAD, "%s %s", ceduo_plot_light_mark(CEDUO_FAIL),
              contact && free_run ? _("\xe2\x89\xa5"
@@ -271,27 +272,27 @@ static void put_thick(struct pen *pen, const struct ceduo_index *index, double t
                                                "8 cm: free run FAILS"));
 }
 
-static void put_lights(struct pen *pen, const struct ceduo_index *index, const struct ceduo_arrivals *wood, double threshold)
+static void draw_lights(struct pen *pen, const struct ceduo_index *index, const struct ceduo_arrivals *wood, double threshold)
 {
     if (index->length > 0 && index->longest_gap > threshold) /* the reason in the page, too */
-        put_light(pen, _("Contact"),
-                  has_limits(pen) ? ceduo_app_format(pen->app, _("gap %.3g m (>%g)"), index->longest_gap, threshold)
-                                  : ceduo_app_format(pen->app, _("gap %.3g m"), index->longest_gap),
-                  index->contact);
+        draw_light(pen, _("Contact"),
+                   has_limits(pen) ? ceduo_app_format(pen->app, _("gap %.3g m (>%g)"), index->longest_gap, threshold)
+                                   : ceduo_app_format(pen->app, _("gap %.3g m"), index->longest_gap),
+                   index->contact);
     else
-        put_contact(pen, _("Contact"), index->worst_adc, index->contact, threshold, index->length > 0);
-    put_causes(pen, CEDUO_DOUBT_CONTACT);
-    put_percent(pen, _("Free run"), index->worst_free_run, CEDUO_FREE_RUN_MOST, index->free_run);
-    put_causes(pen, CEDUO_DOUBT_FREE_RUN);
-    put_thick(pen, index, threshold);
+        draw_contact(pen, _("Contact"), index->worst_adc, index->contact, threshold, index->length > 0);
+    draw_causes(pen, CEDUO_DOUBT_CONTACT);
+    draw_percent(pen, _("Free run"), index->worst_free_run, CEDUO_FREE_RUN_MOST, index->free_run);
+    draw_causes(pen, CEDUO_DOUBT_FREE_RUN);
+    draw_thick(pen, index, threshold);
     if (index->energy != CEDUO_UNKNOWN && wood)
-        put_percent(pen, _("Energy"), wood->exceed_probability, CEDUO_EXCEED_MOST, index->energy);
+        draw_percent(pen, _("Energy"), wood->exceed_probability, CEDUO_EXCEED_MOST, index->energy);
     else
-        put_light(pen, _("Energy"), "", index->energy);
-    put_causes(pen, CEDUO_DOUBT_EXCEED);
+        draw_light(pen, _("Energy"), "", index->energy);
+    draw_causes(pen, CEDUO_DOUBT_EXCEED);
 }
 
-static void put_index(struct pen *pen, const struct ceduo_index *index)
+static void draw_index(struct pen *pen, const struct ceduo_index *index)
 {
     if (isnan(index->dissipated) && isnan(index->residual))
         line(pen, CEDUO_ROLE_DIM, "%s", _("index: contacts take shares"));
@@ -302,8 +303,8 @@ static void put_index(struct pen *pen, const struct ceduo_index *index)
     else if (index->exhausted)
         line(pen, CEDUO_ROLE_DIM, _("index: %.3g kJ, used up"), index->dissipated * J_TO_KJ);
     else
-        line(pen, CEDUO_ROLE_DIM, _("index: %s%.3g, left %.3g kJ"), index->dissipated > 0 ? "-" : "", index->dissipated * J_TO_KJ,
-             index->residual * J_TO_KJ);
+        line(pen, CEDUO_ROLE_DIM, _("index: %s%.3g, left %.3g kJ"), index->dissipated > 0 ? "-" : "",
+             index->dissipated * J_TO_KJ, index->residual * J_TO_KJ);
     if (!isnan(index->measured) && pen->area.height >= HEIGHT_FOR_ALL)
         line(pen, CEDUO_ROLE_DIM, _("seen: %.3g kJ (one rock)"), index->measured * J_TO_KJ);
 }
@@ -337,7 +338,7 @@ static void keep_whole(struct app *app, struct text *sentences, struct ceduo_are
         ceduo_text_format(sentences, ngettext("! %zu remark more: view 4", "! %zu remarks more: view 4", left), left);
 }
 
-static void put_warnings(struct pen *pen)
+static void draw_warnings(struct pen *pen)
 {
     struct app *app = pen->app;
     struct text w = {0};
@@ -356,7 +357,7 @@ static void put_warnings(struct pen *pen)
 }
 
 /* How sure the figures are, and whether they are still being refined. */
-static void put_mark(struct pen *pen, const struct ceduo_arrivals *a)
+static void draw_mark(struct pen *pen, const struct ceduo_arrivals *a)
 {
     struct app *app = pen->app;
     struct text text = {0};
@@ -391,7 +392,7 @@ static struct forest forest_shown(const struct app *app)
 void ceduo_column_draw(struct app *app, struct ceduo_area area)
 {
     struct pen pen = {app, area, area.top};
-    put_scene(&pen);
+    draw_scene(&pen);
     if (!app->live.result) {
         line(&pen, CEDUO_ROLE_DIM, "%s", _("the first rocks are falling \xe2\x80\xa6"));
         return;
@@ -401,12 +402,12 @@ void ceduo_column_draw(struct app *app, struct ceduo_area area)
     const struct forest f = forest_shown(app);
     if (f.year)
         line(&pen, CEDUO_ROLE_TITLE, f.year->cut ? _("Year %u, just cut") : _("Year %u"), f.year->year);
-    put_arrivals(&pen, &r->scene->controls[c], f.wood, &r->bare.arrivals[c], f.year ? NULL : &ceduo_app_found(app)->others[c]);
+    draw_arrivals(&pen, &r->scene->controls[c], f.wood, &r->bare.arrivals[c], f.year ? NULL : &ceduo_app_found(app)->others[c]);
     bool said = !ceduo_says_nothing(&r->bare.arrivals[c]);
     if (said)
-        put_lights(&pen, f.index, f.wood, r->scene->simulation.threshold);
-    put_mark(&pen, f.wood ? f.wood : ceduo_app_shown(app));
+        draw_lights(&pen, f.index, f.wood, r->scene->simulation.threshold);
+    draw_mark(&pen, f.wood ? f.wood : ceduo_app_shown(app));
     if (said)
-        put_index(&pen, f.index);
-    put_warnings(&pen);
+        draw_index(&pen, f.index);
+    draw_warnings(&pen);
 }

@@ -11,9 +11,9 @@
 #include "base/utf8.h"
 #include "view/typed.h"
 
-#define LABEL_LEAST 18 /* columns of the labels of lines */
-#define VALUE_LEAST 25 /* columns that the labels leave to values */
-#define COLUMN_MOST 22 /* of a table's column */
+#define LABEL_MIN  18 /* columns of the labels of lines */
+#define VALUE_MIN  25 /* columns that the labels leave to values */
+#define COLUMN_MAX 22 /* of a table's column */
 
 void ceduo_form_clear(struct form *form)
 {
@@ -294,14 +294,14 @@ bool ceduo_form_search(struct form *form, const char *word)
 /* Columns of the labels in a rectangle `width` wide: all of one width, so that no label is cut where there is room. */
 static int label_columns(const struct form *form, int width)
 {
-    int columns = LABEL_LEAST;
+    int columns = LABEL_MIN;
     for (size_t i = 0; i < form->n; i++) {
         const struct form_row *row = &form->rows[i];
         int own = (int)ceduo_utf8_width(row->label) + 1;
         if (row->kind == FORM_FIELDS && !row->list[0] && own > columns)
             columns = own;
     }
-    int most = width - VALUE_LEAST > LABEL_LEAST ? width - VALUE_LEAST : LABEL_LEAST;
+    int most = width - VALUE_MIN > LABEL_MIN ? width - VALUE_MIN : LABEL_MIN;
     return columns < most ? columns : most;
 }
 
@@ -311,14 +311,23 @@ static void cell_place(const struct form_row *row, int width, int label, size_t 
     label = row->list[0] ? 4 : label;
     int room = width - label;
     int each = row->n > 0 ? room / (int)row->n : room;
-    each = row->list[0] && each > COLUMN_MOST ? COLUMN_MOST : each;
+    each = row->list[0] && each > COLUMN_MAX ? COLUMN_MAX : each;
     *from = label + (int)k * each;
     *span = each - 1;
 }
 
-static void draw_cell(const struct form_cell *cell, struct ceduo_cells *cells, int x, int y, int span, bool cursor,
-                      const char *edit)
+/* Where a form is drawn, and how. */
+struct drawing {
+    const struct form *form;
+    struct ceduo_cells *cells;
+    struct ceduo_area area;
+    bool focused;
+    const char *edit; /* NULL: no field is open */
+};
+
+static void draw_cell(const struct drawing *d, const struct form_cell *cell, int x, int y, int span, bool cursor)
 {
+    struct ceduo_cells *cells = d->cells;
     char shown[80];
     struct text words = {0};
     if (cell->given && cell->field && strcmp(cell->field->key, "path") == 0) /* a place of the scene, in words */
@@ -337,8 +346,8 @@ static void draw_cell(const struct form_cell *cell, struct ceduo_cells *cells, i
     if (cursor)
         for (int i = 0; i < span; i++)
             ceduo_cells_label(cells, x + i, y, CEDUO_ROLE_CURSOR, " ");
-    if (cursor && edit) {
-        int n = ceduo_cells_put_end(cells, x, y, span - 1, CEDUO_ROLE_CURSOR, edit);
+    if (cursor && d->edit) {
+        int n = ceduo_cells_put_end(cells, x, y, span - 1, CEDUO_ROLE_CURSOR, d->edit);
         ceduo_cells_label(cells, x + n, y, CEDUO_ROLE_CURSOR, "_");
         return;
     }
@@ -354,33 +363,34 @@ static const char *head_of(const struct form_cell *cell, int span)
     return fits ? _(shown->label) : ceduo_translate_in(shown->brief);
 }
 
-static void draw_row(const struct form *form, size_t i, struct ceduo_cells *cells, int left, int y, int width, bool focused,
-                     const char *edit)
+static void draw_row(const struct drawing *d, size_t i, int y)
 {
-    const struct form_row *row = &form->rows[i];
+    const struct form_row *row = &d->form->rows[i];
+    struct ceduo_canvas *canvas = &d->cells->canvas;
+    int left = d->area.left, width = d->area.width;
     if (row->kind == FORM_HEADING || row->kind == FORM_NOTE) {
-        ceduo_canvas_put(&cells->canvas, left, y, width, row->kind == FORM_HEADING ? CEDUO_ROLE_TITLE : CEDUO_ROLE_DIM,
-                         row->label);
+        ceduo_canvas_put(canvas, left, y, width, row->kind == FORM_HEADING ? CEDUO_ROLE_TITLE : CEDUO_ROLE_DIM, row->label);
         return;
     }
-    bool here = i == form->row && focused;
-    int label = label_columns(form, width);
+    bool here = i == d->form->row && d->focused;
+    int label = label_columns(d->form, width);
     if (row->kind == FORM_FIELDS) {
         int span = row->n == 0 ? width : row->list[0] ? 3 : label - 1;
-        ceduo_canvas_put(&cells->canvas, left, y, span, here && row->n == 0 ? CEDUO_ROLE_CURSOR : CEDUO_ROLE_DIM, row->label);
+        ceduo_canvas_put(canvas, left, y, span, here && row->n == 0 ? CEDUO_ROLE_CURSOR : CEDUO_ROLE_DIM, row->label);
     }
     for (size_t k = 0; k < row->n; k++) {
         int from, span;
         cell_place(row, width, label, k, &from, &span);
         if (row->kind == FORM_COLUMNS_ROW)
-            ceduo_canvas_put(&cells->canvas, left + from, y, span, CEDUO_ROLE_TITLE, head_of(&row->cells[k], span));
+            ceduo_canvas_put(canvas, left + from, y, span, CEDUO_ROLE_TITLE, head_of(&row->cells[k], span));
         else
-            draw_cell(&row->cells[k], cells, left + from, y, span, here && k == form->column, edit);
+            draw_cell(d, &row->cells[k], left + from, y, span, here && k == d->form->column);
     }
 }
 
 void ceduo_form_draw(struct form *form, struct ceduo_cells *cells, struct ceduo_area area, bool focused, const char *edit)
 {
+    const struct drawing drawing = {form, cells, area, focused, edit};
     if (area.height <= 0 || area.width < 8)
         return;
     size_t lines = (size_t)area.height, above = form->row;
@@ -393,7 +403,7 @@ void ceduo_form_draw(struct form *form, struct ceduo_cells *cells, struct ceduo_
     if (form->top + lines > form->n)
         form->top = form->n > lines ? form->n - lines : 0;
     for (size_t i = 0; i < lines && form->top + i < form->n; i++)
-        draw_row(form, form->top + i, cells, area.left, area.top + (int)i, area.width, focused, edit);
+        draw_row(&drawing, form->top + i, area.top + (int)i);
 }
 
 bool ceduo_form_hit(const struct form *form, struct ceduo_area area, int x, int y, size_t *row, size_t *column)

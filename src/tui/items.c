@@ -269,7 +269,7 @@ static item_function *function_for(const struct item *item, bool add)
 }
 
 /* The cursor goes to the new item, or the last where it was put before others. */
-static void put_item(struct app *app, const struct item *item, bool good)
+static void finish(struct app *app, const struct item *item, bool good)
 {
     if (!good && app->problems.count == 0 && !app->problems.memory && app->message[0])
         return; /* it is said already */
@@ -284,7 +284,7 @@ void ceduo_items_add(struct app *app)
         ceduo_app_say(app, "%s", _("a adds to a list: put the cursor on one"));
         return;
     }
-    put_item(app, &item, function_for(&item, true)(app, &item));
+    finish(app, &item, function_for(&item, true)(app, &item));
     if (strcmp(item.key, "forest") == 0 && !app->message[0])
         ceduo_app_say(app, "%s", _("a belt of its own now: p chooses its stand, c takes it from a sample plot"));
 }
@@ -293,7 +293,7 @@ void ceduo_items_add_at(struct app *app, const char *list, size_t index, double 
 {
     struct item item = item_of(app, list, index);
     item.at = at;
-    put_item(app, &item, function_for(&item, false)(app, &item));
+    finish(app, &item, function_for(&item, false)(app, &item));
 }
 
 void ceduo_items_delete(struct app *app)
@@ -321,7 +321,7 @@ void ceduo_items_duplicate(struct app *app)
     if (!find_item(app, &item) || !item.there)
         ceduo_app_say(app, "%s", _("y duplicates an item of a list: put the cursor on one"));
     else
-        put_item(app, &item, function_for(&item, false)(app, &item));
+        finish(app, &item, function_for(&item, false)(app, &item));
 }
 
 void ceduo_items_move(struct app *app, int by)

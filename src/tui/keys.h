@@ -47,7 +47,7 @@ enum key {
     V(COMPARE, compare, '5', "5", N_("view: compare"))                                                                         \
     V(ROTATION, rotation, '6', "6", N_("view: rotation"))                                                                      \
     V(DOUBT, doubt, '7', "7", N_("view: doubt"))                                                                               \
-    V(SEEN, seen, '8', "8", N_("view: what was seen"))
+    V(OBSERVED, observed, '8', "8", N_("view: what was seen"))
 
 #define VIEW_ACTION(NAME, name, key, word, help) X(VIEW_##NAME, key, word, K_NONE, "", 0, help)
 

@@ -120,7 +120,7 @@ static int by_name(const struct dirent **a, const struct dirent **b)
     return strcmp((*a)->d_name, (*b)->d_name);
 }
 
-#define FILES_MOST 2000 /* of a folder: more nobody looks through */
+#define FILES_MAX 2000 /* of a folder: more nobody looks through */
 
 void ceduo_picker_add_files(struct picker *p, const char *typed, const char *endings)
 {
@@ -137,7 +137,7 @@ void ceduo_picker_add_files(struct picker *p, const char *typed, const char *end
         bool is_folder = stat(path.bytes, &st) == 0 && S_ISDIR(st.st_mode);
         if (is_folder)
             ceduo_text_put(&path, "/");
-        if (i < FILES_MOST && name[0] != '.' && (is_folder || ends_in(name, endings)) && !ceduo_picker_has(p, path.bytes))
+        if (i < FILES_MAX && name[0] != '.' && (is_folder || ends_in(name, endings)) && !ceduo_picker_has(p, path.bytes))
             ceduo_picker_add(p, path.bytes, path.bytes, false);
         free(entries[i]);
     }

@@ -71,7 +71,7 @@ void ceduo_popup_field(struct popup *p, const char *label, const char *value)
 
 void ceduo_popup_choice(struct popup *p, const char *label, const char *value, popup_offer *offer)
 {
-    if (p->fields_count == POPUP_FIELDS_MOST)
+    if (p->fields_count == POPUP_FIELDS_MAX)
         return;
     snprintf(p->labels[p->fields_count], sizeof p->labels[0], "%s", label);
     p->offers[p->fields_count] = offer;

@@ -9,7 +9,7 @@
 
 enum popup_kind { POPUP_TEXT, POPUP_LIST, POPUP_FIELDS };
 
-#define POPUP_FIELDS_MOST 16
+#define POPUP_FIELDS_MAX 16
 
 /* An item was chosen; the popup is off the screen already, and freed after the call. */
 typedef void popup_chosen(struct app *app, struct popup *popup, const char *value);
@@ -25,9 +25,9 @@ struct popup {
     char title[128];
     struct arena arena;
     struct text text; /* to read; over a list or fields: what it is about */
-    char labels[POPUP_FIELDS_MOST][40];
-    struct line fields[POPUP_FIELDS_MOST];  /* to fill; of a list the first: what is searched for */
-    popup_offer *offers[POPUP_FIELDS_MOST]; /* NULL: none; of a list: its items stay the same */
+    char labels[POPUP_FIELDS_MAX][40];
+    struct line fields[POPUP_FIELDS_MAX];  /* to fill; of a list the first: what is searched for */
+    popup_offer *offers[POPUP_FIELDS_MAX]; /* NULL: none; of a list: its items stay the same */
     size_t fields_count;
     size_t at;             /* the field under the cursor */
     struct picker picker;  /* of the list, or of the field under the cursor */

@@ -14,7 +14,7 @@
 #include "view/svg.h"
 
 /* The command that gives the same figures; `how`: as what. */
-static void put_command(struct app *app, struct text *text, const char *how)
+static void append_command(struct app *app, struct text *text, const char *how)
 {
     struct document *d = &app->document;
     const struct ceduo_arrivals *shown = ceduo_app_shown(app);
@@ -29,7 +29,7 @@ static void show_command(struct app *app, struct popup *p, const char *value)
     const struct ceduo_arrivals *shown = ceduo_app_shown(app);
     (void)value;
     ceduo_text_free(&p->text);
-    put_command(app, &p->text, "--batch");
+    append_command(app, &p->text, "--batch");
     ceduo_text_char(&p->text, '\n');
     if (shown)
         ceduo_text_format(&p->text,
@@ -72,7 +72,7 @@ static void put_report(struct app *app, struct text *text)
     struct text command = {0};
     for (size_t i = 0; i < scene->options_count; i++)
         years[i] = ceduo_live_years(&app->live, scene, i);
-    put_command(app, &command, "--report report.html");
+    append_command(app, &command, "--report report.html");
     const struct ceduo_chapter chapter = {.report = &report,
                                           .outlook = ceduo_live_outlook(&app->live, scene),
                                           .years = years,

@@ -118,7 +118,7 @@ static const char *shown(const struct field *f, double value, char room[CEDUO_NU
     return f ? ceduo_shown_number(f, value, room) : ceduo_number_shortest(value, room);
 }
 
-static void put_reached(struct text *text, enum ceduo_goal goal, double value)
+static void append_reached(struct text *text, enum ceduo_goal goal, double value)
 {
     size_t row = row_of(goal);
     ceduo_text_format(text, "%s ", _(ceduo_goals[goal].name));
@@ -128,7 +128,7 @@ static void put_reached(struct text *text, enum ceduo_goal goal, double value)
         ceduo_text_format(text, "%.4g %s", value * goals[row].per, _(goals[row].unit));
 }
 
-static void put_found(struct text *text, const struct popup *p, const struct ceduo_found *f, const char *reached)
+static void append_found(struct text *text, const struct popup *p, const struct ceduo_found *f, const char *reached)
 {
     char room[CEDUO_NUMBER_ROOM];
     ceduo_shown_path(p->path, text);
@@ -138,7 +138,7 @@ static void put_found(struct text *text, const struct popup *p, const struct ced
                     shown(ceduo_schema_at(p->path), f->value, room), reached);
 }
 
-static void put_none(struct text *text, const struct popup *p, const struct ceduo_found *f, const char *reached)
+static void append_none(struct text *text, const struct popup *p, const struct ceduo_found *f, const char *reached)
 {
     char room[CEDUO_NUMBER_ROOM];
     ceduo_text_format(text, _("no value from %s to %s reaches the goal"), p->fields[FIND_LO].text, p->fields[FIND_HI].text);
@@ -146,8 +146,8 @@ static void put_none(struct text *text, const struct popup *p, const struct cedu
         ceduo_text_then(text, "; ", _("nearest is %s with %s"), shown(ceduo_schema_at(p->path), f->nearest, room), reached);
 }
 
-static void put_words(struct app *app, struct popup *p, const struct ceduo_search *s, const struct ceduo_found *f,
-                      struct text *text)
+static void append_words(struct app *app, struct popup *p, const struct ceduo_search *s, const struct ceduo_found *f,
+                         struct text *text)
 {
     const struct form_cell *cell = ceduo_form_cell(ceduo_app_form(app));
     size_t row = row_of(s->goal);
@@ -157,8 +157,8 @@ static void put_words(struct app *app, struct popup *p, const struct ceduo_searc
         return;
     }
     struct text reached = {0};
-    put_reached(&reached, s->goal, f->found ? f->goal_at_value : f->goal_at_nearest);
-    (f->found ? put_found : put_none)(text, p, f, ceduo_app_kept(app, &reached));
+    append_reached(&reached, s->goal, f->found ? f->goal_at_value : f->goal_at_nearest);
+    (f->found ? append_found : append_none)(text, p, f, ceduo_app_kept(app, &reached));
     ceduo_text_then(text, " ", ceduo_goals[s->goal].below ? _("(below %g %s is wanted)") : _("(at most %g %s is wanted)"),
                     s->target * goals[row].per, _(goals[row].unit));
     if (!f->monotone)
@@ -166,7 +166,7 @@ static void put_words(struct app *app, struct popup *p, const struct ceduo_searc
 }
 
 /* What a rotation was looked at for: its yield beside the answer. */
-static void put_yield(const struct ceduo_search *s, const struct ceduo_yield *yield, struct text *text)
+static void append_yield(const struct ceduo_search *s, const struct ceduo_yield *yield, struct text *text)
 {
     if (s->rotation)
         ceduo_text_then(text, "; ", _("over one whole rotation"));
@@ -187,8 +187,8 @@ static bool take(struct app *app, struct popup *p, struct search_answer *answer)
     search.rotation = answer->rotation;
     struct text words = {0};
     bool set = true;
-    put_words(app, p, &search, found, &words);
-    put_yield(&search, &answer->yield, &words);
+    append_words(app, p, &search, found, &words);
+    append_yield(&search, &answer->yield, &words);
     if (found->found && !found->whole_range) {
         char room[CEDUO_NUMBER_ROOM];
         set = ceduo_document_set(&app->document, p->path, ceduo_number_shortest(found->value, room), &app->problems);

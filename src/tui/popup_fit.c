@@ -12,7 +12,7 @@
 
 /* ---- bounds ---- */
 
-static void put_bounds(struct text *text, const struct fit_request *w, size_t i)
+static void append_bounds(struct text *text, const struct fit_request *w, size_t i)
 {
     char lo[CEDUO_NUMBER_ROOM], hi[CEDUO_NUMBER_ROOM];
     ceduo_text_format(text, "%s:%s", ceduo_shown_number(w->fields[i], w->lo[i], lo),
@@ -70,7 +70,7 @@ static bool filled_fit(struct app *app, struct popup *p)
     return true;
 }
 
-static void put_about(struct popup *p, const struct fit_request *w)
+static void append_about(struct popup *p, const struct fit_request *w)
 {
     ceduo_text_format(
         &p->text, _("Each value between its bounds; an empty field is not fitted. Every scene that is tried has %llu rocks."),
@@ -81,7 +81,7 @@ static void put_about(struct popup *p, const struct fit_request *w)
             ceduo_text_format(&p->text, "%s ", _("Usual bounds of the others:"));
         ceduo_calibration_name(&p->text, w->paths[i], w->fields[i]);
         ceduo_text_char(&p->text, ' ');
-        put_bounds(&p->text, w, i);
+        append_bounds(&p->text, w, i);
     }
 }
 
@@ -90,12 +90,12 @@ void ceduo_popup_fit(struct app *app)
     struct fit_request request;
     ceduo_fit_offer(&app->document.file, &request);
     struct popup *p = ceduo_popup_fields(app, _("What is fitted to what was seen?"), filled_fit);
-    put_about(p, &request);
+    append_about(p, &request);
     for (size_t i = 0; i < request.n; i++) {
         struct text label = {0}, bounds = {0};
         ceduo_calibration_name(&label, request.paths[i], request.fields[i]);
         if (i < FILLED)
-            put_bounds(&bounds, &request, i);
+            append_bounds(&bounds, &request, i);
         ceduo_popup_field(p, ceduo_app_kept(app, &label), ceduo_app_kept(app, &bounds));
     }
 }

@@ -31,7 +31,7 @@ static const struct {
     {N_("doubt"), N_("what is not known, such as the ground; more rocks do not cure it")},
 };
 
-static void put_action(struct text *text, enum action action)
+static void append_action(struct text *text, enum action action)
 {
     const struct action_info *a = &ceduo_actions[action];
     char keys[32];
@@ -42,7 +42,7 @@ static void put_action(struct text *text, enum action action)
     ceduo_text_format(text, "  %-16s%s\n", keys, _(a->help));
 }
 
-static void put_glossary(struct text *text)
+static void append_glossary(struct text *text)
 {
     ceduo_text_format(text, " \n%s\n", _("Words"));
     for (size_t i = 0; i < sizeof glossary / sizeof glossary[0]; i++)
@@ -63,7 +63,7 @@ void ceduo_popup_help(struct app *app)
     ceduo_text_free(&field);
     ceduo_text_put(&p->text, _("Every edit is live: figures and pictures follow at once.\n \n"));
     for (int i = 0; i < ACTION_COUNT; i++)
-        put_action(&p->text, (enum action)i);
+        append_action(&p->text, (enum action)i);
     ceduo_text_put(&p->text, " \n");
     ceduo_text_put(&p->text, _("A star marks what is assumed and not measured. Dim values are defaults.\n"
                                "A number is typed with a comma or a dot, a diameter in cm; one with a spread as "
@@ -75,5 +75,5 @@ void ceduo_popup_help(struct app *app)
                                "the index (Eq. 4 and 5 of Ciabocco et al. 2009) takes and leaves; how sure it is.\n"
                                "With the mouse: click a field or a view's name; the wheel moves; with Shift held the "
                                "terminal itself selects text.\n"));
-    put_glossary(&p->text);
+    append_glossary(&p->text);
 }

@@ -98,7 +98,7 @@ static double place_of(const struct ceduo_slope *s, double x)
     return round((x + s->origin_x) * 100) / 100;
 }
 
-static void put_number(struct line *line, double value)
+static void set_number(struct line *line, double value)
 {
     char room[CEDUO_NUMBER_ROOM];
     ceduo_line_set(line, ceduo_number_shortest(value, room));
@@ -116,10 +116,10 @@ static void guess_face(struct popup *p, const struct answers *a)
         return;
     free(p->kept);
     p->kept = ceduo_must(strdup(p->fields[NEW_PROFILE].text));
-    put_number(&p->fields[NEW_RELEASE], isnan(edge) ? a->first : place_of(s, edge));
+    set_number(&p->fields[NEW_RELEASE], isnan(edge) ? a->first : place_of(s, edge));
     ceduo_line_set(&p->fields[NEW_FACE], "");
     if (!isnan(edge))
-        put_number(&p->fields[NEW_FACE], place_of(s, s->x[end]));
+        set_number(&p->fields[NEW_FACE], place_of(s, s->x[end]));
 }
 
 /* What is known of the profile, over the fields. */
@@ -231,39 +231,39 @@ static bool check_new(struct app *app, struct popup *p, size_t field)
 
 /* ---- the scene ---- */
 
-static void put_quoted(struct text *yaml, const char *before, const char *value)
+static void append_quoted(struct text *yaml, const char *before, const char *value)
 {
     ceduo_text_put(yaml, before);
     ceduo_emit_scalar(yaml, value, true);
 }
 
 /* A stretch of ground, given as it lies; a profile that is turned round has it as it was drawn. */
-static void put_material(struct text *yaml, const struct ceduo_slope *s, double from, double to, const char *material)
+static void append_material(struct text *yaml, const struct ceduo_slope *s, double from, double to, const char *material)
 {
     double a = ceduo_slope_mirrored(s, from), b = ceduo_slope_mirrored(s, to);
     ceduo_text_format(yaml, "    - {from_m: %.10g, to_m: %.10g", fmin(a, b), fmax(a, b));
-    put_quoted(yaml, ", material: ", material);
+    append_quoted(yaml, ", material: ", material);
     ceduo_text_put(yaml, "}\n");
 }
 
-static void put_ground(const struct popup *p, const struct answers *a, struct text *yaml)
+static void append_ground(const struct popup *p, const struct answers *a, struct text *yaml)
 {
     const struct ceduo_slope *s = &a->profile.scene.slope;
     ceduo_text_put(yaml, s->reversed ? "  reversed: true\n  materials:\n" : "  materials:\n");
     bool face = a->face > a->first;
     if (face && !s->reversed)
-        put_material(yaml, s, a->first, a->face, "cliff");
-    put_material(yaml, s, a->face, a->last, p->fields[NEW_MATERIAL].text);
+        append_material(yaml, s, a->first, a->face, "cliff");
+    append_material(yaml, s, a->face, a->last, p->fields[NEW_MATERIAL].text);
     if (face && s->reversed)
-        put_material(yaml, s, a->first, a->face, "cliff");
+        append_material(yaml, s, a->first, a->face, "cliff");
 }
 
-static void put_scene(struct popup *p, const struct answers *a, struct text *yaml)
+static void append_scene(struct popup *p, const struct answers *a, struct text *yaml)
 {
-    put_quoted(yaml, "ceduo: scene/1\ntitle: ", p->fields[NEW_TITLE].text);
+    append_quoted(yaml, "ceduo: scene/1\ntitle: ", p->fields[NEW_TITLE].text);
     ceduo_text_format(yaml, "\nrock: {diameter_m: %.10g}\nrelease: {x_m: %.10g}\nslope:\n  %s\n", a->rock, a->release,
                       ceduo_text_string(&a->slope));
-    put_ground(p, a, yaml);
+    append_ground(p, a, yaml);
     ceduo_text_format(yaml, "controls:\n  - {x_m: %.10g", a->control);
     if (a->has_accepted)
         ceduo_text_format(yaml, ", accepted_kJ: %.10g", a->accepted);
@@ -272,7 +272,7 @@ static void put_scene(struct popup *p, const struct answers *a, struct text *yam
     if (!stand[0])
         return;
     ceduo_text_format(yaml, "forest:\n  - {from_m: %.10g, to_m: %.10g", a->face, a->control);
-    put_quoted(yaml, ", stand: ", stand);
+    append_quoted(yaml, ", stand: ", stand);
     ceduo_text_put(yaml, "}\n");
 }
 
@@ -282,7 +282,7 @@ static bool filled_new(struct app *app, struct popup *p)
     struct text yaml = {0};
     bool good = read_answers(app, p, NEW_STAND, &a);
     if (good) {
-        put_scene(p, &a, &yaml);
+        append_scene(p, &a, &yaml);
         good = ceduo_app_open_text(app, ceduo_text_string(&yaml));
     }
     bool counted = a.counted;

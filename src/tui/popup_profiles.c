@@ -101,7 +101,7 @@ static void add_profiles(const struct app *app, struct popup *p, const char *kin
 static popup_chosen chose_new_option;
 
 /* The forest of the option that is shown with a stand in every belt, as one change. */
-static void put_all_belts(struct app *app, const char *stand, struct text *set)
+static void append_all_belts(struct app *app, const char *stand, struct text *set)
 {
     const struct ceduo_option *o = ceduo_app_option(app);
     ceduo_text_format(set, "%s=[", ceduo_app_forest(app));
@@ -111,24 +111,24 @@ static void put_all_belts(struct app *app, const char *stand, struct text *set)
     ceduo_text_put(set, "]");
 }
 
-static void put_light(struct text *text, const char *name, enum ceduo_light light, enum ceduo_light now)
+static void append_light(struct text *text, const char *name, enum ceduo_light light, enum ceduo_light now)
 {
     ceduo_text_format(text, "%s %s", name, ceduo_words_verdict(light));
     if (light != now)
         ceduo_text_then(text, " ", _("(now %s)"), ceduo_words_verdict(now));
 }
 
-static void put_lights(struct app *app, struct text *text, const struct preview *f)
+static void append_lights(struct app *app, struct text *text, const struct preview *f)
 {
     const struct ceduo_result *r = app->live.result;
     const struct ceduo_index *now = r ? ceduo_result_last_index(r, app->option) : &f->index;
-    put_light(text, _("Contact"), f->index.contact, now->contact);
+    append_light(text, _("Contact"), f->index.contact, now->contact);
     if (isfinite(f->index.worst_adc))
         ceduo_text_format(text, ", %.3g m", f->index.worst_adc);
     ceduo_text_put(text, "; ");
-    put_light(text, _("free run"), f->index.free_run, now->free_run);
+    append_light(text, _("free run"), f->index.free_run, now->free_run);
     ceduo_text_put(text, "; ");
-    put_light(text, _("energy"), f->index.energy, now->energy);
+    append_light(text, _("energy"), f->index.energy, now->energy);
     if (!isnan(f->exceed))
         ceduo_text_then(text, ", ", _("about %.0f of 1000 with too much"), 1000 * f->exceed);
     else if (!isnan(f->reach))
@@ -137,17 +137,17 @@ static void put_lights(struct app *app, struct text *text, const struct preview 
 }
 
 /* What the lights would be with a value at the popup's path; it is asked for, and put once it is known. */
-static void put_change(struct app *app, struct popup *p, const char *value)
+static void append_change(struct app *app, struct popup *p, const char *value)
 {
     struct text set = {0};
     if (p->ahead_known) {
         if (p->ahead.known)
-            put_lights(app, &p->text, &p->ahead);
+            append_lights(app, &p->text, &p->ahead);
         return;
     }
     ceduo_text_put(&p->text, _("the lights: computing …\n"));
     if (p->chosen == chose_new_option)
-        put_all_belts(app, value, &set);
+        append_all_belts(app, value, &set);
     else
         ceduo_text_format(&set, "%s=%s", p->path, value);
     if (set.length < JOB_TEXT)
@@ -164,13 +164,13 @@ static void preview_word(struct app *app, struct popup *p, const char *value)
     ceduo_text_free(&p->text);
     if (i >= 0)
         ceduo_text_format(&p->text, _("Rn %.3g, Rt %.3g; %s\n"), rows[i].rn, rows[i].rt, rows[i].source);
-    put_change(app, p, value);
+    append_change(app, p, value);
     if (!p->text.bytes)
         ceduo_text_put(&p->text, " ");
 }
 
 /* What a preset would give, in the lines over the list. */
-static void put_stand(struct app *app, struct text *text, const char *value)
+static void append_stand(struct app *app, struct text *text, const char *value)
 {
     struct scene_file file = {0};
     struct problems problems = {0};
@@ -213,8 +213,8 @@ static void preview_stand(struct app *app, struct popup *p, const char *value)
                        _("asks for the CSV file, and takes densities with their errors, classes and heights from it"));
         return;
     }
-    put_stand(app, &p->text, value);
-    put_change(app, p, value);
+    append_stand(app, &p->text, value);
+    append_change(app, p, value);
 }
 
 /* ---- choosing ---- */

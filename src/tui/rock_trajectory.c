@@ -9,19 +9,19 @@
 #include "base/language.h"
 
 #define FLIGHT_POINTS 24 /* of a parabola: enough for any screen */
-#define PIECES_MOST   20000
-#define SECONDS_MOST  0.05 /* that a key may take */
+#define PIECES_MAX    20000
+#define SECONDS_MAX   0.05 /* that a key may take */
 
 static bool is_enough(void *context)
 {
     const struct rock_trajectory *s = context;
-    return ceduo_clock() - s->begun > SECONDS_MOST;
+    return ceduo_clock() - s->begun > SECONDS_MAX;
 }
 
 static void add_piece(void *context, const struct ceduo_piece *piece)
 {
     struct rock_trajectory *s = context;
-    if (s->n == PIECES_MOST)
+    if (s->n == PIECES_MAX)
         return;
     s->pieces = ceduo_grow(s->pieces, s->n, &s->room, sizeof *s->pieces);
     s->pieces[s->n++] = *piece;
@@ -30,7 +30,7 @@ static void add_piece(void *context, const struct ceduo_piece *piece)
 static void add_stem(void *context, const struct ceduo_stem_passed *stem)
 {
     struct rock_trajectory *s = context;
-    if (s->n >= PIECES_MOST)
+    if (s->n >= PIECES_MAX)
         return;
     size_t room = s->stems_room; /* of both arrays */
     s->stems = ceduo_grow(s->stems, s->stems_count, &room, sizeof *s->stems);
@@ -62,7 +62,7 @@ static void draw_trail(struct rock_trajectory *s, double gravity)
     s->line.x = ceduo_must(malloc(room * sizeof(double)));
     s->line.z = ceduo_must(malloc(room * sizeof(double)));
     s->line.n = 0;
-    add_point(&s->line, s->way.x0, s->way.z0);
+    add_point(&s->line, s->whole.x0, s->whole.z0);
     for (size_t i = 0; i < shown; i++)
         add_to_line(&s->line, &s->pieces[i], gravity / 2);
 }
@@ -77,7 +77,7 @@ bool ceduo_rock_trajectory_follow(struct rock_trajectory *s, const struct ceduo_
         s->rock = rock;
         s->begun = ceduo_clock();
         const struct ceduo_watch watch = {.enough = is_enough, .piece = add_piece, .stem = add_stem, .context = s};
-        enum ceduo_status status = ceduo_trajectory_follow(scene, option, rock, &watch, &s->way, NULL);
+        enum ceduo_status status = ceduo_trajectory_follow(scene, option, rock, &watch, &s->whole, NULL);
         s->cut_short = status == CEDUO_CANCELLED;
         if (status != CEDUO_OK && !s->cut_short)
             return false;
@@ -125,11 +125,11 @@ static void say_end(const struct rock_trajectory *s, double origin, struct text 
 {
     static const char *const ends[CEDUO_ENDS] = {N_("comes to rest"), N_("leaves the slope"), N_("goes on for ever"),
                                                  N_("is stopped by stems")};
-    const char *end = s->cut_short ? N_("goes on too long to be shown") : ends[s->way.end];
+    const char *end = s->cut_short ? N_("goes on too long to be shown") : ends[s->whole.end];
     ceduo_text_format(text, _("rock %llu: %s at %.1f m after %llu contacts"), (unsigned long long)s->rock, _(end),
-                      s->way.x + origin, (unsigned long long)s->way.contacts);
-    if (s->way.stems_drawn > 0)
-        ceduo_text_then(text, ", ", _("%llu stems hit"), (unsigned long long)s->way.stems_hit);
+                      s->whole.x + origin, (unsigned long long)s->whole.contacts);
+    if (s->whole.stems_drawn > 0)
+        ceduo_text_then(text, ", ", _("%llu stems hit"), (unsigned long long)s->whole.stems_hit);
 }
 
 void ceduo_rock_trajectory_say(const struct rock_trajectory *s, const struct ceduo_scene *scene, struct text *text)

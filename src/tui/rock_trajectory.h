@@ -15,24 +15,24 @@ struct rock_trajectory {
     size_t stems_count, stems_room;
     double begun;   /* s: when the following began */
     bool cut_short; /* it took too long to be followed to its end */
-    struct ceduo_trajectory way;
+    struct ceduo_trajectory whole;
     struct ceduo_polyline line; /* what is shown of it */
 };
 
 /* Follows rock number `rock` of the scene through the forest of an option, whose run has this key, unless it is that
  * trajectory already. False without memory. */
-bool ceduo_rock_trajectory_follow(struct rock_trajectory *way, const struct ceduo_scene *scene,
+bool ceduo_rock_trajectory_follow(struct rock_trajectory *trajectory, const struct ceduo_scene *scene,
                                   const struct ceduo_option *option, uint64_t key, uint64_t rock);
 
 /* A piece further or back. */
-void ceduo_rock_trajectory_move(struct rock_trajectory *way, int by);
+void ceduo_rock_trajectory_move(struct rock_trajectory *trajectory, int by);
 
 /* How many of the stems lie on what is shown. */
-size_t ceduo_rock_trajectory_stems(const struct rock_trajectory *way);
+size_t ceduo_rock_trajectory_stems(const struct rock_trajectory *trajectory);
 
 /* Says what happens on the last piece shown, or how the trajectory ends. */
-void ceduo_rock_trajectory_say(const struct rock_trajectory *way, const struct ceduo_scene *scene, struct text *text);
+void ceduo_rock_trajectory_say(const struct rock_trajectory *trajectory, const struct ceduo_scene *scene, struct text *text);
 
-void ceduo_rock_trajectory_free(struct rock_trajectory *way);
+void ceduo_rock_trajectory_free(struct rock_trajectory *trajectory);
 
 #endif

@@ -14,8 +14,8 @@ const struct view *const ceduo_views[VIEW_COUNT] = {
 #undef V
 };
 
-#define WIDTH_LEAST  60
-#define HEIGHT_LEAST 20
+#define WIDTH_MIN  60
+#define HEIGHT_MIN 20
 
 #define WIDE 100 /* columns with room for a blank more between the names of the views */
 
@@ -35,7 +35,7 @@ enum view_number ceduo_screen_view_at(const struct app *app, int column)
 }
 
 /* The scene's title: beside the views, or below them where `room` columns are too few for all of it. */
-static void put_scene_title(struct app *app, int room)
+static void draw_scene_title(struct app *app, int room)
 {
     struct text safe = {0};
     ceduo_text_safe(&safe, app->document.file.scene.title);
@@ -53,7 +53,7 @@ static void draw_title(struct app *app)
     for (int v = 0; v < VIEW_COUNT; x += title_columns(app, v++))
         ceduo_app_label(app, x, 0, v == (int)app->view ? CEDUO_ROLE_CURSOR : CEDUO_ROLE_DIM,
                         app->width < WIDE ? " %d %s" : " %d %s ", v + 1, ceduo_translate_in(ceduo_views[v]->title));
-    put_scene_title(app, app->width - x - 1);
+    draw_scene_title(app, app->width - x - 1);
 }
 
 static void draw_explanation(struct app *app)
@@ -82,7 +82,7 @@ static int bar_width(const struct bar_key *k)
     return (int)ceduo_utf8_width(ceduo_actions[k->action].word) + (int)ceduo_utf8_width(_(k->word)) + 3;
 }
 
-static int put_key(struct app *app, int x, const struct bar_key *k)
+static int draw_key(struct app *app, int x, const struct bar_key *k)
 {
     const char *word = ceduo_actions[k->action].word;
     ceduo_app_label(app, x, app->height - 1, CEDUO_ROLE_TITLE, "%s", word);
@@ -91,7 +91,7 @@ static int put_key(struct app *app, int x, const struct bar_key *k)
 }
 
 /* Puts the keys of all views with this rank, as long as there is room. */
-static int put_common(struct app *app, int x, int rank, int *room)
+static int draw_common(struct app *app, int x, int rank, int *room)
 {
     for (int i = 0; i < ACTION_COUNT; i++) {
         struct bar_key k = {(enum action)i, ceduo_actions[i].help};
@@ -101,7 +101,7 @@ static int put_common(struct app *app, int x, int rank, int *room)
         if (ceduo_actions[i].bar != rank || own || bar_width(&k) > *room)
             continue;
         *room -= bar_width(&k);
-        x = put_key(app, x, &k);
+        x = draw_key(app, x, &k);
     }
     return x;
 }
@@ -121,20 +121,20 @@ static void draw_bar(struct app *app)
     room -= always;
     for (const struct bar_key *k = ceduo_views[app->view]->bar; k->word && bar_width(k) <= room; k++) {
         room -= bar_width(k);
-        x = put_key(app, x, k);
+        x = draw_key(app, x, k);
     }
-    x = put_common(app, x, 1, &room);
-    put_common(app, x, 2, &always);
+    x = draw_common(app, x, 1, &room);
+    draw_common(app, x, 2, &always);
 }
 
 void ceduo_screen_draw(struct app *app)
 {
     ceduo_cells_clear(app->cells);
-    if (app->width < WIDTH_LEAST || app->height < HEIGHT_LEAST) {
+    if (app->width < WIDTH_MIN || app->height < HEIGHT_MIN) {
         struct ceduo_area all = {0, 0, app->width, app->height};
         const char *text =
             ceduo_app_format(app, _("ceduo needs a window of %d x %d; this one is %d x %d. Make it larger; q quits."),
-                             WIDTH_LEAST, HEIGHT_LEAST, app->width, app->height);
+                             WIDTH_MIN, HEIGHT_MIN, app->width, app->height);
         ceduo_app_text(app, all, CEDUO_ROLE_WARN, text, NULL);
         return;
     }

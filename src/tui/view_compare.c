@@ -27,9 +27,9 @@ enum column { TODAY, EVERY, WORST, MEAN, MARK, FAILS, YIELD, LIGHTS, COLUMNS };
 static const int widths[COLUMNS] = {
     [TODAY] = 8, [EVERY] = 9, [WORST] = 11, [MEAN] = 9, [MARK] = 6, [FAILS] = 7, [YIELD] = 8, [LIGHTS] = 10};
 
-#define NAME_LEAST  22 /* columns that tell the names of most options apart */
-#define SPARK_LEAST 12
-#define SPARK_MOST  60
+#define NAME_MIN  22 /* columns that tell the names of most options apart */
+#define SPARK_MIN 12
+#define SPARK_MAX 60
 
 /* How the table fits its place: names beside the figures or above them, and which columns have room. */
 struct layout {
@@ -61,10 +61,10 @@ static struct layout lay_out(const struct app *app, struct ceduo_area area)
         l.has[c] = c != EVERY || (v->wooded && app->live.result->scene->blocks_count > 0);
     int all = width_of(&l), rest = area.width - all;
     bool two_fit = 2 * (int)v->n + 8 <= area.height;
-    if (rest < NAME_LEAST + SPARK_LEAST + 4 && two_fit)
+    if (rest < NAME_MIN + SPARK_MIN + 4 && two_fit)
         l.lines = 2;
     for (size_t k = 0; k < sizeof dispensable / sizeof dispensable[0]; k++)
-        if (area.width - width_of(&l) < (l.lines == 2 ? 0 : NAME_LEAST))
+        if (area.width - width_of(&l) < (l.lines == 2 ? 0 : NAME_MIN))
             l.has[dispensable[k]] = false;
     rest = area.width - width_of(&l);
     l.left = area.left + (l.lines == 2 ? 0 : rest);
@@ -72,12 +72,12 @@ static struct layout lay_out(const struct app *app, struct ceduo_area area)
         int lights = l.has[LIGHTS] ? 0 : 4;
         l.name = area.width * 3 / 5 < 34 ? area.width - 29 : 34;
         l.spark = area.width - l.name - 1 - lights;
-        l.spark = l.spark > SPARK_MOST ? SPARK_MOST : l.spark;
+        l.spark = l.spark > SPARK_MAX ? SPARK_MAX : l.spark;
         l.lights_left = lights ? area.left + area.width - 3 : 0;
         l.spark_left = area.left + l.name + 1;
-    } else if (rest >= NAME_LEAST + SPARK_LEAST + 4) {
+    } else if (rest >= NAME_MIN + SPARK_MIN + 4) {
         l.name = (rest - 2) / 2 > 34 ? 34 : (rest - 2) / 2;
-        l.spark = rest - l.name - 2 > SPARK_MOST ? SPARK_MOST : rest - l.name - 2;
+        l.spark = rest - l.name - 2 > SPARK_MAX ? SPARK_MAX : rest - l.name - 2;
         l.spark_left = area.left + l.name + 1;
     } else {
         l.name = rest - 1;
@@ -93,7 +93,7 @@ static void draw_name(struct app *app, int left, int y, int width, size_t i)
     ceduo_plot_put_ends(&app->cells->canvas, left, y, width, role, app->live.result->scene->options[i].name);
 }
 
-static void put_share(struct text *text, struct ceduo_portion share)
+static void append_share(struct text *text, struct ceduo_portion share)
 {
     if (isnan(share.mean))
         ceduo_text_put(text, "\xe2\x80\xa6");
@@ -103,7 +103,7 @@ static void put_share(struct text *text, struct ceduo_portion share)
         ceduo_text_format(text, "%.0f\xc2\xb1%.0f", share.mean * 1000, ceil(share.half * 1000));
 }
 
-static void put_worst(struct text *text, const struct ceduo_choice *c, bool wooded)
+static void append_worst(struct text *text, const struct ceduo_choice *c, bool wooded)
 {
     if (c->years == 0)
         ceduo_text_put(text, "\xe2\x80\xa6");
@@ -113,7 +113,7 @@ static void put_worst(struct text *text, const struct ceduo_choice *c, bool wood
         ceduo_words_number(text, c->worst.mean, 3);
 }
 
-static void put_figure(struct text *text, const struct app *app, size_t i, enum column column)
+static void append_figure(struct text *text, const struct app *app, size_t i, enum column column)
 {
     const struct ceduo_verdict *v = &app->live.verdict;
     const struct ceduo_choice *c = &v->choices[i];
@@ -121,7 +121,7 @@ static void put_figure(struct text *text, const struct app *app, size_t i, enum 
     switch (column) {
     case TODAY:
         if (v->wooded)
-            put_share(text, c->today);
+            append_share(text, c->today);
         else
             ceduo_words_number(text, index->worst_adc, 3);
         break;
@@ -134,11 +134,11 @@ static void put_figure(struct text *text, const struct app *app, size_t i, enum 
         break;
     }
     case WORST:
-        put_worst(text, c, v->wooded);
+        append_worst(text, c, v->wooded);
         break;
     case MEAN:
         if (v->wooded)
-            put_share(text, c->mean);
+            append_share(text, c->mean);
         else
             ceduo_words_number(text, index->per_100m * J_TO_KJ, 3);
         break;
@@ -189,7 +189,7 @@ static void draw_figure(struct app *app, int x, int y, size_t i, enum column col
         return;
     }
     struct text text = {0};
-    put_figure(&text, app, i, column);
+    append_figure(&text, app, i, column);
     ceduo_canvas_label_right(&app->cells->canvas, x + widths[column] - 1, y, CEDUO_ROLE_TEXT, ceduo_text_string(&text));
     ceduo_text_free(&text);
 }
@@ -230,7 +230,7 @@ static void draw_row(struct app *app, const struct layout *l, struct ceduo_area 
 }
 
 /* What is counted and where; the name of the place only where there is room. */
-static void put_place(struct app *app, struct ceduo_area area, int width)
+static void draw_place(struct app *app, struct ceduo_area area, int width)
 {
     const struct ceduo_result *r = app->live.result;
     struct text text = {0};
@@ -260,7 +260,7 @@ static void draw_head(struct app *app, const struct layout *l, struct ceduo_area
         [TODAY] = N_("ADC m"), [EVERY] = "",         [WORST] = N_("worst"),          [MEAN] = N_("kJ/100m"),
         [MARK] = "",           [FAILS] = N_("fail"), [YIELD] = N_("m\xc2\xb3/ha y"), [LIGHTS] = N_("CFE now")};
     const struct ceduo_result *r = app->live.result;
-    put_place(app, area, l->lights_left > 0 ? area.width - widths[LIGHTS] : area.width);
+    draw_place(app, area, l->lights_left > 0 ? area.width - widths[LIGHTS] : area.width);
     if (l->lights_left > 0)
         ceduo_canvas_label_right(&app->cells->canvas, l->lights_left + 2, area.top, CEDUO_ROLE_TITLE, _("CFE now"));
     int x = l->left;
@@ -338,10 +338,10 @@ static void say_verdict(struct app *app, struct text *words)
 
 enum { PANE_TABLE, PANE_COMPARE, PANE_TRADEOFF, PANES };
 
-#define TRADEOFF_LEAST 11  /* lines of the picture of protection against yield */
-#define COMPARE_MORE   4   /* lines of the picture of the options besides one for each */
-#define BESIDE_LEAST   128 /* columns that hold the table and a picture beside it */
-#define TABLE_WIDTH    84
+#define TRADEOFF_MIN 11  /* lines of the picture of protection against yield */
+#define COMPARE_MORE 4   /* lines of the picture of the options besides one for each */
+#define BESIDE_MIN   128 /* columns that hold the table and a picture beside it */
+#define TABLE_WIDTH  84
 
 static void draw_picture(struct app *app, enum ceduo_plot plot, struct ceduo_area area)
 {
@@ -353,8 +353,8 @@ static void draw_picture(struct app *app, enum ceduo_plot plot, struct ceduo_are
 static void draw_below(struct app *app, struct ceduo_area area, bool compare)
 {
     int rows = (int)app->live.verdict.n + COMPARE_MORE;
-    bool tradeoff = area.height >= TRADEOFF_LEAST;
-    compare = compare && area.height >= rows + (tradeoff ? TRADEOFF_LEAST + 1 : 0);
+    bool tradeoff = area.height >= TRADEOFF_MIN;
+    compare = compare && area.height >= rows + (tradeoff ? TRADEOFF_MIN + 1 : 0);
     if (compare)
         draw_picture(app, CEDUO_PLOT_COMPARE, (struct ceduo_area){area.left, area.top, area.width, rows});
     area.top += compare ? rows + 1 : 0;
@@ -389,7 +389,7 @@ static void draw_table(struct app *app, struct ceduo_area area, bool compare)
 static void draw(struct app *app, struct ceduo_area area)
 {
     int pane = ceduo_app_state(app)->pane;
-    bool beside = area.width >= BESIDE_LEAST && app->live.verdict.n > 1;
+    bool beside = area.width >= BESIDE_MIN && app->live.verdict.n > 1;
     if (pane != PANE_TABLE) {
         if (!app->message[0])
             ceduo_app_say(app, "%s",

@@ -60,13 +60,13 @@ static void say_all(const struct app *app, const struct uncertainty *u, const st
 
 /* ---- drawing ---- */
 
-#define OPTIONS_LEAST 6 /* in a picture that shares its room with words, if there are so many */
+#define OPTIONS_MIN 6 /* in a picture that shares its room with words, if there are so many */
 
 /* Lines that the picture keeps: options, an input, a line above each, and one between it and the words. */
 static int picture_least(const struct ceduo_doubt_report *r)
 {
     size_t n = r->file->scene.options_count;
-    return (int)(n < OPTIONS_LEAST ? n : OPTIONS_LEAST) + 4;
+    return (int)(n < OPTIONS_MIN ? n : OPTIONS_MIN) + 4;
 }
 
 /* Lines that the picture fills: options, inputs, and a line above each. */
@@ -154,7 +154,7 @@ static const struct act acts[] = {{ACTION_ADD, add, 0}, {0}};
 
 const struct view ceduo_view_doubt = {.title = NP_("view", "doubt"),
                                       .panes = 1,
-                                      .doubt = true,
+                                      .uncertainty = true,
                                       .build = build,
                                       .draw = draw,
                                       .acts = {acts},

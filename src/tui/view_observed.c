@@ -10,8 +10,8 @@
 #include "view/report_calibration.h"
 #include "view/words.h"
 
-#define PICTURE_LEAST 8
-#define RANGE         "\xe2\x80\x93"
+#define PICTURE_MIN 8
+#define RANGE       "\xe2\x80\x93"
 
 /* ---- rows: observed, simulated with its band ---- */
 
@@ -21,7 +21,7 @@
 #define NAME_WIDTH(width) ((width)-SEEN_WIDTH - BAND_WIDTH - WORD_WIDTH - 3)
 
 /* A cell of at least so many columns. */
-static void put_cell(struct text *row, const char *string, int columns, bool right)
+static void append_cell(struct text *row, const char *string, int columns, bool right)
 {
     int blank = columns - (int)ceduo_utf8_width(string);
     blank = blank > 0 ? blank : 0;
@@ -29,21 +29,21 @@ static void put_cell(struct text *row, const char *string, int columns, bool rig
 }
 
 /* A name that has no room stands in a line above. */
-static void put_row(struct text *row, int width, const char *name, const char *seen, const char *band, const char *word)
+static void append_row(struct text *row, int width, const char *name, const char *seen, const char *band, const char *word)
 {
     int columns = NAME_WIDTH(width);
     bool fits = (int)ceduo_utf8_width(name) <= columns;
     if (!fits)
         ceduo_text_format(row, "%s\n", name);
-    put_cell(row, fits ? name : "", columns, false);
+    append_cell(row, fits ? name : "", columns, false);
     ceduo_text_char(row, ' ');
-    put_cell(row, seen, SEEN_WIDTH, true);
+    append_cell(row, seen, SEEN_WIDTH, true);
     ceduo_text_char(row, ' ');
-    put_cell(row, band, BAND_WIDTH, true);
+    append_cell(row, band, BAND_WIDTH, true);
     ceduo_text_format(row, " %s\n", word);
 }
 
-static void put_number(struct text *text, const struct ceduo_observation *o, double value, double origin)
+static void append_number(struct text *text, const struct ceduo_observation *o, double value, double origin)
 {
     if (o->kind == CEDUO_OBSERVED_PASSED)
         ceduo_text_format(text, "%.0f", value);
@@ -51,7 +51,7 @@ static void put_number(struct text *text, const struct ceduo_observation *o, dou
         ceduo_words_number(text, ceduo_seen_shown(o->kind, value, origin), 3);
 }
 
-static void put_observation(struct text *text, const struct scene_file *file, const struct ceduo_predicted *p, int width)
+static void append_observation(struct text *text, const struct scene_file *file, const struct ceduo_predicted *p, int width)
 {
     const struct ceduo_observation *o = &file->observations[p->observation];
     double origin = file->scene.slope.origin_x;
@@ -59,33 +59,33 @@ static void put_observation(struct text *text, const struct scene_file *file, co
     ceduo_text_safe(&name, o->name);
     if (o->use == CEDUO_OBSERVED_CHECK)
         ceduo_text_format(&name, " %s", _("(check)"));
-    put_number(&seen, o, p->seen, origin);
+    append_number(&seen, o, p->seen, origin);
     const char *unit = ceduo_observed_quantity(o->kind)->unit;
     ceduo_text_format(&seen, "%s%s", unit[0] ? " " : "", unit);
-    put_number(&band, o, p->lo, origin);
+    append_number(&band, o, p->lo, origin);
     ceduo_text_put(&band, RANGE);
-    put_number(&band, o, p->hi, origin);
-    put_row(text, width, ceduo_text_string(&name), ceduo_text_string(&seen), isnan(p->lo) ? "-" : ceduo_text_string(&band),
-            !p->inside                  ? _("OUTSIDE")
-            : p->p_value < CEDUO_MISFIT ? _("mean only") /* what is refuted below is how the values are spread */
-                                        : _("inside"));
+    append_number(&band, o, p->hi, origin);
+    append_row(text, width, ceduo_text_string(&name), ceduo_text_string(&seen), isnan(p->lo) ? "-" : ceduo_text_string(&band),
+               !p->inside                  ? _("OUTSIDE")
+               : p->p_value < CEDUO_MISFIT ? _("mean only") /* what is refuted below is how the values are spread */
+                                           : _("inside"));
     ceduo_text_free(&name);
     ceduo_text_free(&seen);
     ceduo_text_free(&band);
 }
 
-static void put_rows(struct text *text, const struct scene_file *file, const struct ceduo_predicted *p, int width)
+static void append_rows(struct text *text, const struct scene_file *file, const struct ceduo_predicted *p, int width)
 {
-    put_row(text, width, _("mean or count"), _("seen"), _("sim., 95 %"), "");
+    append_row(text, width, _("mean or count"), _("seen"), _("sim., 95 %"), "");
     for (size_t i = 0; i < file->observations_count; i++)
-        put_observation(text, file, &p[i], width);
+        append_observation(text, file, &p[i], width);
     ceduo_text_char(text, '\n');
 }
 
 /* ---- words ---- */
 
 /* Of each list and count by its probability, which sees the form of a list, too. */
-static void put_misfits(struct text *text, const struct scene_file *file, const struct ceduo_predicted *p)
+static void append_misfits(struct text *text, const struct scene_file *file, const struct ceduo_predicted *p)
 {
     struct text bad = {0};
     for (size_t i = 0; i < file->observations_count; i++) {
@@ -117,14 +117,14 @@ static void say_as_it_is(struct app *app, struct text *text, int width)
         ceduo_text_put(text, _("not computed yet"));
         return;
     }
-    put_rows(text, file, s->predicted, width);
-    put_misfits(text, file, s->predicted);
+    append_rows(text, file, s->predicted, width);
+    append_misfits(text, file, s->predicted);
     if (ceduo_fit_has_observations(file))
         ceduo_text_put(text, _("c fits the ground to what was seen; only a fit says what of it is determined.\n"));
     ceduo_text_format(text, _("Simulated: %llu rocks.\n"), (unsigned long long)s->rocks);
 }
 
-static void put_best(struct text *text, const struct fit_request *w, size_t i, double best)
+static void append_best(struct text *text, const struct fit_request *w, size_t i, double best)
 {
     ceduo_calibration_name(text, w->paths[i], w->fields[i]);
     ceduo_text_char(text, ' ');
@@ -147,7 +147,7 @@ static void say_fitting(const struct live *live, struct text *text)
     ceduo_text_put(text, _("The best values so far:\n"));
     for (size_t i = 0; i < f->request.n; i++) {
         ceduo_text_put(text, "  ");
-        put_best(text, &f->request, i, s->best[i]);
+        append_best(text, &f->request, i, s->best[i]);
         ceduo_text_char(text, '\n');
     }
 }
@@ -191,7 +191,7 @@ static void say_fit(const struct fit *f, struct text *text, int width)
     for (size_t i = 0; i < f->request.n; i++) {
         const struct ceduo_fitted *one = &f->answer.parameters[i];
         ceduo_text_put(text, "  ");
-        put_best(text, &f->request, i, one->best);
+        append_best(text, &f->request, i, one->best);
         ceduo_text_put(text, " (");
         ceduo_calibration_number(text, f->request.fields[i], one->p2_5);
         ceduo_text_put(text, RANGE);
@@ -202,7 +202,7 @@ static void say_fit(const struct fit *f, struct text *text, int width)
         ceduo_text_char(text, '\n');
     }
     ceduo_text_char(text, '\n');
-    put_rows(text, &f->file, f->answer.predicted, width);
+    append_rows(text, &f->file, f->answer.predicted, width);
     ceduo_calibration_words(text, &r, (size_t)width);
     ceduo_text_char(text, '\n');
     say_draws(f, text);
@@ -260,7 +260,7 @@ static void draw(struct app *app, struct ceduo_area area)
         say_as_it_is(app, &text, area.width);
     int most = area.height - ceduo_app_text_lines(app, ceduo_text_string(&text), area.width) - 1;
     int height = most > area.height / 2 ? most : area.height / 2;
-    if (stops && height >= PICTURE_LEAST) {
+    if (stops && height >= PICTURE_MIN) {
         struct ceduo_area top = {area.left, area.top, area.width, height};
         ceduo_plot_seen(&app->cells->canvas, &top, stops, file->scene.slope.origin_x);
         area.top += height + 1;
@@ -318,13 +318,13 @@ static void stop(struct app *app, int unused)
 
 static const struct act acts[] = {{ACTION_COUNTS, start, 0}, {ACTION_EDIT, take, 0}, {ACTION_STOP, stop, 0}, {0}};
 
-const struct view ceduo_view_seen = {.title = NP_("view", "seen"),
-                                     .panes = 1,
-                                     .seen = true,
-                                     .draw = draw,
-                                     .acts = {acts},
-                                     .bar = {{ACTION_COUNTS, N_("fit")},
-                                             {ACTION_EDIT, N_("take the fit")},
-                                             {ACTION_STOP, N_("leave it")},
-                                             {ACTION_DOWN, N_("read on")},
-                                             {ACTION_NEXT_OPTION, N_("next option")}}};
+const struct view ceduo_view_observed = {.title = NP_("view", "seen"),
+                                         .panes = 1,
+                                         .observed = true,
+                                         .draw = draw,
+                                         .acts = {acts},
+                                         .bar = {{ACTION_COUNTS, N_("fit")},
+                                                 {ACTION_EDIT, N_("take the fit")},
+                                                 {ACTION_STOP, N_("leave it")},
+                                                 {ACTION_DOWN, N_("read on")},
+                                                 {ACTION_NEXT_OPTION, N_("next option")}}};

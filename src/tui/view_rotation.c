@@ -182,10 +182,10 @@ static void keep_fitting(struct app *app, struct text *text, int width, int line
         ceduo_app_end_in_more(app, text, width, lines);
 }
 
-#define PICTURE_LEAST     9  /* lines of the picture with one strip, … */
+#define PICTURE_MIN       9  /* lines of the picture with one strip, … */
 #define PICTURE_BESIDE    11 /* … and beside the form with the lights as well, where there are so many: */
 #define HEIGHT_FOR_LIGHTS 19
-#define FORM_LEAST        3
+#define FORM_MIN          3
 #define HEIGHT_FOR_OTHERS 30
 
 static void draw(struct app *app, struct ceduo_area area)
@@ -200,14 +200,14 @@ static void draw(struct app *app, struct ceduo_area area)
         if (area.height >= HEIGHT_FOR_OTHERS && app->year < picture.years->count)
             say_others(app, picture.years->years[app->year].year, &text);
     }
-    int picture_least = !alone && area.height >= HEIGHT_FOR_LIGHTS ? PICTURE_BESIDE : PICTURE_LEAST;
-    int least = picture_least + (alone ? 0 : FORM_LEAST);
+    int picture_least = !alone && area.height >= HEIGHT_FOR_LIGHTS ? PICTURE_BESIDE : PICTURE_MIN;
+    int least = picture_least + (alone ? 0 : FORM_MIN);
     keep_fitting(app, &text, area.width, area.height - least);
     int words = ceduo_app_text_lines(app, ceduo_text_string(&text), area.width);
     words = words > area.height - least ? area.height - least : words;
     int form = alone ? 0 : (area.height - words) / 3;
     form = form > area.height - words - picture_least ? area.height - words - picture_least : form;
-    form = alone || form >= FORM_LEAST ? form : FORM_LEAST;
+    form = alone || form >= FORM_MIN ? form : FORM_MIN;
     int height = area.height - form - words;
     struct ceduo_area top = {area.left, area.top, area.width, height};
     struct ceduo_area text_area = {area.left, area.top + height, area.width, words};

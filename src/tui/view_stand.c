@@ -12,7 +12,7 @@
 #define FIGURES 3 /* lines */
 
 /* Of each class of trees. The radius comes first: a group must have one. */
-static void put_groups(const struct app *app, struct form *form, const char *list, size_t classes)
+static void build_groups(const struct app *app, struct form *form, const char *list, size_t classes)
 {
     static const char *const keys[] = {"groups.radius_m", "groups.stems"};
     const struct object *trees = ceduo_schema_field(ceduo_schema_stand(), "trees")->object;
@@ -24,7 +24,7 @@ static void put_groups(const struct app *app, struct form *form, const char *lis
 }
 
 /* How many there are comes last: then nothing of them may be missing. */
-static void put_low(struct form *form, const struct document *d, const char *path, const char *what)
+static void build_low(struct form *form, const struct document *d, const char *path, const char *what)
 {
     const struct object *fields = ceduo_schema_field(ceduo_schema_stand(), what)->object;
     char key[64];
@@ -36,14 +36,14 @@ static void put_low(struct form *form, const struct document *d, const char *pat
 }
 
 /* Shoots on a stool, where no one value says it. */
-static void put_per_stool(const struct app *app, struct form *form, const struct ceduo_stand *s)
+static void build_per_stool(const struct app *app, struct form *form, const struct ceduo_stand *s)
 {
     if (ceduo_stand_has_shoots(s) && (s->shoots_count > 1 || !(s->shoots[0].per_stool > 0)))
         ceduo_form_note(form, ceduo_app_format(app, _("%.4g shoots per stool"), ceduo_stand_shoots(s) / s->stools_per_ha));
 }
 
 /* Cohorts by what the stand gives of them: shoots per stool, per hectare, or of some the one and of some the other. */
-static void put_shoots(struct form *form, const struct document *d, const char *list, const struct ceduo_stand *s)
+static void build_shoots(struct form *form, const struct document *d, const char *list, const struct ceduo_stand *s)
 {
     static const char *const columns[] = {"per_stool", "per_ha", "dbh_m", "height_m", "volume_m3", "dbh_sd_m", NULL};
     const char *keys[sizeof columns / sizeof columns[0]] = {NULL};
@@ -57,7 +57,7 @@ static void put_shoots(struct form *form, const struct document *d, const char *
 }
 
 /* What a cut leaves stands beside the trees of today: to change one does not change the other. */
-static void put_stay(const struct app *app, struct form *form, const char *path, const struct ceduo_stand *s)
+static void build_stay(const struct app *app, struct form *form, const char *path, const struct ceduo_stand *s)
 {
     double today = ceduo_stand_trees(s), stay = ceduo_stand_stay(s);
     if (s->cutting.rotation == 0)
@@ -85,23 +85,23 @@ static void build(struct app *app, struct form *form)
                                               ceduo_app_option(app)->belts[app->belt].name));
     ceduo_form_fields(form, d, stand, path, what);
     const struct ceduo_stand *s = &ceduo_app_option(app)->belts[app->belt].stand;
-    put_per_stool(app, form, s);
+    build_per_stool(app, form, s);
     ceduo_form_field(form, d, stand, path, "stools.spacing_m", NULL);
     ceduo_form_rest(form, d, stand, path, "stools");
     ceduo_form_heading(form, _("Shoots on the stools"));
-    put_shoots(form, d, ceduo_app_format(app, "%s.shoots", path), s);
+    build_shoots(form, d, ceduo_app_format(app, "%s.shoots", path), s);
     ceduo_form_heading(form, _("Single trees: standards, reserves"));
     const char *list = ceduo_app_format(app, "%s.trees", path);
     ceduo_form_table(form, d, ceduo_schema_field(stand, "trees")->object, list, stem_columns, "");
-    put_stay(app, form, path, s);
-    put_groups(app, form, list, s->trees_count);
+    build_stay(app, form, path, s);
+    build_groups(app, form, list, s->trees_count);
     ceduo_form_heading(form, _("Energy of a contact"));
     ceduo_form_fields(form, d, stand, path, energy);
     ceduo_form_rest(form, d, stand, path, "energy");
     ceduo_form_heading(form, _("Stumps"));
-    put_low(form, d, path, "stumps");
+    build_low(form, d, path, "stumps");
     ceduo_form_heading(form, _("Lying logs"));
-    put_low(form, d, path, "logs");
+    build_low(form, d, path, "logs");
     ceduo_form_field(form, d, stand, path, "name", NULL);
 }
 
@@ -138,7 +138,7 @@ static int draw_figures(struct app *app, struct ceduo_area area)
     return lines;
 }
 
-#define BOTH_LEAST 18 /* lines that hold the plan and the way of a rock through it */
+#define BOTH_MIN 18 /* lines that hold the plan and the way of a rock through it */
 
 /* The stand from above, to scale; below it the stems that the rock came to, where there is room for both. */
 static void draw_plan(struct app *app, struct ceduo_area area)
@@ -146,7 +146,7 @@ static void draw_plan(struct app *app, struct ceduo_area area)
     struct ceduo_picture picture = ceduo_app_picture(app), pattern = picture;
     if (app->belt >= ceduo_app_option(app)->belts_count)
         return;
-    if (picture.stems_count > 0 && area.height >= BOTH_LEAST) {
+    if (picture.stems_count > 0 && area.height >= BOTH_MIN) {
         struct ceduo_area top = {area.left, area.top, area.width, area.height * 3 / 5};
         pattern.stems = NULL;
         pattern.stems_count = 0;
@@ -157,16 +157,16 @@ static void draw_plan(struct app *app, struct ceduo_area area)
     ceduo_plot_draw(CEDUO_PLOT_STAND, &app->cells->canvas, &area, &picture);
 }
 
-#define WIDE       80 /* columns that hold form and plan side by side */
-#define WIDER      110
-#define PLAN_LEAST 32
+#define WIDE     80 /* columns that hold form and plan side by side */
+#define WIDER    110
+#define PLAN_MIN 32
 
 static void draw(struct app *app, struct ceduo_area area)
 {
     ceduo_app_follow_rock(app);
     area.height -= draw_figures(app, area);
     bool wide = area.width >= WIDE;
-    int plan = !wide ? 0 : area.width < WIDER ? PLAN_LEAST : area.width / 2 - 1;
+    int plan = !wide ? 0 : area.width < WIDER ? PLAN_MIN : area.width / 2 - 1;
     struct ceduo_area form = {area.left, area.top, area.width - plan - (wide ? 1 : 0), area.height - FIGURES};
     if (!wide && area.height >= 30) { /* the plan below the form */
         form.height = area.height * 3 / 5;
