@@ -57,98 +57,10 @@ static void read_scene(struct scene_file *file, const char *lines, const char *c
 #define GROUPS "groups: {stems: 5, radius_m: 2}"
 #define STOPS  "stops: {x_m: [40, 50]}"
 
-static void one_fault_is_told_once(void **state)
-{
-    (void)state;
-    const struct {
-        const char *lines, *told;
-    } rows[] = {
-        {"rock: {diameter_m: {mean: 0.5, spread: 0.4}}\nblocks: {per_year: 1, exponent: 0.7, volume_m3: [0.1, 2]}",
-         "the spread reaches from -0.7 to 1.7 m"},
-        {"rock: {diameter_m: {mean: 0.5, spread: 0.1}}\nblocks: {per_year: 1, exponent: 0.7, volume_m3: [0.1, 2]}",
-         "rock: blocks say how large the rocks are; give the size without a spread"},
-        {"controls_m: 5", "controls_m: expected a list, not a single value"},
-        {FOREST "stumps: {per_ha: 9, height_m: 0.3, energy_kJ: 9}}}]", "stumps need diameter_m"},
-        {FOREST "stumps: {per_ha: 9, diameter_m: 0.3, energy_kJ: 9}}}]", "stumps need diameter_m"},
-        {FOREST "stumps: {per_ha: 9, diameter_m: 0.3, height_m: 0.3}}}]", "stumps need diameter_m"},
-        {FOREST "stumps: {per_ha: 9, diameter_m: x, height_m: 0.3, energy_kJ: 9}}}]", "stumps.diameter_m: 'x' is not a number"},
-        {FOREST "logs: {per_ha: 9, diameter_m: 0.3, energy_kJ: 9}}}]", "logs need length_m"},
-        {FOREST "logs: {per_ha: 9, length_m: 5, energy_kJ: 9}}}]", "logs need length_m"},
-        {FOREST "logs: {per_ha: 9, length_m: 5, diameter_m: 0.3}}}]", "logs need length_m"},
-        {"rules: {name: here, standards: [{per_ha: 50, article: a, year: 2000, species: beech}]}",
-         "rules.standards[0].species: expected a list, not a single value"},
-        {"forest: [{" BELT ", doubt: [{lo: 1, hi: 2}, {path: stools.per_ha, lo: 1, hi: 2}]}}]", "doubt[0]: 'path' is missing"},
-        {"doubt: [{path: rock.density_kg_m3, lo: 1, hi: 2}]\nslope: {csv: [1]}", "slope.csv: expected a text, not a list"},
-        {"doubt: {rows: []}", "doubt: expected a list, not a mapping"},
-        {"doubt: [{path: 'controls[*].accepted_kJ', lo: 1, hi: 2}]\ncontrols: 5", "controls: expected a list"},
-        {GROUND_ROW "\nslope: {vertices_m: [[0, 50], [100, 0]], materials: 6}", "slope.materials: expected a list"},
-        {GROUND_ROW "\nslope: {vertices_m: [[0, 50], [100, 0]], materials: []}", "slope.materials: the list is empty"},
-        {GROUND_ROW "\nslope: {vertices_m: [[0, 50], [100, 0]], materials: [{from_m: 0, to_m: 100}]}", "'material' is missing"},
-        {GROUND_ROW "\nslope: {vertices_m: [[0, 50], [100, 0]], materials: [{from_m: 0, to_m: 40, material: cliff}, "
-                    "{to_m: 100, material: talus}]}",
-         "'from_m' is missing"},
-        {GROUND_ROW "\nslope: {vertices_m: [[0, 50], [100, 0]], materials: [{from_m: 0, to_m: 40, material: cliff}, "
-                    "{from_m: x, to_m: 100, material: talus}]}",
-         "materials[1].from_m: 'x' is not a number"},
-        {"release: {x_m: 5, source: {kind: guessed}}\nobserved: [{" STOPS ", release: {vx_m_s: 3}}]",
-         "release.source.kind: 'guessed'"},
-        {"observed: [{use: check}]", "observed[0]: say what was seen"},
-        {"observed: [{passed: {x_m: 0, count: 1, of: 2}, release: {vx_m_s: 3}}]",
-         "observed[0].passed.x_m: 0 does not lie beyond the release, 0 m"},
-        {"title: [\r\n", "scene.yaml:6:9: "}, /* where the text ends, not on a line behind it */
-    };
-    for (size_t i = 0; i < LENGTH(rows); i++) {
-        struct scene_file file;
-        read_scene(&file, rows[i].lines, NULL, 0, rows[i].told);
-        ceduo_scene_release(&file);
-    }
-}
-
-/* What is no number or word; a row of two forms or of half a one; more rows than anybody reads. */
+/* More rows than anybody reads. */
 static void rows_of_doubt_are_told(void **state)
 {
     (void)state;
-    const char *const paths[] = {"title",
-                                 "rock",
-                                 "rock.axes_m",
-                                 "rock.axes_m[0]",
-                                 "rock.diameter_m.mean",
-                                 "slope.vertices_m",
-                                 "controls_m",
-                                 "forest",
-                                 "simulation.scale_rn",
-                                 "slope.materials[talus",
-                                 "slope.materials[talus]_rn",
-                                 "slope.materials[talus].hardness",
-                                 "slope.materials[gold].rn"};
-    for (size_t i = 0; i < LENGTH(paths); i++) {
-        struct scene_file file;
-        char row[256], told[256];
-        snprintf(row, sizeof row, "doubt: [{path: '%s', lo: 1, hi: 2}]", paths[i]);
-        snprintf(told, sizeof told, "doubt[0].path: '%s' is not a number or a word of a scene", paths[i]);
-        read_scene(&file, row, NULL, 0, told);
-        ceduo_scene_release(&file);
-    }
-    const char *const forms[] = {"lo: 1",
-                                 "hi: 2",
-                                 "lo: 1, sd: 2",
-                                 "mean: 1",
-                                 "lo: 1, hi: 2, mean: 1",
-                                 "lo: 1, hi: 2, one_of: [a, b]",
-                                 "mean: 1, sd: 2, lo: 1",
-                                 "mean: 1, sd: 2, one_of: [a, b]",
-                                 "one_of: [a, b], lo: 1",
-                                 "one_of: [a, b], sd: 1"};
-    for (size_t i = 0; i < LENGTH(forms); i++)
-        for (int word = 0; word < 2; word++) {
-            struct scene_file file;
-            char row[512];
-            snprintf(row, sizeof row, "doubt: [{path: '%s', %s}]\nforest: [{" BELT "}}]",
-                     word ? "forest[0].stand.energy.model" : "rock.density_kg_m3", forms[i]);
-            read_scene(&file, row, NULL, 0,
-                       word ? "doubt[0]: give one_of: the words that it may be" : "doubt[0]: give lo and hi, or mean and sd");
-            ceduo_scene_release(&file);
-        }
     struct text many = {0};
     struct scene_file file;
     ceduo_text_put(&many, "doubt: [");
@@ -439,16 +351,6 @@ static void a_name_of_its_own(void **state)
     ceduo_scene_release(&file);
 }
 
-/* A change below a file that is not there. */
-static void a_change_of_nothing(void **state)
-{
-    (void)state;
-    static const char *const sets[] = {"forest[0].stand.name=mine"};
-    struct scene_file file;
-    read_scene(&file, "forest: [{from_m: 10, to_m: 80, stand: nowhere.yaml}]", sets, 1, "cannot find 'nowhere.yaml'");
-    ceduo_scene_release(&file);
-}
-
 static size_t notes_of_mu(const struct scene_file *file)
 {
     size_t n = 0;
@@ -483,11 +385,19 @@ static void another_law_assumes_other_things(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        IN_FOLDER(one_fault_is_told_once), IN_FOLDER(rows_of_doubt_are_told),     IN_FOLDER(rows_of_doubt_mean_places),
-        IN_FOLDER(places_by_name),         IN_FOLDER(all_places_are_meant),       IN_FOLDER(sources_of_ranges_are_no_notes),
-        IN_FOLDER(entries_have_numbers),   IN_FOLDER(draws_of_an_assumed_ground), IN_FOLDER(draws_of_many_columns),
-        IN_FOLDER(places_have_belts),      IN_FOLDER(strength_is_of_a_species),   IN_FOLDER(groups_are_of_trees),
-        IN_FOLDER(a_name_of_its_own),      IN_FOLDER(a_change_of_nothing),        IN_FOLDER(another_law_assumes_other_things),
+        IN_FOLDER(rows_of_doubt_are_told),
+        IN_FOLDER(rows_of_doubt_mean_places),
+        IN_FOLDER(places_by_name),
+        IN_FOLDER(all_places_are_meant),
+        IN_FOLDER(sources_of_ranges_are_no_notes),
+        IN_FOLDER(entries_have_numbers),
+        IN_FOLDER(draws_of_an_assumed_ground),
+        IN_FOLDER(draws_of_many_columns),
+        IN_FOLDER(places_have_belts),
+        IN_FOLDER(strength_is_of_a_species),
+        IN_FOLDER(groups_are_of_trees),
+        IN_FOLDER(a_name_of_its_own),
+        IN_FOLDER(another_law_assumes_other_things),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
