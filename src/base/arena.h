@@ -10,9 +10,9 @@
 struct arena_page;
 struct arena {
     struct arena_page *page;
-    size_t bytes;        /* asked for so far */
-    bool failed;         /* some call returned NULL */
-    struct shelf *shelf; /* NULL: what is read into this memory comes from the disk; see file.h */
+    size_t bytes;                 /* asked for so far */
+    bool failed;                  /* some call returned NULL */
+    const struct source *sources; /* files that were read into it, the last first: see io/file.h */
 };
 
 /* `size` zeroed bytes, aligned for anything; NULL without memory. */

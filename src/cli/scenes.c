@@ -71,16 +71,14 @@ static enum exit_status check(const struct arguments *a, const struct scene_file
 enum exit_status ceduo_batch_read(const struct arguments *a, const char *path, struct scene_file *file)
 {
     struct problems problems = {0};
-    struct shelf read = {0}; /* for -o */
-    bool good = ceduo_scene_read_by(file, &read, path, a->sets.items, a->sets.n, &problems);
+    bool good = ceduo_scene_read(file, path, a->sets.items, a->sets.n, &problems);
     ceduo_problems_close(&problems);
     ceduo_say(&problems.text);
     enum exit_status status = good ? EXIT_DONE : problems.usage ? EXIT_USAGE : EXIT_INPUT;
     ceduo_problems_free(&problems);
-    for (const struct shelf_file *f = read.files; f && status != EXIT_OUTPUT; f = f->before)
-        if (ceduo_output_is(a, f->path))
+    for (const struct source *s = file->arena.sources; s && status != EXIT_OUTPUT; s = s->before)
+        if (ceduo_output_is(a, s->path))
             status = EXIT_OUTPUT;
-    file->arena.shelf = NULL;
     if (status == EXIT_DONE)
         status = check(a, file);
     return status == EXIT_DONE && a->mode != MODE_FIND && a->mode != MODE_CALIBRATE ? choose(a, file) : status;

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Reads and writes whole files, and finds them. A file is written beside its target and then takes its place; what is no
- * regular file is written straight. What is read lies in the arena of the caller; where this has a shelf, each file is read
- * once and kept there. */
+ * regular file is written straight. What is read lies in the arena of the caller, which lists it. */
 #include "file.h"
 
 #include <dirent.h>
@@ -28,11 +27,6 @@
 static bool is_standard(const char *path)
 {
     return strcmp(path, "-") == 0;
-}
-
-const char *ceduo_file_why(int why)
-{
-    return why == NO_FILE ? _("a device or a socket; name a file") : strerror(why);
 }
 
 /* Standard input may be anything; what has a name must be a regular file or a FIFO, for a device may have no end. */
@@ -101,77 +95,13 @@ static bool read_file(struct arena *arena, const char *path, size_t max, struct 
     return good;
 }
 
-bool ceduo_file_take(const char *path, struct text *text, size_t max)
-{
-    struct arena arena = {0};
-    struct source source = {0};
-    bool good = read_file(&arena, path, max, &source);
-    int why = errno;
-    if (good)
-        ceduo_text_add(text, source.bytes, source.length);
-    ceduo_arena_free(&arena);
-    errno = good ? ENOMEM : why;
-    return good && !text->failed;
-}
-
-/* ---- the shelf ---- */
-
-static const char *keep(struct arena *arena, const char *string)
-{
-    return string ? ceduo_arena_string(arena, string) : NULL;
-}
-
-static bool keep_file(struct arena *arena, struct shelf *shelf, const char *path, const char *bytes, size_t length)
-{
-    struct shelf_file *file = ceduo_arena_take(arena, sizeof *file);
-    if (!file)
-        return false;
-    *file = (struct shelf_file){.path = keep(arena, path), .bytes = bytes, .length = length, .before = shelf->files};
-    if (arena->failed)
-        return false;
-    shelf->files = file;
-    return true;
-}
-
-static const struct shelf_file *on_shelf(const struct shelf *shelf, const char *path)
-{
-    for (const struct shelf_file *f = shelf ? shelf->files : NULL; f; f = f->before)
-        if (strcmp(f->path, path) == 0)
-            return f;
-    return NULL;
-}
-
-/* Into the arena, and onto its shelf: a file that is used twice is read once. */
-static bool read_into(struct arena *arena, const char *path, size_t most, struct source *source)
-{
-    struct shelf *shelf = arena->shelf;
-    const struct shelf_file *known = on_shelf(shelf, path);
-    if (known && known->length > most) {
-        errno = EFBIG;
-        return false;
-    }
-    if (known) {
-        source->bytes = known->bytes;
-        source->length = known->length;
-        return true;
-    }
-    bool good = read_file(arena, path, most, source);
-    int why = errno;
-    if (good && shelf && !keep_file(arena, shelf, path, source->bytes, source->length)) {
-        good = false;
-        why = ENOMEM;
-    }
-    errno = why;
-    return good;
-}
-
 const struct source *ceduo_source_keep(struct arena *arena, struct source source, struct problems *problems)
 {
     struct source *kept = ceduo_arena_take(arena, sizeof *kept);
     source.name = ceduo_arena_string(arena, source.name);
     source.length = strlen(source.bytes);
     source.bytes = ceduo_arena_copy(arena, source.bytes, source.length);
-    const char *beside = keep(arena, source.beside);
+    const char *beside = source.beside ? ceduo_arena_string(arena, source.beside) : NULL;
     if (!kept || !source.name || !source.bytes || (source.beside && !beside)) {
         ceduo_problem_memory(problems);
         return NULL;
@@ -205,9 +135,11 @@ const struct source *ceduo_file_read(struct arena *arena, const char *path, size
         ceduo_problem_memory(problems);
         return NULL;
     }
-    *source = (struct source){.name = name};
-    if (read_into(arena, path, most, source)) {
+    *source = (struct source){.name = name, .path = ceduo_arena_string(arena, path), .before = arena->sources};
+    errno = ENOMEM;
+    if (source->path && read_file(arena, path, most, source)) {
         source->foreign = !says_kind(source->bytes, source->length);
+        arena->sources = source;
         return source;
     }
     int why = errno;
@@ -216,7 +148,8 @@ const struct source *ceduo_file_read(struct arena *arena, const char *path, size
     else if (why == EFBIG)
         ceduo_problem(problems, source, 0, 0, _("larger than %zu MiB"), most >> 20);
     else
-        ceduo_problem(problems, source, 0, 0, _("cannot read it: %s"), ceduo_file_why(why));
+        ceduo_problem(problems, source, 0, 0, _("cannot read it: %s"),
+                      why == NO_FILE ? _("a device or a socket; name a file") : strerror(why));
     return NULL;
 }
 

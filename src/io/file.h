@@ -14,7 +14,7 @@
 const struct source *ceduo_source_keep(struct arena *arena, struct source source, struct problems *problems);
 
 /* Reads a whole file, at most `most` bytes; "-" is standard input. NULL where that fails, with the reason in
- * `problems`. Name and bytes live in the arena. */
+ * `problems`. Name and bytes live in the arena, which lists it among its `sources`. */
 const struct source *ceduo_file_read(struct arena *arena, const char *path, size_t most, struct problems *problems);
 
 /* Where a file is looked for: as it is written, beside the file that names it, then in the user's data folder, the
@@ -27,23 +27,6 @@ const char *const *ceduo_file_folders(struct arena *arena);
 
 /* Names of the .yaml files in `folder`/`shelf`, sorted; `*n` of them. */
 const char *const *ceduo_file_list(struct arena *arena, const char *folder, const char *shelf, size_t *n);
-
-/* The files that were read for one scene, each once. Starts as {0}; an arena's `shelf` keeps all that is read into that
- * arena. Lives in it. */
-struct shelf_file {
-    const char *path, *bytes;
-    size_t length;
-    const struct shelf_file *before;
-};
-struct shelf {
-    const struct shelf_file *files;
-};
-
-/* What an errno of reading means. */
-const char *ceduo_file_why(int why);
-
-/* Reads a file ("-": standard input) of at most `most` bytes into a text. False with errno set. */
-bool ceduo_file_take(const char *path, struct text *text, size_t most);
 
 /* Writes all bytes to an open file; `cancel` (may be NULL) ends it at the next signal. False with errno set. */
 bool ceduo_file_fill(int fd, const char *bytes, size_t n, const atomic_bool *cancel);

@@ -8,7 +8,9 @@
 
 /* Where text came from: a file, standard input, an option of the command line. */
 struct source {
-    const char *name; /* as the user knows it */
+    const char *name;            /* as the user knows it */
+    const char *path;            /* of a file; "-": standard input */
+    const struct source *before; /* that was read before it into the same memory */
     const char *bytes;
     size_t length;
     bool is_option;     /* a --set: what is wrong with it is a usage error */

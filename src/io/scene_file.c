@@ -193,13 +193,7 @@ static bool read_source(struct scene_file *file, const struct source *source, co
 bool ceduo_scene_read(struct scene_file *file, const char *path, const char *const *sets, size_t sets_count,
                       struct problems *problems)
 {
-    return ceduo_scene_read_by(file, NULL, path, sets, sets_count, problems);
-}
-
-bool ceduo_scene_read_by(struct scene_file *file, struct shelf *shelf, const char *path, const char *const *sets,
-                         size_t sets_count, struct problems *problems)
-{
-    *file = (struct scene_file){.path = path, .arena = {.shelf = shelf}};
+    *file = (struct scene_file){.path = path};
     const char *found = scene_path(file, path, problems);
     const struct source *source = found ? ceduo_file_read(&file->arena, found, YAML_BYTES_MOST, problems) : NULL;
     return source && read_source(file, source, sets, sets_count, problems);

@@ -26,9 +26,6 @@ struct scene_file {
  * right) and checks it. False where something is wrong: see `problems`. Release it in any case. */
 bool ceduo_scene_read(struct scene_file *file, const char *path, const char *const *sets, size_t sets_count,
                       struct problems *problems);
-/* The same; what is read is kept on a shelf (see file.h), which must outlive the scene. NULL: as above. */
-bool ceduo_scene_read_by(struct scene_file *file, struct shelf *shelf, const char *path, const char *const *sets,
-                         size_t sets_count, struct problems *problems);
 /* The same from text in memory. */
 bool ceduo_scene_read_text(struct scene_file *file, const char *name, const char *text, struct problems *problems);
 void ceduo_scene_release(struct scene_file *file);

@@ -25,7 +25,7 @@ static void offer(const struct scene_file *file, struct fit_request *to, const c
 {
     struct scene_file own = *file;
     struct ceduo_input input = {0};
-    own.arena = (struct arena){.shelf = file->arena.shelf};
+    own.arena = (struct arena){0};
     const struct field *field = ceduo_input_find(&own, path, &input);
     bool there = field && input.places_count > 0 && is_told(file, field);
     ceduo_arena_free(&own.arena);

@@ -391,7 +391,7 @@ uint64_t ceduo_jobs_key(const struct ceduo_scene *scene)
 static struct job job_of(enum job_kind kind, const struct scene_file *file, size_t levels)
 {
     struct job job = {.kind = kind, .key = (uint64_t)(uintptr_t)file->root, .levels = levels, .file = *file};
-    job.file.arena = (struct arena){.shelf = file->arena.shelf};
+    job.file.arena = (struct arena){0};
     return job;
 }
 

@@ -146,7 +146,7 @@ static bool change_scene(const struct scene_file *from, const char *set, struct 
 {
     struct problems problems = {0};
     *file = *from;
-    file->arena = (struct arena){.shelf = from->arena.shelf};
+    file->arena = (struct arena){0};
     bool good = ceduo_scene_set(file, "preview", set, &problems);
     const struct node *root = good ? ceduo_resolve_scene(&file->arena, file->root, &problems) : NULL;
     file->root = root;

@@ -183,9 +183,8 @@ static bool read_scene(void)
                                  "controls[0].accepted_kJ=60"};
     struct scene_file file;
     struct problems problems = {0};
-    struct shelf shelf = {0};
     struct text text = {0};
-    bool good = ceduo_scene_read_by(&file, &shelf, scene_path, sets, 5, &problems);
+    bool good = ceduo_scene_read(&file, scene_path, sets, 5, &problems);
     if (good) {
         uint64_t key = ceduo_scene_key(&file.scene);
         add(&key, sizeof key);
