@@ -5,11 +5,10 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+#include "statistics.h"
+
 /* How often, and with how much: what arrives at a control in a year where the scene says which blocks come down. Energies
  * in J, rates in events a year, each with its 95 % interval. */
-struct ceduo_rate {
-    double rate, lo, hi;
-};
 
 /* The energy that is reached or exceeded once in so many years; NaN where the sample does not reach so far. */
 struct ceduo_return {

@@ -41,10 +41,14 @@ double ceduo_share_se(double share, double n);
  * error is 0. Also of the difference of two such shares that are alike. */
 double ceduo_half_width_of_share(double share, double se, uint64_t n);
 
-/* The 95 % interval of a probability of which `hits` of `n` were seen (Wilson 1927); [0, 1] for n = 0. */
-void ceduo_wilson(uint64_t hits, uint64_t n, double *lo, double *hi);
-/* The same of a share that is as sure as one of `n`, which need not be whole. */
-void ceduo_wilson_share(double share, double n, double *lo, double *hi);
+/* A share or a rate with its 95 % interval. */
+struct ceduo_rate {
+    double rate, lo, hi;
+};
+
+/* The interval of a share of n (Wilson 1927), which need not be whole: as sure as a share of so many. Its upper end is that of
+ * `most`, which counts in whatever is not known; without that it is the share. [0, 1] for n = 0. */
+struct ceduo_rate ceduo_wilson(double share, double most, double n);
 
 /* The mean of differences between pairs: the same rocks under two conditions. */
 struct ceduo_paired {
@@ -57,9 +61,12 @@ struct ceduo_paired {
 /* `mean` of `rocks` pairs, with the spread of those in `m`. */
 struct ceduo_paired ceduo_paired_of(double mean, const struct ceduo_moments *m, uint64_t rocks);
 
-/* Order statistics of n sorted or unsorted values: the rank (1…n) of quantile p, the smallest k with k >= pn; and the
- * ranks between which the true quantile lies with 95 % (binomial law); 0 or n + 1 where no value bounds it. */
+/* The one rule for quantiles, type 1 of Hyndman and Fan 1996: quantile p of n values is that of rank k (1…n), the smallest with
+ * k >= pn. So each is a value that was found. NaN of none. */
 size_t ceduo_quantile_rank(size_t n, double p);
+double ceduo_quantile(const double *sorted, size_t n, double p);
+
+/* The ranks between which the true quantile lies with 95 % (binomial law); 0 or n + 1 where no value bounds it. */
 void ceduo_quantile_interval(size_t n, double p, size_t *lo, size_t *hi);
 
 /* A distribution as it is reported; NaN where a figure does not exist. */

@@ -16,6 +16,7 @@
 
 #include "base/cancel.h"
 #include "base/parallel.h"
+#include "ceduo/statistics.h"
 #include "chains.h"
 #include "fitting.h"
 
@@ -329,9 +330,9 @@ static void read_parameter(const struct fitting *f, const struct ceduo_calibrati
     for (size_t k = 0; k < n; k++)
         sorted[k] = a->draws[k * a->parameters_count + i];
     gsl_sort(sorted, 1, n);
-    p->p2_5 = gsl_stats_quantile_from_sorted_data(sorted, 1, n, 0.025);
-    p->p50 = gsl_stats_quantile_from_sorted_data(sorted, 1, n, 0.5);
-    p->p97_5 = gsl_stats_quantile_from_sorted_data(sorted, 1, n, 0.975);
+    p->p2_5 = ceduo_quantile(sorted, n, 0.025);
+    p->p50 = ceduo_quantile(sorted, n, 0.5);
+    p->p97_5 = ceduo_quantile(sorted, n, 0.975);
     p->determined = p->p97_5 - p->p2_5 <= CEDUO_NOT_DETERMINED * width;
     double middle = (p->p50 - input->lo) / width;
     p->at_bound = p->determined && (fmin(u, 1 - u) < NEAR_BOUND || fmin(middle, 1 - middle) < HALF_THERE);

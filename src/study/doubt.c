@@ -5,7 +5,6 @@
 #include "ceduo/doubt.h"
 
 #include <gsl/gsl_sort.h>
-#include <gsl/gsl_statistics_double.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -92,11 +91,6 @@ static enum ceduo_status rank_inputs(const struct ceduo_doubt_def *def, size_t m
 
 /* ---- reading ---- */
 
-static double quantile_of(const double *sorted, size_t n, double p)
-{
-    return gsl_stats_quantile_from_sorted_data(sorted, 1, n, p);
-}
-
 static double mean_of(struct ceduo_halves y)
 {
     return (y.half[0] + y.half[1]) / 2;
@@ -115,7 +109,7 @@ static int by_input(const void *a, const void *b)
 static double width_of(double *values, size_t n)
 {
     gsl_sort(values, 1, n);
-    return quantile_of(values, n, 0.95) - quantile_of(values, n, 0.05);
+    return ceduo_quantile(values, n, 0.95) - ceduo_quantile(values, n, 0.05);
 }
 
 #define KNOWN_CLASSES 8
@@ -175,9 +169,9 @@ static void read_spread(const struct plan *p, const size_t *input, struct readin
     for (size_t i = 0; i < n; i++)
         r->sorted[i] = mean_of(r->column[i / 2 * stride + i % 2]);
     gsl_sort(r->sorted, 1, n);
-    f->p5 = quantile_of(r->sorted, n, 0.05);
-    f->p50 = quantile_of(r->sorted, n, 0.5);
-    f->p95 = quantile_of(r->sorted, n, 0.95);
+    f->p5 = ceduo_quantile(r->sorted, n, 0.05);
+    f->p50 = ceduo_quantile(r->sorted, n, 0.5);
+    f->p95 = ceduo_quantile(r->sorted, n, 0.95);
     for (size_t g = 0; g < p->design.groups; g++) {
         for (size_t i = 0; i < n; i++) {
             size_t e = i / 2 * stride + i % 2;

@@ -5,12 +5,12 @@
 #include <gsl/gsl_randist.h>
 #include <gsl/gsl_rng.h>
 #include <gsl/gsl_sort.h>
-#include <gsl/gsl_statistics_double.h>
 #include <math.h>
 #include <stdlib.h>
 
 #include "base/cancel.h"
 #include "base/parallel.h"
+#include "ceduo/statistics.h"
 #include "fitting.h"
 
 #define SAMPLES      20     /* for each draw; not more than CEDUO_SOME_VALUES */
@@ -145,8 +145,8 @@ static void read_one(const struct drawn *d, const struct ceduo_observation *o, g
         return;
     gsl_sort(values, 1, n);
     to->p_value = farther / (double)(d->draws * d->samples);
-    to->lo = gsl_stats_quantile_from_sorted_data(values, 1, n, 0.025);
-    to->hi = gsl_stats_quantile_from_sorted_data(values, 1, n, 0.975);
+    to->lo = ceduo_quantile(values, n, 0.025);
+    to->hi = ceduo_quantile(values, n, 0.975);
     to->inside = to->seen >= to->lo && to->seen <= to->hi;
 }
 
@@ -165,8 +165,8 @@ static void read_single(const struct drawn *d, const struct ceduo_observation *o
     if (n < SINGLE_LEAST)
         return;
     gsl_sort(values, 1, n);
-    to->one_lo = gsl_stats_quantile_from_sorted_data(values, 1, n, 0.025);
-    to->one_hi = gsl_stats_quantile_from_sorted_data(values, 1, n, 0.975);
+    to->one_lo = ceduo_quantile(values, n, 0.025);
+    to->one_hi = ceduo_quantile(values, n, 0.975);
     for (size_t i = 0; i < o->n && o->values; i++)
         to->one_inside += o->values[i] >= to->one_lo && o->values[i] <= to->one_hi;
 }

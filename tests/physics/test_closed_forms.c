@@ -566,26 +566,27 @@ static void intervals_of_wilson(void **state)
                                              {1, 29, .0061, .1718},   {29, 29, .8830, 1},      {0, 999, 0, .0038},
                                              {999, 999, .9962, 1}};
     for (size_t i = 0; i < LENGTH(rows); i++) {
-        double lo, hi;
-        ceduo_wilson(rows[i].hits, rows[i].n, &lo, &hi);
+        double n = (double)rows[i].n, p = (double)rows[i].hits / n;
+        struct ceduo_rate share = ceduo_wilson(p, p, n);
+        double lo = share.lo, hi = share.hi;
+        EXPECT(share.rate, ==, p);
         EXPECT_NEAR(lo, rows[i].lo, .5e-4 + 1e-12);
         EXPECT_NEAR(hi, rows[i].hi, .5e-4 + 1e-12);
         assert_true(rows[i].hits > 0 || lo == 0);
         assert_true(rows[i].hits < rows[i].n || hi == 1);
         /* each bound p solves (hits/n - p)2 = z2 p(1 - p)/n */
-        double z2 = 1.959963984540054 * 1.959963984540054, n = (double)rows[i].n, p = (double)rows[i].hits / n;
+        double z2 = 1.959963984540054 * 1.959963984540054;
         if (rows[i].hits > 0)
             expect_near((p - lo) * (p - lo), z2 * lo * (1 - lo) / n, 1e-9);
         if (rows[i].hits < rows[i].n)
             expect_near((p - hi) * (p - hi), z2 * hi * (1 - hi) / n, 1e-9);
     }
-    double lo, hi;
-    ceduo_wilson(0, 0, &lo, &hi);
-    EXPECT(lo, ==, 0);
-    EXPECT(hi, ==, 1);
-    ceduo_wilson(0, 999, &lo, &hi);
-    EXPECT(hi, <, .004);
-    EXPECT(hi, >, .0038); /* "below 0.4 %" */
+    EXPECT(ceduo_wilson(0, 0, 0).lo, ==, 0);
+    EXPECT(ceduo_wilson(0, 0, 0).hi, ==, 1);
+    EXPECT(ceduo_wilson(0, 0, 999).hi, <, .004);
+    EXPECT(ceduo_wilson(0, 0, 999).hi, >, .0038);                         /* "below 0.4 %" */
+    EXPECT(ceduo_wilson(.2, .3, 50).lo, ==, ceduo_wilson(.2, .2, 50).lo); /* a tenth may be one or not */
+    EXPECT(ceduo_wilson(.2, .3, 50).hi, ==, ceduo_wilson(.3, .3, 50).hi);
 }
 
 /* Student 1908; the quantiles of 97.5 % as any table has them. */

@@ -157,17 +157,16 @@ static void weights_that_are_alike_change_nothing(void **state)
     static struct weighted values[N];
     for (size_t n = 0; n <= N; n += 125) {
         const double weight = 3;
-        double lo, hi;
         struct released all = {.n = N, .w = N * weight, .ww = N * weight * weight, .most = weight, .per_year = 1};
         struct weighted_sum ones = {0};
         some_values(values, weight, n);
         for (size_t i = 0; i < n; i++)
             weighted_sum_add(&ones, weight, 1);
-        ceduo_wilson(n, N, &lo, &hi);
+        struct ceduo_rate wilson = ceduo_wilson((double)n / N, (double)n / N, N);
         struct ceduo_rate share = ceduo_weighted_share(&all, &ones, weight);
         expect_near(share.rate, (double)n / N, 1e-12);
-        expect_near(share.lo, lo, 1e-9);
-        expect_near(share.hi, hi, 1e-9);
+        expect_near(share.lo, wilson.lo, 1e-9);
+        expect_near(share.hi, wilson.hi, 1e-9);
         struct ceduo_moments m = {0};
         double plain[N];
         for (size_t i = 0; i < n; i++) {
@@ -219,15 +218,13 @@ static void what_weights_explain_is_no_error(void **state)
     for (size_t i = 0; i < N; i += 2)
         weighted_sum_add(&heavy, 1.5, 1); /* all heavy rocks and no other: the weights explain all of it */
     struct ceduo_rate known = ceduo_weighted_share(&all, &heavy, 1.5);
-    double lo, hi, alike = all.w * all.w / all.ww;
+    double alike = all.w * all.w / all.ww;
     assert_int_equal(alike, 800);
-    ceduo_wilson(600, 800, &lo, &hi);
     expect_near(known.rate, 0.75, 1e-12);
-    expect_near(known.lo, lo, 1e-9);
-    expect_near(known.hi, hi, 1e-9);
+    expect_near(known.lo, ceduo_wilson(.75, .75, 800).lo, 1e-9);
+    expect_near(known.hi, ceduo_wilson(.75, .75, 800).hi, 1e-9);
     all.missing = all.w / 10;
-    ceduo_wilson_share(.1, N, &lo, &hi);
-    expect_near(ceduo_weighted_share(&all, &none, 1).hi, hi, 1e-12);
+    expect_near(ceduo_weighted_share(&all, &none, 1).hi, ceduo_wilson(.1, .1, N).hi, 1e-12);
     all.n = 1;
     assert_true(isnan(ceduo_weighted_se(&all, &ones)));
 }

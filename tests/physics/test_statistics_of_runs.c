@@ -134,13 +134,11 @@ static void figures_of_an_arrival_fit_together(void **state)
         squares += energies[i] * energies[i];
     double variance = (squares - sum * sum / 5000) / 4999;
     EXPECT_NEAR(a.energy_per_released_se / sqrt(variance / 5000), 1, 1e-9);
-    double lo, hi;
-    ceduo_wilson(a.reached, 5000, &lo, &hi);
-    EXPECT(a.reach_lo, ==, lo);
-    EXPECT(a.reach_hi, ==, hi);
-    ceduo_wilson(a.exceeded, 5000, &lo, &hi);
-    EXPECT(a.exceed_lo, ==, lo);
-    EXPECT(a.exceed_hi, ==, hi);
+    double reach = (double)a.reached / 5000, exceed = (double)a.exceeded / 5000;
+    EXPECT(a.reach_lo, ==, ceduo_wilson(reach, reach, 5000).lo);
+    EXPECT(a.reach_hi, ==, ceduo_wilson(reach, reach, 5000).hi);
+    EXPECT(a.exceed_lo, ==, ceduo_wilson(exceed, exceed, 5000).lo);
+    EXPECT(a.exceed_hi, ==, ceduo_wilson(exceed, exceed, 5000).hi);
     EXPECT(a.energy.p50, <=, a.energy.p95_lo);
     EXPECT(a.energy.p95_lo, <=, a.energy.p95);
     EXPECT(a.energy.p95, <=, a.energy.p95_hi);
@@ -756,7 +754,7 @@ static void unfinished_blocks_count_by_their_weights(void **state)
     struct ceduo_follower *f = ceduo_follower_create(&flat.scene, NULL);
     struct ceduo_arrivals a = arrivals_of(run, 0);
     const double *weights = ceduo_run_weights(run);
-    double all = 0, most = 0, unfinished = 0, lo, hi;
+    double all = 0, most = 0, unfinished = 0;
     for (uint64_t r = 0; r < ROCKS; r++) {
         struct ceduo_trajectory way;
         struct ceduo_crossing crossing;
@@ -769,7 +767,7 @@ static void unfinished_blocks_count_by_their_weights(void **state)
     EXPECT(a.unfinished, >, ROCKS / 4);
     EXPECT(a.unfinished, <, ROCKS * 3 / 4);
     EXPECT(fabs(unfinished / all - (double)a.unfinished / ROCKS), >, .01); /* weights matter */
-    ceduo_wilson_share(unfinished / all, all / most, &lo, &hi);
+    double hi = ceduo_wilson(unfinished / all, unfinished / all, all / most).hi;
     EXPECT_NEAR(a.missed[CEDUO_UNFINISHED], unfinished / all, 1e-12);
     EXPECT_NEAR(a.reach_hi, hi, 1e-12);
     ceduo_follower_free(f);

@@ -95,12 +95,13 @@ static int rising(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Between the two of n sorted values beside p(n - 1). */
+/* The smallest of n sorted values that a share p does not exceed. */
 static double quantile(const double *sorted, size_t n, double p)
 {
-    double at = p * (double)(n - 1), below = floor(at);
-    size_t k = (size_t)below;
-    return k + 1 < n ? sorted[k] + (at - below) * (sorted[k + 1] - sorted[k]) : sorted[n - 1];
+    size_t k = 0;
+    while ((double)(k + 1) < p * (double)n)
+        k++;
+    return sorted[k];
 }
 
 /* ---- what is not refuted ---- */

@@ -44,10 +44,10 @@ static struct ceduo_distribution energy_from_speed(const struct ceduo_distributi
 /* A share of n rocks with its 95 % interval, whose upper end counts the unfinished in. */
 static double share(uint64_t hits, uint64_t unfinished, uint64_t n, double *lo, double *hi)
 {
-    double unused;
-    ceduo_wilson(hits, n, lo, &unused);
-    ceduo_wilson(hits + unfinished, n, &unused, hi);
-    return (double)hits / (double)n;
+    struct ceduo_rate r = ceduo_wilson((double)hits / (double)n, (double)(hits + unfinished) / (double)n, (double)n);
+    *lo = r.lo;
+    *hi = r.hi;
+    return r.rate;
 }
 
 /* Mean and standard error over all released, of whom those that do not arrive bring nothing. */

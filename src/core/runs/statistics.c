@@ -33,20 +33,17 @@ double ceduo_moments_se(const struct ceduo_moments *m)
     return m->n < 2 ? NAN : ceduo_moments_sd(m) / sqrt((double)m->n);
 }
 
-void ceduo_wilson(uint64_t hits, uint64_t n, double *lo, double *hi)
+struct ceduo_rate ceduo_wilson(double share, double most, double n)
 {
-    *lo = 0;
-    *hi = 1;
-    if (n > 0)
-        ceduo_wilson_share((double)hits / (double)n, (double)n, lo, hi);
-}
-
-void ceduo_wilson_share(double share, double n, double *lo, double *hi)
-{
-    double z2 = CEDUO_Z95 * CEDUO_Z95, centre = share + z2 / (2 * n), scale = 1 + z2 / n;
-    double half = CEDUO_Z95 * sqrt(share * (1 - share) / n + z2 / (4 * n * n));
-    *lo = share > 0 ? fmax(0, (centre - half) / scale) : 0;
-    *hi = share < 1 ? fmin(1, (centre + half) / scale) : 1;
+    struct ceduo_rate r = {share, 0, 1};
+    double z2 = CEDUO_Z95 * CEDUO_Z95, scale = 1 + z2 / n;
+    if (!(n > 0))
+        return r;
+    if (share > 0)
+        r.lo = fmax(0, (share + z2 / (2 * n) - CEDUO_Z95 * sqrt(share * (1 - share) / n + z2 / (4 * n * n))) / scale);
+    if (most < 1)
+        r.hi = fmin(1, (most + z2 / (2 * n) + CEDUO_Z95 * sqrt(most * (1 - most) / n + z2 / (4 * n * n))) / scale);
+    return r;
 }
 
 double ceduo_half_width(double se, uint64_t n)
@@ -56,11 +53,10 @@ double ceduo_half_width(double se, uint64_t n)
 
 double ceduo_half_width_of_share(double share, double se, uint64_t n)
 {
-    double lo, hi;
     if (share > 0 && share < 1)
         return CEDUO_Z95 * se;
-    ceduo_wilson(share > 0 ? n : 0, n, &lo, &hi);
-    return hi - lo;
+    struct ceduo_rate all_or_none = ceduo_wilson(share > 0, share > 0, (double)n);
+    return all_or_none.hi - all_or_none.lo;
 }
 
 double ceduo_share_se(double share, double n)
@@ -70,17 +66,20 @@ double ceduo_share_se(double share, double n)
 
 struct ceduo_paired ceduo_paired_of(double mean, const struct ceduo_moments *m, uint64_t rocks)
 {
-    double unused, below = 0;
     if (m->n == 0 || m->mean != 0 || m->m2 > 0)
         return (struct ceduo_paired){mean, ceduo_moments_sd(m) / sqrt((double)rocks), 0};
-    ceduo_wilson(0, m->n, &unused, &below);
-    return (struct ceduo_paired){mean, NAN, below};
+    return (struct ceduo_paired){mean, NAN, ceduo_wilson(0, 0, (double)m->n).hi};
 }
 
 size_t ceduo_quantile_rank(size_t n, double p)
 {
     double k = ceil(p * (double)n - 1e-9);
     return k < 1 ? 1 : (size_t)k;
+}
+
+double ceduo_quantile(const double *sorted, size_t n, double p)
+{
+    return n > 0 ? sorted[ceduo_quantile_rank(n, p) - 1] : NAN;
 }
 
 /* Smallest k with P(X <= k) >= q for X binomial(n, p), looked for near its normal approximation. */

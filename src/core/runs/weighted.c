@@ -20,14 +20,6 @@ double ceduo_weighted_se(const struct released *all, const struct weighted_sum *
     return all->n < 2 ? NAN : sqrt(variance(all, s) / (all->n - 1)) * all->n / all->w;
 }
 
-/* Of a share of n, which need not be whole. */
-static struct ceduo_rate wilson(double p, double n)
-{
-    struct ceduo_rate share = {.rate = p};
-    ceduo_wilson_share(p, n, &share.lo, &share.hi);
-    return share;
-}
-
 /* So many equal rocks would have the same error. */
 static double effective(const struct released *all, const struct weighted_sum *ones, double p, double last)
 {
@@ -40,18 +32,14 @@ static double effective(const struct released *all, const struct weighted_sum *o
 struct ceduo_rate ceduo_weighted_share(const struct released *all, const struct weighted_sum *ones, double last)
 {
     double sum = ones->t / all->w, p = sum < 1 - ROUNDING ? sum : 1; /* all are summed in another order */
-    double n = effective(all, ones, p, last);
-    struct ceduo_rate share = wilson(p, n);
-    if (all->missing > 0)
-        share.hi = wilson(fmin(1, p + all->missing / all->w), n).hi;
-    return share;
+    return ceduo_wilson(p, fmin(1, p + all->missing / all->w), effective(all, ones, p, last));
 }
 
 struct ceduo_paired ceduo_weighted_paired(const struct released *all, const struct weighted_sum *s)
 {
     if (s->tt > 0)
         return (struct ceduo_paired){s->t / all->w, ceduo_weighted_se(all, s), 0};
-    return (struct ceduo_paired){0, NAN, wilson(0, all->w * all->w / all->ww).hi};
+    return (struct ceduo_paired){0, NAN, ceduo_wilson(0, 0, all->w * all->w / all->ww).hi};
 }
 
 /* ---- distributions ---- */
