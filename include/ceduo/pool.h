@@ -29,8 +29,8 @@ enum ceduo_status ceduo_pool_fill(struct ceduo_pool *pool);
 struct ceduo_run *ceduo_pool_find(const struct ceduo_pool *pool, const struct ceduo_option *option);
 
 /* The run through the forest of `option` (NULL: without forest), made as long as `rocks`. */
-enum ceduo_status ceduo_pool_fly(struct ceduo_pool *pool, const struct ceduo_option *option, uint64_t rocks,
-                                 struct ceduo_run **run);
+enum ceduo_status ceduo_pool_simulate(struct ceduo_pool *pool, const struct ceduo_option *option, uint64_t rocks,
+                                      struct ceduo_run **run);
 
 /* Makes every run of the pool as long as `rocks`, as ceduo_run_extend(). */
 enum ceduo_status ceduo_pool_extend(struct ceduo_pool *pool, uint64_t rocks);

@@ -7,7 +7,7 @@
 #include "pool.h"
 
 /* What a run found, read from it: plain columns, one entry for each control. */
-struct ceduo_flown {
+struct ceduo_simulated {
     uint64_t rocks; /* 0: nothing is known */
     size_t controls;
     struct ceduo_arrivals *arrivals;
@@ -15,18 +15,18 @@ struct ceduo_flown {
 };
 
 /* CEDUO_NO_MEMORY, with nothing to free, or CEDUO_OK. */
-enum ceduo_status ceduo_flown_read(const struct ceduo_run *run, size_t controls, struct ceduo_flown *flown);
+enum ceduo_status ceduo_simulated_read(const struct ceduo_run *run, size_t controls, struct ceduo_simulated *flown);
 /* Through a forest without stems nothing is hit: that is known. Sets contacts that are not to 0. */
-void ceduo_flown_meets_nothing(struct ceduo_flown *flown);
+void ceduo_simulated_meets_nothing(struct ceduo_simulated *flown);
 /* Sets what a forest leaves of the hazard of `bare`. */
-void ceduo_flown_compare(struct ceduo_flown *flown, const struct ceduo_flown *bare);
-void ceduo_flown_free(struct ceduo_flown *flown);
+void ceduo_simulated_compare(struct ceduo_simulated *flown, const struct ceduo_simulated *bare);
+void ceduo_simulated_free(struct ceduo_simulated *flown);
 
 /* What is found for one option. */
 struct ceduo_option_result {
     struct ceduo_stand_result *stands;    /* one for each belt */
     struct ceduo_index *controls;         /* one for each control, in the scene's order */
-    struct ceduo_flown wooded;            /* through its forest; with the contact model index: without forest */
+    struct ceduo_simulated wooded;        /* through its forest; with the contact model index: without forest */
     struct ceduo_difference *differences; /* of that to the first option; all NaN where not known */
     struct ceduo_other_energy *others;    /* one for each control: the same rocks under the other energy law */
 };
@@ -34,10 +34,10 @@ struct ceduo_option_result {
 /* All that is found for a scene: plain columns, to be shown or written. */
 struct ceduo_result {
     const struct ceduo_scene *scene;
-    struct ceduo_rock rock;  /* of the means */
-    bool wooded;             /* rocks went through the forests; otherwise the contact model is index */
-    struct ceduo_flown bare; /* without forest, the same for all options */
-    size_t last_control;     /* the one farthest along x */
+    struct ceduo_rock rock;      /* of the means */
+    bool wooded;                 /* rocks went through the forests; otherwise the contact model is index */
+    struct ceduo_simulated bare; /* without forest, the same for all options */
+    size_t last_control;         /* the one farthest along x */
     size_t options_count;
     struct ceduo_option_result *options;
 };
@@ -51,15 +51,15 @@ enum ceduo_status ceduo_result_create(const struct ceduo_scene *scene, const str
 /* The same from what was read before: without forest, and of each option through its forest, NULL where that is not known
  * yet. `differences` and `others` (may be NULL): one for each option and control, in rows by option. With the contact model
  * index none of the three is looked at. */
-enum ceduo_status ceduo_result_assess(const struct ceduo_scene *scene, const struct ceduo_flown *bare,
-                                      const struct ceduo_flown *const *wooded, const struct ceduo_difference *differences,
+enum ceduo_status ceduo_result_assess(const struct ceduo_scene *scene, const struct ceduo_simulated *bare,
+                                      const struct ceduo_simulated *const *wooded, const struct ceduo_difference *differences,
                                       const struct ceduo_other_energy *others, struct ceduo_result **result);
 void ceduo_result_free(struct ceduo_result *result);
 
 /* Assesses an option by what was simulated: each belt to `stands`, each control to `controls`. `wooded` without rocks: not
  * known. */
-void ceduo_result_read(const struct ceduo_scene *scene, const struct ceduo_option *option, const struct ceduo_flown *bare,
-                       const struct ceduo_flown *wooded, struct ceduo_stand_result *stands, struct ceduo_index *controls);
+void ceduo_result_read(const struct ceduo_scene *scene, const struct ceduo_option *option, const struct ceduo_simulated *bare,
+                       const struct ceduo_simulated *wooded, struct ceduo_stand_result *stands, struct ceduo_index *controls);
 
 /* What arrives at a control through the forest of an option; NULL with the contact model index and where it is not known
  * yet. */

@@ -15,7 +15,7 @@ struct ceduo_year {
     struct ceduo_grown_stand *grown;   /* what its belts hold: owned */
     struct ceduo_stand_result *stands; /* one for each belt */
     struct ceduo_index *controls;      /* one for each control */
-    struct ceduo_flown wooded;         /* rocks 0: not simulated; with the contact model index never */
+    struct ceduo_simulated wooded;     /* rocks 0: not simulated; with the contact model index never */
 };
 
 /* Why these years of an option and no others. */
@@ -70,12 +70,12 @@ void ceduo_years_free(struct ceduo_years *years);
 /* Has the pool make the runs of all years, as long as `rocks`, those of years with the same forest once; then
  * assesses every year, `bare` being what arrives without forest. With the contact model index, or 0 rocks, no rock is
  * simulated. CEDUO_CANCELLED, CEDUO_NO_MEMORY: the years before are assessed. */
-enum ceduo_status ceduo_years_fly(struct ceduo_years *years, struct ceduo_pool *pool, const struct ceduo_flown *bare,
-                                  uint64_t rocks);
+enum ceduo_status ceduo_years_simulate(struct ceduo_years *years, struct ceduo_pool *pool, const struct ceduo_simulated *bare,
+                                       uint64_t rocks);
 
 /* Assesses simulated years once more, for a scene that differs in what no rock sees: the threshold, the rule of the
  * ADC, how many rocks come down a year. It has as many controls, at the same places, and `bare` is of them. */
-void ceduo_years_assess(struct ceduo_years *years, const struct ceduo_scene *scene, const struct ceduo_flown *bare);
+void ceduo_years_assess(struct ceduo_years *years, const struct ceduo_scene *scene, const struct ceduo_simulated *bare);
 
 /* The years together, at one control. Every figure is a plain mean over the years computed. Because all years
  * simulate the same rocks, their errors go together: the standard error of a mean is at most the mean of the standard

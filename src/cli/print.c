@@ -9,7 +9,7 @@
 #include "options.h"
 #include "say.h"
 #include "sensitivity.h"
-#include "study/outlook.h"
+#include "study/snapshot.h"
 
 /* ---- pages ---- */
 
@@ -107,11 +107,11 @@ static void add_plot(const struct arguments *a, const struct ceduo_picture *pict
 }
 
 /* One picture for each option, belt or control that it depends on. */
-static void add_plots(const struct arguments *a, const struct ceduo_scene *scene, const struct ceduo_outlook *outlook,
+static void add_plots(const struct arguments *a, const struct ceduo_scene *scene, const struct ceduo_snapshot *snapshot,
                       struct ceduo_years *const *years, const struct ceduo_verdict *verdict, struct text *out)
 {
     struct ceduo_picture picture = {
-        .scene = scene, .outlook = outlook, .verdict = verdict, .control = ceduo_scene_last_control(scene)};
+        .scene = scene, .snapshot = snapshot, .verdict = verdict, .control = ceduo_scene_last_control(scene)};
     size_t start = out->length;
     size_t options = ceduo_plot_kinds[a->plot].by_option ? scene->options_count : 1;
     for (size_t o = 0; o < options; o++) {
@@ -130,27 +130,27 @@ static void add_plots(const struct arguments *a, const struct ceduo_scene *scene
 
 enum ceduo_status ceduo_ask_pictures(struct ceduo_question *q, bool cells, size_t trajectories, struct answered *a)
 {
-    double cell_x[CEDUO_OUTLOOK_CELLS];
+    double cell_x[CEDUO_SNAPSHOT_CELLS];
     *a = (struct answered){0};
-    q->run.cells = cells ? ceduo_outlook_places(q->run.scene, cell_x) : 0;
+    q->run.cells = cells ? ceduo_snapshot_places(q->run.scene, cell_x) : 0;
     q->run.cell_x = cell_x;
     enum ceduo_status status = ceduo_ask(q, &a->pool, &a->answer);
-    const struct ceduo_outlook_def def = {.scene = q->run.scene,
-                                          .figures = a->pool,
-                                          .pictures = a->pool,
-                                          .cells = q->run.cells,
-                                          .cell_x = cell_x,
-                                          .trajectories = trajectories,
-                                          .cancel = q->run.cancel};
+    const struct ceduo_snapshot_def def = {.scene = q->run.scene,
+                                           .figures = a->pool,
+                                           .pictures = a->pool,
+                                           .cells = q->run.cells,
+                                           .cell_x = cell_x,
+                                           .trajectories = trajectories,
+                                           .cancel = q->run.cancel};
     if (status == CEDUO_OK)
-        status = ceduo_outlook_create(&def, &a->outlook);
+        status = ceduo_snapshot_create(&def, &a->snapshot);
     return status == CEDUO_OK ? ceduo_verdict_make(a->answer.result, a->answer.years, &a->verdict) : status;
 }
 
 void ceduo_answered_release(struct answered *a)
 {
     ceduo_verdict_release(&a->verdict);
-    ceduo_outlook_free(a->outlook);
+    ceduo_snapshot_free(a->snapshot);
     ceduo_answer_release(&a->answer);
     ceduo_pool_free(a->pool);
 }
@@ -183,9 +183,9 @@ enum exit_status ceduo_print_plots(const struct arguments *a, struct scene_file 
     q.run.other_energy = false;
     q.years |= a->plot == CEDUO_PLOT_ROTATION || a->plot == CEDUO_PLOT_TRADEOFF;
     enum ceduo_status status = ceduo_ask_pictures(&q, ceduo_plot_kinds[a->plot].needs_cells,
-                                                  a->plot == CEDUO_PLOT_PROFILE ? CEDUO_OUTLOOK_TRAJECTORIES : 0, &answered);
+                                                  a->plot == CEDUO_PLOT_PROFILE ? CEDUO_SNAPSHOT_TRAJECTORIES : 0, &answered);
     if (status == CEDUO_OK) {
-        add_plots(a, &file->scene, answered.outlook, answered.answer.years, &answered.verdict, out);
+        add_plots(a, &file->scene, answered.snapshot, answered.answer.years, &answered.verdict, out);
         done = ceduo_finished(answered.answer.result);
     }
     ceduo_progress_end(&progress);

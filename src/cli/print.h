@@ -3,7 +3,7 @@
 #define CEDUO_PRINT_H
 
 #include "scenes.h"
-#include "study/outlook.h"
+#include "study/snapshot.h"
 
 /* Asks, and adds the answer as --format says. `pool`: see ceduo_ask(). `seconds`: that the runs took; below 0: from
  * `start` until now. */
@@ -15,7 +15,7 @@ enum exit_status ceduo_print_report(const struct arguments *arguments, const str
 struct answered {
     struct ceduo_pool *pool;
     struct ceduo_answer answer;
-    struct ceduo_outlook *outlook;
+    struct ceduo_snapshot *snapshot;
     struct ceduo_verdict verdict;
 };
 /* Asks for runs; with envelopes along the slope (`cells`), and so many trajectories. Release it in any case. */

@@ -11,7 +11,7 @@
 #include "print.h"
 #include "say.h"
 #include "sensitivity.h"
-#include "study/outlook.h"
+#include "study/snapshot.h"
 #include "view/page_html.h"
 #include "view/page_report.h"
 
@@ -91,7 +91,7 @@ static void write_chapter(const struct arguments *a, const struct scene_file *fi
                                         .blocks = c->answer.blocks,
                                         .remarks = {a->tolerance, c->answer.tolerance_met, file->ground_assumed}};
     append_command(&command, a);
-    const struct ceduo_chapter chapter = {&report, c->outlook, c->answer.years, doubt, ceduo_text_string(&command)};
+    const struct ceduo_chapter chapter = {&report, c->snapshot, c->answer.years, doubt, ceduo_text_string(&command)};
     ceduo_page_chapter(&page, &chapter);
     ceduo_page_html(html, &page, number);
     ceduo_page_free(&page);

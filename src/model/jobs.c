@@ -48,7 +48,7 @@ struct jobs {
 
 static void free_snapshot(struct snapshot *s)
 {
-    ceduo_outlook_free(s->outlook);
+    ceduo_snapshot_free(s->snapshot);
     free(s);
 }
 
@@ -171,11 +171,11 @@ struct publisher {
     double last;
 };
 
-static void publish_snapshot(void *context, struct ceduo_outlook *outlook)
+static void publish_snapshot(void *context, struct ceduo_snapshot *snapshot)
 {
     const struct publisher *p = context;
     struct snapshot *s = ceduo_must(calloc(1, sizeof *s));
-    *s = (struct snapshot){outlook, p->job->key, ceduo_clock() - p->job->asked};
+    *s = (struct snapshot){snapshot, p->job->key, ceduo_clock() - p->job->asked};
     publish(p->queue, p->job, s);
 }
 

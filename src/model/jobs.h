@@ -43,7 +43,7 @@ union results {
 
 /* The figures of a scene. */
 struct snapshot {
-    struct ceduo_outlook *outlook;
+    struct ceduo_snapshot *snapshot;
     uint64_t key;   /* of the scene: ceduo_jobs_key() */
     double seconds; /* from the request to it */
 };

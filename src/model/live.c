@@ -28,9 +28,9 @@ bool ceduo_live_restart(struct live *l)
     return true;
 }
 
-const struct ceduo_outlook *ceduo_live_outlook(const struct live *l, const struct ceduo_scene *scene)
+const struct ceduo_snapshot *ceduo_live_snapshot(const struct live *l, const struct ceduo_scene *scene)
 {
-    const struct ceduo_outlook *o = l->results.snapshot ? l->results.snapshot->outlook : NULL;
+    const struct ceduo_snapshot *o = l->results.snapshot ? l->results.snapshot->snapshot : NULL;
     return o && o->controls == scene->controls_count ? o : NULL;
 }
 
@@ -73,14 +73,14 @@ static const struct ceduo_other_energy *fitting_others(struct live *l, const str
 }
 
 /* Assesses the scene by what was simulated through the forests of each option. */
-static void assess(struct live *l, const struct ceduo_scene *scene, const struct ceduo_outlook *o)
+static void assess(struct live *l, const struct ceduo_scene *scene, const struct ceduo_snapshot *o)
 {
     size_t n = scene->options_count, controls = scene->controls_count;
-    const struct ceduo_flown **wooded = ceduo_must(calloc(n + 1, sizeof *wooded));
+    const struct ceduo_simulated **wooded = ceduo_must(calloc(n + 1, sizeof *wooded));
     struct ceduo_difference *differences = ceduo_must(calloc(n * controls + 1, sizeof *differences));
     bool in_order = o->options == n;
     for (size_t i = 0; i < n; i++) {
-        const struct ceduo_sight *sight = ceduo_outlook_sight(o, scene, i);
+        const struct ceduo_run_snapshot *sight = ceduo_snapshot_of(o, scene, i);
         wooded[i] = sight ? &sight->flown : NULL;
         in_order = in_order && sight == o->wooded[i];
     }
@@ -108,7 +108,7 @@ static void judge(struct live *l, const struct ceduo_scene *scene)
 
 static void refresh(struct live *l, const struct ceduo_scene *scene)
 {
-    const struct ceduo_outlook *o = ceduo_live_outlook(l, scene);
+    const struct ceduo_snapshot *o = ceduo_live_snapshot(l, scene);
     ceduo_result_free(l->result);
     l->result = NULL;
     ceduo_verdict_release(&l->verdict);

@@ -40,7 +40,7 @@ void ceduo_live_drop_fit(struct live *live);
 bool ceduo_live_news(struct live *live, const struct ceduo_scene *scene);
 
 /* What fits a scene: an edit may have added a control since it was asked for. NULL: none does. */
-const struct ceduo_outlook *ceduo_live_outlook(const struct live *live, const struct ceduo_scene *scene);
+const struct ceduo_snapshot *ceduo_live_snapshot(const struct live *live, const struct ceduo_scene *scene);
 struct ceduo_years *ceduo_live_years(const struct live *live, const struct ceduo_scene *scene, size_t option);
 
 /* What is known of this very scene; NULL: nothing yet. */

@@ -12,9 +12,9 @@ struct runs {
     uint64_t scene_key;
     struct ceduo_pool *pictures, *figures, *years, *others;
     struct ceduo_scene other; /* that the pool of the others is turned to */
-    double cells[CEDUO_OUTLOOK_CELLS];
+    double cells[CEDUO_SNAPSHOT_CELLS];
     size_t cells_count;
-    struct ceduo_outlook *last; /* what was last made of the runs */
+    struct ceduo_snapshot *last; /* what was last made of the runs */
 };
 
 struct runs *ceduo_runs_create(unsigned threads, const atomic_bool *cancel)
@@ -28,7 +28,7 @@ void ceduo_runs_free(struct runs *r)
 {
     if (!r)
         return;
-    ceduo_outlook_free(r->last);
+    ceduo_snapshot_free(r->last);
     ceduo_pool_free(r->figures);
     ceduo_pool_free(r->years);
     ceduo_pool_free(r->others);
@@ -42,7 +42,7 @@ static enum ceduo_status turn(struct runs *r, const struct ceduo_scene *scene)
 {
     uint64_t key = ceduo_scene_key(scene);
     if (r->last && key != r->scene_key) {
-        ceduo_outlook_free(r->last);
+        ceduo_snapshot_free(r->last);
         r->last = NULL;
     }
     r->scene_key = key;
@@ -55,14 +55,14 @@ static enum ceduo_status turn(struct runs *r, const struct ceduo_scene *scene)
     if (status == CEDUO_OK)
         status = ceduo_pool_for(&def, &r->years);
     def.arrivals_only = false;
-    def.cells = r->cells_count = ceduo_outlook_places(scene, r->cells);
+    def.cells = r->cells_count = ceduo_snapshot_places(scene, r->cells);
     def.cell_x = r->cells;
     return status == CEDUO_OK ? ceduo_pool_for(&def, &r->pictures) : status;
 }
 
 /* ---- figures ---- */
 
-static bool is_precise(const struct ceduo_sight *s)
+static bool is_precise(const struct ceduo_run_snapshot *s)
 {
     for (size_t i = 0; s && i < s->flown.controls; i++) {
         const struct ceduo_arrivals *a = &s->flown.arrivals[i];
@@ -72,7 +72,7 @@ static bool is_precise(const struct ceduo_sight *s)
     return true;
 }
 
-static bool precise(const struct ceduo_outlook *o)
+static bool precise(const struct ceduo_snapshot *o)
 {
     bool good = is_precise(o->bare);
     for (size_t i = 0; i < o->options; i++)
@@ -83,21 +83,21 @@ static bool precise(const struct ceduo_outlook *o)
 /* Hands over what is known so far; what has not changed is shared with what is kept. */
 static enum ceduo_status hand_over(struct runs *r, const struct runs_step *step)
 {
-    struct ceduo_outlook *mine, *theirs;
-    struct ceduo_outlook_def def = {.scene = step->scene,
-                                    .figures = r->figures,
-                                    .pictures = r->pictures,
-                                    .cells = r->cells_count,
-                                    .cell_x = r->cells,
-                                    .trajectories = CEDUO_OUTLOOK_TRAJECTORIES,
-                                    .cancel = r->cancel,
-                                    .last = r->last};
-    enum ceduo_status status = ceduo_outlook_create(&def, &mine);
+    struct ceduo_snapshot *mine, *theirs;
+    struct ceduo_snapshot_def def = {.scene = step->scene,
+                                     .figures = r->figures,
+                                     .pictures = r->pictures,
+                                     .cells = r->cells_count,
+                                     .cell_x = r->cells,
+                                     .trajectories = CEDUO_SNAPSHOT_TRAJECTORIES,
+                                     .cancel = r->cancel,
+                                     .last = r->last};
+    enum ceduo_status status = ceduo_snapshot_create(&def, &mine);
     if (status != CEDUO_OK)
         return status;
-    ceduo_outlook_free(r->last);
+    ceduo_snapshot_free(r->last);
     def.last = r->last = mine;
-    status = ceduo_outlook_create(&def, &theirs);
+    status = ceduo_snapshot_create(&def, &theirs);
     if (status == CEDUO_OK)
         step->publish(step->context, theirs);
     return status;
@@ -109,7 +109,7 @@ static enum ceduo_status simulate_forest(struct runs *r, const struct ceduo_opti
     struct ceduo_pool *pool = rocks <= RUNS_PICTURE ? r->pictures : r->figures;
     struct ceduo_run *run;
     enum ceduo_status status = ceduo_pool_run(r->pictures, option, &run);
-    return status == CEDUO_OK ? ceduo_pool_fly(pool, option, rocks, &run) : status;
+    return status == CEDUO_OK ? ceduo_pool_simulate(pool, option, rocks, &run) : status;
 }
 
 /* Hands over after each forest: once something is known it is shown with its own error until better is known. */
@@ -164,7 +164,7 @@ enum ceduo_status ceduo_runs_others(struct runs *r, const struct ceduo_scene *sc
     struct ceduo_run *first = NULL;
     for (size_t i = 0; i < n && status == CEDUO_OK; i++) {
         struct ceduo_run *run;
-        status = ceduo_pool_fly(r->others, &r->other.options[i], rocks, &run);
+        status = ceduo_pool_simulate(r->others, &r->other.options[i], rocks, &run);
         first = i == 0 ? run : first;
         for (size_t c = 0; c < controls && status == CEDUO_OK; c++)
             status = ceduo_other_read(&scene->options[i], run, first, c, &others[i * controls + c]);
@@ -194,7 +194,7 @@ enum ceduo_status ceduo_runs_years(struct runs *r, const struct ceduo_scene *sce
     if (status == CEDUO_OK)
         status = r->last && r->last->bare ? ceduo_years_create(scene, o, ceduo_window_in(scene, o), years) : CEDUO_NO_MEMORY;
     if (status == CEDUO_OK)
-        status = ceduo_years_fly(*years, r->years, &r->last->bare->flown, rocks);
+        status = ceduo_years_simulate(*years, r->years, &r->last->bare->flown, rocks);
     if (status == CEDUO_OK)
         (*years)->key = ceduo_runs_years_key(scene, option);
     if (status != CEDUO_OK) {

@@ -3,7 +3,7 @@
 #define CEDUO_RUNS_H
 
 #include "ceduo/years.h"
-#include "study/outlook.h"
+#include "study/snapshot.h"
 
 /* The runs that the live program keeps from request to request, simulated in steps from coarse to fine. Short runs carry the
  * envelopes of the pictures, long ones the figures, and those of years only what arrives. */
@@ -18,8 +18,8 @@ struct runs;
 struct runs *ceduo_runs_create(unsigned threads, const atomic_bool *cancel);
 void ceduo_runs_free(struct runs *runs);
 
-/* Takes an outlook, which is its own from then on, as soon as it is known. */
-typedef void runs_publish(void *context, struct ceduo_outlook *outlook);
+/* Takes an snapshot, which is its own from then on, as soon as it is known. */
+typedef void runs_publish(void *context, struct ceduo_snapshot *snapshot);
 
 /* One step of the figures: so many rocks without forest and through every option, that of `shown` first. */
 struct runs_step {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The search for the value at which a goal crosses its target. Both ends are looked at; where they agree, so are some
- * values between them. Then the bracket around one crossing is narrowed by Brent's method, and by bisection where that does not
- * help. All values that were looked at are kept, sorted: none is asked for twice, and they tell whether the goal turns. */
+/* The search for the value at which a goal crosses its target. Both ends are evaluated; where they agree, so are some values
+ * between them. Then the bracket around one crossing is narrowed by Brent's method, and by bisection where that does not help.
+ * All samples are kept, sorted: none is evaluated twice, and they tell whether the goal turns. */
 #include "ceduo/find.h"
 
 #include <float.h>
@@ -13,72 +13,72 @@
 
 #include "base/cancel.h"
 
-#define SEEN_MOST  128   /* bisection alone needs at most 54, the ends and the scan 10 */
-#define BRENT_MOST 12    /* values for Brent's method, then bisection has to do the rest */
-#define PROBE      0.9   /* of the tolerance: a step across the root */
-#define ROUNDING   1e-12 /* relative: no turn of a goal */
+#define SAMPLES_MAX 128   /* bisection alone needs at most 54, the ends and the scan 10 */
+#define BRENT_MAX   12    /* values for Brent's method, then bisection has to do the rest */
+#define PROBE       0.9   /* of the tolerance: a step across the root */
+#define ROUNDING    1e-12 /* relative: no turn of a goal */
 
-struct seen {
+struct sample {
     double value, goal;
 };
 
-struct hunt {
+struct search {
     const struct ceduo_find_def *def;
     double lo, hi;
-    enum ceduo_status status; /* from the first that is not CEDUO_OK on nothing is looked at any more */
+    enum ceduo_status status; /* once it is not CEDUO_OK nothing more is evaluated */
     size_t count;
-    struct seen seen[SEEN_MOST]; /* by value */
+    struct sample samples[SAMPLES_MAX]; /* by value */
 };
 
 /* A value that fails and one that passes, between which the goal crosses its target. */
 struct bracket {
-    struct seen fail, pass;
+    struct sample fail, pass;
 };
 
-/* ---- looking ---- */
+/* ---- evaluating ---- */
 
-static bool passes(const struct hunt *h, double goal)
+static bool passes(const struct search *h, double goal)
 {
     return goal <= h->def->target;
 }
 
-/* Where a value is among the seen, or would be. */
-static size_t place_of(const struct hunt *h, double value)
+/* Where a value is among the samples, or would be. */
+static size_t place_of(const struct search *h, double value)
 {
     size_t i = 0;
-    while (i < h->count && h->seen[i].value < value)
+    while (i < h->count && h->samples[i].value < value)
         i++;
     return i;
 }
 
-static bool look(struct hunt *h, double value, double *goal)
+static bool evaluate(struct search *h, double value, double *goal)
 {
     size_t i = place_of(h, value);
-    if (i < h->count && h->seen[i].value == value) {
-        *goal = h->seen[i].goal;
+    if (i < h->count && h->samples[i].value == value) {
+        *goal = h->samples[i].goal;
         return true;
     }
     if (h->status == CEDUO_OK && ceduo_cancelled(h->def->cancel))
         h->status = CEDUO_CANCELLED;
-    if (h->status != CEDUO_OK || h->count == SEEN_MOST)
+    if (h->status != CEDUO_OK || h->count == SAMPLES_MAX)
         return false;
     *goal = NAN;
     h->status = h->def->goal(h->def->context, value, goal);
     if (h->status != CEDUO_OK)
         return false;
-    memmove(&h->seen[i + 1], &h->seen[i], (h->count - i) * sizeof h->seen[0]);
-    h->seen[i] = (struct seen){value, *goal};
+    memmove(&h->samples[i + 1], &h->samples[i], (h->count - i) * sizeof h->samples[0]);
+    h->samples[i] = (struct sample){value, *goal};
     h->count++;
     return true;
 }
 
-/* Looks at a value, and narrows the bracket where it lies strictly inside; false where that was not to be had. */
-static bool narrow(struct hunt *h, struct bracket *b, double value)
+/* Evaluates a value, and narrows the bracket if it lies strictly inside; false if that failed or it does not. */
+static bool narrow(struct search *h, struct bracket *b, double value)
 {
     double lo = fmin(b->fail.value, b->pass.value), hi = fmax(b->fail.value, b->pass.value), goal;
-    if (!look(h, value, &goal) || !(value > lo && value < hi))
+    if (!evaluate(h, value, &goal) || !(value > lo && value < hi))
         return false;
-    *(passes(h, goal) ? &b->pass : &b->fail) = (struct seen){value, goal};
+    *(passes(h, goal) ? &b->pass : &b->fail) = (struct sample){value, goal};
     return true;
 }
 
@@ -89,14 +89,14 @@ static double width_of(const struct bracket *b)
 
 /* ---- narrowing ---- */
 
-static bool halve(struct hunt *h, struct bracket *b)
+static bool halve(struct search *h, struct bracket *b)
 {
     double lo = fmin(b->fail.value, b->pass.value), half = width_of(b) / 2;
     return narrow(h, b, lo + (h->def->whole ? floor(half) : half));
 }
 
 struct brent {
-    struct hunt *hunt;
+    struct search *search;
     struct bracket *bracket;
     bool broken; /* what GSL was told last is made up */
 };
@@ -106,17 +106,17 @@ static double brent_goal(double value, void *context)
 {
     struct brent *b = context;
     double goal = NAN;
-    if (look(b->hunt, value, &goal))
-        narrow(b->hunt, b->bracket, value);
-    double above = goal - b->hunt->def->target;
+    if (evaluate(b->search, value, &goal))
+        narrow(b->search, b->bracket, value);
+    double above = goal - b->search->def->target;
     if (isfinite(above))
         return above;
     b->broken = true;
     return 1;
 }
 
-/* Brent's method comes to a root from one side, so where it moves no more a step across is what closes the bracket. */
-static void step_across(struct hunt *h, struct bracket *b, double root, double width)
+/* Brent's method comes to a root from one side: a step across closes the bracket when it no longer moves. */
+static void step_across(struct search *h, struct bracket *b, double root, double width)
 {
     double other = root == b->pass.value ? b->fail.value : b->pass.value;
     narrow(h, b, root + copysign(PROBE * width, other - root));
@@ -124,9 +124,9 @@ static void step_across(struct hunt *h, struct bracket *b, double root, double w
 
 /* Until the bracket is as narrow as `width`, the steps `left` are used up, or it gets no further. The solver is made by
  * hand because GSL's own allocation aborts the program without memory. */
-static void brent(struct hunt *h, struct bracket *b, double width, unsigned *left)
+static void brent(struct search *h, struct bracket *b, double width, unsigned *left)
 {
-    struct brent context = {.hunt = h, .bracket = b};
+    struct brent context = {.search = h, .bracket = b};
     gsl_function function = {.function = brent_goal, .params = &context};
     gsl_root_fsolver solver = {.type = gsl_root_fsolver_brent, .state = calloc(1, gsl_root_fsolver_brent->size)};
     if (!solver.state) {
@@ -150,17 +150,17 @@ static void brent(struct hunt *h, struct bracket *b, double width, unsigned *lef
     free(solver.state);
 }
 
-static bool has_root(const struct hunt *h, const struct bracket *b)
+static bool has_root(const struct search *h, const struct bracket *b)
 {
     double t = h->def->target;
     return isfinite(b->fail.goal - t) && isfinite(b->pass.goal - t) && b->pass.goal != t;
 }
 
-static void close_in(struct hunt *h, struct bracket *b)
+static void close_in(struct search *h, struct bracket *b)
 {
     double share = h->def->tolerance > 0 ? fmax(h->def->tolerance, DBL_EPSILON) : CEDUO_FIND_TOLERANCE;
     double width = h->def->whole ? 1 : share * (h->hi - h->lo);
-    unsigned left = h->def->whole ? 0 : BRENT_MOST;
+    unsigned left = h->def->whole ? 0 : BRENT_MAX;
     while (h->status == CEDUO_OK && width_of(b) > width) {
         if (left > 0 && has_root(h, b))
             brent(h, b, width, &left);
@@ -171,35 +171,35 @@ static void close_in(struct hunt *h, struct bracket *b)
 
 /* ---- the search ---- */
 
-static void scan(struct hunt *h)
+static void scan(struct search *h)
 {
     for (int i = 1; i <= CEDUO_FIND_SCAN; i++) {
         double value = h->lo + (h->hi - h->lo) * i / (CEDUO_FIND_SCAN + 1), goal;
-        look(h, h->def->whole ? round(value) : value, &goal);
+        evaluate(h, h->def->whole ? round(value) : value, &goal);
     }
 }
 
-/* Index of the last seen that fails, `count` where all pass. */
-static size_t last_that_fails(const struct hunt *h)
+/* Index of the last sample that fails, `count` where all pass. */
+static size_t last_that_fails(const struct search *h)
 {
     size_t i = h->count;
-    while (i > 0 && passes(h, h->seen[i - 1].goal))
+    while (i > 0 && passes(h, h->samples[i - 1].goal))
         i--;
     return i > 0 ? i - 1 : h->count;
 }
 
-static size_t first_that_passes(const struct hunt *h)
+static size_t first_that_passes(const struct search *h)
 {
     size_t i = 0;
-    while (i < h->count && !passes(h, h->seen[i].goal))
+    while (i < h->count && !passes(h, h->samples[i].goal))
         i++;
     return i;
 }
 
-static void search(struct hunt *h, struct ceduo_found *found)
+static void find_crossing(struct search *h, struct ceduo_found *found)
 {
     double at_lo, at_hi;
-    if (!look(h, h->lo, &at_lo) || !look(h, h->hi, &at_hi))
+    if (!evaluate(h, h->lo, &at_lo) || !evaluate(h, h->hi, &at_hi))
         return;
     bool lo = passes(h, at_lo), hi = passes(h, at_hi);
     if (lo == hi)
@@ -207,16 +207,16 @@ static void search(struct hunt *h, struct ceduo_found *found)
     size_t fails = last_that_fails(h), first = first_that_passes(h);
     if (h->status != CEDUO_OK || first == h->count)
         return;
-    struct bracket b = {.pass = h->seen[0]};
+    struct bracket b = {.pass = h->samples[0]};
     found->side = lo && !hi ? CEDUO_LARGEST : CEDUO_SMALLEST;
     found->whole_range = fails == h->count;
     if (!found->whole_range) {
         if (lo && !hi)
-            b.fail = h->seen[h->count - 1];
+            b.fail = h->samples[h->count - 1];
         else if (lo)
-            b = (struct bracket){.fail = h->seen[fails], .pass = h->seen[fails + 1]};
+            b = (struct bracket){.fail = h->samples[fails], .pass = h->samples[fails + 1]};
         else
-            b = (struct bracket){.fail = h->seen[first - 1], .pass = h->seen[first]};
+            b = (struct bracket){.fail = h->samples[first - 1], .pass = h->samples[first]};
         close_in(h, &b);
     }
     if (h->status != CEDUO_OK)
@@ -227,13 +227,13 @@ static void search(struct hunt *h, struct ceduo_found *found)
     found->goal_at_value = b.pass.goal;
 }
 
-static bool never_turns(const struct hunt *h)
+static bool never_turns(const struct search *h)
 {
     bool rises = false, falls = false;
     for (size_t i = 0; i < h->count; i++) {
-        if (isnan(h->seen[i].goal))
+        if (isnan(h->samples[i].goal))
             return false;
-        double before = h->seen[i > 0 ? i - 1 : 0].goal, now = h->seen[i].goal;
+        double before = h->samples[i > 0 ? i - 1 : 0].goal, now = h->samples[i].goal;
         double rounding = isfinite(before) && isfinite(now) ? ROUNDING * fmax(fabs(before), fabs(now)) : 0;
         rises |= now > before + rounding;
         falls |= now < before - rounding;
@@ -241,24 +241,24 @@ static bool never_turns(const struct hunt *h)
     return !(rises && falls);
 }
 
-static void look_back(const struct hunt *h, struct ceduo_found *found)
+static void read_samples(const struct search *h, struct ceduo_found *found)
 {
     found->evaluations = (unsigned)h->count;
     found->monotone = found->monotone && never_turns(h);
     for (size_t i = 0; i < h->count; i++) {
-        if (isnan(h->seen[i].goal) || h->seen[i].goal >= found->goal_at_nearest)
+        if (isnan(h->samples[i].goal) || h->samples[i].goal >= found->goal_at_nearest)
             continue;
-        found->nearest = h->seen[i].value;
-        found->goal_at_nearest = h->seen[i].goal;
+        found->nearest = h->samples[i].value;
+        found->goal_at_nearest = h->samples[i].goal;
     }
 }
 
 enum ceduo_status ceduo_find(const struct ceduo_find_def *def, struct ceduo_found *found)
 {
     *found = (struct ceduo_found){.value = NAN, .goal_at_value = NAN, .monotone = true, .nearest = NAN, .goal_at_nearest = NAN};
-    struct hunt h = {.def = def, .lo = def->whole ? ceil(def->lo) : def->lo, .hi = def->whole ? floor(def->hi) : def->hi};
+    struct search h = {.def = def, .lo = def->whole ? ceil(def->lo) : def->lo, .hi = def->whole ? floor(def->hi) : def->hi};
     if (h.lo <= h.hi)
-        search(&h, found);
-    look_back(&h, found);
+        find_crossing(&h, found);
+    read_samples(&h, found);
     return h.status;
 }

@@ -77,7 +77,7 @@ bool ceduo_goal_is_mean(enum ceduo_goal goal)
     return goal == CEDUO_GOAL_EXCEED || goal == CEDUO_GOAL_ARRIVE;
 }
 
-double ceduo_goal_over_years(enum ceduo_goal goal, const struct ceduo_years *years, const struct ceduo_flown *bare)
+double ceduo_goal_over_years(enum ceduo_goal goal, const struct ceduo_years *years, const struct ceduo_simulated *bare)
 {
     double worst = -INFINITY;
     for (size_t c = 0; c < years->scene.controls_count; c++) {

@@ -35,7 +35,7 @@ double ceduo_goal_reached(enum ceduo_goal goal, const struct ceduo_result *resul
 
 /* The same over years: of shares of the rocks the mean at the worst control, of the others the worst year. */
 bool ceduo_goal_is_mean(enum ceduo_goal goal);
-double ceduo_goal_over_years(enum ceduo_goal goal, const struct ceduo_years *years, const struct ceduo_flown *bare);
+double ceduo_goal_over_years(enum ceduo_goal goal, const struct ceduo_years *years, const struct ceduo_simulated *bare);
 
 enum ceduo_goal_reading { CEDUO_GOAL_GOOD, CEDUO_GOAL_UNKNOWN, CEDUO_GOAL_NO_NUMBER, CEDUO_GOAL_NEGATIVE, CEDUO_GOAL_NO_SHARE };
 

@@ -117,7 +117,7 @@ struct ceduo_picture ceduo_app_picture(const struct app *app)
     const struct ceduo_scene *scene = &app->document.file.scene;
     size_t stems = ceduo_rock_trajectory_stems(&app->trajectory);
     return (struct ceduo_picture){.scene = scene,
-                                  .outlook = ceduo_live_outlook(&app->live, scene),
+                                  .snapshot = ceduo_live_snapshot(&app->live, scene),
                                   .option = app->option,
                                   .belt = app->belt,
                                   .control = ceduo_scene_last_control(scene),

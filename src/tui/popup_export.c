@@ -74,7 +74,7 @@ static void put_report(struct app *app, struct text *text)
         years[i] = ceduo_live_years(&app->live, scene, i);
     append_command(app, &command, "--report report.html");
     const struct ceduo_chapter chapter = {.report = &report,
-                                          .outlook = ceduo_live_outlook(&app->live, scene),
+                                          .snapshot = ceduo_live_snapshot(&app->live, scene),
                                           .years = years,
                                           .command = ceduo_app_kept(app, &command)};
     ceduo_page_chapter(&page, &chapter);

@@ -3,7 +3,7 @@
 #define CEDUO_ROCK_TRAJECTORY_H
 
 #include "base/text.h"
-#include "study/outlook.h"
+#include "study/snapshot.h"
 
 /* The trajectory of one rock, piece by piece: flights, and rolls along the ground. */
 struct rock_trajectory {

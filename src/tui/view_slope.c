@@ -160,7 +160,7 @@ static size_t belt_at(const struct app *app, double x)
 }
 
 /* The envelope of the cell that is nearest; NULL where none is near, or no rock passes. */
-static const struct ceduo_envelope *passing(const struct ceduo_outlook *o, const struct ceduo_sight *sight, double x)
+static const struct ceduo_envelope *passing(const struct ceduo_snapshot *o, const struct ceduo_run_snapshot *sight, double x)
 {
     size_t best = 0;
     if (!o || !sight || !sight->envelopes || o->cells < 2)
@@ -174,10 +174,10 @@ static const struct ceduo_envelope *passing(const struct ceduo_outlook *o, const
 static void say_place(struct app *app)
 {
     const struct ceduo_scene *scene = &app->document.file.scene;
-    const struct ceduo_outlook *o = ceduo_live_outlook(&app->live, scene);
+    const struct ceduo_snapshot *o = ceduo_live_snapshot(&app->live, scene);
     double x = place_x(app);
     size_t belt = belt_at(app, x);
-    const struct ceduo_envelope *e = passing(o, ceduo_outlook_sight(o, scene, app->option), x);
+    const struct ceduo_envelope *e = passing(o, ceduo_snapshot_of(o, scene, app->option), x);
     struct text text = {0}, height = {0}, energy = {0};
     ceduo_text_format(&text, _("%.1f m: %.0f\xc2\xb0 steep, %s"), x + scene->slope.origin_x,
                       atan(ceduo_slope_fall(&scene->slope, x)) * 180 / M_PI,

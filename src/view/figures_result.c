@@ -24,7 +24,7 @@ static const struct ceduo_index *indices_of(const struct ceduo_place *p)
     return p->year ? p->year->controls : p->report->result->options[p->option].controls;
 }
 
-static const struct ceduo_flown *wood_of(const struct ceduo_place *p)
+static const struct ceduo_simulated *wood_of(const struct ceduo_place *p)
 {
     return p->year && p->year->wooded.rocks > 0 ? &p->year->wooded : &p->report->result->options[p->option].wooded;
 }
@@ -206,7 +206,7 @@ VALUE(mean_adc, index, NUMBER(o->contacts > 0 ? o->length / o->contacts : NAN))
 VALUE(passes_contact, index, IS(o->contact == CEDUO_PASS))
 VALUE(exhausted_of, index, isnan(o->residual) ? NOTHING : IS(o->exhausted))
 VALUE(below_of, paired, NUMBER(o->below > 0 ? o->below : NAN))
-VALUE(share_at, flown, NUMBER(o->rocks > 0 ? *(const double *)member(f, o) : NAN))
+VALUE(share_at, simulated, NUMBER(o->rocks > 0 ? *(const double *)member(f, o) : NAN))
 VALUE(missed_at, arrivals, NUMBER(o->released > 0 ? *(const double *)member(f, o) : NAN))
 VALUE(stop_at, place, NUMBER(*(const double *)member(f, &wood_of(o)->ends) + o->report->file->scene.slope.origin_x))
 VALUE(too_much_of, place, o->sum.nothing || isnan(o->sum.exceed.mean) ? NOTHING : COUNT(o->sum.unprotected_energy))
@@ -441,15 +441,15 @@ static const struct ceduo_figure control[] = {
     {"verdict", "", "what is said of the control", .of = verdict},
     END};
 
-static const struct ceduo_figure ends[] = {
-    {"stopped_by_stems", "", "share of the released that stems stop", .value = share_at,
-     .offset = offsetof(struct ceduo_flown, ends.share[CEDUO_STOPPED_BY_STEMS])},
-    {"came_to_rest", "", "share that comes to rest by itself", .value = share_at,
-     .offset = offsetof(struct ceduo_flown, ends.share[CEDUO_AT_REST])},
-    {"left_slope", "", "share that leaves the profile", .value = share_at,
-     .offset = offsetof(struct ceduo_flown, ends.share[CEDUO_LEFT_SLOPE])},
-    {"unfinished", "", "count of rocks that were still moving after 1000000 contacts", AT(flown, ends.count[CEDUO_UNFINISHED])},
-    END};
+static const struct ceduo_figure ends[] = {{"stopped_by_stems", "", "share of the released that stems stop", .value = share_at,
+                                            .offset = offsetof(struct ceduo_simulated, ends.share[CEDUO_STOPPED_BY_STEMS])},
+                                           {"came_to_rest", "", "share that comes to rest by itself", .value = share_at,
+                                            .offset = offsetof(struct ceduo_simulated, ends.share[CEDUO_AT_REST])},
+                                           {"left_slope", "", "share that leaves the profile", .value = share_at,
+                                            .offset = offsetof(struct ceduo_simulated, ends.share[CEDUO_LEFT_SLOPE])},
+                                           {"unfinished", "", "count of rocks that were still moving after 1000000 contacts",
+                                            AT(simulated, ends.count[CEDUO_UNFINISHED])},
+                                           END};
 
 static const struct ceduo_figure stops[] = {
     {"p50", "m", "median", .value = stop_at, .offset = offsetof(struct ceduo_ends, stop_p50)},

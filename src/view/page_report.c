@@ -35,7 +35,7 @@ static struct ceduo_picture picture_of(const struct ceduo_chapter *c, size_t opt
 {
     const struct ceduo_result *r = c->report->result;
     return (struct ceduo_picture){.scene = r->scene,
-                                  .outlook = c->outlook,
+                                  .snapshot = c->snapshot,
                                   .verdict = c->report->verdict,
                                   .option = option,
                                   .control = ceduo_scene_last_control(r->scene),
@@ -69,7 +69,7 @@ static void add_slope(struct ceduo_page *page, const struct ceduo_chapter *c)
     add_picture(page, CEDUO_PLOT_PROFILE, WHOLE, SLOPE_ROWS, &picture,
                 _("The slope from the side with the forest on it, the ways of some rocks as thin lines, and the controls as "
                   "upright lines."));
-    if (c->outlook && c->report->result->scene->controls_count > 0)
+    if (c->snapshot && c->report->result->scene->controls_count > 0)
         add_picture(page, CEDUO_PLOT_ENERGY, WHOLE, ENERGY_ROWS, &picture,
                     _("Curves along the slope: mean and 95th percentile of the energy of the rocks that pass each place, "
                       "through the forest and without it."));

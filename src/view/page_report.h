@@ -11,7 +11,7 @@
 
 struct ceduo_chapter {
     const struct ceduo_report *report;
-    const struct ceduo_outlook *outlook;    /* for the pictures */
+    const struct ceduo_snapshot *snapshot;  /* for the pictures */
     struct ceduo_years *const *years;       /* one for each option; NULL, or NULL of an option: none */
     const struct ceduo_doubt_report *doubt; /* NULL: not computed */
     const char *command;                    /* that gives the same page */

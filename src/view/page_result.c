@@ -131,7 +131,7 @@ static void say_arrivals(struct ceduo_page *page, const char *name, const struct
 }
 
 /* How the rocks end in the forest: up to a control, and on the whole profile. */
-static void say_fates(struct ceduo_page *page, const struct ceduo_flown *f, const struct ceduo_arrivals *a, bool last)
+static void say_fates(struct ceduo_page *page, const struct ceduo_simulated *f, const struct ceduo_arrivals *a, bool last)
 {
     const double *missed = a->missed, *all = f->ends.share;
     struct text *line = ceduo_page_add(page, CEDUO_PAGE_SENTENCE);

@@ -5,8 +5,8 @@
 #include "base/text.h"
 #include "canvas.h"
 #include "ceduo/years.h"
-#include "study/outlook.h"
 #include "study/seen.h"
+#include "study/snapshot.h"
 #include "study/verdict.h"
 
 /* The pictures. Each one draws into a rectangle of a canvas and leaves the rest of it alone: what has no room is left
@@ -23,7 +23,7 @@ struct ceduo_span {
 struct ceduo_doubt_report;
 struct ceduo_picture {
     const struct ceduo_scene *scene;       /* checked */
-    const struct ceduo_outlook *outlook;   /* NULL: nothing is computed yet */
+    const struct ceduo_snapshot *snapshot; /* NULL: nothing is computed yet */
     size_t option, belt, control;          /* indices; where there is none, the picture says so */
     const struct ceduo_polyline *selected; /* one rock's trajectory, shown before all others; NULL: none */
     const double *mark;                    /* a place along the slope that the profile marks, m, relative; NULL: none */

@@ -252,7 +252,7 @@ const char *ceduo_plot_histogram(struct ceduo_canvas *canvas, const struct ceduo
                                  const struct ceduo_picture *picture)
 {
     size_t c = picture->control;
-    const struct ceduo_sight *sight = ceduo_plot_sight(picture), *bare = ceduo_plot_bare(picture);
+    const struct ceduo_run_snapshot *sight = ceduo_plot_sight(picture), *bare = ceduo_plot_bare(picture);
     bool wooded = ceduo_plot_wooded(picture), head = area->height >= 4;
     struct histogram h = {.canvas = canvas,
                           .area = area,

@@ -46,7 +46,7 @@ static void note_scale(struct notes *n, double factor)
 static void note_ways(struct notes *n)
 {
     const struct ceduo_picture *p = n->picture;
-    const struct ceduo_sight *s = ceduo_plot_sight(p);
+    const struct ceduo_run_snapshot *s = ceduo_plot_sight(p);
     const struct ceduo_option *option = ceduo_plot_option(p);
     bool wooded = ceduo_plot_wooded(p) && option && ceduo_plot_has_stems(option);
     if (!s)

@@ -104,17 +104,17 @@ const struct ceduo_control *ceduo_plot_control(const struct ceduo_picture *p)
     return p->control < p->scene->controls_count ? &p->scene->controls[p->control] : NULL;
 }
 
-const struct ceduo_sight *ceduo_plot_sight(const struct ceduo_picture *p)
+const struct ceduo_run_snapshot *ceduo_plot_sight(const struct ceduo_picture *p)
 {
-    return ceduo_outlook_sight(p->outlook, p->scene, p->option);
+    return ceduo_snapshot_of(p->snapshot, p->scene, p->option);
 }
 
-const struct ceduo_sight *ceduo_plot_bare(const struct ceduo_picture *p)
+const struct ceduo_run_snapshot *ceduo_plot_bare(const struct ceduo_picture *p)
 {
-    return p->outlook ? p->outlook->bare : NULL;
+    return p->snapshot ? p->snapshot->bare : NULL;
 }
 
-static const struct ceduo_arrivals *arrivals_of(const struct ceduo_sight *s, size_t control)
+static const struct ceduo_arrivals *arrivals_of(const struct ceduo_run_snapshot *s, size_t control)
 {
     return s && control < s->flown.controls ? &s->flown.arrivals[control] : NULL;
 }

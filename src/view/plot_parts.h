@@ -41,8 +41,8 @@ const struct ceduo_belt *ceduo_plot_belt(const struct ceduo_picture *picture);
 const struct ceduo_control *ceduo_plot_control(const struct ceduo_picture *picture);
 /* What is to be seen of the picture's option (through its forest; bare with the contact model index), and without
  * forest; NULL where it is not known. The arrivals likewise. */
-const struct ceduo_sight *ceduo_plot_sight(const struct ceduo_picture *picture);
-const struct ceduo_sight *ceduo_plot_bare(const struct ceduo_picture *picture);
+const struct ceduo_run_snapshot *ceduo_plot_sight(const struct ceduo_picture *picture);
+const struct ceduo_run_snapshot *ceduo_plot_bare(const struct ceduo_picture *picture);
 const struct ceduo_arrivals *ceduo_plot_arrivals(const struct ceduo_picture *picture, size_t control);
 const struct ceduo_arrivals *ceduo_plot_bare_arrivals(const struct ceduo_picture *picture, size_t control);
 

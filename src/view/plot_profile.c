@@ -57,7 +57,7 @@ static struct range range_of(const struct ceduo_picture *p)
     double x = p->scene->release.x.mean;
     if (x >= r.x_lo && x <= r.x_hi)
         widen(&r, ceduo_slope_height(slope, x) + p->scene->release.height.mean);
-    const struct ceduo_sight *sight = ceduo_plot_sight(p);
+    const struct ceduo_run_snapshot *sight = ceduo_plot_sight(p);
     for (size_t i = 0; sight && i < sight->trajectories_count; i++)
         widen_by_line(&r, &sight->trajectories[i]);
     if (p->selected)
@@ -186,7 +186,7 @@ static void draw_passed(const struct profile *p)
 
 static void draw_ways(const struct profile *p)
 {
-    const struct ceduo_sight *s = ceduo_plot_sight(p->picture);
+    const struct ceduo_run_snapshot *s = ceduo_plot_sight(p->picture);
     if (s) {
         ceduo_canvas_cloud_start(p->canvas);
         for (size_t i = 0; i < s->trajectories_count; i++)

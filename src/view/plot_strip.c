@@ -31,7 +31,7 @@ struct strip {
     struct ceduo_canvas *canvas;
     const struct ceduo_area *area;
     const struct ceduo_picture *picture;
-    const struct ceduo_sight *sight, *bare;
+    const struct ceduo_run_snapshot *sight, *bare;
     const struct content *content;
     bool energy, legend; /* legend: of bare and wooded curves */
     struct ceduo_frame frame;
@@ -94,7 +94,7 @@ static int name_columns(const struct ceduo_canvas *canvas, const struct content 
 
 static bool shown(const struct strip *s, size_t cell)
 {
-    double x = s->picture->outlook->cell_x[cell];
+    double x = s->picture->snapshot->cell_x[cell];
     return x >= s->from && x <= s->to;
 }
 
@@ -109,7 +109,7 @@ struct peak {
 /* Takes in one curve; returns how many cells it has. */
 static size_t add_peak(const struct strip *s, const struct curve *curve, struct peak *peak)
 {
-    const struct ceduo_outlook *o = s->picture->outlook;
+    const struct ceduo_snapshot *o = s->picture->snapshot;
     const struct ceduo_envelope *cells = (curve->bare ? s->bare : s->sight)->envelopes;
     double *values = ceduo_must(malloc((o->cells + 1) * sizeof *values));
     size_t n = 0;
@@ -174,7 +174,7 @@ static void draw_strokes(struct strip *s, const struct curve *curve, double ax, 
 
 static void draw_curve(struct strip *s, const struct curve *curve)
 {
-    const struct ceduo_outlook *o = s->picture->outlook;
+    const struct ceduo_snapshot *o = s->picture->snapshot;
     for (size_t i = 1; i < o->cells; i++) {
         double ax = o->cell_x[i - 1], bx = o->cell_x[i];
         double ay = value_at(s, curve, i - 1), by = value_at(s, curve, i);
@@ -190,7 +190,7 @@ static void draw_curve(struct strip *s, const struct curve *curve)
 /* Where a curve ends inside the frame: its value, cut at the top; NaN where no rock passes or it lies below. */
 static double end_of(const struct strip *s, const struct curve *curve)
 {
-    const struct ceduo_outlook *o = s->picture->outlook;
+    const struct ceduo_snapshot *o = s->picture->snapshot;
     for (size_t i = o->cells; i-- > 0;) {
         double y = value_at(s, curve, i);
         int column, row;

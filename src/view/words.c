@@ -231,7 +231,7 @@ static void say_early(const struct ceduo_result *result, ceduo_words_say *say, v
     double most = 0;
     size_t option = 0;
     for (size_t i = 0; result->wooded && i < result->scene->options_count; i++) {
-        const struct ceduo_flown *f = &result->options[i].wooded;
+        const struct ceduo_simulated *f = &result->options[i].wooded;
         double share = f->rocks > 0 ? (double)f->ends.early / (double)f->rocks : 0;
         option = share > most ? i : option;
         most = share > most ? share : most;

@@ -30,20 +30,20 @@ static void fly(const struct ceduo_scene *scene, unsigned threads, uint64_t rock
     def.rocks_most = rocks;
     struct ceduo_pool *pool;
     struct ceduo_run *run;
-    struct ceduo_flown bare;
+    struct ceduo_simulated bare;
     if (ceduo_pool_create(&def, &pool) != CEDUO_OK || ceduo_pool_run(pool, NULL, &run) != CEDUO_OK ||
-        ceduo_run_extend(run, rocks) != CEDUO_OK || ceduo_flown_read(run, scene->controls_count, &bare) != CEDUO_OK)
+        ceduo_run_extend(run, rocks) != CEDUO_OK || ceduo_simulated_read(run, scene->controls_count, &bare) != CEDUO_OK)
         exit(1);
     for (size_t i = 0; i < scene->options_count; i++) {
         struct ceduo_years *years;
         if (ceduo_years_create(scene, &scene->options[i], (struct ceduo_window){.first = FIRST, .last = LAST, .step = 1},
                                &years) != CEDUO_OK ||
-            ceduo_years_fly(years, pool, &bare, rocks) != CEDUO_OK)
+            ceduo_years_simulate(years, pool, &bare, rocks) != CEDUO_OK)
             exit(1);
         ceduo_years_free(years);
     }
     *work = ceduo_pool_work(pool);
-    ceduo_flown_free(&bare);
+    ceduo_simulated_free(&bare);
     ceduo_pool_free(pool);
 }
 

@@ -347,7 +347,7 @@ static void a_longer_run_keeps_its_figures(void **state)
     assert_int_equal(ceduo_pool_create(&def, &pool), CEDUO_OK);
     assert_int_equal(ceduo_pool_fill(pool), CEDUO_OK);
     assert_int_equal(ceduo_pool_extend(pool, 600), CEDUO_OK);
-    assert_int_equal(ceduo_pool_fly(pool, &sides.options[1], 1500, &longer), CEDUO_OK);
+    assert_int_equal(ceduo_pool_simulate(pool, &sides.options[1], 1500, &longer), CEDUO_OK);
     assert_int_equal(ceduo_result_create(&site.scene, pool, &result), CEDUO_OK);
     assert_int_equal(ceduo_run_arrivals(alone, 0, &wanted), CEDUO_OK);
     EXPECT(result->bare.rocks, ==, 600);

@@ -110,11 +110,11 @@ static struct ceduo_run *run_of(const struct ceduo_option *option, uint64_t rock
     return run;
 }
 
-static struct ceduo_flown bare_of(uint64_t rocks)
+static struct ceduo_simulated bare_of(uint64_t rocks)
 {
     struct ceduo_run *run = run_of(NULL, rocks);
-    struct ceduo_flown bare;
-    assert_int_equal(ceduo_flown_read(run, CONTROLS, &bare), CEDUO_OK);
+    struct ceduo_simulated bare;
+    assert_int_equal(ceduo_simulated_read(run, CONTROLS, &bare), CEDUO_OK);
     ceduo_run_free(run);
     return bare;
 }
@@ -124,9 +124,9 @@ static struct ceduo_years *flown(unsigned first, unsigned last, unsigned step, u
 {
     struct ceduo_years *years = grown(first, last, step);
     struct ceduo_pool *pool = pool_of(threads, NULL);
-    struct ceduo_flown bare = bare_of(rocks);
-    assert_int_equal(ceduo_years_fly(years, pool, &bare, rocks), CEDUO_OK);
-    ceduo_flown_free(&bare);
+    struct ceduo_simulated bare = bare_of(rocks);
+    assert_int_equal(ceduo_years_simulate(years, pool, &bare, rocks), CEDUO_OK);
+    ceduo_simulated_free(&bare);
     ceduo_pool_free(pool);
     return years;
 }
@@ -237,7 +237,7 @@ static void expect_same_year(const struct ceduo_year *a, const struct ceduo_year
 /* ---- beside runs of their own ---- */
 
 /* The same year without any of it: stands, one run, its figures. */
-static void expect_direct(const struct ceduo_year *y, const struct ceduo_flown *bare)
+static void expect_direct(const struct ceduo_year *y, const struct ceduo_simulated *bare)
 {
     const struct ceduo_scene *scene = &wood.site.scene;
     struct ceduo_grown_stand stands[BELTS];
@@ -255,8 +255,8 @@ static void expect_direct(const struct ceduo_year *y, const struct ceduo_flown *
     EXPECT(y->option.belts_count, ==, BELTS);
     struct ceduo_option option = {.belts_count = BELTS, .belts = belts};
     struct ceduo_run *run = run_of(&option, ROCKS);
-    struct ceduo_flown direct;
-    assert_int_equal(ceduo_flown_read(run, CONTROLS, &direct), CEDUO_OK);
+    struct ceduo_simulated direct;
+    assert_int_equal(ceduo_simulated_read(run, CONTROLS, &direct), CEDUO_OK);
     EXPECT(y->wooded.rocks, ==, ROCKS);
     EXPECT(direct.rocks, ==, ROCKS);
     expect_same_ends(&y->wooded.ends, &direct.ends);
@@ -270,7 +270,7 @@ static void expect_direct(const struct ceduo_year *y, const struct ceduo_flown *
         index.energy = ceduo_energy_light(&direct.arrivals[c]);
         expect_same_index(&y->controls[c], &index);
     }
-    ceduo_flown_free(&direct);
+    ceduo_simulated_free(&direct);
     ceduo_run_free(run);
     for (int i = 0; i < BELTS; i++)
         ceduo_grown_stand_release(&stands[i]);
@@ -280,7 +280,7 @@ static void years_are_runs_of_their_own(void **state)
 {
     (void)state;
     init();
-    struct ceduo_flown bare = bare_of(ROCKS);
+    struct ceduo_simulated bare = bare_of(ROCKS);
     struct ceduo_years *years = flown(0, 26, 1, 2, ROCKS);
     assert_int_equal(years->count, 27);
     unsigned cuts = 0;
@@ -291,7 +291,7 @@ static void years_are_runs_of_their_own(void **state)
     }
     assert_int_equal(cuts, 5); /* 4, 13 and 22 of the coppice; 10 and 19 of the selection coppice, 27 years old then */
     ceduo_years_free(years);
-    ceduo_flown_free(&bare);
+    ceduo_simulated_free(&bare);
 }
 
 static void poisson_too(void **state)
@@ -299,12 +299,12 @@ static void poisson_too(void **state)
     (void)state;
     init();
     wood.site.scene.simulation.contact_model = CEDUO_POISSON;
-    struct ceduo_flown bare = bare_of(ROCKS);
+    struct ceduo_simulated bare = bare_of(ROCKS);
     struct ceduo_years *years = flown(0, 13, 4, 1, ROCKS);
     for (size_t i = 0; i < years->count; i++)
         expect_direct(&years->years[i], &bare);
     ceduo_years_free(years);
-    ceduo_flown_free(&bare);
+    ceduo_simulated_free(&bare);
 }
 
 static void year_0_is_the_result(void **state)
@@ -317,7 +317,7 @@ static void year_0_is_the_result(void **state)
     assert_int_equal(ceduo_pool_extend(pool, ROCKS), CEDUO_OK);
     assert_int_equal(ceduo_result_create(&wood.site.scene, pool, &result), CEDUO_OK);
     struct ceduo_years *years = grown(0, 0, 1);
-    assert_int_equal(ceduo_years_fly(years, pool, &result->bare, ROCKS), CEDUO_OK);
+    assert_int_equal(ceduo_years_simulate(years, pool, &result->bare, ROCKS), CEDUO_OK);
     const struct ceduo_year *y = &years->years[0];
     for (size_t c = 0; c < CONTROLS; c++) {
         expect_same_arrivals(&y->wooded.arrivals[c], &result->options[0].wooded.arrivals[c]);
@@ -356,15 +356,15 @@ static void threads_and_steps_change_nothing(void **state)
     init();
     struct ceduo_years *one = flown(0, 5, 1, 1, 3000), *two = flown(0, 5, 1, 2, 3000), *steps = grown(0, 5, 1);
     struct ceduo_pool *pool = pool_of(2, NULL);
-    struct ceduo_flown bare = bare_of(3000);
+    struct ceduo_simulated bare = bare_of(3000);
     static const uint64_t rocks[] = {1, 1024, 1500, 3000, 2000}; /* never shorter again */
     for (size_t i = 0; i < sizeof rocks / sizeof rocks[0]; i++)
-        assert_int_equal(ceduo_years_fly(steps, pool, &bare, rocks[i]), CEDUO_OK);
+        assert_int_equal(ceduo_years_simulate(steps, pool, &bare, rocks[i]), CEDUO_OK);
     for (size_t i = 0; i < one->count; i++) {
         expect_same_year(&one->years[i], &two->years[i]);
         expect_same_year(&one->years[i], &steps->years[i]);
     }
-    ceduo_flown_free(&bare);
+    ceduo_simulated_free(&bare);
     ceduo_pool_free(pool);
     ceduo_years_free(one);
     ceduo_years_free(two);
@@ -379,15 +379,15 @@ static void a_wood_is_flown_once(void **state)
     wood.belts[1].cut_year = 7;
     struct ceduo_years *years = grown(0, 40, 1);
     struct ceduo_pool *pool = pool_of(2, NULL);
-    struct ceduo_flown bare = bare_of(100);
-    assert_int_equal(ceduo_years_fly(years, pool, &bare, 100), CEDUO_OK);
+    struct ceduo_simulated bare = bare_of(100);
+    assert_int_equal(ceduo_years_simulate(years, pool, &bare, 100), CEDUO_OK);
     struct ceduo_work work = ceduo_pool_work(pool);
     EXPECT(work.runs, ==, 7 + ROTATION);
     EXPECT(work.runs + work.reused, ==, 41);
     EXPECT(work.rocks, ==, 100 * work.runs);
     for (size_t i = 7; i + ROTATION < years->count; i++)
         expect_same_year(&years->years[i], &years->years[i + ROTATION]);
-    ceduo_flown_free(&bare);
+    ceduo_simulated_free(&bare);
     ceduo_pool_free(pool);
     ceduo_years_free(years);
 }
@@ -502,15 +502,15 @@ static void more_rocks_than_are_paired(void **state)
     struct ceduo_years *years = grown(0, 0, 1);
     struct ceduo_pool *pool = pool_of(2, NULL);
     struct ceduo_run *run;
-    struct ceduo_flown bare;
-    assert_int_equal(ceduo_pool_fly(pool, NULL, MANY, &run), CEDUO_OK);
-    assert_int_equal(ceduo_flown_read(run, 1, &bare), CEDUO_OK);
-    assert_int_equal(ceduo_years_fly(years, pool, &bare, MANY), CEDUO_OK);
+    struct ceduo_simulated bare;
+    assert_int_equal(ceduo_pool_simulate(pool, NULL, MANY, &run), CEDUO_OK);
+    assert_int_equal(ceduo_simulated_read(run, 1, &bare), CEDUO_OK);
+    assert_int_equal(ceduo_years_simulate(years, pool, &bare, MANY), CEDUO_OK);
     double p = brief.exceed_probability, sd = sqrt(p * (1 - p) * paired / (paired - 1));
     EXPECT(p, >, .01);
     EXPECT(p, <, .99);
     EXPECT_NEAR(ceduo_years_sum(years, 0).exceed.se, sd / sqrt(MANY), 1e-9 * sd);
-    ceduo_flown_free(&bare);
+    ceduo_simulated_free(&bare);
     ceduo_pool_free(pool);
     ceduo_years_free(years);
 }
@@ -597,8 +597,8 @@ static void by_the_index_alone(void **state)
     wood.site.scene.simulation.contact_model = CEDUO_INDEX;
     struct ceduo_years *years = grown(0, 15, 1);
     struct ceduo_pool *pool = pool_of(1, NULL);
-    struct ceduo_flown bare = bare_of(200);
-    assert_int_equal(ceduo_years_fly(years, pool, &bare, 200), CEDUO_OK);
+    struct ceduo_simulated bare = bare_of(200);
+    assert_int_equal(ceduo_years_simulate(years, pool, &bare, 200), CEDUO_OK);
     assert_int_equal(ceduo_pool_work(pool).runs, 0);
     double worst = 0;
     unsigned worst_year = 0;
@@ -621,7 +621,7 @@ static void by_the_index_alone(void **state)
     assert_true(isnan(s.exceed.mean));
     assert_true(isnan(s.passes_per_year));
     EXPECT(s.unprotected_energy, ==, 0);
-    ceduo_flown_free(&bare);
+    ceduo_simulated_free(&bare);
     ceduo_pool_free(pool);
     ceduo_years_free(years);
 }
@@ -631,7 +631,7 @@ static void no_forest_is_the_bare_run(void **state)
     (void)state;
     init();
     wood.option.belts_count = 0;
-    struct ceduo_flown bare = bare_of(500);
+    struct ceduo_simulated bare = bare_of(500);
     struct ceduo_years *years = flown(0, 3, 1, 1, 500);
     for (size_t i = 0; i < years->count; i++) {
         assert_false(years->years[i].cut);
@@ -643,7 +643,7 @@ static void no_forest_is_the_bare_run(void **state)
     }
     EXPECT(ceduo_years_felled(years), ==, 0);
     ceduo_years_free(years);
-    ceduo_flown_free(&bare);
+    ceduo_simulated_free(&bare);
     ceduo_years_free(NULL);
 }
 
@@ -735,7 +735,7 @@ static void it_can_be_cancelled_and_goes_on(void **state)
     (void)state;
     init();
     struct ceduo_years *whole = flown(0, 8, 1, 2, ROCKS);
-    struct ceduo_flown bare = bare_of(ROCKS);
+    struct ceduo_simulated bare = bare_of(ROCKS);
     for (unsigned after = 0; after < 10; after += 3) {
         struct stop stop = {.cancel = after == 0, .after = after};
         struct ceduo_run_def def = ceduo_run_def_default(&wood.site.scene);
@@ -747,7 +747,7 @@ static void it_can_be_cancelled_and_goes_on(void **state)
         struct ceduo_pool *pool;
         assert_int_equal(ceduo_pool_create(&def, &pool), CEDUO_OK);
         struct ceduo_years *years = grown(0, 8, 1);
-        enum ceduo_status status = ceduo_years_fly(years, pool, &bare, ROCKS);
+        enum ceduo_status status = ceduo_years_simulate(years, pool, &bare, ROCKS);
         assert_int_equal(status, after < 9 ? CEDUO_CANCELLED : CEDUO_OK);
         for (size_t i = 0; i < years->count; i++) {
             EXPECT(years->years[i].wooded.rocks, ==, (i < after ? ROCKS : 0));
@@ -755,13 +755,13 @@ static void it_can_be_cancelled_and_goes_on(void **state)
                 expect_same_year(&years->years[i], &whole->years[i]);
         }
         atomic_store(&stop.cancel, false);
-        assert_int_equal(ceduo_years_fly(years, pool, &bare, ROCKS), CEDUO_OK);
+        assert_int_equal(ceduo_years_simulate(years, pool, &bare, ROCKS), CEDUO_OK);
         for (size_t i = 0; i < years->count; i++)
             expect_same_year(&years->years[i], &whole->years[i]);
         ceduo_years_free(years);
         ceduo_pool_free(pool);
     }
-    ceduo_flown_free(&bare);
+    ceduo_simulated_free(&bare);
     ceduo_years_free(whole);
 }
 

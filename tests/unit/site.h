@@ -12,7 +12,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "study/outlook.h"
+#include "study/snapshot.h"
 
 #define CELLS         10
 #define ENERGIES      8
@@ -28,9 +28,9 @@ struct site {
     struct ceduo_option options[2];
     struct ceduo_belt belts[2];
     struct ceduo_stems shoots, trees;
-    struct ceduo_outlook outlook;
-    struct ceduo_sight bare, wood;
-    struct ceduo_sight *wooded[2];
+    struct ceduo_snapshot snapshot;
+    struct ceduo_run_snapshot bare, wood;
+    struct ceduo_run_snapshot *wooded[2];
     struct ceduo_arrivals arrivals[2], wood_arrivals[2];
     struct ceduo_energies energies[2], wood_energies[2];
     struct ceduo_polyline line, wood_trail;
@@ -104,13 +104,13 @@ static void set_bare(struct site *s)
     s->arrivals[1].energy = ceduo_distribution_none();
     s->energies[0] = (struct ceduo_energies){ENERGIES, s->values};
     s->energies[1] = (struct ceduo_energies){0, s->values};
-    s->bare = (struct ceduo_sight){.references = 1,
-                                   .flown = {.rocks = 10, .controls = 2, .arrivals = s->arrivals},
-                                   .picture_rocks = 10,
-                                   .envelopes = s->envelopes,
-                                   .energies = s->energies,
-                                   .trajectories_count = 1,
-                                   .trajectories = &s->line};
+    s->bare = (struct ceduo_run_snapshot){.references = 1,
+                                          .flown = {.rocks = 10, .controls = 2, .arrivals = s->arrivals},
+                                          .picture_rocks = 10,
+                                          .envelopes = s->envelopes,
+                                          .energies = s->energies,
+                                          .trajectories_count = 1,
+                                          .trajectories = &s->line};
 }
 
 /* Lower and slower, and no further than 70 m; five rocks of ten at the path. */
@@ -136,14 +136,14 @@ static void set_wood(struct site *s)
     s->wood_arrivals[1] = s->arrivals[1];
     s->wood_energies[0] = (struct ceduo_energies){WOOD_ENERGIES, s->wood_values};
     s->wood_energies[1] = (struct ceduo_energies){0, s->wood_values};
-    s->wood = (struct ceduo_sight){.references = 1,
-                                   .key = 1,
-                                   .flown = {.rocks = 10, .controls = 2, .arrivals = s->wood_arrivals},
-                                   .picture_rocks = 10,
-                                   .envelopes = s->wood_envelopes,
-                                   .energies = s->wood_energies,
-                                   .trajectories_count = 1,
-                                   .trajectories = &s->wood_trail};
+    s->wood = (struct ceduo_run_snapshot){.references = 1,
+                                          .key = 1,
+                                          .flown = {.rocks = 10, .controls = 2, .arrivals = s->wood_arrivals},
+                                          .picture_rocks = 10,
+                                          .envelopes = s->wood_envelopes,
+                                          .energies = s->wood_energies,
+                                          .trajectories_count = 1,
+                                          .trajectories = &s->wood_trail};
 }
 
 static void site_init(struct site *s)
@@ -163,7 +163,7 @@ static void site_init(struct site *s)
     set_forest(s);
     set_bare(s);
     set_wood(s);
-    s->outlook = (struct ceduo_outlook){
+    s->snapshot = (struct ceduo_snapshot){
         .cells = CELLS, .controls = 2, .options = 2, .cell_x = s->cell_x, .bare = &s->bare, .wooded = s->wooded};
     s->scene.simulation.contact_model = CEDUO_INDEX;
     assert_int_equal(ceduo_scene_check(&s->scene, NULL), CEDUO_OK);

@@ -58,8 +58,8 @@ static void figures_and_years_come_to_an_end(void **state)
     assert_false(take().busy);
     assert_non_null(results.snapshot);
     assert_int_equal(results.snapshot->key, ceduo_jobs_key(&file.scene));
-    assert_int_equal(results.snapshot->outlook->bare->flown.rocks, RUNS_MAX);
-    assert_int_equal(results.snapshot->outlook->wooded[0]->flown.rocks, RUNS_MAX);
+    assert_int_equal(results.snapshot->snapshot->bare->flown.rocks, RUNS_MAX);
+    assert_int_equal(results.snapshot->snapshot->wooded[0]->flown.rocks, RUNS_MAX);
     assert_non_null(results.years);
     assert_int_equal(results.years->n, 1);
     assert_int_equal(results.years->items[0]->years[0].wooded.rocks, 10 * RUNS_FIRST);

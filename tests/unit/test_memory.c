@@ -8,7 +8,7 @@
 #include "ceduo/record.h"
 #include "physics/paper_site.h"
 #include "study/inputs.h"
-#include "study/outlook.h"
+#include "study/snapshot.h"
 #include "study/verdict.h"
 
 /* ---- runs ---- */
@@ -228,23 +228,23 @@ static bool years_of_blocks(void)
     struct ceduo_run_def def = def_of(false, CEDUO_EXACT_BYTES);
     struct ceduo_pool *pool = NULL;
     struct ceduo_years *years = NULL;
-    struct ceduo_flown bare = {0};
+    struct ceduo_simulated bare = {0};
     struct ceduo_run *run;
     enum ceduo_status status = ceduo_pool_create(&def, &pool);
     if (status == CEDUO_OK)
         status = ceduo_years_create(&site.scene, &site.option, (struct ceduo_window){.step = 1}, &years);
     if (status == CEDUO_OK)
-        status = ceduo_pool_fly(pool, NULL, 40, &run);
+        status = ceduo_pool_simulate(pool, NULL, 40, &run);
     if (status == CEDUO_OK)
-        status = ceduo_flown_read(run, 1, &bare);
+        status = ceduo_simulated_read(run, 1, &bare);
     for (uint64_t rocks = 30; rocks <= 40 && status == CEDUO_OK; rocks += 10)
-        status = ceduo_years_fly(years, pool, &bare, rocks);
+        status = ceduo_years_simulate(years, pool, &bare, rocks);
     if (status == CEDUO_OK) {
         struct ceduo_years_summary s = ceduo_years_sum(years, 0);
         assert_true(s.exceed.se > 0);
         add(&s.exceed, sizeof s.exceed);
     }
-    ceduo_flown_free(&bare);
+    ceduo_simulated_free(&bare);
     ceduo_years_free(years);
     ceduo_pool_free(pool);
     assert_true(status == CEDUO_OK || status == CEDUO_NO_MEMORY);
@@ -431,11 +431,11 @@ static bool assess(void)
 {
     init(CEDUO_STEMS, CEDUO_LAW_LUMPED);
     static struct ceduo_arrivals bare = {.released = 10, .reached = 10}, wooded = {.released = 10, .reached = 4};
-    const struct ceduo_flown flown[2] = {{.rocks = 10, .controls = 1, .arrivals = &bare},
-                                         {.rocks = 10, .controls = 1, .arrivals = &wooded}};
+    const struct ceduo_simulated flown[2] = {{.rocks = 10, .controls = 1, .arrivals = &bare},
+                                             {.rocks = 10, .controls = 1, .arrivals = &wooded}};
     const struct ceduo_difference difference = {.reach_probability = {-.6, .1}};
     struct ceduo_result *result;
-    enum ceduo_status status = ceduo_result_assess(&site.scene, &flown[0], &(const struct ceduo_flown *){&flown[1]},
+    enum ceduo_status status = ceduo_result_assess(&site.scene, &flown[0], &(const struct ceduo_simulated *){&flown[1]},
                                                    &difference, &(const struct ceduo_other_energy){0}, &result);
     assert_true(status == CEDUO_OK || status == CEDUO_NO_MEMORY);
     assert_int_equal(result != NULL, status == CEDUO_OK);
@@ -453,7 +453,7 @@ static bool assess_index(void)
 {
     init(CEDUO_INDEX, CEDUO_LAW_LUMPED);
     static struct ceduo_arrivals bare = {.released = 10, .reached = 10};
-    const struct ceduo_flown flown = {.rocks = 10, .controls = 1, .arrivals = &bare};
+    const struct ceduo_simulated flown = {.rocks = 10, .controls = 1, .arrivals = &bare};
     struct ceduo_result *result;
     enum ceduo_status status = ceduo_result_assess(&site.scene, &flown, NULL, NULL, NULL, &result);
     assert_true(status == CEDUO_OK || status == CEDUO_NO_MEMORY);
@@ -551,20 +551,20 @@ static struct ceduo_pool *seen;
 static bool see(void)
 {
     const double x[] = {125, 130};
-    const struct ceduo_outlook_def def = {
+    const struct ceduo_snapshot_def def = {
         .scene = &site.scene, .figures = seen, .pictures = seen, .cells = 2, .cell_x = x, .trajectories = 3};
-    struct ceduo_outlook *o;
-    enum ceduo_status status = ceduo_outlook_create(&def, &o);
+    struct ceduo_snapshot *o;
+    enum ceduo_status status = ceduo_snapshot_create(&def, &o);
     if (status != CEDUO_OK) {
         assert_int_equal(status, CEDUO_NO_MEMORY);
         assert_null(o);
         return false;
     }
-    const struct ceduo_sight *sight = ceduo_outlook_sight(o, &site.scene, 0);
+    const struct ceduo_run_snapshot *sight = ceduo_snapshot_of(o, &site.scene, 0);
     add(sight->energies[0].values, sight->energies[0].n * sizeof(double));
     for (size_t i = 0; i < sight->trajectories_count; i++)
         add(sight->trajectories[i].x, sight->trajectories[i].n * sizeof(double));
-    ceduo_outlook_free(o);
+    ceduo_snapshot_free(o);
     return true;
 }
 

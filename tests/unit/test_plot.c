@@ -25,7 +25,7 @@ static void stop_all(struct site *s)
 
 static struct ceduo_picture picture_of(const struct site *s)
 {
-    return (struct ceduo_picture){.scene = &s->scene, .outlook = &s->outlook};
+    return (struct ceduo_picture){.scene = &s->scene, .snapshot = &s->snapshot};
 }
 
 static struct ceduo_cells *draw(enum ceduo_plot plot, const struct ceduo_picture *p, int width, int height,
@@ -123,7 +123,7 @@ static void heights_are_stretched_where_the_slope_is_flat_and_the_factor_is_writ
     static struct site s;
     site_init(&s);
     struct ceduo_picture p = picture_of(&s);
-    p.outlook = NULL;
+    p.snapshot = NULL;
     s.options[0].belts_count = 0;
     s.z[1] = -2;
     s.z[2] = -3;
@@ -223,7 +223,7 @@ static void stems_that_the_rock_came_to_stand_where_they_are(void **state)
     static struct site s;
     wooded_site_init(&s);
     struct ceduo_picture p = picture_of(&s);
-    p.outlook = NULL;
+    p.snapshot = NULL;
     p.stems = passed;
     p.stems_count = 4;
     struct ceduo_cells *cells = ceduo_cells_create(84, 40, BRAILLE);
@@ -427,7 +427,7 @@ static void places_without_rocks_stay_empty(void **state)
         s.envelopes[i] = no_rock;
     assert_true(shows(CEDUO_PLOT_HEIGHT, &p, 60, 12, "no rock passes here"));
     assert_true(shows(CEDUO_PLOT_ENERGY, &p, 60, 12, "no rock passes here"));
-    p.outlook = NULL;
+    p.snapshot = NULL;
     assert_true(shows(CEDUO_PLOT_ENERGY, &p, 60, 12, "not computed yet"));
 }
 
@@ -579,7 +579,7 @@ static void options_without_wooded_rocks_are_compared(void **state)
     expect(CEDUO_PLOT_COMPARE, &p, 80, 9, ASCII, "options-without-wooded-rocks-are-compared");
     s.wooded[0] = NULL;
     expect(CEDUO_PLOT_COMPARE, &p, 80, 9, BRAILLE, "options-without-wooded-rocks-are-compared-2");
-    p.outlook = NULL;
+    p.snapshot = NULL;
     assert_true(shows(CEDUO_PLOT_COMPARE, &p, 80, 9, "Energies are not computed yet"));
 }
 
@@ -720,7 +720,7 @@ static void nothing_is_drawn_beside_the_area(void **state)
             struct ceduo_cells *cells = ceduo_cells_create(area.width + 14, area.height + 6, charset);
             struct ceduo_picture p = picture_of(&s);
             s.scene.simulation.contact_model = i / 3 % 2 ? CEDUO_STEMS : CEDUO_INDEX;
-            p.outlook = i % 7 == 0 ? NULL : p.outlook;
+            p.snapshot = i % 7 == 0 ? NULL : p.snapshot;
             p.stems = i % 11 < 3 ? passed : NULL;
             p.stems_count = i % 11 < 3 ? 4 : 0;
             p.option = (size_t)(i % 5 == 0);

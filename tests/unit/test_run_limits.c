@@ -378,9 +378,9 @@ static void years_before_they_are_flown(void **state)
     site.scene.simulation.rocks = 20;
     struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
     struct ceduo_run *run = run_of(&def, 20);
-    struct ceduo_flown bare;
+    struct ceduo_simulated bare;
     struct ceduo_years *years;
-    assert_int_equal(ceduo_flown_read(run, 1, &bare), CEDUO_OK);
+    assert_int_equal(ceduo_simulated_read(run, 1, &bare), CEDUO_OK);
     assert_int_equal(ceduo_years_create(&site.scene, &site.option, (struct ceduo_window){.last = 3, .step = 1}, &years),
                      CEDUO_OK);
     ceduo_years_assess(years, &site.scene, &bare);
@@ -393,7 +393,7 @@ static void years_before_they_are_flown(void **state)
     EXPECT(s.unprotected_contact, ==, 0);
     EXPECT(s.unprotected_energy, ==, 0);
     ceduo_years_free(years);
-    ceduo_flown_free(&bare);
+    ceduo_simulated_free(&bare);
     ceduo_run_free(run);
 }
 

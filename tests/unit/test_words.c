@@ -61,11 +61,11 @@ static void open_scene(double accepted)
 
 static struct ceduo_result *assess(void)
 {
-    struct ceduo_flown flown[OPTIONS];
-    const struct ceduo_flown *wooded[OPTIONS];
+    struct ceduo_simulated flown[OPTIONS];
+    const struct ceduo_simulated *wooded[OPTIONS];
     struct ceduo_result *result;
     for (int i = 0; i < OPTIONS; i++) {
-        flown[i] = (struct ceduo_flown){.rocks = 1000, .controls = 1, .arrivals = &arrivals[i]};
+        flown[i] = (struct ceduo_simulated){.rocks = 1000, .controls = 1, .arrivals = &arrivals[i]};
         wooded[i] = &flown[i];
     }
     assert_int_equal(ceduo_result_assess(&scene.scene, &flown[0], wooded, differences, NULL, &result), CEDUO_OK);

@@ -86,11 +86,11 @@ static enum ceduo_status make_size(void *context, size_t i, struct ceduo_variant
     b->diameter = rock.mean_diameter;
     b->adc = index.worst_adc;
     b->contacts = index.contacts;
-    bool flies = def->scene->simulation.contact_model != CEDUO_INDEX;
+    bool simulates = def->scene->simulation.contact_model != CEDUO_INDEX;
     bool known = b->own && def->own && def->own->released >= def->rocks && def->scene->blocks_count == 0;
-    if (flies && known)
+    if (simulates && known)
         b->arrivals = *def->own;
-    variant->skip = !flies || known || index.contacts > TIMES_MOST * r->contacts;
+    variant->skip = !simulates || known || index.contacts > TIMES_MOST * r->contacts;
     variant->rocks = 1;
     variant->run = ceduo_run_def_default(&r->scene);
     variant->run.option = def->option;

@@ -108,8 +108,8 @@ enum ceduo_status ceduo_pool_run(struct ceduo_pool *pool, const struct ceduo_opt
     return CEDUO_OK;
 }
 
-enum ceduo_status ceduo_pool_fly(struct ceduo_pool *pool, const struct ceduo_option *option, uint64_t rocks,
-                                 struct ceduo_run **run)
+enum ceduo_status ceduo_pool_simulate(struct ceduo_pool *pool, const struct ceduo_option *option, uint64_t rocks,
+                                      struct ceduo_run **run)
 {
     enum ceduo_status status = ceduo_pool_run(pool, option, run);
     return status == CEDUO_OK ? ceduo_run_extend(*run, rocks) : status;

@@ -9,15 +9,15 @@ struct ceduo_question ceduo_question_default(const struct ceduo_scene *scene)
         .run = ceduo_run_def_default(scene), .rocks = scene->simulation.rocks, .only = CEDUO_ALL_OPTIONS};
 }
 
-/* ---- flying ---- */
+/* ---- simulating ---- */
 
-static enum ceduo_status fly_one(const struct ceduo_question *q, struct ceduo_pool *pool)
+static enum ceduo_status simulate_one(const struct ceduo_question *q, struct ceduo_pool *pool)
 {
     struct ceduo_run *run;
-    return q->rocks > 0 ? ceduo_pool_fly(pool, &q->run.scene->options[q->only], q->rocks, &run) : CEDUO_OK;
+    return q->rocks > 0 ? ceduo_pool_simulate(pool, &q->run.scene->options[q->only], q->rocks, &run) : CEDUO_OK;
 }
 
-static enum ceduo_status fly_all(const struct ceduo_question *q, struct ceduo_pool *pool, bool *met)
+static enum ceduo_status simulate_all(const struct ceduo_question *q, struct ceduo_pool *pool, bool *met)
 {
     enum ceduo_status status = ceduo_pool_fill(pool);
     if (status != CEDUO_OK)
@@ -39,10 +39,10 @@ static uint64_t rocks_in_year(const struct ceduo_question *q, uint64_t flown)
     return rocks < most ? rocks : most;
 }
 
-static enum ceduo_status fly_years(const struct ceduo_question *q, struct ceduo_pool *pool, struct ceduo_answer *a)
+static enum ceduo_status simulate_years(const struct ceduo_question *q, struct ceduo_pool *pool, struct ceduo_answer *a)
 {
     const struct ceduo_scene *scene = q->run.scene;
-    const struct ceduo_flown *bare = &a->result->bare;
+    const struct ceduo_simulated *bare = &a->result->bare;
     uint64_t rocks = q->only == CEDUO_ALL_OPTIONS ? bare->rocks : q->rocks;
     rocks = rocks_in_year(q, rocks);
     a->years = calloc(scene->options_count + 1, sizeof *a->years);
@@ -57,7 +57,7 @@ static enum ceduo_status fly_years(const struct ceduo_question *q, struct ceduo_
             window = ceduo_window_of_most(window, q->years_most);
         status = ceduo_years_create(scene, option, window, &a->years[i]);
         if (status == CEDUO_OK)
-            status = ceduo_years_fly(a->years[i], pool, bare, rocks);
+            status = ceduo_years_simulate(a->years[i], pool, bare, rocks);
     }
     return status;
 }
@@ -70,7 +70,7 @@ static double effort_of(const struct ceduo_pool *pool, const struct ceduo_option
 }
 
 /* Each size may cost as much as the two runs beside it. So thin a splinter that a smaller one is no rock has no other sizes. */
-static enum ceduo_status fly_blocks(const struct ceduo_question *q, const struct ceduo_pool *pool, struct ceduo_answer *a)
+static enum ceduo_status simulate_sizes(const struct ceduo_question *q, const struct ceduo_pool *pool, struct ceduo_answer *a)
 {
     const struct ceduo_scene *scene = q->run.scene;
     uint64_t flown = ceduo_result_rocks(a->result), rocks = flown < q->block_rocks ? flown : q->block_rocks;
@@ -96,14 +96,14 @@ static enum ceduo_status fly_blocks(const struct ceduo_question *q, const struct
 
 static enum ceduo_status answer_by(const struct ceduo_question *q, struct ceduo_pool *pool, struct ceduo_answer *a)
 {
-    enum ceduo_status status = q->only == CEDUO_ALL_OPTIONS ? fly_all(q, pool, &a->tolerance_met) : fly_one(q, pool);
+    enum ceduo_status status = q->only == CEDUO_ALL_OPTIONS ? simulate_all(q, pool, &a->tolerance_met) : simulate_one(q, pool);
     if (status == CEDUO_OK)
         status = ceduo_result_create(q->run.scene, pool, &a->result);
     if (status == CEDUO_OK && q->years)
-        status = fly_years(q, pool, a);
+        status = simulate_years(q, pool, a);
     a->work = ceduo_pool_work(pool);
     if (status == CEDUO_OK && q->block_rocks > 0 && q->run.scene->controls_count > 0)
-        status = fly_blocks(q, pool, a);
+        status = simulate_sizes(q, pool, a);
     return status;
 }
 

@@ -9,40 +9,40 @@
 
 /* ---- what a run found ---- */
 
-static bool allocate_flown(struct ceduo_flown *f, size_t controls)
+static bool allocate_simulated(struct ceduo_simulated *f, size_t controls)
 {
-    *f = (struct ceduo_flown){.controls = controls, .arrivals = calloc(controls + 1, sizeof *f->arrivals)};
+    *f = (struct ceduo_simulated){.controls = controls, .arrivals = calloc(controls + 1, sizeof *f->arrivals)};
     return f->arrivals != NULL;
 }
 
-enum ceduo_status ceduo_flown_read(const struct ceduo_run *run, size_t controls, struct ceduo_flown *f)
+enum ceduo_status ceduo_simulated_read(const struct ceduo_run *run, size_t controls, struct ceduo_simulated *f)
 {
-    if (!allocate_flown(f, controls))
+    if (!allocate_simulated(f, controls))
         return CEDUO_NO_MEMORY;
     f->rocks = ceduo_run_rocks(run);
     enum ceduo_status status = ceduo_run_ends(run, &f->ends);
     for (size_t c = 0; c < controls && status == CEDUO_OK; c++)
         status = ceduo_run_arrivals(run, c, &f->arrivals[c]);
     if (status != CEDUO_OK)
-        ceduo_flown_free(f);
+        ceduo_simulated_free(f);
     return status;
 }
 
 /* Of a run that is not there nothing is known. */
-static enum ceduo_status read_if_there(const struct ceduo_run *run, size_t controls, struct ceduo_flown *f)
+static enum ceduo_status read_if_there(const struct ceduo_run *run, size_t controls, struct ceduo_simulated *f)
 {
     if (run)
-        return ceduo_flown_read(run, controls, f);
-    if (!allocate_flown(f, controls))
+        return ceduo_simulated_read(run, controls, f);
+    if (!allocate_simulated(f, controls))
         return CEDUO_NO_MEMORY;
     for (size_t c = 0; c < controls; c++)
         f->arrivals[c].energy = ceduo_distribution_none(), f->arrivals[c].hazard = ceduo_hazard_none();
     return CEDUO_OK;
 }
 
-static enum ceduo_status copy(const struct ceduo_flown *from, struct ceduo_flown *to)
+static enum ceduo_status copy(const struct ceduo_simulated *from, struct ceduo_simulated *to)
 {
-    if (!allocate_flown(to, from->controls))
+    if (!allocate_simulated(to, from->controls))
         return CEDUO_NO_MEMORY;
     to->rocks = from->rocks;
     to->ends = from->ends;
@@ -51,15 +51,15 @@ static enum ceduo_status copy(const struct ceduo_flown *from, struct ceduo_flown
     return CEDUO_OK;
 }
 
-void ceduo_flown_free(struct ceduo_flown *f)
+void ceduo_simulated_free(struct ceduo_simulated *f)
 {
     free(f->arrivals);
-    *f = (struct ceduo_flown){0};
+    *f = (struct ceduo_simulated){0};
 }
 
 /* ---- results ---- */
 
-void ceduo_flown_meets_nothing(struct ceduo_flown *f)
+void ceduo_simulated_meets_nothing(struct ceduo_simulated *f)
 {
     for (size_t c = 0; c < f->controls; c++) {
         struct ceduo_arrivals *a = &f->arrivals[c];
@@ -68,7 +68,7 @@ void ceduo_flown_meets_nothing(struct ceduo_flown *f)
     }
 }
 
-void ceduo_flown_compare(struct ceduo_flown *f, const struct ceduo_flown *bare)
+void ceduo_simulated_compare(struct ceduo_simulated *f, const struct ceduo_simulated *bare)
 {
     for (size_t c = 0; f->arrivals && c < f->controls; c++) /* there may have been no memory for them */
         ceduo_hazard_compare(&f->arrivals[c].hazard, &bare->arrivals[c].hazard);
@@ -81,8 +81,8 @@ static void put_out(struct ceduo_index *index)
     index->thick.contact = index->thick.free_run = CEDUO_UNKNOWN;
 }
 
-void ceduo_result_read(const struct ceduo_scene *scene, const struct ceduo_option *option, const struct ceduo_flown *bare,
-                       const struct ceduo_flown *wooded, struct ceduo_stand_result *stands, struct ceduo_index *controls)
+void ceduo_result_read(const struct ceduo_scene *scene, const struct ceduo_option *option, const struct ceduo_simulated *bare,
+                       const struct ceduo_simulated *wooded, struct ceduo_stand_result *stands, struct ceduo_index *controls)
 {
     for (size_t k = 0; k < option->belts_count; k++)
         stands[k] = ceduo_assess_stand(scene, &option->belts[k]);
@@ -136,14 +136,14 @@ static enum ceduo_judgement judge_other(const struct ceduo_arrivals *bare, const
 static enum ceduo_status finish(struct ceduo_result *r, enum ceduo_status status, struct ceduo_result **result)
 {
     const struct ceduo_scene *scene = r->scene;
-    const struct ceduo_flown none = {0};
+    const struct ceduo_simulated none = {0};
     for (size_t i = 0; i < r->options_count && status == CEDUO_OK; i++) {
         struct ceduo_option_result *o = &r->options[i];
         if (r->wooded)
-            ceduo_flown_meets_nothing(&o->wooded);
+            ceduo_simulated_meets_nothing(&o->wooded);
         else
             status = copy(&r->bare, &o->wooded);
-        ceduo_flown_compare(&o->wooded, &r->bare);
+        ceduo_simulated_compare(&o->wooded, &r->bare);
         for (size_t c = 0; c < scene->controls_count; c++)
             if (!r->wooded)
                 o->differences[c] = ceduo_no_difference(scene->controls[c].accepted);
@@ -158,8 +158,8 @@ static enum ceduo_status finish(struct ceduo_result *r, enum ceduo_status status
     return status;
 }
 
-enum ceduo_status ceduo_result_assess(const struct ceduo_scene *scene, const struct ceduo_flown *bare,
-                                      const struct ceduo_flown *const *wooded, const struct ceduo_difference *differences,
+enum ceduo_status ceduo_result_assess(const struct ceduo_scene *scene, const struct ceduo_simulated *bare,
+                                      const struct ceduo_simulated *const *wooded, const struct ceduo_difference *differences,
                                       const struct ceduo_other_energy *others, struct ceduo_result **result)
 {
     size_t controls = scene->controls_count;
@@ -210,8 +210,8 @@ enum ceduo_status ceduo_result_create(const struct ceduo_scene *scene, const str
         for (size_t c = 0; c < controls; c++)
             r->options[i].differences[c] = ceduo_run_difference(run, baseline, c);
         if (run) /* that of an option without stems is the one without forest */
-            status =
-                run == bare ? copy(&r->bare, &r->options[i].wooded) : ceduo_flown_read(run, controls, &r->options[i].wooded);
+            status = run == bare ? copy(&r->bare, &r->options[i].wooded)
+                                 : ceduo_simulated_read(run, controls, &r->options[i].wooded);
     }
     if (r->wooded && status == CEDUO_OK)
         status = read_others(scene, pool, r->options);
@@ -227,16 +227,16 @@ void ceduo_result_free(struct ceduo_result *result)
         free(result->options[i].controls);
         free(result->options[i].differences);
         free(result->options[i].others);
-        ceduo_flown_free(&result->options[i].wooded);
+        ceduo_simulated_free(&result->options[i].wooded);
     }
     free(result->options);
-    ceduo_flown_free(&result->bare);
+    ceduo_simulated_free(&result->bare);
     free(result);
 }
 
 const struct ceduo_arrivals *ceduo_result_wooded(const struct ceduo_result *result, size_t option, size_t control)
 {
-    const struct ceduo_flown *f = &result->options[option].wooded;
+    const struct ceduo_simulated *f = &result->options[option].wooded;
     return result->wooded && f->rocks > 0 ? &f->arrivals[control] : NULL;
 }
 

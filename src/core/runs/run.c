@@ -37,7 +37,7 @@ enum ceduo_status ceduo_run_extend(struct ceduo_run *run, uint64_t rocks)
     while (run->rocks < rocks) {
         uint64_t block = run->rocks / CEDUO_BLOCK_ROCKS, end = (block + run->chunk) * CEDUO_BLOCK_ROCKS;
         double start = ceduo_clock();
-        enum ceduo_status status = ceduo_run_fly_chunk(run, end < rocks ? end : rocks);
+        enum ceduo_status status = ceduo_run_simulate_chunk(run, end < rocks ? end : rocks);
         if (status != CEDUO_OK)
             return status;
         choose_chunk(run, (size_t)(run->rocks / CEDUO_BLOCK_ROCKS - block), ceduo_clock() - start);

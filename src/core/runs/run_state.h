@@ -12,7 +12,7 @@
 /* A run from inside; only the run*.c include this.
  *
  *     run.c          makes, extends and frees a run, chunk by chunk
- *     run_fly.c      simulates the rocks of one chunk on several threads
+ *     run_simulate.c      simulates the rocks of one chunk on several threads
  *     run_samples.c  sums of a block, merged in the order of the blocks; what is kept of single rocks: every value, or
  *                    histograms where there are too many
  *     run_read.c     arrivals, differences and ends, read from sums and samples
@@ -113,9 +113,9 @@ enum ceduo_status ceduo_run_sized_ends(const struct ceduo_run *run, struct ceduo
 struct ceduo_difference ceduo_run_sized_difference(const struct ceduo_run *run, const struct ceduo_run *baseline,
                                                    size_t control);
 
-/* ---- flying ---- */
+/* ---- simulating ---- */
 
 /* Simulates one chunk, from where the run stands to rock `end`. On failure the run is as it was before. */
-enum ceduo_status ceduo_run_fly_chunk(struct ceduo_run *run, uint64_t end);
+enum ceduo_status ceduo_run_simulate_chunk(struct ceduo_run *run, uint64_t end);
 
 #endif

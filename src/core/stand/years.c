@@ -71,7 +71,7 @@ static void free_year(struct ceduo_year *y)
     free(y->option.belts);
     free(y->stands);
     free(y->controls);
-    ceduo_flown_free(&y->wooded);
+    ceduo_simulated_free(&y->wooded);
 }
 
 static enum ceduo_status grow(const struct ceduo_option *option, size_t controls, struct ceduo_year *y)
@@ -136,9 +136,9 @@ void ceduo_years_free(struct ceduo_years *years)
     free(years);
 }
 
-/* ---- flying ---- */
+/* ---- simulating ---- */
 
-void ceduo_years_assess(struct ceduo_years *years, const struct ceduo_scene *scene, const struct ceduo_flown *bare)
+void ceduo_years_assess(struct ceduo_years *years, const struct ceduo_scene *scene, const struct ceduo_simulated *bare)
 {
     years->scene = *scene;
     for (size_t i = 0; i < years->count; i++) {
@@ -161,13 +161,13 @@ static bool keep_weights(struct ceduo_years *years, const double *weights)
 struct years_run {
     struct ceduo_years *years;
     struct ceduo_pool *pool;
-    const struct ceduo_flown *bare;
+    const struct ceduo_simulated *bare;
     uint64_t rocks; /* 0: nothing is simulated */
 };
 
 static void read_year(const struct years_run *r, struct ceduo_year *y)
 {
-    ceduo_flown_compare(&y->wooded, r->bare);
+    ceduo_simulated_compare(&y->wooded, r->bare);
     ceduo_result_read(&r->years->scene, &y->option, r->bare, &y->wooded, y->stands, y->controls);
     ceduo_pool_trim(r->pool);
 }
@@ -191,11 +191,11 @@ static enum ceduo_status take_year(void *context, size_t i, struct ceduo_run *ru
     struct ceduo_years *years = r->years;
     struct ceduo_year *y = &years->years[i];
     (void)rocks;
-    ceduo_flown_free(&y->wooded);
-    enum ceduo_status status = ceduo_flown_read(run, years->scene.controls_count, &y->wooded);
+    ceduo_simulated_free(&y->wooded);
+    enum ceduo_status status = ceduo_simulated_read(run, years->scene.controls_count, &y->wooded);
     if (status != CEDUO_OK)
         return status;
-    ceduo_flown_meets_nothing(&y->wooded);
+    ceduo_simulated_meets_nothing(&y->wooded);
     if (ceduo_run_weights(run) && !years->weights && !keep_weights(years, ceduo_run_weights(run)))
         return CEDUO_NO_MEMORY;
     if (years->scene.controls_count > 0)
@@ -215,8 +215,8 @@ static bool clear_marks(struct ceduo_years *years, uint64_t rocks)
     return years->marks;
 }
 
-enum ceduo_status ceduo_years_fly(struct ceduo_years *years, struct ceduo_pool *pool, const struct ceduo_flown *bare,
-                                  uint64_t rocks)
+enum ceduo_status ceduo_years_simulate(struct ceduo_years *years, struct ceduo_pool *pool, const struct ceduo_simulated *bare,
+                                       uint64_t rocks)
 {
     struct years_run r = {years, pool, bare, years->scene.simulation.contact_model != CEDUO_INDEX ? rocks : 0};
     if (r.rocks > 0 && !clear_marks(years, rocks))
@@ -260,7 +260,7 @@ static double marks_se(const struct ceduo_years *years)
     return ceduo_moments_sd(&m) / sqrt((double)years->rocks);
 }
 
-static void add_flown(const struct ceduo_year *y, const struct ceduo_arrivals *a, struct ceduo_years_summary *s)
+static void add_simulated(const struct ceduo_year *y, const struct ceduo_arrivals *a, struct ceduo_years_summary *s)
 {
     double n = isnan(a->hazard.per_year) ? (double)a->released : a->hazard.effective;
     bool says = !isnan(a->exceed_probability);
@@ -287,7 +287,7 @@ static void divide(struct ceduo_paired *p, size_t n)
 struct ceduo_years_summary ceduo_years_sum(const struct ceduo_years *years, size_t control)
 {
     struct ceduo_years_summary s = {.years = years->count, .worst = NAN};
-    bool flies = years->scene.simulation.contact_model != CEDUO_INDEX;
+    bool simulates = years->scene.simulation.contact_model != CEDUO_INDEX;
     for (size_t i = 0; i < years->count; i++) {
         const struct ceduo_year *y = &years->years[i];
         const struct ceduo_index *index = &y->controls[control];
@@ -298,8 +298,8 @@ struct ceduo_years_summary ceduo_years_sum(const struct ceduo_years *years, size
         s.thick_free_run += index->thick.free_run == CEDUO_FAIL;
         s.unprotected_energy += index->energy == CEDUO_FAIL;
         if (y->wooded.rocks > 0) {
-            add_flown(y, &y->wooded.arrivals[control], &s);
-        } else if (!flies && !(index->worst_adc <= s.worst)) {
+            add_simulated(y, &y->wooded.arrivals[control], &s);
+        } else if (!simulates && !(index->worst_adc <= s.worst)) {
             s.worst = index->worst_adc;
             s.worst_year = y->year;
         }

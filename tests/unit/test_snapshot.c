@@ -21,10 +21,10 @@ static struct ceduo_pool *pool_of(const struct site *s, uint64_t rocks, size_t c
     return pool;
 }
 
-static struct ceduo_outlook *outlook_of(const struct ceduo_outlook_def *def)
+static struct ceduo_snapshot *snapshot_of(const struct ceduo_snapshot_def *def)
 {
-    struct ceduo_outlook *o;
-    assert_int_equal(ceduo_outlook_create(def, &o), CEDUO_OK);
+    struct ceduo_snapshot *o;
+    assert_int_equal(ceduo_snapshot_create(def, &o), CEDUO_OK);
     return o;
 }
 
@@ -33,18 +33,18 @@ static void places_lie_beyond_the_release(void **state)
     (void)state;
     static struct site s;
     site_init(&s);
-    double x[CEDUO_OUTLOOK_CELLS];
+    double x[CEDUO_SNAPSHOT_CELLS];
     s.scene.release.x = (struct ceduo_number){10, 2, CEDUO_UNIFORM};
-    assert_int_equal(ceduo_outlook_places(&s.scene, x), CEDUO_OUTLOOK_CELLS);
+    assert_int_equal(ceduo_snapshot_places(&s.scene, x), CEDUO_SNAPSHOT_CELLS);
     EXPECT(x[0], >, 12);
-    for (int i = 1; i < CEDUO_OUTLOOK_CELLS; i++)
+    for (int i = 1; i < CEDUO_SNAPSHOT_CELLS; i++)
         EXPECT(x[i], >, x[i - 1]);
-    EXPECT(x[CEDUO_OUTLOOK_CELLS - 1], <=, 100);
+    EXPECT(x[CEDUO_SNAPSHOT_CELLS - 1], <=, 100);
     s.scene.release.x = ceduo_number(100);
-    assert_int_equal(ceduo_outlook_places(&s.scene, x), 0);
+    assert_int_equal(ceduo_snapshot_places(&s.scene, x), 0);
 }
 
-static void expect_sight(const struct ceduo_sight *sight, const struct ceduo_run *run, size_t cells)
+static void expect_sight(const struct ceduo_run_snapshot *sight, const struct ceduo_run *run, size_t cells)
 {
     assert_non_null(sight);
     assert_int_equal(sight->flown.rocks, ceduo_run_rocks(run));
@@ -67,15 +67,15 @@ static void expect_sight(const struct ceduo_sight *sight, const struct ceduo_run
     }
 }
 
-static void outlook_is_what_the_runs_say(void **state)
+static void snapshot_is_what_the_runs_say(void **state)
 {
     (void)state;
     static struct site s;
     wooded_site_init(&s);
-    double x[CEDUO_OUTLOOK_CELLS];
-    size_t cells = ceduo_outlook_places(&s.scene, x);
+    double x[CEDUO_SNAPSHOT_CELLS];
+    size_t cells = ceduo_snapshot_places(&s.scene, x);
     struct ceduo_pool *pool = pool_of(&s, 300, cells, x, CEDUO_EXACT_BYTES);
-    struct ceduo_outlook *o = outlook_of(&(struct ceduo_outlook_def){
+    struct ceduo_snapshot *o = snapshot_of(&(struct ceduo_snapshot_def){
         .scene = &s.scene, .figures = pool, .pictures = pool, .cells = cells, .cell_x = x, .trajectories = 20});
     assert_int_equal(o->cells, cells);
     assert_int_equal(o->controls, 2);
@@ -87,12 +87,12 @@ static void outlook_is_what_the_runs_say(void **state)
     EXPECT(o->wooded[0]->flown.arrivals[1].reached, <, o->bare->flown.arrivals[1].reached);
     assert_int_equal(o->bare->trajectories_count, 20);
     assert_int_equal(o->wooded[0]->trajectories_count, 20);
-    assert_ptr_equal(ceduo_outlook_sight(o, &s.scene, 0), o->wooded[0]);
-    assert_null(ceduo_outlook_sight(o, &s.scene, 2));
-    assert_null(ceduo_outlook_sight(NULL, &s.scene, 0));
-    ceduo_outlook_free(o);
+    assert_ptr_equal(ceduo_snapshot_of(o, &s.scene, 0), o->wooded[0]);
+    assert_null(ceduo_snapshot_of(o, &s.scene, 2));
+    assert_null(ceduo_snapshot_of(NULL, &s.scene, 0));
+    ceduo_snapshot_free(o);
     ceduo_pool_free(pool);
-    ceduo_outlook_free(NULL);
+    ceduo_snapshot_free(NULL);
 }
 
 /* Without stems the rocks are those without forest: the same sight, and it is flown once. */
@@ -102,7 +102,7 @@ static void a_forest_without_stems_is_the_bare_slope(void **state)
     static struct site s;
     wooded_site_init(&s);
     struct ceduo_pool *pool = pool_of(&s, 300, 0, NULL, CEDUO_EXACT_BYTES);
-    struct ceduo_outlook *o = outlook_of(&(struct ceduo_outlook_def){.scene = &s.scene, .figures = pool, .pictures = pool});
+    struct ceduo_snapshot *o = snapshot_of(&(struct ceduo_snapshot_def){.scene = &s.scene, .figures = pool, .pictures = pool});
     assert_int_equal(ceduo_pool_work(pool).runs, 2);
     assert_ptr_equal(o->wooded[1], o->bare);
     assert_ptr_not_equal(o->wooded[0], o->bare);
@@ -111,7 +111,7 @@ static void a_forest_without_stems_is_the_bare_slope(void **state)
         double more = o->bare->flown.arrivals[c].reach_probability - o->wooded[0]->flown.arrivals[c].reach_probability;
         EXPECT_NEAR(o->differences[2 + c].reach_probability.mean, more, 1e-12);
     }
-    ceduo_outlook_free(o);
+    ceduo_snapshot_free(o);
     ceduo_pool_free(pool);
 }
 
@@ -122,13 +122,13 @@ static void the_index_looks_at_the_bare_slope(void **state)
     static struct site s;
     site_init(&s);
     struct ceduo_pool *pool = pool_of(&s, 300, 0, NULL, CEDUO_EXACT_BYTES);
-    struct ceduo_outlook *o = outlook_of(&(struct ceduo_outlook_def){.scene = &s.scene, .figures = pool, .pictures = pool});
+    struct ceduo_snapshot *o = snapshot_of(&(struct ceduo_snapshot_def){.scene = &s.scene, .figures = pool, .pictures = pool});
     assert_int_equal(ceduo_pool_work(pool).runs, 1);
     assert_null(o->wooded[0]);
     assert_null(o->wooded[1]);
-    assert_ptr_equal(ceduo_outlook_sight(o, &s.scene, 0), o->bare);
-    assert_ptr_equal(ceduo_outlook_sight(o, &s.scene, 1), o->bare);
-    ceduo_outlook_free(o);
+    assert_ptr_equal(ceduo_snapshot_of(o, &s.scene, 0), o->bare);
+    assert_ptr_equal(ceduo_snapshot_of(o, &s.scene, 1), o->bare);
+    ceduo_snapshot_free(o);
     ceduo_pool_free(pool);
 }
 
@@ -143,18 +143,18 @@ static void what_is_not_flown_yet_is_not_known(void **state)
     struct ceduo_run *run;
     assert_int_equal(ceduo_pool_create(&run_def, &pool), CEDUO_OK);
     assert_int_equal(ceduo_pool_run(pool, NULL, &run), CEDUO_OK);
-    struct ceduo_outlook_def def = {.scene = &s.scene, .figures = pool, .pictures = pool};
-    struct ceduo_outlook *o = outlook_of(&def);
+    struct ceduo_snapshot_def def = {.scene = &s.scene, .figures = pool, .pictures = pool};
+    struct ceduo_snapshot *o = snapshot_of(&def);
     assert_null(o->bare);
-    ceduo_outlook_free(o);
+    ceduo_snapshot_free(o);
     assert_int_equal(ceduo_pool_extend(pool, 100), CEDUO_OK);
-    o = outlook_of(&def);
+    o = snapshot_of(&def);
     assert_non_null(o->bare);
     assert_null(o->wooded[0]);
     assert_ptr_equal(o->wooded[1], o->bare);
     for (size_t i = 0; i < 4; i++)
         assert_true(isnan(o->differences[i].reach_probability.mean));
-    ceduo_outlook_free(o);
+    ceduo_snapshot_free(o);
     ceduo_pool_free(pool);
 }
 
@@ -164,21 +164,21 @@ static void figures_come_from_the_longer_run(void **state)
     (void)state;
     static struct site s;
     wooded_site_init(&s);
-    double x[CEDUO_OUTLOOK_CELLS];
-    size_t cells = ceduo_outlook_places(&s.scene, x);
+    double x[CEDUO_SNAPSHOT_CELLS];
+    size_t cells = ceduo_snapshot_places(&s.scene, x);
     struct ceduo_pool *figures = pool_of(&s, 600, 0, NULL, CEDUO_EXACT_BYTES);
     struct ceduo_pool *pictures = pool_of(&s, 300, cells, x, CEDUO_EXACT_BYTES);
-    struct ceduo_outlook_def def = {.scene = &s.scene, .figures = figures, .pictures = pictures, .cells = cells, .cell_x = x};
-    struct ceduo_outlook *o = outlook_of(&def);
+    struct ceduo_snapshot_def def = {.scene = &s.scene, .figures = figures, .pictures = pictures, .cells = cells, .cell_x = x};
+    struct ceduo_snapshot *o = snapshot_of(&def);
     assert_int_equal(o->wooded[0]->flown.rocks, 600);
     assert_int_equal(o->wooded[0]->picture_rocks, 300);
     EXPECT(o->wooded[0]->envelopes[0].passed, <=, 300);
-    ceduo_outlook_free(o);
+    ceduo_snapshot_free(o);
     assert_int_equal(ceduo_pool_extend(pictures, 900), CEDUO_OK);
-    o = outlook_of(&def);
+    o = snapshot_of(&def);
     assert_int_equal(o->wooded[0]->flown.rocks, 900);
     assert_int_equal(o->bare->flown.rocks, 900);
-    ceduo_outlook_free(o);
+    ceduo_snapshot_free(o);
     ceduo_pool_free(figures);
     ceduo_pool_free(pictures);
 }
@@ -189,29 +189,29 @@ static void pictures_may_be_behind(void **state)
     (void)state;
     static struct site s;
     wooded_site_init(&s);
-    double x[CEDUO_OUTLOOK_CELLS];
-    size_t cells = ceduo_outlook_places(&s.scene, x);
+    double x[CEDUO_SNAPSHOT_CELLS];
+    size_t cells = ceduo_snapshot_places(&s.scene, x);
     struct ceduo_pool *figures = pool_of(&s, 600, 0, NULL, CEDUO_EXACT_BYTES), *pictures;
     struct ceduo_run_def run_def = ceduo_run_def_default(&s.scene);
     run_def.cells = cells;
     run_def.cell_x = x;
     assert_int_equal(ceduo_pool_create(&run_def, &pictures), CEDUO_OK);
-    struct ceduo_outlook_def def = {.scene = &s.scene, .figures = figures, .pictures = pictures, .cells = cells, .cell_x = x};
+    struct ceduo_snapshot_def def = {.scene = &s.scene, .figures = figures, .pictures = pictures, .cells = cells, .cell_x = x};
     const uint64_t rocks[] = {0, 300, 400};
-    struct ceduo_outlook *o[3];
+    struct ceduo_snapshot *o[3];
     for (int i = 0; i < 3; i++) {
         if (i > 0)
             assert_int_equal(ceduo_pool_fill(pictures), CEDUO_OK);
         assert_int_equal(ceduo_pool_extend(pictures, rocks[i]), CEDUO_OK);
         def.last = i > 0 ? o[i - 1] : NULL;
-        o[i] = outlook_of(&def);
+        o[i] = snapshot_of(&def);
         assert_int_equal(o[i]->bare->flown.rocks, 600);
         assert_int_equal(o[i]->bare->picture_rocks, rocks[i]);
         assert_int_equal(o[i]->bare->envelopes[0].passed, rocks[i]);
         assert_true(i == 0 || o[i]->bare != o[i - 1]->bare);
     }
     for (int i = 0; i < 3; i++)
-        ceduo_outlook_free(o[i]);
+        ceduo_snapshot_free(o[i]);
     ceduo_pool_free(figures);
     ceduo_pool_free(pictures);
 }
@@ -225,21 +225,21 @@ static void a_changed_forest_shows_what_it_was(void **state)
     wooded_site_init(&a);
     wooded_site_init(&b);
     struct ceduo_pool *pool = pool_of(&a, 100, 0, NULL, CEDUO_EXACT_BYTES);
-    struct ceduo_outlook *o = outlook_of(&(struct ceduo_outlook_def){.scene = &a.scene, .figures = pool, .pictures = pool});
+    struct ceduo_snapshot *o = snapshot_of(&(struct ceduo_snapshot_def){.scene = &a.scene, .figures = pool, .pictures = pool});
     struct ceduo_option options[4] = {b.options[0], b.options[1], a.options[0], b.options[0]};
     b.scene.options = options;
     b.belts[0].stand.u = 50e3;
-    assert_ptr_equal(ceduo_outlook_sight(o, &b.scene, 0), o->wooded[0]);
-    assert_ptr_equal(ceduo_outlook_sight(o, &b.scene, 1), o->wooded[1]);
+    assert_ptr_equal(ceduo_snapshot_of(o, &b.scene, 0), o->wooded[0]);
+    assert_ptr_equal(ceduo_snapshot_of(o, &b.scene, 1), o->wooded[1]);
     b.scene.options_count = 4;
-    assert_null(ceduo_outlook_sight(o, &b.scene, 0));
-    assert_ptr_equal(ceduo_outlook_sight(o, &b.scene, 2), o->wooded[0]);
-    assert_null(ceduo_outlook_sight(o, &b.scene, 3));
-    ceduo_outlook_free(o);
+    assert_null(ceduo_snapshot_of(o, &b.scene, 0));
+    assert_ptr_equal(ceduo_snapshot_of(o, &b.scene, 2), o->wooded[0]);
+    assert_null(ceduo_snapshot_of(o, &b.scene, 3));
+    ceduo_snapshot_free(o);
     ceduo_pool_free(pool);
 }
 
-/* What has not changed since the last outlook is not read again but shared; who is freed first does not matter. */
+/* What has not changed since the last snapshot is not read again but shared; who is freed first does not matter. */
 static void sights_are_taken_over(void **state)
 {
     (void)state;
@@ -250,29 +250,29 @@ static void sights_are_taken_over(void **state)
         b.belts[1].stand = b.belts[0].stand; /* trees where the other has none */
         b.belts[1].stand.shoots_count = 0;
         struct ceduo_pool *pool = pool_of(&a, 300, 0, NULL, CEDUO_EXACT_BYTES);
-        struct ceduo_outlook_def def = {.scene = &a.scene, .figures = pool, .pictures = pool, .trajectories = 5};
-        struct ceduo_outlook *first = outlook_of(&def);
+        struct ceduo_snapshot_def def = {.scene = &a.scene, .figures = pool, .pictures = pool, .trajectories = 5};
+        struct ceduo_snapshot *first = snapshot_of(&def);
         ceduo_pool_turn(pool, &b.scene);
         def.scene = &b.scene;
         def.last = first;
-        struct ceduo_outlook *early = outlook_of(&def);
+        struct ceduo_snapshot *early = snapshot_of(&def);
         assert_null(early->wooded[1]);
         assert_int_equal(ceduo_pool_fill(pool), CEDUO_OK);
         assert_int_equal(ceduo_pool_extend(pool, 300), CEDUO_OK);
         def.last = early;
-        struct ceduo_outlook *second = outlook_of(&def);
+        struct ceduo_snapshot *second = snapshot_of(&def);
         assert_ptr_equal(second->bare, first->bare);
         assert_ptr_equal(second->wooded[0], first->wooded[0]);
         assert_non_null(second->wooded[1]);
         assert_ptr_not_equal(second->wooded[1], first->wooded[1]);
         assert_int_equal(atomic_load(&first->wooded[0]->references), 3);
-        ceduo_outlook_free(order ? first : second);
-        ceduo_outlook_free(early);
-        struct ceduo_outlook *left = order ? second : first;
+        ceduo_snapshot_free(order ? first : second);
+        ceduo_snapshot_free(early);
+        struct ceduo_snapshot *left = order ? second : first;
         assert_int_equal(left->wooded[0]->trajectories_count, 5);
         assert_int_equal(atomic_load(&left->wooded[0]->references), 1);
         EXPECT(left->wooded[0]->trajectories[4].n, >=, 2);
-        ceduo_outlook_free(left);
+        ceduo_snapshot_free(left);
         ceduo_pool_free(pool);
     }
 }
@@ -283,20 +283,20 @@ static void longer_runs_are_read_again(void **state)
     static struct site s;
     wooded_site_init(&s);
     struct ceduo_pool *pool = pool_of(&s, 300, 0, NULL, CEDUO_EXACT_BYTES);
-    struct ceduo_outlook_def def = {.scene = &s.scene, .figures = pool, .pictures = pool};
-    struct ceduo_outlook *first = outlook_of(&def);
+    struct ceduo_snapshot_def def = {.scene = &s.scene, .figures = pool, .pictures = pool};
+    struct ceduo_snapshot *first = snapshot_of(&def);
     assert_int_equal(ceduo_pool_extend(pool, 301), CEDUO_OK);
     def.last = first;
-    struct ceduo_outlook *second = outlook_of(&def);
+    struct ceduo_snapshot *second = snapshot_of(&def);
     assert_ptr_not_equal(second->bare, first->bare);
     assert_ptr_not_equal(second->wooded[0], first->wooded[0]);
     assert_int_equal(second->wooded[0]->flown.rocks, 301);
-    ceduo_outlook_free(first);
-    ceduo_outlook_free(second);
+    ceduo_snapshot_free(first);
+    ceduo_snapshot_free(second);
     ceduo_pool_free(pool);
 }
 
-static void expect_same_energies(const struct ceduo_sight *a, const struct ceduo_sight *b)
+static void expect_same_energies(const struct ceduo_run_snapshot *a, const struct ceduo_run_snapshot *b)
 {
     for (size_t c = 0; c < 2; c++) {
         assert_false(b->flown.arrivals[c].exact);
@@ -314,12 +314,13 @@ static void energies_are_flown_where_they_were_not_kept(void **state)
     static struct site s;
     wooded_site_init(&s);
     struct ceduo_pool *kept = pool_of(&s, 300, 0, NULL, CEDUO_EXACT_BYTES), *binned = pool_of(&s, 300, 0, NULL, 0);
-    struct ceduo_outlook *a = outlook_of(&(struct ceduo_outlook_def){.scene = &s.scene, .figures = kept, .pictures = kept});
-    struct ceduo_outlook *b = outlook_of(&(struct ceduo_outlook_def){.scene = &s.scene, .figures = binned, .pictures = binned});
+    struct ceduo_snapshot *a = snapshot_of(&(struct ceduo_snapshot_def){.scene = &s.scene, .figures = kept, .pictures = kept});
+    struct ceduo_snapshot *b =
+        snapshot_of(&(struct ceduo_snapshot_def){.scene = &s.scene, .figures = binned, .pictures = binned});
     expect_same_energies(a->bare, b->bare);
     expect_same_energies(a->wooded[0], b->wooded[0]);
-    ceduo_outlook_free(a);
-    ceduo_outlook_free(b);
+    ceduo_snapshot_free(a);
+    ceduo_snapshot_free(b);
     ceduo_pool_free(kept);
     ceduo_pool_free(binned);
 }
@@ -331,8 +332,8 @@ static void trajectories_follow_the_rocks(void **state)
     static struct site s;
     wooded_site_init(&s);
     struct ceduo_pool *pool = pool_of(&s, 20, 0, NULL, CEDUO_EXACT_BYTES);
-    struct ceduo_outlook *o =
-        outlook_of(&(struct ceduo_outlook_def){.scene = &s.scene, .figures = pool, .pictures = pool, .trajectories = 20});
+    struct ceduo_snapshot *o =
+        snapshot_of(&(struct ceduo_snapshot_def){.scene = &s.scene, .figures = pool, .pictures = pool, .trajectories = 20});
     uint64_t hit = 0;
     for (uint64_t i = 0; i < 40; i++) {
         const struct ceduo_option *option = i % 2 ? &s.options[0] : NULL;
@@ -350,7 +351,7 @@ static void trajectories_follow_the_rocks(void **state)
                 EXPECT(t.z[k], >, ceduo_slope_height(&s.scene.slope, t.x[k]) - 0.1);
     }
     EXPECT(hit, >, 0);
-    ceduo_outlook_free(o);
+    ceduo_snapshot_free(o);
     ceduo_pool_free(pool);
 }
 
@@ -363,8 +364,8 @@ static void flights_are_sampled_finely(void **state)
     s.scene.release.vx = ceduo_number(10);
     s.scene.release.vz = ceduo_number(10);
     struct ceduo_pool *pool = pool_of(&s, 1, 0, NULL, CEDUO_EXACT_BYTES);
-    struct ceduo_outlook *o =
-        outlook_of(&(struct ceduo_outlook_def){.scene = &s.scene, .figures = pool, .pictures = pool, .trajectories = 1});
+    struct ceduo_snapshot *o =
+        snapshot_of(&(struct ceduo_snapshot_def){.scene = &s.scene, .figures = pool, .pictures = pool, .trajectories = 1});
     const struct ceduo_polyline t = o->bare->trajectories[0];
     size_t checked = 0;
     for (size_t i = 1; i < t.n && t.x[i] < 20; i++, checked++) {
@@ -372,7 +373,7 @@ static void flights_are_sampled_finely(void **state)
         EXPECT_NEAR(z, (10 - 0.5 * CEDUO_GRAVITY * seconds) * seconds, 0.06); /* a step is 0.05 m */
     }
     EXPECT(checked, >, 3);
-    ceduo_outlook_free(o);
+    ceduo_snapshot_free(o);
     ceduo_pool_free(pool);
 }
 
@@ -394,8 +395,8 @@ static void an_endless_trajectory_is_drawn_in_part(void **state)
     static struct site s;
     init_endless(&s);
     struct ceduo_pool *pool = pool_of(&s, 1, 0, NULL, CEDUO_EXACT_BYTES);
-    struct ceduo_outlook *o =
-        outlook_of(&(struct ceduo_outlook_def){.scene = &s.scene, .figures = pool, .pictures = pool, .trajectories = 1});
+    struct ceduo_snapshot *o =
+        snapshot_of(&(struct ceduo_snapshot_def){.scene = &s.scene, .figures = pool, .pictures = pool, .trajectories = 1});
     const struct ceduo_polyline t = o->bare->trajectories[0];
     struct ceduo_trajectory way;
     assert_int_equal(ceduo_trajectory_follow(&s.scene, NULL, 0, NULL, &way, NULL), CEDUO_OK);
@@ -404,7 +405,7 @@ static void an_endless_trajectory_is_drawn_in_part(void **state)
     EXPECT(t.n, <=, 20001);
     EXPECT(t.x[t.n - 1], ==, way.x);
     EXPECT(t.z[t.n - 1], ==, way.z);
-    ceduo_outlook_free(o);
+    ceduo_snapshot_free(o);
     ceduo_pool_free(pool);
 }
 
@@ -415,14 +416,15 @@ static void nobody_waits_for_an_endless_trajectory(void **state)
     init_endless(&s);
     atomic_bool cancel = true;
     struct ceduo_pool *pool = pool_of(&s, 1, 0, NULL, CEDUO_EXACT_BYTES);
-    struct ceduo_outlook_def def = {.scene = &s.scene, .figures = pool, .pictures = pool, .trajectories = 1, .cancel = &cancel};
-    struct ceduo_outlook *o;
-    assert_int_equal(ceduo_outlook_create(&def, &o), CEDUO_CANCELLED);
+    struct ceduo_snapshot_def def = {
+        .scene = &s.scene, .figures = pool, .pictures = pool, .trajectories = 1, .cancel = &cancel};
+    struct ceduo_snapshot *o;
+    assert_int_equal(ceduo_snapshot_create(&def, &o), CEDUO_CANCELLED);
     assert_null(o);
     cancel = false;
-    o = outlook_of(&def);
+    o = snapshot_of(&def);
     assert_int_equal(o->bare->trajectories_count, 1);
-    ceduo_outlook_free(o);
+    ceduo_snapshot_free(o);
     ceduo_pool_free(pool);
 }
 
@@ -430,7 +432,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(places_lie_beyond_the_release),
-        cmocka_unit_test(outlook_is_what_the_runs_say),
+        cmocka_unit_test(snapshot_is_what_the_runs_say),
         cmocka_unit_test(a_forest_without_stems_is_the_bare_slope),
         cmocka_unit_test(the_index_looks_at_the_bare_slope),
         cmocka_unit_test(what_is_not_flown_yet_is_not_known),

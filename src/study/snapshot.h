@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef CEDUO_OUTLOOK_H
-#define CEDUO_OUTLOOK_H
+#ifndef CEDUO_SNAPSHOT_H
+#define CEDUO_SNAPSHOT_H
 
 #include <stdatomic.h>
 #include <stddef.h>
@@ -25,36 +25,36 @@ struct ceduo_energies {
 };
 
 /* One run, as it was at some moment. It is shared: each who keeps it has a reference. */
-struct ceduo_sight {
+struct ceduo_run_snapshot {
     atomic_uint references;
     uint64_t key; /* ceduo_option_key() of its forest */
-    struct ceduo_flown flown;
+    struct ceduo_simulated flown;
     uint64_t picture_rocks;           /* of the envelopes */
     struct ceduo_envelope *envelopes; /* one for each cell */
-    struct ceduo_energies *energies;  /* one for each control: the first CEDUO_OUTLOOK_SAMPLE at most */
+    struct ceduo_energies *energies;  /* one for each control: the first CEDUO_SNAPSHOT_SAMPLE at most */
     size_t trajectories_count;
     struct ceduo_polyline *trajectories; /* of the first rocks */
 };
 
 /* All runs of a scene. */
-struct ceduo_outlook {
+struct ceduo_snapshot {
     size_t cells, controls, options;
     double *cell_x;
-    struct ceduo_sight *bare;             /* without forest */
-    struct ceduo_sight **wooded;          /* through the forest of each option; NULL: not known (yet) */
+    struct ceduo_run_snapshot *bare;      /* without forest */
+    struct ceduo_run_snapshot **wooded;   /* through the forest of each option; NULL: not known (yet) */
     struct ceduo_difference *differences; /* of those to the first option: options × controls, in rows by option */
 };
 
-#define CEDUO_OUTLOOK_CELLS        200    /* places along the slope where a run should keep envelopes */
-#define CEDUO_OUTLOOK_TRAJECTORIES 200    /* trajectories that make a dense picture */
-#define CEDUO_OUTLOOK_SAMPLE       100000 /* energies kept for a histogram */
+#define CEDUO_SNAPSHOT_CELLS        200    /* places along the slope where a run should keep envelopes */
+#define CEDUO_SNAPSHOT_TRAJECTORIES 200    /* trajectories that make a dense picture */
+#define CEDUO_SNAPSHOT_SAMPLE       100000 /* energies kept for a histogram */
 
-/* Writes CEDUO_OUTLOOK_CELLS places, evenly from the release to the end of the slope, for a run's cells; returns how
+/* Writes CEDUO_SNAPSHOT_CELLS places, evenly from the release to the end of the slope, for a run's cells; returns how
  * many: none where the release may lie at the end. */
-size_t ceduo_outlook_places(const struct ceduo_scene *scene, double *x);
+size_t ceduo_snapshot_places(const struct ceduo_scene *scene, double *x);
 
-/* What an outlook is made from. */
-struct ceduo_outlook_def {
+/* What an snapshot is made from. */
+struct ceduo_snapshot_def {
     const struct ceduo_scene *scene;
     const struct ceduo_pool *figures;  /* the runs; those of options may be missing, or have no rocks yet */
     const struct ceduo_pool *pictures; /* runs of the same rocks with envelopes, which may be shorter: envelopes make a
@@ -62,20 +62,20 @@ struct ceduo_outlook_def {
                                         * where one is as long or longer, figures are read from it too */
     size_t cells;
     const double *cell_x;
-    size_t trajectories;              /* trajectories that are followed for each */
-    const atomic_bool *cancel;        /* may be NULL; raised by another thread: the call returns soon */
-    const struct ceduo_outlook *last; /* whose sights are taken over where nothing has changed; NULL: none. It must be
+    size_t trajectories;               /* trajectories that are followed for each */
+    const atomic_bool *cancel;         /* may be NULL; raised by another thread: the call returns soon */
+    const struct ceduo_snapshot *last; /* whose sights are taken over where nothing has changed; NULL: none. It must be
                                         * of the same scene but for its forests */
 };
 
 /* CEDUO_NO_MEMORY, CEDUO_CANCELLED or CEDUO_OK. */
-enum ceduo_status ceduo_outlook_create(const struct ceduo_outlook_def *def, struct ceduo_outlook **outlook);
-void ceduo_outlook_free(struct ceduo_outlook *outlook); /* NULL is allowed */
+enum ceduo_status ceduo_snapshot_create(const struct ceduo_snapshot_def *def, struct ceduo_snapshot **snapshot);
+void ceduo_snapshot_free(struct ceduo_snapshot *snapshot); /* NULL is allowed */
 
 /* What is to be seen of an option of the scene as it is now: through its forest, with the contact model index without
  * forest; where its forest was just changed, what was seen of it before, unless that is another option's. NULL: not known
  * yet. */
-const struct ceduo_sight *ceduo_outlook_sight(const struct ceduo_outlook *outlook, const struct ceduo_scene *scene,
-                                              size_t option);
+const struct ceduo_run_snapshot *ceduo_snapshot_of(const struct ceduo_snapshot *snapshot, const struct ceduo_scene *scene,
+                                                   size_t option);
 
 #endif

@@ -268,7 +268,7 @@ static void sum_block(struct worker *w)
 }
 
 /* Simulates the rocks of a block from w->from to before w->to; false where it was stopped. */
-static bool fly_block(struct worker *w)
+static bool simulate_block(struct worker *w)
 {
     struct ceduo_run *run = w->run;
     enum ceduo_law law = run->ready.scene.simulation.law;
@@ -300,7 +300,7 @@ static int take_block(void *context, size_t i, size_t worker)
     w->from = from < chunk->first ? chunk->first : from;
     w->to = to > chunk->end ? chunk->end : to;
     w->block = &w->run->slots[i];
-    return fly_block(w) ? CEDUO_OK : CEDUO_CANCELLED;
+    return simulate_block(w) ? CEDUO_OK : CEDUO_CANCELLED;
 }
 
 /* ---- threads ---- */
@@ -387,7 +387,7 @@ static enum ceduo_status finish_chunk(struct ceduo_run *run, struct chunk *chunk
     return CEDUO_OK;
 }
 
-enum ceduo_status ceduo_run_fly_chunk(struct ceduo_run *run, uint64_t end)
+enum ceduo_status ceduo_run_simulate_chunk(struct ceduo_run *run, uint64_t end)
 {
     uint64_t first_block = run->rocks / CEDUO_BLOCK_ROCKS;
     uint64_t last_block = (end - 1) / CEDUO_BLOCK_ROCKS;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What runs give for pictures. For each forest a sight holds what arrived, the envelopes, some energies and some
- * trajectories. Sights are shared by counted references, so an outlook takes over from the last one what has not changed. */
-#include "outlook.h"
+ * trajectories. Sights are shared by counted references, so an snapshot takes over from the last one what has not changed. */
+#include "snapshot.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -96,8 +96,8 @@ void ceduo_polyline_free(struct ceduo_polyline *line)
     *line = (struct ceduo_polyline){0};
 }
 
-static enum ceduo_status follow_trajectories(struct ceduo_follower *follower, const struct ceduo_outlook_def *def,
-                                             struct ceduo_sight *s)
+static enum ceduo_status follow_trajectories(struct ceduo_follower *follower, const struct ceduo_snapshot_def *def,
+                                             struct ceduo_run_snapshot *s)
 {
     size_t trajectories = def->trajectories < s->flown.rocks ? def->trajectories : (size_t)s->flown.rocks;
     s->trajectories = calloc(trajectories + 1, sizeof *s->trajectories);
@@ -109,21 +109,21 @@ static enum ceduo_status follow_trajectories(struct ceduo_follower *follower, co
 
 /* ---- places ---- */
 
-size_t ceduo_outlook_places(const struct ceduo_scene *scene, double *x)
+size_t ceduo_snapshot_places(const struct ceduo_scene *scene, double *x)
 {
     double from = ceduo_number_highest(scene->release.x), to = scene->slope.x[scene->slope.vertices - 1];
     if (!(to > from))
         return 0;
-    for (size_t i = 0; i < CEDUO_OUTLOOK_CELLS; i++)
-        x[i] = from + (to - from) * ((double)i + 0.5) / CEDUO_OUTLOOK_CELLS;
-    return CEDUO_OUTLOOK_CELLS;
+    for (size_t i = 0; i < CEDUO_SNAPSHOT_CELLS; i++)
+        x[i] = from + (to - from) * ((double)i + 0.5) / CEDUO_SNAPSHOT_CELLS;
+    return CEDUO_SNAPSHOT_CELLS;
 }
 
 /* ---- one run ---- */
 
 #define FLOWN_MOST 4000 /* rocks simulated once more where a run is too long to keep its samples */
 
-static enum ceduo_status fly_energies(struct ceduo_follower *follower, const atomic_bool *cancel, struct ceduo_sight *s)
+static enum ceduo_status fly_energies(struct ceduo_follower *follower, const atomic_bool *cancel, struct ceduo_run_snapshot *s)
 {
     struct tracer waits = {.cancel = cancel};
     const struct ceduo_watch watch = {.enough = is_cancelled, .context = &waits};
@@ -147,13 +147,13 @@ static enum ceduo_status fly_energies(struct ceduo_follower *follower, const ato
 }
 
 static enum ceduo_status read_energies(struct ceduo_follower *follower, const struct ceduo_run *run, const atomic_bool *cancel,
-                                       struct ceduo_sight *s)
+                                       struct ceduo_run_snapshot *s)
 {
     bool kept = true;
     for (size_t c = 0; c < s->flown.controls; c++) {
         struct ceduo_energies *e = &s->energies[c];
         uint64_t reached = s->flown.arrivals[c].reached;
-        size_t most = reached < CEDUO_OUTLOOK_SAMPLE ? (size_t)reached : CEDUO_OUTLOOK_SAMPLE;
+        size_t most = reached < CEDUO_SNAPSHOT_SAMPLE ? (size_t)reached : CEDUO_SNAPSHOT_SAMPLE;
         e->values = malloc(((most > FLOWN_MOST ? most : FLOWN_MOST) + 1) * sizeof *e->values);
         if (!e->values)
             return CEDUO_NO_MEMORY;
@@ -165,7 +165,7 @@ static enum ceduo_status read_energies(struct ceduo_follower *follower, const st
     return kept ? CEDUO_OK : fly_energies(follower, cancel, s);
 }
 
-static void let_go(struct ceduo_sight *s)
+static void let_go(struct ceduo_run_snapshot *s)
 {
     if (!s || atomic_fetch_sub(&s->references, 1) != 1)
         return;
@@ -176,15 +176,15 @@ static void let_go(struct ceduo_sight *s)
     for (size_t i = 0; i < s->trajectories_count; i++)
         ceduo_polyline_free(&s->trajectories[i]);
     free(s->trajectories);
-    ceduo_flown_free(&s->flown);
+    ceduo_simulated_free(&s->flown);
     free(s);
 }
 
-static enum ceduo_status read_sight(const struct ceduo_outlook_def *def, const struct ceduo_option *option,
-                                    const struct ceduo_run *run, const struct ceduo_run *pictures, struct ceduo_sight *s)
+static enum ceduo_status read_sight(const struct ceduo_snapshot_def *def, const struct ceduo_option *option,
+                                    const struct ceduo_run *run, const struct ceduo_run *pictures, struct ceduo_run_snapshot *s)
 {
     size_t controls = def->scene->controls_count;
-    enum ceduo_status status = ceduo_flown_read(run, controls, &s->flown);
+    enum ceduo_status status = ceduo_simulated_read(run, controls, &s->flown);
     if (status != CEDUO_OK)
         return status;
     s->energies = calloc(controls + 1, sizeof *s->energies);
@@ -204,19 +204,19 @@ static enum ceduo_status read_sight(const struct ceduo_outlook_def *def, const s
 /* ---- all runs ---- */
 
 /* The run of a forest that figures are read from. */
-static const struct ceduo_run *longest_run(const struct ceduo_outlook_def *def, const struct ceduo_option *option)
+static const struct ceduo_run *longest_run(const struct ceduo_snapshot_def *def, const struct ceduo_option *option)
 {
     const struct ceduo_run *a = ceduo_pool_find(def->figures, option), *b = ceduo_pool_find(def->pictures, option);
     uint64_t in_a = a ? ceduo_run_rocks(a) : 0, in_b = b ? ceduo_run_rocks(b) : 0;
     return in_b > 0 && in_b >= in_a ? b : in_a > 0 ? a : NULL;
 }
 
-static bool is_same(const struct ceduo_sight *s, uint64_t key, uint64_t rocks, uint64_t picture_rocks)
+static bool is_same(const struct ceduo_run_snapshot *s, uint64_t key, uint64_t rocks, uint64_t picture_rocks)
 {
     return s && s->key == key && s->flown.rocks == rocks && s->picture_rocks == picture_rocks;
 }
 
-static struct ceduo_sight *find_sight(const struct ceduo_outlook *o, uint64_t key, uint64_t rocks, uint64_t pictures)
+static struct ceduo_run_snapshot *find_sight(const struct ceduo_snapshot *o, uint64_t key, uint64_t rocks, uint64_t pictures)
 {
     if (!o)
         return NULL;
@@ -229,8 +229,8 @@ static struct ceduo_sight *find_sight(const struct ceduo_outlook *o, uint64_t ke
 }
 
 /* A new reference to what is to be seen of a forest, NULL where it was not simulated yet. */
-static enum ceduo_status get_sight(const struct ceduo_outlook_def *def, const struct ceduo_outlook *o,
-                                   const struct ceduo_option *option, struct ceduo_sight **sight)
+static enum ceduo_status get_sight(const struct ceduo_snapshot_def *def, const struct ceduo_snapshot *o,
+                                   const struct ceduo_option *option, struct ceduo_run_snapshot **sight)
 {
     const struct ceduo_run *run = longest_run(def, option), *pictures = ceduo_pool_find(def->pictures, option);
     *sight = NULL;
@@ -238,7 +238,7 @@ static enum ceduo_status get_sight(const struct ceduo_outlook_def *def, const st
         return CEDUO_OK;
     uint64_t key = ceduo_option_key(def->scene, option), rocks = ceduo_run_rocks(run);
     uint64_t picture_rocks = pictures ? ceduo_run_rocks(pictures) : 0;
-    struct ceduo_sight *s = find_sight(o, key, rocks, picture_rocks);
+    struct ceduo_run_snapshot *s = find_sight(o, key, rocks, picture_rocks);
     s = s ? s : find_sight(def->last, key, rocks, picture_rocks);
     if (s) {
         atomic_fetch_add(&s->references, 1);
@@ -259,7 +259,7 @@ static enum ceduo_status get_sight(const struct ceduo_outlook_def *def, const st
     return status;
 }
 
-static void read_differences(const struct ceduo_outlook_def *def, struct ceduo_outlook *o, size_t option)
+static void read_differences(const struct ceduo_snapshot_def *def, struct ceduo_snapshot *o, size_t option)
 {
     const struct ceduo_scene *scene = def->scene;
     const struct ceduo_run *run = longest_run(def, &scene->options[option]);
@@ -268,10 +268,10 @@ static void read_differences(const struct ceduo_outlook_def *def, struct ceduo_o
         o->differences[option * o->controls + c] = ceduo_run_difference(run, baseline, c);
 }
 
-enum ceduo_status ceduo_outlook_create(const struct ceduo_outlook_def *def, struct ceduo_outlook **outlook)
+enum ceduo_status ceduo_snapshot_create(const struct ceduo_snapshot_def *def, struct ceduo_snapshot **snapshot)
 {
-    *outlook = NULL;
-    struct ceduo_outlook *o = calloc(1, sizeof *o);
+    *snapshot = NULL;
+    struct ceduo_snapshot *o = calloc(1, sizeof *o);
     if (!o)
         return CEDUO_NO_MEMORY;
     const struct ceduo_scene *scene = def->scene;
@@ -293,13 +293,13 @@ enum ceduo_status ceduo_outlook_create(const struct ceduo_outlook_def *def, stru
         read_differences(def, o, i);
     }
     if (status == CEDUO_OK)
-        *outlook = o;
+        *snapshot = o;
     else
-        ceduo_outlook_free(o);
+        ceduo_snapshot_free(o);
     return status;
 }
 
-void ceduo_outlook_free(struct ceduo_outlook *o)
+void ceduo_snapshot_free(struct ceduo_snapshot *o)
 {
     if (!o)
         return;
@@ -312,7 +312,8 @@ void ceduo_outlook_free(struct ceduo_outlook *o)
     free(o);
 }
 
-const struct ceduo_sight *ceduo_outlook_sight(const struct ceduo_outlook *o, const struct ceduo_scene *scene, size_t option)
+const struct ceduo_run_snapshot *ceduo_snapshot_of(const struct ceduo_snapshot *o, const struct ceduo_scene *scene,
+                                                   size_t option)
 {
     if (!o || scene->simulation.contact_model == CEDUO_INDEX)
         return o ? o->bare : NULL;
@@ -322,7 +323,7 @@ const struct ceduo_sight *ceduo_outlook_sight(const struct ceduo_outlook *o, con
     for (size_t i = 0; i < o->options; i++)
         if (o->wooded[i] && o->wooded[i]->key == key)
             return o->wooded[i];
-    struct ceduo_sight *last = option < o->options ? o->wooded[option] : NULL;
+    struct ceduo_run_snapshot *last = option < o->options ? o->wooded[option] : NULL;
     for (size_t i = 0; last && i < scene->options_count; i++)
         if (ceduo_option_key(scene, &scene->options[i]) == last->key)
             return NULL; /* it is another's */
