@@ -37,15 +37,6 @@ static void offer(const struct scene_file *file, struct fit_request *to, const c
     to->hi[to->n++] = hi;
 }
 
-static void offer_named(const struct scene_file *file, struct fit_request *to)
-{
-    for (size_t i = 0; i < file->inputs_of_scene; i++) {
-        const struct ceduo_input *input = &file->inputs[i];
-        if (input->kind == CEDUO_INPUT_RANGE && input->places_count > 0)
-            offer(file, to, input->path, input->lo, input->hi);
-    }
-}
-
 static const char *const keys[] = {"rn", "rt", "roughness_rad", "friction"};
 #define KEYS (sizeof keys / sizeof keys[0])
 
@@ -141,7 +132,11 @@ void ceduo_fit_offer(const struct scene_file *file, struct fit_request *to)
     const struct node *rows = ceduo_node_get(ceduo_node_get(file->root, "slope"), "materials");
     uint64_t own = file->scene.simulation.rocks;
     *to = (struct fit_request){.rocks = own > 0 && own < CEDUO_CALIBRATION_ROCKS ? own : CEDUO_CALIBRATION_ROCKS};
-    offer_named(file, to);
+    for (size_t i = 0; i < file->inputs_of_scene; i++) {
+        const struct ceduo_input *input = &file->inputs[i];
+        if (input->kind == CEDUO_INPUT_RANGE && input->places_count > 0)
+            offer(file, to, input->path, input->lo, input->hi);
+    }
     if (to->n > 0)
         return;
     if (!file->ground_assumed && file->scene.slope.segments_given == 0 && rows && rows->kind == NODE_LIST)

@@ -109,10 +109,9 @@ static void move_neighbour(struct changes *c, const struct place *place, bool to
 static void follow_border(struct changes *c, const char *path, double now)
 {
     struct place place;
-    if (!find_place(path, &place) || !(ends_in(place.list, "forest") || ends_in(place.list, "slope.materials")))
-        return;
-    bool to = strcmp(place.key, "to_m") == 0;
-    if (to || strcmp(place.key, "from_m") == 0)
+    bool there = find_place(path, &place) && (ends_in(place.list, "forest") || ends_in(place.list, "slope.materials"));
+    bool to = there && strcmp(place.key, "to_m") == 0;
+    if (to || (there && strcmp(place.key, "from_m") == 0))
         move_neighbour(c, &place, to, number_at(c->d, path), now);
 }
 

@@ -372,11 +372,6 @@ void ceduo_jobs_free(struct jobs *q)
     release(q);
 }
 
-unsigned ceduo_jobs_threads(const struct jobs *q)
-{
-    return q->threads;
-}
-
 /* ---- requests ---- */
 
 uint64_t ceduo_jobs_key(const struct ceduo_scene *scene)

@@ -65,7 +65,6 @@ struct years_known {
 struct jobs;
 struct jobs *ceduo_jobs_create(unsigned threads);
 void ceduo_jobs_free(struct jobs *jobs);
-unsigned ceduo_jobs_threads(const struct jobs *jobs);
 
 /* A number for all that decides the runs of a scene: two scenes of one number have the same figures. */
 uint64_t ceduo_jobs_key(const struct ceduo_scene *scene);

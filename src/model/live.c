@@ -5,7 +5,7 @@
 
 bool ceduo_live_create(struct live *l, unsigned threads)
 {
-    *l = (struct live){.jobs = ceduo_jobs_create(threads)};
+    *l = (struct live){.jobs = ceduo_jobs_create(threads), .threads = threads};
     return l->jobs != NULL;
 }
 
@@ -21,7 +21,7 @@ void ceduo_live_free(struct live *l)
 bool ceduo_live_restart(struct live *l)
 {
     struct live next;
-    if (!ceduo_live_create(&next, ceduo_jobs_threads(l->jobs)))
+    if (!ceduo_live_create(&next, l->threads))
         return false;
     ceduo_live_free(l);
     *l = next;

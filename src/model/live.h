@@ -14,6 +14,7 @@ struct live {
     struct ceduo_verdict verdict; /* of the result and of the years that fit the scene; n 0: none */
     struct fit_request fit;       /* that was asked for last */
     uint64_t asked;               /* key of the runs that were asked for last */
+    unsigned threads;
     bool busy, fitting;
 };
 

@@ -26,18 +26,6 @@ static const struct field *field_at(const char *path)
     return field && field->type == FIELD_NUMBERS ? field : NULL;
 }
 
-/* Counts and years are whole numbers; so are densities, which a forester counts. */
-static bool is_whole(const struct field *field)
-{
-    return field && (field->type == FIELD_COUNT || strcmp(field->unit, "1/ha") == 0 || strcmp(field->unit, "y") == 0);
-}
-
-/* Text, a flag, a choice: no number, though one may stand there. */
-static bool is_text(const struct field *field)
-{
-    return field && (field->type <= FIELD_FILE || field->type == FIELD_CHOICE || field->type == FIELD_FLAG);
-}
-
 /* ---- one value ---- */
 
 /* The scene with the parameter at a value. */
@@ -95,7 +83,8 @@ static const struct source path_source = {.name = "--find", .is_option = true};
 /* What the goal needs of the scene. */
 static bool is_askable(const struct search *s)
 {
-    if (is_text(ceduo_schema_at(s->def.path))) {
+    const struct field *field = ceduo_schema_at(s->def.path);
+    if (field && (field->type <= FIELD_FILE || field->type == FIELD_CHOICE || field->type == FIELD_FLAG)) {
         ceduo_problem(s->problems, &path_source, 0, 0, _("%s is not a number"), s->def.path);
         return false;
     }
@@ -124,9 +113,11 @@ enum ceduo_status ceduo_search(struct search *s, struct ceduo_found *found, stru
     s->def.rotation |= field && field->flags & FIELD_YEARS; /* it decides about the years to come alone */
     if (!is_askable(s))
         return CEDUO_BAD_SLOPE;
+    bool counted = field && (field->type == FIELD_COUNT || strcmp(field->unit, "1/ha") == 0); /* as a forester does */
+    bool whole = counted || (field && strcmp(field->unit, "y") == 0);
     struct ceduo_find_def def = {.lo = s->def.lo,
                                  .hi = s->def.hi,
-                                 .whole = is_whole(field),
+                                 .whole = whole,
                                  .target = ceduo_goals[s->def.goal].below ? nextafter(s->def.target, 0) : s->def.target,
                                  .goal = goal_at,
                                  .context = s,

@@ -118,60 +118,42 @@ static const char *shown(const struct field *f, double value, char room[CEDUO_NU
     return f ? ceduo_shown_number(f, value, room) : ceduo_number_shortest(value, room);
 }
 
-static void append_reached(struct text *text, enum ceduo_goal goal, double value)
-{
-    size_t row = row_of(goal);
-    ceduo_text_format(text, "%s ", _(ceduo_goals[goal].name));
-    if (isinf(value))
-        ceduo_text_put(text, _("without end"));
-    else
-        ceduo_text_format(text, "%.4g %s", value * goals[row].per, _(goals[row].unit));
-}
-
-static void append_found(struct text *text, const struct popup *p, const struct ceduo_found *f, const char *reached)
-{
-    char room[CEDUO_NUMBER_ROOM];
-    ceduo_shown_path(p->path, text);
-    ceduo_text_then(text, " = ",
-                    f->side == CEDUO_SMALLEST ? _("%s: the smallest value that reaches the goal; %s")
-                                              : _("%s: the largest value that reaches the goal; %s"),
-                    shown(ceduo_schema_at(p->path), f->value, room), reached);
-}
-
-static void append_none(struct text *text, const struct popup *p, const struct ceduo_found *f, const char *reached)
-{
-    char room[CEDUO_NUMBER_ROOM];
-    ceduo_text_format(text, _("no value from %s to %s reaches the goal"), p->fields[FIND_LO].text, p->fields[FIND_HI].text);
-    if (!isnan(f->nearest))
-        ceduo_text_then(text, "; ", _("nearest is %s with %s"), shown(ceduo_schema_at(p->path), f->nearest, room), reached);
-}
-
-static void append_words(struct app *app, struct popup *p, const struct ceduo_search *s, const struct ceduo_found *f,
+/* What was found, how far it goes, and whether it is the only one; of a rotation its yield beside the answer. */
+static void append_words(struct app *app, struct popup *p, const struct ceduo_search *s, const struct search_answer *answer,
                          struct text *text)
 {
+    const struct ceduo_found *f = &answer->found;
     const struct form_cell *cell = ceduo_form_cell(ceduo_app_form(app));
-    size_t row = row_of(s->goal);
+    const struct field *field = ceduo_schema_at(p->path);
+    const char *lo = p->fields[FIND_LO].text, *hi = p->fields[FIND_HI].text, *unit = _(goals[row_of(s->goal)].unit);
+    double per = goals[row_of(s->goal)].per, at = f->found ? f->goal_at_value : f->goal_at_nearest;
+    char room[CEDUO_NUMBER_ROOM];
+    const char *amount = isinf(at) ? _("without end") : ceduo_app_format(app, "%.4g %s", at * per, unit);
+    const char *reached = ceduo_app_format(app, "%s %s", _(ceduo_goals[s->goal].name), amount);
     if (f->found && f->whole_range) { /* then the value that is there is as good as another */
-        ceduo_text_format(text, _("every value from %s to %s reaches the goal; the field stays %s"), p->fields[FIND_LO].text,
-                          p->fields[FIND_HI].text, cell && cell->text[0] ? cell->text : _("as it is"));
-        return;
+        ceduo_text_format(text, _("every value from %s to %s reaches the goal; the field stays %s"), lo, hi,
+                          cell && cell->text[0] ? cell->text : _("as it is"));
+    } else {
+        if (f->found)
+            ceduo_text_format(text, "%s = ", ceduo_app_path(app, p->path));
+        if (f->found)
+            ceduo_text_format(text,
+                              f->side == CEDUO_SMALLEST ? _("%s: the smallest value that reaches the goal; %s")
+                                                        : _("%s: the largest value that reaches the goal; %s"),
+                              shown(field, f->value, room), reached);
+        else
+            ceduo_text_format(text, _("no value from %s to %s reaches the goal"), lo, hi);
+        if (!f->found && !isnan(f->nearest))
+            ceduo_text_then(text, "; ", _("nearest is %s with %s"), shown(field, f->nearest, room), reached);
+        ceduo_text_then(text, " ", ceduo_goals[s->goal].below ? _("(below %g %s is wanted)") : _("(at most %g %s is wanted)"),
+                        s->target * per, unit);
+        if (!f->monotone)
+            ceduo_text_then(text, "; ", _("not monotone: there may be other values"));
     }
-    struct text reached = {0};
-    append_reached(&reached, s->goal, f->found ? f->goal_at_value : f->goal_at_nearest);
-    (f->found ? append_found : append_none)(text, p, f, ceduo_app_kept(app, &reached));
-    ceduo_text_then(text, " ", ceduo_goals[s->goal].below ? _("(below %g %s is wanted)") : _("(at most %g %s is wanted)"),
-                    s->target * goals[row].per, _(goals[row].unit));
-    if (!f->monotone)
-        ceduo_text_then(text, "; ", _("not monotone: there may be other values"));
-}
-
-/* What a rotation was looked at for: its yield beside the answer. */
-static void append_yield(const struct ceduo_search *s, const struct ceduo_yield *yield, struct text *text)
-{
     if (s->rotation)
         ceduo_text_then(text, "; ", _("over one whole rotation"));
-    if (s->rotation && !isnan(yield->cut_per_year))
-        ceduo_text_then(text, ", ", _("yielding %.3g m\xc2\xb3 per ha and year"), yield->cut_per_year);
+    if (s->rotation && !isnan(answer->yield.cut_per_year))
+        ceduo_text_then(text, ", ", _("yielding %.3g m\xc2\xb3 per ha and year"), answer->yield.cut_per_year);
 }
 
 /* Puts the value that was found into the field, and says it. */
@@ -187,8 +169,7 @@ static bool take(struct app *app, struct popup *p, struct search_answer *answer)
     search.rotation = answer->rotation;
     struct text words = {0};
     bool set = true;
-    append_words(app, p, &search, found, &words);
-    append_yield(&search, &answer->yield, &words);
+    append_words(app, p, &search, answer, &words);
     if (found->found && !found->whole_range) {
         char room[CEDUO_NUMBER_ROOM];
         set = ceduo_document_set(&app->document, p->path, ceduo_number_shortest(found->value, room), &app->problems);

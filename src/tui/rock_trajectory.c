@@ -45,17 +45,8 @@ static void add_point(struct ceduo_polyline *t, double x, double z)
     t->z[t->n++] = z;
 }
 
-static void add_to_line(struct ceduo_polyline *t, const struct ceduo_piece *p, double half_g)
-{
-    for (int i = 1; i < FLIGHT_POINTS && !p->rolls; i++) {
-        double time = p->seconds * i / FLIGHT_POINTS;
-        add_point(t, p->x + p->vx * time, p->z + (p->vz - half_g * time) * time);
-    }
-    add_point(t, p->x1, p->z1);
-}
-
 /* The line of the pieces that are shown. */
-static void draw_trail(struct rock_trajectory *s, double gravity)
+static void draw_trail(struct rock_trajectory *s, double half_g)
 {
     size_t shown = s->at > 0 ? s->at : s->n, room = shown * FLIGHT_POINTS + 1;
     ceduo_polyline_free(&s->line);
@@ -63,8 +54,13 @@ static void draw_trail(struct rock_trajectory *s, double gravity)
     s->line.z = ceduo_must(malloc(room * sizeof(double)));
     s->line.n = 0;
     add_point(&s->line, s->whole.x0, s->whole.z0);
-    for (size_t i = 0; i < shown; i++)
-        add_to_line(&s->line, &s->pieces[i], gravity / 2);
+    for (const struct ceduo_piece *p = s->pieces; p < s->pieces + shown; p++) {
+        for (int i = 1; i < FLIGHT_POINTS && !p->rolls; i++) {
+            double time = p->seconds * i / FLIGHT_POINTS;
+            add_point(&s->line, p->x + p->vx * time, p->z + (p->vz - half_g * time) * time);
+        }
+        add_point(&s->line, p->x1, p->z1);
+    }
 }
 
 bool ceduo_rock_trajectory_follow(struct rock_trajectory *s, const struct ceduo_scene *scene, const struct ceduo_option *option,
@@ -82,7 +78,7 @@ bool ceduo_rock_trajectory_follow(struct rock_trajectory *s, const struct ceduo_
         if (status != CEDUO_OK && !s->cut_short)
             return false;
     }
-    draw_trail(s, scene->simulation.gravity);
+    draw_trail(s, scene->simulation.gravity / 2);
     return true;
 }
 

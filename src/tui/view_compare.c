@@ -103,16 +103,6 @@ static void append_share(struct text *text, struct ceduo_portion share)
         ceduo_text_format(text, "%.0f\xc2\xb1%.0f", share.mean * 1000, ceil(share.half * 1000));
 }
 
-static void append_worst(struct text *text, const struct ceduo_choice *c, bool wooded)
-{
-    if (c->years == 0)
-        ceduo_text_put(text, "\xe2\x80\xa6");
-    else if (wooded)
-        ceduo_text_format(text, "%.0f (%u)", c->worst.mean * 1000, c->worst_year);
-    else
-        ceduo_words_number(text, c->worst.mean, 3);
-}
-
 static void append_figure(struct text *text, const struct app *app, size_t i, enum column column)
 {
     const struct ceduo_verdict *v = &app->live.verdict;
@@ -134,7 +124,12 @@ static void append_figure(struct text *text, const struct app *app, size_t i, en
         break;
     }
     case WORST:
-        append_worst(text, c, v->wooded);
+        if (c->years == 0)
+            ceduo_text_put(text, "\xe2\x80\xa6");
+        else if (v->wooded)
+            ceduo_text_format(text, "%.0f (%u)", c->worst.mean * 1000, c->worst_year);
+        else
+            ceduo_words_number(text, c->worst.mean, 3);
         break;
     case MEAN:
         if (v->wooded)
@@ -279,16 +274,6 @@ static void add_sentence(void *context, const char *sentence)
     ceduo_text_format(context, "%s\n", sentence);
 }
 
-static void say_progress(const struct app *app, struct text *words)
-{
-    const struct years_known *y = app->live.results.years;
-    if (app->live.busy && y && y->done < y->n)
-        ceduo_text_format(words, _("Computing: %llu rocks in each year, %zu of %zu options done.\n"),
-                          (unsigned long long)y->rocks, y->done, y->n);
-    else if (app->live.busy)
-        ceduo_text_put(words, _("Computing: the figures become finer.\n"));
-}
-
 /* Lights that thin shoots alone make green today. */
 static void say_thin(const struct ceduo_result *r, struct text *words)
 {
@@ -327,7 +312,12 @@ static void say_verdict(struct app *app, struct text *words)
     if (!r->wooded)
         ceduo_text_put(words, _("Without forest every option sees the same rocks; the index says what stems could take, "
                                 "not what a rock loses.\n"));
-    say_progress(app, words);
+    const struct years_known *y = app->live.results.years;
+    if (app->live.busy && y && y->done < y->n)
+        ceduo_text_format(words, _("Computing: %llu rocks in each year, %zu of %zu options done.\n"),
+                          (unsigned long long)y->rocks, y->done, y->n);
+    else if (app->live.busy)
+        ceduo_text_put(words, _("Computing: the figures become finer.\n"));
     if (v->n > 1 && r->wooded && v->accepted)
         ceduo_text_format(words, _("fail: years in which more than %.0f of 1000 bring too much."), CEDUO_EXCEED_MOST * 1000);
     if (v->rotation.known && !v->rotation.uneven) {

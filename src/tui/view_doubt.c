@@ -5,21 +5,17 @@
 #include "app.h"
 #include "base/language.h"
 
-static bool has_mean(const struct node *rows)
-{
-    for (size_t i = 0; i < rows->n; i++)
-        if (ceduo_node_get(rows->items[i], "mean"))
-            return true;
-    return false;
-}
-
 static void build(struct app *app, struct form *form)
 {
     static const char *const all[] = {"path", "lo", "hi", "mean", "sd", NULL}, *const few[] = {"path", "lo", "hi", NULL};
     const struct field *doubt = ceduo_schema_field(ceduo_schema_scene(), "doubt");
     const struct node *rows = ceduo_node_get(app->document.file.root, "doubt");
-    if (rows && rows->kind == NODE_LIST && rows->n > 0)
-        ceduo_form_table(form, &app->document, doubt->object, "doubt", has_mean(rows) ? all : few, "");
+    size_t n = rows && rows->kind == NODE_LIST ? rows->n : 0;
+    bool means = false;
+    for (size_t i = 0; i < n; i++)
+        means |= ceduo_node_get(rows->items[i], "mean") != NULL;
+    if (n > 0)
+        ceduo_form_table(form, &app->document, doubt->object, "doubt", means ? all : few, "");
     else
         ceduo_form_note(form, _("a: name a range in the scene, to edit it"));
 }
@@ -62,20 +58,6 @@ static void say_all(const struct app *app, const struct uncertainty *u, const st
 
 #define OPTIONS_MIN 6 /* in a picture that shares its room with words, if there are so many */
 
-/* Lines that the picture keeps: options, an input, a line above each, and one between it and the words. */
-static int picture_least(const struct ceduo_doubt_report *r)
-{
-    size_t n = r->file->scene.options_count;
-    return (int)(n < OPTIONS_MIN ? n : OPTIONS_MIN) + 4;
-}
-
-/* Lines that the picture fills: options, inputs, and a line above each. */
-static int picture_lines(const struct ceduo_doubt_report *r)
-{
-    size_t inputs = r->answer->groups < 12 ? r->answer->groups : 12;
-    return (int)(r->file->scene.options_count + inputs + 2);
-}
-
 static void draw(struct app *app, struct ceduo_area area)
 {
     const struct uncertainty *u = ceduo_live_uncertainty(&app->live, &app->document.file);
@@ -91,9 +73,11 @@ static void draw(struct app *app, struct ceduo_area area)
     if (u && r.answer) {
         say_all(app, u, &r, &words);
         said = ceduo_app_text_lines(app, ceduo_text_string(&words), area.width);
-        int most = area.height - picture_least(&r);
-        said = said > most ? most : said;
-        int lines = picture_lines(&r);
+        /* lines that the picture keeps: options, an input, a line above each, and one between it and the words; and those
+         * that it fills: options, inputs, a line above each */
+        size_t options = r.file->scene.options_count, inputs = r.answer->groups < 12 ? r.answer->groups : 12;
+        int max = area.height - (int)(options < OPTIONS_MIN ? options : OPTIONS_MIN) - 4, lines = (int)(options + inputs + 2);
+        said = said > max ? max : said;
         if (lines < area.height - said - 1)
             area.height = lines + said + 1;
     }

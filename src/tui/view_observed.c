@@ -236,13 +236,6 @@ static const struct ceduo_seen_stops *stops_of(const struct app *app, const stru
     return first;
 }
 
-static void draw_text(struct app *app, struct ceduo_area area, struct text *text)
-{
-    if (ceduo_app_text(app, area, CEDUO_ROLE_TEXT, ceduo_text_string(text), &ceduo_app_state(app)->scroll))
-        ceduo_app_label(app, area.left + area.width + 1, area.top + area.height - 1, CEDUO_ROLE_TITLE, "v");
-    ceduo_text_free(text);
-}
-
 static void draw(struct app *app, struct ceduo_area area)
 {
     const struct scene_file *file = &app->document.file;
@@ -266,7 +259,8 @@ static void draw(struct app *app, struct ceduo_area area)
         area.top += height + 1;
         area.height -= height + 1;
     }
-    draw_text(app, area, &text);
+    if (ceduo_app_text(app, area, CEDUO_ROLE_TEXT, ceduo_app_kept(app, &text), &ceduo_app_state(app)->scroll))
+        ceduo_app_label(app, area.left + area.width + 1, area.top + area.height - 1, CEDUO_ROLE_TITLE, "v");
 }
 
 /* ---- keys ---- */
