@@ -20,7 +20,7 @@ static void undo_or_redo(struct app *app, int by)
         return;
     }
     ceduo_app_refresh(app);
-    ceduo_app_say(app, redo ? _("again: %.199s") : _("undone: %.199s"), what);
+    ceduo_app_say(app, redo ? _("again: %s") : _("undone: %s"), what);
 }
 
 static void next_option(struct app *app, int by)
