@@ -403,11 +403,11 @@ int ceduo_app_text_lines(struct app *app, const char *text, int width)
 
 bool ceduo_app_text(struct app *app, struct ceduo_area area, enum ceduo_role role, const char *text, int *top)
 {
-    int most = top ? ceduo_app_text_lines(app, text, area.width) - area.height : 0;
-    if (top && *top > most)
-        *top = most > 0 ? most : 0;
+    int max = top ? ceduo_app_text_lines(app, text, area.width) - area.height : 0;
+    if (top && *top > max)
+        *top = max > 0 ? max : 0;
     draw_wrapped(app, area, role, text, top ? *top : 0);
-    return top && *top < most;
+    return top && *top < max;
 }
 
 /* Drops the last word, and the blank or the end of a line before it. */
@@ -449,6 +449,19 @@ void ceduo_app_put(struct app *app, struct ceduo_area area, enum ceduo_role role
     if (text->bytes)
         ceduo_app_text(app, area, role, text->bytes, NULL);
     ceduo_text_free(text);
+}
+
+void ceduo_app_add_warning(void *text, const char *sentence)
+{
+    ceduo_text_format(text, "! %s\n", sentence);
+}
+
+void ceduo_app_scrolled(struct app *app, struct ceduo_area area, struct text *text)
+{
+    const char *words = ceduo_app_kept(app, text);
+    words += strspn(words, "\n");
+    if (ceduo_app_text(app, area, CEDUO_ROLE_TEXT, words, &ceduo_app_state(app)->scroll))
+        ceduo_app_label(app, area.left + area.width + 1, area.top + area.height - 1, CEDUO_ROLE_TITLE, "v");
 }
 
 void ceduo_app_draw_form(struct app *app, struct ceduo_area area, bool focused)

@@ -199,6 +199,12 @@ void ceduo_app_shorten(struct app *app, struct text *text, int width, int lines)
 /* Puts that sign behind a text of so many lines, in the place of its last words where there is no room otherwise. */
 void ceduo_app_end_in_more(struct app *app, struct text *text, int width, int lines);
 
+/* Adds a warning to a text, in a line of its own. */
+void ceduo_app_add_warning(void *text, const char *sentence);
+
+/* Draws a text, scrolled as far as the view is; a mark stands to the right of it where more follows below. */
+void ceduo_app_scrolled(struct app *app, struct ceduo_area area, struct text *text);
+
 /* Draws a text, shortened to its area, and frees it. */
 void ceduo_app_put(struct app *app, struct ceduo_area area, enum ceduo_role role, struct text *text);
 void ceduo_app_label(struct app *app, int x, int y, enum ceduo_role role, const char *format, ...)

@@ -246,9 +246,9 @@ static void draw_contact(struct pen *pen, const char *name, double adc, enum ced
 }
 
 /* A share and its limit, where there is room; whole is "100", as in Italian 100.0 would have none. */
-static void draw_percent(struct pen *pen, const char *name, double share, double most, enum ceduo_light light)
+static void draw_percent(struct pen *pen, const char *name, double share, double max, enum ceduo_light light)
 {
-    const char *limit = has_limits(pen) ? ceduo_app_format(pen->app, " (\xe2\x89\xa4%g)", most * 100) : "";
+    const char *limit = has_limits(pen) ? ceduo_app_format(pen->app, " (\xe2\x89\xa4%g)", max * 100) : "";
     draw_light(pen, name, ceduo_app_format(pen->app, "%.*f %%%s", share >= 0.9995 ? 0 : 1, share * 100, limit), light);
 }
 
@@ -309,11 +309,6 @@ static void draw_index(struct pen *pen, const struct ceduo_index *index)
         line(pen, CEDUO_ROLE_DIM, _("seen: %.3g kJ (one rock)"), index->measured * J_TO_KJ);
 }
 
-static void add_warning(void *context, const char *sentence)
-{
-    ceduo_text_format(context, "! %s\n", sentence);
-}
-
 /* Belts of one stand share their rules. */
 static void add_rule(void *context, bool met, const char *sentence)
 {
@@ -345,10 +340,10 @@ static void draw_warnings(struct pen *pen)
     const struct ceduo_option *o = ceduo_app_option(app);
     const struct ceduo_option_result *found = ceduo_app_found(app);
     struct ceduo_run_remarks remarks = {.ground_assumed = app->document.file.ground_assumed, .nothing_said = true};
-    ceduo_words_still(app->live.result, add_warning, &w);
+    ceduo_words_still(app->live.result, ceduo_app_add_warning, &w);
     for (size_t i = 0; i < o->belts_count; i++)
-        ceduo_words_stand_warnings(app->live.result->scene, &o->belts[i], &found->stands[i], add_warning, &w);
-    ceduo_words_run_warnings(app->live.result, &remarks, add_warning, &w);
+        ceduo_words_stand_warnings(app->live.result->scene, &o->belts[i], &found->stands[i], ceduo_app_add_warning, &w);
+    ceduo_words_run_warnings(app->live.result, &remarks, ceduo_app_add_warning, &w);
     for (size_t i = 0; i < o->belts_count; i++)
         ceduo_words_rules(&o->belts[i], &found->stands[i].rules, add_rule, &w);
     struct ceduo_area rest = {pen->area.left, pen->y, pen->area.width, pen->area.top + pen->area.height - pen->y};

@@ -301,8 +301,8 @@ static int label_columns(const struct form *form, int width)
         if (row->kind == FORM_FIELDS && !row->list[0] && own > columns)
             columns = own;
     }
-    int most = width - VALUE_MIN > LABEL_MIN ? width - VALUE_MIN : LABEL_MIN;
-    return columns < most ? columns : most;
+    int max = width - VALUE_MIN > LABEL_MIN ? width - VALUE_MIN : LABEL_MIN;
+    return columns < max ? columns : max;
 }
 
 /* Columns of cell k of a row in a rectangle `width` wide, whose labels take `label`. */

@@ -112,27 +112,18 @@ static bool insert(struct app *app, const struct item *item, size_t index, const
     return ceduo_document_insert(&app->document, item->list, index, yaml, &app->problems);
 }
 
-/* The stretch without forest behind a belt; without belts the slope behind the release. */
-static bool stretch_behind(const struct app *app, const struct item *item, double *from, double *to)
-{
-    const struct ceduo_scene *s = &app->document.file.scene;
-    const struct ceduo_option *o = ceduo_app_option(app);
-    double end = s->slope.x[s->slope.vertices - 1];
-    size_t next = item->there ? item->index + 1 : 0;
-    *from = (item->there ? o->belts[item->index].to : s->release.x.mean) + s->slope.origin_x;
-    *to = (next < o->belts_count ? o->belts[next].from : end) + s->slope.origin_x;
-    return *to - *from > 0.5;
-}
-
 /* A belt in two; where the cursor is on its end, a new one behind it, if there is room. */
 static bool add_belt(struct app *app, const struct item *item)
 {
-    double from, to;
-    bool behind = stretch_behind(app, item, &from, &to);
+    const struct ceduo_scene *s = &app->document.file.scene;
+    const struct ceduo_option *o = ceduo_app_option(app);
+    size_t next = item->there ? item->index + 1 : 0;
+    double from = (item->there ? o->belts[item->index].to : s->release.x.mean) + s->slope.origin_x;
+    double to = (next < o->belts_count ? o->belts[next].from : s->slope.x[s->slope.vertices - 1]) + s->slope.origin_x;
+    bool behind = to - from > 0.5;
     if (item->there && !(behind && ceduo_app_form(app)->column == 1))
         return split_stretch(app, item);
-    return insert(app, item, item->there ? item->index + 1 : 0,
-                  ceduo_app_format(app, "{from_m: %.10g, to_m: %.10g, stand: simple-coppice}", from, to));
+    return insert(app, item, next, ceduo_app_format(app, "{from_m: %.10g, to_m: %.10g, stand: simple-coppice}", from, to));
 }
 
 /* Ground of the library, where none is said yet: that which was assumed. */
@@ -238,14 +229,6 @@ static bool delete_item(struct app *app, const struct item *item, const char *pa
     return ceduo_document_delete(&app->document, path, &app->problems);
 }
 
-/* The cursor must not slip into the next list, where another d would delete what nobody meant. */
-static void stay_in_list(struct app *app, const char *list)
-{
-    const struct form_row *row = ceduo_form_row(ceduo_app_form(app));
-    if (row && strcmp(row->list, list) != 0)
-        ceduo_form_move(ceduo_app_form(app), -1, 0);
-}
-
 /* ---- the actions ---- */
 
 typedef bool item_function(struct app *app, const struct item *item);
@@ -310,7 +293,9 @@ void ceduo_items_delete(struct app *app)
     }
     const char *path = ceduo_app_format(app, "%s[%zu]", item.list, item.index);
     if (ceduo_app_edited(app, delete_item(app, &item, path))) {
-        stay_in_list(app, item.list);
+        const struct form_row *row = ceduo_form_row(ceduo_app_form(app));
+        if (row && strcmp(row->list, item.list) != 0) /* another d would delete in the next list what nobody meant */
+            ceduo_form_move(ceduo_app_form(app), -1, 0);
         ceduo_app_say(app, _("deleted: %s; u brings it back"), ceduo_app_path(app, path));
     }
 }

@@ -178,10 +178,10 @@ static bool read_control(struct app *app, const struct popup *p, struct answers 
 {
     if (!read_number(app, p, NEW_CONTROL, a->last, &a->control))
         return false;
-    double least = fmax(a->release, a->face);
-    if (a->control > least && a->control <= a->last)
+    double min = fmax(a->release, a->face);
+    if (a->control > min && a->control <= a->last)
         return true;
-    ceduo_app_warn(app, _("counted at %g m, outside the slope below the face, %g to %g m"), a->control, least, a->last);
+    ceduo_app_warn(app, _("counted at %g m, outside the slope below the face, %g to %g m"), a->control, min, a->last);
     return false;
 }
 

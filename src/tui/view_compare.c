@@ -200,11 +200,11 @@ static void draw_spark(struct app *app, const struct layout *l, int y, size_t i)
         return;
     int n = (int)years->count, columns = n < l->spark ? n : l->spark;
     for (int x = 0; x < columns; x++) {
-        double most = 0;
+        double max = 0;
         for (int k = x * n / columns; k < (x + 1) * n / columns; k++)
             if (years->years[k].wooded.rocks > 0)
-                most = fmax(most, ceduo_share_of(&years->years[k].wooded.arrivals[years->last_control]));
-        int level = (int)fmin(8, ceil(most * 8));
+                max = fmax(max, ceduo_share_of(&years->years[k].wooded.arrivals[years->last_control]));
+        int level = (int)fmin(8, ceil(max * 8));
         ceduo_cells_label(app->cells, l->spark_left + x, y, CEDUO_ROLE_MEAN,
                           levels[app->charset == CEDUO_CHARSET_ASCII][level]);
     }
@@ -360,9 +360,9 @@ static void draw_table(struct app *app, struct ceduo_area area, bool compare)
     struct text words = {0};
     say_verdict(app, &words);
     int said = ceduo_app_text_lines(app, ceduo_text_string(&words), area.width),
-        least = said < area.height / 3 ? said : area.height / 3;
+        min = said < area.height / 3 ? said : area.height / 3;
     draw_head(app, &l, area);
-    int room = (area.height - 2 - least) / l.lines;
+    int room = (area.height - 2 - min) / l.lines;
     int top = (int)app->option >= room ? (int)app->option - room + 1 : 0;
     int y = area.top + 2;
     for (int i = 0; i < room && (size_t)(top + i) < n; i++, y += l.lines)

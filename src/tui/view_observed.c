@@ -251,16 +251,15 @@ static void draw(struct app *app, struct ceduo_area area)
         say_fit(ceduo_live_fitted(f), &text, area.width);
     else
         say_as_it_is(app, &text, area.width);
-    int most = area.height - ceduo_app_text_lines(app, ceduo_text_string(&text), area.width) - 1;
-    int height = most > area.height / 2 ? most : area.height / 2;
+    int max = area.height - ceduo_app_text_lines(app, ceduo_text_string(&text), area.width) - 1;
+    int height = max > area.height / 2 ? max : area.height / 2;
     if (stops && height >= PICTURE_MIN) {
         struct ceduo_area top = {area.left, area.top, area.width, height};
         ceduo_plot_seen(&app->cells->canvas, &top, stops, file->scene.slope.origin_x);
         area.top += height + 1;
         area.height -= height + 1;
     }
-    if (ceduo_app_text(app, area, CEDUO_ROLE_TEXT, ceduo_app_kept(app, &text), &ceduo_app_state(app)->scroll))
-        ceduo_app_label(app, area.left + area.width + 1, area.top + area.height - 1, CEDUO_ROLE_TITLE, "v");
+    ceduo_app_scrolled(app, area, &text);
 }
 
 /* ---- keys ---- */

@@ -1,15 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* View 4: what was found: the forms of the ADC, the energies that arrive, and all of it in words. */
-#include <string.h>
-
 #include "app.h"
 #include "base/language.h"
 #include "view/words.h"
-
-static void add_warning(void *context, const char *sentence)
-{
-    ceduo_text_format(context, "! %s\n", sentence);
-}
 
 /* All of it in words: of this option, and of the run as a whole. */
 static void draw_page(struct app *app, struct ceduo_area page)
@@ -18,12 +11,8 @@ static void draw_page(struct app *app, struct ceduo_area page)
     struct text text = {0};
     struct ceduo_report report = ceduo_app_report(app);
     ceduo_report_option(&text, &report, app->option, page.width);
-    ceduo_words_run_warnings(report.result, &report.remarks, add_warning, &text);
-    const char *words = ceduo_text_string(&text);
-    words += strspn(words, "\n"); /* the picture above ends in a line that is empty */
-    if (ceduo_app_text(app, page, CEDUO_ROLE_TEXT, words, &ceduo_app_state(app)->scroll))
-        ceduo_app_label(app, page.left + page.width + 1, page.top + page.height - 1, CEDUO_ROLE_TITLE, "v");
-    ceduo_text_free(&text);
+    ceduo_words_run_warnings(report.result, &report.remarks, ceduo_app_add_warning, &text);
+    ceduo_app_scrolled(app, page, &text);
 }
 
 static void draw(struct app *app, struct ceduo_area area)

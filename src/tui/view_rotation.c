@@ -200,13 +200,13 @@ static void draw(struct app *app, struct ceduo_area area)
         if (area.height >= HEIGHT_FOR_OTHERS && app->year < picture.years->count)
             say_others(app, picture.years->years[app->year].year, &text);
     }
-    int picture_least = !alone && area.height >= HEIGHT_FOR_LIGHTS ? PICTURE_BESIDE : PICTURE_MIN;
-    int least = picture_least + (alone ? 0 : FORM_MIN);
-    keep_fitting(app, &text, area.width, area.height - least);
+    int picture_min = !alone && area.height >= HEIGHT_FOR_LIGHTS ? PICTURE_BESIDE : PICTURE_MIN;
+    int min = picture_min + (alone ? 0 : FORM_MIN);
+    keep_fitting(app, &text, area.width, area.height - min);
     int words = ceduo_app_text_lines(app, ceduo_text_string(&text), area.width);
-    words = words > area.height - least ? area.height - least : words;
+    words = words > area.height - min ? area.height - min : words;
     int form = alone ? 0 : (area.height - words) / 3;
-    form = form > area.height - words - picture_least ? area.height - words - picture_least : form;
+    form = form > area.height - words - picture_min ? area.height - words - picture_min : form;
     form = alone || form >= FORM_MIN ? form : FORM_MIN;
     int height = area.height - form - words;
     struct ceduo_area top = {area.left, area.top, area.width, height};

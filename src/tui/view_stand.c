@@ -105,11 +105,6 @@ static void build(struct app *app, struct form *form)
     ceduo_form_field(form, d, stand, path, "name", NULL);
 }
 
-static void add_warning(void *context, const char *sentence)
-{
-    ceduo_text_format(context, "! %s\n", sentence);
-}
-
 /* The figures of the stand below the form, and above them what is unlikely about it. Returns how many lines that takes. */
 static int draw_figures(struct app *app, struct ceduo_area area)
 {
@@ -119,7 +114,7 @@ static int draw_figures(struct app *app, struct ceduo_area area)
         return 0;
     const struct ceduo_belt *belt = &o->belts[app->belt];
     struct ceduo_stand_result r = ceduo_assess_stand(&app->document.file.scene, belt);
-    ceduo_words_unlikely(belt, &r, add_warning, &unlikely);
+    ceduo_words_unlikely(belt, &r, ceduo_app_add_warning, &unlikely);
     int lines = unlikely.length > 0 ? ceduo_app_text_lines(app, unlikely.bytes, area.width) : 0;
     lines = lines > area.height / 3 ? area.height / 3 : lines;
     struct ceduo_area above = {area.left, area.top + area.height - FIGURES - lines, area.width, lines};
