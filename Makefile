@@ -164,7 +164,7 @@ SLOW := test_bits.sh test_workflows.py test_years.py test_editing.py test_faults
 	test_install.py test_input_streams.py
 TAPS_SLOW := $(foreach t,$(SLOW),$(filter %/$t.tap,$(TAPS)))
 JOBS := $(shell expr $(CORES) + 1)
-SUPPORT := $(call object,$(filter-out tests/physics/test_% tests/physics/bits.c tests/physics/constants.c,$(wildcard tests/physics/*.c)))
+SUPPORT := $(BUILD)/tests/main.o $(call object,$(filter-out tests/physics/test_% tests/physics/bits.c tests/physics/constants.c,$(wildcard tests/physics/*.c)))
 
 # A short part of them that has to do with languages; .ci/run runs it where others than English are spoken.
 TAPS_BRIEF := $(addprefix $(T)/,$(addsuffix .tap,unit/test_language unit/test_texts unit/test_typed cli/test_csv.py cli/test_language.py \

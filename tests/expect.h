@@ -4,12 +4,8 @@
 #ifndef EXPECT_H
 #define EXPECT_H
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-/* cmocka wants the four above first */
-#include <cmocka.h>
+#include "test.h"
+
 #include <math.h>
 #include <stdio.h>
 

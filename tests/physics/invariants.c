@@ -1,14 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "invariants.h"
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-
-#include <cmocka.h>
-
 #include <math.h>
 #include <string.h>
+
+#include "test.h"
 
 #define ENERGY     1e-12
 #define UNDER      1e-9  /* m below the ground, or */

@@ -56,9 +56,8 @@ static struct blow random_blow(struct line_random *r)
 
 /* ---- closed forms ---- */
 
-static void a_round_rock_that_sticks(void **state)
+TEST(a_round_rock_that_sticks)
 {
-    (void)state;
     struct line_random r = {.state = 1};
     for (int i = 0; i < 1000; i++) {
         double radius = line_log_uniform(&r, 0.05, 2), vn = line_uniform(&r, 1, 20), e = line_uniform(&r, 0, 1);
@@ -98,9 +97,8 @@ static struct point point_of(const struct blow *c, struct impact v, double vn)
     return p;
 }
 
-static void without_friction_only_the_normal_impulse_acts(void **state)
+TEST(without_friction_only_the_normal_impulse_acts)
 {
-    (void)state;
     struct line_random r = {.state = 2};
     for (int i = 0; i < 10000; i++) {
         struct blow c = random_blow(&r);
@@ -116,9 +114,8 @@ static void without_friction_only_the_normal_impulse_acts(void **state)
 
 /* A round rock that slips freely: rolling friction is a moment impulse of at most friction R times the normal impulse, against
  * the spin, which it never turns round. */
-static void rolling_friction_takes_spin(void **state)
+TEST(rolling_friction_takes_spin)
 {
-    (void)state;
     struct line_random r = {.state = 3};
     int held = 0;
     for (int i = 0; i < 10000; i++) {
@@ -135,9 +132,8 @@ static void rolling_friction_takes_spin(void **state)
     EXPECT(held, <, 9000);
 }
 
-static void without_bounce_a_point_that_sticks_stands_still(void **state)
+TEST(without_bounce_a_point_that_sticks_stands_still)
 {
-    (void)state;
     struct line_random r = {.state = 3};
     int still = 0;
     for (int i = 0; i < 10000; i++) {
@@ -161,9 +157,8 @@ static void without_bounce_a_point_that_sticks_stands_still(void **state)
 /* A round rock that does not bounce comes down again and again with what a short time of free fall gives it. Where both
  * frictions hold, a blow keeps 1/(1 + k) of its speed and no spin, so that it has never more than 1/k of what one fall adds:
  * however short that is, it stands. Steeper, it goes ever faster. */
-static void a_rock_stands_where_both_frictions_hold_it(void **state)
+TEST(a_rock_stands_where_both_frictions_hold_it)
 {
-    (void)state;
     struct line_random r = {.state = 4};
     for (int i = 0; i < 2000; i++) {
         struct blow c = random_blow(&r);
@@ -188,9 +183,8 @@ static void a_rock_stands_where_both_frictions_hold_it(void **state)
 
 /* ---- energy ---- */
 
-static void no_blow_gains_energy(void **state)
+TEST(no_blow_gains_energy)
 {
-    (void)state;
     struct line_random r = {.state = 5};
     for (int i = 0; i < BLOWS; i++) {
         struct blow c = random_blow(&r);
@@ -318,9 +312,8 @@ static struct stepper stepped(const struct blow *c)
     return s;
 }
 
-static void blows_are_as_followed_in_small_steps(void **state)
+TEST(blows_are_as_followed_in_small_steps)
 {
-    (void)state;
     struct line_random r = {.state = 6};
     for (int i = 0; i < STEPPED; i++) {
         struct blow c = random_blow(&r);
@@ -334,9 +327,8 @@ static void blows_are_as_followed_in_small_steps(void **state)
 }
 
 /* Where the slip turns, restitution by speed may return more than came in (Kane's paradox); by work it does not. */
-static void restitution_by_speed_would_gain_energy(void **state)
+TEST(restitution_by_speed_would_gain_energy)
 {
-    (void)state;
     struct line_random r = {.state = 7};
     int gains = 0;
     for (int i = 0; i < STEPPED; i++) {
@@ -389,9 +381,8 @@ static double mean_speed_off(const struct drop *d)
 }
 
 /* A long rock that falls on the flat, all but without weight, so that a slow one still flies off. */
-static void speed_after_a_blow_is_the_mean_over_all_turns(void **state)
+TEST(speed_after_a_blow_is_the_mean_over_all_turns)
 {
-    (void)state;
     static struct line_scene s;
     static struct line_way way;
     const struct drop d = {.blow = {.radius = 0.4, .e = 0.4, .mu = 0.5, .friction = 0.3, .in = {.vn = 8, .vt = 6, .spin = 5}},
@@ -416,20 +407,4 @@ static void speed_after_a_blow_is_the_mean_over_all_turns(void **state)
     double mean = sum / ROCKS, sd = sqrt(squares / ROCKS - mean * mean);
     EXPECT_NEAR(mean, mean_speed_off(&d), 4 * sd / sqrt(ROCKS));
     EXPECT(sd, >, 0.5);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_round_rock_that_sticks),
-        cmocka_unit_test(without_friction_only_the_normal_impulse_acts),
-        cmocka_unit_test(rolling_friction_takes_spin),
-        cmocka_unit_test(without_bounce_a_point_that_sticks_stands_still),
-        cmocka_unit_test(a_rock_stands_where_both_frictions_hold_it),
-        cmocka_unit_test(no_blow_gains_energy),
-        cmocka_unit_test(blows_are_as_followed_in_small_steps),
-        cmocka_unit_test(speed_after_a_blow_is_the_mean_over_all_turns),
-        cmocka_unit_test(restitution_by_speed_would_gain_energy),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -33,9 +33,8 @@ static void expect_scaled(const char *what, struct ceduo_number found, struct ce
 }
 
 /* A spread grows with what it is the spread of, so that of the density does not. */
-static void a_rock_twice_as_long_is_eight_times_as_heavy(void **state)
+TEST(a_rock_twice_as_long_is_eight_times_as_heavy)
 {
-    (void)state;
     const struct ceduo_rock_def was = {.shape = CEDUO_BLOCK,
                                        .diameter = number(.5, .125),
                                        .height = number(.75, .0625),
@@ -83,9 +82,8 @@ static struct ceduo_rock_def def_of(const struct rock *r)
     return def;
 }
 
-static void every_description_keeps_shape_and_density(void **state)
+TEST(every_description_keeps_shape_and_density)
 {
-    (void)state;
     for (size_t i = 0; i < LENGTH(rocks); i++) {
         struct ceduo_rock_def def = def_of(&rocks[i]), other = ceduo_rock_scaled(&def, 2);
         struct ceduo_rock was, is;
@@ -153,9 +151,8 @@ static void expect_sizes(double own, size_t place)
     }
 }
 
-static void the_own_size_has_its_place_among_the_others(void **state)
+TEST(the_own_size_has_its_place_among_the_others)
 {
-    (void)state;
     static const struct {
         double own;
         size_t place;
@@ -164,9 +161,8 @@ static void the_own_size_has_its_place_among_the_others(void **state)
         expect_sizes(rows[i].own, rows[i].place);
 }
 
-static void blocks_have_the_mass_and_width_of_their_volume(void **state)
+TEST(blocks_have_the_mass_and_width_of_their_volume)
 {
-    (void)state;
     for (size_t i = 0; i < LENGTH(rocks); i++) {
         struct ceduo_rock_def def = def_of(&rocks[i]);
         struct ceduo_block b[CEDUO_BLOCKS];
@@ -183,9 +179,8 @@ static void blocks_have_the_mass_and_width_of_their_volume(void **state)
 }
 
 /* Half of M times 25 m2/s2: what a place bears between two sizes, the smaller ones keep and the larger ones exceed. */
-static void blocks_fly_with_their_own_mass(void **state)
+TEST(blocks_fly_with_their_own_mass)
 {
-    (void)state;
     for (size_t bears = 0; bears < LENGTH(volumes); bears++) {
         struct ceduo_block b[CEDUO_BLOCKS];
         drop(slab(.5), 1.1 * volumes[bears] * LIMESTONE * 25 / 2);
@@ -202,9 +197,8 @@ static void blocks_fly_with_their_own_mass(void **state)
 }
 
 /* What is known of the own block stands in its row as it is, if as many were simulated. */
-static void the_own_block_is_not_simulated_twice(void **state)
+TEST(the_own_block_is_not_simulated_twice)
 {
-    (void)state;
     struct ceduo_block blocks[CEDUO_BLOCKS];
     for (uint64_t released = BLOCKS_FLOWN - 1; released <= BLOCKS_FLOWN; released++) {
         const struct ceduo_arrivals own = {.released = released, .reached = 77};
@@ -220,17 +214,4 @@ static void the_own_block_is_not_simulated_twice(void **state)
         for (size_t i = 0; i < CEDUO_BLOCKS; i++)
             EXPECT(blocks[i].arrivals.reached == 77, ==, (blocks[i].own && released == BLOCKS_FLOWN));
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_rock_twice_as_long_is_eight_times_as_heavy),
-        cmocka_unit_test(every_description_keeps_shape_and_density),
-        cmocka_unit_test(the_own_size_has_its_place_among_the_others),
-        cmocka_unit_test(blocks_have_the_mass_and_width_of_their_volume),
-        cmocka_unit_test(blocks_fly_with_their_own_mass),
-        cmocka_unit_test(the_own_block_is_not_simulated_twice),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

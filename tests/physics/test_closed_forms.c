@@ -35,9 +35,8 @@ static void straight(double rise, struct line_ground ground, double radius, enum
 
 /* ---- flight ---- */
 
-static void free_fall(void **state)
+TEST(free_fall)
 {
-    (void)state;
     straight(0, (struct line_ground){.5, .5, .5}, .1, CEDUO_LAW_LUMPED);
     line_scene_release(&scene, 500, 20, 0, 0, 0);
     follow();
@@ -49,9 +48,8 @@ static void free_fall(void **state)
     EXPECT(p->vx1, ==, 0);
 }
 
-static void projectiles_on_a_slope(void **state)
+TEST(projectiles_on_a_slope)
 {
-    (void)state;
     static const double rises[] = {0, -.5, .5, -3, 2};
     for (size_t i = 0; i < LENGTH(rises); i++) {
         straight(rises[i], (struct line_ground){.5, .5, .5}, .1, CEDUO_LAW_LUMPED);
@@ -66,9 +64,8 @@ static void projectiles_on_a_slope(void **state)
     }
 }
 
-static void a_control_sees_the_flight_over_it(void **state)
+TEST(a_control_sees_the_flight_over_it)
 {
-    (void)state;
     straight(-.5, (struct line_ground){.5, .5, .5}, .1, CEDUO_LAW_LUMPED);
     line_scene_release(&scene, 0, 50, 10, 0, 0);
     scene.control.x = 8;
@@ -86,9 +83,8 @@ static void a_control_sees_the_flight_over_it(void **state)
 
 /* ---- bouncing ---- */
 
-static void a_vertical_drop_rebounds_to_rn2_h(void **state)
+TEST(a_vertical_drop_rebounds_to_rn2_h)
 {
-    (void)state;
     const double rn = .75, radius = .1;
     straight(0, (struct line_ground){rn, .5, .5}, radius, CEDUO_LAW_LUMPED);
     line_scene_release(&scene, 500, 10, 0, 0, 0);
@@ -108,9 +104,8 @@ static void a_vertical_drop_rebounds_to_rn2_h(void **state)
     EXPECT(way.way.contacts, ==, i);
 }
 
-static void an_oblique_impact_on_the_flat(void **state)
+TEST(an_oblique_impact_on_the_flat)
 {
-    (void)state;
     straight(0, (struct line_ground){.5, .5, .5}, .1, CEDUO_LAW_LUMPED);
     line_scene_release(&scene, 500, 0, 2, -4, 0);
     follow();
@@ -127,9 +122,8 @@ static void an_oblique_impact_on_the_flat(void **state)
     EXPECT(way.pieces[0].vz, ==, 2);
 }
 
-static void a_bounce_without_loss_is_given_up_and_said_so(void **state)
+TEST(a_bounce_without_loss_is_given_up_and_said_so)
 {
-    (void)state;
     straight(0, (struct line_ground){1, 1, 0}, .1, CEDUO_LAW_LUMPED);
     line_scene_release(&scene, 500, 1, 0, 0, 0);
     follow();
@@ -144,9 +138,8 @@ static void a_bounce_without_loss_is_given_up_and_said_so(void **state)
     expect_near(way.way.x, 600, 1e-9);
 }
 
-static void a_release_that_leaves_the_ground_has_no_contact(void **state)
+TEST(a_release_that_leaves_the_ground_has_no_contact)
 {
-    (void)state;
     straight(0, (struct line_ground){.5, .5, .5}, .1, CEDUO_LAW_LUMPED);
     line_scene_release(&scene, 500, 0, 2, 4, 0);
     follow();
@@ -175,9 +168,8 @@ static void roll_stops(enum ceduo_law law, double k, double v0)
     assert_int_equal(way.way.contacts, ceil(fabs(way.way.x - 500) / .34)); /* one for each radius */
 }
 
-static void a_roll_on_the_flat_stops_by_friction(void **state)
+TEST(a_roll_on_the_flat_stops_by_friction)
 {
-    (void)state;
     roll_stops(CEDUO_LAW_LUMPED, 0, 5);
     roll_stops(CEDUO_LAW_LUMPED, 0, -5);
     roll_stops(CEDUO_LAW_CRSP, .4, 5);
@@ -185,9 +177,8 @@ static void a_roll_on_the_flat_stops_by_friction(void **state)
 }
 
 /* Friction 1/2 and gravity 1 take what speed 1 has over just 1 m: there is a control, where it arrives without energy. */
-static void a_roll_stops_just_at_the_control(void **state)
+TEST(a_roll_stops_just_at_the_control)
 {
-    (void)state;
     for (double radius = 1; radius <= 2; radius++) { /* a roll is as long as the radius: its end, too, or within it */
         straight(0, (struct line_ground){0, 1, .5}, radius, CEDUO_LAW_LUMPED);
         scene.scene.simulation.gravity = 1;
@@ -222,9 +213,8 @@ static void roll_accelerates(enum ceduo_law law, double k, double rise, double m
 }
 
 /* A sphere without friction goes with (5/7) g sin(slope). */
-static void a_roll_down_a_slope(void **state)
+TEST(a_roll_down_a_slope)
 {
-    (void)state;
     roll_accelerates(CEDUO_LAW_CRSP, .4, -.3, 0);
     roll_accelerates(CEDUO_LAW_CRSP, .4, .3, 0);
     roll_accelerates(CEDUO_LAW_CRSP, .4, -1.5, .25);
@@ -232,9 +222,8 @@ static void a_roll_down_a_slope(void **state)
     roll_accelerates(CEDUO_LAW_LUMPED, 0, 1.5, .25);
 }
 
-static void spin_and_speed_share_their_momentum_in_a_roll(void **state)
+TEST(spin_and_speed_share_their_momentum_in_a_roll)
 {
-    (void)state;
     straight(0, (struct line_ground){0, 1, .5}, .5, CEDUO_LAW_CRSP);
     line_scene_release(&scene, 500, 0, 0, 0, 8); /* a spinning sphere put down */
     follow();
@@ -244,9 +233,8 @@ static void spin_and_speed_share_their_momentum_in_a_roll(void **state)
 }
 
 /* Rolling, Vn is 0 and there is no slip: each contact leaves Rt·f of the energy, f = Rt + (1 - Rt)/1.2, whatever Rn. */
-static void a_contact_in_a_roll_costs_the_same_for_any_rn(void **state)
+TEST(a_contact_in_a_roll_costs_the_same_for_any_rn)
 {
-    (void)state;
     static const double shares[] = {0, 1e-12, .3, 1};
     const double rt = .9;
     for (size_t i = 0; i < LENGTH(shares); i++)
@@ -265,9 +253,8 @@ static void a_contact_in_a_roll_costs_the_same_for_any_rn(void **state)
 }
 
 /* Rt = 0 leaves no speed along the ground: each roll goes downhill from 0, one contact for each radius. */
-static void without_tangential_restitution_each_roll_begins_downhill(void **state)
+TEST(without_tangential_restitution_each_roll_begins_downhill)
 {
-    (void)state;
     for (int slope = 1; slope < 60; slope++)
         for (int dir = -1; dir <= 1; dir += 2) {
             straight(.025 * slope * dir, (struct line_ground){.3, 0, 0}, 1, CEDUO_LAW_LUMPED);
@@ -283,9 +270,8 @@ static void without_tangential_restitution_each_roll_begins_downhill(void **stat
         }
 }
 
-static void a_concave_vertex_takes_the_part_into_the_ground(void **state)
+TEST(a_concave_vertex_takes_the_part_into_the_ground)
 {
-    (void)state;
     const double x[] = {0, 1, 9}, z[] = {0, 0, 6}; /* cosine 4/5 */
     line_scene_init(&scene, 3, x, z, (struct line_ground){0, 1, 0}, 1.5, CEDUO_LAW_LUMPED);
     line_scene_release(&scene, .5, 0, 2, 0, 0);
@@ -296,9 +282,8 @@ static void a_concave_vertex_takes_the_part_into_the_ground(void **state)
     expect_near(way.pieces[1].vz / way.pieces[1].vx, .75, 1e-15);
 }
 
-static void over_a_convex_vertex_it_rolls_or_flies(void **state)
+TEST(over_a_convex_vertex_it_rolls_or_flies)
 {
-    (void)state;
     const double x[] = {0, 10, 20}, z[] = {0, 0, -5};
     for (int fast = 0; fast <= 1; fast++) {
         line_scene_init(&scene, 3, x, z, (struct line_ground){0, 1, 0}, .5, CEDUO_LAW_LUMPED);
@@ -317,9 +302,8 @@ static void over_a_convex_vertex_it_rolls_or_flies(void **state)
 
 /* ---- resting ---- */
 
-static void at_rest_it_goes_where_it_is_steeper_than_friction(void **state)
+TEST(at_rest_it_goes_where_it_is_steeper_than_friction)
 {
-    (void)state;
     for (int dir = -1; dir <= 1; dir += 2)
         for (int law = 0; law < CEDUO_LAW_COUNT; law++) {
             straight(.3 * dir, (struct line_ground){.5, .5, .31}, .34, (enum ceduo_law)law);
@@ -346,9 +330,8 @@ static void released_in_a_pit(double radius, double level, double beyond, bool s
     EXPECT((way.way.x == 1.8), ==, stays);
 }
 
-static void at_rest_it_stays_in_a_pit_within_its_radius(void **state)
+TEST(at_rest_it_stays_in_a_pit_within_its_radius)
 {
-    (void)state;
     const double bottom = hypot(.2, .1);
     released_in_a_pit(bottom * 1.01, .001, 1, true);
     released_in_a_pit(bottom * .99, .001, 1, false);
@@ -377,9 +360,8 @@ static void two_grounds(double radius)
     scene.scene.simulation.gravity = 8;
 }
 
-static void a_release_on_a_vertex_is_on_the_right(void **state)
+TEST(a_release_on_a_vertex_is_on_the_right)
 {
-    (void)state;
     two_grounds(.01);
     for (int dir = -1; dir <= 1; dir++) {
         line_scene_release(&scene, 1, 0, dir * 4, -8, 0);
@@ -396,9 +378,8 @@ static void a_release_on_a_vertex_is_on_the_right(void **state)
     EXPECT(way.pieces[0].vz, ==, 4);
 }
 
-static void a_flight_exactly_through_a_vertex_is_on_the_segment_ahead(void **state)
+TEST(a_flight_exactly_through_a_vertex_is_on_the_segment_ahead)
 {
-    (void)state;
     two_grounds(.01);
     line_scene_release(&scene, 0, 1, 2, 0, 0); /* 1 - 4 t2 = 0 at t = 1/2, x = 1 */
     follow();
@@ -414,9 +395,8 @@ static void a_flight_exactly_through_a_vertex_is_on_the_segment_ahead(void **sta
     EXPECT(way.pieces[1].vx, ==, -1);
 }
 
-static void a_roll_that_ends_on_a_vertex_is_on_the_segment_it_came_along(void **state)
+TEST(a_roll_that_ends_on_a_vertex_is_on_the_segment_it_came_along)
 {
-    (void)state;
     two_grounds(.5);
     line_scene_release(&scene, .5, 0, 1, 0, 0);
     follow();
@@ -430,9 +410,8 @@ static void a_roll_that_ends_on_a_vertex_is_on_the_segment_it_came_along(void **
     }
 }
 
-static void the_way_ends_at_either_end_of_the_slope(void **state)
+TEST(the_way_ends_at_either_end_of_the_slope)
 {
-    (void)state;
     for (int dir = -1; dir <= 1; dir += 2) {
         straight(0, (struct line_ground){.5, 1, .1}, .1, CEDUO_LAW_LUMPED);
         double x = dir < 0 ? 1 : 999, end = dir < 0 ? 0 : 1000;
@@ -455,9 +434,8 @@ static void the_way_ends_at_either_end_of_the_slope(void **state)
     }
 }
 
-static void a_slope_that_ends_in_a_wall_is_left_at_its_foot_only_backwards(void **state)
+TEST(a_slope_that_ends_in_a_wall_is_left_at_its_foot_only_backwards)
 {
-    (void)state;
     const double x[] = {0, 20, 20.001}, z[] = {0, -10, 90};
     line_scene_init(&scene, 3, x, z, (struct line_ground){.3, .8, .5}, .34, CEDUO_LAW_CRSP);
     line_scene_release(&scene, 1, 1, 5, 0, 0);
@@ -484,9 +462,8 @@ static bool same_pieces(const struct line_way *a, const struct line_way *b, doub
 }
 
 /* Relative to its first vertex a profile in survey coordinates is the profile, where they lose no bit. */
-static void a_shift_that_loses_no_bit_changes_no_bit(void **state)
+TEST(a_shift_that_loses_no_bit_changes_no_bit)
 {
-    (void)state;
     for (uint64_t n = 0; n < 2000; n++) {
         line_scene_random(&scene, n, 0);
         size_t vertices = scene.scene.slope.vertices;
@@ -544,9 +521,8 @@ static void expect_the_same_way_in_other_sizes(bool arm)
     EXPECT(bounces, >, 10000);
 }
 
-static void four_times_the_lengths_and_twice_the_speeds_are_the_same_way(void **state)
+TEST(four_times_the_lengths_and_twice_the_speeds_are_the_same_way)
 {
-    (void)state;
     expect_the_same_way_in_other_sizes(false);
     expect_the_same_way_in_other_sizes(true);
 }
@@ -559,9 +535,8 @@ struct wilson_row {
 };
 
 /* Newcombe 1998, Table I, method 3, to its four decimals; the rest by hand from Wilson 1927. */
-static void intervals_of_wilson(void **state)
+TEST(intervals_of_wilson)
 {
-    (void)state;
     static const struct wilson_row rows[] = {{81, 263, .2553, .3662}, {15, 148, .0624, .1605}, {0, 20, 0, .1611},
                                              {1, 29, .0061, .1718},   {29, 29, .8830, 1},      {0, 999, 0, .0038},
                                              {999, 999, .9962, 1}};
@@ -590,9 +565,8 @@ static void intervals_of_wilson(void **state)
 }
 
 /* Student 1908; the quantiles of 97.5 % as any table has them. */
-static void widths_of_few(void **state)
+TEST(widths_of_few)
 {
-    (void)state;
     static const struct {
         uint64_t n;
         double t;
@@ -608,9 +582,8 @@ static void widths_of_few(void **state)
 }
 
 /* Of n pairs that are all equal as many as 3.841/(n + 3.841) may differ: Wilson's upper end of 0 of n. */
-static void pairs_that_do_not_differ(void **state)
+TEST(pairs_that_do_not_differ)
 {
-    (void)state;
     struct ceduo_moments m = {0};
     struct ceduo_paired p = ceduo_paired_of(.5, &m, 100); /* of which no single rock is kept */
     EXPECT(p.mean, ==, .5);
@@ -635,9 +608,8 @@ static void pairs_that_do_not_differ(void **state)
     EXPECT(p.below, ==, 0);
 }
 
-static void ranks_of_quantiles(void **state)
+TEST(ranks_of_quantiles)
 {
-    (void)state;
     static const struct {
         size_t n;
         double p;
@@ -674,9 +646,8 @@ static long double binomial_below(size_t n, long double p, size_t k)
 }
 
 /* The 95 % limits of a median are in many tables: 8 and 18 of 25, 18 and 33 of 50, 40 and 61 of 100 (Conover 1999). */
-static void intervals_of_quantiles(void **state)
+TEST(intervals_of_quantiles)
 {
-    (void)state;
     static const struct {
         size_t n;
         double p;
@@ -705,9 +676,8 @@ static int by_value(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-static void a_distribution_of_exact_values(void **state)
+TEST(a_distribution_of_exact_values)
 {
-    (void)state;
     static const size_t sizes[] = {1, 2, 19, 20, 100, 999, 5000};
     static double values[5000], sorted[5000];
     struct line_random r = {.state = 5};
@@ -763,9 +733,8 @@ static double many_valued(size_t shape, size_t i, struct line_random *r)
 
 /* Of many values percentiles are looked for among those near them alone; they are the same as of sorted ones, and no value is
  * lost. */
-static void percentiles_of_many_values(void **state)
+TEST(percentiles_of_many_values)
 {
-    (void)state;
     static const size_t sizes[] = {32767, 32768, 100003};
     static double values[100003], sorted[100003];
     struct line_random r = {.state = 11};
@@ -795,9 +764,8 @@ static void percentiles_of_many_values(void **state)
         }
 }
 
-static void moments_added_and_merged(void **state)
+TEST(moments_added_and_merged)
 {
-    (void)state;
     static double values[10000];
     const size_t n = LENGTH(values);
     struct line_random r = {.state = 3};
@@ -892,9 +860,8 @@ static void expect_cut_normal(double mean, double sd, double lo, double hi)
     EXPECT(even.highest, >, mean + (b - .05) * sd);
 }
 
-static void a_normal_spread_is_cut(void **state)
+TEST(a_normal_spread_is_cut)
 {
-    (void)state;
     expect_cut_normal(.5, .05, -INFINITY, INFINITY); /* at three standard deviations */
     expect_cut_normal(.9, .1, 0, 1);
     expect_cut_normal(.05, .1, 0, 1);
@@ -905,9 +872,8 @@ static void a_normal_spread_is_cut(void **state)
     expect_near(ceduo_number_draw(n, .5, -INFINITY, INFINITY), 2, 1e-14);
 }
 
-static void a_uniform_spread(void **state)
+TEST(a_uniform_spread)
 {
-    (void)state;
     struct ceduo_number n = {.mean = 2, .spread = .5, .kind = CEDUO_UNIFORM};
     EXPECT(ceduo_number_lowest(n), ==, 1.5);
     EXPECT(ceduo_number_highest(n), ==, 2.5);
@@ -928,9 +894,8 @@ static void a_uniform_spread(void **state)
 
 /* ---- facet draws ---- */
 
-static void facet_draws_are_even_and_depend_on_all_they_should(void **state)
+TEST(facet_draws_are_even_and_depend_on_all_they_should)
 {
-    (void)state;
     const uint64_t n = 200000;
     double sum = 0, squares = 0, product = 0, last = .5;
     for (uint64_t i = 0; i < n; i++) {
@@ -951,46 +916,4 @@ static void facet_draws_are_even_and_depend_on_all_they_should(void **state)
     EXPECT(u, !=, line_facet_draw(2, 2, 3));
     EXPECT(u, !=, line_facet_draw(1, 3, 3));
     EXPECT(u, !=, line_facet_draw(1, 2, 2));
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(free_fall),
-        cmocka_unit_test(projectiles_on_a_slope),
-        cmocka_unit_test(a_control_sees_the_flight_over_it),
-        cmocka_unit_test(a_vertical_drop_rebounds_to_rn2_h),
-        cmocka_unit_test(an_oblique_impact_on_the_flat),
-        cmocka_unit_test(a_bounce_without_loss_is_given_up_and_said_so),
-        cmocka_unit_test(a_release_that_leaves_the_ground_has_no_contact),
-        cmocka_unit_test(a_roll_stops_just_at_the_control),
-        cmocka_unit_test(a_roll_on_the_flat_stops_by_friction),
-        cmocka_unit_test(a_roll_down_a_slope),
-        cmocka_unit_test(spin_and_speed_share_their_momentum_in_a_roll),
-        cmocka_unit_test(a_contact_in_a_roll_costs_the_same_for_any_rn),
-        cmocka_unit_test(without_tangential_restitution_each_roll_begins_downhill),
-        cmocka_unit_test(a_concave_vertex_takes_the_part_into_the_ground),
-        cmocka_unit_test(over_a_convex_vertex_it_rolls_or_flies),
-        cmocka_unit_test(at_rest_it_goes_where_it_is_steeper_than_friction),
-        cmocka_unit_test(at_rest_it_stays_in_a_pit_within_its_radius),
-        cmocka_unit_test(a_release_on_a_vertex_is_on_the_right),
-        cmocka_unit_test(a_flight_exactly_through_a_vertex_is_on_the_segment_ahead),
-        cmocka_unit_test(a_roll_that_ends_on_a_vertex_is_on_the_segment_it_came_along),
-        cmocka_unit_test(the_way_ends_at_either_end_of_the_slope),
-        cmocka_unit_test(a_slope_that_ends_in_a_wall_is_left_at_its_foot_only_backwards),
-        cmocka_unit_test(a_shift_that_loses_no_bit_changes_no_bit),
-        cmocka_unit_test(four_times_the_lengths_and_twice_the_speeds_are_the_same_way),
-        cmocka_unit_test(intervals_of_wilson),
-        cmocka_unit_test(widths_of_few),
-        cmocka_unit_test(pairs_that_do_not_differ),
-        cmocka_unit_test(ranks_of_quantiles),
-        cmocka_unit_test(intervals_of_quantiles),
-        cmocka_unit_test(a_distribution_of_exact_values),
-        cmocka_unit_test(percentiles_of_many_values),
-        cmocka_unit_test(moments_added_and_merged),
-        cmocka_unit_test(a_normal_spread_is_cut),
-        cmocka_unit_test(a_uniform_spread),
-        cmocka_unit_test(facet_draws_are_even_and_depend_on_all_they_should),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -93,9 +93,8 @@ static double adc_of_reserves(const struct asked *a, double per_ha)
 }
 
 /* 60 reserves of 20 cm are some 190 m from each other (Ciabocco et al. 2009); 30 m need 379. */
-static void reserves_for_30_m(void **state)
+TEST(reserves_for_30_m)
 {
-    (void)state;
     static const struct {
         double b;
         double needed;
@@ -154,9 +153,8 @@ static double curve(const struct asked *a, double value)
     }
 }
 
-static void inverse_and_forward_agree(void **state)
+TEST(inverse_and_forward_agree)
 {
-    (void)state;
     unsigned most = 0, sum = 0, crossings = 0;
     for (int i = 0; i < GOALS; i++) {
         struct asked a = {.goal = curve,
@@ -197,9 +195,8 @@ static double parabola(const struct asked *a, double value)
     return a->p[1] * x * x;
 }
 
-static void smooth_goals_need_few_evaluations(void **state)
+TEST(smooth_goals_need_few_evaluations)
 {
-    (void)state;
     struct asked a = {.goal = line, .p = {3}};
     struct ceduo_found found = find(&a, 0, 1, false, 1);
     EXPECT_NEAR(found.value, 1. / 3, 1e-9);
@@ -227,9 +224,8 @@ static double cliff(const struct asked *a, double value)
     return value < a->p[0] ? 1e-9 : 1e9; /* as lopsided as can be */
 }
 
-static void steps_and_jumps(void **state)
+TEST(steps_and_jumps)
 {
-    (void)state;
     struct asked a = {.goal = steps, .p = {.37, -2}};
     struct ceduo_found found = find(&a, 0, 100, false, -10); /* floor(.37 v) >= 5 */
     assert_true(found.found);
@@ -251,9 +247,8 @@ static void steps_and_jumps(void **state)
     expect_edge(&a, &found, 1e-9, 1e-9);
 }
 
-static void large_whole_numbers(void **state)
+TEST(large_whole_numbers)
 {
-    (void)state;
     struct asked a = {.goal = line, .p = {-1}};
     struct ceduo_found found = find(&a, 0, 1e12, true, -123456789012);
     EXPECT(found.value, ==, 123456789012);
@@ -271,9 +266,8 @@ static void large_whole_numbers(void **state)
 
 /* ---- goals that turn ---- */
 
-static void a_pass_between_ends_that_fail(void **state)
+TEST(a_pass_between_ends_that_fail)
 {
-    (void)state;
     struct asked a = {.goal = parabola, .p = {60, 1}};
     for (int whole = 0; whole < 2; whole++) {
         struct ceduo_found found = find(&a, 0, 100, whole, 402);
@@ -289,9 +283,8 @@ static void a_pass_between_ends_that_fail(void **state)
     EXPECT(found.value, ==, 10);
 }
 
-static void a_fail_between_ends_that_pass(void **state)
+TEST(a_fail_between_ends_that_pass)
 {
-    (void)state;
     struct asked a = {.goal = parabola, .p = {40, -1}};
     for (int whole = 0; whole < 2; whole++) {
         struct ceduo_found found = find(&a, 0, 100, whole, -402);
@@ -309,18 +302,16 @@ static double noisy(const struct asked *a, double value)
     return 1 + a->p[0] * sin(value);
 }
 
-static void rounding_is_no_turn(void **state)
+TEST(rounding_is_no_turn)
 {
-    (void)state;
     struct asked a = {.goal = noisy, .p = {1e-14}};
     assert_true(find(&a, 0, 100, false, 0).monotone);
     a.p[0] = 1e-10;
     assert_false(find(&a, 0, 100, false, 0).monotone);
 }
 
-static void nothing_passes(void **state)
+TEST(nothing_passes)
 {
-    (void)state;
     struct asked a = {.goal = parabola, .p = {35, 1}};
     struct ceduo_found found = find(&a, 0, 90, false, -1); /* seen: every 10 */
     assert_false(found.found);
@@ -338,9 +329,8 @@ static void nothing_passes(void **state)
     assert_false(found.found);
 }
 
-static void everything_passes(void **state)
+TEST(everything_passes)
 {
-    (void)state;
     struct asked a = {.goal = line, .p = {-1}};
     struct ceduo_found found = find(&a, 5, 90, false, 0);
     assert_true(found.found);
@@ -367,9 +357,8 @@ static double broken_below(const struct asked *a, double value)
     return value < a->p[0] ? a->p[1] : 100 - value;
 }
 
-static void goals_that_are_not_finite(void **state)
+TEST(goals_that_are_not_finite)
 {
-    (void)state;
     static const double bad[] = {INFINITY, NAN, -INFINITY};
     for (size_t i = 0; i < LENGTH(bad); i++) {
         struct asked a = {.goal = broken_below, .p = {20.5, bad[i]}};
@@ -407,9 +396,8 @@ static double wild(const struct asked *a, double value)
     return a->p[2] > 0 ? floor(wave / a->p[2]) : wave;
 }
 
-static void any_goal_at_all(void **state)
+TEST(any_goal_at_all)
 {
-    (void)state;
     unsigned count[2] = {0, 0};
     for (int i = 0; i < GOALS; i++) {
         struct asked a = {.goal = wild, .p = {uniform(0, .2), uniform(0, .01), uniform(-.5, .5), floor(uniform(0, 2))}};
@@ -448,9 +436,8 @@ static enum ceduo_status cancels_at_5(void *context, double value, double *goal)
     return CEDUO_OK;
 }
 
-static void it_ends_where_the_goal_fails_or_it_is_cancelled(void **state)
+TEST(it_ends_where_the_goal_fails_or_it_is_cancelled)
 {
-    (void)state;
     unsigned count = 0;
     struct ceduo_find_def def = {.hi = 1e6, .whole = true, .target = 12345, .goal = fails_at_5, .context = &count};
     struct ceduo_found found;
@@ -474,24 +461,4 @@ static void it_ends_where_the_goal_fails_or_it_is_cancelled(void **state)
     assert_false(found.found);
     EXPECT(found.evaluations, ==, 5);
     EXPECT(cancelled.count, ==, 5);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(reserves_for_30_m),
-        cmocka_unit_test(inverse_and_forward_agree),
-        cmocka_unit_test(smooth_goals_need_few_evaluations),
-        cmocka_unit_test(steps_and_jumps),
-        cmocka_unit_test(large_whole_numbers),
-        cmocka_unit_test(a_pass_between_ends_that_fail),
-        cmocka_unit_test(a_fail_between_ends_that_pass),
-        cmocka_unit_test(rounding_is_no_turn),
-        cmocka_unit_test(nothing_passes),
-        cmocka_unit_test(everything_passes),
-        cmocka_unit_test(goals_that_are_not_finite),
-        cmocka_unit_test(any_goal_at_all),
-        cmocka_unit_test(it_ends_where_the_goal_fails_or_it_is_cancelled),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -34,9 +34,8 @@ static void expect_bits(unsigned value, unsigned set, unsigned clear)
 
 /* ---- rock ---- */
 
-static void rock_of_table_2(void **state)
+TEST(rock_of_table_2)
 {
-    (void)state;
     struct paper_site site;
     paper_site_init(&site);
     struct ceduo_rock rock;
@@ -52,9 +51,8 @@ static void rock_of_table_2(void **state)
     expect_decimals(0.5 * rock.mass * (20.94 * 20.94 - 15.6 * 15.6) / 1e3, 50.0, 1); /* like for like */
 }
 
-static void rock_shapes(void **state)
+TEST(rock_shapes)
 {
-    (void)state;
     const double pi = acos(-1);
     struct ceduo_rock_def def = ceduo_scene_default().rock;
     struct ceduo_rock rock;
@@ -97,9 +95,8 @@ struct impact_row {
     double f, sf, vn_out, vt_out, spin_out;
 };
 
-static void impacts_of_pfeiffer_and_higgins(void **state)
+TEST(impacts_of_pfeiffer_and_higgins)
 {
-    (void)state;
     static const struct impact_row rows[] = {
         {5, 10, 0, .31, .83, .4, .873691, .794408, 1.193228, 7.041038, 20.708937},
         {5, 10, 10 / .34, .31, .83, .4, .971667, .794408, 1.193228, 8.785784, 25.840540},
@@ -127,9 +124,8 @@ static void impacts_of_pfeiffer_and_higgins(void **state)
     }
 }
 
-static void impacts_at_the_limits_of_crsp(void **state)
+TEST(impacts_at_the_limits_of_crsp)
 {
-    (void)state;
     EXPECT(crsp_scaling(0, 0.8, 0), ==, 0.8);
     EXPECT(crsp_scaling(0, 0.8, 1e-9), ==, 0);
     struct ground_point at = {.rn = 0.3, .rt = 0.8, .radius = 0.5, .k = 0.4};
@@ -142,9 +138,8 @@ static void impacts_at_the_limits_of_crsp(void **state)
     expect_exact(out.vn, 0.3 * 9.144 / 2);
 }
 
-static void impacts_of_the_lumped_law(void **state)
+TEST(impacts_of_the_lumped_law)
 {
-    (void)state;
     struct ground_point at = {.rn = 0.31, .rt = 0.83, .radius = 0.34, .k = 0.4};
     struct impact out = law_lumped((struct impact){5, -10, 7}, &at);
     expect_exact(out.vn, 1.55);
@@ -158,9 +153,8 @@ static void impacts_of_the_lumped_law(void **state)
 
 /* ---- ways ---- */
 
-static void slope_chains_as_table_3(void **state)
+TEST(slope_chains_as_table_3)
 {
-    (void)state;
     struct paper_site site;
     paper_site_init(&site);
     assert_int_equal(ceduo_scene_check(&site.scene, NULL), CEDUO_OK);
@@ -181,9 +175,8 @@ static void keep(void *context, const struct ceduo_piece *piece)
         to->pieces[to->count++] = *piece;
 }
 
-static void two_contacts_on_the_slope_of_table_3(void **state)
+TEST(two_contacts_on_the_slope_of_table_3)
 {
-    (void)state;
     struct paper_site site;
     paper_site_init(&site);
     paper_site_sphere(&site);
@@ -231,18 +224,16 @@ static void rolling_and_resting(enum ceduo_law law, double x, uint64_t contacts)
     assert_int_equal(flights_from_11, 1);
 }
 
-static void rolling_and_resting_on_a_polyline(void **state)
+TEST(rolling_and_resting_on_a_polyline)
 {
-    (void)state;
     rolling_and_resting(CEDUO_LAW_LUMPED, 20.632084, 59);
     rolling_and_resting(CEDUO_LAW_CRSP, 22.158570, 63);
 }
 
 /* ---- ADC ---- */
 
-static void adc_of_table_1(void **state)
+TEST(adc_of_table_1)
 {
-    (void)state;
     struct paper_plot one, two;
     paper_plot_init(&one, 1);
     paper_plot_init(&two, 2);
@@ -266,9 +257,8 @@ static void adc_of_table_1(void **state)
     expect_decimals(1 / ceduo_adc(&one.stand, PAPER_B).crofton, .40579, 5); /* stools alone */
 }
 
-static void the_rule_of_the_paper(void **state)
+TEST(the_rule_of_the_paper)
 {
-    (void)state;
     struct paper_plot plot;
     paper_plot_init(&plot, 1);
     assert_int_equal(ceduo_adc_rule(&plot.stand, PAPER_B, CEDUO_RULE_AUTO), CEDUO_INTERCEPTION);
@@ -297,9 +287,8 @@ static double three_decimals(double v)
     return round(v * 1e3) / 1e3;
 }
 
-static void energy_of_tables_7_and_8(void **state)
+TEST(energy_of_tables_7_and_8)
 {
-    (void)state;
     expect_decimals(energy_of_both_plots(CEDUO_GSTEIGER_STOOLS), 34.3844, 4);
     expect_decimals(energy_of_both_plots(CEDUO_GSTEIGER_STOOLS), 34, 0);
     expect_decimals(energy_of_both_plots(CEDUO_INTERCEPTION), 53.8216, 4);
@@ -318,9 +307,8 @@ static void energy_of_tables_7_and_8(void **state)
     expect_decimals(printed, 53.831, 3);
 }
 
-static void energy_of_one_contact(void **state)
+TEST(energy_of_one_contact)
 {
-    (void)state;
     struct paper_plot one, two;
     paper_plot_init(&one, 1);
     paper_plot_init(&two, 2);
@@ -329,9 +317,8 @@ static void energy_of_one_contact(void **state)
 }
 
 /* The trees are all gone, and the rock meets the stumps alone, as each form says. */
-static void stumps_where_no_tree_is_left(void **state)
+TEST(stumps_where_no_tree_is_left)
 {
-    (void)state;
     struct ceduo_stems felled = {.per_ha = 0, .dbh = 0.20, .height = 14, .volume = NAN, .age = NAN};
     struct ceduo_stand stand = {.system = CEDUO_SIMPLE_COPPICE,
                                 .species = -1,
@@ -346,9 +333,8 @@ static void stumps_where_no_tree_is_left(void **state)
     expect_exact(adc.crofton, 25);
 }
 
-static void reserves_after_a_cut(void **state)
+TEST(reserves_after_a_cut)
 {
-    (void)state;
     struct ceduo_stems reserves = {.per_ha = 60, .dbh = 0.20, .height = 14, .volume = NAN, .age = NAN};
     struct ceduo_stand stand = {.system = CEDUO_SIMPLE_COPPICE, .species = -1, .trees_count = 1, .trees = &reserves, .u = NAN};
     struct ceduo_adc adc = ceduo_adc(&stand, PAPER_B);
@@ -362,9 +348,8 @@ static void reserves_after_a_cut(void **state)
     EXPECT(ceduo_adc(&stand, PAPER_B).gsteiger_stems, <, CEDUO_THRESHOLD_M);
 }
 
-static void the_threshold_in_a_belt(void **state)
+TEST(the_threshold_in_a_belt)
 {
-    (void)state;
     struct paper_site site;
     paper_site_init(&site);
     struct ceduo_stems reserves = {.per_ha = 378, .dbh = 0.20, .height = 14, .volume = NAN, .age = NAN};
@@ -381,9 +366,8 @@ static void the_threshold_in_a_belt(void **state)
 }
 
 /* The paper says ±0.03 m. */
-static void sensitivity_to_the_spacing_of_the_shoots(void **state)
+TEST(sensitivity_to_the_spacing_of_the_shoots)
 {
-    (void)state;
     static const double change[2][2] = {{0.151, -0.131}, {0.206, -0.178}};
     for (int i = 0; i < 2; i++) {
         struct paper_plot plot;
@@ -396,9 +380,8 @@ static void sensitivity_to_the_spacing_of_the_shoots(void **state)
     }
 }
 
-static void stools_on_a_ring(void **state)
+TEST(stools_on_a_ring)
 {
-    (void)state;
     EXPECT(ceduo_stool_perimeter(1, 0.5), ==, 0);
     expect_exact(ceduo_stool_perimeter(2, 0.5), 1);
     expect_exact(ceduo_stool_perimeter(3, 0.5), 1.5);
@@ -412,9 +395,8 @@ static void stools_on_a_ring(void **state)
     expect_exact(ceduo_stool_radius(6, 0.5), 0.5);
 }
 
-static void basal_area_of_table_1(void **state)
+TEST(basal_area_of_table_1)
 {
-    (void)state;
     struct paper_plot one, two;
     paper_plot_init(&one, 1);
     paper_plot_init(&two, 2);
@@ -428,9 +410,8 @@ static void basal_area_of_table_1(void **state)
 
 /* ---- energies of contacts ---- */
 
-static void energies_of_dorren(void **state)
+TEST(energies_of_dorren)
 {
-    (void)state;
     static const double cm[] = {4.7, 6.1, 8, 10}, kj[] = {1.381, 2.522, 4.719, 7.902};
     for (size_t i = 0; i < LENGTH(cm); i++)
         expect_decimals(ceduo_dorren_energy(cm[i] / 100, 1) / 1e3, kj[i], 3);
@@ -462,9 +443,8 @@ struct volume_row {
     enum ceduo_volume_from from;
 };
 
-static void volumes_of_tabacchi(void **state)
+TEST(volumes_of_tabacchi)
 {
-    (void)state;
     static const struct volume_row rows[] = {
         {"acer", 22, 14, 252.958, CEDUO_VOLUME_EQUATION},
         {"ostrya-carpinifolia", 6.1, 6, -1.4983 + 0.038828 * 6.1 * 6.1 * 6, CEDUO_VOLUME_EQUATION}, /* 7.17 */
@@ -499,9 +479,8 @@ static void volumes_of_tabacchi(void **state)
 }
 
 /* A stem a little thicker or taller never takes less: there is no jump at the edge of any species' data. */
-static void volumes_have_no_jump(void **state)
+TEST(volumes_have_no_jump)
 {
-    (void)state;
     size_t n;
     const struct ceduo_species *list = ceduo_species_list(&n);
     for (size_t i = 0; i < n; i++) {
@@ -524,17 +503,15 @@ static void volumes_have_no_jump(void **state)
     }
 }
 
-static void energy_of_a_reserve_by_its_volume(void **state)
+TEST(energy_of_a_reserve_by_its_volume)
 {
-    (void)state;
     struct ceduo_stand stand = {.species = ceduo_species_find("ostrya-carpinifolia"), .u = NAN};
     struct ceduo_stems stems = {.per_ha = 60, .dbh = .20, .height = 14, .volume = NAN};
     expect_decimals(ceduo_contact_energy(&stand, &stems) / 1e3, 22.2, 1);
 }
 
-static void work_of_table_4(void **state)
+TEST(work_of_table_4)
 {
-    (void)state;
     struct ceduo_stand stand = {.species = ceduo_species_find("picea-abies"), .u = NAN};
     EXPECT(ceduo_stand_u(&stand), ==, 92213);
     stand.species = ceduo_species_find("fagus-sylvatica");
@@ -549,9 +526,8 @@ static void work_of_table_4(void **state)
 
 /* ---- strata ---- */
 
-static void each_stratum_takes_its_own_energy(void **state)
+TEST(each_stratum_takes_its_own_energy)
 {
-    (void)state;
     struct ceduo_stems shoots[2] = {{.per_ha = 3000, .dbh = .05, .height = 6, .volume = .01, .age = NAN},
                                     {.per_ha = 1000, .dbh = .10, .height = 9, .volume = .04, .age = NAN}};
     struct ceduo_stems trees[2] = {{.per_ha = 100, .dbh = .20, .height = 14, .volume = .2, .age = NAN},
@@ -579,9 +555,8 @@ static void each_stratum_takes_its_own_energy(void **state)
 
 /* ---- warnings ---- */
 
-static void warnings_of_the_plots(void **state)
+TEST(warnings_of_the_plots)
 {
-    (void)state;
     struct paper_plot one, two;
     paper_plot_init(&one, 1);
     paper_plot_init(&two, 2);
@@ -591,9 +566,8 @@ static void warnings_of_the_plots(void **state)
     expect_bits(ceduo_stand_warnings(&one.stand, PAPER_B, CEDUO_RULE_AUTO), 0, ~0U);
 }
 
-static void warning_near_the_jump(void **state)
+TEST(warning_near_the_jump)
 {
-    (void)state;
     struct paper_plot plot;
     paper_plot_init(&plot, 1);
     /* a tenth of the spacing: from .68/1.1 = .618 to .68/.9 = .756 m */
@@ -609,9 +583,8 @@ static void warning_near_the_jump(void **state)
     }
 }
 
-static void warnings_of_energies_and_spacing(void **state)
+TEST(warnings_of_energies_and_spacing)
 {
-    (void)state;
     struct paper_plot plot;
     paper_plot_init(&plot, 1);
     plot.stand.energy = CEDUO_DORREN;
@@ -638,9 +611,8 @@ static void warnings_of_energies_and_spacing(void **state)
 
 /* ---- the index ---- */
 
-static void free_runs_of_the_plots(void **state)
+TEST(free_runs_of_the_plots)
 {
-    (void)state;
     struct paper_site site;
     paper_site_init(&site);
     for (int i = 0; i < 2; i++) {
@@ -656,9 +628,8 @@ static void free_runs_of_the_plots(void **state)
     }
 }
 
-static void index_of_the_site(void **state)
+TEST(index_of_the_site)
 {
-    (void)state;
     struct paper_site site;
     paper_site_init(&site);
     struct ceduo_index i = ceduo_assess_index(&site.scene, &site.option, &site.control, 112.319e3);
@@ -680,9 +651,8 @@ static void index_of_the_site(void **state)
     assert_false(i.exhausted);
 }
 
-static void meets_nothing_in_ten_metres_of_ads_1(void **state)
+TEST(meets_nothing_in_ten_metres_of_ads_1)
 {
-    (void)state;
     struct paper_site site;
     paper_site_init(&site);
     site.belts[0].to = 10;
@@ -693,9 +663,8 @@ static void meets_nothing_in_ten_metres_of_ads_1(void **state)
     EXPECT(i.contact, ==, CEDUO_FAIL);
 }
 
-static void index_without_forest(void **state)
+TEST(index_without_forest)
 {
-    (void)state;
     struct paper_site site;
     paper_site_init(&site);
     site.option.belts_count = 0;
@@ -723,9 +692,8 @@ static void index_without_forest(void **state)
     EXPECT(r.warnings, ==, 0);
 }
 
-static void a_young_coppice_passes_thirty_metres_and_stops_nothing(void **state)
+TEST(a_young_coppice_passes_thirty_metres_and_stops_nothing)
 {
-    (void)state;
     struct ceduo_stems shoots = {.per_ha = 12000, .dbh = .02, .height = 3, .volume = NAN, .age = 5};
     struct ceduo_stand stand = {
         .species = -1, .stools_per_ha = 3000, .spacing = .2, .shoots_count = 1, .shoots = &shoots, .u = NAN};
@@ -735,9 +703,8 @@ static void a_young_coppice_passes_thirty_metres_and_stops_nothing(void **state)
 
 /* ---- checks of a scene ---- */
 
-static void scenes_that_do_not_fit_are_refused(void **state)
+TEST(scenes_that_do_not_fit_are_refused)
 {
-    (void)state;
     struct paper_site site;
     size_t where = 9;
     paper_site_init(&site);
@@ -773,44 +740,4 @@ static void scenes_that_do_not_fit_are_refused(void **state)
     paper_site_init(&site);
     site.scene.rock.height = ceduo_number(0);
     assert_int_equal(ceduo_scene_check(&site.scene, NULL), CEDUO_BAD_ROCK);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(rock_of_table_2),
-        cmocka_unit_test(rock_shapes),
-        cmocka_unit_test(impacts_of_pfeiffer_and_higgins),
-        cmocka_unit_test(impacts_at_the_limits_of_crsp),
-        cmocka_unit_test(impacts_of_the_lumped_law),
-        cmocka_unit_test(slope_chains_as_table_3),
-        cmocka_unit_test(two_contacts_on_the_slope_of_table_3),
-        cmocka_unit_test(rolling_and_resting_on_a_polyline),
-        cmocka_unit_test(adc_of_table_1),
-        cmocka_unit_test(the_rule_of_the_paper),
-        cmocka_unit_test(energy_of_tables_7_and_8),
-        cmocka_unit_test(energy_of_one_contact),
-        cmocka_unit_test(stumps_where_no_tree_is_left),
-        cmocka_unit_test(reserves_after_a_cut),
-        cmocka_unit_test(the_threshold_in_a_belt),
-        cmocka_unit_test(sensitivity_to_the_spacing_of_the_shoots),
-        cmocka_unit_test(stools_on_a_ring),
-        cmocka_unit_test(basal_area_of_table_1),
-        cmocka_unit_test(energies_of_dorren),
-        cmocka_unit_test(volumes_of_tabacchi),
-        cmocka_unit_test(volumes_have_no_jump),
-        cmocka_unit_test(energy_of_a_reserve_by_its_volume),
-        cmocka_unit_test(work_of_table_4),
-        cmocka_unit_test(each_stratum_takes_its_own_energy),
-        cmocka_unit_test(warnings_of_the_plots),
-        cmocka_unit_test(warning_near_the_jump),
-        cmocka_unit_test(warnings_of_energies_and_spacing),
-        cmocka_unit_test(free_runs_of_the_plots),
-        cmocka_unit_test(index_of_the_site),
-        cmocka_unit_test(meets_nothing_in_ten_metres_of_ads_1),
-        cmocka_unit_test(index_without_forest),
-        cmocka_unit_test(a_young_coppice_passes_thirty_metres_and_stops_nothing),
-        cmocka_unit_test(scenes_that_do_not_fit_are_refused),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -39,9 +39,8 @@ static double above(const struct ceduo_block_class *c, double v)
 }
 
 /* Weights sum to the blocks that come down, above any volume; volumes have even logarithms. */
-static void weights_sum_to_what_comes_down(void **state)
+TEST(weights_sum_to_what_comes_down)
 {
-    (void)state;
     struct ceduo_block_class classes[] = {{3, 1.1, 2, first}, {0.05, 0, 2, second}};
     struct ceduo_scene scene = scene_of(classes, 2);
     struct sizes sizes;
@@ -61,9 +60,8 @@ static void weights_sum_to_what_comes_down(void **state)
 }
 
 /* Of 100 rocks in a row, wherever they begin, some are of every tenth of the range. */
-static void every_few_rocks_have_all_sizes(void **state)
+TEST(every_few_rocks_have_all_sizes)
 {
-    (void)state;
     struct ceduo_block_class class = {1, 1, 2, second};
     struct ceduo_scene scene = scene_of(&class, 1);
     struct sizes sizes;
@@ -86,9 +84,8 @@ static void every_few_rocks_have_all_sizes(void **state)
 }
 
 /* Typical rocks are of the sizes that come down. */
-static void typical_rocks_are_as_frequent_as_blocks(void **state)
+TEST(typical_rocks_are_as_frequent_as_blocks)
 {
-    (void)state;
     struct ceduo_block_class class = {1, 0.8, 2, second}, both[2] = {{3, 1.1, 2, first}, {0.5, 0.8, 2, second}};
     struct ceduo_scene scene = scene_of(&class, 1);
     struct sizes sizes;
@@ -115,9 +112,8 @@ static void typical_rocks_are_as_frequent_as_blocks(void **state)
 }
 
 /* A cylinder keeps its shape and its density. */
-static void a_rock_is_scaled_as_a_whole(void **state)
+TEST(a_rock_is_scaled_as_a_whole)
 {
-    (void)state;
     struct ceduo_rock_def def = ceduo_scene_default().rock;
     struct ceduo_rock rock;
     def.shape = CEDUO_CYLINDER;
@@ -151,9 +147,8 @@ static size_t some_values(struct weighted *values, double weight, size_t n)
 }
 
 /* With weights that are all alike, whatever they are, everything is as without. */
-static void weights_that_are_alike_change_nothing(void **state)
+TEST(weights_that_are_alike_change_nothing)
 {
-    (void)state;
     static struct weighted values[N];
     for (size_t n = 0; n <= N; n += 125) {
         const double weight = 3;
@@ -193,9 +188,8 @@ static void weights_that_are_alike_change_nothing(void **state)
 }
 
 /* What a weight alone explains is no error: of all rocks the share is 1 without one, of none 0. */
-static void what_weights_explain_is_no_error(void **state)
+TEST(what_weights_explain_is_no_error)
 {
-    (void)state;
     struct released all = {.n = N, .most = 2, .per_year = 1};
     struct weighted_sum ones = {0}, none = {0}, fives = {0};
     for (size_t i = 0; i < N; i++) {
@@ -229,9 +223,8 @@ static void what_weights_explain_is_no_error(void **state)
     assert_true(isnan(ceduo_weighted_se(&all, &ones)));
 }
 
-static void quantiles_by_hand(void **state)
+TEST(quantiles_by_hand)
 {
-    (void)state;
     const struct weighted values[] = {{1, 1}, {2, 2}, {3, 1}};
     expect_near(ceduo_weighted_quantile(values, 3, 0.25), 1, 0); /* a whole share is reached by its last value */
     expect_near(ceduo_weighted_quantile(values, 3, 0.26), 2, 0);
@@ -249,9 +242,8 @@ static void quantiles_by_hand(void **state)
 
 /* ---- hazard ---- */
 
-static void energies_and_classes_are_what_they_are_called(void **state)
+TEST(energies_and_classes_are_what_they_are_called)
 {
-    (void)state;
     static const struct {
         double energy;
         int class;
@@ -266,9 +258,8 @@ static void energies_and_classes_are_what_they_are_called(void **state)
 }
 
 /* Three rocks of a thousand arrive, one block comes down in two years. */
-static void few_rocks_bound_what_they_can(void **state)
+TEST(few_rocks_bound_what_they_can)
 {
-    (void)state;
     const struct released all = {.n = N, .w = N, .ww = N, .most = 1, .per_year = 0.5};
     struct weighted energies[] = {{4e5, 1}, {2e4, 1}, {1e5, 1}};
     struct ceduo_hazard h;
@@ -290,9 +281,8 @@ static void few_rocks_bound_what_they_can(void **state)
 }
 
 /* Beyond the last energy of the curve there is no other. */
-static void a_curve_ends_where_its_energies_do(void **state)
+TEST(a_curve_ends_where_its_energies_do)
 {
-    (void)state;
     const struct released all = {.n = 2, .w = 2, .ww = 2, .most = 1, .per_year = 1};
     struct weighted energies[] = {{1e10, 1}, {1e10, 1}};
     struct ceduo_hazard h;
@@ -303,9 +293,8 @@ static void a_curve_ends_where_its_energies_do(void **state)
 
 /* An energy that a rock has is not exceeded by it; a class begins with its lower limit; a return period is met by a rate that
  * equals it: one of a thousand blocks and ten a year, 1/100. */
-static void at_a_limit(void **state)
+TEST(at_a_limit)
 {
-    (void)state;
     const struct released all = {.n = N, .w = N, .ww = N, .most = 1, .per_year = 10};
     struct weighted energies[] = {{3e5, 1}, {3e4, 1}};
     struct ceduo_hazard h;
@@ -324,9 +313,8 @@ static void at_a_limit(void **state)
 }
 
 /* No rock arrives, of two hundred: nothing is known but what may be. */
-static void nobody_arrives(void **state)
+TEST(nobody_arrives)
 {
-    (void)state;
     const struct released all = {.n = 200, .w = 200, .ww = 200, .most = 1, .per_year = 1};
     struct ceduo_hazard h;
     assert_true(ceduo_hazard_read(&all, NULL, 0, 5e4, &h));
@@ -336,23 +324,4 @@ static void nobody_arrives(void **state)
     for (size_t i = 0; i < CEDUO_RETURNS; i++)
         assert_true(isnan(h.returns[i].energy) && isnan(h.returns[i].lo) && isnan(h.returns[i].hi));
     assert_true(isnan(h.left));
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(weights_sum_to_what_comes_down),
-        cmocka_unit_test(every_few_rocks_have_all_sizes),
-        cmocka_unit_test(typical_rocks_are_as_frequent_as_blocks),
-        cmocka_unit_test(a_rock_is_scaled_as_a_whole),
-        cmocka_unit_test(weights_that_are_alike_change_nothing),
-        cmocka_unit_test(what_weights_explain_is_no_error),
-        cmocka_unit_test(quantiles_by_hand),
-        cmocka_unit_test(energies_and_classes_are_what_they_are_called),
-        cmocka_unit_test(few_rocks_bound_what_they_can),
-        cmocka_unit_test(a_curve_ends_where_its_energies_do),
-        cmocka_unit_test(at_a_limit),
-        cmocka_unit_test(nobody_arrives),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

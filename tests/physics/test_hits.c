@@ -88,9 +88,8 @@ static void expect_mean_of_all_stems(bool shoots)
     EXPECT(fabs(mean), <=, 4 * se);
 }
 
-static void stems_of_many_diameters_take_their_given_volume_on_the_mean(void **state)
+TEST(stems_of_many_diameters_take_their_given_volume_on_the_mean)
 {
-    (void)state;
     expect_mean_of_all_stems(false);
     expect_mean_of_all_stems(true);
 }
@@ -112,9 +111,8 @@ static struct ceduo_stem_passed stem_of_height(uint64_t rock, size_t i, double h
     return passed.stems[i];
 }
 
-static void a_stem_as_high_as_the_rock_flies_is_not_hit(void **state)
+TEST(a_stem_as_high_as_the_rock_flies_is_not_hit)
 {
-    (void)state;
     for (int shoots = 0; shoots < 2; shoots++)
         for (uint64_t rock = 0; rock < 20; rock++) {
             plant(200, .3, shoots);
@@ -136,13 +134,4 @@ static void a_stem_as_high_as_the_rock_flies_is_not_hit(void **state)
                 EXPECT(higher.taken, >, 0);
             }
         }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(stems_of_many_diameters_take_their_given_volume_on_the_mean),
-        cmocka_unit_test(a_stem_as_high_as_the_rock_flies_is_not_hit),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -7,9 +7,8 @@
 #define SCENES        100000
 #define LASTING_EVERY 5000 /* scenes of which one may go on for ever */
 
-static void invariants_hold_over_random_scenes(void **state)
+TEST(invariants_hold_over_random_scenes)
 {
-    (void)state;
     static struct line_scene scene;
     struct invariants_tally t = {0};
     for (uint64_t number = 0; number < SCENES; number++) {
@@ -32,12 +31,4 @@ static void invariants_hold_over_random_scenes(void **state)
     EXPECT(t.ends[CEDUO_LEFT_SLOPE], >, SCENES / 10);
     EXPECT(t.crossed, >, SCENES / 10);
     EXPECT(t.cracks, <=, SCENES / 20000);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(invariants_hold_over_random_scenes),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

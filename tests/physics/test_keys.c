@@ -326,9 +326,8 @@ static void open_site(void)
     }
 }
 
-static void whatever_decides_about_a_flight_makes_another_scene(void **state)
+TEST(whatever_decides_about_a_flight_makes_another_scene)
 {
-    (void)state;
     open_site();
     WALK(FLIGHT, &site.scene, scene_fields);
     WALK(FLIGHT, &site.scene.rock, rock_fields);
@@ -344,9 +343,8 @@ static void whatever_decides_about_a_flight_makes_another_scene(void **state)
 }
 
 /* So do the blocks that come down. */
-static void whatever_blocks_come_down_makes_another_scene(void **state)
+TEST(whatever_blocks_come_down_makes_another_scene)
 {
-    (void)state;
     double volumes[] = {0.1, 1, 1, 5};
     struct ceduo_block_class classes[] = {{2, 1, 2, volumes}, {1, 0, 2, volumes + 2}};
     open_site();
@@ -363,9 +361,8 @@ static void whatever_blocks_come_down_makes_another_scene(void **state)
 }
 
 /* Values that change places are another scene too. */
-static void a_value_in_another_place_makes_another_scene(void **state)
+TEST(a_value_in_another_place_makes_another_scene)
 {
-    (void)state;
     open_site();
     site.scene.release.vx = ceduo_number(2);
     site.scene.release.vz = ceduo_number(-1);
@@ -381,9 +378,8 @@ static void a_value_in_another_place_makes_another_scene(void **state)
     EXPECT(key_of(FLIGHT), !=, key);
 }
 
-static void whatever_decides_about_stems_makes_another_forest(void **state)
+TEST(whatever_decides_about_stems_makes_another_forest)
 {
-    (void)state;
     open_site();
     walk_simulation(STEMS);
     walk_option(STEMS);
@@ -408,9 +404,8 @@ static void whatever_decides_about_stems_makes_another_forest(void **state)
 }
 
 /* What lies low, and groups; what there is none of decides about nothing. */
-static void whatever_decides_about_low_wood_and_groups_makes_another_forest(void **state)
+TEST(whatever_decides_about_low_wood_and_groups_makes_another_forest)
 {
-    (void)state;
     open_site();
     struct ceduo_stand *stand = &site.belts[0].stand;
     uint64_t bare = key_of(STEMS);
@@ -432,9 +427,8 @@ static void whatever_decides_about_low_wood_and_groups_makes_another_forest(void
 }
 
 /* The same numbers in other places are another forest. */
-static void stems_of_another_sort_make_another_forest(void **state)
+TEST(stems_of_another_sort_make_another_forest)
 {
-    (void)state;
     open_site();
     struct ceduo_stand *stand = &site.belts[0].stand;
     struct ceduo_stems *shoots = &site.plots[0].shoots;
@@ -462,9 +456,8 @@ static void stems_of_another_sort_make_another_forest(void **state)
 }
 
 /* As many shoots of three cohorts, of which the last two have each other's share. */
-static void cohorts_of_another_share_make_another_forest(void **state)
+TEST(cohorts_of_another_share_make_another_forest)
 {
-    (void)state;
     open_site();
     struct ceduo_stems cohorts[3];
     for (size_t i = 0; i < LENGTH(cohorts); i++) {
@@ -480,26 +473,10 @@ static void cohorts_of_another_share_make_another_forest(void **state)
     EXPECT(key_of(STEMS), !=, key);
 }
 
-static void whatever_decides_about_growth_makes_other_years(void **state)
+TEST(whatever_decides_about_growth_makes_other_years)
 {
-    (void)state;
     open_site();
     walk_option(YEARS);
     walk_numbers(YEARS, stay, LENGTH(stay), "trees that stay");
     walk_simulation(YEARS);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(whatever_decides_about_a_flight_makes_another_scene),
-        cmocka_unit_test(whatever_blocks_come_down_makes_another_scene),
-        cmocka_unit_test(a_value_in_another_place_makes_another_scene),
-        cmocka_unit_test(whatever_decides_about_stems_makes_another_forest),
-        cmocka_unit_test(whatever_decides_about_low_wood_and_groups_makes_another_forest),
-        cmocka_unit_test(stems_of_another_sort_make_another_forest),
-        cmocka_unit_test(cohorts_of_another_share_make_another_forest),
-        cmocka_unit_test(whatever_decides_about_growth_makes_other_years),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

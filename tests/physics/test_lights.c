@@ -44,9 +44,8 @@ static double next_below(double value)
     return nextafter(value, -INFINITY);
 }
 
-static void an_adc_as_long_as_the_threshold_fails(void **state)
+TEST(an_adc_as_long_as_the_threshold_fails)
 {
-    (void)state;
     for (size_t worst = 0; worst < 2; worst++) {
         plant_trees(worst == 0 ? 400 : 1000, worst == 0 ? 1000 : 400);
         site.scene.simulation.threshold = 25; /* 10^4/400 */
@@ -64,9 +63,8 @@ static void an_adc_as_long_as_the_threshold_fails(void **state)
 }
 
 /* From the release at 0 to the control at 135 m, the threshold being 30 m: before, between and behind the belts. */
-static void a_gap_as_long_as_the_threshold_passes(void **state)
+TEST(a_gap_as_long_as_the_threshold_passes)
 {
-    (void)state;
     static const double at_limit[][4] = {{30, 67.5, 67.5, 135}, {0, 50, 80, 135}, {0, 67.5, 67.5, 105}};
     const double beyond[][4] = {
         {next_above(30), 67.5, 67.5, 135}, {0, next_below(50), 80, 135}, {0, 67.5, 67.5, next_below(105)}};
@@ -88,9 +86,8 @@ static void a_gap_as_long_as_the_threshold_passes(void **state)
 }
 
 /* A belt that begins where the control is lies beyond it. */
-static void a_belt_from_the_control_on_is_none(void **state)
+TEST(a_belt_from_the_control_on_is_none)
 {
-    (void)state;
     plant_trees(1000, 1000);
     site.belts[0].to = 130;
     site.belts[1].from = site.control.x;
@@ -111,9 +108,8 @@ static void a_belt_from_the_control_on_is_none(void **state)
 }
 
 /* exp(-x) of a double x is never the double 0.1 itself: the two chances next to it, 2e-17 below and above. */
-static void a_chance_of_a_tenth_to_run_free_is_the_most_that_passes(void **state)
+TEST(a_chance_of_a_tenth_to_run_free_is_the_most_that_passes)
 {
-    (void)state;
     plant_trees(400, 1000);
     double threshold = 25 * log(10) * (1 - 1e-15), fails = 0, passes = 0; /* over an ADC of 25 m */
     for (enum ceduo_light light = CEDUO_FAIL; light != CEDUO_PASS; threshold = next_above(threshold)) {
@@ -131,9 +127,8 @@ static void a_chance_of_a_tenth_to_run_free_is_the_most_that_passes(void **state
 }
 
 /* Where the stems could take exactly what a rock has, nothing is left, but nothing was cut off either. */
-static void energy_that_is_just_used_up_is_not_exhausted(void **state)
+TEST(energy_that_is_just_used_up_is_not_exhausted)
 {
-    (void)state;
     paper_site_init(&site);
     double taken = assess().dissipated;
     struct ceduo_index at = ceduo_assess_index(&site.scene, &site.option, &site.control, taken);
@@ -155,9 +150,8 @@ static enum ceduo_light light_of(double exceed, uint64_t unfinished)
     return ceduo_energy_light(&a);
 }
 
-static void a_share_of_a_twentieth_passes(void **state)
+TEST(a_share_of_a_twentieth_passes)
 {
-    (void)state;
     assert_int_equal(light_of(.05, 0), CEDUO_PASS);
     assert_int_equal(light_of(next_above(.05), 0), CEDUO_FAIL);
     assert_int_equal(light_of(0, 1), CEDUO_PASS); /* 1 of 20 whatever it does */
@@ -204,9 +198,8 @@ static struct ceduo_arrivals arrive(double accepted)
     return a;
 }
 
-static void a_rock_with_the_accepted_energy_does_not_exceed_it(void **state)
+TEST(a_rock_with_the_accepted_energy_does_not_exceed_it)
 {
-    (void)state;
     struct ceduo_arrivals a = arrive(25);
     EXPECT(a.exceeded, ==, 0);
     EXPECT(a.exceed_probability, ==, 0);
@@ -218,9 +211,8 @@ static void a_rock_with_the_accepted_energy_does_not_exceed_it(void **state)
 }
 
 /* Nor does it in a difference: some rocks are stopped by trees on the way, none exceeds, with or without the wood. */
-static void a_difference_counts_no_rock_with_the_accepted_energy(void **state)
+TEST(a_difference_counts_no_rock_with_the_accepted_energy)
 {
-    (void)state;
     struct ceduo_stems trees = {.per_ha = 2000, .dbh = .25, .height = 90, .volume = 1, .age = NAN};
     struct ceduo_belt belt = {.from = 1, .to = 4, .stand = {.species = -1, .trees_count = 1, .trees = &trees, .u = 1e5}};
     struct ceduo_option wood = {.belts_count = 1, .belts = &belt};
@@ -243,9 +235,8 @@ static int by_value(const void *a, const void *b)
 }
 
 /* Stems from the control on make no difference to it: that is known, not estimated. */
-static void a_difference_by_stems_from_the_control_on_is_none(void **state)
+TEST(a_difference_by_stems_from_the_control_on_is_none)
 {
-    (void)state;
     struct ceduo_stems trees = {.per_ha = 2000, .dbh = .25, .height = 90, .volume = 1, .age = NAN};
     struct ceduo_belt belt = {.from = 4, .to = 8, .stand = {.species = -1, .trees_count = 1, .trees = &trees, .u = 1e5}};
     struct ceduo_option wood = {.belts_count = 1, .belts = &belt};
@@ -264,9 +255,8 @@ static void a_difference_by_stems_from_the_control_on_is_none(void **state)
 }
 
 /* Of 20 rocks on the paper's site, one has more than the next to fastest brings: 1 of 20 passes, 2 do not. */
-static void one_rock_of_twenty_may_exceed(void **state)
+TEST(one_rock_of_twenty_may_exceed)
 {
-    (void)state;
     double energies[20];
     paper_site_init(&site);
     for (int law = 0; law < CEDUO_LAW_COUNT; law++)
@@ -295,9 +285,8 @@ static void one_rock_of_twenty_may_exceed(void **state)
 }
 
 /* An index hangs on the thin stems where either light is another without them. */
-static void what_hangs_on_thin_stems(void **state)
+TEST(what_hangs_on_thin_stems)
 {
-    (void)state;
     const enum ceduo_light lights[] = {CEDUO_PASS, CEDUO_FAIL};
     for (int i = 0; i < 16; i++) {
         struct ceduo_index index = {.contact = lights[i & 1], .free_run = lights[i >> 1 & 1]};
@@ -316,9 +305,8 @@ static bool says_nothing(uint64_t released, uint64_t reached, uint64_t unfinishe
 }
 
 /* None, or fewer than one of a thousand where a thousand were flown. */
-static void hardly_a_rock_says_nothing(void **state)
+TEST(hardly_a_rock_says_nothing)
 {
-    (void)state;
     assert_false(says_nothing(0, 0, 0)); /* nothing was flown */
     assert_true(says_nothing(1, 0, 0));
     assert_false(says_nothing(1, 1, 0));
@@ -332,9 +320,8 @@ static void hardly_a_rock_says_nothing(void **state)
 }
 
 /* The limit is a share of .05; its interval must lie on one side of it. */
-static void a_share_is_judged_by_its_interval(void **state)
+TEST(a_share_is_judged_by_its_interval)
 {
-    (void)state;
     assert_int_equal(ceduo_judge_share(.04, .03, .05), CEDUO_YES);
     assert_int_equal(ceduo_judge_share(.04, .03, next_above(.05)), CEDUO_NOT_DECIDED);
     assert_int_equal(ceduo_judge_share(.06, next_above(.05), .07), CEDUO_NO);
@@ -342,38 +329,16 @@ static void a_share_is_judged_by_its_interval(void **state)
     assert_int_equal(ceduo_judge_share(NAN, NAN, NAN), CEDUO_UNANSWERED);
 }
 
-static void what_a_bare_slope_keeps_needs_no_forest(void **state)
+TEST(what_a_bare_slope_keeps_needs_no_forest)
 {
     const struct ceduo_arrivals few = {.released = 1000, .reached = 100, .exceed_probability = .01, .exceed_hi = .02};
     const struct ceduo_arrivals many = {
         .released = 1000, .reached = 900, .exceed_probability = .8, .exceed_lo = .77, .exceed_hi = .83};
     const struct ceduo_arrivals none = {.released = 1000, .exceed_hi = .004};
-    (void)state;
     assert_int_equal(ceduo_judge(&few, NULL), CEDUO_YES); /* by the index: through no forest more come */
     assert_int_equal(ceduo_judge(&many, NULL), CEDUO_UNANSWERED);
     assert_int_equal(ceduo_judge(&many, &few), CEDUO_YES);
     assert_int_equal(ceduo_judge(&many, &many), CEDUO_NO);
     assert_int_equal(ceduo_judge(&many, &none), CEDUO_YES); /* the forest stops all of them */
     assert_int_equal(ceduo_judge(&none, &none), CEDUO_NOTHING);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(an_adc_as_long_as_the_threshold_fails),
-        cmocka_unit_test(a_gap_as_long_as_the_threshold_passes),
-        cmocka_unit_test(a_belt_from_the_control_on_is_none),
-        cmocka_unit_test(a_chance_of_a_tenth_to_run_free_is_the_most_that_passes),
-        cmocka_unit_test(energy_that_is_just_used_up_is_not_exhausted),
-        cmocka_unit_test(a_share_of_a_twentieth_passes),
-        cmocka_unit_test(a_rock_with_the_accepted_energy_does_not_exceed_it),
-        cmocka_unit_test(a_difference_counts_no_rock_with_the_accepted_energy),
-        cmocka_unit_test(a_difference_by_stems_from_the_control_on_is_none),
-        cmocka_unit_test(one_rock_of_twenty_may_exceed),
-        cmocka_unit_test(what_hangs_on_thin_stems),
-        cmocka_unit_test(hardly_a_rock_says_nothing),
-        cmocka_unit_test(a_share_is_judged_by_its_interval),
-        cmocka_unit_test(what_a_bare_slope_keeps_needs_no_forest),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

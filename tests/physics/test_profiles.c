@@ -119,9 +119,8 @@ static struct ceduo_arrivals arrivals(const struct ceduo_scene *scene)
     return a;
 }
 
-static void a_cut_slope_gives_the_same_ways_and_statistics(void **state)
+TEST(a_cut_slope_gives_the_same_ways_and_statistics)
 {
-    (void)state;
     for (int law = 0; law < CEDUO_LAW_COUNT; law++) {
         init_site((enum ceduo_law)law);
         struct ceduo_slope fine = cut(&site.scene.slope, VERTICES);
@@ -140,9 +139,8 @@ static void a_cut_slope_gives_the_same_ways_and_statistics(void **state)
     }
 }
 
-static void spreads_and_roughness_heights_are_those_of_the_cut_slope(void **state)
+TEST(spreads_and_roughness_heights_are_those_of_the_cut_slope)
 {
-    (void)state;
     init_site(CEDUO_LAW_CRSP);
     for (size_t j = 0; j < PAPER_SEGMENTS; j++) {
         site.segments[j].rn = (struct ceduo_number){.3, .01 * (double)(j % 4), CEDUO_NORMAL};
@@ -158,9 +156,8 @@ static void spreads_and_roughness_heights_are_those_of_the_cut_slope(void **stat
 }
 
 /* A slope of one line that is cut in the middle of a plane too, between two grounds. */
-static void another_ground_is_another_segment(void **state)
+TEST(another_ground_is_another_segment)
 {
-    (void)state;
     init_site(CEDUO_LAW_LUMPED);
     struct ceduo_slope two = new_slope(3);
     memcpy(two.x, (double[3]){0, 64, 160}, sizeof(double[3]));
@@ -188,9 +185,8 @@ static void another_ground_is_another_segment(void **state)
 }
 
 /* What a double can tell from a line stays: vertices moved by a nanometre, and a sliver that is as steep as it is small. */
-static void small_breaks_stay(void **state)
+TEST(small_breaks_stay)
 {
-    (void)state;
     init_site(CEDUO_LAW_LUMPED);
     struct ceduo_slope fine = cut(&site.scene.slope, 10000);
     move_vertices(&fine, 1e-9, 5);
@@ -230,9 +226,8 @@ static struct ceduo_slope rough_slope(size_t vertices, double spacing, uint64_t 
     return s;
 }
 
-static void flights_land_as_without_blocks(void **state)
+TEST(flights_land_as_without_blocks)
 {
-    (void)state;
     init_site(CEDUO_LAW_LUMPED);
     struct line_random r = {.state = 7};
     uint64_t far = 0;
@@ -297,9 +292,8 @@ static struct ceduo_slope toothed_slope(size_t vertices, struct line_random *r, 
 
 /* Whether a flight that grazes many teeth touches one is for rounding to decide; a block that is passed as a whole must
  * not decide it otherwise. That is what the margin of its height is for. */
-static void flights_along_teeth_touch_the_same_with_blocks(void **state)
+TEST(flights_along_teeth_touch_the_same_with_blocks)
 {
-    (void)state;
     init_site(CEDUO_LAW_LUMPED);
     struct line_random r = {.state = 11};
     uint64_t touched = 0;
@@ -385,9 +379,8 @@ static void expect_block(const struct ground *g, const struct ceduo_slope *s, in
     ++*passed;
 }
 
-static void blocks_are_rolled_over_as_their_segments(void **state)
+TEST(blocks_are_rolled_over_as_their_segments)
 {
-    (void)state;
     size_t passed[2][GROUND_LEVELS] = {{0}};
     for (int by = -4; by < 0; by++) {
         init_site(CEDUO_LAW_LUMPED);
@@ -430,9 +423,8 @@ static void nobody_minds(void *context, const struct ceduo_piece *piece)
 }
 
 /* Somebody who looks on has every segment shown, so nothing is passed as a whole. */
-static void rolls_are_the_same_whoever_looks_on(void **state)
+TEST(rolls_are_the_same_whoever_looks_on)
 {
-    (void)state;
     uint64_t rolled = 0, same = 0, all = 0;
     for (int law = 0; law < CEDUO_LAW_COUNT; law++) {
         for (int by = -5; by <= 0; by++) {
@@ -467,9 +459,8 @@ static void rolls_are_the_same_whoever_looks_on(void **state)
 }
 
 /* Nothing is passed as a whole beyond a mark, nor by rocks that are smaller than what the blocks hold for. */
-static void rolls_past_marks_are_the_same(void **state)
+TEST(rolls_past_marks_are_the_same)
 {
-    (void)state;
     init_site(CEDUO_LAW_CRSP);
     struct ceduo_slope fine = cut(&site.scene.slope, 20000);
     move_vertices(&fine, 1e-3, 3);
@@ -501,20 +492,4 @@ static void rolls_past_marks_are_the_same(void **state)
     free_slope(&fine);
     EXPECT(same, >=, 59);
     EXPECT(reached, >=, 59);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_cut_slope_gives_the_same_ways_and_statistics),
-        cmocka_unit_test(spreads_and_roughness_heights_are_those_of_the_cut_slope),
-        cmocka_unit_test(another_ground_is_another_segment),
-        cmocka_unit_test(small_breaks_stay),
-        cmocka_unit_test(flights_land_as_without_blocks),
-        cmocka_unit_test(flights_along_teeth_touch_the_same_with_blocks),
-        cmocka_unit_test(blocks_are_rolled_over_as_their_segments),
-        cmocka_unit_test(rolls_are_the_same_whoever_looks_on),
-        cmocka_unit_test(rolls_past_marks_are_the_same),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

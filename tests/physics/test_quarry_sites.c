@@ -24,10 +24,9 @@ static unsigned fewest(unsigned n, double p)
     return k;
 }
 
-static void ranges_hold_the_truth(void **state)
+TEST(ranges_hold_the_truth)
 {
     unsigned held = 0, narrow = 0, likely = 0, fits = 0;
-    (void)state;
     for (size_t i = 0; i < SITES; i++) {
         struct ceduo_calibration a;
         double truth[QUARRY_VALUES_MOST];
@@ -50,10 +49,9 @@ static void ranges_hold_the_truth(void **state)
     EXPECT(narrow, >=, fits); /* 30 rocks do tell Rt; ranges as wide as the bounds would hold everything */
 }
 
-static void what_another_law_made_is_found_out(void **state)
+TEST(what_another_law_made_is_found_out)
 {
     unsigned flagged = 0, fits = 0;
-    (void)state;
     for (size_t i = 0; i < SITES / 2; i++) {
         struct ceduo_calibration a;
         double truth[QUARRY_VALUES_MOST];
@@ -85,11 +83,10 @@ static double far_from_uniform(double *p, size_t n)
 }
 
 /* Of a ground that is true, p of what was seen there is uniform. */
-static void on_the_true_ground_p_is_uniform(void **state)
+TEST(on_the_true_ground_p_is_uniform)
 {
     double p[QUARRY_KINDS][TRUE_SITES], one[QUARRY_KINDS];
     size_t n = 0;
-    (void)state;
     for (size_t i = 0; i < TRUE_SITES; i++) {
         struct quarry_trial trial = {.number = i, .values = VALUES, .kinds = QUARRY_KINDS, .seen = 50, .rocks = 1000};
         if (!quarry_look(&trial, one))
@@ -101,14 +98,4 @@ static void on_the_true_ground_p_is_uniform(void **state)
     EXPECT(n, >=, TRUE_SITES / 2);
     for (size_t k = 0; k < QUARRY_KINDS; k++)
         EXPECT(far_from_uniform(p[k], n), <, 2.23);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(ranges_hold_the_truth),
-        cmocka_unit_test(on_the_true_ground_p_is_uniform),
-        cmocka_unit_test(what_another_law_made_is_found_out),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

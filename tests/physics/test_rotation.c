@@ -85,9 +85,8 @@ static void expect_same_stand(const struct ceduo_stand *a, const struct ceduo_st
 
 /* ---- before the first cut ---- */
 
-static void year_0_is_the_stand_as_filed(void **state)
+TEST(year_0_is_the_stand_as_filed)
 {
-    (void)state;
     struct sample s;
     init(&s);
     s.stand.growth.sdi_most = 1; /* a measured stand is not thinned */
@@ -107,9 +106,8 @@ static void year_0_is_the_stand_as_filed(void **state)
     }
 }
 
-static void an_inventory_grows_along_its_curves(void **state)
+TEST(an_inventory_grows_along_its_curves)
 {
-    (void)state;
     struct sample s;
     init(&s);
     s.shoots[0].volume = .004;
@@ -136,9 +134,8 @@ static void an_inventory_grows_along_its_curves(void **state)
     }
 }
 
-static void a_given_age_stands_over_that_of_the_curve(void **state)
+TEST(a_given_age_stands_over_that_of_the_curve)
 {
-    (void)state;
     struct sample s;
     init(&s);
     s.shoots[0].age = 8;
@@ -159,9 +156,8 @@ static void a_given_age_stands_over_that_of_the_curve(void **state)
 }
 
 /* Where none are left on an old stool they become fewer by e in 5 years; where none were even at first, it keeps what it has. */
-static void no_old_shoots(void **state)
+TEST(no_old_shoots)
 {
-    (void)state;
     struct sample s;
     init(&s);
     s.stand.growth.sdi_most = 0;
@@ -179,9 +175,8 @@ static void no_old_shoots(void **state)
 }
 
 /* By its curve a stem of 1e-320 m is some 1e-318 years old; what it is wide later was beyond all numbers. */
-static void next_to_nothing_grows_as_a_new_stem(void **state)
+TEST(next_to_nothing_grows_as_a_new_stem)
 {
-    (void)state;
     static const double given[][2] = {{1e-320, NAN}, {5e-324, NAN}, {.05, 5e-324}, {.05, 1e-300}};
     for (size_t i = 0; i < LENGTH(given); i++) {
         struct sample s;
@@ -206,9 +201,8 @@ static void next_to_nothing_grows_as_a_new_stem(void **state)
     }
 }
 
-static void thicker_than_its_curve_it_grows_no_more(void **state)
+TEST(thicker_than_its_curve_it_grows_no_more)
 {
-    (void)state;
     struct sample s;
     init(&s);
     s.shoots[0] = stems(4000, .16, 9);
@@ -219,9 +213,8 @@ static void thicker_than_its_curve_it_grows_no_more(void **state)
     ceduo_grown_stand_release(&grown);
 }
 
-static void a_stratum_without_a_curve_stays(void **state)
+TEST(a_stratum_without_a_curve_stays)
 {
-    (void)state;
     struct sample s;
     init(&s);
     s.stand.growth.trees.height_rate = 0;
@@ -234,9 +227,8 @@ static void a_stratum_without_a_curve_stays(void **state)
     assert_int_equal(ceduo_first_cut(&s.stand, 5), 5);
 }
 
-static void never_less_than_one_shoot_a_stool(void **state)
+TEST(never_less_than_one_shoot_a_stool)
 {
-    (void)state;
     struct sample s;
     init(&s);
     s.stand.shoots_count = 2; /* 1.2 a stool */
@@ -256,9 +248,8 @@ static void never_less_than_one_shoot_a_stool(void **state)
 
 /* ---- cuts ---- */
 
-static void the_years_of_cuts(void **state)
+TEST(the_years_of_cuts)
 {
-    (void)state;
     struct sample s;
     init(&s);
     const struct ceduo_stand *stand = &s.stand;
@@ -276,9 +267,8 @@ static void the_years_of_cuts(void **state)
     assert_false(ceduo_is_cut_year(stand, 0, 0));
 }
 
-static void by_default_it_is_cut_when_it_is_old_enough(void **state)
+TEST(by_default_it_is_cut_when_it_is_old_enough)
 {
-    (void)state;
     struct sample s;
     init(&s); /* 5 cm: 17.03 years */
     assert_int_equal(ceduo_first_cut(&s.stand, NAN), (unsigned)ceil(25 + log(1 - 5. / 16) / .022));
@@ -302,9 +292,8 @@ static void by_default_it_is_cut_when_it_is_old_enough(void **state)
     assert_int_equal(ceduo_first_cut(&s.stand, NAN), CEDUO_NEVER);
 }
 
-static void a_simple_coppice_after_its_cuts(void **state)
+TEST(a_simple_coppice_after_its_cuts)
 {
-    (void)state;
     struct sample s;
     init(&s);
     s.stand.growth.sdi_most = 0;
@@ -334,9 +323,8 @@ static void a_simple_coppice_after_its_cuts(void **state)
     }
 }
 
-static void a_selection_coppice_always_has_shoots(void **state)
+TEST(a_selection_coppice_always_has_shoots)
 {
-    (void)state;
     struct sample s;
     init(&s);
     s.stand.cutting = (struct ceduo_cutting){13, 3, 2, s.stay};
@@ -365,9 +353,8 @@ static void a_selection_coppice_always_has_shoots(void **state)
     ceduo_grown_stand_release(&grown);
 }
 
-static void a_cut_in_year_0_is_done(void **state)
+TEST(a_cut_in_year_0_is_done)
 {
-    (void)state;
     struct sample s;
     init(&s);
     struct ceduo_grown_stand now = at(&s, 0, 0), later = at(&s, 0, 25), rhythm = at(&s, -50, 0);
@@ -387,9 +374,8 @@ static void a_cut_in_year_0_is_done(void **state)
     ceduo_grown_stand_release(&now);
 }
 
-static void without_cuts_it_grows_for_ever(void **state)
+TEST(without_cuts_it_grows_for_ever)
 {
-    (void)state;
     struct sample s;
     init(&s);
     struct ceduo_grown_stand infinite = at(&s, INFINITY, 1000);
@@ -414,9 +400,8 @@ static double index_by_hand(const struct ceduo_stems *stems, size_t count)
     return n > 0 ? n * pow(100 * sqrt(squares / n) / 25.4, 1.605) : 0;
 }
 
-static void the_density_index(void **state)
+TEST(the_density_index)
 {
-    (void)state;
     struct paper_plot plot; /* one mean dbh each */
     paper_plot_init(&plot, 1);
     expect_near(ceduo_stems_sdi(&plot.shoots, 1), plot.shoots.per_ha * pow(6.1 / 25.4, 1.605), 1e-13);
@@ -432,9 +417,8 @@ static void the_density_index(void **state)
     expect_near(ceduo_space_of_trees(&s.stand.growth, &s.stand), index_by_hand(s.trees, s.stand.trees_count) / 500, 1e-13);
 }
 
-static void shoots_are_thinned_to_the_density(void **state)
+TEST(shoots_are_thinned_to_the_density)
 {
-    (void)state;
     struct sample s;
     init(&s);
     s.stand.trees_count = s.stand.cutting.stay_count = 0;
@@ -516,9 +500,8 @@ static bool has_new_shoots(const struct ceduo_stand *stand, double first_cut, un
     return year > 0 && (ceduo_is_cut_year(stand, first_cut, year) || ceduo_is_cut_year(stand, first_cut, year - 1));
 }
 
-static void no_stand_gains_stems_by_growing(void **state)
+TEST(no_stand_gains_stems_by_growing)
 {
-    (void)state;
     for (int i = 0; i < STANDS; i++) {
         struct sample s;
         random_stand(&s);
@@ -540,9 +523,8 @@ static void no_stand_gains_stems_by_growing(void **state)
     }
 }
 
-static void no_computed_stand_is_too_dense(void **state)
+TEST(no_computed_stand_is_too_dense)
 {
-    (void)state;
     unsigned thinned = 0, at_least = 0;
     for (int i = 0; i < STANDS; i++) {
         struct sample s;
@@ -565,9 +547,8 @@ static void no_computed_stand_is_too_dense(void **state)
     EXPECT(at_least, >, 1000);
 }
 
-static void a_rotation_later_it_is_the_same_stand(void **state)
+TEST(a_rotation_later_it_is_the_same_stand)
 {
-    (void)state;
     for (int i = 0; i < STANDS; i++) {
         struct sample s;
         random_stand(&s);
@@ -602,9 +583,8 @@ static double adc_just_cut(const char *name, double stools, struct ceduo_cutting
 }
 
 /* Ciabocco et al. 2009: right after its cut only the selection coppice has contacts nearer than 30 m. */
-static void just_cut_only_the_selection_coppice_protects(void **state)
+TEST(just_cut_only_the_selection_coppice_protects)
 {
-    (void)state;
     double simple[] = {30, 30}, standards[] = {100, 50, 20, 10}, selection[] = {40}, large[] = {125, 125};
     double a = adc_just_cut("simple coppice", 2500, (struct ceduo_cutting){25, 1, 2, simple}, .35, 3);
     double b = adc_just_cut("coppice with standards", 1500, (struct ceduo_cutting){25, 1, 4, standards}, .35, 3);
@@ -617,31 +597,4 @@ static void just_cut_only_the_selection_coppice_protects(void **state)
     double d1 = .45 * (1 - exp(-.35)), d2 = .45 * (1 - exp(-.7));
     expect_near(a, 1e4 / (30 * (2 * B + d1 + d2)), 1e-13);
     expect_near(d, 1e4 / (125 * (2 * B + d1 + d2)), 1e-13);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(year_0_is_the_stand_as_filed),
-        cmocka_unit_test(an_inventory_grows_along_its_curves),
-        cmocka_unit_test(a_given_age_stands_over_that_of_the_curve),
-        cmocka_unit_test(no_old_shoots),
-        cmocka_unit_test(next_to_nothing_grows_as_a_new_stem),
-        cmocka_unit_test(thicker_than_its_curve_it_grows_no_more),
-        cmocka_unit_test(a_stratum_without_a_curve_stays),
-        cmocka_unit_test(never_less_than_one_shoot_a_stool),
-        cmocka_unit_test(the_years_of_cuts),
-        cmocka_unit_test(by_default_it_is_cut_when_it_is_old_enough),
-        cmocka_unit_test(a_simple_coppice_after_its_cuts),
-        cmocka_unit_test(a_selection_coppice_always_has_shoots),
-        cmocka_unit_test(a_cut_in_year_0_is_done),
-        cmocka_unit_test(without_cuts_it_grows_for_ever),
-        cmocka_unit_test(the_density_index),
-        cmocka_unit_test(shoots_are_thinned_to_the_density),
-        cmocka_unit_test(no_stand_gains_stems_by_growing),
-        cmocka_unit_test(no_computed_stand_is_too_dense),
-        cmocka_unit_test(a_rotation_later_it_is_the_same_stand),
-        cmocka_unit_test(just_cut_only_the_selection_coppice_protects),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -35,9 +35,8 @@ static struct line_scene scene;
 static struct line_way way;
 
 /* A flight to a slope at 45 degrees: x = t and -x = 3 - g/2 t2. */
-static void a_flight_onto_a_slope(void **state)
+TEST(a_flight_onto_a_slope)
 {
-    (void)state;
     const double x[] = {0, 50}, z[] = {0, -50};
     for (size_t m = 0; m < LENGTH(modes); m++) {
         line_scene_init(&scene, 2, x, z, (struct line_ground){.5, .8, .5}, .1, CEDUO_LAW_LUMPED);
@@ -54,9 +53,8 @@ static void a_flight_onto_a_slope(void **state)
 }
 
 /* A facet at 45 degrees turns a fall by half a right angle, however short it is: its rock leaves with what is left of the energy. */
-static void the_shortest_facet(void **state)
+TEST(the_shortest_facet)
 {
-    (void)state;
     static const double shortest[] = {5e-324, 1.5e-323, 1e-310, 1e-290, 1};
     for (size_t i = 0; i < LENGTH(shortest); i++)
         for (int law = 0; law < CEDUO_LAW_COUNT; law++) {
@@ -79,9 +77,8 @@ static void the_shortest_facet(void **state)
 }
 
 /* On the flat from speed v a rock without bounce stops after (1 + k) v2 / (2 g mu), whatever the law. */
-static void the_way_to_a_stop(void **state)
+TEST(the_way_to_a_stop)
 {
-    (void)state;
     const double x[] = {0, 1000}, z[] = {0, 0};
     for (int law = 0; law < CEDUO_LAW_COUNT; law++)
         for (size_t m = 0; m < LENGTH(modes); m++) {
@@ -96,9 +93,8 @@ static void the_way_to_a_stop(void **state)
 
 /* Table 3 of the paper without roughness, the first two contacts of crsp: golden to four digits, and the same under every
  * mode to 1e-12. */
-static void the_first_contacts_on_the_slope_of_table_3(void **state)
+TEST(the_first_contacts_on_the_slope_of_table_3)
 {
-    (void)state;
     static struct line_way near;
     line_scene_init(&scene, PAPER_VERTICES, paper_x, paper_y, (struct line_ground){.31, .83, .5}, .34, CEDUO_LAW_CRSP);
     scene.segments[0].rt.mean = .87;
@@ -146,9 +142,8 @@ static void expect_within(const char *what, double got, double want, double erro
         fail_msg("%s: %.12g, not %.12g within %.3g", what, got, want, error);
 }
 
-static void statistics_agree_within_their_error(void **state)
+TEST(statistics_agree_within_their_error)
 {
-    (void)state;
     static struct paper_site site;
     for (int kind = 0; kind < 8; kind++) {
         paper_site_init(&site);
@@ -170,16 +165,4 @@ static void statistics_agree_within_their_error(void **state)
         }
         expect_within("contacts", moved / contacts0, 0, .01);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_flight_onto_a_slope),
-        cmocka_unit_test(the_shortest_facet),
-        cmocka_unit_test(the_way_to_a_stop),
-        cmocka_unit_test(the_first_contacts_on_the_slope_of_table_3),
-        cmocka_unit_test(statistics_agree_within_their_error),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

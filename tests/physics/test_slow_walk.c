@@ -337,9 +337,8 @@ static void expect_agreement(const struct tally *t, const char *what)
     EXPECT((double)t->first_apart, <=, .001 * (double)t->rocks);
 }
 
-static void eight_combinations_on_the_slope_of_table_3(void **state)
+TEST(eight_combinations_on_the_slope_of_table_3)
 {
-    (void)state;
     static struct paper_site site;
     for (int i = 0; i < 8; i++) {
         paper_site_init(&site);
@@ -356,9 +355,8 @@ static void eight_combinations_on_the_slope_of_table_3(void **state)
     }
 }
 
-static void random_scenes(void **state)
+TEST(random_scenes)
 {
-    (void)state;
     static struct line_scene scene;
     struct tally tally = {0};
     for (uint64_t number = 0; number < 3000; number++) {
@@ -366,13 +364,4 @@ static void random_scenes(void **state)
         compare(&scene.scene, number % 7, &tally);
     }
     expect_agreement(&tally, "random scenes");
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(eight_combinations_on_the_slope_of_table_3),
-        cmocka_unit_test(random_scenes),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -76,9 +76,8 @@ static void choose(const struct combination *c)
     site.scene.simulation.law = c->law;
 }
 
-static void means_of_the_combinations_beside_table_5(void **state)
+TEST(means_of_the_combinations_beside_table_5)
 {
-    (void)state;
     for (size_t i = 0; i < LENGTH(combinations); i++) {
         const struct combination *c = &combinations[i];
         choose(c);
@@ -97,9 +96,8 @@ static void means_of_the_combinations_beside_table_5(void **state)
     }
 }
 
-static void almost_nothing_passes_crsp_with_angles_to_both_sides(void **state)
+TEST(almost_nothing_passes_crsp_with_angles_to_both_sides)
 {
-    (void)state;
     choose(&(struct combination){.law = CEDUO_LAW_CRSP, .facets = CEDUO_BOTH, .theta = PAPER_ANGLE});
     struct ceduo_run *run = run_scene(&site.scene, 20000, 2);
     struct ceduo_arrivals a = arrivals_of(run, 0);
@@ -109,9 +107,8 @@ static void almost_nothing_passes_crsp_with_angles_to_both_sides(void **state)
     ceduo_run_free(run);
 }
 
-static void figures_of_an_arrival_fit_together(void **state)
+TEST(figures_of_an_arrival_fit_together)
 {
-    (void)state;
     choose(&combinations[3]);
     struct ceduo_run *run = run_scene(&site.scene, 5000, 2);
     struct ceduo_arrivals a = arrivals_of(run, 0);
@@ -161,9 +158,8 @@ static void figures_of_an_arrival_fit_together(void **state)
     ceduo_run_free(run);
 }
 
-static void a_run_flies_the_rocks_that_can_be_followed(void **state)
+TEST(a_run_flies_the_rocks_that_can_be_followed)
 {
-    (void)state;
     choose(&combinations[5]);
     struct ceduo_run *run = run_scene(&site.scene, 1500, 2);
     struct ceduo_moments energy = {0}, speed = {0}, height = {0};
@@ -223,9 +219,8 @@ static struct ceduo_run_def def_with_cells(unsigned threads, size_t exact_bytes)
     return def;
 }
 
-static void the_same_bits_with_any_number_of_threads_and_steps(void **state)
+TEST(the_same_bits_with_any_number_of_threads_and_steps)
 {
-    (void)state;
     const uint64_t rocks = 20000;
     static const size_t rows[] = {0, 3, 5};
     static const size_t bytes[] = {CEDUO_EXACT_BYTES, 1000};
@@ -253,9 +248,8 @@ static void the_same_bits_with_any_number_of_threads_and_steps(void **state)
         }
 }
 
-static void a_run_is_no_longer_than_asked_for(void **state)
+TEST(a_run_is_no_longer_than_asked_for)
 {
-    (void)state;
     choose(&combinations[0]);
     site.scene.simulation.rocks = 500;
     struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
@@ -268,9 +262,8 @@ static void a_run_is_no_longer_than_asked_for(void **state)
     ceduo_run_free(NULL);
 }
 
-static void other_seeds_are_other_rocks(void **state)
+TEST(other_seeds_are_other_rocks)
 {
-    (void)state;
     choose(&combinations[0]);
     struct ceduo_run *one = run_scene(&site.scene, 50000, 2);
     struct ceduo_arrivals a = arrivals_of(one, 0);
@@ -304,9 +297,8 @@ static void expect_distribution_within(const struct ceduo_distribution *a, const
     expect_within(a->p99, b->p99, 1e-4);
 }
 
-static void percentiles_of_histograms_are_those_of_all_samples(void **state)
+TEST(percentiles_of_histograms_are_those_of_all_samples)
 {
-    (void)state;
     static const size_t rows[] = {0, 5}; /* without and with spin */
     for (size_t r = 0; r < LENGTH(rows); r++) {
         choose(&combinations[rows[r]]);
@@ -370,9 +362,8 @@ static void free_slope(struct ceduo_slope *slope)
     free(slope->segments);
 }
 
-static void cutting_segments_into_collinear_pieces_moves_no_statistic(void **state)
+TEST(cutting_segments_into_collinear_pieces_moves_no_statistic)
 {
-    (void)state;
     static const size_t parts[] = {10, 1000};
     const uint64_t rocks = 20000, looked_at = 200;
     for (size_t i = 0; i < LENGTH(combinations); i++)
@@ -416,9 +407,8 @@ static void expect_spread(const struct ceduo_spread_of_cell *s)
     EXPECT(s->p95, <=, s->max);
 }
 
-static void envelopes_agree_with_the_control_at_the_same_place(void **state)
+TEST(envelopes_agree_with_the_control_at_the_same_place)
 {
-    (void)state;
     choose(&combinations[5]);
     site.scene.simulation.rocks = 20000;
     struct ceduo_run_def def = def_with_cells(2, CEDUO_EXACT_BYTES);
@@ -464,9 +454,8 @@ static void raise_flag(void *context, uint64_t rocks)
     atomic_store(&c->flag, true);
 }
 
-static void a_raised_flag_ends_the_run_which_can_go_on_later(void **state)
+TEST(a_raised_flag_ends_the_run_which_can_go_on_later)
 {
-    (void)state;
     static struct canceller c;
     choose(&combinations[1]);
     site.scene.simulation.rocks = 600000;
@@ -528,9 +517,8 @@ static void expect_moments(const char *what, const struct ceduo_moments *m, doub
 
 #define CUT_SD 0.98657839256 /* sd of the normal law cut at three of its own: sqrt(1 - 6 phi(3)/(2 Phi(3) - 1)) */
 
-static void releases_and_rocks_are_drawn_as_they_are_spread(void **state)
+TEST(releases_and_rocks_are_drawn_as_they_are_spread)
 {
-    (void)state;
     choose(&combinations[4]);
     struct ceduo_scene *s = &site.scene;
     s->release.x = (struct ceduo_number){2, 1.5, CEDUO_UNIFORM};
@@ -561,9 +549,8 @@ static void releases_and_rocks_are_drawn_as_they_are_spread(void **state)
     ceduo_run_free(again);
 }
 
-static void a_lumped_rock_of_many_masses_has_energies_of_its_own(void **state)
+TEST(a_lumped_rock_of_many_masses_has_energies_of_its_own)
 {
-    (void)state;
     choose(&combinations[0]);
     site.scene.rock.density = (struct ceduo_number){2600, 300, CEDUO_UNIFORM};
     struct ceduo_run *run = run_scene(&site.scene, 50000, 2);
@@ -594,9 +581,8 @@ static void look_at_first_contact(void *context, const struct ceduo_piece *p)
     ceduo_moments_add(&f->rt, p->vx / 4);
 }
 
-static void grounds_are_drawn_as_they_are_spread(void **state)
+TEST(grounds_are_drawn_as_they_are_spread)
 {
-    (void)state;
     static struct line_scene flat;
     const double x[] = {0, 1000}, z[] = {0, 0};
     line_scene_init(&flat, 2, x, z, (struct line_ground){.3, .8, .5}, .01, CEDUO_LAW_LUMPED);
@@ -631,9 +617,8 @@ static void grounds_are_drawn_as_they_are_spread(void **state)
     EXPECT(f.rn.max, <=, 1 + 1e-15);
 }
 
-static void a_spread_of_nothing_changes_nothing(void **state)
+TEST(a_spread_of_nothing_changes_nothing)
 {
-    (void)state;
     choose(&combinations[5]);
     struct ceduo_run *one = run_scene(&site.scene, 3000, 2);
     for (size_t j = 0; j < PAPER_SEGMENTS; j++)
@@ -653,9 +638,8 @@ static bool nothing_known(const struct ceduo_distribution *d)
            isnan(d->p95_hi) && isnan(d->p99) && isnan(d->max);
 }
 
-static void a_control_that_nobody_reaches(void **state)
+TEST(a_control_that_nobody_reaches)
 {
-    (void)state;
     static const size_t bytes[] = {CEDUO_EXACT_BYTES, 0};
     for (int law = 0; law < CEDUO_LAW_COUNT; law++)
         for (size_t e = 0; e < LENGTH(bytes); e++) {
@@ -693,9 +677,8 @@ static void a_control_that_nobody_reaches(void **state)
         }
 }
 
-static void a_control_without_an_accepted_energy(void **state)
+TEST(a_control_without_an_accepted_energy)
 {
-    (void)state;
     choose(&combinations[0]);
     site.control.accepted = NAN;
     struct ceduo_run *run = run_scene(&site.scene, 999, 1);
@@ -707,9 +690,8 @@ static void a_control_without_an_accepted_energy(void **state)
     ceduo_run_free(run);
 }
 
-static void unfinished_rocks_count_for_the_upper_bound(void **state)
+TEST(unfinished_rocks_count_for_the_upper_bound)
 {
-    (void)state;
     static struct line_scene flat;
     const double x[] = {0, 1000}, z[] = {0, 0};
     line_scene_init(&flat, 2, x, z, (struct line_ground){1, 1, 0}, .1, CEDUO_LAW_LUMPED);
@@ -733,9 +715,8 @@ static void unfinished_rocks_count_for_the_upper_bound(void **state)
 
 /* Blocks of all sizes fall on one of two grounds: on one they stay, on the other they bounce for ever. Nobody reaches the
  * control; the upper end is that of as many rocks as the heaviest would be, with the weights of the unfinished counted in. */
-static void unfinished_blocks_count_by_their_weights(void **state)
+TEST(unfinished_blocks_count_by_their_weights)
 {
-    (void)state;
     enum { ROCKS = 60 };
     static struct line_scene flat;
     static double volumes[] = {.05, 5};
@@ -772,30 +753,4 @@ static void unfinished_blocks_count_by_their_weights(void **state)
     EXPECT_NEAR(a.reach_hi, hi, 1e-12);
     ceduo_follower_free(f);
     ceduo_run_free(run);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(means_of_the_combinations_beside_table_5),
-        cmocka_unit_test(almost_nothing_passes_crsp_with_angles_to_both_sides),
-        cmocka_unit_test(figures_of_an_arrival_fit_together),
-        cmocka_unit_test(a_run_flies_the_rocks_that_can_be_followed),
-        cmocka_unit_test(the_same_bits_with_any_number_of_threads_and_steps),
-        cmocka_unit_test(a_run_is_no_longer_than_asked_for),
-        cmocka_unit_test(other_seeds_are_other_rocks),
-        cmocka_unit_test(percentiles_of_histograms_are_those_of_all_samples),
-        cmocka_unit_test(cutting_segments_into_collinear_pieces_moves_no_statistic),
-        cmocka_unit_test(envelopes_agree_with_the_control_at_the_same_place),
-        cmocka_unit_test(a_raised_flag_ends_the_run_which_can_go_on_later),
-        cmocka_unit_test(releases_and_rocks_are_drawn_as_they_are_spread),
-        cmocka_unit_test(a_lumped_rock_of_many_masses_has_energies_of_its_own),
-        cmocka_unit_test(grounds_are_drawn_as_they_are_spread),
-        cmocka_unit_test(a_spread_of_nothing_changes_nothing),
-        cmocka_unit_test(a_control_that_nobody_reaches),
-        cmocka_unit_test(a_control_without_an_accepted_energy),
-        cmocka_unit_test(unfinished_rocks_count_for_the_upper_bound),
-        cmocka_unit_test(unfinished_blocks_count_by_their_weights),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -34,9 +34,8 @@ static void plant_dorren(double from, double to)
     belt->stand.fracture_ratio = 1.7;
 }
 
-static void dorrens_hits_take_the_share_of_their_eccentricity(void **state)
+TEST(dorrens_hits_take_the_share_of_their_eccentricity)
 {
-    (void)state;
     struct spread trees = {0}, shoots = {0};
     clear_plane(520);
     plant_dorren(10, 510);
@@ -63,9 +62,8 @@ static void dorrens_hits_take_the_share_of_their_eccentricity(void **state)
 }
 
 /* What a hit takes where brauner goes by eccentricity: the printed share of V U, and all of a rock that has less. */
-static void hits_beside_the_middle_take_their_share(void **state)
+TEST(hits_beside_the_middle_take_their_share)
 {
-    (void)state;
     const double volume = 300000, u_J_m3 = 1e5; /* far more than a rock has, but at the edge of a stem */
     uint64_t whole = 0, ends[CEDUO_ENDS] = {0};
     clear_plane(520);
@@ -135,9 +133,8 @@ static void at_hit(void *context, const struct ceduo_stem_passed *stem)
     s->hits++;
 }
 
-static void a_hit_scales_speed_and_spin_by_what_is_left_of_the_energy(void **state)
+TEST(a_hit_scales_speed_and_spin_by_what_is_left_of_the_energy)
 {
-    (void)state;
     for (int i = 0; i < 4; i++) {
         bool rolls = i & 1, spins = i & 2;
         clear_plane(400);
@@ -175,9 +172,8 @@ static void cross_at(double x, bool rolls)
     plane.line.scene.controls_count = 1;
 }
 
-static void a_control_where_a_stem_stands_is_passed_before_the_hit(void **state)
+TEST(a_control_where_a_stem_stands_is_passed_before_the_hit)
 {
-    (void)state;
     for (uint64_t rock = 0; rock < 400; rock++) {
         bool rolls = rock % 2;
         cross_at(400, rolls);
@@ -197,9 +193,8 @@ static void a_control_where_a_stem_stands_is_passed_before_the_hit(void **state)
 
 /* ---- heights ---- */
 
-static void rocks_fly_over_stems_that_are_lower(void **state)
+TEST(rocks_fly_over_stems_that_are_lower)
 {
-    (void)state;
     static const double heights[] = {4, 12, 25};
     const double fall = 30, v = 40, g = CEDUO_GRAVITY;
     struct spread come_to = {0}, hit = {0};
@@ -272,9 +267,8 @@ static double height_above_ground(const struct pieces *p, double x)
     return z - ceduo_slope_height(&plane.line.scene.slope, x);
 }
 
-static void a_stem_is_hit_where_the_rock_is_lower_above_a_broken_slope(void **state)
+TEST(a_stem_is_hit_where_the_rock_is_lower_above_a_broken_slope)
 {
-    (void)state;
     static struct pieces pieces;
     static const double x[] = {0, 30, 45, 60, 61, 120, 200}, z[] = {0, -20, -22, -45, -60, -80, -130};
     uint64_t hits = 0, over = 0;
@@ -361,9 +355,8 @@ static void expect_stopped(const char *name, uint64_t rocks)
     sample_clear(&stops);
 }
 
-static void rocks_are_stopped_where_their_stem_stands(void **state)
+TEST(rocks_are_stopped_where_their_stem_stands)
 {
-    (void)state;
     for (int i = 0; i < 3; i++) {
         static const char *const names[] = {"in flight", "rolling", "poisson"};
         clear_plane(520);
@@ -375,18 +368,4 @@ static void rocks_are_stopped_where_their_stem_stands(void **state)
             plane.line.scene.simulation.contact_model = CEDUO_POISSON;
         expect_stopped(names[i], i == 1 ? 10000 : 100000);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(dorrens_hits_take_the_share_of_their_eccentricity),
-        cmocka_unit_test(hits_beside_the_middle_take_their_share),
-        cmocka_unit_test(a_hit_scales_speed_and_spin_by_what_is_left_of_the_energy),
-        cmocka_unit_test(a_control_where_a_stem_stands_is_passed_before_the_hit),
-        cmocka_unit_test(rocks_fly_over_stems_that_are_lower),
-        cmocka_unit_test(a_stem_is_hit_where_the_rock_is_lower_above_a_broken_slope),
-        cmocka_unit_test(rocks_are_stopped_where_their_stem_stands),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

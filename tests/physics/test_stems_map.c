@@ -108,17 +108,15 @@ static void expect_same_as_map(const char *name, uint64_t ways, unsigned long se
     swept_clear(&map);
 }
 
-static void stems_met_are_those_of_a_full_map_in_the_plane(void **state)
+TEST(stems_met_are_those_of_a_full_map_in_the_plane)
 {
-    (void)state;
     clear_plane(70);
     plant_plot(1, 10, 60);
     expect_same_as_map("ADS 1", 20000, 1);
 }
 
-static void stems_of_many_kinds_are_those_of_a_full_map_in_the_plane(void **state)
+TEST(stems_of_many_kinds_are_those_of_a_full_map_in_the_plane)
 {
-    (void)state;
     clear_plane(70);
     struct ceduo_belt *belt = plant_belt(10, 60, 1200, .45);
     plant_shoots(belt, 3500, .05);
@@ -128,9 +126,8 @@ static void stems_of_many_kinds_are_those_of_a_full_map_in_the_plane(void **stat
     expect_same_as_map("two cohorts, two classes", 20000, 2);
 }
 
-static void stems_beside_a_gap_are_those_of_a_full_map_in_the_plane(void **state)
+TEST(stems_beside_a_gap_are_those_of_a_full_map_in_the_plane)
 {
-    (void)state;
     clear_plane(70);
     struct ceduo_belt *belt = plant_belt(10, 25, 900, 1.1); /* rings that reach far into the gap */
     plant_shoots(belt, 900 * 7.5, .08);
@@ -140,24 +137,12 @@ static void stems_beside_a_gap_are_those_of_a_full_map_in_the_plane(void **state
     expect_same_as_map("two belts and a gap", 20000, 3);
 }
 
-static void stems_after_a_release_in_the_forest_are_those_of_a_full_map_in_the_plane(void **state)
+TEST(stems_after_a_release_in_the_forest_are_those_of_a_full_map_in_the_plane)
 {
-    (void)state;
     clear_plane(70);
     struct ceduo_belt *belt = plant_belt(30, 60, 700, .4);
     plant_shoots(belt, 700 * 12, .07);
     plant_trees(belt, 300, .3);
     line_scene_release(&plane.line, 40, 1, 700, 0, 0);
     expect_same_as_map("released in a belt", 25000, 4);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(stems_met_are_those_of_a_full_map_in_the_plane),
-        cmocka_unit_test(stems_of_many_kinds_are_those_of_a_full_map_in_the_plane),
-        cmocka_unit_test(stems_beside_a_gap_are_those_of_a_full_map_in_the_plane),
-        cmocka_unit_test(stems_after_a_release_in_the_forest_are_those_of_a_full_map_in_the_plane),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

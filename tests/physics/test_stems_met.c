@@ -34,9 +34,8 @@ static void expect_plot(const struct plot_rates *r, uint64_t rocks, const char *
     expect_mean(what, &m.stools, r->stools);
 }
 
-static void stems_met_per_metre_are_those_of_equation_1_and_stools_those_of_crofton(void **state)
+TEST(stems_met_per_metre_are_those_of_equation_1_and_stools_those_of_crofton)
 {
-    (void)state;
     static const uint64_t rocks[] = {3100, 6200};
     for (size_t i = 0; i < LENGTH(plot_rates); i++) {
         clear_plane(520);
@@ -46,9 +45,8 @@ static void stems_met_per_metre_are_those_of_equation_1_and_stools_those_of_crof
     }
 }
 
-static void a_rolling_rock_meets_as_many_and_rolls_on_as_if_there_were_none(void **state)
+TEST(a_rolling_rock_meets_as_many_and_rolls_on_as_if_there_were_none)
 {
-    (void)state;
     struct ceduo_trajectory bare;
     clear_plane(520);
     plane.line.scene.simulation.seed = 3;
@@ -61,9 +59,8 @@ static void a_rolling_rock_meets_as_many_and_rolls_on_as_if_there_were_none(void
     assert_int_equal(bare.contacts, ceil(520 / (B / 2)));
 }
 
-static void rocks_of_many_sizes_meet_as_many_as_their_mean(void **state)
+TEST(rocks_of_many_sizes_meet_as_many_as_their_mean)
 {
-    (void)state;
     clear_plane(520);
     plant_plot(1, 10, 510);
     plane.line.scene.rock.diameter = (struct ceduo_number){B, .3, CEDUO_UNIFORM};
@@ -71,9 +68,8 @@ static void rocks_of_many_sizes_meet_as_many_as_their_mean(void **state)
     expect_mean("stems per metre, B .38 to .98 m", &m.stems, per_metre(9076, B + .061));
 }
 
-static void counts_of_trees_in_a_stretch_are_poisson(void **state)
+TEST(counts_of_trees_in_a_stretch_are_poisson)
 {
-    (void)state;
     static uint64_t count[COUNTS_MOST];
     struct spread s = {0};
     clear_plane(40);
@@ -107,9 +103,8 @@ static double uniform_cdf(double x, const void *unused)
 
 /* Of each way the same number of gaps, few enough that it has them: others would be too short on average. */
 #define GAPS 150
-static void gaps_between_trees_are_exponential_and_offsets_uniform(void **state)
+TEST(gaps_between_trees_are_exponential_and_offsets_uniform)
 {
-    (void)state;
     struct sample gaps = {0}, offsets = {0};
     clear_plane(1000);
     struct ceduo_belt *belt = plant_belt(0, 1000, 0, 0);
@@ -133,9 +128,8 @@ static void gaps_between_trees_are_exponential_and_offsets_uniform(void **state)
     sample_clear(&offsets);
 }
 
-static void the_chance_to_meet_nothing_of_ten_metres_is_that_of_crofton(void **state)
+TEST(the_chance_to_meet_nothing_of_ten_metres_is_that_of_crofton)
 {
-    (void)state;
     const uint64_t rocks = 1000000;
     uint64_t free_runs = 0;
     clear_plane(20);
@@ -167,9 +161,8 @@ static void expect_stems_per_stool(const char *what, const struct met *m, double
     expect_close(what, ratio, sqrt(variance) / spread_mean(&m->stools), expected, 1e-12);
 }
 
-static void a_ring_is_met_as_wide_as_its_hull_is_on_average(void **state)
+TEST(a_ring_is_met_as_wide_as_its_hull_is_on_average)
 {
-    (void)state;
     static const struct {
         unsigned n;
         double spacing;
@@ -207,9 +200,8 @@ static double pairs_of_ring(unsigned n, double spacing, double width)
     return sum;
 }
 
-static void clumping_changes_the_spread_but_not_the_mean(void **state)
+TEST(clumping_changes_the_spread_but_not_the_mean)
 {
-    (void)state;
     const double d = .06, spacing = .5, mean = 50 * per_metre(6000, B + d);
     const uint64_t rocks = 50000;
     clear_plane(70);
@@ -291,9 +283,8 @@ static void expect_biased(const char *name, double per_ha, double mean, double s
     sample_clear(&all);
 }
 
-static void thick_stems_are_met_more_often(void **state)
+TEST(thick_stems_are_met_more_often)
 {
-    (void)state;
     clear_plane(520);
     plant_trees(plant_belt(10, 510, 0, 0), 4000, .2)->dbh_sd = .1;
     expect_biased("trees .2 ± .1 m", 4000, .2, .1, 5800, 500);
@@ -317,9 +308,8 @@ static void expect_same_stems(const struct ceduo_stem_passed *a, size_t n)
 }
 
 /* A spread of 0 is none, and one of nearly nothing moves diameters and offsets by as little. */
-static void diameters_without_spread_change_nothing(void **state)
+TEST(diameters_without_spread_change_nothing)
 {
-    (void)state;
     static struct ceduo_stem_passed plain[STEMS_MOST];
     for (uint64_t rock = 0; rock < 200; rock++) {
         clear_plane(520);
@@ -343,9 +333,8 @@ static void diameters_without_spread_change_nothing(void **state)
 }
 
 /* Of a belt whose shoots spread in diameter none is met with the mean, also where it ends and others begin that do not. */
-static void shoots_keep_their_diameters_beside_others(void **state)
+TEST(shoots_keep_their_diameters_beside_others)
 {
-    (void)state;
     size_t near = 0;
     for (uint64_t rock = 0; rock < 300; rock++) {
         clear_plane(60);
@@ -364,9 +353,8 @@ static void shoots_keep_their_diameters_beside_others(void **state)
 
 /* Stools whose shoots all stand at their middle: the shoots come one by one in the order in which they are drawn, as they
  * do where each is put among the others by itself. */
-static void shoots_at_one_place_are_met_in_their_order(void **state)
+TEST(shoots_at_one_place_are_met_in_their_order)
 {
-    (void)state;
     static struct ceduo_stem_passed plain[STEMS_MOST];
     for (uint64_t rock = 0; rock < 200; rock++) {
         clear_plane(520);
@@ -473,9 +461,8 @@ static void expect_whole_stools(void)
     }
 }
 
-static void stems_of_random_belts_are_some_that_were_planted(void **state)
+TEST(stems_of_random_belts_are_some_that_were_planted)
 {
-    (void)state;
     struct line_random r = {.state = 17};
     size_t all = 0;
     for (unsigned i = 0; i < 300; i++) {
@@ -507,9 +494,8 @@ static void expect_stems_per_metre(const char *what, double expected, uint64_t r
     expect_mean(what, &m.stems, expected);
 }
 
-static void extreme_stands_are_met_as_they_should_be(void **state)
+TEST(extreme_stands_are_met_as_they_should_be)
 {
-    (void)state;
     clear_plane(170);
     plant_shoots(plant_belt(10, 160, 5000, .1), 100000, .02);
     expect_stems_per_metre("100 000 shoots/ha", per_metre(100000, B + .02), 1000, 150);
@@ -525,25 +511,4 @@ static void extreme_stands_are_met_as_they_should_be(void **state)
     clear_plane(300);
     plant_shoots(plant_belt(50, 250, 50, .5), 10000, .05);
     expect_stems_per_metre("200 shoots .5 m apart", per_metre(10000, B + .05), 7000, 200);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(stems_met_per_metre_are_those_of_equation_1_and_stools_those_of_crofton),
-        cmocka_unit_test(a_rolling_rock_meets_as_many_and_rolls_on_as_if_there_were_none),
-        cmocka_unit_test(rocks_of_many_sizes_meet_as_many_as_their_mean),
-        cmocka_unit_test(counts_of_trees_in_a_stretch_are_poisson),
-        cmocka_unit_test(gaps_between_trees_are_exponential_and_offsets_uniform),
-        cmocka_unit_test(the_chance_to_meet_nothing_of_ten_metres_is_that_of_crofton),
-        cmocka_unit_test(a_ring_is_met_as_wide_as_its_hull_is_on_average),
-        cmocka_unit_test(clumping_changes_the_spread_but_not_the_mean),
-        cmocka_unit_test(thick_stems_are_met_more_often),
-        cmocka_unit_test(diameters_without_spread_change_nothing),
-        cmocka_unit_test(shoots_keep_their_diameters_beside_others),
-        cmocka_unit_test(shoots_at_one_place_are_met_in_their_order),
-        cmocka_unit_test(stems_of_random_belts_are_some_that_were_planted),
-        cmocka_unit_test(extreme_stands_are_met_as_they_should_be),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

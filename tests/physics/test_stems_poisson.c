@@ -125,9 +125,8 @@ static void expect_compound(const char *name, const struct strata *strata, doubl
     expect_variance(what, &work, variance);
 }
 
-static void contacts_of_every_rule_are_poisson_and_take_each_stratums_work(void **state)
+TEST(contacts_of_every_rule_are_poisson_and_take_each_stratums_work)
 {
-    (void)state;
     static const struct {
         const char *name;
         enum ceduo_rule rule, meant;
@@ -150,12 +149,4 @@ static void contacts_of_every_rule_are_poisson_and_take_each_stratums_work(void 
             contacts += 200 * strata.rate[k];
         expect_compound(rows[i].name, &strata, 200, (uint64_t)(1.02e6 / contacts));
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(contacts_of_every_rule_are_poisson_and_take_each_stratums_work),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

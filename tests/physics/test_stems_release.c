@@ -108,9 +108,8 @@ static void expect_each_stem_once(void)
 }
 
 /* A smooth valley in which a rock rolls to and fro, higher on the left than it was released. */
-static void ground_that_is_covered_twice_holds_its_stems_once(void **state)
+TEST(ground_that_is_covered_twice_holds_its_stems_once)
 {
-    (void)state;
     const double from = 381.3, slope = tan(15 * M_PI / 180), v = 31.3;
     struct spread left = {0}, right = {0};
     clear_ground(3, (double[]){0, 400, 800}, (double[]){0, -400 * slope, 0}, .5, 0);
@@ -190,18 +189,16 @@ static void court_of_large_rings(enum way_out out)
 #define PAPER_PER_M (9076 * (B + .061) / 1e4)
 #define RINGS_PER_M (20000 * (B + .06) / 1e4)
 
-static void stems_stand_as_dense_right_from_a_release_in_the_forest_on(void **state)
+TEST(stems_stand_as_dense_right_from_a_release_in_the_forest_on)
 {
-    (void)state;
     court_of_the_paper(AHEAD);
     expect_even_court("ADS 1 from the release on", AHEAD, PAPER_PER_M, 190000);
     court_of_large_rings(AHEAD);
     expect_even_court("rings of 200 from the release on", AHEAD, RINGS_PER_M, 86000);
 }
 
-static void stems_stand_as_dense_on_both_sides_of_a_release_in_the_forest(void **state)
+TEST(stems_stand_as_dense_on_both_sides_of_a_release_in_the_forest)
 {
-    (void)state;
     court_of_the_paper(AHEAD_AND_BACK);
     expect_even_court("ADS 1, ahead and then back", AHEAD_AND_BACK, PAPER_PER_M, 190000);
     court_of_large_rings(AHEAD_AND_BACK);
@@ -215,9 +212,8 @@ static void stems_stand_as_dense_on_both_sides_of_a_release_in_the_forest(void *
 }
 
 /* A stool astride of the release is one stool, whichever way the rock goes first. */
-static void the_stems_about_a_release_do_not_depend_on_where_the_rock_goes_first(void **state)
+TEST(the_stems_about_a_release_do_not_depend_on_where_the_rock_goes_first)
 {
-    (void)state;
     static struct ceduo_stem_passed ahead[STEMS_MOST];
     uint64_t astride = 0;
     for (uint64_t rock = 0; rock < 2000; rock++) {
@@ -242,9 +238,8 @@ static void the_stems_about_a_release_do_not_depend_on_where_the_rock_goes_first
 }
 
 /* Far ahead and back again: many other stools lie between the two hits of one astride of the release. */
-static void a_stool_astride_of_the_release_is_one_however_far_the_rock_went_between(void **state)
+TEST(a_stool_astride_of_the_release_is_one_however_far_the_rock_went_between)
 {
-    (void)state;
     uint64_t wrong = 0, rocks = 2000;
     clear_court(AHEAD_AND_BACK);
     plant_plot(1, RELEASE - 6, RELEASE + 145);
@@ -256,16 +251,4 @@ static void a_stool_astride_of_the_release_is_one_however_far_the_rock_went_betw
     sweep_end();
     if (wrong > 0)
         fail_msg("%ju of %ju rocks count a stool twice", (uintmax_t)wrong, (uintmax_t)rocks);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(ground_that_is_covered_twice_holds_its_stems_once),
-        cmocka_unit_test(stems_stand_as_dense_right_from_a_release_in_the_forest_on),
-        cmocka_unit_test(stems_stand_as_dense_on_both_sides_of_a_release_in_the_forest),
-        cmocka_unit_test(the_stems_about_a_release_do_not_depend_on_where_the_rock_goes_first),
-        cmocka_unit_test(a_stool_astride_of_the_release_is_one_however_far_the_rock_went_between),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

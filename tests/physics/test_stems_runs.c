@@ -19,9 +19,8 @@ struct site_row {
     double energy, speed, pass, stopped;
 };
 
-static void rocks_on_the_papers_site_arrive_as_in_independent_implementations(void **state)
+TEST(rocks_on_the_papers_site_arrive_as_in_independent_implementations)
 {
-    (void)state;
     static const struct site_row rows[] = {{CEDUO_POISSON, 66.75, 15.29, 83.9, 15.2}, {CEDUO_STEMS, 62.06, 14.67, 83.2, 15.4}};
     const uint64_t rocks = FULL_OR(300000, 100000);
     for (size_t i = 0; i < LENGTH(rows); i++) {
@@ -114,9 +113,8 @@ static void expect_pair(const char *what, const struct ceduo_paired *d, const st
     expect_exact(what, d->se, ceduo_moments_se(m), 1e-9);
 }
 
-static void differences_have_the_error_of_differences_rock_by_rock(void **state)
+TEST(differences_have_the_error_of_differences_rock_by_rock)
 {
-    (void)state;
     const uint64_t rocks = 6000;
     open_sides();
     for (int other = 0; other < 2; other++) { /* the small change, no forest */
@@ -145,9 +143,8 @@ static bool same_pair(const struct ceduo_paired *a, const struct ceduo_paired *b
     return fabs(a->mean - b->mean) <= 1e-15 * fabs(a->mean) && fabs(a->se / b->se - 1) < 1e-9;
 }
 
-static void differences_without_all_samples_are_the_same(void **state)
+TEST(differences_without_all_samples_are_the_same)
 {
-    (void)state;
     const uint64_t rocks = 5000;
     static const size_t bytes[] = {CEDUO_EXACT_BYTES, 5000 * sizeof(double), 2500 * sizeof(double), 0};
     struct ceduo_difference d[LENGTH(bytes)];
@@ -187,9 +184,8 @@ static void expect_same_bits(const struct ceduo_run *a, const struct ceduo_run *
     assert_memory_equal(&s, &t, sizeof s);
 }
 
-static void the_same_bits_among_stems_with_any_number_of_threads_and_steps(void **state)
+TEST(the_same_bits_among_stems_with_any_number_of_threads_and_steps)
 {
-    (void)state;
     const uint64_t rocks = 5000;
     static const size_t bytes[] = {CEDUO_EXACT_BYTES, 5000 * sizeof(double)};
     static const unsigned threads[] = {2, 5};
@@ -239,9 +235,8 @@ static void count_before(void *context, const struct ceduo_stem_passed *stem)
     b->control += stem->hit && stem->x < site.control.x;
 }
 
-static void a_run_among_stems_flies_the_rocks_that_can_be_followed(void **state)
+TEST(a_run_among_stems_flies_the_rocks_that_can_be_followed)
 {
-    (void)state;
     const uint64_t rocks = 3000;
     open_sides();
     struct ceduo_run *run = run_of(&site.scene, &sides.options[0], rocks, 2, CEDUO_EXACT_BYTES);
@@ -279,9 +274,8 @@ static void a_run_among_stems_flies_the_rocks_that_can_be_followed(void **state)
 
 /* Of blocks of all sizes the same by their weights; the error of the mean is what a regression on the weights leaves (Cochran
  * 1977), and what it spreads from seed to seed. */
-static void stems_hit_by_blocks(void **state)
+TEST(stems_hit_by_blocks)
 {
-    (void)state;
     enum { ROCKS = 400, SEEDS = 200 };
     static double volumes[] = {.05, 1}, own[ROCKS];
     struct ceduo_block_class blocks = {.per_year = 1, .exponent = 1, .volumes_count = 2, .volumes = volumes};
@@ -332,9 +326,8 @@ static void stems_hit_by_blocks(void **state)
 }
 
 /* A run that was made longer than others keeps its figures; the difference is of the rocks that both have. */
-static void a_longer_run_keeps_its_figures(void **state)
+TEST(a_longer_run_keeps_its_figures)
 {
-    (void)state;
     open_sides();
     struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
     def.rocks_most = 1500;
@@ -372,9 +365,8 @@ static void a_longer_run_keeps_its_figures(void **state)
 }
 
 /* Behind every stem a flight or roll is computed afresh; where the stem takes nothing that must not show. */
-static void stems_that_take_nothing_leave_the_way_as_it_is(void **state)
+TEST(stems_that_take_nothing_leave_the_way_as_it_is)
 {
-    (void)state;
     const uint64_t rocks = 4000;
     uint64_t same = 0;
     struct spread met[2] = {0};
@@ -414,9 +406,8 @@ static void stems_that_take_nothing_leave_the_way_as_it_is(void **state)
     expect_mean("stems per metre of ADS 2 on the paper's site", &met[1], per_metre(4641, B + .047));
 }
 
-static void options_with_the_same_stems_share_a_run(void **state)
+TEST(options_with_the_same_stems_share_a_run)
 {
-    (void)state;
     open_sides();
     struct ceduo_belt same[3], other[2];
     memcpy(&same[1], site.belts, sizeof site.belts);
@@ -473,28 +464,10 @@ static uint64_t key_with(enum change change)
     return ceduo_option_key(&site.scene, &sides.options[1]);
 }
 
-static void whatever_decides_about_stems_makes_another_run(void **state)
+TEST(whatever_decides_about_stems_makes_another_run)
 {
-    (void)state;
     for (int i = 0; i < CHANGES; i++)
         for (int j = 0; j < CHANGES; j++)
             if ((key_with((enum change)i) == key_with((enum change)j)) != (i == j))
                 fail_msg("changes %d and %d", i, j);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(rocks_on_the_papers_site_arrive_as_in_independent_implementations),
-        cmocka_unit_test(differences_have_the_error_of_differences_rock_by_rock),
-        cmocka_unit_test(differences_without_all_samples_are_the_same),
-        cmocka_unit_test(the_same_bits_among_stems_with_any_number_of_threads_and_steps),
-        cmocka_unit_test(a_run_among_stems_flies_the_rocks_that_can_be_followed),
-        cmocka_unit_test(stems_hit_by_blocks),
-        cmocka_unit_test(a_longer_run_keeps_its_figures),
-        cmocka_unit_test(stems_that_take_nothing_leave_the_way_as_it_is),
-        cmocka_unit_test(options_with_the_same_stems_share_a_run),
-        cmocka_unit_test(whatever_decides_about_stems_makes_another_run),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -32,9 +32,8 @@ static double mean_printed_share(void)
 
 /* By hand: of ½ M v² the share m/(M + m), m = 33/140 ρ V, over V U, U = 102 800 J/m3 of the paper, is
  * ½ 33/140 1000 v²/102 800 M/(M + m): of the ADS 1 stems of 10.7 l (m = 2.52 kg) .114 at 10 m/s, .503 at 21, .959 at 29. */
-static void inertia_beside_brauner(void **state)
+TEST(inertia_beside_brauner)
 {
-    (void)state;
     static const struct {
         double speed, ratio;
     } rows[] = {{10, .114}, {21, .503}, {29, .959}};
@@ -68,9 +67,8 @@ static struct ceduo_belt *plant_inert(double from, double to)
 }
 
 /* e(u) E m/(M + m), however fast the rock is. */
-static void hits_take_their_share(void **state)
+TEST(hits_take_their_share)
 {
-    (void)state;
     struct ceduo_rock rock;
     uint64_t hits = 0;
     clear_plane(520);
@@ -94,9 +92,8 @@ static void hits_take_their_share(void **state)
 }
 
 /* A contact of poisson takes the mean share of its stratum: of stools that of their shoots. */
-static void contacts_take_the_mean_share(void **state)
+TEST(contacts_take_the_mean_share)
 {
-    (void)state;
     struct ceduo_rock rock;
     clear_plane(520);
     ceduo_rock_of_means(&plane.line.scene.rock, &rock);
@@ -126,9 +123,8 @@ static void contacts_take_the_mean_share(void **state)
 
 /* The index: a product over the mean number of contacts, (1 - share)^n for each stratum, and no Eq. 4; before or behind
  * a belt of brauner, which takes an amount. */
-static void the_index_multiplies_shares(void **state)
+TEST(the_index_multiplies_shares)
 {
-    (void)state;
     struct paper_site site;
     paper_site_init(&site);
     const double before = 112.319e3, amount = 67.5 / 2.6053723298516003 * 606.52; /* of ADS 2 */
@@ -162,9 +158,8 @@ static void the_index_multiplies_shares(void **state)
 /* ---- stumps and logs ---- */
 
 /* Stumps are met as trees of their height are, whatever the law of the stems, and take their own energy. */
-static void stumps_are_met_as_low_trees(void **state)
+TEST(stumps_are_met_as_low_trees)
 {
-    (void)state;
     struct spread met = {0};
     for (int low = 0; low < 2; low++) {
         clear_plane(520); /* the rock's underside is .95 to 1 m high */
@@ -200,9 +195,8 @@ static double drawn_logs_per_metre(double per_ha, double length, gsl_rng *rng)
     return met / along;
 }
 
-static void logs_are_met_as_buffons_needles(void **state)
+TEST(logs_are_met_as_buffons_needles)
 {
-    (void)state;
     const double per_ha = 150, length = 4, wanted = per_metre(per_ha, 2 * length / M_PI + B);
     struct spread met = {0}, drawn = {0};
     gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
@@ -230,9 +224,8 @@ static void logs_are_met_as_buffons_needles(void **state)
 
 /* By the index they are strata of their own in every form of the ADC; poisson takes the same; they do not count for the
  * lights. */
-static void the_index_has_stumps_and_logs(void **state)
+TEST(the_index_has_stumps_and_logs)
 {
-    (void)state;
     struct paper_site site;
     paper_site_init(&site);
     struct ceduo_belt belt = site.belts[0];
@@ -273,9 +266,8 @@ static void the_index_has_stumps_and_logs(void **state)
     EXPECT_NEAR(ceduo_assess_index(&site.scene, &site.option, &site.control, 1e6).residual, 1e6 - i.dissipated, 1e-6);
 }
 
-static void poisson_takes_stumps_and_logs(void **state)
+TEST(poisson_takes_stumps_and_logs)
 {
-    (void)state;
     struct spread stumps = {0}, logs = {0};
     clear_plane(520);
     struct ceduo_belt *belt = plant_belt(10, 510, 0, 0);
@@ -300,9 +292,8 @@ static void poisson_takes_stumps_and_logs(void **state)
 }
 
 /* With amounts beside shares the index solves dE/dx = -k E - w: here by many small steps. */
-static void shares_and_amounts_together(void **state)
+TEST(shares_and_amounts_together)
 {
-    (void)state;
     struct paper_site site;
     paper_site_init(&site);
     struct ceduo_stand *stand = &site.belts[0].stand;
@@ -360,9 +351,8 @@ struct group_case {
 
 /* The chance of a free run by quadrature beside 10^5 strips drawn in the plane, and beside what rocks meet; and how many
  * they meet, with the variance that clumps have. */
-static void free_runs_past_groups(void **state)
+TEST(free_runs_past_groups)
 {
-    (void)state;
     static const struct group_case cases[] = {{2, .1, 600, 10}, {5, 2, 400, 30},  {6, 4, 300, 20},
                                               {10, 8, 500, 30}, {5, 12, 300, 15}, {30, 3, 900, 4}};
     gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
@@ -403,9 +393,8 @@ static void free_runs_past_groups(void **state)
 
 /* A belt is as dense at its ends as elsewhere, and none of its trees stands outside; of the whole belt the chance to meet
  * nothing is that of the summary. */
-static void groups_keep_to_their_belt(void **state)
+TEST(groups_keep_to_their_belt)
 {
-    (void)state;
     struct spread first = {0}, last = {0}, all = {0};
     uint64_t none = 0;
     const uint64_t rocks = 20000;
@@ -439,9 +428,8 @@ static void groups_keep_to_their_belt(void **state)
 }
 
 /* Groups around the release: as many trees before the rock as behind it, whichever way it goes. */
-static void groups_stand_around_the_release(void **state)
+TEST(groups_stand_around_the_release)
 {
-    (void)state;
     for (int way = -1; way <= 1; way += 2) {
         struct spread met = {0};
         clear_plane(120);
@@ -477,9 +465,8 @@ static void groups_stand_around_the_release(void **state)
 }
 
 /* radius 0: n trees at one place; a very large one: single trees. */
-static void limits_of_groups(void **state)
+TEST(limits_of_groups)
 {
-    (void)state;
     clear_plane(520);
     const double rate = per_metre(400, B + TREE);
     struct ceduo_belt *belt = plant_groups(10, 510, 400, 5, 0);
@@ -511,9 +498,8 @@ static void limits_of_groups(void **state)
 }
 
 /* Diameters that spread: as many are met as of single trees. */
-static void groups_of_trees_that_differ(void **state)
+TEST(groups_of_trees_that_differ)
 {
-    (void)state;
     struct spread met = {0};
     clear_plane(520);
     struct ceduo_belt *belt = plant_groups(10, 510, 300, 4, 5);
@@ -538,9 +524,8 @@ static void groups_of_trees_that_differ(void **state)
 
 /* ---- years ---- */
 
-static void stumps_and_groups_over_the_years(void **state)
+TEST(stumps_and_groups_over_the_years)
 {
-    (void)state;
     static double stay[] = {40};
     const struct ceduo_curve curve = {.dbh_most = .3, .dbh_rate = .03, .height_most = 15, .height_rate = .05};
     struct ceduo_stems shoots = {.per_ha = 4000, .dbh = .06, .height = 6, .volume = NAN, .age = 4};
@@ -599,26 +584,4 @@ static void stumps_and_groups_over_the_years(void **state)
     EXPECT(grown.stand.trees[0].group, ==, 0);
     EXPECT(grown.stand.stumps.per_ha, ==, 900);
     ceduo_grown_stand_release(&grown);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(inertia_beside_brauner),
-        cmocka_unit_test(hits_take_their_share),
-        cmocka_unit_test(contacts_take_the_mean_share),
-        cmocka_unit_test(the_index_multiplies_shares),
-        cmocka_unit_test(stumps_are_met_as_low_trees),
-        cmocka_unit_test(logs_are_met_as_buffons_needles),
-        cmocka_unit_test(the_index_has_stumps_and_logs),
-        cmocka_unit_test(poisson_takes_stumps_and_logs),
-        cmocka_unit_test(shares_and_amounts_together),
-        cmocka_unit_test(free_runs_past_groups),
-        cmocka_unit_test(groups_keep_to_their_belt),
-        cmocka_unit_test(groups_stand_around_the_release),
-        cmocka_unit_test(limits_of_groups),
-        cmocka_unit_test(groups_of_trees_that_differ),
-        cmocka_unit_test(stumps_and_groups_over_the_years),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -138,9 +138,8 @@ static void expect_counts(const struct line_scene *s)
 
 /* ---- random scenes ---- */
 
-static void random_scenes(void **state)
+TEST(random_scenes)
 {
-    (void)state;
     static struct line_scene scene;
     struct invariants_tally t = {0};
     uint64_t parted = 0;
@@ -208,9 +207,8 @@ static void look(void)
     assert_int_equal(t.ends[CEDUO_AT_REST] + t.ends[CEDUO_LEFT_SLOPE] + t.ends[CEDUO_UNFINISHED], number);
 }
 
-static void grazing_contacts(void **state)
+TEST(grazing_contacts)
 {
-    (void)state;
     const double x[] = {0, 20, 40, 60}, z[] = {0, -10, -20, -20};
     for (double v = 1e-3; v < 100; v *= 10) {
         for (double height = 1e-15; height < 1; height *= 1e3) {
@@ -226,9 +224,8 @@ static void grazing_contacts(void **state)
     }
 }
 
-static void launch_at_a_vertex(void **state)
+TEST(launch_at_a_vertex)
 {
-    (void)state;
     const double x[] = {0, 3, 7, 8, 12, 30}, z[] = {0, -2, -2.5, -5, -4.5, -9};
     for (size_t i = 0; i < LENGTH(x) - 1; i++)
         for (int turn = 0; turn < 16; turn++) {
@@ -239,9 +236,8 @@ static void launch_at_a_vertex(void **state)
 }
 
 /* With g = 8 and vx = 1 a fall of 4 m takes 1 s and 1 m: all of it without rounding. */
-static void flights_through_a_vertex_to_the_last_bit(void **state)
+TEST(flights_through_a_vertex_to_the_last_bit)
 {
-    (void)state;
     for (int ulps = -1; ulps <= 1; ulps++)
         for (int peak = 0; peak < 2; peak++) {
             double at = ulps < 0 ? nextafter(4, 0) : ulps > 0 ? nextafter(4, 8) : 4;
@@ -253,9 +249,8 @@ static void flights_through_a_vertex_to_the_last_bit(void **state)
         }
 }
 
-static void corners_of_one_degree(void **state)
+TEST(corners_of_one_degree)
 {
-    (void)state;
     double half = 10 * tan(.5 * M_PI / 180);
     const double notch_x[] = {0, 10, 10 + half, 10 + 2 * half, 30}, notch_z[] = {0, -3, -13, -3, -9};
     const double peak_x[] = {0, 10, 10 + half, 10 + 2 * half, 30}, peak_z[] = {0, -3, 7, -3, -9};
@@ -270,9 +265,8 @@ static void corners_of_one_degree(void **state)
         }
 }
 
-static void walls_all_but_upright(void **state)
+TEST(walls_all_but_upright)
 {
-    (void)state;
     for (double run = 1e-9; run < 1e-2; run *= 100) {
         const double x[] = {0, 5, 5 + run, 20, 20 + run, 40}, z[] = {0, -2, -102, -104, -54, -60};
         for (double v = 1e-3; v < 100; v *= 10) {
@@ -286,9 +280,8 @@ static void walls_all_but_upright(void **state)
     }
 }
 
-static void slivers(void **state)
+TEST(slivers)
 {
-    (void)state;
     double x[41], z[41];
     for (int down = -1; down <= 1; down++) {
         for (size_t i = 0; i <= 40; i++) {
@@ -303,9 +296,8 @@ static void slivers(void **state)
     }
 }
 
-static void large_coordinates(void **state)
+TEST(large_coordinates)
 {
-    (void)state;
     for (double size = 1e3; size <= 1e7; size *= 100) {
         const double x[] = {0, .3 * size, .31 * size, .9 * size, size};
         const double z[] = {0, -.25 * size, -.24 * size, -.6 * size, -.61 * size};
@@ -318,9 +310,8 @@ static void large_coordinates(void **state)
     }
 }
 
-static void little_and_much_gravity(void **state)
+TEST(little_and_much_gravity)
 {
-    (void)state;
     const double x[] = {0, 10, 20, 40, 60}, z[] = {0, -8, -12, -30, -31};
     for (double g = 1e-3; g <= 1e3; g *= 10) {
         profile(5, x, z, earth, .3);
@@ -331,9 +322,8 @@ static void little_and_much_gravity(void **state)
 }
 
 /* Where all is 1 the rocks may go on for ever, and are counted as unfinished. */
-static void shares_of_none_and_all(void **state)
+TEST(shares_of_none_and_all)
 {
-    (void)state;
     const double x[] = {0, 10, 20, 30}, z[] = {0, -8, -9, -9};
     run_rocks = 2;
     for (int rn = 0; rn < 2; rn++)
@@ -345,9 +335,8 @@ static void shares_of_none_and_all(void **state)
     run_rocks = 40;
 }
 
-static void small_and_large_rocks(void **state)
+TEST(small_and_large_rocks)
 {
-    (void)state;
     const double x[] = {0, 10, 20, 40, 60}, z[] = {0, -8, -12, -30, -31};
     for (double r = 1e-3; r <= 100; r *= 10) {
         profile(5, x, z, earth, r);
@@ -356,9 +345,8 @@ static void small_and_large_rocks(void **state)
     }
 }
 
-static void slow_and_fast_rocks(void **state)
+TEST(slow_and_fast_rocks)
 {
-    (void)state;
     const double x[] = {0, 10, 20, 40, 60}, z[] = {0, -8, -12, -30, -31};
     for (double v = 1e-12; v <= 1e3; v *= 10)
         for (int turn = 0; turn < 8; turn++) {
@@ -380,9 +368,8 @@ static void slow_and_fast_rocks(void **state)
     by_design = 0;
 }
 
-static void roughness_up_to_89_degrees(void **state)
+TEST(roughness_up_to_89_degrees)
 {
-    (void)state;
     const double x[] = {0, 10, 20, 40, 60}, z[] = {0, -8, -12, -30, -31};
     static const double degrees[] = {0, 1e-9, 1, 45, 80, 89};
     struct invariants_tally t = {0};
@@ -403,9 +390,8 @@ static void roughness_up_to_89_degrees(void **state)
         }
 }
 
-static void rebounds_without_end(void **state)
+TEST(rebounds_without_end)
 {
-    (void)state;
     const double x[] = {0, 10}, z[] = {0, 0};
     profile(2, x, z, (struct line_ground){1, 1, .5}, .1);
     release(5, 2, 0, 0);
@@ -418,9 +404,8 @@ static void rebounds_without_end(void **state)
 
 /* Random scenes in which a rock goes to and fro in a crack of 12 or 42 micrometres, or of 8 nanometres where it hops along one
  * wall now and then, or on its bottom with Rn = 1, where the law takes less and less: more contacts than are counted. */
-static void cracks(void **state)
+TEST(cracks)
 {
-    (void)state;
     static const uint64_t numbers[] = {123445, 2688044, 5280488, 8903797};
     static struct line_scene scene;
     struct invariants_tally t = {0};
@@ -435,9 +420,8 @@ static void cracks(void **state)
     EXPECT(t.last.end, ==, CEDUO_AT_REST);
 }
 
-static void pits(void **state)
+TEST(pits)
 {
-    (void)state;
     for (double width = .01; width < 20; width *= 3)
         for (double depth = .01; depth < 20; depth *= 5)
             for (int flat = 0; flat < 2; flat++) {
@@ -453,9 +437,8 @@ static void pits(void **state)
             }
 }
 
-static void noise_of_every_size(void **state)
+TEST(noise_of_every_size)
 {
-    (void)state;
     const double radius = .3;
     struct line_random random = {.state = 4};
     for (double scale = radius / 100; scale <= 101 * radius; scale *= 10)
@@ -473,9 +456,8 @@ static void noise_of_every_size(void **state)
 }
 
 /* A million segments, finer than rounding lets most tools have them. */
-static void a_million_segments(void **state)
+TEST(a_million_segments)
 {
-    (void)state;
     const size_t vertices = 1000001;
     struct line_random random = {.state = 6};
     double *x = malloc(vertices * sizeof *x), *z = malloc(vertices * sizeof *z);
@@ -510,25 +492,5 @@ int main(int argc, char **argv)
         scenes = strtoull(argv[1], NULL, 10);
     if (argc > 2)
         first = strtoull(argv[2], NULL, 10);
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(grazing_contacts),
-        cmocka_unit_test(launch_at_a_vertex),
-        cmocka_unit_test(flights_through_a_vertex_to_the_last_bit),
-        cmocka_unit_test(corners_of_one_degree),
-        cmocka_unit_test(walls_all_but_upright),
-        cmocka_unit_test(slivers),
-        cmocka_unit_test(large_coordinates),
-        cmocka_unit_test(little_and_much_gravity),
-        cmocka_unit_test(shares_of_none_and_all),
-        cmocka_unit_test(small_and_large_rocks),
-        cmocka_unit_test(slow_and_fast_rocks),
-        cmocka_unit_test(roughness_up_to_89_degrees),
-        cmocka_unit_test(rebounds_without_end),
-        cmocka_unit_test(cracks),
-        cmocka_unit_test(pits),
-        cmocka_unit_test(noise_of_every_size),
-        cmocka_unit_test(a_million_segments),
-        cmocka_unit_test(random_scenes),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return test_run(NULL, NULL);
 }

@@ -41,9 +41,8 @@ static void look(const struct ceduo_observation *seen, double distance[BLOCKS], 
     ceduo_observer_free(observer);
 }
 
-static void one_ground_gives_all_three_blocks(void **state)
+TEST(one_ground_gives_all_three_blocks)
 {
-    (void)state;
     double distance[BLOCKS], mean[BLOCKS];
     assert_int_equal(file.observations_count, BLOCKS);
     const size_t counts[BLOCKS] = {29, 25, 26}; /* Volkwein and Gerber 2018 */
@@ -55,9 +54,8 @@ static void one_ground_gives_all_three_blocks(void **state)
 }
 
 /* Every block a sphere of the same mean diameter: all stop at one place. */
-static void without_its_shape_the_plate_goes_too_far(void **state)
+TEST(without_its_shape_the_plate_goes_too_far)
 {
-    (void)state;
     struct ceduo_observation round[BLOCKS];
     struct ceduo_rock_def rocks[BLOCKS];
     double distance[BLOCKS], mean[BLOCKS];
@@ -74,9 +72,8 @@ static void without_its_shape_the_plate_goes_too_far(void **state)
 }
 
 /* mu acts through the shape: one block that is fitted does not tell it, two do. */
-static void two_shapes_tell_mu(void **state)
+TEST(two_shapes_tell_mu)
 {
-    (void)state;
     struct ceduo_observation seen[BLOCKS];
     for (size_t b = 0; b < BLOCKS; b++)
         seen[b] = file.observations[b];
@@ -95,10 +92,5 @@ static void two_shapes_tell_mu(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(one_ground_gives_all_three_blocks),
-        cmocka_unit_test(without_its_shape_the_plate_goes_too_far),
-        cmocka_unit_test(two_shapes_tell_mu),
-    };
-    return cmocka_run_group_tests(tests, read_scene, free_scene);
+    return test_run(read_scene, free_scene);
 }

@@ -290,24 +290,21 @@ static void compare_random_scenes(uint64_t count, bool arm)
     EXPECT(contacts, >, 500 * count);
 }
 
-static void random_scenes(void **state)
+TEST(random_scenes)
 {
-    (void)state;
     compare_random_scenes(SCENES, false);
 }
 
-static void random_scenes_of_rocks_that_are_not_round(void **state)
+TEST(random_scenes_of_rocks_that_are_not_round)
 {
-    (void)state;
     compare_random_scenes(SCENES / 2, true);
 }
 
 /* ---- scenes of their own ---- */
 
 /* Every reading of the paper's site: laws, theta, facets, scaled Rn, forest. */
-static void the_papers_site(void **state)
+TEST(the_papers_site)
 {
-    (void)state;
     double cell_x[50];
     for (int i = 0; i < 50; i++)
         cell_x[i] = paper_x[PAPER_SEGMENTS] * (i + 1) / 50;
@@ -336,9 +333,8 @@ static void the_papers_site(void **state)
 }
 
 /* A profile with blocks of several levels, and steep places. */
-static void a_long_profile(void **state)
+TEST(a_long_profile)
 {
-    (void)state;
     static struct ceduo_segment segments[LONG_VERTICES - 1];
     static double x[LONG_VERTICES], z[LONG_VERTICES];
     struct line_random r = {.state = 3};
@@ -393,9 +389,8 @@ static void *raise_soon(void *flag)
 }
 
 /* Rocks that hop on level ground for ever: the flag is seen on the way, and nothing of the block stays. */
-static void a_raised_flag_is_seen_by_rocks_under_way(void **state)
+TEST(a_raised_flag_is_seen_by_rocks_under_way)
 {
-    (void)state;
     const double x[] = {0, 1e9}, z[] = {0, 0};
     for (size_t i = 0; i < WIDE; i++) {
         struct line_scene line;
@@ -422,16 +417,4 @@ static void a_raised_flag_is_seen_by_rocks_under_way(void **state)
         ceduo_run_free(scalar);
         ceduo_run_free(run);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(random_scenes),
-        cmocka_unit_test(random_scenes_of_rocks_that_are_not_round),
-        cmocka_unit_test(the_papers_site),
-        cmocka_unit_test(a_long_profile),
-        cmocka_unit_test(a_raised_flag_is_seen_by_rocks_under_way),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

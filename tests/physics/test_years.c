@@ -276,9 +276,8 @@ static void expect_direct(const struct ceduo_year *y, const struct ceduo_simulat
         ceduo_grown_stand_release(&stands[i]);
 }
 
-static void years_are_runs_of_their_own(void **state)
+TEST(years_are_runs_of_their_own)
 {
-    (void)state;
     init();
     struct ceduo_simulated bare = bare_of(ROCKS);
     struct ceduo_years *years = flown(0, 26, 1, 2, ROCKS);
@@ -294,9 +293,8 @@ static void years_are_runs_of_their_own(void **state)
     ceduo_simulated_free(&bare);
 }
 
-static void poisson_too(void **state)
+TEST(poisson_too)
 {
-    (void)state;
     init();
     wood.site.scene.simulation.contact_model = CEDUO_POISSON;
     struct ceduo_simulated bare = bare_of(ROCKS);
@@ -307,9 +305,8 @@ static void poisson_too(void **state)
     ceduo_simulated_free(&bare);
 }
 
-static void year_0_is_the_result(void **state)
+TEST(year_0_is_the_result)
 {
-    (void)state;
     init();
     struct ceduo_pool *pool = pool_of(1, NULL);
     struct ceduo_result *result;
@@ -331,9 +328,8 @@ static void year_0_is_the_result(void **state)
     ceduo_pool_free(pool);
 }
 
-static void steps_and_stretches_pick_from_all(void **state)
+TEST(steps_and_stretches_pick_from_all)
 {
-    (void)state;
     init();
     struct ceduo_years *all = flown(0, 20, 1, 1, 300);
     static const unsigned stretches[][3] = {{3, 3, 1}, {2, 20, 6}, {0, 19, 7}, {5, 6, 50}};
@@ -350,9 +346,8 @@ static void steps_and_stretches_pick_from_all(void **state)
     ceduo_years_free(all);
 }
 
-static void threads_and_steps_change_nothing(void **state)
+TEST(threads_and_steps_change_nothing)
 {
-    (void)state;
     init();
     struct ceduo_years *one = flown(0, 5, 1, 1, 3000), *two = flown(0, 5, 1, 2, 3000), *steps = grown(0, 5, 1);
     struct ceduo_pool *pool = pool_of(2, NULL);
@@ -371,9 +366,8 @@ static void threads_and_steps_change_nothing(void **state)
     ceduo_years_free(steps);
 }
 
-static void a_wood_is_flown_once(void **state)
+TEST(a_wood_is_flown_once)
 {
-    (void)state;
     init();
     wood.belts[1].stand.cutting.cohorts = 1;
     wood.belts[1].cut_year = 7;
@@ -469,9 +463,8 @@ static void expect_sum(const struct ceduo_years *years, size_t c)
             fail_msg("figure %zu: %.17g is not %.17g", i, pairs[i][0], pairs[i][1]);
 }
 
-static void sums_over_the_years(void **state)
+TEST(sums_over_the_years)
 {
-    (void)state;
     for (int rate = 0; rate < 2; rate++) {
         init();
         wood.site.scene.rocks_per_year = rate ? 2.5 : NAN;
@@ -484,9 +477,8 @@ static void sums_over_the_years(void **state)
 }
 
 /* The first of the rocks say how much one spreads, but the mean is of all. */
-static void more_rocks_than_are_paired(void **state)
+TEST(more_rocks_than_are_paired)
 {
-    (void)state;
     enum { MANY = CEDUO_PAIRED_ROCKS + 300000 };
     const double paired = CEDUO_PAIRED_ROCKS;
     init();
@@ -516,9 +508,8 @@ static void more_rocks_than_are_paired(void **state)
 }
 
 /* Of blocks of all sizes the shares of years are weighed; the error is what a regression on the weights leaves. */
-static void years_of_blocks(void **state)
+TEST(years_of_blocks)
 {
-    (void)state;
     enum { FEW = 300 };
     static double volumes[] = {.05, 1}, marks[2][FEW];
     struct ceduo_block_class blocks = {.per_year = 1, .exponent = 1, .volumes_count = 2, .volumes = volumes};
@@ -565,9 +556,8 @@ static void years_of_blocks(void **state)
     ceduo_years_free(years[1]);
 }
 
-static void metres_felled(void **state)
+TEST(metres_felled)
 {
-    (void)state;
     init();
     double whole = 0;
     for (int i = 0; i < BELTS; i++) { /* all three alike, each in a year of its own */
@@ -590,9 +580,8 @@ static void metres_felled(void **state)
     ceduo_years_free(years);
 }
 
-static void by_the_index_alone(void **state)
+TEST(by_the_index_alone)
 {
-    (void)state;
     init();
     wood.site.scene.simulation.contact_model = CEDUO_INDEX;
     struct ceduo_years *years = grown(0, 15, 1);
@@ -626,9 +615,8 @@ static void by_the_index_alone(void **state)
     ceduo_years_free(years);
 }
 
-static void no_forest_is_the_bare_run(void **state)
+TEST(no_forest_is_the_bare_run)
 {
-    (void)state;
     init();
     wood.option.belts_count = 0;
     struct ceduo_simulated bare = bare_of(500);
@@ -647,9 +635,8 @@ static void no_forest_is_the_bare_run(void **state)
     ceduo_years_free(NULL);
 }
 
-static void nothing_is_hit_in_a_bare_year(void **state)
+TEST(nothing_is_hit_in_a_bare_year)
 {
-    (void)state;
     init();
     wood.option.belts_count = 1;
     wood.belts[0].stand.cutting.stay_count = 0;
@@ -672,9 +659,8 @@ static void expect_window(enum ceduo_window_kind kind, unsigned first, unsigned 
 }
 
 /* One whole rotation from the year on in which all belts have been cut; the scene may name others. */
-static void whole_rotations(void **state)
+TEST(whole_rotations)
 {
-    (void)state;
     init();
     expect_window(CEDUO_WINDOW_ROTATION, 10, 10 + ROTATION - 1); /* the selection coppice's first cut: 10 */
     wood.belts[0].cut_year = 40;
@@ -730,9 +716,8 @@ static void count_run(void *context, uint64_t rocks)
         atomic_store(&stop->cancel, true);
 }
 
-static void it_can_be_cancelled_and_goes_on(void **state)
+TEST(it_can_be_cancelled_and_goes_on)
 {
-    (void)state;
     init();
     struct ceduo_years *whole = flown(0, 8, 1, 2, ROCKS);
     struct ceduo_simulated bare = bare_of(ROCKS);
@@ -765,34 +750,10 @@ static void it_can_be_cancelled_and_goes_on(void **state)
     ceduo_years_free(whole);
 }
 
-static void not_flown_it_is_freed(void **state)
+TEST(not_flown_it_is_freed)
 {
-    (void)state;
     init();
     struct ceduo_years *years = grown(0, 500, 1);
     assert_int_equal(years->count, 501);
     ceduo_years_free(years);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(years_are_runs_of_their_own),
-        cmocka_unit_test(poisson_too),
-        cmocka_unit_test(year_0_is_the_result),
-        cmocka_unit_test(steps_and_stretches_pick_from_all),
-        cmocka_unit_test(threads_and_steps_change_nothing),
-        cmocka_unit_test(a_wood_is_flown_once),
-        cmocka_unit_test(sums_over_the_years),
-        cmocka_unit_test(more_rocks_than_are_paired),
-        cmocka_unit_test(years_of_blocks),
-        cmocka_unit_test(metres_felled),
-        cmocka_unit_test(by_the_index_alone),
-        cmocka_unit_test(no_forest_is_the_bare_run),
-        cmocka_unit_test(nothing_is_hit_in_a_bare_year),
-        cmocka_unit_test(whole_rotations),
-        cmocka_unit_test(it_can_be_cancelled_and_goes_on),
-        cmocka_unit_test(not_flown_it_is_freed),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

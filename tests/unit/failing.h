@@ -6,12 +6,8 @@
 #ifndef FAILING_H
 #define FAILING_H
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-/* cmocka wants the four above first */
-#include <cmocka.h>
+#include "test.h"
+
 #include <errno.h>
 #include <execinfo.h>
 #include <pthread.h>

@@ -3,12 +3,8 @@
 #ifndef GRID_H
 #define GRID_H
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-/* cmocka wants the four above first */
-#include <cmocka.h>
+#include "test.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

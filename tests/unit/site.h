@@ -3,12 +3,8 @@
 #ifndef SITE_H
 #define SITE_H
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-/* cmocka wants the four above first */
-#include <cmocka.h>
+#include "test.h"
+
 #include <math.h>
 #include <string.h>
 

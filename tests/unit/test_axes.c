@@ -24,9 +24,8 @@ static void expect_ticks(double lo, double hi, int max_count, const char *expect
     assert_string_equal(all, expected);
 }
 
-static void ticks_are_round(void **state)
+TEST(ticks_are_round)
 {
-    (void)state;
     expect_ticks(0, 150, 5, "0 50 100 150");
     expect_ticks(0, 150, 4, "0 50 100 150");
     expect_ticks(0, 150, 3, "0 100");
@@ -43,9 +42,8 @@ static void ticks_are_round(void **state)
     EXPECT(tenths[3], ==, 0.3); /* the nearest number there is, and not 3 * 0.1 */
 }
 
-static void ticks_of_awkward_ranges(void **state)
+TEST(ticks_of_awkward_ranges)
 {
-    (void)state;
     const double nan = (double)NAN;
     expect_ticks(0, 0, 5, "0");
     expect_ticks(-0.0, -0.0, 5, "0");
@@ -68,9 +66,8 @@ static void ticks_of_awkward_ranges(void **state)
     expect_ticks(0, 1, 1, "0");
 }
 
-static void ticks_are_evenly_spaced_and_never_too_many(void **state)
+TEST(ticks_are_evenly_spaced_and_never_too_many)
 {
-    (void)state;
     double ticks[CEDUO_TICKS_MAX];
     double step;
     for (int k = -12; k <= 12; ++k) {
@@ -92,9 +89,8 @@ static void ticks_are_evenly_spaced_and_never_too_many(void **state)
     assert_in_range(ceduo_ticks(0, 99, 100000, ticks, NULL), 1, CEDUO_TICKS_MAX);
 }
 
-static void tick_labels_have_no_minus_nought(void **state)
+TEST(tick_labels_have_no_minus_nought)
 {
-    (void)state;
     char label[CEDUO_TICK_LABEL_SIZE];
     ceduo_tick_label(-0.0, 1, sizeof label, label);
     assert_string_equal(label, "0");
@@ -113,9 +109,8 @@ static void tick_labels_have_no_minus_nought(void **state)
 
 /* ---- Axes ---- */
 
-static void axes_in_unicode_and_ascii(void **state)
+TEST(axes_in_unicode_and_ascii)
 {
-    (void)state;
     static const char *const expected[] = {
         "100┤\n"
         "   │\n"
@@ -145,9 +140,8 @@ static void axes_in_unicode_and_ascii(void **state)
     }
 }
 
-static void axis_labels_leave_out_what_has_no_room(void **state)
+TEST(axis_labels_leave_out_what_has_no_room)
 {
-    (void)state;
     struct ceduo_cells *cells = cells_in(12, 5, ASCII);
     struct ceduo_frame frame = {.left = 3, .width = 9, .height = 3, .x1 = 100, .y0 = 0, .y1 = 1000};
     ceduo_canvas_axis_left(&cells->canvas, &frame); /* 1000 does not fit in two columns, 0 does */
@@ -164,9 +158,8 @@ static void axis_labels_leave_out_what_has_no_room(void **state)
     ceduo_cells_free(cells);
 }
 
-static void unit_without_room_after_the_last_number_follows_the_first(void **state)
+TEST(unit_without_room_after_the_last_number_follows_the_first)
 {
-    (void)state;
     struct ceduo_cells *cells = cells_in(36, 3, ASCII);
     struct ceduo_frame frame = {.left = 1, .width = 35, .height = 1, .x1 = 120, .y1 = 1};
     ceduo_canvas_axis_bottom(&cells->canvas, &frame, "m");
@@ -174,9 +167,8 @@ static void unit_without_room_after_the_last_number_follows_the_first(void **sta
     ceduo_cells_free(cells);
 }
 
-static void strip_of_two_rows_has_two_labels(void **state)
+TEST(strip_of_two_rows_has_two_labels)
 {
-    (void)state;
     struct ceduo_cells *cells = cells_in(6, 2, BRAILLE);
     struct ceduo_frame frame = {.left = 2, .width = 4, .height = 2, .x1 = 1, .y1 = 2};
     ceduo_canvas_axis_left(&cells->canvas, &frame);
@@ -184,9 +176,8 @@ static void strip_of_two_rows_has_two_labels(void **state)
     ceduo_cells_free(cells);
 }
 
-static void turned_axis_has_its_unit_at_the_right(void **state)
+TEST(turned_axis_has_its_unit_at_the_right)
 {
-    (void)state;
     struct ceduo_cells *cells = cells_in(20, 3, ASCII);
     struct ceduo_frame frame = {.left = 1, .width = 19, .height = 1, .x0 = 25, .x1 = -5, .y1 = 1};
     ceduo_canvas_axis_bottom(&cells->canvas, &frame, "y");
@@ -194,9 +185,8 @@ static void turned_axis_has_its_unit_at_the_right(void **state)
     ceduo_cells_free(cells);
 }
 
-static void years_have_no_fractions(void **state)
+TEST(years_have_no_fractions)
 {
-    (void)state;
     struct ceduo_cells *cells = cells_in(30, 3, ASCII);
     struct ceduo_frame frame = {.left = 1, .width = 29, .height = 1, .x0 = 0, .x1 = 1, .y1 = 1};
     ceduo_canvas_axis_bottom(&cells->canvas, &frame, "y");
@@ -221,9 +211,8 @@ static int words_in(const char *row)
     return words;
 }
 
-static void bottom_labels_never_touch(void **state)
+TEST(bottom_labels_never_touch)
 {
-    (void)state;
     for (int width = 4; width < 90; ++width) {
         struct ceduo_cells *cells = cells_in(width + 3, 4, ASCII);
         for (int k = -9; k < 12; ++k) {
@@ -247,9 +236,8 @@ static void bottom_labels_never_touch(void **state)
     }
 }
 
-static void axis_width_holds_every_label(void **state)
+TEST(axis_width_holds_every_label)
 {
-    (void)state;
     for (int height = 1; height < 40; ++height) {
         struct ceduo_frame frame = {.width = 4, .height = height, .x1 = 1, .y0 = -12.5, .y1 = 3.3 * height};
         frame.left = ceduo_frame_axis_width(&frame, kind_of(BRAILLE));
@@ -270,23 +258,4 @@ static void axis_width_holds_every_label(void **state)
     }
     struct ceduo_frame bad = {.width = 4, .height = 0, .x1 = 1, .y1 = 1};
     assert_int_equal(ceduo_frame_axis_width(&bad, kind_of(BRAILLE)), 0);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(ticks_are_round),
-        cmocka_unit_test(ticks_of_awkward_ranges),
-        cmocka_unit_test(ticks_are_evenly_spaced_and_never_too_many),
-        cmocka_unit_test(tick_labels_have_no_minus_nought),
-        cmocka_unit_test(axes_in_unicode_and_ascii),
-        cmocka_unit_test(axis_labels_leave_out_what_has_no_room),
-        cmocka_unit_test(unit_without_room_after_the_last_number_follows_the_first),
-        cmocka_unit_test(strip_of_two_rows_has_two_labels),
-        cmocka_unit_test(turned_axis_has_its_unit_at_the_right),
-        cmocka_unit_test(years_have_no_fractions),
-        cmocka_unit_test(bottom_labels_never_touch),
-        cmocka_unit_test(axis_width_holds_every_label),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -36,9 +36,8 @@ static struct ceduo_envelope cell_of(const double *values, size_t n)
 }
 
 /* 1.5 begins the bin from 48/32 to 49/32, whose middle is 97/64; that of a power of two is 65/64 of it. */
-static void a_cell_reads_the_middle_of_a_bin(void **state)
+TEST(a_cell_reads_the_middle_of_a_bin)
 {
-    (void)state;
     const double values[] = {1.5, 2};
     struct ceduo_envelope e = cell_of(values, 2);
     EXPECT(e.speed.p5, ==, 97. / 64);
@@ -49,9 +48,8 @@ static void a_cell_reads_the_middle_of_a_bin(void **state)
 }
 
 /* The middle of the last bin lies above all that is in it. */
-static void a_cell_reads_no_more_than_the_largest(void **state)
+TEST(a_cell_reads_no_more_than_the_largest)
 {
-    (void)state;
     const double values[] = {1.5, 2};
     struct ceduo_envelope e = cell_of(values, 2);
     EXPECT(e.speed.p95, ==, 2);
@@ -65,9 +63,8 @@ static void a_cell_reads_no_more_than_the_largest(void **state)
 }
 
 /* Of 20 rocks 5, 50 and 95 % are the 1st, the 10th and the 19th; of 21 the 2nd, the 11th and the 20th. */
-static void a_cell_reads_the_rock_of_the_rank(void **state)
+TEST(a_cell_reads_the_rock_of_the_rank)
 {
-    (void)state;
     double values[21];
     for (int i = 0; i < 21; i++)
         values[i] = ldexp(1, i);
@@ -82,9 +79,8 @@ static void a_cell_reads_the_rock_of_the_rank(void **state)
 }
 
 /* Speeds have 40 octaves from 2^-10 on: what is beyond them is in the last bin, from 2^29 63/32 to 2^30. */
-static void a_cell_has_an_end(void **state)
+TEST(a_cell_has_an_end)
 {
-    (void)state;
     const double values[] = {0x1p40};
     struct ceduo_envelope e = cell_of(values, 1);
     EXPECT(e.speed.p50, ==, 0x1p29 * (127. / 64));
@@ -94,9 +90,8 @@ static void a_cell_has_an_end(void **state)
 
 /* 2^-10 begins the smallest octave of a speed: what lies below it is read as 0, but for the largest; likewise where
  * nothing is brought. */
-static void a_cell_has_a_beginning(void **state)
+TEST(a_cell_has_a_beginning)
 {
-    (void)state;
     const double values[] = {0x1p-11, 0};
     struct ceduo_envelope e = cell_of(values, 1);
     EXPECT(e.speed.p50, ==, 0);
@@ -108,9 +103,8 @@ static void a_cell_has_a_beginning(void **state)
 }
 
 /* 1000 rocks of 1, 2, … 1000 m/s: more than wait at a time. The 500th lies in the bin of 496 to 504. */
-static void a_cell_counts_all_rocks(void **state)
+TEST(a_cell_counts_all_rocks)
 {
-    (void)state;
     double values[1000];
     for (int i = 0; i < 1000; i++)
         values[i] = i + 1;
@@ -126,9 +120,8 @@ static void a_cell_counts_all_rocks(void **state)
 #define MIDDLE (1 + 1. / 32768)
 
 /* 1 and 3: the second lies at the edge of bin 8192 of the octave from 2 on. */
-static void a_histogram_reads_the_middle_of_a_bin(void **state)
+TEST(a_histogram_reads_the_middle_of_a_bin)
 {
-    (void)state;
     struct histogram h = {0};
     assert_true(ceduo_histogram_add(&h, 1));
     assert_true(ceduo_histogram_add(&h, 3));
@@ -138,9 +131,8 @@ static void a_histogram_reads_the_middle_of_a_bin(void **state)
 }
 
 /* What lies below the smallest octave counts as 0. */
-static void a_histogram_has_a_beginning(void **state)
+TEST(a_histogram_has_a_beginning)
 {
-    (void)state;
     struct histogram h = {0};
     assert_true(ceduo_histogram_add(&h, nextafter(0x1p-64, 0)));
     EXPECT(h.zeros, ==, 1);
@@ -163,9 +155,8 @@ static void expect_cut(const struct ceduo_distribution *d, double p50, double p9
 
 /* Powers of two: of 2 values the first is the median and the second the rest; of 100 it is the 50th, 95th and 99th, the
  * 95th between the 90th and the 100th (as in tables of the binomial law). */
-static void a_distribution_of_bins_has_no_more_than_the_largest(void **state)
+TEST(a_distribution_of_bins_has_no_more_than_the_largest)
 {
-    (void)state;
     static const size_t sizes[] = {1, 2, 100};
     for (int k = 0; k < 3; k++) {
         struct histogram h = {0};
@@ -187,20 +178,4 @@ static void a_distribution_of_bins_has_no_more_than_the_largest(void **state)
                        ldexp(first, 89) * MIDDLE, ldexp(first, 99));
         ceduo_histogram_clear(&h);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_cell_reads_the_middle_of_a_bin),
-        cmocka_unit_test(a_cell_reads_no_more_than_the_largest),
-        cmocka_unit_test(a_cell_reads_the_rock_of_the_rank),
-        cmocka_unit_test(a_cell_has_an_end),
-        cmocka_unit_test(a_cell_has_a_beginning),
-        cmocka_unit_test(a_cell_counts_all_rocks),
-        cmocka_unit_test(a_histogram_reads_the_middle_of_a_bin),
-        cmocka_unit_test(a_histogram_has_a_beginning),
-        cmocka_unit_test(a_distribution_of_bins_has_no_more_than_the_largest),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -108,9 +108,8 @@ static double quantile(const double *sorted, size_t n, double p)
 
 /* A normal law, of which a quantile of 200 independent draws is known to 0.19 (2.5 and 97.5 %) and 0.09 (the median) of its sd; and
  * the quantiles of the draws themselves. */
-static void a_normal_law_is_found(void **state)
+TEST(a_normal_law_is_found)
 {
-    (void)state;
     struct ceduo_scene scene = flight(0);
     const struct ceduo_observation seen = speed(14, 1);
     struct ceduo_calibration a = fit_of(&scene, &seen, 1, 2, NULL);
@@ -129,9 +128,8 @@ static void a_normal_law_is_found(void **state)
 
 /* A value lies at a bound where the best one is there, though half of the draws are farther than a twentieth from it (half a normal
  * law: its median is 0.67 sd); or where they are not, though the best one is. What is not determined lies nowhere. */
-static void what_lies_at_a_bound(void **state)
+TEST(what_lies_at_a_bound)
 {
-    (void)state;
     struct ceduo_fitted p = fitted_to(LO, 2);
     assert_true(p.determined && p.at_bound);
     EXPECT(p.best, <, LO + 0.01);
@@ -149,9 +147,8 @@ static void what_lies_at_a_bound(void **state)
 }
 
 /* What says nothing leaves the value as it was before, uniform: draws with variance 1/12 of the range squared. */
-static void nothing_seen_leaves_a_uniform_law(void **state)
+TEST(nothing_seen_leaves_a_uniform_law)
 {
-    (void)state;
     struct ceduo_scene scene = flight(0);
     const struct ceduo_observation seen = all_pass();
     struct ceduo_calibration a = fit_of(&scene, &seen, 1, 2, NULL);
@@ -171,9 +168,8 @@ static void nothing_seen_leaves_a_uniform_law(void **state)
 }
 
 /* What fits the better the faster, beyond the upper bound too: the simplex ends where it may not go on, 1/(1 + e^-9) of the range. */
-static void a_simplex_stays_within_its_bounds(void **state)
+TEST(a_simplex_stays_within_its_bounds)
 {
-    (void)state;
     struct ceduo_scene scene = flight(0);
     const struct ceduo_observation seen = speed(25, 1);
     struct way way = {NAN};
@@ -187,9 +183,8 @@ static void a_simplex_stays_within_its_bounds(void **state)
 /* ---- what is predicted ---- */
 
 /* Of two things fitted, or to check the fit, one that the model cannot give is enough, wherever it stands. */
-static void one_misfit_is_enough(void **state)
+TEST(one_misfit_is_enough)
 {
-    (void)state;
     struct ceduo_scene scene = flight(0);
     for (int first = 0; first < 2; first++)
         for (int check = 0; check < 2; check++) {
@@ -206,9 +201,8 @@ static void one_misfit_is_enough(void **state)
 }
 
 /* p is of other rocks than those of the fit: they differ from those of the scene as two samples do. */
-static void other_rocks_than_those_of_the_fit(void **state)
+TEST(other_rocks_than_those_of_the_fit)
 {
-    (void)state;
     struct ceduo_scene scene = flight(2);
     input.path = density;
     input.places = &density;
@@ -227,9 +221,8 @@ static void other_rocks_than_those_of_the_fit(void **state)
 }
 
 /* Two rocks of each of 200 draws are 400 single values, which tell 95 % of them; one of each is not enough. */
-static void few_single_values_tell_nothing(void **state)
+TEST(few_single_values_tell_nothing)
 {
-    (void)state;
     struct ceduo_scene scene = flight(0);
     struct ceduo_observation seen[2] = {all_pass(), speed(15, 1)};
     struct ceduo_calibration a = fit_of(&scene, seen, 2, 2, NULL);
@@ -246,9 +239,8 @@ static void few_single_values_tell_nothing(void **state)
 
 /* 400 lists of what rocks of another seed did, and 400 means of them: each p is as likely as any other, in ten classes by Pearson's
  * test with 9 degrees of freedom at one of a thousand. */
-static void p_is_uniform_under_the_truth(void **state)
+TEST(p_is_uniform_under_the_truth)
 {
-    (void)state;
     static struct ceduo_observation seen[2 * SEEN];
     static struct ceduo_predicted p[2 * SEEN];
     struct ceduo_scene scene = flight(2), truth = scene;
@@ -284,19 +276,4 @@ static void p_is_uniform_under_the_truth(void **state)
         EXPECT(chi2, <, 27.88);
     }
     free(values);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_normal_law_is_found),
-        cmocka_unit_test(what_lies_at_a_bound),
-        cmocka_unit_test(nothing_seen_leaves_a_uniform_law),
-        cmocka_unit_test(a_simplex_stays_within_its_bounds),
-        cmocka_unit_test(one_misfit_is_enough),
-        cmocka_unit_test(other_rocks_than_those_of_the_fit),
-        cmocka_unit_test(few_single_values_tell_nothing),
-        cmocka_unit_test(p_is_uniform_under_the_truth),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -9,9 +9,8 @@ static void count_line(struct ceduo_cells *cells, const struct ceduo_frame *fram
 
 /* ---- Lines ---- */
 
-static void lines_in_each_charset(void **state)
+TEST(lines_in_each_charset)
 {
-    (void)state;
     static const char *const expected[] = {
         "⠑⢄\n  ⠑⢄\n",
         "▚\n ▚\n",
@@ -30,9 +29,8 @@ static void lines_in_each_charset(void **state)
     }
 }
 
-static void steep_and_flat_lines_have_no_gaps(void **state)
+TEST(steep_and_flat_lines_have_no_gaps)
 {
-    (void)state;
     struct ceduo_cells *cells = cells_in(3, 2, BRAILLE);
     struct ceduo_frame frame = dots_of(cells);
     ceduo_canvas_line(&cells->canvas, &frame, CEDUO_ROLE_WAY, 0, 0, 1, 7);
@@ -42,9 +40,8 @@ static void steep_and_flat_lines_have_no_gaps(void **state)
     ceduo_cells_free(cells);
 }
 
-static void what_lies_outside_is_clipped(void **state)
+TEST(what_lies_outside_is_clipped)
 {
-    (void)state;
     struct ceduo_cells *cells = cells_in(4, 2, BLOCK);
     struct ceduo_frame frame = dots_of(cells);
     frame.left = 1;
@@ -72,9 +69,8 @@ static void what_lies_outside_is_clipped(void **state)
     ceduo_cells_free(cells);
 }
 
-static void frame_may_hang_over_the_canvas(void **state)
+TEST(frame_may_hang_over_the_canvas)
 {
-    (void)state;
     struct ceduo_cells *cells = cells_in(3, 1, ASCII);
     struct ceduo_frame frame = {.left = -2, .top = -1, .width = 7, .height = 3, .x1 = 6, .y1 = 5};
     ceduo_canvas_line(&cells->canvas, &frame, CEDUO_ROLE_WAY, 0, 3, 6, 3);
@@ -83,9 +79,8 @@ static void frame_may_hang_over_the_canvas(void **state)
     ceduo_cells_free(cells);
 }
 
-static void what_is_not_finite_is_never_drawn(void **state)
+TEST(what_is_not_finite_is_never_drawn)
 {
-    (void)state;
     const double nan = (double)NAN;
     const double inf = (double)INFINITY;
     struct ceduo_cells *cells = cells_in(7, 1, ASCII);
@@ -108,9 +103,8 @@ static void what_is_not_finite_is_never_drawn(void **state)
     ceduo_cells_free(cells);
 }
 
-static void useless_frames_draw_nothing(void **state)
+TEST(useless_frames_draw_nothing)
 {
-    (void)state;
     static const struct ceduo_frame frames[] = {
         {.width = 4, .height = 2, .x1 = 0, .y1 = 1},
         {.width = 4, .height = 2, .x1 = 1, .y1 = 0},
@@ -144,9 +138,8 @@ static void useless_frames_draw_nothing(void **state)
     ceduo_cells_free(cells);
 }
 
-static void axes_may_be_turned_round(void **state)
+TEST(axes_may_be_turned_round)
 {
-    (void)state;
     struct ceduo_cells *cells = cells_in(3, 2, ASCII);
     struct ceduo_frame frame = {.width = 3, .height = 2, .x0 = 2, .x1 = 0, .y0 = 3, .y1 = 0};
     draw_point(cells, &frame, CEDUO_ROLE_WAY, 0, 3);
@@ -155,9 +148,8 @@ static void axes_may_be_turned_round(void **state)
     ceduo_cells_free(cells);
 }
 
-static void stairs_hold_the_value_before(void **state)
+TEST(stairs_hold_the_value_before)
 {
-    (void)state;
     const double x[] = {0, 3, 5};
     const double y[] = {3, 1, 0};
     struct ceduo_cells *cells = cells_in(6, 2, ASCII);
@@ -169,9 +161,8 @@ static void stairs_hold_the_value_before(void **state)
     ceduo_cells_free(cells);
 }
 
-static void rules_are_dotted(void **state)
+TEST(rules_are_dotted)
 {
-    (void)state;
     static const char *const across[] = {"\n⡀⡀⡀⡀\n", "\n▖▖▖▖\n", "\n. .\n"};
     static const char *const up[] = {"⠅\n⠅\n", "▘\n▘\n", "'\n'\n"};
     for (int i = 0; i <= LAST_CHARSET; ++i) {
@@ -188,9 +179,8 @@ static void rules_are_dotted(void **state)
     }
 }
 
-static void bars_go_by_eighths(void **state)
+TEST(bars_go_by_eighths)
 {
-    (void)state;
     static const struct {
         double fraction;
         const char *utf8, *ascii;
@@ -217,9 +207,8 @@ static void bars_go_by_eighths(void **state)
 
 /* ---- Density ---- */
 
-static void density_shows_the_most_travelled_dots(void **state)
+TEST(density_shows_the_most_travelled_dots)
 {
-    (void)state;
     static const struct {
         double quantile;
         const char *text;
@@ -245,9 +234,8 @@ static void density_shows_the_most_travelled_dots(void **state)
     }
 }
 
-static void a_way_counts_once_where_its_parts_meet(void **state)
+TEST(a_way_counts_once_where_its_parts_meet)
 {
-    (void)state;
     const double x[] = {-9, 0, 0.2, 0.4, 1, 2, 2, 99};
     const double y[] = {0, 0, 0, 0, 0, 0, 0, 0};
     for (int i = 0; i <= LAST_CHARSET; ++i) {
@@ -262,9 +250,8 @@ static void a_way_counts_once_where_its_parts_meet(void **state)
     }
 }
 
-static void density_counts_only_within_the_canvas(void **state)
+TEST(density_counts_only_within_the_canvas)
 {
-    (void)state;
     struct ceduo_cells *cells = cells_in(2, 1, BRAILLE);
     struct ceduo_frame frame = {.left = -3, .top = -3, .width = 12, .height = 9, .x1 = 1, .y1 = 1};
     ceduo_canvas_cloud_start(&cells->canvas);
@@ -278,9 +265,8 @@ static void density_counts_only_within_the_canvas(void **state)
 
 /* ---- True scale ---- */
 
-static void forty_five_degrees_are_forty_five_degrees(void **state)
+TEST(forty_five_degrees_are_forty_five_degrees)
 {
-    (void)state;
     static const char *const expected[] = {
         "      ⡠⠊\n    ⡠⠊\n  ⡠⠊\n⡠⠊\n",
         "      ▄▀\n    ▄▀\n  ▄▀\n▗▀\n",
@@ -298,9 +284,8 @@ static void forty_five_degrees_are_forty_five_degrees(void **state)
     }
 }
 
-static void true_scale_moves_one_dot_across_for_each_dot_up(void **state)
+TEST(true_scale_moves_one_dot_across_for_each_dot_up)
 {
-    (void)state;
     struct ceduo_cells *cells = cells_in(30, 9, BRAILLE);
     struct ceduo_frame frame = {.width = 30, .height = 9};
     assert_true(ceduo_frame_true_scale(&frame, kind_of(BRAILLE), 0, 150, 0, 20));
@@ -312,9 +297,8 @@ static void true_scale_moves_one_dot_across_for_each_dot_up(void **state)
     ceduo_cells_free(cells);
 }
 
-static void true_scale_fits_and_centres(void **state)
+TEST(true_scale_fits_and_centres)
 {
-    (void)state;
     struct ceduo_frame frame = {.width = 10, .height = 5}; /* 20 x 20 dots of braille */
     assert_true(ceduo_frame_true_scale(&frame, kind_of(BRAILLE), 0, 19, 4, 10));
     assert_float_equal(frame.x0, 0, 1e-12);
@@ -335,9 +319,8 @@ static void true_scale_fits_and_centres(void **state)
     assert_false(ceduo_frame_true_scale(&frame, kind_of(BRAILLE), 0, 1, 0, 1));
 }
 
-static void frame_cell_is_where_the_point_is_drawn(void **state)
+TEST(frame_cell_is_where_the_point_is_drawn)
 {
-    (void)state;
     for (int i = 0; i <= LAST_CHARSET; ++i) {
         enum ceduo_charset charset = (enum ceduo_charset)i;
         struct ceduo_cells *cells = cells_in(9, 6, charset);
@@ -359,28 +342,4 @@ static void frame_cell_is_where_the_point_is_drawn(void **state)
         assert_false(ceduo_frame_cell(&frame, kind_of(charset), (double)NAN, 11, &column, &row));
         ceduo_cells_free(cells);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(lines_in_each_charset),
-        cmocka_unit_test(steep_and_flat_lines_have_no_gaps),
-        cmocka_unit_test(what_lies_outside_is_clipped),
-        cmocka_unit_test(frame_may_hang_over_the_canvas),
-        cmocka_unit_test(what_is_not_finite_is_never_drawn),
-        cmocka_unit_test(useless_frames_draw_nothing),
-        cmocka_unit_test(axes_may_be_turned_round),
-        cmocka_unit_test(stairs_hold_the_value_before),
-        cmocka_unit_test(rules_are_dotted),
-        cmocka_unit_test(bars_go_by_eighths),
-        cmocka_unit_test(density_shows_the_most_travelled_dots),
-        cmocka_unit_test(a_way_counts_once_where_its_parts_meet),
-        cmocka_unit_test(density_counts_only_within_the_canvas),
-        cmocka_unit_test(forty_five_degrees_are_forty_five_degrees),
-        cmocka_unit_test(true_scale_moves_one_dot_across_for_each_dot_up),
-        cmocka_unit_test(true_scale_fits_and_centres),
-        cmocka_unit_test(frame_cell_is_where_the_point_is_drawn),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

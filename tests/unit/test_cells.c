@@ -3,9 +3,8 @@
 
 /* ---- The cells ---- */
 
-static void sizes_are_limited(void **state)
+TEST(sizes_are_limited)
 {
-    (void)state;
     assert_null(ceduo_cells_create(0, 10, BRAILLE));
     assert_null(ceduo_cells_create(10, 0, BRAILLE));
     assert_null(ceduo_cells_create(-1, -1, BRAILLE));
@@ -15,9 +14,8 @@ static void sizes_are_limited(void **state)
     ceduo_cells_free(NULL);
 }
 
-static void blank_canvas_is_empty_rows(void **state)
+TEST(blank_canvas_is_empty_rows)
 {
-    (void)state;
     struct ceduo_cells *cells = cells_in(4, 2, BRAILLE);
     expect_text(cells, "\n\n");
     expect_roles(cells, "\n\n");
@@ -27,9 +25,8 @@ static void blank_canvas_is_empty_rows(void **state)
     ceduo_cells_free(cells);
 }
 
-static void each_dot_has_its_glyph(void **state)
+TEST(each_dot_has_its_glyph)
 {
-    (void)state;
     static const struct {
         enum ceduo_charset charset;
         const char *glyphs[4][2]; /* row from the top, column */
@@ -51,9 +48,8 @@ static void each_dot_has_its_glyph(void **state)
     }
 }
 
-static void all_quadrants(void **state)
+TEST(all_quadrants)
 {
-    (void)state;
     struct ceduo_cells *cells = cells_in(16, 1, BLOCK);
     struct ceduo_frame frame = dots_of(cells);
     for (int mask = 0; mask < 16; ++mask) {
@@ -67,9 +63,8 @@ static void all_quadrants(void **state)
     ceduo_cells_free(cells);
 }
 
-static void row_text_is_cut_at_a_character(void **state)
+TEST(row_text_is_cut_at_a_character)
 {
-    (void)state;
     struct ceduo_cells *cells = cells_in(5, 2, BRAILLE);
     char buffer[16];
     ceduo_cells_label(cells, 0, 0, CEDUO_ROLE_TEXT, "a±b  ");
@@ -89,9 +84,8 @@ static void row_text_is_cut_at_a_character(void **state)
 
 /* ---- Roles ---- */
 
-static void rank_decides_the_role_whoever_draws_first(void **state)
+TEST(rank_decides_the_role_whoever_draws_first)
 {
-    (void)state;
     static const enum ceduo_role falling[] = {
         CEDUO_ROLE_CURSOR, CEDUO_ROLE_WAY,    CEDUO_ROLE_CONTROL, CEDUO_ROLE_MEAN, CEDUO_ROLE_ENVELOPE, CEDUO_ROLE_STEM,
         CEDUO_ROLE_STOOL,  CEDUO_ROLE_GROUND, CEDUO_ROLE_CLOUD,   CEDUO_ROLE_AXIS, CEDUO_ROLE_DIM,
@@ -111,9 +105,8 @@ static void rank_decides_the_role_whoever_draws_first(void **state)
     ceduo_cells_free(cells);
 }
 
-static void text_hides_dots(void **state)
+TEST(text_hides_dots)
 {
-    (void)state;
     struct ceduo_cells *cells = cells_in(5, 1, ASCII);
     struct ceduo_frame frame = dots_of(cells);
     ceduo_canvas_line(&cells->canvas, &frame, CEDUO_ROLE_WAY, 0, 0, 4, 0);
@@ -127,9 +120,8 @@ static void text_hides_dots(void **state)
     ceduo_cells_free(cells);
 }
 
-static void every_role_has_its_letter(void **state)
+TEST(every_role_has_its_letter)
 {
-    (void)state;
     struct ceduo_cells *cells = cells_in(CEDUO_ROLE_COUNT, 1, ASCII);
     for (int role = 0; role < CEDUO_ROLE_COUNT; ++role) {
         ceduo_cells_label(cells, role, 0, (enum ceduo_role)role, "#");
@@ -141,9 +133,8 @@ static void every_role_has_its_letter(void **state)
 
 /* ---- Text ---- */
 
-static void labels_are_cut_at_the_canvas(void **state)
+TEST(labels_are_cut_at_the_canvas)
 {
-    (void)state;
     struct ceduo_cells *cells = cells_in(4, 1, BRAILLE);
     assert_int_equal(ceduo_cells_label(cells, 2, 0, CEDUO_ROLE_TITLE, "stool"), 5);
     assert_int_equal(ceduo_cells_label(cells, -3, 0, CEDUO_ROLE_TEXT, "Ø m²"), 4);
@@ -159,9 +150,8 @@ static void labels_are_cut_at_the_canvas(void **state)
     ceduo_cells_free(cells);
 }
 
-static void odd_characters_become_question_marks(void **state)
+TEST(odd_characters_become_question_marks)
 {
-    (void)state;
     static const struct {
         const char *text, *utf8, *ascii;
     } cases[] = {
@@ -190,9 +180,8 @@ static void odd_characters_become_question_marks(void **state)
     ceduo_cells_free(ascii);
 }
 
-static void ascii_has_near_equivalents(void **state)
+TEST(ascii_has_near_equivalents)
 {
-    (void)state;
     static const char *const pairs[][2] = {
         {"2×3", "2x3"},
         {"±0.3 %", "+-0.3 %"},
@@ -233,9 +222,8 @@ static void ascii_has_near_equivalents(void **state)
     ceduo_cells_free(block);
 }
 
-static void texts_are_cut_at_either_end(void **state)
+TEST(texts_are_cut_at_either_end)
 {
-    (void)state;
     struct ceduo_cells *cells = cells_in(8, 1, BRAILLE);
     assert_int_equal(ceduo_canvas_put(&cells->canvas, 0, 0, 5, CEDUO_ROLE_TEXT, "coppice"), 5);
     expect_and_clear(cells, "copp…\n");
@@ -254,23 +242,4 @@ static void texts_are_cut_at_either_end(void **state)
     assert_int_equal(ceduo_canvas_put(&cells->canvas, 0, 0, 4, CEDUO_ROLE_TEXT, "35 … 40"), 4);
     expect_text(cells, "35 ~\n");
     ceduo_cells_free(cells);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(sizes_are_limited),
-        cmocka_unit_test(blank_canvas_is_empty_rows),
-        cmocka_unit_test(each_dot_has_its_glyph),
-        cmocka_unit_test(all_quadrants),
-        cmocka_unit_test(row_text_is_cut_at_a_character),
-        cmocka_unit_test(rank_decides_the_role_whoever_draws_first),
-        cmocka_unit_test(text_hides_dots),
-        cmocka_unit_test(every_role_has_its_letter),
-        cmocka_unit_test(labels_are_cut_at_the_canvas),
-        cmocka_unit_test(odd_characters_become_question_marks),
-        cmocka_unit_test(ascii_has_near_equivalents),
-        cmocka_unit_test(texts_are_cut_at_either_end),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

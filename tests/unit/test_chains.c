@@ -93,26 +93,23 @@ static void expect_normal(const struct chains_def *def)
     ceduo_chains_release(&c);
 }
 
-static void a_normal_law_is_drawn_from(void **state)
+TEST(a_normal_law_is_drawn_from)
 {
-    (void)state;
     struct chains_def def = two_dimensions();
     expect_normal(&def);
 }
 
 /* Whatever the guess says, the draws are those of the density. */
-static void a_wrong_guess_changes_nothing(void **state)
+TEST(a_wrong_guess_changes_nothing)
 {
-    (void)state;
     struct chains_def def = two_dimensions();
     def.guess = wrong_guess;
     def.learn = learn_nothing;
     expect_normal(&def);
 }
 
-static void threads_change_no_bit(void **state)
+TEST(threads_change_no_bit)
 {
-    (void)state;
     struct chains_def def = two_dimensions();
     struct chains one, four;
     def.guess = wrong_guess;
@@ -155,9 +152,8 @@ static struct chains made(double apart, double phi)
 }
 
 /* R-hat² is 1 + the variance of the means, here 5/3 of halves of four chains: 10/7 of those eight. */
-static void chains_apart_do_not_agree(void **state)
+TEST(chains_apart_do_not_agree)
 {
-    (void)state;
     double rhat, size;
     struct chains c = made(0, 0);
     ceduo_chains_diagnose(&c, 0, &rhat, &size);
@@ -171,9 +167,8 @@ static void chains_apart_do_not_agree(void **state)
 }
 
 /* Of draws with correlation phi from one to the next (1 - phi)/(1 + phi) count. */
-static void draws_that_hang_together_count_less(void **state)
+TEST(draws_that_hang_together_count_less)
 {
-    (void)state;
     double rhat, size;
     struct chains c = made(0, 0.8);
     ceduo_chains_diagnose(&c, 0, &rhat, &size);
@@ -183,9 +178,8 @@ static void draws_that_hang_together_count_less(void **state)
 
 /* Two chains of eight steps, of which the first four are not read: by hand, with the n - 1 of Gelman et al. 2013, 11.4. Halves of
  * two draws: means 4, 2, 9, 2 and variances 8, 2, 0, 8, so that W = 4.5, B/n = 131/12 and R-hat² = (W/2 + B/n)/W. */
-static void short_chains_by_hand(void **state)
+TEST(short_chains_by_hand)
 {
-    (void)state;
     double rhat, size, x[] = {100, 100, 100, 100, 1, 3, 2, 6, 100, 100, 100, 100, 0, 4, 9, 9};
     const struct chains c = {.dimensions = 1, .chains = 2, .steps = 8, .room = 8, .x = x};
     ceduo_chains_diagnose(&c, 0, &rhat, &size);
@@ -206,9 +200,8 @@ static double effective_of(size_t run)
 /* Draws on alternating sides of the mean count no more than independent ones. Where four follow on each side, of 16 draws 3 of 15
  * neighbours and 6 of 14 next but one differ, by 2, and the variance is 1: correlations of 1 - 2·3/15 and 1 - 2·6/14; those farther
  * apart are below 0 together, and are left out. */
-static void draws_that_alternate(void **state)
+TEST(draws_that_alternate)
 {
-    (void)state;
     EXPECT_NEAR(effective_of(1), 32, 1e-12);
     EXPECT_NEAR(effective_of(4), 32 / (1 + 2 * (1 - 6. / 15 + 1 - 12. / 14)), 1e-9);
 }
@@ -216,9 +209,8 @@ static void draws_that_alternate(void **state)
 /* ---- the guess ---- */
 
 /* A quadratic is learnt whole; places without a value are left out. */
-static void a_guess_learns_a_quadratic(void **state)
+TEST(a_guess_learns_a_quadratic)
 {
-    (void)state;
     struct guess g = ceduo_guess_begin(2);
     double u[64 * 2], values[64], at[2] = {0.3, 0.9};
     EXPECT(ceduo_guess_at(&g, at), ==, 0);
@@ -255,9 +247,8 @@ static double next_unit(uint64_t *state)
 
 /* What weighted least squares leave is orthogonal to every term, however many places there are: here of a quartic, with those
  * that lie below the best counting less and less. */
-static void a_guess_weighs_what_it_knows(void **state)
+TEST(a_guess_weighs_what_it_knows)
 {
-    (void)state;
     enum { N = 3000, NEAR = 9 /* three times the terms */ };
     static double u[N], values[N], sorted[NEAR + 1];
     struct guess g = ceduo_guess_begin(1);
@@ -302,9 +293,8 @@ static double processor_seconds(void)
 
 /* Twelve values have 91 terms. Ended after a tenth of the time that 25 000 places take, it ends in less than half of it, and
  * knows what it knew. */
-static void a_guess_is_ended_while_it_learns(void **state)
+TEST(a_guess_is_ended_while_it_learns)
 {
-    (void)state;
     enum { N = 25000, D = 12 };
     double *u = malloc(N * D * sizeof *u), *values = malloc(N * sizeof *values), start, all;
     struct guess g = ceduo_guess_begin(D);
@@ -356,9 +346,8 @@ static bool stop(void *context, size_t steps, double rhat, double effective_size
 }
 
 /* What was drawn before stays. */
-static void chains_are_ended(void **state)
+TEST(chains_are_ended)
 {
-    (void)state;
     struct chains c;
     struct chains_def def = two_dimensions();
     const int left[] = {0, 3, 4, 150, 4 + 4 * CEDUO_CHAINS_ROUND};
@@ -381,9 +370,8 @@ static void chains_are_ended(void **state)
 }
 
 /* Ended, nobody asks how well chains agree: that takes long of many draws. */
-static void a_look_at_all_chains_is_ended(void **state)
+TEST(a_look_at_all_chains_is_ended)
 {
-    (void)state;
     struct chains c;
     struct chains_def def = two_dimensions();
     const atomic_bool cancel = true;
@@ -422,9 +410,8 @@ static enum ceduo_status fails_in_one(void *context, size_t chain, const double 
 }
 
 /* Where one chain fails the others end: of the round's 50 steps of each few are made then. */
-static void one_chain_ends_all(void **state)
+TEST(one_chain_ends_all)
 {
-    (void)state;
     struct chains c;
     struct failure f = {0};
     struct chains_def def = two_dimensions();
@@ -444,9 +431,8 @@ static enum ceduo_status one_place(void *context, size_t chain, const double *x,
 }
 
 /* Chains that never move say nothing of how well they agree. */
-static void chains_that_stand_still(void **state)
+TEST(chains_that_stand_still)
 {
-    (void)state;
     static const double nowhere[8];
     struct chains c;
     struct chains_def def = two_dimensions();
@@ -458,25 +444,4 @@ static void chains_that_stand_still(void **state)
     assert_false(c.settled);
     EXPECT(ceduo_chains_draw(&c, 0)[0], ==, 0);
     ceduo_chains_release(&c);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_guess_weighs_what_it_knows),
-        cmocka_unit_test(a_guess_is_ended_while_it_learns),
-        cmocka_unit_test(chains_are_ended),
-        cmocka_unit_test(a_look_at_all_chains_is_ended),
-        cmocka_unit_test(one_chain_ends_all),
-        cmocka_unit_test(chains_that_stand_still),
-        cmocka_unit_test(a_normal_law_is_drawn_from),
-        cmocka_unit_test(a_wrong_guess_changes_nothing),
-        cmocka_unit_test(threads_change_no_bit),
-        cmocka_unit_test(chains_apart_do_not_agree),
-        cmocka_unit_test(short_chains_by_hand),
-        cmocka_unit_test(draws_that_alternate),
-        cmocka_unit_test(draws_that_hang_together_count_less),
-        cmocka_unit_test(a_guess_learns_a_quadratic),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

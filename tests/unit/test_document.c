@@ -97,9 +97,8 @@ static void refuse(struct document *d, const char *where, const char *value, con
     ceduo_problems_free(&problems);
 }
 
-static void changed_values_keep_comments(void **state)
+TEST_WITH(changed_values_keep_comments, set_up, folder_tear_down)
 {
-    (void)state;
     struct document d;
     bool anew;
     open_scene(&d);
@@ -118,9 +117,8 @@ static void changed_values_keep_comments(void **state)
     ceduo_document_close(&d);
 }
 
-static void a_changed_stand_starts_from_its_file(void **state)
+TEST_WITH(a_changed_stand_starts_from_its_file, set_up, folder_tear_down)
 {
-    (void)state;
     struct document d;
     bool anew;
     open_scene(&d);
@@ -144,9 +142,8 @@ static void a_changed_stand_starts_from_its_file(void **state)
 }
 
 /* What its file does not have at all is added to it as well. */
-static void a_stand_is_given_more(void **state)
+TEST_WITH(a_stand_is_given_more, set_up, folder_tear_down)
 {
-    (void)state;
     struct document d;
     bool anew;
     open_scene(&d);
@@ -161,9 +158,8 @@ static void a_stand_is_given_more(void **state)
 }
 
 /* A slope has no base: one that is changed is written out, and its file stays. */
-static void a_changed_slope_is_written_out(void **state)
+TEST_WITH(a_changed_slope_is_written_out, set_up, folder_tear_down)
 {
-    (void)state;
     static const char slope[] = "ceduo: slope/1\nvertices_m: [[0, 50], [100, 0]]\nsegments: [{rn: 0.3, rt: 0.8}]\n"
                                 "source: {kind: assumed, text: by hand}\n";
     struct document d;
@@ -192,9 +188,8 @@ static void a_changed_slope_is_written_out(void **state)
     ceduo_document_close(&d);
 }
 
-static void what_is_wrong_changes_nothing(void **state)
+TEST_WITH(what_is_wrong_changes_nothing, set_up, folder_tear_down)
 {
-    (void)state;
     struct document d;
     open_scene(&d);
     refuse(&d, "rock.diameter_m", "-1", "-1 is below 0 m");
@@ -206,9 +201,8 @@ static void what_is_wrong_changes_nothing(void **state)
     ceduo_document_close(&d);
 }
 
-static void undo_and_redo(void **state)
+TEST_WITH(undo_and_redo, set_up, folder_tear_down)
 {
-    (void)state;
     struct document d;
     open_scene(&d);
     assert_false(ceduo_document_undo(&d));
@@ -231,9 +225,8 @@ static void undo_and_redo(void **state)
     ceduo_document_close(&d);
 }
 
-static void options_belts_and_segments(void **state)
+TEST_WITH(options_belts_and_segments, set_up, folder_tear_down)
 {
-    (void)state;
     struct document d;
     struct problems problems = {0};
     bool anew;
@@ -286,9 +279,8 @@ static const char of_two[] = "ceduo: scene/1\n"
                              "  - {option: bare, passed: {x_m: 80, count: 8, of: 9}}\n";
 
 /* What was seen through an option's forest, and what is in doubt about it, stay with it once it has another name. */
-static void an_option_takes_along_what_names_it(void **state)
+TEST_WITH(an_option_takes_along_what_names_it, set_up, folder_tear_down)
 {
-    (void)state;
     struct document d;
     struct problems problems = {0};
     bool anew;
@@ -327,9 +319,8 @@ static void save(struct document *d, const char *to)
 }
 
 /* Back to the state on disk is saved, whichever way it is come to; any other state is not. */
-static void undo_leads_back_to_what_is_saved(void **state)
+TEST_WITH(undo_leads_back_to_what_is_saved, set_up, folder_tear_down)
 {
-    (void)state;
     struct document d;
     open_scene(&d);
     set(&d, "rock.diameter_m", "0.6");
@@ -351,9 +342,8 @@ static void undo_leads_back_to_what_is_saved(void **state)
 }
 
 /* An edit from before what is saved takes its place: no way leads back to it, though as many steps from the start. */
-static void a_branch_leaves_what_is_saved_behind(void **state)
+TEST_WITH(a_branch_leaves_what_is_saved_behind, set_up, folder_tear_down)
 {
-    (void)state;
     struct document d;
     open_scene(&d);
     set(&d, "rock.diameter_m", "0.6");
@@ -383,9 +373,8 @@ static void set_millimetres(struct document *d, int mm)
 }
 
 /* The oldest states are forgotten, half of them; what is on disk is known again where it is among those that are left. */
-static void history_is_cut(void **state)
+TEST_WITH(history_is_cut, set_up, folder_tear_down)
 {
-    (void)state;
     for (int saved = 0; saved <= 11; saved++) { /* of 12 states: 0 is the file's, 1 to 11 are 0.101 to 0.111 m */
         struct document d;
         write_file("scene.yaml", scene);
@@ -417,9 +406,8 @@ static void history_is_cut(void **state)
     }
 }
 
-static void a_changed_value_has_no_source(void **state)
+TEST_WITH(a_changed_value_has_no_source, set_up, folder_tear_down)
 {
-    (void)state;
     struct document d;
     bool anew;
     write_file("scene.yaml", "# mine\nceduo: scene/1\nrock: {diameter_m: 0.5}\n"
@@ -446,9 +434,8 @@ static void a_changed_value_has_no_source(void **state)
 }
 
 /* A source that stands in another file stays there: what is saved of the stand says what it is not of. */
-static void a_changed_value_of_another_file_has_no_source(void **state)
+TEST_WITH(a_changed_value_of_another_file_has_no_source, set_up, folder_tear_down)
 {
-    (void)state;
     struct document d;
     struct text with_source = {0};
     ceduo_text_format(&with_source, "%ssource: {kind: assumed, text: a guess}\n", stand);
@@ -468,9 +455,8 @@ static void a_changed_value_of_another_file_has_no_source(void **state)
     ceduo_text_free(&with_source);
 }
 
-static void what_only_moves_keeps_its_source(void **state)
+TEST_WITH(what_only_moves_keeps_its_source, set_up, folder_tear_down)
 {
-    (void)state;
     struct document d;
     struct problems problems = {0};
     write_file("scene.yaml", "ceduo: scene/1\nsource: {kind: assumed, text: all}\nrock: {diameter_m: 0.5}\n"
@@ -509,9 +495,8 @@ static char *left_of(const char *of, char file[400])
     return text;
 }
 
-static void unsaved_work_is_found_again(void **state)
+TEST_WITH(unsaved_work_is_found_again, set_up, folder_tear_down)
 {
-    (void)state;
     struct document d;
     struct problems problems = {0};
     char file[400];
@@ -540,9 +525,8 @@ static void unsaved_work_is_found_again(void **state)
 }
 
 /* What is left of a copy whose writer was killed is not offered as work: it may be half of it. */
-static void half_a_copy_is_taken_away(void **state)
+TEST_WITH(half_a_copy_is_taken_away, set_up, folder_tear_down)
 {
-    (void)state;
     char *own = ceduo_recovery_path(path), file[400], names[2][400];
     assert_non_null(own);
     int n = (int)(strrchr(own, '-') - own); /* what stands before the process */
@@ -561,9 +545,8 @@ static void half_a_copy_is_taken_away(void **state)
 }
 
 /* In whatever order the folder has them. */
-static void the_newest_copies_come_first(void **state)
+TEST_WITH(the_newest_copies_come_first, set_up, folder_tear_down)
 {
-    (void)state;
     static const time_t when[] = {3000, 1000, 5000, 2000, 4000};
     char *own = ceduo_recovery_path(path);
     struct arena arena = {0};
@@ -608,9 +591,8 @@ static void expect_copy(const struct document *d, const char *diameter)
 }
 
 /* It holds what is shown, after an undo too, and is there just as long as that is not what is on disk. */
-static void the_copy_follows_undo(void **state)
+TEST_WITH(the_copy_follows_undo, set_up, folder_tear_down)
 {
-    (void)state;
     struct document d;
     open_scene(&d);
     assert_null(copy_of(&d));
@@ -639,9 +621,8 @@ static void the_copy_follows_undo(void **state)
     ceduo_document_close(&d);
 }
 
-static void unsaved_work_belongs_to_the_name_saved_under(void **state)
+TEST_WITH(unsaved_work_belongs_to_the_name_saved_under, set_up, folder_tear_down)
 {
-    (void)state;
     struct document d;
     char file[400], other[256];
     snprintf(other, sizeof other, "%.240s-other", path);
@@ -664,9 +645,8 @@ static void unsaved_work_belongs_to_the_name_saved_under(void **state)
     free(text);
 }
 
-static void a_file_changed_on_disk_is_noticed(void **state)
+TEST_WITH(a_file_changed_on_disk_is_noticed, set_up, folder_tear_down)
 {
-    (void)state;
     struct document d;
     bool anew;
     open_scene(&d);
@@ -685,9 +665,8 @@ static void set_time(const char *file, time_t seconds, long nanoseconds)
 }
 
 /* Its length, the second and the fraction of it in which it was written: each tells by itself. */
-static void a_file_of_the_same_length_is_noticed(void **state)
+TEST_WITH(a_file_of_the_same_length_is_noticed, set_up, folder_tear_down)
 {
-    (void)state;
     struct document d;
     char other[sizeof scene + 1];
     strcpy(other, scene);
@@ -758,13 +737,13 @@ static void reopen(struct document *d, const char *at)
 static const char *const slopes[] = {"../slopes/line.yaml", "../slopes/line.csv",
                                      "{csv: ../slopes/line.csv, segments: [{rn: 0.3, rt: 0.8}]}", "../slopes/by-csv.yaml"};
 
-static void references_lead_to_the_same_files_from_elsewhere(void **state)
+TEST_WITH(references_lead_to_the_same_files_from_elsewhere, set_up, folder_tear_down)
 {
     for (size_t i = 0; i < sizeof slopes / sizeof slopes[0]; i++) {
         struct document d;
         char there[256], text[4096], wanted[256];
         if (i > 0)
-            assert_true(folder_tear_down(state) == 0 && set_up(state) == 0);
+            assert_true(folder_tear_down(NULL) == 0 && set_up(NULL) == 0);
         scatter(slopes[i]);
         open_scene(&d);
         in_folder(there, "b/scenes/t.yaml");
@@ -786,9 +765,8 @@ static void references_lead_to_the_same_files_from_elsewhere(void **state)
 }
 
 /* Beside the old one they stay as they were written. */
-static void references_stay_where_they_lead_to_the_same(void **state)
+TEST_WITH(references_stay_where_they_lead_to_the_same, set_up, folder_tear_down)
 {
-    (void)state;
     struct document d;
     char there[256], text[4096];
     scatter(slopes[0]);
@@ -802,9 +780,8 @@ static void references_stay_where_they_lead_to_the_same(void **state)
 }
 
 /* The slope's file names the profile that lies beside it: written into the scene it is another name. */
-static void a_changed_slope_keeps_its_profile(void **state)
+TEST_WITH(a_changed_slope_keeps_its_profile, set_up, folder_tear_down)
 {
-    (void)state;
     struct document d;
     char here[128];
     scatter("../slopes/by-csv.yaml");
@@ -818,9 +795,8 @@ static void a_changed_slope_keeps_its_profile(void **state)
 }
 
 /* A profile that is typed in is one beside the scene, as a stand is. */
-static void a_typed_profile_lies_beside_the_scene(void **state)
+TEST_WITH(a_typed_profile_lies_beside_the_scene, set_up, folder_tear_down)
 {
-    (void)state;
     struct document d;
     char there[256];
     scatter(slopes[2]);
@@ -844,9 +820,8 @@ static void a_typed_profile_lies_beside_the_scene(void **state)
 }
 
 /* Work on a scene that was saved elsewhere can be taken up again there. */
-static void the_copy_leads_to_the_same_files(void **state)
+TEST_WITH(the_copy_leads_to_the_same_files, set_up, folder_tear_down)
 {
-    (void)state;
     struct document d;
     struct problems problems = {0};
     char there[256], text[4096];
@@ -866,37 +841,4 @@ static void the_copy_leads_to_the_same_files(void **state)
     assert_true(d.file.scene.options[0].belts[0].stand.trees[0].per_ha == 50);
     ceduo_document_forget(&d);
     ceduo_document_close(&d);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(changed_values_keep_comments, set_up, folder_tear_down),
-        cmocka_unit_test_setup_teardown(a_changed_stand_starts_from_its_file, set_up, folder_tear_down),
-        cmocka_unit_test_setup_teardown(a_stand_is_given_more, set_up, folder_tear_down),
-        cmocka_unit_test_setup_teardown(a_changed_slope_is_written_out, set_up, folder_tear_down),
-        cmocka_unit_test_setup_teardown(what_is_wrong_changes_nothing, set_up, folder_tear_down),
-        cmocka_unit_test_setup_teardown(undo_and_redo, set_up, folder_tear_down),
-        cmocka_unit_test_setup_teardown(options_belts_and_segments, set_up, folder_tear_down),
-        cmocka_unit_test_setup_teardown(an_option_takes_along_what_names_it, set_up, folder_tear_down),
-        cmocka_unit_test_setup_teardown(a_changed_value_has_no_source, set_up, folder_tear_down),
-        cmocka_unit_test_setup_teardown(a_changed_value_of_another_file_has_no_source, set_up, folder_tear_down),
-        cmocka_unit_test_setup_teardown(what_only_moves_keeps_its_source, set_up, folder_tear_down),
-        cmocka_unit_test_setup_teardown(unsaved_work_is_found_again, set_up, folder_tear_down),
-        cmocka_unit_test_setup_teardown(the_newest_copies_come_first, set_up, folder_tear_down),
-        cmocka_unit_test_setup_teardown(half_a_copy_is_taken_away, set_up, folder_tear_down),
-        cmocka_unit_test_setup_teardown(unsaved_work_belongs_to_the_name_saved_under, set_up, folder_tear_down),
-        cmocka_unit_test_setup_teardown(a_file_changed_on_disk_is_noticed, set_up, folder_tear_down),
-        cmocka_unit_test_setup_teardown(undo_leads_back_to_what_is_saved, set_up, folder_tear_down),
-        cmocka_unit_test_setup_teardown(a_branch_leaves_what_is_saved_behind, set_up, folder_tear_down),
-        cmocka_unit_test_setup_teardown(history_is_cut, set_up, folder_tear_down),
-        cmocka_unit_test_setup_teardown(the_copy_follows_undo, set_up, folder_tear_down),
-        cmocka_unit_test_setup_teardown(a_file_of_the_same_length_is_noticed, set_up, folder_tear_down),
-        cmocka_unit_test_setup_teardown(references_lead_to_the_same_files_from_elsewhere, set_up, folder_tear_down),
-        cmocka_unit_test_setup_teardown(references_stay_where_they_lead_to_the_same, set_up, folder_tear_down),
-        cmocka_unit_test_setup_teardown(a_changed_slope_keeps_its_profile, set_up, folder_tear_down),
-        cmocka_unit_test_setup_teardown(a_typed_profile_lies_beside_the_scene, set_up, folder_tear_down),
-        cmocka_unit_test_setup_teardown(the_copy_leads_to_the_same_files, set_up, folder_tear_down),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -42,9 +42,8 @@ static void expect_near(const char *what, double at, double value, long double e
         fail_msg("%s(%.17g) is %.17g, %.2f ulp off", what, at, value, off);
 }
 
-static void logarithms(void **context)
+TEST(logarithms)
 {
-    (void)context;
     for (size_t i = 1; i < PLACES; i++) {
         double near = place(i, 0.5, 2), far = exp2(place(i, -1070, 1023.9)), share = place(i, 0, 1);
         expect_near("log", near, ceduo_log(near), logl(near), 1);
@@ -64,9 +63,8 @@ static void logarithms(void **context)
 }
 
 /* Many at once give the bits of one. */
-static void many_at_once(void **context)
+TEST(many_at_once)
 {
-    (void)context;
     for (uint64_t n = 0; n < PLACES / MANY; n++) {
         many_bits events, kinds;
         many_reals u, angle, exponent, log, sine, cosine, power;
@@ -95,9 +93,8 @@ static void many_at_once(void **context)
     }
 }
 
-static void powers(void **context)
+TEST(powers)
 {
-    (void)context;
     for (size_t i = 0; i < PLACES; i++) {
         double x = place(i, -708, 709.7), base = place(i, 0.1, 200), y = place(i, -5, 5);
         expect_near("exp", x, ceduo_exp(x), expl(x), 1);
@@ -119,9 +116,8 @@ static void powers(void **context)
     assert_true(isnan(ceduo_expm1(NAN)));
 }
 
-static void angles(void **context)
+TEST(angles)
 {
-    (void)context;
     for (size_t i = 0; i < PLACES; i++) {
         double angle = place(i, -M_PI_2, M_PI_2), near = place(i, -1.5, 1.5), far = exp2(place(i, -60, 60)), s, c;
         elementary_sincos(&angle, &s, &c);
@@ -140,9 +136,8 @@ static void angles(void **context)
         }
 }
 
-static void roots(void **context)
+TEST(roots)
 {
-    (void)context;
     for (size_t i = 0; i < PLACES; i++) {
         double near = place(i, -10, 10), far = exp2(place(i, -1070, 1023));
         expect_near("cbrt", near, ceduo_cbrt(near), cbrtl(near), 1);
@@ -156,9 +151,8 @@ static void roots(void **context)
     EXPECT(ceduo_length(0, 5e-324), ==, 5e-324);
 }
 
-static void normal_law(void **context)
+TEST(normal_law)
 {
-    (void)context;
     for (size_t i = 1; i < PLACES / 4; i++) {
         double z = place(i, -3, 3), p = place(i, 0, 1), small = exp2(place(i, -300, -1));
         assert_true(fabs(ceduo_normal_chance(z) - gsl_cdf_ugaussian_P(z)) <= 1e-15);
@@ -167,13 +161,4 @@ static void normal_law(void **context)
         assert_true(fabsl(0.5L * erfcl(-tail / sqrtl(2)) / small - 1) <= 2e-15L * (1 + (long double)(tail * tail)));
     }
     EXPECT(ceduo_normal_quantile(0.5), ==, 0);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(logarithms), cmocka_unit_test(many_at_once), cmocka_unit_test(powers),
-        cmocka_unit_test(angles),     cmocka_unit_test(roots),        cmocka_unit_test(normal_law),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -29,9 +29,8 @@ static double binomial(size_t n, double p, size_t k)
     return sum;
 }
 
-static void intervals_of_few_values(void **state)
+TEST(intervals_of_few_values)
 {
-    (void)state;
     const double p[] = {.01, .05, .5, .95, .99};
     for (size_t i = 0; i < 5; i++)
         for (size_t n = 1; n <= 120; n++) {
@@ -58,9 +57,8 @@ static void expect_near(double found, double wanted, double relative)
 }
 
 /* Values of all sizes, some of them 0: exact as sorted, binned but for the width of a bin. */
-static void distributions_of_few_values(void **state)
+TEST(distributions_of_few_values)
 {
-    (void)state;
     uint64_t bits = 1;
     for (size_t n = 0; n <= 200; n++) {
         double values[200], sorted[200];
@@ -98,9 +96,8 @@ static void distributions_of_few_values(void **state)
     }
 }
 
-static void values_beyond_every_bin(void **state)
+TEST(values_beyond_every_bin)
 {
-    (void)state;
     struct histogram h = {0}, more = {0};
     const double values[] = {1e-300, 0, 5.5e-20, 1, 1e300};
     for (size_t i = 0; i < 5; i++)
@@ -123,9 +120,8 @@ static void values_beyond_every_bin(void **state)
 }
 
 /* The highest and fastest of all: its size is kept, whatever its bin. */
-static void cells_take_any_value(void **state)
+TEST(cells_take_any_value)
 {
-    (void)state;
     struct envelope_cell *cell = calloc(1, sizeof *cell);
     struct envelopes cells;
     struct ceduo_envelope e;
@@ -168,9 +164,8 @@ static enum ceduo_status refuse(void *context, double value, double *goal)
 }
 
 /* Wherever the search stands: no value is looked at after it, and none is found. */
-static void a_search_ends_at_once(void **state)
+TEST(a_search_ends_at_once)
 {
-    (void)state;
     for (int kind = 0; kind < 4; kind++) { /* where nothing passes, all is looked through */
         struct ceduo_found found;
         double target = kind < 2 ? .3 : -1;
@@ -204,9 +199,8 @@ static enum ceduo_status steps_down(void *context, double value, double *goal)
     return CEDUO_OK;
 }
 
-static void goals_without_end(void **state)
+TEST(goals_without_end)
 {
-    (void)state;
     const double levels[][2] = {{INFINITY, -INFINITY}, {1, -INFINITY}, {INFINITY, 0}, {1, .5}, {NAN, 0}};
     for (size_t i = 0; i < sizeof levels / sizeof levels[0]; i++) {
         struct ceduo_found found;
@@ -229,9 +223,8 @@ static enum ceduo_status falls(void *context, double value, double *goal)
 }
 
 /* A tolerance that is met by the first step; and a range so large that halving does not come to an end: given up. */
-static void few_values_and_too_many(void **state)
+TEST(few_values_and_too_many)
 {
-    (void)state;
     struct ceduo_found found;
     double top = 10;
     struct ceduo_find_def def = {.lo = 1, .hi = 9, .target = 5.5, .goal = falls, .context = &top, .tolerance = .5};
@@ -248,15 +241,4 @@ static void few_values_and_too_many(void **state)
     EXPECT(found.goal_at_value, <=, 5.5);
     EXPECT(found.evaluations, >, 55);
     EXPECT(found.evaluations, <, 200);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(intervals_of_few_values), cmocka_unit_test(distributions_of_few_values),
-        cmocka_unit_test(values_beyond_every_bin), cmocka_unit_test(cells_take_any_value),
-        cmocka_unit_test(goals_without_end),       cmocka_unit_test(a_search_ends_at_once),
-        cmocka_unit_test(few_values_and_too_many),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -17,9 +17,8 @@
 
 #define LENGTH(a) (sizeof(a) / sizeof(a)[0])
 
-static void files_are_found(void **state)
+TEST_WITH(files_are_found, folder_set_up_profiles, folder_tear_down)
 {
-    (void)state;
     struct arena arena = {0};
     put("ceduo/stands/own.yaml", "x");
     put("ceduo/top.yaml", "x");
@@ -55,9 +54,8 @@ static void files_are_found(void **state)
     ceduo_arena_free(&arena);
 }
 
-static void folders_of_the_environment(void **state)
+TEST_WITH(folders_of_the_environment, folder_set_up_profiles, folder_tear_down)
 {
-    (void)state;
     char own[256], home[256], path[256];
     in_folder(own, "ceduo");
     in_folder(home, "home");
@@ -88,9 +86,8 @@ static void folders_of_the_environment(void **state)
     setenv("XDG_DATA_HOME", folder, 1);
 }
 
-static void folders_are_listed(void **state)
+TEST_WITH(folders_are_listed, folder_set_up_profiles, folder_tear_down)
 {
-    (void)state;
     struct arena arena = {0};
     char own[256];
     in_folder(own, "ceduo");
@@ -130,9 +127,8 @@ static int descriptors(void)
 }
 
 /* Names as long as a file system takes them, of characters of two bytes: its temporary's name is cut between two. */
-static void long_names_are_written(void **state)
+TEST_WITH(long_names_are_written, folder_set_up_profiles, folder_tear_down)
 {
-    (void)state;
     char name[256] = "", path[512];
     int open_before = descriptors();
     for (int i = 0; i < 127; i++)
@@ -171,9 +167,8 @@ static void expect_told(const char *path, size_t most, const char *words)
     assert_non_null(strstr(told, words));
 }
 
-static void files_are_taken(void **state)
+TEST_WITH(files_are_taken, folder_set_up_profiles, folder_tear_down)
 {
-    (void)state;
     char path[256], link[256], to[256];
     struct text text = {0};
     put("some", "twelve bytes");
@@ -214,9 +209,8 @@ static void files_are_taken(void **state)
     assert_int_equal(chdir(here), 0);
 }
 
-static void files_are_the_same(void **state)
+TEST_WITH(files_are_the_same, folder_set_up_profiles, folder_tear_down)
 {
-    (void)state;
     char path[256], link[256], other[256], none[256];
     put("some", "x");
     put("other", "x");
@@ -242,9 +236,8 @@ static void files_are_the_same(void **state)
 }
 
 /* What was set aside goes before: where it cannot be read, or there is no room for it, that is told. */
-static void what_was_set_aside_goes_before(void **state)
+TEST_WITH(what_was_set_aside_goes_before, folder_set_up_profiles, folder_tear_down)
 {
-    (void)state;
     char path[256];
     struct text text = {0};
     int ends[2];
@@ -271,9 +264,8 @@ static void what_was_set_aside_goes_before(void **state)
 }
 
 /* A socket is no file, and one that may not be written is not replaced. */
-static void what_cannot_be_written(void **state)
+TEST_WITH(what_cannot_be_written, folder_set_up_profiles, folder_tear_down)
 {
-    (void)state;
     struct sockaddr_un address = {.sun_family = AF_UNIX};
     int s = socket(AF_UNIX, SOCK_STREAM, 0);
     snprintf(address.sun_path, sizeof address.sun_path, "%s/socket", folder);
@@ -317,9 +309,8 @@ static void write_to_pipe(int signal)
 }
 
 /* A signal interrupts the reading, which goes on: what the pipe says is written by the signal's handler. */
-static void an_interrupted_reader_goes_on(void **state)
+TEST(an_interrupted_reader_goes_on)
 {
-    (void)state;
     int ends[2], was = dup(STDIN_FILENO);
     struct text text = {0};
     assert_int_equal(pipe(ends), 0);
@@ -348,9 +339,8 @@ static void give_up_at_third(int signal)
 }
 
 /* A writer that waits is interrupted and goes on, until somebody gives up: nobody reads the pipe, which is full. */
-static void an_interrupted_writer_goes_on_until_it_is_cancelled(void **state)
+TEST(an_interrupted_writer_goes_on_until_it_is_cancelled)
 {
-    (void)state;
     int ends[2];
     assert_int_equal(pipe2(ends, O_NONBLOCK), 0);
     while (write(ends[1], "x", 1) == 1)
@@ -368,21 +358,4 @@ static void an_interrupted_writer_goes_on_until_it_is_cancelled(void **state)
     EXPECT(atomic_load(&ticks), >=, 3);
     close(ends[0]);
     close(ends[1]);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(files_are_found, folder_set_up_profiles, folder_tear_down),
-        cmocka_unit_test_setup_teardown(folders_of_the_environment, folder_set_up_profiles, folder_tear_down),
-        cmocka_unit_test_setup_teardown(folders_are_listed, folder_set_up_profiles, folder_tear_down),
-        cmocka_unit_test_setup_teardown(long_names_are_written, folder_set_up_profiles, folder_tear_down),
-        cmocka_unit_test_setup_teardown(files_are_taken, folder_set_up_profiles, folder_tear_down),
-        cmocka_unit_test_setup_teardown(files_are_the_same, folder_set_up_profiles, folder_tear_down),
-        cmocka_unit_test_setup_teardown(what_was_set_aside_goes_before, folder_set_up_profiles, folder_tear_down),
-        cmocka_unit_test_setup_teardown(what_cannot_be_written, folder_set_up_profiles, folder_tear_down),
-        cmocka_unit_test(an_interrupted_reader_goes_on),
-        cmocka_unit_test(an_interrupted_writer_goes_on_until_it_is_cancelled),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -7,7 +7,7 @@
 #include "base/fuzzy.h"
 #include "tui/picker.h"
 
-static void letters_stand_in_their_order(void **state)
+TEST(letters_stand_in_their_order)
 {
     static const struct {
         const char *typed, *text;
@@ -15,13 +15,12 @@ static void letters_stand_in_their_order(void **state)
     } cases[] = {{"", "anything", true},        {"sc", "simple-coppice", true}, {"cs", "simple-coppice", false},
                  {"SIMPLE", "simple", true},    {"simples", "simple", false},   {"x", "", false},
                  {"hop", "hop hornbeam", true}, {"ss", "simple", false},        {"h\xc3\xb6", "H\xc3\xb6he", true}};
-    (void)state;
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++)
         if ((ceduo_fuzzy_match(cases[i].typed, cases[i].text) >= 0) != cases[i].matches)
             fail_msg("'%s' in '%s'", cases[i].typed, cases[i].text);
 }
 
-static void beginnings_and_runs_are_better(void **state)
+TEST(beginnings_and_runs_are_better)
 {
     static const char *const cases[][3] = {/* typed, better, worse */
                                            {"sc", "simple-coppice", "basic"},
@@ -30,16 +29,14 @@ static void beginnings_and_runs_are_better(void **state)
                                            {"large", "large-reserves", "beech-large-reserves"},
                                            {"bs", "beech-simple-coppice", "basic"},
                                            {"tal", "talus", "thin colluvium, all"}};
-    (void)state;
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++)
         if (!(ceduo_fuzzy_match(cases[i][0], cases[i][1]) > ceduo_fuzzy_match(cases[i][0], cases[i][2])))
             fail_msg("'%s': '%s' is no better than '%s'", cases[i][0], cases[i][1], cases[i][2]);
 }
 
-static void the_best_stands_first(void **state)
+TEST(the_best_stands_first)
 {
     struct picker p = {0};
-    (void)state;
     ceduo_picker_add(&p, "beech-large-reserves", "1", false);
     ceduo_picker_add(&p, "large-reserves", "2", true);
     ceduo_picker_add(&p, "large-reserves-cut", "3", false);
@@ -58,11 +55,10 @@ static void the_best_stands_first(void **state)
     ceduo_picker_clear(&p);
 }
 
-static void paths_are_completed(void **state)
+TEST(paths_are_completed)
 {
     struct picker p = {0};
     struct line line = {.text = ""};
-    (void)state;
     ceduo_picker_add(&p, "maps/north.csv", "maps/north.csv", false);
     ceduo_picker_add(&p, "maps/northwest.csv", "maps/northwest.csv", false);
     ceduo_picker_add(&p, "other/", "other/", false);
@@ -77,12 +73,4 @@ static void paths_are_completed(void **state)
     ceduo_line_set(&line, "none");
     assert_false(ceduo_picker_complete(&p, &line));
     ceduo_picker_clear(&p);
-}
-
-int main(void)
-{
-    static const struct CMUnitTest tests[] = {cmocka_unit_test(letters_stand_in_their_order),
-                                              cmocka_unit_test(beginnings_and_runs_are_better),
-                                              cmocka_unit_test(the_best_stands_first), cmocka_unit_test(paths_are_completed)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

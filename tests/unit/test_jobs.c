@@ -47,9 +47,8 @@ static struct ceduo_search search_of(uint64_t rocks)
         .path = "rock.diameter_m", .goal = CEDUO_GOAL_EXCEED, .target = .3, .lo = .2, .hi = 1.5, .rocks = rocks};
 }
 
-static void figures_and_years_come_to_an_end(void **state)
+TEST_WITH(figures_and_years_come_to_an_end, set_up, tear_down)
 {
-    (void)state;
     assert_true(show(false));
     assert_false(show(false)); /* the same runs */
     assert_true(show(true));   /* and years */
@@ -74,9 +73,8 @@ static void figures_and_years_come_to_an_end(void **state)
 }
 
 /* What was computed and not yet taken is of no use once the scene is another. */
-static void nothing_of_an_older_scene_is_news(void **state)
+TEST_WITH(nothing_of_an_older_scene_is_news, set_up, tear_down)
 {
-    (void)state;
     assert_true(show(true));
     ceduo_jobs_wait(jobs);
     file.scene.rock.diameter.mean *= 1.1;
@@ -90,9 +88,8 @@ static void nothing_of_an_older_scene_is_news(void **state)
 }
 
 /* Where nothing stands rocks do the same by every contact model, but by the index none is simulated. */
-static void a_contact_model_makes_another_key(void **state)
+TEST_WITH(a_contact_model_makes_another_key, set_up, tear_down)
 {
-    (void)state;
     uint64_t keys[3];
     file.scene.options[0].belts_count = 0;
     for (int i = 0; i < 3; i++) {
@@ -103,9 +100,8 @@ static void a_contact_model_makes_another_key(void **state)
 }
 
 /* A search goes before the figures, which go on after it; it finds what it finds alone, and leaves the scene as it is. */
-static void a_search_comes_first(void **state)
+TEST_WITH(a_search_comes_first, set_up, tear_down)
 {
-    (void)state;
     struct ceduo_search search = search_of(500);
     double diameter = file.scene.rock.diameter.mean;
     show(false);
@@ -130,9 +126,8 @@ static void a_search_comes_first(void **state)
 }
 
 /* The other energy law beside the figures: of as many rocks as said, and asked for again where it alone changes. */
-static void the_other_law_comes_along(void **state)
+TEST_WITH(the_other_law_comes_along, set_up, tear_down)
 {
-    (void)state;
     show(false);
     ceduo_jobs_wait(jobs);
     take();
@@ -158,9 +153,8 @@ static void the_other_law_comes_along(void **state)
 }
 
 /* The uncertainty goes from level to level; the same scene is asked for once, more levels go on where it is, none stops it. */
-static void the_uncertainty_comes_last(void **state)
+TEST_WITH(the_uncertainty_comes_last, set_up, tear_down)
 {
-    (void)state;
     assert_true(ceduo_jobs_doubt(jobs, &file, 1));
     assert_false(ceduo_jobs_doubt(jobs, &file, 1));
     ceduo_jobs_wait(jobs);
@@ -188,9 +182,8 @@ static void the_uncertainty_comes_last(void **state)
 }
 
 /* What is stopped ends soon, and nothing comes of it. */
-static void a_search_is_stopped(void **state)
+TEST_WITH(a_search_is_stopped, set_up, tear_down)
 {
-    (void)state;
     struct ceduo_search search = search_of(CEDUO_ROCKS_MOST);
     ceduo_jobs_search(jobs, &file, &search);
     struct timespec moment = {.tv_nsec = 200000000};
@@ -202,18 +195,4 @@ static void a_search_is_stopped(void **state)
     EXPECT(ceduo_clock() - start, <, 1); /* 0.1 s where nobody else wants the machine */
     take();
     assert_null(results.search);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(a_search_comes_first, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(nothing_of_an_older_scene_is_news, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(a_contact_model_makes_another_key, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(a_search_is_stopped, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(the_other_law_comes_along, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(the_uncertainty_comes_last, set_up, tear_down),
-        cmocka_unit_test_setup_teardown(figures_and_years_come_to_an_end, set_up, tear_down),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,17 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Text without a translation, as in the locale C, and text of data, which has none. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
+#include "test.h"
 
 #include "base/language.h"
 
-static void as_it_stands(void **state)
+TEST(as_it_stands)
 {
-    (void)state;
     for (int data = 0; data < 2; data++) {
         ceduo_language_of_data(data);
         assert_string_equal(_("no such text"), "no such text");
@@ -22,10 +16,4 @@ static void as_it_stands(void **state)
         assert_string_equal(ceduo_translate_in(N_("no context")), "no context");
     }
     ceduo_language_of_data(false);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(as_it_stands)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

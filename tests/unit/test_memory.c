@@ -360,26 +360,23 @@ static void others_go_on(void)
 
 /* Who is told how far it is holds up nobody, and is not told meanwhile. So many rocks that the others are not at the end
  * before it looks up again. */
-static void one_is_told_at_a_time(void **state)
+TEST(one_is_told_at_a_time)
 {
-    (void)state;
     assert_int_equal(doubt_on_two_threads(1000, others_go_on), CEDUO_OK);
     assert_int_equal(told.most_inside, 1);
     assert_true(told.times > 1);
 }
 
 /* Where one thread has no memory the other ends, too: of 404 evaluations few are made then. */
-static void one_thread_ends_all(void **state)
+TEST(one_thread_ends_all)
 {
-    (void)state;
     assert_int_equal(doubt_on_two_threads(8, fail_others), CEDUO_NO_MEMORY);
     assert_true(told.times < 100);
 }
 
 /* What is in doubt has to be in the scene. */
-static void a_place_that_is_not_there(void **state)
+TEST(a_place_that_is_not_there)
 {
-    (void)state;
     static const char *const colour = "rock.colour";
     const struct ceduo_input input = {"rock.colour", CEDUO_INPUT_RANGE, 0, 1, .places_count = 1, .places = &colour};
     init(CEDUO_STEMS, CEDUO_LAW_LUMPED);
@@ -568,9 +565,8 @@ static bool see(void)
     return true;
 }
 
-static void what_is_to_be_seen_of_runs(void **state)
+TEST(what_is_to_be_seen_of_runs)
 {
-    (void)state;
     for (int kept = 0; kept < 2; kept++) {
         init(CEDUO_STEMS, CEDUO_LAW_LUMPED);
         const double x[] = {125, 130};
@@ -608,17 +604,15 @@ static bool find(void)
     return true;
 }
 
-static void runs_go_on(void **state)
+TEST(runs_go_on)
 {
-    (void)state;
     task *const tasks[] = {fly_bare, fly_long, fly_fine, fly_scalar_wood, fly_histograms};
     for (size_t i = 0; i < sizeof tasks / sizeof tasks[0]; i++)
         without_memory(tasks[i]);
 }
 
-static void what_stands_on_runs(void **state)
+TEST(what_stands_on_runs)
 {
-    (void)state;
     without_memory(question);
     without_memory(years_of_blocks);
     without_memory(ask_by_index);
@@ -634,17 +628,4 @@ static void what_stands_on_runs(void **state)
     without_memory(follow_roll);
     without_memory(record_roll);
     without_memory(find);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(runs_go_on),
-        cmocka_unit_test(what_stands_on_runs),
-        cmocka_unit_test(a_place_that_is_not_there),
-        cmocka_unit_test(one_is_told_at_a_time),
-        cmocka_unit_test(one_thread_ends_all),
-        cmocka_unit_test(what_is_to_be_seen_of_runs),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -356,9 +356,8 @@ static bool list_profiles(void)
     return good;
 }
 
-static void scenes_are_read(void **state)
+TEST_WITH(scenes_are_read, set_up, folder_tear_down)
 {
-    (void)state;
     without_memory(format_text);
     without_memory(read_scene);
     without_memory(read_text);
@@ -373,19 +372,9 @@ static void scenes_are_read(void **state)
     without_memory(read_ambiguous);
 }
 
-static void folders(void **state)
+TEST_WITH(folders, set_up, folder_tear_down)
 {
-    (void)state;
     without_memory(list_profiles);
     without_memory(write_link);
     without_memory(ask_to_write);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(scenes_are_read, set_up, folder_tear_down),
-        cmocka_unit_test_setup_teardown(folders, set_up, folder_tear_down),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

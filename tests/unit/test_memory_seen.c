@@ -236,18 +236,16 @@ static void others_go_on(void)
 
 /* Who is told how far it is holds up nobody, and is not told meanwhile. So many rocks that the others are not at the end
  * before it looks up again. */
-static void one_is_told_at_a_time(void **state)
+TEST(one_is_told_at_a_time)
 {
-    (void)state;
     assert_int_equal(fit_of_one_round(2, 4000, others_go_on, CEDUO_SEARCH, 1), CEDUO_OK);
     assert_int_equal(told.most_inside, 1);
     assert_true(told.times > 1);
 }
 
 /* Where one thread has no memory the other ends, too: of 256 points few are looked at then. */
-static void one_thread_ends_all(void **state)
+TEST(one_thread_ends_all)
 {
-    (void)state;
     assert_int_equal(fit_of_one_round(2, 1, fail_others, CEDUO_SEARCH, 1), CEDUO_NO_MEMORY);
     assert_true(told.times < 100);
 }
@@ -265,9 +263,8 @@ static bool fit_that_cannot_grow(void)
 }
 
 /* What chains have tried, and what is learned of it and of all points before, has no room. */
-static void chains_of_a_fit(void **state)
+TEST(chains_of_a_fit)
 {
-    (void)state;
     for (growth = 1; growth <= 30; growth++) {
         assert_false(begin(fit_that_cannot_grow, 0, false));
         assert_int_equal(grow_at, 0);
@@ -363,44 +360,31 @@ static bool survey(void)
     return is_done(status);
 }
 
-static void blocks_come_down(void **state)
+TEST(blocks_come_down)
 {
-    (void)state;
     without_memory(ask_of_blocks);
 }
 
-static void what_was_seen(void **state)
+TEST(what_was_seen)
 {
-    (void)state;
     without_memory(look);
     without_memory(look_without_a_fit);
     without_memory(see_many);
 }
 
-static void fits(void **state)
+TEST(fits)
 {
-    (void)state;
     without_memory(fit);
     without_memory(draw);
 }
 
-static void surveys(void **state)
+TEST(surveys)
 {
-    (void)state;
     without_memory(survey);
 }
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(blocks_come_down),
-        cmocka_unit_test(what_was_seen),
-        cmocka_unit_test(fits),
-        cmocka_unit_test(one_is_told_at_a_time),
-        cmocka_unit_test(one_thread_ends_all),
-        cmocka_unit_test(chains_of_a_fit),
-        cmocka_unit_test(surveys),
-    };
     gsl_set_error_handler_off();
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return test_run(NULL, NULL);
 }

@@ -58,9 +58,8 @@ static struct ceduo_observation something(enum ceduo_observed_kind kind)
 /* ---- counts and classes ---- */
 
 /* All 100 rocks pass: half a rock more in each class gives 100.5/101. Three of four were seen to. */
-static void a_count_is_binomial(void **state)
+TEST(a_count_is_binomial)
 {
-    (void)state;
     struct ground g;
     make_ground(&g, 0, HIGH, FAST, 0);
     struct ceduo_observation o = something(CEDUO_OBSERVED_PASSED);
@@ -81,9 +80,8 @@ static double rest_x(void)
     return FAST * sqrt(2 * HIGH / GRAVITY) + v * v / (2 * GRAVITY * 0.25);
 }
 
-static void stops_are_multinomial(void **state)
+TEST(stops_are_multinomial)
 {
-    (void)state;
     struct ground g;
     double at = rest_x(), values[10];
     make_ground(&g, 0, HIGH, FAST, 0);
@@ -114,9 +112,8 @@ static void stops_are_multinomial(void **state)
 }
 
 /* k = min(10, n/5) classes, and two at the least. */
-static void a_list_has_classes_of_its_own(void **state)
+TEST(a_list_has_classes_of_its_own)
 {
-    (void)state;
     static const struct {
         size_t n, classes, first, last;
     } cases[] = {{1, 2, 1, 0}, {2, 2, 1, 1}, {9, 2, 5, 4}, {15, 3, 5, 5}, {48, 9, 5, 5}, {50, 10, 5, 5}, {200, 10, 20, 20}};
@@ -173,9 +170,8 @@ static double mass(void)
 }
 
 /* After 10 m in flight: one second. */
-static void means_are_normal(void **state)
+TEST(means_are_normal)
 {
-    (void)state;
     struct ground g;
     make_ground(&g, 0, HIGH, FAST, 0);
     double speed2 = FAST * FAST + GRAVITY * GRAVITY;
@@ -189,9 +185,8 @@ static void means_are_normal(void **state)
 }
 
 /* Of rocks that differ, the error of the simulated mean counts as well. */
-static void a_mean_has_the_error_of_both_sides(void **state)
+TEST(a_mean_has_the_error_of_both_sides)
 {
-    (void)state;
     struct ground g;
     struct ceduo_observer *observer;
     struct ceduo_counterpart c;
@@ -216,9 +211,8 @@ static void a_mean_has_the_error_of_both_sides(void **state)
     ceduo_observer_free(observer);
 }
 
-static void no_rock_there_is_impossible(void **state)
+TEST(no_rock_there_is_impossible)
 {
-    (void)state;
     struct ground g;
     make_ground(&g, 0, HIGH, FAST, 0);
     struct ceduo_observation o = something(CEDUO_OBSERVED_SPEED);
@@ -233,9 +227,8 @@ static void no_rock_there_is_impossible(void **state)
 
 /* ---- on the way ---- */
 
-static void the_largest_is_at_an_end_or_on_top(void **state)
+TEST(the_largest_is_at_an_end_or_on_top)
 {
-    (void)state;
     struct ground g;
     struct ceduo_observation speed = something(CEDUO_OBSERVED_LARGEST_SPEED), height = something(CEDUO_OBSERVED_LARGEST_HEIGHT);
     make_ground(&g, 0, HIGH, FAST, 0);
@@ -249,9 +242,8 @@ static void the_largest_is_at_an_end_or_on_top(void **state)
 }
 
 /* Over the first 10 m of a flight of one second, metre by metre. */
-static void means_along_a_flight(void **state)
+TEST(means_along_a_flight)
 {
-    (void)state;
     struct ground g;
     make_ground(&g, 0, HIGH, FAST, 0);
     struct ceduo_observation o = something(CEDUO_OBSERVED_WAY_HEIGHT);
@@ -271,9 +263,8 @@ static void means_along_a_flight(void **state)
 }
 
 /* The same to the other side: from 100 m back over the last 10 of them. */
-static void a_flight_back(void **state)
+TEST(a_flight_back)
 {
-    (void)state;
     struct ground g;
     make_ground(&g, 0, HIGH, -FAST, 0);
     g.scene.release.x = ceduo_number(100);
@@ -287,9 +278,8 @@ static void a_flight_back(void **state)
 }
 
 /* Over an edge at 10 m, beyond which it falls 1 in 2: highest above the ground where the flight is parallel to the slope. */
-static void a_flight_over_an_edge(void **state)
+TEST(a_flight_over_an_edge)
 {
-    (void)state;
     struct ground g;
     static double x[3] = {0, 10, 200}, z[3] = {0, 0, -95};
     struct ceduo_segment two[2];
@@ -311,9 +301,8 @@ static void a_flight_over_an_edge(void **state)
 }
 
 /* A roll down 1 in 2 with friction 0.25: v² grows by 2 g (sin - mu cos) for each metre of ground. */
-static void means_along_a_roll(void **state)
+TEST(means_along_a_roll)
 {
-    (void)state;
     struct ground g;
     double cosine = 2 / sqrt(5), sine = 1 / sqrt(5), gain = 2 * GRAVITY * (sine - 0.25 * cosine) / cosine;
     make_ground(&g, 100, 0, FAST * cosine, -FAST * sine);
@@ -334,9 +323,8 @@ static void means_along_a_roll(void **state)
 }
 
 /* From rest: what it has lost in height and not to friction, m g (sin - mu cos)/cos for each metre, is in its speed and its spin. */
-static void a_roll_from_rest(void **state)
+TEST(a_roll_from_rest)
 {
-    (void)state;
     struct ground g;
     double cosine = 2 / sqrt(5), sine = 1 / sqrt(5), gain = GRAVITY * (sine - 0.25 * cosine) / cosine;
     static const enum ceduo_law laws[] = {CEDUO_LAW_LUMPED, CEDUO_LAW_CRSP};
@@ -354,9 +342,8 @@ static void a_roll_from_rest(void **state)
 }
 
 /* A fall straight down. */
-static void a_fall(void **state)
+TEST(a_fall)
 {
-    (void)state;
     struct ground g;
     make_ground(&g, 0, HIGH, 0, 0);
     expect_mean(&g, something(CEDUO_OBSERVED_LARGEST_HEIGHT), HIGH, 1e-9);
@@ -375,9 +362,8 @@ static void make_rough(struct ground *g)
 }
 
 /* A rough slope, so that rocks differ, and a law by which they spin: what is recorded of each rock is what its run keeps. */
-static void recorded_rocks_are_those_of_a_run(void **state)
+TEST(recorded_rocks_are_those_of_a_run)
 {
-    (void)state;
     struct ground g;
     make_rough(&g);
     struct ceduo_observation two[2] = {something(CEDUO_OBSERVED_STOPS), something(CEDUO_OBSERVED_LARGEST_SPEED)};
@@ -402,9 +388,8 @@ static void recorded_rocks_are_those_of_a_run(void **state)
 }
 
 /* Speed, height and energy at a place, of rocks that are followed and of those of a run. */
-static void recorded_crossings_are_those_of_a_run(void **state)
+TEST(recorded_crossings_are_those_of_a_run)
 {
-    (void)state;
     struct ground g;
     make_rough(&g);
     for (int k = 0; k < 3; k++) {
@@ -436,9 +421,8 @@ static void recorded_crossings_are_those_of_a_run(void **state)
 }
 
 /* Places of one rock share its run; a rock and a release of its own, or another option, do not. By the index nothing is in the way. */
-static void what_is_of_its_own(void **state)
+TEST(what_is_of_its_own)
 {
-    (void)state;
     struct ground g;
     make_ground(&g, 0, HIGH, FAST, 0);
     struct ceduo_rock_def small = g.scene.rock;
@@ -487,9 +471,8 @@ static void what_is_of_its_own(void **state)
 }
 
 /* Where the scene makes no sense, or nobody waits any longer, nothing is compared. */
-static void what_cannot_be_looked_at(void **state)
+TEST(what_cannot_be_looked_at)
 {
-    (void)state;
     struct ground g;
     make_ground(&g, 0, HIGH, FAST, 0);
     struct ceduo_observation o[2] = {something(CEDUO_OBSERVED_SPEED), something(CEDUO_OBSERVED_LARGEST_SPEED)};
@@ -513,9 +496,8 @@ static void what_cannot_be_looked_at(void **state)
 
 /* ---- scars ---- */
 
-static void scars_are_counted_and_measured(void **state)
+TEST(scars_are_counted_and_measured)
 {
-    (void)state;
     struct ground g;
     struct ceduo_stems tree = {.per_ha = 400, .dbh = 0.2, .height = 15, .volume = 0.2, .age = NAN};
     struct ceduo_belt belt = {.from = 0, .to = 100, .to_given = 100, .cut_year = NAN};
@@ -565,9 +547,8 @@ static void scars_are_counted_and_measured(void **state)
 }
 
 /* Stems as strong as rock: where they stop a rock is where it lies. */
-static void rocks_lie_where_stems_stop_them(void **state)
+TEST(rocks_lie_where_stems_stop_them)
 {
-    (void)state;
     struct ground g;
     struct ceduo_stems tree = {.per_ha = 1e5, .dbh = 1, .height = 15, .volume = 10, .age = NAN};
     struct ceduo_belt belt = {.from = 1, .to = 100, .to_given = 100, .cut_year = NAN};
@@ -582,30 +563,4 @@ static void rocks_lie_where_stems_stop_them(void **state)
     for (size_t i = 0; i < 5; i++)
         EXPECT_NEAR(record.rocks[i].stop_x, record.blows[i].x, 1e-9);
     ceduo_record_release(&record);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_count_is_binomial),
-        cmocka_unit_test(stops_are_multinomial),
-        cmocka_unit_test(a_list_has_classes_of_its_own),
-        cmocka_unit_test(means_are_normal),
-        cmocka_unit_test(a_mean_has_the_error_of_both_sides),
-        cmocka_unit_test(no_rock_there_is_impossible),
-        cmocka_unit_test(the_largest_is_at_an_end_or_on_top),
-        cmocka_unit_test(means_along_a_flight),
-        cmocka_unit_test(means_along_a_roll),
-        cmocka_unit_test(recorded_rocks_are_those_of_a_run),
-        cmocka_unit_test(scars_are_counted_and_measured),
-        cmocka_unit_test(a_flight_back),
-        cmocka_unit_test(a_roll_from_rest),
-        cmocka_unit_test(a_fall),
-        cmocka_unit_test(a_flight_over_an_edge),
-        cmocka_unit_test(recorded_crossings_are_those_of_a_run),
-        cmocka_unit_test(what_is_of_its_own),
-        cmocka_unit_test(what_cannot_be_looked_at),
-        cmocka_unit_test(rocks_lie_where_stems_stop_them),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

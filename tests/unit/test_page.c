@@ -28,9 +28,8 @@ static void expect_page(struct ceduo_page *page, bool plain, const char *wanted)
     free(text);
 }
 
-static void paragraphs_are_wrapped(void **state)
+TEST(paragraphs_are_wrapped)
 {
-    (void)state;
     struct ceduo_page page = {.width = 24};
     ceduo_text_put(ceduo_page_add(&page, CEDUO_PAGE_TITLE), "A title that is   too long for a line ");
     ceduo_text_put(ceduo_page_fact(&page, "Rock"), "cylinder, 512.3 kg");
@@ -83,9 +82,8 @@ static struct ceduo_page table(void)
 
 /* A cell that is too long is cut, or the row goes on below it, and what is wider than the page is wrapped; a number has as
  * many digits as have room; a wide sign takes two columns. */
-static void cells_stand_below_one_another(void **state)
+TEST(cells_stand_below_one_another)
 {
-    (void)state;
     struct ceduo_page page = table();
     expect_page(&page, false,
                 " place name kJ           > 1 GJ\n"
@@ -105,9 +103,8 @@ static void cells_stand_below_one_another(void **state)
 }
 
 /* A number too small to have a power of ten of its own is 0, not inf. */
-static void the_least_numbers_are_0(void **state)
+TEST(the_least_numbers_are_0)
 {
-    (void)state;
     struct ceduo_page page = {.width = 40};
     ceduo_page_table(&page, columns, 5);
     add_row(&page, "9", "oak", 3e-323);
@@ -119,9 +116,8 @@ static void the_least_numbers_are_0(void **state)
     free(text);
 }
 
-static void signs_are_plain_for_a_plain_terminal(void **state)
+TEST(signs_are_plain_for_a_plain_terminal)
 {
-    (void)state;
     struct ceduo_page page = table();
     char *text = printed(&page, true);
     assert_non_null(strstr(text, "0-20  oak"));
@@ -131,9 +127,8 @@ static void signs_are_plain_for_a_plain_terminal(void **state)
 }
 
 /* Into a pane: from a line on, within its area, headings and warnings in roles of their own. */
-static void a_pane_shows_lines_in_roles(void **state)
+TEST(a_pane_shows_lines_in_roles)
 {
-    (void)state;
     struct ceduo_page page = {.width = 12};
     struct ceduo_cells *cells = ceduo_cells_create(16, 5, CEDUO_CHARSET_BRAILLE);
     ceduo_page_say(&page, CEDUO_PAGE_TITLE, "%s", "hidden");
@@ -175,9 +170,8 @@ static void expect_rows(const struct ceduo_figure *table, const struct ceduo_fig
     }
 }
 
-static void every_figure_says_what_it_is(void **state)
+TEST(every_figure_says_what_it_is)
 {
-    (void)state;
     expect_rows(ceduo_result_figures, ceduo_result_figures);
     expect_rows(ceduo_find_figures, ceduo_find_figures);
     expect_rows(ceduo_doubt_figures, ceduo_doubt_figures);
@@ -233,9 +227,8 @@ static size_t fields(const char *row)
     return n;
 }
 
-static void a_row_has_a_field_for_each_name(void **state)
+TEST(a_row_has_a_field_for_each_name)
 {
-    (void)state;
     for (int kind = 0; kind < 3; kind++) {
         struct text text = {0};
         struct ceduo_report shown = report;
@@ -250,11 +243,5 @@ static void a_row_has_a_field_for_each_name(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(paragraphs_are_wrapped),          cmocka_unit_test(cells_stand_below_one_another),
-        cmocka_unit_test(the_least_numbers_are_0),         cmocka_unit_test(signs_are_plain_for_a_plain_terminal),
-        cmocka_unit_test(a_pane_shows_lines_in_roles),     cmocka_unit_test(every_figure_says_what_it_is),
-        cmocka_unit_test(a_row_has_a_field_for_each_name),
-    };
-    return cmocka_run_group_tests(tests, set_up, tear_down);
+    return test_run(set_up, tear_down);
 }

@@ -84,9 +84,8 @@ static int cells_of(const struct ceduo_cells *cells, enum ceduo_role role)
 
 /* ---- the profile ---- */
 
-static void profile_is_true_to_scale(void **state)
+TEST(profile_is_true_to_scale)
 {
-    (void)state;
     static struct site s;
     site_init(&s);
     struct ceduo_picture p = picture_of(&s);
@@ -94,9 +93,8 @@ static void profile_is_true_to_scale(void **state)
     expect(CEDUO_PLOT_PROFILE, &p, 44, 16, BRAILLE, "profile-is-true-to-scale-2");
 }
 
-static void span_tells_where_the_slope_stands(void **state)
+TEST(span_tells_where_the_slope_stands)
 {
-    (void)state;
     static struct site s;
     site_init(&s);
     struct ceduo_picture p = picture_of(&s);
@@ -117,9 +115,8 @@ static void span_tells_where_the_slope_stands(void **state)
     ceduo_cells_free(cells);
 }
 
-static void heights_are_stretched_where_the_slope_is_flat_and_the_factor_is_written(void **state)
+TEST(heights_are_stretched_where_the_slope_is_flat_and_the_factor_is_written)
 {
-    (void)state;
     static struct site s;
     site_init(&s);
     struct ceduo_picture p = picture_of(&s);
@@ -135,9 +132,8 @@ static void heights_are_stretched_where_the_slope_is_flat_and_the_factor_is_writ
     assert_true(shows(CEDUO_PLOT_PROFILE, &p, 60, 12, "heights drawn at "));
 }
 
-static void the_selected_way_is_drawn_over_all(void **state)
+TEST(the_selected_way_is_drawn_over_all)
 {
-    (void)state;
     static struct site s;
     site_init(&s);
     struct ceduo_picture p = picture_of(&s);
@@ -153,9 +149,8 @@ static void the_selected_way_is_drawn_over_all(void **state)
     ceduo_cells_free(cells);
 }
 
-static void the_wooded_profile_says_whose_forest_it_is(void **state)
+TEST(the_wooded_profile_says_whose_forest_it_is)
 {
-    (void)state;
     static struct site s;
     wooded_site_init(&s);
     struct ceduo_picture p = picture_of(&s);
@@ -170,9 +165,8 @@ static void the_wooded_profile_says_whose_forest_it_is(void **state)
     assert_false(shows(CEDUO_PLOT_PROFILE, &p, 84, 20, "through"));
 }
 
-static void ways_that_are_not_known_are_not_drawn(void **state)
+TEST(ways_that_are_not_known_are_not_drawn)
 {
-    (void)state;
     static struct site s;
     wooded_site_init(&s);
     struct ceduo_picture p = picture_of(&s);
@@ -186,9 +180,8 @@ static void ways_that_are_not_known_are_not_drawn(void **state)
     assert_false(shows(CEDUO_PLOT_PROFILE, &p, 60, 16, "ways:"));
 }
 
-static void notes_tell_when_no_rock_arrives(void **state)
+TEST(notes_tell_when_no_rock_arrives)
 {
-    (void)state;
     static struct site s;
     wooded_site_init(&s);
     stop_all(&s);
@@ -217,9 +210,8 @@ static int rows_of(const struct ceduo_cells *cells, int column, enum ceduo_role 
     return n;
 }
 
-static void stems_that_the_rock_came_to_stand_where_they_are(void **state)
+TEST(stems_that_the_rock_came_to_stand_where_they_are)
 {
-    (void)state;
     static struct site s;
     wooded_site_init(&s);
     struct ceduo_picture p = picture_of(&s);
@@ -244,9 +236,8 @@ static void stems_that_the_rock_came_to_stand_where_they_are(void **state)
 }
 
 /* By the contact model poisson a contact has a place along the way, but no size. */
-static void contacts_without_size_are_drawn_as_high_as_the_stand(void **state)
+TEST(contacts_without_size_are_drawn_as_high_as_the_stand)
 {
-    (void)state;
     static struct site s;
     wooded_site_init(&s);
     s.scene.simulation.contact_model = CEDUO_POISSON;
@@ -264,9 +255,8 @@ static void contacts_without_size_are_drawn_as_high_as_the_stand(void **state)
 }
 
 /* Survey coordinates on the axes, the same picture. */
-static void axes_have_the_users_coordinates(void **state)
+TEST(axes_have_the_users_coordinates)
 {
-    (void)state;
     static struct site s;
     site_init(&s);
     struct ceduo_picture p = picture_of(&s);
@@ -279,9 +269,8 @@ static void axes_have_the_users_coordinates(void **state)
 
 /* ---- strips ---- */
 
-static void strips_show_quantiles_along_the_slope(void **state)
+TEST(strips_show_quantiles_along_the_slope)
 {
-    (void)state;
     static struct site s;
     site_init(&s);
     struct ceduo_picture p = picture_of(&s);
@@ -290,9 +279,8 @@ static void strips_show_quantiles_along_the_slope(void **state)
 }
 
 /* Strokes through the forest, dots without it. */
-static void strips_show_the_wood_beside_the_bare_slope(void **state)
+TEST(strips_show_the_wood_beside_the_bare_slope)
 {
-    (void)state;
     static struct site s;
     wooded_site_init(&s);
     struct ceduo_picture p = picture_of(&s);
@@ -305,9 +293,8 @@ static void strips_show_the_wood_beside_the_bare_slope(void **state)
 }
 
 /* Where there is no room for four curves: the one that matters, with and without forest. */
-static void small_strips_show_one_pair_of_curves(void **state)
+TEST(small_strips_show_one_pair_of_curves)
 {
-    (void)state;
     static struct site s;
     wooded_site_init(&s);
     struct ceduo_picture p = picture_of(&s);
@@ -327,9 +314,8 @@ static void small_strips_show_one_pair_of_curves(void **state)
 }
 
 /* Names stand in the order in which the curves end: here the wooded mean above the bare one. */
-static void names_of_curves_follow_their_ends(void **state)
+TEST(names_of_curves_follow_their_ends)
 {
-    (void)state;
     static struct site s;
     wooded_site_init(&s);
     struct ceduo_picture p = picture_of(&s);
@@ -350,9 +336,8 @@ static void names_of_curves_follow_their_ends(void **state)
 }
 
 /* The wood's own peak is cut as well, and told by name. */
-static void a_peak_in_the_wood_is_told(void **state)
+TEST(a_peak_in_the_wood_is_told)
 {
-    (void)state;
     static struct site s;
     wooded_site_init(&s);
     struct ceduo_picture p = picture_of(&s);
@@ -362,9 +347,8 @@ static void a_peak_in_the_wood_is_told(void **state)
     assert_true(shows(CEDUO_PLOT_HEIGHT, &p, 58, 16, "; up to 30.0\n"));
 }
 
-static void strips_without_wooded_rocks(void **state)
+TEST(strips_without_wooded_rocks)
 {
-    (void)state;
     static struct site s;
     wooded_site_init(&s);
     struct ceduo_picture p = picture_of(&s);
@@ -382,9 +366,8 @@ static void strips_without_wooded_rocks(void **state)
 }
 
 /* Nine places of ten say how high the scale goes; the tenth is told. */
-static void a_peak_is_cut_and_told(void **state)
+TEST(a_peak_is_cut_and_told)
 {
-    (void)state;
     static struct site s;
     site_init(&s);
     struct ceduo_picture p = picture_of(&s);
@@ -394,9 +377,8 @@ static void a_peak_is_cut_and_told(void **state)
     expect(CEDUO_PLOT_HEIGHT, &p, 70, 16, ASCII, "a-peak-is-cut-and-told");
 }
 
-static void strips_share_the_profiles_columns(void **state)
+TEST(strips_share_the_profiles_columns)
 {
-    (void)state;
     static struct site s;
     site_init(&s);
     struct ceduo_picture p = picture_of(&s);
@@ -417,9 +399,8 @@ static void strips_share_the_profiles_columns(void **state)
     ceduo_cells_free(cells);
 }
 
-static void places_without_rocks_stay_empty(void **state)
+TEST(places_without_rocks_stay_empty)
 {
-    (void)state;
     static struct site s;
     site_init(&s);
     struct ceduo_picture p = picture_of(&s);
@@ -433,9 +414,8 @@ static void places_without_rocks_stay_empty(void **state)
 
 /* ---- bars ---- */
 
-static void histogram_counts_by_round_bins(void **state)
+TEST(histogram_counts_by_round_bins)
 {
-    (void)state;
     static struct site s;
     site_init(&s);
     struct ceduo_picture p = picture_of(&s);
@@ -447,9 +427,8 @@ static void histogram_counts_by_round_bins(void **state)
     assert_true(shows(CEDUO_PLOT_HISTOGRAM, &p, 60, 8, "no control"));
 }
 
-static void a_long_tail_goes_into_one_bin(void **state)
+TEST(a_long_tail_goes_into_one_bin)
 {
-    (void)state;
     static struct site s;
     site_init(&s);
     struct ceduo_picture p = picture_of(&s);
@@ -463,9 +442,8 @@ static void a_long_tail_goes_into_one_bin(void **state)
     assert_true(shows(CEDUO_PLOT_HISTOGRAM, &p, 100, 8, "drawn: the first 1000"));
 }
 
-static void equal_energies_make_a_bin(void **state)
+TEST(equal_energies_make_a_bin)
 {
-    (void)state;
     static struct site s;
     site_init(&s);
     struct ceduo_picture p = picture_of(&s);
@@ -478,9 +456,8 @@ static void equal_energies_make_a_bin(void **state)
 }
 
 /* Bars through the forest, marks without it, both of 1000 released. */
-static void the_histogram_marks_the_bare_slope(void **state)
+TEST(the_histogram_marks_the_bare_slope)
 {
-    (void)state;
     static struct site s;
     wooded_site_init(&s);
     struct ceduo_picture p = picture_of(&s);
@@ -495,9 +472,8 @@ static void the_histogram_marks_the_bare_slope(void **state)
     assert_true(shows(CEDUO_PLOT_HISTOGRAM, &p, 74, 12, "no rock arrives"));
 }
 
-static void the_histogram_without_wooded_rocks(void **state)
+TEST(the_histogram_without_wooded_rocks)
 {
-    (void)state;
     static struct site s;
     wooded_site_init(&s);
     struct ceduo_picture p = picture_of(&s);
@@ -509,9 +485,8 @@ static void the_histogram_without_wooded_rocks(void **state)
     assert_true(shows(CEDUO_PLOT_HISTOGRAM, &p, 74, 12, "of 1000 released 800 arrive (| bare 800)"));
 }
 
-static void adc_shows_the_forms_beside_the_threshold(void **state)
+TEST(adc_shows_the_forms_beside_the_threshold)
 {
-    (void)state;
     static struct site s;
     site_init(&s);
     struct ceduo_picture p = picture_of(&s);
@@ -529,9 +504,8 @@ static void adc_shows_the_forms_beside_the_threshold(void **state)
     assert_true(shows(CEDUO_PLOT_ADC, &p, 70, 9, "no forest"));
 }
 
-static void many_belts_get_a_row_each(void **state)
+TEST(many_belts_get_a_row_each)
 {
-    (void)state;
     static struct site s;
     site_init(&s);
     struct ceduo_picture p = picture_of(&s);
@@ -543,9 +517,8 @@ static void many_belts_get_a_row_each(void **state)
     assert_true(shows(CEDUO_PLOT_ADC, &p, 70, 5, "and 3 more belts"));
 }
 
-static void options_stand_side_by_side(void **state)
+TEST(options_stand_side_by_side)
 {
-    (void)state;
     static struct site s;
     site_init(&s);
     struct ceduo_picture p = picture_of(&s);
@@ -555,9 +528,8 @@ static void options_stand_side_by_side(void **state)
     assert_true(shows(CEDUO_PLOT_COMPARE, &p, 120, 6, "no rock arrives"));
 }
 
-static void options_are_compared_by_what_gets_through(void **state)
+TEST(options_are_compared_by_what_gets_through)
 {
-    (void)state;
     static struct site s;
     wooded_site_init(&s);
     struct ceduo_picture p = picture_of(&s);
@@ -569,9 +541,8 @@ static void options_are_compared_by_what_gets_through(void **state)
     expect(CEDUO_PLOT_COMPARE, &p, 80, 9, ASCII, "options-are-compared-by-what-gets-through-3");
 }
 
-static void options_without_wooded_rocks_are_compared(void **state)
+TEST(options_without_wooded_rocks_are_compared)
 {
-    (void)state;
     static struct site s;
     wooded_site_init(&s);
     struct ceduo_picture p = picture_of(&s);
@@ -585,9 +556,8 @@ static void options_without_wooded_rocks_are_compared(void **state)
 
 /* ---- the stand ---- */
 
-static void the_stand_is_drawn_to_scale(void **state)
+TEST(the_stand_is_drawn_to_scale)
 {
-    (void)state;
     static struct site s;
     site_init(&s);
     struct ceduo_picture p = picture_of(&s);
@@ -599,9 +569,8 @@ static void the_stand_is_drawn_to_scale(void **state)
 }
 
 /* More stools are added to those that stand. */
-static void stems_that_stay_do_not_move(void **state)
+TEST(stems_that_stay_do_not_move)
 {
-    (void)state;
     static struct site s;
     site_init(&s);
     struct ceduo_picture p = picture_of(&s);
@@ -623,9 +592,8 @@ static void stems_that_stay_do_not_move(void **state)
 
 /* Trees of 10 cm and a rock of 3 m: those whose middle is less than 1.55 m off its path are met, no others. A row of
  * the picture is half a metre. */
-static void what_the_rock_meets_lies_in_its_strip(void **state)
+TEST(what_the_rock_meets_lies_in_its_strip)
 {
-    (void)state;
     static struct site s;
     site_init(&s);
     struct ceduo_picture p = picture_of(&s);
@@ -647,9 +615,8 @@ static void what_the_rock_meets_lies_in_its_strip(void **state)
 }
 
 /* 20 m around the last stem of the belt, offsets stretched until the strip fills the picture. */
-static void the_stand_shows_the_way_of_the_rock(void **state)
+TEST(the_stand_shows_the_way_of_the_rock)
 {
-    (void)state;
     static struct site s;
     wooded_site_init(&s);
     struct ceduo_picture p = picture_of(&s);
@@ -669,9 +636,8 @@ static void the_stand_shows_the_way_of_the_rock(void **state)
 }
 
 /* The last stem in another belt: the first 20 m with stems. A belt shorter than that is shown with what follows it. */
-static void the_way_is_shown_in_the_belt_shown(void **state)
+TEST(the_way_is_shown_in_the_belt_shown)
 {
-    (void)state;
     static struct site s;
     wooded_site_init(&s);
     struct ceduo_belt belts[3] = {s.belts[0], s.belts[0], s.belts[1]};
@@ -695,9 +661,8 @@ static void the_way_is_shown_in_the_belt_shown(void **state)
     assert_true(shows(CEDUO_PLOT_STAND, &p, 70, 14, "One pattern of many"));
 }
 
-static void a_dense_stand_is_drawn_in_time(void **state)
+TEST(a_dense_stand_is_drawn_in_time)
 {
-    (void)state;
     static struct site s;
     site_init(&s);
     struct ceduo_picture p = picture_of(&s);
@@ -708,9 +673,8 @@ static void a_dense_stand_is_drawn_in_time(void **state)
 
 /* ---- all of them ---- */
 
-static void nothing_is_drawn_beside_the_area(void **state)
+TEST(nothing_is_drawn_beside_the_area)
 {
-    (void)state;
     static struct site s;
     wooded_site_init(&s);
     for (int i = 0; i < 3 * 40 * 12; i++) {
@@ -801,9 +765,8 @@ static void page_cloud_show(void *to, double quantile)
     (void)to, (void)quantile;
 }
 
-static void pictures_draw_on_another_surface(void **state)
+TEST(pictures_draw_on_another_surface)
 {
-    (void)state;
     static const struct ceduo_surface surface = {.label = page_label,
                                                  .label_width = page_label_width,
                                                  .is_blank = page_is_blank,
@@ -835,9 +798,8 @@ static void pictures_draw_on_another_surface(void **state)
 }
 
 /* Three options: one between the others, one that yields less and lets more through, one of which no yield is known. */
-static void a_point_for_each_option(void **state)
+TEST(a_point_for_each_option)
 {
-    (void)state;
     static struct site s;
     wooded_site_init(&s);
     static struct ceduo_option options[3];
@@ -860,9 +822,8 @@ static void a_point_for_each_option(void **state)
     assert_true(shows(CEDUO_PLOT_TRADEOFF, &p, 60, 16, "not computed yet"));
 }
 
-static void names_are_found(void **state)
+TEST(names_are_found)
 {
-    (void)state;
     const char *names[] = {"profile", "energy", "height", "histogram", "adc", "rotation", "stand", "compare", "tradeoff"};
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
         enum ceduo_plot plot = ceduo_plot_find(names[i]);
@@ -873,9 +834,8 @@ static void names_are_found(void **state)
     assert_int_equal(ceduo_plot_find(""), CEDUO_PLOT_NONE);
 }
 
-static void titles_name_what_is_shown(void **state)
+TEST(titles_name_what_is_shown)
 {
-    (void)state;
     static struct site s;
     site_init(&s);
     struct ceduo_picture p = picture_of(&s);
@@ -921,9 +881,8 @@ static void titles_name_what_is_shown(void **state)
 }
 
 /* What was not flown yet is named. */
-static void pictures_name_what_is_not_known(void **state)
+TEST(pictures_name_what_is_not_known)
 {
-    (void)state;
     static struct site s;
     wooded_site_init(&s);
     s.wooded[0] = NULL;
@@ -942,9 +901,8 @@ static enum exit_status read(struct arguments *a, int argc, char **argv)
 
 #define READ(a, ...) read(a, sizeof((char *[]){"ceduo", __VA_ARGS__}) / sizeof(char *), (char *[]){"ceduo", __VA_ARGS__, NULL})
 
-static void a_picture_is_asked_for(void **state)
+TEST(a_picture_is_asked_for)
 {
-    (void)state;
     struct arguments a;
     assert_int_equal(READ(&a, "--plot", "adc", "--size", "100x30", "--charset", "block", "x.yaml"), EXIT_DONE);
     assert_int_equal(a.mode, MODE_BATCH);
@@ -962,9 +920,8 @@ static void a_picture_is_asked_for(void **state)
     ceduo_arguments_free(&a);
 }
 
-static void wrong_pictures_are_usage_errors(void **state)
+TEST(wrong_pictures_are_usage_errors)
 {
-    (void)state;
     struct arguments a;
     const char *sizes[] = {"",     "80",      "x24",    "80x",       "80x24x2", "19x24",
                            "80x5", "1001x24", "80x501", "8e1000x24", "-80x24",  "80.5x24"};
@@ -988,54 +945,4 @@ static void wrong_pictures_are_usage_errors(void **state)
     ceduo_arguments_free(&a);
     assert_int_equal(READ(&a, "--batch", "--size", "80x24", "x.yaml"), EXIT_USAGE);
     ceduo_arguments_free(&a);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(profile_is_true_to_scale),
-        cmocka_unit_test(span_tells_where_the_slope_stands),
-        cmocka_unit_test(heights_are_stretched_where_the_slope_is_flat_and_the_factor_is_written),
-        cmocka_unit_test(the_selected_way_is_drawn_over_all),
-        cmocka_unit_test(the_wooded_profile_says_whose_forest_it_is),
-        cmocka_unit_test(ways_that_are_not_known_are_not_drawn),
-        cmocka_unit_test(notes_tell_when_no_rock_arrives),
-        cmocka_unit_test(stems_that_the_rock_came_to_stand_where_they_are),
-        cmocka_unit_test(contacts_without_size_are_drawn_as_high_as_the_stand),
-        cmocka_unit_test(axes_have_the_users_coordinates),
-        cmocka_unit_test(strips_show_quantiles_along_the_slope),
-        cmocka_unit_test(strips_show_the_wood_beside_the_bare_slope),
-        cmocka_unit_test(small_strips_show_one_pair_of_curves),
-        cmocka_unit_test(names_of_curves_follow_their_ends),
-        cmocka_unit_test(a_peak_in_the_wood_is_told),
-        cmocka_unit_test(strips_without_wooded_rocks),
-        cmocka_unit_test(a_peak_is_cut_and_told),
-        cmocka_unit_test(strips_share_the_profiles_columns),
-        cmocka_unit_test(places_without_rocks_stay_empty),
-        cmocka_unit_test(histogram_counts_by_round_bins),
-        cmocka_unit_test(a_long_tail_goes_into_one_bin),
-        cmocka_unit_test(equal_energies_make_a_bin),
-        cmocka_unit_test(the_histogram_marks_the_bare_slope),
-        cmocka_unit_test(the_histogram_without_wooded_rocks),
-        cmocka_unit_test(adc_shows_the_forms_beside_the_threshold),
-        cmocka_unit_test(many_belts_get_a_row_each),
-        cmocka_unit_test(options_stand_side_by_side),
-        cmocka_unit_test(options_are_compared_by_what_gets_through),
-        cmocka_unit_test(options_without_wooded_rocks_are_compared),
-        cmocka_unit_test(the_stand_is_drawn_to_scale),
-        cmocka_unit_test(stems_that_stay_do_not_move),
-        cmocka_unit_test(what_the_rock_meets_lies_in_its_strip),
-        cmocka_unit_test(the_stand_shows_the_way_of_the_rock),
-        cmocka_unit_test(the_way_is_shown_in_the_belt_shown),
-        cmocka_unit_test(a_dense_stand_is_drawn_in_time),
-        cmocka_unit_test(nothing_is_drawn_beside_the_area),
-        cmocka_unit_test(pictures_draw_on_another_surface),
-        cmocka_unit_test(a_point_for_each_option),
-        cmocka_unit_test(names_are_found),
-        cmocka_unit_test(titles_name_what_is_shown),
-        cmocka_unit_test(pictures_name_what_is_not_known),
-        cmocka_unit_test(a_picture_is_asked_for),
-        cmocka_unit_test(wrong_pictures_are_usage_errors),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -19,9 +19,8 @@ static struct ceduo_question question_of(uint64_t rocks)
 }
 
 /* Stands and index are assessed without a rock, be its precision asked for or not. */
-static void no_rocks_are_not_precise(void **state)
+TEST(no_rocks_are_not_precise)
 {
-    (void)state;
     struct ceduo_question q = question_of(0);
     struct ceduo_answer answer;
     q.tolerance = .1;
@@ -47,9 +46,8 @@ static void expect_yields_alone(const struct ceduo_answer *answer)
 }
 
 /* Where rocks are counted nowhere they fly all the same, and there is nothing to say of other sizes. */
-static void nothing_is_counted_without_a_control(void **state)
+TEST(nothing_is_counted_without_a_control)
 {
-    (void)state;
     for (int model = CEDUO_INDEX; model <= CEDUO_STEMS; model++) {
         struct ceduo_question q = question_of(20);
         struct ceduo_answer answer;
@@ -69,9 +67,8 @@ static void nothing_is_counted_without_a_control(void **state)
 }
 
 /* All runs are there from the question before: only the other sizes fly, and nobody waits for them. */
-static void other_sizes_are_cancelled(void **state)
+TEST(other_sizes_are_cancelled)
 {
-    (void)state;
     struct ceduo_question q = question_of(20);
     struct ceduo_pool *pool = NULL;
     struct ceduo_answer answer;
@@ -93,9 +90,8 @@ static void other_sizes_are_cancelled(void **state)
 }
 
 /* At the worst of two controls; not known where it is not of one of them, whichever comes first. */
-static void a_goal_is_reached_at_the_worst_control(void **state)
+TEST(a_goal_is_reached_at_the_worst_control)
 {
-    (void)state;
     const double accepted[][2] = {{50e3, 50e3}, {NAN, 50e3}, {50e3, NAN}};
     for (size_t i = 0; i < LENGTH(accepted); i++) {
         struct ceduo_question q = question_of(200);
@@ -120,9 +116,8 @@ static void a_goal_is_reached_at_the_worst_control(void **state)
 }
 
 /* Of two options that are the same the difference is 0, without an error. */
-static void options_that_are_the_same(void **state)
+TEST(options_that_are_the_same)
 {
-    (void)state;
     struct ceduo_question q = question_of(200);
     struct ceduo_answer answer;
     struct ceduo_option options[2] = {site.option, site.option};
@@ -138,9 +133,8 @@ static void options_that_are_the_same(void **state)
 }
 
 /* Two things at one place: the same rocks come, and each has its own limit. */
-static void controls_at_one_place(void **state)
+TEST(controls_at_one_place)
 {
-    (void)state;
     struct ceduo_question q = question_of(200);
     struct ceduo_answer answer;
     struct ceduo_control controls[2] = {site.control, site.control};
@@ -157,9 +151,8 @@ static void controls_at_one_place(void **state)
 }
 
 /* Years in which no rock was simulated have no share that could be less. */
-static void years_without_rocks_differ_by_nothing_known(void **state)
+TEST(years_without_rocks_differ_by_nothing_known)
 {
-    (void)state;
     struct ceduo_question q = question_of(50);
     struct ceduo_answer answer;
     struct ceduo_years *none;
@@ -175,9 +168,8 @@ static void years_without_rocks_differ_by_nothing_known(void **state)
 }
 
 /* Three belts that are cut together, every ten years from the second on: by year, then along the slope. */
-static void fellings_are_in_order(void **state)
+TEST(fellings_are_in_order)
 {
-    (void)state;
     struct ceduo_belt belts[3];
     struct ceduo_option option = {.belts = belts, .belts_count = 3};
     struct ceduo_yield yield;
@@ -199,9 +191,8 @@ static void fellings_are_in_order(void **state)
 
 /* A coppice that was just cut has no stem today and a volume to cut later: half of the forest beside one that is bare for good, which
  * does not count. */
-static void a_stand_just_cut_yields(void **state)
+TEST(a_stand_just_cut_yields)
 {
-    (void)state;
     static struct ceduo_stems none[1];
     struct ceduo_belt belts[2];
     struct ceduo_option option = {.belts = belts, .belts_count = 1};
@@ -226,20 +217,4 @@ static void a_stand_just_cut_yields(void **state)
     EXPECT(beside.cut_per_year, ==, alone.cut_per_year);
     ceduo_yield_release(&alone);
     ceduo_yield_release(&beside);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(no_rocks_are_not_precise),
-        cmocka_unit_test(nothing_is_counted_without_a_control),
-        cmocka_unit_test(other_sizes_are_cancelled),
-        cmocka_unit_test(a_goal_is_reached_at_the_worst_control),
-        cmocka_unit_test(options_that_are_the_same),
-        cmocka_unit_test(controls_at_one_place),
-        cmocka_unit_test(years_without_rocks_differ_by_nothing_known),
-        cmocka_unit_test(fellings_are_in_order),
-        cmocka_unit_test(a_stand_just_cut_yields),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -22,9 +22,8 @@ static void expect_slope(double *where, double value, enum ceduo_status wanted)
     assert_int_equal(ceduo_scene_check(&site.scene, NULL), CEDUO_OK);
 }
 
-static void slopes_are_refused(void **state)
+TEST(slopes_are_refused)
 {
-    (void)state;
     paper_site_init(&site);
     struct ceduo_slope *slope = &site.scene.slope;
     struct ceduo_segment *s = &slope->segments[3];
@@ -57,9 +56,8 @@ static void slopes_are_refused(void **state)
     assert_int_equal(ceduo_scene_check(&site.scene, NULL), CEDUO_BAD_SLOPE);
 }
 
-static void scenes_are_refused(void **state)
+TEST(scenes_are_refused)
 {
-    (void)state;
     paper_site_init(&site);
     struct ceduo_scene *scene = &site.scene;
     struct ceduo_control controls[2] = {site.control, site.control};
@@ -89,9 +87,8 @@ static void scenes_are_refused(void **state)
     assert_int_equal(ceduo_species_find("no-such-tree"), -1);
 }
 
-static void blocks_are_refused(void **state)
+TEST(blocks_are_refused)
 {
-    (void)state;
     double volumes[2] = {0.1, 2};
     struct ceduo_block_class b[2] = {{1, 1, 2, volumes}, {1, 1, 2, volumes}};
     const struct {
@@ -113,9 +110,8 @@ static void blocks_are_refused(void **state)
 }
 
 /* Of a rock that is none nothing is known, and none is flown. */
-static void no_rock_no_figures(void **state)
+TEST(no_rock_no_figures)
 {
-    (void)state;
     paper_site_init(&site);
     struct ceduo_block blocks[CEDUO_BLOCKS];
     struct ceduo_trajectory way;
@@ -163,9 +159,8 @@ static void expect_rock(const struct ceduo_rock_def *def, enum ceduo_status want
     assert_int_equal(ceduo_rock_of_means(def, &rock), wanted);
 }
 
-static void rocks_are_refused(void **state)
+TEST(rocks_are_refused)
 {
-    (void)state;
     const double no_size[] = {0, -1, INFINITY, -INFINITY};
     struct ceduo_rock_def def = ceduo_scene_default().rock;
     expect_rock(&def, CEDUO_BAD_ROCK);
@@ -226,9 +221,8 @@ static size_t segments_made(void)
     return n;
 }
 
-static void alike_neighbours_are_one(void **state)
+TEST(alike_neighbours_are_one)
 {
-    (void)state;
     paper_site_init(&site);
     struct ceduo_slope *slope = &site.scene.slope;
     struct ceduo_segment *a = &slope->segments[0], *b = &slope->segments[1];
@@ -264,9 +258,8 @@ static void alike_neighbours_are_one(void **state)
 }
 
 /* A short segment that is turned from the line further than one may be is no part of it, be its end on it or not. */
-static void turned_segments_are_their_own(void **state)
+TEST(turned_segments_are_their_own)
 {
-    (void)state;
     paper_site_init(&site);
     struct ceduo_slope *slope = &site.scene.slope;
     const double x[] = {0, 1e-6, 1.1e-6, 1000};
@@ -284,9 +277,8 @@ static void turned_segments_are_their_own(void **state)
 }
 
 /* Stools so wide and so many that a table for all that a rock can be among would not fit into memory: there is a most. */
-static void tables_of_stools_have_an_end(void **state)
+TEST(tables_of_stools_have_an_end)
 {
-    (void)state;
     paper_site_init(&site);
     const struct ceduo_simulation *simulation = &site.scene.simulation;
     const struct ceduo_rock rock = {.mean_diameter = .68};
@@ -304,9 +296,8 @@ static void tables_of_stools_have_an_end(void **state)
 }
 
 /* A stand of whose growth something is not known stays as it is; and is never cut. */
-static void growth_is_known_or_not(void **state)
+TEST(growth_is_known_or_not)
 {
-    (void)state;
     paper_site_init(&site);
     struct ceduo_stand *stand = &site.belts[0].stand;
     struct ceduo_curve *shoots = &stand->growth.shoots;
@@ -344,9 +335,8 @@ static void growth_is_known_or_not(void **state)
 
 /* ---- the index ---- */
 
-static void belts_beside_the_way(void **state)
+TEST(belts_beside_the_way)
 {
-    (void)state;
     paper_site_init(&site);
     struct ceduo_belt *belts = site.belts;
     struct ceduo_control control = site.control;
@@ -372,21 +362,4 @@ static void belts_beside_the_way(void **state)
     second = ceduo_assess_index(&site.scene, &site.option, &control, NAN);
     EXPECT_NEAR(second.measured, 50 * rock.mass, 1e-6);
     assert_int_equal(ceduo_energy_light(NULL), CEDUO_UNKNOWN);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(slopes_are_refused),
-        cmocka_unit_test(scenes_are_refused),
-        cmocka_unit_test(blocks_are_refused),
-        cmocka_unit_test(no_rock_no_figures),
-        cmocka_unit_test(rocks_are_refused),
-        cmocka_unit_test(alike_neighbours_are_one),
-        cmocka_unit_test(turned_segments_are_their_own),
-        cmocka_unit_test(tables_of_stools_have_an_end),
-        cmocka_unit_test(growth_is_known_or_not),
-        cmocka_unit_test(belts_beside_the_way),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

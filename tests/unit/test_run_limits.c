@@ -29,9 +29,8 @@ static bool matters(double *number, double value)
     return other;
 }
 
-static void keys_tell_what_rocks_meet(void **state)
+TEST(keys_tell_what_rocks_meet)
 {
-    (void)state;
     paper_site_init(&site);
     struct ceduo_stand *stand = &site.belts[0].stand;
     struct ceduo_stems *shoots = &stand->shoots[0];
@@ -92,9 +91,8 @@ static struct ceduo_run *run_of(const struct ceduo_run_def *def, uint64_t rocks)
 }
 
 /* Rocks of which some are drawn too light to compute with: these, and only these, are unfinished, at each control. */
-static void rocks_that_cannot_be_drawn(void **state)
+TEST(rocks_that_cannot_be_drawn)
 {
-    (void)state;
     static const double cells[] = {50};
     paper_site_init(&site);
     site.scene.simulation.rocks = 300;
@@ -129,9 +127,8 @@ static void rocks_that_cannot_be_drawn(void **state)
 }
 
 /* One number of the release has a spread: a run flies its rocks as they are followed one by one. */
-static void each_spread_is_drawn(void **state)
+TEST(each_spread_is_drawn)
 {
-    (void)state;
     enum { ROCKS = 40 };
     for (int i = 0; i < 5; i++) {
         paper_site_init(&site);
@@ -176,9 +173,8 @@ static void count_stem(void *context, const struct ceduo_stem_passed *stem)
 }
 
 /* Whoever looks on, at pieces, at stems or at nothing, changes nothing. */
-static void looking_on_changes_nothing(void **state)
+TEST(looking_on_changes_nothing)
 {
-    (void)state;
     unsigned seen;
     const struct ceduo_watch watches[] = {{NULL, count_piece, count_stem, &seen},
                                           {NULL, count_piece, NULL, &seen},
@@ -207,9 +203,8 @@ static void looking_on_changes_nothing(void **state)
 }
 
 /* A rock that bounces in its place for ever is given up, unfinished before the control; the cells do not see it. */
-static void a_rock_without_end(void **state)
+TEST(a_rock_without_end)
 {
-    (void)state;
     static const double cells[] = {1, 50};
     paper_site_init(&site);
     struct ceduo_slope *slope = &site.scene.slope;
@@ -235,9 +230,8 @@ static void a_rock_without_end(void **state)
 }
 
 /* Where samples are kept no more, differences come from the first so many rocks: their error is as that of all. */
-static void differences_of_the_first_rocks(void **state)
+TEST(differences_of_the_first_rocks)
 {
-    (void)state;
     enum { ROCKS = CEDUO_PAIRED_ROCKS + 70000 };
     paper_site_init(&site);
     site.scene.simulation.rocks = ROCKS;
@@ -268,9 +262,8 @@ static void differences_of_the_first_rocks(void **state)
 }
 
 /* Blocks of all sizes: the difference of two runs is one of the rocks that both have, whichever is longer. */
-static void differences_of_blocks(void **state)
+TEST(differences_of_blocks)
 {
-    (void)state;
     static double volumes[] = {0.05, 1};
     struct ceduo_block_class blocks = {.per_year = 1, .exponent = 1, .volumes_count = 2, .volumes = volumes};
     paper_site_init(&site);
@@ -297,9 +290,8 @@ static void differences_of_blocks(void **state)
 }
 
 /* A hundred energies of blocks stand for all: in the order of the rocks, each at the middle of a hundredth of all weights. */
-static void energies_of_blocks_are_even_quantiles(void **state)
+TEST(energies_of_blocks_are_even_quantiles)
 {
-    (void)state;
     enum { ROCKS = 900, MOST = 100 };
     static double volumes[] = {0.05, 1}, all[ROCKS], some[MOST];
     struct ceduo_block_class blocks = {.per_year = 1, .exponent = 1, .volumes_count = 2, .volumes = volumes};
@@ -326,9 +318,8 @@ static void energies_of_blocks_are_even_quantiles(void **state)
 }
 
 /* In brief a run says what it says at length: of one block or of all sizes, with and without an accepted energy. */
-static void a_run_in_brief(void **state)
+TEST(a_run_in_brief)
 {
-    (void)state;
     static double volumes[] = {0.05, 1};
     struct ceduo_block_class blocks = {.per_year = 1, .exponent = 1, .volumes_count = 2, .volumes = volumes};
     for (int i = 0; i < 4; i++) {
@@ -353,9 +344,8 @@ static void a_run_in_brief(void **state)
 }
 
 /* Runs that keep no samples have no values to give, and runs of other lengths no difference. */
-static void what_needs_samples(void **state)
+TEST(what_needs_samples)
 {
-    (void)state;
     paper_site_init(&site);
     struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
     struct ceduo_run *exact = run_of(&def, 40);
@@ -371,9 +361,8 @@ static void what_needs_samples(void **state)
 }
 
 /* Years that were not flown yet say nothing of what arrives. */
-static void years_before_they_are_flown(void **state)
+TEST(years_before_they_are_flown)
 {
-    (void)state;
     paper_site_init(&site);
     site.scene.simulation.rocks = 20;
     struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
@@ -397,9 +386,8 @@ static void years_before_they_are_flown(void **state)
     ceduo_run_free(run);
 }
 
-static void little_is_asked_of_a_run(void **state)
+TEST(little_is_asked_of_a_run)
 {
-    (void)state;
     static const double cells[] = {20, 152};
     double energies[8];
     paper_site_init(&site);
@@ -486,9 +474,8 @@ static void little_is_asked_of_a_run(void **state)
     assert_null(pool);
 }
 
-static void a_result_of_no_control(void **state)
+TEST(a_result_of_no_control)
 {
-    (void)state;
     paper_site_init(&site);
     site.scene.simulation.rocks = 20;
     site.scene.options = &site.option;
@@ -507,9 +494,8 @@ static void a_result_of_no_control(void **state)
 }
 
 /* Forests that the scene has no more: the runs asked for last stay, so many of them. */
-static void a_pool_forgets_what_is_old(void **state)
+TEST(a_pool_forgets_what_is_old)
 {
-    (void)state;
     paper_site_init(&site);
     site.scene.simulation.rocks = 10;
     struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
@@ -537,25 +523,4 @@ static void a_pool_forgets_what_is_old(void **state)
     }
     site.belts[1].to = to;
     ceduo_pool_free(pool);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(keys_tell_what_rocks_meet),
-        cmocka_unit_test(rocks_that_cannot_be_drawn),
-        cmocka_unit_test(each_spread_is_drawn),
-        cmocka_unit_test(looking_on_changes_nothing),
-        cmocka_unit_test(a_rock_without_end),
-        cmocka_unit_test(differences_of_the_first_rocks),
-        cmocka_unit_test(differences_of_blocks),
-        cmocka_unit_test(energies_of_blocks_are_even_quantiles),
-        cmocka_unit_test(a_run_in_brief),
-        cmocka_unit_test(what_needs_samples),
-        cmocka_unit_test(years_before_they_are_flown),
-        cmocka_unit_test(little_is_asked_of_a_run),
-        cmocka_unit_test(a_pool_forgets_what_is_old),
-        cmocka_unit_test(a_result_of_no_control),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

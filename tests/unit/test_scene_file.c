@@ -36,9 +36,8 @@ static char *scene_with(const char *line)
 }
 
 /* A file where a stand should be; a base that is an option's; a slope of which there is nothing. */
-static void files_that_are_followed(void **state)
+TEST_WITH(files_that_are_followed, folder_set_up_profiles, folder_tear_down)
 {
-    (void)state;
     static const char rest[] = "ceduo: scene/1\nrock: {diameter_m: 0.5}\ncontrols: [{x_m: 90}]\n";
     static const char slope[] = "slope: {vertices_m: [[0, 50], [100, 0]], segments: [{rn: 0.3, rt: 0.8}]}\n";
     static const char *const with_base[] = {"forest[0].stand={base: stand.yaml, stools: {per_ha: 1234}}"};
@@ -90,9 +89,8 @@ static void files_that_are_followed(void **state)
 
 /* A change takes its value out of the source around it: where that is no such thing as should be there, it stays and is
  * told. A key that a change makes has no place in the file. */
-static void sources_of_changes(void **state)
+TEST(sources_of_changes)
 {
-    (void)state;
     const struct {
         const char *source, *set, *told;
     } rows[] = {{"{kind: measured, except: [volume_m3]}", "rock.diameter_m=0.6", NULL},
@@ -133,9 +131,8 @@ static void sources_of_changes(void **state)
 }
 
 /* A shape that a change sets does not go with the sizes of the file: what is proposed instead does. */
-static void shapes_of_changes(void **state)
+TEST(shapes_of_changes)
 {
-    (void)state;
     const struct {
         const char *rock, *set;
     } rows[] = {{"rock: {shape: cylinder, diameter_m: 1, height_m: 2}", "rock.shape=sphere"},
@@ -164,9 +161,8 @@ static void shapes_of_changes(void **state)
 }
 
 /* Grounds that end where a vertex is, or behind the profile, split no segment; one that ends within does. */
-static void grounds_split_segments(void **state)
+TEST(grounds_split_segments)
 {
-    (void)state;
     const struct {
         const char *materials;
         size_t vertices;
@@ -200,9 +196,8 @@ static void grounds_split_segments(void **state)
 }
 
 /* The same fault once; of a message without end the beginning and the end, whole characters; none beyond so many. */
-static void problems_are_put_together(void **state)
+TEST(problems_are_put_together)
 {
-    (void)state;
     struct problems problems = {0};
     const struct source source = {.name = "file", .bytes = "one\r\n\ttwo\n\nfour", .length = 15};
     ceduo_problem(&problems, &source, 1, 2, "a");
@@ -250,9 +245,8 @@ static void problems_are_put_together(void **state)
 }
 
 /* Where a value comes from is said by the innermost mapping on the way to it. */
-static void notes_are_found(void **state)
+TEST(notes_are_found)
 {
-    (void)state;
     struct scene_file file;
     struct problems problems = {0};
     char *text = scene_with(
@@ -297,9 +291,8 @@ static void notes_are_found(void **state)
 
 /* ---- the table of parameters ---- */
 
-static void ranges_are_told(void **state)
+TEST(ranges_are_told)
 {
-    (void)state;
     const struct {
         double lo, hi;
         unsigned flags;
@@ -327,18 +320,4 @@ static void ranges_are_told(void **state)
         assert_string_equal(ceduo_text_string(&text), rows[i].text);
         ceduo_text_free(&text);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(files_that_are_followed, folder_set_up_profiles, folder_tear_down),
-        cmocka_unit_test(sources_of_changes),
-        cmocka_unit_test(shapes_of_changes),
-        cmocka_unit_test(grounds_split_segments),
-        cmocka_unit_test(problems_are_put_together),
-        cmocka_unit_test(notes_are_found),
-        cmocka_unit_test(ranges_are_told),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

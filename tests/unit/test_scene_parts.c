@@ -58,9 +58,8 @@ static void read_scene(struct scene_file *file, const char *lines, const char *c
 #define STOPS  "stops: {x_m: [40, 50]}"
 
 /* More rows than anybody reads. */
-static void rows_of_doubt_are_told(void **state)
+TEST_WITH(rows_of_doubt_are_told, folder_set_up, folder_tear_down)
 {
-    (void)state;
     struct text many = {0};
     struct scene_file file;
     ceduo_text_put(&many, "doubt: [");
@@ -86,9 +85,8 @@ static void expect_places(const char *lines, const char *places)
     ceduo_scene_release(&file);
 }
 
-static void rows_of_doubt_mean_places(void **state)
+TEST_WITH(rows_of_doubt_mean_places, folder_set_up, folder_tear_down)
 {
-    (void)state;
     expect_places("doubt: [{path: 'forest[0].stand.cutting.rotation_years', lo: 10, hi: 20}]\n"
                   "forest: [{" BELT ", cutting: {rotation_years: 15}}}]",
                   "forest[0].stand.cutting.rotation_years");
@@ -107,9 +105,8 @@ static void rows_of_doubt_mean_places(void **state)
 }
 
 /* A place has one path: by its number, though a row gives its name. */
-static void places_by_name(void **state)
+TEST_WITH(places_by_name, folder_set_up, folder_tear_down)
 {
-    (void)state;
     static const char place[] = "options[1].forest[0].stand.trees[0].per_ha";
     static const char *const more[] = {"doubt: [{path: 'trees[0].per_ha', lo: 40, hi: 120}]", "source: {kind: assumed}"};
     for (size_t i = 0; i < LENGTH(more); i++) { /* which the row of the scene goes before */
@@ -139,9 +136,8 @@ static void places_by_name(void **state)
 }
 
 /* More places than there are rows in any list. */
-static void all_places_are_meant(void **state)
+TEST_WITH(all_places_are_meant, folder_set_up, folder_tear_down)
 {
-    (void)state;
     struct text lines = {0};
     struct scene_file file;
     ceduo_text_put(&lines, "doubt: [{path: 'options[*].forest[*].stand.energy.u_J_m3', lo: 80000, hi: 120000}]\n"
@@ -161,9 +157,8 @@ static void all_places_are_meant(void **state)
 }
 
 /* Ranges, and what says where they come from, are no values that are computed with. */
-static void sources_of_ranges_are_no_notes(void **state)
+TEST_WITH(sources_of_ranges_are_no_notes, folder_set_up, folder_tear_down)
 {
-    (void)state;
     struct scene_file file;
     read_scene(&file,
                "doubt: [{path: 'rock.density_kg_m3', lo: 2000, hi: 3000, source: {kind: assumed, text: mine}}]\n"
@@ -177,9 +172,8 @@ static void sources_of_ranges_are_no_notes(void **state)
 }
 
 /* The number of an entry; what is not there, is none or beyond what a number holds is NaN. */
-static void entries_have_numbers(void **state)
+TEST_WITH(entries_have_numbers, folder_set_up, folder_tear_down)
 {
-    (void)state;
     struct scene_file file;
     const char *const none[] = {"1e999", "x"};
     for (size_t i = 0; i < LENGTH(none); i++) {
@@ -198,9 +192,8 @@ static void entries_have_numbers(void **state)
 /* ---- draws ---- */
 
 /* Where the slope's file says no ground, talus and segments are those of all stretches; a column may set many. */
-static void draws_of_an_assumed_ground(void **state)
+TEST_WITH(draws_of_an_assumed_ground, folder_set_up, folder_tear_down)
 {
-    (void)state;
     static const char lines[] = "slope: profile.csv\ndoubt: {draws: draws.csv}";
     static const char *const places[] = {"rock.density_kg_m3", "slope.segments[0].rn", "slope.segments[0].rt", /* by name */
                                          "slope.segments[1].rn", "slope.segments[1].rt"};
@@ -238,9 +231,8 @@ static void draws_of_an_assumed_ground(void **state)
 }
 
 /* A table of very many columns: all are taken. */
-static void draws_of_many_columns(void **state)
+TEST_WITH(draws_of_many_columns, folder_set_up, folder_tear_down)
 {
-    (void)state;
     struct text profile = {0}, heads = {0}, draws = {0};
     struct scene_file file;
     ceduo_text_put(&profile, "x,z\n");
@@ -270,9 +262,8 @@ static void draws_of_many_columns(void **state)
 /* ---- inputs ---- */
 
 /* The belt of a place; what is no place of a belt of this scene is in none. */
-static void places_have_belts(void **state)
+TEST_WITH(places_have_belts, folder_set_up, folder_tear_down)
 {
-    (void)state;
     struct scene_file file;
     read_scene(&file, "options: [{name: bare}, {name: wood, forest: [{" BELT "}}]}]", NULL, 0, NULL);
     const struct ceduo_scene *s = &file.scene;
@@ -290,9 +281,8 @@ static void places_have_belts(void **state)
 }
 
 /* The strength of the wood of one species is one input wherever it stands; that of another is another. */
-static void strength_is_of_a_species(void **state)
+TEST_WITH(strength_is_of_a_species, folder_set_up, folder_tear_down)
 {
-    (void)state;
     static const char wood[] = "trees: [{per_ha: 10, " TREE "}], energy: {model: dorren, "
                                "fracture_ratio: 1.5, source: {kind: assumed}}";
     struct scene_file file;
@@ -320,9 +310,8 @@ static void strength_is_of_a_species(void **state)
 }
 
 /* Groups are of trees: where there are none, or each is alone, there are no groups. */
-static void groups_are_of_trees(void **state)
+TEST_WITH(groups_are_of_trees, folder_set_up, folder_tear_down)
 {
-    (void)state;
     struct scene_file file;
     read_scene(&file,
                "forest: [{from_m: 10, to_m: 80, stand: {trees: [{per_ha: 0, " TREE ", " GROUPS "}, "
@@ -338,9 +327,8 @@ static void groups_are_of_trees(void **state)
 /* ---- changes ---- */
 
 /* A stand whose file has no name may be given one; it is then no other that was changed. */
-static void a_name_of_its_own(void **state)
+TEST_WITH(a_name_of_its_own, folder_set_up, folder_tear_down)
 {
-    (void)state;
     static const char *const sets[] = {"forest[0].stand.name=mine", "forest[0].stand.stools.per_ha=1500"};
     struct scene_file file;
     put("stand.yaml", "{ceduo: stand/1, " SHOOTS "}\n");
@@ -360,9 +348,8 @@ static size_t notes_of_mu(const struct scene_file *file)
 }
 
 /* What is assumed of a ground goes with the law of contacts, also where the slope is as it was. */
-static void another_law_assumes_other_things(void **state)
+TEST_WITH(another_law_assumes_other_things, folder_set_up, folder_tear_down)
 {
-    (void)state;
     struct scene_file file;
     struct problems problems = {0};
     put("profile.csv", "x,z\n0,50\n40,20\n100,0\n");
@@ -378,26 +365,4 @@ static void another_law_assumes_other_things(void **state)
     }
     ceduo_problems_free(&problems);
     ceduo_scene_release(&file);
-}
-
-#define IN_FOLDER(test) cmocka_unit_test_setup_teardown(test, folder_set_up, folder_tear_down)
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        IN_FOLDER(rows_of_doubt_are_told),
-        IN_FOLDER(rows_of_doubt_mean_places),
-        IN_FOLDER(places_by_name),
-        IN_FOLDER(all_places_are_meant),
-        IN_FOLDER(sources_of_ranges_are_no_notes),
-        IN_FOLDER(entries_have_numbers),
-        IN_FOLDER(draws_of_an_assumed_ground),
-        IN_FOLDER(draws_of_many_columns),
-        IN_FOLDER(places_have_belts),
-        IN_FOLDER(strength_is_of_a_species),
-        IN_FOLDER(groups_are_of_trees),
-        IN_FOLDER(a_name_of_its_own),
-        IN_FOLDER(another_law_assumes_other_things),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -57,9 +57,8 @@ static void write_chain(int n)
 
 /* Eight steps from a stand's file to the one that has no base, and eight from a stand in the scene; one more is told where
  * it is taken. */
-static void bases_go_eight_files_deep(void **state)
+TEST_WITH(bases_go_eight_files_deep, folder_set_up, folder_tear_down)
 {
-    (void)state;
     const char *const stands[] = {"0.yaml", "{base: 1.yaml, trees: [{per_ha: 100, dbh_m: 0.2, height_m: 9}]}",
                                   "{base: 1.yaml, name: own, trees: [{per_ha: 100, dbh_m: 0.2, height_m: 9}]}"};
     for (int n = 1; n <= 10; n++)
@@ -84,9 +83,8 @@ static void bases_go_eight_files_deep(void **state)
         }
 }
 
-static void bases_in_a_circle_are_refused(void **state)
+TEST_WITH(bases_in_a_circle_are_refused, folder_set_up, folder_tear_down)
 {
-    (void)state;
     for (int n = 1; n <= 9; n++)
         for (int i = 0; i < 2; i++) {
             struct scene_file file;
@@ -162,9 +160,8 @@ static void expect_cut(double x, double z, const char *materials, const struct v
     ceduo_scene_release(&file);
 }
 
-static void grounds_meet_anywhere(void **state)
+TEST_WITH(grounds_meet_anywhere, folder_set_up, folder_tear_down)
 {
-    (void)state;
     const struct {
         double borders[4]; /* from the profile's begin; NAN: its end */
         const char *grounds[3];
@@ -204,9 +201,8 @@ static void grounds_meet_anywhere(void **state)
 }
 
 /* Gaps, overlaps and ends are told by the coordinates of the file. */
-static void grounds_that_do_not_meet_are_told(void **state)
+TEST_WITH(grounds_that_do_not_meet_are_told, folder_set_up, folder_tear_down)
 {
-    (void)state;
     const struct {
         double from[2], to[2];
         const char *told; /* NULL: good */
@@ -271,9 +267,8 @@ static void expect_source(const struct scene_file *file, const char *map, const 
 }
 
 /* The innermost source around a value that was changed is not of it any more, and no other is touched. */
-static void changed_values_leave_their_source(void **state)
+TEST_WITH(changed_values_leave_their_source, folder_set_up, folder_tear_down)
 {
-    (void)state;
     static const char *const maps[][2] = {{"", "m"},
                                           {"rock", "m"},
                                           {"rock.diameter_m", "a"},
@@ -370,9 +365,8 @@ static void changed_values_leave_their_source(void **state)
 }
 
 /* A mapping that is put in whole comes without the source of the old one, and the one around it is not of it. */
-static void a_new_mapping_has_no_old_source(void **state)
+TEST_WITH(a_new_mapping_has_no_old_source, folder_set_up, folder_tear_down)
 {
-    (void)state;
     struct scene_file file;
     struct problems problems = {0};
     char told[4096];
@@ -392,17 +386,4 @@ static void a_new_mapping_has_no_old_source(void **state)
     expect_source(&file, "", "{kind: measured, text: m, except: [release, forest, controls]}", "controls");
     ceduo_problems_free(&problems);
     ceduo_scene_release(&file);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(bases_go_eight_files_deep, folder_set_up, folder_tear_down),
-        cmocka_unit_test_setup_teardown(bases_in_a_circle_are_refused, folder_set_up, folder_tear_down),
-        cmocka_unit_test_setup_teardown(grounds_meet_anywhere, folder_set_up, folder_tear_down),
-        cmocka_unit_test_setup_teardown(grounds_that_do_not_meet_are_told, folder_set_up, folder_tear_down),
-        cmocka_unit_test_setup_teardown(changed_values_leave_their_source, folder_set_up, folder_tear_down),
-        cmocka_unit_test_setup_teardown(a_new_mapping_has_no_old_source, folder_set_up, folder_tear_down),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -14,9 +14,8 @@
 
 /* Of ten rocks that all stopped, half of the simulated lie beyond the middle: a binomial law of 10 and 1/2 has 0.0107 up to 1 and
  * 0.0547 up to 2, and is symmetric. */
-static void half_of_ten(void **state)
+TEST(half_of_ten)
 {
-    (void)state;
     double seen[10] = {0, 1, 1, 1, 1, 1, 9, 9, 9, 10}, simulated[4] = {0, 1, 9, 10};
     const struct ceduo_observation o = {.kind = CEDUO_OBSERVED_STOPS, .n = 10, .values = seen};
     struct ceduo_seen_stops s = {0};
@@ -34,9 +33,8 @@ static void half_of_ten(void **state)
 }
 
 /* Where it is known how many were released, those that went on lie farther: of the rocks seen 6 of 10, of the simulated 4 of 8. */
-static void those_that_go_on_lie_farther(void **state)
+TEST(those_that_go_on_lie_farther)
 {
-    (void)state;
     double seen[4] = {2, 3, 4, 5}, simulated[4] = {1, 2, 3, 6};
     const struct ceduo_observation o = {.kind = CEDUO_OBSERVED_STOPS, .n = 4, .of = 10, .values = seen};
     struct ceduo_seen_stops s = {0};
@@ -51,9 +49,8 @@ static void those_that_go_on_lie_farther(void **state)
 }
 
 /* All at one place have no extent along the slope. */
-static void one_place_has_no_picture(void **state)
+TEST(one_place_has_no_picture)
 {
-    (void)state;
     double one = 5;
     const struct ceduo_observation o = {.kind = CEDUO_OBSERVED_STOPS, .n = 1, .values = &one};
     struct ceduo_seen_stops s = {.known = true};
@@ -83,9 +80,8 @@ static struct ceduo_scene flight(void)
 
 /* Rocks that are alike fly 20 m in 2 s: hypot(10, 9.81 * 2) = 22.021 m/s. The band is that of the mean of five that differ by
  * 0.5 m/s; one that was seen 2 m/s below cannot be. All pass. */
-static void a_flight_as_it_is(void **state)
+TEST(a_flight_as_it_is)
 {
-    (void)state;
     struct ceduo_scene scene = flight();
     const struct ceduo_observation o[] = {
         {.kind = CEDUO_OBSERVED_SPEED, .x = 20, .n = 5, .mean = 22, .sd = 0.5},
@@ -110,9 +106,8 @@ static void a_flight_as_it_is(void **state)
 }
 
 /* Two shapes, both to be fitted, under the law that knows a shape. */
-static void two_shapes_tell_mu(void **state)
+TEST(two_shapes_tell_mu)
 {
-    (void)state;
     struct ceduo_scene scene = ceduo_scene_default();
     scene.simulation.law = CEDUO_LAW_ARM;
     scene.rock.shape = CEDUO_BLOCK;
@@ -192,9 +187,8 @@ static struct ceduo_calibration_def fit_of(const struct ceduo_calibration_scene 
 }
 
 /* Whenever it is ended, there is no answer. */
-static void a_fit_is_ended(void **state)
+TEST(a_fit_is_ended)
 {
-    (void)state;
     const struct ceduo_input input = range(&speed, 5, 15);
     make_flight(&flights[0], 10, 0.1);
     const struct ceduo_calibration_scene fitted = {&flights[0].scene, &input, 1, &flights[0].seen};
@@ -214,9 +208,8 @@ static void a_fit_is_ended(void **state)
 
 /* Chains of a given length end there, whether they agree or not: of two rounds the second half of each of four chains is drawn
  * from. Cancelled as they end, there is no answer. */
-static void a_fit_of_few_steps(void **state)
+TEST(a_fit_of_few_steps)
 {
-    (void)state;
     const struct ceduo_input input = range(&speed, 5, 15);
     make_flight(&flights[0], 10, 0.1);
     const struct ceduo_calibration_scene fitted = {&flights[0].scene, &input, 1, &flights[0].seen};
@@ -240,9 +233,8 @@ static void a_fit_of_few_steps(void **state)
 }
 
 /* Without draws nothing is known of how two values hang together. */
-static void two_values_without_draws(void **state)
+TEST(two_values_without_draws)
 {
-    (void)state;
     const struct ceduo_input inputs[2] = {range(&speed, 5, 15), range(&place, 0, 50)};
     make_flight(&flights[0], 10, 0.1);
     const struct ceduo_calibration_scene fitted = {&flights[0].scene, inputs, 1, &flights[0].seen};
@@ -258,9 +250,8 @@ static void two_values_without_draws(void **state)
 
 /* One of two scenes ends at 30 m, and what was seen in the other was a fall over an edge at 60 m, which only rocks released
  * beyond 40 m reach: the place must be one that both scenes have, however badly that fits. */
-static void a_scene_that_does_not_fit_together(void **state)
+TEST(a_scene_that_does_not_fit_together)
 {
-    (void)state;
     const struct ceduo_input input = range(&place, 0, 100);
     struct ceduo_calibration_scene fitted[2];
     struct ceduo_calibration a;
@@ -291,9 +282,8 @@ static void a_scene_that_does_not_fit_together(void **state)
 
 /* A value of which half of the draws lie within the last 5 % of its bounds is at its bound, even where the best is 3 % away; at
  * 10 % it is not. */
-static void half_of_the_draws_at_a_bound(void **state)
+TEST(half_of_the_draws_at_a_bound)
 {
-    (void)state;
     const struct ceduo_input input = range(&speed, 5, 15);
     const double v[2] = {5.3, 6};
     for (int i = 0; i < 2; i++) {
@@ -308,21 +298,4 @@ static void half_of_the_draws_at_a_bound(void **state)
         EXPECT(a.parameters[0].at_bound, ==, i == 0);
         ceduo_calibration_free(&a);
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(half_of_ten),
-        cmocka_unit_test(a_fit_is_ended),
-        cmocka_unit_test(a_fit_of_few_steps),
-        cmocka_unit_test(two_values_without_draws),
-        cmocka_unit_test(a_scene_that_does_not_fit_together),
-        cmocka_unit_test(half_of_the_draws_at_a_bound),
-        cmocka_unit_test(two_shapes_tell_mu),
-        cmocka_unit_test(those_that_go_on_lie_farther),
-        cmocka_unit_test(one_place_has_no_picture),
-        cmocka_unit_test(a_flight_as_it_is),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -81,9 +81,8 @@ static void expect_shares(const struct ceduo_share *found, const double *known, 
 
 /* ---- closed forms ---- */
 
-static void ishigami_has_its_indices(void **state)
+TEST(ishigami_has_its_indices)
 {
-    (void)state;
     const double first[] = {0.3139, 0.4424, 0}, total[] = {0.5576, 0.4424, 0.2437};
     struct ceduo_indices found = indices_of(ishigami, (struct ceduo_design){3, POINTS, 1, 3, NULL}, 0);
     expect_shares(found.first, first, 3);
@@ -93,18 +92,16 @@ static void ishigami_has_its_indices(void **state)
     EXPECT_NEAR(found.variance, variance, 3 * variance * sqrt(2.5 / (2 * POINTS)));       /* kurtosis 3.5 */
 }
 
-static void g_function_has_its_indices(void **state)
+TEST(g_function_has_its_indices)
 {
-    (void)state;
     const double first[] = {0.7165, 0.1791, 0.0237, 0.0072, 0.0001, 0.0001, 0.0001, 0.0001};
     struct ceduo_indices found = indices_of(sobol_g, (struct ceduo_design){8, POINTS, 2, 8, NULL}, 0);
     for (size_t i = 0; i < 8; i++)
         EXPECT_NEAR(found.first[i].value, first[i], 3 * found.first[i].se + 5e-5); /* the figures have four decimals */
 }
 
-static void linear_function_has_shares_of_variance(void **state)
+TEST(linear_function_has_shares_of_variance)
 {
-    (void)state;
     struct ceduo_indices found = indices_of(linear, (struct ceduo_design){4, POINTS, 3, 4, NULL}, 0);
     const double known[] = {1 / 30.0, 4 / 30.0, 9 / 30.0, 16 / 30.0};
     expect_shares(found.first, known, 4);
@@ -113,9 +110,8 @@ static void linear_function_has_shares_of_variance(void **state)
 }
 
 /* x1 and x3 act together; as one input they have what x2 leaves. */
-static void inputs_of_a_group_move_together(void **state)
+TEST(inputs_of_a_group_move_together)
 {
-    (void)state;
     const size_t group[] = {0, 1, 0};
     const double known[] = {0.5576, 0.4424};
     struct ceduo_indices found = indices_of(ishigami, (struct ceduo_design){3, POINTS, 4, 2, group}, 0);
@@ -126,9 +122,8 @@ static void inputs_of_a_group_move_together(void **state)
 /* ---- errors ---- */
 
 /* Of 200 seeds, 95 % intervals hold the truth in 90 to 98 %. */
-static void errors_cover(void **state)
+TEST(errors_cover)
 {
-    (void)state;
     const double first[] = {0.3139, 0.4424, 0}, total[] = {0.5576, 0.4424, 0.2437};
     double inside[2] = {0};
     for (uint64_t seed = 0; seed < 200; seed++) {
@@ -151,9 +146,8 @@ static double constant(const double *u, size_t n)
 }
 
 /* The halves are of the same rocks at every point: a constant between them is neither noise nor variance. */
-static void halves_may_differ_by_a_constant(void **state)
+TEST(halves_may_differ_by_a_constant)
 {
-    (void)state;
     const double slopes[] = {2, 1}, known[] = {.8, .2};
     for (uint64_t seed = 1; seed <= 10; seed++) {
         struct ceduo_design d = {.inputs = 2, .points = 256, .seed = seed, .groups = 2};
@@ -173,9 +167,8 @@ static void halves_may_differ_by_a_constant(void **state)
 }
 
 /* Noise of the rocks is not taken for an effect: not of a figure that depends on nothing, nor beside real effects. */
-static void noise_is_taken_off(void **state)
+TEST(noise_is_taken_off)
 {
-    (void)state;
     const double total[] = {0.5576, 0.4424, 0.2437};
     double near = 0;
     for (uint64_t seed = 0; seed < 50; seed++) {
@@ -190,9 +183,8 @@ static void noise_is_taken_off(void **state)
 }
 
 /* The doubt of a density with a large error: within 1 % of its mean, where a uniform law cut at 0 was 17 and 37 % above. */
-static void gamma_laws_keep_the_mean(void **state)
+TEST(gamma_laws_keep_the_mean)
 {
-    (void)state;
     for (double ratio = .34; ratio <= 1; ratio += .06) {
         const struct ceduo_input input = {.kind = CEDUO_INPUT_GAMMA, .mean = 50, .sd = 50 * ratio};
         double sum = 0, squares = 0;
@@ -208,9 +200,8 @@ static void gamma_laws_keep_the_mean(void **state)
 }
 
 /* A figure without noise that depends on nothing has no indices. */
-static void nothing_varies(void **state)
+TEST(nothing_varies)
 {
-    (void)state;
     struct ceduo_indices found = indices_of(constant, (struct ceduo_design){3, 64, 1, 3, NULL}, 0);
     assert_true(isnan(found.first[0].value) && isnan(found.total[2].se));
     EXPECT(found.mean, ==, 7);
@@ -250,9 +241,8 @@ static struct ceduo_input range_of(const char *const *place, double lo, double h
 /* Contacts per metre of 1000 to 2000 trees per ha of either class: 0.1·(2 + U + V), a triangular law with p5 at sqrt(0.1), p50 at 1
  * and p95 at 2 - sqrt(0.1) of U + V. Were one known the other's 0.9 were left; in eight classes of it 1.125 - 2·sqrt(0.1/8). What
  * does not act leaves all. */
-static void doubt_of_a_known_law(void **state)
+TEST(doubt_of_a_known_law)
 {
-    (void)state;
     static const char *const places[] = {"forest[0].stand.trees[0].per_ha", "forest[0].stand.trees[1].per_ha",
                                          "rock.density_kg_m3"};
     const struct ceduo_input inputs[] = {range_of(&places[2], 2400, 2700), range_of(&places[0], 1000, 2000),
@@ -280,9 +270,8 @@ static void doubt_of_a_known_law(void **state)
 }
 
 /* A light changes where its limit lies from p5 on and below p95; a second input is named from half of the first one's share on. */
-static void what_a_light_depends_on(void **state)
+TEST(what_a_light_depends_on)
 {
-    (void)state;
     static const struct {
         double p5, p95, second;
         size_t named;
@@ -304,9 +293,8 @@ static void what_a_light_depends_on(void **state)
 }
 
 /* Each of two words, and each of two rows, has half of the range; its ends are of it. */
-static void words_and_rows_share_the_range(void **state)
+TEST(words_and_rows_share_the_range)
 {
-    (void)state;
     static const char *const places[] = {"simulation.rule", "rock.density_kg_m3"};
     const int words[] = {CEDUO_INTERCEPTION, CEDUO_CROFTON};
     const double rows[] = {2500, 2700}, *const draws[] = {rows};
@@ -337,9 +325,8 @@ static void words_and_rows_share_the_range(void **state)
 
 /* A normal input is cut at three standard deviations, its mean is in the middle, and a quarter of what the cut leaves lies below the
  * quartile: Φ(z) = Φ(-3) + (1 - 2Φ(-3))/4 at z = -0.6719. */
-static void a_normal_input_at_its_ends(void **state)
+TEST(a_normal_input_at_its_ends)
 {
-    (void)state;
     const struct ceduo_input input = {.kind = CEDUO_INPUT_NORMAL, .mean = 50, .sd = 4};
     EXPECT_NEAR(ceduo_input_quantile(&input, 0), 38, 1e-9);
     EXPECT_NEAR(ceduo_input_quantile(&input, .5), 50, 1e-9);
@@ -349,9 +336,8 @@ static void a_normal_input_at_its_ends(void **state)
 }
 
 /* Stools in doubt above their shoots are as many as these; the next look begins with those of the scene. */
-static void stools_are_not_more_than_their_shoots(void **state)
+TEST(stools_are_not_more_than_their_shoots)
 {
-    (void)state;
     static const char *const places[] = {"forest[0].stand.stools.per_ha", "forest[0].stand.shoots[0].per_ha"};
     const struct ceduo_input inputs[] = {range_of(&places[0], 600, 3000), range_of(&places[1], 500, 2500)};
     static const double cases[][4] = {
@@ -374,26 +360,4 @@ static void stools_are_not_more_than_their_shoots(void **state)
     }
     ceduo_inputs_release(&copy);
     ceduo_scene_release(&file);
-}
-
-static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(doubt_of_a_known_law),
-    cmocka_unit_test(what_a_light_depends_on),
-    cmocka_unit_test(words_and_rows_share_the_range),
-    cmocka_unit_test(a_normal_input_at_its_ends),
-    cmocka_unit_test(stools_are_not_more_than_their_shoots),
-    cmocka_unit_test(ishigami_has_its_indices),
-    cmocka_unit_test(g_function_has_its_indices),
-    cmocka_unit_test(linear_function_has_shares_of_variance),
-    cmocka_unit_test(inputs_of_a_group_move_together),
-    cmocka_unit_test(errors_cover),
-    cmocka_unit_test(noise_is_taken_off),
-    cmocka_unit_test(halves_may_differ_by_a_constant),
-    cmocka_unit_test(gamma_laws_keep_the_mean),
-    cmocka_unit_test(nothing_varies),
-};
-
-int main(void)
-{
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -28,9 +28,8 @@ static struct ceduo_snapshot *snapshot_of(const struct ceduo_snapshot_def *def)
     return o;
 }
 
-static void places_lie_beyond_the_release(void **state)
+TEST(places_lie_beyond_the_release)
 {
-    (void)state;
     static struct site s;
     site_init(&s);
     double x[CEDUO_SNAPSHOT_CELLS];
@@ -67,9 +66,8 @@ static void expect_sight(const struct ceduo_run_snapshot *sight, const struct ce
     }
 }
 
-static void snapshot_is_what_the_runs_say(void **state)
+TEST(snapshot_is_what_the_runs_say)
 {
-    (void)state;
     static struct site s;
     wooded_site_init(&s);
     double x[CEDUO_SNAPSHOT_CELLS];
@@ -96,9 +94,8 @@ static void snapshot_is_what_the_runs_say(void **state)
 }
 
 /* Without stems the rocks are those without forest: the same sight, and it is flown once. */
-static void a_forest_without_stems_is_the_bare_slope(void **state)
+TEST(a_forest_without_stems_is_the_bare_slope)
 {
-    (void)state;
     static struct site s;
     wooded_site_init(&s);
     struct ceduo_pool *pool = pool_of(&s, 300, 0, NULL, CEDUO_EXACT_BYTES);
@@ -116,9 +113,8 @@ static void a_forest_without_stems_is_the_bare_slope(void **state)
 }
 
 /* With the contact model index there is one sight, that of all options. */
-static void the_index_looks_at_the_bare_slope(void **state)
+TEST(the_index_looks_at_the_bare_slope)
 {
-    (void)state;
     static struct site s;
     site_init(&s);
     struct ceduo_pool *pool = pool_of(&s, 300, 0, NULL, CEDUO_EXACT_BYTES);
@@ -133,9 +129,8 @@ static void the_index_looks_at_the_bare_slope(void **state)
 }
 
 /* Runs that are not there yet leave gaps. */
-static void what_is_not_flown_yet_is_not_known(void **state)
+TEST(what_is_not_flown_yet_is_not_known)
 {
-    (void)state;
     static struct site s;
     wooded_site_init(&s);
     struct ceduo_run_def run_def = ceduo_run_def_default(&s.scene);
@@ -159,9 +154,8 @@ static void what_is_not_flown_yet_is_not_known(void **state)
 }
 
 /* Figures come from the longer run, curves from the one that keeps them. */
-static void figures_come_from_the_longer_run(void **state)
+TEST(figures_come_from_the_longer_run)
 {
-    (void)state;
     static struct site s;
     wooded_site_init(&s);
     double x[CEDUO_SNAPSHOT_CELLS];
@@ -184,9 +178,8 @@ static void figures_come_from_the_longer_run(void **state)
 }
 
 /* Figures do not wait for pictures; and where the run of the pictures alone has grown, all is read again. */
-static void pictures_may_be_behind(void **state)
+TEST(pictures_may_be_behind)
 {
-    (void)state;
     static struct site s;
     wooded_site_init(&s);
     double x[CEDUO_SNAPSHOT_CELLS];
@@ -218,9 +211,8 @@ static void pictures_may_be_behind(void **state)
 
 /* Of a forest that was just changed one sees what it was, but not where that is now the forest of another option; of an
  * option that was not there nothing. */
-static void a_changed_forest_shows_what_it_was(void **state)
+TEST(a_changed_forest_shows_what_it_was)
 {
-    (void)state;
     static struct site a, b;
     wooded_site_init(&a);
     wooded_site_init(&b);
@@ -240,9 +232,8 @@ static void a_changed_forest_shows_what_it_was(void **state)
 }
 
 /* What has not changed since the last snapshot is not read again but shared; who is freed first does not matter. */
-static void sights_are_taken_over(void **state)
+TEST(sights_are_taken_over)
 {
-    (void)state;
     static struct site a, b;
     for (int order = 0; order < 2; order++) {
         wooded_site_init(&a);
@@ -277,9 +268,8 @@ static void sights_are_taken_over(void **state)
     }
 }
 
-static void longer_runs_are_read_again(void **state)
+TEST(longer_runs_are_read_again)
 {
-    (void)state;
     static struct site s;
     wooded_site_init(&s);
     struct ceduo_pool *pool = pool_of(&s, 300, 0, NULL, CEDUO_EXACT_BYTES);
@@ -308,9 +298,8 @@ static void expect_same_energies(const struct ceduo_run_snapshot *a, const struc
 }
 
 /* Runs too long for their samples: the energies come from rocks flown once more, the same ones. */
-static void energies_are_flown_where_they_were_not_kept(void **state)
+TEST(energies_are_flown_where_they_were_not_kept)
 {
-    (void)state;
     static struct site s;
     wooded_site_init(&s);
     struct ceduo_pool *kept = pool_of(&s, 300, 0, NULL, CEDUO_EXACT_BYTES), *binned = pool_of(&s, 300, 0, NULL, 0);
@@ -326,9 +315,8 @@ static void energies_are_flown_where_they_were_not_kept(void **state)
 }
 
 /* Starts and ends where the rock does, never far below the ground, and never jumps. */
-static void trajectories_follow_the_rocks(void **state)
+TEST(trajectories_follow_the_rocks)
 {
-    (void)state;
     static struct site s;
     wooded_site_init(&s);
     struct ceduo_pool *pool = pool_of(&s, 20, 0, NULL, CEDUO_EXACT_BYTES);
@@ -356,9 +344,8 @@ static void trajectories_follow_the_rocks(void **state)
 }
 
 /* A rock thrown far: every point of its line and the middle of every chord lies on the parabola. */
-static void flights_are_sampled_finely(void **state)
+TEST(flights_are_sampled_finely)
 {
-    (void)state;
     static struct site s;
     site_init(&s);
     s.scene.release.vx = ceduo_number(10);
@@ -389,9 +376,8 @@ static void init_endless(struct site *s)
     s->scene.release = (struct ceduo_release){.x = ceduo_number(25), .height = ceduo_number(20)};
 }
 
-static void an_endless_trajectory_is_drawn_in_part(void **state)
+TEST(an_endless_trajectory_is_drawn_in_part)
 {
-    (void)state;
     static struct site s;
     init_endless(&s);
     struct ceduo_pool *pool = pool_of(&s, 1, 0, NULL, CEDUO_EXACT_BYTES);
@@ -409,9 +395,8 @@ static void an_endless_trajectory_is_drawn_in_part(void **state)
     ceduo_pool_free(pool);
 }
 
-static void nobody_waits_for_an_endless_trajectory(void **state)
+TEST(nobody_waits_for_an_endless_trajectory)
 {
-    (void)state;
     static struct site s;
     init_endless(&s);
     atomic_bool cancel = true;
@@ -426,26 +411,4 @@ static void nobody_waits_for_an_endless_trajectory(void **state)
     assert_int_equal(o->bare->trajectories_count, 1);
     ceduo_snapshot_free(o);
     ceduo_pool_free(pool);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(places_lie_beyond_the_release),
-        cmocka_unit_test(snapshot_is_what_the_runs_say),
-        cmocka_unit_test(a_forest_without_stems_is_the_bare_slope),
-        cmocka_unit_test(the_index_looks_at_the_bare_slope),
-        cmocka_unit_test(what_is_not_flown_yet_is_not_known),
-        cmocka_unit_test(figures_come_from_the_longer_run),
-        cmocka_unit_test(pictures_may_be_behind),
-        cmocka_unit_test(a_changed_forest_shows_what_it_was),
-        cmocka_unit_test(sights_are_taken_over),
-        cmocka_unit_test(longer_runs_are_read_again),
-        cmocka_unit_test(energies_are_flown_where_they_were_not_kept),
-        cmocka_unit_test(trajectories_follow_the_rocks),
-        cmocka_unit_test(flights_are_sampled_finely),
-        cmocka_unit_test(an_endless_trajectory_is_drawn_in_part),
-        cmocka_unit_test(nobody_waits_for_an_endless_trajectory),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

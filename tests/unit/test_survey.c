@@ -67,9 +67,8 @@ static size_t visit(const struct forest *f, struct ceduo_survey_stem *stems, siz
 }
 
 /* The interval of 95 % holds the truth in 92 to 97 % of 200 surveys of six plots. */
-static void intervals_hold_the_truth(void **context)
+TEST(intervals_hold_the_truth)
 {
-    (void)context;
     struct forest *f = calloc(1, sizeof *f);
     struct ceduo_survey_stem *stems = calloc(100000, sizeof *stems);
     double areas[PLOTS];
@@ -102,9 +101,8 @@ static void intervals_hold_the_truth(void **context)
 }
 
 /* Three plots of 100, 200 and 400 m2 with 2, 2 and 12 trees: 200, 100 and 300 per ha. */
-static void densities_by_hand(void **context)
+TEST(densities_by_hand)
 {
-    (void)context;
     const double areas[] = {100, 200, 400};
     const size_t count[] = {2, 2, 12};
     struct ceduo_survey_stem stems[16];
@@ -137,16 +135,14 @@ static void densities_by_hand(void **context)
 }
 
 /* 400 m2 measured along a slope of 40 degrees are 306.418 m2 of the map. */
-static void slopes_by_hand(void **context)
+TEST(slopes_by_hand)
 {
-    (void)context;
     EXPECT_NEAR(ceduo_survey_horizontal(400, 40 * M_PI / 180), 306.418, 5e-4);
     EXPECT_NEAR(ceduo_survey_horizontal(400, 0), 400, 0);
 }
 
-static void naslund_is_recovered(void **context)
+TEST(naslund_is_recovered)
 {
-    (void)context;
     enum { N = 400 };
     const struct ceduo_naslund truth = {.a = 1.3, .b = 0.21};
     double dbh[N], height[N], noisy[N];
@@ -172,9 +168,8 @@ static void naslund_is_recovered(void **context)
 
 /* Six heights beside a curve: the root of their mean square distance from it. Where the squares are least, their sum does not change
  * with a and b. */
-static void what_six_heights_leave(void **context)
+TEST(what_six_heights_leave)
 {
-    (void)context;
     const double dbh[] = {.05, .1, .15, .2, .25, .3}, height[] = {5.2, 7.6, 10.7, 11.4, 12.9, 13.1};
     struct ceduo_naslund c;
     double squares = 0, by_a = 0, by_b = 0;
@@ -192,9 +187,8 @@ static void what_six_heights_leave(void **context)
 }
 
 /* No curve: too few heights, one diameter alone, heights that fall. */
-static void naslund_is_refused(void **context)
+TEST(naslund_is_refused)
 {
-    (void)context;
     const double dbh[] = {.05, .1, .15, .2, .25}, same[] = {.1, .1, .1, .1, .1};
     const double rises[] = {5, 8, 10, 11, 12}, falls[] = {12, 9, 6, 4, 2}, runs_away[] = {1.35, 1.7, 2.65, 4.5, 7.55};
     struct ceduo_naslund curve;
@@ -212,9 +206,8 @@ static struct ceduo_survey_stem stem(enum ceduo_survey_kind kind, int species, d
 }
 
 /* Classes of 5 cm, each kind by itself, with mean, sd and the volume of each stem by its own species. */
-static void classes_by_hand(void **context)
+TEST(classes_by_hand)
 {
-    (void)context;
     const int cerris = ceduo_species_find("quercus-cerris"), beech = ceduo_species_find("fagus-sylvatica");
     const double area = 100;
     struct ceduo_survey_stem stems[] = {
@@ -258,9 +251,8 @@ static void classes_by_hand(void **context)
 }
 
 /* Heights that are missing: on the curve with five of them, the mean with fewer; shoots and trees each by their own. */
-static void heights_that_are_missing(void **context)
+TEST(heights_that_are_missing)
 {
-    (void)context;
     const struct ceduo_naslund truth = {.a = 1.1, .b = 0.26};
     const double area = 1000;
     struct ceduo_survey_stem stems[9];
@@ -291,14 +283,4 @@ static void heights_that_are_missing(void **context)
     assert_int_equal(a.shoots.from, CEDUO_HEIGHTS_MEASURED);
     assert_true(isnan(a.trees.mean));
     ceduo_survey_free(&a);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(intervals_hold_the_truth), cmocka_unit_test(densities_by_hand),      cmocka_unit_test(slopes_by_hand),
-        cmocka_unit_test(naslund_is_recovered),     cmocka_unit_test(naslund_is_refused),     cmocka_unit_test(classes_by_hand),
-        cmocka_unit_test(heights_that_are_missing), cmocka_unit_test(what_six_heights_leave),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -35,9 +35,8 @@ static struct ceduo_frame frame_of(int width, int height)
         .left = 2, .top = 1, .width = width, .height = height, .x1 = 2 * width - 1, .y1 = 4 * height - 1};
 }
 
-static void lines_are_where_they_are(void **state)
+TEST(lines_are_where_they_are)
 {
-    (void)state;
     struct ceduo_svg *svg = ceduo_svg_create(20, 10);
     struct ceduo_canvas *canvas = ceduo_svg_canvas(svg);
     struct ceduo_frame frame = frame_of(10, 5);
@@ -54,9 +53,8 @@ static void lines_are_where_they_are(void **state)
 }
 
 /* Half a circle of many points keeps within 0.3 units of them with far fewer, drawn from either end. */
-static void curves_need_few_points(void **state)
+TEST(curves_need_few_points)
 {
-    (void)state;
     enum { N = 1000 };
     static double x[N], y[N];
     for (int side = -1; side <= 1; side += 2) {
@@ -85,9 +83,8 @@ static void curves_need_few_points(void **state)
 
 /* A line to the left, whose angle is pi or -pi, is one as long as its points lie within 0.3 units of it; where they are 0.4 off
  * to either side, it bends. */
-static void angles_go_round(void **state)
+TEST(angles_go_round)
 {
-    (void)state;
     for (int bent = 0; bent < 2; bent++) {
         struct ceduo_svg *svg = ceduo_svg_create(60, 20);
         struct ceduo_frame frame = {.width = 60, .height = 20, .x1 = 119, .y1 = 79};
@@ -111,9 +108,8 @@ static void angles_go_round(void **state)
 }
 
 /* The least disc has a radius of one unit; cells under a disc are taken, those beside it are not. */
-static void discs(void **state)
+TEST(discs)
 {
-    (void)state;
     struct ceduo_svg *svg = ceduo_svg_create(30, 10);
     struct ceduo_canvas *canvas = ceduo_svg_canvas(svg);
     struct ceduo_frame frame = {.width = 30, .height = 10, .x1 = 59, .y1 = 39};
@@ -134,9 +130,8 @@ static void discs(void **state)
 }
 
 /* A rock that goes to and fro in a pit for ever draws no more than is to be seen; one that goes on is drawn to its end. */
-static void ways_that_get_nowhere_are_short(void **state)
+TEST(ways_that_get_nowhere_are_short)
 {
-    (void)state;
     enum { N = 20000 };
     static double x[N], y[N];
     size_t length[2];
@@ -162,9 +157,8 @@ static void ways_that_get_nowhere_are_short(void **state)
     assert_true(length[1] > 8000);
 }
 
-static void axes_and_bars(void **state)
+TEST(axes_and_bars)
 {
-    (void)state;
     struct ceduo_svg *svg = ceduo_svg_create(30, 10);
     struct ceduo_canvas *canvas = ceduo_svg_canvas(svg);
     struct ceduo_frame frame = {.left = 4, .top = 1, .width = 20, .height = 5, .x1 = 39, .y1 = 19};
@@ -184,9 +178,8 @@ static void axes_and_bars(void **state)
     free(picture);
 }
 
-static void text_and_signs(void **state)
+TEST(text_and_signs)
 {
-    (void)state;
     struct ceduo_svg *svg = ceduo_svg_create(40, 6);
     struct ceduo_canvas *canvas = ceduo_svg_canvas(svg);
     ceduo_canvas_label(canvas, 1, 0, CEDUO_ROLE_TEXT, "one two  <three>");
@@ -202,9 +195,8 @@ static void text_and_signs(void **state)
     free(picture);
 }
 
-static void screens(void **state)
+TEST(screens)
 {
-    (void)state;
     struct ceduo_cells *cells = ceduo_cells_create(10, 2, CEDUO_CHARSET_BRAILLE);
     struct text text = {0};
     ceduo_cells_label(cells, 0, 0, CEDUO_ROLE_CURSOR, " ok ");
@@ -223,9 +215,8 @@ static void screens(void **state)
     ceduo_cells_free(cells);
 }
 
-static void html_is_escaped(void **state)
+TEST(html_is_escaped)
 {
-    (void)state;
     struct text text = {0};
     struct ceduo_html html = {.text = &text};
     ceduo_html_open(&html, "p", "class", "a\"b", "id", NULL, NULL);
@@ -236,20 +227,4 @@ static void html_is_escaped(void **state)
     assert_string_equal(text.bytes, "<p class=\"a&quot;b\">&lt;&amp;&gt;&#39;&quot;\\x07\n\xc3\xa8\\xff</p>\n"
                                     "<meta name=\"x\"/>\n<li>1 &lt; 2</li>\n");
     ceduo_text_free(&text);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(lines_are_where_they_are),
-        cmocka_unit_test(curves_need_few_points),
-        cmocka_unit_test(angles_go_round),
-        cmocka_unit_test(discs),
-        cmocka_unit_test(ways_that_get_nowhere_are_short),
-        cmocka_unit_test(axes_and_bars),
-        cmocka_unit_test(text_and_signs),
-        cmocka_unit_test(screens),
-        cmocka_unit_test(html_is_escaped),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

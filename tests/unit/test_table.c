@@ -109,9 +109,8 @@ static const struct object *object_of(const struct object *object, const char *k
         expect_whole(#type, object, seen, sizeof seen);                                                                        \
     } while (0)
 
-static void every_member_has_a_row(void **state)
+TEST(every_member_has_a_row)
 {
-    (void)state;
     const struct object *scene = ceduo_schema_scene(), *stand = ceduo_schema_stand();
     EXPECT_WHOLE(scene, ceduo_scene);
     EXPECT_WHOLE(object_of(scene, "rock"), ceduo_rock_def);
@@ -153,9 +152,8 @@ static void check_default(void *context, const char *path, const struct field *f
     assert_false(f->flags & FIELD_REQUIRED);
 }
 
-static void every_default_lies_in_its_range(void **state)
+TEST(every_default_lies_in_its_range)
 {
-    (void)state;
     defaults = 0;
     ceduo_schema_visit(ceduo_schema_scene(), "", check_default, NULL);
     EXPECT(defaults, >, 20);
@@ -173,9 +171,8 @@ static void every_default_lies_in_its_range(void **state)
 }
 
 /* A flag is raised only where its row says true. */
-static void flags_begin_as_their_rows_say(void **state)
+TEST(flags_begin_as_their_rows_say)
 {
-    (void)state;
     struct flags {
         bool raised, lowered, unsaid;
     } flags;
@@ -190,9 +187,8 @@ static void flags_begin_as_their_rows_say(void **state)
 
 /* ---- rows by their paths ---- */
 
-static void paths_of_rows(void **state)
+TEST(paths_of_rows)
 {
-    (void)state;
     const struct {
         const char *path, *key;
     } rows[] = {{"title", "title"},
@@ -384,9 +380,8 @@ static void check_row(void *context, const char *path, const struct field *f)
     ceduo_text_free(&place);
 }
 
-static void every_row_decides_about_what_it_says(void **state)
+TEST_WITH(every_row_decides_about_what_it_says, folder_set_up, folder_tear_down)
 {
-    (void)state;
     struct keys before[LENGTH(scenes)];
     put("a.yaml", "ceduo: stand/1\ntrees: [{per_ha: 80, dbh_m: 0.3, height_m: 14}]\n");
     put("b.yaml", "ceduo: stand/1\ntrees: [{per_ha: 90, dbh_m: 0.3, height_m: 14}]\n");
@@ -451,17 +446,15 @@ static void check_put(void *context, const char *path, const struct field *f)
     ceduo_text_free(&place);
 }
 
-static void put_is_as_set(void **state)
+TEST_WITH(put_is_as_set, folder_set_up, folder_tear_down)
 {
-    (void)state;
     put("a.yaml", "ceduo: stand/1\ntrees: [{per_ha: 80, dbh_m: 0.3, height_m: 14}]\n");
     put("a.csv", "distance,elevation\n100,60\n150,20\n200,0\n");
     ceduo_schema_visit(ceduo_schema_scene(), "", check_put, NULL);
 }
 
-static void paths_of_numbers(void **state)
+TEST_WITH(paths_of_numbers, folder_set_up, folder_tear_down)
 {
-    (void)state;
     struct scene_file file = {0};
     struct value v;
     read_text(&file, scenes[1]);
@@ -528,9 +521,8 @@ static void paths_of_numbers(void **state)
 
 /* Points of the profile are relative to the first, of numbers with a spread each part is its own, and a list of numbers
  * has places. */
-static void paths_of_numbers_in_lists(void **state)
+TEST_WITH(paths_of_numbers_in_lists, folder_set_up, folder_tear_down)
 {
-    (void)state;
     struct scene_file file = {0};
     struct value v;
     read_text(&file, scenes[4]);
@@ -571,9 +563,8 @@ static void paths_of_numbers_in_lists(void **state)
 }
 
 /* A word is the index of its choice, -1 where none is said. */
-static void words_are_put_by_their_index(void **state)
+TEST_WITH(words_are_put_by_their_index, folder_set_up, folder_tear_down)
 {
-    (void)state;
     struct scene_file file = {0};
     struct value v;
     read_text(&file, scenes[0]);
@@ -589,9 +580,8 @@ static void words_are_put_by_their_index(void **state)
 }
 
 /* Many values are tried on one scene without memory that stays. */
-static void puts_take_no_memory(void **state)
+TEST_WITH(puts_take_no_memory, folder_set_up, folder_tear_down)
 {
-    (void)state;
     struct scene_file file = {0};
     struct value per_ha, diameter;
     read_text(&file, scenes[0]);
@@ -616,21 +606,4 @@ static void puts_take_no_memory(void **state)
     }
     assert_int_equal(file.arena.bytes, arena);
     ceduo_scene_release(&file);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_member_has_a_row),
-        cmocka_unit_test(every_default_lies_in_its_range),
-        cmocka_unit_test(flags_begin_as_their_rows_say),
-        cmocka_unit_test(paths_of_rows),
-        cmocka_unit_test_setup_teardown(every_row_decides_about_what_it_says, folder_set_up, folder_tear_down),
-        cmocka_unit_test_setup_teardown(put_is_as_set, folder_set_up, folder_tear_down),
-        cmocka_unit_test_setup_teardown(paths_of_numbers, folder_set_up, folder_tear_down),
-        cmocka_unit_test_setup_teardown(paths_of_numbers_in_lists, folder_set_up, folder_tear_down),
-        cmocka_unit_test_setup_teardown(words_are_put_by_their_index, folder_set_up, folder_tear_down),
-        cmocka_unit_test_setup_teardown(puts_take_no_memory, folder_set_up, folder_tear_down),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

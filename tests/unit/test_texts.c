@@ -13,9 +13,8 @@
 
 #define LENGTH(a) (sizeof(a) / sizeof(a)[0])
 
-static void utf8_is_decoded(void **state)
+TEST(utf8_is_decoded)
 {
-    (void)state;
     const struct {
         const char *bytes;
         size_t length;
@@ -52,9 +51,8 @@ static void utf8_is_decoded(void **state)
 }
 
 /* Code points that are shown as they are, by whether a terminal or a line of JSON could take them for more. */
-static void no_character_does_anything(void **state)
+TEST(no_character_does_anything)
 {
-    (void)state;
     const struct {
         const char *from, *safe, *json;
     } rows[] = {{"a b", "a b", "\"a b\""},
@@ -128,9 +126,8 @@ static void expect_shortest(double value)
         fail_msg("%a is written as %s", value, text);
 }
 
-static void numbers_are_short(void **state)
+TEST(numbers_are_short)
 {
-    (void)state;
     const double few[] = {1,
                           -1,
                           .1,
@@ -171,9 +168,8 @@ static void numbers_are_short(void **state)
     assert_string_equal(ceduo_number_shortest(-0., room), "0");
 }
 
-static void numbers_are_read(void **state)
+TEST(numbers_are_read)
 {
-    (void)state;
     const char *const good[] = {"0", "12", "-0.5", "+.5", "1.", "1e3", "1E-3", "1e+3", "0.0"};
     const char *const none[] = {"",    "-",   ".",   "e3", "1e", "1e+", "1,5", "0x10",
                                 "010", "inf", "nan", " 1", "1 ", "1_0", "--1", "1e3x"};
@@ -209,9 +205,8 @@ static void numbers_are_read(void **state)
     }
 }
 
-static void no_word_is_near_a_long_one(void **state)
+TEST(no_word_is_near_a_long_one)
 {
-    (void)state;
     char word[65] = {0};
     memset(word, 'a', 64);
     const char *words[] = {word, "ab"};
@@ -220,9 +215,8 @@ static void no_word_is_near_a_long_one(void **state)
     assert_null(ceduo_text_nearest(word, words + 1, 1));
 }
 
-static void an_arena_says_that_it_is_full(void **state)
+TEST(an_arena_says_that_it_is_full)
 {
-    (void)state;
     struct arena arena = {0};
     assert_non_null(ceduo_arena_take(&arena, 8));
     size_t before = arena.bytes;
@@ -233,25 +227,10 @@ static void an_arena_says_that_it_is_full(void **state)
     ceduo_arena_free(&arena);
 }
 
-static void quotes_for_a_shell(void **state)
+TEST(quotes_for_a_shell)
 {
-    (void)state;
     struct text text = {0};
     ceduo_text_quoted(&text, "l'orto $x");
     assert_string_equal(ceduo_text_string(&text), "'l'\\''orto $x'");
     ceduo_text_free(&text);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(quotes_for_a_shell),
-        cmocka_unit_test(utf8_is_decoded),
-        cmocka_unit_test(no_character_does_anything),
-        cmocka_unit_test(numbers_are_short),
-        cmocka_unit_test(numbers_are_read),
-        cmocka_unit_test(no_word_is_near_a_long_one),
-        cmocka_unit_test(an_arena_says_that_it_is_full),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -58,9 +58,8 @@ static void expect_back(struct arena *arena, const struct node *node)
     }
 }
 
-static void scalars_are_read_back(void **state)
+TEST(scalars_are_read_back)
 {
-    (void)state;
     const char *const words[] = {"",
                                  " a",
                                  "a ",
@@ -152,9 +151,8 @@ static void scalars_are_read_back(void **state)
     ceduo_arena_free(&arena);
 }
 
-static void trees_are_read_back(void **state)
+TEST(trees_are_read_back)
 {
-    (void)state;
     const char *const trees[] = {
         "a: {}\nb: []\n",
         "- - - 1\n    - 2\n  - []\n",
@@ -171,9 +169,8 @@ static void trees_are_read_back(void **state)
     ceduo_arena_free(&arena);
 }
 
-static void trees_are_compared(void **state)
+TEST(trees_are_compared)
 {
-    (void)state;
     const struct {
         const char *a, *b;
         bool equal;
@@ -218,9 +215,8 @@ static void trees_are_compared(void **state)
 }
 
 /* Values put into a text, the rest of it left as it is: NULL where more has changed than values. */
-static void texts_are_patched(void **state)
+TEST(texts_are_patched)
 {
-    (void)state;
     const struct {
         const char *before, *now, *wanted;
     } rows[] = {
@@ -264,9 +260,8 @@ static void texts_are_patched(void **state)
     }
 }
 
-static void walks_end_where_there_is_nothing(void **state)
+TEST(walks_end_where_there_is_nothing)
 {
-    (void)state;
     struct arena arena = {0};
     const struct node *root = parsed(&arena, "{forest: [{to_m: 1}, {to_m: 2}], rock: {a: 3}}"),
                       *forest = ceduo_node_get(root, "forest");
@@ -281,16 +276,4 @@ static void walks_end_where_there_is_nothing(void **state)
     assert_ptr_equal(ceduo_resolve_walk(root, "rock[0]", &within, &used), ceduo_node_get(root, "rock"));
     assert_int_equal(used, strlen("rock"));
     ceduo_arena_free(&arena);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(scalars_are_read_back),
-        cmocka_unit_test(trees_are_read_back),
-        cmocka_unit_test(trees_are_compared),
-        cmocka_unit_test(texts_are_patched),
-        cmocka_unit_test(walks_end_where_there_is_nothing),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -19,14 +19,13 @@ static void typed_is(const char *path, const char *typed, const char *file)
     ceduo_text_free(&text);
 }
 
-static void numbers_have_one_sign(void **state)
+TEST(numbers_have_one_sign)
 {
     static const struct {
         const char *typed;
         double value; /* NaN: none */
     } cases[] = {{"7.5", 7.5},     {"7,5", 7.5},     {" 7,5 ", 7.5}, {"-0,5", -0.5}, {",5", 0.5}, {"1e3", 1000}, {"9", 9},
                  {"1.000,5", NAN}, {"1,000,5", NAN}, {"7,", 7},      {"", NAN},      {"x", NAN},  {"0x10", NAN}};
-    (void)state;
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         double value = NAN;
         bool good = ceduo_typed_number(cases[i].typed, &value) == CEDUO_NUMBER_GOOD;
@@ -35,9 +34,8 @@ static void numbers_have_one_sign(void **state)
     }
 }
 
-static void files_keep_their_units(void **state)
+TEST(files_keep_their_units)
 {
-    (void)state;
     typed_is(DBH, "9", "0.09");
     typed_is(DBH, "7,5", "0.075");
     typed_is(DBH, "6.1", "0.061");
@@ -64,9 +62,8 @@ static void shown_is(const char *path, const char *file, const char *shown)
     ceduo_text_free(&text);
 }
 
-static void screens_have_words_and_centimetres(void **state)
+TEST(screens_have_words_and_centimetres)
 {
-    (void)state;
     shown_is(DBH, "0.061", "6.1");
     shown_is(DBH, "0.07", "7");
     shown_is(DBH, "0.1145", "11.45");
@@ -76,9 +73,8 @@ static void screens_have_words_and_centimetres(void **state)
     shown_is("forest[0].stand.system", "simple-coppice", "simple coppice");
 }
 
-static void every_diameter_reads_back(void **state)
+TEST(every_diameter_reads_back)
 {
-    (void)state;
     for (int i = 1; i < 20000; i++) {
         struct text shown = {0}, file = {0};
         char written[CEDUO_NUMBER_ROOM];
@@ -91,7 +87,7 @@ static void every_diameter_reads_back(void **state)
     }
 }
 
-static void ranges_and_doubts(void **state)
+TEST(ranges_and_doubts)
 {
     static const struct {
         const char *path, *typed;
@@ -107,7 +103,6 @@ static void ranges_and_doubts(void **state)
                  {"forest[0].stand.trees[0].height_m", "120", true, true, "120 m? Usual is 0.5 to 50"},
                  {"rock.diameter_m", "60", true, true, "60 m?"},
                  {"rock.diameter_m", "0,6", true, false, ""}};
-    (void)state;
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         struct text why = {0};
         const struct field *f = ceduo_schema_at(cases[i].path);
@@ -120,7 +115,7 @@ static void ranges_and_doubts(void **state)
     }
 }
 
-static void profiles_are_typed(void **state)
+TEST(profiles_are_typed)
 {
     static const struct {
         const char *typed, *vertices; /* NULL: none */
@@ -135,7 +130,6 @@ static void profiles_are_typed(void **state)
                  {"ten by ten", NULL},
                  {"", NULL},
                  {"0 60, 20 x", NULL}};
-    (void)state;
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         struct text yaml = {0};
         double first, last;
@@ -146,7 +140,7 @@ static void profiles_are_typed(void **state)
     }
 }
 
-static void paths_in_words(void **state)
+TEST(paths_in_words)
 {
     static const char *const cases[][2] = {
         {"forest[1].stand.stools.per_ha", "stools per ha, belt 2"},
@@ -156,7 +150,6 @@ static void paths_in_words(void **state)
         {"rock.diameter_m", "diameter, m"},
         {"controls[0].accepted_kJ", "withstands, kJ, control 1"},
         {"no.such.path", "no.such.path"}};
-    (void)state;
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         struct text text = {0};
         ceduo_shown_path(cases[i][0], &text);
@@ -174,21 +167,7 @@ static void look_at_label(void *context, const char *path, const struct field *f
         fail_msg("%s: a unit of its own, but the number is the file's", path);
 }
 
-static void every_key_has_a_label(void **state)
+TEST(every_key_has_a_label)
 {
-    (void)state;
     ceduo_schema_visit(ceduo_schema_scene(), "", look_at_label, NULL);
-}
-
-int main(void)
-{
-    static const struct CMUnitTest tests[] = {cmocka_unit_test(numbers_have_one_sign),
-                                              cmocka_unit_test(files_keep_their_units),
-                                              cmocka_unit_test(screens_have_words_and_centimetres),
-                                              cmocka_unit_test(every_diameter_reads_back),
-                                              cmocka_unit_test(ranges_and_doubts),
-                                              cmocka_unit_test(profiles_are_typed),
-                                              cmocka_unit_test(paths_in_words),
-                                              cmocka_unit_test(every_key_has_a_label)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

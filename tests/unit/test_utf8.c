@@ -6,9 +6,8 @@
 
 #include "base/utf8.h"
 
-static void decoding(void **state)
+TEST(decoding)
 {
-    (void)state;
     static const struct {
         const char *bytes;
         size_t length;
@@ -44,9 +43,8 @@ static void decoding(void **state)
     assert_int_equal(ceduo_utf8_encode(0xd800, to), 0);
 }
 
-static void columns(void **state)
+TEST(columns)
 {
-    (void)state;
     assert_int_equal(ceduo_utf8_width("citt\xc3\xa0"), 5);
     assert_int_equal(ceduo_utf8_width("e\xcc\x80"), 1);        /* e and a grave accent on it */
     assert_int_equal(ceduo_utf8_width("\xe6\x9c\xa8"), 2);     /* a Chinese tree */
@@ -78,9 +76,8 @@ static void lines_are(const char *text, size_t width, const char *const *wanted)
     assert_null(*wanted);
 }
 
-static void lines(void **state)
+TEST(lines)
 {
-    (void)state;
     lines_are("dell'acqua \xc3\xa8 cos\xc3\xac", 11, (const char *[]){"dell'acqua", "\xc3\xa8 cos\xc3\xac", NULL});
     lines_are("dell'acqua \xc3\xa8 cos\xc3\xac", 12, (const char *[]){"dell'acqua \xc3\xa8", "cos\xc3\xac", NULL});
     lines_are("one\ntwo", 20, (const char *[]){"one", "two", NULL});
@@ -97,10 +94,4 @@ static void lines(void **state)
     lines_are("a\xff\xff"
               "b c",
               3, (const char *[]){"a\xff\xff", "b c", NULL});
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(decoding), cmocka_unit_test(columns), cmocka_unit_test(lines)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -119,9 +119,8 @@ static void try_field(void *context, const char *path, const struct field *f)
     ceduo_text_free(&place);
 }
 
-static void every_range_ends_where_its_table_says(void **state)
+TEST(every_range_ends_where_its_table_says)
 {
-    (void)state;
     fields = open_ends = 0;
     ceduo_schema_visit(ceduo_schema_scene(), "", try_field, NULL);
     EXPECT(fields, >, 60);
@@ -129,9 +128,8 @@ static void every_range_ends_where_its_table_says(void **state)
 }
 
 /* Limits that are promised, whatever the table says: a right angle, shares, 2^53, sizes above nothing. */
-static void promised_limits(void **state)
+TEST(promised_limits)
 {
-    (void)state;
     const struct {
         const char *path, *value;
         bool in;
@@ -161,9 +159,8 @@ static void promised_limits(void **state)
 
 /* What is drawn reaches to the mean and the half width, of a normal one to three standard deviations: just to the limit
  * where that is inside. What is cut at 0 and 1 may reach beyond. */
-static void spreads_end_at_the_limits(void **state)
+TEST(spreads_end_at_the_limits)
 {
-    (void)state;
     const struct {
         const char *path, *value;
         bool in;
@@ -237,9 +234,8 @@ static void expect_text(const char *word)
     ceduo_text_free(&text);
 }
 
-static void names_stay_texts(void **state)
+TEST(names_stay_texts)
 {
-    (void)state;
     const char *const words[] = {"",     " ",      "a ",    " a",    "\ta",   "~",          "null",
                                  "Null", "NULL",   "y",     "N",     "yes",   "Yes",        "YES",
                                  "no",   "No",     "NO",    "true",  "True",  "TRUE",       "false",
@@ -265,9 +261,8 @@ static void names_stay_texts(void **state)
 }
 
 /* Quotes stand only where they are needed: what is a text by itself is written as it was. */
-static void plain_names_stay_plain(void **state)
+TEST(plain_names_stay_plain)
 {
-    (void)state;
     const char *const words[] = {"ADS 1",
                                  "simple-coppice",
                                  "../stands/ads-1.yaml",
@@ -303,9 +298,8 @@ static void plain_names_stay_plain(void **state)
 
 /* ---- near words ---- */
 
-static void the_nearest_word_is_meant(void **state)
+TEST(the_nearest_word_is_meant)
 {
-    (void)state;
     const struct {
         const char *word, *wanted, *words[4];
     } rows[] = {{"height_m", "height_m", {"dbh_m", "height_m"}},
@@ -348,17 +342,4 @@ static void the_nearest_word_is_meant(void **state)
         if ((found != NULL) != (rows[i].wanted != NULL) || (found && strcmp(found, rows[i].wanted) != 0))
             fail_msg("'%s': %s for %s", rows[i].word, found ? found : "none", rows[i].wanted ? rows[i].wanted : "none");
     }
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_range_ends_where_its_table_says),
-        cmocka_unit_test(promised_limits),
-        cmocka_unit_test(spreads_end_at_the_limits),
-        cmocka_unit_test(names_stay_texts),
-        cmocka_unit_test(plain_names_stay_plain),
-        cmocka_unit_test(the_nearest_word_is_meant),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -65,9 +65,8 @@ static void expect_beaten(const struct ceduo_verdict *v)
     assert_false(v->choices[2].beaten || v->choices[3].beaten); /* one yields more, the other protects better */
 }
 
-static void what_is_clear_stays(void **state)
+TEST(what_is_clear_stays)
 {
-    (void)state;
     struct watch today = {.best = SIZE_MAX}, rotation = {.best = SIZE_MAX};
     size_t looks = 0, shares = 0;
     open_scene("profiles/scenes/rotation.yaml");
@@ -98,9 +97,8 @@ static void what_is_clear_stays(void **state)
 }
 
 /* An edit of one stand: the others' years stay, those of the old stand do not count. */
-static void an_edit_asks_for_its_years_alone(void **state)
+TEST(an_edit_asks_for_its_years_alone)
 {
-    (void)state;
     open_scene("profiles/scenes/rotation.yaml");
     file.scene.options_count = 2;
     ceduo_live_follow(&live, &file, 0, true);
@@ -208,9 +206,8 @@ static int close_made(void **state)
 }
 
 /* A share by the normal law; of none by Wilson's interval, z²/(n + z²); of rocks with weights by its own interval. */
-static void half_of_a_share(void **state)
+TEST(half_of_a_share)
 {
-    (void)state;
     const double z = 1.959963984540054;
     struct ceduo_arrivals a = {.released = 400, .reach_probability = .5, .exceed_probability = .2, .hazard = {.per_year = NAN}};
     EXPECT_NEAR(ceduo_share_at(&a).mean, .2, 0);
@@ -226,9 +223,8 @@ static void half_of_a_share(void **state)
 }
 
 /* Of two that are equal the first; the other is a rival, and equal. */
-static void of_two_equal_options_the_first(void **state)
+TEST_WITH(of_two_equal_options_the_first, open_made, close_made)
 {
-    (void)state;
     for (size_t i = 1; i < OPTIONS; i++)
         made.differences[i].exceed_probability = (struct ceduo_paired){-.2, .01, 0};
     struct ceduo_verdict v = verdict_of_made(NULL);
@@ -239,9 +235,8 @@ static void of_two_equal_options_the_first(void **state)
 }
 
 /* Turned: the order is clear under one law, by 3 errors, and the other way round under the other, by one. */
-static void an_order_is_turned_by_more_than_an_error(void **state)
+TEST_WITH(an_order_is_turned_by_more_than_an_error, open_made, close_made)
 {
-    (void)state;
     static const struct {
         double today, other; /* errors by which option 1 is worse today, better under the other law */
         size_t turned;
@@ -260,9 +255,8 @@ static void an_order_is_turned_by_more_than_an_error(void **state)
 
 /* Of options that yield as much, 500 rocks of 1000 through the first are clearly more than 300, which 305 are not. Where all let as
  * many through, none is beaten. */
-static void beaten_by_one_of_equal_yield(void **state)
+TEST_WITH(beaten_by_one_of_equal_yield, open_made, close_made)
 {
-    (void)state;
     struct ceduo_verdict v = verdict_of_made(made.of);
     EXPECT(v.choices[0].yield.cut_per_year, >, 0);
     assert_false(v.choices[0].beaten || v.choices[1].beaten || v.choices[2].beaten);
@@ -275,17 +269,4 @@ static void beaten_by_one_of_equal_yield(void **state)
     assert_true(v.choices[0].beaten);
     assert_false(v.choices[1].beaten || v.choices[2].beaten);
     ceduo_verdict_release(&v);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(what_is_clear_stays),
-        cmocka_unit_test(an_edit_asks_for_its_years_alone),
-        cmocka_unit_test(half_of_a_share),
-        cmocka_unit_test_setup_teardown(of_two_equal_options_the_first, open_made, close_made),
-        cmocka_unit_test_setup_teardown(an_order_is_turned_by_more_than_an_error, open_made, close_made),
-        cmocka_unit_test_setup_teardown(beaten_by_one_of_equal_yield, open_made, close_made),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -12,9 +12,8 @@
 #define OPTIONS 3
 
 /* So many digits, without an exponent below 1e9; from there on with it, and where more than 6 decimals would be needed. */
-static void numbers_are_shown_with_their_digits(void **state)
+TEST(numbers_are_shown_with_their_digits)
 {
-    (void)state;
     const struct {
         double value;
         int digits;
@@ -90,9 +89,8 @@ static void expect_said(double share, double lo, double hi, const char *wanted)
 }
 
 /* Of 1000, the lower end is rounded down and the upper one up; what is whole stays. */
-static void an_interval_is_rounded_outward(void **state)
+TEST(an_interval_is_rounded_outward)
 {
-    (void)state;
     expect_said(.5, .4699, .5301,
                 " 500 (469\xe2\x80\x93"
                 "531) of 1000 ");
@@ -137,9 +135,8 @@ static void set(size_t option, bool accepted, double share, double se)
 
 /* All shares and errors are multiples of the same power of two, so that no rounding is in it. Errors of 3 and 4 to the first
  * make 5 of one to the other: 15 apart is not clear, and the next double is. */
-static void three_standard_errors_apart_is_not_clear(void **state)
+TEST(three_standard_errors_apart_is_not_clear)
 {
-    (void)state;
     const double unit = 1. / 128;
     open_scene(50e3);
     EXPECT(hypot(3 * unit, 4 * unit), ==, 5 * unit);
@@ -158,9 +155,8 @@ static void three_standard_errors_apart_is_not_clear(void **state)
 }
 
 /* Without an accepted energy nothing is said of danger, and energies decide nothing. */
-static void what_is_not_accepted_is_not_judged(void **state)
+TEST(what_is_not_accepted_is_not_judged)
 {
-    (void)state;
     open_scene(NAN);
     arrivals[1].energy_per_released = -1000;
     set(0, false, .5, 0);
@@ -170,9 +166,8 @@ static void what_is_not_accepted_is_not_judged(void **state)
 }
 
 /* What is not known of one option is not known of all. */
-static void unknown_is_never_best(void **state)
+TEST(unknown_is_never_best)
 {
-    (void)state;
     open_scene(50e3);
     set(0, true, .5, 0);
     set(1, true, .25, .015625);
@@ -212,9 +207,8 @@ static void expect_made(const char *wanted)
     ceduo_text_free(&text);
 }
 
-static void a_sentence_for_the_rotation_and_one_for_today(void **state)
+TEST(a_sentence_for_the_rotation_and_one_for_today)
 {
-    (void)state;
     static const double mean[OPTIONS] = {.564, .352, .277}, today[OPTIONS] = {.127, .28, .224};
     make_verdict(mean, today, 2, 0);
     expect_made("Over a whole rotation 'c' lets the fewest dangerous rocks through: 277 of 1000.\n"
@@ -242,9 +236,8 @@ static void add_line(void *context, const char *sentence)
     ceduo_text_format(context, "%s\n", sentence);
 }
 
-static void why_there_is_no_rotation(void **state)
+TEST(why_there_is_no_rotation)
 {
-    (void)state;
     static const double mean[OPTIONS] = {.5, .5, .5};
     static struct ceduo_stems trees = {.per_ha = 100, .dbh = .2, .height = 10};
     static char name[] = "old stand";
@@ -261,18 +254,4 @@ static void why_there_is_no_rotation(void **state)
                         "All years of 'b' are alike: the file of 'old stand' has no growth (growth, cutting).\n"
                         "'c' grows, but is never cut: its next 25 years stand for it.\n");
     ceduo_text_free(&text);
-}
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(numbers_are_shown_with_their_digits),
-        cmocka_unit_test(an_interval_is_rounded_outward),
-        cmocka_unit_test(three_standard_errors_apart_is_not_clear),
-        cmocka_unit_test(what_is_not_accepted_is_not_judged),
-        cmocka_unit_test(unknown_is_never_best),
-        cmocka_unit_test(a_sentence_for_the_rotation_and_one_for_today),
-        cmocka_unit_test(why_there_is_no_rotation),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
 }
