@@ -20,27 +20,16 @@
 #define WORD_WIDTH        10
 #define NAME_WIDTH(width) ((width)-SEEN_WIDTH - BAND_WIDTH - WORD_WIDTH - 3)
 
-/* A cell of at least so many columns. */
-static void append_cell(struct text *row, const char *string, int columns, bool right)
-{
-    int blank = columns - (int)ceduo_utf8_width(string);
-    blank = blank > 0 ? blank : 0;
-    ceduo_text_format(row, "%*s%s%*s", right ? blank : 0, "", string, right ? 0 : blank, "");
-}
-
 /* A name that has no room stands in a line above. */
 static void append_row(struct text *row, int width, const char *name, const char *seen, const char *band, const char *word)
 {
     int columns = NAME_WIDTH(width);
-    bool fits = (int)ceduo_utf8_width(name) <= columns;
-    if (!fits)
+    if ((int)ceduo_utf8_width(name) > columns) {
         ceduo_text_format(row, "%s\n", name);
-    append_cell(row, fits ? name : "", columns, false);
-    ceduo_text_char(row, ' ');
-    append_cell(row, seen, SEEN_WIDTH, true);
-    ceduo_text_char(row, ' ');
-    append_cell(row, band, BAND_WIDTH, true);
-    ceduo_text_format(row, " %s\n", word);
+        name = "";
+    }
+    ceduo_text_format(row, "%-*s %*s %*s %s\n", ceduo_utf8_field(name, columns), name, ceduo_utf8_field(seen, SEEN_WIDTH), seen,
+                      ceduo_utf8_field(band, BAND_WIDTH), band, word);
 }
 
 static void append_number(struct text *text, const struct ceduo_observation *o, double value, double origin)
@@ -222,25 +211,18 @@ static void say_nothing_seen(struct text *text)
 
 /* ---- drawing ---- */
 
-/* Stops of the option that is shown, otherwise the first there are; NULL: none. */
-static const struct ceduo_seen_stops *stops_of(const struct app *app, const struct comparison *s)
-{
-    const struct ceduo_seen_stops *first = NULL;
-    for (size_t i = 0; s && i < s->file.observations_count; i++) {
-        if (!s->stops[i].known)
-            continue;
-        if (s->file.observations[i].option == app->option)
-            return &s->stops[i];
-        first = first ? first : &s->stops[i];
-    }
-    return first;
-}
-
 static void draw(struct app *app, struct ceduo_area area)
 {
     const struct scene_file *file = &app->document.file;
     const struct live *f = &app->live;
-    const struct ceduo_seen_stops *stops = stops_of(app, ceduo_live_comparison(f, file));
+    const struct comparison *c = ceduo_live_comparison(f, file);
+    const struct ceduo_seen_stops *stops = NULL; /* of the option that is shown, otherwise the first there are */
+    for (size_t i = c ? c->file.observations_count : 0; i-- > 0;)
+        if (c->stops[i].known)
+            stops = &c->stops[i];
+    for (size_t i = c ? c->file.observations_count : 0; i-- > 0;)
+        if (c->stops[i].known && c->file.observations[i].option == app->option)
+            stops = &c->stops[i];
     struct text text = {0};
     area.width -= 2; /* the mark of more below stands beside the text */
     if (file->observations_count == 0)
