@@ -12,8 +12,8 @@
 
 /* ---- what may be fitted ---- */
 
-/* mu acts through the shape of the rock, in one law; only rocks of two shapes tell it. */
-static bool is_told(const struct scene_file *file, const struct field *field)
+/* mu acts through the shape of the rock, in one law; only rocks of two shapes determine it. */
+static bool is_identifiable(const struct scene_file *file, const struct field *field)
 {
     const struct ceduo_calibration_scene scene = {
         .observations_count = file->observations_count, .observations = file->observations, .scene = &file->scene};
@@ -27,7 +27,7 @@ static void offer(const struct scene_file *file, struct fit_request *to, const c
     struct ceduo_input input = {0};
     own.arena = (struct arena){0};
     const struct field *field = ceduo_input_find(&own, path, &input);
-    bool there = field && input.places_count > 0 && is_told(file, field);
+    bool there = field && input.places_count > 0 && is_identifiable(file, field);
     ceduo_arena_free(&own.arena);
     if (!there || to->n == CEDUO_CALIBRATION_MOST || strlen(path) >= FIT_PATH_ROOM || !(lo < hi))
         return;

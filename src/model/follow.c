@@ -178,7 +178,7 @@ static void follow_diameter(struct changes *c, const char *path, const struct ce
                       room);
 }
 
-/* Trees that stand today, and those that a cut leaves, are two things: who changes one is told of the other. */
+/* Trees that stand today, and those that a cut leaves, are two things: who changes one is reminded of the other. */
 static void compare_standards(struct changes *c, const struct ceduo_stand *s, double stand, double stay, bool today)
 {
     if (s->cutting.rotation > 0 && fabs(stand - stay) > 0.5)

@@ -181,7 +181,7 @@ void ceduo_app_refresh(struct app *app)
         ceduo_form_clear(&app->views[v].form);
     if (view->build) {
         view->build(app, ceduo_app_form(app));
-        ceduo_form_settle(ceduo_app_form(app));
+        ceduo_form_clamp(ceduo_app_form(app));
     }
 }
 

@@ -48,7 +48,7 @@ struct view {
     int panes;                                         /* that Tab goes through; the first is the form */
     bool years;                                        /* compute the years to come while it is open */
     bool uncertainty;                                  /* compute it as finely as may be while it is open */
-    bool observed;                                     /* look at what was seen while it is open */
+    bool observed;                                     /* compare with what was observed while it is open */
     bool result;                                       /* it shows nothing before the first result */
     void (*build)(struct app *app, struct form *form); /* NULL: it has no form */
     void (*draw)(struct app *app, struct ceduo_area area);
@@ -101,7 +101,7 @@ struct app {
     struct popup *popup;
     bool opened;                         /* a document was just opened: offer unsaved work that was left behind */
     bool no_recovery;                    /* for a script: offer no unsaved work and keep no copy */
-    bool doubts;                         /* compute the doubt behind the figures; a script does so once it has looked at it */
+    bool doubts;                         /* compute the uncertainty behind the figures; a script does so once it was shown */
     void (*once_saved)(struct app *app); /* what goes on once the scene is saved; NULL: nothing */
     bool quit, redraw;                   /* redraw: paint the whole terminal again */
 };

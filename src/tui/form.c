@@ -200,7 +200,7 @@ static bool can_hold(const struct form_row *row)
     return row->kind == FORM_FIELDS;
 }
 
-void ceduo_form_settle(struct form *form)
+void ceduo_form_clamp(struct form *form)
 {
     if (form->n == 0) {
         form->row = form->column = 0;
@@ -237,7 +237,7 @@ void ceduo_form_move(struct form *form, int lines, int columns)
         form->column--;
     if (columns > 0)
         form->column++;
-    ceduo_form_settle(form);
+    ceduo_form_clamp(form);
 }
 
 struct form_row *ceduo_form_row(struct form *form)
@@ -272,7 +272,7 @@ void ceduo_form_go(struct form *form, const char *list, size_t index)
         if (form->rows[i].kind == FORM_FIELDS && strcmp(form->rows[i].list, list) == 0 && form->rows[i].index <= index)
             last = i;
     form->row = last;
-    ceduo_form_settle(form);
+    ceduo_form_clamp(form);
 }
 
 bool ceduo_form_search(struct form *form, const char *word)
@@ -282,7 +282,7 @@ bool ceduo_form_search(struct form *form, const char *word)
         if (can_hold(&form->rows[at]) && matches(&form->rows[at], word, &column)) {
             form->row = at;
             form->column = column;
-            ceduo_form_settle(form);
+            ceduo_form_clamp(form);
             return true;
         }
     }

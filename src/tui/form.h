@@ -65,7 +65,7 @@ void ceduo_form_table(struct form *form, const struct document *d, const struct 
 void ceduo_form_points(struct form *form, const struct document *d, const struct field *field, const char *list);
 
 /* Puts the cursor on a line with fields, as near as may be. */
-void ceduo_form_settle(struct form *form);
+void ceduo_form_clamp(struct form *form);
 void ceduo_form_move(struct form *form, int lines, int columns);
 
 /* Moves the cursor to the next line whose name, or a cell whose text or path holds a word; false where there is none. */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Which values are fitted to what was seen, and between which bounds? */
+/* Which values are fitted to what was observed, and between which bounds? */
 #include <string.h>
 
 #include "base/language.h"

@@ -175,7 +175,7 @@ static void act(struct app *app, enum action action)
 }
 
 /* What a key or a choice has led to. */
-static void settle(struct app *app)
+static void follow_up(struct app *app)
 {
     if (app->opened && !app->no_recovery)
         ceduo_popup_recover(app);
@@ -201,7 +201,7 @@ void ceduo_program_key(struct app *app, int key)
         if (action != ACTION_NONE)
             act(app, action);
     }
-    settle(app);
+    follow_up(app);
 }
 
 void ceduo_program_paste(struct app *app, const char *text)
@@ -211,7 +211,7 @@ void ceduo_program_paste(struct app *app, const char *text)
         ceduo_app_say(app, "%s", _("what was pasted goes nowhere: no field is open"));
     else if (!app->popup && !ceduo_line_paste(&app->line, text))
         ceduo_app_warn(app, "%s", _(CEDUO_LINE_FULL));
-    settle(app);
+    follow_up(app);
 }
 
 void ceduo_program_click(struct app *app, int x, int y)
@@ -229,7 +229,7 @@ void ceduo_program_click(struct app *app, int x, int y)
         state->form.row = row;
         state->form.column = column;
         state->pane = 0;
-        ceduo_form_settle(&state->form);
+        ceduo_form_clamp(&state->form);
         if (again)
             ceduo_edit_start(app);
     }
@@ -239,7 +239,7 @@ void ceduo_program_wheel(struct app *app, int lines)
 {
     if (app->popup) {
         ceduo_popup_key(app, lines < 0 ? K_UP : K_DOWN);
-        settle(app);
+        follow_up(app);
     } else if (!app->editing)
         move_lines(app, lines);
 }
@@ -249,7 +249,7 @@ bool ceduo_program_create(struct app *app, const char *path, enum ceduo_charset 
 {
     if (!ceduo_app_create(app, path, charset, threads, no_recovery, problems))
         return false;
-    settle(app);
+    follow_up(app);
     return true;
 }
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* View 8: what was seen beside what is simulated, and a fit to it that goes on while one looks. */
+/* View 8: what was observed beside what is simulated, and a fit to it, which goes on in the background. */
 #include <math.h>
 
 #include "app.h"
@@ -15,10 +15,10 @@
 
 /* ---- rows: observed, simulated with its band ---- */
 
-#define SEEN_WIDTH        8
+#define OBSERVED_WIDTH    8
 #define BAND_WIDTH        11
 #define WORD_WIDTH        10
-#define NAME_WIDTH(width) ((width)-SEEN_WIDTH - BAND_WIDTH - WORD_WIDTH - 3)
+#define NAME_WIDTH(width) ((width)-OBSERVED_WIDTH - BAND_WIDTH - WORD_WIDTH - 3)
 
 /* A name that has no room stands in a line above. */
 static void append_row(struct text *row, int width, const char *name, const char *seen, const char *band, const char *word)
@@ -28,8 +28,8 @@ static void append_row(struct text *row, int width, const char *name, const char
         ceduo_text_format(row, "%s\n", name);
         name = "";
     }
-    ceduo_text_format(row, "%-*s %*s %*s %s\n", ceduo_utf8_field(name, columns), name, ceduo_utf8_field(seen, SEEN_WIDTH), seen,
-                      ceduo_utf8_field(band, BAND_WIDTH), band, word);
+    ceduo_text_format(row, "%-*s %*s %*s %s\n", ceduo_utf8_field(name, columns), name, ceduo_utf8_field(seen, OBSERVED_WIDTH),
+                      seen, ceduo_utf8_field(band, BAND_WIDTH), band, word);
 }
 
 static void append_number(struct text *text, const struct ceduo_observation *o, double value, double origin)

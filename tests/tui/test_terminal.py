@@ -420,7 +420,7 @@ def test_no_memory():
                     break
                 t.keys("2", "+")
             screen = t.sees("STATUS-1-", "READY>")
-            t.keys("C-u")  # what was pressed too late
+            t.keys("C-u", "Enter")  # what was pressed too late
             after_ending(t, before, "running out of memory")
             said = "ceduo: out of memory; unsaved work was kept and is offered at the next start"
             expect_in(said.replace(" ", ""), re.sub(r"\s", "", screen), "however the line is broken")
