@@ -80,12 +80,6 @@ static void add_today(struct ceduo_page *page, const struct ceduo_result *r)
 /* A test that all options pass, or none, says nothing about which to choose. */
 static void say_separation(struct ceduo_page *page, const struct ceduo_result *r)
 {
-    static const char *const all[] = {N_("Today all options pass the test of contact: it does not separate them."),
-                                      N_("Today all options pass the test of free run: it does not separate them."),
-                                      N_("Today all options pass the test of energy: it does not separate them.")};
-    static const char *const none[] = {N_("Today no option passes the test of contact: it does not separate them."),
-                                       N_("Today no option passes the test of free run: it does not separate them."),
-                                       N_("Today no option passes the test of energy: it does not separate them.")};
     size_t n = r->scene->options_count, passes[3] = {0};
     for (size_t i = 0; i < n; i++) {
         const struct ceduo_index *s = ceduo_result_last_index(r, i);
@@ -95,7 +89,10 @@ static void say_separation(struct ceduo_page *page, const struct ceduo_result *r
     }
     for (size_t k = 0; k < (r->wooded && !isnan(last_control(r)->accepted) ? 3u : 2u); k++)
         if (passes[k] == n || (passes[k] == 0 && ceduo_result_last_index(r, 0)->contact != CEDUO_UNKNOWN))
-            ceduo_page_note(page, passes[k] == n ? _(all[k]) : _(none[k]));
+            ceduo_page_say(page, CEDUO_PAGE_NOTE,
+                           passes[k] == n ? _("Today all options pass the test of %s: it does not separate them.")
+                                          : _("Today no option passes the test of %s: it does not separate them."),
+                           _(ceduo_light_names[k]));
 }
 
 /* ---- over the years ---- */
@@ -290,10 +287,8 @@ void ceduo_page_years_words(struct ceduo_page *page, const struct ceduo_result *
     if (!isnan(mean.se)) /* of one rock */
         ceduo_text_format(&share, " \xc2\xb1%.0f", ceil(mean.se * CEDUO_Z95 * 1000));
     if (s.flown > 0)
-        ceduo_text_format(line,
-                          says ? _("In the mean %s of 1000 arrive with too much energy, at worst %.0f in year %u.")
-                               : _("In the mean %s of 1000 arrive, at worst %.0f in year %u."),
-                          ceduo_text_string(&share), s.worst * 1000, s.worst_year);
+        ceduo_text_format(line, _("In the mean %s of 1000 %s, at worst %.0f in year %u."), ceduo_text_string(&share),
+                          says ? _("arrive with too much energy") : _("arrive"), s.worst * 1000, s.worst_year);
     else
         ceduo_text_format(line, _("The ADC is largest in year %u."), s.worst_year);
     if (r->scene->options_count < 2) { /* otherwise it stands below the table of all */

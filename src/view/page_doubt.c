@@ -186,10 +186,10 @@ void ceduo_doubt_light_words(struct text *text, const struct ceduo_doubt_report 
 {
     LOCAL_TEXT(causes);
     if (ceduo_doubt_causes(&causes, r, option, light))
-        ceduo_text_format(text,
-                          light == CEDUO_DOUBT_CONTACT    ? _("Whether the test of contact passes depends on %s.")
-                          : light == CEDUO_DOUBT_FREE_RUN ? _("Whether the test of free run passes depends on %s.")
-                                                          : _("Whether the test of energy passes depends on %s."),
+        ceduo_text_format(text, _("Whether the test of %s passes depends on %s."),
+                          _(ceduo_light_names[light == CEDUO_DOUBT_CONTACT    ? 0
+                                              : light == CEDUO_DOUBT_FREE_RUN ? 1
+                                                                              : 2]),
                           ceduo_text_string(&causes));
 }
 

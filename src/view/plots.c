@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "measure.h"
 #include "plot_parts.h"
 
 #include <string.h>
@@ -41,56 +42,37 @@ void ceduo_plot_draw(enum ceduo_plot plot, struct ceduo_canvas *canvas, const st
 
 /* ---- titles ---- */
 
-/* What stands after the option's name. */
-static void put_subject(struct text *text, enum ceduo_plot plot, const struct ceduo_picture *p, const char *where)
-{
-    const struct ceduo_belt *belt = ceduo_plot_belt(p);
-    bool wooded = ceduo_plot_wooded(p);
-    switch (plot) {
-    case CEDUO_PLOT_PROFILE:
-        ceduo_text_put(text, wooded ? _("slope, forest, and ways through it") : _("slope, forest, and ways without forest"));
-        break;
-    case CEDUO_PLOT_ADC:
-        ceduo_text_put(text, _("average distance between contacts, m"));
-        break;
-    case CEDUO_PLOT_ROTATION:
-        ceduo_text_format(text, _("year by year, up to %s"), where);
-        break;
-    case CEDUO_PLOT_HEIGHT:
-        ceduo_text_put(text, wooded ? _("height of the rocks above the ground")
-                                    : _("height of the rocks above the ground, without forest"));
-        break;
-    case CEDUO_PLOT_ENERGY:
-        ceduo_text_put(text, wooded ? _("energy of the rocks") : _("energy of the rocks, without forest"));
-        break;
-    case CEDUO_PLOT_HISTOGRAM:
-        ceduo_text_format(text, wooded ? _("energy at %s") : _("energy at %s, without forest"), where);
-        break;
-    case CEDUO_PLOT_DOUBT:
-        ceduo_text_format(text, _("how sure it is at %s"), where);
-        break;
-    default:
-        ceduo_text_format(text, _("%s, from above"), belt && belt->name ? belt->name : _("no forest"));
-    }
-}
+/* What a picture shows; %s: where, or which belt; `run`: it is of rocks, without forest where none go through one. */
+static const struct {
+    const char *title;
+    bool whole, run; /* whole: of all options, so that none stands before it */
+} titles[CEDUO_PLOTS] = {[CEDUO_PLOT_PROFILE] = {N_("slope, forest, and ways"), false, true},
+                         [CEDUO_PLOT_ENERGY] = {N_("energy of the rocks"), false, true},
+                         [CEDUO_PLOT_HEIGHT] = {N_("height of the rocks above the ground"), false, true},
+                         [CEDUO_PLOT_HISTOGRAM] = {N_("energy at %s"), false, true},
+                         [CEDUO_PLOT_ADC] = {N_("average distance between contacts, m"), false, false},
+                         [CEDUO_PLOT_ROTATION] = {N_("year by year, up to %s"), false, false},
+                         [CEDUO_PLOT_STAND] = {N_("%s, from above"), false, false},
+                         [CEDUO_PLOT_COMPARE] = {N_("Options side by side, up to %s"), true, false},
+                         [CEDUO_PLOT_TRADEOFF] = {N_("Protection and yield of the options, up to %s"), true, false},
+                         [CEDUO_PLOT_DOUBT] = {N_("how sure it is at %s"), false, false},
+                         [CEDUO_PLOT_HAZARD] = {N_("How often, and with how much, at %s"), true, false}};
 
 void ceduo_plot_title(struct text *text, enum ceduo_plot plot, const struct ceduo_picture *p)
 {
-    struct text place = {0};
     const struct ceduo_control *control = ceduo_plot_control(p);
     const struct ceduo_option *option = ceduo_plot_option(p);
-    if (control)
+    const struct ceduo_belt *belt = ceduo_plot_belt(p);
+    LOCAL_TEXT(place);
+    if (plot == CEDUO_PLOT_STAND)
+        ceduo_text_put(&place, belt && belt->name ? belt->name : _("no forest"));
+    else if (control)
         ceduo_plot_control_name(&place, control);
-    const char *where = place.bytes ? place.bytes : _("no control");
-    if (plot == CEDUO_PLOT_COMPARE) {
-        ceduo_text_format(text, _("Options side by side, up to %s"), where);
-    } else if (plot == CEDUO_PLOT_TRADEOFF) {
-        ceduo_text_format(text, _("Protection and yield of the options, up to %s"), where);
-    } else if (plot == CEDUO_PLOT_HAZARD) {
-        ceduo_text_format(text, _("How often, and with how much, at %s"), where);
-    } else {
+    else
+        ceduo_text_put(&place, _("no control"));
+    if (!titles[plot].whole)
         ceduo_text_format(text, "%s: ", option && option->name ? option->name : "");
-        put_subject(text, plot, p, where);
-    }
-    ceduo_text_free(&place);
+    ceduo_append_with(text, _(titles[plot].title), ceduo_text_string(&place));
+    if (titles[plot].run && !ceduo_plot_wooded(p))
+        ceduo_text_then(text, ", ", _("without forest"));
 }

@@ -6,6 +6,8 @@
 
 #include "base/language.h"
 
+const char *const ceduo_light_names[] = {N_("contact"), N_("free run"), N_("energy")};
+
 const char *ceduo_words_light(enum ceduo_light light)
 {
     static const char *const words[] = {"unknown", "pass", "fail"};
@@ -39,14 +41,12 @@ void ceduo_words_number(struct text *text, double value, int digits)
 
 __attribute__((format(printf, 3, 4))) static void say_format(ceduo_words_say *say, void *context, const char *format, ...)
 {
-    struct text sentence = {0};
+    LOCAL_TEXT(sentence);
     va_list args;
     va_start(args, format);
     ceduo_text_vformat(&sentence, format, args);
     va_end(args);
-    if (sentence.bytes)
-        say(context, sentence.bytes);
-    ceduo_text_free(&sentence);
+    say(context, sentence.bytes);
 }
 
 /* How many kinds of stem have a volume by form factor, and the first of them; but for those of which CEDUO_WARN_THICK says it. */

@@ -79,6 +79,7 @@ void ceduo_words_every(struct text *text, struct ceduo_rate rate);
 void ceduo_words_years(struct text *text, struct ceduo_rate rate);
 const char *ceduo_words_intensity(int intensity);
 
+extern const char *const ceduo_light_names[3];           /* contact, free run, energy; marked for translation */
 const char *ceduo_words_light(enum ceduo_light light);   /* pass, fail, unknown */
 const char *ceduo_words_verdict(enum ceduo_light light); /* passes, FAILS, unknown */
 

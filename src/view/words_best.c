@@ -73,8 +73,8 @@ static double mean_of(const struct ceduo_verdict *v, bool rotation, size_t i)
 
 /* The best and those that it does not clearly beat, in their order: their names, "'large reserves' and 'selection
  * coppice'", or their numbers. */
-static void put_leaders(struct text *text, const struct ceduo_scene *scene, const struct ceduo_verdict *v,
-                        const struct ceduo_leader *leader, bool rotation, bool names)
+static void append_leaders(struct text *text, const struct ceduo_scene *scene, const struct ceduo_verdict *v,
+                           const struct ceduo_leader *leader, bool rotation, bool names)
 {
     LOCAL_TEXT(said);
     size_t left = leader->rivals + 1;
@@ -100,30 +100,24 @@ static void say_best(struct text *text, const struct ceduo_scene *scene, const s
                      const char *when)
 {
     const struct ceduo_leader *leader = rotation ? &v->rotation : &v->today;
+    const char *rocks = v->accepted ? _("dangerous rocks") : _("rocks");
+    double mean = mean_of(v, rotation, leader->best);
     LOCAL_TEXT(names);
     LOCAL_TEXT(numbers);
     ceduo_text_format(text, "%s ", when);
-    put_leaders(&names, scene, v, leader, rotation, true);
-    put_leaders(&numbers, scene, v, leader, rotation, false);
+    append_leaders(&names, scene, v, leader, rotation, true);
+    append_leaders(&numbers, scene, v, leader, rotation, false);
     if (leader->rivals + 1 == v->n && leader->equal)
-        ceduo_text_format(text, _("all options are equal: %.0f of 1000."), mean_of(v, rotation, leader->best));
+        ceduo_text_format(text, _("all options are equal: %.0f of 1000."), mean);
     else if (leader->rivals + 1 == v->n)
         ceduo_text_put(text, _("no option is clearly better than the others."));
     else if (leader->rivals == 0)
-        ceduo_text_format(text,
-                          v->accepted ? _("%s lets the fewest dangerous rocks through: %s of 1000.")
-                                      : _("%s lets the fewest rocks through: %s of 1000."),
-                          ceduo_text_string(&names), ceduo_text_string(&numbers));
+        ceduo_text_format(text, _("%s lets the fewest %s through: %s of 1000."), names.bytes, rocks, numbers.bytes);
     else if (leader->equal)
-        ceduo_text_format(text,
-                          v->accepted ? _("%s are equal and let the fewest dangerous rocks through: %.0f of 1000.")
-                                      : _("%s are equal and let the fewest rocks through: %.0f of 1000."),
-                          ceduo_text_string(&names), mean_of(v, rotation, leader->best));
+        ceduo_text_format(text, _("%s are equal and let the fewest %s through: %.0f of 1000."), names.bytes, rocks, mean);
     else
-        ceduo_text_format(text,
-                          v->accepted ? _("%s let the fewest dangerous rocks through and cannot be told apart: %s of 1000.")
-                                      : _("%s let the fewest rocks through and cannot be told apart: %s of 1000."),
-                          ceduo_text_string(&names), ceduo_text_string(&numbers));
+        ceduo_text_format(text, _("%s let the fewest %s through and cannot be told apart: %s of 1000."), names.bytes, rocks,
+                          numbers.bytes);
 }
 
 /* One sentence where the same option is clearly best over the years and today. */
@@ -132,11 +126,9 @@ static bool say_both(struct text *text, const struct ceduo_scene *scene, const s
     const struct ceduo_leader *a = &v->rotation, *b = &v->today;
     if (!b->known || b->uneven || a->best != b->best || a->rivals > 0 || b->rivals > 0)
         return false;
-    ceduo_text_format(text,
-                      v->accepted ? _("%s '%s' lets the fewest dangerous rocks through, as it does today: %.0f and %.0f of "
-                                      "1000.")
-                                  : _("%s '%s' lets the fewest rocks through, as it does today: %.0f and %.0f of 1000."),
-                      when, scene->options[a->best].name, mean_of(v, true, a->best), mean_of(v, false, a->best));
+    ceduo_text_format(text, _("%s '%s' lets the fewest %s through, as it does today: %.0f and %.0f of 1000."), when,
+                      scene->options[a->best].name, v->accepted ? _("dangerous rocks") : _("rocks"), mean_of(v, true, a->best),
+                      mean_of(v, false, a->best));
     return true;
 }
 

@@ -14,18 +14,32 @@
 #define BLOCK   CEDUO_CHARSET_BLOCK
 #define ASCII   CEDUO_CHARSET_ASCII
 
-/* Through the wood no rock gets to the path. */
-static void stop_all(struct site *s)
+static struct site s; /* of each test, as it begins: */
+
+static struct ceduo_picture picture_of(const struct site *site)
 {
-    for (int i = 0; i < CELLS; i++)
-        s->wood_envelopes[i] = no_rock;
-    s->wood_energies[0].n = 0;
-    s->wood_arrivals[0] = (struct ceduo_arrivals){.released = 10, .energy = ceduo_distribution_none()};
+    return (struct ceduo_picture){.scene = &site->scene, .snapshot = &site->snapshot};
 }
 
-static struct ceduo_picture picture_of(const struct site *s)
+static struct ceduo_picture bare_site(void)
 {
-    return (struct ceduo_picture){.scene = &s->scene, .snapshot = &s->snapshot};
+    site_init(&s);
+    return picture_of(&s);
+}
+
+static struct ceduo_picture wooded_site(void)
+{
+    wooded_site_init(&s);
+    return picture_of(&s);
+}
+
+/* Through the wood no rock gets to the path. */
+static void stop_all(void)
+{
+    for (int i = 0; i < CELLS; i++)
+        s.wood_envelopes[i] = no_rock;
+    s.wood_energies[0].n = 0;
+    s.wood_arrivals[0] = (struct ceduo_arrivals){.released = 10, .energy = ceduo_distribution_none()};
 }
 
 static struct ceduo_cells *draw(enum ceduo_plot plot, const struct ceduo_picture *p, int width, int height,
@@ -86,18 +100,14 @@ static int cells_of(const struct ceduo_cells *cells, enum ceduo_role role)
 
 TEST(profile_is_true_to_scale)
 {
-    static struct site s;
-    site_init(&s);
-    struct ceduo_picture p = picture_of(&s);
+    struct ceduo_picture p = bare_site();
     expect(CEDUO_PLOT_PROFILE, &p, 72, 22, ASCII, "profile-is-true-to-scale");
     expect(CEDUO_PLOT_PROFILE, &p, 44, 16, BRAILLE, "profile-is-true-to-scale-2");
 }
 
 TEST(span_tells_where_the_slope_stands)
 {
-    static struct site s;
-    site_init(&s);
-    struct ceduo_picture p = picture_of(&s);
+    struct ceduo_picture p = bare_site();
     struct ceduo_cells *cells = ceduo_cells_create(80, 24, BRAILLE);
     struct ceduo_area area = {0, 0, 80, 24};
     struct ceduo_span span;
@@ -117,9 +127,7 @@ TEST(span_tells_where_the_slope_stands)
 
 TEST(heights_are_stretched_where_the_slope_is_flat_and_the_factor_is_written)
 {
-    static struct site s;
-    site_init(&s);
-    struct ceduo_picture p = picture_of(&s);
+    struct ceduo_picture p = bare_site();
     p.snapshot = NULL;
     s.options[0].belts_count = 0;
     s.z[1] = -2;
@@ -134,9 +142,7 @@ TEST(heights_are_stretched_where_the_slope_is_flat_and_the_factor_is_written)
 
 TEST(the_selected_way_is_drawn_over_all)
 {
-    static struct site s;
-    site_init(&s);
-    struct ceduo_picture p = picture_of(&s);
+    struct ceduo_picture p = bare_site();
     struct ceduo_cells *cells = draw(CEDUO_PLOT_PROFILE, &p, 60, 20, BRAILLE);
     assert_int_equal(cells_of(cells, CEDUO_ROLE_WAY), 0);
     assert_true(cells_of(cells, CEDUO_ROLE_STEM) > 5);
@@ -151,9 +157,7 @@ TEST(the_selected_way_is_drawn_over_all)
 
 TEST(the_wooded_profile_says_whose_forest_it_is)
 {
-    static struct site s;
-    wooded_site_init(&s);
-    struct ceduo_picture p = picture_of(&s);
+    struct ceduo_picture p = wooded_site();
     expect(CEDUO_PLOT_PROFILE, &p, 84, 20, ASCII, "the-wooded-profile-says-whose-forest-it-is");
     s.options[0].name = "coppice with standards";
     expect(CEDUO_PLOT_PROFILE, &p, 60, 16, BRAILLE, "the-wooded-profile-says-whose-forest-it-is-2");
@@ -167,9 +171,7 @@ TEST(the_wooded_profile_says_whose_forest_it_is)
 
 TEST(ways_that_are_not_known_are_not_drawn)
 {
-    static struct site s;
-    wooded_site_init(&s);
-    struct ceduo_picture p = picture_of(&s);
+    struct ceduo_picture p = wooded_site();
     s.wooded[0] = NULL;
     struct ceduo_cells *cells = draw(CEDUO_PLOT_PROFILE, &p, 60, 16, BRAILLE);
     assert_int_equal(cells_of(cells, CEDUO_ROLE_CLOUD), 0);
@@ -182,9 +184,8 @@ TEST(ways_that_are_not_known_are_not_drawn)
 
 TEST(notes_tell_when_no_rock_arrives)
 {
-    static struct site s;
     wooded_site_init(&s);
-    stop_all(&s);
+    stop_all();
     struct ceduo_picture p = picture_of(&s);
     assert_true(shows(CEDUO_PLOT_PROFILE, &p, 84, 20, " 0 (800) of 1000"));
     assert_true(shows(CEDUO_PLOT_PROFILE, &p, 84, 20, " 0 (200) > 40 kJ"));
@@ -212,9 +213,7 @@ static int rows_of(const struct ceduo_cells *cells, int column, enum ceduo_role 
 
 TEST(stems_that_the_rock_came_to_stand_where_they_are)
 {
-    static struct site s;
-    wooded_site_init(&s);
-    struct ceduo_picture p = picture_of(&s);
+    struct ceduo_picture p = wooded_site();
     p.snapshot = NULL;
     p.stems = passed;
     p.stems_count = 4;
@@ -238,7 +237,6 @@ TEST(stems_that_the_rock_came_to_stand_where_they_are)
 /* By the contact model poisson a contact has a place along the way, but no size. */
 TEST(contacts_without_size_are_drawn_as_high_as_the_stand)
 {
-    static struct site s;
     wooded_site_init(&s);
     s.scene.simulation.contact_model = CEDUO_POISSON;
     struct ceduo_stem_passed contact[] = {
@@ -257,9 +255,7 @@ TEST(contacts_without_size_are_drawn_as_high_as_the_stand)
 /* Survey coordinates on the axes, the same picture. */
 TEST(axes_have_the_users_coordinates)
 {
-    static struct site s;
-    site_init(&s);
-    struct ceduo_picture p = picture_of(&s);
+    struct ceduo_picture p = bare_site();
     s.scene.slope.origin_x = 481000;
     s.scene.slope.origin_z = 1000;
     assert_true(shows(CEDUO_PLOT_PROFILE, &p, 80, 24, "481040"));
@@ -271,9 +267,7 @@ TEST(axes_have_the_users_coordinates)
 
 TEST(strips_show_quantiles_along_the_slope)
 {
-    static struct site s;
-    site_init(&s);
-    struct ceduo_picture p = picture_of(&s);
+    struct ceduo_picture p = bare_site();
     expect(CEDUO_PLOT_HEIGHT, &p, 60, 12, ASCII, "strips-show-quantiles-along-the-slope");
     expect(CEDUO_PLOT_ENERGY, &p, 60, 16, BRAILLE, "strips-show-quantiles-along-the-slope-2");
 }
@@ -281,9 +275,7 @@ TEST(strips_show_quantiles_along_the_slope)
 /* Strokes through the forest, dots without it. */
 TEST(strips_show_the_wood_beside_the_bare_slope)
 {
-    static struct site s;
-    wooded_site_init(&s);
-    struct ceduo_picture p = picture_of(&s);
+    struct ceduo_picture p = wooded_site();
     expect(CEDUO_PLOT_HEIGHT, &p, 70, 16, ASCII, "strips-show-the-wood-beside-the-bare-slope");
     expect(CEDUO_PLOT_ENERGY, &p, 70, 16, BRAILLE, "strips-show-the-wood-beside-the-bare-slope-2");
     struct ceduo_cells *cells = draw(CEDUO_PLOT_ENERGY, &p, 70, 16, BRAILLE);
@@ -295,9 +287,7 @@ TEST(strips_show_the_wood_beside_the_bare_slope)
 /* Where there is no room for four curves: the one that matters, with and without forest. */
 TEST(small_strips_show_one_pair_of_curves)
 {
-    static struct site s;
-    wooded_site_init(&s);
-    struct ceduo_picture p = picture_of(&s);
+    struct ceduo_picture p = wooded_site();
     expect(CEDUO_PLOT_ENERGY, &p, 70, 8, ASCII, "small-strips-show-one-pair-of-curves");
     expect(CEDUO_PLOT_HEIGHT, &p, 70, 8, BRAILLE, "small-strips-show-one-pair-of-curves-2");
     assert_true(shows(CEDUO_PLOT_ENERGY, &p, 50, 24, "mean energy, kJ  -- wood  .. bare"));
@@ -316,9 +306,7 @@ TEST(small_strips_show_one_pair_of_curves)
 /* Names stand in the order in which the curves end: here the wooded mean above the bare one. */
 TEST(names_of_curves_follow_their_ends)
 {
-    static struct site s;
-    wooded_site_init(&s);
-    struct ceduo_picture p = picture_of(&s);
+    struct ceduo_picture p = wooded_site();
     for (int i = 0; i < CELLS; i++) {
         s.wood_envelopes[i] = s.envelopes[i];
         s.wood_envelopes[i].mean_energy = 190e3;
@@ -338,9 +326,7 @@ TEST(names_of_curves_follow_their_ends)
 /* The wood's own peak is cut as well, and told by name. */
 TEST(a_peak_in_the_wood_is_told)
 {
-    static struct site s;
-    wooded_site_init(&s);
-    struct ceduo_picture p = picture_of(&s);
+    struct ceduo_picture p = wooded_site();
     s.wood_envelopes[2].height.p95 = 30;
     assert_true(shows(CEDUO_PLOT_HEIGHT, &p, 120, 16, "wood p95 beyond the top: 30.0 m at 25.0 m"));
     assert_true(shows(CEDUO_PLOT_HEIGHT, &p, 70, 16, "; wood p95 up to 30.0 m"));
@@ -349,10 +335,8 @@ TEST(a_peak_in_the_wood_is_told)
 
 TEST(strips_without_wooded_rocks)
 {
-    static struct site s;
-    wooded_site_init(&s);
-    struct ceduo_picture p = picture_of(&s);
-    stop_all(&s);
+    struct ceduo_picture p = wooded_site();
+    stop_all();
     assert_true(shows(CEDUO_PLOT_ENERGY, &p, 70, 16, "bare mean"));
     assert_false(shows(CEDUO_PLOT_ENERGY, &p, 70, 16, "wood mean"));
     s.wooded[0] = NULL;
@@ -368,9 +352,7 @@ TEST(strips_without_wooded_rocks)
 /* Nine places of ten say how high the scale goes; the tenth is told. */
 TEST(a_peak_is_cut_and_told)
 {
-    static struct site s;
-    site_init(&s);
-    struct ceduo_picture p = picture_of(&s);
+    struct ceduo_picture p = bare_site();
     assert_false(shows(CEDUO_PLOT_HEIGHT, &p, 80, 12, "beyond the top"));
     s.envelopes[2].height.max = 30;
     assert_true(shows(CEDUO_PLOT_HEIGHT, &p, 80, 12, "max beyond the top: 30.0 m at 25.0 m"));
@@ -379,9 +361,7 @@ TEST(a_peak_is_cut_and_told)
 
 TEST(strips_share_the_profiles_columns)
 {
-    static struct site s;
-    site_init(&s);
-    struct ceduo_picture p = picture_of(&s);
+    struct ceduo_picture p = bare_site();
     struct ceduo_cells *cells = ceduo_cells_create(70, 24, ASCII);
     struct ceduo_area above = {0, 0, 70, 16}, below = {0, 16, 70, 8};
     struct ceduo_span span;
@@ -401,9 +381,7 @@ TEST(strips_share_the_profiles_columns)
 
 TEST(places_without_rocks_stay_empty)
 {
-    static struct site s;
-    site_init(&s);
-    struct ceduo_picture p = picture_of(&s);
+    struct ceduo_picture p = bare_site();
     for (int i = 0; i < CELLS; i++)
         s.envelopes[i] = no_rock;
     assert_true(shows(CEDUO_PLOT_HEIGHT, &p, 60, 12, "no rock passes here"));
@@ -416,9 +394,7 @@ TEST(places_without_rocks_stay_empty)
 
 TEST(histogram_counts_by_round_bins)
 {
-    static struct site s;
-    site_init(&s);
-    struct ceduo_picture p = picture_of(&s);
+    struct ceduo_picture p = bare_site();
     expect(CEDUO_PLOT_HISTOGRAM, &p, 60, 8, BRAILLE, "histogram-counts-by-round-bins");
     expect(CEDUO_PLOT_HISTOGRAM, &p, 60, 5, ASCII, "histogram-counts-by-round-bins-2");
     p.control = 1;
@@ -429,9 +405,7 @@ TEST(histogram_counts_by_round_bins)
 
 TEST(a_long_tail_goes_into_one_bin)
 {
-    static struct site s;
-    site_init(&s);
-    struct ceduo_picture p = picture_of(&s);
+    struct ceduo_picture p = bare_site();
     static double many[1000];
     for (int i = 0; i < 1000; i++)
         many[i] = i < 997 ? 1e3 * (i % 50) : 1e6;
@@ -444,9 +418,7 @@ TEST(a_long_tail_goes_into_one_bin)
 
 TEST(equal_energies_make_a_bin)
 {
-    static struct site s;
-    site_init(&s);
-    struct ceduo_picture p = picture_of(&s);
+    struct ceduo_picture p = bare_site();
     for (int i = 0; i < ENERGIES; i++)
         s.values[i] = 0;
     assert_true(shows(CEDUO_PLOT_HISTOGRAM, &p, 60, 8, "100.0 %"));
@@ -458,9 +430,7 @@ TEST(equal_energies_make_a_bin)
 /* Bars through the forest, marks without it, both of 1000 released. */
 TEST(the_histogram_marks_the_bare_slope)
 {
-    static struct site s;
-    wooded_site_init(&s);
-    struct ceduo_picture p = picture_of(&s);
+    struct ceduo_picture p = wooded_site();
     expect(CEDUO_PLOT_HISTOGRAM, &p, 74, 12, BRAILLE, "the-histogram-marks-the-bare-slope");
     expect(CEDUO_PLOT_HISTOGRAM, &p, 60, 6, ASCII, "the-histogram-marks-the-bare-slope-2");
     assert_true(shows(CEDUO_PLOT_HISTOGRAM, &p, 50, 12, "of 1000: 500 (| bare 800), 100 (200) > 40 kJ\n"));
@@ -474,10 +444,8 @@ TEST(the_histogram_marks_the_bare_slope)
 
 TEST(the_histogram_without_wooded_rocks)
 {
-    static struct site s;
-    wooded_site_init(&s);
-    struct ceduo_picture p = picture_of(&s);
-    stop_all(&s);
+    struct ceduo_picture p = wooded_site();
+    stop_all();
     expect(CEDUO_PLOT_HISTOGRAM, &p, 74, 10, ASCII, "the-histogram-without-wooded-rocks");
     s.wooded[0] = NULL;
     assert_true(shows(CEDUO_PLOT_HISTOGRAM, &p, 74, 12, "not computed yet"));
@@ -487,9 +455,7 @@ TEST(the_histogram_without_wooded_rocks)
 
 TEST(adc_shows_the_forms_beside_the_threshold)
 {
-    static struct site s;
-    site_init(&s);
-    struct ceduo_picture p = picture_of(&s);
+    struct ceduo_picture p = bare_site();
     expect(CEDUO_PLOT_ADC, &p, 70, 9, BRAILLE, "adc-shows-the-forms-beside-the-threshold");
     s.scene.simulation.threshold = 1e-323; /* 1.5 times 5e-324 are 5e-324 again */
     assert_true(shows(CEDUO_PLOT_ADC, &p, 70, 9, "9.88131e-324 m "));
@@ -506,9 +472,7 @@ TEST(adc_shows_the_forms_beside_the_threshold)
 
 TEST(many_belts_get_a_row_each)
 {
-    static struct site s;
-    site_init(&s);
-    struct ceduo_picture p = picture_of(&s);
+    struct ceduo_picture p = bare_site();
     struct ceduo_belt belts[6];
     for (int i = 0; i < 6; i++)
         belts[i] = s.belts[i % 2];
@@ -519,9 +483,7 @@ TEST(many_belts_get_a_row_each)
 
 TEST(options_stand_side_by_side)
 {
-    static struct site s;
-    site_init(&s);
-    struct ceduo_picture p = picture_of(&s);
+    struct ceduo_picture p = bare_site();
     expect(CEDUO_PLOT_COMPARE, &p, 80, 9, BRAILLE, "options-stand-side-by-side");
     expect(CEDUO_PLOT_COMPARE, &p, 110, 6, ASCII, "options-stand-side-by-side-2");
     p.control = 1;
@@ -530,9 +492,7 @@ TEST(options_stand_side_by_side)
 
 TEST(options_are_compared_by_what_gets_through)
 {
-    static struct site s;
-    wooded_site_init(&s);
-    struct ceduo_picture p = picture_of(&s);
+    struct ceduo_picture p = wooded_site();
     expect(CEDUO_PLOT_COMPARE, &p, 80, 9, BRAILLE, "options-are-compared-by-what-gets-through");
     expect(CEDUO_PLOT_COMPARE, &p, 60, 7, ASCII, "options-are-compared-by-what-gets-through-2");
     s.wood_arrivals[0].exceed_probability = 0.05;
@@ -543,10 +503,8 @@ TEST(options_are_compared_by_what_gets_through)
 
 TEST(options_without_wooded_rocks_are_compared)
 {
-    static struct site s;
-    wooded_site_init(&s);
-    struct ceduo_picture p = picture_of(&s);
-    stop_all(&s);
+    struct ceduo_picture p = wooded_site();
+    stop_all();
     expect(CEDUO_PLOT_COMPARE, &p, 80, 9, ASCII, "options-without-wooded-rocks-are-compared");
     s.wooded[0] = NULL;
     expect(CEDUO_PLOT_COMPARE, &p, 80, 9, BRAILLE, "options-without-wooded-rocks-are-compared-2");
@@ -558,9 +516,7 @@ TEST(options_without_wooded_rocks_are_compared)
 
 TEST(the_stand_is_drawn_to_scale)
 {
-    static struct site s;
-    site_init(&s);
-    struct ceduo_picture p = picture_of(&s);
+    struct ceduo_picture p = bare_site();
     expect(CEDUO_PLOT_STAND, &p, 60, 14, BRAILLE, "the-stand-is-drawn-to-scale");
     p.option = 1;
     assert_true(shows(CEDUO_PLOT_STAND, &p, 60, 12, "No stems"));
@@ -571,9 +527,7 @@ TEST(the_stand_is_drawn_to_scale)
 /* More stools are added to those that stand. */
 TEST(stems_that_stay_do_not_move)
 {
-    static struct site s;
-    site_init(&s);
-    struct ceduo_picture p = picture_of(&s);
+    struct ceduo_picture p = bare_site();
     s.belts[0].stand.trees_count = 0;
     struct ceduo_cells *few = draw(CEDUO_PLOT_STAND, &p, 80, 40, BRAILLE);
     s.belts[0].stand.stools_per_ha *= 1.5;
@@ -594,9 +548,7 @@ TEST(stems_that_stay_do_not_move)
  * the picture is half a metre. */
 TEST(what_the_rock_meets_lies_in_its_strip)
 {
-    static struct site s;
-    site_init(&s);
-    struct ceduo_picture p = picture_of(&s);
+    struct ceduo_picture p = bare_site();
     s.scene.rock.diameter = ceduo_number(3);
     s.belts[0].stand.shoots_count = 0;
     s.trees.per_ha = 5000;
@@ -617,9 +569,7 @@ TEST(what_the_rock_meets_lies_in_its_strip)
 /* 20 m around the last stem of the belt, offsets stretched until the strip fills the picture. */
 TEST(the_stand_shows_the_way_of_the_rock)
 {
-    static struct site s;
-    wooded_site_init(&s);
-    struct ceduo_picture p = picture_of(&s);
+    struct ceduo_picture p = wooded_site();
     p.stems = passed;
     p.stems_count = 3;
     expect(CEDUO_PLOT_STAND, &p, 60, 14, BRAILLE, "the-stand-shows-the-way-of-the-rock");
@@ -638,7 +588,6 @@ TEST(the_stand_shows_the_way_of_the_rock)
 /* The last stem in another belt: the first 20 m with stems. A belt shorter than that is shown with what follows it. */
 TEST(the_way_is_shown_in_the_belt_shown)
 {
-    static struct site s;
     wooded_site_init(&s);
     struct ceduo_belt belts[3] = {s.belts[0], s.belts[0], s.belts[1]};
     belts[0].to = 45;
@@ -663,9 +612,7 @@ TEST(the_way_is_shown_in_the_belt_shown)
 
 TEST(a_dense_stand_is_drawn_in_time)
 {
-    static struct site s;
-    site_init(&s);
-    struct ceduo_picture p = picture_of(&s);
+    struct ceduo_picture p = bare_site();
     s.belts[0].stand.stools_per_ha = 1e6;
     s.shoots.per_ha = 1e7;
     ceduo_cells_free(draw(CEDUO_PLOT_STAND, &p, 200, 400, BRAILLE));
@@ -675,7 +622,6 @@ TEST(a_dense_stand_is_drawn_in_time)
 
 TEST(nothing_is_drawn_beside_the_area)
 {
-    static struct site s;
     wooded_site_init(&s);
     for (int i = 0; i < 3 * 40 * 12; i++) {
         enum ceduo_charset charset = (enum ceduo_charset)(i % 3);
@@ -777,9 +723,7 @@ TEST(pictures_draw_on_another_surface)
                                                  .axis_unit = page_axis_unit,
                                                  .cloud_start = page_cloud_start,
                                                  .cloud_show = page_cloud_show};
-    static struct site s;
-    wooded_site_init(&s);
-    struct ceduo_picture p = picture_of(&s);
+    struct ceduo_picture p = wooded_site();
     struct ceduo_area area = {0, 0, 100, 30};
     for (int plot = CEDUO_PLOT_PROFILE; plot < CEDUO_PLOTS; plot++) {
         struct page page = {0};
@@ -800,7 +744,6 @@ TEST(pictures_draw_on_another_surface)
 /* Three options: one between the others, one that yields less and lets more through, one of which no yield is known. */
 TEST(a_point_for_each_option)
 {
-    static struct site s;
     wooded_site_init(&s);
     static struct ceduo_option options[3];
     static char names[3][8] = {"good", "beaten", "unknown"};
@@ -836,13 +779,11 @@ TEST(names_are_found)
 
 TEST(titles_name_what_is_shown)
 {
-    static struct site s;
-    site_init(&s);
-    struct ceduo_picture p = picture_of(&s);
+    struct ceduo_picture p = bare_site();
     const char *expected[2][CEDUO_PLOTS] = {
         {
             "",
-            "kept: slope, forest, and ways without forest",
+            "kept: slope, forest, and ways, without forest",
             "kept: energy of the rocks, without forest",
             "kept: height of the rocks above the ground, without forest",
             "kept: energy at path (40 m), without forest",
@@ -856,7 +797,7 @@ TEST(titles_name_what_is_shown)
         },
         {
             "",
-            "kept: slope, forest, and ways through it",
+            "kept: slope, forest, and ways",
             "kept: energy of the rocks",
             "kept: height of the rocks above the ground",
             "kept: energy at path (40 m)",
@@ -883,7 +824,6 @@ TEST(titles_name_what_is_shown)
 /* What was not flown yet is named. */
 TEST(pictures_name_what_is_not_known)
 {
-    static struct site s;
     wooded_site_init(&s);
     s.wooded[0] = NULL;
     struct ceduo_picture p = picture_of(&s);
