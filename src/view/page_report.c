@@ -69,7 +69,7 @@ static void add_slope(struct ceduo_page *page, const struct ceduo_chapter *c)
     add_picture(page, CEDUO_PLOT_PROFILE, WHOLE, SLOPE_ROWS, &picture,
                 _("The slope from the side with the forest on it, the ways of some rocks as thin lines, and the controls as "
                   "upright lines."));
-    if (c->snapshot && c->report->result->scene->controls_count > 0)
+    if (c->snapshot && c->report->result->scene->controls_count > 0 && !is_crowded(c))
         add_picture(page, CEDUO_PLOT_ENERGY, WHOLE, ENERGY_ROWS, &picture,
                     _("Curves along the slope: mean and 95th percentile of the energy of the rocks that pass each place, "
                       "through the forest and without it."));
@@ -221,6 +221,8 @@ static void add_hazard(struct ceduo_page *page, const struct ceduo_chapter *c)
     size_t first = is_crowded(c) ? picture.control : 0;
     for (size_t k = first; k < scene->controls_count; k++)
         ceduo_page_hazard(page, c->report, k, k == first);
+    if (is_crowded(c))
+        return;
     add_picture(
         page, CEDUO_PLOT_HAZARD, WHOLE, HAZARD_ROWS, &picture,
         _("Falling curves, one without forest and one for each option: how many years pass from one rock with more than "
