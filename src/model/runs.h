@@ -18,7 +18,7 @@ struct runs;
 struct runs *ceduo_runs_create(unsigned threads, const atomic_bool *cancel);
 void ceduo_runs_free(struct runs *runs);
 
-/* Takes an snapshot, which is its own from then on, as soon as it is known. */
+/* Takes a snapshot, which is its own from then on, as soon as it is known. */
 typedef void runs_publish(void *context, struct ceduo_snapshot *snapshot);
 
 /* One step of the figures: so many rocks without forest and through every option, that of `shown` first. */

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What doubt does to the figures of a scene. A plan (doubt_plan.c) holds the evaluations: a design (sensitivity.c), and the
- * scene with one input at each end of its range. Here a plan is made, computed whole or in parts, and read. With more inputs
- * than can have an index, a first look ranks them, and the least move together. */
+ * scene with one input at each end of its range. Here a plan is made, computed and read. With more inputs than can have an
+ * index, a first look ranks them, and the least move together. */
 #include "ceduo/doubt.h"
 
 #include <gsl/gsl_sort.h>
@@ -69,7 +69,7 @@ static enum ceduo_status rank_inputs(const struct ceduo_doubt_def *def, size_t m
             group[i] = i >= from && i < from + own ? i - from : own;
         status = ceduo_plan_fill(&coarse, &plan);
         if (status == CEDUO_OK)
-            status = ceduo_plan_run(&coarse, &plan, 1, ceduo_plan_items(&plan), done, all);
+            status = ceduo_plan_run(&coarse, &plan, 1, done, all);
         struct ceduo_halves *column = status == CEDUO_OK ? malloc(plan.rows * sizeof *column) : NULL;
         if (column)
             ceduo_plan_column(&plan, figures, main, column);
@@ -138,32 +138,14 @@ static double left_if_known(struct sample *samples, size_t n, double *room)
 }
 
 /* Room for reading one figure: `points` rows of A and of B. */
-struct reading {
+struct figure_room {
     struct ceduo_halves *column;
     double *sorted, *room;
     struct sample *samples;
 };
 
-static bool reading_open(struct reading *r, const struct plan *p)
-{
-    size_t n = 2 * p->design.points;
-    r->column = malloc(p->rows * sizeof *r->column);
-    r->sorted = malloc(n * sizeof *r->sorted);
-    r->room = malloc(n * sizeof *r->room);
-    r->samples = malloc(n * sizeof *r->samples);
-    return r->column && r->sorted && r->room && r->samples;
-}
-
-static void reading_close(struct reading *r)
-{
-    free(r->column);
-    free(r->sorted);
-    free(r->room);
-    free(r->samples);
-}
-
 /* Percentiles over rows of A and B, and what is left of them once a group is known. */
-static void read_spread(const struct plan *p, const size_t *input, struct reading *r, struct ceduo_doubt_figure *f)
+static void read_spread(const struct plan *p, const size_t *input, struct figure_room *r, struct ceduo_doubt_figure *f)
 {
     size_t n = 2 * p->design.points, stride = p->design.groups + 2;
     for (size_t i = 0; i < n; i++)
@@ -184,10 +166,12 @@ static void read_spread(const struct plan *p, const size_t *input, struct readin
 static enum ceduo_status read_figures(const struct ceduo_doubt_def *def, const struct plan *p,
                                       struct ceduo_doubt_answer *answer)
 {
-    enum ceduo_status status = CEDUO_OK;
-    struct reading r = {0};
-    if (!reading_open(&r, p))
-        status = CEDUO_NO_MEMORY;
+    size_t samples = 2 * p->design.points;
+    struct figure_room r = {.column = malloc(p->rows * sizeof *r.column),
+                            .sorted = malloc(samples * sizeof *r.sorted),
+                            .room = malloc(samples * sizeof *r.room),
+                            .samples = malloc(samples * sizeof *r.samples)};
+    enum ceduo_status status = r.column && r.sorted && r.room && r.samples ? CEDUO_OK : CEDUO_NO_MEMORY;
     for (size_t k = 0; status == CEDUO_OK && k < answer->figures_count; k++) {
         struct ceduo_doubt_figure *f = &answer->figures[k];
         size_t n = answer->figures_count, options = def->scene->options_count, at = k / CEDUO_DOUBT_KINDS;
@@ -201,7 +185,10 @@ static enum ceduo_status read_figures(const struct ceduo_doubt_def *def, const s
                 f->at[g][end] = g < p->ends ? mean_of(p->values[(p->rows + 2 * g + end) * n + k]) : NAN;
         status = ceduo_design_read(&p->design, r.column, &f->indices);
     }
-    reading_close(&r);
+    free(r.column);
+    free(r.sorted);
+    free(r.room);
+    free(r.samples);
     return status;
 }
 
@@ -319,16 +306,7 @@ void ceduo_doubt_order_of(const struct ceduo_doubt_answer *a, const struct ceduo
         order[g] = ranks[g].input;
 }
 
-/* ---- making a plan ---- */
-
-/* What is computed or read: a plan of groups, for an answer. */
-struct inquiry {
-    const struct ceduo_doubt_def *def;
-    struct ceduo_doubt_answer *answer;
-    size_t *group; /* of each input */
-    struct plan plan;
-    uint64_t done;
-};
+/* ---- all of it ---- */
 
 static uint64_t evaluations_of(const struct ceduo_doubt_def *def, size_t groups)
 {
@@ -338,19 +316,7 @@ static uint64_t evaluations_of(const struct ceduo_doubt_def *def, size_t groups)
     return all;
 }
 
-static enum ceduo_status begin(struct inquiry *q, const struct ceduo_doubt_def *def, struct ceduo_doubt_answer *a)
-{
-    *a = (struct ceduo_doubt_answer){.figures_count = ceduo_plan_figures(def->scene)};
-    *q = (struct inquiry){.def = def, .answer = a, .group = calloc(def->inputs_count + 1, sizeof *q->group)};
-    a->figures = calloc(a->figures_count, sizeof *a->figures);
-    a->groups = def->inputs_count > GROUPS ? GROUPS : def->inputs_count;
-    a->evaluations = evaluations_of(def, a->groups);
-    for (size_t i = 0; q->group && i < def->inputs_count; i++)
-        q->group[i] = i;
-    return q->group && a->figures ? read_sampling(def, a) : CEDUO_NO_MEMORY;
-}
-
-/* False without memory. */
+/* Names the input of each group; of those that move together all. False without memory. */
 static bool name_groups(struct ceduo_doubt_answer *a, const size_t *group, size_t n)
 {
     a->moved = calloc(n + 1, sizeof *a->moved);
@@ -362,56 +328,35 @@ static bool name_groups(struct ceduo_doubt_answer *a, const size_t *group, size_
     return a->moved != NULL;
 }
 
-/* Makes the plan of groups that are known. */
-static enum ceduo_status make_plan(struct inquiry *q)
+enum ceduo_status ceduo_doubt_ask(const struct ceduo_doubt_def *def, struct ceduo_doubt_answer *a)
 {
-    const struct ceduo_doubt_def *def = q->def;
-    struct ceduo_doubt_answer *a = q->answer;
-    if (!name_groups(a, q->group, def->inputs_count))
-        return CEDUO_NO_MEMORY;
-    q->plan.design = (struct ceduo_design){def->inputs_count, def->points, def->scene->simulation.seed, a->groups, q->group};
-    q->plan.ends = a->together > 0 ? a->groups - 1 : a->groups;
-    return ceduo_plan_fill(def, &q->plan);
-}
-
-/* The same where they must be found first. */
-static enum ceduo_status find_plan(struct inquiry *q)
-{
-    enum ceduo_status status = CEDUO_OK;
-    if (q->def->inputs_count > GROUPS)
-        status = rank_inputs(q->def, (size_t)q->answer->main, q->answer->evaluations, &q->done, q->group);
-    return status == CEDUO_OK ? make_plan(q) : status;
-}
-
-/* Reads a plan whose values are all there. */
-static enum ceduo_status read_plan(const struct inquiry *q)
-{
-    enum ceduo_status status = read_figures(q->def, &q->plan, q->answer);
-    return status == CEDUO_OK ? read_orders(q->def, &q->plan, q->answer) : status;
-}
-
-static enum ceduo_status end(struct inquiry *q, enum ceduo_status status)
-{
-    ceduo_plan_release(&q->plan);
-    free(q->group);
+    size_t n = def->inputs_count, *group = calloc(n + 1, sizeof *group);
+    struct plan plan = {.design = {n, def->points, def->scene->simulation.seed, n > GROUPS ? GROUPS : n, group}};
+    uint64_t done = 0;
+    *a = (struct ceduo_doubt_answer){.figures_count = ceduo_plan_figures(def->scene), .groups = plan.design.groups};
+    a->figures = calloc(a->figures_count, sizeof *a->figures);
+    a->evaluations = evaluations_of(def, a->groups);
+    for (size_t i = 0; group && i < n; i++)
+        group[i] = i;
+    enum ceduo_status status = group && a->figures ? read_sampling(def, a) : CEDUO_NO_MEMORY;
+    if (status == CEDUO_OK && n > GROUPS)
+        status = rank_inputs(def, (size_t)a->main, a->evaluations, &done, group);
+    if (status == CEDUO_OK && !name_groups(a, group, n))
+        status = CEDUO_NO_MEMORY;
+    plan.ends = a->together > 0 ? a->groups - 1 : a->groups;
+    if (status == CEDUO_OK)
+        status = ceduo_plan_fill(def, &plan);
+    if (status == CEDUO_OK)
+        status = ceduo_plan_run(def, &plan, 0, &done, a->evaluations);
+    if (status == CEDUO_OK)
+        status = read_figures(def, &plan, a);
+    if (status == CEDUO_OK)
+        status = read_orders(def, &plan, a);
+    ceduo_plan_release(&plan);
+    free(group);
     if (status != CEDUO_OK)
-        ceduo_doubt_free(q->answer);
+        ceduo_doubt_free(a);
     return status;
-}
-
-/* ---- all of it ---- */
-
-enum ceduo_status ceduo_doubt_ask(const struct ceduo_doubt_def *def, struct ceduo_doubt_answer *answer)
-{
-    struct inquiry q;
-    enum ceduo_status status = begin(&q, def, answer);
-    if (status == CEDUO_OK)
-        status = find_plan(&q);
-    if (status == CEDUO_OK)
-        status = ceduo_plan_run(def, &q.plan, 0, ceduo_plan_items(&q.plan), &q.done, answer->evaluations);
-    if (status == CEDUO_OK)
-        status = read_plan(&q);
-    return end(&q, status);
 }
 
 void ceduo_doubt_free(struct ceduo_doubt_answer *answer)

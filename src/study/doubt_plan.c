@@ -27,11 +27,6 @@ size_t ceduo_plan_figure(size_t options, size_t option, enum ceduo_doubt_kind ki
 
 /* ---- the plan ---- */
 
-size_t ceduo_plan_items(const struct plan *p)
-{
-    return p->design.points + 1;
-}
-
 size_t ceduo_plan_evaluations(const struct plan *p)
 {
     return ceduo_design_evaluations(&p->design) + 2 * p->ends;
@@ -195,8 +190,7 @@ static int run_item(void *context, size_t i, size_t thread)
     return status == CEDUO_OK || atomic_exchange(&w->failed, true) ? CEDUO_OK : (int)status;
 }
 
-enum ceduo_status ceduo_plan_run(const struct ceduo_doubt_def *def, struct plan *p, size_t from, size_t to, uint64_t *done,
-                                 uint64_t all)
+enum ceduo_status ceduo_plan_run(const struct ceduo_doubt_def *def, struct plan *p, size_t from, uint64_t *done, uint64_t all)
 {
     struct work w = {.def = def, .plan = p, .from = from, .before = *done, .all = all};
     pthread_mutex_init(&w.talking, NULL);
@@ -205,7 +199,7 @@ enum ceduo_status ceduo_plan_run(const struct ceduo_doubt_def *def, struct plan 
     for (size_t i = 0; i < def->threads && status == CEDUO_OK; i++)
         status = ceduo_inputs_open(&w.copies[i], def->scene, def->inputs, def->inputs_count);
     if (status == CEDUO_OK)
-        status = (enum ceduo_status)ceduo_parallel(&(struct parallel){to - from, def->threads, run_item, &w});
+        status = (enum ceduo_status)ceduo_parallel(&(struct parallel){p->design.points + 1 - from, def->threads, run_item, &w});
     for (size_t i = 0; w.copies && i < def->threads; i++)
         ceduo_inputs_release(&w.copies[i]);
     free(w.copies);

@@ -21,12 +21,10 @@ size_t ceduo_plan_figure(size_t options, size_t option, enum ceduo_doubt_kind ki
 enum ceduo_status ceduo_plan_fill(const struct ceduo_doubt_def *def, struct plan *plan);
 void ceduo_plan_release(struct plan *plan);
 
-size_t ceduo_plan_items(const struct plan *plan);
 size_t ceduo_plan_evaluations(const struct plan *plan); /* of all items */
 
-/* Computes items from `from` up to `to`. For the progress of all calls together `*done` of `all` evaluations came before;
- * it is moved on. */
-enum ceduo_status ceduo_plan_run(const struct ceduo_doubt_def *def, struct plan *plan, size_t from, size_t to, uint64_t *done,
+/* Computes items from `from` on. For the progress of all calls together `*done` of `all` evaluations came before; it is moved on. */
+enum ceduo_status ceduo_plan_run(const struct ceduo_doubt_def *def, struct plan *plan, size_t from, uint64_t *done,
                                  uint64_t all);
 
 /* Values of one figure in the order of the design. */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What runs give for pictures. For each forest a sight holds what arrived, the envelopes, some energies and some
- * trajectories. Sights are shared by counted references, so an snapshot takes over from the last one what has not changed. */
+/* What runs give for pictures. For each forest the snapshot of its run holds what arrived, the envelopes, some energies and some
+ * trajectories. They are shared by counted references, so a snapshot takes over from the last one what has not changed. */
 #include "snapshot.h"
 
 #include <math.h>

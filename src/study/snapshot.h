@@ -53,7 +53,7 @@ struct ceduo_snapshot {
  * many: none where the release may lie at the end. */
 size_t ceduo_snapshot_places(const struct ceduo_scene *scene, double *x);
 
-/* What an snapshot is made from. */
+/* What a snapshot is made from. */
 struct ceduo_snapshot_def {
     const struct ceduo_scene *scene;
     const struct ceduo_pool *figures;  /* the runs; those of options may be missing, or have no rocks yet */
@@ -62,9 +62,10 @@ struct ceduo_snapshot_def {
                                         * where one is as long or longer, figures are read from it too */
     size_t cells;
     const double *cell_x;
-    size_t trajectories;               /* trajectories that are followed for each */
-    const atomic_bool *cancel;         /* may be NULL; raised by another thread: the call returns soon */
-    const struct ceduo_snapshot *last; /* whose sights are taken over where nothing has changed; NULL: none. It must be
+    size_t trajectories;       /* trajectories that are followed for each */
+    const atomic_bool *cancel; /* may be NULL; raised by another thread: the call returns soon */
+    const struct ceduo_snapshot
+        *last; /* whose snapshots of runs are taken over where nothing has changed; NULL: none. It must be
                                         * of the same scene but for its forests */
 };
 

@@ -15,7 +15,7 @@ static struct ceduo_stand from_dbh(const struct ceduo_stand *stand, double dbh)
     return counted;
 }
 
-/* For the lights, what lies low does not count: a rock simulates over it. */
+/* For the lights, what lies low does not count: a rock flies over it. */
 static struct ceduo_stand standing(const struct ceduo_stand *stand, double dbh)
 {
     struct ceduo_stand counted = from_dbh(stand, dbh);

@@ -12,7 +12,7 @@
 /* A run from inside; only the run*.c include this.
  *
  *     run.c          makes, extends and frees a run, chunk by chunk
- *     run_simulate.c      simulates the rocks of one chunk on several threads
+ *     run_simulate.c simulates the rocks of one chunk on several threads
  *     run_samples.c  sums of a block, merged in the order of the blocks; what is kept of single rocks: every value, or
  *                    histograms where there are too many
  *     run_read.c     arrivals, differences and ends, read from sums and samples
