@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # ceduo: rockfall among the stems of a coppice.
 #
-#   make            build the program, ./ceduo      make check      run the tests that CI runs
+#   make            build the program, ./ceduo      make check      run the tests that CI runs; make quick: those of C, a minute
 #   make deps       install missing packages        make check-all  sanitizers, valgrind, Slurm: slow
 #   make run        compute the paper's site        make bench      measure speed against a plain C loop
 #   make install    PREFIX, DESTDIR; uninstall      make stress     ten million random scenes: slow
@@ -140,7 +140,7 @@ deps:
 
 # With `make -j deps check`, nothing may start before the packages are installed: these goals wait for deps if it is
 # requested, and do their work in a make of their own.
-GOALS := run check check-brief check-all bench stress fuzz lint coverage net
+GOALS := run quick check check-brief check-all bench stress fuzz lint coverage net
 $(GOALS): $(filter deps,$(MAKECMDGOALS))
 	@+$(MAKE) --no-print-directory do-$@
 
@@ -165,6 +165,16 @@ SLOW := test_bits.sh test_workflows.py test_years.py test_editing.py test_faults
 TAPS_SLOW := $(foreach t,$(SLOW),$(filter %/$t.tap,$(TAPS)))
 JOBS := $(shell expr $(CORES) + 1)
 SUPPORT := $(BUILD)/tests/main.o $(call object,$(filter-out tests/physics/test_% tests/physics/bits.c tests/physics/constants.c,$(wildcard tests/physics/*.c)))
+
+# The tests of C, less those that take more than three seconds of processor time, and that of the house: within a minute.
+SLOW_C := test_memory test_verdict test_quarry_sites test_wide test_statistics_of_runs test_stress test_invariants test_jobs \
+	test_stems_met test_stems_map
+TAPS_QUICK := $(filter-out $(addprefix %/,$(SLOW_C:=.tap)),$(UNIT:=.tap)) $(T)/cli/test_house.py.tap
+do-quick:
+	@+$(MAKE) --no-print-directory -j$(CORES) all
+	@rm -f $(TAPS_QUICK)
+	@+$(MAKE) --no-print-directory -j$(JOBS) $(TAPS_QUICK)
+	@tests/summary $(TAPS_QUICK)
 
 # A short part of them that has to do with languages; .ci/run runs it where others than English are spoken.
 TAPS_BRIEF := $(addprefix $(T)/,$(addsuffix .tap,unit/test_language unit/test_texts unit/test_typed cli/test_csv.py cli/test_language.py \
