@@ -406,6 +406,23 @@ static const struct node *node_of(const struct node *row, const char *path)
     return dot ? NULL : ceduo_node_get(row, path);
 }
 
+/* Names the keys of all kinds; several kinds may be within one. */
+static void complain_nothing(struct validator *v, const char *path)
+{
+    struct text keys = {0};
+    const char *before = "";
+    for (int kind = 0; kind < CEDUO_OBSERVED_KINDS; kind++) {
+        const char *key = ceduo_observed_row((enum ceduo_observed_kind)kind)->path;
+        size_t n = strcspn(key, ".");
+        if (strncmp(before, key, n + 1) != 0)
+            ceduo_text_then(&keys, before[0] ? ", " : "", "%.*s", (int)n, key);
+        before = key;
+    }
+    ceduo_complain(v, path, "", _("say what was seen, one of: %s"), ceduo_text_string(&keys));
+    v->problems->memory |= keys.failed;
+    ceduo_text_free(&keys);
+}
+
 static void validate_row(struct validator *v, const char *path, const struct node *node, struct observed *row)
 {
     struct ceduo_observation shared = {.use = (enum ceduo_observed_use)row->use};
@@ -439,7 +456,7 @@ static void validate_row(struct validator *v, const char *path, const struct nod
         }
     }
     if (!any)
-        ceduo_complain(v, path, "", _("say what was seen: stops, passed, speed, height, energy, largest, on_the_way or scars"));
+        complain_nothing(v, path);
 }
 
 void ceduo_validate_observed(struct validator *v)
