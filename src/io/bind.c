@@ -29,8 +29,9 @@ __attribute__((format(printf, 5, 0))) static void report_v(struct problems *prob
                                                            const char *path, const char *format, va_list args)
 {
     bool key = at_key && node->key_line > 0;
-    ceduo_problem_v(problems, node->source, key ? node->key_line : node->line, key ? node->key_column : node->column, path,
-                    format, args);
+    const struct problem_place place = {node->source, key ? node->key_line : node->line, key ? node->key_column : node->column,
+                                        path};
+    ceduo_problem_v(problems, place, format, args);
 }
 
 void ceduo_node_problem(struct problems *problems, const struct node *node, const char *path, const char *format, ...)
@@ -143,8 +144,8 @@ static const char *kind_name(const struct node *node)
 
 static void report_kind(struct binder *b, const struct node *node, const char *wanted)
 {
-    ceduo_problem_own(b->problems, node->source, node->line, node->column, path_here(b), _("expected %s, not %s"), wanted,
-                      kind_name(node));
+    ceduo_problem_own(b->problems, (struct problem_place){node->source, node->line, node->column, path_here(b)},
+                      _("expected %s, not %s"), wanted, kind_name(node));
     note_bad(b);
 }
 
@@ -334,19 +335,6 @@ void *ceduo_bind_take(struct arena *arena, size_t n, size_t size, struct problem
     if (!p)
         ceduo_problem_memory(problems);
     return p;
-}
-
-void *ceduo_bind_room(struct arena *arena, void *items, size_t n, size_t more, size_t *room, size_t size,
-                      struct problems *problems)
-{
-    if (n + more <= *room)
-        return items;
-    size_t all = 2 * n + more;
-    void *grown = ceduo_bind_take(arena, all, size, problems);
-    if (grown && n > 0)
-        memcpy(grown, items, n * size);
-    *room = grown ? all : *room;
-    return grown;
 }
 
 /* Sets a list of `item`: the pointer, and the count beside it. */
@@ -590,8 +578,8 @@ static void report_missing(struct binder *b, const struct object *object, const 
         note_bad(b);
         leave(b, before);
         if (!told) /* the mapping itself is good */
-            ceduo_problem_own(b->problems, node->source, node->line, node->column, path_here(b), _("'%s' is missing: %s"),
-                              f->key, f->type == FIELD_TAG ? f->value : _(f->meaning));
+            ceduo_problem_own(b->problems, (struct problem_place){node->source, node->line, node->column, path_here(b)},
+                              _("'%s' is missing: %s"), f->key, f->type == FIELD_TAG ? f->value : _(f->meaning));
     }
 }
 
@@ -630,11 +618,10 @@ static void bind_map(struct binder *b, const struct object *object, const struct
     b->partial = partial;
 }
 
-void ceduo_bind(struct arena *arena, const struct object *object, const struct node *node, void *item,
-                struct problems *problems, const struct source_note **notes, struct bad_values *bad)
+void ceduo_bind(const struct binding *to, const struct object *object, const struct node *node, void *item)
 {
-    struct binder b = {.arena = arena, .problems = problems, .notes = notes, .bad = bad};
+    struct binder b = {.arena = to->arena, .problems = to->problems, .notes = to->notes, .bad = to->bad};
     bind_map(&b, object, node, item);
-    problems->memory |= b.path.failed;
+    b.problems->memory |= b.path.failed;
     ceduo_text_free(&b.path);
 }

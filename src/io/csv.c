@@ -59,7 +59,8 @@ bool ceduo_csv_is(struct csv_span f, const char *word)
 
 bool ceduo_csv_open(struct csv *csv, struct arena *arena, const char *path, struct problems *problems)
 {
-    *csv = (struct csv){.source = (struct source *)(uintptr_t)ceduo_file_read(arena, path, CSV_BYTES_MOST, problems)};
+    *csv = (struct csv){.source = (struct source *)(uintptr_t)ceduo_file_read(arena, path, CSV_BYTES_MOST, problems),
+                        .problems = problems};
     if (!csv->source)
         return false;
     csv->at = ceduo_source_mark(csv->source);
@@ -149,11 +150,12 @@ bool ceduo_csv_field(const struct csv *csv, size_t column, struct csv_span *fiel
     return true;
 }
 
-void ceduo_csv_complain(const struct csv *csv, struct csv_span field, struct problems *problems, const char *format, ...)
+void ceduo_csv_complain(const struct csv *csv, struct csv_span field, const char *format, ...)
 {
     va_list args;
     va_start(args, format);
-    ceduo_problem_v(problems, csv->source, csv->number, (size_t)(field.p - csv->line.p) + 1, NULL, format, args);
+    ceduo_problem_v(csv->problems, (struct problem_place){csv->source, csv->number, (size_t)(field.p - csv->line.p) + 1, NULL},
+                    format, args);
     va_end(args);
 }
 
@@ -171,8 +173,7 @@ static bool take_decimal(struct csv *c, char *room)
     return true;
 }
 
-bool ceduo_csv_number(struct csv *csv, struct csv_span f, double lo, double hi, const char *unit, double *value,
-                      struct problems *problems)
+bool ceduo_csv_number(struct csv *csv, struct csv_span f, double lo, double hi, const char *unit, double *value)
 {
     char room[512];
     bool fits = f.n < sizeof room;
@@ -186,16 +187,16 @@ bool ceduo_csv_number(struct csv *csv, struct csv_span f, double lo, double hi, 
     if (reading == CEDUO_NUMBER_GOOD && *value <= hi && *value >= lo)
         return true;
     if (f.n == 0)
-        ceduo_csv_complain(csv, f, problems, _("a value is missing; remove the line"));
+        ceduo_csv_complain(csv, f, _("a value is missing; remove the line"));
     else if (reading == CEDUO_NUMBER_GOOD && *value < lo && lo > -hi)
-        ceduo_csv_complain(csv, f, problems, _("'%s' is below %g %s"), room, lo, unit);
+        ceduo_csv_complain(csv, f, _("'%s' is below %g %s"), room, lo, unit);
     else if (reading != CEDUO_NUMBER_NONE)
-        ceduo_csv_complain(csv, f, problems, _("beyond %g %s"), hi, unit);
+        ceduo_csv_complain(csv, f, _("beyond %g %s"), hi, unit);
     else if (!one_decimal)
-        ceduo_csv_complain(csv, f, problems, _("'%s': decimals stand after a comma or after a dot, not both"), room);
+        ceduo_csv_complain(csv, f, _("'%s': decimals stand after a comma or after a dot, not both"), room);
     else if (fits && strchr(room, ','))
-        ceduo_csv_complain(csv, f, problems, _("'%s' is not a number; write a dot for the decimals"), room);
+        ceduo_csv_complain(csv, f, _("'%s' is not a number; write a dot for the decimals"), room);
     else
-        ceduo_csv_complain(csv, f, problems, _("'%s' is not a number"), fits ? room : "…");
+        ceduo_csv_complain(csv, f, _("'%s' is not a number"), fits ? room : "…");
     return false;
 }

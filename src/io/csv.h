@@ -17,8 +17,9 @@ struct csv_span {
 
 struct csv {
     struct source *source;
-    size_t at, number;    /* bytes read; number of the present line, from 1 */
-    struct csv_span line; /* the present line */
+    struct problems *problems; /* where what is wrong is reported */
+    size_t at, number;         /* bytes read; number of the present line, from 1 */
+    struct csv_span line;      /* the present line */
     struct csv_span header;
     char separator;
     char decimal; /* ',' or '.', once a number has shown it; '\0' before */
@@ -53,11 +54,10 @@ bool ceduo_csv_is(struct csv_span field, const char *word);
 
 /* The number in a field of the present row, no smaller than lo and no larger than hi; of `unit` in messages. What is wrong
  * with it is told. */
-bool ceduo_csv_number(struct csv *csv, struct csv_span field, double lo, double hi, const char *unit, double *value,
-                      struct problems *problems);
+bool ceduo_csv_number(struct csv *csv, struct csv_span field, double lo, double hi, const char *unit, double *value);
 
 /* Reports a problem with a field of the present row. */
-void ceduo_csv_complain(const struct csv *csv, struct csv_span field, struct problems *problems, const char *format, ...)
-    __attribute__((format(printf, 4, 5)));
+void ceduo_csv_complain(const struct csv *csv, struct csv_span field, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
 
 #endif

@@ -37,13 +37,13 @@ static void read_row(struct csv *csv, const struct columns *c, struct points *po
         ceduo_problem(problems, csv->source, csv->number, 1, _("too few columns"));
         return;
     }
-    if (!ceduo_csv_number(csv, fx, vertex->lo, vertex->hi, "m", &x, problems) ||
-        !ceduo_csv_number(csv, fz, vertex->lo, vertex->hi, "m", &z, problems))
+    if (!ceduo_csv_number(csv, fx, vertex->lo, vertex->hi, "m", &x) ||
+        !ceduo_csv_number(csv, fz, vertex->lo, vertex->hi, "m", &z))
         return;
     if (points->n > 0 && !(x > points->x[points->n - 1])) {
         char a[CEDUO_NUMBER_ROOM], b[CEDUO_NUMBER_ROOM];
-        ceduo_csv_complain(csv, fx, problems, _("distance %s does not lie beyond %s; distances must rise"),
-                           ceduo_number_shortest(x, a), ceduo_number_shortest(points->x[points->n - 1], b));
+        ceduo_csv_complain(csv, fx, _("distance %s does not lie beyond %s; distances must rise"), ceduo_number_shortest(x, a),
+                           ceduo_number_shortest(points->x[points->n - 1], b));
         return;
     }
     points->x[points->n] = x;

@@ -106,8 +106,10 @@ static bool is_known(const struct problems *problems, uint64_t hash)
     return false;
 }
 
-static void add(struct problems *problems, const struct source *source, size_t line, size_t column, const struct text *message)
+static void add(struct problems *problems, struct problem_place place, const struct text *message)
 {
+    const struct source *source = place.source;
+    size_t line = place.line, column = place.column;
     struct text one = {0};
     if (source) {
         ceduo_text_safe(&one, source->name);
@@ -147,19 +149,18 @@ static void put_path(struct text *out, const char *path)
         ceduo_text_format(out, "%s: ", path);
 }
 
-void ceduo_problem_v(struct problems *problems, const struct source *source, size_t line, size_t column, const char *path,
-                     const char *format, va_list args)
+void ceduo_problem_v(struct problems *problems, struct problem_place place, const char *format, va_list args)
 {
     struct text message = {0};
-    if (!counts(problems, source))
+    if (!counts(problems, place.source))
         return;
-    if (source && source->foreign) {
+    if (place.source && place.source->foreign) {
         ceduo_problem_words(&message, format);
     } else {
-        put_path(&message, path);
+        put_path(&message, place.path);
         ceduo_text_vformat(&message, format, args);
     }
-    add(problems, source, line, column, &message);
+    add(problems, place, &message);
     ceduo_text_free(&message);
 }
 
@@ -167,22 +168,21 @@ void ceduo_problem(struct problems *problems, const struct source *source, size_
 {
     va_list args;
     va_start(args, format);
-    ceduo_problem_v(problems, source, line, column, NULL, format, args);
+    ceduo_problem_v(problems, (struct problem_place){source, line, column, NULL}, format, args);
     va_end(args);
 }
 
-void ceduo_problem_own(struct problems *problems, const struct source *source, size_t line, size_t column, const char *path,
-                       const char *format, ...)
+void ceduo_problem_own(struct problems *problems, struct problem_place place, const char *format, ...)
 {
     struct text message = {0};
     va_list args;
-    if (!counts(problems, source))
+    if (!counts(problems, place.source))
         return;
-    put_path(&message, path);
+    put_path(&message, place.path);
     va_start(args, format);
     ceduo_text_vformat(&message, format, args);
     va_end(args);
-    add(problems, source, line, column, &message);
+    add(problems, place, &message);
     ceduo_text_free(&message);
 }
 

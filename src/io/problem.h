@@ -45,12 +45,17 @@ struct problems {
  * is without its values, and of its lines only the beginning of the first is shown. */
 void ceduo_problem(struct problems *problems, const struct source *source, size_t line, size_t column, const char *format, ...)
     __attribute__((format(printf, 5, 6)));
-/* The same at the path of a value in the source; NULL or "": none. */
-void ceduo_problem_v(struct problems *problems, const struct source *source, size_t line, size_t column, const char *path,
-                     const char *format, va_list args) __attribute__((format(printf, 6, 0)));
+/* Where something is wrong: as above, and the path of a value in the source (NULL or "": none). */
+struct problem_place {
+    const struct source *source;
+    size_t line, column;
+    const char *path;
+};
+void ceduo_problem_v(struct problems *problems, struct problem_place place, const char *format, va_list args)
+    __attribute__((format(printf, 3, 0)));
 /* The same where path and values are none of the source's words. */
-void ceduo_problem_own(struct problems *problems, const struct source *source, size_t line, size_t column, const char *path,
-                       const char *format, ...) __attribute__((format(printf, 6, 7)));
+void ceduo_problem_own(struct problems *problems, struct problem_place place, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
 
 /* Adds the words of a format, which has no %%, with dots in place of the values. */
 void ceduo_problem_words(struct text *text, const char *format);

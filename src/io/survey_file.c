@@ -94,7 +94,7 @@ static void check_slip(struct reader *r, struct csv_span field)
         memcpy(word, field.p, field.n);
     const char *near = ceduo_text_nearest(word, missing, n);
     if (near)
-        ceduo_csv_complain(&r->csv, field, r->problems, _("'%s': unknown column; did you mean '%s'?"), word, near);
+        ceduo_csv_complain(&r->csv, field, _("'%s': unknown column; did you mean '%s'?"), word, near);
 }
 
 static bool is_used(const struct reader *r, size_t column)
@@ -123,8 +123,8 @@ static void read_header(struct reader *r, struct text *unused)
     static const enum column needed[] = {PLOT, KIND, DBH};
     for (size_t i = 0; i < sizeof needed / sizeof needed[0]; i++)
         if (r->columns[needed[i]] == CEDUO_CSV_NONE)
-            ceduo_problem_own(r->problems, r->csv.source, 1, 1, NULL, _("the first line must name the column '%s'"),
-                              names[needed[i]][0]);
+            ceduo_problem_own(r->problems, (struct problem_place){r->csv.source, 1, 1, NULL},
+                              _("the first line must name the column '%s'"), names[needed[i]][0]);
     if (r->columns[AREA] == CEDUO_CSV_NONE && r->columns[RADIUS] == CEDUO_CSV_NONE)
         ceduo_problem(r->problems, r->csv.source, 1, 1, _("the first line must name the column 'area_m2' or 'radius_m'"));
 }
@@ -140,8 +140,7 @@ static bool same(struct csv_span a, struct csv_span b)
 static bool read_number(struct reader *r, enum column c, double *value)
 {
     *value = NAN;
-    return r->fields[c].n == 0 ||
-           ceduo_csv_number(&r->csv, r->fields[c], ranges[c].lo, ranges[c].hi, ranges[c].unit, value, r->problems);
+    return r->fields[c].n == 0 || ceduo_csv_number(&r->csv, r->fields[c], ranges[c].lo, ranges[c].hi, ranges[c].unit, value);
 }
 
 /* What is said of a plot; said again it must be the same. */
@@ -152,8 +151,7 @@ static bool read_of_plot(struct reader *r, enum column c, double *value)
         return false;
     bool differs = !isnan(now) && !isnan(*value) && now != *value;
     if (differs)
-        ceduo_csv_complain(&r->csv, r->fields[c], r->problems, _("'%s' is %g elsewhere for this plot, here %g"), names[c][0],
-                           *value, now);
+        ceduo_csv_complain(&r->csv, r->fields[c], _("'%s' is %g elsewhere for this plot, here %g"), names[c][0], *value, now);
     *value = isnan(*value) ? now : *value;
     return !differs;
 }
@@ -164,7 +162,7 @@ static struct plot *plot_of(struct reader *r, struct csv_span name)
         if (same(r->plots[i].name, name))
             return &r->plots[i];
     if (r->plots_count == PLOTS_MOST) {
-        ceduo_csv_complain(&r->csv, name, r->problems, _("more than %d plots"), PLOTS_MOST);
+        ceduo_csv_complain(&r->csv, name, _("more than %d plots"), PLOTS_MOST);
         return NULL;
     }
     r->plots[r->plots_count] = (struct plot){name, r->csv.number, NAN, NAN, NAN};
@@ -174,7 +172,7 @@ static struct plot *plot_of(struct reader *r, struct csv_span name)
 static bool read_plot(struct reader *r, size_t *plot)
 {
     if (r->fields[PLOT].n == 0) {
-        ceduo_csv_complain(&r->csv, r->fields[PLOT], r->problems, _("the plot is missing"));
+        ceduo_csv_complain(&r->csv, r->fields[PLOT], _("the plot is missing"));
         return false;
     }
     struct plot *p = plot_of(r, r->fields[PLOT]);
@@ -185,7 +183,7 @@ static bool read_plot(struct reader *r, size_t *plot)
     good = read_of_plot(r, RADIUS, &p->radius) && good;
     good = read_of_plot(r, SLOPE, &p->degrees) && good;
     if (r->fields[AREA].n > 0 && r->fields[RADIUS].n > 0) {
-        ceduo_csv_complain(&r->csv, r->fields[RADIUS], r->problems, _("area_m2 already says this; leave one of the two empty"));
+        ceduo_csv_complain(&r->csv, r->fields[RADIUS], _("area_m2 already says this; leave one of the two empty"));
         return false;
     }
     return good;
@@ -201,9 +199,9 @@ static bool read_kind(struct reader *r, enum ceduo_survey_kind *kind)
                 return true;
             }
     if (f.n == 0)
-        ceduo_csv_complain(&r->csv, f, r->problems, _("the kind is missing: shoot, standard, tree or stump"));
+        ceduo_csv_complain(&r->csv, f, _("the kind is missing: shoot, standard, tree or stump"));
     else
-        ceduo_csv_complain(&r->csv, f, r->problems, _("'%.*s' is no kind of stem: shoot, standard, tree or stump"),
+        ceduo_csv_complain(&r->csv, f, _("'%.*s' is no kind of stem: shoot, standard, tree or stump"),
                            f.n < 100 ? (int)f.n : 100, f.p);
     return false;
 }
@@ -233,8 +231,8 @@ static bool read_species(struct reader *r, int *species)
         return true;
     struct text all = {0};
     ceduo_text_words(&all, ceduo_species_words.names, ceduo_species_words.n, ", ");
-    ceduo_csv_complain(&r->csv, f, r->problems, _("'%.*s' is an unknown species; leave it empty, or one of: %s"),
-                       f.n < 100 ? (int)f.n : 100, f.p, ceduo_text_string(&all));
+    ceduo_csv_complain(&r->csv, f, _("'%.*s' is an unknown species; leave it empty, or one of: %s"), f.n < 100 ? (int)f.n : 100,
+                       f.p, ceduo_text_string(&all));
     r->problems->memory |= all.failed;
     ceduo_text_free(&all);
     return false;
@@ -250,23 +248,19 @@ static bool read_sizes(struct reader *r, struct ceduo_survey_stem *stem)
     if (!good)
         return false;
     if (isnan(stem->dbh))
-        ceduo_csv_complain(&r->csv, r->fields[DBH], r->problems, _("the diameter is missing"));
+        ceduo_csv_complain(&r->csv, r->fields[DBH], _("the diameter is missing"));
     else if (stem->dbh > DBH_MOST)
-        ceduo_csv_complain(&r->csv, r->fields[DBH], r->problems, _("%g cm: more than %d cm; is it in mm?"), stem->dbh,
-                           DBH_MOST);
+        ceduo_csv_complain(&r->csv, r->fields[DBH], _("%g cm: more than %d cm; is it in mm?"), stem->dbh, DBH_MOST);
     else if (stem->kind != CEDUO_SURVEY_STUMP && stem->height <= CEDUO_BREAST_HEIGHT)
-        ceduo_csv_complain(&r->csv, r->fields[HEIGHT], r->problems,
-                           _("%g m: a stem with a diameter at breast height is higher than %g m"), stem->height,
-                           CEDUO_BREAST_HEIGHT);
+        ceduo_csv_complain(&r->csv, r->fields[HEIGHT], _("%g m: a stem with a diameter at breast height is higher than %g m"),
+                           stem->height, CEDUO_BREAST_HEIGHT);
     else if (stem->kind == CEDUO_SURVEY_STUMP && !(isnan(stem->height) || (stem->height > 0 && stem->height <= STUMP_MOST)))
-        ceduo_csv_complain(&r->csv, r->fields[HEIGHT], r->problems, _("the height of a stump must be above 0 and at most %d m"),
-                           STUMP_MOST);
+        ceduo_csv_complain(&r->csv, r->fields[HEIGHT], _("the height of a stump must be above 0 and at most %d m"), STUMP_MOST);
     else if (stem->kind != CEDUO_SURVEY_SHOOT && !isnan(stem->spacing))
-        ceduo_csv_complain(&r->csv, r->fields[SPACING], r->problems,
+        ceduo_csv_complain(&r->csv, r->fields[SPACING],
                            _("spacing_m is the distance between the shoots of a stool; leave it empty here"));
     else if (stem->kind != CEDUO_SURVEY_STUMP && !isnan(stem->energy))
-        ceduo_csv_complain(&r->csv, r->fields[ENERGY], r->problems,
-                           _("energy_kJ is what a stump takes from a rock; leave it empty here"));
+        ceduo_csv_complain(&r->csv, r->fields[ENERGY], _("energy_kJ is what a stump takes from a rock; leave it empty here"));
     else {
         stem->dbh /= 100;
         stem->energy *= 1000;
@@ -291,7 +285,7 @@ static void read_stem(struct reader *r, size_t plot)
     if (!kind || !read_sizes(r, &stem) || !species)
         return;
     if (stem.kind == CEDUO_SURVEY_SHOOT && r->fields[STOOL].n == 0) {
-        ceduo_csv_complain(&r->csv, r->fields[STOOL], r->problems,
+        ceduo_csv_complain(&r->csv, r->fields[STOOL],
                            _("the stool of this shoot is missing; number the stools of a plot (column 'stool')"));
         return;
     }

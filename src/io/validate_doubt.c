@@ -31,7 +31,7 @@ struct places {
 /* For so many more. False without memory. */
 static bool make_room(struct places *p, size_t more)
 {
-    const char **items = ceduo_bind_room(p->v->arena, p->items, p->n, more, &p->room, sizeof *items, p->v->problems);
+    const char **items = ceduo_more_room(p->v, p->items, p->n, more, &p->room, sizeof *items);
     p->items = items ? items : p->items;
     return items != NULL;
 }
@@ -357,7 +357,7 @@ static void take_stand(struct stand_rows *s, const char *within, const struct no
         if (!ceduo_is_sound(v, row.at))
             continue;
         ceduo_schema_init(object, &doubt);
-        ceduo_bind(v->arena, object, rows->items[i], &doubt, v->problems, &notes, &v->bad);
+        ceduo_bind(&(struct binding){v->arena, v->problems, &notes, &v->bad}, object, rows->items[i], &doubt);
         for (size_t k = 0; k < i; k++) {
             const char *other = ceduo_node_text(rows->items[k], "path");
             twice |= other && ceduo_schema_same(other, doubt.path);
@@ -443,9 +443,8 @@ static bool take_path(struct draws *t, size_t column, char *path)
                            _("the table has a column '%s', which is no value of this scene"), path);
         return false;
     }
-    t->heads = ceduo_bind_room(v->arena, t->heads, t->heads_count, 1, &t->heads_room, sizeof *t->heads, v->problems);
-    t->places = ceduo_bind_room(v->arena, t->places, t->places_count, found.places_count, &t->places_room, sizeof *t->places,
-                                v->problems);
+    t->heads = ceduo_more_room(v, t->heads, t->heads_count, 1, &t->heads_room, sizeof *t->heads);
+    t->places = ceduo_more_room(v, t->places, t->places_count, found.places_count, &t->places_room, sizeof *t->places);
     if (!t->heads || !t->places)
         return false;
     const struct head *last = t->heads_count > 0 ? &t->heads[t->heads_count - 1] : NULL;
@@ -487,8 +486,8 @@ static void check_draw(struct draws *t, struct csv_span field, const struct fiel
     if (ceduo_schema_in_range(f, value))
         return;
     ceduo_schema_range_text(f, &range);
-    ceduo_csv_complain(&t->csv, field, t->v->problems, _("%s is outside the range of %s: %s"), ceduo_decimal(t->v, value),
-                       f->key, ceduo_text_string(&range));
+    ceduo_csv_complain(&t->csv, field, _("%s is outside the range of %s: %s"), ceduo_decimal(t->v, value), f->key,
+                       ceduo_text_string(&range));
     ceduo_text_free(&range);
 }
 
@@ -498,7 +497,7 @@ static void read_row(struct draws *t)
     size_t c = 0, h = 0;
     for (; c < t->columns && ceduo_csv_step(&t->csv, &left, &field); c++) {
         double *to = &t->values[c][t->rows];
-        bool good = ceduo_csv_number(&t->csv, field, -1e12, 1e12, "", to, t->v->problems);
+        bool good = ceduo_csv_number(&t->csv, field, -1e12, 1e12, "", to);
         for (; h < t->heads_count && t->heads[h].column == c; h++)
             if (good)
                 check_draw(t, field, t->heads[h].field, *to);
@@ -506,7 +505,7 @@ static void read_row(struct draws *t)
     if (c < t->columns)
         ceduo_problem(t->v->problems, t->csv.source, t->csv.number, 1, _("too few columns"));
     else if (ceduo_csv_step(&t->csv, &left, &field))
-        ceduo_csv_complain(&t->csv, field, t->v->problems, _("more columns than the first line has"));
+        ceduo_csv_complain(&t->csv, field, _("more columns than the first line has"));
     t->rows++;
 }
 

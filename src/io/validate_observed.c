@@ -204,7 +204,7 @@ static void read_table(const struct place *p, const char *path)
             continue;
         if (!ceduo_csv_field(&csv, column, &field))
             ceduo_problem(v->problems, csv.source, csv.number, 1, _("too few columns"));
-        else if (ceduo_csv_number(&csv, field, -1e9, 1e9, "", &to->values[to->values_count], v->problems))
+        else if (ceduo_csv_number(&csv, field, -1e9, 1e9, "", &to->values[to->values_count]))
             to->values_count++;
     }
     if (to->values_count == 0)

@@ -19,7 +19,8 @@ void ceduo_complain(struct validator *v, const char *path, const char *key, cons
     else
         ceduo_text_vformat(&message, format, args);
     va_end(args);
-    ceduo_problem_own(v->problems, node->source, node->line, node->column, within, "%s", ceduo_text_string(&message));
+    ceduo_problem_own(v->problems, (struct problem_place){node->source, node->line, node->column, within}, "%s",
+                      ceduo_text_string(&message));
     v->problems->memory |= message.failed;
     ceduo_text_free(&message);
 }
@@ -95,4 +96,16 @@ void ceduo_check_name(struct validator *v, const char *list, size_t i, const cha
 {
     if (name && other && strcmp(name, other) == 0)
         ceduo_complain(v, ceduo_format(v, "%s[%zu]", list, i), "name", _("'%s' is given twice; names must differ"), name);
+}
+
+void *ceduo_more_room(struct validator *v, void *items, size_t n, size_t more, size_t *room, size_t size)
+{
+    if (n + more <= *room)
+        return items;
+    size_t all = 2 * n + more;
+    void *grown = ceduo_room(v, all, size);
+    if (grown && n > 0)
+        memcpy(grown, items, n * size);
+    *room = grown ? all : *room;
+    return grown;
 }

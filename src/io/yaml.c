@@ -39,7 +39,8 @@ static size_t column_of(const struct reader *r, yaml_mark_t mark)
 /* None of its values is a word of the file. */
 #define STOP(r, mark, ...)                                                                                                     \
     do {                                                                                                                       \
-        ceduo_problem_own((r)->problems, (r)->source, line_of(mark), column_of(r, mark), NULL, __VA_ARGS__);                   \
+        ceduo_problem_own((r)->problems, (struct problem_place){(r)->source, line_of(mark), column_of(r, mark), NULL},         \
+                          __VA_ARGS__);                                                                                        \
         (r)->stopped = true;                                                                                                   \
     } while (0)
 
