@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include "fuzz.h"
+#include "io/bind.h"
 #include "io/csv_slope.h"
 #include "io/survey_file.h"
 
