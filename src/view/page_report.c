@@ -69,7 +69,8 @@ static void add_slope(struct ceduo_page *page, const struct ceduo_chapter *c)
     add_picture(page, CEDUO_PLOT_PROFILE, WHOLE, SLOPE_ROWS, &picture,
                 _("The slope from the side with the forest on it, the ways of some rocks as thin lines, and the controls as "
                   "upright lines."));
-    if (c->snapshot && c->report->result->scene->controls_count > 0 && !is_crowded(c))
+    bool several = c->report->result->scene->options_count > 1;
+    if (c->snapshot && c->report->result->scene->controls_count > 0 && !(several && ceduo_report_has_hazard(c->report)))
         add_picture(page, CEDUO_PLOT_ENERGY, WHOLE, ENERGY_ROWS, &picture,
                     _("Curves along the slope: mean and 95th percentile of the energy of the rocks that pass each place, "
                       "through the forest and without it."));
