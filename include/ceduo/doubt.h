@@ -5,7 +5,7 @@
 #include <stdatomic.h>
 
 #include "scene.h"
-#include "sensitivity.h"
+#include "surface.h"
 
 /* Doubt: what is not known of a scene's values, and what that does to its figures. It is not the error of the sample,
  * which more rocks reduce; only measuring reduces it. Every value that is in doubt is an input with a range; many scenes are
@@ -53,17 +53,20 @@ enum ceduo_doubt_kind {
     CEDUO_DOUBT_KINDS
 };
 
-#define CEDUO_DOUBT_POINTS      256
-#define CEDUO_DOUBT_POINTS_MOST 100000
-#define CEDUO_DOUBT_FIRST       32 /* base points of a first look that ranks more inputs than can have an index */
+/* Points of a surface (ceduo/surface.h). As many as are asked for; where they explain less than CEDUO_DOUBT_EXPLAINED of what
+ * varies, twice as many, and so on. */
+#define CEDUO_DOUBT_POINTS     256
+#define CEDUO_DOUBT_POINTS_MAX 1024
+#define CEDUO_DOUBT_EXPLAINED  0.9
+#define CEDUO_DOUBT_ROCKS      400 /* of each, where they are not said */
 
 struct ceduo_doubt_def {
     const struct ceduo_scene *scene;
     size_t inputs_count; /* >= 1 */
     const struct ceduo_input *inputs;
-    size_t points;  /* N >= 2 */
-    size_t first;   /* base points of a first look that ranks more inputs than can have an index, >= 2; 0: CEDUO_DOUBT_FIRST */
-    uint64_t rocks; /* of each evaluation, >= 2 */
+    size_t points;      /* 2…CEDUO_DOUBT_POINTS_MAX */
+    uint64_t rocks;     /* of each evaluation; CEDUO_SURFACE_GROUPS at least are taken */
+    uint64_t own_rocks; /* of the scene as it is; 0: as many */
     unsigned threads;
     const atomic_bool *cancel;                                    /* may be NULL */
     void (*progress)(void *context, uint64_t done, uint64_t all); /* may be NULL; by one thread at a time */
@@ -76,11 +79,10 @@ struct ceduo_doubt_figure {
     enum ceduo_doubt_kind kind;
     bool difference;
     double value, sampling_lo, sampling_hi; /* of the scene as it is, with the error of the rocks; NaN: not known */
-    double p5, p50, p95;                    /* over what may be true */
-    struct ceduo_indices indices;
-    double at[CEDUO_SENSITIVITY_GROUPS][2]; /* with one input at its lower, at its upper end, all others as they are */
-    /* p95 - p5 that would be left, on the mean, if this input were known; NaN: of several */
-    double left[CEDUO_SENSITIVITY_GROUPS];
+    struct ceduo_surface_fit fit;           /* over what may be true */
+    double (*at)[2];                        /* of each input: with it at its lower, at its upper end, all others as they are */
+    size_t uses;                            /* inputs that the figure's options have */
+    size_t *order;                          /* these by what is left of p95 - p5 if they are known, least first */
 };
 
 /* Of two neighbours in rank: in how much of what may be true the one is better, worse, and neither by more than the noise of
@@ -91,10 +93,8 @@ struct ceduo_doubt_order {
 };
 
 struct ceduo_doubt_answer {
-    size_t groups;                          /* what has an index */
-    size_t input[CEDUO_SENSITIVITY_GROUPS]; /* its input; of the last of several together: their number */
-    size_t together;                        /* inputs that move as one, the last of `groups`; 0: none */
-    size_t *moved;                          /* those inputs */
+    size_t points;
+    uint64_t own_rocks;
     size_t figures_count;
     struct ceduo_doubt_figure *figures; /* by option and kind, then the differences; see ceduo_doubt_figure_of() */
     enum ceduo_doubt_kind main;         /* too much energy where that is known, otherwise energy */
@@ -111,12 +111,10 @@ void ceduo_doubt_free(struct ceduo_doubt_answer *answer);
 const struct ceduo_doubt_figure *ceduo_doubt_figure_of(const struct ceduo_doubt_answer *answer, size_t option,
                                                        enum ceduo_doubt_kind kind, bool difference);
 
-/* Groups by what is left of the doubt of a figure if they are known, least first: answer->groups of them. */
-void ceduo_doubt_order_of(const struct ceduo_doubt_answer *answer, const struct ceduo_doubt_figure *figure, size_t *order);
-
 /* Whether a light of the last control changes within the 90 % band of doubt: contact, free run, or energy
- * (CEDUO_DOUBT_EXCEED). Returns how many groups it depends on above all, 1 or 2, the heaviest first; 0: it does not change. */
+ * (CEDUO_DOUBT_EXCEED). Returns how many inputs it depends on above all, 1 or 2, the heaviest first; 0: it does not change, or
+ * there are too few points to say by what. */
 size_t ceduo_doubt_depends(const struct ceduo_scene *scene, const struct ceduo_doubt_answer *answer, size_t option,
-                           enum ceduo_doubt_kind light, size_t groups[2]);
+                           enum ceduo_doubt_kind light, size_t inputs[2]);
 
 #endif

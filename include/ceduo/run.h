@@ -91,6 +91,9 @@ struct ceduo_brief {
     double energy_per_released;
 };
 struct ceduo_brief ceduo_run_brief(const struct ceduo_run *run, size_t control);
+/* The same of each of so many groups of rocks, as large as each other or one larger, in their order: of a run whose samples are
+ * kept, and with as many rocks at least. */
+void ceduo_run_briefs(const struct ceduo_run *run, size_t control, size_t groups, struct ceduo_brief *briefs);
 
 /* What one run brings to a control less what another brings, rock by rock of the same numbers; over all released. */
 struct ceduo_difference {

@@ -217,7 +217,7 @@ static enum exit_status set_goal(struct arguments *a, const struct option_row *r
 static enum exit_status set_sensitivity(struct arguments *a, const struct option_row *row, char *value)
 {
     uint64_t n = CEDUO_DOUBT_POINTS;
-    enum exit_status status = value ? read_count(row->name, value, 2, CEDUO_DOUBT_POINTS_MOST, &n) : EXIT_DONE;
+    enum exit_status status = value ? read_count(row->name, value, 2, CEDUO_DOUBT_POINTS_MAX, &n) : EXIT_DONE;
     a->points = (size_t)n;
     return status;
 }

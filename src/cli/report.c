@@ -16,12 +16,10 @@
 #include "view/page_report.h"
 
 /* Rocks and base points are moderate: a page shows no more digits. */
-#define DOUBT_POINTS 64
-#define DOUBT_ROCKS  500
-#define YEAR_ROCKS   1024
-#define YEARS_MOST   50
-#define BLOCK_ROCKS  512
-#define WAYS         80 /* more are no denser to the eye, and make the page large */
+#define YEAR_ROCKS  1024
+#define YEARS_MOST  50
+#define BLOCK_ROCKS 512
+#define WAYS        80 /* more are no denser to the eye, and make the page large */
 
 /* ---- the command ---- */
 
@@ -75,8 +73,8 @@ static enum ceduo_status ask_doubt(const struct arguments *a, struct scene_file 
                                    const struct ceduo_result *result, struct asked_doubt *doubt)
 {
     uint64_t rocks = ceduo_result_rocks(result);
-    struct ceduo_doubt_def def = {.points = ceduo_option_given(a, "sensitivity") ? a->points : DOUBT_POINTS,
-                                  .rocks = rocks < DOUBT_ROCKS ? rocks : DOUBT_ROCKS};
+    struct ceduo_doubt_def def = {.points = ceduo_option_given(a, "sensitivity") ? a->points : CEDUO_DOUBT_POINTS,
+                                  .rocks = rocks < CEDUO_DOUBT_ROCKS ? rocks : CEDUO_DOUBT_ROCKS};
     return ceduo_sensitivity_ask(a, file, progress, &def, result, doubt);
 }
 

@@ -6,8 +6,6 @@
 #include "io/inputs.h"
 #include "say.h"
 
-#define ROCKS_USUAL 2000 /* of each evaluation */
-
 enum ceduo_status ceduo_sensitivity_ask(const struct arguments *a, struct scene_file *file, struct progress *progress,
                                         struct ceduo_doubt_def *def, const struct ceduo_result *finer, struct asked_doubt *d)
 {
@@ -34,7 +32,8 @@ enum ceduo_status ceduo_sensitivity_of(const struct arguments *a, struct scene_f
 {
     struct progress progress = ceduo_progress_begin(a);
     struct ceduo_doubt_def def = {.points = a->points > 0 ? a->points : CEDUO_DOUBT_POINTS,
-                                  .rocks = a->rocks > 0 ? a->rocks : ROCKS_USUAL};
+                                  .rocks = a->rocks > 0 ? a->rocks : CEDUO_DOUBT_ROCKS,
+                                  .own_rocks = a->rocks > 0 ? a->rocks : file->scene.simulation.rocks};
     enum ceduo_status status = ceduo_sensitivity_ask(a, file, &progress, &def, NULL, d);
     ceduo_progress_end(&progress);
     return status;

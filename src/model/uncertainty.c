@@ -4,9 +4,9 @@
 #include "base/must.h"
 
 static const struct {
-    size_t points, first;
+    size_t points;
     uint64_t rocks;
-} levels[UNCERTAINTY_LEVELS] = {{8, 4, 100}, {32, 8, 400}, {64, 32, 1000}};
+} levels[UNCERTAINTY_LEVELS] = {{64, 100}, {CEDUO_DOUBT_POINTS, CEDUO_DOUBT_ROCKS}};
 
 enum ceduo_status ceduo_uncertainty_make(const struct scene_file *file, size_t level, unsigned threads,
                                          const atomic_bool *cancel, struct uncertainty **uncertainty)
@@ -20,7 +20,6 @@ enum ceduo_status ceduo_uncertainty_make(const struct scene_file *file, size_t l
                                         .inputs_count = u->inputs.n,
                                         .inputs = u->inputs.items,
                                         .points = u->points,
-                                        .first = levels[level].first,
                                         .rocks = u->rocks,
                                         .threads = threads,
                                         .cancel = cancel};

@@ -6,8 +6,7 @@
 #include "io/inputs.h"
 
 /* What doubt does to the scene of the live program, in levels from coarse to fine. */
-#define UNCERTAINTY_LEVELS 3
-#define UNCERTAINTY_BEHIND 2 /* levels that are computed behind the figures; the finest only where somebody looks at it */
+#define UNCERTAINTY_LEVELS 2
 
 struct uncertainty {
     struct scene_file file; /* as it was; its nodes are the document's */

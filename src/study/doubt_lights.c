@@ -24,22 +24,22 @@ static bool is_decided(const struct ceduo_scene *scene, size_t option, enum cedu
 }
 
 size_t ceduo_doubt_depends(const struct ceduo_scene *scene, const struct ceduo_doubt_answer *a, size_t option,
-                           enum ceduo_doubt_kind light, size_t groups[2])
+                           enum ceduo_doubt_kind light, size_t inputs[2])
 {
     const struct ceduo_doubt_figure *f = ceduo_doubt_figure_of(a, option, light, false);
     double limit = limit_of(scene, light);
-    bool changes = f->p5 <= limit && f->p95 > limit;
-    if (!changes || is_decided(scene, option, light))
+    bool changes = f->fit.p5 <= limit && f->fit.p95 > limit;
+    if (!changes || !f->fit.enough || is_decided(scene, option, light))
         return 0;
-    size_t first = 0, second = SIZE_MAX;
-    const struct ceduo_share *total = f->indices.total;
-    for (size_t g = 1; g < a->groups; g++)
-        if (total[g].value > total[first].value)
-            first = g;
-    for (size_t g = 0; g < a->groups; g++)
-        if (g != first && (second == SIZE_MAX || total[g].value > total[second].value))
-            second = g;
-    groups[0] = first;
-    groups[1] = second;
+    const struct ceduo_share *total = f->fit.total;
+    size_t first = f->order[0], second = SIZE_MAX;
+    for (size_t i = 1; i < f->uses; i++)
+        if (total[f->order[i]].value > total[first].value)
+            first = f->order[i];
+    for (size_t i = 0; i < f->uses; i++)
+        if (f->order[i] != first && (second == SIZE_MAX || total[f->order[i]].value > total[second].value))
+            second = f->order[i];
+    inputs[0] = first;
+    inputs[1] = second;
     return second != SIZE_MAX && total[second].value >= ALSO * total[first].value ? 2 : 1;
 }

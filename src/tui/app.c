@@ -154,7 +154,7 @@ bool ceduo_app_doubt(const struct app *app, struct ceduo_doubt_report *report)
 
 static size_t doubt_levels(const struct app *app)
 {
-    return ceduo_views[app->view]->uncertainty ? UNCERTAINTY_LEVELS : app->doubts ? UNCERTAINTY_BEHIND : 0;
+    return ceduo_views[app->view]->uncertainty || app->doubts ? UNCERTAINTY_LEVELS : 0;
 }
 
 bool ceduo_app_doubt_is_rough(const struct app *app)

@@ -161,8 +161,8 @@ static bool draw_doubt(struct pen *pen, bool energy)
     if (!doubt_of(app, &report) || (report.answer->main == CEDUO_DOUBT_ENERGY) != energy)
         return false;
     const struct ceduo_doubt_figure *f = ceduo_doubt_figure_of(report.answer, app->option, report.answer->main, false);
-    const char *range = energy ? ceduo_app_format(app, "%.3g-%.3g", f->p5 * J_TO_KJ, f->p95 * J_TO_KJ)
-                               : ceduo_app_format(app, "%.0f-%.0f", f->p5 * 1000, f->p95 * 1000);
+    const char *range = energy ? ceduo_app_format(app, "%.3g-%.3g", f->fit.p5 * J_TO_KJ, f->fit.p95 * J_TO_KJ)
+                               : ceduo_app_format(app, "%.0f-%.0f", f->fit.p5 * 1000, f->fit.p95 * 1000);
     draw_pair(pen, CEDUO_ROLE_DIM, ceduo_app_format(app, "  %s", P_("view", "doubt")), range,
               ceduo_app_doubt_is_rough(app) ? _("rough") : "");
     return true;

@@ -75,7 +75,7 @@ static void draw(struct app *app, struct ceduo_area area)
         said = ceduo_app_text_lines(app, ceduo_text_string(&words), area.width);
         /* lines that the picture keeps: options, an input, a line above each, and one between it and the words; and those
          * that it fills: options, inputs, a line above each */
-        size_t options = r.file->scene.options_count, inputs = r.answer->groups < 12 ? r.answer->groups : 12;
+        size_t options = r.file->scene.options_count, inputs = r.inputs->n < 12 ? r.inputs->n : 12;
         int max = area.height - (int)(options < OPTIONS_MIN ? options : OPTIONS_MIN) - 4, lines = (int)(options + inputs + 2);
         said = said > max ? max : said;
         if (lines < area.height - said - 1)
@@ -106,24 +106,22 @@ static void add(struct app *app, int unused)
     (void)unused;
     const struct uncertainty *u = ceduo_live_uncertainty(&app->live, &app->document.file);
     const struct node *rows = ceduo_node_get(app->document.file.root, "doubt");
-    size_t order[CEDUO_SENSITIVITY_GROUPS];
     if (!u || u->inputs.n == 0 || (rows && rows->kind != NODE_LIST)) {
         ceduo_app_say(app, "%s", u ? _("nothing here has a range") : _("not computed yet"));
         return;
     }
-    ceduo_doubt_order_of(&u->answer, ceduo_doubt_figure_of(&u->answer, app->option, u->answer.main, false), order);
+    const struct ceduo_doubt_figure *f = ceduo_doubt_figure_of(&u->answer, app->option, u->answer.main, false);
     struct ceduo_doubt_report r;
     ceduo_app_doubt(app, &r);
-    for (size_t i = 0; i < u->answer.groups; i++) {
-        const struct ceduo_input *input = &u->inputs.items[u->answer.input[order[i]]];
-        bool several = u->answer.together > 0 && order[i] + 1 == u->answer.groups;
-        if (several || input->kind == CEDUO_INPUT_WORDS || input->places_count != 1 || is_named(rows, input->places[0]))
+    for (size_t i = 0; i < f->uses; i++) {
+        const struct ceduo_input *input = &u->inputs.items[f->order[i]];
+        if (input->kind == CEDUO_INPUT_WORDS || input->places_count != 1 || is_named(rows, input->places[0]))
             continue;
         struct text row = {0};
         ceduo_text_format(&row, "{path: '%s', lo: ", input->places[0]);
-        ceduo_doubt_input_end(&row, &r, order[i], 0);
+        ceduo_doubt_input_end(&row, &r, f->order[i], 0);
         ceduo_text_put(&row, ", hi: ");
-        ceduo_doubt_input_end(&row, &r, order[i], 1);
+        ceduo_doubt_input_end(&row, &r, f->order[i], 1);
         ceduo_text_char(&row, '}');
         size_t n = rows ? rows->n : 0;
         const char *item = ceduo_app_kept(app, &row);

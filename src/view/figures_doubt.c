@@ -45,38 +45,14 @@ static bool enter_figure(struct ceduo_place *p, size_t i)
 /* By what is left of the doubt if they are known, least first. */
 static bool enter_input(struct ceduo_place *p, size_t i)
 {
-    size_t order[CEDUO_SENSITIVITY_GROUPS];
-    if (i >= p->doubt->answer->groups)
-        return false;
-    ceduo_doubt_order_of(p->doubt->answer, figure_of(p), order);
-    p->input = order[i];
-    return true;
+    p->input = i < figure_of(p)->uses ? figure_of(p)->order[i] : 0;
+    return i < figure_of(p)->uses;
 }
 
 static bool enter_order(struct ceduo_place *p, size_t i)
 {
     p->item = i;
     return p->doubt->answer && i < p->doubt->answer->orders_count;
-}
-
-static void say_path(const struct ceduo_place *p, ceduo_words_say *say, void *context)
-{
-    const struct ceduo_input *input = ceduo_doubt_input(p->doubt, p->input);
-    LOCAL_TEXT(together);
-    ceduo_text_format(&together, "%zu inputs together", p->doubt->answer->together);
-    say(context, input ? input->path : ceduo_text_string(&together));
-}
-
-static void say_moved(const struct ceduo_place *p, ceduo_words_say *say, void *context)
-{
-    for (size_t i = 0; i < p->doubt->answer->together; i++)
-        say(context, p->doubt->inputs->items[p->doubt->answer->moved[i]].path);
-}
-
-static const void *together_of(const void *place)
-{
-    const struct ceduo_place *p = place;
-    return ceduo_doubt_input(p->doubt, p->input) ? NULL : p;
 }
 
 static struct ceduo_value end_of(const struct ceduo_place *p, int end)
@@ -93,7 +69,7 @@ VALUE(doubt_scene, place, WORD(o->doubt->file->path))
 VALUE(doubt_title, place, WORD(scene_of(o)->title))
 VALUE(doubt_seed, place, COUNT(scene_of(o)->simulation.seed))
 VALUE(doubt_rocks, place, COUNT(o->doubt->rocks))
-VALUE(doubt_points, place, COUNT(o->doubt->points))
+VALUE(doubt_points, place, COUNT(o->doubt->answer ? o->doubt->answer->points : o->doubt->points))
 VALUE(doubt_evaluations, place, COUNT(o->doubt->answer ? o->doubt->answer->evaluations : 0))
 VALUE(doubt_option, place, WORD(scene_of(o)->options[figure_of(o)->option].name))
 VALUE(doubt_against, place, WORD(figure_of(o)->difference ? scene_of(o)->options[0].name : NULL))
@@ -101,33 +77,33 @@ VALUE(doubt_x, place, NUMBER(scene_of(o)->controls[ceduo_scene_last_control(scen
 VALUE(doubt_figure, place, WORD(figure_keys[figure_of(o)->kind]))
 VALUE(figure_number, place, NUMBER(shown(o, *(const double *)member(f, figure_of(o)))))
 #define FIGURE(member) .value = figure_number, .offset = offsetof(struct ceduo_doubt_figure, member)
-VALUE(input_places, place,
-      COUNT(ceduo_doubt_input(o->doubt, o->input) ? ceduo_doubt_input(o->doubt, o->input)->places_count
-                                                  : o->doubt->answer->together))
-VALUE(input_source, place,
-      WORD(ceduo_doubt_input(o->doubt, o->input) ? o->doubt->inputs->sources[o->doubt->answer->input[o->input]] : NULL))
+VALUE(input_path, place, WORD(o->doubt->inputs->items[o->input].path))
+VALUE(input_places, place, COUNT(o->doubt->inputs->items[o->input].places_count))
+VALUE(input_source, place, WORD(o->doubt->inputs->sources[o->input]))
+VALUE(doubt_q2, place, NUMBER(figure_of(o)->fit.q2))
+VALUE(doubt_unexplained, place, NUMBER(figure_of(o)->fit.whole.value))
 VALUE(input_measured, place, WORD(ceduo_doubt_measured(o->doubt, o->input)))
 VALUE(input_lo, place, end_of(o, 0))
 VALUE(input_hi, place, end_of(o, 1))
-VALUE(input_first, place, NUMBER(figure_of(o)->indices.first[o->input].value))
-VALUE(input_first_se, place, NUMBER(figure_of(o)->indices.first[o->input].se))
-VALUE(input_total, place, NUMBER(figure_of(o)->indices.total[o->input].value))
-VALUE(input_total_se, place, NUMBER(figure_of(o)->indices.total[o->input].se))
+VALUE(input_first, place, NUMBER(figure_of(o)->fit.first[o->input].value))
+VALUE(input_first_se, place, NUMBER(figure_of(o)->fit.first[o->input].se))
+VALUE(input_total, place, NUMBER(figure_of(o)->fit.total[o->input].value))
+VALUE(input_total_se, place, NUMBER(figure_of(o)->fit.total[o->input].se))
 VALUE(input_at_lo, place, NUMBER(shown(o, figure_of(o)->at[o->input][0])))
 VALUE(input_at_hi, place, NUMBER(shown(o, figure_of(o)->at[o->input][1])))
-VALUE(input_left, place, NUMBER(shown(o, figure_of(o)->left[o->input])))
+VALUE(input_left, place, NUMBER(shown(o, figure_of(o)->fit.left[o->input])))
 VALUE(order_better, place, WORD(scene_of(o)->options[order_of(o)->better].name))
 VALUE(order_than, place, WORD(scene_of(o)->options[order_of(o)->than].name))
 VALUE(order_number, place, NUMBER(*(const double *)member(f, order_of(o))))
 #define ORDER(member) .value = order_number, .offset = offsetof(struct ceduo_doubt_order, member)
 
-#define FEW_POINTS "the points do not tell it"
+#define FEW_POINTS "there are too few points, or nothing varies"
 
 static const struct ceduo_figure doubt_scene_rows[] = {{"scene", "", "path of the file", .value = doubt_scene},
                                                        {"title", "", "title of the scene", .value = doubt_title},
                                                        {"seed", "", "seed of the random numbers", .value = doubt_seed},
                                                        {"rocks", "", "rocks of each scene computed", .value = doubt_rocks},
-                                                       {"points", "", "base points", .value = doubt_points},
+                                                       {"points", "", "points of what may be true", .value = doubt_points},
                                                        END};
 
 static const struct ceduo_figure doubt_figure_rows[] = {
@@ -138,31 +114,34 @@ static const struct ceduo_figure doubt_figure_rows[] = {
     {"value", "", "in the scene as it is", FIGURE(value), .null = UNSAID},
     {"sampling_lo", "", "lower end of its 95 % interval, by the rocks", FIGURE(sampling_lo), .null = UNSAID},
     {"sampling_hi", "", "upper end of its 95 % interval", FIGURE(sampling_hi), .null = UNSAID},
-    {"doubt_p5", "", "5th percentile of what may be true", FIGURE(p5), .null = UNSAID},
-    {"doubt_p50", "", "median of what may be true", FIGURE(p50), .null = UNSAID},
-    {"doubt_p95", "", "95th percentile of what may be true", FIGURE(p95), .null = UNSAID},
+    {"doubt_p5", "", "5th percentile of what may be true", FIGURE(fit.p5), .null = UNSAID},
+    {"doubt_p50", "", "median of what may be true", FIGURE(fit.p50), .null = UNSAID},
+    {"doubt_p95", "", "95th percentile of what may be true", FIGURE(fit.p95), .null = UNSAID},
+    {"q2", "", "share of the variance that the surface predicts, leaving out each point in turn", .value = doubt_q2,
+     .null = FEW_POINTS},
+    {"unexplained", "", "share of the variance that neither single inputs nor pairs explain", .value = doubt_unexplained,
+     .null = FEW_POINTS},
     END};
 
 static const struct ceduo_figure input_range_rows[] = {
     {"lo", "", "lower end of its range, or its first word", .value = input_lo, .null = "it has no one range"},
     {"hi", "", "upper end of its range, or its last word", .value = input_hi, .null = "it has no one range"},
-    {"first", "", "first-order index", .value = input_first, .null = FEW_POINTS},
+    {"first", "", "share of the variance that it causes alone", .value = input_first, .null = FEW_POINTS},
     {"first_se", "", "its standard error", .value = input_first_se, .null = FEW_POINTS},
-    {"total", "", "total index", .value = input_total, .null = FEW_POINTS},
+    {"total", "", "share that it causes alone or with others", .value = input_total, .null = FEW_POINTS},
     {"total_se", "", "its standard error", .value = input_total_se, .null = FEW_POINTS},
     {"at_lo", "", "the figure with this input at its lower end, all others as they are", .value = input_at_lo, .null = UNSAID},
     {"at_hi", "", "the same at its upper end", .value = input_at_hi, .null = UNSAID},
     {"width_if_known", "", "doubt_p95 less doubt_p5 that would be left if it were known", .value = input_left,
-     .null = "it stands for several"},
+     .null = FEW_POINTS},
     END};
 
 static const struct ceduo_figure input_rows[] = {
-    {"path", "", "path of the input, or how many are together", .say = say_path, .one = true},
+    {"path", "", "path of the input", .value = input_path},
     {"places", "", "how many values of the scene move with it", .value = input_places},
-    {"source", "", "where its range comes from", .value = input_source, .null = "it stands for several"},
+    {"source", "", "where its range comes from", .value = input_source},
     {"measured_by", "", "what would measure it", .value = input_measured, .null = "nothing that is known"},
     {.of = input_range_rows},
-    {"together", "", "paths of the inputs that move as one", .from = together_of, .say = say_moved, .optional = true},
     END};
 
 static const struct ceduo_figure doubt_figure_object[] = {
@@ -188,11 +167,8 @@ const struct ceduo_figure ceduo_doubt_figures[] = {
     {"evaluations", "", "scenes computed", .value = doubt_evaluations},
     END};
 
-static const struct ceduo_figure doubt_columns[] = {{.of = doubt_scene_rows},
-                                                    {.of = doubt_figure_rows},
-                                                    {"path", "", "", .say = say_path, .one = true},
-                                                    {.of = input_range_rows},
-                                                    END};
+static const struct ceduo_figure doubt_columns[] = {
+    {.of = doubt_scene_rows}, {.of = doubt_figure_rows}, {"path", "", "", .value = input_path}, {.of = input_range_rows}, END};
 
 void ceduo_doubt_json(struct text *text, const struct ceduo_doubt_report *r)
 {

@@ -122,8 +122,8 @@ static void say_doubt(struct text *text, const struct subject *s)
     const struct ceduo_doubt_figure *f = ceduo_doubt_figure_of(a, s->index, a->main, false);
     LOCAL_TEXT(lo);
     LOCAL_TEXT(hi);
-    ceduo_doubt_value(&lo, doubt, f->p5);
-    ceduo_doubt_value(&hi, doubt, f->p95);
+    ceduo_doubt_value(&lo, doubt, f->fit.p5);
+    ceduo_doubt_value(&hi, doubt, f->fit.p95);
     ceduo_text_format(
         text,
         a->main == CEDUO_DOUBT_ENERGY

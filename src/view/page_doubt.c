@@ -7,7 +7,8 @@
 #include "page_parts.h"
 #include "report_doubt.h"
 
-#define FIRST 3 /* inputs that are named as what to measure first */
+#define FIRST 3    /* inputs that are named as what to measure first */
+#define SHOWN 0.01 /* shares from this on are shown */
 
 static const struct ceduo_doubt_figure *main_of(const struct ceduo_doubt_report *r, size_t option)
 {
@@ -39,8 +40,8 @@ struct ceduo_doubt_now ceduo_doubt_now_of(const struct ceduo_doubt_report *r, si
     const struct ceduo_doubt_figure *f = main_of(r, option);
     const struct ceduo_result *finer = r->finer;
     const struct ceduo_arrivals *a = finer ? ceduo_result_wooded(finer, option, finer->last_control) : NULL;
-    if (!a || a->released <= r->rocks)
-        return (struct ceduo_doubt_now){f->value, f->sampling_lo, f->sampling_hi, r->rocks};
+    if (!a || a->released <= r->answer->own_rocks)
+        return (struct ceduo_doubt_now){f->value, f->sampling_lo, f->sampling_hi, r->answer->own_rocks};
     if (r->answer->main == CEDUO_DOUBT_EXCEED)
         return (struct ceduo_doubt_now){a->exceed_probability, floor(a->exceed_lo * 1000) / 1000,
                                         ceil(a->exceed_hi * 1000) / 1000, /* outwards, as in the other views */
@@ -54,7 +55,7 @@ void ceduo_doubt_range(struct text *text, const struct ceduo_doubt_report *r, si
     const struct ceduo_doubt_figure *f = main_of(r, option);
     ceduo_doubt_value(text, r, ceduo_doubt_now_of(r, option).value);
     ceduo_text_put(text, " (");
-    append_range(text, r, f->p5, f->p95);
+    append_range(text, r, f->fit.p5, f->fit.p95);
     ceduo_text_char(text, ')');
 }
 
@@ -68,7 +69,7 @@ void ceduo_doubt_both(struct text *text, const struct ceduo_doubt_report *r, siz
     LOCAL_TEXT(doubt);
     ceduo_doubt_value(&value, r, now.value);
     append_range(&rocks, r, now.lo, now.hi);
-    append_range(&doubt, r, f->p5, f->p95);
+    append_range(&doubt, r, f->fit.p5, f->fit.p95);
     ceduo_text_format(text,
                       r->answer->main == CEDUO_DOUBT_EXCEED ? _("%s of 1000 (rocks %s; doubt %s)")
                                                             : _("%s kJ per released rock (rocks %s; doubt %s)"),
@@ -96,7 +97,7 @@ static void add_options(struct ceduo_page *page, const struct ceduo_doubt_report
         ceduo_text_safe(ceduo_page_text(page), s->options[i].name);
         ceduo_doubt_value(ceduo_page_text(page), r, now.value);
         append_range(ceduo_page_text(page), r, now.lo, now.hi);
-        append_range(ceduo_page_text(page), r, f->p5, f->p95);
+        append_range(ceduo_page_text(page), r, f->fit.p5, f->fit.p95);
     }
 }
 
@@ -105,7 +106,7 @@ static void add_options(struct ceduo_page *page, const struct ceduo_doubt_report
 /* An input matters where its share is more than its error. */
 static bool matters(const struct ceduo_doubt_figure *f, size_t g)
 {
-    return f->indices.total[g].value > 2 * f->indices.total[g].se && f->indices.total[g].value >= 0.01;
+    return f->fit.total[g].value > 2 * f->fit.total[g].se && f->fit.total[g].value >= SHOWN;
 }
 
 static void add_inputs(struct ceduo_page *page, const struct ceduo_doubt_report *r)
@@ -116,11 +117,14 @@ static void add_inputs(struct ceduo_page *page, const struct ceduo_doubt_report 
                                                        {N_("share"), -6, 1, 0},
                                                        {N_("left if known"), -13, 2, 0}};
     const struct ceduo_doubt_figure *f = main_of(r, 0);
-    size_t rest = 0, order[CEDUO_SENSITIVITY_GROUPS];
-    ceduo_doubt_order_of(r->answer, f, order);
+    size_t rest = 0;
+    if (!f->fit.enough) {
+        ceduo_page_note(page, _("There are too few points to say what it depends on; take more (--sensitivity=N)."));
+        return;
+    }
     CEDUO_PAGE_TABLE_OF(page, columns);
-    for (size_t i = 0; i < r->answer->groups; i++) {
-        size_t g = order[i];
+    for (size_t i = 0; i < f->uses; i++) {
+        size_t g = f->order[i];
         if (!matters(f, g)) {
             rest++;
             continue;
@@ -128,14 +132,18 @@ static void add_inputs(struct ceduo_page *page, const struct ceduo_doubt_report 
         ceduo_doubt_input_name(ceduo_page_text(page), r, g);
         for (int end = 0; end < 2; end++)
             ceduo_doubt_input_shown(ceduo_page_text(page), r, g, end);
-        ceduo_page_write(page, "%.0f %%", fmin(1, fmax(0, f->indices.total[g].value)) * 100);
-        if (isnan(f->left[g]))
-            ceduo_page_write(page, "-");
-        else
-            ceduo_doubt_value(ceduo_page_text(page), r, f->left[g]);
+        ceduo_page_write(page, "%.0f %%", fmin(1, fmax(0, f->fit.total[g].value)) * 100);
+        ceduo_doubt_value(ceduo_page_text(page), r, f->fit.left[g]);
     }
-    if (rest == r->answer->groups)
-        ceduo_page_note(page, _("No input stands out; more base points (--sensitivity=N) may tell."));
+    if (f->fit.whole.value >= SHOWN && f->fit.whole.value > 2 * f->fit.whole.se) {
+        ceduo_page_write(page, "%s", _("together, in ways not told apart"));
+        ceduo_page_write(page, "%s", "");
+        ceduo_page_write(page, "%s", "");
+        ceduo_page_write(page, "%.0f %%", f->fit.whole.value * 100);
+        ceduo_page_write(page, "%s", "");
+    }
+    if (rest == f->uses)
+        ceduo_page_note(page, _("No input stands out; more points (--sensitivity=N) may tell."));
     else if (rest > 0)
         ceduo_page_say(page, CEDUO_PAGE_NOTE,
                        ngettext("%zu other input has hardly any effect.", "%zu other inputs have hardly any effect.", rest),
@@ -146,11 +154,10 @@ bool ceduo_doubt_advice(struct text *text, const struct ceduo_doubt_report *r, s
 {
     const struct ceduo_doubt_figure *f = main_of(r, option);
     double scale = ceduo_doubt_scale(r);
-    size_t order[CEDUO_SENSITIVITY_GROUPS], named = 0;
+    size_t named = 0;
     LOCAL_TEXT(name);
-    ceduo_doubt_order_of(r->answer, f, order);
-    for (size_t i = 0; i < r->answer->groups; i++) {
-        size_t g = order[i];
+    for (size_t i = 0; f->fit.enough && i < f->uses; i++) {
+        size_t g = f->order[i];
         const char *how = ceduo_doubt_measured(r, g);
         if (!matters(f, g) || !how || named++ < nth)
             continue;
@@ -158,7 +165,7 @@ bool ceduo_doubt_advice(struct text *text, const struct ceduo_doubt_report *r, s
         ceduo_text_format(text,
                           nth == 0 ? _("Measure first: %s (%s); of a doubt %.3g wide it would leave %.3g.")
                                    : _("then: %s (%s); of a doubt %.3g wide it would leave %.3g."),
-                          ceduo_text_string(&name), _(how), (f->p95 - f->p5) * scale, f->left[g] * scale);
+                          ceduo_text_string(&name), _(how), (f->fit.p95 - f->fit.p5) * scale, f->fit.left[g] * scale);
         return true;
     }
     return false;
@@ -167,14 +174,14 @@ bool ceduo_doubt_advice(struct text *text, const struct ceduo_doubt_report *r, s
 /* "dbh, ADS 1 and per hectare, ADS 1" */
 bool ceduo_doubt_causes(struct text *text, const struct ceduo_doubt_report *r, size_t option, enum ceduo_doubt_kind light)
 {
-    size_t groups[2], n = ceduo_doubt_depends(&r->file->scene, r->answer, option, light, groups);
+    size_t inputs[2], n = ceduo_doubt_depends(&r->file->scene, r->answer, option, light, inputs);
     LOCAL_TEXT(first);
     LOCAL_TEXT(second);
     if (n == 0)
         return false;
-    ceduo_doubt_input_name(&first, r, groups[0]);
+    ceduo_doubt_input_name(&first, r, inputs[0]);
     if (n == 2)
-        ceduo_doubt_input_name(&second, r, groups[1]);
+        ceduo_doubt_input_name(&second, r, inputs[1]);
     if (n == 2)
         ceduo_text_format(text, _("%s and %s"), ceduo_text_string(&first), ceduo_text_string(&second));
     else
@@ -242,21 +249,6 @@ void ceduo_doubt_order_words(struct text *text, const struct ceduo_doubt_report 
 
 /* ---- all ---- */
 
-/* Which inputs have one index together. */
-static void say_together(struct ceduo_page *page, const struct ceduo_doubt_report *r)
-{
-    const struct ceduo_doubt_answer *a = r->answer;
-    LOCAL_TEXT(paths);
-    for (size_t i = 0; i < a->together; i++) {
-        ceduo_text_put(&paths, i > 0 ? ", " : "");
-        ceduo_text_safe(&paths, r->inputs->items[a->moved[i]].path);
-    }
-    if (a->together > 0)
-        ceduo_page_say(page, CEDUO_PAGE_NOTE,
-                       ngettext("This %zu input moves alone: %s", "These %zu inputs move together: %s", a->together),
-                       a->together, ceduo_text_string(&paths));
-}
-
 void ceduo_doubt_blocks(struct ceduo_page *page, const struct ceduo_doubt_report *r, enum ceduo_doubt_extent extent)
 {
     bool several = r->file->scene.options_count > 1;
@@ -274,8 +266,6 @@ void ceduo_doubt_blocks(struct ceduo_page *page, const struct ceduo_doubt_report
     say_lights(page, r);
     for (size_t i = 0; extent >= CEDUO_DOUBT_ORDER && i < r->answer->orders_count; i++)
         ceduo_doubt_order_words(ceduo_page_add(page, CEDUO_PAGE_ITEM), r, i);
-    if (extent == CEDUO_DOUBT_ALL)
-        say_together(page, r);
     if (!several) /* of several the table has it */
         ceduo_doubt_both(ceduo_page_add(page, CEDUO_PAGE_NOTE), r, 0);
     ceduo_page_say(page, CEDUO_PAGE_NOTE,

@@ -41,7 +41,7 @@ static void draw_range(const struct sure *s, size_t option)
 {
     const struct ceduo_doubt_figure *f = main_of(s, option);
     struct ceduo_doubt_now now = ceduo_doubt_now_of(s->report, option);
-    int from = column_of(s, f->p5), to = column_of(s, f->p95);
+    int from = column_of(s, f->fit.p5), to = column_of(s, f->fit.p95);
     for (int x = from; x <= to; x++)
         ceduo_canvas_label(s->canvas, x, s->y, CEDUO_ROLE_MEAN,
                            x == from ? "\xe2\x94\x9c"
@@ -105,15 +105,14 @@ static void draw_options(struct sure *s)
 static void draw_input(struct sure *s, size_t g)
 {
     const struct ceduo_doubt_figure *f = main_of(s, s->option);
-    double share = fmin(1, fmax(0, f->indices.total[g].value));
+    double share = fmin(1, fmax(0, f->fit.total[g].value));
     struct text name = {0}, left = {0};
     ceduo_doubt_input_name(&name, s->report, g);
     ceduo_plot_say(s->canvas, s->left, s->y, s->name, CEDUO_ROLE_TEXT, "%s", ceduo_text_string(&name));
     ceduo_text_free(&name);
     ceduo_canvas_bar(s->canvas, s->left + s->name + 1, s->y, s->bars, share, CEDUO_ROLE_MEAN);
     ceduo_text_format(&left, "%.0f %%", share * 100);
-    if (!isnan(f->left[g]))
-        ceduo_text_then(&left, "  ", _("leaves %.3g"), f->left[g] * s->scale);
+    ceduo_text_then(&left, "  ", _("leaves %.3g"), f->fit.left[g] * s->scale);
     ceduo_plot_put_right(s->canvas, s->left + s->width - 1, s->y, s->values, CEDUO_ROLE_TEXT, &left);
     s->y++;
 }
@@ -126,13 +125,11 @@ static void draw_inputs(struct sure *s)
     ceduo_plot_say(s->canvas, s->left, s->y, s->width - s->values - 1, CEDUO_ROLE_AXIS, _("%s depends on"),
                    s->report->file->scene.options[s->option].name);
     ceduo_plot_say_right(s->canvas, s->left + s->width - 1, s->y, s->values, CEDUO_ROLE_AXIS, _("of %.3g wide"),
-                         (f->p95 - f->p5) * s->scale);
+                         (f->fit.p95 - f->fit.p5) * s->scale);
     s->y++;
-    size_t order[CEDUO_SENSITIVITY_GROUPS];
-    ceduo_doubt_order_of(s->report->answer, f, order);
-    for (size_t i = 0; i < s->report->answer->groups && s->y < s->end; i++)
-        if (f->indices.total[order[i]].value >= SHOWN_LEAST)
-            draw_input(s, order[i]);
+    for (size_t i = 0; f->fit.enough && i < f->uses && s->y < s->end; i++)
+        if (f->fit.total[f->order[i]].value >= SHOWN_LEAST)
+            draw_input(s, f->order[i]);
 }
 
 const char *ceduo_plot_doubt(struct ceduo_canvas *canvas, const struct ceduo_area *area, const struct ceduo_picture *picture)
@@ -159,7 +156,7 @@ const char *ceduo_plot_doubt(struct ceduo_canvas *canvas, const struct ceduo_are
                      .end = area->top + area->height,
                      .scale = r->answer->main == CEDUO_DOUBT_ENERGY ? J_TO_KJ : 1000};
     for (size_t i = 0; i < r->file->scene.options_count; i++)
-        s.most = fmax(s.most, fmax(main_of(&s, i)->p95, ceduo_doubt_now_of(r, i).hi) * s.scale);
+        s.most = fmax(s.most, fmax(main_of(&s, i)->fit.p95, ceduo_doubt_now_of(r, i).hi) * s.scale);
     s.most = s.most > 0 ? s.scale > 1 ? 1000 : ceduo_plot_round(s.most, true) : 1;
     draw_options(&s);
     draw_inputs(&s);

@@ -27,12 +27,6 @@ const char *ceduo_doubt_none(const struct ceduo_doubt_report *r)
 
 /* ---- inputs ---- */
 
-const struct ceduo_input *ceduo_doubt_input(const struct ceduo_doubt_report *r, size_t group)
-{
-    bool several = r->answer->together > 0 && group + 1 == r->answer->groups;
-    return several ? NULL : &r->inputs->items[r->answer->input[group]];
-}
-
 #define GROUND "slope.materials["
 
 /* The stand that all places are in; NULL: none, or several. */
@@ -60,14 +54,10 @@ static void put_stems(struct text *text, const struct ceduo_doubt_report *r, con
         ceduo_text_format(text, shoots ? _("shoots %lu: %s") : _("trees %lu: %s"), strtoul(bracket, NULL, 10) + 1, label);
 }
 
-void ceduo_doubt_input_name(struct text *text, const struct ceduo_doubt_report *r, size_t group)
+void ceduo_doubt_input_name(struct text *text, const struct ceduo_doubt_report *r, size_t i)
 {
-    const struct ceduo_input *input = ceduo_doubt_input(r, group);
+    const struct ceduo_input *input = &r->inputs->items[i];
     struct value v;
-    if (!input) {
-        ceduo_text_format(text, _("%zu others together"), r->answer->together);
-        return;
-    }
     const char *place = input->places[0], *stand = stand_name(r, input);
     if (input->kind == CEDUO_INPUT_DRAWS) {
         ceduo_text_put(text, _("left open by calibration"));
@@ -89,12 +79,12 @@ void ceduo_doubt_input_name(struct text *text, const struct ceduo_doubt_report *
     }
 }
 
-double ceduo_doubt_input_value(const struct ceduo_doubt_report *r, size_t group, int end, const char **word)
+double ceduo_doubt_input_value(const struct ceduo_doubt_report *r, size_t i, int end, const char **word)
 {
-    const struct ceduo_input *input = ceduo_doubt_input(r, group);
+    const struct ceduo_input *input = &r->inputs->items[i];
     struct value v;
     *word = NULL;
-    if (!input || !ceduo_value_find(&r->file->scene, input->places[0], &v))
+    if (!ceduo_value_find(&r->file->scene, input->places[0], &v))
         return NAN;
     if (input->kind == CEDUO_INPUT_WORDS)
         *word = v.field->choices->names[input->words[end == 0 ? 0 : input->words_count - 1]];
@@ -102,30 +92,30 @@ double ceduo_doubt_input_value(const struct ceduo_doubt_report *r, size_t group,
     return *word ? NAN : input->kind == CEDUO_INPUT_FACTOR ? value * ceduo_value_get(&v) : value;
 }
 
-void ceduo_doubt_input_end(struct text *text, const struct ceduo_doubt_report *r, size_t group, int end)
+void ceduo_doubt_input_end(struct text *text, const struct ceduo_doubt_report *r, size_t i, int end)
 {
     const char *word;
-    double value = ceduo_doubt_input_value(r, group, end, &word);
+    double value = ceduo_doubt_input_value(r, i, end, &word);
     if (word || !isnan(value))
         ceduo_text_put(text, word ? word : SHORTEST(value));
 }
 
-void ceduo_doubt_input_shown(struct text *text, const struct ceduo_doubt_report *r, size_t group, int end)
+void ceduo_doubt_input_shown(struct text *text, const struct ceduo_doubt_report *r, size_t i, int end)
 {
     const char *word;
-    double value = ceduo_doubt_input_value(r, group, end, &word);
+    double value = ceduo_doubt_input_value(r, i, end, &word);
     struct value v;
     if (word)
         ceduo_text_put(text, word);
-    else if (!isnan(value) && ceduo_value_find(&r->file->scene, ceduo_doubt_input(r, group)->places[0], &v))
+    else if (!isnan(value) && ceduo_value_find(&r->file->scene, r->inputs->items[i].places[0], &v))
         ceduo_text_put(text, SHORTEST(strtod(WRITTEN(value * v.field->shown.per, 4), NULL))); /* 6.300 is 6300 in Italian */
 }
 
-const char *ceduo_doubt_measured(const struct ceduo_doubt_report *r, size_t group)
+const char *ceduo_doubt_measured(const struct ceduo_doubt_report *r, size_t i)
 {
-    const struct ceduo_input *input = ceduo_doubt_input(r, group);
+    const struct ceduo_input *input = &r->inputs->items[i];
     struct value v;
-    if (!input || input->kind == CEDUO_INPUT_WORDS)
+    if (input->kind == CEDUO_INPUT_WORDS)
         return NULL;
     if (input->kind == CEDUO_INPUT_DRAWS)
         return N_("more of what was seen");

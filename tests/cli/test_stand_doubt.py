@@ -27,7 +27,7 @@ def inputs(f, what):
     r = ceduo("--sensitivity=4", "-f", "json", "-n", 50, f.write("s.yaml", what))
     expect_equal(r.status, DONE, r)
     figures = json.loads(r.out)["figures"]
-    return {i["path"]: (i["lo"], i["hi"]) for i in figures[0]["inputs"]} if figures else {}
+    return {i["path"]: (i["lo"], i["hi"]) for figure in figures for i in figure["inputs"]}
 
 
 def belt(stand, at=0):

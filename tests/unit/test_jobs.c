@@ -164,7 +164,7 @@ TEST_WITH(the_uncertainty_comes_last, set_up, tear_down)
     assert_int_equal(u->level, 0);
     assert_int_equal(u->inputs.n, 12);
     assert_true(u->file.root == file.root);
-    EXPECT(u->answer.figures[CEDUO_DOUBT_EXCEED].p5, <, u->answer.figures[CEDUO_DOUBT_EXCEED].p95);
+    EXPECT(u->answer.figures[CEDUO_DOUBT_EXCEED].fit.p5, <, u->answer.figures[CEDUO_DOUBT_EXCEED].fit.p95);
     assert_true(ceduo_jobs_doubt(jobs, &file, 2));
     assert_false(ceduo_jobs_doubt(jobs, &file, 1)); /* fewer are enough */
     ceduo_jobs_doubt(jobs, &file, 0);

@@ -291,7 +291,7 @@ static bool ask_doubt(const struct ceduo_doubt_def *def)
     struct ceduo_doubt_answer answer;
     enum ceduo_status status = ceduo_doubt_ask(def, &answer);
     if (status == CEDUO_OK) {
-        add(&answer.figures[CEDUO_DOUBT_ENERGY].p50, sizeof answer.figures[CEDUO_DOUBT_ENERGY].p50);
+        add(&answer.figures[CEDUO_DOUBT_ENERGY].fit.p50, sizeof answer.figures[CEDUO_DOUBT_ENERGY].fit.p50);
         add(answer.orders, answer.orders_count * sizeof answer.orders[0]);
         ceduo_doubt_free(&answer);
     }
@@ -303,19 +303,7 @@ static bool doubt(void)
 {
     init(CEDUO_STEMS, CEDUO_LAW_LUMPED);
     return ask_doubt(&(struct ceduo_doubt_def){
-        .scene = &site.scene, .inputs_count = 2, .inputs = inputs, .points = 2, .rocks = 8, .threads = 2});
-}
-
-/* One input more than can have an index: a first look ranks them, by two base points. */
-static bool doubt_of_many(void)
-{
-    enum { MANY = CEDUO_SENSITIVITY_GROUPS + 1 };
-    struct ceduo_input many[MANY];
-    init(CEDUO_STEMS, CEDUO_LAW_LUMPED);
-    for (size_t i = 0; i < MANY; i++)
-        many[i] = inputs[1];
-    return ask_doubt(&(struct ceduo_doubt_def){
-        .scene = &site.scene, .inputs_count = MANY, .inputs = many, .points = 2, .first = 2, .rocks = 2, .threads = 1});
+        .scene = &site.scene, .inputs_count = 2, .inputs = inputs, .points = 16, .rocks = 16, .threads = 2});
 }
 
 /* What was told of a doubt on two threads: the first time something happens meanwhile. */
@@ -618,7 +606,6 @@ TEST(what_stands_on_runs)
     without_memory(ask_by_index);
     without_memory(ask_both_laws);
     without_memory(doubt);
-    without_memory(doubt_of_many);
     without_memory(copy_belts);
     without_memory(ask_of_one_option);
     without_memory(assess);

@@ -125,10 +125,32 @@ enum ceduo_status ceduo_run_arrivals(const struct ceduo_run *run, size_t control
     return CEDUO_OK;
 }
 
+void ceduo_run_briefs(const struct ceduo_run *run, size_t control, size_t groups, struct ceduo_brief *briefs)
+{
+    double accepted = run->ready.scene.controls[control].accepted;
+    for (size_t g = 0; g < groups; g++) {
+        double all = 0, reached = 0, exceeded = 0, sum = 0;
+        for (uint64_t r = run->rocks * g / groups; r < run->rocks * (g + 1) / groups; r++) {
+            double energy = ceduo_run_sample_energy(run, control, r), w = run->sized ? run->weights[r] : 1;
+            all += w;
+            reached += isnan(energy) ? 0 : w;
+            exceeded += energy > accepted ? w : 0;
+            sum += isnan(energy) ? 0 : w * energy;
+        }
+        briefs[g] = (struct ceduo_brief){.reach_probability = reached / all,
+                                         .exceed_probability = isnan(accepted) ? NAN : exceeded / all,
+                                         .energy = reached > 0 ? sum / reached : NAN,
+                                         .energy_per_released = sum / all};
+    }
+}
+
 struct ceduo_brief ceduo_run_brief(const struct ceduo_run *run, size_t control)
 {
-    if (run->sized)
-        return ceduo_run_sized_brief(run, control);
+    struct ceduo_brief brief;
+    if (run->sized) {
+        ceduo_run_briefs(run, control, 1, &brief);
+        return brief;
+    }
     struct sums s = ceduo_run_sums_at(run, control);
     const struct ceduo_moments *energy = &s.of[ENERGY];
     bool accepts = !isnan(run->ready.scene.controls[control].accepted);

@@ -49,23 +49,6 @@ void ceduo_run_sized_energy(const struct ceduo_run *run, size_t control, uint64_
     *se = *reached > 1 ? ceduo_weighted_se(&all, &about) * all.w / ones.t : NAN;
 }
 
-struct ceduo_brief ceduo_run_sized_brief(const struct ceduo_run *run, size_t control)
-{
-    const double *energy = samples_of(run, control, ENERGY), accepted = run->ready.scene.controls[control].accepted;
-    double all = 0, reached = 0, exceeded = 0, sum = 0;
-    for (uint64_t r = 0; r < run->rocks; r++) {
-        double w = run->weights[r];
-        all += w;
-        reached += isnan(energy[r]) ? 0 : w;
-        exceeded += energy[r] > accepted ? w : 0;
-        sum += isnan(energy[r]) ? 0 : w * energy[r];
-    }
-    return (struct ceduo_brief){.reach_probability = reached / all,
-                                .exceed_probability = isnan(accepted) ? NAN : exceeded / all,
-                                .energy = reached > 0 ? sum / reached : NAN,
-                                .energy_per_released = sum / all};
-}
-
 /* ---- arrivals ---- */
 
 static void read_shares(const struct released *all, const struct weighted *energies, size_t n, double accepted,

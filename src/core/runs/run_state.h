@@ -106,7 +106,6 @@ double ceduo_run_sample_energy(const struct ceduo_run *run, size_t control, uint
 /* ---- rocks with weights ---- */
 
 void ceduo_run_sized_energy(const struct ceduo_run *run, size_t control, uint64_t *reached, double *mean, double *se);
-struct ceduo_brief ceduo_run_sized_brief(const struct ceduo_run *run, size_t control);
 size_t ceduo_run_sized_energies(const struct ceduo_run *run, size_t control, double *to, size_t most);
 enum ceduo_status ceduo_run_sized_arrivals(const struct ceduo_run *run, size_t control, struct ceduo_arrivals *arrivals);
 enum ceduo_status ceduo_run_sized_ends(const struct ceduo_run *run, struct ceduo_ends *ends);

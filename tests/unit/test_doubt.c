@@ -1,0 +1,181 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Doubt of a known law, what a light depends on, and inputs at the ends of their ranges. */
+#include "expect.h"
+
+#include "ceduo/doubt.h"
+#include "io/scene_file.h"
+#include "study/inputs.h"
+
+/* The doubt of a density with a large error: within 1 % of its mean, where a uniform law cut at 0 was 17 and 37 % above. */
+TEST(gamma_laws_keep_the_mean)
+{
+    for (double ratio = .34; ratio <= 1; ratio += .06) {
+        const struct ceduo_input input = {.kind = CEDUO_INPUT_GAMMA, .mean = 50, .sd = 50 * ratio};
+        double sum = 0, squares = 0;
+        for (int i = 0; i < 2000; i++) {
+            double x = ceduo_input_quantile(&input, (i + .5) / 2000);
+            EXPECT(x, >, 0);
+            sum += x / 2000;
+            squares += x * x / 2000;
+        }
+        EXPECT_NEAR(sum, 50, .5);
+        EXPECT_NEAR(sqrt(squares - sum * sum), 50 * ratio, .05 * 50 * ratio); /* what is cut off */
+    }
+}
+
+/* ---- what may be true ---- */
+
+/* Two classes of trees, of 0.2 m, before a rock of 0.8 m: a belt's contacts per metre, one over its ADC, are the trees of a square
+ * metre. */
+static const char wood[] =
+    "ceduo: scene/1\nrelease: {vx_m_s: 1}\nrock: {diameter_m: 0.8}\ncontrols: [{x_m: 19, accepted_kJ: 50}]\n"
+    "slope: {vertices_m: [[0, 20], [20, 0]], segments: [{rn: 0.3, rt: 0.8}]}\n"
+    "simulation: {contact_model: index, rule: gsteiger-stems, contact_dbh_m: 0.1}\n"
+    "forest: [{from_m: 1, to_m: 18, stand: {stools: {per_ha: 600, spacing_m: 0.4}, shoots: [{per_ha: 2000, dbh_m: 0.02, "
+    "height_m: 3}],\n"
+    "  trees: [{per_ha: 1000, dbh_m: 0.2, height_m: 12}, {per_ha: 1000, dbh_m: 0.2, height_m: 12}]}}]\n";
+
+static struct scene_file file;
+
+static void open_wood(void)
+{
+    struct problems problems = {0};
+    bool good = ceduo_scene_read_text(&file, "wood", wood, &problems);
+    ceduo_scene_bind(&file, &problems);
+    if (!good || problems.count > 0)
+        fail_msg("%s", ceduo_text_string(&problems.text));
+}
+
+/* Uniform between lo and hi, at one place. */
+static struct ceduo_input range_of(const char *const *place, double lo, double hi)
+{
+    return (struct ceduo_input){
+        .path = *place, .kind = CEDUO_INPUT_RANGE, .lo = lo, .hi = hi, .places_count = 1, .places = place};
+}
+
+/* Contacts per metre of 1000 to 2000 trees per ha of either class: 0.1·(2 + U + V), a triangular law with p5 at sqrt(0.1), p50 at 1
+ * and p95 at 2 - sqrt(0.1) of U + V. Were one known the other's 0.9 were left. What does not act leaves all. */
+TEST(doubt_of_a_known_law)
+{
+    static const char *const places[] = {"forest[0].stand.trees[0].per_ha", "forest[0].stand.trees[1].per_ha",
+                                         "rock.density_kg_m3"};
+    const struct ceduo_input inputs[] = {range_of(&places[2], 2400, 2700), range_of(&places[0], 1000, 2000),
+                                         range_of(&places[1], 1000, 2000)};
+    struct ceduo_doubt_answer a;
+    open_wood();
+    const struct ceduo_doubt_def def = {
+        .scene = &file.scene, .inputs_count = 3, .inputs = inputs, .points = 1024, .rocks = 2, .threads = 2};
+    EXPECT(ceduo_doubt_ask(&def, &a), ==, CEDUO_OK);
+    const struct ceduo_doubt_figure *f = ceduo_doubt_figure_of(&a, 0, CEDUO_DOUBT_CONTACT, false);
+    double root = sqrt(.1);
+    EXPECT_NEAR(f->fit.p5, .2 + .1 * root, .002);
+    EXPECT_NEAR(f->fit.p50, .3, .002);
+    EXPECT_NEAR(f->fit.p95, .4 - .1 * root, .002);
+    EXPECT_NEAR(f->fit.left[0], .1 * (2 - 2 * root), .002);
+    EXPECT_NEAR(f->fit.left[1], .09, .001);
+    EXPECT_NEAR(f->fit.left[2], .09, .001);
+    EXPECT_NEAR(f->fit.total[1].value, .5, 1e-6);
+    EXPECT_NEAR(f->at[1][0], .2, 1e-12);
+    EXPECT_NEAR(f->at[1][1], .3, 1e-12);
+    EXPECT(f->order[2], ==, 0);
+    ceduo_doubt_free(&a);
+    ceduo_scene_release(&file);
+}
+
+/* A light changes where its limit lies from p5 on and below p95; a second input is named from half of the first one's share on.
+ * Where there were too few points nothing is named. */
+TEST(what_a_light_depends_on)
+{
+    static const struct {
+        double p5, p95, second;
+        bool enough;
+        size_t named;
+    } cases[] = {{.01, .2, .3, true, 2},  {.01, .2, .299, true, 1}, {.05, .2, .6, true, 2},
+                 {.01, .05, .6, true, 0}, {.051, .2, .6, true, 0},  {.01, .2, .3, false, 0}};
+    struct ceduo_doubt_figure figures[CEDUO_DOUBT_KINDS] = {0}, *f = &figures[CEDUO_DOUBT_EXCEED];
+    const struct ceduo_doubt_answer a = {.figures_count = CEDUO_DOUBT_KINDS, .figures = figures};
+    struct ceduo_share total[3] = {{0}};
+    size_t order[] = {0, 1, 2}, inputs[2];
+    f->uses = 3, f->order = order, f->fit.total = total;
+    open_wood();
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        f->fit.p5 = cases[i].p5, f->fit.p95 = cases[i].p95, f->fit.enough = cases[i].enough;
+        total[0].value = .1, total[1].value = cases[i].second, total[2].value = .6;
+        EXPECT(ceduo_doubt_depends(&file.scene, &a, 0, CEDUO_DOUBT_EXCEED, inputs), ==, cases[i].named);
+        if (cases[i].named > 0 && cases[i].second < .6)
+            EXPECT(inputs[0], ==, 2);
+        if (cases[i].named > 1 && cases[i].second < .6)
+            EXPECT(inputs[1], ==, 1);
+    }
+    ceduo_scene_release(&file);
+}
+
+/* Each of two words, and each of two rows, has half of the range; its ends are of it. */
+TEST(words_and_rows_share_the_range)
+{
+    static const char *const places[] = {"simulation.rule", "rock.density_kg_m3"};
+    const int words[] = {CEDUO_INTERCEPTION, CEDUO_CROFTON};
+    const double rows[] = {2500, 2700}, *const draws[] = {rows};
+    const struct ceduo_input inputs[] = {{.path = places[0],
+                                          .kind = CEDUO_INPUT_WORDS,
+                                          .words_count = 2,
+                                          .words = words,
+                                          .places_count = 1,
+                                          .places = &places[0]},
+                                         {.path = places[1],
+                                          .kind = CEDUO_INPUT_DRAWS,
+                                          .draws_count = 2,
+                                          .draws = draws,
+                                          .places_count = 1,
+                                          .places = &places[1]}};
+    const double u[] = {0, .4999, .5, 1};
+    struct input_scene copy;
+    open_wood();
+    EXPECT(ceduo_inputs_open(&copy, &file.scene, inputs, 2), ==, CEDUO_OK);
+    for (int i = 0; i < 4; i++) {
+        ceduo_inputs_set(&copy, (double[]){u[i], u[i]});
+        EXPECT((int)copy.scene.simulation.rule, ==, words[i / 2]);
+        EXPECT_NEAR(copy.scene.rock.density.mean, rows[i / 2], 1e-9);
+    }
+    ceduo_inputs_release(&copy);
+    ceduo_scene_release(&file);
+}
+
+/* A normal input is cut at three standard deviations, its mean is in the middle, and a quarter of what the cut leaves lies below the
+ * quartile: Φ(z) = Φ(-3) + (1 - 2Φ(-3))/4 at z = -0.6719. */
+TEST(a_normal_input_at_its_ends)
+{
+    const struct ceduo_input input = {.kind = CEDUO_INPUT_NORMAL, .mean = 50, .sd = 4};
+    EXPECT_NEAR(ceduo_input_quantile(&input, 0), 38, 1e-9);
+    EXPECT_NEAR(ceduo_input_quantile(&input, .5), 50, 1e-9);
+    EXPECT_NEAR(ceduo_input_quantile(&input, 1), 62, 1e-9);
+    double z = (ceduo_input_quantile(&input, .25) - 50) / 4, least = erfc(3 / sqrt(2)) / 2;
+    EXPECT_NEAR(erfc(-z / sqrt(2)) / 2, least + (1 - 2 * least) / 4, 1e-12);
+}
+
+/* Stools in doubt above their shoots are as many as these; the next look begins with those of the scene. */
+TEST(stools_are_not_more_than_their_shoots)
+{
+    static const char *const places[] = {"forest[0].stand.stools.per_ha", "forest[0].stand.shoots[0].per_ha"};
+    const struct ceduo_input inputs[] = {range_of(&places[0], 600, 3000), range_of(&places[1], 500, 2500)};
+    static const double cases[][4] = {
+        {1, NAN, 2000, 2000}, {0, NAN, 600, 2000}, {1, 0, 500, 500}, {NAN, 0, 500, 500}, {NAN, NAN, 600, 2000}};
+    struct input_scene copy;
+    open_wood();
+    EXPECT(ceduo_inputs_open(&copy, &file.scene, inputs, 2), ==, CEDUO_OK);
+    const struct ceduo_stand *stand = &copy.scene.options[0].belts[0].stand;
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        ceduo_inputs_set(&copy, cases[i]);
+        EXPECT_NEAR(stand->stools_per_ha, cases[i][2], 1e-9);
+        EXPECT_NEAR(stand->shoots[0].per_ha, cases[i][3], 1e-9);
+    }
+    ceduo_inputs_release(&copy);
+    EXPECT(ceduo_inputs_open(&copy, &file.scene, &inputs[1], 1), ==, CEDUO_OK); /* the shoots alone: 500, then 2500 */
+    stand = &copy.scene.options[0].belts[0].stand;
+    for (int i = 0; i < 2; i++) {
+        ceduo_inputs_set(&copy, (double[]){i});
+        EXPECT_NEAR(stand->stools_per_ha, i == 0 ? 500 : 600, 1e-9);
+    }
+    ceduo_inputs_release(&copy);
+    ceduo_scene_release(&file);
+}
