@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "expect.h"
+#include "local.h"
 
 #include "unit/grid.h"
 
@@ -129,20 +130,19 @@ TEST(axes_in_unicode_and_ascii)
     };
     for (int i = 0; i < 2; ++i) {
         enum ceduo_charset charset = i == 0 ? BRAILLE : ASCII;
-        struct ceduo_cells *cells = cells_in(40, 7, charset);
+        LOCAL(ceduo_cells, cells) = cells_in(40, 7, charset);
         struct ceduo_frame frame = {.width = 35, .height = 5, .x1 = 140, .y1 = 100};
         frame.left = ceduo_frame_axis_width(&frame, kind_of(charset));
         assert_int_equal(frame.left, 4);
         ceduo_canvas_axis_left(&cells->canvas, &frame);
         ceduo_canvas_axis_bottom(&cells->canvas, &frame, "m");
         expect_text(cells, expected[i]);
-        ceduo_cells_free(cells);
     }
 }
 
 TEST(axis_labels_leave_out_what_has_no_room)
 {
-    struct ceduo_cells *cells = cells_in(12, 5, ASCII);
+    LOCAL(ceduo_cells, cells) = cells_in(12, 5, ASCII);
     struct ceduo_frame frame = {.left = 3, .width = 9, .height = 3, .x1 = 100, .y0 = 0, .y1 = 1000};
     ceduo_canvas_axis_left(&cells->canvas, &frame); /* 1000 does not fit in two columns, 0 does */
     expect_and_clear(cells, "  +\n  |\n 0+\n\n\n");
@@ -155,34 +155,30 @@ TEST(axis_labels_leave_out_what_has_no_room)
     frame.width = 4;
     ceduo_canvas_axis_bottom(&cells->canvas, &frame, NULL);
     expect_and_clear(cells, "\n\n\n   ----\n\n");
-    ceduo_cells_free(cells);
 }
 
 TEST(unit_without_room_after_the_last_number_follows_the_first)
 {
-    struct ceduo_cells *cells = cells_in(36, 3, ASCII);
+    LOCAL(ceduo_cells, cells) = cells_in(36, 3, ASCII);
     struct ceduo_frame frame = {.left = 1, .width = 35, .height = 1, .x1 = 120, .y1 = 1};
     ceduo_canvas_axis_bottom(&cells->canvas, &frame, "m");
     expect_text(cells, "\n +-----+----+-----+-----+----+-----+\n 0 m   20   40    60    80  100  120\n");
-    ceduo_cells_free(cells);
 }
 
 TEST(strip_of_two_rows_has_two_labels)
 {
-    struct ceduo_cells *cells = cells_in(6, 2, BRAILLE);
+    LOCAL(ceduo_cells, cells) = cells_in(6, 2, BRAILLE);
     struct ceduo_frame frame = {.left = 2, .width = 4, .height = 2, .x1 = 1, .y1 = 2};
     ceduo_canvas_axis_left(&cells->canvas, &frame);
     expect_text(cells, "2┤\n0┤\n");
-    ceduo_cells_free(cells);
 }
 
 TEST(turned_axis_has_its_unit_at_the_right)
 {
-    struct ceduo_cells *cells = cells_in(20, 3, ASCII);
+    LOCAL(ceduo_cells, cells) = cells_in(20, 3, ASCII);
     struct ceduo_frame frame = {.left = 1, .width = 19, .height = 1, .x0 = 25, .x1 = -5, .y1 = 1};
     ceduo_canvas_axis_bottom(&cells->canvas, &frame, "y");
     expect_text(cells, "\n ---+-----+-----+---\n    20    10    0 y\n");
-    ceduo_cells_free(cells);
 }
 
 TEST(years_have_no_fractions)
@@ -214,7 +210,7 @@ static int words_in(const char *row)
 TEST(bottom_labels_never_touch)
 {
     for (int width = 4; width < 90; ++width) {
-        struct ceduo_cells *cells = cells_in(width + 3, 4, ASCII);
+        LOCAL(ceduo_cells, cells) = cells_in(width + 3, 4, ASCII);
         for (int k = -9; k < 12; ++k) {
             struct ceduo_frame frame = {.left = 2, .width = width, .height = 2, .y1 = 1};
             frame.x0 = -0.37 * pow(10, k);
@@ -232,7 +228,6 @@ TEST(bottom_labels_never_touch)
             assert_int_equal(words_in(labels), ticks);
             EXPECT(strlen(labels), <=, (size_t)width + 2);
         }
-        ceduo_cells_free(cells);
     }
 }
 
@@ -241,7 +236,7 @@ TEST(axis_width_holds_every_label)
     for (int height = 1; height < 40; ++height) {
         struct ceduo_frame frame = {.width = 4, .height = height, .x1 = 1, .y0 = -12.5, .y1 = 3.3 * height};
         frame.left = ceduo_frame_axis_width(&frame, kind_of(BRAILLE));
-        struct ceduo_cells *cells = cells_in(frame.left + 4, height, BRAILLE);
+        LOCAL(ceduo_cells, cells) = cells_in(frame.left + 4, height, BRAILLE);
         ceduo_canvas_axis_left(&cells->canvas, &frame);
         int widest = 0;
         int last_tick = -2;
@@ -254,7 +249,6 @@ TEST(axis_width_holds_every_label)
             widest = ceduo_cells_glyph(cells, 0, row) != ' ' ? 1 : widest;
         }
         assert_int_equal(widest, 1); /* and wastes no column */
-        ceduo_cells_free(cells);
     }
     struct ceduo_frame bad = {.width = 4, .height = 0, .x1 = 1, .y1 = 1};
     assert_int_equal(ceduo_frame_axis_width(&bad, kind_of(BRAILLE)), 0);

@@ -2,6 +2,7 @@
 /* Figures that are read from counts in bins: the middle of a bin, never more than the largest value, and of a quantile
  * the value of its rank. */
 #include "expect.h"
+#include "local.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -16,8 +17,8 @@
 static struct ceduo_envelope cell_of(const double *values, size_t n)
 {
     struct ceduo_envelope e;
-    struct envelopes all;
-    struct envelope_cell *cells = calloc(3, sizeof *cells);
+    LOCAL_BY(ceduo_envelopes_release) struct envelopes all;
+    LOCAL_BYTES struct envelope_cell *cells = calloc(3, sizeof *cells);
     assert_non_null(cells);
     assert_true(ceduo_envelopes_init(&all, 3, 2));
     for (size_t i = 0; i < n + 2; i++) {
@@ -28,10 +29,8 @@ static struct ceduo_envelope cell_of(const double *values, size_t n)
         ceduo_envelopes_end(&all, i % 2, from + 1);
     }
     ceduo_envelopes_merge(cells, &all);
-    ceduo_envelopes_release(&all);
     ceduo_envelope_read(&cells[1], &e);
     EXPECT(e.passed, ==, n);
-    free(cells);
     return e;
 }
 

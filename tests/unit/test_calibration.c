@@ -2,6 +2,7 @@
 /* Fits whose likelihood is known in closed form: a rock's speed as it leaves is the value that is fitted, so that a mean speed that
  * was seen is its normal law. And p of what the model itself has made. */
 #include "expect.h"
+#include "local.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -83,9 +84,8 @@ static struct ceduo_fitted fitted_to(double mean, double sd)
 {
     struct ceduo_scene scene = flight(0);
     const struct ceduo_observation seen = speed(mean, sd);
-    struct ceduo_calibration a = fit_of(&scene, &seen, 1, 2, NULL);
+    LOCAL_BY(ceduo_calibration_free) struct ceduo_calibration a = fit_of(&scene, &seen, 1, 2, NULL);
     struct ceduo_fitted p = a.parameters[0];
-    ceduo_calibration_free(&a);
     return p;
 }
 
@@ -112,7 +112,7 @@ TEST(a_normal_law_is_found)
 {
     struct ceduo_scene scene = flight(0);
     const struct ceduo_observation seen = speed(14, 1);
-    struct ceduo_calibration a = fit_of(&scene, &seen, 1, 2, NULL);
+    LOCAL_BY(ceduo_calibration_free) struct ceduo_calibration a = fit_of(&scene, &seen, 1, 2, NULL);
     const struct ceduo_fitted *p = &a.parameters[0];
     EXPECT_NEAR(p->best, 14, 0.02);
     EXPECT_NEAR(p->p2_5, 14 - 1.96, 4 * 0.19);
@@ -123,7 +123,6 @@ TEST(a_normal_law_is_found)
     EXPECT_NEAR(p->p2_5, quantile(a.draws, a.draws_count, .025), 1e-9);
     EXPECT_NEAR(p->p50, quantile(a.draws, a.draws_count, .5), 1e-9);
     EXPECT_NEAR(p->p97_5, quantile(a.draws, a.draws_count, .975), 1e-9);
-    ceduo_calibration_free(&a);
 }
 
 /* A value lies at a bound where the best one is there, though half of the draws are farther than a twentieth from it (half a normal
@@ -151,7 +150,7 @@ TEST(nothing_seen_leaves_a_uniform_law)
 {
     struct ceduo_scene scene = flight(0);
     const struct ceduo_observation seen = all_pass();
-    struct ceduo_calibration a = fit_of(&scene, &seen, 1, 2, NULL);
+    LOCAL_BY(ceduo_calibration_free) struct ceduo_calibration a = fit_of(&scene, &seen, 1, 2, NULL);
     const struct ceduo_fitted *p = &a.parameters[0];
     double sum = 0, squares = 0, n = (double)a.draws_count;
     for (size_t i = 0; i < a.draws_count; i++) {
@@ -164,7 +163,6 @@ TEST(nothing_seen_leaves_a_uniform_law)
     EXPECT_NEAR(sum, 0.5, 4 * sqrt(1. / 12 / 200)); /* of 200 independent draws */
     EXPECT_NEAR(squares - sum * sum, 1. / 12, 4 * sqrt(1. / 180 / 200));
     assert_false(p->determined || p->at_bound);
-    ceduo_calibration_free(&a);
 }
 
 /* What fits the better the faster, beyond the upper bound too: the simplex ends where it may not go on, 1/(1 + e^-9) of the range. */
@@ -173,11 +171,10 @@ TEST(a_simplex_stays_within_its_bounds)
     struct ceduo_scene scene = flight(0);
     const struct ceduo_observation seen = speed(25, 1);
     struct way way = {NAN};
-    struct ceduo_calibration a = fit_of(&scene, &seen, 1, 2, &way);
+    LOCAL_BY(ceduo_calibration_free) struct ceduo_calibration a = fit_of(&scene, &seen, 1, 2, &way);
     EXPECT(way.best, <=, LO + (HI - LO) / (1 + exp(-9)));
     EXPECT(way.best, >, HI - 0.01);
     EXPECT(a.parameters[0].best, <=, HI);
-    ceduo_calibration_free(&a);
 }
 
 /* ---- what is predicted ---- */
@@ -191,12 +188,11 @@ TEST(one_misfit_is_enough)
             struct ceduo_observation seen[3] = {all_pass(), all_pass(), all_pass()};
             seen[first] = speed(30, 1);
             seen[first].use = check ? CEDUO_OBSERVED_CHECK : CEDUO_OBSERVED_FIT;
-            struct ceduo_calibration a = fit_of(&scene, seen, 3, 2, NULL);
+            LOCAL_BY(ceduo_calibration_free) struct ceduo_calibration a = fit_of(&scene, seen, 3, 2, NULL);
             EXPECT(a.predicted[first].p_value, <, 0.001);
             EXPECT(a.predicted[2].p_value, >, 0.5);
             EXPECT(a.misfit, ==, !check);
             EXPECT(a.refuted, ==, check);
-            ceduo_calibration_free(&a);
         }
 }
 
@@ -209,15 +205,13 @@ TEST(other_rocks_than_those_of_the_fit)
     input.lo = 2500, input.hi = 2700;
     const struct ceduo_observation seen = speed(15, 1);
     struct ceduo_counterpart own;
-    struct ceduo_observer *observer;
+    LOCAL(ceduo_observer, observer);
     EXPECT(ceduo_observer_create(&seen, 1, &observer), ==, CEDUO_OK);
     EXPECT(ceduo_observer_look(observer, &scene, 50, NULL, &own), ==, CEDUO_OK);
-    ceduo_observer_free(observer);
-    struct ceduo_calibration a = fit_of(&scene, &seen, 1, 50, NULL);
+    LOCAL_BY(ceduo_calibration_free) struct ceduo_calibration a = fit_of(&scene, &seen, 1, 50, NULL);
     const struct ceduo_counterpart *at_best = &a.predicted[0].at_best;
     EXPECT(at_best->mean, !=, own.mean);
     EXPECT_NEAR(at_best->mean, own.mean, 5 * hypot(at_best->sd, own.sd) / sqrt(50));
-    ceduo_calibration_free(&a);
 }
 
 /* Two rocks of each of 200 draws are 400 single values, which tell 95 % of them; one of each is not enough. */
@@ -245,13 +239,12 @@ TEST(p_is_uniform_under_the_truth)
     static struct ceduo_predicted p[2 * SEEN];
     struct ceduo_scene scene = flight(2), truth = scene;
     const struct ceduo_observation any = speed(15, 1);
-    struct ceduo_observer *observer;
-    double *values;
+    LOCAL(ceduo_observer, observer);
+    LOCAL_BYTES double *values;
     size_t n;
     truth.simulation.seed = 99;
     EXPECT(ceduo_observer_create(&any, 1, &observer), ==, CEDUO_OK);
     EXPECT(ceduo_observer_values(observer, &truth, 0, SEEN * VALUES, &values, &n), ==, CEDUO_OK);
-    ceduo_observer_free(observer);
     EXPECT(n, ==, SEEN * VALUES);
     for (size_t i = 0; i < SEEN; i++) {
         double *list = values + i * VALUES, sum = 0, squares = 0;
@@ -275,5 +268,4 @@ TEST(p_is_uniform_under_the_truth)
             chi2 += (counts[c] - SEEN / 10.) * (counts[c] - SEEN / 10.) / (SEEN / 10.);
         EXPECT(chi2, <, 27.88);
     }
-    free(values);
 }

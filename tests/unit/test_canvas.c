@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "local.h"
 #include "unit/grid.h"
 
 /* A way of one straight part. */
@@ -18,31 +19,29 @@ TEST(lines_in_each_charset)
     };
     static const int length[] = {8, 4, 4};
     for (int i = 0; i <= LAST_CHARSET; ++i) {
-        struct ceduo_cells *cells = cells_in(4, 2, (enum ceduo_charset)i);
+        LOCAL(ceduo_cells, cells) = cells_in(4, 2, (enum ceduo_charset)i);
         struct ceduo_frame frame = dots_of(cells);
         int to = length[i] - 1;
         ceduo_canvas_line(&cells->canvas, &frame, CEDUO_ROLE_WAY, 0, frame.y1, to, frame.y1 - to);
         expect_and_clear(cells, expected[i]);
         ceduo_canvas_line(&cells->canvas, &frame, CEDUO_ROLE_WAY, to, frame.y1 - to, 0, frame.y1);
         expect_text(cells, expected[i]);
-        ceduo_cells_free(cells);
     }
 }
 
 TEST(steep_and_flat_lines_have_no_gaps)
 {
-    struct ceduo_cells *cells = cells_in(3, 2, BRAILLE);
+    LOCAL(ceduo_cells, cells) = cells_in(3, 2, BRAILLE);
     struct ceduo_frame frame = dots_of(cells);
     ceduo_canvas_line(&cells->canvas, &frame, CEDUO_ROLE_WAY, 0, 0, 1, 7);
     expect_and_clear(cells, "⢸\n⡇\n");
     ceduo_canvas_line(&cells->canvas, &frame, CEDUO_ROLE_WAY, 0, 0, 5, 1);
     expect_and_clear(cells, "\n⣀⡠⠤\n");
-    ceduo_cells_free(cells);
 }
 
 TEST(what_lies_outside_is_clipped)
 {
-    struct ceduo_cells *cells = cells_in(4, 2, BLOCK);
+    LOCAL(ceduo_cells, cells) = cells_in(4, 2, BLOCK);
     struct ceduo_frame frame = dots_of(cells);
     frame.left = 1;
     frame.width = 2;
@@ -66,24 +65,22 @@ TEST(what_lies_outside_is_clipped)
     /* The nearest dot is inside. */
     draw_point(cells, &frame, CEDUO_ROLE_WAY, 3.4, 3.4);
     expect_and_clear(cells, "  ▝\n\n");
-    ceduo_cells_free(cells);
 }
 
 TEST(frame_may_hang_over_the_canvas)
 {
-    struct ceduo_cells *cells = cells_in(3, 1, ASCII);
+    LOCAL(ceduo_cells, cells) = cells_in(3, 1, ASCII);
     struct ceduo_frame frame = {.left = -2, .top = -1, .width = 7, .height = 3, .x1 = 6, .y1 = 5};
     ceduo_canvas_line(&cells->canvas, &frame, CEDUO_ROLE_WAY, 0, 3, 6, 3);
     ceduo_canvas_line(&cells->canvas, &frame, CEDUO_ROLE_WAY, 3, 0, 3, 5);
     expect_text(cells, "':'\n");
-    ceduo_cells_free(cells);
 }
 
 TEST(what_is_not_finite_is_never_drawn)
 {
     const double nan = (double)NAN;
     const double inf = (double)INFINITY;
-    struct ceduo_cells *cells = cells_in(7, 1, ASCII);
+    LOCAL(ceduo_cells, cells) = cells_in(7, 1, ASCII);
     struct ceduo_frame frame = dots_of(cells);
     draw_point(cells, &frame, CEDUO_ROLE_WAY, nan, 0);
     draw_point(cells, &frame, CEDUO_ROLE_WAY, 0, inf);
@@ -100,7 +97,6 @@ TEST(what_is_not_finite_is_never_drawn)
     expect_and_clear(cells, ".. . ..\n");
     ceduo_canvas_stairs(&cells->canvas, &frame, CEDUO_ROLE_WAY, 7, x, y);
     expect_and_clear(cells, ".. . ..\n");
-    ceduo_cells_free(cells);
 }
 
 TEST(useless_frames_draw_nothing)
@@ -117,7 +113,7 @@ TEST(useless_frames_draw_nothing)
         {.left = 2000000000, .width = 4, .height = 2, .x1 = 1, .y1 = 1},
     };
     const double x[] = {0, 1};
-    struct ceduo_cells *cells = cells_in(4, 2, BRAILLE);
+    LOCAL(ceduo_cells, cells) = cells_in(4, 2, BRAILLE);
     ceduo_canvas_cloud_start(&cells->canvas);
     for (size_t i = 0; i < sizeof frames / sizeof frames[0]; ++i) {
         const struct ceduo_frame *frame = &frames[i];
@@ -135,30 +131,27 @@ TEST(useless_frames_draw_nothing)
     }
     ceduo_canvas_cloud_show(&cells->canvas, 0);
     expect_text(cells, "\n\n");
-    ceduo_cells_free(cells);
 }
 
 TEST(axes_may_be_turned_round)
 {
-    struct ceduo_cells *cells = cells_in(3, 2, ASCII);
+    LOCAL(ceduo_cells, cells) = cells_in(3, 2, ASCII);
     struct ceduo_frame frame = {.width = 3, .height = 2, .x0 = 2, .x1 = 0, .y0 = 3, .y1 = 0};
     draw_point(cells, &frame, CEDUO_ROLE_WAY, 0, 3);
     draw_point(cells, &frame, CEDUO_ROLE_WAY, 2, 0);
     expect_text(cells, "'\n  .\n");
-    ceduo_cells_free(cells);
 }
 
 TEST(stairs_hold_the_value_before)
 {
     const double x[] = {0, 3, 5};
     const double y[] = {3, 1, 0};
-    struct ceduo_cells *cells = cells_in(6, 2, ASCII);
+    LOCAL(ceduo_cells, cells) = cells_in(6, 2, ASCII);
     struct ceduo_frame frame = dots_of(cells);
     ceduo_canvas_stairs(&cells->canvas, &frame, CEDUO_ROLE_WOOD, 3, x, y);
     expect_and_clear(cells, "''':\n   '':\n");
     ceduo_canvas_stairs(&cells->canvas, &frame, CEDUO_ROLE_WOOD, 1, x, y);
     expect_and_clear(cells, "'\n\n");
-    ceduo_cells_free(cells);
 }
 
 TEST(rules_are_dotted)
@@ -166,7 +159,7 @@ TEST(rules_are_dotted)
     static const char *const across[] = {"\n⡀⡀⡀⡀\n", "\n▖▖▖▖\n", "\n. .\n"};
     static const char *const up[] = {"⠅\n⠅\n", "▘\n▘\n", "'\n'\n"};
     for (int i = 0; i <= LAST_CHARSET; ++i) {
-        struct ceduo_cells *cells = cells_in(4, 2, (enum ceduo_charset)i);
+        LOCAL(ceduo_cells, cells) = cells_in(4, 2, (enum ceduo_charset)i);
         struct ceduo_frame frame = dots_of(cells);
         ceduo_canvas_rule_y(&cells->canvas, &frame, CEDUO_ROLE_AXIS, 0);
         expect_and_clear(cells, across[i]);
@@ -175,7 +168,6 @@ TEST(rules_are_dotted)
         ceduo_canvas_rule_x(&cells->canvas, &frame, CEDUO_ROLE_AXIS, -1);
         ceduo_canvas_rule_y(&cells->canvas, &frame, CEDUO_ROLE_AXIS, frame.y1 + 1);
         expect_and_clear(cells, "\n\n");
-        ceduo_cells_free(cells);
     }
 }
 
@@ -190,8 +182,8 @@ TEST(bars_go_by_eighths)
         {6. / 16, "▊\n", "#\n"},    {7. / 16, "▉\n", "#\n"}, {8. / 16, "█\n", "#\n"}, {9. / 16, "█▏\n", "#\n"},
         {15. / 16, "█▉\n", "##\n"}, {1, "██\n", "##\n"},     {7, "██\n", "##\n"},     {(double)INFINITY, "██\n", "##\n"},
     };
-    struct ceduo_cells *utf8 = cells_in(4, 1, BRAILLE);
-    struct ceduo_cells *ascii = cells_in(4, 1, ASCII);
+    LOCAL(ceduo_cells, utf8) = cells_in(4, 1, BRAILLE);
+    LOCAL(ceduo_cells, ascii) = cells_in(4, 1, ASCII);
     for (size_t i = 0; i < sizeof bars / sizeof bars[0]; ++i) {
         ceduo_canvas_bar(&utf8->canvas, 0, 0, 2, bars[i].fraction, CEDUO_ROLE_WOOD);
         ceduo_canvas_bar(&ascii->canvas, 0, 0, 2, bars[i].fraction, CEDUO_ROLE_WOOD);
@@ -201,8 +193,6 @@ TEST(bars_go_by_eighths)
     ceduo_canvas_bar(&utf8->canvas, 2, 0, 4, 1, CEDUO_ROLE_WOOD);
     expect_text(utf8, "  ██\n");
     expect_roles(utf8, "  oo\n");
-    ceduo_cells_free(utf8);
-    ceduo_cells_free(ascii);
 }
 
 /* ---- Density ---- */
@@ -214,7 +204,7 @@ TEST(density_shows_the_most_travelled_dots)
         const char *text;
     } shown[] = {{1, ".\n"}, {0.75, "..\n"}, {0.5, "...\n"}, {0, "....\n"}, {9, ".\n"}, {(double)NAN, "....\n"}};
     for (size_t k = 0; k < sizeof shown / sizeof shown[0]; ++k) {
-        struct ceduo_cells *cells = cells_in(4, 1, ASCII);
+        LOCAL(ceduo_cells, cells) = cells_in(4, 1, ASCII);
         struct ceduo_frame frame = dots_of(cells);
         count_line(cells, &frame, 0, 0, 3, 0); /* not started */
         ceduo_canvas_cloud_show(&cells->canvas, 0);
@@ -230,7 +220,6 @@ TEST(density_shows_the_most_travelled_dots)
         ceduo_cells_clear(cells);
         ceduo_canvas_cloud_show(&cells->canvas, 0);
         expect_text(cells, "\n");
-        ceduo_cells_free(cells);
     }
 }
 
@@ -239,20 +228,19 @@ TEST(a_way_counts_once_where_its_parts_meet)
     const double x[] = {-9, 0, 0.2, 0.4, 1, 2, 2, 99};
     const double y[] = {0, 0, 0, 0, 0, 0, 0, 0};
     for (int i = 0; i <= LAST_CHARSET; ++i) {
-        struct ceduo_cells *cells = cells_in(4, 1, (enum ceduo_charset)i);
+        LOCAL(ceduo_cells, cells) = cells_in(4, 1, (enum ceduo_charset)i);
         struct ceduo_frame frame = dots_of(cells);
         ceduo_canvas_cloud_start(&cells->canvas);
         ceduo_canvas_cloud_add(&cells->canvas, &frame, 8, x, y);
         ceduo_canvas_cloud_show(&cells->canvas, 1);
         ceduo_canvas_cloud_add(&cells->canvas, &frame, 8, x, y);
         ceduo_canvas_cloud_show(&cells->canvas, 0);
-        ceduo_cells_free(cells);
     }
 }
 
 TEST(density_counts_only_within_the_canvas)
 {
-    struct ceduo_cells *cells = cells_in(2, 1, BRAILLE);
+    LOCAL(ceduo_cells, cells) = cells_in(2, 1, BRAILLE);
     struct ceduo_frame frame = {.left = -3, .top = -3, .width = 12, .height = 9, .x1 = 1, .y1 = 1};
     ceduo_canvas_cloud_start(&cells->canvas);
     count_line(cells, &frame, 0, 0, 1, 1);
@@ -260,7 +248,6 @@ TEST(density_counts_only_within_the_canvas)
     count_line(cells, &frame, 0, 0.65, 1, 0.65);
     ceduo_canvas_cloud_show(&cells->canvas, 0);
     expect_roles(cells, "cc\n");
-    ceduo_cells_free(cells);
 }
 
 /* ---- True scale ---- */
@@ -274,19 +261,18 @@ TEST(forty_five_degrees_are_forty_five_degrees)
     };
     for (int i = 0; i <= LAST_CHARSET; ++i) {
         enum ceduo_charset charset = (enum ceduo_charset)i;
-        struct ceduo_cells *cells = cells_in(8, 4, charset);
+        LOCAL(ceduo_cells, cells) = cells_in(8, 4, charset);
         struct ceduo_frame frame = {.width = 8, .height = 4};
         /* A slope of 100 m down 100 m, in a picture that just holds it. */
         assert_true(ceduo_frame_true_scale(&frame, kind_of(charset), 200, 300, 1000, 1100));
         ceduo_canvas_line(&cells->canvas, &frame, CEDUO_ROLE_WAY, 200, 1000, 300, 1100);
         expect_text(cells, expected[i]);
-        ceduo_cells_free(cells);
     }
 }
 
 TEST(true_scale_moves_one_dot_across_for_each_dot_up)
 {
-    struct ceduo_cells *cells = cells_in(30, 9, BRAILLE);
+    LOCAL(ceduo_cells, cells) = cells_in(30, 9, BRAILLE);
     struct ceduo_frame frame = {.width = 30, .height = 9};
     assert_true(ceduo_frame_true_scale(&frame, kind_of(BRAILLE), 0, 150, 0, 20));
     double dot = (frame.x1 - frame.x0) / 59;
@@ -294,7 +280,6 @@ TEST(true_scale_moves_one_dot_across_for_each_dot_up)
     /* From the lower left dot on, each further dot to the right is one further up. */
     ceduo_canvas_line(&cells->canvas, &frame, CEDUO_ROLE_WAY, frame.x0, frame.y0, frame.x0 + 7 * dot, frame.y0 + 7 * dot);
     expect_text(cells, "\n\n\n\n\n\n\n  ⡠⠊\n⡠⠊\n");
-    ceduo_cells_free(cells);
 }
 
 TEST(true_scale_fits_and_centres)
@@ -323,7 +308,7 @@ TEST(frame_cell_is_where_the_point_is_drawn)
 {
     for (int i = 0; i <= LAST_CHARSET; ++i) {
         enum ceduo_charset charset = (enum ceduo_charset)i;
-        struct ceduo_cells *cells = cells_in(9, 6, charset);
+        LOCAL(ceduo_cells, cells) = cells_in(9, 6, charset);
         struct ceduo_frame frame = {.left = 2, .top = 1, .width = 5, .height = 3, .x0 = -3, .x1 = 7, .y0 = 10, .y1 = 12};
         for (double x = -3; x <= 7; x += 0.37) {
             int column = -1;
@@ -340,6 +325,5 @@ TEST(frame_cell_is_where_the_point_is_drawn)
         assert_false(ceduo_frame_cell(&frame, kind_of(charset), 9, 11, &column, &row));
         assert_false(ceduo_frame_cell(&frame, kind_of(charset), 0, 8, &column, &row));
         assert_false(ceduo_frame_cell(&frame, kind_of(charset), (double)NAN, 11, &column, &row));
-        ceduo_cells_free(cells);
     }
 }

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "local.h"
 #include "unit/grid.h"
 
 /* ---- The cells ---- */
@@ -16,13 +17,12 @@ TEST(sizes_are_limited)
 
 TEST(blank_canvas_is_empty_rows)
 {
-    struct ceduo_cells *cells = cells_in(4, 2, BRAILLE);
+    LOCAL(ceduo_cells, cells) = cells_in(4, 2, BRAILLE);
     expect_text(cells, "\n\n");
     expect_roles(cells, "\n\n");
     assert_int_equal(ceduo_cells_glyph(cells, 0, 0), ' ');
     assert_int_equal(ceduo_cells_glyph(cells, -1, 7), ' ');
     assert_int_equal(ceduo_cells_role(cells, 4, 0), CEDUO_ROLE_BLANK);
-    ceduo_cells_free(cells);
 }
 
 TEST(each_dot_has_its_glyph)
@@ -36,7 +36,7 @@ TEST(each_dot_has_its_glyph)
         {ASCII, {{"'\n"}, {".\n"}}},
     };
     for (size_t i = 0; i < 3; ++i) {
-        struct ceduo_cells *cells = cells_in(2, 1, sets[i].charset);
+        LOCAL(ceduo_cells, cells) = cells_in(2, 1, sets[i].charset);
         struct ceduo_frame frame = dots_of(cells);
         for (int y = 0; y < cells->canvas.dots_y; ++y) {
             for (int x = 0; x < cells->canvas.dots_x; ++x) {
@@ -44,13 +44,12 @@ TEST(each_dot_has_its_glyph)
                 expect_and_clear(cells, sets[i].glyphs[y][x]);
             }
         }
-        ceduo_cells_free(cells);
     }
 }
 
 TEST(all_quadrants)
 {
-    struct ceduo_cells *cells = cells_in(16, 1, BLOCK);
+    LOCAL(ceduo_cells, cells) = cells_in(16, 1, BLOCK);
     struct ceduo_frame frame = dots_of(cells);
     for (int mask = 0; mask < 16; ++mask) {
         for (int bit = 0; bit < 4; ++bit) {
@@ -60,12 +59,11 @@ TEST(all_quadrants)
         }
     }
     expect_text(cells, " ▘▝▀▖▌▞▛▗▚▐▜▄▙▟█\n");
-    ceduo_cells_free(cells);
 }
 
 TEST(row_text_is_cut_at_a_character)
 {
-    struct ceduo_cells *cells = cells_in(5, 2, BRAILLE);
+    LOCAL(ceduo_cells, cells) = cells_in(5, 2, BRAILLE);
     char buffer[16];
     ceduo_cells_label(cells, 0, 0, CEDUO_ROLE_TEXT, "a±b  ");
     assert_int_equal(ceduo_cells_text(cells, 0, sizeof buffer, buffer), 4);
@@ -79,7 +77,6 @@ TEST(row_text_is_cut_at_a_character)
     assert_int_equal(ceduo_cells_text(cells, 0, 0, NULL), 4);
     assert_int_equal(ceduo_cells_text(cells, 2, sizeof buffer, buffer), 0);
     assert_string_equal(buffer, "");
-    ceduo_cells_free(cells);
 }
 
 /* ---- Roles ---- */
@@ -90,7 +87,7 @@ TEST(rank_decides_the_role_whoever_draws_first)
         CEDUO_ROLE_CURSOR, CEDUO_ROLE_WAY,    CEDUO_ROLE_CONTROL, CEDUO_ROLE_MEAN, CEDUO_ROLE_ENVELOPE, CEDUO_ROLE_STEM,
         CEDUO_ROLE_STOOL,  CEDUO_ROLE_GROUND, CEDUO_ROLE_CLOUD,   CEDUO_ROLE_AXIS, CEDUO_ROLE_DIM,
     };
-    struct ceduo_cells *cells = cells_in(2, 1, BRAILLE);
+    LOCAL(ceduo_cells, cells) = cells_in(2, 1, BRAILLE);
     struct ceduo_frame frame = dots_of(cells);
     for (size_t i = 1; i < sizeof falling / sizeof falling[0]; ++i) {
         ceduo_cells_clear(cells);
@@ -102,12 +99,11 @@ TEST(rank_decides_the_role_whoever_draws_first)
         assert_int_equal(ceduo_cells_role(cells, 1, 0), falling[i - 1]);
         expect_text(cells, "⣀⣀\n"); /* the dots of both are seen */
     }
-    ceduo_cells_free(cells);
 }
 
 TEST(text_hides_dots)
 {
-    struct ceduo_cells *cells = cells_in(5, 1, ASCII);
+    LOCAL(ceduo_cells, cells) = cells_in(5, 1, ASCII);
     struct ceduo_frame frame = dots_of(cells);
     ceduo_canvas_line(&cells->canvas, &frame, CEDUO_ROLE_WAY, 0, 0, 4, 0);
     ceduo_cells_label(cells, 1, 0, CEDUO_ROLE_DIM, "a b");
@@ -117,25 +113,23 @@ TEST(text_hides_dots)
     ceduo_cells_label(cells, 1, 0, CEDUO_ROLE_BAD, "c");
     expect_text(cells, ":c b:\n");
     expect_roles(cells, "xBddx\n");
-    ceduo_cells_free(cells);
 }
 
 TEST(every_role_has_its_letter)
 {
-    struct ceduo_cells *cells = cells_in(CEDUO_ROLE_COUNT, 1, ASCII);
+    LOCAL(ceduo_cells, cells) = cells_in(CEDUO_ROLE_COUNT, 1, ASCII);
     for (int role = 0; role < CEDUO_ROLE_COUNT; ++role) {
         ceduo_cells_label(cells, role, 0, (enum ceduo_role)role, "#");
     }
     expect_text(cells, " ###################\n");
     expect_roles(cells, " tdTagcemwsSbCGBWrox\n");
-    ceduo_cells_free(cells);
 }
 
 /* ---- Text ---- */
 
 TEST(labels_are_cut_at_the_canvas)
 {
-    struct ceduo_cells *cells = cells_in(4, 1, BRAILLE);
+    LOCAL(ceduo_cells, cells) = cells_in(4, 1, BRAILLE);
     assert_int_equal(ceduo_cells_label(cells, 2, 0, CEDUO_ROLE_TITLE, "stool"), 5);
     assert_int_equal(ceduo_cells_label(cells, -3, 0, CEDUO_ROLE_TEXT, "Ø m²"), 4);
     expect_text(cells, "² st\n");
@@ -147,7 +141,6 @@ TEST(labels_are_cut_at_the_canvas)
     ceduo_cells_label(cells, 0, -1, CEDUO_ROLE_TEXT, "above");
     ceduo_cells_label(cells, 9, 0, CEDUO_ROLE_TEXT, "right");
     expect_and_clear(cells, "\n");
-    ceduo_cells_free(cells);
 }
 
 TEST(odd_characters_become_question_marks)
@@ -168,16 +161,14 @@ TEST(odd_characters_become_question_marks)
         {"𝑥", "𝑥\n", "?\n"},           /* four bytes, one cell */
         {"⠿Ж", "⠿Ж\n", "??\n"},
     };
-    struct ceduo_cells *utf8 = cells_in(12, 1, BRAILLE);
-    struct ceduo_cells *ascii = cells_in(12, 1, ASCII);
+    LOCAL(ceduo_cells, utf8) = cells_in(12, 1, BRAILLE);
+    LOCAL(ceduo_cells, ascii) = cells_in(12, 1, ASCII);
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; ++i) {
         ceduo_cells_label(utf8, 0, 0, CEDUO_ROLE_TEXT, cases[i].text);
         ceduo_cells_label(ascii, 0, 0, CEDUO_ROLE_TEXT, cases[i].text);
         expect_and_clear(utf8, cases[i].utf8);
         expect_and_clear(ascii, cases[i].ascii);
     }
-    ceduo_cells_free(utf8);
-    ceduo_cells_free(ascii);
 }
 
 TEST(ascii_has_near_equivalents)
@@ -200,8 +191,8 @@ TEST(ascii_has_near_equivalents)
         {"Ø ∞", "O inf"},
         {"♣", "Y"},
     };
-    struct ceduo_cells *ascii = cells_in(12, 1, ASCII);
-    struct ceduo_cells *block = cells_in(12, 1, BLOCK);
+    LOCAL(ceduo_cells, ascii) = cells_in(12, 1, ASCII);
+    LOCAL(ceduo_cells, block) = cells_in(12, 1, BLOCK);
     for (size_t i = 0; i < sizeof pairs / sizeof pairs[0]; ++i) {
         char text[64];
         ceduo_cells_label(ascii, 0, 0, CEDUO_ROLE_TEXT, pairs[i][0]);
@@ -218,8 +209,6 @@ TEST(ascii_has_near_equivalents)
     assert_int_equal(ceduo_cells_label_width(ASCII, "±0.3…"), 8);
     assert_int_equal(ceduo_cells_label_width(BRAILLE, "±0.3…"), 5);
     assert_int_equal(ceduo_cells_label_width(BRAILLE, ""), 0);
-    ceduo_cells_free(ascii);
-    ceduo_cells_free(block);
 }
 
 TEST(texts_are_cut_at_either_end)

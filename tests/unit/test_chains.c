@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Chains on densities whose moments are known, and what is read of them. */
 #include "expect.h"
+#include "local.h"
 
 #include <signal.h>
 #include <stdatomic.h>
@@ -81,7 +82,7 @@ static double covariance_of(const struct chains *c, size_t i, size_t k)
 /* Within four standard errors of 4000 independent draws. */
 static void expect_normal(const struct chains_def *def)
 {
-    struct chains c;
+    LOCAL_BY(ceduo_chains_release) struct chains c;
     EXPECT(ceduo_chains_run(def, &c), ==, CEDUO_OK);
     assert_true(c.settled);
     EXPECT(c.effective_size, >=, 4000);
@@ -90,7 +91,6 @@ static void expect_normal(const struct chains_def *def)
     EXPECT_NEAR(covariance_of(&c, 0, 0) / 4, 1, 4 * sqrt(2. / 4000));
     EXPECT_NEAR(covariance_of(&c, 1, 1) / 0.25, 1, 4 * sqrt(2. / 4000));
     EXPECT_NEAR(covariance_of(&c, 0, 1), RHO, 4 * sqrt((1 + RHO * RHO) / 4000));
-    ceduo_chains_release(&c);
 }
 
 TEST(a_normal_law_is_drawn_from)
@@ -111,7 +111,7 @@ TEST(a_wrong_guess_changes_nothing)
 TEST(threads_change_no_bit)
 {
     struct chains_def def = two_dimensions();
-    struct chains one, four;
+    LOCAL_BY(ceduo_chains_release) struct chains one, four;
     def.guess = wrong_guess;
     def.learn = learn_nothing;
     def.steps_most = 600;
@@ -121,8 +121,6 @@ TEST(threads_change_no_bit)
     EXPECT(one.steps, ==, four.steps);
     for (size_t i = 0; i < ceduo_chains_draws(&one); i++)
         assert_memory_equal(ceduo_chains_draw(&one, i), ceduo_chains_draw(&four, i), 2 * sizeof(double));
-    ceduo_chains_release(&one);
-    ceduo_chains_release(&four);
 }
 
 /* ---- diagnosis ---- */
@@ -170,10 +168,9 @@ TEST(chains_apart_do_not_agree)
 TEST(draws_that_hang_together_count_less)
 {
     double rhat, size;
-    struct chains c = made(0, 0.8);
+    LOCAL_BY(ceduo_chains_release) struct chains c = made(0, 0.8);
     ceduo_chains_diagnose(&c, 0, &rhat, &size);
     EXPECT_NEAR(size / (4 * STEPS / 2), 1. / 9, 0.02);
-    ceduo_chains_release(&c);
 }
 
 /* Two chains of eight steps, of which the first four are not read: by hand, with the n - 1 of Gelman et al. 2013, 11.4. Halves of
@@ -211,7 +208,7 @@ TEST(draws_that_alternate)
 /* A quadratic is learnt whole; places without a value are left out. */
 TEST(a_guess_learns_a_quadratic)
 {
-    struct guess g = ceduo_guess_begin(2);
+    LOCAL_BY(ceduo_guess_release) struct guess g = ceduo_guess_begin(2);
     double u[64 * 2], values[64], at[2] = {0.3, 0.9};
     EXPECT(ceduo_guess_at(&g, at), ==, 0);
     for (int i = 0; i < 64; i++) {
@@ -235,7 +232,6 @@ TEST(a_guess_learns_a_quadratic)
     }
     EXPECT(ceduo_guess_learn(&g, u, values, 16, NULL), ==, CEDUO_OK);
     EXPECT_NEAR(ceduo_guess_at(&g, (double[2]){0.5, 0.1}), 0.5, 1e-9);
-    ceduo_guess_release(&g);
 }
 
 /* A number from 0 to 1, the next of a row that is always the same. */
@@ -251,7 +247,7 @@ TEST(a_guess_weighs_what_it_knows)
 {
     enum { N = 3000, NEAR = 9 /* three times the terms */ };
     static double u[N], values[N], sorted[NEAR + 1];
-    struct guess g = ceduo_guess_begin(1);
+    LOCAL_BY(ceduo_guess_release) struct guess g = ceduo_guess_begin(1);
     uint64_t random = 1;
     double left[3] = {0}, size[3] = {0};
     for (int i = 0; i < N; i++) {
@@ -275,7 +271,6 @@ TEST(a_guess_weighs_what_it_knows)
     }
     for (int k = 0; k < 3; k++)
         EXPECT_NEAR(left[k] / size[k], 0, 1e-9);
-    ceduo_guess_release(&g);
 }
 
 static atomic_bool ended;
@@ -297,7 +292,7 @@ TEST(a_guess_is_ended_while_it_learns)
 {
     enum { N = 25000, D = 12 };
     double *u = malloc(N * D * sizeof *u), *values = malloc(N * sizeof *values), start, all;
-    struct guess g = ceduo_guess_begin(D);
+    LOCAL_BY(ceduo_guess_release) struct guess g = ceduo_guess_begin(D);
     uint64_t random = 1;
     assert_true(u && values);
     for (int i = 0; i < N; i++) {
@@ -320,7 +315,6 @@ TEST(a_guess_is_ended_while_it_learns)
     EXPECT(ceduo_guess_learn(&g, u, values, N, &ended), ==, CEDUO_CANCELLED);
     EXPECT(processor_seconds() - start, <, all / 2);
     EXPECT(ceduo_guess_at(&g, u), ==, knew);
-    ceduo_guess_release(&g);
     free(u);
     free(values);
 }
@@ -372,14 +366,13 @@ TEST(chains_are_ended)
 /* Ended, nobody asks how well chains agree: that takes long of many draws. */
 TEST(a_look_at_all_chains_is_ended)
 {
-    struct chains c;
+    LOCAL_BY(ceduo_chains_release) struct chains c;
     struct chains_def def = two_dimensions();
     const atomic_bool cancel = true;
     def.steps_most = 4 * CEDUO_CHAINS_ROUND;
     def.cancel = &cancel;
     EXPECT(ceduo_chains_run(&def, &c), ==, CEDUO_OK);
     EXPECT(c.effective_size, ==, INFINITY);
-    ceduo_chains_release(&c);
 }
 
 /* A density that fails in the first chain; another chain waits until it has. */
@@ -412,7 +405,7 @@ static enum ceduo_status fails_in_one(void *context, size_t chain, const double 
 /* Where one chain fails the others end: of the round's 50 steps of each few are made then. */
 TEST(one_chain_ends_all)
 {
-    struct chains c;
+    LOCAL_BY(ceduo_chains_release) struct chains c;
     struct failure f = {0};
     struct chains_def def = two_dimensions();
     def.density = fails_in_one;
@@ -420,7 +413,6 @@ TEST(one_chain_ends_all)
     def.threads = 2;
     EXPECT(ceduo_chains_run(&def, &c), ==, CEDUO_NO_MEMORY);
     EXPECT(f.after, <, CEDUO_CHAINS_ROUND);
-    ceduo_chains_release(&c);
 }
 
 static enum ceduo_status one_place(void *context, size_t chain, const double *x, double *log_density)
@@ -434,7 +426,7 @@ static enum ceduo_status one_place(void *context, size_t chain, const double *x,
 TEST(chains_that_stand_still)
 {
     static const double nowhere[8];
-    struct chains c;
+    LOCAL_BY(ceduo_chains_release) struct chains c;
     struct chains_def def = two_dimensions();
     def.density = one_place;
     def.starts = nowhere;
@@ -443,5 +435,4 @@ TEST(chains_that_stand_still)
     assert_true(isnan(c.rhat));
     assert_false(c.settled);
     EXPECT(ceduo_chains_draw(&c, 0)[0], ==, 0);
-    ceduo_chains_release(&c);
 }

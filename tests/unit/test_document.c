@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "folder.h"
+#include "local.h"
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -28,6 +29,8 @@ static const char stand[] =
     "shoots: [{per_ha: 6000, dbh_m: 0.06, height_m: 6}]\ntrees: [{per_ha: 60, dbh_m: 0.2, height_m: 12}]\n";
 
 static char path[256];
+static struct document d;
+static struct problems problems;
 
 static void write_file(const char *name, const char *text)
 {
@@ -67,149 +70,198 @@ static int set_up(void **state)
     return 0;
 }
 
-static void open_scene(struct document *d)
+static void close_scene(void)
 {
-    struct problems problems = {0};
-    bool good = ceduo_document_open(d, path, &problems);
+    ceduo_document_close(&d);
+    ceduo_problems_free(&problems);
+}
+
+static int tear_down(void **state)
+{
+    if (d.path)
+        ceduo_document_forget(&d);
+    close_scene();
+    return folder_tear_down(state);
+}
+
+static void must(bool good)
+{
     if (!good)
-        print_error("%s", problems.text.bytes);
-    assert_true(good);
-    ceduo_problems_free(&problems);
+        fail_msg("%s", problems.text.bytes);
 }
 
-static void set(struct document *d, const char *where, const char *value)
+static void open_scene(void)
 {
-    struct problems problems = {0};
-    bool good = ceduo_document_set(d, where, value, &problems);
-    if (!good)
-        print_error("%s", problems.text.bytes);
-    assert_true(good);
-    ceduo_problems_free(&problems);
+    close_scene();
+    must(ceduo_document_open(&d, path, &problems));
 }
 
-static void refuse(struct document *d, const char *where, const char *value, const char *why)
+static void set(const char *where, const char *value)
 {
-    struct problems problems = {0};
-    size_t before = d->at;
-    assert_false(ceduo_document_set(d, where, value, &problems));
-    assert_non_null(strstr(problems.text.bytes, why));
-    assert_int_equal(d->at, before);
-    ceduo_problems_free(&problems);
+    must(ceduo_document_set(&d, where, value, &problems));
 }
 
-TEST_WITH(changed_values_keep_comments, set_up, folder_tear_down)
+static void refuse(const char *where, const char *value, const char *why)
 {
-    struct document d;
+    LOCAL_BY(ceduo_problems_free) struct problems found = {0};
+    size_t before = d.at;
+    assert_false(ceduo_document_set(&d, where, value, &found));
+    assert_non_null(strstr(found.text.bytes, why));
+    assert_int_equal(d.at, before);
+}
+
+static void set_millimetres(int mm)
+{
+    char value[16];
+    snprintf(value, sizeof value, "0.%03d", mm);
+    set("rock.diameter_m", value);
+}
+
+/* Laid out anew, or with what its lines say beside their values. */
+static void save_as(const char *to, bool laid_out_anew)
+{
     bool anew;
-    open_scene(&d);
+    assert_true(ceduo_document_save(&d, to, &anew));
+    assert_int_equal(anew, laid_out_anew);
     assert_false(ceduo_document_unsaved(&d));
-    set(&d, "rock.diameter_m", "0.75");
-    set(&d, "title", "\"Above: the mill\"");
+}
+
+static void save(const char *to)
+{
+    save_as(to, false);
+}
+
+/* The copy that is kept of unsaved work; NULL: there is none. */
+static const char *copy_of(void)
+{
+    static char text[4096];
+    FILE *f = fopen(d.recovery, "r");
+    if (!f)
+        return NULL;
+    text[fread(text, 1, sizeof text - 1, f)] = '\0';
+    fclose(f);
+    return text;
+}
+
+/* Steps, each with the rock's diameter after it and ! where that is not saved: set, save, undo and redo. A copy is kept of
+ * what is shown for just as long as that is not what is on disk. */
+static void walk(const char *steps)
+{
+    char step[8], diameter[8], copied[64];
+    int n = 0;
+    for (; sscanf(steps, " %7[a-z]:%7[0-9.]%n", step, diameter, &n) == 2; steps += n) {
+        bool unsaved = steps[n] == '!';
+        n += unsaved;
+        if (strcmp(step, "set") == 0)
+            set("rock.diameter_m", diameter);
+        else if (strcmp(step, "save") == 0)
+            save(path);
+        else
+            assert_true(step[0] == 'u' ? ceduo_document_undo(&d) : ceduo_document_redo(&d));
+        snprintf(copied, sizeof copied, "rock: {diameter_m: %s, ", diameter);
+        if (d.file.scene.rock.diameter.mean != atof(diameter) || ceduo_document_unsaved(&d) != unsaved)
+            fail_msg("%g, %d at %s", d.file.scene.rock.diameter.mean, ceduo_document_unsaved(&d), steps);
+        if ((copy_of() != NULL) != unsaved || (unsaved && !strstr(copy_of(), copied)))
+            fail_msg("%s is the copy at %s", copy_of() ? copy_of() : "none", steps);
+    }
+    assert_int_equal(*steps, '\0');
+}
+
+static void expect_in(const char *file, const char *words)
+{
+    if (!strstr(read_file(file), words))
+        fail_msg("%s is missing in\n%s", words, read_file(file));
+}
+
+TEST_WITH(changed_values_keep_comments, set_up, tear_down)
+{
+    open_scene();
+    assert_false(ceduo_document_unsaved(&d));
+    set("rock.diameter_m", "0.75");
+    set("title", "\"Above: the mill\"");
     assert_true(ceduo_document_unsaved(&d));
-    assert_true(ceduo_document_save(&d, path, &anew));
-    assert_false(anew);
-    assert_false(ceduo_document_unsaved(&d));
+    save(path);
     const char *text = read_file("scene.yaml");
     assert_non_null(strstr(text, "# my comment\n"));
     assert_non_null(strstr(text, "title: \"Above: the mill\"   # a title\n"));
     assert_non_null(strstr(text, "rock: {diameter_m: 0.75, density_kg_m3: 2600}\n"));
     assert_non_null(strstr(text, "stand: stand.yaml}   # below the rock\n"));
-    ceduo_document_close(&d);
 }
 
-TEST_WITH(a_changed_stand_starts_from_its_file, set_up, folder_tear_down)
+TEST_WITH(a_changed_stand_starts_from_its_file, set_up, tear_down)
 {
-    struct document d;
-    bool anew;
-    open_scene(&d);
-    set(&d, "forest[0].stand.stools.per_ha", "2500");
+    open_scene();
+    set("forest[0].stand.stools.per_ha", "2500");
     for (int i = 0; i < 2; i++) { /* saving twice says the same */
-        assert_true(ceduo_document_save(&d, path, &anew));
-        assert_false(anew);
+        save(path);
         const char *text = read_file("scene.yaml");
         assert_non_null(strstr(text, "base: stand.yaml"));
         assert_non_null(strstr(text, "# below the rock"));
         assert_non_null(strstr(text, "2500"));
         assert_null(strstr(text, "6000"));
-        set(&d, "rock.diameter_m", "0.6");
+        set("rock.diameter_m", "0.6");
     }
     assert_string_equal(read_file("stand.yaml"), stand);
-    ceduo_document_close(&d);
-    open_scene(&d);
+    open_scene();
     assert_true(d.file.scene.options[0].belts[0].stand.stools_per_ha == 2500);
     assert_true(d.file.scene.options[0].belts[0].stand.spacing == 0.4);
-    ceduo_document_close(&d);
 }
 
 /* What its file does not have at all is added to it as well. */
-TEST_WITH(a_stand_is_given_more, set_up, folder_tear_down)
+TEST_WITH(a_stand_is_given_more, set_up, tear_down)
 {
-    struct document d;
-    bool anew;
-    open_scene(&d);
-    set(&d, "forest[0].stand.species", "fagus-sylvatica");
-    assert_true(ceduo_document_save(&d, path, &anew));
-    assert_non_null(
-        strstr(read_file("scene.yaml"), "stand: {base: stand.yaml, species: fagus-sylvatica}}   # below the rock\n"));
-    ceduo_document_close(&d);
-    open_scene(&d);
+    open_scene();
+    set("forest[0].stand.species", "fagus-sylvatica");
+    save(path);
+    expect_in("scene.yaml", "stand: {base: stand.yaml, species: fagus-sylvatica}}   # below the rock\n");
+    open_scene();
     assert_int_equal(d.file.scene.options[0].belts[0].stand.species, ceduo_species_find("fagus-sylvatica"));
-    ceduo_document_close(&d);
 }
 
 /* A slope has no base: one that is changed is written out, and its file stays. */
-TEST_WITH(a_changed_slope_is_written_out, set_up, folder_tear_down)
+TEST_WITH(a_changed_slope_is_written_out, set_up, tear_down)
 {
     static const char slope[] = "ceduo: slope/1\nvertices_m: [[0, 50], [100, 0]]\nsegments: [{rn: 0.3, rt: 0.8}]\n"
                                 "source: {kind: assumed, text: by hand}\n";
-    struct document d;
-    bool anew;
     write_file("slope.yaml", slope);
     write_file("scene.yaml", "ceduo: scene/1\nrock: {diameter_m: 0.5}\nslope: slope.yaml # mine\ncontrols_m: [90]\n");
-    open_scene(&d);
+    open_scene();
     size_t before = 0, now = 0;
     for (const struct source_note *n = d.file.notes; n; n = n->before)
         before++;
-    set(&d, "rock.diameter_m", "0.6"); /* the slope is as it was made before, and so is what is said of it */
+    set("rock.diameter_m", "0.6"); /* the slope is as it was made before, and so is what is said of it */
     for (const struct source_note *n = d.file.notes; n; n = n->before)
         now++;
     assert_int_equal(now, before);
     assert_true(ceduo_scene_assumes_value(&d.file, "slope.vertices_m"));
-    set(&d, "slope.facets", "both");
-    assert_true(ceduo_document_save(&d, path, &anew));
+    set("slope.facets", "both");
+    save(path);
     assert_string_equal(read_file("slope.yaml"), slope);
     const char *text = read_file("scene.yaml");
     assert_non_null(strstr(text, "facets: both"));
     assert_non_null(strstr(text, "vertices_m: [[0, 50], [100, 0]]"));
     assert_null(strstr(text, "slope.yaml"));
-    ceduo_document_close(&d);
-    open_scene(&d);
+    open_scene();
     assert_true(d.file.scene.slope.facets == CEDUO_BOTH && d.file.scene.slope.vertices == 2);
-    ceduo_document_close(&d);
 }
 
-TEST_WITH(what_is_wrong_changes_nothing, set_up, folder_tear_down)
+TEST_WITH(what_is_wrong_changes_nothing, set_up, tear_down)
 {
-    struct document d;
-    open_scene(&d);
-    refuse(&d, "rock.diameter_m", "-1", "-1 is below 0 m");
-    refuse(&d, "rock.diameter_m", "0,5", "'0,5' is not a number");
-    refuse(&d, "forest[0].to_m", "400", "beyond the slope");
-    refuse(&d, "rock.size", "1", "unknown key");
+    open_scene();
+    refuse("rock.diameter_m", "-1", "-1 is below 0 m");
+    refuse("rock.diameter_m", "0,5", "'0,5' is not a number");
+    refuse("forest[0].to_m", "400", "beyond the slope");
+    refuse("rock.size", "1", "unknown key");
     assert_true(d.file.scene.rock.diameter.mean == 0.5);
     assert_false(ceduo_document_unsaved(&d));
-    ceduo_document_close(&d);
 }
 
-TEST_WITH(undo_and_redo, set_up, folder_tear_down)
+TEST_WITH(undo_and_redo, set_up, tear_down)
 {
-    struct document d;
-    open_scene(&d);
+    open_scene();
     assert_false(ceduo_document_undo(&d));
     for (int i = 1; i <= 100; i++) {
-        char value[16];
-        snprintf(value, sizeof value, "0.%03d", i);
-        set(&d, "rock.diameter_m", value);
+        set_millimetres(i);
     }
     for (int i = 99; i >= 1; i--) {
         assert_true(ceduo_document_undo(&d));
@@ -220,17 +272,13 @@ TEST_WITH(undo_and_redo, set_up, folder_tear_down)
     assert_false(ceduo_document_unsaved(&d));
     assert_true(ceduo_document_redo(&d));
     assert_true(d.file.scene.rock.diameter.mean == 0.001);
-    set(&d, "rock.diameter_m", "0.9");
+    set("rock.diameter_m", "0.9");
     assert_false(ceduo_document_redo(&d));
-    ceduo_document_close(&d);
 }
 
-TEST_WITH(options_belts_and_segments, set_up, folder_tear_down)
+TEST_WITH(options_belts_and_segments, set_up, tear_down)
 {
-    struct document d;
-    struct problems problems = {0};
-    bool anew;
-    open_scene(&d);
+    open_scene();
     assert_true(ceduo_document_copy_option(&d, 0, &problems));
     assert_int_equal(d.file.scene.options_count, 2);
     assert_string_equal(d.file.scene.options[0].name, "current");
@@ -251,16 +299,13 @@ TEST_WITH(options_belts_and_segments, set_up, folder_tear_down)
     const char *const stools_and_shoots[] = {"options[1].forest[0].stand.stools", "options[1].forest[0].stand.shoots"};
     assert_true(ceduo_document_set_all(&d, stools_and_shoots, 2, "shoots", &problems));
     assert_int_equal(d.file.scene.options[1].belts[0].stand.shoots_count, 0);
-    assert_true(ceduo_document_save(&d, path, &anew));
-    ceduo_document_close(&d);
-    open_scene(&d);
+    save_as(path, true);
+    open_scene();
     assert_int_equal(d.file.scene.options_count, 2);
     assert_int_equal(d.file.scene.options[1].belts_count, 2);
     assert_int_equal(d.file.scene.options[1].belts[0].stand.shoots_count, 0);
     assert_int_equal(d.file.scene.options[1].belts[1].stand.shoots_count, 1);
     assert_int_equal(d.file.scene.slope.vertices, 4);
-    ceduo_document_close(&d);
-    ceduo_problems_free(&problems);
 }
 
 static const char of_two[] = "ceduo: scene/1\n"
@@ -279,14 +324,11 @@ static const char of_two[] = "ceduo: scene/1\n"
                              "  - {option: bare, passed: {x_m: 80, count: 8, of: 9}}\n";
 
 /* What was seen through an option's forest, and what is in doubt about it, stay with it once it has another name. */
-TEST_WITH(an_option_takes_along_what_names_it, set_up, folder_tear_down)
+TEST_WITH(an_option_takes_along_what_names_it, set_up, tear_down)
 {
-    struct document d;
-    struct problems problems = {0};
-    bool anew;
     write_file("two.yaml", of_two);
     in_folder(path, "two.yaml");
-    open_scene(&d);
+    open_scene();
     assert_int_equal(d.file.inputs_count, 2);
     assert_true(ceduo_document_rename_option(&d, 1, "2 \"thick]", &problems));
     assert_string_equal(d.file.scene.options[1].name, "2 \"thick]");
@@ -296,95 +338,46 @@ TEST_WITH(an_option_takes_along_what_names_it, set_up, folder_tear_down)
     assert_int_equal(d.file.observations[1].option, 1);
     assert_int_equal(d.file.observations[2].option, 0);
     assert_int_equal(d.file.inputs_count, 2);
-    assert_true(ceduo_document_save(&d, path, &anew));
-    assert_non_null(strstr(read_file("two.yaml"), "options[1].forest[0].to_m"));
+    save(path);
+    expect_in("two.yaml", "options[1].forest[0].to_m");
     assert_true(ceduo_document_undo(&d)); /* one state */
     assert_string_equal(d.file.scene.options[1].name, "thick");
     assert_int_equal(d.file.observations[0].option, 1);
     assert_false(ceduo_document_undo(&d));
     assert_false(ceduo_document_rename_option(&d, 1, "bare", &problems));
     assert_string_equal(d.file.scene.options[1].name, "thick");
-    ceduo_document_close(&d);
-    open_scene(&d);
+    open_scene();
     assert_int_equal(d.file.observations[1].option, 1);
-    ceduo_document_close(&d);
-    ceduo_problems_free(&problems);
-}
-
-static void save(struct document *d, const char *to)
-{
-    bool anew;
-    assert_true(ceduo_document_save(d, to, &anew));
-    assert_false(ceduo_document_unsaved(d));
 }
 
 /* Back to the state on disk is saved, whichever way it is come to; any other state is not. */
-TEST_WITH(undo_leads_back_to_what_is_saved, set_up, folder_tear_down)
+TEST_WITH(undo_leads_back_to_what_is_saved, set_up, tear_down)
 {
-    struct document d;
-    open_scene(&d);
-    set(&d, "rock.diameter_m", "0.6");
-    save(&d, path);
-    set(&d, "rock.diameter_m", "0.7");
-    assert_true(ceduo_document_unsaved(&d));
-    assert_true(ceduo_document_undo(&d));
-    assert_false(ceduo_document_unsaved(&d));
-    assert_true(ceduo_document_undo(&d)); /* before what is on disk */
-    assert_true(ceduo_document_unsaved(&d));
-    assert_true(ceduo_document_redo(&d));
-    assert_false(ceduo_document_unsaved(&d));
-    set(&d, "rock.diameter_m", "0.8"); /* in the place of 0.7: what is saved lies before it */
-    assert_true(ceduo_document_unsaved(&d));
-    assert_true(ceduo_document_undo(&d));
-    assert_false(ceduo_document_unsaved(&d));
-    assert_true(d.file.scene.rock.diameter.mean == 0.6);
-    ceduo_document_close(&d);
+    open_scene();
+    walk("set:0.6! save:0.6 set:0.7! undo:0.6 undo:0.5! redo:0.6 set:0.8! undo:0.6");
 }
 
 /* An edit from before what is saved takes its place: no way leads back to it, though as many steps from the start. */
-TEST_WITH(a_branch_leaves_what_is_saved_behind, set_up, folder_tear_down)
+TEST_WITH(a_branch_leaves_what_is_saved_behind, set_up, tear_down)
 {
-    struct document d;
-    open_scene(&d);
-    set(&d, "rock.diameter_m", "0.6");
-    save(&d, path);
-    assert_true(ceduo_document_undo(&d));
-    set(&d, "rock.diameter_m", "0.7");
-    assert_true(ceduo_document_unsaved(&d));
+    open_scene();
+    walk("set:0.6! save:0.6 undo:0.5! set:0.7!");
     assert_false(ceduo_document_redo(&d));
-    assert_true(ceduo_document_undo(&d));
-    assert_true(ceduo_document_unsaved(&d));
-    assert_true(ceduo_document_redo(&d));
-    set(&d, "rock.diameter_m", "0.8");
-    assert_true(ceduo_document_unsaved(&d));
-    save(&d, path); /* from now on this one is */
-    assert_true(ceduo_document_undo(&d));
-    assert_true(ceduo_document_unsaved(&d));
-    assert_true(ceduo_document_redo(&d));
-    assert_false(ceduo_document_unsaved(&d));
-    ceduo_document_close(&d);
-}
-
-static void set_millimetres(struct document *d, int mm)
-{
-    char value[16];
-    snprintf(value, sizeof value, "0.%03d", mm);
-    set(d, "rock.diameter_m", value);
+    walk("undo:0.5! redo:0.7! set:0.8! save:0.8 undo:0.7! redo:0.8");
 }
 
 /* The oldest states are forgotten, half of them; what is on disk is known again where it is among those that are left. */
-TEST_WITH(history_is_cut, set_up, folder_tear_down)
+TEST_WITH(history_is_cut, set_up, tear_down)
 {
     for (int saved = 0; saved <= 11; saved++) { /* of 12 states: 0 is the file's, 1 to 11 are 0.101 to 0.111 m */
-        struct document d;
         write_file("scene.yaml", scene);
-        open_scene(&d);
+        open_scene();
         for (int i = 1; i <= 11; i++) {
             if (i == 11) /* as if it took up all that history may */
                 d.file.arena.bytes += DOCUMENT_HISTORY_BYTES;
-            set_millimetres(&d, 100 + i);
+            set_millimetres(100 + i);
             if (i == saved)
-                save(&d, path);
+                save(path);
         }
         for (int i = 11; i >= 5; i--) {
             assert_true(d.file.scene.rock.diameter.mean == (100 + i) / 1000.);
@@ -395,87 +388,72 @@ TEST_WITH(history_is_cut, set_up, folder_tear_down)
             assert_true(ceduo_document_redo(&d));
         assert_false(ceduo_document_redo(&d));
         for (int i = 12; i <= 20; i++) /* no more goes until as much again is taken up */
-            set_millimetres(&d, 100 + i);
+            set_millimetres(100 + i);
         for (int i = 19; i >= 5; i--) {
             assert_true(ceduo_document_undo(&d));
             assert_true(d.file.scene.rock.diameter.mean == (100 + i) / 1000.);
             assert_int_equal(ceduo_document_unsaved(&d), i != saved);
         }
         assert_false(ceduo_document_undo(&d));
-        ceduo_document_close(&d);
     }
 }
 
-TEST_WITH(a_changed_value_has_no_source, set_up, folder_tear_down)
+TEST_WITH(a_changed_value_has_no_source, set_up, tear_down)
 {
-    struct document d;
-    bool anew;
     write_file("scene.yaml", "# mine\nceduo: scene/1\nrock: {diameter_m: 0.5}\n"
                              "slope: {vertices_m: [[0, 50], [100, 0]], segments: [{rn: 0.3, rt: 0.8}]}\n"
                              "controls:\n  - x_m: 90\n    accepted_kJ: 50 # a wall\n"
                              "    source: {kind: assumed, text: a guess}\n");
-    open_scene(&d);
+    open_scene();
     assert_true(ceduo_scene_assumes_value(&d.file, "controls[0].accepted_kJ"));
-    set(&d, "controls[0].accepted_kJ", "60");
+    set("controls[0].accepted_kJ", "60");
     assert_false(ceduo_scene_assumes_value(&d.file, "controls[0].accepted_kJ"));
     assert_true(ceduo_scene_assumes_value(&d.file, "controls[0].x_m"));
     assert_true(ceduo_document_undo(&d));
     assert_true(ceduo_scene_assumes_value(&d.file, "controls[0].accepted_kJ"));
     assert_true(ceduo_document_redo(&d));
-    assert_true(ceduo_document_save(&d, path, &anew));
-    assert_false(anew);
-    assert_non_null(strstr(read_file("scene.yaml"), "    accepted_kJ: 60 # a wall\n"
-                                                    "    source: {kind: assumed, text: a guess, except: [accepted_kJ]}\n"));
-    ceduo_document_close(&d);
-    open_scene(&d); /* the file says so, too */
+    save(path);
+    expect_in("scene.yaml", "    accepted_kJ: 60 # a wall\n"
+                            "    source: {kind: assumed, text: a guess, except: [accepted_kJ]}\n");
+    open_scene(); /* the file says so, too */
     assert_false(ceduo_scene_assumes_value(&d.file, "controls[0].accepted_kJ"));
     assert_true(ceduo_scene_assumes_value(&d.file, "controls[0].x_m"));
-    ceduo_document_close(&d);
 }
 
 /* A source that stands in another file stays there: what is saved of the stand says what it is not of. */
-TEST_WITH(a_changed_value_of_another_file_has_no_source, set_up, folder_tear_down)
+TEST_WITH(a_changed_value_of_another_file_has_no_source, set_up, tear_down)
 {
-    struct document d;
-    struct text with_source = {0};
+    LOCAL_TEXT(with_source);
     ceduo_text_format(&with_source, "%ssource: {kind: assumed, text: a guess}\n", stand);
     write_file("stand.yaml", with_source.bytes);
-    open_scene(&d);
+    open_scene();
     const char *const of_it = "forest[0].stand.stools.spacing_m", *const changed = "forest[0].stand.stools.per_ha";
-    set(&d, changed, "2500");
+    set(changed, "2500");
     assert_false(ceduo_scene_assumes_value(&d.file, changed));
-    save(&d, path);
+    save(path);
     assert_string_equal(read_file("stand.yaml"), with_source.bytes);
-    assert_non_null(strstr(read_file("scene.yaml"), "source: {kind: assumed, text: a guess, except: [stools.per_ha]}"));
-    ceduo_document_close(&d);
-    open_scene(&d);
+    expect_in("scene.yaml", "source: {kind: assumed, text: a guess, except: [stools.per_ha]}");
+    open_scene();
     assert_false(ceduo_scene_assumes_value(&d.file, changed));
     assert_true(ceduo_scene_assumes_value(&d.file, of_it));
-    ceduo_document_close(&d);
-    ceduo_text_free(&with_source);
 }
 
-TEST_WITH(what_only_moves_keeps_its_source, set_up, folder_tear_down)
+TEST_WITH(what_only_moves_keeps_its_source, set_up, tear_down)
 {
-    struct document d;
-    struct problems problems = {0};
     write_file("scene.yaml", "ceduo: scene/1\nsource: {kind: assumed, text: all}\nrock: {diameter_m: 0.5}\n"
                              "slope: {vertices_m: [[0, 50], [100, 0]], segments: [{rn: 0.3, rt: 0.8}]}\n"
                              "controls: [{x_m: 90}]\noptions: [{name: a, forest: [{from_m: 10, to_m: 40, stand: stand.yaml}]}, "
                              "{name: b}]\n");
-    open_scene(&d);
+    open_scene();
     assert_true(ceduo_document_copy_option(&d, 0, &problems));
     assert_true(ceduo_document_move(&d, "options", 2, 0, &problems));
     assert_true(ceduo_document_delete(&d, "options[1]", &problems));
     assert_string_equal(d.file.scene.options[1].name, "a (2)");
     assert_true(ceduo_scene_assumes_value(&d.file, "options[1].forest[0].to_m"));
     assert_null(ceduo_document_node(&d, "source.except"));
-    set(&d, "options[1].forest[0].to_m", "45");
+    set("options[1].forest[0].to_m", "45");
     assert_false(ceduo_scene_assumes_value(&d.file, "options[1].forest[0].to_m"));
     assert_non_null(ceduo_document_node(&d, "source.except"));
-    ceduo_document_forget(&d);
-    ceduo_document_close(&d);
-    ceduo_problems_free(&problems);
 }
 
 /* The copy of a scene whose process has ended, and in `file` where it lies; NULL: none. To be freed. */
@@ -495,23 +473,21 @@ static char *left_of(const char *of, char file[400])
     return text;
 }
 
-TEST_WITH(unsaved_work_is_found_again, set_up, folder_tear_down)
+TEST_WITH(unsaved_work_is_found_again, set_up, tear_down)
 {
-    struct document d;
-    struct problems problems = {0};
     char file[400];
     assert_null(left_of(path, file));
     pid_t child = fork();
     if (child == 0) { /* a program that ends without a word */
-        open_scene(&d);
-        set(&d, "rock.diameter_m", "0.123");
+        open_scene();
+        set("rock.diameter_m", "0.123");
         _exit(0);
     }
     int status;
     assert_true(waitpid(child, &status, 0) == child && status == 0);
     char *text = left_of(path, file);
     assert_non_null(text);
-    open_scene(&d);
+    open_scene();
     assert_true(ceduo_document_recover(&d, text, &problems));
     assert_true(d.file.scene.rock.diameter.mean == 0.123);
     assert_true(ceduo_document_undo(&d));
@@ -520,12 +496,10 @@ TEST_WITH(unsaved_work_is_found_again, set_up, folder_tear_down)
     assert_false(ceduo_document_recover(&d, "[a, list]", &problems)); /* which is no scene */
     assert_non_null(strstr(problems.text.bytes, "expected a mapping, not a list"));
     assert_true(d.file.scene.rock.diameter.mean == 0.5);
-    ceduo_document_close(&d);
-    ceduo_problems_free(&problems);
 }
 
 /* What is left of a copy whose writer was killed is not offered as work: it may be half of it. */
-TEST_WITH(half_a_copy_is_taken_away, set_up, folder_tear_down)
+TEST_WITH(half_a_copy_is_taken_away, set_up, tear_down)
 {
     char *own = ceduo_recovery_path(path), file[400], names[2][400];
     assert_non_null(own);
@@ -545,7 +519,7 @@ TEST_WITH(half_a_copy_is_taken_away, set_up, folder_tear_down)
 }
 
 /* In whatever order the folder has them. */
-TEST_WITH(the_newest_copies_come_first, set_up, folder_tear_down)
+TEST_WITH(the_newest_copies_come_first, set_up, tear_down)
 {
     static const time_t when[] = {3000, 1000, 5000, 2000, 4000};
     char *own = ceduo_recovery_path(path);
@@ -568,71 +542,24 @@ TEST_WITH(the_newest_copies_come_first, set_up, folder_tear_down)
     free(own);
 }
 
-/* The copy that is kept of unsaved work; NULL: there is none. */
-static const char *copy_of(const struct document *d)
-{
-    static char text[4096];
-    FILE *f = fopen(d->recovery, "r");
-    if (!f)
-        return NULL;
-    text[fread(text, 1, sizeof text - 1, f)] = '\0';
-    fclose(f);
-    return text;
-}
-
-static void expect_copy(const struct document *d, const char *diameter)
-{
-    char wanted[64];
-    const char *text = copy_of(d);
-    snprintf(wanted, sizeof wanted, "rock: {diameter_m: %s, ", diameter);
-    assert_non_null(text);
-    if (!strstr(text, wanted))
-        fail_msg("%s is missing in\n%s", wanted, text);
-}
-
 /* It holds what is shown, after an undo too, and is there just as long as that is not what is on disk. */
-TEST_WITH(the_copy_follows_undo, set_up, folder_tear_down)
+TEST_WITH(the_copy_follows_undo, set_up, tear_down)
 {
-    struct document d;
-    open_scene(&d);
-    assert_null(copy_of(&d));
-    set(&d, "rock.diameter_m", "0.6");
-    set(&d, "rock.diameter_m", "0.7");
-    expect_copy(&d, "0.7");
-    assert_true(ceduo_document_undo(&d));
-    expect_copy(&d, "0.6");
-    assert_true(ceduo_document_redo(&d));
-    expect_copy(&d, "0.7");
-    assert_true(ceduo_document_undo(&d) && ceduo_document_undo(&d));
-    assert_null(copy_of(&d));
-    assert_true(ceduo_document_redo(&d));
-    expect_copy(&d, "0.6");
-    save(&d, path);
-    assert_null(copy_of(&d));
-    assert_true(ceduo_document_redo(&d));
-    expect_copy(&d, "0.7");
-    assert_true(ceduo_document_undo(&d));
-    assert_null(copy_of(&d));
-    assert_true(ceduo_document_undo(&d)); /* what was on disk is unsaved now */
-    expect_copy(&d, "0.5");
-    set(&d, "rock.diameter_m", "0.8");
-    expect_copy(&d, "0.8");
-    ceduo_document_forget(&d);
-    ceduo_document_close(&d);
+    open_scene();
+    assert_null(copy_of());
+    walk("set:0.6! set:0.7! undo:0.6! redo:0.7! undo:0.6! undo:0.5 redo:0.6! save:0.6 redo:0.7! undo:0.6 undo:0.5! set:0.8!");
 }
 
-TEST_WITH(unsaved_work_belongs_to_the_name_saved_under, set_up, folder_tear_down)
+TEST_WITH(unsaved_work_belongs_to_the_name_saved_under, set_up, tear_down)
 {
-    struct document d;
     char file[400], other[256];
     snprintf(other, sizeof other, "%.240s-other", path);
     pid_t child = fork();
     if (child == 0) {
-        bool anew;
-        open_scene(&d);
-        set(&d, "rock.diameter_m", "0.2");
-        bool saved = ceduo_document_save(&d, other, &anew);
-        set(&d, "rock.diameter_m", "0.3");
+        open_scene();
+        set("rock.diameter_m", "0.2");
+        bool anew, saved = ceduo_document_save(&d, other, &anew);
+        set("rock.diameter_m", "0.3");
         _exit(!saved);
     }
     int status;
@@ -645,17 +572,14 @@ TEST_WITH(unsaved_work_belongs_to_the_name_saved_under, set_up, folder_tear_down
     free(text);
 }
 
-TEST_WITH(a_file_changed_on_disk_is_noticed, set_up, folder_tear_down)
+TEST_WITH(a_file_changed_on_disk_is_noticed, set_up, tear_down)
 {
-    struct document d;
-    bool anew;
-    open_scene(&d);
+    open_scene();
     assert_false(ceduo_document_changed_on_disk(&d));
     write_file("scene.yaml", "# somebody else\n");
     assert_true(ceduo_document_changed_on_disk(&d));
-    assert_true(ceduo_document_save(&d, path, &anew));
+    save(path);
     assert_false(ceduo_document_changed_on_disk(&d));
-    ceduo_document_close(&d);
 }
 
 static void set_time(const char *file, time_t seconds, long nanoseconds)
@@ -665,13 +589,12 @@ static void set_time(const char *file, time_t seconds, long nanoseconds)
 }
 
 /* Its length, the second and the fraction of it in which it was written: each tells by itself. */
-TEST_WITH(a_file_of_the_same_length_is_noticed, set_up, folder_tear_down)
+TEST_WITH(a_file_of_the_same_length_is_noticed, set_up, tear_down)
 {
-    struct document d;
     char other[sizeof scene + 1];
     strcpy(other, scene);
     set_time(path, 1000000000, 500000000);
-    open_scene(&d);
+    open_scene();
     memcpy(strstr(other, "0.5"), "0.9", 3);
     write_file("scene.yaml", other);
     set_time(path, 1000000000, 500000001);
@@ -687,7 +610,6 @@ TEST_WITH(a_file_of_the_same_length_is_noticed, set_up, folder_tear_down)
     assert_false(ceduo_document_changed_on_disk(&d));
     assert_int_equal(unlink(path), 0);
     assert_true(ceduo_document_changed_on_disk(&d));
-    ceduo_document_close(&d);
 }
 
 /* ---- saved elsewhere ---- */
@@ -716,129 +638,114 @@ static void scatter(const char *slope_reference)
 }
 
 /* What the files lead to, whatever else was changed. */
-static void expect_files(const struct document *d)
+static void expect_files(void)
 {
-    const struct ceduo_option *o = &d->file.scene.options[0];
-    assert_int_equal(d->file.scene.slope.vertices, 3);
-    assert_true(d->file.scene.slope.z[1] == -30);
+    const struct ceduo_option *o = &d.file.scene.options[0];
+    assert_int_equal(d.file.scene.slope.vertices, 3);
+    assert_true(d.file.scene.slope.z[1] == -30);
     assert_true(o->belts[0].stand.stools_per_ha == 2000 && o->belts[1].stand.stools_per_ha == 2000);
     assert_string_equal(o->belts[1].name, "V");
     assert_string_equal(o->belts[2].name, "ADS 1");
 }
 
-static void reopen(struct document *d, const char *at)
+static void reopen(const char *at)
 {
-    ceduo_document_close(d);
     strcpy(path, at);
-    open_scene(d);
-    expect_files(d);
+    open_scene();
+    expect_files();
 }
 
 static const char *const slopes[] = {"../slopes/line.yaml", "../slopes/line.csv",
                                      "{csv: ../slopes/line.csv, segments: [{rn: 0.3, rt: 0.8}]}", "../slopes/by-csv.yaml"};
 
-TEST_WITH(references_lead_to_the_same_files_from_elsewhere, set_up, folder_tear_down)
+TEST_WITH(references_lead_to_the_same_files_from_elsewhere, set_up, tear_down)
 {
     for (size_t i = 0; i < sizeof slopes / sizeof slopes[0]; i++) {
-        struct document d;
         char there[256], text[4096], wanted[256];
         if (i > 0)
             assert_true(folder_tear_down(NULL) == 0 && set_up(NULL) == 0);
         scatter(slopes[i]);
-        open_scene(&d);
+        open_scene();
         in_folder(there, "b/scenes/t.yaml");
-        save(&d, there);
+        save(there);
         strcpy(text, read_file("b/scenes/t.yaml"));
         assert_non_null(strstr(text, "# mine\n"));
         assert_null(strstr(text, "../"));
         assert_non_null(strstr(text, "stand: ads-1}")); /* the same from everywhere */
         snprintf(wanted, sizeof wanted, "stand: {base: %s/a/stands/wood.yaml, name: V}", folder);
         assert_non_null(strstr(text, wanted));
-        save(&d, there); /* once more, though what was read still says ../ */
+        save(there); /* once more, though what was read still says ../ */
         assert_string_equal(read_file("b/scenes/t.yaml"), text);
-        set(&d, "rock.diameter_m", "0.75");
-        save(&d, there);
-        reopen(&d, there);
+        set("rock.diameter_m", "0.75");
+        save(there);
+        reopen(there);
         assert_true(d.file.scene.rock.diameter.mean == 0.75);
-        ceduo_document_close(&d);
     }
 }
 
 /* Beside the old one they stay as they were written. */
-TEST_WITH(references_stay_where_they_lead_to_the_same, set_up, folder_tear_down)
+TEST_WITH(references_stay_where_they_lead_to_the_same, set_up, tear_down)
 {
-    struct document d;
     char there[256], text[4096];
     scatter(slopes[0]);
-    open_scene(&d);
+    open_scene();
     in_folder(there, "a/more/t.yaml");
-    save(&d, there);
+    save(there);
     strcpy(text, read_file("a/more/t.yaml"));
     assert_string_equal(text, read_file("a/scenes/s.yaml"));
-    reopen(&d, there);
-    ceduo_document_close(&d);
+    reopen(there);
 }
 
 /* The slope's file names the profile that lies beside it: written into the scene it is another name. */
-TEST_WITH(a_changed_slope_keeps_its_profile, set_up, folder_tear_down)
+TEST_WITH(a_changed_slope_keeps_its_profile, set_up, tear_down)
 {
-    struct document d;
     char here[128];
     scatter("../slopes/by-csv.yaml");
-    open_scene(&d);
-    set(&d, "slope.facets", "both");
+    open_scene();
+    set("slope.facets", "both");
     strcpy(here, path);
-    save(&d, here);
-    reopen(&d, here);
+    save(here);
+    reopen(here);
     assert_int_equal(d.file.scene.slope.facets, CEDUO_BOTH);
-    ceduo_document_close(&d);
 }
 
 /* A profile that is typed in is one beside the scene, as a stand is. */
-TEST_WITH(a_typed_profile_lies_beside_the_scene, set_up, folder_tear_down)
+TEST_WITH(a_typed_profile_lies_beside_the_scene, set_up, tear_down)
 {
-    struct document d;
     char there[256];
     scatter(slopes[2]);
     write_file("a/slopes/low.csv", "distance,elevation\n0,40\n40,10\n80,5\n100,0\n");
     write_file("a/stands/low.yaml", "ceduo: stand/1\ntrees: [{per_ha: 9, dbh_m: 0.2, height_m: 12}]\n");
-    open_scene(&d);
-    set(&d, "slope.csv", "../slopes/low.csv");
+    open_scene();
+    set("slope.csv", "../slopes/low.csv");
     assert_int_equal(d.file.scene.slope.vertices, 4);
-    set(&d, "slope", "../slopes/line.csv");
+    set("slope", "../slopes/line.csv");
     assert_int_equal(d.file.scene.slope.vertices, 3);
-    set(&d, "slope", "{csv: ../slopes/low.csv, segments: [{rn: 0.3, rt: 0.8}]}");
-    set(&d, "forest[0].stand", "../stands/low.yaml");
+    set("slope", "{csv: ../slopes/low.csv, segments: [{rn: 0.3, rt: 0.8}]}");
+    set("forest[0].stand", "../stands/low.yaml");
     in_folder(there, "b/scenes/t.yaml");
-    save(&d, there);
-    ceduo_document_close(&d);
+    save(there);
     strcpy(path, there);
-    open_scene(&d);
+    open_scene();
     assert_int_equal(d.file.scene.slope.vertices, 4);
     assert_true(d.file.scene.options[0].belts[0].stand.trees[0].per_ha == 9);
-    ceduo_document_close(&d);
 }
 
 /* Work on a scene that was saved elsewhere can be taken up again there. */
-TEST_WITH(the_copy_leads_to_the_same_files, set_up, folder_tear_down)
+TEST_WITH(the_copy_leads_to_the_same_files, set_up, tear_down)
 {
-    struct document d;
-    struct problems problems = {0};
     char there[256], text[4096];
     scatter("../slopes/by-csv.yaml");
-    open_scene(&d);
+    open_scene();
     in_folder(there, "b/scenes/t.yaml");
-    save(&d, there);
-    set(&d, "slope.facets", "both");
-    set(&d, "forest[0].stand.trees[0].per_ha", "50");
-    assert_non_null(copy_of(&d));
-    strcpy(text, copy_of(&d));
+    save(there);
+    set("slope.facets", "both");
+    set("forest[0].stand.trees[0].per_ha", "50");
+    assert_non_null(copy_of());
+    strcpy(text, copy_of());
     ceduo_document_forget(&d);
-    reopen(&d, there);
-    if (!ceduo_document_recover(&d, text, &problems))
-        fail_msg("%s", problems.text.bytes);
-    expect_files(&d);
+    reopen(there);
+    must(ceduo_document_recover(&d, text, &problems));
+    expect_files();
     assert_true(d.file.scene.options[0].belts[0].stand.trees[0].per_ha == 50);
-    ceduo_document_forget(&d);
-    ceduo_document_close(&d);
 }

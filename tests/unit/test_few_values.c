@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Figures of few values, of none, and of values beyond every bin; a search for a value that is given up. */
 #include "expect.h"
+#include "local.h"
 
 #include <math.h>
 #include <stdatomic.h>
@@ -122,8 +123,8 @@ TEST(values_beyond_every_bin)
 /* The highest and fastest of all: its size is kept, whatever its bin. */
 TEST(cells_take_any_value)
 {
-    struct envelope_cell *cell = calloc(1, sizeof *cell);
-    struct envelopes cells;
+    LOCAL_BYTES struct envelope_cell *cell = calloc(1, sizeof *cell);
+    LOCAL_BY(ceduo_envelopes_release) struct envelopes cells;
     struct ceduo_envelope e;
     assert_non_null(cell);
     assert_true(ceduo_envelopes_init(&cells, 1, 1));
@@ -131,7 +132,6 @@ TEST(cells_take_any_value)
     envelope_note(&row, 0, (double[]){1e200, 1e-200, 1e300});
     ceduo_envelopes_end(&cells, 0, 1);
     ceduo_envelopes_merge(cell, &cells);
-    ceduo_envelopes_release(&cells);
     ceduo_envelope_read(cell, &e);
     assert_int_equal(e.passed, 1);
     EXPECT(e.speed.max, ==, 1e200);
@@ -140,7 +140,6 @@ TEST(cells_take_any_value)
     EXPECT(e.speed.p50, >, 1e4);
     EXPECT(e.energy.p50, >, 1e9);
     EXPECT(e.height.p50, ==, 0);
-    free(cell);
 }
 
 /* ---- looking for a value that is given up ---- */

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Files: where they are found, what is read of them, how they are written and what is left beside them. */
 #include "expect.h"
+#include "local.h"
 
 #include "folder.h"
 
@@ -73,7 +74,7 @@ TEST_WITH(folders_of_the_environment, folder_set_up_profiles, folder_tear_down)
     } rows[] = {{folder, home, own}, {file, home, NULL}, {NULL, home, path}, {"relative", home, path},
                 {"", home, path},    {NULL, "", NULL},   {NULL, NULL, NULL}};
     for (size_t i = 0; i < LENGTH(rows); i++) {
-        struct arena arena = {0};
+        LOCAL_BY(ceduo_arena_free) struct arena arena = {0};
         rows[i].data ? setenv("XDG_DATA_HOME", rows[i].data, 1) : unsetenv("XDG_DATA_HOME");
         rows[i].home ? setenv("HOME", rows[i].home, 1) : unsetenv("HOME");
         const char *const *folders = ceduo_file_folders(&arena);
@@ -81,14 +82,13 @@ TEST_WITH(folders_of_the_environment, folder_set_up_profiles, folder_tear_down)
         assert_int_equal(is_first, rows[i].first != NULL);
         for (size_t k = is_first; folders[k]; k++)
             assert_null(strstr(folders[k], folder));
-        ceduo_arena_free(&arena);
     }
     setenv("XDG_DATA_HOME", folder, 1);
 }
 
 TEST_WITH(folders_are_listed, folder_set_up_profiles, folder_tear_down)
 {
-    struct arena arena = {0};
+    LOCAL_BY(ceduo_arena_free) struct arena arena = {0};
     char own[256];
     in_folder(own, "ceduo");
     size_t n = 1;
@@ -115,7 +115,6 @@ TEST_WITH(folders_are_listed, folder_set_up_profiles, folder_tear_down)
     assert_int_equal(n, 108);
     for (size_t i = 8; i < n; i++)
         assert_int_equal(atoi(list[i] + 1), (int)i - 8);
-    ceduo_arena_free(&arena);
 }
 
 static int descriptors(void)
@@ -147,16 +146,14 @@ static char told[400];
 /* What a file holds; where it cannot be read, what is told is in `told`. */
 static bool take(const char *path, struct text *text, size_t most)
 {
-    struct arena arena = {0};
-    struct problems problems = {0};
+    LOCAL_BY(ceduo_arena_free) struct arena arena = {0};
+    LOCAL_BY(ceduo_problems_free) struct problems problems = {0};
     const struct source *source = ceduo_file_read(&arena, path, most, &problems);
     *text = (struct text){0};
     if (source)
         ceduo_text_add(text, source->bytes, source->length);
     snprintf(told, sizeof told, "%s", ceduo_text_string(&problems.text));
     assert_ptr_equal(arena.sources, source);
-    ceduo_problems_free(&problems);
-    ceduo_arena_free(&arena);
     return source != NULL;
 }
 
@@ -312,7 +309,7 @@ static void write_to_pipe(int signal)
 TEST(an_interrupted_reader_goes_on)
 {
     int ends[2], was = dup(STDIN_FILENO);
-    struct text text = {0};
+    LOCAL_TEXT(text);
     assert_int_equal(pipe(ends), 0);
     assert_int_equal(dup2(ends[0], STDIN_FILENO), STDIN_FILENO);
     pipe_in = ends[1];
@@ -322,7 +319,6 @@ TEST(an_interrupted_reader_goes_on)
     assert_int_equal(setitimer(ITIMER_REAL, &soon, NULL), 0);
     assert_true(take("-", &text, 100));
     assert_string_equal(text.bytes, "late");
-    ceduo_text_free(&text);
     close(ends[0]);
     dup2(was, STDIN_FILENO);
     close(was);

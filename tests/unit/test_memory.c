@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Runs and what stands on them without memory. */
+#include "local.h"
 #include "unit/failing.h"
 
 #include <math.h>
@@ -184,8 +185,8 @@ static bool question(void)
     stand->cutting = (struct ceduo_cutting){.rotation = 20, .stay_count = 1, .stay_per_ha = &stay};
     site.belts[0].cut_year = 2;
     struct ceduo_question q = ceduo_question_default(&site.scene);
-    struct ceduo_pool *pool = NULL;
-    struct ceduo_answer answer;
+    LOCAL(ceduo_pool, pool) = NULL;
+    LOCAL_BY(ceduo_answer_release) struct ceduo_answer answer;
     q.run = def_of(false, CEDUO_EXACT_BYTES);
     q.rocks = 30;
     q.tolerance = 1;
@@ -193,7 +194,7 @@ static bool question(void)
     q.window = (struct ceduo_window){.last = 4, .step = 2};
     q.block_rocks = 20;
     enum ceduo_status status = ceduo_ask(&q, &pool, &answer);
-    struct ceduo_verdict verdict = {0};
+    LOCAL_BY(ceduo_verdict_release) struct ceduo_verdict verdict = {0};
     if (status == CEDUO_OK)
         turn(answer.result);
     if (status == CEDUO_OK)
@@ -210,9 +211,6 @@ static bool question(void)
             add(&answer.blocks[i].arrivals.exceed_hi, sizeof answer.blocks[i].arrivals.exceed_hi);
         }
     }
-    ceduo_verdict_release(&verdict);
-    ceduo_answer_release(&answer);
-    ceduo_pool_free(pool);
     assert_true(status == CEDUO_OK || status == CEDUO_NO_MEMORY);
     return status == CEDUO_OK;
 }
@@ -226,9 +224,9 @@ static bool years_of_blocks(void)
     site.scene.blocks = &blocks;
     site.scene.blocks_count = 1;
     struct ceduo_run_def def = def_of(false, CEDUO_EXACT_BYTES);
-    struct ceduo_pool *pool = NULL;
-    struct ceduo_years *years = NULL;
-    struct ceduo_simulated bare = {0};
+    LOCAL(ceduo_pool, pool) = NULL;
+    LOCAL(ceduo_years, years) = NULL;
+    LOCAL_BY(ceduo_simulated_free) struct ceduo_simulated bare = {0};
     struct ceduo_run *run;
     enum ceduo_status status = ceduo_pool_create(&def, &pool);
     if (status == CEDUO_OK)
@@ -244,9 +242,6 @@ static bool years_of_blocks(void)
         assert_true(s.exceed.se > 0);
         add(&s.exceed, sizeof s.exceed);
     }
-    ceduo_simulated_free(&bare);
-    ceduo_years_free(years);
-    ceduo_pool_free(pool);
     assert_true(status == CEDUO_OK || status == CEDUO_NO_MEMORY);
     return status == CEDUO_OK;
 }
@@ -254,7 +249,7 @@ static bool years_of_blocks(void)
 /* The question of 30 rocks, answered. */
 static bool ask(struct ceduo_question q)
 {
-    struct ceduo_answer answer;
+    LOCAL_BY(ceduo_answer_release) struct ceduo_answer answer;
     q.rocks = 30;
     enum ceduo_status status = ceduo_ask(&q, NULL, &answer);
     assert_true(status == CEDUO_OK || status == CEDUO_NO_MEMORY);
@@ -265,7 +260,6 @@ static bool ask(struct ceduo_question q)
         add(&option->wooded.arrivals[0], offsetof(struct ceduo_arrivals, exact));
         add(&option->controls[0].residual, sizeof option->controls[0].residual);
     }
-    ceduo_answer_release(&answer);
     return status == CEDUO_OK;
 }
 
@@ -381,7 +375,7 @@ static bool copy_belts(void)
 {
     enum { MANY = 300 };
     static struct ceduo_belt belts[MANY];
-    struct input_scene copy;
+    LOCAL_BY(ceduo_inputs_release) struct input_scene copy;
     init(CEDUO_STEMS, CEDUO_LAW_LUMPED);
     for (size_t i = 0; i < MANY; i++)
         belts[i] = site.belts[0];
@@ -392,7 +386,6 @@ static bool copy_belts(void)
         assert_ptr_not_equal(copy.scene.options[0].belts[MANY - 1].stand.shoots, belts[0].stand.shoots);
         add(&copy.scene.options[0].belts[MANY - 1].to, sizeof belts[0].to);
     }
-    ceduo_inputs_release(&copy);
     assert_true(status == CEDUO_OK || status == CEDUO_NO_MEMORY);
     return status == CEDUO_OK;
 }
@@ -419,7 +412,7 @@ static bool assess(void)
     const struct ceduo_simulated flown[2] = {{.rocks = 10, .controls = 1, .arrivals = &bare},
                                              {.rocks = 10, .controls = 1, .arrivals = &wooded}};
     const struct ceduo_difference difference = {.reach_probability = {-.6, .1}};
-    struct ceduo_result *result;
+    LOCAL(ceduo_result, result);
     enum ceduo_status status = ceduo_result_assess(&site.scene, &flown[0], &(const struct ceduo_simulated *){&flown[1]},
                                                    &difference, &(const struct ceduo_other_energy){0}, &result);
     assert_true(status == CEDUO_OK || status == CEDUO_NO_MEMORY);
@@ -429,7 +422,6 @@ static bool assess(void)
         assert_int_equal(ceduo_result_wooded(result, 0, 0)->reached, 4);
         add(&result->options[0].stands[0].adc_m, sizeof(double));
     }
-    ceduo_result_free(result);
     return status == CEDUO_OK;
 }
 
@@ -439,14 +431,13 @@ static bool assess_index(void)
     init(CEDUO_INDEX, CEDUO_LAW_LUMPED);
     static struct ceduo_arrivals bare = {.released = 10, .reached = 10};
     const struct ceduo_simulated flown = {.rocks = 10, .controls = 1, .arrivals = &bare};
-    struct ceduo_result *result;
+    LOCAL(ceduo_result, result);
     enum ceduo_status status = ceduo_result_assess(&site.scene, &flown, NULL, NULL, NULL, &result);
     assert_true(status == CEDUO_OK || status == CEDUO_NO_MEMORY);
     if (status == CEDUO_OK) {
         assert_null(ceduo_result_wooded(result, 0, 0));
         add(&result->options[0].controls[0].dissipated, sizeof(double));
     }
-    ceduo_result_free(result);
     return status == CEDUO_OK;
 }
 
@@ -486,7 +477,7 @@ static bool follow_roll(void)
 static bool record_roll(void)
 {
     make_roll();
-    struct ceduo_record record;
+    LOCAL_BY(ceduo_record_release) struct ceduo_record record;
     enum ceduo_status status = ceduo_record(
         &(struct ceduo_record_def){.scene = &site.scene, .option = &site.option, .rocks = 1, .blows = true}, &record);
     assert_true(status == CEDUO_OK || status == CEDUO_NO_MEMORY);
@@ -494,7 +485,6 @@ static bool record_roll(void)
         assert_true(record.blows_count > 100);
         add(&record.blows_count, sizeof record.blows_count);
     }
-    ceduo_record_release(&record);
     return status == CEDUO_OK;
 }
 

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Files and documents without memory. */
+#include "local.h"
 #include "unit/failing.h"
 
 #include <unistd.h>
@@ -163,13 +164,12 @@ __attribute__((format(printf, 2, 3))) static const char *format_in(struct arena 
 /* Into an arena that has no page yet. */
 static bool format_text(void)
 {
-    struct arena arena = {0};
+    LOCAL_BY(ceduo_arena_free) struct arena arena = {0};
     const char *text = format_in(&arena, "%s[%d]", "forest", 7);
     bool good = text;
     assert_int_equal(arena.failed, !good);
     if (good)
         assert_string_equal(text, "forest[7]");
-    ceduo_arena_free(&arena);
     return good;
 }
 
@@ -181,9 +181,9 @@ static bool read_scene(void)
     static const char *sets[] = {"forest[1].stand.stools.spacing_m=0.5", "rock.density_kg_m3.spread=10",
                                  "rock.diameter_m.mean=0.6", "release.vx_m_s={mean: 2, spread: 0.5}",
                                  "controls[0].accepted_kJ=60"};
-    struct scene_file file;
-    struct problems problems = {0};
-    struct text text = {0};
+    LOCAL_BY(ceduo_scene_release) struct scene_file file;
+    LOCAL_BY(ceduo_problems_free) struct problems problems = {0};
+    LOCAL_TEXT(text);
     bool good = ceduo_scene_read(&file, scene_path, sets, 5, &problems);
     if (good) {
         uint64_t key = ceduo_scene_key(&file.scene);
@@ -195,9 +195,6 @@ static bool read_scene(void)
     } else {
         assert_true(problems.memory);
     }
-    ceduo_text_free(&text);
-    ceduo_problems_free(&problems);
-    ceduo_scene_release(&file);
     return good;
 }
 
@@ -206,16 +203,14 @@ static bool read_text(void)
     static const char text[] = "ceduo: scene/1\nrock: {diameter_m: 1}\ncontrols_m: [5]\n"
                                "slope: {vertices_m: [[0, 9], [9, 0]], segments: [{rn: 0.3, rt: 0.8}]}\n";
     ceduo_text_lost();
-    struct scene_file file;
-    struct problems problems = {0};
+    LOCAL_BY(ceduo_scene_release) struct scene_file file;
+    LOCAL_BY(ceduo_problems_free) struct problems problems = {0};
     bool good = ceduo_scene_read_text(&file, "scene", text, &problems);
     assert_true(good || problems.memory);
     if (good) {
         uint64_t key = ceduo_scene_key(&file.scene);
         add(&key, sizeof key);
     }
-    ceduo_problems_free(&problems);
-    ceduo_scene_release(&file);
     return good;
 }
 
@@ -223,9 +218,9 @@ static bool read_text(void)
 static bool read_file(const char *path)
 {
     ceduo_text_lost();
-    struct scene_file file;
+    LOCAL_BY(ceduo_scene_release) struct scene_file file;
     struct scene_inputs inputs;
-    struct problems problems = {0};
+    LOCAL_BY(ceduo_problems_free) struct problems problems = {0};
     bool good = ceduo_scene_read(&file, path, NULL, 0, &problems);
     assert_true(good || problems.memory);
     good = good && ceduo_inputs_of(&file, &inputs);
@@ -240,8 +235,6 @@ static bool read_file(const char *path)
         add(o->name, strlen(o->name));
         add(o->values ? o->values : &o->mean, sizeof(double));
     }
-    ceduo_problems_free(&problems);
-    ceduo_scene_release(&file);
     return good && !ceduo_text_lost();
 }
 
@@ -268,17 +261,14 @@ static bool read_doubted(void)
 static bool read_survey(void)
 {
     ceduo_text_lost();
-    struct arena arena = {0};
-    struct problems problems = {0};
+    LOCAL_BY(ceduo_arena_free) struct arena arena = {0};
+    LOCAL_BY(ceduo_problems_free) struct problems problems = {0};
     struct survey_file file;
-    struct text yaml = {0};
+    LOCAL_TEXT(yaml);
     bool good = ceduo_survey_read(&file, &arena, survey_path, &problems) && ceduo_survey_stand(&file, &yaml, &problems);
     assert_true(good || problems.memory);
     if (good)
         add_text(&yaml);
-    ceduo_text_free(&yaml);
-    ceduo_problems_free(&problems);
-    ceduo_arena_free(&arena);
     return good && !ceduo_text_lost();
 }
 
@@ -286,7 +276,7 @@ static bool read_survey(void)
 static bool read_wrong(const char *path, const char *const *sets, size_t n)
 {
     ceduo_text_lost();
-    struct scene_file file;
+    LOCAL_BY(ceduo_scene_release) struct scene_file file;
     struct problems problems = {0};
     assert_false(ceduo_scene_read(&file, path, sets, n, &problems));
     ceduo_problems_close(&problems);
@@ -294,7 +284,6 @@ static bool read_wrong(const char *path, const char *const *sets, size_t n)
     if (good)
         add_text(&problems.text);
     ceduo_problems_free(&problems);
-    ceduo_scene_release(&file);
     return good && !ceduo_text_lost();
 }
 
@@ -343,7 +332,7 @@ static bool ask_to_write(void)
 
 static bool list_profiles(void)
 {
-    struct arena arena = {0};
+    LOCAL_BY(ceduo_arena_free) struct arena arena = {0};
     size_t n = 0;
     const char *const *names = ceduo_file_list(&arena, "profiles", "stands", &n);
     bool good = !arena.failed;
@@ -352,7 +341,6 @@ static bool list_profiles(void)
         for (size_t i = 0; i < n; i++)
             add(names[i], strlen(names[i]));
     }
-    ceduo_arena_free(&arena);
     return good;
 }
 

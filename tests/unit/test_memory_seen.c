@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Without memory: runs of blocks of all sizes, what was seen beside simulated rocks, fits, and surveys. */
+#include "local.h"
 #include "unit/failing.h"
 
 #include <gsl/gsl_errno.h>
@@ -72,7 +73,7 @@ static bool ask_of_blocks(void)
     ground.scene.blocks_count = 1;
     ground.scene.rocks_per_year = 0.5;
     struct ceduo_question q = ceduo_question_default(&ground.scene);
-    struct ceduo_answer answer;
+    LOCAL_BY(ceduo_answer_release) struct ceduo_answer answer;
     q.rocks = ROCKS;
     q.run.threads = 1;
     q.run.other_energy = true;
@@ -86,7 +87,6 @@ static bool ask_of_blocks(void)
         add(&a->hazard.accepted, sizeof a->hazard.accepted);
         add(&a->reach_probability, sizeof a->reach_probability);
     }
-    ceduo_answer_release(&answer);
     return is_done(status);
 }
 
@@ -133,11 +133,10 @@ static bool look(void)
     for (size_t i = 0; i < 4 && status == CEDUO_OK; i++)
         add(&to[i].log_likelihood, sizeof to[i].log_likelihood);
     for (size_t i = 1; i < 3 && status == CEDUO_OK; i++) {
-        double *values;
+        LOCAL_BYTES double *values;
         size_t n;
         status = ceduo_observer_values(observer, &ground.scene, i, ROCKS, &values, &n);
         add(values, status == CEDUO_OK ? n * sizeof *values : 0);
-        free(values);
     }
     ceduo_observer_free(observer);
     return is_done(status);
@@ -279,13 +278,12 @@ static bool see_many(void)
     enum { MANY = 64 };
     static struct ceduo_rock_def rocks[MANY];
     struct ceduo_observation seen[MANY];
-    struct ceduo_observer *observer;
+    LOCAL(ceduo_observer, observer);
     for (size_t i = 0; i < MANY; i++) {
         seen[i] = something(CEDUO_OBSERVED_SPEED);
         seen[i].rock = &rocks[i];
     }
     enum ceduo_status status = ceduo_observer_create(seen, MANY, &observer);
-    ceduo_observer_free(observer);
     return is_done(status);
 }
 
@@ -311,7 +309,7 @@ static enum ceduo_status learn(void *context, const double *x, const double *log
 static bool draw(void)
 {
     static const double starts[2] = {-1, 1}, scale = 1;
-    struct guess guess = ceduo_guess_begin(1);
+    LOCAL_BY(ceduo_guess_release) struct guess guess = ceduo_guess_begin(1);
     const struct chains_def def = {.dimensions = 1,
                                    .chains = 2,
                                    .starts = starts,
@@ -325,12 +323,10 @@ static bool draw(void)
                                    .guess = guess_at,
                                    .learn = learn,
                                    .context = &guess};
-    struct chains chains;
+    LOCAL_BY(ceduo_chains_release) struct chains chains;
     enum ceduo_status status = ceduo_chains_run(&def, &chains);
     if (status == CEDUO_OK)
         add(ceduo_chains_draw(&chains, 0), sizeof(double));
-    ceduo_chains_release(&chains);
-    ceduo_guess_release(&guess);
     return is_done(status);
 }
 
@@ -347,7 +343,7 @@ static bool survey(void)
                                               .spacing = 0.3,
                                               .energy = NAN};
     const struct ceduo_survey s = {.plots_count = 1, .areas = &area, .stools_count = 1, .stems_count = 8, .stems = stems};
-    struct ceduo_survey_answer answer;
+    LOCAL_BY(ceduo_survey_free) struct ceduo_survey_answer answer;
     enum ceduo_status status = ceduo_survey_ask(&s, &answer);
     if (status == CEDUO_OK) {
         assert_int_equal(answer.shoots.from, CEDUO_HEIGHTS_CURVE);
@@ -356,7 +352,6 @@ static bool survey(void)
     } else {
         assert_null(answer.classes);
     }
-    ceduo_survey_free(&answer);
     return is_done(status);
 }
 

@@ -2,6 +2,7 @@
 /* What simulated rocks say of what was seen, against closed forms: rocks that are all alike fly over level ground before
  * they strike it, or roll down a smooth slope. */
 #include "expect.h"
+#include "local.h"
 
 #include <gsl/gsl_statistics_double.h>
 #include <stdlib.h>
@@ -41,11 +42,10 @@ static void make_ground(struct ground *g, double fall, double height, double vx,
 
 static struct ceduo_counterpart look(const struct ground *g, struct ceduo_observation seen)
 {
-    struct ceduo_observer *observer;
+    LOCAL(ceduo_observer, observer);
     struct ceduo_counterpart c;
     EXPECT(ceduo_observer_create(&seen, 1, &observer), ==, CEDUO_OK);
     EXPECT(ceduo_observer_look(observer, &g->scene, ROCKS, NULL, &c), ==, CEDUO_OK);
-    ceduo_observer_free(observer);
     return c;
 }
 
@@ -188,9 +188,9 @@ TEST(means_are_normal)
 TEST(a_mean_has_the_error_of_both_sides)
 {
     struct ground g;
-    struct ceduo_observer *observer;
+    LOCAL(ceduo_observer, observer);
     struct ceduo_counterpart c;
-    double *values;
+    LOCAL_BYTES double *values;
     size_t n;
     make_ground(&g, 0, HIGH, FAST, 0);
     g.scene.release.vx.spread = 2;
@@ -207,8 +207,6 @@ TEST(a_mean_has_the_error_of_both_sides)
     EXPECT(variance, >, 0.011);
     EXPECT_NEAR(c.variance, variance, 1e-12);
     EXPECT_NEAR(c.deviance, (15 - mean) * (15 - mean) / variance, 1e-9 * c.deviance);
-    free(values);
-    ceduo_observer_free(observer);
 }
 
 TEST(no_rock_there_is_impossible)
@@ -372,8 +370,8 @@ TEST(recorded_rocks_are_those_of_a_run)
     two[0].values = &one;
     two[1].n = 2;
     two[1].mean = two[1].sd = 1;
-    struct ceduo_observer *both, *alone;
-    double *recorded, *run;
+    LOCAL(ceduo_observer, both), *alone;
+    LOCAL_BYTES double *recorded, *run;
     size_t n, m;
     EXPECT(ceduo_observer_create(two, 2, &both), ==, CEDUO_OK);
     EXPECT(ceduo_observer_create(two, 1, &alone), ==, CEDUO_OK);
@@ -381,10 +379,6 @@ TEST(recorded_rocks_are_those_of_a_run)
     EXPECT(ceduo_observer_values(alone, &g.scene, 0, ROCKS, &run, &m), ==, CEDUO_OK);
     EXPECT(n, ==, ROCKS);
     assert_memory_equal(recorded, run, ROCKS * sizeof *run);
-    free(recorded);
-    free(run);
-    ceduo_observer_free(both);
-    ceduo_observer_free(alone);
 }
 
 /* Speed, height and energy at a place, of rocks that are followed and of those of a run. */
@@ -398,8 +392,8 @@ TEST(recorded_crossings_are_those_of_a_run)
         two[0].x = 60;
         two[0].n = two[1].n = 2;
         two[0].mean = two[0].sd = two[1].mean = two[1].sd = 1;
-        struct ceduo_observer *both, *alone;
-        double *recorded, *run;
+        LOCAL(ceduo_observer, both), *alone;
+        LOCAL_BYTES double *recorded, *run;
         size_t n, m, reached = 0;
         EXPECT(ceduo_observer_create(two, 2, &both), ==, CEDUO_OK);
         EXPECT(ceduo_observer_create(two, 1, &alone), ==, CEDUO_OK);
@@ -413,10 +407,6 @@ TEST(recorded_crossings_are_those_of_a_run)
         }
         EXPECT(reached, >, 10);
         EXPECT(reached, <, ROCKS);
-        free(recorded);
-        free(run);
-        ceduo_observer_free(both);
-        ceduo_observer_free(alone);
     }
 }
 
@@ -450,7 +440,7 @@ TEST(what_is_of_its_own)
     o[5].option = 1;
     double seconds[6] = {1, 1, 2, 1, 0.5, 1};
     for (int way = 0; way < 2; way++) {
-        struct ceduo_observer *observer;
+        LOCAL(ceduo_observer, observer);
         if (way == 1)
             g.scene.simulation.contact_model = CEDUO_INDEX;
         EXPECT(ceduo_observer_create(o, 6, &observer), ==, CEDUO_OK);
@@ -462,7 +452,6 @@ TEST(what_is_of_its_own)
             else
                 EXPECT_NEAR(c[i].mean, i == 3 ? sqrt(speed2) : mass() / (i == 1 ? 8 : 1) * speed2 / 2, 1e-6);
         }
-        ceduo_observer_free(observer);
     }
     g.scene.simulation.contact_model = CEDUO_INDEX;
     struct ceduo_observation largest = something(CEDUO_OBSERVED_LARGEST_HEIGHT);
@@ -556,11 +545,10 @@ TEST(rocks_lie_where_stems_stop_them)
     belt.stand = (struct ceduo_stand){.species = -1, .trees_count = 1, .trees = &tree, .u = 1e7, .fracture_ratio = NAN};
     g.option.belts = &belt;
     g.option.belts_count = 1;
-    struct ceduo_record record;
+    LOCAL_BY(ceduo_record_release) struct ceduo_record record;
     const struct ceduo_record_def def = {.scene = &g.scene, .option = &g.option, .rocks = 5, .blows = true};
     EXPECT(ceduo_record(&def, &record), ==, CEDUO_OK);
     EXPECT(record.blows_count, ==, 5);
     for (size_t i = 0; i < 5; i++)
         EXPECT_NEAR(record.rocks[i].stop_x, record.blows[i].x, 1e-9);
-    ceduo_record_release(&record);
 }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Pages as a terminal shows them, and the tables of figures behind JSON and CSV. */
 #include "expect.h"
+#include "local.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -23,9 +24,8 @@ static char *printed(struct ceduo_page *page, bool plain)
 
 static void expect_page(struct ceduo_page *page, bool plain, const char *wanted)
 {
-    char *text = printed(page, plain);
+    LOCAL_BYTES char *text = printed(page, plain);
     assert_string_equal(text, wanted);
-    free(text);
 }
 
 TEST(paragraphs_are_wrapped)
@@ -108,41 +108,35 @@ TEST(the_least_numbers_are_0)
     struct ceduo_page page = {.width = 40};
     ceduo_page_table(&page, columns, 5);
     add_row(&page, "9", "oak", 3e-323);
-    char *text = printed(&page, false);
+    LOCAL_BYTES char *text = printed(&page, false);
     if (!strstr(text, " 0 \xc2\xb1"
                       "0\n"))
         fail_msg("%s", text);
     assert_null(strstr(text, "inf"));
-    free(text);
 }
 
 TEST(signs_are_plain_for_a_plain_terminal)
 {
     struct ceduo_page page = table();
-    char *text = printed(&page, true);
+    LOCAL_BYTES char *text = printed(&page, true);
     assert_non_null(strstr(text, "0-20  oak"));
     assert_non_null(strstr(text, "horn~"));
     assert_non_null(strstr(text, "+-"));
-    free(text);
 }
 
 /* Into a pane: from a line on, within its area, headings and warnings in roles of their own. */
 TEST(a_pane_shows_lines_in_roles)
 {
-    struct ceduo_page page = {.width = 12};
-    struct ceduo_cells *cells = ceduo_cells_create(16, 5, CEDUO_CHARSET_BRAILLE);
+    LOCAL_BY(ceduo_page_free) struct ceduo_page page = {.width = 12};
+    LOCAL(ceduo_cells, cells) = ceduo_cells_create(16, 5, CEDUO_CHARSET_BRAILLE);
     ceduo_page_say(&page, CEDUO_PAGE_TITLE, "%s", "hidden");
     ceduo_page_say(&page, CEDUO_PAGE_SECTION, "%s", "option");
     ceduo_page_say(&page, CEDUO_PAGE_WARNING, "%s", "a b");
     ceduo_page_say(&page, CEDUO_PAGE_NOTE, "%s", "one");
     assert_int_equal(ceduo_page_draw(&page, cells, (struct ceduo_area){2, 1, 12, 3}, 2), 5);
-    char *text = ceduo_cells_dump(cells), *roles = ceduo_cells_roles(cells);
+    LOCAL_BYTES char *text = ceduo_cells_dump(cells), *roles = ceduo_cells_roles(cells);
     assert_string_equal(text, "\n  option\n      ! a b\n    one\n\n");
     assert_string_equal(roles, "\n  TTTTTT\n  WWWWWWWWW\n  ttttt\n\n");
-    free(text);
-    free(roles);
-    ceduo_cells_free(cells);
-    ceduo_page_free(&page);
 }
 
 /* ---- the tables of figures ---- */
@@ -188,9 +182,8 @@ static int set_up(void **state)
 {
     (void)state;
     static const char *const sets[] = {"simulation.rocks=60", "rocks_per_year=2"};
-    struct problems problems = {0};
+    LOCAL_BY(ceduo_problems_free) struct problems problems = {0};
     bool good = ceduo_scene_read(&file, "profiles/scenes/rotation.yaml", sets, 2, &problems);
-    ceduo_problems_free(&problems);
     struct ceduo_question question = ceduo_question_default(&file.scene);
     question.years = true;
     question.window = (struct ceduo_window){.last = 1, .step = 1};
@@ -230,14 +223,13 @@ static size_t fields(const char *row)
 TEST(a_row_has_a_field_for_each_name)
 {
     for (int kind = 0; kind < 3; kind++) {
-        struct text text = {0};
+        LOCAL_TEXT(text);
         struct ceduo_report shown = report;
         shown.years = kind == 1 ? report.years : NULL;
         ceduo_report_csv_header(&text, kind == 2, kind == 1);
         ceduo_report_csv(&text, &shown, kind == 2);
         const char *row = strchr(text.bytes, '\n') + 1;
         assert_int_equal(fields(row), fields(text.bytes));
-        ceduo_text_free(&text);
     }
 }
 

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "local.h"
 #include "unit/site.h"
 
 #include <getopt.h>
@@ -67,22 +68,17 @@ static char *picture_file(const char *name)
 static void expect(enum ceduo_plot plot, const struct ceduo_picture *p, int width, int height, enum ceduo_charset charset,
                    const char *name)
 {
-    struct ceduo_cells *cells = draw(plot, p, width, height, charset);
-    char *text = ceduo_cells_dump(cells), *expected = picture_file(name);
+    LOCAL(ceduo_cells, cells) = draw(plot, p, width, height, charset);
+    LOCAL_BYTES char *text = ceduo_cells_dump(cells), *expected = picture_file(name);
     assert_string_equal(text, expected);
-    free(expected);
-    free(text);
-    ceduo_cells_free(cells);
 }
 
 static bool shows(enum ceduo_plot plot, const struct ceduo_picture *p, int width, int height, const char *words)
 {
-    struct ceduo_cells *cells = draw(plot, p, width, height, ASCII);
-    char *text = ceduo_cells_dump(cells);
+    LOCAL(ceduo_cells, cells) = draw(plot, p, width, height, ASCII);
+    LOCAL_BYTES char *text = ceduo_cells_dump(cells);
     assert_non_null(text);
     bool found = strstr(text, words) != NULL;
-    free(text);
-    ceduo_cells_free(cells);
     return found;
 }
 
@@ -108,7 +104,7 @@ TEST(profile_is_true_to_scale)
 TEST(span_tells_where_the_slope_stands)
 {
     struct ceduo_picture p = bare_site();
-    struct ceduo_cells *cells = ceduo_cells_create(80, 24, BRAILLE);
+    LOCAL(ceduo_cells, cells) = ceduo_cells_create(80, 24, BRAILLE);
     struct ceduo_area area = {0, 0, 80, 24};
     struct ceduo_span span;
     p.span = &span;
@@ -122,7 +118,6 @@ TEST(span_tells_where_the_slope_stands)
     ceduo_plot_draw(CEDUO_PLOT_PROFILE, &cells->canvas, &area, &p);
     assert_true(span.x0 == 40);
     assert_true(span.x1 >= 60 && span.x1 < 62);
-    ceduo_cells_free(cells);
 }
 
 TEST(heights_are_stretched_where_the_slope_is_flat_and_the_factor_is_written)
@@ -173,10 +168,9 @@ TEST(ways_that_are_not_known_are_not_drawn)
 {
     struct ceduo_picture p = wooded_site();
     s.wooded[0] = NULL;
-    struct ceduo_cells *cells = draw(CEDUO_PLOT_PROFILE, &p, 60, 16, BRAILLE);
+    LOCAL(ceduo_cells, cells) = draw(CEDUO_PLOT_PROFILE, &p, 60, 16, BRAILLE);
     assert_int_equal(cells_of(cells, CEDUO_ROLE_CLOUD), 0);
     assert_true(cells_of(cells, CEDUO_ROLE_STOOL) > 5);
-    ceduo_cells_free(cells);
     assert_true(shows(CEDUO_PLOT_PROFILE, &p, 84, 20, "ways not computed yet"));
     assert_false(shows(CEDUO_PLOT_PROFILE, &p, 84, 20, "of 1000"));
     assert_false(shows(CEDUO_PLOT_PROFILE, &p, 60, 16, "ways:"));
@@ -217,7 +211,7 @@ TEST(stems_that_the_rock_came_to_stand_where_they_are)
     p.snapshot = NULL;
     p.stems = passed;
     p.stems_count = 4;
-    struct ceduo_cells *cells = ceduo_cells_create(84, 40, BRAILLE);
+    LOCAL(ceduo_cells, cells) = ceduo_cells_create(84, 40, BRAILLE);
     struct ceduo_area area = {0, 0, 84, 40};
     struct ceduo_span span;
     p.span = &span;
@@ -230,7 +224,6 @@ TEST(stems_that_the_rock_came_to_stand_where_they_are)
         int found = rows_of(cells, column, passed[i].hit ? CEDUO_ROLE_STEM : CEDUO_ROLE_DIM);
         assert_true(found >= rows - 2 && found <= rows + 1);
     }
-    ceduo_cells_free(cells);
     expect(CEDUO_PLOT_PROFILE, &p, 84, 20, ASCII, "stems-that-the-rock-came-to-stand-where-they-are");
 }
 
@@ -246,9 +239,8 @@ TEST(contacts_without_size_are_drawn_as_high_as_the_stand)
     struct ceduo_picture p = picture_of(&s);
     p.stems = contact;
     p.stems_count = 3;
-    struct ceduo_cells *cells = draw(CEDUO_PLOT_PROFILE, &p, 84, 40, BRAILLE);
+    LOCAL(ceduo_cells, cells) = draw(CEDUO_PLOT_PROFILE, &p, 84, 40, BRAILLE);
     assert_in_range(cells_of(cells, CEDUO_ROLE_STEM), 6, 12);
-    ceduo_cells_free(cells);
     assert_true(shows(CEDUO_PLOT_STAND, &p, 84, 20, "One pattern of many"));
 }
 
@@ -278,10 +270,9 @@ TEST(strips_show_the_wood_beside_the_bare_slope)
     struct ceduo_picture p = wooded_site();
     expect(CEDUO_PLOT_HEIGHT, &p, 70, 16, ASCII, "strips-show-the-wood-beside-the-bare-slope");
     expect(CEDUO_PLOT_ENERGY, &p, 70, 16, BRAILLE, "strips-show-the-wood-beside-the-bare-slope-2");
-    struct ceduo_cells *cells = draw(CEDUO_PLOT_ENERGY, &p, 70, 16, BRAILLE);
+    LOCAL(ceduo_cells, cells) = draw(CEDUO_PLOT_ENERGY, &p, 70, 16, BRAILLE);
     assert_true(cells_of(cells, CEDUO_ROLE_WOOD) > 30);
     assert_true(cells_of(cells, CEDUO_ROLE_BARE) > 30);
-    ceduo_cells_free(cells);
 }
 
 /* Where there is no room for four curves: the one that matters, with and without forest. */
@@ -295,12 +286,10 @@ TEST(small_strips_show_one_pair_of_curves)
     struct ceduo_span span = {4, 60, 0, 100}; /* leaves no room for names */
     p.span = &span;
     struct ceduo_area area = {0, 0, 70, 20};
-    struct ceduo_cells *cells = ceduo_cells_create(70, 20, ASCII);
+    LOCAL(ceduo_cells, cells) = ceduo_cells_create(70, 20, ASCII);
     ceduo_plot_draw(CEDUO_PLOT_ENERGY, &cells->canvas, &area, &p);
-    char *text = ceduo_cells_dump(cells);
+    LOCAL_BYTES char *text = ceduo_cells_dump(cells);
     assert_non_null(strstr(text, "mean energy, kJ"));
-    free(text);
-    ceduo_cells_free(cells);
 }
 
 /* Names stand in the order in which the curves end: here the wooded mean above the bare one. */
@@ -312,7 +301,7 @@ TEST(names_of_curves_follow_their_ends)
         s.wood_envelopes[i].mean_energy = 190e3;
         s.wood_envelopes[i].energy.p95 = 20e3;
     }
-    struct ceduo_cells *cells = draw(CEDUO_PLOT_ENERGY, &p, 70, 16, ASCII);
+    LOCAL(ceduo_cells, cells) = draw(CEDUO_PLOT_ENERGY, &p, 70, 16, ASCII);
     const char *names[] = {"wood mean", "bare p95", "bare mean", "wood p95"};
     char *text = ceduo_cells_dump(cells), *at = text;
     for (int i = 0; i < 4; i++) {
@@ -320,7 +309,6 @@ TEST(names_of_curves_follow_their_ends)
         assert_non_null(at);
     }
     free(text);
-    ceduo_cells_free(cells);
 }
 
 /* The wood's own peak is cut as well, and told by name. */
@@ -343,10 +331,9 @@ TEST(strips_without_wooded_rocks)
     assert_true(shows(CEDUO_PLOT_ENERGY, &p, 70, 16, "not computed yet"));
     assert_true(shows(CEDUO_PLOT_HEIGHT, &p, 70, 16, "not computed yet"));
     p.option = 1; /* no stems: both runs are one, drawn in strokes */
-    struct ceduo_cells *cells = draw(CEDUO_PLOT_ENERGY, &p, 70, 8, BRAILLE);
+    LOCAL(ceduo_cells, cells) = draw(CEDUO_PLOT_ENERGY, &p, 70, 8, BRAILLE);
     assert_true(cells_of(cells, CEDUO_ROLE_WOOD) > 30);
     assert_in_range(cells_of(cells, CEDUO_ROLE_BARE), 13, 20); /* 13: the words */
-    ceduo_cells_free(cells);
 }
 
 /* Nine places of ten say how high the scale goes; the tenth is told. */
@@ -362,7 +349,7 @@ TEST(a_peak_is_cut_and_told)
 TEST(strips_share_the_profiles_columns)
 {
     struct ceduo_picture p = bare_site();
-    struct ceduo_cells *cells = ceduo_cells_create(70, 24, ASCII);
+    LOCAL(ceduo_cells, cells) = ceduo_cells_create(70, 24, ASCII);
     struct ceduo_area above = {0, 0, 70, 16}, below = {0, 16, 70, 8};
     struct ceduo_span span;
     p.span = &span;
@@ -376,7 +363,6 @@ TEST(strips_share_the_profiles_columns)
     }
     assert_int_equal(rules[0], 2);
     assert_int_equal(rules[1], 2);
-    ceduo_cells_free(cells);
 }
 
 TEST(places_without_rocks_stay_empty)
@@ -529,10 +515,10 @@ TEST(stems_that_stay_do_not_move)
 {
     struct ceduo_picture p = bare_site();
     s.belts[0].stand.trees_count = 0;
-    struct ceduo_cells *few = draw(CEDUO_PLOT_STAND, &p, 80, 40, BRAILLE);
+    LOCAL(ceduo_cells, few) = draw(CEDUO_PLOT_STAND, &p, 80, 40, BRAILLE);
     s.belts[0].stand.stools_per_ha *= 1.5;
     s.shoots.per_ha *= 1.5;
-    struct ceduo_cells *more = draw(CEDUO_PLOT_STAND, &p, 80, 40, BRAILLE);
+    LOCAL(ceduo_cells, more) = draw(CEDUO_PLOT_STAND, &p, 80, 40, BRAILLE);
     int dots[2] = {0, 0};
     for (int i = 0; i < 80 * 37; i++) {
         assert_int_equal(few->cell[i].dots & ~more->cell[i].dots, 0);
@@ -540,8 +526,6 @@ TEST(stems_that_stay_do_not_move)
         dots[1] += more->cell[i].dots != 0;
     }
     assert_true(dots[1] > dots[0]);
-    ceduo_cells_free(few);
-    ceduo_cells_free(more);
 }
 
 /* Trees of 10 cm and a rock of 3 m: those whose middle is less than 1.55 m off its path are met, no others. A row of
@@ -553,7 +537,7 @@ TEST(what_the_rock_meets_lies_in_its_strip)
     s.belts[0].stand.shoots_count = 0;
     s.trees.per_ha = 5000;
     s.trees.dbh = 0.1;
-    struct ceduo_cells *cells = draw(CEDUO_PLOT_STAND, &p, 80, 43, BRAILLE);
+    LOCAL(ceduo_cells, cells) = draw(CEDUO_PLOT_STAND, &p, 80, 43, BRAILLE);
     for (int row = 0; row < 40; row++)
         for (int column = 0; column < 80; column++) {
             double off = fabs(0.503 * (row + 0.5 - 20)); /* m */
@@ -563,7 +547,6 @@ TEST(what_the_rock_meets_lies_in_its_strip)
         }
     assert_true(cells_of(cells, CEDUO_ROLE_WAY) > 10);
     assert_true(cells_of(cells, CEDUO_ROLE_STEM) > 50);
-    ceduo_cells_free(cells);
 }
 
 /* 20 m around the last stem of the belt, offsets stretched until the strip fills the picture. */
@@ -573,11 +556,10 @@ TEST(the_stand_shows_the_way_of_the_rock)
     p.stems = passed;
     p.stems_count = 3;
     expect(CEDUO_PLOT_STAND, &p, 60, 14, BRAILLE, "the-stand-shows-the-way-of-the-rock");
-    struct ceduo_cells *cells = draw(CEDUO_PLOT_STAND, &p, 60, 14, BRAILLE);
+    LOCAL(ceduo_cells, cells) = draw(CEDUO_PLOT_STAND, &p, 60, 14, BRAILLE);
     assert_true(cells_of(cells, CEDUO_ROLE_WAY) >= 2);
     assert_true(cells_of(cells, CEDUO_ROLE_DIM) >= 1);
     assert_int_equal(cells_of(cells, CEDUO_ROLE_STEM) + cells_of(cells, CEDUO_ROLE_STOOL), 0);
-    ceduo_cells_free(cells);
     p.stems_count = 4; /* the last one near the end of the belt */
     assert_true(shows(CEDUO_PLOT_STAND, &p, 60, 14, "The way of this rock: 1 stem hit in 20 m; across x"));
     assert_true(shows(CEDUO_PLOT_STAND, &p, 50, 14, "The way of this rock: 1 stem hit in 20 m\n"));
@@ -627,7 +609,7 @@ TEST(nothing_is_drawn_beside_the_area)
         enum ceduo_charset charset = (enum ceduo_charset)(i % 3);
         struct ceduo_area area = {7, 3, 4 + i / 3 % 40 * 3, 1 + i / 120 * 2};
         for (int plot = CEDUO_PLOT_PROFILE; plot < CEDUO_PLOTS; plot++) {
-            struct ceduo_cells *cells = ceduo_cells_create(area.width + 14, area.height + 6, charset);
+            LOCAL(ceduo_cells, cells) = ceduo_cells_create(area.width + 14, area.height + 6, charset);
             struct ceduo_picture p = picture_of(&s);
             s.scene.simulation.contact_model = i / 3 % 2 ? CEDUO_STEMS : CEDUO_INDEX;
             p.snapshot = i % 7 == 0 ? NULL : p.snapshot;
@@ -643,7 +625,6 @@ TEST(nothing_is_drawn_beside_the_area)
                         fail_msg("plot %d, charset %d, %dx%d: drawn at %d, %d", plot, (int)charset, area.width, area.height,
                                  column - area.left, row - area.top);
                 }
-            ceduo_cells_free(cells);
         }
     }
 }
@@ -812,11 +793,10 @@ TEST(titles_name_what_is_shown)
     };
     for (int i = 0; i < 2 * (CEDUO_PLOTS - 1); i++) {
         int plot = CEDUO_PLOT_PROFILE + i / 2;
-        struct text title = {0};
+        LOCAL_TEXT(title);
         s.scene.simulation.contact_model = i % 2 ? CEDUO_STEMS : CEDUO_INDEX;
         ceduo_plot_title(&title, (enum ceduo_plot)plot, &p);
         assert_string_equal(ceduo_text_string(&title), expected[i % 2][plot]);
-        ceduo_text_free(&title);
     }
     assert_int_equal(ceduo_scene_last_control(&s.scene), 1);
 }

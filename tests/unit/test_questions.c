@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Questions that ask for little, that nobody waits for any more, and what is read from their answers. */
 #include "expect.h"
+#include "local.h"
 
 #include "physics/paper_site.h"
 #include "study/goal.h"
@@ -22,7 +23,7 @@ static struct ceduo_question question_of(uint64_t rocks)
 TEST(no_rocks_are_not_precise)
 {
     struct ceduo_question q = question_of(0);
-    struct ceduo_answer answer;
+    LOCAL_BY(ceduo_answer_release) struct ceduo_answer answer;
     q.tolerance = .1;
     assert_int_equal(ceduo_ask(&q, NULL, &answer), CEDUO_OK);
     assert_int_equal(ceduo_result_rocks(answer.result), 0);
@@ -30,18 +31,16 @@ TEST(no_rocks_are_not_precise)
     assert_true(isnan(ceduo_share_to_first(answer.result, 0).mean));
     assert_false(answer.tolerance_met);
     EXPECT(answer.result->options[0].stands[0].adc_m, >, 0);
-    ceduo_answer_release(&answer);
 }
 
 /* Without a control nothing is known of what arrives, today or over years; what the stands yield is. */
 static void expect_yields_alone(const struct ceduo_answer *answer)
 {
-    struct ceduo_verdict v;
+    LOCAL_BY(ceduo_verdict_release) struct ceduo_verdict v;
     assert_int_equal(ceduo_verdict_make(answer->result, answer->years, &v), CEDUO_OK);
     assert_false(v.wooded || v.accepted || v.today.known || v.rotation.known || v.choices[0].energy_known);
     assert_true(isnan(v.choices[0].today.mean) && isnan(v.choices[0].mean.mean));
     EXPECT(v.choices[0].yield.volume_today, >, 0);
-    ceduo_verdict_release(&v);
     assert_true(isnan(ceduo_years_difference(answer->years[0], answer->years[0]).mean));
 }
 
@@ -50,7 +49,7 @@ TEST(nothing_is_counted_without_a_control)
 {
     for (int model = CEDUO_INDEX; model <= CEDUO_STEMS; model++) {
         struct ceduo_question q = question_of(20);
-        struct ceduo_answer answer;
+        LOCAL_BY(ceduo_answer_release) struct ceduo_answer answer;
         site.scene.simulation.contact_model = (enum ceduo_contact_model)model;
         site.scene.controls_count = 0;
         q.block_rocks = 20;
@@ -62,7 +61,6 @@ TEST(nothing_is_counted_without_a_control)
         assert_int_equal(ceduo_result_rocks(answer.result), 20);
         assert_int_equal(answer.result->options[0].wooded.rocks, 20);
         assert_int_equal(answer.result->options[0].wooded.controls, 0);
-        ceduo_answer_release(&answer);
     }
 }
 
@@ -70,7 +68,7 @@ TEST(nothing_is_counted_without_a_control)
 TEST(other_sizes_are_cancelled)
 {
     struct ceduo_question q = question_of(20);
-    struct ceduo_pool *pool = NULL;
+    LOCAL(ceduo_pool, pool) = NULL;
     struct ceduo_answer answer;
     atomic_bool cancel = true;
     assert_int_equal(ceduo_ask(&q, &pool, &answer), CEDUO_OK);
@@ -86,7 +84,6 @@ TEST(other_sizes_are_cancelled)
     assert_int_equal(ceduo_ask(&q, &pool, &answer), CEDUO_OK);
     assert_non_null(answer.blocks);
     ceduo_answer_release(&answer);
-    ceduo_pool_free(pool);
 }
 
 /* At the worst of two controls; not known where it is not of one of them, whichever comes first. */
@@ -95,7 +92,7 @@ TEST(a_goal_is_reached_at_the_worst_control)
     const double accepted[][2] = {{50e3, 50e3}, {NAN, 50e3}, {50e3, NAN}};
     for (size_t i = 0; i < LENGTH(accepted); i++) {
         struct ceduo_question q = question_of(200);
-        struct ceduo_answer answer;
+        LOCAL_BY(ceduo_answer_release) struct ceduo_answer answer;
         struct ceduo_control controls[2] = {site.control, site.control};
         controls[0].x = controls[0].x_given = 20;
         for (int c = 0; c < 2; c++)
@@ -111,7 +108,6 @@ TEST(a_goal_is_reached_at_the_worst_control)
             EXPECT(reached, ==, fmax(a[0].exceed_probability, a[1].exceed_probability));
         else
             assert_true(isnan(reached));
-        ceduo_answer_release(&answer);
     }
 }
 
@@ -119,7 +115,7 @@ TEST(a_goal_is_reached_at_the_worst_control)
 TEST(options_that_are_the_same)
 {
     struct ceduo_question q = question_of(200);
-    struct ceduo_answer answer;
+    LOCAL_BY(ceduo_answer_release) struct ceduo_answer answer;
     struct ceduo_option options[2] = {site.option, site.option};
     site.control.accepted = 1e12;
     site.scene.options = options;
@@ -129,14 +125,13 @@ TEST(options_that_are_the_same)
     EXPECT(difference.mean, ==, 0);
     EXPECT(difference.se, ==, 0);
     EXPECT(difference.below, ==, 0);
-    ceduo_answer_release(&answer);
 }
 
 /* Two things at one place: the same rocks come, and each has its own limit. */
 TEST(controls_at_one_place)
 {
     struct ceduo_question q = question_of(200);
-    struct ceduo_answer answer;
+    LOCAL_BY(ceduo_answer_release) struct ceduo_answer answer;
     struct ceduo_control controls[2] = {site.control, site.control};
     controls[1].accepted = 0;
     site.scene.controls = controls;
@@ -147,15 +142,14 @@ TEST(controls_at_one_place)
     EXPECT(a->reached, ==, b->reached);
     EXPECT(a->energy.p95, ==, b->energy.p95);
     EXPECT(b->exceeded, ==, b->reached);
-    ceduo_answer_release(&answer);
 }
 
 /* Years in which no rock was simulated have no share that could be less. */
 TEST(years_without_rocks_differ_by_nothing_known)
 {
     struct ceduo_question q = question_of(50);
-    struct ceduo_answer answer;
-    struct ceduo_years *none;
+    LOCAL_BY(ceduo_answer_release) struct ceduo_answer answer;
+    LOCAL(ceduo_years, none);
     q.years = true;
     q.window = (struct ceduo_window){.last = 1, .step = 1};
     assert_int_equal(ceduo_ask(&q, NULL, &answer), CEDUO_OK);
@@ -163,8 +157,6 @@ TEST(years_without_rocks_differ_by_nothing_known)
     EXPECT(ceduo_years_difference(answer.years[0], answer.years[0]).mean, ==, 0);
     assert_true(isnan(ceduo_years_difference(answer.years[0], none).mean));
     assert_true(isnan(ceduo_years_difference(none, answer.years[0]).mean));
-    ceduo_years_free(none);
-    ceduo_answer_release(&answer);
 }
 
 /* Three belts that are cut together, every ten years from the second on: by year, then along the slope. */
@@ -172,7 +164,7 @@ TEST(fellings_are_in_order)
 {
     struct ceduo_belt belts[3];
     struct ceduo_option option = {.belts = belts, .belts_count = 3};
-    struct ceduo_yield yield;
+    LOCAL_BY(ceduo_yield_release) struct ceduo_yield yield;
     paper_site_init(&site);
     for (size_t i = 0; i < 3; i++) {
         belts[i] = site.belts[0];
@@ -186,7 +178,6 @@ TEST(fellings_are_in_order)
         EXPECT(yield.fellings[i].year, ==, 2 + i / 3 * 10);
         EXPECT(yield.fellings[i].belt, ==, i % 3);
     }
-    ceduo_yield_release(&yield);
 }
 
 /* A coppice that was just cut has no stem today and a volume to cut later: half of the forest beside one that is bare for good, which
@@ -196,7 +187,7 @@ TEST(a_stand_just_cut_yields)
     static struct ceduo_stems none[1];
     struct ceduo_belt belts[2];
     struct ceduo_option option = {.belts = belts, .belts_count = 1};
-    struct ceduo_yield alone, beside;
+    LOCAL_BY(ceduo_yield_release) struct ceduo_yield alone, beside;
     paper_site_init(&site);
     belts[0] = site.belts[0];
     belts[0].stand = (struct ceduo_stand){.species = site.belts[0].stand.species,
@@ -215,6 +206,4 @@ TEST(a_stand_just_cut_yields)
     option.belts_count = 2;
     assert_int_equal(ceduo_yield_of(&option, 25, &beside), CEDUO_OK);
     EXPECT(beside.cut_per_year, ==, alone.cut_per_year);
-    ceduo_yield_release(&alone);
-    ceduo_yield_release(&beside);
 }

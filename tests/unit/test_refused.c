@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Scenes and rocks that are refused, grounds, growth and belts at their edges. */
 #include "expect.h"
+#include "local.h"
 
 #include <math.h>
 
@@ -214,10 +215,9 @@ TEST(rocks_are_refused)
 /* Two segments on one line: how many are made of them. */
 static size_t segments_made(void)
 {
-    struct ground g;
+    LOCAL_BY(ceduo_ground_release) struct ground g;
     assert_true(ceduo_ground_init(&g, &site.scene.slope, 9.81, .3, false));
     size_t n = g.n;
-    ceduo_ground_release(&g);
     return n;
 }
 

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Runs and pools at their limits: parts, rocks that cannot be drawn or never end, keys that tell what rocks meet. */
 #include "expect.h"
+#include "local.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -102,8 +103,8 @@ TEST(rocks_that_cannot_be_drawn)
     struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
     def.cells = 1;
     def.cell_x = cells;
-    struct ceduo_run *run = run_of(&def, 300);
-    struct ceduo_follower *follower = ceduo_follower_create(&site.scene, NULL);
+    LOCAL(ceduo_run, run) = run_of(&def, 300);
+    LOCAL(ceduo_follower, follower) = ceduo_follower_create(&site.scene, NULL);
     uint64_t bad = 0, reached = 0;
     for (uint64_t rock = 0; rock < 300; rock++) {
         struct ceduo_trajectory way;
@@ -113,7 +114,6 @@ TEST(rocks_that_cannot_be_drawn)
         bad += status == CEDUO_BAD_ROCK;
         reached += status == CEDUO_OK && crossing.reached;
     }
-    ceduo_follower_free(follower);
     struct ceduo_ends e;
     struct ceduo_arrivals a;
     assert_int_equal(ceduo_run_ends(run, &e), CEDUO_OK);
@@ -123,7 +123,6 @@ TEST(rocks_that_cannot_be_drawn)
     assert_int_equal(e.count[CEDUO_UNFINISHED], bad);
     assert_int_equal(a.unfinished, bad);
     assert_int_equal(a.reached, reached);
-    ceduo_run_free(run);
 }
 
 /* One number of the release has a spread: a run flies its rocks as they are followed one by one. */
@@ -217,7 +216,7 @@ TEST(a_rock_without_end)
     struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
     def.cells = 2;
     def.cell_x = cells;
-    struct ceduo_run *run = run_of(&def, 1);
+    LOCAL(ceduo_run, run) = run_of(&def, 1);
     struct ceduo_arrivals a;
     struct ceduo_envelope e;
     assert_int_equal(ceduo_run_arrivals(run, 0, &a), CEDUO_OK);
@@ -226,7 +225,6 @@ TEST(a_rock_without_end)
     EXPECT(a.reached, ==, 0);
     EXPECT(e.passed, ==, 0);
     assert_int_equal(ceduo_run_contacts(run), CEDUO_CONTACTS_MOST);
-    ceduo_run_free(run);
 }
 
 /* Where samples are kept no more, differences come from the first so many rocks: their error is as that of all. */
@@ -300,7 +298,7 @@ TEST(energies_of_blocks_are_even_quantiles)
     site.scene.blocks_count = 1;
     struct ceduo_run_def wood = ceduo_run_def_default(&site.scene);
     wood.option = &site.option;
-    struct ceduo_run *run = run_of(&wood, ROCKS);
+    LOCAL(ceduo_run, run) = run_of(&wood, ROCKS);
     assert_true(ceduo_run_values(run, 0, CEDUO_SAMPLE_ENERGY, all));
     EXPECT(ceduo_run_energies(run, 0, some, MOST), ==, MOST);
     const double *weights = ceduo_run_weights(run);
@@ -314,7 +312,6 @@ TEST(energies_of_blocks_are_even_quantiles)
             EXPECT(some[n], ==, all[r]);
     }
     EXPECT(n, ==, MOST);
-    ceduo_run_free(run);
 }
 
 /* In brief a run says what it says at length: of one block or of all sizes, with and without an accepted energy. */
@@ -329,7 +326,7 @@ TEST(a_run_in_brief)
         site.scene.blocks = &blocks;
         site.scene.blocks_count = i / 2 == 1;
         struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
-        struct ceduo_run *run = run_of(&def, 300);
+        LOCAL(ceduo_run, run) = run_of(&def, 300);
         struct ceduo_brief brief = ceduo_run_brief(run, 0);
         struct ceduo_arrivals a;
         assert_int_equal(ceduo_run_arrivals(run, 0, &a), CEDUO_OK);
@@ -339,7 +336,6 @@ TEST(a_run_in_brief)
             EXPECT_NEAR(brief.exceed_probability, a.exceed_probability, 1e-12);
         EXPECT_NEAR(brief.energy, a.energy.mean, 1e-12 * a.energy.mean);
         EXPECT_NEAR(brief.energy_per_released, a.energy_per_released, 1e-12 * a.energy_per_released);
-        ceduo_run_free(run);
     }
 }
 
@@ -348,16 +344,14 @@ TEST(what_needs_samples)
 {
     paper_site_init(&site);
     struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
-    struct ceduo_run *exact = run_of(&def, 40);
+    LOCAL(ceduo_run, exact) = run_of(&def, 40);
     def.exact_bytes = 64;
-    struct ceduo_run *binned = run_of(&def, 20);
+    LOCAL(ceduo_run, binned) = run_of(&def, 20);
     double values[40];
     assert_true(ceduo_run_values(exact, 0, CEDUO_SAMPLE_SPEED, values) && ceduo_run_stops(exact, values));
     assert_false(ceduo_run_values(binned, 0, CEDUO_SAMPLE_SPEED, values) || ceduo_run_stops(binned, values));
     assert_true(isnan(ceduo_run_difference(exact, binned, 0).reach_probability.mean));
     assert_true(isnan(ceduo_run_difference(binned, exact, 0).reach_probability.mean));
-    ceduo_run_free(exact);
-    ceduo_run_free(binned);
 }
 
 /* Years that were not flown yet say nothing of what arrives. */
@@ -366,9 +360,9 @@ TEST(years_before_they_are_flown)
     paper_site_init(&site);
     site.scene.simulation.rocks = 20;
     struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
-    struct ceduo_run *run = run_of(&def, 20);
-    struct ceduo_simulated bare;
-    struct ceduo_years *years;
+    LOCAL(ceduo_run, run) = run_of(&def, 20);
+    LOCAL_BY(ceduo_simulated_free) struct ceduo_simulated bare;
+    LOCAL(ceduo_years, years);
     assert_int_equal(ceduo_simulated_read(run, 1, &bare), CEDUO_OK);
     assert_int_equal(ceduo_years_create(&site.scene, &site.option, (struct ceduo_window){.last = 3, .step = 1}, &years),
                      CEDUO_OK);
@@ -381,9 +375,6 @@ TEST(years_before_they_are_flown)
     assert_true(isnan(s.exceed.mean));
     EXPECT(s.unprotected_contact, ==, 0);
     EXPECT(s.unprotected_energy, ==, 0);
-    ceduo_years_free(years);
-    ceduo_simulated_free(&bare);
-    ceduo_run_free(run);
 }
 
 TEST(little_is_asked_of_a_run)
@@ -482,15 +473,13 @@ TEST(a_result_of_no_control)
     site.scene.options_count = 1;
     site.scene.controls_count = 0;
     struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
-    struct ceduo_pool *pool;
-    struct ceduo_result *result;
+    LOCAL(ceduo_pool, pool);
+    LOCAL(ceduo_result, result);
     assert_int_equal(ceduo_pool_create(&def, &pool), CEDUO_OK);
     assert_int_equal(ceduo_pool_fill(pool), CEDUO_OK);
     assert_int_equal(ceduo_pool_extend(pool, 20), CEDUO_OK);
     assert_int_equal(ceduo_result_create(&site.scene, pool, &result), CEDUO_OK);
     assert_int_equal(ceduo_result_rocks(result), 20);
-    ceduo_result_free(result);
-    ceduo_pool_free(pool);
 }
 
 /* Forests that the scene has no more: the runs asked for last stay, so many of them. */
@@ -499,7 +488,7 @@ TEST(a_pool_forgets_what_is_old)
     paper_site_init(&site);
     site.scene.simulation.rocks = 10;
     struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
-    struct ceduo_pool *pool;
+    LOCAL(ceduo_pool, pool);
     struct ceduo_run *run;
     assert_int_equal(ceduo_pool_create(&def, &pool), CEDUO_OK);
     assert_int_equal(ceduo_pool_fill(pool), CEDUO_OK);
@@ -522,5 +511,4 @@ TEST(a_pool_forgets_what_is_old)
         assert_int_equal(ceduo_pool_find(pool, &site.option) != NULL, i == 1 || i > MORE - CEDUO_POOL_SPARE + 1);
     }
     site.belts[1].to = to;
-    ceduo_pool_free(pool);
 }

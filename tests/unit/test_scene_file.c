@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Scenes as they are read: every fault is told once, where it is, and changes are put into them. */
 #include "expect.h"
+#include "local.h"
 
 #include "folder.h"
 
@@ -54,9 +55,9 @@ TEST_WITH(files_that_are_followed, folder_set_up_profiles, folder_tear_down)
     put("stand.yaml",
         "ceduo: stand/1\nstools: {per_ha: 2000, spacing_m: 0.4}\nshoots: [{per_ha: 6000, dbh_m: 0.06, height_m: 6}]\n");
     for (size_t i = 0; i < LENGTH(rows); i++) {
-        struct scene_file file;
-        struct problems problems = {0};
-        struct text text = {0};
+        LOCAL_BY(ceduo_scene_release) struct scene_file file;
+        LOCAL_BY(ceduo_problems_free) struct problems problems = {0};
+        LOCAL_TEXT(text);
         char path[256];
         ceduo_text_format(&text, "%s%s%s\n", rest, slope, rows[i].line);
         put("scene.yaml", text.bytes);
@@ -71,9 +72,6 @@ TEST_WITH(files_that_are_followed, folder_set_up_profiles, folder_tear_down)
             EXPECT(s->shoots_count, ==, 1);
             EXPECT(s->shoots[0].per_ha, ==, 6000);
         }
-        ceduo_text_free(&text);
-        ceduo_problems_free(&problems);
-        ceduo_scene_release(&file);
     }
     char path[256];
     struct scene_file file;
@@ -101,11 +99,11 @@ TEST(sources_of_changes)
                 {"{kind: measured}", "rock.source.wide=1",
                  "--set:1:18: rock.source.wide: unknown key; known here: kind, text, text_it, except"}};
     for (size_t i = 0; i < LENGTH(rows); i++) {
-        struct scene_file file;
+        LOCAL_BY(ceduo_scene_release) struct scene_file file;
         struct problems problems = {0};
-        struct text line = {0}, rock = {0};
+        LOCAL_BY(ceduo_text_free) struct text line = {0}, rock = {0};
         ceduo_text_format(&line, "rock: {diameter_m: 0.5, density_kg_m3: 2600, source: %s}", rows[i].source);
-        char *text = scene_with(line.bytes);
+        LOCAL_BYTES char *text = scene_with(line.bytes);
         bool good = ceduo_scene_read_text(&file, "scene", text, &problems);
         ceduo_problems_free(&problems);
         assert_int_equal(good, i == 0 || i == 5);
@@ -122,11 +120,7 @@ TEST(sources_of_changes)
                                 "{diameter_m: 0.6, density_kg_m3: 2600, source: {kind: measured, except: [volume_m3, "
                                 "diameter_m]}}");
         }
-        ceduo_text_free(&rock);
-        ceduo_text_free(&line);
         ceduo_problems_free(&problems);
-        ceduo_scene_release(&file);
-        free(text);
     }
 }
 
@@ -141,9 +135,9 @@ TEST(shapes_of_changes)
                 {"rock: {diameter_m: 1}", "rock.shape=block"},
                 {"rock: {diameter_m: 1}", "rock.shape=ellipsoid"}};
     for (size_t i = 0; i < LENGTH(rows); i++) {
-        struct scene_file file;
-        struct problems problems = {0};
-        char *text = scene_with(rows[i].rock);
+        LOCAL_BY(ceduo_scene_release) struct scene_file file;
+        LOCAL_BY(ceduo_problems_free) struct problems problems = {0};
+        LOCAL_BYTES char *text = scene_with(rows[i].rock);
         assert_true(ceduo_scene_read_text(&file, "scene", text, &problems));
         assert_true(ceduo_scene_set(&file, "--set", rows[i].set, &problems));
         assert_false(ceduo_scene_bind(&file, &problems));
@@ -154,9 +148,6 @@ TEST(shapes_of_changes)
         struct problems none = {0};
         if (!ceduo_scene_set(&file, "--set", proposed, &none) || !ceduo_scene_bind(&file, &none))
             fail_msg("%s: %s: %s", rows[i].rock, proposed, none.text.bytes);
-        ceduo_problems_free(&problems);
-        ceduo_scene_release(&file);
-        free(text);
     }
 }
 
@@ -174,11 +165,11 @@ TEST(grounds_split_segments)
                  "material: colluvium}",
                  5}};
     for (size_t i = 0; i < LENGTH(rows); i++) {
-        struct scene_file file;
-        struct problems problems = {0};
-        struct text line = {0};
+        LOCAL_BY(ceduo_scene_release) struct scene_file file;
+        LOCAL_BY(ceduo_problems_free) struct problems problems = {0};
+        LOCAL_TEXT(line);
         ceduo_text_format(&line, "slope: {vertices_m: [[0, 50], [40, 20], [100, 0]], materials: [%s]}", rows[i].materials);
-        char *text = scene_with(line.bytes);
+        LOCAL_BYTES char *text = scene_with(line.bytes);
         assert_true(ceduo_scene_read_text(&file, "scene", text, &problems));
         const struct ceduo_slope *s = &file.scene.slope;
         assert_int_equal(s->vertices, rows[i].vertices);
@@ -188,10 +179,6 @@ TEST(grounds_split_segments)
         }
         assert_true(ceduo_scene_assumes_value(&file, "slope.materials[0].material"));
         assert_false(ceduo_scene_assumes_value(&file, "slope.vertices_m[0]"));
-        free(text);
-        ceduo_text_free(&line);
-        ceduo_problems_free(&problems);
-        ceduo_scene_release(&file);
     }
 }
 
@@ -217,7 +204,7 @@ TEST(problems_are_put_together)
     assert_int_equal(problems.met, 9);
     ceduo_problems_free(&problems);
     for (int shift = 0; shift < 3; shift++) {
-        struct text word = {0};
+        LOCAL_TEXT(word);
         for (int i = 0; i < shift; i++)
             ceduo_text_char(&word, 'x');
         for (int i = 0; i < 600; i++)
@@ -227,7 +214,6 @@ TEST(problems_are_put_together)
         assert_non_null(strstr(problems.text.bytes, "\xe2\x80\xa6 end\n"));
         EXPECT(problems.text.length, >, 900);
         EXPECT(problems.text.length, <, 1100);
-        ceduo_text_free(&word);
         ceduo_problems_free(&problems);
     }
     char ends[1301] = {0}; /* of nothing but ends of characters neither beginning nor end is left */
@@ -247,9 +233,9 @@ TEST(problems_are_put_together)
 /* Where a value comes from is said by the innermost mapping on the way to it. */
 TEST(notes_are_found)
 {
-    struct scene_file file;
-    struct problems problems = {0};
-    char *text = scene_with(
+    LOCAL_BY(ceduo_scene_release) struct scene_file file;
+    LOCAL_BY(ceduo_problems_free) struct problems problems = {0};
+    LOCAL_BYTES char *text = scene_with(
         "forest: [{from_m: 10, to_m: 80, source: {kind: assumed, text: belt}, stand: {source: {kind: measured, text: stand}, "
         "stools: {per_ha: 2000, spacing_m: 0.4, source: {kind: assumed, text: stools}}, shoots: [{per_ha: 6000, dbh_m: 0.06, "
         "height_m: 6}]}}, "
@@ -284,9 +270,6 @@ TEST(notes_are_found)
     assert_true(ceduo_notes_assume(file.notes, "forest[0].stand"));
     assert_true(ceduo_notes_assume(file.notes, "forest"));
     assert_false(ceduo_notes_assume(file.notes, "forest[0].stand.shoots") || ceduo_notes_assume(file.notes, "forest[0].sta"));
-    ceduo_problems_free(&problems);
-    ceduo_scene_release(&file);
-    free(text);
 }
 
 /* ---- the table of parameters ---- */
@@ -314,10 +297,9 @@ TEST(ranges_are_told)
                  "0\xe2\x80\xa6"
                  "9007199254740992"}};
     for (size_t i = 0; i < LENGTH(rows); i++) {
-        struct text text = {0};
+        LOCAL_TEXT(text);
         const struct field f = {.lo = rows[i].lo, .hi = rows[i].hi, .flags = rows[i].flags};
         assert_int_equal(ceduo_schema_range_text(&f, &text), rows[i].text[0] != '\0');
         assert_string_equal(ceduo_text_string(&text), rows[i].text);
-        ceduo_text_free(&text);
     }
 }

@@ -2,6 +2,7 @@
 /* What a scene says of blocks, of what is not known and of what was seen: what is told of it, each fault once, and
  * which places it means. */
 #include "expect.h"
+#include "local.h"
 
 #include <math.h>
 
@@ -33,8 +34,8 @@ static struct text scene_with(const char *lines)
 /* Reads it from the folder, with its `sets`; fails where it does not tell what is wanted (NULL: nothing) alone. */
 static void read_scene(struct scene_file *file, const char *lines, const char *const *sets, size_t n, const char *told)
 {
-    struct problems problems = {0};
-    struct text text = scene_with(lines);
+    LOCAL_BY(ceduo_problems_free) struct problems problems = {0};
+    LOCAL_BY(ceduo_text_free) struct text text = scene_with(lines);
     char path[256];
     put("scene.yaml", text.bytes);
     in_folder(path, "scene.yaml");
@@ -42,8 +43,6 @@ static void read_scene(struct scene_file *file, const char *lines, const char *c
     if (good != !told || problems.count != !good || (told && !strstr(problems.text.bytes, told)))
         fail_msg("%s\n%s\nis not told '%s' alone but:\n%s", text.bytes, n ? sets[0] : "", told ? told : "nothing",
                  ceduo_text_string(&problems.text));
-    ceduo_text_free(&text);
-    ceduo_problems_free(&problems);
 }
 
 #define SHOOTS     "stools: {per_ha: 2000, spacing_m: 0.4}, shoots: [{per_ha: 6000, dbh_m: 0.06, height_m: 6}]"
@@ -60,29 +59,25 @@ static void read_scene(struct scene_file *file, const char *lines, const char *c
 /* More rows than anybody reads. */
 TEST_WITH(rows_of_doubt_are_told, folder_set_up, folder_tear_down)
 {
-    struct text many = {0};
-    struct scene_file file;
+    LOCAL_TEXT(many);
+    LOCAL_BY(ceduo_scene_release) struct scene_file file;
     ceduo_text_put(&many, "doubt: [");
     for (int i = 0; i <= CEDUO_ITEMS_MOST; i++)
         ceduo_text_put(&many, "{path: rock.density_kg_m3, lo: 1, hi: 2},");
     ceduo_text_put(&many, "]");
     read_scene(&file, many.bytes, NULL, 0, "doubt: 1001 items; at most 1000 can be computed");
-    ceduo_scene_release(&file);
-    ceduo_text_free(&many);
 }
 
 /* The input of one row of doubt has these places, with a comma between them. */
 static void expect_places(const char *lines, const char *places)
 {
-    struct scene_file file;
-    struct text found = {0};
+    LOCAL_BY(ceduo_scene_release) struct scene_file file;
+    LOCAL_TEXT(found);
     read_scene(&file, lines, NULL, 0, NULL);
     assert_int_equal(file.inputs_count, places[0] ? 1 : 0);
     for (size_t i = 0; places[0] && i < file.inputs[0].places_count; i++)
         ceduo_text_format(&found, "%s%s", i > 0 ? "," : "", file.inputs[0].places[i]);
     assert_string_equal(ceduo_text_string(&found), places);
-    ceduo_text_free(&found);
-    ceduo_scene_release(&file);
 }
 
 TEST_WITH(rows_of_doubt_mean_places, folder_set_up, folder_tear_down)
@@ -138,8 +133,8 @@ TEST_WITH(places_by_name, folder_set_up, folder_tear_down)
 /* More places than there are rows in any list. */
 TEST_WITH(all_places_are_meant, folder_set_up, folder_tear_down)
 {
-    struct text lines = {0};
-    struct scene_file file;
+    LOCAL_TEXT(lines);
+    LOCAL_BY(ceduo_scene_release) struct scene_file file;
     ceduo_text_put(&lines, "doubt: [{path: 'options[*].forest[*].stand.energy.u_J_m3', lo: 80000, hi: 120000}]\n"
                            "options:\n");
     for (int i = 0; i < 4; i++) {
@@ -152,14 +147,12 @@ TEST_WITH(all_places_are_meant, folder_set_up, folder_tear_down)
     assert_int_equal(file.inputs_count, 1);
     assert_int_equal(file.inputs[0].places_count, 1600);
     assert_string_equal(file.inputs[0].places[1599], "options[3].forest[399].stand.energy.u_J_m3");
-    ceduo_scene_release(&file);
-    ceduo_text_free(&lines);
 }
 
 /* Ranges, and what says where they come from, are no values that are computed with. */
 TEST_WITH(sources_of_ranges_are_no_notes, folder_set_up, folder_tear_down)
 {
-    struct scene_file file;
+    LOCAL_BY(ceduo_scene_release) struct scene_file file;
     read_scene(&file,
                "doubt: [{path: 'rock.density_kg_m3', lo: 2000, hi: 3000, source: {kind: assumed, text: mine}}]\n"
                "forest: [{" BELT ", doubt: [{path: stools.per_ha, lo: 1, hi: 9000, "
@@ -168,7 +161,6 @@ TEST_WITH(sources_of_ranges_are_no_notes, folder_set_up, folder_tear_down)
     assert_int_equal(file.inputs_count, 2);
     for (const struct source_note *n = file.notes; n; n = n->before)
         assert_string_not_equal(n->text, "mine");
-    ceduo_scene_release(&file);
 }
 
 /* The number of an entry; what is not there, is none or beyond what a number holds is NaN. */
@@ -233,8 +225,8 @@ TEST_WITH(draws_of_an_assumed_ground, folder_set_up, folder_tear_down)
 /* A table of very many columns: all are taken. */
 TEST_WITH(draws_of_many_columns, folder_set_up, folder_tear_down)
 {
-    struct text profile = {0}, heads = {0}, draws = {0};
-    struct scene_file file;
+    LOCAL_BY(ceduo_text_free) struct text profile = {0}, heads = {0}, draws = {0};
+    LOCAL_BY(ceduo_scene_release) struct scene_file file;
     ceduo_text_put(&profile, "x,z\n");
     for (int i = 0; i <= 3000; i++)
         ceduo_text_format(&profile, "%d,%d\n", i, 3000 - i);
@@ -253,10 +245,6 @@ TEST_WITH(draws_of_many_columns, folder_set_up, folder_tear_down)
         assert_int_equal(sscanf(file.inputs[0].places[i], "slope.segments[%d].r%c", &segment, &key), 2);
         EXPECT_NEAR(file.inputs[0].draws[i][0], (2 * segment + (key == 't')) / 1e4, 1e-12);
     }
-    ceduo_scene_release(&file);
-    ceduo_text_free(&profile);
-    ceduo_text_free(&heads);
-    ceduo_text_free(&draws);
 }
 
 /* ---- inputs ---- */
@@ -285,9 +273,9 @@ TEST_WITH(strength_is_of_a_species, folder_set_up, folder_tear_down)
 {
     static const char wood[] = "trees: [{per_ha: 10, " TREE "}], energy: {model: dorren, "
                                "fracture_ratio: 1.5, source: {kind: assumed}}";
-    struct scene_file file;
+    LOCAL_BY(ceduo_scene_release) struct scene_file file;
     struct scene_inputs inputs;
-    struct text lines = {0};
+    LOCAL_TEXT(lines);
     ceduo_text_put(&lines, "rock: {diameter_m: 0.5, density_kg_m3: 2600, "
                            "source: {kind: assumed, except: [diameter_m]}}\noptions:\n");
     for (int i = 0; i < 2; i++)
@@ -305,14 +293,12 @@ TEST_WITH(strength_is_of_a_species, folder_set_up, folder_tear_down)
         }
     assert_int_equal(strengths, 2);
     assert_string_equal(inputs.items[0].path, "rock.density_kg_m3");
-    ceduo_scene_release(&file);
-    ceduo_text_free(&lines);
 }
 
 /* Groups are of trees: where there are none, or each is alone, there are no groups. */
 TEST_WITH(groups_are_of_trees, folder_set_up, folder_tear_down)
 {
-    struct scene_file file;
+    LOCAL_BY(ceduo_scene_release) struct scene_file file;
     read_scene(&file,
                "forest: [{from_m: 10, to_m: 80, stand: {trees: [{per_ha: 0, " TREE ", " GROUPS "}, "
                "{per_ha: 10, " TREE ", " GROUPS "}, {per_ha: 10, " TREE "}]}}]",
@@ -321,7 +307,6 @@ TEST_WITH(groups_are_of_trees, folder_set_up, folder_tear_down)
     assert_false(ceduo_stems_are_grouped(&trees[0]));
     assert_true(ceduo_stems_are_grouped(&trees[1]));
     assert_false(ceduo_stems_are_grouped(&trees[2]));
-    ceduo_scene_release(&file);
 }
 
 /* ---- changes ---- */
@@ -330,13 +315,12 @@ TEST_WITH(groups_are_of_trees, folder_set_up, folder_tear_down)
 TEST_WITH(a_name_of_its_own, folder_set_up, folder_tear_down)
 {
     static const char *const sets[] = {"forest[0].stand.name=mine", "forest[0].stand.stools.per_ha=1500"};
-    struct scene_file file;
+    LOCAL_BY(ceduo_scene_release) struct scene_file file;
     put("stand.yaml", "{ceduo: stand/1, " SHOOTS "}\n");
     read_scene(&file, "forest: [{from_m: 10, to_m: 80, stand: stand.yaml}]", sets, 2, NULL);
     assert_string_equal(file.scene.options[0].belts[0].name, "mine");
     assert_false(file.scene.options[0].belts[0].changed);
     EXPECT(file.scene.options[0].belts[0].stand.stools_per_ha, ==, 1500);
-    ceduo_scene_release(&file);
 }
 
 static size_t notes_of_mu(const struct scene_file *file)
@@ -350,8 +334,8 @@ static size_t notes_of_mu(const struct scene_file *file)
 /* What is assumed of a ground goes with the law of contacts, also where the slope is as it was. */
 TEST_WITH(another_law_assumes_other_things, folder_set_up, folder_tear_down)
 {
-    struct scene_file file;
-    struct problems problems = {0};
+    LOCAL_BY(ceduo_scene_release) struct scene_file file;
+    LOCAL_BY(ceduo_problems_free) struct problems problems = {0};
     put("profile.csv", "x,z\n0,50\n40,20\n100,0\n");
     read_scene(&file, "slope: profile.csv", NULL, 0, NULL);
     assert_int_equal(notes_of_mu(&file), 0);
@@ -363,6 +347,4 @@ TEST_WITH(another_law_assumes_other_things, folder_set_up, folder_tear_down)
         assert_true(ceduo_scene_bind(&file, &problems));
         assert_int_equal(notes_of_mu(&file), i < 2 ? 1 : 0);
     }
-    ceduo_problems_free(&problems);
-    ceduo_scene_release(&file);
 }

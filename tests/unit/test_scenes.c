@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What a scene is made of: stands that start from others, grounds of the library, sources of values. */
 #include "expect.h"
+#include "local.h"
 
 #include "folder.h"
 
@@ -14,24 +15,22 @@
 
 __attribute__((format(printf, 2, 3))) static void write_file(const char *name, const char *format, ...)
 {
-    struct text text = {0};
+    LOCAL_TEXT(text);
     va_list args;
     va_start(args, format);
     ceduo_text_vformat(&text, format, args);
     va_end(args);
     put(name, text.bytes);
-    ceduo_text_free(&text);
 }
 
 /* Reads scene.yaml; what is wrong with it is put into `told`. */
 static bool read_scene(struct scene_file *file, char told[4096])
 {
     char path[256];
-    struct problems problems = {0};
+    LOCAL_BY(ceduo_problems_free) struct problems problems = {0};
     in_folder(path, "scene.yaml");
     bool good = ceduo_scene_read(file, path, NULL, 0, &problems);
     snprintf(told, 4096, "%s", ceduo_text_string(&problems.text));
-    ceduo_problems_free(&problems);
     return good;
 }
 
@@ -63,7 +62,7 @@ TEST_WITH(bases_go_eight_files_deep, folder_set_up, folder_tear_down)
                                   "{base: 1.yaml, name: own, trees: [{per_ha: 100, dbh_m: 0.2, height_m: 9}]}"};
     for (int n = 1; n <= 10; n++)
         for (size_t i = 0; i < LENGTH(stands); i++) {
-            struct scene_file file;
+            LOCAL_BY(ceduo_scene_release) struct scene_file file;
             char told[4096], place[160];
             write_chain(n);
             write_file("scene.yaml", REST "forest: [{from_m: 10, to_m: 80, stand: %s}]\n", stands[i]);
@@ -79,7 +78,6 @@ TEST_WITH(bases_go_eight_files_deep, folder_set_up, folder_tear_down)
                 if (strstr(told, place) != told)
                     fail_msg("%s", told);
             }
-            ceduo_scene_release(&file);
         }
 }
 
@@ -87,7 +85,7 @@ TEST_WITH(bases_in_a_circle_are_refused, folder_set_up, folder_tear_down)
 {
     for (int n = 1; n <= 9; n++)
         for (int i = 0; i < 2; i++) {
-            struct scene_file file;
+            LOCAL_BY(ceduo_scene_release) struct scene_file file;
             char told[4096];
             write_chain(n);
             char last[16];
@@ -97,7 +95,6 @@ TEST_WITH(bases_in_a_circle_are_refused, folder_set_up, folder_tear_down)
             assert_false(read_scene(&file, told));
             assert_non_null(strstr(told, ":2:7: base: more than 8 files in a chain of 'base'; do they form a loop?\n"));
             assert_null(strstr(strstr(told, "a loop?") + 1, "a loop?"));
-            ceduo_scene_release(&file);
         }
 }
 
@@ -129,11 +126,11 @@ static void expect_ground(const struct ceduo_segment *s, const char *name)
 /* The profile (0, 50), (40, 20), (100, 0) at `x`, `z`, cut where its grounds meet: on the line, and each side its own. */
 static void expect_cut(double x, double z, const char *materials, const struct vertex *wanted, bool csv)
 {
-    struct scene_file file;
+    LOCAL_BY(ceduo_scene_release) struct scene_file file;
     char told[4096];
     write_file("line.csv", "distance,elevation\n%.17g,%.17g\n%.17g,%.17g\n%.17g,%.17g\n", x, z + 50, x + 40, z + 20, x + 100,
                z);
-    struct text profile = {0};
+    LOCAL_TEXT(profile);
     if (csv)
         ceduo_text_put(&profile, "csv: line.csv");
     else
@@ -142,7 +139,6 @@ static void expect_cut(double x, double z, const char *materials, const struct v
     write_file("scene.yaml",
                "ceduo: scene/1\nrock: {diameter_m: 0.5}\ncontrols: [{x_m: %.17g}]\nslope: {%s, materials: [%s]}\n", x + 90,
                profile.bytes, materials);
-    ceduo_text_free(&profile);
     if (!read_scene(&file, told))
         fail_msg("%s", told);
     const struct ceduo_slope *s = &file.scene.slope;
@@ -157,7 +153,6 @@ static void expect_cut(double x, double z, const char *materials, const struct v
     EXPECT(s->x[n], ==, 100);
     EXPECT(s->origin_x, ==, x);
     EXPECT(s->origin_z, ==, z + 50);
-    ceduo_scene_release(&file);
 }
 
 TEST_WITH(grounds_meet_anywhere, folder_set_up, folder_tear_down)
@@ -190,13 +185,12 @@ TEST_WITH(grounds_meet_anywhere, folder_set_up, folder_tear_down)
     const double places[][2] = {{0, 0}, {480000, 0}, {480000.5, 4321.25}, {-120.25, -3000}, {500000000, 8000}};
     for (size_t i = 0; i < LENGTH(rows); i++)
         for (size_t k = 0; k < LENGTH(places); k++) {
-            struct text materials = {0};
+            LOCAL_TEXT(materials);
             for (size_t j = 0; j < 3; j++)
                 ceduo_text_format(&materials, "%s{from_m: %.17g, to_m: %.17g, material: %s}", j ? ", " : "",
                                   places[k][0] + rows[i].borders[j], places[k][0] + rows[i].borders[j + 1], rows[i].grounds[j]);
             expect_cut(places[k][0], places[k][1], materials.bytes, rows[i].wanted, false);
             expect_cut(places[k][0], places[k][1], materials.bytes, rows[i].wanted, true);
-            ceduo_text_free(&materials);
         }
 }
 
@@ -220,7 +214,7 @@ TEST_WITH(grounds_that_do_not_meet_are_told, folder_set_up, folder_tear_down)
         {{480000.5, 480050}, {480050, 480100.49999999994}, "to_m: 480100.49999999994 ends before the profile, at 480100.5"},
         {{480000.5, 480050}, {480050, 480050}, "to_m: 480050 does not lie beyond from_m, 480050"}};
     for (size_t i = 0; i < LENGTH(rows); i++) {
-        struct scene_file file;
+        LOCAL_BY(ceduo_scene_release) struct scene_file file;
         char told[4096];
         write_file("scene.yaml",
                    "ceduo: scene/1\nrock: {diameter_m: 0.5}\ncontrols: [{x_m: 480090}]\n"
@@ -230,7 +224,6 @@ TEST_WITH(grounds_that_do_not_meet_are_told, folder_set_up, folder_tear_down)
         assert_int_equal(read_scene(&file, told), !rows[i].told);
         if (rows[i].told && !strstr(told, rows[i].told))
             fail_msg("%s", told);
-        ceduo_scene_release(&file);
     }
 }
 
@@ -255,7 +248,7 @@ static void expect_source(const struct scene_file *file, const char *map, const 
 {
     const char *within;
     size_t used;
-    struct text text = {0};
+    LOCAL_TEXT(text);
     const struct node *node = ceduo_resolve_walk(file->root, map, &within, &used);
     assert_int_equal(used, strlen(map));
     node = ceduo_node_get(node, "source");
@@ -263,7 +256,6 @@ static void expect_source(const struct scene_file *file, const char *map, const 
         ceduo_emit_flow(&text, node);
     if (strcmp(ceduo_text_string(&text), wanted) != 0)
         fail_msg("after %s the source of '%s' is %s, not %s", set, map, text.bytes, wanted);
-    ceduo_text_free(&text);
 }
 
 /* The innermost source around a value that was changed is not of it any more, and no other is touched. */
@@ -343,8 +335,8 @@ TEST_WITH(changed_values_leave_their_source, folder_set_up, folder_tear_down)
     write_file("stand.yaml", "%s", stand);
     write_file("scene.yaml", "%s", sourced);
     for (size_t i = 0; i < LENGTH(rows); i++) {
-        struct scene_file file;
-        struct problems problems = {0};
+        LOCAL_BY(ceduo_scene_release) struct scene_file file;
+        LOCAL_BY(ceduo_problems_free) struct problems problems = {0};
         char told[4096], plain[64];
         if (!read_scene(&file, told))
             fail_msg("%s", told);
@@ -359,16 +351,14 @@ TEST_WITH(changed_values_leave_their_source, folder_set_up, folder_tear_down)
         }
         if (!ceduo_scene_bind(&file, &problems))
             fail_msg("%s", problems.text.bytes);
-        ceduo_problems_free(&problems);
-        ceduo_scene_release(&file);
     }
 }
 
 /* A mapping that is put in whole comes without the source of the old one, and the one around it is not of it. */
 TEST_WITH(a_new_mapping_has_no_old_source, folder_set_up, folder_tear_down)
 {
-    struct scene_file file;
-    struct problems problems = {0};
+    LOCAL_BY(ceduo_scene_release) struct scene_file file;
+    LOCAL_BY(ceduo_problems_free) struct problems problems = {0};
     char told[4096];
     write_file("stand.yaml", "%s", stand);
     write_file("scene.yaml", "%s", sourced);
@@ -384,6 +374,4 @@ TEST_WITH(a_new_mapping_has_no_old_source, folder_set_up, folder_tear_down)
     assert_true(ceduo_scene_set(&file, "--set", "controls=[{x_m: 85}]", &problems));
     expect_source(&file, "controls[0]", "", "controls");
     expect_source(&file, "", "{kind: measured, text: m, except: [release, forest, controls]}", "controls");
-    ceduo_problems_free(&problems);
-    ceduo_scene_release(&file);
 }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What is shown of things seen, against closed forms: the band of stops is binomial; a scene as it is has the band of a flight. */
 #include "expect.h"
+#include "local.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -239,13 +240,12 @@ TEST(two_values_without_draws)
     make_flight(&flights[0], 10, 0.1);
     const struct ceduo_calibration_scene fitted = {&flights[0].scene, inputs, 1, &flights[0].seen};
     struct ceduo_calibration_def def = fit_of(&fitted, 1, 2);
-    struct ceduo_calibration a;
+    LOCAL_BY(ceduo_calibration_free) struct ceduo_calibration a;
     def.steps_most = 1;
     EXPECT(ceduo_calibrate(&def, &a), ==, CEDUO_OK);
     EXPECT(a.correlation[0][0], ==, 1);
     EXPECT(a.correlation[1][1], ==, 1);
     assert_true(isnan(a.correlation[0][1]) && isnan(a.correlation[1][0]));
-    ceduo_calibration_free(&a);
 }
 
 /* One of two scenes ends at 30 m, and what was seen in the other was a fall over an edge at 60 m, which only rocks released
@@ -290,12 +290,11 @@ TEST(half_of_the_draws_at_a_bound)
         make_flight(&flights[0], v[i], 0.01);
         const struct ceduo_calibration_scene fitted = {&flights[0].scene, &input, 1, &flights[0].seen};
         struct ceduo_calibration_def def = fit_of(&fitted, 1, 1);
-        struct ceduo_calibration a;
+        LOCAL_BY(ceduo_calibration_free) struct ceduo_calibration a;
         def.steps_most = 251;
         EXPECT(ceduo_calibrate(&def, &a), ==, CEDUO_OK);
         EXPECT_NEAR(a.parameters[0].best, v[i], 0.02);
         assert_true(a.parameters[0].determined);
         EXPECT(a.parameters[0].at_bound, ==, i == 0);
-        ceduo_calibration_free(&a);
     }
 }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What runs give for pictures. */
 #include "expect.h"
+#include "local.h"
 
 #include <gsl/gsl_statistics_double.h>
 
@@ -72,8 +73,8 @@ TEST(snapshot_is_what_the_runs_say)
     wooded_site_init(&s);
     double x[CEDUO_SNAPSHOT_CELLS];
     size_t cells = ceduo_snapshot_places(&s.scene, x);
-    struct ceduo_pool *pool = pool_of(&s, 300, cells, x, CEDUO_EXACT_BYTES);
-    struct ceduo_snapshot *o = snapshot_of(&(struct ceduo_snapshot_def){
+    LOCAL(ceduo_pool, pool) = pool_of(&s, 300, cells, x, CEDUO_EXACT_BYTES);
+    LOCAL(ceduo_snapshot, o) = snapshot_of(&(struct ceduo_snapshot_def){
         .scene = &s.scene, .figures = pool, .pictures = pool, .cells = cells, .cell_x = x, .trajectories = 20});
     assert_int_equal(o->cells, cells);
     assert_int_equal(o->controls, 2);
@@ -88,8 +89,6 @@ TEST(snapshot_is_what_the_runs_say)
     assert_ptr_equal(ceduo_snapshot_of(o, &s.scene, 0), o->wooded[0]);
     assert_null(ceduo_snapshot_of(o, &s.scene, 2));
     assert_null(ceduo_snapshot_of(NULL, &s.scene, 0));
-    ceduo_snapshot_free(o);
-    ceduo_pool_free(pool);
     ceduo_snapshot_free(NULL);
 }
 
@@ -98,8 +97,8 @@ TEST(a_forest_without_stems_is_the_bare_slope)
 {
     static struct site s;
     wooded_site_init(&s);
-    struct ceduo_pool *pool = pool_of(&s, 300, 0, NULL, CEDUO_EXACT_BYTES);
-    struct ceduo_snapshot *o = snapshot_of(&(struct ceduo_snapshot_def){.scene = &s.scene, .figures = pool, .pictures = pool});
+    LOCAL(ceduo_pool, pool) = pool_of(&s, 300, 0, NULL, CEDUO_EXACT_BYTES);
+    LOCAL(ceduo_snapshot, o) = snapshot_of(&(struct ceduo_snapshot_def){.scene = &s.scene, .figures = pool, .pictures = pool});
     assert_int_equal(ceduo_pool_work(pool).runs, 2);
     assert_ptr_equal(o->wooded[1], o->bare);
     assert_ptr_not_equal(o->wooded[0], o->bare);
@@ -108,8 +107,6 @@ TEST(a_forest_without_stems_is_the_bare_slope)
         double more = o->bare->flown.arrivals[c].reach_probability - o->wooded[0]->flown.arrivals[c].reach_probability;
         EXPECT_NEAR(o->differences[2 + c].reach_probability.mean, more, 1e-12);
     }
-    ceduo_snapshot_free(o);
-    ceduo_pool_free(pool);
 }
 
 /* With the contact model index there is one sight, that of all options. */
@@ -117,15 +114,13 @@ TEST(the_index_looks_at_the_bare_slope)
 {
     static struct site s;
     site_init(&s);
-    struct ceduo_pool *pool = pool_of(&s, 300, 0, NULL, CEDUO_EXACT_BYTES);
-    struct ceduo_snapshot *o = snapshot_of(&(struct ceduo_snapshot_def){.scene = &s.scene, .figures = pool, .pictures = pool});
+    LOCAL(ceduo_pool, pool) = pool_of(&s, 300, 0, NULL, CEDUO_EXACT_BYTES);
+    LOCAL(ceduo_snapshot, o) = snapshot_of(&(struct ceduo_snapshot_def){.scene = &s.scene, .figures = pool, .pictures = pool});
     assert_int_equal(ceduo_pool_work(pool).runs, 1);
     assert_null(o->wooded[0]);
     assert_null(o->wooded[1]);
     assert_ptr_equal(ceduo_snapshot_of(o, &s.scene, 0), o->bare);
     assert_ptr_equal(ceduo_snapshot_of(o, &s.scene, 1), o->bare);
-    ceduo_snapshot_free(o);
-    ceduo_pool_free(pool);
 }
 
 /* Runs that are not there yet leave gaps. */
@@ -134,7 +129,7 @@ TEST(what_is_not_flown_yet_is_not_known)
     static struct site s;
     wooded_site_init(&s);
     struct ceduo_run_def run_def = ceduo_run_def_default(&s.scene);
-    struct ceduo_pool *pool;
+    LOCAL(ceduo_pool, pool);
     struct ceduo_run *run;
     assert_int_equal(ceduo_pool_create(&run_def, &pool), CEDUO_OK);
     assert_int_equal(ceduo_pool_run(pool, NULL, &run), CEDUO_OK);
@@ -150,7 +145,6 @@ TEST(what_is_not_flown_yet_is_not_known)
     for (size_t i = 0; i < 4; i++)
         assert_true(isnan(o->differences[i].reach_probability.mean));
     ceduo_snapshot_free(o);
-    ceduo_pool_free(pool);
 }
 
 /* Figures come from the longer run, curves from the one that keeps them. */
@@ -160,8 +154,8 @@ TEST(figures_come_from_the_longer_run)
     wooded_site_init(&s);
     double x[CEDUO_SNAPSHOT_CELLS];
     size_t cells = ceduo_snapshot_places(&s.scene, x);
-    struct ceduo_pool *figures = pool_of(&s, 600, 0, NULL, CEDUO_EXACT_BYTES);
-    struct ceduo_pool *pictures = pool_of(&s, 300, cells, x, CEDUO_EXACT_BYTES);
+    LOCAL(ceduo_pool, figures) = pool_of(&s, 600, 0, NULL, CEDUO_EXACT_BYTES);
+    LOCAL(ceduo_pool, pictures) = pool_of(&s, 300, cells, x, CEDUO_EXACT_BYTES);
     struct ceduo_snapshot_def def = {.scene = &s.scene, .figures = figures, .pictures = pictures, .cells = cells, .cell_x = x};
     struct ceduo_snapshot *o = snapshot_of(&def);
     assert_int_equal(o->wooded[0]->flown.rocks, 600);
@@ -173,8 +167,6 @@ TEST(figures_come_from_the_longer_run)
     assert_int_equal(o->wooded[0]->flown.rocks, 900);
     assert_int_equal(o->bare->flown.rocks, 900);
     ceduo_snapshot_free(o);
-    ceduo_pool_free(figures);
-    ceduo_pool_free(pictures);
 }
 
 /* Figures do not wait for pictures; and where the run of the pictures alone has grown, all is read again. */
@@ -184,7 +176,7 @@ TEST(pictures_may_be_behind)
     wooded_site_init(&s);
     double x[CEDUO_SNAPSHOT_CELLS];
     size_t cells = ceduo_snapshot_places(&s.scene, x);
-    struct ceduo_pool *figures = pool_of(&s, 600, 0, NULL, CEDUO_EXACT_BYTES), *pictures;
+    LOCAL(ceduo_pool, figures) = pool_of(&s, 600, 0, NULL, CEDUO_EXACT_BYTES), *pictures;
     struct ceduo_run_def run_def = ceduo_run_def_default(&s.scene);
     run_def.cells = cells;
     run_def.cell_x = x;
@@ -205,8 +197,6 @@ TEST(pictures_may_be_behind)
     }
     for (int i = 0; i < 3; i++)
         ceduo_snapshot_free(o[i]);
-    ceduo_pool_free(figures);
-    ceduo_pool_free(pictures);
 }
 
 /* Of a forest that was just changed one sees what it was, but not where that is now the forest of another option; of an
@@ -216,8 +206,8 @@ TEST(a_changed_forest_shows_what_it_was)
     static struct site a, b;
     wooded_site_init(&a);
     wooded_site_init(&b);
-    struct ceduo_pool *pool = pool_of(&a, 100, 0, NULL, CEDUO_EXACT_BYTES);
-    struct ceduo_snapshot *o = snapshot_of(&(struct ceduo_snapshot_def){.scene = &a.scene, .figures = pool, .pictures = pool});
+    LOCAL(ceduo_pool, pool) = pool_of(&a, 100, 0, NULL, CEDUO_EXACT_BYTES);
+    LOCAL(ceduo_snapshot, o) = snapshot_of(&(struct ceduo_snapshot_def){.scene = &a.scene, .figures = pool, .pictures = pool});
     struct ceduo_option options[4] = {b.options[0], b.options[1], a.options[0], b.options[0]};
     b.scene.options = options;
     b.belts[0].stand.u = 50e3;
@@ -227,8 +217,6 @@ TEST(a_changed_forest_shows_what_it_was)
     assert_null(ceduo_snapshot_of(o, &b.scene, 0));
     assert_ptr_equal(ceduo_snapshot_of(o, &b.scene, 2), o->wooded[0]);
     assert_null(ceduo_snapshot_of(o, &b.scene, 3));
-    ceduo_snapshot_free(o);
-    ceduo_pool_free(pool);
 }
 
 /* What has not changed since the last snapshot is not read again but shared; who is freed first does not matter. */
@@ -272,18 +260,15 @@ TEST(longer_runs_are_read_again)
 {
     static struct site s;
     wooded_site_init(&s);
-    struct ceduo_pool *pool = pool_of(&s, 300, 0, NULL, CEDUO_EXACT_BYTES);
+    LOCAL(ceduo_pool, pool) = pool_of(&s, 300, 0, NULL, CEDUO_EXACT_BYTES);
     struct ceduo_snapshot_def def = {.scene = &s.scene, .figures = pool, .pictures = pool};
-    struct ceduo_snapshot *first = snapshot_of(&def);
+    LOCAL(ceduo_snapshot, first) = snapshot_of(&def);
     assert_int_equal(ceduo_pool_extend(pool, 301), CEDUO_OK);
     def.last = first;
-    struct ceduo_snapshot *second = snapshot_of(&def);
+    LOCAL(ceduo_snapshot, second) = snapshot_of(&def);
     assert_ptr_not_equal(second->bare, first->bare);
     assert_ptr_not_equal(second->wooded[0], first->wooded[0]);
     assert_int_equal(second->wooded[0]->flown.rocks, 301);
-    ceduo_snapshot_free(first);
-    ceduo_snapshot_free(second);
-    ceduo_pool_free(pool);
 }
 
 static void expect_same_energies(const struct ceduo_run_snapshot *a, const struct ceduo_run_snapshot *b)
@@ -302,16 +287,12 @@ TEST(energies_are_flown_where_they_were_not_kept)
 {
     static struct site s;
     wooded_site_init(&s);
-    struct ceduo_pool *kept = pool_of(&s, 300, 0, NULL, CEDUO_EXACT_BYTES), *binned = pool_of(&s, 300, 0, NULL, 0);
-    struct ceduo_snapshot *a = snapshot_of(&(struct ceduo_snapshot_def){.scene = &s.scene, .figures = kept, .pictures = kept});
-    struct ceduo_snapshot *b =
+    LOCAL(ceduo_pool, kept) = pool_of(&s, 300, 0, NULL, CEDUO_EXACT_BYTES), *binned = pool_of(&s, 300, 0, NULL, 0);
+    LOCAL(ceduo_snapshot, a) = snapshot_of(&(struct ceduo_snapshot_def){.scene = &s.scene, .figures = kept, .pictures = kept});
+    LOCAL(ceduo_snapshot, b) =
         snapshot_of(&(struct ceduo_snapshot_def){.scene = &s.scene, .figures = binned, .pictures = binned});
     expect_same_energies(a->bare, b->bare);
     expect_same_energies(a->wooded[0], b->wooded[0]);
-    ceduo_snapshot_free(a);
-    ceduo_snapshot_free(b);
-    ceduo_pool_free(kept);
-    ceduo_pool_free(binned);
 }
 
 /* Starts and ends where the rock does, never far below the ground, and never jumps. */
@@ -319,8 +300,8 @@ TEST(trajectories_follow_the_rocks)
 {
     static struct site s;
     wooded_site_init(&s);
-    struct ceduo_pool *pool = pool_of(&s, 20, 0, NULL, CEDUO_EXACT_BYTES);
-    struct ceduo_snapshot *o =
+    LOCAL(ceduo_pool, pool) = pool_of(&s, 20, 0, NULL, CEDUO_EXACT_BYTES);
+    LOCAL(ceduo_snapshot, o) =
         snapshot_of(&(struct ceduo_snapshot_def){.scene = &s.scene, .figures = pool, .pictures = pool, .trajectories = 20});
     uint64_t hit = 0;
     for (uint64_t i = 0; i < 40; i++) {
@@ -339,8 +320,6 @@ TEST(trajectories_follow_the_rocks)
                 EXPECT(t.z[k], >, ceduo_slope_height(&s.scene.slope, t.x[k]) - 0.1);
     }
     EXPECT(hit, >, 0);
-    ceduo_snapshot_free(o);
-    ceduo_pool_free(pool);
 }
 
 /* A rock thrown far: every point of its line and the middle of every chord lies on the parabola. */
@@ -350,8 +329,8 @@ TEST(flights_are_sampled_finely)
     site_init(&s);
     s.scene.release.vx = ceduo_number(10);
     s.scene.release.vz = ceduo_number(10);
-    struct ceduo_pool *pool = pool_of(&s, 1, 0, NULL, CEDUO_EXACT_BYTES);
-    struct ceduo_snapshot *o =
+    LOCAL(ceduo_pool, pool) = pool_of(&s, 1, 0, NULL, CEDUO_EXACT_BYTES);
+    LOCAL(ceduo_snapshot, o) =
         snapshot_of(&(struct ceduo_snapshot_def){.scene = &s.scene, .figures = pool, .pictures = pool, .trajectories = 1});
     const struct ceduo_polyline t = o->bare->trajectories[0];
     size_t checked = 0;
@@ -360,8 +339,6 @@ TEST(flights_are_sampled_finely)
         EXPECT_NEAR(z, (10 - 0.5 * CEDUO_GRAVITY * seconds) * seconds, 0.06); /* a step is 0.05 m */
     }
     EXPECT(checked, >, 3);
-    ceduo_snapshot_free(o);
-    ceduo_pool_free(pool);
 }
 
 /* A rock that bounces in its place, 20 m high, until it is given up: drawn whole it would have millions of points. */
@@ -380,8 +357,8 @@ TEST(an_endless_trajectory_is_drawn_in_part)
 {
     static struct site s;
     init_endless(&s);
-    struct ceduo_pool *pool = pool_of(&s, 1, 0, NULL, CEDUO_EXACT_BYTES);
-    struct ceduo_snapshot *o =
+    LOCAL(ceduo_pool, pool) = pool_of(&s, 1, 0, NULL, CEDUO_EXACT_BYTES);
+    LOCAL(ceduo_snapshot, o) =
         snapshot_of(&(struct ceduo_snapshot_def){.scene = &s.scene, .figures = pool, .pictures = pool, .trajectories = 1});
     const struct ceduo_polyline t = o->bare->trajectories[0];
     struct ceduo_trajectory way;
@@ -391,8 +368,6 @@ TEST(an_endless_trajectory_is_drawn_in_part)
     EXPECT(t.n, <=, 20001);
     EXPECT(t.x[t.n - 1], ==, way.x);
     EXPECT(t.z[t.n - 1], ==, way.z);
-    ceduo_snapshot_free(o);
-    ceduo_pool_free(pool);
 }
 
 TEST(nobody_waits_for_an_endless_trajectory)
@@ -400,15 +375,13 @@ TEST(nobody_waits_for_an_endless_trajectory)
     static struct site s;
     init_endless(&s);
     atomic_bool cancel = true;
-    struct ceduo_pool *pool = pool_of(&s, 1, 0, NULL, CEDUO_EXACT_BYTES);
+    LOCAL(ceduo_pool, pool) = pool_of(&s, 1, 0, NULL, CEDUO_EXACT_BYTES);
     struct ceduo_snapshot_def def = {
         .scene = &s.scene, .figures = pool, .pictures = pool, .trajectories = 1, .cancel = &cancel};
-    struct ceduo_snapshot *o;
+    LOCAL(ceduo_snapshot, o);
     assert_int_equal(ceduo_snapshot_create(&def, &o), CEDUO_CANCELLED);
     assert_null(o);
     cancel = false;
     o = snapshot_of(&def);
     assert_int_equal(o->bare->trajectories_count, 1);
-    ceduo_snapshot_free(o);
-    ceduo_pool_free(pool);
 }

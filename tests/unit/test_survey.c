@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* From plots to a stand: densities and their errors on a forest that is known, heights, classes, volumes. */
+#include "local.h"
+
 #include <math.h>
 #include <stdlib.h>
 
@@ -69,8 +71,8 @@ static size_t visit(const struct forest *f, struct ceduo_survey_stem *stems, siz
 /* The interval of 95 % holds the truth in 92 to 97 % of 200 surveys of six plots. */
 TEST(intervals_hold_the_truth)
 {
-    struct forest *f = calloc(1, sizeof *f);
-    struct ceduo_survey_stem *stems = calloc(100000, sizeof *stems);
+    LOCAL_BYTES struct forest *f = calloc(1, sizeof *f);
+    LOCAL_BYTES struct ceduo_survey_stem *stems = calloc(100000, sizeof *stems);
     double areas[PLOTS];
     int shoots = 0, stools = 0;
     double mean = 0;
@@ -82,22 +84,19 @@ TEST(intervals_hold_the_truth)
         areas[p] = M_PI * RADIUS * RADIUS;
     for (int i = 0; i < SAMPLES; i++) {
         struct ceduo_survey s = {.plots_count = PLOTS, .areas = areas, .stems = stems};
-        struct ceduo_survey_answer a;
+        LOCAL_BY(ceduo_survey_free) struct ceduo_survey_answer a;
         s.stems_count = visit(f, stems, &s.stools_count);
         assert_int_equal(ceduo_survey_ask(&s, &a), CEDUO_OK);
         const struct ceduo_estimate *n = &a.per_ha[CEDUO_SURVEY_SHOOT];
         shoots += n->lo <= f->shoots_per_ha && f->shoots_per_ha <= n->hi;
         stools += a.stools.lo <= f->stools_per_ha && f->stools_per_ha <= a.stools.hi;
         mean += n->mean / SAMPLES;
-        ceduo_survey_free(&a);
     }
     EXPECT(shoots, >=, 0.92 * SAMPLES);
     EXPECT(shoots, <=, 0.97 * SAMPLES);
     EXPECT(stools, >=, 0.92 * SAMPLES);
     EXPECT(stools, <=, 0.97 * SAMPLES);
     EXPECT(fabs(mean / f->shoots_per_ha - 1), <, 0.02); /* 1200 plots of some 43 shoots in clumps: 0.6 % */
-    free(stems);
-    free(f);
 }
 
 /* Three plots of 100, 200 and 400 m2 with 2, 2 and 12 trees: 200, 100 and 300 per ha. */
@@ -219,7 +218,7 @@ TEST(classes_by_hand)
     stems[4].spacing = .3;
     stems[5].energy = 3000;
     struct ceduo_survey s = {.plots_count = 1, .areas = &area, .stools_count = 1, .stems_count = 7, .stems = stems};
-    struct ceduo_survey_answer a;
+    LOCAL_BY(ceduo_survey_free) struct ceduo_survey_answer a;
     assert_int_equal(ceduo_survey_ask(&s, &a), CEDUO_OK);
     assert_int_equal(a.species, cerris);
     assert_int_equal(a.classes_count, 5);
@@ -247,7 +246,6 @@ TEST(classes_by_hand)
     EXPECT_NEAR(a.stump_energy, 3000, 1e-9);
     EXPECT_NEAR(a.spacing.mean, .3, 1e-12);
     EXPECT_NEAR(a.stools.mean, 100, 1e-9);
-    ceduo_survey_free(&a);
 }
 
 /* Heights that are missing: on the curve with five of them, the mean with fewer; shoots and trees each by their own. */

@@ -2,6 +2,7 @@
 /* The vector surface: where lines, axes, bars and discs stand on a page, what is text; and the
  * writer of HTML. A cell is 8 units wide and 16 high, so that places can be told by hand. */
 #include "expect.h"
+#include "local.h"
 
 #include "unit/grid.h"
 
@@ -45,11 +46,10 @@ TEST(lines_are_where_they_are)
     ceduo_canvas_rule_x(canvas, &frame, CEDUO_ROLE_CONTROL, 4);
     assert_false(ceduo_canvas_is_blank(canvas, 2, 5));
     assert_true(ceduo_canvas_is_blank(canvas, 15, 8));
-    char *picture = put(svg);
+    LOCAL_BYTES char *picture = put(svg);
     expect_has(picture, "d=\"M18 94L28 94L58 72\""); /* the point between on the straight part is left out */
     expect_has(picture, "stroke-dasharray=\"4 4\"");
     expect_has(picture, "d=\"M34 18L34 94\"");
-    free(picture);
 }
 
 /* Half a circle of many points keeps within 0.3 units of them with far fewer, drawn from either end. */
@@ -123,10 +123,9 @@ TEST(discs)
             if (near || (far && !other))
                 EXPECT(ceduo_canvas_is_blank(canvas, column, row), ==, !near);
         }
-    char *picture = put(svg);
+    LOCAL_BYTES char *picture = put(svg);
     expect_has(picture, "M41 78A1 1 0 0 0 43 78A1 1 0 0 0 41 78");
     expect_has(picture, "M130 78A32 32 0 0 0 194 78A32 32 0 0 0 130 78");
-    free(picture);
 }
 
 /* A rock that goes to and fro in a pit for ever draws no more than is to be seen; one that goes on is drawn to its end. */
@@ -147,11 +146,10 @@ TEST(ways_that_get_nowhere_are_short)
         ceduo_canvas_cloud_start(canvas);
         ceduo_canvas_cloud_add(canvas, &frame, (size_t)n, x, y);
         ceduo_canvas_cloud_show(canvas, 0);
-        char *picture = put(svg);
+        LOCAL_BYTES char *picture = put(svg);
         length[on] = strlen(picture);
         if (on)
             expect_has(picture, "L798 "); /* the last point: 199 dots of 4 units, from the middle of the first */
-        free(picture);
     }
     assert_true(length[0] < 10000);
     assert_true(length[1] > 8000);
@@ -167,7 +165,7 @@ TEST(axes_and_bars)
     ceduo_canvas_bar(canvas, 2, 9, 10, 0.25, CEDUO_ROLE_GOOD);
     ceduo_canvas_disc(canvas, &frame, CEDUO_ROLE_STEM, 10, 10, 1);
     assert_false(ceduo_canvas_is_blank(canvas, 3, 3)); /* the axis itself */
-    char *picture = put(svg);
+    LOCAL_BYTES char *picture = put(svg);
     expect_has(picture, "M29.5 16V96");    /* left of the frame, over its rows */
     expect_has(picture, "M29.5 98.5H192"); /* below it */
     expect_has(picture, "text-anchor=\"end\">10</text>");
@@ -175,7 +173,6 @@ TEST(axes_and_bars)
     expect_has(picture, ">m</text>");
     expect_has(picture, "M16 147h20v10h-20z");               /* a quarter of ten cells */
     expect_has(picture, "A4 4 0 0 0 78 54A4 4 0 0 0 70 54"); /* around (74, 54): 4 * (8 + 10.5), 4 * (4 + 9.5) */
-    free(picture);
 }
 
 TEST(text_and_signs)
@@ -184,7 +181,7 @@ TEST(text_and_signs)
     struct ceduo_canvas *canvas = ceduo_svg_canvas(svg);
     ceduo_canvas_label(canvas, 1, 0, CEDUO_ROLE_TEXT, "one two  <three>");
     ceduo_canvas_label(canvas, 1, 2, CEDUO_ROLE_BELT, "\xe2\x94\x9c\xe2\x94\x80 a \xe2\x94\xa4");
-    char *picture = put(svg);
+    LOCAL_BYTES char *picture = put(svg);
     expect_has(picture, "<text x=\"8\" y=\"12\" textLength=\"56\" fill=\"#1c1c1c\">one two</text>");
     expect_has(picture,
                "<text x=\"80\" y=\"12\" textLength=\"56\" fill=\"#1c1c1c\">&lt;three&gt;</text>"); /* after two blanks */
@@ -192,13 +189,12 @@ TEST(text_and_signs)
                "<text x=\"8\" y=\"44\" textLength=\"48\" fill=\"#2f6b2f\">\xe2\x94\x9c\xe2\x94\x80 a \xe2\x94\xa4</text>");
     expect_has(picture, "aria-label=\"Title &lt;1&gt;\"");
     expect_has(picture, "<desc id=\"p-d\">What &quot;it&quot; shows</desc>");
-    free(picture);
 }
 
 TEST(screens)
 {
-    struct ceduo_cells *cells = ceduo_cells_create(10, 2, CEDUO_CHARSET_BRAILLE);
-    struct text text = {0};
+    LOCAL(ceduo_cells, cells) = ceduo_cells_create(10, 2, CEDUO_CHARSET_BRAILLE);
+    LOCAL_TEXT(text);
     ceduo_cells_label(cells, 0, 0, CEDUO_ROLE_CURSOR, " ok ");
     ceduo_cells_set_dot(cells, 0, 4, CEDUO_ROLE_WAY);
     ceduo_cells_set_dot(cells, 3, 7, CEDUO_ROLE_WAY);
@@ -211,13 +207,11 @@ TEST(screens)
         text.bytes,
         "<text x=\"0\" y=\"28\" textLength=\"16\" fill=\"#e08ce0\" font-weight=\"bold\">\xe2\xa0\x81\xe2\xa2\x80</text>");
     expect_has(text.bytes, "<text x=\"40\" y=\"28\" textLength=\"8\" fill=\"#7ec46b\">\xe2\x96\x84</text>");
-    ceduo_text_free(&text);
-    ceduo_cells_free(cells);
 }
 
 TEST(html_is_escaped)
 {
-    struct text text = {0};
+    LOCAL_TEXT(text);
     struct ceduo_html html = {.text = &text};
     ceduo_html_open(&html, "p", "class", "a\"b", "id", NULL, NULL);
     ceduo_html_put(&html, "<&>'\"\a\n\xc3\xa8\xff");
@@ -226,5 +220,4 @@ TEST(html_is_escaped)
     ceduo_html_leaf(&html, "li", "1 < 2", NULL);
     assert_string_equal(text.bytes, "<p class=\"a&quot;b\">&lt;&amp;&gt;&#39;&quot;\\x07\n\xc3\xa8\\xff</p>\n"
                                     "<meta name=\"x\"/>\n<li>1 &lt; 2</li>\n");
-    ceduo_text_free(&text);
 }

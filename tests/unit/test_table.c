@@ -2,6 +2,7 @@
 /* The table of the scene: it covers every member, every row decides about what it says, defaults lie in their ranges, and
  * numbers are read and set in place by their paths. */
 #include "expect.h"
+#include "local.h"
 
 #include "folder.h"
 
@@ -281,21 +282,20 @@ static struct keys keys_of(const struct ceduo_scene *scene)
 static void read_text(struct scene_file *file, const char *text)
 {
     char path[256];
-    struct problems problems = {0};
+    LOCAL_BY(ceduo_problems_free) struct problems problems = {0};
     in_folder(path, "scene.yaml");
     put("scene.yaml", text);
     if (!ceduo_scene_read(file, path, NULL, 0, &problems))
         fail_msg("%s", problems.text.bytes);
-    ceduo_problems_free(&problems);
 }
 
 /* Whether the scene is good with a value, and its keys then. */
 static bool keys_with(const char *text, const char *path, const char *value, struct keys *k)
 {
     static const char *last;
-    struct scene_file file = {0};
-    struct problems problems = {0};
-    struct text set = {0};
+    LOCAL_BY(ceduo_scene_release) struct scene_file file = {0};
+    LOCAL_BY(ceduo_problems_free) struct problems problems = {0};
+    LOCAL_TEXT(set);
     ceduo_text_format(&set, "%s=%s", path, value);
     char place[256];
     in_folder(place, "scene.yaml");
@@ -306,9 +306,6 @@ static bool keys_with(const char *text, const char *path, const char *value, str
     bool good = ceduo_scene_read(&file, place, sets, 1, &problems);
     if (good)
         *k = keys_of(&file.scene);
-    ceduo_text_free(&set);
-    ceduo_problems_free(&problems);
-    ceduo_scene_release(&file);
     return good;
 }
 
@@ -388,10 +385,9 @@ TEST_WITH(every_row_decides_about_what_it_says, folder_set_up, folder_tear_down)
     put("a.csv", "distance,elevation\n100,60\n150,20\n200,0\n");
     put("b.csv", "distance,elevation\n100,60\n150,21\n200,0\n");
     for (size_t i = 0; i < LENGTH(scenes); i++) {
-        struct scene_file file = {0};
+        LOCAL_BY(ceduo_scene_release) struct scene_file file = {0};
         read_text(&file, scenes[i]);
         before[i] = keys_of(&file.scene);
-        ceduo_scene_release(&file);
     }
     ceduo_schema_visit(ceduo_schema_scene(), "", check_row, before);
     struct keys moved;
@@ -455,7 +451,7 @@ TEST_WITH(put_is_as_set, folder_set_up, folder_tear_down)
 
 TEST_WITH(paths_of_numbers, folder_set_up, folder_tear_down)
 {
-    struct scene_file file = {0};
+    LOCAL_BY(ceduo_scene_release) struct scene_file file = {0};
     struct value v;
     read_text(&file, scenes[1]);
     struct ceduo_scene *s = &file.scene;
@@ -516,14 +512,13 @@ TEST_WITH(paths_of_numbers, folder_set_up, folder_tear_down)
     for (size_t i = 0; i < LENGTH(none); i++)
         if (ceduo_value_find(s, none[i], &v))
             fail_msg("'%s' is found", none[i]);
-    ceduo_scene_release(&file);
 }
 
 /* Points of the profile are relative to the first, of numbers with a spread each part is its own, and a list of numbers
  * has places. */
 TEST_WITH(paths_of_numbers_in_lists, folder_set_up, folder_tear_down)
 {
-    struct scene_file file = {0};
+    LOCAL_BY(ceduo_scene_release) struct scene_file file = {0};
     struct value v;
     read_text(&file, scenes[4]);
     struct ceduo_scene *s = &file.scene;
@@ -559,13 +554,12 @@ TEST_WITH(paths_of_numbers_in_lists, folder_set_up, folder_tear_down)
     for (size_t i = 0; i < LENGTH(none); i++)
         if (ceduo_value_find(s, none[i], &v))
             fail_msg("'%s' is found", none[i]);
-    ceduo_scene_release(&file);
 }
 
 /* A word is the index of its choice, -1 where none is said. */
 TEST_WITH(words_are_put_by_their_index, folder_set_up, folder_tear_down)
 {
-    struct scene_file file = {0};
+    LOCAL_BY(ceduo_scene_release) struct scene_file file = {0};
     struct value v;
     read_text(&file, scenes[0]);
     assert_true(ceduo_value_find(&file.scene, "simulation.contact_model", &v));
@@ -576,7 +570,6 @@ TEST_WITH(words_are_put_by_their_index, folder_set_up, folder_tear_down)
     for (size_t i = 0; i < LENGTH(none); i++)
         assert_false(ceduo_value_put(&v, none[i]));
     assert_int_equal(file.scene.simulation.contact_model, CEDUO_INDEX);
-    ceduo_scene_release(&file);
 }
 
 /* Many values are tried on one scene without memory that stays. */
@@ -596,10 +589,9 @@ TEST_WITH(puts_take_no_memory, folder_set_up, folder_tear_down)
         assert_true(ceduo_value_put(&diameter, .5 + 1e-6 * i));
         if (i % 100 != 0)
             continue;
-        struct ceduo_run *run;
+        LOCAL(ceduo_run, run);
         assert_int_equal(ceduo_run_create(&def, &run), CEDUO_OK);
         assert_int_equal(ceduo_run_extend(run, 10), CEDUO_OK);
-        ceduo_run_free(run);
         before = i == 1000 ? mallinfo2().uordblks : before;
         if (i >= 1000)
             EXPECT(mallinfo2().uordblks, <=, before + 4096); /* free blocks that are kept at hand count as used */

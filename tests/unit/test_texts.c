@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Texts: UTF-8, numbers, words that are near to others, an arena that is full. */
 #include "expect.h"
+#include "local.h"
 
 #include <errno.h>
 #include <math.h>
@@ -85,14 +86,12 @@ TEST(no_character_does_anything)
                 {"\"\\", "\"\\", "\"\\\"\\\\\""},
                 {"\xff", "\\xff", "\"\\ufffd\""}};
     for (size_t i = 0; i < LENGTH(rows); i++) {
-        struct text safe = {0}, line = {0};
+        LOCAL_BY(ceduo_text_free) struct text safe = {0}, line = {0};
         struct json json = {.text = &line};
         ceduo_text_safe(&safe, rows[i].from);
         ceduo_json_string(&json, NULL, rows[i].from);
         assert_string_equal(safe.bytes, rows[i].safe);
         assert_string_equal(line.bytes, rows[i].json);
-        ceduo_text_free(&safe);
-        ceduo_text_free(&line);
     }
 }
 
@@ -217,20 +216,18 @@ TEST(no_word_is_near_a_long_one)
 
 TEST(an_arena_says_that_it_is_full)
 {
-    struct arena arena = {0};
+    LOCAL_BY(ceduo_arena_free) struct arena arena = {0};
     assert_non_null(ceduo_arena_take(&arena, 8));
     size_t before = arena.bytes;
     assert_false(arena.failed);
     assert_null(ceduo_arena_take(&arena, SIZE_MAX)); /* rounded up it would be 0 */
     assert_true(arena.failed);
     EXPECT(arena.bytes, ==, before);
-    ceduo_arena_free(&arena);
 }
 
 TEST(quotes_for_a_shell)
 {
-    struct text text = {0};
+    LOCAL_TEXT(text);
     ceduo_text_quoted(&text, "l'orto $x");
     assert_string_equal(ceduo_text_string(&text), "'l'\\''orto $x'");
-    ceduo_text_free(&text);
 }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Trees of YAML: what is written is read back, compared, walked along a path, and patched into a text. */
 #include "expect.h"
+#include "local.h"
 
 #include <string.h>
 
@@ -14,13 +15,12 @@
 static const struct node *parse(struct arena *arena, const struct text *text)
 {
     struct source *source = ceduo_arena_take(arena, sizeof *source);
-    struct problems problems = {0};
+    LOCAL_BY(ceduo_problems_free) struct problems problems = {0};
     *source =
         (struct source){.name = "test", .bytes = ceduo_arena_copy(arena, text->bytes, text->length), .length = text->length};
     const struct node *root = ceduo_yaml_read(arena, source, &problems);
     if (!root)
         fail_msg("%s\n%s", text->bytes, problems.text.bytes);
-    ceduo_problems_free(&problems);
     return root;
 }
 
@@ -45,7 +45,7 @@ static void expect_printable(const struct text *text)
 static void expect_back(struct arena *arena, const struct node *node)
 {
     for (int way = 0; way < 2; way++) {
-        struct text text = {0};
+        LOCAL_TEXT(text);
         if (way == 0)
             ceduo_emit(&text, node);
         else
@@ -54,7 +54,6 @@ static void expect_back(struct arena *arena, const struct node *node)
         const struct node *back = parse(arena, &text);
         if (!ceduo_node_equal(back, node) || (node->kind == NODE_SCALAR && strcmp(back->text, node->text) != 0))
             fail_msg("not read back: %s", text.bytes);
-        ceduo_text_free(&text);
     }
 }
 
@@ -137,7 +136,7 @@ TEST(scalars_are_read_back)
                                  "a  b",
                                  " ",
                                  "\t"};
-    struct arena arena = {0};
+    LOCAL_BY(ceduo_arena_free) struct arena arena = {0};
     const struct node *empty = parsed(&arena, "{}");
     for (size_t i = 0; i < LENGTH(words); i++)
         for (int quoted = 0; quoted < 2; quoted++) {
@@ -148,7 +147,6 @@ TEST(scalars_are_read_back)
             expect_back(&arena,
                         ceduo_node_replaced(&arena, parsed(&arena, "[[a, b]]"), 0, ceduo_node_replaced(&arena, list, 2, word)));
         }
-    ceduo_arena_free(&arena);
 }
 
 TEST(trees_are_read_back)
@@ -163,10 +161,9 @@ TEST(trees_are_read_back)
         "1]\n",
         "- [[aaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaa, bbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbb, cccccccccccccccccccccccccccc], [], 1]\n",
         "- {a: aaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaa, b: bbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbb, c: ccccccccccc}\n"};
-    struct arena arena = {0};
+    LOCAL_BY(ceduo_arena_free) struct arena arena = {0};
     for (size_t i = 0; i < LENGTH(trees); i++)
         expect_back(&arena, parsed(&arena, trees[i]));
-    ceduo_arena_free(&arena);
 }
 
 TEST(trees_are_compared)
@@ -186,7 +183,7 @@ TEST(trees_are_compared)
                 {"{a: 1}", "{a: 2}", false},
                 {"'1'", "'1'", true},
                 {"{a: 1}", "[1]", false}};
-    struct arena arena = {0};
+    LOCAL_BY(ceduo_arena_free) struct arena arena = {0};
     for (size_t i = 0; i < LENGTH(rows); i++) {
         const struct node *a = parsed(&arena, rows[i].a), *b = parsed(&arena, rows[i].b);
         assert_int_equal(ceduo_node_equal(a, b), rows[i].equal);
@@ -211,7 +208,6 @@ TEST(trees_are_compared)
         assert_true(ceduo_node_equal(ceduo_node_removed(&arena, list, i), parsed(&arena, less[i])));
     for (size_t i = 0; i < 4; i++)
         assert_true(ceduo_node_equal(ceduo_node_inserted(&arena, list, i, nine), parsed(&arena, more[i])));
-    ceduo_arena_free(&arena);
 }
 
 /* Values put into a text, the rest of it left as it is: NULL where more has changed than values. */
@@ -246,8 +242,8 @@ TEST(texts_are_patched)
         {"#\xe2\x80\xa8#\na:                    \"x\n y\"\n# a line of some length\n", "a: z", NULL},
     };
     for (size_t i = 0; i < LENGTH(rows); i++) {
-        struct arena arena = {0};
-        struct text text = {0};
+        LOCAL_BY(ceduo_arena_free) struct arena arena = {0};
+        LOCAL_TEXT(text);
         const struct node *old = parsed(&arena, rows[i].before), *now = parsed(&arena, rows[i].now);
         bool good = ceduo_emit_patched(&text, old->source, old, now);
         assert_int_equal(good, rows[i].wanted != NULL);
@@ -255,14 +251,12 @@ TEST(texts_are_patched)
             assert_string_equal(text.bytes, rows[i].wanted);
         else
             assert_int_equal(text.length, 0);
-        ceduo_text_free(&text);
-        ceduo_arena_free(&arena);
     }
 }
 
 TEST(walks_end_where_there_is_nothing)
 {
-    struct arena arena = {0};
+    LOCAL_BY(ceduo_arena_free) struct arena arena = {0};
     const struct node *root = parsed(&arena, "{forest: [{to_m: 1}, {to_m: 2}], rock: {a: 3}}"),
                       *forest = ceduo_node_get(root, "forest");
     const char *within;
@@ -275,5 +269,4 @@ TEST(walks_end_where_there_is_nothing)
     assert_int_equal(used, strlen("rock"));
     assert_ptr_equal(ceduo_resolve_walk(root, "rock[0]", &within, &used), ceduo_node_get(root, "rock"));
     assert_int_equal(used, strlen("rock"));
-    ceduo_arena_free(&arena);
 }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What a person types and sees, against what stands in files: centimetres, decimal commas, pairs, ranges, doubts. */
 #include "expect.h"
+#include "local.h"
 
 #include <math.h>
 #include <string.h>
@@ -11,12 +12,11 @@
 
 static void typed_is(const char *path, const char *typed, const char *file)
 {
-    struct text text = {0};
+    LOCAL_TEXT(text);
     const struct field *f = ceduo_schema_at(path);
     assert_non_null(f);
     ceduo_typed_value(f, typed, &text);
     assert_string_equal(ceduo_text_string(&text), file);
-    ceduo_text_free(&text);
 }
 
 TEST(numbers_have_one_sign)
@@ -56,10 +56,9 @@ TEST(files_keep_their_units)
 
 static void shown_is(const char *path, const char *file, const char *shown)
 {
-    struct text text = {0};
+    LOCAL_TEXT(text);
     ceduo_shown_value(ceduo_schema_at(path), file, &text);
     assert_string_equal(ceduo_text_string(&text), shown);
-    ceduo_text_free(&text);
 }
 
 TEST(screens_have_words_and_centimetres)
@@ -76,14 +75,12 @@ TEST(screens_have_words_and_centimetres)
 TEST(every_diameter_reads_back)
 {
     for (int i = 1; i < 20000; i++) {
-        struct text shown = {0}, file = {0};
+        LOCAL_BY(ceduo_text_free) struct text shown = {0}, file = {0};
         char written[CEDUO_NUMBER_ROOM];
         ceduo_number_shortest(i / 10000.0, written);
         ceduo_shown_value(ceduo_schema_at(DBH), written, &shown);
         ceduo_typed_value(ceduo_schema_at(DBH), ceduo_text_string(&shown), &file);
         assert_string_equal(ceduo_text_string(&file), written);
-        ceduo_text_free(&shown);
-        ceduo_text_free(&file);
     }
 }
 
@@ -104,14 +101,13 @@ TEST(ranges_and_doubts)
                  {"rock.diameter_m", "60", true, true, "60 m?"},
                  {"rock.diameter_m", "0,6", true, false, ""}};
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
-        struct text why = {0};
+        LOCAL_TEXT(why);
         const struct field *f = ceduo_schema_at(cases[i].path);
         bool in_range = ceduo_typed_in_range(f, cases[i].typed, &why);
         bool unusual = in_range && ceduo_typed_unusual(f, cases[i].typed, &why);
         if (in_range != cases[i].in_range || (in_range && unusual != cases[i].unusual) ||
             !strstr(ceduo_text_string(&why), cases[i].words))
             fail_msg("%s: '%s': %d, %d, '%s'", cases[i].path, cases[i].typed, in_range, unusual, ceduo_text_string(&why));
-        ceduo_text_free(&why);
     }
 }
 
@@ -131,12 +127,11 @@ TEST(profiles_are_typed)
                  {"", NULL},
                  {"0 60, 20 x", NULL}};
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
-        struct text yaml = {0};
+        LOCAL_TEXT(yaml);
         double first, last;
         bool good = ceduo_typed_points(cases[i].typed, &yaml, &first, &last);
         if (good != (cases[i].vertices != NULL) || (good && strcmp(ceduo_text_string(&yaml), cases[i].vertices) != 0))
             fail_msg("'%s': '%s'", cases[i].typed, ceduo_text_string(&yaml));
-        ceduo_text_free(&yaml);
     }
 }
 
@@ -151,10 +146,9 @@ TEST(paths_in_words)
         {"controls[0].accepted_kJ", "withstands, kJ, control 1"},
         {"no.such.path", "no.such.path"}};
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
-        struct text text = {0};
+        LOCAL_TEXT(text);
         ceduo_shown_path(cases[i][0], &text);
         assert_string_equal(ceduo_text_string(&text), cases[i][1]);
-        ceduo_text_free(&text);
     }
 }
 

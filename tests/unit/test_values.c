@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Values of files: where their ranges end, texts that look like something else, words that are near to others. */
 #include "expect.h"
+#include "local.h"
 
 #include <math.h>
 #include <regex.h>
@@ -39,9 +40,9 @@ static const char *const scenes[] = {
 /* What is told of a scene with path=value; NULL where it has no place for that. To be freed. */
 static char *told_of(const char *scene, const char *path, const char *value)
 {
-    struct scene_file file;
-    struct problems problems = {0};
-    struct text set = {0};
+    LOCAL_BY(ceduo_scene_release) struct scene_file file;
+    LOCAL_BY(ceduo_problems_free) struct problems problems = {0};
+    LOCAL_TEXT(set);
     char *told = NULL;
     assert_true(ceduo_scene_read_text(&file, "scene", scene, &problems));
     ceduo_text_format(&set, "%s=%s", path, value);
@@ -49,21 +50,18 @@ static char *told_of(const char *scene, const char *path, const char *value)
         ceduo_scene_bind(&file, &problems);
         told = strdup(ceduo_text_string(&problems.text));
     }
-    ceduo_text_free(&set);
-    ceduo_problems_free(&problems);
-    ceduo_scene_release(&file);
     return told;
 }
 
 /* Whether a value lies in the range of what is at `place`; what else does not fit it is another matter. */
 static bool is_in_range(const char *path, const char *place, const char *value)
 {
-    char *told = told_of(scenes[0], path, value);
+    LOCAL_BYTES char *told = told_of(scenes[0], path, value);
     told = told ? told : told_of(scenes[1], path, value);
     if (!told)
         fail_msg("no scene here holds %s", path);
     static const char *const words[] = {" is below ", " is not above ", " is above ", " is not below ", " the spread reaches "};
-    struct text start = {0};
+    LOCAL_TEXT(start);
     ceduo_text_format(&start, ": %s: ", place);
     const char *at = strstr(told, start.bytes);
     bool in = true;
@@ -71,8 +69,6 @@ static bool is_in_range(const char *path, const char *place, const char *value)
         const char *word = strstr(at, words[i]);
         in &= !word || memchr(at, '\n', (size_t)(word - at));
     }
-    ceduo_text_free(&start);
-    free(told);
     return in;
 }
 
@@ -95,7 +91,7 @@ static void try_field(void *context, const char *path, const struct field *f)
         return;
     if (f->type != FIELD_NUMBER && f->type != FIELD_SPREAD && f->type != FIELD_COUNT && !listed)
         return;
-    struct text place = {0}, whole = {0};
+    LOCAL_BY(ceduo_text_free) struct text place = {0}, whole = {0};
     for (; *path; path++) { /* in the first item of each list */
         ceduo_text_char(&place, *path);
         if (*path == '[')
@@ -115,8 +111,6 @@ static void try_field(void *context, const char *path, const struct field *f)
     expect_range(whole.bytes, place.bytes, count ? f->hi + 2 : nextafter(f->hi, INFINITY), false); /* 2^53 + 1 is no double */
     fields++;
     open_ends += (f->flags & FIELD_UNDER) != 0;
-    ceduo_text_free(&whole);
-    ceduo_text_free(&place);
 }
 
 TEST(every_range_ends_where_its_table_says)
@@ -218,9 +212,9 @@ static bool is_another_type(const char *text)
 /* A text that was in quotes is written so that it is one for every reader. */
 static void expect_text(const char *word)
 {
-    struct text text = {0};
-    struct arena arena = {0};
-    struct problems problems = {0};
+    LOCAL_TEXT(text);
+    LOCAL_BY(ceduo_arena_free) struct arena arena = {0};
+    LOCAL_BY(ceduo_problems_free) struct problems problems = {0};
     ceduo_emit_scalar(&text, word, true);
     if (is_another_type(word) && text.bytes[0] != '"')
         fail_msg("'%s' is written %s, which is no text", word, text.bytes);
@@ -229,9 +223,6 @@ static void expect_text(const char *word)
     assert_true(back);
     EXPECT(back->kind, ==, NODE_SCALAR);
     assert_string_equal(back->text, word);
-    ceduo_problems_free(&problems);
-    ceduo_arena_free(&arena);
-    ceduo_text_free(&text);
 }
 
 TEST(names_stay_texts)
@@ -281,18 +272,16 @@ TEST(plain_names_stay_plain)
                                  "./s.yaml"};
     for (size_t i = 0; i < LENGTH(words); i++)
         for (int quoted = 0; quoted < 2; quoted++) {
-            struct text text = {0};
+            LOCAL_TEXT(text);
             assert_false(is_another_type(words[i]));
             ceduo_emit_scalar(&text, words[i], quoted);
             assert_string_equal(text.bytes, words[i]);
-            ceduo_text_free(&text);
         }
     const char *const values[] = {"0.5", "-1", "1e3", ".5", "+.5", "true", "false"}; /* without quotes these are no texts */
     for (size_t i = 0; i < LENGTH(values); i++) {
-        struct text text = {0};
+        LOCAL_TEXT(text);
         ceduo_emit_scalar(&text, values[i], false);
         assert_string_equal(text.bytes, values[i]);
-        ceduo_text_free(&text);
     }
 }
 

@@ -2,6 +2,7 @@
 /* The live verdict: it comes with the first thousand rocks, what is known stays known while figures become finer, and
  * what was clear is not taken back. */
 #include "expect.h"
+#include "local.h"
 
 #include <math.h>
 #include <poll.h>
@@ -227,11 +228,10 @@ TEST_WITH(of_two_equal_options_the_first, open_made, close_made)
 {
     for (size_t i = 1; i < OPTIONS; i++)
         made.differences[i].exceed_probability = (struct ceduo_paired){-.2, .01, 0};
-    struct ceduo_verdict v = verdict_of_made(NULL);
+    LOCAL_BY(ceduo_verdict_release) struct ceduo_verdict v = verdict_of_made(NULL);
     EXPECT(v.today.best, ==, 1);
     EXPECT(v.today.rivals, ==, 1);
     assert_true(v.today.rival[2] && v.today.equal);
-    ceduo_verdict_release(&v);
 }
 
 /* Turned: the order is clear under one law, by 3 errors, and the other way round under the other, by one. */
@@ -245,11 +245,10 @@ TEST_WITH(an_order_is_turned_by_more_than_an_error, open_made, close_made)
         made.differences[1].exceed_probability = (struct ceduo_paired){cases[i].today * .01, .01, 0};
         made.others[1].to_first.exceed_probability = (struct ceduo_paired){-cases[i].other * .01, .01, 0};
         made.differences[2].exceed_probability = made.others[2].to_first.exceed_probability = (struct ceduo_paired){9, .01, 0};
-        struct ceduo_verdict v = verdict_of_made(NULL);
+        LOCAL_BY(ceduo_verdict_release) struct ceduo_verdict v = verdict_of_made(NULL);
         EXPECT(v.turned_count, ==, cases[i].turned);
         if (v.turned_count > 0)
             assert_true(v.turned[0].better == 0 && v.turned[0].than == 1);
-        ceduo_verdict_release(&v);
     }
 }
 

@@ -2,6 +2,7 @@
 /* What is said of figures: an interval holds all that lies in it once it is rounded, and an option is called the
  * best only where it is more than three standard errors before the others. */
 #include "expect.h"
+#include "local.h"
 
 #include <math.h>
 #include <string.h>
@@ -75,17 +76,15 @@ static struct ceduo_result *assess(void)
 
 static void expect_said(double share, double lo, double hi, const char *wanted)
 {
-    struct text text = {0};
+    LOCAL_TEXT(text);
     open_scene(50e3);
     arrivals[0].exceed_probability = share;
     arrivals[0].exceed_lo = lo;
     arrivals[0].exceed_hi = hi;
-    struct ceduo_result *result = assess();
+    LOCAL(ceduo_result, result) = assess();
     ceduo_words_energy(&text, result, 0, 0);
     if (!strstr(text.bytes, wanted))
         fail_msg("'%s' is missing in: %s", wanted, text.bytes);
-    ceduo_text_free(&text);
-    ceduo_result_free(result);
 }
 
 /* Of 1000, the lower end is rounded down and the upper one up; what is whole stays. */
@@ -112,15 +111,12 @@ TEST(an_interval_is_rounded_outward)
 
 static void expect_best(const char *wanted)
 {
-    struct text text = {0};
-    struct ceduo_result *result = assess();
-    struct ceduo_verdict verdict;
+    LOCAL_TEXT(text);
+    LOCAL(ceduo_result, result) = assess();
+    LOCAL_BY(ceduo_verdict_release) struct ceduo_verdict verdict;
     assert_int_equal(ceduo_verdict_make(result, NULL, &verdict), CEDUO_OK);
     ceduo_words_best(&text, result->scene, &verdict);
     assert_string_equal(ceduo_text_string(&text), wanted);
-    ceduo_text_free(&text);
-    ceduo_verdict_release(&verdict);
-    ceduo_result_free(result);
 }
 
 /* Of 1000 released so many with too much energy, or where it is not said what is too much so many that arrive; the error
@@ -201,10 +197,9 @@ static void make_verdict(const double mean[OPTIONS], const double today[OPTIONS]
 
 static void expect_made(const char *wanted)
 {
-    struct text text = {0};
+    LOCAL_TEXT(text);
     ceduo_words_best(&text, &scene.scene, &made);
     assert_string_equal(ceduo_text_string(&text), wanted);
-    ceduo_text_free(&text);
 }
 
 TEST(a_sentence_for_the_rotation_and_one_for_today)
@@ -242,7 +237,7 @@ TEST(why_there_is_no_rotation)
     static struct ceduo_stems trees = {.per_ha = 100, .dbh = .2, .height = 10};
     static char name[] = "old stand";
     static struct ceduo_belt belt = {.to = 10, .name = name, .stand = {.trees = &trees, .trees_count = 1}};
-    struct text text = {0};
+    LOCAL_TEXT(text);
     make_verdict(mean, mean, 0, 0);
     options[1].belts = options[2].belts = &belt;
     options[1].belts_count = options[2].belts_count = 1;
@@ -253,5 +248,4 @@ TEST(why_there_is_no_rotation)
                         "All years of 'a' are alike: no stem stands in it.\n"
                         "All years of 'b' are alike: the file of 'old stand' has no growth (growth, cutting).\n"
                         "'c' grows, but is never cut: its next 25 years stand for it.\n");
-    ceduo_text_free(&text);
 }
