@@ -15,24 +15,27 @@
 #define BLOCK   CEDUO_CHARSET_BLOCK
 #define ASCII   CEDUO_CHARSET_ASCII
 
-static struct site s; /* of each test, as it begins: */
+static struct site s;
+static struct ceduo_picture p;
 
-static struct ceduo_picture picture_of(const struct site *site)
+static int bare_site(void **state)
 {
-    return (struct ceduo_picture){.scene = &site->scene, .snapshot = &site->snapshot};
-}
-
-static struct ceduo_picture bare_site(void)
-{
+    (void)state;
     site_init(&s);
-    return picture_of(&s);
+    p = (struct ceduo_picture){.scene = &s.scene, .snapshot = &s.snapshot};
+    return 0;
 }
 
-static struct ceduo_picture wooded_site(void)
+static int wooded_site(void **state)
 {
+    bare_site(state);
     wooded_site_init(&s);
-    return picture_of(&s);
+    return 0;
 }
+
+/* Of the picture of such a site. */
+#define TEST_BARE(name)   TEST_WITH(name, bare_site, NULL)
+#define TEST_WOODED(name) TEST_WITH(name, wooded_site, NULL)
 
 /* Through the wood no rock gets to the path. */
 static void stop_all(void)
@@ -43,13 +46,12 @@ static void stop_all(void)
     s.wood_arrivals[0] = (struct ceduo_arrivals){.released = 10, .energy = ceduo_distribution_none()};
 }
 
-static struct ceduo_cells *draw(enum ceduo_plot plot, const struct ceduo_picture *p, int width, int height,
-                                enum ceduo_charset charset)
+static struct ceduo_cells *draw(enum ceduo_plot plot, int width, int height, enum ceduo_charset charset)
 {
     struct ceduo_cells *cells = ceduo_cells_create(width, height, charset);
     assert_non_null(cells);
     struct ceduo_area area = {0, 0, width, height};
-    ceduo_plot_draw(plot, &cells->canvas, &area, p);
+    ceduo_plot_draw(plot, &cells->canvas, &area, &p);
     return cells;
 }
 
@@ -65,17 +67,16 @@ static char *picture_file(const char *name)
     return bytes;
 }
 
-static void expect(enum ceduo_plot plot, const struct ceduo_picture *p, int width, int height, enum ceduo_charset charset,
-                   const char *name)
+static void expect(enum ceduo_plot plot, int width, int height, enum ceduo_charset charset, const char *name)
 {
-    LOCAL(ceduo_cells, cells) = draw(plot, p, width, height, charset);
+    LOCAL(ceduo_cells, cells) = draw(plot, width, height, charset);
     LOCAL_BYTES char *text = ceduo_cells_dump(cells), *expected = picture_file(name);
     assert_string_equal(text, expected);
 }
 
-static bool shows(enum ceduo_plot plot, const struct ceduo_picture *p, int width, int height, const char *words)
+static bool shows(enum ceduo_plot plot, int width, int height, const char *words)
 {
-    LOCAL(ceduo_cells, cells) = draw(plot, p, width, height, ASCII);
+    LOCAL(ceduo_cells, cells) = draw(plot, width, height, ASCII);
     LOCAL_BYTES char *text = ceduo_cells_dump(cells);
     assert_non_null(text);
     bool found = strstr(text, words) != NULL;
@@ -94,16 +95,14 @@ static int cells_of(const struct ceduo_cells *cells, enum ceduo_role role)
 
 /* ---- the profile ---- */
 
-TEST(profile_is_true_to_scale)
+TEST_BARE(profile_is_true_to_scale)
 {
-    struct ceduo_picture p = bare_site();
-    expect(CEDUO_PLOT_PROFILE, &p, 72, 22, ASCII, "profile-is-true-to-scale");
-    expect(CEDUO_PLOT_PROFILE, &p, 44, 16, BRAILLE, "profile-is-true-to-scale-2");
+    expect(CEDUO_PLOT_PROFILE, 72, 22, ASCII, "profile-is-true-to-scale");
+    expect(CEDUO_PLOT_PROFILE, 44, 16, BRAILLE, "profile-is-true-to-scale-2");
 }
 
-TEST(span_tells_where_the_slope_stands)
+TEST_BARE(span_tells_where_the_slope_stands)
 {
-    struct ceduo_picture p = bare_site();
     LOCAL(ceduo_cells, cells) = ceduo_cells_create(80, 24, BRAILLE);
     struct ceduo_area area = {0, 0, 80, 24};
     struct ceduo_span span;
@@ -120,72 +119,66 @@ TEST(span_tells_where_the_slope_stands)
     assert_true(span.x1 >= 60 && span.x1 < 62);
 }
 
-TEST(heights_are_stretched_where_the_slope_is_flat_and_the_factor_is_written)
+TEST_BARE(heights_are_stretched_where_the_slope_is_flat_and_the_factor_is_written)
 {
-    struct ceduo_picture p = bare_site();
     p.snapshot = NULL;
     s.options[0].belts_count = 0;
     s.z[1] = -2;
     s.z[2] = -3;
     s.scene.slope.origin_z = 3;
-    expect(CEDUO_PLOT_PROFILE, &p, 60, 12, ASCII, "heights-are-stretched-where-the-slope-is-flat-and-the-factor-is-written");
-    assert_false(shows(CEDUO_PLOT_PROFILE, &p, 200, 8, "heights"));
+    expect(CEDUO_PLOT_PROFILE, 60, 12, ASCII, "heights-are-stretched-where-the-slope-is-flat-and-the-factor-is-written");
+    assert_false(shows(CEDUO_PLOT_PROFILE, 200, 8, "heights"));
     s.z[1] = -800; /* a wall: pressed */
     s.z[2] = -900;
-    assert_true(shows(CEDUO_PLOT_PROFILE, &p, 60, 12, "heights drawn at "));
+    assert_true(shows(CEDUO_PLOT_PROFILE, 60, 12, "heights drawn at "));
 }
 
-TEST(the_selected_way_is_drawn_over_all)
+TEST_BARE(the_selected_way_is_drawn_over_all)
 {
-    struct ceduo_picture p = bare_site();
-    struct ceduo_cells *cells = draw(CEDUO_PLOT_PROFILE, &p, 60, 20, BRAILLE);
+    struct ceduo_cells *cells = draw(CEDUO_PLOT_PROFILE, 60, 20, BRAILLE);
     assert_int_equal(cells_of(cells, CEDUO_ROLE_WAY), 0);
     assert_true(cells_of(cells, CEDUO_ROLE_STEM) > 5);
     assert_true(cells_of(cells, CEDUO_ROLE_STOOL) > 5);
     assert_true(cells_of(cells, CEDUO_ROLE_CLOUD) > 0);
     ceduo_cells_free(cells);
     p.selected = &s.line;
-    cells = draw(CEDUO_PLOT_PROFILE, &p, 60, 20, BRAILLE);
+    cells = draw(CEDUO_PLOT_PROFILE, 60, 20, BRAILLE);
     assert_true(cells_of(cells, CEDUO_ROLE_WAY) > 10);
     ceduo_cells_free(cells);
 }
 
-TEST(the_wooded_profile_says_whose_forest_it_is)
+TEST_WOODED(the_wooded_profile_says_whose_forest_it_is)
 {
-    struct ceduo_picture p = wooded_site();
-    expect(CEDUO_PLOT_PROFILE, &p, 84, 20, ASCII, "the-wooded-profile-says-whose-forest-it-is");
+    expect(CEDUO_PLOT_PROFILE, 84, 20, ASCII, "the-wooded-profile-says-whose-forest-it-is");
     s.options[0].name = "coppice with standards";
-    expect(CEDUO_PLOT_PROFILE, &p, 60, 16, BRAILLE, "the-wooded-profile-says-whose-forest-it-is-2");
-    assert_true(shows(CEDUO_PLOT_PROFILE, &p, 54, 16, "ways: coppice w"));
-    assert_true(shows(CEDUO_PLOT_PROFILE, &p, 40, 12, "ways: copp"));
+    expect(CEDUO_PLOT_PROFILE, 60, 16, BRAILLE, "the-wooded-profile-says-whose-forest-it-is-2");
+    assert_true(shows(CEDUO_PLOT_PROFILE, 54, 16, "ways: coppice w"));
+    assert_true(shows(CEDUO_PLOT_PROFILE, 40, 12, "ways: copp"));
     p.option = 1;
-    assert_true(shows(CEDUO_PLOT_PROFILE, &p, 84, 20, "without forest"));
-    assert_true(shows(CEDUO_PLOT_PROFILE, &p, 84, 20, " no stems"));
-    assert_false(shows(CEDUO_PLOT_PROFILE, &p, 84, 20, "through"));
+    assert_true(shows(CEDUO_PLOT_PROFILE, 84, 20, "without forest"));
+    assert_true(shows(CEDUO_PLOT_PROFILE, 84, 20, " no stems"));
+    assert_false(shows(CEDUO_PLOT_PROFILE, 84, 20, "through"));
 }
 
-TEST(ways_that_are_not_known_are_not_drawn)
+TEST_WOODED(ways_that_are_not_known_are_not_drawn)
 {
-    struct ceduo_picture p = wooded_site();
     s.wooded[0] = NULL;
-    LOCAL(ceduo_cells, cells) = draw(CEDUO_PLOT_PROFILE, &p, 60, 16, BRAILLE);
+    LOCAL(ceduo_cells, cells) = draw(CEDUO_PLOT_PROFILE, 60, 16, BRAILLE);
     assert_int_equal(cells_of(cells, CEDUO_ROLE_CLOUD), 0);
     assert_true(cells_of(cells, CEDUO_ROLE_STOOL) > 5);
-    assert_true(shows(CEDUO_PLOT_PROFILE, &p, 84, 20, "ways not computed yet"));
-    assert_false(shows(CEDUO_PLOT_PROFILE, &p, 84, 20, "of 1000"));
-    assert_false(shows(CEDUO_PLOT_PROFILE, &p, 60, 16, "ways:"));
+    assert_true(shows(CEDUO_PLOT_PROFILE, 84, 20, "ways not computed yet"));
+    assert_false(shows(CEDUO_PLOT_PROFILE, 84, 20, "of 1000"));
+    assert_false(shows(CEDUO_PLOT_PROFILE, 60, 16, "ways:"));
 }
 
-TEST(notes_tell_when_no_rock_arrives)
+TEST_WOODED(notes_tell_when_no_rock_arrives)
 {
-    wooded_site_init(&s);
     stop_all();
-    struct ceduo_picture p = picture_of(&s);
-    assert_true(shows(CEDUO_PLOT_PROFILE, &p, 84, 20, " 0 (800) of 1000"));
-    assert_true(shows(CEDUO_PLOT_PROFILE, &p, 84, 20, " 0 (200) > 40 kJ"));
+    assert_true(shows(CEDUO_PLOT_PROFILE, 84, 20, " 0 (800) of 1000"));
+    assert_true(shows(CEDUO_PLOT_PROFILE, 84, 20, " 0 (200) > 40 kJ"));
     s.arrivals[0].exceed_probability = NAN;
     s.wood_arrivals[0].exceed_probability = NAN;
-    assert_false(shows(CEDUO_PLOT_PROFILE, &p, 84, 20, "> 40 kJ"));
+    assert_false(shows(CEDUO_PLOT_PROFILE, 84, 20, "> 40 kJ"));
 }
 
 /* Two of the upper half hit, one flown over; one in the lower half. */
@@ -205,9 +198,8 @@ static int rows_of(const struct ceduo_cells *cells, int column, enum ceduo_role 
     return n;
 }
 
-TEST(stems_that_the_rock_came_to_stand_where_they_are)
+TEST_WOODED(stems_that_the_rock_came_to_stand_where_they_are)
 {
-    struct ceduo_picture p = wooded_site();
     p.snapshot = NULL;
     p.stems = passed;
     p.stems_count = 4;
@@ -224,65 +216,59 @@ TEST(stems_that_the_rock_came_to_stand_where_they_are)
         int found = rows_of(cells, column, passed[i].hit ? CEDUO_ROLE_STEM : CEDUO_ROLE_DIM);
         assert_true(found >= rows - 2 && found <= rows + 1);
     }
-    expect(CEDUO_PLOT_PROFILE, &p, 84, 20, ASCII, "stems-that-the-rock-came-to-stand-where-they-are");
+    expect(CEDUO_PLOT_PROFILE, 84, 20, ASCII, "stems-that-the-rock-came-to-stand-where-they-are");
 }
 
 /* By the contact model poisson a contact has a place along the way, but no size. */
-TEST(contacts_without_size_are_drawn_as_high_as_the_stand)
+TEST_WOODED(contacts_without_size_are_drawn_as_high_as_the_stand)
 {
-    wooded_site_init(&s);
     s.scene.simulation.contact_model = CEDUO_POISSON;
     struct ceduo_stem_passed contact[] = {
         {.x = 30, .y = NAN, .dbh = NAN, .height = INFINITY, .hit = true},
         {.x = 90, .y = NAN, .dbh = NAN, .height = INFINITY, .hit = true}, /* no belt: no height */
         {.x = 200, .y = NAN, .dbh = NAN, .height = INFINITY, .hit = true}};
-    struct ceduo_picture p = picture_of(&s);
     p.stems = contact;
     p.stems_count = 3;
-    LOCAL(ceduo_cells, cells) = draw(CEDUO_PLOT_PROFILE, &p, 84, 40, BRAILLE);
+    LOCAL(ceduo_cells, cells) = draw(CEDUO_PLOT_PROFILE, 84, 40, BRAILLE);
     assert_in_range(cells_of(cells, CEDUO_ROLE_STEM), 6, 12);
-    assert_true(shows(CEDUO_PLOT_STAND, &p, 84, 20, "One pattern of many"));
+    assert_true(shows(CEDUO_PLOT_STAND, 84, 20, "One pattern of many"));
 }
 
 /* Survey coordinates on the axes, the same picture. */
-TEST(axes_have_the_users_coordinates)
+TEST_BARE(axes_have_the_users_coordinates)
 {
-    struct ceduo_picture p = bare_site();
     s.scene.slope.origin_x = 481000;
     s.scene.slope.origin_z = 1000;
-    assert_true(shows(CEDUO_PLOT_PROFILE, &p, 80, 24, "481040"));
-    assert_true(shows(CEDUO_PLOT_PROFILE, &p, 80, 24, " 960+"));
-    assert_true(shows(CEDUO_PLOT_HEIGHT, &p, 80, 24, "481040"));
+    assert_true(shows(CEDUO_PLOT_PROFILE, 80, 24, "481040"));
+    assert_true(shows(CEDUO_PLOT_PROFILE, 80, 24, " 960+"));
+    assert_true(shows(CEDUO_PLOT_HEIGHT, 80, 24, "481040"));
 }
 
 /* ---- strips ---- */
 
-TEST(strips_show_quantiles_along_the_slope)
+TEST_BARE(strips_show_quantiles_along_the_slope)
 {
-    struct ceduo_picture p = bare_site();
-    expect(CEDUO_PLOT_HEIGHT, &p, 60, 12, ASCII, "strips-show-quantiles-along-the-slope");
-    expect(CEDUO_PLOT_ENERGY, &p, 60, 16, BRAILLE, "strips-show-quantiles-along-the-slope-2");
+    expect(CEDUO_PLOT_HEIGHT, 60, 12, ASCII, "strips-show-quantiles-along-the-slope");
+    expect(CEDUO_PLOT_ENERGY, 60, 16, BRAILLE, "strips-show-quantiles-along-the-slope-2");
 }
 
 /* Strokes through the forest, dots without it. */
-TEST(strips_show_the_wood_beside_the_bare_slope)
+TEST_WOODED(strips_show_the_wood_beside_the_bare_slope)
 {
-    struct ceduo_picture p = wooded_site();
-    expect(CEDUO_PLOT_HEIGHT, &p, 70, 16, ASCII, "strips-show-the-wood-beside-the-bare-slope");
-    expect(CEDUO_PLOT_ENERGY, &p, 70, 16, BRAILLE, "strips-show-the-wood-beside-the-bare-slope-2");
-    LOCAL(ceduo_cells, cells) = draw(CEDUO_PLOT_ENERGY, &p, 70, 16, BRAILLE);
+    expect(CEDUO_PLOT_HEIGHT, 70, 16, ASCII, "strips-show-the-wood-beside-the-bare-slope");
+    expect(CEDUO_PLOT_ENERGY, 70, 16, BRAILLE, "strips-show-the-wood-beside-the-bare-slope-2");
+    LOCAL(ceduo_cells, cells) = draw(CEDUO_PLOT_ENERGY, 70, 16, BRAILLE);
     assert_true(cells_of(cells, CEDUO_ROLE_WOOD) > 30);
     assert_true(cells_of(cells, CEDUO_ROLE_BARE) > 30);
 }
 
 /* Where there is no room for four curves: the one that matters, with and without forest. */
-TEST(small_strips_show_one_pair_of_curves)
+TEST_WOODED(small_strips_show_one_pair_of_curves)
 {
-    struct ceduo_picture p = wooded_site();
-    expect(CEDUO_PLOT_ENERGY, &p, 70, 8, ASCII, "small-strips-show-one-pair-of-curves");
-    expect(CEDUO_PLOT_HEIGHT, &p, 70, 8, BRAILLE, "small-strips-show-one-pair-of-curves-2");
-    assert_true(shows(CEDUO_PLOT_ENERGY, &p, 50, 24, "mean energy, kJ  -- wood  .. bare"));
-    assert_false(shows(CEDUO_PLOT_ENERGY, &p, 50, 24, "p95"));
+    expect(CEDUO_PLOT_ENERGY, 70, 8, ASCII, "small-strips-show-one-pair-of-curves");
+    expect(CEDUO_PLOT_HEIGHT, 70, 8, BRAILLE, "small-strips-show-one-pair-of-curves-2");
+    assert_true(shows(CEDUO_PLOT_ENERGY, 50, 24, "mean energy, kJ  -- wood  .. bare"));
+    assert_false(shows(CEDUO_PLOT_ENERGY, 50, 24, "p95"));
     struct ceduo_span span = {4, 60, 0, 100}; /* leaves no room for names */
     p.span = &span;
     struct ceduo_area area = {0, 0, 70, 20};
@@ -293,15 +279,14 @@ TEST(small_strips_show_one_pair_of_curves)
 }
 
 /* Names stand in the order in which the curves end: here the wooded mean above the bare one. */
-TEST(names_of_curves_follow_their_ends)
+TEST_WOODED(names_of_curves_follow_their_ends)
 {
-    struct ceduo_picture p = wooded_site();
     for (int i = 0; i < CELLS; i++) {
         s.wood_envelopes[i] = s.envelopes[i];
         s.wood_envelopes[i].mean_energy = 190e3;
         s.wood_envelopes[i].energy.p95 = 20e3;
     }
-    LOCAL(ceduo_cells, cells) = draw(CEDUO_PLOT_ENERGY, &p, 70, 16, ASCII);
+    LOCAL(ceduo_cells, cells) = draw(CEDUO_PLOT_ENERGY, 70, 16, ASCII);
     const char *names[] = {"wood mean", "bare p95", "bare mean", "wood p95"};
     char *text = ceduo_cells_dump(cells), *at = text;
     for (int i = 0; i < 4; i++) {
@@ -312,43 +297,39 @@ TEST(names_of_curves_follow_their_ends)
 }
 
 /* The wood's own peak is cut as well, and told by name. */
-TEST(a_peak_in_the_wood_is_told)
+TEST_WOODED(a_peak_in_the_wood_is_told)
 {
-    struct ceduo_picture p = wooded_site();
     s.wood_envelopes[2].height.p95 = 30;
-    assert_true(shows(CEDUO_PLOT_HEIGHT, &p, 120, 16, "wood p95 beyond the top: 30.0 m at 25.0 m"));
-    assert_true(shows(CEDUO_PLOT_HEIGHT, &p, 70, 16, "; wood p95 up to 30.0 m"));
-    assert_true(shows(CEDUO_PLOT_HEIGHT, &p, 58, 16, "; up to 30.0\n"));
+    assert_true(shows(CEDUO_PLOT_HEIGHT, 120, 16, "wood p95 beyond the top: 30.0 m at 25.0 m"));
+    assert_true(shows(CEDUO_PLOT_HEIGHT, 70, 16, "; wood p95 up to 30.0 m"));
+    assert_true(shows(CEDUO_PLOT_HEIGHT, 58, 16, "; up to 30.0\n"));
 }
 
-TEST(strips_without_wooded_rocks)
+TEST_WOODED(strips_without_wooded_rocks)
 {
-    struct ceduo_picture p = wooded_site();
     stop_all();
-    assert_true(shows(CEDUO_PLOT_ENERGY, &p, 70, 16, "bare mean"));
-    assert_false(shows(CEDUO_PLOT_ENERGY, &p, 70, 16, "wood mean"));
+    assert_true(shows(CEDUO_PLOT_ENERGY, 70, 16, "bare mean"));
+    assert_false(shows(CEDUO_PLOT_ENERGY, 70, 16, "wood mean"));
     s.wooded[0] = NULL;
-    assert_true(shows(CEDUO_PLOT_ENERGY, &p, 70, 16, "not computed yet"));
-    assert_true(shows(CEDUO_PLOT_HEIGHT, &p, 70, 16, "not computed yet"));
+    assert_true(shows(CEDUO_PLOT_ENERGY, 70, 16, "not computed yet"));
+    assert_true(shows(CEDUO_PLOT_HEIGHT, 70, 16, "not computed yet"));
     p.option = 1; /* no stems: both runs are one, drawn in strokes */
-    LOCAL(ceduo_cells, cells) = draw(CEDUO_PLOT_ENERGY, &p, 70, 8, BRAILLE);
+    LOCAL(ceduo_cells, cells) = draw(CEDUO_PLOT_ENERGY, 70, 8, BRAILLE);
     assert_true(cells_of(cells, CEDUO_ROLE_WOOD) > 30);
     assert_in_range(cells_of(cells, CEDUO_ROLE_BARE), 13, 20); /* 13: the words */
 }
 
 /* Nine places of ten say how high the scale goes; the tenth is told. */
-TEST(a_peak_is_cut_and_told)
+TEST_BARE(a_peak_is_cut_and_told)
 {
-    struct ceduo_picture p = bare_site();
-    assert_false(shows(CEDUO_PLOT_HEIGHT, &p, 80, 12, "beyond the top"));
+    assert_false(shows(CEDUO_PLOT_HEIGHT, 80, 12, "beyond the top"));
     s.envelopes[2].height.max = 30;
-    assert_true(shows(CEDUO_PLOT_HEIGHT, &p, 80, 12, "max beyond the top: 30.0 m at 25.0 m"));
-    expect(CEDUO_PLOT_HEIGHT, &p, 70, 16, ASCII, "a-peak-is-cut-and-told");
+    assert_true(shows(CEDUO_PLOT_HEIGHT, 80, 12, "max beyond the top: 30.0 m at 25.0 m"));
+    expect(CEDUO_PLOT_HEIGHT, 70, 16, ASCII, "a-peak-is-cut-and-told");
 }
 
-TEST(strips_share_the_profiles_columns)
+TEST_BARE(strips_share_the_profiles_columns)
 {
-    struct ceduo_picture p = bare_site();
     LOCAL(ceduo_cells, cells) = ceduo_cells_create(70, 24, ASCII);
     struct ceduo_area above = {0, 0, 70, 16}, below = {0, 16, 70, 8};
     struct ceduo_span span;
@@ -365,160 +346,147 @@ TEST(strips_share_the_profiles_columns)
     assert_int_equal(rules[1], 2);
 }
 
-TEST(places_without_rocks_stay_empty)
+TEST_BARE(places_without_rocks_stay_empty)
 {
-    struct ceduo_picture p = bare_site();
     for (int i = 0; i < CELLS; i++)
         s.envelopes[i] = no_rock;
-    assert_true(shows(CEDUO_PLOT_HEIGHT, &p, 60, 12, "no rock passes here"));
-    assert_true(shows(CEDUO_PLOT_ENERGY, &p, 60, 12, "no rock passes here"));
+    assert_true(shows(CEDUO_PLOT_HEIGHT, 60, 12, "no rock passes here"));
+    assert_true(shows(CEDUO_PLOT_ENERGY, 60, 12, "no rock passes here"));
     p.snapshot = NULL;
-    assert_true(shows(CEDUO_PLOT_ENERGY, &p, 60, 12, "not computed yet"));
+    assert_true(shows(CEDUO_PLOT_ENERGY, 60, 12, "not computed yet"));
 }
 
 /* ---- bars ---- */
 
-TEST(histogram_counts_by_round_bins)
+TEST_BARE(histogram_counts_by_round_bins)
 {
-    struct ceduo_picture p = bare_site();
-    expect(CEDUO_PLOT_HISTOGRAM, &p, 60, 8, BRAILLE, "histogram-counts-by-round-bins");
-    expect(CEDUO_PLOT_HISTOGRAM, &p, 60, 5, ASCII, "histogram-counts-by-round-bins-2");
+    expect(CEDUO_PLOT_HISTOGRAM, 60, 8, BRAILLE, "histogram-counts-by-round-bins");
+    expect(CEDUO_PLOT_HISTOGRAM, 60, 5, ASCII, "histogram-counts-by-round-bins-2");
     p.control = 1;
-    assert_true(shows(CEDUO_PLOT_HISTOGRAM, &p, 60, 8, "no rock arrives"));
+    assert_true(shows(CEDUO_PLOT_HISTOGRAM, 60, 8, "no rock arrives"));
     p.control = 2;
-    assert_true(shows(CEDUO_PLOT_HISTOGRAM, &p, 60, 8, "no control"));
+    assert_true(shows(CEDUO_PLOT_HISTOGRAM, 60, 8, "no control"));
 }
 
-TEST(a_long_tail_goes_into_one_bin)
+TEST_BARE(a_long_tail_goes_into_one_bin)
 {
-    struct ceduo_picture p = bare_site();
     static double many[1000];
     for (int i = 0; i < 1000; i++)
         many[i] = i < 997 ? 1e3 * (i % 50) : 1e6;
     s.energies[0] = (struct ceduo_energies){1000, many};
     s.arrivals[0].reached = 1000;
-    expect(CEDUO_PLOT_HISTOGRAM, &p, 70, 8, ASCII, "a-long-tail-goes-into-one-bin");
+    expect(CEDUO_PLOT_HISTOGRAM, 70, 8, ASCII, "a-long-tail-goes-into-one-bin");
     s.arrivals[0].reached = 5000;
-    assert_true(shows(CEDUO_PLOT_HISTOGRAM, &p, 100, 8, "drawn: the first 1000"));
+    assert_true(shows(CEDUO_PLOT_HISTOGRAM, 100, 8, "drawn: the first 1000"));
 }
 
-TEST(equal_energies_make_a_bin)
+TEST_BARE(equal_energies_make_a_bin)
 {
-    struct ceduo_picture p = bare_site();
     for (int i = 0; i < ENERGIES; i++)
         s.values[i] = 0;
-    assert_true(shows(CEDUO_PLOT_HISTOGRAM, &p, 60, 8, "100.0 %"));
+    assert_true(shows(CEDUO_PLOT_HISTOGRAM, 60, 8, "100.0 %"));
     for (int i = 0; i < ENERGIES; i++)
         s.values[i] = 5e12;
-    assert_true(shows(CEDUO_PLOT_HISTOGRAM, &p, 60, 8, "100.0 %"));
+    assert_true(shows(CEDUO_PLOT_HISTOGRAM, 60, 8, "100.0 %"));
 }
 
 /* Bars through the forest, marks without it, both of 1000 released. */
-TEST(the_histogram_marks_the_bare_slope)
+TEST_WOODED(the_histogram_marks_the_bare_slope)
 {
-    struct ceduo_picture p = wooded_site();
-    expect(CEDUO_PLOT_HISTOGRAM, &p, 74, 12, BRAILLE, "the-histogram-marks-the-bare-slope");
-    expect(CEDUO_PLOT_HISTOGRAM, &p, 60, 6, ASCII, "the-histogram-marks-the-bare-slope-2");
-    assert_true(shows(CEDUO_PLOT_HISTOGRAM, &p, 50, 12, "of 1000: 500 (| bare 800), 100 (200) > 40 kJ\n"));
+    expect(CEDUO_PLOT_HISTOGRAM, 74, 12, BRAILLE, "the-histogram-marks-the-bare-slope");
+    expect(CEDUO_PLOT_HISTOGRAM, 60, 6, ASCII, "the-histogram-marks-the-bare-slope-2");
+    assert_true(shows(CEDUO_PLOT_HISTOGRAM, 50, 12, "of 1000: 500 (| bare 800), 100 (200) > 40 kJ\n"));
     s.controls[0].accepted = s.arrivals[0].exceed_probability = s.wood_arrivals[0].exceed_probability = NAN;
-    assert_true(shows(CEDUO_PLOT_HISTOGRAM, &p, 74, 12, "of 1000 released 500 arrive (| bare 800)\n"));
+    assert_true(shows(CEDUO_PLOT_HISTOGRAM, 74, 12, "of 1000 released 500 arrive (| bare 800)\n"));
     s.wood_arrivals[0].reached = 50;
-    assert_true(shows(CEDUO_PLOT_HISTOGRAM, &p, 74, 12, "; drawn: the first 8"));
+    assert_true(shows(CEDUO_PLOT_HISTOGRAM, 74, 12, "; drawn: the first 8"));
     p.control = 1;
-    assert_true(shows(CEDUO_PLOT_HISTOGRAM, &p, 74, 12, "no rock arrives"));
+    assert_true(shows(CEDUO_PLOT_HISTOGRAM, 74, 12, "no rock arrives"));
 }
 
-TEST(the_histogram_without_wooded_rocks)
+TEST_WOODED(the_histogram_without_wooded_rocks)
 {
-    struct ceduo_picture p = wooded_site();
     stop_all();
-    expect(CEDUO_PLOT_HISTOGRAM, &p, 74, 10, ASCII, "the-histogram-without-wooded-rocks");
+    expect(CEDUO_PLOT_HISTOGRAM, 74, 10, ASCII, "the-histogram-without-wooded-rocks");
     s.wooded[0] = NULL;
-    assert_true(shows(CEDUO_PLOT_HISTOGRAM, &p, 74, 12, "not computed yet"));
+    assert_true(shows(CEDUO_PLOT_HISTOGRAM, 74, 12, "not computed yet"));
     p.option = 1; /* no stems */
-    assert_true(shows(CEDUO_PLOT_HISTOGRAM, &p, 74, 12, "of 1000 released 800 arrive (| bare 800)"));
+    assert_true(shows(CEDUO_PLOT_HISTOGRAM, 74, 12, "of 1000 released 800 arrive (| bare 800)"));
 }
 
-TEST(adc_shows_the_forms_beside_the_threshold)
+TEST_BARE(adc_shows_the_forms_beside_the_threshold)
 {
-    struct ceduo_picture p = bare_site();
-    expect(CEDUO_PLOT_ADC, &p, 70, 9, BRAILLE, "adc-shows-the-forms-beside-the-threshold");
+    expect(CEDUO_PLOT_ADC, 70, 9, BRAILLE, "adc-shows-the-forms-beside-the-threshold");
     s.scene.simulation.threshold = 1e-323; /* 1.5 times 5e-324 are 5e-324 again */
-    assert_true(shows(CEDUO_PLOT_ADC, &p, 70, 9, "9.88131e-324 m "));
+    assert_true(shows(CEDUO_PLOT_ADC, 70, 9, "9.88131e-324 m "));
     s.scene.simulation.threshold = 30;
     s.shoots.per_ha = 20;
     s.belts[0].stand.stools_per_ha = 10;
     s.belts[0].stand.trees_count = 0;
-    assert_true(shows(CEDUO_PLOT_ADC, &p, 70, 9, "applied: NO"));
+    assert_true(shows(CEDUO_PLOT_ADC, 70, 9, "applied: NO"));
     p.option = 1;
-    assert_true(shows(CEDUO_PLOT_ADC, &p, 70, 9, "no stems, nothing to meet: NO"));
+    assert_true(shows(CEDUO_PLOT_ADC, 70, 9, "no stems, nothing to meet: NO"));
     s.options[1].belts_count = 0;
-    assert_true(shows(CEDUO_PLOT_ADC, &p, 70, 9, "no forest"));
+    assert_true(shows(CEDUO_PLOT_ADC, 70, 9, "no forest"));
 }
 
-TEST(many_belts_get_a_row_each)
+TEST_BARE(many_belts_get_a_row_each)
 {
-    struct ceduo_picture p = bare_site();
     struct ceduo_belt belts[6];
     for (int i = 0; i < 6; i++)
         belts[i] = s.belts[i % 2];
     s.options[0] = (struct ceduo_option){"six", 6, belts};
-    expect(CEDUO_PLOT_ADC, &p, 70, 7, ASCII, "many-belts-get-a-row-each");
-    assert_true(shows(CEDUO_PLOT_ADC, &p, 70, 5, "and 3 more belts"));
+    expect(CEDUO_PLOT_ADC, 70, 7, ASCII, "many-belts-get-a-row-each");
+    assert_true(shows(CEDUO_PLOT_ADC, 70, 5, "and 3 more belts"));
 }
 
-TEST(options_stand_side_by_side)
+TEST_BARE(options_stand_side_by_side)
 {
-    struct ceduo_picture p = bare_site();
-    expect(CEDUO_PLOT_COMPARE, &p, 80, 9, BRAILLE, "options-stand-side-by-side");
-    expect(CEDUO_PLOT_COMPARE, &p, 110, 6, ASCII, "options-stand-side-by-side-2");
+    expect(CEDUO_PLOT_COMPARE, 80, 9, BRAILLE, "options-stand-side-by-side");
+    expect(CEDUO_PLOT_COMPARE, 110, 6, ASCII, "options-stand-side-by-side-2");
     p.control = 1;
-    assert_true(shows(CEDUO_PLOT_COMPARE, &p, 120, 6, "no rock arrives"));
+    assert_true(shows(CEDUO_PLOT_COMPARE, 120, 6, "no rock arrives"));
 }
 
-TEST(options_are_compared_by_what_gets_through)
+TEST_WOODED(options_are_compared_by_what_gets_through)
 {
-    struct ceduo_picture p = wooded_site();
-    expect(CEDUO_PLOT_COMPARE, &p, 80, 9, BRAILLE, "options-are-compared-by-what-gets-through");
-    expect(CEDUO_PLOT_COMPARE, &p, 60, 7, ASCII, "options-are-compared-by-what-gets-through-2");
+    expect(CEDUO_PLOT_COMPARE, 80, 9, BRAILLE, "options-are-compared-by-what-gets-through");
+    expect(CEDUO_PLOT_COMPARE, 60, 7, ASCII, "options-are-compared-by-what-gets-through-2");
     s.wood_arrivals[0].exceed_probability = 0.05;
-    assert_true(shows(CEDUO_PLOT_COMPARE, &p, 80, 9, " 50.0 pass"));
+    assert_true(shows(CEDUO_PLOT_COMPARE, 80, 9, " 50.0 pass"));
     s.controls[0].accepted = s.arrivals[0].exceed_probability = s.wood_arrivals[0].exceed_probability = NAN;
-    expect(CEDUO_PLOT_COMPARE, &p, 80, 9, ASCII, "options-are-compared-by-what-gets-through-3");
+    expect(CEDUO_PLOT_COMPARE, 80, 9, ASCII, "options-are-compared-by-what-gets-through-3");
 }
 
-TEST(options_without_wooded_rocks_are_compared)
+TEST_WOODED(options_without_wooded_rocks_are_compared)
 {
-    struct ceduo_picture p = wooded_site();
     stop_all();
-    expect(CEDUO_PLOT_COMPARE, &p, 80, 9, ASCII, "options-without-wooded-rocks-are-compared");
+    expect(CEDUO_PLOT_COMPARE, 80, 9, ASCII, "options-without-wooded-rocks-are-compared");
     s.wooded[0] = NULL;
-    expect(CEDUO_PLOT_COMPARE, &p, 80, 9, BRAILLE, "options-without-wooded-rocks-are-compared-2");
+    expect(CEDUO_PLOT_COMPARE, 80, 9, BRAILLE, "options-without-wooded-rocks-are-compared-2");
     p.snapshot = NULL;
-    assert_true(shows(CEDUO_PLOT_COMPARE, &p, 80, 9, "Energies are not computed yet"));
+    assert_true(shows(CEDUO_PLOT_COMPARE, 80, 9, "Energies are not computed yet"));
 }
 
 /* ---- the stand ---- */
 
-TEST(the_stand_is_drawn_to_scale)
+TEST_BARE(the_stand_is_drawn_to_scale)
 {
-    struct ceduo_picture p = bare_site();
-    expect(CEDUO_PLOT_STAND, &p, 60, 14, BRAILLE, "the-stand-is-drawn-to-scale");
+    expect(CEDUO_PLOT_STAND, 60, 14, BRAILLE, "the-stand-is-drawn-to-scale");
     p.option = 1;
-    assert_true(shows(CEDUO_PLOT_STAND, &p, 60, 12, "No stems"));
+    assert_true(shows(CEDUO_PLOT_STAND, 60, 12, "No stems"));
     p.belt = 1;
-    assert_true(shows(CEDUO_PLOT_STAND, &p, 60, 12, "no forest"));
+    assert_true(shows(CEDUO_PLOT_STAND, 60, 12, "no forest"));
 }
 
 /* More stools are added to those that stand. */
-TEST(stems_that_stay_do_not_move)
+TEST_BARE(stems_that_stay_do_not_move)
 {
-    struct ceduo_picture p = bare_site();
     s.belts[0].stand.trees_count = 0;
-    LOCAL(ceduo_cells, few) = draw(CEDUO_PLOT_STAND, &p, 80, 40, BRAILLE);
+    LOCAL(ceduo_cells, few) = draw(CEDUO_PLOT_STAND, 80, 40, BRAILLE);
     s.belts[0].stand.stools_per_ha *= 1.5;
     s.shoots.per_ha *= 1.5;
-    LOCAL(ceduo_cells, more) = draw(CEDUO_PLOT_STAND, &p, 80, 40, BRAILLE);
+    LOCAL(ceduo_cells, more) = draw(CEDUO_PLOT_STAND, 80, 40, BRAILLE);
     int dots[2] = {0, 0};
     for (int i = 0; i < 80 * 37; i++) {
         assert_int_equal(few->cell[i].dots & ~more->cell[i].dots, 0);
@@ -530,14 +498,13 @@ TEST(stems_that_stay_do_not_move)
 
 /* Trees of 10 cm and a rock of 3 m: those whose middle is less than 1.55 m off its path are met, no others. A row of
  * the picture is half a metre. */
-TEST(what_the_rock_meets_lies_in_its_strip)
+TEST_BARE(what_the_rock_meets_lies_in_its_strip)
 {
-    struct ceduo_picture p = bare_site();
     s.scene.rock.diameter = ceduo_number(3);
     s.belts[0].stand.shoots_count = 0;
     s.trees.per_ha = 5000;
     s.trees.dbh = 0.1;
-    LOCAL(ceduo_cells, cells) = draw(CEDUO_PLOT_STAND, &p, 80, 43, BRAILLE);
+    LOCAL(ceduo_cells, cells) = draw(CEDUO_PLOT_STAND, 80, 43, BRAILLE);
     for (int row = 0; row < 40; row++)
         for (int column = 0; column < 80; column++) {
             double off = fabs(0.503 * (row + 0.5 - 20)); /* m */
@@ -550,27 +517,25 @@ TEST(what_the_rock_meets_lies_in_its_strip)
 }
 
 /* 20 m around the last stem of the belt, offsets stretched until the strip fills the picture. */
-TEST(the_stand_shows_the_way_of_the_rock)
+TEST_WOODED(the_stand_shows_the_way_of_the_rock)
 {
-    struct ceduo_picture p = wooded_site();
     p.stems = passed;
     p.stems_count = 3;
-    expect(CEDUO_PLOT_STAND, &p, 60, 14, BRAILLE, "the-stand-shows-the-way-of-the-rock");
-    LOCAL(ceduo_cells, cells) = draw(CEDUO_PLOT_STAND, &p, 60, 14, BRAILLE);
+    expect(CEDUO_PLOT_STAND, 60, 14, BRAILLE, "the-stand-shows-the-way-of-the-rock");
+    LOCAL(ceduo_cells, cells) = draw(CEDUO_PLOT_STAND, 60, 14, BRAILLE);
     assert_true(cells_of(cells, CEDUO_ROLE_WAY) >= 2);
     assert_true(cells_of(cells, CEDUO_ROLE_DIM) >= 1);
     assert_int_equal(cells_of(cells, CEDUO_ROLE_STEM) + cells_of(cells, CEDUO_ROLE_STOOL), 0);
     p.stems_count = 4; /* the last one near the end of the belt */
-    assert_true(shows(CEDUO_PLOT_STAND, &p, 60, 14, "The way of this rock: 1 stem hit in 20 m; across x"));
-    assert_true(shows(CEDUO_PLOT_STAND, &p, 50, 14, "The way of this rock: 1 stem hit in 20 m\n"));
+    assert_true(shows(CEDUO_PLOT_STAND, 60, 14, "The way of this rock: 1 stem hit in 20 m; across x"));
+    assert_true(shows(CEDUO_PLOT_STAND, 50, 14, "The way of this rock: 1 stem hit in 20 m\n"));
     s.scene.slope.origin_x = 1000;
-    assert_true(shows(CEDUO_PLOT_STAND, &p, 60, 14, "1065"));
+    assert_true(shows(CEDUO_PLOT_STAND, 60, 14, "1065"));
 }
 
 /* The last stem in another belt: the first 20 m with stems. A belt shorter than that is shown with what follows it. */
-TEST(the_way_is_shown_in_the_belt_shown)
+TEST_WOODED(the_way_is_shown_in_the_belt_shown)
 {
-    wooded_site_init(&s);
     struct ceduo_belt belts[3] = {s.belts[0], s.belts[0], s.belts[1]};
     belts[0].to = 45;
     belts[1].from = 60;
@@ -578,41 +543,37 @@ TEST(the_way_is_shown_in_the_belt_shown)
     belts[2].from = 70;
     belts[2].to = 90;
     s.options[0] = (struct ceduo_option){"three", 3, belts};
-    struct ceduo_picture p = picture_of(&s);
     p.stems = passed;
     p.stems_count = 4;
-    assert_true(shows(CEDUO_PLOT_STAND, &p, 70, 14, "2 stems hit in 20 m, 1 flown over"));
+    assert_true(shows(CEDUO_PLOT_STAND, 70, 14, "2 stems hit in 20 m, 1 flown over"));
     p.belt = 1;
-    assert_true(shows(CEDUO_PLOT_STAND, &p, 70, 14, "1 stem hit in 10 m;"));
+    assert_true(shows(CEDUO_PLOT_STAND, 70, 14, "1 stem hit in 10 m;"));
     p.belt = 2;
-    assert_true(shows(CEDUO_PLOT_STAND, &p, 70, 14, "No stems"));
+    assert_true(shows(CEDUO_PLOT_STAND, 70, 14, "No stems"));
     p.belt = 0;
     p.stems = &passed[3];
     p.stems_count = 1;
-    assert_true(shows(CEDUO_PLOT_STAND, &p, 70, 14, "One pattern of many"));
+    assert_true(shows(CEDUO_PLOT_STAND, 70, 14, "One pattern of many"));
 }
 
-TEST(a_dense_stand_is_drawn_in_time)
+TEST_BARE(a_dense_stand_is_drawn_in_time)
 {
-    struct ceduo_picture p = bare_site();
     s.belts[0].stand.stools_per_ha = 1e6;
     s.shoots.per_ha = 1e7;
-    ceduo_cells_free(draw(CEDUO_PLOT_STAND, &p, 200, 400, BRAILLE));
+    ceduo_cells_free(draw(CEDUO_PLOT_STAND, 200, 400, BRAILLE));
 }
 
 /* ---- all of them ---- */
 
-TEST(nothing_is_drawn_beside_the_area)
+TEST_WOODED(nothing_is_drawn_beside_the_area)
 {
-    wooded_site_init(&s);
     for (int i = 0; i < 3 * 40 * 12; i++) {
         enum ceduo_charset charset = (enum ceduo_charset)(i % 3);
         struct ceduo_area area = {7, 3, 4 + i / 3 % 40 * 3, 1 + i / 120 * 2};
         for (int plot = CEDUO_PLOT_PROFILE; plot < CEDUO_PLOTS; plot++) {
             LOCAL(ceduo_cells, cells) = ceduo_cells_create(area.width + 14, area.height + 6, charset);
-            struct ceduo_picture p = picture_of(&s);
             s.scene.simulation.contact_model = i / 3 % 2 ? CEDUO_STEMS : CEDUO_INDEX;
-            p.snapshot = i % 7 == 0 ? NULL : p.snapshot;
+            p.snapshot = i % 7 == 0 ? NULL : &s.snapshot;
             p.stems = i % 11 < 3 ? passed : NULL;
             p.stems_count = i % 11 < 3 ? 4 : 0;
             p.option = (size_t)(i % 5 == 0);
@@ -692,7 +653,7 @@ static void page_cloud_show(void *to, double quantile)
     (void)to, (void)quantile;
 }
 
-TEST(pictures_draw_on_another_surface)
+TEST_WOODED(pictures_draw_on_another_surface)
 {
     static const struct ceduo_surface surface = {.label = page_label,
                                                  .label_width = page_label_width,
@@ -704,7 +665,6 @@ TEST(pictures_draw_on_another_surface)
                                                  .axis_unit = page_axis_unit,
                                                  .cloud_start = page_cloud_start,
                                                  .cloud_show = page_cloud_show};
-    struct ceduo_picture p = wooded_site();
     struct ceduo_area area = {0, 0, 100, 30};
     for (int plot = CEDUO_PLOT_PROFILE; plot < CEDUO_PLOTS; plot++) {
         struct page page = {0};
@@ -723,9 +683,8 @@ TEST(pictures_draw_on_another_surface)
 }
 
 /* Three options: one between the others, one that yields less and lets more through, one of which no yield is known. */
-TEST(a_point_for_each_option)
+TEST_WOODED(a_point_for_each_option)
 {
-    wooded_site_init(&s);
     static struct ceduo_option options[3];
     static char names[3][8] = {"good", "beaten", "unknown"};
     struct ceduo_choice choices[3] = {{.mean = {.25, .0625}, .yield = {.cut_per_year = 4}},
@@ -736,14 +695,13 @@ TEST(a_point_for_each_option)
     s.scene.options = options;
     s.scene.options_count = 3;
     const struct ceduo_verdict verdict = {.wooded = true, .accepted = true, .n = 3, .choices = choices};
-    struct ceduo_picture p = picture_of(&s);
     p.verdict = &verdict;
-    expect(CEDUO_PLOT_TRADEOFF, &p, 60, 16, ASCII, "a-point-for-each-option");
+    expect(CEDUO_PLOT_TRADEOFF, 60, 16, ASCII, "a-point-for-each-option");
     choices[0].yield.cut_per_year = choices[1].yield.cut_per_year = NAN;
-    assert_true(shows(CEDUO_PLOT_TRADEOFF, &p, 60, 16, "no option says how it grows and is cut"));
-    assert_true(shows(CEDUO_PLOT_TRADEOFF, &p, 20, 16, "too narrow"));
+    assert_true(shows(CEDUO_PLOT_TRADEOFF, 60, 16, "no option says how it grows and is cut"));
+    assert_true(shows(CEDUO_PLOT_TRADEOFF, 20, 16, "too narrow"));
     p.verdict = NULL;
-    assert_true(shows(CEDUO_PLOT_TRADEOFF, &p, 60, 16, "not computed yet"));
+    assert_true(shows(CEDUO_PLOT_TRADEOFF, 60, 16, "not computed yet"));
 }
 
 TEST(names_are_found)
@@ -758,57 +716,42 @@ TEST(names_are_found)
     assert_int_equal(ceduo_plot_find(""), CEDUO_PLOT_NONE);
 }
 
-TEST(titles_name_what_is_shown)
+TEST_BARE(titles_name_what_is_shown)
 {
-    struct ceduo_picture p = bare_site();
-    const char *expected[2][CEDUO_PLOTS] = {
-        {
-            "",
-            "kept: slope, forest, and ways, without forest",
-            "kept: energy of the rocks, without forest",
-            "kept: height of the rocks above the ground, without forest",
-            "kept: energy at path (40 m), without forest",
-            "kept: average distance between contacts, m",
-            "kept: year by year, up to path (40 m)",
-            "kept: coppice, from above",
-            "Options side by side, up to path (40 m)",
-            "Protection and yield of the options, up to path (40 m)",
-            "kept: how sure it is at path (40 m)",
-            "How often, and with how much, at path (40 m)",
-        },
-        {
-            "",
-            "kept: slope, forest, and ways",
-            "kept: energy of the rocks",
-            "kept: height of the rocks above the ground",
-            "kept: energy at path (40 m)",
-            "kept: average distance between contacts, m",
-            "kept: year by year, up to path (40 m)",
-            "kept: coppice, from above",
-            "Options side by side, up to path (40 m)",
-            "Protection and yield of the options, up to path (40 m)",
-            "kept: how sure it is at path (40 m)",
-            "How often, and with how much, at path (40 m)",
-        },
+    static const struct {
+        const char *title, *of_bare;
+    } expected[CEDUO_PLOTS] = {
+        {NULL, NULL},
+        {"kept: slope, forest, and ways", ", without forest"},
+        {"kept: energy of the rocks", ", without forest"},
+        {"kept: height of the rocks above the ground", ", without forest"},
+        {"kept: energy at path (40 m)", ", without forest"},
+        {"kept: average distance between contacts, m", ""},
+        {"kept: year by year, up to path (40 m)", ""},
+        {"kept: coppice, from above", ""},
+        {"Options side by side, up to path (40 m)", ""},
+        {"Protection and yield of the options, up to path (40 m)", ""},
+        {"kept: how sure it is at path (40 m)", ""},
+        {"How often, and with how much, at path (40 m)", ""},
     };
     for (int i = 0; i < 2 * (CEDUO_PLOTS - 1); i++) {
         int plot = CEDUO_PLOT_PROFILE + i / 2;
         LOCAL_TEXT(title);
+        LOCAL_TEXT(wanted);
         s.scene.simulation.contact_model = i % 2 ? CEDUO_STEMS : CEDUO_INDEX;
         ceduo_plot_title(&title, (enum ceduo_plot)plot, &p);
-        assert_string_equal(ceduo_text_string(&title), expected[i % 2][plot]);
+        ceduo_text_format(&wanted, "%s%s", expected[plot].title, i % 2 ? "" : expected[plot].of_bare);
+        assert_string_equal(ceduo_text_string(&title), wanted.bytes);
     }
     assert_int_equal(ceduo_scene_last_control(&s.scene), 1);
 }
 
 /* What was not flown yet is named. */
-TEST(pictures_name_what_is_not_known)
+TEST_WOODED(pictures_name_what_is_not_known)
 {
-    wooded_site_init(&s);
     s.wooded[0] = NULL;
-    struct ceduo_picture p = picture_of(&s);
-    assert_true(shows(CEDUO_PLOT_ENERGY, &p, 60, 12, "not computed yet"));
-    assert_true(shows(CEDUO_PLOT_HISTOGRAM, &p, 60, 12, "not computed yet"));
+    assert_true(shows(CEDUO_PLOT_ENERGY, 60, 12, "not computed yet"));
+    assert_true(shows(CEDUO_PLOT_HISTOGRAM, 60, 12, "not computed yet"));
 }
 
 /* ---- the command line ---- */
@@ -840,29 +783,29 @@ TEST(a_picture_is_asked_for)
     ceduo_arguments_free(&a);
 }
 
+/* How the reading of such words ends. */
+static enum exit_status status_of(int argc, char **argv)
+{
+    LOCAL_BY(ceduo_arguments_free) struct arguments a;
+    return read(&a, argc, argv);
+}
+
+#define STATUS(...) status_of(sizeof((char *[]){"ceduo", __VA_ARGS__}) / sizeof(char *), (char *[]){"ceduo", __VA_ARGS__, NULL})
+
 TEST(wrong_pictures_are_usage_errors)
 {
-    struct arguments a;
     const char *sizes[] = {"",     "80",      "x24",    "80x",       "80x24x2", "19x24",
                            "80x5", "1001x24", "80x501", "8e1000x24", "-80x24",  "80.5x24"};
     for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; i++) {
         char size[16];
         snprintf(size, sizeof size, "%s", sizes[i]);
-        assert_int_equal(READ(&a, "--plot", "adc", "--size", size, "x.yaml"), EXIT_USAGE);
-        ceduo_arguments_free(&a);
+        assert_int_equal(STATUS("--plot", "adc", "--size", size, "x.yaml"), EXIT_USAGE);
     }
-    assert_int_equal(READ(&a, "--plot", "years", "x.yaml"), EXIT_USAGE);
-    ceduo_arguments_free(&a);
-    assert_int_equal(READ(&a, "--plot", "adc", "--charset", "latin", "x.yaml"), EXIT_USAGE);
-    ceduo_arguments_free(&a);
-    assert_int_equal(READ(&a, "--plot", "adc", "-f", "json", "x.yaml"), EXIT_USAGE);
-    ceduo_arguments_free(&a);
-    assert_int_equal(READ(&a, "-f", "csv", "--plot", "adc", "x.yaml"), EXIT_USAGE);
-    ceduo_arguments_free(&a);
-    assert_int_equal(READ(&a, "-f", "table", "--plot", "adc", "x.yaml"), EXIT_DONE);
-    ceduo_arguments_free(&a);
-    assert_int_equal(READ(&a, "--plot", "adc"), EXIT_USAGE);
-    ceduo_arguments_free(&a);
-    assert_int_equal(READ(&a, "--batch", "--size", "80x24", "x.yaml"), EXIT_USAGE);
-    ceduo_arguments_free(&a);
+    assert_int_equal(STATUS("--plot", "years", "x.yaml"), EXIT_USAGE);
+    assert_int_equal(STATUS("--plot", "adc", "--charset", "latin", "x.yaml"), EXIT_USAGE);
+    assert_int_equal(STATUS("--plot", "adc", "-f", "json", "x.yaml"), EXIT_USAGE);
+    assert_int_equal(STATUS("-f", "csv", "--plot", "adc", "x.yaml"), EXIT_USAGE);
+    assert_int_equal(STATUS("-f", "table", "--plot", "adc", "x.yaml"), EXIT_DONE);
+    assert_int_equal(STATUS("--plot", "adc"), EXIT_USAGE);
+    assert_int_equal(STATUS("--batch", "--size", "80x24", "x.yaml"), EXIT_USAGE);
 }
