@@ -7,7 +7,9 @@
 #include "test.h"
 
 #include <math.h>
+#include <stdbool.h>
 #include <stdio.h>
+#include <string.h>
 
 struct shown {
     char text[40];
@@ -56,5 +58,15 @@ static inline struct shown shown_unsigned(unsigned long long value)
         if (!(fabs((left) - (right)) <= (most)))                                                                               \
             fail_msg("%s is %s, wanted %s, which is %s, within %s", #left, SHOWN(left), #right, SHOWN(right), SHOWN(most));    \
     } while (0)
+
+/* The next of the words that stand between bars, from where the last one ended: false where there is none. */
+static inline bool next_word(const char **words, char word[64])
+{
+    int n = (int)strcspn(*words, "|");
+    bool more = **words != '\0';
+    snprintf(word, 64, "%.*s", n, *words);
+    *words += n + ((*words)[n] == '|');
+    return more;
+}
 
 #endif

@@ -62,8 +62,7 @@ static const char survey[] =
     "plot,area_m2,kind,stool,species,dbh_cm,height_m,note\n1,100,shoot,1,beech,6,7,x\n1,100,shoot,1,,5,,\n"
     "2,120,standard,,quercus-cerris,20,13,\n2,,stump,,,30,0.2,\n";
 
-static char seen_path[256], kinds_path[256], doubted_path[256], survey_path[256];
-static char scene_path[256], faulty_path[256], csv_path[256], link_path[256], linked_path[256];
+static char scene_path[256], survey_path[256], link_path[256], linked_path[256];
 
 static int set_up(void **state)
 {
@@ -75,11 +74,6 @@ static int set_up(void **state)
     make_folder("ceduo/scenes");
     make_folder("elsewhere");
     in_folder(scene_path, "scene.yaml");
-    in_folder(faulty_path, "faulty.yaml");
-    in_folder(csv_path, "csv.yaml");
-    in_folder(seen_path, "seen.yaml");
-    in_folder(kinds_path, "kinds.yaml");
-    in_folder(doubted_path, "doubted.yaml");
     in_folder(survey_path, "survey.csv");
     in_folder(link_path, "link");
     in_folder(linked_path, "linked");
@@ -215,8 +209,12 @@ static bool read_text(void)
 }
 
 /* A scene, what was seen there, and what is not known of it. */
-static bool read_file(const char *path)
+static const char *file_name;
+
+static bool read_file(void)
 {
+    char path[256];
+    in_folder(path, file_name);
     ceduo_text_lost();
     LOCAL_BY(ceduo_scene_release) struct scene_file file;
     struct scene_inputs inputs;
@@ -238,26 +236,6 @@ static bool read_file(const char *path)
     return good && !ceduo_text_lost();
 }
 
-static bool read_csv(void)
-{
-    return read_file(csv_path);
-}
-
-static bool read_seen(void)
-{
-    return read_file(seen_path);
-}
-
-static bool read_kinds(void)
-{
-    return read_file(kinds_path);
-}
-
-static bool read_doubted(void)
-{
-    return read_file(doubted_path);
-}
-
 static bool read_survey(void)
 {
     ceduo_text_lost();
@@ -272,42 +250,29 @@ static bool read_survey(void)
     return good && !ceduo_text_lost();
 }
 
-/* What is wrong, whole or with a word that not all is said. */
-static bool read_wrong(const char *path, const char *const *sets, size_t n)
+/* What is wrong, whole or with a word that not all is said: faults of a file, a name of none, good changes of which one does
+ * not fit the rest, and a path of two places. */
+static const struct wrong {
+    const char *name, *sets[3];
+    size_t n;
+} wrongs[] = {{"faulty.yaml", {NULL}, 0},
+              {NULL, {NULL}, 0},
+              {"scene.yaml", {"rock.density_kg_m3=2500", "release.x_m=92", "simulation.seed=5"}, 3},
+              {"scene.yaml", {"forest[wood].to_m=45"}, 1}};
+static const struct wrong *wrong;
+
+static bool read_wrong(void)
 {
+    char path[256];
+    in_folder(path, wrong->name ? wrong->name : "");
     ceduo_text_lost();
     LOCAL_BY(ceduo_scene_release) struct scene_file file;
-    struct problems problems = {0};
-    assert_false(ceduo_scene_read(&file, path, sets, n, &problems));
+    LOCAL_BY(ceduo_problems_free) struct problems problems = {0};
+    assert_false(ceduo_scene_read(&file, wrong->name ? path : "mil", wrong->sets, wrong->n, &problems));
     ceduo_problems_close(&problems);
-    bool good = !problems.memory;
-    if (good)
+    if (!problems.memory)
         add_text(&problems.text);
-    ceduo_problems_free(&problems);
-    return good && !ceduo_text_lost();
-}
-
-static bool read_faulty(void)
-{
-    return read_wrong(faulty_path, NULL, 0);
-}
-
-static bool read_missing(void)
-{
-    return read_wrong("mil", NULL, 0);
-}
-
-/* Good changes, of which one does not fit the rest. */
-static bool read_spoilt(void)
-{
-    static const char *const sets[] = {"rock.density_kg_m3=2500", "release.x_m=92", "simulation.seed=5"};
-    return read_wrong(scene_path, sets, 3);
-}
-
-static bool read_ambiguous(void)
-{
-    static const char *const sets[] = {"forest[wood].to_m=45"};
-    return read_wrong(scene_path, sets, 1);
+    return !problems.memory && !ceduo_text_lost();
 }
 
 /* ---- folders ---- */
@@ -349,15 +314,14 @@ TEST_WITH(scenes_are_read, set_up, folder_tear_down)
     without_memory(format_text);
     without_memory(read_scene);
     without_memory(read_text);
-    without_memory(read_csv);
-    without_memory(read_seen);
-    without_memory(read_kinds);
-    without_memory(read_doubted);
+    static const char *const names[] = {"csv.yaml", "seen.yaml", "kinds.yaml", "doubted.yaml"};
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
+        file_name = names[i];
+        without_memory(read_file);
+    }
     without_memory(read_survey);
-    without_memory(read_faulty);
-    without_memory(read_missing);
-    without_memory(read_spoilt);
-    without_memory(read_ambiguous);
+    for (wrong = wrongs; wrong < wrongs + sizeof wrongs / sizeof wrongs[0]; wrong++)
+        without_memory(read_wrong);
 }
 
 TEST_WITH(folders, set_up, folder_tear_down)

@@ -202,26 +202,12 @@ TEST(paths_of_rows)
         assert_non_null(f);
         assert_string_equal(f->key, rows[i].key);
     }
-    const char *const none[] = {"",
-                                ".",
-                                "title.",
-                                "title.text",
-                                "title[0]",
-                                "rock",
-                                "rock.",
-                                "rock.size",
-                                "rock[0].diameter_m",
-                                "rock.diameter_m.mean",
-                                "forest",
-                                "forest[0]",
-                                "forest[0",
-                                "forest[0][1]",
-                                "forest.to_m",
-                                "forest.a.to_m",
-                                "slope.vertices_m[0][0]"};
-    for (size_t i = 0; i < LENGTH(none); i++)
-        if (ceduo_schema_at(none[i]))
-            fail_msg("'%s' has a row", none[i]);
+    assert_null(ceduo_schema_at(""));
+    const char *none = ".|title.|title.text|title[0]|rock|rock.|rock.size|rock[0].diameter_m|rock.diameter_m.mean|forest|"
+                       "forest[0]|forest[0|forest[0][1]|forest.to_m|forest.a.to_m|slope.vertices_m[0][0]";
+    for (char path[64]; next_word(&none, path);)
+        if (ceduo_schema_at(path))
+            fail_msg("'%s' has a row", path);
 }
 
 /* ---- what a row decides about ---- */
@@ -449,69 +435,66 @@ TEST_WITH(put_is_as_set, folder_set_up, folder_tear_down)
     ceduo_schema_visit(ceduo_schema_scene(), "", check_put, NULL);
 }
 
+static void expect_none(struct ceduo_scene *scene, const char *paths)
+{
+    struct value v;
+    for (char path[64]; next_word(&paths, path);)
+        if (ceduo_value_find(scene, path, &v))
+            fail_msg("'%s' is found", path);
+}
+
+/* A number is found, and what it is. */
+static struct value found(struct ceduo_scene *scene, const char *path, double number)
+{
+    struct value v;
+    assert_true(ceduo_value_find(scene, path, &v));
+    EXPECT(ceduo_value_get(&v), ==, number);
+    return v;
+}
+
+/* It is found and put. */
+static struct value put_at(struct ceduo_scene *scene, const char *path, double number)
+{
+    struct value v;
+    assert_true(ceduo_value_find(scene, path, &v));
+    assert_true(ceduo_value_put(&v, number));
+    return v;
+}
+
 TEST_WITH(paths_of_numbers, folder_set_up, folder_tear_down)
 {
     LOCAL_BY(ceduo_scene_release) struct scene_file file = {0};
     struct value v;
     read_text(&file, scenes[1]);
     struct ceduo_scene *s = &file.scene;
-    assert_true(ceduo_value_find(s, "options[a].forest[wood].stand.trees[0].per_ha", &v));
-    EXPECT(ceduo_value_get(&v), ==, 80);
-    assert_true(ceduo_value_find(s, "controls[road].accepted_kJ", &v));
-    EXPECT(ceduo_value_get(&v), ==, 80);
+    v = found(s, "options[a].forest[wood].stand.trees[0].per_ha", 80);
+    v = found(s, "controls[road].accepted_kJ", 80);
     assert_true(ceduo_value_put(&v, 90));
     EXPECT(s->controls[0].accepted, ==, 90e3);
-    assert_true(ceduo_value_find(s, "controls[0].x_m", &v));
-    assert_true(ceduo_value_put(&v, 185));
+    v = put_at(s, "controls[0].x_m", 185);
     EXPECT(s->controls[0].x_given, ==, 185);
     EXPECT(s->controls[0].x, ==, 85);
-    assert_true(ceduo_value_find(s, "release.x_m", &v));
-    EXPECT(ceduo_value_get(&v), ==, 101);
+    v = found(s, "release.x_m", 101);
     assert_true(ceduo_value_put(&v, 102));
     EXPECT(s->release.x.mean, ==, 2);
-    assert_true(ceduo_value_find(s, "release.vx_m_s.spread", &v));
-    assert_true(ceduo_value_put(&v, .25));
+    v = put_at(s, "release.vx_m_s.spread", .25);
     EXPECT(s->release.vx.spread, ==, .25);
-    assert_true(ceduo_value_find(s, "release.vx_m_s.mean", &v));
-    assert_true(ceduo_value_put(&v, 2));
+    v = put_at(s, "release.vx_m_s.mean", 2);
     EXPECT(s->release.vx.mean, ==, 2);
     assert_true(ceduo_value_find(s, "release.height_m.spread", &v));
     assert_false(ceduo_value_put(&v, 5)); /* it would reach below 0 */
     EXPECT(s->release.height.spread, ==, 0);
-    assert_true(ceduo_value_find(s, "slope.segments[0].rn", &v));
-    assert_true(ceduo_value_put(&v, .25)); /* it is for all */
+    v = put_at(s, "slope.segments[0].rn", .25); /* it is for all */
     for (size_t j = 0; j < 3; j++)
         EXPECT(s->slope.segments[j].rn.mean, ==, .25);
-    assert_true(ceduo_value_find(s, "simulation.seed", &v));
-    assert_true(ceduo_value_put(&v, 7));
+    v = put_at(s, "simulation.seed", 7);
     EXPECT(s->simulation.seed, ==, 7);
     assert_false(ceduo_value_put(&v, 7.5) || ceduo_value_put(&v, -1) || ceduo_value_put(&v, NAN) || ceduo_value_put(&v, 1e17));
-    const char *const none[] = {"",
-                                "rock",
-                                "rock.",
-                                "rock.size",
-
-                                "title",
-                                "slope.segments[1].rn",
-                                "slope.vertices_m[0][0]",
-                                "slope.vertices_m[1]",
-                                "slope.vertices_m[1][2]",
-                                "controls[1].x_m",
-                                "controls.x_m",
-                                "options[c].forest[0].from_m",
-                                "forest[0].from_m",
-                                "release.vx_m_s.kind",
-                                "release.vx_m_s[0]",
-                                "rock.axes_m[3]",
-                                "rock.axes_m",
-                                "slope.materials[0].from_m",
-                                "rock.diameter_m.mean.mean",
-                                "rock[0]",
-                                "controls_m[0]",
-                                "slope.csv"};
-    for (size_t i = 0; i < LENGTH(none); i++)
-        if (ceduo_value_find(s, none[i], &v))
-            fail_msg("'%s' is found", none[i]);
+    assert_false(ceduo_value_find(s, "", &v));
+    expect_none(s, "rock|rock.|rock.size|title|slope.segments[1].rn|slope.vertices_m[0][0]|slope.vertices_m[1]|"
+                   "slope.vertices_m[1][2]|controls[1].x_m|controls.x_m|options[c].forest[0].from_m|forest[0].from_m|"
+                   "release.vx_m_s.kind|release.vx_m_s[0]|rock.axes_m[3]|rock.axes_m|slope.materials[0].from_m|"
+                   "rock.diameter_m.mean.mean|rock[0]|controls_m[0]|slope.csv");
 }
 
 /* Points of the profile are relative to the first, of numbers with a spread each part is its own, and a list of numbers
@@ -522,16 +505,13 @@ TEST_WITH(paths_of_numbers_in_lists, folder_set_up, folder_tear_down)
     struct value v;
     read_text(&file, scenes[4]);
     struct ceduo_scene *s = &file.scene;
-    assert_true(ceduo_value_find(s, "slope.vertices_m[1][0]", &v));
-    EXPECT(ceduo_value_get(&v), ==, 130);
+    v = found(s, "slope.vertices_m[1][0]", 130);
     assert_true(ceduo_value_put(&v, 140));
     EXPECT(s->slope.x[1], ==, 40);
-    assert_true(ceduo_value_find(s, "slope.vertices_m[1][1]", &v));
-    EXPECT(ceduo_value_get(&v), ==, 30);
+    v = found(s, "slope.vertices_m[1][1]", 30);
     assert_true(ceduo_value_put(&v, 35));
     EXPECT(s->slope.z[1], ==, -25);
-    assert_true(ceduo_value_find(s, "rock.axes_m[1].spread", &v));
-    assert_true(ceduo_value_put(&v, .125));
+    v = put_at(s, "rock.axes_m[1].spread", .125);
     assert_false(ceduo_value_put(&v, -.125) || ceduo_value_put(&v, INFINITY) || ceduo_value_put(&v, NAN));
     EXPECT(ceduo_value_get(&v), ==, .125);
     EXPECT(s->rock.axes[1].mean, ==, .5);
@@ -539,21 +519,10 @@ TEST_WITH(paths_of_numbers_in_lists, folder_set_up, folder_tear_down)
     assert_true(ceduo_value_find(s, "slope.segments[0].rn.spread", &v));
     assert_false(ceduo_value_put(&v, INFINITY)); /* though what is drawn is cut at 0 and 1 */
     assert_true(ceduo_value_put(&v, 2));
-    assert_true(ceduo_value_find(s, "forest[0].stand.cutting.stay_per_ha[1]", &v));
-    EXPECT(ceduo_value_get(&v), ==, 20);
-    const char *const none[] = {"slope.vertices_m[4][1]",
-                                "slope.vertices_m[a][1]",
-                                "slope.vertices_m.1[1]",
-                                "slope.vertices_m[1][1].x",
-                                "rock.axes_m[1].kind",
-                                "forest[0].stand.cutting.stay_per_ha[2]",
-                                "forest[0].stand.cutting.stay_per_ha[1].x",
-                                "forest[0].stand.trees[oak].per_ha", /* stems have no names */
-                                "controls",
-                                "controls."};
-    for (size_t i = 0; i < LENGTH(none); i++)
-        if (ceduo_value_find(s, none[i], &v))
-            fail_msg("'%s' is found", none[i]);
+    v = found(s, "forest[0].stand.cutting.stay_per_ha[1]", 20);
+    expect_none(s, "slope.vertices_m[4][1]|slope.vertices_m[a][1]|slope.vertices_m.1[1]|slope.vertices_m[1][1].x|"
+                   "rock.axes_m[1].kind|forest[0].stand.cutting.stay_per_ha[2]|forest[0].stand.cutting.stay_per_ha[1].x|"
+                   "forest[0].stand.trees[oak].per_ha|controls|controls."); /* stems have no names */
 }
 
 /* A word is the index of its choice, -1 where none is said. */

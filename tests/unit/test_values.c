@@ -254,28 +254,14 @@ TEST(names_stay_texts)
 /* Quotes stand only where they are needed: what is a text by itself is written as it was. */
 TEST(plain_names_stay_plain)
 {
-    const char *const words[] = {"ADS 1",
-                                 "simple-coppice",
-                                 "../stands/ads-1.yaml",
-                                 "25 years",
-                                 "10 m",
-                                 "1st",
-                                 "No wood",
-                                 "yesterday",
-                                 "a",
-                                 "nil",
-                                 "x",
-                                 "0.5 m",
-                                 "1 2",
-                                 "on the road",
-                                 "profile_1.csv",
-                                 "./s.yaml"};
-    for (size_t i = 0; i < LENGTH(words); i++)
+    const char *words = "ADS 1|simple-coppice|../stands/ads-1.yaml|25 years|10 m|1st|No wood|yesterday|a|nil|x|0.5 m|1 2|"
+                        "on the road|profile_1.csv|./s.yaml";
+    for (char word[64]; next_word(&words, word);)
         for (int quoted = 0; quoted < 2; quoted++) {
             LOCAL_TEXT(text);
-            assert_false(is_another_type(words[i]));
-            ceduo_emit_scalar(&text, words[i], quoted);
-            assert_string_equal(text.bytes, words[i]);
+            assert_false(is_another_type(word));
+            ceduo_emit_scalar(&text, word, quoted);
+            assert_string_equal(text.bytes, word);
         }
     const char *const values[] = {"0.5", "-1", "1e3", ".5", "+.5", "true", "false"}; /* without quotes these are no texts */
     for (size_t i = 0; i < LENGTH(values); i++) {
