@@ -69,4 +69,47 @@ static inline bool next_word(const char **words, char word[64])
     return more;
 }
 
+/* What is applied to each of up to 12 arguments, with one that is the same for all. */
+#define EACH_1(apply, with, a)                                                apply(with, a)
+#define EACH_2(apply, with, a, ...)                                           apply(with, a) EACH_1(apply, with, __VA_ARGS__)
+#define EACH_3(apply, with, a, ...)                                           apply(with, a) EACH_2(apply, with, __VA_ARGS__)
+#define EACH_4(apply, with, a, ...)                                           apply(with, a) EACH_3(apply, with, __VA_ARGS__)
+#define EACH_5(apply, with, a, ...)                                           apply(with, a) EACH_4(apply, with, __VA_ARGS__)
+#define EACH_6(apply, with, a, ...)                                           apply(with, a) EACH_5(apply, with, __VA_ARGS__)
+#define EACH_7(apply, with, a, ...)                                           apply(with, a) EACH_6(apply, with, __VA_ARGS__)
+#define EACH_8(apply, with, a, ...)                                           apply(with, a) EACH_7(apply, with, __VA_ARGS__)
+#define EACH_9(apply, with, a, ...)                                           apply(with, a) EACH_8(apply, with, __VA_ARGS__)
+#define EACH_10(apply, with, a, ...)                                          apply(with, a) EACH_9(apply, with, __VA_ARGS__)
+#define EACH_11(apply, with, a, ...)                                          apply(with, a) EACH_10(apply, with, __VA_ARGS__)
+#define EACH_12(apply, with, a, ...)                                          apply(with, a) EACH_11(apply, with, __VA_ARGS__)
+#define EACH_OF(_1, _2, _3, _4, _5, _6, _7, _8, _9, _10, _11, _12, name, ...) name
+#define EACH(apply, with, ...)                                                                                                 \
+    EACH_OF(__VA_ARGS__, EACH_12, EACH_11, EACH_10, EACH_9, EACH_8, EACH_7, EACH_6, EACH_5, EACH_4, EACH_3, EACH_2, EACH_1, 0) \
+    (apply, with, __VA_ARGS__)
+#define UNWRAP(...)                                __VA_ARGS__
+#define WITH_UNWRAPPED(apply, ...)                 apply(__VA_ARGS__)
+#define EXPECT_FIELD_IS(of, field, value)          EXPECT((of).field, ==, value);
+#define EXPECT_FIELD(of, pair)                     WITH_UNWRAPPED(EXPECT_FIELD_IS, of, UNWRAP pair)
+#define EXPECT_FIELD_SAME_IN(first, second, field) EXPECT((first).field, ==, (second).field);
+#define EXPECT_FIELD_SAME(both, field)             WITH_UNWRAPPED(EXPECT_FIELD_SAME_IN, UNWRAP both, field)
+#define EXPECT_NOT_KNOWN(unused, value)            assert_true(isnan(value));
+
+/* EXPECT_IS(way, (x, 500), (end, CEDUO_AT_REST)): fields of one thing; == each. */
+#define EXPECT_IS(of, ...)                                                                                                     \
+    do {                                                                                                                       \
+        EACH(EXPECT_FIELD, of, __VA_ARGS__)                                                                                    \
+    } while (0)
+
+/* EXPECT_SAME(a, b, x, z): these fields are equal in both. */
+#define EXPECT_SAME(first, second, ...)                                                                                        \
+    do {                                                                                                                       \
+        EACH(EXPECT_FIELD_SAME, (first, second), __VA_ARGS__)                                                                  \
+    } while (0)
+
+/* None of them is known: NaN. */
+#define EXPECT_NAN(...)                                                                                                        \
+    do {                                                                                                                       \
+        EACH(EXPECT_NOT_KNOWN, , __VA_ARGS__)                                                                                  \
+    } while (0)
+
 #endif

@@ -10,6 +10,8 @@
 /* cmocka wants the four above first */
 #include <cmocka.h>
 
+#define LENGTH(a) (sizeof(a) / sizeof(a)[0])
+
 /* Run all, with functions that are called before the first and after the last. */
 int test_run(CMFixtureFunction set_up, CMFixtureFunction tear_down);
 void test_add(const char *name, CMUnitTestFunction test, CMFixtureFunction set_up, CMFixtureFunction tear_down);

@@ -8,18 +8,12 @@
  * their rows together are the result. Where the law crsp made what was seen, chains are cut at CUT steps: they seldom settle on
  * what cannot be, and a misfit shows before. */
 #include <stdio.h>
-#include <stdlib.h>
-#include <time.h>
 
+#include "frame.h"
 #include "physics/quarry_site.h"
 
 #define VALUES 3
 #define CUT    250
-
-static double processor_s(void)
-{
-    return (double)clock() / CLOCKS_PER_SEC;
-}
 
 static void try_site(size_t number, enum ceduo_law made_by, uint64_t seen, uint64_t rocks)
 {
@@ -47,8 +41,9 @@ static void try_site(size_t number, enum ceduo_law made_by, uint64_t seen, uint6
 
 int main(int argc, char **argv)
 {
-    size_t sites = argc > 1 ? strtoul(argv[1], NULL, 10) : 40, first = argc > 2 ? strtoul(argv[2], NULL, 10) : 0;
-    uint64_t rocks = argc > 3 ? strtoul(argv[3], NULL, 10) : CEDUO_CALIBRATION_ROCKS;
+    (void)argc;
+    size_t sites = argument(argv, 1, 40, 0, SIZE_MAX), first = argument(argv, 2, 0, 0, SIZE_MAX);
+    uint64_t rocks = argument(argv, 3, CEDUO_CALIBRATION_ROCKS, 1, UINT64_MAX);
     printf("site,made_by,seen,rocks,evaluations,processor_s,settled,effective_size,misfit,p_stops,p_speeds,p_heights");
     for (size_t i = 0; i < VALUES; i++)
         printf(",%s,%s_lo,%s_hi,%s_determined", quarry_names[i], quarry_names[i], quarry_names[i], quarry_names[i]);

@@ -9,9 +9,8 @@
  * 1000 repeats on; an interval of whole numbers, as for a percentile or a share near 1, holds it a little more often). */
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 
-#include "../physics/paper_site.h"
+#include "frame.h"
 
 #define ACCEPTED   100e3
 #define TRUE_ROCKS 2000000
@@ -56,12 +55,6 @@ struct woods {
     struct paper_site site, half;
 };
 
-static void fail(const char *why)
-{
-    fprintf(stderr, "bench_coverage: %s\n", why);
-    exit(1);
-}
-
 static struct figure about(double value, double se)
 {
     return (struct figure){value, value - CEDUO_Z95 * se, value + CEDUO_Z95 * se};
@@ -72,10 +65,7 @@ static struct ceduo_run *fly(const struct paper_site *site, const struct ceduo_o
     struct ceduo_run_def def = ceduo_run_def_default(&site->scene);
     def.option = option;
     def.rocks_most = rocks;
-    struct ceduo_run *run;
-    if (ceduo_run_create(&def, &run) != CEDUO_OK || ceduo_run_extend(run, rocks) != CEDUO_OK)
-        fail("the run failed");
-    return run;
+    return fly_run(&def, rocks);
 }
 
 static void read_run(const struct ceduo_run *run, struct figure *to)
@@ -146,16 +136,14 @@ static bool print(int k, const struct found *f, double truth, uint64_t rocks)
 
 int main(int argc, char **argv)
 {
-    unsigned long repeats = argc > 1 ? strtoul(argv[1], NULL, 10) : 1000;
-    uint64_t rocks = argc > 2 ? strtoull(argv[2], NULL, 10) : 1000;
-    if (repeats < 1 || rocks < 2 || rocks > TRUE_ROCKS)
-        fail("usage: bench_coverage [REPEATS [ROCKS]]");
+    (void)argc;
+    uint64_t repeats = argument(argv, 1, 1000, 1, UINT64_MAX), rocks = argument(argv, 2, 1000, 2, TRUE_ROCKS);
     static struct woods w;
     init(&w);
     struct figure truth[FIGURES], figures[FIGURES];
     static struct found found[FIGURES];
     fly_all(&w, 1u << 20, TRUE_ROCKS, truth);
-    for (unsigned long i = 0; i < repeats; i++) {
+    for (uint64_t i = 0; i < repeats; i++) {
         fly_all(&w, i + 1, rocks, figures);
         for (int k = 0; k < FIGURES; k++)
             note(&found[k], &figures[k], truth[k].value);

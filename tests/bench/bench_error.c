@@ -14,11 +14,8 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
-#include "../physics/paper_site.h"
-#include "measure.h"
-#include "plain_loop.h"
+#include "frame.h"
 
 enum { MEAN, P95, REACH, EXCEED, QUANTITIES };
 static const char *const quantity_names[QUANTITIES] = {"mean_energy_kJ", "p95_energy_kJ", "reach", "exceed"};
@@ -29,12 +26,6 @@ static const char *const quantity_names[QUANTITIES] = {"mean_energy_kJ", "p95_en
 #define PLAIN_TRUE_ROCKS 4000000
 #define SOBOL_MOST       40
 #define STARTS           4 /* numbers of a start */
-
-static void fail(const char *why)
-{
-    fprintf(stderr, "bench_error: %s\n", why);
-    exit(1);
-}
 
 /* Sums over the repeats of one row. */
 struct row {
@@ -58,11 +49,10 @@ static double run_core(struct paper_site *site, bool stems, uint64_t rocks, uint
     double start = ceduo_clock();
     struct ceduo_run_def def = ceduo_run_def_default(&site->scene);
     def.option = stems ? &site->option : NULL;
-    struct ceduo_run *run;
+    struct ceduo_run *run = fly_run(&def, rocks);
     struct ceduo_arrivals a;
-    if (ceduo_run_create(&def, &run) != CEDUO_OK || ceduo_run_extend(run, rocks) != CEDUO_OK ||
-        ceduo_run_arrivals(run, 0, &a) != CEDUO_OK)
-        fail("the run failed");
+    if (ceduo_run_arrivals(run, 0, &a) != CEDUO_OK)
+        fail("no memory");
     double seconds = ceduo_clock() - start, n = (double)rocks;
     ceduo_run_free(run);
     value[MEAN] = a.energy.mean * 1e-3;
@@ -122,7 +112,7 @@ static void measure_core(const char *what, bool stems, size_t asked, uint64_t mo
 enum numbers { PLAIN, ANTITHETIC_STARTS, ANTITHETIC, SOBOL, NUMBERS };
 static const char *const numbers_names[NUMBERS] = {"plain", "antithetic-starts", "antithetic", "sobol"};
 
-struct source {
+struct stream {
     enum numbers kind;
     bool spread; /* starts differ */
     uint64_t seed, state;
@@ -133,20 +123,7 @@ struct source {
     size_t n;
 };
 
-static uint64_t mix(uint64_t *state) /* splitmix64 */
-{
-    uint64_t z = *state += 0x9e3779b97f4a7c15;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111eb;
-    return z ^ (z >> 31);
-}
-
-static double uniform(uint64_t *state)
-{
-    return (double)(mix(state) >> 11) * 0x1p-53;
-}
-
-static double number(struct source *s, unsigned dimension, bool start)
+static double number(struct stream *s, unsigned dimension, bool start)
 {
     double u = uniform(&s->state);
     if (s->kind == SOBOL && dimension < SOBOL_MOST)
@@ -156,7 +133,7 @@ static double number(struct source *s, unsigned dimension, bool start)
 
 static void begin(void *context, uint64_t rock, struct plain_start *start)
 {
-    struct source *s = context;
+    struct stream *s = context;
     bool pairs = s->kind == ANTITHETIC || s->kind == ANTITHETIC_STARTS;
     s->mirrored = pairs && rock % 2 == 1;
     s->state = s->seed + 0x5851f42d4c957f2d * (pairs ? rock / 2 : rock);
@@ -179,35 +156,11 @@ static double draw(void *context, uint64_t contact)
 
 static void passes(void *context, double energy)
 {
-    struct source *s = context;
+    struct stream *s = context;
     s->energies[s->n++] = energy;
 }
 
-static void plain_of(const struct paper_site *site, struct plain_segment segments[PAPER_SEGMENTS], struct plain_def *def)
-{
-    struct ceduo_rock rock;
-    if (ceduo_rock_of_means(&site->scene.rock, &rock) != CEDUO_OK)
-        fail("bad rock");
-    for (size_t j = 0; j < PAPER_SEGMENTS; j++) {
-        segments[j] = plain_segment_between(site->x[j], site->z[j], site->x[j + 1], site->z[j + 1]);
-        segments[j].rn = site->segments[j].rn.mean;
-        segments[j].rt = site->segments[j].rt.mean;
-        segments[j].roughness = site->segments[j].roughness_rad;
-        segments[j].friction = site->segments[j].friction;
-    }
-    *def = (struct plain_def){.count = PAPER_SEGMENTS,
-                              .segments = segments,
-                              .law = PLAIN_LUMPED,
-                              .gravity = CEDUO_GRAVITY,
-                              .mass = rock.mass,
-                              .radius = rock.radius,
-                              .k = rock.k,
-                              .vx = 0.3,
-                              .vz = -0.3,
-                              .control = 135};
-}
-
-static double run_plain(struct plain_def *def, struct source *s, uint64_t rocks, uint64_t seed, double value[QUANTITIES])
+static double run_plain(struct plain_def *def, struct stream *s, uint64_t rocks, uint64_t seed, double value[QUANTITIES])
 {
     const struct plain_source source = {.context = s, .begin = begin, .draw = draw, .passes = passes};
     struct plain_sums sums = {0};
@@ -241,10 +194,9 @@ static void measure_numbers(const char *what, bool spread, size_t asked)
 {
     struct paper_site site;
     struct plain_segment segments[PAPER_SEGMENTS];
-    struct plain_def def;
     paper_site_init(&site);
-    plain_of(&site, segments, &def);
-    struct source source = {.spread = spread, .sobol = gsl_qrng_alloc(gsl_qrng_sobol, SOBOL_MOST)};
+    struct plain_def def = plain_site(&site, segments);
+    struct stream source = {.spread = spread, .sobol = gsl_qrng_alloc(gsl_qrng_sobol, SOBOL_MOST)};
     if (!source.sobol)
         fail("no memory");
     double truth[QUANTITIES], true_se[QUANTITIES];
@@ -273,9 +225,8 @@ static void measure_numbers(const char *what, bool spread, size_t asked)
 
 int main(int argc, char **argv)
 {
-    size_t repeats = argc > 1 ? strtoul(argv[1], NULL, 10) : 40;
-    if (repeats < 1 || repeats > 1000)
-        fail("usage: bench_error [REPEATS]");
+    (void)argc;
+    size_t repeats = argument(argv, 1, 40, 1, 1000);
     puts("what,numbers,rocks,repeats,seconds,quantity,rms_error,printed_se,gain");
     measure_core("paper-bare", false, repeats, 1000000);
     measure_core("paper-stems", true, repeats, 100000);

@@ -6,27 +6,25 @@
  *
  * prints CSV; processor_s is of all threads together, so that half of it is what two cores need where nobody else is there. */
 #include <stdio.h>
-#include <stdlib.h>
-#include <time.h>
 
-#include "base/clock.h"
+#include "frame.h"
 #include "physics/quarry_site.h"
 
 int main(int argc, char **argv)
 {
-    size_t sites = argc > 1 ? strtoul(argv[1], NULL, 10) : 5, first = argc > 2 ? strtoul(argv[2], NULL, 10) : 0;
+    (void)argc;
+    size_t sites = argument(argv, 1, 5, 0, SIZE_MAX), first = argument(argv, 2, 0, 0, SIZE_MAX);
     printf("site,values,stops,rocks,evaluations,settled,effective_size,processor_s,seconds\n");
     for (size_t i = first; i < first + sites; i++) {
         struct ceduo_calibration a;
-        double truth[QUARRY_VALUES_MOST], start = ceduo_clock();
-        clock_t processor = clock();
+        double truth[QUARRY_VALUES_MOST], start = ceduo_clock(), processor = processor_s();
         struct quarry_trial trial = {
             .number = i, .values = 4, .kinds = 1, .seen = 48, .rocks = CEDUO_CALIBRATION_ROCKS, .threads = 2};
         if (!quarry_try(&trial, truth, &a))
             continue;
         printf("%zu,%zu,%llu,%llu,%llu,%d,%.0f,%.1f,%.1f\n", i, trial.values, (unsigned long long)trial.seen,
                (unsigned long long)trial.rocks, (unsigned long long)a.evaluations, a.settled, a.effective_size,
-               (double)(clock() - processor) / CLOCKS_PER_SEC, ceduo_clock() - start);
+               processor_s() - processor, ceduo_clock() - start);
         fflush(stdout);
         ceduo_calibration_free(&a);
     }

@@ -3,9 +3,8 @@
  * does to the lights is computed there), in forms, and where a field is edited. Prints CSV. */
 #include <stdio.h>
 #include <stdlib.h>
-#include <time.h>
 
-#include "measure.h"
+#include "frame.h"
 #include "tui/program.h"
 #include "tui/screen.h"
 
@@ -17,21 +16,14 @@ struct hand {
     size_t n;
 };
 
-static double milliseconds(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec * 1e3 + 1e-6 * (double)t.tv_nsec;
-}
-
 static void press(struct hand *h, int key, bool counts)
 {
-    double start = milliseconds();
+    double start = ceduo_clock();
     ceduo_program_key(&h->app, key);
     ceduo_program_news(&h->app);
     ceduo_screen_draw(&h->app);
     if (counts && h->n < KEYS_MOST)
-        h->ms[h->n++] = milliseconds() - start;
+        h->ms[h->n++] = 1e3 * (ceduo_clock() - start);
 }
 
 static void type(struct hand *h, const char *text)

@@ -7,42 +7,25 @@
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <time.h>
 
-#include "ceduo/ceduo.h"
-#include "measure.h"
+#include "frame.h"
 #include "physics/line_scene.h"
-#include "physics/paper_site.h"
-
-#define REPEATS_MOST 99
 
 struct turn {
     double seconds[REPEATS_MOST];
     uint64_t contacts;
 };
 
-/* Of the processor: other work on the machine does not count. */
-static double processor_seconds(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
 static double time_of(const struct ceduo_scene *scene, enum ceduo_kernel kernel, uint64_t rocks, uint64_t *contacts)
 {
-    double start = processor_seconds();
+    double start = processor_s();
     struct ceduo_run_def def = ceduo_run_def_default(scene);
     def.kernel = kernel;
     def.threads = 1;
     def.rocks_most = rocks;
-    struct ceduo_run *run;
-    if (ceduo_run_create(&def, &run) != CEDUO_OK || ceduo_run_extend(run, rocks) != CEDUO_OK) {
-        fputs("the run failed\n", stderr);
-        exit(1);
-    }
+    struct ceduo_run *run = fly_run(&def, rocks);
     *contacts = ceduo_run_contacts(run);
-    double seconds = processor_seconds() - start;
+    double seconds = processor_s() - start;
     ceduo_run_free(run);
     return seconds;
 }
@@ -73,9 +56,9 @@ static void measure(const char *place, struct ceduo_scene *scene, enum ceduo_ker
 
 int main(int argc, char **argv)
 {
-    size_t repeats = argc > 1 ? strtoul(argv[1], NULL, 10) : 9;
-    uint64_t rocks = argc > 2 ? strtoul(argv[2], NULL, 10) : 20000;
-    repeats = repeats < 1 ? 1 : repeats > REPEATS_MOST ? REPEATS_MOST : repeats;
+    (void)argc;
+    size_t repeats = argument(argv, 1, 9, 1, REPEATS_MOST);
+    uint64_t rocks = argument(argv, 2, 20000, 1, CEDUO_ROCKS_MOST);
     static struct paper_site site;
     static struct line_scene meadow;
     const double x[] = {0, 60, 400}, z[] = {0, -40, -50};

@@ -7,19 +7,13 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 #include <unistd.h>
 
-#include "measure.h"
+#include "frame.h"
 #include "tui/program.h"
 #include "tui/screen.h"
 
-static double milliseconds(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec * 1e3 + 1e-6 * (double)t.tv_nsec;
-}
+#define EDITS_MOST 10000
 
 static void report(const char *what, double *ms, size_t n, double goal_median, double goal_p99)
 {
@@ -61,14 +55,13 @@ int main(int argc, char **argv)
     char state[] = "/tmp/ceduo-bench-XXXXXX";
     if (!mkdtemp(state) || setenv("XDG_STATE_HOME", state, 1) != 0)
         return 1;
-    size_t repeats = argc > 1 ? (size_t)strtoul(argv[1], NULL, 10) : 100;
+    (void)argc;
+    size_t repeats = argument(argv, 1, 100, 1, EDITS_MOST);
     struct app app;
     struct problems problems = {0};
     long cores = sysconf(_SC_NPROCESSORS_ONLN);
-    double *first = calloc(repeats, sizeof *first), *all = calloc(repeats, sizeof *all),
-           *stand = calloc(repeats, sizeof *stand), *wooded = calloc(repeats, sizeof *wooded);
-    if (!first || !all || !stand || !wooded ||
-        !ceduo_program_create(&app, "profiles/scenes/paper-site.yaml", CEDUO_CHARSET_BRAILLE, (unsigned)cores, false,
+    static double first[EDITS_MOST], all[EDITS_MOST], stand[EDITS_MOST], wooded[EDITS_MOST];
+    if (!ceduo_program_create(&app, "profiles/scenes/paper-site.yaml", CEDUO_CHARSET_BRAILLE, (unsigned)cores, false,
                               &problems))
         return 1;
     ceduo_app_resize(&app, 120, 40);
@@ -77,30 +70,26 @@ int main(int argc, char **argv)
     for (size_t i = 0; i < repeats; i++) {
         ceduo_program_key(&app, '3');
         to_field(&app, "rock.diameter_m");
-        double start = milliseconds();
+        double start = ceduo_clock();
         ceduo_program_key(&app, i % 2 ? '-' : '+');
         wait_for(&app, 1000);
-        first[i] = milliseconds() - start;
+        first[i] = 1e3 * (ceduo_clock() - start);
         wait_for(&app, 10000);
-        all[i] = milliseconds() - start;
+        all[i] = 1e3 * (ceduo_clock() - start);
         ceduo_program_key(&app, '2');
         to_field(&app, "forest[0].stand.stools.per_ha");
-        start = milliseconds();
+        start = ceduo_clock();
         ceduo_program_key(&app, i % 2 ? '-' : '+');
         ceduo_screen_draw(&app);
-        stand[i] = milliseconds() - start;
+        stand[i] = 1e3 * (ceduo_clock() - start);
         wait_for(&app, 1000);
-        wooded[i] = milliseconds() - start;
+        wooded[i] = 1e3 * (ceduo_clock() - start);
     }
     report("key to a picture of 1000 rocks", first, repeats, 33, 100);
     report("key to a picture of 10000 rocks", all, repeats, 120, 0);
     report("edit of a stand to its index", stand, repeats, 5, 0);
     report("edit of a stand to 1000 rocks through it", wooded, repeats, 33, 100);
     ceduo_program_free(&app);
-    free(first);
-    free(all);
-    free(stand);
-    free(wooded);
     nftw(state, remove_entry, 8, FTW_DEPTH | FTW_PHYS);
     return 0;
 }

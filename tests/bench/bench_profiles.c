@@ -13,12 +13,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "ceduo/ceduo.h"
-#include "measure.h"
+#include "frame.h"
 #include "physics/line_scene.h"
-#include "physics/paper_site.h"
 
-#define REPEATS_MOST  99
 #define VERTICES_MOST 4000000
 #define KINDS         6
 #define MOVED         1e-3 /* m */
@@ -35,39 +32,7 @@ struct measure {
     uint64_t contacts;
 };
 
-static void fail(const char *why)
-{
-    fprintf(stderr, "bench_profiles: %s\n", why);
-    exit(1);
-}
-
 /* ---- profiles ---- */
-
-/* `from` cut into `vertices` vertices, as even as its own vertices allow. */
-static struct ceduo_slope cut(const struct ceduo_slope *from, size_t vertices)
-{
-    struct ceduo_slope to = *from;
-    to.vertices = vertices;
-    to.x = malloc(vertices * sizeof *to.x);
-    to.z = malloc(vertices * sizeof *to.z);
-    to.segments = malloc(vertices * sizeof *to.segments);
-    if (!to.x || !to.z || !to.segments)
-        fail("no memory");
-    double end = from->x[from->vertices - 1];
-    size_t i = 0;
-    for (size_t j = 0; j + 1 < from->vertices; j++) {
-        size_t last = (size_t)(from->x[j + 1] / end * (double)(vertices - 1) + 0.5), first = i;
-        for (; i < last; i++) {
-            double share = (double)(i - first) / (double)(last - first);
-            to.x[i] = from->x[j] + share * (from->x[j + 1] - from->x[j]);
-            to.z[i] = from->z[j] + share * (from->z[j + 1] - from->z[j]);
-            to.segments[i] = from->segments[j];
-        }
-    }
-    to.x[i] = end;
-    to.z[i] = from->z[from->vertices - 1];
-    return to;
-}
 
 /* Every vertex but the ends moved by up to 1 mm, along x no further than the order of the vertices allows. */
 static void move_vertices(struct ceduo_slope *s)
@@ -97,12 +62,12 @@ static void roughen(struct ceduo_slope *s)
 static void make_profiles(struct profile *p, const struct ceduo_slope *paper, size_t vertices)
 {
     p[0] = (struct profile){"13-segments", *paper};
-    p[1] = (struct profile){"cut", cut(paper, vertices)};
-    p[2] = (struct profile){"cut-moved-1-mm", cut(paper, vertices)};
+    p[1] = (struct profile){"cut", slope_cut(paper, vertices)};
+    p[2] = (struct profile){"cut-moved-1-mm", slope_cut(paper, vertices)};
     move_vertices(&p[2].slope);
-    p[3] = (struct profile){"rough", cut(paper, vertices)};
-    p[4] = (struct profile){"rough", cut(paper, vertices / 10)};
-    p[5] = (struct profile){"rough", cut(paper, vertices / 100)};
+    p[3] = (struct profile){"rough", slope_cut(paper, vertices)};
+    p[4] = (struct profile){"rough", slope_cut(paper, vertices / 10)};
+    p[5] = (struct profile){"rough", slope_cut(paper, vertices / 100)};
     for (size_t i = 3; i < KINDS; i++)
         roughen(&p[i].slope);
 }
@@ -153,27 +118,16 @@ static void measure_law(enum ceduo_law law, size_t repeats, uint64_t rocks, size
                each / first_each);
         fflush(stdout);
     }
-    for (size_t k = 1; k < KINDS; k++) {
-        free(p[k].slope.x);
-        free(p[k].slope.z);
-        free(p[k].slope.segments);
-    }
-}
-
-static uint64_t argument(const char *text, uint64_t least, uint64_t most)
-{
-    char *end;
-    unsigned long long value = strtoull(text, &end, 10);
-    if (*end != '\0' || value < least || value > most)
-        fail("usage: bench_profiles [REPEATS [ROCKS [VERTICES]]]");
-    return value;
+    for (size_t k = 1; k < KINDS; k++)
+        slope_free(&p[k].slope);
 }
 
 int main(int argc, char **argv)
 {
-    size_t repeats = argc > 1 ? (size_t)argument(argv[1], 1, REPEATS_MOST) : 7;
-    uint64_t rocks = argc > 2 ? argument(argv[2], 1, CEDUO_ROCKS_MOST) : 20000;
-    size_t vertices = argc > 3 ? (size_t)argument(argv[3], 10000, VERTICES_MOST) : 100000;
+    (void)argc;
+    size_t repeats = argument(argv, 1, 7, 1, REPEATS_MOST);
+    uint64_t rocks = argument(argv, 2, 20000, 1, CEDUO_ROCKS_MOST);
+    size_t vertices = argument(argv, 3, 100000, 10000, VERTICES_MOST);
     puts("profile,law,vertices,rocks,make_seconds,fly_seconds,contacts_per_rock,ns_per_contact,ratio_to_13_segments,"
          "ratio_of_contacts");
     measure_law(CEDUO_LAW_LUMPED, repeats, rocks, vertices);

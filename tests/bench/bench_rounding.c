@@ -17,9 +17,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "ceduo/ceduo.h"
-#include "measure.h"
-#include "physics/paper_site.h"
+#include "frame.h"
 
 #define ROCKS_MOST 1000000
 #define CONTACTS   40
@@ -37,12 +35,6 @@ struct track {
 struct sums {
     double n, sum, squares;
 };
-
-static void fail(const char *why)
-{
-    fprintf(stderr, "bench_rounding: %s\n", why);
-    exit(1);
-}
 
 static void note(void *context, const struct ceduo_piece *p)
 {
@@ -125,10 +117,8 @@ static void compare(const char *name, const struct paper_site *site, const char 
 
 int main(int argc, char **argv)
 {
-    char *end = "";
-    uint64_t rocks = argc > 1 ? strtoull(argv[1], &end, 10) : 20000;
-    if (*end != '\0' || rocks < 100 || rocks > ROCKS_MOST)
-        fail("usage: bench_rounding [ROCKS]");
+    (void)argc;
+    uint64_t rocks = argument(argv, 1, 20000, 100, ROCKS_MOST);
     static const struct {
         const char *name;
         int mode;

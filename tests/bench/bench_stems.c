@@ -5,11 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "ceduo/ceduo.h"
-#include "io/scene_file.h"
-#include "measure.h"
-
-#define REPEATS_MOST 101
+#include "frame.h"
 
 struct kind {
     const char *what;
@@ -25,10 +21,8 @@ static void fly(struct ceduo_scene scene, struct kind *k, uint64_t rocks, size_t
     struct ceduo_run_def def = ceduo_run_def_default(&scene);
     def.option = k->model == CEDUO_INDEX ? NULL : &scene.options[0];
     def.rocks_most = rocks;
-    struct ceduo_run *run;
     double start = ceduo_clock();
-    if (ceduo_run_create(&def, &run) != CEDUO_OK || ceduo_run_extend(run, rocks) != CEDUO_OK)
-        exit(1);
+    struct ceduo_run *run = fly_run(&def, rocks);
     k->seconds[repeat] = ceduo_clock() - start;
     k->contacts = ceduo_run_contacts(run);
     k->stems = ceduo_run_stems(run);
@@ -38,9 +32,7 @@ static void fly(struct ceduo_scene scene, struct kind *k, uint64_t rocks, size_t
 static void measure(const char *path, size_t repeats, uint64_t rocks)
 {
     struct scene_file file;
-    struct problems problems = {0};
-    if (!ceduo_scene_read(&file, path, NULL, 0, &problems))
-        exit(1);
+    read_scene(&file, path);
     struct kind kinds[] = {{.what = "bare", .model = CEDUO_INDEX},
                            {.what = "stems", .model = CEDUO_STEMS},
                            {.what = "poisson", .model = CEDUO_POISSON}};
@@ -50,25 +42,20 @@ static void measure(const char *path, size_t repeats, uint64_t rocks)
             fly(file.scene, &kinds[k], rocks, r);
     double bare = 0;
     for (size_t k = 0; k < n; k++) {
-        qsort(kinds[k].seconds, repeats, sizeof(double), by_value);
-        double seconds = kinds[k].seconds[repeats / 2];
+        double seconds = median(kinds[k].seconds, repeats);
         double rate = (double)(kinds[k].contacts + kinds[k].stems.met) / seconds;
         bare = k == 0 ? rate : bare;
         printf("%s,%s,%" PRIu64 ",%.4f,%" PRIu64 ",%" PRIu64 ",%" PRIu64 ",%" PRIu64 ",%.0f,%.3f\n", path, kinds[k].what, rocks,
                seconds, kinds[k].contacts, kinds[k].stems.met, kinds[k].stems.hit, kinds[k].stems.drawn, rate, rate / bare);
     }
-    ceduo_problems_free(&problems);
     ceduo_scene_release(&file);
 }
 
 int main(int argc, char **argv)
 {
-    size_t repeats = argc > 1 ? strtoul(argv[1], NULL, 10) : 7;
-    uint64_t rocks = argc > 2 ? strtoull(argv[2], NULL, 10) : 50000;
-    if (repeats < 1 || repeats > REPEATS_MOST || rocks < 1) {
-        fputs("usage: bench_stems [REPEATS [ROCKS]]\n", stderr);
-        return 2;
-    }
+    (void)argc;
+    size_t repeats = argument(argv, 1, 7, 1, REPEATS_MOST);
+    uint64_t rocks = argument(argv, 2, 50000, 1, UINT64_MAX);
     puts("scene,what,rocks,seconds_median,contacts,met,hit,drawn,contacts_and_met_per_s,ratio_to_bare");
     measure("profiles/scenes/paper-site.yaml", repeats, rocks);
     measure("profiles/scenes/four-systems.yaml", repeats, rocks);

@@ -12,12 +12,12 @@
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_odeiv2.h>
 #include <math.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <time.h>
 
-#include "../physics/paper_site.h"
 #include "core/walk/landing.h"
+#include "frame.h"
 
 #define STEPS_MOST 100000000
 #define MISSED     1.0 /* m */
@@ -26,21 +26,6 @@ struct launch {
     struct flight from;
     double x; /* of the exact contact */
 };
-
-static double now(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
-static double uniform(uint64_t *state) /* splitmix64 */
-{
-    uint64_t z = *state += 0x9e3779b97f4a7c15;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111eb;
-    return (double)((z ^ (z >> 31)) >> 11) * 0x1p-53;
-}
 
 /* Height over the ground; beyond the ends over the last segment carried on. */
 static double height(const struct ground *g, double x, double z, size_t *segment)
@@ -144,7 +129,7 @@ static double by_gsl(const struct ground *g, const struct launch *l, double tole
 static void measure(const struct ground *g, const struct launch *launches, size_t n, const char *what, double step,
                     double (*contact)(const struct ground *, const struct launch *, double))
 {
-    double sum2 = 0, most = 0, start = now();
+    double sum2 = 0, most = 0, start = processor_s();
     size_t missed = 0, close = 0;
     for (size_t i = 0; i < n; i++) {
         double off = fabs(contact(g, &launches[i], step) - launches[i].x);
@@ -156,7 +141,7 @@ static void measure(const struct ground *g, const struct launch *launches, size_
         sum2 += off * off;
         most = fmax(most, off);
     }
-    double seconds = now() - start;
+    double seconds = processor_s() - start;
     printf("%s,%g,%zu,%.3g,%.3g,%.3g,%zu\n", what, step, n, seconds / (double)n * 1e9, sqrt(sum2 / (double)close), most,
            missed);
     fflush(stdout);
@@ -164,12 +149,13 @@ static void measure(const struct ground *g, const struct launch *launches, size_
 
 int main(int argc, char **argv)
 {
-    size_t n = argc > 1 ? strtoul(argv[1], NULL, 10) : 2000;
+    (void)argc;
+    size_t n = argument(argv, 1, 2000, 1, SIZE_MAX - 1);
     static struct paper_site site;
     paper_site_init(&site);
     struct ground g;
     struct launch *launches = calloc(n + 1, sizeof *launches);
-    if (n < 1 || !launches || !ceduo_ground_init(&g, &site.scene.slope, CEDUO_GRAVITY, 0.34, false))
+    if (!launches || !ceduo_ground_init(&g, &site.scene.slope, CEDUO_GRAVITY, 0.34, false))
         return 1;
     uint64_t state = 7;
     for (size_t i = 0; i < n;) {

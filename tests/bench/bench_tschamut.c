@@ -16,8 +16,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "ceduo/ceduo.h"
-#include "io/scene_file.h"
+#include "frame.h"
 #include "physics/stops.h"
 
 #define BLOCKS      3
@@ -41,12 +40,6 @@ struct site {
 struct fit {
     double at[VALUES], distance[BLOCKS], mean[BLOCKS], misfit;
 };
-
-static void fail(const char *why)
-{
-    fprintf(stderr, "bench_tschamut: %s\n", why);
-    exit(1);
-}
 
 /* ---- a ground ---- */
 
@@ -204,10 +197,9 @@ static void measure_law(struct site *site, enum ceduo_law law, const char *name,
 
 static void read_site(struct site *site)
 {
-    struct problems problems = {0};
-    if (!ceduo_scene_read(&site->file, "profiles/scenes/tschamut.yaml", NULL, 0, &problems) ||
-        site->file.observations_count != BLOCKS)
-        fail("cannot read profiles/scenes/tschamut.yaml");
+    read_scene(&site->file, "profiles/scenes/tschamut.yaml");
+    if (site->file.observations_count != BLOCKS)
+        fail("there are other blocks");
     site->seen = site->file.observations;
     if (ceduo_observer_create(site->seen, BLOCKS, &site->observer) != CEDUO_OK)
         fail("no memory");
@@ -236,10 +228,9 @@ static void make_round(struct site *site)
 int main(int argc, char **argv)
 {
     static struct site site;
-    size_t points = argc > 1 ? strtoul(argv[1], NULL, 10) : 4096;
-    site.rocks = argc > 2 ? strtoul(argv[2], NULL, 10) : 500;
-    if (points < STARTS || points > POINTS_MOST || site.rocks == 0)
-        fail("usage: bench_tschamut [POINTS [ROCKS]]");
+    (void)argc;
+    size_t points = argument(argv, 1, 4096, STARTS, POINTS_MOST);
+    site.rocks = argument(argv, 2, 500, 1, UINT64_MAX);
     read_site(&site);
     puts("what,law,rn,roughness_rad,friction,rt_or_mu,ks_block1,ks_block2,ks_plate,mean_block1_m,mean_block2_m,mean_plate_m,"
          "not_refuted,predict_block2,predict_plate,predict_both");

@@ -10,7 +10,7 @@
 #include <unistd.h>
 
 #include "ceduo/question.h"
-#include "io/scene_file.h"
+#include "frame.h"
 #include "study/verdict.h"
 
 #define SEEDS     100
@@ -47,7 +47,7 @@ static void look(const struct ceduo_scene *scene, struct ceduo_pool **pool, unsi
     q.years = true;
     q.years_most = YEAR_STEP;
     if (ceduo_ask(&q, pool, &answer) != CEDUO_OK || ceduo_verdict_make(answer.result, answer.years, &verdict) != CEDUO_OK)
-        exit(1);
+        fail("the question failed");
     today->best[step] = clear_best(&verdict.today);
     rotation->best[step] = clear_best(&verdict.rotation);
     ceduo_verdict_release(&verdict);
@@ -72,14 +72,10 @@ static size_t report(const char *scene, const char *when, size_t seeds, const st
 static size_t judge(const char *name, size_t seeds, unsigned threads)
 {
     struct scene_file file;
-    struct problems problems = {0};
     struct count today = {0}, rotation = {0};
     char path[128];
     snprintf(path, sizeof path, "profiles/scenes/%s.yaml", name);
-    if (!ceduo_scene_read(&file, path, NULL, 0, &problems)) {
-        fputs(ceduo_text_string(&problems.text), stderr);
-        exit(1);
-    }
+    read_scene(&file, path);
     for (size_t seed = 1; seed <= seeds; seed++) {
         struct ceduo_pool *pool = NULL;
         struct said now, over;
@@ -97,8 +93,9 @@ static size_t judge(const char *name, size_t seeds, unsigned threads)
 
 int main(int argc, char **argv)
 {
-    size_t seeds = argc > 1 ? (size_t)strtoul(argv[1], NULL, 10) : SEEDS;
-    unsigned threads = argc > 2 ? (unsigned)strtoul(argv[2], NULL, 10) : (unsigned)sysconf(_SC_NPROCESSORS_ONLN);
+    (void)argc;
+    size_t seeds = argument(argv, 1, SEEDS, 0, SIZE_MAX);
+    unsigned threads = (unsigned)argument(argv, 2, (uint64_t)sysconf(_SC_NPROCESSORS_ONLN), 1, 1024);
     printf("scene,when,seeds,clear_at_1024,clear_at_10240,no_longer_clear,reversed\n");
     size_t reversed =
         judge("four-systems", seeds, threads) + judge("rotation", seeds, threads) + judge("staggered", seeds, threads);

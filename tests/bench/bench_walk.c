@@ -10,35 +10,19 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 #include <sys/resource.h>
 
-#include "ceduo/ceduo.h"
-#include "measure.h"
-#include "plain_loop.h"
+#include "frame.h"
 
-#define SEGMENTS     13
-#define CONTROL_X    135.0
-#define CELLS        200
-#define MANY_ROCKS   1000000
-#define ROCKS_LEAST  1000 /* fewer say nothing about agreement */
-#define REPEATS_MOST 99
-#define AGREE        4.0 /* combined standard errors */
-
-/* Table 3 of Ciabocco et al. 2009. */
-static double vertex_x[SEGMENTS + 1] = {0,     10,    13,    26.95,  42.8,   48.11,  56.36,
-                                        70.69, 84.66, 97.43, 115.42, 134.59, 144.33, 152.68};
-static double vertex_z[SEGMENTS + 1] = {126, 106, 86, 76, 66, 61, 56, 46, 36, 26, 16, 6, 2, 0};
-static const double wall[3] = {0.31, 0.87, 0.25}, ledge[3] = {0.40, 0.90, 0.001}, talus[3] = {0.31, 0.83, 0.15};
+#define CELLS       200
+#define MANY_ROCKS  1000000
+#define ROCKS_LEAST 1000 /* fewer say nothing about agreement */
+#define AGREE       4.0  /* combined standard errors */
 
 struct site {
     const char *law, *roughness;
-    struct ceduo_segment segments[SEGMENTS];
-    struct ceduo_control control;
-    struct ceduo_belt belt;
-    struct ceduo_option option;
-    struct ceduo_scene scene;
-    struct plain_segment plain_segments[SEGMENTS];
+    struct paper_site paper;
+    struct plain_segment plain_segments[PAPER_SEGMENTS];
     struct plain_def plain;
     struct plain_sums plain_sums; /* over all repeats, each with its own seed */
     double plain_rate;            /* contacts per second */
@@ -56,89 +40,16 @@ struct measure {
     struct ceduo_arrivals arrivals;
 };
 
-static void fail(const char *why)
-{
-    fprintf(stderr, "bench_walk: %s\n", why);
-    exit(1);
-}
-
-/* ---- the site ---- */
-
-static const double *ground_of(size_t j)
-{
-    return j == 0 ? wall : j == 1 ? ledge : talus;
-}
-
-static void init_scene(struct site *site, enum ceduo_law law, bool height)
-{
-    for (size_t j = 0; j < SEGMENTS; j++) {
-        const double *ground = ground_of(j);
-        site->segments[j] = (struct ceduo_segment){.rn = ceduo_number(ground[0]),
-                                                   .rt = ceduo_number(ground[1]),
-                                                   .roughness_m = height ? ground[2] : NAN,
-                                                   .roughness_rad = height ? NAN : ground[2],
-                                                   .friction = ceduo_segment_default().friction};
-    }
-    site->control = (struct ceduo_control){.x = CONTROL_X, .x_given = CONTROL_X, .accepted = NAN, .measured_speed = NAN};
-    site->option = (struct ceduo_option){.belts_count = 0, .belts = &site->belt};
-    struct ceduo_scene *scene = &site->scene;
-    scene->rock = ceduo_scene_default().rock;
-    scene->rock.shape = CEDUO_CYLINDER;
-    scene->rock.diameter = ceduo_number(0.56);
-    scene->rock.height = ceduo_number(0.80);
-    scene->release = (struct ceduo_release){.x = ceduo_number(0),
-                                            .height = ceduo_number(0),
-                                            .vx = ceduo_number(0.3),
-                                            .vz = ceduo_number(-0.3),
-                                            .spin = ceduo_number(0)};
-    scene->slope = (struct ceduo_slope){
-        .facets = CEDUO_AGAINST, .vertices = SEGMENTS + 1, .x = vertex_x, .z = vertex_z, .segments = site->segments};
-    scene->controls_count = 1;
-    scene->controls = &site->control;
-    scene->options_count = 1;
-    scene->options = &site->option;
-    scene->simulation = ceduo_scene_default().simulation;
-    scene->simulation.law = law;
-    scene->simulation.rocks = MANY_ROCKS;
-}
-
-static void init_plain(struct site *site, bool height)
-{
-    for (size_t j = 0; j < SEGMENTS; j++) {
-        const double *ground = ground_of(j);
-        struct plain_segment *s = &site->plain_segments[j];
-        *s = plain_segment_between(vertex_x[j], vertex_z[j], vertex_x[j + 1], vertex_z[j + 1]);
-        s->rn = ground[0];
-        s->rt = ground[1];
-        s->roughness = ground[2];
-        s->friction = ceduo_segment_default().friction;
-    }
-    struct ceduo_rock rock;
-    if (ceduo_rock_of_means(&site->scene.rock, &rock) != CEDUO_OK)
-        fail("bad rock");
-    bool crsp = site->scene.simulation.law == CEDUO_LAW_CRSP;
-    site->plain = (struct plain_def){.count = SEGMENTS,
-                                     .segments = site->plain_segments,
-                                     .law = crsp ? PLAIN_CRSP : PLAIN_LUMPED,
-                                     .roughness_is_height = height,
-                                     .gravity = CEDUO_GRAVITY,
-                                     .mass = rock.mass,
-                                     .radius = rock.radius,
-                                     .k = rock.k,
-                                     .x = 0,
-                                     .z = vertex_z[0],
-                                     .vx = 0.3,
-                                     .vz = -0.3,
-                                     .control = CONTROL_X};
-}
-
 static void init_site(struct site *site, enum ceduo_law law, bool height)
 {
-    memset(site, 0, sizeof *site);
     site->law = law == CEDUO_LAW_CRSP ? "crsp" : "lumped";
     site->roughness = height ? "height" : "angle";
-    init_scene(site, law, height);
-    init_plain(site, height);
+    paper_site_init(&site->paper);
+    paper_site_read_theta(&site->paper, height ? PAPER_HEIGHT : PAPER_ANGLE);
+    site->paper.control.accepted = NAN;
+    site->paper.scene.simulation.law = law;
+    site->paper.scene.simulation.rocks = MANY_ROCKS;
+    site->plain = plain_site(&site->paper, site->plain_segments);
 }
 
 /* ---- measuring ---- */
@@ -155,16 +66,14 @@ static double time_core(const struct site *site, struct measure *m)
 {
     double cell_x[CELLS];
     for (size_t i = 0; i < m->cells; i++)
-        cell_x[i] = vertex_x[SEGMENTS] * (double)(i + 1) / (double)m->cells;
+        cell_x[i] = paper_x[PAPER_SEGMENTS] * (double)(i + 1) / (double)m->cells;
     double start = ceduo_clock();
-    struct ceduo_run_def def = ceduo_run_def_default(&site->scene);
+    struct ceduo_run_def def = ceduo_run_def_default(&site->paper.scene);
     def.threads = m->threads;
     def.kernel = m->kernel;
     def.cells = m->cells;
     def.cell_x = m->cells > 0 ? cell_x : NULL;
-    struct ceduo_run *run;
-    if (ceduo_run_create(&def, &run) != CEDUO_OK || ceduo_run_extend(run, m->rocks) != CEDUO_OK)
-        fail("the run failed");
+    struct ceduo_run *run = fly_run(&def, m->rocks);
     double seconds = ceduo_clock() - start;
     m->contacts = ceduo_run_contacts(run);
     if (ceduo_run_arrivals(run, 0, &m->arrivals) != CEDUO_OK)
@@ -260,19 +169,11 @@ static void measure_many(const struct site *site, size_t repeats)
     fprintf(stderr, "peak memory with %d rocks: %.1f MiB\n", MANY_ROCKS, (double)usage.ru_maxrss / 1024);
 }
 
-static uint64_t argument(const char *text, uint64_t least, uint64_t most)
-{
-    char *end;
-    unsigned long long value = strtoull(text, &end, 10);
-    if (*end != '\0' || value < least || value > most)
-        fail("usage: bench_walk [REPEATS [ROCKS]]");
-    return value;
-}
-
 int main(int argc, char **argv)
 {
-    size_t repeats = argc > 1 ? (size_t)argument(argv[1], 1, REPEATS_MOST) : 7;
-    uint64_t rocks = argc > 2 ? argument(argv[2], ROCKS_LEAST, MANY_ROCKS) : 100000;
+    (void)argc;
+    size_t repeats = argument(argv, 1, 7, 1, REPEATS_MOST);
+    uint64_t rocks = argument(argv, 2, 100000, ROCKS_LEAST, MANY_ROCKS);
     static struct site lumped, crsp;
     init_site(&lumped, CEDUO_LAW_LUMPED, false);
     init_site(&crsp, CEDUO_LAW_CRSP, true);

@@ -2,6 +2,7 @@
 #include "line_scene.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "core/walk/random.h"
@@ -37,6 +38,45 @@ void line_scene_release(struct line_scene *s, double x, double height, double vx
                                               .vx = ceduo_number(vx),
                                               .vz = ceduo_number(vz),
                                               .spin = ceduo_number(spin)};
+}
+
+/* ---- slopes by themselves ---- */
+
+struct ceduo_slope slope_new(size_t vertices)
+{
+    struct ceduo_slope s = {.facets = CEDUO_AGAINST, .vertices = vertices};
+    s.x = malloc(vertices * sizeof *s.x);
+    s.z = malloc(vertices * sizeof *s.z);
+    s.segments = malloc(vertices * sizeof *s.segments);
+    if (!s.x || !s.z || !s.segments)
+        abort();
+    return s;
+}
+
+void slope_free(struct ceduo_slope *s)
+{
+    free(s->x);
+    free(s->z);
+    free(s->segments);
+}
+
+struct ceduo_slope slope_cut(const struct ceduo_slope *from, size_t vertices)
+{
+    struct ceduo_slope to = slope_new(vertices);
+    double end = from->x[from->vertices - 1];
+    size_t i = 0;
+    for (size_t j = 0; j + 1 < from->vertices; j++) {
+        size_t last = (size_t)(from->x[j + 1] / end * (double)(vertices - 1) + 0.5), first = i;
+        for (; i < last; i++) {
+            double share = (double)(i - first) / (double)(last - first);
+            to.x[i] = from->x[j] + share * (from->x[j + 1] - from->x[j]);
+            to.z[i] = from->z[j] + share * (from->z[j + 1] - from->z[j]);
+            to.segments[i] = from->segments[j];
+        }
+    }
+    to.x[i] = end;
+    to.z[i] = from->z[from->vertices - 1];
+    return to;
 }
 
 /* ---- random scenes ---- */

@@ -27,6 +27,12 @@ void line_scene_init(struct line_scene *s, size_t vertices, const double *x, con
 /* Where and how the rock starts. */
 void line_scene_release(struct line_scene *s, double x, double height, double vx, double vz, double spin);
 
+/* A slope with room for so many vertices, to be freed. */
+struct ceduo_slope slope_new(size_t vertices);
+void slope_free(struct ceduo_slope *s);
+/* `from` cut along its own lines, as even as its vertices allow, which are among the new ones, to the bit. */
+struct ceduo_slope slope_cut(const struct ceduo_slope *from, size_t vertices);
+
 /* A simple generator of numbers for tests (splitmix64; Steele, Lea and Flood 2014). */
 struct line_random {
     uint64_t state;

@@ -1,12 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "sample.h"
 
+#include "bench/measure.h"
 #include "expect.h"
 
 #include <gsl/gsl_cdf.h>
 #include <gsl/gsl_randist.h>
 #include <math.h>
+#include <stdarg.h>
 #include <stdbool.h>
+#include <stdio.h>
 #include <stdlib.h>
 
 #define CHANCE 1e-4 /* of a test of fit to fail though all is right; four standard errors are 6e-5 */
@@ -42,6 +45,18 @@ double spread_variance_se(const struct spread *s)
     double m = s->sum[1] / s->n, m2 = s->sum[2] / s->n, v = spread_variance(s);
     double fourth = s->sum[4] / s->n - 4 * m * s->sum[3] / s->n + 6 * m * m * m2 - 3 * m * m * m * m;
     return sqrt((fourth - v * v) / s->n);
+}
+
+const char *named(const char *format, ...)
+{
+    static char texts[8][100];
+    static unsigned turn;
+    char *text = texts[turn++ % LENGTH(texts)];
+    va_list values;
+    va_start(values, format);
+    vsnprintf(text, sizeof texts[0], format, values);
+    va_end(values);
+    return text;
 }
 
 void expect_close(const char *what, double value, double se, double expected, double expected_se)
@@ -87,12 +102,6 @@ void expect_ks(const char *what, double d, double size)
     print_message("# %s: D = %.2e, D sqrt(n) = %.3f of at most %.3f\n", what, d, d * sqrt(size), most);
     if (!(d * sqrt(size) < most))
         fail_msg("%s: D = %.3g of %.0f", what, d, size);
-}
-
-static int by_value(const void *a, const void *b)
-{
-    const double *p = a, *q = b;
-    return (*p > *q) - (*p < *q);
 }
 
 void expect_law(const char *what, double *values, size_t n, double (*cdf)(double x, const void *of), const void *of)

@@ -19,6 +19,9 @@ double spread_se(const struct spread *s);
 /* Of the variance, from the fourth moment. */
 double spread_variance_se(const struct spread *s);
 
+/* A text as printf() makes it, which stays for the next seven of them. */
+const char *named(const char *format, ...) __attribute__((format(printf, 1, 2)));
+
 void expect_close(const char *what, double value, double se, double expected, double expected_se);
 void expect_mean(const char *what, const struct spread *s, double expected);
 void expect_variance(const char *what, const struct spread *s, double expected);

@@ -111,6 +111,15 @@ void sweep_one(uint64_t rock)
     sweep_end();
 }
 
+bool sweep_next(uint64_t rock, uint64_t rocks)
+{
+    if (rock < rocks)
+        sweep_rock(rock);
+    else
+        sweep_end();
+    return rock < rocks;
+}
+
 static int by_number(const void *a, const void *b)
 {
     const uint64_t *p = a, *q = b;
@@ -133,9 +142,7 @@ size_t different(bool shoots_only)
 struct met meet(uint64_t rocks, double metres)
 {
     struct met m = {0};
-    sweep_begin();
-    for (uint64_t rock = 0; rock < rocks; rock++) {
-        sweep_rock(rock);
+    for (SWEEP(rock, rocks)) {
         size_t both = different(false);
         if (sweep.way.stems_hit != sweep.count || sweep.way.stools_met != both || sweep.way.end != CEDUO_LEFT_SLOPE ||
             sweep.way.stems_drawn < sweep.count)
@@ -146,21 +153,5 @@ struct met meet(uint64_t rocks, double metres)
         spread_add(&m.stools, stools);
         spread_add(&m.sum, (double)sweep.count / metres + stools);
     }
-    sweep_end();
     return m;
-}
-
-struct ceduo_run *run_of(const struct ceduo_scene *scene, const struct ceduo_option *option, uint64_t rocks, unsigned threads,
-                         size_t exact_bytes)
-{
-    struct ceduo_run_def def = ceduo_run_def_default(scene);
-    def.option = option;
-    def.rocks_most = rocks;
-    def.threads = threads;
-    def.exact_bytes = exact_bytes;
-    struct ceduo_run *run;
-    assert_int_equal(ceduo_run_create(&def, &run), CEDUO_OK);
-    assert_int_equal(ceduo_run_extend(run, rocks), CEDUO_OK);
-    assert_int_equal(ceduo_run_rocks(run), rocks);
-    return run;
 }

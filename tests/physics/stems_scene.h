@@ -7,10 +7,10 @@
 
 #include "line_scene.h"
 #include "paper_site.h"
+#include "runs.h"
 #include "sample.h"
 
-#define LENGTH(a) (sizeof(a) / sizeof(a)[0])
-#define B         PAPER_B /* m, mean diameter of the rock of all sweeps */
+#define B PAPER_B /* m, mean diameter of the rock of all sweeps */
 
 /* ---- a plane to sweep ---- */
 
@@ -55,6 +55,12 @@ void sweep_end(void);
 void sweep_watched(uint64_t rock, const struct ceduo_watch *watch);
 void sweep_rock(uint64_t rock);
 void sweep_one(uint64_t rock);
+/* for (SWEEP(rock, 5000)): rocks 0 to 4999, each of which has been swept; not to be left early. */
+#define SWEEP(rock, rocks)                                                                                                     \
+    uint64_t rock = (sweep_begin(), 0);                                                                                        \
+    sweep_next(rock, rocks);                                                                                                   \
+    rock++
+bool sweep_next(uint64_t rock, uint64_t rocks);
 
 /* Different numbers among the stems that were hit, all or of shoots only. */
 size_t different(bool shoots_only);
@@ -66,8 +72,5 @@ struct met {
 };
 
 struct met meet(uint64_t rocks, double metres);
-
-struct ceduo_run *run_of(const struct ceduo_scene *scene, const struct ceduo_option *option, uint64_t rocks, unsigned threads,
-                         size_t exact_bytes);
 
 #endif

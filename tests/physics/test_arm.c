@@ -72,8 +72,7 @@ TEST(a_round_rock_that_sticks)
         c.in.spin = -spin;
         c.turn = -c.turn;
         struct impact mirror = struck(&c);
-        EXPECT(mirror.vt, ==, -out.vt);
-        EXPECT(mirror.spin, ==, -out.spin);
+        EXPECT_IS(mirror, (vt, -out.vt), (spin, -out.spin));
         EXPECT(mirror.vn, ==, out.vn);
     }
 }

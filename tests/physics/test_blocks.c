@@ -7,7 +7,6 @@
 
 #include "line_scene.h"
 
-#define LENGTH(a)    (sizeof(a) / sizeof(a)[0])
 #define LIMESTONE    2600.0
 #define BLOCKS_FLOWN 5
 
@@ -186,9 +185,7 @@ TEST(blocks_fly_with_their_own_mass)
         drop(slab(.5), 1.1 * volumes[bears] * LIMESTONE * 25 / 2);
         size_up(b);
         for (size_t i = 0; i < CEDUO_BLOCKS; i++) {
-            EXPECT(b[i].arrivals.released, ==, BLOCKS_FLOWN);
-            EXPECT(b[i].arrivals.reached, ==, BLOCKS_FLOWN);
-            EXPECT(b[i].arrivals.reach_probability, ==, 1);
+            EXPECT_IS(b[i].arrivals, (released, BLOCKS_FLOWN), (reached, BLOCKS_FLOWN), (reach_probability, 1));
             bool exceeds = b[i].volume > 1.1 * volumes[bears];
             assert_int_equal(b[i].arrivals.exceeded, exceeds ? BLOCKS_FLOWN : 0);
             EXPECT(b[i].arrivals.exceed_probability, ==, (exceeds ? 1 : 0));

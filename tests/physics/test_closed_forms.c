@@ -5,11 +5,11 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "bench/measure.h"
 #include "line_scene.h"
 #include "paper_site.h"
 
-#define LENGTH(a) (sizeof(a) / sizeof(a)[0])
-#define G         CEDUO_GRAVITY
+#define G CEDUO_GRAVITY
 
 static struct line_scene scene;
 static struct line_way way, other;
@@ -26,6 +26,12 @@ static void follow(void)
     assert_int_equal(line_scene_follow(&scene, &way), CEDUO_OK);
 }
 
+static void release(double x, double height, double vx, double vz, double spin)
+{
+    line_scene_release(&scene, x, height, vx, vz, spin);
+    follow();
+}
+
 /* One straight slope from x = 0 to 1000 that rises by `rise` per metre. */
 static void straight(double rise, struct line_ground ground, double radius, enum ceduo_law law)
 {
@@ -38,14 +44,11 @@ static void straight(double rise, struct line_ground ground, double radius, enum
 TEST(free_fall)
 {
     straight(0, (struct line_ground){.5, .5, .5}, .1, CEDUO_LAW_LUMPED);
-    line_scene_release(&scene, 500, 20, 0, 0, 0);
-    follow();
+    release(500, 20, 0, 0, 0);
     const struct ceduo_piece *p = &way.pieces[0];
     expect_near(p->seconds, sqrt(2 * 20 / G), 1e-15);
     expect_near(p->vz1, -sqrt(2 * G * 20), 1e-15);
-    EXPECT(p->x1, ==, 500);
-    EXPECT(p->z1, ==, 0);
-    EXPECT(p->vx1, ==, 0);
+    EXPECT_IS(*p, (x1, 500), (z1, 0), (vx1, 0));
 }
 
 TEST(projectiles_on_a_slope)
@@ -53,8 +56,7 @@ TEST(projectiles_on_a_slope)
     static const double rises[] = {0, -.5, .5, -3, 2};
     for (size_t i = 0; i < LENGTH(rises); i++) {
         straight(rises[i], (struct line_ground){.5, .5, .5}, .1, CEDUO_LAW_LUMPED);
-        line_scene_release(&scene, 500, 5, -4, 3, 0);
-        follow();
+        release(500, 5, -4, 3, 0);
         double b = 3 + 4 * rises[i], t = (b + sqrt(b * b + 2 * G * 5)) / G; /* 5 + b t = g t2/2 */
         const struct ceduo_piece *p = &way.pieces[0];
         expect_near(p->seconds, t, 1e-14);
@@ -87,8 +89,7 @@ TEST(a_vertical_drop_rebounds_to_rn2_h)
 {
     const double rn = .75, radius = .1;
     straight(0, (struct line_ground){rn, .5, .5}, radius, CEDUO_LAW_LUMPED);
-    line_scene_release(&scene, 500, 10, 0, 0, 0);
-    follow();
+    release(500, 10, 0, 0, 0);
     double h = 10;
     size_t i = 1;
     while ((h *= rn * rn) > radius) {
@@ -99,56 +100,39 @@ TEST(a_vertical_drop_rebounds_to_rn2_h)
     }
     assert_int_equal(i, way.count); /* the next one is lower than R */
     assert_int_equal(way.way.end, CEDUO_AT_REST);
-    EXPECT(way.way.x, ==, 500);
-    EXPECT(way.way.z, ==, 0);
-    EXPECT(way.way.contacts, ==, i);
+    EXPECT_IS(way.way, (x, 500), (z, 0), (contacts, i));
 }
 
 TEST(an_oblique_impact_on_the_flat)
 {
     straight(0, (struct line_ground){.5, .5, .5}, .1, CEDUO_LAW_LUMPED);
-    line_scene_release(&scene, 500, 0, 2, -4, 0);
-    follow();
+    release(500, 0, 2, -4, 0);
     const struct ceduo_piece *p = &way.pieces[0];
     assert_false(p->rolls);
-    EXPECT(p->x, ==, 500);
-    EXPECT(p->vx, ==, 1);
-    EXPECT(p->vz, ==, 2);
-    EXPECT(p->contacts, ==, 1);
+    EXPECT_IS(*p, (x, 500), (vx, 1), (vz, 2), (contacts, 1));
     expect_near(p->x1, 500 + 4 / G, 1e-15);
-    line_scene_release(&scene, 500, 0, -2, -4, 0);
-    follow();
-    EXPECT(way.pieces[0].vx, ==, -1);
-    EXPECT(way.pieces[0].vz, ==, 2);
+    release(500, 0, -2, -4, 0);
+    EXPECT_IS(way.pieces[0], (vx, -1), (vz, 2));
 }
 
 TEST(a_bounce_without_loss_is_given_up_and_said_so)
 {
     straight(0, (struct line_ground){1, 1, 0}, .1, CEDUO_LAW_LUMPED);
-    line_scene_release(&scene, 500, 1, 0, 0, 0);
-    follow();
-    EXPECT(way.way.end, ==, CEDUO_UNFINISHED);
-    EXPECT(way.way.contacts, ==, CEDUO_CONTACTS_MOST);
-    EXPECT(way.way.x, ==, 500);
+    release(500, 1, 0, 0, 0);
+    EXPECT_IS(way.way, (end, CEDUO_UNFINISHED), (contacts, CEDUO_CONTACTS_MOST), (x, 500));
     straight(0, (struct line_ground){0, 1, 0}, 1e-4, CEDUO_LAW_CRSP); /* rolls, 100 m in 10^6 radii */
-    line_scene_release(&scene, 500, 0, 1, 0, 1e4);
-    follow();
-    EXPECT(way.way.end, ==, CEDUO_UNFINISHED);
-    EXPECT(way.way.contacts, ==, CEDUO_CONTACTS_MOST);
+    release(500, 0, 1, 0, 1e4);
+    EXPECT_IS(way.way, (end, CEDUO_UNFINISHED), (contacts, CEDUO_CONTACTS_MOST));
     expect_near(way.way.x, 600, 1e-9);
 }
 
 TEST(a_release_that_leaves_the_ground_has_no_contact)
 {
     straight(0, (struct line_ground){.5, .5, .5}, .1, CEDUO_LAW_LUMPED);
-    line_scene_release(&scene, 500, 0, 2, 4, 0);
-    follow();
+    release(500, 0, 2, 4, 0);
     const struct ceduo_piece *p = &way.pieces[0];
-    EXPECT(p->contacts, ==, 0);
-    EXPECT(p->vx, ==, 2);
-    EXPECT(p->vz, ==, 4);
-    EXPECT(p[1].vx, ==, 1);
-    EXPECT(p[1].contacts, ==, 1);
+    EXPECT_IS(*p, (contacts, 0), (vx, 2), (vz, 4));
+    EXPECT_IS(p[1], (vx, 1), (contacts, 1));
     expect_near(p[1].vz, 2, 1e-15);
 }
 
@@ -158,8 +142,7 @@ static void roll_stops(enum ceduo_law law, double k, double v0)
 {
     const double mu = .25;
     straight(0, (struct line_ground){.5, 1, mu}, .34, law);
-    line_scene_release(&scene, 500, 0, v0, 0, v0 / .34);
-    follow();
+    release(500, 0, v0, 0, v0 / .34);
     expect_near(fabs(way.way.x - 500), (1 + k) * v0 * v0 / (2 * G * mu), 1e-12);
     EXPECT((way.way.x > 500), ==, (v0 > 0));
     assert_int_equal(way.way.end, CEDUO_AT_REST);
@@ -189,16 +172,14 @@ TEST(a_roll_stops_just_at_the_control)
         assert_int_equal(way.way.end, CEDUO_AT_REST);
         EXPECT(way.way.x, ==, 2);
         assert_true(way.crossing.reached);
-        EXPECT(way.crossing.vx, ==, 0);
-        EXPECT(way.crossing.vz, ==, 0);
+        EXPECT_IS(way.crossing, (vx, 0), (vz, 0));
     }
 }
 
 static void roll_accelerates(enum ceduo_law law, double k, double rise, double mu)
 {
     straight(rise, (struct line_ground){.5, 1, mu}, .34, law);
-    line_scene_release(&scene, 500, 0, 0, 0, 0);
-    follow();
+    release(500, 0, 0, 0, 0);
     double c = 1 / sqrt(1 + rise * rise), a = G * (fabs(rise) - mu) * c / (1 + k);
     assert_int_equal(way.way.end, CEDUO_LEFT_SLOPE);
     EXPECT(way.way.x, ==, (rise < 0 ? 1000 : 0));
@@ -225,8 +206,7 @@ TEST(a_roll_down_a_slope)
 TEST(spin_and_speed_share_their_momentum_in_a_roll)
 {
     straight(0, (struct line_ground){0, 1, .5}, .5, CEDUO_LAW_CRSP);
-    line_scene_release(&scene, 500, 0, 0, 0, 8); /* a spinning sphere put down */
-    follow();
+    release(500, 0, 0, 0, 8); /* a spinning sphere put down */
     /* f = 1, SF = 1 at Rt = 1: the energy of the spin becomes that of a roll */
     expect_near(way.pieces[0].vx, sqrt(.4 * 16 / 1.4), 1e-15);
     expect_near(way.pieces[0].spin * .5, way.pieces[0].vx, 1e-15);
@@ -240,8 +220,7 @@ TEST(a_contact_in_a_roll_costs_the_same_for_any_rn)
     for (size_t i = 0; i < LENGTH(shares); i++)
         for (int slope = 0; slope < 60; slope++) {
             straight(-.025 * slope, (struct line_ground){shares[i], rt, 0}, .34, CEDUO_LAW_CRSP);
-            line_scene_release(&scene, 1, 0, 3, -.025 * slope * 3, 3 / .34 * sqrt(1 + pow(.025 * slope, 2)));
-            follow();
+            release(1, 0, 3, -.025 * slope * 3, 3 / .34 * sqrt(1 + pow(.025 * slope, 2)));
             for (size_t j = 1; j < way.count && j < 40; j++) {
                 const struct ceduo_piece *before = &way.pieces[j - 1], *p = &way.pieces[j];
                 double u2 = before->vx1 * before->vx1 + before->vz1 * before->vz1;
@@ -258,8 +237,7 @@ TEST(without_tangential_restitution_each_roll_begins_downhill)
     for (int slope = 1; slope < 60; slope++)
         for (int dir = -1; dir <= 1; dir += 2) {
             straight(.025 * slope * dir, (struct line_ground){.3, 0, 0}, 1, CEDUO_LAW_LUMPED);
-            line_scene_release(&scene, 500, 0, 1, -1 - .025 * slope, 0);
-            follow();
+            release(500, 0, 1, -1 - .025 * slope, 0);
             for (size_t j = 0; j < way.count; j++) {
                 assert_true(way.pieces[j].rolls);
                 EXPECT(dir * way.pieces[j].vx, <=, 0);
@@ -274,10 +252,8 @@ TEST(a_concave_vertex_takes_the_part_into_the_ground)
 {
     const double x[] = {0, 1, 9}, z[] = {0, 0, 6}; /* cosine 4/5 */
     line_scene_init(&scene, 3, x, z, (struct line_ground){0, 1, 0}, 1.5, CEDUO_LAW_LUMPED);
-    line_scene_release(&scene, .5, 0, 2, 0, 0);
-    follow();
-    EXPECT(way.pieces[0].vx1, ==, 2);
-    EXPECT(way.pieces[0].x1, ==, 1);
+    release(.5, 0, 2, 0, 0);
+    EXPECT_IS(way.pieces[0], (vx1, 2), (x1, 1));
     expect_near(hypot(way.pieces[1].vx, way.pieces[1].vz), 1.6, 1e-15);
     expect_near(way.pieces[1].vz / way.pieces[1].vx, .75, 1e-15);
 }
@@ -287,12 +263,10 @@ TEST(over_a_convex_vertex_it_rolls_or_flies)
     const double x[] = {0, 10, 20}, z[] = {0, 0, -5};
     for (int fast = 0; fast <= 1; fast++) {
         line_scene_init(&scene, 3, x, z, (struct line_ground){0, 1, 0}, .5, CEDUO_LAW_LUMPED);
-        line_scene_release(&scene, 9.9, 0, fast ? 3 : .3, 0, 0);
-        follow();
+        release(9.9, 0, fast ? 3 : .3, 0, 0);
         assert_true(way.pieces[0].rolls);
         EXPECT(way.pieces[0].x1, ==, 10);
-        EXPECT(way.pieces[1].rolls, ==, !fast);
-        EXPECT(way.pieces[1].x, ==, 10);
+        EXPECT_IS(way.pieces[1], (rolls, !fast), (x, 10));
         double v = hypot(way.pieces[1].vx, way.pieces[1].vz); /* nothing is lost */
         expect_near(v, fast ? 3 : .3, 1e-15);
         if (fast) /* z = -g t2/2 meets z = -x/2 */
@@ -307,16 +281,11 @@ TEST(at_rest_it_goes_where_it_is_steeper_than_friction)
     for (int dir = -1; dir <= 1; dir += 2)
         for (int law = 0; law < CEDUO_LAW_COUNT; law++) {
             straight(.3 * dir, (struct line_ground){.5, .5, .31}, .34, (enum ceduo_law)law);
-            line_scene_release(&scene, 500, 0, 0, 0, 0);
-            follow();
-            EXPECT(way.way.end, ==, CEDUO_AT_REST);
-            EXPECT(way.way.x, ==, 500);
-            EXPECT(way.way.contacts, ==, 1);
+            release(500, 0, 0, 0, 0);
+            EXPECT_IS(way.way, (end, CEDUO_AT_REST), (x, 500), (contacts, 1));
             straight(.3 * dir, (struct line_ground){.5, .5, .29}, .34, (enum ceduo_law)law);
-            line_scene_release(&scene, 500, 0, 0, 0, 0);
-            follow();
-            EXPECT(way.way.end, ==, CEDUO_LEFT_SLOPE);
-            EXPECT(way.way.x, ==, (dir < 0 ? 1000 : 0));
+            release(500, 0, 0, 0, 0);
+            EXPECT_IS(way.way, (end, CEDUO_LEFT_SLOPE), (x, (dir < 0 ? 1000 : 0)));
         }
 }
 
@@ -324,8 +293,7 @@ static void released_in_a_pit(double radius, double level, double beyond, bool s
 {
     const double x[] = {0, 2, 2 + level, 4 + level, 10}, z[] = {0, -1, -1, -1 + beyond, -1 + beyond};
     line_scene_init(&scene, LENGTH(x), x, z, (struct line_ground){.2, .5, .2}, radius, CEDUO_LAW_LUMPED);
-    line_scene_release(&scene, 1.8, 0, 0, 0, 0);
-    follow();
+    release(1.8, 0, 0, 0, 0);
     assert_int_equal(way.way.end, CEDUO_AT_REST);
     EXPECT((way.way.x == 1.8), ==, stays);
 }
@@ -339,13 +307,11 @@ TEST(at_rest_it_stays_in_a_pit_within_its_radius)
     released_in_a_pit(.5, .51, 1, false);                          /* a level stretch not shorter than R is no pit */
     const double x[] = {0, 2, 4, 10}, z[] = {0, -1, -1 + .08, -5}; /* the far side is lower than the rock */
     line_scene_init(&scene, 4, x, z, (struct line_ground){.2, .5, .01}, .5, CEDUO_LAW_LUMPED);
-    line_scene_release(&scene, 1.8, 0, 0, 0, 0);
-    follow();
+    release(1.8, 0, 0, 0, 0);
     EXPECT(way.way.x, !=, 1.8);
     const double gentle[] = {0, -1, -1 + .3, -5}; /* the far side holds by its friction: not steeper than it */
     line_scene_init(&scene, 4, x, gentle, (struct line_ground){.2, .5, .2}, .5, CEDUO_LAW_LUMPED);
-    line_scene_release(&scene, 1.8, 0, 0, 0, 0);
-    follow();
+    release(1.8, 0, 0, 0, 0);
     EXPECT(way.way.x, !=, 1.8);
 }
 
@@ -364,45 +330,33 @@ TEST(a_release_on_a_vertex_is_on_the_right)
 {
     two_grounds(.01);
     for (int dir = -1; dir <= 1; dir++) {
-        line_scene_release(&scene, 1, 0, dir * 4, -8, 0);
-        follow();
-        EXPECT(way.pieces[0].vz, ==, 2);
-        EXPECT(way.pieces[0].vx, ==, dir);
+        release(1, 0, dir * 4, -8, 0);
+        EXPECT_IS(way.pieces[0], (vz, 2), (vx, dir));
     }
-    line_scene_release(&scene, 1, 4, 0, 0, 0); /* dropped on it */
-    follow();
+    release(1, 4, 0, 0, 0); /* dropped on it */
     EXPECT(way.pieces[0].vz1, ==, -8);
     EXPECT(way.pieces[1].vz, ==, 2);
-    line_scene_release(&scene, 0, 0, 0, -8, 0); /* the first vertex */
-    follow();
+    release(0, 0, 0, -8, 0); /* the first vertex */
     EXPECT(way.pieces[0].vz, ==, 4);
 }
 
 TEST(a_flight_exactly_through_a_vertex_is_on_the_segment_ahead)
 {
     two_grounds(.01);
-    line_scene_release(&scene, 0, 1, 2, 0, 0); /* 1 - 4 t2 = 0 at t = 1/2, x = 1 */
-    follow();
+    release(0, 1, 2, 0, 0); /* 1 - 4 t2 = 0 at t = 1/2, x = 1 */
+    EXPECT_IS(way.pieces[0], (x1, 1), (z1, 0), (vz1, -4));
+    EXPECT_IS(way.pieces[1], (vz, 1), (vx, .5));
+    release(2, 1, -2, 0, 0); /* and from the other side */
     EXPECT(way.pieces[0].x1, ==, 1);
-    EXPECT(way.pieces[0].z1, ==, 0);
-    EXPECT(way.pieces[0].vz1, ==, -4);
-    EXPECT(way.pieces[1].vz, ==, 1);
-    EXPECT(way.pieces[1].vx, ==, .5);
-    line_scene_release(&scene, 2, 1, -2, 0, 0); /* and from the other side */
-    follow();
-    EXPECT(way.pieces[0].x1, ==, 1);
-    EXPECT(way.pieces[1].vz, ==, 2);
-    EXPECT(way.pieces[1].vx, ==, -1);
+    EXPECT_IS(way.pieces[1], (vz, 2), (vx, -1));
 }
 
 TEST(a_roll_that_ends_on_a_vertex_is_on_the_segment_it_came_along)
 {
     two_grounds(.5);
-    line_scene_release(&scene, .5, 0, 1, 0, 0);
-    follow();
+    release(.5, 0, 1, 0, 0);
     assert_true(way.pieces[0].rolls);
-    EXPECT(way.pieces[0].x1, ==, 1);
-    EXPECT(way.pieces[0].vx, ==, .5);
+    EXPECT_IS(way.pieces[0], (x1, 1), (vx, .5));
     for (size_t i = 1; i < way.count; i++) { /* Rt = 1/2 once more at x = 1, 1/4 from there on */
         const struct ceduo_piece *p = &way.pieces[i];
         assert_true(p->contacts != 2 || (p->vx == .25 && p->x == 1));
@@ -415,20 +369,13 @@ TEST(the_way_ends_at_either_end_of_the_slope)
     for (int dir = -1; dir <= 1; dir += 2) {
         straight(0, (struct line_ground){.5, 1, .1}, .1, CEDUO_LAW_LUMPED);
         double x = dir < 0 ? 1 : 999, end = dir < 0 ? 0 : 1000;
-        line_scene_release(&scene, x, 10, dir * 50, 0, 0); /* flies out */
-        follow();
-        EXPECT(way.way.end, ==, CEDUO_LEFT_SLOPE);
-        EXPECT(way.way.x, ==, end);
-        EXPECT(way.way.contacts, ==, 0);
+        release(x, 10, dir * 50, 0, 0); /* flies out */
+        EXPECT_IS(way.way, (end, CEDUO_LEFT_SLOPE), (x, end), (contacts, 0));
         expect_near(way.way.z, 10 - G / 2 / 2500, 1e-15);
-        line_scene_release(&scene, x, 0, dir * 3, 0, 0); /* rolls out */
-        follow();
-        EXPECT(way.way.end, ==, CEDUO_LEFT_SLOPE);
-        EXPECT(way.way.x, ==, end);
-        EXPECT(way.way.z, ==, 0);
+        release(x, 0, dir * 3, 0, 0); /* rolls out */
+        EXPECT_IS(way.way, (end, CEDUO_LEFT_SLOPE), (x, end), (z, 0));
         assert_true(way.pieces[way.count - 1].rolls);
-        line_scene_release(&scene, x, 0, dir * 1.4, 0, 0); /* stops within the last metre: v2 < 2 g mu */
-        follow();
+        release(x, 0, dir * 1.4, 0, 0); /* stops within the last metre: v2 < 2 g mu */
         assert_int_equal(way.way.end, CEDUO_AT_REST);
         expect_near(fabs(way.way.x - x), 1.4 * 1.4 / (2 * G * .1), 1e-11);
     }
@@ -604,8 +551,7 @@ TEST(pairs_that_do_not_differ)
     for (int i = 0; i < 20; i++)
         ceduo_moments_add(&m, 0.5); /* all differ, and alike */
     p = ceduo_paired_of(0.5, &m, 20);
-    EXPECT(p.se, ==, 0);
-    EXPECT(p.below, ==, 0);
+    EXPECT_IS(p, (se, 0), (below, 0));
 }
 
 TEST(ranks_of_quantiles)
@@ -670,12 +616,6 @@ TEST(intervals_of_quantiles)
     }
 }
 
-static int by_value(const void *a, const void *b)
-{
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 TEST(a_distribution_of_exact_values)
 {
     static const size_t sizes[] = {1, 2, 19, 20, 100, 999, 5000};
@@ -691,21 +631,15 @@ TEST(a_distribution_of_exact_values)
         qsort(sorted, n, sizeof *sorted, by_value);
         ceduo_quantile_interval(n, .95, &lo, &hi);
         struct ceduo_distribution d = ceduo_distribution_exact(values, n, &m);
-        EXPECT(d.p50, ==, sorted[(n + 1) / 2 - 1]);
-        EXPECT(d.max, ==, sorted[n - 1]);
+        EXPECT_IS(d, (p50, sorted[(n + 1) / 2 - 1]), (max, sorted[n - 1]));
         EXPECT(d.mean, ==, m.mean);
-        EXPECT(d.p95, ==, sorted[ceduo_quantile_rank(n, .95) - 1]);
-        EXPECT(d.p99, ==, sorted[ceduo_quantile_rank(n, .99) - 1]);
+        EXPECT_IS(d, (p95, sorted[ceduo_quantile_rank(n, .95) - 1]), (p99, sorted[ceduo_quantile_rank(n, .99) - 1]));
         assert_true(lo > 0 ? d.p95_lo == sorted[lo - 1] : isnan(d.p95_lo));
         assert_true(hi <= n ? d.p95_hi == sorted[hi - 1] : isnan(d.p95_hi));
         assert_true(n > 1 ? d.sd == ceduo_moments_sd(&m) && d.se == ceduo_moments_se(&m) : isnan(d.sd) && isnan(d.se));
     }
     struct ceduo_distribution none = ceduo_distribution_none();
-    assert_true(isnan(none.mean));
-    assert_true(isnan(none.p50));
-    assert_true(isnan(none.p95));
-    assert_true(isnan(none.p99));
-    assert_true(isnan(none.max));
+    EXPECT_NAN(none.mean, none.p50, none.p95, none.p99, none.max);
 }
 
 /* Some shapes of many values, up to those that no range of numbers divides evenly. */
@@ -755,9 +689,8 @@ TEST(percentiles_of_many_values)
             for (size_t i = 0; i < 3; i++) {
                 size_t lo, hi;
                 ceduo_quantile_interval(n, percentiles[i].p, &lo, &hi);
-                EXPECT(percentiles[i].at, ==, sorted[ceduo_quantile_rank(n, percentiles[i].p) - 1]);
-                EXPECT(percentiles[i].lo, ==, sorted[lo - 1]);
-                EXPECT(percentiles[i].hi, ==, sorted[hi - 1]);
+                EXPECT_IS(percentiles[i], (at, sorted[ceduo_quantile_rank(n, percentiles[i].p) - 1]), (lo, sorted[lo - 1]),
+                          (hi, sorted[hi - 1]));
             }
             qsort(values, n, sizeof *values, by_value);
             assert_memory_equal(values, sorted, n * sizeof *values);
@@ -800,10 +733,8 @@ TEST(moments_added_and_merged)
     struct ceduo_moments one = {0};
     assert_true(isnan(ceduo_moments_sd(&one)));
     ceduo_moments_add(&one, 4);
-    assert_true(isnan(ceduo_moments_sd(&one)));
-    assert_true(isnan(ceduo_moments_se(&one)));
-    EXPECT(one.mean, ==, 4);
-    EXPECT(one.max, ==, 4);
+    EXPECT_NAN(ceduo_moments_sd(&one), ceduo_moments_se(&one));
+    EXPECT_IS(one, (mean, 4), (max, 4));
 }
 
 /* ---- numbers that differ from rock to rock ---- */

@@ -5,10 +5,10 @@
 #include <math.h>
 
 #include "ceduo/ceduo.h"
+#include "line_scene.h"
 
-#define LENGTH(a) (sizeof(a) / sizeof(a)[0])
-#define GOALS     1000
-#define MOST      60 /* evaluations */
+#define GOALS 1000
+#define MOST  60 /* evaluations */
 
 /* A goal, and the values it was asked for. */
 struct asked {
@@ -49,8 +49,7 @@ static struct ceduo_found find_with(struct asked *a, double lo, double hi, bool 
         EXPECT(found.value, <=, hi);
         assert_true((!whole || found.value == floor(found.value)));
     } else {
-        assert_true(isnan(found.value));
-        assert_true(isnan(found.goal_at_value));
+        EXPECT_NAN(found.value, found.goal_at_value);
     }
     return found;
 }
@@ -106,8 +105,7 @@ TEST(reserves_for_30_m)
         assert_true(found.found);
         assert_true(found.monotone);
         assert_false(found.whole_range);
-        EXPECT(found.side, ==, CEDUO_SMALLEST);
-        EXPECT(found.value, ==, rocks[i].needed);
+        EXPECT_IS(found, (side, CEDUO_SMALLEST), (value, rocks[i].needed));
         assert_true(was_asked(&a, rocks[i].needed - 1));
         assert_false(passes(&a, 30, rocks[i].needed - 1));
         EXPECT(found.evaluations, <, 20);
@@ -121,14 +119,11 @@ TEST(reserves_for_30_m)
 
 /* ---- any monotone goal ---- */
 
-static uint64_t random_state = 1;
+static struct line_random random_numbers = {.state = 1};
 
 static double uniform(double lo, double hi)
 {
-    uint64_t z = random_state += 0x9e3779b97f4a7c15; /* splitmix64 */
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111eb;
-    return lo + (hi - lo) * (double)((z ^ (z >> 31)) >> 11) * 0x1p-53;
+    return line_uniform(&random_numbers, lo, hi);
 }
 
 /* p[0] its sign and scale, p[1] its kind, p[2] and p[3] its shape. Values from 0 to 1000. */
@@ -170,8 +165,7 @@ TEST(inverse_and_forward_agree)
         assert_int_equal(found.found, at_lo || at_hi);
         assert_int_equal(found.whole_range, at_lo && at_hi);
         if (at_lo && at_hi) {
-            EXPECT(found.value, ==, lo);
-            EXPECT(found.side, ==, CEDUO_SMALLEST);
+            EXPECT_IS(found, (value, lo), (side, CEDUO_SMALLEST));
         } else if (found.found) {
             assert_int_equal(found.side, at_hi ? CEDUO_SMALLEST : CEDUO_LARGEST);
             expect_edge(&a, &found, target, whole ? 1 : 1e-9 * (hi - lo));
@@ -317,14 +311,12 @@ TEST(nothing_passes)
     assert_false(found.found);
     assert_false(found.monotone);
     assert_false(found.whole_range);
-    EXPECT(found.evaluations, ==, 2 + CEDUO_FIND_SCAN);
-    EXPECT(found.nearest, ==, 30);
+    EXPECT_IS(found, (evaluations, 2 + CEDUO_FIND_SCAN), (nearest, 30));
     EXPECT(found.goal_at_nearest, ==, 25); /* 40 is as near */
     found = find(&a, 0, 3, true, 3);
     assert_false(found.found);
     assert_true(found.monotone);
-    EXPECT(found.evaluations, ==, 4);
-    EXPECT(found.nearest, ==, 3);
+    EXPECT_IS(found, (evaluations, 4), (nearest, 3));
     found = find(&a, 0, 90, false, NAN);
     assert_false(found.found);
 }
@@ -336,15 +328,11 @@ TEST(everything_passes)
     assert_true(found.found);
     assert_true(found.whole_range);
     assert_true(found.monotone);
-    EXPECT(found.value, ==, 5);
-    EXPECT(found.side, ==, CEDUO_SMALLEST);
-    EXPECT(found.nearest, ==, 90);
-    EXPECT(found.goal_at_nearest, ==, -90);
+    EXPECT_IS(found, (value, 5), (side, CEDUO_SMALLEST), (nearest, 90), (goal_at_nearest, -90));
     found = find(&a, 7, 7, false, 0);
     assert_true(found.found);
     assert_true(found.whole_range);
-    EXPECT(found.value, ==, 7);
-    EXPECT(found.evaluations, ==, 1);
+    EXPECT_IS(found, (value, 7), (evaluations, 1));
     found = find(&a, 5, 90, true, INFINITY);
     assert_true(found.whole_range);
     EXPECT(found.value, ==, 5);
@@ -377,14 +365,12 @@ TEST(goals_that_are_not_finite)
     struct ceduo_found found = find(&a, 3, 100, false, 50);
     assert_false(found.found);
     assert_true(found.monotone);
-    EXPECT(found.nearest, ==, 3);
-    EXPECT(found.goal_at_nearest, ==, INFINITY);
+    EXPECT_IS(found, (nearest, 3), (goal_at_nearest, INFINITY));
     a.p[1] = NAN;
     found = find(&a, 3, 100, false, INFINITY);
     assert_false(found.found);
     assert_false(found.monotone);
-    assert_true(isnan(found.nearest));
-    assert_true(isnan(found.goal_at_nearest));
+    EXPECT_NAN(found.nearest, found.goal_at_nearest);
 }
 
 /* Waves, steps, and where p[3] says so infinite or no number at all. */

@@ -8,8 +8,7 @@
 #include "core/runs/weighted.h"
 #include "core/walk/sizes.h"
 
-#define LENGTH(a) (sizeof(a) / sizeof(a)[0])
-#define ROCKS     100000
+#define ROCKS 100000
 
 static void expect_near(double found, double wanted, double tolerance)
 {

@@ -122,14 +122,12 @@ TEST(a_stem_as_high_as_the_rock_flies_is_not_hit)
                 assert_false(low.hit);
                 EXPECT(low.clearance, >, 1);
                 struct ceduo_stem_passed at = stem_of_height(rock, i, low.clearance);
-                EXPECT(at.x, ==, low.x);
-                EXPECT(at.clearance, ==, low.clearance);
+                EXPECT_SAME(at, low, x, clearance);
                 EXPECT(at.clearance, ==, at.height);
                 assert_false(at.hit);
                 EXPECT(at.taken, ==, 0);
                 struct ceduo_stem_passed higher = stem_of_height(rock, i, nextafter(low.clearance, INFINITY));
-                EXPECT(higher.x, ==, low.x);
-                EXPECT(higher.clearance, ==, low.clearance);
+                EXPECT_SAME(higher, low, x, clearance);
                 assert_true(higher.hit);
                 EXPECT(higher.taken, >, 0);
             }

@@ -9,8 +9,6 @@
 
 #include "paper_site.h"
 
-#define LENGTH(a) (sizeof(a) / sizeof(a)[0])
-
 /* What a key stands for, and which fields decide about it. */
 enum about {
     FLIGHT = 1 << 0,  /* of a scene: the ways of rocks where no stem stands, and what is counted of them */

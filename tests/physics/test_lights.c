@@ -7,8 +7,10 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "bench/measure.h"
 #include "line_scene.h"
 #include "paper_site.h"
+#include "runs.h"
 
 /* ---- index ---- */
 
@@ -50,9 +52,7 @@ TEST(an_adc_as_long_as_the_threshold_fails)
         plant_trees(worst == 0 ? 400 : 1000, worst == 0 ? 1000 : 400);
         site.scene.simulation.threshold = 25; /* 10^4/400 */
         struct ceduo_index at = assess();
-        EXPECT(at.worst_adc, ==, 25);
-        EXPECT(at.longest_gap, ==, 0);
-        EXPECT(at.contact, ==, CEDUO_FAIL);
+        EXPECT_IS(at, (worst_adc, 25), (longest_gap, 0), (contact, CEDUO_FAIL));
         assert_false(ceduo_assess_stand(&site.scene, &site.belts[worst]).passes_threshold);
         assert_true(ceduo_assess_stand(&site.scene, &site.belts[1 - worst]).passes_threshold);
         site.scene.simulation.threshold = next_above(25);
@@ -93,18 +93,13 @@ TEST(a_belt_from_the_control_on_is_none)
     site.belts[1].from = site.control.x;
     site.belts[1].to = site.control.x + 10;
     struct ceduo_index at = assess();
-    EXPECT(at.longest_gap, ==, 5);
-    EXPECT(at.length, ==, 130);
-    EXPECT(at.contact, ==, CEDUO_PASS);
+    EXPECT_IS(at, (longest_gap, 5), (length, 130), (contact, CEDUO_PASS));
     site.belts[1].stand.trees[0].per_ha = 1; /* too thin, had it a part before the control */
     EXPECT(assess().contact, ==, CEDUO_PASS);
     site.option.belts++;
     site.option.belts_count = 1;
     at = assess();
-    EXPECT(at.longest_gap, ==, site.control.x);
-    EXPECT(at.contact, ==, CEDUO_FAIL);
-    EXPECT(at.worst_adc, ==, INFINITY);
-    EXPECT(at.worst_free_run, ==, 1);
+    EXPECT_IS(at, (longest_gap, site.control.x), (contact, CEDUO_FAIL), (worst_adc, INFINITY), (worst_free_run, 1));
 }
 
 /* exp(-x) of a double x is never the double 0.1 itself: the two chances next to it, 2e-17 below and above. */
@@ -187,13 +182,11 @@ static struct ceduo_run *fly(const struct ceduo_option *option)
 
 static struct ceduo_arrivals arrive(double accepted)
 {
-    struct ceduo_arrivals a;
     drop(accepted);
     struct ceduo_run *run = fly(NULL);
-    assert_int_equal(ceduo_run_arrivals(run, 0, &a), CEDUO_OK);
+    struct ceduo_arrivals a = arrivals_of(run, 0);
     EXPECT(a.reached, ==, 20);
-    EXPECT(a.energy.mean, ==, 25);
-    EXPECT(a.energy.max, ==, 25);
+    EXPECT_IS(a.energy, (mean, 25), (max, 25));
     ceduo_run_free(run);
     return a;
 }
@@ -201,12 +194,10 @@ static struct ceduo_arrivals arrive(double accepted)
 TEST(a_rock_with_the_accepted_energy_does_not_exceed_it)
 {
     struct ceduo_arrivals a = arrive(25);
-    EXPECT(a.exceeded, ==, 0);
-    EXPECT(a.exceed_probability, ==, 0);
+    EXPECT_IS(a, (exceeded, 0), (exceed_probability, 0));
     assert_int_equal(ceduo_energy_light(&a), CEDUO_PASS);
     a = arrive(next_below(25));
-    EXPECT(a.exceeded, ==, 20);
-    EXPECT(a.exceed_probability, ==, 1);
+    EXPECT_IS(a, (exceeded, 20), (exceed_probability, 1));
     assert_int_equal(ceduo_energy_light(&a), CEDUO_FAIL);
 }
 
@@ -228,12 +219,6 @@ TEST(a_difference_counts_no_rock_with_the_accepted_energy)
     ceduo_run_free(bare);
 }
 
-static int by_value(const void *a, const void *b)
-{
-    const double *p = a, *q = b;
-    return (*p > *q) - (*p < *q);
-}
-
 /* Stems from the control on make no difference to it: that is known, not estimated. */
 TEST(a_difference_by_stems_from_the_control_on_is_none)
 {
@@ -246,9 +231,7 @@ TEST(a_difference_by_stems_from_the_control_on_is_none)
     struct ceduo_difference d = ceduo_run_difference(through, bare, 0);
     const struct ceduo_paired of[] = {d.reach_probability, d.exceed_probability, d.energy_per_released};
     for (size_t i = 0; i < 3; i++) {
-        EXPECT(of[i].mean, ==, 0);
-        EXPECT(of[i].se, ==, 0);
-        EXPECT(of[i].below, ==, 0);
+        EXPECT_IS(of[i], (mean, 0), (se, 0), (below, 0));
     }
     ceduo_run_free(through);
     ceduo_run_free(bare);
@@ -263,7 +246,6 @@ TEST(one_rock_of_twenty_may_exceed)
         for (int more = 0; more < 2; more++) {
             struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
             struct ceduo_run *run;
-            struct ceduo_arrivals a;
             site.scene.simulation.law = (enum ceduo_law)law;
             site.control.x = 40; /* which all reach */
             site.control.accepted = 0;
@@ -277,7 +259,7 @@ TEST(one_rock_of_twenty_may_exceed)
             site.control.accepted = more ? next_below(energies[18]) : energies[18];
             assert_int_equal(ceduo_run_create(&def, &run), CEDUO_OK);
             assert_int_equal(ceduo_run_extend(run, 20), CEDUO_OK);
-            assert_int_equal(ceduo_run_arrivals(run, 0, &a), CEDUO_OK);
+            struct ceduo_arrivals a = arrivals_of(run, 0);
             assert_int_equal(a.exceeded, more ? 2 : 1);
             assert_int_equal(ceduo_energy_light(&a), more ? CEDUO_FAIL : CEDUO_PASS);
             ceduo_run_free(run);

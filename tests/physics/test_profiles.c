@@ -10,50 +10,12 @@
 #include "core/walk/landing.h"
 #include "line_scene.h"
 #include "paper_site.h"
+#include "runs.h"
 
 #define VERTICES 100000
 #define ROCKS    2000
 
 /* ---- profiles ---- */
-
-static struct ceduo_slope new_slope(size_t vertices)
-{
-    struct ceduo_slope s = {.facets = CEDUO_AGAINST, .vertices = vertices};
-    s.x = malloc(vertices * sizeof *s.x);
-    s.z = malloc(vertices * sizeof *s.z);
-    s.segments = malloc(vertices * sizeof *s.segments);
-    assert_true(s.x);
-    assert_true(s.z);
-    assert_true(s.segments);
-    return s;
-}
-
-static void free_slope(struct ceduo_slope *s)
-{
-    free(s->x);
-    free(s->z);
-    free(s->segments);
-}
-
-/* `from` cut along its own lines; its vertices are among the new ones, to the bit. */
-static struct ceduo_slope cut(const struct ceduo_slope *from, size_t vertices)
-{
-    struct ceduo_slope to = new_slope(vertices);
-    double end = from->x[from->vertices - 1];
-    size_t i = 0;
-    for (size_t j = 0; j + 1 < from->vertices; j++) {
-        size_t last = (size_t)(from->x[j + 1] / end * (double)(vertices - 1) + 0.5), first = i;
-        for (; i < last; i++) {
-            double share = (double)(i - first) / (double)(last - first);
-            to.x[i] = from->x[j] + share * (from->x[j + 1] - from->x[j]);
-            to.z[i] = from->z[j] + share * (from->z[j + 1] - from->z[j]);
-            to.segments[i] = from->segments[j];
-        }
-    }
-    to.x[i] = end;
-    to.z[i] = from->z[from->vertices - 1];
-    return to;
-}
 
 static void move_vertices(struct ceduo_slope *s, double by, uint64_t seed)
 {
@@ -92,14 +54,8 @@ static void expect_same_ways(const struct ceduo_scene *a, const struct ceduo_sce
         struct ceduo_crossing c = {0}, d = {0};
         assert_int_equal(ceduo_follower_follow(f, rock, NULL, &v, &c), CEDUO_OK);
         assert_int_equal(ceduo_follower_follow(g, rock, NULL, &w, &d), CEDUO_OK);
-        EXPECT(v.end, ==, w.end);
-        EXPECT(v.contacts, ==, w.contacts);
-        EXPECT(v.x, ==, w.x);
-        EXPECT(v.z, ==, w.z);
-        EXPECT(c.reached, ==, d.reached);
-        EXPECT(c.vx, ==, d.vx);
-        EXPECT(c.vz, ==, d.vz);
-        EXPECT(c.spin, ==, d.spin);
+        EXPECT_SAME(v, w, end, contacts, x, z);
+        EXPECT_SAME(c, d, reached, vx, vz, spin);
         EXPECT_NEAR(c.height, d.height, 1e-12); /* over a ground that was rounded when it was cut */
     }
     ceduo_follower_free(f);
@@ -111,10 +67,9 @@ static struct ceduo_arrivals arrivals(const struct ceduo_scene *scene)
     struct ceduo_run_def def = ceduo_run_def_default(scene);
     def.rocks_most = ROCKS;
     struct ceduo_run *run;
-    struct ceduo_arrivals a;
     assert_int_equal(ceduo_run_create(&def, &run), CEDUO_OK);
     assert_int_equal(ceduo_run_extend(run, ROCKS), CEDUO_OK);
-    assert_int_equal(ceduo_run_arrivals(run, 0, &a), CEDUO_OK);
+    struct ceduo_arrivals a = arrivals_of(run, 0);
     ceduo_run_free(run);
     return a;
 }
@@ -123,19 +78,17 @@ TEST(a_cut_slope_gives_the_same_ways_and_statistics)
 {
     for (int law = 0; law < CEDUO_LAW_COUNT; law++) {
         init_site((enum ceduo_law)law);
-        struct ceduo_slope fine = cut(&site.scene.slope, VERTICES);
+        struct ceduo_slope fine = slope_cut(&site.scene.slope, VERTICES);
         assert_int_equal(segments_inside(&fine), PAPER_SEGMENTS);
         struct ceduo_scene scene = site.scene;
         scene.slope = fine;
         expect_same_ways(&site.scene, &scene);
         struct ceduo_arrivals a = arrivals(&site.scene), b = arrivals(&scene);
         EXPECT(a.reached, ==, b.reached);
-        EXPECT(a.speed.mean, ==, b.speed.mean);
-        EXPECT(a.speed.se, ==, b.speed.se);
-        EXPECT(a.energy.mean, ==, b.energy.mean);
-        EXPECT(a.energy.p95, ==, b.energy.p95);
+        EXPECT_SAME(a.speed, b.speed, mean, se);
+        EXPECT_SAME(a.energy, b.energy, mean, p95);
         EXPECT_NEAR(a.height.mean, b.height.mean, 1e-12);
-        free_slope(&fine);
+        slope_free(&fine);
     }
 }
 
@@ -148,18 +101,18 @@ TEST(spreads_and_roughness_heights_are_those_of_the_cut_slope)
     }
     site.scene.rock.density = (struct ceduo_number){2600, 100, CEDUO_NORMAL};
     site.scene.rock.diameter = (struct ceduo_number){.56, .05, CEDUO_NORMAL};
-    struct ceduo_slope fine = cut(&site.scene.slope, 5000);
+    struct ceduo_slope fine = slope_cut(&site.scene.slope, 5000);
     struct ceduo_scene scene = site.scene;
     scene.slope = fine;
     expect_same_ways(&site.scene, &scene);
-    free_slope(&fine);
+    slope_free(&fine);
 }
 
 /* A slope of one line that is cut in the middle of a plane too, between two grounds. */
 TEST(another_ground_is_another_segment)
 {
     init_site(CEDUO_LAW_LUMPED);
-    struct ceduo_slope two = new_slope(3);
+    struct ceduo_slope two = slope_new(3);
     memcpy(two.x, (double[3]){0, 64, 160}, sizeof(double[3]));
     memcpy(two.z, (double[3]){0, -48, -120}, sizeof(double[3]));
     for (int what = 0; what < 5; what++) {
@@ -171,35 +124,35 @@ TEST(another_ground_is_another_segment)
         s->friction *= what == 3 ? .9 : 1;
         s->roughness_rad *= what == 4 ? .9 : 1;
         assert_int_equal(segments_inside(&two), 2);
-        struct ceduo_slope fine = cut(&two, 1000);
+        struct ceduo_slope fine = slope_cut(&two, 1000);
         assert_int_equal(segments_inside(&fine), 2);
         struct ceduo_scene a = site.scene, b = site.scene;
         a.slope = two;
         b.slope = fine;
         expect_same_ways(&a, &b);
-        free_slope(&fine);
+        slope_free(&fine);
     }
     two.segments[1] = two.segments[0];
     assert_int_equal(segments_inside(&two), 1);
-    free_slope(&two);
+    slope_free(&two);
 }
 
 /* What a double can tell from a line stays: vertices moved by a nanometre, and a sliver that is as steep as it is small. */
 TEST(small_breaks_stay)
 {
     init_site(CEDUO_LAW_LUMPED);
-    struct ceduo_slope fine = cut(&site.scene.slope, 10000);
+    struct ceduo_slope fine = slope_cut(&site.scene.slope, 10000);
     move_vertices(&fine, 1e-9, 5);
     EXPECT(segments_inside(&fine), >, 9000);
-    free_slope(&fine);
-    struct ceduo_slope sliver = new_slope(4);
+    slope_free(&fine);
+    struct ceduo_slope sliver = slope_new(4);
     memcpy(sliver.x, (double[4]){0, 50, nextafter(50, 51), 100}, sizeof(double[4]));
     memcpy(sliver.z, (double[4]){0, -25, nextafter(-25, -26), -50}, sizeof(double[4]));
     sliver.z[2] = nextafter(sliver.z[2], -26);
     for (size_t j = 0; j < 3; j++)
         sliver.segments[j] = site.segments[3];
     assert_int_equal(segments_inside(&sliver), 3);
-    free_slope(&sliver);
+    slope_free(&sliver);
 }
 
 /* ---- flights over blocks ---- */
@@ -207,7 +160,7 @@ TEST(small_breaks_stay)
 /* Waves of many lengths. */
 static struct ceduo_slope rough_slope(size_t vertices, double spacing, uint64_t seed)
 {
-    struct ceduo_slope s = new_slope(vertices);
+    struct ceduo_slope s = slope_new(vertices);
     struct line_random r = {.state = seed};
     double x = 0, w[12][3];
     for (int k = 0; k < 12; k++) {
@@ -254,15 +207,11 @@ TEST(flights_land_as_without_blocks)
             if (!above && f.vz * g.segments[j].c - f.vx * g.segments[j].s <= 0) /* into the ground */
                 f.vz = f.vx * g.segments[j].m + 1e-3 * speed;
             struct landing a = next_landing(&g, &f), b = next_landing(&plain, &f);
-            EXPECT(a.t, ==, b.t);
-            EXPECT(a.x, ==, b.x);
-            EXPECT(a.z, ==, b.z);
-            EXPECT(a.segment, ==, b.segment);
-            EXPECT(a.left, ==, b.left);
+            EXPECT_SAME(a, b, t, x, z, segment, left);
             far += a.segment > j + 100 || a.segment + 100 < j;
         }
         ceduo_ground_release(&g);
-        free_slope(&slope);
+        slope_free(&slope);
     }
     print_message("%ju flights of more than 100 segments\n", (uintmax_t)far);
     EXPECT(far, >, 1000); /* blocks were passed */
@@ -274,7 +223,7 @@ TEST(flights_land_as_without_blocks)
 static struct ceduo_slope toothed_slope(size_t vertices, struct line_random *r, double fall, double top)
 {
     const size_t block = (size_t)1 << GROUND_BITS;
-    struct ceduo_slope s = new_slope(vertices);
+    struct ceduo_slope s = slope_new(vertices);
     double x = 0, depth = line_uniform(r, .1, 2);
     for (size_t i = 0; i < vertices; i++) {
         bool tooth = i % block != 0 && line_chance(r, .02);
@@ -314,15 +263,11 @@ TEST(flights_along_teeth_touch_the_same_with_blocks)
                                .segment = dir > 0 ? 0 : g.n - 1,
                                .on_ground = false};
             struct landing a = next_landing(&g, &f), b = next_landing(&plain, &f);
-            EXPECT(a.t, ==, b.t);
-            EXPECT(a.x, ==, b.x);
-            EXPECT(a.z, ==, b.z);
-            EXPECT(a.segment, ==, b.segment);
-            EXPECT(a.left, ==, b.left);
+            EXPECT_SAME(a, b, t, x, z, segment, left);
             touched += !b.left;
         }
         ceduo_ground_release(&g);
-        free_slope(&slope);
+        slope_free(&slope);
     }
     print_message("%ju of 4000 flights touch a tooth\n", (uintmax_t)touched);
     EXPECT(touched, >, 1000);
@@ -384,7 +329,7 @@ TEST(blocks_are_rolled_over_as_their_segments)
     size_t passed[2][GROUND_LEVELS] = {{0}};
     for (int by = -4; by < 0; by++) {
         init_site(CEDUO_LAW_LUMPED);
-        struct ceduo_slope fine = cut(&site.scene.slope, 20000);
+        struct ceduo_slope fine = slope_cut(&site.scene.slope, 20000);
         move_vertices(&fine, pow(10, by), 5);
         struct ground g;
         assert_true(ceduo_ground_init(&g, &fine, CEDUO_GRAVITY, ROLLER, false));
@@ -396,7 +341,7 @@ TEST(blocks_are_rolled_over_as_their_segments)
                 for (size_t i = 0; i < g.n >> (ROLL_BITS * level); i++)
                     expect_block(&g, &fine, side, level, i, line_uniform(&r, 0, 1), i % 2 ? 0.4 : 0, &passed[side][level]);
         ceduo_ground_release(&g);
-        free_slope(&fine);
+        slope_free(&fine);
     }
     for (int side = 0; side < 2; side++)
         EXPECT((double)passed[side][1], >, 1000);
@@ -429,7 +374,7 @@ TEST(rolls_are_the_same_whoever_looks_on)
     for (int law = 0; law < CEDUO_LAW_COUNT; law++) {
         for (int by = -5; by <= 0; by++) {
             init_site((enum ceduo_law)law);
-            struct ceduo_slope fine = cut(&site.scene.slope, 20000);
+            struct ceduo_slope fine = slope_cut(&site.scene.slope, 20000);
             move_vertices(&fine, by < 0 ? pow(10, by) : 1e-3, 3);
             if (by == 0)
                 thin_out(&fine);
@@ -450,7 +395,7 @@ TEST(rolls_are_the_same_whoever_looks_on)
                 all++;
             }
             ceduo_follower_free(f);
-            free_slope(&fine);
+            slope_free(&fine);
         }
     }
     print_message("%ju rocks, %ju the same to 1e-6, %ju to other bits\n", (uintmax_t)all, (uintmax_t)same, (uintmax_t)rolled);
@@ -462,7 +407,7 @@ TEST(rolls_are_the_same_whoever_looks_on)
 TEST(rolls_past_marks_are_the_same)
 {
     init_site(CEDUO_LAW_CRSP);
-    struct ceduo_slope fine = cut(&site.scene.slope, 20000);
+    struct ceduo_slope fine = slope_cut(&site.scene.slope, 20000);
     move_vertices(&fine, 1e-3, 3);
     struct ceduo_scene scene = site.scene;
     struct ceduo_control control = site.control;
@@ -489,7 +434,7 @@ TEST(rolls_past_marks_are_the_same)
         reached += d.reached;
         ceduo_follower_free(f);
     }
-    free_slope(&fine);
+    slope_free(&fine);
     EXPECT(same, >=, 59);
     EXPECT(reached, >=, 59);
 }

@@ -6,9 +6,9 @@
 #include <string.h>
 
 #include "ceduo/ceduo.h"
+#include "line_scene.h"
 #include "paper_site.h"
 
-#define LENGTH(a)    (sizeof(a) / sizeof(a)[0])
 #define STANDS       3000
 #define YEARS        90
 #define COHORTS_MOST 4
@@ -33,31 +33,40 @@ static struct ceduo_stems stems(double per_ha, double dbh, double height)
     return (struct ceduo_stems){.per_ha = per_ha, .dbh = dbh, .height = height, .volume = NAN, .age = NAN};
 }
 
+static struct sample s; /* anew before each test that is to begin with it; points into itself */
+
 /* Ostrya, 2500 stools with 7500 shoots of 5 cm and 60 trees of 20 cm, cut every 25 years. */
-static void init(struct sample *s)
+static void init(void)
 {
-    memset(s, 0, sizeof *s);
-    s->shoots[0] = stems(7500, .05, 6);
-    s->trees[0] = stems(60, .20, 12);
-    s->stay[0] = s->stay[1] = 30;
-    s->stand = (struct ceduo_stand){.system = CEDUO_SIMPLE_COPPICE,
-                                    .species = ceduo_species_find("ostrya-carpinifolia"),
-                                    .stools_per_ha = 2500,
-                                    .spacing = .35,
-                                    .shoots_count = 1,
-                                    .trees_count = 1,
-                                    .shoots = s->shoots,
-                                    .trees = s->trees,
-                                    .u = NAN,
-                                    .fracture_ratio = 1.5,
-                                    .growth = paper_growth,
-                                    .cutting = {25, 1, 2, s->stay}};
+    memset(&s, 0, sizeof s);
+    s.shoots[0] = stems(7500, .05, 6);
+    s.trees[0] = stems(60, .20, 12);
+    s.stay[0] = s.stay[1] = 30;
+    s.stand = (struct ceduo_stand){.system = CEDUO_SIMPLE_COPPICE,
+                                   .species = ceduo_species_find("ostrya-carpinifolia"),
+                                   .stools_per_ha = 2500,
+                                   .spacing = .35,
+                                   .shoots_count = 1,
+                                   .trees_count = 1,
+                                   .shoots = s.shoots,
+                                   .trees = s.trees,
+                                   .u = NAN,
+                                   .fracture_ratio = 1.5,
+                                   .growth = paper_growth,
+                                   .cutting = {25, 1, 2, s.stay}};
 }
 
-static struct ceduo_grown_stand at(const struct sample *s, double first_cut, unsigned year)
+static int fresh(void **state)
+{
+    (void)state;
+    init();
+    return 0;
+}
+
+static struct ceduo_grown_stand at(double first_cut, unsigned year)
 {
     struct ceduo_grown_stand grown;
-    assert_int_equal(ceduo_stand_at(&s->stand, first_cut, year, &grown), CEDUO_OK);
+    assert_int_equal(ceduo_stand_at(&s.stand, first_cut, year, &grown), CEDUO_OK);
     return grown;
 }
 
@@ -78,44 +87,38 @@ static void expect_same_stand(const struct ceduo_stand *a, const struct ceduo_st
     assert_memory_equal(&a->spacing, &b->spacing, sizeof a->spacing);
     assert_memory_equal(&a->u, &b->u, sizeof a->u);
     assert_memory_equal(&a->fracture_ratio, &b->fracture_ratio, sizeof a->fracture_ratio);
-    EXPECT(a->system, ==, b->system);
-    EXPECT(a->species, ==, b->species);
-    EXPECT(a->energy, ==, b->energy);
+    EXPECT_SAME(*a, *b, system, species, energy);
 }
 
 /* ---- before the first cut ---- */
 
-TEST(year_0_is_the_stand_as_filed)
+TEST_WITH(year_0_is_the_stand_as_filed, fresh, NULL)
 {
-    struct sample s;
-    init(&s);
     s.stand.growth.sdi_most = 1; /* a measured stand is not thinned */
-    struct ceduo_grown_stand grown = at(&s, 3, 0);
+    struct ceduo_grown_stand grown = at(3, 0);
     expect_same_stand(&grown.stand, &s.stand);
     EXPECT(grown.stand.growth.sdi_most, ==, 0);
     EXPECT(grown.stand.cutting.rotation, ==, 0);
     ceduo_grown_stand_release(&grown);
     assert_null(grown.stems);
-    init(&s);
+    init();
     memset(&s.stand.growth, 0, sizeof s.stand.growth); /* unknown: for ever */
     assert_int_equal(ceduo_first_cut(&s.stand, 3), CEDUO_NEVER);
     for (unsigned year = 0; year < 60; year += 3) {
-        grown = at(&s, 3, year);
+        grown = at(3, year);
         expect_same_stand(&grown.stand, &s.stand);
         ceduo_grown_stand_release(&grown);
     }
 }
 
-TEST(an_inventory_grows_along_its_curves)
+TEST_WITH(an_inventory_grows_along_its_curves, fresh, NULL)
 {
-    struct sample s;
-    init(&s);
     s.shoots[0].volume = .004;
     s.shoots[0].dbh_sd = .01;
     s.stand.growth.sdi_most = 0;
     double a = -log(1 - 5. / 16) / .022, b = -log(1 - 20. / 45) / .014;
     for (unsigned t = 1; t < 200; t += 7) {
-        struct ceduo_grown_stand grown = at(&s, INFINITY, t);
+        struct ceduo_grown_stand grown = at(INFINITY, t);
         const struct ceduo_stems *shoot = &grown.stand.shoots[0], *tree = &grown.stand.trees[0];
         double d = .16 * (1 - exp(-.022 * (a + t))), h = 6 * (1 - exp(-.035 * (a + t))) / (1 - exp(-.035 * a));
         expect_near(shoot->dbh, d, 1e-13);
@@ -134,14 +137,12 @@ TEST(an_inventory_grows_along_its_curves)
     }
 }
 
-TEST(a_given_age_stands_over_that_of_the_curve)
+TEST_WITH(a_given_age_stands_over_that_of_the_curve, fresh, NULL)
 {
-    struct sample s;
-    init(&s);
     s.shoots[0].age = 8;
     s.trees[0].age = 70;
     s.stand.growth.sdi_most = 0;
-    struct ceduo_grown_stand grown = at(&s, INFINITY, 10);
+    struct ceduo_grown_stand grown = at(INFINITY, 10);
     expect_near(grown.stand.shoots[0].dbh, .05 * (1 - exp(-.022 * 18)) / (1 - exp(-.022 * 8)), 1e-14);
     expect_near(grown.stand.shoots[0].per_ha, 7500 * (3 + 13 * exp(-18. / 5)) / (3 + 13 * exp(-8. / 5)), 1e-14);
     expect_near(grown.stand.trees[0].dbh, .2 * (1 - exp(-.014 * 80)) / (1 - exp(-.014 * 70)), 1e-14);
@@ -150,25 +151,23 @@ TEST(a_given_age_stands_over_that_of_the_curve)
     ceduo_grown_stand_release(&grown);
     assert_int_equal(ceduo_first_cut(&s.stand, NAN), 17);
     s.shoots[0].age = 0; /* nothing has a dbh at 0: as if not given */
-    grown = at(&s, INFINITY, 10);
+    grown = at(INFINITY, 10);
     expect_near(grown.stand.shoots[0].dbh, .16 * (1 - 11. / 16 * exp(-.22)), 1e-14);
     ceduo_grown_stand_release(&grown);
 }
 
 /* Where none are left on an old stool they become fewer by e in 5 years; where none were even at first, it keeps what it has. */
-TEST(no_old_shoots)
+TEST_WITH(no_old_shoots, fresh, NULL)
 {
-    struct sample s;
-    init(&s);
     s.stand.growth.sdi_most = 0;
     s.stand.growth.shoots_old = 0;
     s.stand.stools_per_ha = 1;
     assert_int_equal(ceduo_first_cut(&s.stand, 3), CEDUO_NEVER); /* nothing would come up */
-    struct ceduo_grown_stand grown = at(&s, 3, 10);
+    struct ceduo_grown_stand grown = at(3, 10);
     expect_near(grown.stand.shoots[0].per_ha, 7500 * exp(-2), 1e-13);
     ceduo_grown_stand_release(&grown);
     s.stand.growth.shoots_young = 0;
-    grown = at(&s, 3, 10);
+    grown = at(3, 10);
     EXPECT(grown.stand.shoots[0].per_ha, ==, 7500);
     EXPECT(grown.stand.shoots[0].dbh, >, .05);
     ceduo_grown_stand_release(&grown);
@@ -179,47 +178,40 @@ TEST(next_to_nothing_grows_as_a_new_stem)
 {
     static const double given[][2] = {{1e-320, NAN}, {5e-324, NAN}, {.05, 5e-324}, {.05, 1e-300}};
     for (size_t i = 0; i < LENGTH(given); i++) {
-        struct sample s;
-        init(&s);
+        init();
         s.shoots[0].dbh = s.trees[0].dbh = given[i][0];
         s.shoots[0].age = s.trees[0].age = given[i][1];
         s.shoots[0].volume = s.trees[0].volume = 1;
         s.stand.growth.sdi_most = 0;
-        struct ceduo_grown_stand grown = at(&s, INFINITY, 10);
+        struct ceduo_grown_stand grown = at(INFINITY, 10);
         const struct ceduo_stems *shoot = &grown.stand.shoots[0], *tree = &grown.stand.trees[0];
         expect_near(shoot->dbh, .16 * (1 - exp(-.22)), 1e-13);
         expect_near(shoot->height, 14 * (1 - exp(-.35)), 1e-13);
         expect_near(tree->dbh, .45 * (1 - exp(-.14)), 1e-13);
         expect_near(tree->height, 20 * (1 - exp(-.3)), 1e-13);
-        assert_true(isnan(shoot->volume));
-        assert_true(isnan(tree->volume));
+        EXPECT_NAN(shoot->volume, tree->volume);
         EXPECT(shoot->age, ==, 10);
-        EXPECT(tree->age, ==, 10);
-        EXPECT(tree->per_ha, ==, 60);
+        EXPECT_IS(*tree, (age, 10), (per_ha, 60));
         EXPECT(shoot->per_ha, <, 7500);
         ceduo_grown_stand_release(&grown);
     }
 }
 
-TEST(thicker_than_its_curve_it_grows_no_more)
+TEST_WITH(thicker_than_its_curve_it_grows_no_more, fresh, NULL)
 {
-    struct sample s;
-    init(&s);
     s.shoots[0] = stems(4000, .16, 9);
     s.trees[0] = stems(60, .60, 18);
     s.stand.growth.sdi_most = 0;
-    struct ceduo_grown_stand grown = at(&s, INFINITY, 40);
+    struct ceduo_grown_stand grown = at(INFINITY, 40);
     expect_same_stand(&grown.stand, &s.stand);
     ceduo_grown_stand_release(&grown);
 }
 
-TEST(a_stratum_without_a_curve_stays)
+TEST_WITH(a_stratum_without_a_curve_stays, fresh, NULL)
 {
-    struct sample s;
-    init(&s);
     s.stand.growth.trees.height_rate = 0;
     assert_int_equal(ceduo_first_cut(&s.stand, 5), CEDUO_NEVER); /* what stays has no size */
-    struct ceduo_grown_stand grown = at(&s, 5, 30);
+    struct ceduo_grown_stand grown = at(5, 30);
     expect_same_stems(grown.stand.trees, s.trees, 1);
     EXPECT(grown.stand.shoots[0].dbh, >, .05);
     ceduo_grown_stand_release(&grown);
@@ -227,16 +219,14 @@ TEST(a_stratum_without_a_curve_stays)
     assert_int_equal(ceduo_first_cut(&s.stand, 5), 5);
 }
 
-TEST(never_less_than_one_shoot_a_stool)
+TEST_WITH(never_less_than_one_shoot_a_stool, fresh, NULL)
 {
-    struct sample s;
-    init(&s);
     s.stand.shoots_count = 2; /* 1.2 a stool */
     s.shoots[0] = stems(2000, .01, 1);
     s.shoots[1] = stems(1000, .08, 7);
     bool reached = false;
     for (unsigned t = 1; t < 60; t++) {
-        struct ceduo_grown_stand grown = at(&s, INFINITY, t);
+        struct ceduo_grown_stand grown = at(INFINITY, t);
         double sum = ceduo_stand_shoots(&grown.stand);
         EXPECT(sum, >=, 2500);
         EXPECT(sum, <=, 3000);
@@ -248,10 +238,8 @@ TEST(never_less_than_one_shoot_a_stool)
 
 /* ---- cuts ---- */
 
-TEST(the_years_of_cuts)
+TEST_WITH(the_years_of_cuts, fresh, NULL)
 {
-    struct sample s;
-    init(&s);
     const struct ceduo_stand *stand = &s.stand;
     static const double given[] = {0, 7, 6.2, 30, -1, -5, -25, -26, -50.5, -75}, first[] = {0, 7, 7, 30, 24, 20, 0, 24, 0, 0};
     for (size_t i = 0; i < LENGTH(given); i++)
@@ -267,10 +255,9 @@ TEST(the_years_of_cuts)
     assert_false(ceduo_is_cut_year(stand, 0, 0));
 }
 
-TEST(by_default_it_is_cut_when_it_is_old_enough)
+TEST_WITH(by_default_it_is_cut_when_it_is_old_enough, fresh, NULL)
 {
-    struct sample s;
-    init(&s); /* 5 cm: 17.03 years */
+    /* 5 cm: 17.03 years */
     assert_int_equal(ceduo_first_cut(&s.stand, NAN), (unsigned)ceil(25 + log(1 - 5. / 16) / .022));
     s.stand.cutting.cohorts = 3;
     assert_int_equal(ceduo_first_cut(&s.stand, NAN), (unsigned)ceil(75 + log(1 - 5. / 16) / .022));
@@ -292,26 +279,22 @@ TEST(by_default_it_is_cut_when_it_is_old_enough)
     assert_int_equal(ceduo_first_cut(&s.stand, NAN), CEDUO_NEVER);
 }
 
-TEST(a_simple_coppice_after_its_cuts)
+TEST_WITH(a_simple_coppice_after_its_cuts, fresh, NULL)
 {
-    struct sample s;
-    init(&s);
     s.stand.growth.sdi_most = 0;
     for (unsigned tau = 0; tau < 25; tau++) {
-        struct ceduo_grown_stand grown = at(&s, 4, 4 + tau);
+        struct ceduo_grown_stand grown = at(4, 4 + tau);
         const struct ceduo_stand *g = &grown.stand;
         assert_int_equal(g->trees_count, 2);
         for (unsigned j = 0; j < 2; j++) {
             double age = 25 * (j + 1) + tau;
             expect_near(g->trees[j].dbh, .45 * (1 - exp(-.014 * age)), 1e-14);
             expect_near(g->trees[j].height, 20 * (1 - exp(-.03 * age)), 1e-14);
-            EXPECT(g->trees[j].per_ha, ==, 30);
-            EXPECT(g->trees[j].age, ==, age);
+            EXPECT_IS(g->trees[j], (per_ha, 30), (age, age));
             assert_true(isnan(g->trees[j].volume));
         }
         assert_int_equal(g->shoots_count, tau > 0);
-        EXPECT(g->stools_per_ha, ==, (tau > 0 ? 2500 : 0));
-        EXPECT(g->spacing, ==, .35);
+        EXPECT_IS(*g, (stools_per_ha, (tau > 0 ? 2500 : 0)), (spacing, .35));
         if (tau > 0) {
             expect_near(g->shoots[0].dbh, .16 * (1 - exp(-.022 * tau)), 1e-14);
             expect_near(g->shoots[0].height, 14 * (1 - exp(-.035 * tau)), 1e-14);
@@ -323,20 +306,17 @@ TEST(a_simple_coppice_after_its_cuts)
     }
 }
 
-TEST(a_selection_coppice_always_has_shoots)
+TEST_WITH(a_selection_coppice_always_has_shoots, fresh, NULL)
 {
-    struct sample s;
-    init(&s);
     s.stand.cutting = (struct ceduo_cutting){13, 3, 2, s.stay};
     s.stay[0] = 0; /* no class */
     s.stand.growth.shoots_old = 6;
     s.stand.growth.sdi_most = 0;
     for (unsigned year = 0; year < 100; year++) {
-        struct ceduo_grown_stand grown = at(&s, 0, year);
+        struct ceduo_grown_stand grown = at(0, year);
         const struct ceduo_stand *g = &grown.stand;
         unsigned tau = year % 13, missing = tau == 0;
-        EXPECT(g->shoots_count, ==, 3 - missing);
-        EXPECT(g->stools_per_ha, ==, 2500);
+        EXPECT_IS(*g, (shoots_count, 3 - missing), (stools_per_ha, 2500));
         for (unsigned i = 0; i < 3 - missing; i++) {
             double age = 13 * (i + missing) + tau;
             expect_near(g->shoots[i].dbh, .16 * (1 - exp(-.022 * age)), 1e-14);
@@ -347,40 +327,34 @@ TEST(a_selection_coppice_always_has_shoots)
         ceduo_grown_stand_release(&grown);
     }
     s.stand.growth.shoots_young = s.stand.growth.shoots_old = 1; /* two of three cohorts: less than one a stool */
-    struct ceduo_grown_stand grown = at(&s, 0, 13);
+    struct ceduo_grown_stand grown = at(0, 13);
     expect_near(ceduo_stand_shoots(&grown.stand), 2500, 1e-14);
     EXPECT(ceduo_stand_shoots(&grown.stand), >=, 2500);
     ceduo_grown_stand_release(&grown);
 }
 
-TEST(a_cut_in_year_0_is_done)
+TEST_WITH(a_cut_in_year_0_is_done, fresh, NULL)
 {
-    struct sample s;
-    init(&s);
-    struct ceduo_grown_stand now = at(&s, 0, 0), later = at(&s, 0, 25), rhythm = at(&s, -50, 0);
-    EXPECT(now.stand.shoots_count, ==, 0);
-    EXPECT(now.stand.stools_per_ha, ==, 0);
-    EXPECT(now.stand.trees_count, ==, 2);
+    struct ceduo_grown_stand now = at(0, 0), later = at(0, 25), rhythm = at(-50, 0);
+    EXPECT_IS(now.stand, (shoots_count, 0), (stools_per_ha, 0), (trees_count, 2));
     expect_same_stand(&now.stand, &later.stand);
     expect_same_stand(&now.stand, &rhythm.stand);
     ceduo_grown_stand_release(&now);
     ceduo_grown_stand_release(&later);
     ceduo_grown_stand_release(&rhythm);
     s.stand.cutting.stay_count = 0; /* nothing is left */
-    now = at(&s, 0, 0);
+    now = at(0, 0);
     assert_true(ceduo_stand_is_bare(&now.stand));
     assert_false(now.stems);
     EXPECT(ceduo_stems_sdi(now.stand.trees, now.stand.trees_count), ==, 0);
     ceduo_grown_stand_release(&now);
 }
 
-TEST(without_cuts_it_grows_for_ever)
+TEST_WITH(without_cuts_it_grows_for_ever, fresh, NULL)
 {
-    struct sample s;
-    init(&s);
-    struct ceduo_grown_stand infinite = at(&s, INFINITY, 1000);
+    struct ceduo_grown_stand infinite = at(INFINITY, 1000);
     s.stand.cutting.rotation = 0;
-    struct ceduo_grown_stand never = at(&s, 3, 1000);
+    struct ceduo_grown_stand never = at(3, 1000);
     expect_same_stand(&never.stand, &infinite.stand);
     expect_near(never.stand.shoots[0].dbh, .16, 1e-6);
     expect_near(never.stand.trees[0].dbh, .45, 1e-6);
@@ -407,8 +381,7 @@ TEST(the_density_index)
     expect_near(ceduo_stems_sdi(&plot.shoots, 1), plot.shoots.per_ha * pow(6.1 / 25.4, 1.605), 1e-13);
     paper_plot_init(&plot, 2);
     expect_near(ceduo_stems_sdi(&plot.trees, 1), plot.trees.per_ha * pow(4.7 / 25.4, 1.605), 1e-13);
-    struct sample s;
-    init(&s);
+    init();
     s.trees[0].dbh_sd = .02;
     expect_near(ceduo_stems_sdi(s.trees, 2), index_by_hand(s.trees, 2), 1e-13);
     s.stand.growth.sdi_most = 800;
@@ -417,15 +390,13 @@ TEST(the_density_index)
     expect_near(ceduo_space_of_trees(&s.stand.growth, &s.stand), index_by_hand(s.trees, s.stand.trees_count) / 500, 1e-13);
 }
 
-TEST(shoots_are_thinned_to_the_density)
+TEST_WITH(shoots_are_thinned_to_the_density, fresh, NULL)
 {
-    struct sample s;
-    init(&s);
     s.stand.trees_count = s.stand.cutting.stay_count = 0;
     s.stand.growth.sdi_most = 500;
     unsigned thinned = 0;
     for (unsigned tau = 1; tau < 25; tau++) { /* without trees the index goes with the number */
-        struct ceduo_grown_stand grown = at(&s, 0, tau);
+        struct ceduo_grown_stand grown = at(0, tau);
         double n = 2500 * (3 + 13 * exp(-.2 * tau)), dbh = 16 * (1 - exp(-.022 * tau));
         double most = 500 * pow(25.4 / dbh, 1.605);
         expect_near(ceduo_stand_shoots(&grown.stand), fmax(fmin(n, most), 2500), 1e-12);
@@ -434,10 +405,10 @@ TEST(shoots_are_thinned_to_the_density)
     }
     EXPECT(thinned, >, 5);
     EXPECT(thinned, <, 20);
-    init(&s);
+    init();
     s.stand.growth.sdi_most = 600; /* the trees take their part of it */
     s.stand.growth.trees_sdi_most = 400;
-    struct ceduo_grown_stand grown = at(&s, 0, 24);
+    struct ceduo_grown_stand grown = at(0, 24);
     EXPECT(grown.stand.trees[0].per_ha, ==, 30);
     EXPECT(grown.stand.trees[1].per_ha, ==, 30);
     double trees = index_by_hand(grown.stand.trees, 2);
@@ -445,7 +416,7 @@ TEST(shoots_are_thinned_to_the_density)
     expect_near(index_by_hand(grown.stand.shoots, grown.stand.shoots_count), 600 * (1 - trees / 400), 1e-12);
     ceduo_grown_stand_release(&grown);
     s.stand.growth.sdi_most = 10; /* the trees alone are more */
-    grown = at(&s, 0, 24);
+    grown = at(0, 24);
     expect_near(ceduo_stand_shoots(&grown.stand), 2500, 1e-12);
     EXPECT(grown.stand.trees[0].per_ha, ==, 30);
     EXPECT(ceduo_space_of_trees(&s.stand.growth, &grown.stand), <, 1);
@@ -454,14 +425,11 @@ TEST(shoots_are_thinned_to_the_density)
 
 /* ---- any stand ---- */
 
-static uint64_t random_state = 1;
+static struct line_random random_numbers = {.state = 1};
 
 static double uniform(double lo, double hi)
 {
-    uint64_t z = random_state += 0x9e3779b97f4a7c15; /* splitmix64 */
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111eb;
-    return lo + (hi - lo) * (double)((z ^ (z >> 31)) >> 11) * 0x1p-53;
+    return line_uniform(&random_numbers, lo, hi);
 }
 
 static struct ceduo_curve random_curve(double dbh)
@@ -469,30 +437,30 @@ static struct ceduo_curve random_curve(double dbh)
     return (struct ceduo_curve){uniform(.7, 1.3) * dbh, uniform(.005, .08), uniform(5, 30), uniform(.005, .08)};
 }
 
-static void random_stand(struct sample *s)
+static void random_stand(void)
 {
-    memset(s, 0, sizeof *s);
+    memset(&s, 0, sizeof s);
     double old = uniform(1, 8);
-    struct ceduo_stand *stand = &s->stand;
+    struct ceduo_stand *stand = &s.stand;
     *stand =
         (struct ceduo_stand){.species = -1,
                              .stools_per_ha = uniform(0, 1) < .1 ? 0 : uniform(200, 4000),
                              .spacing = .3,
                              .trees_count = (size_t)uniform(0, 5),
-                             .shoots = s->shoots,
-                             .trees = s->trees,
+                             .shoots = s.shoots,
+                             .trees = s.trees,
                              .u = NAN,
                              .growth = {random_curve(.16), random_curve(.45), old + uniform(0, 15), old, uniform(-500, 2000),
                                         uniform(0, 1) < .5 ? 0 : uniform(100, 2000), 0},
-                             .cutting = {(unsigned)uniform(1, 40), (unsigned)uniform(0, 5), (size_t)uniform(0, 5), s->stay}};
+                             .cutting = {(unsigned)uniform(1, 40), (unsigned)uniform(0, 5), (size_t)uniform(0, 5), s.stay}};
     stand->growth.sdi_most = fmax(0, stand->growth.sdi_most);
     stand->shoots_count = stand->stools_per_ha > 0 ? (size_t)uniform(1, 5) : 0;
     for (size_t i = 0; i < stand->shoots_count; i++)
-        s->shoots[i] = stems(stand->stools_per_ha * uniform(1, 6) / (double)stand->shoots_count, uniform(.01, .18), 5);
+        s.shoots[i] = stems(stand->stools_per_ha * uniform(1, 6) / (double)stand->shoots_count, uniform(.01, .18), 5);
     for (size_t i = 0; i < stand->trees_count; i++)
-        s->trees[i] = stems(uniform(1, 300), uniform(.05, .7), 14);
+        s.trees[i] = stems(uniform(1, 300), uniform(.05, .7), 14);
     for (size_t i = 0; i < stand->cutting.stay_count; i++)
-        s->stay[i] = uniform(0, 1) < .3 ? 0 : uniform(0, 200);
+        s.stay[i] = uniform(0, 1) < .3 ? 0 : uniform(0, 200);
 }
 
 static bool has_new_shoots(const struct ceduo_stand *stand, double first_cut, unsigned year)
@@ -503,11 +471,10 @@ static bool has_new_shoots(const struct ceduo_stand *stand, double first_cut, un
 TEST(no_stand_gains_stems_by_growing)
 {
     for (int i = 0; i < STANDS; i++) {
-        struct sample s;
-        random_stand(&s);
+        random_stand();
         double first_cut = uniform(-60, 60), before = INFINITY;
         for (unsigned year = 0; year < YEARS; year++) {
-            struct ceduo_grown_stand grown = at(&s, first_cut, year);
+            struct ceduo_grown_stand grown = at(first_cut, year);
             double shoots = ceduo_stand_shoots(&grown.stand), sum = shoots + ceduo_stand_trees(&grown.stand);
             bool sprouts = year == 1 && ceduo_stand_sprouts(&s.stand);
             if (sum > before * (1 + 1e-12) && !sprouts && !has_new_shoots(&s.stand, first_cut, year))
@@ -527,11 +494,10 @@ TEST(no_computed_stand_is_too_dense)
 {
     unsigned thinned = 0, at_least = 0;
     for (int i = 0; i < STANDS; i++) {
-        struct sample s;
-        random_stand(&s);
+        random_stand();
         const struct ceduo_growth *g = &s.stand.growth;
         for (unsigned year = 1; g->sdi_most > 0 && year < YEARS; year += 4) {
-            struct ceduo_grown_stand grown = at(&s, NAN, year);
+            struct ceduo_grown_stand grown = at(NAN, year);
             double all = g->trees_sdi_most > 0 ? g->trees_sdi_most : .35 * g->sdi_most;
             double most = g->sdi_most * fmax(0, 1 - index_by_hand(grown.stand.trees, grown.stand.trees_count) / all);
             double sdi = index_by_hand(grown.stand.shoots, grown.stand.shoots_count), shoots = ceduo_stand_shoots(&grown.stand);
@@ -550,14 +516,13 @@ TEST(no_computed_stand_is_too_dense)
 TEST(a_rotation_later_it_is_the_same_stand)
 {
     for (int i = 0; i < STANDS; i++) {
-        struct sample s;
-        random_stand(&s);
+        random_stand();
         double given = i % 2 ? NAN : floor(uniform(-60, 60));
         unsigned first = ceduo_first_cut(&s.stand, given), rotation = s.stand.cutting.rotation;
         if (first == CEDUO_NEVER)
             continue;
         unsigned year = first + (unsigned)uniform(0, 60);
-        struct ceduo_grown_stand now = at(&s, given, year), later = at(&s, given, year + 3 * rotation);
+        struct ceduo_grown_stand now = at(given, year), later = at(given, year + 3 * rotation);
         expect_same_stand(&now.stand, &later.stand);
         ceduo_grown_stand_release(&now);
         ceduo_grown_stand_release(&later);
@@ -568,13 +533,12 @@ TEST(a_rotation_later_it_is_the_same_stand)
 
 static double adc_just_cut(const char *name, double stools, struct ceduo_cutting cutting, double spacing, double old)
 {
-    struct sample s;
-    init(&s);
+    init();
     s.stand.stools_per_ha = stools;
     s.stand.cutting = cutting;
     s.stand.spacing = spacing;
     s.stand.growth.shoots_old = old;
-    struct ceduo_grown_stand grown = at(&s, 0, 0);
+    struct ceduo_grown_stand grown = at(0, 0);
     struct ceduo_adc adc = ceduo_adc(&grown.stand, B);
     double value = ceduo_adc_value(&adc, ceduo_adc_rule(&grown.stand, B, CEDUO_RULE_AUTO));
     print_message("%s, just cut: ADC %.4f m\n", name, value);

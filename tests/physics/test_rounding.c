@@ -9,10 +9,10 @@
 
 #include "line_scene.h"
 #include "paper_site.h"
+#include "runs.h"
 
-#define LENGTH(a) (sizeof(a) / sizeof *(a))
-#define ROCKS     8000
-#define EXACT     1e-12
+#define ROCKS 8000
+#define EXACT 1e-12
 
 static const int modes[] = {FE_TONEAREST, FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO};
 
@@ -122,7 +122,6 @@ static struct ceduo_arrivals arrive(const struct ceduo_scene *s, int mode, doubl
 {
     struct ceduo_run_def def = ceduo_run_def_default(s);
     struct ceduo_run *run;
-    struct ceduo_arrivals a;
     def.threads = 1;
     def.rocks_most = ROCKS;
     assert_int_equal(fesetround(mode), 0);
@@ -130,7 +129,7 @@ static struct ceduo_arrivals arrive(const struct ceduo_scene *s, int mode, doubl
     enum ceduo_status done = made == CEDUO_OK ? ceduo_run_extend(run, ROCKS) : made;
     assert_int_equal(fesetround(FE_TONEAREST), 0);
     assert_int_equal(done, CEDUO_OK);
-    assert_int_equal(ceduo_run_arrivals(run, 0, &a), CEDUO_OK);
+    struct ceduo_arrivals a = arrivals_of(run, 0);
     *contacts = (double)ceduo_run_contacts(run) / ROCKS;
     ceduo_run_free(run);
     return a;

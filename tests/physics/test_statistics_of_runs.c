@@ -8,19 +8,9 @@
 
 #include "line_scene.h"
 #include "paper_site.h"
-
-#define LENGTH(a) (sizeof(a) / sizeof(a)[0])
+#include "runs.h"
 
 static struct paper_site site;
-
-static struct ceduo_run *run_of(const struct ceduo_run_def *def, uint64_t rocks)
-{
-    struct ceduo_run *run;
-    assert_int_equal(ceduo_run_create(def, &run), CEDUO_OK);
-    assert_int_equal(ceduo_run_extend(run, rocks), CEDUO_OK);
-    assert_int_equal(ceduo_run_rocks(run), rocks);
-    return run;
-}
 
 /* A run of `scene` of so many rocks on as many threads. */
 static struct ceduo_run *run_scene(struct ceduo_scene *scene, uint64_t rocks, unsigned threads)
@@ -29,13 +19,6 @@ static struct ceduo_run *run_scene(struct ceduo_scene *scene, uint64_t rocks, un
     struct ceduo_run_def def = ceduo_run_def_default(scene);
     def.threads = threads;
     return run_of(&def, rocks);
-}
-
-static struct ceduo_arrivals arrivals_of(const struct ceduo_run *run, size_t control)
-{
-    struct ceduo_arrivals a;
-    assert_int_equal(ceduo_run_arrivals(run, control, &a), CEDUO_OK);
-    return a;
 }
 
 /* Within four combined standard errors, and half of the last digit of what is printed. */
@@ -89,8 +72,7 @@ TEST(means_of_the_combinations_beside_table_5)
         expect_mean("share that passes", 100 * p, 100 * sqrt(p * (1 - p) / n), c->pass, c->pass_se, c->pass_digit);
         if (i == 0)
             expect_mean("sd of speed", a.speed.sd, a.speed.sd / sqrt(2 * n), 4.78, 4.78 / sqrt(2e6), .01);
-        EXPECT(a.released, ==, c->rocks);
-        EXPECT(a.unfinished, ==, 0);
+        EXPECT_IS(a, (released, c->rocks), (unfinished, 0));
         assert_true(a.exact);
         ceduo_run_free(run);
     }
@@ -132,10 +114,8 @@ TEST(figures_of_an_arrival_fit_together)
     double variance = (squares - sum * sum / 5000) / 4999;
     EXPECT_NEAR(a.energy_per_released_se / sqrt(variance / 5000), 1, 1e-9);
     double reach = (double)a.reached / 5000, exceed = (double)a.exceeded / 5000;
-    EXPECT(a.reach_lo, ==, ceduo_wilson(reach, reach, 5000).lo);
-    EXPECT(a.reach_hi, ==, ceduo_wilson(reach, reach, 5000).hi);
-    EXPECT(a.exceed_lo, ==, ceduo_wilson(exceed, exceed, 5000).lo);
-    EXPECT(a.exceed_hi, ==, ceduo_wilson(exceed, exceed, 5000).hi);
+    EXPECT_IS(a, (reach_lo, ceduo_wilson(reach, reach, 5000).lo), (reach_hi, ceduo_wilson(reach, reach, 5000).hi),
+              (exceed_lo, ceduo_wilson(exceed, exceed, 5000).lo), (exceed_hi, ceduo_wilson(exceed, exceed, 5000).hi));
     EXPECT(a.energy.p50, <=, a.energy.p95_lo);
     EXPECT(a.energy.p95_lo, <=, a.energy.p95);
     EXPECT(a.energy.p95, <=, a.energy.p95_hi);
@@ -148,8 +128,7 @@ TEST(figures_of_an_arrival_fit_together)
     EXPECT(reached, ==, a.reached);
     EXPECT(mean, ==, a.energy.mean);
     EXPECT(se, ==, a.energy.se);
-    struct ceduo_ends ends;
-    assert_int_equal(ceduo_run_ends(run, &ends), CEDUO_OK);
+    struct ceduo_ends ends = ends_of(run);
     assert_int_equal(ends.count[CEDUO_AT_REST] + ends.count[CEDUO_LEFT_SLOPE] + ends.count[CEDUO_UNFINISHED], 5000);
     assert_int_equal(ends.stop_x.n, ends.count[CEDUO_AT_REST]);
     EXPECT(ends.stop_p50, <=, ends.stop_p95);
@@ -194,9 +173,8 @@ static void expect_same_run(const struct ceduo_run *a, const struct ceduo_run *b
     struct ceduo_arrivals x = arrivals_of(a, 0), y = arrivals_of(b, 0);
     assert_memory_equal(&x, &y, offsetof(struct ceduo_arrivals, exact)); /* behind it is padding */
     EXPECT(x.exact, ==, y.exact);
-    struct ceduo_ends p, q;
-    assert_int_equal(ceduo_run_ends(a, &p), CEDUO_OK);
-    assert_int_equal(ceduo_run_ends(b, &q), CEDUO_OK);
+    struct ceduo_ends p = ends_of(a);
+    struct ceduo_ends q = ends_of(b);
     assert_memory_equal(&p, &q, sizeof p);
     assert_int_equal(ceduo_run_contacts(a), ceduo_run_contacts(b));
     for (size_t i = 0; i < cells; i++) {
@@ -286,10 +264,7 @@ static void expect_within(double value, double expected, double relative)
 
 static void expect_distribution_within(const struct ceduo_distribution *a, const struct ceduo_distribution *b)
 {
-    EXPECT(a->mean, ==, b->mean);
-    EXPECT(a->sd, ==, b->sd);
-    EXPECT(a->se, ==, b->se);
-    EXPECT(a->max, ==, b->max);
+    EXPECT_SAME(*a, *b, mean, sd, se, max);
     expect_within(a->p50, b->p50, 1e-4);
     expect_within(a->p95, b->p95, 1e-4);
     expect_within(a->p95_lo, b->p95_lo, 1e-4);
@@ -319,9 +294,8 @@ TEST(percentiles_of_histograms_are_those_of_all_samples)
         expect_distribution_within(&a.height, &b.height);
         double none[1];
         assert_int_equal(ceduo_run_energies(some, 0, none, 1), 0);
-        struct ceduo_ends p, q;
-        assert_int_equal(ceduo_run_ends(some, &p), CEDUO_OK);
-        assert_int_equal(ceduo_run_ends(all, &q), CEDUO_OK);
+        struct ceduo_ends p = ends_of(some);
+        struct ceduo_ends q = ends_of(all);
         expect_within(p.stop_p50, q.stop_p50, 1e-4);
         expect_within(p.stop_p95, q.stop_p95, 1e-4);
         EXPECT(p.stop_max, ==, q.stop_max);
@@ -337,14 +311,8 @@ static void cut_slope(struct ceduo_slope *to, size_t parts)
 {
     const struct ceduo_slope *from = &site.scene.slope;
     size_t n = (from->vertices - 1) * parts;
-    *to = *from;
-    to->vertices = n + 1;
-    to->x = malloc((n + 1) * sizeof *to->x);
-    to->z = malloc((n + 1) * sizeof *to->z);
-    to->segments = malloc(n * sizeof *to->segments);
-    assert_true(to->x);
-    assert_true(to->z);
-    assert_true(to->segments);
+    *to = slope_new(n + 1);
+    to->facets = from->facets;
     for (size_t i = 0; i <= n; i++) {
         size_t j = i / parts, k = j + 1 < from->vertices ? j + 1 : j;
         double part = (double)(i % parts) / (double)parts;
@@ -353,13 +321,6 @@ static void cut_slope(struct ceduo_slope *to, size_t parts)
         if (i < n)
             to->segments[i] = from->segments[j];
     }
-}
-
-static void free_slope(struct ceduo_slope *slope)
-{
-    free(slope->x);
-    free(slope->z);
-    free(slope->segments);
 }
 
 TEST(cutting_segments_into_collinear_pieces_moves_no_statistic)
@@ -391,7 +352,7 @@ TEST(cutting_segments_into_collinear_pieces_moves_no_statistic)
             if (same < looked_at * 98 / 100)
                 fail_msg("row %zu in %zu pieces: only %ju of %ju ways the same", i, parts[p], (uintmax_t)same,
                          (uintmax_t)looked_at);
-            free_slope(&cut.slope);
+            slope_free(&cut.slope);
             ceduo_run_free(pieces);
             ceduo_run_free(whole);
         }
@@ -654,9 +615,7 @@ TEST(a_control_that_nobody_reaches)
             def.exact_bytes = bytes[e];
             struct ceduo_run *run = run_of(&def, 999);
             struct ceduo_arrivals a = arrivals_of(run, 0);
-            EXPECT(a.reached, ==, 0);
-            EXPECT(a.reach_probability, ==, 0);
-            EXPECT(a.reach_lo, ==, 0);
+            EXPECT_IS(a, (reached, 0), (reach_probability, 0), (reach_lo, 0));
             EXPECT(a.reach_hi, >, .0038);
             EXPECT(a.reach_hi, <, .004);
             EXPECT(a.exceed_hi, ==, a.reach_hi);
@@ -664,14 +623,12 @@ TEST(a_control_that_nobody_reaches)
             assert_true(nothing_known(&a.energy));
             assert_true(nothing_known(&a.translation));
             assert_true(nothing_known(&a.height));
-            EXPECT(a.energy_per_released, ==, 0);
-            EXPECT(a.energy_per_released_se, ==, 0);
+            EXPECT_IS(a, (energy_per_released, 0), (energy_per_released_se, 0));
             uint64_t reached;
             double mean, se, energy;
             ceduo_run_energy(run, 0, &reached, &mean, &se);
             EXPECT(reached, ==, 0);
-            assert_true(isnan(mean));
-            assert_true(isnan(se));
+            EXPECT_NAN(mean, se);
             assert_int_equal(ceduo_run_energies(run, 0, &energy, 1), 0);
             ceduo_run_free(run);
         }
@@ -684,9 +641,7 @@ TEST(a_control_without_an_accepted_energy)
     struct ceduo_run *run = run_scene(&site.scene, 999, 1);
     struct ceduo_arrivals a = arrivals_of(run, 0);
     EXPECT(a.exceeded, ==, 0);
-    assert_true(isnan(a.exceed_probability));
-    assert_true(isnan(a.exceed_lo));
-    assert_true(isnan(a.exceed_hi));
+    EXPECT_NAN(a.exceed_probability, a.exceed_lo, a.exceed_hi);
     ceduo_run_free(run);
 }
 
@@ -700,16 +655,10 @@ TEST(unfinished_rocks_count_for_the_upper_bound)
     flat.scene.controls_count = 1;
     struct ceduo_run *run = run_scene(&flat.scene, 5, 2);
     struct ceduo_arrivals a = arrivals_of(run, 0);
-    EXPECT(a.unfinished, ==, 5);
-    EXPECT(a.reached, ==, 0);
-    EXPECT(a.reach_hi, ==, 1);
-    EXPECT(a.reach_lo, ==, 0);
-    EXPECT(a.exceed_hi, ==, 1);
-    struct ceduo_ends ends;
-    assert_int_equal(ceduo_run_ends(run, &ends), CEDUO_OK);
+    EXPECT_IS(a, (unfinished, 5), (reached, 0), (reach_hi, 1), (reach_lo, 0), (exceed_hi, 1));
+    struct ceduo_ends ends = ends_of(run);
     assert_int_equal(ends.count[CEDUO_UNFINISHED], 5);
-    assert_true(isnan(ends.stop_p50));
-    assert_true(isnan(ends.stop_max));
+    EXPECT_NAN(ends.stop_p50, ends.stop_max);
     ceduo_run_free(run);
 }
 

@@ -39,9 +39,7 @@ TEST(dorrens_hits_take_the_share_of_their_eccentricity)
     struct spread trees = {0}, shoots = {0};
     clear_plane(520);
     plant_dorren(10, 510);
-    sweep_begin();
-    for (uint64_t rock = 0; rock < 5000; rock++) {
-        sweep_rock(rock);
+    for (SWEEP(rock, 5000)) {
         assert_int_equal(sweep.way.end, CEDUO_LEFT_SLOPE);
         for (size_t i = 0; i < sweep.count; i++) {
             const struct ceduo_stem_passed *s = &sweep.stems[i];
@@ -52,7 +50,6 @@ TEST(dorrens_hits_take_the_share_of_their_eccentricity)
             spread_add(s->shoot ? &shoots : &trees, s->taken / most);
         }
     }
-    sweep_end();
     double mean = mean_printed_share();
     expect_exact("mean share", ceduo_dorren_mean_share(), mean, 1e-6);
     EXPECT_NEAR(mean, .558, .0005);
@@ -73,9 +70,7 @@ TEST(hits_beside_the_middle_take_their_share)
     belt->stand.energy = CEDUO_BRAUNER;
     belt->stand.u = u_J_m3;
     belt->stand.offset = CEDUO_OFFSET_BY_ECCENTRICITY;
-    sweep_begin();
-    for (uint64_t rock = 0; rock < 2000; rock++) {
-        sweep_rock(rock);
+    for (SWEEP(rock, 2000)) {
         ends[sweep.way.end]++;
         for (size_t i = 0; i < sweep.count; i++) {
             const struct ceduo_stem_passed *s = &sweep.stems[i];
@@ -85,7 +80,6 @@ TEST(hits_beside_the_middle_take_their_share)
             whole += s->hit && cost < s->before;
         }
     }
-    sweep_end();
     EXPECT(whole, >, 100);
     EXPECT(ends[CEDUO_STOPPED_BY_STEMS], >, 1000);
 }
@@ -209,9 +203,7 @@ TEST(rocks_fly_over_stems_that_are_lower)
     static const double per_ha[] = {4000, 1500, 500}, dbh[] = {.05, .2, .4};
     for (size_t i = 0; i < LENGTH(heights); i++)
         expected += per_metre(per_ha[i], B + dbh[i]) * (400 - v * sqrt(2 * (fall - heights[i]) / g));
-    sweep_begin();
-    for (uint64_t rock = 0; rock < 6000; rock++) {
-        sweep_rock(rock);
+    for (SWEEP(rock, 6000)) {
         uint64_t hits = 0;
         for (size_t i = 0; i < sweep.count; i++) {
             const struct ceduo_stem_passed *s = &sweep.stems[i];
@@ -227,7 +219,6 @@ TEST(rocks_fly_over_stems_that_are_lower)
         spread_add(&come_to, (double)sweep.count / 400);
         spread_add(&hit, (double)hits);
     }
-    sweep_end();
     expect_mean("stems come to per metre", &come_to,
                 per_metre(4000, B + .05) + per_metre(1500, B + .2) + per_metre(500, B + .4));
     expect_mean("stems hit", &hit, expected);
@@ -310,9 +301,8 @@ static double first_stem_cdf(double x, const void *of)
 
 static void expect_run_stopped(const struct sample *stops, uint64_t rocks)
 {
-    struct ceduo_run *run = run_of(&plane.line.scene, &plane.line.option, rocks, 2, CEDUO_EXACT_BYTES);
-    struct ceduo_ends ends;
-    assert_int_equal(ceduo_run_ends(run, &ends), CEDUO_OK);
+    struct ceduo_run *run = run_option(&plane.line.scene, &plane.line.option, rocks, 2, CEDUO_EXACT_BYTES);
+    struct ceduo_ends ends = ends_of(run);
     assert_int_equal(ends.count[CEDUO_STOPPED_BY_STEMS], stops->n);
     assert_int_equal(ends.count[CEDUO_LEFT_SLOPE], rocks - stops->n);
     assert_int_equal(ends.stop_x.n, stops->n);
@@ -323,8 +313,7 @@ static void expect_run_stopped(const struct sample *stops, uint64_t rocks)
     EXPECT(ends.stop_max, ==, stops->values[stops->n - 1]); /* they are sorted */
     EXPECT(ends.stop_p50, ==, stops->values[(stops->n + 1) / 2 - 1]);
     struct ceduo_stem_counts counts = ceduo_run_stems(run);
-    EXPECT(counts.hit, ==, stops->n);
-    EXPECT(counts.met, ==, stops->n);
+    EXPECT_IS(counts, (hit, stops->n), (met, stops->n));
     EXPECT(counts.drawn, >=, counts.hit);
     ceduo_run_free(run);
 }
@@ -333,9 +322,7 @@ static void expect_stopped(const char *name, uint64_t rocks)
 {
     struct sample stops = {0};
     struct first_stem law = {10, 500, per_metre(30, B + .2)};
-    sweep_begin();
-    for (uint64_t rock = 0; rock < rocks; rock++) {
-        sweep_rock(rock);
+    for (SWEEP(rock, rocks)) {
         if (sweep.count == 0) {
             assert_int_equal(sweep.way.end, CEDUO_LEFT_SLOPE);
             continue;
@@ -345,12 +332,8 @@ static void expect_stopped(const char *name, uint64_t rocks)
             fail_msg("%s: rock %ju is not stopped at %.17g", name, (uintmax_t)rock, s->x);
         sample_add(&stops, sweep.way.x);
     }
-    sweep_end();
-    char what[80];
-    snprintf(what, sizeof what, "%s, share stopped by stems", name);
-    expect_share(what, stops.n, rocks, -expm1(-law.rate * law.length));
-    snprintf(what, sizeof what, "%s, places, KS", name);
-    expect_law(what, stops.values, stops.n, first_stem_cdf, &law);
+    expect_share(named("%s, share stopped by stems", name), stops.n, rocks, -expm1(-law.rate * law.length));
+    expect_law(named("%s, places, KS", name), stops.values, stops.n, first_stem_cdf, &law);
     expect_run_stopped(&stops, rocks);
     sample_clear(&stops);
 }

@@ -56,9 +56,7 @@ static void swept_clear(struct swept *s)
 static void sweep_ways(struct swept *to, uint64_t rocks)
 {
     static struct map_stem stems[STEMS_MOST];
-    sweep_begin();
-    for (uint64_t rock = 0; rock < rocks; rock++) {
-        sweep_rock(rock);
+    for (SWEEP(rock, rocks)) {
         for (size_t i = 0; i < sweep.count; i++) {
             const struct ceduo_stem_passed *p = &sweep.stems[i];
             stems[i] = (struct map_stem){p->x, p->y, p->dbh, p->shoot, p->stool};
@@ -67,7 +65,6 @@ static void sweep_ways(struct swept *to, uint64_t rocks)
         }
         swept_add(to, stems, sweep.count);
     }
-    sweep_end();
 }
 
 static void sweep_maps(struct swept *to, uint64_t maps, unsigned long seed)
@@ -99,10 +96,8 @@ static void expect_same_as_map(const char *name, uint64_t ways, unsigned long se
                  {"offsets", &program.y, &map.y},
                  {"diameters", &program.dbh, &map.dbh}};
     for (size_t i = 0; i < LENGTH(pairs); i++) {
-        char what[100];
-        snprintf(what, sizeof what, "%s, %s", name, pairs[i].what);
         if (pairs[i].a->n + pairs[i].b->n > 0)
-            expect_same_law(what, pairs[i].a, pairs[i].b);
+            expect_same_law(named("%s, %s", name, pairs[i].what), pairs[i].a, pairs[i].b);
     }
     swept_clear(&program);
     swept_clear(&map);

@@ -23,15 +23,13 @@ static const struct plot_rates plot_rates[] = {
 
 static void expect_plot(const struct plot_rates *r, uint64_t rocks, const char *how)
 {
-    char what[80];
     struct met m = meet(rocks, 500);
     /* the printed figures have five digits */
-    snprintf(what, sizeof what, "ADS %d %s, stems per metre", r->number, how);
-    expect_close(what, spread_mean(&m.stems), spread_se(&m.stems), r->stems, .5e-5 / 4);
-    snprintf(what, sizeof what, "ADS %d %s, stools and trees per metre", r->number, how);
-    expect_close(what, spread_mean(&m.both), spread_se(&m.both), r->both, .5e-5 / 4);
-    snprintf(what, sizeof what, "ADS %d %s, stools per metre", r->number, how);
-    expect_mean(what, &m.stools, r->stools);
+    expect_close(named("ADS %d %s, stems per metre", r->number, how), spread_mean(&m.stems), spread_se(&m.stems), r->stems,
+                 .5e-5 / 4);
+    expect_close(named("ADS %d %s, stools and trees per metre", r->number, how), spread_mean(&m.both), spread_se(&m.both),
+                 r->both, .5e-5 / 4);
+    expect_mean(named("ADS %d %s, stools per metre", r->number, how), &m.stools, r->stools);
 }
 
 TEST(stems_met_per_metre_are_those_of_equation_1_and_stools_those_of_crofton)
@@ -78,13 +76,10 @@ TEST(counts_of_trees_in_a_stretch_are_poisson)
     plant_trees(belt, 500, .45);
     double mean = 20 * (per_metre(2500, B + .2) + per_metre(500, B + .45));
     memset(count, 0, sizeof count);
-    sweep_begin();
-    for (uint64_t rock = 0; rock < 200000; rock++) {
-        sweep_rock(rock);
+    for (SWEEP(rock, 200000)) {
         count[sweep.count]++;
         spread_add(&s, (double)sweep.count);
     }
-    sweep_end();
     expect_mean("trees on 20 m, mean", &s, mean);
     expect_variance("trees on 20 m, variance", &s, mean);
     expect_poisson("trees on 20 m, counts", count, mean);
@@ -110,9 +105,7 @@ TEST(gaps_between_trees_are_exponential_and_offsets_uniform)
     struct ceduo_belt *belt = plant_belt(0, 1000, 0, 0);
     plant_trees(belt, 2500, .2);
     plant_trees(belt, 500, .45);
-    sweep_begin();
-    for (uint64_t rock = 0; rock < 7000; rock++) {
-        sweep_rock(rock);
+    for (SWEEP(rock, 7000)) {
         EXPECT(sweep.count, >, GAPS);
         for (size_t i = 0; i < GAPS; i++) {
             const struct ceduo_stem_passed *s = &sweep.stems[i];
@@ -120,7 +113,6 @@ TEST(gaps_between_trees_are_exponential_and_offsets_uniform)
             sample_add(&offsets, .5 + s->y / (B + s->dbh));
         }
     }
-    sweep_end();
     double rate = per_metre(2500, B + .2) + per_metre(500, B + .45);
     expect_law("gaps between trees, KS", gaps.values, gaps.n, exponential_cdf, &rate);
     expect_law("offsets of trees, KS", offsets.values, offsets.n, uniform_cdf, NULL);
@@ -134,12 +126,9 @@ TEST(the_chance_to_meet_nothing_of_ten_metres_is_that_of_crofton)
     uint64_t free_runs = 0;
     clear_plane(20);
     plant_plot(1, 5, 15);
-    sweep_begin();
-    for (uint64_t rock = 0; rock < rocks; rock++) {
-        sweep_rock(rock);
+    for (SWEEP(rock, rocks)) {
         free_runs += sweep.way.stems_hit == 0;
     }
-    sweep_end();
     expect_share("nothing met of those centred in 10 m", free_runs, rocks, exp(-10 / 2.16747));
     EXPECT_NEAR(exp(-10 / 2.16747), .00992, .5e-5);
 }
@@ -174,13 +163,12 @@ TEST(a_ring_is_met_as_wide_as_its_hull_is_on_average)
         plane.line.scene.simulation.seed = i + 1;
         plant_shoots(plant_belt(10, 10 + metres, stools, rings[i].spacing), stools * n, d);
         struct met m = meet((uint64_t)(1.02e6 / metres / per_metre(stools * n, B + d)), metres);
-        char what[80];
-        snprintf(what, sizeof what, "stools of %u, %.3f m apart, per metre", rings[i].n, rings[i].spacing);
-        expect_mean(what, &m.stools, per_metre(stools, width));
-        snprintf(what, sizeof what, "stems of stools of %u, %.3f m apart, per metre", rings[i].n, rings[i].spacing);
-        expect_mean(what, &m.stems, per_metre(stools * n, B + d));
-        snprintf(what, sizeof what, "stems per stool of %u met, %.3f m apart", rings[i].n, rings[i].spacing);
-        expect_stems_per_stool(what, &m, n * (B + d) / width);
+        expect_mean(named("stools of %u, %.3f m apart, per metre", rings[i].n, rings[i].spacing), &m.stools,
+                    per_metre(stools, width));
+        expect_mean(named("stems of stools of %u, %.3f m apart, per metre", rings[i].n, rings[i].spacing), &m.stems,
+                    per_metre(stools * n, B + d));
+        expect_stems_per_stool(named("stems per stool of %u met, %.3f m apart", rings[i].n, rings[i].spacing), &m,
+                               n * (B + d) / width);
     }
 }
 
@@ -255,9 +243,7 @@ static void expect_biased(const char *name, double per_ha, double mean, double s
     struct biased law = biased_of(mean, sd);
     struct spread per = {0}, dbh = {0};
     struct sample all = {0};
-    sweep_begin();
-    for (uint64_t rock = 0; rock < rocks; rock++) {
-        sweep_rock(rock);
+    for (SWEEP(rock, rocks)) {
         spread_add(&per, (double)sweep.count / metres);
         for (size_t i = 0; i < sweep.count; i++) {
             const struct ceduo_stem_passed *s = &sweep.stems[i];
@@ -268,18 +254,12 @@ static void expect_biased(const char *name, double per_ha, double mean, double s
                 sample_add(&all, s->dbh);
         }
     }
-    sweep_end();
-    char what[80];
-    snprintf(what, sizeof what, "%s, met per metre", name);
-    expect_mean(what, &per, per_metre(per_ha, B + mean));
+    expect_mean(named("%s, met per metre", name), &per, per_metre(per_ha, B + mean));
     double first = (B * mean + gamma_moment(&law, 2)) / (B + mean);
     double second = (B * gamma_moment(&law, 2) + gamma_moment(&law, 3)) / (B + mean);
-    snprintf(what, sizeof what, "%s, mean dbh of those met", name);
-    expect_mean(what, &dbh, first);
-    snprintf(what, sizeof what, "%s, variance of it", name);
-    expect_variance(what, &dbh, second - first * first);
-    snprintf(what, sizeof what, "%s, law of it, KS", name);
-    expect_law(what, all.values, all.n, biased_cdf, &law);
+    expect_mean(named("%s, mean dbh of those met", name), &dbh, first);
+    expect_variance(named("%s, variance of it", name), &dbh, second - first * first);
+    expect_law(named("%s, law of it, KS", name), all.values, all.n, biased_cdf, &law);
     sample_clear(&all);
 }
 
@@ -471,9 +451,7 @@ TEST(stems_of_random_belts_are_some_that_were_planted)
         plant_belts_at_random(&r);
         if (line_chance(&r, .3)) /* among them */
             line_scene_release(&plane.line, line_uniform(&r, 0, 50), 1, 5000, 0, 0);
-        sweep_begin();
-        for (uint64_t rock = 0; rock < 5; rock++) {
-            sweep_rock(rock);
+        for (SWEEP(rock, 5)) {
             all += sweep.count;
             for (size_t k = 0; k < sweep.count; k++) {
                 expect_one_of_those_planted(&sweep.stems[k]);
@@ -481,7 +459,6 @@ TEST(stems_of_random_belts_are_some_that_were_planted)
             }
             expect_whole_stools();
         }
-        sweep_end();
     }
     assert_in_range(all, 20000, 1000000);
 }

@@ -108,21 +108,14 @@ static void expect_compound(const char *name, const struct strata *strata, doubl
         mean += metres * strata->rate[k] * strata->work[k];
         variance += metres * strata->rate[k] * strata->work[k] * strata->work[k];
     }
-    char what[80];
     for (size_t k = 0; k < strata->n; k++) {
-        snprintf(what, sizeof what, "%s, contacts of stratum %zu", name, k);
-        expect_mean(what, &each[k], metres * strata->rate[k]);
+        expect_mean(named("%s, contacts of stratum %zu", name, k), &each[k], metres * strata->rate[k]);
     }
-    snprintf(what, sizeof what, "%s, contacts", name);
-    expect_mean(what, &all, contacts);
-    snprintf(what, sizeof what, "%s, variance of contacts", name);
-    expect_variance(what, &all, contacts);
-    snprintf(what, sizeof what, "%s, counts", name);
-    expect_poisson(what, count, contacts);
-    snprintf(what, sizeof what, "%s, J taken", name);
-    expect_mean(what, &work, mean);
-    snprintf(what, sizeof what, "%s, variance of J taken", name);
-    expect_variance(what, &work, variance);
+    expect_mean(named("%s, contacts", name), &all, contacts);
+    expect_variance(named("%s, variance of contacts", name), &all, contacts);
+    expect_poisson(named("%s, counts", name), count, contacts);
+    expect_mean(named("%s, J taken", name), &work, mean);
+    expect_variance(named("%s, variance of J taken", name), &work, variance);
 }
 
 TEST(contacts_of_every_rule_are_poisson_and_take_each_stratums_work)

@@ -160,16 +160,13 @@ static void expect_even_court(const char *name, enum way_out out, double per_m, 
     bins.width = .25;
     bins.from = out == AHEAD ? RELEASE : RELEASE - reach;
     bins.k = out == AHEAD ? 32 : (size_t)(2 * reach / bins.width);
-    sweep_begin();
-    for (uint64_t rock = 0; rock < rocks; rock++) {
-        sweep_rock(rock);
+    for (SWEEP(rock, rocks)) {
         assert_int_equal(sweep.way.end, CEDUO_LEFT_SLOPE);
         assert_true(out != AHEAD_AND_BACK || sweep.way.x == 0);
         for (size_t i = 0; i < sweep.count; i++)
             bins_note(&bins, sweep.stems[i].x);
         bins_end_rock(&bins);
     }
-    sweep_end();
     expect_even(name, &bins, per_m * bins.width);
 }
 
@@ -243,12 +240,9 @@ TEST(a_stool_astride_of_the_release_is_one_however_far_the_rock_went_between)
     uint64_t wrong = 0, rocks = 2000;
     clear_court(AHEAD_AND_BACK);
     plant_plot(1, RELEASE - 6, RELEASE + 145);
-    sweep_begin();
-    for (uint64_t rock = 0; rock < rocks; rock++) {
-        sweep_rock(rock);
+    for (SWEEP(rock, rocks)) {
         wrong += sweep.way.stools_met != different(false);
     }
-    sweep_end();
     if (wrong > 0)
         fail_msg("%ju of %ju rocks count a stool twice", (uintmax_t)wrong, (uintmax_t)rocks);
 }

@@ -27,11 +27,9 @@ TEST(rocks_on_the_papers_site_arrive_as_in_independent_implementations)
         const struct site_row *r = &rows[i];
         paper_site_init(&site);
         site.scene.simulation.contact_model = r->model;
-        struct ceduo_run *run = run_of(&site.scene, &site.option, rocks, 2, CEDUO_EXACT_BYTES);
-        struct ceduo_arrivals a;
-        struct ceduo_ends e;
-        assert_int_equal(ceduo_run_arrivals(run, 0, &a), CEDUO_OK);
-        assert_int_equal(ceduo_run_ends(run, &e), CEDUO_OK);
+        struct ceduo_run *run = run_option(&site.scene, &site.option, rocks, 2, CEDUO_EXACT_BYTES);
+        struct ceduo_arrivals a = arrivals_of(run, 0);
+        struct ceduo_ends e = ends_of(run);
         double n = (double)rocks, pass = a.reach_probability;
         double stopped = (double)e.count[CEDUO_STOPPED_BY_STEMS] / n;
         expect_close("kJ at 135 m", a.energy.mean / 1e3, a.energy.se / 1e3, r->energy, .1);
@@ -119,13 +117,12 @@ TEST(differences_have_the_error_of_differences_rock_by_rock)
     open_sides();
     for (int other = 0; other < 2; other++) { /* the small change, no forest */
         const struct ceduo_option *option = other ? NULL : &sides.options[1];
-        struct ceduo_run *run = run_of(&site.scene, option, rocks, 2, CEDUO_EXACT_BYTES);
-        struct ceduo_run *base = run_of(&site.scene, &sides.options[0], rocks, 2, CEDUO_EXACT_BYTES);
+        struct ceduo_run *run = run_option(&site.scene, option, rocks, 2, CEDUO_EXACT_BYTES);
+        struct ceduo_run *base = run_option(&site.scene, &sides.options[0], rocks, 2, CEDUO_EXACT_BYTES);
         struct ceduo_difference d = ceduo_run_difference(run, base, 0);
         struct pair_moments m = pairs_of(option, &sides.options[0], rocks);
-        struct ceduo_arrivals a, b;
-        assert_int_equal(ceduo_run_arrivals(run, 0, &a), CEDUO_OK);
-        assert_int_equal(ceduo_run_arrivals(base, 0, &b), CEDUO_OK);
+        struct ceduo_arrivals a = arrivals_of(run, 0);
+        struct ceduo_arrivals b = arrivals_of(base, 0);
         expect_pair("difference of shares that pass", &d.reach_probability, &m.reach, a.reach_probability, b.reach_probability);
         expect_pair("difference of shares above what is accepted", &d.exceed_probability, &m.exceed, a.exceed_probability,
                     b.exceed_probability);
@@ -150,10 +147,9 @@ TEST(differences_without_all_samples_are_the_same)
     struct ceduo_difference d[LENGTH(bytes)];
     open_sides();
     for (size_t i = 0; i < LENGTH(bytes); i++) {
-        struct ceduo_run *run = run_of(&site.scene, &sides.options[1], rocks, 2, bytes[i]);
-        struct ceduo_run *base = run_of(&site.scene, &sides.options[0], rocks, 2, bytes[i]);
-        struct ceduo_arrivals a;
-        assert_int_equal(ceduo_run_arrivals(run, 0, &a), CEDUO_OK);
+        struct ceduo_run *run = run_option(&site.scene, &sides.options[1], rocks, 2, bytes[i]);
+        struct ceduo_run *base = run_option(&site.scene, &sides.options[0], rocks, 2, bytes[i]);
+        struct ceduo_arrivals a = arrivals_of(run, 0);
         EXPECT(a.exact, ==, (i == 0));
         d[i] = ceduo_run_difference(run, base, 0);
         ceduo_run_free(base);
@@ -172,13 +168,11 @@ TEST(differences_without_all_samples_are_the_same)
 
 static void expect_same_bits(const struct ceduo_run *a, const struct ceduo_run *b)
 {
-    struct ceduo_arrivals x, y;
-    struct ceduo_ends p, q;
-    assert_int_equal(ceduo_run_arrivals(a, 0, &x), CEDUO_OK);
-    assert_int_equal(ceduo_run_arrivals(b, 0, &y), CEDUO_OK);
+    struct ceduo_arrivals x = arrivals_of(a, 0);
+    struct ceduo_arrivals y = arrivals_of(b, 0);
     assert_memory_equal(&x, &y, offsetof(struct ceduo_arrivals, exact)); /* behind it is padding */
-    assert_int_equal(ceduo_run_ends(a, &p), CEDUO_OK);
-    assert_int_equal(ceduo_run_ends(b, &q), CEDUO_OK);
+    struct ceduo_ends p = ends_of(a);
+    struct ceduo_ends q = ends_of(b);
     assert_memory_equal(&p, &q, sizeof p);
     struct ceduo_stem_counts s = ceduo_run_stems(a), t = ceduo_run_stems(b);
     assert_memory_equal(&s, &t, sizeof s);
@@ -192,11 +186,11 @@ TEST(the_same_bits_among_stems_with_any_number_of_threads_and_steps)
     static const uint64_t to[] = {999, 1024, 3000, 3000, 4096, 5000};
     open_sides();
     for (size_t e = 0; e < LENGTH(bytes); e++) {
-        struct ceduo_run *base = run_of(&site.scene, &sides.options[0], rocks, 1, bytes[e]);
-        struct ceduo_run *one = run_of(&site.scene, &sides.options[1], rocks, 1, bytes[e]);
+        struct ceduo_run *base = run_option(&site.scene, &sides.options[0], rocks, 1, bytes[e]);
+        struct ceduo_run *one = run_option(&site.scene, &sides.options[1], rocks, 1, bytes[e]);
         struct ceduo_difference d = ceduo_run_difference(one, base, 0), f;
         for (size_t t = 0; t < LENGTH(threads); t++) {
-            struct ceduo_run *many = run_of(&site.scene, &sides.options[1], rocks, threads[t], bytes[e]);
+            struct ceduo_run *many = run_option(&site.scene, &sides.options[1], rocks, threads[t], bytes[e]);
             expect_same_bits(one, many);
             f = ceduo_run_difference(many, base, 0);
             assert_memory_equal(&d, &f, sizeof d);
@@ -215,8 +209,7 @@ TEST(the_same_bits_among_stems_with_any_number_of_threads_and_steps)
         f = ceduo_run_difference(steps, base, 0);
         assert_memory_equal(&d, &f, sizeof d);
         f = ceduo_run_difference(one, one, 0);
-        EXPECT(f.energy_per_released.mean, ==, 0);
-        EXPECT(f.energy_per_released.se, ==, 0);
+        EXPECT_IS(f.energy_per_released, (mean, 0), (se, 0));
         ceduo_run_free(steps);
         ceduo_run_free(one);
         ceduo_run_free(base);
@@ -239,7 +232,7 @@ TEST(a_run_among_stems_flies_the_rocks_that_can_be_followed)
 {
     const uint64_t rocks = 3000;
     open_sides();
-    struct ceduo_run *run = run_of(&site.scene, &sides.options[0], rocks, 2, CEDUO_EXACT_BYTES);
+    struct ceduo_run *run = run_option(&site.scene, &sides.options[0], rocks, 2, CEDUO_EXACT_BYTES);
     struct ceduo_follower *f = ceduo_follower_create(&site.scene, &sides.options[0]);
     struct ceduo_moments energy = {0}, hits = {0};
     struct ceduo_stem_counts sum = {0}, counts = ceduo_run_stems(run);
@@ -260,11 +253,8 @@ TEST(a_run_among_stems_flies_the_rocks_that_can_be_followed)
         ceduo_moments_add(&hits, (double)c.stems_hit);
     }
     ceduo_follower_free(f);
-    struct ceduo_arrivals a;
-    assert_int_equal(ceduo_run_arrivals(run, 0, &a), CEDUO_OK);
-    EXPECT(sum.drawn, ==, counts.drawn);
-    EXPECT(sum.hit, ==, counts.hit);
-    EXPECT(sum.met, ==, counts.met);
+    struct ceduo_arrivals a = arrivals_of(run, 0);
+    EXPECT_SAME(sum, counts, drawn, hit, met);
     assert_int_equal(a.reached, energy.n);
     expect_exact("mean energy", a.energy.mean, energy.mean, 1e-12);
     expect_exact("mean contacts", a.contacts, hits.mean, 1e-12);
@@ -286,7 +276,7 @@ TEST(stems_hit_by_blocks)
     site.scene.blocks_count = 1;
     for (uint64_t seed = 1; seed <= SEEDS; seed++) {
         site.scene.simulation.seed = seed;
-        struct ceduo_run *run = run_of(&site.scene, &sides.options[0], ROCKS, 1, CEDUO_EXACT_BYTES);
+        struct ceduo_run *run = run_option(&site.scene, &sides.options[0], ROCKS, 1, CEDUO_EXACT_BYTES);
         assert_int_equal(ceduo_run_arrivals(run, 0, &a), CEDUO_OK);
         ceduo_moments_add(&over, a.contacts);
         ceduo_moments_add(&errors, a.contacts_se);
@@ -331,18 +321,17 @@ TEST(a_longer_run_keeps_its_figures)
     open_sides();
     struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
     def.rocks_most = 1500;
-    struct ceduo_run *longer, *alone = run_of(&site.scene, &sides.options[1], 1500, 1, CEDUO_EXACT_BYTES);
-    struct ceduo_run *few[] = {run_of(&site.scene, &sides.options[0], 600, 1, CEDUO_EXACT_BYTES),
-                               run_of(&site.scene, &sides.options[1], 600, 1, CEDUO_EXACT_BYTES)};
+    struct ceduo_run *longer, *alone = run_option(&site.scene, &sides.options[1], 1500, 1, CEDUO_EXACT_BYTES);
+    struct ceduo_run *few[] = {run_option(&site.scene, &sides.options[0], 600, 1, CEDUO_EXACT_BYTES),
+                               run_option(&site.scene, &sides.options[1], 600, 1, CEDUO_EXACT_BYTES)};
     struct ceduo_pool *pool;
     struct ceduo_result *result;
-    struct ceduo_arrivals wanted;
     assert_int_equal(ceduo_pool_create(&def, &pool), CEDUO_OK);
     assert_int_equal(ceduo_pool_fill(pool), CEDUO_OK);
     assert_int_equal(ceduo_pool_extend(pool, 600), CEDUO_OK);
     assert_int_equal(ceduo_pool_simulate(pool, &sides.options[1], 1500, &longer), CEDUO_OK);
     assert_int_equal(ceduo_result_create(&site.scene, pool, &result), CEDUO_OK);
-    assert_int_equal(ceduo_run_arrivals(alone, 0, &wanted), CEDUO_OK);
+    struct ceduo_arrivals wanted = arrivals_of(alone, 0);
     EXPECT(result->bare.rocks, ==, 600);
     EXPECT(result->options[0].wooded.rocks, ==, 600);
     EXPECT(result->options[1].wooded.rocks, ==, 1500);
@@ -350,8 +339,7 @@ TEST(a_longer_run_keeps_its_figures)
     EXPECT(a->released, ==, 1500);
     EXPECT(a->reached, ==, wanted.reached);
     EXPECT(a->energy.mean, ==, wanted.energy.mean);
-    EXPECT(a->exceed_hi, ==, wanted.exceed_hi);
-    EXPECT(a->contacts, ==, wanted.contacts);
+    EXPECT_SAME(*a, wanted, exceed_hi, contacts);
     struct ceduo_difference d = result->options[1].differences[0], of_few = ceduo_run_difference(few[1], few[0], 0);
     EXPECT(d.energy_per_released.mean, <, 0);
     expect_exact("difference", d.energy_per_released.mean, of_few.energy_per_released.mean, 1e-9);
@@ -434,7 +422,7 @@ TEST(options_with_the_same_stems_share_a_run)
     work = ceduo_pool_work(pool);
     assert_int_equal(work.rocks, 3000);
     struct ceduo_run *run = ceduo_pool_find(pool, &options[0]);
-    struct ceduo_run *alone = run_of(&site.scene, &options[1], 1000, 1, CEDUO_EXACT_BYTES);
+    struct ceduo_run *alone = run_option(&site.scene, &options[1], 1000, 1, CEDUO_EXACT_BYTES);
     expect_same_bits(run, alone);
     ceduo_run_free(alone);
     ceduo_pool_free(pool);

@@ -74,9 +74,7 @@ TEST(hits_take_their_share)
     clear_plane(520);
     ceduo_rock_of_means(&plane.line.scene.rock, &rock);
     plant_inert(10, 510);
-    sweep_begin();
-    for (uint64_t number = 0; number < 500; number++) {
-        sweep_rock(number);
+    for (SWEEP(number, 500)) {
         EXPECT(sweep.way.end, !=, CEDUO_STOPPED_BY_STEMS);
         for (size_t i = 0; i < sweep.count; i++) {
             const struct ceduo_stem_passed *s = &sweep.stems[i];
@@ -87,7 +85,6 @@ TEST(hits_take_their_share)
             hits += s->hit;
         }
     }
-    sweep_end();
     EXPECT(hits, >, 10000);
 }
 
@@ -105,9 +102,7 @@ TEST(contacts_take_the_mean_share)
     double mean = mean_printed_share(), of_tree = mean * tree / (rock.mass + tree);
     double of_stool = mean * (.8 * thin / (rock.mass + thin) + .2 * thick / (rock.mass + thick));
     uint64_t found[2] = {0};
-    sweep_begin();
-    for (uint64_t number = 0; number < 300; number++) {
-        sweep_rock(number);
+    for (SWEEP(number, 300)) {
         for (size_t i = 0; i < sweep.count; i++) {
             double share = sweep.stems[i].taken / sweep.stems[i].before;
             bool is_tree = fabs(share - of_tree) < 1e-9;
@@ -116,7 +111,6 @@ TEST(contacts_take_the_mean_share)
             found[is_tree]++;
         }
     }
-    sweep_end();
     EXPECT(found[0], >, 1000);
     EXPECT(found[1], >, 1000);
 }
@@ -137,8 +131,7 @@ TEST(the_index_multiplies_shares)
     assert_false(i.exhausted);
     EXPECT_NEAR(i.residual, before * left - amount, 1e-3);
     struct ceduo_stand_result r = ceduo_assess_stand(&site.scene, &site.belts[0]);
-    assert_true(isnan(r.dissipated));
-    assert_true(isnan(r.energy_per_contact));
+    EXPECT_NAN(r.dissipated, r.energy_per_contact);
     EXPECT_NEAR(r.contacts, 67.5 / 1.9483462242414016, 1e-9);
     struct ceduo_belt first = site.belts[0];
     site.belts[0].stand = site.belts[1].stand;
@@ -166,9 +159,7 @@ TEST(stumps_are_met_as_low_trees)
         struct ceduo_belt *belt = plant_belt(10, 510, 0, 0);
         belt->stand.energy = CEDUO_DORREN;
         belt->stand.stumps = (struct ceduo_stumps){.per_ha = 900, .diameter = .25, .height = low ? .9 : 1.1, .energy = 1500};
-        sweep_begin();
-        for (uint64_t number = 0; number < 800; number++) {
-            sweep_rock(number);
+        for (SWEEP(number, 800)) {
             for (size_t i = 0; i < sweep.count; i++) {
                 const struct ceduo_stem_passed *s = &sweep.stems[i];
                 EXPECT(s->hit, ==, !low);
@@ -178,7 +169,6 @@ TEST(stumps_are_met_as_low_trees)
             if (!low)
                 spread_add(&met, (double)sweep.count / 500);
         }
-        sweep_end();
     }
     expect_mean("stumps per metre", &met, per_metre(900, B + .25));
 }
@@ -203,16 +193,13 @@ TEST(logs_are_met_as_buffons_needles)
     clear_plane(520);
     struct ceduo_belt *belt = plant_belt(10, 510, 0, 0);
     belt->stand.logs = (struct ceduo_logs){.per_ha = per_ha, .length = length, .diameter = 1.2, .energy = 700};
-    sweep_begin();
-    for (uint64_t number = 0; number < 2000; number++) {
-        sweep_rock(number);
+    for (SWEEP(number, 2000)) {
         spread_add(&met, (double)sweep.count / 500);
         if (number < 500)
             spread_add(&drawn, drawn_logs_per_metre(per_ha, length, rng));
         for (size_t i = 0; i < sweep.count; i++)
             expect_exact("taken", sweep.stems[i].taken, 700, 1e-12);
     }
-    sweep_end();
     gsl_rng_free(rng);
     expect_mean("logs per metre", &met, wanted);
     expect_mean("logs drawn", &drawn, wanted);
@@ -239,8 +226,7 @@ TEST(the_index_has_stumps_and_logs)
     EXPECT_NEAR(1 / r.adc.gsteiger_stems, 1 / before.adc.gsteiger_stems + stumps + logs, 1e-12);
     EXPECT_NEAR(r.dissipated, before.dissipated + 67.5 * (stumps * 3e3 + logs * 8e3), 1e-6);
     EXPECT(r.free_run_probability, ==, before.free_run_probability);
-    EXPECT(r.stumps_per_ha, ==, 500);
-    EXPECT(r.logs_per_ha, ==, 80);
+    EXPECT_IS(r, (stumps_per_ha, 500), (logs_per_ha, 80));
     assert_true(r.warnings & CEDUO_WARN_LOW);
     site.belts[0] = belt;
     site.scene.simulation.contact_dbh = .065; /* neither do the paper's stems */
@@ -258,8 +244,7 @@ TEST(the_index_has_stumps_and_logs)
     site.belts[1].from = site.belts[0].to;
     site.belts[1].to = 135;
     i = ceduo_assess_index(&site.scene, &site.option, &site.control, 1e6);
-    EXPECT(i.meet_nothing_probability, ==, 1);
-    EXPECT(i.longest_gap, ==, 135);
+    EXPECT_IS(i, (meet_nothing_probability, 1), (longest_gap, 135));
     EXPECT_NEAR(i.dissipated, 135 * (stumps * 3e3 + logs * 8e3), 1e-6);
     belt.stand.energy = CEDUO_INERTIA; /* of which there is nothing here */
     site.belts[0] = belt;
@@ -275,10 +260,8 @@ TEST(poisson_takes_stumps_and_logs)
     belt->stand.stumps = (struct ceduo_stumps){.per_ha = 500, .diameter = .2, .height = .1, .energy = 3e3};
     belt->stand.logs = (struct ceduo_logs){.per_ha = 80, .length = 6, .diameter = .3, .energy = 8e3};
     plane.line.scene.simulation.contact_model = CEDUO_POISSON;
-    sweep_begin();
-    for (uint64_t number = 0; number < 1000; number++) {
+    for (SWEEP(number, 1000)) {
         size_t n = 0, m = 0;
-        sweep_rock(number);
         for (size_t i = 0; i < sweep.count; i++) {
             n += fabs(sweep.stems[i].taken - 3e3) < 1e-6;
             m += fabs(sweep.stems[i].taken - 8e3) < 1e-6;
@@ -286,7 +269,6 @@ TEST(poisson_takes_stumps_and_logs)
         spread_add(&stumps, (double)n / 500);
         spread_add(&logs, (double)m / 500);
     }
-    sweep_end();
     expect_mean("stumps by poisson", &stumps, per_metre(500, B + .2));
     expect_mean("logs by poisson", &logs, per_metre(80, B + 12 / M_PI));
 }
@@ -358,7 +340,6 @@ TEST(free_runs_past_groups)
     gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
     for (size_t k = 0; k < LENGTH(cases); k++) {
         const struct group_case *c = &cases[k];
-        char what[80];
         uint64_t free = 0, flown = 0, strips = 100000, rocks = 10000;
         struct spread met = {0}, drawn = {0};
         clear_plane(120);
@@ -370,19 +351,15 @@ TEST(free_runs_past_groups)
             free += n == 0;
             spread_add(&drawn, n);
         }
-        snprintf(what, sizeof what, "%u trees in %g m, %g m drawn", c->n, c->radius, c->threshold);
-        expect_share(what, free, strips, wanted);
-        sweep_begin();
-        for (uint64_t number = 0; number < rocks; number++) {
+        expect_share(named("%u trees in %g m, %g m drawn", c->n, c->radius, c->threshold), free, strips, wanted);
+        for (SWEEP(number, rocks)) {
             size_t n = 0;
-            sweep_rock(number);
             for (size_t i = 0; i < sweep.count; i++)
                 n += sweep.stems[i].x >= 60 - c->threshold / 2 && sweep.stems[i].x <= 60 + c->threshold / 2;
             flown += n == 0;
             spread_add(&met, (double)n);
         }
-        sweep_end();
-        snprintf(what, sizeof what, "%u trees in %g m, flown", c->n, c->radius);
+        const char *what = named("%u trees in %g m, flown", c->n, c->radius);
         expect_share(what, flown, rocks, wanted);
         expect_mean(what, &met, c->threshold * per_metre(c->per_ha, B + TREE));
         expect_close(what, spread_variance(&met), spread_variance_se(&met), spread_variance(&drawn),
@@ -403,10 +380,8 @@ TEST(groups_keep_to_their_belt)
     plane.line.scene.release.x.mean = 0;
     struct ceduo_control end = {.x = 60, .accepted = NAN, .measured_speed = NAN};
     struct ceduo_index index = ceduo_assess_index(&plane.line.scene, &plane.line.option, &end, 1e5);
-    sweep_begin();
-    for (uint64_t number = 0; number < rocks; number++) {
+    for (SWEEP(number, rocks)) {
         size_t a = 0, b = 0;
-        sweep_rock(number);
         for (size_t i = 0; i < sweep.count; i++) {
             EXPECT(sweep.stems[i].x, >=, 20);
             EXPECT(sweep.stems[i].x, <=, 50);
@@ -420,7 +395,6 @@ TEST(groups_keep_to_their_belt)
         assert_int_equal(sweep.way.stools_met, sweep.count); /* each tree is one by itself */
         assert_int_equal(different(false), sweep.count);
     }
-    sweep_end();
     expect_mean("per metre", &all, per_metre(400, B + TREE));
     expect_mean("per metre at the first end", &first, per_metre(400, B + TREE));
     expect_mean("per metre at the last end", &last, per_metre(400, B + TREE));
@@ -435,10 +409,8 @@ TEST(groups_stand_around_the_release)
         clear_plane(120);
         plant_groups(10, 110, 400, 5, 6);
         line_scene_release(&plane.line, 60, 1, way * 1200., 0, 0);
-        sweep_begin();
-        for (uint64_t number = 0; number < 10000; number++) {
+        for (SWEEP(number, 10000)) {
             size_t n = 0;
-            sweep_rock(number);
             for (size_t i = 0; i < sweep.count; i++) {
                 double on = (sweep.stems[i].x - 60) * way;
                 EXPECT(on, >=, 0);
@@ -446,7 +418,6 @@ TEST(groups_stand_around_the_release)
             }
             spread_add(&met, (double)n / 8);
         }
-        sweep_end();
         expect_mean("per metre beside the release", &met, per_metre(400, B + TREE));
     }
     /* so many around it that drawing them pauses */
@@ -454,13 +425,10 @@ TEST(groups_stand_around_the_release)
     plant_groups(10, 110, 1e5, 200, 30);
     line_scene_release(&plane.line, 60, 1, -1200, 0, 0);
     struct spread met = {0};
-    sweep_begin();
-    for (uint64_t number = 0; number < 300; number++) {
-        sweep_rock(number);
+    for (SWEEP(number, 300)) {
         EXPECT(sweep.way.end, ==, CEDUO_LEFT_SLOPE);
         spread_add(&met, (double)sweep.count / 50);
     }
-    sweep_end();
     expect_mean("per metre behind the release, dense", &met, per_metre(1e5, B + TREE));
 }
 
@@ -478,14 +446,11 @@ TEST(limits_of_groups)
     EXPECT_NEAR(ceduo_assess_index(&plane.line.scene, &plane.line.option, &end, 1e5).meet_nothing_probability,
                 exp(-500 * rate / 5), 1e-12);
     EXPECT_NEAR(1 / r.adc_m, rate, 1e-12); /* contacts are those of single trees */
-    sweep_begin();
-    for (uint64_t number = 0; number < 200; number++) {
-        sweep_rock(number);
+    for (SWEEP(number, 200)) {
         EXPECT(sweep.count % 5, ==, 0);
         for (size_t i = 0; i < sweep.count; i++)
             EXPECT(sweep.stems[i].x, ==, sweep.stems[i - i % 5].x);
     }
-    sweep_end();
     belt->stand.trees[0].group_radius = 1e-4;
     EXPECT_NEAR(ceduo_assess_stand(&plane.line.scene, belt).free_run_probability, exp(-12 * rate / 5), 1e-4);
     belt->stand.trees[0].group_radius = 100;
@@ -507,10 +472,8 @@ TEST(groups_of_trees_that_differ)
     plant_shoots(belt, 900, .1); /* and stools among them, */
     belt->stand.stools_per_ha = 300;
     belt->stand.spacing = .4;
-    sweep_begin();
-    for (uint64_t number = 0; number < 2000; number++) {
+    for (SWEEP(number, 2000)) {
         size_t n = 0;
-        sweep_rock(number);
         for (size_t i = 0; i < sweep.count; i++) {
             n += !sweep.stems[i].shoot;
             EXPECT(fabs(sweep.stems[i].y), <=, (B + sweep.stems[i].dbh) / 2);
@@ -518,7 +481,6 @@ TEST(groups_of_trees_that_differ)
         }
         spread_add(&met, (double)n / 500);
     }
-    sweep_end();
     expect_mean("trees per metre", &met, per_metre(300, B + TREE));
 }
 
@@ -550,8 +512,7 @@ TEST(stumps_and_groups_over_the_years)
         unsigned since = year < 16 ? year + 4 : (year - 16) % 20;
         EXPECT(grown.stand.stumps.per_ha, ==, year == 0 || since < 7 ? 900 : 0);
         const struct ceduo_stems *last = &grown.stand.trees[grown.stand.trees_count - 1];
-        EXPECT(last->group, ==, 8);
-        EXPECT(last->group_radius, ==, 3);
+        EXPECT_IS(*last, (group, 8), (group_radius, 3));
         ceduo_grown_stand_release(&grown);
     }
     stand.growth.stump_years = 0;

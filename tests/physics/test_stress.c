@@ -16,8 +16,8 @@
 #include <string.h>
 
 #include "invariants.h"
+#include "runs.h"
 
-#define LENGTH(a)     (sizeof(a) / sizeof *(a))
 #define LASTING_EVERY 5000
 #define RUN_EVERY     64 /* scenes of which one is flown as a run, too */
 #define CONTROLS      5
@@ -63,16 +63,9 @@ static struct ceduo_trajectory expect_the_same_again(const struct line_scene *s,
     struct result a, b;
     follow(s, rock, &a);
     follow(s, rock, &b);
-    EXPECT(a.way.end, ==, b.way.end);
-    EXPECT(a.way.contacts, ==, b.way.contacts);
-    EXPECT(a.way.x, ==, b.way.x);
-    EXPECT(a.way.z, ==, b.way.z);
+    EXPECT_SAME(a.way, b.way, end, contacts, x, z);
     const struct ceduo_crossing *c = &a.crossing, *d = &b.crossing;
-    EXPECT(c->reached, ==, d->reached);
-    EXPECT(c->vx, ==, d->vx);
-    EXPECT(c->vz, ==, d->vz);
-    EXPECT(c->spin, ==, d->spin);
-    EXPECT(c->height, ==, d->height);
+    EXPECT_SAME(*c, *d, reached, vx, vz, spin, height);
     return a.way;
 }
 
@@ -112,17 +105,15 @@ static void expect_counts(const struct line_scene *s)
     struct ceduo_run_def def = ceduo_run_def_default(&scene);
     def.rocks_most = run_rocks;
     struct ceduo_run *run;
-    struct ceduo_ends ends;
     assert_int_equal(ceduo_run_create(&def, &run), CEDUO_OK);
     assert_int_equal(ceduo_run_extend(run, run_rocks), CEDUO_OK);
-    assert_int_equal(ceduo_run_ends(run, &ends), CEDUO_OK);
+    struct ceduo_ends ends = ends_of(run);
     uint64_t sum = 0, before = run_rocks;
     for (int i = 0; i < CEDUO_ENDS; i++)
         sum += ends.count[i];
     assert_int_equal(sum, run_rocks);
     for (size_t i = 0; i < n; i++) {
-        struct ceduo_arrivals a;
-        assert_int_equal(ceduo_run_arrivals(run, i, &a), CEDUO_OK);
+        struct ceduo_arrivals a = arrivals_of(run, i);
         EXPECT(a.released, ==, run_rocks);
         EXPECT(a.reached, <=, before);
         EXPECT(a.exceeded, <=, a.reached);
@@ -173,7 +164,7 @@ TEST(random_scenes)
 static struct line_scene s;
 static const struct line_ground earth = {.rn = .35, .rt = .85, .friction = .5};
 
-/* Sets the profile; the rest with release(), then look(). */
+/* Sets the profile; the rest with look(). */
 static void profile(size_t vertices, const double *x, const double *z, struct line_ground ground, double radius)
 {
     line_scene_init(&s, vertices, x, z, ground, radius, CEDUO_LAW_LUMPED);
@@ -184,11 +175,12 @@ static void release(double x, double height, double vx, double vz)
     line_scene_release(&s, x, height, vx, vz, 0);
 }
 
-/* Both laws, facets to either side, smooth and rough. */
-static void look(void)
+/* From a release: both laws, facets to either side, smooth and rough. */
+static void look(double from, double height, double vx, double vz)
 {
     struct invariants_tally t = {0};
     uint64_t number = 0;
+    release(from, height, vx, vz);
     double end = s.x[s.scene.slope.vertices - 1], x = s.scene.release.x.mean;
     s.control = (struct ceduo_control){.x = x + .75 * (end - x), .accepted = NAN, .measured_speed = NAN};
     s.scene.controls_count = s.control.x > x;
@@ -213,13 +205,11 @@ TEST(grazing_contacts)
     for (double v = 1e-3; v < 100; v *= 10) {
         for (double height = 1e-15; height < 1; height *= 1e3) {
             profile(4, x, z, earth, .3);
-            release(1, height, v, -.5 * v);
-            look();
+            look(1, height, v, -.5 * v);
         }
         for (int ulps = -2; ulps <= 2; ulps++) { /* along the ground but for the last bits */
             profile(4, x, z, earth, .3);
-            release(1, 0, v, -.5 * v * (1 + ulps * 0x1p-52));
-            look();
+            look(1, 0, v, -.5 * v * (1 + ulps * 0x1p-52));
         }
     }
 }
@@ -230,8 +220,7 @@ TEST(launch_at_a_vertex)
     for (size_t i = 0; i < LENGTH(x) - 1; i++)
         for (int turn = 0; turn < 16; turn++) {
             profile(LENGTH(x), x, z, earth, .3);
-            release(x[i], 0, 4 * cos(turn * M_PI / 8), 4 * sin(turn * M_PI / 8));
-            look();
+            look(x[i], 0, 4 * cos(turn * M_PI / 8), 4 * sin(turn * M_PI / 8));
         }
 }
 
@@ -244,8 +233,7 @@ TEST(flights_through_a_vertex_to_the_last_bit)
             const double x[] = {0, .5, 1, 1.5, 20}, z[] = {4, peak ? 0 : 4 - 1.5, at - 4, -6, -30};
             profile(5, x, z, earth, .05);
             s.scene.simulation.gravity = 8;
-            release(0, 0, 1, 0);
-            look();
+            look(0, 0, 1, 0);
         }
 }
 
@@ -257,11 +245,9 @@ TEST(corners_of_one_degree)
     for (double r = 1e-3; r <= 1; r *= 10)
         for (double v = .5; v < 20; v *= 3) {
             profile(5, notch_x, notch_z, earth, r);
-            release(9, .5, v, 0);
-            look();
+            look(9, .5, v, 0);
             profile(5, peak_x, peak_z, earth, r);
-            release(9, 1, v, 14);
-            look();
+            look(9, 1, v, 14);
         }
 }
 
@@ -271,11 +257,9 @@ TEST(walls_all_but_upright)
         const double x[] = {0, 5, 5 + run, 20, 20 + run, 40}, z[] = {0, -2, -102, -104, -54, -60};
         for (double v = 1e-3; v < 100; v *= 10) {
             profile(6, x, z, earth, .3);
-            release(4, 0, v, 0);
-            look();
+            look(4, 0, v, 0);
             profile(6, x, z, earth, .3);
-            release(19, 30, v, 3);
-            look();
+            look(19, 30, v, 3);
         }
     }
 }
@@ -290,8 +274,7 @@ TEST(slivers)
         }
         for (double v = 1e-3; v < 100; v *= 10) {
             profile(41, x, z, earth, .3);
-            release(.5, .2, v, 0);
-            look();
+            look(.5, .2, v, 0);
         }
     }
 }
@@ -302,11 +285,9 @@ TEST(large_coordinates)
         const double x[] = {0, .3 * size, .31 * size, .9 * size, size};
         const double z[] = {0, -.25 * size, -.24 * size, -.6 * size, -.61 * size};
         profile(5, x, z, earth, .3);
-        release(.299 * size, 1, 5, 0);
-        look();
+        look(.299 * size, 1, 5, 0);
         profile(5, x, z, earth, .3);
-        release(size - 3, 1, -5, 0);
-        look();
+        look(size - 3, 1, -5, 0);
     }
 }
 
@@ -316,8 +297,7 @@ TEST(little_and_much_gravity)
     for (double g = 1e-3; g <= 1e3; g *= 10) {
         profile(5, x, z, earth, .3);
         s.scene.simulation.gravity = g;
-        release(1, 2, 1, 0);
-        look();
+        look(1, 2, 1, 0);
     }
 }
 
@@ -329,8 +309,7 @@ TEST(shares_of_none_and_all)
     for (int rn = 0; rn < 2; rn++)
         for (int rt = 0; rt < 2; rt++) {
             profile(4, x, z, (struct line_ground){rn, rt, .5}, .3);
-            release(1, 2, 1, 0);
-            look();
+            look(1, 2, 1, 0);
         }
     run_rocks = 40;
 }
@@ -340,8 +319,7 @@ TEST(small_and_large_rocks)
     const double x[] = {0, 10, 20, 40, 60}, z[] = {0, -8, -12, -30, -31};
     for (double r = 1e-3; r <= 100; r *= 10) {
         profile(5, x, z, earth, r);
-        release(1, .2, 1, 0);
-        look();
+        look(1, .2, 1, 0);
     }
 }
 
@@ -351,19 +329,16 @@ TEST(slow_and_fast_rocks)
     for (double v = 1e-12; v <= 1e3; v *= 10)
         for (int turn = 0; turn < 8; turn++) {
             profile(5, x, z, earth, .3);
-            release(15, turn & 1 ? .5 : 0, v * cos(turn * M_PI / 4), v * sin(turn * M_PI / 4));
-            look();
+            look(15, turn & 1 ? .5 : 0, v * cos(turn * M_PI / 4), v * sin(turn * M_PI / 4));
         }
     by_design = FE_OVERFLOW | FE_INVALID;
     static const double tiny[] = {0, 5e-324, 1e-310, 1e-300, 1e-200, 1e-150};
     for (size_t i = 0; i < LENGTH(tiny); i++)
         for (int side = -1; side <= 1; side += 2) {
             profile(5, x, z, earth, .3);
-            release(15, .5, side * tiny[i], 0);
-            look();
+            look(15, .5, side * tiny[i], 0);
             profile(5, x, z, earth, .3);
-            release(20, 0, side * tiny[i], 1);
-            look();
+            look(20, 0, side * tiny[i], 1);
         }
     by_design = 0;
 }
@@ -397,9 +372,7 @@ TEST(rebounds_without_end)
     release(5, 2, 0, 0);
     struct result r;
     follow(&s, 0, &r);
-    EXPECT(r.way.end, ==, CEDUO_UNFINISHED);
-    EXPECT(r.way.contacts, ==, CEDUO_CONTACTS_MOST);
-    EXPECT(r.way.x, ==, 5);
+    EXPECT_IS(r.way, (end, CEDUO_UNFINISHED), (contacts, CEDUO_CONTACTS_MOST), (x, 5));
 }
 
 /* Random scenes in which a rock goes to and fro in a crack of 12 or 42 micrometres, or of 8 nanometres where it hops along one
@@ -429,11 +402,9 @@ TEST(pits)
                 const double x[] = {0, 5, 5 + width, 5 + width + bottom + 1e-3, 6 + 2 * width + bottom, 40};
                 const double z[] = {0, -1, -1 - depth, -1 - depth, -1, -5};
                 profile(6, x, z, earth, .3);
-                release(4, .1, 2, 0);
-                look();
+                look(4, .1, 2, 0);
                 profile(6, x, z, (struct line_ground){.2, .99, 0}, .3);
-                release(5 + width, 0, 0, 0);
-                look();
+                look(5 + width, 0, 0, 0);
             }
 }
 
@@ -450,8 +421,7 @@ TEST(noise_of_every_size)
                     z[i] = -.7 * x[i] + height * (style ? (double)(i % 2) : line_uniform(&random, -1, 1));
                 }
                 profile(LINE_SEGMENTS_MOST + 1, x, z, earth, radius);
-                release(scale * 3.3, .1, 2, 0);
-                look();
+                look(scale * 3.3, .1, 2, 0);
             }
 }
 

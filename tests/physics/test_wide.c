@@ -12,6 +12,7 @@
 #include "full.h"
 #include "line_scene.h"
 #include "paper_site.h"
+#include "runs.h"
 
 #define SCENES        FULL_OR(1200u, 600u)
 #define LASTING_EVERY 600 /* scenes of which one may go on for ever */
@@ -33,9 +34,8 @@ static void expect_same_bits(const char *scene, const char *what, const void *a,
 
 static void compare_control(const char *scene, const struct ceduo_run *a, const struct ceduo_run *b, size_t control)
 {
-    struct ceduo_arrivals p, q;
-    assert_int_equal(ceduo_run_arrivals(a, control, &p), CEDUO_OK);
-    assert_int_equal(ceduo_run_arrivals(b, control, &q), CEDUO_OK);
+    struct ceduo_arrivals p = arrivals_of(a, control);
+    struct ceduo_arrivals q = arrivals_of(b, control);
     expect_same_bits(scene, "arrivals", &p, &q, offsetof(struct ceduo_arrivals, exact));
     assert_int_equal(p.exact, q.exact);
     static double energies[2][5000];
@@ -68,14 +68,13 @@ static void compare(const char *scene, const struct ceduo_run *a, const struct c
         fail_msg("%s: %ju contacts, scalar %ju", scene, (uintmax_t)ceduo_run_contacts(b), (uintmax_t)ceduo_run_contacts(a));
     struct ceduo_stem_counts s = ceduo_run_stems(a), t = ceduo_run_stems(b);
     expect_same_bits(scene, "stems", &s, &t, sizeof s);
-    struct ceduo_ends e, f;
-    assert_int_equal(ceduo_run_ends(a, &e), CEDUO_OK);
-    assert_int_equal(ceduo_run_ends(b, &f), CEDUO_OK);
+    struct ceduo_ends e = ends_of(a);
+    struct ceduo_ends f = ends_of(b);
     expect_same_bits(scene, "ends", &e, &f, sizeof e);
     compare_places(scene, a, b, def);
 }
 
-static struct ceduo_run *run_of(struct ceduo_run_def def, enum ceduo_kernel kernel, uint64_t first, uint64_t rocks)
+static struct ceduo_run *run_with(struct ceduo_run_def def, enum ceduo_kernel kernel, uint64_t first, uint64_t rocks)
 {
     struct ceduo_run *run;
     def.kernel = kernel;
@@ -92,11 +91,10 @@ static uint64_t expect_same_arrivals(const char *scene, const struct ceduo_run *
 {
     struct ceduo_run_def short_def = *def;
     short_def.arrivals_only = true;
-    struct ceduo_run *run = run_of(short_def, kernel, ceduo_run_rocks(whole), ceduo_run_rocks(whole));
+    struct ceduo_run *run = run_with(short_def, kernel, ceduo_run_rocks(whole), ceduo_run_rocks(whole));
     EXPECT(ceduo_run_contacts(run), <=, ceduo_run_contacts(whole));
     compare_places(scene, whole, run, def);
-    struct ceduo_ends ends;
-    assert_int_equal(ceduo_run_ends(run, &ends), CEDUO_OK);
+    struct ceduo_ends ends = ends_of(run);
     EXPECT(ends.count[CEDUO_LEFT_SLOPE], ==, 0);
     assert_true(isnan(ends.stop_max));
     uint64_t saved = ceduo_run_contacts(whole) - ceduo_run_contacts(run);
@@ -111,10 +109,10 @@ static uint64_t expect_same(const char *scene, const struct ceduo_run_def *def, 
 {
     struct ceduo_run_def one = *def;
     one.threads = 1;
-    struct ceduo_run *scalar = run_of(one, CEDUO_KERNEL_SCALAR, rocks, rocks);
+    struct ceduo_run *scalar = run_with(one, CEDUO_KERNEL_SCALAR, rocks, rocks);
     static unsigned long times; /* the best is one of the others: now and then is enough */
     for (size_t i = times++ % 8 > 0; i < WIDE; i++) {
-        struct ceduo_run *other = run_of(*def, wide[i], first, rocks);
+        struct ceduo_run *other = run_with(*def, wide[i], first, rocks);
         compare(scene, scalar, other, def);
         ceduo_run_free(other);
     }
@@ -411,7 +409,7 @@ TEST(a_raised_flag_is_seen_by_rocks_under_way)
         assert_int_equal(ceduo_run_contacts(run), 0);
         flag = false;
         assert_int_equal(ceduo_run_extend(run, 3), CEDUO_OK);
-        struct ceduo_run *scalar = run_of(def, CEDUO_KERNEL_SCALAR, 3, 3);
+        struct ceduo_run *scalar = run_with(def, CEDUO_KERNEL_SCALAR, 3, 3);
         compare("after a flag", scalar, run, &def);
         assert_int_equal(ceduo_run_contacts(run), 3 * CEDUO_CONTACTS_MOST);
         ceduo_run_free(scalar);

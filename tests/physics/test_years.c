@@ -9,6 +9,7 @@
 #include "ceduo/ceduo.h"
 #include "ceduo/years.h"
 #include "paper_site.h"
+#include "runs.h"
 
 #define ROCKS    1300 /* more than a block */
 #define BELTS    3
@@ -79,6 +80,14 @@ static void init(void)
     scene->options_count = 1;
 }
 
+/* Before each test. */
+static int fresh(void **state)
+{
+    (void)state;
+    init();
+    return 0;
+}
+
 static struct ceduo_pool *pool_of(unsigned threads, const atomic_bool *cancel)
 {
     struct ceduo_run_def def = ceduo_run_def_default(&wood.site.scene);
@@ -99,20 +108,9 @@ static struct ceduo_years *grown(unsigned first, unsigned last, unsigned step)
     return years;
 }
 
-static struct ceduo_run *run_of(const struct ceduo_option *option, uint64_t rocks)
-{
-    struct ceduo_run_def def = ceduo_run_def_default(&wood.site.scene);
-    def.option = option;
-    def.rocks_most = rocks;
-    struct ceduo_run *run;
-    assert_int_equal(ceduo_run_create(&def, &run), CEDUO_OK);
-    assert_int_equal(ceduo_run_extend(run, rocks), CEDUO_OK);
-    return run;
-}
-
 static struct ceduo_simulated bare_of(uint64_t rocks)
 {
-    struct ceduo_run *run = run_of(NULL, rocks);
+    struct ceduo_run *run = run_option(&wood.site.scene, NULL, rocks, 1, CEDUO_EXACT_BYTES);
     struct ceduo_simulated bare;
     assert_int_equal(ceduo_simulated_read(run, CONTROLS, &bare), CEDUO_OK);
     ceduo_run_free(run);
@@ -139,83 +137,49 @@ static void expect_same(const char *what, double a, double b)
         fail_msg("%s: %.17g is not %.17g", what, a, b);
 }
 
+/* Numbers of the same places in two structures, each the same to the bit. */
+#define EXPECT_FIELD_BITS_IN(a, b, field) expect_same(#field, (a)->field, (b)->field);
+#define EXPECT_FIELD_BITS(both, field)    WITH_UNWRAPPED(EXPECT_FIELD_BITS_IN, UNWRAP both, field)
+#define EXPECT_BITS(a, b, ...)                                                                                                 \
+    do {                                                                                                                       \
+        EACH(EXPECT_FIELD_BITS, (a, b), __VA_ARGS__)                                                                           \
+    } while (0)
+
 static void expect_same_distribution(const struct ceduo_distribution *a, const struct ceduo_distribution *b)
 {
-    expect_same("mean", a->mean, b->mean);
-    expect_same("se", a->se, b->se);
-    expect_same("sd", a->sd, b->sd);
-    expect_same("p50", a->p50, b->p50);
-    expect_same("p95", a->p95, b->p95);
-    expect_same("p95_lo", a->p95_lo, b->p95_lo);
-    expect_same("p95_hi", a->p95_hi, b->p95_hi);
-    expect_same("p99", a->p99, b->p99);
-    expect_same("max", a->max, b->max);
+    EXPECT_BITS(a, b, mean, se, sd, p50, p95, p95_lo, p95_hi, p99, max);
 }
 
 static void expect_same_arrivals(const struct ceduo_arrivals *a, const struct ceduo_arrivals *b)
 {
-    EXPECT(a->released, ==, b->released);
-    EXPECT(a->reached, ==, b->reached);
-    EXPECT(a->exceeded, ==, b->exceeded);
-    EXPECT(a->unfinished, ==, b->unfinished);
-    EXPECT(a->exact, ==, b->exact);
-    expect_same("reach", a->reach_probability, b->reach_probability);
-    expect_same("reach_lo", a->reach_lo, b->reach_lo);
-    expect_same("reach_hi", a->reach_hi, b->reach_hi);
-    expect_same("exceed", a->exceed_probability, b->exceed_probability);
-    expect_same("exceed_lo", a->exceed_lo, b->exceed_lo);
-    expect_same("exceed_hi", a->exceed_hi, b->exceed_hi);
+    EXPECT_SAME(*a, *b, released, reached, exceeded, unfinished, exact);
+    EXPECT_BITS(a, b, reach_probability, reach_lo, reach_hi, exceed_probability, exceed_lo, exceed_hi);
     expect_same_distribution(&a->speed, &b->speed);
     expect_same_distribution(&a->energy, &b->energy);
     expect_same_distribution(&a->translation, &b->translation);
     expect_same_distribution(&a->height, &b->height);
-    expect_same("energy a released rock", a->energy_per_released, b->energy_per_released);
-    expect_same("its error", a->energy_per_released_se, b->energy_per_released_se);
-    expect_same("contacts", a->contacts, b->contacts);
-    expect_same("contacts_se", a->contacts_se, b->contacts_se);
+    EXPECT_BITS(a, b, energy_per_released, energy_per_released_se, contacts, contacts_se);
 }
 
 static void expect_same_ends(const struct ceduo_ends *a, const struct ceduo_ends *b)
 {
     assert_memory_equal(a->count, b->count, sizeof a->count);
-    expect_same("stop_p50", a->stop_p50, b->stop_p50);
-    expect_same("stop_p95", a->stop_p95, b->stop_p95);
-    expect_same("stop_max", a->stop_max, b->stop_max);
+    EXPECT_BITS(a, b, stop_p50, stop_p95, stop_max);
 }
 
 static void expect_same_index(const struct ceduo_index *a, const struct ceduo_index *b)
 {
-    expect_same("length", a->length, b->length);
-    expect_same("gap", a->longest_gap, b->longest_gap);
-    expect_same("contacts", a->contacts, b->contacts);
-    expect_same("dissipated", a->dissipated, b->dissipated);
-    expect_same("meet nothing", a->meet_nothing_probability, b->meet_nothing_probability);
-    expect_same("worst ADC", a->worst_adc, b->worst_adc);
-    expect_same("worst free run", a->worst_free_run, b->worst_free_run);
-    expect_same("residual", a->residual, b->residual);
-    expect_same("measured", a->measured, b->measured);
-    EXPECT(a->exhausted, ==, b->exhausted);
-    EXPECT(a->contact, ==, b->contact);
-    EXPECT(a->free_run, ==, b->free_run);
-    EXPECT(a->energy, ==, b->energy);
+    EXPECT_BITS(a, b, length, longest_gap, contacts, dissipated, meet_nothing_probability, worst_adc, worst_free_run, residual,
+                measured);
+    EXPECT_SAME(*a, *b, exhausted, contact, free_run, energy);
 }
 
 static void expect_same_stand(const struct ceduo_stand_result *a, const struct ceduo_stand_result *b)
 {
-    expect_same("length", a->length, b->length);
-    expect_same("stems", a->stems_per_ha, b->stems_per_ha);
-    expect_same("stools", a->stools_per_ha, b->stools_per_ha);
-    expect_same("trees", a->trees_per_ha, b->trees_per_ha);
-    expect_same("basal area", a->basal_area, b->basal_area);
-    expect_same("ADC", a->adc_m, b->adc_m);
-    expect_same("free run", a->free_run_probability, b->free_run_probability);
-    expect_same("contacts", a->contacts, b->contacts);
-    expect_same("energy", a->energy_per_contact, b->energy_per_contact);
-    expect_same("dissipated", a->dissipated, b->dissipated);
-    EXPECT(a->bare, ==, b->bare);
+    EXPECT_BITS(a, b, length, stems_per_ha, stools_per_ha, trees_per_ha, basal_area, adc_m, free_run_probability, contacts,
+                energy_per_contact, dissipated);
     assert_true(a->bare || a->rule == b->rule);
-    EXPECT(a->passes_threshold, ==, b->passes_threshold);
-    EXPECT(a->warnings, ==, b->warnings);
+    EXPECT_SAME(*a, *b, bare, passes_threshold, warnings);
 }
 
 static void expect_same_year(const struct ceduo_year *a, const struct ceduo_year *b)
@@ -254,7 +218,7 @@ static void expect_direct(const struct ceduo_year *y, const struct ceduo_simulat
     EXPECT(y->cut, ==, cut);
     EXPECT(y->option.belts_count, ==, BELTS);
     struct ceduo_option option = {.belts_count = BELTS, .belts = belts};
-    struct ceduo_run *run = run_of(&option, ROCKS);
+    struct ceduo_run *run = run_option(&wood.site.scene, &option, ROCKS, 1, CEDUO_EXACT_BYTES);
     struct ceduo_simulated direct;
     assert_int_equal(ceduo_simulated_read(run, CONTROLS, &direct), CEDUO_OK);
     EXPECT(y->wooded.rocks, ==, ROCKS);
@@ -276,9 +240,8 @@ static void expect_direct(const struct ceduo_year *y, const struct ceduo_simulat
         ceduo_grown_stand_release(&stands[i]);
 }
 
-TEST(years_are_runs_of_their_own)
+TEST_WITH(years_are_runs_of_their_own, fresh, NULL)
 {
-    init();
     struct ceduo_simulated bare = bare_of(ROCKS);
     struct ceduo_years *years = flown(0, 26, 1, 2, ROCKS);
     assert_int_equal(years->count, 27);
@@ -293,9 +256,8 @@ TEST(years_are_runs_of_their_own)
     ceduo_simulated_free(&bare);
 }
 
-TEST(poisson_too)
+TEST_WITH(poisson_too, fresh, NULL)
 {
-    init();
     wood.site.scene.simulation.contact_model = CEDUO_POISSON;
     struct ceduo_simulated bare = bare_of(ROCKS);
     struct ceduo_years *years = flown(0, 13, 4, 1, ROCKS);
@@ -305,9 +267,8 @@ TEST(poisson_too)
     ceduo_simulated_free(&bare);
 }
 
-TEST(year_0_is_the_result)
+TEST_WITH(year_0_is_the_result, fresh, NULL)
 {
-    init();
     struct ceduo_pool *pool = pool_of(1, NULL);
     struct ceduo_result *result;
     assert_int_equal(ceduo_pool_fill(pool), CEDUO_OK);
@@ -328,9 +289,8 @@ TEST(year_0_is_the_result)
     ceduo_pool_free(pool);
 }
 
-TEST(steps_and_stretches_pick_from_all)
+TEST_WITH(steps_and_stretches_pick_from_all, fresh, NULL)
 {
-    init();
     struct ceduo_years *all = flown(0, 20, 1, 1, 300);
     static const unsigned stretches[][3] = {{3, 3, 1}, {2, 20, 6}, {0, 19, 7}, {5, 6, 50}};
     for (size_t k = 0; k < sizeof stretches / sizeof stretches[0]; k++) {
@@ -346,9 +306,8 @@ TEST(steps_and_stretches_pick_from_all)
     ceduo_years_free(all);
 }
 
-TEST(threads_and_steps_change_nothing)
+TEST_WITH(threads_and_steps_change_nothing, fresh, NULL)
 {
-    init();
     struct ceduo_years *one = flown(0, 5, 1, 1, 3000), *two = flown(0, 5, 1, 2, 3000), *steps = grown(0, 5, 1);
     struct ceduo_pool *pool = pool_of(2, NULL);
     struct ceduo_simulated bare = bare_of(3000);
@@ -366,9 +325,8 @@ TEST(threads_and_steps_change_nothing)
     ceduo_years_free(steps);
 }
 
-TEST(a_wood_is_flown_once)
+TEST_WITH(a_wood_is_flown_once, fresh, NULL)
 {
-    init();
     wood.belts[1].stand.cutting.cohorts = 1;
     wood.belts[1].cut_year = 7;
     struct ceduo_years *years = grown(0, 40, 1);
@@ -443,12 +401,8 @@ static void expect_sum(const struct ceduo_years *years, size_t c)
     }
     if (c == years->last_control) /* each rock goes through all years: the error is that of its own mean */
         *(isnan(exceed) ? &reach_se : &exceed_se) = se_by_hand(years, c, 400);
-    EXPECT(s.years, ==, years->count);
-    EXPECT(s.flown, ==, years->count);
-    EXPECT(s.worst_year, ==, worst_year);
-    EXPECT(s.unprotected_contact, ==, contact);
-    EXPECT(s.unprotected_free_run, ==, free_run);
-    EXPECT(s.unprotected_energy, ==, light);
+    EXPECT_IS(s, (years, years->count), (flown, years->count), (worst_year, worst_year), (unprotected_contact, contact),
+              (unprotected_free_run, free_run), (unprotected_energy, light));
     expect_same("worst", s.worst, worst);
     const double pairs[][2] = {{s.reach.mean, reach},
                                {s.reach.se, reach_se},
@@ -488,7 +442,7 @@ TEST(more_rocks_than_are_paired)
     wood.site.scene.controls_count = 1;
     wood.controls[0].x = wood.controls[0].x_given = 1;
     wood.controls[0].accepted = 7e3;
-    struct ceduo_run *first = run_of(NULL, CEDUO_PAIRED_ROCKS);
+    struct ceduo_run *first = run_option(&wood.site.scene, NULL, CEDUO_PAIRED_ROCKS, 1, CEDUO_EXACT_BYTES);
     struct ceduo_brief brief = ceduo_run_brief(first, 0);
     ceduo_run_free(first);
     struct ceduo_years *years = grown(0, 0, 1);
@@ -525,7 +479,7 @@ TEST(years_of_blocks)
             marks[i][r] = 0;
         for (size_t y = 0; y < years[i]->count; y++) {
             double energies[FEW];
-            struct ceduo_run *run = run_of(&years[i]->years[y].option, FEW);
+            struct ceduo_run *run = run_option(&wood.site.scene, &years[i]->years[y].option, FEW, 1, CEDUO_EXACT_BYTES);
             assert_true(ceduo_run_values(run, years[i]->last_control, CEDUO_SAMPLE_ENERGY, energies));
             for (size_t r = 0; r < FEW; r++) {
                 marks[i][r] += (energies[r] > 50e3) / 3.;
@@ -556,9 +510,8 @@ TEST(years_of_blocks)
     ceduo_years_free(years[1]);
 }
 
-TEST(metres_felled)
+TEST_WITH(metres_felled, fresh, NULL)
 {
-    init();
     double whole = 0;
     for (int i = 0; i < BELTS; i++) { /* all three alike, each in a year of its own */
         wood.belts[i].stand = wood.belts[0].stand;
@@ -580,9 +533,8 @@ TEST(metres_felled)
     ceduo_years_free(years);
 }
 
-TEST(by_the_index_alone)
+TEST_WITH(by_the_index_alone, fresh, NULL)
 {
-    init();
     wood.site.scene.simulation.contact_model = CEDUO_INDEX;
     struct ceduo_years *years = grown(0, 15, 1);
     struct ceduo_pool *pool = pool_of(1, NULL);
@@ -601,23 +553,17 @@ TEST(by_the_index_alone)
         }
     }
     struct ceduo_years_summary s = ceduo_years_sum(years, 1);
-    EXPECT(s.years, ==, 16);
-    EXPECT(s.flown, ==, 0);
-    EXPECT(s.worst_year, ==, worst_year);
-    EXPECT(s.worst, ==, worst);
+    EXPECT_IS(s, (years, 16), (flown, 0), (worst_year, worst_year), (worst, worst));
     EXPECT(worst_year, ==, 4);
-    assert_true(isnan(s.reach.mean));
-    assert_true(isnan(s.exceed.mean));
-    assert_true(isnan(s.passes_per_year));
+    EXPECT_NAN(s.reach.mean, s.exceed.mean, s.passes_per_year);
     EXPECT(s.unprotected_energy, ==, 0);
     ceduo_simulated_free(&bare);
     ceduo_pool_free(pool);
     ceduo_years_free(years);
 }
 
-TEST(no_forest_is_the_bare_run)
+TEST_WITH(no_forest_is_the_bare_run, fresh, NULL)
 {
-    init();
     wood.option.belts_count = 0;
     struct ceduo_simulated bare = bare_of(500);
     struct ceduo_years *years = flown(0, 3, 1, 1, 500);
@@ -635,9 +581,8 @@ TEST(no_forest_is_the_bare_run)
     ceduo_years_free(NULL);
 }
 
-TEST(nothing_is_hit_in_a_bare_year)
+TEST_WITH(nothing_is_hit_in_a_bare_year, fresh, NULL)
 {
-    init();
     wood.option.belts_count = 1;
     wood.belts[0].stand.cutting.stay_count = 0;
     struct ceduo_years *years = flown(3, 5, 1, 1, 200);
@@ -652,16 +597,12 @@ TEST(nothing_is_hit_in_a_bare_year)
 static void expect_window(enum ceduo_window_kind kind, unsigned first, unsigned last)
 {
     struct ceduo_window w = ceduo_window_of(&wood.option);
-    EXPECT(w.kind, ==, kind);
-    EXPECT(w.first, ==, first);
-    EXPECT(w.last, ==, last);
-    EXPECT(w.step, ==, 1);
+    EXPECT_IS(w, (kind, kind), (first, first), (last, last), (step, 1));
 }
 
 /* One whole rotation from the year on in which all belts have been cut; the scene may name others. */
-TEST(whole_rotations)
+TEST_WITH(whole_rotations, fresh, NULL)
 {
-    init();
     expect_window(CEDUO_WINDOW_ROTATION, 10, 10 + ROTATION - 1); /* the selection coppice's first cut: 10 */
     wood.belts[0].cut_year = 40;
     expect_window(CEDUO_WINDOW_ROTATION, 40, 40 + ROTATION - 1);
@@ -677,16 +618,13 @@ TEST(whole_rotations)
     wood.site.scene.year_first = 3;
     wood.site.scene.year_last = NAN;
     struct ceduo_window w = ceduo_window_in(&wood.site.scene, &wood.option);
-    EXPECT(w.kind, ==, CEDUO_WINDOW_GIVEN);
-    EXPECT(w.first, ==, 3);
-    EXPECT(w.last, ==, 3 + 2 * ROTATION - 1);
+    EXPECT_IS(w, (kind, CEDUO_WINDOW_GIVEN), (first, 3), (last, 3 + 2 * ROTATION - 1));
     wood.site.scene.year_last = 5;
     w = ceduo_window_in(&wood.site.scene, &wood.option);
     EXPECT(w.last, ==, 5);
     wood.site.scene.year_last = 2; /* before the first: that year alone */
     w = ceduo_window_in(&wood.site.scene, &wood.option);
-    EXPECT(w.first, ==, 3);
-    EXPECT(w.last, ==, 3);
+    EXPECT_IS(w, (first, 3), (last, 3));
     wood.site.scene.year_last = 3 + CEDUO_YEARS_MOST - 1;
     EXPECT(ceduo_window_in(&wood.site.scene, &wood.option).step, ==, 1);
     wood.site.scene.year_last = 48700;
@@ -716,9 +654,8 @@ static void count_run(void *context, uint64_t rocks)
         atomic_store(&stop->cancel, true);
 }
 
-TEST(it_can_be_cancelled_and_goes_on)
+TEST_WITH(it_can_be_cancelled_and_goes_on, fresh, NULL)
 {
-    init();
     struct ceduo_years *whole = flown(0, 8, 1, 2, ROCKS);
     struct ceduo_simulated bare = bare_of(ROCKS);
     for (unsigned after = 0; after < 10; after += 3) {
@@ -750,9 +687,8 @@ TEST(it_can_be_cancelled_and_goes_on)
     ceduo_years_free(whole);
 }
 
-TEST(not_flown_it_is_freed)
+TEST_WITH(not_flown_it_is_freed, fresh, NULL)
 {
-    init();
     struct ceduo_years *years = grown(0, 500, 1);
     assert_int_equal(years->count, 501);
     ceduo_years_free(years);

@@ -1,0 +1,98 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "frame.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <time.h>
+
+void fail(const char *why)
+{
+    fprintf(stderr, "%s: %s\n", program_invocation_short_name, why);
+    exit(1);
+}
+
+uint64_t argument(char **argv, int i, uint64_t usual, uint64_t least, uint64_t most)
+{
+    for (int k = 0; k <= i; k++)
+        if (!argv[k])
+            return usual;
+    char *end;
+    unsigned long long value = strtoull(argv[i], &end, 10);
+    if (*end != '\0' || value < least || value > most) {
+        fprintf(stderr, "%s: argument %d is a whole number from %llu to %llu\n", program_invocation_short_name, i,
+                (unsigned long long)least, (unsigned long long)most);
+        exit(2);
+    }
+    return value;
+}
+
+double processor_s(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+void timing_begin(struct timing *t)
+{
+    t->start = ceduo_clock();
+    t->start_busy = processor_s();
+}
+
+void timing_end(struct timing *t, size_t repeat)
+{
+    t->seconds[repeat] = ceduo_clock() - t->start;
+    t->busy[repeat] = processor_s() - t->start_busy;
+}
+
+void read_scene(struct scene_file *file, const char *path)
+{
+    struct problems problems = {0};
+    if (!ceduo_scene_read(file, path, NULL, 0, &problems))
+        fail(ceduo_text_string(&problems.text));
+    ceduo_problems_free(&problems);
+}
+
+struct ceduo_run *fly_run(const struct ceduo_run_def *def, uint64_t rocks)
+{
+    struct ceduo_run *run;
+    if (ceduo_run_create(def, &run) != CEDUO_OK || ceduo_run_extend(run, rocks) != CEDUO_OK)
+        fail("the run failed");
+    return run;
+}
+
+struct plain_def plain_site(const struct paper_site *site, struct plain_segment segments[PAPER_SEGMENTS])
+{
+    struct ceduo_rock rock;
+    if (ceduo_rock_of_means(&site->scene.rock, &rock) != CEDUO_OK)
+        fail("bad rock");
+    bool height = !isnan(site->segments[0].roughness_m);
+    for (size_t j = 0; j < PAPER_SEGMENTS; j++) {
+        segments[j] = plain_segment_between(site->x[j], site->z[j], site->x[j + 1], site->z[j + 1]);
+        segments[j].rn = site->segments[j].rn.mean;
+        segments[j].rt = site->segments[j].rt.mean;
+        segments[j].roughness = height ? site->segments[j].roughness_m : site->segments[j].roughness_rad;
+        segments[j].friction = site->segments[j].friction;
+    }
+    return (struct plain_def){.count = PAPER_SEGMENTS,
+                              .segments = segments,
+                              .law = site->scene.simulation.law == CEDUO_LAW_CRSP ? PLAIN_CRSP : PLAIN_LUMPED,
+                              .roughness_is_height = height,
+                              .gravity = CEDUO_GRAVITY,
+                              .mass = rock.mass,
+                              .radius = rock.radius,
+                              .k = rock.k,
+                              .vx = site->scene.release.vx.mean,
+                              .vz = site->scene.release.vz.mean,
+                              .control = site->control.x};
+}
+
+double uniform(uint64_t *state)
+{
+    uint64_t z = *state += 0x9e3779b97f4a7c15;
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111eb;
+    return (double)((z ^ (z >> 31)) >> 11) * 0x1p-53;
+}

@@ -1,0 +1,38 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What the benches share: arguments, clocks, medians, scenes, runs. Whatever goes wrong ends the program with a word on stderr. */
+#ifndef FRAME_H
+#define FRAME_H
+
+#include "ceduo/ceduo.h"
+#include "io/scene_file.h"
+#include "measure.h"
+#include "physics/paper_site.h"
+#include "plain_loop.h"
+
+#define REPEATS_MOST 101
+
+_Noreturn void fail(const char *why);
+
+/* The i-th argument, a whole number from `least` to `most`; `usual` where there are fewer. */
+uint64_t argument(char **argv, int i, uint64_t usual, uint64_t least, uint64_t most);
+
+/* Of all threads: other work on the machine does not count. */
+double processor_s(void);
+
+struct timing {
+    double seconds[REPEATS_MOST], busy[REPEATS_MOST]; /* by the clock on the wall, of the processor */
+    double start, start_busy;
+};
+void timing_begin(struct timing *t);
+void timing_end(struct timing *t, size_t repeat);
+
+void read_scene(struct scene_file *file, const char *path);
+struct ceduo_run *fly_run(const struct ceduo_run_def *def, uint64_t rocks);
+
+/* The paper's site for the plain loop. */
+struct plain_def plain_site(const struct paper_site *site, struct plain_segment segments[PAPER_SEGMENTS]);
+
+/* splitmix64 (Steele, Lea & Flood 2014), uniform in [0, 1). */
+double uniform(uint64_t *state);
+
+#endif
