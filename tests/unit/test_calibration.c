@@ -9,6 +9,7 @@
 
 #include "ceduo/calibrate.h"
 #include "ceduo/ceduo.h"
+#include "unit/ground.h"
 
 #define LO 10.
 #define HI 20.
@@ -19,23 +20,12 @@ static struct ceduo_input input;
 /* From 100 m above two metres of level ground, beyond which every rock leaves. */
 static struct ceduo_scene flight(double spread)
 {
-    static double x[] = {0, 2}, z[] = {0, 0};
-    static struct ceduo_segment segment;
-    static struct ceduo_option option = {.name = (char *)(uintptr_t) "bare"};
-    segment = (struct ceduo_segment){
-        .rn = ceduo_number(0), .rt = ceduo_number(1), .roughness_m = NAN, .roughness_rad = 0, .friction = 0.25};
-    struct ceduo_scene scene = ceduo_scene_default();
-    scene.slope = (struct ceduo_slope){.vertices = 2, .x = x, .z = z, .segments = &segment, .segments_given = 1};
-    scene.rock.shape = CEDUO_SPHERE;
-    scene.rock.diameter = ceduo_number(1);
-    scene.rock.density = ceduo_number(2600);
-    scene.release.height = ceduo_number(100);
-    scene.release.vx = (struct ceduo_number){.mean = 15, .spread = spread};
-    scene.options = &option;
-    scene.options_count = 1;
+    static struct ground g;
+    ground_make(&g, 2, 0, 100, 15, 0);
+    g.scene.release.vx.spread = spread;
     input =
         (struct ceduo_input){.path = place, .kind = CEDUO_INPUT_RANGE, .lo = LO, .hi = HI, .places_count = 1, .places = &place};
-    return scene;
+    return g.scene;
 }
 
 /* A mean speed where rocks leave, known to `sd`. */

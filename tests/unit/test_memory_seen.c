@@ -11,14 +11,14 @@
 #include "ceduo/survey.h"
 #include "study/chains.h"
 #include "study/guess.h"
+#include "unit/ground.h"
 
 #define ROCKS 6
 
 /* 200 m that fall 80 m, trees on the first half; a rock of 1 m. */
 static struct {
-    struct ceduo_scene scene;
-    double x[2], z[2], volumes[2];
-    struct ceduo_segment segment;
+    struct ground of;
+    double volumes[2];
     struct ceduo_control control;
     struct ceduo_stems tree;
     struct ceduo_belt belt;
@@ -28,19 +28,12 @@ static struct {
 
 static void make_ground(void)
 {
-    struct ceduo_scene *s = &ground.scene;
+    struct ceduo_scene *s = &ground.of.scene;
     memset(&ground, 0, sizeof ground);
-    *s = ceduo_scene_default();
-    ground.x[1] = 200;
-    ground.z[1] = -80;
-    ground.segment = (struct ceduo_segment){
+    ground_make(&ground.of, 200, 80, 0, 5, 0);
+    ground.of.segment = (struct ceduo_segment){
         .rn = ceduo_number(0.4), .rt = ceduo_number(0.9), .roughness_m = NAN, .roughness_rad = 0.2, .friction = 0.5, .mu = 0.5};
-    s->slope =
-        (struct ceduo_slope){.vertices = 2, .x = ground.x, .z = ground.z, .segments = &ground.segment, .segments_given = 1};
-    s->rock.shape = CEDUO_SPHERE;
-    s->rock.diameter = ceduo_number(1);
-    s->rock.density = ceduo_number(2600);
-    s->release.vx = ceduo_number(5);
+    s->release.height = ceduo_scene_default().release.height;
     ground.control = (struct ceduo_control){.x = 20, .x_given = 20, .accepted = 1e5, .measured_speed = NAN};
     s->controls = &ground.control;
     s->controls_count = 1;
@@ -69,10 +62,10 @@ static bool ask_of_blocks(void)
     ground.volumes[0] = 0.1;
     ground.volumes[1] = 1;
     ground.blocks = (struct ceduo_block_class){.per_year = 0.5, .exponent = 1.1, .volumes_count = 2, .volumes = ground.volumes};
-    ground.scene.blocks = &ground.blocks;
-    ground.scene.blocks_count = 1;
-    ground.scene.rocks_per_year = 0.5;
-    struct ceduo_question q = ceduo_question_default(&ground.scene);
+    ground.of.scene.blocks = &ground.blocks;
+    ground.of.scene.blocks_count = 1;
+    ground.of.scene.rocks_per_year = 0.5;
+    struct ceduo_question q = ceduo_question_default(&ground.of.scene);
     LOCAL_BY(ceduo_answer_release) struct ceduo_answer answer;
     q.rocks = ROCKS;
     q.run.threads = 1;
@@ -129,13 +122,13 @@ static bool look(void)
         assert_null(observer);
         return false;
     }
-    status = ceduo_observer_look(observer, &ground.scene, ROCKS, NULL, to);
+    status = ceduo_observer_look(observer, &ground.of.scene, ROCKS, NULL, to);
     for (size_t i = 0; i < 4 && status == CEDUO_OK; i++)
         add(&to[i].log_likelihood, sizeof to[i].log_likelihood);
     for (size_t i = 1; i < 3 && status == CEDUO_OK; i++) {
         LOCAL_BYTES double *values;
         size_t n;
-        status = ceduo_observer_values(observer, &ground.scene, i, ROCKS, &values, &n);
+        status = ceduo_observer_values(observer, &ground.of.scene, i, ROCKS, &values, &n);
         add(values, status == CEDUO_OK ? n * sizeof *values : 0);
     }
     ceduo_observer_free(observer);
@@ -148,7 +141,7 @@ static bool look_without_a_fit(void)
     struct ceduo_predicted to[4];
     make_ground();
     see(seen);
-    const struct ceduo_calibration_scene scene = {.scene = &ground.scene, .observations_count = 4, .observations = seen};
+    const struct ceduo_calibration_scene scene = {.scene = &ground.of.scene, .observations_count = 4, .observations = seen};
     enum ceduo_status status = ceduo_calibration_as_it_is(&scene, ROCKS, NULL, to);
     for (size_t i = 0; i < 4 && status == CEDUO_OK; i++)
         add(&to[i].p_value, sizeof to[i].p_value);
@@ -163,7 +156,7 @@ static bool fit(void)
     struct ceduo_observation seen = something(CEDUO_OBSERVED_SPEED);
     make_ground();
     seen.option = 1;
-    const struct ceduo_calibration_scene scene = {&ground.scene, &input, 1, &seen}, scenes[2] = {scene, scene};
+    const struct ceduo_calibration_scene scene = {&ground.of.scene, &input, 1, &seen}, scenes[2] = {scene, scene};
     const struct ceduo_calibration_def def = {
         .scenes_count = 2, .scenes = scenes, .parameters_count = 1, .rocks = 1, .seed = 1, .threads = 1, .steps_most = 1};
     struct ceduo_calibration a;
@@ -206,7 +199,7 @@ static enum ceduo_status fit_of_one_round(unsigned threads, uint64_t rocks, void
     make_ground();
     seen.x = 1;
     seen.option = 1;
-    const struct ceduo_calibration_scene scene = {&ground.scene, &input, 1, &seen};
+    const struct ceduo_calibration_scene scene = {&ground.of.scene, &input, 1, &seen};
     struct ceduo_calibration a;
     told.meanwhile = meanwhile;
     told.stage = stage;

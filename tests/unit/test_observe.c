@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "ceduo/ceduo.h"
+#include "unit/ground.h"
 
 #define ROCKS   100
 #define GRAVITY 9.81
@@ -16,29 +17,11 @@
 #define FAST    10.0  /* m/s, along */
 
 /* 200 m of level ground; or one slope of 1 in 2. */
-struct ground {
-    struct ceduo_scene scene;
-    double x[2], z[2];
-    struct ceduo_segment segment;
-    struct ceduo_option option;
-};
 static struct ground g;
 
 static void make_ground(double fall, double height, double vx, double vz)
 {
-    g = (struct ground){.scene = ceduo_scene_default(), .x = {0, 200}, .z = {0, -fall}};
-    g.segment = (struct ceduo_segment){
-        .rn = ceduo_number(0), .rt = ceduo_number(1), .roughness_m = NAN, .roughness_rad = 0, .friction = 0.25};
-    g.scene.slope = (struct ceduo_slope){.vertices = 2, .x = g.x, .z = g.z, .segments = &g.segment, .segments_given = 1};
-    g.scene.rock.shape = CEDUO_SPHERE;
-    g.scene.rock.diameter = ceduo_number(1);
-    g.scene.rock.density = ceduo_number(2600);
-    g.scene.release.height = ceduo_number(height);
-    g.scene.release.vx = ceduo_number(vx);
-    g.scene.release.vz = ceduo_number(vz);
-    g.option = (struct ceduo_option){.name = (char *)(uintptr_t) "bare"};
-    g.scene.options = &g.option;
-    g.scene.options_count = 1;
+    ground_make(&g, 200, fall, height, vx, vz);
 }
 
 static struct ceduo_counterpart look(struct ceduo_observation seen)

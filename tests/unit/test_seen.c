@@ -9,6 +9,7 @@
 #include "ceduo/calibrate.h"
 #include "ceduo/ceduo.h"
 #include "study/seen.h"
+#include "unit/ground.h"
 
 #define FIRST 0
 #define LAST  (CEDUO_SEEN_PLACES - 1)
@@ -59,37 +60,18 @@ TEST(one_place_has_no_picture)
     EXPECT(s.known, ==, false);
 }
 
-/* Over level ground, from 100 m above it with 10 m/s along. */
-static struct ceduo_scene flight(void)
-{
-    static double x[] = {0, 200}, z[] = {0, 0};
-    static struct ceduo_segment segment;
-    static struct ceduo_option option = {.name = (char *)(uintptr_t) "bare"};
-    segment = (struct ceduo_segment){
-        .rn = ceduo_number(0), .rt = ceduo_number(1), .roughness_m = NAN, .roughness_rad = 0, .friction = 0.25};
-    struct ceduo_scene scene = ceduo_scene_default();
-    scene.slope = (struct ceduo_slope){.vertices = 2, .x = x, .z = z, .segments = &segment, .segments_given = 1};
-    scene.rock.shape = CEDUO_SPHERE;
-    scene.rock.diameter = ceduo_number(1);
-    scene.rock.density = ceduo_number(2600);
-    scene.release.height = ceduo_number(100);
-    scene.release.vx = ceduo_number(10);
-    scene.options = &option;
-    scene.options_count = 1;
-    return scene;
-}
-
 /* Rocks that are alike fly 20 m in 2 s: hypot(10, 9.81 * 2) = 22.021 m/s. The band is that of the mean of five that differ by
  * 0.5 m/s; one that was seen 2 m/s below cannot be. All pass. */
 TEST(a_flight_as_it_is)
 {
-    struct ceduo_scene scene = flight();
+    struct ground g;
+    ground_make(&g, 200, 0, 100, 10, 0);
     const struct ceduo_observation o[] = {
         {.kind = CEDUO_OBSERVED_SPEED, .x = 20, .n = 5, .mean = 22, .sd = 0.5},
         {.kind = CEDUO_OBSERVED_SPEED, .x = 20, .n = 5, .mean = 20, .sd = 0.5},
         {.kind = CEDUO_OBSERVED_PASSED, .x = 20, .count = 10, .of = 10},
     };
-    const struct ceduo_calibration_scene asked = {.scene = &scene, .observations_count = 3, .observations = o};
+    const struct ceduo_calibration_scene asked = {.scene = &g.scene, .observations_count = 3, .observations = o};
     struct ceduo_predicted p[3];
     EXPECT(ceduo_calibration_as_it_is(&asked, 2000, NULL, p), ==, CEDUO_OK);
     double speed = hypot(10, 9.81 * 2), half = 1.96 * 0.5 / sqrt(5);
@@ -102,7 +84,7 @@ TEST(a_flight_as_it_is)
     EXPECT(p[1].inside || p[1].p_value > 0.001, ==, false);
     EXPECT_NEAR(p[2].lo, 10, 1e-12);
     EXPECT(p[2].inside, ==, true);
-    scene.slope.vertices = 1;
+    g.scene.slope.vertices = 1;
     EXPECT(ceduo_calibration_as_it_is(&asked, 100, NULL, p), !=, CEDUO_OK);
 }
 
@@ -149,10 +131,7 @@ static void cancel_at(void *context, const struct ceduo_calibration_state *state
 
 /* Level ground, and rocks that fall 100 m on it: what they have then, hypot(v, sqrt(2 g h)), tells their speed v. */
 static struct flight {
-    double x[2], z[2];
-    struct ceduo_segment segment;
-    struct ceduo_option option;
-    struct ceduo_scene scene;
+    struct ground ground;
     struct ceduo_observation seen;
 } flights[2];
 
@@ -165,18 +144,7 @@ static struct ceduo_input range(const char *const *path, double lo, double hi)
 
 static void make_flight(struct flight *f, double v, double sd)
 {
-    *f = (struct flight){.x = {0, 200}, .option = {.name = (char *)(uintptr_t) "bare"}};
-    f->segment = (struct ceduo_segment){
-        .rn = ceduo_number(0), .rt = ceduo_number(1), .roughness_m = NAN, .roughness_rad = 0, .friction = 0.25};
-    f->scene = ceduo_scene_default();
-    f->scene.slope = (struct ceduo_slope){.vertices = 2, .x = f->x, .z = f->z, .segments = &f->segment, .segments_given = 1};
-    f->scene.rock.shape = CEDUO_SPHERE;
-    f->scene.rock.diameter = ceduo_number(1);
-    f->scene.rock.density = ceduo_number(2600);
-    f->scene.release.height = ceduo_number(100);
-    f->scene.release.vx = ceduo_number(10);
-    f->scene.options = &f->option;
-    f->scene.options_count = 1;
+    ground_make(&f->ground, 200, 0, 100, 10, 0);
     f->seen = (struct ceduo_observation){
         .kind = CEDUO_OBSERVED_LARGEST_SPEED, .n = 5, .mean = hypot(v, sqrt(2 * 9.81 * 100)), .sd = sd};
 }
@@ -192,7 +160,7 @@ TEST(a_fit_is_ended)
 {
     const struct ceduo_input input = range(&speed, 5, 15);
     make_flight(&flights[0], 10, 0.1);
-    const struct ceduo_calibration_scene fitted = {&flights[0].scene, &input, 1, &flights[0].seen};
+    const struct ceduo_calibration_scene fitted = {&flights[0].ground.scene, &input, 1, &flights[0].seen};
     struct ceduo_calibration_def def = fit_of(&fitted, 1, 1);
     struct ceduo_calibration a;
     struct ending e;
@@ -213,7 +181,7 @@ TEST(a_fit_of_few_steps)
 {
     const struct ceduo_input input = range(&speed, 5, 15);
     make_flight(&flights[0], 10, 0.1);
-    const struct ceduo_calibration_scene fitted = {&flights[0].scene, &input, 1, &flights[0].seen};
+    const struct ceduo_calibration_scene fitted = {&flights[0].ground.scene, &input, 1, &flights[0].seen};
     struct ceduo_calibration_def def = fit_of(&fitted, 1, 1);
     struct ceduo_calibration a;
     def.steps_most = 2 * 50 + 1;
@@ -238,7 +206,7 @@ TEST(two_values_without_draws)
 {
     const struct ceduo_input inputs[2] = {range(&speed, 5, 15), range(&place, 0, 50)};
     make_flight(&flights[0], 10, 0.1);
-    const struct ceduo_calibration_scene fitted = {&flights[0].scene, inputs, 1, &flights[0].seen};
+    const struct ceduo_calibration_scene fitted = {&flights[0].ground.scene, inputs, 1, &flights[0].seen};
     struct ceduo_calibration_def def = fit_of(&fitted, 1, 2);
     LOCAL_BY(ceduo_calibration_free) struct ceduo_calibration a;
     def.steps_most = 1;
@@ -259,15 +227,16 @@ TEST(a_scene_that_does_not_fit_together)
     struct ceduo_segment segments[3];
     for (size_t i = 0; i < 2; i++) {
         make_flight(&flights[i], 10, 0.1);
-        flights[i].segment.friction = 2;
-        flights[i].scene.release.height = ceduo_number(5);
-        fitted[i] = (struct ceduo_calibration_scene){&flights[i].scene, &input, 1, &flights[i].seen};
+        flights[i].ground.segment.friction = 2;
+        flights[i].ground.scene.release.height = ceduo_number(5);
+        fitted[i] = (struct ceduo_calibration_scene){&flights[i].ground.scene, &input, 1, &flights[i].seen};
     }
-    flights[0].x[1] = 30;
+    flights[0].ground.x[1] = 30;
     flights[0].seen.mean = hypot(10, sqrt(2 * 9.81 * 5));
     for (size_t i = 0; i < 3; i++)
-        segments[i] = flights[1].segment;
-    flights[1].scene.slope = (struct ceduo_slope){.vertices = 4, .x = x, .z = z, .segments = segments, .segments_given = 3};
+        segments[i] = flights[1].ground.segment;
+    flights[1].ground.scene.slope =
+        (struct ceduo_slope){.vertices = 4, .x = x, .z = z, .segments = segments, .segments_given = 3};
     struct ceduo_calibration_def def = fit_of(fitted, 2, 1);
     def.steps_most = 1;
     EXPECT(ceduo_calibrate(&def, &a), ==, CEDUO_OK);
@@ -288,7 +257,7 @@ TEST(half_of_the_draws_at_a_bound)
     const double v[2] = {5.3, 6};
     for (int i = 0; i < 2; i++) {
         make_flight(&flights[0], v[i], 0.01);
-        const struct ceduo_calibration_scene fitted = {&flights[0].scene, &input, 1, &flights[0].seen};
+        const struct ceduo_calibration_scene fitted = {&flights[0].ground.scene, &input, 1, &flights[0].seen};
         struct ceduo_calibration_def def = fit_of(&fitted, 1, 1);
         LOCAL_BY(ceduo_calibration_free) struct ceduo_calibration a;
         def.steps_most = 251;

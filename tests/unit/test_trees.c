@@ -125,8 +125,7 @@ TEST(scalars_are_read_back)
                                  "\xc2\xa0",
                                  "a\xe2\x80\xa8z",
                                  "\xe2\x80\xa9",
-                                 ("\xef\xbb\xbf"
-                                  "a"),
+                                 "\357\273\277a",
                                  "\xef\xbf\xbe",
                                  "\xef\xbf\xbf",
                                  "\xf4\x8f\xbf\xbf",
@@ -217,11 +216,7 @@ TEST(texts_are_patched)
         const char *before, *now, *wanted;
     } rows[] = {
         {"a: 1 # c\n", "a: 2", "a: 2 # c\n"},
-        {"\xef\xbb\xbf"
-         "a: 1 # c\n",
-         "a: 2",
-         "\xef\xbb\xbf"
-         "a: 2 # c\n"},
+        {"\357\273\277a: 1 # c\n", "a: 2", "\357\273\277a: 2 # c\n"},
         {"'\xc3\xa0': 1 # c\nb: [1, 2] # d", "{'\xc3\xa0': 5, b: [1, 3]}", "'\xc3\xa0': 5 # c\nb: [1, 3] # d"},
         {"a: [1, 2] # c\n", "a: [1, 2, 3]", "a: [1, 2, 3] # c\n"},
         {"a: {b: 1} # c\n", "a: {c: 1}", "a: {c: 1} # c\n"},

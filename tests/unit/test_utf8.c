@@ -81,13 +81,7 @@ TEST(lines)
     lines_are("dell'acqua \xc3\xa8 cos\xc3\xac", 11, (const char *[]){"dell'acqua", "\xc3\xa8 cos\xc3\xac", NULL});
     lines_are("dell'acqua \xc3\xa8 cos\xc3\xac", 12, (const char *[]){"dell'acqua \xc3\xa8", "cos\xc3\xac", NULL});
     lines_are("one\ntwo", 20, (const char *[]){"one", "two", NULL});
-    lines_are("of 984\xe2\x80\x93"
-              "995 kJ/m3",
-              8,
-              (const char *[]){"of",
-                               "984\xe2\x80\x93"
-                               "995",
-                               "kJ/m3", NULL});
+    lines_are("of 984–995 kJ/m3", 8, (const char *[]){"of", "984–995", "kJ/m3", NULL});
     lines_are("coppice-with-standards", 10, (const char *[]){"coppice-", "with-", "standards", NULL});
     lines_are("abcdefgh", 3, (const char *[]){"abc", "def", "gh", NULL});
     lines_are("\xe6\x9c\xa8\xe6\x9c\xa8", 1, (const char *[]){"\xe6\x9c\xa8", "\xe6\x9c\xa8", NULL}); /* never none at all */

@@ -90,21 +90,11 @@ static void expect_said(double share, double lo, double hi, const char *wanted)
 /* Of 1000, the lower end is rounded down and the upper one up; what is whole stays. */
 TEST(an_interval_is_rounded_outward)
 {
-    expect_said(.5, .4699, .5301,
-                " 500 (469\xe2\x80\x93"
-                "531) of 1000 ");
-    expect_said(.0001, 0, .0004,
-                " 0 (0\xe2\x80\x93"
-                "1) of 1000 ");
-    expect_said(.9999, .9996, 1,
-                " 1000 (999\xe2\x80\x93"
-                "1000) of 1000 ");
-    expect_said(.5, .46875, .53125,
-                " 500 (468\xe2\x80\x93"
-                "532) of 1000 ");
-    expect_said(.5, .25, .75,
-                " 500 (250\xe2\x80\x93"
-                "750) of 1000 ");
+    expect_said(.5, .4699, .5301, " 500 (469–531) of 1000 ");
+    expect_said(.0001, 0, .0004, " 0 (0–1) of 1000 ");
+    expect_said(.9999, .9996, 1, " 1000 (999–1000) of 1000 ");
+    expect_said(.5, .46875, .53125, " 500 (468–532) of 1000 ");
+    expect_said(.5, .25, .75, " 500 (250–750) of 1000 ");
 }
 
 /* ---- which is best ---- */
