@@ -51,10 +51,8 @@ static bool add_run(const struct ceduo_run *run)
     enum ceduo_status status = ceduo_run_arrivals(run, 0, &a);
     if (status == CEDUO_OK)
         status = ceduo_run_ends(run, &e);
-    if (status != CEDUO_OK) {
-        assert_int_equal(status, CEDUO_NO_MEMORY);
+    if (!is_done(status))
         return false;
-    }
     assert_true(a.reached > 0 && e.stop_x.n > 0);
     add(&a, offsetof(struct ceduo_arrivals, exact));
     add(&e, sizeof e);
@@ -66,9 +64,7 @@ static bool add_run(const struct ceduo_run *run)
 static bool fly(struct ceduo_run_def def)
 {
     struct ceduo_run *run;
-    enum ceduo_status status = ceduo_run_create(&def, &run);
-    if (status != CEDUO_OK) {
-        assert_int_equal(status, CEDUO_NO_MEMORY);
+    if (!is_done(ceduo_run_create(&def, &run))) {
         assert_null(run);
         return false;
     }
@@ -211,8 +207,7 @@ static bool question(void)
             add(&answer.blocks[i].arrivals.exceed_hi, sizeof answer.blocks[i].arrivals.exceed_hi);
         }
     }
-    assert_true(status == CEDUO_OK || status == CEDUO_NO_MEMORY);
-    return status == CEDUO_OK;
+    return is_done(status);
 }
 
 /* Years flown once and once more, with the weights of blocks. */
@@ -242,8 +237,7 @@ static bool years_of_blocks(void)
         assert_true(s.exceed.se > 0);
         add(&s.exceed, sizeof s.exceed);
     }
-    assert_true(status == CEDUO_OK || status == CEDUO_NO_MEMORY);
-    return status == CEDUO_OK;
+    return is_done(status);
 }
 
 /* The question of 30 rocks, answered. */
@@ -252,9 +246,8 @@ static bool ask(struct ceduo_question q)
     LOCAL_BY(ceduo_answer_release) struct ceduo_answer answer;
     q.rocks = 30;
     enum ceduo_status status = ceduo_ask(&q, NULL, &answer);
-    assert_true(status == CEDUO_OK || status == CEDUO_NO_MEMORY);
     assert_int_equal(answer.result != NULL, status == CEDUO_OK);
-    if (status == CEDUO_OK) {
+    if (is_done(status)) {
         const struct ceduo_option_result *option = &answer.result->options[0];
         assert_int_equal(option->wooded.rocks, 30);
         add(&option->wooded.arrivals[0], offsetof(struct ceduo_arrivals, exact));
@@ -386,8 +379,7 @@ static bool copy_belts(void)
         assert_ptr_not_equal(copy.scene.options[0].belts[MANY - 1].stand.shoots, belts[0].stand.shoots);
         add(&copy.scene.options[0].belts[MANY - 1].to, sizeof belts[0].to);
     }
-    assert_true(status == CEDUO_OK || status == CEDUO_NO_MEMORY);
-    return status == CEDUO_OK;
+    return is_done(status);
 }
 
 static bool ask_by_index(void)
@@ -415,9 +407,8 @@ static bool assess(void)
     LOCAL(ceduo_result, result);
     enum ceduo_status status = ceduo_result_assess(&site.scene, &flown[0], &(const struct ceduo_simulated *){&flown[1]},
                                                    &difference, &(const struct ceduo_other_energy){0}, &result);
-    assert_true(status == CEDUO_OK || status == CEDUO_NO_MEMORY);
     assert_int_equal(result != NULL, status == CEDUO_OK);
-    if (status == CEDUO_OK) {
+    if (is_done(status)) {
         assert_int_equal(result->bare.arrivals[0].reached, 10);
         assert_int_equal(ceduo_result_wooded(result, 0, 0)->reached, 4);
         add(&result->options[0].stands[0].adc_m, sizeof(double));
@@ -433,8 +424,7 @@ static bool assess_index(void)
     const struct ceduo_simulated flown = {.rocks = 10, .controls = 1, .arrivals = &bare};
     LOCAL(ceduo_result, result);
     enum ceduo_status status = ceduo_result_assess(&site.scene, &flown, NULL, NULL, NULL, &result);
-    assert_true(status == CEDUO_OK || status == CEDUO_NO_MEMORY);
-    if (status == CEDUO_OK) {
+    if (is_done(status)) {
         assert_null(ceduo_result_wooded(result, 0, 0));
         add(&result->options[0].controls[0].dissipated, sizeof(double));
     }
@@ -460,17 +450,24 @@ static void make_roll(void)
     }
 }
 
+static bool follow_seventh(struct ceduo_trajectory *way)
+{
+    enum ceduo_status status = ceduo_trajectory_follow(&site.scene, &site.option, 7, NULL, way, NULL);
+    if (status == CEDUO_OK)
+        add(&way->x, sizeof way->x);
+    return is_done(status);
+}
+
 static bool follow_roll(void)
 {
     make_roll();
     struct ceduo_trajectory way;
-    enum ceduo_status status = ceduo_trajectory_follow(&site.scene, &site.option, 7, NULL, &way, NULL);
-    assert_true(status == CEDUO_OK || status == CEDUO_NO_MEMORY);
-    if (status == CEDUO_OK) {
+    bool done = follow_seventh(&way);
+    if (done) {
         assert_true(way.end == CEDUO_LEFT_SLOPE && way.stems_hit > 100);
         add(&way.stems_hit, sizeof way.stems_hit);
     }
-    return status == CEDUO_OK;
+    return done;
 }
 
 /* The same, and all blows are kept. */
@@ -480,8 +477,7 @@ static bool record_roll(void)
     LOCAL_BY(ceduo_record_release) struct ceduo_record record;
     enum ceduo_status status = ceduo_record(
         &(struct ceduo_record_def){.scene = &site.scene, .option = &site.option, .rocks = 1, .blows = true}, &record);
-    assert_true(status == CEDUO_OK || status == CEDUO_NO_MEMORY);
-    if (status == CEDUO_OK) {
+    if (is_done(status)) {
         assert_true(record.blows_count > 100);
         add(&record.blows_count, sizeof record.blows_count);
     }
@@ -492,31 +488,21 @@ static bool follow_one(void)
 {
     init(CEDUO_STEMS, CEDUO_LAW_LUMPED);
     struct ceduo_trajectory way;
-    enum ceduo_status status = ceduo_trajectory_follow(&site.scene, &site.option, 7, NULL, &way, NULL);
-    assert_true(status == CEDUO_OK || status == CEDUO_NO_MEMORY);
-    if (status == CEDUO_OK)
-        add(&way.x, sizeof way.x);
-    return status == CEDUO_OK;
+    return follow_seventh(&way);
 }
 
 static bool follow(void)
 {
     init(CEDUO_STEMS, CEDUO_LAW_LUMPED);
-    struct ceduo_follower *f = ceduo_follower_create(&site.scene, &site.option);
-    if (!f)
-        return false;
-    bool good = true;
+    LOCAL(ceduo_follower, f) = ceduo_follower_create(&site.scene, &site.option);
+    bool good = f;
     for (uint64_t rock = 0; rock < 3 && good; rock++) {
         struct ceduo_trajectory way;
         struct ceduo_crossing crossing;
-        enum ceduo_status status = ceduo_follower_follow(f, rock, NULL, &way, &crossing);
-        good = status == CEDUO_OK;
+        good = is_done(ceduo_follower_follow(f, rock, NULL, &way, &crossing));
         if (good)
             add(&way.x, sizeof way.x);
-        else
-            assert_int_equal(status, CEDUO_NO_MEMORY);
     }
-    ceduo_follower_free(f);
     return good;
 }
 
@@ -528,10 +514,8 @@ static bool see(void)
     const double x[] = {125, 130};
     const struct ceduo_snapshot_def def = {
         .scene = &site.scene, .figures = seen, .pictures = seen, .cells = 2, .cell_x = x, .trajectories = 3};
-    struct ceduo_snapshot *o;
-    enum ceduo_status status = ceduo_snapshot_create(&def, &o);
-    if (status != CEDUO_OK) {
-        assert_int_equal(status, CEDUO_NO_MEMORY);
+    LOCAL(ceduo_snapshot, o);
+    if (!is_done(ceduo_snapshot_create(&def, &o))) {
         assert_null(o);
         return false;
     }
@@ -539,7 +523,6 @@ static bool see(void)
     add(sight->energies[0].values, sight->energies[0].n * sizeof(double));
     for (size_t i = 0; i < sight->trajectories_count; i++)
         add(sight->trajectories[i].x, sight->trajectories[i].n * sizeof(double));
-    ceduo_snapshot_free(o);
     return true;
 }
 
@@ -572,14 +555,11 @@ static bool find(void)
 {
     const struct ceduo_find_def def = {.lo = 1, .hi = 9, .target = 0.3, .goal = falls};
     struct ceduo_found f;
-    enum ceduo_status status = ceduo_find(&def, &f);
-    if (status != CEDUO_OK) {
-        assert_int_equal(status, CEDUO_NO_MEMORY);
-        assert_false(f.found);
-        return false;
-    }
-    add(&f.value, sizeof f.value);
-    return true;
+    bool done = is_done(ceduo_find(&def, &f));
+    if (done)
+        add(&f.value, sizeof f.value);
+    assert_true(done || !f.found);
+    return done;
 }
 
 TEST(runs_go_on)
@@ -591,18 +571,8 @@ TEST(runs_go_on)
 
 TEST(what_stands_on_runs)
 {
-    without_memory(question);
-    without_memory(years_of_blocks);
-    without_memory(ask_by_index);
-    without_memory(ask_both_laws);
-    without_memory(doubt);
-    without_memory(copy_belts);
-    without_memory(ask_of_one_option);
-    without_memory(assess);
-    without_memory(assess_index);
-    without_memory(follow);
-    without_memory(follow_one);
-    without_memory(follow_roll);
-    without_memory(record_roll);
-    without_memory(find);
+    task *const tasks[] = {question, years_of_blocks, ask_by_index, ask_both_laws, doubt,       copy_belts,  ask_of_one_option,
+                           assess,   assess_index,    follow,       follow_one,    follow_roll, record_roll, find};
+    for (size_t i = 0; i < sizeof tasks / sizeof tasks[0]; i++)
+        without_memory(tasks[i]);
 }

@@ -48,12 +48,6 @@ static void make_ground(void)
     s->simulation.rocks = ROCKS;
 }
 
-static bool is_done(enum ceduo_status status)
-{
-    assert_true(status == CEDUO_OK || status == CEDUO_NO_MEMORY);
-    return status == CEDUO_OK;
-}
-
 /* ---- blocks of all sizes ---- */
 
 static bool ask_of_blocks(void)
