@@ -16,8 +16,6 @@
 #include "io/file.h"
 #include "io/node.h"
 
-#define LENGTH(a) (sizeof(a) / sizeof(a)[0])
-
 TEST_WITH(files_are_found, folder_set_up_profiles, folder_tear_down)
 {
     struct arena arena = {0};
@@ -157,6 +155,14 @@ static bool take(const char *path, struct text *text, size_t most)
     return source != NULL;
 }
 
+static void expect_bytes(const char *path, size_t most, const char *bytes)
+{
+    struct text text;
+    assert_true(take(path, &text, most));
+    assert_string_equal(ceduo_text_string(&text), bytes);
+    ceduo_text_free(&text);
+}
+
 static void expect_told(const char *path, size_t most, const char *words)
 {
     struct text text;
@@ -167,19 +173,15 @@ static void expect_told(const char *path, size_t most, const char *words)
 TEST_WITH(files_are_taken, folder_set_up_profiles, folder_tear_down)
 {
     char path[256], link[256], to[256];
-    struct text text = {0};
     put("some", "twelve bytes");
     in_folder(path, "some");
-    assert_true(take(path, &text, 12));
-    assert_string_equal(text.bytes, "twelve bytes");
-    ceduo_text_free(&text);
+    expect_bytes(path, 12, "twelve bytes");
     expect_told(path, 11, "larger than 0 MiB");
     expect_told(folder, 11, "Is a directory");
     in_folder(path, "none");
     expect_told(path, 11, "No such file");
     expect_told("/dev/zero", 11, "a device or a socket; name a file");
-    assert_true(take("/proc/self/status", &text, 11)); /* it says that it is empty */
-    assert_int_equal(text.length, 0);
+    expect_bytes("/proc/self/status", 11, ""); /* it says that it is empty */
     /* through links to a file that is not there yet, by relative and absolute ways; one that leads to itself is refused */
     in_folder(link, "link");
     in_folder(to, "link2");
@@ -187,9 +189,7 @@ TEST_WITH(files_are_taken, folder_set_up_profiles, folder_tear_down)
     in_folder(path, "target");
     assert_int_equal(symlink(path, to), 0);
     assert_true(ceduo_file_write(link, "x", 1));
-    assert_true(take(path, &text, 9));
-    assert_string_equal(text.bytes, "x");
-    ceduo_text_free(&text);
+    expect_bytes(path, 9, "x");
     in_folder(link, "loop");
     assert_int_equal(symlink("loop", link), 0);
     assert_false(ceduo_file_write(link, "x", 1));
@@ -200,9 +200,7 @@ TEST_WITH(files_are_taken, folder_set_up_profiles, folder_tear_down)
     assert_int_equal(chdir(folder), 0);
     assert_int_equal(symlink("bare", "bare-link"), 0);
     assert_true(ceduo_file_write("bare-link", "y", 1));
-    assert_true(take("bare", &text, 9));
-    assert_string_equal(text.bytes, "y");
-    ceduo_text_free(&text);
+    expect_bytes("bare", 9, "y");
     assert_int_equal(chdir(here), 0);
 }
 
@@ -236,7 +234,6 @@ TEST_WITH(files_are_the_same, folder_set_up_profiles, folder_tear_down)
 TEST_WITH(what_was_set_aside_goes_before, folder_set_up_profiles, folder_tear_down)
 {
     char path[256];
-    struct text text = {0};
     int ends[2];
     put("aside", "before ");
     in_folder(path, "aside");
@@ -246,15 +243,11 @@ TEST_WITH(what_was_set_aside_goes_before, folder_set_up_profiles, folder_tear_do
     assert_int_equal(pipe(ends), 0);
     assert_false(ceduo_file_write_after(ends[0], path, "after", 5)); /* a pipe has no place 0 */
     assert_int_equal(errno, ESPIPE);
-    assert_true(take(path, &text, 99));
-    assert_string_equal(text.bytes, "old");
-    ceduo_text_free(&text);
+    expect_bytes(path, 99, "old");
     assert_false(ceduo_file_write_after(aside, "/dev/full", "", 0));
     assert_int_equal(errno, ENOSPC);
     assert_true(ceduo_file_write_after(aside, path, "after", 5));
-    assert_true(take(path, &text, 99));
-    assert_string_equal(text.bytes, "before after");
-    ceduo_text_free(&text);
+    expect_bytes(path, 99, "before after");
     close(aside);
     close(ends[0]);
     close(ends[1]);
@@ -271,7 +264,6 @@ TEST_WITH(what_cannot_be_written, folder_set_up_profiles, folder_tear_down)
     assert_int_equal(errno, ENXIO);
     close(s);
     char path[256];
-    struct text text = {0};
     put("kept", "old");
     in_folder(path, "kept");
     assert_int_equal(chmod(folder, 0777), 0);
@@ -290,9 +282,7 @@ TEST_WITH(what_cannot_be_written, folder_set_up_profiles, folder_tear_down)
         assert_int_equal(written, may);
         if (!may)
             assert_int_equal(why, EACCES);
-        assert_true(take(path, &text, 9));
-        assert_string_equal(text.bytes, may ? "new" : "old");
-        ceduo_text_free(&text);
+        expect_bytes(path, 9, may ? "new" : "old");
     }
 }
 

@@ -7,8 +7,6 @@
 #include "study/goal.h"
 #include "study/verdict.h"
 
-#define LENGTH(a) (sizeof(a) / sizeof(a)[0])
-
 static struct paper_site site;
 
 static struct ceduo_question question_of(uint64_t rocks)

@@ -110,48 +110,41 @@ TEST(blocks_are_refused)
     assert_int_equal(ceduo_scene_check(&site.scene, NULL), CEDUO_BAD_ROCK);
 }
 
+/* Of other sizes of the rock none is flown, whatever the contact model. */
+static void expect_no_blocks(void)
+{
+    struct ceduo_block blocks[CEDUO_BLOCKS];
+    const struct ceduo_blocks_def def = {
+        .scene = &site.scene, .option = &site.option, .rocks = 10, .effort = INFINITY, .threads = 1};
+    for (int model = CEDUO_INDEX; model <= CEDUO_STEMS; model++) {
+        site.scene.simulation.contact_model = (enum ceduo_contact_model)model;
+        assert_int_equal(ceduo_blocks(&def, blocks), CEDUO_BAD_ROCK);
+    }
+}
+
 /* Of a rock that is none nothing is known, and none is flown. */
 TEST(no_rock_no_figures)
 {
     paper_site_init(&site);
-    struct ceduo_block blocks[CEDUO_BLOCKS];
     struct ceduo_trajectory way;
     site.control.measured_speed = 10;
     assert_int_equal(ceduo_trajectory_follow(&site.scene, NULL, 0, NULL, &way, NULL), CEDUO_OK);
     site.scene.rock.diameter.mean = 0;
     struct ceduo_stand_result stand = ceduo_assess_stand(&site.scene, &site.belts[0]);
-    assert_true(isnan(stand.adc_m));
-    assert_true(isnan(stand.contacts));
-    assert_true(isnan(stand.dissipated));
+    assert_true(isnan(stand.adc_m) && isnan(stand.contacts) && isnan(stand.dissipated));
     assert_false(stand.passes_threshold);
     struct ceduo_index index = ceduo_assess_index(&site.scene, &site.option, &site.control, 1e5);
     assert_true(isnan(index.measured));
     EXPECT(index.contact, !=, CEDUO_PASS);
     assert_int_equal(ceduo_trajectory_follow(&site.scene, NULL, 0, NULL, &way, NULL), CEDUO_BAD_ROCK);
     assert_null(ceduo_follower_create(&site.scene, NULL));
-    for (int model = CEDUO_INDEX; model <= CEDUO_STEMS; model++) {
-        site.scene.simulation.contact_model = (enum ceduo_contact_model)model;
-        assert_int_equal(
-            ceduo_blocks(
-                &(const struct ceduo_blocks_def){
-                    .scene = &site.scene, .option = &site.option, .rocks = 10, .effort = INFINITY, .own = NULL, .threads = 1},
-                blocks),
-            CEDUO_BAD_ROCK);
-    }
+    expect_no_blocks();
     /* good itself, but too heavy when it is as large as the others */
     site.scene.rock = ceduo_scene_default().rock;
     site.scene.rock.diameter.mean = 1e-90;
     site.scene.rock.mass.mean = 1e200;
     assert_int_equal(ceduo_scene_check(&site.scene, NULL), CEDUO_OK);
-    for (int model = CEDUO_INDEX; model <= CEDUO_STEMS; model++) {
-        site.scene.simulation.contact_model = (enum ceduo_contact_model)model;
-        assert_int_equal(
-            ceduo_blocks(
-                &(const struct ceduo_blocks_def){
-                    .scene = &site.scene, .option = &site.option, .rocks = 10, .effort = INFINITY, .own = NULL, .threads = 1},
-                blocks),
-            CEDUO_BAD_ROCK);
-    }
+    expect_no_blocks();
 }
 
 static void expect_rock(const struct ceduo_rock_def *def, enum ceduo_status wanted)
@@ -162,19 +155,14 @@ static void expect_rock(const struct ceduo_rock_def *def, enum ceduo_status want
 
 TEST(rocks_are_refused)
 {
-    const double no_size[] = {0, -1, INFINITY, -INFINITY};
+    /* of no size; and too small or too large: mass, moment or radius would be 0 or infinite */
+    const double no_size[] = {0, -1, INFINITY, -INFINITY, 1e-120, 1e-100, 1e100, 1e103};
     struct ceduo_rock_def def = ceduo_scene_default().rock;
     expect_rock(&def, CEDUO_BAD_ROCK);
     def.diameter.mean = 1;
     expect_rock(&def, CEDUO_OK);
-    for (size_t i = 0; i < 4; i++) {
+    for (size_t i = 0; i < LENGTH(no_size); i++) {
         def.diameter.mean = no_size[i];
-        expect_rock(&def, CEDUO_BAD_ROCK);
-    }
-    /* too small or too large: mass, moment or radius would be 0 or infinite */
-    const double sizes[] = {1e-120, 1e-100, 1e100, 1e103};
-    for (size_t i = 0; i < 4; i++) {
-        def.diameter.mean = sizes[i];
         expect_rock(&def, CEDUO_BAD_ROCK);
     }
     def.mass.mean = def.diameter.mean = 1;

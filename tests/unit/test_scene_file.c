@@ -11,8 +11,6 @@
 #include "io/scene_file.h"
 #include "scene/schema.h"
 
-#define LENGTH(a) (sizeof(a) / sizeof(a)[0])
-
 /* A scene that is good, and one line of it in the place of another. */
 static char *scene_with(const char *line)
 {

@@ -11,8 +11,6 @@
 #include "io/inputs.h"
 #include "io/scene_file.h"
 
-#define LENGTH(a) (sizeof(a) / sizeof(a)[0])
-
 /* `lines`, and what they do not say of a scene that is good. */
 static struct text scene_with(const char *lines)
 {

@@ -11,8 +11,6 @@
 #include "io/resolve.h"
 #include "io/scene_file.h"
 
-#define LENGTH(a) (sizeof(a) / sizeof(a)[0])
-
 __attribute__((format(printf, 2, 3))) static void write_file(const char *name, const char *format, ...)
 {
     LOCAL_TEXT(text);

@@ -14,8 +14,6 @@
 #include "io/scene_file.h"
 #include "scene/value.h"
 
-#define LENGTH(a) (sizeof(a) / sizeof(a)[0])
-
 /* ---- every byte ---- */
 
 /* Members that follow from others. */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Texts: UTF-8, numbers, words that are near to others, an arena that is full. */
+/* Texts: numbers, words that are near to others, an arena that is full. */
 #include "expect.h"
 #include "local.h"
 
@@ -11,45 +11,6 @@
 #include "base/json.h"
 #include "base/utf8.h"
 #include "io/node.h"
-
-#define LENGTH(a) (sizeof(a) / sizeof(a)[0])
-
-TEST(utf8_is_decoded)
-{
-    const struct {
-        const char *bytes;
-        size_t length;
-        uint32_t code;
-    } rows[] = {{"a", 1, 'a'},
-                {"\x7f", 1, 0x7f},
-                {"\xc2\x80", 2, 0x80},
-                {"\xdf\xbf", 2, 0x7ff},
-                {"\xe0\xa0\x80", 3, 0x800},
-                {"\xed\x9f\xbf", 3, 0xd7ff},
-                {"\xee\x80\x80", 3, 0xe000},
-                {"\xef\xbf\xbf", 3, 0xffff},
-                {"\xf0\x90\x80\x80", 4, 0x10000},
-                {"\xf4\x8f\xbf\xbf", 4, 0x10ffff},
-                {"\x80", 0, 0},
-                {"\xc1\xbf", 0, 0}, /* too long a form */
-                {"\xe0\x9f\xbf", 0, 0},
-                {"\xf0\x8f\xbf\xbf", 0, 0},
-                {"\xed\xa0\x80", 0, 0}, /* half a pair */
-                {"\xed\xbf\xbf", 0, 0},
-                {"\xf4\x90\x80\x80", 0, 0}, /* beyond the last */
-                {"\xf5\x80\x80\x80", 0, 0},
-                {"\xc3", 0, 0}, /* cut */
-                {"\xe2\x80", 0, 0},
-                {"\xc3g", 0, 0},
-                {"\xe2\x80g", 0, 0}};
-    uint32_t code = 0;
-    for (size_t i = 0; i < LENGTH(rows); i++) {
-        assert_int_equal(ceduo_utf8_decode(rows[i].bytes, strlen(rows[i].bytes), &code), rows[i].length);
-        if (rows[i].length > 0)
-            assert_int_equal(code, rows[i].code);
-    }
-    assert_int_equal(ceduo_utf8_decode("", 0, &code), 0);
-}
 
 /* Code points that are shown as they are, by whether a terminal or a line of JSON could take them for more. */
 TEST(no_character_does_anything)

@@ -10,8 +10,6 @@
 #include "io/node.h"
 #include "io/resolve.h"
 
-#define LENGTH(a) (sizeof(a) / sizeof(a)[0])
-
 static const struct node *parse(struct arena *arena, const struct text *text)
 {
     struct source *source = ceduo_arena_take(arena, sizeof *source);

@@ -14,27 +14,35 @@ TEST(decoding)
         uint32_t code;
     } cases[] = {
         {"a", 1, 'a'},
+        {"\x7f", 1, 0x7f},
+        {"\xc2\x80", 2, 0x80},
         {"\xc3\xa0", 2, 0xe0},
+        {"\xdf\xbf", 2, 0x7ff},
+        {"\xe0\xa0\x80", 3, 0x800},
         {"\xe2\x80\xa6", 3, 0x2026},
+        {"\xed\x9f\xbf", 3, 0xd7ff},
+        {"\xee\x80\x80", 3, 0xe000},
+        {"\xef\xbf\xbf", 3, 0xffff},
+        {"\xf0\x90\x80\x80", 4, 0x10000},
         {"\xf0\x9f\x8c\xb3", 4, 0x1f333},
-        {"\x80", 0, 0},
-        {"\xc3", 0, 0},
-        {"\xc3(", 0, 0},
-        {"\xc0\xaf", 0, 0},
-        {"\xe0\x80\xaf", 0, 0}, /* overlong */
-        {"\xed\xa0\x80", 0, 0},
-        {"\xf4\x90\x80\x80", 0, 0},
-        {"\xff", 0, 0}, /* a surrogate; beyond the last; never */
+        {"\xf4\x8f\xbf\xbf", 4, 0x10ffff},
     };
+    const char *none =
+        "\x80|\xc3|\xc3(|\xc3g|\xe2\x80|\xe2\x80g|"                         /* cut */
+        "\xc0\xaf|\xc1\xbf|\xe0\x80\xaf|\xe0\x9f\xbf|\xf0\x8f\xbf\xbf|"     /* too long a form */
+        "\xed\xa0\x80|\xed\xbf\xbf|\xf4\x90\x80\x80|\xf5\x80\x80\x80|\xff"; /* surrogates; beyond the last; never */
+    for (char bytes[64]; next_word(&none, bytes);) {
+        uint32_t code = 0;
+        assert_int_equal(ceduo_utf8_decode(bytes, strlen(bytes), &code), 0);
+        assert_int_equal(code, 0);
+    }
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         uint32_t code = 0;
         char back[4];
         assert_int_equal(ceduo_utf8_decode(cases[i].bytes, strlen(cases[i].bytes), &code), cases[i].length);
         assert_int_equal(code, cases[i].code);
-        if (cases[i].length > 0) {
-            assert_int_equal(ceduo_utf8_encode(code, back), cases[i].length);
-            assert_memory_equal(back, cases[i].bytes, cases[i].length);
-        }
+        assert_int_equal(ceduo_utf8_encode(code, back), cases[i].length);
+        assert_memory_equal(back, cases[i].bytes, cases[i].length);
     }
     uint32_t code;
     assert_int_equal(ceduo_utf8_decode("\xc3\xa0", 1, &code), 0); /* its second byte is not there */

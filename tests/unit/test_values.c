@@ -14,8 +14,6 @@
 #include "io/scene_file.h"
 #include "scene/schema.h"
 
-#define LENGTH(a) (sizeof(a) / sizeof(a)[0])
-
 /* ---- ranges ---- */
 
 /* A scene in which every parameter has its place, but for those that exclude each other. */
