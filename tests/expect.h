@@ -106,6 +106,13 @@ static inline bool next_word(const char **words, char word[64])
         EACH(EXPECT_FIELD_SAME, (first, second), __VA_ARGS__)                                                                  \
     } while (0)
 
+/* ROWS(EXPECT_NEAR, (a, 1, .1), (b, 2, .1)): a table, each row of which goes to the same function or macro. */
+#define ROW(function, row) function row;
+#define ROWS(function, ...)                                                                                                    \
+    do {                                                                                                                       \
+        EACH(ROW, function, __VA_ARGS__)                                                                                       \
+    } while (0)
+
 /* None of them is known: NaN. */
 #define EXPECT_NAN(...)                                                                                                        \
     do {                                                                                                                       \

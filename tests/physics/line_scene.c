@@ -40,6 +40,16 @@ void line_scene_release(struct line_scene *s, double x, double height, double vx
                                               .spin = ceduo_number(spin)};
 }
 
+void line_scene_drop(struct line_scene *s, double radius, double accepted)
+{
+    static const double x[] = {0, 100}, z[] = {0, 0};
+    line_scene_init(s, 2, x, z, (struct line_ground){.3, .8, .5}, radius, CEDUO_LAW_LUMPED);
+    line_scene_release(s, 1, 50, 3, 0, 0);
+    s->scene.simulation.gravity = 4;
+    s->control = (struct ceduo_control){.x = 4, .x_given = 4, .accepted = accepted, .measured_speed = NAN};
+    s->scene.controls_count = 1;
+}
+
 /* ---- slopes by themselves ---- */
 
 struct ceduo_slope slope_new(size_t vertices)

@@ -27,6 +27,10 @@ void line_scene_init(struct line_scene *s, size_t vertices, const double *x, con
 /* Where and how the rock starts. */
 void line_scene_release(struct line_scene *s, double x, double height, double vx, double vz, double spin);
 
+/* Released over level ground with 3 m/s where gravity is 4 m/s2: 1 s later, 3 m on at the control, a rock falls with 4 m/s
+ * and has 5 m/s. */
+void line_scene_drop(struct line_scene *s, double radius, double accepted);
+
 /* A slope with room for so many vertices, to be freed. */
 struct ceduo_slope slope_new(size_t vertices);
 void slope_free(struct ceduo_slope *s);

@@ -40,6 +40,28 @@ void paper_plot_init(struct paper_plot *plot, int number)
                                        .fracture_ratio = 1};
 }
 
+struct ceduo_stems paper_stems(double per_ha, double dbh, double height)
+{
+    return (struct ceduo_stems){.per_ha = per_ha, .dbh = dbh, .height = height, .volume = NAN, .age = NAN};
+}
+
+struct ceduo_stand paper_coppice(struct ceduo_stems *shoots, struct ceduo_stems *trees, size_t trees_count, unsigned rotation,
+                                 double *stay)
+{
+    return (struct ceduo_stand){.system = CEDUO_SIMPLE_COPPICE,
+                                .species = ceduo_species_find("ostrya-carpinifolia"),
+                                .stools_per_ha = 2500,
+                                .spacing = .35,
+                                .shoots_count = 1,
+                                .trees_count = trees_count,
+                                .shoots = shoots,
+                                .trees = trees,
+                                .u = NAN,
+                                .fracture_ratio = 1.5,
+                                .growth = paper_growth,
+                                .cutting = {rotation, 1, 2, stay}};
+}
+
 static void init_slope(struct paper_site *site)
 {
     for (size_t i = 0; i < PAPER_VERTICES; i++) {

@@ -43,6 +43,11 @@ void paper_site_init(struct paper_site *site);
 /* Growth of hop hornbeam and of the standards among it: D, k, H and m assumed. */
 extern const struct ceduo_growth paper_growth;
 
+/* A simple coppice of hop hornbeam that grows so and is cut: 2500 stools, volumes by the species' equation; two classes stay. */
+struct ceduo_stems paper_stems(double per_ha, double dbh, double height);
+struct ceduo_stand paper_coppice(struct ceduo_stems *shoots, struct ceduo_stems *trees, size_t trees_count, unsigned rotation,
+                                 double *stay);
+
 /* Another reading of theta, or 0 everywhere. */
 void paper_site_read_theta(struct paper_site *site, enum paper_theta theta);
 void paper_site_smooth(struct paper_site *site);

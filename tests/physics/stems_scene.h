@@ -71,6 +71,10 @@ struct met {
     struct spread sum;                 /* stems and stools, for their covariance */
 };
 
+/* The share of the largest energy by eccentricity as Dorren et al. 2006 print it, cut to 0…1, and its mean by Simpson's rule. */
+double printed_share(double u);
+double mean_printed_share(void);
+
 struct met meet(uint64_t rocks, double metres);
 
 #endif

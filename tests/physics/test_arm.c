@@ -65,9 +65,7 @@ TEST(a_round_rock_that_sticks)
         struct blow c = {radius, radius, radius, line_uniform(&r, -1.5, 1.5), e, 3, 0, {vn, vt, spin}};
         struct impact out = struck(&c);
         double along = (vt + k * spin * radius) / (1 + k);
-        EXPECT_NEAR(out.vt, along, 1e-14 * vn);
-        EXPECT_NEAR(out.spin * radius, along, 1e-14 * vn);
-        EXPECT_NEAR(out.vn, e * vn, 1e-14 * vn);
+        ROWS(EXPECT_NEAR, (out.vt, along, 1e-14 * vn), (out.spin * radius, along, 1e-14 * vn), (out.vn, e * vn, 1e-14 * vn));
         c.in.vt = -vt;
         c.in.spin = -spin;
         c.turn = -c.turn;
@@ -319,9 +317,8 @@ TEST(blows_are_as_followed_in_small_steps)
         struct impact out = struck(&c);
         struct stepper s = stepped(&c);
         double size = sqrt(energy_of(&c, c.in)) * 1e-8;
-        EXPECT_NEAR(out.vn, (double)s.vn, size);
-        EXPECT_NEAR(out.vt, (double)s.vt, size);
-        EXPECT_NEAR(out.spin * c.radius, (double)s.spin * c.radius, size);
+        ROWS(EXPECT_NEAR, (out.vn, (double)s.vn, size), (out.vt, (double)s.vt, size),
+             (out.spin * c.radius, (double)s.spin * c.radius, size));
     }
 }
 

@@ -59,10 +59,8 @@ TEST(projectiles_on_a_slope)
         release(500, 5, -4, 3, 0);
         double b = 3 + 4 * rises[i], t = (b + sqrt(b * b + 2 * G * 5)) / G; /* 5 + b t = g t2/2 */
         const struct ceduo_piece *p = &way.pieces[0];
-        expect_near(p->seconds, t, 1e-14);
-        expect_near(p->x1, 500 - 4 * t, 1e-14);
-        expect_near(p->z1, rises[i] * (500 - 4 * t), 1e-14);
-        expect_near(p->vz1, 3 - G * t, 1e-14);
+        ROWS(expect_near, (p->seconds, t, 1e-14), (p->x1, 500 - 4 * t, 1e-14), (p->z1, rises[i] * (500 - 4 * t), 1e-14),
+             (p->vz1, 3 - G * t, 1e-14));
     }
 }
 
@@ -460,10 +458,8 @@ static void expect_the_same_way_in_other_sizes(bool arm)
         struct ceduo_crossing before = way.crossing;
         assert_int_equal(line_scene_follow(&scene, &other), CEDUO_OK);
         assert_true(same_pieces(&way, &other, 4, 2));
-        EXPECT(before.reached, ==, other.crossing.reached);
-        EXPECT(before.height * 4, ==, other.crossing.height);
-        EXPECT(before.vx * 2, ==, other.crossing.vx);
-        EXPECT(before.vz * 2, ==, other.crossing.vz);
+        ROWS(EXPECT, (before.reached, ==, other.crossing.reached), (before.height * 4, ==, other.crossing.height),
+             (before.vx * 2, ==, other.crossing.vx), (before.vz * 2, ==, other.crossing.vz));
     }
     EXPECT(bounces, >, 10000);
 }
@@ -503,9 +499,7 @@ TEST(intervals_of_wilson)
         if (rows[i].hits < rows[i].n)
             expect_near((p - hi) * (p - hi), z2 * hi * (1 - hi) / n, 1e-9);
     }
-    EXPECT(ceduo_wilson(0, 0, 0).lo, ==, 0);
-    EXPECT(ceduo_wilson(0, 0, 0).hi, ==, 1);
-    EXPECT(ceduo_wilson(0, 0, 999).hi, <, .004);
+    ROWS(EXPECT, (ceduo_wilson(0, 0, 0).lo, ==, 0), (ceduo_wilson(0, 0, 0).hi, ==, 1), (ceduo_wilson(0, 0, 999).hi, <, .004));
     EXPECT(ceduo_wilson(0, 0, 999).hi, >, .0038);                         /* "below 0.4 %" */
     EXPECT(ceduo_wilson(.2, .3, 50).lo, ==, ceduo_wilson(.2, .2, 50).lo); /* a tenth may be one or not */
     EXPECT(ceduo_wilson(.2, .3, 50).hi, ==, ceduo_wilson(.3, .3, 50).hi);
@@ -609,10 +603,9 @@ TEST(intervals_of_quantiles)
     for (size_t n = 1; n <= 300; n++) { /* neither tail has more than 2.5 %, and one rank further in it would */
         size_t lo, hi;
         ceduo_quantile_interval(n, .95, &lo, &hi);
-        assert_true(lo == 0 || binomial_below(n, .95L, lo - 1) < .025L);
-        assert_true(lo == n || binomial_below(n, .95L, lo) >= .025L);
-        assert_true(binomial_below(n, .95L, hi - 1) >= .975L * (1 - 1e-15L));
-        assert_true(hi < 2 || binomial_below(n, .95L, hi - 2) < .975L);
+        ROWS(assert_true, (lo == 0 || binomial_below(n, .95L, lo - 1) < .025L),
+             (lo == n || binomial_below(n, .95L, lo) >= .025L), (binomial_below(n, .95L, hi - 1) >= .975L * (1 - 1e-15L)),
+             (hi < 2 || binomial_below(n, .95L, hi - 2) < .975L));
     }
 }
 
@@ -634,9 +627,9 @@ TEST(a_distribution_of_exact_values)
         EXPECT_IS(d, (p50, sorted[(n + 1) / 2 - 1]), (max, sorted[n - 1]));
         EXPECT(d.mean, ==, m.mean);
         EXPECT_IS(d, (p95, sorted[ceduo_quantile_rank(n, .95) - 1]), (p99, sorted[ceduo_quantile_rank(n, .99) - 1]));
-        assert_true(lo > 0 ? d.p95_lo == sorted[lo - 1] : isnan(d.p95_lo));
-        assert_true(hi <= n ? d.p95_hi == sorted[hi - 1] : isnan(d.p95_hi));
-        assert_true(n > 1 ? d.sd == ceduo_moments_sd(&m) && d.se == ceduo_moments_se(&m) : isnan(d.sd) && isnan(d.se));
+        ROWS(assert_true, (lo > 0 ? d.p95_lo == sorted[lo - 1] : isnan(d.p95_lo)),
+             (hi <= n ? d.p95_hi == sorted[hi - 1] : isnan(d.p95_hi)),
+             (n > 1 ? d.sd == ceduo_moments_sd(&m) && d.se == ceduo_moments_se(&m) : isnan(d.sd) && isnan(d.se)));
     }
     struct ceduo_distribution none = ceduo_distribution_none();
     EXPECT_NAN(none.mean, none.p50, none.p95, none.p99, none.max);
@@ -725,10 +718,9 @@ TEST(moments_added_and_merged)
         ceduo_moments_merge(&all, &none);
         assert_int_equal(all.n, n);
         EXPECT(all.max, ==, largest);
-        expect_near(all.mean, (double)mean, 1e-14);
-        expect_near(all.m2, (double)squares, 1e-9);
-        expect_near(ceduo_moments_sd(&all), (double)sqrtl(squares / (long double)(n - 1)), 1e-9);
-        expect_near(ceduo_moments_se(&all), (double)sqrtl(squares / (long double)(n - 1) / (long double)n), 1e-9);
+        ROWS(expect_near, (all.mean, (double)mean, 1e-14), (all.m2, (double)squares, 1e-9),
+             (ceduo_moments_sd(&all), (double)sqrtl(squares / (long double)(n - 1)), 1e-9),
+             (ceduo_moments_se(&all), (double)sqrtl(squares / (long double)(n - 1) / (long double)n), 1e-9));
     }
     struct ceduo_moments one = {0};
     assert_true(isnan(ceduo_moments_sd(&one)));
@@ -785,10 +777,8 @@ static void expect_cut_normal(double mean, double sd, double lo, double hi)
     EXPECT_NEAR(even.sd, width, 1e-4 * sd);
     EXPECT_NEAR(random.mean, expected, 4 * width / 1e3); /* 4 standard errors of 10^6 */
     EXPECT_NEAR(random.sd, width, 4 * width / 1e3);      /* its own are smaller: no long tails */
-    EXPECT(even.lowest, >=, mean + a * sd - 1e-15);
-    EXPECT(even.lowest, <, mean + (a + .05) * sd);
-    EXPECT(even.highest, <=, mean + b * sd + 1e-15);
-    EXPECT(even.highest, >, mean + (b - .05) * sd);
+    ROWS(EXPECT, (even.lowest, >=, mean + a * sd - 1e-15), (even.lowest, <, mean + (a + .05) * sd),
+         (even.highest, <=, mean + b * sd + 1e-15), (even.highest, >, mean + (b - .05) * sd));
 }
 
 TEST(a_normal_spread_is_cut)
@@ -811,10 +801,7 @@ TEST(a_uniform_spread)
     struct seen all = draw_many(n, -INFINITY, INFINITY, 0), cut = draw_many(n, 0, 2, 0);
     EXPECT_NEAR(all.mean, 2, 4 * .5 / sqrt(3) / 1e3);
     EXPECT_NEAR(all.sd, .5 / sqrt(3), 1e-3);
-    EXPECT(all.lowest, >=, 1.5);
-    EXPECT(all.highest, <=, 2.5);
-    EXPECT(all.lowest, <, 1.501);
-    EXPECT(all.highest, >, 2.499);
+    ROWS(EXPECT, (all.lowest, >=, 1.5), (all.highest, <=, 2.5), (all.lowest, <, 1.501), (all.highest, >, 2.499));
     EXPECT_NEAR(cut.mean, 1.75, 4 * .25 / sqrt(3) / 1e3);
     EXPECT(cut.highest, <=, 2);
     EXPECT(cut.lowest, >=, 1.5);
@@ -843,8 +830,6 @@ TEST(facet_draws_are_even_and_depend_on_all_they_should)
     EXPECT_NEAR(squares / count, 1 / 3., 4 * sqrt(4 / 45. / count));
     EXPECT(fabs(product / count), <, 4 / 12. / sqrt(count));
     double u = line_facet_draw(1, 2, 3);
-    EXPECT(u, ==, line_facet_draw(1, 2, 3));
-    EXPECT(u, !=, line_facet_draw(2, 2, 3));
-    EXPECT(u, !=, line_facet_draw(1, 3, 3));
-    EXPECT(u, !=, line_facet_draw(1, 2, 2));
+    ROWS(EXPECT, (u, ==, line_facet_draw(1, 2, 3)), (u, !=, line_facet_draw(2, 2, 3)), (u, !=, line_facet_draw(1, 3, 3)),
+         (u, !=, line_facet_draw(1, 2, 2)));
 }

@@ -44,9 +44,7 @@ static struct ceduo_found find_with(struct asked *a, double lo, double hi, bool 
     assert_int_equal(found.evaluations, a->count);
     if (found.found) {
         assert_true(passes(a, target, found.value));
-        EXPECT(found.goal_at_value, ==, a->goal(a, found.value));
-        EXPECT(found.value, >=, lo);
-        EXPECT(found.value, <=, hi);
+        ROWS(EXPECT, (found.goal_at_value, ==, a->goal(a, found.value)), (found.value, >=, lo), (found.value, <=, hi));
         assert_true((!whole || found.value == floor(found.value)));
     } else {
         EXPECT_NAN(found.value, found.goal_at_value);
@@ -308,9 +306,7 @@ TEST(nothing_passes)
 {
     struct asked a = {.goal = parabola, .p = {35, 1}};
     struct ceduo_found found = find(&a, 0, 90, false, -1); /* seen: every 10 */
-    assert_false(found.found);
-    assert_false(found.monotone);
-    assert_false(found.whole_range);
+    ROWS(assert_false, (found.found), (found.monotone), (found.whole_range));
     EXPECT_IS(found, (evaluations, 2 + CEDUO_FIND_SCAN), (nearest, 30));
     EXPECT(found.goal_at_nearest, ==, 25); /* 40 is as near */
     found = find(&a, 0, 3, true, 3);
@@ -325,9 +321,7 @@ TEST(everything_passes)
 {
     struct asked a = {.goal = line, .p = {-1}};
     struct ceduo_found found = find(&a, 5, 90, false, 0);
-    assert_true(found.found);
-    assert_true(found.whole_range);
-    assert_true(found.monotone);
+    ROWS(assert_true, (found.found), (found.whole_range), (found.monotone));
     EXPECT_IS(found, (value, 5), (side, CEDUO_SMALLEST), (nearest, 90), (goal_at_nearest, -90));
     found = find(&a, 7, 7, false, 0);
     assert_true(found.found);

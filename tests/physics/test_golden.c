@@ -52,11 +52,9 @@ TEST_WITH(rock_of_table_2, open_paper, NULL)
     struct ceduo_rock rock;
     assert_int_equal(ceduo_rock_of_means(&site.scene.rock, &rock), CEDUO_OK);
     expect_decimals(rock.mass, 512.3058, 4);
-    expect_exact(rock.mean_diameter, 0.68);
-    expect_exact(rock.radius, 0.34);
-    expect_exact(rock.k, 0.5);
-    expect_exact(rock.axes[0] + 2 * rock.axes[1] + 4 * rock.axes[2], 3 * 0.56 + 4 * 0.8);
-    expect_exact(rock.moment, 0.5 * rock.mass * 0.34 * 0.34);
+    ROWS(expect_exact, (rock.mean_diameter, 0.68), (rock.radius, 0.34), (rock.k, 0.5),
+         (rock.axes[0] + 2 * rock.axes[1] + 4 * rock.axes[2], 3 * 0.56 + 4 * 0.8),
+         (rock.moment, 0.5 * rock.mass * 0.34 * 0.34));
     expect_decimals(0.5 * rock.mass * 20.94 * 20.94 / 1e3, 112.319, 3);              /* Table 5's mean speed */
     expect_decimals(0.5 * rock.mass * 15.6 * 15.6 / 1e3, 62.337, 3);                 /* the speed seen by video */
     expect_decimals(0.5 * rock.mass * (20.94 * 20.94 - 15.6 * 15.6) / 1e3, 50.0, 1); /* like for like */
@@ -70,9 +68,7 @@ TEST_WITH(rock_shapes, open_paper, NULL)
     assert_int_equal(ceduo_rock_of_means(&def, &rock), CEDUO_BAD_ROCK);
     def.volume = ceduo_number(pi / 6);
     assert_int_equal(ceduo_rock_of_means(&def, &rock), CEDUO_OK);
-    expect_exact(rock.mean_diameter, 1);
-    expect_exact(rock.k, 0.4);
-    expect_exact(rock.mass, 2600 * pi / 6);
+    ROWS(expect_exact, (rock.mean_diameter, 1), (rock.k, 0.4), (rock.mass, 2600 * pi / 6));
     def = ceduo_scene_default().rock;
     def.mass = ceduo_number(2600 * pi / 6 * 8);
     assert_int_equal(ceduo_rock_of_means(&def, &rock), CEDUO_OK);
@@ -83,10 +79,8 @@ TEST_WITH(rock_shapes, open_paper, NULL)
     for (int i = 0; i < 3; i++)
         def.axes[i] = ceduo_number((double[]){0.5, 1.5, 1}[i]);
     assert_int_equal(ceduo_rock_of_means(&def, &rock), CEDUO_OK);
-    expect_exact(rock.volume, pi / 6 * 0.75);
-    expect_exact(rock.mean_diameter, 1);
-    expect_exact(rock.k, 0.4);
-    expect_exact(rock.axes[0] + 2 * rock.axes[1] + 4 * rock.axes[2], 0.5 + 2 * 1.5 + 4);
+    ROWS(expect_exact, (rock.volume, pi / 6 * 0.75), (rock.mean_diameter, 1), (rock.k, 0.4),
+         (rock.axes[0] + 2 * rock.axes[1] + 4 * rock.axes[2], 0.5 + 2 * 1.5 + 4));
     def.shape = CEDUO_BLOCK;
     def.mass = ceduo_number(1000);
     assert_int_equal(ceduo_rock_of_means(&def, &rock), CEDUO_OK);
@@ -120,11 +114,9 @@ TEST_WITH(impacts_of_pfeiffer_and_higgins, open_paper, NULL)
         struct ground_point at = {.rn = r->rn, .rt = r->rt, .radius = 0.34, .k = r->k};
         struct impact in = {.vn = r->vn, .vt = r->vt, .spin = r->spin};
         struct impact out = law_crsp(in, &at);
-        expect_decimals(crsp_friction(r->rt, r->vt - r->spin * 0.34), r->f, 6);
-        expect_decimals(crsp_scaling(r->rn, r->rt, r->vn), r->sf, 6);
-        expect_decimals(out.vn, r->vn_out, 6);
-        expect_decimals(out.vt, r->vt_out, 6);
-        expect_decimals(out.spin, r->spin_out, 6);
+        ROWS(expect_decimals, (crsp_friction(r->rt, r->vt - r->spin * 0.34), r->f, 6),
+             (crsp_scaling(r->rn, r->rt, r->vn), r->sf, 6), (out.vn, r->vn_out, 6), (out.vt, r->vt_out, 6),
+             (out.spin, r->spin_out, 6));
         in.vt = -in.vt; /* the mirror image */
         in.spin = -in.spin;
         struct impact mirror = law_crsp(in, &at);
@@ -193,14 +185,8 @@ TEST_WITH(two_contacts_on_the_slope_of_table_3, open_paper, NULL)
     const struct ceduo_piece *p = walked.pieces;
     assert_false(p[0].rolls || p[1].rolls || p[2].rolls);
     EXPECT_IS(p[0], (x, 5), (z, 117 - PAPER_TOP), (vx, 1), (vz, 0));
-    expect_decimals(p[0].x1, 5.6993, 4);
-    expect_decimals(p[0].z1 + PAPER_TOP, 114.6014, 4);
-    expect_decimals(p[1].vx, 2.7930, 4);
-    expect_decimals(p[1].vz, -4.1600, 4);
-    expect_decimals(p[1].x1, 6.5113, 4);
-    expect_decimals(p[1].z1 + PAPER_TOP, 112.9774, 4);
-    expect_decimals(p[2].vx, 2.9972, 4);
-    expect_decimals(p[2].vz, -5.5545, 4);
+    ROWS(expect_decimals, (p[0].x1, 5.6993, 4), (p[0].z1 + PAPER_TOP, 114.6014, 4), (p[1].vx, 2.7930, 4), (p[1].vz, -4.1600, 4),
+         (p[1].x1, 6.5113, 4), (p[1].z1 + PAPER_TOP, 112.9774, 4), (p[2].vx, 2.9972, 4), (p[2].vz, -5.5545, 4));
 }
 
 static void rolling_and_resting(enum ceduo_law law, double x, uint64_t contacts)
@@ -231,18 +217,15 @@ TEST_WITH(rolling_and_resting_on_a_polyline, open_paper, NULL)
 TEST_WITH(adc_of_table_1, open_paper, NULL)
 {
     struct ceduo_adc a = ceduo_adc(&one.stand, PAPER_B), b = ceduo_adc(&two.stand, PAPER_B);
-    expect_exact(a.gsteiger_stools, 3.0408464743513717);
-    expect_exact(b.gsteiger_stools, 4.1072434112628);
-    expect_exact(a.interception, 1.9483462242414016);
-    expect_exact(b.interception, 2.6053723298516003);
-    expect_exact(a.gsteiger_stems, 1.4869189789743706);
-    expect_exact(b.gsteiger_stems, 2.9638349890797495);
+    ROWS(expect_exact, (a.gsteiger_stools, 3.0408464743513717), (b.gsteiger_stools, 4.1072434112628),
+         (a.interception, 1.9483462242414016), (b.interception, 2.6053723298516003), (a.gsteiger_stems, 1.4869189789743706),
+         (b.gsteiger_stems, 2.9638349890797495));
     expect_decimals(a.crofton, 2.16747, 5);
     expect_decimals(b.crofton, 3.51373, 5);
-    EXPECT(ceduo_adc_value(&a, CEDUO_GSTEIGER_STOOLS), ==, a.gsteiger_stools);
-    EXPECT(ceduo_adc_value(&a, CEDUO_INTERCEPTION), ==, a.interception);
-    EXPECT(ceduo_adc_value(&a, CEDUO_GSTEIGER_STEMS), ==, a.gsteiger_stems);
-    EXPECT(ceduo_adc_value(&a, CEDUO_CROFTON), ==, a.crofton);
+    ROWS(EXPECT, (ceduo_adc_value(&a, CEDUO_GSTEIGER_STOOLS), ==, a.gsteiger_stools),
+         (ceduo_adc_value(&a, CEDUO_INTERCEPTION), ==, a.interception),
+         (ceduo_adc_value(&a, CEDUO_GSTEIGER_STEMS), ==, a.gsteiger_stems),
+         (ceduo_adc_value(&a, CEDUO_CROFTON), ==, a.crofton));
     expect_decimals(1 / a.gsteiger_stems, .67253, 5); /* stems met per metre */
     expect_decimals(1 / b.gsteiger_stems, .33740, 5);
     expect_decimals(1 / a.crofton, .46137, 5); /* stools and trees met per metre */
@@ -252,10 +235,10 @@ TEST_WITH(adc_of_table_1, open_paper, NULL)
 
 TEST_WITH(the_rule_of_the_paper, open_paper, NULL)
 {
-    assert_int_equal(ceduo_adc_rule(&plot.stand, PAPER_B, CEDUO_RULE_AUTO), CEDUO_INTERCEPTION);
-    assert_int_equal(ceduo_adc_rule(&plot.stand, 0.5, CEDUO_RULE_AUTO), CEDUO_INTERCEPTION);
-    assert_int_equal(ceduo_adc_rule(&plot.stand, 0.49, CEDUO_RULE_AUTO), CEDUO_GSTEIGER_STEMS);
-    assert_int_equal(ceduo_adc_rule(&plot.stand, 0.49, CEDUO_CROFTON), CEDUO_CROFTON);
+    ROWS(assert_int_equal, (ceduo_adc_rule(&plot.stand, PAPER_B, CEDUO_RULE_AUTO), CEDUO_INTERCEPTION),
+         (ceduo_adc_rule(&plot.stand, 0.5, CEDUO_RULE_AUTO), CEDUO_INTERCEPTION),
+         (ceduo_adc_rule(&plot.stand, 0.49, CEDUO_RULE_AUTO), CEDUO_GSTEIGER_STEMS),
+         (ceduo_adc_rule(&plot.stand, 0.49, CEDUO_CROFTON), CEDUO_CROFTON));
     plot.stand.stools_per_ha = 0;
     plot.stand.shoots_count = 0;
     assert_int_equal(ceduo_adc_rule(&plot.stand, PAPER_B, CEDUO_RULE_AUTO), CEDUO_GSTEIGER_STEMS);
@@ -279,9 +262,8 @@ static double three_decimals(double v)
 
 TEST_WITH(energy_of_tables_7_and_8, open_paper, NULL)
 {
-    expect_decimals(energy_of_both_plots(CEDUO_GSTEIGER_STOOLS), 34.3844, 4);
-    expect_decimals(energy_of_both_plots(CEDUO_GSTEIGER_STOOLS), 34, 0);
-    expect_decimals(energy_of_both_plots(CEDUO_INTERCEPTION), 53.8216, 4);
+    ROWS(expect_decimals, (energy_of_both_plots(CEDUO_GSTEIGER_STOOLS), 34.3844, 4),
+         (energy_of_both_plots(CEDUO_GSTEIGER_STOOLS), 34, 0), (energy_of_both_plots(CEDUO_INTERCEPTION), 53.8216, 4));
     EXPECT(energy_of_both_plots(CEDUO_RULE_AUTO), ==, energy_of_both_plots(CEDUO_INTERCEPTION));
     expect_decimals(energy_of_both_plots(CEDUO_GSTEIGER_STEMS), 63.7469, 4);
     expect_decimals(energy_of_both_plots(CEDUO_INTERCEPTION) / 1.35, 39.87, 2); /* per 100 m */
@@ -314,9 +296,7 @@ TEST_WITH(stumps_where_no_tree_is_left, open_paper, NULL)
                                 .stumps = {.per_ha = 400, .diameter = 0.25, .height = 0.4}};
     struct ceduo_adc adc = ceduo_adc(&stand, 0.75);
     expect_exact(adc.gsteiger_stools, 25); /* 10 000 m2 / (400 x 1 m) */
-    expect_exact(adc.gsteiger_stems, 25);
-    expect_exact(adc.interception, 25);
-    expect_exact(adc.crofton, 25);
+    ROWS(expect_exact, (adc.gsteiger_stems, 25), (adc.interception, 25), (adc.crofton, 25));
 }
 
 TEST_WITH(reserves_after_a_cut, open_paper, NULL)
@@ -362,16 +342,13 @@ TEST_WITH(sensitivity_to_the_spacing_of_the_shoots, open_paper, NULL)
 TEST_WITH(stools_on_a_ring, open_paper, NULL)
 {
     EXPECT(ceduo_stool_perimeter(1, 0.5), ==, 0);
-    expect_exact(ceduo_stool_perimeter(2, 0.5), 1);
-    expect_exact(ceduo_stool_perimeter(3, 0.5), 1.5);
-    expect_exact(ceduo_stool_perimeter(4, 0.5), 2);
+    ROWS(expect_exact, (ceduo_stool_perimeter(2, 0.5), 1), (ceduo_stool_perimeter(3, 0.5), 1.5),
+         (ceduo_stool_perimeter(4, 0.5), 2));
     expect_exact(ceduo_stool_perimeter(1.25, 0.5), 0.25); /* a quarter of the stools have two */
     expect_exact(ceduo_stool_perimeter(2.5, 0.5), 1.25);
     EXPECT(ceduo_stool_radius(1, 0.5), ==, 0);
-    expect_exact(ceduo_stool_radius(2, 0.5), 0.25);
-    expect_exact(ceduo_stool_radius(3, 0.5), 0.5 / sqrt(3));
-    expect_exact(ceduo_stool_radius(4, 0.5), 0.5 / sqrt(2));
-    expect_exact(ceduo_stool_radius(6, 0.5), 0.5);
+    ROWS(expect_exact, (ceduo_stool_radius(2, 0.5), 0.25), (ceduo_stool_radius(3, 0.5), 0.5 / sqrt(3)),
+         (ceduo_stool_radius(4, 0.5), 0.5 / sqrt(2)), (ceduo_stool_radius(6, 0.5), 0.5));
 }
 
 TEST_WITH(basal_area_of_table_1, open_paper, NULL)
@@ -391,14 +368,11 @@ TEST_WITH(energies_of_dorren, open_paper, NULL)
     static const double cm[] = {4.7, 6.1, 8, 10}, kj[] = {1.381, 2.522, 4.719, 7.902};
     for (size_t i = 0; i < LENGTH(cm); i++)
         expect_decimals(ceduo_dorren_energy(cm[i] / 100, 1) / 1e3, kj[i], 3);
-    expect_decimals(ceduo_dorren_energy(.15, 1) / 1e3, 20.16, 2);
-    expect_decimals(ceduo_dorren_energy(.20, 1) / 1e3, 39.18, 2);
-    expect_decimals(ceduo_dorren_energy(.30, 1) / 1e3, 99.97, 2);
-    expect_decimals(ceduo_dorren_energy(.40, 1) / 1e3, 194.3, 1);
+    ROWS(expect_decimals, (ceduo_dorren_energy(.15, 1) / 1e3, 20.16, 2), (ceduo_dorren_energy(.20, 1) / 1e3, 39.18, 2),
+         (ceduo_dorren_energy(.30, 1) / 1e3, 99.97, 2), (ceduo_dorren_energy(.40, 1) / 1e3, 194.3, 1));
     expect_exact(ceduo_dorren_energy(.40, 1.7), 1.7 * ceduo_dorren_energy(.40, 1));
-    expect_decimals(ceduo_dorren_share(0), .980, 3);
-    expect_decimals(ceduo_dorren_share(.5), .789, 3);
-    expect_decimals(ceduo_dorren_share(.58), .467, 3);
+    ROWS(expect_decimals, (ceduo_dorren_share(0), .980, 3), (ceduo_dorren_share(.5), .789, 3),
+         (ceduo_dorren_share(.58), .467, 3));
     EXPECT(ceduo_dorren_share(1), ==, 0); /* -0.046, cut */
     expect_decimals(ceduo_dorren_mean_share(), .558, 3);
     double sum = 0;
@@ -516,15 +490,15 @@ TEST_WITH(each_stratum_takes_its_own_energy, open_paper, NULL)
                                 .u = 1e5};
     const double b = .7, a = 1e4, dc = .0625, wc = 1e5 * .0175;
     const double d = (150 + 100 + 20 + 8) / 4120., t = (100 * .9 * 2e4 + 20 * 1.1 * 1e5) / a;
-    expect_exact(ceduo_energy_per_metre(&stand, b, CEDUO_INTERCEPTION), 2000 * (b + dc + .3) * wc / a + t);
-    expect_exact(ceduo_energy_per_metre(&stand, b, CEDUO_CROFTON), 2000 * (b + dc + .6 / acos(-1)) * wc / a + t);
-    expect_exact(ceduo_energy_per_metre(&stand, b, CEDUO_GSTEIGER_STOOLS), (b + d) * (2000 * wc + 100 * 2e4 + 20 * 1e5) / a);
+    ROWS(expect_exact, (ceduo_energy_per_metre(&stand, b, CEDUO_INTERCEPTION), 2000 * (b + dc + .3) * wc / a + t),
+         (ceduo_energy_per_metre(&stand, b, CEDUO_CROFTON), 2000 * (b + dc + .6 / acos(-1)) * wc / a + t),
+         (ceduo_energy_per_metre(&stand, b, CEDUO_GSTEIGER_STOOLS), (b + d) * (2000 * wc + 100 * 2e4 + 20 * 1e5) / a));
     expect_exact(ceduo_energy_per_metre(&stand, b, CEDUO_GSTEIGER_STEMS),
                  (3000 * (b + .05) * 1e3 + 1000 * (b + .1) * 4e3) / a + t);
     struct ceduo_adc adc = ceduo_adc(&stand, b);
-    expect_exact(adc.gsteiger_stools, a / (2120 * (b + d)));
-    expect_exact(adc.gsteiger_stems, a / (3000 * .75 + 1000 * .8 + 100 * .9 + 20 * 1.1));
-    expect_exact(adc.interception, a / (2120 * b + 2000 * (dc + .3) + 28));
+    ROWS(expect_exact, (adc.gsteiger_stools, a / (2120 * (b + d))),
+         (adc.gsteiger_stems, a / (3000 * .75 + 1000 * .8 + 100 * .9 + 20 * 1.1)),
+         (adc.interception, a / (2120 * b + 2000 * (dc + .3) + 28)));
 }
 
 /* ---- warnings ---- */

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Sizes and weights: their laws in closed form, and that weights which are all alike change no statistics. */
 #include "expect.h"
+#include "local.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -42,7 +43,7 @@ TEST(weights_sum_to_what_comes_down)
 {
     struct ceduo_block_class classes[] = {{3, 1.1, 2, first}, {0.05, 0, 2, second}};
     struct ceduo_scene scene = scene_of(classes, 2);
-    struct sizes sizes;
+    LOCAL_BY(ceduo_sizes_release) struct sizes sizes;
     assert_true(ceduo_sizes_init(&sizes, &scene));
     expect_near(sizes.per_year, 3.05, 1e-12);
     for (double v = 0.02; v < 40; v *= 1.3) {
@@ -55,7 +56,6 @@ TEST(weights_sum_to_what_comes_down)
         expect_near(rate, above(&classes[0], v) + above(&classes[1], v), 1e-3 * rate + 1e-4);
         expect_near(larger / ROCKS, log(40 / v) / log(40 / 0.02), 1e-3);
     }
-    ceduo_sizes_release(&sizes);
 }
 
 /* Of 100 rocks in a row, wherever they begin, some are of every tenth of the range. */
@@ -122,13 +122,9 @@ TEST(a_rock_is_scaled_as_a_whole)
     assert_int_equal(ceduo_rock_of_means(&def, &rock), CEDUO_OK);
     double volume = rock.volume;
     ceduo_rock_resize(&rock, 8 * volume);
-    expect_near(rock.mean_diameter, 2 * 0.68, 1e-15);
-    expect_near(rock.radius, 0.68, 1e-15);
-    expect_near(rock.mass, 8 * 512.3058, 1e-3);
-    expect_near(rock.moment, 0.5 * rock.mass * 0.68 * 0.68, 1e-12 * rock.moment);
-    expect_near(rock.volume, 8 * volume, 1e-15);
-    expect_near(rock.axes[0], 1.12, 1e-15);
-    expect_near(rock.axes[2], 1.6, 1e-15);
+    ROWS(expect_near, (rock.mean_diameter, 2 * 0.68, 1e-15), (rock.radius, 0.68, 1e-15), (rock.mass, 8 * 512.3058, 1e-3),
+         (rock.moment, 0.5 * rock.mass * 0.68 * 0.68, 1e-12 * rock.moment), (rock.volume, 8 * volume, 1e-15),
+         (rock.axes[0], 1.12, 1e-15), (rock.axes[2], 1.6, 1e-15));
 }
 
 /* ---- weights ---- */
@@ -158,9 +154,7 @@ TEST(weights_that_are_alike_change_nothing)
             weighted_sum_add(&ones, weight, 1);
         struct ceduo_rate wilson = ceduo_wilson((double)n / N, (double)n / N, N);
         struct ceduo_rate share = ceduo_weighted_share(&all, &ones, weight);
-        expect_near(share.rate, (double)n / N, 1e-12);
-        expect_near(share.lo, wilson.lo, 1e-9);
-        expect_near(share.hi, wilson.hi, 1e-9);
+        ROWS(expect_near, (share.rate, (double)n / N, 1e-12), (share.lo, wilson.lo, 1e-9), (share.hi, wilson.hi, 1e-9));
         struct ceduo_moments m = {0};
         double plain[N];
         for (size_t i = 0; i < n; i++) {
@@ -176,10 +170,7 @@ TEST(weights_that_are_alike_change_nothing)
         expect_near(a.mean, b.mean, 1e-12);
         expect_near(a.sd, b.sd, 1e-9);
         double m1 = (double)(n - 1) / (double)n, all1 = (double)(N - 1) / N; /* divided by n - 1, and by N - 1 */
-        expect_near(a.se, b.se * sqrt(m1 / all1), 1e-9);
-        expect_near(a.p50, b.p50, 0);
-        expect_near(a.p95, b.p95, 0);
-        expect_near(a.p99, b.p99, 0);
+        ROWS(expect_near, (a.se, b.se * sqrt(m1 / all1), 1e-9), (a.p50, b.p50, 0), (a.p95, b.p95, 0), (a.p99, b.p99, 0));
         expect_near(a.p50_lo, b.p50_lo, 0.15); /* the normal law instead of the binomial one: a rank or two */
         expect_near(a.p50_hi, b.p50_hi, 0.15);
         expect_near(a.max, b.max, 0);
@@ -213,9 +204,8 @@ TEST(what_weights_explain_is_no_error)
     struct ceduo_rate known = ceduo_weighted_share(&all, &heavy, 1.5);
     double alike = all.w * all.w / all.ww;
     assert_int_equal(alike, 800);
-    expect_near(known.rate, 0.75, 1e-12);
-    expect_near(known.lo, ceduo_wilson(.75, .75, 800).lo, 1e-9);
-    expect_near(known.hi, ceduo_wilson(.75, .75, 800).hi, 1e-9);
+    ROWS(expect_near, (known.rate, 0.75, 1e-12), (known.lo, ceduo_wilson(.75, .75, 800).lo, 1e-9),
+         (known.hi, ceduo_wilson(.75, .75, 800).hi, 1e-9));
     all.missing = all.w / 10;
     expect_near(ceduo_weighted_share(&all, &none, 1).hi, ceduo_wilson(.1, .1, N).hi, 1e-12);
     all.n = 1;
@@ -226,9 +216,8 @@ TEST(quantiles_by_hand)
 {
     const struct weighted values[] = {{1, 1}, {2, 2}, {3, 1}};
     expect_near(ceduo_weighted_quantile(values, 3, 0.25), 1, 0); /* a whole share is reached by its last value */
-    expect_near(ceduo_weighted_quantile(values, 3, 0.26), 2, 0);
-    expect_near(ceduo_weighted_quantile(values, 3, 0.75), 2, 0);
-    expect_near(ceduo_weighted_quantile(values, 3, 0.76), 3, 0);
+    ROWS(expect_near, (ceduo_weighted_quantile(values, 3, 0.26), 2, 0), (ceduo_weighted_quantile(values, 3, 0.75), 2, 0),
+         (ceduo_weighted_quantile(values, 3, 0.76), 3, 0));
     expect_near(ceduo_weighted_quantile(values, 3, 1.1), 3, 0); /* beyond all */
     assert_true(isnan(ceduo_weighted_quantile(values, 0, 0.5)));
     const struct released all = {.n = 3, .w = 4, .ww = 6, .most = 2, .per_year = 1};
@@ -249,9 +238,8 @@ TEST(energies_and_classes_are_what_they_are_called)
     } rows[] = {{0, 0}, {29999, 0}, {30000, 1}, {299999, 1}, {3e5, 2}, {1e12, 2}, {NAN, -1}};
     for (size_t i = 0; i < LENGTH(rows); i++)
         assert_int_equal(ceduo_intensity_of(rows[i].energy), rows[i].class);
-    expect_near(ceduo_hazard_energy(0), 100, 0);
-    expect_near(ceduo_hazard_energy(15), 3000, 0);
-    expect_near(ceduo_hazard_energy(CEDUO_HAZARD_ENERGIES - 1), 1e9, 0);
+    ROWS(expect_near, (ceduo_hazard_energy(0), 100, 0), (ceduo_hazard_energy(15), 3000, 0),
+         (ceduo_hazard_energy(CEDUO_HAZARD_ENERGIES - 1), 1e9, 0));
     for (size_t i = 1; i < CEDUO_HAZARD_ENERGIES; i++)
         EXPECT(ceduo_hazard_energy(i), >, ceduo_hazard_energy(i - 1));
 }
@@ -263,9 +251,8 @@ TEST(few_rocks_bound_what_they_can)
     struct weighted energies[] = {{4e5, 1}, {2e4, 1}, {1e5, 1}};
     struct ceduo_hazard h;
     assert_true(ceduo_hazard_read(&all, energies, 3, 5e4, &h));
-    expect_near(h.reach.rate, 0.0015, 1e-15);
-    expect_near(h.accepted.rate, 0.001, 1e-15);
-    expect_near(ceduo_hazard_feared(&h).rate, 0.001, 1e-15);
+    ROWS(expect_near, (h.reach.rate, 0.0015, 1e-15), (h.accepted.rate, 0.001, 1e-15),
+         (ceduo_hazard_feared(&h).rate, 0.001, 1e-15));
     for (size_t i = 0; i < CEDUO_INTENSITIES; i++)
         expect_near(h.intensity[i].within.rate, 0.0005, 1e-15);
     assert_true(isnan(h.returns[3].energy) && isnan(h.returns[3].lo)); /* 0.0015 a year: less than one in 300 years */
@@ -298,10 +285,8 @@ TEST(at_a_limit)
     struct weighted energies[] = {{3e5, 1}, {3e4, 1}};
     struct ceduo_hazard h;
     assert_true(ceduo_hazard_read(&all, energies, 2, 3e5, &h));
-    expect_near(h.accepted.rate, 0, 0);
-    expect_near(h.intensity[0].within.rate, 0, 0);
-    expect_near(h.intensity[1].within.rate, 0.01, 1e-15);
-    expect_near(h.intensity[2].within.rate, 0.01, 1e-15);
+    ROWS(expect_near, (h.accepted.rate, 0, 0), (h.intensity[0].within.rate, 0, 0), (h.intensity[1].within.rate, 0.01, 1e-15),
+         (h.intensity[2].within.rate, 0.01, 1e-15));
     for (size_t i = 0; i < h.energies; i++)
         expect_near(h.exceed[i].rate.rate, h.exceed[i].energy < 3e4 ? 0.02 : h.exceed[i].energy < 3e5 ? 0.01 : 0, 1e-15);
     assert_int_equal(h.returns[2].years, 100);

@@ -83,9 +83,7 @@ static void expect_mean_of_all_stems(bool shoots)
     double mean = sum / n, se = sqrt((squares / n - mean * mean) / n);
     double one_percent = .01 * given / (2 * radius + .25);
     print_message("# %.0f stems, off by %.3g ± %.2g of V·U\n", n, .01 * mean / one_percent, .01 * se / one_percent);
-    EXPECT(n, >, 1e5);
-    EXPECT(se, <, one_percent);
-    EXPECT(fabs(mean), <=, 4 * se);
+    ROWS(EXPECT, (n, >, 1e5), (se, <, one_percent), (fabs(mean), <=, 4 * se));
 }
 
 TEST(stems_of_many_diameters_take_their_given_volume_on_the_mean)

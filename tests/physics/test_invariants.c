@@ -27,8 +27,6 @@ TEST(invariants_hold_over_random_scenes)
                   (uintmax_t)t.pieces, (uintmax_t)t.flights, (uintmax_t)t.impacts, (uintmax_t)t.crossed);
     EXPECT(t.flights, >, 10 * SCENES / 2);
     EXPECT(t.impacts, >, SCENES); /* the scenes are worth looking at */
-    EXPECT(t.ends[CEDUO_AT_REST], >, SCENES / 10);
-    EXPECT(t.ends[CEDUO_LEFT_SLOPE], >, SCENES / 10);
-    EXPECT(t.crossed, >, SCENES / 10);
-    EXPECT(t.cracks, <=, SCENES / 20000);
+    ROWS(EXPECT, (t.ends[CEDUO_AT_REST], >, SCENES / 10), (t.ends[CEDUO_LEFT_SLOPE], >, SCENES / 10),
+         (t.crossed, >, SCENES / 10), (t.cracks, <=, SCENES / 20000));
 }

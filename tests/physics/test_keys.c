@@ -300,14 +300,10 @@ static void walk_option(enum about about)
     WALK(about, &site.option, option_fields);
     for (size_t i = 0; i < 2; i++) {
         struct ceduo_stand *stand = &site.belts[i].stand;
-        WALK(about, &site.belts[i], belt_fields);
-        WALK(about, stand, stand_fields);
-        WALK(about, &site.plots[i].shoots, stems_fields);
-        WALK(about, &site.plots[i].trees, stems_fields);
-        WALK(about, &stand->growth, growth_fields);
-        WALK(about, &stand->growth.shoots, curve_fields);
-        WALK(about, &stand->growth.trees, curve_fields);
-        WALK(about, &stand->cutting, cutting_fields);
+        ROWS(WALK, (about, &site.belts[i], belt_fields), (about, stand, stand_fields),
+             (about, &site.plots[i].shoots, stems_fields), (about, &site.plots[i].trees, stems_fields),
+             (about, &stand->growth, growth_fields), (about, &stand->growth.shoots, curve_fields),
+             (about, &stand->growth.trees, curve_fields), (about, &stand->cutting, cutting_fields));
     }
 }
 
@@ -327,10 +323,8 @@ static void open_site(void)
 TEST(whatever_decides_about_a_flight_makes_another_scene)
 {
     open_site();
-    WALK(FLIGHT, &site.scene, scene_fields);
-    WALK(FLIGHT, &site.scene.rock, rock_fields);
-    WALK(FLIGHT, &site.scene.release, release_fields);
-    WALK(FLIGHT, &site.scene.slope, slope_fields);
+    ROWS(WALK, (FLIGHT, &site.scene, scene_fields), (FLIGHT, &site.scene.rock, rock_fields),
+         (FLIGHT, &site.scene.release, release_fields), (FLIGHT, &site.scene.slope, slope_fields));
     walk_numbers(FLIGHT, site.x, PAPER_VERTICES, "x of a vertex");
     walk_numbers(FLIGHT, site.z, PAPER_VERTICES, "z of a vertex");
     for (size_t j = 0; j < PAPER_SEGMENTS; j++)
@@ -412,10 +406,8 @@ TEST(whatever_decides_about_low_wood_and_groups_makes_another_forest)
     stand->stumps = (struct ceduo_stumps){.per_ha = 300, .diameter = .2, .height = .3, .energy = 1e3};
     stand->logs = (struct ceduo_logs){.per_ha = 300, .length = 2, .diameter = .3, .energy = 1e3};
     site.plots[0].trees.group = 3;
-    WALK(STEMS, &stand->stumps, stump_fields);
-    WALK(STEMS, &stand->logs, log_fields);
-    WALK(STEMS, &site.plots[0].trees, group_fields);
-    WALK(YEARS, &stand->stumps, stump_fields);
+    ROWS(WALK, (STEMS, &stand->stumps, stump_fields), (STEMS, &stand->logs, log_fields),
+         (STEMS, &site.plots[0].trees, group_fields), (YEARS, &stand->stumps, stump_fields));
     site.scene.simulation.contact_model = CEDUO_POISSON;
     WALK(POISSON, &stand->stumps, stump_fields);
     WALK(POISSON, &stand->logs, log_fields);

@@ -3,6 +3,7 @@
  * as long as the threshold, a share of 0.05 and an energy that is accepted pass. Every equality is one of doubles, and the
  * next double beyond it decides otherwise. */
 #include "expect.h"
+#include "local.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -154,30 +155,19 @@ TEST(a_share_of_a_twentieth_passes)
     assert_int_equal(light_of(.05, 1), CEDUO_UNKNOWN);
 }
 
-/* Rocks of 2 kg, released over level ground with 3 m/s where gravity is 4 m/s2: 1 s later, 3 m on, they fall with 4 m/s
- * and have 5 m/s, that is 25 J. */
+/* Rocks of 2 kg, whose 5 m/s are 25 J. */
 static struct line_scene flat;
 
 static void drop(double accepted)
 {
-    static const double x[] = {0, 100}, z[] = {0, 0};
-    line_scene_init(&flat, 2, x, z, (struct line_ground){.3, .8, .5}, .25, CEDUO_LAW_LUMPED);
-    line_scene_release(&flat, 1, 50, 3, 0, 0);
+    line_scene_drop(&flat, .25, accepted);
     flat.scene.rock.mass = ceduo_number(2);
-    flat.scene.simulation.gravity = 4;
     flat.scene.simulation.rocks = 20;
-    flat.control = (struct ceduo_control){.x = 4, .x_given = 4, .accepted = accepted, .measured_speed = NAN};
-    flat.scene.controls_count = 1;
 }
 
 static struct ceduo_run *fly(const struct ceduo_option *option)
 {
-    struct ceduo_run_def def = ceduo_run_def_default(&flat.scene);
-    struct ceduo_run *run;
-    def.option = option;
-    assert_int_equal(ceduo_run_create(&def, &run), CEDUO_OK);
-    assert_int_equal(ceduo_run_extend(run, 20), CEDUO_OK);
-    return run;
+    return run_option(&flat.scene, option, 20, 1, CEDUO_EXACT_BYTES);
 }
 
 static struct ceduo_arrivals arrive(double accepted)
@@ -208,15 +198,12 @@ TEST(a_difference_counts_no_rock_with_the_accepted_energy)
     struct ceduo_belt belt = {.from = 1, .to = 4, .stand = {.species = -1, .trees_count = 1, .trees = &trees, .u = 1e5}};
     struct ceduo_option wood = {.belts_count = 1, .belts = &belt};
     drop(25);
-    struct ceduo_run *through = fly(&wood), *bare = fly(NULL);
+    LOCAL(ceduo_run, through) = fly(&wood);
+    LOCAL(ceduo_run, bare) = fly(NULL);
     struct ceduo_difference d = ceduo_run_difference(through, bare, 0);
-    EXPECT(d.reach_probability.mean, <, 0);
-    EXPECT(d.reach_probability.se, >, 0);
-    EXPECT(d.exceed_probability.mean, ==, 0);
+    ROWS(EXPECT, (d.reach_probability.mean, <, 0), (d.reach_probability.se, >, 0), (d.exceed_probability.mean, ==, 0));
     assert_true(isnan(d.exceed_probability.se)); /* as no pair differs */
     EXPECT(d.exceed_probability.below, >, 0);
-    ceduo_run_free(through);
-    ceduo_run_free(bare);
 }
 
 /* Stems from the control on make no difference to it: that is known, not estimated. */
@@ -227,14 +214,13 @@ TEST(a_difference_by_stems_from_the_control_on_is_none)
     struct ceduo_option wood = {.belts_count = 1, .belts = &belt};
     drop(20);
     EXPECT(flat.control.x, ==, belt.from);
-    struct ceduo_run *through = fly(&wood), *bare = fly(NULL);
+    LOCAL(ceduo_run, through) = fly(&wood);
+    LOCAL(ceduo_run, bare) = fly(NULL);
     struct ceduo_difference d = ceduo_run_difference(through, bare, 0);
     const struct ceduo_paired of[] = {d.reach_probability, d.exceed_probability, d.energy_per_released};
     for (size_t i = 0; i < 3; i++) {
         EXPECT_IS(of[i], (mean, 0), (se, 0), (below, 0));
     }
-    ceduo_run_free(through);
-    ceduo_run_free(bare);
 }
 
 /* Of 20 rocks on the paper's site, one has more than the next to fastest brings: 1 of 20 passes, 2 do not. */
@@ -291,9 +277,7 @@ TEST(hardly_a_rock_says_nothing)
 {
     assert_false(says_nothing(0, 0, 0)); /* nothing was flown */
     assert_true(says_nothing(1, 0, 0));
-    assert_false(says_nothing(1, 1, 0));
-    assert_false(says_nothing(999, 1, 0));
-    assert_false(says_nothing(1000, 1, 0));
+    ROWS(assert_false, (says_nothing(1, 1, 0)), (says_nothing(999, 1, 0)), (says_nothing(1000, 1, 0)));
     assert_true(says_nothing(1001, 1, 0));
     assert_false(says_nothing(2000, 2, 0));
     assert_true(says_nothing(2001, 2, 0));
@@ -304,11 +288,10 @@ TEST(hardly_a_rock_says_nothing)
 /* The limit is a share of .05; its interval must lie on one side of it. */
 TEST(a_share_is_judged_by_its_interval)
 {
-    assert_int_equal(ceduo_judge_share(.04, .03, .05), CEDUO_YES);
-    assert_int_equal(ceduo_judge_share(.04, .03, next_above(.05)), CEDUO_NOT_DECIDED);
-    assert_int_equal(ceduo_judge_share(.06, next_above(.05), .07), CEDUO_NO);
-    assert_int_equal(ceduo_judge_share(.06, .05, .07), CEDUO_NOT_DECIDED);
-    assert_int_equal(ceduo_judge_share(NAN, NAN, NAN), CEDUO_UNANSWERED);
+    ROWS(assert_int_equal, (ceduo_judge_share(.04, .03, .05), CEDUO_YES),
+         (ceduo_judge_share(.04, .03, next_above(.05)), CEDUO_NOT_DECIDED),
+         (ceduo_judge_share(.06, next_above(.05), .07), CEDUO_NO), (ceduo_judge_share(.06, .05, .07), CEDUO_NOT_DECIDED),
+         (ceduo_judge_share(NAN, NAN, NAN), CEDUO_UNANSWERED));
 }
 
 TEST(what_a_bare_slope_keeps_needs_no_forest)
@@ -318,9 +301,8 @@ TEST(what_a_bare_slope_keeps_needs_no_forest)
         .released = 1000, .reached = 900, .exceed_probability = .8, .exceed_lo = .77, .exceed_hi = .83};
     const struct ceduo_arrivals none = {.released = 1000, .exceed_hi = .004};
     assert_int_equal(ceduo_judge(&few, NULL), CEDUO_YES); /* by the index: through no forest more come */
-    assert_int_equal(ceduo_judge(&many, NULL), CEDUO_UNANSWERED);
-    assert_int_equal(ceduo_judge(&many, &few), CEDUO_YES);
-    assert_int_equal(ceduo_judge(&many, &many), CEDUO_NO);
+    ROWS(assert_int_equal, (ceduo_judge(&many, NULL), CEDUO_UNANSWERED), (ceduo_judge(&many, &few), CEDUO_YES),
+         (ceduo_judge(&many, &many), CEDUO_NO));
     assert_int_equal(ceduo_judge(&many, &none), CEDUO_YES); /* the forest stops all of them */
     assert_int_equal(ceduo_judge(&none, &none), CEDUO_NOTHING);
 }

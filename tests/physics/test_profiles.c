@@ -2,6 +2,7 @@
 /* Long profiles: what makes them fast changes nothing. Neighbours on one line are one segment inside the core, flights
  * pass blocks of segments, rolls whole segments; each against the same without it. */
 #include "expect.h"
+#include "local.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -46,7 +47,8 @@ static void init_site(enum ceduo_law law)
 
 static void expect_same_ways(const struct ceduo_scene *a, const struct ceduo_scene *b)
 {
-    struct ceduo_follower *f = ceduo_follower_create(a, NULL), *g = ceduo_follower_create(b, NULL);
+    LOCAL(ceduo_follower, f) = ceduo_follower_create(a, NULL);
+    LOCAL(ceduo_follower, g) = ceduo_follower_create(b, NULL);
     assert_true(f);
     assert_true(g);
     for (uint64_t rock = 0; rock < ROCKS; rock++) {
@@ -58,27 +60,19 @@ static void expect_same_ways(const struct ceduo_scene *a, const struct ceduo_sce
         EXPECT_SAME(c, d, reached, vx, vz, spin);
         EXPECT_NEAR(c.height, d.height, 1e-12); /* over a ground that was rounded when it was cut */
     }
-    ceduo_follower_free(f);
-    ceduo_follower_free(g);
 }
 
 static struct ceduo_arrivals arrivals(const struct ceduo_scene *scene)
 {
-    struct ceduo_run_def def = ceduo_run_def_default(scene);
-    def.rocks_most = ROCKS;
-    struct ceduo_run *run;
-    assert_int_equal(ceduo_run_create(&def, &run), CEDUO_OK);
-    assert_int_equal(ceduo_run_extend(run, ROCKS), CEDUO_OK);
-    struct ceduo_arrivals a = arrivals_of(run, 0);
-    ceduo_run_free(run);
-    return a;
+    LOCAL(ceduo_run, run) = run_option(scene, NULL, ROCKS, 1, CEDUO_EXACT_BYTES);
+    return arrivals_of(run, 0);
 }
 
 TEST(a_cut_slope_gives_the_same_ways_and_statistics)
 {
     for (int law = 0; law < CEDUO_LAW_COUNT; law++) {
         init_site((enum ceduo_law)law);
-        struct ceduo_slope fine = slope_cut(&site.scene.slope, VERTICES);
+        LOCAL_BY(slope_free) struct ceduo_slope fine = slope_cut(&site.scene.slope, VERTICES);
         assert_int_equal(segments_inside(&fine), PAPER_SEGMENTS);
         struct ceduo_scene scene = site.scene;
         scene.slope = fine;
@@ -88,7 +82,6 @@ TEST(a_cut_slope_gives_the_same_ways_and_statistics)
         EXPECT_SAME(a.speed, b.speed, mean, se);
         EXPECT_SAME(a.energy, b.energy, mean, p95);
         EXPECT_NEAR(a.height.mean, b.height.mean, 1e-12);
-        slope_free(&fine);
     }
 }
 
@@ -101,18 +94,17 @@ TEST(spreads_and_roughness_heights_are_those_of_the_cut_slope)
     }
     site.scene.rock.density = (struct ceduo_number){2600, 100, CEDUO_NORMAL};
     site.scene.rock.diameter = (struct ceduo_number){.56, .05, CEDUO_NORMAL};
-    struct ceduo_slope fine = slope_cut(&site.scene.slope, 5000);
+    LOCAL_BY(slope_free) struct ceduo_slope fine = slope_cut(&site.scene.slope, 5000);
     struct ceduo_scene scene = site.scene;
     scene.slope = fine;
     expect_same_ways(&site.scene, &scene);
-    slope_free(&fine);
 }
 
 /* A slope of one line that is cut in the middle of a plane too, between two grounds. */
 TEST(another_ground_is_another_segment)
 {
     init_site(CEDUO_LAW_LUMPED);
-    struct ceduo_slope two = slope_new(3);
+    LOCAL_BY(slope_free) struct ceduo_slope two = slope_new(3);
     memcpy(two.x, (double[3]){0, 64, 160}, sizeof(double[3]));
     memcpy(two.z, (double[3]){0, -48, -120}, sizeof(double[3]));
     for (int what = 0; what < 5; what++) {
@@ -124,35 +116,31 @@ TEST(another_ground_is_another_segment)
         s->friction *= what == 3 ? .9 : 1;
         s->roughness_rad *= what == 4 ? .9 : 1;
         assert_int_equal(segments_inside(&two), 2);
-        struct ceduo_slope fine = slope_cut(&two, 1000);
+        LOCAL_BY(slope_free) struct ceduo_slope fine = slope_cut(&two, 1000);
         assert_int_equal(segments_inside(&fine), 2);
         struct ceduo_scene a = site.scene, b = site.scene;
         a.slope = two;
         b.slope = fine;
         expect_same_ways(&a, &b);
-        slope_free(&fine);
     }
     two.segments[1] = two.segments[0];
     assert_int_equal(segments_inside(&two), 1);
-    slope_free(&two);
 }
 
 /* What a double can tell from a line stays: vertices moved by a nanometre, and a sliver that is as steep as it is small. */
 TEST(small_breaks_stay)
 {
     init_site(CEDUO_LAW_LUMPED);
-    struct ceduo_slope fine = slope_cut(&site.scene.slope, 10000);
+    LOCAL_BY(slope_free) struct ceduo_slope fine = slope_cut(&site.scene.slope, 10000);
     move_vertices(&fine, 1e-9, 5);
     EXPECT(segments_inside(&fine), >, 9000);
-    slope_free(&fine);
-    struct ceduo_slope sliver = slope_new(4);
+    LOCAL_BY(slope_free) struct ceduo_slope sliver = slope_new(4);
     memcpy(sliver.x, (double[4]){0, 50, nextafter(50, 51), 100}, sizeof(double[4]));
     memcpy(sliver.z, (double[4]){0, -25, nextafter(-25, -26), -50}, sizeof(double[4]));
     sliver.z[2] = nextafter(sliver.z[2], -26);
     for (size_t j = 0; j < 3; j++)
         sliver.segments[j] = site.segments[3];
     assert_int_equal(segments_inside(&sliver), 3);
-    slope_free(&sliver);
 }
 
 /* ---- flights over blocks ---- */
@@ -186,8 +174,8 @@ TEST(flights_land_as_without_blocks)
     uint64_t far = 0;
     for (size_t n = 0; n < 40; n++) {
         double spacing = line_log_uniform(&r, 1e-3, 1);
-        struct ceduo_slope slope = rough_slope((size_t)line_log_uniform(&r, 17, 20000), spacing, n);
-        struct ground g;
+        LOCAL_BY(slope_free) struct ceduo_slope slope = rough_slope((size_t)line_log_uniform(&r, 17, 20000), spacing, n);
+        LOCAL_BY(ceduo_ground_release) struct ground g;
         assert_true(ceduo_ground_init(&g, &slope, CEDUO_GRAVITY, .34, false));
         EXPECT(g.top, >, 0);
         struct ground plain = g;
@@ -210,8 +198,6 @@ TEST(flights_land_as_without_blocks)
             EXPECT_SAME(a, b, t, x, z, segment, left);
             far += a.segment > j + 100 || a.segment + 100 < j;
         }
-        ceduo_ground_release(&g);
-        slope_free(&slope);
     }
     print_message("%ju flights of more than 100 segments\n", (uintmax_t)far);
     EXPECT(far, >, 1000); /* blocks were passed */
@@ -248,8 +234,8 @@ TEST(flights_along_teeth_touch_the_same_with_blocks)
     uint64_t touched = 0;
     for (size_t n = 0; n < 2000; n++) {
         double fall = line_uniform(&r, -2, 2), top = line_uniform(&r, -10, 10), speed = line_uniform(&r, 1, 50);
-        struct ceduo_slope slope = toothed_slope(305, &r, fall, top);
-        struct ground g;
+        LOCAL_BY(slope_free) struct ceduo_slope slope = toothed_slope(305, &r, fall, top);
+        LOCAL_BY(ceduo_ground_release) struct ground g;
         assert_true(ceduo_ground_init(&g, &slope, 1e-30, .34, false));
         EXPECT(g.top, >, 0);
         struct ground plain = g;
@@ -266,8 +252,6 @@ TEST(flights_along_teeth_touch_the_same_with_blocks)
             EXPECT_SAME(a, b, t, x, z, segment, left);
             touched += !b.left;
         }
-        ceduo_ground_release(&g);
-        slope_free(&slope);
     }
     print_message("%ju of 4000 flights touch a tooth\n", (uintmax_t)touched);
     EXPECT(touched, >, 1000);
@@ -329,9 +313,9 @@ TEST(blocks_are_rolled_over_as_their_segments)
     size_t passed[2][GROUND_LEVELS] = {{0}};
     for (int by = -4; by < 0; by++) {
         init_site(CEDUO_LAW_LUMPED);
-        struct ceduo_slope fine = slope_cut(&site.scene.slope, 20000);
+        LOCAL_BY(slope_free) struct ceduo_slope fine = slope_cut(&site.scene.slope, 20000);
         move_vertices(&fine, pow(10, by), 5);
-        struct ground g;
+        LOCAL_BY(ceduo_ground_release) struct ground g;
         assert_true(ceduo_ground_init(&g, &fine, CEDUO_GRAVITY, ROLLER, false));
         assert_int_equal(g.n + 1, fine.vertices);
         assert_true(g.roll_top > 0);
@@ -340,8 +324,6 @@ TEST(blocks_are_rolled_over_as_their_segments)
             for (int level = 1; level <= g.roll_top; level++)
                 for (size_t i = 0; i < g.n >> (ROLL_BITS * level); i++)
                     expect_block(&g, &fine, side, level, i, line_uniform(&r, 0, 1), i % 2 ? 0.4 : 0, &passed[side][level]);
-        ceduo_ground_release(&g);
-        slope_free(&fine);
     }
     for (int side = 0; side < 2; side++)
         EXPECT((double)passed[side][1], >, 1000);
@@ -374,13 +356,13 @@ TEST(rolls_are_the_same_whoever_looks_on)
     for (int law = 0; law < CEDUO_LAW_COUNT; law++) {
         for (int by = -5; by <= 0; by++) {
             init_site((enum ceduo_law)law);
-            struct ceduo_slope fine = slope_cut(&site.scene.slope, 20000);
+            LOCAL_BY(slope_free) struct ceduo_slope fine = slope_cut(&site.scene.slope, 20000);
             move_vertices(&fine, by < 0 ? pow(10, by) : 1e-3, 3);
             if (by == 0)
                 thin_out(&fine);
             struct ceduo_scene scene = site.scene;
             scene.slope = fine;
-            struct ceduo_follower *f = ceduo_follower_create(&scene, NULL);
+            LOCAL(ceduo_follower, f) = ceduo_follower_create(&scene, NULL);
             assert_non_null(f);
             for (uint64_t rock = 0; rock < 100; rock++) {
                 struct ceduo_trajectory v, w;
@@ -394,8 +376,6 @@ TEST(rolls_are_the_same_whoever_looks_on)
                 rolled += v.x != w.x || v.z != w.z || (c.reached && c.vx != d.vx);
                 all++;
             }
-            ceduo_follower_free(f);
-            slope_free(&fine);
         }
     }
     print_message("%ju rocks, %ju the same to 1e-6, %ju to other bits\n", (uintmax_t)all, (uintmax_t)same, (uintmax_t)rolled);
@@ -407,7 +387,7 @@ TEST(rolls_are_the_same_whoever_looks_on)
 TEST(rolls_past_marks_are_the_same)
 {
     init_site(CEDUO_LAW_CRSP);
-    struct ceduo_slope fine = slope_cut(&site.scene.slope, 20000);
+    LOCAL_BY(slope_free) struct ceduo_slope fine = slope_cut(&site.scene.slope, 20000);
     move_vertices(&fine, 1e-3, 3);
     struct ceduo_scene scene = site.scene;
     struct ceduo_control control = site.control;
@@ -434,7 +414,6 @@ TEST(rolls_past_marks_are_the_same)
         reached += d.reached;
         ceduo_follower_free(f);
     }
-    slope_free(&fine);
     EXPECT(same, >=, 59);
     EXPECT(reached, >=, 59);
 }

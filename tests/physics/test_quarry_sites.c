@@ -43,9 +43,7 @@ TEST(ranges_hold_the_truth)
         fits++;
         ceduo_calibration_free(&a);
     }
-    EXPECT(fits, >=, SITES - 2);
-    EXPECT(held, >=, fewest(VALUES * fits, 0.95));
-    EXPECT(likely, >=, fewest(2 * fits, 0.95));
+    ROWS(EXPECT, (fits, >=, SITES - 2), (held, >=, fewest(VALUES * fits, 0.95)), (likely, >=, fewest(2 * fits, 0.95)));
     EXPECT(narrow, >=, fits); /* 30 rocks do tell Rt; ranges as wide as the bounds would hold everything */
 }
 

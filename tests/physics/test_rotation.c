@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Stands through the years: against their closed forms, and what must hold in any stand. */
 #include "expect.h"
+#include "local.h"
 
 #include <math.h>
 #include <string.h>
@@ -28,32 +29,16 @@ struct sample {
     double stay[COHORTS_MOST];
 };
 
-static struct ceduo_stems stems(double per_ha, double dbh, double height)
-{
-    return (struct ceduo_stems){.per_ha = per_ha, .dbh = dbh, .height = height, .volume = NAN, .age = NAN};
-}
-
 static struct sample s; /* anew before each test that is to begin with it; points into itself */
 
 /* Ostrya, 2500 stools with 7500 shoots of 5 cm and 60 trees of 20 cm, cut every 25 years. */
 static void init(void)
 {
     memset(&s, 0, sizeof s);
-    s.shoots[0] = stems(7500, .05, 6);
-    s.trees[0] = stems(60, .20, 12);
+    s.shoots[0] = paper_stems(7500, .05, 6);
+    s.trees[0] = paper_stems(60, .20, 12);
     s.stay[0] = s.stay[1] = 30;
-    s.stand = (struct ceduo_stand){.system = CEDUO_SIMPLE_COPPICE,
-                                   .species = ceduo_species_find("ostrya-carpinifolia"),
-                                   .stools_per_ha = 2500,
-                                   .spacing = .35,
-                                   .shoots_count = 1,
-                                   .trees_count = 1,
-                                   .shoots = s.shoots,
-                                   .trees = s.trees,
-                                   .u = NAN,
-                                   .fracture_ratio = 1.5,
-                                   .growth = paper_growth,
-                                   .cutting = {25, 1, 2, s.stay}};
+    s.stand = paper_coppice(s.shoots, s.trees, 1, 25, s.stay);
 }
 
 static int fresh(void **state)
@@ -118,22 +103,18 @@ TEST_WITH(an_inventory_grows_along_its_curves, fresh, NULL)
     s.stand.growth.sdi_most = 0;
     double a = -log(1 - 5. / 16) / .022, b = -log(1 - 20. / 45) / .014;
     for (unsigned t = 1; t < 200; t += 7) {
-        struct ceduo_grown_stand grown = at(INFINITY, t);
+        LOCAL_BY(ceduo_grown_stand_release) struct ceduo_grown_stand grown = at(INFINITY, t);
         const struct ceduo_stems *shoot = &grown.stand.shoots[0], *tree = &grown.stand.trees[0];
         double d = .16 * (1 - exp(-.022 * (a + t))), h = 6 * (1 - exp(-.035 * (a + t))) / (1 - exp(-.035 * a));
-        expect_near(shoot->dbh, d, 1e-13);
-        expect_near(shoot->height, h, 1e-13);
-        expect_near(shoot->dbh_sd, .01 * d / .05, 1e-13);
-        expect_near(shoot->volume, .004 * d * d * h / (.05 * .05 * 6), 1e-13);
-        expect_near(shoot->age, a + t, 1e-13);
-        expect_near(shoot->per_ha, 7500 * (3 + 13 * exp(-(a + t) / 5)) / (3 + 13 * exp(-a / 5)), 1e-13);
-        expect_near(tree->dbh, .45 * (1 - exp(-.014 * (b + t))), 1e-13);
-        expect_near(tree->height, 12 * (1 - exp(-.03 * (b + t))) / (1 - exp(-.03 * b)), 1e-13);
+        ROWS(expect_near, (shoot->dbh, d, 1e-13), (shoot->height, h, 1e-13), (shoot->dbh_sd, .01 * d / .05, 1e-13),
+             (shoot->volume, .004 * d * d * h / (.05 * .05 * 6), 1e-13), (shoot->age, a + t, 1e-13),
+             (shoot->per_ha, 7500 * (3 + 13 * exp(-(a + t) / 5)) / (3 + 13 * exp(-a / 5)), 1e-13),
+             (tree->dbh, .45 * (1 - exp(-.014 * (b + t))), 1e-13),
+             (tree->height, 12 * (1 - exp(-.03 * (b + t))) / (1 - exp(-.03 * b)), 1e-13));
         EXPECT(tree->per_ha, ==, 60);
         assert_true(isnan(tree->volume));
         EXPECT(tree->dbh_sd, ==, 0);
         EXPECT(grown.stand.stools_per_ha, ==, 2500);
-        ceduo_grown_stand_release(&grown);
     }
 }
 
@@ -143,9 +124,9 @@ TEST_WITH(a_given_age_stands_over_that_of_the_curve, fresh, NULL)
     s.trees[0].age = 70;
     s.stand.growth.sdi_most = 0;
     struct ceduo_grown_stand grown = at(INFINITY, 10);
-    expect_near(grown.stand.shoots[0].dbh, .05 * (1 - exp(-.022 * 18)) / (1 - exp(-.022 * 8)), 1e-14);
-    expect_near(grown.stand.shoots[0].per_ha, 7500 * (3 + 13 * exp(-18. / 5)) / (3 + 13 * exp(-8. / 5)), 1e-14);
-    expect_near(grown.stand.trees[0].dbh, .2 * (1 - exp(-.014 * 80)) / (1 - exp(-.014 * 70)), 1e-14);
+    ROWS(expect_near, (grown.stand.shoots[0].dbh, .05 * (1 - exp(-.022 * 18)) / (1 - exp(-.022 * 8)), 1e-14),
+         (grown.stand.shoots[0].per_ha, 7500 * (3 + 13 * exp(-18. / 5)) / (3 + 13 * exp(-8. / 5)), 1e-14),
+         (grown.stand.trees[0].dbh, .2 * (1 - exp(-.014 * 80)) / (1 - exp(-.014 * 70)), 1e-14));
     EXPECT(grown.stand.shoots[0].age, ==, 18);
     EXPECT(grown.stand.trees[0].age, ==, 80);
     ceduo_grown_stand_release(&grown);
@@ -183,38 +164,33 @@ TEST(next_to_nothing_grows_as_a_new_stem)
         s.shoots[0].age = s.trees[0].age = given[i][1];
         s.shoots[0].volume = s.trees[0].volume = 1;
         s.stand.growth.sdi_most = 0;
-        struct ceduo_grown_stand grown = at(INFINITY, 10);
+        LOCAL_BY(ceduo_grown_stand_release) struct ceduo_grown_stand grown = at(INFINITY, 10);
         const struct ceduo_stems *shoot = &grown.stand.shoots[0], *tree = &grown.stand.trees[0];
-        expect_near(shoot->dbh, .16 * (1 - exp(-.22)), 1e-13);
-        expect_near(shoot->height, 14 * (1 - exp(-.35)), 1e-13);
-        expect_near(tree->dbh, .45 * (1 - exp(-.14)), 1e-13);
-        expect_near(tree->height, 20 * (1 - exp(-.3)), 1e-13);
+        ROWS(expect_near, (shoot->dbh, .16 * (1 - exp(-.22)), 1e-13), (shoot->height, 14 * (1 - exp(-.35)), 1e-13),
+             (tree->dbh, .45 * (1 - exp(-.14)), 1e-13), (tree->height, 20 * (1 - exp(-.3)), 1e-13));
         EXPECT_NAN(shoot->volume, tree->volume);
         EXPECT(shoot->age, ==, 10);
         EXPECT_IS(*tree, (age, 10), (per_ha, 60));
         EXPECT(shoot->per_ha, <, 7500);
-        ceduo_grown_stand_release(&grown);
     }
 }
 
 TEST_WITH(thicker_than_its_curve_it_grows_no_more, fresh, NULL)
 {
-    s.shoots[0] = stems(4000, .16, 9);
-    s.trees[0] = stems(60, .60, 18);
+    s.shoots[0] = paper_stems(4000, .16, 9);
+    s.trees[0] = paper_stems(60, .60, 18);
     s.stand.growth.sdi_most = 0;
-    struct ceduo_grown_stand grown = at(INFINITY, 40);
+    LOCAL_BY(ceduo_grown_stand_release) struct ceduo_grown_stand grown = at(INFINITY, 40);
     expect_same_stand(&grown.stand, &s.stand);
-    ceduo_grown_stand_release(&grown);
 }
 
 TEST_WITH(a_stratum_without_a_curve_stays, fresh, NULL)
 {
     s.stand.growth.trees.height_rate = 0;
     assert_int_equal(ceduo_first_cut(&s.stand, 5), CEDUO_NEVER); /* what stays has no size */
-    struct ceduo_grown_stand grown = at(5, 30);
+    LOCAL_BY(ceduo_grown_stand_release) struct ceduo_grown_stand grown = at(5, 30);
     expect_same_stems(grown.stand.trees, s.trees, 1);
     EXPECT(grown.stand.shoots[0].dbh, >, .05);
-    ceduo_grown_stand_release(&grown);
     s.stand.cutting.stay_count = 0;
     assert_int_equal(ceduo_first_cut(&s.stand, 5), 5);
 }
@@ -222,16 +198,15 @@ TEST_WITH(a_stratum_without_a_curve_stays, fresh, NULL)
 TEST_WITH(never_less_than_one_shoot_a_stool, fresh, NULL)
 {
     s.stand.shoots_count = 2; /* 1.2 a stool */
-    s.shoots[0] = stems(2000, .01, 1);
-    s.shoots[1] = stems(1000, .08, 7);
+    s.shoots[0] = paper_stems(2000, .01, 1);
+    s.shoots[1] = paper_stems(1000, .08, 7);
     bool reached = false;
     for (unsigned t = 1; t < 60; t++) {
-        struct ceduo_grown_stand grown = at(INFINITY, t);
+        LOCAL_BY(ceduo_grown_stand_release) struct ceduo_grown_stand grown = at(INFINITY, t);
         double sum = ceduo_stand_shoots(&grown.stand);
         EXPECT(sum, >=, 2500);
         EXPECT(sum, <=, 3000);
         reached |= sum < 2500 * (1 + 1e-12);
-        ceduo_grown_stand_release(&grown);
     }
     assert_true(reached);
 }
@@ -283,7 +258,7 @@ TEST_WITH(a_simple_coppice_after_its_cuts, fresh, NULL)
 {
     s.stand.growth.sdi_most = 0;
     for (unsigned tau = 0; tau < 25; tau++) {
-        struct ceduo_grown_stand grown = at(4, 4 + tau);
+        LOCAL_BY(ceduo_grown_stand_release) struct ceduo_grown_stand grown = at(4, 4 + tau);
         const struct ceduo_stand *g = &grown.stand;
         assert_int_equal(g->trees_count, 2);
         for (unsigned j = 0; j < 2; j++) {
@@ -296,13 +271,12 @@ TEST_WITH(a_simple_coppice_after_its_cuts, fresh, NULL)
         assert_int_equal(g->shoots_count, tau > 0);
         EXPECT_IS(*g, (stools_per_ha, (tau > 0 ? 2500 : 0)), (spacing, .35));
         if (tau > 0) {
-            expect_near(g->shoots[0].dbh, .16 * (1 - exp(-.022 * tau)), 1e-14);
-            expect_near(g->shoots[0].height, 14 * (1 - exp(-.035 * tau)), 1e-14);
-            expect_near(g->shoots[0].per_ha, 2500 * (3 + 13 * exp(-.2 * tau)), 1e-14);
+            ROWS(expect_near, (g->shoots[0].dbh, .16 * (1 - exp(-.022 * tau)), 1e-14),
+                 (g->shoots[0].height, 14 * (1 - exp(-.035 * tau)), 1e-14),
+                 (g->shoots[0].per_ha, 2500 * (3 + 13 * exp(-.2 * tau)), 1e-14));
             EXPECT(g->shoots[0].dbh_sd, ==, 0);
             assert_true(isnan(g->shoots[0].volume));
         }
-        ceduo_grown_stand_release(&grown);
     }
 }
 
@@ -313,7 +287,7 @@ TEST_WITH(a_selection_coppice_always_has_shoots, fresh, NULL)
     s.stand.growth.shoots_old = 6;
     s.stand.growth.sdi_most = 0;
     for (unsigned year = 0; year < 100; year++) {
-        struct ceduo_grown_stand grown = at(0, year);
+        LOCAL_BY(ceduo_grown_stand_release) struct ceduo_grown_stand grown = at(0, year);
         const struct ceduo_stand *g = &grown.stand;
         unsigned tau = year % 13, missing = tau == 0;
         EXPECT_IS(*g, (shoots_count, 3 - missing), (stools_per_ha, 2500));
@@ -324,13 +298,11 @@ TEST_WITH(a_selection_coppice_always_has_shoots, fresh, NULL)
         }
         EXPECT(g->trees_count, ==, 1);
         EXPECT(g->trees[0].age, ==, 26 + tau);
-        ceduo_grown_stand_release(&grown);
     }
     s.stand.growth.shoots_young = s.stand.growth.shoots_old = 1; /* two of three cohorts: less than one a stool */
-    struct ceduo_grown_stand grown = at(0, 13);
+    LOCAL_BY(ceduo_grown_stand_release) struct ceduo_grown_stand grown = at(0, 13);
     expect_near(ceduo_stand_shoots(&grown.stand), 2500, 1e-14);
     EXPECT(ceduo_stand_shoots(&grown.stand), >=, 2500);
-    ceduo_grown_stand_release(&grown);
 }
 
 TEST_WITH(a_cut_in_year_0_is_done, fresh, NULL)
@@ -352,14 +324,12 @@ TEST_WITH(a_cut_in_year_0_is_done, fresh, NULL)
 
 TEST_WITH(without_cuts_it_grows_for_ever, fresh, NULL)
 {
-    struct ceduo_grown_stand infinite = at(INFINITY, 1000);
+    LOCAL_BY(ceduo_grown_stand_release) struct ceduo_grown_stand infinite = at(INFINITY, 1000);
     s.stand.cutting.rotation = 0;
-    struct ceduo_grown_stand never = at(3, 1000);
+    LOCAL_BY(ceduo_grown_stand_release) struct ceduo_grown_stand never = at(3, 1000);
     expect_same_stand(&never.stand, &infinite.stand);
     expect_near(never.stand.shoots[0].dbh, .16, 1e-6);
     expect_near(never.stand.trees[0].dbh, .45, 1e-6);
-    ceduo_grown_stand_release(&infinite);
-    ceduo_grown_stand_release(&never);
 }
 
 /* ---- density ---- */
@@ -396,12 +366,11 @@ TEST_WITH(shoots_are_thinned_to_the_density, fresh, NULL)
     s.stand.growth.sdi_most = 500;
     unsigned thinned = 0;
     for (unsigned tau = 1; tau < 25; tau++) { /* without trees the index goes with the number */
-        struct ceduo_grown_stand grown = at(0, tau);
+        LOCAL_BY(ceduo_grown_stand_release) struct ceduo_grown_stand grown = at(0, tau);
         double n = 2500 * (3 + 13 * exp(-.2 * tau)), dbh = 16 * (1 - exp(-.022 * tau));
         double most = 500 * pow(25.4 / dbh, 1.605);
         expect_near(ceduo_stand_shoots(&grown.stand), fmax(fmin(n, most), 2500), 1e-12);
         thinned += most < n;
-        ceduo_grown_stand_release(&grown);
     }
     EXPECT(thinned, >, 5);
     EXPECT(thinned, <, 20);
@@ -456,9 +425,9 @@ static void random_stand(void)
     stand->growth.sdi_most = fmax(0, stand->growth.sdi_most);
     stand->shoots_count = stand->stools_per_ha > 0 ? (size_t)uniform(1, 5) : 0;
     for (size_t i = 0; i < stand->shoots_count; i++)
-        s.shoots[i] = stems(stand->stools_per_ha * uniform(1, 6) / (double)stand->shoots_count, uniform(.01, .18), 5);
+        s.shoots[i] = paper_stems(stand->stools_per_ha * uniform(1, 6) / (double)stand->shoots_count, uniform(.01, .18), 5);
     for (size_t i = 0; i < stand->trees_count; i++)
-        s.trees[i] = stems(uniform(1, 300), uniform(.05, .7), 14);
+        s.trees[i] = paper_stems(uniform(1, 300), uniform(.05, .7), 14);
     for (size_t i = 0; i < stand->cutting.stay_count; i++)
         s.stay[i] = uniform(0, 1) < .3 ? 0 : uniform(0, 200);
 }
@@ -474,7 +443,7 @@ TEST(no_stand_gains_stems_by_growing)
         random_stand();
         double first_cut = uniform(-60, 60), before = INFINITY;
         for (unsigned year = 0; year < YEARS; year++) {
-            struct ceduo_grown_stand grown = at(first_cut, year);
+            LOCAL_BY(ceduo_grown_stand_release) struct ceduo_grown_stand grown = at(first_cut, year);
             double shoots = ceduo_stand_shoots(&grown.stand), sum = shoots + ceduo_stand_trees(&grown.stand);
             bool sprouts = year == 1 && ceduo_stand_sprouts(&s.stand);
             if (sum > before * (1 + 1e-12) && !sprouts && !has_new_shoots(&s.stand, first_cut, year))
@@ -485,7 +454,6 @@ TEST(no_stand_gains_stems_by_growing)
                 EXPECT(grown.stand.shoots[j].dbh, >, 0);
             }
             before = sum;
-            ceduo_grown_stand_release(&grown);
         }
     }
 }
@@ -497,7 +465,7 @@ TEST(no_computed_stand_is_too_dense)
         random_stand();
         const struct ceduo_growth *g = &s.stand.growth;
         for (unsigned year = 1; g->sdi_most > 0 && year < YEARS; year += 4) {
-            struct ceduo_grown_stand grown = at(NAN, year);
+            LOCAL_BY(ceduo_grown_stand_release) struct ceduo_grown_stand grown = at(NAN, year);
             double all = g->trees_sdi_most > 0 ? g->trees_sdi_most : .35 * g->sdi_most;
             double most = g->sdi_most * fmax(0, 1 - index_by_hand(grown.stand.trees, grown.stand.trees_count) / all);
             double sdi = index_by_hand(grown.stand.shoots, grown.stand.shoots_count), shoots = ceduo_stand_shoots(&grown.stand);
@@ -506,7 +474,6 @@ TEST(no_computed_stand_is_too_dense)
                 EXPECT(shoots, <=, grown.stand.stools_per_ha * (1 + 1e-12));
                 at_least++;
             }
-            ceduo_grown_stand_release(&grown);
         }
     }
     EXPECT(thinned, >, 1000);
@@ -522,10 +489,9 @@ TEST(a_rotation_later_it_is_the_same_stand)
         if (first == CEDUO_NEVER)
             continue;
         unsigned year = first + (unsigned)uniform(0, 60);
+        LOCAL_BY(ceduo_grown_stand_release)
         struct ceduo_grown_stand now = at(given, year), later = at(given, year + 3 * rotation);
         expect_same_stand(&now.stand, &later.stand);
-        ceduo_grown_stand_release(&now);
-        ceduo_grown_stand_release(&later);
     }
 }
 
@@ -554,10 +520,7 @@ TEST(just_cut_only_the_selection_coppice_protects)
     double b = adc_just_cut("coppice with standards", 1500, (struct ceduo_cutting){25, 1, 4, standards}, .35, 3);
     double c = adc_just_cut("selection coppice", 1200, (struct ceduo_cutting){13, 3, 1, selection}, .30, 6);
     double d = adc_just_cut("coppice with large reserves", 1500, (struct ceduo_cutting){25, 1, 2, large}, .35, 3);
-    EXPECT(a, >, 30);
-    EXPECT(b, >, 30);
-    EXPECT(d, >, 30);
-    EXPECT(c, <, 30);
+    ROWS(EXPECT, (a, >, 30), (b, >, 30), (d, >, 30), (c, <, 30));
     double d1 = .45 * (1 - exp(-.35)), d2 = .45 * (1 - exp(-.7));
     expect_near(a, 1e4 / (30 * (2 * B + d1 + d2)), 1e-13);
     expect_near(d, 1e4 / (125 * (2 * B + d1 + d2)), 1e-13);

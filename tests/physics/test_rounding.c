@@ -43,9 +43,7 @@ TEST(a_flight_onto_a_slope)
         line_scene_release(&scene, 1, 3, 1, 0, 0);
         follow(&scene, modes[m], &way);
         double t = (1 + sqrt(1 + 2 * 9.81 * 3)) / 9.81, vz = -9.81 * t;
-        expect_near(way.pieces[0].seconds, t);
-        expect_near(way.pieces[0].x1, 1 + t);
-        expect_near(way.pieces[0].z1, -1 - t);
+        ROWS(expect_near, (way.pieces[0].seconds, t), (way.pieces[0].x1, 1 + t), (way.pieces[0].z1, -1 - t));
         double along = .8 * (1 - vz) / sqrt(2), off = .5 * -(vz + 1) / sqrt(2);
         expect_near(way.pieces[1].vx, (along + off) / sqrt(2));
         expect_near(way.pieces[1].vz, (off - along) / sqrt(2));
@@ -100,16 +98,13 @@ TEST(the_first_contacts_on_the_slope_of_table_3)
     scene.segments[0].rt.mean = .87;
     line_scene_release(&scene, 5, 1, 1, 0, 0);
     follow(&scene, FE_TONEAREST, &near);
-    EXPECT_NEAR(near.pieces[0].x1, 5.6993, 1e-4);
-    EXPECT_NEAR(near.pieces[0].z1, 114.6014, 1e-4);
-    EXPECT_NEAR(near.pieces[1].x1, 6.5113, 1e-4);
-    EXPECT_NEAR(near.pieces[1].z1, 112.9774, 1e-4);
+    ROWS(EXPECT_NEAR, (near.pieces[0].x1, 5.6993, 1e-4), (near.pieces[0].z1, 114.6014, 1e-4), (near.pieces[1].x1, 6.5113, 1e-4),
+         (near.pieces[1].z1, 112.9774, 1e-4));
     for (size_t m = 1; m < LENGTH(modes); m++) {
         follow(&scene, modes[m], &way);
         for (size_t i = 0; i < 3; i++) {
-            expect_near(way.pieces[i].x, near.pieces[i].x);
-            expect_near(way.pieces[i].z, near.pieces[i].z);
-            expect_near(way.pieces[i].vx, near.pieces[i].vx);
+            ROWS(expect_near, (way.pieces[i].x, near.pieces[i].x), (way.pieces[i].z, near.pieces[i].z),
+                 (way.pieces[i].vx, near.pieces[i].vx));
             if (near.pieces[i].vz != 0)
                 expect_near(way.pieces[i].vz, near.pieces[i].vz);
         }
@@ -157,9 +152,9 @@ TEST(statistics_agree_within_their_error)
             moved += fabs(contacts - contacts0);
             if (near.reached < 100) /* too few to have a mean */
                 continue;
-            expect_within("speed", a.speed.mean, near.speed.mean, near.speed.se);
-            expect_within("energy", a.energy.mean, near.energy.mean, near.energy.se);
-            expect_within("height", a.height.mean, near.height.mean, near.height.se);
+            ROWS(expect_within, ("speed", a.speed.mean, near.speed.mean, near.speed.se),
+                 ("energy", a.energy.mean, near.energy.mean, near.energy.se),
+                 ("height", a.height.mean, near.height.mean, near.height.se));
             EXPECT(a.speed.mean, !=, near.speed.mean); /* the mode was another one indeed */
         }
         expect_within("contacts", moved / contacts0, 0, .01);

@@ -332,9 +332,8 @@ static void expect_agreement(const struct tally *t, const char *what)
                   "%ju with no more energy than rounding, %ju sent off by rounding alone; %ju longer than %d contacts\n",
                   what, (uintmax_t)t->rocks, (uintmax_t)t->contacts, (uintmax_t)t->same, (uintmax_t)t->excused,
                   (uintmax_t)t->first_apart, (uintmax_t)t->still, (uintmax_t)t->aimless, (uintmax_t)t->cut_short, CONTACTS);
-    EXPECT(t->same + t->excused + t->still + t->aimless, ==, t->rocks);
-    EXPECT((double)t->same, >=, .99 * (double)t->rocks);
-    EXPECT((double)t->first_apart, <=, .001 * (double)t->rocks);
+    ROWS(EXPECT, (t->same + t->excused + t->still + t->aimless, ==, t->rocks), ((double)t->same, >=, .99 * (double)t->rocks),
+         ((double)t->first_apart, <=, .001 * (double)t->rocks));
 }
 
 TEST(eight_combinations_on_the_slope_of_table_3)

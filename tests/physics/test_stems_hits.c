@@ -1,29 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What a hit takes of a rock, which stems it flies over, and where stems stop it. */
 #include "expect.h"
+#include "local.h"
 
 #include <math.h>
 
 #include "stems_scene.h"
 
 /* ---- what a hit takes ---- */
-
-/* The share of the largest energy by eccentricity as Dorren et al. 2006 print it, cut to 0…1. */
-static double printed_share(double u)
-{
-    double e = -.046 + (.98 + .046) / (1 + pow(10, (.58 - u) * -8.007));
-    return e < 0 ? 0 : e > 1 ? 1 : e;
-}
-
-/* Its mean by Simpson's rule. */
-static double mean_printed_share(void)
-{
-    const int n = 20000;
-    double sum = 0;
-    for (int i = 0; i <= n; i++)
-        sum += (i == 0 || i == n ? 1 : i % 2 ? 4 : 2) * printed_share((double)i / n);
-    return sum / (3 * n);
-}
 
 static void plant_dorren(double from, double to)
 {
@@ -120,9 +104,7 @@ static void at_hit(void *context, const struct ceduo_stem_passed *stem)
     double v2 = s->last.vx1 * s->last.vx1 + s->last.vz1 * s->last.vz1;
     expect_exact("energy before", stem->before, (s->mass * v2 + s->moment * last_spin(s) * last_spin(s)) / 2, 1e-12);
     assert_true(stem->hit);
-    EXPECT(stem->taken, >=, 0);
-    EXPECT(stem->taken, <=, stem->before);
-    EXPECT(stem->x, ==, s->last.x1);
+    ROWS(EXPECT, (stem->taken, >=, 0), (stem->taken, <=, stem->before), (stem->x, ==, s->last.x1));
     s->left = 1 - stem->taken / stem->before;
     s->hits++;
 }
@@ -149,9 +131,7 @@ TEST(a_hit_scales_speed_and_spin_by_what_is_left_of_the_energy)
             stopped += sweep.way.end == CEDUO_STOPPED_BY_STEMS;
         }
         sweep_end();
-        EXPECT(s.hits, >, 10000);
-        EXPECT(s.checked, >=, s.hits - 2000);
-        EXPECT(stopped, >, 100);
+        ROWS(EXPECT, (s.hits, >, 10000), (s.checked, >=, s.hits - 2000), (stopped, >, 100));
         assert_int_equal(s.hits - s.checked, stopped);
     }
 }
@@ -301,11 +281,10 @@ static double first_stem_cdf(double x, const void *of)
 
 static void expect_run_stopped(const struct sample *stops, uint64_t rocks)
 {
-    struct ceduo_run *run = run_option(&plane.line.scene, &plane.line.option, rocks, 2, CEDUO_EXACT_BYTES);
+    LOCAL(ceduo_run, run) = run_option(&plane.line.scene, &plane.line.option, rocks, 2, CEDUO_EXACT_BYTES);
     struct ceduo_ends ends = ends_of(run);
-    assert_int_equal(ends.count[CEDUO_STOPPED_BY_STEMS], stops->n);
-    assert_int_equal(ends.count[CEDUO_LEFT_SLOPE], rocks - stops->n);
-    assert_int_equal(ends.stop_x.n, stops->n);
+    ROWS(assert_int_equal, (ends.count[CEDUO_STOPPED_BY_STEMS], stops->n), (ends.count[CEDUO_LEFT_SLOPE], rocks - stops->n),
+         (ends.stop_x.n, stops->n));
     double sum = 0;
     for (size_t i = 0; i < stops->n; i++)
         sum += stops->values[i];
@@ -315,7 +294,6 @@ static void expect_run_stopped(const struct sample *stops, uint64_t rocks)
     struct ceduo_stem_counts counts = ceduo_run_stems(run);
     EXPECT_IS(counts, (hit, stops->n), (met, stops->n));
     EXPECT(counts.drawn, >=, counts.hit);
-    ceduo_run_free(run);
 }
 
 static void expect_stopped(const char *name, uint64_t rocks)

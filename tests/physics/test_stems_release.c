@@ -120,10 +120,7 @@ TEST(ground_that_is_covered_twice_holds_its_stems_once)
         struct cover c = {from, from, 0, 1};
         sweep_watched(rock, &(struct ceduo_watch){.piece = cover_piece, .stem = cover_stem, .context = &c});
         assert_int_equal(sweep.way.end, CEDUO_AT_REST);
-        EXPECT(c.turns, >, 10);
-        EXPECT(c.lo, >, 200);
-        EXPECT(c.lo, <, 320);
-        EXPECT(c.hi, >, 500);
+        ROWS(EXPECT, (c.turns, >, 10), (c.lo, >, 200), (c.lo, <, 320), (c.hi, >, 500));
         size_t behind = 0;
         for (size_t i = 0; i < sweep.count; i++)
             behind += sweep.stems[i].x < from;

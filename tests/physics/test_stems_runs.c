@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Runs among stems: the test site of Ciabocco, Boccia and Ripa 2009, options side by side, the same bits and the same rocks. */
 #include "expect.h"
+#include "local.h"
 
 #include <math.h>
 #include <string.h>
@@ -27,21 +28,20 @@ TEST(rocks_on_the_papers_site_arrive_as_in_independent_implementations)
         const struct site_row *r = &rows[i];
         paper_site_init(&site);
         site.scene.simulation.contact_model = r->model;
-        struct ceduo_run *run = run_option(&site.scene, &site.option, rocks, 2, CEDUO_EXACT_BYTES);
+        LOCAL(ceduo_run, run) = run_option(&site.scene, &site.option, rocks, 2, CEDUO_EXACT_BYTES);
         struct ceduo_arrivals a = arrivals_of(run, 0);
         struct ceduo_ends e = ends_of(run);
         double n = (double)rocks, pass = a.reach_probability;
         double stopped = (double)e.count[CEDUO_STOPPED_BY_STEMS] / n;
         expect_close("kJ at 135 m", a.energy.mean / 1e3, a.energy.se / 1e3, r->energy, .1);
         /* its error is not printed: half of that of the energy, as shares go, and half a digit */
-        expect_close("m/s at 135 m", a.speed.mean, a.speed.se, r->speed, r->speed * .05 / r->energy + .005 / 4);
-        expect_close("% that pass", 100 * pass, 100 * sqrt(pass * (1 - pass) / n), r->pass, .1);
-        expect_close("% stopped by stems", 100 * stopped, 100 * sqrt(stopped * (1 - stopped) / n), r->stopped, .1);
+        ROWS(expect_close, ("m/s at 135 m", a.speed.mean, a.speed.se, r->speed, r->speed * .05 / r->energy + .005 / 4),
+             ("% that pass", 100 * pass, 100 * sqrt(pass * (1 - pass) / n), r->pass, .1),
+             ("% stopped by stems", 100 * stopped, 100 * sqrt(stopped * (1 - stopped) / n), r->stopped, .1));
         uint64_t ended = 0;
         for (int k = 0; k < CEDUO_ENDS; k++)
             ended += e.count[k];
         assert_int_equal(ended, rocks);
-        ceduo_run_free(run);
     }
 }
 
@@ -117,8 +117,8 @@ TEST(differences_have_the_error_of_differences_rock_by_rock)
     open_sides();
     for (int other = 0; other < 2; other++) { /* the small change, no forest */
         const struct ceduo_option *option = other ? NULL : &sides.options[1];
-        struct ceduo_run *run = run_option(&site.scene, option, rocks, 2, CEDUO_EXACT_BYTES);
-        struct ceduo_run *base = run_option(&site.scene, &sides.options[0], rocks, 2, CEDUO_EXACT_BYTES);
+        LOCAL(ceduo_run, run) = run_option(&site.scene, option, rocks, 2, CEDUO_EXACT_BYTES);
+        LOCAL(ceduo_run, base) = run_option(&site.scene, &sides.options[0], rocks, 2, CEDUO_EXACT_BYTES);
         struct ceduo_difference d = ceduo_run_difference(run, base, 0);
         struct pair_moments m = pairs_of(option, &sides.options[0], rocks);
         struct ceduo_arrivals a = arrivals_of(run, 0);
@@ -130,8 +130,6 @@ TEST(differences_have_the_error_of_differences_rock_by_rock)
                     b.energy_per_released);
         double apart = hypot(a.energy_per_released_se, b.energy_per_released_se);
         EXPECT(d.energy_per_released.se, <, (other ? 1 : .5) * apart);
-        ceduo_run_free(base);
-        ceduo_run_free(run);
     }
 }
 
@@ -147,21 +145,19 @@ TEST(differences_without_all_samples_are_the_same)
     struct ceduo_difference d[LENGTH(bytes)];
     open_sides();
     for (size_t i = 0; i < LENGTH(bytes); i++) {
-        struct ceduo_run *run = run_option(&site.scene, &sides.options[1], rocks, 2, bytes[i]);
-        struct ceduo_run *base = run_option(&site.scene, &sides.options[0], rocks, 2, bytes[i]);
+        LOCAL(ceduo_run, run) = run_option(&site.scene, &sides.options[1], rocks, 2, bytes[i]);
+        LOCAL(ceduo_run, base) = run_option(&site.scene, &sides.options[0], rocks, 2, bytes[i]);
         struct ceduo_arrivals a = arrivals_of(run, 0);
         EXPECT(a.exact, ==, (i == 0));
         d[i] = ceduo_run_difference(run, base, 0);
-        ceduo_run_free(base);
-        ceduo_run_free(run);
-        EXPECT(d[i].energy_per_released.mean, ==, d[0].energy_per_released.mean);
-        EXPECT(d[i].reach_probability.mean, ==, d[0].reach_probability.mean);
-        EXPECT(d[i].exceed_probability.mean, ==, d[0].exceed_probability.mean);
+        ROWS(EXPECT, (d[i].energy_per_released.mean, ==, d[0].energy_per_released.mean),
+             (d[i].reach_probability.mean, ==, d[0].reach_probability.mean),
+             (d[i].exceed_probability.mean, ==, d[0].exceed_probability.mean));
     }
     /* energies of all rocks are kept, though not all samples */
-    assert_true(same_pair(&d[1].energy_per_released, &d[0].energy_per_released));
-    assert_true(same_pair(&d[1].reach_probability, &d[0].reach_probability));
-    assert_true(same_pair(&d[1].exceed_probability, &d[0].exceed_probability));
+    ROWS(assert_true, (same_pair(&d[1].energy_per_released, &d[0].energy_per_released)),
+         (same_pair(&d[1].reach_probability, &d[0].reach_probability)),
+         (same_pair(&d[1].exceed_probability, &d[0].exceed_probability)));
     /* of half of them: the spread is known a little worse */
     EXPECT_NEAR(d[2].energy_per_released.se / d[0].energy_per_released.se, 1, .1);
 }
@@ -186,22 +182,21 @@ TEST(the_same_bits_among_stems_with_any_number_of_threads_and_steps)
     static const uint64_t to[] = {999, 1024, 3000, 3000, 4096, 5000};
     open_sides();
     for (size_t e = 0; e < LENGTH(bytes); e++) {
-        struct ceduo_run *base = run_option(&site.scene, &sides.options[0], rocks, 1, bytes[e]);
-        struct ceduo_run *one = run_option(&site.scene, &sides.options[1], rocks, 1, bytes[e]);
+        LOCAL(ceduo_run, base) = run_option(&site.scene, &sides.options[0], rocks, 1, bytes[e]);
+        LOCAL(ceduo_run, one) = run_option(&site.scene, &sides.options[1], rocks, 1, bytes[e]);
         struct ceduo_difference d = ceduo_run_difference(one, base, 0), f;
         for (size_t t = 0; t < LENGTH(threads); t++) {
-            struct ceduo_run *many = run_option(&site.scene, &sides.options[1], rocks, threads[t], bytes[e]);
+            LOCAL(ceduo_run, many) = run_option(&site.scene, &sides.options[1], rocks, threads[t], bytes[e]);
             expect_same_bits(one, many);
             f = ceduo_run_difference(many, base, 0);
             assert_memory_equal(&d, &f, sizeof d);
-            ceduo_run_free(many);
         }
         struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
         def.option = &sides.options[1];
         def.rocks_most = rocks;
         def.threads = 5;
         def.exact_bytes = bytes[e];
-        struct ceduo_run *steps;
+        LOCAL(ceduo_run, steps);
         assert_int_equal(ceduo_run_create(&def, &steps), CEDUO_OK);
         for (size_t i = 0; i < LENGTH(to); i++)
             assert_int_equal(ceduo_run_extend(steps, to[i]), CEDUO_OK);
@@ -210,9 +205,6 @@ TEST(the_same_bits_among_stems_with_any_number_of_threads_and_steps)
         assert_memory_equal(&d, &f, sizeof d);
         f = ceduo_run_difference(one, one, 0);
         EXPECT_IS(f.energy_per_released, (mean, 0), (se, 0));
-        ceduo_run_free(steps);
-        ceduo_run_free(one);
-        ceduo_run_free(base);
     }
 }
 
@@ -256,9 +248,8 @@ TEST(a_run_among_stems_flies_the_rocks_that_can_be_followed)
     struct ceduo_arrivals a = arrivals_of(run, 0);
     EXPECT_SAME(sum, counts, drawn, hit, met);
     assert_int_equal(a.reached, energy.n);
-    expect_exact("mean energy", a.energy.mean, energy.mean, 1e-12);
-    expect_exact("mean contacts", a.contacts, hits.mean, 1e-12);
-    expect_exact("their error", a.contacts_se, ceduo_moments_se(&hits), 1e-9);
+    ROWS(expect_exact, ("mean energy", a.energy.mean, energy.mean, 1e-12), ("mean contacts", a.contacts, hits.mean, 1e-12),
+         ("their error", a.contacts_se, ceduo_moments_se(&hits), 1e-9));
     ceduo_run_free(run);
 }
 
@@ -285,7 +276,7 @@ TEST(stems_hit_by_blocks)
             continue;
         }
         const double *w = ceduo_run_weights(run);
-        struct ceduo_follower *f = ceduo_follower_create(&site.scene, &sides.options[0]);
+        LOCAL(ceduo_follower, f) = ceduo_follower_create(&site.scene, &sides.options[0]);
         double all = 0, reached = 0, sum = 0, mean = 0, ww = 0, wx = 0, xx = 0;
         for (uint64_t rock = 0; rock < ROCKS; rock++) {
             struct ceduo_trajectory way;
@@ -308,7 +299,6 @@ TEST(stems_hit_by_blocks)
         }
         expect_exact("mean contacts of blocks", a.contacts, sum / reached, 1e-12);
         expect_exact("their error", a.contacts_se, sqrt((xx - wx * wx / ww) * ROCKS / (ROCKS - 1)) / reached, 1e-9);
-        ceduo_follower_free(f);
         ceduo_run_free(run);
     }
     double ratio = ceduo_moments_sd(&over) / errors.mean;
@@ -324,29 +314,24 @@ TEST(a_longer_run_keeps_its_figures)
     struct ceduo_run *longer, *alone = run_option(&site.scene, &sides.options[1], 1500, 1, CEDUO_EXACT_BYTES);
     struct ceduo_run *few[] = {run_option(&site.scene, &sides.options[0], 600, 1, CEDUO_EXACT_BYTES),
                                run_option(&site.scene, &sides.options[1], 600, 1, CEDUO_EXACT_BYTES)};
-    struct ceduo_pool *pool;
-    struct ceduo_result *result;
+    LOCAL(ceduo_pool, pool);
+    LOCAL(ceduo_result, result);
     assert_int_equal(ceduo_pool_create(&def, &pool), CEDUO_OK);
     assert_int_equal(ceduo_pool_fill(pool), CEDUO_OK);
     assert_int_equal(ceduo_pool_extend(pool, 600), CEDUO_OK);
     assert_int_equal(ceduo_pool_simulate(pool, &sides.options[1], 1500, &longer), CEDUO_OK);
     assert_int_equal(ceduo_result_create(&site.scene, pool, &result), CEDUO_OK);
     struct ceduo_arrivals wanted = arrivals_of(alone, 0);
-    EXPECT(result->bare.rocks, ==, 600);
-    EXPECT(result->options[0].wooded.rocks, ==, 600);
-    EXPECT(result->options[1].wooded.rocks, ==, 1500);
+    ROWS(EXPECT, (result->bare.rocks, ==, 600), (result->options[0].wooded.rocks, ==, 600),
+         (result->options[1].wooded.rocks, ==, 1500));
     const struct ceduo_arrivals *a = ceduo_result_wooded(result, 1, 0);
-    EXPECT(a->released, ==, 1500);
-    EXPECT(a->reached, ==, wanted.reached);
-    EXPECT(a->energy.mean, ==, wanted.energy.mean);
+    ROWS(EXPECT, (a->released, ==, 1500), (a->reached, ==, wanted.reached), (a->energy.mean, ==, wanted.energy.mean));
     EXPECT_SAME(*a, wanted, exceed_hi, contacts);
     struct ceduo_difference d = result->options[1].differences[0], of_few = ceduo_run_difference(few[1], few[0], 0);
     EXPECT(d.energy_per_released.mean, <, 0);
     expect_exact("difference", d.energy_per_released.mean, of_few.energy_per_released.mean, 1e-9);
     expect_exact("its error", d.energy_per_released.se, of_few.energy_per_released.se, 1e-12);
     EXPECT_NEAR(d.exceed_probability.mean, of_few.exceed_probability.mean, 1e-12);
-    ceduo_result_free(result);
-    ceduo_pool_free(pool);
     ceduo_run_free(alone);
     ceduo_run_free(few[0]);
     ceduo_run_free(few[1]);
@@ -409,7 +394,7 @@ TEST(options_with_the_same_stems_share_a_run)
     site.scene.options = options;
     site.scene.options_count = LENGTH(options);
     struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
-    struct ceduo_pool *pool;
+    LOCAL(ceduo_pool, pool);
     assert_int_equal(ceduo_pool_create(&def, &pool), CEDUO_OK);
     assert_int_equal(ceduo_pool_fill(pool), CEDUO_OK);
     struct ceduo_work work = ceduo_pool_work(pool);
@@ -422,10 +407,8 @@ TEST(options_with_the_same_stems_share_a_run)
     work = ceduo_pool_work(pool);
     assert_int_equal(work.rocks, 3000);
     struct ceduo_run *run = ceduo_pool_find(pool, &options[0]);
-    struct ceduo_run *alone = run_option(&site.scene, &options[1], 1000, 1, CEDUO_EXACT_BYTES);
+    LOCAL(ceduo_run, alone) = run_option(&site.scene, &options[1], 1000, 1, CEDUO_EXACT_BYTES);
     expect_same_bits(run, alone);
-    ceduo_run_free(alone);
-    ceduo_pool_free(pool);
 }
 
 /* The key of the other option when its first plot has stems of many diameters and something of it is changed. */

@@ -14,22 +14,6 @@
 #define GREEN 1000.0 /* kg/m3 */
 #define MASS  512.3058
 
-/* The share at the offset u as Dorren et al. 2006 print it, cut to 0…1, and its mean over u by Simpson's rule. */
-static double printed_share(double u)
-{
-    double e = -.046 + (.98 + .046) / (1 + pow(10, (.58 - u) * -8.007));
-    return fmin(1, fmax(0, e));
-}
-
-static double mean_printed_share(void)
-{
-    const int n = 20000;
-    double sum = 0;
-    for (int i = 0; i <= n; i++)
-        sum += (i == 0 || i == n ? 1 : i % 2 ? 4 : 2) * printed_share((double)i / n);
-    return sum / (3 * n);
-}
-
 /* By hand: of ½ M v² the share m/(M + m), m = 33/140 ρ V, over V U, U = 102 800 J/m3 of the paper, is
  * ½ 33/140 1000 v²/102 800 M/(M + m): of the ADS 1 stems of 10.7 l (m = 2.52 kg) .114 at 10 m/s, .503 at 21, .959 at 29. */
 TEST(inertia_beside_brauner)
@@ -221,10 +205,10 @@ TEST(the_index_has_stumps_and_logs)
     belt.stand.logs = (struct ceduo_logs){.per_ha = 80, .length = 6, .diameter = .3, .energy = 8e3};
     struct ceduo_stand_result r = ceduo_assess_stand(&site.scene, &belt);
     double stumps = per_metre(500, B + .2), logs = per_metre(80, B + 12 / M_PI);
-    EXPECT_NEAR(1 / r.adc_m, 1 / before.adc_m + stumps + logs, 1e-12);
-    EXPECT_NEAR(1 / r.adc.crofton, 1 / before.adc.crofton + stumps + logs, 1e-12);
-    EXPECT_NEAR(1 / r.adc.gsteiger_stems, 1 / before.adc.gsteiger_stems + stumps + logs, 1e-12);
-    EXPECT_NEAR(r.dissipated, before.dissipated + 67.5 * (stumps * 3e3 + logs * 8e3), 1e-6);
+    ROWS(EXPECT_NEAR, (1 / r.adc_m, 1 / before.adc_m + stumps + logs, 1e-12),
+         (1 / r.adc.crofton, 1 / before.adc.crofton + stumps + logs, 1e-12),
+         (1 / r.adc.gsteiger_stems, 1 / before.adc.gsteiger_stems + stumps + logs, 1e-12),
+         (r.dissipated, before.dissipated + 67.5 * (stumps * 3e3 + logs * 8e3), 1e-6));
     EXPECT(r.free_run_probability, ==, before.free_run_probability);
     EXPECT_IS(r, (stumps_per_ha, 500), (logs_per_ha, 80));
     assert_true(r.warnings & CEDUO_WARN_LOW);
@@ -395,9 +379,9 @@ TEST(groups_keep_to_their_belt)
         assert_int_equal(sweep.way.stools_met, sweep.count); /* each tree is one by itself */
         assert_int_equal(different(false), sweep.count);
     }
-    expect_mean("per metre", &all, per_metre(400, B + TREE));
-    expect_mean("per metre at the first end", &first, per_metre(400, B + TREE));
-    expect_mean("per metre at the last end", &last, per_metre(400, B + TREE));
+    ROWS(expect_mean, ("per metre", &all, per_metre(400, B + TREE)),
+         ("per metre at the first end", &first, per_metre(400, B + TREE)),
+         ("per metre at the last end", &last, per_metre(400, B + TREE)));
     expect_share("nothing met in the belt", none, rocks, index.meet_nothing_probability);
 }
 

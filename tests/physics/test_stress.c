@@ -9,6 +9,7 @@
  * infinity, which times 0 is NaN, and a comparison with that is a contact. (Reading a scene may compare with NaN: that is
  * how it says that a number is not given.) */
 #include "expect.h"
+#include "local.h"
 
 #include <fenv.h>
 #include <math.h>
@@ -44,12 +45,11 @@ struct result {
 static void follow(const struct line_scene *s, uint64_t rock, struct result *r)
 {
     memset(r, 0, sizeof *r);
-    struct ceduo_follower *follower = ceduo_follower_create(&s->scene, NULL);
+    LOCAL(ceduo_follower, follower) = ceduo_follower_create(&s->scene, NULL);
     assert_non_null(follower);
     feclearexcept(FE_ALL_EXCEPT);
     enum ceduo_status status = ceduo_follower_follow(follower, rock, NULL, &r->way, &r->crossing);
     int raised = fetestexcept(RAISED) & ~by_design;
-    ceduo_follower_free(follower);
     assert_int_equal(status, CEDUO_OK);
     if (raised)
         fail_msg("seed %ju: floating-point exceptions%s%s%s", (uintmax_t)s->scene.simulation.seed,
@@ -81,10 +81,7 @@ static void expect_distribution(const struct ceduo_distribution *d, uint64_t n)
         return;
     assert_true(isfinite(d->mean));
     assert_true(isfinite(d->max));
-    EXPECT(d->mean, >=, 0);
-    EXPECT(d->mean, <=, d->max * (1 + 1e-12));
-    EXPECT(d->p50, <=, d->p95);
-    EXPECT(d->p95, <=, d->max);
+    ROWS(EXPECT, (d->mean, >=, 0), (d->mean, <=, d->max * (1 + 1e-12)), (d->p50, <=, d->p95), (d->p95, <=, d->max));
     assert_true(n == 1 || (isfinite(d->se) && d->se >= 0));
 }
 
@@ -104,7 +101,7 @@ static void expect_counts(const struct line_scene *s)
     scene.controls_count = n;
     struct ceduo_run_def def = ceduo_run_def_default(&scene);
     def.rocks_most = run_rocks;
-    struct ceduo_run *run;
+    LOCAL(ceduo_run, run);
     assert_int_equal(ceduo_run_create(&def, &run), CEDUO_OK);
     assert_int_equal(ceduo_run_extend(run, run_rocks), CEDUO_OK);
     struct ceduo_ends ends = ends_of(run);
@@ -114,17 +111,11 @@ static void expect_counts(const struct line_scene *s)
     assert_int_equal(sum, run_rocks);
     for (size_t i = 0; i < n; i++) {
         struct ceduo_arrivals a = arrivals_of(run, i);
-        EXPECT(a.released, ==, run_rocks);
-        EXPECT(a.reached, <=, before);
-        EXPECT(a.exceeded, <=, a.reached);
-        EXPECT(a.unfinished, <=, ends.count[CEDUO_UNFINISHED]);
-        EXPECT(a.reached + a.unfinished, <=, run_rocks);
-        expect_distribution(&a.speed, a.reached);
-        expect_distribution(&a.energy, a.reached);
-        expect_distribution(&a.height, a.reached);
+        ROWS(EXPECT, (a.released, ==, run_rocks), (a.reached, <=, before), (a.exceeded, <=, a.reached),
+             (a.unfinished, <=, ends.count[CEDUO_UNFINISHED]), (a.reached + a.unfinished, <=, run_rocks));
+        ROWS(expect_distribution, (&a.speed, a.reached), (&a.energy, a.reached), (&a.height, a.reached));
         before = a.reached;
     }
-    ceduo_run_free(run);
 }
 
 /* ---- random scenes ---- */
@@ -432,9 +423,7 @@ TEST(a_million_segments)
     struct line_random random = {.state = 6};
     double *x = malloc(vertices * sizeof *x), *z = malloc(vertices * sizeof *z);
     struct ceduo_segment *segments = malloc(vertices * sizeof *segments);
-    assert_true(x);
-    assert_true(z);
-    assert_true(segments);
+    ROWS(assert_true, (x), (z), (segments));
     const double few_x[] = {0, 500}, few_z[] = {0, -300};
     profile(2, few_x, few_z, earth, .3);
     release(1, .5, 2, 0);

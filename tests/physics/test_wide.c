@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The wide kernels give the same bits as the scalar one, in every figure of a run. */
 #include "expect.h"
+#include "local.h"
 
 #include <math.h>
 #include <pthread.h>
@@ -112,9 +113,8 @@ static uint64_t expect_same(const char *scene, const struct ceduo_run_def *def, 
     struct ceduo_run *scalar = run_with(one, CEDUO_KERNEL_SCALAR, rocks, rocks);
     static unsigned long times; /* the best is one of the others: now and then is enough */
     for (size_t i = times++ % 8 > 0; i < WIDE; i++) {
-        struct ceduo_run *other = run_with(*def, wide[i], first, rocks);
+        LOCAL(ceduo_run, other) = run_with(*def, wide[i], first, rocks);
         compare(scene, scalar, other, def);
-        ceduo_run_free(other);
     }
     uint64_t contacts = ceduo_run_contacts(scalar);
     saved += expect_same_arrivals(scene, scalar, &one, CEDUO_KERNEL_SCALAR);
@@ -283,9 +283,7 @@ static void compare_random_scenes(uint64_t count, bool arm)
     }
     print_message("%ju scenes, %ju contacts; ways that end behind the last control and cell save %ju\n", (uintmax_t)scenes,
                   (uintmax_t)contacts, (uintmax_t)saved);
-    EXPECT(saved, >, contacts / 100);
-    EXPECT(scenes, >, count * 9 / 10);
-    EXPECT(contacts, >, 500 * count);
+    ROWS(EXPECT, (saved, >, contacts / 100), (scenes, >, count * 9 / 10), (contacts, >, 500 * count));
 }
 
 TEST(random_scenes)
@@ -400,7 +398,7 @@ TEST(a_raised_flag_is_seen_by_rocks_under_way)
         def.cancel = &flag;
         def.kernel = wide[i];
         def.rocks_most = 10000;
-        struct ceduo_run *run;
+        LOCAL(ceduo_run, run);
         assert_int_equal(ceduo_run_create(&def, &run), CEDUO_OK);
         assert_int_equal(pthread_create(&thread, NULL, raise_soon, &flag), 0);
         assert_int_equal(ceduo_run_extend(run, 10000), CEDUO_CANCELLED);
@@ -409,10 +407,8 @@ TEST(a_raised_flag_is_seen_by_rocks_under_way)
         assert_int_equal(ceduo_run_contacts(run), 0);
         flag = false;
         assert_int_equal(ceduo_run_extend(run, 3), CEDUO_OK);
-        struct ceduo_run *scalar = run_with(def, CEDUO_KERNEL_SCALAR, 3, 3);
+        LOCAL(ceduo_run, scalar) = run_with(def, CEDUO_KERNEL_SCALAR, 3, 3);
         compare("after a flag", scalar, run, &def);
         assert_int_equal(ceduo_run_contacts(run), 3 * CEDUO_CONTACTS_MOST);
-        ceduo_run_free(scalar);
-        ceduo_run_free(run);
     }
 }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* An option year by year: beside the same stands grown, flown and assessed one by one. */
 #include "expect.h"
+#include "local.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -29,11 +30,6 @@ struct wood {
 
 static struct wood wood; /* points into itself */
 
-static struct ceduo_stems stems(double per_ha, double dbh, double height)
-{
-    return (struct ceduo_stems){.per_ha = per_ha, .dbh = dbh, .height = height, .volume = NAN, .age = NAN};
-}
-
 /* A coppice cut in year 4, a selection coppice, and one without any growth. */
 static void init(void)
 {
@@ -41,23 +37,12 @@ static void init(void)
     paper_site_init(&wood.site);
     struct ceduo_scene *scene = &wood.site.scene;
     scene->rocks_per_year = NAN;
-    wood.shoots = stems(7500, .05, 6);
-    wood.trees[0] = stems(40, .15, 9);
-    wood.trees[1] = stems(20, .30, 14);
+    wood.shoots = paper_stems(7500, .05, 6);
+    wood.trees[0] = paper_stems(40, .15, 9);
+    wood.trees[1] = paper_stems(20, .30, 14);
     wood.stay[0] = 30;
     wood.stay[1] = 10;
-    struct ceduo_stand stand = {.system = CEDUO_SIMPLE_COPPICE,
-                                .species = ceduo_species_find("ostrya-carpinifolia"),
-                                .stools_per_ha = 2500,
-                                .spacing = .35,
-                                .shoots_count = 1,
-                                .trees_count = 2,
-                                .shoots = &wood.shoots,
-                                .trees = wood.trees,
-                                .u = NAN,
-                                .fracture_ratio = 1.5,
-                                .growth = paper_growth,
-                                .cutting = {ROTATION, 1, 2, wood.stay}};
+    struct ceduo_stand stand = paper_coppice(&wood.shoots, wood.trees, 2, ROTATION, wood.stay);
     for (int i = 0; i < BELTS; i++) {
         double from = 40 * i, to = 40 * i + 35;
         wood.belts[i] = (struct ceduo_belt){.from = from,
@@ -110,10 +95,9 @@ static struct ceduo_years *grown(unsigned first, unsigned last, unsigned step)
 
 static struct ceduo_simulated bare_of(uint64_t rocks)
 {
-    struct ceduo_run *run = run_option(&wood.site.scene, NULL, rocks, 1, CEDUO_EXACT_BYTES);
+    LOCAL(ceduo_run, run) = run_option(&wood.site.scene, NULL, rocks, 1, CEDUO_EXACT_BYTES);
     struct ceduo_simulated bare;
     assert_int_equal(ceduo_simulated_read(run, CONTROLS, &bare), CEDUO_OK);
-    ceduo_run_free(run);
     return bare;
 }
 
@@ -121,11 +105,9 @@ static struct ceduo_simulated bare_of(uint64_t rocks)
 static struct ceduo_years *flown(unsigned first, unsigned last, unsigned step, unsigned threads, uint64_t rocks)
 {
     struct ceduo_years *years = grown(first, last, step);
-    struct ceduo_pool *pool = pool_of(threads, NULL);
-    struct ceduo_simulated bare = bare_of(rocks);
+    LOCAL(ceduo_pool, pool) = pool_of(threads, NULL);
+    LOCAL_BY(ceduo_simulated_free) struct ceduo_simulated bare = bare_of(rocks);
     assert_int_equal(ceduo_years_simulate(years, pool, &bare, rocks), CEDUO_OK);
-    ceduo_simulated_free(&bare);
-    ceduo_pool_free(pool);
     return years;
 }
 
@@ -154,10 +136,8 @@ static void expect_same_arrivals(const struct ceduo_arrivals *a, const struct ce
 {
     EXPECT_SAME(*a, *b, released, reached, exceeded, unfinished, exact);
     EXPECT_BITS(a, b, reach_probability, reach_lo, reach_hi, exceed_probability, exceed_lo, exceed_hi);
-    expect_same_distribution(&a->speed, &b->speed);
-    expect_same_distribution(&a->energy, &b->energy);
-    expect_same_distribution(&a->translation, &b->translation);
-    expect_same_distribution(&a->height, &b->height);
+    ROWS(expect_same_distribution, (&a->speed, &b->speed), (&a->energy, &b->energy), (&a->translation, &b->translation),
+         (&a->height, &b->height));
     EXPECT_BITS(a, b, energy_per_released, energy_per_released_se, contacts, contacts_se);
 }
 
@@ -184,9 +164,8 @@ static void expect_same_stand(const struct ceduo_stand_result *a, const struct c
 
 static void expect_same_year(const struct ceduo_year *a, const struct ceduo_year *b)
 {
-    EXPECT(a->cut, ==, b->cut);
-    EXPECT(a->option.belts_count, ==, b->option.belts_count);
-    EXPECT(a->wooded.rocks, ==, b->wooded.rocks);
+    ROWS(EXPECT, (a->cut, ==, b->cut), (a->option.belts_count, ==, b->option.belts_count),
+         (a->wooded.rocks, ==, b->wooded.rocks));
     for (size_t i = 0; i < a->option.belts_count; i++)
         expect_same_stand(&a->stands[i], &b->stands[i]);
     for (size_t c = 0; c < CONTROLS; c++) {
@@ -218,8 +197,8 @@ static void expect_direct(const struct ceduo_year *y, const struct ceduo_simulat
     EXPECT(y->cut, ==, cut);
     EXPECT(y->option.belts_count, ==, BELTS);
     struct ceduo_option option = {.belts_count = BELTS, .belts = belts};
-    struct ceduo_run *run = run_option(&wood.site.scene, &option, ROCKS, 1, CEDUO_EXACT_BYTES);
-    struct ceduo_simulated direct;
+    LOCAL(ceduo_run, run) = run_option(&wood.site.scene, &option, ROCKS, 1, CEDUO_EXACT_BYTES);
+    LOCAL_BY(ceduo_simulated_free) struct ceduo_simulated direct;
     assert_int_equal(ceduo_simulated_read(run, CONTROLS, &direct), CEDUO_OK);
     EXPECT(y->wooded.rocks, ==, ROCKS);
     EXPECT(direct.rocks, ==, ROCKS);
@@ -234,16 +213,14 @@ static void expect_direct(const struct ceduo_year *y, const struct ceduo_simulat
         index.energy = ceduo_energy_light(&direct.arrivals[c]);
         expect_same_index(&y->controls[c], &index);
     }
-    ceduo_simulated_free(&direct);
-    ceduo_run_free(run);
     for (int i = 0; i < BELTS; i++)
         ceduo_grown_stand_release(&stands[i]);
 }
 
 TEST_WITH(years_are_runs_of_their_own, fresh, NULL)
 {
-    struct ceduo_simulated bare = bare_of(ROCKS);
-    struct ceduo_years *years = flown(0, 26, 1, 2, ROCKS);
+    LOCAL_BY(ceduo_simulated_free) struct ceduo_simulated bare = bare_of(ROCKS);
+    LOCAL(ceduo_years, years) = flown(0, 26, 1, 2, ROCKS);
     assert_int_equal(years->count, 27);
     unsigned cuts = 0;
     for (size_t i = 0; i < years->count; i++) {
@@ -252,29 +229,25 @@ TEST_WITH(years_are_runs_of_their_own, fresh, NULL)
         expect_direct(&years->years[i], &bare);
     }
     assert_int_equal(cuts, 5); /* 4, 13 and 22 of the coppice; 10 and 19 of the selection coppice, 27 years old then */
-    ceduo_years_free(years);
-    ceduo_simulated_free(&bare);
 }
 
 TEST_WITH(poisson_too, fresh, NULL)
 {
     wood.site.scene.simulation.contact_model = CEDUO_POISSON;
-    struct ceduo_simulated bare = bare_of(ROCKS);
-    struct ceduo_years *years = flown(0, 13, 4, 1, ROCKS);
+    LOCAL_BY(ceduo_simulated_free) struct ceduo_simulated bare = bare_of(ROCKS);
+    LOCAL(ceduo_years, years) = flown(0, 13, 4, 1, ROCKS);
     for (size_t i = 0; i < years->count; i++)
         expect_direct(&years->years[i], &bare);
-    ceduo_years_free(years);
-    ceduo_simulated_free(&bare);
 }
 
 TEST_WITH(year_0_is_the_result, fresh, NULL)
 {
-    struct ceduo_pool *pool = pool_of(1, NULL);
-    struct ceduo_result *result;
+    LOCAL(ceduo_pool, pool) = pool_of(1, NULL);
+    LOCAL(ceduo_result, result);
     assert_int_equal(ceduo_pool_fill(pool), CEDUO_OK);
     assert_int_equal(ceduo_pool_extend(pool, ROCKS), CEDUO_OK);
     assert_int_equal(ceduo_result_create(&wood.site.scene, pool, &result), CEDUO_OK);
-    struct ceduo_years *years = grown(0, 0, 1);
+    LOCAL(ceduo_years, years) = grown(0, 0, 1);
     assert_int_equal(ceduo_years_simulate(years, pool, &result->bare, ROCKS), CEDUO_OK);
     const struct ceduo_year *y = &years->years[0];
     for (size_t c = 0; c < CONTROLS; c++) {
@@ -284,33 +257,30 @@ TEST_WITH(year_0_is_the_result, fresh, NULL)
     for (int i = 0; i < BELTS; i++)
         expect_same_stand(&y->stands[i], &result->options[0].stands[i]);
     assert_int_equal(ceduo_pool_work(pool).runs, 2); /* bare, and this one, which was there */
-    ceduo_years_free(years);
-    ceduo_result_free(result);
-    ceduo_pool_free(pool);
 }
 
 TEST_WITH(steps_and_stretches_pick_from_all, fresh, NULL)
 {
-    struct ceduo_years *all = flown(0, 20, 1, 1, 300);
+    LOCAL(ceduo_years, all) = flown(0, 20, 1, 1, 300);
     static const unsigned stretches[][3] = {{3, 3, 1}, {2, 20, 6}, {0, 19, 7}, {5, 6, 50}};
     for (size_t k = 0; k < sizeof stretches / sizeof stretches[0]; k++) {
         unsigned first = stretches[k][0], last = stretches[k][1], step = stretches[k][2];
-        struct ceduo_years *some = flown(first, last, step, 1, 300);
+        LOCAL(ceduo_years, some) = flown(first, last, step, 1, 300);
         assert_int_equal(some->count, (last - first) / step + 1);
         for (size_t i = 0; i < some->count; i++) {
             assert_int_equal(some->years[i].year, first + i * step);
             expect_same_year(&some->years[i], &all->years[some->years[i].year]);
         }
-        ceduo_years_free(some);
     }
-    ceduo_years_free(all);
 }
 
 TEST_WITH(threads_and_steps_change_nothing, fresh, NULL)
 {
-    struct ceduo_years *one = flown(0, 5, 1, 1, 3000), *two = flown(0, 5, 1, 2, 3000), *steps = grown(0, 5, 1);
-    struct ceduo_pool *pool = pool_of(2, NULL);
-    struct ceduo_simulated bare = bare_of(3000);
+    LOCAL(ceduo_years, one) = flown(0, 5, 1, 1, 3000);
+    LOCAL(ceduo_years, two) = flown(0, 5, 1, 2, 3000);
+    LOCAL(ceduo_years, steps) = grown(0, 5, 1);
+    LOCAL(ceduo_pool, pool) = pool_of(2, NULL);
+    LOCAL_BY(ceduo_simulated_free) struct ceduo_simulated bare = bare_of(3000);
     static const uint64_t rocks[] = {1, 1024, 1500, 3000, 2000}; /* never shorter again */
     for (size_t i = 0; i < sizeof rocks / sizeof rocks[0]; i++)
         assert_int_equal(ceduo_years_simulate(steps, pool, &bare, rocks[i]), CEDUO_OK);
@@ -318,30 +288,20 @@ TEST_WITH(threads_and_steps_change_nothing, fresh, NULL)
         expect_same_year(&one->years[i], &two->years[i]);
         expect_same_year(&one->years[i], &steps->years[i]);
     }
-    ceduo_simulated_free(&bare);
-    ceduo_pool_free(pool);
-    ceduo_years_free(one);
-    ceduo_years_free(two);
-    ceduo_years_free(steps);
 }
 
 TEST_WITH(a_wood_is_flown_once, fresh, NULL)
 {
     wood.belts[1].stand.cutting.cohorts = 1;
     wood.belts[1].cut_year = 7;
-    struct ceduo_years *years = grown(0, 40, 1);
-    struct ceduo_pool *pool = pool_of(2, NULL);
-    struct ceduo_simulated bare = bare_of(100);
+    LOCAL(ceduo_years, years) = grown(0, 40, 1);
+    LOCAL(ceduo_pool, pool) = pool_of(2, NULL);
+    LOCAL_BY(ceduo_simulated_free) struct ceduo_simulated bare = bare_of(100);
     assert_int_equal(ceduo_years_simulate(years, pool, &bare, 100), CEDUO_OK);
     struct ceduo_work work = ceduo_pool_work(pool);
-    EXPECT(work.runs, ==, 7 + ROTATION);
-    EXPECT(work.runs + work.reused, ==, 41);
-    EXPECT(work.rocks, ==, 100 * work.runs);
+    ROWS(EXPECT, (work.runs, ==, 7 + ROTATION), (work.runs + work.reused, ==, 41), (work.rocks, ==, 100 * work.runs));
     for (size_t i = 7; i + ROTATION < years->count; i++)
         expect_same_year(&years->years[i], &years->years[i + ROTATION]);
-    ceduo_simulated_free(&bare);
-    ceduo_pool_free(pool);
-    ceduo_years_free(years);
 }
 
 /* ---- sums ---- */
@@ -355,7 +315,7 @@ static double se_by_hand(const struct ceduo_years *years, size_t c, uint64_t roc
     double *share = calloc(rocks, sizeof *share);
     assert_non_null(share);
     for (size_t i = 0; i < years->count; i++) {
-        struct ceduo_follower *f = ceduo_follower_create(scene, &years->years[i].option);
+        LOCAL(ceduo_follower, f) = ceduo_follower_create(scene, &years->years[i].option);
         assert_non_null(f);
         for (uint64_t r = 0; r < rocks; r++) {
             struct ceduo_crossing at[CONTROLS];
@@ -365,7 +325,6 @@ static double se_by_hand(const struct ceduo_years *years, size_t c, uint64_t roc
                             .5 * way.rock.moment * at[c].spin * at[c].spin;
             share[r] += (at[c].reached && !(energy <= accepted)) / (double)years->count;
         }
-        ceduo_follower_free(f);
     }
     for (uint64_t r = 0; r < rocks; r++)
         sum += share[r];
@@ -422,11 +381,10 @@ TEST(sums_over_the_years)
     for (int rate = 0; rate < 2; rate++) {
         init();
         wood.site.scene.rocks_per_year = rate ? 2.5 : NAN;
-        struct ceduo_years *years = flown(0, 22, 2, 2, 400);
+        LOCAL(ceduo_years, years) = flown(0, 22, 2, 2, 400);
         for (size_t c = 0; c < CONTROLS; c++)
             expect_sum(years, c);
         assert_true(isnan(ceduo_years_sum(years, 0).exceed.mean)); /* it does not say what it bears */
-        ceduo_years_free(years);
     }
 }
 
@@ -442,13 +400,12 @@ TEST(more_rocks_than_are_paired)
     wood.site.scene.controls_count = 1;
     wood.controls[0].x = wood.controls[0].x_given = 1;
     wood.controls[0].accepted = 7e3;
-    struct ceduo_run *first = run_option(&wood.site.scene, NULL, CEDUO_PAIRED_ROCKS, 1, CEDUO_EXACT_BYTES);
+    LOCAL(ceduo_run, first) = run_option(&wood.site.scene, NULL, CEDUO_PAIRED_ROCKS, 1, CEDUO_EXACT_BYTES);
     struct ceduo_brief brief = ceduo_run_brief(first, 0);
-    ceduo_run_free(first);
-    struct ceduo_years *years = grown(0, 0, 1);
-    struct ceduo_pool *pool = pool_of(2, NULL);
+    LOCAL(ceduo_years, years) = grown(0, 0, 1);
+    LOCAL(ceduo_pool, pool) = pool_of(2, NULL);
     struct ceduo_run *run;
-    struct ceduo_simulated bare;
+    LOCAL_BY(ceduo_simulated_free) struct ceduo_simulated bare;
     assert_int_equal(ceduo_pool_simulate(pool, NULL, MANY, &run), CEDUO_OK);
     assert_int_equal(ceduo_simulated_read(run, 1, &bare), CEDUO_OK);
     assert_int_equal(ceduo_years_simulate(years, pool, &bare, MANY), CEDUO_OK);
@@ -456,9 +413,6 @@ TEST(more_rocks_than_are_paired)
     EXPECT(p, >, .01);
     EXPECT(p, <, .99);
     EXPECT_NEAR(ceduo_years_sum(years, 0).exceed.se, sd / sqrt(MANY), 1e-9 * sd);
-    ceduo_simulated_free(&bare);
-    ceduo_pool_free(pool);
-    ceduo_years_free(years);
 }
 
 /* Of blocks of all sizes the shares of years are weighed; the error is what a regression on the weights leaves. */
@@ -479,13 +433,12 @@ TEST(years_of_blocks)
             marks[i][r] = 0;
         for (size_t y = 0; y < years[i]->count; y++) {
             double energies[FEW];
-            struct ceduo_run *run = run_option(&wood.site.scene, &years[i]->years[y].option, FEW, 1, CEDUO_EXACT_BYTES);
+            LOCAL(ceduo_run, run) = run_option(&wood.site.scene, &years[i]->years[y].option, FEW, 1, CEDUO_EXACT_BYTES);
             assert_true(ceduo_run_values(run, years[i]->last_control, CEDUO_SAMPLE_ENERGY, energies));
             for (size_t r = 0; r < FEW; r++) {
                 marks[i][r] += (energies[r] > 50e3) / 3.;
                 weights[r] = ceduo_run_weights(run)[r];
             }
-            ceduo_run_free(run);
         }
     }
     for (int of = 0; of < 3; of++) { /* one, the other, their difference */
@@ -519,26 +472,24 @@ TEST_WITH(metres_felled, fresh, NULL)
         whole += wood.belts[i].to - wood.belts[i].from;
     }
     for (unsigned first = 9; first < 20; first++) {
-        struct ceduo_years *years = grown(first, first + 3 * ROTATION - 1, 1);
+        LOCAL(ceduo_years, years) = grown(first, first + 3 * ROTATION - 1, 1);
         EXPECT(ceduo_years_felled(years), ==, 3 * whole);
         double by_hand = 0;
         for (size_t i = 0; i < years->count; i++)
             for (int k = 0; k < BELTS; k++)
                 by_hand += years->years[i].option.belts[k].stand.stools_per_ha == 0 ? wood.belts[k].to - wood.belts[k].from : 0;
         EXPECT(by_hand, ==, 3 * whole); /* just cut no stool stands */
-        ceduo_years_free(years);
     }
-    struct ceduo_years *years = grown(5, 6, 1);
+    LOCAL(ceduo_years, years) = grown(5, 6, 1);
     EXPECT(ceduo_years_felled(years), ==, wood.belts[1].to - wood.belts[1].from); /* -3: 6 */
-    ceduo_years_free(years);
 }
 
 TEST_WITH(by_the_index_alone, fresh, NULL)
 {
     wood.site.scene.simulation.contact_model = CEDUO_INDEX;
-    struct ceduo_years *years = grown(0, 15, 1);
-    struct ceduo_pool *pool = pool_of(1, NULL);
-    struct ceduo_simulated bare = bare_of(200);
+    LOCAL(ceduo_years, years) = grown(0, 15, 1);
+    LOCAL(ceduo_pool, pool) = pool_of(1, NULL);
+    LOCAL_BY(ceduo_simulated_free) struct ceduo_simulated bare = bare_of(200);
     assert_int_equal(ceduo_years_simulate(years, pool, &bare, 200), CEDUO_OK);
     assert_int_equal(ceduo_pool_work(pool).runs, 0);
     double worst = 0;
@@ -557,16 +508,13 @@ TEST_WITH(by_the_index_alone, fresh, NULL)
     EXPECT(worst_year, ==, 4);
     EXPECT_NAN(s.reach.mean, s.exceed.mean, s.passes_per_year);
     EXPECT(s.unprotected_energy, ==, 0);
-    ceduo_simulated_free(&bare);
-    ceduo_pool_free(pool);
-    ceduo_years_free(years);
 }
 
 TEST_WITH(no_forest_is_the_bare_run, fresh, NULL)
 {
     wood.option.belts_count = 0;
-    struct ceduo_simulated bare = bare_of(500);
-    struct ceduo_years *years = flown(0, 3, 1, 1, 500);
+    LOCAL_BY(ceduo_simulated_free) struct ceduo_simulated bare = bare_of(500);
+    LOCAL(ceduo_years, years) = flown(0, 3, 1, 1, 500);
     for (size_t i = 0; i < years->count; i++) {
         assert_false(years->years[i].cut);
         for (size_t c = 0; c < CONTROLS; c++) {
@@ -576,8 +524,6 @@ TEST_WITH(no_forest_is_the_bare_run, fresh, NULL)
         }
     }
     EXPECT(ceduo_years_felled(years), ==, 0);
-    ceduo_years_free(years);
-    ceduo_simulated_free(&bare);
     ceduo_years_free(NULL);
 }
 
@@ -585,11 +531,10 @@ TEST_WITH(nothing_is_hit_in_a_bare_year, fresh, NULL)
 {
     wood.option.belts_count = 1;
     wood.belts[0].stand.cutting.stay_count = 0;
-    struct ceduo_years *years = flown(3, 5, 1, 1, 200);
+    LOCAL(ceduo_years, years) = flown(3, 5, 1, 1, 200);
     const struct ceduo_year *y = &years->years[1];
     bool cut = y->cut && y->stands[0].bare && y->wooded.arrivals[1].reached > 0;
     double contacts = y->wooded.arrivals[1].contacts;
-    ceduo_years_free(years);
     assert_true(cut);
     EXPECT(contacts, ==, 0); /* known, not unknown */
 }
@@ -656,8 +601,8 @@ static void count_run(void *context, uint64_t rocks)
 
 TEST_WITH(it_can_be_cancelled_and_goes_on, fresh, NULL)
 {
-    struct ceduo_years *whole = flown(0, 8, 1, 2, ROCKS);
-    struct ceduo_simulated bare = bare_of(ROCKS);
+    LOCAL(ceduo_years, whole) = flown(0, 8, 1, 2, ROCKS);
+    LOCAL_BY(ceduo_simulated_free) struct ceduo_simulated bare = bare_of(ROCKS);
     for (unsigned after = 0; after < 10; after += 3) {
         struct stop stop = {.cancel = after == 0, .after = after};
         struct ceduo_run_def def = ceduo_run_def_default(&wood.site.scene);
@@ -666,9 +611,9 @@ TEST_WITH(it_can_be_cancelled_and_goes_on, fresh, NULL)
         def.cancel = &stop.cancel;
         def.progress = count_run;
         def.context = &stop;
-        struct ceduo_pool *pool;
+        LOCAL(ceduo_pool, pool);
         assert_int_equal(ceduo_pool_create(&def, &pool), CEDUO_OK);
-        struct ceduo_years *years = grown(0, 8, 1);
+        LOCAL(ceduo_years, years) = grown(0, 8, 1);
         enum ceduo_status status = ceduo_years_simulate(years, pool, &bare, ROCKS);
         assert_int_equal(status, after < 9 ? CEDUO_CANCELLED : CEDUO_OK);
         for (size_t i = 0; i < years->count; i++) {
@@ -680,16 +625,11 @@ TEST_WITH(it_can_be_cancelled_and_goes_on, fresh, NULL)
         assert_int_equal(ceduo_years_simulate(years, pool, &bare, ROCKS), CEDUO_OK);
         for (size_t i = 0; i < years->count; i++)
             expect_same_year(&years->years[i], &whole->years[i]);
-        ceduo_years_free(years);
-        ceduo_pool_free(pool);
     }
-    ceduo_simulated_free(&bare);
-    ceduo_years_free(whole);
 }
 
 TEST_WITH(not_flown_it_is_freed, fresh, NULL)
 {
-    struct ceduo_years *years = grown(0, 500, 1);
+    LOCAL(ceduo_years, years) = grown(0, 500, 1);
     assert_int_equal(years->count, 501);
-    ceduo_years_free(years);
 }
