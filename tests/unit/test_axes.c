@@ -9,8 +9,7 @@
 /* The labels of the ticks of a range, with a blank between. */
 static void expect_ticks(double lo, double hi, int max_count, const char *expected)
 {
-    double ticks[CEDUO_TICKS_MAX];
-    double step;
+    double ticks[CEDUO_TICKS_MAX], step;
     char all[1024] = "";
     int count = ceduo_ticks(lo, hi, max_count, ticks, &step);
     assert_true(count <= max_count || count == 0);
@@ -69,8 +68,7 @@ TEST(ticks_of_awkward_ranges)
 
 TEST(ticks_are_evenly_spaced_and_never_too_many)
 {
-    double ticks[CEDUO_TICKS_MAX];
-    double step;
+    double ticks[CEDUO_TICKS_MAX], step;
     for (int k = -12; k <= 12; ++k) {
         double size = pow(10, k);
         for (int i = 1; i < 60; ++i) {
@@ -92,17 +90,15 @@ TEST(ticks_are_evenly_spaced_and_never_too_many)
 
 TEST(tick_labels_have_no_minus_nought)
 {
+    static const struct {
+        double value, step;
+        const char *label;
+    } rows[] = {{-0.0, 1, "0"}, {-1e-9, 0.1, "0.0"}, {-0.1, 0.1, "-0.1"}, {-2e10, 1e10, "-2e10"}, {-1e-10, 1e-10, "-1e-10"}};
     char label[CEDUO_TICK_LABEL_SIZE];
-    ceduo_tick_label(-0.0, 1, sizeof label, label);
-    assert_string_equal(label, "0");
-    ceduo_tick_label(-1e-9, 0.1, sizeof label, label);
-    assert_string_equal(label, "0.0");
-    ceduo_tick_label(-0.1, 0.1, sizeof label, label);
-    assert_string_equal(label, "-0.1");
-    ceduo_tick_label(-2e10, 1e10, sizeof label, label);
-    assert_string_equal(label, "-2e10");
-    ceduo_tick_label(-1e-10, 1e-10, sizeof label, label);
-    assert_string_equal(label, "-1e-10");
+    for (size_t i = 0; i < LENGTH(rows); i++) {
+        ceduo_tick_label(rows[i].value, rows[i].step, sizeof label, label);
+        assert_string_equal(label, rows[i].label);
+    }
     assert_int_equal(ceduo_tick_label(1234, 1, 3, label), 2);
     assert_string_equal(label, "12");
     assert_int_equal(ceduo_tick_label(1234, 1, 0, NULL), 0);
@@ -157,12 +153,30 @@ TEST(axis_labels_leave_out_what_has_no_room)
     expect_and_clear(cells, "\n\n\n   ----\n\n");
 }
 
-TEST(unit_without_room_after_the_last_number_follows_the_first)
+/* A unit without room after the last number follows the first; a turned axis has it at the right; years have no fractions. */
+TEST(units_stand_where_there_is_room)
 {
-    LOCAL(ceduo_cells, cells) = cells_in(36, 3, ASCII);
-    struct ceduo_frame frame = {.left = 1, .width = 35, .height = 1, .x1 = 120, .y1 = 1};
-    ceduo_canvas_axis_bottom(&cells->canvas, &frame, "m");
-    expect_text(cells, "\n +-----+----+-----+-----+----+-----+\n 0 m   20   40    60    80  100  120\n");
+    static const struct {
+        int width;
+        double x0, x1;
+        const char *unit;
+        bool whole;
+        const char *text;
+    } rows[] = {
+        {35, 0, 120, "m", false, "\n +-----+----+-----+-----+----+-----+\n 0 m   20   40    60    80  100  120\n"},
+        {19, 25, -5, "y", false, "\n ---+-----+-----+---\n    20    10    0 y\n"},
+        {29, 0, 1, "y", false, "\n +-------------+-------------+\n0.0 y         0.5          1.0\n"},
+        {29, 0, 1, "y", true, "\n +---------------------------+\n 0 y                         1\n"},
+    };
+    for (size_t i = 0; i < LENGTH(rows); i++) {
+        LOCAL(ceduo_cells, cells) = cells_in(rows[i].width + 1, 3, ASCII);
+        struct ceduo_frame frame = {.left = 1, .width = rows[i].width, .height = 1, .y1 = 1};
+        frame.x0 = rows[i].x0;
+        frame.x1 = rows[i].x1;
+        frame.x_whole = rows[i].whole;
+        ceduo_canvas_axis_bottom(&cells->canvas, &frame, rows[i].unit);
+        expect_text(cells, rows[i].text);
+    }
 }
 
 TEST(strip_of_two_rows_has_two_labels)
@@ -173,33 +187,10 @@ TEST(strip_of_two_rows_has_two_labels)
     expect_text(cells, "2┤\n0┤\n");
 }
 
-TEST(turned_axis_has_its_unit_at_the_right)
-{
-    LOCAL(ceduo_cells, cells) = cells_in(20, 3, ASCII);
-    struct ceduo_frame frame = {.left = 1, .width = 19, .height = 1, .x0 = 25, .x1 = -5, .y1 = 1};
-    ceduo_canvas_axis_bottom(&cells->canvas, &frame, "y");
-    expect_text(cells, "\n ---+-----+-----+---\n    20    10    0 y\n");
-}
-
-TEST(years_have_no_fractions)
-{
-    struct ceduo_cells *cells = cells_in(30, 3, ASCII);
-    struct ceduo_frame frame = {.left = 1, .width = 29, .height = 1, .x0 = 0, .x1 = 1, .y1 = 1};
-    ceduo_canvas_axis_bottom(&cells->canvas, &frame, "y");
-    expect_text(cells, "\n +-------------+-------------+\n0.0 y         0.5          1.0\n");
-    ceduo_cells_free(cells);
-    cells = cells_in(30, 3, ASCII);
-    frame.x_whole = true;
-    ceduo_canvas_axis_bottom(&cells->canvas, &frame, "y");
-    expect_text(cells, "\n +---------------------------+\n 0 y                         1\n");
-    ceduo_cells_free(cells);
-}
-
 /* Counts the runs of text in a row that are at least two blanks apart. */
 static int words_in(const char *row)
 {
-    int words = 0;
-    int blanks = 2;
+    int words = 0, blanks = 2;
     for (; *row != '\0'; ++row) {
         words += *row != ' ' && blanks >= 2;
         blanks = *row == ' ' ? blanks + 1 : 0;
@@ -217,14 +208,12 @@ TEST(bottom_labels_never_touch)
             frame.x1 = 1.13 * pow(10, k) * (1 + width % 5);
             ceduo_cells_clear(cells);
             ceduo_canvas_axis_bottom(&cells->canvas, &frame, NULL);
-            char line[128];
-            char labels[128];
+            char line[128], labels[128];
             ceduo_cells_text(cells, 2, sizeof line, line);
             ceduo_cells_text(cells, 3, sizeof labels, labels);
             int ticks = 0;
-            for (const char *c = line; *c != '\0'; ++c) {
+            for (const char *c = line; *c != '\0'; ++c)
                 ticks += *c == '+';
-            }
             assert_int_equal(words_in(labels), ticks);
             EXPECT(strlen(labels), <=, (size_t)width + 2);
         }
@@ -238,8 +227,7 @@ TEST(axis_width_holds_every_label)
         frame.left = ceduo_frame_axis_width(&frame, kind_of(BRAILLE));
         LOCAL(ceduo_cells, cells) = cells_in(frame.left + 4, height, BRAILLE);
         ceduo_canvas_axis_left(&cells->canvas, &frame);
-        int widest = 0;
-        int last_tick = -2;
+        int widest = 0, last_tick = -2;
         for (int row = 0; row < height; ++row) {
             bool tick = ceduo_cells_glyph(cells, frame.left - 1, row) == 0x2524;
             bool label = frame.left > 1 && ceduo_cells_glyph(cells, frame.left - 2, row) != ' ';

@@ -8,6 +8,11 @@ static void count_line(struct ceduo_cells *cells, const struct ceduo_frame *fram
     ceduo_canvas_cloud_add(&cells->canvas, frame, 2, (double[]){ax, bx}, (double[]){ay, by});
 }
 
+static void draw_line(struct ceduo_cells *cells, const struct ceduo_frame *frame, double ax, double ay, double bx, double by)
+{
+    ceduo_canvas_line(&cells->canvas, frame, CEDUO_ROLE_WAY, ax, ay, bx, by);
+}
+
 /* ---- Lines ---- */
 
 TEST(lines_in_each_charset)
@@ -22,9 +27,9 @@ TEST(lines_in_each_charset)
         LOCAL(ceduo_cells, cells) = cells_in(4, 2, (enum ceduo_charset)i);
         struct ceduo_frame frame = dots_of(cells);
         int to = length[i] - 1;
-        ceduo_canvas_line(&cells->canvas, &frame, CEDUO_ROLE_WAY, 0, frame.y1, to, frame.y1 - to);
+        draw_line(cells, &frame, 0, frame.y1, to, frame.y1 - to);
         expect_and_clear(cells, expected[i]);
-        ceduo_canvas_line(&cells->canvas, &frame, CEDUO_ROLE_WAY, to, frame.y1 - to, 0, frame.y1);
+        draw_line(cells, &frame, to, frame.y1 - to, 0, frame.y1);
         expect_text(cells, expected[i]);
     }
 }
@@ -33,9 +38,9 @@ TEST(steep_and_flat_lines_have_no_gaps)
 {
     LOCAL(ceduo_cells, cells) = cells_in(3, 2, BRAILLE);
     struct ceduo_frame frame = dots_of(cells);
-    ceduo_canvas_line(&cells->canvas, &frame, CEDUO_ROLE_WAY, 0, 0, 1, 7);
+    draw_line(cells, &frame, 0, 0, 1, 7);
     expect_and_clear(cells, "⢸\n⡇\n");
-    ceduo_canvas_line(&cells->canvas, &frame, CEDUO_ROLE_WAY, 0, 0, 5, 1);
+    draw_line(cells, &frame, 0, 0, 5, 1);
     expect_and_clear(cells, "\n⣀⡠⠤\n");
 }
 
@@ -47,18 +52,18 @@ TEST(what_lies_outside_is_clipped)
     frame.width = 2;
     frame.x1 = 3;
     /* Both ends outside, across the frame: level, upright, slanting; and far, far away. */
-    ceduo_canvas_line(&cells->canvas, &frame, CEDUO_ROLE_WAY, -50, 3, 90, 3);
+    draw_line(cells, &frame, -50, 3, 90, 3);
     expect_and_clear(cells, " ▀▀\n\n");
-    ceduo_canvas_line(&cells->canvas, &frame, CEDUO_ROLE_WAY, 0, 1e6, 0, -1e6);
+    draw_line(cells, &frame, 0, 1e6, 0, -1e6);
     expect_and_clear(cells, " ▌\n ▌\n");
-    ceduo_canvas_line(&cells->canvas, &frame, CEDUO_ROLE_WAY, -10, 13, 20, -17);
+    draw_line(cells, &frame, -10, 13, 20, -17);
     expect_and_clear(cells, " ▚\n  ▚\n");
-    ceduo_canvas_line(&cells->canvas, &frame, CEDUO_ROLE_WAY, -1e9, -1e9, 1e9, 1e9);
+    draw_line(cells, &frame, -1e9, -1e9, 1e9, 1e9);
     expect_and_clear(cells, "  ▞\n ▞\n");
     /* Nothing of these is inside: beside, above, past a corner, and a point just beyond the half dot. */
-    ceduo_canvas_line(&cells->canvas, &frame, CEDUO_ROLE_WAY, -5, 0, -1, 3);
-    ceduo_canvas_line(&cells->canvas, &frame, CEDUO_ROLE_WAY, -5, 4, 5, 9);
-    ceduo_canvas_line(&cells->canvas, &frame, CEDUO_ROLE_WAY, 3, 6, 6, 3);
+    draw_line(cells, &frame, -5, 0, -1, 3);
+    draw_line(cells, &frame, -5, 4, 5, 9);
+    draw_line(cells, &frame, 3, 6, 6, 3);
     draw_point(cells, &frame, CEDUO_ROLE_WAY, 3.6, 1);
     draw_point(cells, &frame, CEDUO_ROLE_WAY, 1, -0.6);
     expect_and_clear(cells, "\n\n");
@@ -71,28 +76,26 @@ TEST(frame_may_hang_over_the_canvas)
 {
     LOCAL(ceduo_cells, cells) = cells_in(3, 1, ASCII);
     struct ceduo_frame frame = {.left = -2, .top = -1, .width = 7, .height = 3, .x1 = 6, .y1 = 5};
-    ceduo_canvas_line(&cells->canvas, &frame, CEDUO_ROLE_WAY, 0, 3, 6, 3);
-    ceduo_canvas_line(&cells->canvas, &frame, CEDUO_ROLE_WAY, 3, 0, 3, 5);
+    draw_line(cells, &frame, 0, 3, 6, 3);
+    draw_line(cells, &frame, 3, 0, 3, 5);
     expect_text(cells, "':'\n");
 }
 
 TEST(what_is_not_finite_is_never_drawn)
 {
-    const double nan = (double)NAN;
-    const double inf = (double)INFINITY;
+    const double nan = NAN, inf = INFINITY;
     LOCAL(ceduo_cells, cells) = cells_in(7, 1, ASCII);
     struct ceduo_frame frame = dots_of(cells);
     draw_point(cells, &frame, CEDUO_ROLE_WAY, nan, 0);
     draw_point(cells, &frame, CEDUO_ROLE_WAY, 0, inf);
-    ceduo_canvas_line(&cells->canvas, &frame, CEDUO_ROLE_WAY, 0, 0, inf, 0);
-    ceduo_canvas_line(&cells->canvas, &frame, CEDUO_ROLE_WAY, nan, 0, 3, 0);
-    ceduo_canvas_line(&cells->canvas, &frame, CEDUO_ROLE_WAY, -1e308, 0, 1e308, 0); /* too long to clip */
+    draw_line(cells, &frame, 0, 0, inf, 0);
+    draw_line(cells, &frame, nan, 0, 3, 0);
+    draw_line(cells, &frame, -1e308, 0, 1e308, 0); /* too long to clip */
     ceduo_canvas_rule_x(&cells->canvas, &frame, CEDUO_ROLE_WAY, nan);
     ceduo_canvas_rule_y(&cells->canvas, &frame, CEDUO_ROLE_WAY, -inf);
     ceduo_canvas_bar(&cells->canvas, 0, 0, 7, nan, CEDUO_ROLE_WAY);
     expect_and_clear(cells, "\n");
-    const double x[] = {0, 1, 2, 3, 4, 5, 6};
-    const double y[] = {0, 0, nan, 0, inf, 0, 0};
+    const double x[] = {0, 1, 2, 3, 4, 5, 6}, y[] = {0, 0, nan, 0, inf, 0, 0};
     ceduo_canvas_polyline(&cells->canvas, &frame, CEDUO_ROLE_WAY, 7, x, y);
     expect_and_clear(cells, ".. . ..\n");
     ceduo_canvas_stairs(&cells->canvas, &frame, CEDUO_ROLE_WAY, 7, x, y);
@@ -117,8 +120,7 @@ TEST(useless_frames_draw_nothing)
     ceduo_canvas_cloud_start(&cells->canvas);
     for (size_t i = 0; i < sizeof frames / sizeof frames[0]; ++i) {
         const struct ceduo_frame *frame = &frames[i];
-        int column;
-        int row;
+        int column, row;
         draw_point(cells, frame, CEDUO_ROLE_WAY, 0, 0);
         ceduo_canvas_polyline(&cells->canvas, frame, CEDUO_ROLE_WAY, 2, x, x);
         ceduo_canvas_stairs(&cells->canvas, frame, CEDUO_ROLE_WAY, 2, x, x);
@@ -144,8 +146,7 @@ TEST(axes_may_be_turned_round)
 
 TEST(stairs_hold_the_value_before)
 {
-    const double x[] = {0, 3, 5};
-    const double y[] = {3, 1, 0};
+    const double x[] = {0, 3, 5}, y[] = {3, 1, 0};
     LOCAL(ceduo_cells, cells) = cells_in(6, 2, ASCII);
     struct ceduo_frame frame = dots_of(cells);
     ceduo_canvas_stairs(&cells->canvas, &frame, CEDUO_ROLE_WOOD, 3, x, y);
@@ -225,8 +226,7 @@ TEST(density_shows_the_most_travelled_dots)
 
 TEST(a_way_counts_once_where_its_parts_meet)
 {
-    const double x[] = {-9, 0, 0.2, 0.4, 1, 2, 2, 99};
-    const double y[] = {0, 0, 0, 0, 0, 0, 0, 0};
+    const double x[] = {-9, 0, 0.2, 0.4, 1, 2, 2, 99}, y[] = {0, 0, 0, 0, 0, 0, 0, 0};
     for (int i = 0; i <= LAST_CHARSET; ++i) {
         LOCAL(ceduo_cells, cells) = cells_in(4, 1, (enum ceduo_charset)i);
         struct ceduo_frame frame = dots_of(cells);
@@ -265,7 +265,7 @@ TEST(forty_five_degrees_are_forty_five_degrees)
         struct ceduo_frame frame = {.width = 8, .height = 4};
         /* A slope of 100 m down 100 m, in a picture that just holds it. */
         assert_true(ceduo_frame_true_scale(&frame, kind_of(charset), 200, 300, 1000, 1100));
-        ceduo_canvas_line(&cells->canvas, &frame, CEDUO_ROLE_WAY, 200, 1000, 300, 1100);
+        draw_line(cells, &frame, 200, 1000, 300, 1100);
         expect_text(cells, expected[i]);
     }
 }
@@ -278,7 +278,7 @@ TEST(true_scale_moves_one_dot_across_for_each_dot_up)
     double dot = (frame.x1 - frame.x0) / 59;
     assert_float_equal((frame.y1 - frame.y0) / 35, dot, 1e-12);
     /* From the lower left dot on, each further dot to the right is one further up. */
-    ceduo_canvas_line(&cells->canvas, &frame, CEDUO_ROLE_WAY, frame.x0, frame.y0, frame.x0 + 7 * dot, frame.y0 + 7 * dot);
+    draw_line(cells, &frame, frame.x0, frame.y0, frame.x0 + 7 * dot, frame.y0 + 7 * dot);
     expect_text(cells, "\n\n\n\n\n\n\n  ⡠⠊\n⡠⠊\n");
 }
 
@@ -311,8 +311,7 @@ TEST(frame_cell_is_where_the_point_is_drawn)
         LOCAL(ceduo_cells, cells) = cells_in(9, 6, charset);
         struct ceduo_frame frame = {.left = 2, .top = 1, .width = 5, .height = 3, .x0 = -3, .x1 = 7, .y0 = 10, .y1 = 12};
         for (double x = -3; x <= 7; x += 0.37) {
-            int column = -1;
-            int row = -1;
+            int column = -1, row = -1;
             double y = 11 + 0.1 * x;
             bool inside = ceduo_frame_cell(&frame, kind_of(charset), x, y, &column, &row);
             assert_int_equal(inside, y > 10 - 0.5);
@@ -320,8 +319,7 @@ TEST(frame_cell_is_where_the_point_is_drawn)
             draw_point(cells, &frame, CEDUO_ROLE_WAY, x, y);
             assert_int_equal(ceduo_cells_role(cells, column, row), CEDUO_ROLE_WAY);
         }
-        int column;
-        int row;
+        int column, row;
         assert_false(ceduo_frame_cell(&frame, kind_of(charset), 9, 11, &column, &row));
         assert_false(ceduo_frame_cell(&frame, kind_of(charset), 0, 8, &column, &row));
         assert_false(ceduo_frame_cell(&frame, kind_of(charset), (double)NAN, 11, &column, &row));
