@@ -46,16 +46,18 @@ struct ceduo_surface_fit {
     double explained;         /* the same of the variance without noise */
     bool enough;              /* there are points enough for the terms; without, shares are NaN */
     struct ceduo_share whole; /* the share that the terms do not explain */
+    double lo, hi;            /* bounds of the values */
     double p5, p50, p95;      /* of the values */
     double *values;           /* of each point: of the surface, and what of its remainder is not noise */
     struct ceduo_share *first, *total; /* of each input: of it alone, and of all terms that it is in */
     double *left;                      /* of each input: p95 - p5 that remains on the mean if it is known */
 };
 
-/* Fits the figure y of each point by the inputs that it may depend on (NULL: by all). The fit is to be released.
+/* Fits the figure y of each point by the inputs that it may depend on (NULL: by all). A figure is never below lo nor above hi,
+ * which a surface may be: its values are put there. The fit is to be released.
  * CEDUO_NO_MEMORY or CEDUO_OK. */
 enum ceduo_status ceduo_surface_fit(const struct ceduo_surface *surface, const bool *uses, const struct ceduo_groups *y,
-                                    struct ceduo_surface_fit *fit);
+                                    double lo, double hi, struct ceduo_surface_fit *fit);
 void ceduo_surface_release(struct ceduo_surface_fit *fit);
 
 #endif

@@ -7,6 +7,7 @@
 #include <string.h>
 #include <strings.h>
 
+#include "base/must.h"
 #include "base/utf8.h"
 
 #define FLOW_MOST 100 /* columns of a mapping or list on one line */
@@ -287,6 +288,8 @@ bool ceduo_emit_patched(struct text *text, const struct source *source, const st
     }
     if (good)
         ceduo_text_add(text, out.bytes, out.length);
+    if (no_memory)
+        ceduo_no_memory();
     text->failed |= out.failed || no_memory; /* otherwise it would be laid out anew for want of memory alone */
     ceduo_text_free(&out);
     return good && !text->failed;

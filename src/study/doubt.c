@@ -271,7 +271,8 @@ static int read_figure(void *context, size_t item, size_t worker)
             for (size_t end = 0; end < 2; end++)
                 f->at[i][end] = mean_of(value_at(r, 2 * i + end, f->option, 0, f->kind, f->difference), def->rocks);
         }
-        status = ceduo_surface_fit(reading->surface, uses, column, &f->fit);
+        double max = f->kind == CEDUO_DOUBT_ENERGY || f->kind == CEDUO_DOUBT_CONTACT ? INFINITY : 1;
+        status = ceduo_surface_fit(reading->surface, uses, column, f->difference ? -max : 0, max, &f->fit);
     }
     if (status == CEDUO_OK)
         order_inputs(def, uses, f, room);
@@ -370,7 +371,7 @@ static enum ceduo_status compare(const struct rows *r, const struct ceduo_surfac
             column[p] = value_at(r, r->ends + p, o->better, o->than, kind, true);
         for (size_t i = 0; i < n; i++)
             uses[i] = has_input(o->better, &r->def->inputs[i]) || has_input(o->than, &r->def->inputs[i]);
-        status = ceduo_surface_fit(surface, uses, column, &fit);
+        status = ceduo_surface_fit(surface, uses, column, -INFINITY, INFINITY, &fit);
     }
     for (size_t p = 0; status == CEDUO_OK && p < r->points; p++) {
         double noise = CEDUO_Z95 * sqrt(fit.noise);

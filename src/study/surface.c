@@ -575,6 +575,12 @@ static double width_of(double *values, size_t n)
     return quantile_of(values, n, .95) - quantile_of(values, n, .05);
 }
 
+static void bound(double *values, size_t n, const struct ceduo_surface_fit *fit)
+{
+    for (size_t i = 0; i < n; i++)
+        values[i] = fmin(fit->hi, fmax(fit->lo, values[i]));
+}
+
 /* What a function of `input` changes at each point: the sum of the terms that it is in, divided by it. */
 static void add_changes(const struct solution *f, size_t input, double *change)
 {
@@ -596,7 +602,7 @@ static void add_changes(const struct solution *f, size_t input, double *change)
 }
 
 /* p95 - p5 of what remains, on the mean, if an input is known. */
-static double left_of(const struct solution *f, const double *values, size_t input, double *room)
+static double left_of(const struct solution *f, const struct ceduo_surface_fit *fit, size_t input, double *room)
 {
     const struct ceduo_surface *s = f->s;
     const struct inputs_functions *of = &s->of[input];
@@ -605,10 +611,11 @@ static double left_of(const struct solution *f, const double *values, size_t inp
     add_changes(f, input, change);
     for (size_t c = 0; c < n; c++) {
         functions_at(of, ((double)c + .5) / (double)n, at);
-        memcpy(changed, values, s->points * sizeof *changed);
+        memcpy(changed, fit->values, s->points * sizeof *changed);
         for (size_t k = 0; k < of->count; k++)
             for (size_t p = 0; p < s->points; p++)
                 changed[p] += change[k * s->points + p] * (at[k] - s->functions[of->first + k].at[p]);
+        bound(changed, s->points, fit);
         width += width_of(changed, s->points) / (double)n;
     }
     return width;
@@ -647,7 +654,7 @@ static enum ceduo_status read_solution(const struct solution *f, const double *y
     for (size_t p = 0; p < points; p++) /* the surface, and what of its remainder is not noise */
         fit->values[p] = fit->mean + y[GROUPS * points + p] - (1 - kept) * remains_of(f, GROUPS)[p];
     for (size_t i = 0; i < inputs; i++)
-        fit->left[i] = left_of(f, fit->values, i, rest);
+        fit->left[i] = left_of(f, fit, i, rest);
     free(room);
     return CEDUO_OK;
 }
@@ -734,10 +741,10 @@ static void begin_fit(const struct ceduo_surface *s, const struct ceduo_groups *
 }
 
 enum ceduo_status ceduo_surface_fit(const struct ceduo_surface *s, const bool *uses, const struct ceduo_groups *groups,
-                                    struct ceduo_surface_fit *fit)
+                                    double lo, double hi, struct ceduo_surface_fit *fit)
 {
     size_t points = s->points, n = s->inputs_count, used_count = 0;
-    *fit = (struct ceduo_surface_fit){.q2 = NAN, .explained = NAN, .whole = {NAN, NAN}};
+    *fit = (struct ceduo_surface_fit){.lo = lo, .hi = hi, .q2 = NAN, .explained = NAN, .whole = {NAN, NAN}};
     double *y = malloc((GROUPS + 1) * points * sizeof *y);
     size_t *used = calloc(n + 1, sizeof *used);
     fit->values = malloc(points * sizeof *fit->values);
@@ -757,6 +764,7 @@ enum ceduo_status ceduo_surface_fit(const struct ceduo_surface *s, const bool *u
             status = fit_terms(s, used, used_count, y, fit);
     }
     if (status == CEDUO_OK) {
+        bound(fit->values, points, fit);
         memcpy(y, fit->values, points * sizeof *y);
         gsl_sort(y, 1, points);
         fit->p5 = quantile_of(y, points, .05);

@@ -334,7 +334,7 @@ def test_refused():
                                 ("has no part in this law; only arm knows it", [f"{MU}=0.2:1", path]),
                                 ("cannot be told from rocks of one shape", [f"{MU}=0.2:1", round_rock]),
                                 ("--check cannot be used with --calibrate", [f"{RT}=0.7:0.9", "--check", path]),
-                                ("cannot be used with --plot", [f"{RT}=0.7:0.9", "--years", path])):
+                                ("--calibrate cannot be used with --years", [f"{RT}=0.7:0.9", "--years", path])):
             r = ceduo("--calibrate", *arguments)
             expect_equal((r.status, r.out), (USAGE, ""), r)
             expect_in(what, r.err)

@@ -364,8 +364,7 @@ def test_read_only_folder():
         f.path.chmod(0o755)
         shutil.copy(CEDUO, f.path / "ceduo")  # that of the tests may lie where others may not go
         f.write("theirs/scene.yaml", FAST)
-        f.write("play.txt", SHOWN_SAVE.replace("dump before.txt", "").replace("dump again.txt", "")
-                .replace("dump after.txt", "dump -\nkey Esc q\ndump -"))
+        f.write("play.txt", "key 3 Down\nkey Enter Ctrl-U\ntype 0.75\nkey Enter\nkey s\ndump -\nkey Esc q\ndump -\n")
         os.chmod(f.path / "theirs", 0o555)
         counts = f.path / "counts"  # of a build with gcc's --coverage: the other user cannot write to their own place
         counts.mkdir()

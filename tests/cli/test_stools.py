@@ -108,7 +108,7 @@ def test_set_replaces():
 
 def energy(f, of):
     """Mean energy of a released rock, by the rocks that --sensitivity simulates."""
-    run = result("-n", 2000, f.write("run.yaml", wood(of)))
+    run = result("-n", 400, f.write("run.yaml", wood(of)))
     return run["options"][0]["controls"][-1]["wooded"]["energy_per_released_kJ"]["mean"]
 
 

@@ -34,6 +34,8 @@ static void make_inputs(size_t n, size_t words, size_t each)
                               : (struct ceduo_input){.kind = CEDUO_INPUT_RANGE, .hi = 1};
 }
 
+static double lowest = -INFINITY;
+
 /* Values of the function with noise. */
 static struct ceduo_surface_fit fit_of(function *f, size_t n, size_t points, uint64_t seed, double noise)
 {
@@ -49,7 +51,7 @@ static struct ceduo_surface_fit fit_of(function *f, size_t n, size_t points, uin
         for (int g = 0; g < CEDUO_SURFACE_GROUPS; g++) /* which differ by a constant */
             y[p].of[g] = f(u + p * n, n) + noise * normal(&state) + (double)g - (CEDUO_SURFACE_GROUPS - 1) / 2.;
     EXPECT(ceduo_surface_open(inputs, n, u, points, &surface), ==, CEDUO_OK);
-    EXPECT(ceduo_surface_fit(surface, NULL, y, &fit), ==, CEDUO_OK);
+    EXPECT(ceduo_surface_fit(surface, NULL, y, lowest, INFINITY, &fit), ==, CEDUO_OK);
     ceduo_surface_free(surface);
     free(u);
     free(y);
@@ -276,6 +278,28 @@ TEST(band_and_what_is_left)
     EXPECT_NEAR(f.left[0], .9, .02);
     EXPECT_NEAR(f.left[1], .9, .02);
     EXPECT_NEAR(f.left[2], 2 - 2 * sqrt(.1), .03);
+    ceduo_surface_release(&f);
+}
+
+static double kinked(const double *u, size_t n)
+{
+    (void)n;
+    return fmax(0, u[0] + u[1] - 1.5);
+}
+
+/* A share that is 0 almost everywhere: no surface is, but its band ends at 0. Of the square an eighth is above 0, a twentieth
+ * where U + V > 2 - sqrt(.1). */
+TEST(a_band_keeps_within_bounds)
+{
+    make_inputs(2, 0, 0);
+    struct ceduo_surface_fit f = fit_of(kinked, 2, 256, 1, .2);
+    EXPECT(f.p5, <, -1e-3);
+    ceduo_surface_release(&f);
+    lowest = 0;
+    f = fit_of(kinked, 2, 256, 1, .2);
+    lowest = -INFINITY;
+    EXPECT(f.p5, ==, 0);
+    EXPECT_NEAR(f.p95, .5 - sqrt(.1), .03);
     ceduo_surface_release(&f);
 }
 
