@@ -103,6 +103,11 @@ static void add_options(struct ceduo_page *page, const struct ceduo_doubt_report
 
 /* ---- what it depends on ---- */
 
+double ceduo_doubt_share(const struct ceduo_doubt_figure *figure, size_t group)
+{
+    return fmin(1, fmax(0, figure->fit.total[group].value));
+}
+
 /* An input matters where its share is more than its error. */
 static bool matters(const struct ceduo_doubt_figure *f, size_t g)
 {
@@ -132,7 +137,7 @@ static void add_inputs(struct ceduo_page *page, const struct ceduo_doubt_report 
         ceduo_doubt_input_name(ceduo_page_text(page), r, g);
         for (int end = 0; end < 2; end++)
             ceduo_doubt_input_shown(ceduo_page_text(page), r, g, end);
-        ceduo_page_write(page, "%.0f %%", fmin(1, fmax(0, f->fit.total[g].value)) * 100);
+        ceduo_page_write(page, "%.0f %%", ceduo_doubt_share(f, g) * 100);
         ceduo_doubt_value(ceduo_page_text(page), r, f->fit.left[g]);
     }
     if (f->fit.whole.value >= SHOWN && f->fit.whole.value > 2 * f->fit.whole.se) {

@@ -105,7 +105,7 @@ static void draw_options(struct sure *s)
 static void draw_input(struct sure *s, size_t g)
 {
     const struct ceduo_doubt_figure *f = main_of(s, s->option);
-    double share = fmin(1, fmax(0, f->fit.total[g].value));
+    double share = ceduo_doubt_share(f, g);
     struct text name = {0}, left = {0};
     ceduo_doubt_input_name(&name, s->report, g);
     ceduo_plot_say(s->canvas, s->left, s->y, s->name, CEDUO_ROLE_TEXT, "%s", ceduo_text_string(&name));

@@ -34,6 +34,9 @@ void ceduo_doubt_value(struct text *text, const struct ceduo_doubt_report *repor
 /* An input with an index of its own; NULL: the last group, of several inputs together. */
 const struct ceduo_input *ceduo_doubt_input(const struct ceduo_doubt_report *report, size_t group);
 
+/* The share of an input in a figure as it is shown, from 0 to 1: an estimate may lie outside. */
+double ceduo_doubt_share(const struct ceduo_doubt_figure *figure, size_t group);
+
 /* What people call an input: "diameter, ADS 1"; "energy law". */
 void ceduo_doubt_input_name(struct text *text, const struct ceduo_doubt_report *report, size_t group);
 

@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "physics/line_scene.h"
+#include "view/report_doubt.h"
 #include "view/words.h"
 
 #define OPTIONS 3
@@ -31,6 +32,16 @@ TEST(numbers_are_shown_with_their_digits)
                 {NAN, 3, "-"}};
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++)
         assert_string_equal(WRITTEN(rows[i].value, rows[i].digits), rows[i].shown);
+}
+
+/* The estimate of a share may lie below 0 or above 1; what is shown does not. */
+TEST(shares_are_shown_between_0_and_1)
+{
+    struct ceduo_share totals[] = {{.value = -.02}, {.value = .37}, {.value = 1.04}};
+    const double shown[] = {0, .37, 1};
+    const struct ceduo_doubt_figure figure = {.fit = {.total = totals}};
+    for (size_t g = 0; g < LENGTH(shown); g++)
+        EXPECT(ceduo_doubt_share(&figure, g), ==, shown[g]);
 }
 
 /* Three options without stems, of which no more is known than what a test says: the figures of each, and the errors of
