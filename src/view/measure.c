@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/language.h"
+#include "report_doubt.h"
 #include "words.h"
 
 static struct ceduo_measure of_1000(double p, double lo, double hi)
@@ -12,6 +13,8 @@ static struct ceduo_measure of_1000(double p, double lo, double hi)
     return (struct ceduo_measure){.value = 1000 * p,
                                   .lo = floor(1000 * lo),
                                   .hi = ceil(1000 * hi),
+                                  .may_lo = NAN,
+                                  .may_hi = NAN,
                                   .unit = N_("of 1000"),
                                   .names = {N_("of 1000 arrive"), N_("arrive"), N_("arrive")}};
 }
@@ -33,11 +36,23 @@ struct ceduo_measure ceduo_judged(const struct ceduo_control *c, const struct ce
     return m;
 }
 
+void ceduo_measure_doubt(struct ceduo_measure *m, const struct ceduo_doubt_report *doubt, size_t option, size_t control)
+{
+    if (!doubt || !doubt->answer || control != ceduo_scene_last_control(&doubt->file->scene))
+        return;
+    enum ceduo_doubt_kind kind = m->limit > 0 ? CEDUO_DOUBT_EXCEED : CEDUO_DOUBT_REACH;
+    const struct ceduo_doubt_figure *f = ceduo_doubt_figure_of(doubt->answer, option, kind, false);
+    m->may_lo = round(1000 * f->fit.p5);
+    m->may_hi = round(1000 * f->fit.p95);
+}
+
 static struct ceduo_measure energy(double mean, double half, int digits, const char *head)
 {
     return (struct ceduo_measure){.value = mean * J_TO_KJ,
                                   .lo = (mean - half) * J_TO_KJ,
                                   .hi = (mean + half) * J_TO_KJ,
+                                  .may_lo = NAN,
+                                  .may_hi = NAN,
                                   .digits = digits,
                                   .unit = N_("kJ"),
                                   .names = {head, head, head}};
@@ -82,17 +97,22 @@ void ceduo_measure_value(struct text *text, const struct ceduo_measure *m)
         ceduo_text_format(text, "%.0f", m->value);
 }
 
-void ceduo_measure_interval(struct text *text, const struct ceduo_measure *m)
+void ceduo_measure_span(struct text *text, const struct ceduo_measure *m, double lo, double hi)
 {
     struct ceduo_measure end = *m;
+    end.value = lo;
+    ceduo_measure_value(text, &end);
+    ceduo_text_put(text, "\xe2\x80\x93");
+    end.value = hi;
+    ceduo_measure_value(text, &end);
+}
+
+void ceduo_measure_interval(struct text *text, const struct ceduo_measure *m)
+{
     ceduo_measure_value(text, m);
     if (isnan(m->value) || isnan(m->lo) || isnan(m->hi))
         return;
     ceduo_text_put(text, " (");
-    end.value = m->lo;
-    ceduo_measure_value(text, &end);
-    ceduo_text_put(text, "\xe2\x80\x93");
-    end.value = m->hi;
-    ceduo_measure_value(text, &end);
+    ceduo_measure_span(text, m, m->lo, m->hi);
     ceduo_text_char(text, ')');
 }

@@ -16,6 +16,7 @@ enum ceduo_measure_name {
 
 struct ceduo_measure {
     double value, lo, hi;                          /* in the unit shown; NaN: not known, or no interval */
+    double may_lo, may_hi;                         /* 90 % of what may be true; NaN: not known, see ceduo_measure_doubt() */
     int digits;                                    /* significant; 0: a whole number */
     const char *unit, *names[CEDUO_MEASURE_NAMES]; /* marked for translation; %s in a name is the limit */
     double limit;
@@ -26,15 +27,20 @@ struct ceduo_measure {
 struct ceduo_measure ceduo_arriving(const struct ceduo_arrivals *arrivals);
 struct ceduo_measure ceduo_judged(const struct ceduo_control *control, const struct ceduo_arrivals *arrivals);
 
+/* Sets what doubt makes of such a share of an option at a control; of any but the last it is not known. `doubt` may be NULL. */
+struct ceduo_doubt_report;
+void ceduo_measure_doubt(struct ceduo_measure *measure, const struct ceduo_doubt_report *doubt, size_t option, size_t control);
+
 /* The mean energy of the rocks that arrive, that below which 95 % of them stay, and that of all released, in kJ. */
 struct ceduo_measure ceduo_mean_energy(const struct ceduo_arrivals *arrivals);
 struct ceduo_measure ceduo_energy_p95(const struct ceduo_arrivals *arrivals);
 struct ceduo_measure ceduo_energy_released(const struct ceduo_arrivals *arrivals);
 
-/* Adds a name of a measure; its value, "-" where it is not known; "480 (453–501)". */
+/* Adds a name of a measure; its value, "-" where it is not known; "480 (453–501)"; an interval alone, "453–501". */
 void ceduo_measure_name(struct text *text, const struct ceduo_measure *m, enum ceduo_measure_name name);
 void ceduo_measure_value(struct text *text, const struct ceduo_measure *m);
 void ceduo_measure_interval(struct text *text, const struct ceduo_measure *m);
+void ceduo_measure_span(struct text *text, const struct ceduo_measure *m, double lo, double hi);
 
 /* A sentence with a string in the place of its one %s. */
 void ceduo_append_with(struct text *text, const char *sentence, const char *string);

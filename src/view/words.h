@@ -46,6 +46,18 @@ const char *ceduo_words_judgement(enum ceduo_judgement judgement);
 void ceduo_words_because(struct text *text, const struct ceduo_result *result, size_t control,
                          const struct ceduo_arrivals *wooded); /* NULL: not known */
 
+/* The same with what is not known: it depends where doubt holds the limit, or without it where the other energy law says the
+ * opposite. `doubt` may be NULL. */
+struct ceduo_doubt_report;
+enum ceduo_judgement ceduo_words_judge(const struct ceduo_result *result, size_t option, size_t control,
+                                       const struct ceduo_doubt_report *doubt);
+enum ceduo_light ceduo_judgement_light(enum ceduo_judgement judgement);
+
+/* The answer in one line of at most `width` columns: "✘ NO: 479 of 1000 arrive with more than 50 kJ (50 accepted); may be
+ * 234–748". Where there is less room whole clauses are left out; the verdict always stands. */
+void ceduo_words_answer(struct text *text, const struct ceduo_result *result, size_t option, size_t control,
+                        const struct ceduo_doubt_report *doubt, size_t width);
+
 /* The three lights of an option at a control, each with its reason: contact, free run, energy. */
 void ceduo_words_contact(struct text *text, const struct ceduo_result *result, size_t option, size_t control);
 void ceduo_words_free_run(struct text *text, const struct ceduo_result *result, size_t option, size_t control);

@@ -3,6 +3,8 @@
 #include <math.h>
 
 #include "base/language.h"
+#include "base/utf8.h"
+#include "measure.h"
 #include "plot_parts.h"
 #include "words.h"
 
@@ -104,4 +106,119 @@ void ceduo_words_because(struct text *text, const struct ceduo_result *r, size_t
         ceduo_text_then(text, " ", _("So many rocks do not decide it (%llu): more do."), (unsigned long long)shown->released);
     else if (also_bare)
         ceduo_text_then(text, " ", "%s", _("The slope keeps to that without the wood, too."));
+}
+
+/* ---- in one line ---- */
+
+enum ceduo_judgement ceduo_words_judge(const struct ceduo_result *r, size_t option, size_t control,
+                                       const struct ceduo_doubt_report *doubt)
+{
+    const struct ceduo_arrivals *wooded = ceduo_result_wooded(r, option, control);
+    struct ceduo_measure m = ceduo_judged(&r->scene->controls[control], wooded);
+    enum ceduo_judgement judgement = ceduo_judge(&r->bare.arrivals[control], wooded);
+    if (judgement == CEDUO_NOTHING || judgement == CEDUO_UNANSWERED || !wooded)
+        return judgement;
+    ceduo_measure_doubt(&m, doubt, option, control);
+    bool open = isnan(m.may_lo) ? r->options[option].others[control].judgement == CEDUO_DEPENDS
+                                : m.may_lo <= 1000 * CEDUO_EXCEED_MOST && m.may_hi > 1000 * CEDUO_EXCEED_MOST;
+    return open ? CEDUO_DEPENDS : judgement;
+}
+
+enum ceduo_light ceduo_judgement_light(enum ceduo_judgement judgement)
+{
+    return judgement == CEDUO_YES ? CEDUO_PASS : judgement == CEDUO_NO ? CEDUO_FAIL : CEDUO_UNKNOWN;
+}
+
+static const char *const verdicts[] = {[CEDUO_YES] = N_("YES"),
+                                       [CEDUO_NO] = N_("NO"),
+                                       [CEDUO_NOT_DECIDED] = N_("NOT DECIDED"),
+                                       [CEDUO_DEPENDS] = N_("IT DEPENDS"),
+                                       [CEDUO_NOTHING] = N_("NOTHING CAN BE SAID")};
+
+/* What is said, from the widest to the narrowest. */
+static const struct answer_form {
+    enum ceduo_measure_name name;
+    bool accepted, doubt;
+} forms[] = {
+    {CEDUO_PHRASE, true, true}, {CEDUO_PHRASE, false, true}, {CEDUO_SHORT_HEAD, false, true}, {CEDUO_SHORT_HEAD, false, false}};
+
+/* "479 of 1000 arrive with more than 50 kJ (50 accepted); may be 234–748" */
+static void say_form(struct text *text, const struct ceduo_measure *m, const struct ceduo_measure *bare,
+                     const struct answer_form *form)
+{
+    LOCAL_TEXT(value);
+    LOCAL_TEXT(name);
+    LOCAL_TEXT(span);
+    ceduo_measure_value(&value, m);
+    ceduo_measure_name(&name, m, form->name);
+    ceduo_text_format(text, _("%s of 1000 %s"), ceduo_text_string(&value), ceduo_text_string(&name));
+    if (form->accepted && m->limit > 0)
+        ceduo_text_format(text, _(" (%.0f accepted)"), 1000 * CEDUO_EXCEED_MOST);
+    else if (form->accepted)
+        ceduo_text_format(text, _(" (%.0f without the wood)"), bare->value);
+    bool doubted = !isnan(m->may_lo);
+    if (!form->doubt)
+        return;
+    ceduo_measure_span(&span, m, doubted ? m->may_lo : m->lo, doubted ? m->may_hi : m->hi);
+    ceduo_text_format(text, doubted ? _("; may be %s") : _("; %s by the number of rocks"), ceduo_text_string(&span));
+}
+
+/* By the index, which knows no single rocks. */
+static void say_index(struct text *text, const struct ceduo_result *r, size_t option, size_t control, size_t width)
+{
+    const struct ceduo_index *index = &r->options[option].controls[control];
+    const char *left = WRITTEN(index->residual * J_TO_KJ, 3),
+               *mean = WRITTEN(r->bare.arrivals[control].energy.mean * J_TO_KJ, 3);
+    ceduo_text_format(text, _("the index leaves %s of %s kJ in the mean; it knows no single rocks"), left, mean);
+    if (ceduo_utf8_width(text->bytes) <= width)
+        return;
+    ceduo_text_free(text);
+    ceduo_text_format(text, _("the index leaves %s of %s kJ"), left, mean);
+}
+
+static void say_nothing(struct text *text, const struct ceduo_arrivals *bare)
+{
+    ceduo_text_format(text,
+                      bare->reached == 0 ? _("of %llu rocks none arrives, even without the wood")
+                                         : _("of %llu rocks %llu arrive, even without the wood"),
+                      (unsigned long long)bare->released, (unsigned long long)bare->reached);
+}
+
+/* What follows the verdict, in so many columns; nothing where it has no room. */
+static void say_reason(struct text *text, const struct ceduo_result *r, size_t option, size_t control,
+                       const struct ceduo_doubt_report *doubt, enum ceduo_judgement judgement, size_t width)
+{
+    const struct ceduo_control *c = &r->scene->controls[control];
+    const struct ceduo_arrivals *bare = &r->bare.arrivals[control], *wooded = ceduo_result_wooded(r, option, control);
+    struct ceduo_measure m = ceduo_judged(c, wooded ? wooded : bare), without = ceduo_judged(c, bare);
+    if (wooded)
+        ceduo_measure_doubt(&m, doubt, option, control);
+    if (judgement == CEDUO_NOTHING)
+        say_nothing(text, bare);
+    else if (!wooded && !r->wooded && judgement != CEDUO_YES)
+        say_index(text, r, option, control, width);
+    else if (!wooded && r->wooded)
+        ceduo_text_put(text, _("not computed yet"));
+    for (size_t i = 0; text->length == 0 && i < sizeof forms / sizeof forms[0]; i++) {
+        say_form(text, &m, &without, &forms[i]);
+        if (ceduo_utf8_width(ceduo_text_string(text)) > width)
+            ceduo_text_free(text);
+    }
+    if (ceduo_utf8_width(ceduo_text_string(text)) > width)
+        ceduo_text_free(text);
+}
+
+void ceduo_words_answer(struct text *text, const struct ceduo_result *r, size_t option, size_t control,
+                        const struct ceduo_doubt_report *doubt, size_t width)
+{
+    enum ceduo_judgement judgement = ceduo_words_judge(r, option, control, doubt);
+    LOCAL_TEXT(verdict);
+    LOCAL_TEXT(reason);
+    if (judgement != CEDUO_UNANSWERED)
+        ceduo_text_format(&verdict, "%s %s", ceduo_plot_light_mark(ceduo_judgement_light(judgement)), _(verdicts[judgement]));
+    size_t taken = verdict.length > 0 ? ceduo_utf8_width(verdict.bytes) + 2 : 0;
+    say_reason(&reason, r, option, control, doubt, judgement, width > taken ? width - taken : 0);
+    ceduo_text_put(text, ceduo_text_string(&verdict));
+    if (reason.length > 0)
+        ceduo_text_format(text, "%s%s", verdict.length > 0 ? ": " : "", reason.bytes);
 }

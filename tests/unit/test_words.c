@@ -108,6 +108,55 @@ TEST(an_interval_is_rounded_outward)
     expect_said(.5, .25, .75, " 500 (250–750) of 1000 ");
 }
 
+/* ---- the answer in one line ---- */
+
+/* Of 1000 through the wood of 'a' so many with too much energy, and what may be true of that; of doubt NAN: not computed. */
+static void expect_answer(double share, double may_lo, double may_hi, size_t width, const char *wanted)
+{
+    LOCAL_TEXT(text);
+    struct ceduo_doubt_figure figures[(2 * OPTIONS - 1) * CEDUO_DOUBT_KINDS] = {0};
+    struct ceduo_doubt_answer answer = {.figures = figures, .figures_count = sizeof figures / sizeof figures[0]};
+    struct scene_file file = {.scene = scene.scene};
+    const struct ceduo_doubt_report doubt = {.file = &file, .answer = isnan(may_lo) ? NULL : &answer};
+    for (size_t i = 0; i < answer.figures_count; i++)
+        figures[i].fit = (struct ceduo_surface_fit){.p5 = may_lo, .p95 = may_hi};
+    *(isnan(scene.control.accepted) ? &arrivals[0].reach_probability : &arrivals[0].exceed_probability) = share;
+    arrivals[0].exceed_lo = share - .01;
+    arrivals[0].exceed_hi = share + .01;
+    LOCAL(ceduo_result, result) = assess();
+    ceduo_words_answer(&text, result, 0, 0, &doubt, width);
+    assert_string_equal(ceduo_text_string(&text), wanted);
+}
+
+/* Where there is less room whole clauses go: what is accepted, then the doubt, at last all but the verdict. */
+TEST(an_answer_is_shortened_by_whole_clauses)
+{
+    static const char *const shorter[] = {"✘ NO: 479 of 1000 arrive with more than 50 kJ (50 accepted); may be 234–748",
+                                          "✘ NO: 479 of 1000 arrive with more than 50 kJ; may be 234–748",
+                                          "✘ NO: 479 of 1000 > 50 kJ; may be 234–748", "✘ NO: 479 of 1000 > 50 kJ", "✘ NO"};
+    size_t form = 0, forms = sizeof shorter / sizeof shorter[0];
+    open_scene(50e3);
+    for (size_t width = 200; width > 0; width--) {
+        while (form + 1 < forms && ceduo_utf8_width(shorter[form]) > width)
+            form++;
+        expect_answer(.479, .234, .748, width, shorter[form]);
+    }
+}
+
+/* 50 of 1000 are accepted: the error of the rocks or what is not known may hold that limit. */
+TEST(an_answer_depends_where_doubt_holds_the_limit)
+{
+    open_scene(50e3);
+    expect_answer(.02, .01, .04, 80, "✔ YES: 20 of 1000 arrive with more than 50 kJ (50 accepted); may be 10–40");
+    expect_answer(.02, .01, .06, 80, "? IT DEPENDS: 20 of 1000 arrive with more than 50 kJ (50 accepted); may be 10–60");
+    expect_answer(.479, .04, .748, 90, "? IT DEPENDS: 479 of 1000 arrive with more than 50 kJ (50 accepted); may be 40–748");
+    expect_answer(.05, .051, .06, 90, "? NOT DECIDED: 50 of 1000 arrive with more than 50 kJ (50 accepted); may be 51–60");
+    expect_answer(.479, NAN, NAN, 99,
+                  "✘ NO: 479 of 1000 arrive with more than 50 kJ (50 accepted); 469–489 by the number of rocks");
+    open_scene(NAN);
+    expect_answer(.831, .7, .9, 80, "831 of 1000 arrive (831 without the wood); may be 700–900");
+}
+
 /* ---- which is best ---- */
 
 static void expect_best(const char *wanted)
