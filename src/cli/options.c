@@ -294,7 +294,7 @@ static const struct option_row rows[] = {
     {"goal", 0, "GOAL[=VALUE]", set_goal, 0, MODE_TERMINAL, CHECK | SURVEY,
      N_("adc, free-run (at most the light's limit), energy (mean kJ) or exceed (share, 0.05)")},
     {"sensitivity", 0, "[=N]", set_sensitivity, 0, MODE_SENSITIVITY, CHECK | SURVEY,
-     N_("show how sure the result is, and what that depends on; N base points (256)")},
+     N_("show how sure the result is, and what that depends on; N points (256)")},
     {"report", 0, "FILE", set_report, 0, MODE_REPORT, CHECK | SURVEY,
      N_("write a page to hand in as HTML, with pictures; several scenes give chapters; - is standard output")},
     {"calibrate", 0, "PATH=LO:HI", add_calibrate, 0, MODE_CALIBRATE, CHECK | PAGE | SURVEY,

@@ -15,7 +15,7 @@
 #include "view/page_html.h"
 #include "view/page_report.h"
 
-/* Rocks and base points are moderate: a page shows no more digits. */
+/* Rocks and points are moderate: a page shows no more digits. */
 #define YEAR_ROCKS  1024
 #define YEARS_MOST  50
 #define BLOCK_ROCKS 512
