@@ -11,9 +11,9 @@ static void build(struct app *app, struct form *form)
     static const char *const belt_columns[] = {"from_m", "to_m", "cut_year", "stand", NULL};
     static const struct {
         const char *key, *label;
-    } fields[] = {{"cutting.rotation_years", N_("years between two cuts")},
+    } fields[] = {{"cutting.stay_per_ha", N_("trees that stay, per ha")},
+                  {"cutting.rotation_years", N_("years between two cuts")},
                   {"cutting.cohorts", N_("cohorts of shoots")},
-                  {"cutting.stay_per_ha", N_("trees that stay, per ha")},
                   {"growth.shoots_young", N_("shoots that come up")},
                   {"growth.shoots_old", N_("shoots in the end")},
                   {"growth.sdi_most", N_("density index")},
@@ -182,10 +182,11 @@ static void keep_fitting(struct app *app, struct text *text, int width, int line
         ceduo_app_end_in_more(app, text, width, lines);
 }
 
-#define PICTURE_MIN       9  /* lines of the picture with one strip, … */
-#define PICTURE_BESIDE    11 /* … and beside the form with the lights as well, where there are so many: */
-#define HEIGHT_FOR_LIGHTS 19
-#define FORM_MIN          3
+#define PICTURE_MIN       7 /* lines of the picture beside the form: of the curve alone */
+#define PICTURE_ALONE     9 /* with the lights below it */
+#define FORM_MIN          3 /* of the form, and where there is room: */
+#define FORM_WANTED       8
+#define HEIGHT_FOR_FORM   18
 #define HEIGHT_FOR_OTHERS 30
 
 static void draw(struct app *app, struct ceduo_area area)
@@ -200,14 +201,13 @@ static void draw(struct app *app, struct ceduo_area area)
         if (area.height >= HEIGHT_FOR_OTHERS && app->year < picture.years->count)
             say_others(app, picture.years->years[app->year].year, &text);
     }
-    int picture_min = !alone && area.height >= HEIGHT_FOR_LIGHTS ? PICTURE_BESIDE : PICTURE_MIN;
-    int min = picture_min + (alone ? 0 : FORM_MIN);
-    keep_fitting(app, &text, area.width, area.height - min);
+    int form_min = alone ? 0 : area.height >= HEIGHT_FOR_FORM ? FORM_WANTED : FORM_MIN;
+    int max = area.height - form_min - (alone ? PICTURE_ALONE : PICTURE_MIN);
+    keep_fitting(app, &text, area.width, max);
     int words = ceduo_app_text_lines(app, ceduo_text_string(&text), area.width);
-    words = words > area.height - min ? area.height - min : words;
+    words = words > max ? max : words;
     int form = alone ? 0 : (area.height - words) / 3;
-    form = form > area.height - words - picture_min ? area.height - words - picture_min : form;
-    form = alone || form >= FORM_MIN ? form : FORM_MIN;
+    form = form > form_min ? form : form_min;
     int height = area.height - form - words;
     struct ceduo_area top = {area.left, area.top, area.width, height};
     struct ceduo_area text_area = {area.left, area.top + height, area.width, words};

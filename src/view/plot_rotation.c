@@ -115,7 +115,8 @@ static void draw(struct rotation *r)
 {
     const struct ceduo_area *a = r->area;
     double threshold = r->picture->scene->simulation.threshold;
-    int strips = a->height - 1 - 2 - LIGHTS, first = strips / 2;
+    int lights = a->height >= 1 + STRIP_LEAST + 2 + LIGHTS ? LIGHTS : 0; /* no room: the curve alone */
+    int strips = a->height - 1 - 2 - lights, first = strips / 2;
     LOCAL_TEXT(adc);
     LOCAL_TEXT(share);
     if (a->width >= 60)
@@ -139,7 +140,8 @@ static void draw(struct rotation *r)
     draw_strip(r, a->top + 1 + first, strips - first, most_share(r),
                r->flown && !isnan(r->control->accepted) ? CEDUO_EXCEED_MOST * 1000 : NAN, ceduo_text_string(&share), share_of);
     ceduo_canvas_axis_bottom(r->canvas, &r->frame, _("years"));
-    draw_lights(r, a->top + a->height - LIGHTS);
+    if (lights > 0)
+        draw_lights(r, a->top + a->height - lights);
     draw_cuts(r, a->top);
 }
 
@@ -155,7 +157,7 @@ const char *ceduo_plot_rotation(struct ceduo_canvas *canvas, const struct ceduo_
                          .flown = ceduo_plot_wooded(picture)};
     if (!years || !r.control)
         return !r.control ? _("no control") : _("not computed yet");
-    if (area->height < 1 + STRIP_LEAST + 2 + LIGHTS || area->width < 24)
+    if (area->height < 1 + STRIP_LEAST + 2 || area->width < 24)
         return _("too narrow");
     r.x = ceduo_must(malloc((years->count + 1) * sizeof *r.x));
     r.y = ceduo_must(malloc((years->count + 1) * sizeof *r.y));

@@ -151,12 +151,17 @@ def test_strips():
         for screen in [alone] + [form] * (height > 20):
             expect_in("years", screen.body, "axis")
             expect(len(columns_of_cuts(screen)) == 2 and "▼cut" in screen.body, "two cuts", screen)
+        for screen in [alone] + [form] * (height > 24):
             for light in "CFE":
                 expect_equal(sum(c == "✘" for _, c in marks(screen, light)), fails[light], f"{width}x{height} {light}")
         expect_in(f"Years that fail: energy {fails['E']}, contact {fails['C']}, free run {fails['F']} of 13.", flat(alone))
     expect_equal(strips(screens[0]), [False, True], "80x24 with the form: one strip")
     expect_equal(strips(screens[2]), [True, True], "200x50 with the form: both")
-    expect_in("ha and year. …", flat(screens[0]), "80x24: a sign of more in the place of what is said of the year")
+    expect_in(" …", flat(screens[0]), "80x24: a sign of more in the place of what is said of the year")
+    lines = [line.strip() for line in screens[0].body.split("\n") if line.strip()]
+    fields = lines[next(i for i, line in enumerate(lines) if line.startswith("from, m")):]
+    expect(len(fields) >= 8 and any(line.startswith("trees that stay") for line in fields[:5]),
+           "80x24: eight lines of the form, what stays after a cut among the first", screens[0])
     expect("…" not in flat(screens[3]) and "Year 0:" in flat(screens[1]), "words without room", screens[1], screens[3])
 
 
@@ -392,8 +397,8 @@ def test_more_controls():
 
 
 def test_even_marks():
-    """The lights of the years stand at even distances at 80x24, 120x40 and 200x50"""
-    for screen in shown("wait idle\nkey 6\nwait idle\ndump\nresize 120 40\ndump\nresize 200 50\ndump", "reserves.yaml"):
+    """The lights of the years stand at even distances at 80x24 (the picture alone), 120x40 and 200x50"""
+    for screen in shown("wait idle\nkey 6\nwait idle\nkey Tab\ndump\nkey Tab\nresize 120 40\ndump\nresize 200 50\ndump", "reserves.yaml"):
         for light in "CFE":
             at = [column for column, _ in marks(screen, light)]
             expect(len(at) > 10 and len({b - a for a, b in zip(at, at[1:])}) == 1, f"columns of {light}: {at}", screen)
