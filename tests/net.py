@@ -306,6 +306,24 @@ def goals():
                                "coppice with standards", *FEW, "four-systems"])
 
 
+def lists():
+    for words in (["--list-parameters"], ["--list-profiles"], ["--help"], ["--version"], []):
+        name = " ".join(words) or "no words"
+        yield Case(f"list/{name}", words)
+        yield Case(f"list/{name} in C", words, LC_ALL="C")
+    yield Case("list/to a file", ["--list-parameters", "-o", "list.txt"])
+    for shell in ("bash", "zsh"):
+        yield Case(f"list/completion of {shell}", ["@completion", shell])
+    for kind, page in (("scene", "ceduo-scene.5"), ("slope", "ceduo-slope.5"), ("stand", "ceduo-stand.5"), ("keys", "ceduo.1")):
+        yield Case(f"list/manual of {kind}", ["@tables", kind, page], files={page: (ROOT / "man" / page).read_text()})
+
+
+# ---- input, good and bad ----
+
+def both(name, scene, files, **more):
+    return Case(name, ["--check", scene], ["-b", *FEW, scene], files=files, **more)
+
+
 def standard_input():
     yield Case("input/table", ["-b", *FEW, "-"], stdin=SMALL.encode())
     yield Case("input/json", ["-b", *FEW, "-f", "json", "-"], stdin=SMALL.encode())

@@ -19,8 +19,10 @@ struct binder {
     struct text path;
     size_t file_start; /* where the path within the present file begins */
     bool partial;      /* what the present mapping starts from is not known */
+    const struct binding *to;
     struct bad_values *bad;
     const struct source_note **notes;
+    double end; /* of the profile, m; NaN: not asked yet, or not known */
 };
 
 /* ---- reporting ---- */
@@ -156,6 +158,25 @@ static bool want_scalar(struct binder *b, const struct node *node, const char *w
     return node->kind == NODE_SCALAR;
 }
 
+/* "end", "end-10": a place from the end of the profile. False where it is none, or wrong, which is reported. */
+static bool read_place(struct binder *b, const struct field *f, const struct node *node, double *value)
+{
+    double back = 0;
+    const char *text = node->text;
+    if (!ceduo_schema_is_place(f) || node->kind != NODE_SCALAR || node->quoted || strncmp(text, "end", 3) != 0 || !b->to->end)
+        return false;
+    if (text[3] && (text[3] != '-' || ceduo_number_read(text + 4, &back) != CEDUO_NUMBER_GOOD || back < 0)) {
+        report(b, node, _("'%s': write end, or end-10 for 10 m before the end of the profile"), text);
+        return false;
+    }
+    if (isnan(b->end))
+        b->end = b->to->end(b->to->context);
+    if (isnan(b->end))
+        report(b, node, _("'%s': the end of the profile is not known"), text);
+    *value = b->end - back;
+    return !isnan(b->end);
+}
+
 static bool read_number(struct binder *b, const struct node *node, double *value)
 {
     if (!want_scalar(b, node, _("a number")))
@@ -201,7 +222,10 @@ static bool check_range(struct binder *b, const struct field *f, const struct no
 static bool bind_number(struct binder *b, const struct field *f, const struct node *node, double *to)
 {
     double value;
-    if (!read_number(b, node, &value) || !check_range(b, f, node, value))
+    size_t wrong = b->bad->n;
+    if (!read_place(b, f, node, &value) && (b->bad->n > wrong || !read_number(b, node, &value)))
+        return false;
+    if (!check_range(b, f, node, value))
         return false;
     *to = value * f->scale;
     return true;
@@ -620,7 +644,7 @@ static void bind_map(struct binder *b, const struct object *object, const struct
 
 void ceduo_bind(const struct binding *to, const struct object *object, const struct node *node, void *item)
 {
-    struct binder b = {.arena = to->arena, .problems = to->problems, .notes = to->notes, .bad = to->bad};
+    struct binder b = {.arena = to->arena, .problems = to->problems, .to = to, .notes = to->notes, .bad = to->bad, .end = NAN};
     bind_map(&b, object, node, item);
     b.problems->memory |= b.path.failed;
     ceduo_text_free(&b.path);

@@ -14,6 +14,7 @@ bool ceduo_validate(struct validator *v);
 void ceduo_validate_rock(struct validator *v, const char *path, const struct node *node, const struct ceduo_rock_def *def);
 void ceduo_validate_blocks(struct validator *v);
 void ceduo_validate_slope(struct validator *v);
+double ceduo_validate_end(void *validator); /* the last x of the profile, before it is validated; NaN: not known */
 void ceduo_validate_release(struct validator *v, const char *path, struct ceduo_release *release);
 void ceduo_validate_controls(struct validator *v);
 void ceduo_validate_options(struct validator *v);

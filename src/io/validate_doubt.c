@@ -357,7 +357,8 @@ static void take_stand(struct stand_rows *s, const char *within, const struct no
         if (!ceduo_is_sound(v, row.at))
             continue;
         ceduo_schema_init(object, &doubt);
-        ceduo_bind(&(struct binding){v->arena, v->problems, &notes, &v->bad}, object, rows->items[i], &doubt);
+        ceduo_bind(&(struct binding){.arena = v->arena, .problems = v->problems, .notes = &notes, .bad = &v->bad}, object,
+                   rows->items[i], &doubt);
         for (size_t k = 0; k < i; k++) {
             const char *other = ceduo_node_text(rows->items[k], "path");
             twice |= other && ceduo_schema_same(other, doubt.path);

@@ -266,6 +266,32 @@ static bool reuse_slope(struct validator *v)
     return true;
 }
 
+double ceduo_validate_end(void *validator)
+{
+    struct validator *v = validator;
+    const struct node *slope = ceduo_node_get(v->root, "slope"), *csv = ceduo_node_get(slope, "csv");
+    const struct node *list = ceduo_node_get(slope, "vertices_m");
+    const struct ceduo_slope *before = v->previous->node && v->previous->node == slope ? &v->previous->slope : NULL;
+    struct problems problems = {0}; /* they are reported when the slope is validated */
+    struct points p = {0};
+    double end = NAN;
+    if (before)
+        return before->origin_x + before->x[before->vertices - 1];
+    if (csv && csv->kind == NODE_SCALAR) {
+        const char *path = ceduo_resolve_path(v->arena, csv, "slopes");
+        if (path && ceduo_csv_slope_read(v->arena, path, &p, &problems) && p.n > 0)
+            end = p.x[p.n - 1];
+    } else if (list && list->kind == NODE_LIST && list->n > 0) {
+        const struct node *last = list->items[list->n - 1];
+        if (last->kind == NODE_LIST && last->n == 2 && last->items[0]->kind == NODE_SCALAR &&
+            ceduo_number_read(last->items[0]->text, &end) != CEDUO_NUMBER_GOOD)
+            end = NAN;
+    }
+    v->problems->memory |= problems.memory;
+    ceduo_problems_free(&problems);
+    return end;
+}
+
 void ceduo_validate_slope(struct validator *v)
 {
     struct points p = {0};

@@ -190,3 +190,12 @@ void ceduo_schema_visit(const struct object *object, const char *prefix,
         ceduo_text_free(&path);
     }
 }
+
+bool ceduo_schema_is_place(const struct field *field)
+{
+    static const char *const keys[] = {"x_m", "from_m", "to_m", "controls_m"};
+    for (size_t i = 0; i < sizeof keys / sizeof keys[0]; i++)
+        if (strcmp(field->key, keys[i]) == 0)
+            return true;
+    return false;
+}

@@ -153,6 +153,9 @@ const struct field *ceduo_schema_at(const char *path);
 /* Whether the row of that value, or one around it, has FIELD_SETTLED. */
 bool ceduo_schema_is_settled(const char *path);
 
+/* Whether it is a place along the slope, which may be told from its end: x_m, from_m, to_m, controls_m. */
+bool ceduo_schema_is_place(const struct field *field);
+
 /* Fills an item with its defaults. */
 void ceduo_schema_init(const struct object *object, void *item);
 
