@@ -104,6 +104,7 @@ struct app {
     bool doubts;                         /* compute the uncertainty behind the figures; a script does so once it was shown */
     void (*once_saved)(struct app *app); /* what goes on once the scene is saved; NULL: nothing */
     bool quit, redraw;                   /* redraw: paint the whole terminal again */
+    bool (*copy)(const char *text);      /* to the terminal's clipboard; false: it is too long. NULL: there is none */
 };
 
 /* Opens a scene, or the shipped site of the paper where `path` is NULL. False with the reason in `problems`. */

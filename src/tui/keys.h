@@ -92,6 +92,7 @@ enum key {
     X(OPEN, 'o', "o", K_F4, "F4", 0, N_("open a scene"))                                                                       \
     X(SAVE, 's', "s", K_F2, "F2", 2, N_("save"))                                                                               \
     X(SAVE_AS, 'S', "S", K_NONE, "", 0, N_("save under another name"))                                                         \
+    X(COPY, 'Y', "Y", K_NONE, "", 1, N_("copy what the view says"))                                                            \
     X(EXPORT, 'w', "w", K_F6, "F6", 1, N_("export"))                                                                           \
     X(CHARSET, 'b', "b", K_NONE, "", 0, N_("braille, blocks or ASCII"))                                                        \
     X(THEME, 't', "t", K_NONE, "", 0, N_("colours: dark, light, none"))                                                        \

@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The page, the screen or the command to a file. */
+/* The page, the screen or the command to a file; what the view says to the clipboard. */
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/language.h"
+#include "base/must.h"
 #include "io/file.h"
 #include "popup.h"
 #include "popups.h"
@@ -153,6 +154,59 @@ static void chose_export(struct app *app, struct popup *p, const char *value)
     q->endings = strrchr(exports[i].file, '.');
     q->typed_wins = true;
     ceduo_popup_choice(q, _("file"), exports[i].file, ceduo_popup_offer_files);
+}
+
+/* ---- the clipboard ---- */
+
+#define COPY_WIDTH 78 /* of a letter */
+
+/* The view drawn by itself, long enough for all of it, its pictures left blank; runs of blank lines are one. Returns how many others there are. */
+static size_t append_view(struct app *app, struct text *text)
+{
+    struct view_state *state = ceduo_app_state(app), kept = *state;
+    struct ceduo_cells *screen = app->cells;
+    app->cells = ceduo_must(ceduo_cells_create(COPY_WIDTH, CEDUO_CANVAS_MAX_HEIGHT, app->charset));
+    app->cells->canvas.words_alone = true;
+    state->pane = 0;
+    ceduo_views[app->view]->draw(app, (struct ceduo_area){0, 0, COPY_WIDTH, CEDUO_CANVAS_MAX_HEIGHT});
+    char *lines = ceduo_cells_dump(app->cells);
+    size_t count = 0;
+    bool gap = true;
+    for (char *line = lines, *end; (end = strchr(line, '\n')); line = end + 1) {
+        bool blank = line + strspn(line, " ") == end;
+        if (!blank)
+            ceduo_text_format(text, "%s%.*s\n", gap ? "\n" : "", (int)(end - line), line);
+        count += !blank;
+        gap = blank;
+    }
+    free(lines);
+    ceduo_cells_free(app->cells);
+    app->cells = screen;
+    *state = kept;
+    return count;
+}
+
+void ceduo_popup_copy(struct app *app)
+{
+    struct text text = {0};
+    if (!app->copy) {
+        ceduo_app_warn(app, "%s", _("this terminal has no clipboard that a program may write; w writes to a file"));
+        return;
+    }
+    if (ceduo_views[app->view]->result && !app->live.result) {
+        ceduo_app_warn(app, "%s", _("nothing is computed yet"));
+        return;
+    }
+    const struct ceduo_scene *scene = &app->document.file.scene;
+    ceduo_text_safe(&text, ceduo_in_language(scene->title, scene->title_it));
+    ceduo_text_format(&text, ": %s\n", ceduo_app_option(app)->name);
+    size_t lines = append_view(app, &text);
+    if (app->copy(text.bytes))
+        ceduo_app_say(
+            app, ngettext("copied: %zu line of what this view says", "copied: %zu lines of what this view says", lines), lines);
+    else
+        ceduo_app_warn(app, "%s", _("this view says too much for a clipboard; w writes it to a file"));
+    ceduo_text_free(&text);
 }
 
 void ceduo_popup_export(struct app *app)

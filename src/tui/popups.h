@@ -13,6 +13,8 @@ void ceduo_popup_choices(struct app *app, const struct form_cell *cell);
 void ceduo_popup_open(struct app *app);
 void ceduo_popup_new(struct app *app);
 void ceduo_popup_export(struct app *app);
+/* Copies what the view says, as text without its pictures, to the terminal's clipboard. */
+void ceduo_popup_copy(struct app *app);
 void ceduo_popup_find(struct app *app);
 void ceduo_popup_counts(struct app *app);
 void ceduo_popup_survey(struct app *app);

@@ -153,6 +153,7 @@ static const struct {
                         [ACTION_OPEN] = {.plain = ceduo_popup_open},
                         [ACTION_SAVE] = {.plain = ceduo_popup_save},
                         [ACTION_SAVE_AS] = {.plain = ceduo_popup_save_as},
+                        [ACTION_COPY] = {.plain = ceduo_popup_copy},
                         [ACTION_EXPORT] = {.plain = ceduo_popup_export},
                         [ACTION_CHARSET] = {.plain = next_charset},
                         [ACTION_THEME] = {.plain = next_theme},

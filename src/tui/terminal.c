@@ -69,7 +69,8 @@ static void start_colours(void)
 
 /* ---- bracketed paste ---- */
 
-static bool pastes; /* the terminal may be asked to say where a paste begins and ends; the Linux console cannot */
+static bool pastes; /* the terminal may be asked to say where a paste begins and ends, and to take a copy; the Linux console
+                       cannot */
 #define PASTES_OFF "\033[?2004l"
 
 static void look_for_pastes(void)
@@ -82,6 +83,46 @@ static void ask_for_pastes(bool on)
 {
     ssize_t unused = pastes ? write(STDOUT_FILENO, on ? "\033[?2004h" : PASTES_OFF, sizeof PASTES_OFF - 1) : 0;
     (void)unused;
+}
+
+/* ---- the clipboard ---- */
+
+#define COPY_MOST 56000 /* bytes: what xterm takes is 75 000 characters of base64 */
+
+static void append_base64(struct text *to, const char *bytes, size_t n)
+{
+    static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    for (size_t i = 0; i < n; i += 3) {
+        uint32_t three = 0;
+        for (size_t k = 0; k < 3; k++)
+            three = three << 8 | (i + k < n ? (uint8_t)bytes[i + k] : 0);
+        for (size_t k = 0; k < 4; k++)
+            ceduo_text_char(to, i + k > n ? '=' : digits[three >> (18 - 6 * k) & 63]);
+    }
+}
+
+/* OSC 52. Within tmux twice: as tmux itself takes it, and for the terminal around it. */
+static bool copy(const char *string)
+{
+    size_t n = strlen(string);
+    const char *tmux = getenv("TMUX");
+    struct text copied = {0}, all = {0};
+    if (n > COPY_MOST)
+        return false;
+    ceduo_text_put(&copied, "\033]52;c;");
+    append_base64(&copied, string, n);
+    ceduo_text_format(&all, "%s\a", copied.bytes);
+    if (tmux && tmux[0])
+        ceduo_text_format(&all, "\033Ptmux;\033%s\a\033\\", copied.bytes);
+    for (size_t done = 0; done < all.length;) {
+        ssize_t written = write(STDOUT_FILENO, all.bytes + done, all.length - done);
+        if (written <= 0 && errno != EINTR)
+            break;
+        done += written > 0 ? (size_t)written : 0;
+    }
+    ceduo_text_free(&copied);
+    ceduo_text_free(&all);
+    return true;
 }
 
 /* ---- a crash or a signal ---- */
@@ -495,6 +536,7 @@ enum terminal_end ceduo_terminal_run(struct app *app)
         return TERMINAL_NONE;
     }
     look_for_pastes();
+    app->copy = pastes ? copy : NULL;
     ask_for_pastes(true);
     prepare_restore();
     start_colours();

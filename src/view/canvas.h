@@ -76,6 +76,7 @@ struct ceduo_canvas {
     const struct ceduo_surface *surface;
     void *to;           /* what the surface's functions get */
     int dots_x, dots_y; /* dots across and down one cell: the finest that can be told apart */
+    bool words_alone;   /* pictures leave their area blank */
 };
 
 /* ---- For surfaces ---- */

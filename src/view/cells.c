@@ -31,8 +31,10 @@ struct ceduo_cells *ceduo_cells_create(int width, int height, enum ceduo_charset
     cells->width = width;
     cells->height = height;
     cells->charset = charset;
-    cells->canvas = (struct ceduo_canvas){&ceduo_cells_surface, cells, charset == CEDUO_CHARSET_ASCII ? 1 : 2,
-                                          charset == CEDUO_CHARSET_BRAILLE ? 4 : 2};
+    cells->canvas = (struct ceduo_canvas){.surface = &ceduo_cells_surface,
+                                          .to = cells,
+                                          .dots_x = charset == CEDUO_CHARSET_ASCII ? 1 : 2,
+                                          .dots_y = charset == CEDUO_CHARSET_BRAILLE ? 4 : 2};
     cells->cell = ceduo_must(calloc(cell_count(cells), sizeof *cells->cell));
     return cells;
 }

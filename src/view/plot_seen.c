@@ -9,6 +9,8 @@
 void ceduo_plot_seen(struct ceduo_canvas *canvas, const struct ceduo_area *area, const struct ceduo_seen_stops *s,
                      double origin)
 {
+    if (canvas->words_alone)
+        return;
     if (area->width < WIDTH_LEAST || area->height < HEIGHT_LEAST) {
         ceduo_canvas_put(canvas, area->left, area->top, area->width, CEDUO_ROLE_TEXT, _("too narrow"));
         return;

@@ -32,7 +32,7 @@ void ceduo_plot_draw(enum ceduo_plot plot, struct ceduo_canvas *canvas, const st
         CEDUO_PLOT_LIST(X)
 #undef X
     };
-    const char *why = functions[plot](canvas, area, picture);
+    const char *why = canvas->words_alone ? NULL : functions[plot](canvas, area, picture);
     if (!why)
         return;
     int width = ceduo_canvas_label_width(canvas, why);

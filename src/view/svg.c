@@ -338,7 +338,8 @@ struct ceduo_svg *ceduo_svg_create(int width, int height)
 {
     struct ceduo_svg *svg = ceduo_must(calloc(1, sizeof *svg));
     svg->cells = ceduo_cells_create(width, height, CEDUO_CHARSET_BRAILLE);
-    svg->canvas = (struct ceduo_canvas){&surface, svg, svg->cells->canvas.dots_x, svg->cells->canvas.dots_y};
+    svg->canvas = (struct ceduo_canvas){
+        .surface = &surface, .to = svg, .dots_x = svg->cells->canvas.dots_x, .dots_y = svg->cells->canvas.dots_y};
     return svg;
 }
 

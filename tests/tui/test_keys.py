@@ -1,9 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What a terminal sends that is no key: sequences that the program does not know, and what is pasted."""
+import base64
 import fcntl
 import os
 import pty
+import re
 import signal
 import struct
 import sys
@@ -14,7 +16,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 from play import FAST, Place, home  # noqa: E402
 from test_terminal import ASAN, Tmux, until  # noqa: E402
-from harness import CEDUO, Suite, expect, expect_equal, tests_of  # noqa: E402
+from harness import CEDUO, Suite, expect, expect_equal, expect_in, tests_of  # noqa: E402
 
 ON, OFF = b"\x1b[?2004h", b"\x1b[?2004l"
 
@@ -213,13 +215,13 @@ def test_paste_without_end():
 class Pty:
     """The program on a bare pseudo-terminal, and all that it writes."""
 
-    def __init__(self, place, term):
+    def __init__(self, place, term, **changes):
         self.out = b""
         self.pid, self.fd = pty.fork()
         if self.pid == 0:
             try:
                 os.chdir(place.path)
-                os.execve(CEDUO, [CEDUO, "fast.yaml"], {**home(place.path), "TERM": term})
+                os.execve(CEDUO, [CEDUO, "fast.yaml"], {**home(place.path), "TERM": term, **changes})
             finally:
                 os._exit(127)
         fcntl.ioctl(self.fd, termios.TIOCSWINSZ, struct.pack("HHHH", 24, 80, 0, 0))
@@ -247,6 +249,31 @@ class Pty:
             self.read()
         os.close(self.fd)
         return self.out
+
+
+def test_copy():
+    """Y gives the terminal's clipboard what the view says, its form whole and without its picture; through tmux too; on the
+    Linux console it says why not, and writes nothing"""
+    with Place() as place:
+        for changes in ({}, {"TMUX": "/tmp/tmux-1000/default,1,0"}):
+            program = Pty(place, "xterm", **changes)
+            os.write(program.fd, b"Y")
+            program.writes(b"copied: ")
+            out = program.end(b"q")
+            plain = re.findall(rb"(?<!\x1b)\x1b\]52;c;([A-Za-z0-9+/]+=*)\a", out)
+            passed = re.findall(rb"\x1bPtmux;\x1b\x1b\]52;c;([A-Za-z0-9+/]+=*)\a\x1b\\", out)
+            expect_equal((len(plain), passed), (1, plain if changes else []), "what is written for the terminal and for tmux")
+            text = base64.b64decode(plain[0], validate=True).decode()
+            expect_equal(text.split("\n")[0], "fast: current")
+            said = int(re.search(rb"copied: +(\d+)", re.sub(rb"\x1b\[[\d;]*[A-Za-z]", b" ", out)).group(1))
+            expect_equal(said, len([line for line in text.split("\n")[1:] if line]), "lines, but for the first")
+            for part in ("track", "road", "\n1   5 ", "0.98", "\n2   60 30\n", "\n3   100 0\n"):
+                expect_in(part, text, "what was copied")
+            expect(not re.search("[\u2800-\u28ff│\x1b]", text), "a picture, or the column beside the view, in", text)
+        program = Pty(place, "linux")
+        os.write(program.fd, b"Y")
+        program.writes(b"no clipboard")
+        expect(b"]52;" not in program.end(b"q"), "written to the console")
 
 
 def test_paste_of_signals():
