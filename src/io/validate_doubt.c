@@ -20,6 +20,12 @@ struct row {
     const char *at, *within;
 };
 
+/* By the string that each begins with. */
+static int by_name(const void *a, const void *b)
+{
+    return strcmp(*(const char *const *)a, *(const char *const *)b);
+}
+
 /* ---- places ---- */
 
 struct places {
@@ -27,14 +33,6 @@ struct places {
     const char **items;
     size_t n, room;
 };
-
-/* For so many more. False without memory. */
-static bool make_room(struct places *p, size_t more)
-{
-    const char **items = ceduo_more_room(p->v, p->items, p->n, more, &p->room, sizeof *items);
-    p->items = items ? items : p->items;
-    return items != NULL;
-}
 
 /* The list that a path before its [*] leads to; NULL: none. */
 static const struct node *list_at(const struct node *root, const char *path)
@@ -63,8 +61,11 @@ static const char *with_numbers(struct validator *v, const char *path)
 
 static void add_place(struct places *p, const char *path)
 {
-    if (make_room(p, 1))
-        p->items[p->n++] = ceduo_format(p->v, "%s", with_numbers(p->v, path));
+    const char **items = ceduo_more_room(p->v, p->items, p->n, 1, &p->room, sizeof *items);
+    if (!items)
+        return;
+    p->items = items;
+    p->items[p->n++] = ceduo_format(p->v, "%s", with_numbers(p->v, path));
 }
 
 /* The path, with every [*] replaced by each item in turn; where there is no such list nothing is added. */
@@ -95,32 +96,27 @@ static const char *ground_of(struct validator *v, const char *path, const char *
     return ceduo_format(v, "%.*s", (int)(end - path - (ptrdiff_t)before), path + before);
 }
 
-/* A ground that stands in no list of segments: one place for each stretch. */
-static void add_stretches(struct places *p, const char *key)
-{
-    size_t stretches = p->v->draft.scene.slope.vertices - 1;
-    for (size_t j = 0; j < stretches; j++)
-        add_place(p, ceduo_format(p->v, "slope.segments[%zu].%s", j, key));
-}
-
 /* All places of a path that the scene has. `fitted`: a ground may be wherever it is, whether the files have a list of it or not;
  * `talus`: it was taken for all of the slope. */
 static void find_places(struct places *p, const char *path, bool fitted, bool talus)
 {
     struct validator *v = p->v;
+    struct ceduo_scene *scene = &v->draft.scene;
     const char *key = NULL, *name = ground_of(v, path, &key);
     struct value value;
-    size_t n = 0;
-    if (fitted && name && talus && strcmp(name, ceduo_material_talus()->name) == 0)
-        add_stretches(p, key);
-    else if (fitted && !name && v->draft.scene.slope.segments_given == 0 && strncmp(path, SEGMENTS, sizeof SEGMENTS - 1) == 0)
-        add_stretches(p, path + sizeof SEGMENTS - 1);
-    else if (!name)
+    size_t n = 0, vertices = scene->slope.vertices;
+    if (fitted && !name && scene->slope.segments_given == 0 && strncmp(path, SEGMENTS, sizeof SEGMENTS - 1) == 0)
+        key = path + sizeof SEGMENTS - 1;
+    else if (!(fitted && name && talus && strcmp(name, ceduo_material_talus()->name) == 0))
+        vertices = 0;
+    for (size_t j = 0; j + 1 < vertices; j++) /* a ground that stands in no list of segments: one place for each stretch */
+        add_place(p, ceduo_format(v, "slope.segments[%zu].%s", j, key));
+    if (vertices == 0 && !name)
         add_all(p, path);
-    else if (make_room(p, v->draft.scene.slope.vertices))
-        p->n = ceduo_input_ground(v->arena, v->root, &v->draft.scene, name, key, p->items);
+    else if (vertices == 0 && (p->items = ceduo_room(v, scene->slope.vertices, sizeof *p->items)))
+        p->n = ceduo_input_ground(v->arena, v->root, scene, name, key, p->items);
     for (size_t i = 0; i < p->n; i++)
-        if (ceduo_value_find(&v->draft.scene, p->items[i], &value))
+        if (ceduo_value_find(scene, p->items[i], &value))
             p->items[n++] = p->items[i];
     p->n = n;
 }
@@ -136,31 +132,19 @@ static const char *first_of(struct validator *v, const char *path)
 }
 
 /* The row of the table of keys that a path means, whether the scene has such an item or not; NULL: it is of no number and no
- * word. */
-static const struct field *field_of(struct validator *v, const char *path)
+ * word. `*settled`: no answer is in doubt because of it. */
+static const struct field *field_of(struct validator *v, const char *path, bool *settled)
 {
-    const char *key, *ground = ground_of(v, path, &key);
-    const struct field *f = ground ? NULL : ceduo_schema_at(first_of(v, path));
+    const char *key, *ground = ground_of(v, path, &key), *first = first_of(v, path);
+    const struct field *f = ground ? NULL : ceduo_schema_at(first);
     if (ground && ceduo_choice_find(&ceduo_material_words, ground) >= 0)
         f = ceduo_schema_field(ceduo_schema_segment(), key);
+    *settled = ceduo_schema_is_settled(first);
     bool value = f && (f->type == FIELD_NUMBER || f->type == FIELD_SPREAD || f->type == FIELD_COUNT || f->type == FIELD_CHOICE);
     return value ? f : NULL;
 }
 
 /* ---- ranges ---- */
-
-/* Whether the end of a range that `key` gives lies within what is possible. */
-static bool check_end(struct validator *v, const char *at, const char *key, const struct field *field, double value)
-{
-    struct text range = {0};
-    bool good = ceduo_schema_in_range(field, value);
-    ceduo_schema_range_text(field, &range);
-    if (!good)
-        ceduo_complain(v, at, key, _("%s is outside the range of %s: %s"), ceduo_decimal(v, value), field->key,
-                       ceduo_text_string(&range));
-    ceduo_text_free(&range);
-    return good;
-}
 
 static bool read_range(struct validator *v, const struct row *row, const struct field *field, struct ceduo_input *input)
 {
@@ -180,8 +164,17 @@ static bool read_range(struct validator *v, const struct row *row, const struct 
                        normal ? _("the range is empty; sd must be above 0") : _("the range is empty; hi must be above lo"));
         return false;
     }
-    return check_end(v, row->at, normal ? "mean" : "lo", field, input->lo) &&
-           check_end(v, row->at, normal ? "sd" : "hi", field, input->hi);
+    const double ends[] = {input->lo, input->hi};
+    const char *const keys[] = {normal ? "mean" : "lo", normal ? "sd" : "hi"};
+    for (int i = 0; i < 2; i++)
+        if (!ceduo_schema_in_range(field, ends[i])) {
+            LOCAL_TEXT(range);
+            ceduo_schema_range_text(field, &range);
+            ceduo_complain(v, row->at, keys[i], _("%s is outside the range of %s: %s"), ceduo_decimal(v, ends[i]), field->key,
+                           ceduo_text_string(&range));
+            return false;
+        }
+    return true;
 }
 
 static bool read_words(struct validator *v, const struct row *row, const struct field *field, struct ceduo_input *input)
@@ -197,11 +190,10 @@ static bool read_words(struct validator *v, const struct row *row, const struct 
         words[i] = ceduo_choice_find(field->choices, row->doubt->one_of[i]);
         if (words[i] >= 0)
             continue;
-        struct text all = {0};
+        LOCAL_TEXT(all);
         ceduo_text_words(&all, field->choices->names, field->choices->n, ", ");
         ceduo_complain(v, ceduo_format(v, "%s.one_of[%zu]", row->at, i), "", _("'%s' is unknown; one of: %s"),
                        row->doubt->one_of[i], ceduo_text_string(&all));
-        ceduo_text_free(&all);
         return false;
     }
     return words && n >= 2;
@@ -230,9 +222,9 @@ static bool make_input(struct validator *v, const struct row *row, struct ceduo_
 {
     struct places places = {.v = v};
     const char *path = ceduo_format(v, "%s%s", row->within, row->doubt->path);
-    const struct field *field = field_of(v, path);
-    bool of_stand = row->within[0] != '\0';
-    if (!field || ceduo_schema_is_settled(first_of(v, path))) {
+    bool of_stand = row->within[0] != '\0', settled;
+    const struct field *field = field_of(v, path, &settled);
+    if (!field || settled) {
         ceduo_complain(v, row->at, "path",
                        field ? _("no answer is in doubt because of '%s'; name a value of the rock, its release, the slope, a "
                                  "stand or the law")
@@ -249,39 +241,34 @@ static bool make_input(struct validator *v, const struct row *row, struct ceduo_
     return field->type == FIELD_CHOICE ? read_words(v, row, field, input) : read_range(v, row, field, input);
 }
 
-static void complain_twice(struct validator *v, const struct row *row)
+/* Adds an input; false without memory. */
+static bool add_input(struct validator *v, const struct ceduo_input *input)
 {
-    ceduo_complain(v, row->at, "path", _("'%s' is given twice"), row->doubt->path);
-}
-
-static int by_name(const void *a, const void *b)
-{
-    return strcmp(*(const char *const *)a, *(const char *const *)b);
-}
-
-/* Whether an input before a row has its path, by whatever name of an item, or is draws of one of its places. */
-static bool is_before(struct validator *v, const struct ceduo_input *before, const struct ceduo_input *row)
-{
-    if (before->kind != CEDUO_INPUT_DRAWS)
-        return ceduo_schema_same(with_numbers(v, before->path), with_numbers(v, row->path));
-    for (size_t i = 0; i < row->places_count; i++)
-        if (bsearch(&row->places[i], before->places, before->places_count, sizeof *before->places, by_name))
-            return true;
-    return false;
+    struct ceduo_input *inputs = ceduo_more_room(v, v->inputs, v->inputs_count, 1, &v->inputs_room, sizeof *inputs);
+    if (!inputs)
+        return false;
+    v->inputs = inputs;
+    v->inputs[v->inputs_count++] = *input;
+    return true;
 }
 
 static void add_row(struct validator *v, size_t i)
 {
     const struct row row = {&v->draft.doubts[i], ceduo_format(v, "doubt[%zu]", i), ""};
     struct ceduo_input input;
+    bool twice = false;
     if (!make_input(v, &row, &input))
         return;
-    for (size_t k = 0; k < v->inputs_count; k++)
-        if (is_before(v, &v->inputs[k], &input)) {
-            complain_twice(v, &row);
-            return;
-        }
-    v->inputs[v->inputs_count++] = input;
+    for (size_t k = 0; k < v->inputs_count; k++) { /* of one path, by whatever name of an item, or draws of one of its places */
+        const struct ceduo_input *b = &v->inputs[k];
+        for (size_t p = 0; p < input.places_count && b->kind == CEDUO_INPUT_DRAWS; p++)
+            twice |= bsearch(&input.places[p], b->places, b->places_count, sizeof *b->places, by_name) != NULL;
+        twice |= b->kind != CEDUO_INPUT_DRAWS && ceduo_schema_same(with_numbers(v, b->path), with_numbers(v, input.path));
+    }
+    if (twice)
+        ceduo_complain(v, row.at, "path", _("'%s' is given twice"), row.doubt->path);
+    else
+        add_input(v, &input);
 }
 
 /* ---- of stands ---- */
@@ -294,8 +281,8 @@ struct stand_row {
 
 struct stand_rows {
     struct validator *v;
-    struct stand_row *items; /* NULL: they are only counted */
-    size_t n;
+    struct stand_row *items;
+    size_t n, room;
 };
 
 static bool is_of_scene(const struct validator *v, const char *place)
@@ -307,42 +294,37 @@ static bool is_of_scene(const struct validator *v, const char *place)
     return false;
 }
 
-/* Adds the places of one input to those of another, but for what the scene itself names. */
-static void join(struct validator *v, struct ceduo_input *to, const struct ceduo_input *from)
-{
-    const char **all = ceduo_room(v, to->places_count + from->places_count, sizeof *all);
-    size_t n = 0;
-    for (size_t i = 0; all && i < to->places_count; i++)
-        all[n++] = to->places[i];
-    for (size_t i = 0; all && i < from->places_count; i++)
-        if (!is_of_scene(v, from->places[i]))
-            all[n++] = from->places[i];
-    to->places = all;
-    to->places_count = n;
-}
-
+/* Adds the places of a row to those of its input, but for what the scene itself names. */
 static void add_stand_row(struct stand_rows *s, const struct row *row, const struct node *node)
 {
     struct validator *v = s->v;
-    struct stand_row *known = s->items;
     struct ceduo_input input;
-    while (known < s->items + s->n && known->node != node)
-        known++;
-    bool is_new = known == s->items + s->n;
-    if (is_new) {
-        *known = (struct stand_row){node, SIZE_MAX};
-        s->n++;
-    } else if (known->input == SIZE_MAX) {
+    size_t k = 0;
+    while (k < s->n && s->items[k].node != node)
+        k++;
+    if (k == s->n) {
+        struct stand_row *items = ceduo_more_room(v, s->items, s->n, 1, &s->room, sizeof *items);
+        if (!items)
+            return;
+        s->items = items;
+        s->items[s->n++] = (struct stand_row){node, SIZE_MAX};
+        if (!make_input(v, row, &input) || !add_input(v, &input))
+            return;
+        s->items[k].input = v->inputs_count - 1;
+        v->inputs[s->items[k].input].places_count = 0;
+    } else if (s->items[k].input == SIZE_MAX || !make_input(v, row, &input)) {
         return;
     }
-    if (!make_input(v, row, &input))
-        return;
-    if (is_new) {
-        known->input = v->inputs_count++;
-        v->inputs[known->input] = input;
-        v->inputs[known->input].places_count = 0;
-    }
-    join(v, &v->inputs[known->input], &input);
+    struct ceduo_input *to = &v->inputs[s->items[k].input];
+    const char **all = ceduo_room(v, to->places_count + input.places_count, sizeof *all);
+    size_t n = all ? to->places_count : 0;
+    if (n > 0)
+        memcpy(all, to->places, n * sizeof *all);
+    for (size_t i = 0; all && i < input.places_count; i++)
+        if (!is_of_scene(v, input.places[i]))
+            all[n++] = input.places[i];
+    to->places = all;
+    to->places_count = n;
 }
 
 static void take_stand(struct stand_rows *s, const char *within, const struct node *rows)
@@ -364,30 +346,25 @@ static void take_stand(struct stand_rows *s, const char *within, const struct no
             twice |= other && ceduo_schema_same(other, doubt.path);
         }
         if (twice)
-            complain_twice(v, &row);
+            ceduo_complain(v, row.at, "path", _("'%s' is given twice"), doubt.path);
         else
             add_stand_row(s, &row, rows->items[i]);
     }
 }
 
-/* The rows of the stands of all belts: counts them, or takes them. */
-static void take_stands(struct stand_rows *s)
+/* The rows of the stands of all belts. */
+static void take_stands(struct validator *v)
 {
-    struct validator *v = s->v;
+    struct stand_rows s = {.v = v};
     const struct node *options = ceduo_node_get(v->root, "options");
     bool several = options && options->kind == NODE_LIST;
     for (size_t i = 0; i < (several ? options->n : 1); i++) {
         const struct node *forest = ceduo_node_get(several ? options->items[i] : v->root, "forest");
+        const char *within = several ? ceduo_format(v, "options[%zu].", i) : "";
         for (size_t k = 0; forest && forest->kind == NODE_LIST && k < forest->n; k++) {
             const struct node *rows = ceduo_node_get(ceduo_node_get(forest->items[k], "stand"), "doubt");
-            if (!rows || rows->kind != NODE_LIST)
-                continue;
-            if (!s->items)
-                s->n += rows->n;
-            else if (several)
-                take_stand(s, ceduo_format(v, "options[%zu].forest[%zu].stand.", i, k), rows);
-            else
-                take_stand(s, ceduo_format(v, "forest[%zu].stand.", k), rows);
+            if (rows && rows->kind == NODE_LIST)
+                take_stand(&s, ceduo_format(v, "%sforest[%zu].stand.", within, k), rows);
         }
     }
 }
@@ -420,9 +397,10 @@ struct draws {
 static const struct field *find_fitted(struct validator *v, const char *path, bool talus, struct ceduo_input *input)
 {
     struct places p = {.v = v};
-    const struct field *field = field_of(v, path);
+    bool settled;
+    const struct field *field = field_of(v, path, &settled);
     *input = (struct ceduo_input){.path = path, .kind = CEDUO_INPUT_RANGE};
-    if (!field || field->type == FIELD_CHOICE || ceduo_schema_is_settled(first_of(v, path)))
+    if (!field || field->type == FIELD_CHOICE || settled)
         return NULL;
     find_places(&p, path, true, talus);
     input->places = p.items;
@@ -456,11 +434,6 @@ static bool take_path(struct draws *t, size_t column, char *path)
     return true;
 }
 
-static int by_place(const void *a, const void *b)
-{
-    return strcmp(((const struct drawn *)a)->place, ((const struct drawn *)b)->place);
-}
-
 /* The first line; afterwards the places are sorted, and none may be there twice. */
 static bool take_header(struct draws *t)
 {
@@ -468,66 +441,55 @@ static bool take_header(struct draws *t)
     for (size_t c = 0; ceduo_csv_step(&t->csv, &left, &field); c++) {
         char *head = ceduo_arena_copy(t->v->arena, field.p, field.n), *rest = head;
         char *path = head ? strtok_r(head, " ", &rest) : NULL;
-        if (!head || (!path && !take_path(t, c, head)))
-            return false;
-        for (; path; path = strtok_r(NULL, " ", &rest))
-            if (!take_path(t, c, path))
+        do
+            if (!head || !take_path(t, c, path ? path : head))
                 return false;
+        while (path && (path = strtok_r(NULL, " ", &rest)));
     }
-    qsort(t->places, t->places_count, sizeof *t->places, by_place);
+    qsort(t->places, t->places_count, sizeof *t->places, by_name);
     for (size_t i = 1; i < t->places_count; i++)
-        if (by_place(&t->places[i - 1], &t->places[i]) == 0)
+        if (by_name(&t->places[i - 1], &t->places[i]) == 0)
             ceduo_problem(t->v->problems, t->csv.source, 1, 1, _("'%s' is given twice"), t->places[i].place);
     return true;
 }
 
-static void check_draw(struct draws *t, struct csv_span field, const struct field *f, double value)
-{
-    struct text range = {0};
-    if (ceduo_schema_in_range(f, value))
-        return;
-    ceduo_schema_range_text(f, &range);
-    ceduo_csv_complain(&t->csv, field, _("%s is outside the range of %s: %s"), ceduo_decimal(t->v, value), f->key,
-                       ceduo_text_string(&range));
-    ceduo_text_free(&range);
-}
-
 static void read_row(struct draws *t)
 {
-    struct csv_span left = t->csv.line, field;
+    struct csv_span left = t->csv.line, span;
     size_t c = 0, h = 0;
-    for (; c < t->columns && ceduo_csv_step(&t->csv, &left, &field); c++) {
+    for (; c < t->columns && ceduo_csv_step(&t->csv, &left, &span); c++) {
         double *to = &t->values[c][t->rows];
-        bool good = ceduo_csv_number(&t->csv, field, -1e12, 1e12, "", to);
-        for (; h < t->heads_count && t->heads[h].column == c; h++)
-            if (good)
-                check_draw(t, field, t->heads[h].field, *to);
+        bool good = ceduo_csv_number(&t->csv, span, -1e12, 1e12, "", to);
+        for (; h < t->heads_count && t->heads[h].column == c; h++) {
+            const struct field *f = t->heads[h].field;
+            if (!good || ceduo_schema_in_range(f, *to))
+                continue;
+            LOCAL_TEXT(range);
+            ceduo_schema_range_text(f, &range);
+            ceduo_csv_complain(&t->csv, span, _("%s is outside the range of %s: %s"), ceduo_decimal(t->v, *to), f->key,
+                               ceduo_text_string(&range));
+        }
     }
     if (c < t->columns)
         ceduo_problem(t->v->problems, t->csv.source, t->csv.number, 1, _("too few columns"));
-    else if (ceduo_csv_step(&t->csv, &left, &field))
-        ceduo_csv_complain(&t->csv, field, _("more columns than the first line has"));
+    else if (ceduo_csv_step(&t->csv, &left, &span))
+        ceduo_csv_complain(&t->csv, span, _("more columns than the first line has"));
     t->rows++;
-}
-
-static bool make_columns(struct draws *t)
-{
-    struct text names = {0};
-    size_t lines = ceduo_csv_lines(&t->csv);
-    t->columns = ceduo_csv_columns(&t->csv, &names);
-    ceduo_text_free(&names);
-    t->values = ceduo_room(t->v, t->columns, sizeof *t->values);
-    bool good = t->values != NULL;
-    for (size_t c = 0; good && c < t->columns; c++)
-        good = (t->values[c] = ceduo_room(t->v, lines, sizeof **t->values)) != NULL;
-    return good;
 }
 
 static bool read_table(struct draws *t, const char *path)
 {
     struct problems *problems = t->v->problems;
     size_t before = problems->met;
-    if (!ceduo_csv_open(&t->csv, t->v->arena, path, problems) || !make_columns(t) || !take_header(t))
+    LOCAL_TEXT(names);
+    if (!ceduo_csv_open(&t->csv, t->v->arena, path, problems))
+        return false;
+    t->columns = ceduo_csv_columns(&t->csv, &names);
+    t->values = ceduo_room(t->v, t->columns, sizeof *t->values);
+    bool good = t->values != NULL;
+    for (size_t c = 0; good && c < t->columns; c++)
+        good = (t->values[c] = ceduo_room(t->v, ceduo_csv_lines(&t->csv), sizeof **t->values)) != NULL;
+    if (!good || !take_header(t))
         return false;
     while (ceduo_csv_next(&t->csv))
         read_row(t);
@@ -555,15 +517,16 @@ static void add_draws(struct validator *v)
         places[i] = t.places[i].place;
         draws[i] = t.places[i].values;
     }
+    const struct ceduo_input input = {.path = "draws",
+                                      .kind = CEDUO_INPUT_DRAWS,
+                                      .lo = NAN,
+                                      .hi = NAN,
+                                      .places_count = t.places_count,
+                                      .places = places,
+                                      .draws_count = t.rows,
+                                      .draws = draws};
     if (places && draws)
-        v->inputs[v->inputs_count++] = (struct ceduo_input){.path = "draws",
-                                                            .kind = CEDUO_INPUT_DRAWS,
-                                                            .lo = NAN,
-                                                            .hi = NAN,
-                                                            .places_count = t.places_count,
-                                                            .places = places,
-                                                            .draws_count = t.rows,
-                                                            .draws = draws};
+        add_input(v, &input);
 }
 
 /* ---- all ---- */
@@ -571,21 +534,14 @@ static void add_draws(struct validator *v)
 void ceduo_validate_doubt(struct validator *v)
 {
     size_t n = ceduo_is_sound(v, "doubt") ? v->draft.doubts_count : 0;
-    struct stand_rows stands = {.v = v};
-    take_stands(&stands);
-    if (n + stands.n + (v->draws != NULL) == 0 || !v->profile || ceduo_is_too_long(v, "doubt", n))
-        return;
-    struct stand_row *items = ceduo_room(v, stands.n, sizeof *items);
-    v->inputs = ceduo_room(v, n + stands.n + 1, sizeof *v->inputs);
-    if (!items || !v->inputs)
+    if (!v->profile || ceduo_is_too_long(v, "doubt", n))
         return;
     if (v->draws)
         add_draws(v);
     for (size_t i = 0; i < n; i++)
         add_row(v, i);
     v->inputs_of_scene = v->inputs_count;
-    stands = (struct stand_rows){.v = v, .items = items};
-    take_stands(&stands);
+    take_stands(v);
 }
 
 const struct field *ceduo_input_find(struct scene_file *file, const char *path, struct ceduo_input *input)

@@ -26,10 +26,11 @@ struct validator {
     struct scene_draft draft; /* its scene is the result */
     const struct source_note *notes;
     struct bad_values bad;
-    bool profile;                         /* the slope has its vertices */
-    bool ground_assumed;                  /* the slope's file says no ground: talus was taken */
-    double origin;                        /* the slope's first x, which is taken off every x */
-    size_t inputs_count, inputs_of_scene; /* what the scene says is not known comes before what its stands say */
+    bool profile;        /* the slope has its vertices */
+    bool ground_assumed; /* the slope's file says no ground: talus was taken */
+    double origin;       /* the slope's first x, which is taken off every x */
+    size_t inputs_count, inputs_room;
+    size_t inputs_of_scene; /* what the scene says is not known comes before what its stands say */
     struct ceduo_input *inputs;
     const struct node *draws; /* of doubt: a table of values that a calibration left open; NULL: none */
     size_t observations_count;
