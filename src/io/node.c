@@ -89,7 +89,7 @@ const struct node *ceduo_node_removed(struct arena *arena, const struct node *no
 {
     const struct node **items;
     struct node *copy = copy_shell(arena, node, node->n - 1, &items);
-    if (!copy)
+    if (!copy) /* untaken: memory */
         return NULL;
     if (i > 0)
         memcpy(items, node->items, i * sizeof *items);
@@ -101,7 +101,7 @@ const struct node *ceduo_node_removed(struct arena *arena, const struct node *no
 const struct node *ceduo_node_renamed(struct arena *arena, const struct node *value, const char *key)
 {
     struct node *copy = ceduo_arena_take(arena, sizeof *copy);
-    if (!copy || !value)
+    if (!copy || !value) /* untaken: memory */
         return NULL;
     *copy = *value;
     copy->key = key ? ceduo_arena_string(arena, key) : NULL;
@@ -111,7 +111,7 @@ const struct node *ceduo_node_renamed(struct arena *arena, const struct node *va
 const struct node *ceduo_node_with(struct arena *arena, const struct node *map, const char *key, const struct node *value)
 {
     const struct node *named = ceduo_node_renamed(arena, value, key);
-    if (!named)
+    if (!map || !named)
         return NULL;
     for (size_t i = 0; i < map->n; i++)
         if (strcmp(map->items[i]->key, key) == 0)
@@ -121,7 +121,7 @@ const struct node *ceduo_node_with(struct arena *arena, const struct node *map, 
 
 const struct node *ceduo_node_without(struct arena *arena, const struct node *map, const char *key)
 {
-    for (size_t i = 0; i < map->n; i++)
+    for (size_t i = 0; map && i < map->n; i++)
         if (strcmp(map->items[i]->key, key) == 0)
             return ceduo_node_removed(arena, map, i);
     return map;

@@ -48,7 +48,7 @@ double ceduo_node_number(const struct node *node, const char *key);
 /* The number that item i of a list is; NaN where it is none. */
 double ceduo_node_item_number(const struct node *list, size_t i);
 
-/* A mapping with the entry put in place of one with its key, or added. NULL without memory. */
+/* A mapping with the entry put in place of one with its key, or added; without it. NULL without memory, and of NULL. */
 const struct node *ceduo_node_with(struct arena *arena, const struct node *map, const char *key, const struct node *value);
 const struct node *ceduo_node_without(struct arena *arena, const struct node *map, const char *key);
 

@@ -35,7 +35,7 @@ bool ceduo_scene_bind(struct scene_file *file, struct problems *problems)
     file->slope_node = NULL;
     file->arena.failed = false;
     bool validated = ceduo_validate(&v);
-    problems->memory |= file->arena.failed; /* a name without room is taken for one that is not known */
+    problems->memory |= file->arena.failed || ceduo_text_lost(); /* a name without room is taken for one that is not known */
     file->arena.failed |= failed;
     if (!validated)
         return false;

@@ -7,7 +7,7 @@ static void check_rules(struct validator *v, const char *list, const struct cedu
 {
     for (size_t i = 0; i < n; i++) {
         const char *path = ceduo_format(v, "rules.%s[%zu]", list, i);
-        struct text all = {0};
+        LOCAL_TEXT(all);
         if (!ceduo_is_sound(v, path))
             continue;
         if (items[i].most < items[i].least)
@@ -17,22 +17,7 @@ static void check_rules(struct validator *v, const char *list, const struct cedu
             if (ceduo_species_find(items[i].species[k]) < 0)
                 ceduo_complain(v, ceduo_format(v, "%s.species[%zu]", path, k), "", _("'%s' is unknown; one of: %s"),
                                items[i].species[k], ceduo_text_string(&all));
-        v->problems->memory |= all.failed;
-        ceduo_text_free(&all);
     }
-}
-
-/* From which diameter on stems count is assumed where a forest is asked about and nobody says it. */
-static void assume_counted(struct validator *v)
-{
-    const struct ceduo_scene *scene = &v->draft.scene;
-    bool forest = false;
-    for (size_t i = 0; i < scene->options_count; i++)
-        forest |= scene->options[i].belts_count > 0;
-    if (forest && !ceduo_node_get(ceduo_node_get(v->root, "simulation"), "contact_dbh_m"))
-        ceduo_assume(v, "simulation.contact_dbh_m",
-                     ceduo_format(v, _("stems count from %g cm on, at which coppice is callipered"),
-                                  scene->simulation.contact_dbh * 100));
 }
 
 bool ceduo_validate(struct validator *v)
@@ -50,7 +35,13 @@ bool ceduo_validate(struct validator *v)
     ceduo_validate_release(v, "release", &scene->release);
     ceduo_validate_controls(v);
     ceduo_validate_options(v);
-    assume_counted(v);
+    bool forest = false;
+    for (size_t i = 0; i < scene->options_count; i++)
+        forest |= scene->options[i].belts_count > 0;
+    if (forest && !ceduo_node_get(ceduo_node_get(v->root, "simulation"), "contact_dbh_m"))
+        ceduo_assume(v, "simulation.contact_dbh_m",
+                     ceduo_format(v, _("stems count from %g cm on, at which coppice is callipered"),
+                                  scene->simulation.contact_dbh * 100));
     check_rules(v, "standards", scene->rules.standards, scene->rules.standards_count);
     check_rules(v, "turns", scene->rules.turns, scene->rules.turns_count);
     ceduo_validate_doubt(v);

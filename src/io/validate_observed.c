@@ -23,23 +23,18 @@ static bool is_beside(const char *key)
     return false;
 }
 
-static bool is_number(const struct node *node)
-{
-    double value;
-    return !node->quoted && ceduo_number_read(node->text, &value) != CEDUO_NUMBER_NONE;
-}
-
 /* A path in place of the values is a table. */
 static const struct node *name_tables(struct arena *arena, const struct node *kind)
 {
     static const char *const lists[] = {"x_m", "values", "height_m"};
     bool place = ceduo_node_get(kind, "values") || ceduo_node_get(kind, "mean"); /* then x_m is a number */
+    double value;
     for (size_t i = place ? 1 : 0; kind && i < 3; i++) {
         const struct node *list = ceduo_node_get(kind, lists[i]);
-        if (!list || list->kind != NODE_SCALAR || is_number(list) || ceduo_node_get(kind, "csv"))
-            continue;
-        const struct node *without = ceduo_node_without(arena, kind, lists[i]);
-        kind = without ? ceduo_node_with(arena, without, "csv", ceduo_node_renamed(arena, list, "csv")) : NULL;
+        bool number =
+            list && list->kind == NODE_SCALAR && !list->quoted && ceduo_number_read(list->text, &value) != CEDUO_NUMBER_NONE;
+        if (list && list->kind == NODE_SCALAR && !number && !ceduo_node_get(kind, "csv"))
+            kind = ceduo_node_with(arena, ceduo_node_without(arena, kind, lists[i]), "csv", list);
     }
     return kind;
 }
@@ -57,7 +52,7 @@ static const struct node *lift(struct arena *arena, const struct node *row, cons
     }
     if (kind && kind->kind == NODE_MAP)
         kind = name_tables(arena, kind);
-    return row && kind ? ceduo_node_with(arena, row, key, kind) : NULL;
+    return ceduo_node_with(arena, row, key, kind);
 }
 
 /* A row whose kinds have nothing in them that belongs beside them, and whose release says all that the scene's says. */
@@ -69,30 +64,11 @@ static const struct node *arrange_row(struct validator *v, const struct node *ro
     for (size_t i = 0; arranged && i < row->n; i++)
         if (!is_beside(row->items[i]->key))
             arranged = lift(v->arena, arranged, row->items[i]->key);
-    const struct node *own = arranged ? ceduo_node_get(arranged, "release") : NULL;
+    const struct node *own = ceduo_node_get(arranged, "release");
     for (size_t i = 0; own && own->kind == NODE_MAP && scene && scene->kind == NODE_MAP && i < scene->n; i++)
         if (!ceduo_node_get(own, scene->items[i]->key) && strcmp(scene->items[i]->key, "source") != 0)
             own = ceduo_node_with(v->arena, own, scene->items[i]->key, scene->items[i]);
     return own ? ceduo_node_with(v->arena, arranged, "release", own) : arranged;
-}
-
-/* Adds rows of one kind, from a mapping or a list of such. NULL without memory. */
-static const struct node *add_kind(struct arena *arena, const struct node *list, const struct node *kind)
-{
-    size_t n = kind->kind == NODE_LIST ? kind->n : 1;
-    for (size_t i = 0; list && i < n; i++) {
-        const struct node *empty = ceduo_node_empty(arena, NODE_MAP, kind->source);
-        const struct node *value = kind->kind == NODE_LIST ? kind->items[i] : kind;
-        const struct node *made = empty ? ceduo_node_with(arena, empty, kind->key, value) : NULL;
-        struct node *row = made ? ceduo_arena_take(arena, sizeof *row) : NULL;
-        if (!row)
-            return NULL;
-        *row = *made;
-        row->line = value->line;
-        row->column = value->column;
-        list = ceduo_node_inserted(arena, list, list->n, row);
-    }
-    return list;
 }
 
 /* doubt: {draws: FILE, rows: […]}: the rows are the list that may stand there alone. NULL without memory. */
@@ -105,23 +81,41 @@ static const struct node *arrange_doubt(struct validator *v)
         if (strcmp(doubt->items[i]->key, "draws") != 0 && strcmp(doubt->items[i]->key, "rows") != 0)
             ceduo_node_problem(v->problems, doubt->items[i], "doubt", _("unknown key; known here: draws, rows"));
     const struct node *root = ceduo_node_without(v->arena, v->root, "doubt");
-    return root && rows ? ceduo_node_with(v->arena, root, "doubt", ceduo_node_renamed(v->arena, rows, "doubt")) : root;
+    return rows ? ceduo_node_with(v->arena, root, "doubt", rows) : root;
+}
+
+/* A mapping of kinds, each with its row or a list of such, as a list of rows that have one kind each. NULL without memory. */
+static const struct node *list_kinds(struct arena *arena, const struct node *kinds)
+{
+    const struct node *list = ceduo_node_empty(arena, NODE_LIST, kinds->source);
+    for (size_t i = 0; i < kinds->n; i++) {
+        const struct node *kind = kinds->items[i];
+        for (size_t k = 0; list && k < (kind->kind == NODE_LIST ? kind->n : 1); k++) {
+            const struct node *value = kind->kind == NODE_LIST ? kind->items[k] : kind;
+            const struct node *empty = ceduo_node_empty(arena, NODE_MAP, kind->source);
+            const struct node *made = ceduo_node_with(arena, empty, kind->key, value);
+            struct node *row = made ? ceduo_arena_take(arena, sizeof *row) : NULL;
+            if (!row)
+                return NULL;
+            *row = *made;
+            row->line = value->line;
+            row->column = value->column;
+            list = ceduo_node_inserted(arena, list, list->n, row);
+        }
+    }
+    return list;
 }
 
 void ceduo_arrange_observed(struct validator *v)
 {
-    const struct node *root = arrange_doubt(v), *all = ceduo_node_get(root, "observed"), *list = all;
-    if (all && all->kind == NODE_MAP) {
-        list = ceduo_node_empty(v->arena, NODE_LIST, all->source);
-        for (size_t i = 0; list && i < all->n; i++)
-            list = add_kind(v->arena, list, all->items[i]);
-    }
+    const struct node *root = arrange_doubt(v), *all = ceduo_node_get(root, "observed");
+    const struct node *list = all && all->kind == NODE_MAP ? list_kinds(v->arena, all) : all;
     for (size_t i = 0; list && list->kind == NODE_LIST && i < list->n; i++) {
         const struct node *row = arrange_row(v, list->items[i]);
-        list = row == list->items[i] ? list : row ? ceduo_node_replaced(v->arena, list, i, row) : NULL;
+        list = row == list->items[i] ? list : ceduo_node_replaced(v->arena, list, i, row);
     }
     if (list != all)
-        root = list ? ceduo_node_with(v->arena, root, "observed", list) : NULL;
+        root = ceduo_node_with(v->arena, root, "observed", list);
     if (root)
         v->root = root;
     else
@@ -147,7 +141,7 @@ struct place {
 static size_t find_column(const struct place *p, struct csv *csv, const char *named, const char *key)
 {
     const char *const own[] = {named, NULL};
-    struct text all = {0};
+    LOCAL_TEXT(all);
     size_t known = ceduo_csv_column(csv, ceduo_observed_quantity(p->kind)->columns);
     size_t column = named ? ceduo_csv_column(csv, own) : known;
     csv->source->foreign = known == CEDUO_CSV_NONE;
@@ -162,26 +156,7 @@ static size_t find_column(const struct place *p, struct csv *csv, const char *na
     else if (column == CEDUO_CSV_NONE)
         ceduo_complain(p->v, p->at, key, _("name the column that holds the values (column); the table has: %s"),
                        ceduo_text_string(&all));
-    p->v->problems->memory |= all.failed;
-    ceduo_text_free(&all);
     return column == CEDUO_CSV_TWICE ? CEDUO_CSV_NONE : column;
-}
-
-/* The rows that are wanted: those with a word in a column; CEDUO_CSV_NONE if all are. False if that makes no sense, which is
- * reported. */
-static bool find_only(const struct place *p, struct csv *csv, const char *only, size_t *column, const char **word)
-{
-    const char *equals = only ? strchr(only, '=') : NULL;
-    *column = CEDUO_CSV_NONE;
-    if (!only)
-        return true;
-    if (!equals || equals == only) {
-        ceduo_complain(p->v, p->at, "only", _("'%s' is not COLUMN=WORD, such as block=1"), only);
-        return false;
-    }
-    *word = equals + 1;
-    *column = find_column(p, csv, ceduo_format(p->v, "%.*s", (int)(equals - only), only), "only");
-    return *column != CEDUO_CSV_NONE;
 }
 
 static void read_table(const struct place *p, const char *path)
@@ -190,17 +165,23 @@ static void read_table(const struct place *p, const char *path)
     struct observed_values *to = p->values;
     struct csv csv;
     struct csv_span field;
-    size_t only;
-    const char *word = NULL;
+    size_t only = CEDUO_CSV_NONE; /* the column in which those rows that are wanted have a word */
+    const char *equals = to->only ? strchr(to->only, '=') : NULL;
     if (!ceduo_csv_open(&csv, v->arena, path, v->problems))
         return;
     size_t column = find_column(p, &csv, to->column, "column");
-    if (column == CEDUO_CSV_NONE || !find_only(p, &csv, to->only, &only, &word) ||
-        !(to->values = ceduo_room(v, ceduo_csv_lines(&csv), sizeof *to->values)))
+    if (column == CEDUO_CSV_NONE)
+        return;
+    if (to->only && (!equals || equals == to->only)) {
+        ceduo_complain(v, p->at, "only", _("'%s' is not COLUMN=WORD, such as block=1"), to->only);
+        return;
+    }
+    if (equals)
+        only = find_column(p, &csv, ceduo_format(v, "%.*s", (int)(equals - to->only), to->only), "only");
+    if ((equals && only == CEDUO_CSV_NONE) || !(to->values = ceduo_room(v, ceduo_csv_lines(&csv), sizeof *to->values)))
         return;
     while (ceduo_csv_next(&csv)) {
-        bool other = only != CEDUO_CSV_NONE && (!ceduo_csv_field(&csv, only, &field) || !ceduo_csv_is(field, word));
-        if (other)
+        if (equals && (!ceduo_csv_field(&csv, only, &field) || !ceduo_csv_is(field, equals + 1)))
             continue;
         if (!ceduo_csv_field(&csv, column, &field))
             ceduo_problem(v->problems, csv.source, csv.number, 1, _("too few columns"));
@@ -246,51 +227,38 @@ static bool check_form(const struct place *p)
     return listed ? means == 0 : means == 3;
 }
 
-/* The path of value i. */
-static const char *path_of(const struct place *p, size_t i)
-{
-    return ceduo_node_get(p->node, "csv") ? ceduo_format(p->v, "%s.csv", p->at)
-                                          : ceduo_format(p->v, "%s.%s[%zu]", p->at, p->is->list, i);
-}
-
 static bool check_on_slope(const struct place *p, const char *path, const char *key, double x)
 {
-    const struct ceduo_slope *s = &p->v->draft.scene.slope;
-    double lo = p->v->origin, hi = s->x[s->vertices - 1] + lo;
+    struct validator *v = p->v;
+    double lo = v->origin, hi = v->draft.scene.slope.x[v->draft.scene.slope.vertices - 1] + lo;
     if (x < lo)
-        ceduo_complain(p->v, path, key, _("%s lies before the slope, which begins at %s m"), ceduo_decimal(p->v, x),
-                       ceduo_decimal(p->v, lo));
+        ceduo_complain(v, path, key, _("%s lies before the slope, which begins at %s m"), ceduo_decimal(v, x),
+                       ceduo_decimal(v, lo));
     else if (x > hi)
-        ceduo_complain(p->v, path, key, _("%s lies beyond the slope, which ends at %s m"), ceduo_decimal(p->v, x),
-                       ceduo_decimal(p->v, hi));
+        ceduo_complain(v, path, key, _("%s lies beyond the slope, which ends at %s m"), ceduo_decimal(v, x),
+                       ceduo_decimal(v, hi));
     return !(x < lo) && !(x > hi);
 }
 
-static bool check_stops(const struct place *p)
+/* Whether every value lies on the slope beyond seen_from_m, where rocks stopped there, or is not negative; the first that does
+ * not is reported. */
+static bool check_each(const struct place *p)
 {
     const struct observed_values *values = p->values;
-    bool good = check_on_slope(p, p->at, "seen_from_m", values->seen_from);
+    bool stops = p->is->where == CEDUO_WHERE_AT_REST, good = true;
     for (size_t i = 0; i < values->values_count && good; i++) {
         double x = values->values[i];
-        const char *path = path_of(p, i);
-        good = check_on_slope(p, path, "", x);
-        if (good && x < values->seen_from) {
+        const char *path = ceduo_node_get(p->node, "csv") ? ceduo_format(p->v, "%s.csv", p->at)
+                                                          : ceduo_format(p->v, "%s.%s[%zu]", p->at, p->is->list, i);
+        bool on_slope = !stops || check_on_slope(p, path, "", x);
+        good = on_slope && !(x < (stops ? values->seen_from : 0));
+        if (on_slope && !good && stops)
             ceduo_complain(p->v, path, "", _("%s lies before seen_from_m, %s"), ceduo_decimal(p->v, x),
                            ceduo_decimal(p->v, values->seen_from));
-            good = false;
-        }
+        else if (on_slope && !good)
+            ceduo_complain(p->v, path, "", _("%s is below 0"), ceduo_decimal(p->v, x));
     }
     return good;
-}
-
-static bool check_negative(const struct place *p)
-{
-    for (size_t i = 0; i < p->values->values_count; i++)
-        if (p->values->values[i] < 0) {
-            ceduo_complain(p->v, path_of(p, i), "", _("%s is below 0"), ceduo_decimal(p->v, p->values->values[i]));
-            return false;
-        }
-    return true;
 }
 
 /* No more than were released. */
@@ -331,31 +299,21 @@ static bool check_values(const struct place *p)
     const struct observed_values *values = p->values;
     switch (p->is->where) {
     case CEDUO_WHERE_AT_REST:
-        return check_stops(p) && check_released(p);
+        return check_on_slope(p, p->at, "seen_from_m", values->seen_from) && check_each(p) && check_released(p);
     case CEDUO_WHERE_AT_PLACE:
-        return p->is->list ? check_form(p) && check_place(p) && check_negative(p) : check_place(p) && check_released(p);
+        return p->is->list ? check_form(p) && check_place(p) && check_each(p) : check_place(p) && check_released(p);
     case CEDUO_WHERE_ON_STEMS: /* of which a rock may strike several */
-        return check_stretch(p, p->at, values->from, values->to) && check_negative(p);
+        return check_stretch(p, p->at, values->from, values->to) && check_each(p);
     case CEDUO_WHERE_LARGEST:
-        return check_form(p) && check_negative(p);
+        return check_form(p) && check_each(p);
     case CEDUO_WHERE_ALONG:
-        return check_form(p) && check_negative(p) &&
+        return check_form(p) && check_each(p) &&
                check_stretch(p, ceduo_format(p->v, "%s.on_the_way", p->row_path), p->row->way_from, p->row->way_to);
     }
     return false;
 }
 
 /* ---- rows ---- */
-
-static const char *make_name(const struct place *p)
-{
-    if (p->is->where == CEDUO_WHERE_AT_PLACE)
-        return ceduo_format(p->v, "%s at %s m", p->is->path, ceduo_decimal(p->v, p->values->x));
-    if (p->is->where == CEDUO_WHERE_ALONG)
-        return ceduo_format(p->v, "%s %s-%s m", p->is->path, ceduo_decimal(p->v, p->row->way_from),
-                            ceduo_decimal(p->v, p->row->way_to));
-    return p->is->path;
-}
 
 /* `o`: what the kinds of a row share. */
 static void set_observation(const struct place *p, struct ceduo_observation *o)
@@ -368,7 +326,12 @@ static void set_observation(const struct place *p, struct ceduo_observation *o)
     gsl_sort(values->values, 1, values->values_count);
     o->kind = p->kind;
     o->named = p->row->name != NULL;
-    o->name = p->row->name ? p->row->name : make_name(p);
+    o->name = o->named ? p->row->name : p->is->path;
+    if (!o->named && p->is->where == CEDUO_WHERE_AT_PLACE)
+        o->name = ceduo_format(p->v, "%s at %s m", p->is->path, ceduo_decimal(p->v, values->x));
+    else if (!o->named && along)
+        o->name = ceduo_format(p->v, "%s %s-%s m", p->is->path, ceduo_decimal(p->v, p->row->way_from),
+                               ceduo_decimal(p->v, p->row->way_to));
     o->x = values->x - origin;
     o->from = (along ? p->row->way_from : at_rest ? values->seen_from : values->from) - origin;
     o->to = (along ? p->row->way_to : values->to) - origin;
@@ -387,29 +350,18 @@ static bool find_option(struct validator *v, const char *path, const struct obse
     for (*option = 0; *option < s->options_count; ++*option)
         if (!row->option || (s->options[*option].name && strcmp(s->options[*option].name, row->option) == 0))
             return true;
-    struct text all = {0};
+    LOCAL_TEXT(all);
     for (size_t i = 0; i < s->options_count; i++)
         ceduo_text_then(&all, i > 0 ? ", " : "", "%s", s->options[i].name ? s->options[i].name : "");
     if (row->option)
         ceduo_complain(v, path, "option", _("the scene has no option '%s'; it has: %s"), row->option, ceduo_text_string(&all));
-    ceduo_text_free(&all);
     return false;
-}
-
-/* The node at a path such as largest.speed_m_s below a row. */
-static const struct node *node_of(const struct node *row, const char *path)
-{
-    const char *dot = strchr(path, '.');
-    for (size_t i = 0; i < row->n && dot; i++)
-        if (strncmp(row->items[i]->key, path, (size_t)(dot - path)) == 0)
-            return ceduo_node_get(row->items[i], dot + 1);
-    return dot ? NULL : ceduo_node_get(row, path);
 }
 
 /* Names the keys of all kinds; several kinds may be within one. */
 static void complain_nothing(struct validator *v, const char *path)
 {
-    struct text keys = {0};
+    LOCAL_TEXT(keys);
     const char *before = "";
     for (int kind = 0; kind < CEDUO_OBSERVED_KINDS; kind++) {
         const char *key = ceduo_observed_row((enum ceduo_observed_kind)kind)->path;
@@ -419,8 +371,6 @@ static void complain_nothing(struct validator *v, const char *path)
         before = key;
     }
     ceduo_complain(v, path, "", _("say what was seen, one of: %s"), ceduo_text_string(&keys));
-    v->problems->memory |= keys.failed;
-    ceduo_text_free(&keys);
 }
 
 static void validate_row(struct validator *v, const char *path, const struct node *node, struct observed *row)
@@ -439,6 +389,8 @@ static void validate_row(struct validator *v, const char *path, const struct nod
     bool good = find_option(v, path, row, &shared.option) && v->problems->met == before;
     for (int kind = 0; kind < CEDUO_OBSERVED_KINDS; kind++) {
         const struct ceduo_observed_row *is = ceduo_observed_row((enum ceduo_observed_kind)kind);
+        const char *dot = strchr(is->path, '.'); /* as in largest.speed_m_s */
+        const char *around = dot ? ceduo_format(v, "%.*s", (int)(dot - is->path), is->path) : NULL;
         const struct place p = {.v = v,
                                 .row = row,
                                 .row_path = path,
@@ -447,7 +399,8 @@ static void validate_row(struct validator *v, const char *path, const struct nod
                                 .is = is,
                                 .values = &row->values[kind],
                                 .at = ceduo_format(v, "%s.%s", path, is->path),
-                                .node = node_of(node, is->path)};
+                                .node = dot ? ceduo_node_get(ceduo_node_get(node, around), dot + 1)
+                                            : ceduo_node_get(node, is->path)};
         any |= p.node != NULL;
         if (p.node && (!is->list || take_values(&p)) && check_values(&p) && good) {
             struct ceduo_observation *o = &v->observations[v->observations_count++];

@@ -8,7 +8,7 @@
 
 void ceduo_complain(struct validator *v, const char *path, const char *key, const char *format, ...)
 {
-    struct text message = {0};
+    LOCAL_TEXT(message);
     const char *within;
     size_t used;
     const struct node *node = ceduo_resolve_walk(v->root, key[0] ? ceduo_format(v, "%s.%s", path, key) : path, &within, &used);
@@ -21,8 +21,6 @@ void ceduo_complain(struct validator *v, const char *path, const char *key, cons
     va_end(args);
     ceduo_problem_own(v->problems, (struct problem_place){node->source, node->line, node->column, within}, "%s",
                       ceduo_text_string(&message));
-    v->problems->memory |= message.failed;
-    ceduo_text_free(&message);
 }
 
 const char *ceduo_format(struct validator *v, const char *format, ...)
@@ -49,7 +47,7 @@ void *ceduo_room(struct validator *v, size_t n, size_t size)
 
 bool ceduo_is_known(struct validator *v, const char *format, ...)
 {
-    struct text path = {0};
+    LOCAL_TEXT(path);
     va_list args;
     va_start(args, format);
     if (v->bad.n > 0)
@@ -58,8 +56,6 @@ bool ceduo_is_known(struct validator *v, const char *format, ...)
     bool good = !path.failed;
     for (size_t i = 0; good && i < v->bad.n; i++)
         good = !ceduo_path_leads_to(v->bad.paths[i], path.bytes);
-    v->problems->memory |= path.failed;
-    ceduo_text_free(&path);
     return good;
 }
 
