@@ -21,21 +21,19 @@
 enum column { PLOT, AREA, RADIUS, SLOPE, SPECIES, KIND, STOOL, DBH, HEIGHT, SPACING, ENERGY, COLUMNS };
 
 /* Names of a column, the first one is that of the manual; in other languages as their spreadsheets have them. */
-static const char *const names[COLUMNS][5] = {[PLOT] = {"plot", "saggio", "area_di_saggio",
-                                                        "probefl\xc3\xa4"
-                                                        "che"},
-                                              [AREA] = {"area_m2", "superficie_m2",
-                                                        "fl\xc3\xa4"
-                                                        "che_m2"},
-                                              [RADIUS] = {"radius_m", "raggio_m"},
-                                              [SLOPE] = {"slope_deg", "pendenza_gradi", "neigung_grad"},
-                                              [SPECIES] = {"species", "specie", "baumart"},
-                                              [KIND] = {"kind", "tipo", "typ"},
-                                              [STOOL] = {"stool", "ceppaia", "stock"},
-                                              [DBH] = {"dbh_cm", "diametro_cm", "bhd_cm"},
-                                              [HEIGHT] = {"height_m", "altezza_m", "h\xc3\xb6he_m"},
-                                              [SPACING] = {"spacing_m", "distanza_m", "abstand_m"},
-                                              [ENERGY] = {"energy_kJ", "energia_kJ", "energie_kJ"}};
+static const char *const names[COLUMNS][5] = {
+    [PLOT] = {"plot", "saggio", "area_di_saggio", "probefläche"},
+    [AREA] = {"area_m2", "superficie_m2", "fläche_m2"},
+    [RADIUS] = {"radius_m", "raggio_m"},
+    [SLOPE] = {"slope_deg", "pendenza_gradi", "neigung_grad"},
+    [SPECIES] = {"species", "specie", "baumart"},
+    [KIND] = {"kind", "tipo", "typ"},
+    [STOOL] = {"stool", "ceppaia", "stock"},
+    [DBH] = {"dbh_cm", "diametro_cm", "bhd_cm"},
+    [HEIGHT] = {"height_m", "altezza_m", "höhe_m"},
+    [SPACING] = {"spacing_m", "distanza_m", "abstand_m"},
+    [ENERGY] = {"energy_kJ", "energia_kJ", "energie_kJ"},
+};
 
 static const struct {
     double lo, hi;
@@ -52,8 +50,8 @@ static const char *const kinds[CEDUO_SURVEY_KINDS_COUNT][4] = {[CEDUO_SURVEY_SHO
 
 struct plot {
     struct csv_span name;
-    size_t line;                  /* where it comes first */
-    double area, radius, degrees; /* NaN: not said */
+    size_t line;          /* where it comes first */
+    double of[SLOPE + 1]; /* AREA, RADIUS, SLOPE; NaN: not said */
 };
 
 /* The stool of a shoot by its name, before stools are numbered. */
@@ -76,50 +74,35 @@ struct reader {
 
 /* ---- header ---- */
 
-static void complain_twice(struct reader *r, enum column c)
-{
-    ceduo_problem(r->problems, r->csv.source, 1, 1, _("the column '%s' is there twice; rename all but one"), names[c][0]);
-}
-
-/* A column that says nothing to the program, though its name is near to one that is missing, is a slip. */
-static void check_slip(struct reader *r, struct csv_span field)
-{
-    const char *missing[COLUMNS];
-    char word[64] = "";
-    size_t n = 0;
-    for (int c = 0; c < COLUMNS; c++)
-        if (r->columns[c] == CEDUO_CSV_NONE)
-            missing[n++] = names[c][0];
-    if (field.n < sizeof word)
-        memcpy(word, field.p, field.n);
-    const char *near = ceduo_text_nearest(word, missing, n);
-    if (near)
-        ceduo_csv_complain(&r->csv, field, _("'%s': unknown column; did you mean '%s'?"), word, near);
-}
-
-static bool is_used(const struct reader *r, size_t column)
-{
-    for (int c = 0; c < COLUMNS; c++)
-        if (r->columns[c] == column)
-            return true;
-    return false;
-}
-
 static void read_header(struct reader *r, struct text *unused)
 {
     struct csv_span field;
+    const char *missing[COLUMNS];
+    size_t n = 0;
     for (int c = 0; c < COLUMNS; c++) {
         r->columns[c] = ceduo_csv_column(&r->csv, names[c]);
         r->csv.source->foreign &= r->columns[c] == CEDUO_CSV_NONE;
         if (r->columns[c] == CEDUO_CSV_TWICE)
-            complain_twice(r, (enum column)c);
+            ceduo_problem(r->problems, r->csv.source, 1, 1, _("the column '%s' is there twice; rename all but one"),
+                          names[c][0]);
+        else if (r->columns[c] == CEDUO_CSV_NONE)
+            missing[n++] = names[c][0];
     }
-    for (size_t i = 0; ceduo_csv_field(&r->csv, i, &field); i++)
-        if (!is_used(r, i) && field.n > 0) {
-            check_slip(r, field);
-            ceduo_text_put(unused, unused->length > 0 ? ", " : "");
-            ceduo_text_safe_n(unused, field.p, field.n);
-        }
+    for (size_t i = 0; ceduo_csv_field(&r->csv, i, &field); i++) {
+        bool used = field.n == 0;
+        for (int c = 0; c < COLUMNS; c++)
+            used |= r->columns[c] == i;
+        if (used)
+            continue;
+        char word[64] = "";
+        if (field.n < sizeof word)
+            memcpy(word, field.p, field.n);
+        const char *near = ceduo_text_nearest(word, missing, n); /* near to one that is missing: a slip */
+        if (near)
+            ceduo_csv_complain(&r->csv, field, _("'%s': unknown column; did you mean '%s'?"), word, near);
+        ceduo_text_put(unused, unused->length > 0 ? ", " : "");
+        ceduo_text_safe_n(unused, field.p, field.n);
+    }
     static const enum column needed[] = {PLOT, KIND, DBH};
     for (size_t i = 0; i < sizeof needed / sizeof needed[0]; i++)
         if (r->columns[needed[i]] == CEDUO_CSV_NONE)
@@ -131,57 +114,42 @@ static void read_header(struct reader *r, struct text *unused)
 
 /* ---- rows ---- */
 
-static bool same(struct csv_span a, struct csv_span b)
-{
-    return a.n == b.n && memcmp(a.p, b.p, a.n) == 0;
-}
-
-/* A number that may be left empty: NaN then. False where it is wrong, which is told. */
+/* A number that may be left empty: NaN then. False if it is wrong, which is reported. */
 static bool read_number(struct reader *r, enum column c, double *value)
 {
     *value = NAN;
     return r->fields[c].n == 0 || ceduo_csv_number(&r->csv, r->fields[c], ranges[c].lo, ranges[c].hi, ranges[c].unit, value);
 }
 
-/* What is said of a plot; said again it must be the same. */
-static bool read_of_plot(struct reader *r, enum column c, double *value)
-{
-    double now;
-    if (!read_number(r, c, &now))
-        return false;
-    bool differs = !isnan(now) && !isnan(*value) && now != *value;
-    if (differs)
-        ceduo_csv_complain(&r->csv, r->fields[c], _("'%s' is %g elsewhere for this plot, here %g"), names[c][0], *value, now);
-    *value = isnan(*value) ? now : *value;
-    return !differs;
-}
-
-static struct plot *plot_of(struct reader *r, struct csv_span name)
-{
-    for (size_t i = r->plots_count; i-- > 0;) /* mostly the last */
-        if (same(r->plots[i].name, name))
-            return &r->plots[i];
-    if (r->plots_count == PLOTS_MOST) {
-        ceduo_csv_complain(&r->csv, name, _("more than %d plots"), PLOTS_MOST);
-        return NULL;
-    }
-    r->plots[r->plots_count] = (struct plot){name, r->csv.number, NAN, NAN, NAN};
-    return &r->plots[r->plots_count++];
-}
-
 static bool read_plot(struct reader *r, size_t *plot)
 {
-    if (r->fields[PLOT].n == 0) {
-        ceduo_csv_complain(&r->csv, r->fields[PLOT], _("the plot is missing"));
+    struct csv_span name = r->fields[PLOT];
+    size_t i = r->plots_count;
+    bool good = true;
+    if (name.n == 0) {
+        ceduo_csv_complain(&r->csv, name, _("the plot is missing"));
         return false;
     }
-    struct plot *p = plot_of(r, r->fields[PLOT]);
-    if (!p)
+    while (i > 0 && !(r->plots[i - 1].name.n == name.n && memcmp(r->plots[i - 1].name.p, name.p, name.n) == 0))
+        i--; /* mostly the last */
+    if (i == 0 && r->plots_count == PLOTS_MOST) {
+        ceduo_csv_complain(&r->csv, name, _("more than %d plots"), PLOTS_MOST);
         return false;
-    *plot = (size_t)(p - r->plots);
-    bool good = read_of_plot(r, AREA, &p->area);
-    good = read_of_plot(r, RADIUS, &p->radius) && good;
-    good = read_of_plot(r, SLOPE, &p->degrees) && good;
+    }
+    if (i == 0) {
+        r->plots[r->plots_count] = (struct plot){name, r->csv.number, {NAN, NAN, NAN, NAN}};
+        i = ++r->plots_count;
+    }
+    *plot = i - 1;
+    for (enum column c = AREA; c <= SLOPE; c++) { /* what is said of a plot again must be the same */
+        double now, *known = &r->plots[*plot].of[c];
+        bool read = read_number(r, c, &now), differs = !isnan(now) && !isnan(*known) && now != *known;
+        if (read && differs)
+            ceduo_csv_complain(&r->csv, r->fields[c], _("'%s' is %g elsewhere for this plot, here %g"), names[c][0], *known,
+                               now);
+        good = good && read && !differs;
+        *known = read && isnan(*known) ? now : *known;
+    }
     if (r->fields[AREA].n > 0 && r->fields[RADIUS].n > 0) {
         ceduo_csv_complain(&r->csv, r->fields[RADIUS], _("area_m2 already says this; leave one of the two empty"));
         return false;
@@ -206,35 +174,24 @@ static bool read_kind(struct reader *r, enum ceduo_survey_kind *kind)
     return false;
 }
 
-/* Whether a field is a name of a species; blanks and underscores do for its hyphens. */
-static bool is_species(struct csv_span f, const char *name)
-{
-    char word[64];
-    if (f.n >= sizeof word)
-        return false;
-    for (size_t i = 0; i < f.n; i++)
-        word[i] = f.p[i] == ' ' || f.p[i] == '_' ? '-' : f.p[i];
-    word[f.n] = '\0';
-    return strcasecmp(word, name) == 0;
-}
-
 static bool read_species(struct reader *r, int *species)
 {
     struct csv_span f = r->fields[SPECIES];
     size_t n;
     const struct ceduo_species *list = ceduo_species_list(&n);
+    char word[64] = ""; /* blanks and underscores do for hyphens */
+    for (size_t i = 0; i < f.n && f.n < sizeof word; i++)
+        word[i] = f.p[i] == ' ' || f.p[i] == '_' ? '-' : f.p[i];
     *species = -1;
     for (size_t i = 0; i < n; i++)
-        if (is_species(f, list[i].name) || ceduo_csv_is(f, list[i].common))
+        if (strcasecmp(word, list[i].name) == 0 || ceduo_csv_is(f, list[i].common))
             *species = (int)i;
     if (*species >= 0 || f.n == 0)
         return true;
-    struct text all = {0};
+    LOCAL_TEXT(all);
     ceduo_text_words(&all, ceduo_species_words.names, ceduo_species_words.n, ", ");
     ceduo_csv_complain(&r->csv, f, _("'%.*s' is an unknown species; leave it empty, or one of: %s"), f.n < 100 ? (int)f.n : 100,
                        f.p, ceduo_text_string(&all));
-    r->problems->memory |= all.failed;
-    ceduo_text_free(&all);
     return false;
 }
 
@@ -269,18 +226,17 @@ static bool read_sizes(struct reader *r, struct ceduo_survey_stem *stem)
     return false;
 }
 
-static bool is_stem(const struct reader *r)
+static void read_row(struct reader *r)
 {
-    static const enum column columns[] = {SPECIES, KIND, STOOL, DBH, HEIGHT, SPACING, ENERGY};
-    for (size_t i = 0; i < sizeof columns / sizeof columns[0]; i++)
-        if (r->fields[columns[i]].n > 0)
-            return true;
-    return false;
-}
-
-static void read_stem(struct reader *r, size_t plot)
-{
-    struct ceduo_survey_stem stem = {.plot = plot};
+    struct ceduo_survey_stem stem = {0};
+    bool any = false; /* there is a stem */
+    for (int c = 0; c < COLUMNS; c++) {
+        if (r->columns[c] >= CEDUO_CSV_TWICE || !ceduo_csv_field(&r->csv, r->columns[c], &r->fields[c]))
+            r->fields[c] = (struct csv_span){r->csv.line.p + r->csv.line.n, 0};
+        any |= c >= SPECIES && r->fields[c].n > 0;
+    }
+    if (!read_plot(r, &stem.plot) || !any)
+        return;
     bool kind = read_kind(r, &stem.kind), species = read_species(r, &stem.species);
     if (!kind || !read_sizes(r, &stem) || !species)
         return;
@@ -290,18 +246,8 @@ static void read_stem(struct reader *r, size_t plot)
         return;
     }
     if (stem.kind == CEDUO_SURVEY_SHOOT)
-        r->stools[r->shoots_count++] = (struct stool){plot, r->stems_count, r->fields[STOOL]};
+        r->stools[r->shoots_count++] = (struct stool){stem.plot, r->stems_count, r->fields[STOOL]};
     r->stems[r->stems_count++] = stem;
-}
-
-static void read_row(struct reader *r)
-{
-    size_t plot;
-    for (int c = 0; c < COLUMNS; c++)
-        if (r->columns[c] >= CEDUO_CSV_TWICE || !ceduo_csv_field(&r->csv, r->columns[c], &r->fields[c]))
-            r->fields[c] = (struct csv_span){r->csv.line.p + r->csv.line.n, 0};
-    if (read_plot(r, &plot) && is_stem(r))
-        read_stem(r, plot);
 }
 
 /* ---- what the rows make ---- */
@@ -328,17 +274,6 @@ static size_t number_stools(struct reader *r)
     return n;
 }
 
-static void measure_plots(struct reader *r, double *areas)
-{
-    for (size_t i = 0; i < r->plots_count; i++) {
-        const struct plot *p = &r->plots[i];
-        double area = isnan(p->area) ? M_PI * p->radius * p->radius : p->area;
-        areas[i] = ceduo_survey_horizontal(area, isnan(p->degrees) ? 0 : p->degrees * M_PI / 180);
-        if (isnan(area))
-            ceduo_problem(r->problems, r->csv.source, p->line, 1, _("this plot has no area_m2 and no radius_m"));
-    }
-}
-
 /* Without any height there is nothing to take for those that are missing. */
 static void check_heights(struct reader *r, bool shoots)
 {
@@ -355,62 +290,49 @@ static void check_heights(struct reader *r, bool shoots)
                              : _("no standard and no tree has a height_m; measure some, five or more if you can"));
 }
 
-static bool take_room(struct reader *r, struct arena *arena, double **areas)
-{
-    size_t rows = ceduo_csv_lines(&r->csv);
-    rows = rows < STEMS_MOST ? rows : STEMS_MOST;
-    r->plots = ceduo_bind_take(arena, PLOTS_MOST, sizeof *r->plots, r->problems);
-    r->stems = ceduo_bind_take(arena, rows, sizeof *r->stems, r->problems);
-    r->stools = ceduo_bind_take(arena, rows, sizeof *r->stools, r->problems);
-    *areas = ceduo_bind_take(arena, PLOTS_MOST, sizeof **areas, r->problems);
-    return r->plots && r->stems && r->stools && *areas;
-}
-
-static bool read_rows(struct reader *r)
-{
-    for (size_t n = 0; ceduo_csv_next(&r->csv); n++) {
-        if (n == STEMS_MOST) {
-            ceduo_problem(r->problems, r->csv.source, r->csv.number, 1, _("more than %d rows"), STEMS_MOST);
-            return false;
-        }
-        read_row(r);
-    }
-    return true;
-}
-
-static const char *name_of(struct arena *arena, const char *path)
-{
-    const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path;
-    size_t n = strlen(name);
-    if (strcmp(name, "-") == 0)
-        return "survey";
-    return ceduo_arena_copy(arena, name, n > 4 && strcasecmp(name + n - 4, ".csv") == 0 ? n - 4 : n);
-}
-
 bool ceduo_survey_read(struct survey_file *file, struct arena *arena, const char *path, struct problems *problems)
 {
     struct reader r = {.problems = problems};
-    struct text unused = {0};
-    double *areas = NULL;
-    size_t before = problems->met;
-    *file = (struct survey_file){.name = name_of(arena, path)};
-    if (!ceduo_csv_open(&r.csv, arena, path, problems) || !take_room(&r, arena, &areas))
+    const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path;
+    size_t length = strlen(name), before = problems->met;
+    length -= length > 4 && strcasecmp(name + length - 4, ".csv") == 0 ? 4 : 0;
+    name = strcmp(name, "-") == 0 ? "survey" : ceduo_arena_copy(arena, name, length);
+    *file = (struct survey_file){.name = name};
+    if (!ceduo_csv_open(&r.csv, arena, path, problems))
         return false;
+    size_t rows = ceduo_csv_lines(&r.csv);
+    rows = rows < STEMS_MOST ? rows : STEMS_MOST;
+    r.plots = ceduo_bind_take(arena, PLOTS_MOST, sizeof *r.plots, problems);
+    r.stems = ceduo_bind_take(arena, rows, sizeof *r.stems, problems);
+    r.stools = ceduo_bind_take(arena, rows, sizeof *r.stools, problems);
+    double *areas = ceduo_bind_take(arena, PLOTS_MOST, sizeof *areas, problems);
+    if (!r.plots || !r.stems || !r.stools || !areas)
+        return false;
+    LOCAL_TEXT(unused);
     read_header(&r, &unused);
     file->unused = ceduo_arena_string(arena, ceduo_text_string(&unused));
-    problems->memory |= unused.failed;
-    ceduo_text_free(&unused);
-    if (problems->met > before || !read_rows(&r))
+    if (problems->met > before)
         return false;
+    for (size_t n = 0; ceduo_csv_next(&r.csv); n++) {
+        if (n == STEMS_MOST) {
+            ceduo_problem(problems, r.csv.source, r.csv.number, 1, _("more than %d rows"), STEMS_MOST);
+            return false;
+        }
+        read_row(&r);
+    }
     if (problems->met == before && r.plots_count == 0)
         ceduo_problem(problems, r.csv.source, 0, 0, _("there is no plot: no row under the first"));
-    measure_plots(&r, areas);
+    for (size_t i = 0; i < r.plots_count; i++) {
+        const double *of = r.plots[i].of, area = isnan(of[AREA]) ? M_PI * of[RADIUS] * of[RADIUS] : of[AREA];
+        areas[i] = ceduo_survey_horizontal(area, isnan(of[SLOPE]) ? 0 : of[SLOPE] * M_PI / 180);
+        if (isnan(area))
+            ceduo_problem(problems, r.csv.source, r.plots[i].line, 1, _("this plot has no area_m2 and no radius_m"));
+    }
     if (problems->met == before) {
         check_heights(&r, true);
         check_heights(&r, false);
     }
-    if (!file->name || !file->unused)
-        ceduo_problem_memory(problems);
+    problems->memory |= !file->name || !file->unused || ceduo_text_lost();
     file->survey = (struct ceduo_survey){.plots_count = r.plots_count,
                                          .areas = areas,
                                          .stools_count = number_stools(&r),
