@@ -3,7 +3,7 @@
 #include "sensitivity.h"
 
 #include "interrupt.h"
-#include "io/inputs.h"
+#include "io/doubt_inputs.h"
 #include "say.h"
 
 enum ceduo_status ceduo_sensitivity_ask(const struct arguments *a, struct scene_file *file, struct progress *progress,

@@ -9,7 +9,7 @@
 #include "base/language.h"
 #include "base/utf8.h"
 #include "csv.h"
-#include "inputs.h"
+#include "doubt_inputs.h"
 #include "resolve.h"
 #include "scene/value.h"
 #include "validate.h"
@@ -285,15 +285,6 @@ struct stand_rows {
     size_t n, room;
 };
 
-static bool is_of_scene(const struct validator *v, const char *place)
-{
-    for (size_t i = 0; i < v->inputs_of_scene; i++)
-        for (size_t k = 0; k < v->inputs[i].places_count; k++)
-            if (ceduo_schema_same(v->inputs[i].places[k], place))
-                return true;
-    return false;
-}
-
 /* Adds the places of a row to those of its input, but for what the scene itself names. */
 static void add_stand_row(struct stand_rows *s, const struct row *row, const struct node *node)
 {
@@ -321,7 +312,7 @@ static void add_stand_row(struct stand_rows *s, const struct row *row, const str
     if (n > 0)
         memcpy(all, to->places, n * sizeof *all);
     for (size_t i = 0; all && i < input.places_count; i++)
-        if (!is_of_scene(v, input.places[i]))
+        if (!ceduo_inputs_have(v->inputs, v->inputs_of_scene, input.places[i]))
             all[n++] = input.places[i];
     to->places = all;
     to->places_count = n;

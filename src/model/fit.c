@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "base/must.h"
-#include "io/inputs.h"
+#include "io/doubt_inputs.h"
 #include "scene/ranges.h"
 #include "scene/value.h"
 

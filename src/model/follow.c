@@ -11,7 +11,7 @@
 #include "base/language.h"
 #include "ceduo/rotation.h"
 #include "changes.h"
-#include "io/inputs.h"
+#include "io/doubt_inputs.h"
 
 void ceduo_changes_add(struct changes *c, const char *format, ...)
 {

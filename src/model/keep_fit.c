@@ -6,8 +6,8 @@
 
 #include "base/language.h"
 #include "changes.h"
+#include "io/doubt_inputs.h"
 #include "io/emit.h"
-#include "io/inputs.h"
 #include "scene/value.h"
 
 #define SEGMENTS "slope.segments["

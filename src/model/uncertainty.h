@@ -3,7 +3,7 @@
 #define CEDUO_UNCERTAINTY_H
 
 #include "ceduo/doubt.h"
-#include "io/inputs.h"
+#include "io/doubt_inputs.h"
 
 /* What doubt does to the scene of the live program, in levels from coarse to fine. */
 #define UNCERTAINTY_LEVELS 2

@@ -4,7 +4,7 @@
 
 #include "ceduo/doubt.h"
 #include "ceduo/result.h"
-#include "io/inputs.h"
+#include "io/doubt_inputs.h"
 
 /* What doubt does to a scene. */
 struct ceduo_doubt_report {

@@ -5,7 +5,7 @@
 
 #include "ceduo/doubt.h"
 #include "frame.h"
-#include "io/inputs.h"
+#include "io/doubt_inputs.h"
 
 #define GOAL_SECONDS .35 /* with as many points and rocks as are taken unasked, on two cores */
 

@@ -9,7 +9,7 @@
 #include <unistd.h>
 
 #include "fuzz.h"
-#include "io/inputs.h"
+#include "io/doubt_inputs.h"
 #include "io/scene_file.h"
 
 #define SCENE                                                                                                                  \

@@ -7,9 +7,9 @@
 
 #include "ceduo/key.h"
 #include "folder.h"
+#include "io/doubt_inputs.h"
 #include "io/emit.h"
 #include "io/file.h"
-#include "io/inputs.h"
 #include "io/scene_file.h"
 #include "io/survey_file.h"
 

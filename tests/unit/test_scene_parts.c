@@ -8,7 +8,7 @@
 
 #include "base/text.h"
 #include "folder.h"
-#include "io/inputs.h"
+#include "io/doubt_inputs.h"
 #include "io/scene_file.h"
 
 /* `lines`, and what they do not say of a scene that is good. */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef CEDUO_IO_INPUTS_H
-#define CEDUO_IO_INPUTS_H
+#ifndef CEDUO_DOUBT_INPUTS_H
+#define CEDUO_DOUBT_INPUTS_H
 
 #include "ceduo/doubt.h"
 #include "scene_file.h"
@@ -19,6 +19,9 @@ bool ceduo_inputs_of(struct scene_file *file, struct scene_inputs *inputs);
 /* The places of a path that is to be fitted, to input->places: [*] stands for all items, slope.materials[NAME].KEY for a ground.
  * NULL where it is not a number of any scene; the scene may have no such place. */
 const struct field *ceduo_input_find(struct scene_file *file, const char *path, struct ceduo_input *input);
+
+/* Whether one of n inputs has a place, written either way. */
+bool ceduo_inputs_have(const struct ceduo_input *inputs, size_t n, const char *place);
 
 /* Whether some place is of both. */
 bool ceduo_input_shares(const struct ceduo_input *a, const struct ceduo_input *b);
