@@ -53,15 +53,19 @@ struct arguments {
     struct word_list calibrates; /* PATH=LO:HI */
     char **scenes;
     size_t scenes_count;
+    const char *called; /* how messages call the present scene where there are several; NULL: they need not */
     char seed[64];
     bool years;                 /* every option year by year */
     struct ceduo_window window; /* those years; step 0: one whole rotation of each */
     const char *find;           /* PATH of the value looked for; NULL: none */
     double find_lo, find_hi;
     enum ceduo_goal goal;
-    double goal_value;  /* NaN: the light's own limit */
-    size_t points;      /* of --sensitivity */
-    const char *survey; /* a CSV file of plots; NULL: none */
+    double goal_value;   /* NaN: the light's own limit */
+    size_t points;       /* of --sensitivity */
+    const char *survey;  /* a CSV file of plots; NULL: none */
+    const char *each;    /* a CSV file of which each row changes the scenes; NULL: none */
+    const char *columns; /* of CSV, by their heads with a comma between them; NULL: all */
+    bool resume;         /* go on with what the output holds */
 };
 
 #endif

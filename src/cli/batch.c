@@ -24,41 +24,41 @@ static enum exit_status print_scene(const struct arguments *a, struct scene_file
     return ceduo_print_report(a, file, &question, NULL, -1, out);
 }
 
-static enum exit_status batch_scene(const struct arguments *a, size_t i, struct text *out)
+static enum exit_status answer_scene(const struct each *e, ceduo_batch_answer *answer, struct text *out)
 {
     struct scene_file file;
-    enum exit_status status = ceduo_batch_read(a, a->scenes[i], &file);
+    enum exit_status status = ceduo_batch_read(&e->arguments, e->path, &file);
     if (status == EXIT_DONE) {
         ceduo_interrupt_catch();
-        status = print_scene(a, &file, out);
+        status = answer(&e->arguments, &file, out);
     }
     ceduo_scene_release(&file);
     return status;
 }
 
-/* What stands before the result of a scene. */
-static void begin_result(const struct arguments *a, bool first, struct text *out)
-{
-    if (first && a->format == CEDUO_CSV)
-        ceduo_report_csv_header(out, a->stands, a->years);
-    else if (!first && a->format == CEDUO_TABLE)
-        ceduo_text_char(out, '\n');
-}
-
-enum exit_status ceduo_batch_run(const struct arguments *a)
+/* Prints the answer of each scene, under one head of CSV. */
+static enum exit_status answer_all(const struct arguments *a, const struct text *header, ceduo_batch_answer *answer)
 {
     struct output out = {.arguments = a};
-    enum exit_status status = EXIT_DONE, written = EXIT_DONE;
+    struct each each;
+    enum exit_status status = ceduo_each_open(&each, a, header), written = status;
+    struct progress progress = ceduo_progress_begin(a);
     bool first = true;
-    for (size_t i = 0; i < a->scenes_count && written == EXIT_DONE; i++) {
+    while (written == EXIT_DONE && ceduo_each_next(&each)) {
         LOCAL_TEXT(one);
-        enum exit_status result = batch_scene(a, i, &one);
+        ceduo_progress_scenes(&progress, each.at - 1, each.count);
+        enum exit_status result = answer_scene(&each, answer, &one);
         status = worse(status, result);
+        if (result != EXIT_DONE)
+            ceduo_each_fail(&each);
         if (result == EXIT_OUTPUT) /* nothing is written over what was read */
             break;
         if (result <= EXIT_RUN && one.bytes && !atomic_load(ceduo_interrupt_flag())) {
-            begin_result(a, first, &out.text);
-            ceduo_text_add(&out.text, one.bytes, one.length);
+            if (first)
+                ceduo_each_header(&each, header, &out.text);
+            else if (a->format == CEDUO_TABLE)
+                ceduo_text_char(&out.text, '\n');
+            ceduo_each_add(&each, &one, &out.text);
             first = false;
         }
         written = ceduo_output_next(&out);
@@ -66,46 +66,38 @@ enum exit_status ceduo_batch_run(const struct arguments *a)
         if (written == EXIT_DONE)
             ceduo_interrupt_release();
     }
+    ceduo_progress_end(&progress);
+    status = worse(status, each.bad_rows ? EXIT_INPUT : EXIT_DONE);
+    ceduo_each_close(&each);
     return worse(status, ceduo_output_end(&out, status != EXIT_OUTPUT && !first));
 }
 
-enum exit_status ceduo_batch_each(const struct arguments *a, void (*header)(struct text *out),
-                                  enum exit_status (*one)(const struct arguments *arguments, struct scene_file *file,
-                                                          struct text *out))
+enum exit_status ceduo_batch_run(const struct arguments *a)
 {
-    LOCAL_TEXT(out);
-    enum exit_status status = EXIT_DONE;
+    LOCAL_TEXT(header);
     if (a->format == CEDUO_CSV)
-        header(&out);
-    for (size_t i = 0; i < a->scenes_count; i++) {
-        struct scene_file file;
-        enum exit_status done = ceduo_batch_read(a, a->scenes[i], &file);
-        if (done == EXIT_DONE) {
-            ceduo_interrupt_catch();
-            done = one(a, &file, &out);
-            ceduo_interrupt_release();
-        }
-        ceduo_scene_release(&file);
-        status = worse(status, done);
-    }
-    ceduo_say_plainly(&out);
-    if (status != EXIT_OUTPUT && out.length > 0 && !atomic_load(ceduo_interrupt_flag()))
-        status = worse(status, ceduo_output_write(a, &out));
-    return status;
+        ceduo_report_csv_header(&header, a->stands, a->years);
+    return answer_all(a, &header, print_scene);
+}
+
+enum exit_status ceduo_batch_each(const struct arguments *a, void (*header)(struct text *out), ceduo_batch_answer *answer)
+{
+    LOCAL_TEXT(head);
+    if (a->format == CEDUO_CSV)
+        header(&head);
+    return answer_all(a, &head, answer);
+}
+
+static enum exit_status check(const struct arguments *a, struct scene_file *file, struct text *out)
+{
+    (void)out;
+    ceduo_batch_warn(a, file);
+    return EXIT_DONE;
 }
 
 enum exit_status ceduo_batch_check(const struct arguments *a)
 {
-    enum exit_status status = EXIT_DONE;
-    for (size_t i = 0; i < a->scenes_count; i++) {
-        struct scene_file file;
-        enum exit_status one = ceduo_batch_read(a, a->scenes[i], &file);
-        if (one == EXIT_DONE)
-            ceduo_batch_warn(a, &file);
-        ceduo_scene_release(&file);
-        status = worse(status, one);
-    }
-    return status;
+    return answer_all(a, &(struct text){0}, check);
 }
 
 enum exit_status ceduo_batch_sensitivity(const struct arguments *a)

@@ -2,6 +2,7 @@
 #ifndef CEDUO_BATCH_H
 #define CEDUO_BATCH_H
 
+#include "each.h"
 #include "scenes.h"
 
 /* Each prints to standard output or to --output and returns the exit status. */
@@ -15,11 +16,12 @@ enum exit_status ceduo_batch_parameters(const struct arguments *arguments);
 enum exit_status ceduo_batch_profiles(const struct arguments *arguments);
 enum exit_status ceduo_batch_survey(const struct arguments *arguments);
 
-/* Reads each scene and hands it to `one`, which adds its answer; `header` begins a CSV. The answers are printed together,
- * but not after an interruption. */
+/* What a mode prints of one scene. */
+typedef enum exit_status ceduo_batch_answer(const struct arguments *arguments, struct scene_file *file, struct text *out);
+
+/* Prints the answer of each scene; `header` begins a CSV. Nothing is printed of what is interrupted. */
 enum exit_status ceduo_batch_each(const struct arguments *arguments, void (*header)(struct text *out),
-                                  enum exit_status (*one)(const struct arguments *arguments, struct scene_file *file,
-                                                          struct text *out));
+                                  ceduo_batch_answer *answer);
 
 /* Opens the terminal program, or feeds it the script that was given. */
 enum exit_status ceduo_interactive_run(const struct arguments *arguments);

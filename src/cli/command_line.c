@@ -127,6 +127,10 @@ static enum exit_status check_arguments(const struct arguments *a)
         return ceduo_usage(NULL, _("--size requires --plot"));
     if (ceduo_option_given(a, "rows") && a->format != CEDUO_CSV)
         return ceduo_usage(NULL, _("--rows requires --format csv"));
+    if (a->columns && a->format != CEDUO_CSV)
+        return ceduo_usage(NULL, _("--columns requires --format csv"));
+    if (a->resume && (!a->each || !a->output || a->format != CEDUO_CSV || plot))
+        return ceduo_usage(NULL, _("--resume requires --each, --output and --format csv"));
     if (ceduo_option_given(a, "charset") && !plot && a->mode != MODE_TERMINAL)
         return ceduo_usage(NULL, _("--charset requires --plot or the terminal program"));
     if (a->script && a->mode != MODE_TERMINAL)
@@ -135,6 +139,7 @@ static enum exit_status check_arguments(const struct arguments *a)
         return ceduo_usage(NULL, _("--years cannot be used with --plot, except --plot rotation and --plot tradeoff"));
     if (a->mode == MODE_TERMINAL && a->scenes_count > 1)
         return ceduo_usage(NULL, _("the terminal program opens one scene; --batch takes several"));
+    standard += a->each && strcmp(a->each, "-") == 0;
     if (standard > 1)
         return ceduo_usage(NULL, _("standard input can be read only once"));
     return EXIT_DONE;

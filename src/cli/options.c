@@ -60,10 +60,10 @@ static enum exit_status add_word(struct arguments *a, const struct option_row *r
 
 /* ---- setters of one option ---- */
 
-static enum exit_status set_quiet(struct arguments *a, const struct option_row *row, char *value)
+static enum exit_status set_flag(struct arguments *a, const struct option_row *row, char *value)
 {
-    (void)row, (void)value;
-    a->quiet = true;
+    (void)value;
+    *(bool *)((char *)a + row->at) = true;
     return EXIT_DONE;
 }
 
@@ -281,6 +281,13 @@ static const struct option_row rows[] = {
      N_("simulate until the 95 % error of each mean energy is below REL of it")},
     {"rows", 0, "controls|stands", set_word, AT(stands), MODE_TERMINAL, CHECK | DOUBT | FIT | PAGE | SURVEY | SCREEN,
      N_("what each row of CSV describes (controls)")},
+    {"each", 0, "ROWS.csv", set_text, AT(each), MODE_TERMINAL, FIT | PAGE | SURVEY | SCREEN,
+     N_("compute the scenes once for each row of a table: columns named as a path of --set change them, the others are "
+        "copied")},
+    {"columns", 0, "LIST", set_text, AT(columns), MODE_TERMINAL, CHECK | FIT | PAGE | SURVEY | SCREEN,
+     N_("print these columns of CSV, with commas between their names")},
+    {"resume", 0, NULL, set_flag, AT(resume), MODE_TERMINAL, CHECK | FIT | PAGE | SURVEY | SCREEN,
+     N_("with --each and -o: rows that stand in FILE are not computed again; FILE grows row by row")},
     {"seed", 0, "N", set_seed, 0, MODE_TERMINAL, SURVEY | SCREEN, N_("seed of the random numbers, 0 to 2^53")},
     {"threads", 'j', "N", set_threads, 0, MODE_TERMINAL, SURVEY,
      N_("number of threads; it does not change the result (all cores)")},
@@ -316,7 +323,7 @@ static const struct option_row rows[] = {
      N_("list the scenes, slopes, stands and rules that can be named")},
     {"survey", 0, "FILE.csv", set_text, AT(survey), MODE_SURVEY, CHECK,
      N_("write the stand of a survey: a CSV file with a row for each stem on sample plots")},
-    {"quiet", 'q', NULL, set_quiet, 0, MODE_TERMINAL, 0, N_("print no progress")},
+    {"quiet", 'q', NULL, set_flag, AT(quiet), MODE_TERMINAL, 0, N_("print no progress")},
     {"help", 0, NULL, NULL, 0, MODE_HELP, 0, N_("print this help")},
     {"version", 0, NULL, NULL, 0, MODE_VERSION, 0, N_("print the version")},
 };

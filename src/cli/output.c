@@ -2,6 +2,7 @@
 #include "output.h"
 
 #include <errno.h>
+#include <fcntl.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -47,7 +48,7 @@ bool ceduo_output_check(const struct arguments *a)
             path = ceduo_file_find(&arena, path, NULL, "scenes");
         good = !ceduo_output_is(a, path);
     }
-    good = good && !(a->survey && ceduo_output_is(a, a->survey));
+    good = good && !(a->survey && ceduo_output_is(a, a->survey)) && !(a->each && ceduo_output_is(a, a->each));
     ceduo_arena_free(&arena);
     return good;
 }
@@ -73,10 +74,32 @@ static void set_aside(struct output *o)
         o->text.failed = true;
 }
 
+/* Whole lines, or none of them. */
+static enum exit_status append(const struct arguments *a, const struct text *text)
+{
+    int fd = open(a->output, O_WRONLY | O_APPEND | O_CREAT | O_CLOEXEC, 0666);
+    off_t end = fd >= 0 ? lseek(fd, 0, SEEK_END) : -1;
+    bool good = end >= 0 && ceduo_file_fill(fd, text->bytes, text->length, NULL);
+    int why = errno;
+    if (end >= 0 && !good && ftruncate(fd, end) != 0)
+        why = errno;
+    if (fd >= 0 && close(fd) != 0 && good) {
+        good = false;
+        why = errno;
+    }
+    if (!good)
+        ceduo_say_why(a->output, strerror(why));
+    return good ? EXIT_DONE : EXIT_OUTPUT;
+}
+
 enum exit_status ceduo_output_next(struct output *o)
 {
     enum exit_status status = EXIT_DONE;
-    if (o->arguments->output) {
+    if (o->arguments->resume) {
+        if (o->text.length > 0)
+            status = append(o->arguments, &o->text);
+        o->text.length = 0;
+    } else if (o->arguments->output) {
         set_aside(o);
     } else if (o->text.length > 0 && !atomic_load(ceduo_interrupt_flag())) {
         status = ceduo_output_write(o->arguments, &o->text);
@@ -87,7 +110,7 @@ enum exit_status ceduo_output_next(struct output *o)
 
 enum exit_status ceduo_output_end(struct output *o, bool writes)
 {
-    bool waits = o->arguments->output && writes;
+    bool waits = o->arguments->output && !o->arguments->resume && writes;
     enum exit_status status = waits ? write_after(o->spool ? fileno(o->spool) : -1, o->arguments, &o->text) : EXIT_DONE;
     if (o->spool)
         fclose(o->spool);

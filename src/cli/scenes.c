@@ -73,6 +73,8 @@ enum exit_status ceduo_batch_read(const struct arguments *a, const char *path, s
     struct problems problems = {0};
     bool good = ceduo_scene_read(file, path, a->sets.items, a->sets.n, &problems);
     ceduo_problems_close(&problems);
+    if (problems.text.length > 0 && a->called && strncmp(problems.text.bytes, a->called, strlen(a->called)) != 0)
+        ceduo_say_why(a->called, _("this scene cannot be computed:")); /* what follows names another file, or a change */
     ceduo_say(&problems.text);
     enum exit_status status = good ? EXIT_DONE : problems.usage ? EXIT_USAGE : EXIT_INPUT;
     ceduo_problems_free(&problems);
@@ -141,6 +143,13 @@ void ceduo_progress_steps(void *progress, uint64_t done, uint64_t all)
     double seconds;
     if (ceduo_progress_due(progress, &seconds))
         fprintf(stderr, _("%llu of %llu, %.0f s"), (unsigned long long)done, (unsigned long long)all, seconds);
+}
+
+void ceduo_progress_scenes(struct progress *p, size_t done, size_t all)
+{
+    double seconds;
+    if (all > 1 && done > 0 && ceduo_progress_due(p, &seconds))
+        fprintf(stderr, _("%zu of %zu scenes, %.0f s left"), done, all, seconds / (double)done * (double)(all - done));
 }
 
 void ceduo_progress_end(const struct progress *p)

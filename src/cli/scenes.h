@@ -24,6 +24,8 @@ struct progress {
 };
 struct progress ceduo_progress_begin(const struct arguments *arguments);
 void ceduo_progress_show(void *progress, uint64_t rocks);
+/* How many of all scenes are done, and for how long the others may take. */
+void ceduo_progress_scenes(struct progress *progress, size_t done, size_t all);
 void ceduo_progress_steps(void *progress, uint64_t done, uint64_t all);
 /* Whether it is time to show how far it is; `*seconds`: since the start. */
 bool ceduo_progress_due(struct progress *progress, double *seconds);

@@ -61,7 +61,6 @@ enum exit_status ceduo_sensitivity_add(const struct arguments *a, struct scene_f
         ceduo_doubt_page(&page, &d.report, !ceduo_say_utf8());
     if (a->format == CEDUO_TABLE)
         ceduo_say_plainly(&page);
-    ceduo_text_put(out, a->format == CEDUO_TABLE && out->length > 0 ? "\n" : "");
     ceduo_text_put(out, ceduo_text_string(&page));
     ceduo_sensitivity_release(&d);
     return EXIT_DONE;

@@ -163,7 +163,7 @@ static bool read_place(struct binder *b, const struct field *f, const struct nod
 {
     double back = 0;
     const char *text = node->text;
-    if (!ceduo_schema_is_place(f) || node->kind != NODE_SCALAR || node->quoted || strncmp(text, "end", 3) != 0 || !b->to->end)
+    if (!ceduo_schema_is_place(f) || node->kind != NODE_SCALAR || strncmp(text, "end", 3) != 0 || !b->to->end)
         return false;
     if (text[3] && (text[3] != '-' || ceduo_number_read(text + 4, &back) != CEDUO_NUMBER_GOOD || back < 0)) {
         report(b, node, _("'%s': write end, or end-10 for 10 m before the end of the profile"), text);
@@ -172,7 +172,7 @@ static bool read_place(struct binder *b, const struct field *f, const struct nod
     if (isnan(b->end))
         b->end = b->to->end(b->to->context);
     if (isnan(b->end))
-        report(b, node, _("'%s': the end of the profile is not known"), text);
+        note_bad(b); /* what is wrong with the profile is reported there */
     *value = b->end - back;
     return !isnan(b->end);
 }

@@ -41,8 +41,7 @@ static const char *field_end(const char *p, const char *end, char separator)
     return p;
 }
 
-/* Takes the first field off what is left of a line; false where nothing is left. A line without a byte has one field. */
-static bool next_field(struct csv_span *left, char separator, struct csv_span *field)
+bool ceduo_csv_cell(struct csv_span *left, char separator, struct csv_span *field)
 {
     if (!left->p)
         return false;
@@ -79,7 +78,7 @@ size_t ceduo_csv_column(const struct csv *csv, const char *const *names)
     for (int k = 0; names[k]; k++) {
         size_t found = CEDUO_CSV_NONE;
         struct csv_span left = csv->header, f;
-        for (size_t i = 0; next_field(&left, csv->separator, &f); i++)
+        for (size_t i = 0; ceduo_csv_cell(&left, csv->separator, &f); i++)
             if (ceduo_csv_is(trim(f), names[k]))
                 found = found == CEDUO_CSV_NONE ? i : CEDUO_CSV_TWICE;
         if (found != CEDUO_CSV_NONE)
@@ -92,7 +91,7 @@ size_t ceduo_csv_columns(const struct csv *csv, struct text *names)
 {
     struct csv_span left = csv->header, f;
     size_t n = 0;
-    for (; next_field(&left, csv->separator, &f); n++) {
+    for (; ceduo_csv_cell(&left, csv->separator, &f); n++) {
         f = trim(f);
         ceduo_text_put(names, n > 0 ? ", " : "");
         ceduo_text_safe_n(names, f.p, f.n);
@@ -134,7 +133,7 @@ size_t ceduo_csv_lines(const struct csv *csv)
 
 bool ceduo_csv_step(const struct csv *csv, struct csv_span *left, struct csv_span *field)
 {
-    if (!next_field(left, csv->separator, field))
+    if (!ceduo_csv_cell(left, csv->separator, field))
         return false;
     *field = trim(*field);
     return true;
@@ -144,7 +143,7 @@ bool ceduo_csv_field(const struct csv *csv, size_t column, struct csv_span *fiel
 {
     struct csv_span left = csv->line;
     for (size_t i = 0; i <= column; i++)
-        if (!next_field(&left, csv->separator, field))
+        if (!ceduo_csv_cell(&left, csv->separator, field))
             return false;
     *field = trim(*field);
     return true;

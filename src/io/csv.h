@@ -44,7 +44,11 @@ bool ceduo_csv_next(struct csv *csv);
 /* How many lines the file has at the most. */
 size_t ceduo_csv_lines(const struct csv *csv);
 
-/* The first field of what is left of a row or of the header, which it takes off; false where nothing is left. */
+/* The first field of what is left of a line, as it stands there, which it takes off; false where nothing is left. A line without
+ * a byte has one field. */
+bool ceduo_csv_cell(struct csv_span *left, char separator, struct csv_span *field);
+
+/* The same of a row or of the header, without blanks and quotes around it. */
 bool ceduo_csv_step(const struct csv *csv, struct csv_span *left, struct csv_span *field);
 
 /* A field of the present row, without blanks and quotes around it; false where the row has fewer. */
