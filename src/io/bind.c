@@ -6,6 +6,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/language.h"
@@ -177,6 +178,8 @@ static bool read_place(struct binder *b, const struct field *f, const struct nod
     return !isnan(b->end);
 }
 
+#define DECIMAL_COMMA _("decimal comma: write %.*s.%s")
+
 static bool read_number(struct binder *b, const struct node *node, double *value)
 {
     if (!want_scalar(b, node, _("a number")))
@@ -194,7 +197,12 @@ static bool read_number(struct binder *b, const struct node *node, double *value
     default:
         break;
     }
-    if (strchr(node->text, ','))
+    const char *text = node->text, *comma = strchr(text, ',');
+    size_t whole = strspn(text, "+-0123456789"), rest = comma ? strspn(comma + 1, "0123456789") : 0;
+    bool thousands = rest == 3 && strtod(text, NULL) != 0;
+    if (comma == text + whole && whole > 0 && rest > 0 && !comma[1 + rest] && !thousands)
+        report(b, node, DECIMAL_COMMA, (int)whole, text, comma + 1);
+    else if (comma)
         report(b, node, _("'%s' is not a number; write a dot for the decimals and nothing between thousands"), node->text);
     else
         report(b, node, _("'%s' is not a number"), node->text);
@@ -607,6 +615,25 @@ static void report_missing(struct binder *b, const struct object *object, const 
     }
 }
 
+static bool is_digits(const char *text)
+{
+    return text[0] && !text[strspn(text, "0123456789")];
+}
+
+/* In brackets a decimal comma parts a number in two entries: {spacing_m: 0,35} says 'spacing_m: 0' and '35'. */
+static bool report_decimal_comma(struct binder *b, const struct node *map, size_t i)
+{
+    const struct node *whole = map->items[i], *rest = i + 1 < map->n ? map->items[i + 1] : NULL;
+    bool two = map->flow && rest && whole->kind == NODE_SCALAR && rest->kind == NODE_SCALAR && !whole->quoted &&
+               !rest->quoted && !rest->text[0] && is_digits(rest->key) && is_digits(whole->text + strspn(whole->text, "+-"));
+    if (!two || rest->key_line != whole->end_line || rest->key_column != whole->end_column + 1)
+        return false;
+    size_t before = enter(b, whole->key);
+    report(b, whole, DECIMAL_COMMA, (int)strlen(whole->text), whole->text, rest->key);
+    leave(b, before);
+    return true;
+}
+
 static void bind_map(struct binder *b, const struct object *object, const struct node *node, void *item)
 {
     if (node->kind != NODE_MAP) {
@@ -625,7 +652,9 @@ static void bind_map(struct binder *b, const struct object *object, const struct
         bool other_file =
             node->written && entry->source != node->source && !entry->source->is_option && !node->source->is_option;
         b->file_start = other_file ? b->path.length : own; /* from the file of a base */
-        if (f) {
+        if (report_decimal_comma(b, node, i)) {
+            i++;
+        } else if (f) {
             size_t before = enter(b, entry->key);
             bind_field(b, f, entry, item);
             leave(b, before);

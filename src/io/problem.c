@@ -98,38 +98,69 @@ static void put_message(struct text *out, const char *message)
 }
 
 /* By place and message. A file that is used in two places has its faults once. */
-static bool is_known(const struct problems *problems, uint64_t hash)
+static bool is_known(struct problems *problems, uint64_t hash)
 {
-    for (size_t i = 0; i < problems->count && i < CEDUO_PROBLEMS_MOST; i++)
-        if (problems->shown[i] == hash)
+    for (size_t i = 0; i + sizeof hash <= problems->known.length; i += sizeof hash)
+        if (memcmp(problems->known.bytes + i, &hash, sizeof hash) == 0)
             return true;
+    ceduo_text_add(&problems->known, (const char *)&hash, sizeof hash);
     return false;
 }
 
-static void add(struct problems *problems, struct problem_place place, const struct text *message)
+/* The same for all items of a list and whatever numbers the words hold. */
+static uint64_t kind_of(const struct source *source, const char *path, const char *words)
+{
+    uint64_t hash = source ? hash_bytes(source->name, strlen(source->name)) : HASH_START;
+    for (const char *p = path; *p; p++) {
+        hash_count(&hash, (unsigned char)*p);
+        p += *p == '[' ? strcspn(p, "]") : 0;
+    }
+    for (const char *p = words; *p; p++)
+        if (*p < '0' || *p > '9')
+            hash_count(&hash, (unsigned char)*p);
+    return hash;
+}
+
+/* Where it is told of already, or else the next that there is room for; NULL: none. */
+static struct problem_kind *find_kind(struct problems *problems, uint64_t hash)
+{
+    size_t k = 0;
+    while (k < problems->kinds_count && problems->kinds[k].hash != hash)
+        k++;
+    return k < CEDUO_PROBLEMS_MOST ? &problems->kinds[k] : NULL;
+}
+
+/* `path`: of the value, or "". */
+static void add(struct problems *problems, struct problem_place place, const char *path, const struct text *message)
 {
     const struct source *source = place.source;
-    size_t line = place.line, column = place.column;
-    struct text one = {0};
+    uint64_t hash = kind_of(source, path, ceduo_text_string(message));
+    struct problem_kind *kind = find_kind(problems, hash);
+    struct text one = {0}, words = {0};
     if (source) {
         ceduo_text_safe(&one, source->name);
-        if (line > 0)
-            ceduo_text_format(&one, ":%zu:%zu", line, column);
+        if (place.line > 0)
+            ceduo_text_format(&one, ":%zu:%zu", place.line, place.column);
         ceduo_text_put(&one, ": ");
     }
-    put_message(&one, ceduo_text_string(message));
+    ceduo_text_format(&words, "%s%s%s", path, path[0] ? ": " : "", ceduo_text_string(message));
+    put_message(&one, ceduo_text_string(&words));
     ceduo_text_char(&one, '\n');
-    uint64_t hash = hash_bytes(ceduo_text_string(&one), one.length);
-    if (!is_known(problems, hash)) {
-        if (problems->count < CEDUO_PROBLEMS_MOST) { /* of a million only these look for their line */
-            if (source && line > 0)
-                show_line(&one, source, line, column);
-            problems->shown[problems->count] = hash;
-            ceduo_text_put(&problems->text, ceduo_text_string(&one));
-        }
-        problems->count++;
+    bool known = is_known(problems, hash_bytes(ceduo_text_string(&one), one.length));
+    problems->count += !known;
+    if (!known && kind && kind->hash == hash) {
+        if (kind->more < CEDUO_PROBLEMS_LINES)
+            kind->lines[kind->more] = place.line;
+        kind->more++;
+    } else if (!known && kind) { /* of a million only these look for their line */
+        if (source && place.line > 0)
+            show_line(&one, source, place.line, place.column);
+        ceduo_text_put(&problems->text, ceduo_text_string(&one));
+        *kind = (struct problem_kind){.hash = hash, .end = problems->text.length};
+        problems->kinds_count++;
     }
-    problems->memory |= message->failed || one.failed || problems->text.failed;
+    problems->memory |= message->failed || words.failed || one.failed || problems->text.failed || problems->known.failed;
+    ceduo_text_free(&words);
     ceduo_text_free(&one);
 }
 
@@ -143,24 +174,17 @@ static bool counts(struct problems *problems, const struct source *source)
     return words;
 }
 
-static void put_path(struct text *out, const char *path)
-{
-    if (path && path[0])
-        ceduo_text_format(out, "%s: ", path);
-}
-
 void ceduo_problem_v(struct problems *problems, struct problem_place place, const char *format, va_list args)
 {
     struct text message = {0};
+    bool foreign = place.source && place.source->foreign;
     if (!counts(problems, place.source))
         return;
-    if (place.source && place.source->foreign) {
+    if (foreign)
         ceduo_problem_words(&message, format);
-    } else {
-        put_path(&message, place.path);
+    else
         ceduo_text_vformat(&message, format, args);
-    }
-    add(problems, place, &message);
+    add(problems, place, place.path && !foreign ? place.path : "", &message);
     ceduo_text_free(&message);
 }
 
@@ -178,12 +202,23 @@ void ceduo_problem_own(struct problems *problems, struct problem_place place, co
     va_list args;
     if (!counts(problems, place.source))
         return;
-    put_path(&message, place.path);
     va_start(args, format);
     ceduo_text_vformat(&message, format, args);
     va_end(args);
-    add(problems, place, &message);
+    add(problems, place, place.path ? place.path : "", &message);
     ceduo_text_free(&message);
+}
+
+void ceduo_problems_follow(struct problems *problems, struct problems *head)
+{
+    for (size_t k = 0; k < problems->kinds_count; k++)
+        problems->kinds[k].end += head->text.length;
+    ceduo_text_add(&head->text, ceduo_text_string(&problems->text), problems->text.length);
+    ceduo_text_free(&problems->text);
+    problems->text = head->text;
+    problems->memory |= head->memory || head->text.failed;
+    head->text = (struct text){0};
+    ceduo_problems_free(head);
 }
 
 void ceduo_problem_memory(struct problems *problems)
@@ -191,13 +226,37 @@ void ceduo_problem_memory(struct problems *problems)
     problems->memory = true;
 }
 
+/* How many others of a kind there are, and where. */
+static void append_others(struct text *text, const struct problem_kind *kind)
+{
+    ceduo_text_put(text, "  ");
+    ceduo_text_format(text, ngettext("and %zu more of this kind", "and %zu more of this kind", kind->more), kind->more);
+    for (size_t i = 0; i < kind->more && i < CEDUO_PROBLEMS_LINES; i++)
+        if (kind->lines[i] > 0 && (i == 0 || kind->lines[i] != kind->lines[i - 1]))
+            ceduo_text_format(text, i == 0 ? _(", on line %zu") : ", %zu", kind->lines[i]);
+    ceduo_text_put(text, kind->more > CEDUO_PROBLEMS_LINES && kind->lines[0] > 0 ? " \xe2\x80\xa6\n" : "\n");
+}
+
 void ceduo_problems_close(struct problems *problems)
 {
-    if (problems->count > CEDUO_PROBLEMS_MOST) {
-        size_t rest = problems->count - CEDUO_PROBLEMS_MOST;
-        ceduo_text_format(&problems->text, ngettext("%zu more problem\n", "%zu more problems\n", rest), rest);
-        problems->count = CEDUO_PROBLEMS_MOST;
+    struct text all = {0};
+    size_t from = 0, rest = problems->kinds_count > 0 ? problems->count : 0;
+    for (size_t k = 0; k < problems->kinds_count; k++) {
+        const struct problem_kind *kind = &problems->kinds[k];
+        rest -= 1 + kind->more;
+        ceduo_text_add(&all, problems->text.bytes + from, kind->end - from);
+        if (kind->more > 0)
+            append_others(&all, kind);
+        from = kind->end;
     }
+    if (problems->kinds_count > 0) { /* it is not closed yet */
+        ceduo_text_free(&problems->text);
+        problems->text = all;
+    }
+    if (rest > 0)
+        ceduo_text_format(&problems->text, ngettext("%zu more problem\n", "%zu more problems\n", rest), rest);
+    problems->kinds_count = 0;
+    problems->count = problems->count > 0;
     if (problems->memory)
         ceduo_text_put(&problems->text, _("out of memory\n"));
 }
@@ -205,5 +264,6 @@ void ceduo_problems_close(struct problems *problems)
 void ceduo_problems_free(struct problems *problems)
 {
     ceduo_text_free(&problems->text);
+    ceduo_text_free(&problems->known);
     *problems = (struct problems){0};
 }

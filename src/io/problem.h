@@ -29,16 +29,27 @@ static inline size_t ceduo_source_mark(const struct source *source)
 /* The bytes of line number `line` (from 1) without its end; false where the source has fewer lines. */
 bool ceduo_source_line(const struct source *source, size_t line, size_t *from, size_t *to);
 
-#define CEDUO_PROBLEMS_MOST 20 /* printed in full */
+#define CEDUO_PROBLEMS_MOST  20 /* printed in full */
+#define CEDUO_PROBLEMS_LINES 5  /* of others of a kind */
+
+/* Problems of one kind: the same words but for their numbers, about one key of whatever item, in one source. The first is
+ * printed in full. */
+struct problem_kind {
+    uint64_t hash;
+    size_t end, more;                   /* where its text ends; how many others there are, */
+    size_t lines[CEDUO_PROBLEMS_LINES]; /* and on which lines the first of them stand */
+};
 
 /* What is wrong with the input, ready to print: place, mend, the source line and a caret. */
 struct problems {
     struct text text;
     size_t count;
-    size_t met;                          /* with those that were known already: whether a step went well */
-    uint64_t shown[CEDUO_PROBLEMS_MOST]; /* hashes of those printed in full */
-    bool usage;                          /* at least one is about the command line */
-    bool memory;                         /* memory ran out: the list may lack some */
+    size_t met; /* with those that were known already: whether a step went well */
+    size_t kinds_count;
+    struct problem_kind kinds[CEDUO_PROBLEMS_MOST];
+    struct text known; /* hashes of those told of */
+    bool usage;        /* at least one is about the command line */
+    bool memory;       /* memory ran out: the list may lack some */
 };
 
 /* Adds one. line and column count from 1; 0: no place known (the source's name alone is shown). Of a foreign source the message
@@ -60,9 +71,12 @@ void ceduo_problem_own(struct problems *problems, struct problem_place place, co
 /* Adds the words of a format, which has no %%, with dots in place of the values. */
 void ceduo_problem_words(struct text *text, const char *format);
 
+/* Puts them after the words of `head`, which is none of them, and frees it. */
+void ceduo_problems_follow(struct problems *problems, struct problems *head);
+
 void ceduo_problem_memory(struct problems *problems);
 
-/* Ends the list: the number of those that were not printed. */
+/* Ends the list: how many others there are of a kind, and the number of those that were not printed. */
 void ceduo_problems_close(struct problems *problems);
 void ceduo_problems_free(struct problems *problems);
 

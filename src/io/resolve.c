@@ -393,6 +393,20 @@ static bool needs_no_source(const struct setter *s, const struct field *f, const
            !now.source->is_option || (old && ceduo_node_equal(&before, &now));
 }
 
+/* Why a path leads nowhere: the forests of a scene with options stand in these. */
+static const char *what_instead(const struct setter *s, const struct node *map, const struct path_step *step)
+{
+    const struct node *options = step->p == s->set->bytes ? ceduo_node_get(map, "options") : NULL;
+    struct text words = {0};
+    if (!options || step->n != strlen("forest") || strncmp(step->p, "forest", step->n) != 0)
+        return _("there is nothing to change here");
+    ceduo_text_format(&words, _("this scene has options: use options[0].%.*s, or the name of another in place of 0"),
+                      (int)s->length, step->p);
+    const char *said = ceduo_arena_string(s->arena, ceduo_text_string(&words));
+    ceduo_text_free(&words);
+    return said ? said : "";
+}
+
 static const struct node *set_entry(struct setter *s, const struct object *object, const struct node *map,
                                     const struct path_step *step, size_t at)
 {
@@ -417,7 +431,7 @@ static const struct node *set_entry(struct setter *s, const struct object *objec
     else if (!last && !child && (!f || f->type == FIELD_GROUP))
         child = ceduo_node_empty(s->arena, NODE_MAP, s->set);
     else if (!last && !child)
-        return fail_at(s, step, _("there is nothing to change here"));
+        return fail_at(s, step, what_instead(s, map, step));
     if (!last && !child)
         return NULL; /* no memory for it */
     s->sourced |= needs_no_source(s, f, key, last ? child : NULL);

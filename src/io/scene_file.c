@@ -174,10 +174,7 @@ static void name_change(const struct source *source, const char *const *sets, si
     struct problems head = {0};
     ceduo_problem(&head, &set, 1, (size_t)(equals_of(sets[last]) - sets[last]) + 2,
                   _("the scene is valid without this change, but not with it:"));
-    ceduo_text_add(&head.text, problems->text.bytes, problems->text.length);
-    ceduo_text_free(&problems->text);
-    problems->text = head.text;
-    problems->memory |= head.memory || head.text.failed;
+    ceduo_problems_follow(problems, &head);
     problems->usage = true;
 }
 

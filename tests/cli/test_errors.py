@@ -340,7 +340,8 @@ CASES = {
     "'rn' is missing: normal restitution Rn": sl("  - {rn: 0.35, ", "  - @@{"),
     "'0.8' is in quotes; write the number without them": sl("rt: 0.87", "rt: @@'0.8'"),
     "'0.8 m' is not a number": sc("diameter_m: 0.5", "diameter_m: @@0.8 m"),
-    "'0,8' is not a number; write a dot for the decimals ...": st("dbh_m: 0.07", "dbh_m: @@0,8"),
+    "decimal comma: write 0.8": st("dbh_m: 0.07", "dbh_m: @@0,8"),
+    "'1,250' is not a number; write a dot for the decimals ...": st("dbh_m: 0.07", "dbh_m: @@1,250"),
     "too large a number": st("per_ha: 5000", "per_ha: @@" + "9" * 400),
     "'10.5' is not a whole number": sc("rocks: 20", "rocks: @@10.5"),
     "-0.07 is below 0 m": st("dbh_m: 0.07", "dbh_m: @@-0.07"),
@@ -456,6 +457,8 @@ CASES = {
     "'0': there is no list here": Set("rock[@@0]=1"),
     "'from_m': there is no mapping here": Set("forest.@@from_m=1"),
     "'trees': there is nothing to change here": Set("forest[1].stand=bare", "forest[1].stand.@@trees[0].per_ha=1"),
+    "'forest': this scene has options: use options[0].forest[0].to_m, ...": Words(
+        "--batch", "-s", "forest[0].to_m=50", "four-systems", start="--set:1:1: "),
     "the scene is valid without this change, but not with it:": Set("forest[0].to_m=@@50"),
     # Usage
     "standard input and output are no terminal; use 'ceduo --batch SCENE.yaml', ...": Words("@"),
@@ -601,7 +604,7 @@ NAMED = HEAD + "slope: line.csv\ncontrols_m: [75]\n"
 FLOODS = [
     # (what, scene and its CSV as functions: made when needed, for what the test holds counts as the program's; words)
     ("a million CSV rows that are no numbers", lambda: NAMED, lambda: "distance,elevation\n" + "x,1\n" * 1000000,
-     "999980 more problems"),
+     "999 more of this kind, on line 3, 4, 5, 6, 7 …\n999000 more problems"),
     ("60 MiB of blank CSV lines", lambda: NAMED.replace("75", "175"), lambda: LINE + "\n" * (60 << 20), "beyond the slope"),
     ("a CSV field of 60 MiB", lambda: NAMED, lambda: LINE + "5" * (60 << 20) + ",1", "line.csv:4:1: '…' is not a number"),
     ("a CSV header of 300000 columns", lambda: NAMED, lambda: "distance" + ",c" * 300000 + ",elevation\n0,64\n100,0\n",

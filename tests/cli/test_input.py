@@ -69,7 +69,7 @@ CASES = [
     # numbers
     ("scene.yaml", "diameter_m: 0.5", "diameter_m: @@'0.5'", "rock.diameter_m: '0.5' is in quotes"),
     ("scene.yaml", "diameter_m: 0.5", 'diameter_m: @@"0.5"', "rock.diameter_m: '0.5' is in quotes"),
-    ("stand.yaml", "dbh_m: 0.07", "dbh_m: @@0,07", "'0,07' is not a number", "dot"),
+    ("stand.yaml", "dbh_m: 0.07", "dbh_m: @@0,07", "shoots[0].dbh_m: decimal comma: write 0.07"),
     ("stand.yaml", "dbh_m: 0.07", "dbh_m: @@-0.07", "shoots[0].dbh_m: -0.07 is below 0 m"),
     ("stand.yaml", "dbh_m: 0.07", "dbh_m: @@0", "shoots[0].dbh_m: 0 is not above 0 m"),
     ("stand.yaml", "dbh_m: 0.07", "dbh_m: @@7000", "shoots[0].dbh_m: 7000 is above"),

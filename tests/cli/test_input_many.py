@@ -27,6 +27,38 @@ def test_twenty():
         expect("more" not in check(f, "s.yaml").err.splitlines()[-1], "exactly twenty")
 
 
+def test_kinds():
+    """Problems of one kind are told once, with the number and the lines of the others; other keys and words are other kinds"""
+    rows = "".join(f"  - {{x_m: {x}, accepted_kJ: {a}}}\n" for x, a in
+                   ((-1, 5), (-2, -5), (-3, -6), (-4, 7), (-5, "x"), (-6, 8), (-7, 9)))
+    data = flat_scene().decode().replace("  - {x_m: 75, name: road, accepted_kJ: 50}\n  - {x_m: 90}\n", rows)
+    expect_in(rows, data, "the scene")
+    first = data[:data.index(rows)].count("\n") + 1
+    with Folder() as f:
+        f.write("s.yaml", data)
+        told = [line for line in check(f, "s.yaml").err.splitlines() if line.startswith("s.yaml") or "of this kind" in line]
+    more = ", ".join(str(first + i) for i in range(1, 6))
+    expect_equal(told, [f"s.yaml:{first + 1}:28: controls[1].accepted_kJ: -5 is below 0 kJ", f"  and 1 more of this kind, on line {first + 2}",
+                        f"s.yaml:{first + 4}:28: controls[4].accepted_kJ: 'x' is not a number",
+                        f"s.yaml:{first}:11: controls[0].x_m: -1 does not lie beyond the release, 5 m",
+                        f"  and 6 more of this kind, on line {more} …"])
+
+
+def test_decimal_commas():
+    """A decimal comma is named, in brackets too, where it parts a number in two entries; what is no such number is not"""
+    for text, words in (("rock: {diameter_m: 0,6, density_kg_m3: 2600}", "rock.diameter_m: decimal comma: write 0.6"),
+                        ("rock: {density_kg_m3: 2600, diameter_m: 0,56}", "rock.diameter_m: decimal comma: write 0.56"),
+                        ("rock: {diameter_m: 0,06}", "rock.diameter_m: decimal comma: write 0.06"),
+                        ("rock: {diameter_m: 1}\nrelease: {vz_m_s: -0,3}", "release.vz_m_s: decimal comma: write -0.3"),
+                        ("rock: {diameter_m: 1}\nrelease:\n  vz_m_s: -0,3", "release.vz_m_s: decimal comma: write -0.3"),
+                        ("rock: {diameter_m: 1, 6}", "rock.6: unknown key")):
+        with Folder() as f:
+            f.write("s.yaml", f"ceduo: scene/1\n{text}\n{GROUND}controls_m: [90]\n")
+            told = [line for line in check(f, "s.yaml").err.splitlines() if line.startswith("s.yaml")]
+        expect(len(told) == 1 and words in told[0], text, told)
+    expect_equal(good("--check", "-s", "title='0,5'", "-s", "title=0,5", "paper-site").err, "")
+
+
 def test_all_at_once():
     """Several kinds of problem in one file are all reported in one go"""
     with Folder() as f:
@@ -84,7 +116,7 @@ def test_all_with_values():
     told(HEAD + "release: {x_m: 99, vx_m_s: y}\ncontrols_m: [z, 75, 200, 75]\n"
          "forest: [{from_m: -5, to_m: 200, stand: stand.yaml}]\n",
          "release.vx_m_s: 'y'", "controls_m[0]: 'z'", "controls_m[1]: 75 does not lie beyond the release",
-         "controls_m[2]: 200 lies beyond", "controls_m[3]: 75 does not lie beyond the release", "forest[0].from_m: -5 lies before",
+         "and 1 more of this kind, on line 5", "controls_m[2]: 200 lies beyond", "forest[0].from_m: -5 lies before",
          "forest[0].to_m: 200 lies beyond the slope")
     told("ceduo: scene/1\nrock: {}\nslope: {vertices_m: [[0, 9], [9, 0]], materials: [{from_m: 0, to_m: 4, material: sand}, "
          "{from_m: 5, to_m: 8, material: talus}]}\noptions: [{name: a}, {forest: b}, {name: a}]\n",

@@ -141,7 +141,7 @@ BAD_SETS = [
     ("rock..x=1", "malformed path"), ("forest[0=1", "malformed path"), ("forest[].to_m=1", "malformed path"),
     (".rock=1", "malformed path"), ("rock[0]=1", "no list"), ("forest.to_m=1", "no mapping"),
     ("rock.diameter_m=", "no value"), ("rock.diameter_m=abc", "'abc' is not a number"), ("rock.diameter_m='1'", "in quotes"),
-    ("rock.diameter_m=1,5", "write a dot"), ("rock.diameter_m=nan", "'nan' is not a number"),
+    ("rock.diameter_m=1,5", "decimal comma: write 1.5"), ("rock.mass_kg=1,500", "write a dot"), ("rock.diameter_m=nan", "'nan' is not a number"),
     ("rock.diameter_m=1e999", "too large"), ("rock={", "malformed YAML"), ("rock.diameter_m=*x", "alias"),
     ("rock.diameter_m=&x 1", "anchor"), ("rock.diameter_m=!!int 1", "tag"), ("simulation.law=bounce", "unknown"),
     ("simulation.contact_model=pinball", "unknown"), ("simulation.rocks=1.5", "whole number"),
