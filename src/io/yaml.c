@@ -36,19 +36,23 @@ static size_t column_of(const struct reader *r, yaml_mark_t mark)
     return mark.column + 1 + (mark.line == 0 ? r->skip_column : 0);
 }
 
-/* None of its values is a word of the file. */
-#define STOP(r, mark, ...)                                                                                                     \
-    do {                                                                                                                       \
-        ceduo_problem_own((r)->problems, (struct problem_place){(r)->source, line_of(mark), column_of(r, mark), NULL},         \
-                          __VA_ARGS__);                                                                                        \
-        (r)->stopped = true;                                                                                                   \
-    } while (0)
+static void *stop(struct reader *r)
+{
+    r->stopped = true;
+    return NULL;
+}
 
-static void stop_for_memory(struct reader *r)
+static void *stop_for_memory(struct reader *r)
 {
     ceduo_problem_memory(r->problems);
-    r->stopped = true;
+    return stop(r);
 }
+
+/* Reports and stops; NULL. None of its values is a word of the file. */
+#define STOP(r, mark, ...)                                                                                                     \
+    (ceduo_problem_own((r)->problems, (struct problem_place){(r)->source, line_of(mark), column_of(r, mark), NULL},            \
+                       __VA_ARGS__),                                                                                           \
+     stop(r))
 
 /* The place of byte `offset`: libyaml gives no mark for what is no UTF-8. */
 static yaml_mark_t mark_of_byte(const char *bytes, size_t offset)
@@ -65,18 +69,6 @@ static yaml_mark_t mark_of_byte(const char *bytes, size_t offset)
     return mark;
 }
 
-/* The end of the last line that has something, where a mark lies beyond it. */
-static yaml_mark_t within_text(const struct reader *r, yaml_mark_t mark)
-{
-    const char *bytes = r->source->bytes + r->skip;
-    size_t length = r->source->length - r->skip;
-    /* untaken: table */
-    while (length > 0 && (bytes[length - 1] == '\n' || bytes[length - 1] == '\r' || bytes[length - 1] == ' '))
-        length--;
-    yaml_mark_t end = mark_of_byte(bytes, length);
-    return mark.line > end.line ? end : mark;
-}
-
 static char byte_at(const struct reader *r, yaml_mark_t mark)
 {
     const char *p = r->source->bytes + r->skip, *end = r->source->bytes + r->source->length;
@@ -89,53 +81,46 @@ static char byte_at(const struct reader *r, yaml_mark_t mark)
     return p < end ? *p : '\0';
 }
 
-static void syntax_problem(struct reader *r)
+static void *syntax_problem(struct reader *r)
 {
     const yaml_parser_t *p = &r->parser;
-    if (p->error == YAML_MEMORY_ERROR) {
-        stop_for_memory(r);
-        return;
-    }
+    const char *bytes = r->source->bytes + r->skip, *what = p->problem;
+    size_t length = r->source->length - r->skip, from = 0, n;
+    if (p->error == YAML_MEMORY_ERROR)
+        return stop_for_memory(r);
     if (p->error == YAML_READER_ERROR) {
-        const char *bytes = r->source->bytes + r->skip;
-        size_t length = r->source->length - r->skip, from = 0, n;
         uint32_t code;
         while (from < p->problem_offset && (n = ceduo_utf8_decode(bytes + from, length - from, &code)) > 0)
             from += n; /* libyaml may name a byte within the character */
         yaml_mark_t at = mark_of_byte(bytes, from);
-        if (p->problem_value >= 0 && strstr(p->problem, "control"))
-            STOP(r, at, _("a control character (\\x%02x); remove it"), (unsigned)p->problem_value);
-        else
-            STOP(r, at, _("not UTF-8; save the file as UTF-8"));
-        return;
+        if (p->problem_value >= 0 && strstr(what, "control"))
+            return STOP(r, at, _("a control character (\\x%02x); remove it"), (unsigned)p->problem_value);
+        return STOP(r, at, _("not UTF-8; save the file as UTF-8"));
     }
-    yaml_mark_t at = within_text(r, p->problem_mark);
-    const char *what = p->problem;
+    /* untaken: table */
+    while (length > 0 && (bytes[length - 1] == '\n' || bytes[length - 1] == '\r' || bytes[length - 1] == ' '))
+        length--;
+    yaml_mark_t at = p->problem_mark, end = mark_of_byte(bytes, length); /* of the last line that has something */
+    at = at.line > end.line ? end : at;
     if (strstr(what, "tab") || byte_at(r, at) == '\t')
-        STOP(r, at, _("a tab; indent with spaces"));
-    else if (strstr(what, "cannot start any token"))
-        STOP(r, at, _("malformed YAML: no value can start with this character; put the text in quotes"));
-    else if (p->context)
-        STOP(r, at, _("malformed YAML: %s %s"), what, p->context);
-    else
-        STOP(r, at, _("malformed YAML: %s"), what);
+        return STOP(r, at, _("a tab; indent with spaces"));
+    if (strstr(what, "cannot start any token"))
+        return STOP(r, at, _("malformed YAML: no value can start with this character; put the text in quotes"));
+    if (p->context)
+        return STOP(r, at, _("malformed YAML: %s %s"), what, p->context);
+    return STOP(r, at, _("malformed YAML: %s"), what);
 }
 
 static bool next_event(struct reader *r, yaml_event_t *event)
 {
-    if (yaml_parser_parse(&r->parser, event))
-        return true;
-    syntax_problem(r);
-    return false;
+    return yaml_parser_parse(&r->parser, event) || syntax_problem(r);
 }
 
 static struct node *new_node(struct reader *r, enum node_kind kind, yaml_mark_t mark)
 {
     struct node *node = ceduo_arena_take(r->arena, sizeof *node);
-    if (!node) {
-        stop_for_memory(r);
-        return NULL;
-    }
+    if (!node)
+        return stop_for_memory(r);
     *node = (struct node){
         .kind = kind, .source = r->source, .line = (uint32_t)line_of(mark), .column = (uint32_t)column_of(r, mark)};
     return node;
@@ -155,20 +140,14 @@ static struct node *read_scalar(struct reader *r, const yaml_event_t *event)
         return NULL;
     const char *value = (const char *)event->data.scalar.value;
     size_t length = event->data.scalar.length;
-    if (memchr(value, '\0', length)) {
-        STOP(r, event->start_mark, _("a NUL character in a text; remove it"));
-        return NULL;
-    }
-    if (length > TEXT_MOST) {
-        STOP(r, event->start_mark, _("a value of more than %d bytes; look for a missing quote"), TEXT_MOST);
-        return NULL;
-    }
+    if (memchr(value, '\0', length))
+        return STOP(r, event->start_mark, _("a NUL character in a text; remove it"));
+    if (length > TEXT_MOST)
+        return STOP(r, event->start_mark, _("a value of more than %d bytes; look for a missing quote"), TEXT_MOST);
     note_end(r, node, event);
     node->quoted = event->data.scalar.style != YAML_PLAIN_SCALAR_STYLE;
     node->text = ceduo_arena_copy(r->arena, value, length);
-    if (!node->text)
-        ceduo_problem_memory(r->problems);
-    return node->text ? node : NULL;
+    return node->text ? node : stop_for_memory(r);
 }
 
 static struct node *read_value(struct reader *r, const yaml_event_t *event, int depth);
@@ -179,112 +158,75 @@ struct pile {
     size_t n, room;
 };
 
-static void pile_add(struct reader *r, struct pile *pile, const struct node *item)
-{
-    const struct node **items = ceduo_grow(pile->items, pile->n, &pile->room, sizeof *items);
-    if (!items) {
-        stop_for_memory(r);
-        return;
-    }
-    pile->items = items;
-    pile->items[pile->n++] = item;
-}
-
-static struct node *settle(struct reader *r, struct node *node, struct pile *pile)
-{
-    if (!r->stopped) {
-        const struct node **items = ceduo_arena_take(r->arena, (pile->n + 1) * sizeof *items);
-        if (items && pile->n > 0)
-            memcpy(items, pile->items, pile->n * sizeof *items);
-        else if (!items)
-            ceduo_problem_memory(r->problems);
-        node->items = items;
-        node->n = pile->n;
-        r->stopped |= !items;
-    }
-    free(pile->items);
-    return r->stopped ? NULL : node;
-}
-
-static void read_item(struct reader *r, const yaml_event_t *event, struct pile *pile, int depth)
-{
-    struct node *item = read_value(r, event, depth);
-    if (item)
-        pile_add(r, pile, item);
-}
-
-static bool key_is_new(struct reader *r, const struct pile *pile, const yaml_event_t *event)
+/* One entry of a mapping whose key is `event`. */
+static struct node *read_entry(struct reader *r, const yaml_event_t *event, const struct pile *pile, int depth)
 {
     const char *key = (const char *)event->data.scalar.value;
-    if (pile->n >= KEYS_MOST) {
-        STOP(r, event->start_mark, _("more than %d keys in one mapping"), KEYS_MOST);
-        return false;
-    }
+    yaml_event_t value;
+    if (event->type == YAML_ALIAS_EVENT)
+        return STOP(r, event->start_mark, _("an alias; write the value out"));
+    if (event->type != YAML_SCALAR_EVENT || strlen(key) != event->data.scalar.length)
+        return STOP(r, event->start_mark, _("a key must be a plain word"));
+    if (pile->n >= KEYS_MOST)
+        return STOP(r, event->start_mark, _("more than %d keys in one mapping"), KEYS_MOST);
     for (size_t i = 0; i < pile->n; i++)
         if (strcmp(pile->items[i]->key, key) == 0) {
             ceduo_problem(r->problems, r->source, line_of(event->start_mark), column_of(r, event->start_mark),
                           _("%s: given twice, first on line %u; keep one"), key, (unsigned)pile->items[i]->key_line);
-            r->stopped = true;
-            return false;
+            return stop(r);
         }
-    return true;
-}
-
-/* One entry of a mapping whose key is `event`. */
-static void read_entry(struct reader *r, const yaml_event_t *event, struct pile *pile, int depth)
-{
-    if (event->type == YAML_ALIAS_EVENT) {
-        STOP(r, event->start_mark, _("an alias; write the value out"));
-        return;
-    }
-    if (event->type != YAML_SCALAR_EVENT || strlen((const char *)event->data.scalar.value) != event->data.scalar.length) {
-        STOP(r, event->start_mark, _("a key must be a plain word"));
-        return;
-    }
-    if (!key_is_new(r, pile, event))
-        return;
-    yaml_event_t value;
     if (!next_event(r, &value))
-        return;
+        return NULL;
     struct node *node = read_value(r, &value, depth);
     yaml_event_delete(&value);
     if (!node)
-        return;
-    node->key = ceduo_arena_string(r->arena, (const char *)event->data.scalar.value);
+        return NULL;
+    node->key = ceduo_arena_string(r->arena, key);
     node->key_line = (uint32_t)line_of(event->start_mark);
     node->key_column = (uint32_t)column_of(r, event->start_mark);
-    if (node->key)
-        pile_add(r, pile, node);
-    else
-        stop_for_memory(r);
+    return node->key ? node : stop_for_memory(r);
 }
 
-/* A mapping or list, whose entries end with an event of type `last`. */
-static struct node *read_entries(struct reader *r, enum node_kind kind, const yaml_event_t *start, bool flow,
-                                 yaml_event_type_t last, int depth)
+/* A mapping or list. */
+static struct node *read_entries(struct reader *r, const yaml_event_t *start, int depth)
 {
-    struct node *node = new_node(r, kind, start->start_mark);
+    bool list = start->type == YAML_SEQUENCE_START_EVENT;
+    yaml_event_type_t last = list ? YAML_SEQUENCE_END_EVENT : YAML_MAPPING_END_EVENT;
+    struct node *node = new_node(r, list ? NODE_LIST : NODE_MAP, start->start_mark);
     struct pile pile = {0};
-    for (bool end = false; node && !end && !r->stopped;) {
+    if (!node)
+        return NULL;
+    node->flow = list ? start->data.sequence_start.style == YAML_FLOW_SEQUENCE_STYLE
+                      : start->data.mapping_start.style == YAML_FLOW_MAPPING_STYLE;
+    for (bool end = false; !end && !r->stopped;) {
         yaml_event_t event;
         if (!next_event(r, &event))
             break;
         end = event.type == last;
         if (end)
             note_end(r, node, &event);
-        else if (kind == NODE_MAP)
-            read_entry(r, &event, &pile, depth);
-        else
-            read_item(r, &event, &pile, depth);
+        const struct node *item = end ? NULL : list ? read_value(r, &event, depth) : read_entry(r, &event, &pile, depth);
         yaml_event_delete(&event);
+        const struct node **items = item ? ceduo_grow(pile.items, pile.n, &pile.room, sizeof *items) : NULL;
+        if (items) {
+            pile.items = items;
+            pile.items[pile.n++] = item;
+        } else if (item) {
+            stop_for_memory(r);
+        }
     }
-    if (!node)
-        return NULL;
-    node->flow = flow;
-    return settle(r, node, &pile);
+    const struct node **items = r->stopped ? NULL : ceduo_arena_take(r->arena, (pile.n + 1) * sizeof *items);
+    if (items && pile.n > 0)
+        memcpy(items, pile.items, pile.n * sizeof *items);
+    else if (!items && !r->stopped)
+        stop_for_memory(r);
+    free(pile.items);
+    node->items = items;
+    node->n = pile.n;
+    return r->stopped ? NULL : node;
 }
 
-static bool has_anchor_or_tag(struct reader *r, const yaml_event_t *event)
+static struct node *read_value(struct reader *r, const yaml_event_t *event, int depth)
 {
     const yaml_char_t *anchor = NULL, *tag = NULL;
     if (event->type == YAML_SCALAR_EVENT) {
@@ -297,45 +239,19 @@ static bool has_anchor_or_tag(struct reader *r, const yaml_event_t *event)
         anchor = event->data.mapping_start.anchor;
         tag = event->data.mapping_start.tag;
     }
+    if (depth >= DEPTH_MOST)
+        return STOP(r, event->start_mark, _("more than %d levels deep"), DEPTH_MOST);
+    if (++r->values > VALUES_MOST)
+        return STOP(r, event->start_mark, _("more than %d values in one file; write a long profile as CSV"), VALUES_MOST);
     if (anchor)
-        STOP(r, event->start_mark, _("an anchor; remove it and write the value where it is needed"));
-    else if (tag)
-        STOP(r, event->start_mark, _("a tag; remove it"));
-    return anchor || tag;
-}
-
-static struct node *read_value(struct reader *r, const yaml_event_t *event, int depth)
-{
-    if (depth >= DEPTH_MOST) {
-        STOP(r, event->start_mark, _("more than %d levels deep"), DEPTH_MOST);
-        return NULL;
-    }
-    if (++r->values > VALUES_MOST) {
-        STOP(r, event->start_mark, _("more than %d values in one file; write a long profile as CSV"), VALUES_MOST);
-        return NULL;
-    }
-    if (has_anchor_or_tag(r, event))
-        return NULL;
-    struct node *node = NULL;
-    switch (event->type) {
-    case YAML_SCALAR_EVENT:
-        node = read_scalar(r, event);
-        break;
-    case YAML_SEQUENCE_START_EVENT:
-        node = read_entries(r, NODE_LIST, event, event->data.sequence_start.style == YAML_FLOW_SEQUENCE_STYLE,
-                            YAML_SEQUENCE_END_EVENT, depth + 1);
-        break;
-    case YAML_MAPPING_START_EVENT:
-        node = read_entries(r, NODE_MAP, event, event->data.mapping_start.style == YAML_FLOW_MAPPING_STYLE,
-                            YAML_MAPPING_END_EVENT, depth + 1);
-        break;
-    default: /* an alias: nothing else stands for a value */
-        STOP(r, event->start_mark, _("an alias; write the value out"));
-        break;
-    }
-    if (!node)
-        r->stopped = true;
-    return node;
+        return STOP(r, event->start_mark, _("an anchor; remove it and write the value where it is needed"));
+    if (tag)
+        return STOP(r, event->start_mark, _("a tag; remove it"));
+    if (event->type == YAML_SCALAR_EVENT)
+        return read_scalar(r, event);
+    if (event->type == YAML_SEQUENCE_START_EVENT || event->type == YAML_MAPPING_START_EVENT)
+        return read_entries(r, event, depth + 1);
+    return STOP(r, event->start_mark, _("an alias; write the value out")); /* nothing else stands for a value */
 }
 
 /* The one document of the stream. */
