@@ -219,7 +219,9 @@ static void name_draws(struct text *scene, const struct pending_file *draws)
 
 static bool prepare(struct pending_file *file, const char *path, const struct text *text)
 {
-    bool good = ceduo_file_prepare(file, path, ceduo_text_string(text), text->length);
+    *file =
+        (struct pending_file){.path = path, .before = -1, .bytes = ceduo_text_string(text), .n = text->length, .wait = true};
+    bool good = ceduo_file_prepare(file);
     if (!good)
         ceduo_say_why(path, strerror(errno));
     return good;

@@ -29,20 +29,6 @@ static bool is_standard(const char *path)
     return strcmp(path, "-") == 0;
 }
 
-/* Standard input may be anything; what has a name must be a regular file or a FIFO, for a device may have no end. */
-static int open_to_read(const char *path)
-{
-    struct stat st;
-    if (is_standard(path))
-        return STDIN_FILENO;
-    if (stat(path, &st) != 0)
-        return -1;
-    if (S_ISREG(st.st_mode) || S_ISFIFO(st.st_mode))
-        return open(path, O_RDONLY | O_NOCTTY | O_CLOEXEC);
-    errno = S_ISDIR(st.st_mode) ? EISDIR : NO_FILE;
-    return -1;
-}
-
 /* What an open file holds, straight into the arena: a large one is in memory once. A regular file that says that it is empty
  * is not read, for some of the system's never end. */
 static bool read_all(int fd, struct arena *arena, size_t max, struct source *into)
@@ -84,9 +70,18 @@ static bool read_all(int fd, struct arena *arena, size_t max, struct source *int
     return bytes != NULL;
 }
 
+/* Standard input may be anything; what has a name must be a regular file or a FIFO, for a device may have no end. */
 static bool read_file(struct arena *arena, const char *path, size_t max, struct source *into)
 {
-    int fd = open_to_read(path);
+    struct stat st = {0};
+    bool named = !is_standard(path);
+    if (named && stat(path, &st) != 0)
+        return false;
+    if (named && !S_ISREG(st.st_mode) && !S_ISFIFO(st.st_mode)) {
+        errno = S_ISDIR(st.st_mode) ? EISDIR : NO_FILE;
+        return false;
+    }
+    int fd = named ? open(path, O_RDONLY | O_NOCTTY | O_CLOEXEC) : STDIN_FILENO;
     bool good = fd >= 0 && read_all(fd, arena, max, into);
     int why = errno;
     if (fd > STDIN_FILENO)
@@ -155,18 +150,6 @@ const struct source *ceduo_file_read(struct arena *arena, const char *path, size
 
 /* ---- finding ---- */
 
-static const char *join(struct arena *arena, const char *folder, size_t length, const char *name)
-{
-    size_t n = strlen(name);
-    char *path = ceduo_arena_take(arena, length + n + 2);
-    if (!path)
-        return NULL;
-    memcpy(path, folder, length);
-    path[length] = '/';
-    memcpy(path + length + 1, name, n + 1);
-    return path;
-}
-
 static bool is_file(const char *path)
 {
     struct stat st;
@@ -186,7 +169,7 @@ static size_t program_folders(struct arena *arena, const char **folders)
     if (!slash) /* untaken: machine */
         return 0;
     for (size_t i = 0; i < 3; i++)
-        folders[i] = join(arena, self, (size_t)(slash - self), near[i]);
+        folders[i] = ceduo_arena_format(arena, "%.*s/%s", (int)(slash - self), self, near[i]);
     return 3;
 }
 
@@ -198,9 +181,9 @@ const char *const *ceduo_file_folders(struct arena *arena)
     size_t n = 0;
     const char *data = getenv("XDG_DATA_HOME"), *home = getenv("HOME");
     if (data && data[0] == '/')
-        folders[n++] = join(arena, data, strlen(data), "ceduo");
+        folders[n++] = ceduo_arena_format(arena, "%s/ceduo", data);
     else if (home && home[0])
-        folders[n++] = join(arena, home, strlen(home), ".local/share/ceduo");
+        folders[n++] = ceduo_arena_format(arena, "%s/.local/share/ceduo", home);
     n += program_folders(arena, folders + n);
     folders[n++] = ceduo_arena_string(arena, CEDUO_DATADIR);
     size_t kept = 0;
@@ -213,30 +196,22 @@ const char *const *ceduo_file_folders(struct arena *arena)
     return folders;
 }
 
-/* A path without the steps up at its start: what may stand in a folder of profiles. */
-static const char *without_steps_up(const char *name)
-{
-    while (strncmp(name, "../", 3) == 0 || strncmp(name, "./", 2) == 0)
-        name += name[1] == '/' ? 2 : 3;
-    return name;
-}
-
 static const char *find_in(struct arena *arena, const char *root, const char *name, const char *folder)
 {
-    const char *inside = join(arena, root, strlen(root), without_steps_up(name));
-    if (is_file(inside))
-        return inside;
-    if (strchr(name, '/') || !folder)
-        return NULL;
-    const char *shelf = join(arena, root, strlen(root), folder);
-    const char *path = shelf ? join(arena, shelf, strlen(shelf), name) : NULL;
+    const char *inside = name; /* what may stand in a folder of profiles: without the steps up at its start */
+    while (strncmp(inside, "../", 3) == 0 || strncmp(inside, "./", 2) == 0)
+        inside += inside[1] == '/' ? 2 : 3;
+    const char *path = ceduo_arena_format(arena, "%s/%s", root, inside);
     if (is_file(path))
         return path;
-    char *longer = path ? ceduo_arena_take(arena, strlen(path) + 6) : NULL;
-    if (!longer)
+    if (strchr(name, '/') || !folder)
         return NULL;
-    strcat(strcpy(longer, path), strcmp(folder, "surveys") == 0 ? ".csv" : ".yaml");
-    return is_file(longer) ? longer : NULL;
+    path = ceduo_arena_format(arena, "%s/%s/%s", root, folder, name);
+    if (is_file(path))
+        return path;
+    const char *end = strcmp(folder, "surveys") == 0 ? ".csv" : ".yaml";
+    path = ceduo_arena_format(arena, "%s/%s/%s%s", root, folder, name, end);
+    return is_file(path) ? path : NULL;
 }
 
 const char *ceduo_file_find(struct arena *arena, const char *name, const char *beside, const char *folder)
@@ -244,7 +219,7 @@ const char *ceduo_file_find(struct arena *arena, const char *name, const char *b
     if (name[0] == '/')
         return is_file(name) ? name : NULL;
     const char *slash = beside ? strrchr(beside, '/') : NULL;
-    const char *path = slash ? join(arena, beside, (size_t)(slash - beside), name) : name;
+    const char *path = slash ? ceduo_arena_format(arena, "%.*s/%s", (int)(slash - beside), beside, name) : name;
     if (is_file(path))
         return path;
     const char *const *folders = ceduo_file_folders(arena);
@@ -254,48 +229,38 @@ const char *ceduo_file_find(struct arena *arena, const char *name, const char *b
     return NULL;
 }
 
+/* By what stands before .yaml: a name before its own continuation. */
 static int by_name(const void *a, const void *b)
 {
-    /* by what stands before .yaml: a name before its own continuation */
     const char *p = *(const char *const *)a, *q = *(const char *const *)b;
     size_t n = strlen(p) - 5, m = strlen(q) - 5;
     int order = strncmp(p, q, n < m ? n : m);
     return order != 0 ? order : (n > m) - (n < m);
 }
 
-static bool is_yaml(const char *name)
-{
-    size_t n = strlen(name);
-    return n > 5 && name[0] != '.' && strcmp(name + n - 5, ".yaml") == 0;
-}
-
 const char *const *ceduo_file_list(struct arena *arena, const char *folder, const char *shelf, size_t *n)
 {
-    const char *path = join(arena, folder, strlen(folder), shelf);
+    const char *path = ceduo_arena_format(arena, "%s/%s", folder, shelf);
     DIR *dir = path ? opendir(path) : NULL;
-    const char **names = NULL;
-    size_t room = 0;
+    size_t room = 0, length;
     *n = 0;
-    for (struct dirent *e; dir && (e = readdir(dir));) {
-        if (!is_yaml(e->d_name))
+    if (!dir)
+        return NULL;
+    while (readdir(dir))
+        room++;
+    rewinddir(dir);
+    const char **names = ceduo_arena_take(arena, room * sizeof *names);
+    for (struct dirent *e; names && *n < room && (e = readdir(dir));) {
+        if (e->d_name[0] == '.' || (length = strlen(e->d_name)) <= 5 || strcmp(e->d_name + length - 5, ".yaml") != 0)
             continue;
-        if (*n == room) { /* what is outgrown stays in the arena until the end: shelves are short */
-            const char **more = ceduo_arena_take(arena, (room = room ? 2 * room : 32) * sizeof *more);
-            if (!more)
-                break;
-            if (names)
-                memcpy(more, names, *n * sizeof *more);
-            names = more;
-        }
         if (!(names[*n] = ceduo_arena_string(arena, e->d_name)))
             break;
         ++*n;
     }
-    if (dir)
-        closedir(dir);
+    closedir(dir);
     if (*n > 0)
         qsort(names, *n, sizeof *names, by_name);
-    return names;
+    return *n > 0 ? names : NULL;
 }
 
 /* ---- writing ---- */
@@ -332,13 +297,6 @@ static bool write_and_close(int fd, const struct pending_file *file)
     return good;
 }
 
-static mode_t usual_mode(void)
-{
-    mode_t mask = umask(0);
-    umask(mask);
-    return 0666 & ~mask;
-}
-
 /* Where a path that leads to nothing yet leads, through links. To be freed. */
 static char *follow_links(const char *path)
 {
@@ -350,44 +308,37 @@ static char *follow_links(const char *path)
             return at;
         to[n] = '\0';
         struct text next = {0};
-        const char *slash = strrchr(at, '/');
-        if (to[0] != '/' && slash)
-            ceduo_text_add(&next, at, (size_t)(slash - at) + 1);
-        ceduo_text_put(&next, to);
+        const char *slash = to[0] == '/' ? NULL : strrchr(at, '/');
+        ceduo_text_format(&next, "%.*s%s", slash ? (int)(slash - at) + 1 : 0, at, to);
         free(at);
         at = next.bytes;
-        if (next.failed) {
-            ceduo_text_free(&next);
-            at = NULL;
-        }
     }
     errno = at ? ELOOP : ENOMEM;
     free(at);
     return NULL;
 }
 
-/* Opens a file beside the target. Of a name as long as a file system takes them, a part is used, cut between two characters. */
+/* The file beside the target. Of a name as long as a file system takes them, a part is used, cut between two characters. */
 static int open_temporary(struct pending_file *file)
 {
     static const char mark[] = ".ceduo-tmp-XXXXXX";
-    struct text name = {0};
-    const char *slash = strrchr(file->target, '/');
-    size_t folder = slash ? (size_t)(slash - file->target) + 1 : 0, n = strlen(file->target + folder);
+    const char *slash = strrchr(file->target, '/'), *name = slash ? slash + 1 : file->target;
+    size_t n = strlen(name);
     if (n > NAME_MAX - sizeof mark)
-        for (n = NAME_MAX - sizeof mark; ceduo_utf8_inside(file->target[folder + n]); n--)
+        for (n = NAME_MAX - sizeof mark; ceduo_utf8_inside(name[n]); n--)
             ;
-    ceduo_text_add(&name, file->target, folder + n);
-    ceduo_text_put(&name, mark);
+    struct text path = {0};
+    ceduo_text_format(&path, "%.*s%s", (int)(name - file->target + (ptrdiff_t)n), file->target, mark);
     errno = ENOMEM;
-    int fd = name.failed ? -1 : mkostemp(name.bytes, O_CLOEXEC);
+    int fd = path.bytes ? mkostemp(path.bytes, O_CLOEXEC) : -1;
     if (fd >= 0)
-        file->temporary = name.bytes;
+        file->temporary = path.bytes;
     else
-        ceduo_text_free(&name);
+        ceduo_text_free(&path);
     return fd;
 }
 
-static bool prepare(struct pending_file *file)
+bool ceduo_file_prepare(struct pending_file *file)
 {
     struct stat st;
     bool exists = stat(file->path, &st) == 0;
@@ -399,29 +350,23 @@ static bool prepare(struct pending_file *file)
     int fd = file->target ? open_temporary(file) : -1;
     if (fd < 0)
         return false;
-    bool good = fchmod(fd, exists ? st.st_mode & 07777 : usual_mode()) == 0;
+    mode_t mask = umask(0);
+    umask(mask);
+    bool good = fchmod(fd, exists ? st.st_mode & 07777 : 0666 & ~mask) == 0;
     return write_and_close(fd, file) && good;
-}
-
-bool ceduo_file_prepare(struct pending_file *file, const char *path, const char *bytes, size_t n)
-{
-    *file = (struct pending_file){.path = path, .before = -1, .bytes = bytes, .n = n, .wait = true};
-    return prepare(file);
 }
 
 /* The rename itself must survive a power cut; where the folder cannot be synced, nothing is lost by going on. */
 static void sync_folder(const char *target)
 {
     const char *slash = strrchr(target, '/');
-    char *folder = strdup(slash ? target : ".");
-    if (folder && slash)
-        folder[slash - target + 1] = '\0';
-    int fd = folder ? open(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC) : -1;
+    LOCAL_TEXT(folder);
+    ceduo_text_format(&folder, "%.*s", slash ? (int)(slash - target) + 1 : 1, slash ? target : ".");
+    int fd = folder.bytes ? open(folder.bytes, O_RDONLY | O_DIRECTORY | O_CLOEXEC) : -1;
     if (fd >= 0) {
         fsync(fd);
         close(fd);
     }
-    free(folder);
 }
 
 bool ceduo_file_place(struct pending_file *file)
@@ -449,26 +394,16 @@ void ceduo_file_drop(struct pending_file *file)
     errno = why;
 }
 
-static bool write_file(struct pending_file file)
+bool ceduo_file_put(struct pending_file file)
 {
-    bool good = prepare(&file) && ceduo_file_place(&file);
+    bool good = ceduo_file_prepare(&file) && ceduo_file_place(&file);
     ceduo_file_drop(&file);
     return good;
 }
 
 bool ceduo_file_write(const char *path, const char *bytes, size_t n)
 {
-    return write_file((struct pending_file){.path = path, .before = -1, .bytes = bytes, .n = n, .wait = true});
-}
-
-bool ceduo_file_write_quickly(const char *path, const char *bytes, size_t n)
-{
-    return write_file((struct pending_file){.path = path, .before = -1, .bytes = bytes, .n = n});
-}
-
-bool ceduo_file_write_after(int before, const char *path, const char *bytes, size_t n)
-{
-    return write_file((struct pending_file){.path = path, .before = before, .bytes = bytes, .n = n, .wait = true});
+    return ceduo_file_put((struct pending_file){.path = path, .before = -1, .bytes = bytes, .n = n, .wait = true});
 }
 
 bool ceduo_file_same(const char *a, const char *b)

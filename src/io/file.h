@@ -35,12 +35,6 @@ bool ceduo_file_fill(int fd, const char *bytes, size_t n, const atomic_bool *can
  * False with errno set. */
 bool ceduo_file_write(const char *path, const char *bytes, size_t n);
 
-/* The same without waiting for the disk: it survives the program, but maybe not a power cut. */
-bool ceduo_file_write_quickly(const char *path, const char *bytes, size_t n);
-
-/* The same as ceduo_file_write(), but first what the open file `before` holds (-1: nothing). */
-bool ceduo_file_write_after(int before, const char *path, const char *bytes, size_t n);
-
 /* A file that is filled and not yet in its place, so that several can be filled before the first takes its. What is no regular
  * file is written when it is placed; until then `bytes` must stay. */
 struct pending_file {
@@ -53,12 +47,17 @@ struct pending_file {
     char *temporary; /* TARGET.ceduo-tmp-…, until it takes its place */
 };
 
-/* Fills it under a name of its own beside its place. False with errno set; to be dropped even then. */
-bool ceduo_file_prepare(struct pending_file *file, const char *path, const char *bytes, size_t n);
+/* Fills it, whose first five members are given, under a name of its own beside its place. False with errno set; to be dropped even
+ * then. */
+bool ceduo_file_prepare(struct pending_file *file);
 /* False with errno set. */
 bool ceduo_file_place(struct pending_file *file);
 /* Takes away what has not taken its place. */
 void ceduo_file_drop(struct pending_file *file);
+
+/* All three at once: as ceduo_file_write(), but after what another file holds, or without waiting for the disk, so that it survives
+ * the program, but maybe not a power cut. */
+bool ceduo_file_put(struct pending_file file);
 
 /* Whether two paths lead to one regular file; `b` may be "-", standard input. */
 bool ceduo_file_same(const char *a, const char *b);
