@@ -14,23 +14,19 @@
 
 /* ---- scalars ---- */
 
-/* Whether some reader of YAML may take a text without quotes for a number, a date, a truth value or nothing. */
-static bool is_more_than_text(const char *s)
+/* Whether a text needs no quotes: no reader of YAML takes it for a number, a date, a truth value or nothing. */
+static bool is_plain(const char *s)
 {
     static const char *const words[] = {"true", "false", "null", "yes", "no", "on", "off", "y", "n", ".nan", ".inf"};
     const char *first = s + (*s == '-' || *s == '+');
+    size_t n = strlen(s);
+    bool number = first > s || *s == '.' || (*s >= '0' && *s <= '9');
+    number = number && s[strspn(s, "0123456789abcdefABCDEF_xo.+-")] == '\0'; /* 0x1F, 1_000, 1.2.3, 2024-01-31 */
+    if (n == 0 || s[0] == ' ' || s[n - 1] == ' ' || number)
+        return false;
     for (size_t i = 0; i < sizeof words / sizeof words[0]; i++)
         if (strcasecmp(first, words[i]) == 0)
-            return true;
-    bool begins = first > s || *s == '.' || (*s >= '0' && *s <= '9');
-    return begins && s[strspn(s, "0123456789abcdefABCDEF_xo.+-")] == '\0'; /* 0x1F, 1_000, 1.2.3, 2024-01-31 */
-}
-
-static bool is_plain(const char *s)
-{
-    size_t n = strlen(s);
-    if (n == 0 || s[0] == ' ' || s[n - 1] == ' ' || is_more_than_text(s))
-        return false;
+            return false;
     for (size_t i = 0; i < n; i++) {
         char c = s[i];
         bool word = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
@@ -40,7 +36,7 @@ static bool is_plain(const char *s)
     return !(s[0] == '-' && s[1] == ' ');
 }
 
-static void put_quoted(struct text *text, const char *s)
+static void print_quoted(struct text *text, const char *s)
 {
     ceduo_text_char(text, '"');
     for (size_t n = strlen(s), length; n > 0; s += length, n -= length) {
@@ -68,7 +64,7 @@ void ceduo_emit_scalar(struct text *text, const char *value, bool quoted)
     if (typed || is_plain(value))
         ceduo_text_put(text, value);
     else
-        put_quoted(text, value);
+        print_quoted(text, value);
 }
 
 /* ---- trees ---- */
@@ -99,46 +95,31 @@ static bool fits_flow(const struct node *node, size_t indent)
     return fits;
 }
 
-static void put_block(struct text *text, const struct node *node, size_t indent);
-
-static void put_entry(struct text *text, const struct node *value, size_t indent)
-{
-    if (value->kind == NODE_SCALAR || value->n == 0 || fits_flow(value, indent + 20)) {
-        ceduo_text_char(text, ' ');
-        ceduo_emit_flow(text, value);
-        ceduo_text_char(text, '\n');
-        return;
-    }
-    ceduo_text_char(text, '\n');
-    put_block(text, value, indent + 2);
-}
-
-static void put_block(struct text *text, const struct node *node, size_t indent)
+static void print_block(struct text *text, const struct node *node, size_t indent)
 {
     for (size_t i = 0; i < node->n; i++) {
         const struct node *item = node->items[i];
-        if (node->kind == NODE_MAP) {
-            ceduo_text_format(text, "%*s%s:", (int)indent, "", item->key);
-            put_entry(text, item, indent);
-            continue;
-        }
-        if (item->kind == NODE_SCALAR || item->n == 0 || fits_flow(item, indent + 2)) {
+        bool map = node->kind == NODE_MAP;
+        bool flow = item->kind == NODE_SCALAR || item->n == 0 || fits_flow(item, indent + (map ? 20 : 2));
+        if (map)
+            ceduo_text_format(text, "%*s%s:%c", (int)indent, "", item->key, flow ? ' ' : '\n');
+        else if (flow)
             ceduo_text_format(text, "%*s- ", (int)indent, "");
+        if (flow) {
             ceduo_emit_flow(text, item);
             ceduo_text_char(text, '\n');
             continue;
         }
-        /* the first line of the item follows the dash */
-        size_t at = text->length;
-        put_block(text, item, indent + 2);
-        if (!text->failed)
+        size_t at = text->length; /* the first line of an item of a list follows the dash */
+        print_block(text, item, indent + 2);
+        if (!map && !text->failed)
             text->bytes[at + indent] = '-';
     }
 }
 
 void ceduo_emit(struct text *text, const struct node *root)
 {
-    put_block(text, root, 0);
+    print_block(text, root, 0);
 }
 
 /* ---- back to files ---- */
@@ -155,9 +136,8 @@ static const struct node *difference(struct arena *arena, const struct node *bas
         if (old && ceduo_node_equal(old, entry))
             continue;
         if (old && old->kind == NODE_MAP) { /* which it still is */
-            const struct node *inner = difference(arena, old, entry);
-            entry = inner ? inner : entry;
-            if (!inner)
+            entry = difference(arena, old, entry);
+            if (!entry)
                 return NULL;
         }
         out = ceduo_node_with(arena, out, now->items[i]->key, entry);
@@ -172,12 +152,11 @@ static const struct node *as_base(struct arena *arena, const struct node *now, c
     const struct node *changes = difference(arena, loaded, now);
     if (!changes)
         return NULL;
-    const struct node *start = w->kind == NODE_SCALAR ? NULL : w;
-    if (!start && (start = ceduo_node_empty(arena, NODE_MAP, NULL)))
-        start = ceduo_node_with(arena, start, "base", w);
+    const struct node *empty = ceduo_node_empty(arena, NODE_MAP, NULL);
+    const struct node *start = w->kind == NODE_SCALAR ? ceduo_node_with(arena, empty, "base", w) : w;
     for (size_t i = 0; start && i < changes->n; i++)
         start = ceduo_node_with(arena, start, changes->items[i]->key, ceduo_node_get(now, changes->items[i]->key));
-    return start ? ceduo_node_renamed(arena, start, now->key) : NULL;
+    return ceduo_node_renamed(arena, start, now->key);
 }
 
 const struct node *ceduo_emit_unresolve(struct arena *arena, const struct node *node)
@@ -199,7 +178,7 @@ const struct node *ceduo_emit_unresolve(struct arena *arena, const struct node *
     for (size_t i = 0; out && i < node->n; i++) {
         const struct node *item = ceduo_emit_unresolve(arena, node->items[i]);
         if (item != node->items[i])
-            out = item ? ceduo_node_replaced(arena, out, i, item) : NULL;
+            out = ceduo_node_replaced(arena, out, i, item);
     }
     return out;
 }
@@ -239,23 +218,16 @@ static bool patch_span(struct patcher *p, const struct node *old, const struct n
     return true;
 }
 
-static bool same_shape(const struct node *old, const struct node *now)
-{
-    if (old->kind != now->kind || old->n != now->n)
-        return false;
-    for (size_t i = 0; old->kind == NODE_MAP && i < old->n; i++)
-        if (strcmp(old->items[i]->key, now->items[i]->key) != 0)
-            return false;
-    return true;
-}
-
 static bool patch(struct patcher *p, const struct node *old, const struct node *now)
 {
     if (old == now || (old->kind == NODE_SCALAR && now->kind == NODE_SCALAR && strcmp(old->text, now->text) == 0))
         return true;
     if (old->kind == NODE_SCALAR)
         return patch_span(p, old, now);
-    if (!same_shape(old, now))
+    bool same = old->kind == now->kind && old->n == now->n;
+    for (size_t i = 0; same && old->kind == NODE_MAP && i < old->n; i++)
+        same = strcmp(old->items[i]->key, now->items[i]->key) == 0;
+    if (!same)
         return old->flow && patch_span(p, old, now);
     for (size_t i = 0; i < old->n; i++)
         if (!patch(p, old->items[i], now->items[i]))

@@ -11,30 +11,15 @@ static void check_control(struct validator *v, const char *path, const struct ce
     bool starts = v->profile && ceduo_is_sound(v, "release.x_m");
     double last = starts ? ceduo_number_highest(scene->release.x) : -INFINITY;
     const char *here = ceduo_decimal(v, c->x_given);
-    if (c->x > end) {
+    size_t k = 0;
+    while (k < i && scene->controls[k].x != c->x)
+        k++;
+    if (c->x > end)
         ceduo_complain(v, path, "", _("%s lies beyond the slope, which ends at %s m"), here, ceduo_decimal(v, end + v->origin));
-    } else if (c->x <= last) {
+    else if (c->x <= last)
         ceduo_complain(v, path, "", _("%s does not lie beyond the release, %s m"), here, ceduo_decimal(v, last + v->origin));
-    } else {
-        for (size_t k = 0; k < i; k++)
-            if (scene->controls[k].x == c->x) {
-                ceduo_complain(v, path, "", _("%s is given twice"), here);
-                return;
-            }
-    }
-}
-
-/* Controls as they are listed by their x alone. */
-static bool list_controls(struct validator *v, size_t n)
-{
-    struct ceduo_scene *scene = &v->draft.scene;
-    const struct object *object = ceduo_schema_field(ceduo_schema_scene(), "controls")->object;
-    scene->controls = ceduo_room(v, n, sizeof *scene->controls);
-    for (size_t i = 0; scene->controls && i < n; i++) {
-        ceduo_schema_init(object, &scene->controls[i]);
-        scene->controls[i].x_given = v->draft.controls_m[i];
-    }
-    return scene->controls != NULL;
+    else if (k < i)
+        ceduo_complain(v, path, "", _("%s is given twice"), here);
 }
 
 void ceduo_validate_controls(struct validator *v)
@@ -54,10 +39,14 @@ void ceduo_validate_controls(struct validator *v)
         ceduo_complain(v, "", "", _("'controls' is missing: name at least one place where passing rocks are counted"));
         return;
     }
-    if (ceduo_is_too_long(v, path, n) || (!listed && !list_controls(v, n)))
+    if (ceduo_is_too_long(v, path, n) || (!listed && !(scene->controls = ceduo_room(v, n, sizeof *scene->controls))))
         return;
     for (size_t i = 0; i < n; i++) {
         struct ceduo_control *c = &scene->controls[i];
+        if (!listed) { /* by its x alone */
+            ceduo_schema_init(ceduo_schema_field(ceduo_schema_scene(), "controls")->object, c);
+            c->x_given = v->draft.controls_m[i];
+        }
         c->x = c->x_given - v->origin;
         check_control(v, ceduo_format(v, listed ? "%s[%zu].x_m" : "%s[%zu]", path, i), c, i);
     }

@@ -10,11 +10,6 @@
 
 #define SHOOTS_MAX 10000 /* on a stool */
 
-static enum ceduo_system system_of(const struct ceduo_stand *stand)
-{
-    return ceduo_stand_has_shoots(stand) ? CEDUO_SIMPLE_COPPICE : ceduo_stand_has_stems(stand) ? CEDUO_HIGH_FOREST : CEDUO_BARE;
-}
-
 /* Wider spreads are no diameters of one cohort or class: nearly all of its stems would be hair, and few very thick. */
 static void check_spreads(struct validator *v, const char *path, const char *list, const struct ceduo_stems *stems, size_t n)
 {
@@ -31,13 +26,13 @@ static bool lacks(struct validator *v, double value, const char *path, const cha
     return isnan(value) && ceduo_is_known(v, "%s%s", path, key);
 }
 
-/* Whether something is written at a path. */
-static bool is_written(struct validator *v, const char *path)
+/* Whether something is written at a key of a mapping. */
+static bool is_written(struct validator *v, const char *path, const char *key)
 {
-    const char *within;
+    const char *within, *whole = ceduo_format(v, "%s.%s", path, key);
     size_t used;
-    ceduo_resolve_walk(v->root, path, &within, &used);
-    return path[used] == '\0';
+    ceduo_resolve_walk(v->root, whole, &within, &used);
+    return whole[used] == '\0';
 }
 
 /* Shoots are given per hectare or per stool. */
@@ -46,13 +41,12 @@ static void check_densities(struct validator *v, const char *path, const struct 
     for (size_t i = 0; i < s->shoots_count; i++) {
         const struct ceduo_stems *stems = &s->shoots[i];
         const char *here = ceduo_format(v, "%s.shoots[%zu]", path, i);
-        bool each = is_written(v, ceduo_format(v, "%s.per_stool", here));
-        if (each && is_written(v, ceduo_format(v, "%s.per_ha", here)))
+        bool each = is_written(v, here, "per_stool");
+        if (each && is_written(v, here, "per_ha"))
             ceduo_complain(v, here, "per_stool", _("per_ha already says this; keep one of the two"));
         else if (!each && lacks(v, stems->per_ha, here, ".per_ha") && ceduo_is_known(v, "%s.per_stool", here))
             ceduo_complain(v, here, "", _("'per_ha' or 'per_stool' is missing: how many shoots there are"));
-        else if (each && !is_written(v, ceduo_format(v, "%s.stools.per_ha", path)) &&
-                 ceduo_is_known(v, "%s.stools.per_ha", path))
+        else if (each && !is_written(v, path, "stools.per_ha") && ceduo_is_known(v, "%s.stools.per_ha", path))
             ceduo_complain(v, path, "shoots", _("shoots without stools; add 'stools: {per_ha: …, spacing_m: …}'"));
     }
 }
@@ -80,7 +74,9 @@ static void check_stand(struct validator *v, const char *path, struct ceduo_stan
 {
     ceduo_stand_count_shoots(s);
     if ((int)s->system < 0)
-        s->system = system_of(s);
+        s->system = ceduo_stand_has_shoots(s)  ? CEDUO_SIMPLE_COPPICE
+                    : ceduo_stand_has_stems(s) ? CEDUO_HIGH_FOREST
+                                               : CEDUO_BARE;
     if (!ceduo_is_known(v, "%s", path)) /* what it starts from is not there */
         return;
     if (s->growth.shoots_young < s->growth.shoots_old && ceduo_is_known(v, "%s.growth.shoots_young", path))
@@ -128,74 +124,43 @@ static void check_belt(struct validator *v, const char *path, const struct ceduo
                        ceduo_decimal(v, end));
 }
 
-/* Whether two stands say the same but for name and source. */
-static bool says_the_same(struct validator *v, const struct node *a, const struct node *b)
-{
-    static const char *const beside[] = {"name", "source"};
-    for (size_t i = 0; a && b && i < 2; i++) {
-        a = ceduo_node_get(a, beside[i]) ? ceduo_node_without(v->arena, a, beside[i]) : a;
-        b = ceduo_node_get(b, beside[i]) ? ceduo_node_without(v->arena, b, beside[i]) : b;
-    }
-    if (!a || !b)
-        ceduo_problem_memory(v->problems);
-    return a && b && ceduo_node_equal(a, b);
-}
-
-/* Whether numbers of a stand from a file were changed, and it still has the name of that file. */
-static bool has_name_of_another(struct validator *v, const struct node *stand)
+/* Whether a stand with the name of the file that it was read from says what that says, but for name and source. */
+static bool is_as_named(struct validator *v, const struct node *stand)
 {
     const struct node *written = stand->written, *followed = stand->followed; /* there or not together */
     if (!written || stand->kind != NODE_MAP)
-        return false;
+        return true;
     const char *name = ceduo_node_text(stand, "name"), *before = ceduo_node_text(followed, "name");
-    bool renamed = !name || !before || strcmp(name, before) != 0 || ceduo_node_text(written, "name");
-    if (renamed)
-        return false;
-    size_t changes = 0;
+    if (!name || !before || strcmp(name, before) != 0 || ceduo_node_text(written, "name")) /* it has a name of its own */
+        return true;
     for (size_t i = 0; written->kind == NODE_MAP && i < written->n; i++)
-        changes += strcmp(written->items[i]->key, "base") != 0 && strcmp(written->items[i]->key, "source") != 0;
-    return changes > 0 || !says_the_same(v, stand, followed);
-}
-
-/* What the stand calls itself, or else its file. `changed`: it is no longer what its name says. */
-static const char *stand_name(struct validator *v, const char *path, const struct ceduo_stand *stand, bool *changed)
-{
-    const char *within;
-    size_t used;
-    const struct node *node = ceduo_resolve_walk(v->root, path, &within, &used);
-    const char *name = ceduo_node_text(node, "name");
-    if (!name && node->written && node->written->kind == NODE_SCALAR)
-        name = node->written->text;
-    *changed = name && has_name_of_another(v, node);
-    if (*changed)
-        return ceduo_format(v, "%s (changed)", name);
-    return name ? name : ceduo_stand_is_bare(stand) ? "bare" : "stand";
+        if (strcmp(written->items[i]->key, "base") != 0 && strcmp(written->items[i]->key, "source") != 0)
+            return false;
+    const struct node *a = ceduo_node_without(v->arena, ceduo_node_without(v->arena, stand, "name"), "source");
+    const struct node *b = ceduo_node_without(v->arena, ceduo_node_without(v->arena, followed, "name"), "source");
+    return !a || !b || ceduo_node_equal(a, b); /* untaken: memory */
 }
 
 static void make_belts(struct validator *v, const char *path, struct ceduo_option *option)
 {
     for (size_t i = 0; i < option->belts_count; i++) {
         struct ceduo_belt *belt = &option->belts[i];
-        const char *here = ceduo_format(v, "%s[%zu]", path, i), *stand = ceduo_format(v, "%s.stand", here);
+        const char *here = ceduo_format(v, "%s[%zu]", path, i), *stand = ceduo_format(v, "%s.stand", here), *within;
+        size_t used;
         check_belt(v, here, belt, i > 0 ? belt - 1 : NULL);
         belt->from = belt->from_given - v->origin;
         belt->to = belt->to_given - v->origin;
-        belt->name = (char *)(uintptr_t)stand_name(v, stand, &belt->stand, &belt->changed);
+        const struct node *node = ceduo_resolve_walk(v->root, stand, &within, &used);
+        const char *name = ceduo_node_text(node, "name"); /* what the stand calls itself, or else its file */
+        if (!name && node->written && node->written->kind == NODE_SCALAR)
+            name = node->written->text;
+        belt->changed = name && !is_as_named(v, node);
+        name = belt->changed ? ceduo_format(v, "%s (changed)", name) : name;
+        name = name ? name : ceduo_stand_is_bare(&belt->stand) ? "bare" : "stand";
+        belt->name = (char *)(uintptr_t)name;
         belt->assumed = ceduo_notes_assume(v->notes, stand);
         check_stand(v, stand, &belt->stand);
     }
-}
-
-/* A scene without options has one, its forest. */
-static void make_forest(struct validator *v)
-{
-    struct ceduo_scene *scene = &v->draft.scene;
-    if (!(scene->options = ceduo_room(v, 1, sizeof *scene->options)))
-        return;
-    scene->options[0] = (struct ceduo_option){
-        .name = (char *)(uintptr_t) "current", .belts_count = v->draft.belts_count, .belts = v->draft.belts};
-    scene->options_count = 1;
-    make_belts(v, "forest", &scene->options[0]);
 }
 
 void ceduo_validate_options(struct validator *v)
@@ -212,8 +177,12 @@ void ceduo_validate_options(struct validator *v)
         return;
     if (many && n == 0)
         ceduo_complain(v, "options", "", _("the list is empty"));
-    if (!many)
-        make_forest(v);
+    if (!many && (scene->options = ceduo_room(v, 1, sizeof *scene->options))) { /* it has one, its forest */
+        scene->options[0] = (struct ceduo_option){
+            .name = (char *)(uintptr_t) "current", .belts_count = v->draft.belts_count, .belts = v->draft.belts};
+        scene->options_count = 1;
+        make_belts(v, "forest", &scene->options[0]);
+    }
     if (n == 0 || ceduo_is_too_long(v, "options", n))
         return;
     for (size_t i = 0; i < n; i++) {
