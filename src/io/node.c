@@ -39,17 +39,24 @@ double ceduo_node_item_number(const struct node *list, size_t i)
                                                                                          : NAN;
 }
 
-/* A copy with room for n items, of which none is set. */
-static struct node *copy_shell(struct arena *arena, const struct node *node, size_t n, const struct node ***items)
+/* A copy with `taken` of its items from i on replaced by `put`, or by nothing where that is NULL. */
+static const struct node *splice(struct arena *arena, const struct node *node, size_t i, size_t taken, const struct node *put)
 {
+    size_t n = node->n - taken + (put != NULL), behind = node->n - i - taken;
     struct node *copy = ceduo_arena_take(arena, sizeof *copy);
-    *items = ceduo_arena_take(arena, (n + 1) * sizeof **items);
-    if (!copy || !*items)
+    const struct node **items = ceduo_arena_take(arena, (n + 1) * sizeof *items);
+    if (!copy || !items)
         return NULL;
     *copy = *node;
-    copy->items = *items;
+    copy->items = items;
     copy->n = n;
     copy->written = copy->followed = NULL;
+    if (i > 0)
+        memcpy(items, node->items, i * sizeof *items);
+    if (put)
+        items[i] = put;
+    if (behind > 0)
+        memcpy(items + i + (put != NULL), node->items + i + taken, behind * sizeof *items);
     return copy;
 }
 
@@ -62,40 +69,17 @@ void ceduo_node_keep_written(const struct node *made, const struct node *from)
 
 const struct node *ceduo_node_replaced(struct arena *arena, const struct node *node, size_t i, const struct node *value)
 {
-    const struct node **items;
-    struct node *copy = copy_shell(arena, node, node->n, &items);
-    if (!copy || !value) /* untaken: memory */
-        return NULL;
-    memcpy(items, node->items, node->n * sizeof *items);
-    items[i] = value;
-    return copy;
+    return value ? splice(arena, node, i, 1, value) : NULL;
 }
 
 const struct node *ceduo_node_inserted(struct arena *arena, const struct node *node, size_t i, const struct node *value)
 {
-    const struct node **items;
-    struct node *copy = copy_shell(arena, node, node->n + 1, &items);
-    if (!copy || !value) /* untaken: memory */
-        return NULL;
-    if (i > 0)
-        memcpy(items, node->items, i * sizeof *items);
-    items[i] = value;
-    if (node->n > i)
-        memcpy(items + i + 1, node->items + i, (node->n - i) * sizeof *items);
-    return copy;
+    return value ? splice(arena, node, i, 0, value) : NULL;
 }
 
 const struct node *ceduo_node_removed(struct arena *arena, const struct node *node, size_t i)
 {
-    const struct node **items;
-    struct node *copy = copy_shell(arena, node, node->n - 1, &items);
-    if (!copy) /* untaken: memory */
-        return NULL;
-    if (i > 0)
-        memcpy(items, node->items, i * sizeof *items);
-    if (node->n - 1 > i)
-        memcpy(items + i, node->items + i + 1, (node->n - 1 - i) * sizeof *items);
-    return copy;
+    return splice(arena, node, i, 1, NULL);
 }
 
 const struct node *ceduo_node_renamed(struct arena *arena, const struct node *value, const char *key)

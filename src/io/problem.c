@@ -38,7 +38,7 @@ static size_t character_length(const char *p, size_t n)
 }
 
 /* A part of the line, and a caret below the column where that is in it; of a foreign source only what begins it. */
-static void show_line(struct text *out, const struct source *s, size_t line, size_t column)
+static void print_line(struct text *out, const struct source *s, size_t line, size_t column)
 {
     size_t from, to, most = s->foreign ? CEDUO_FOREIGN_MOST : LINE_MOST;
     if (!ceduo_source_line(s, line, &from, &to) || to == from)
@@ -49,7 +49,7 @@ static void show_line(struct text *out, const struct source *s, size_t line, siz
     size_t at = from + mark, c = 1;
     for (; c < first && at < to; c++)
         at += character_length(s->bytes + at, to - at);
-    struct text caret = {0};
+    LOCAL_TEXT(caret);
     ceduo_text_put(out, "  ");
     ceduo_text_safe_n(out, s->bytes, first == 1 ? mark : 0);
     ceduo_text_put(&caret, "  ");
@@ -69,7 +69,6 @@ static void show_line(struct text *out, const struct source *s, size_t line, siz
     ceduo_text_put(&caret, "^\n");
     if (!s->foreign || (line == 1 && column <= c))
         ceduo_text_put(out, ceduo_text_string(&caret));
-    ceduo_text_free(&caret);
 }
 
 void ceduo_problem_words(struct text *out, const char *format)
@@ -81,7 +80,7 @@ void ceduo_problem_words(struct text *out, const char *format)
 }
 
 /* A message may quote a word of a megabyte: its middle is left out, so that the mend at its end stays. */
-static void put_message(struct text *out, const char *message)
+static void print_message(struct text *out, const char *message)
 {
     size_t n = strlen(message), head = MESSAGE_MOST - TAIL, tail = n - TAIL;
     if (n <= MESSAGE_MOST) {
@@ -121,71 +120,59 @@ static uint64_t kind_of(const struct source *source, const char *path, const cha
     return hash;
 }
 
-/* Where it is told of already, or else the next that there is room for; NULL: none. */
-static struct problem_kind *find_kind(struct problems *problems, uint64_t hash)
-{
-    size_t k = 0;
-    while (k < problems->kinds_count && problems->kinds[k].hash != hash)
-        k++;
-    return k < CEDUO_PROBLEMS_MOST ? &problems->kinds[k] : NULL;
-}
-
-/* `path`: of the value, or "". */
-static void add(struct problems *problems, struct problem_place place, const char *path, const struct text *message)
+/* Adds a message, once. Beyond a number, whether it is known matters no more: a million of them take no time. `words`: the message
+ * is those of the format alone, without the path. */
+__attribute__((format(printf, 4, 0))) static void add(struct problems *problems, struct problem_place place, bool words,
+                                                      const char *format, va_list args)
 {
     const struct source *source = place.source;
-    uint64_t hash = kind_of(source, path, ceduo_text_string(message));
-    struct problem_kind *kind = find_kind(problems, hash);
-    struct text one = {0}, words = {0};
+    const char *path = place.path && !words ? place.path : "";
+    LOCAL_TEXT(message);
+    LOCAL_TEXT(whole);
+    LOCAL_TEXT(one);
+    size_t k = 0;
+    problems->usage |= source && source->is_option;
+    problems->met++;
+    if (problems->count >= COUNTED) {
+        problems->count++;
+        return;
+    }
+    if (words)
+        ceduo_problem_words(&message, format);
+    else
+        ceduo_text_vformat(&message, format, args);
+    ceduo_text_format(&whole, "%s%s%s", path, path[0] ? ": " : "", ceduo_text_string(&message));
     if (source) {
         ceduo_text_safe(&one, source->name);
         if (place.line > 0)
             ceduo_text_format(&one, ":%zu:%zu", place.line, place.column);
         ceduo_text_put(&one, ": ");
     }
-    ceduo_text_format(&words, "%s%s%s", path, path[0] ? ": " : "", ceduo_text_string(message));
-    put_message(&one, ceduo_text_string(&words));
+    print_message(&one, ceduo_text_string(&whole));
     ceduo_text_char(&one, '\n');
+    uint64_t hash = kind_of(source, path, ceduo_text_string(&message));
     bool known = is_known(problems, hash_bytes(ceduo_text_string(&one), one.length));
+    while (k < problems->kinds_count && problems->kinds[k].hash != hash)
+        k++;
+    struct problem_kind *kind = &problems->kinds[k];
     problems->count += !known;
-    if (!known && kind && kind->hash == hash) {
+    if (!known && k < problems->kinds_count) {
         if (kind->more < CEDUO_PROBLEMS_LINES)
             kind->lines[kind->more] = place.line;
         kind->more++;
-    } else if (!known && kind) { /* of a million only these look for their line */
+    } else if (!known && k < CEDUO_PROBLEMS_MOST) { /* of a million only these look for their line */
         if (source && place.line > 0)
-            show_line(&one, source, place.line, place.column);
+            print_line(&one, source, place.line, place.column);
         ceduo_text_put(&problems->text, ceduo_text_string(&one));
         *kind = (struct problem_kind){.hash = hash, .end = problems->text.length};
         problems->kinds_count++;
     }
-    problems->memory |= message->failed || words.failed || one.failed || problems->text.failed || problems->known.failed;
-    ceduo_text_free(&words);
-    ceduo_text_free(&one);
-}
-
-/* Whether it is to be told in words. Beyond a number, whether it is known matters no more: a million of them take no time. */
-static bool counts(struct problems *problems, const struct source *source)
-{
-    bool words = problems->count < COUNTED;
-    problems->usage |= source && source->is_option;
-    problems->met++;
-    problems->count += !words;
-    return words;
+    problems->memory |= message.failed || whole.failed || one.failed || problems->text.failed || problems->known.failed;
 }
 
 void ceduo_problem_v(struct problems *problems, struct problem_place place, const char *format, va_list args)
 {
-    struct text message = {0};
-    bool foreign = place.source && place.source->foreign;
-    if (!counts(problems, place.source))
-        return;
-    if (foreign)
-        ceduo_problem_words(&message, format);
-    else
-        ceduo_text_vformat(&message, format, args);
-    add(problems, place, place.path && !foreign ? place.path : "", &message);
-    ceduo_text_free(&message);
+    add(problems, place, place.source && place.source->foreign, format, args);
 }
 
 void ceduo_problem(struct problems *problems, const struct source *source, size_t line, size_t column, const char *format, ...)
@@ -198,15 +185,10 @@ void ceduo_problem(struct problems *problems, const struct source *source, size_
 
 void ceduo_problem_own(struct problems *problems, struct problem_place place, const char *format, ...)
 {
-    struct text message = {0};
     va_list args;
-    if (!counts(problems, place.source))
-        return;
     va_start(args, format);
-    ceduo_text_vformat(&message, format, args);
+    add(problems, place, false, format, args);
     va_end(args);
-    add(problems, place, place.path ? place.path : "", &message);
-    ceduo_text_free(&message);
 }
 
 void ceduo_problems_follow(struct problems *problems, struct problems *head)

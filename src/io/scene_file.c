@@ -14,14 +14,6 @@
 #include "resolve.h"
 #include "validate.h"
 
-static const char *title_of(struct scene_file *file, const char *title)
-{
-    if (title)
-        return title;
-    const char *slash = strrchr(file->path, '/');
-    return slash ? slash + 1 : file->path;
-}
-
 bool ceduo_scene_bind(struct scene_file *file, struct problems *problems)
 {
     const struct previous_slope previous = {file->slope_node, file->scene.slope, file->notes, file->ground_assumed,
@@ -47,7 +39,8 @@ bool ceduo_scene_bind(struct scene_file *file, struct problems *problems)
     file->observations = v.observations;
     file->observations_count = v.observations_count;
     file->scene = v.draft.scene;
-    file->scene.title = (char *)(uintptr_t)title_of(file, file->scene.title);
+    const char *slash = strrchr(file->path, '/'), *name = slash ? slash + 1 : file->path;
+    file->scene.title = file->scene.title ? file->scene.title : (char *)(uintptr_t)name;
     bool good = problems->count == before && !problems->memory;
     file->slope_node = good ? ceduo_node_get(file->root, "slope") : NULL;
     return good;
@@ -89,7 +82,8 @@ bool ceduo_scene_set(struct scene_file *file, const char *option, const char *se
 /* A name that is neither a file nor a scene among the profiles: the nearest of these, and where they were looked for. */
 static void complain_no_scene(struct scene_file *file, const char *path, struct problems *problems)
 {
-    struct text names = {0}, folders = {0};
+    LOCAL_TEXT(names);
+    LOCAL_TEXT(folders);
     const char *near = NULL;
     char *plain = ceduo_arena_string(&file->arena, path);
     size_t length = plain ? strlen(plain) : 0;
@@ -112,18 +106,6 @@ static void complain_no_scene(struct scene_file *file, const char *path, struct 
     problems->memory |= names.failed || folders.failed || file->arena.failed;
     ceduo_problem(problems, &(struct source){.name = path}, 0, 0, _("cannot read it: %s%s"), strerror(ENOENT),
                   ceduo_text_string(&names));
-    ceduo_text_free(&names);
-    ceduo_text_free(&folders);
-}
-
-/* The file's own name, or the shipped scene that the name means; NULL where it is neither, which is told. */
-static const char *scene_path(struct scene_file *file, const char *path, struct problems *problems)
-{
-    const char *found = strcmp(path, "-") == 0 ? path : ceduo_file_find(&file->arena, path, NULL, "scenes");
-    if (found || *path == '\0' || strchr(path, '/') || access(path, F_OK) == 0 || errno != ENOENT)
-        return found ? found : path;
-    complain_no_scene(file, path, problems);
-    return NULL;
 }
 
 /* From the text of a scene to the scene. */
@@ -161,12 +143,15 @@ static bool is_good_with(const struct source *source, const char *const *sets, s
     return good;
 }
 
-/* A change that is right by itself may not fit the rest, and what is wrong is then found at a value of the file: the
+/* Reads a scene. A change that is right by itself may not fit the rest, and what is wrong is then found at a value of the file: the
  * change is named before that. It is the one after which the scene was never good again. */
-static void name_change(const struct source *source, const char *const *sets, size_t n, struct problems *problems)
+static bool read_source(struct scene_file *file, const struct source *source, const char *const *sets, size_t n,
+                        struct problems *problems)
 {
+    if (make_scene(file, source, sets, n, problems))
+        return true;
     if (n == 0 || problems->usage || problems->memory || !is_good_with(source, sets, 0, problems))
-        return;
+        return false;
     size_t last = n - 1;
     while (last > 0 && !problems->memory && !is_good_with(source, sets, last, problems))
         last--;
@@ -176,14 +161,6 @@ static void name_change(const struct source *source, const char *const *sets, si
                   _("the scene is valid without this change, but not with it:"));
     ceduo_problems_follow(problems, &head);
     problems->usage = true;
-}
-
-static bool read_source(struct scene_file *file, const struct source *source, const char *const *sets, size_t sets_count,
-                        struct problems *problems)
-{
-    if (make_scene(file, source, sets, sets_count, problems))
-        return true;
-    name_change(source, sets, sets_count, problems);
     return false;
 }
 
@@ -191,8 +168,12 @@ bool ceduo_scene_read(struct scene_file *file, const char *path, const char *con
                       struct problems *problems)
 {
     *file = (struct scene_file){.path = path};
-    const char *found = scene_path(file, path, problems);
-    const struct source *source = found ? ceduo_file_read(&file->arena, found, YAML_BYTES_MOST, problems) : NULL;
+    const char *found = strcmp(path, "-") == 0 ? path : ceduo_file_find(&file->arena, path, NULL, "scenes");
+    if (!found && *path && !strchr(path, '/') && access(path, F_OK) != 0 && errno == ENOENT) {
+        complain_no_scene(file, path, problems);
+        return false;
+    }
+    const struct source *source = ceduo_file_read(&file->arena, found ? found : path, YAML_BYTES_MOST, problems);
     return source && read_source(file, source, sets, sets_count, problems);
 }
 

@@ -5,30 +5,6 @@
 #include "base/language.h"
 #include "validate.h"
 
-static bool check_volumes(struct validator *v, const struct ceduo_block_class *b, const char *path)
-{
-    if (b->volumes_count != 2)
-        ceduo_complain(v, path, "", _("expected two volumes, the smallest and the largest: [lo, hi]"));
-    else if (!(b->volumes[0] < b->volumes[1]))
-        ceduo_complain(v, path, "", _("%s m3 is not below %s m3; write the smaller volume first"),
-                       ceduo_decimal(v, b->volumes[0]), ceduo_decimal(v, b->volumes[1]));
-    else
-        return true;
-    return false;
-}
-
-/* Of those before it none may hold the same sizes. */
-static void check_overlap(struct validator *v, const struct ceduo_block_class *b, size_t i)
-{
-    for (size_t k = 0; k < i; k++)
-        if (b[i].volumes[0] < b[k].volumes[1] && b[k].volumes[0] < b[i].volumes[1]) {
-            ceduo_complain(v, ceduo_format(v, "blocks[%zu].volume_m3", i), "",
-                           _("the class overlaps one before it, from %s to %s m3; let them touch at most"),
-                           ceduo_decimal(v, b[k].volumes[0]), ceduo_decimal(v, b[k].volumes[1]));
-            return;
-        }
-}
-
 static void check_others(struct validator *v, const struct node *blocks)
 {
     const struct ceduo_rock_def *r = &v->draft.scene.rock;
@@ -58,12 +34,27 @@ void ceduo_validate_blocks(struct validator *v)
     if (ceduo_is_too_long(v, "blocks", n) || !ceduo_is_sound(v, "blocks"))
         return;
     bool good = true, single = blocks->kind == NODE_MAP;
-    for (size_t i = 0; i < n; i++)
-        good &= check_volumes(v, &scene->blocks[i], single ? "blocks.volume_m3" : ceduo_format(v, "blocks[%zu].volume_m3", i));
     scene->rocks_per_year = n > 0 ? 0 : NAN;
     for (size_t i = 0; i < n; i++) {
-        if (good)
-            check_overlap(v, scene->blocks, i);
-        scene->rocks_per_year += scene->blocks[i].per_year;
+        const struct ceduo_block_class *b = &scene->blocks[i];
+        const char *path = single ? "blocks.volume_m3" : ceduo_format(v, "blocks[%zu].volume_m3", i);
+        bool two = b->volumes_count == 2, rise = two && b->volumes[0] < b->volumes[1];
+        scene->rocks_per_year += b->per_year;
+        if (!two)
+            ceduo_complain(v, path, "", _("expected two volumes, the smallest and the largest: [lo, hi]"));
+        else if (!rise)
+            ceduo_complain(v, path, "", _("%s m3 is not below %s m3; write the smaller volume first"),
+                           ceduo_decimal(v, b->volumes[0]), ceduo_decimal(v, b->volumes[1]));
+        good &= rise;
+    }
+    for (size_t i = 0; i < n && good; i++) { /* of those before it none may hold the same sizes */
+        const struct ceduo_block_class *b = scene->blocks;
+        size_t k = 0;
+        while (k < i && !(b[i].volumes[0] < b[k].volumes[1] && b[k].volumes[0] < b[i].volumes[1]))
+            k++;
+        if (k < i)
+            ceduo_complain(v, ceduo_format(v, "blocks[%zu].volume_m3", i), "",
+                           _("the class overlaps one before it, from %s to %s m3; let them touch at most"),
+                           ceduo_decimal(v, b[k].volumes[0]), ceduo_decimal(v, b[k].volumes[1]));
     }
 }

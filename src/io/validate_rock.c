@@ -14,14 +14,6 @@ static const struct {
               [CEDUO_ELLIPSOID] = {{"axes_m"}, "axes_m: [1, 1, 1]"},
               [CEDUO_BLOCK] = {{"axes_m"}, "axes_m: [1, 1, 1]"}};
 
-static bool belongs_to(enum ceduo_shape shape, const char *key)
-{
-    for (size_t i = 0; shapes[shape].keys[i]; i++)
-        if (strcmp(shapes[shape].keys[i], key) == 0)
-            return true;
-    return false;
-}
-
 static void check_sizes(struct validator *v, const char *rock, const struct node *node, enum ceduo_shape shape)
 {
     static const char *const sizes[] = {"diameter_m", "height_m", "axes_m", "volume_m3"};
@@ -29,7 +21,10 @@ static void check_sizes(struct validator *v, const char *rock, const struct node
     const char *name = ceduo_shape_words.names[shape];
     int n = 0;
     for (size_t i = 0; i < 4; i++) {
-        if (belongs_to(shape, sizes[i]) || !ceduo_node_get(node, sizes[i]))
+        bool belongs = false;
+        for (size_t k = 0; shapes[shape].keys[k]; k++)
+            belongs |= strcmp(shapes[shape].keys[k], sizes[i]) == 0;
+        if (belongs || !ceduo_node_get(node, sizes[i]))
             continue;
         const char *path = ceduo_format(v, "%s.%s", rock, sizes[i]);
         if (said && said->source->is_option) /* nothing of the file can be taken out there */
