@@ -97,36 +97,6 @@ static struct ceduo_rate exceeding(const struct curve *c, double energy)
     return rate_of(c, &c->sums[above(c, energy)]);
 }
 
-/* From one energy to below another. */
-static struct ceduo_rate between(const struct curve *c, double from, double to)
-{
-    const struct weighted_sum *a = &c->sums[from > 0 ? above(c, nextafter(from, 0)) : c->n];
-    const struct weighted_sum *b = &c->sums[above(c, nextafter(to, 0))];
-    return rate_of(c, &(struct weighted_sum){a->t - b->t, a->tt - b->tt, a->tw - b->tw});
-}
-
-static void meet(double *energy, double here, bool met)
-{
-    if (met && isnan(*energy))
-        *energy = here;
-}
-
-/* The energies at which the curve and the ends of its interval first reach a rate, from the largest rock down. */
-static struct ceduo_return return_of(const struct curve *c, unsigned years)
-{
-    struct ceduo_return r = {years, NAN, NAN, NAN};
-    double wanted = 1.0 / years;
-    bool bounded = rate_of(c, &c->sums[0]).hi < wanted;
-    for (size_t k = 1; k <= c->n && isnan(r.lo); k++) {
-        struct ceduo_rate rate = rate_of(c, &c->sums[k]);
-        double energy = c->energies[c->n - k].value;
-        meet(&r.energy, energy, rate.rate >= wanted);
-        meet(&r.lo, energy, rate.lo >= wanted);
-        meet(&r.hi, energy, bounded && rate.hi >= wanted);
-    }
-    return r;
-}
-
 static void read_curve(const struct curve *c, double accepted, struct ceduo_hazard *h)
 {
     h->reach = rate_of(c, &c->sums[c->n]);
@@ -139,10 +109,23 @@ static void read_curve(const struct curve *c, double accepted, struct ceduo_haza
         if (!(h->exceed[i].rate.rate > 0))
             break;
     }
-    for (size_t i = 0; i < CEDUO_RETURNS; i++)
-        h->returns[i] = return_of(c, ceduo_return_years[i]);
+    for (size_t i = 0; i < CEDUO_RETURNS; i++) {
+        struct ceduo_return *r = &h->returns[i];
+        double wanted = 1.0 / r->years;
+        bool bounded = rate_of(c, &c->sums[0]).hi < wanted;
+        for (size_t k = 1; k <= c->n && isnan(r->lo); k++) { /* from the largest rock down, where each first reaches the rate */
+            struct ceduo_rate rate = rate_of(c, &c->sums[k]);
+            double energy = c->energies[c->n - k].value;
+            r->energy = rate.rate >= wanted && isnan(r->energy) ? energy : r->energy;
+            r->lo = rate.lo >= wanted ? energy : r->lo;
+            r->hi = bounded && rate.hi >= wanted && isnan(r->hi) ? energy : r->hi;
+        }
+    }
     for (size_t i = 0; i < CEDUO_INTENSITIES; i++) {
-        h->intensity[i].within = between(c, ceduo_intensity_from[i], ceduo_intensity_from[i + 1]);
+        double from = ceduo_intensity_from[i], to = ceduo_intensity_from[i + 1]; /* from one to below the other */
+        const struct weighted_sum *a = &c->sums[from > 0 ? above(c, nextafter(from, 0)) : c->n];
+        const struct weighted_sum *b = &c->sums[above(c, nextafter(to, 0))];
+        h->intensity[i].within = rate_of(c, &(struct weighted_sum){a->t - b->t, a->tt - b->tt, a->tw - b->tw});
         for (size_t r = 0; r < CEDUO_RETURNS; r++)
             h->intensity[i].of_return[r] = ceduo_intensity_of(h->returns[r].energy) == (int)i;
     }

@@ -27,15 +27,13 @@ static struct ceduo_distribution distribution(const struct ceduo_run *run, size_
 }
 
 /* Energy where one mass and no spin make it follow from speed. */
-static struct ceduo_distribution energy_from_speed(const struct ceduo_distribution *speed, double mass,
-                                                   const struct ceduo_moments *m)
+static struct ceduo_distribution energy_from_speed(struct ceduo_distribution d, double mass, const struct ceduo_moments *m)
 {
-    struct ceduo_distribution d = {.mean = speed->mean, .se = ceduo_moments_se(m), .sd = ceduo_moments_sd(m)};
-    const double from[] = {speed->p50,    speed->p50_lo, speed->p50_hi, speed->p95,   speed->p95_lo,
-                           speed->p95_hi, speed->p99,    speed->p99_lo, speed->p99_hi};
-    double *const to[] = {&d.p50, &d.p50_lo, &d.p50_hi, &d.p95, &d.p95_lo, &d.p95_hi, &d.p99, &d.p99_lo, &d.p99_hi};
-    for (size_t i = 0; i < sizeof to / sizeof to[0]; i++)
-        *to[i] = 0.5 * mass * (from[i] * from[i]);
+    double *const quantiles[] = {&d.p50, &d.p50_lo, &d.p50_hi, &d.p95, &d.p95_lo, &d.p95_hi, &d.p99, &d.p99_lo, &d.p99_hi};
+    for (size_t i = 0; i < sizeof quantiles / sizeof quantiles[0]; i++)
+        *quantiles[i] = 0.5 * mass * (*quantiles[i] * *quantiles[i]);
+    d.se = ceduo_moments_se(m);
+    d.sd = ceduo_moments_sd(m);
     d.mean = m->n > 0 ? m->mean : NAN;
     d.max = m->n > 0 ? m->max : NAN;
     return d;
@@ -50,7 +48,7 @@ static double share(uint64_t hits, uint64_t unfinished, uint64_t n, double *lo, 
     return r.rate;
 }
 
-/* Mean and standard error over all released, of whom those that do not arrive bring nothing. */
+/* Mean and standard error over all released rocks; a rock that does not arrive counts as 0. */
 static void per_released(const struct ceduo_moments *m, uint64_t released, double *mean, double *se)
 {
     double n = (double)released, share = (double)m->n / n;
@@ -61,54 +59,54 @@ static void per_released(const struct ceduo_moments *m, uint64_t released, doubl
 
 /* ---- what is read ---- */
 
-/* The heights of the tops of the rocks that arrive, where each is as large as it was drawn. */
-static size_t gather_tops(const struct ceduo_run *run, size_t control, double *to, struct ceduo_moments *m)
-{
-    const double *height = samples_of(run, control, HEIGHT);
-    size_t n = 0;
-    for (uint64_t r = 0; r < run->rocks; r++) {
-        struct ceduo_rock rock;
-        if (isnan(height[r]) || ceduo_prepared_rock(&run->ready, r, &rock) != CEDUO_OK)
-            continue;
-        to[n] = height[r] + rock.mean_diameter;
-        ceduo_moments_add(m, to[n++]);
-    }
-    return n;
-}
-
+/* The 95th percentile of the heights of the tops of the rocks that arrive, where each is as large as it was drawn. */
 static double top_of(const struct ceduo_run *run, size_t control, double height_p95, double *scratch)
 {
     const struct ceduo_scene *scene = &run->ready.scene;
+    const double *height = samples_of(run, control, HEIGHT);
     struct ceduo_moments m = {0};
+    size_t n = 0;
     if (scene->design.survey < 0 || scene->design.blocks < 0)
         return NAN;
     if (!ceduo_scene_rock_varies(scene))
         return height_p95 + run->ready.mean.mean_diameter;
-    size_t n = run->exact && run->room > 0 ? gather_tops(run, control, scratch, &m) : 0;
+    for (uint64_t r = 0; run->exact && run->room > 0 && r < run->rocks; r++) {
+        struct ceduo_rock rock;
+        if (isnan(height[r]) || ceduo_prepared_rock(&run->ready, r, &rock) != CEDUO_OK)
+            continue;
+        scratch[n] = height[r] + rock.mean_diameter;
+        ceduo_moments_add(&m, scratch[n++]);
+    }
     return n > 0 ? ceduo_distribution_exact(scratch, n, &m).p95 : NAN;
 }
 
 enum ceduo_status ceduo_run_arrivals(const struct ceduo_run *run, size_t control, struct ceduo_arrivals *a)
 {
-    if (run->sized)
-        return ceduo_run_sized_arrivals(run, control, a);
     struct sums s = ceduo_run_sums_at(run, control);
     *a = (struct ceduo_arrivals){.released = run->rocks,
                                  .reached = s.of[SPEED].n,
                                  .exceeded = s.exceeded,
                                  .unfinished = s.ended[CEDUO_UNFINISHED],
+                                 .exceed_probability = NAN,
+                                 .exceed_lo = NAN,
+                                 .exceed_hi = NAN,
+                                 .contacts = NAN,
+                                 .contacts_se = NAN,
                                  .hazard = ceduo_hazard_none(),
                                  .exact = run->exact};
     memcpy(a->ended, s.ended, sizeof a->ended);
+    if (run->sized)
+        return ceduo_run_sized_arrivals(run, control, &s, a);
     for (int e = 0; e < CEDUO_ENDS; e++)
         a->missed[e] = (double)s.ended[e] / (double)run->rocks;
     a->reach_probability = share(a->reached, a->unfinished, run->rocks, &a->reach_lo, &a->reach_hi);
-    a->exceed_probability = a->exceed_lo = a->exceed_hi = NAN;
     if (!isnan(run->ready.scene.controls[control].accepted))
         a->exceed_probability = share(a->exceeded, a->unfinished, run->rocks, &a->exceed_lo, &a->exceed_hi);
     per_released(&s.of[ENERGY], run->rocks, &a->energy_per_released, &a->energy_per_released_se);
-    a->contacts = !run->ready.wood.bare && s.contacts.n > 0 ? s.contacts.mean : NAN;
-    a->contacts_se = run->ready.wood.bare ? NAN : ceduo_moments_se(&s.contacts);
+    if (!run->ready.wood.bare && s.contacts.n > 0) {
+        a->contacts = s.contacts.mean;
+        a->contacts_se = ceduo_moments_se(&s.contacts);
+    }
     double *scratch = malloc(((size_t)run->rocks + 1) * sizeof(double));
     if (!scratch)
         return CEDUO_NO_MEMORY;
@@ -118,7 +116,7 @@ enum ceduo_status ceduo_run_arrivals(const struct ceduo_run *run, size_t control
         a->energy = distribution(run, control, ENERGY, &s.of[ENERGY], scratch);
         a->translation = distribution(run, control, TRANSLATION, &s.of[TRANSLATION], scratch);
     } else {
-        a->energy = a->translation = energy_from_speed(&a->speed, run->ready.mean.mass, &s.of[ENERGY]);
+        a->energy = a->translation = energy_from_speed(a->speed, run->ready.mean.mass, &s.of[ENERGY]);
     }
     a->top_p95 = top_of(run, control, a->height.p95, scratch);
     free(scratch);
@@ -187,26 +185,6 @@ static double paired_energy(const struct ceduo_run *run, size_t control, uint64_
     return run->exact ? ceduo_run_sample_energy(run, control, rock) : run->pairs[control * run->pairs_room + rock];
 }
 
-/* The rocks that both runs have, moments of their differences. */
-struct pairs {
-    uint64_t rocks;
-    struct ceduo_moments reach, exceed, energy;
-};
-
-static struct pairs pair(const struct ceduo_run *run, const struct ceduo_run *baseline, size_t control)
-{
-    double accepted = run->ready.scene.controls[control].accepted;
-    uint64_t a = paired_rocks(run), b = paired_rocks(baseline);
-    struct pairs p = {.rocks = a < b ? a : b};
-    for (uint64_t r = 0; r < p.rocks; r++) {
-        double e = paired_energy(run, control, r), f = paired_energy(baseline, control, r);
-        ceduo_moments_add(&p.reach, (double)!isnan(e) - (double)!isnan(f));
-        ceduo_moments_add(&p.exceed, (double)(e > accepted) - (double)(f > accepted));
-        ceduo_moments_add(&p.energy, (isnan(e) ? 0 : e) - (isnan(f) ? 0 : f));
-    }
-    return p;
-}
-
 struct ceduo_difference ceduo_no_difference(double accepted)
 {
     const struct ceduo_paired none = {0, 0, 0};
@@ -223,18 +201,25 @@ struct ceduo_difference ceduo_run_difference(const struct ceduo_run *run, const 
         return ceduo_no_difference(at->accepted);
     if (run->sized)
         return ceduo_run_sized_difference(run, baseline, control);
-    struct pairs p = pair(run, baseline, control);
-    double n = (double)run->rocks, reach = p.reach.mean, exceed = p.exceed.mean, energy = p.energy.mean;
-    if (alike) { /* of all rocks, where only the first are paired */
+    uint64_t a = paired_rocks(run), b = paired_rocks(baseline), paired = a < b ? a : b; /* rocks that both have */
+    struct ceduo_moments reach = {0}, exceed = {0}, energy = {0};                       /* of their differences */
+    for (uint64_t r = 0; r < paired; r++) {
+        double e = paired_energy(run, control, r), f = paired_energy(baseline, control, r);
+        ceduo_moments_add(&reach, (double)!isnan(e) - (double)!isnan(f));
+        ceduo_moments_add(&exceed, (double)(e > at->accepted) - (double)(f > at->accepted));
+        ceduo_moments_add(&energy, (isnan(e) ? 0 : e) - (isnan(f) ? 0 : f));
+    }
+    uint64_t rocks = alike ? run->rocks : paired;
+    struct ceduo_difference d = {ceduo_paired_of(reach.mean, &reach, rocks), ceduo_paired_of(exceed.mean, &exceed, rocks),
+                                 ceduo_paired_of(energy.mean, &energy, rocks)};
+    if (alike) { /* the means of all rocks, where only the first are paired */
         struct sums s = ceduo_run_sums_at(run, control), t = ceduo_run_sums_at(baseline, control);
         const struct ceduo_moments *e = &s.of[ENERGY], *f = &t.of[ENERGY];
-        reach = ((double)e->n - (double)f->n) / n;
-        exceed = ((double)s.exceeded - (double)t.exceeded) / n;
-        energy = (e->mean * (double)e->n - f->mean * (double)f->n) / n;
+        double n = (double)run->rocks;
+        d.reach_probability.mean = ((double)e->n - (double)f->n) / n;
+        d.exceed_probability.mean = ((double)s.exceeded - (double)t.exceeded) / n;
+        d.energy_per_released.mean = (e->mean * (double)e->n - f->mean * (double)f->n) / n;
     }
-    uint64_t rocks = alike ? run->rocks : p.rocks;
-    struct ceduo_difference d = {ceduo_paired_of(reach, &p.reach, rocks), ceduo_paired_of(exceed, &p.exceed, rocks),
-                                 ceduo_paired_of(energy, &p.energy, rocks)};
     if (isnan(at->accepted))
         d.exceed_probability = CEDUO_NOT_PAIRED;
     return d;

@@ -51,85 +51,55 @@ void ceduo_run_sized_energy(const struct ceduo_run *run, size_t control, uint64_
 
 /* ---- arrivals ---- */
 
-static void read_shares(const struct released *all, const struct weighted *energies, size_t n, double accepted,
-                        struct ceduo_arrivals *a)
+enum ceduo_status ceduo_run_sized_arrivals(const struct ceduo_run *run, size_t control, const struct sums *s,
+                                           struct ceduo_arrivals *a)
 {
+    const struct released all = released_of(run, s->missed[CEDUO_UNFINISHED]);
+    const double accepted = run->ready.scene.controls[control].accepted, *height = samples_of(run, control, HEIGHT);
+    struct ceduo_distribution *const to[QUANTITIES] = {
+        [SPEED] = &a->speed, [HEIGHT] = &a->height, [ENERGY] = &a->energy, [TRANSLATION] = &a->translation};
     struct weighted_sum reach = {0}, exceed = {0}, energy = {0};
-    for (size_t i = 0; i < n; i++) {
-        weighted_sum_add(&reach, energies[i].weight, 1);
-        weighted_sum_add(&exceed, energies[i].weight, energies[i].value > accepted);
-        weighted_sum_add(&energy, energies[i].weight, energies[i].value);
-    }
-    struct ceduo_rate share = ceduo_weighted_share(all, &reach, all->most);
-    a->reach_probability = share.rate;
-    a->reach_lo = share.lo;
-    a->reach_hi = share.hi;
-    if (!isnan(accepted)) {
-        share = ceduo_weighted_share(all, &exceed, n > 0 ? energies[n - 1].weight : all->most);
-        a->exceed_probability = share.rate;
-        a->exceed_lo = share.lo;
-        a->exceed_hi = share.hi;
-    }
-    a->energy_per_released = energy.t / all->w;
-    a->energy_per_released_se = ceduo_weighted_se(all, &energy);
-}
-
-/* Stems hit before the control, of the n rocks that reach it. No sample is kept of them, but sums. */
-static void read_contacts(const struct released *all, const struct weighted *arrived, size_t n, const struct weighted_sum *hits,
-                          struct ceduo_arrivals *a)
-{
-    struct weighted_sum ones = {0};
-    for (size_t i = 0; i < n; i++)
-        weighted_sum_add(&ones, arrived[i].weight, 1);
-    a->contacts = hits->t / ones.t;
-    struct weighted_sum about = {.tt = hits->tt - a->contacts * (2 * hits->tw - a->contacts * ones.tt),
-                                 .tw = hits->tw - a->contacts * ones.tt};
-    a->contacts_se = n > 1 ? ceduo_weighted_se(all, &about) * all->w / ones.t : NAN;
-}
-
-static double top_of(const struct ceduo_run *run, size_t control, struct weighted *values)
-{
-    const double *height = samples_of(run, control, HEIGHT);
+    struct weighted *values = malloc(((size_t)run->rocks + 1) * sizeof *values);
     size_t n = 0;
+    if (!values)
+        return CEDUO_NO_MEMORY;
+    a->exact = true;
+    for (int e = 0; e < CEDUO_ENDS; e++)
+        a->missed[e] = s->missed[e] / all.w;
+    for (int q = 0; q < QUANTITIES; q++)
+        *to[q] = ceduo_weighted_distribution(&all, values, gather(run, samples_of(run, control, q), values));
     for (uint64_t r = 0; r < run->rocks && run->ready.scene.design.survey >= 0; r++) {
         struct ceduo_rock rock;
         if (!isnan(height[r]) && ceduo_prepared_rock(&run->ready, r, &rock) == CEDUO_OK)
             values[n++] = (struct weighted){height[r] + rock.mean_diameter, run->weights[r]};
     }
     ceduo_weighted_sort(values, n);
-    return n > 0 ? ceduo_weighted_quantile(values, n, 0.95) : NAN;
-}
-
-enum ceduo_status ceduo_run_sized_arrivals(const struct ceduo_run *run, size_t control, struct ceduo_arrivals *a)
-{
-    struct sums s = ceduo_run_sums_at(run, control);
-    const struct released all = released_of(run, s.missed[CEDUO_UNFINISHED]);
-    double accepted = run->ready.scene.controls[control].accepted;
-    struct weighted *values = malloc(((size_t)run->rocks + 1) * sizeof *values);
-    if (!values)
-        return CEDUO_NO_MEMORY;
-    *a = (struct ceduo_arrivals){.released = run->rocks,
-                                 .reached = s.of[SPEED].n,
-                                 .exceeded = s.exceeded,
-                                 .unfinished = s.ended[CEDUO_UNFINISHED],
-                                 .exceed_probability = NAN,
-                                 .exceed_lo = NAN,
-                                 .exceed_hi = NAN,
-                                 .exact = true};
-    memcpy(a->ended, s.ended, sizeof a->ended);
-    for (int e = 0; e < CEDUO_ENDS; e++)
-        a->missed[e] = s.missed[e] / all.w;
-    a->contacts = a->contacts_se = NAN;
-    struct ceduo_distribution *const to[QUANTITIES] = {
-        [SPEED] = &a->speed, [HEIGHT] = &a->height, [ENERGY] = &a->energy, [TRANSLATION] = &a->translation};
-    for (int q = 0; q < QUANTITIES; q++)
-        *to[q] = ceduo_weighted_distribution(&all, values, gather(run, samples_of(run, control, q), values));
-    a->top_p95 = top_of(run, control, values);
-    size_t n = gather(run, samples_of(run, control, ENERGY), values);
-    bool good = ceduo_hazard_read(&all, values, n, accepted, &a->hazard);
-    read_shares(&all, values, n, accepted, a);
-    if (!run->ready.wood.bare && n > 0)
-        read_contacts(&all, values, n, &s.hits, a);
+    a->top_p95 = ceduo_weighted_quantile(values, n, 0.95);
+    n = gather(run, samples_of(run, control, ENERGY), values);
+    bool good = ceduo_hazard_read(&all, values, n, accepted, &a->hazard); /* which sorts them */
+    for (size_t i = 0; i < n; i++) {
+        weighted_sum_add(&reach, values[i].weight, 1);
+        weighted_sum_add(&exceed, values[i].weight, values[i].value > accepted);
+        weighted_sum_add(&energy, values[i].weight, values[i].value);
+    }
+    struct ceduo_rate share = ceduo_weighted_share(&all, &reach, all.most);
+    a->reach_probability = share.rate;
+    a->reach_lo = share.lo;
+    a->reach_hi = share.hi;
+    if (!isnan(accepted)) {
+        share = ceduo_weighted_share(&all, &exceed, n > 0 ? values[n - 1].weight : all.most);
+        a->exceed_probability = share.rate;
+        a->exceed_lo = share.lo;
+        a->exceed_hi = share.hi;
+    }
+    a->energy_per_released = energy.t / all.w;
+    a->energy_per_released_se = ceduo_weighted_se(&all, &energy);
+    if (!run->ready.wood.bare && n > 0) { /* no sample is kept of stems hit, but sums */
+        double mean = a->contacts = s->hits.t / reach.t;
+        struct weighted_sum about = {.tt = s->hits.tt - mean * (2 * s->hits.tw - mean * reach.tt),
+                                     .tw = s->hits.tw - mean * reach.tt};
+        a->contacts_se = n > 1 ? ceduo_weighted_se(&all, &about) * all.w / reach.t : NAN;
+    }
     free(values);
     return good ? CEDUO_OK : CEDUO_NO_MEMORY;
 }

@@ -107,7 +107,9 @@ double ceduo_run_sample_energy(const struct ceduo_run *run, size_t control, uint
 
 void ceduo_run_sized_energy(const struct ceduo_run *run, size_t control, uint64_t *reached, double *mean, double *se);
 size_t ceduo_run_sized_energies(const struct ceduo_run *run, size_t control, double *to, size_t most);
-enum ceduo_status ceduo_run_sized_arrivals(const struct ceduo_run *run, size_t control, struct ceduo_arrivals *arrivals);
+/* All that is not read of other rocks, too; `s`: the sums at the control. */
+enum ceduo_status ceduo_run_sized_arrivals(const struct ceduo_run *run, size_t control, const struct sums *s,
+                                           struct ceduo_arrivals *arrivals);
 enum ceduo_status ceduo_run_sized_ends(const struct ceduo_run *run, struct ceduo_ends *ends);
 struct ceduo_difference ceduo_run_sized_difference(const struct ceduo_run *run, const struct ceduo_run *baseline,
                                                    size_t control);

@@ -165,15 +165,6 @@ struct values {
     size_t n;
 };
 
-/* One after the other, each among those that are not smaller than the one before. */
-static void select_ranks(double *values, size_t n, const size_t *ranks, size_t count, double *to)
-{
-    for (size_t i = 0, from = 0; i < count; i++) {
-        to[i] = gsl_stats_select(values + from, 1, n - from, ranks[i] - 1 - from);
-        from = ranks[i] - 1;
-    }
-}
-
 /* Which of equally wide ranges of values from `lo` on a value is in. */
 static inline size_t bucket_of(double value, double lo, double per_unit)
 {
@@ -219,11 +210,13 @@ static void exact_ranks(void *context, const size_t *ranks, size_t count, double
         if (isnormal(per_unit))
             n = keep_buckets(v, lo, per_unit, among, count);
     }
-    select_ranks(v->of, n, among, count, to);
+    for (size_t i = 0, from = 0; i < count; i++) { /* each among those that are not smaller than the one before */
+        to[i] = gsl_stats_select(v->of + from, 1, n - from, among[i] - 1 - from);
+        from = among[i] - 1;
+    }
 }
 
 struct ceduo_distribution ceduo_distribution_exact(double *values, size_t n, const struct ceduo_moments *m)
 {
-    struct values v = {.of = values, .n = n};
-    return ceduo_distribution_by(exact_ranks, &v, n, m);
+    return ceduo_distribution_by(exact_ranks, &(struct values){values, n}, n, m);
 }

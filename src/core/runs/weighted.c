@@ -20,19 +20,16 @@ double ceduo_weighted_se(const struct released *all, const struct weighted_sum *
     return all->n < 2 ? NAN : sqrt(variance(all, s) / (all->n - 1)) * all->n / all->w;
 }
 
-/* So many equal rocks would have the same error. */
-static double effective(const struct released *all, const struct weighted_sum *ones, double p, double last)
-{
-    double mean = all->w / all->n, v = variance(all, ones) / (mean * mean);
-    if (!(p > 0))
-        return all->w / last;
-    return p < 1 && v > 0 ? p * (1 - p) * all->n / v : all->w * all->w / all->ww;
-}
-
 struct ceduo_rate ceduo_weighted_share(const struct released *all, const struct weighted_sum *ones, double last)
 {
     double sum = ones->t / all->w, p = sum < 1 - ROUNDING ? sum : 1; /* all are summed in another order */
-    return ceduo_wilson(p, fmin(1, p + all->missing / all->w), effective(all, ones, p, last));
+    double mean = all->w / all->n, v = variance(all, ones) / (mean * mean);
+    double effective = all->w * all->w / all->ww; /* so many equal rocks would have the same error */
+    if (!(p > 0))
+        effective = all->w / last;
+    else if (p < 1 && v > 0)
+        effective = p * (1 - p) * all->n / v;
+    return ceduo_wilson(p, fmin(1, p + all->missing / all->w), effective);
 }
 
 struct ceduo_paired ceduo_weighted_paired(const struct released *all, const struct weighted_sum *s)
@@ -74,20 +71,6 @@ double ceduo_weighted_quantile(const struct weighted *values, size_t n, double p
     return n > 0 ? values[n - 1].value : NAN;
 }
 
-/* A percentile with its interval. The share below it is a mean over the n values, whose error moves it up and down. */
-static void percentile(const struct released *all, const struct weighted *values, size_t n, double p, double *at, double *lo,
-                       double *hi)
-{
-    double w = weight_of(values, n);
-    struct weighted_sum below = {0};
-    *at = ceduo_weighted_quantile(values, n, p);
-    for (size_t i = 0; i < n; i++)
-        weighted_sum_add(&below, values[i].weight, (values[i].value <= *at) - p);
-    double half = CEDUO_Z95 * ceduo_weighted_se(all, &below) * all->w / w;
-    *lo = p - half > 0 ? ceduo_weighted_quantile(values, n, p - half) : NAN;
-    *hi = p + half < 1 ? ceduo_weighted_quantile(values, n, p + half) : NAN;
-}
-
 struct ceduo_distribution ceduo_weighted_distribution(const struct released *all, struct weighted *values, size_t n)
 {
     struct ceduo_distribution d = ceduo_distribution_none();
@@ -109,8 +92,19 @@ struct ceduo_distribution ceduo_weighted_distribution(const struct released *all
         d.se = ceduo_weighted_se(all, &about) * all->w / w;
     }
     d.max = values[n - 1].value;
-    percentile(all, values, n, 0.5, &d.p50, &d.p50_lo, &d.p50_hi);
-    percentile(all, values, n, 0.95, &d.p95, &d.p95_lo, &d.p95_hi);
-    percentile(all, values, n, 0.99, &d.p99, &d.p99_lo, &d.p99_hi);
+    const struct {
+        double p, *at, *lo, *hi;
+    } percentiles[] = {
+        {0.5, &d.p50, &d.p50_lo, &d.p50_hi}, {0.95, &d.p95, &d.p95_lo, &d.p95_hi}, {0.99, &d.p99, &d.p99_lo, &d.p99_hi}};
+    for (size_t k = 0; k < 3; k++) { /* the share below one is a mean over the n values, whose error moves it up and down */
+        double p = percentiles[k].p, at = ceduo_weighted_quantile(values, n, p);
+        struct weighted_sum below = {0};
+        for (size_t i = 0; i < n; i++)
+            weighted_sum_add(&below, values[i].weight, (values[i].value <= at) - p);
+        double half = CEDUO_Z95 * ceduo_weighted_se(all, &below) * all->w / w;
+        *percentiles[k].at = at;
+        *percentiles[k].lo = p - half > 0 ? ceduo_weighted_quantile(values, n, p - half) : NAN;
+        *percentiles[k].hi = p + half < 1 ? ceduo_weighted_quantile(values, n, p + half) : NAN;
+    }
     return d;
 }
