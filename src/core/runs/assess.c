@@ -59,14 +59,6 @@ static struct met meet_counted(const struct ceduo_scene *scene, const struct ced
                         chance_of_none(threshold / adc.crofton, less_by_groups(counted, b, threshold, true))};
 }
 
-/* The chance that `length` m of a belt, of those whose centres lie there, have no stem that counts in the rock's way. */
-static double meet_nothing(const struct ceduo_scene *scene, const struct ceduo_stand *stand, double length)
-{
-    double b = ceduo_rock_mean(&scene->rock).mean_diameter;
-    const struct ceduo_stand counted = standing(stand, scene->simulation.contact_dbh);
-    return chance_of_none(length / ceduo_adc(&counted, b).crofton, less_by_groups(&counted, b, length, false));
-}
-
 /* Fewer stems are not met more often, though their mean diameter may make a form say so. */
 static struct met meet(const struct ceduo_scene *scene, const struct ceduo_stand *stand, double dbh)
 {
@@ -183,11 +175,6 @@ struct ceduo_stand_result ceduo_assess_stand(const struct ceduo_scene *scene, co
     return r;
 }
 
-/* Energy that is left on the way: taken from it, and not yet subtracted, are the amounts of Eq. 4. */
-struct left {
-    double energy, taken;
-};
-
 /* What is left of `energy` behind `length` m of a stand where contacts take shares of it: a product over the mean number
  * of contacts of each stratum; and amounts besides, evenly mixed among them: dE/dx = -rate·E - amount. Below 0: used up. */
 static double behind(const struct ceduo_scene *scene, const struct ceduo_stand *stand, double length, double energy)
@@ -206,63 +193,53 @@ static double behind(const struct ceduo_scene *scene, const struct ceduo_stand *
     return energy * (1 - lost) - amount * (rate > 0 ? lost / rate : length);
 }
 
-static void pass_belt(const struct ceduo_scene *scene, const struct ceduo_stand *stand, double length, double dissipated,
-                      struct left *left)
-{
-    if (ceduo_stand_is_bare(stand) || !ceduo_stand_takes_share(stand)) {
-        left->taken += dissipated;
-        return;
-    }
-    left->energy = behind(scene, stand, length, left->energy - left->taken);
-    left->taken = 0;
-}
-
-/* Adds the part of a belt between a and b to an index. */
-static void add_belt(const struct ceduo_scene *scene, const struct ceduo_belt *belt, double a, double b,
-                     struct ceduo_index *index, struct ceduo_meeting *counted, struct left *left)
-{
-    struct ceduo_stand_result r = assess_per_length(scene, &belt->stand, b - a);
-    double least = scene->simulation.contact_dbh;
-    index->length += r.bare ? 0 : b - a;
-    index->contacts += r.contacts;
-    index->dissipated += r.dissipated;
-    pass_belt(scene, &belt->stand, b - a, r.dissipated, left);
-    index->meet_nothing_probability *= meet_nothing(scene, &belt->stand, b - a);
-    add_meeting(scene, &belt->stand, least, counted);
-    add_meeting(scene, &belt->stand, fmax(least, CEDUO_THICK_DBH), &index->thick);
-}
-
 struct ceduo_index ceduo_assess_index(const struct ceduo_scene *scene, const struct ceduo_option *option,
                                       const struct ceduo_control *control, double bare_mean)
 {
-    double start = scene->release.x.mean, at = start;
+    const struct ceduo_rock rock = ceduo_rock_mean(&scene->rock);
+    double start = scene->release.x.mean, at = start, least = scene->simulation.contact_dbh;
+    double energy = bare_mean, taken = 0; /* what is left of it, and amounts of Eq. 4 that are not yet subtracted */
     struct ceduo_index index = {.meet_nothing_probability = 1, .thick = {.contact = CEDUO_PASS}};
-    struct ceduo_meeting counted = {.contact = CEDUO_PASS};
-    struct left left = {.energy = bare_mean};
-    size_t belts = 0;
+    struct ceduo_meeting all = {.contact = CEDUO_PASS};
+    bool forest = false;
     for (size_t i = 0; i < option->belts_count; i++) {
-        const struct ceduo_belt *belt = &option->belts[i];
-        double a = fmax(belt->from, start), b = fmin(belt->to, control->x);
+        const struct ceduo_stand *stand = &option->belts[i].stand;
+        double a = fmax(option->belts[i].from, start), b = fmin(option->belts[i].to, control->x);
         if (!(b > a))
             continue;
-        add_belt(scene, belt, a, b, &index, &counted, &left);
-        belts++;
-        if (!ceduo_stand_has_stems(&belt->stand))
+        struct ceduo_stand_result r = assess_per_length(scene, stand, b - a);
+        forest = true;
+        index.length += r.bare ? 0 : b - a;
+        index.contacts += r.contacts;
+        index.dissipated += r.dissipated;
+        if (ceduo_stand_is_bare(stand) || !ceduo_stand_takes_share(stand)) {
+            taken += r.dissipated;
+        } else {
+            energy = behind(scene, stand, b - a, energy - taken);
+            taken = 0;
+        }
+        /* the chance that the belt, of those whose centres lie there, has no stem that counts in the rock's way */
+        const struct ceduo_stand counted = standing(stand, least);
+        index.meet_nothing_probability *= chance_of_none((b - a) / ceduo_adc(&counted, rock.mean_diameter).crofton,
+                                                         less_by_groups(&counted, rock.mean_diameter, b - a, false));
+        add_meeting(scene, stand, least, &all);
+        add_meeting(scene, stand, fmax(least, CEDUO_THICK_DBH), &index.thick);
+        if (!ceduo_stand_has_stems(stand))
             continue;
         index.longest_gap = fmax(index.longest_gap, a - at);
         at = b;
     }
     index.longest_gap = fmax(index.longest_gap, control->x - at);
-    judge_meeting(scene, belts > 0, index.longest_gap, &counted);
-    judge_meeting(scene, belts > 0, index.longest_gap, &index.thick);
+    judge_meeting(scene, forest, index.longest_gap, &all);
+    judge_meeting(scene, forest, index.longest_gap, &index.thick);
     index.per_100m = index.length > 0 ? index.dissipated / index.length * 100 : 0;
-    index.worst_adc = counted.worst_adc;
-    index.worst_free_run = counted.worst_free_run;
-    index.contact = counted.contact;
-    index.free_run = counted.free_run;
+    index.worst_adc = all.worst_adc;
+    index.worst_free_run = all.worst_free_run;
+    index.contact = all.contact;
+    index.free_run = all.free_run;
     index.energy = CEDUO_UNKNOWN;
-    index.exhausted = left.energy < left.taken;
-    index.residual = isnan(bare_mean) ? NAN : fmax(0, left.energy - left.taken);
-    index.measured = 0.5 * ceduo_rock_mean(&scene->rock).mass * control->measured_speed * control->measured_speed;
+    index.exhausted = energy < taken;
+    index.residual = isnan(bare_mean) ? NAN : fmax(0, energy - taken);
+    index.measured = 0.5 * rock.mass * control->measured_speed * control->measured_speed;
     return index;
 }

@@ -35,31 +35,6 @@ struct ceduo_rock_def ceduo_rock_scaled(const struct ceduo_rock_def *def, double
 /* Of a size whose rocks meet so many times the stems of the scene's own not even the first is simulated. */
 #define TIMES_MOST 100
 
-/* How many rocks a size may have, by what those so far cost in contacts and stems drawn. */
-static uint64_t affordable(const struct ceduo_run *run, uint64_t rocks, double most)
-{
-    double effort = (double)ceduo_run_contacts(run) + (double)ceduo_run_stems(run).drawn;
-    double n = effort > 0 ? most / effort * (double)ceduo_run_rocks(run) : INFINITY;
-    return (double)rocks < n ? rocks : (uint64_t)n;
-}
-
-/* The volumes to show, rising: `own` in its place. */
-static void sort_volumes(double own, struct ceduo_block blocks[CEDUO_BLOCKS])
-{
-    static const double volumes[CEDUO_BLOCKS - 1] = {0.05, 0.2, 1, 5};
-    size_t n = 0;
-    bool placed = false;
-    for (size_t i = 0; i < CEDUO_BLOCKS - 1; i++) {
-        if (!placed && own <= volumes[i]) {
-            blocks[n++] = (struct ceduo_block){.volume = own, .own = true};
-            placed = true;
-        }
-        blocks[n++] = (struct ceduo_block){.volume = volumes[i]};
-    }
-    if (!placed)
-        blocks[n] = (struct ceduo_block){.volume = own, .own = true};
-}
-
 /* Sizes as variants of a scene. */
 struct sizes_run {
     const struct ceduo_blocks_def *def;
@@ -106,8 +81,10 @@ static enum ceduo_status read_size(void *context, size_t i, struct ceduo_run *ru
 {
     struct sizes_run *r = context;
     const struct ceduo_blocks_def *def = r->def;
-    uint64_t most = affordable(run, def->rocks, fmin(def->effort, EFFORT_MOST));
-    *rocks = 4 * *rocks < most ? 4 * *rocks : most;
+    double effort = (double)ceduo_run_contacts(run) + (double)ceduo_run_stems(run).drawn, max = fmin(def->effort, EFFORT_MOST);
+    double n = effort > 0 ? max / effort * (double)ceduo_run_rocks(run) : INFINITY; /* by what those so far cost */
+    uint64_t affordable = (double)def->rocks < n ? def->rocks : (uint64_t)n;
+    *rocks = 4 * *rocks < affordable ? 4 * *rocks : affordable;
     if (*rocks > ceduo_run_rocks(run) || ceduo_run_rocks(run) < (def->rocks < FEWEST ? def->rocks : FEWEST))
         return CEDUO_OK;
     return ceduo_run_arrivals(run, def->control, &r->blocks[i].arrivals);
@@ -115,11 +92,16 @@ static enum ceduo_status read_size(void *context, size_t i, struct ceduo_run *ru
 
 enum ceduo_status ceduo_blocks(const struct ceduo_blocks_def *def, struct ceduo_block blocks[CEDUO_BLOCKS])
 {
+    static const double volumes[CEDUO_BLOCKS - 1] = {0.05, 0.2, 1, 5};
     struct ceduo_rock mean;
+    size_t own = 0; /* its place among them, which rise */
     enum ceduo_status status = ceduo_rock_of_means(&def->scene->rock, &mean);
     if (status != CEDUO_OK)
         return status;
-    sort_volumes(mean.volume, blocks);
+    while (own < CEDUO_BLOCKS - 1 && !(mean.volume <= volumes[own]))
+        own++;
+    for (size_t i = 0; i < CEDUO_BLOCKS; i++)
+        blocks[i] = (struct ceduo_block){.volume = i == own ? mean.volume : volumes[i - (i > own)], .own = i == own};
     struct sizes_run r = {.def = def, .blocks = blocks, .volume = mean.volume};
     r.contacts = ceduo_assess_index(def->scene, def->option, &def->scene->controls[def->control], NAN).contacts;
     return ceduo_variants_run(

@@ -8,75 +8,55 @@
 /* Ground, rock, release and controls are hashed as the table of the scene has them: walkers read those members, and a new
  * row is in the key unless it says that it decides about something else. A forest is hashed as it is made ready. */
 
-static void hash_number(uint64_t *key, const struct ceduo_number *n)
-{
-    hash_double(key, n->mean);
-    hash_double(key, n->spread);
-    hash_count(key, n->spread > 0 ? (uint64_t)n->kind : 0);
-}
-
-static void hash_member(uint64_t *key, const struct field *f, const char *item)
-{
-    const char *at = item + (f->flags & FIELD_PLACE && f->type == FIELD_NUMBER ? f->beside : f->offset);
-    const struct ceduo_number *numbers = (const void *)at;
-    uint64_t word = 0;
-    switch (f->type) {
-    case FIELD_NUMBER:
-        hash_doubles(key, at, 1);
-        break;
-    case FIELD_SPREAD:
-    case FIELD_SPREADS:
-        for (size_t i = 0; i < f->size / sizeof *numbers; i++)
-            hash_number(key, &numbers[i]);
-        break;
-    default:
-        memcpy(&word, at, f->size);
-        hash_count(key, word);
-        break;
-    }
-}
-
 #define OF_OTHERS (FIELD_NOWHERE | FIELD_DRAFT | FIELD_WOOD | FIELD_UNFLOWN)
 
-/* The members of `object` that decide about the years to come, or those that decide about flights now. */
-static void hash_fields(uint64_t *key, const struct object *object, const char *item, bool years);
-
-static void hash_field(uint64_t *key, const struct field *f, const char *item, bool years)
-{
-    size_t n;
-    char *items;
-    bool whole = f->type == FIELD_GROUP || f->type == FIELD_LIST;
-    if (!whole && !(f->flags & FIELD_YEARS) == years)
-        return;
-    memcpy(&n, item + f->beside, sizeof n);
-    switch (f->type) {
-    case FIELD_GROUP:
-        hash_fields(key, f->object, item + f->offset, years);
-        break;
-    case FIELD_LIST:
-        memcpy(&items, item + f->offset, sizeof items);
-        hash_count(key, n);
-        for (size_t i = 0; i < n; i++)
-            hash_fields(key, f->object, items + i * f->object->size, years);
-        break;
-    case FIELD_NUMBERS:
-    case FIELD_POINTS:
-        hash_count(key, n);
-        for (size_t at = 0; at < f->size; at += sizeof items) {
-            memcpy(&items, item + f->offset + at, sizeof items);
-            hash_doubles(key, items, n);
-        }
-        break;
-    default:
-        hash_member(key, f, item);
-    }
-}
-
+/* The members of `object` that decide about the years to come, or those that decide about trajectories now. */
 static void hash_fields(uint64_t *key, const struct object *object, const char *item, bool years)
 {
-    for (size_t i = 0; i < object->n; i++)
-        if (!(object->fields[i].flags & OF_OTHERS))
-            hash_field(key, &object->fields[i], item, years);
+    for (const struct field *f = object->fields; f < object->fields + object->n; f++) {
+        bool whole = f->type == FIELD_GROUP || f->type == FIELD_LIST;
+        if (f->flags & OF_OTHERS || (!whole && !(f->flags & FIELD_YEARS) == years))
+            continue;
+        const char *at = item + (f->flags & FIELD_PLACE && f->type == FIELD_NUMBER ? f->beside : f->offset);
+        const struct ceduo_number *numbers = (const void *)at;
+        uint64_t word = 0;
+        size_t n;
+        char *items;
+        memcpy(&n, item + f->beside, sizeof n);
+        switch (f->type) {
+        case FIELD_GROUP:
+            hash_fields(key, f->object, at, years);
+            break;
+        case FIELD_LIST:
+            memcpy(&items, at, sizeof items);
+            hash_count(key, n);
+            for (size_t i = 0; i < n; i++)
+                hash_fields(key, f->object, items + i * f->object->size, years);
+            break;
+        case FIELD_NUMBERS:
+        case FIELD_POINTS:
+            hash_count(key, n);
+            for (size_t k = 0; k < f->size; k += sizeof items) {
+                memcpy(&items, at + k, sizeof items);
+                hash_doubles(key, items, n);
+            }
+            break;
+        case FIELD_NUMBER:
+            hash_doubles(key, at, 1);
+            break;
+        case FIELD_SPREAD:
+        case FIELD_SPREADS:
+            for (size_t i = 0; i < f->size / sizeof *numbers; i++) {
+                hash_double(key, numbers[i].mean);
+                hash_double(key, numbers[i].spread);
+                hash_count(key, numbers[i].spread > 0 ? (uint64_t)numbers[i].kind : 0);
+            }
+            break;
+        default:
+            memcpy(&word, at, f->size);
+            hash_count(key, word);
+        }
+    }
 }
 
 uint64_t ceduo_scene_key(const struct ceduo_scene *scene)

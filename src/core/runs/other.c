@@ -51,19 +51,12 @@ void ceduo_other_scene_release(struct ceduo_scene *other)
     *other = (struct ceduo_scene){0};
 }
 
-static bool has_stems(const struct ceduo_option *option)
-{
-    for (size_t i = 0; i < option->belts_count; i++)
-        if (!ceduo_stand_is_bare(&option->belts[i].stand))
-            return true;
-    return false;
-}
-
 enum ceduo_status ceduo_other_read(const struct ceduo_option *option, const struct ceduo_run *run,
                                    const struct ceduo_run *first, size_t control, struct ceduo_other_energy *other)
 {
-    *other = (struct ceduo_other_energy){
-        .known = run && ceduo_run_rocks(run) > 0, .stems = has_stems(option), .model = ceduo_other_law(option)};
+    *other = (struct ceduo_other_energy){.known = run && ceduo_run_rocks(run) > 0, .model = ceduo_other_law(option)};
+    for (size_t i = 0; i < option->belts_count; i++)
+        other->stems |= !ceduo_stand_is_bare(&option->belts[i].stand);
     if (!other->known)
         return CEDUO_OK;
     struct ceduo_arrivals a;

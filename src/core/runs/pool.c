@@ -141,17 +141,20 @@ static void add_work(struct ceduo_work *work, const struct ceduo_run *run)
     work->stems.met += stems.met;
 }
 
-/* Frees the run that was asked for longest ago of those that the scene does not need. */
-static void drop_oldest(struct ceduo_pool *pool)
+/* Frees the run that was asked for longest ago of those that the scene does not need; returns the bytes of its samples. */
+static size_t drop_oldest(struct ceduo_pool *pool)
 {
     size_t oldest = SIZE_MAX;
     for (size_t i = 0; i < pool->count; i++)
         if (!pool->runs[i].needed && (oldest == SIZE_MAX || pool->runs[i].asked < pool->runs[oldest].asked))
             oldest = i;
-    add_work(&pool->dropped, pool->runs[oldest].run);
+    struct ceduo_run *run = pool->runs[oldest].run;
+    size_t bytes = ceduo_run_sample_bytes(run);
+    add_work(&pool->dropped, run);
     pool->dropped.runs++;
-    ceduo_run_free(pool->runs[oldest].run);
+    ceduo_run_free(run);
     pool->runs[oldest] = pool->runs[--pool->count];
+    return bytes;
 }
 
 void ceduo_pool_turn(struct ceduo_pool *pool, const struct ceduo_scene *scene)
@@ -163,18 +166,13 @@ void ceduo_pool_turn(struct ceduo_pool *pool, const struct ceduo_scene *scene)
         drop_oldest(pool);
 }
 
-static size_t sample_bytes(const struct ceduo_pool *pool)
-{
-    size_t bytes = 0;
-    for (size_t i = 0; i < pool->count; i++)
-        bytes += ceduo_run_sample_bytes(pool->runs[i].run);
-    return bytes;
-}
-
 void ceduo_pool_trim(struct ceduo_pool *pool)
 {
-    for (size_t spare = mark_needed(pool); spare > 0 && sample_bytes(pool) > CEDUO_EXACT_BYTES; spare--) /* untaken: large */
-        drop_oldest(pool);
+    size_t spare = mark_needed(pool), bytes = 0;
+    for (size_t i = 0; i < pool->count; i++)
+        bytes += ceduo_run_sample_bytes(pool->runs[i].run);
+    for (; spare > 0 && bytes > CEDUO_EXACT_BYTES; spare--) /* untaken: large */
+        bytes -= drop_oldest(pool);
 }
 
 /* Of the other law arrivals are asked for alone, and a few samples that give the errors of differences. */
@@ -230,18 +228,6 @@ bool ceduo_mean_is_precise(uint64_t reached, double mean, double se, double tole
     return reached < CEDUO_FEW_ROCKS || CEDUO_Z95 * se <= tolerance * mean;
 }
 
-static bool precise(const struct ceduo_run *run, size_t controls, double tolerance)
-{
-    for (size_t i = 0; i < controls; i++) {
-        uint64_t reached;
-        double mean, se;
-        ceduo_run_energy(run, i, &reached, &mean, &se);
-        if (!ceduo_mean_is_precise(reached, mean, se, tolerance))
-            return false;
-    }
-    return true;
-}
-
 /* The counts are fixed, and near to each other: few rocks are simulated in vain. */
 enum ceduo_status ceduo_pool_until(struct ceduo_pool *pool, double tolerance, uint64_t most, bool *met)
 {
@@ -251,8 +237,13 @@ enum ceduo_status ceduo_pool_until(struct ceduo_pool *pool, double tolerance, ui
         if (status != CEDUO_OK)
             return status;
         *met = true;
-        for (size_t i = 0; i < pool->count && *met; i++)
-            *met = pool->runs[i].beside || precise(pool->runs[i].run, pool->scene.controls_count, tolerance);
+        for (size_t i = 0; i < pool->count; i++)
+            for (size_t c = 0; c < pool->scene.controls_count && *met && !pool->runs[i].beside; c++) {
+                uint64_t reached;
+                double mean, se;
+                ceduo_run_energy(pool->runs[i].run, c, &reached, &mean, &se);
+                *met = ceduo_mean_is_precise(reached, mean, se, tolerance);
+            }
         if (rocks >= most)
             break;
     }

@@ -11,40 +11,20 @@ struct ceduo_question ceduo_question_default(const struct ceduo_scene *scene)
 
 /* ---- simulating ---- */
 
-static enum ceduo_status simulate_one(const struct ceduo_question *q, struct ceduo_pool *pool)
-{
-    struct ceduo_run *run;
-    return q->rocks > 0 ? ceduo_pool_simulate(pool, &q->run.scene->options[q->only], q->rocks, &run) : CEDUO_OK;
-}
-
-static enum ceduo_status simulate_all(const struct ceduo_question *q, struct ceduo_pool *pool, bool *met)
-{
-    enum ceduo_status status = ceduo_pool_fill(pool);
-    if (status != CEDUO_OK)
-        return status;
-    return q->tolerance > 0 && q->rocks > 0 ? ceduo_pool_until(pool, q->tolerance, q->rocks, met)
-                                            : ceduo_pool_extend(pool, q->rocks);
-}
-
 /* What is added to a page costs a few times what was asked for: of each option all years together have so many times the
  * rocks of a run, where not the years were asked for but some of them. */
 #define YEARS_TIMES 6
 #define YEAR_FEWEST 10 /* fewer have no interval */
 
-static uint64_t rocks_in_year(const struct ceduo_question *q, uint64_t flown)
-{
-    uint64_t rocks = q->year_rocks > 0 && q->year_rocks < flown ? q->year_rocks : flown;
-    uint64_t most = q->years_most > 0 && q->year_rocks > 0 ? flown * YEARS_TIMES / q->years_most : rocks;
-    most = most < YEAR_FEWEST ? YEAR_FEWEST : most;
-    return rocks < most ? rocks : most;
-}
-
 static enum ceduo_status simulate_years(const struct ceduo_question *q, struct ceduo_pool *pool, struct ceduo_answer *a)
 {
     const struct ceduo_scene *scene = q->run.scene;
     const struct ceduo_simulated *bare = &a->result->bare;
-    uint64_t rocks = q->only == CEDUO_ALL_OPTIONS ? bare->rocks : q->rocks;
-    rocks = rocks_in_year(q, rocks);
+    uint64_t all = q->only == CEDUO_ALL_OPTIONS ? bare->rocks : q->rocks;
+    uint64_t rocks = q->year_rocks > 0 && q->year_rocks < all ? q->year_rocks : all;
+    uint64_t max = q->years_most > 0 && q->year_rocks > 0 ? all * YEARS_TIMES / q->years_most : rocks;
+    max = max < YEAR_FEWEST ? YEAR_FEWEST : max;
+    rocks = rocks < max ? rocks : max;
     a->years = calloc(scene->options_count + 1, sizeof *a->years);
     enum ceduo_status status = a->years ? CEDUO_OK : CEDUO_NO_MEMORY;
     a->years_count = scene->options_count;
@@ -94,26 +74,28 @@ static enum ceduo_status simulate_sizes(const struct ceduo_question *q, const st
     return CEDUO_OK;
 }
 
-static enum ceduo_status answer_by(const struct ceduo_question *q, struct ceduo_pool *pool, struct ceduo_answer *a)
-{
-    enum ceduo_status status = q->only == CEDUO_ALL_OPTIONS ? simulate_all(q, pool, &a->tolerance_met) : simulate_one(q, pool);
-    if (status == CEDUO_OK)
-        status = ceduo_result_create(q->run.scene, pool, &a->result);
-    if (status == CEDUO_OK && q->years)
-        status = simulate_years(q, pool, a);
-    a->work = ceduo_pool_work(pool);
-    if (status == CEDUO_OK && q->block_rocks > 0 && q->run.scene->controls_count > 0)
-        status = simulate_sizes(q, pool, a);
-    return status;
-}
-
 enum ceduo_status ceduo_ask(const struct ceduo_question *q, struct ceduo_pool **kept, struct ceduo_answer *a)
 {
+    const struct ceduo_scene *scene = q->run.scene;
     struct ceduo_pool *own = NULL, **pool = kept ? kept : &own;
+    struct ceduo_run *run;
     *a = (struct ceduo_answer){0};
     enum ceduo_status status = ceduo_pool_for(&q->run, pool);
+    if (status == CEDUO_OK && q->only != CEDUO_ALL_OPTIONS) {
+        if (q->rocks > 0)
+            status = ceduo_pool_simulate(*pool, &scene->options[q->only], q->rocks, &run);
+    } else if (status == CEDUO_OK && (status = ceduo_pool_fill(*pool)) == CEDUO_OK) {
+        status = q->tolerance > 0 && q->rocks > 0 ? ceduo_pool_until(*pool, q->tolerance, q->rocks, &a->tolerance_met)
+                                                  : ceduo_pool_extend(*pool, q->rocks);
+    }
     if (status == CEDUO_OK)
-        status = answer_by(q, *pool, a);
+        status = ceduo_result_create(scene, *pool, &a->result);
+    if (status == CEDUO_OK && q->years)
+        status = simulate_years(q, *pool, a);
+    if (*pool)
+        a->work = ceduo_pool_work(*pool);
+    if (status == CEDUO_OK && q->block_rocks > 0 && scene->controls_count > 0)
+        status = simulate_sizes(q, *pool, a);
     ceduo_pool_free(own);
     if (status != CEDUO_OK)
         ceduo_answer_release(a);

@@ -28,18 +28,6 @@ enum ceduo_status ceduo_simulated_read(const struct ceduo_run *run, size_t contr
     return status;
 }
 
-/* Of a run that is not there nothing is known. */
-static enum ceduo_status read_if_there(const struct ceduo_run *run, size_t controls, struct ceduo_simulated *f)
-{
-    if (run)
-        return ceduo_simulated_read(run, controls, f);
-    if (!allocate_simulated(f, controls))
-        return CEDUO_NO_MEMORY;
-    for (size_t c = 0; c < controls; c++)
-        f->arrivals[c].energy = ceduo_distribution_none(), f->arrivals[c].hazard = ceduo_hazard_none();
-    return CEDUO_OK;
-}
-
 static enum ceduo_status copy(const struct ceduo_simulated *from, struct ceduo_simulated *to)
 {
     if (!allocate_simulated(to, from->controls))
@@ -74,13 +62,6 @@ void ceduo_simulated_compare(struct ceduo_simulated *f, const struct ceduo_simul
         ceduo_hazard_compare(&f->arrivals[c].hazard, &bare->arrivals[c].hazard);
 }
 
-/* Where rocks do not arrive anyhow a light that passes would be a promise of the forest. */
-static void put_out(struct ceduo_index *index)
-{
-    index->contact = index->free_run = index->energy = CEDUO_UNKNOWN;
-    index->thick.contact = index->thick.free_run = CEDUO_UNKNOWN;
-}
-
 void ceduo_result_read(const struct ceduo_scene *scene, const struct ceduo_option *option, const struct ceduo_simulated *bare,
                        const struct ceduo_simulated *wooded, struct ceduo_stand_result *stands, struct ceduo_index *controls)
 {
@@ -89,18 +70,12 @@ void ceduo_result_read(const struct ceduo_scene *scene, const struct ceduo_optio
     for (size_t c = 0; c < scene->controls_count; c++) {
         controls[c] = ceduo_assess_index(scene, option, &scene->controls[c], bare->arrivals[c].energy.mean);
         controls[c].energy = ceduo_energy_light(wooded->rocks > 0 ? &wooded->arrivals[c] : NULL);
-        if (ceduo_says_nothing(&bare->arrivals[c]))
-            put_out(&controls[c]);
+        if (!ceduo_says_nothing(&bare->arrivals[c]))
+            continue;
+        /* where rocks do not arrive anyhow a light that passes would be a promise of the forest */
+        controls[c].contact = controls[c].free_run = controls[c].energy = CEDUO_UNKNOWN;
+        controls[c].thick.contact = controls[c].thick.free_run = CEDUO_UNKNOWN;
     }
-}
-
-static bool allocate_option(const struct ceduo_scene *scene, size_t i, struct ceduo_option_result *o)
-{
-    o->stands = calloc(scene->options[i].belts_count + 1, sizeof *o->stands);
-    o->controls = calloc(scene->controls_count + 1, sizeof *o->controls);
-    o->differences = calloc(scene->controls_count + 1, sizeof *o->differences);
-    o->others = calloc(scene->controls_count + 1, sizeof *o->others);
-    return o->stands && o->controls && o->differences && o->others;
 }
 
 static struct ceduo_result *allocate(const struct ceduo_scene *scene)
@@ -114,8 +89,14 @@ static struct ceduo_result *allocate(const struct ceduo_scene *scene)
                                .options = calloc(scene->options_count + 1, sizeof *r->options)};
     r->options_count = r->options ? scene->options_count : 0;
     bool good = r->options != NULL;
-    for (size_t i = 0; i < scene->options_count && good; i++)
-        good = allocate_option(scene, i, &r->options[i]);
+    for (size_t i = 0; i < scene->options_count && good; i++) {
+        struct ceduo_option_result *o = &r->options[i];
+        o->stands = calloc(scene->options[i].belts_count + 1, sizeof *o->stands);
+        o->controls = calloc(scene->controls_count + 1, sizeof *o->controls);
+        o->differences = calloc(scene->controls_count + 1, sizeof *o->differences);
+        o->others = calloc(scene->controls_count + 1, sizeof *o->others);
+        good = o->stands && o->controls && o->differences && o->others;
+    }
     r->last_control = ceduo_scene_last_control(scene);
     if (good)
         return r;
@@ -204,7 +185,13 @@ enum ceduo_status ceduo_result_create(const struct ceduo_scene *scene, const str
     *result = NULL;
     if (!r)
         return CEDUO_NO_MEMORY;
-    enum ceduo_status status = read_if_there(bare, controls, &r->bare);
+    enum ceduo_status status = bare ? ceduo_simulated_read(bare, controls, &r->bare) : CEDUO_OK;
+    if (!bare && !allocate_simulated(&r->bare, controls))
+        status = CEDUO_NO_MEMORY;
+    for (size_t c = 0; !bare && status == CEDUO_OK && c < controls; c++) { /* of a run that is not there nothing is known */
+        r->bare.arrivals[c].energy = ceduo_distribution_none();
+        r->bare.arrivals[c].hazard = ceduo_hazard_none();
+    }
     for (size_t i = 0; i < r->options_count && r->wooded && status == CEDUO_OK; i++) {
         const struct ceduo_run *run = ceduo_pool_find(pool, &scene->options[i]);
         for (size_t c = 0; c < controls; c++)

@@ -14,18 +14,6 @@ struct ceduo_run_def ceduo_run_def_default(const struct ceduo_scene *scene)
         .scene = scene, .threads = 1, .rocks_most = scene->simulation.rocks, .exact_bytes = CEDUO_EXACT_BYTES};
 }
 
-/* The next chunk after one of so many blocks: as many as take CHUNK_SECONDS by its speed, at most twice as many, and as
- * many for each thread, so that none waits long for the others at its end. What is found does not depend on it. */
-static void choose_chunk(struct ceduo_run *run, size_t blocks, double seconds)
-{
-    size_t threads = run->def.threads, most = 2 * run->chunk;
-    double wanted = seconds > 0 ? (double)blocks * CHUNK_SECONDS / seconds : (double)most; /* untaken: system */
-    run->chunk = wanted < (double)most ? (size_t)wanted : most;
-    run->chunk = (run->chunk + threads - 1) / threads * threads;
-    run->chunk = run->chunk < threads ? threads : run->chunk;
-    run->chunk = run->chunk > CHUNK_BLOCKS ? CHUNK_BLOCKS : run->chunk;
-}
-
 enum ceduo_status ceduo_run_extend(struct ceduo_run *run, uint64_t rocks)
 {
     if (rocks > run->def.rocks_most)
@@ -40,7 +28,15 @@ enum ceduo_status ceduo_run_extend(struct ceduo_run *run, uint64_t rocks)
         enum ceduo_status status = ceduo_run_simulate_chunk(run, end < rocks ? end : rocks);
         if (status != CEDUO_OK)
             return status;
-        choose_chunk(run, (size_t)(run->rocks / CEDUO_BLOCK_ROCKS - block), ceduo_clock() - start);
+        /* The next chunk has as many blocks as take CHUNK_SECONDS by the speed of this one, at most twice as many, and as many for
+         * each thread, so that none waits long for the others at its end. What is found does not depend on it. */
+        size_t blocks = (size_t)(run->rocks / CEDUO_BLOCK_ROCKS - block), threads = run->def.threads, max = 2 * run->chunk;
+        double seconds = ceduo_clock() - start;
+        double wanted = seconds > 0 ? (double)blocks * CHUNK_SECONDS / seconds : (double)max; /* untaken: system */
+        size_t next = wanted < (double)max ? (size_t)wanted : max;
+        next = (next + threads - 1) / threads * threads;
+        next = next < threads ? threads : next;
+        run->chunk = next > CHUNK_BLOCKS ? CHUNK_BLOCKS : next;
         if (run->def.progress)
             run->def.progress(run->def.context, run->rocks);
     }

@@ -67,17 +67,6 @@ static bool samples_fit(const struct ceduo_run *run, uint64_t rocks)
     return run->sized || (double)rocks * (double)(run->columns + 1) * sizeof(double) <= (double)run->def.exact_bytes;
 }
 
-static bool grow_weights(struct ceduo_run *run, uint64_t room)
-{
-    double *weights = realloc(run->weights, (size_t)room * sizeof *weights);
-    if (!weights)
-        return false;
-    run->weights = weights;
-    for (uint64_t i = run->room; i < room; i++)
-        weights[i] = ceduo_size_of(&run->ready.sizes, i).weight;
-    return true;
-}
-
 /* Makes room for the samples of `rocks` rocks. Each column grows by itself: never are all there twice. */
 static bool grow_samples(struct ceduo_run *run, uint64_t rocks)
 {
@@ -85,8 +74,12 @@ static bool grow_samples(struct ceduo_run *run, uint64_t rocks)
         return true;
     uint64_t room = 2 * run->room;
     room = room < rocks || !samples_fit(run, room) ? rocks : room;
-    if (run->sized && !grow_weights(run, room))
+    double *weights = run->sized ? realloc(run->weights, (size_t)room * sizeof *weights) : NULL;
+    if (run->sized && !weights)
         return false;
+    run->weights = weights;
+    for (uint64_t i = run->room; run->sized && i < room; i++)
+        weights[i] = ceduo_size_of(&run->ready.sizes, i).weight;
     if (!run->samples && !(run->samples = calloc(run->columns, sizeof *run->samples)))
         return false;
     for (size_t i = 0; i < run->columns; i++) {
@@ -118,44 +111,30 @@ double ceduo_run_sample_energy(const struct ceduo_run *run, size_t control, uint
     return 0.5 * run->ready.mean.mass * (speed * speed);
 }
 
-/* Where samples are kept no more, the first rocks' energies stay. */
-static bool keep_pairs(struct ceduo_run *run)
-{
-    if (run->controls == 0)
-        return true;
-    uint64_t room = run->def.exact_bytes / sizeof(double) / run->controls;
-    room = room < CEDUO_PAIRED_ROCKS ? room : CEDUO_PAIRED_ROCKS;
-    run->pairs = malloc(((size_t)room * run->controls + 1) * sizeof(double));
-    if (!run->pairs)
-        return false;
-    run->pairs_room = room;
-    for (size_t c = 0; c < run->controls; c++)
-        for (uint64_t r = 0; run->room > 0 && r < run->rocks && r < room; r++) /* untaken: large */
-            run->pairs[c * room + r] = ceduo_run_sample_energy(run, c, r);
-    return true;
-}
-
-static bool fill_bins(const struct ceduo_run *run, struct histogram *bins)
-{
-    for (size_t i = 0; run->room > 0 && i < run->columns; i++)
-        for (uint64_t r = 0; r < run->rocks; r++) {
-            double v = run->samples[i][r];
-            if (!isnan(v) && !ceduo_histogram_add(&bins[i], v))
-                return false;
-        }
-    return true;
-}
-
-/* From samples to histograms: there are now too many rocks to keep. */
+/* From samples to histograms: there are now too many rocks to keep. The first rocks' energies stay. */
 static bool bin_samples(struct ceduo_run *run)
 {
+    size_t controls = run->controls;
+    uint64_t room = controls > 0 ? run->def.exact_bytes / sizeof(double) / controls : 0;
+    room = room < CEDUO_PAIRED_ROCKS ? room : CEDUO_PAIRED_ROCKS;
     struct histogram *bins = calloc(run->columns, sizeof *bins);
-    if (!bins || !fill_bins(run, bins) || !keep_pairs(run)) {
+    double *pairs = malloc(((size_t)room * controls + 1) * sizeof *pairs);
+    bool good = bins && pairs;
+    for (size_t i = 0; run->room > 0 && i < run->columns; i++)
+        for (uint64_t r = 0; good && r < run->rocks; r++)
+            good = isnan(run->samples[i][r]) || ceduo_histogram_add(&bins[i], run->samples[i][r]);
+    if (!good) {
         ceduo_histograms_free(bins, run->columns);
+        free(pairs);
         return false;
     }
+    for (size_t c = 0; c < controls; c++)
+        for (uint64_t r = 0; run->room > 0 && r < run->rocks && r < room; r++) /* untaken: large */
+            pairs[c * room + r] = ceduo_run_sample_energy(run, c, r);
     ceduo_run_samples_free(run);
     run->bins = bins;
+    run->pairs = pairs;
+    run->pairs_room = room;
     run->exact = false;
     return true;
 }

@@ -44,17 +44,6 @@ struct chunk {
 
 /* ---- one rock ---- */
 
-/* Pictures along the slope show blocks as frequent as they come down. */
-static bool is_shown(const struct ceduo_run *run, uint64_t rock)
-{
-    return !run->sized || ceduo_size_is_typical(&run->ready.sizes, run->ready.scene.simulation.seed, rock);
-}
-
-static struct arrival *arrival_of(const struct worker *w, size_t control, uint64_t rock)
-{
-    return &w->arrivals[control * CEDUO_BLOCK_ROCKS + (rock - w->from)];
-}
-
 static void on_cross(void *context, const struct walker *walker, size_t mark, const struct ceduo_crossing *c)
 {
     struct worker *w = context;
@@ -64,34 +53,11 @@ static void on_cross(void *context, const struct walker *walker, size_t mark, co
     double translation = 0.5 * rock->mass * (speed * speed);
     double energy = translation + 0.5 * rock->moment * (c->spin * c->spin);
     bool exceeds = energy > w->run->ready.scene.controls[control].accepted; /* never, where that is NaN */
-    *arrival_of(w, control, walker->number) =
+    w->arrivals[control * CEDUO_BLOCK_ROCKS + (walker->number - w->from)] =
         (struct arrival){.of = {[SPEED] = speed, [HEIGHT] = c->height, [ENERGY] = energy, [TRANSLATION] = translation},
                          .stems_hit = (double)c->stems_hit,
                          .arrives = true,
                          .exceeds = exceeds};
-}
-
-/* A rock counts at each control that it did not reach. */
-static void note_missed(struct worker *w, const struct walker *walker, enum ceduo_end end)
-{
-    const struct marks *marks = &w->run->ready.marks;
-    for (size_t m = walker->next_mark; m < marks->n; m++)
-        w->block->controls[marks->at[m].what].ended[end]++;
-}
-
-/* At its release, and at its end: a rock that the pictures show has a row of cells. */
-static void begin_row(struct worker *w, size_t lane)
-{
-    struct walker *walker = &w->walkers[lane];
-    if (w->cells.n > 0)
-        walker->row = is_shown(w->run, walker->number) ? ceduo_envelopes_begin(&w->cells, lane, walker->next_cell)
-                                                       : (struct envelope_row){0};
-}
-
-static void end_row(struct worker *w, size_t lane)
-{
-    if (w->walkers[lane].row.at[0])
-        ceduo_envelopes_end(&w->cells, lane, w->walkers[lane].next_cell);
 }
 
 static void note_end(void *context, size_t lane, enum ceduo_end end)
@@ -109,8 +75,11 @@ static void note_end(void *context, size_t lane, enum ceduo_end end)
     w->block->uphill += end == CEDUO_LEFT_SLOPE && !(walker->at.x > 0);
     w->block->early += end == CEDUO_STOPPED_BY_STEMS && walker->at.x < w->run->ready.scene.release.x.mean + CEDUO_EARLY_M;
     w->ends[walker->number - w->from] = (unsigned char)end;
-    note_missed(w, walker, end);
-    end_row(w, lane);
+    const struct marks *marks = &w->run->ready.marks;
+    for (size_t m = walker->next_mark; m < marks->n; m++) /* it counts at each control that it did not reach */
+        w->block->controls[marks->at[m].what].ended[end]++;
+    if (walker->row.at[0])
+        ceduo_envelopes_end(&w->cells, lane, walker->next_cell);
     if (end == CEDUO_AT_REST || end == CEDUO_STOPPED_BY_STEMS)
         w->stops[walker->number - w->from] = walker->at.x;
     if (walker->cancelled)
@@ -119,56 +88,37 @@ static void note_end(void *context, size_t lane, enum ceduo_end end)
 
 /* ---- many rocks ---- */
 
-/* Whether to go on with the next rock. */
-static bool goes_on(struct worker *w)
-{
-    if (ceduo_cancelled(w->run->def.cancel) || w->no_memory)
-        atomic_store(&w->chunk->stop, true);
-    return !atomic_load_explicit(&w->chunk->stop, memory_order_relaxed);
-}
-
-static enum ceduo_status release(struct worker *w, struct walker *walker, uint64_t number)
-{
-    struct ceduo_run *run = w->run;
-    if (run->alike && walker->g) {
-        ceduo_walk_release_again(walker, &w->first, number);
-        return CEDUO_OK;
-    }
-    enum ceduo_status status = ceduo_walk_release(walker, &run->ready, number);
-    if (run->alike)
-        w->first = *walker;
-    return status;
-}
-
-/* A rock that cannot be drawn has no trajectory: it is unfinished before every control. */
-static void note_undrawn(struct worker *w)
-{
-    w->block->ends[CEDUO_UNFINISHED]++;
-    for (size_t c = 0; c < w->run->controls; c++)
-        w->block->controls[c].ended[CEDUO_UNFINISHED]++;
-}
-
 /* The next rock of the block at its release; false where none is left. */
 static bool next_rock(void *context, size_t lane)
 {
     struct worker *w = context;
-    while (w->next < w->to && goes_on(w)) {
+    struct ceduo_run *run = w->run;
+    struct walker *walker = &w->walkers[lane];
+    while (w->next < w->to) {
+        if (ceduo_cancelled(run->def.cancel) || w->no_memory)
+            atomic_store(&w->chunk->stop, true);
+        if (atomic_load_explicit(&w->chunk->stop, memory_order_relaxed))
+            break;
         uint64_t number = w->next++;
-        if (release(w, &w->walkers[lane], number) == CEDUO_OK) {
-            begin_row(w, lane);
-            return true;
+        bool again = run->alike && walker->g;
+        if (again)
+            ceduo_walk_release_again(walker, &w->first, number);
+        bool drawn = again || ceduo_walk_release(walker, &run->ready, number) == CEDUO_OK;
+        if (run->alike && !again)
+            w->first = *walker;
+        if (!drawn) { /* it has no trajectory: it is unfinished before every control */
+            w->block->ends[CEDUO_UNFINISHED]++;
+            for (size_t c = 0; c < run->controls; c++)
+                w->block->controls[c].ended[CEDUO_UNFINISHED]++;
+            continue;
         }
-        note_undrawn(w);
+        /* pictures along the slope show blocks as frequent as they come down */
+        bool shown = !run->sized || ceduo_size_is_typical(&run->ready.sizes, run->ready.scene.simulation.seed, number);
+        if (w->cells.n > 0)
+            walker->row = shown ? ceduo_envelopes_begin(&w->cells, lane, walker->next_cell) : (struct envelope_row){0};
+        return true;
     }
     return false;
-}
-
-static void clear_block(struct worker *w)
-{
-    memset(w->arrivals, 0, w->run->controls * CEDUO_BLOCK_ROCKS * sizeof *w->arrivals);
-    for (size_t i = 0; i < CEDUO_BLOCK_ROCKS; i++)
-        w->stops[i] = NAN;
-    memset(w->ends, CEDUO_UNFINISHED, sizeof w->ends);
 }
 
 /* What is summed in the order of the rocks, the quantities side by side. */
@@ -225,55 +175,50 @@ static bool keep_arrivals(struct worker *w, size_t control)
     return true;
 }
 
-static bool keep_stops(struct worker *w)
+/* False without memory. */
+static bool sum_block(struct worker *w)
 {
     struct ceduo_run *run = w->run;
     size_t n = (size_t)(w->to - w->from);
-    if (!run->exact)
-        return bin_column(&w->bins[run->columns - 1], w->stops, n);
-    memcpy(stops_of(run) + w->from, w->stops, n * sizeof *w->stops);
-    return true;
-}
-
-/* How the rocks of a block ended, by their weights. */
-static void weigh_ends(struct worker *w)
-{
-    struct ceduo_run *run = w->run;
-    const double *weights = run->weights + w->from;
-    for (uint64_t i = 0; i < w->to - w->from; i++) {
-        w->block->ended[w->ends[i]] += weights[i];
+    for (size_t i = 0; run->sized && i < n; i++) { /* how the rocks ended, by their weights */
+        double weight = run->weights[w->from + i];
+        w->block->ended[w->ends[i]] += weight;
         for (size_t c = 0; c < run->controls; c++) {
             const struct arrival *a = &w->arrivals[c * CEDUO_BLOCK_ROCKS + i];
             if (a->arrives)
-                weighted_sum_add(&w->block->controls[c].hits, weights[i], a->stems_hit);
+                weighted_sum_add(&w->block->controls[c].hits, weight, a->stems_hit);
             else
-                w->block->controls[c].missed[w->ends[i]] += weights[i];
+                w->block->controls[c].missed[w->ends[i]] += weight;
         }
     }
-}
-
-static void sum_block(struct worker *w)
-{
-    if (w->run->sized)
-        weigh_ends(w);
-    bool kept = keep_stops(w);
-    for (size_t c = 0; c < w->run->controls; c++) {
+    if (run->exact)
+        memcpy(stops_of(run) + w->from, w->stops, n * sizeof *w->stops);
+    bool kept = run->exact || bin_column(&w->bins[run->columns - 1], w->stops, n);
+    for (size_t c = 0; c < run->controls; c++) {
         sum_arrivals(w, c);
         kept = kept && keep_arrivals(w, c);
     }
-    w->no_memory |= !kept;
-    for (uint64_t i = 0; i < w->to - w->from; i++)
+    for (size_t i = 0; i < n; i++)
         if (!isnan(w->stops[i]))
             ceduo_moments_add(&w->block->stop_x, w->stops[i]);
+    return kept;
 }
 
-/* Simulates the rocks of a block from w->from to before w->to; false where it was stopped. */
-static bool simulate_block(struct worker *w)
+/* Simulates the rocks of a block, or those of them that belong to the chunk. */
+static int take_block(void *context, size_t i, size_t worker)
 {
+    struct chunk *chunk = context;
+    struct worker *w = &chunk->workers[worker];
     struct ceduo_run *run = w->run;
     enum ceduo_law law = run->ready.scene.simulation.law;
-    clear_block(w);
-    w->next = w->from;
+    uint64_t from = (chunk->first / CEDUO_BLOCK_ROCKS + i) * CEDUO_BLOCK_ROCKS, to = from + CEDUO_BLOCK_ROCKS;
+    w->from = w->next = from < chunk->first ? chunk->first : from;
+    w->to = to > chunk->end ? chunk->end : to;
+    w->block = &run->slots[i];
+    memset(w->arrivals, 0, run->controls * CEDUO_BLOCK_ROCKS * sizeof *w->arrivals);
+    memset(w->ends, CEDUO_UNFINISHED, sizeof w->ends);
+    for (size_t k = 0; k < CEDUO_BLOCK_ROCKS; k++)
+        w->stops[k] = NAN;
     const struct wide_job job = {.ground = run->wide,
                                  .law = law,
                                  .alike = run->alike,
@@ -286,39 +231,13 @@ static bool simulate_block(struct worker *w)
     else
         while (next_rock(w, 0))
             note_end(w, 0, ceduo_walk(&w->walkers[0], law));
-    if (atomic_load_explicit(&w->chunk->stop, memory_order_relaxed))
-        return false;
-    sum_block(w);
-    return true;
-}
-
-static int take_block(void *context, size_t i, size_t worker)
-{
-    struct chunk *chunk = context;
-    struct worker *w = &chunk->workers[worker];
-    uint64_t from = (chunk->first / CEDUO_BLOCK_ROCKS + i) * CEDUO_BLOCK_ROCKS, to = from + CEDUO_BLOCK_ROCKS;
-    w->from = from < chunk->first ? chunk->first : from;
-    w->to = to > chunk->end ? chunk->end : to;
-    w->block = &w->run->slots[i];
-    return simulate_block(w) ? CEDUO_OK : CEDUO_CANCELLED;
+    if (atomic_load_explicit(&chunk->stop, memory_order_relaxed))
+        return CEDUO_CANCELLED;
+    w->no_memory |= !sum_block(w);
+    return CEDUO_OK;
 }
 
 /* ---- threads ---- */
-
-static bool init_stems(struct worker *w)
-{
-    struct ceduo_run *run = w->run;
-    w->stems = calloc(run->lanes, sizeof *w->stems);
-    if (!w->stems)
-        return false;
-    for (size_t i = 0; i < run->lanes; i++) {
-        if (!ceduo_stems_init(&w->stems[i], &run->ready.wood, run->ready.scene.simulation.contact_model == CEDUO_POISSON,
-                              run->def.kernel))
-            return false;
-        w->walkers[i].stems = &w->stems[i];
-    }
-    return true;
-}
 
 static bool worker_init(struct worker *w, struct ceduo_run *run, struct chunk *chunk)
 {
@@ -330,8 +249,14 @@ static bool worker_init(struct worker *w, struct ceduo_run *run, struct chunk *c
     for (size_t i = 0; i < run->lanes; i++)
         w->walkers[i] = (struct walker){
             .cross = on_cross, .context = w, .arrivals_only = run->def.arrivals_only, .cancel = run->def.cancel};
-    if (!run->ready.wood.bare && !init_stems(w))
+    if (!run->ready.wood.bare && !(w->stems = calloc(run->lanes, sizeof *w->stems)))
         return false;
+    for (size_t i = 0; w->stems && i < run->lanes; i++) {
+        bool poisson = run->ready.scene.simulation.contact_model == CEDUO_POISSON;
+        if (!ceduo_stems_init(&w->stems[i], &run->ready.wood, poisson, run->def.kernel))
+            return false;
+        w->walkers[i].stems = &w->stems[i];
+    }
     if (!run->exact && !(w->bins = calloc(run->columns, sizeof *w->bins)))
         return false;
     return run->def.cells == 0 || ceduo_envelopes_init(&w->cells, run->def.cells, run->lanes);
@@ -348,15 +273,6 @@ static void worker_release(struct worker *w)
     free(w->arrivals);
 }
 
-static void worker_merge(struct worker *w)
-{
-    struct ceduo_run *run = w->run;
-    if (w->bins)
-        ceduo_histograms_merge(run->bins, w->bins, run->columns);
-    if (w->cells.n > 0)
-        ceduo_envelopes_merge(run->cells, &w->cells);
-}
-
 static enum ceduo_status finish_chunk(struct ceduo_run *run, struct chunk *chunk, unsigned n)
 {
     struct worker *workers = chunk->workers;
@@ -370,8 +286,12 @@ static enum ceduo_status finish_chunk(struct ceduo_run *run, struct chunk *chunk
     for (unsigned i = 0; i < n; i++)
         if (workers[i].bins && !ceduo_histograms_reserve(run->bins, workers[i].bins, run->columns))
             return CEDUO_NO_MEMORY;
-    for (unsigned i = 0; i < n; i++) /* nothing fails from here on: a chunk is there or leaves no trace */
-        worker_merge(&workers[i]);
+    for (unsigned i = 0; i < n; i++) { /* nothing fails from here on: a chunk is there or leaves no trace */
+        if (workers[i].bins)
+            ceduo_histograms_merge(run->bins, workers[i].bins, run->columns);
+        if (workers[i].cells.n > 0)
+            ceduo_envelopes_merge(run->cells, &workers[i].cells);
+    }
     for (size_t i = 0; i < chunk->blocks; i++) {
         bool full = i + 1 < chunk->blocks || chunk->end % CEDUO_BLOCK_ROCKS == 0;
         struct block tail = run->tail;
