@@ -197,6 +197,8 @@ void ceduo_problems_follow(struct problems *problems, struct problems *head)
         problems->kinds[k].end += head->text.length;
     ceduo_text_add(&head->text, ceduo_text_string(&problems->text), problems->text.length);
     ceduo_text_free(&problems->text);
+    if (head->text.failed) /* what is cut short has no kinds */
+        problems->kinds_count = 0;
     problems->text = head->text;
     problems->memory |= head->memory || head->text.failed;
     head->text = (struct text){0};
