@@ -128,7 +128,7 @@ po: $(TEMPLATE)
 # ---- a fresh machine ----
 
 DEBIAN := gcc libc6-dev make libncurses-dev libgsl-dev libyaml-dev libunistring-dev librandom123-dev libcmocka-dev mandoc gettext po4a pkgconf python3 \
-	tmux zsh locales parallel clang-format
+	tmux zsh locales parallel clang-format python3-jsonschema
 
 deps:
 	@missing=; for p in $(DEBIAN); do \

@@ -23,6 +23,8 @@ enum mode {
     MODE_CHECK,
     MODE_PARAMETERS,
     MODE_PROFILES,
+    MODE_COLUMNS,
+    MODE_SCHEMA,
     MODE_SURVEY,
     MODE_HELP,
     MODE_VERSION
@@ -65,6 +67,7 @@ struct arguments {
     const char *survey;  /* a CSV file of plots; NULL: none */
     const char *each;    /* a CSV file of which each row changes the scenes; NULL: none */
     const char *columns; /* of CSV, by their heads with a comma between them; NULL: all */
+    int schema;          /* a word of the option's row */
     bool resume;         /* go on with what the output holds */
 };
 

@@ -49,7 +49,8 @@ static enum exit_status answer_all(const struct arguments *a, const struct text 
         ceduo_progress_scenes(&progress, each.at - 1, each.count);
         enum exit_status result = answer_scene(&each, answer, &one);
         status = worse(status, result);
-        if (result != EXIT_DONE)
+        if (result > EXIT_RUN ||
+            (result == EXIT_RUN && !one.bytes)) /* what is printed has not failed, unfinished as it may be */
             ceduo_each_fail(&each);
         if (result == EXIT_OUTPUT) /* nothing is written over what was read */
             break;

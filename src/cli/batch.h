@@ -14,6 +14,8 @@ enum exit_status ceduo_batch_calibrate(const struct arguments *arguments);
 enum exit_status ceduo_batch_check(const struct arguments *arguments);
 enum exit_status ceduo_batch_parameters(const struct arguments *arguments);
 enum exit_status ceduo_batch_profiles(const struct arguments *arguments);
+enum exit_status ceduo_batch_columns(const struct arguments *arguments);
+enum exit_status ceduo_batch_schema(const struct arguments *arguments);
 enum exit_status ceduo_batch_survey(const struct arguments *arguments);
 
 /* What a mode prints of one scene. */

@@ -125,7 +125,7 @@ static enum exit_status check_arguments(const struct arguments *a)
         return ceduo_usage(NULL, _("--plot prints a picture; it cannot be used with --format csv or json"));
     if (a->plot_width > 0 && !plot)
         return ceduo_usage(NULL, _("--size requires --plot"));
-    if (ceduo_option_given(a, "rows") && a->format != CEDUO_CSV)
+    if (ceduo_option_given(a, "rows") && a->mode != MODE_COLUMNS && a->format != CEDUO_CSV)
         return ceduo_usage(NULL, _("--rows requires --format csv"));
     if (a->columns && a->format != CEDUO_CSV)
         return ceduo_usage(NULL, _("--columns requires --format csv"));

@@ -9,6 +9,7 @@
 #include "output.h"
 #include "say.h"
 #include "scene/schema.h"
+#include "view/figures.h"
 
 /* ---- tables ---- */
 
@@ -78,6 +79,30 @@ enum exit_status ceduo_batch_parameters(const struct arguments *a)
     return print_table(a, &rows,
                        _("\nnumber~: also {mean: ..., spread: ..., kind: normal|uniform}, drawn for each rock\n"
                          "options[].forest[] holds what forest[] holds; any mapping may hold source: {kind, text}\n"));
+}
+
+/* ---- outputs ---- */
+
+enum exit_status ceduo_batch_columns(const struct arguments *a)
+{
+    struct text rows = {0};
+    ceduo_text_format(&rows, "%s\t%s\t%s\t%s\t%s\n", _("column"), _("type"), _("unit"), _("empty if"), _("meaning"));
+    ceduo_figures_columns(&rows, a->stands ? ceduo_stand_columns : a->years ? ceduo_year_columns : ceduo_control_columns);
+    return print_table(a, &rows, "");
+}
+
+enum exit_status ceduo_batch_schema(const struct arguments *a)
+{
+    static const struct {
+        const char *format;
+        const struct ceduo_figure *figures;
+    } outputs[] = {{"ceduo-result-1", ceduo_result_figures}, /* as the words of the option's row */
+                   {"ceduo-find-1", ceduo_find_figures},
+                   {"ceduo-sensitivity-1", ceduo_doubt_figures},
+                   {"ceduo-calibration-1", ceduo_calibration_figures}};
+    LOCAL_TEXT(schema);
+    ceduo_figures_schema(&schema, outputs[a->schema].format, outputs[a->schema].figures);
+    return ceduo_output_write(a, &schema);
 }
 
 /* ---- profiles ---- */

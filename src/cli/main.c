@@ -74,6 +74,10 @@ static enum exit_status act(const struct arguments *a)
         return ceduo_batch_parameters(a);
     case MODE_PROFILES:
         return ceduo_batch_profiles(a);
+    case MODE_COLUMNS:
+        return ceduo_batch_columns(a);
+    case MODE_SCHEMA:
+        return ceduo_batch_schema(a);
     case MODE_SURVEY:
         return ceduo_batch_survey(a);
     case MODE_HELP:

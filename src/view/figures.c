@@ -28,7 +28,7 @@ static const void *object_of(const struct ceduo_figure *f, const void *object)
 static struct ceduo_value value_of(const struct ceduo_figure *f, const void *object, double scale)
 {
     const void *from = source_of(f, object);
-    struct ceduo_value v = from ? f->value(f, from) : (struct ceduo_value){.kind = CEDUO_NULL};
+    struct ceduo_value v = from ? f->value->read(f, from) : (struct ceduo_value){.kind = CEDUO_NULL};
     if (v.kind == CEDUO_VALUE_NUMBER)
         v.number *= scale_of(f, scale);
     if ((v.kind == CEDUO_VALUE_NUMBER && !isfinite(v.number)) || (v.kind == CEDUO_VALUE_TEXT && !v.text))

@@ -9,7 +9,14 @@
 /* The figures of an answer: one table for each kind of object. JSON nests the tables as they name each other, CSV joins
  * their keys with dots, the manual lists them. To add a figure, add a member to its struct and a row to figures_result.c. */
 
-enum ceduo_value_kind { CEDUO_NULL, CEDUO_VALUE_NUMBER, CEDUO_VALUE_COUNT, CEDUO_VALUE_FLAG, CEDUO_VALUE_TEXT };
+enum ceduo_value_kind {
+    CEDUO_NULL,
+    CEDUO_VALUE_ANY,
+    CEDUO_VALUE_NUMBER,
+    CEDUO_VALUE_COUNT,
+    CEDUO_VALUE_FLAG,
+    CEDUO_VALUE_TEXT
+};
 
 struct ceduo_value {
     enum ceduo_value_kind kind;
@@ -33,6 +40,14 @@ struct ceduo_place {
     struct ceduo_years_summary sum;     /* of the option's years, where they are asked for */
 };
 
+struct ceduo_figure;
+
+/* Reads a value from an object, and says of which kind it is where it is not null; CEDUO_VALUE_ANY: a number or a text. */
+struct ceduo_reader {
+    struct ceduo_value (*read)(const struct ceduo_figure *figure, const void *object);
+    enum ceduo_value_kind kind;
+};
+
 /* A row is a value, an object or list of objects (`of`), or sentences (`say`). A row with none of them ends a table. */
 struct ceduo_figure {
     const char *key;                         /* NULL: the figures of `of` stand here without an object of their own */
@@ -40,7 +55,7 @@ struct ceduo_figure {
     const char *meaning;                     /* for the manual, as is */
     const char *null;                        /* when it is null; NULL: never */
     const void *(*from)(const void *object); /* the object to read from; NULL: the same */
-    struct ceduo_value (*value)(const struct ceduo_figure *figure, const void *object);
+    const struct ceduo_reader *value;
     size_t offset; /* in the object */
     double scale;  /* of numbers, and of all numbers in `of`; 0: 1 */
     const struct ceduo_figure *of;
@@ -61,6 +76,12 @@ static inline bool ceduo_figure_is_end(const struct ceduo_figure *f)
 /* Writes what a table says of an object: one line of JSON; a row of CSV, or with object NULL the row of its heads. */
 void ceduo_figures_json(struct text *text, const struct ceduo_figure *figures, const void *object);
 void ceduo_figures_csv(struct text *text, const struct ceduo_figure *columns, const void *object);
+
+/* JSON Schema (draft 2020-12) of what ceduo_figures_json() writes, on one line; its $id ends in the format's name. */
+void ceduo_figures_schema(struct text *text, const char *format, const struct ceduo_figure *figures);
+
+/* A line for each column of ceduo_figures_csv(): path, type, unit, when it is empty, meaning, with tabs between them. */
+void ceduo_figures_columns(struct text *rows, const struct ceduo_figure *columns);
 
 /* The whole of a result, a sensitivity and a calibration, read from a struct ceduo_place; and of a search, read from a struct
  * ceduo_find_report. */

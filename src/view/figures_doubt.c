@@ -8,7 +8,7 @@
     {                                                                                                                          \
         "version", "", "version of the program", .value = version_of                                                           \
     }
-VALUE(version_of, place, WORD(CEDUO_VERSION))
+VALUE(version_of, place, TEXT, WORD(CEDUO_VERSION))
 
 /* ---- a sensitivity ---- */
 
@@ -64,37 +64,37 @@ static struct ceduo_value end_of(const struct ceduo_place *p, int end)
 
 static const char *const figure_keys[CEDUO_DOUBT_SHOWN] = {"reach_probability", "exceed_probability", "energy_per_released_kJ"};
 
-VALUE(doubt_format, place, WORD("ceduo-sensitivity-1"))
-VALUE(doubt_scene, place, WORD(o->doubt->file->path))
-VALUE(doubt_title, place, WORD(scene_of(o)->title))
-VALUE(doubt_seed, place, COUNT(scene_of(o)->simulation.seed))
-VALUE(doubt_rocks, place, COUNT(o->doubt->rocks))
-VALUE(doubt_points, place, COUNT(o->doubt->answer ? o->doubt->answer->points : o->doubt->points))
-VALUE(doubt_evaluations, place, COUNT(o->doubt->answer ? o->doubt->answer->evaluations : 0))
-VALUE(doubt_option, place, WORD(scene_of(o)->options[figure_of(o)->option].name))
-VALUE(doubt_against, place, WORD(figure_of(o)->difference ? scene_of(o)->options[0].name : NULL))
-VALUE(doubt_x, place, NUMBER(scene_of(o)->controls[ceduo_scene_last_control(scene_of(o))].x_given))
-VALUE(doubt_figure, place, WORD(figure_keys[figure_of(o)->kind]))
-VALUE(figure_number, place, NUMBER(shown(o, *(const double *)member(f, figure_of(o)))))
+VALUE(doubt_format, place, TEXT, WORD("ceduo-sensitivity-1"))
+VALUE(doubt_scene, place, TEXT, WORD(o->doubt->file->path))
+VALUE(doubt_title, place, TEXT, WORD(scene_of(o)->title))
+VALUE(doubt_seed, place, COUNT, COUNT(scene_of(o)->simulation.seed))
+VALUE(doubt_rocks, place, COUNT, COUNT(o->doubt->rocks))
+VALUE(doubt_points, place, COUNT, COUNT(o->doubt->answer ? o->doubt->answer->points : o->doubt->points))
+VALUE(doubt_evaluations, place, COUNT, COUNT(o->doubt->answer ? o->doubt->answer->evaluations : 0))
+VALUE(doubt_option, place, TEXT, WORD(scene_of(o)->options[figure_of(o)->option].name))
+VALUE(doubt_against, place, TEXT, WORD(figure_of(o)->difference ? scene_of(o)->options[0].name : NULL))
+VALUE(doubt_x, place, NUMBER, NUMBER(scene_of(o)->controls[ceduo_scene_last_control(scene_of(o))].x_given))
+VALUE(doubt_figure, place, TEXT, WORD(figure_keys[figure_of(o)->kind]))
+VALUE(figure_number, place, NUMBER, NUMBER(shown(o, *(const double *)member(f, figure_of(o)))))
 #define FIGURE(member) .value = figure_number, .offset = offsetof(struct ceduo_doubt_figure, member)
-VALUE(input_path, place, WORD(o->doubt->inputs->items[o->input].path))
-VALUE(input_places, place, COUNT(o->doubt->inputs->items[o->input].places_count))
-VALUE(input_source, place, WORD(o->doubt->inputs->sources[o->input]))
-VALUE(doubt_q2, place, NUMBER(figure_of(o)->fit.q2))
-VALUE(doubt_unexplained, place, NUMBER(figure_of(o)->fit.whole.value))
-VALUE(input_measured, place, WORD(ceduo_doubt_measured(o->doubt, o->input)))
-VALUE(input_lo, place, end_of(o, 0))
-VALUE(input_hi, place, end_of(o, 1))
-VALUE(input_first, place, NUMBER(figure_of(o)->fit.first[o->input].value))
-VALUE(input_first_se, place, NUMBER(figure_of(o)->fit.first[o->input].se))
-VALUE(input_total, place, NUMBER(figure_of(o)->fit.total[o->input].value))
-VALUE(input_total_se, place, NUMBER(figure_of(o)->fit.total[o->input].se))
-VALUE(input_at_lo, place, NUMBER(shown(o, figure_of(o)->at[o->input][0])))
-VALUE(input_at_hi, place, NUMBER(shown(o, figure_of(o)->at[o->input][1])))
-VALUE(input_left, place, NUMBER(shown(o, figure_of(o)->fit.left[o->input])))
-VALUE(order_better, place, WORD(scene_of(o)->options[order_of(o)->better].name))
-VALUE(order_than, place, WORD(scene_of(o)->options[order_of(o)->than].name))
-VALUE(order_number, place, NUMBER(*(const double *)member(f, order_of(o))))
+VALUE(input_path, place, TEXT, WORD(o->doubt->inputs->items[o->input].path))
+VALUE(input_places, place, COUNT, COUNT(o->doubt->inputs->items[o->input].places_count))
+VALUE(input_source, place, TEXT, WORD(o->doubt->inputs->sources[o->input]))
+VALUE(doubt_q2, place, NUMBER, NUMBER(figure_of(o)->fit.q2))
+VALUE(doubt_unexplained, place, NUMBER, NUMBER(figure_of(o)->fit.whole.value))
+VALUE(input_measured, place, TEXT, WORD(ceduo_doubt_measured(o->doubt, o->input)))
+VALUE(input_lo, place, ANY, end_of(o, 0))
+VALUE(input_hi, place, ANY, end_of(o, 1))
+VALUE(input_first, place, NUMBER, NUMBER(figure_of(o)->fit.first[o->input].value))
+VALUE(input_first_se, place, NUMBER, NUMBER(figure_of(o)->fit.first[o->input].se))
+VALUE(input_total, place, NUMBER, NUMBER(figure_of(o)->fit.total[o->input].value))
+VALUE(input_total_se, place, NUMBER, NUMBER(figure_of(o)->fit.total[o->input].se))
+VALUE(input_at_lo, place, NUMBER, NUMBER(shown(o, figure_of(o)->at[o->input][0])))
+VALUE(input_at_hi, place, NUMBER, NUMBER(shown(o, figure_of(o)->at[o->input][1])))
+VALUE(input_left, place, NUMBER, NUMBER(shown(o, figure_of(o)->fit.left[o->input])))
+VALUE(order_better, place, TEXT, WORD(scene_of(o)->options[order_of(o)->better].name))
+VALUE(order_than, place, TEXT, WORD(scene_of(o)->options[order_of(o)->than].name))
+VALUE(order_number, place, NUMBER, NUMBER(*(const double *)member(f, order_of(o))))
 #define ORDER(member) .value = order_number, .offset = offsetof(struct ceduo_doubt_order, member)
 
 #define FEW_POINTS "there are too few points, or nothing varies"
@@ -245,25 +245,25 @@ static void say_scenes(const struct ceduo_place *p, ceduo_words_say *say, void *
         say(context, p->calibration->files[i].path);
 }
 
-VALUE(calibration_format, place, WORD("ceduo-calibration-1"))
-VALUE(calibration_seed, place, COUNT(o->calibration->seed))
-VALUE(calibration_rocks, place, COUNT(o->calibration->rocks))
-VALUE(first_scene, place, WORD(o->calibration->files[0].path))
-VALUE(fitted_path, place, WORD(o->calibration->paths[o->item]))
-VALUE(correlation, place, NUMBER(answer_of(o)->correlation[o->item][o->column]))
-VALUE(observed_what, place, WORD(observed_of(o)->name))
-VALUE(observed_scene, place, WORD(file_of(o)->path))
-VALUE(observed_option, place, WORD(file_of(o)->scene.options[observed_of(o)->option].name))
-VALUE(observed_use, place, WORD(observed_of(o)->use == CEDUO_OBSERVED_FIT ? "fit" : "check"))
-VALUE(observed_n, place, COUNT(ceduo_seen_number(observed_of(o))))
-VALUE(deviance, place, NUMBER(predicted_of(o)->at_best.deviance))
-VALUE(p_value, place, NUMBER(predicted_of(o)->p_value))
-VALUE(inside, place, IS(predicted_of(o)->inside))
-VALUE(seen_number, place,
+VALUE(calibration_format, place, TEXT, WORD("ceduo-calibration-1"))
+VALUE(calibration_seed, place, COUNT, COUNT(o->calibration->seed))
+VALUE(calibration_rocks, place, COUNT, COUNT(o->calibration->rocks))
+VALUE(first_scene, place, TEXT, WORD(o->calibration->files[0].path))
+VALUE(fitted_path, place, TEXT, WORD(o->calibration->paths[o->item]))
+VALUE(correlation, place, NUMBER, NUMBER(answer_of(o)->correlation[o->item][o->column]))
+VALUE(observed_what, place, TEXT, WORD(observed_of(o)->name))
+VALUE(observed_scene, place, TEXT, WORD(file_of(o)->path))
+VALUE(observed_option, place, TEXT, WORD(file_of(o)->scene.options[observed_of(o)->option].name))
+VALUE(observed_use, place, TEXT, WORD(observed_of(o)->use == CEDUO_OBSERVED_FIT ? "fit" : "check"))
+VALUE(observed_n, place, COUNT, COUNT(ceduo_seen_number(observed_of(o))))
+VALUE(deviance, place, NUMBER, NUMBER(predicted_of(o)->at_best.deviance))
+VALUE(p_value, place, NUMBER, NUMBER(predicted_of(o)->p_value))
+VALUE(inside, place, FLAG, IS(predicted_of(o)->inside))
+VALUE(seen_number, place, NUMBER,
       NUMBER(ceduo_seen_shown(observed_of(o)->kind, *(const double *)member(f, predicted_of(o)),
                               file_of(o)->scene.slope.origin_x)))
 #define SEEN(member) .value = seen_number, .offset = offsetof(struct ceduo_predicted, member)
-VALUE(single_inside, place,
+VALUE(single_inside, place, COUNT,
       observed_of(o)->values && !isnan(predicted_of(o)->one_lo) ? COUNT(predicted_of(o)->one_inside) : NOTHING)
 
 #define NO_RANGE "the draws do not tell it"

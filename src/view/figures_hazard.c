@@ -29,7 +29,7 @@ static const void *intensity_item(const void *object, size_t i)
     return i < CEDUO_INTENSITIES ? &((const struct ceduo_hazard *)object)->intensity[i] : NULL;
 }
 
-VALUE(years_of, hazard, NUMBER(1 / *(const double *)member(f, o)))
+VALUE(years_of, hazard, NUMBER, NUMBER(1 / *(const double *)member(f, o)))
 
 const struct ceduo_figure ceduo_rate_figures[] = {{"per_year", "1/y", "rocks a year", AT(rate, rate)},
                                                   {"lo", "1/y", "lower end of its 95 % interval", AT(rate, lo)},

@@ -18,19 +18,20 @@ static inline const void *member(const struct ceduo_figure *f, const void *objec
     return (const char *)object + f->offset;
 }
 
-/* For `value`: a member of type `type`, m. */
-#define READ(name, type, result)                                                                                               \
-    static inline struct ceduo_value name(const struct ceduo_figure *f, const void *object)                                    \
+/* For `value`: a member of type `type`, m; `kind` NUMBER, COUNT, FLAG or TEXT. */
+#define READ(name, type, kind, result)                                                                                         \
+    static inline struct ceduo_value name##_read(const struct ceduo_figure *f, const void *object)                             \
     {                                                                                                                          \
         type const m = *(type const *)member(f, object);                                                                       \
         return result;                                                                                                         \
-    }
-READ(number_at, double, NUMBER(m))
-READ(count_at, uint64_t, COUNT(m))
-READ(unsigned_at, unsigned, COUNT(m))
-READ(flag_at, bool, IS(m))
-READ(text_at, char *, WORD(m))
-READ(fixed_text_at, char const *, WORD(m))
+    }                                                                                                                          \
+    static const struct ceduo_reader name[1] = {{name##_read, CEDUO_VALUE_##kind}};
+READ(number_at, double, NUMBER, NUMBER(m))
+READ(count_at, uint64_t, COUNT, COUNT(m))
+READ(unsigned_at, unsigned, COUNT, COUNT(m))
+READ(flag_at, bool, FLAG, IS(m))
+READ(text_at, char *, TEXT, WORD(m))
+READ(fixed_text_at, char const *, TEXT, WORD(m))
 
 /* A member of a struct, read by its type; numbers in an object of their own there. */
 #define AT(object, member)                                                                                                     \
@@ -44,13 +45,14 @@ READ(fixed_text_at, char const *, WORD(m))
     }
 
 /* For `value`: o is the object, f the row. */
-#define VALUE(name, type, result)                                                                                              \
-    static struct ceduo_value name(const struct ceduo_figure *f, const void *object)                                           \
+#define VALUE(name, type, kind, result)                                                                                        \
+    static struct ceduo_value name##_read(const struct ceduo_figure *f, const void *object)                                    \
     {                                                                                                                          \
         const struct ceduo_##type *o = object;                                                                                 \
         (void)f, (void)o;                                                                                                      \
         return result;                                                                                                         \
-    }
+    }                                                                                                                          \
+    static const struct ceduo_reader name[1] = {{name##_read, CEDUO_VALUE_##kind}};
 
 /* Why something is not known. */
 #define NO_ROCK "no rock arrives"

@@ -7,8 +7,8 @@
 
 /* ---- values ---- */
 
-READ(light_at, enum ceduo_light, WORD(ceduo_words_light(m)))
-READ(energy_model_at, enum ceduo_energy_model, WORD(ceduo_energy_words.names[m]))
+READ(light_at, enum ceduo_light, TEXT, WORD(ceduo_words_light(m)))
+READ(energy_model_at, enum ceduo_energy_model, TEXT, WORD(ceduo_energy_words.names[m]))
 #define LIGHT_AT(member) .value = light_at, .offset = offsetof(struct ceduo_index, member)
 
 /* ---- objects of a place ---- */
@@ -190,39 +190,39 @@ static void say_of_all(const struct ceduo_place *place, ceduo_words_say *say, vo
 
 /* ---- what is more than a member ---- */
 
-VALUE(format_of, place, WORD("ceduo-result-1"))
-VALUE(version_of, place, WORD(CEDUO_VERSION))
-VALUE(path_of, report, WORD(o->file->path))
-VALUE(rocks_of, report, COUNT(o->rocks_asked > 0 ? o->rocks_asked : ceduo_result_rocks(o->result)))
-VALUE(law_of, scene, WORD(ceduo_law_words.names[o->simulation.law]))
-VALUE(accepted_of, control, NUMBER(ceduo_words_accepted(o)))
-VALUE(reached_of, arrivals, isnan(o->reach_probability) ? NOTHING : COUNT(o->reached))
-VALUE(rule_of, stand_result, WORD(isinf(o->adc_m) ? NULL : ceduo_rule_words.names[o->rule]))
-VALUE(region_of, compliance, WORD(o->of->name))
-VALUE(standards_met, compliance, o->standards_item ? IS(o->standards_met) : NOTHING)
-VALUE(turn_met, compliance, o->turn_item && !isnan(o->turn) ? IS(o->turn_met) : NOTHING)
-VALUE(index_per_100m, index, NUMBER(o->length > 0 ? o->per_100m : NAN))
-VALUE(mean_adc, index, NUMBER(o->contacts > 0 ? o->length / o->contacts : NAN))
-VALUE(passes_contact, index, IS(o->contact == CEDUO_PASS))
-VALUE(exhausted_of, index, isnan(o->residual) ? NOTHING : IS(o->exhausted))
-VALUE(below_of, paired, NUMBER(o->below > 0 ? o->below : NAN))
-VALUE(share_at, simulated, NUMBER(o->rocks > 0 ? *(const double *)member(f, o) : NAN))
-VALUE(missed_at, arrivals, NUMBER(o->released > 0 ? *(const double *)member(f, o) : NAN))
-VALUE(stop_at, place, NUMBER(*(const double *)member(f, &wood_of(o)->ends) + o->report->file->scene.slope.origin_x))
-VALUE(too_much_of, place, o->sum.nothing || isnan(o->sum.exceed.mean) ? NOTHING : COUNT(o->sum.unprotected_energy))
-VALUE(fails_of, place, o->sum.nothing ? NOTHING : COUNT(*(const size_t *)member(f, o)))
-VALUE(judgement_of, place,
+VALUE(format_of, place, TEXT, WORD("ceduo-result-1"))
+VALUE(version_of, place, TEXT, WORD(CEDUO_VERSION))
+VALUE(path_of, report, TEXT, WORD(o->file->path))
+VALUE(rocks_of, report, COUNT, COUNT(o->rocks_asked > 0 ? o->rocks_asked : ceduo_result_rocks(o->result)))
+VALUE(law_of, scene, TEXT, WORD(ceduo_law_words.names[o->simulation.law]))
+VALUE(accepted_of, control, NUMBER, NUMBER(ceduo_words_accepted(o)))
+VALUE(reached_of, arrivals, COUNT, isnan(o->reach_probability) ? NOTHING : COUNT(o->reached))
+VALUE(rule_of, stand_result, TEXT, WORD(isinf(o->adc_m) ? NULL : ceduo_rule_words.names[o->rule]))
+VALUE(region_of, compliance, TEXT, WORD(o->of->name))
+VALUE(standards_met, compliance, FLAG, o->standards_item ? IS(o->standards_met) : NOTHING)
+VALUE(turn_met, compliance, FLAG, o->turn_item && !isnan(o->turn) ? IS(o->turn_met) : NOTHING)
+VALUE(index_per_100m, index, NUMBER, NUMBER(o->length > 0 ? o->per_100m : NAN))
+VALUE(mean_adc, index, NUMBER, NUMBER(o->contacts > 0 ? o->length / o->contacts : NAN))
+VALUE(passes_contact, index, FLAG, IS(o->contact == CEDUO_PASS))
+VALUE(exhausted_of, index, FLAG, isnan(o->residual) ? NOTHING : IS(o->exhausted))
+VALUE(below_of, paired, NUMBER, NUMBER(o->below > 0 ? o->below : NAN))
+VALUE(share_at, simulated, NUMBER, NUMBER(o->rocks > 0 ? *(const double *)member(f, o) : NAN))
+VALUE(missed_at, arrivals, NUMBER, NUMBER(o->released > 0 ? *(const double *)member(f, o) : NAN))
+VALUE(stop_at, place, NUMBER, NUMBER(*(const double *)member(f, &wood_of(o)->ends) + o->report->file->scene.slope.origin_x))
+VALUE(too_much_of, place, COUNT, o->sum.nothing || isnan(o->sum.exceed.mean) ? NOTHING : COUNT(o->sum.unprotected_energy))
+VALUE(fails_of, place, COUNT, o->sum.nothing ? NOTHING : COUNT(*(const size_t *)member(f, o)))
+VALUE(judgement_of, place, TEXT,
       WORD(ceduo_words_judgement(ceduo_judge(&o->report->result->bare.arrivals[o->control], through_the_wood(o)))))
-VALUE(judgement_of_other, other_energy, WORD(ceduo_words_judgement(o->judgement)))
-VALUE(felled_of, place, NUMBER(ceduo_years_felled(o->report->years[o->option])))
-VALUE(find_format, find_report, WORD("ceduo-find-1"))
-VALUE(find_path, find_report, WORD(o->file->path))
-VALUE(find_option, find_report, WORD(o->file->scene.options[o->search->option].name))
-VALUE(goal_of, search, WORD(ceduo_goals[o->goal].word))
-VALUE(over_of, search, WORD(o->rotation ? "rotation" : "today"))
-VALUE(side_of, found, WORD(!o->found ? NULL : o->side == CEDUO_SMALLEST ? "smallest" : "largest"))
-VALUE(nearest_of, found, NUMBER(o->found ? NAN : o->nearest))
-VALUE(nearest_goal, found, NUMBER(o->found ? NAN : o->goal_at_nearest))
+VALUE(judgement_of_other, other_energy, TEXT, WORD(ceduo_words_judgement(o->judgement)))
+VALUE(felled_of, place, NUMBER, NUMBER(ceduo_years_felled(o->report->years[o->option])))
+VALUE(find_format, find_report, TEXT, WORD("ceduo-find-1"))
+VALUE(find_path, find_report, TEXT, WORD(o->file->path))
+VALUE(find_option, find_report, TEXT, WORD(o->file->scene.options[o->search->option].name))
+VALUE(goal_of, search, TEXT, WORD(ceduo_goals[o->goal].word))
+VALUE(over_of, search, TEXT, WORD(o->rotation ? "rotation" : "today"))
+VALUE(side_of, found, TEXT, WORD(!o->found ? NULL : o->side == CEDUO_SMALLEST ? "smallest" : "largest"))
+VALUE(nearest_of, found, NUMBER, NUMBER(o->found ? NAN : o->nearest))
+VALUE(nearest_goal, found, NUMBER, NUMBER(o->found ? NAN : o->goal_at_nearest))
 
 /* ---- the tables ---- */
 
@@ -644,13 +644,14 @@ const struct ceduo_figure ceduo_find_columns[] = {
 
 /* ---- rows of CSV ---- */
 
-static const struct ceduo_figure option_row[] = {{"option", "", "", .from = option_of, AT(option, name)}, END};
+static const struct ceduo_figure option_row[] = {{"option", "", "name of the option", .from = option_of, AT(option, name)},
+                                                 END};
 static const struct ceduo_figure rest[] = {{.of = summary_row},
                                            {.of = control},
                                            {.of = end_rows},
                                            {"difference", "", "", .from = difference_of, .of = differences},
                                            {"yield", "", "", .of = yield_columns},
-                                           {"warnings", "", "", .say = say_of_all},
+                                           {"warnings", "", "sentences about the run and its stands", .say = say_of_all},
                                            END};
 
 const struct ceduo_figure ceduo_control_columns[] = {{.of = scene}, {.of = option_row}, {.of = rest}, END};

@@ -2,7 +2,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The law arm in scenes: what is assumed with it, what is in doubt, and the shipped scene."""
 import csv
-import json
 
 from harness import DONE, ROOT, Folder, ceduo, expect, expect_equal, run_all, scene
 
@@ -38,7 +37,7 @@ def inputs(law):
         path = f.write("s.yaml", scene(slope=slope, rock={"diameter_m": 0.5}, simulation={"law": law}))
         r = ceduo("-f", "json", "-n", 20, "--sensitivity=2", path)
         expect_equal(r.status, DONE, r)
-        return {i["path"] for i in find(json.loads(r.out), "inputs")}
+        return {i["path"] for i in find(r.json()[0], "inputs")}
 
 
 def test_doubt_is_of_what_the_law_knows():
@@ -54,7 +53,7 @@ def test_shapes():
         with Folder() as f:
             path = f.write("s.yaml", scene(rock={"shape": "ellipsoid", "axes_m": axes}, controls=[{"x_m": 60}], forest=None,
                                            slope={"vertices_m": PROFILE, "segments": [GROUND]}, simulation={"law": law}))
-            return find(json.loads(ceduo("-b", "-f", "json", "-n", 2000, path).out), "stop_x_m")["p50"]
+            return find(ceduo("-b", "-f", "json", "-n", 2000, path).json()[0], "stop_x_m")["p50"]
     expect_equal(stops("lumped", [0.4, 0.4, 0.4]), stops("lumped", [0.6, 0.4, 0.2]))
     expect(stops("arm", [0.4, 0.4, 0.4]) > stops("arm", [0.6, 0.4, 0.2]) + 1)
 

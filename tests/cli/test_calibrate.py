@@ -1,7 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """--calibrate: what is fitted, what is said of it, and what is refused. Stops come from ceduo itself at known values."""
-import json
 import os
 import re
 import signal
@@ -31,7 +30,7 @@ def fit(what, *arguments, rocks=300):
         path = f.write("s.yaml", what)
         r = ceduo("-f", "json", "-n", rocks, "-j", 2, "--calibrate", f"{RT}=0.7:0.98", *arguments, path)
         expect_equal(r.status, DONE, r)
-        return json.loads(r.out)
+        return r.json()[0]
 
 
 def test_json():
@@ -156,7 +155,7 @@ def test_several():
         paths = [f.write(f"{n}.yaml", quarry({"stops": {"x_m": [80 + n, 90, 95, 100, 110]}}, slope=slope)) for n in (1, 2)]
         r = ceduo("-f", "json", "-n", 100, "--calibrate", "slope.materials[talus].rt=0.7:0.95", *paths)
         expect_equal(r.status, DONE, r)
-        result = json.loads(r.out)
+        result = r.json()[0]
         expect_equal([o["scene"] for o in result["observations"]], [str(p) for p in paths])
         expect_equal(len(result["parameters"]), 1)
 
@@ -191,7 +190,7 @@ def test_written():
                 out.parent.mkdir(exist_ok=True)
                 r = ceduo("-f", "json", "-n", 50, "--calibrate", f"{path}=0.7:0.98", "-o", out, f.write("s.yaml", what))
                 expect_equal((r.status, r.err), (DONE, ""), r)
-                best = json.loads(r.out)["parameters"][0]["best"]
+                best = r.json()[0]["parameters"][0]["best"]
                 text = out.read_text()
                 expect_in(f"rt: {best}", text)
                 expect_in("kind: calibrated", text)
@@ -201,7 +200,7 @@ def test_written():
                 expect(len(draws) > 200)
                 r = ceduo("--sensitivity=4", "-f", "json", "-n", 20, out)
                 expect_equal((r.status, r.err), (DONE, ""), r)
-                expect_in("draws", [i["path"] for i in json.loads(r.out)["figures"][0]["inputs"]])
+                expect_in("draws", [i["path"] for i in r.json()[0]["figures"][0]["inputs"]])
 
 
 def test_written_as_yml():
@@ -235,7 +234,7 @@ def test_doubt_written():
             expect_equal((r.status, r.err), (DONE, ""), r)
             expect_in(f"{{draws: {out.stem}.draws.csv, rows: [{{path: rock.density_kg_m3, lo: 2400, hi: 2700}}]}}", out.read_text())
             r = ceduo("--sensitivity=4", "-f", "json", "-n", 20, out)
-            expect_equal({i["path"] for i in json.loads(r.out)["figures"][0]["inputs"]}, {"draws", "rock.density_kg_m3"}, r)
+            expect_equal({i["path"] for i in r.json()[0]["figures"][0]["inputs"]}, {"draws", "rock.density_kg_m3"}, r)
 
 
 def test_table_from_elsewhere():

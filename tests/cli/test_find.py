@@ -5,7 +5,6 @@
 What is found is known beforehand: the ADC of N trees of 1/4 m a hectare and a rock of 3/4 m is 10000/N m; and rocks of
 2 kg that are released with 3 m/s where gravity is 4 m/s2 have 13 J after 1/2 s and 25 J after 1 s.
 """
-import json
 import math
 import re
 import sys
@@ -112,7 +111,7 @@ def test_nobody_arrives():
     stopped["slope"]["segments"] = [{"rn": 0, "rt": 0.1, "friction": 1}]
     with Folder() as f:
         done = ceduo("--find", f"{PER_HA}=400:400", "--goal", "energy=0", "-f", "json", f.write("s.yaml", stopped))
-    expect(done.status == 0 and json.loads(done.out)["found"], "nobody", done)
+    expect(done.status == 0 and done.json()[0]["found"], "nobody", done)
     expect_in("Nothing can be said", done.err)
 
 

@@ -482,7 +482,7 @@ def test_tolerance_and_doubt():
             doubt = [{"path": place, "lo": 0.6, "hi": 2}]
             r = ceduo("--sensitivity=8", "-f", "json", "-n", 100, f.write("s.yaml", slope_site(blocks=blocks, doubt=doubt)))
             expect_equal(r.status, DONE, r)
-            figures = json.loads(r.out)["figures"]
+            figures = r.json()[0]["figures"]
             reach = next(x for x in figures if x["figure"] == "reach_probability")
             expect(place in [i["path"] for i in reach["inputs"]], reach)
             expect(reach["doubt_p5"] < reach["doubt_p95"], reach)

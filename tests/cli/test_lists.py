@@ -1,12 +1,14 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """--help, the lists, --check, and wrong usage."""
+import copy
+import json
 import re
 import sys
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
-from harness import (INPUT, PROFILES, USAGE, Folder, Suite, ceduo, expect, expect_equal, expect_in, expect_near, good, result,
+from harness import (INPUT, PROFILES, USAGE, Failure, Folder, Suite, ceduo, expect, expect_equal, expect_in, expect_near, expect_schema, good, result,
                      scene, stand, tests_of)
 from runs import PAPER
 
@@ -39,6 +41,42 @@ def test_list_parameters():
         expect(path in table, f"{path} is missing")
         for word in words.split():
             expect_in(word, table[path].split(), path)
+
+
+def test_list_columns():
+    """--list-columns names the columns that CSV has, in their order, each with type and meaning"""
+    for words in ((), ("--rows", "stands"), ("--years", "0:1")):
+        head = good("-b", "-f", "csv", "-n", 1, *words, PAPER).out.split("\n")[0].split(",")
+        rows = [re.split("  +", line) for line in good("--list-columns", *(words[:1] if "--years" in words else words)).out.splitlines()]
+        expect_equal(rows[0], ["column", "type", "unit", "empty if", "meaning"])
+        expect_equal([row[0] for row in rows[1:]], head, words)
+        for row in rows[1:]:
+            expect(row[1] in ("number", "integer", "boolean", "string") and row[-1], row)
+
+
+def test_schema():
+    """--schema: a JSON Schema of each output, which an answer keeps and a wrong one does not; --each adds to it"""
+    for name in ("result", "find", "sensitivity", "calibration"):
+        schema = json.loads(good("--schema", name).out)
+        expect_equal((schema["$schema"], schema["$id"]), ("https://json-schema.org/draft/2020-12/schema", f"urn:ceduo-{name}-1"))
+    answer = result(PAPER, "-n", 5)
+    for path, value in ((("title",), 5), (("rocks",), 5.5), (("options", 0, "controls", 0, "x_m"), None),
+                        (("options", 0, "controls", 0, "bare", "energy_kJ", "mean"), "much"), (("warnings",), "none"),
+                        (("options", 0, "controls", 0, "lights"), None), (("rock", "mass_kg"), ...)):
+        wrong = copy.deepcopy(answer)
+        at = wrong
+        for step in path[:-1]:
+            at = at[step]
+        if value is ...:
+            del at[path[-1]]
+        else:
+            at[path[-1]] = value
+        try:
+            expect_schema(wrong)
+        except Failure:
+            continue
+        raise Failure(f"{path}: {value} is taken")
+    expect_equal(ceduo("--schema", "results").status, USAGE)
 
 
 GROWTH = {which: {"dbh_most_m": 0.5, "dbh_rate_1_y": 0.05, "height_most_m": 20, "height_rate_1_y": 0.05}

@@ -1,7 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What was seen of real rocks: the forms in which a scene may say it, and what is refused."""
-import json
 import math
 
 from harness import DONE, INPUT, Folder, ceduo, expect, expect_equal, expect_in, expect_near, run_all, scene
@@ -99,7 +98,7 @@ def test_values():
         path = f.write("s.yaml", quarry(rows, slope=ground, release={"x_m": 1000}, controls=[{"x_m": 1090}]))
         r = ceduo("--calibrate", "slope.segments[0].rt=0.85:0.95", "-n", 40, "-f", "json", path)
         expect_equal(r.status, DONE, r)
-        found = {o["what"]: o for o in json.loads(r.out)["observations"]}
+        found = {o["what"]: o for o in r.json()[0]["observations"]}
         expect_equal(sorted(found), sorted(wanted))
         for what, value in wanted.items():
             expect_near(found[what]["seen"], value, 1e-9, what)

@@ -1,0 +1,145 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What an output looks like, from the tables that write it: JSON Schema, and the columns of CSV. */
+#include "base/json.h"
+#include "figures.h"
+
+static const char *const types[] = {[CEDUO_VALUE_NUMBER] = "number",
+                                    [CEDUO_VALUE_COUNT] = "integer",
+                                    [CEDUO_VALUE_FLAG] = "boolean",
+                                    [CEDUO_VALUE_TEXT] = "string",
+                                    [CEDUO_VALUE_ANY] = "number or text"};
+
+/* ---- JSON Schema ---- */
+
+/* "type": what it is, and null where it may be that. */
+static void write_type(struct json *j, enum ceduo_value_kind kind, bool null)
+{
+    if (kind != CEDUO_VALUE_ANY && !null) {
+        ceduo_json_string(j, "type", types[kind]);
+        return;
+    }
+    ceduo_json_open(j, "type", '[');
+    if (kind == CEDUO_VALUE_ANY)
+        ceduo_json_string(j, NULL, types[CEDUO_VALUE_NUMBER]);
+    ceduo_json_string(j, NULL, types[kind == CEDUO_VALUE_ANY ? CEDUO_VALUE_TEXT : kind]);
+    if (null)
+        ceduo_json_string(j, NULL, "null");
+    ceduo_json_close(j, ']');
+}
+
+static void write_properties(struct json *j, const struct ceduo_figure *f);
+
+static void write_required(struct json *j, const struct ceduo_figure *f)
+{
+    for (; !ceduo_figure_is_end(f); f++) {
+        if (f->key && !f->optional)
+            ceduo_json_string(j, NULL, f->key);
+        else if (!f->key)
+            write_required(j, f->of);
+    }
+}
+
+static void write_object(struct json *j, const struct ceduo_figure *of, bool null)
+{
+    ceduo_json_open(j, "type", '[');
+    ceduo_json_string(j, NULL, "object");
+    if (null)
+        ceduo_json_string(j, NULL, "null");
+    ceduo_json_close(j, ']');
+    ceduo_json_open(j, "properties", '{');
+    write_properties(j, of);
+    ceduo_json_close(j, '}');
+    ceduo_json_open(j, "required", '[');
+    write_required(j, of);
+    ceduo_json_close(j, ']');
+}
+
+static void write_items(struct json *j, const struct ceduo_figure *f)
+{
+    ceduo_json_string(j, "type", "array");
+    ceduo_json_open(j, "items", '{');
+    if (f->say)
+        ceduo_json_string(j, "type", "string");
+    else if (!f->plain)
+        write_object(j, f->of, false);
+    else if (f->of->value)
+        write_type(j, f->of->value->kind, f->of->null != NULL);
+    else
+        write_items(j, f->of);
+    ceduo_json_close(j, '}');
+}
+
+static void write_properties(struct json *j, const struct ceduo_figure *f)
+{
+    for (; !ceduo_figure_is_end(f); f++) {
+        if (!f->key) {
+            write_properties(j, f->of);
+            continue;
+        }
+        ceduo_json_open(j, f->key, '{');
+        ceduo_json_string(j, "description", f->meaning);
+        if (f->unit[0])
+            ceduo_json_string(j, "unit", f->unit);
+        if (f->value)
+            write_type(j, f->value->kind, f->null != NULL);
+        else if (f->enter || f->item || (f->say && !f->one))
+            write_items(j, f);
+        else if (f->say)
+            write_type(j, CEDUO_VALUE_TEXT, f->null != NULL);
+        else
+            write_object(j, f->of, f->null != NULL);
+        ceduo_json_close(j, '}');
+    }
+}
+
+void ceduo_figures_schema(struct text *text, const char *format, const struct ceduo_figure *figures)
+{
+    struct json j = {.text = text};
+    LOCAL_TEXT(id);
+    ceduo_text_format(&id, "urn:%s", format);
+    ceduo_json_open(&j, NULL, '{');
+    ceduo_json_string(&j, "$schema", "https://json-schema.org/draft/2020-12/schema");
+    ceduo_json_string(&j, "$id", ceduo_text_string(&id));
+    write_object(&j, figures, false);
+    ceduo_json_close(&j, '}');
+    ceduo_text_char(text, '\n');
+}
+
+/* ---- columns ---- */
+
+struct group {
+    const struct group *before;
+    const char *key, *unit, *null; /* unit: of what stands in it, "" where that says it itself */
+};
+
+static void append_path(struct text *text, const struct group *group)
+{
+    if (!group)
+        return;
+    append_path(text, group->before);
+    ceduo_text_format(text, "%s.", group->key);
+}
+
+static void add_columns(struct text *rows, const struct ceduo_figure *f, const struct group *group)
+{
+    for (; !ceduo_figure_is_end(f); f++) {
+        const char *unit = f->unit && f->unit[0] ? f->unit : group ? group->unit : "";
+        const char *null = f->null ? f->null : group ? group->null : NULL;
+        const struct group own = {group, f->key, unit, null};
+        if (f->item) {
+            for (size_t i = 0; f->columns && f->columns[i]; i++)
+                add_columns(rows, f->of, &(struct group){&own, f->columns[i], unit, null});
+        } else if (f->of) {
+            add_columns(rows, f->of, f->key ? &own : group);
+        } else {
+            append_path(rows, group);
+            ceduo_text_format(rows, "%s\t%s\t%s\t%s\t%s\n", f->key, types[f->value ? f->value->kind : CEDUO_VALUE_TEXT],
+                              unit[0] ? unit : "-", null ? null : "-", f->meaning);
+        }
+    }
+}
+
+void ceduo_figures_columns(struct text *rows, const struct ceduo_figure *columns)
+{
+    add_columns(rows, columns, NULL);
+}
