@@ -6,6 +6,7 @@
 
 #include "scene.h"
 #include "surface.h"
+#include "years.h"
 
 /* Doubt: what is not known of a scene's values, and what that does to its figures. It is not the error of the sample,
  * which more rocks reduce; only measuring reduces it. Every value that is in doubt is an input with a range; many scenes are
@@ -42,11 +43,13 @@ struct ceduo_input {
 double ceduo_input_quantile(const struct ceduo_input *input, double u);
 
 /* What is asked for at the last control, of the rocks through the forest (without forest where the contact model is
- * index). */
+ * index). The share that a place is judged by is EXCEED where an accepted energy is given, otherwise REACH. */
 enum ceduo_doubt_kind {
     CEDUO_DOUBT_REACH,
     CEDUO_DOUBT_EXCEED,
     CEDUO_DOUBT_ENERGY,
+    CEDUO_DOUBT_MEAN,                        /* the share that the place is judged by, in the mean of a rotation */
+    CEDUO_DOUBT_FAILING,                     /* years of a rotation in which it is above CEDUO_EXCEED_MOST */
     CEDUO_DOUBT_SHOWN,                       /* so many are figures of a report; the lights hang on the others: */
     CEDUO_DOUBT_CONTACT = CEDUO_DOUBT_SHOWN, /* 1 over the longest ADC of a belt, 1/m */
     CEDUO_DOUBT_FREE_RUN,                    /* the largest chance of a free run */
@@ -60,13 +63,21 @@ enum ceduo_doubt_kind {
 #define CEDUO_DOUBT_EXPLAINED  0.9
 #define CEDUO_DOUBT_ROCKS      400 /* of each, where they are not said */
 
+/* Over a rotation each point has so many rocks in each of its years, others in each year; of an option with more years these many
+ * are taken. In the scene as it is each year has more. */
+#define CEDUO_DOUBT_YEAR_ROCKS     32
+#define CEDUO_DOUBT_YEARS_MAX      60
+#define CEDUO_DOUBT_OWN_YEAR_ROCKS 1000
+
 struct ceduo_doubt_def {
     const struct ceduo_scene *scene;
     size_t inputs_count; /* >= 1 */
     const struct ceduo_input *inputs;
-    size_t points;      /* 2…CEDUO_DOUBT_POINTS_MAX */
-    uint64_t rocks;     /* of each evaluation; CEDUO_SURFACE_GROUPS at least are taken */
-    uint64_t own_rocks; /* of the scene as it is; 0: as many */
+    size_t points;              /* 2…CEDUO_DOUBT_POINTS_MAX */
+    uint64_t rocks;             /* of each evaluation; CEDUO_SURFACE_GROUPS at least are taken */
+    uint64_t own_rocks;         /* of the scene as it is; 0: as many */
+    bool rotation;              /* each option over its rotation as well; not with the contact model index */
+    struct ceduo_window window; /* these years instead; step 0: those of ceduo_window_in() */
     unsigned threads;
     const atomic_bool *cancel;                                    /* may be NULL */
     void (*progress)(void *context, uint64_t done, uint64_t all); /* may be NULL; by one thread at a time */
@@ -79,28 +90,38 @@ struct ceduo_doubt_figure {
     enum ceduo_doubt_kind kind;
     bool difference;
     double value, sampling_lo, sampling_hi; /* of the scene as it is, with the error of the rocks; NaN: not known */
-    struct ceduo_surface_fit fit;           /* over what may be true */
-    double (*at)[2];                        /* of each input: with it at its lower, at its upper end, all others as they are */
-    size_t uses;                            /* inputs that the figure's options have */
-    size_t *order;                          /* these by what is left of p95 - p5 if they are known, least first */
+    struct ceduo_surface_fit fit; /* over what may be true; `below`: of the share that the place is judged by, how much
+                                             * of that keeps within CEDUO_EXCEED_MOST */
+    double (*at)[2];              /* of each input: with it at its lower, at its upper end, all others as they are;
+                                             * over a rotation NaN */
+    size_t uses;                  /* inputs that the figure's options have */
+    size_t *order;                /* these by what is left of p95 - p5 if they are known, least first */
 };
 
-/* Of two neighbours in rank: in how much of what may be true the one is better, worse, and neither by more than the noise of
- * the rocks. They add to 1. */
+/* Of two options: in how much of what may be true the one is better, worse, and neither by more than the noise of the rocks. They
+ * add to 1. */
 struct ceduo_doubt_order {
     size_t better, than; /* options */
     double probability, equal, worse;
 };
 
+/* The options in rank by the scene as it is. */
+struct ceduo_doubt_ranking {
+    bool rotation;                    /* by the mean over a rotation, otherwise by today's main figure */
+    size_t count;                     /* pairs: one less than options; 0: there is one option alone, or it is not known */
+    struct ceduo_doubt_order *orders; /* each option and the next one */
+    struct ceduo_doubt_order *rivals; /* the best one and each of the others, in rank */
+};
+
 struct ceduo_doubt_answer {
     size_t points;
     uint64_t own_rocks;
+    bool rotation; /* figures over a rotation are there */
     size_t figures_count;
     struct ceduo_doubt_figure *figures; /* by option and kind, then the differences; see ceduo_doubt_figure_of() */
     enum ceduo_doubt_kind main;         /* too much energy where that is known, otherwise energy */
-    size_t orders_count;
-    struct ceduo_doubt_order *orders;
-    uint64_t evaluations;
+    struct ceduo_doubt_ranking today, over_rotation;
+    uint64_t evaluations; /* scenes computed; each is of all options, and of their years */
 };
 
 /* Computes all. Bits do not depend on the number of threads. CEDUO_NO_MEMORY, CEDUO_CANCELLED or what
@@ -108,8 +129,12 @@ struct ceduo_doubt_answer {
 enum ceduo_status ceduo_doubt_ask(const struct ceduo_doubt_def *def, struct ceduo_doubt_answer *answer);
 void ceduo_doubt_free(struct ceduo_doubt_answer *answer);
 
+/* The figures over a rotation are there where answer->rotation says so. */
 const struct ceduo_doubt_figure *ceduo_doubt_figure_of(const struct ceduo_doubt_answer *answer, size_t option,
                                                        enum ceduo_doubt_kind kind, bool difference);
+
+/* The order of the options that pages and views give: over the rotation where that is known, otherwise today's. */
+const struct ceduo_doubt_ranking *ceduo_doubt_verdict(const struct ceduo_doubt_answer *answer);
 
 /* Whether a light of the last control changes within the 90 % band of doubt: contact, free run, or energy
  * (CEDUO_DOUBT_EXCEED). Returns how many inputs it depends on above all, 1 or 2, the heaviest first; 0: it does not change, or

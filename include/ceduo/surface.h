@@ -22,7 +22,8 @@ struct ceduo_input;
  * more points are the same. Inputs beyond GSL's 40 coordinates are drawn. CEDUO_NO_MEMORY or CEDUO_OK. */
 enum ceduo_status ceduo_surface_points(uint64_t seed, size_t points, size_t inputs, double *u);
 
-/* The functions at the points; both arrays must outlive it. */
+/* The functions at the points; both arrays must outlive it. One thread at a time uses it, as it keeps what the figures of the same
+ * inputs have in common. */
 struct ceduo_surface;
 enum ceduo_status ceduo_surface_open(const struct ceduo_input *inputs, size_t inputs_count, const double *u, size_t points,
                                      struct ceduo_surface **surface);
@@ -39,6 +40,14 @@ struct ceduo_share {
     double value, se; /* se: of the points, by bootstrap, and of the rocks, by jackknife */
 };
 
+/* A figure at the points. */
+struct ceduo_surface_figure {
+    const struct ceduo_groups *y; /* of each point */
+    const bool *uses;             /* the inputs that it may depend on; NULL: all */
+    double lo, hi;                /* it is never below nor above, which a surface may be: its values are put there */
+    double limit;                 /* how many values are at most this is read as well; NaN: it is not */
+};
+
 struct ceduo_surface_fit {
     double mean, variance;    /* over what may be true, without the noise of the rocks */
     double noise;             /* variance of a point's value by its rocks */
@@ -48,16 +57,25 @@ struct ceduo_surface_fit {
     struct ceduo_share whole; /* the share that the terms do not explain */
     double lo, hi;            /* bounds of the values */
     double p5, p50, p95;      /* of the values */
+    double p5_se, p95_se;     /* of other points and other rocks */
+    struct ceduo_share below; /* of the values the share that is at most the limit */
     double *values;           /* of each point: of the surface, and what of its remainder is not noise */
     struct ceduo_share *first, *total; /* of each input: of it alone, and of all terms that it is in */
     double *left;                      /* of each input: p95 - p5 that remains on the mean if it is known */
 };
 
-/* Fits the figure y of each point by the inputs that it may depend on (NULL: by all). A figure is never below lo nor above hi,
- * which a surface may be: its values are put there. The fit is to be released.
- * CEDUO_NO_MEMORY or CEDUO_OK. */
-enum ceduo_status ceduo_surface_fit(const struct ceduo_surface *surface, const bool *uses, const struct ceduo_groups *y,
-                                    double lo, double hi, struct ceduo_surface_fit *fit);
+/* Fits a figure by its inputs. The fit is to be released. CEDUO_NO_MEMORY or CEDUO_OK. */
+enum ceduo_status ceduo_surface_fit(struct ceduo_surface *surface, const struct ceduo_surface_figure *figure,
+                                    struct ceduo_surface_fit *fit);
 void ceduo_surface_release(struct ceduo_surface_fit *fit);
+
+/* The values of n figures alone, at the points of one after the other: those of fits by the same terms. Of the figure only y is
+ * others', row by row. `changes`: in 1 and on how much higher the value of half of the rocks is; that of the other half is as much
+ * lower. CEDUO_NO_MEMORY or CEDUO_OK. */
+enum ceduo_status ceduo_surface_values(struct ceduo_surface *surface, const struct ceduo_surface_figure *figure, size_t n,
+                                       double *values, struct ceduo_groups *changes);
+
+/* Groups with this mean, and with the noise that such changes by halves of the rocks say. */
+void ceduo_groups_set(struct ceduo_groups *groups, double value, const double changes[CEDUO_SURFACE_GROUPS]);
 
 #endif

@@ -293,7 +293,7 @@ static const struct option_row rows[] = {
      N_("number of threads; it does not change the result (all cores)")},
     {"option", 0, "NAME", add_word, AT(options), MODE_TERMINAL, FIT | SURVEY | SCREEN,
      N_("compute only this option of the scene; may be repeated")},
-    {"years", 0, "[A:B[:STEP]]", set_years, 0, MODE_BATCH, CHECK | DOUBT | FIT | SURVEY,
+    {"years", 0, "[A:B[:STEP]]", set_years, 0, MODE_BATCH, CHECK | FIT | SURVEY,
      N_("compute every option year by year: one whole rotation after its first cut, or the years A to B; the stands as "
         "filed are year 0")},
     {"find", 0, "PATH=LO:HI", set_find, 0, MODE_FIND, CHECK | PAGE | SURVEY,

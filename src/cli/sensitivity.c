@@ -16,6 +16,8 @@ enum ceduo_status ceduo_sensitivity_ask(const struct arguments *a, struct scene_
     def->inputs_count = d->inputs.n;
     def->inputs = d->inputs.items;
     def->threads = a->threads;
+    def->rotation = a->years;
+    def->window = a->window;
     def->cancel = ceduo_interrupt_flag();
     def->progress = ceduo_progress_steps;
     def->context = progress;

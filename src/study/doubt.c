@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What is not known of a scene, and what that does to its figures. The scene is computed at points of what may be true, with the
- * same few rocks, and with one input at each end of its range; a surface through each figure says what it depends on
- * (surface.c). Each thread has a copy of the scene of its own, takes item by item, and writes to the item's own rows: so the bits
- * do not depend on the threads. An item is one list of variants, of which no two that are equal are simulated. */
+ * same few rocks (points.c), and with one input at each end of its range; a surface through each figure says what it depends on
+ * (surface.c). Over a rotation each year has a surface of its own, whose values at the points are without the noise of the few
+ * rocks; they say which years fail. */
 #include "ceduo/doubt.h"
 
 #include <math.h>
@@ -13,15 +13,23 @@
 #include "base/parallel.h"
 #include "ceduo/assess.h"
 #include "ceduo/question.h"
-#include "ceduo/variants.h"
-#include "inputs.h"
+#include "points.h"
+
+#define GROUPS CEDUO_SURFACE_GROUPS
 
 /* Rows of inputs: two for each input, with it at its ends and all others NaN, then the points. */
 struct rows {
     const struct ceduo_doubt_def *def;
-    size_t ends, points, options;
+    size_t ends, points, options, most; /* most: points */
     double *u;
     struct ceduo_groups *values; /* of each row, option and kind */
+    enum ceduo_doubt_kind judged;
+    size_t *years, *first_year;  /* of each option how many, and where they begin; NULL: not asked for */
+    double *year_counts;         /* of each option how many years these stand for */
+    struct ceduo_groups *shares; /* of each year and point */
+    uint64_t before, all;        /* evaluations, for the progress */
+    atomic_size_t done;
+    pthread_mutex_t talking;
 };
 
 static struct ceduo_groups *values_of(const struct rows *r, size_t row, size_t option)
@@ -29,140 +37,152 @@ static struct ceduo_groups *values_of(const struct rows *r, size_t row, size_t o
     return r->values + (row * r->options + option) * CEDUO_DOUBT_KINDS;
 }
 
-/* ---- the rows ---- */
-
-struct rows_work {
-    struct rows *rows;
-    size_t from;                /* the first item's number */
-    uint64_t before, all;       /* evaluations, for the progress */
-    struct input_scene *copies; /* of the scene, for each thread */
-    atomic_size_t done;
-    atomic_bool failed; /* nothing more once any thread has failed */
-    pthread_mutex_t talking;
-};
-
-/* Rows as variants: every option of each. */
-struct item {
-    struct rows_work *work;
-    struct input_scene *copy;
-    size_t row; /* the first */
-};
-
-static void report(struct rows_work *w)
+static struct ceduo_groups *share_of(const struct rows *r, const struct point *point)
 {
-    const struct ceduo_doubt_def *def = w->rows->def;
-    size_t done = atomic_fetch_add(&w->done, 1) + 1;
-    if (!def->progress || pthread_mutex_trylock(&w->talking) != 0)
-        return;
-    def->progress(def->context, w->before + done, w->all);
-    pthread_mutex_unlock(&w->talking);
+    return r->shares + (r->first_year[point->option] + point->slot - 1) * r->most + (point->row - r->ends);
 }
 
-static enum ceduo_status make_variant(void *context, size_t i, struct ceduo_variant *variant)
+/* ---- the rows ---- */
+
+static void report(void *context)
 {
-    struct item *item = context;
-    const struct rows *r = item->work->rows;
-    const struct ceduo_scene *scene = &item->copy->scene;
-    if (atomic_load(&item->work->failed))
-        return CEDUO_CANCELLED;
-    if (i % r->options == 0)
-        ceduo_inputs_set(item->copy, r->u + (item->row + i / r->options) * r->def->inputs_count);
-    variant->run = ceduo_run_def_default(scene);
-    variant->run.option = &scene->options[i % r->options];
-    variant->run.rocks_most = r->def->rocks;
-    variant->run.arrivals_only = true;
-    variant->run.cancel = r->def->cancel;
-    variant->rocks = r->def->rocks;
-    return CEDUO_OK;
+    struct rows *r = context;
+    const struct ceduo_doubt_def *def = r->def;
+    size_t done = atomic_fetch_add(&r->done, 1) + 1;
+    if (!def->progress || pthread_mutex_trylock(&r->talking) != 0)
+        return;
+    def->progress(def->context, r->before + done, r->all);
+    pthread_mutex_unlock(&r->talking);
 }
 
 /* What no rock decides is the same in all groups. */
-static void end_variant(const struct item *item, size_t i)
+static void read_index(const struct rows *r, const struct point *point)
 {
-    const struct rows *r = item->work->rows;
-    const struct ceduo_scene *scene = &item->copy->scene;
-    const struct ceduo_control *control = &scene->controls[ceduo_scene_last_control(scene)];
-    struct ceduo_groups *values = values_of(r, item->row + i / r->options, i % r->options);
-    struct ceduo_index index = ceduo_assess_index(scene, &scene->options[i % r->options], control, NAN);
-    for (size_t g = 0; g < CEDUO_SURFACE_GROUPS; g++) {
+    const struct ceduo_control *control = &point->scene->controls[ceduo_scene_last_control(point->scene)];
+    struct ceduo_groups *values = values_of(r, point->row, point->option);
+    struct ceduo_index index = ceduo_assess_index(point->scene, point->forest, control, NAN);
+    for (size_t g = 0; g < GROUPS; g++) {
         values[CEDUO_DOUBT_CONTACT].of[g] = 1 / index.worst_adc;
         values[CEDUO_DOUBT_FREE_RUN].of[g] = index.worst_free_run;
     }
-    if (i % r->options + 1 == r->options)
-        report(item->work);
 }
 
-static enum ceduo_status read_variant(void *context, size_t i, struct ceduo_run *run, uint64_t *rocks)
+/* The mean of the years is added up as they come. */
+static void add_year(const struct rows *r, const struct point *point)
 {
-    (void)rocks;
-    const struct item *item = context;
-    const struct rows *r = item->work->rows;
-    struct ceduo_groups *values = values_of(r, item->row + i / r->options, i % r->options);
-    struct ceduo_brief briefs[CEDUO_SURFACE_GROUPS];
-    ceduo_run_briefs(run, ceduo_scene_last_control(&item->copy->scene), CEDUO_SURFACE_GROUPS, briefs);
-    for (size_t g = 0; g < CEDUO_SURFACE_GROUPS; g++) {
+    struct ceduo_groups *mean = &values_of(r, point->row, point->option)[CEDUO_DOUBT_MEAN];
+    for (size_t g = 0; g < GROUPS; g++)
+        mean->of[g] = (point->slot == 1 ? 0 : mean->of[g]) + share_of(r, point)->of[g] / (double)r->years[point->option];
+}
+
+static enum ceduo_status read_point(void *context, const struct point *point, struct ceduo_run *run)
+{
+    const struct rows *r = context;
+    struct ceduo_groups *values = values_of(r, point->row, point->option);
+    struct ceduo_brief briefs[GROUPS];
+    ceduo_run_briefs(run, ceduo_scene_last_control(point->scene), GROUPS, briefs);
+    for (size_t g = 0; g < GROUPS; g++) {
+        if (point->slot > 0) {
+            share_of(r, point)->of[g] =
+                r->judged == CEDUO_DOUBT_EXCEED ? briefs[g].exceed_probability : briefs[g].reach_probability;
+            continue;
+        }
         values[CEDUO_DOUBT_REACH].of[g] = briefs[g].reach_probability;
         values[CEDUO_DOUBT_EXCEED].of[g] = briefs[g].exceed_probability;
         values[CEDUO_DOUBT_ENERGY].of[g] = briefs[g].energy_per_released;
     }
-    end_variant(item, i);
+    if (point->slot > 0)
+        add_year(r, point);
+    else
+        read_index(r, point);
     return CEDUO_OK;
 }
 
-static void same_variant(void *context, size_t i, size_t first)
+static void same_point(void *context, const struct point *point, const struct point *first)
 {
-    const struct item *item = context;
-    const struct rows *r = item->work->rows;
-    memcpy(values_of(r, item->row + i / r->options, i % r->options),
-           values_of(r, item->row + first / r->options, first % r->options), CEDUO_DOUBT_SHOWN * sizeof(struct ceduo_groups));
-    end_variant(item, i);
+    const struct rows *r = context;
+    if (point->slot > 0) {
+        *share_of(r, point) = *share_of(r, first);
+        add_year(r, point);
+        return;
+    }
+    memcpy(values_of(r, point->row, point->option), values_of(r, first->row, first->option),
+           CEDUO_DOUBT_MEAN * sizeof(struct ceduo_groups));
+    read_index(r, point);
 }
 
-/* Item 0 is all ends, as they have most of their forests in common; the others are a point each. */
-static int evaluate_item(void *context, size_t i, size_t thread)
+/* Room for the years of a rotation. */
+static bool open_years(struct rows *r)
 {
-    struct rows_work *w = context;
-    size_t n = w->from + i == 0 ? w->rows->ends : 1;
-    struct item item = {w, &w->copies[thread], w->from + i == 0 ? 0 : w->rows->ends + w->from + i - 1};
-    enum ceduo_status status = ceduo_variants_run(&(const struct ceduo_variants){
-        .n = n * w->rows->options, .make = make_variant, .read = read_variant, .same = same_variant, .context = &item});
-    /* of threads that end because another one failed, none says so */
-    return status == CEDUO_OK || atomic_exchange(&w->failed, true) ? CEDUO_OK : (int)status;
+    const struct ceduo_doubt_def *def = r->def;
+    size_t years = 0;
+    r->years = calloc(r->options + 1, sizeof *r->years);
+    r->first_year = calloc(r->options + 1, sizeof *r->first_year);
+    r->year_counts = calloc(r->options + 1, sizeof *r->year_counts);
+    for (size_t i = 0; r->years && r->first_year && r->year_counts && i < r->options; i++) {
+        const struct ceduo_option *option = &def->scene->options[i];
+        r->years[i] = ceduo_points_years(def->scene, option, def->window, CEDUO_DOUBT_YEARS_MAX);
+        r->year_counts[i] = (double)ceduo_points_years(def->scene, option, def->window, SIZE_MAX);
+        r->first_year[i] = years;
+        years += r->years[i];
+    }
+    r->shares = malloc(years * r->most * sizeof *r->shares + 1);
+    return r->years && r->first_year && r->year_counts && r->shares;
 }
 
 static enum ceduo_status open_rows(struct rows *r, const struct ceduo_doubt_def *def)
 {
     size_t n = def->inputs_count;
-    size_t most = def->points > CEDUO_DOUBT_POINTS_MAX ? def->points : CEDUO_DOUBT_POINTS_MAX;
     *r = (struct rows){.def = def, .ends = 2 * n, .options = def->scene->options_count};
-    r->u = malloc((r->ends + most) * n * sizeof *r->u);
-    r->values = malloc((r->ends + most) * r->options * CEDUO_DOUBT_KINDS * sizeof *r->values);
-    if (!r->u || !r->values)
+    r->most = def->points > CEDUO_DOUBT_POINTS_MAX ? def->points : CEDUO_DOUBT_POINTS_MAX;
+    r->u = malloc((r->ends + r->most) * n * sizeof *r->u);
+    r->values = malloc((r->ends + r->most) * r->options * CEDUO_DOUBT_KINDS * sizeof *r->values);
+    pthread_mutex_init(&r->talking, NULL);
+    if (!r->u || !r->values || (def->rotation && !open_years(r)))
         return CEDUO_NO_MEMORY;
     for (size_t row = 0; row < r->ends; row++)
         for (size_t i = 0; i < n; i++)
             r->u[row * n + i] = i == row / 2 ? (double)(row % 2) : NAN;
-    return ceduo_surface_points(def->scene->simulation.seed, most, n, r->u + r->ends * n);
+    return ceduo_surface_points(def->scene->simulation.seed, r->most, n, r->u + r->ends * n);
 }
 
-/* Evaluates up to so many points. */
+static void close_rows(struct rows *r)
+{
+    free(r->u);
+    free(r->values);
+    free(r->years);
+    free(r->first_year);
+    free(r->year_counts);
+    free(r->shares);
+    pthread_mutex_destroy(&r->talking);
+}
+
+/* Evaluates up to so many points, and first the ends, which have most of their forests in common. */
 static enum ceduo_status extend(struct rows *r, size_t points)
 {
     const struct ceduo_doubt_def *def = r->def;
-    struct rows_work w = {.rows = r, .from = r->points > 0 ? r->points + 1 : 0, .all = r->ends + points};
-    w.before = r->points > 0 ? r->ends + r->points : 0;
-    w.copies = calloc(def->threads, sizeof *w.copies);
-    pthread_mutex_init(&w.talking, NULL);
+    size_t from = r->points > 0 ? r->ends + r->points : 0;
+    const struct points p = {.scene = def->scene,
+                             .inputs = def->inputs,
+                             .inputs_count = def->inputs_count,
+                             .u = r->u,
+                             .only = CEDUO_ALL_OPTIONS,
+                             .rocks = def->rocks,
+                             .today = true,
+                             .years = r->years,
+                             .window = def->window,
+                             .year_rocks = CEDUO_DOUBT_YEAR_ROCKS,
+                             .threads = def->threads,
+                             .cancel = def->cancel,
+                             .read = read_point,
+                             .same = same_point,
+                             .done = report,
+                             .context = r};
+    r->before = from;
+    r->all = r->ends + points;
+    atomic_store(&r->done, 0);
+    enum ceduo_status status = ceduo_points_run(&p, from, r->ends + points, from == 0 ? r->ends : 0);
     r->points = points;
-    enum ceduo_status status = w.copies ? CEDUO_OK : CEDUO_NO_MEMORY;
-    for (size_t i = 0; i < def->threads && status == CEDUO_OK; i++)
-        status = ceduo_inputs_open(&w.copies[i], def->scene, def->inputs, def->inputs_count);
-    if (status == CEDUO_OK)
-        status = (enum ceduo_status)ceduo_parallel(&(struct parallel){points + 1 - w.from, def->threads, evaluate_item, &w});
-    for (size_t i = 0; w.copies && i < def->threads; i++)
-        ceduo_inputs_release(&w.copies[i]);
-    free(w.copies);
-    pthread_mutex_destroy(&w.talking);
     return status;
 }
 
@@ -183,15 +203,6 @@ const struct ceduo_doubt_figure *ceduo_doubt_figure_of(const struct ceduo_doubt_
 {
     size_t options = (answer->figures_count / CEDUO_DOUBT_KINDS + 1) / 2;
     return &answer->figures[figure_at(options, option, kind, difference)];
-}
-
-/* Of groups that differ by a rock. */
-static double mean_of(struct ceduo_groups y, uint64_t rocks)
-{
-    double sum = 0;
-    for (uint64_t g = 0, groups = CEDUO_SURFACE_GROUPS; g < groups; g++)
-        sum += y.of[g] * (double)(rocks * (g + 1) / groups - rocks * g / groups) / (double)rocks;
-    return sum;
 }
 
 /* The value of a row; of a difference that of its option less that of `against`. */
@@ -215,14 +226,6 @@ static bool has_input(size_t option, const struct ceduo_input *input)
     return false;
 }
 
-/* The surfaces, and one figure after the other. */
-struct reading {
-    const struct rows *rows;
-    const struct ceduo_surface *surface;
-    struct ceduo_doubt_answer *answer;
-    bool deciding; /* only the figures that decide whether there are points enough; otherwise only the others */
-};
-
 /* The indices of n values, the smallest first, equal ones in their order. */
 static void sort_indices(const double *values, size_t n, size_t *order)
 {
@@ -244,65 +247,169 @@ static void order_inputs(const struct ceduo_doubt_def *def, const bool *uses, st
         f->uses += uses[i];
 }
 
-static int read_figure(void *context, size_t item, size_t worker)
+/* The figures of one option or difference are read one after the other, as their surfaces have the terms in common. */
+struct reading {
+    const struct rows *rows;
+    struct ceduo_doubt_answer *answer;
+    bool deciding; /* only the figures that decide whether there are points enough; otherwise only the others */
+};
+
+/* What a surface is made of: which inputs the options have, and room. */
+struct subject {
+    struct ceduo_surface *surface;
+    bool *uses;
+    double *room;
+    struct ceduo_groups *column;
+};
+
+static enum ceduo_status open_subject(const struct rows *r, size_t option, size_t against, struct subject *s)
+{
+    size_t n = r->def->inputs_count;
+    *s = (struct subject){.uses = calloc(n, sizeof *s->uses),
+                          .room = malloc(n * sizeof *s->room),
+                          .column = malloc(r->points * sizeof *s->column)};
+    enum ceduo_status status = ceduo_surface_open(r->def->inputs, n, r->u + r->ends * n, r->points, &s->surface);
+    if (!s->uses || !s->room || !s->column)
+        return CEDUO_NO_MEMORY;
+    for (size_t i = 0; i < n; i++)
+        s->uses[i] = has_input(option, &r->def->inputs[i]) || has_input(against, &r->def->inputs[i]);
+    return status;
+}
+
+static void close_subject(struct subject *s)
+{
+    ceduo_surface_free(s->surface);
+    free(s->uses);
+    free(s->room);
+    free(s->column);
+}
+
+/* How far a figure goes. */
+static double max_of(const struct rows *r, const struct ceduo_doubt_figure *f)
+{
+    double years = r->years ? r->year_counts[f->option] : NAN;
+    if (f->kind == CEDUO_DOUBT_FAILING)
+        return f->difference ? fmax(years, r->year_counts[0]) : years;
+    return f->kind == CEDUO_DOUBT_ENERGY || f->kind == CEDUO_DOUBT_CONTACT ? INFINITY : 1;
+}
+
+static bool is_rotation(enum ceduo_doubt_kind kind)
+{
+    return kind == CEDUO_DOUBT_MEAN || kind == CEDUO_DOUBT_FAILING;
+}
+
+/* Whether a figure is there: years fail by what the place withstands. */
+static bool is_there(const struct rows *r, enum ceduo_doubt_kind kind)
+{
+    return !is_rotation(kind) || (r->years && (kind == CEDUO_DOUBT_MEAN || r->judged == CEDUO_DOUBT_EXCEED));
+}
+
+static enum ceduo_status read_figure(const struct rows *r, const struct subject *s, struct ceduo_doubt_figure *f)
+{
+    const struct ceduo_doubt_def *def = r->def;
+    bool judged = !f->difference && (f->kind == r->judged || f->kind == CEDUO_DOUBT_MEAN) && r->judged == CEDUO_DOUBT_EXCEED;
+    double max = max_of(r, f);
+    for (size_t p = 0; p < r->points; p++)
+        s->column[p] = value_at(r, r->ends + p, f->option, 0, f->kind, f->difference);
+    for (size_t i = 0; i < def->inputs_count; i++)
+        for (size_t end = 0; end < 2; end++) {
+            struct ceduo_groups y = {{0}};
+            if (!is_rotation(f->kind))
+                y = value_at(r, 2 * i + end, f->option, 0, f->kind, f->difference);
+            f->at[i][end] = is_rotation(f->kind) ? NAN : ceduo_groups_mean(&y, def->rocks);
+        }
+    ceduo_surface_release(&f->fit);
+    enum ceduo_status status =
+        ceduo_surface_fit(s->surface,
+                          &(const struct ceduo_surface_figure){.y = s->column,
+                                                               .uses = s->uses,
+                                                               .lo = f->difference ? -max : 0,
+                                                               .hi = max,
+                                                               .limit = judged ? CEDUO_EXCEED_MOST : NAN},
+                          &f->fit);
+    if (status == CEDUO_OK)
+        order_inputs(def, s->uses, f, s->room);
+    return status;
+}
+
+/* An option, or behind them a difference to the first one. */
+static int read_figures_of(void *context, size_t item, size_t worker)
 {
     (void)worker;
     const struct reading *reading = context;
     const struct rows *r = reading->rows;
-    const struct ceduo_doubt_def *def = r->def;
-    struct ceduo_doubt_figure *f = &reading->answer->figures[item];
-    size_t n = def->inputs_count, at = item / CEDUO_DOUBT_KINDS;
-    f->kind = (enum ceduo_doubt_kind)(item % CEDUO_DOUBT_KINDS);
-    f->difference = at >= r->options;
-    f->option = f->difference ? at - r->options + 1 : at;
-    bool decides = !f->difference && f->kind == reading->answer->main;
-    if (decides != reading->deciding)
-        return CEDUO_OK;
-    struct ceduo_groups *column = malloc(r->points * sizeof *column);
-    bool *uses = calloc(n, sizeof *uses);
-    double *room = malloc(n * sizeof *room);
-    ceduo_surface_release(&f->fit);
-    enum ceduo_status status = column && uses && room ? CEDUO_OK : CEDUO_NO_MEMORY;
-    if (status == CEDUO_OK) {
-        for (size_t p = 0; p < r->points; p++)
-            column[p] = value_at(r, r->ends + p, f->option, 0, f->kind, f->difference);
-        for (size_t i = 0; i < n; i++) {
-            uses[i] = has_input(f->option, &def->inputs[i]) || (f->difference && has_input(0, &def->inputs[i]));
-            for (size_t end = 0; end < 2; end++)
-                f->at[i][end] = mean_of(value_at(r, 2 * i + end, f->option, 0, f->kind, f->difference), def->rocks);
-        }
-        double max = f->kind == CEDUO_DOUBT_ENERGY || f->kind == CEDUO_DOUBT_CONTACT ? INFINITY : 1;
-        status = ceduo_surface_fit(reading->surface, uses, column, f->difference ? -max : 0, max, &f->fit);
+    bool difference = item >= r->options;
+    size_t option = difference ? item - r->options + 1 : item;
+    struct subject s;
+    enum ceduo_status status = open_subject(r, option, difference ? 0 : option, &s);
+    for (size_t kind = 0; kind < CEDUO_DOUBT_KINDS && status == CEDUO_OK; kind++) {
+        struct ceduo_doubt_figure *f = &reading->answer->figures[item * CEDUO_DOUBT_KINDS + kind];
+        f->kind = (enum ceduo_doubt_kind)kind;
+        f->difference = difference;
+        f->option = option;
+        bool decides = !difference && (f->kind == reading->answer->main || f->kind == CEDUO_DOUBT_MEAN);
+        if (is_there(r, f->kind) && decides == reading->deciding)
+            status = read_figure(r, &s, f);
     }
-    if (status == CEDUO_OK)
-        order_inputs(def, uses, f, room);
-    free(column);
-    free(uses);
-    free(room);
+    close_subject(&s);
     return (int)status;
 }
 
 static enum ceduo_status read_figures(const struct rows *r, bool deciding, struct ceduo_doubt_answer *answer)
 {
-    struct ceduo_surface *surface;
-    size_t n = r->def->inputs_count;
-    enum ceduo_status status = ceduo_surface_open(r->def->inputs, n, r->u + r->ends * n, r->points, &surface);
-    struct reading reading = {r, surface, answer, deciding};
-    struct parallel work = {answer->figures_count, r->def->threads, read_figure, &reading};
-    if (status == CEDUO_OK)
-        status = (enum ceduo_status)ceduo_parallel(&work);
-    ceduo_surface_free(surface);
-    return status;
+    struct reading reading = {r, answer, deciding};
+    size_t items = deciding ? r->options : answer->figures_count / CEDUO_DOUBT_KINDS;
+    return (enum ceduo_status)ceduo_parallel(&(struct parallel){items, r->def->threads, read_figures_of, &reading});
+}
+
+/* ---- which years fail ---- */
+
+/* At each point the years whose surface is above what is allowed. Groups have that number as their mean, and its
+ * noise by halves of the rocks. */
+static int count_years(void *context, size_t option, size_t worker)
+{
+    (void)worker;
+    const struct rows *r = context;
+    size_t years = r->years[option], points = r->points;
+    double *values = malloc(years * points * sizeof *values), each = r->year_counts[option] / (double)years;
+    struct ceduo_groups *y = malloc(years * points * sizeof *y), *changes = malloc(years * points * sizeof *changes);
+    struct subject s;
+    enum ceduo_status status = open_subject(r, option, option, &s);
+    status = values && y && changes ? status : CEDUO_NO_MEMORY;
+    if (status == CEDUO_OK) {
+        for (size_t k = 0; k < years; k++)
+            memcpy(y + k * points, r->shares + (r->first_year[option] + k) * r->most, points * sizeof *y);
+        const struct ceduo_surface_figure figure = {.y = y, .uses = s.uses, .hi = 1, .limit = NAN};
+        status = ceduo_surface_values(s.surface, &figure, years, values, changes);
+    }
+    for (size_t p = 0; p < points && status == CEDUO_OK; p++) {
+        struct ceduo_groups *failing = &values_of(r, r->ends + p, option)[CEDUO_DOUBT_FAILING];
+        double all = 0, halves[GROUPS] = {0};
+        for (size_t k = p; k < years * points; k += points) {
+            all += each * (values[k] > CEDUO_EXCEED_MOST);
+            for (size_t half = 1; half < GROUPS; half++)
+                halves[half] += each / 2 *
+                                ((values[k] + changes[k].of[half] > CEDUO_EXCEED_MOST) -
+                                 (values[k] - changes[k].of[half] > CEDUO_EXCEED_MOST));
+        }
+        ceduo_groups_set(failing, all, halves);
+    }
+    close_subject(&s);
+    free(values);
+    free(y);
+    free(changes);
+    return (int)status;
 }
 
 /* Whether more points would tell more: a surface of an option explains too little. */
 static bool wants_more(const struct rows *r, const struct ceduo_doubt_answer *a)
 {
-    for (size_t i = 0; i < r->options; i++) {
-        const struct ceduo_surface_fit *fit = &a->figures[i * CEDUO_DOUBT_KINDS + a->main].fit;
-        if (fit->enough ? fit->explained < CEDUO_DOUBT_EXPLAINED : fit->variance > 0 && r->points >= CEDUO_DOUBT_POINTS)
-            return true;
-    }
+    for (size_t i = 0; i < r->options; i++)
+        for (size_t over = 0; over < (r->years ? 2 : 1); over++) {
+            const struct ceduo_surface_fit *fit = &ceduo_doubt_figure_of(a, i, over ? CEDUO_DOUBT_MEAN : a->main, false)->fit;
+            if (fit->enough ? fit->explained < CEDUO_DOUBT_EXPLAINED : fit->variance > 0 && r->points >= CEDUO_DOUBT_POINTS)
+                return true;
+        }
     return false;
 }
 
@@ -321,8 +428,44 @@ static void set_difference(struct ceduo_doubt_figure *f, struct ceduo_paired d)
     set_sampling(f, d.mean, d.mean - half, d.mean + half);
 }
 
-static enum ceduo_status read_sampling(const struct ceduo_doubt_def *def, struct ceduo_doubt_answer *answer)
+/* Years that fail by the ends of their intervals, and by their shares. */
+static void count_own_years(const struct ceduo_years *years, size_t control, double counts[3])
 {
+    for (size_t i = 0; i < years->count; i++) {
+        const struct ceduo_arrivals *a = &years->years[i].wooded.arrivals[control];
+        counts[0] += a->exceed_lo > CEDUO_EXCEED_MOST;
+        counts[1] += a->exceed_probability > CEDUO_EXCEED_MOST;
+        counts[2] += a->exceed_hi > CEDUO_EXCEED_MOST;
+    }
+}
+
+static void set_years(struct ceduo_doubt_answer *answer, size_t options, struct ceduo_years *const *years, bool judges)
+{
+    double first[3] = {0};
+    for (size_t i = 0; i < options; i++) {
+        size_t control = years[i]->last_control;
+        struct ceduo_years_summary s = ceduo_years_sum(years[i], control);
+        struct ceduo_doubt_figure *f = &answer->figures[i * CEDUO_DOUBT_KINDS],
+                                  *d = &answer->figures[figure_at(options, i, CEDUO_DOUBT_REACH, i > 0)];
+        struct ceduo_paired mean = judges ? s.exceed : s.reach;
+        double counts[3] = {0}, half = CEDUO_Z95 * mean.se;
+        set_sampling(&f[CEDUO_DOUBT_MEAN], mean.mean, fmax(0, mean.mean - half), fmin(1, mean.mean + half));
+        if (i > 0)
+            set_difference(&d[CEDUO_DOUBT_MEAN], ceduo_years_difference(years[i], years[0]));
+        if (!judges)
+            continue;
+        count_own_years(years[i], control, counts);
+        set_sampling(&f[CEDUO_DOUBT_FAILING], counts[1], counts[0], counts[2]);
+        if (i > 0)
+            set_sampling(&d[CEDUO_DOUBT_FAILING], counts[1] - first[1], counts[0] - first[2], counts[2] - first[0]);
+        else
+            memcpy(first, counts, sizeof first);
+    }
+}
+
+static enum ceduo_status read_sampling(struct rows *rows, struct ceduo_doubt_answer *answer)
+{
+    const struct ceduo_doubt_def *def = rows->def;
     struct ceduo_question q = ceduo_question_default(def->scene);
     struct ceduo_answer is;
     size_t options = def->scene->options_count;
@@ -330,6 +473,9 @@ static enum ceduo_status read_sampling(const struct ceduo_doubt_def *def, struct
     q.run.threads = def->threads;
     q.run.cancel = def->cancel;
     q.run.arrivals_only = true;
+    q.years = rows->years;
+    q.window = def->window;
+    q.year_rocks = CEDUO_DOUBT_OWN_YEAR_ROCKS;
     enum ceduo_status status = ceduo_ask(&q, NULL, &is);
     for (size_t i = 0; status == CEDUO_OK && i < options; i++) {
         const struct ceduo_result *r = is.result;
@@ -349,8 +495,13 @@ static enum ceduo_status read_sampling(const struct ceduo_doubt_def *def, struct
         set_difference(&f[CEDUO_DOUBT_EXCEED], d->exceed_probability);
         set_difference(&f[CEDUO_DOUBT_ENERGY], d->energy_per_released);
     }
-    if (status == CEDUO_OK)
-        answer->main = isnan(answer->figures[CEDUO_DOUBT_EXCEED].value) ? CEDUO_DOUBT_ENERGY : CEDUO_DOUBT_EXCEED;
+    if (status == CEDUO_OK) {
+        bool judges = !isnan(answer->figures[CEDUO_DOUBT_EXCEED].value);
+        answer->main = judges ? CEDUO_DOUBT_EXCEED : CEDUO_DOUBT_ENERGY;
+        rows->judged = judges ? CEDUO_DOUBT_EXCEED : CEDUO_DOUBT_REACH;
+        if (rows->years)
+            set_years(answer, options, is.years, judges);
+    }
     ceduo_answer_release(&is);
     return status;
 }
@@ -358,59 +509,81 @@ static enum ceduo_status read_sampling(const struct ceduo_doubt_def *def, struct
 /* ---- ranks ---- */
 
 /* How two options compare where they differ by more than the rocks alone would make them: by the surface of their difference. */
-static enum ceduo_status compare(const struct rows *r, const struct ceduo_surface *surface, enum ceduo_doubt_kind kind,
-                                 struct ceduo_doubt_order *o)
+static enum ceduo_status compare(const struct rows *r, enum ceduo_doubt_kind kind, struct ceduo_doubt_order *o)
 {
-    size_t n = r->def->inputs_count;
+    struct subject s;
     struct ceduo_surface_fit fit = {0};
-    struct ceduo_groups *column = malloc(r->points * sizeof *column);
-    bool *uses = calloc(n, sizeof *uses);
-    enum ceduo_status status = column && uses ? CEDUO_OK : CEDUO_NO_MEMORY;
+    enum ceduo_status status = open_subject(r, o->better, o->than, &s);
     if (status == CEDUO_OK) {
         for (size_t p = 0; p < r->points; p++)
-            column[p] = value_at(r, r->ends + p, o->better, o->than, kind, true);
-        for (size_t i = 0; i < n; i++)
-            uses[i] = has_input(o->better, &r->def->inputs[i]) || has_input(o->than, &r->def->inputs[i]);
-        status = ceduo_surface_fit(surface, uses, column, -INFINITY, INFINITY, &fit);
+            s.column[p] = value_at(r, r->ends + p, o->better, o->than, kind, true);
+        const struct ceduo_surface_figure figure = {
+            .y = s.column, .uses = s.uses, .lo = -INFINITY, .hi = INFINITY, .limit = NAN};
+        status = ceduo_surface_fit(s.surface, &figure, &fit);
     }
     for (size_t p = 0; status == CEDUO_OK && p < r->points; p++) {
         double noise = CEDUO_Z95 * sqrt(fit.noise);
         *(fit.values[p] < -noise ? &o->probability : fit.values[p] > noise ? &o->worse : &o->equal) += 1 / (double)r->points;
     }
     ceduo_surface_release(&fit);
-    free(column);
-    free(uses);
+    close_subject(&s);
     return status;
 }
 
-static enum ceduo_status read_orders(const struct rows *r, struct ceduo_doubt_answer *a)
+/* Each option and the next one, then the best one and each but the second, with which it has been compared. */
+struct comparing {
+    const struct rows *rows;
+    enum ceduo_doubt_kind kind;
+    struct ceduo_doubt_ranking *ranking;
+};
+
+static int compare_pair(void *context, size_t item, size_t worker)
 {
-    size_t options = r->options, n = r->def->inputs_count;
-    struct ceduo_surface *surface;
-    enum ceduo_status status = ceduo_surface_open(r->def->inputs, n, r->u + r->ends * n, r->points, &surface);
+    (void)worker;
+    const struct comparing *c = context;
+    size_t pairs = c->ranking->count;
+    return (int)compare(c->rows, c->kind, item < pairs ? &c->ranking->orders[item] : &c->ranking->rivals[item - pairs + 1]);
+}
+
+static enum ceduo_status rank_options(const struct rows *r, const struct ceduo_doubt_answer *a, enum ceduo_doubt_kind kind,
+                                      struct ceduo_doubt_ranking *ranking)
+{
+    size_t options = r->options;
     size_t *ranks = calloc(options, sizeof *ranks);
     double *values = calloc(options, sizeof *values);
-    a->orders = calloc(options, sizeof *a->orders);
-    status = ranks && values && a->orders ? status : CEDUO_NO_MEMORY;
-    for (size_t i = 0; status == CEDUO_OK && i < options; i++)
-        values[i] = a->figures[i * CEDUO_DOUBT_KINDS + a->main].value;
-    if (status == CEDUO_OK)
+    *ranking = (struct ceduo_doubt_ranking){.rotation = kind == CEDUO_DOUBT_MEAN,
+                                            .orders = calloc(2 * options, sizeof *ranking->orders)};
+    enum ceduo_status status = ranks && values && ranking->orders ? CEDUO_OK : CEDUO_NO_MEMORY;
+    if (status == CEDUO_OK) {
+        ranking->rivals = ranking->orders + options;
+        ranking->count = options - 1;
+        for (size_t i = 0; i < options; i++)
+            values[i] = ceduo_doubt_figure_of(a, i, kind, false)->value;
         sort_indices(values, options, ranks);
-    for (size_t i = 0; status == CEDUO_OK && i + 1 < options; i++) {
-        a->orders[i] = (struct ceduo_doubt_order){.better = ranks[i], .than = ranks[i + 1]};
-        status = compare(r, surface, a->main, &a->orders[i]);
-        a->orders_count = i + 1;
+        for (size_t i = 0; i + 1 < options; i++) {
+            ranking->orders[i] = (struct ceduo_doubt_order){.better = ranks[i], .than = ranks[i + 1]};
+            ranking->rivals[i] = (struct ceduo_doubt_order){.better = ranks[0], .than = ranks[i + 1]};
+        }
+        struct comparing comparing = {r, kind, ranking};
+        struct parallel work = {options > 1 ? 2 * ranking->count - 1 : 0, r->def->threads, compare_pair, &comparing};
+        status = (enum ceduo_status)ceduo_parallel(&work);
+        ranking->rivals[0] = ranking->orders[0];
     }
-    ceduo_surface_free(surface);
     free(ranks);
     free(values);
     return status;
 }
 
+const struct ceduo_doubt_ranking *ceduo_doubt_verdict(const struct ceduo_doubt_answer *answer)
+{
+    return answer->rotation ? &answer->over_rotation : &answer->today;
+}
+
 /* ---- all of it ---- */
 
-static enum ceduo_status open_answer(const struct ceduo_doubt_def *def, struct ceduo_doubt_answer *a)
+static enum ceduo_status open_answer(struct rows *rows, struct ceduo_doubt_answer *a)
 {
+    const struct ceduo_doubt_def *def = rows->def;
     *a = (struct ceduo_doubt_answer){.figures = calloc(figures_of(def->scene), sizeof *a->figures)};
     if (!a->figures)
         return CEDUO_NO_MEMORY;
@@ -424,20 +597,19 @@ static enum ceduo_status open_answer(const struct ceduo_doubt_def *def, struct c
             return CEDUO_NO_MEMORY;
         }
     }
-    return read_sampling(def, a);
+    return read_sampling(rows, a);
 }
 
 enum ceduo_status ceduo_doubt_ask(const struct ceduo_doubt_def *def, struct ceduo_doubt_answer *answer)
 {
     struct rows rows;
     struct ceduo_doubt_def enough = *def;
-    enough.rocks = def->rocks > CEDUO_SURFACE_GROUPS ? def->rocks : CEDUO_SURFACE_GROUPS;
-    def = &enough;
-    enum ceduo_status status = open_rows(&rows, def);
+    enough.rocks = def->rocks > GROUPS ? def->rocks : GROUPS;
+    enough.rotation = def->rotation && def->scene->simulation.contact_model != CEDUO_INDEX;
+    *answer = (struct ceduo_doubt_answer){0};
+    enum ceduo_status status = open_rows(&rows, &enough);
     if (status == CEDUO_OK)
-        status = open_answer(def, answer);
-    else
-        *answer = (struct ceduo_doubt_answer){0};
+        status = open_answer(&rows, answer);
     for (size_t points = def->points; status == CEDUO_OK; points *= 2) {
         status = extend(&rows, points);
         if (status == CEDUO_OK)
@@ -445,14 +617,18 @@ enum ceduo_status ceduo_doubt_ask(const struct ceduo_doubt_def *def, struct cedu
         if (2 * points > CEDUO_DOUBT_POINTS_MAX || !wants_more(&rows, answer))
             break;
     }
+    answer->rotation = rows.years;
+    if (status == CEDUO_OK && rows.years && rows.judged == CEDUO_DOUBT_EXCEED)
+        status = (enum ceduo_status)ceduo_parallel(&(struct parallel){rows.options, def->threads, count_years, &rows});
     if (status == CEDUO_OK)
         status = read_figures(&rows, false, answer);
     if (status == CEDUO_OK)
-        status = read_orders(&rows, answer);
+        status = rank_options(&rows, answer, answer->main, &answer->today);
+    if (status == CEDUO_OK && rows.years)
+        status = rank_options(&rows, answer, CEDUO_DOUBT_MEAN, &answer->over_rotation);
     answer->points = rows.points;
     answer->evaluations = rows.ends + rows.points;
-    free(rows.u);
-    free(rows.values);
+    close_rows(&rows);
     if (status != CEDUO_OK)
         ceduo_doubt_free(answer);
     return status;
@@ -466,6 +642,7 @@ void ceduo_doubt_free(struct ceduo_doubt_answer *answer)
         free(answer->figures[i].order);
     }
     free(answer->figures);
-    free(answer->orders);
+    free(answer->today.orders);
+    free(answer->over_rotation.orders);
     *answer = (struct ceduo_doubt_answer){0};
 }

@@ -138,7 +138,8 @@ static void mend_stools(struct ceduo_scene *scene)
         for (size_t k = 0; k < scene->options[i].belts_count; k++) {
             struct ceduo_stand *stand = &scene->options[i].belts[k].stand;
             ceduo_stand_count_shoots(stand);
-            stand->stools_per_ha = fmin(stand->stools_per_ha, ceduo_stand_shoots(stand));
+            if (stand->shoots_count > 0) /* just cut they have none, and live on */
+                stand->stools_per_ha = fmin(stand->stools_per_ha, ceduo_stand_shoots(stand));
         }
 }
 

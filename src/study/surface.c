@@ -33,6 +33,7 @@
 #define TABLE_MAX   12  /* functions of an input that is a table */
 #define RIDGES      56  /* that are tried */
 #define SAME        1e-8
+#define ENOUGH      CEDUO_DOUBT_EXPLAINED
 
 /* ---- points ---- */
 
@@ -79,14 +80,33 @@ struct inputs_functions {
     double *table;               /* a row of functions for each level */
 };
 
+struct term {
+    size_t n, f[3]; /* functions that it is the product of */
+};
+
+struct terms {
+    size_t n, room;
+    struct term *items;
+};
+
+/* Terms with their values at the points, less their means, decomposed as U S V'. */
+struct basis {
+    size_t *used, used_count, leading; /* of which inputs, see list_terms() */
+    struct terms terms;
+    gsl_matrix *x;
+    gsl_multifit_linear_workspace *work;
+    double *means;
+};
+
 struct ceduo_surface {
     const struct ceduo_input *inputs;
     const double *u;
     size_t points, inputs_count, functions_count;
     struct inputs_functions *of;
     struct function *functions;
-    double *values;      /* of all functions */
-    double *multipliers; /* of the bootstrap: normal, of each sample for each point */
+    double *values;        /* of all functions */
+    double *multipliers;   /* of the bootstrap: normal, of each sample for each point */
+    struct basis bases[2]; /* the last ones, without and with products */
 };
 
 static size_t levels_of(const struct ceduo_input *input)
@@ -206,8 +226,22 @@ enum ceduo_status ceduo_surface_open(const struct ceduo_input *inputs, size_t n,
     return CEDUO_OK;
 }
 
+static void close_basis(struct basis *b)
+{
+    free(b->used);
+    free(b->terms.items);
+    if (b->x)
+        gsl_matrix_free(b->x);
+    if (b->work)
+        gsl_multifit_linear_free(b->work);
+    free(b->means);
+    *b = (struct basis){0};
+}
+
 void ceduo_surface_free(struct ceduo_surface *s)
 {
+    for (size_t i = 0; s && i < 2; i++)
+        close_basis(&s->bases[i]);
     for (size_t i = 0; s && s->of && i < s->inputs_count; i++)
         free(s->of[i].table);
     if (s) {
@@ -220,15 +254,6 @@ void ceduo_surface_free(struct ceduo_surface *s)
 }
 
 /* ---- terms ---- */
-
-struct term {
-    size_t n, f[3]; /* functions that it is the product of */
-};
-
-struct terms {
-    size_t n, room;
-    struct term *items;
-};
 
 static void add_term(struct terms *t, struct term term)
 {
@@ -285,14 +310,11 @@ static double term_at(const struct ceduo_surface *s, const struct term *term, si
 
 /* ---- one fit ---- */
 
-/* Terms with their values at the points, less their means, and the fit's decomposition U S V'. */
+/* Terms that are fitted to the values of a figure. */
 struct solution {
     const struct ceduo_surface *s;
-    struct terms terms;
-    gsl_matrix *x;
-    gsl_multifit_linear_workspace *work;
+    struct basis b; /* the surface's */
     double lambda;
-    double *means;       /* of the terms */
     double *coefficient; /* of each group's terms, then of their mean */
     double *remains;     /* of each group at each point, then of their mean */
     double *leverage;    /* of each point */
@@ -303,40 +325,71 @@ struct solution {
 
 static double filter(const struct solution *f, size_t k)
 {
-    double sigma = gsl_vector_get(f->work->S, k);
+    double sigma = gsl_vector_get(f->b.work->S, k);
     return sigma > 0 ? sigma * sigma / (sigma * sigma + f->lambda * f->lambda) : 0;
 }
 
-static void fill_matrix(struct solution *f)
+static void fill_matrix(const struct ceduo_surface *s, struct basis *b)
 {
-    size_t points = f->s->points;
-    for (size_t j = 0; j < f->terms.n; j++) {
-        f->means[j] = 0;
-        for (size_t p = 0; p < points; p++) {
-            double value = term_at(f->s, &f->terms.items[j], p);
-            gsl_matrix_set(f->x, p, j, value);
-            f->means[j] += value / (double)points;
+    for (size_t j = 0; j < b->terms.n; j++) {
+        b->means[j] = 0;
+        for (size_t p = 0; p < s->points; p++) {
+            double value = term_at(s, &b->terms.items[j], p);
+            gsl_matrix_set(b->x, p, j, value);
+            b->means[j] += value / (double)s->points;
         }
-        for (size_t p = 0; p < points; p++)
-            *gsl_matrix_ptr(f->x, p, j) -= f->means[j];
+        for (size_t p = 0; p < s->points; p++)
+            *gsl_matrix_ptr(b->x, p, j) -= b->means[j];
     }
+}
+
+/* The basis of these terms: the one that was made last, or a new one. */
+static enum ceduo_status open_basis(struct ceduo_surface *s, const size_t *used, size_t used_count, size_t leading,
+                                    struct basis *out)
+{
+    struct basis *b = &s->bases[leading > 0];
+    if (b->work && b->used_count == used_count && b->leading == leading &&
+        memcmp(b->used, used, used_count * sizeof *used) == 0) {
+        *out = *b;
+        return CEDUO_OK;
+    }
+    close_basis(b);
+    *b = (struct basis){.used_count = used_count, .leading = leading};
+    list_terms(s, used, used_count, leading, &b->terms);
+    size_t n = b->terms.room = b->terms.n;
+    b->used = calloc(used_count + 1, sizeof *b->used);
+    b->terms.items = calloc(n, sizeof *b->terms.items);
+    b->x = gsl_matrix_alloc(s->points, n);
+    b->means = malloc(n * sizeof *b->means);
+    gsl_multifit_linear_workspace *work = gsl_multifit_linear_alloc(s->points, n);
+    if (b->used && b->terms.items && b->x && b->means && work) {
+        memcpy(b->used, used, used_count * sizeof *used);
+        list_terms(s, used, used_count, leading, &b->terms);
+        fill_matrix(s, b);
+        if (gsl_multifit_linear_svd(b->x, work) == 0)
+            b->work = work;
+    }
+    if (!b->work && work)
+        gsl_multifit_linear_free(work);
+    *out = *b;
+    return b->work ? CEDUO_OK : CEDUO_NO_MEMORY;
 }
 
 /* Coefficients of values y at the points: V filter(S)/S U' y. */
 static void solve(const struct solution *f, const double *y, double *coefficient)
 {
-    size_t n = f->terms.n, points = f->s->points;
+    size_t n = f->b.terms.n, points = f->s->points;
     double *along = f->room;
     memset(along, 0, n * sizeof *along);
     for (size_t p = 0; p < points; p++) {
-        const double *row = gsl_matrix_const_ptr(f->work->A, p, 0);
+        const double *row = gsl_matrix_const_ptr(f->b.work->A, p, 0);
         for (size_t k = 0; k < n; k++)
             along[k] += row[k] * y[p];
     }
     for (size_t k = 0; k < n; k++)
-        along[k] *= filter(f, k) > 0 ? filter(f, k) / gsl_vector_get(f->work->S, k) : 0;
+        along[k] *= filter(f, k) > 0 ? filter(f, k) / gsl_vector_get(f->b.work->S, k) : 0;
     for (size_t j = 0; j < n; j++) {
-        const double *row = gsl_matrix_const_ptr(f->work->Q, j, 0);
+        const double *row = gsl_matrix_const_ptr(f->b.work->Q, j, 0);
         coefficient[j] = 0;
         for (size_t k = 0; k < n; k++)
             coefficient[j] += row[k] * along[k];
@@ -347,8 +400,8 @@ static void solve(const struct solution *f, const double *y, double *coefficient
 static double spread_of(const struct solution *f, size_t j)
 {
     double sum = 0;
-    for (size_t k = 0; k < f->terms.n; k++) {
-        double x = filter(f, k) > 0 ? gsl_matrix_get(f->work->Q, j, k) * filter(f, k) / gsl_vector_get(f->work->S, k) : 0;
+    for (size_t k = 0; k < f->b.terms.n; k++) {
+        double x = filter(f, k) > 0 ? gsl_matrix_get(f->b.work->Q, j, k) * filter(f, k) / gsl_vector_get(f->b.work->S, k) : 0;
         sum += x * x;
     }
     return sum;
@@ -356,12 +409,7 @@ static double spread_of(const struct solution *f, size_t j)
 
 static void close_solution(struct solution *f)
 {
-    free(f->terms.items);
-    if (f->x)
-        gsl_matrix_free(f->x);
-    if (f->work)
-        gsl_multifit_linear_free(f->work);
-    free(f->means);
+    free(f->coefficient);
     free(f->remains);
 }
 
@@ -369,12 +417,12 @@ static void close_solution(struct solution *f)
  * strong ridge already. False without memory. */
 static bool choose_ridge(struct solution *f, const double *y)
 {
-    gsl_vector *room = gsl_vector_alloc(RIDGES), *along = gsl_vector_alloc(f->terms.n);
+    gsl_vector *room = gsl_vector_alloc(RIDGES), *along = gsl_vector_alloc(f->b.terms.n);
     gsl_vector_const_view view = gsl_vector_const_view_array(y, f->s->points);
-    double delta, best = INFINITY, max = gsl_vector_get(f->work->S, 0);
-    bool good = room && along && gsl_multifit_linear_gcv_init(&view.vector, room, along, &delta, f->work) == 0;
+    double delta, best = INFINITY, max = gsl_vector_get(f->b.work->S, 0);
+    bool good = room && along && gsl_multifit_linear_gcv_init(&view.vector, room, along, &delta, f->b.work) == 0;
     for (int i = 0; good && i <= RIDGES; i++) {
-        double lambda = max * pow(10, -7. * i / RIDGES), score = gsl_multifit_linear_gcv_calc(lambda, along, delta, f->work);
+        double lambda = max * pow(10, -7. * i / RIDGES), score = gsl_multifit_linear_gcv_calc(lambda, along, delta, f->b.work);
         if (score < best) {
             best = score;
             f->lambda = lambda;
@@ -389,7 +437,7 @@ static bool choose_ridge(struct solution *f, const double *y)
 
 static double *coefficients_of(const struct solution *f, size_t group)
 {
-    return f->coefficient + group * f->terms.n;
+    return f->coefficient + group * f->b.terms.n;
 }
 
 static double *remains_of(const struct solution *f, size_t group)
@@ -399,32 +447,26 @@ static double *remains_of(const struct solution *f, size_t group)
 
 static bool allocate(struct solution *f, size_t points, size_t n)
 {
-    f->terms.items = calloc(n, sizeof *f->terms.items);
-    f->x = gsl_matrix_alloc(points, n);
-    f->work = gsl_multifit_linear_alloc(points, n);
-    f->means = malloc((3 + GROUPS + 1) * n * sizeof *f->means);
+    f->coefficient = malloc((GROUPS + 1 + 2) * n * sizeof *f->coefficient);
     f->remains = malloc((GROUPS + 2) * points * sizeof *f->remains);
-    if (!f->terms.items || !f->x || !f->work || !f->means || !f->remains)
+    if (!f->coefficient || !f->remains)
         return false;
-    f->terms.room = n;
-    f->spread = f->means + n, f->room = f->means + 2 * n, f->coefficient = f->means + 3 * n;
+    f->spread = f->coefficient + (GROUPS + 1) * n, f->room = f->spread + n;
     f->leverage = f->remains + (GROUPS + 1) * points;
     return true;
 }
 
 /* Fits the values y of each group and of their mean, which have mean 0, by terms; close it in any case. */
-static enum ceduo_status open_solution(struct solution *f, const struct ceduo_surface *s, const size_t *used, size_t used_count,
+static enum ceduo_status open_solution(struct solution *f, struct ceduo_surface *s, const size_t *used, size_t used_count,
                                        size_t leading, const double *y)
 {
     size_t points = s->points;
     *f = (struct solution){.s = s, .freedom = (double)points - 1};
-    list_terms(s, used, used_count, leading, &f->terms);
-    size_t n = f->terms.n;
-    if (!allocate(f, points, n))
-        return CEDUO_NO_MEMORY;
-    list_terms(s, used, used_count, leading, &f->terms);
-    fill_matrix(f);
-    if (gsl_multifit_linear_svd(f->x, f->work) != 0 || !choose_ridge(f, y + GROUPS * points))
+    enum ceduo_status status = open_basis(s, used, used_count, leading, &f->b);
+    if (status != CEDUO_OK)
+        return status;
+    size_t n = f->b.terms.n;
+    if (!allocate(f, points, n) || !choose_ridge(f, y + GROUPS * points))
         return CEDUO_NO_MEMORY;
     for (size_t k = 0; k < n; k++)
         f->freedom -= filter(f, k) * (2 - filter(f, k));
@@ -433,7 +475,7 @@ static enum ceduo_status open_solution(struct solution *f, const struct ceduo_su
     for (size_t p = 0; p < points; p++) {
         f->leverage[p] = 1 / (double)points;
         for (size_t k = 0; k < n; k++)
-            f->leverage[p] += gsl_matrix_get(f->work->A, p, k) * gsl_matrix_get(f->work->A, p, k) * filter(f, k);
+            f->leverage[p] += gsl_matrix_get(f->b.work->A, p, k) * gsl_matrix_get(f->b.work->A, p, k) * filter(f, k);
         f->leverage[p] = fmin(f->leverage[p], .99);
     }
     for (size_t g = 0; g <= GROUPS; g++) {
@@ -442,10 +484,112 @@ static enum ceduo_status open_solution(struct solution *f, const struct ceduo_su
         for (size_t p = 0; p < points; p++) {
             remains[p] = y[g * points + p];
             for (size_t j = 0; j < n; j++)
-                remains[p] -= gsl_matrix_get(f->x, p, j) * coefficient[j];
+                remains[p] -= gsl_matrix_get(f->b.x, p, j) * coefficient[j];
         }
     }
     return CEDUO_OK;
+}
+
+/* ---- values ---- */
+
+static double width_of(double *values, size_t n)
+{
+    gsl_sort(values, 1, n);
+    return ceduo_quantile(values, n, .95) - ceduo_quantile(values, n, .05);
+}
+
+static double share_up_to(const double *sorted, size_t n, double limit)
+{
+    size_t below = 0;
+    while (below < n && sorted[below] <= limit)
+        below++;
+    return (double)below / (double)n;
+}
+
+static void bound(double *values, size_t n, double lo, double hi)
+{
+    for (size_t i = 0; i < n; i++)
+        values[i] = fmin(hi, fmax(lo, values[i]));
+}
+
+/* A figure's values at the points, of each group and of their mean (GROUPS), less their means over the points: as the same rocks
+ * are at every point, groups differ by a constant. */
+struct column {
+    double *y, means[GROUPS + 1];
+};
+
+/* At each point the mean of the groups less what of the remainder is noise. */
+static void read_values(const struct column *c, size_t points, const double *remains, double kept,
+                        const struct ceduo_surface_figure *figure, double *values)
+{
+    for (size_t p = 0; p < points; p++)
+        values[p] = c->means[GROUPS] + c->y[GROUPS * points + p] - (1 - kept) * remains[GROUPS * points + p];
+    bound(values, points, figure->lo, figure->hi);
+}
+
+/* Half of the groups, 1…GROUPS - 1: any two halves have half of theirs in common. */
+static double side_of(size_t half, size_t group)
+{
+    return __builtin_parityll(half & group) ? -1 : 1;
+}
+
+/* What the values of half of the groups are above those of all; those of the other half are as much below. */
+static void read_changes(const struct column *c, size_t points, const double *remains, double kept, size_t half,
+                         double *changes)
+{
+    memset(changes, 0, points * sizeof *changes);
+    for (size_t g = 0; g < GROUPS; g++) {
+        double side = side_of(half, g) / GROUPS;
+        for (size_t p = 0; p < points; p++)
+            changes[p] += side * (c->means[g] + c->y[g * points + p] - (1 - kept) * remains[g * points + p]);
+    }
+}
+
+/* What is read of values. */
+#define ENDS 4
+struct ends {
+    double p5, p50, p95, below;
+};
+
+static struct ends read_ends(double *values, size_t n, double limit)
+{
+    gsl_sort(values, 1, n);
+    return (struct ends){ceduo_quantile(values, n, .05), ceduo_quantile(values, n, .5), ceduo_quantile(values, n, .95),
+                         isnan(limit) ? NAN : share_up_to(values, n, limit)};
+}
+
+/* The error of a mean of so few groups: 1.96 of it hold 95 %. */
+static double student(void)
+{
+    return pow(gsl_cdf_tdist_Pinv(.975, GROUPS - 1) / CEDUO_Z95, 2);
+}
+
+/* Errors of what is read of the values: by samples of the points, and by halves of the rocks against each other, as what is read
+ * of sorted values turns at single ones (balanced half samples, McCarthy 1969). */
+struct ends_errors {
+    double sum[ENDS], squares[ENDS], of_rocks[ENDS];
+};
+
+static void add_sample(struct ends_errors *e, struct ends found, struct ends other)
+{
+    const double change[ENDS] = {other.p5 - found.p5, other.p50 - found.p50, other.p95 - found.p95, other.below - found.below};
+    for (size_t i = 0; i < ENDS; i++) {
+        e->sum[i] += change[i];
+        e->squares[i] += change[i] * change[i];
+    }
+}
+
+static void add_halves(struct ends_errors *e, struct ends a, struct ends b)
+{
+    const double between[ENDS] = {a.p5 - b.p5, a.p50 - b.p50, a.p95 - b.p95, a.below - b.below};
+    for (size_t i = 0; i < ENDS; i++)
+        e->of_rocks[i] += between[i] * between[i] / 4 / (GROUPS - 1);
+}
+
+static double ends_se(const struct ends_errors *e, size_t i)
+{
+    double mean = e->sum[i] / SAMPLES, of_points = fmax(0, e->squares[i] / SAMPLES - mean * mean) * SAMPLES / (SAMPLES - 1);
+    return sqrt(of_points + e->of_rocks[i] * student());
 }
 
 /* ---- shares ---- */
@@ -479,7 +623,7 @@ static double share_of(const struct parts *p, size_t inputs, double noise, size_
 
 static void add_part(const struct solution *f, size_t j, double variance, struct parts *parts)
 {
-    const struct term *term = &f->terms.items[j];
+    const struct term *term = &f->b.terms.items[j];
     parts->all += variance;
     for (size_t k = 0; k < term->n; k++) {
         size_t input = f->s->functions[term->f[k]].input;
@@ -503,8 +647,8 @@ static void fill_parts(const struct solution *f, size_t without, struct parts *p
     for (size_t p = 0; p < f->s->points; p++)
         parts->spare += common_of(f->remains + p, f->s->points, without) / f->freedom;
     parts->spare = fmax(0, parts->spare);
-    for (size_t j = 0; j < f->terms.n; j++)
-        add_part(f, j, common_of(f->coefficient + j, f->terms.n, without) - parts->spare * f->spread[j], parts);
+    for (size_t j = 0; j < f->b.terms.n; j++)
+        add_part(f, j, common_of(f->coefficient + j, f->b.terms.n, without) - parts->spare * f->spread[j], parts);
 }
 
 /* With what the terms leave at each point drawn anew; `kept` is its part of the remains, without noise. */
@@ -519,9 +663,9 @@ static void draw_parts(const struct solution *f, size_t sample, double kept, dou
         parts->spare += kept * kept * mean[p] * mean[p] * multiplier[p] * multiplier[p] / f->freedom;
     }
     solve(f, drawn, coefficient);
-    for (size_t j = 0; j < f->terms.n; j++) {
+    for (size_t j = 0; j < f->b.terms.n; j++) {
         double change = coefficient[j] * (2 * coefficients_of(f, GROUPS)[j] + coefficient[j]) - found->spare * f->spread[j];
-        add_part(f, j, common_of(f->coefficient + j, f->terms.n, GROUPS) - found->spare * f->spread[j] + change, parts);
+        add_part(f, j, common_of(f->coefficient + j, f->b.terms.n, GROUPS) - found->spare * f->spread[j] + change, parts);
     }
 }
 
@@ -534,52 +678,81 @@ static double kept_of(const struct solution *f, double spare)
     return squares > 0 ? sqrt(fmin(1, spare / squares)) : 0;
 }
 
-/* Shares with their errors. */
-static void read_shares(const struct solution *f, struct parts *found, struct parts *other, double kept, double *room,
-                        struct ceduo_surface_fit *fit)
+/* Values of the surface at points shifted at random, with its coefficients changed and the remainder of any point. */
+static void draw_values(const struct solution *f, size_t sample, double kept, const double *change,
+                        const struct ceduo_surface_figure *figure, double mean, double *room, double *values)
 {
-    size_t inputs = f->s->inputs_count, points = f->s->points;
+    const struct ceduo_surface *s = f->s;
+    size_t points = s->points;
+    for (size_t c = 0; c < f->b.used_count; c++) {
+        const struct inputs_functions *of = &s->of[f->b.used[c]];
+        double shift = hashed(sample, UINT64_MAX, f->b.used[c]), at[TABLE_MAX];
+        for (size_t p = 0; p < points; p++) {
+            double u = s->u[p * s->inputs_count + f->b.used[c]] + shift;
+            functions_at(of, u - floor(u), at);
+            for (size_t k = 0; k < of->count; k++)
+                room[(of->first + k) * points + p] = at[k];
+        }
+    }
+    for (size_t p = 0; p < points; p++) {
+        size_t other = (size_t)(hashed(sample, p, 1) * (double)points);
+        values[p] = mean + kept * remains_of(f, GROUPS)[other] / sqrt(1 - f->leverage[other]);
+    }
+    for (size_t j = 0; j < f->b.terms.n; j++) {
+        const struct term *term = &f->b.terms.items[j];
+        double coefficient = coefficients_of(f, GROUPS)[j] + change[j];
+        const double *at[3];
+        for (size_t k = 0; k < term->n; k++)
+            at[k] = room + term->f[k] * points;
+        for (size_t p = 0; p < points; p++) {
+            double x = at[0][p];
+            for (size_t k = 1; k < term->n; k++)
+                x *= at[k][p];
+            values[p] += coefficient * (x - f->b.means[j]);
+        }
+    }
+    bound(values, points, figure->lo, figure->hi);
+}
+
+/* Where the errors of a fit are computed. */
+struct errors_room {
+    double *drawn, *change, *functions, *values, *of_rocks, *of_points;
+};
+
+/* Shares with their errors, and those of what is read of the values. */
+static void read_shares(const struct solution *f, struct parts *found, struct parts *other, double kept,
+                        const struct ceduo_surface_figure *figure, const struct errors_room *room,
+                        struct ceduo_surface_fit *fit, struct ends ends, struct ends_errors *errors)
+{
+    size_t inputs = f->s->inputs_count, n = f->b.terms.n;
     for (size_t i = 0; i <= 2 * inputs; i++) {
         struct ceduo_share *share = i < inputs ? &fit->first[i] : i < 2 * inputs ? &fit->total[i - inputs] : &fit->whole;
         *share = (struct ceduo_share){share_of(found, inputs, fit->noise, i), 0};
     }
-    double *of_rocks = room + points + f->terms.n, *of_points = of_rocks + 2 * inputs + 1;
-    memset(of_rocks, 0, 2 * (2 * inputs + 1) * sizeof *of_rocks);
+    memset(room->of_rocks, 0, (2 * inputs + 1) * sizeof *room->of_rocks);
+    memset(room->of_points, 0, (2 * inputs + 1) * sizeof *room->of_points);
     for (size_t g = 0; g < GROUPS; g++) {
         fill_parts(f, g, other);
         for (size_t i = 0; i <= 2 * inputs; i++)
-            of_rocks[i] += pow(share_of(other, inputs, fit->noise, i) - share_of(found, inputs, fit->noise, i), 2);
+            room->of_rocks[i] += pow(share_of(other, inputs, fit->noise, i) - share_of(found, inputs, fit->noise, i), 2);
     }
-    for (size_t b = 0; kept > 0 && b < SAMPLES; b++) {
-        draw_parts(f, b, kept, room, room + points, found, other);
-        for (size_t i = 0; i <= 2 * inputs; i++)
-            of_points[i] += pow(share_of(other, inputs, fit->noise, i) - share_of(found, inputs, fit->noise, i), 2);
+    memset(room->change, 0, n * sizeof *room->change);
+    for (size_t b = 0; b < SAMPLES; b++) {
+        if (kept > 0) {
+            draw_parts(f, b, kept, room->drawn, room->change, found, other);
+            for (size_t i = 0; i <= 2 * inputs; i++)
+                room->of_points[i] += pow(share_of(other, inputs, fit->noise, i) - share_of(found, inputs, fit->noise, i), 2);
+        }
+        draw_values(f, b, kept, room->change, figure, fit->mean, room->functions, room->values);
+        add_sample(errors, ends, read_ends(room->values, f->s->points, figure->limit));
     }
-    double student = pow(gsl_cdf_tdist_Pinv(.975, GROUPS - 1) / CEDUO_Z95, 2); /* of few groups: 1.96 errors hold 95 % */
     for (size_t i = 0; i <= 2 * inputs; i++) {
         struct ceduo_share *share = i < inputs ? &fit->first[i] : i < 2 * inputs ? &fit->total[i - inputs] : &fit->whole;
-        share->se = sqrt(of_rocks[i] * student * (GROUPS - 1) / GROUPS + of_points[i] / SAMPLES);
+        share->se = sqrt(room->of_rocks[i] * student() * (GROUPS - 1) / GROUPS + room->of_points[i] / SAMPLES);
     }
 }
 
 /* ---- what is left ---- */
-
-static double quantile_of(const double *sorted, size_t n, double p)
-{
-    return gsl_stats_quantile_from_sorted_data(sorted, 1, n, p);
-}
-
-static double width_of(double *values, size_t n)
-{
-    gsl_sort(values, 1, n);
-    return quantile_of(values, n, .95) - quantile_of(values, n, .05);
-}
-
-static void bound(double *values, size_t n, const struct ceduo_surface_fit *fit)
-{
-    for (size_t i = 0; i < n; i++)
-        values[i] = fmin(fit->hi, fmax(fit->lo, values[i]));
-}
 
 /* What a function of `input` changes at each point: the sum of the terms that it is in, divided by it. */
 static void add_changes(const struct solution *f, size_t input, double *change)
@@ -587,8 +760,8 @@ static void add_changes(const struct solution *f, size_t input, double *change)
     const struct ceduo_surface *s = f->s;
     const struct inputs_functions *of = &s->of[input];
     memset(change, 0, of->count * s->points * sizeof *change);
-    for (size_t j = 0; j < f->terms.n; j++) {
-        const struct term *term = &f->terms.items[j];
+    for (size_t j = 0; j < f->b.terms.n; j++) {
+        const struct term *term = &f->b.terms.items[j];
         for (size_t k = 0; k < term->n; k++) {
             if (s->functions[term->f[k]].input != input)
                 continue;
@@ -615,7 +788,7 @@ static double left_of(const struct solution *f, const struct ceduo_surface_fit *
         for (size_t k = 0; k < of->count; k++)
             for (size_t p = 0; p < s->points; p++)
                 changed[p] += change[k * s->points + p] * (at[k] - s->functions[of->first + k].at[p]);
-        bound(changed, s->points, fit);
+        bound(changed, s->points, fit->lo, fit->hi);
         width += width_of(changed, s->points) / (double)n;
     }
     return width;
@@ -638,21 +811,58 @@ static void read_quality(const struct solution *f, const double *y, struct ceduo
     fit->explained = common[1] > 0 ? 1 - fmax(0, common[0]) / common[1] : 0;
 }
 
-static enum ceduo_status read_solution(const struct solution *f, const double *y, struct ceduo_surface_fit *fit)
+/* What is read of the values, and its errors by the rocks; `room`: three values for each point. */
+static struct ends read_band(const struct column *c, size_t points, const double *remains, double kept,
+                             const struct ceduo_surface_figure *figure, double *room, struct ends_errors *errors)
 {
-    size_t points = f->s->points, inputs = f->s->inputs_count, n = f->terms.n;
-    double *room = malloc(((TABLE_MAX + 1) * points + n + 8 * inputs + 2) * sizeof *room);
+    double *values = room, *changes = room + points, *changed = room + 2 * points;
+    read_values(c, points, remains, kept, figure, values);
+    for (size_t half = 1; half < GROUPS; half++) {
+        struct ends ends[2];
+        read_changes(c, points, remains, kept, half, changes);
+        for (int other = 0; other < 2; other++) {
+            for (size_t p = 0; p < points; p++)
+                changed[p] = values[p] + (other ? -changes[p] : changes[p]);
+            bound(changed, points, figure->lo, figure->hi);
+            ends[other] = read_ends(changed, points, figure->limit);
+        }
+        add_halves(errors, ends[0], ends[1]);
+    }
+    return read_ends(values, points, figure->limit);
+}
+
+static void set_band(struct ceduo_surface_fit *fit, struct ends ends, const struct ends_errors *errors)
+{
+    fit->p5 = ends.p5, fit->p50 = ends.p50, fit->p95 = ends.p95;
+    fit->p5_se = ends_se(errors, 0), fit->p95_se = ends_se(errors, 2);
+    fit->below = (struct ceduo_share){ends.below, ends_se(errors, 3)};
+}
+
+static enum ceduo_status read_solution(const struct solution *f, const struct column *c,
+                                       const struct ceduo_surface_figure *figure, struct ceduo_surface_fit *fit)
+{
+    size_t points = f->s->points, inputs = f->s->inputs_count, n = f->b.terms.n;
+    double *room = malloc(((f->s->functions_count + TABLE_MAX + 5) * points + n + 8 * inputs + 2) * sizeof *room);
     if (!room)
         return CEDUO_NO_MEMORY;
     struct parts found = {.first = room, .total = room + inputs},
                  other = {.first = room + 2 * inputs, .total = room + 3 * inputs};
+    double *rest = room + 4 * inputs;
+    const struct errors_room errors_room = {.of_rocks = rest,
+                                            .of_points = rest + 2 * inputs + 1,
+                                            .change = rest + 4 * inputs + 2,
+                                            .drawn = rest + 4 * inputs + 2 + n,
+                                            .values = rest + 4 * inputs + 2 + n + points,
+                                            .functions = rest + 4 * inputs + 2 + n + 2 * points};
+    struct ends_errors errors = {0};
     fill_parts(f, GROUPS, &found);
-    double kept = kept_of(f, found.spare), *rest = room + 4 * inputs;
+    double kept = kept_of(f, found.spare);
     fit->variance = fmax(0, found.all) + found.spare;
-    read_quality(f, y, fit);
-    read_shares(f, &found, &other, kept, rest, fit);
-    for (size_t p = 0; p < points; p++) /* the surface, and what of its remainder is not noise */
-        fit->values[p] = fit->mean + y[GROUPS * points + p] - (1 - kept) * remains_of(f, GROUPS)[p];
+    read_quality(f, c->y, fit);
+    struct ends ends = read_band(c, points, f->remains, kept, figure, errors_room.functions, &errors);
+    read_shares(f, &found, &other, kept, figure, &errors_room, fit, ends, &errors);
+    set_band(fit, ends, &errors);
+    read_values(c, points, f->remains, kept, figure, fit->values);
     for (size_t i = 0; i < inputs; i++)
         fit->left[i] = left_of(f, fit, i, rest);
     free(room);
@@ -672,8 +882,9 @@ static size_t leading_of(const struct ceduo_surface *s, const size_t *used, size
     return leading;
 }
 
-/* Sorts the inputs by the variance that they bring in a fit without products, the most first. */
-static enum ceduo_status rank(const struct ceduo_surface *s, const double *y, size_t *used, size_t used_count)
+/* Sorts the inputs by the variance that they bring in a fit without products, the most first; words before all, as they decide
+ * what others do. */
+static enum ceduo_status rank(struct ceduo_surface *s, const double *y, size_t *used, size_t used_count)
 {
     struct solution f;
     enum ceduo_status status = open_solution(&f, s, used, used_count, 0, y);
@@ -681,6 +892,9 @@ static enum ceduo_status rank(const struct ceduo_surface *s, const double *y, si
     struct parts parts = {.first = room, .total = room + s->inputs_count};
     if (status == CEDUO_OK && room) {
         fill_parts(&f, GROUPS, &parts);
+        for (size_t i = 0; i < used_count; i++)
+            if (is_word(s, used[i]))
+                parts.total[used[i]] = INFINITY;
         for (size_t i = 0; i < used_count; i++) {
             size_t input = used[i], at = i;
             for (; at > 0 && parts.total[used[at - 1]] < parts.total[input]; at--)
@@ -694,85 +908,141 @@ static enum ceduo_status rank(const struct ceduo_surface *s, const double *y, si
     return status;
 }
 
-static enum ceduo_status fit_terms(const struct ceduo_surface *s, size_t *used, size_t used_count, const double *y,
-                                   struct ceduo_surface_fit *fit)
+/* The inputs that terms are made of, in order of rank where there are too many for all products. */
+struct chosen {
+    size_t *used, n, leading;
+    bool enough; /* points for single terms */
+};
+
+static enum ceduo_status try_terms(struct ceduo_surface *s, const struct chosen *chosen, size_t leading, const double *y,
+                                   double *explained)
 {
     struct solution f;
-    bool all = leading_of(s, used, used_count) == used_count;
-    enum ceduo_status status = all ? CEDUO_OK : rank(s, y, used, used_count);
-    if (status != CEDUO_OK)
-        return status;
-    status = open_solution(&f, s, used, used_count, leading_of(s, used, used_count), y);
+    struct ceduo_surface_fit fit;
+    enum ceduo_status status = open_solution(&f, s, chosen->used, chosen->n, leading, y);
     if (status == CEDUO_OK)
-        status = read_solution(&f, y, fit);
+        read_quality(&f, y, &fit);
+    *explained = fit.explained;
     close_solution(&f);
     return status;
 }
 
-/* The groups' values and their mean less their means over all points, as the same rocks are at every point and groups differ by
- * a constant; and the values alone: what varies, without noise. */
-static void begin_fit(const struct ceduo_surface *s, const struct ceduo_groups *groups, double *y,
-                      struct ceduo_surface_fit *fit)
+static enum ceduo_status choose(struct ceduo_surface *s, const bool *uses, const double *y, bool varies, struct chosen *chosen)
+{
+    struct terms singles = {0};
+    *chosen = (struct chosen){.used = calloc(s->inputs_count + 1, sizeof *chosen->used)};
+    if (!chosen->used)
+        return CEDUO_NO_MEMORY;
+    for (size_t i = 0; i < s->inputs_count; i++)
+        if ((!uses || uses[i]) && s->of[i].count > 0)
+            chosen->used[chosen->n++] = i;
+    list_terms(s, chosen->used, chosen->n, 0, &singles);
+    chosen->enough = varies && singles.n > 0 && PER_TERM * (double)singles.n <= (double)s->points;
+    size_t leading = chosen->leading = leading_of(s, chosen->used, chosen->n);
+    if (!chosen->enough)
+        return CEDUO_OK;
+    double best = -INFINITY;
+    bool ranked = false;
+    enum ceduo_status status = CEDUO_OK;
+    if (leading < chosen->n)
+        status = rank(s, y, chosen->used, chosen->n), ranked = true;
+    /* products of inputs that do nothing may stand for those of others: fewer are tried */
+    for (double explained = 0; status == CEDUO_OK && leading > 0 && best < ENOUGH; leading /= 2) {
+        if (best > -INFINITY && !ranked)
+            status = rank(s, y, chosen->used, chosen->n), ranked = true;
+        status = status == CEDUO_OK ? try_terms(s, chosen, leading, y, &explained) : status;
+        if (status == CEDUO_OK && explained > best)
+            best = explained, chosen->leading = leading;
+    }
+    return status;
+}
+
+/* What varies, without noise, and what of that is the noise of the rocks. */
+struct spread {
+    double variance, noise, kept; /* kept: the share of the values' distance from their mean that is no noise */
+};
+
+static struct spread fill_column(const struct ceduo_surface *s, const struct ceduo_groups *groups, struct column *c)
 {
     double points = (double)s->points, squares = 0, common = 0;
-    memset(y, 0, (GROUPS + 1) * s->points * sizeof *y);
+    memset(c->y, 0, (GROUPS + 1) * s->points * sizeof *c->y);
+    c->means[GROUPS] = 0;
     for (size_t g = 0; g < GROUPS; g++) {
-        double mean = 0;
+        c->means[g] = 0;
         for (size_t p = 0; p < s->points; p++)
-            mean += groups[p].of[g] / points;
-        fit->mean += mean / GROUPS;
+            c->means[g] += groups[p].of[g] / points;
+        c->means[GROUPS] += c->means[g] / GROUPS;
         for (size_t p = 0; p < s->points; p++) {
-            y[g * s->points + p] = groups[p].of[g] - mean;
-            y[GROUPS * s->points + p] += (groups[p].of[g] - mean) / GROUPS;
+            c->y[g * s->points + p] = groups[p].of[g] - c->means[g];
+            c->y[GROUPS * s->points + p] += (groups[p].of[g] - c->means[g]) / GROUPS;
         }
     }
     for (size_t p = 0; p < s->points; p++) {
-        squares += pow(y[GROUPS * s->points + p], 2);
-        common += common_of(y + p, s->points, GROUPS);
+        squares += pow(c->y[GROUPS * s->points + p], 2);
+        common += common_of(c->y + p, s->points, GROUPS);
     }
-    fit->variance = fmax(0, common) / (points - 1);
-    fit->noise = fmax(0, squares - common) / (points - 1);
-    for (size_t p = 0; p < s->points; p++)
-        fit->values[p] = fit->mean + (squares > 0 ? sqrt(fmin(1, fmax(0, common) / squares)) : 0) * y[GROUPS * s->points + p];
-    for (size_t i = 0; i < s->inputs_count; i++) {
-        fit->first[i] = fit->total[i] = (struct ceduo_share){NAN, NAN};
-        fit->left[i] = NAN;
-    }
+    return (struct spread){fmax(0, common) / (points - 1), fmax(0, squares - common) / (points - 1),
+                           squares > 0 ? sqrt(fmin(1, fmax(0, common) / squares)) : 0};
 }
 
-enum ceduo_status ceduo_surface_fit(const struct ceduo_surface *s, const bool *uses, const struct ceduo_groups *groups,
-                                    double lo, double hi, struct ceduo_surface_fit *fit)
+/* Without a surface: the points alone, drawn anew. */
+static enum ceduo_status read_points(const struct ceduo_surface *s, const struct column *c, double kept,
+                                     const struct ceduo_surface_figure *figure, struct ceduo_surface_fit *fit)
 {
-    size_t points = s->points, n = s->inputs_count, used_count = 0;
-    *fit = (struct ceduo_surface_fit){.lo = lo, .hi = hi, .q2 = NAN, .explained = NAN, .whole = {NAN, NAN}};
-    double *y = malloc((GROUPS + 1) * points * sizeof *y);
-    size_t *used = calloc(n + 1, sizeof *used);
+    struct ends_errors errors = {0};
+    double *room = malloc(3 * s->points * sizeof *room);
+    if (!room)
+        return CEDUO_NO_MEMORY;
+    struct ends ends = read_band(c, s->points, c->y, kept, figure, room, &errors);
+    read_values(c, s->points, c->y, kept, figure, fit->values);
+    for (size_t b = 0; b < SAMPLES; b++) {
+        for (size_t p = 0; p < s->points; p++)
+            room[p] = fit->values[(size_t)(hashed(b, p, 1) * (double)s->points)];
+        add_sample(&errors, ends, read_ends(room, s->points, figure->limit));
+    }
+    set_band(fit, ends, &errors);
+    free(room);
+    return CEDUO_OK;
+}
+
+static bool allocate_fit(struct ceduo_surface_fit *fit, size_t points, size_t n)
+{
     fit->values = malloc(points * sizeof *fit->values);
     fit->first = calloc(2 * n + 1, sizeof *fit->first);
     fit->left = calloc(n + 1, sizeof *fit->left);
     fit->total = fit->first + n;
-    enum ceduo_status status = y && used && fit->values && fit->first && fit->left ? CEDUO_OK : CEDUO_NO_MEMORY;
-    if (status == CEDUO_OK) {
-        struct terms singles = {0};
-        begin_fit(s, groups, y, fit);
-        for (size_t i = 0; i < n; i++)
-            if ((!uses || uses[i]) && s->of[i].count > 0)
-                used[used_count++] = i;
-        list_terms(s, used, used_count, 0, &singles);
-        fit->enough = singles.n > 0 && fit->variance > 0 && PER_TERM * (double)singles.n <= (double)points;
-        if (fit->enough)
-            status = fit_terms(s, used, used_count, y, fit);
+    for (size_t i = 0; fit->first && fit->left && i < n; i++) {
+        fit->first[i] = fit->total[i] = (struct ceduo_share){NAN, NAN};
+        fit->left[i] = NAN;
     }
+    return fit->values && fit->first && fit->left;
+}
+
+enum ceduo_status ceduo_surface_fit(struct ceduo_surface *s, const struct ceduo_surface_figure *figure,
+                                    struct ceduo_surface_fit *fit)
+{
+    struct chosen chosen = {0};
+    struct column c = {.y = malloc((GROUPS + 1) * s->points * sizeof *c.y)};
+    *fit = (struct ceduo_surface_fit){.lo = figure->lo, .hi = figure->hi, .q2 = NAN, .explained = NAN, .whole = {NAN, NAN}};
+    enum ceduo_status status = allocate_fit(fit, s->points, s->inputs_count) && c.y ? CEDUO_OK : CEDUO_NO_MEMORY;
+    struct spread spread = {0};
     if (status == CEDUO_OK) {
-        bound(fit->values, points, fit);
-        memcpy(y, fit->values, points * sizeof *y);
-        gsl_sort(y, 1, points);
-        fit->p5 = quantile_of(y, points, .05);
-        fit->p50 = quantile_of(y, points, .5);
-        fit->p95 = quantile_of(y, points, .95);
+        spread = fill_column(s, figure->y, &c);
+        fit->mean = c.means[GROUPS], fit->variance = spread.variance, fit->noise = spread.noise;
+        status = choose(s, figure->uses, c.y, spread.variance > 0, &chosen);
     }
-    free(y);
-    free(used);
+    if (status == CEDUO_OK && chosen.enough) {
+        struct solution f;
+        fit->enough = true;
+        status = open_solution(&f, s, chosen.used, chosen.n, chosen.leading, c.y);
+        if (status == CEDUO_OK)
+            status = read_solution(&f, &c, figure, fit);
+        close_solution(&f);
+    } else if (status == CEDUO_OK) {
+        status = read_points(s, &c, spread.kept, figure, fit);
+    }
+    free(c.y);
+    free(chosen.used);
     if (status != CEDUO_OK)
         ceduo_surface_release(fit);
     return status;
@@ -784,4 +1054,78 @@ void ceduo_surface_release(struct ceduo_surface_fit *fit)
     free(fit->first);
     free(fit->left);
     *fit = (struct ceduo_surface_fit){0};
+}
+
+/* ---- values alone ---- */
+
+/* The values of a figure, and how far they are from those of halves of the rocks, by the terms of `chosen`. */
+static enum ceduo_status read_figure(struct ceduo_surface *s, const struct chosen *chosen, struct column *c, double kept,
+                                     const struct ceduo_surface_figure *figure, double *values, struct ceduo_groups *changes,
+                                     double *room)
+{
+    struct solution f = {0};
+    const double *remains = c->y;
+    if (chosen->enough && kept > 0) {
+        enum ceduo_status status = open_solution(&f, s, chosen->used, chosen->n, chosen->leading, c->y);
+        double spare = 0;
+        for (size_t p = 0; status == CEDUO_OK && p < s->points; p++)
+            spare += common_of(f.remains + p, s->points, GROUPS) / f.freedom;
+        if (status != CEDUO_OK) {
+            close_solution(&f);
+            return status;
+        }
+        kept = kept_of(&f, fmax(0, spare));
+        remains = f.remains;
+    }
+    read_values(c, s->points, remains, kept, figure, values);
+    for (size_t half = 1; half < GROUPS; half++) {
+        read_changes(c, s->points, remains, kept, half, room);
+        for (size_t p = 0; p < s->points; p++)
+            changes[p].of[half] = room[p];
+    }
+    close_solution(&f);
+    return CEDUO_OK;
+}
+
+/* The sum of the figures at each point. */
+static void add_figures(const struct ceduo_surface *s, const struct ceduo_groups *y, size_t n, struct ceduo_groups *sum)
+{
+    memset(sum, 0, s->points * sizeof *sum);
+    for (size_t i = 0; i < n * s->points; i++)
+        for (size_t g = 0; g < GROUPS; g++)
+            sum[i % s->points].of[g] += y[i].of[g];
+}
+
+enum ceduo_status ceduo_surface_values(struct ceduo_surface *s, const struct ceduo_surface_figure *figure, size_t n,
+                                       double *values, struct ceduo_groups *changes)
+{
+    struct chosen chosen = {0};
+    struct column c = {.y = malloc((GROUPS + 1) * s->points * sizeof *c.y)};
+    double *room = malloc(s->points * sizeof *room);
+    struct ceduo_groups *sum = malloc(s->points * sizeof *sum);
+    enum ceduo_status status = c.y && room && sum ? CEDUO_OK : CEDUO_NO_MEMORY;
+    if (status == CEDUO_OK) {
+        add_figures(s, figure->y, n, sum);
+        struct spread spread = fill_column(s, sum, &c);
+        status = choose(s, figure->uses, c.y, spread.variance > 0, &chosen);
+    }
+    for (size_t i = 0; i < n && status == CEDUO_OK; i++) {
+        double kept = fill_column(s, figure->y + i * s->points, &c).kept;
+        status = read_figure(s, &chosen, &c, kept, figure, values + i * s->points, changes + i * s->points, room);
+    }
+    free(chosen.used);
+    free(c.y);
+    free(room);
+    free(sum);
+    return status;
+}
+
+/* Sums over the halves are sums over the groups again. */
+void ceduo_groups_set(struct ceduo_groups *groups, double value, const double changes[CEDUO_SURFACE_GROUPS])
+{
+    for (size_t g = 0; g < GROUPS; g++) {
+        groups->of[g] = value;
+        for (size_t half = 1; half < GROUPS; half++)
+            groups->of[g] += side_of(half, g) * changes[half];
+    }
 }

@@ -38,8 +38,9 @@ static void say_all(const struct app *app, const struct uncertainty *u, const st
     end_line(words, &before);
     ceduo_doubt_advice(words, r, app->option, 0);
     end_line(words, &before);
-    for (size_t i = 0; i < r->answer->orders_count; i++) {
-        const struct ceduo_doubt_order *o = &r->answer->orders[i];
+    const struct ceduo_doubt_ranking *ranking = ceduo_doubt_verdict(r->answer);
+    for (size_t i = 0; i < ranking->count; i++) {
+        const struct ceduo_doubt_order *o = &ranking->orders[i];
         if (o->better == app->option || o->than == app->option)
             ceduo_doubt_order_words(words, r, i);
         end_line(words, &before);

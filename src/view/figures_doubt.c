@@ -30,14 +30,14 @@ static double shown(const struct ceduo_place *p, double value)
 
 static const struct ceduo_doubt_order *order_of(const struct ceduo_place *p)
 {
-    return &p->doubt->answer->orders[p->item];
+    return &ceduo_doubt_verdict(p->doubt->answer)->orders[p->item];
 }
 
 static bool enter_figure(struct ceduo_place *p, size_t i)
 {
     const struct ceduo_doubt_answer *a = p->doubt->answer;
     for (p->figure = 0; a && p->figure < a->figures_count; p->figure++)
-        if (a->figures[p->figure].kind < CEDUO_DOUBT_SHOWN && i-- == 0)
+        if (a->figures[p->figure].kind < CEDUO_DOUBT_SHOWN && a->figures[p->figure].fit.values && i-- == 0)
             return true;
     return false;
 }
@@ -52,7 +52,7 @@ static bool enter_input(struct ceduo_place *p, size_t i)
 static bool enter_order(struct ceduo_place *p, size_t i)
 {
     p->item = i;
-    return p->doubt->answer && i < p->doubt->answer->orders_count;
+    return p->doubt->answer && i < ceduo_doubt_verdict(p->doubt->answer)->count;
 }
 
 static struct ceduo_value end_of(const struct ceduo_place *p, int end)
@@ -62,7 +62,20 @@ static struct ceduo_value end_of(const struct ceduo_place *p, int end)
     return word ? WORD(word) : NUMBER(value);
 }
 
-static const char *const figure_keys[CEDUO_DOUBT_SHOWN] = {"reach_probability", "exceed_probability", "energy_per_released_kJ"};
+/* The share of a rotation is the one by which the place is judged. */
+static const char *figure_key(const struct ceduo_place *p)
+{
+    static const char *const keys[CEDUO_DOUBT_SHOWN] = {
+        [CEDUO_DOUBT_REACH] = "reach_probability",
+        [CEDUO_DOUBT_EXCEED] = "exceed_probability",
+        [CEDUO_DOUBT_ENERGY] = "energy_per_released_kJ",
+        [CEDUO_DOUBT_MEAN] = "rotation.exceed_probability",
+        [CEDUO_DOUBT_FAILING] = "rotation.unprotected_energy",
+    };
+    enum ceduo_doubt_kind kind = figure_of(p)->kind;
+    bool reaches = kind == CEDUO_DOUBT_MEAN && p->doubt->answer->main == CEDUO_DOUBT_ENERGY;
+    return reaches ? "rotation.reach_probability" : keys[kind];
+}
 
 VALUE(doubt_format, place, TEXT, WORD("ceduo-sensitivity-1"))
 VALUE(doubt_scene, place, TEXT, WORD(o->doubt->file->path))
@@ -74,7 +87,7 @@ VALUE(doubt_evaluations, place, COUNT, COUNT(o->doubt->answer ? o->doubt->answer
 VALUE(doubt_option, place, TEXT, WORD(scene_of(o)->options[figure_of(o)->option].name))
 VALUE(doubt_against, place, TEXT, WORD(figure_of(o)->difference ? scene_of(o)->options[0].name : NULL))
 VALUE(doubt_x, place, NUMBER, NUMBER(scene_of(o)->controls[ceduo_scene_last_control(scene_of(o))].x_given))
-VALUE(doubt_figure, place, TEXT, WORD(figure_keys[figure_of(o)->kind]))
+VALUE(doubt_figure, place, TEXT, WORD(figure_key(o)))
 VALUE(figure_number, place, NUMBER, NUMBER(shown(o, *(const double *)member(f, figure_of(o)))))
 #define FIGURE(member) .value = figure_number, .offset = offsetof(struct ceduo_doubt_figure, member)
 VALUE(input_path, place, TEXT, WORD(o->doubt->inputs->items[o->input].path))
@@ -94,6 +107,7 @@ VALUE(input_at_hi, place, NUMBER, NUMBER(shown(o, figure_of(o)->at[o->input][1])
 VALUE(input_left, place, NUMBER, NUMBER(shown(o, figure_of(o)->fit.left[o->input])))
 VALUE(order_better, place, TEXT, WORD(scene_of(o)->options[order_of(o)->better].name))
 VALUE(order_than, place, TEXT, WORD(scene_of(o)->options[order_of(o)->than].name))
+VALUE(order_over, place, TEXT, WORD(ceduo_doubt_verdict(o->doubt->answer)->rotation ? "rotation" : "today"))
 VALUE(order_number, place, NUMBER, NUMBER(*(const double *)member(f, order_of(o))))
 #define ORDER(member) .value = order_number, .offset = offsetof(struct ceduo_doubt_order, member)
 
@@ -110,13 +124,23 @@ static const struct ceduo_figure doubt_figure_rows[] = {
     {"option", "", "name of the option", .value = doubt_option},
     {"against", "", "of a difference: the first option", .value = doubt_against, .null = "the figure is no difference"},
     {"x_m", "m", "the last control", .value = doubt_x},
-    {"figure", "", "reach_probability, exceed_probability or energy_per_released_kJ", .value = doubt_figure},
+    {"figure", "",
+     "reach_probability, exceed_probability or energy_per_released_kJ; with --years also rotation.exceed_probability (without "
+     "an accepted energy rotation.reach_probability), the mean of the years, and rotation.unprotected_energy, the years in "
+     "which more exceed than are allowed",
+     .value = doubt_figure},
     {"value", "", "in the scene as it is", FIGURE(value), .null = UNSAID},
     {"sampling_lo", "", "lower end of its 95 % interval, by the rocks", FIGURE(sampling_lo), .null = UNSAID},
     {"sampling_hi", "", "upper end of its 95 % interval", FIGURE(sampling_hi), .null = UNSAID},
     {"doubt_p5", "", "5th percentile of what may be true", FIGURE(fit.p5), .null = UNSAID},
     {"doubt_p50", "", "median of what may be true", FIGURE(fit.p50), .null = UNSAID},
     {"doubt_p95", "", "95th percentile of what may be true", FIGURE(fit.p95), .null = UNSAID},
+    {"doubt_p5_se", "", "standard error of doubt_p5, by the points and by the rocks", FIGURE(fit.p5_se), .null = UNSAID},
+    {"doubt_p95_se", "", "standard error of doubt_p95", FIGURE(fit.p95_se), .null = UNSAID},
+    {"within", "", "share of what may be true in which no more exceed than are allowed", FIGURE(fit.below.value),
+     .null = "the figure is not the share that exceeds, today or in the mean of a rotation"},
+    {"within_se", "", "its standard error", FIGURE(fit.below.se),
+     .null = "the figure is not the share that exceeds, today or in the mean of a rotation"},
     {"q2", "", "share of the variance that the surface predicts, leaving out each point in turn", .value = doubt_q2,
      .null = FEW_POINTS},
     {"unexplained", "", "share of the variance that neither single inputs nor pairs explain", .value = doubt_unexplained,
@@ -130,8 +154,9 @@ static const struct ceduo_figure input_range_rows[] = {
     {"first_se", "", "its standard error", .value = input_first_se, .null = FEW_POINTS},
     {"total", "", "share that it causes alone or with others", .value = input_total, .null = FEW_POINTS},
     {"total_se", "", "its standard error", .value = input_total_se, .null = FEW_POINTS},
-    {"at_lo", "", "the figure with this input at its lower end, all others as they are", .value = input_at_lo, .null = UNSAID},
-    {"at_hi", "", "the same at its upper end", .value = input_at_hi, .null = UNSAID},
+    {"at_lo", "", "the figure with this input at its lower end, all others as they are", .value = input_at_lo,
+     .null = UNSAID ", or the figure is of a rotation"},
+    {"at_hi", "", "the same at its upper end", .value = input_at_hi, .null = UNSAID ", or the figure is of a rotation"},
     {"width_if_known", "", "doubt_p95 less doubt_p5 that would be left if it were known", .value = input_left,
      .null = FEW_POINTS},
     END};
@@ -153,6 +178,7 @@ static const struct ceduo_figure ranking_rows[] = {
     {"better", "", "name of the better option", .value = order_better},
     {"than", "", "name of the next one", .value = order_than},
     {"x_m", "m", "the last control", .value = doubt_x},
+    {"over", "", "today, or rotation: by the mean over a rotation", .value = order_over},
     {"probability", "", "share of what may be true in which it is better", ORDER(probability)},
     {"equal", "", "in which neither is", ORDER(equal)},
     {"worse", "", "in which it is worse", ORDER(worse)},

@@ -132,7 +132,8 @@ static void say_doubt(struct text *text, const struct subject *s)
             : _("Doubt: what is not known of the scene makes it anything from %s to %s of 1000 (90 %% of what may "
                 "be true); only measuring makes that less."),
         lo.bytes, hi.bytes);
-    if (a->orders_count == 0 || a->orders[0].better != s->index)
+    const struct ceduo_doubt_ranking *ranking = ceduo_doubt_verdict(a);
+    if (ranking->count == 0 || ranking->orders[0].better != s->index)
         return;
     ceduo_text_char(text, ' ');
     ceduo_doubt_order_words(text, doubt, 0); /* how sure the best option is */

@@ -33,6 +33,20 @@ static void append_range(struct text *t, const struct ceduo_doubt_report *r, dou
     ceduo_doubt_value(t, r, hi);
 }
 
+/* A value of any figure: shares of 1000, energies in kJ. */
+static void append_value(struct text *t, const struct ceduo_doubt_figure *f, double value)
+{
+    bool energy = f->kind == CEDUO_DOUBT_ENERGY;
+    ceduo_words_number(t, energy ? value * J_TO_KJ : round(value * 1000), energy ? 3 : 0);
+}
+
+static void append_range_of(struct text *t, const struct ceduo_doubt_figure *f, double lo, double hi)
+{
+    append_value(t, f, lo);
+    ceduo_text_put(t, "\xe2\x80\x93");
+    append_value(t, f, hi);
+}
+
 /* ---- what an option may be ---- */
 
 struct ceduo_doubt_now ceduo_doubt_now_of(const struct ceduo_doubt_report *r, size_t option)
@@ -101,6 +115,32 @@ static void add_options(struct ceduo_page *page, const struct ceduo_doubt_report
     }
 }
 
+/* In the mean of a rotation, and the years that fail. */
+static void add_rotation(struct ceduo_page *page, const struct ceduo_doubt_report *r)
+{
+    static const struct ceduo_page_column columns[] = {{N_("over the rotation, of 1000"), 32, 2, 0},
+                                                       {N_("mean"), -5, 0, 0},
+                                                       {N_("rocks"), -9, 2, 0},
+                                                       {N_("doubt (90 %)"), -13, 2, 0},
+                                                       {N_("years fail"), -11, 2, 0}};
+    const struct ceduo_scene *s = &r->file->scene;
+    bool judged = r->answer->main == CEDUO_DOUBT_EXCEED;
+    ceduo_page_table(page, columns, judged ? 5 : 4);
+    for (size_t i = 0; i < s->options_count; i++) {
+        const struct ceduo_doubt_figure *f = ceduo_doubt_figure_of(r->answer, i, CEDUO_DOUBT_MEAN, false),
+                                        *years = ceduo_doubt_figure_of(r->answer, i, CEDUO_DOUBT_FAILING, false);
+        ceduo_text_safe(ceduo_page_text(page), s->options[i].name);
+        append_value(ceduo_page_text(page), f, f->value);
+        append_range_of(ceduo_page_text(page), f, f->sampling_lo, f->sampling_hi);
+        append_range_of(ceduo_page_text(page), f, f->fit.p5, f->fit.p95);
+        double lo = judged ? floor(years->fit.p5) : 0, hi = judged ? ceil(years->fit.p95) : 0; /* outwards */
+        if (judged && lo == hi)
+            ceduo_page_write(page, "%.0f", years->value);
+        else if (judged)
+            ceduo_page_write(page, "%.0f, %.0f\xe2\x80\x93%.0f", years->value, lo, hi);
+    }
+}
+
 /* ---- what it depends on ---- */
 
 double ceduo_doubt_share(const struct ceduo_doubt_figure *figure, size_t group)
@@ -114,14 +154,13 @@ static bool matters(const struct ceduo_doubt_figure *f, size_t g)
     return f->fit.total[g].value > 2 * f->fit.total[g].se && f->fit.total[g].value >= SHOWN;
 }
 
-static void add_inputs(struct ceduo_page *page, const struct ceduo_doubt_report *r)
+static void add_inputs(struct ceduo_page *page, const struct ceduo_doubt_report *r, const struct ceduo_doubt_figure *f)
 {
     static const struct ceduo_page_column columns[] = {{N_("it depends on"), 34, 2, 0},
                                                        {N_("from"), -9, 1, 0},
                                                        {N_("to"), -9, 1, 0},
                                                        {N_("share"), -6, 1, 0},
                                                        {N_("left if known"), -13, 2, 0}};
-    const struct ceduo_doubt_figure *f = main_of(r, 0);
     size_t rest = 0;
     if (!f->fit.enough) {
         ceduo_page_note(page, _("There are too few points to say what it depends on; take more (--sensitivity=N)."));
@@ -138,7 +177,7 @@ static void add_inputs(struct ceduo_page *page, const struct ceduo_doubt_report 
         for (int end = 0; end < 2; end++)
             ceduo_doubt_input_shown(ceduo_page_text(page), r, g, end);
         ceduo_page_write(page, "%.0f %%", ceduo_doubt_share(f, g) * 100);
-        ceduo_doubt_value(ceduo_page_text(page), r, f->fit.left[g]);
+        append_value(ceduo_page_text(page), f, f->fit.left[g]);
     }
     if (f->fit.whole.value >= SHOWN && f->fit.whole.value > 2 * f->fit.whole.se) {
         ceduo_page_write(page, "%s", _("together, in ways not told apart"));
@@ -240,13 +279,16 @@ static const char *verdict_of(const struct ceduo_doubt_order *o)
 void ceduo_doubt_order_words(struct text *text, const struct ceduo_doubt_report *r, size_t i)
 {
     const struct ceduo_scene *s = &r->file->scene;
-    const struct ceduo_doubt_order *o = &r->answer->orders[i];
+    const struct ceduo_doubt_ranking *ranking = ceduo_doubt_verdict(r->answer);
+    const struct ceduo_doubt_order *o = &ranking->orders[i];
     LOCAL_TEXT(better);
     LOCAL_TEXT(than);
     ceduo_text_safe(&better, s->options[o->better].name);
     ceduo_text_safe(&than, s->options[o->than].name);
-    ceduo_text_format(text, _("%s is better than %s in %.0f %% of what may be true"), ceduo_text_string(&better),
-                      ceduo_text_string(&than), o->probability * 100);
+    ceduo_text_format(text,
+                      ranking->rotation ? _("over the rotation %s is better than %s in %.0f %% of what may be true")
+                                        : _("%s is better than %s in %.0f %% of what may be true"),
+                      ceduo_text_string(&better), ceduo_text_string(&than), o->probability * 100);
     if (o->probability < 0.995)
         ceduo_text_format(text, _(", equal in %.0f %%, worse in %.0f %%"), o->equal * 100, o->worse * 100);
     ceduo_text_format(text, ": %s.", verdict_of(o));
@@ -261,7 +303,7 @@ void ceduo_doubt_blocks(struct ceduo_page *page, const struct ceduo_doubt_report
     ceduo_page_add(page, CEDUO_PAGE_GAP);
     if (several)
         ceduo_page_say(page, CEDUO_PAGE_SENTENCE, _("What the first option depends on:"));
-    add_inputs(page, r);
+    add_inputs(page, r, main_of(r, 0));
     ceduo_page_add(page, CEDUO_PAGE_GAP);
     for (size_t i = 0; i < FIRST; i++) {
         LOCAL_TEXT(words);
@@ -269,7 +311,16 @@ void ceduo_doubt_blocks(struct ceduo_page *page, const struct ceduo_doubt_report
             ceduo_page_say(page, CEDUO_PAGE_ITEM, "%s", words.bytes);
     }
     say_lights(page, r);
-    for (size_t i = 0; extent >= CEDUO_DOUBT_ORDER && i < r->answer->orders_count; i++)
+    if (r->answer->rotation && extent >= CEDUO_DOUBT_ORDER) {
+        ceduo_page_add(page, CEDUO_PAGE_GAP);
+        add_rotation(page, r);
+        ceduo_page_add(page, CEDUO_PAGE_GAP);
+        if (several)
+            ceduo_page_say(page, CEDUO_PAGE_SENTENCE, _("What the mean of the first option depends on:"));
+        add_inputs(page, r, ceduo_doubt_figure_of(r->answer, 0, CEDUO_DOUBT_MEAN, false));
+        ceduo_page_add(page, CEDUO_PAGE_GAP);
+    }
+    for (size_t i = 0; extent >= CEDUO_DOUBT_ORDER && i < ceduo_doubt_verdict(r->answer)->count; i++)
         ceduo_doubt_order_words(ceduo_page_add(page, CEDUO_PAGE_ITEM), r, i);
     if (!several) /* of several the table has it */
         ceduo_doubt_both(ceduo_page_add(page, CEDUO_PAGE_NOTE), r, 0);

@@ -403,7 +403,7 @@ def test_refused():
         expect_in("doubt[1].path: 'rock.density_kg_m3' is given twice", r.err)
     for n in ("0", "1", "x", "1e9"):
         expect_equal(ceduo(f"--sensitivity={n}", "paper-site").status, USAGE, n)
-    for others in (("--plot", "energy"), ("--years", "0:3"), ("-e", "0.1"), ("--rows", "stands")):
+    for others in (("--plot", "energy"), ("-e", "0.1"), ("--rows", "stands")):
         expect_equal(ceduo("--sensitivity=4", *others, "paper-site").status, USAGE, others)
 
 

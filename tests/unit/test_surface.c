@@ -34,7 +34,8 @@ static void make_inputs(size_t n, size_t words, size_t each)
                               : (struct ceduo_input){.kind = CEDUO_INPUT_RANGE, .hi = 1};
 }
 
-static double lowest = -INFINITY;
+static double lowest = -INFINITY, limit = NAN;
+static double level; /* sd of what a group of rocks brings at all points */
 
 /* Values of the function with noise. */
 static struct ceduo_surface_fit fit_of(function *f, size_t n, size_t points, uint64_t seed, double noise)
@@ -47,11 +48,16 @@ static struct ceduo_surface_fit fit_of(function *f, size_t n, size_t points, uin
     assert_non_null(u);
     assert_non_null(y);
     EXPECT(ceduo_surface_points(seed, points, n, u), ==, CEDUO_OK);
+    double constants[CEDUO_SURFACE_GROUPS];
+    for (int g = 0; g < CEDUO_SURFACE_GROUPS; g++) /* by which groups differ */
+        constants[g] = level > 0 ? level * normal(&state) : g - (CEDUO_SURFACE_GROUPS - 1) / 2.;
     for (size_t p = 0; p < points; p++)
-        for (int g = 0; g < CEDUO_SURFACE_GROUPS; g++) /* which differ by a constant */
-            y[p].of[g] = f(u + p * n, n) + noise * normal(&state) + (double)g - (CEDUO_SURFACE_GROUPS - 1) / 2.;
+        for (int g = 0; g < CEDUO_SURFACE_GROUPS; g++)
+            y[p].of[g] = f(u + p * n, n) + noise * normal(&state) + constants[g];
     EXPECT(ceduo_surface_open(inputs, n, u, points, &surface), ==, CEDUO_OK);
-    EXPECT(ceduo_surface_fit(surface, NULL, y, lowest, INFINITY, &fit), ==, CEDUO_OK);
+    EXPECT(ceduo_surface_fit(surface,
+                             &(const struct ceduo_surface_figure){.y = y, .lo = lowest, .hi = INFINITY, .limit = limit}, &fit),
+           ==, CEDUO_OK);
     ceduo_surface_free(surface);
     free(u);
     free(y);
@@ -302,6 +308,68 @@ TEST(a_band_keeps_within_bounds)
     EXPECT_NEAR(f.p95, .5 - sqrt(.1), .03);
     ceduo_surface_release(&f);
 }
+
+/* ---- errors of the band ---- */
+
+static double ripple, turns[3]; /* what no surface is */
+
+static double rippled_sum(const double *u, size_t n)
+{
+    return sum_of_two(u, n) + ripple * sin(2 * M_PI * (turns[0] * u[0] + turns[1] * u[1] + turns[2] * u[2]));
+}
+
+/* Of U + V + a·sin(2πW) the share up to x, W in small steps. */
+static double share_up_to(double x)
+{
+    double share = 0;
+    for (int i = 0; i < 1000; i++) {
+        double t = fmin(2, fmax(0, x - ripple * sin(2 * M_PI * (i + .5) / 1000)));
+        share += (t < 1 ? t * t / 2 : 1 - (2 - t) * (2 - t) / 2) / 1000;
+    }
+    return share;
+}
+
+static double value_at_share(double share)
+{
+    double lo = -2, hi = 4;
+    while (hi - lo > 1e-9)
+        *(share_up_to((lo + hi) / 2) < share ? &lo : &hi) = (lo + hi) / 2;
+    return lo;
+}
+
+/* How often 95 % intervals of 200 seeds hold what is true: where a surface is all, where it is not, and with rocks that differ at
+ * all points or at each. A remainder that the points do not spread more evenly than chance would is held as often as it should
+ * be; one that they do, more often. */
+TEST(errors_of_the_band_hold_the_truth)
+{
+    static const struct {
+        double ripple, turns[3], level, noise;
+        bool even;
+    } cases[] = {{.level = 0},  {.3, {29, 31, 37}}, {.3, {0, 0, 9}, .even = true},
+                 {.level = .2}, {.noise = .5},      {.level = .1, .noise = .4}};
+    double all = 0, n = 0;
+    make_inputs(3, 0, 0);
+    for (size_t c = 0; c < sizeof cases / sizeof *cases; c++) {
+        ripple = cases[c].ripple;
+        memcpy(turns, cases[c].turns, sizeof turns);
+        level = fmax(1e-12, cases[c].level);
+        double low = value_at_share(.05), high = value_at_share(.95), share = share_up_to(limit = .9), held = 0;
+        for (uint64_t seed = 1; seed <= 200; seed++) {
+            struct ceduo_surface_fit f = fit_of(rippled_sum, 3, 256, seed, cases[c].noise);
+            held += fabs(f.p5 - low) <= 1.96 * f.p5_se;
+            held += fabs(f.p95 - high) <= 1.96 * f.p95_se;
+            held += fabs(f.below.value - share) <= 1.96 * f.below.se;
+            ceduo_surface_release(&f);
+        }
+        EXPECT(held / 6, >=, 90);
+        all += cases[c].even ? 0 : held / 6;
+        n += !cases[c].even;
+    }
+    EXPECT(all / n, <=, 97);
+    level = 0, limit = NAN;
+}
+
+/* ---- many inputs ---- */
 
 static double even_40(const double *u, size_t n)
 {

@@ -1,0 +1,181 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Each thread has a copy of the scene of its own, takes item by item, and the caller writes to the rows of the item alone: so the
+ * bits do not depend on the threads. An item is one list of variants, of which no two that are equal are simulated. */
+#include "points.h"
+
+#include <stdlib.h>
+
+#include "base/parallel.h"
+#include "ceduo/question.h"
+#include "ceduo/variants.h"
+#include "inputs.h"
+
+#define SEED_BITS 54 /* above those of a scene's seed */
+
+struct work {
+    const struct points *points;
+    size_t from, together;      /* the first row */
+    size_t each, today;         /* variants of a row, first those of today */
+    struct point *variants;     /* option and slot of each */
+    struct input_scene *copies; /* of the scene, for each thread */
+    atomic_bool failed;         /* nothing more once any thread has failed */
+};
+
+struct item {
+    struct work *work;
+    struct input_scene *copy;
+    size_t row, each;          /* the first; variants of each */
+    struct point point;        /* the one at hand */
+    struct ceduo_scene scene;  /* of a year: with other rocks */
+    struct ceduo_years *years; /* of the option at hand */
+};
+
+static struct point point_of(const struct item *item, size_t i)
+{
+    struct point point = item->work->variants[i % item->each];
+    point.row = item->row + i / item->each;
+    return point;
+}
+
+/* The forest of an option in a year. */
+static enum ceduo_status grow(struct item *item, struct point *point)
+{
+    const struct points *p = item->work->points;
+    const struct ceduo_scene *scene = &item->copy->scene;
+    const struct ceduo_option *option = &scene->options[point->option];
+    size_t years = p->years[point->option], year = point->slot - 1;
+    if (year == 0) {
+        ceduo_years_free(item->years);
+        struct ceduo_window window = p->window.step > 0 ? p->window : ceduo_window_in(scene, option);
+        enum ceduo_status status = ceduo_years_create(scene, option, window, &item->years);
+        if (status != CEDUO_OK)
+            return status;
+    }
+    item->scene = *scene;
+    item->scene.simulation.seed ^= (uint64_t)year << SEED_BITS;
+    point->scene = &item->scene;
+    point->forest = &item->years->years[year * item->years->count / years].option;
+    return CEDUO_OK;
+}
+
+static void end_variant(const struct item *item, size_t i)
+{
+    const struct points *p = item->work->points;
+    if (i % item->each + 1 == item->each && p->done)
+        p->done(p->context);
+}
+
+static enum ceduo_status make_variant(void *context, size_t i, struct ceduo_variant *variant)
+{
+    struct item *item = context;
+    const struct points *p = item->work->points;
+    struct point *point = &item->point;
+    enum ceduo_status status = atomic_load(&item->work->failed) ? CEDUO_CANCELLED : CEDUO_OK;
+    if (i % item->each == 0)
+        ceduo_inputs_set(item->copy, p->u + (item->row + i / item->each) * p->inputs_count);
+    *point = point_of(item, i);
+    point->scene = &item->copy->scene;
+    point->forest = &point->scene->options[point->option];
+    if (status == CEDUO_OK && point->slot > 0)
+        status = grow(item, point);
+    variant->run = ceduo_run_def_default(point->scene);
+    variant->run.option = point->forest;
+    variant->rocks = variant->run.rocks_most = point->slot > 0 ? p->year_rocks : p->rocks;
+    variant->run.arrivals_only = true;
+    variant->run.cancel = p->cancel;
+    variant->skip = variant->rocks == 0;
+    if (status != CEDUO_OK || !variant->skip)
+        return status;
+    status = p->read(p->context, point, NULL);
+    end_variant(item, i);
+    return status;
+}
+
+static enum ceduo_status read_variant(void *context, size_t i, struct ceduo_run *run, uint64_t *rocks)
+{
+    (void)rocks;
+    struct item *item = context;
+    const struct points *p = item->work->points;
+    enum ceduo_status status = p->read(p->context, &item->point, run);
+    end_variant(item, i);
+    return status;
+}
+
+static void same_variant(void *context, size_t i, size_t first)
+{
+    struct item *item = context;
+    const struct points *p = item->work->points;
+    struct point other = point_of(item, first);
+    p->same(p->context, &item->point, &other);
+    end_variant(item, i);
+}
+
+static int run_item(void *context, size_t i, size_t thread)
+{
+    struct work *w = context;
+    bool together = i == 0 && w->together > 0;
+    size_t each = together ? w->today : w->each;
+    struct item item = {.work = w,
+                        .copy = &w->copies[thread],
+                        .row = w->from + i + (!together && w->together > 0 ? w->together - 1 : 0),
+                        .each = each};
+    enum ceduo_status status = ceduo_variants_run(&(const struct ceduo_variants){.n = (together ? w->together : 1) * each,
+                                                                                 .make = make_variant,
+                                                                                 .read = read_variant,
+                                                                                 .same = same_variant,
+                                                                                 .context = &item});
+    ceduo_years_free(item.years);
+    /* of threads that end because another one failed, none says so */
+    return status == CEDUO_OK || atomic_exchange(&w->failed, true) ? CEDUO_OK : (int)status;
+}
+
+/* What each row has: of each option today and its years. */
+static bool list_variants(struct work *w)
+{
+    const struct points *p = w->points;
+    size_t options = p->scene->options_count, most = 0;
+    for (size_t i = 0; i < options; i++)
+        most += 1 + (p->years ? p->years[i] : 0);
+    w->variants = calloc(most + 1, sizeof *w->variants);
+    for (size_t i = 0; w->variants && p->today && i < options; i++)
+        if (p->only == CEDUO_ALL_OPTIONS || i == p->only)
+            w->variants[w->each++] = (struct point){.option = i};
+    w->today = w->each;
+    for (size_t i = 0; w->variants && p->years && i < options; i++)
+        for (size_t slot = 1; (p->only == CEDUO_ALL_OPTIONS || i == p->only) && slot <= p->years[i]; slot++)
+            w->variants[w->each++] = (struct point){.option = i, .slot = slot};
+    return w->variants;
+}
+
+enum ceduo_status ceduo_points_run(const struct points *p, size_t from, size_t to, size_t together)
+{
+    struct work w = {.points = p, .from = from, .together = together};
+    size_t items = to - from - (together > 0 ? together - 1 : 0);
+    w.copies = calloc(p->threads, sizeof *w.copies);
+    enum ceduo_status status = w.copies && list_variants(&w) ? CEDUO_OK : CEDUO_NO_MEMORY;
+    for (size_t i = 0; i < p->threads && status == CEDUO_OK; i++)
+        status = ceduo_inputs_open(&w.copies[i], p->scene, p->inputs, p->inputs_count);
+    if (status == CEDUO_OK)
+        status = (enum ceduo_status)ceduo_parallel(&(struct parallel){items, p->threads, run_item, &w});
+    for (size_t i = 0; w.copies && i < p->threads; i++)
+        ceduo_inputs_release(&w.copies[i]);
+    free(w.copies);
+    free(w.variants);
+    return status;
+}
+
+size_t ceduo_points_years(const struct ceduo_scene *scene, const struct ceduo_option *option, struct ceduo_window window,
+                          size_t most)
+{
+    struct ceduo_window w = window.step > 0 ? window : ceduo_window_in(scene, option);
+    size_t count = (w.last - w.first) / w.step + 1;
+    return count < most ? count : most;
+}
+
+double ceduo_groups_mean(const struct ceduo_groups *y, uint64_t rocks)
+{
+    double sum = 0;
+    for (uint64_t g = 0, groups = CEDUO_SURFACE_GROUPS; g < groups; g++)
+        sum += y->of[g] * (double)(rocks * (g + 1) / groups - rocks * g / groups) / (double)rocks;
+    return sum;
+}

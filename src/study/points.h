@@ -1,0 +1,55 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef CEDUO_POINTS_H
+#define CEDUO_POINTS_H
+
+#include <stdatomic.h>
+
+#include "ceduo/doubt.h"
+#include "ceduo/years.h"
+
+/* A scene at many points of what may be true: each row of inputs is a scene; of each its options are simulated, today and year
+ * by year, and read. The rows are shared among threads; what is read does not depend on them. */
+
+/* What is read: an option in a row; slot 0 is today, the others are its years. */
+struct point {
+    size_t row, option, slot;
+    const struct ceduo_scene *scene;
+    const struct ceduo_option *forest; /* of the scene; of a year as it stands then */
+};
+
+struct points {
+    const struct ceduo_scene *scene;
+    const struct ceduo_input *inputs;
+    size_t inputs_count;
+    const double *u;            /* rows of inputs */
+    size_t only;                /* this option alone, or CEDUO_ALL_OPTIONS */
+    uint64_t rocks;             /* of each row and option today; 0: none is simulated, and `read` has no run */
+    bool today;                 /* slot 0 is asked for */
+    const size_t *years;        /* of each option how many years; 0: none. NULL: of none */
+    struct ceduo_window window; /* those years; step 0: of each option its own */
+    uint64_t year_rocks;        /* of each of these: as rocks */
+    unsigned threads;
+    const atomic_bool *cancel;
+    /* Called by several threads at once, each with points of its own rows; a run is only there where rocks are simulated. */
+    enum ceduo_status (*read)(void *context, const struct point *point, struct ceduo_run *run);
+    /* The point meets the same as `first` of the same rows, which has been read. */
+    void (*same)(void *context, const struct point *point, const struct point *first);
+    void (*done)(void *context); /* a row is done; may be NULL; by several threads at once */
+    void *context;
+};
+
+/* Rows from…to - 1; the first `together` of them by one thread and today alone, as they have most of their forests in
+ * common. In each year
+ * other rocks come down, as they say more of a mean over the years, but in every row the same. Where an option has more years, or
+ * in another row another number of them, they are evenly spread.
+ * CEDUO_OK, CEDUO_CANCELLED, CEDUO_NO_MEMORY or what ceduo_scene_check() says. */
+enum ceduo_status ceduo_points_run(const struct points *points, size_t from, size_t to, size_t together);
+
+/* How many years of the option stand for its rotation, at most so many. */
+size_t ceduo_points_years(const struct ceduo_scene *scene, const struct ceduo_option *option, struct ceduo_window window,
+                          size_t most);
+
+/* Of groups that may differ by a rock. */
+double ceduo_groups_mean(const struct ceduo_groups *groups, uint64_t rocks);
+
+#endif

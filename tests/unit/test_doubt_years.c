@@ -1,0 +1,206 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Doubt over a rotation, beside every point simulated by itself with many more rocks. */
+#include "expect.h"
+
+#include <stdlib.h>
+
+#include "ceduo/question.h"
+#include "ceduo/statistics.h"
+#include "io/doubt_inputs.h"
+#include "io/scene_file.h"
+#include "study/inputs.h"
+
+#define OPTIONS 2
+#define POINTS  64
+#define ROCKS   500 /* in each year of a point by itself */
+
+static const char scene[] = "ceduo: scene/1\n"
+                            "rock: {shape: sphere, diameter_m: 0.68, density_kg_m3: 2600}\n"
+                            "release: {vx_m_s: 0.3, vz_m_s: -0.3}\n"
+                            "slope: slopes/paper.yaml\n"
+                            "controls: [{x_m: 135, accepted_kJ: 90}]\n"
+                            "options:\n"
+                            "  - {name: a, forest: [{from_m: 0, to_m: 135, stand: stands/simple-coppice.yaml}]}\n"
+                            "  - {name: b, forest: [{from_m: 0, to_m: 135, stand: stands/coppice-with-standards.yaml}]}\n"
+                            "simulation: {seed: 3, rocks: 500}\n";
+
+static struct scene_file file;
+static struct scene_inputs inputs;
+static struct ceduo_doubt_answer answer;
+
+/* Of each point by itself: the mean of the years of each option and of the difference, and the years that fail. */
+static double means[OPTIONS + 1][POINTS], failing[OPTIONS][POINTS];
+
+static void look_at_point(struct input_scene *copy, const double *u, size_t point)
+{
+    struct ceduo_answer own;
+    ceduo_inputs_set(copy, u);
+    struct ceduo_question q = ceduo_question_default(&copy->scene);
+    q.rocks = q.run.rocks_most = ROCKS;
+    q.run.threads = 2;
+    q.run.arrivals_only = true;
+    q.years = true;
+    EXPECT(ceduo_ask(&q, NULL, &own), ==, CEDUO_OK);
+    for (size_t i = 0; i < OPTIONS; i++) {
+        struct ceduo_years_summary s = ceduo_years_sum(own.years[i], own.years[i]->last_control);
+        means[i][point] = s.exceed.mean;
+        failing[i][point] = (double)s.unprotected_energy;
+    }
+    means[OPTIONS][point] = means[1][point] - means[0][point];
+    ceduo_answer_release(&own);
+}
+
+static void ask(unsigned threads, size_t points, struct ceduo_doubt_answer *to)
+{
+    const struct ceduo_doubt_def def = {.scene = &file.scene,
+                                        .inputs_count = inputs.n,
+                                        .inputs = inputs.items,
+                                        .points = points,
+                                        .rocks = CEDUO_SURFACE_GROUPS,
+                                        .own_rocks = ROCKS,
+                                        .rotation = true,
+                                        .threads = threads};
+    EXPECT(ceduo_doubt_ask(&def, to), ==, CEDUO_OK);
+}
+
+static void open_scene(void)
+{
+    struct problems problems = {0};
+    bool good = ceduo_scene_read_text(&file, "profiles/wood.yaml", scene, &problems) && ceduo_scene_bind(&file, &problems);
+    if (!good || problems.count > 0)
+        fail_msg("%s", ceduo_text_string(&problems.text));
+    assert_true(ceduo_inputs_of(&file, &inputs));
+}
+
+/* Every point by itself. */
+static void look_at_points(void)
+{
+    double *u = malloc(POINTS * inputs.n * sizeof *u);
+    struct input_scene copy;
+    EXPECT(ceduo_surface_points(file.scene.simulation.seed, POINTS, inputs.n, u), ==, CEDUO_OK);
+    EXPECT(ceduo_inputs_open(&copy, &file.scene, inputs.items, inputs.n), ==, CEDUO_OK);
+    for (size_t p = 0; p < POINTS; p++)
+        look_at_point(&copy, u + p * inputs.n, p);
+    ceduo_inputs_release(&copy);
+    free(u);
+}
+
+static const struct ceduo_doubt_figure *mean_of(size_t i)
+{
+    return ceduo_doubt_figure_of(&answer, i < OPTIONS ? i : 1, CEDUO_DOUBT_MEAN, i == OPTIONS);
+}
+
+static double mean(const double *values)
+{
+    double sum = 0;
+    for (size_t p = 0; p < POINTS; p++)
+        sum += values[p] / POINTS;
+    return sum;
+}
+
+/* Of each option, and of one less the other: the mean over all points within three errors, of its few rocks and of those of the
+ * points by themselves; then, less that mean, every point within what both kinds of rocks
+ * leave open. */
+static void expect_means(void)
+{
+    for (size_t i = 0; i <= OPTIONS; i++) {
+        const struct ceduo_doubt_figure *f = mean_of(i);
+        double own = (f->sampling_hi - f->sampling_lo) / 2 / CEDUO_Z95, off = 0, spread = 0;
+        double shift = mean(f->fit.values) - mean(means[i]);
+        EXPECT_NEAR(shift, 0, 3 * hypot(own, f->fit.p5_se));
+        for (size_t p = 0; p < POINTS; p++) {
+            off += pow(f->fit.values[p] - means[i][p] - shift, 2) / POINTS;
+            spread += pow(means[i][p] - mean(means[i]), 2) / POINTS;
+        }
+        EXPECT(off, <, f->fit.noise + own * own);
+        if (i != 1) /* of which little is known: five times what the rocks say */
+            EXPECT(off, <, .2 * spread);
+    }
+}
+
+/* Years that fail: on the mean within a year of those of each point. */
+static void expect_failing(void)
+{
+    for (size_t i = 0; i < OPTIONS; i++) {
+        const struct ceduo_surface_fit *fit = &ceduo_doubt_figure_of(&answer, i, CEDUO_DOUBT_FAILING, false)->fit;
+        double off = 0;
+        for (size_t p = 0; p < POINTS; p++)
+            off += fabs(fit->values[p] - failing[i][p]) / POINTS;
+        EXPECT(off, <, 1);
+        EXPECT_NEAR(mean(fit->values), mean(failing[i]), .5 + 2 * fit->p5_se);
+        EXPECT(fit->p5, <, mean(failing[i]));
+        EXPECT(fit->p95, >, mean(failing[i]));
+    }
+}
+
+/* The order over the rotation is what most points say. */
+static void expect_order(void)
+{
+    double better = 0;
+    for (size_t p = 0; p < POINTS; p++)
+        better += (means[OPTIONS][p] < 0) / (double)POINTS;
+    const struct ceduo_doubt_ranking *ranking = ceduo_doubt_verdict(&answer);
+    assert_true(ranking->rotation);
+    EXPECT(ranking->count, ==, 1);
+    const struct ceduo_doubt_order *o = ranking->orders;
+    EXPECT(o->better, ==, 1);
+    EXPECT(o->than, ==, 0);
+    EXPECT_NEAR(o->probability + o->equal + o->worse, 1, 1e-12);
+    EXPECT(better, >=, o->probability - .1);
+    EXPECT(better, <=, o->probability + o->equal + .1);
+    EXPECT(ranking->rivals[0].probability, ==, o->probability);
+}
+
+TEST(over_a_rotation_as_point_by_point)
+{
+    open_scene();
+    look_at_points();
+    ask(2, POINTS, &answer);
+    assert_true(answer.rotation);
+    expect_means();
+    expect_failing();
+    expect_order();
+    ceduo_doubt_free(&answer);
+    ceduo_scene_release(&file);
+}
+
+TEST(over_a_rotation_bits_do_not_depend_on_threads)
+{
+    open_scene();
+    for (unsigned threads = 1; threads <= 3; threads++) {
+        struct ceduo_doubt_answer other;
+        ask(threads, 16, threads == 1 ? &answer : &other);
+        for (size_t i = 0; threads > 1 && i < answer.figures_count; i++) {
+            const struct ceduo_doubt_figure *f = &answer.figures[i], *g = &other.figures[i];
+            assert_memory_equal(f->fit.values, g->fit.values, answer.points * sizeof *f->fit.values);
+            assert_memory_equal(&f->fit.p5_se, &g->fit.p5_se, sizeof f->fit.p5_se);
+        }
+        if (threads > 1)
+            ceduo_doubt_free(&other);
+    }
+    ceduo_doubt_free(&answer);
+    ceduo_scene_release(&file);
+}
+
+/* Without an accepted energy the share that arrives is looked at, and no year is said to fail; by the index no rock is simulated,
+ * and there is nothing over a rotation. */
+TEST(what_there_is_over_a_rotation)
+{
+    open_scene();
+    file.scene.controls[0].accepted = NAN;
+    ask(2, 8, &answer);
+    const struct ceduo_doubt_figure *mean = ceduo_doubt_figure_of(&answer, 0, CEDUO_DOUBT_MEAN, false),
+                                    *years = ceduo_doubt_figure_of(&answer, 0, CEDUO_DOUBT_FAILING, false);
+    EXPECT(mean->value, >, .5); /* most arrive just after the cut */
+    EXPECT_NEAR(mean->value, mean->fit.p50, .2);
+    assert_true(isnan(years->value));
+    assert_null(years->fit.values);
+    ceduo_doubt_free(&answer);
+    file.scene.simulation.contact_model = CEDUO_INDEX;
+    ask(2, 8, &answer);
+    assert_false(answer.rotation);
+    assert_false(ceduo_doubt_verdict(&answer)->rotation);
+    assert_null(ceduo_doubt_figure_of(&answer, 0, CEDUO_DOUBT_MEAN, false)->fit.values);
+    ceduo_doubt_free(&answer);
+    ceduo_scene_release(&file);
+}
