@@ -14,8 +14,11 @@ static bool counts(const struct ceduo_stand *stand, const struct ceduo_stems *st
     return stems->per_ha > 0 && stems->dbh >= stand->counted_from;
 }
 
-/* Per hectare; `dbh`: their mean, 0 of none. */
-static double sum_of(const struct ceduo_stand *stand, bool trees_too, double *dbh)
+struct count {
+    double per_ha, dbh; /* dbh: their mean, 0 of none */
+};
+
+static struct count count_stems(const struct ceduo_stand *stand, bool trees_too)
 {
     double count = 0, sum = 0;
     for (size_t i = 0; i < stand->shoots_count + (trees_too ? stand->trees_count : 0); i++) {
@@ -25,28 +28,12 @@ static double sum_of(const struct ceduo_stand *stand, bool trees_too, double *db
         count += s->per_ha;
         sum += s->per_ha * s->dbh;
     }
-    *dbh = count > 0 ? sum / count : 0;
-    return count;
-}
-
-static double mean_shoot_dbh(const struct ceduo_stand *stand)
-{
-    double dbh;
-    sum_of(stand, false, &dbh);
-    return dbh;
-}
-
-static double mean_dbh(const struct ceduo_stand *stand)
-{
-    double dbh;
-    sum_of(stand, true, &dbh);
-    return dbh;
+    return (struct count){count, count > 0 ? sum / count : 0};
 }
 
 static double shoots(const struct ceduo_stand *stand)
 {
-    double dbh;
-    return stand->stools_per_ha > 0 ? sum_of(stand, false, &dbh) : 0;
+    return stand->stools_per_ha > 0 ? count_stems(stand, false).per_ha : 0;
 }
 
 /* A stool has one shoot at least. */
@@ -80,22 +67,10 @@ double ceduo_stool_perimeter(double shoots_per_stool, double s)
 
 /* ---- strata ---- */
 
-/* Width in metres that a stool offers beyond the rock's diameter, in one of the forms that take it as one. */
-static double stool_width(const struct ceduo_stand *stand, enum ceduo_rule rule)
-{
-    switch (rule) {
-    case CEDUO_GSTEIGER_STOOLS:
-        return mean_dbh(stand);
-    case CEDUO_INTERCEPTION:
-        return mean_shoot_dbh(stand) + stand->spacing;
-    default:
-        return mean_shoot_dbh(stand) + ceduo_stool_perimeter(shoots(stand) / stools(stand), stand->spacing) / M_PI;
-    }
-}
-
+/* The stools, in one of the forms that take each as one. */
 static struct stratum stools_as_one(const struct ceduo_stand *stand, enum ceduo_rule rule, double mass)
 {
-    double count = 0, energy = 0, share = 0;
+    double count = 0, energy = 0, share = 0, width = count_stems(stand, rule == CEDUO_GSTEIGER_STOOLS).dbh;
     for (size_t i = 0; i < stand->shoots_count; i++) {
         if (!counts(stand, &stand->shoots[i]))
             continue;
@@ -103,7 +78,11 @@ static struct stratum stools_as_one(const struct ceduo_stand *stand, enum ceduo_
         energy += stand->shoots[i].per_ha * ceduo_contact_energy(stand, &stand->shoots[i]);
         share += stand->shoots[i].per_ha * ceduo_contact_share(stand, &stand->shoots[i], mass);
     }
-    return (struct stratum){stools(stand), stool_width(stand, rule), energy / count, share / count};
+    if (rule == CEDUO_INTERCEPTION)
+        width += stand->spacing;
+    else if (rule != CEDUO_GSTEIGER_STOOLS)
+        width += ceduo_stool_perimeter(shoots(stand) / stools(stand), stand->spacing) / M_PI;
+    return (struct stratum){stools(stand), width, energy / count, share / count};
 }
 
 /* How many strata the shoots make. */
@@ -112,14 +91,9 @@ static size_t shoot_strata(const struct ceduo_stand *stand, enum ceduo_rule rule
     return rule == CEDUO_GSTEIGER_STEMS ? stand->shoots_count : shoots(stand) > 0;
 }
 
-static size_t stem_strata(const struct ceduo_stand *stand, enum ceduo_rule rule)
-{
-    return shoot_strata(stand, rule) + stand->trees_count;
-}
-
 size_t ceduo_strata_count(const struct ceduo_stand *stand, enum ceduo_rule rule)
 {
-    return stem_strata(stand, rule) + (stand->stumps.per_ha > 0) + (stand->logs.per_ha > 0);
+    return shoot_strata(stand, rule) + stand->trees_count + (stand->stumps.per_ha > 0) + (stand->logs.per_ha > 0);
 }
 
 double ceduo_log_width(double length)
@@ -127,25 +101,18 @@ double ceduo_log_width(double length)
     return 2 * length / M_PI;
 }
 
-/* Stumps if there are any, then logs. */
-static struct stratum low_stratum(const struct ceduo_stand *stand, size_t i)
-{
-    const struct ceduo_stumps *s = &stand->stumps;
-    const struct ceduo_logs *l = &stand->logs;
-    if (i == 0 && s->per_ha > 0)
-        return (struct stratum){s->per_ha, s->diameter, s->energy, 0};
-    return (struct stratum){l->per_ha, ceduo_log_width(l->length), l->energy, 0};
-}
-
 struct stratum ceduo_stratum(const struct ceduo_stand *stand, enum ceduo_rule rule, size_t i, double mass)
 {
     size_t n = shoot_strata(stand, rule);
     if (i < n && rule != CEDUO_GSTEIGER_STEMS)
         return stools_as_one(stand, rule, mass);
+    const struct ceduo_stumps *low = &stand->stumps; /* stumps if there are any, then logs */
+    if (i == n + stand->trees_count && low->per_ha > 0)
+        return (struct stratum){low->per_ha, low->diameter, low->energy, 0};
     if (i >= n + stand->trees_count)
-        return low_stratum(stand, i - n - stand->trees_count);
+        return (struct stratum){stand->logs.per_ha, ceduo_log_width(stand->logs.length), stand->logs.energy, 0};
     const struct ceduo_stems *s = i < n ? &stand->shoots[i] : &stand->trees[i - n];
-    double width = rule == CEDUO_GSTEIGER_STOOLS ? mean_dbh(stand) : s->dbh;
+    double width = rule == CEDUO_GSTEIGER_STOOLS ? count_stems(stand, true).dbh : s->dbh;
     return (struct stratum){counts(stand, s) ? s->per_ha : 0, width, ceduo_contact_energy(stand, s),
                             ceduo_contact_share(stand, s, mass)};
 }
@@ -201,14 +168,6 @@ double ceduo_energy_per_metre(const struct ceduo_stand *stand, double b, enum ce
     return sum / HECTARE;
 }
 
-static unsigned stems_warnings(const struct ceduo_stand *stand, const struct ceduo_stems *stems, size_t n)
-{
-    unsigned warnings = 0;
-    for (size_t i = 0; i < n; i++)
-        warnings |= stems[i].per_ha > 0 ? stem_energy_warnings(stand, &stems[i]) : 0;
-    return warnings;
-}
-
 #define ABOVE(value, most) ((value) > (most) * (1 + 1e-9)) /* what is typed as the limit itself is not beyond it */
 
 unsigned ceduo_stem_unlikely(const struct ceduo_stand *stand, const struct ceduo_stems *stems)
@@ -223,25 +182,18 @@ unsigned ceduo_stem_unlikely(const struct ceduo_stand *stand, const struct ceduo
            (ABOVE(stems->dbh, thickest) ? CEDUO_WARN_THICK : 0u);
 }
 
-static unsigned unlikely(const struct ceduo_stand *stand)
-{
-    unsigned warnings =
-        (ABOVE(ceduo_stand_basal_area(stand), CEDUO_BASAL_AREA_MOST) ? CEDUO_WARN_BASAL_AREA : 0u) |
-        (ABOVE(ceduo_stand_shoots(stand), CEDUO_SHOOTS_MOST * stand->stools_per_ha) ? CEDUO_WARN_MANY_SHOOTS : 0u);
-    for (size_t i = 0; i < stand->shoots_count; i++)
-        warnings |= ceduo_stem_unlikely(stand, &stand->shoots[i]);
-    for (size_t i = 0; i < stand->trees_count; i++)
-        warnings |= ceduo_stem_unlikely(stand, &stand->trees[i]);
-    return warnings;
-}
-
 unsigned ceduo_stand_warnings(const struct ceduo_stand *stand, double b, enum ceduo_rule rule)
 {
     if (ceduo_stand_is_bare(stand))
         return 0;
-    unsigned warnings = stems_warnings(stand, stand->shoots, stand->shoots_count) |
-                        stems_warnings(stand, stand->trees, stand->trees_count) |
-                        (stand->stumps.per_ha > 0 || stand->logs.per_ha > 0 ? CEDUO_WARN_LOW : 0u) | unlikely(stand);
+    unsigned warnings =
+        (stand->stumps.per_ha > 0 || stand->logs.per_ha > 0 ? CEDUO_WARN_LOW : 0u) |
+        (ABOVE(ceduo_stand_basal_area(stand), CEDUO_BASAL_AREA_MOST) ? CEDUO_WARN_BASAL_AREA : 0u) |
+        (ABOVE(ceduo_stand_shoots(stand), CEDUO_SHOOTS_MOST * stand->stools_per_ha) ? CEDUO_WARN_MANY_SHOOTS : 0u);
+    for (size_t i = 0; i < stand->shoots_count + stand->trees_count; i++) {
+        const struct ceduo_stems *s = i < stand->shoots_count ? &stand->shoots[i] : &stand->trees[i - stand->shoots_count];
+        warnings |= ceduo_stem_unlikely(stand, s) | (s->per_ha > 0 ? stem_energy_warnings(stand, s) : 0);
+    }
     if (!(shoots(stand) > 0))
         return warnings;
     struct ceduo_adc adc = ceduo_adc(stand, b);
@@ -249,7 +201,7 @@ unsigned ceduo_stand_warnings(const struct ceduo_stand *stand, double b, enum ce
         warnings |= CEDUO_WARN_BELOW_FREE_PATH;
     if (rule == CEDUO_RULE_AUTO && fabs(b - stand->spacing) < 0.1 * stand->spacing)
         warnings |= CEDUO_WARN_NEAR_JUMP;
-    if (stand->spacing > b + mean_shoot_dbh(stand))
+    if (stand->spacing > b + count_stems(stand, false).dbh)
         warnings |= CEDUO_WARN_WIDE_SPACING;
     return warnings;
 }

@@ -122,13 +122,6 @@ bool ceduo_stand_grows(const struct ceduo_stand *stand)
            (stand->trees_count > 0 && known(&stand->growth.trees));
 }
 
-static bool regrowth_is_known(const struct ceduo_stand *stand)
-{
-    const struct ceduo_growth *g = &stand->growth;
-    bool shoots = !(stand->stools_per_ha > 0) || (known(&g->shoots) && g->shoots_old > 0);
-    return shoots && (oldest_to_stay(&stand->cutting) == 0 || known(&g->trees));
-}
-
 /* NaN where no age is known. */
 static double oldest(const struct ceduo_stems *stems, size_t n, const struct ceduo_curve *curve)
 {
@@ -150,20 +143,13 @@ static double default_first_cut(const struct ceduo_stand *stand)
     return isnan(age) ? INFINITY : fmax(1, rotation * rotations - age - AGE_GRAIN);
 }
 
-/* Years from the last cut to year 0: the age of the youngest shoots, infinite where they grow no more; 0 where it is not
- * known. */
-static double since_cut(const struct ceduo_stand *stand)
-{
-    double age = NAN;
-    for (size_t i = 0; i < stand->shoots_count && !ceduo_stand_sprouts(stand); i++)
-        age = fmin(age, age_of(&stand->shoots[i], &stand->growth.shoots));
-    return isnan(age) ? 0 : age;
-}
-
 unsigned ceduo_first_cut(const struct ceduo_stand *stand, double first_cut)
 {
+    const struct ceduo_growth *g = &stand->growth;
     double rotation = stand->cutting.rotation;
-    if (!(rotation > 0) || !regrowth_is_known(stand))
+    bool shoots_known = !(stand->stools_per_ha > 0) || (known(&g->shoots) && g->shoots_old > 0);
+    bool trees_known = oldest_to_stay(&stand->cutting) == 0 || known(&g->trees);
+    if (!(rotation > 0) || !shoots_known || !trees_known) /* what comes after a cut is not known */
         return CEDUO_NEVER;
     double year = ceil(isnan(first_cut) ? default_first_cut(stand) : first_cut);
     if (year < 0) {
@@ -200,17 +186,6 @@ void ceduo_grown_stand_release(struct ceduo_grown_stand *grown)
 {
     free(grown->stems);
     *grown = (struct ceduo_grown_stand){.stems = NULL};
-}
-
-/* Trees that a cut leaves stand in groups as the first class of the inventory that does. */
-static void group_as(const struct ceduo_stand *stand, struct ceduo_stems *trees)
-{
-    for (size_t i = 0; i < stand->trees_count; i++)
-        if (stand->trees[i].group > 1) {
-            trees->group = stand->trees[i].group;
-            trees->group_radius = stand->trees[i].group_radius;
-            return;
-        }
 }
 
 /* Stumps are those of the last cut, `years` ago. */
@@ -276,21 +251,16 @@ static enum ceduo_status before_cut(const struct ceduo_stand *stand, unsigned ye
     if (year == 0)
         return CEDUO_OK;
     const struct ceduo_growth *g = &stand->growth;
+    double since = NAN; /* years from the last cut to year 0: the age of the youngest shoots; 0 where it is not known */
+    for (size_t i = 0; i < stand->shoots_count && !ceduo_stand_sprouts(stand); i++)
+        since = fmin(since, age_of(&stand->shoots[i], &g->shoots));
     if (ceduo_stand_grows(stand))
-        keep_stumps(stand, since_cut(stand) + year, &out->stand);
+        keep_stumps(stand, (isnan(since) ? 0 : since) + year, &out->stand);
     for (size_t i = 0; i < stand->trees_count && known(&g->trees); i++)
         grow_stems(&out->stand.trees[i], &g->trees, age_of(&stand->trees[i], &g->trees), year);
     if (known(&g->shoots)) /* after the trees: the shoots make room for them */
         grow_shoots(&out->stand, g, year, young);
     return CEDUO_OK;
-}
-
-static size_t classes_to_stay(const struct ceduo_cutting *cutting)
-{
-    size_t n = 0;
-    for (size_t j = 0; j < cutting->stay_count; j++)
-        n += cutting->stay_per_ha[j] > 0;
-    return n;
 }
 
 /* `since` years after a cut. */
@@ -299,8 +269,13 @@ static enum ceduo_status after_cut(const struct ceduo_stand *stand, unsigned sin
     const struct ceduo_growth *g = &stand->growth;
     const struct ceduo_cutting *cutting = &stand->cutting;
     double rotation = cutting->rotation, all = cohorts(stand);
-    size_t youngest = since == 0, count = stand->stools_per_ha > 0 ? cohorts(stand) - youngest : 0;
-    enum ceduo_status status = make(stand, count, classes_to_stay(cutting), out);
+    size_t youngest = since == 0, count = stand->stools_per_ha > 0 ? cohorts(stand) - youngest : 0, stay = 0;
+    size_t grouped = 0; /* the first class of the inventory that stands in groups: those that stay do so, too */
+    while (grouped < stand->trees_count && !(stand->trees[grouped].group > 1))
+        grouped++;
+    for (size_t j = 0; j < cutting->stay_count; j++)
+        stay += cutting->stay_per_ha[j] > 0;
+    enum ceduo_status status = make(stand, count, stay, out);
     if (status != CEDUO_OK)
         return status;
     for (size_t i = 0; i < count; i++) {
@@ -310,8 +285,10 @@ static enum ceduo_status after_cut(const struct ceduo_stand *stand, unsigned sin
     }
     for (size_t j = 0, i = 0; j < cutting->stay_count; j++)
         if (cutting->stay_per_ha[j] > 0) {
-            out->stand.trees[i] = stems_of_age(&g->trees, cutting->stay_per_ha[j], (double)(j + 1) * rotation + since);
-            group_as(stand, &out->stand.trees[i++]);
+            struct ceduo_stems *trees = &out->stand.trees[i++];
+            *trees = stems_of_age(&g->trees, cutting->stay_per_ha[j], (double)(j + 1) * rotation + since);
+            trees->group = grouped < stand->trees_count ? stand->trees[grouped].group : 0;
+            trees->group_radius = grouped < stand->trees_count ? stand->trees[grouped].group_radius : 0;
         }
     keep_stumps(stand, since, &out->stand);
     if (count == 0)

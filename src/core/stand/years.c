@@ -10,15 +10,6 @@
 
 /* ---- windows ---- */
 
-/* After how many years two rhythms begin together again. */
-static unsigned period_of(unsigned a, unsigned b)
-{
-    unsigned together = a;
-    while (together <= CEDUO_PERIOD_MOST && together % b > 0)
-        together += a;
-    return together <= CEDUO_PERIOD_MOST ? together : a > b ? a : b;
-}
-
 struct ceduo_window ceduo_window_of(const struct ceduo_option *option)
 {
     struct ceduo_window w = {.kind = CEDUO_WINDOW_ALIKE, .step = 1};
@@ -33,7 +24,10 @@ struct ceduo_window ceduo_window_of(const struct ceduo_option *option)
         }
         w.kind = CEDUO_WINDOW_ROTATION;
         w.first = first > w.first ? first : w.first;
-        period = period_of(period, belt->stand.cutting.rotation);
+        unsigned rotation = belt->stand.cutting.rotation, together = period; /* until both begin together again */
+        while (together <= CEDUO_PERIOD_MOST && together % rotation > 0)
+            together += period;
+        period = together <= CEDUO_PERIOD_MOST ? together : period > rotation ? period : rotation;
     }
     period = w.kind == CEDUO_WINDOW_UNCUT ? CEDUO_YEARS_UNCUT : period;
     w.last = w.first + period - 1;
@@ -62,17 +56,6 @@ struct ceduo_window ceduo_window_in(const struct ceduo_scene *scene, const struc
 }
 
 /* ---- growing ---- */
-
-static void free_year(struct ceduo_year *y)
-{
-    for (size_t i = 0; y->grown && i < y->option.belts_count; i++)
-        ceduo_grown_stand_release(&y->grown[i]);
-    free(y->grown);
-    free(y->option.belts);
-    free(y->stands);
-    free(y->controls);
-    ceduo_simulated_free(&y->wooded);
-}
 
 static enum ceduo_status grow(const struct ceduo_option *option, size_t controls, struct ceduo_year *y)
 {
@@ -128,8 +111,16 @@ void ceduo_years_free(struct ceduo_years *years)
 {
     if (!years)
         return;
-    for (size_t i = 0; i < years->count; i++)
-        free_year(&years->years[i]);
+    for (size_t i = 0; i < years->count; i++) {
+        struct ceduo_year *y = &years->years[i];
+        for (size_t k = 0; y->grown && k < y->option.belts_count; k++)
+            ceduo_grown_stand_release(&y->grown[k]);
+        free(y->grown);
+        free(y->option.belts);
+        free(y->stands);
+        free(y->controls);
+        ceduo_simulated_free(&y->wooded);
+    }
     free(years->years);
     free(years->marks);
     free(years->weights);
@@ -145,16 +136,6 @@ void ceduo_years_assess(struct ceduo_years *years, const struct ceduo_scene *sce
         struct ceduo_year *y = &years->years[i];
         ceduo_result_read(scene, &y->option, bare, &y->wooded, y->stands, y->controls);
     }
-}
-
-/* Where the scene has blocks: the weights of the rocks that get marks. */
-static bool keep_weights(struct ceduo_years *years, const double *weights)
-{
-    size_t n = (size_t)years->marked;
-    years->weights = malloc((n + 1) * sizeof *years->weights);
-    for (size_t i = 0; years->weights && i < n; i++)
-        years->weights[i] = weights[i];
-    return years->weights != NULL;
 }
 
 /* Simulating years, as variants of a scene that differ in their forests. */
@@ -196,31 +177,33 @@ static enum ceduo_status take_year(void *context, size_t i, struct ceduo_run *ru
     if (status != CEDUO_OK)
         return status;
     ceduo_simulated_meets_nothing(&y->wooded);
-    if (ceduo_run_weights(run) && !years->weights && !keep_weights(years, ceduo_run_weights(run)))
-        return CEDUO_NO_MEMORY;
+    const double *weights = ceduo_run_weights(run);
+    size_t n = (size_t)years->marked;
+    if (weights && !years->weights) {
+        if (!(years->weights = malloc((n + 1) * sizeof *years->weights)))
+            return CEDUO_NO_MEMORY;
+        memcpy(years->weights, weights, n * sizeof *weights);
+    }
     if (years->scene.controls_count > 0)
         years->marked = ceduo_run_mark(run, years->last_control, years->marks, years->marked);
     read_year(r, y);
     return CEDUO_OK;
 }
 
-static bool clear_marks(struct ceduo_years *years, uint64_t rocks)
-{
-    free(years->marks);
-    free(years->weights);
-    years->weights = NULL;
-    years->rocks = 0;
-    years->marked = rocks < CEDUO_PAIRED_ROCKS ? rocks : CEDUO_PAIRED_ROCKS;
-    years->marks = calloc((size_t)years->marked + 1, sizeof *years->marks);
-    return years->marks;
-}
-
 enum ceduo_status ceduo_years_simulate(struct ceduo_years *years, struct ceduo_pool *pool, const struct ceduo_simulated *bare,
                                        uint64_t rocks)
 {
     struct years_run r = {years, pool, bare, years->scene.simulation.contact_model != CEDUO_INDEX ? rocks : 0};
-    if (r.rocks > 0 && !clear_marks(years, rocks))
-        return CEDUO_NO_MEMORY;
+    if (r.rocks > 0) {
+        free(years->marks);
+        free(years->weights);
+        years->weights = NULL;
+        years->rocks = 0;
+        years->marked = rocks < CEDUO_PAIRED_ROCKS ? rocks : CEDUO_PAIRED_ROCKS;
+        years->marks = calloc((size_t)years->marked + 1, sizeof *years->marks);
+        if (!years->marks)
+            return CEDUO_NO_MEMORY;
+    }
     enum ceduo_status status = ceduo_variants_run(
         &(const struct ceduo_variants){.n = years->count, .make = make_year, .read = take_year, .pool = pool, .context = &r});
     years->rocks = status == CEDUO_OK ? r.rocks : years->rocks;
@@ -278,12 +261,6 @@ static void add_simulated(const struct ceduo_year *y, const struct ceduo_arrival
     }
 }
 
-static void divide(struct ceduo_paired *p, size_t n)
-{
-    p->mean /= (double)n; /* of none NaN */
-    p->se /= (double)n;
-}
-
 struct ceduo_years_summary ceduo_years_sum(const struct ceduo_years *years, size_t control)
 {
     struct ceduo_years_summary s = {.years = years->count, .worst = NAN};
@@ -304,9 +281,11 @@ struct ceduo_years_summary ceduo_years_sum(const struct ceduo_years *years, size
             s.worst_year = y->year;
         }
     }
-    divide(&s.reach, s.flown);
-    divide(&s.exceed, s.flown);
-    divide(&s.energy_per_released, s.flown);
+    struct ceduo_paired *const means[] = {&s.reach, &s.exceed, &s.energy_per_released};
+    for (size_t i = 0; i < 3; i++) { /* of none NaN */
+        means[i]->mean /= (double)s.flown;
+        means[i]->se /= (double)s.flown;
+    }
     if (years->rocks > 0 && control == years->last_control)
         (isnan(s.exceed.mean) ? &s.reach : &s.exceed)->se = marks_se(years);
     s.passes_per_year = s.reach.mean * years->scene.rocks_per_year;

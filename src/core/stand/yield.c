@@ -17,20 +17,6 @@ double ceduo_stand_volume(const struct ceduo_stand *stand)
     return sum;
 }
 
-/* Volume of the shoots of `now` that are gone in `next`, a year later; trees do not die. The cohorts of both end with
- * the oldest: a younger one may have come up. */
-static double volume_died(const struct ceduo_stand *now, const struct ceduo_stand *next)
-{
-    double sum = 0;
-    enum ceduo_volume_from from;
-    for (size_t i = 1; i <= now->shoots_count && i <= next->shoots_count; i++) { /* untaken: bound */
-        const struct ceduo_stems *before = &now->shoots[now->shoots_count - i];
-        const struct ceduo_stems *after = &next->shoots[next->shoots_count - i];
-        sum += fmax(0, before->per_ha - after->per_ha) * ceduo_stem_volume(now, before, &from);
-    }
-    return sum;
-}
-
 /* A stand over one rotation from its first cut on, m3/ha. */
 struct rotation_sum {
     double felled, died, standing; /* standing: summed over the years */
@@ -42,6 +28,7 @@ static enum ceduo_status sum_rotation(const struct ceduo_belt *belt, unsigned fi
     const struct ceduo_stand *stand = &belt->stand;
     unsigned rotation = stand->cutting.rotation;
     struct ceduo_grown_stand now, next;
+    enum ceduo_volume_from from;
     enum ceduo_status status = ceduo_stand_at(stand, belt->cut_year, first, &now);
     if (status != CEDUO_OK)
         return status;
@@ -51,7 +38,13 @@ static enum ceduo_status sum_rotation(const struct ceduo_belt *belt, unsigned fi
         status = t < rotation ? ceduo_stand_at(stand, belt->cut_year, first + t, &next)
                               : ceduo_stand_before_cut(stand, belt->cut_year, first + t, &next);
         if (status == CEDUO_OK) {
-            sum->died += volume_died(&now.stand, &next.stand);
+            size_t n = now.stand.shoots_count, m = next.stand.shoots_count;
+            double died = 0;                            /* shoots alone: trees do not die */
+            for (size_t i = 1; i <= n && i <= m; i++) { /* both end with the oldest: a younger cohort may have come up */
+                const struct ceduo_stems *before = &now.stand.shoots[n - i], *after = &next.stand.shoots[m - i];
+                died += fmax(0, before->per_ha - after->per_ha) * ceduo_stem_volume(&now.stand, before, &from);
+            }
+            sum->died += died;
             ceduo_grown_stand_release(&now);
             now = next;
         }
@@ -116,21 +109,19 @@ static enum ceduo_status list_fellings(const struct ceduo_option *option, unsign
     return status;
 }
 
-/* ---- an option ---- */
-
-static enum ceduo_status sum_belts(const struct ceduo_option *option, struct ceduo_yield *yield)
+enum ceduo_status ceduo_yield_of(const struct ceduo_option *option, unsigned last, struct ceduo_yield *yield)
 {
     double length = 0, felled = 0, died = 0, standing = 0, today = 0;
-    for (size_t i = 0; i < option->belts_count; i++) {
+    enum ceduo_status status = CEDUO_OK;
+    *yield = (struct ceduo_yield){0};
+    for (size_t i = 0; i < option->belts_count && status == CEDUO_OK; i++) {
         const struct ceduo_belt *belt = &option->belts[i];
         double metres = belt->to - belt->from, rotation = belt->stand.cutting.rotation;
         unsigned first = ceduo_first_cut(&belt->stand, belt->cut_year);
         struct rotation_sum sum = {0};
         if (ceduo_stand_is_bare(&belt->stand) && !ceduo_stand_sprouts(&belt->stand))
             continue;
-        enum ceduo_status status = first == CEDUO_NEVER ? CEDUO_OK : sum_rotation(belt, first, &sum);
-        if (status != CEDUO_OK)
-            return status;
+        status = first == CEDUO_NEVER ? CEDUO_OK : sum_rotation(belt, first, &sum);
         double known = first == CEDUO_NEVER || sum.space > 1 ? NAN : metres / rotation;
         yield->space = fmax(yield->space, sum.space);
         length += metres;
@@ -143,13 +134,6 @@ static enum ceduo_status sum_belts(const struct ceduo_option *option, struct ced
     yield->died_per_year = died / length;
     yield->standing = standing / length;
     yield->volume_today = today / length;
-    return CEDUO_OK;
-}
-
-enum ceduo_status ceduo_yield_of(const struct ceduo_option *option, unsigned last, struct ceduo_yield *yield)
-{
-    *yield = (struct ceduo_yield){0};
-    enum ceduo_status status = sum_belts(option, yield);
     if (status == CEDUO_OK)
         status = list_fellings(option, last, yield);
     if (status != CEDUO_OK)
