@@ -252,7 +252,7 @@ static void bind_count(struct binder *b, const struct field *f, const struct nod
     else if (ceduo_count_read(node->text, f->lo, f->hi, &count) != CEDUO_NUMBER_GOOD)
         report(b, node, _("%s is above %.0f"), node->text, f->hi);
     else
-        ceduo_schema_put_count(f, to, count);
+        ceduo_schema_set_count(f, to, count);
 }
 
 /* `to`: an int or an enum */

@@ -4,22 +4,19 @@
 #include <math.h>
 #include <string.h>
 
-static bool is_about(const struct ceduo_regulation_item *item, const struct ceduo_stand *stand)
-{
-    size_t count;
-    const char *name = ceduo_species_list(&count)[stand->species].name;
-    bool species = item->species_count == 0;
-    for (size_t i = 0; i < item->species_count; i++)
-        species |= strcmp(item->species[i], name) == 0;
-    return species && (item->system < 0 || item->system == (int)stand->system);
-}
-
+/* The first that is about a stand. */
 static const struct ceduo_regulation_item *item_about(const struct ceduo_regulation_item *items, size_t n,
                                                       const struct ceduo_stand *stand)
 {
-    for (size_t i = 0; stand->species >= 0 && i < n; i++)
-        if (is_about(&items[i], stand))
+    size_t count;
+    const struct ceduo_species *list = ceduo_species_list(&count);
+    for (size_t i = 0; stand->species >= 0 && i < n; i++) {
+        bool species = items[i].species_count == 0;
+        for (size_t k = 0; k < items[i].species_count; k++)
+            species |= strcmp(items[i].species[k], list[stand->species].name) == 0;
+        if (species && (items[i].system < 0 || items[i].system == (int)stand->system))
             return &items[i];
+    }
     return NULL;
 }
 
@@ -28,14 +25,10 @@ static bool meets(const struct ceduo_regulation_item *item, double value)
     return item && value >= item->least && !(value > item->most);
 }
 
-static double standards_of(const struct ceduo_stand *stand)
-{
-    return stand->cutting.stay_count > 0 ? ceduo_stand_stay(stand) : ceduo_stand_trees(stand);
-}
-
 struct ceduo_compliance ceduo_regulation_check(const struct ceduo_regulation *r, const struct ceduo_stand *stand)
 {
-    struct ceduo_compliance c = {.standards = standards_of(stand), .turn = NAN};
+    double standards = stand->cutting.stay_count > 0 ? ceduo_stand_stay(stand) : ceduo_stand_trees(stand);
+    struct ceduo_compliance c = {.standards = standards, .turn = NAN};
     if (!r->name || stand->system == CEDUO_HIGH_FOREST || stand->system == CEDUO_BARE)
         return c;
     if (stand->cutting.rotation > 0)

@@ -21,78 +21,50 @@ static const struct ceduo_number *number_of(const struct ceduo_rock_def *def, si
     return numbers[i];
 }
 
-static void set_axes(struct ceduo_rock *rock, double a, double b, double c)
+/* CEDUO_BAD_ROCK unless what is given is above 0, and what the shape needs is given. */
+static enum ceduo_status rock_from_sizes(enum ceduo_shape shape, const union sizes *s, struct ceduo_rock *rock)
 {
-    rock->axes[0] = a;
-    rock->axes[1] = b;
-    rock->axes[2] = c;
-}
-
-static void complete_sphere(union sizes *s, struct ceduo_rock *rock)
-{
-    if (isnan(s->diameter)) {
-        double volume = isnan(s->volume) ? s->mass / s->density : s->volume;
-        s->diameter = ceduo_cbrt(6 * volume / M_PI);
-    }
-    rock->volume = M_PI / 6 * s->diameter * s->diameter * s->diameter;
-    rock->mean_diameter = s->diameter;
-    set_axes(rock, s->diameter, s->diameter, s->diameter);
-    rock->k = 2.0 / 5;
-}
-
-static void complete_block(const union sizes *s, struct ceduo_rock *rock)
-{
-    const double *a = s->axes;
-    double longest = fmax(a[0], fmax(a[1], a[2]));
-    double squares = a[0] * a[0] + a[1] * a[1] + a[2] * a[2] - longest * longest;
-    set_axes(rock, a[0], a[1], a[2]);
-    rock->volume = a[0] * a[1] * a[2];
-    rock->mean_diameter = (a[0] + a[1] + a[2]) / 3;
-    double radius = rock->mean_diameter / 2;
-    rock->k = squares / (12 * radius * radius);
-}
-
-/* What is given is above 0, what the shape needs is given. */
-static bool good_sizes(enum ceduo_shape shape, const union sizes *s)
-{
+    bool good = true;
+    double d = s->diameter, h = s->height, a[3] = {s->axes[0], s->axes[1], s->axes[2]}, longest, squares;
     for (size_t i = 0; i < 8; i++)
-        if (s->all[i] <= 0 || isinf(s->all[i]))
-            return false;
-    if (shape == CEDUO_SPHERE)
-        return !isnan(s->diameter) || !isnan(s->volume) || !isnan(s->mass);
-    if (shape == CEDUO_CYLINDER)
-        return !isnan(s->diameter) && !isnan(s->height);
-    return !isnan(s->axes[0]) && !isnan(s->axes[1]) && !isnan(s->axes[2]);
-}
-
-static enum ceduo_status rock_from_sizes(enum ceduo_shape shape, union sizes *s, struct ceduo_rock *rock)
-{
-    if (!good_sizes(shape, s))
-        return CEDUO_BAD_ROCK;
+        good = good && !(s->all[i] <= 0) && !isinf(s->all[i]);
     switch (shape) { /* untaken: table */
     case CEDUO_SPHERE:
-        complete_sphere(s, rock);
+        if (isnan(d))
+            d = ceduo_cbrt(6 * (isnan(s->volume) ? s->mass / s->density : s->volume) / M_PI);
+        good = good && !(isnan(s->diameter) && isnan(s->volume) && isnan(s->mass));
+        rock->volume = M_PI / 6 * d * d * d;
+        rock->mean_diameter = a[0] = a[1] = a[2] = d;
+        rock->k = 2.0 / 5;
         break;
     case CEDUO_CYLINDER:
-        rock->volume = M_PI / 4 * s->diameter * s->diameter * s->height;
-        rock->mean_diameter = (s->diameter + s->height) / 2;
-        set_axes(rock, s->diameter, s->diameter, s->height);
+        rock->volume = M_PI / 4 * d * d * h;
+        rock->mean_diameter = (d + h) / 2;
+        a[0] = a[1] = d;
+        a[2] = h;
         rock->k = 1.0 / 2;
         break;
     case CEDUO_ELLIPSOID:
-        set_axes(rock, s->axes[0], s->axes[1], s->axes[2]);
-        rock->volume = M_PI / 6 * s->axes[0] * s->axes[1] * s->axes[2];
-        rock->mean_diameter = (s->axes[0] + s->axes[1] + s->axes[2]) / 3;
+        rock->volume = M_PI / 6 * a[0] * a[1] * a[2];
+        rock->mean_diameter = (a[0] + a[1] + a[2]) / 3;
         rock->k = 2.0 / 5;
         break;
     case CEDUO_BLOCK:
-        complete_block(s, rock);
+        longest = fmax(a[0], fmax(a[1], a[2]));
+        squares = a[0] * a[0] + a[1] * a[1] + a[2] * a[2] - longest * longest;
+        rock->volume = a[0] * a[1] * a[2];
+        rock->mean_diameter = (a[0] + a[1] + a[2]) / 3;
+        rock->k = squares / (12 * (rock->mean_diameter / 2) * (rock->mean_diameter / 2));
         break;
+    }
+    for (int i = 0; i < 3; i++) {
+        rock->axes[i] = a[i];
+        good = good && !isnan(a[i]);
     }
     rock->mass = isnan(s->mass) ? rock->volume * s->density : s->mass;
     rock->radius = rock->mean_diameter / 2;
     rock->moment = rock->k * rock->mass * rock->radius * rock->radius;
-    bool good = rock->moment > 0 && isfinite(rock->moment); /* mass and radius are, too, then */
+    good = good && rock->moment > 0 && isfinite(rock->moment); /* mass and radius are, too, then */
     return good ? CEDUO_OK : CEDUO_BAD_ROCK;
 }
 

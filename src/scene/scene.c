@@ -3,17 +3,15 @@
 
 #include <math.h>
 
-static bool is_good_class(const struct ceduo_block_class *b)
-{
-    return b->volumes_count == 2 && b->volumes[0] > 0 && b->volumes[1] > b->volumes[0] && b->per_year > 0 && b->exponent >= 0;
-}
-
 enum ceduo_status ceduo_scene_check(const struct ceduo_scene *scene, size_t *where)
 {
     struct ceduo_rock rock;
     enum ceduo_status status = ceduo_rock_of_means(&scene->rock, &rock);
-    for (size_t i = 0; i < scene->blocks_count && status == CEDUO_OK; i++)
-        status = is_good_class(&scene->blocks[i]) ? CEDUO_OK : CEDUO_BAD_ROCK;
+    for (size_t i = 0; i < scene->blocks_count && status == CEDUO_OK; i++) {
+        const struct ceduo_block_class *b = &scene->blocks[i];
+        bool volumes = b->volumes_count == 2 && b->volumes[0] > 0 && b->volumes[1] > b->volumes[0];
+        status = volumes && b->per_year > 0 && b->exponent >= 0 ? CEDUO_OK : CEDUO_BAD_ROCK;
+    }
     if (status == CEDUO_OK)
         status = ceduo_slope_check(&scene->slope);
     if (status != CEDUO_OK)

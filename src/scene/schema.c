@@ -66,47 +66,43 @@ double ceduo_schema_default(const struct field *f)
     return value * f->scale;
 }
 
-static void init_field(const struct field *f, void *to)
-{
-    struct ceduo_number *numbers = to;
-    double number = f->flags & FIELD_ONE_OF ? NAN : ceduo_schema_default(f);
-    uint64_t count = 0;
-    int choice = f->value && f->choices ? ceduo_choice_find(f->choices, f->value) : -1;
-    bool flag = f->value && strcmp(f->value, "true") == 0;
-    switch (f->type) {
-    case FIELD_NUMBER:
-        memcpy(to, &number, sizeof number);
-        break;
-    case FIELD_SPREAD:
-        *numbers = ceduo_number(number);
-        break;
-    case FIELD_SPREADS:
-        numbers[0] = numbers[1] = numbers[2] = ceduo_number(number);
-        break;
-    case FIELD_COUNT:
-        if (f->value)
-            ceduo_count_read(f->value, f->lo, f->hi, &count);
-        ceduo_schema_put_count(f, to, count);
-        break;
-    case FIELD_CHOICE:
-        memcpy(to, &choice, sizeof choice);
-        break;
-    case FIELD_FLAG:
-        memcpy(to, &flag, sizeof flag);
-        break;
-    default: /* texts and lists: none */
-        break;
-    }
-}
-
 static void init_fields(const struct object *object, char *item)
 {
-    for (size_t i = 0; i < object->n; i++) {
-        const struct field *f = &object->fields[i];
+    for (const struct field *f = object->fields; f < object->fields + object->n; f++) {
+        void *to = item + f->offset;
+        struct ceduo_number *numbers = to;
+        double number = f->flags & FIELD_ONE_OF ? NAN : ceduo_schema_default(f);
+        uint64_t count = 0;
+        int choice = f->value && f->choices ? ceduo_choice_find(f->choices, f->value) : -1;
+        bool flag = f->value && strcmp(f->value, "true") == 0;
         if (f->type == FIELD_GROUP)
-            init_fields(f->object, item + f->offset);
-        else if (!(f->flags & FIELD_NOWHERE))
-            init_field(f, item + f->offset);
+            init_fields(f->object, to);
+        if (f->flags & FIELD_NOWHERE)
+            continue;
+        switch (f->type) {
+        case FIELD_NUMBER:
+            memcpy(to, &number, sizeof number);
+            break;
+        case FIELD_SPREAD:
+            *numbers = ceduo_number(number);
+            break;
+        case FIELD_SPREADS:
+            numbers[0] = numbers[1] = numbers[2] = ceduo_number(number);
+            break;
+        case FIELD_COUNT:
+            if (f->value)
+                ceduo_count_read(f->value, f->lo, f->hi, &count);
+            ceduo_schema_set_count(f, to, count);
+            break;
+        case FIELD_CHOICE:
+            memcpy(to, &choice, sizeof choice);
+            break;
+        case FIELD_FLAG:
+            memcpy(to, &flag, sizeof flag);
+            break;
+        default: /* texts and lists: none */
+            break;
+        }
     }
 }
 
@@ -116,7 +112,7 @@ void ceduo_schema_init(const struct object *object, void *item)
     init_fields(object, item);
 }
 
-void ceduo_schema_put_count(const struct field *f, void *to, uint64_t count)
+void ceduo_schema_set_count(const struct field *f, void *to, uint64_t count)
 {
     unsigned small = (unsigned)count;
     if (f->size == sizeof small)

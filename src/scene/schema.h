@@ -160,7 +160,7 @@ bool ceduo_schema_is_place(const struct field *field);
 void ceduo_schema_init(const struct object *object, void *item);
 
 /* Sets a FIELD_COUNT. */
-void ceduo_schema_put_count(const struct field *field, void *to, uint64_t count);
+void ceduo_schema_set_count(const struct field *field, void *to, uint64_t count);
 
 /* The default of a number in SI; NaN or 0 where it has none. */
 double ceduo_schema_default(const struct field *field);

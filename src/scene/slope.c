@@ -41,19 +41,6 @@ double ceduo_slope_face(const struct ceduo_slope *slope)
     return NAN;
 }
 
-static bool unit_interval(struct ceduo_number n)
-{
-    return n.mean >= 0 && n.mean <= 1 && n.spread >= 0 && isfinite(n.spread);
-}
-
-static bool good_segment(const struct ceduo_segment *s)
-{
-    bool rough = isnan(s->roughness_m) ? s->roughness_rad >= 0 && s->roughness_rad < M_PI_2
-                                       : s->roughness_m >= 0 && isnan(s->roughness_rad);
-    return rough && unit_interval(s->rn) && unit_interval(s->rt) && s->friction >= 0 && isfinite(s->friction) && s->mu >= 0 &&
-           isfinite(s->mu);
-}
-
 enum ceduo_status ceduo_slope_check(const struct ceduo_slope *slope)
 {
     if (slope->vertices < 2)
@@ -61,8 +48,18 @@ enum ceduo_status ceduo_slope_check(const struct ceduo_slope *slope)
     for (size_t i = 0; i < slope->vertices; i++)
         if (!isfinite(slope->x[i]) || !isfinite(slope->z[i]))
             return CEDUO_BAD_SLOPE;
-    for (size_t i = 0; i + 1 < slope->vertices; i++)
-        if (!(slope->x[i + 1] > slope->x[i]) || !good_segment(&slope->segments[i]))
+    for (size_t i = 0; i + 1 < slope->vertices; i++) {
+        const struct ceduo_segment *s = &slope->segments[i];
+        const struct ceduo_number *const restitutions[] = {&s->rn, &s->rt};
+        bool good = isnan(s->roughness_m) ? s->roughness_rad >= 0 && s->roughness_rad < M_PI_2
+                                          : s->roughness_m >= 0 && isnan(s->roughness_rad);
+        for (int k = 0; k < 2; k++) {
+            struct ceduo_number n = *restitutions[k];
+            good = good && n.mean >= 0 && n.mean <= 1 && n.spread >= 0 && isfinite(n.spread);
+        }
+        good = good && s->friction >= 0 && isfinite(s->friction) && s->mu >= 0 && isfinite(s->mu);
+        if (!good || !(slope->x[i + 1] > slope->x[i]))
             return CEDUO_BAD_SLOPE;
+    }
     return CEDUO_OK;
 }

@@ -21,11 +21,6 @@ static bool next(struct finder *f, struct path_step *step)
     return ceduo_path_next(f->path, f->length, &f->at, step);
 }
 
-static bool ended(const struct finder *f)
-{
-    return f->at == f->length;
-}
-
 /* A place in brackets, of n. */
 static bool next_index(struct finder *f, size_t n, size_t *index)
 {
@@ -33,28 +28,24 @@ static bool next_index(struct finder *f, size_t n, size_t *index)
     return next(f, &step) && step.bracket && ceduo_path_index(&step, index) && *index < n;
 }
 
-/* The name of an item; a belt has its stand's. */
-static const char *name_of(const struct object *object, const char *item)
-{
-    const struct field *f = ceduo_schema_field(object, "name");
-    const char *name = NULL;
-    if (object == ceduo_schema_belt())
-        return ((const struct ceduo_belt *)(const void *)item)->name;
-    if (f)
-        memcpy(&name, item + f->offset, sizeof name);
-    return name;
-}
-
-/* Goes into the item of a list that the next step means. */
+/* Goes into the item of a list that the next step means: by its place or its name; a belt has its stand's. */
 static bool enter_item(struct finder *f, const struct object *object, char *items, size_t n)
 {
+    const struct field *named = ceduo_schema_field(object, "name");
     struct path_step step;
     size_t i;
     if (!next(f, &step) || !step.bracket || !items) /* an empty list, or segments of materials that cannot be used */
         return false;
     if (!ceduo_path_index(&step, &i))
-        for (i = 0; i < n && !ceduo_path_is(&step, name_of(object, items + i * object->size));)
-            i++;
+        for (i = 0; i < n; i++) {
+            const char *item = items + i * object->size, *name = NULL;
+            if (object == ceduo_schema_belt())
+                name = ((const struct ceduo_belt *)(const void *)item)->name;
+            else if (named)
+                memcpy(&name, item + named->offset, sizeof name);
+            if (ceduo_path_is(&step, name))
+                break;
+        }
     f->object = object;
     f->item = items + i * object->size;
     return i < n;
@@ -90,26 +81,6 @@ static bool enter_list(struct finder *f, const struct field *list)
     return enter_item(f, list->object, items, n);
 }
 
-/* The field that the path ends in, or that holds the numbers that it goes on to. */
-static const struct field *find_leaf(struct finder *f)
-{
-    struct path_step step;
-    const struct field *field;
-    while (next(f, &step)) {
-        if (!(field = ceduo_schema_step(f->object, &step)))
-            return NULL;
-        if (field->type == FIELD_GROUP) {
-            f->object = field->object;
-            f->item += field->offset;
-        } else if (field->type != FIELD_LIST) {
-            return field;
-        } else if (!enter_list(f, field)) {
-            return NULL;
-        }
-    }
-    return NULL;
-}
-
 /* ---- kinds of numbers ---- */
 
 /* mean, spread, or nothing more. */
@@ -117,26 +88,14 @@ static bool find_part(struct finder *f, struct value *v)
 {
     struct path_step step;
     if (!next(f, &step))
-        return ended(f);
+        return f->at == f->length;
     v->part = ceduo_path_is(&step, "spread") ? VALUE_SPREAD : VALUE_WHOLE;
-    return !step.bracket && (v->part == VALUE_SPREAD || ceduo_path_is(&step, "mean")) && ended(f);
-}
-
-static bool find_vertex(struct finder *f, struct value *v)
-{
-    struct ceduo_slope *s = &f->scene->slope;
-    size_t i, k;
-    if (s->segments_given == 0) /* materials may have put vertices of their own between */
-        return false;
-    if (!next_index(f, s->vertices, &i) || !next_index(f, 2, &k) || (k == 0 && i == 0)) /* all is relative to that x */
-        return false;
-    v->at = k == 0 ? &s->x[i] : &s->z[i];
-    v->origin = k == 0 ? s->origin_x : s->origin_z;
-    return ended(f);
+    return !step.bracket && (v->part == VALUE_SPREAD || ceduo_path_is(&step, "mean")) && f->at == f->length;
 }
 
 static bool find_number(struct finder *f, const struct field *field, struct value *v)
 {
+    const struct ceduo_slope *s = &f->scene->slope;
     char *at = f->item + field->offset, *items;
     size_t n, i;
     *v = (struct value){.field = field, .at = at, .n = f->n, .stride = f->object->size};
@@ -144,10 +103,10 @@ static bool find_number(struct finder *f, const struct field *field, struct valu
     switch (field->type) {
     case FIELD_NUMBER:
         v->relative = field->flags & FIELD_PLACE ? (double *)(void *)(f->item + field->beside) : NULL;
-        return ended(f);
+        return f->at == f->length;
     case FIELD_COUNT:
     case FIELD_CHOICE:
-        return ended(f);
+        return f->at == f->length;
     case FIELD_SPREAD:
         return find_part(f, v);
     case FIELD_SPREADS:
@@ -157,9 +116,13 @@ static bool find_number(struct finder *f, const struct field *field, struct valu
         memcpy(&items, at, sizeof items);
         memcpy(&n, f->item + field->beside, sizeof n);
         v->at = next_index(f, n, &i) ? items + i * sizeof(double) : NULL;
-        return v->at && ended(f);
-    case FIELD_POINTS:
-        return find_vertex(f, v);
+        return v->at && f->at == f->length;
+    case FIELD_POINTS: /* materials may have put vertices of their own between; all is relative to the first x */
+        if (s->segments_given == 0 || !next_index(f, s->vertices, &i) || !next_index(f, 2, &n) || (n == 0 && i == 0))
+            return false;
+        v->at = n == 0 ? &s->x[i] : &s->z[i];
+        v->origin = n == 0 ? s->origin_x : s->origin_z;
+        return f->at == f->length;
     default:
         return false;
     }
@@ -169,8 +132,19 @@ bool ceduo_value_find(struct ceduo_scene *scene, const char *path, struct value 
 {
     struct finder f = {
         .scene = scene, .path = path, .length = strlen(path), .object = ceduo_schema_scene(), .item = (char *)scene, .n = 1};
-    const struct field *field = find_leaf(&f);
-    return field && !(field->flags & (FIELD_NOWHERE | FIELD_DRAFT)) && find_number(&f, field, value);
+    struct path_step step;
+    while (next(&f, &step)) {
+        const struct field *field = ceduo_schema_step(f.object, &step);
+        if (!field || (field->type == FIELD_LIST && !enter_list(&f, field)))
+            return false;
+        if (field->type == FIELD_GROUP) {
+            f.object = field->object;
+            f.item += field->offset;
+        } else if (field->type != FIELD_LIST) { /* the path ends in it, or goes on to one of its numbers */
+            return !(field->flags & (FIELD_NOWHERE | FIELD_DRAFT)) && find_number(&f, field, value);
+        }
+    }
+    return false;
 }
 
 /* ---- get and put ---- */
@@ -180,75 +154,52 @@ static bool is_spread(const struct field *f)
     return f->type == FIELD_SPREAD || f->type == FIELD_SPREADS;
 }
 
-static double get_count(const struct field *f, const void *at)
-{
-    uint64_t count = 0;
-    memcpy(&count, at, f->size);
-    return (double)count;
-}
-
-static double get_choice(const void *at)
-{
-    int choice;
-    memcpy(&choice, at, sizeof choice);
-    return choice;
-}
-
 double ceduo_value_get(const struct value *v)
 {
+    const struct field *f = v->field;
     const struct ceduo_number *n = v->at;
-    if (v->field->type == FIELD_COUNT)
-        return get_count(v->field, v->at);
-    if (v->field->type == FIELD_CHOICE)
-        return get_choice(v->at);
+    uint64_t count = 0;
+    int choice;
+    if (f->type == FIELD_COUNT) {
+        memcpy(&count, v->at, f->size);
+        return (double)count;
+    }
+    if (f->type == FIELD_CHOICE) {
+        memcpy(&choice, v->at, sizeof choice);
+        return choice;
+    }
     if (v->part == VALUE_SPREAD)
-        return n->spread / v->field->scale;
-    double si = is_spread(v->field) ? n->mean : *(const double *)v->at;
-    return (v->relative ? si : si + v->origin) / v->field->scale;
-}
-
-/* The number with its mean or its spread at a value; false where that lies outside the range. */
-static bool change(const struct value *v, double number, struct ceduo_number *n)
-{
-    bool spread = v->part == VALUE_SPREAD;
-    bool good = spread ? number >= 0 && isfinite(number) : ceduo_schema_in_range(v->field, number);
-    double si = number * v->field->scale;
-    *(spread ? &n->spread : &n->mean) = spread ? si : si - v->origin;
-    struct ceduo_number given = *n;
-    given.mean += v->origin;
-    return good && ceduo_schema_spread_fits(v->field, given);
-}
-
-/* To the word of that index; -1: not said. */
-static bool put_choice(const struct value *v, double number)
-{
-    if (!(number >= -1) || number != floor(number) || !(number < (double)v->field->choices->n))
-        return false;
-    int choice = (int)number;
-    memcpy(v->at, &choice, sizeof choice);
-    return true;
+        return n->spread / f->scale;
+    double si = is_spread(f) ? n->mean : *(const double *)v->at;
+    return (v->relative ? si : si + v->origin) / f->scale;
 }
 
 bool ceduo_value_put(const struct value *v, double number)
 {
     const struct field *f = v->field;
+    bool spread = v->part == VALUE_SPREAD, whole = number == floor(number);
+    bool inside = spread ? number >= 0 && isfinite(number) : ceduo_schema_in_range(f, number);
+    double si = number * f->scale, here = spread || v->relative ? si : si - v->origin;
+    int choice = (int)(f->type == FIELD_CHOICE && number >= -1 && number < (double)f->choices->n ? number : -2);
     struct ceduo_number changed = {0};
-    if (f->type == FIELD_CHOICE)
-        return put_choice(v, number);
+    if (f->type == FIELD_CHOICE ? !whole || choice < -1 : !inside || (f->type == FIELD_COUNT && !whole))
+        return false;
     if (is_spread(f)) {
         memcpy(&changed, v->at, sizeof changed);
-        if (!change(v, number, &changed))
+        *(spread ? &changed.spread : &changed.mean) = here;
+        struct ceduo_number given = changed;
+        given.mean += v->origin;
+        if (!ceduo_schema_spread_fits(f, given))
             return false;
-    } else if (!ceduo_schema_in_range(f, number) || (f->type == FIELD_COUNT && number != floor(number))) {
-        return false;
     }
-    double si = number * f->scale, here = v->relative ? si : si - v->origin;
     for (size_t i = 0; i < v->n; i++) {
         char *at = (char *)v->at + i * v->stride;
-        if (is_spread(f))
+        if (f->type == FIELD_CHOICE) /* to the word of that index; -1: not said */
+            memcpy(at, &choice, sizeof choice);
+        else if (is_spread(f))
             memcpy(at, &changed, sizeof changed);
         else if (f->type == FIELD_COUNT)
-            ceduo_schema_put_count(f, at, (uint64_t)number);
+            ceduo_schema_set_count(f, at, (uint64_t)number);
         else
             memcpy(at, &here, sizeof here);
     }
