@@ -11,7 +11,7 @@
 #include "batch.h"
 #include "ceduo/version.h"
 #include "command_line.h"
-#include "language.h"
+#include "localize.h"
 #include "output.h"
 #include "say.h"
 #include "tui/terminal.h"

@@ -10,7 +10,7 @@
 #include "base/language.h"
 #include "ceduo/calibrate.h"
 #include "ceduo/years.h"
-#include "language.h"
+#include "localize.h"
 #include "say.h"
 
 #define WIDTH_LEAST  20

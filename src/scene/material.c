@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "ceduo/material.h"
 
-#include "words.h"
+#include "choices.h"
 
 #define CRSP3 "ranges in use with CRSP 3.0 (Pfeiffer et al. 1993)"
 #define CRSP4 "after CRSP 4.0 (Jones et al. 2000), from memory: check before use"

@@ -6,7 +6,7 @@
 #include "base/text.h"
 #include "ceduo/observe.h"
 #include "ceduo/scene.h"
-#include "words.h"
+#include "choices.h"
 
 /* The table of the scene: one row for each key of the files, with the member of the scene that holds its value. Everything
  * that knows keys reads it here: the files' reader, --set, --list-parameters, the manual, the forms, typed get and put

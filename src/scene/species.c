@@ -3,7 +3,7 @@
 
 #include "base/language.h"
 #include "ceduo/stand.h"
-#include "words.h"
+#include "choices.h"
 
 /* Table 4 of Ciabocco et al. 2009, after Brauner et al. 2005. */
 #define U_BEECH  102800

@@ -7,7 +7,7 @@
 
 #include "base/language.h"
 #include "base/utf8.h"
-#include "scene/words.h"
+#include "scene/choices.h"
 
 #define HEIGHT_FOR_ALL 24 /* lines with room for everything and some warnings */
 #define HEIGHT_FOR_MAX 17 /* with room for the lights behind all but the heights */

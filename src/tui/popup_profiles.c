@@ -13,7 +13,7 @@
 #include "io/file.h"
 #include "popup.h"
 #include "popups.h"
-#include "scene/words.h"
+#include "scene/choices.h"
 #include "view/typed.h"
 #include "view/words.h"
 

@@ -6,7 +6,7 @@
 
 #include "app.h"
 #include "base/language.h"
-#include "scene/words.h"
+#include "scene/choices.h"
 #include "view/words.h"
 
 #define FIGURES 3 /* lines */

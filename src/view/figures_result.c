@@ -3,7 +3,7 @@
 #include "figures_parts.h"
 
 #include "ceduo/version.h"
-#include "scene/words.h"
+#include "scene/choices.h"
 
 /* ---- values ---- */
 

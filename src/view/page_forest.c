@@ -5,7 +5,7 @@
 
 #include "base/language.h"
 #include "page_parts.h"
-#include "scene/words.h"
+#include "scene/choices.h"
 
 /* ---- belts ---- */
 

@@ -4,7 +4,7 @@
 
 #include "base/language.h"
 #include "page_parts.h"
-#include "scene/words.h"
+#include "scene/choices.h"
 
 static bool is_known(const struct ceduo_other_energy *other)
 {

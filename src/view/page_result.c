@@ -6,8 +6,8 @@
 
 #include "base/language.h"
 #include "page_parts.h"
+#include "scene/choices.h"
 #include "scene/ranges.h"
-#include "scene/words.h"
 
 /* ---- head ---- */
 

@@ -4,7 +4,7 @@
 #include "base/language.h"
 #include "ceduo/assess.h"
 #include "plot_parts.h"
-#include "scene/words.h"
+#include "scene/choices.h"
 
 /* Draws the rules of the ADC as bars on a log scale. */
 

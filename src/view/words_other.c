@@ -3,7 +3,7 @@
 #include <math.h>
 
 #include "base/language.h"
-#include "scene/words.h"
+#include "scene/choices.h"
 #include "words.h"
 
 #define TURNED_MOST 3 /* pairs of options that are named */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef CEDUO_CLI_LANGUAGE_H
-#define CEDUO_CLI_LANGUAGE_H
+#ifndef CEDUO_LOCALIZE_H
+#define CEDUO_LOCALIZE_H
 
 /* The language and characters of the environment. Numbers have a dot in every language: LC_NUMERIC stays that of C. */
 void ceduo_language_start(void);

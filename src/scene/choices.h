@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#ifndef CEDUO_SCENE_WORDS_H
-#define CEDUO_SCENE_WORDS_H
+#ifndef CEDUO_CHOICES_H
+#define CEDUO_CHOICES_H
 
 #include <stddef.h>
 
