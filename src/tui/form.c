@@ -181,6 +181,31 @@ void ceduo_form_table(struct form *form, const struct document *d, const struct 
     }
 }
 
+void ceduo_form_group(struct form *form, const struct document *d, const struct object *object, const char *list,
+                      const char *group, const char *const *keys)
+{
+    char path[FORM_PATH];
+    const struct node *node = ceduo_document_node(d, list);
+    const struct field *of = ceduo_schema_field(object, group);
+    size_t head = form->n;
+    for (size_t i = 0; node && node->kind == NODE_LIST && i < node->n; i++) {
+        if (!ceduo_node_get(node->items[i], group))
+            continue;
+        if (form->n == head) {
+            struct form_row *names = add_row(form, FORM_COLUMNS_ROW, "");
+            for (; names->n < FORM_COLUMNS && keys[names->n]; names->n++)
+                names->cells[names->n].field = find_field(of->object, keys[names->n]);
+            snprintf(names->list, sizeof names->list, "%s", list);
+        }
+        struct form_row *row = add_item(form, list, i);
+        row->group = of->key;
+        for (; row->n < FORM_COLUMNS && keys[row->n]; row->n++) {
+            snprintf(path, sizeof path, "%.60s[%zu].%.20s.%.30s", list, i, group, keys[row->n]);
+            fill_cell(&row->cells[row->n], d, find_field(of->object, keys[row->n]), path);
+        }
+    }
+}
+
 void ceduo_form_points(struct form *form, const struct document *d, const struct field *field, const char *list)
 {
     char path[FORM_PATH];

@@ -27,6 +27,7 @@ struct form_row {
     size_t n;
     struct form_cell cells[FORM_COLUMNS]; /* of the head of a table: the fields alone */
     char list[FORM_PATH];                 /* the list that the row is an item of; "": none */
+    const char *group;                    /* of that item, which the row shows alone; NULL: the whole item */
     size_t index;
 };
 
@@ -60,6 +61,11 @@ void ceduo_form_rest(struct form *form, const struct document *d, const struct o
  * line that says how to add to it. `list` is the path, `object` that of its items. Keys may hold a dot. */
 void ceduo_form_table(struct form *form, const struct document *d, const struct object *object, const char *list,
                       const char *const *keys, const char *title);
+
+/* The same of one group of those items that have it, such as the stops among what was observed; nothing where none has. Keys
+ * are the group's. */
+void ceduo_form_group(struct form *form, const struct document *d, const struct object *object, const char *list,
+                      const char *group, const char *const *keys);
 
 /* A line for each point of a list of points. */
 void ceduo_form_points(struct form *form, const struct document *d, const struct field *field, const char *list);

@@ -8,14 +8,16 @@
 #include "ceduo/material.h"
 #include "edit.h"
 #include "model/changes.h"
+#include "popups.h"
 
 /* The item under the cursor, copied because each edit builds the form again. */
 struct item {
     const char *list; /* path of its list */
     const char *key;  /* last word of that path */
     size_t index;
-    bool there; /* false: the list is empty */
-    double at;  /* where along the slope, m, as given; NAN: in the middle of what is split */
+    bool there;        /* false: the list is empty */
+    const char *group; /* that alone of it; NULL: all */
+    double at;         /* where along the slope, m, as given; NAN: in the middle of what is split */
 };
 
 static struct item item_of(const struct app *app, const char *list, size_t index)
@@ -28,10 +30,11 @@ static struct item item_of(const struct app *app, const char *list, size_t index
 static bool find_item(struct app *app, struct item *item)
 {
     const struct form_row *row = ceduo_form_row(ceduo_app_form(app));
-    if (!row || !row->list[0])
+    if (!row || !row->list[0] || ceduo_app_state(app)->pane != 0) /* it is not seen */
         return false;
     *item = item_of(app, row->list, row->index);
     item->there = row->n > 0;
+    item->group = row->group;
     return true;
 }
 
@@ -171,22 +174,19 @@ static bool add_trees(struct app *app, const struct item *item)
     return item->there ? copy_item(app, item) : insert(app, item, 0, "{per_ha: 60, dbh_m: 0.2, height_m: 12}");
 }
 
-/* A class of blocks larger than those there are, ten times as rare; where there are none, a power law. */
-static bool add_blocks(struct app *app, const struct item *item)
+/* A class of blocks larger than those there are, ten times as rare, is offered; where there are none, nothing is. */
+static bool ask_for_blocks(struct app *app, const struct item *item)
 {
     const struct ceduo_scene *s = &app->document.file.scene;
-    double largest = 0, per_year = 0;
+    const struct ceduo_block_class *largest = NULL;
     for (size_t i = 0; i < s->blocks_count; i++)
-        if (s->blocks[i].volumes[1] > largest) {
-            largest = s->blocks[i].volumes[1];
-            per_year = s->blocks[i].per_year;
-        }
-    if (item->there && !(largest > 0))
-        return copy_item(app, item);
-    if (!item->there)
-        return insert(app, item, 0, "{per_year: 1, volume_m3: [0.05, 1], exponent: 1}");
-    return insert(app, item, s->blocks_count,
-                  ceduo_app_format(app, "{per_year: %.4g, volume_m3: [%.10g, %.10g]}", per_year / 10, largest, 10 * largest));
+        if (s->blocks[i].volumes[1] > (largest ? largest->volumes[1] : 0))
+            largest = &s->blocks[i];
+    const char *const offered[] = {largest ? ceduo_app_format(app, "%.4g", largest->per_year / 10) : "",
+                                   largest ? ceduo_app_format(app, "%.10g %.10g", largest->volumes[1], 10 * largest->volumes[1])
+                                           : ""};
+    ceduo_popup_item_of(app, item->list, NULL, offered, 2);
+    return false;
 }
 
 /* ---- deleting ---- */
@@ -222,7 +222,9 @@ static bool delete_item(struct app *app, const struct item *item, const char *pa
         return ceduo_document_remove_vertex(&app->document, item->index, &app->problems);
     if (strcmp(item->key, "materials") == 0 && list && list->n > 1)
         return delete_ground(app, item, path);
-    if (strcmp(item->list, "blocks") == 0 && list && list->n == 1)
+    if (item->group && list && list->items[item->index]->n > 1 + !!ceduo_node_get(list->items[item->index], "name"))
+        return ceduo_document_delete(&app->document, ceduo_app_format(app, "%s.%s", path, item->group), &app->problems);
+    if ((item->group || strcmp(item->list, "blocks") == 0) && list && list->n == 1)
         return ceduo_document_delete(&app->document, item->list, &app->problems);
     if (strcmp(item->key, "shoots") == 0 && list && list->n == 1)
         return delete_shoots(app, item);
@@ -241,7 +243,7 @@ static const struct {
              {"controls_m", add_control, add_control},   {"materials", add_ground, split_stretch},
              {"segments", split_segment, split_segment}, {"vertices_m", split_point, split_point},
              {"shoots", add_shoots, copy_item},          {"trees", add_trees, copy_item},
-             {"blocks", add_blocks, add_blocks}};
+             {"blocks", ask_for_blocks, copy_item}};
 
 static item_function *function_for(const struct item *item, bool add)
 {
@@ -254,8 +256,8 @@ static item_function *function_for(const struct item *item, bool add)
 /* The cursor goes to the new item, or the last where it was put before others. */
 static void finish(struct app *app, const struct item *item, bool good)
 {
-    if (!good && app->problems.count == 0 && !app->problems.memory && app->message[0])
-        return; /* it is said already */
+    if (!good && app->problems.count == 0 && !app->problems.memory && (app->message[0] || app->popup))
+        return; /* it is said already, or asked for */
     if (ceduo_app_edited(app, good))
         ceduo_form_go(ceduo_app_form(app), item->list, item->there ? item->index + 1 : 0);
 }

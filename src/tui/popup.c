@@ -64,6 +64,14 @@ void ceduo_popup_item(struct popup *p, const char *text, const char *value)
     ceduo_picker_add(&p->picker, text, value, false);
 }
 
+void ceduo_popup_answer(struct popup *p, char key, const char *text, const char *value)
+{
+    char line[256];
+    snprintf(line, sizeof line, "%c  %s", key, text);
+    p->asks = true;
+    ceduo_popup_item(p, line, value);
+}
+
 void ceduo_popup_field(struct popup *p, const char *label, const char *value)
 {
     ceduo_popup_choice(p, label, value, NULL);
@@ -217,6 +225,13 @@ static void list_key(struct app *app, struct popup *p, int key)
         choose(app, p);
     } else if (by != 0) {
         ceduo_picker_move(&p->picker, by);
+    } else if (p->asks) {
+        for (size_t i = 0; i < p->picker.matches; i++)
+            if (p->picker.picks[p->picker.order[i]].text[0] == key) {
+                p->picker.at = i;
+                choose(app, p);
+                return;
+            }
     } else if (key == K_TAB) {
         if (ceduo_picker_complete(&p->picker, &p->fields[0]))
             offer(app, p);
@@ -340,7 +355,11 @@ static void draw_line(struct app *app, const struct line *line, int x, int y, in
 static void draw_list(struct app *app, struct popup *p)
 {
     int lines = p->picker.count > 2 ? (int)p->picker.count : 2;
-    struct ceduo_area in = draw_frame(app, p, lines + 1, NOTE_LINES);
+    struct ceduo_area in = draw_frame(app, p, lines + !p->asks, NOTE_LINES);
+    if (p->asks) {
+        draw_picks(app, p, in);
+        return;
+    }
     ceduo_app_label(app, in.left, in.top, CEDUO_ROLE_DIM, "%s", _("search:"));
     int x = in.left + (int)ceduo_utf8_width(_("search:")) + 1;
     draw_line(app, &p->fields[0], x, in.top, in.left + in.width - x, true);
@@ -397,7 +416,7 @@ void ceduo_popup_key(struct app *app, int key)
 bool ceduo_popup_paste(struct app *app, const char *text)
 {
     struct popup *p = app->popup;
-    if (p->kind == POPUP_TEXT)
+    if (p->kind == POPUP_TEXT || p->asks)
         return false;
     if (p->kind == POPUP_FIELDS)
         ceduo_jobs_stop(app->live.jobs, JOB_SEARCH); /* as a key does */
@@ -411,7 +430,7 @@ bool ceduo_popup_paste(struct app *app, const char *text)
 
 const char *ceduo_popup_bar(const struct app *app)
 {
-    return _(kinds[app->popup->kind].bar);
+    return app->popup->asks ? _("a letter, or Up Down and Enter  Esc cancel") : _(kinds[app->popup->kind].bar);
 }
 
 void ceduo_popup_look(struct app *app)

@@ -32,6 +32,7 @@ struct popup {
     size_t at;             /* the field under the cursor */
     struct picker picker;  /* of the list, or of the field under the cursor */
     const char *endings;   /* of files that may be typed: ".yaml"; NULL: none */
+    bool asks;             /* a list of few answers: the first letter of each chooses it, nothing is searched for */
     bool ready;            /* what is offered was listed once */
     bool moved;            /* the cursor was moved in the picker */
     bool typed_wins;       /* a new name: what is typed stays, unless the cursor was moved in the picker */
@@ -56,6 +57,8 @@ struct popup *ceduo_popup_text(struct app *app, const char *title);
 struct popup *ceduo_popup_list(struct app *app, const char *title, popup_chosen *chosen);
 struct popup *ceduo_popup_fields(struct app *app, const char *title, popup_filled *filled);
 void ceduo_popup_item(struct popup *popup, const char *text, const char *value);
+/* An answer that a key gives, which stands before its words; all items of the list must be such. */
+void ceduo_popup_answer(struct popup *popup, char key, const char *text, const char *value);
 void ceduo_popup_field(struct popup *popup, const char *label, const char *value);
 /* A field with a list of what may stand in it; what matches what is typed is taken. */
 void ceduo_popup_choice(struct popup *popup, const char *label, const char *value, popup_offer *offer);

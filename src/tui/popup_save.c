@@ -146,9 +146,9 @@ static void ask_which(struct app *app)
     bool gone = access(app->document.path, F_OK) != 0;
     struct popup *p = ceduo_popup_list(
         app, gone ? _("The file is no longer there") : _("The file has changed on disk since it was read"), chose_disk);
-    ceduo_popup_item(p, _("never mind: do not save now"), "");
-    ceduo_popup_item(p, _("save under another name"), "as");
-    ceduo_popup_item(p, gone ? _("write it again") : _("write over what is there"), "write");
+    ceduo_popup_answer(p, 'n', _("never mind: do not save now"), "");
+    ceduo_popup_answer(p, 'a', _("save under another name"), "as");
+    ceduo_popup_answer(p, 'w', gone ? _("write it again") : _("write over what is there"), "write");
 }
 
 void ceduo_popup_save(struct app *app)
@@ -184,9 +184,9 @@ void ceduo_popup_once_saved(struct app *app, void (*then)(struct app *app))
     }
     struct popup *p = ceduo_popup_list(app, _("There is unsaved work"), chose_unsaved);
     p->then = then;
-    ceduo_popup_item(p, _("stay"), "");
-    ceduo_popup_item(p, _("save it, then go on"), "save");
-    ceduo_popup_item(p, _("discard it"), "discard");
+    ceduo_popup_answer(p, 'n', _("stay"), "");
+    ceduo_popup_answer(p, 's', _("save it, then go on"), "save");
+    ceduo_popup_answer(p, 'd', _("discard it"), "discard");
 }
 
 static void quit(struct app *app)

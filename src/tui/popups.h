@@ -8,6 +8,7 @@
 
 void ceduo_popup_help(struct app *app);
 void ceduo_popup_presets(struct app *app);
+void ceduo_popup_starts(struct app *app, int unused);
 void ceduo_popup_new_option(struct app *app);
 void ceduo_popup_choices(struct app *app, const struct form_cell *cell);
 void ceduo_popup_open(struct app *app);
@@ -19,6 +20,10 @@ void ceduo_popup_find(struct app *app);
 void ceduo_popup_counts(struct app *app);
 void ceduo_popup_survey(struct app *app);
 void ceduo_popup_fit(struct app *app);
+
+/* Asks for the fields of a new item of a list, or of one group that it has (NULL: of all of it), and adds it at the end.
+ * `offered`: what stands in the first fields. */
+void ceduo_popup_item_of(struct app *app, const char *list, const char *group, const char *const *offered, size_t n);
 
 /* What the search came to that ceduo_popup_find() started. */
 void ceduo_popup_found(struct app *app, struct search_answer *sought);

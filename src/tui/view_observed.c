@@ -5,7 +5,9 @@
 #include "app.h"
 #include "base/language.h"
 #include "base/utf8.h"
+#include "edit.h"
 #include "model/keep_fit.h"
+#include "popup.h"
 #include "popups.h"
 #include "view/report_calibration.h"
 #include "view/words.h"
@@ -201,15 +203,83 @@ static void say_nothing_seen(struct text *text)
 {
     ceduo_text_put(text, _("This scene does not say what was seen on its slope.\n\n"));
     ceduo_text_put(
-        text, _("Where rocks have stopped, how many passed a place, how fast or how high they were, scars on stems: what of it "
-                "is known is written into the scene's file, for example:\n\n"));
-    ceduo_text_put(text, "observed:\n  - stops: {x_m: [41, 44.5, 52, 61], of: 6}\n  - passed: {x_m: 60, count: 2, of: 6}\n\n");
-    ceduo_text_put(text,
-                   _("That is four rocks that stopped, of six released, and two of six that passed a road. All kinds stand in "
-                     "man ceduo-scene. Here it is then compared with simulated rocks, and c fits the ground to it.\n"));
+        text, _("Where rocks have stopped, how many passed a place, how fast or how high they were, scars on stems: a asks "
+                "for what of it is known. A table of values is named in the scene's file, see man ceduo-scene.\n\n"));
+    ceduo_text_put(text, _("Here it is then compared with simulated rocks, and c fits the ground to it.\n"));
+}
+
+/* ---- what was observed, to edit ---- */
+
+/* What is asked for, in the order in which it is shown; `key`: what adds it. */
+static const struct {
+    const char *group;
+    char key;
+    const char *what;
+} groups[] = {{"stops", 's', N_("stops: where rocks came to rest")},
+              {"passed", 'c', N_("a count: how many passed a place")},
+              {"height", 'h', N_("heights above the ground at a place, m")},
+              {"scars", 'd', N_("damaged stems: heights of their scars, m")},
+              {"speed", 'v', N_("speeds at a place, m/s")},
+              {"energy", 'e', N_("energies at a place, kJ")}};
+#define GROUPS (sizeof groups / sizeof groups[0])
+
+/* The first item of the list that has the group, and in it the key (NULL: any); NULL: none has. */
+static const struct node *first_with(const struct node *rows, const char *group, const char *key)
+{
+    for (size_t i = 0; i < rows->n; i++) {
+        const struct node *found = ceduo_node_get(rows->items[i], group);
+        if (found && (!key || ceduo_node_get(found, key)))
+            return found;
+    }
+    return NULL;
+}
+
+/* All keys of a group but those of a table of values, where there is none. */
+static void build_group(struct form *form, const struct document *d, const struct object *object, const char *group)
+{
+    const struct object *of = ceduo_schema_field(object, group)->object;
+    const char *keys[FORM_COLUMNS + 1] = {NULL};
+    const struct node *rows = ceduo_document_node(d, "observed");
+    for (size_t i = 0, n = 0; i < of->n && n < FORM_COLUMNS; i++)
+        if (of->fields[i].type > FIELD_FILE || first_with(rows, group, of->fields[i].key))
+            keys[n++] = of->fields[i].key;
+    ceduo_form_group(form, d, object, "observed", group, keys);
+}
+
+static void build(struct app *app, struct form *form)
+{
+    static const char *const columns[] = {"name", "use", "option", NULL};
+    const struct document *d = &app->document;
+    const struct object *object = ceduo_schema_field(ceduo_schema_scene(), "observed")->object;
+    const struct node *rows = ceduo_document_node(d, "observed");
+    if (!rows || rows->kind != NODE_LIST || rows->n == 0)
+        return;
+    for (size_t i = 0; i < GROUPS; i++)
+        if (first_with(rows, groups[i].group, NULL)) {
+            ceduo_form_heading(form, _(groups[i].what));
+            build_group(form, d, object, groups[i].group);
+        }
+    ceduo_form_heading(form, _("All that was seen"));
+    ceduo_form_table(form, d, object, "observed", columns, "");
+}
+
+static void chose_group(struct app *app, struct popup *p, const char *value)
+{
+    (void)p;
+    ceduo_popup_item_of(app, "observed", value, NULL, 0);
+}
+
+static void add(struct app *app, int unused)
+{
+    (void)unused;
+    struct popup *p = ceduo_popup_list(app, _("What was seen?"), chose_group);
+    for (size_t i = 0; i < GROUPS; i++)
+        ceduo_popup_answer(p, groups[i].key, _(groups[i].what), groups[i].group);
 }
 
 /* ---- drawing ---- */
+
+enum { PANE_FORM, PANE_TEXT, PANES };
 
 static void draw(struct app *app, struct ceduo_area area)
 {
@@ -224,12 +294,21 @@ static void draw(struct app *app, struct ceduo_area area)
         if (c->stops[i].known && c->file.observations[i].option == app->option)
             stops = &c->stops[i];
     struct text text = {0};
+    struct view_state *state = ceduo_app_state(app);
+    bool fit = f->fitting || ceduo_live_fitted(f);
+    if (fit)
+        state->pane = PANE_TEXT;
+    int lines = state->pane == PANE_TEXT ? 0 : (int)state->form.n, form = area.height / 3 < lines ? area.height / 3 : lines;
+    if (form > 0) {
+        ceduo_app_draw_form(app, (struct ceduo_area){area.left, area.top + area.height - form, area.width, form}, true);
+        area.height -= form + 1;
+    }
     area.width -= 2; /* the mark of more below stands beside the text */
     if (file->observations_count == 0)
         say_nothing_seen(&text);
     else if (f->fitting)
         say_fitting(f, &text);
-    else if (ceduo_live_fitted(f))
+    else if (fit)
         say_fit(ceduo_live_fitted(f), &text, area.width);
     else
         say_as_it_is(app, &text, area.width);
@@ -250,8 +329,7 @@ static void start(struct app *app, int unused)
 {
     (void)unused;
     if (app->document.file.observations_count == 0)
-        ceduo_app_warn(app, "%s",
-                       _("nothing was seen here that could be fitted: write it under 'observed' in the scene's file"));
+        ceduo_app_warn(app, "%s", _("nothing was seen here that could be fitted: a asks for it"));
     else if (!ceduo_fit_has_observations(&app->document.file))
         ceduo_app_warn(app, "%s", _("all that was seen is to check a fit: mark what is to be fitted 'use: fit'"));
     else
@@ -263,6 +341,10 @@ static void take(struct app *app, int unused)
 {
     (void)unused;
     const struct fit *f = ceduo_live_fitted(&app->live);
+    if (!f && !app->live.fitting && ceduo_app_state(app)->pane == PANE_FORM && ceduo_app_form(app)->n > 0) {
+        ceduo_edit_start(app);
+        return;
+    }
     if (!f) {
         ceduo_app_say(app, "%s",
                       app->live.fitting ? _("the fit is not done yet; Esc stops it") : _("c fits the ground to what was seen"));
@@ -291,15 +373,18 @@ static void stop(struct app *app, int unused)
     ceduo_live_drop_fit(&app->live);
 }
 
-static const struct act acts[] = {{ACTION_COUNTS, start, 0}, {ACTION_EDIT, take, 0}, {ACTION_STOP, stop, 0}, {0}};
+static const struct act acts[] = {
+    {ACTION_COUNTS, start, 0}, {ACTION_EDIT, take, 0}, {ACTION_ADD, add, 0}, {ACTION_STOP, stop, 0}, {0}};
 
 const struct view ceduo_view_observed = {.title = NP_("view", "seen"),
-                                         .panes = 1,
+                                         .panes = PANES,
                                          .observed = true,
+                                         .build = build,
                                          .draw = draw,
-                                         .acts = {acts},
-                                         .bar = {{ACTION_COUNTS, N_("fit")},
+                                         .acts = {acts, acts},
+                                         .bar = {{ACTION_ADD, N_("add")},
+                                                 {ACTION_COUNTS, N_("fit")},
                                                  {ACTION_EDIT, N_("take the fit")},
                                                  {ACTION_STOP, N_("leave it")},
-                                                 {ACTION_DOWN, N_("read on")},
+                                                 {ACTION_NEXT_PANE, N_("read on")},
                                                  {ACTION_NEXT_OPTION, N_("next option")}}};

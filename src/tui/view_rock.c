@@ -4,6 +4,7 @@
 
 #include "app.h"
 #include "base/language.h"
+#include "popups.h"
 
 /* What comes down: a power law, or a list of classes. */
 static void build_blocks(struct app *app, struct form *form)
@@ -70,9 +71,12 @@ static void draw(struct app *app, struct ceduo_area area)
     ceduo_app_put(app, foot, CEDUO_ROLE_DIM, &text);
 }
 
+static const struct act acts[] = {{ACTION_PRESETS, ceduo_popup_starts, 0}, {0}};
+
 const struct view ceduo_view_rock = {
     .title = NP_("view", "rock"),
     .panes = 1,
     .build = build,
     .draw = draw,
+    .acts = {acts},
     .bar = {{ACTION_EDIT, N_("edit")}, {ACTION_MORE, N_("more")}, {ACTION_LESS, N_("less")}, {ACTION_PRESETS, N_("presets")}}};

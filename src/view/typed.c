@@ -121,11 +121,13 @@ static bool put_spread(const struct field *f, const char *typed, struct text *va
 /* Numbers with blanks between as a list; what is in brackets already is YAML. */
 static bool put_numbers(const struct field *f, const char *typed, struct text *value)
 {
-    double values[32];
+    double values[TYPED_MOST / 2];
     char room[CEDUO_NUMBER_ROOM];
     if (typed[0] == '[')
         return false;
-    size_t n = read_numbers(typed, false, values, 32);
+    size_t n = read_numbers(typed, false, values, TYPED_MOST / 2);
+    if (n == 0) /* no decimal commas: they part */
+        n = read_numbers(typed, true, values, TYPED_MOST / 2);
     for (size_t i = 0; i < n; i++)
         ceduo_text_format(value, "%s%s", i ? ", " : "[", as_file(f, values[i], room));
     ceduo_text_put(value, n > 0 ? "]" : "");

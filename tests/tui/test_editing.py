@@ -463,15 +463,27 @@ def test_cohorts():
 
 
 def test_blocks():
-    """What comes down: a adds a power law, then a class ten times as large and as rare; d takes them out again."""
+    """What comes down: a asks for a class, field by field, and offers one ten times as large and as rare; d takes them out"""
     with Place() as place:
-        none, one, two, gone, saved = place.play("""resize 120 60
+        none, refused, one, asked, two, gone, saved = place.play("""resize 120 60
             key 3
             dump
             find design.survey
             key Up a
+            type viel
+            key Enter
+            dump
+            key Ctrl-U
+            type 1
+            key Enter
+            type 0,05 1
+            key Enter
+            type 1
+            key Enter
             dump
             key a
+            dump
+            key Enter Enter Enter
             dump
             key d d
             dump
@@ -483,6 +495,8 @@ def test_blocks():
             key s
             dump""", "fast.yaml")
         expect_in("none; a adds one", none.body, "no blocks")
+        refused.has("blocks per year: 'viel' is not a number")
+        expect(re.search(r"blocks per year +0\.1_? +volumes, m3 +1 10\b", asked.popup), "what is offered", asked)
         found = [re.findall(r"^\d +(\S+) +(\S+ \S+) +(\S+)$", s.body.split("Blocks that come down")[1], re.M) for s in (one, two)]
         expect_equal(found, [[("1", "0.05 1", "1")], [("1", "0.05 1", "1"), ("0.1", "1 10", "-")]], "blocks")
         expect_in("none; a adds one", gone.body, "after d d")

@@ -199,21 +199,51 @@ def test_unsaved():
     for key, then in (("o", "Open a scene"), ("n", "New scene"), ("q", None)):
         with Place() as place:
             asked, stayed = place.play(f"{edit}key {key}\ndump\nkey Enter\ndump")
-            asked.has("There is unsaved work", "stay", "save it", "discard it")
+            asked.has("There is unsaved work", "n stay", "s save it", "d discard it").lacks("search:")
             stayed.has("* other").lacks("There is unsaved work")
             expect_in("title: fast", place.text("fast.yaml"))
-            script = f"{edit}key {key}\ntype dis\nkey Enter\n"
+            script = f"{edit}key {key}\nkey d\n"
             if then:
                 place.play(script + "dump")[0].has(then)
             else:
                 place.play(script)
             expect_in("title: fast", place.text("fast.yaml"), "discarded")
-            script = f"{edit}key {key}\ntype save\nkey Enter\n"
+            script = f"{edit}key {key}\nkey x s\n"
             if then:
                 place.play(script + "dump")[0].has(then)
             else:
                 place.play(script)
             expect_in("title: other", place.text("fast.yaml"), f"saved before {key}")
+
+
+def test_starts():
+    """p in view 3 takes over the rock of another scene, or how it starts but not where, each as one edit that u takes back"""
+    with Place() as place:
+        list_, rock, start, undone, saved = place.play("""resize 120 50
+            key 3
+            key p
+            dump
+            type rock quarry
+            key Enter
+            dump
+            key p
+            type start quarry
+            key Enter
+            dump
+            key u u
+            dump
+            key Ctrl-R Ctrl-R s
+            dump""")
+        text = place.text("fast.yaml")
+        check_good(place.path, "fast.yaml")
+    list_.has("rock: ", "start: ", "quarry")
+    for name, value in (("shape", "block"), ("axes, m", "0.9 0.7 0.6"), ("diameter, m", None)):
+        found = re.search(rf"^{name} +(.*?)[*]?$", rock.body, re.M)
+        expect_equal(found and found.group(1), value, name)
+    for name, value in (("x, m", "-"), ("height, m", "2"), ("speed along, m/s", "0.5")):
+        expect(re.search(rf"^{name} +{re.escape(value)}[*]?$", start.body, re.M), f"{name} {value}", start)
+    expect(re.search(r"^shape +sphere$", undone.body, re.M) and re.search(r"^speed along, m/s +1$", undone.body, re.M), undone)
+    expect("axes_m" in text and "x_m: 0" not in text.split("slope:")[0], text)
 
 
 def test_picker():
@@ -425,7 +455,7 @@ def test_new_is_data():
 
 def test_popup_bar():
     """The bar has the keys of what lies over the view, and those of the view again once it is closed."""
-    for keys, words in (("p", ("type to search", "Enter choose", "Esc cancel")), ("q", ("Enter choose", "Esc cancel")),
+    for keys, words in (("p", ("type to search", "Enter choose", "Esc cancel")), ("q", ("a letter", "Enter", "Esc cancel")),
                         ("?", ("Up Down", "any other key closes")), ("n", ("Enter next", "Esc one back")),
                         ("w End Enter", ("any other key closes",))):
         for width in (60, 80, 200):

@@ -56,12 +56,81 @@ def test_nothing_seen():
     with Place() as place:
         for size in ("80 24", "200 50"):
             view, key = place.play(f"resize {size}\nwait idle\nkey 8\ndump\nkey c\ndump")
-            says(view, "This scene does not say what was seen on its slope.", "observed:", "c fits the ground to it.")
+            says(view, "This scene does not say what was seen on its slope.", "a asks for what of it is known", "c fits the ground to it.")
             view.lacks("not computed yet", "fallin")
-            key.whole().has("write it under 'observed'").lacks("What is fitted")
-        example = re.search(r"observed:\n(  - .*\n)+", view.body + "\n").group()
-        place.write("seen.yaml", FLIGHT.replace("[60, 0]", "[100, 0]") + "\n".join(line.rstrip() for line in example.split("\n")))
-        check_good(place.path, "seen.yaml")
+            key.whole().has("a asks for it").lacks("What is fitted")
+
+
+def test_typed():
+    """What was seen is typed in field by field: stops, a count, heights, scars; it is edited, deleted, undone, and saved"""
+    with Place() as place:
+        place.write("flight.yaml", FLIGHT.replace("[60, 0]", "[100, 0]"))
+        kinds, stops, refused, wrong, all_, edited, gone, back, saved = place.play("""resize 120 50
+            key 8
+            wait idle
+            key a
+            dump
+            key s
+            type 41 44,5 52 61
+            key Enter
+            type 6
+            key Enter Enter
+            dump
+            key a c
+            type sixty
+            key Enter
+            dump
+            key Ctrl-U
+            type 60
+            key Enter
+            type 9
+            key Enter
+            type 6
+            key Enter
+            dump
+            key Esc Ctrl-U
+            type 2
+            key Enter Enter
+            key a h
+            type 20
+            key Enter
+            type 1.5, 2, 2.5
+            key Enter Enter Enter Enter
+            key a d
+            type 10
+            key Enter
+            type 30
+            key Enter
+            type 0,8 1,1
+            key Enter Enter Enter
+            dump
+            find observed[1].passed.count
+            set 3
+            dump
+            key d
+            dump
+            key u
+            dump
+            wait idle
+            key s
+            dump""", "flight.yaml")
+        text = place.text("flight.yaml")
+        check_good(place.path, "flight.yaml")
+    kinds.has("What was seen?", "s stops", "c a count", "h heights", "d damaged stems").lacks("search:")
+    stops.has("added; u takes it back")
+    expect(re.search(r"^1 +41 44\.5 52 61 +6 +-$", stops.body, re.M), stops)
+    refused.has("'sixty' is not a number")
+    wrong.has("how many passed a place")
+    expect_in(" 9 were seen of 6 released", wrong.popup, "nine of six")
+    for row in (r"2 +60 +2 +6", r"3 +20 +1\.5 2 2\.5 +- +- +-", r"4 +10 +30 +0\.8 1\.1 +- +-"):
+        expect(re.search(rf"^{row}$", all_.body, re.M), row, all_)
+    expect(re.search(r"^2 +60 +3 +6$", edited.body, re.M), edited)
+    gone.lacks("a count: how many passed").has("deleted: ")
+    expect(re.search(r"^2 +60 +3 +6$", back.body, re.M), back)
+    saved.has("saved flight.yaml")
+    for words in ("stops: {x_m: [41, 44.5, 52, 61], of: 6}", "passed: {x_m: 60, count: 3, of: 6}", "height: {x_m: 20, values: [1.5, 2, 2.5]}",
+                  "scars: {from_m: 10, to_m: 30, height_m: [0.8, 1.1]}"):
+        expect_in(words, text, "the file")
 
 
 def says(screen, *parts):
@@ -79,7 +148,7 @@ def test_rows():
     """Means and counts beside the closed form: 95 % of the error of what was seen around the flight's speed, all pass"""
     with Place() as place:
         place.write("flight.yaml", FLIGHT + SEEN)
-        screens = place.play("key 8\nwait idle\ndump\nresize 200 50\ndump", "flight.yaml")
+        screens = place.play("key 8 Tab\nwait idle\ndump\nresize 200 50\ndump", "flight.yaml")
     half = 1.96 * 0.5 / math.sqrt(5)
     lo, hi = (speed_at_gate(10) + side * half for side in (-1, 1))
     for screen in screens:
@@ -185,8 +254,8 @@ def test_fit_left():
     with Place() as place:
         place.write("flight.yaml", FLIGHT + SEEN)
         stopped, done, left, edited = place.play(
-            "key 8\nwait idle\nkey c Enter Esc\nwait idle\ndump\nkey c Enter\nwait idle\ndump\nkey Esc\nwait idle\ndump\n"
-            "key c Enter\nkey 3\nfind rock.diameter_m\nset 0.6\nkey 8\nwait idle\ndump", "flight.yaml")
+            "key 8 Tab\nwait idle\nkey c Enter Esc\nwait idle\ndump\nkey c Enter\nwait idle\ndump\nkey Esc\nwait idle\ndump\n"
+            "key c Enter\nkey 3\nfind rock.diameter_m\nset 0.6\nkey 8 Tab\nwait idle\ndump", "flight.yaml")
         expect_equal(place.text("flight.yaml"), FLIGHT + SEEN)
     done.has("Fitted.")
     for screen in (stopped, left):
@@ -219,7 +288,7 @@ def test_grounds():
         place.write("unsaid.yaml", re.sub(r"slope:\n.*\n  materials:\n.*\n.*\n", "slope: {csv: ground.csv}\n", GROUNDS))
         place.write("check.yaml", (GROUNDS % "talus").replace("of: 6}", "of: 6}\n    use: check"))
         look, smallest, wide, popup = place.play(
-            "key 8\nwait idle\ndump\nresize 60 20\ndump\nresize 200 50\ndump\nkey c\ndump", "two.yaml")
+            "key 8 Tab\nwait idle\ndump\nresize 60 20\ndump\nresize 200 50\ndump\nkey c\ndump", "two.yaml")
         smallest.whole().has("mean or count")
         length, = place.play("key 8\nresize 200 50\nkey c\ndump", "length.yaml")
         place.write("mu.yaml", (GROUNDS % "talus").replace("slope:", "doubt: [{path: 'slope.materials[talus].mu', lo: 0.4, hi: 0.9}]\nslope:")
@@ -245,7 +314,7 @@ def test_quarry():
     """The quarry: its first guess does not give the 50 stops; a fit of two values does, and is taken"""
     with Place() as place:
         small, large, fitted, taken = place.play(
-            "key 8\nwait idle\ndump\nresize 200 50\ndump\nkey c Enter Enter Ctrl-U Backspace Enter Ctrl-U Backspace Enter\n"
+            "key 8 Tab\nwait idle\ndump\nresize 200 50\ndump\nkey c Enter Enter Ctrl-U Backspace Enter Ctrl-U Backspace Enter\n"
             "wait idle\ndump\nkey Enter\nwait idle\ndump", "quarry")
     for screen in (small, large):
         says(screen, "farther:", "does not give what was seen: stops")
