@@ -63,6 +63,7 @@ struct arguments {
     double find_lo, find_hi;
     enum ceduo_goal goal;
     double goal_value;   /* NaN: the light's own limit */
+    double sure;         /* share of what may be true in which the goal is reached; 0: not asked for */
     size_t points;       /* of --sensitivity */
     const char *survey;  /* a CSV file of plots; NULL: none */
     const char *each;    /* a CSV file of which each row changes the scenes; NULL: none */

@@ -110,6 +110,8 @@ static enum exit_status check_arguments(const struct arguments *a)
         return ceduo_usage(NULL, _("--find requires a --goal"));
     if (ceduo_option_given(a, "goal") && a->mode != MODE_FIND)
         return ceduo_usage(NULL, _("--goal requires --find"));
+    if (ceduo_option_given(a, "sure") && a->mode != MODE_FIND)
+        return ceduo_usage(NULL, _("--sure requires --find"));
     if (a->mode == MODE_FIND && !ceduo_goals[a->goal].usual && isnan(a->goal_value))
         return ceduo_usage(NULL, a->goal == CEDUO_GOAL_ENERGY
                                      ? _("--goal energy needs the mean energy in kJ, such as energy=50")

@@ -103,6 +103,15 @@ static enum exit_status set_tolerance(struct arguments *a, const struct option_r
     return EXIT_DONE;
 }
 
+static enum exit_status set_sure(struct arguments *a, const struct option_row *row, char *value)
+{
+    if (ceduo_number_read(value, &a->sure) != CEDUO_NUMBER_GOOD)
+        return ceduo_usage(row->name, _("'%s' is not a number"), value);
+    if (!(a->sure > 0) || !(a->sure <= 1))
+        return ceduo_usage(row->name, _("%s is not a share; write 0.9 for nine of ten cases"), value);
+    return EXIT_DONE;
+}
+
 static enum exit_status set_plot(struct arguments *a, const struct option_row *row, char *value)
 {
     a->plot = ceduo_plot_find(value);
@@ -300,6 +309,8 @@ static const struct option_row rows[] = {
      N_("find the value of a parameter that reaches --goal at the worst control")},
     {"goal", 0, "GOAL[=VALUE]", set_goal, 0, MODE_TERMINAL, CHECK | SURVEY,
      N_("adc, free-run (at most the light's limit), energy (mean kJ) or exceed (share, 0.05)")},
+    {"sure", 0, "SHARE", set_sure, 0, MODE_TERMINAL, CHECK | SURVEY,
+     N_("with --find: also the value that reaches the goal in this share of what may be true, such as 0.9")},
     {"sensitivity", 0, "[=N]", set_sensitivity, 0, MODE_SENSITIVITY, CHECK | SURVEY,
      N_("show how sure the result is, and what that depends on; N points (256)")},
     {"report", 0, "FILE", set_report, 0, MODE_REPORT, CHECK | SURVEY,

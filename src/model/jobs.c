@@ -155,6 +155,7 @@ static enum ceduo_status step_search(struct jobs *q, struct job *job, void **res
     answer->target = search.def.target;
     answer->rotation = search.def.rotation;
     answer->yield = search.yield;
+    answer->sure = search.sure;
     ceduo_arena_free(&job->file.arena);
     return answer->status == CEDUO_CANCELLED || answer->status == CEDUO_NO_MEMORY ? answer->status : CEDUO_OK;
 }

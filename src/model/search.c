@@ -7,8 +7,15 @@
 
 #include "base/language.h"
 #include "ceduo/question.h"
+#include "io/doubt_inputs.h"
 #include "io/resolve.h"
 #include "scene/schema.h"
+#include "scene/value.h"
+#include "study/inputs.h"
+#include "study/sure.h"
+
+#define SURE_MAX       128  /* values looked at under doubt */
+#define SURE_TOLERANCE 1e-3 /* of the range: what so few points tell is no finer */
 
 /* ---- what kind of number it is ---- */
 
@@ -62,6 +69,132 @@ static enum ceduo_status goal_at(void *context, double value, double *goal)
     return status;
 }
 
+/* ---- one value, under doubt ---- */
+
+/* An input of the option without the places where the searched value stands; false where nothing is left. */
+static bool leave_input(struct search *s, const struct value *searched, struct ceduo_input *input)
+{
+    struct arena *arena = &s->file->arena;
+    const char **places = ceduo_arena_take(arena, input->places_count * sizeof *places);
+    const double **draws = ceduo_arena_take(arena, input->places_count * sizeof *draws);
+    size_t n = 0;
+    for (size_t i = 0; places && draws && i < input->places_count; i++) {
+        struct value place;
+        if (searched->at && ceduo_value_find(&s->file->scene, input->places[i], &place) && place.at == searched->at)
+            continue;
+        places[n] = input->places[i];
+        draws[n++] = input->draws ? input->draws[i] : NULL;
+    }
+    input->places = places;
+    input->draws = input->draws ? draws : NULL;
+    input->places_count = n;
+    return n > 0 && ceduo_input_is_of(input, s->def.option);
+}
+
+/* What is known under doubt of the scene at a value. */
+static enum ceduo_status ask_sure(struct search *s, double value, struct sure_answer *answer)
+{
+    struct scene_inputs inputs;
+    struct value searched;
+    size_t n = 0;
+    if (!set_value(s, value))
+        return CEDUO_BAD_SLOPE; /* reported in problems */
+    if (!ceduo_inputs_of(s->file, &inputs))
+        return CEDUO_NO_MEMORY;
+    if (!ceduo_value_find(&s->file->scene, s->def.path, &searched))
+        searched.at = NULL;
+    for (size_t i = 0; i < inputs.n; i++)
+        if (leave_input(s, &searched, &inputs.items[i]))
+            inputs.items[n++] = inputs.items[i];
+    if (s->file->arena.failed)
+        return CEDUO_NO_MEMORY;
+    s->sure.inputs = n;
+    return ceduo_sure_ask(&(const struct sure_def){.scene = &s->file->scene,
+                                                   .inputs_count = n,
+                                                   .inputs = inputs.items,
+                                                   .option = s->def.option,
+                                                   .goal = s->def.goal,
+                                                   .target = s->passes,
+                                                   .sure = s->def.sure,
+                                                   .rotation = s->def.rotation,
+                                                   .points = s->sure.points,
+                                                   .rocks = s->sure.rocks,
+                                                   .threads = s->threads,
+                                                   .cancel = s->cancel},
+                          answer);
+}
+
+/* What was asked. */
+struct known_sure {
+    double value;
+    struct sure_answer answer;
+};
+
+struct sure_search {
+    struct search *search;
+    bool whole;
+    size_t count;
+    struct known_sure known[SURE_MAX];
+};
+
+static enum ceduo_status ask_once(struct sure_search *s, double value, struct sure_answer *answer)
+{
+    for (size_t i = 0; i < s->count; i++)
+        if (s->known[i].value == value) {
+            *answer = s->known[i].answer;
+            return CEDUO_OK;
+        }
+    enum ceduo_status status = ask_sure(s->search, value, answer);
+    if (status == CEDUO_OK && s->count < SURE_MAX)
+        s->known[s->count++] = (struct known_sure){value, *answer};
+    return status;
+}
+
+/* A whole value stands for all that are nearest to it. */
+static enum ceduo_status above_at(void *context, double value, double *above)
+{
+    struct sure_search *s = context;
+    struct sure_answer answer;
+    enum ceduo_status status = ask_once(s, s->whole ? round(value) : value, &answer);
+    *above = status == CEDUO_OK ? answer.above : NAN;
+    return status;
+}
+
+/* The same search for the value that is sure; as the goal of so much of what may be true is smooth, by few values. Where nothing is
+ * in doubt there is no such search. */
+static enum ceduo_status search_sure(struct search *s, const struct ceduo_find_def *plain, const struct ceduo_found *found)
+{
+    struct ceduo_find_def def = *plain;
+    struct sure_search sure = {.search = s, .whole = plain->whole};
+    struct sure_answer answer;
+    struct ceduo_found *to = &s->sure.found;
+    s->sure = (struct ceduo_sure){.sure = s->def.sure,
+                                  .points = CEDUO_DOUBT_POINTS,
+                                  .rocks = s->def.sure_rocks > 0 ? s->def.sure_rocks : CEDUO_DOUBT_ROCKS};
+    double value = found->found ? found->value : isnan(found->nearest) ? plain->hi : found->nearest;
+    enum ceduo_status status = ask_once(&sure, value, &answer);
+    if (status != CEDUO_OK || s->sure.inputs == 0)
+        return status;
+    def.tolerance = SURE_TOLERANCE;
+    if (def.whole) {
+        def.lo = ceil(def.lo), def.hi = floor(def.hi);
+        def.whole = false;
+        def.tolerance = def.hi > def.lo ? .5 / (def.hi - def.lo) : 0;
+    }
+    def.goal = above_at;
+    def.context = &sure;
+    def.target = 0;
+    status = ceduo_find(&def, to);
+    if (sure.whole)
+        to->value = round(to->value), to->nearest = round(to->nearest);
+    value = to->found ? to->value : to->nearest;
+    if (status == CEDUO_OK && !isnan(value))
+        status = ask_once(&sure, value, &answer);
+    s->sure.share = answer.share;
+    to->evaluations = (unsigned)sure.count;
+    return status;
+}
+
 /* What the option yields at a value. */
 static void read_yield(struct search *s, double value, enum ceduo_status status)
 {
@@ -77,6 +210,8 @@ static void read_yield(struct search *s, double value, enum ceduo_status status)
 /* ---- the search ---- */
 
 static const struct source goal_source = {.name = "--goal", .is_option = true};
+
+static const struct source sure_source = {.name = "--sure", .is_option = true};
 
 static const struct source path_source = {.name = "--find", .is_option = true};
 
@@ -97,6 +232,11 @@ static bool is_askable(const struct search *s)
     if (needs_accepted && s->file->scene.simulation.contact_model == CEDUO_INDEX) {
         ceduo_problem(s->problems, &goal_source, 0, 0,
                       _("exceed: with contact_model index no rock is simulated in the forest"));
+        return false;
+    }
+    if (s->def.sure > 0 && s->def.rotation && s->def.goal == CEDUO_GOAL_ENERGY) {
+        ceduo_problem(s->problems, &sure_source, 0, 0,
+                      _("over a rotation the mean energy is not known at each point; use the goal exceed or arrive"));
         return false;
     }
     return true;
@@ -123,8 +263,11 @@ enum ceduo_status ceduo_search(struct search *s, struct ceduo_found *found, stru
                                  .context = s,
                                  .tolerance = 1e-4,
                                  .cancel = s->cancel};
+    s->passes = def.target;
     enum ceduo_status status = ceduo_find(&def, found);
     ceduo_pool_free(s->pool);
+    if (status == CEDUO_OK && s->def.sure > 0)
+        status = search_sure(s, &def, found);
     read_yield(s, found->found ? found->value : found->nearest, status);
     return status;
 }

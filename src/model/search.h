@@ -17,15 +17,18 @@ struct search {
     struct ceduo_search def;
     unsigned threads;
     const atomic_bool *cancel; /* may be NULL */
-    struct ceduo_yield yield;  /* of the option at the value that was found, or else comes nearest: without fellings; NaN
+    struct ceduo_sure sure;
+    struct ceduo_yield yield; /* of the option at the value that was found, or else comes nearest: without fellings; NaN
                                 * where it is not known */
     /* while it is under way */
     struct problems *problems;
+    double passes;           /* the largest goal that is reached */
     const struct node *root; /* of the scene as it was read */
     struct ceduo_pool *pool; /* runs kept from value to value */
 };
 
-/* Looks for it. A wrong path or range is reported in `problems`. CEDUO_OK also where nothing is found. */
+/* Looks for it; with `sure` then for the value that reaches the goal in so much of what may be true. At each value the doubt is
+ * that of the scene with it, at the same points and with the same rocks, but for the value itself: who sets it knows it. A wrong path or range is reported in `problems`. CEDUO_OK also where nothing is found. */
 enum ceduo_status ceduo_search(struct search *search, struct ceduo_found *found, struct problems *problems);
 
 /* What a search came to. */
@@ -35,6 +38,7 @@ struct search_answer {
     bool rotation;            /* over one whole rotation */
     struct ceduo_yield yield; /* at that value */
     struct ceduo_found found;
+    struct ceduo_sure sure; /* and under doubt */
     struct problems problems;
 };
 

@@ -13,6 +13,7 @@
 #include "base/parallel.h"
 #include "ceduo/assess.h"
 #include "ceduo/question.h"
+#include "inputs.h"
 #include "points.h"
 
 #define GROUPS CEDUO_SURFACE_GROUPS
@@ -215,17 +216,6 @@ static struct ceduo_groups value_at(const struct rows *r, size_t row, size_t opt
     return y;
 }
 
-/* Whether an option has the input: it has no places in other options alone. */
-static bool has_input(size_t option, const struct ceduo_input *input)
-{
-    for (size_t i = 0; i < input->places_count; i++) {
-        const char *place = input->places[i];
-        if (strncmp(place, "options[", 8) != 0 || strtoul(place + 8, NULL, 10) == option)
-            return true;
-    }
-    return false;
-}
-
 /* The indices of n values, the smallest first, equal ones in their order. */
 static void sort_indices(const double *values, size_t n, size_t *order)
 {
@@ -272,7 +262,7 @@ static enum ceduo_status open_subject(const struct rows *r, size_t option, size_
     if (!s->uses || !s->room || !s->column)
         return CEDUO_NO_MEMORY;
     for (size_t i = 0; i < n; i++)
-        s->uses[i] = has_input(option, &r->def->inputs[i]) || has_input(against, &r->def->inputs[i]);
+        s->uses[i] = ceduo_input_is_of(&r->def->inputs[i], option) || ceduo_input_is_of(&r->def->inputs[i], against);
     return status;
 }
 

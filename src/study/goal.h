@@ -3,6 +3,8 @@
 #define CEDUO_GOAL_H
 
 #include "base/text.h"
+#include "ceduo/find.h"
+#include "ceduo/surface.h"
 #include "ceduo/years.h"
 
 /* What a search for one number of a scene can ask for at the worst control. A goal is a name here, a row in goal.c and its
@@ -50,7 +52,19 @@ struct ceduo_search {
     double target; /* in the goal's unit; NaN: the light's limit, and set to it */
     double lo, hi; /* in the file's units */
     uint64_t rocks;
-    bool rotation; /* over one whole rotation, not today: set where the parameter decides about the years alone */
+    bool rotation;       /* over one whole rotation, not today: set where the parameter decides about the years alone */
+    double sure;         /* in how much of what may be true the goal is to be reached as well, up to 1; 0: it is not asked */
+    uint64_t sure_rocks; /* of each point of that; 0: CEDUO_DOUBT_ROCKS */
+};
+
+/* What a search under doubt came to. */
+struct ceduo_sure {
+    double sure;              /* what was asked for; 0: nothing */
+    size_t inputs;            /* what is in doubt of the option, but for the value itself; 0: nothing, nothing was computed */
+    struct ceduo_found found; /* its goals are those of no one */
+    struct ceduo_share share; /* the share in which it is, at the value found or else comes nearest */
+    size_t points;
+    uint64_t rocks; /* of each */
 };
 
 #endif

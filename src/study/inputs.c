@@ -3,6 +3,7 @@
 
 #include <gsl/gsl_cdf.h>
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "scene/value.h"
@@ -92,6 +93,16 @@ enum ceduo_status ceduo_inputs_open(struct input_scene *copy, const struct ceduo
 void ceduo_inputs_release(struct input_scene *copy)
 {
     ceduo_arena_free(&copy->arena);
+}
+
+bool ceduo_input_is_of(const struct ceduo_input *input, size_t option)
+{
+    for (size_t i = 0; i < input->places_count; i++) {
+        const char *place = input->places[i];
+        if (strncmp(place, "options[", 8) != 0 || strtoul(place + 8, NULL, 10) == option)
+            return true;
+    }
+    return false;
 }
 
 /* ---- setting ---- */

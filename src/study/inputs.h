@@ -21,6 +21,9 @@ enum ceduo_status ceduo_inputs_open(struct input_scene *copy, const struct ceduo
                                     size_t n);
 void ceduo_inputs_release(struct input_scene *copy);
 
+/* Whether an option has the input: it has a place elsewhere than in other options. */
+bool ceduo_input_is_of(const struct ceduo_input *input, size_t option);
+
 /* Sets each input to the value at u[i] of its range, 0…1; NaN: as the scene has it. Shoots that are given per stool follow
  * the stools, unless their per_ha is an input. A stand whose stools would be more than its shoots has as many stools as
  * shoots. */

@@ -103,6 +103,13 @@ static const void *search_of(const void *find)
     return ((const struct ceduo_find_report *)find)->search;
 }
 
+/* Where nothing is in doubt nothing was computed. */
+static const void *sure_of(const void *find)
+{
+    const struct ceduo_sure *sure = ((const struct ceduo_find_report *)find)->sure;
+    return sure && sure->inputs > 0 ? sure : NULL;
+}
+
 static const void *found_yield_of(const void *find)
 {
     const struct ceduo_yield *yield = ((const struct ceduo_find_report *)find)->yield;
@@ -221,6 +228,11 @@ VALUE(find_option, find_report, TEXT, WORD(o->file->scene.options[o->search->opt
 VALUE(goal_of, search, TEXT, WORD(ceduo_goals[o->goal].word))
 VALUE(over_of, search, TEXT, WORD(o->rotation ? "rotation" : "today"))
 VALUE(side_of, found, TEXT, WORD(!o->found ? NULL : o->side == CEDUO_SMALLEST ? "smallest" : "largest"))
+VALUE(sure_side, sure, TEXT, WORD(!o->found.found ? NULL : o->found.side == CEDUO_SMALLEST ? "smallest" : "largest"))
+VALUE(sure_probability, sure, NUMBER, NUMBER(o->found.found ? o->share.value : NAN))
+VALUE(sure_error, sure, NUMBER, NUMBER(o->found.found ? o->share.se : NAN))
+VALUE(sure_nearest, sure, NUMBER, NUMBER(o->found.found ? NAN : o->found.nearest))
+VALUE(sure_at_nearest, sure, NUMBER, NUMBER(o->found.found ? NAN : o->share.value))
 VALUE(nearest_of, found, NUMBER, NUMBER(o->found ? NAN : o->nearest))
 VALUE(nearest_goal, found, NUMBER, NUMBER(o->found ? NAN : o->goal_at_nearest))
 
@@ -620,6 +632,21 @@ static const struct ceduo_figure goal_rows[] = {
     {"nearest", "", "value that comes nearest", .from = found_of, .value = nearest_of, .null = ONE},
     {"goal_at_nearest", "", "goal at that value", .from = found_of, .value = nearest_goal, .null = ONE},
     END};
+#define NOT_SURE "--sure is not given, or nothing is in doubt"
+static const struct ceduo_figure sure_rows[] = {
+    {"wanted", "", "share of what may be true in which the goal is to be reached", AT(sure, sure)},
+    {"found", "", "whether a value reaches it in so much", AT(sure, found.found)},
+    {"value", "", "the value", AT(sure, found.value), .null = NONE},
+    {"side", "", "smallest or largest: which of the values that do this is", .value = sure_side, .null = NONE},
+    {"probability", "", "share of what may be true in which this value reaches the goal", .value = sure_probability,
+     .null = NONE},
+    {"probability_se", "", "its standard error, by the points and by the rocks", .value = sure_error, .null = NONE},
+    {"nearest", "", "value that is surest", .value = sure_nearest, .null = ONE},
+    {"probability_at_nearest", "", "share in which that reaches the goal", .value = sure_at_nearest, .null = ONE},
+    {"evaluations", "", "values looked at", AT(sure, found.evaluations)},
+    {"points", "", "points of what may be true, for each", AT(sure, points)},
+    {"rocks", "", "rocks at each point", AT(sure, rocks)},
+    END};
 static const struct ceduo_figure search_rows[] = {
     {"monotone", "", "whether the goal only rises or only falls over the range", .from = found_of, AT(found, monotone)},
     {"evaluations", "", "values looked at", .from = found_of, AT(found, evaluations)},
@@ -628,6 +655,7 @@ static const struct ceduo_figure search_rows[] = {
      .from = search_of, .value = over_of},
     {"yield", "", "stem wood that the option yields at this value", .from = found_yield_of, .of = yield_rows,
      .null = NO_GROWTH},
+    {"sure", "", "the same search under doubt", .from = sure_of, .of = sure_rows, .null = NOT_SURE},
     END};
 
 const struct ceduo_figure ceduo_find_figures[] = {{"format", "", "always ceduo-find-1", .value = find_format},

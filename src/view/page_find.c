@@ -26,6 +26,23 @@ static double shown(const struct ceduo_search *s, const struct ceduo_found *f)
                                      : fmax(s->lo, floor(f->value * scale) / scale);
 }
 
+/* The value that is sure. */
+static void append_sure(struct text *text, const struct ceduo_search *s, const struct ceduo_sure *sure)
+{
+    const struct ceduo_found *f = &sure->found;
+    double wanted = sure->sure * 100, reached = sure->share.value * 100, error = 196 * sure->share.se;
+    if (sure->inputs == 0)
+        ceduo_text_put(text, _("nothing else is in doubt: that holds as far as the scene does"));
+    else if (!f->found)
+        ceduo_text_format(text, _("no value is sure in %g %% of what may be true; nearest: %s, in %.0f %% (\xc2\xb1%.0f)"),
+                          wanted, SHORTEST(f->nearest), reached, error);
+    else if (f->whole_range)
+        ceduo_text_format(text, _("every value of the range is sure in %g %% of what may be true"), wanted);
+    else
+        ceduo_text_format(text, _("to be sure in %g %% of what may be true: %s (reaches it in %.0f %%, \xc2\xb1%.0f)"), wanted,
+                          SHORTEST(shown(s, f)), reached, error);
+}
+
 void ceduo_find_page(struct text *text, const struct ceduo_find_report *report)
 {
     const struct ceduo_search *s = report->search;
@@ -60,6 +77,11 @@ void ceduo_find_page(struct text *text, const struct ceduo_find_report *report)
     if (report->yield && !isnan(report->yield->cut_per_year)) {
         ceduo_text_then(text, "  ", _("yield: %.3g m\xc2\xb3 felled per hectare and year, %.3g m\xc2\xb3 standing per hectare"),
                         report->yield->cut_per_year, report->yield->standing);
+        ceduo_text_char(text, '\n');
+    }
+    if (s->sure > 0) {
+        ceduo_text_put(text, "  ");
+        append_sure(text, s, report->sure);
         ceduo_text_char(text, '\n');
     }
     if (!f->monotone)

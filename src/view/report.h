@@ -45,6 +45,7 @@ struct ceduo_find_report {
     const struct ceduo_search *search;
     const struct ceduo_found *found;
     const struct ceduo_yield *yield; /* at that value; NaN where it is not known; NULL: none */
+    const struct ceduo_sure *sure;
 };
 void ceduo_find_page(struct text *text, const struct ceduo_find_report *report);
 void ceduo_find_json(struct text *text, const struct ceduo_find_report *report); /* one line, "ceduo-find-1" */

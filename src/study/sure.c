@@ -1,0 +1,212 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The scene is computed at points of what may be true (points.c). At each point the goal is that of the worst control; over a
+ * rotation shares of the rocks are means over the years, and what hangs on the index alone is that of the worst year. */
+#include "sure.h"
+
+#include <gsl/gsl_sort.h>
+#include <math.h>
+#include <stdlib.h>
+
+#include "ceduo/assess.h"
+#include "points.h"
+
+#define GROUPS CEDUO_SURFACE_GROUPS
+
+struct sure {
+    const struct sure_def *def;
+    size_t slots; /* of each point and control: today, or years */
+    struct ceduo_groups *values;
+};
+
+static struct ceduo_groups *values_of(const struct sure *s, size_t row, size_t control)
+{
+    return s->values + (row * s->def->scene->controls_count + control) * s->slots;
+}
+
+/* An ADC has no end where nothing stands; its inverse has. The other goals are as they are. */
+static double scaled(enum ceduo_goal goal, double value)
+{
+    return goal == CEDUO_GOAL_ADC ? -1 / value : value;
+}
+
+/* What a goal is at a control of which the index says all. */
+static double index_value(enum ceduo_goal goal, const struct ceduo_index *index)
+{
+    return scaled(goal, goal == CEDUO_GOAL_ADC ? index->worst_adc : index->worst_free_run);
+}
+
+/* The mean energy of what arrives, in kJ, of all the groups' rocks; groups differ by what they bring to that mean. By the index it is
+ * what this leaves of the mean. */
+static struct ceduo_groups energy_of(const struct point *point, const struct ceduo_control *control,
+                                     const struct ceduo_brief *briefs)
+{
+    struct ceduo_groups y = {{0}};
+    double reach = 0, energy = 0;
+    for (size_t g = 0; g < GROUPS; g++) {
+        reach += briefs[g].reach_probability / GROUPS;
+        energy += briefs[g].energy_per_released / GROUPS;
+    }
+    if (reach == 0)
+        return y;
+    double mean = energy / reach, left = mean;
+    if (point->scene->simulation.contact_model == CEDUO_INDEX)
+        left = ceduo_assess_index(point->scene, point->forest, control, mean).residual;
+    for (size_t g = 0; g < GROUPS && left > 0; g++)
+        y.of[g] = (left + (briefs[g].energy_per_released - mean * briefs[g].reach_probability) / reach) * 1e-3;
+    return y;
+}
+
+static struct ceduo_groups value_of(const struct sure *s, const struct point *point, size_t control, struct ceduo_run *run)
+{
+    const struct ceduo_control *at = &point->scene->controls[control];
+    enum ceduo_goal goal = s->def->goal;
+    struct ceduo_groups y;
+    struct ceduo_brief briefs[GROUPS];
+    if (!run) {
+        struct ceduo_index index = ceduo_assess_index(point->scene, point->forest, at, NAN);
+        for (size_t g = 0; g < GROUPS; g++)
+            y.of[g] = index_value(goal, &index);
+        return y;
+    }
+    ceduo_run_briefs(run, control, GROUPS, briefs);
+    if (goal == CEDUO_GOAL_ENERGY)
+        return energy_of(point, at, briefs);
+    for (size_t g = 0; g < GROUPS; g++)
+        y.of[g] = goal == CEDUO_GOAL_EXCEED ? briefs[g].exceed_probability : briefs[g].reach_probability;
+    return y;
+}
+
+static size_t slot_of(const struct point *point)
+{
+    return point->slot > 0 ? point->slot - 1 : 0;
+}
+
+static enum ceduo_status read_point(void *context, const struct point *point, struct ceduo_run *run)
+{
+    const struct sure *s = context;
+    for (size_t c = 0; c < s->def->scene->controls_count; c++)
+        values_of(s, point->row, c)[slot_of(point)] = value_of(s, point, c, run);
+    return CEDUO_OK;
+}
+
+static void same_point(void *context, const struct point *point, const struct point *first)
+{
+    const struct sure *s = context;
+    for (size_t c = 0; c < s->def->scene->controls_count; c++)
+        values_of(s, point->row, c)[slot_of(point)] = values_of(s, first->row, c)[slot_of(first)];
+}
+
+static double mean_of(const struct ceduo_groups *y)
+{
+    double mean = 0;
+    for (size_t g = 0; g < GROUPS; g++)
+        mean += y->of[g] / GROUPS;
+    return mean;
+}
+
+/* The mean of the years, or the worst of them. */
+static struct ceduo_groups over_years(const struct sure *s, const struct ceduo_groups *years)
+{
+    struct ceduo_groups y = years[0];
+    for (size_t k = 1; k < s->slots && !ceduo_goal_is_mean(s->def->goal); k++)
+        y = mean_of(&years[k]) > mean_of(&y) ? years[k] : y;
+    for (size_t g = 0; g < GROUPS && ceduo_goal_is_mean(s->def->goal); g++) {
+        y.of[g] = 0;
+        for (size_t k = 0; k < s->slots; k++)
+            y.of[g] += years[k].of[g] / (double)s->slots;
+    }
+    return y;
+}
+
+/* Of each point the worst control, to its first place. */
+static void read_points(const struct sure *s, size_t points, struct ceduo_groups *column)
+{
+    for (size_t p = 0; p < points; p++)
+        for (size_t c = 0; c < s->def->scene->controls_count; c++) {
+            struct ceduo_groups y = over_years(s, values_of(s, p, c));
+            if (c == 0 || mean_of(&y) > mean_of(&column[p]))
+                column[p] = y;
+        }
+}
+
+static enum ceduo_status run_points(struct sure *s, const double *u, size_t points)
+{
+    const struct sure_def *def = s->def;
+    bool flies = ceduo_goals[def->goal].flies;
+    size_t *years = calloc(def->scene->options_count, sizeof *years);
+    if (!years)
+        return CEDUO_NO_MEMORY;
+    years[def->option] = def->rotation ? s->slots : 0;
+    const struct points p = {.scene = def->scene,
+                             .inputs = def->inputs,
+                             .inputs_count = def->inputs_count,
+                             .u = u,
+                             .only = def->option,
+                             .rocks = !flies                ? 0
+                                      : def->rocks > GROUPS ? def->rocks
+                                                            : GROUPS,
+                             .today = !def->rotation,
+                             .years = years,
+                             .year_rocks = flies ? CEDUO_DOUBT_YEAR_ROCKS : 0,
+                             .threads = def->threads,
+                             .cancel = def->cancel,
+                             .read = read_point,
+                             .same = same_point,
+                             .context = s};
+    enum ceduo_status status = ceduo_points_run(&p, 0, points, 0);
+    free(years);
+    return status;
+}
+
+/* What the values of a surface say. */
+static enum ceduo_status read_surface(const struct sure_def *def, const double *u, size_t points,
+                                      const struct ceduo_groups *column, struct sure_answer *answer)
+{
+    struct ceduo_surface *surface;
+    struct ceduo_surface_fit fit = {0};
+    bool inverse = def->goal == CEDUO_GOAL_ADC; /* below 0, as nothing else is */
+    const struct ceduo_surface_figure figure = {.y = column,
+                                                .lo = inverse ? -INFINITY : 0,
+                                                .hi = inverse                          ? 0
+                                                      : ceduo_goal_is_share(def->goal) ? 1
+                                                                                       : INFINITY,
+                                                .limit = scaled(def->goal, def->target)};
+    enum ceduo_status status = ceduo_surface_open(def->inputs, def->inputs_count, u, points, &surface);
+    if (status == CEDUO_OK)
+        status = ceduo_surface_fit(surface, &figure, &fit);
+    if (status == CEDUO_OK) {
+        gsl_sort(fit.values, 1, points);
+        *answer = (struct sure_answer){fit.below, ceduo_quantile(fit.values, points, def->sure) - figure.limit};
+    }
+    ceduo_surface_release(&fit);
+    ceduo_surface_free(surface);
+    return status;
+}
+
+enum ceduo_status ceduo_sure_ask(const struct sure_def *def, struct sure_answer *answer)
+{
+    const struct ceduo_scene *scene = def->scene;
+    size_t points = def->inputs_count > 0 ? def->points : 1, n = def->inputs_count;
+    struct sure s = {.def = def, .slots = 1};
+    if (def->rotation)
+        s.slots = ceduo_points_years(scene, &scene->options[def->option], (struct ceduo_window){0}, CEDUO_DOUBT_YEARS_MAX);
+    double *u = malloc((points * n + 1) * sizeof *u);
+    struct ceduo_groups *column = malloc(points * sizeof *column);
+    s.values = malloc(points * scene->controls_count * s.slots * sizeof *s.values + 1);
+    enum ceduo_status status = u && column && s.values ? CEDUO_OK : CEDUO_NO_MEMORY;
+    if (status == CEDUO_OK && n > 0)
+        status = ceduo_surface_points(scene->simulation.seed, points, n, u);
+    if (status == CEDUO_OK)
+        status = run_points(&s, u, points);
+    if (status == CEDUO_OK) {
+        read_points(&s, points, column);
+        answer->above = mean_of(column) - scaled(def->goal, def->target);
+        answer->share = (struct ceduo_share){answer->above <= 0, 0};
+        if (n > 0)
+            status = read_surface(def, u, points, column, answer);
+    }
+    free(u);
+    free(column);
+    free(s.values);
+    return status;
+}

@@ -1,0 +1,35 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef CEDUO_SURE_H
+#define CEDUO_SURE_H
+
+#include "ceduo/doubt.h"
+#include "goal.h"
+
+/* In how much of what may be true of a scene an option reaches a goal. */
+struct sure_def {
+    const struct ceduo_scene *scene;
+    size_t inputs_count; /* those that the option has, see ceduo_input_is_of() */
+    const struct ceduo_input *inputs;
+    size_t option;
+    enum ceduo_goal goal;
+    double target;  /* a goal up to it is reached; */
+    double sure;    /* in so much of what may be true */
+    bool rotation;  /* over the option's rotation: not of CEDUO_GOAL_ENERGY */
+    size_t points;  /* >= 2 */
+    uint64_t rocks; /* of each, today: CEDUO_SURFACE_GROUPS at least are taken; in a rotation each year has its own number */
+    unsigned threads;
+    const atomic_bool *cancel; /* may be NULL */
+};
+
+struct sure_answer {
+    struct ceduo_share share; /* of what may be true in which the goal is reached */
+    /* how far the goal of that much of what may be true is above the target, in the goal's unit (of an ADC in that of its inverse): at
+     * most 0 where the share is at least `sure`; it is no share, so that it changes smoothly with the scene */
+    double above;
+};
+
+/* From a surface through the goal at the points, so that the noise of the rocks is taken off. Without inputs the share is 0 or 1.
+ * CEDUO_OK, CEDUO_CANCELLED, CEDUO_NO_MEMORY or what ceduo_scene_check() says. */
+enum ceduo_status ceduo_sure_ask(const struct sure_def *def, struct sure_answer *answer);
+
+#endif
