@@ -153,6 +153,50 @@ bool ceduo_fit_has_observations(const struct scene_file *file)
     return false;
 }
 
+/* ---- what the observations hold ---- */
+
+#define FIRST_STEPS 200 /* of each chain: with the search before them some seconds */
+#define TOGETHER    0.9 /* correlation of two values of which only both are known, not each */
+
+/* The one that is known worse of two that are known only together; all of those kept: SIZE_MAX. */
+static size_t worse_of_a_pair(const struct ceduo_calibration *a, const bool *loose)
+{
+    size_t worse = SIZE_MAX;
+    double most = TOGETHER;
+    for (size_t i = 0; i < a->parameters_count; i++)
+        for (size_t k = 0; k < i; k++)
+            if (!loose[i] && !loose[k] && fabs(a->correlation[i][k]) > most) {
+                const struct ceduo_fitted *p = &a->parameters[i], *q = &a->parameters[k];
+                most = fabs(a->correlation[i][k]);
+                worse = (p->p97_5 - p->p2_5) / (p->hi - p->lo) > (q->p97_5 - q->p2_5) / (q->hi - q->lo) ? i : k;
+            }
+    return worse;
+}
+
+/* First those that may be anything within their bounds, then one of each pair. One value stays. */
+static void find_loose(const struct ceduo_calibration *a, struct fit_loose *to)
+{
+    for (size_t i = 0; i < a->parameters_count && to->n + 1 < a->parameters_count; i++) {
+        to->loose[i] = a->draws_count > 0 && !a->parameters[i].determined;
+        to->n += to->loose[i];
+    }
+    for (size_t i; to->n + 1 < a->parameters_count && (i = worse_of_a_pair(a, to->loose)) != SIZE_MAX; to->n++)
+        to->loose[i] = true;
+}
+
+static enum ceduo_status fit_in_short(const struct ceduo_calibration_def *def, struct fit_loose *loose)
+{
+    struct ceduo_calibration_def short_def = *def;
+    struct ceduo_calibration answer;
+    short_def.steps_most = FIRST_STEPS;
+    enum ceduo_status status = ceduo_calibrate(&short_def, &answer);
+    if (status == CEDUO_OK) {
+        find_loose(&answer, loose);
+        ceduo_calibration_free(&answer);
+    }
+    return status;
+}
+
 /* ---- fitting ---- */
 
 enum ceduo_status ceduo_fit_make(const struct scene_file *file, const struct fit_request *request, const struct fit_run *run,
@@ -176,7 +220,9 @@ enum ceduo_status ceduo_fit_make(const struct scene_file *file, const struct fit
                                               .cancel = run->cancel,
                                               .progress = run->progress,
                                               .context = run->context};
-    enum ceduo_status status = ceduo_calibrate(&def, &f->answer);
+    enum ceduo_status status = request->n > 1 ? fit_in_short(&def, &f->loose) : CEDUO_OK;
+    *run->loose = f->loose;
+    status = status == CEDUO_OK ? ceduo_calibrate(&def, &f->answer) : status;
     if (status != CEDUO_OK) {
         ceduo_fit_free(f);
         *fit = NULL;

@@ -18,8 +18,16 @@ struct fit_request {
     uint64_t rocks;                                                /* of each evaluation */
 };
 
+/* Values that what was observed does not hold, each by itself, as a short first fit tells: to fix them is quicker, and says as
+ * much. */
+struct fit_loose {
+    size_t n;
+    bool loose[CEDUO_CALIBRATION_MOST]; /* of the request */
+};
+
 struct fit {
     struct fit_request request;
+    struct fit_loose loose;
     bool done;                                 /* false: under way, and has come so far: */
     struct ceduo_calibration_state state;      /* nothing below is known yet */
     struct scene_file file;                    /* as it was; its nodes are the document's */
@@ -40,6 +48,7 @@ struct fit_run {
     const atomic_bool *cancel;
     void (*progress)(void *context, const struct ceduo_calibration_state *state);
     void *context;
+    struct fit_loose *loose; /* told before the fit itself begins */
 };
 
 /* Fits. `file` must have an arena of its own, which is the answer's from then on, whatever comes of it. Otherwise than

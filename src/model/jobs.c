@@ -170,6 +170,7 @@ struct publisher {
     struct jobs *queue;
     const struct job *job;
     double last;
+    struct fit_loose loose; /* of a fit */
 };
 
 static void publish_snapshot(void *context, struct ceduo_snapshot *snapshot)
@@ -253,13 +254,14 @@ static void publish_progress(void *context, const struct ceduo_calibration_state
     struct fit *fit = ceduo_must(calloc(1, sizeof *fit));
     fit->request = p->job->fit;
     fit->state = *state;
+    fit->loose = p->loose;
     publish(p->queue, p->job, fit);
 }
 
 static enum ceduo_status step_fit(struct jobs *q, struct job *job, void **result)
 {
     struct publisher publisher = {.queue = q, .job = job};
-    const struct fit_run run = {q->threads, &q->cancel, publish_progress, &publisher};
+    const struct fit_run run = {q->threads, &q->cancel, publish_progress, &publisher, &publisher.loose};
     struct fit *fit;
     enum ceduo_status status = ceduo_fit_make(&job->file, &job->fit, &run, &fit);
     *result = fit;

@@ -85,16 +85,29 @@ static void append_about(struct popup *p, const struct fit_request *w)
     }
 }
 
+/* Whether a value is among those that are fitted at present, and what was seen holds it; its bounds are those. */
+static bool is_held(const struct fit *now, const char *path, double *lo, double *hi)
+{
+    for (size_t i = 0; i < now->request.n; i++)
+        if (strcmp(now->request.paths[i], path) == 0 && !now->loose.loose[i]) {
+            *lo = now->request.lo[i];
+            *hi = now->request.hi[i];
+            return true;
+        }
+    return false;
+}
+
 void ceduo_popup_fit(struct app *app)
 {
     struct fit_request request;
+    const struct fit *now = app->live.fitting ? app->live.results.fit : NULL;
     ceduo_fit_offer(&app->document.file, &request);
     struct popup *p = ceduo_popup_fields(app, _("What is fitted to what was seen?"), filled_fit);
     append_about(p, &request);
     for (size_t i = 0; i < request.n; i++) {
         struct text label = {0}, bounds = {0};
         ceduo_calibration_name(&label, request.paths[i], request.fields[i]);
-        if (i < FILLED)
+        if (now && now->loose.n > 0 ? is_held(now, request.paths[i], &request.lo[i], &request.hi[i]) : i < FILLED)
             append_bounds(&bounds, &request, i);
         ceduo_popup_field(p, ceduo_app_kept(app, &label), ceduo_app_kept(app, &bounds));
     }

@@ -122,6 +122,19 @@ static void append_best(struct text *text, const struct fit_request *w, size_t i
     ceduo_calibration_number(text, w->fields[i], best);
 }
 
+/* What a short first fit tells of values that cannot be known from what was seen. */
+static void say_loose(const struct fit *f, struct text *text)
+{
+    LOCAL_TEXT(names);
+    for (size_t i = 0; i < f->request.n; i++)
+        if (f->loose.loose[i]) {
+            ceduo_text_put(&names, names.length > 0 ? ", " : "");
+            ceduo_calibration_name(&names, f->request.paths[i], f->request.fields[i]);
+        }
+    ceduo_text_format(text, _("What was seen does not hold %zu values: fix %s. c fits without it; to go on takes long.\n"),
+                      f->request.n, ceduo_text_string(&names));
+}
+
 static void say_fitting(const struct live *live, struct text *text)
 {
     const struct fit *f = live->results.fit; /* NULL: nothing is known yet */
@@ -135,6 +148,8 @@ static void say_fitting(const struct live *live, struct text *text)
     else
         ceduo_text_format(text, _("%llu scenes; log-likelihood %.2f.\n"), (unsigned long long)s->evaluations,
                           s->log_likelihood);
+    if (f->loose.n > 0)
+        say_loose(f, text);
     ceduo_text_put(text, _("The best values so far:\n"));
     for (size_t i = 0; i < f->request.n; i++) {
         ceduo_text_put(text, "  ");

@@ -8,6 +8,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 from play import Place, check_good  # noqa: E402
+from test_terminal import Tmux  # noqa: E402
 from harness import expect, expect_equal, expect_in, good, run_all  # noqa: E402
 
 # Rocks leave a cliff and fly; all do the same. At x = 20 they have flown 20 / v seconds.
@@ -308,6 +309,26 @@ def test_grounds():
     for name in ("bounce Rn", "slide Rt"):
         expect(re.search(rf"{name} +{usual[name]}", unsaid.popup), f"{name} of talus, {usual[name]}, where nothing is said", unsaid)
     check.has("all that was seen is to check a fit").lacks("What is fitted")
+
+
+def test_too_many_values():
+    """Four values of the ground and 50 stops: while the fit goes on it is told soon which to fix, as Rn and Rt are known only
+    together; c asks again without it"""
+    with Place() as place, Tmux(place) as t:
+        t.start("quarry")
+        t.keys("8", "c")
+        t.sees("What is fitted")
+        t.keys("Enter", "Enter", "Enter", "Enter")
+        told = " ".join(line[:50].strip() for line in t.sees("does not hold 4").split("\n"))
+        named = re.search(r"does not hold 4 values: fix (.*?)\. c fits without it", told)
+        expect(named and re.search("bounce Rn|slide Rt", named.group(1)), told)
+        t.keys("c")
+        asked = t.sees("What is fitted")
+        for name in ("bounce Rn", "slide Rt", "roughness, rad", "friction"):
+            empty = not re.search(rf"{name} +[\d.]+:[\d.]+", asked)
+            expect_equal(empty, name in named.group(1), f"{name}, where {named.group(1)} is to be fixed:\n{asked}")
+        t.keys("Escape", "Escape")
+        t.sees("the fit is stopped")
 
 
 def test_quarry():
