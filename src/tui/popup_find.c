@@ -82,10 +82,41 @@ static bool read_goal(struct app *app, struct popup *p, struct ceduo_search *sea
 
 /* ---- what is asked for ---- */
 
+/* The row of the value, until the next key; of a number in a list that of the list, as of one number. */
+static const struct field *field_of(const struct app *app, const char *path)
+{
+    const struct field *field = ceduo_schema_at(path), *list = NULL;
+    const char *bracket = strrchr(path, '[');
+    if (field || !bracket || !(list = ceduo_schema_at(ceduo_app_format(app, "%.*s", (int)(bracket - path), path))))
+        return field;
+    struct field *one = ceduo_arena_take(app->scratch, sizeof *one);
+    *one = *list;
+    one->type = FIELD_NUMBER;
+    return one;
+}
+
 static bool read_end(struct app *app, const struct popup *p, size_t field, double *end)
 {
-    return ceduo_popup_number(app, p, field, end) &&
-           ceduo_popup_value(app, ceduo_schema_at(p->path), p->fields[field].text, end);
+    return ceduo_popup_number(app, p, field, end) && ceduo_popup_value(app, field_of(app, p->path), p->fields[field].text, end);
+}
+
+/* What the rules of the region ask of the trees that a cut leaves, where it is these that are looked for. */
+static void append_law(struct app *app, const char *path, struct text *text)
+{
+    const struct ceduo_option *o = ceduo_app_option(app);
+    const struct field *field = field_of(app, path);
+    const char *stand = ceduo_app_stand(app);
+    bool standards = strncmp(path, stand, strlen(stand)) == 0 &&
+                     (strcmp(field->key, "stay_per_ha") == 0 || strncmp(path + strlen(stand), ".trees[", 7) == 0);
+    if (!standards || app->belt >= o->belts_count)
+        return;
+    struct ceduo_compliance c = ceduo_regulation_check(&app->document.file.scene.rules, &o->belts[app->belt].stand);
+    double own = app->document.file.scene.reserves_minimum;
+    if (c.standards_item)
+        ceduo_text_then(text, " ", _("The rules of %s ask for %g standards per ha at least (%s, %u); %g are left."), c.of->name,
+                        c.standards_item->least, c.standards_item->article, c.standards_item->year, c.standards);
+    if (!isnan(own) && own > 0)
+        ceduo_text_then(text, " ", _("The scene asks for %g per ha at least."), own);
 }
 
 /* What the fields ask for; the path is the popup's. */
@@ -124,7 +155,7 @@ static void append_words(struct app *app, struct popup *p, const struct ceduo_se
 {
     const struct ceduo_found *f = &answer->found;
     const struct form_cell *cell = ceduo_form_cell(ceduo_app_form(app));
-    const struct field *field = ceduo_schema_at(p->path);
+    const struct field *field = field_of(app, p->path);
     const char *lo = p->fields[FIND_LO].text, *hi = p->fields[FIND_HI].text, *unit = _(goals[row_of(s->goal)].unit);
     double per = goals[row_of(s->goal)].per, at = f->found ? f->goal_at_value : f->goal_at_nearest;
     char room[CEDUO_NUMBER_ROOM];
@@ -222,13 +253,12 @@ static double limit_of(const struct app *app, const char *path, bool whole, doub
 }
 
 /* A range around the value that is there, no end of which its own scene refuses. */
-static void propose(struct app *app, const struct form_cell *cell, double *lo, double *hi)
+static void propose(struct app *app, const char *path, const struct field *f, const char *written, double *lo, double *hi)
 {
-    const struct field *f = cell->field;
     const struct ceduo_slope *s = &app->document.file.scene.slope;
     bool whole = f->type == FIELD_COUNT || strcmp(f->unit, "1/ha") == 0;
     double now;
-    bool known = ceduo_number_read(cell->written, &now) == CEDUO_NUMBER_GOOD;
+    bool known = ceduo_number_read(written, &now) == CEDUO_NUMBER_GOOD;
     *lo = known && now > 0 ? (f->type == FIELD_COUNT ? 1 : now / 10) : 1;
     *hi = known && now > 0 ? now * 10 : 1000;
     if (whole)
@@ -241,30 +271,63 @@ static void propose(struct app *app, const struct form_cell *cell, double *lo, d
     *hi = fmin(*hi, f->hi);
     if (!known)
         return;
-    *lo = limit_of(app, cell->path, whole, now, fmin(*lo, now));
-    *hi = limit_of(app, cell->path, whole, now, fmax(*hi, now));
+    *lo = limit_of(app, path, whole, now, fmin(*lo, now));
+    *hi = limit_of(app, path, whole, now, fmax(*hi, now));
+}
+
+/* `written`: the value that is there. */
+static void ask(struct app *app, const char *path, const char *written)
+{
+    char lo_room[CEDUO_NUMBER_ROOM], hi_room[CEDUO_NUMBER_ROOM];
+    double lo, hi;
+    const struct field *f = field_of(app, path);
+    propose(app, path, f, written, &lo, &hi);
+    struct popup *p = ceduo_popup_fields(app, _("Which value reaches a goal?"), filled_find);
+    snprintf(p->path, sizeof p->path, "%s", path);
+    ceduo_text_format(&p->text,
+                      _("The value of: %s. The same rocks for every value; the goal counts at the worst control. "
+                        "What is found is put into the field; u takes it back."),
+                      ceduo_app_path(app, path));
+    append_law(app, path, &p->text);
+    ceduo_popup_choice(p, _("goal"), _(goals[0].words), offer_goals);
+    ceduo_popup_field(p, _("how many (empty: usual limit)"), "");
+    ceduo_popup_field(p, _("values from"), ceduo_shown_number(f, lo, lo_room));
+    ceduo_popup_field(p, _("to"), ceduo_shown_number(f, hi, hi_room));
+}
+
+#define NUMBERS_MOST 9 /* of a list that are asked for: one for each digit */
+
+static void chose_number(struct app *app, struct popup *p, const char *path)
+{
+    (void)p;
+    const struct node *node = ceduo_document_node(&app->document, path);
+    ask(app, ceduo_app_format(app, "%s", path),
+        node && node->kind == NODE_SCALAR ? ceduo_app_format(app, "%s", node->text) : "");
+}
+
+/* Which number of a list? Nobody is asked where there is only one. */
+static void ask_which(struct app *app, const char *path, const struct node *list)
+{
+    if (list->n == 1) {
+        chose_number(app, NULL, ceduo_app_format(app, "%s[0]", path));
+        return;
+    }
+    struct popup *p = ceduo_popup_list(app, _("Which of its numbers is looked for?"), chose_number);
+    for (size_t i = 0; i < list->n && i < NUMBERS_MOST; i++)
+        ceduo_popup_answer(p, (char)('1' + i), list->items[i]->kind == NODE_SCALAR ? list->items[i]->text : "",
+                           ceduo_app_format(app, "%s[%zu]", path, i));
 }
 
 void ceduo_popup_find(struct app *app)
 {
     const struct form_cell *cell = ceduo_form_cell(ceduo_app_form(app));
-    bool number = cell && cell->field &&
-                  (cell->field->type == FIELD_NUMBER || cell->field->type == FIELD_COUNT || cell->field->type == FIELD_SPREAD);
-    if (!number || (cell->field->flags & FIELD_NOWHERE)) {
+    const struct node *node = cell ? ceduo_document_node(&app->document, cell->path) : NULL;
+    bool usable = cell && cell->field && !(cell->field->flags & FIELD_NOWHERE);
+    enum field_type type = usable ? cell->field->type : FIELD_TEXT;
+    if (type == FIELD_NUMBERS && node && node->kind == NODE_LIST && node->n > 0)
+        ask_which(app, ceduo_app_format(app, "%s", cell->path), node);
+    else if (type == FIELD_NUMBER || type == FIELD_COUNT || type == FIELD_SPREAD)
+        ask(app, ceduo_app_format(app, "%s", cell->path), ceduo_app_format(app, "%s", cell->written));
+    else
         ceduo_app_warn(app, "%s", _("put the cursor on a number first: f looks for its value that reaches a goal"));
-        return;
-    }
-    char lo_room[CEDUO_NUMBER_ROOM], hi_room[CEDUO_NUMBER_ROOM];
-    double lo, hi;
-    propose(app, cell, &lo, &hi);
-    struct popup *p = ceduo_popup_fields(app, _("Which value reaches a goal?"), filled_find);
-    snprintf(p->path, sizeof p->path, "%s", cell->path);
-    ceduo_text_format(&p->text,
-                      _("The value of: %s. The same rocks for every value; the goal counts at the worst control. "
-                        "What is found is put into the field; u takes it back."),
-                      ceduo_app_path(app, cell->path));
-    ceduo_popup_choice(p, _("goal"), _(goals[0].words), offer_goals);
-    ceduo_popup_field(p, _("how many (empty: usual limit)"), "");
-    ceduo_popup_field(p, _("values from"), ceduo_shown_number(cell->field, lo, lo_room));
-    ceduo_popup_field(p, _("to"), ceduo_shown_number(cell->field, hi, hi_room));
 }

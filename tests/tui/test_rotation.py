@@ -512,6 +512,29 @@ def test_find_other_goals():
             expect_in(f"= {wanted['value']}", screen.note)
 
 
+def test_find_in_list():
+    """f on trees that stay: of several numbers it asks which, by its digit; it finds what the command line does, beside what the
+    law and the scene ask for; of one number nothing is asked"""
+    with Place() as place:
+        place.write("ruled.yaml", WOOD.replace("rocks_per_year", "rules: marche\nminimum: {reserves_per_ha: 70}\nrocks_per_year"))
+        for scene, keys, path, which in (("ruled", "key 2\n", "forest[0].stand.cutting.stay_per_ha[1]", True),
+                                         ("reserves", "", "options[more].forest[0].stand.cutting.stay_per_ha[0]", False)):
+            goal, lo, hi = ("exceed=0.85", 3, 3000) if which else ("adc=50", 10, 1000)
+            wanted = good("--find", f"{path}={lo}:{hi}", "--goal", goal, "-n", 2000, "-f", "json",
+                          *([] if which else ["--option", "more"]), place.path / f"{scene}.yaml").json()[0]
+            steps = "".join(f"key Ctrl-U\ntype {x}\nkey Enter\n" for x in (goal, "", lo, hi))
+            asked, popup, screen = place.play("key 6\n" + ("" if which else "key ]\n") + "find stay_per_ha\nkey f\ndump\n" + keys + "dump\n" +
+                                              steps + "wait idle\ndump", f"{scene}.yaml")
+            asked.has(*(("Which of its numbers", "1 30", "2 30") if which else ("Which value reaches a goal?",)))
+            if which:
+                for words in ("rules of Marche ask for 60 standards per ha at least (Ministry Decree", "60 are left.", "asks for 70 per ha"):
+                    expect_in(words, popup.popup, "the law")
+            expect(wanted["found"] and wanted["over"] == "rotation", scene, wanted)
+            values = screen.row("^trees that stay")[-2 if which else -1:]
+            expect_equal(values, ["30", str(wanted["value"])] if which else [str(wanted["value"])], "the field")
+            expect_in(f"= {wanted['value']}", screen.note)
+
+
 def test_find_nothing():
     """f where no value reaches the goal: it says so with the nearest, and the field stays"""
     screen = shown(FIND + "key Enter Enter Enter\nkey Ctrl-U\ntype 300\nkey Enter\ndump", "reserves.yaml")[0]
