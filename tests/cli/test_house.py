@@ -21,6 +21,7 @@ OUTSIDE = re.compile(r"(.*printf|f?open|getenv|setlocale|yaml_.*|initscr|newterm
 # A rock is the same on every machine: what decides about its trajectory, and about the stand of a year, takes only what
 # rounds the same everywhere. A file is named by its room, in whichever folder of it.
 TRAJECTORY = ("base/elementary", "scene/number", "scene/rock", "scene/slope", "scene/stand", "core/adc", "core/energy",
+              "core/energy_brauner", "core/energy_dorren", "core/energy_inertia",
               "core/ground", "core/prepared", "core/rotation", "core/run_simulate", "core/stems", "core/stems_avx2",
               "core/stems_avx512", "core/trajectory", "core/walk", "core/wide", "core/wide_avx2", "core/wide_avx512",
               "core/wood")

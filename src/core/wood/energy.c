@@ -4,6 +4,84 @@
 #include <math.h>
 
 #include "base/elementary.h"
+#include "base/hash.h"
+
+#define X(NAME, name) extern const struct energy_law ceduo_energy_##name;
+CEDUO_ENERGY_MODELS(X)
+#undef X
+
+static const struct energy_law *const laws[] = {
+#define X(NAME, name) &ceduo_energy_##name,
+    CEDUO_ENERGY_MODELS(X)
+#undef X
+};
+
+/* ---- laws ---- */
+
+struct stem_energy ceduo_stem_energy(const struct ceduo_stand *stand, const struct ceduo_stems *stems)
+{
+    struct stem_energy e = {.model = stand->energy};
+    laws[e.model]->prepare(&e, stand, stems);
+    return e;
+}
+
+struct stem_energy ceduo_stem_energy_of_contact(enum ceduo_energy_model model, double share, double mass)
+{
+    struct stem_energy e = {.model = model};
+    laws[model]->prepare_contact(&e, share, mass);
+    return e;
+}
+
+void ceduo_stem_energy_hash(uint64_t *hash, const struct stem_energy *e)
+{
+    hash_count(hash, (uint64_t)e->model);
+    hash_doubles(hash, &e->volume, sizeof e->volume / sizeof(double));
+    hash_doubles(hash, e->of, sizeof e->of / sizeof(double));
+}
+
+double ceduo_stem_energy_mean(const struct stem_energy *e)
+{
+    return laws[e->model]->mean ? laws[e->model]->mean(e) : NAN;
+}
+
+double ceduo_stem_energy_hit(const struct stem_energy *e, double dbh, double share)
+{
+    return laws[e->model]->hit ? laws[e->model]->hit(e, dbh, share) : INFINITY;
+}
+
+bool ceduo_stem_energy_by_eccentricity(const struct stem_energy *e)
+{
+    return laws[e->model]->by_eccentricity && laws[e->model]->by_eccentricity(e);
+}
+
+double ceduo_stem_energy_share(const struct stem_energy *e, double mass, double dbh, double eccentricity)
+{
+    return laws[e->model]->share ? laws[e->model]->share(e, mass, dbh, eccentricity) : 1;
+}
+
+unsigned ceduo_stem_energy_warnings(const struct ceduo_stand *stand, const struct ceduo_stems *stems)
+{
+    return laws[stand->energy]->warnings ? laws[stand->energy]->warnings(stand, stems) : 0;
+}
+
+double ceduo_contact_energy(const struct ceduo_stand *stand, const struct ceduo_stems *stems)
+{
+    const struct stem_energy energy = ceduo_stem_energy(stand, stems);
+    return ceduo_stem_energy_mean(&energy);
+}
+
+bool ceduo_stand_takes_share(const struct ceduo_stand *stand)
+{
+    return laws[stand->energy]->share;
+}
+
+double ceduo_contact_share(const struct ceduo_stand *stand, const struct ceduo_stems *stems, double mass)
+{
+    const struct stem_energy energy = ceduo_stem_energy(stand, stems);
+    return laws[energy.model]->mean_share ? laws[energy.model]->mean_share(&energy, mass) : 0;
+}
+
+/* ---- what several laws say ---- */
 
 double ceduo_dorren_energy(double dbh, double fracture_ratio)
 {
@@ -27,19 +105,9 @@ double ceduo_dorren_mean_share(void)
     return DORREN_LOW * end + DORREN_SPAN * inner;
 }
 
-double ceduo_contact_energy(const struct ceduo_stand *stand, const struct ceduo_stems *stems)
+unsigned ceduo_volume_warning(const struct ceduo_stand *stand, const struct ceduo_stems *stems)
 {
-    const struct stem_energy energy = stem_energy_of(stand, stems);
-    return stem_energy_mean(&energy);
-}
-
-bool ceduo_stand_takes_share(const struct ceduo_stand *stand)
-{
-    return stand->energy == CEDUO_INERTIA;
-}
-
-double ceduo_contact_share(const struct ceduo_stand *stand, const struct ceduo_stems *stems, double mass)
-{
-    const struct stem_energy energy = stem_energy_of(stand, stems);
-    return stem_energy_mean_share(&energy, mass);
+    enum ceduo_volume_from from;
+    ceduo_stem_volume(stand, stems, &from);
+    return from == CEDUO_VOLUME_FORM_FACTOR ? CEDUO_WARN_FORM_FACTOR : 0u;
 }

@@ -2,131 +2,62 @@
 #ifndef CEDUO_ENERGY_H
 #define CEDUO_ENERGY_H
 
-#include "base/hash.h"
-#include "energy_brauner.h"
-#include "energy_dorren.h"
-#include "energy_inertia.h"
+#include <stdint.h>
 
-/* What a hit takes from a rock, by one of CEDUO_ENERGY_MODELS, made ready for many hits of stems of one kind. A law is a
- * header energy_NAME.h with
- *     struct energy_NAME                            what it keeps of stand and stems: doubles alone, which are hashed
- *     energy_NAME(stand, stems)                     makes that
- *     NAME_mean(energy)                             J: the mean stem, over all places where it can be hit
- *     NAME_hit(energy, dbh, share)                  J: a stem of diameter dbh (m), hit |offset|/((B + dbh)/2) off its middle,
- *                                                   of which ceduo_dorren_share() is `share`
- *     NAME_mean_share(energy, mass)                 the share of its energy that a rock of `mass` kg loses: as _mean; 0: of a
- *                                                   law that takes an amount
- *     NAME_share(energy, mass, dbh, eccentricity)   of its energy the share that is lost at the most
- *     NAME_by_eccentricity(energy)                  whether _hit depends on `share`
- *     NAME_warnings(stand, stems)                   bits of enum ceduo_warning */
+#include "ceduo/adc.h"
+#include "scene/volume.h"
+
+/* What a hit takes from a rock, made ready for many hits of stems of one kind: doubles that decide about it, which are
+ * hashed. */
 struct stem_energy {
     enum ceduo_energy_model model;
-    union {
-#define X(NAME, name) struct energy_##name name;
-        CEDUO_ENERGY_MODELS(X)
-#undef X
-    } by;
+    struct stem_volume volume; /* of laws that need it */
+    double of[3];              /* the law's own */
 };
 
-static inline struct stem_energy stem_energy_of(const struct ceduo_stand *stand, const struct ceduo_stems *stems)
-{
-    struct stem_energy e = {.model = stand->energy};
-    switch (stand->energy) { /* untaken: table */
-#define X(NAME, name)                                                                                                          \
-    case CEDUO_##NAME:                                                                                                         \
-        e.by.name = energy_##name(stand, stems);                                                                               \
-        break;
-        CEDUO_ENERGY_MODELS(X)
-#undef X
-    }
-    return e;
-}
+/* A law, of CEDUO_ENERGY_MODELS: an energy_NAME.c defines ceduo_energy_NAME. Where a function is NULL, what is said in
+ * brackets holds. `dbh`: m; `mass`: of the rock, kg; shares are of the rock's energy. */
+struct energy_law {
+    /* Sets `volume` and `of`. */
+    void (*prepare)(struct stem_energy *to, const struct ceduo_stand *stand, const struct ceduo_stems *stems);
+    /* J that the mean stem takes, over all places where it can be hit [NaN: no amount, but a share]. */
+    double (*mean)(const struct stem_energy *e);
+    /* J that a stem takes, of which `share` is ceduo_dorren_share() of where it is hit [INFINITY: no bound]. */
+    double (*hit)(const struct stem_energy *e, double dbh, double share);
+    /* Whether that depends on `share` [no]. */
+    bool (*by_eccentricity)(const struct stem_energy *e);
+    /* What is lost at the most, on average [0] and by one hit at an eccentricity 0…1, dbh NaN: a contact [1]. */
+    double (*mean_share)(const struct stem_energy *e, double mass);
+    double (*share)(const struct stem_energy *e, double mass, double dbh, double eccentricity);
+    /* Makes a law of shares ready for a contact of which a rock loses the mean share `share`. */
+    void (*prepare_contact)(struct stem_energy *to, double share, double mass);
+    /* Bits of enum ceduo_warning [0]. */
+    unsigned (*warnings)(const struct ceduo_stand *stand, const struct ceduo_stems *stems);
+};
 
+struct stem_energy ceduo_stem_energy(const struct ceduo_stand *stand, const struct ceduo_stems *stems);
+struct stem_energy ceduo_stem_energy_of_contact(enum ceduo_energy_model model, double share, double mass);
 /* Mixes in all that a hit depends on. */
-static inline void stem_energy_hash(uint64_t *hash, const struct stem_energy *e)
-{
-    hash_count(hash, (uint64_t)e->model);
-    switch (e->model) { /* untaken: table */
-#define X(NAME, name)                                                                                                          \
-    case CEDUO_##NAME:                                                                                                         \
-        hash_doubles(hash, &e->by.name, sizeof e->by.name / sizeof(double));                                                   \
-        break;
-        CEDUO_ENERGY_MODELS(X)
-#undef X
-    }
-}
+void ceduo_stem_energy_hash(uint64_t *hash, const struct stem_energy *e);
 
-static inline double stem_energy_mean(const struct stem_energy *e)
-{
-    switch (e->model) { /* untaken: table */
-#define X(NAME, name)                                                                                                          \
-    case CEDUO_##NAME:                                                                                                         \
-        return name##_mean(&e->by.name);
-        CEDUO_ENERGY_MODELS(X)
-#undef X
-    }
-    return 0;
-}
+/* What the law says, or what holds without its word. */
+double ceduo_stem_energy_mean(const struct stem_energy *e);
+double ceduo_stem_energy_hit(const struct stem_energy *e, double dbh, double share);
+bool ceduo_stem_energy_by_eccentricity(const struct stem_energy *e);
+double ceduo_stem_energy_share(const struct stem_energy *e, double mass, double dbh, double eccentricity);
+unsigned ceduo_stem_energy_warnings(const struct ceduo_stand *stand, const struct ceduo_stems *stems);
 
-static inline double stem_energy_hit(const struct stem_energy *e, double dbh, double share)
-{
-    switch (e->model) { /* untaken: table */
-#define X(NAME, name)                                                                                                          \
-    case CEDUO_##NAME:                                                                                                         \
-        return name##_hit(&e->by.name, dbh, share);
-        CEDUO_ENERGY_MODELS(X)
-#undef X
-    }
-    return 0;
-}
+/* The share of Dorren et al. 2006 at eccentricity u, not yet cut: LOW + SPAN/(1 + 10^(STEEPNESS (u - CENTRE))), by a power
+ * of e, for one or for many. */
+#define LN10                   2.302585092994046
+#define DORREN_LOW             (-0.046)
+#define DORREN_SPAN            1.026
+#define DORREN_CENTRE          0.58
+#define DORREN_STEEPNESS       8.007
+#define DORREN_EXPONENT(u)     (LN10 * ((DORREN_CENTRE - (u)) * -DORREN_STEEPNESS))
+#define DORREN_SHARE_OF(power) (DORREN_LOW + DORREN_SPAN / (1.0 + (power)))
 
-static inline bool stem_energy_by_eccentricity(const struct stem_energy *e)
-{
-    switch (e->model) { /* untaken: table */
-#define X(NAME, name)                                                                                                          \
-    case CEDUO_##NAME:                                                                                                         \
-        return name##_by_eccentricity(&e->by.name);
-        CEDUO_ENERGY_MODELS(X)
-#undef X
-    }
-    return false;
-}
-
-static inline double stem_energy_mean_share(const struct stem_energy *e, double mass)
-{
-    switch (e->model) { /* untaken: table */
-#define X(NAME, name)                                                                                                          \
-    case CEDUO_##NAME:                                                                                                         \
-        return name##_mean_share(&e->by.name, mass);
-        CEDUO_ENERGY_MODELS(X)
-#undef X
-    }
-    return 0;
-}
-
-/* The share of the energy of a rock of `mass` kg that a hit takes at the most. */
-static inline double stem_energy_share(const struct stem_energy *e, double mass, double dbh, double eccentricity)
-{
-    switch (e->model) { /* untaken: table */
-#define X(NAME, name)                                                                                                          \
-    case CEDUO_##NAME:                                                                                                         \
-        return name##_share(&e->by.name, mass, dbh, eccentricity);
-        CEDUO_ENERGY_MODELS(X)
-#undef X
-    }
-    return 1;
-}
-
-static inline unsigned stem_energy_warnings(const struct ceduo_stand *stand, const struct ceduo_stems *stems)
-{
-    switch (stand->energy) { /* untaken: table */
-#define X(NAME, name)                                                                                                          \
-    case CEDUO_##NAME:                                                                                                         \
-        return name##_warnings(stand, stems);
-        CEDUO_ENERGY_MODELS(X)
-#undef X
-    }
-    return 0;
-}
+/* A volume by the form factor where it came from that. */
+unsigned ceduo_volume_warning(const struct ceduo_stand *stand, const struct ceduo_stems *stems);
 
 #endif

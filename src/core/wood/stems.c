@@ -63,7 +63,7 @@ static void set_hit(const struct stems *s, struct stem *stem)
 {
     const struct wood_kind *kind = stem->kind;
     double share = kind->by_eccentricity ? ceduo_dorren_share(ceduo_stem_eccentricity(stem, s->b)) : 1;
-    stem->energy = kind->shape > 0 ? stem_energy_hit(&kind->by_hit, stem->dbh, share) : share * kind->whole;
+    stem->energy = kind->shape > 0 ? ceduo_stem_energy_hit(&kind->by_hit, stem->dbh, share) : share * kind->whole;
     stem->height = height_hit(s, kind);
 }
 

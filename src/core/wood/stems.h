@@ -88,7 +88,8 @@ static inline double ceduo_stem_part(const struct stems *stems, const struct ste
 {
     if (!stems->wood->shares)
         return 1;
-    return stem_energy_share(&stem->kind->by_hit, rock->mass, stem->dbh, ceduo_stem_eccentricity(stem, rock->mean_diameter));
+    return ceduo_stem_energy_share(&stem->kind->by_hit, rock->mass, stem->dbh,
+                                   ceduo_stem_eccentricity(stem, rock->mean_diameter));
 }
 
 #endif

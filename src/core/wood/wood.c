@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "base/elementary.h"
+#include "base/hash.h"
 #include "ceduo/trajectory.h"
 #include "strata.h"
 
@@ -41,14 +42,14 @@ static struct wood_kind kind_of(const struct ceduo_stand *stand, const struct ce
                           .height = stems->height,
                           .below = stand->hit_below > 0 ? stand->hit_below : INFINITY,
                           .energy = NAN,
-                          .by_hit = stem_energy_of(stand, stems)};
+                          .by_hit = ceduo_stem_energy(stand, stems)};
     if (stems->dbh_sd > LEAST_SPREAD * stems->dbh) {
         double ratio = stems->dbh / stems->dbh_sd;
         k.shape = ratio * ratio;
         k.scale = stems->dbh_sd / ratio;
         k.most = thickest(k.shape, k.scale);
-    } else if (!stem_energy_by_eccentricity(&k.by_hit)) {
-        k.energy = stem_energy_mean(&k.by_hit);
+    } else if (!ceduo_stem_energy_by_eccentricity(&k.by_hit)) {
+        k.energy = ceduo_stem_energy_mean(&k.by_hit);
     }
     return k;
 }
@@ -106,7 +107,7 @@ static struct wood_stratum contact_stratum(const struct ceduo_stand *stand, enum
     struct stratum s = ceduo_stratum(stand, rule, i, mass);
     *kind = (struct wood_kind){.dbh = NAN, .height = INFINITY, .below = INFINITY, .energy = s.energy};
     if (s.share > 0)
-        kind->by_hit = (struct stem_energy){.model = CEDUO_INERTIA, .by.inertia = inertia_of_contact(s.share, mass)};
+        kind->by_hit = ceduo_stem_energy_of_contact(stand->energy, s.share, mass);
     return (struct wood_stratum){s.per_ha * s.width / HECTARE, s.per_ha / HECTARE, kind, 0, 0};
 }
 
@@ -232,8 +233,8 @@ static size_t places_for(const struct wood *w, double b)
 static void finish_kind(struct wood *wood, struct wood_kind *k)
 {
     bool depends = isnan(k->energy);
-    k->whole = depends ? stem_energy_hit(&k->by_hit, k->dbh, 1) : k->energy;
-    k->by_eccentricity = depends && stem_energy_by_eccentricity(&k->by_hit);
+    k->whole = depends ? ceduo_stem_energy_hit(&k->by_hit, k->dbh, 1) : k->energy;
+    k->by_eccentricity = depends && ceduo_stem_energy_by_eccentricity(&k->by_hit);
     wood->by_eccentricity |= k->by_eccentricity;
 }
 
@@ -298,7 +299,7 @@ static void hash_kind(uint64_t *hash, const struct wood_kind *k)
 {
     hash_doubles(hash, k, offsetof(struct wood_kind, most) / sizeof(double));
     if (isnan(k->energy))
-        stem_energy_hash(hash, &k->by_hit);
+        ceduo_stem_energy_hash(hash, &k->by_hit);
 }
 
 static void hash_stratum(uint64_t *hash, const struct wood_stratum *s)

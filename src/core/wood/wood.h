@@ -60,7 +60,7 @@ struct wood_belt {
 struct wood {
     bool bare;            /* nothing to be met */
     bool by_eccentricity; /* what stems of some kinds take depends on where they are hit */
-    bool shares;          /* a hit takes a share of the energy, see stem_energy_share() */
+    bool shares;          /* a hit takes a share of the energy, see ceduo_stem_energy_share() */
     size_t belts;
     struct wood_belt *along[2]; /* the same belts for rocks going +x and -x, in the order they are reached */
     double reach;               /* m: the largest radius of any ring */

@@ -1,0 +1,40 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Eq. 3 of Ciabocco et al. 2009, after Brauner et al. 2005: W = V·U, the volume of the stem times the work of breaking,
+ * wherever the stem is hit; or the share of it that Dorren et al. 2006 found beside the middle. */
+#include "energy.h"
+
+enum { U /* J/m3 */, OFFSET /* 1: by eccentricity */ };
+
+static void prepare(struct stem_energy *to, const struct ceduo_stand *stand, const struct ceduo_stems *stems)
+{
+    to->volume = stem_volume_of(stand, stems);
+    to->of[U] = ceduo_stand_u(stand);
+    to->of[OFFSET] = stand->offset == CEDUO_OFFSET_BY_ECCENTRICITY;
+}
+
+static bool by_eccentricity(const struct stem_energy *e)
+{
+    return e->of[OFFSET] > 0;
+}
+
+static double mean(const struct stem_energy *e)
+{
+    double whole = stem_volume_mean(&e->volume, NULL) * e->of[U];
+    return by_eccentricity(e) ? ceduo_dorren_mean_share() * whole : whole;
+}
+
+static double hit(const struct stem_energy *e, double dbh, double share)
+{
+    double whole = stem_volume_one(&e->volume, dbh) * e->of[U];
+    return by_eccentricity(e) ? share * whole : whole;
+}
+
+static unsigned warnings(const struct ceduo_stand *stand, const struct ceduo_stems *stems)
+{
+    size_t count;
+    bool known = stand->species >= 0 && ceduo_species_list(&count)[stand->species].u_literature;
+    return ceduo_volume_warning(stand, stems) | (isnan(stand->u) && !known ? CEDUO_WARN_U_ASSUMED : 0u);
+}
+
+const struct energy_law ceduo_energy_brauner = {
+    .prepare = prepare, .mean = mean, .hit = hit, .by_eccentricity = by_eccentricity, .warnings = warnings};
