@@ -2,7 +2,7 @@
 #ifndef CEDUO_CONTACT_H
 #define CEDUO_CONTACT_H
 
-/* The laws of an impact on the ground. A new law is a file like src/core/walk/law_crsp.h and a line here. */
+/* The laws of an impact on the ground. A new law is a file like src/core/walk/law_crsp.h, named in strike.h, and a line here. */
 #define CEDUO_LAWS(X)                                                                                                          \
     X(LUMPED, lumped)                                                                                                          \
     X(CRSP, crsp)                                                                                                              \

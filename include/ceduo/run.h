@@ -17,7 +17,7 @@ struct ceduo_run;
 #define CEDUO_BLOCK_ROCKS 1024                        /* rocks summed as one */
 #define CEDUO_EXACT_BYTES ((size_t)256 * 1024 * 1024) /* samples kept for exact percentiles */
 
-/* How rocks are simulated: one by one, or 8 or 32 at once in the lanes of wide registers. All give the same bits.
+/* How rocks are simulated: one by one, or 32 at once in the lanes of wide registers. All give the same bits.
  * Where the machine lacks such registers, rocks are simulated one by one. */
 enum ceduo_kernel { CEDUO_KERNEL_BEST, CEDUO_KERNEL_SCALAR, CEDUO_KERNEL_AVX2, CEDUO_KERNEL_AVX512 };
 

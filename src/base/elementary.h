@@ -46,6 +46,7 @@ static inline double elementary_real(uint64_t i)
 #define BITS             uint64_t
 #define AS_BITS(p)       elementary_bits(p)
 #define AS_REAL(p)       elementary_real(p)
+#define LESS(p, q)       ((p) < (q))
 #define PICK(m, p, q)    ((m) ? (p) : (q))
 #define ELEMENTARY(name) elementary_##name
 #include "elementary_text.h"

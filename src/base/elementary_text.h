@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Logarithm, exponential, sine and cosine by their power series: the same bits with any libm, optimisation and lane.
  * This is the text of each; whoever includes it has said for which numbers: REAL, a double or a vector of doubles;
- * BITS, as many uint64_t; AS_BITS(p) and AS_REAL(p), the one read as the other; PICK(m, p, q), p where m holds, and q
- * elsewhere; ELEMENTARY(name), what the function is called. It forgets them at the end. */
+ * BITS, as many uint64_t; AS_BITS(p) and AS_REAL(p), the one read as the other; LESS(p, q), where the constant p is less
+ * than q; PICK(m, p, q), p where m holds, and q elsewhere; ELEMENTARY(name), what the function is called. It forgets them at the end. */
 
 /* log(x) of an x that is normal, finite and above 0, within an ulp. x = 2^k (1 + f) with 1 + f near 1; with
  * s = f/(2 + f), log(1 + f) = 2(s + s^3/3 + s^5/5 + …). */
@@ -53,7 +53,7 @@ static inline void ELEMENTARY(sincos)(const REAL *angle, REAL *sine, REAL *cosin
     const double half_pi_hi = 1.5707963267948966, half_pi_lo = 6.123233995736766e-17;
     const uint64_t sign = 0x8000000000000000;
     REAL a = AS_REAL(AS_BITS(*angle) & ~sign);
-    REAL y = PICK(a > 0.7853981633974483, (half_pi_hi - a) + half_pi_lo, a); /* sin a = cos(pi/2 - a) */
+    REAL y = PICK(LESS(0.7853981633974483, a), (half_pi_hi - a) + half_pi_lo, a); /* sin a = cos(pi/2 - a) */
     REAL q = y * y;
     REAL s = q * (1.0 / 355687428096000.0) - 1.0 / 1307674368000.0;
     s = s * q + 1.0 / 6227020800.0;
@@ -71,13 +71,14 @@ static inline void ELEMENTARY(sincos)(const REAL *angle, REAL *sine, REAL *cosin
     c = c * q + 1.0 / 24.0;
     c = c * q - 1.0 / 2.0;
     c = c * q + 1.0;
-    *cosine = PICK(a > 0.7853981633974483, s, c);
-    *sine = AS_REAL(AS_BITS(PICK(a > 0.7853981633974483, c, s)) | (AS_BITS(*angle) & sign));
+    *cosine = PICK(LESS(0.7853981633974483, a), s, c);
+    *sine = AS_REAL(AS_BITS(PICK(LESS(0.7853981633974483, a), c, s)) | (AS_BITS(*angle) & sign));
 }
 
 #undef REAL
 #undef BITS
 #undef AS_BITS
 #undef AS_REAL
+#undef LESS
 #undef PICK
 #undef ELEMENTARY

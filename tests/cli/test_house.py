@@ -23,7 +23,7 @@ OUTSIDE = re.compile(r"(.*printf|f?open|getenv|setlocale|yaml_.*|initscr|newterm
 TRAJECTORY = ("base/elementary", "scene/number", "scene/rock", "scene/slope", "scene/stand", "core/adc", "core/energy",
               "core/energy_brauner", "core/energy_dorren", "core/energy_inertia",
               "core/ground", "core/prepared", "core/rotation", "core/run_simulate", "core/stems", "core/stems_avx2",
-              "core/stems_avx512", "core/trajectory", "core/walk", "core/wide", "core/wide_avx2", "core/wide_avx512",
+              "core/stems_avx512", "core/trajectory", "core/walk", "core/lanes", "core/lanes_avx2", "core/lanes_avx512",
               "core/wood")
 DIFFERS = re.compile(r"(a?(sin|cos|tan)h?|atan2|sincos|exp(2|10|m1)?|log(2|10|1p)?|pow|[lt]?gamma|cbrt|hypot|erfc?|"
                      r"gsl_(cdf|ran|sf)_.*)[fl]?$")

@@ -22,11 +22,14 @@ struct blow {
 static struct impact struck(const struct blow *c)
 {
     double k2 = (c->a * c->a + c->b * c->b) / 5, gyration = sqrt(k2);
-    struct section section = {
-        .wide = c->a * c->a / k2, .high = c->b * c->b / k2, .reach = c->radius / gyration, .gyration = gyration};
     struct ground_point at = {
-        .rn = c->e, .mu = c->mu, .friction = c->friction, .section = &section, .sine = sin(c->turn), .cosine = cos(c->turn)};
-    return law_arm(c->in, &at);
+        .rn = c->e,
+        .mu = c->mu,
+        .friction = c->friction,
+        .sine = sin(c->turn),
+        .cosine = cos(c->turn),
+        .section = {.wide = c->a * c->a / k2, .high = c->b * c->b / k2, .reach = c->radius / gyration, .gyration = gyration}};
+    return law_arm.struck(c->in, &at);
 }
 
 static double energy_of(const struct blow *c, struct impact v)

@@ -8,7 +8,7 @@ cd "$(dirname "$0")/../.." || exit 1
 dir=$(mktemp -d)
 BUILD=${BUILD:-build/release}
 trap 'rm -rf "$dir"' EXIT
-# always_inline: runs are short here, and without it the wide kernels are compiled in less than half of the time
+# always_inline: runs are short here, and without it the lanes are compiled in less than half of the time
 flags="-std=c17 -D_GNU_SOURCE -Werror -O1 -Dalways_inline=unused -ffp-contract=off -pthread -Iinclude -Isrc -Itests"
 n=0
 compile() { # folder, flags, sources: objects

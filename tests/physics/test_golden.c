@@ -113,13 +113,13 @@ TEST_WITH(impacts_of_pfeiffer_and_higgins, open_paper, NULL)
         const struct impact_row *r = &rows[i];
         struct ground_point at = {.rn = r->rn, .rt = r->rt, .radius = 0.34, .k = r->k};
         struct impact in = {.vn = r->vn, .vt = r->vt, .spin = r->spin};
-        struct impact out = law_crsp(in, &at);
+        struct impact out = law_crsp.struck(in, &at);
         ROWS(expect_decimals, (crsp_friction(r->rt, r->vt - r->spin * 0.34), r->f, 6),
              (crsp_scaling(r->rn, r->rt, r->vn), r->sf, 6), (out.vn, r->vn_out, 6), (out.vt, r->vt_out, 6),
              (out.spin, r->spin_out, 6));
         in.vt = -in.vt; /* the mirror image */
         in.spin = -in.spin;
-        struct impact mirror = law_crsp(in, &at);
+        struct impact mirror = law_crsp.struck(in, &at);
         EXPECT(mirror.vn, ==, out.vn);
         EXPECT_IS(mirror, (vt, -out.vt), (spin, -out.spin));
     }
@@ -130,24 +130,24 @@ TEST_WITH(impacts_at_the_limits_of_crsp, open_paper, NULL)
     EXPECT(crsp_scaling(0, 0.8, 0), ==, 0.8);
     EXPECT(crsp_scaling(0, 0.8, 1e-9), ==, 0);
     struct ground_point at = {.rn = 0.3, .rt = 0.8, .radius = 0.5, .k = 0.4};
-    struct impact out = law_crsp((struct impact){1, 0, -10}, &at);
+    struct impact out = law_crsp.struck((struct impact){1, 0, -10}, &at);
     EXPECT(out.vt, <, 0);
     EXPECT(out.spin, <, 0); /* without speed the spin says where to */
-    out = law_crsp((struct impact){1, -2, 10}, &at);
+    out = law_crsp.struck((struct impact){1, -2, 10}, &at);
     EXPECT(out.vt, <, 0);
-    out = law_crsp((struct impact){9.144, 0, 0}, &at); /* 30 ft/s */
+    out = law_crsp.struck((struct impact){9.144, 0, 0}, &at); /* 30 ft/s */
     expect_exact(out.vn, 0.3 * 9.144 / 2);
 }
 
 TEST_WITH(impacts_of_the_lumped_law, open_paper, NULL)
 {
     struct ground_point at = {.rn = 0.31, .rt = 0.83, .radius = 0.34, .k = 0.4};
-    struct impact out = law_lumped((struct impact){5, -10, 7}, &at);
+    struct impact out = law_lumped.struck((struct impact){5, -10, 7}, &at);
     expect_exact(out.vn, 1.55);
     expect_exact(out.vt, -8.3);
     EXPECT(out.spin, ==, 0);
     at.scale_rn = true;
-    out = law_lumped((struct impact){5, 10, 0}, &at);
+    out = law_lumped.struck((struct impact){5, 10, 0}, &at);
     expect_decimals(out.vn, 1.193228, 6); /* as in Pfeiffer & Higgins 1990 */
     expect_exact(out.vt, 8.3);
 }

@@ -56,8 +56,9 @@ static bool allocate(struct ceduo_run *run)
     if (def->cells > 0)
         ok = ok && (run->cells = calloc(def->cells, sizeof *run->cells));
     ok = ok && ceduo_prepared_init(&run->ready, def->scene, def->option, def->cells, def->cell_x) == CEDUO_OK;
-    run->wide_walk = ceduo_wide_walk(def->kernel, &run->lanes);
-    return ok && (!run->wide_walk || (run->wide = ceduo_wide_ground_create(&run->ready.ground)));
+    run->lanes_walk = ceduo_lanes_walk(def->kernel);
+    run->lanes = run->lanes_walk ? LANES : 1;
+    return ok && (!run->lanes_walk || (run->ground_of_lanes = ceduo_lanes_ground_create(&run->ready.ground)));
 }
 
 enum ceduo_status ceduo_run_create(const struct ceduo_run_def *def, struct ceduo_run **out)
@@ -106,7 +107,7 @@ void ceduo_run_free(struct ceduo_run *run)
     ceduo_run_samples_free(run);
     free(run->pairs);
     free(run->cells);
-    free(run->wide);
+    free(run->ground_of_lanes);
     ceduo_prepared_release(&run->ready);
     free(run);
 }

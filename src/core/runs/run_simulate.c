@@ -219,15 +219,15 @@ static int take_block(void *context, size_t i, size_t worker)
     memset(w->ends, CEDUO_UNFINISHED, sizeof w->ends);
     for (size_t k = 0; k < CEDUO_BLOCK_ROCKS; k++)
         w->stops[k] = NAN;
-    const struct wide_job job = {.ground = run->wide,
-                                 .law = law,
-                                 .alike = run->alike,
-                                 .walkers = w->walkers,
-                                 .next = next_rock,
-                                 .ended = note_end,
-                                 .context = w};
-    if (run->wide_walk)
-        run->wide_walk(&job);
+    const struct lanes_job job = {.ground = run->ground_of_lanes,
+                                  .law = law,
+                                  .alike = run->alike,
+                                  .walkers = w->walkers,
+                                  .next = next_rock,
+                                  .ended = note_end,
+                                  .context = w};
+    if (run->lanes_walk)
+        run->lanes_walk(&job);
     else
         while (next_rock(w, 0))
             note_end(w, 0, ceduo_walk(&w->walkers[0], law));

@@ -4,8 +4,8 @@
 
 #include "ceduo/run.h"
 #include "core/walk/envelope.h"
+#include "core/walk/lanes.h"
 #include "core/walk/prepared.h"
-#include "core/walk/wide.h"
 #include "histogram.h"
 #include "weighted.h"
 
@@ -45,9 +45,9 @@ struct block {
 struct ceduo_run {
     struct ceduo_run_def def;
     struct prepared ready;
-    struct wide_ground *wide;
-    wide_walk_fn *wide_walk; /* NULL: rocks are simulated one by one */
-    size_t lanes;            /* rocks that a thread simulates at once */
+    struct lanes_ground *ground_of_lanes;
+    lanes_walk_fn *lanes_walk; /* NULL: rocks are simulated one by one */
+    size_t lanes;              /* rocks that a thread simulates at once */
     size_t controls, last_control;
     double stems_from;      /* as ceduo_option_stems_from(): the option may be gone when the run is read */
     int kept;               /* quantities whose samples are kept; without spin and spread, energy follows from speed */

@@ -192,7 +192,7 @@ unsigned ceduo_stand_warnings(const struct ceduo_stand *stand, double b, enum ce
         (ABOVE(ceduo_stand_shoots(stand), CEDUO_SHOOTS_MOST * stand->stools_per_ha) ? CEDUO_WARN_MANY_SHOOTS : 0u);
     for (size_t i = 0; i < stand->shoots_count + stand->trees_count; i++) {
         const struct ceduo_stems *s = i < stand->shoots_count ? &stand->shoots[i] : &stand->trees[i - stand->shoots_count];
-        warnings |= ceduo_stem_unlikely(stand, s) | (s->per_ha > 0 ? stem_energy_warnings(stand, s) : 0);
+        warnings |= ceduo_stem_unlikely(stand, s) | (s->per_ha > 0 ? ceduo_stem_energy_warnings(stand, s) : 0);
     }
     if (!(shoots(stand) > 0))
         return warnings;

@@ -6,13 +6,10 @@
 
 #include <gsl/gsl_interp.h>
 
-#include "one_lane.h"
-/* after the lane */
 #include "base/cancel.h"
 #include "hit.h"
-#include "law_arm.h"
-#include "law_crsp.h"
-#include "law_lumped.h"
+#include "landing.h"
+#include "strike.h"
 #include "walker.h"
 
 #ifndef PAUSE
@@ -78,7 +75,7 @@ static inline struct flight flight_to(const struct walker *w, const struct fligh
 {
     double t = (x - at->x) / at->vx;
     t = t < t_end ? t : t_end;
-    return (struct flight){.vx = at->vx, .vz = at->vz - w->g->gravity * t, .z = at->z + (at->vz - w->g->half_g * t) * t};
+    return (struct flight){.vx = at->vx, .vz = at->vz - w->g->gravity * t, .z = height_after(at->z, at->vz, w->g->half_g, t)};
 }
 
 /* The marks that the flight from `at` to `l` passes. */
@@ -176,7 +173,7 @@ static inline void count_hit(struct walker *w, const struct stem *stem)
 /* A stem is hit at x by a rock of kinetic energy `energy`: the share of its speed that is left, 0 where all is lost. */
 static double hit_stem(struct walker *w, struct stem *stem, double x, double clearance, double energy)
 {
-    struct hit hit = {.energy = energy, .cost = stem->energy, .part = ceduo_stem_part(w->stems, stem, &w->rock)};
+    struct hit hit = {.energy = energy, .cost = stem->energy, .share = ceduo_stem_share(w->stems, stem, &w->rock)};
     count_hit(w, stem);
     double share = speed_kept(hit);
     if (w->watch && w->watch->stem)
@@ -210,7 +207,7 @@ static __attribute__((noinline)) bool fly_past_stems(struct walker *w, struct fl
             return false;
         double t = (x - at->x) / at->vx;
         t = t < 0 ? 0 : knows_landing && t > l->t ? l->t : t;
-        struct landing here = {.t = t, .x = x, .z = at->z + (at->vz - g->half_g * t) * t};
+        struct landing here = {.t = t, .x = x, .z = height_after(at->z, at->vz, g->half_g, t)};
         here.segment = near ? j : segment_between(g, j, l->segment, x);
         double clearance = here.z - ground_height(g, here.segment, x);
         if (!knows_landing && !(clearance >= 0)) {
@@ -264,8 +261,8 @@ HOT double facet_draw(struct walker *w)
     return w->facets.u[n & 1];
 }
 
-/* How the section is turned at this contact: sine and cosine of an angle in [-pi/2, pi/2), as half a turn changes nothing. */
-HOT void turn_section(struct walker *w, double *sine, double *cosine)
+/* The section and how it is turned at this contact: by an angle in [-pi/2, pi/2), as half a turn changes nothing. */
+HOT void turn_section(struct walker *w, struct ground_point *to)
 {
     uint64_t n = w->contacts;
     if (w->turns_of != n >> 1) {
@@ -273,7 +270,11 @@ HOT void turn_section(struct walker *w, double *sine, double *cosine)
         w->turns = random_pair(w->seed, w->number, n >> 1, RANDOM_TURN);
     }
     double angle = (w->turns.u[n & 1] - 0.5) * HALF_TURN;
-    elementary_sincos(&angle, sine, cosine);
+    elementary_sincos(&angle, &to->sine, &to->cosine);
+    to->section.wide = w->section.wide;
+    to->section.high = w->section.high;
+    to->section.reach = w->section.reach;
+    to->section.gyration = w->section.gyration;
 }
 
 HOT double largest_facet(const struct walker *w, size_t j)
@@ -293,8 +294,7 @@ HOT struct ground_point ground_point(const struct walker *w, size_t j)
                              .k = w->k,
                              .scale_rn = w->scale_rn,
                              .mu = s->mu,
-                             .friction = s->friction,
-                             .section = &w->section};
+                             .friction = s->friction};
     if (w->g->rn_varies)
         p.rn = ceduo_number_draw(w->g->given[j]->rn, w->rn_u, 0, 1);
     if (w->g->rt_varies)
@@ -302,9 +302,10 @@ HOT struct ground_point ground_point(const struct walker *w, size_t j)
     return p;
 }
 
-HOT struct velocity velocity_on(const struct ground_segment *s, const struct flight *at)
+HOT struct velocity velocity_at(const struct walker *w, const struct flight *at)
 {
-    return (struct velocity){.along = at->vx * s->c + at->vz * s->s, .off = at->vz * s->c - at->vx * s->s};
+    const struct ground_segment *s = &w->g->segments[at->segment];
+    return velocity_on(s->c, s->s, at->vx, at->vz);
 }
 
 /* A facet: its turn from the segment, against a rock that goes along +x, or upwards with facets to both sides. */
@@ -317,57 +318,28 @@ struct facet {
 HOT void turn_facet(struct walker *w, size_t j, struct facet *f)
 {
     double largest = largest_facet(w, j), angle = 0;
-    if (largest > 0) {
-        double u = facet_draw(w);
-        angle = largest * (w->g->facets == CEDUO_BOTH ? 2 * u - 1 : u);
-    }
+    if (largest > 0)
+        angle = facet_angle(w->g->facets == CEDUO_AGAINST, largest, facet_draw(w));
     if (angle != f->angle) {
         f->angle = angle;
         elementary_sincos(&angle, &f->sine, &f->cosine);
     }
 }
 
-/* The facet that the rock strikes, as sine and cosine of its turn from the segment. */
-HOT void strike_facet(struct walker *w, size_t j, struct velocity v, struct facet *f, double *sine, double *cosine)
-{
-    turn_facet(w, j, f);
-    *cosine = f->cosine;
-    *sine = w->g->facets == CEDUO_AGAINST && !(v.along >= 0) ? -f->sine : f->sine;
-    if (v.off * *cosine - v.along * *sine > 0) { /* the rock is leaving this facet */
-        *sine = 0;
-        *cosine = 1;
-    }
-}
-
-/* A contact, in the segment's axes: what a rock that rolls brings has no part off the ground, exactly. */
-HOT void strike(struct walker *w, struct flight *at, struct velocity *v, struct facet *facet, enum ceduo_law law)
+/* A contact. */
+HOT void strike_ground(struct walker *w, struct flight *at, struct velocity *v, struct facet *facet,
+                       const struct contact_law *law)
 {
     const struct ground_segment *s = &w->g->segments[at->segment];
-    double sine, cosine;
-    strike_facet(w, at->segment, *v, facet, &sine, &cosine);
+    turn_facet(w, at->segment, facet);
+    double sine = facet->sine, cosine = facet->cosine;
+    facet_struck(w->g->facets == CEDUO_AGAINST, *v, &sine, &cosine);
     struct ground_point point = ground_point(w, at->segment);
-    if (law == CEDUO_LAW_ARM)
-        turn_section(w, &point.sine, &point.cosine);
-    double inward = v->along * sine - v->off * cosine;
-    struct impact in = {.vn = inward > 0 ? inward : 0, .vt = v->along * cosine + v->off * sine, .spin = w->spin};
-    struct impact out;
-    switch (law) { /* untaken: table */
-#define X(NAME, name)                                                                                                          \
-    case CEDUO_LAW_##NAME:                                                                                                     \
-        out = law_##name(in, &point);                                                                                          \
-        break;
-        CEDUO_LAWS(X)
-#undef X
-    default:
-        return;
-    }
-    v->along = out.vt * cosine - out.vn * sine;
-    v->off = out.vt * sine + out.vn * cosine;
-    if (!(v->off > 0)) /* into the segment: that part is lost */
-        v->off = 0;
+    if (law->sections)
+        turn_section(w, &point);
+    *v = strike(law, &point, sine, cosine, *v, &w->spin);
     at->vx = v->along * s->c - v->off * s->s;
     at->vz = v->along * s->s + v->off * s->c;
-    w->spin = out.spin;
 }
 
 #endif

@@ -5,13 +5,10 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+#include "base/real.h"
 #include "ceduo/slope.h"
 
-/* The walk is one body from contact to contact, so that a flight stays in registers; what happens seldom is called. */
-#define HOT    static inline __attribute__((always_inline))
-#define SELDOM static __attribute__((noinline))
-
-/* A slope made ready for many rocks: what the walk needs at each vertex and segment, in pairs as the wide walk looks them
+/* A slope made ready for many rocks: what the walk needs at each vertex and segment, in pairs as lanes look them
  * up, a segment in one line of the cache. */
 struct ground_vertex {
     double x, z;

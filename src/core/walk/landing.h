@@ -2,39 +2,8 @@
 #ifndef CEDUO_LANDING_H
 #define CEDUO_LANDING_H
 
-#include <math.h>
-
+#include "flight.h"
 #include "ground.h"
-
-/* A flight in the vertical plane. On the ground it starts on segment `segment` itself. */
-struct flight {
-    double x, z, vx, vz;
-    size_t segment;
-    bool on_ground;
-};
-
-/* Where a flight ends: on the ground, or beyond an end of the profile. */
-struct landing {
-    double t, x, z; /* s after the start; the point, on the ground or above the profile's end */
-    size_t segment;
-    bool left;
-};
-
-/* The later root of c + b t - g/2 t2, in the form that does not cancel; c >= 0 but for rounding. */
-HOT double later_root(double c, double b, double g)
-{
-    double d = b * b + 2 * g * c;
-    double root = d > 0 ? sqrt(d) : 0;
-    if (b >= 0)
-        return (b + root) / g;
-    return c > 0 ? 2 * c / (root - b) : 0;
-}
-
-HOT double clamp(double v, double a, double b)
-{
-    double lo = a < b ? a : b, hi = a < b ? b : a;
-    return v < lo ? lo : v > hi ? hi : v;
-}
 
 /* The slope of segment j. On a long profile the segment is seldom at hand, while its vertices just were: the same bits
  * from those. */
@@ -43,19 +12,9 @@ HOT double slope_of(const struct ground *g, size_t j, bool blocks)
     return blocks ? (g->at[j + 1].z - g->at[j].z) / (g->at[j + 1].x - g->at[j].x) : g->segments[j].m;
 }
 
-/* Puts a landing at time t on segment j of slope m. Steeper than 45 degrees z is kept and x follows, elsewhere the
- * other way. */
-HOT struct landing land_at(const struct ground *g, const struct flight *f, size_t j, double m, double t)
+HOT struct chord chord_at(const struct ground *g, size_t j, double m)
 {
-    struct landing l = {.t = t, .segment = j, .left = false};
-    if (fabs(m) > 1) {
-        l.z = clamp(f->z + (f->vz - g->half_g * t) * t, g->at[j].z, g->at[j + 1].z);
-        l.x = l.z == g->at[j + 1].z ? g->at[j + 1].x : clamp(g->at[j].x + (l.z - g->at[j].z) / m, g->at[j].x, g->at[j + 1].x);
-    } else {
-        l.x = clamp(f->x + f->vx * t, g->at[j].x, g->at[j + 1].x);
-        l.z = l.x >= g->at[j + 1].x ? g->at[j + 1].z : g->at[j].z + m * (l.x - g->at[j].x);
-    }
-    return l;
+    return (struct chord){.x0 = g->at[j].x, .z0 = g->at[j].z, .x1 = g->at[j + 1].x, .z1 = g->at[j + 1].z, .m = m};
 }
 
 /* The contact with segment j, which the flight meets before time t_most. */
@@ -63,11 +22,12 @@ HOT struct landing land_on(const struct ground *g, const struct flight *f, size_
 {
     if (blocks)
         __builtin_prefetch(&g->segments[j]);
-    double m = slope_of(g, j, blocks);
-    double c = f->on_ground && j == f->segment ? 0 : f->z - (g->at[j].z + m * (f->x - g->at[j].x));
-    double t = later_root(c, f->vz - m * f->vx, g->gravity);
-    /* untaken: rounding */
-    return land_at(g, f, j, m, t > t_most ? t_most : t); /* t_most may be NaN where vx is hardly more than 0 */
+    const struct chord on = chord_at(g, j, slope_of(g, j, blocks));
+    double c = f->on_ground && j == f->segment ? 0 : f->z - (on.z0 + on.m * (f->x - on.x0));
+    double t = min(t_most, later_root(c, f->vz - on.m * f->vx, g->gravity)); /* it may be NaN where vx is hardly more than 0 */
+    struct landing l = {.t = t, .x = f->x + f->vx * t, .z = height_after(f->z, f->vz, g->half_g, t), .segment = j};
+    onto_chord(&on, is_steep(on.m), is_steep(on.m), true, &l.x, &l.z);
+    return l;
 }
 
 /* A flight without horizontal speed comes down where it went up. */
@@ -85,7 +45,7 @@ HOT struct landing land_nowhere(const struct ground *g, const struct flight *f, 
     size_t p = dir > 0 ? g->n : 0;
     double t = (g->at[p].x - f->x) * inv;
     return (struct landing){
-        .t = t, .x = g->at[p].x, .z = f->z + (f->vz - g->half_g * t) * t, .segment = dir > 0 ? p - 1 : p, .left = true};
+        .t = t, .x = g->at[p].x, .z = height_after(f->z, f->vz, g->half_g, t), .segment = dir > 0 ? p - 1 : p, .left = true};
 }
 
 /* Follows the flight from vertex p, which it clears, towards dir: the first segment at whose far vertex it would be
@@ -97,7 +57,7 @@ HOT struct landing land_beyond(const struct ground *g, const struct flight *f, s
     while (p != last) {
         size_t q = dir > 0 ? p + 1 : p - 1;
         double t = (g->at[q].x - f->x) * inv;
-        if (!((f->z + (f->vz - g->half_g * t) * t) - g->at[q].z >= 0))
+        if (!(height_after(f->z, f->vz, g->half_g, t) - g->at[q].z >= 0))
             return land_on(g, f, dir > 0 ? p : q, t, false);
         p = q;
     }
@@ -135,7 +95,7 @@ SELDOM __attribute__((unused)) struct landing land_far(const struct ground *g, c
                 z = g->at[q].z;
             }
             double t = (x - f->x) * inv;
-            double above = (f->z + (f->vz - g->half_g * t) * t) - z;
+            double above = height_after(f->z, f->vz, g->half_g, t) - z;
             if (above >= clear) {
                 p = q;
                 xp = x;
@@ -161,7 +121,7 @@ HOT struct landing land_towards(const struct ground *g, const struct flight *f, 
      * none */
     if (f->on_ground && !(f->vz - g->segments[j].m * f->vx >= g->half_g * t))
         return land_on(g, f, j, t, blocks);
-    double h = (f->z + (f->vz - g->half_g * t) * t) - g->at[q].z;
+    double h = height_after(f->z, f->vz, g->half_g, t) - g->at[q].z;
     if (!f->on_ground && !(h >= 0))
         return land_on(g, f, j, t, blocks);
     return blocks ? land_far(g, f, q, h, dir, inv) : land_beyond(g, f, q, dir, inv);

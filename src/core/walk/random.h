@@ -4,15 +4,6 @@
 
 #include <stdint.h>
 
-/* Random123's own header is not written for our warnings. */
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wconversion"
-#pragma GCC diagnostic ignored "-Wsign-conversion"
-#pragma GCC diagnostic ignored "-Wpedantic"
-#pragma GCC diagnostic ignored "-Wunused-parameter"
-#include <Random123/threefry.h>
-#pragma GCC diagnostic pop
-
 /* What a random number is for. A number depends on seed, rock, event and kind, on nothing else. */
 enum random_kind {
     RANDOM_FACET,
@@ -30,19 +21,33 @@ enum random_kind {
 
 #define HALF_TURN 3.141592653589793 /* rad */
 
+/* Threefry 2x64 of 20 rounds (Salmon et al. 2011): turns x, an event, and y, a kind, into 2 x 64 bits by the key of seed a
+ * and rock b; c: RANDOM_KEY(a, b). For numbers and for registers of them, so it is a macro. */
+#define RANDOM_KEY(a, b) (0x1BD11BDAA9FC1A22 ^ (a) ^ (b))
+#define RANDOM_BITS(x, y, a, b, c)                                                                                             \
+    do {                                                                                                                       \
+        x += a, y += b;                                                                                                        \
+        RANDOM_FOUR(x, y, 16, 42, 12, 31, b, c, 1);                                                                            \
+        RANDOM_FOUR(x, y, 16, 32, 24, 21, c, a, 2);                                                                            \
+        RANDOM_FOUR(x, y, 16, 42, 12, 31, a, b, 3);                                                                            \
+        RANDOM_FOUR(x, y, 16, 32, 24, 21, b, c, 4);                                                                            \
+        RANDOM_FOUR(x, y, 16, 42, 12, 31, c, a, 5);                                                                            \
+    } while (0)
+#define RANDOM_ROUND(x, y, turn) x += y, y = (y << turn | y >> (64 - turn)) ^ x
+#define RANDOM_FOUR(x, y, r1, r2, r3, r4, key, next, n)                                                                        \
+    RANDOM_ROUND(x, y, r1), RANDOM_ROUND(x, y, r2), RANDOM_ROUND(x, y, r3), RANDOM_ROUND(x, y, r4), x += key, y += next + n
+
 struct random_pair {
     double u[2];
 };
 
-/* 2 x 64 bits: Threefry 2x64 keyed by seed and rock (Salmon et al. 2011). `kind`: an enum random_kind, in some with a
- * number above its low eight bits. */
+/* `kind`: an enum random_kind, in some with a number above its low eight bits. */
 static inline void random_bits(uint64_t seed, uint64_t rock, uint64_t event, uint64_t kind, uint64_t bits[2])
 {
-    threefry2x64_ctr_t c = {{event, kind}};
-    threefry2x64_key_t k = {{seed, rock}};
-    threefry2x64_ctr_t r = threefry2x64(c, k);
-    bits[0] = r.v[0];
-    bits[1] = r.v[1];
+    const uint64_t key = RANDOM_KEY(seed, rock);
+    RANDOM_BITS(event, kind, seed, rock, key);
+    bits[0] = event;
+    bits[1] = kind;
 }
 
 /* Two uniform numbers in [0, 1). */

@@ -53,12 +53,11 @@ static inline void roll_point(const struct walker *w, int dir, double ds, bool t
     if (to_end) {
         *x = g->at[dir > 0 ? j + 1 : j].x;
         *z = g->at[dir > 0 ? j + 1 : j].z;
-    } else if (ground_is_steep(s)) {
-        *z = clamp(w->at.z + dir * s->s * ds, g->at[j].z, g->at[j + 1].z);
-        *x = clamp(g->at[j].x + (*z - g->at[j].z) / s->m, g->at[j].x, g->at[j + 1].x);
     } else {
-        *x = clamp(w->at.x + dir * s->c * ds, g->at[j].x, g->at[j + 1].x);
-        *z = ground_height(g, j, *x);
+        const struct chord on = chord_at(g, j, s->m);
+        *x = w->at.x + dir * s->c * ds;
+        *z = w->at.z + dir * s->s * ds;
+        onto_chord(&on, is_steep(s->m), is_steep(s->m), false, x, z);
     }
 }
 
@@ -301,12 +300,6 @@ SELDOM enum after_roll roll_on(struct walker *w, double u, struct landing *l)
             return then;
         roll_over_segments(w, &r);
     }
-}
-
-/* Speed along the ground once a rock that comes with speed `along` rolls without slip. */
-static inline double roll_speed(const struct walker *w, double along)
-{
-    return (along + w->k * w->spin * w->rock.radius) / (1 + w->k);
 }
 
 /* ---- resting ---- */

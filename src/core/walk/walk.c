@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* One rock from its release to its end: it flies to its next contact (flying.h), is thrown off again or rolls
- * (rolling.h), until it rests, leaves the slope, is stopped by a stem, or takes too long. The wide walk (wide_walk.h) does
+ * (rolling.h), until it rests, leaves the slope, is stopped by a stem, or takes too long. The walk of lanes (lanes_walk.h) does
  * the same for many rocks and hands over to this one what is rare. */
 #include "walk.h"
 
@@ -39,12 +39,12 @@ enum ceduo_status ceduo_walk_release(struct walker *w, const struct prepared *re
     w->rn_u = g->rn_varies ? random_open(w->seed, number, 0, RANDOM_GROUND) : 0;
     w->rt_u = g->rt_varies ? random_open(w->seed, number, 1, RANDOM_GROUND) : 0;
     double x = draw_release(w, scene->release.x, 0), height = draw_release(w, scene->release.height, 1);
-    bool spins = scene->simulation.law != CEDUO_LAW_LUMPED;
-    w->k = spins ? w->rock.k : 0;
-    w->has_section = scene->simulation.law == CEDUO_LAW_ARM;
+    const struct contact_law *law = contact_laws[scene->simulation.law];
+    w->k = law->spins ? w->rock.k : 0;
+    w->has_section = law->sections;
     if (w->has_section)
         draw_section(w);
-    w->spin = spins ? draw_release(w, scene->release.spin, 4) : 0;
+    w->spin = law->spins ? draw_release(w, scene->release.spin, 4) : 0;
     size_t segment = ceduo_ground_segment(g, x);
     w->at = (struct flight){.x = x,
                             .z = ground_height(g, segment, x) + height,
@@ -113,7 +113,7 @@ enum after_ground { GROUND_CONTACT, GROUND_FLIES, GROUND_RESTS, GROUND_LEAVES, G
 
 SELDOM enum after_ground go_on_ground(struct walker *w, double along, struct landing *l)
 {
-    double u = roll_speed(w, along);
+    double u = rolling_speed(along, w->k, w->spin, w->rock.radius);
     if (u == 0 && rests(w))
         return GROUND_RESTS;
     enum after_roll then = roll_on(w, u, l);
@@ -153,7 +153,8 @@ static __attribute__((noinline)) bool roll_further(struct walker *w, double alon
     w->at = c->at;
     enum after_ground then = go_on_ground(w, along, &c->l);
     c->at = w->at;
-    c->v = (struct velocity){.along = w->along, .off = 0};
+    c->along = w->along;
+    c->off = 0;
     c->flies = then == GROUND_FLIES;
     *end = then == GROUND_RESTS     ? CEDUO_AT_REST
            : then == GROUND_LEAVES  ? CEDUO_LEFT_SLOPE
@@ -162,19 +163,26 @@ static __attribute__((noinline)) bool roll_further(struct walker *w, double alon
     return then == GROUND_FLIES || then == GROUND_CONTACT;
 }
 
+HOT void set_velocity(const struct walker *w, struct course *c)
+{
+    struct velocity v = velocity_at(w, &c->at);
+    c->along = v.along;
+    c->off = v.off;
+}
+
 HOT void start(const struct walker *w, struct course *c)
 {
     c->at = w->at;
-    c->v = velocity_on(&w->g->segments[c->at.segment], &c->at);
-    c->flies = !c->at.on_ground || c->v.off > 0;
+    set_velocity(w, c);
+    c->flies = !c->at.on_ground || c->off > 0;
     if (c->flies)
         c->l = next_landing(w->g, &c->at);
 }
 
-HOT enum ceduo_end walk_by(struct walker *w, struct course c, enum ceduo_law law, bool blocks)
+HOT enum ceduo_end walk_over(struct walker *w, struct course c, const struct contact_law *law, bool blocks)
 {
     struct flight at = c.at; /* w->at is brought up to date for those who are called */
-    struct velocity v = c.v;
+    struct velocity v = {c.along, c.off};
     struct facet facet = {.angle = 0, .sine = 0, .cosine = 1};
     struct landing l = c.l;
     bool flies = c.flies;
@@ -183,13 +191,13 @@ HOT enum ceduo_end walk_by(struct walker *w, struct course c, enum ceduo_law law
         if (flies) {
             if (!come_down(w, &at, &l, true, &end))
                 return end;
-            v = velocity_on(&w->g->segments[at.segment], &at);
+            v = velocity_at(w, &at);
         }
         if (w->contacts >= w->pause && has_enough(w)) {
             w->at = at;
             return CEDUO_UNFINISHED;
         }
-        strike(w, &at, &v, &facet, law);
+        strike_ground(w, &at, &v, &facet, law);
         w->contacts++;
         turn_facet(w, at.segment, &facet);
         at.on_ground = true;
@@ -201,23 +209,29 @@ HOT enum ceduo_end walk_by(struct walker *w, struct course c, enum ceduo_law law
         if (!roll_further(w, v.along, &c, &end))
             return end;
         at = c.at;
-        v = c.v;
+        v = (struct velocity){c.along, c.off};
         l = c.l;
         flies = c.flies;
     }
 }
 
+/* The walk of each law. */
+#define X(NAME, name)                                                                                                          \
+    static enum ceduo_end walk_##name(struct walker *w, const struct course *c)                                                \
+    {                                                                                                                          \
+        return w->g->top > 0 ? walk_over(w, *c, &law_##name, true) : walk_over(w, *c, &law_##name, false);                     \
+    }
+CEDUO_LAWS(X)
+#undef X
+
 enum ceduo_end ceduo_walk_on(struct walker *w, const struct course *c, enum ceduo_law law)
 {
-    switch (law) { /* untaken: table */
-#define X(NAME, name)                                                                                                          \
-    case CEDUO_LAW_##NAME:                                                                                                     \
-        return w->g->top > 0 ? walk_by(w, *c, CEDUO_LAW_##NAME, true) : walk_by(w, *c, CEDUO_LAW_##NAME, false);
+    static enum ceduo_end (*const walks[])(struct walker *, const struct course *) = {
+#define X(NAME, name) walk_##name,
         CEDUO_LAWS(X)
 #undef X
-    default:
-        return CEDUO_UNFINISHED;
-    }
+    };
+    return walks[law](w, c);
 }
 
 enum ceduo_end ceduo_walk(struct walker *w, enum ceduo_law law)
@@ -253,7 +267,7 @@ bool ceduo_walk_come_down(struct walker *w, struct course *c, enum ceduo_end *en
     if (c->flies) {
         if (!come_down(w, &c->at, &c->l, !c->aloft, end))
             return false;
-        c->v = velocity_on(&w->g->segments[c->at.segment], &c->at);
+        set_velocity(w, c);
         c->flies = c->aloft = false;
     }
     if (w->contacts >= w->pause && has_enough(w)) {
@@ -274,13 +288,13 @@ bool ceduo_walk_rolls(const struct walker *w, struct course *c, bool knows_landi
 {
     if (!knows_landing)
         c->l = next_landing(w->g, &c->at);
-    c->flies = !is_roll(w, &c->at, c->v.off, &c->l);
+    c->flies = !is_roll(w, &c->at, c->off, &c->l);
     return !c->flies;
 }
 
 bool ceduo_walk_roll(struct walker *w, struct course *c, enum ceduo_end *end)
 {
-    return roll_further(w, c->v.along, c, end);
+    return roll_further(w, c->along, c, end);
 }
 
 void ceduo_walk_ground(const struct walker *w, size_t segment, double *rn, double *rt, double *largest_angle)

@@ -16,7 +16,7 @@ void ceduo_walk_release_again(struct walker *w, const struct walker *first, uint
 /* Follows it to its end. */
 enum ceduo_end ceduo_walk(struct walker *w, enum ceduo_law law);
 
-/* ---- the trajectory in pieces, for the wide walk ---- */
+/* ---- the trajectory in pieces, for the walk of lanes ---- */
 
 /* From the release to the first contact. All of these return false where the trajectory ended before, at w->at. */
 bool ceduo_walk_start(struct walker *w, struct course *c, enum ceduo_end *end);

@@ -10,7 +10,7 @@
 #include "ceduo/trajectory.h"
 #include "core/wood/stems.h"
 #include "envelope.h"
-#include "landing.h"
+#include "flight.h"
 #include "prepared.h"
 #include "random.h"
 #include "section.h"
@@ -53,17 +53,12 @@ struct walker {
     bool gives_up;                   /* among stems: cancelled, or there were too many */
 };
 
-/* Velocity in the axes of the segment under the rock. */
-struct velocity {
-    double along, off;
-};
-
 /* Where a rock stands between two contacts: in flight to `l`, or on the ground at its next contact. */
 struct course {
     struct flight at;
     bool flies;
     bool aloft;        /* and `l` is not known yet, behind a stem */
-    struct velocity v; /* on the ground */
+    double along, off; /* velocity, on the ground */
     struct landing l;  /* in flight */
 };
 

@@ -13,7 +13,7 @@
 #include "base/elementary.h"
 #include "core/walk/kernel.h"
 #include "core/walk/random.h"
-#define MANY 2
+#define REAL_LANES 2
 #include "stems_fill.h"
 
 #define PAUSE_STEMS 4096 /* effort between two looks at whether the rock is still waited for */

@@ -84,7 +84,7 @@ static inline double ceduo_stem_eccentricity(const struct stem *stem, double b)
 }
 
 /* The share of a rock's energy that a hit of this stem takes at the most. */
-static inline double ceduo_stem_part(const struct stems *stems, const struct stem *stem, const struct ceduo_rock *rock)
+static inline double ceduo_stem_share(const struct stems *stems, const struct stem *stem, const struct ceduo_rock *rock)
 {
     if (!stems->wood->shares)
         return 1;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The drawing of stems on AVX2: see wide_avx2.c. */
+/* The drawing of stems on AVX2: see lanes_avx2.c. */
 #include "stems_state.h"
 
 #if defined(__x86_64__) && defined(__GNUC__)
@@ -12,8 +12,7 @@
 #pragma GCC target("avx2")
 #endif
 
-#define MANY 4
-#define MANY_AVX2
+#define REAL_LANES 4
 #include "stems_fill.h"
 
 const struct stems_kernel ceduo_stems_avx2 = {fill_points, make_stools};

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The drawing of stems on AVX-512 (F and DQ): see wide_avx512.c. */
+/* The drawing of stems on AVX-512 (F and DQ): see lanes_avx512.c. */
 #include "stems_state.h"
 
 #if defined(__x86_64__) && defined(__GNUC__)
@@ -12,8 +12,7 @@
 #pragma GCC target("avx512f,avx512dq")
 #endif
 
-#define MANY 8
-#define MANY_AVX512
+#define REAL_LANES 8
 #include "stems_fill.h"
 
 const struct stems_kernel ceduo_stems_avx512 = {fill_points, make_stools};

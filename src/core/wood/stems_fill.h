@@ -5,18 +5,15 @@
 #define CEDUO_STEMS_FILL_H
 
 #include "base/elementary.h"
-#include "core/walk/many.h"
+#include "base/real.h"
 #include "core/walk/random.h"
 #include "stems_state.h"
 
 /* What costs little is counted as a part of a stem: steps over others in a list, belts that are passed over. */
 #define STEPS_OF_A_STEM 4
 
-_Static_assert(POINTS % MANY == 0, "places are drawn in whole vectors");
-_Static_assert(POINTS_ROOM >= POINTS + MANY - 1, "they are read in whole vectors from any place on");
-
-/* Those of m are ones. */
-#define CHOOSE(m, p, q) ((many_reals)(((m) & (many_bits)(p)) | (~(m) & (many_bits)(q))))
+_Static_assert(POINTS % REAL_LANES == 0, "places are drawn in whole vectors");
+_Static_assert(POINTS_ROOM >= POINTS + REAL_LANES - 1, "they are read in whole vectors from any place on");
 
 /* The number of an event, never 0: which stream, which side, the how-manieth. The side is its last bit. */
 static inline uint64_t stem_event(enum stem_stream stream, int side, uint64_t n)
@@ -40,33 +37,22 @@ static inline uint64_t shoot_draw(enum random_kind kind, unsigned i)
  * units of their mean. */
 static inline void draw_points(const struct stems *s, uint64_t event, struct points *to, double gaps[POINTS])
 {
-    many_bits first[POINTS / MANY], second[POINTS / MANY];
-    for (unsigned i = 0; i < to->size / MANY; i++) { /* by itself: the processor has more of them under way at once */
-        many_from(event + 2 * i * MANY, 2, &first[i]);
-        many_from(RANDOM_STEM, 0, &second[i]);
-        many_threefry(s->seed, s->number, &first[i], &second[i]);
+    const uint64_t key = RANDOM_KEY(s->seed, s->number);
+    ints first[POINTS / REAL_LANES], second[POINTS / REAL_LANES];
+    for (unsigned i = 0; i < to->size / REAL_LANES; i++) { /* by itself: the processor has more of them under way at once */
+        ints x = count_from(event + 2 * i * REAL_LANES, 2), y = all_ints(RANDOM_STEM);
+        RANDOM_BITS(x, y, s->seed, s->number, key);
+        first[i] = x;
+        second[i] = y;
     }
-    for (unsigned i = 0; i < to->size; i += MANY) {
-        many_bits p = first[i / MANY], q = second[i / MANY], low;
-        many_reals u, log;
-        low = p >> 24;
-        many_of_integers(&low, &u);
-        u = u * 0x1p-40 + 0x1p-41;
-        many_log(&u, &log);
-        log = -log;
-        memcpy(&gaps[i], &log, sizeof log);
-        low = (p & 0xffffff) << 14 | q >> 50;
-        many_of_integers(&low, &u);
-        u = u * 0x1p-38 + 0x1p-39;
-        memcpy(&to->mark[i], &u, sizeof u);
-        low = q & 0x1ffffff;
-        many_of_integers(&low, &u);
-        u = u * 0x1p-25 + (0x1p-26 - 0.5);
-        memcpy(&to->offset[i], &u, sizeof u);
-        low = q >> 25 & 0x1ffffff;
-        many_of_integers(&low, &u);
-        u = u * 0x1p-25 + (0x1p-26 - 0.5);
-        memcpy(&to->turn[i], &u, sizeof u);
+    for (unsigned i = 0; i < to->size; i += REAL_LANES) {
+        ints p = first[i / REAL_LANES], q = second[i / REAL_LANES];
+        real u = real_of_small(p >> 24) * 0x1p-40 + 0x1p-41, log;
+        lanes_log(&u, &log);
+        store(&gaps[i], -log);
+        store(&to->mark[i], real_of_small((p & 0xffffff) << 14 | q >> 50) * 0x1p-38 + 0x1p-39);
+        store(&to->offset[i], real_of_small(q & 0x1ffffff) * 0x1p-25 + (0x1p-26 - 0.5));
+        store(&to->turn[i], real_of_small(q >> 25 & 0x1ffffff) * 0x1p-25 + (0x1p-26 - 0.5));
     }
 }
 
@@ -123,25 +109,17 @@ static inline void place_points(struct stems *s, int side, enum stem_stream stre
 static inline void place_stools(const struct stems *s, const struct wood_stools *t, struct points *p, unsigned first,
                                 unsigned end)
 {
-    const many_reals zero = {0}, turns[] = {zero + t->turn[0], zero + t->turn[1]};
-    const many_reals radii[] = {zero + t->radius[0], zero + t->radius[1]};
     double width = 2 * t->reach + t->most + s->b;
-    for (unsigned i = first; i < end; i += MANY) {
-        many_reals mark, angle, offset, sine, cosine;
-        memcpy(&mark, &p->mark[i], sizeof mark);
-        memcpy(&angle, &p->turn[i], sizeof angle);
-        memcpy(&offset, &p->offset[i], sizeof offset);
-        many_bits more = (many_bits)(mark < t->more), one = more & 1;
-        many_reals radius = CHOOSE(more, radii[1], radii[0]);
-        angle *= CHOOSE(more, turns[1], turns[0]);
-        many_sincos(&angle, &sine, &cosine);
-        sine *= radius;
-        cosine *= radius;
-        offset *= width;
-        memcpy(&p->centre[i], &offset, sizeof offset);
-        memcpy(&p->sine[i], &sine, sizeof sine);
-        memcpy(&p->cosine[i], &cosine, sizeof cosine);
-        memcpy(&p->more[i], &one, sizeof one);
+    for (unsigned i = first; i < end; i += REAL_LANES) {
+        real sine, cosine;
+        mask more = less(load(&p->mark[i]), all(t->more));
+        real radius = pick(more, all(t->radius[1]), all(t->radius[0]));
+        real angle = load(&p->turn[i]) * pick(more, all(t->turn[1]), all(t->turn[0]));
+        lanes_sincos(&angle, &sine, &cosine);
+        store(&p->centre[i], load(&p->offset[i]) * width);
+        store(&p->sine[i], sine * radius);
+        store(&p->cosine[i], cosine * radius);
+        store_ints(&p->more[i], pick_ints(more, all_ints(1), all_ints(0)));
     }
 }
 
@@ -158,6 +136,7 @@ static inline unsigned end_of_belt(const struct points *p, unsigned i)
 /* 32 bits for each shoot of those stools that have cohorts: four from one draw. */
 static inline void draw_cohorts(const struct stems *s, int side, struct points *p, uint64_t event)
 {
+    const uint64_t key = RANDOM_KEY(s->seed, s->number);
     unsigned most = 0;
     for (unsigned i = 0; i < p->count; i++) {
         const struct wood_stools *stools = s->wood->along[side][p->belt[i]].stools;
@@ -165,13 +144,11 @@ static inline void draw_cohorts(const struct stems *s, int side, struct points *
             most = stools->n + 1;
     }
     for (unsigned group = 0; group < COHORT_GROUPS && 4 * group < most; group++)
-        for (unsigned i = 0; i < p->size; i += MANY) {
-            many_bits a, b;
-            many_from(event + 2 * i, 2, &a);
-            many_from(shoot_draw(RANDOM_SHOOT, group), 0, &b);
-            many_threefry(s->seed, s->number, &a, &b);
-            memcpy(&p->cohorts[group][0][i], &a, sizeof a);
-            memcpy(&p->cohorts[group][1][i], &b, sizeof b);
+        for (unsigned i = 0; i < p->size; i += REAL_LANES) {
+            ints x = count_from(event + 2 * i, 2), y = all_ints(shoot_draw(RANDOM_SHOOT, group));
+            RANDOM_BITS(x, y, s->seed, s->number, key);
+            store_ints(&p->cohorts[group][0][i], x);
+            store_ints(&p->cohorts[group][1][i], y);
         }
 }
 
@@ -236,24 +213,27 @@ static inline bool is_plain_stool(const struct stems *s, int side)
 
 /* Shoots to be put in order. */
 struct shoots {
-    _Alignas(64) double along[SHOOTS_AT_ONCE + MANY];
-    double y[SHOOTS_AT_ONCE + MANY];
-    uint64_t kind[SHOOTS_AT_ONCE + MANY]; /* of the forest's */
-    uint64_t stool[SHOOTS_AT_ONCE + MANY];
+    _Alignas(64) double along[SHOOTS_AT_ONCE + REAL_LANES];
+    double y[SHOOTS_AT_ONCE + REAL_LANES];
+    uint64_t kind[SHOOTS_AT_ONCE + REAL_LANES]; /* of the forest's */
+    uint64_t stool[SHOOTS_AT_ONCE + REAL_LANES];
     bool met[SHOOTS_AT_ONCE];
     unsigned n;
 };
 
-/* Adds those shoots that `can` be hit, of one kind and stool in each lane; there is room for MANY. */
-static inline void add_shoots(struct shoots *to, const many_bits *can, const many_reals *along, const many_reals *y,
-                              const many_bits *kind, const many_bits *stool)
+/* Adds those shoots that `can` be hit, of one kind and stool in each lane; there is room for a register. */
+static inline void add_shoots(struct shoots *to, mask can, real along, real y, ints kind, ints stool)
 {
-    const many_bits along_bits = (many_bits)*along, y_bits = (many_bits)*y;
-    many_keep(can, &along_bits, &to->along[to->n]);
-    many_keep(can, &y_bits, &to->y[to->n]);
-    many_keep(can, kind, &to->kind[to->n]);
-    many_keep(can, stool, &to->stool[to->n]);
-    to->n += many_count(can);
+    keep(can, as_ints(along), &to->along[to->n]);
+    keep(can, as_ints(y), &to->y[to->n]);
+    keep(can, kind, &to->kind[to->n]);
+    keep(can, stool, &to->stool[to->n]);
+    to->n += (unsigned)__builtin_popcount(lanes_of(can));
+}
+
+static inline uint64_t kind_number(const struct stems *s, const struct wood_kind *kind)
+{
+    return (uint64_t)(kind - s->wood->kinds);
 }
 
 /* The shoots of a stool of one kind that the rock can hit: for stools of many. */
@@ -261,64 +241,46 @@ static inline void add_row(const struct stems *s, const struct stool *t, struct 
 {
     const struct wood_kind *kind = t->stools->kinds;
     double most = (s->b + kind->dbh) / 2;
-    many_bits kinds = (many_bits){0} + (uint64_t)(kind - s->wood->kinds), events = (many_bits){0} + t->event, shoot;
-    for (unsigned i = 0; i < t->n; i += MANY) {
-        many_reals c, q;
-        memcpy(&c, &t->ring[i], sizeof c);
-        memcpy(&q, &t->sines[i], sizeof q);
-        many_reals along = t->at + (c * t->cosine - q * t->sine), y = t->centre + (c * t->sine + q * t->cosine);
-        many_reals off = (many_reals)((many_bits)y & INT64_MAX);
-        many_from(i, 1, &shoot);
-        many_bits can = (many_bits)(off <= most) & (many_bits)(shoot < t->n);
-        add_shoots(to, &can, &along, &y, &kinds, &events);
+    for (unsigned i = 0; i < t->n; i += REAL_LANES) {
+        real c = load(&t->ring[i]), q = load(&t->sines[i]);
+        real along = t->at + (c * t->cosine - q * t->sine), y = t->centre + (c * t->sine + q * t->cosine);
+        mask can = at_least(all(most), absolute(y)) & more(all_ints(t->n), count_from(i, 1));
+        add_shoots(to, can, along, y, all_ints(kind_number(s, kind)), all_ints(t->event));
     }
 }
 
 /* The kinds of shoot i of stools from place k on. */
-static inline void choose_kinds(const struct points *p, const struct wood_stools *t, unsigned i, unsigned k, many_bits *kind,
-                                many_reals *dbh)
+static inline void choose_kinds(const struct points *p, const struct wood_stools *t, unsigned i, unsigned k, ints *kind,
+                                real *dbh)
 {
-    many_bits bits;
-    many_reals u;
-    memcpy(&bits, &p->cohorts[i / 4][i / 2 % 2][k], sizeof bits);
-    bits = bits >> i % 2 * 32 & UINT32_MAX;
-    many_of_integers(&bits, &u);
-    u = (u + 0.5) * 0x1p-32;
+    ints bits = load_ints(&p->cohorts[i / 4][i / 2 % 2][k]);
+    real u = (real_of_small(bits >> i % 2 * 32 & UINT32_MAX) + 0.5) * 0x1p-32;
     for (size_t j = 0; j + 1 < t->cohorts; j++) {
-        const many_bits beyond = (many_bits)(u >= t->kinds[j].share_to);
-        const many_reals zero = {0}, next = zero + t->kinds[j + 1].dbh;
-        *kind -= beyond;
-        *dbh = CHOOSE(beyond, next, *dbh);
+        mask beyond = at_least(u, all(t->kinds[j].share_to));
+        *kind = pick_ints(beyond, *kind + 1, *kind);
+        *dbh = pick(beyond, all(t->kinds[j + 1].dbh), *dbh);
     }
 }
 
-/* The shoots of the stools from place k on to before the next, MANY of them at the most and all of one belt, by their number
- * on the ring. */
+/* The shoots of the stools from place k on to before the next, as many as a register holds at the most and all of one belt, by
+ * their number on the ring. */
 static inline void add_columns(const struct stems *s, const struct points *p, unsigned k, const struct wood_stools *t,
                                uint64_t event, struct shoots *to)
 {
     const double *ring = t->ring[0], *other = t->ring[t->more > 0];
-    const many_reals zero = {0};
-    many_reals at, centre, sine, cosine;
-    many_bits more, place, events;
-    memcpy(&at, &p->at[k], sizeof at);
-    memcpy(&centre, &p->centre[k], sizeof centre);
-    memcpy(&sine, &p->sine[k], sizeof sine);
-    memcpy(&cosine, &p->cosine[k], sizeof cosine);
-    memcpy(&more, &p->more[k], sizeof more);
-    many_from(k, 1, &place);
-    many_from(event, 2, &events);
-    many_bits n = (more + t->n) & (many_bits)(place < p->next), is_more = -more;
+    real at = load(&p->at[k]), centre = load(&p->centre[k]), sine = load(&p->sine[k]), cosine = load(&p->cosine[k]);
+    ints is_more = load_ints(&p->more[k]), events = count_from(event, 2);
+    mask longer = more(is_more, all_ints(0)), there = more(all_ints(p->next), count_from(k, 1));
+    ints n = pick_ints(there, is_more + t->n, all_ints(0));
     for (unsigned i = 0; i < t->n + (t->more > 0); i++) {
-        many_reals c = CHOOSE(is_more, zero + other[i], zero + ring[i]);
-        many_reals q = CHOOSE(is_more, zero + other[t->ring_room + i], zero + ring[t->ring_room + i]);
-        many_reals along = at + (c * cosine - q * sine), y = centre + (c * sine + q * cosine), dbh = zero + t->kinds->dbh;
-        many_bits kind = (many_bits){0} + (uint64_t)(t->kinds - s->wood->kinds);
+        real c = pick(longer, all(other[i]), all(ring[i]));
+        real q = pick(longer, all(other[t->ring_room + i]), all(ring[t->ring_room + i]));
+        real along = at + (c * cosine - q * sine), y = centre + (c * sine + q * cosine), dbh = all(t->kinds->dbh);
+        ints kind = all_ints(kind_number(s, t->kinds));
         if (t->cohorts > 1)
             choose_kinds(p, t, i, k, &kind, &dbh);
-        many_reals off = (many_reals)((many_bits)y & INT64_MAX);
-        many_bits can = (many_bits)(off <= (s->b + dbh) / 2) & (many_bits)(n > i);
-        add_shoots(to, &can, &along, &y, &kind, &events);
+        mask can = at_least((s->b + dbh) / 2, absolute(y)) & more(n, all_ints(i));
+        add_shoots(to, can, along, y, kind, events);
     }
 }
 
@@ -345,7 +307,7 @@ static inline void make_columns(struct stems *s, int side, const struct wood_sto
         drawn += t->n + p->more[i];
     s->drawn += drawn;
     s->effort += drawn + count;
-    for (; k < p->next; k += MANY)
+    for (; k < p->next; k += REAL_LANES)
         add_columns(s, p, k, t, event_of(p, STREAM_STOOLS, side, k), to);
 }
 
@@ -353,58 +315,49 @@ static inline void make_columns(struct stems *s, int side, const struct wood_sto
  * and its first shoot. Returns the sum of the places. */
 static inline uint64_t rank_among(const struct shoots *t, bool equal, uint64_t rank[SHOOTS_AT_ONCE])
 {
-    many_bits all = {0};
-    for (unsigned i = 0; i < t->n; i += MANY) {
-        many_reals along;
-        many_bits before = {0}, stool, own;
-        memcpy(&along, &t->along[i], sizeof along);
-        memcpy(&stool, &t->stool[i], sizeof stool);
-        many_from(i, 1, &own);
+    ints sums = all_ints(0);
+    for (unsigned i = 0; i < t->n; i += REAL_LANES) {
+        real along = load(&t->along[i]);
+        ints before = all_ints(0), stool = load_ints(&t->stool[i]), own = count_from(i, 1); /* true is -1 */
         for (unsigned j = 0; j < t->n; j++) {
-            before -= (many_bits)(along > t->along[j]);
+            before -= (ints)(along > t->along[j]);
             if (equal)
-                before -= (many_bits)(along == t->along[j]) &
-                          ((many_bits)(stool > t->stool[j]) | ((many_bits)(stool == t->stool[j]) & (many_bits)(own > j)));
+                before -= (ints)(along == t->along[j]) &
+                          ((ints)(stool > t->stool[j]) | ((ints)(stool == t->stool[j]) & (ints)(own > j)));
         }
-        memcpy(&rank[i], &before, sizeof before);
-        all += before;
+        store_ints(&rank[i], before);
+        sums += before;
     }
     uint64_t sum = 0;
-    for (unsigned lane = 0; lane < MANY; lane++)
-        sum += all[lane];
+    EACH_LANE(i)
+        sum += sums[i];
     return sum;
 }
 
-static __attribute__((noinline)) void rank_equal_shoots(const struct shoots *t, uint64_t rank[SHOOTS_AT_ONCE])
+SELDOM void rank_equal_shoots(const struct shoots *t, uint64_t rank[SHOOTS_AT_ONCE])
 {
     rank_among(t, true, rank);
 }
 
 static inline void rank_shoots(struct shoots *t, uint64_t rank[SHOOTS_AT_ONCE])
 {
-    const many_reals zero = {0}, nowhere = zero - (double)INFINITY;
-    memcpy(&t->along[t->n], &nowhere, sizeof nowhere); /* of place 0 */
+    store(&t->along[t->n], all(-INFINITY)); /* of place 0 */
     if (rank_among(t, false, rank) != (uint64_t)t->n * (t->n - 1) / 2)
         rank_equal_shoots(t, rank);
 }
 
 /* What those shoots take of which it depends on the eccentricity, with ceduo_dorren_share() of many at once. */
-static __attribute__((noinline)) void set_energies(const struct stems *s, struct shoots *t, const uint64_t *rank,
-                                                   struct stem *waiting)
+SELDOM void set_energies(const struct stems *s, struct shoots *t, const uint64_t *rank, struct stem *waiting)
 {
-    const many_reals middle = {0};
-    double dbh[SHOOTS_AT_ONCE + MANY], share[SHOOTS_AT_ONCE + MANY];
-    memcpy(&t->y[t->n], &middle, sizeof middle); /* those behind the last are of no stem */
-    for (unsigned i = 0; i < t->n + MANY; i++)
+    double dbh[SHOOTS_AT_ONCE + REAL_LANES], share[SHOOTS_AT_ONCE + REAL_LANES];
+    store(&t->y[t->n], all(0)); /* those behind the last are of no stem */
+    for (unsigned i = 0; i < t->n + REAL_LANES; i++)
         dbh[i] = s->wood->kinds[i < t->n ? t->kind[i] : t->kind[0]].dbh;
-    for (unsigned i = 0; i < t->n; i += MANY) {
-        many_reals y, d, power;
-        memcpy(&y, &t->y[i], sizeof y);
-        memcpy(&d, &dbh[i], sizeof d);
-        many_reals off = (many_reals)((many_bits)y & INT64_MAX), exponent = DORREN_EXPONENT(2 * off / (s->b + d));
-        many_exp(&exponent, &power);
-        many_reals of = DORREN_SHARE_OF(power), cut = 0.5 * (of + (many_reals)((many_bits)of & INT64_MAX));
-        memcpy(&share[i], &cut, sizeof cut);
+    for (unsigned i = 0; i < t->n; i += REAL_LANES) {
+        real power, exponent = DORREN_EXPONENT(2 * absolute(load(&t->y[i])) / (s->b + load(&dbh[i])));
+        lanes_exp(&exponent, &power);
+        real of = DORREN_SHARE_OF(power);
+        store(&share[i], 0.5 * (of + absolute(of)));
     }
     for (unsigned i = 0; i < t->n; i++) {
         const struct wood_kind *kind = &s->wood->kinds[t->kind[i]];
@@ -419,7 +372,7 @@ static inline void add_waiting(const struct stems *s, const struct stems_side *s
         const struct stem *stem = &side->waiting[i];
         to->along[to->n] = stem->along;
         to->y[to->n] = stem->y;
-        to->kind[to->n] = (uint64_t)(stem->kind - s->wood->kinds);
+        to->kind[to->n] = kind_number(s, stem->kind);
         to->stool[to->n] = stem->stool;
         to->met[to->n++] = stem->met;
     }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The wide kernels give the same bits as the scalar one, in every figure of a run. */
+/* The kernels of lanes give the same bits as the scalar one, in every figure of a run. */
 #include "expect.h"
 #include "local.h"
 
@@ -22,8 +22,8 @@
 #define LONG_VERTICES 4097
 #define KINDS_MOST    3 /* cohorts, classes of trees */
 
-static const enum ceduo_kernel wide[] = {CEDUO_KERNEL_BEST, CEDUO_KERNEL_AVX2, CEDUO_KERNEL_AVX512};
-#define WIDE (sizeof wide / sizeof wide[0])
+static const enum ceduo_kernel lanes[] = {CEDUO_KERNEL_BEST, CEDUO_KERNEL_AVX2, CEDUO_KERNEL_AVX512};
+#define LANES (sizeof lanes / sizeof lanes[0])
 
 /* ---- comparing ---- */
 
@@ -112,8 +112,8 @@ static uint64_t expect_same(const char *scene, const struct ceduo_run_def *def, 
     one.threads = 1;
     struct ceduo_run *scalar = run_with(one, CEDUO_KERNEL_SCALAR, rocks, rocks);
     static unsigned long times; /* the best is one of the others: now and then is enough */
-    for (size_t i = times++ % 8 > 0; i < WIDE; i++) {
-        LOCAL(ceduo_run, other) = run_with(*def, wide[i], first, rocks);
+    for (size_t i = times++ % 8 > 0; i < LANES; i++) {
+        LOCAL(ceduo_run, other) = run_with(*def, lanes[i], first, rocks);
         compare(scene, scalar, other, def);
     }
     uint64_t contacts = ceduo_run_contacts(scalar);
@@ -388,7 +388,7 @@ static void *raise_soon(void *flag)
 TEST(a_raised_flag_is_seen_by_rocks_under_way)
 {
     const double x[] = {0, 1e9}, z[] = {0, 0};
-    for (size_t i = 0; i < WIDE; i++) {
+    for (size_t i = 0; i < LANES; i++) {
         struct line_scene line;
         line_scene_init(&line, 2, x, z, (struct line_ground){1, 1, 0}, 0.3, CEDUO_LAW_LUMPED);
         line_scene_release(&line, 1, 3, 5, 0, 0);
@@ -396,7 +396,7 @@ TEST(a_raised_flag_is_seen_by_rocks_under_way)
         pthread_t thread;
         struct ceduo_run_def def = ceduo_run_def_default(&line.scene);
         def.cancel = &flag;
-        def.kernel = wide[i];
+        def.kernel = lanes[i];
         def.rocks_most = 10000;
         LOCAL(ceduo_run, run);
         assert_int_equal(ceduo_run_create(&def, &run), CEDUO_OK);

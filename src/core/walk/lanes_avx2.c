@@ -1,8 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The wide walk on AVX2. The rest of the program is for any machine, so this file and stems_avx2.c alone set
- * the target. */
-#include "wide.h"
-
+/* The walk of lanes on AVX2. The rest of the program is for any machine: this file and stems_avx2.c alone set the target. */
 #if defined(__x86_64__) && defined(__GNUC__)
 
 #include <immintrin.h>
@@ -13,15 +10,18 @@
 #pragma GCC target("avx2")
 #endif
 
-#include "wide_walk.h"
+#define REAL_LANES 4
+#include "lanes_walk.h"
 
-void ceduo_wide_walk_avx2(const struct wide_job *job)
+void ceduo_lanes_walk_avx2(const struct lanes_job *job)
 {
-    wide_walk(job);
+    walk_job(job);
 }
 
 #ifdef __clang__
 #pragma clang attribute pop
 #endif
 
+#else
+#include "lanes.h"
 #endif

@@ -1,33 +1,60 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The lanes of the wide walk: what each holds of its rock, and how the scalar walk does for one lane what happens
+/* The lanes: what each holds of its rock, and how the scalar walk does for one lane what happens
  * seldom. */
-#ifndef CEDUO_WIDE_LANE_H
-#define CEDUO_WIDE_LANE_H
+#ifndef CEDUO_LANES_LANE_H
+#define CEDUO_LANES_LANE_H
 
 #include <math.h>
 #include <stddef.h>
 
-#include "wide.h"
-#include "wide_cells.h"
+#include "impact.h"
+#include "lanes.h"
+#include "lanes_cells.h"
+
+#define EACH_REGISTER(i) for (size_t i = 0; i < LANES; i += REAL_LANES)
+#define ALL_LANES        ((unsigned)(((uint64_t)1 << LANES) - 1))
+
+#ifdef LOOK_UP_16
+#define LOOK_UP_WRAPS true /* a small table is looked up at i modulo 16, whatever i is */
+#else
+#define LOOK_UP_WRAPS false
+#endif
+
+/* The two numbers at i of a table for each lane; `small`: it has no more than 16. */
+HOT void look_up(const struct lanes_table *table, ints i, bool small, real *first, real *second)
+{
+#ifdef LOOK_UP_16
+    if (small) { /* without going to memory lane by lane */
+        *first = look_up_16(table->first, i);
+        *second = look_up_16(table->second, i);
+        return;
+    }
+#endif
+    (void)small;
+    uint64_t at[REAL_LANES];
+    store_ints(at, i << table->shift);
+    load_pairs_at(table->pairs, at, first, second);
+}
 
 /* What is known before the first step, so that the steps are compiled for it. */
 struct form {
-    enum ceduo_law law;
+    const struct contact_law *law;
     bool small; /* the tables have 16 numbers */
     bool wraps; /* and what is looked up beyond them does no harm */
     bool wood;  /* there are stems */
 };
 
 /* All rocks in the lanes, as they come round to the next contact. `segment` and `to` count from 1, as the tables of
- * struct wide_ground do; 0 and n + 1 lie off the slope. */
-struct wide {
-    const struct wide_job *job;
-    const struct wide_ground *ground;
+ * struct lanes_ground do; 0 and n + 1 lie off the slope. */
+struct lanes {
+    const struct lanes_job *job;
+    const struct lanes_ground *ground;
     const struct ground *g;
     uint64_t seed;
     bool far;    /* the ground has blocks */
     bool varies; /* the ground from rock to rock */
     bool against, scale_rn;
+    bool steep; /* some segments are steeper than 45 degrees */
 
     _Alignas(64) double x[LANES], z[LANES], vx[LANES], vz[LANES], spin[LANES];
     uint64_t segment[LANES];
@@ -35,22 +62,27 @@ struct wide {
     double t[LANES], to_x[LANES], to_z[LANES];
     uint64_t to[LANES];
     double x0[LANES], z0[LANES], x1[LANES], z1[LANES], m[LANES], theta[LANES];
-    double along[LANES];   /* of those that roll */
-    double draw[3][LANES]; /* for the facets of the next contacts, */
+    double along[LANES], off[LANES]; /* velocity on the segment, behind a contact */
+    double inv[LANES];               /* 1/vx */
+    uint64_t vertex[LANES];          /* from 1; which the search for the landing has come to */
+    double draw[3][LANES];           /* for the facets of the next contacts, */
+    struct {
+        double sine[LANES], cosine[LANES];
+    } facet, turned;       /* of the facets, and of the sections */
     double turn[3][LANES]; /* and for how the sections are turned there */
     struct {
         double wide[LANES], high[LANES], reach[LANES], gyration[LANES];
     } section;
     double next_x[LANES], stem_ahead[LANES], stem_behind[LANES];
     struct {
-        double height[LANES];            /* of the next ahead; */
-        double cost[LANES], part[LANES]; /* what a hit of it takes: see struct hit */
-        const struct stem *next[LANES];  /* NULL where it does not wait, or is not known */
-        double after[LANES];             /* where the stem stands that waits behind it, which is next if that is */
-        double sure[LANES];              /* before here */
-        double around[LANES];            /* so far reach stools that stand around the release */
-        double free_to[LANES];           /* before here the flight is above `tallest` */
-        uint64_t *met[LANES];            /* of struct stems */
+        double height[LANES];             /* of the next ahead; */
+        double cost[LANES], share[LANES]; /* what a hit of it takes: see struct hit */
+        const struct stem *next[LANES];   /* NULL where it does not wait, or is not known */
+        double after[LANES];              /* where the stem stands that waits behind it, which is next if that is */
+        double sure[LANES];               /* before here */
+        double around[LANES];             /* so far reach stools that stand around the release */
+        double free_to[LANES];            /* before here the flight is above `tallest` */
+        uint64_t *met[LANES];             /* of struct stems */
         uint64_t hit[LANES], stools_met[LANES];
     } stem; /* counts and `next` go back to the walker and its stems by show_stems_met() */
     double radius[LANES], k[LANES], mass[LANES], moment[LANES];
@@ -73,10 +105,10 @@ struct wide {
     struct course start;
 };
 
-_Static_assert(offsetof(struct wide, contacts) % 64 == 0, "what is for lanes is loaded from whole lines of the cache");
+_Static_assert(offsetof(struct lanes, contacts) % 64 == 0, "what is for lanes is loaded from whole lines of the cache");
 
 /* Lanes that come to no contact in this step. */
-LANE unsigned in_the_air(struct form form, const struct wide *k)
+HOT unsigned in_the_air(struct form form, const struct lanes *k)
 {
     return form.wood ? k->aloft | k->waits : 0;
 }
@@ -90,7 +122,7 @@ static void load_draws_of(const struct walker *w, enum random_kind kind, double 
     draws[1][i] = pair.u[1];
 }
 
-static void load_draws(struct wide *k, size_t i)
+static void load_draws(struct lanes *k, size_t i)
 {
     const struct walker *w = &k->job->walkers[i];
     load_draws_of(w, RANDOM_FACET, k->draw, i);
@@ -99,7 +131,7 @@ static void load_draws(struct wide *k, size_t i)
 }
 
 /* What a rock has met, and which stem comes next, as its lane knows it. */
-static inline void show_stems_met(const struct wide *k, size_t i)
+static inline void show_stems_met(const struct lanes *k, size_t i)
 {
     struct walker *w = &k->job->walkers[i];
     if (!w->stems)
@@ -113,7 +145,7 @@ static inline void show_stems_met(const struct wide *k, size_t i)
     w->stem_ahead = side->next = k->stem_ahead[i];
 }
 
-static void load_section(struct wide *k, size_t i)
+static void load_section(struct lanes *k, size_t i)
 {
     const struct section *section = &k->job->walkers[i].section;
     k->section.wide[i] = section->wide;
@@ -123,16 +155,16 @@ static void load_section(struct wide *k, size_t i)
 }
 
 /* What the next stem ahead does to a rock. */
-LANE void load_hit(struct wide *k, size_t i, const struct stem *stem)
+HOT void load_hit(struct lanes *k, size_t i, const struct stem *stem)
 {
     const struct walker *w = &k->job->walkers[i];
     k->stem.height[i] = stem->height;
     k->stem.cost[i] = stem->energy;
-    k->stem.part[i] = ceduo_stem_part(w->stems, stem, &w->rock);
+    k->stem.share[i] = ceduo_stem_share(w->stems, stem, &w->rock);
 }
 
 /* The next stem ahead, if there is one. */
-static void load_stem(struct wide *k, size_t i)
+static void load_stem(struct lanes *k, size_t i)
 {
     const struct walker *w = &k->job->walkers[i];
     unsigned bit = 1u << i;
@@ -163,7 +195,7 @@ static void load_stem(struct wide *k, size_t i)
 }
 
 /* What the walker knows of itself and the scalar walk may have changed. */
-static void load_walker(struct wide *k, size_t i)
+static void load_walker(struct lanes *k, size_t i)
 {
     const struct walker *w = &k->job->walkers[i];
     k->spin[i] = w->spin;
@@ -174,9 +206,9 @@ static void load_walker(struct wide *k, size_t i)
     k->pause[i] = w->pause;
 }
 
-static void load_course(struct wide *k, size_t i, const struct course *c)
+static void load_course(struct lanes *k, size_t i, const struct course *c)
 {
-    const struct wide_ground *ground = k->ground;
+    const struct lanes_ground *ground = k->ground;
     load_walker(k, i);
     k->x[i] = c->at.x;
     k->z[i] = c->at.z;
@@ -186,7 +218,7 @@ static void load_course(struct wide *k, size_t i, const struct course *c)
     k->t[i] = c->flies ? c->l.t : 0;
     k->to_x[i] = c->flies ? c->l.x : c->at.x;
     k->to_z[i] = c->flies ? c->l.z : c->at.z;
-    k->along[i] = c->v.along;
+    k->along[i] = c->along;
     uint64_t j = c->flies ? c->l.segment + 1 : c->at.segment + 1;
     k->to[i] = j;
     k->x0[i] = ground->place.pairs[j][0];
@@ -199,7 +231,7 @@ static void load_course(struct wide *k, size_t i, const struct course *c)
 }
 
 /* The walker brought up to date, and the lane's course. */
-static struct course course_of(struct wide *k, size_t i)
+static struct course course_of(struct lanes *k, size_t i)
 {
     struct walker *w = &k->job->walkers[i];
     unsigned bit = 1u << i;
@@ -216,12 +248,12 @@ static struct course course_of(struct wide *k, size_t i)
                                   .on_ground = !((k->aloft | k->lost) & bit)},
                            .flies = !(k->there & bit),
                            .aloft = (k->aloft | k->lost) & bit,
-                           .v = {.along = k->along[i], .off = 0},
+                           .along = k->along[i],
                            .l = {.t = k->t[i], .x = k->to_x[i], .z = k->to_z[i], .segment = to, .left = left}};
 }
 
-/* An empty lane goes through the motions where it is, and is never looked at. */
-static void empty_lane(struct wide *k, size_t i)
+/* An idle lane is computed like the others; its results are ignored. */
+static void empty_lane(struct lanes *k, size_t i)
 {
     k->empty = true;
     k->live &= ~(1u << i);
@@ -234,9 +266,9 @@ static void empty_lane(struct wide *k, size_t i)
 }
 
 /* The next rock, at its first contact. */
-static void refill(struct wide *k, size_t i)
+static void refill(struct lanes *k, size_t i)
 {
-    const struct wide_job *job = k->job;
+    const struct lanes_job *job = k->job;
     struct walker *w = &job->walkers[i];
     unsigned bit = 1u << i;
     k->left &= ~bit;
@@ -267,7 +299,7 @@ static void refill(struct wide *k, size_t i)
 /* ---- what happens seldom ---- */
 
 /* A flight that comes to stems which are left to the scalar walk, or a rock of many contacts. */
-static __attribute__((noinline)) void come_down_alone(struct wide *k, size_t i)
+SELDOM void come_down_alone(struct lanes *k, size_t i)
 {
     struct course c = course_of(k, i);
     unsigned bit = 1u << i;
@@ -285,7 +317,7 @@ static __attribute__((noinline)) void come_down_alone(struct wide *k, size_t i)
 }
 
 /* A flight that ends where it is. */
-static __attribute__((noinline)) void stop_alone(struct wide *k, size_t i, enum ceduo_end end)
+SELDOM void stop_alone(struct lanes *k, size_t i, enum ceduo_end end)
 {
     struct walker *w = &k->job->walkers[i];
     w->contacts = k->contacts[i];
@@ -297,7 +329,7 @@ static __attribute__((noinline)) void stop_alone(struct wide *k, size_t i, enum 
 }
 
 /* A flight that leaves the slope. */
-static __attribute__((noinline)) void leave_alone(struct wide *k, size_t i)
+SELDOM void leave_alone(struct lanes *k, size_t i)
 {
     struct walker *w = &k->job->walkers[i];
     w->contacts = k->contacts[i];
@@ -309,7 +341,7 @@ static __attribute__((noinline)) void leave_alone(struct wide *k, size_t i)
 }
 
 /* A flight passes marks up to x, which it reaches after t. */
-LANE void pass_marks(struct wide *k, size_t i, const struct flight *at, double x, double t, double spin)
+HOT void pass_marks(struct lanes *k, size_t i, const struct flight *at, double x, double t, double spin)
 {
     struct walker *w = &k->job->walkers[i];
     w->spin = spin;
@@ -325,21 +357,21 @@ LANE void pass_marks(struct wide *k, size_t i, const struct flight *at, double x
 }
 
 /* A flight that passes marks and goes on in its lane. */
-static __attribute__((noinline)) void pass_marks_alone(struct wide *k, size_t i)
+SELDOM void pass_marks_alone(struct lanes *k, size_t i)
 {
     struct flight at = {.x = k->x[i], .z = k->z[i], .vx = k->vx[i], .vz = k->vz[i]};
     pass_marks(k, i, &at, k->to_x[i], k->t[i], k->spin[i]);
 }
 
 /* Behind a contact: a rock that rolls or flies straight up, or where the search for its landing is long. */
-static __attribute__((noinline)) void go_off_alone(struct wide *k, size_t i, double off, bool knows_landing)
+SELDOM void go_off_alone(struct lanes *k, size_t i, bool knows_landing)
 {
     struct walker *w = &k->job->walkers[i];
     struct course c = course_of(k, i);
     unsigned bit = 1u << i;
     uint64_t contacts = w->contacts;
     enum ceduo_end end;
-    c.v.off = off;
+    c.off = k->off[i];
     bool rolls = ceduo_walk_rolls(w, &c, knows_landing);
     if (!rolls && knows_landing) /* as the lane has it */
         return;

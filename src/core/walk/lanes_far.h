@@ -2,10 +2,10 @@
 /* The search for landings on a long slope, of flights along +x: what land_far() of landing.h finds. The lanes take turns,
  * so that one works while what another needs is fetched, and each looks at all vertices of a block at once, or at all
  * blocks of the next larger one. Those that look at blocks of one size follow each other, so that no branch depends on it. */
-#ifndef CEDUO_WIDE_FAR_H
-#define CEDUO_WIDE_FAR_H
+#ifndef CEDUO_LANES_FAR_H
+#define CEDUO_LANES_FAR_H
 
-#include "wide_contact.h"
+#include "lanes_contact.h"
 
 #define GROUP_LAST ((1 << GROUND_BITS) - 1)
 
@@ -16,46 +16,46 @@ struct quest {
     uint64_t vertex;
 };
 
-LANE double above_one(const struct wide *k, const struct quest *f, double x, double z)
+HOT double above_one(const struct lanes *k, const struct quest *f, double x, double z)
 {
     double t = (x - f->x) * f->inv;
     return (f->z + (f->vz - k->g->half_g * t) * t) - z;
 }
 
-LANE part_reals above_part(const struct wide *k, const struct quest *f, part_reals x, part_reals z)
+HOT real above_all(const struct lanes *k, const struct quest *f, real x, real z)
 {
-    part_reals t = (x - PART_ALL(f->x)) * PART_ALL(f->inv);
-    return (PART_ALL(f->z) + (PART_ALL(f->vz) - PART_ALL(k->g->half_g) * t) * t) - z;
+    real t = (x - f->x) * f->inv;
+    return height_after(all(f->z), all(f->vz), k->g->half_g, t) - z;
 }
 
 /* At which of the next vertices the flight would be under the ground; bit 0 is the one at `to`. */
-LANE unsigned vertices_under(const struct wide *k, const struct quest *f, const double (*to)[2])
+HOT unsigned vertices_under(const struct lanes *k, const struct quest *f, const double (*to)[2])
 {
     unsigned under = 0;
-    for (unsigned at = 0; at < GROUND_GROUP; at += PART) {
-        part_reals x, z;
-        part_of_pairs(to + at, &x, &z);
-        under |= PART_NONE_BUT(PART_AT_LEAST(above_part(k, f, x, z), PART_ALL(0))) << at;
+    for (unsigned at = 0; at < GROUND_GROUP; at += REAL_LANES) {
+        real x, z;
+        load_pairs(to + at, &x, &z);
+        under |= (REGISTER & ~lanes_of(at_least(above_all(k, f, x, z), all(0)))) << at;
     }
     return under;
 }
 
 /* Which blocks from `b` on the flight may touch. */
-LANE unsigned blocks_under(const struct wide *k, const struct quest *f, const struct ground_block *b)
+HOT unsigned blocks_under(const struct lanes *k, const struct quest *f, const struct ground_block *b)
 {
     unsigned under = 0;
-    for (unsigned at = 0; at < GROUND_GROUP; at += PART, b += PART) {
-        part_reals x, z, m, rise;
-        part_of_fours(&b->x, &x, &z, &m, &rise);
-        part_reals here = above_part(k, f, x, z);
-        part_reals next = part_shifted(here, above_one(k, f, b[PART].x, b[PART].z));
-        under |= PART_NONE_BUT(PART_BOTH(PART_AT_LEAST(here, rise), PART_AT_LEAST(next, rise))) << at;
+    for (unsigned at = 0; at < GROUND_GROUP; at += REAL_LANES, b += REAL_LANES) {
+        real x, z, m, rise;
+        load_fours(&b->x, &x, &z, &m, &rise);
+        real here = above_all(k, f, x, z);
+        real next = shifted(here, above_one(k, f, b[REAL_LANES].x, b[REAL_LANES].z));
+        under |= (REGISTER & ~lanes_of(at_least(here, rise) & at_least(next, rise))) << at;
     }
     return under;
 }
 
 /* Looks at the vertices up to the end of their block; whether the flight lands before one. */
-LANE bool quest_vertices(const struct wide *k, struct quest *f)
+HOT bool quest_vertices(const struct lanes *k, struct quest *f)
 {
     unsigned count = (GROUP_LAST + 1) - (f->vertex & GROUP_LAST);
     unsigned under = vertices_under(k, f, k->ground->place.pairs + f->vertex + 2) & ((1u << count) - 1);
@@ -64,7 +64,7 @@ LANE bool quest_vertices(const struct wide *k, struct quest *f)
 }
 
 /* Looks at the blocks up to the end of the larger one which they are part of; the level to go on at. */
-LANE int quest_blocks(const struct wide *k, struct quest *f, int level)
+HOT int quest_blocks(const struct lanes *k, struct quest *f, int level)
 {
     int shift = GROUND_BITS * level;
     uint64_t i = f->vertex >> shift, there = (k->g->n >> shift) - i, count = (GROUP_LAST + 1) - (i & GROUP_LAST);
@@ -78,7 +78,7 @@ LANE int quest_blocks(const struct wide *k, struct quest *f, int level)
 }
 
 /* What the flight looks at when it is its turn again, and a little more of vertices. */
-LANE void fetch_for(const struct wide *k, const struct quest *f, int level)
+HOT void fetch_for(const struct lanes *k, const struct quest *f, int level)
 {
     const char *from = level == 0 ? (const char *)(k->ground->place.pairs + f->vertex + 2)
                                   : (const char *)(k->g->levels[level] + (f->vertex >> GROUND_BITS * level));
@@ -87,7 +87,7 @@ LANE void fetch_for(const struct wide *k, const struct quest *f, int level)
 }
 
 /* One look of each flight that is at a level; at[l]: those of level l. Returns those that have come to where they land. */
-LANE unsigned look_at_level(const struct wide *k, struct quest *quests, int level, unsigned at[GROUND_LEVELS])
+HOT unsigned look_at_level(const struct lanes *k, struct quest *quests, int level, unsigned at[GROUND_LEVELS])
 {
     unsigned left = at[level], landed = 0;
     at[level] = 0;
@@ -106,39 +106,27 @@ LANE unsigned look_at_level(const struct wide *k, struct quest *quests, int leve
     return landed;
 }
 
-/* Follows those of `lanes`, each from vertex p (from 1) that it clears, to the last that it clears: up to larger blocks
- * and down again, all flights of a level at a time. */
-static __attribute__((noinline)) void search_far(const struct wide *k, unsigned lanes, struct quest *quests)
+/* Follows those of `lanes`, each from its vertex, which it clears, to the last that it clears: up to larger blocks and down
+ * again, all flights of a level at a time. */
+SELDOM void search_far(struct lanes *k, unsigned lanes)
 {
-    unsigned at[GROUND_LEVELS] = {lanes};
-    while (lanes) {
-        for (int level = 0; level <= k->g->top; level++)
-            lanes &= ~look_at_level(k, quests, level, at);
-        for (int level = k->g->top; level >= 0; level--)
-            lanes &= ~look_at_level(k, quests, level, at);
-    }
-}
-
-/* The same for flights in their lanes; p: the vertex, from 1. */
-LANE ints search_far_lanes(const struct wide *k, const struct rocks *r, reals inv, unsigned lanes, ints p)
-{
-    _Alignas(64) double x[LANES], z[LANES], vz[LANES], inverse[LANES];
-    _Alignas(64) uint64_t vertex[LANES];
     struct quest quests[LANES];
-    store(x, r->x);
-    store(z, r->z);
-    store(vz, r->vz);
-    store(inverse, inv);
-    store_ints(vertex, p);
+    unsigned at[GROUND_LEVELS] = {lanes};
     for (size_t i = 0; i < LANES; i++) {
-        quests[i] = (struct quest){x[i], z[i], vz[i], inverse[i], vertex[i] - 1};
+        quests[i] = (struct quest){k->x[i], k->z[i], k->vz[i], k->inv[i], k->vertex[i] - 1};
         if (lanes >> i & 1)
             fetch_for(k, &quests[i], 0);
     }
-    search_far(k, lanes, quests);
-    for (size_t i = 0; i < LANES; i++)
-        vertex[i] = quests[i].vertex + 1;
-    return load_ints(vertex);
+    for (unsigned left = lanes; left;) {
+        for (int level = 0; level <= k->g->top; level++)
+            left &= ~look_at_level(k, quests, level, at);
+        for (int level = k->g->top; level >= 0; level--)
+            left &= ~look_at_level(k, quests, level, at);
+    }
+    for (; lanes; lanes &= lanes - 1) {
+        size_t i = (size_t)__builtin_ctz(lanes);
+        k->vertex[i] = quests[i].vertex + 1;
+    }
 }
 
 #endif

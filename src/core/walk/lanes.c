@@ -1,0 +1,52 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "lanes.h"
+
+#include <stdlib.h>
+
+#include "kernel.h"
+
+#define SEGMENT_SHIFT 2
+_Static_assert(sizeof(struct ground_vertex) == 16, "a vertex is a pair of numbers");
+_Static_assert(sizeof(struct ground_segment) == (size_t)16 << SEGMENT_SHIFT, "a segment is pairs of numbers");
+
+/* A table of `entries` pairs that begin at `first`, `1 << shift` pairs from one to the next. */
+static void set_table(struct lanes_table *t, const void *first, int shift, size_t entries)
+{
+    t->pairs = (const double(*)[2])first;
+    t->shift = shift;
+    for (size_t i = 0; i < entries && i < TABLE_SMALL; i++) {
+        t->first[i] = t->pairs[i << shift][0];
+        t->second[i] = t->pairs[i << shift][1];
+    }
+}
+
+struct lanes_ground *ceduo_lanes_ground_create(const struct ground *g)
+{
+    struct lanes_ground *lanes = aligned_alloc(_Alignof(struct lanes_ground), sizeof *lanes);
+    if (!lanes)
+        return NULL;
+    *lanes = (struct lanes_ground){0};
+    size_t entries = g->n + 3;
+    lanes->small = entries <= TABLE_SMALL;
+    const struct ground_segment *before = g->segments - 1;
+    set_table(&lanes->place, g->at - 1, 0, entries);
+    set_table(&lanes->slope, &before->m, SEGMENT_SHIFT, entries);
+    set_table(&lanes->tilt, &before->c, SEGMENT_SHIFT, entries);
+    set_table(&lanes->share, &before->rn, SEGMENT_SHIFT, entries);
+    set_table(&lanes->grip, &before->mu, SEGMENT_SHIFT, entries);
+    return lanes;
+}
+
+lanes_walk_fn *ceduo_lanes_walk(enum ceduo_kernel kernel)
+{
+#if defined(__x86_64__) && defined(__GNUC__)
+    kernel = ceduo_kernel_here(kernel);
+    if (kernel == CEDUO_KERNEL_AVX512)
+        return ceduo_lanes_walk_avx512;
+    if (kernel == CEDUO_KERNEL_AVX2)
+        return ceduo_lanes_walk_avx2;
+#else
+    (void)kernel;
+#endif
+    return NULL;
+}

@@ -1,0 +1,222 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* From one contact of the lanes to the next, in flight or rolling: what landing.h and rolling.h do for one rock. */
+#ifndef CEDUO_LANES_LANDING_H
+#define CEDUO_LANES_LANDING_H
+
+#include "lanes_far.h"
+
+/* ---- landing ---- */
+
+/* Flights that are above a vertex, on to the next. */
+struct search {
+    ints vertex, step;
+    real x, z, vz, inv;
+    mask going;
+};
+
+HOT void search_on(struct form form, const struct lanes *k, struct search *s)
+{
+    ints next = s->vertex + s->step;
+    real x, z;
+    look_up(&k->ground->place, form.wraps ? next : pick_ints(s->going, next, s->vertex), form.small, &x, &z);
+    real t = (x - s->x) * s->inv;
+    s->going &= at_least(height_after(s->z, s->vz, k->g->half_g, t) - z, all(0));
+    s->vertex = pick_ints(s->going, next, s->vertex);
+}
+
+/* A search as it stands, of the lanes from i on; `going` of them still are above theirs. */
+HOT struct search search_of(const struct lanes *k, size_t i, unsigned going)
+{
+    mask forth = less(all(0), load(&k->vx[i]));
+    return (struct search){.vertex = load_ints(&k->vertex[i]),
+                           .step = pick_ints(forth, all_ints(1), all_ints(UINT64_MAX)),
+                           .x = load(&k->x[i]),
+                           .z = load(&k->z[i]),
+                           .vz = load(&k->vz[i]),
+                           .inv = load(&k->inv[i]),
+                           .going = mask_of(going >> i)};
+}
+
+/* The vertex that each flight of the lanes from i on comes to, if it is on the ground before that the end of its segment; as
+ * land_towards(). Returns which may go on; *far: to be looked for by the scalar walk. */
+HOT mask begin_search(struct form form, struct lanes *k, size_t i, unsigned *far)
+{
+    const ints one = all_ints(1);
+    real zero = all(0), x = load(&k->x[i]), vx = load(&k->vx[i]), vz = load(&k->vz[i]), inv = 1 / vx;
+    mask forth = less(zero, vx);
+    real t = (pick(forth, load(&k->x1[i]), load(&k->x0[i])) - x) * inv;
+    mask clear = at_least(vz - load(&k->m[i]) * vx, k->g->half_g * t);
+    if (form.wood && k->aloft) {
+        mask aloft = mask_of(k->aloft >> i);
+        real end = pick(forth, load(&k->z1[i]), load(&k->z0[i]));
+        mask above = at_least(height_after(load(&k->z[i]), vz, k->g->half_g, t) - end, zero);
+        clear = (aloft & above) | but(clear, aloft);
+    }
+    unsigned still = (k->live >> i) & REGISTER & ~lanes_of(forth | less(vx, zero));
+    clear &= mask_of(k->live >> i & ~still);
+    *far |= still << i;
+    ints segment = load_ints(&k->segment[i]);
+    ints to = pick_ints(forth, pick_ints(clear, segment + 1, segment), pick_ints(clear, segment, segment + one));
+    store(&k->inv[i], inv);
+    store_ints(&k->vertex[i], to);
+    return clear;
+}
+
+/* Which segments the flights land on, not yet where; as land_beyond(). Mostly a flight passes no more than three vertices: so
+ * many are looked at without a branch that the processor might guess wrongly. Returns those left to the scalar walk. */
+HOT unsigned find_segments(struct form form, struct lanes *k)
+{
+    unsigned going = 0, far = 0;
+    EACH_REGISTER(i) {
+        mask clear = begin_search(form, k, i, &far);
+        struct search s = search_of(k, i, 0);
+        s.going = clear;
+        search_on(form, k, &s);
+        search_on(form, k, &s);
+        search_on(form, k, &s);
+        store_ints(&k->vertex[i], s.vertex);
+        going |= lanes_of(s.going) << i;
+    }
+    while (going) {
+        unsigned on = 0;
+        EACH_REGISTER(i) {
+            struct search s = search_of(k, i, going);
+            search_on(form, k, &s);
+            store_ints(&k->vertex[i], s.vertex);
+            on |= lanes_of(s.going) << i;
+        }
+        going = on;
+    }
+    return far;
+}
+
+/* The same where the ground has blocks. Those that come back along -x to where blocks begin are left to the scalar walk. */
+HOT unsigned find_segments_far(struct form form, struct lanes *k)
+{
+    unsigned going = 0, forth = 0, far = 0;
+    EACH_REGISTER(i) {
+        going |= lanes_of(begin_search(form, k, i, &far)) << i;
+        forth |= lanes_of(less(all(0), load(&k->vx[i]))) << i;
+    }
+    search_far(k, going & forth);
+    for (going &= ~forth; going;) {
+        unsigned on = 0;
+        EACH_REGISTER(i) {
+            struct search s = search_of(k, i, going);
+            unsigned begins = lanes_of(s.going & same(s.vertex & (((uint64_t)1 << GROUND_BITS) - 1), all_ints(1)));
+            far |= begins << i;
+            s.going = but(s.going, mask_of(begins));
+            search_on(form, k, &s);
+            store_ints(&k->vertex[i], s.vertex);
+            on |= lanes_of(s.going) << i;
+        }
+        going = on;
+    }
+    return far;
+}
+
+/* Stores what a lane lands at, but where it waits. */
+HOT void store_unless(mask waits, bool any_waits, double *to, real p)
+{
+    store(to, any_waits ? pick(waits, load(to), p) : p);
+}
+
+/* Where the flights of the lanes from i on land on their segments, or leave the profile; as land_on() and land_nowhere().
+ * Returns those that leave; *roll: those that land as near and with so little speed off the ground that they may roll. */
+HOT unsigned land_lanes(struct form form, struct lanes *k, size_t i, unsigned *roll)
+{
+    const ints one = all_ints(1);
+    real zero = all(0), x = load(&k->x[i]), z = load(&k->z[i]), vx = load(&k->vx[i]), vz = load(&k->vz[i]);
+    real inv = load(&k->inv[i]), theta;
+    mask forth = less(zero, vx);
+    ints from = load_ints(&k->segment[i]), vertex = load_ints(&k->vertex[i]), to = pick_ints(forth, vertex, vertex - one);
+    struct chord on;
+    look_up(&k->ground->slope, to, form.small, &on.m, &theta);
+    look_up(&k->ground->place, to, form.small, &on.x0, &on.z0);
+    look_up(&k->ground->place, to + one, form.small, &on.x1, &on.z1);
+    mask here = same(to, from);
+    if (form.wood)
+        here = but(here, mask_of(k->aloft >> i));
+    real c = pick(here, zero, z - (on.z0 + on.m * (x - on.x0)));
+    real t = min((pick(forth, on.x1, on.x0) - x) * inv, later_root(c, vz - on.m * vx, k->g->gravity));
+    real to_x = x + vx * t, to_z = height_after(z, vz, k->g->half_g, t);
+    onto_chord(&on, is_steep(on.m), k->steep, true, &to_x, &to_z);
+    mask left = same(to, all_ints(0)) | same(to, all_ints(k->g->n + 1));
+    real end = pick(forth, on.x0, on.x1), t_end = (end - x) * inv;
+    t = pick(left, t_end, t);
+    to_x = pick(left, end, to_x);
+    to_z = pick(left, height_after(z, vz, k->g->half_g, t_end), to_z);
+    mask near = but(less(absolute(to_x - x), load(&k->radius[i])), left);
+    *roll |= lanes_of(near) << i;
+    bool any_waits = form.wood && k->waits;
+    mask waits = mask_of(k->waits >> i);
+    store_unless(waits, any_waits, &k->t[i], t);
+    store_unless(waits, any_waits, &k->to_x[i], to_x);
+    store_unless(waits, any_waits, &k->to_z[i], to_z);
+    store_ints(&k->to[i], any_waits ? pick_ints(waits, load_ints(&k->to[i]), to) : to);
+    store_unless(waits, any_waits, &k->x0[i], on.x0);
+    store_unless(waits, any_waits, &k->z0[i], on.z0);
+    store_unless(waits, any_waits, &k->x1[i], on.x1);
+    store_unless(waits, any_waits, &k->z1[i], on.z1);
+    store_unless(waits, any_waits, &k->m[i], on.m);
+    store_unless(waits, any_waits, &k->theta[i], theta);
+    return lanes_of(left) << i;
+}
+
+/* ---- rolling ---- */
+
+/* Whether what is d away, along x or where that is steep along z, is nearer than `reach`, surely, or farther, surely: without a
+ * division, and not told where rounding might matter. As ground_length() against the radius. */
+HOT void is_within(real d, real reach, mask *less_far, mask *farther)
+{
+    const double margin = 0x1p-48;
+    *less_far = less(d, reach * (1 - margin));
+    *farther = less(reach * (1 + margin), d);
+}
+
+/* Of the lanes from i on that land `near`, those that roll, as is_roll(), and stay on their segment, do not stop and meet
+ * nothing: for a radius to the next contact, as roll_on(). Returns them; *others: which the scalar walk looks at again, as those
+ * that land on another segment. */
+HOT unsigned roll_lanes(struct form form, struct lanes *k, size_t i, unsigned near, unsigned *others)
+{
+    const bool spins = form.law->spins;
+    const struct chord on = {load(&k->x0[i]), load(&k->z0[i]), load(&k->x1[i]), load(&k->z1[i]), load(&k->m[i])};
+    real zero = all(0), radius = load(&k->radius[i]), off = load(&k->off[i]), u = load(&k->along[i]), c, s, mu, friction;
+    real x = load(&k->x[i]), z = load(&k->z[i]), to_x = load(&k->to_x[i]), to_z = load(&k->to_z[i]);
+    ints segment = load_ints(&k->segment[i]);
+    look_up(&k->ground->tilt, segment, form.small, &c, &s);
+    mask may = mask_of(near >> i) & less(off * off, radius * (2 * k->g->gravity * c));
+    mask here = same(load_ints(&k->to[i]), segment), steep = is_steep(on.m), less_far, farther, ends, stays;
+    real reach = absolute(radius * pick(steep, s, c));
+    is_within(absolute(pick(steep, to_z - z, to_x - x)), reach, &less_far, &farther);
+    mask rolls = may & here & less_far;
+    *others |= lanes_of(but(may, here & farther)) << i;
+    look_up(&k->ground->grip, segment, form.small, &mu, &friction);
+    if (spins)
+        u = rolling_speed(u, load(&k->k[i]), load(&k->spin[i]), radius);
+    mask forth = less(zero, u);
+    real dir = pick(forth, all(1), all(-1));
+    is_within(absolute(pick(steep, pick(forth, on.z1, on.z0) - z, pick(forth, on.x1, on.x0) - x)), reach, &ends, &stays);
+    real rate = 2 * k->g->gravity * (-1 * dir * s - friction * c);
+    if (spins)
+        rate = rate / (1 + load(&k->k[i]));
+    real u2 = u * u + rate * radius, x_end = x + dir * c * radius, z_end = z + dir * s * radius;
+    onto_chord(&on, steep, any(steep & rolls), false, &x_end, &z_end);
+    mask meets = at_least(x_end, load(&k->next_x[i])) | at_least(x_end, load(&k->stem_ahead[i]));
+    meets = (forth & meets) | but(at_least(load(&k->stem_behind[i]), x_end), forth);
+    rolls &= but(stays & less(zero, u2), meets | equal(u, zero));
+    u = dir * root_of(u2);
+    store(&k->t[i], pick(rolls, zero, load(&k->t[i])));
+    store(&k->to_x[i], pick(rolls, x_end, to_x));
+    store(&k->to_z[i], pick(rolls, z_end, to_z));
+    store(&k->x[i], pick(rolls, x_end, x));
+    store(&k->z[i], pick(rolls, z_end, z));
+    store(&k->along[i], pick(rolls, u, load(&k->along[i])));
+    store(&k->vx[i], pick(rolls, u * c, load(&k->vx[i])));
+    store(&k->vz[i], pick(rolls, u * s, load(&k->vz[i])));
+    if (spins)
+        store(&k->spin[i], pick(rolls, u / radius, load(&k->spin[i])));
+    return lanes_of(rolls) << i;
+}
+
+#endif

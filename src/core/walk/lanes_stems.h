@@ -1,0 +1,321 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Flights of lanes among stems: the same operations in the same order as in flying.h. Behind a hit a lane is
+ * aloft: its landing is looked for when the next stem stands beyond its segment, together with those of the lanes that
+ * come from a contact. */
+#ifndef CEDUO_LANES_STEMS_H
+#define CEDUO_LANES_STEMS_H
+
+#include "hit.h"
+#include "lanes_landing.h"
+
+#ifndef TOO_FEW
+#define TOO_FEW (LANES / 4) /* so few lanes among stems wait until there are more; only speed depends on it */
+#endif
+
+/* Flights on their way past stems. */
+struct passing {
+    /* of the stem that is before each */
+    double to[LANES], t[LANES], z[LANES], cost[LANES], share[LANES];
+    /* over which segments: the last that the flight may come to, and the one under the stem */
+    uint64_t last[LANES], here[LANES];
+    double x0[LANES], z0[LANES], x1[LANES], z1[LANES], m[LANES]; /* of that */
+    double end[LANES];                                           /* x where the segment under the rock ends */
+    /* bit i is lane i */
+    unsigned under_way;
+    unsigned knows;   /* its landing */
+    unsigned moved;   /* was hit */
+    unsigned stopped; /* by a stem */
+    unsigned ended;   /* given up */
+};
+
+HOT struct chord look_here(struct form form, const struct lanes *k, ints here)
+{
+    struct chord on;
+    real theta;
+    look_up(&k->ground->place, here, form.small, &on.x0, &on.z0);
+    look_up(&k->ground->place, here + 1, form.small, &on.x1, &on.z1);
+    look_up(&k->ground->slope, here, form.small, &on.m, &theta);
+    return on;
+}
+
+HOT void store_here(struct passing *p, size_t i, ints here, const struct chord *on)
+{
+    store_ints(&p->here[i], here);
+    store(&p->x0[i], on->x0);
+    store(&p->z0[i], on->z0);
+    store(&p->x1[i], on->x1);
+    store(&p->z1[i], on->z1);
+    store(&p->m[i], on->m);
+}
+
+HOT struct chord load_here(const struct passing *p, size_t i)
+{
+    return (struct chord){load(&p->x0[i]), load(&p->z0[i]), load(&p->x1[i]), load(&p->z1[i]), load(&p->m[i])};
+}
+
+/* The segment under each stem at `to`, for flights that know where they land; as segment_between(). */
+HOT void go_to_segment(struct form form, const struct lanes *k, struct passing *p, size_t i, real to, struct chord *on)
+{
+    unsigned far = (p->under_way & p->knows) >> i & REGISTER & ~lanes_of(at_least(load(&p->end[i]), to));
+    ints here = load_ints(&p->here[i]), last = load_ints(&p->last[i]);
+    mask further = mask_of(far) & at_least(to, on->x1) & more(last, here);
+    while (any(further)) {
+        here = pick_ints(further, here + 1, here);
+        *on = look_here(form, k, here);
+        store_here(p, i, here, on);
+        further &= at_least(to, on->x1) & more(last, here);
+    }
+}
+
+/* The scalar walk takes the stem that is before lane i. */
+static void take_stem_alone(struct lanes *k, struct passing *p, size_t i, bool hit, struct flight at, double t)
+{
+    struct walker *w = &k->job->walkers[i];
+    if (!ceduo_walk_take_stem(w, hit, at, t))
+        p->ended |= 1u << i;
+    load_stem(k, i);
+}
+
+/* The same for each of `lanes`, of which no flight passes a mark. */
+SELDOM void take_stems_alone(struct lanes *k, struct passing *p, unsigned lanes, unsigned hit)
+{
+    for (; lanes; lanes &= lanes - 1) {
+        size_t i = (size_t)__builtin_ctz(lanes);
+        show_stems_met(k, i);
+        take_stem_alone(k, p, i, hit >> i & 1, (struct flight){0}, 0);
+    }
+}
+
+/* Of each of `lanes`, whose flights pass marks up to the stem that they hit. */
+SELDOM void take_stems_past_marks(struct lanes *k, struct passing *p, unsigned lanes)
+{
+    for (; lanes; lanes &= lanes - 1) {
+        size_t i = (size_t)__builtin_ctz(lanes);
+        struct walker *w = &k->job->walkers[i];
+        struct flight at = {.x = k->x[i], .z = k->z[i], .vx = k->vx[i], .vz = k->vz[i]};
+        w->spin = k->spin[i];
+        show_stems_met(k, i);
+        take_stem_alone(k, p, i, true, at, p->t[i]);
+        k->next_x[i] = w->next_x;
+        k->pause[i] = w->pause;
+    }
+}
+
+/* Which flights are above all that may wait when they pass `to` after t, and go on so over some of them: up to the end
+ * of the segment, or to where the parabola comes down so far. */
+HOT unsigned fly_over(struct lanes *k, size_t i, unsigned under_way, real to, real t, real clearance, const struct chord *on)
+{
+    real zero = all(0), over_all = clearance - k->tallest;
+    mask high = less(zero, over_all) & less(zero, t) & less(load(&k->stem.after[i]), on->x1) & mask_of(under_way >> i);
+    if (!any(high))
+        return 0;
+    double g = k->g->gravity;
+    real vx = load(&k->vx[i]), up = load(&k->vz[i]) - g * t - on->m * vx;
+    real seconds = (up + root_of(up * up + 2 * g * over_all)) / g;
+    store(&k->stem.free_to[i], min(on->x1, to + vx * seconds));
+    return lanes_of(high) << i;
+}
+
+/* The last of those that wait and are next one after the other, and that lane i flies over from its next stem on. */
+HOT const struct stem *last_below(const struct lanes *k, size_t i)
+{
+    const struct stem *stem = k->stem.next[i];
+    while (stem[1].along < k->stem.free_to[i] && stem[2].along < k->stem.sure[i])
+        stem++;
+    return stem;
+}
+
+/* Takes the stem that is before each of `lanes`, where the one behind it waits and is next; of those that are `above`
+ * all, more of them. No branch depends on what is hit. */
+HOT void take_waiting(struct lanes *k, unsigned lanes, unsigned hit, unsigned above)
+{
+    const struct wood *wood = k->job->walkers[0].stems->wood;
+    uint64_t places = wood->places;
+    unsigned shares = wood->shares ? lanes : 0;
+    for (above &= lanes; above; above &= above - 1) {
+        size_t i = (size_t)__builtin_ctz(above);
+        k->stem.next[i] = last_below(k, i);
+    }
+    for (; lanes; lanes &= lanes - 1) {
+        size_t i = (size_t)__builtin_ctz(lanes);
+        const struct stem *stem = k->stem.next[i];
+        uint64_t *place = &k->stem.met[i][stem->stool & places];
+        bool is_hit = hit >> i & 1, shoot = is_hit & stem->shoot;
+        k->stem.hit[i] += is_hit;
+        k->stem.stools_met[i] += is_hit & !(shoot & (*place == stem->stool));
+        *place = shoot ? stem->stool : *place;
+        k->stem.next[i] = ++stem;
+        k->stem.after[i] = stem[1].along;
+        k->stem_ahead[i] = stem->along;
+        k->stem.height[i] = stem->height;
+        k->stem.cost[i] = stem->energy;
+    }
+    for (; shares; shares &= shares - 1) {
+        size_t i = (size_t)__builtin_ctz(shares);
+        load_hit(k, i, k->stem.next[i]);
+    }
+}
+
+/* Each flight under way takes the stem that is before it: as ceduo_walk_take_stem(), at once where the one after it
+ * waits already, no mark is passed and no stool stands around the release. */
+HOT void take_stems(struct lanes *k, struct passing *p, unsigned hit, unsigned above)
+{
+    unsigned marks = 0, waits = 0;
+    EACH_REGISTER(i) {
+        real to = load(&p->to[i]);
+        marks |= lanes_of(at_least(to, load(&k->next_x[i]))) << i;
+        waits |= lanes_of(but(less(load(&k->stem.after[i]), load(&k->stem.sure[i])), at_least(load(&k->stem.around[i]), to)))
+                 << i;
+    }
+    marks &= hit;
+    unsigned alone = p->under_way & ~marks & ~waits;
+    take_waiting(k, p->under_way & ~marks & waits, hit, above);
+    if (alone)
+        take_stems_alone(k, p, alone, hit);
+    if (marks)
+        take_stems_past_marks(k, p, marks);
+}
+
+/* How the flights from lane i on pass their next stem. Returns which hit it; those that are in the ground before have no way
+ * on; *above: see fly_over(). */
+HOT unsigned come_to_stem(struct form form, struct lanes *k, struct passing *p, size_t i, unsigned *above)
+{
+    real zero = all(0), to = load(&k->stem_ahead[i]), vz = load(&k->vz[i]), latest = load(&k->t[i]);
+    struct chord on = load_here(p, i);
+    go_to_segment(form, k, p, i, to, &on);
+    real t = (to - load(&k->x[i])) / load(&k->vx[i]);
+    mask knows = mask_of(p->knows >> i);
+    t = pick(less(t, zero), zero, pick(knows & less(latest, t), latest, t));
+    real z = height_after(load(&k->z[i]), vz, k->g->half_g, t), clearance = z - chord_height(&on, to);
+    unsigned others = ~(REGISTER << i);
+    p->under_way &= others | p->knows | lanes_of(at_least(clearance, zero)) << i;
+    unsigned hit = p->under_way & lanes_of(less(max(clearance, zero), load(&k->stem.height[i]))) << i;
+    store(&p->to[i], to);
+    store(&p->t[i], t);
+    store(&p->z[i], z);
+    store(&p->cost[i], load(&k->stem.cost[i]));
+    store(&p->share[i], load(&k->stem.share[i]));
+    *above |= fly_over(k, i, p->under_way, to, t, clearance, &on);
+    return hit;
+}
+
+/* What a hit does to those of the lanes from i on that are `hit`. */
+HOT void hit_stem_lanes(struct lanes *k, struct passing *p, size_t i, unsigned hit)
+{
+    mask h = mask_of(hit >> i);
+    real vx = load(&k->vx[i]), vz = load(&k->vz[i]) - k->g->gravity * load(&p->t[i]), spin = load(&k->spin[i]);
+    struct hit blow = {.energy = flying_energy(load(&k->mass[i]), load(&k->moment[i]), vx, vz, spin),
+                       .cost = load(&p->cost[i]),
+                       .share = load(&p->share[i])};
+    real share = speed_kept(blow);
+    store_ints(&k->segment[i], pick_ints(h, load_ints(&p->here[i]), load_ints(&k->segment[i])));
+    store(&p->end[i], pick(h, load(&p->x1[i]), load(&p->end[i])));
+    store(&k->x[i], pick(h, load(&p->to[i]), load(&k->x[i])));
+    store(&k->z[i], pick(h, load(&p->z[i]), load(&k->z[i])));
+    store(&k->vx[i], pick(h, vx * share, vx));
+    store(&k->vz[i], pick(h, vz * share, load(&k->vz[i])));
+    store(&k->spin[i], pick(h, spin * share, spin));
+    p->stopped |= lanes_of(but(h, less(all(0), share))) << i;
+}
+
+/* The next stem of each flight under way, whose landing comes behind it or is not known. */
+HOT void pass_stem(struct form form, struct lanes *k, struct passing *p)
+{
+    unsigned hit = 0, above = 0, forth = 0, before = 0;
+    EACH_REGISTER(i)
+        hit |= come_to_stem(form, k, p, i, &above);
+    if (!p->under_way)
+        return;
+    take_stems(k, p, hit, above);
+    hit &= ~p->ended;
+    p->under_way &= ~p->ended;
+    if (hit)
+        EACH_REGISTER(i)
+            hit_stem_lanes(k, p, i, hit);
+    p->moved |= hit;
+    p->knows &= ~hit;
+    EACH_REGISTER(i) {
+        forth |= lanes_of(less(all(0), load(&k->vx[i]))) << i;
+        before |= lanes_of(at_least(load(&k->to_x[i]), load(&k->stem_ahead[i]))) << i;
+    }
+    p->under_way &= ~p->stopped & forth & (~p->knows | before);
+}
+
+/* Behind a hit a lane stands where it was hit, as if it had landed there. */
+HOT void land_at_stems(struct form form, struct lanes *k, unsigned moved)
+{
+    EACH_REGISTER(i) {
+        mask m = mask_of(moved >> i);
+        ints segment = load_ints(&k->segment[i]);
+        const struct chord on = look_here(form, k, segment);
+        store(&k->t[i], pick(m, all(0), load(&k->t[i])));
+        store(&k->to_x[i], pick(m, load(&k->x[i]), load(&k->to_x[i])));
+        store(&k->to_z[i], pick(m, load(&k->z[i]), load(&k->to_z[i])));
+        store_ints(&k->to[i], pick_ints(m, segment, load_ints(&k->to[i])));
+        store(&k->x0[i], pick(m, on.x0, load(&k->x0[i])));
+        store(&k->z0[i], pick(m, on.z0, load(&k->z0[i])));
+        store(&k->x1[i], pick(m, on.x1, load(&k->x1[i])));
+        store(&k->z1[i], pick(m, on.z1, load(&k->z1[i])));
+        store(&k->m[i], pick(m, on.m, load(&k->m[i])));
+    }
+    k->left &= ~moved;
+}
+
+/* Those that come to a stem before they land. */
+HOT unsigned come_to_stems(const struct lanes *k)
+{
+    unsigned begin = 0;
+    EACH_REGISTER(i)
+        begin |= lanes_of(at_least(load(&k->to_x[i]), load(&k->stem_ahead[i])) & less(all(0), load(&k->vx[i]))) << i;
+    return begin & k->live & ~k->there;
+}
+
+HOT void begin_passing(struct form form, const struct lanes *k, struct passing *p)
+{
+    const ints n = all_ints(k->g->n);
+    EACH_REGISTER(i) {
+        ints here = load_ints(&k->segment[i]), to = load_ints(&k->to[i]);
+        const struct chord on = look_here(form, k, here);
+        store_here(p, i, here, &on);
+        store(&p->end[i], on.x1);
+        store_ints(&p->last[i], pick_ints(more(to, n), n, to));
+    }
+}
+
+/* All flights along +x that come to a stem before they land, up to their landing, or to where it must be known.
+ * Returns those of which the scalar walk does the rest. */
+HOT unsigned pass_stems(struct form form, struct lanes *k)
+{
+    struct passing p;
+    unsigned begin = come_to_stems(k), alone = 0;
+    p.knows = begin & ~k->lost;
+    p.under_way = begin | k->lost;
+    p.moved = p.stopped = p.ended = 0;
+    k->aloft = k->waits = k->lost = 0;
+    if (!p.under_way)
+        return 0;
+    begin_passing(form, k, &p);
+    unsigned lost = p.under_way & ~p.knows;
+    do {
+        /* whose landing is not known goes on while the stem stands over the same segment */
+        unsigned over = 0;
+        EACH_REGISTER(i)
+            over |= lanes_of(at_least(load(&p.end[i]), load(&k->stem_ahead[i]))) << i;
+        p.under_way &= p.knows | over;
+        alone |= p.under_way & k->paused;
+        p.under_way &= ~k->paused;
+        if (p.under_way)
+            pass_stem(form, k, &p);
+    } while (__builtin_popcount(p.under_way) > TOO_FEW);
+    land_at_stems(form, k, p.moved);
+    k->waits = p.under_way;
+    k->lost = p.under_way & ~p.knows;
+    k->aloft = (p.moved | lost) & ~p.stopped & ~p.ended & ~k->waits;
+    for (unsigned done = p.stopped | p.ended; done; done &= done - 1) {
+        size_t i = (size_t)__builtin_ctz(done);
+        stop_alone(k, i, p.stopped >> i & 1 ? CEDUO_STOPPED_BY_STEMS : CEDUO_UNFINISHED);
+    }
+    return alone;
+}
+
+#endif

@@ -1,0 +1,58 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A contact with the ground, in one text for the walk of one rock and for lanes. */
+#ifndef CEDUO_STRIKE_H
+#define CEDUO_STRIKE_H
+
+#include "ceduo/contact.h"
+#include "law_arm.h"
+#include "law_crsp.h"
+#include "law_lumped.h"
+
+static const struct contact_law *const contact_laws[] = {
+#define X(NAME, name) &law_##name,
+    CEDUO_LAWS(X)
+#undef X
+};
+
+/* Velocity in the axes of a segment, of unit tangent (c, s). */
+struct velocity {
+    real along, off;
+};
+
+HOT struct velocity velocity_on(real c, real s, real vx, real vz)
+{
+    return (struct velocity){.along = vx * c + vz * s, .off = vz * c - vx * s};
+}
+
+/* The turn of a facet by its draw u; facets `against` the rock lie on one side only. */
+HOT real facet_angle(bool against, real largest, real u)
+{
+    return largest * (against ? u : 2 * u - 1);
+}
+
+/* The facet that a rock strikes, as sine and cosine of its turn from the segment: against a rock that goes along +x, or
+ * upwards with facets to both sides; the segment itself where the rock is leaving the facet. */
+HOT void facet_struck(bool against, struct velocity v, real *sine, real *cosine)
+{
+    real zero = all(0);
+    if (against)
+        *sine = pick(at_least(v.along, zero), *sine, -*sine);
+    mask leaves = less(zero, v.off * *cosine - v.along * *sine);
+    *sine = pick(leaves, zero, *sine);
+    *cosine = pick(leaves, all(1), *cosine);
+}
+
+/* The contact, in the segment's axes: what a rock that rolls brings has no part off the ground, exactly, and what goes into
+ * the segment is lost. */
+HOT struct velocity strike(const struct contact_law *law, const struct ground_point *at, real sine, real cosine,
+                           struct velocity v, real *spin)
+{
+    real zero = all(0), inward = v.along * sine - v.off * cosine;
+    struct impact in = {.vn = pick(less(zero, inward), inward, zero), .vt = v.along * cosine + v.off * sine, .spin = *spin};
+    struct impact out = law->struck(in, at);
+    real off = out.vt * sine + out.vn * cosine;
+    *spin = out.spin;
+    return (struct velocity){.along = out.vt * cosine - out.vn * sine, .off = pick(less(zero, off), off, zero)};
+}
+
+#endif
