@@ -149,13 +149,14 @@ bool ceduo_csv_field(const struct csv *csv, size_t column, struct csv_span *fiel
     return true;
 }
 
-void ceduo_csv_complain(const struct csv *csv, struct csv_span field, const char *format, ...)
+bool ceduo_csv_complain(const struct csv *csv, struct csv_span field, const char *format, ...)
 {
     va_list args;
     va_start(args, format);
     ceduo_problem_v(csv->problems, (struct problem_place){csv->source, csv->number, (size_t)(field.p - csv->line.p) + 1, NULL},
                     format, args);
     va_end(args);
+    return false;
 }
 
 /* Where commas do not separate they may stand for the decimals, in all numbers of a file or in none: a dot beside them

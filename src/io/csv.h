@@ -60,8 +60,8 @@ bool ceduo_csv_is(struct csv_span field, const char *word);
  * with it is told. */
 bool ceduo_csv_number(struct csv *csv, struct csv_span field, double lo, double hi, const char *unit, double *value);
 
-/* Reports a problem with a field of the present row. */
-void ceduo_csv_complain(const struct csv *csv, struct csv_span field, const char *format, ...)
+/* Reports a problem with a field of the present row; false. */
+bool ceduo_csv_complain(const struct csv *csv, struct csv_span field, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
 #endif

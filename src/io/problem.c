@@ -175,12 +175,13 @@ void ceduo_problem_v(struct problems *problems, struct problem_place place, cons
     add(problems, place, place.source && place.source->foreign, format, args);
 }
 
-void ceduo_problem(struct problems *problems, const struct source *source, size_t line, size_t column, const char *format, ...)
+bool ceduo_problem(struct problems *problems, const struct source *source, size_t line, size_t column, const char *format, ...)
 {
     va_list args;
     va_start(args, format);
     ceduo_problem_v(problems, (struct problem_place){source, line, column, NULL}, format, args);
     va_end(args);
+    return false;
 }
 
 void ceduo_problem_own(struct problems *problems, struct problem_place place, const char *format, ...)

@@ -52,9 +52,9 @@ struct problems {
     bool memory;       /* memory ran out: the list may lack some */
 };
 
-/* Adds one. line and column count from 1; 0: no place known (the source's name alone is shown). Of a foreign source the message
+/* Adds one; false, so that a check can end with it. line and column count from 1; 0: no place known (the source's name alone is shown). Of a foreign source the message
  * is without its values, and of its lines only the beginning of the first is shown. */
-void ceduo_problem(struct problems *problems, const struct source *source, size_t line, size_t column, const char *format, ...)
+bool ceduo_problem(struct problems *problems, const struct source *source, size_t line, size_t column, const char *format, ...)
     __attribute__((format(printf, 5, 6)));
 /* Where something is wrong: as above, and the path of a value in the source (NULL or "": none). */
 struct problem_place {

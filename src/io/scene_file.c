@@ -65,10 +65,8 @@ bool ceduo_scene_set(struct scene_file *file, const char *option, const char *se
     if (!source)
         return false;
     const char *equals = equals_of(source->bytes);
-    if (!equals || equals == source->bytes) {
-        ceduo_problem(problems, source, 1, 1, _("expected PATH=VALUE"));
-        return false;
-    }
+    if (!equals || equals == source->bytes)
+        return ceduo_problem(problems, source, 1, 1, _("expected PATH=VALUE"));
     size_t length = (size_t)(equals - source->bytes);
     const struct node *value = ceduo_yaml_read_value(&file->arena, source, length + 1, problems);
     if (!value)

@@ -126,16 +126,12 @@ static bool read_plot(struct reader *r, size_t *plot)
     struct csv_span name = r->fields[PLOT];
     size_t i = r->plots_count;
     bool good = true;
-    if (name.n == 0) {
-        ceduo_csv_complain(&r->csv, name, _("the plot is missing"));
-        return false;
-    }
+    if (name.n == 0)
+        return ceduo_csv_complain(&r->csv, name, _("the plot is missing"));
     while (i > 0 && !(r->plots[i - 1].name.n == name.n && memcmp(r->plots[i - 1].name.p, name.p, name.n) == 0))
         i--; /* mostly the last */
-    if (i == 0 && r->plots_count == PLOTS_MOST) {
-        ceduo_csv_complain(&r->csv, name, _("more than %d plots"), PLOTS_MOST);
-        return false;
-    }
+    if (i == 0 && r->plots_count == PLOTS_MOST)
+        return ceduo_csv_complain(&r->csv, name, _("more than %d plots"), PLOTS_MOST);
     if (i == 0) {
         r->plots[r->plots_count] = (struct plot){name, r->csv.number, {NAN, NAN, NAN, NAN}};
         i = ++r->plots_count;
@@ -150,10 +146,8 @@ static bool read_plot(struct reader *r, size_t *plot)
         good = good && read && !differs;
         *known = read && isnan(*known) ? now : *known;
     }
-    if (r->fields[AREA].n > 0 && r->fields[RADIUS].n > 0) {
-        ceduo_csv_complain(&r->csv, r->fields[RADIUS], _("area_m2 already says this; leave one of the two empty"));
-        return false;
-    }
+    if (r->fields[AREA].n > 0 && r->fields[RADIUS].n > 0)
+        return ceduo_csv_complain(&r->csv, r->fields[RADIUS], _("area_m2 already says this; leave one of the two empty"));
     return good;
 }
 
@@ -167,11 +161,9 @@ static bool read_kind(struct reader *r, enum ceduo_survey_kind *kind)
                 return true;
             }
     if (f.n == 0)
-        ceduo_csv_complain(&r->csv, f, _("the kind is missing: shoot, standard, tree or stump"));
-    else
-        ceduo_csv_complain(&r->csv, f, _("'%.*s' is no kind of stem: shoot, standard, tree or stump"),
-                           f.n < 100 ? (int)f.n : 100, f.p);
-    return false;
+        return ceduo_csv_complain(&r->csv, f, _("the kind is missing: shoot, standard, tree or stump"));
+    return ceduo_csv_complain(&r->csv, f, _("'%.*s' is no kind of stem: shoot, standard, tree or stump"),
+                              f.n < 100 ? (int)f.n : 100, f.p);
 }
 
 static bool read_species(struct reader *r, int *species)
@@ -190,40 +182,38 @@ static bool read_species(struct reader *r, int *species)
         return true;
     LOCAL_TEXT(all);
     ceduo_text_words(&all, ceduo_species_words.names, ceduo_species_words.n, ", ");
-    ceduo_csv_complain(&r->csv, f, _("'%.*s' is an unknown species; leave it empty, or one of: %s"), f.n < 100 ? (int)f.n : 100,
-                       f.p, ceduo_text_string(&all));
-    return false;
+    return ceduo_csv_complain(&r->csv, f, _("'%.*s' is an unknown species; leave it empty, or one of: %s"),
+                              f.n < 100 ? (int)f.n : 100, f.p, ceduo_text_string(&all));
 }
 
 /* The sizes of a stem. */
 static bool read_sizes(struct reader *r, struct ceduo_survey_stem *stem)
 {
-    bool good = read_number(r, DBH, &stem->dbh);
+    const struct csv *csv = &r->csv;
+    const struct csv_span *fields = r->fields;
+    bool good = read_number(r, DBH, &stem->dbh), stump = stem->kind == CEDUO_SURVEY_STUMP;
     good = read_number(r, HEIGHT, &stem->height) && good;
     good = read_number(r, SPACING, &stem->spacing) && good;
     good = read_number(r, ENERGY, &stem->energy) && good;
     if (!good)
         return false;
     if (isnan(stem->dbh))
-        ceduo_csv_complain(&r->csv, r->fields[DBH], _("the diameter is missing"));
-    else if (stem->dbh > DBH_MOST)
-        ceduo_csv_complain(&r->csv, r->fields[DBH], _("%g cm: more than %d cm; is it in mm?"), stem->dbh, DBH_MOST);
-    else if (stem->kind != CEDUO_SURVEY_STUMP && stem->height <= CEDUO_BREAST_HEIGHT)
-        ceduo_csv_complain(&r->csv, r->fields[HEIGHT], _("%g m: a stem with a diameter at breast height is higher than %g m"),
-                           stem->height, CEDUO_BREAST_HEIGHT);
-    else if (stem->kind == CEDUO_SURVEY_STUMP && !(isnan(stem->height) || (stem->height > 0 && stem->height <= STUMP_MOST)))
-        ceduo_csv_complain(&r->csv, r->fields[HEIGHT], _("the height of a stump must be above 0 and at most %d m"), STUMP_MOST);
-    else if (stem->kind != CEDUO_SURVEY_SHOOT && !isnan(stem->spacing))
-        ceduo_csv_complain(&r->csv, r->fields[SPACING],
-                           _("spacing_m is the distance between the shoots of a stool; leave it empty here"));
-    else if (stem->kind != CEDUO_SURVEY_STUMP && !isnan(stem->energy))
-        ceduo_csv_complain(&r->csv, r->fields[ENERGY], _("energy_kJ is what a stump takes from a rock; leave it empty here"));
-    else {
-        stem->dbh /= 100;
-        stem->energy *= 1000;
-        return true;
-    }
-    return false;
+        return ceduo_csv_complain(csv, fields[DBH], _("the diameter is missing"));
+    if (stem->dbh > DBH_MOST)
+        return ceduo_csv_complain(csv, fields[DBH], _("%g cm: more than %d cm; is it in mm?"), stem->dbh, DBH_MOST);
+    if (!stump && stem->height <= CEDUO_BREAST_HEIGHT)
+        return ceduo_csv_complain(csv, fields[HEIGHT], _("%g m: a stem with a diameter at breast height is higher than %g m"),
+                                  stem->height, CEDUO_BREAST_HEIGHT);
+    if (stump && !(isnan(stem->height) || (stem->height > 0 && stem->height <= STUMP_MOST)))
+        return ceduo_csv_complain(csv, fields[HEIGHT], _("the height of a stump must be above 0 and at most %d m"), STUMP_MOST);
+    if (stem->kind != CEDUO_SURVEY_SHOOT && !isnan(stem->spacing))
+        return ceduo_csv_complain(csv, fields[SPACING],
+                                  _("spacing_m is the distance between the shoots of a stool; leave it empty here"));
+    if (!stump && !isnan(stem->energy))
+        return ceduo_csv_complain(csv, fields[ENERGY], _("energy_kJ is what a stump takes from a rock; leave it empty here"));
+    stem->dbh /= 100;
+    stem->energy *= 1000;
+    return true;
 }
 
 static void read_row(struct reader *r)
@@ -314,10 +304,8 @@ bool ceduo_survey_read(struct survey_file *file, struct arena *arena, const char
     if (problems->met > before)
         return false;
     for (size_t n = 0; ceduo_csv_next(&r.csv); n++) {
-        if (n == STEMS_MOST) {
-            ceduo_problem(problems, r.csv.source, r.csv.number, 1, _("more than %d rows"), STEMS_MOST);
-            return false;
-        }
+        if (n == STEMS_MOST)
+            return ceduo_problem(problems, r.csv.source, r.csv.number, 1, _("more than %d rows"), STEMS_MOST);
         read_row(&r);
     }
     if (problems->met == before && r.plots_count == 0)

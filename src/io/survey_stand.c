@@ -300,22 +300,19 @@ static bool check(const struct writer *w, struct problems *problems)
     double densest = ceduo_schema_at("forest[0].stand.trees[0].per_ha")->hi;
     double highest = ceduo_schema_at("forest[0].stand.trees[0].height_m")->hi;
     for (size_t i = 0; i < a->classes_count; i++)
-        if (a->classes[i].per_ha.mean > densest) {
-            ceduo_problem(problems, &source, 0, 0,
-                          _("%.0f stems of one class per hectare are more than %.0f; are the areas in m2?"),
-                          a->classes[i].per_ha.mean, densest);
-            return false;
-        }
+        if (a->classes[i].per_ha.mean > densest)
+            return ceduo_problem(problems, &source, 0, 0,
+                                 _("%.0f stems of one class per hectare are more than %.0f; are the areas in m2?"),
+                                 a->classes[i].per_ha.mean, densest);
     for (size_t i = 0; i < 2; i++) {
         const struct ceduo_survey_heights *h = heights[i];
         double tallest = h->from == CEDUO_HEIGHTS_CURVE ? ceduo_naslund_height(&h->curve, h->thickest) : 0;
-        if (tallest > highest) {
-            ceduo_problem(problems, &source, 0, 0,
-                          _("Näslund's curve makes a stem of %.4g cm %.0f m tall, more than %.0f; measure the heights of thick "
-                            "stems, too"),
-                          h->thickest * 100, tallest, highest);
-            return false;
-        }
+        if (tallest > highest)
+            return ceduo_problem(
+                problems, &source, 0, 0,
+                _("Näslund's curve makes a stem of %.4g cm %.0f m tall, more than %.0f; measure the heights of thick "
+                  "stems, too"),
+                h->thickest * 100, tallest, highest);
     }
     return true;
 }

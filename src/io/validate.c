@@ -7,16 +7,14 @@ static void check_rules(struct validator *v, const char *list, const struct cedu
 {
     for (size_t i = 0; i < n; i++) {
         const char *path = ceduo_format(v, "rules.%s[%zu]", list, i);
-        LOCAL_TEXT(all);
         if (!ceduo_is_sound(v, path))
             continue;
         if (items[i].most < items[i].least)
             ceduo_complain(v, path, "", _("what is asked for at most is less than what is asked for at least"));
-        ceduo_text_words(&all, ceduo_species_words.names, ceduo_species_words.n, ", ");
         for (size_t k = 0; k < items[i].species_count; k++)
             if (ceduo_species_find(items[i].species[k]) < 0)
                 ceduo_complain(v, ceduo_format(v, "%s.species[%zu]", path, k), "", _("'%s' is unknown; one of: %s"),
-                               items[i].species[k], ceduo_text_string(&all));
+                               items[i].species[k], ceduo_words(v, &ceduo_species_words));
     }
 }
 

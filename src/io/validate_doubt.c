@@ -121,25 +121,19 @@ static void find_places(struct places *p, const char *path, bool fitted, bool ta
     p->n = n;
 }
 
-/* The path of the first item where it says [*]. */
-static const char *first_of(struct validator *v, const char *path)
-{
-    char *first = ceduo_arena_string(v->arena, path);
-    for (char *p = first; p && *p; p++)
-        if (p[0] == '[' && p[1] == '*')
-            p[1] = '0';
-    return first ? first : "";
-}
-
 /* The row of the table of keys that a path means, whether the scene has such an item or not; NULL: it is of no number and no
  * word. `*settled`: no answer is in doubt because of it. */
 static const struct field *field_of(struct validator *v, const char *path, bool *settled)
 {
-    const char *key, *ground = ground_of(v, path, &key), *first = first_of(v, path);
-    const struct field *f = ground ? NULL : ceduo_schema_at(first);
+    const char *key, *ground = ground_of(v, path, &key);
+    char *first = ceduo_arena_string(v->arena, path); /* of the first item where it says [*] */
+    for (char *p = first; p && *p; p++)
+        if (p[0] == '[' && p[1] == '*')
+            p[1] = '0';
+    const struct field *f = ground || !first ? NULL : ceduo_schema_at(first);
     if (ground && ceduo_choice_find(&ceduo_material_words, ground) >= 0)
         f = ceduo_schema_field(ceduo_schema_segment(), key);
-    *settled = ceduo_schema_is_settled(first);
+    *settled = first && ceduo_schema_is_settled(first);
     bool value = f && (f->type == FIELD_NUMBER || f->type == FIELD_SPREAD || f->type == FIELD_COUNT || f->type == FIELD_CHOICE);
     return value ? f : NULL;
 }
@@ -153,27 +147,20 @@ static bool read_range(struct validator *v, const struct row *row, const struct 
     input->kind = gamma ? CEDUO_INPUT_GAMMA : normal ? CEDUO_INPUT_NORMAL : CEDUO_INPUT_RANGE;
     input->mean = mean;
     input->sd = sd;
-    if (gamma && sd > CEDUO_GAMMA_MOST * mean) {
-        ceduo_complain(v, row->at, "sd", _("sd is more than %g times the mean; give lo and hi"), CEDUO_GAMMA_MOST);
-        return false;
-    }
+    if (gamma && sd > CEDUO_GAMMA_MOST * mean)
+        return ceduo_complain(v, row->at, "sd", _("sd is more than %g times the mean; give lo and hi"), CEDUO_GAMMA_MOST);
     input->lo = gamma ? ceduo_input_quantile(input, 0) : normal ? mean - 3 * sd : row->doubt->lo;
     input->hi = gamma ? ceduo_input_quantile(input, 1) : normal ? mean + 3 * sd : row->doubt->hi;
-    if (!(input->lo < input->hi)) {
-        ceduo_complain(v, row->at, normal ? "sd" : "hi",
-                       normal ? _("the range is empty; sd must be above 0") : _("the range is empty; hi must be above lo"));
-        return false;
-    }
+    if (!(input->lo < input->hi))
+        return ceduo_complain(v, row->at, normal ? "sd" : "hi",
+                              normal ? _("the range is empty; sd must be above 0")
+                                     : _("the range is empty; hi must be above lo"));
     const double ends[] = {input->lo, input->hi};
     const char *const keys[] = {normal ? "mean" : "lo", normal ? "sd" : "hi"};
     for (int i = 0; i < 2; i++)
-        if (!ceduo_schema_in_range(field, ends[i])) {
-            LOCAL_TEXT(range);
-            ceduo_schema_range_text(field, &range);
-            ceduo_complain(v, row->at, keys[i], _("%s is outside the range of %s: %s"), ceduo_decimal(v, ends[i]), field->key,
-                           ceduo_text_string(&range));
-            return false;
-        }
+        if (!ceduo_schema_in_range(field, ends[i]))
+            return ceduo_complain(v, row->at, keys[i], _("%s is outside the range of %s: %s"), ceduo_decimal(v, ends[i]),
+                                  field->key, ceduo_range(v, field));
     return true;
 }
 
@@ -188,57 +175,45 @@ static bool read_words(struct validator *v, const struct row *row, const struct 
         ceduo_complain(v, row->at, "one_of", _("name at least two words"));
     for (size_t i = 0; words && i < n; i++) {
         words[i] = ceduo_choice_find(field->choices, row->doubt->one_of[i]);
-        if (words[i] >= 0)
-            continue;
-        LOCAL_TEXT(all);
-        ceduo_text_words(&all, field->choices->names, field->choices->n, ", ");
-        ceduo_complain(v, ceduo_format(v, "%s.one_of[%zu]", row->at, i), "", _("'%s' is unknown; one of: %s"),
-                       row->doubt->one_of[i], ceduo_text_string(&all));
-        return false;
+        if (words[i] < 0)
+            return ceduo_complain(v, ceduo_format(v, "%s.one_of[%zu]", row->at, i), "", _("'%s' is unknown; one of: %s"),
+                                  row->doubt->one_of[i], ceduo_words(v, field->choices));
     }
     return words && n >= 2;
-}
-
-/* Which of its three forms a row has; exactly one. */
-static bool check_form(struct validator *v, const struct row *row, const struct field *field)
-{
-    const struct doubt *d = row->doubt;
-    int range = !isnan(d->lo) + !isnan(d->hi), normal = !isnan(d->mean) + !isnan(d->sd);
-    bool words = d->one_of != NULL, choice = field->type == FIELD_CHOICE;
-    bool one = range == 2 ? normal == 0 && !words : normal == 2 ? range == 0 && !words : words && range + normal == 0;
-    if (!one)
-        ceduo_complain(v, row->at, "",
-                       choice ? _("give one_of: the words that it may be") : _("give lo and hi, or mean and sd"));
-    else if (words != choice)
-        ceduo_complain(v, row->at, "",
-                       choice ? _("'%s' is a word; give one_of") : _("'%s' is a number; give lo and hi, or mean and sd"),
-                       field->key);
-    return one && words == choice;
 }
 
 /* One input of a row. False if the scene has no such place, as of a stand that was exchanged, or the row is unusable, which has
  * been reported. */
 static bool make_input(struct validator *v, const struct row *row, struct ceduo_input *input)
 {
+    const struct doubt *d = row->doubt;
     struct places places = {.v = v};
-    const char *path = ceduo_format(v, "%s%s", row->within, row->doubt->path);
+    const char *path = ceduo_format(v, "%s%s", row->within, d->path);
     bool of_stand = row->within[0] != '\0', settled;
     const struct field *field = field_of(v, path, &settled);
-    if (!field || settled) {
-        ceduo_complain(v, row->at, "path",
-                       field ? _("no answer is in doubt because of '%s'; name a value of the rock, its release, the slope, a "
-                                 "stand or the law")
-                       : of_stand ? _("'%s' is not a number or a word of a stand")
-                                  : _("'%s' is not a number or a word of a scene"),
-                       row->doubt->path);
-        return false;
-    }
+    if (!field || settled)
+        return ceduo_complain(v, row->at, "path",
+                              field ? _("no answer is in doubt because of '%s'; name a value of the rock, its release, the "
+                                        "slope, a stand or the law")
+                              : of_stand ? _("'%s' is not a number or a word of a stand")
+                                         : _("'%s' is not a number or a word of a scene"),
+                              d->path);
     find_places(&places, path, false, false);
-    if (places.n == 0 || !check_form(v, row, field))
+    if (places.n == 0)
         return false;
-    *input = (struct ceduo_input){
-        .path = of_stand ? places.items[0] : row->doubt->path, .places = places.items, .places_count = places.n};
-    return field->type == FIELD_CHOICE ? read_words(v, row, field, input) : read_range(v, row, field, input);
+    /* exactly one of three forms */
+    int range = !isnan(d->lo) + !isnan(d->hi), normal = !isnan(d->mean) + !isnan(d->sd);
+    bool words = d->one_of != NULL, choice = field->type == FIELD_CHOICE;
+    if (range == 2 ? normal > 0 || words : normal == 2 ? range > 0 || words : !words || range + normal > 0)
+        return ceduo_complain(v, row->at, "",
+                              choice ? _("give one_of: the words that it may be") : _("give lo and hi, or mean and sd"));
+    if (words != choice)
+        return ceduo_complain(v, row->at, "",
+                              choice ? _("'%s' is a word; give one_of") : _("'%s' is a number; give lo and hi, or mean and sd"),
+                              field->key);
+    *input =
+        (struct ceduo_input){.path = of_stand ? places.items[0] : d->path, .places = places.items, .places_count = places.n};
+    return choice ? read_words(v, row, field, input) : read_range(v, row, field, input);
 }
 
 /* Adds an input; false without memory. */
@@ -453,12 +428,9 @@ static void read_row(struct draws *t)
         bool good = ceduo_csv_number(&t->csv, span, -1e12, 1e12, "", to);
         for (; h < t->heads_count && t->heads[h].column == c; h++) {
             const struct field *f = t->heads[h].field;
-            if (!good || ceduo_schema_in_range(f, *to))
-                continue;
-            LOCAL_TEXT(range);
-            ceduo_schema_range_text(f, &range);
-            ceduo_csv_complain(&t->csv, span, _("%s is outside the range of %s: %s"), ceduo_decimal(t->v, *to), f->key,
-                               ceduo_text_string(&range));
+            if (good && !ceduo_schema_in_range(f, *to))
+                ceduo_csv_complain(&t->csv, span, _("%s is outside the range of %s: %s"), ceduo_decimal(t->v, *to), f->key,
+                                   ceduo_range(t->v, f));
         }
     }
     if (c < t->columns)

@@ -159,7 +159,7 @@ static size_t find_column(const struct place *p, struct csv *csv, const char *na
     return column == CEDUO_CSV_TWICE ? CEDUO_CSV_NONE : column;
 }
 
-static void read_table(const struct place *p, const char *path)
+static bool read_table(const struct place *p, const char *path)
 {
     struct validator *v = p->v;
     struct observed_values *to = p->values;
@@ -168,18 +168,16 @@ static void read_table(const struct place *p, const char *path)
     size_t only = CEDUO_CSV_NONE; /* the column in which those rows that are wanted have a word */
     const char *equals = to->only ? strchr(to->only, '=') : NULL;
     if (!ceduo_csv_open(&csv, v->arena, path, v->problems))
-        return;
+        return false;
     size_t column = find_column(p, &csv, to->column, "column");
     if (column == CEDUO_CSV_NONE)
-        return;
-    if (to->only && (!equals || equals == to->only)) {
-        ceduo_complain(v, p->at, "only", _("'%s' is not COLUMN=WORD, such as block=1"), to->only);
-        return;
-    }
+        return false;
+    if (to->only && (!equals || equals == to->only))
+        return ceduo_complain(v, p->at, "only", _("'%s' is not COLUMN=WORD, such as block=1"), to->only);
     if (equals)
         only = find_column(p, &csv, ceduo_format(v, "%.*s", (int)(equals - to->only), to->only), "only");
     if ((equals && only == CEDUO_CSV_NONE) || !(to->values = ceduo_room(v, ceduo_csv_lines(&csv), sizeof *to->values)))
-        return;
+        return false;
     while (ceduo_csv_next(&csv)) {
         if (equals && (!ceduo_csv_field(&csv, only, &field) || !ceduo_csv_is(field, equals + 1)))
             continue;
@@ -188,8 +186,7 @@ static void read_table(const struct place *p, const char *path)
         else if (ceduo_csv_number(&csv, field, -1e9, 1e9, "", &to->values[to->values_count]))
             to->values_count++;
     }
-    if (to->values_count == 0)
-        ceduo_complain(v, p->at, "csv", _("the table has no such row"));
+    return to->values_count > 0 || ceduo_complain(v, p->at, "csv", _("the table has no such row"));
 }
 
 /* Values from a table, if they are not listed. False if there is a problem. */
@@ -199,18 +196,17 @@ static bool take_values(const struct place *p)
     const struct observed_values *values = p->values;
     size_t before = v->problems->met;
     const struct node *csv = ceduo_node_get(p->node, "csv"), *list = ceduo_node_get(p->node, p->is->list);
-    const char *path = csv && !list ? ceduo_resolve_path(v->arena, csv, "scenes") : NULL;
     if (csv && list)
-        ceduo_complain(v, p->at, "csv", _("%s already says this; keep one of the two"), p->is->list);
-    else if (path)
-        read_table(p, path);
-    else if (csv)
-        ceduo_complain(v, p->at, "csv", _("cannot find '%s' beside this file"), csv->text);
-    else if (list && values->values_count == 0)
-        ceduo_complain(v, p->at, p->is->list, _("the list is empty"));
-    else if (values->column || values->only)
-        ceduo_complain(v, p->at, values->column ? "column" : "only", _("names something of a table; name the table, csv"));
-    return v->problems->met == before;
+        return ceduo_complain(v, p->at, "csv", _("%s already says this; keep one of the two"), p->is->list);
+    const char *path = csv ? ceduo_resolve_path(v->arena, csv, "scenes") : NULL;
+    if (path)
+        return read_table(p, path) && v->problems->met == before;
+    if (csv)
+        return ceduo_complain(v, p->at, "csv", _("cannot find '%s' beside this file"), csv->text);
+    if (list && values->values_count == 0)
+        return ceduo_complain(v, p->at, p->is->list, _("the list is empty"));
+    const char *of_table = values->column ? "column" : values->only ? "only" : NULL;
+    return !of_table || ceduo_complain(v, p->at, of_table, _("names something of a table; name the table, csv"));
 }
 
 /* Either values, or their mean, sd and number. */
@@ -218,13 +214,11 @@ static bool check_form(const struct place *p)
 {
     const struct observed_values *values = p->values;
     int means = !isnan(values->mean) + !isnan(values->sd) + (values->n > 0);
-    bool listed = values->values_count > 0;
-    if (listed && means > 0)
-        ceduo_complain(p->v, p->at, "", _("values and their mean together; keep one"));
-    else if (!listed && means < 3)
-        ceduo_complain(p->v, p->at, "",
-                       means == 0 ? _("give values, or their mean, sd and n") : _("a mean needs sd and n too"));
-    return listed ? means == 0 : means == 3;
+    if (values->values_count > 0)
+        return means == 0 || ceduo_complain(p->v, p->at, "", _("values and their mean together; keep one"));
+    return means == 3 ||
+           ceduo_complain(p->v, p->at, "",
+                          means == 0 ? _("give values, or their mean, sd and n") : _("a mean needs sd and n too"));
 }
 
 static bool check_on_slope(const struct place *p, const char *path, const char *key, double x)
@@ -232,66 +226,56 @@ static bool check_on_slope(const struct place *p, const char *path, const char *
     struct validator *v = p->v;
     double lo = v->origin, hi = v->draft.scene.slope.x[v->draft.scene.slope.vertices - 1] + lo;
     if (x < lo)
-        ceduo_complain(v, path, key, _("%s lies before the slope, which begins at %s m"), ceduo_decimal(v, x),
-                       ceduo_decimal(v, lo));
-    else if (x > hi)
-        ceduo_complain(v, path, key, _("%s lies beyond the slope, which ends at %s m"), ceduo_decimal(v, x),
-                       ceduo_decimal(v, hi));
-    return !(x < lo) && !(x > hi);
+        return ceduo_complain(v, path, key, _("%s lies before the slope, which begins at %s m"), ceduo_decimal(v, x),
+                              ceduo_decimal(v, lo));
+    return !(x > hi) || ceduo_complain(v, path, key, _("%s lies beyond the slope, which ends at %s m"), ceduo_decimal(v, x),
+                                       ceduo_decimal(v, hi));
 }
 
 /* Whether every value lies on the slope beyond seen_from_m, where rocks stopped there, or is not negative; the first that does
  * not is reported. */
 static bool check_each(const struct place *p)
 {
+    struct validator *v = p->v;
     const struct observed_values *values = p->values;
-    bool stops = p->is->where == CEDUO_WHERE_AT_REST, good = true;
-    for (size_t i = 0; i < values->values_count && good; i++) {
+    bool stops = p->is->where == CEDUO_WHERE_AT_REST;
+    for (size_t i = 0; i < values->values_count; i++) {
         double x = values->values[i];
-        const char *path = ceduo_node_get(p->node, "csv") ? ceduo_format(p->v, "%s.csv", p->at)
-                                                          : ceduo_format(p->v, "%s.%s[%zu]", p->at, p->is->list, i);
-        bool on_slope = !stops || check_on_slope(p, path, "", x);
-        good = on_slope && !(x < (stops ? values->seen_from : 0));
-        if (on_slope && !good && stops)
-            ceduo_complain(p->v, path, "", _("%s lies before seen_from_m, %s"), ceduo_decimal(p->v, x),
-                           ceduo_decimal(p->v, values->seen_from));
-        else if (on_slope && !good)
-            ceduo_complain(p->v, path, "", _("%s is below 0"), ceduo_decimal(p->v, x));
+        const char *path = ceduo_node_get(p->node, "csv") ? ceduo_format(v, "%s.csv", p->at)
+                                                          : ceduo_format(v, "%s.%s[%zu]", p->at, p->is->list, i);
+        if (stops && !check_on_slope(p, path, "", x))
+            return false;
+        if (stops && x < values->seen_from)
+            return ceduo_complain(v, path, "", _("%s lies before seen_from_m, %s"), ceduo_decimal(v, x),
+                                  ceduo_decimal(v, values->seen_from));
+        if (!stops && x < 0)
+            return ceduo_complain(v, path, "", _("%s is below 0"), ceduo_decimal(v, x));
     }
-    return good;
+    return true;
 }
 
 /* No more than were released. */
 static bool check_released(const struct place *p)
 {
     const struct observed_values *values = p->values;
-    unsigned long long seen = p->is->list ? values->values_count : values->count;
-    if (values->of == 0 || seen <= values->of)
-        return true;
-    ceduo_complain(p->v, p->at, "of", _("%llu were seen of %llu released"), seen, (unsigned long long)values->of);
-    return false;
+    unsigned long long observed = p->is->list ? values->values_count : values->count, of = values->of;
+    return of == 0 || observed <= of || ceduo_complain(p->v, p->at, "of", _("%llu were seen of %llu released"), observed, of);
 }
 
 /* A place where rocks pass, beyond the release. */
 static bool check_place(const struct place *p)
 {
     double x = p->values->x, last = ceduo_number_highest(p->release->x) + p->v->origin;
-    if (!check_on_slope(p, p->at, "x_m", x))
-        return false;
-    if (!(x > last))
-        ceduo_complain(p->v, p->at, "x_m", _("%s does not lie beyond the release, %s m"), ceduo_decimal(p->v, x),
-                       ceduo_decimal(p->v, last));
-    return x > last;
+    return check_on_slope(p, p->at, "x_m", x) &&
+           (x > last || ceduo_complain(p->v, p->at, "x_m", _("%s does not lie beyond the release, %s m"),
+                                       ceduo_decimal(p->v, x), ceduo_decimal(p->v, last)));
 }
 
 static bool check_stretch(const struct place *p, const char *path, double from, double to)
 {
-    if (!check_on_slope(p, path, "from_m", from) || !check_on_slope(p, path, "to_m", to))
-        return false;
-    if (to <= from)
-        ceduo_complain(p->v, path, "to_m", _("%s does not lie beyond from_m, %s"), ceduo_decimal(p->v, to),
-                       ceduo_decimal(p->v, from));
-    return to > from;
+    return check_on_slope(p, path, "from_m", from) && check_on_slope(p, path, "to_m", to) &&
+           (to > from || ceduo_complain(p->v, path, "to_m", _("%s does not lie beyond from_m, %s"), ceduo_decimal(p->v, to),
+                                        ceduo_decimal(p->v, from)));
 }
 
 static bool check_values(const struct place *p)
@@ -347,15 +331,15 @@ static void set_observation(const struct place *p, struct ceduo_observation *o)
 static bool find_option(struct validator *v, const char *path, const struct observed *row, size_t *option)
 {
     const struct ceduo_scene *s = &v->draft.scene;
-    for (*option = 0; *option < s->options_count; ++*option)
-        if (!row->option || (s->options[*option].name && strcmp(s->options[*option].name, row->option) == 0))
-            return true;
     LOCAL_TEXT(all);
-    for (size_t i = 0; i < s->options_count; i++)
-        ceduo_text_then(&all, i > 0 ? ", " : "", "%s", s->options[i].name ? s->options[i].name : "");
-    if (row->option)
-        ceduo_complain(v, path, "option", _("the scene has no option '%s'; it has: %s"), row->option, ceduo_text_string(&all));
-    return false;
+    for (*option = 0; *option < s->options_count; ++*option) {
+        const char *name = s->options[*option].name ? s->options[*option].name : "";
+        if (!row->option || strcmp(name, row->option) == 0)
+            return true;
+        ceduo_text_then(&all, *option > 0 ? ", " : "", "%s", name);
+    }
+    return row->option && ceduo_complain(v, path, "option", _("the scene has no option '%s'; it has: %s"), row->option,
+                                         ceduo_text_string(&all));
 }
 
 /* Names the keys of all kinds; several kinds may be within one. */

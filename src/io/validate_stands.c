@@ -108,18 +108,16 @@ static void check_belt(struct validator *v, const char *path, const struct ceduo
 {
     const struct ceduo_slope *s = &v->draft.scene.slope;
     double begin = v->profile ? v->origin : -INFINITY, end = v->profile ? s->x[s->vertices - 1] + v->origin : INFINITY;
-    if (f->to_given <= f->from_given) {
+    if (f->to_given <= f->from_given)
         ceduo_complain(v, path, "to_m", _("%s does not lie beyond from_m, %s"), ceduo_decimal(v, f->to_given),
                        ceduo_decimal(v, f->from_given));
-        return;
-    }
-    if (before && f->from_given < before->to_given)
+    else if (before && f->from_given < before->to_given)
         ceduo_complain(v, path, "from_m", _("%s lies before the end of the belt before it, %s; belts must not overlap"),
                        ceduo_decimal(v, f->from_given), ceduo_decimal(v, before->to_given));
     else if (f->from_given < begin)
         ceduo_complain(v, path, "from_m", _("%s lies before the slope, which begins at %s m"), ceduo_decimal(v, f->from_given),
                        ceduo_decimal(v, begin));
-    if (f->to_given > end)
+    if (f->to_given > f->from_given && f->to_given > end)
         ceduo_complain(v, path, "to_m", _("%s lies beyond the slope, which ends at %s m"), ceduo_decimal(v, f->to_given),
                        ceduo_decimal(v, end));
 }

@@ -6,7 +6,7 @@
 #include "base/language.h"
 #include "resolve.h"
 
-void ceduo_complain(struct validator *v, const char *path, const char *key, const char *format, ...)
+bool ceduo_complain(struct validator *v, const char *path, const char *key, const char *format, ...)
 {
     LOCAL_TEXT(message);
     const char *within;
@@ -21,6 +21,7 @@ void ceduo_complain(struct validator *v, const char *path, const char *key, cons
     va_end(args);
     ceduo_problem_own(v->problems, (struct problem_place){node->source, node->line, node->column, within}, "%s",
                       ceduo_text_string(&message));
+    return false;
 }
 
 const char *ceduo_format(struct validator *v, const char *format, ...)
@@ -38,6 +39,20 @@ const char *ceduo_decimal(struct validator *v, double x)
 {
     char room[CEDUO_NUMBER_ROOM];
     return ceduo_format(v, "%s", ceduo_number_shortest(x, room));
+}
+
+const char *ceduo_words(struct validator *v, const struct choices *choices)
+{
+    LOCAL_TEXT(words);
+    ceduo_text_words(&words, choices->names, choices->n, ", ");
+    return ceduo_format(v, "%s", ceduo_text_string(&words));
+}
+
+const char *ceduo_range(struct validator *v, const struct field *field)
+{
+    LOCAL_TEXT(range);
+    ceduo_schema_range_text(field, &range);
+    return ceduo_format(v, "%s", ceduo_text_string(&range));
 }
 
 void *ceduo_room(struct validator *v, size_t n, size_t size)

@@ -38,13 +38,17 @@ struct validator {
 };
 
 /* Reports a problem at a path, or at a key ("": none) of the mapping there, with the line and column of the deepest node. Of a
- * file that may be none of ceduo's, the message is without its values. */
-void ceduo_complain(struct validator *v, const char *path, const char *key, const char *format, ...)
+ * file that may be none of ceduo's, the message is without its values. False, so that a check can end with it. */
+bool ceduo_complain(struct validator *v, const char *path, const char *key, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
 
 /* Strings in the arena, "" without memory: a number as the files have it; as printf() makes it, such as the path of an item. */
 const char *ceduo_decimal(struct validator *v, double x);
 const char *ceduo_format(struct validator *v, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+/* The words of a choice with a comma between them, and the range of a field. */
+const char *ceduo_words(struct validator *v, const struct choices *choices);
+const char *ceduo_range(struct validator *v, const struct field *field);
 
 /* Room for n + 1 items in the arena. NULL without memory, which is reported. */
 void *ceduo_room(struct validator *v, size_t n, size_t size);
