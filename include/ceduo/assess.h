@@ -66,7 +66,7 @@ bool ceduo_index_hangs_on_thin(const struct ceduo_index *index);
 enum ceduo_light ceduo_energy_light(const struct ceduo_arrivals *arrivals);
 
 /* Whether nothing can be said of a forest: even without it no rock arrives, or fewer than one of CEDUO_ARRIVE_LEAST released
- * where that many were flown. Rocks that never came to an end may arrive. False where none was flown. */
+ * where that many were simulated. Rocks that never came to an end may arrive. False where none was simulated. */
 bool ceduo_says_nothing(const struct ceduo_arrivals *bare);
 
 /* Does the forest keep rocks with too much energy to at most CEDUO_EXCEED_MOST of the released? By one energy law and with the

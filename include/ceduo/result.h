@@ -15,12 +15,12 @@ struct ceduo_simulated {
 };
 
 /* CEDUO_NO_MEMORY, with nothing to free, or CEDUO_OK. */
-enum ceduo_status ceduo_simulated_read(const struct ceduo_run *run, size_t controls, struct ceduo_simulated *flown);
+enum ceduo_status ceduo_simulated_read(const struct ceduo_run *run, size_t controls, struct ceduo_simulated *simulated);
 /* Through a forest without stems nothing is hit: that is known. Sets contacts that are not to 0. */
-void ceduo_simulated_meets_nothing(struct ceduo_simulated *flown);
+void ceduo_simulated_meets_nothing(struct ceduo_simulated *simulated);
 /* Sets what a forest leaves of the hazard of `bare`. */
-void ceduo_simulated_compare(struct ceduo_simulated *flown, const struct ceduo_simulated *bare);
-void ceduo_simulated_free(struct ceduo_simulated *flown);
+void ceduo_simulated_compare(struct ceduo_simulated *simulated, const struct ceduo_simulated *bare);
+void ceduo_simulated_free(struct ceduo_simulated *simulated);
 
 /* What is found for one option. */
 struct ceduo_option_result {

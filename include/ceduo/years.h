@@ -82,7 +82,7 @@ void ceduo_years_assess(struct ceduo_years *years, const struct ceduo_scene *sce
  * errors, and that is given; of the share that is marked the error itself, from each rock's own mean over the years.
  * NaN where a figure does not exist. */
 struct ceduo_years_summary {
-    size_t years, flown;
+    size_t years, simulated;
     bool nothing; /* nothing can be said of the forest (ceduo_says_nothing()): no light fails and none passes */
     size_t unprotected_contact, unprotected_free_run, unprotected_energy; /* years in which that light fails */
     size_t thick_contact, thick_free_run;     /* and where only stems from CEDUO_THICK_DBH on count */

@@ -17,25 +17,22 @@ struct arena_page {
     max_align_t bytes[];
 };
 
-static bool add_page(struct arena *arena, size_t size)
-{
-    size_t room = size > PAGE ? size : PAGE;
-    struct arena_page *page = calloc(1, sizeof *page + room);
-    if (!page)
-        return false;
-    page->size = room;
-    page->before = arena->page;
-    arena->page = page;
-    return true;
-}
-
 void *ceduo_arena_take(struct arena *arena, size_t size)
 {
     size_t align = alignof(max_align_t);
     bool too_much = size > SIZE_MAX / 2;
     size = too_much ? size : (size + align - 1) / align * align;
-    bool fits = arena->page && arena->page->size - arena->page->used >= size;
-    if (too_much || (!fits && !add_page(arena, size))) {
+    if (!too_much && (!arena->page || arena->page->size - arena->page->used < size)) {
+        size_t room = size > PAGE ? size : PAGE;
+        struct arena_page *page = calloc(1, sizeof *page + room);
+        if (page) {
+            page->size = room;
+            page->before = arena->page;
+            arena->page = page;
+        }
+        too_much = !page;
+    }
+    if (too_much) {
         ceduo_no_memory();
         arena->failed = true;
         return NULL;

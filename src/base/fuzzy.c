@@ -14,11 +14,6 @@ static int lower(char c)
     return c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : (unsigned char)c;
 }
 
-static bool begins_word(const char *text, size_t i)
-{
-    return i == 0 || strchr(" -_/.(,", text[i - 1]) != NULL;
-}
-
 /* The best of all ways in which the letters stand in the text: best[k] is that of the first k letters, the last of
  * them at the byte before the one looked at (`ending`), or anywhere before it (`best`). */
 int ceduo_fuzzy_match(const char *typed, const char *text)
@@ -31,7 +26,7 @@ int ceduo_fuzzy_match(const char *typed, const char *text)
     for (size_t i = 0; text[i]; i++) {
         for (size_t k = n; k > 0; k--) {
             bool same = lower(text[i]) == lower(typed[k - 1]);
-            int worth = ANY + (begins_word(text, i) ? WORD : 0) + (i == 0 ? START : 0), here = -1;
+            int worth = ANY + (i == 0 || strchr(" -_/.(,", text[i - 1]) ? WORD : 0) + (i == 0 ? START : 0), here = -1;
             if (same && best[k - 1] >= 0)
                 here = best[k - 1] + worth;
             if (same && k > 1 && ending[k - 1] >= 0 && ending[k - 1] + TOGETHER + worth > here)

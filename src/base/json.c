@@ -6,16 +6,7 @@
 
 #include "utf8.h"
 
-/* Beyond 16 bits JSON escapes the two halves of UTF-16. */
-static void put_escape(struct text *text, uint32_t code)
-{
-    if (code <= 0xffff)
-        ceduo_text_format(text, "\\u%04x", (unsigned)code);
-    else
-        ceduo_text_format(text, "\\u%04x\\u%04x", (unsigned)(0xd7c0 + (code >> 10)), (unsigned)(0xdc00 + (code & 0x3ff)));
-}
-
-static void put_string(struct text *text, const char *string)
+static void append_string(struct text *text, const char *string)
 {
     size_t n = strlen(string);
     ceduo_text_char(text, '"');
@@ -28,8 +19,11 @@ static void put_string(struct text *text, const char *string)
         } else if (code == '"' || code == '\\') {
             ceduo_text_char(text, '\\');
             ceduo_text_char(text, (char)code);
-        } else if (!ceduo_utf8_printable(code)) {
-            put_escape(text, code);
+        } else if (!ceduo_utf8_printable(code) && code <= 0xffff) {
+            ceduo_text_format(text, "\\u%04x", (unsigned)code);
+        } else if (!ceduo_utf8_printable(code)) { /* in the two halves of UTF-16 */
+            unsigned high = 0xd7c0 + (code >> 10), low = 0xdc00 + (code & 0x3ff);
+            ceduo_text_format(text, "\\u%04x\\u%04x", high, low);
         } else {
             ceduo_text_add(text, string + i, length);
         }
@@ -44,7 +38,7 @@ static void begin(struct json *json, const char *key)
         ceduo_text_put(json->text, ", ");
     json->more = true;
     if (key) {
-        put_string(json->text, key);
+        append_string(json->text, key);
         ceduo_text_put(json->text, ": ");
     }
 }
@@ -79,7 +73,7 @@ void ceduo_json_string(struct json *json, const char *key, const char *value)
 {
     begin(json, key);
     if (value)
-        put_string(json->text, value);
+        append_string(json->text, value);
     else
         ceduo_text_put(json->text, "null");
 }

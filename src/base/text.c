@@ -130,22 +130,6 @@ void ceduo_text_safe(struct text *text, const char *string)
     ceduo_text_safe_n(text, string, strlen(string));
 }
 
-/* The fewest digits that read back, in the form 1.234e+05 in `room`. A number that has one of 15 digits or fewer is
- * printed by 15 digits as just that, and zeros: only below the smallest normal number has each to be tried. */
-static int shortest_digits(double value, char room[CEDUO_NUMBER_ROOM])
-{
-    int digits = fabs(value) < DBL_MIN ? 1 : 15;
-    for (;; digits++) { /* 17 always do */
-        snprintf(room, CEDUO_NUMBER_ROOM, "%.*e", digits - 1, value);
-        if (strtod(room, NULL) == value)
-            break;
-    }
-    const char *e = strchr(room, 'e');
-    for (; digits > 1 && digits <= 15 && e[-1] == '0'; e--)
-        digits--;
-    return digits;
-}
-
 /* Writes 1.234e+05 in `room`, of which the first `digits` digits count, without its exponent; a print of its own would cost
  * as much again. */
 static void write_plainly(char room[CEDUO_NUMBER_ROOM], int digits, int exponent)
@@ -171,7 +155,13 @@ const char *ceduo_number_shortest(double value, char room[CEDUO_NUMBER_ROOM])
         return strcpy(room, "null");
     if (value == 0)
         return strcpy(room, "0"); /* and never -0 */
-    int digits = shortest_digits(value, room);
+    /* The fewest digits that read back. A number that has one of 15 digits or fewer is printed by 15 digits as just that, and
+     * zeros: only below the smallest normal number has each to be tried. */
+    int digits = fabs(value) < DBL_MIN ? 1 : 15;
+    while (snprintf(room, CEDUO_NUMBER_ROOM, "%.*e", digits - 1, value), strtod(room, NULL) != value) /* 17 always do */
+        digits++;
+    for (const char *e = strchr(room, 'e'); digits > 1 && digits <= 15 && e[-1] == '0'; e--)
+        digits--;
     int exponent = (int)strtol(strchr(room, 'e') + 1, NULL, 10);
     if (exponent >= -5 && exponent < 15) { /* 50, not 5e+01 */
         write_plainly(room, digits, exponent);
@@ -238,18 +228,13 @@ enum ceduo_number_reading ceduo_count_read(const char *string, double lo, double
     return CEDUO_NUMBER_GOOD;
 }
 
-/* A spreadsheet computes what begins so; an apostrophe before it keeps it as it is. */
-static bool is_formula(const char *value)
-{
-    double number;
-    return *value == '=' || *value == '+' || *value == '@' || *value == '\t' ||
-           (*value == '-' && value[1] && ceduo_number_read(value, &number) == CEDUO_NUMBER_NONE);
-}
-
 void ceduo_text_csv(struct text *text, const char *value)
 {
-    struct text safe = {0};
-    ceduo_text_put(&safe, is_formula(value) ? "'" : "");
+    LOCAL_TEXT(safe);
+    double number;
+    bool negative = *value == '-' && value[1] && ceduo_number_read(value, &number) == CEDUO_NUMBER_NONE;
+    bool formula = *value && (strchr("=+@\t", *value) || negative);
+    ceduo_text_put(&safe, formula ? "'" : ""); /* a spreadsheet computes what begins so; an apostrophe keeps it as it is */
     ceduo_text_safe(&safe, value);
     const char *bytes = ceduo_text_string(&safe);
     if (!strpbrk(bytes, ",\"")) {
@@ -261,7 +246,6 @@ void ceduo_text_csv(struct text *text, const char *value)
         ceduo_text_char(text, '"');
     }
     text->failed |= safe.failed;
-    ceduo_text_free(&safe);
 }
 
 /* Levenshtein's distance between short words. */

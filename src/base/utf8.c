@@ -98,19 +98,6 @@ const char *ceduo_utf8_end(const char *string, size_t columns)
     return string;
 }
 
-/* Bytes of the first `n` after which a word may be broken; n where nothing else is better. */
-static size_t word_part(const char *word, size_t n)
-{
-    char breaks[WORD_MOST];
-    size_t length = strcspn(word, " \n");
-    length = length < WORD_MOST ? length : WORD_MOST;
-    u8_possible_linebreaks(bytes_of(word), length, "UTF-8", breaks);
-    for (size_t at = n < length ? n : length - 1; at > 0; at--)
-        if (breaks[at] == UC_BREAK_POSSIBLE)
-            return at;
-    return n;
-}
-
 size_t ceduo_utf8_wrap(const char *text, size_t columns, const char **next)
 {
     size_t n = strcspn(text, "\n"), fits = ceduo_utf8_cut(text, columns);
@@ -118,8 +105,17 @@ size_t ceduo_utf8_wrap(const char *text, size_t columns, const char **next)
         n = fits;
         while (n > 0 && text[n] != ' ')
             n--;
-        if (n == 0)
-            n = word_part(text, fits > 0 ? fits : ceduo_utf8_step(text));
+        if (n == 0) { /* after the last byte where a word may be broken; where it is full if it may not */
+            char breaks[WORD_MOST];
+            size_t length = strcspn(text, " \n");
+            n = fits > 0 ? fits : ceduo_utf8_step(text);
+            length = length < WORD_MOST ? length : WORD_MOST;
+            u8_possible_linebreaks(bytes_of(text), length, "UTF-8", breaks);
+            size_t at = n < length ? n : length > 0 ? length - 1 : 0;
+            while (at > 0 && breaks[at] != UC_BREAK_POSSIBLE)
+                at--;
+            n = at > 0 ? at : n;
+        }
     }
     *next = text + n + (text[n] == ' ' || text[n] == '\n');
     return n;

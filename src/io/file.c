@@ -394,7 +394,7 @@ void ceduo_file_drop(struct pending_file *file)
     errno = why;
 }
 
-bool ceduo_file_put(struct pending_file file)
+bool ceduo_file_save(struct pending_file file)
 {
     bool good = ceduo_file_prepare(&file) && ceduo_file_place(&file);
     ceduo_file_drop(&file);
@@ -403,7 +403,7 @@ bool ceduo_file_put(struct pending_file file)
 
 bool ceduo_file_write(const char *path, const char *bytes, size_t n)
 {
-    return ceduo_file_put((struct pending_file){.path = path, .before = -1, .bytes = bytes, .n = n, .wait = true});
+    return ceduo_file_save((struct pending_file){.path = path, .before = -1, .bytes = bytes, .n = n, .wait = true});
 }
 
 bool ceduo_file_same(const char *a, const char *b)

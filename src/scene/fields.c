@@ -6,7 +6,7 @@
 #include <string.h>
 
 #define NAME_IT                                                                                                                \
-    TEXT("name_it", NAMED(N_("name, in Italian"), NULL), NOWHERE, FIELD_NOWHERE | UNFLOWN,                                     \
+    TEXT("name_it", NAMED(N_("name, in Italian"), NULL), NOWHERE, FIELD_NOWHERE | NO_RUN,                                      \
          N_("its name in Italian lists of profiles; without it the name"))
 
 /* ---- rock ---- */
@@ -87,7 +87,7 @@ static const struct object material_object = OBJECT(material_belt, material_fiel
 
 static const struct field slope_fields[] = {
     TAG("slope/1"),
-    TEXT("name", NAMED(N_("name"), NULL), NOWHERE, FIELD_NOWHERE | UNFLOWN, N_("name of the slope")),
+    TEXT("name", NAMED(N_("name"), NULL), NOWHERE, FIELD_NOWHERE | NO_RUN, N_("name of the slope")),
     NAME_IT,
     WORD("facets", NAMED(N_("facets"), NULL), AT(ceduo_slope, facets), 0, "against",
          N_("which way the ground's small facets are turned"), &ceduo_facets_words),
@@ -109,42 +109,42 @@ static const struct object slope_object = OBJECT(ceduo_slope, slope_fields, "slo
 /* ---- rules ---- */
 
 #define ITEM_FIELDS(least_row, most_row)                                                                                       \
-    OTHER(FIELD_WORDS, "species", NAMED(N_("species"), NULL), LIST(ceduo_regulation_item, species, species_count), UNFLOWN,    \
+    OTHER(FIELD_WORDS, "species", NAMED(N_("species"), NULL), LIST(ceduo_regulation_item, species, species_count), NO_RUN,     \
           NULL, N_("species that it is about; without it all that no row before names"), NULL, NULL),                          \
-        WORD("system", NAMED(N_("system"), NULL), AT(ceduo_regulation_item, system), UNFLOWN, NULL,                            \
+        WORD("system", NAMED(N_("system"), NULL), AT(ceduo_regulation_item, system), NO_RUN, NULL,                             \
              N_("silvicultural system that it is about; without it every one"), &ceduo_system_words),                          \
         least_row, most_row,                                                                                                   \
-        TEXT("article", NAMED(N_("article"), NULL), AT(ceduo_regulation_item, article), REQUIRED | UNFLOWN,                    \
+        TEXT("article", NAMED(N_("article"), NULL), AT(ceduo_regulation_item, article), REQUIRED | NO_RUN,                     \
              N_("article and act that say so")),                                                                               \
         NUM(FIELD_COUNT, "year", NAMED(N_("year"), NULL), AT(ceduo_regulation_item, year), "", 1, 1800, 2200,                  \
-            REQUIRED | UNFLOWN, NULL, N_("year of that act"))
+            REQUIRED | NO_RUN, NULL, N_("year of that act"))
 
 static const struct field standards_fields[] = {
     ITEM_FIELDS(NUMBER("per_ha", NAMED(N_("standards per ha"), NULL), AT(ceduo_regulation_item, least), "1/ha", 0, 1e5,
-                       REQUIRED | UNFLOWN, NULL, N_("standards that a cut must leave at least")),
-                NUMBER("most_per_ha", NAMED(N_("at most"), NULL), AT(ceduo_regulation_item, most), "1/ha", 0, 1e5, UNFLOWN,
-                       NULL, N_("standards that it may leave at most"))),
+                       REQUIRED | NO_RUN, NULL, N_("standards that a cut must leave at least")),
+                NUMBER("most_per_ha", NAMED(N_("at most"), NULL), AT(ceduo_regulation_item, most), "1/ha", 0, 1e5, NO_RUN, NULL,
+                       N_("standards that it may leave at most"))),
 };
 static const struct object standards_object = OBJECT(ceduo_regulation_item, standards_fields, NULL);
 
 static const struct field turns_fields[] = {
     ITEM_FIELDS(NUMBER("least_y", NAMED(N_("years at least"), NULL), AT(ceduo_regulation_item, least), "y", 0, 1000,
-                       REQUIRED | UNFLOWN, NULL, N_("age at which shoots may be cut at the earliest")),
-                NUMBER("most_y", NAMED(N_("at most"), NULL), AT(ceduo_regulation_item, most), "y", 0, 1000, UNFLOWN, NULL,
+                       REQUIRED | NO_RUN, NULL, N_("age at which shoots may be cut at the earliest")),
+                NUMBER("most_y", NAMED(N_("at most"), NULL), AT(ceduo_regulation_item, most), "y", 0, 1000, NO_RUN, NULL,
                        N_("age at which they may be cut at the latest"))),
 };
 static const struct object turns_object = OBJECT(ceduo_regulation_item, turns_fields, NULL);
 
 static const struct field rules_fields[] = {
     TAG("rules/1"),
-    TEXT("name", NAMED(N_("region"), NULL), AT(ceduo_regulation, name), REQUIRED | UNFLOWN, N_("name of the region")),
-    TEXT("note", NAMED(N_("note"), NULL), AT(ceduo_regulation, note), UNFLOWN,
+    TEXT("name", NAMED(N_("region"), NULL), AT(ceduo_regulation, name), REQUIRED | NO_RUN, N_("name of the region")),
+    TEXT("note", NAMED(N_("note"), NULL), AT(ceduo_regulation, note), NO_RUN,
          N_("what must be known beside; it is printed with the rules")),
-    TEXT("note_it", NAMED(N_("note, in Italian"), NULL), AT(ceduo_regulation, note_it), UNFLOWN,
+    TEXT("note_it", NAMED(N_("note, in Italian"), NULL), AT(ceduo_regulation, note_it), NO_RUN,
          N_("its note on Italian pages; without it the note")),
-    ITEMS("standards", NAMED(N_("standards"), NULL), LIST(ceduo_regulation, standards, standards_count), UNFLOWN,
+    ITEMS("standards", NAMED(N_("standards"), NULL), LIST(ceduo_regulation, standards, standards_count), NO_RUN,
           N_("standards that a cut must leave; the first row about a stand counts"), &standards_object),
-    ITEMS("turns", NAMED(N_("turns"), NULL), LIST(ceduo_regulation, turns, turns_count), UNFLOWN,
+    ITEMS("turns", NAMED(N_("turns"), NULL), LIST(ceduo_regulation, turns, turns_count), NO_RUN,
           N_("ages at which shoots may be cut; the first row about a stand counts"), &turns_object),
 };
 static const struct object rules_object = OBJECT(ceduo_regulation, rules_fields, "rules");
@@ -152,16 +152,16 @@ static const struct object rules_object = OBJECT(ceduo_regulation, rules_fields,
 /* ---- doubt ---- */
 
 #define ANY(key, name, member, meaning)                                                                                        \
-    NUMBER(key, NAMED(name, NULL), AT(doubt, member), "", -1e12, 1e12, UNFLOWN, NULL, meaning)
+    NUMBER(key, NAMED(name, NULL), AT(doubt, member), "", -1e12, 1e12, NO_RUN, NULL, meaning)
 
 static const struct field doubt_fields[] = {
-    TEXT("path", NAMED(N_("value"), NULL), AT(doubt, path), REQUIRED | UNFLOWN,
+    TEXT("path", NAMED(N_("value"), NULL), AT(doubt, path), REQUIRED | NO_RUN,
          N_("the value that is not known, as for --set; [*] stands for all items; slope.materials[NAME].KEY for a ground")),
     ANY("lo", N_("lower end"), lo, N_("the least that it may be, in its unit; with hi")),
     ANY("hi", N_("upper end"), hi, N_("the most that it may be; every value between is as likely")),
     ANY("mean", N_("mean"), mean, N_("instead: the mean of a normal distribution; with sd")),
     ANY("sd", N_("standard deviation"), sd, N_("its standard deviation; it is cut at three of them")),
-    OTHER(FIELD_WORDS, "one_of", NAMED(N_("one of"), NULL), LIST(doubt, one_of, one_of_count), UNFLOWN, NULL,
+    OTHER(FIELD_WORDS, "one_of", NAMED(N_("one of"), NULL), LIST(doubt, one_of, one_of_count), NO_RUN, NULL,
           N_("instead, for a word: those that it may be, each as likely"), NULL, NULL),
 };
 static const struct object doubt_object = OBJECT(doubt, doubt_fields, NULL);
@@ -332,11 +332,11 @@ static const struct object cutting_object = OBJECT(ceduo_stand, cutting_fields, 
 
 static const struct field stand_fields[] = {
     TAG("stand/1"),
-    TEXT("name", NAMED(N_("name"), NULL), NOWHERE, FIELD_NOWHERE | UNFLOWN, N_("name of the stand")),
+    TEXT("name", NAMED(N_("name"), NULL), NOWHERE, FIELD_NOWHERE | NO_RUN, N_("name of the stand")),
     NAME_IT,
     OTHER(FIELD_FILE, "base", NAMED(N_("made from"), NULL), NOWHERE, FIELD_NOWHERE, NULL,
           N_("a stand file to start from: mappings given here are merged into it, lists replaced"), NULL, NULL),
-    WORD("system", NAMED(N_("system"), NULL), AT(ceduo_stand, system), UNFLOWN, NULL,
+    WORD("system", NAMED(N_("system"), NULL), AT(ceduo_stand, system), NO_RUN, NULL,
          N_("silvicultural system; without it derived from the stems"), &ceduo_system_words),
     WORD("species", NAMED(N_("species"), NULL), AT(ceduo_stand, species), YEARS, NULL,
          N_("main species: volume of its stems and work of breaking"), &ceduo_species_words),
@@ -351,7 +351,7 @@ static const struct field stand_fields[] = {
     GROUP("growth", NAMED(N_("growth"), NULL), AT(ceduo_stand, growth), 0,
           N_("how it grows; without it the stand stays as it is"), &growth_object),
     GROUP("cutting", NAMED(N_("cutting"), NULL), SAME, 0, N_("how it is cut; without it never"), &cutting_object),
-    ITEMS("doubt", NAMED(N_("doubt"), NULL), NOWHERE, FIELD_NOWHERE | FIELD_OR_NONE | UNFLOWN | FIELD_SETTLED,
+    ITEMS("doubt", NAMED(N_("doubt"), NULL), NOWHERE, FIELD_NOWHERE | FIELD_OR_NONE | NO_RUN | FIELD_SETTLED,
           N_("what is not known of the stand, for --sensitivity; paths begin at the stand: stools.per_ha"), &doubt_object),
 };
 static const struct object stand_object = OBJECT(ceduo_stand, stand_fields, "stands");
@@ -371,7 +371,7 @@ static const struct field belt_fields[] = {
 static const struct object belt_object = OBJECT(ceduo_belt, belt_fields, NULL);
 
 static const struct field option_fields[] = {
-    TEXT("name", NAMED(N_("name"), NULL), AT(ceduo_option, name), REQUIRED | UNFLOWN, N_("name of the option")),
+    TEXT("name", NAMED(N_("name"), NULL), AT(ceduo_option, name), REQUIRED | NO_RUN, N_("name of the option")),
     ITEMS("forest", NAMED(N_("belt"), NULL), LIST(ceduo_option, belts, belts_count), 0, N_("belts of forest, rising along x"),
           &belt_object),
 };
@@ -380,11 +380,11 @@ static const struct object option_object = OBJECT(ceduo_option, option_fields, N
 static const struct field control_fields[] = {
     NUMBER("x_m", NAMED(N_("counted at, m"), N_("at m")), PLACE(ceduo_control, x_given, x), "m", -FAR, FAR,
            REQUIRED | FIELD_PLACE, NULL, N_("where passing rocks are counted")),
-    TEXT("name", NAMED(N_("name"), NULL), AT(ceduo_control, name), UNFLOWN, N_("what stands there")),
+    TEXT("name", NAMED(N_("name"), NULL), AT(ceduo_control, name), NO_RUN, N_("what stands there")),
     NUM(FIELD_NUMBER, "accepted_kJ", USUAL(N_("withstands, kJ"), N_("withst. kJ"), 0, 20000), AT(ceduo_control, accepted), "kJ",
         1000, 0, 1e9, 0, NULL, N_("energy that what stands there withstands")),
     NUMBER("measured_speed_m_s", USUAL(N_("speed filmed, m/s"), N_("filmed m/s"), 0, 80), AT(ceduo_control, measured_speed),
-           "m/s", 0, 1000, UNFLOWN, NULL, N_("speed of a real rock seen there, for comparison")),
+           "m/s", 0, 1000, NO_RUN, NULL, N_("speed of a real rock seen there, for comparison")),
 };
 static const struct object control_object = OBJECT(ceduo_control, control_fields, NULL);
 
@@ -392,7 +392,7 @@ static const struct field simulation_fields[] = {
     WORD("law", NAMED(N_("law of impact"), NULL), AT(ceduo_simulation, law), 0, "lumped", N_("law of an impact on the ground"),
          &ceduo_law_words),
     NUM(FIELD_COUNT, "rocks", NAMED(N_("rocks (batch)"), NULL), AT(ceduo_simulation, rocks), "", 1, 1, CEDUO_ROCKS_MOST,
-        UNFLOWN | FIELD_SETTLED, "1000", N_("rocks simulated")),
+        NO_RUN | FIELD_SETTLED, "1000", N_("rocks simulated")),
     NUM(FIELD_COUNT, "seed", NAMED(N_("seed"), NULL), AT(ceduo_simulation, seed), "", 1, 0, 9007199254740992.0, FIELD_SETTLED,
         "1", N_("seed of the random numbers")),
     WORD("contact_model", NAMED(N_("rocks among stems"), NULL), AT(ceduo_simulation, contact_model), FIELD_WOOD, "stems",
@@ -401,11 +401,11 @@ static const struct field simulation_fields[] = {
          &ceduo_contact_model_words),
     WORD("rule", NAMED(N_("form of the ADC"), NULL), AT(ceduo_simulation, rule), FIELD_WOOD, "auto",
          N_("form of the ADC; auto is the paper's rule"), &ceduo_rule_words),
-    NUMBER("threshold_m", NAMED(N_("threshold, m"), NULL), AT(ceduo_simulation, threshold), "m", 0, 1e6, ABOVE | UNFLOWN,
+    NUMBER("threshold_m", NAMED(N_("threshold, m"), NULL), AT(ceduo_simulation, threshold), "m", 0, 1e6, ABOVE | NO_RUN,
            STRING(CEDUO_THRESHOLD_M), N_("ADC below which a stand protects: distance to full speed (Bozzolo 1987)")),
     NUMBER(
         "contact_dbh_m", CENTIMETRES(N_("stems count from, cm"), NULL, 0, 0.5), AT(ceduo_simulation, contact_dbh), "m", 0, 10,
-        UNFLOWN, "0.03",
+        NO_RUN, "0.03",
         N_("diameter from which on stems count for ADC, free run and index; the default, at which coppice is callipered, is an "
            "assumption; 0: every stem")),
     NUMBER("gravity_m_s2", USUAL(N_("gravity, m/s2"), NULL, 9.7, 9.9), AT(ceduo_simulation, gravity), "m/s2", 0, 1000, ABOVE,
@@ -416,16 +416,16 @@ static const struct field simulation_fields[] = {
 static const struct object simulation_object = OBJECT(ceduo_simulation, simulation_fields, NULL);
 
 static const struct field design_fields[] = {
-    WORD("survey", NAMED(N_("survey of the ground"), NULL), AT(ceduo_design_values, survey), REQUIRED | UNFLOWN, NULL,
+    WORD("survey", NAMED(N_("survey of the ground"), NULL), AT(ceduo_design_values, survey), REQUIRED | NO_RUN, NULL,
          N_("how good the survey of the slope is"), &ceduo_quality_words),
-    WORD("blocks", NAMED(N_("survey of the blocks"), NULL), AT(ceduo_design_values, blocks), REQUIRED | UNFLOWN, NULL,
+    WORD("blocks", NAMED(N_("survey of the blocks"), NULL), AT(ceduo_design_values, blocks), REQUIRED | NO_RUN, NULL,
          N_("how good the survey of the blocks is"), &ceduo_quality_words),
 };
 static const struct object design_object = OBJECT(ceduo_design_values, design_fields, NULL);
 
 static const struct field minimum_fields[] = {
     NUMBER("reserves_per_ha", NAMED(N_("reserves per ha"), NULL), AT(scene_draft, scene.reserves_minimum), "1/ha", 0, 1e5,
-           REQUIRED | UNFLOWN, NULL,
+           REQUIRED | NO_RUN, NULL,
            N_("single trees that must be kept by law or by wish of the owner; a forest with fewer is reported")),
 };
 static const struct object minimum_object = OBJECT(scene_draft, minimum_fields, NULL);
@@ -433,17 +433,17 @@ static const struct object minimum_object = OBJECT(scene_draft, minimum_fields, 
 /* ---- years ---- */
 
 static const struct field window_fields[] = {
-    NUMBER("first", NAMED(N_("first year shown"), NULL), AT(scene_draft, scene.year_first), "y", 0, 100000, UNFLOWN, NULL,
+    NUMBER("first", NAMED(N_("first year shown"), NULL), AT(scene_draft, scene.year_first), "y", 0, 100000, NO_RUN, NULL,
            N_("first year to look at; 0 is the stand as filed")),
-    NUMBER("last", NAMED(N_("last year shown"), NULL), AT(scene_draft, scene.year_last), "y", 0, 100000, UNFLOWN, NULL,
+    NUMBER("last", NAMED(N_("last year shown"), NULL), AT(scene_draft, scene.year_last), "y", 0, 100000, NO_RUN, NULL,
            N_("last year to look at")),
 };
 static const struct object window_object = OBJECT(scene_draft, window_fields, NULL);
 
 static const struct field scene_fields[] = {
     TAG("scene/1"),
-    TEXT("title", NAMED(N_("title"), NULL), AT(scene_draft, scene.title), UNFLOWN, N_("title of the scene")),
-    TEXT("title_it", NAMED(N_("title, in Italian"), NULL), AT(scene_draft, scene.title_it), UNFLOWN,
+    TEXT("title", NAMED(N_("title"), NULL), AT(scene_draft, scene.title), NO_RUN, N_("title of the scene")),
+    TEXT("title_it", NAMED(N_("title, in Italian"), NULL), AT(scene_draft, scene.title_it), NO_RUN,
          N_("its title on Italian pages; without it the title")),
     GROUP("rock", NAMED(N_("rock"), NULL), AT(scene_draft, scene.rock), REQUIRED, N_("the rock"), &ceduo_rock_object),
     ITEMS("blocks", NAMED(N_("blocks that come down"), NULL), LIST(scene_draft, scene.blocks, scene.blocks_count), FIELD_OR_ONE,
@@ -463,19 +463,19 @@ static const struct field scene_fields[] = {
           N_("silvicultural options to compare, instead of forest; the first is the baseline"), &option_object),
     GROUP("simulation", NAMED(N_("simulation"), NULL), AT(scene_draft, scene.simulation), 0, N_("how the scene is computed"),
           &simulation_object),
-    NUMBER("rocks_per_year", NAMED(N_("rocks per year"), NULL), AT(scene_draft, scene.rocks_per_year), "1/y", 0, 1e6, UNFLOWN,
+    NUMBER("rocks_per_year", NAMED(N_("rocks per year"), NULL), AT(scene_draft, scene.rocks_per_year), "1/y", 0, 1e6, NO_RUN,
            NULL, N_("rocks that come down in a year, to print how many to expect")),
     ITEMS("doubt", NAMED(N_("doubt"), NULL), LIST(scene_draft, doubts, doubts_count),
-          FIELD_DRAFT | FIELD_OR_NONE | UNFLOWN | FIELD_SETTLED,
+          FIELD_DRAFT | FIELD_OR_NONE | NO_RUN | FIELD_SETTLED,
           N_("what is not known, for --sensitivity; values that are marked as assumed have ranges of their own; none: nothing"),
           &doubt_object),
     ITEMS("observed", NAMED(N_("seen"), NULL), LIST(scene_draft, observed, observed_count),
-          FIELD_DRAFT | UNFLOWN | FIELD_SETTLED, N_("what was seen of real rocks, for --calibrate; each row is of one kind"),
+          FIELD_DRAFT | NO_RUN | FIELD_SETTLED, N_("what was seen of real rocks, for --calibrate; each row is of one kind"),
           &ceduo_observed_object),
     GROUP("design", NAMED(N_("design values"), NULL), AT(scene_draft, scene.design), 0,
           N_("prints the design values of UNI 11211-4"), &design_object),
     GROUP("minimum", NAMED(N_("minimum"), NULL), SAME, 0, N_("what a forest must keep"), &minimum_object),
-    GROUP("rules", NAMED(N_("rules"), NULL), AT(scene_draft, scene.rules), FIELD_FOLLOWS | UNFLOWN,
+    GROUP("rules", NAMED(N_("rules"), NULL), AT(scene_draft, scene.rules), FIELD_FOLLOWS | NO_RUN,
           N_("what the forest regulation asks: a file, or what such a file holds"), &rules_object),
     GROUP("years", NAMED(N_("years"), NULL), SAME, FIELD_SETTLED,
           N_("years to look at; the default is one whole rotation of each option after its first cut"), &window_object),

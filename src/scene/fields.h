@@ -78,7 +78,7 @@ _Static_assert(offsetof(struct ceduo_slope, z) == offsetof(struct ceduo_slope, x
 #define STRING(macro) TEXT_OF(macro)
 #define TEXT_OF(text) #text
 
-enum { REQUIRED = FIELD_REQUIRED, ABOVE = FIELD_ABOVE, ZERO = FIELD_ZERO, YEARS = FIELD_YEARS, UNFLOWN = FIELD_UNFLOWN };
+enum { REQUIRED = FIELD_REQUIRED, ABOVE = FIELD_ABOVE, ZERO = FIELD_ZERO, YEARS = FIELD_YEARS, NO_RUN = FIELD_NO_RUN };
 
 /* The rock, its release, and what was observed of real rocks. */
 extern const struct object ceduo_rock_object, ceduo_release_object, ceduo_observed_object;

@@ -5,24 +5,24 @@
 
 #define OF_KIND(KIND) AT(observed, values[CEDUO_OBSERVED_##KIND])
 #define POSITION(key, name, member, flags, meaning)                                                                            \
-    NUMBER(key, NAMED(name, NULL), AT(observed_values, member), "m", -FAR, FAR, (flags) | UNFLOWN, NULL, meaning)
+    NUMBER(key, NAMED(name, NULL), AT(observed_values, member), "m", -FAR, FAR, (flags) | NO_RUN, NULL, meaning)
 #define VALUES(key, name, meaning)                                                                                             \
-    NUM(FIELD_NUMBERS, key, NAMED(name, NULL), LIST(observed_values, values, values_count), "", 1, -FAR, FAR, UNFLOWN, NULL,   \
+    NUM(FIELD_NUMBERS, key, NAMED(name, NULL), LIST(observed_values, values, values_count), "", 1, -FAR, FAR, NO_RUN, NULL,    \
         meaning)
 #define COUNT(key, name, member, lo, flags, meaning)                                                                           \
-    NUM(FIELD_COUNT, key, NAMED(name, NULL), AT(observed_values, member), "", 1, lo, 1e9, (flags) | UNFLOWN, NULL, meaning)
+    NUM(FIELD_COUNT, key, NAMED(name, NULL), AT(observed_values, member), "", 1, lo, 1e9, (flags) | NO_RUN, NULL, meaning)
 #define RELEASED COUNT("of", N_("rocks released"), of, 1, 0, N_("rocks released; without it only those seen are compared"))
 #define TABLE                                                                                                                  \
-    OTHER(FIELD_FILE, "csv", NAMED(N_("table"), NULL), AT(observed_values, csv), UNFLOWN, NULL,                                \
+    OTHER(FIELD_FILE, "csv", NAMED(N_("table"), NULL), AT(observed_values, csv), NO_RUN, NULL,                                 \
           N_("a table that holds the values, instead of a list"), NULL, NULL),                                                 \
-        TEXT("column", NAMED(N_("column"), NULL), AT(observed_values, column), UNFLOWN,                                        \
+        TEXT("column", NAMED(N_("column"), NULL), AT(observed_values, column), NO_RUN,                                         \
              N_("its column; without it the one that is named as usual, or the only one")),                                    \
-        TEXT("only", NAMED(N_("only"), NULL), AT(observed_values, only), UNFLOWN,                                              \
+        TEXT("only", NAMED(N_("only"), NULL), AT(observed_values, only), NO_RUN,                                               \
              N_("only those of its rows that have this in another column, such as block=1"))
 #define MEAN                                                                                                                   \
-    NUMBER("mean", NAMED(N_("mean"), NULL), AT(observed_values, mean), "", 0, 1e9, UNFLOWN, NULL,                              \
+    NUMBER("mean", NAMED(N_("mean"), NULL), AT(observed_values, mean), "", 0, 1e9, NO_RUN, NULL,                               \
            N_("instead of values: their mean")),                                                                               \
-        NUMBER("sd", NAMED(N_("standard deviation"), NULL), AT(observed_values, sd), "", 0, 1e9, UNFLOWN, NULL,                \
+        NUMBER("sd", NAMED(N_("standard deviation"), NULL), AT(observed_values, sd), "", 0, 1e9, NO_RUN, NULL,                 \
                N_("their standard deviation")),                                                                                \
         COUNT("n", N_("number"), n, 1, 0, N_("how many rocks they are of"))
 
@@ -66,9 +66,9 @@ static const struct field largest_fields[] = {
 static const struct object largest_object = OBJECT(observed, largest_fields, NULL);
 
 static const struct field way_fields[] = {
-    NUMBER("from_m", NAMED(N_("from, m"), N_("from m")), AT(observed, way_from), "m", -FAR, FAR, REQUIRED | UNFLOWN, NULL,
+    NUMBER("from_m", NAMED(N_("from, m"), N_("from m")), AT(observed, way_from), "m", -FAR, FAR, REQUIRED | NO_RUN, NULL,
            N_("where the stretch begins")),
-    NUMBER("to_m", NAMED(N_("to, m"), N_("to m")), AT(observed, way_to), "m", -FAR, FAR, REQUIRED | UNFLOWN, NULL,
+    NUMBER("to_m", NAMED(N_("to, m"), N_("to m")), AT(observed, way_to), "m", -FAR, FAR, REQUIRED | NO_RUN, NULL,
            N_("where it ends")),
     GROUP("speed_m_s", NAMED(N_("mean speed"), NULL), OF_KIND(WAY_SPEED), 0,
           N_("mean speed of each rock along it, metre by metre"), &sample_object),
@@ -84,16 +84,16 @@ static const struct field scars_fields[] = {
     VALUES("height_m", N_("heights"), N_("heights of the middles of scars above the ground")),
     TABLE,
     RELEASED,
-    NUMBER("share_seen", NAMED(N_("share seen"), NULL), AT(observed_values, share_seen), "", 0, 1, ABOVE | UNFLOWN, NULL,
+    NUMBER("share_seen", NAMED(N_("share seen"), NULL), AT(observed_values, share_seen), "", 0, 1, ABOVE | NO_RUN, NULL,
            N_("share of the scars that a survey finds; bark hides 16 to 49 % of them (Stoffel 2005)")),
 };
 static const struct object scars_object = OBJECT(observed_values, scars_fields, NULL);
 
 static const struct field observed_fields[] = {
-    TEXT("name", NAMED(N_("name"), NULL), AT(observed, name), UNFLOWN, N_("a name of its own; without it one is made")),
-    WORD("use", NAMED(N_("use"), NULL), AT(observed, use), UNFLOWN, "fit",
+    TEXT("name", NAMED(N_("name"), NULL), AT(observed, name), NO_RUN, N_("a name of its own; without it one is made")),
+    WORD("use", NAMED(N_("use"), NULL), AT(observed, use), NO_RUN, "fit",
          N_("whether the ground is fitted to it, or it only checks the fit"), &ceduo_use_words),
-    TEXT("option", NAMED(N_("option"), NULL), AT(observed, option), UNFLOWN,
+    TEXT("option", NAMED(N_("option"), NULL), AT(observed, option), NO_RUN,
          N_("the option that stood there; without it the first")),
     GROUP("rock", NAMED(N_("rock"), NULL), AT(observed, rock), 0, N_("the rock, where it is another than the scene's"),
           &ceduo_rock_object),

@@ -46,7 +46,7 @@ enum field_flag {
     FIELD_YEARS = 1 << 11,   /* it decides about the years to come */
     FIELD_OR_NONE = 1 << 13, /* a list instead of which the word none may stand */
     FIELD_OR_ONE = 1 << 14,  /* a list instead of which its only item may stand */
-    FIELD_UNFLOWN = 1 << 12, /* it decides about no rock: a name, a limit that figures are held against */
+    FIELD_NO_RUN = 1 << 12,  /* it decides about no rock: a name, a limit that figures are held against */
     /* no answer is in doubt because of it or what it holds: how much is computed or shown, what was seen */
     FIELD_SETTLED = 1 << 15
 };

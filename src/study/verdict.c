@@ -99,7 +99,7 @@ static void read_years(const struct ceduo_years *years, struct ceduo_choice *c)
 {
     const struct ceduo_years_summary s = ceduo_years_sum(years, years->last_control);
     c->years = s.years;
-    c->flown = s.flown;
+    c->flown = s.simulated;
     c->rocks = years->rocks;
     c->nothing = s.nothing;
     c->energy_known &= !s.nothing;

@@ -136,12 +136,12 @@ static void say_all(struct app *app, const struct ceduo_years *years, struct tex
         ceduo_text_then(text, before,
                         w->kind == CEDUO_WINDOW_ROTATION ? _("One whole rotation, years %u to %u:") : _("Years %u to %u:"),
                         w->first, w->last);
-    if (s.flown > 0)
+    if (s.simulated > 0)
         ceduo_text_then(text, " ", _("mean %.0f \xc2\xb1%.0f of 1000, worst %.0f (year %u)."), mean.mean * 1000,
                         ceil(mean.se * CEDUO_Z95 * 1000), s.worst * 1000, s.worst_year);
     if (s.nothing)
         ceduo_text_then(text, " ", "%s", _("Nothing can be said: no rock arrives, even without forest."));
-    else if (s.flown > 0 && says)
+    else if (s.simulated > 0 && says)
         ceduo_text_then(text, " ", _("Years that fail: energy %zu, contact %zu, free run %zu of %zu."), s.unprotected_energy,
                         s.unprotected_contact, s.unprotected_free_run, s.years);
     else

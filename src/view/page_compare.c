@@ -275,7 +275,7 @@ void ceduo_page_years_words(struct ceduo_page *page, const struct ceduo_result *
                       ngettext("Of this %zu year: without contact %zu, with long free runs %zu",
                                "Of these %zu years: without contact %zu, with long free runs %zu", s.years),
                       s.years, s.unprotected_contact, s.unprotected_free_run);
-    if (s.flown > 0 && says)
+    if (s.simulated > 0 && says)
         ceduo_text_then(line, ", ", _("with too much energy %zu"), s.unprotected_energy);
     ceduo_text_put(line, ". ");
     if (s.thick_contact > s.unprotected_contact || s.thick_free_run > s.unprotected_free_run)
@@ -286,7 +286,7 @@ void ceduo_page_years_words(struct ceduo_page *page, const struct ceduo_result *
     ceduo_text_format(&share, "%.0f", mean.mean * 1000);
     if (!isnan(mean.se)) /* of one rock */
         ceduo_text_format(&share, " \xc2\xb1%.0f", ceil(mean.se * CEDUO_Z95 * 1000));
-    if (s.flown > 0)
+    if (s.simulated > 0)
         ceduo_text_format(line, _("In the mean %s of 1000 %s, at worst %.0f in year %u."), ceduo_text_string(&share),
                           says ? _("arrive with too much energy") : _("arrive"), s.worst * 1000, s.worst_year);
     else
@@ -295,7 +295,7 @@ void ceduo_page_years_words(struct ceduo_page *page, const struct ceduo_result *
         ceduo_text_char(line, ' ');
         ceduo_words_counted(line, years->rocks);
     }
-    if (s.flown > 0 && !isnan(r->scene->rocks_per_year))
+    if (s.simulated > 0 && !isnan(r->scene->rocks_per_year))
         say_expected(line, r->scene, &s, says);
     double felled = ceduo_years_felled(years);
     if (felled > 0)

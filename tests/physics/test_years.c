@@ -504,7 +504,7 @@ TEST_WITH(by_the_index_alone, fresh, NULL)
         }
     }
     struct ceduo_years_summary s = ceduo_years_sum(years, 1);
-    EXPECT_IS(s, (years, 16), (flown, 0), (worst_year, worst_year), (worst, worst));
+    EXPECT_IS(s, (years, 16), (simulated, 0), (worst_year, worst_year), (worst, worst));
     EXPECT(worst_year, ==, 4);
     EXPECT_NAN(s.reach.mean, s.exceed.mean, s.passes_per_year);
     EXPECT(s.unprotected_energy, ==, 0);

@@ -241,13 +241,13 @@ TEST_WITH(what_was_set_aside_goes_before, folder_set_up_profiles, folder_tear_do
     put("to", "old");
     in_folder(path, "to");
     assert_int_equal(pipe(ends), 0);
-    assert_false(ceduo_file_put(
+    assert_false(ceduo_file_save(
         (struct pending_file){.before = ends[0], .path = path, .bytes = "after", .n = 5})); /* a pipe has no place 0 */
     assert_int_equal(errno, ESPIPE);
     expect_bytes(path, 99, "old");
-    assert_false(ceduo_file_put((struct pending_file){.before = aside, .path = "/dev/full", .bytes = ""}));
+    assert_false(ceduo_file_save((struct pending_file){.before = aside, .path = "/dev/full", .bytes = ""}));
     assert_int_equal(errno, ENOSPC);
-    assert_true(ceduo_file_put((struct pending_file){.before = aside, .path = path, .bytes = "after", .n = 5}));
+    assert_true(ceduo_file_save((struct pending_file){.before = aside, .path = path, .bytes = "after", .n = 5}));
     expect_bytes(path, 99, "before after");
     close(aside);
     close(ends[0]);

@@ -352,11 +352,11 @@ static void check_row(void *context, const char *path, const struct field *f)
     }
     if (!taken)
         fail_msg("%s: no value is taken anywhere", path);
-    if (f->flags & FIELD_UNFLOWN && (flight || years))
+    if (f->flags & FIELD_NO_RUN && (flight || years))
         fail_msg("%s is said to decide about no rock, but it makes another key", path);
     if (f->flags & FIELD_YEARS && !years)
         fail_msg("%s is said to decide about the years to come, but it leaves their key as it is", path);
-    if (!(f->flags & (FIELD_UNFLOWN | FIELD_YEARS)) && !flight)
+    if (!(f->flags & (FIELD_NO_RUN | FIELD_YEARS)) && !flight)
         fail_msg("%s: no value of it makes another key", path);
     ceduo_text_free(&place);
 }

@@ -92,6 +92,7 @@ TEST(lines)
     lines_are("of 984–995 kJ/m3", 8, (const char *[]){"of", "984–995", "kJ/m3", NULL});
     lines_are("coppice-with-standards", 10, (const char *[]){"coppice-", "with-", "standards", NULL});
     lines_are("abcdefgh", 3, (const char *[]){"abc", "def", "gh", NULL});
+    lines_are(" abcdef", 3, (const char *[]){" ab", "cde", "f", NULL}); /* a blank alone is no line */
     lines_are("\xe6\x9c\xa8\xe6\x9c\xa8", 1, (const char *[]){"\xe6\x9c\xa8", "\xe6\x9c\xa8", NULL}); /* never none at all */
     lines_are("a\xff\xff"
               "b c",

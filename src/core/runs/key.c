@@ -8,7 +8,7 @@
 /* Ground, rock, release and controls are hashed as the table of the scene has them: walkers read those members, and a new
  * row is in the key unless it says that it decides about something else. A forest is hashed as it is made ready. */
 
-#define OF_OTHERS (FIELD_NOWHERE | FIELD_DRAFT | FIELD_WOOD | FIELD_UNFLOWN)
+#define OF_OTHERS (FIELD_NOWHERE | FIELD_DRAFT | FIELD_WOOD | FIELD_NO_RUN)
 
 /* The members of `object` that decide about the years to come, or those that decide about trajectories now. */
 static void hash_fields(uint64_t *key, const struct object *object, const char *item, bool years)

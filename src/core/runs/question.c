@@ -53,7 +53,7 @@ static double effort_of(const struct ceduo_pool *pool, const struct ceduo_option
 static enum ceduo_status simulate_sizes(const struct ceduo_question *q, const struct ceduo_pool *pool, struct ceduo_answer *a)
 {
     const struct ceduo_scene *scene = q->run.scene;
-    uint64_t flown = ceduo_result_rocks(a->result), rocks = flown < q->block_rocks ? flown : q->block_rocks;
+    uint64_t all = ceduo_result_rocks(a->result), rocks = all < q->block_rocks ? all : q->block_rocks;
     a->blocks = calloc(scene->options_count * CEDUO_BLOCKS + 1, sizeof *a->blocks);
     enum ceduo_status status = a->blocks ? CEDUO_OK : CEDUO_NO_MEMORY;
     for (size_t i = 0; i < scene->options_count && status == CEDUO_OK; i++)

@@ -113,7 +113,7 @@ static enum ceduo_judgement judge_other(const struct ceduo_arrivals *bare, const
     return one == CEDUO_NOTHING ? one : differ ? CEDUO_DEPENDS : two;
 }
 
-/* Assesses every option of a result whose flights are read; otherwise frees it. */
+/* Assesses every option of a result whose runs are read; otherwise frees it. */
 static enum ceduo_status finish(struct ceduo_result *r, enum ceduo_status status, struct ceduo_result **result)
 {
     const struct ceduo_scene *scene = r->scene;

@@ -243,24 +243,6 @@ static double marks_se(const struct ceduo_years *years)
     return ceduo_moments_sd(&m) / sqrt((double)years->rocks);
 }
 
-static void add_simulated(const struct ceduo_year *y, const struct ceduo_arrivals *a, struct ceduo_years_summary *s)
-{
-    double n = isnan(a->hazard.per_year) ? (double)a->released : a->hazard.effective;
-    bool says = !isnan(a->exceed_probability);
-    s->flown++;
-    s->reach.mean += a->reach_probability;
-    s->reach.se += ceduo_share_se(a->reach_probability, n);
-    s->exceed.mean += a->exceed_probability;
-    s->exceed.se += ceduo_share_se(a->exceed_probability, n);
-    s->energy_per_released.mean += a->energy_per_released;
-    s->energy_per_released.se += a->energy_per_released_se;
-    double share = says ? a->exceed_probability : a->reach_probability;
-    if (isnan(s->worst) || share > s->worst) {
-        s->worst = share;
-        s->worst_year = y->year;
-    }
-}
-
 struct ceduo_years_summary ceduo_years_sum(const struct ceduo_years *years, size_t control)
 {
     struct ceduo_years_summary s = {.years = years->count, .worst = NAN};
@@ -275,7 +257,20 @@ struct ceduo_years_summary ceduo_years_sum(const struct ceduo_years *years, size
         s.thick_free_run += index->thick.free_run == CEDUO_FAIL;
         s.unprotected_energy += index->energy == CEDUO_FAIL;
         if (y->wooded.rocks > 0) {
-            add_simulated(y, &y->wooded.arrivals[control], &s);
+            const struct ceduo_arrivals *a = &y->wooded.arrivals[control];
+            double n = isnan(a->hazard.per_year) ? (double)a->released : a->hazard.effective;
+            double share = isnan(a->exceed_probability) ? a->reach_probability : a->exceed_probability;
+            s.simulated++;
+            s.reach.mean += a->reach_probability;
+            s.reach.se += ceduo_share_se(a->reach_probability, n);
+            s.exceed.mean += a->exceed_probability;
+            s.exceed.se += ceduo_share_se(a->exceed_probability, n);
+            s.energy_per_released.mean += a->energy_per_released;
+            s.energy_per_released.se += a->energy_per_released_se;
+            if (isnan(s.worst) || share > s.worst) {
+                s.worst = share;
+                s.worst_year = y->year;
+            }
         } else if (!simulates && !(index->worst_adc <= s.worst)) {
             s.worst = index->worst_adc;
             s.worst_year = y->year;
@@ -283,8 +278,8 @@ struct ceduo_years_summary ceduo_years_sum(const struct ceduo_years *years, size
     }
     struct ceduo_paired *const means[] = {&s.reach, &s.exceed, &s.energy_per_released};
     for (size_t i = 0; i < 3; i++) { /* of none NaN */
-        means[i]->mean /= (double)s.flown;
-        means[i]->se /= (double)s.flown;
+        means[i]->mean /= (double)s.simulated;
+        means[i]->se /= (double)s.simulated;
     }
     if (years->rocks > 0 && control == years->last_control)
         (isnan(s.exceed.mean) ? &s.reach : &s.exceed)->se = marks_se(years);

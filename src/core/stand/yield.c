@@ -57,23 +57,6 @@ static enum ceduo_status sum_rotation(const struct ceduo_belt *belt, unsigned fi
 
 /* ---- fellings ---- */
 
-static enum ceduo_status fell(const struct ceduo_belt *belt, struct ceduo_felling *f)
-{
-    struct ceduo_grown_stand before, after;
-    enum ceduo_status status = ceduo_stand_before_cut(&belt->stand, belt->cut_year, f->year, &before);
-    if (status != CEDUO_OK)
-        return status;
-    status = ceduo_stand_at(&belt->stand, belt->cut_year, f->year, &after);
-    if (status == CEDUO_OK) { /* an inventory may be poorer than what its cuts leave */
-        f->volume = fmax(0, ceduo_stand_volume(&before.stand) - ceduo_stand_volume(&after.stand));
-        f->stems_per_ha = fmax(0, ceduo_stand_shoots(&before.stand) + ceduo_stand_trees(&before.stand) -
-                                      ceduo_stand_shoots(&after.stand) - ceduo_stand_trees(&after.stand));
-        ceduo_grown_stand_release(&after);
-    }
-    ceduo_grown_stand_release(&before);
-    return status;
-}
-
 static int by_year(const void *a, const void *b)
 {
     const struct ceduo_felling *f = a, *g = b;
@@ -100,8 +83,18 @@ static enum ceduo_status list_fellings(const struct ceduo_option *option, unsign
         unsigned year = ceduo_first_cut(&belt->stand, belt->cut_year);
         for (size_t k = count_fellings(belt, last); k-- > 0 && status == CEDUO_OK; year += belt->stand.cutting.rotation) {
             struct ceduo_felling *f = &yield->fellings[yield->fellings_count++];
+            struct ceduo_grown_stand before = {0}, after = {0};
             *f = (struct ceduo_felling){.year = year, .belt = i};
-            status = fell(belt, f);
+            status = ceduo_stand_before_cut(&belt->stand, belt->cut_year, year, &before);
+            if (status == CEDUO_OK)
+                status = ceduo_stand_at(&belt->stand, belt->cut_year, year, &after);
+            if (status == CEDUO_OK) { /* an inventory may be poorer than what its cuts leave */
+                f->volume = fmax(0, ceduo_stand_volume(&before.stand) - ceduo_stand_volume(&after.stand));
+                f->stems_per_ha = fmax(0, ceduo_stand_shoots(&before.stand) + ceduo_stand_trees(&before.stand) -
+                                              ceduo_stand_shoots(&after.stand) - ceduo_stand_trees(&after.stand));
+            }
+            ceduo_grown_stand_release(&after);
+            ceduo_grown_stand_release(&before);
         }
     }
     if (status == CEDUO_OK)
