@@ -360,7 +360,7 @@ static void expect_sum(const struct ceduo_years *years, size_t c)
     }
     if (c == years->last_control) /* each rock goes through all years: the error is that of its own mean */
         *(isnan(exceed) ? &reach_se : &exceed_se) = se_by_hand(years, c, 400);
-    EXPECT_IS(s, (years, years->count), (flown, years->count), (worst_year, worst_year), (unprotected_contact, contact),
+    EXPECT_IS(s, (years, years->count), (simulated, years->count), (worst_year, worst_year), (unprotected_contact, contact),
               (unprotected_free_run, free_run), (unprotected_energy, light));
     expect_same("worst", s.worst, worst);
     const double pairs[][2] = {{s.reach.mean, reach},
