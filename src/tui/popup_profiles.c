@@ -19,18 +19,47 @@
 #include "view/typed.h"
 #include "view/words.h"
 
-/* How common a system is: Table 7 of Ciabocco et al. 2009, Marche. */
-static const char *how_common(const char *name)
+/* ---- a stand by itself ---- */
+
+/* A scene of nothing but the stand, with the rock of this one; false where it is none. To be released in any case. */
+static bool read_stand(const struct app *app, const char *value, struct scene_file *file)
 {
-    static const char *const texts[] = {[CEDUO_SIMPLE_COPPICE] = N_("87 050 ha, 43.4 % of Marche: with reserves"),
-                                        [CEDUO_COPPICE_WITH_STANDARDS] = N_("13 250 ha, 6.6 % of Marche: with standards"),
-                                        [CEDUO_SELECTION_COPPICE] = N_("350 ha, 0.2 % of Marche: selection system"),
-                                        [CEDUO_LARGE_RESERVES] = N_("30 275 ha, 15.1 % of Marche: a lot of reserves"),
-                                        [CEDUO_HIGH_FOREST] = N_("28 550 ha, 14.2 % of Marche: natural high forest")};
-    for (size_t i = 0; i < sizeof texts / sizeof texts[0]; i++)
-        if (strncmp(name, ceduo_system_words.names[i], strlen(ceduo_system_words.names[i])) == 0)
-            return _(texts[i]);
-    return "";
+    struct problems problems = {0};
+    LOCAL_TEXT(yaml);
+    ceduo_text_format(&yaml,
+                      "{ceduo: scene/1, rock: {diameter_m: 0.68}, slope: {vertices_m: [[0, 10], [100, 0]], segments: "
+                      "[{rn: 0.3, rt: 0.8}]}, controls_m: [90], forest: [{from_m: 0, to_m: 100, stand: %s}]}",
+                      value);
+    const char *name = app->document.path ? app->document.path : "preset";
+    *file = (struct scene_file){0};
+    bool good = ceduo_scene_read_text(file, name, yaml.bytes, &problems);
+    file->scene.rock = app->document.file.scene.rock;
+    file->scene.simulation = app->document.file.scene.simulation;
+    ceduo_problems_free(&problems);
+    return good;
+}
+
+#define STAND_TAG "ceduo: stand/"
+
+/* Stems, the diameter of their mean basal area, the age of the oldest shoots where that is given, basal area; behind them
+ * whose it is. */
+static const char *describe_stand(const struct app *app, const char *value, const char *whose)
+{
+    struct scene_file file;
+    const char *words = whose;
+    if (read_stand(app, value, &file)) {
+        const struct ceduo_belt *b = &file.scene.options[0].belts[0];
+        struct ceduo_stand_result r = ceduo_assess_stand(&file.scene, b);
+        double age = NAN, dbh = sqrt(4 * r.basal_area / (M_PI * r.stems_per_ha));
+        for (size_t i = 0; i < b->stand.shoots_count; i++)
+            age = fmax(age, b->stand.shoots[i].age);
+        const char *years = isnan(age) ? "  -" : ceduo_app_format(app, "%3.0f", age);
+        words = ceduo_app_format(app, _("%5.0f/ha %4.1f cm %s y %4.1f m2/ha"), r.stems_per_ha, r.bare ? 0 : dbh * 100, years,
+                                 r.basal_area);
+        words = whose[0] ? ceduo_app_format(app, "%s %s", words, whose) : words;
+    }
+    ceduo_scene_release(&file);
+    return words;
 }
 
 /* ---- files ---- */
@@ -38,7 +67,7 @@ static const char *how_common(const char *name)
 static void add_file(const struct app *app, struct popup *p, const char *name, const char *value, const char *about,
                      const char *now)
 {
-    const char *line = about[0] ? ceduo_app_format(app, "%-*s %s", ceduo_utf8_field(name, 27), name, about) : name;
+    const char *line = about[0] ? ceduo_app_format(app, "%-*s %s", ceduo_utf8_field(name, 33), name, about) : name;
     if (!ceduo_picker_has(&p->picker, value))
         ceduo_picker_add(&p->picker, line, value, now && strcmp(now, value) == 0);
 }
@@ -75,27 +104,28 @@ static void add_beside(struct app *app, struct popup *p, const char *tag, bool w
     for (int i = 0; i < n; i++) {
         const char *name = entries[i]->d_name, *path = ceduo_app_format(app, "%s%s", folder, name);
         if (i < FILES_MAX && is_kind(path, tag))
-            add_file(app, p, name, whole ? path : name, _("yours, beside the scene"), now);
+            add_file(app, p, name, whole ? path : name,
+                     strcmp(tag, STAND_TAG) == 0 ? describe_stand(app, path, _("yours")) : _("yours, beside the scene"), now);
         free(entries[i]);
     }
     free(entries);
 }
 
-/* Files of a kind ("stands", …): the user's own first, then those of the program, the first of each name. */
-static void add_profiles(const struct app *app, struct popup *p, const char *kind, const char *now)
+/* Files of a kind ("stands", …), the first of each name: the user's own, or those of the program. */
+static void add_profiles(const struct app *app, struct popup *p, const char *kind, const char *now, bool shipped)
 {
     const char *const *folders = ceduo_file_folders(&p->arena);
-    for (int shipped = 0; shipped < 2; shipped++)
-        for (size_t i = 0; folders && folders[i]; i++) {
-            size_t n;
-            const char *const *names = ceduo_file_list(&p->arena, folders[i], kind, &n);
-            for (size_t k = 0; k < n; k++) {
-                const char *name = ceduo_app_format(app, "%.*s", (int)(strlen(names[k]) - 5), names[k]);
-                const char *path = ceduo_app_format(app, "%s/%s/%s", folders[i], kind, names[k]);
-                if (ceduo_document_is_shipped(path) == (shipped == 1))
-                    add_file(app, p, name, name, shipped ? how_common(name) : _("yours"), now);
-            }
+    for (size_t i = 0; folders && folders[i]; i++) {
+        size_t n;
+        const char *const *names = ceduo_file_list(&p->arena, folders[i], kind, &n);
+        for (size_t k = 0; k < n; k++) {
+            const char *name = ceduo_app_format(app, "%.*s", (int)(strlen(names[k]) - 5), names[k]);
+            const char *path = ceduo_app_format(app, "%s/%s/%s", folders[i], kind, names[k]),
+                       *whose = shipped ? "" : _("yours");
+            if (ceduo_document_is_shipped(path) == shipped)
+                add_file(app, p, name, name, strcmp(kind, "stands") == 0 ? describe_stand(app, name, whose) : whose, now);
         }
+    }
 }
 
 /* ---- what a choice would do ---- */
@@ -174,17 +204,8 @@ static void preview_word(struct app *app, struct popup *p, const char *value)
 /* What a preset would give, in the lines over the list. */
 static void append_stand(struct app *app, struct text *text, const char *value)
 {
-    struct scene_file file = {0};
-    struct problems problems = {0};
-    struct text yaml = {0};
-    ceduo_text_format(&yaml,
-                      "{ceduo: scene/1, rock: {diameter_m: 0.68}, slope: {vertices_m: [[0, 10], [100, 0]], segments: "
-                      "[{rn: 0.3, rt: 0.8}]}, controls_m: [90], forest: [{from_m: 0, to_m: 100, stand: %s}]}",
-                      value);
-    const char *name = app->document.path ? app->document.path : "preset";
-    if (ceduo_scene_read_text(&file, name, yaml.bytes, &problems)) {
-        file.scene.rock = app->document.file.scene.rock;
-        file.scene.simulation = app->document.file.scene.simulation;
+    struct scene_file file;
+    if (read_stand(app, value, &file)) {
         const struct ceduo_belt *b = &file.scene.options[0].belts[0];
         struct ceduo_stand_result r = ceduo_assess_stand(&file.scene, b);
         ceduo_text_format(text, _("%s: %.0f stools, %.0f stems, %.0f trees per ha; basal area %.1f m2/ha\n"), b->name,
@@ -198,8 +219,6 @@ static void append_stand(struct app *app, struct text *text, const char *value)
             ceduo_text_format(text, _("with this rock: ADC %.3g m, free run %.1f %%, %.3g kJ/100 m (%s)\n"), r.adc_m,
                               r.free_run_probability * 100, r.dissipated * J_TO_KJ, ceduo_rule_words.names[r.rule]);
     }
-    ceduo_text_free(&yaml);
-    ceduo_problems_free(&problems);
     ceduo_scene_release(&file);
 }
 
@@ -263,15 +282,16 @@ static struct popup *list_stands(struct app *app, const char *title, popup_chose
 {
     struct popup *p = ceduo_popup_list(app, title, chosen);
     snprintf(p->path, sizeof p->path, "%s", ceduo_app_stand(app));
+    p->preview = preview_stand;
+    ceduo_text_put(&p->text, " "); /* lines for it */
+    const char *now = listed_name(app, p->path);
+    add_beside(app, p, STAND_TAG, false, now);
+    add_profiles(app, p, "stands", now, false);
     if (chosen == chose_stand) {
         ceduo_popup_item(p, _("from a sample plot: what was counted and measured"), STAND_COUNTED);
         ceduo_popup_item(p, _("from a survey: a CSV file of plots and stems"), STAND_SURVEY);
     }
-    p->preview = preview_stand;
-    ceduo_text_put(&p->text, " "); /* lines for it */
-    const char *now = listed_name(app, p->path);
-    add_beside(app, p, "ceduo: stand/", false, now);
-    add_profiles(app, p, "stands", now);
+    add_profiles(app, p, "stands", now, true);
     return p;
 }
 
@@ -279,8 +299,9 @@ void ceduo_popup_offer_stands(struct app *app, struct popup *p, const char *type
 {
     (void)typed;
     ceduo_popup_item(p, _("from a sample plot: what was counted and measured"), STAND_COUNTED);
-    add_beside(app, p, "ceduo: stand/", true, NULL);
-    add_profiles(app, p, "stands", NULL);
+    add_beside(app, p, STAND_TAG, true, NULL);
+    for (int shipped = 0; shipped < 2; shipped++)
+        add_profiles(app, p, "stands", NULL, shipped);
 }
 
 static void add_word(struct popup *p, const struct field *f, const char *word, const char *now)
@@ -331,7 +352,8 @@ void ceduo_popup_choices(struct app *app, const struct form_cell *cell)
     }
     const char *now = listed_name(app, p->path);
     add_beside(app, p, strcmp(f->object->folder, "rules") == 0 ? "ceduo: rules/" : "ceduo: slope/", false, now);
-    add_profiles(app, p, f->object->folder, now);
+    for (int shipped = 0; shipped < 2; shipped++)
+        add_profiles(app, p, f->object->folder, now, shipped);
 }
 
 /* ---- the rock and how it starts, as other scenes have them ---- */
@@ -423,7 +445,8 @@ static void offer_scenes(struct app *app, struct popup *p, const char *typed)
     if (!strchr(typed, '/')) {
         ceduo_popup_offer_recoveries(app, p);
         add_beside(app, p, "ceduo: scene/", true, own);
-        add_profiles(app, p, "scenes", NULL);
+        for (int shipped = 0; shipped < 2; shipped++)
+            add_profiles(app, p, "scenes", NULL, shipped);
     }
     ceduo_picker_add_files(&p->picker, typed, ".yaml");
 }

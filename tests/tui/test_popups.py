@@ -216,6 +216,22 @@ def test_unsaved():
             expect_in("title: other", place.text("fast.yaml"), f"saved before {key}")
 
 
+def test_stands():
+    """p in view 2 lists one's own stands first, each with stems, diameter of the mean basal area, age and basal area"""
+    with Place() as place:
+        place.write("mine.yaml", "ceduo: stand/1\nname: mine\nspecies: quercus-cerris\nstools: {per_ha: 1000, spacing_m: 0.4}\n"
+                    "shoots: [{per_ha: 3000, dbh_m: 0.1, height_m: 9, age_y: 18}, {per_ha: 200, dbh_m: 0.05, height_m: 5, age_y: 6}]\n"
+                    "trees: [{per_ha: 100, dbh_m: 0.3, height_m: 15}]\n")
+        listed, wide = place.play("key 2\nkey p\ndump\nresize 200 50\ndump")
+    area = math.pi / 4 * (3000 * 0.1 ** 2 + 200 * 0.05 ** 2 + 100 * 0.3 ** 2)
+    dbh = 100 * math.sqrt(4 * area / math.pi / 3300)
+    row = re.search(r"mine\.yaml +3300/ha +([\d.]+) cm +18 y +([\d.]+) m2/ha +yours", listed.popup)
+    expect(row, listed)
+    expect_equal(row.groups(), (f"{dbh:.1f}", f"{area:.1f}"))
+    expect(listed.popup.index("mine.yaml") < listed.popup.index("from a sample plot") < listed.popup.index("ads-1"), listed)
+    wide.whole().lacks("Marche")
+
+
 def test_starts():
     """p in view 3 takes over the rock of another scene, or how it starts but not where, each as one edit that u takes back"""
     with Place() as place:
@@ -252,7 +268,7 @@ def test_picker():
         wait idle
         key p
         dump
-        type lresc
+        type lrescut
         dump
         type zzz
         dump
@@ -260,12 +276,12 @@ def test_picker():
         wait idle
         dump""", "wood.yaml")
     all_.has("from a sample plot", "simple-coppice")
-    expect(re.search(r"search: lresc_ large-reserves-cut", some.popup), "the best match first", some)
+    expect(re.search(r"search: lrescut_ large-reserves-cut", some.popup), "the best match first", some)
     expect(re.search(r"Contact (passes|FAILS).*free run .*energy .*about \d+ of 1000 with too much", some.popup), some)
     none.has("nothing matches")
     expect_equal(took.row("^system")[1:], ["large", "reserves"], "the one that was under the cursor")
     now = fast("key 2\nkey p\ndump", "paper-site")[0]
-    expect(re.search(r"ads-1 +\(now\)", now.text), "what is there now is marked", now)
+    expect(re.search(r"ads-1 +9076.*\(now\)", now.text), "what is there now is marked", now)
     species = fast("key 2\nwait idle\nfind species\nkey Enter\ntype beech\ndump\nkey Enter\ndump", "wood.yaml")
     species[0].has("search: beech_", "beech (Fagus sylvatica)", "about")
     expect_equal(species[1].row("^species")[1:], ["beech", "(Fagus", "sylvatica)"])
