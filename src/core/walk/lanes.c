@@ -34,6 +34,8 @@ struct lanes_ground *ceduo_lanes_ground_create(const struct ground *g)
     set_table(&lanes->tilt, &before->c, SEGMENT_SHIFT, entries);
     set_table(&lanes->share, &before->rn, SEGMENT_SHIFT, entries);
     set_table(&lanes->grip, &before->mu, SEGMENT_SHIFT, entries);
+    for (size_t j = 0; j < g->n; j++)
+        lanes->steep |= ground_is_steep(&g->segments[j]);
     return lanes;
 }
 

@@ -24,6 +24,7 @@ struct lanes_ground {
     struct lanes_table tilt;  /* c, s */
     struct lanes_table share; /* rn, rt */
     struct lanes_table grip;  /* mu, friction */
+    bool steep;               /* some segments are steeper than 45 degrees */
     bool small;               /* all fit TABLE_SMALL */
 };
 

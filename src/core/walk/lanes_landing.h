@@ -62,7 +62,7 @@ HOT mask begin_search(struct form form, struct lanes *k, size_t i, unsigned *far
     return clear;
 }
 
-/* Which segments the flights land on, not yet where; as land_beyond(). Mostly a flight passes no more than three vertices: so
+/* Which segments the flights land on, not yet where; as land_beyond(). Mostly a flight passes no more than two vertices: so
  * many are looked at without a branch that the processor might guess wrongly. Returns those left to the scalar walk. */
 HOT unsigned find_segments(struct form form, struct lanes *k)
 {
@@ -71,7 +71,6 @@ HOT unsigned find_segments(struct form form, struct lanes *k)
         mask clear = begin_search(form, k, i, &far);
         struct search s = search_of(k, i, 0);
         s.going = clear;
-        search_on(form, k, &s);
         search_on(form, k, &s);
         search_on(form, k, &s);
         store_ints(&k->vertex[i], s.vertex);
@@ -209,11 +208,7 @@ HOT unsigned roll_lanes(struct form form, struct lanes *k, size_t i, unsigned ne
     store(&k->t[i], pick(rolls, zero, load(&k->t[i])));
     store(&k->to_x[i], pick(rolls, x_end, to_x));
     store(&k->to_z[i], pick(rolls, z_end, to_z));
-    store(&k->x[i], pick(rolls, x_end, x));
-    store(&k->z[i], pick(rolls, z_end, z));
     store(&k->along[i], pick(rolls, u, load(&k->along[i])));
-    store(&k->vx[i], pick(rolls, u * c, load(&k->vx[i])));
-    store(&k->vz[i], pick(rolls, u * s, load(&k->vz[i])));
     if (spins)
         store(&k->spin[i], pick(rolls, u / radius, load(&k->spin[i])));
     return lanes_of(rolls) << i;

@@ -54,7 +54,7 @@ struct lanes {
     bool far;    /* the ground has blocks */
     bool varies; /* the ground from rock to rock */
     bool against, scale_rn;
-    bool steep; /* some segments are steeper than 45 degrees */
+    bool steep; /* so is the ground */
 
     _Alignas(64) double x[LANES], z[LANES], vx[LANES], vz[LANES], spin[LANES];
     uint64_t segment[LANES];
@@ -92,8 +92,8 @@ struct lanes {
 
     /* bit i is lane i */
     unsigned live;   /* has a rock */
-    unsigned there;  /* is at its next contact already */
-    unsigned rolls;  /* of these: with speed `along` on the ground */
+    unsigned there;  /* is at its next contact already, at to_x, to_z */
+    unsigned rolls;  /* of these: with speed `along` on the ground, which vx, vz do not know yet */
     unsigned left;   /* lands off the slope */
     unsigned fresh;  /* has no draws yet */
     unsigned aloft;  /* behind a stem: where it lands is looked for now */
@@ -240,13 +240,15 @@ static struct course course_of(struct lanes *k, size_t i)
     w->spin = k->spin[i];
     w->contacts = k->contacts[i];
     show_stems_met(k, i);
-    return (struct course){.at = {.x = k->x[i],
-                                  .z = k->z[i],
-                                  .vx = k->vx[i],
-                                  .vz = k->vz[i],
+    bool there = k->there & bit, rolls = k->rolls & bit;
+    const struct ground_segment *s = &k->g->segments[k->segment[i] - 1];
+    return (struct course){.at = {.x = there ? k->to_x[i] : k->x[i],
+                                  .z = there ? k->to_z[i] : k->z[i],
+                                  .vx = rolls ? k->along[i] * s->c : k->vx[i],
+                                  .vz = rolls ? k->along[i] * s->s : k->vz[i],
                                   .segment = k->segment[i] - 1,
                                   .on_ground = !((k->aloft | k->lost) & bit)},
-                           .flies = !(k->there & bit),
+                           .flies = !there,
                            .aloft = (k->aloft | k->lost) & bit,
                            .along = k->along[i],
                            .l = {.t = k->t[i], .x = k->to_x[i], .z = k->to_z[i], .segment = to, .left = left}};

@@ -126,8 +126,7 @@ static void walk_job(const struct lanes_job *job)
     k.against = k.g->facets == CEDUO_AGAINST;
     k.scale_rn = w->scale_rn;
     k.tallest = w->stems ? w->stems->wood->tallest + 1e-6 : 0; /* more than rounding can make of a height */
-    for (size_t j = 0; j < k.g->n; j++)
-        k.steep |= ground_is_steep(&k.g->segments[j]);
+    k.steep = job->ground->steep;
     static void (*const walks[])(struct lanes *, bool, bool) = {
 #define X(NAME, name) walk_##name,
         CEDUO_LAWS(X)
