@@ -84,15 +84,13 @@ enum ceduo_status ceduo_run_arrivals(const struct ceduo_run *run, size_t control
 /* Only the moments, without percentiles: cheap. */
 void ceduo_run_energy(const struct ceduo_run *run, size_t control, uint64_t *reached, double *mean, double *se);
 
-/* As cheap: shares of all released, and means (J). */
+/* As cheap: shares of all released, and means (J), of each of so many groups of rocks, as large as each other or one larger, in
+ * their order: of a run whose samples are kept, and with as many rocks at least. */
 struct ceduo_brief {
     double reach_probability, exceed_probability; /* exceed: NaN without an accepted energy */
     double energy;                                /* of those that reached; NaN where none did */
     double energy_per_released;
 };
-struct ceduo_brief ceduo_run_brief(const struct ceduo_run *run, size_t control);
-/* The same of each of so many groups of rocks, as large as each other or one larger, in their order: of a run whose samples are
- * kept, and with as many rocks at least. */
 void ceduo_run_briefs(const struct ceduo_run *run, size_t control, size_t groups, struct ceduo_brief *briefs);
 
 /* What one run brings to a control less what another brings, rock by rock of the same numbers; over all released. */

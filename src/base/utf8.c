@@ -90,14 +90,6 @@ size_t ceduo_utf8_cut(const char *string, size_t columns)
     return n;
 }
 
-const char *ceduo_utf8_end(const char *string, size_t columns)
-{
-    size_t width = ceduo_utf8_width(string), one;
-    for (; width > columns; width -= one)
-        string += step(string, &one);
-    return string;
-}
-
 size_t ceduo_utf8_wrap(const char *text, size_t columns, const char **next)
 {
     size_t n = strcspn(text, "\n"), fits = ceduo_utf8_cut(text, columns);

@@ -44,9 +44,6 @@ int ceduo_utf8_field(const char *string, int columns);
 /* Bytes of a string that fit into so many columns. Never cuts a character. */
 size_t ceduo_utf8_cut(const char *string, size_t columns);
 
-/* Where to begin so that the end of a string fits into so many columns. */
-const char *ceduo_utf8_end(const char *string, size_t columns);
-
 /* Bytes of the first line of a text that is wrapped to so many columns (at least one character), and at `*next` where its
  * second begins. A line ends at a newline or a blank, so that 'kJ/m3' and '984–995' stay whole. A word that is longer
  * than a line ends where Unicode allows it (UAX 14), otherwise where the line is full. */

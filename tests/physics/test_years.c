@@ -401,7 +401,8 @@ TEST(more_rocks_than_are_paired)
     wood.controls[0].x = wood.controls[0].x_given = 1;
     wood.controls[0].accepted = 7e3;
     LOCAL(ceduo_run, first) = run_option(&wood.site.scene, NULL, CEDUO_PAIRED_ROCKS, 1, CEDUO_EXACT_BYTES);
-    struct ceduo_brief brief = ceduo_run_brief(first, 0);
+    struct ceduo_brief brief;
+    ceduo_run_briefs(first, 0, 1, &brief);
     LOCAL(ceduo_years, years) = grown(0, 0, 1);
     LOCAL(ceduo_pool, pool) = pool_of(2, NULL);
     struct ceduo_run *run;

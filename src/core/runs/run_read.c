@@ -5,6 +5,105 @@
 
 #include "run_state.h"
 
+/* ---- rocks with weights ---- */
+
+static struct released released_of(const struct ceduo_run *run, double missing)
+{
+    struct released all = {.n = (double)run->rocks, .per_year = run->ready.sizes.per_year, .missing = missing};
+    for (uint64_t r = 0; r < run->rocks; r++) {
+        double w = run->weights[r];
+        all.w += w;
+        all.ww += w * w;
+        all.most = w > all.most ? w : all.most;
+    }
+    return all;
+}
+
+/* The values of a column that are there, with the weights of their rocks. */
+static size_t gather_weighted(const struct ceduo_run *run, const double *column, struct weighted *to)
+{
+    size_t n = 0;
+    for (uint64_t r = 0; r < run->rocks; r++)
+        if (!isnan(column[r]))
+            to[n++] = (struct weighted){column[r], run->weights[r]};
+    return n;
+}
+
+/* From the samples, in the order of the rocks, and from sums of the weights by the ways that rocks end. */
+static enum ceduo_status read_weighted(const struct ceduo_run *run, size_t control, const struct sums *s,
+                                       struct ceduo_arrivals *a)
+{
+    const struct released all = released_of(run, s->missed[CEDUO_UNFINISHED]);
+    const double accepted = run->ready.scene.controls[control].accepted, *height = samples_of(run, control, HEIGHT);
+    struct ceduo_distribution *const to[QUANTITIES] = {
+        [SPEED] = &a->speed, [HEIGHT] = &a->height, [ENERGY] = &a->energy, [TRANSLATION] = &a->translation};
+    struct weighted_sum reach = {0}, exceed = {0}, energy = {0};
+    struct weighted *values = malloc(((size_t)run->rocks + 1) * sizeof *values);
+    size_t n = 0;
+    if (!values)
+        return CEDUO_NO_MEMORY;
+    a->exact = true;
+    for (int e = 0; e < CEDUO_ENDS; e++)
+        a->missed[e] = s->missed[e] / all.w;
+    for (int q = 0; q < QUANTITIES; q++)
+        *to[q] = ceduo_weighted_distribution(&all, values, gather_weighted(run, samples_of(run, control, q), values));
+    for (uint64_t r = 0; r < run->rocks && run->ready.scene.design.survey >= 0; r++) {
+        struct ceduo_rock rock;
+        if (!isnan(height[r]) && ceduo_prepared_rock(&run->ready, r, &rock) == CEDUO_OK)
+            values[n++] = (struct weighted){height[r] + rock.mean_diameter, run->weights[r]};
+    }
+    ceduo_weighted_sort(values, n);
+    a->top_p95 = ceduo_weighted_quantile(values, n, 0.95);
+    n = gather_weighted(run, samples_of(run, control, ENERGY), values);
+    bool good = ceduo_hazard_read(&all, values, n, accepted, &a->hazard); /* which sorts them */
+    for (size_t i = 0; i < n; i++) {
+        weighted_sum_add(&reach, values[i].weight, 1);
+        weighted_sum_add(&exceed, values[i].weight, values[i].value > accepted);
+        weighted_sum_add(&energy, values[i].weight, values[i].value);
+    }
+    struct ceduo_rate share = ceduo_weighted_share(&all, &reach, all.most);
+    a->reach_probability = share.rate;
+    a->reach_lo = share.lo;
+    a->reach_hi = share.hi;
+    if (!isnan(accepted)) {
+        share = ceduo_weighted_share(&all, &exceed, n > 0 ? values[n - 1].weight : all.most);
+        a->exceed_probability = share.rate;
+        a->exceed_lo = share.lo;
+        a->exceed_hi = share.hi;
+    }
+    a->energy_per_released = energy.t / all.w;
+    a->energy_per_released_se = ceduo_weighted_se(&all, &energy);
+    if (!run->ready.wood.bare && n > 0) { /* no sample is kept of stems hit, but sums */
+        double mean = a->contacts = s->hits.t / reach.t;
+        struct weighted_sum about = {.tt = s->hits.tt - mean * (2 * s->hits.tw - mean * reach.tt),
+                                     .tw = s->hits.tw - mean * reach.tt};
+        a->contacts_se = n > 1 ? ceduo_weighted_se(&all, &about) * all.w / reach.t : NAN;
+    }
+    free(values);
+    return good ? CEDUO_OK : CEDUO_NO_MEMORY;
+}
+
+static struct ceduo_difference weighted_difference(const struct ceduo_run *run, const struct ceduo_run *baseline,
+                                                   size_t control)
+{
+    const struct ceduo_run *shorter = run->rocks < baseline->rocks ? run : baseline;
+    const struct released all = released_of(shorter, 0);
+    const double *a = samples_of(run, control, ENERGY), *b = samples_of(baseline, control, ENERGY);
+    double accepted = run->ready.scene.controls[control].accepted;
+    struct weighted_sum reach = {0}, exceed = {0}, energy = {0};
+    for (uint64_t r = 0; r < shorter->rocks; r++) {
+        double w = run->weights[r];
+        weighted_sum_add(&reach, w, (double)!isnan(a[r]) - (double)!isnan(b[r]));
+        weighted_sum_add(&exceed, w, (double)(a[r] > accepted) - (double)(b[r] > accepted));
+        weighted_sum_add(&energy, w, (isnan(a[r]) ? 0 : a[r]) - (isnan(b[r]) ? 0 : b[r]));
+    }
+    struct ceduo_difference d = {ceduo_weighted_paired(&all, &reach), ceduo_weighted_paired(&all, &exceed),
+                                 ceduo_weighted_paired(&all, &energy)};
+    if (isnan(accepted))
+        d.exceed_probability = CEDUO_NOT_PAIRED;
+    return d;
+}
+
 /* ---- arrivals ---- */
 
 /* The values of a column that are there, in the order of the rocks. */
@@ -48,15 +147,6 @@ static double share(uint64_t hits, uint64_t unfinished, uint64_t n, double *lo, 
     return r.rate;
 }
 
-/* Mean and standard error over all released rocks; a rock that does not arrive counts as 0. */
-static void per_released(const struct ceduo_moments *m, uint64_t released, double *mean, double *se)
-{
-    double n = (double)released, share = (double)m->n / n;
-    *mean = m->mean * share;
-    double m2 = m->m2 + m->mean * m->mean * (double)m->n * (1 - share);
-    *se = released < 2 ? NAN : sqrt(m2 / (n - 1) / n);
-}
-
 /* ---- what is read ---- */
 
 /* The 95th percentile of the heights of the tops of the rocks that arrive, where each is as large as it was drawn. */
@@ -96,13 +186,17 @@ enum ceduo_status ceduo_run_arrivals(const struct ceduo_run *run, size_t control
                                  .exact = run->exact};
     memcpy(a->ended, s.ended, sizeof a->ended);
     if (run->sized)
-        return ceduo_run_sized_arrivals(run, control, &s, a);
+        return read_weighted(run, control, &s, a);
     for (int e = 0; e < CEDUO_ENDS; e++)
         a->missed[e] = (double)s.ended[e] / (double)run->rocks;
     a->reach_probability = share(a->reached, a->unfinished, run->rocks, &a->reach_lo, &a->reach_hi);
     if (!isnan(run->ready.scene.controls[control].accepted))
         a->exceed_probability = share(a->exceeded, a->unfinished, run->rocks, &a->exceed_lo, &a->exceed_hi);
-    per_released(&s.of[ENERGY], run->rocks, &a->energy_per_released, &a->energy_per_released_se);
+    const struct ceduo_moments *energy = &s.of[ENERGY]; /* of all released rocks; a rock that does not arrive counts as 0 */
+    double n = (double)run->rocks, arrived = (double)energy->n / n;
+    double m2 = energy->m2 + energy->mean * energy->mean * (double)energy->n * (1 - arrived);
+    a->energy_per_released = energy->mean * arrived;
+    a->energy_per_released_se = run->rocks < 2 ? NAN : sqrt(m2 / (n - 1) / n);
     if (!run->ready.wood.bare && s.contacts.n > 0) {
         a->contacts = s.contacts.mean;
         a->contacts_se = ceduo_moments_se(&s.contacts);
@@ -142,34 +236,27 @@ void ceduo_run_briefs(const struct ceduo_run *run, size_t control, size_t groups
     }
 }
 
-struct ceduo_brief ceduo_run_brief(const struct ceduo_run *run, size_t control)
-{
-    struct ceduo_brief brief;
-    if (run->sized) {
-        ceduo_run_briefs(run, control, 1, &brief);
-        return brief;
-    }
-    struct sums s = ceduo_run_sums_at(run, control);
-    const struct ceduo_moments *energy = &s.of[ENERGY];
-    bool accepts = !isnan(run->ready.scene.controls[control].accepted);
-    double n = (double)run->rocks, per_rock, se;
-    per_released(energy, run->rocks, &per_rock, &se);
-    return (struct ceduo_brief){.reach_probability = (double)energy->n / n,
-                                .exceed_probability = accepts ? (double)s.exceeded / n : NAN,
-                                .energy = energy->n > 0 ? energy->mean : NAN,
-                                .energy_per_released = per_rock};
-}
-
 void ceduo_run_energy(const struct ceduo_run *run, size_t control, uint64_t *reached, double *mean, double *se)
 {
-    if (run->sized) {
-        ceduo_run_sized_energy(run, control, reached, mean, se);
-        return;
-    }
-    struct sums s = ceduo_run_sums_at(run, control);
+    const struct sums s = ceduo_run_sums_at(run, control);
     *reached = s.of[ENERGY].n;
     *mean = *reached > 0 ? s.of[ENERGY].mean : NAN;
     *se = ceduo_moments_se(&s.of[ENERGY]);
+    if (!run->sized)
+        return;
+    const struct released all = released_of(run, 0);
+    const double *energy = samples_of(run, control, ENERGY);
+    struct weighted_sum ones = {0}, sum = {0}, about = {0};
+    for (uint64_t r = 0; r < run->rocks; r++)
+        if (!isnan(energy[r])) {
+            weighted_sum_add(&ones, run->weights[r], 1);
+            weighted_sum_add(&sum, run->weights[r], energy[r]);
+        }
+    *mean = *reached > 0 ? sum.t / ones.t : NAN;
+    for (uint64_t r = 0; r < run->rocks; r++)
+        if (!isnan(energy[r]))
+            weighted_sum_add(&about, run->weights[r], energy[r] - *mean);
+    *se = *reached > 1 ? ceduo_weighted_se(&all, &about) * all.w / ones.t : NAN;
 }
 
 /* ---- differences ---- */
@@ -200,7 +287,7 @@ struct ceduo_difference ceduo_run_difference(const struct ceduo_run *run, const 
     if (alike && (run == baseline || (run->stems_from >= at->x && baseline->stems_from >= at->x)))
         return ceduo_no_difference(at->accepted);
     if (run->sized)
-        return ceduo_run_sized_difference(run, baseline, control);
+        return weighted_difference(run, baseline, control);
     uint64_t a = paired_rocks(run), b = paired_rocks(baseline), paired = a < b ? a : b; /* rocks that both have */
     struct ceduo_moments reach = {0}, exceed = {0}, energy = {0};                       /* of their differences */
     for (uint64_t r = 0; r < paired; r++) {
@@ -244,37 +331,43 @@ enum ceduo_status ceduo_run_ends(const struct ceduo_run *run, struct ceduo_ends 
     *ends = (struct ceduo_ends){.stop_p50 = NAN, .stop_p95 = NAN, .stop_max = NAN};
     if (run->def.arrivals_only)
         return CEDUO_OK;
+    const struct released all = run->sized ? released_of(run, 0) : (struct released){0};
     ends->stop_x = run->whole.stop_x;
     ends->uphill = run->whole.uphill + run->tail.uphill;
     ends->early = run->whole.early + run->tail.early;
     for (int e = 0; e < CEDUO_ENDS; e++) {
         ends->count[e] = run->whole.ends[e] + run->tail.ends[e];
         ends->share[e] = (double)ends->count[e] / (double)run->rocks;
+        if (run->sized && run->rocks > 0)
+            ends->share[e] = (run->whole.ended[e] + run->tail.ended[e]) / all.w;
     }
-    if (run->sized && run->rocks > 0 && ceduo_run_sized_ends(run, ends) != CEDUO_OK)
-        return CEDUO_NO_MEMORY;
     ceduo_moments_merge(&ends->stop_x, &run->tail.stop_x);
-    if (ends->stop_x.n == 0)
+    size_t n = (size_t)ends->stop_x.n;
+    if (n == 0)
         return CEDUO_OK;
     ends->stop_max = ends->stop_x.max;
-    if (run->sized)
-        return CEDUO_OK;
-    size_t n = (size_t)ends->stop_x.n;
-    size_t r50 = ceduo_quantile_rank(n, 0.5), r95 = ceduo_quantile_rank(n, 0.95);
     if (!run->exact) {
         const struct histogram *h = &run->bins[run->columns - 1];
-        ends->stop_p50 = ceduo_histogram_value(h, r50);
-        ends->stop_p95 = ceduo_histogram_value(h, r95);
+        ends->stop_p50 = ceduo_histogram_value(h, ceduo_quantile_rank(n, 0.5));
+        ends->stop_p95 = ceduo_histogram_value(h, ceduo_quantile_rank(n, 0.95));
         return CEDUO_OK;
     }
-    double *scratch = malloc((n + 1) * sizeof(double));
-    if (!scratch)
+    struct weighted *stops = malloc((n + 1) * sizeof *stops);
+    double *scratch = (double *)stops;
+    if (!stops)
         return CEDUO_NO_MEMORY;
-    gather(run, stops_of(run), scratch);
-    struct ceduo_distribution d = ceduo_distribution_exact(scratch, n, &ends->stop_x);
-    ends->stop_p50 = d.p50;
-    ends->stop_p95 = d.p95;
-    free(scratch);
+    if (run->sized) {
+        n = gather_weighted(run, stops_of(run), stops);
+        ceduo_weighted_sort(stops, n);
+        ends->stop_p50 = ceduo_weighted_quantile(stops, n, 0.5);
+        ends->stop_p95 = ceduo_weighted_quantile(stops, n, 0.95);
+    } else {
+        gather(run, stops_of(run), scratch);
+        struct ceduo_distribution d = ceduo_distribution_exact(scratch, n, &ends->stop_x);
+        ends->stop_p50 = d.p50;
+        ends->stop_p95 = d.p95;
+    }
+    free(stops);
     return CEDUO_OK;
 }
 
@@ -290,13 +383,24 @@ const double *ceduo_run_weights(const struct ceduo_run *run)
 
 size_t ceduo_run_energies(const struct ceduo_run *run, size_t control, double *to, size_t most)
 {
-    size_t n = 0;
-    if (run->sized)
-        return ceduo_run_sized_energies(run, control, to, most);
-    for (uint64_t r = 0; run->room > 0 && r < run->rocks && n < most; r++) {
+    double all = 0, before = 0;
+    size_t reached = 0, n = 0;
+    uint64_t rocks = run->room > 0 ? run->rocks : 0;
+    for (uint64_t r = 0; r < rocks; r++)
+        if (!isnan(ceduo_run_sample_energy(run, control, r))) {
+            all += run->sized ? run->weights[r] : 1;
+            reached++;
+        }
+    size_t max = reached < most ? reached : most;
+    for (uint64_t r = 0; n < max && r < rocks; r++) { /* untaken: rounding */
         double energy = ceduo_run_sample_energy(run, control, r);
-        if (!isnan(energy))
+        if (isnan(energy))
+            continue;
+        if (!run->sized)
             to[n++] = energy;
+        else /* at even steps of the sum of their weights: light rocks are left out, heavy ones taken several times */
+            for (before += run->weights[r]; n < max && ((double)n + 0.5) * all <= before * (double)max; n++)
+                to[n] = energy;
     }
     return n;
 }

@@ -15,8 +15,7 @@
  *     run_simulate.c simulates the rocks of one chunk on several threads
  *     run_samples.c  sums of a block, merged in the order of the blocks; what is kept of single rocks: every value, or
  *                    histograms where there are too many
- *     run_read.c     arrivals, differences and ends, read from sums and samples
- *     run_sized.c    the same where rocks have weights, read from samples alone */
+ *     run_read.c     arrivals, differences and ends, read from sums and samples; where rocks have weights, from samples alone */
 
 #ifndef CHUNK_BLOCKS
 #define CHUNK_BLOCKS 256 /* blocks in work at a time: this bounds the memory of their sums */
@@ -58,7 +57,7 @@ struct ceduo_run {
     struct block tail;      /* the block that is not full yet */
     struct block *slots;    /* in work, `slots_count` */
     size_t slots_count;     /* CHUNK_BLOCKS, or as many as the run can have */
-    bool sized;             /* rocks have weights; their samples are always kept, and read by run_sized.c */
+    bool sized;             /* rocks have weights; their samples are always kept */
     double *weights;        /* [room] */
     bool alike;             /* the rocks differ in nothing but their numbers */
     bool exact;             /* samples are kept; otherwise histograms */
@@ -102,17 +101,6 @@ bool ceduo_run_samples_prepare(struct ceduo_run *run, uint64_t rocks);
 void ceduo_run_samples_free(struct ceduo_run *run);
 /* Energy of a rock at a control, from the samples; NaN where it did not arrive. */
 double ceduo_run_sample_energy(const struct ceduo_run *run, size_t control, uint64_t rock);
-
-/* ---- rocks with weights ---- */
-
-void ceduo_run_sized_energy(const struct ceduo_run *run, size_t control, uint64_t *reached, double *mean, double *se);
-size_t ceduo_run_sized_energies(const struct ceduo_run *run, size_t control, double *to, size_t most);
-/* All that is not read of other rocks, too; `s`: the sums at the control. */
-enum ceduo_status ceduo_run_sized_arrivals(const struct ceduo_run *run, size_t control, const struct sums *s,
-                                           struct ceduo_arrivals *arrivals);
-enum ceduo_status ceduo_run_sized_ends(const struct ceduo_run *run, struct ceduo_ends *ends);
-struct ceduo_difference ceduo_run_sized_difference(const struct ceduo_run *run, const struct ceduo_run *baseline,
-                                                   size_t control);
 
 /* ---- simulating ---- */
 
