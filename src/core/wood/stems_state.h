@@ -25,7 +25,7 @@ struct stem {
 enum stem_stream { STREAM_STOOLS, STREAM_SINGLE, STREAM_GROUPS, STREAMS };
 
 /* The next places of a stream, which are drawn many at a time. */
-#define POINTS         32
+#define POINTS         16
 #define POINTS_ROOM    (POINTS + 8) /* they may be read some at once from any of them on */
 #define POINTS_FEW     8            /* of trees among stools */
 #define COHORT_GROUPS  4            /* of four shoots: cohorts of so many are drawn together */
