@@ -370,20 +370,13 @@ man: $(TABLES)
 	@$(TABLES) ranges man/ceduo-scene.5
 	@for table in keys goals search figures; do $(TABLES) $$table man/ceduo.1; done
 
-# Draws what README shows: screens by key scripts, and the error against run time as `make bench` last found it.
-ERROR_PICTURE := $(BUILD)/man/error_picture
-$(ERROR_PICTURE): $(BUILD)/man/error_picture.o $(PARTS) $(LIBRARY)
-	@mkdir -p $(@D)
-	$(CC) $(ALL_CFLAGS) $(LDFLAGS) -o $@ $^ $(LIBS)
-
 # What the benches found last, in the pages that show it.
-tables: $(ERROR_PICTURE)
-	@tests/bench/tables.py man/ceduo-accuracy.7 man/ceduo-validation.7 README.md
-	$(ERROR_PICTURE) tests/bench/results/bench_error.csv man/pictures/error.svg
+tables:
+	@tests/bench/tables.py man/ceduo-accuracy.7 man/ceduo-validation.7
 
-pictures: $(PROGRAM) $(ERROR_PICTURE)
-	set -e; for keys in man/pictures/*.keys; do LC_ALL=C.UTF-8 $(PROGRAM) --language en --charset braille --script $$keys; done
-	$(ERROR_PICTURE) tests/bench/results/bench_error.csv man/pictures/error.svg
+# Draws the screen that README shows, by its keys.
+pictures: $(PROGRAM)
+	LC_ALL=C.UTF-8 $(PROGRAM) --language en --charset braille --script man/pictures/cuts.keys
 
 # ---- installing ----
 

@@ -108,7 +108,7 @@ static const char *const bash_head =
 /* Names of the scenes among the profiles, a line each, from the program's list. */
 #define SCENES                                                                                                                 \
     "--list-profiles 2>/dev/null |\n"                                                                                          \
-    "            awk 'match($0, /\\.yaml +scene /) {$0 = substr($0, 1, RSTART - 1); sub(/.*\\//, \"\"); print}'"
+    "            awk 'match($0, / +scene  /) {print substr($0, 1, RSTART - 1)}'"
 #define PARAMETERS(after)                                                                                                      \
     "--list-parameters 2>/dev/null |\n"                                                                                        \
     "            awk 'NR > 1 && !NF {exit} NR > 1 {print $1 \"" after "\"}'"

@@ -74,6 +74,7 @@ struct ceduo_doubt_def {
     size_t inputs_count; /* >= 1 */
     const struct ceduo_input *inputs;
     size_t points;              /* 2…CEDUO_DOUBT_POINTS_MAX */
+    size_t points_max;          /* no more are taken where these explain too little; 0: CEDUO_DOUBT_POINTS_MAX */
     uint64_t rocks;             /* of each evaluation; CEDUO_SURFACE_GROUPS at least are taken */
     uint64_t own_rocks;         /* of the scene as it is; 0: as many */
     bool rotation;              /* each option over its rotation as well; not with the contact model index */

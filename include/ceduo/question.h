@@ -23,6 +23,8 @@ struct ceduo_question {
     struct ceduo_window window; /* those years; step 0: of each option those of ceduo_window_in() */
     uint64_t year_rocks;        /* > 0: in each year at the most so many; with years_most in all years of an option a few times
                            * the rocks of a run */
+    uint64_t years_rocks;       /* > 0: in all years of an option together about so many, each year with rocks of its own, see
+                           * ceduo_years_simulate_apart(); no more in a year than in a run */
     unsigned years_most;        /* > 0: at the most so many years, evenly spread over those */
     uint64_t block_rocks;       /* > 0: blocks of other sizes to the last control, at the most so many of each, and no dearer
                            * than the runs without forest and through it */

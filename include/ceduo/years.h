@@ -73,11 +73,16 @@ void ceduo_years_free(struct ceduo_years *years);
 enum ceduo_status ceduo_years_simulate(struct ceduo_years *years, struct ceduo_pool *pool, const struct ceduo_simulated *bare,
                                        uint64_t rocks);
 
+/* The same with rocks of its own in each year, which are those of the same year of another window: in the mean over the years
+ * their errors cancel out, so that few rocks tell it. `def` is of the scene, which has no blocks. */
+enum ceduo_status ceduo_years_simulate_apart(struct ceduo_years *years, const struct ceduo_run_def *def,
+                                             const struct ceduo_simulated *bare, uint64_t rocks);
+
 /* Assesses simulated years once more, for a scene that differs in what no rock sees: the threshold, the rule of the
  * ADC, how many rocks come down a year. It has as many controls, at the same places, and `bare` is of them. */
 void ceduo_years_assess(struct ceduo_years *years, const struct ceduo_scene *scene, const struct ceduo_simulated *bare);
 
-/* The years together, at one control. Every figure is a plain mean over the years computed. Because all years
+/* The years together, at one control. Every figure is a plain mean over the years computed. Where all years
  * simulate the same rocks, their errors go together: the standard error of a mean is at most the mean of the standard
  * errors, and that is given; of the share that is marked the error itself, from each rock's own mean over the years.
  * NaN where a figure does not exist. */

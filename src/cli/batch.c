@@ -9,19 +9,12 @@
 #include "print.h"
 #include "say.h"
 #include "sensitivity.h"
+#include "view/page.h"
 #include "view/report_doubt.h"
 
 static enum exit_status worse(enum exit_status a, enum exit_status b)
 {
     return a > b ? a : b;
-}
-
-static enum exit_status print_scene(const struct arguments *a, struct scene_file *file, struct text *out)
-{
-    struct ceduo_question question = ceduo_batch_question(a, file, NULL);
-    if (a->plot != CEDUO_PLOT_NONE)
-        return ceduo_print_plots(a, file, out);
-    return ceduo_print_report(a, file, &question, NULL, -1, out);
 }
 
 static enum exit_status answer_scene(const struct each *e, ceduo_batch_answer *answer, struct text *out)
@@ -36,13 +29,28 @@ static enum exit_status answer_scene(const struct each *e, ceduo_batch_answer *a
     return status;
 }
 
-/* Prints the answer of each scene, under one head of CSV. */
-static enum exit_status answer_all(const struct arguments *a, const struct text *header, ceduo_batch_answer *answer)
+/* Pages of several scenes come behind a table of their verdicts. */
+static void put_verdicts(struct text *text, const struct ceduo_page *verdicts)
 {
+    LOCAL_TEXT(pages);
+    ceduo_text_put(&pages, ceduo_text_string(text));
+    ceduo_text_free(text);
+    ceduo_page_print(text, verdicts, !ceduo_say_utf8());
+    ceduo_say_plainly(text);
+    ceduo_text_format(text, "\n%s", ceduo_text_string(&pages));
+}
+
+/* Prints the answer of each scene, under one head of CSV. */
+static enum exit_status answer_all(const struct arguments *given, const struct text *header, ceduo_batch_answer *answer)
+{
+    struct ceduo_page verdicts = {.width = CEDUO_PAGE_WIDTH};
+    struct arguments arguments = *given, *a = &arguments;
     struct output out = {.arguments = a};
     struct each each;
+    a->verdicts = &verdicts;
     enum exit_status status = ceduo_each_open(&each, a, header), written = status;
     struct progress progress = ceduo_progress_begin(a);
+    size_t pages = 0; /* that wait for the last one */
     bool first = true;
     while (written == EXIT_DONE && ceduo_each_next(&each)) {
         LOCAL_TEXT(one);
@@ -61,15 +69,21 @@ static enum exit_status answer_all(const struct arguments *a, const struct text 
                 ceduo_text_char(&out.text, '\n');
             ceduo_each_add(&each, &one, &out.text);
             first = false;
+            pages += verdicts.first != NULL;
         }
-        written = ceduo_output_next(&out);
+        written = verdicts.first ? EXIT_DONE : ceduo_output_next(&out);
         status = worse(status, written);
         if (written == EXIT_DONE)
             ceduo_interrupt_release();
     }
     ceduo_progress_end(&progress);
+    if (pages > 1)
+        put_verdicts(&out.text, &verdicts);
+    if (pages > 0)
+        status = worse(status, ceduo_output_next(&out));
     status = worse(status, each.bad_rows ? EXIT_INPUT : EXIT_DONE);
     ceduo_each_close(&each);
+    ceduo_page_free(&verdicts);
     return worse(status, ceduo_output_end(&out, status != EXIT_OUTPUT && !first));
 }
 
@@ -78,7 +92,7 @@ enum exit_status ceduo_batch_run(const struct arguments *a)
     LOCAL_TEXT(header);
     if (a->format == CEDUO_CSV)
         ceduo_report_csv_header(&header, a->stands, a->years);
-    return answer_all(a, &header, print_scene);
+    return answer_all(a, &header, a->plot != CEDUO_PLOT_NONE ? ceduo_print_plots : ceduo_print_report);
 }
 
 enum exit_status ceduo_batch_each(const struct arguments *a, void (*header)(struct text *out), ceduo_batch_answer *answer)

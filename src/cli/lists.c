@@ -119,18 +119,19 @@ static const char *title_of(struct arena *arena, const char *path)
     return title ? title : root ? "" : _("(cannot be read)");
 }
 
+/* What is typed comes first: the file's name without its ending. */
 static void put_profile(struct arena *arena, struct text *rows, const char *folder, const char *kind, const char *name)
 {
-    struct text path = {0};
+    const char *dot = strrchr(name, '.');
+    bool rules = strcmp(kind, "rules") == 0; /* the others are in the singular */
+    LOCAL_TEXT(path);
     ceduo_text_format(&path, "%s/%s/%s", folder, kind, name);
-    if (path.bytes) {
-        ceduo_text_safe(rows, path.bytes);
-        bool rules = strcmp(kind, "rules") == 0; /* the others are in the singular */
-        ceduo_text_format(rows, "\t%.*s\t", (int)(strlen(kind) - (rules ? 0 : 1)), kind);
-        ceduo_text_safe(rows, title_of(arena, path.bytes));
-        ceduo_text_char(rows, '\n');
-    }
-    ceduo_text_free(&path);
+    ceduo_text_safe_n(rows, name, dot ? (size_t)(dot - name) : strlen(name));
+    ceduo_text_format(rows, "\t%.*s\t", (int)(strlen(kind) - (rules ? 0 : 1)), kind);
+    ceduo_text_safe(rows, title_of(arena, path.bytes));
+    ceduo_text_char(rows, '\t');
+    ceduo_text_safe(rows, path.bytes);
+    ceduo_text_char(rows, '\n');
 }
 
 static void list_shelf(struct arena *arena, struct text *rows, const char *folder, const char *kind)
@@ -147,7 +148,7 @@ enum exit_status ceduo_batch_profiles(const struct arguments *a)
     struct arena arena = {0};
     struct text rows = {0};
     const char *const *folders = ceduo_file_folders(&arena);
-    ceduo_text_format(&rows, "%s\t%s\t%s\n", _("file"), _("kind"), _("title"));
+    ceduo_text_format(&rows, "%s\t%s\t%s\t%s\n", _("name"), _("kind"), _("title"), _("file"));
     for (size_t k = 0; k < sizeof kinds / sizeof kinds[0]; k++)
         for (size_t i = 0; folders && folders[i]; i++)
             list_shelf(&arena, &rows, folders[i], kinds[k]);

@@ -280,6 +280,8 @@ static const struct option_row rows[] = {
     {"batch", 'b', NULL, NULL, 0, MODE_BATCH, SURVEY, N_("compute the scenes and print the result, without a terminal")},
     {"format", 'f', "table|csv|json", set_word, AT(format), MODE_TERMINAL, CHECK | PAGE | SURVEY | SCREEN,
      N_("format of the output (table)")},
+    {"details", 0, NULL, NULL, 0, MODE_BATCH, CHECK | FIND | DOUBT | FIT | PAGE | SURVEY,
+     N_("print the whole page, with every figure, not the answer alone")},
     {"output", 'o', "FILE", set_text, AT(output), MODE_TERMINAL, CHECK | PAGE | SCREEN,
      N_("write to FILE; a regular file is written completely or not at all")},
     {"set", 's', "PATH=VALUE", add_word, AT(sets), MODE_TERMINAL, SURVEY | SCREEN,

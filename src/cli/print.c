@@ -13,6 +13,12 @@
 
 /* ---- pages ---- */
 
+/* Whether the whole page is wanted, not the short one. */
+static bool is_whole(const struct arguments *a)
+{
+    return ceduo_option_given(a, "details");
+}
+
 static void write_report(const struct arguments *a, const struct ceduo_report *report, struct text *out)
 {
     if (a->format == CEDUO_JSON) {
@@ -25,61 +31,82 @@ static void write_report(const struct arguments *a, const struct ceduo_report *r
         return;
     }
     LOCAL_TEXT(page);
-    ceduo_report_table(&page, report, !ceduo_say_utf8());
+    (is_whole(a) ? ceduo_report_table : ceduo_report_short)(&page, report, !ceduo_say_utf8());
     ceduo_say_plainly(&page);
     ceduo_text_put(out, ceduo_text_string(&page));
 }
 
-#define BLOCK_ROCKS 512  /* of each other size at the most: their intervals stand beside them */
-#define YEAR_ROCKS  1024 /* of each year at the most, where options stand side by side and --years is not given */
-#define YEARS_MOST  50   /* of each option then; of a longer rotation some */
+#define BLOCK_ROCKS 512   /* of each other size at the most: their intervals stand beside them */
+#define YEARS_ROCKS 10000 /* of all years of an option, where --years is not given: they give the mean to about 10 of 1000 */
+#define YEARS_MOST  50    /* of each option then; of a longer rotation some */
 
 enum exit_status ceduo_finished(const struct ceduo_result *result)
 {
     return ceduo_result_unfinished(result) * 1000 > ceduo_result_rocks(result) ? EXIT_RUN : EXIT_DONE;
 }
 
-enum exit_status ceduo_print_report(const struct arguments *a, const struct scene_file *file, struct ceduo_question *q,
-                                    struct ceduo_pool **pool, double seconds, struct text *out)
+/* What a page does not print is not simulated. */
+static struct ceduo_question ask_for(const struct arguments *a, const struct scene_file *file, struct progress *progress)
+{
+    struct ceduo_question q = ceduo_batch_question(a, file, progress);
+    bool page = a->format == CEDUO_TABLE;
+    if (a->stands && a->format == CEDUO_CSV) /* what is asked of the stands no rock answers */
+        q.rocks = 0;
+    if (page && !a->years) {
+        q.years = true;
+        q.years_rocks = YEARS_ROCKS;
+        q.year_rocks = YEARS_ROCKS; /* of a scene with blocks, whose years have the same ones */
+        q.years_most = YEARS_MOST;
+        q.block_rocks = is_whole(a) ? BLOCK_ROCKS : 0;
+    }
+    q.run.other_energy = !page || is_whole(a);
+    return q;
+}
+
+static void write_answer(const struct arguments *a, struct scene_file *file, const struct ceduo_answer *answer,
+                         const struct ceduo_verdict *verdict, const struct asked_doubt *doubt, double seconds, struct text *out)
+{
+    const struct ceduo_report report = {.file = file,
+                                        .result = answer->result,
+                                        .years = a->years ? answer->years : NULL,
+                                        .verdict = verdict,
+                                        .doubt = doubt->report.file ? &doubt->report : NULL,
+                                        .blocks = answer->blocks,
+                                        .work = answer->work,
+                                        .seconds = seconds,
+                                        .rocks_asked =
+                                            a->stands && a->format == CEDUO_CSV ? ceduo_batch_question(a, file, NULL).rocks : 0,
+                                        .remarks = {a->tolerance, answer->tolerance_met, file->ground_assumed}};
+    write_report(a, &report, out);
+    if (a->format == CEDUO_TABLE)
+        ceduo_page_verdicts(a->verdicts, &report);
+}
+
+enum exit_status ceduo_print_report(const struct arguments *a, struct scene_file *file, struct text *out)
 {
     struct progress progress = ceduo_progress_begin(a);
+    struct ceduo_question q = ask_for(a, file, &progress);
     struct ceduo_answer answer;
-    uint64_t rocks = q->rocks;
-    bool stands = a->stands && a->format == CEDUO_CSV; /* what is asked of the stands no rock answers */
-    q->rocks = stands ? 0 : rocks;
-    q->run.progress = ceduo_progress_show;
-    q->run.context = &progress;
-    bool side_by_side = a->format == CEDUO_TABLE && file->scene.options_count > 1 && !a->years;
-    if (side_by_side) {
-        q->years = true;
-        q->year_rocks = YEAR_ROCKS;
-        q->years_most = YEARS_MOST;
-    }
-    q->block_rocks = a->format == CEDUO_TABLE && !a->years ? BLOCK_ROCKS : 0;
-    enum ceduo_status status = ceduo_ask(q, stands ? NULL : pool, &answer);
-    ceduo_progress_end(&progress);
-    if (status != CEDUO_OK)
-        return ceduo_batch_failed(file, status);
+    struct asked_doubt doubt = {0};
     struct ceduo_verdict verdict;
-    status = ceduo_verdict_make(answer.result, answer.years, &verdict);
-    if (status != CEDUO_OK) {
-        ceduo_answer_release(&answer);
-        return ceduo_batch_failed(file, status);
+    enum ceduo_status status = ceduo_ask(&q, NULL, &answer);
+    double seconds = ceduo_clock() - progress.start;
+    if (status == CEDUO_OK)
+        status = ceduo_verdict_make(answer.result, answer.years, &verdict);
+    else
+        verdict = (struct ceduo_verdict){0};
+    if (status == CEDUO_OK && a->format == CEDUO_TABLE)
+        status = ceduo_sensitivity_beside(a, file, &progress, &answer, &doubt);
+    ceduo_progress_end(&progress);
+    enum exit_status done = EXIT_DONE;
+    if (status == CEDUO_OK) {
+        write_answer(a, file, &answer, &verdict, &doubt, seconds, out);
+        done = ceduo_finished(answer.result);
     }
-    const struct ceduo_report report = {.file = file,
-                                        .result = answer.result,
-                                        .years = side_by_side ? NULL : answer.years,
-                                        .verdict = &verdict,
-                                        .blocks = answer.blocks,
-                                        .work = answer.work,
-                                        .seconds = seconds < 0 ? ceduo_clock() - progress.start : seconds,
-                                        .rocks_asked = stands ? rocks : 0,
-                                        .remarks = {q->tolerance, answer.tolerance_met, file->ground_assumed}};
-    write_report(a, &report, out);
-    enum exit_status done = ceduo_finished(answer.result);
+    ceduo_sensitivity_release(&doubt);
     ceduo_verdict_release(&verdict);
     ceduo_answer_release(&answer);
-    return done;
+    return status == CEDUO_OK ? done : ceduo_batch_failed(file, status);
 }
 
 /* ---- pictures ---- */

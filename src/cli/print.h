@@ -5,11 +5,8 @@
 #include "scenes.h"
 #include "study/snapshot.h"
 
-/* Asks, and adds the answer as --format says. `pool`: see ceduo_ask(). `seconds`: that the runs took; below 0: from
- * `start` until now. */
-enum exit_status ceduo_print_report(const struct arguments *arguments, const struct scene_file *file,
-                                    struct ceduo_question *question, struct ceduo_pool **pool, double seconds,
-                                    struct text *out);
+/* Asks for a scene, and adds the answer as --format says. */
+enum exit_status ceduo_print_report(const struct arguments *arguments, struct scene_file *file, struct text *out);
 
 /* What is asked once for pages and pictures. */
 struct answered {

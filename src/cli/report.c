@@ -68,16 +68,6 @@ static enum ceduo_status ask_runs(const struct arguments *a, const struct scene_
     return ceduo_ask_pictures(&q, true, WAYS, c);
 }
 
-/* What doubt does, with no more rocks than were asked for. */
-static enum ceduo_status ask_doubt(const struct arguments *a, struct scene_file *file, struct progress *progress,
-                                   const struct ceduo_result *result, struct asked_doubt *doubt)
-{
-    uint64_t rocks = ceduo_result_rocks(result);
-    struct ceduo_doubt_def def = {.points = ceduo_option_given(a, "sensitivity") ? a->points : CEDUO_DOUBT_POINTS,
-                                  .rocks = rocks < CEDUO_DOUBT_ROCKS ? rocks : CEDUO_DOUBT_ROCKS};
-    return ceduo_sensitivity_ask(a, file, progress, &def, result, doubt);
-}
-
 static void write_chapter(const struct arguments *a, const struct scene_file *file, const struct answered *c,
                           const struct ceduo_doubt_report *doubt, size_t number, struct ceduo_html *html)
 {
@@ -103,7 +93,7 @@ static enum exit_status add_chapter(const struct arguments *a, struct scene_file
     enum exit_status done = EXIT_DONE;
     enum ceduo_status status = ask_runs(a, file, &progress, &c);
     if (status == CEDUO_OK)
-        status = ask_doubt(a, file, &progress, c.answer.result, &doubt);
+        status = ceduo_sensitivity_beside(a, file, &progress, &c.answer, &doubt);
     ceduo_progress_end(&progress);
     if (status == CEDUO_OK) {
         write_chapter(a, file, &c, &doubt.report, number, html);

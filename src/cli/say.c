@@ -18,7 +18,8 @@ bool ceduo_say_utf8(void)
 static const char *const plain_signs[][2] = {
     {"\xe2\x80\xa6", "..."}, {"\xe2\x80\x93", "-"}, {"\xe2\x88\x92", "-"}, {"\xc2\xb1", "+-"}, {"\xc3\xa0", "a"},
     {"\xc3\xa8", "e"},       {"\xc3\xa9", "e"},     {"\xc3\xac", "i"},     {"\xc3\xb2", "o"},  {"\xc3\xb9", "u"},
-    {"\xc3\x80", "A"},       {"\xc3\x88", "E"},     {"\xc2\xb3", "3"},     {"\xc2\xb2", "2"}};
+    {"\xc3\x80", "A"},       {"\xc3\x88", "E"},     {"\xc2\xb3", "3"},     {"\xc2\xb2", "2"},  {"\xc3\x8c", "I"},
+    {"\xc3\x92", "O"},       {"\xe2\x9c\x94", "+"}, {"\xe2\x9c\x98", "x"}};
 #define PLAIN_SIGNS (sizeof plain_signs / sizeof plain_signs[0])
 
 /* For a terminal that knows ASCII alone: what it cannot show otherwise becomes a question mark. */

@@ -4,6 +4,7 @@
 
 #include "interrupt.h"
 #include "io/doubt_inputs.h"
+#include "options.h"
 #include "say.h"
 
 enum ceduo_status ceduo_sensitivity_ask(const struct arguments *a, struct scene_file *file, struct progress *progress,
@@ -39,6 +40,23 @@ enum ceduo_status ceduo_sensitivity_of(const struct arguments *a, struct scene_f
     enum ceduo_status status = ceduo_sensitivity_ask(a, file, &progress, &def, NULL, d);
     ceduo_progress_end(&progress);
     return status;
+}
+
+#define EFFORT_MAX 3e8 /* contacts and stems of all points: some ten seconds of a processor */
+
+enum ceduo_status ceduo_sensitivity_beside(const struct arguments *a, struct scene_file *file, struct progress *progress,
+                                           const struct ceduo_answer *answer, struct asked_doubt *d)
+{
+    const struct ceduo_work *work = &answer->work;
+    uint64_t rocks = ceduo_result_rocks(answer->result);
+    size_t points = ceduo_option_given(a, "sensitivity") ? a->points : CEDUO_DOUBT_POINTS;
+    struct ceduo_doubt_def def = {
+        .points = points, .points_max = points, .rocks = rocks < CEDUO_DOUBT_ROCKS ? rocks : CEDUO_DOUBT_ROCKS};
+    double effort = (double)(work->contacts + work->stems.drawn) / (double)(work->rocks > 0 ? work->rocks : 1);
+    effort *= (double)def.points * (double)def.rocks * (double)file->scene.options_count;
+    if (effort > EFFORT_MAX || !answer->result->wooded || ceduo_page_says_nothing(answer->result))
+        def.rocks = 0;
+    return ceduo_sensitivity_ask(a, file, progress, &def, answer->result, d);
 }
 
 void ceduo_sensitivity_release(struct asked_doubt *d)

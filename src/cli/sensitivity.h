@@ -3,7 +3,7 @@
 #define CEDUO_CLI_SENSITIVITY_H
 
 #include "scenes.h"
-#include "view/report_doubt.h"
+#include "view/report.h"
 
 /* Computes all, and adds the answer. */
 enum exit_status ceduo_sensitivity_add(const struct arguments *arguments, struct scene_file *file, struct text *out);
@@ -21,6 +21,11 @@ enum ceduo_status ceduo_sensitivity_ask(const struct arguments *arguments, struc
                                         struct ceduo_doubt_def *def, const struct ceduo_result *finer,
                                         struct asked_doubt *doubt);
 enum ceduo_status ceduo_sensitivity_of(const struct arguments *arguments, struct scene_file *file, struct asked_doubt *doubt);
+/* The same beside an answer, with no more rocks than that has. Nothing is computed where rocks among stems are not simulated, where
+ * nothing can be said, or where it would take far longer than most scenes. */
+enum ceduo_status ceduo_sensitivity_beside(const struct arguments *arguments, struct scene_file *file,
+                                           struct progress *progress, const struct ceduo_answer *answer,
+                                           struct asked_doubt *doubt);
 void ceduo_sensitivity_release(struct asked_doubt *doubt);
 
 #endif

@@ -103,7 +103,8 @@ static void same_point(void *context, const struct point *point, const struct po
 {
     const struct rows *r = context;
     if (point->slot > 0) {
-        *share_of(r, point) = *share_of(r, first);
+        /* year 0 is today */
+        *share_of(r, point) = first->slot > 0 ? *share_of(r, first) : values_of(r, first->row, first->option)[r->judged];
         add_year(r, point);
         return;
     }
@@ -604,7 +605,7 @@ enum ceduo_status ceduo_doubt_ask(const struct ceduo_doubt_def *def, struct cedu
         status = extend(&rows, points);
         if (status == CEDUO_OK)
             status = read_figures(&rows, true, answer);
-        if (2 * points > CEDUO_DOUBT_POINTS_MAX || !wants_more(&rows, answer))
+        if (2 * points > (def->points_max > 0 ? def->points_max : CEDUO_DOUBT_POINTS_MAX) || !wants_more(&rows, answer))
             break;
     }
     answer->rotation = rows.years;

@@ -36,17 +36,27 @@ struct ceduo_measure ceduo_judged(const struct ceduo_control *c, const struct ce
     return m;
 }
 
-void ceduo_measure_doubt(struct ceduo_measure *m, const struct ceduo_doubt_report *doubt, size_t option, size_t control)
+static void set_doubt(struct ceduo_measure *m, const struct ceduo_doubt_report *doubt, size_t option,
+                      enum ceduo_doubt_kind kind)
 {
-    if (!doubt || !doubt->answer || control != ceduo_scene_last_control(&doubt->file->scene))
-        return;
-    enum ceduo_doubt_kind kind = m->limit > 0 ? CEDUO_DOUBT_EXCEED : CEDUO_DOUBT_REACH;
     const struct ceduo_doubt_figure *f = ceduo_doubt_figure_of(doubt->answer, option, kind, false);
     m->may_lo = round(1000 * f->fit.p5);
     m->may_hi = round(1000 * f->fit.p95);
 }
 
-static struct ceduo_measure energy(double mean, double half, int digits, const char *head)
+void ceduo_measure_doubt(struct ceduo_measure *m, const struct ceduo_doubt_report *doubt, size_t option, size_t control)
+{
+    if (doubt && doubt->answer && control == ceduo_scene_last_control(&doubt->file->scene))
+        set_doubt(m, doubt, option, m->limit > 0 ? CEDUO_DOUBT_EXCEED : CEDUO_DOUBT_REACH);
+}
+
+void ceduo_measure_doubt_over(struct ceduo_measure *m, const struct ceduo_doubt_report *doubt, size_t option)
+{
+    if (doubt && doubt->answer && doubt->answer->rotation)
+        set_doubt(m, doubt, option, CEDUO_DOUBT_MEAN);
+}
+
+static struct ceduo_measure energy(double mean, double half, int digits, const char *head, const char *phrase)
 {
     return (struct ceduo_measure){.value = mean * J_TO_KJ,
                                   .lo = (mean - half) * J_TO_KJ,
@@ -55,22 +65,24 @@ static struct ceduo_measure energy(double mean, double half, int digits, const c
                                   .may_hi = NAN,
                                   .digits = digits,
                                   .unit = N_("kJ"),
-                                  .names = {head, head, head}};
+                                  .names = {head, head, phrase}};
 }
 
 struct ceduo_measure ceduo_mean_energy(const struct ceduo_arrivals *a)
 {
-    return energy(a->energy.mean, ceduo_half_width(a->energy.se, a->reached), 4, N_("mean, kJ"));
+    return energy(a ? a->energy.mean : NAN, a ? ceduo_half_width(a->energy.se, a->reached) : NAN, 4, N_("mean, kJ"),
+                  N_("mean energy of those that arrive, kJ"));
 }
 
 struct ceduo_measure ceduo_energy_p95(const struct ceduo_arrivals *a)
 {
-    return energy(a->energy.p95, NAN, 3, N_("95 % below, kJ"));
+    return energy(a ? a->energy.p95 : NAN, NAN, 3, N_("95 % below, kJ"), N_("95 % of those stay below, kJ"));
 }
 
 struct ceduo_measure ceduo_energy_released(const struct ceduo_arrivals *a)
 {
-    return energy(a->energy_per_released, ceduo_half_width(a->energy_per_released_se, a->released), 3, N_("kJ a rock"));
+    return energy(a->energy_per_released, ceduo_half_width(a->energy_per_released_se, a->released), 3, N_("kJ a rock"),
+                  N_("energy of a rock that starts, kJ"));
 }
 
 void ceduo_append_with(struct text *text, const char *sentence, const char *string)

@@ -31,6 +31,9 @@ struct ceduo_measure ceduo_judged(const struct ceduo_control *control, const str
 struct ceduo_doubt_report;
 void ceduo_measure_doubt(struct ceduo_measure *measure, const struct ceduo_doubt_report *doubt, size_t option, size_t control);
 
+/* The same of its mean over the years, which is known where that was asked for. */
+void ceduo_measure_doubt_over(struct ceduo_measure *measure, const struct ceduo_doubt_report *doubt, size_t option);
+
 /* The mean energy of the rocks that arrive, that below which 95 % of them stay, and that of all released, in kJ. */
 struct ceduo_measure ceduo_mean_energy(const struct ceduo_arrivals *arrivals);
 struct ceduo_measure ceduo_energy_p95(const struct ceduo_arrivals *arrivals);

@@ -25,6 +25,7 @@ enum ceduo_page_kind {
     CEDUO_PAGE_GAP,
     CEDUO_PAGE_QUESTION, /* what the page answers */
     CEDUO_PAGE_ANSWER,   /* a sentence of the answer */
+    CEDUO_PAGE_POINT,    /* its text begins with a label and a tab */
     CEDUO_PAGE_PICTURE,  /* only sinks that draw show it; its text is its title */
     CEDUO_PAGE_CODE      /* lines as they are in a file */
 };
@@ -65,6 +66,11 @@ struct ceduo_page_block {
     struct ceduo_page_block *next;
 };
 
+/* Columns of what is printed. A page narrower than this says in sentences what it would show as a table. */
+#define CEDUO_PAGE_WIDTH 80
+
+#define CEDUO_ANSWER_INDENT 2 /* columns before an answer */
+
 /* Starts zeroed but for its width. */
 struct ceduo_page {
     size_t width; /* columns of the paper or pane */
@@ -91,6 +97,9 @@ void ceduo_page_number(struct ceduo_page *page, double value, int digits);
 struct ceduo_page_block *ceduo_page_picture(struct ceduo_page *page, struct ceduo_svg *svg, bool half);
 
 void ceduo_page_free(struct ceduo_page *page);
+
+/* Lines of what is printed of it. */
+size_t ceduo_page_lines(const struct ceduo_page *page);
 
 /* What a cell says, with as many digits as its column has room for. `plain`: its signs in ASCII. */
 void ceduo_page_write_cell(struct text *text, const struct ceduo_page_cell *cell, size_t width, bool plain);

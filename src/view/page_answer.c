@@ -1,150 +1,109 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The question that a scene asks and its answer in three sentences: what gets through, the error of the rocks, which
- * more rocks reduce, and the doubt, which only measuring reduces. */
+/* What is read first, on the short page as in the whole one and in the report: the question that a scene asks, its answer, how
+ * sure that is, which more rocks and which only measuring makes surer, and what it becomes over the years. */
 #include <math.h>
 #include <string.h>
 
 #include "base/language.h"
-#include "ceduo/assess.h"
+#include "base/utf8.h"
 #include "page_parts.h"
-#include "page_report.h"
 #include "plot_parts.h"
 
-/* What the sentences are about. */
-struct subject {
-    const struct ceduo_chapter *chapter;
-    const struct ceduo_result *result;
-    const struct ceduo_control *control;
-    const struct ceduo_option *option;
-    const struct ceduo_arrivals *arrivals; /* through the forest; NULL: by the index */
-    const struct ceduo_arrivals *bare;
-    size_t index; /* of the option */
-};
-
-static void ask(struct ceduo_page *page, const struct subject *s)
+/* The last control, up to which all is compared. */
+static const struct ceduo_control *place_of(const struct ceduo_result *r)
 {
+    return &r->scene->controls[r->last_control];
+}
+
+bool ceduo_page_says_nothing(const struct ceduo_result *r)
+{
+    return r->scene->controls_count == 0 || ceduo_says_nothing(&r->bare.arrivals[r->last_control]);
+}
+
+void ceduo_page_question(struct ceduo_page *page, const struct ceduo_result *r)
+{
+    if (r->scene->controls_count == 0)
+        return;
     struct text *text = ceduo_page_add(page, CEDUO_PAGE_QUESTION);
     LOCAL_TEXT(place);
-    ceduo_plot_control_name(&place, s->control);
-    const char *where = ceduo_text_string(&place), *withstands = SHORTEST(ceduo_words_accepted(s->control));
-    size_t n = s->result->scene->options_count;
-    bool accepted = !isnan(s->control->accepted);
+    ceduo_plot_control_name(&place, place_of(r));
+    const char *where = ceduo_text_string(&place), *withstands = SHORTEST(ceduo_words_accepted(place_of(r)));
+    size_t n = r->scene->options_count;
+    bool accepted = !isnan(place_of(r)->accepted);
     if (n == 1 && accepted)
-        ceduo_text_format(text, _("Does the forest protect what lies at %s and withstands %s kJ?"), where, withstands);
+        ceduo_text_format(text, _("Does the forest protect %s, which withstands %s kJ?"), where, withstands);
     else if (n == 1)
-        ceduo_text_format(text, _("How many rocks does the forest keep from what lies at %s?"), where);
+        ceduo_text_format(text, _("How many rocks does the forest keep from %s?"), where);
     else if (accepted)
-        ceduo_text_format(text, _("Which of %zu ways to treat the forest protects best what lies at %s and withstands %s kJ?"),
-                          n, where, withstands);
+        ceduo_text_format(text, _("Which of %zu treatments is best for %s, which bears %s kJ?"), n, where, withstands);
     else
-        ceduo_text_format(text, _("Which of %zu ways to treat the forest keeps most rocks from what lies at %s?"), n, where);
+        ceduo_text_format(text, _("Which of %zu treatments keeps most rocks from %s?"), n, where);
 }
 
-/* ---- the first sentence ---- */
+/* ---- the answer ---- */
 
-/* "125 of 1000 rocks arrive with more than 50 kJ, 894 without forest": whether that is little enough. */
-static void answer_one(struct text *text, const struct subject *s)
+/* Of one option a line for each place that is judged, and for the last one. */
+static void answer_one(struct ceduo_page *page, const struct ceduo_report *report)
 {
-    enum ceduo_judgement judgement = ceduo_judge(s->bare, s->arrivals);
-    double through = ceduo_judged(s->control, s->arrivals).value, bare = ceduo_judged(s->control, s->bare).value;
-    if (isnan(s->control->accepted))
-        ceduo_text_format(text, _("Of 1000 rocks %.0f arrive through the forest, and %.0f would without it."), through, bare);
-    else
-        ceduo_text_format(text,
-                          _("%s: of 1000 rocks %.0f arrive through the forest with more than that, where %.0f are allowed; "
-                            "without forest %.0f would."),
-                          judgement == CEDUO_NOT_DECIDED ? _("Not decided by so many rocks")
-                          : judgement == CEDUO_YES       ? _("Yes")
-                                                         : _("No"),
-                          through, 1000 * CEDUO_EXCEED_MOST, bare);
-}
-
-/* By the index (Eq. 4 and 5). */
-static void answer_by_index(struct text *text, const struct subject *s)
-{
-    const struct ceduo_index *index = ceduo_result_last_index(s->result, s->index);
-    const char *mean = WRITTEN(s->bare->energy.mean * J_TO_KJ, 3), *left = WRITTEN(index->residual * J_TO_KJ, 3);
-    if (s->result->scene->options_count > 1)
-        ceduo_text_format(text,
-                          _("By the index (Eq. 4 and 5) '%s' leaves least of the %s kJ that a rock brings in the mean: %s "
-                            "kJ."),
-                          s->option->name, mean, left);
-    else
-        ceduo_text_format(text,
-                          _("By the index (Eq. 4 and 5) stems could take %s of the %s kJ that a rock brings in the mean: %s "
-                            "kJ are left."),
-                          WRITTEN(index->dissipated * J_TO_KJ, 3), mean, left);
-}
-
-static void answer_many(struct text *text, const struct subject *s)
-{
-    LOCAL_TEXT(best);
-    ceduo_words_best(&best, s->result->scene, s->chapter->report->verdict);
-    for (size_t i = 0; i < best.length; i++)
-        ceduo_text_char(text, best.bytes[i] == '\n' ? ' ' : best.bytes[i]);
-}
-
-/* ---- the second: the error of the rocks; the third: the doubt ---- */
-
-static void say_sampling(struct text *text, const struct subject *s)
-{
-    unsigned long long rocks = (unsigned long long)ceduo_result_rocks(s->result);
-    const struct ceduo_measure m = ceduo_judged(s->control, s->arrivals);
-    if (!s->arrivals)
-        ceduo_text_format(text,
-                          _("Error of the rocks: %llu were simulated, which gives the mean to within %s kJ (95 %%); more "
-                            "rocks make that less."),
-                          rocks, WRITTEN(ceduo_half_width(s->bare->energy.se, s->bare->reached) * J_TO_KJ, 2));
-    else if (s->result->scene->options_count > 1)
-        ceduo_text_format(
-            text,
-            _("Error of the rocks: %llu were simulated, which gives the figure of '%s' today as %.0f\xe2\x80\x93%.0f "
-              "of 1000 (95 %%); more rocks make that less."),
-            rocks, s->option->name, m.lo, m.hi);
-    else
-        ceduo_text_format(text,
-                          _("Error of the rocks: %llu were simulated, which gives the figure as %.0f\xe2\x80\x93%.0f of 1000 "
-                            "(95 %%); more rocks make that less."),
-                          rocks, m.lo, m.hi);
-}
-
-static void say_doubt(struct text *text, const struct subject *s)
-{
-    const struct ceduo_doubt_report *doubt = s->chapter->doubt;
-    const struct ceduo_doubt_answer *a = doubt ? doubt->answer : NULL;
-    if (!a) {
-        ceduo_text_put(text, doubt
-                                 ? ceduo_doubt_none(doubt)
-                                 : _("Doubt: what is not known of the scene was not computed for this page; the command at its "
-                                     "end does."));
-        return;
+    const struct ceduo_result *r = report->result;
+    for (size_t k = 0; k < r->scene->controls_count; k++) {
+        if (k != r->last_control && isnan(r->scene->controls[k].accepted))
+            continue;
+        struct text *text = ceduo_page_add(page, CEDUO_PAGE_ANSWER);
+        if (k != r->last_control) {
+            ceduo_plot_control_name(text, &r->scene->controls[k]);
+            ceduo_text_put(text, ": ");
+        }
+        ceduo_words_answer(text, r, 0, k, report->doubt,
+                           page->width - CEDUO_ANSWER_INDENT - ceduo_utf8_width(ceduo_text_string(text)));
     }
-    const struct ceduo_doubt_figure *f = ceduo_doubt_figure_of(a, s->index, a->main, false);
-    LOCAL_TEXT(lo);
-    LOCAL_TEXT(hi);
-    ceduo_doubt_value(&lo, doubt, f->fit.p5);
-    ceduo_doubt_value(&hi, doubt, f->fit.p95);
-    ceduo_text_format(
-        text,
-        a->main == CEDUO_DOUBT_ENERGY
-            ? _("Doubt: what is not known of the scene makes the energy per released rock anything from %s to %s "
-                "kJ (90 %% of what may be true); only measuring makes that less.")
-            : _("Doubt: what is not known of the scene makes it anything from %s to %s of 1000 (90 %% of what may "
-                "be true); only measuring makes that less."),
-        lo.bytes, hi.bytes);
-    const struct ceduo_doubt_ranking *ranking = ceduo_doubt_verdict(a);
-    if (ranking->count == 0 || ranking->orders[0].better != s->index)
-        return;
-    ceduo_text_char(text, ' ');
-    ceduo_doubt_order_words(text, doubt, 0); /* how sure the best option is */
 }
 
-/* ---- all ---- */
-
-size_t ceduo_chapter_option(const struct ceduo_chapter *c)
+/* Which options keep within what is accepted, "none" or their names: today, or in every year. Returns how many. */
+static size_t append_keepers(struct text *text, const struct ceduo_report *report, bool every_year)
 {
-    const struct ceduo_result *r = c->report->result;
-    const struct ceduo_verdict *v = c->report->verdict;
+    const struct ceduo_result *r = report->result;
+    bool depends = false;
+    size_t n = 0;
+    for (size_t i = 0; i < r->scene->options_count; i++) {
+        const struct ceduo_choice *c = &report->verdict->choices[i];
+        if (every_year ? !c->energy_known || c->years == 0 || c->too_much > 0
+                       : ceduo_result_last_index(r, i)->energy != CEDUO_PASS)
+            continue;
+        ceduo_text_format(text, n++ > 0 ? ", '%s'" : "'%s'", r->scene->options[i].name);
+        depends |= ceduo_words_judge(r, i, r->last_control, report->doubt) == CEDUO_DEPENDS;
+    }
+    if (n == 0)
+        ceduo_text_put(text, _("none"));
+    if (depends)
+        ceduo_text_put(text, _(" (it depends on what is not known)"));
+    return n;
+}
+
+static void answer_many(struct ceduo_page *page, const struct ceduo_report *report)
+{
+    const struct ceduo_verdict *v = report->verdict;
+    struct text *text = ceduo_page_add(page, CEDUO_PAGE_ANSWER);
+    LOCAL_TEXT(always);
+    LOCAL_TEXT(today);
+    ceduo_words_best(text, report->result->scene, v);
+    for (char *second = text->bytes ? strchr(text->bytes, '\n') : NULL; second; second = NULL)
+        *second = ' ';
+    if (!v->accepted || !v->wooded)
+        return;
+    size_t kept = append_keepers(&today, report, false) + append_keepers(&always, report, true);
+    if (v->choices[0].years > 0 && kept == 0)
+        ceduo_text_then(text, " ", _("No option keeps within %.0f of 1000, today or in every year."), 1000 * CEDUO_EXCEED_MOST);
+    else if (v->choices[0].years > 0)
+        ceduo_text_then(text, " ", _("Options that keep within %.0f of 1000: today %s; in every year %s."),
+                        1000 * CEDUO_EXCEED_MOST, today.bytes, always.bytes);
+    else
+        ceduo_text_then(text, " ", _("Options that keep within %.0f of 1000 today: %s."), 1000 * CEDUO_EXCEED_MOST,
+                        today.bytes);
+}
+
+size_t ceduo_result_best(const struct ceduo_result *r, const struct ceduo_verdict *v)
+{
     size_t best = 0;
     if (v && v->today.known)
         return v->today.best;
@@ -154,28 +113,138 @@ size_t ceduo_chapter_option(const struct ceduo_chapter *c)
     return best;
 }
 
-void ceduo_page_answer(struct ceduo_page *page, const struct ceduo_chapter *c)
+void ceduo_page_answer(struct ceduo_page *page, const struct ceduo_report *report)
 {
-    const struct ceduo_result *r = c->report->result;
-    struct subject s = {.chapter = c,
-                        .result = r,
-                        .control = &r->scene->controls[r->last_control],
-                        .bare = &r->bare.arrivals[r->last_control],
-                        .index = ceduo_chapter_option(c)};
-    s.option = &r->scene->options[s.index];
-    s.arrivals = ceduo_result_wooded(r, s.index, r->last_control);
-    ask(page, &s);
-    struct text *first = ceduo_page_add(page, CEDUO_PAGE_ANSWER);
-    if (ceduo_says_nothing(s.bare)) { /* neither error changes that */
-        ceduo_words_nothing(first, r, r->last_control);
+    const struct ceduo_result *r = report->result;
+    size_t n = r->scene->options_count;
+    if (r->scene->controls_count == 0)
+        return;
+    if (ceduo_page_says_nothing(r)) /* neither error changes that */
+        ceduo_words_nothing(ceduo_page_add(page, CEDUO_PAGE_ANSWER), r, r->last_control);
+    else if (n == 1)
+        answer_one(page, report);
+    else if (!r->wooded)
+        ceduo_text_put(ceduo_page_add(page, CEDUO_PAGE_ANSWER),
+                       _("Without forest every option sees the same rocks: what arrives does not separate them. The index "
+                         "says what stems could take, not what a rock loses; no column decides alone."));
+    else if (report->verdict)
+        answer_many(page, report);
+}
+
+/* ---- how sure ---- */
+
+/* "447–510 by the number of rocks (999)" */
+static void say_sampling(struct text *text, const struct ceduo_report *report)
+{
+    const struct ceduo_result *r = report->result;
+    const struct ceduo_verdict *v = report->verdict;
+    unsigned long long rocks = (unsigned long long)ceduo_result_rocks(r);
+    const struct ceduo_arrivals *bare = &r->bare.arrivals[r->last_control];
+    double today = 0, mean = 0;
+    for (size_t i = 0; v && i < v->n; i++) {
+        today = fmax(today, v->choices[i].today.half);
+        if (v->choices[i].window.kind != CEDUO_WINDOW_ALIKE)
+            mean = fmax(mean, v->choices[i].mean.half);
+    }
+    if (!r->wooded) {
+        ceduo_text_format(text, _("mean \xc2\xb1%s kJ by the number of rocks (%llu)"),
+                          WRITTEN(ceduo_half_width(bare->energy.se, bare->reached) * J_TO_KJ, 2), rocks);
+    } else if (r->scene->options_count == 1) {
+        const struct ceduo_measure m = ceduo_judged(place_of(r), ceduo_result_wooded(r, 0, r->last_control));
+        ceduo_measure_span(text, &m, m.lo, m.hi);
+        ceduo_text_format(text, _(" by the number of rocks (%llu)"), rocks);
+    } else if (mean > 0) {
+        ceduo_text_format(text, _("\xc2\xb1%.0f by the number of rocks today (%llu), \xc2\xb1%.0f over years (%llu each)"),
+                          ceil(1000 * today), rocks, ceil(1000 * mean), (unsigned long long)v->choices[0].rocks);
+    } else {
+        ceduo_text_format(text, _("\xc2\xb1%.0f by the number of rocks (%llu)"), ceil(1000 * today), rocks);
+    }
+}
+
+/* What matters most among what is not known, and how it is measured. */
+static void say_heaviest(struct text *text, const struct ceduo_doubt_report *doubt, size_t option)
+{
+    const char *how;
+    LOCAL_TEXT(name);
+    if (!ceduo_doubt_heaviest(&name, &how, doubt, option))
+        return;
+    if (how)
+        ceduo_text_then(text, " ", _("Measure first: %s (%s)."), ceduo_text_string(&name), _(how));
+    else
+        ceduo_text_then(text, " ", _("It depends most on: %s."), ceduo_text_string(&name));
+}
+
+static void say_doubt(struct text *text, const struct ceduo_report *report, size_t option)
+{
+    const struct ceduo_result *r = report->result;
+    const struct ceduo_doubt_report *doubt = report->doubt;
+    struct ceduo_measure m = ceduo_judged(place_of(r), ceduo_result_wooded(r, option, r->last_control));
+    ceduo_measure_doubt(&m, doubt, option, r->last_control);
+    if (!doubt || !doubt->answer) {
+        ceduo_text_then(text, "; ", "%s.",
+                        doubt && ceduo_doubt_is_off(doubt)
+                            ? _("what is not known was not computed, because the scene says 'doubt: none'")
+                        : doubt && doubt->inputs->n == 0 ? _("nothing in this scene is marked as assumed")
+                                                         : _("what is not known was not computed"));
         return;
     }
-    if (!s.arrivals)
-        answer_by_index(first, &s);
-    else if (r->scene->options_count > 1 && c->report->verdict)
-        answer_many(first, &s);
+    if (r->scene->options_count == 1 && r->wooded) {
+        ceduo_text_put(text, "; ");
+        ceduo_measure_span(text, &m, m.may_lo, m.may_hi);
+        ceduo_text_put(text, _(" by what is not known"));
+    }
+    ceduo_text_char(text, '.');
+    if (ceduo_doubt_verdict(doubt->answer)->count > 0) {
+        ceduo_text_char(text, ' ');
+        ceduo_doubt_order_words(text, doubt, 0); /* how sure the best option is */
+    }
+    say_heaviest(text, doubt, option);
+}
+
+void ceduo_page_sure(struct ceduo_page *page, const struct ceduo_report *report)
+{
+    if (ceduo_page_says_nothing(report->result))
+        return;
+    struct text *text = ceduo_page_add(page, CEDUO_PAGE_POINT);
+    ceduo_text_format(text, "%s\t", _("HOW SURE"));
+    say_sampling(text, report);
+    say_doubt(text, report, report->verdict && report->verdict->n > 1 ? report->verdict->today.best : 0);
+}
+
+/* ---- over the years ---- */
+
+void ceduo_page_over(struct ceduo_page *page, const struct ceduo_report *report)
+{
+    const struct ceduo_verdict *v = report->verdict;
+    const struct ceduo_choice *c = v && v->n == 1 ? &v->choices[0] : NULL; /* of several a table says it */
+    const struct ceduo_option *option = report->result->scene->options;
+    if (!c || c->years == 0 || ceduo_page_says_nothing(report->result))
+        return;
+    struct text *text = ceduo_page_add(page, CEDUO_PAGE_POINT);
+    if (c->window.kind == CEDUO_WINDOW_ALIKE) {
+        ceduo_text_format(text, "%s\t", _("OVER TIME"));
+        ceduo_words_window(text, option, &c->window);
+        return;
+    }
+    ceduo_text_format(text, ngettext("OVER %zu YEAR", "OVER %zu YEARS", c->years), c->years);
+    ceduo_text_char(text, '\t');
+    struct ceduo_measure mean = ceduo_judged(place_of(report->result), NULL);
+    LOCAL_TEXT(may);
+    ceduo_measure_doubt_over(&mean, report->doubt, 0);
+    if (!isnan(mean.may_lo)) {
+        ceduo_text_put(&may, _(", may be "));
+        ceduo_measure_span(&may, &mean, mean.may_lo, mean.may_hi);
+    }
+    if (c->flown == 0)
+        ceduo_text_format(text, _("ADC %s m at the most, in year %u; contact fails in %zu of %zu."), WRITTEN(c->worst.mean, 3),
+                          c->worst_year, c->no_contact, c->years);
     else
-        answer_one(first, &s);
-    say_sampling(ceduo_page_add(page, CEDUO_PAGE_ANSWER), &s);
-    say_doubt(ceduo_page_add(page, CEDUO_PAGE_ANSWER), &s);
+        ceduo_text_format(text, _("mean %.0f \xc2\xb1%.0f%s; worst %.0f \xc2\xb1%.0f in year %u (%llu rocks in each)"),
+                          1000 * c->mean.mean, ceil(1000 * c->mean.half), ceduo_text_string(&may), 1000 * c->worst.mean,
+                          ceil(1000 * c->worst.half), c->worst_year, (unsigned long long)c->rocks);
+    if (c->flown > 0 && c->energy_known)
+        ceduo_text_then(text, "; ", _("above the limit in %zu of %zu"), c->too_much, c->years);
+    ceduo_text_put(text, c->flown > 0 ? "." : "");
+    if (c->window.kind == CEDUO_WINDOW_UNCUT)
+        ceduo_text_then(text, " ", "%s", _("It grows, but is never cut."));
 }

@@ -48,7 +48,7 @@ static void add_contacts(struct ceduo_page *page, const struct ceduo_index *s)
     }
 
 /* What arrives with more than is withstood comes first. */
-static void add_today(struct ceduo_page *page, const struct ceduo_result *r)
+void ceduo_page_today(struct ceduo_page *page, const struct ceduo_result *r)
 {
     static const struct ceduo_page_column wooded[] = {
         OPTION,   {NULL, -10, 0, 0}, {NP_("head", "to first"), -11, 0, 0}, {NP_("head", "energy"), 6, 2, 0},
@@ -178,17 +178,9 @@ static void say_yield(struct ceduo_page *page, const struct ceduo_result *r, con
                                 "quality of the wood are not modelled."));
 }
 
-static void say_best(struct ceduo_page *page, const struct ceduo_result *r, const struct ceduo_verdict *v)
+/* Which is best stands at the head of the page. */
+static void say_rest(struct ceduo_page *page, const struct ceduo_result *r, const struct ceduo_verdict *v)
 {
-    LOCAL_TEXT(best);
-    ceduo_words_best(&best, r->scene, v);
-    char *second = best.bytes ? strchr(best.bytes, '\n') : NULL;
-    if (second)
-        *second++ = '\0';
-    if (best.length > 0)
-        ceduo_page_note(page, best.bytes);
-    if (second)
-        ceduo_page_note(page, second);
     ceduo_words_turned(r, v, ceduo_page_note, page);
     if (v->choices[0].years > 0)
         ceduo_words_windows(r->scene, v, ceduo_page_note, page);
@@ -205,18 +197,14 @@ void ceduo_page_comparison(struct ceduo_page *page, const struct ceduo_report *r
                              : _("Side by side, up to %s m (kJ per 100 m and left: by the rule named above)"),
                    SHORTEST(last_control(r)->x_given));
     ceduo_page_say(page, CEDUO_PAGE_CAPTION, _("Today:"));
-    add_today(page, r);
+    ceduo_page_today(page, r);
     say_separation(page, r);
     if (v && v->choices[0].years > 0) {
         add_rotations(page, r, v);
         say_yield(page, r, v);
     }
     if (v)
-        say_best(page, r, v);
-    if (!r->wooded)
-        ceduo_page_note(page,
-                        _("Without forest every option sees the same rocks: what arrives does not separate them. The index "
-                          "says what stems could take, not what a rock loses; no column decides alone."));
+        say_rest(page, r, v);
 }
 
 /* ---- one option year by year ---- */

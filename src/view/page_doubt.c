@@ -215,6 +215,24 @@ bool ceduo_doubt_advice(struct text *text, const struct ceduo_doubt_report *r, s
     return false;
 }
 
+bool ceduo_doubt_heaviest(struct text *name, const char **how, const struct ceduo_doubt_report *r, size_t option)
+{
+    const struct ceduo_doubt_figure *f = main_of(r, option);
+    for (size_t i = 0; f->fit.enough && i < f->uses; i++) {
+        size_t g = f->order[i];
+        bool law = r->inputs->items[g].kind == CEDUO_INPUT_WORDS;
+        if (!matters(f, g))
+            continue;
+        *how = law ? N_("pulling tests on such stems") : ceduo_doubt_measured(r, g);
+        if (law)
+            ceduo_text_put(name, _("what stems take from a rock"));
+        else
+            ceduo_doubt_input_name(name, r, g);
+        return true;
+    }
+    return false;
+}
+
 /* "dbh, ADS 1 and per hectare, ADS 1" */
 bool ceduo_doubt_causes(struct text *text, const struct ceduo_doubt_report *r, size_t option, enum ceduo_doubt_kind light)
 {

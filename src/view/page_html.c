@@ -142,7 +142,10 @@ static void write_picture(struct ceduo_html *html, const struct ceduo_page_block
 /* What stands around blocks of a kind that follow one another; NULL: nothing. */
 static const char *list_of(enum ceduo_page_kind kind)
 {
-    return kind == CEDUO_PAGE_ITEM ? "ul" : kind == CEDUO_PAGE_FACT ? "dl" : kind == CEDUO_PAGE_ANSWER ? "div" : NULL;
+    return kind == CEDUO_PAGE_ITEM                               ? "ul"
+           : kind == CEDUO_PAGE_FACT || kind == CEDUO_PAGE_POINT ? "dl"
+           : kind == CEDUO_PAGE_ANSWER                           ? "div"
+                                                                 : NULL;
 }
 
 /* The element of a kind, and its class; no element: not shown by this. */
@@ -163,6 +166,11 @@ static void write_block(struct ceduo_html *html, const struct ceduo_page_block *
     } else if (block->kind == CEDUO_PAGE_CODE) {
         const char *line = strchr(text, '\n');
         ceduo_html_leaf(html, "pre", text, "class", line && line[1] ? NULL : "line", NULL);
+    } else if (block->kind == CEDUO_PAGE_POINT) {
+        LOCAL_TEXT(label);
+        ceduo_text_add(&label, text, strcspn(text, "\t"));
+        ceduo_html_leaf(html, "dt", ceduo_text_string(&label), NULL);
+        ceduo_html_leaf(html, "dd", text + label.length + 1, NULL);
     } else if (block->kind != CEDUO_PAGE_GAP && text[0]) {
         ceduo_html_leaf(html, elements[block->kind].element, text, "class", elements[block->kind].class, NULL);
     }

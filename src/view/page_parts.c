@@ -2,6 +2,7 @@
 #include "page_parts.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "base/language.h"
 
@@ -58,6 +59,20 @@ void ceduo_page_yes(struct ceduo_page *page, bool yes)
 void ceduo_page_warn(void *page, const char *sentence)
 {
     ceduo_page_say(page, CEDUO_PAGE_WARNING, "%s", sentence);
+}
+
+bool ceduo_page_has(const struct ceduo_page *page, const char *sentence)
+{
+    const struct ceduo_page_block *b = page->first;
+    while (b && strcmp(ceduo_text_string(&b->text), sentence) != 0)
+        b = b->next;
+    return b;
+}
+
+void ceduo_page_warn_once(void *page, const char *sentence)
+{
+    if (!ceduo_page_has(page, sentence))
+        ceduo_page_warn(page, sentence);
 }
 
 void ceduo_page_note(void *page, const char *sentence)

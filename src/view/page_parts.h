@@ -6,9 +6,19 @@
 #include "page.h"
 #include "report.h"
 
-/* The page of a result, one file for each subject; each function adds blocks. A page narrower than this says in sentences
- * what it would show as a table. */
-#define CEDUO_PAGE_WIDTH 80
+/* The page of a result, one file for each subject; each function adds blocks. */
+
+/* What is read first (page_answer.c): the question of a scene; its answer, a line or some sentences; how sure that is, and what it
+ * becomes over the years. Nothing where no place is asked for, or nothing can be said. */
+void ceduo_page_question(struct ceduo_page *page, const struct ceduo_result *result);
+void ceduo_page_answer(struct ceduo_page *page, const struct ceduo_report *report);
+void ceduo_page_sure(struct ceduo_page *page, const struct ceduo_report *report);
+void ceduo_page_over(struct ceduo_page *page, const struct ceduo_report *report);
+/* The option that is best today; by the index the one whose stems take most. `verdict` may be NULL. */
+size_t ceduo_result_best(const struct ceduo_result *result, const struct ceduo_verdict *verdict);
+
+/* All of that on one screen, with what is assumed. */
+void ceduo_page_short(struct ceduo_page *page, const struct ceduo_report *report);
 
 /* What is to be warned of in the stands of n options; the same, and what the rules of a region ask of them. */
 void ceduo_page_stand_warnings(struct ceduo_page *page, const struct ceduo_result *result, size_t first, size_t n);
@@ -20,8 +30,8 @@ void ceduo_page_rules(struct ceduo_page *page, const struct ceduo_result *result
 /* Rock, slope and rocks, a line each. */
 void ceduo_page_facts(struct ceduo_page *page, const struct ceduo_report *report);
 
-/* All of an option at each control, but for its heading. */
-void ceduo_page_option(struct ceduo_page *page, const struct ceduo_report *report, size_t option);
+/* All of an option at each control, but for its heading; what arrives without forest where there is one option alone. */
+void ceduo_page_option(struct ceduo_page *page, const struct ceduo_report *report, size_t option, bool bare);
 
 /* The belts of an option and what their stems could take, by the index. */
 void ceduo_page_belts(struct ceduo_page *page, const struct ceduo_report *report, size_t option);
@@ -35,6 +45,7 @@ void ceduo_page_years(struct ceduo_page *page, const struct ceduo_report *report
 /* What is to be said of the years together. */
 void ceduo_page_years_words(struct ceduo_page *page, const struct ceduo_result *result, const struct ceduo_years *years);
 void ceduo_page_comparison(struct ceduo_page *page, const struct ceduo_report *report);
+void ceduo_page_today(struct ceduo_page *page, const struct ceduo_result *result); /* of that the table as filed */
 
 /* The energy law of the scene against the other one; nothing where that is not known. */
 void ceduo_page_laws(struct ceduo_page *page, const struct ceduo_result *result);
@@ -42,14 +53,17 @@ void ceduo_page_laws(struct ceduo_page *page, const struct ceduo_result *result)
 bool ceduo_report_has_hazard(const struct ceduo_report *report);
 void ceduo_page_hazard(struct ceduo_page *page, const struct ceduo_report *report, size_t control, bool first);
 
-/* Percentiles of the rocks that arrive at a control, with their intervals. */
-void ceduo_page_percentiles(struct ceduo_page *page, const struct ceduo_result *result, size_t option, size_t control);
+/* Percentiles of the rocks that arrive at a control, with their intervals: through the forest of an option (SIZE_MAX: none), and
+ * without forest. */
+void ceduo_page_percentiles(struct ceduo_page *page, const struct ceduo_result *result, size_t option, size_t control,
+                            bool bare);
 
 /* Design values, each factor named, where the scene asks for them. */
 void ceduo_page_design(struct ceduo_page *page, const struct ceduo_report *report, size_t option, size_t control);
 
-/* Warnings of the whole run, and assumptions. */
+/* Warnings of the whole run, and assumptions; these alone, with the places in the scene that make them or without. */
 void ceduo_page_notes(struct ceduo_page *page, const struct ceduo_report *report);
+void ceduo_page_assumed(struct ceduo_page *page, const struct ceduo_report *report, bool places);
 
 /* ---- words and cells that several of them use ---- */
 
@@ -66,5 +80,7 @@ void ceduo_page_yes(struct ceduo_page *page, bool yes);                   /* yes
 /* Adds a warning, or a note; the context is the page. */
 void ceduo_page_warn(void *page, const char *sentence);
 void ceduo_page_note(void *page, const char *sentence);
+void ceduo_page_warn_once(void *page, const char *sentence); /* unless the page says it already */
+bool ceduo_page_has(const struct ceduo_page *page, const char *sentence);
 
 #endif

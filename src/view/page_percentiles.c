@@ -30,13 +30,16 @@ static void add_row(struct ceduo_page *page, const char *name, const struct cedu
     add_percentile(page, d->p99 * scale, d->p99_lo * scale, d->p99_hi * scale);
 }
 
-void ceduo_page_percentiles(struct ceduo_page *page, const struct ceduo_result *r, size_t option, size_t control)
+void ceduo_page_percentiles(struct ceduo_page *page, const struct ceduo_result *r, size_t option, size_t control, bool bare)
 {
     static const struct ceduo_page_column columns[] = {{NULL, 22, 4, CEDUO_WHOLE},
                                                        {N_("50 %"), -18, 0, CEDUO_WHOLE},
                                                        {N_("95 %"), -18, 0, CEDUO_WHOLE},
                                                        {N_("99 %"), -18, 0, CEDUO_WHOLE}};
-    const struct ceduo_arrivals *runs[] = {ceduo_result_wooded(r, option, control), &r->bare.arrivals[control]};
+    const struct ceduo_arrivals *runs[] = {option < SIZE_MAX ? ceduo_result_wooded(r, option, control) : NULL,
+                                           bare ? &r->bare.arrivals[control] : NULL};
+    if (!runs[0] && !runs[1])
+        return;
     ceduo_page_say(page, CEDUO_PAGE_CAPTION, "%s",
                    _("Percentiles of the rocks that arrive, of so many released (95 % interval):"));
     for (size_t i = 0; i < 2; i++) {

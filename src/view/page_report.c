@@ -43,6 +43,11 @@ static struct ceduo_picture picture_of(const struct ceduo_chapter *c, size_t opt
                                   .year = SIZE_MAX};
 }
 
+static size_t best_of(const struct ceduo_chapter *c)
+{
+    return ceduo_result_best(c->report->result, c->report->verdict);
+}
+
 /* Whether the scene asks for more than fits on four sheets: then what other commands show is left to them. */
 static bool is_crowded(const struct ceduo_chapter *c)
 {
@@ -63,7 +68,7 @@ static struct text *section(struct ceduo_page *page, const char *title)
 
 static void add_slope(struct ceduo_page *page, const struct ceduo_chapter *c)
 {
-    struct ceduo_picture picture = picture_of(c, ceduo_chapter_option(c));
+    struct ceduo_picture picture = picture_of(c, best_of(c));
     section(page, _("The slope and the rocks"));
     ceduo_page_facts(page, c->report);
     add_picture(page, CEDUO_PLOT_PROFILE, WHOLE, SLOPE_ROWS, &picture,
@@ -80,7 +85,7 @@ static void add_slope(struct ceduo_page *page, const struct ceduo_chapter *c)
 static void add_percentiles(struct ceduo_page *page, const struct ceduo_chapter *c)
 {
     const struct ceduo_result *r = c->report->result;
-    size_t option = ceduo_chapter_option(c);
+    size_t option = best_of(c);
     if (r->scene->options_count < 2 || r->bare.rocks == 0)
         return;
     for (size_t k = is_crowded(c) ? r->last_control : 0; k < r->scene->controls_count; k++) {
@@ -88,7 +93,7 @@ static void add_percentiles(struct ceduo_page *page, const struct ceduo_chapter 
         ceduo_plot_control_name(&place, &r->scene->controls[k]);
         ceduo_text_format(ceduo_page_add(page, CEDUO_PAGE_PLACE), _("At %s, with '%s'"), ceduo_text_string(&place),
                           r->scene->options[option].name);
-        ceduo_page_percentiles(page, r, option, k);
+        ceduo_page_percentiles(page, r, option, k, true);
         ceduo_page_design(page, c->report, option, k);
     }
 }
@@ -151,7 +156,7 @@ static void draw_years(struct ceduo_page *page, const struct ceduo_verdict *v, c
 static void add_years(struct ceduo_page *page, const struct ceduo_chapter *c)
 {
     const struct ceduo_verdict *v = c->report->verdict;
-    size_t option = v && v->rotation.known ? v->rotation.best : ceduo_chapter_option(c);
+    size_t option = v && v->rotation.known ? v->rotation.best : best_of(c);
     if (!has_years(c, option))
         return;
     struct ceduo_picture picture = picture_of(c, option);
@@ -216,7 +221,7 @@ static void add_origin(struct ceduo_page *page, const struct ceduo_chapter *c)
 static void add_hazard(struct ceduo_page *page, const struct ceduo_chapter *c)
 {
     const struct ceduo_scene *scene = c->report->result->scene;
-    struct ceduo_picture picture = picture_of(c, ceduo_chapter_option(c));
+    struct ceduo_picture picture = picture_of(c, best_of(c));
     if (!ceduo_report_has_hazard(c->report))
         return;
     size_t first = is_crowded(c) ? picture.control : 0;
@@ -235,15 +240,19 @@ void ceduo_page_chapter(struct ceduo_page *page, const struct ceduo_chapter *c)
     const struct ceduo_scene *scene = c->report->result->scene;
     bool controls = scene->controls_count > 0, several = scene->options_count > 1;
     ceduo_text_put(ceduo_page_add(page, CEDUO_PAGE_TITLE), ceduo_in_language(scene->title, scene->title_it));
-    if (controls)
-        ceduo_page_answer(page, c);
+    struct ceduo_report report = *c->report;
+    report.doubt = c->doubt;
+    ceduo_page_question(page, report.result);
+    ceduo_page_answer(page, &report);
+    ceduo_page_sure(page, &report);
+    ceduo_page_over(page, &report);
     add_slope(page, c);
     add_percentiles(page, c);
     if (several && controls) {
         add_compared(page, c);
     } else if (!several) {
         section(page, _("Through the forest, and without it"));
-        ceduo_page_option(page, c->report, 0);
+        ceduo_page_option(page, c->report, 0, true);
     }
     if (controls && !is_crowded(c))
         ceduo_page_laws(page, c->report->result);

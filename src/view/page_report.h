@@ -17,15 +17,9 @@ struct ceduo_chapter {
     const char *command;                    /* that gives the same page */
 };
 
-#define CEDUO_PAGE_REPORT_WIDTH 80 /* of a page that chapters are added to: tables, not sentences */
+#define CEDUO_PAGE_REPORT_WIDTH 120 /* of a page that chapters are added to: tables, not sentences, and nothing shortened */
 
 /* Adds a chapter for one scene. */
 void ceduo_page_chapter(struct ceduo_page *page, const struct ceduo_chapter *chapter);
-
-/* The question and the answer (page_answer.c): how many rocks get through, the error of the rocks, and the doubt. */
-void ceduo_page_answer(struct ceduo_page *page, const struct ceduo_chapter *chapter);
-
-/* The option to show: the best one today. */
-size_t ceduo_chapter_option(const struct ceduo_chapter *chapter);
 
 #endif

@@ -7,7 +7,6 @@
 #include "base/language.h"
 #include "page_parts.h"
 #include "scene/choices.h"
-#include "scene/ranges.h"
 
 /* ---- head ---- */
 
@@ -88,7 +87,7 @@ static void add_arrivals_row(struct ceduo_page *page, const char *name, const st
     ceduo_page_number(page, a->speed.mean, 3);
 }
 
-/* The two runs below one another; what arrives with more than is withstood comes first. */
+/* The two runs below one another, as far as they are given; what arrives with more than is withstood comes first. */
 static void add_arrivals_table(struct ceduo_page *page, const struct ceduo_control *c, const struct ceduo_arrivals *wooded,
                                const struct ceduo_arrivals *bare)
 {
@@ -110,7 +109,8 @@ static void add_arrivals_table(struct ceduo_page *page, const struct ceduo_contr
     }
     if (wooded)
         add_arrivals_row(page, _("through the wood"), c, wooded);
-    add_arrivals_row(page, _("without forest"), c, bare);
+    if (bare)
+        add_arrivals_row(page, _("without forest"), c, bare);
 }
 
 /* The same in sentences. */
@@ -157,16 +157,18 @@ static bool none_arrives(const struct ceduo_arrivals *a)
     return a->reached == 0 && a->unfinished == 0;
 }
 
-static void add_arrivals(struct ceduo_page *page, const struct ceduo_result *r, size_t option, size_t control)
+static void add_arrivals(struct ceduo_page *page, const struct ceduo_result *r, size_t option, size_t control, bool with_bare)
 {
     const struct ceduo_arrivals *bare = &r->bare.arrivals[control], *wooded = ceduo_result_wooded(r, option, control);
     const struct ceduo_arrivals *through = r->scene->options[option].belts_count > 0 ? wooded : NULL; /* said once */
     if (page->width >= CEDUO_PAGE_WIDTH) {
-        add_arrivals_table(page, &r->scene->controls[control], wooded, bare);
+        if (wooded || with_bare)
+            add_arrivals_table(page, &r->scene->controls[control], wooded, with_bare ? bare : NULL);
     } else {
         if (through)
             say_arrivals(page, _("Through the wood"), through);
-        say_arrivals(page, _("Without forest"), bare);
+        if (with_bare)
+            say_arrivals(page, _("Without forest"), bare);
     }
     /* what reads as harm is that the small and the slow ones are stopped */
     if (through && through->energy.mean - bare->energy.mean > CEDUO_Z95 * hypot(through->energy.se, bare->energy.se))
@@ -180,7 +182,14 @@ static void add_arrivals(struct ceduo_page *page, const struct ceduo_result *r, 
                        wooded->reach_hi * 1000);
 }
 
-static void say_lights(struct ceduo_page *page, const struct ceduo_result *r, size_t option, size_t control)
+static void say_released(struct ceduo_page *page, const struct ceduo_arrivals *a)
+{
+    ceduo_page_say(page, CEDUO_PAGE_SENTENCE, _("Energy per released rock: %s \xc2\xb1%s kJ."),
+                   WRITTEN(a->energy_per_released * J_TO_KJ, 3),
+                   WRITTEN(ceduo_half_width(a->energy_per_released_se, a->released) * J_TO_KJ, 2));
+}
+
+static void say_lights(struct ceduo_page *page, const struct ceduo_result *r, size_t option, size_t control, bool with_bare)
 {
     const struct ceduo_arrivals *bare = &r->bare.arrivals[control];
     if (ceduo_says_nothing(bare)) { /* why stands at the head of the page */
@@ -197,13 +206,13 @@ static void say_lights(struct ceduo_page *page, const struct ceduo_result *r, si
         r->scene->options[option].belts_count > 0 ? ceduo_result_wooded(r, option, control) : NULL;
     const char *mean = WRITTEN(bare->energy_per_released * J_TO_KJ, 3);
     const char *half = WRITTEN(ceduo_half_width(bare->energy_per_released_se, bare->released) * J_TO_KJ, 2);
-    if (wooded)
+    if (wooded && with_bare)
         ceduo_page_say(page, CEDUO_PAGE_SENTENCE,
                        _("Energy per released rock: %s \xc2\xb1%s kJ through the wood, %s \xc2\xb1%s without it."),
                        WRITTEN(wooded->energy_per_released * J_TO_KJ, 3),
                        WRITTEN(ceduo_half_width(wooded->energy_per_released_se, wooded->released) * J_TO_KJ, 2), mean, half);
-    else
-        ceduo_page_say(page, CEDUO_PAGE_SENTENCE, _("Energy per released rock: %s \xc2\xb1%s kJ."), mean, half);
+    else if (wooded || with_bare)
+        say_released(page, wooded ? wooded : bare);
 }
 
 /* ---- an option ---- */
@@ -251,15 +260,15 @@ void ceduo_page_stands(struct ceduo_page *page, const struct ceduo_result *r, si
     say_stands(page, r, first, n, true);
 }
 
-void ceduo_page_option(struct ceduo_page *page, const struct ceduo_report *report, size_t i)
+void ceduo_page_option(struct ceduo_page *page, const struct ceduo_report *report, size_t i, bool bare)
 {
     const struct ceduo_result *r = report->result;
     for (size_t k = 0; k < r->scene->controls_count; k++) {
         add_place(page, report, k);
-        add_arrivals(page, r, i, k);
-        say_lights(page, r, i, k);
+        add_arrivals(page, r, i, k, bare);
+        say_lights(page, r, i, k, bare);
         if (page->width >= CEDUO_PAGE_WIDTH && r->bare.rocks > 0)
-            ceduo_page_percentiles(page, r, i, k);
+            ceduo_page_percentiles(page, r, i, k, bare);
         ceduo_page_design(page, report, i, k);
         if (k == 0)
             ceduo_page_belts(page, report, i);
@@ -270,6 +279,21 @@ void ceduo_page_option(struct ceduo_page *page, const struct ceduo_report *repor
     if (report->years)
         ceduo_page_years(page, report, i);
     ceduo_page_stands(page, r, i, 1);
+}
+
+/* Of several options, what they share: the slope without forest. */
+static void add_bare(struct ceduo_page *page, const struct ceduo_report *report)
+{
+    const struct ceduo_result *r = report->result;
+    ceduo_page_say(page, CEDUO_PAGE_SECTION, "%s", _("without forest"));
+    for (size_t k = 0; k < r->scene->controls_count; k++) {
+        const struct ceduo_arrivals *bare = &r->bare.arrivals[k];
+        add_place(page, report, k);
+        add_arrivals_table(page, &r->scene->controls[k], NULL, bare);
+        say_released(page, bare);
+        if (r->bare.rocks > 0)
+            ceduo_page_percentiles(page, r, SIZE_MAX, k, true);
+    }
 }
 
 /* ---- notes ---- */
@@ -294,18 +318,29 @@ static size_t first_of(const struct source_note *last, const struct source_note 
 }
 
 /* The notes are kept last first. */
-static void add_assumed(struct ceduo_page *page, const struct ceduo_report *report, const struct source_note *note)
+static void add_assumed(struct ceduo_page *page, const struct ceduo_report *report, const struct source_note *note, bool places)
 {
     if (!note)
         return;
-    add_assumed(page, report, note->before);
+    add_assumed(page, report, note->before, places);
     size_t times = is_shown(report, note) ? first_of(report->file->notes, note) : 0;
     const char *said = ceduo_in_language(note->text, note->text_it), *place = note->path[0] ? note->path : _("the scene");
-    if (times > 1)
+    if (times > 0 && !places) {
+        LOCAL_TEXT(first); /* clause */
+        ceduo_text_add(&first, said, strcspn(said, ";"));
+        if (!ceduo_page_has(page, ceduo_text_string(&first)))
+            ceduo_page_say(page, CEDUO_PAGE_ITEM, "%s", ceduo_text_string(&first));
+    }
+    if (times > 1 && places)
         ceduo_page_say(page, CEDUO_PAGE_ITEM, ngettext("%s (%s and %zu more)", "%s (%s and %zu more)", times - 1), said, place,
                        times - 1);
-    else if (times == 1)
+    else if (times == 1 && places)
         ceduo_page_say(page, CEDUO_PAGE_ITEM, "%s (%s)", said, place);
+}
+
+void ceduo_page_assumed(struct ceduo_page *page, const struct ceduo_report *report, bool places)
+{
+    add_assumed(page, report, report->file->notes, places);
 }
 
 /* A warning of the run; a gap before the first. */
@@ -328,23 +363,17 @@ void ceduo_page_notes(struct ceduo_page *page, const struct ceduo_report *report
     if (!note)
         return;
     ceduo_page_say(page, CEDUO_PAGE_SECTION, _("* Assumed, not measured:"));
-    add_assumed(page, report, report->file->notes);
+    ceduo_page_assumed(page, report, true);
 }
 
 /* ---- the page ---- */
 
-/* The errors on the page are of the sample alone. */
-static void say_doubt(struct ceduo_page *page, const struct scene_file *file)
+void ceduo_report_short(struct text *text, const struct ceduo_report *report, bool plain)
 {
-    bool assumed = file->inputs_count > 0;
-    for (const struct source_note *n = file->notes; n && !assumed; n = n->before) {
-        const struct field *value = ceduo_schema_at(n->path); /* a convention has no range */
-        assumed = strcmp(n->kind, "assumed") == 0 && (!value || value->object || ceduo_range_of(value));
-    }
-    if (assumed)
-        ceduo_page_note(page,
-                        _("The errors above are of the rocks alone: 'ceduo --sensitivity' shows how far what is not known "
-                          "may move the answer."));
+    struct ceduo_page page = {.width = CEDUO_PAGE_WIDTH};
+    ceduo_page_short(&page, report);
+    ceduo_page_print(text, &page, plain);
+    ceduo_page_free(&page);
 }
 
 void ceduo_report_table(struct text *text, const struct ceduo_report *report, bool plain)
@@ -353,17 +382,21 @@ void ceduo_report_table(struct text *text, const struct ceduo_report *report, bo
     struct ceduo_page page = {.width = CEDUO_PAGE_WIDTH};
     ceduo_page_say(&page, CEDUO_PAGE_TITLE, "%s", ceduo_in_language(scene->title, scene->title_it));
     ceduo_page_facts(&page, report);
-    ceduo_words_still(report->result, ceduo_page_warn, &page);
+    ceduo_page_question(&page, report->result);
+    ceduo_page_answer(&page, report);
+    ceduo_page_sure(&page, report);
+    ceduo_page_over(&page, report);
+    if (scene->options_count > 1)
+        add_bare(&page, report);
     for (size_t i = 0; i < scene->options_count; i++) {
         ceduo_page_say(&page, CEDUO_PAGE_SECTION, "%s", scene->options[i].name);
-        ceduo_page_option(&page, report, i);
+        ceduo_page_option(&page, report, i, scene->options_count == 1);
     }
     if (scene->options_count > 1 && scene->controls_count > 0)
         ceduo_page_comparison(&page, report);
     for (size_t c = 0; c < scene->controls_count; c++)
         ceduo_page_hazard(&page, report, c, c == 0);
     ceduo_page_notes(&page, report);
-    say_doubt(&page, report->file);
     ceduo_page_print(text, &page, plain);
     ceduo_page_free(&page);
 }
@@ -372,7 +405,7 @@ void ceduo_report_option(struct text *text, const struct ceduo_report *report, s
 {
     struct ceduo_page page = {.width = width > 20 ? (size_t)width : 20};
     ceduo_page_say(&page, CEDUO_PAGE_SECTION, "%s", report->result->scene->options[option].name);
-    ceduo_page_option(&page, report, option);
+    ceduo_page_option(&page, report, option, true);
     ceduo_page_print(text, &page, false);
     ceduo_page_free(&page);
 }

@@ -70,12 +70,14 @@ static const struct {
     const char *first;
     size_t indent;
     enum ceduo_role role;
-} styles[] = {[CEDUO_PAGE_TITLE] = {"", 0, CEDUO_ROLE_TITLE},      [CEDUO_PAGE_FACT] = {"", 9, CEDUO_ROLE_TEXT},
-              [CEDUO_PAGE_SECTION] = {"", 2, CEDUO_ROLE_TITLE},    [CEDUO_PAGE_PLACE] = {"  ", 4, CEDUO_ROLE_TITLE},
-              [CEDUO_PAGE_CAPTION] = {"    ", 4, CEDUO_ROLE_DIM},  [CEDUO_PAGE_SENTENCE] = {"    ", 6, CEDUO_ROLE_TEXT},
-              [CEDUO_PAGE_DETAIL] = {"      ", 8, CEDUO_ROLE_DIM}, [CEDUO_PAGE_NOTE] = {"  ", 2, CEDUO_ROLE_TEXT},
-              [CEDUO_PAGE_ITEM] = {"  ", 4, CEDUO_ROLE_TEXT},      [CEDUO_PAGE_WARNING] = {"    ! ", 6, CEDUO_ROLE_WARN},
-              [CEDUO_PAGE_QUESTION] = {"", 0, CEDUO_ROLE_TITLE},   [CEDUO_PAGE_ANSWER] = {"  ", 2, CEDUO_ROLE_TEXT}};
+} styles[] = {
+    [CEDUO_PAGE_TITLE] = {"", 0, CEDUO_ROLE_TITLE},      [CEDUO_PAGE_FACT] = {"", 9, CEDUO_ROLE_TEXT},
+    [CEDUO_PAGE_SECTION] = {"", 2, CEDUO_ROLE_TITLE},    [CEDUO_PAGE_PLACE] = {"  ", 4, CEDUO_ROLE_TITLE},
+    [CEDUO_PAGE_CAPTION] = {"    ", 4, CEDUO_ROLE_DIM},  [CEDUO_PAGE_SENTENCE] = {"    ", 6, CEDUO_ROLE_TEXT},
+    [CEDUO_PAGE_DETAIL] = {"      ", 8, CEDUO_ROLE_DIM}, [CEDUO_PAGE_NOTE] = {"  ", 2, CEDUO_ROLE_TEXT},
+    [CEDUO_PAGE_ITEM] = {"  ", 4, CEDUO_ROLE_TEXT},      [CEDUO_PAGE_WARNING] = {"    ! ", 6, CEDUO_ROLE_WARN},
+    [CEDUO_PAGE_QUESTION] = {"", 0, CEDUO_ROLE_TITLE},   [CEDUO_PAGE_ANSWER] = {"  ", CEDUO_ANSWER_INDENT, CEDUO_ROLE_TEXT},
+    [CEDUO_PAGE_POINT] = {"", 10, CEDUO_ROLE_TEXT}};
 
 /* Of several blanks one is left, of those at the end none. */
 static void squeeze(struct text *text)
@@ -108,15 +110,18 @@ static void print_wrapped(const struct printer *p, const char *string, size_t co
 static void print_paragraph(const struct printer *p, const struct ceduo_page_block *block)
 {
     size_t indent = styles[block->kind].indent;
+    const char *text = ceduo_text_string(&block->text);
+    size_t label = block->kind == CEDUO_PAGE_POINT ? strcspn(text, "\t") : 0;
     LOCAL_TEXT(first);
     LOCAL_TEXT(rest);
     ceduo_text_put(&first, block->label ? block->label : styles[block->kind].first);
+    ceduo_text_add(&first, text, label);
     size_t column = ceduo_utf8_width(ceduo_text_string(&first));
-    if (block->label && column < indent) {
-        append_blanks(&first, indent - column);
-        column = indent;
+    if (block->label || label > 0) {
+        append_blanks(&first, column < indent ? indent - column : 2);
+        column = ceduo_utf8_width(first.bytes);
     }
-    append_safe(p, &rest, ceduo_text_string(&block->text));
+    append_safe(p, &rest, text + label + (label > 0));
     squeeze(&rest);
     if (block->kind == CEDUO_PAGE_SECTION)
         ceduo_text_char(p->text, '\n');
@@ -265,12 +270,14 @@ static void print_table(const struct printer *p, const struct ceduo_page_block *
             bool spans = row == 0 && (c->flags & CEDUO_SPAN);
             int width = c->width;
             if (spans)
-                width = abs(width) + c[1].gap + c[1].width;
+                width = abs(width) + c[1].gap + abs(c[1].width);
             else if (row == 0 && i == n - 1 && width > 0) /* the last head is never cut */
                 width = 0;
             print_cell(p, c, &table->cells[row + i], width);
             i += spans;
         }
+        while (!p->marks && p->text->length > 0 && p->text->bytes[p->text->length - 1] == ' ')
+            p->text->bytes[--p->text->length] = '\0';
         ceduo_text_char(p->text, '\n');
     }
 }
@@ -285,6 +292,16 @@ static void print_page(const struct printer *p, const struct ceduo_page *page)
         else if (block->kind < CEDUO_PAGE_PICTURE)
             print_paragraph(p, block);
     }
+}
+
+size_t ceduo_page_lines(const struct ceduo_page *page)
+{
+    LOCAL_TEXT(text);
+    size_t n = 0;
+    ceduo_page_print(&text, page, false);
+    for (size_t i = 0; i < text.length; i++)
+        n += text.bytes[i] == '\n';
+    return n;
 }
 
 void ceduo_page_print(struct text *text, const struct ceduo_page *page, bool plain)

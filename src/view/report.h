@@ -6,6 +6,7 @@
 #include "ceduo/find.h"
 #include "ceduo/years.h"
 #include "io/scene_file.h"
+#include "report_doubt.h"
 #include "study/goal.h"
 #include "study/verdict.h"
 #include "words.h"
@@ -18,15 +19,24 @@ struct ceduo_report {
     const struct ceduo_result *result;
     struct ceduo_run_remarks remarks;
     struct ceduo_work work;
-    const struct ceduo_block *blocks;    /* CEDUO_BLOCKS for each option; NULL: none to show */
-    double seconds;                      /* that the runs took */
-    uint64_t rocks_asked;                /* where rows of stands are wanted and none is flown; otherwise 0 */
-    struct ceduo_years *const *years;    /* one for each option; NULL: not asked for */
-    const struct ceduo_verdict *verdict; /* of all options; NULL: not known */
+    const struct ceduo_block *blocks;       /* CEDUO_BLOCKS for each option; NULL: none to show */
+    double seconds;                         /* that the runs took */
+    uint64_t rocks_asked;                   /* where rows of stands are wanted and none is flown; otherwise 0 */
+    struct ceduo_years *const *years;       /* one for each option; NULL: not asked for */
+    const struct ceduo_verdict *verdict;    /* of all options; NULL: not known */
+    const struct ceduo_doubt_report *doubt; /* NULL: not computed */
 };
 
-/* The page that a forester reads first; 80 columns. `plain`: ASCII alone. */
+/* Whether no place is asked for, or nothing can be said of the last one. */
+bool ceduo_page_says_nothing(const struct ceduo_result *result);
+
+/* The page that a forester reads first, and the whole one with every figure; 80 columns. `plain`: ASCII alone. */
+void ceduo_report_short(struct text *text, const struct ceduo_report *report, bool plain);
 void ceduo_report_table(struct text *text, const struct ceduo_report *report, bool plain);
+
+/* Adds a row for each option of a scene to a table of verdicts. */
+struct ceduo_page;
+void ceduo_page_verdicts(struct ceduo_page *page, const struct ceduo_report *report);
 
 /* The part of that page that belongs to one option, in `width` columns. */
 void ceduo_report_option(struct text *text, const struct ceduo_report *report, size_t option, int width);

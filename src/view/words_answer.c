@@ -154,13 +154,13 @@ static void say_form(struct text *text, const struct ceduo_measure *m, const str
     ceduo_text_format(text, _("%s of 1000 %s"), ceduo_text_string(&value), ceduo_text_string(&name));
     if (form->accepted && m->limit > 0)
         ceduo_text_format(text, _(" (%.0f accepted)"), 1000 * CEDUO_EXCEED_MOST);
-    else if (form->accepted)
+    else if (form->accepted && bare)
         ceduo_text_format(text, _(" (%.0f without the wood)"), bare->value);
     bool doubted = !isnan(m->may_lo);
     if (!form->doubt)
         return;
     ceduo_measure_span(&span, m, doubted ? m->may_lo : m->lo, doubted ? m->may_hi : m->hi);
-    ceduo_text_format(text, doubted ? _("; may be %s") : _("; %s by the number of rocks"), ceduo_text_string(&span));
+    ceduo_text_format(text, doubted ? _("; may be %s") : _("; %s by the rocks"), ceduo_text_string(&span));
 }
 
 /* By the index, which knows no single rocks. */
@@ -200,7 +200,7 @@ static void say_reason(struct text *text, const struct ceduo_result *r, size_t o
     else if (!wooded && r->wooded)
         ceduo_text_put(text, _("not computed yet"));
     for (size_t i = 0; text->length == 0 && i < sizeof forms / sizeof forms[0]; i++) {
-        say_form(text, &m, &without, &forms[i]);
+        say_form(text, &m, ceduo_plot_has_stems(&r->scene->options[option]) ? &without : NULL, &forms[i]);
         if (ceduo_utf8_width(ceduo_text_string(text)) > width)
             ceduo_text_free(text);
     }

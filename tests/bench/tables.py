@@ -145,37 +145,6 @@ class Results:
         return table(["scene", "when", "seeds", "clear at 1024", "at 10240", "no longer", "reversed"],
                      [list(r.values()) for r in self.rows("bench_verdict")])
 
-    # ---- README ----
-
-    def speed(self):
-        walk, error = self.rows("bench_walk", law="lumped"), self.rows("bench_error", what="paper-bare", rocks="10000")
-        rate = {(r["what"], r["rocks"]): float(r["contacts_per_s"]) for r in [*walk, *self.rows("numpy_loop", law="lumped")]}
-        plain, best = rate["plain-loop", "100000"], rate["ceduo-1-thread", "100000"]
-        avx2, stems = rate["ceduo-1-thread-avx2", "100000"], self.rows("bench_stems", what="stems")[0]
-        mean = next(r for r in error if r["quantity"] == "mean_energy_kJ")
-        coverage, live = self.rows("bench_coverage"), {r["what"]: float(r["median_ms"]) for r in self.rows("bench_live")}
-        held = [float(r["held_percent"]) for r in coverage]
-        truth = next(float(r["true_value"]) for r in coverage if r["figure"] == "bare mean energy") / 1e3
-        processor, cores, compiler, _ = self.machine_of("bench_walk")
-        lines = [f"""These figures are from `make bench` on {cores} cores of a shared {processor}, {compiler}, `-O2`. ceduo-accuracy(7)
-has all tables and the commands that produce them.
-
-| what | figure |
-|---|---|
-| ground contacts per second, paper's site, lumped, one core | {best / 1e6:.1f} million: {best / plain:.1f} times a plain C loop, \
-{best / rate["numpy", "20000"]:.0f} times numpy (two cores: {rate["ceduo-2-threads", "100000"] / plain:.0f} times the loop) |
-| error of the mean energy after {digits(float(mean["seconds"]) * 1e3, 1)} ms (10 000 rocks, without forest) | \
-{digits(mean["rms_error"], 1)} kJ of {truth:.0f}; ten times the time leaves a third of it |
-| true value within the printed 95 % interval, {coverage[0]["repeats"]} repeats, {len(held)} figures | \
-{min(held)} to {max(held)} % |
-""".replace("\\\n", ""),
-                 f"""Without AVX-512 it is {avx2 / 1e6:.1f} million ({avx2 / plain:.1f} times the loop). Among stems, one core computes
-{float(stems["contacts_and_met_per_s"]) / 1e6:.1f} million contacts and encounters per second, {float(stems["ratio_to_bare"]):.2f} of \
-its rate without them, because each stool and stem is
-drawn and tested. After an edit of a stand, its index takes {digits(live["edit of a stand to its index"], 1)} ms and the first 1000 rocks through it \
-{digits(live["edit of a stand to 1000 rocks through it"], 2)} ms.""".replace("\\\n", "")]
-        return "\n".join(lines)
-
     # ---- ceduo-validation(7) ----
 
     def fits(self, what):

@@ -13,6 +13,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 from harness import (DONE, FULL, INPUT, Folder, ceduo, expect, expect_equal, expect_in, expect_near, good,  # noqa: E402
                      run_all, scene, stand)
+from pages import WHOLE
 
 DENSITY = 2600
 CLIFF = {"vertices_m": [[0, 100], [1, 0], [60, 0]], "segments": [{"rn": 0, "rt": 0}]}
@@ -251,7 +252,7 @@ def test_page():
     options = [{"name": "none", "forest": []}, {"name": "coppice", "forest": [WOOD]}]
     with Folder() as f:
         path = f.write("s.yaml", slope_site(forest=None, options=options))
-        page = " ".join(good("--batch", path).out.split())
+        page = " ".join(good(*WHOLE, path).out.split())
         result = good("--batch", "-f", "json", path).json()[0]
         bare, wooded = hazard_of(result), hazard_of(result, "wooded", -1, 1)
         years = [f"{shown(h['accepted_years'])} ({shown(h['accepted_years_lo'])}–{shown(h['accepted_years_hi'])})"
@@ -277,17 +278,17 @@ def test_page():
         bare = result["options"][0]["controls"][1]["bare"]
         expect_in(f"bare, {bare['rocks_reached']} of 2000 50 % 95 % 99 % speed, m/s {bare['speed_m_s']['p50']:.1f} "
                   f"({bare['speed_m_s']['p50_lo']:.1f}–{bare['speed_m_s']['p50_hi']:.1f})", page)
-        alone = " ".join(good("--batch", f.write("t.yaml", slope_site(controls=[{"x_m": 140}]))).out.split())
+        alone = " ".join(good(*WHOLE, f.write("t.yaml", slope_site(controls=[{"x_m": 140}]))).out.split())
         expect_in("A rock reaches the place at 140 m every", alone)
-        stuck = " ".join(good("--batch", f.write("u.yaml", falls(POWER, controls=[{"x_m": 55}]))).out.split())
+        stuck = " ".join(good(*WHOLE, f.write("u.yaml", falls(POWER, controls=[{"x_m": 55}]))).out.split())
         expect_in("every > ", stuck)
-        few = " ".join(good("--batch", f.write("w.yaml", slope_site(blocks={"per_year": 4, "volume_m3": [0.001, 0.002], "exponent": 1},
+        few = " ".join(good(*WHOLE, f.write("w.yaml", slope_site(blocks={"per_year": 4, "volume_m3": [0.001, 0.002], "exponent": 1},
                                                                       controls=[{"x_m": 140, "accepted_kJ": 1}]))).out.split())
         expect(re.search(r"so much arrives with 'current', each rock by its energy here: weak \S+ %\. ", few), "intensities that do not arrive", few)
         expect(" - %" not in few and "- %" not in stuck, "a share of none", few, stuck)
-        index = " ".join(good("--batch", "-s", "simulation.contact_model=index", path).out.split())
+        index = " ".join(good(*WHOLE, "-s", "simulation.contact_model=index", path).out.split())
         expect_in(f"reaches 'road' every {years[0]} years without forest. ", index)
-        without = good("--batch", f.write("v.yaml", slope_site(blocks=None))).out
+        without = good(*WHOLE, f.write("v.yaml", slope_site(blocks=None))).out
         expect("How often" not in without and "Blocks   " not in without, without)
 
 
@@ -297,7 +298,7 @@ def test_wide_figures():
     blocks = [{"per_year": 1, "volume_m3": [400, 80000], "exponent": 1}]
     rare = [{"per_year": 1e-7, "volume_m3": [0.5, 1], "exponent": 1}]
     with Folder() as f:
-        text = good("--batch", f.write("s.yaml", slope_site(blocks=blocks))).out
+        text = good(*WHOLE, f.write("s.yaml", slope_site(blocks=blocks))).out
         result = good("--batch", "-f", "json", f.path / "s.yaml").json()[0]
         row = re.findall(r"\n    without forest  .*", text)[-1]
         expect(len(row) <= 81 and "\u2026" not in row, row)
@@ -307,7 +308,7 @@ def test_wide_figures():
             for shown, key in ((value, "energy_kJ"), (lo, "lo"), (hi, "hi")):
                 wanted = back[key] / 10 ** int(power)
                 expect_near(float(shown), wanted, 0.05 * (1 + 1e-9) if wanted < 10 else 0.5, key)
-        text = good("--batch", f.write("t.yaml", slope_site(forest=None, options=options, blocks=rare, controls=[{"x_m": 140}]))).out
+        text = good(*WHOLE, f.write("t.yaml", slope_site(forest=None, options=options, blocks=rare, controls=[{"x_m": 140}]))).out
         rows = re.findall(r"\n    (?:without forest|half|third) +(\d\.\d) \([\d.]+\u2013[\d.]+\)e(\d) ", text)
         expect_equal(len(rows), 3, text)
 
@@ -318,7 +319,7 @@ def test_unknown_lower_end():
     with Folder() as f:
         for per_year in (0.0035, 0.004, 0.005, 0.006, 0.008):
             path = f.write("s.yaml", slope_site(blocks={"per_year": per_year, "volume_m3": [0.1, 0.2], "exponent": 1}, controls=[{"x_m": 140}]))
-            rows = re.findall(r"\n    (?:without forest|through the wood)  .*", good("--batch", "-n", 300, path).out)
+            rows = re.findall(r"\n    (?:without forest|through the wood)  .*", good(*WHOLE, "-n", 300, path).out)
             result = good("--batch", "-f", "json", "-n", 300, path).json()[0]
             backs = [hazard_of(result, side)["return"][3] for side in ("bare", "wooded")]
             for row, back in zip(rows[-2:], backs):
@@ -336,7 +337,7 @@ def test_many():
     options = [{"name": name, "forest": [{**WOOD, "to_m": to}]} for name, to in (("half", 70), ("whole", 140), ("third", 50))]
     with Folder() as f:
         path = f.write("s.yaml", slope_site(forest=None, options=options, controls=[{"x_m": 140, "accepted_kJ": 50}]))
-        page = " ".join(good("--batch", path).out.split())
+        page = " ".join(good(*WHOLE, path).out.split())
         result = good("--batch", "-f", "json", path).json()[0]
         found = [hazard_of(result, "wooded", 0, i) for i in range(3)]
         best = min(range(3), key=lambda i: -found[i]["accepted_years"])
@@ -359,7 +360,7 @@ def test_means():
         for what in (slope_site(), slope_site(blocks=None)):
             path = f.write("s.yaml", what)
             control = good("--batch", "-f", "json", path).json()[0]["options"][0]["controls"][1]
-            page = " ".join(good("--batch", path).out.split("At 140 m")[1].split("At 140 m")[0].split())
+            page = " ".join(good(*WHOLE, path).out.split("At 140 m")[1].split("At 140 m")[0].split())
             wooded, bare = (control[side]["energy_kJ"] for side in ("wooded", "bare"))
             clear = wooded["mean"] - bare["mean"] > 1.96 * math.hypot(wooded["se"], bare["se"])
             expect_equal(said in page, clear, f"{wooded} {bare}")
@@ -374,7 +375,7 @@ def test_design():
         for ground, survey, blocks in ((slope, "good", "poor"), (slope, "poor", "good"), (fitted, "good", "good")):
             what = slope_site(slope=ground, design={"survey": survey, "blocks": blocks})
             path = f.write("s.yaml", {k: v for k, v in what.items() if k != "blocks"})
-            page = " ".join(good("--batch", path).out.split())
+            page = " ".join(good(*WHOLE, path).out.split())
             run_of = good("--batch", "-f", "json", path).json()[0]
             control, size = run_of["options"][0]["controls"][1], run_of["rock"]["mean_diameter_m"]
             factor = {"good": 1.02, "poor": 1.10}
@@ -388,7 +389,7 @@ def test_design():
                       f"{'fitted to what was seen' if ground is fitted else 'not fitted here'}. Energy: 95th percentile times the "
                       f"square of both and {factor[blocks]:.2f} for the survey of the blocks. Height: 95th percentile of the block's "
                       "top, its underside and its mean diameter, without a factor.", page)
-        expect("UNI 11211" not in good("--batch", f.write("t.yaml", slope_site())).out, "design values unasked")
+        expect("UNI 11211" not in good(*WHOLE, f.write("t.yaml", slope_site())).out, "design values unasked")
         r = ceduo("--check", f.write("u.yaml", slope_site(design={"survey": "good"})))
         expect_equal(r.status, INPUT, r)
         expect_in("'blocks' is missing", r.err)
@@ -402,7 +403,7 @@ def test_design_of_sizes():
             ({"rock": {"diameter_m": 0.5}, "blocks": {"per_year": 1, "volume_m3": [low, high], "exponent": b}}, (6 * volume / math.pi) ** (1 / 3)))
     for what, wanted in ways:
         with Folder() as f:
-            page = " ".join(good("--batch", f.write("s.yaml", scene(
+            page = " ".join(good(*WHOLE, f.write("s.yaml", scene(
                 **what, release={"vx_m_s": 3}, slope={"vertices_m": [[0, 10], [100, 0]], "segments": [{"rn": 0, "rt": 1, "friction": 0}]},
                 controls=[{"x_m": 50}], design={"survey": "good", "blocks": "good"}, simulation={"rocks": 20000}))).out.split())
         expect_near(float(re.search(r"without forest: .* height of the block's top ([\d.]+) m", page)[1]), wanted, 0.01, what)

@@ -122,13 +122,13 @@ def test_bounds_are_listed():
 
 
 def test_list_profiles():
-    """--list-profiles shows file, kind and title; one's own come from the XDG data folder and run by name"""
+    """--list-profiles shows what to type, kind, title and file; one's own come from the XDG data folder and run by name"""
     text = good("--list-profiles").out
-    expect_equal(text.split("\n")[0].split(), ["file", "kind", "title"])
+    expect_equal(text.split("\n")[0].split(), ["name", "kind", "title", "file"])
     for name, kind, title in (("paper-site", "scene", "Test site of Ciabocco et al. 2009"), ("ads-1", "stand", "ADS 1"),
                               ("paper", "slope", "Slope of Ciabocco et al. 2009"), ("four-systems", "scene", "Four systems"),
                               ("ads-2", "stand", "ADS 2"), ("bare", "stand", "bare")):
-        expect(re.search(rf"/{name}\.yaml +{kind} +{title}", text), f"{name} is missing", text)
+        expect(re.search(rf"(?m)^{name} +{kind} +{title}.* /\S*/{name}\.yaml$", text), f"{name} is missing", text)
     expect_equal(len(text.splitlines()) - 1, len(list(PROFILES.rglob("*.yaml"))), "rows")
     with Folder() as f:
         f.write("ceduo/scenes/mine.yaml", scene(title="my \x07 own"))

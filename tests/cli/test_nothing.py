@@ -8,6 +8,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 from harness import INPUT, Folder, ceduo, expect, expect_equal, expect_in, good, result, run_all, scene, stand, wooded_scene
+from pages import WHOLE
 from runs import read_csv
 
 # A line as it is drawn on a map: it begins 4 m behind the edge of the cliff, on ground where no rock moves.
@@ -43,7 +44,7 @@ def test_outputs():
     """A profile that begins on flat ground: page, JSON, CSV, years, report, check, find and sensitivity say that nothing can be said."""
     with Folder() as f:
         path = behind_the_edge(f)
-        page = good("--batch", path).out
+        page = good(*WHOLE, path).out
         expect_said(page)
         for light in ("passes", "FAILS"):
             expect(light not in page, "a light", page)
@@ -66,7 +67,7 @@ def test_outputs():
         for key in ("contact", "free_run", "contact_8cm", "free_run_8cm", "energy"):
             expect_equal(years["rotation"]["unprotected_" + key], None, key)
         expect_equal(years["years"][0]["controls"][0]["verdict"]["answer"], "nothing")
-        expect_in("nothing can be said", good("--batch", "--years", path).out)
+        expect_in("nothing can be said", good(*WHOLE, "--years", path).out)
         good("--report", f.path / "r.html", path)
         expect_said((f.path / "r.html").read_text())
         good("--language", "it", "--report", f.path / "r.html", path)
@@ -93,8 +94,8 @@ def test_options():
     with Folder() as f:
         path = behind_the_edge(f, forest=None, options=[
             {"name": name, "forest": [{"from_m": 20, "to_m": 110, "stand": name}]} for name in ("simple-coppice", "large-reserves")])
-        page = good("--batch", "--years", path).out
-        expect_in("Nothing can be said of any option", page)
+        page = good(*WHOLE, "--years", path).out
+        expect_in("Nothing can be said of the wood above road (120 m)", page)
         for word in ("lets the fewest", "clearly better", "0/25", "All options pass"):
             expect(word not in page, word, page)
 

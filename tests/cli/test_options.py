@@ -10,6 +10,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 from harness import USAGE, Folder, belt, ceduo, expect, expect_equal, expect_near, good, result, run_all, wooded_scene
+from pages import WHOLE
 from runs import DIFFERENCES, FOUR, MODELS, PAPER, THICK, THIN, expect_run, no_difference, through, treated
 
 
@@ -127,7 +128,7 @@ def test_no_pair_differs():
             found = difference["exceed_probability"] if difference["x_m"] == 105 else difference["reach_probability"]
             expect_equal((found["mean"], found["se"]), (0, None), "0 without an error")
             expect_near(found["below"], z2 / (n + z2), 1e-12, "Wilson's upper end of 0 of n")
-        page = good("--batch", "-n", n, path).out
+        page = good(*WHOLE, "-n", n, path).out
         expect(re.search(r"as thick +[\d.]+ .* < 8 +(pass|FAIL)", page), "no bound on the page", page)
         expect("+0 ±0" not in page, page)
         row = next(csv.DictReader(io.StringIO(good("--batch", "-f", "csv", "-n", n, "--option", "as thick", "--option", "thick", path).out)))

@@ -8,7 +8,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 from harness import Folder, belt, expect, expect_equal, expect_in, good, result, run_all, stand, wooded_scene
-from pages import digits, of_1000
+from pages import WHOLE, digits, of_1000
 from runs import FOUR, PAPER, through
 
 TWO_CUTS = ("--option", "selection coppice, just cut", "--option", "large reserves, just cut")
@@ -50,9 +50,9 @@ def test_few_are_enough():
         expect_equal(part["rocks"], 25000)
         turned["rocks"] = most
         expect_other({"options": part["options"]}, turned, "dorren")
-    page = " ".join(good("--batch", *more, PAPER).out.split())
+    page = " ".join(good(*WHOLE, *more, PAPER).out.split())
     expect_in("Under this law the first 10240 rocks alone were simulated.", page)
-    expect("rocks alone were simulated" not in good("--batch", "-n", most, PAPER).out, "all of them")
+    expect("rocks alone were simulated" not in good(*WHOLE, "-n", most, PAPER).out, "all of them")
 
 def test_none():
     """JSON: null by the index, without stems and in years; without an accepted energy there is none to exceed"""
@@ -65,7 +65,7 @@ def test_none():
         thick, none = (o["controls"][0]["other_energy"] for o in run["options"])
         expect_equal(none, None)
         expect_equal((thick["model"], thick["exceed_probability"]), ("dorren", None))
-        page = good("--batch", "-n", 200, path).out
+        page = good(*WHOLE, "-n", 200, path).out
         expect_in("With the energy law dorren", page)
         expect_equal(page.count("With the energy law"), 2, "an option without stems has no other law")
         gap = {"from_m": 5, "to_m": 10, "stand": stand(stools=None, shoots=None, trees=None, system="bare")}
@@ -84,12 +84,12 @@ def test_page():
                         (("-s", "controls=[{x_m: 135}]"),
                          r"With the energy law dorren: {reach} of 1000 arrive; their mean is {mean} ±{half} kJ\.")):
         other = result(PAPER, "-n", 800, *more)["options"][0]["controls"][0]["other_energy"]
-        page = " ".join(good("--batch", "-n", 800, PAPER, *more).out.split())
+        page = " ".join(good(*WHOLE, "-n", 800, PAPER, *more).out.split())
         exceed = re.escape(of_1000("exceed", other)) if other["exceed_probability"] is not None else ""
         wanted = words.format(reach=re.escape(of_1000("reach", other)), exceed=exceed, mean=f"{other['energy_kJ_mean']:.1f}",
                               half=digits(1.963 * other["energy_kJ_se"], 2))  # 1.963: Student's t of some 690 rocks
         expect(re.search(wanted, page), wanted, page)
-    none = good("--batch", "-n", 5, PAPER, "-s", "forest[0].stand.trees[0].dbh_m=2", "-s", "forest[0].stand.trees[0].volume_m3=9").out
+    none = good(*WHOLE, "-n", 5, PAPER, "-s", "forest[0].stand.trees[0].dbh_m=2", "-s", "forest[0].stand.trees[0].volume_m3=9").out
     expect_in("With the energy law dorren no rock arrives.", " ".join(none.split()))
 
 
@@ -100,10 +100,10 @@ def test_order():
               for c in (o["controls"][0] for o in run["options"])]
     selection, reserves = shares
     expect(selection[0] > reserves[0] and selection[1] < reserves[1], "the order turns round", shares)
-    page = " ".join(good("--batch", "-n", 10000, FOUR, *TWO_CUTS).out.split())
+    page = " ".join(good(*WHOLE, "-n", 10000, FOUR, *TWO_CUTS).out.split())
     expect_in("'large reserves, just cut' or 'selection coppice, just cut' is undecided: the order depends on the energy law. "
               f"As the scene has it {reserves[0]} and {selection[0]} of 1000, with dorren {reserves[1]} and {selection[1]}.", page)
-    alike = good("--batch", "-n", 2000, FOUR, "--option", "simple coppice, 25 years", "--option", "simple coppice, just cut").out
+    alike = good(*WHOLE, "-n", 2000, FOUR, "--option", "simple coppice, 25 years", "--option", "simple coppice, just cut").out
     expect("undecided" not in alike, alike)
 
 

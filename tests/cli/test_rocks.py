@@ -8,6 +8,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 from harness import USAGE, Folder, belt, ceduo, expect, expect_equal, expect_in, good, result, run_all, scene, wooded_scene
+from pages import WHOLE
 from runs import FOUR, MODELS, PAPER, THICK, THIN, expect_run, read_csv, through, treated, warned, without_seconds
 
 
@@ -109,7 +110,7 @@ def test_tolerance_few_wooded():
         expect(half_width(near["wooded"]) <= 0.02 and half_width(far["bare"]) <= 0.02, "those that many reach")
         expect(any("104 m" in w and "left out" in w for w in run["warnings"]), run["warnings"])
         expect(not any("not met" in w or "60 m" in w for w in run["warnings"]), run["warnings"])
-        expect_in("left out", re.sub(r"\s+", " ", good("--batch", "-e", 0.02, path).out), "table")
+        expect_in("left out", re.sub(r"\s+", " ", good(*WHOLE, "-e", 0.02, path).out), "table")
 
 
 def test_tolerance_not_met():
@@ -117,7 +118,7 @@ def test_tolerance_not_met():
     run = result("-e", 0.001, "-n", 2000, PAPER)
     expect_equal(run["rocks"], 2000)
     expect(len(warned(run)) == 1 and "0.001" in warned(run)[0] and "not met" in warned(run)[0], run["warnings"])
-    expect_in("not met", good("--batch", "-e", 0.001, "-n", 2000, PAPER).out, "table")
+    expect_in("not met", good(*WHOLE, "-e", 0.001, "-n", 2000, PAPER).out, "table")
     _, rows = read_csv(good("--batch", "-f", "csv", "-e", 0.001, "-n", 2000, PAPER).out)
     expect_in("not met", rows[0]["warnings"], "CSV")
 

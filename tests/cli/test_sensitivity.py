@@ -71,11 +71,12 @@ def test_nothing():
 
 
 def test_page_of_a_run():
-    """A page says how to get the other error where anything is in doubt, and is silent where nothing is"""
+    """A page says both errors where anything is in doubt, and that nothing is where nothing is"""
     for what, says in ((measured(), False), (measured(doubt=[DENSITY]), True)):
         with Folder() as f:
-            page = " ".join(good("--batch", "-n", 50, f.write("s.yaml", what)).out.split())
-            expect_equal("The errors above are of the rocks alone: 'ceduo --sensitivity'" in page, says, page)
+            page = " ".join(good("--batch", "--details", "-n", 50, f.write("s.yaml", what)).out.split())
+            expect(re.search(r"by the number of rocks \(50\); [\d-]+–[\d-]+ by what is not known\." if says else
+                             r"by the number of rocks \(50\); nothing in this scene is marked as assumed\.", page), page)
 
 
 def test_lights():

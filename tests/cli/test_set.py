@@ -7,6 +7,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 from harness import (INPUT, PROFILES, USAGE, Folder, Suite, ceduo, expect, expect_equal, expect_in, expect_near, good, result,
                      scene, stand, tests_of)
+from pages import WHOLE
 from runs import PAPER
 
 
@@ -116,7 +117,7 @@ def test_set_spreads():
     expect_equal(result(PAPER, "-s", "rock.diameter_m.spread=0")["options"], result(PAPER)["options"], "spread 0")
     for path in ("release.vx_m_s", "release.vz_m_s", "slope.segments[2].rn", "slope.segments[2].rt"):
         expect(result(PAPER, "-s", f"{path}.spread=0.1")["options"] != result(PAPER)["options"], path)
-    expect_in("means", good("--batch", PAPER, "-s", "rock.diameter_m.spread=0.05").out, "table")
+    expect_in("means", good(*WHOLE, PAPER, "-s", "rock.diameter_m.spread=0.05").out, "table")
 
 
 def test_set_base():

@@ -9,14 +9,14 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 from harness import (PROFILES, Folder, belt, expect, expect_equal, expect_in, expect_near, good, result, run_all, scene, stand,
                      wooded_scene)
-from pages import (blocks_of, cells_of_rows, columns, digits, expect_cells, expect_option, expect_order, expect_width,
+from pages import (WHOLE, blocks_of, cells_of_rows, columns, digits, expect_cells, expect_option, expect_order, expect_width,
                    half_of_mean, of_1000, section, table_row)
 from runs import FOUR, MODELS, PAPER, THICK, THIN, expect_run, read_csv, through, treated
 
 
 def test_table_order():
     """Table of the paper's site: statements in their order, wooded first and bare below it, verdicts in words"""
-    text, run = good("--batch", PAPER).out, result(PAPER)
+    text, run = good(*WHOLE, PAPER).out, result(PAPER)
     option = run["options"][0]
     control = option["controls"][0]
     expect_order(text, "Test site of Ciabocco et al. 2009", "Rock", "512.3 kg", "Slope", "current", "135 m", "through the wood",
@@ -40,7 +40,7 @@ def test_table_order():
 
 def test_table_order_index():
     """Table of the paper's site by the index: no figure through the wood, the index labelled, the energy light unknown"""
-    text, run = good("--batch", *through("index"), PAPER).out, result(*through("index"), PAPER)
+    text, run = good(*WHOLE, *through("index"), PAPER).out, result(*through("index"), PAPER)
     expect_order(text, "Test site of Ciabocco et al. 2009", "Rock", "512.3 kg", "Slope", "current", "135 m", "without forest 896",
                  "992", "113.2", "Contact: passes", "Free run: passes", "Energy: unknown", "index", "ADS 1", "1.95 yes", "ADS 2",
                  "2.61 yes", "gsteiger-stools 3.04 m", "(?i)by the index \\(Eq. 4, interception\\) stems could take 53.8 kJ",
@@ -54,9 +54,9 @@ def test_table_width():
     """Tables of all shipped scenes and of long names stay within 80 columns"""
     for path in sorted((PROFILES / "scenes").glob("*.yaml")):
         for law in ("lumped", "crsp"):
-            expect_width(good("--batch", "-n", 200, "-s", f"simulation.law={law}", path).out)
+            expect_width(good(*WHOLE, "-n", 200, "-s", f"simulation.law={law}", path).out)
     words = "a very long name that says all there is to say about it and then a little more, so that it must be cut "
-    text = good("--batch", "-n", 50, FOUR, "-s", f"title={words * 2}", "-s", f"options[0].name={words * 2}", "-s",
+    text = good(*WHOLE, "-n", 50, FOUR, "-s", f"title={words * 2}", "-s", f"options[0].name={words * 2}", "-s",
                 f"controls[0].name={words}", "-s", f"options[1].forest[0].stand.name={words}", "-s",
                 "simulation.threshold_m=12.345").out
     expect_width(text)
@@ -68,13 +68,13 @@ def test_table_width_survey():
                 release={"vx_m_s": 1}, controls=[{"x_m": 480075.125, "accepted_kJ": 20, "name": "road"}],
                 forest=[{"from_m": 480010.125, "to_m": 480070.375, "stand": stand(name="an old coppice of hornbeam")}])
     with Folder() as f:
-        expect_width(good("--batch", f.write("far.yaml", far)).out)
+        expect_width(good(*WHOLE, f.write("far.yaml", far)).out)
 
 
 def test_table_widest():
     """Table: words longer than a line, wide characters and huge numbers keep its columns, 80 of them"""
     wide, word = "一二三四五六七八九十" * 8, "x" * 300
-    text = good("--batch", "-n", 50, "-s", f"title={word}", "-s", f"options[0].name={wide}", "-s", "controls[0].x_m=134.123456789",
+    text = good(*WHOLE, "-n", 50, "-s", f"title={word}", "-s", f"options[0].name={wide}", "-s", "controls[0].x_m=134.123456789",
                 "-s", "controls[0].accepted_kJ=123456", "-s", "rock={diameter_m: 20}", FOUR).out
     expect(max(map(columns, text.splitlines())) <= 80, *(line for line in text.splitlines() if columns(line) > 80))
     flat = "".join(text.split())
@@ -96,7 +96,7 @@ def test_table_small():
         for diameter in (1, 0.1, 0.03, 0.01, 0.003, 0.001, 1e-4):
             orders = ["-n", 60, "-s", f"rock.diameter_m={diameter}", path]
             controls = [a for c in result(*orders)["options"][0]["controls"] for a in (c["wooded"], c["bare"])]
-            found = cells_of_rows(good("--batch", *orders).out)
+            found = cells_of_rows(good(*WHOLE, *orders).out)
             expect_equal(len(found), len(controls), "rows")
             for cells, a in zip(found, controls):
                 expect(len(cells) == 3 and "…" not in "".join(cells), f"diameter {diameter}: {cells}")
@@ -109,7 +109,7 @@ def test_table_small():
 def test_table_one_rock():
     """Table: of one rock no error is known, whatever it weighs and however it is compared: a dash"""
     for rock in ("{diameter_m: 0.5}", "{diameter_m: 20}", "{diameter_m: 500}", "{diameter_m: 0.001}"):
-        text = good("--batch", "-n", 1, "-s", f"rock={rock}", FOUR).out
+        text = good(*WHOLE, "-n", 1, "-s", f"rock={rock}", FOUR).out
         expect(not re.search(r"\bnan\b", text), re.findall(".*nan.*", text))
         expect(all("±-" in cells[0] for cells in cells_of_rows(text) if cells[0] != "-"), cells_of_rows(text))
 
@@ -119,21 +119,21 @@ def test_table_width_short():
     with Folder() as f:
         path = f.write("short.yaml", scene(slope={"vertices_m": [[0, 0], [0.007693, -0.005387]],
                                                   "segments": [{"rn": 0.3, "rt": 0.8}]}, controls=[{"x_m": 0.001}]))
-        expect_width(good("--batch", "-n", 5, path).out)
+        expect_width(good(*WHOLE, "-n", 5, path).out)
 
 
 def test_table_splinter():
     """Table: a rock so thin that its volume is next to 0 has no other sizes, and all else of its page"""
     with Folder() as f:
         path = f.write("s.yaml", scene(rock={"shape": "ellipsoid", "axes_m": [1e-320, 1, 1], "mass_kg": 50}))
-        text = good("--batch", "-n", 5, path).out
+        text = good(*WHOLE, "-n", 5, path).out
         expect_in("through the wood", text)
         expect("Blocks of other sizes" not in text, text)
 
 
 def test_table_warnings_once():
     """Table: what belts of one stand have in common is warned of once an option"""
-    text = good("--batch", "-n", 10, "staggered").out
+    text = good(*WHOLE, "-n", 10, "staggered").out
     warnings = re.findall(r"^    ! .*(?:\n      .*)*", text, re.M)
     options = text.count("Contact: ")
     expect(0 < len(warnings) <= options, f"{len(warnings)} warnings of {options} options", *warnings)
@@ -143,7 +143,7 @@ def test_table_lights():
     """Table: every light with its reason: no forest, a gap, a thin belt, nothing said of what a place withstands, the index"""
     def said(*arguments, scene_mapping=None, where=-1):
         with Folder() as f:
-            text = good("--batch", f.write("s.yaml", scene_mapping or wooded_scene()), *arguments).out
+            text = good(*WHOLE, f.write("s.yaml", scene_mapping or wooded_scene()), *arguments).out
             flat_text = re.sub(r"\s+", " ", text)
             return {name: re.findall(rf"\b{name}: (.*?\.) (?=Free run:|Energy:|With the energy law|Percentiles of |At |m stand|By the index)", flat_text)[where]
                     for name in ("Contact", "Free run", "Energy")}
@@ -189,7 +189,7 @@ def test_table_close_call():
             if close:
                 warning = next(w for w in run["warnings"] if "close to call" in w)
                 expect("105 m" in warning and "50 of 1000" in warning, "place and limit", warning)
-            expect_equal("lose to call" in re.sub(r"\s+", " ", good("--batch", path, *change).out), close, "table")
+            expect_equal("lose to call" in re.sub(r"\s+", " ", good(*WHOLE, path, *change).out), close, "table")
             _, rows = read_csv(good("--batch", "-f", "csv", path, *change).out)
             expect_equal("close to call" in rows[0]["warnings"], close, "CSV")
             expect(not result(path, *change, *through("index"))["warnings"], "a close call by the index")
@@ -200,7 +200,7 @@ def test_table_blocks():
     """Table of blocks of other sizes: rising, an octave apart, this scene's marked and like the run, larger ones meet and carry more"""
     for arguments, own in (((), 0.197), ((("-s", "rock.diameter_m=1.2", "-s", "rock.height_m=0.6")), 0.679), (("-s", "rock.diameter_m=0.2", "-s", "rock.height_m=0.2"), 0.00628),
                            (("-s", "rock.diameter_m=3", "-s", "rock.height_m=3"), 21.2)):
-        text, run = good("--batch", PAPER, *arguments).out, result(PAPER, *arguments)
+        text, run = good(*WHOLE, PAPER, *arguments).out, result(PAPER, *arguments)
         rows = blocks_of(text)
         expect_equal(sorted(r[1] for r in rows), [r[1] for r in rows], "volumes rise")
         expect_equal([r[1] for r in rows if not r[0]], [v for v in (0.05, 0.2, 1, 5) if not own / 2 < v < own * 2], "volumes")
@@ -227,15 +227,15 @@ def test_table_bounded():
                           stools={"per_ha": 20000, "spacing_m": 0.1})
             path = f.write("s.yaml", scene(rock={"shape": "cylinder", "diameter_m": 1, "height_m": thick}, forest=[shrubs],
                                            controls=[{"x_m": 2700}], slope=slope))
-            text = good("--batch", "-n", rocks, path).out
+            text = good(*WHOLE, "-n", rocks, path).out
             own = result(path, "-n", rocks)["options"][0]["summary"]["contacts"]
             largest = re.search(r"\n +5\.00 +13000 .* (\d+) +(\S+)\n", text)
             expect_equal(largest and largest[2], "-", text)
             expect(thick > 1e-6 or float(largest[1]) > 100 * own > 0, "hundreds of times the stems", text)
             expect_in("A size with a dash was left out: its rocks come to so many stems", " ".join(text.split()))
-        page = " ".join(good("--batch", "-n", 50, "rotation").out.split())
-        expect_in("counted from today, with 10 rocks in each", page)
-        page = " ".join(good("--batch", "-n", 5, "rotation").out.split())
+        page = " ".join(good(*WHOLE, "-n", 50, "rotation").out.split())
+        expect_in("counted from today, with 13 rocks in each", page)  # six times 50, in 22 years
+        page = " ".join(good(*WHOLE, "-n", 5, "rotation").out.split())
         expect_in("counted from today, with 5 rocks in each", page)
 
 
@@ -243,17 +243,17 @@ def test_table_blocks_cases():
     """Table of blocks: of each option, without forest, without an accepted energy, by the index"""
     with Folder() as f:
         path = f.write("s.yaml", treated(thick=THICK, none=None))
-        run, text = result(path), good("--batch", path).out
+        run, text = result(path), good(*WHOLE, path).out
         for option in run["options"]:
             rows = blocks_of(section(text, option["name"]))
             expect_equal(sum(r[0] for r in rows), 1, option["name"])
             mine = next(r for r in rows if r[0])
             expect_equal(mine[6], of_1000("exceed", option["controls"][1]["wooded"]), option["name"])
         expect(all(r[4] == math.inf and r[5] == 0 for r in blocks_of(section(text, "none"))), text)
-        text = good("--batch", path, *through("index")).out
+        text = good(*WHOLE, path, *through("index")).out
         expect(all(r[6] == "-" for r in blocks_of(section(text, "thick"))), "a share by the index", text)
         path = f.write("s.yaml", wooded_scene(controls=[{"x_m": 105}]))
-        text = good("--batch", path).out
+        text = good(*WHOLE, path).out
         expect_in("arrive", text[text.index("Blocks of"):], "head")
         mine = next(r for r in blocks_of(text) if r[0])
         expect_equal(mine[6], of_1000("reach", result(path)["options"][0]["controls"][0]["wooded"]), "that arrive")
@@ -268,7 +268,7 @@ def test_table_arrivals():
     with Folder() as f:
         for mapping in cases:
             path = f.write("s.yaml", mapping)
-            run, text = result(path), good("--batch", path).out
+            run, text = result(path), good(*WHOLE, path).out
             expect_option(text, run["options"][0])
             expect_width(text)
             expect(len(blocks_of(text)) in (4, 5), "blocks of other sizes", text)
@@ -277,7 +277,7 @@ def test_table_arrivals():
 def test_table_left():
     """Eq. 5 as it is written is true: one number of decimals, nothing is taken of nothing"""
     for arguments in ((PAPER,), ("-s", "forest[0].stand.shoots=[]", PAPER), ("tschamut",), ("vaujany",)):
-        text = " ".join(good("--batch", "-n", 200, *arguments).out.split())
+        text = " ".join(good(*WHOLE, "-n", 200, *arguments).out.split())
         found = re.findall(r"left \(Eq\. 5\): (\S+) − (\S+) = (\S+) kJ", text)
         expect(found or "left (Eq. 5): all of " in text, text)
         for words in found:
@@ -289,10 +289,10 @@ def test_table_left():
 
 def test_table_verdicts():
     """Table says failed tests and used up energy in words, never 0 kJ left"""
-    text = good("--batch", PAPER, "-s", "forest[0].to_m=30", "-s", "forest[1].from_m=90").out
+    text = good(*WHOLE, PAPER, "-s", "forest[0].to_m=30", "-s", "forest[1].from_m=90").out
     expect_order(text, "Contact: FAILS", "(?i)gap", "60 m")
     for model in MODELS:
-        text = good("--batch", PAPER, "-s", "forest[0].stand.shoots[0].volume_m3=1", *through(model)).out
+        text = good(*WHOLE, PAPER, "-s", "forest[0].stand.shoots[0].volume_m3=1", *through(model)).out
         expect_order(text, "(?i)used up on average", "(?i)some rocks still pass")
         expect(not re.search(r"= 0(\.0*)? kJ", text), text)
 
@@ -301,12 +301,12 @@ def test_table_assumed():
     """Table marks what is assumed, and only that"""
     with Folder() as f:
         plain = scene(controls=[{"x_m": 75, "accepted_kJ": 50}], rock={"diameter_m": 0.5, "density_kg_m3": 2600})
-        text = good("--batch", f.write("plain.yaml", plain)).out
+        text = good(*WHOLE, f.write("plain.yaml", plain)).out
         expect("*" not in text and "ssumed" not in text, text)
         note = {"kind": "assumed", "text": "guessed by eye"}
         marked = scene(rock={"diameter_m": 0.5, "source": note}, controls=[{"x_m": 75, "accepted_kJ": 50, "source": note}],
                        forest=[{"from_m": 10, "to_m": 60, "stand": stand(source=note)}])
-        text = good("--batch", f.write("marked.yaml", marked)).out
+        text = good(*WHOLE, f.write("marked.yaml", marked)).out
         expect_order(text, r"Rock[^*]*m\*", r"50 kJ\*", r"coppice\*", r"\* Assumed", "guessed by eye")
 
 
@@ -317,20 +317,20 @@ def test_table_changed():
         path = f.write("s.yaml", scene(controls=[{"x_m": 75, "accepted_kJ": 50, "source": note}, {"x_m": 80, "source": note}]))
         for change, said in (("accepted_kJ=60", "; changed since: accepted_kJ"), ("accepted_kJ=50", ""), ("name=road", ""),
                              ("source={kind: assumed}", "")):
-            text = " ".join(good("--batch", path, "-s", f"controls[0].{change}").out.split())
+            text = " ".join(good("--batch", "--details", path, "-s", f"controls[0].{change}").out.split())
             expect_in(f"all a guess{said} (controls[", text, change)
         for change, star in (("x_m=70", "50 kJ*"), ("accepted_kJ=50", "50 kJ*"), ("accepted_kJ=60", "60 kJ\n")):
-            expect_in(f"withstands {star}", good("--batch", path, "-s", f"controls[0].{change}").out, "its star")
-        twice = good("--batch", path, "-s", "controls[0].accepted_kJ=60", "-s", "controls[0].x_m=70", "-s", "controls[0].x_m=71")
+            expect_in(f"withstands {star}", good("--batch", "--details", path, "-s", f"controls[0].{change}").out, "its star")
+        twice = good("--batch", "--details", path, "-s", "controls[0].accepted_kJ=60", "-s", "controls[0].x_m=70", "-s", "controls[0].x_m=71")
         expect_in("all a guess; changed since: accepted_kJ, x_m (controls[0])", " ".join(twice.out.split()))
-        whole = good("--batch", path, "-s", "controls=[{x_m: 75, accepted_kJ: 60}]").out
+        whole = good("--batch", "--details", path, "-s", "controls=[{x_m: 75, accepted_kJ: 60}]").out
         expect("guess" not in whole, whole)
         plain = f.write("plain.yaml", scene(controls=[{"x_m": 75, "accepted_kJ": 60}, {"x_m": 80}]))
         expect_equal(result(path, "-s", "controls[0].accepted_kJ=60")["options"], result(plain)["options"], "figures")
         # the innermost source alone is told; in a list the whole of it; settings have no source
         path = f.write("s.yaml", scene(source={"kind": "assumed", "text": "outer"}, forest=[
             {"from_m": 10, "to_m": 60, "source": {"kind": "assumed", "text": "belt"}, "stand": stand(source=note)}]))
-        text = " ".join(good("--batch", path, "-s", "forest[0].stand.stools.per_ha=1000", "-s",
+        text = " ".join(good("--batch", "--details", path, "-s", "forest[0].stand.stools.per_ha=1000", "-s",
                              "forest[0].stand.trees[0].per_ha=9", "--seed", 5, "-s", "controls[0].x_m=70").out.split())
         for words in ("outer; changed since: controls (the scene)", "belt (forest[0])",
                       "all a guess; changed since: stools.per_ha, trees (forest[0].stand)"):
@@ -342,7 +342,7 @@ def test_table_talus():
     with Folder() as f:
         f.write("line.csv", "distance,elevation\n0,64\n50,30\n100,0\n")
         path = f.write("csv.yaml", scene(slope="line.csv"))
-        expect_in("talus is assumed", good("--batch", path).out.replace("\n", " "), "table")
+        expect_in("talus is assumed", good(*WHOLE, path).out.replace("\n", " "), "table")
         expect_in("talus", result(path)["warnings"][0], "JSON warnings")
         mapping = f.write("map.yaml", scene(slope={"csv": "line.csv", "materials": [
             {"from_m": 0, "to_m": 100, "material": "talus"}]}))

@@ -10,7 +10,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 from harness import (INPUT, USAGE, Folder, Suite, belt, ceduo, expect, expect_equal, expect_in, expect_near, good, result, stand, tests_of,
                      wooded_scene)
-from pages import expect_width
+from pages import WHOLE, expect_width
 from runs import expect_run, through
 
 # So light that a hit takes nothing to speak of, so tall that no rock flies over it: the way is that without forest.
@@ -64,7 +64,7 @@ def extreme(_, wood, rocks, clumps):
                 expect_near(control["wooded"][name], bare[name], 0.003, f"{model}: {name}")
             expect_near(control["wooded"]["energy_kJ"]["mean"], bare["energy_kJ"]["mean"], 0.02 * bare["energy_kJ"]["mean"],
                         f"{model}: such stems take nothing")
-            text = good("--batch", path, "-n", min(rocks, 500), *through(model)).out
+            text = good(*WHOLE, path, "-n", min(rocks, 500), *through(model)).out
             expect("nan" not in text.lower() and "inf " not in text.lower(), text)
             expect_width(text)
 
@@ -300,7 +300,7 @@ def test_dorren_thin():
         expect_run(run)
         expect(any("dorren" in w and "10 cm" in w and "coppice" in w for w in run["options"][0]["stands"][0]["warnings"]),
                run["options"][0]["stands"][0]["warnings"])
-        expect_in("below 10 cm", re.sub(r"\s+", " ", good("--batch", path).out), "page")
+        expect_in("below 10 cm", re.sub(r"\s+", " ", good(*WHOLE, path).out), "page")
         expect_in("below 10 cm", good("--batch", "-f", "csv", path).out, "CSV")
 
 

@@ -11,6 +11,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 from harness import (USAGE, Folder, ceduo, expect, expect_equal, expect_in, expect_near, good, result,  # noqa: E402
                      run_all)
+from pages import WHOLE
 from test_years import belt, coppice, site  # noqa: E402
 
 SHOOTS = (0.16, 0.022, 14, 0.035)  # D, k, H, m of the four presets; assumed, as their files say
@@ -118,7 +119,7 @@ def test_standards_are_no_gift():
     expect(all(abs(v / found[0] - 1) < 0.2 for v in found[:-1]), dict(zip(numbers, found)))
     expect_equal(found[-1], None, "600 standards")
     with Folder() as f:
-        page = " ".join(good("--batch", "--years", "-n", 2, f.write("s.yaml", what)).out.split())
+        page = " ".join(good(*WHOLE, "--years", "-n", 2, f.write("s.yaml", what)).out.split())
     expect_in("'600 standards' keeps more standards than the ground bears (1", page)
     expect_in("Side light, roots and the quality of the wood are not modelled.", page)
 
@@ -187,7 +188,7 @@ def test_page():
     """Page: side by side each option says what it yields a year and what stands, '-' where that is not known"""
     with Folder() as f:
         path = f.write("s.yaml", site(options=[("coppice", [belt(0, 135, coppice())]), ("still", [belt(0, 135, coppice(growth=None))])]))
-        text = good("--batch", "-n", 100, path).out
+        text = good(*WHOLE, "-n", 100, path).out
         found = result("-n", 2, path)["options"][0]["yield"]
     side = text[text.index("Side by side"):]
     expect_in("wood felled per hectare and year", re.sub(r"\s+", " ", side))

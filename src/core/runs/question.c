@@ -16,15 +16,21 @@ struct ceduo_question ceduo_question_default(const struct ceduo_scene *scene)
 #define YEARS_TIMES 6
 #define YEAR_FEWEST 10 /* fewer have no interval */
 
+/* Of a run of so many, where an option has so many years. */
+static uint64_t rocks_in_year(uint64_t wanted, uint64_t all, double years)
+{
+    uint64_t max = (uint64_t)((double)(all * YEARS_TIMES) / years);
+    max = max < YEAR_FEWEST ? YEAR_FEWEST : max;
+    wanted = wanted < max ? wanted : max;
+    return wanted < all ? wanted : all;
+}
+
 static enum ceduo_status simulate_years(const struct ceduo_question *q, struct ceduo_pool *pool, struct ceduo_answer *a)
 {
     const struct ceduo_scene *scene = q->run.scene;
     const struct ceduo_simulated *bare = &a->result->bare;
-    uint64_t all = q->only == CEDUO_ALL_OPTIONS ? bare->rocks : q->rocks;
-    uint64_t rocks = q->year_rocks > 0 && q->year_rocks < all ? q->year_rocks : all;
-    uint64_t max = q->years_most > 0 && q->year_rocks > 0 ? all * YEARS_TIMES / q->years_most : rocks;
-    max = max < YEAR_FEWEST ? YEAR_FEWEST : max;
-    rocks = rocks < max ? rocks : max;
+    uint64_t all = q->only == CEDUO_ALL_OPTIONS ? bare->rocks : q->rocks, rocks = all;
+    size_t n = 0, count = 0; /* options, and years of all of them */
     a->years = calloc(scene->options_count + 1, sizeof *a->years);
     enum ceduo_status status = a->years ? CEDUO_OK : CEDUO_NO_MEMORY;
     a->years_count = scene->options_count;
@@ -36,9 +42,20 @@ static enum ceduo_status simulate_years(const struct ceduo_question *q, struct c
         if (q->years_most > 0)
             window = ceduo_window_of_most(window, q->years_most);
         status = ceduo_years_create(scene, option, window, &a->years[i]);
-        if (status == CEDUO_OK)
-            status = ceduo_years_simulate(a->years[i], pool, bare, rocks);
+        n++;
+        count += status == CEDUO_OK ? a->years[i]->count : 0;
     }
+    bool apart = q->years_rocks > 0 && all > 0 && scene->blocks_count == 0 && scene->simulation.contact_model != CEDUO_INDEX &&
+                 count > n; /* one year of each is today */
+    double mean = (double)count / (double)(n > 0 ? n : 1);
+    if (apart)
+        rocks = rocks_in_year((uint64_t)((double)q->years_rocks / mean), all, mean);
+    else if (q->year_rocks > 0)
+        rocks = rocks_in_year(q->year_rocks, all, q->years_most > 0 ? q->years_most : YEARS_TIMES);
+    for (size_t i = 0; i < scene->options_count && status == CEDUO_OK; i++)
+        if (a->years[i])
+            status = apart ? ceduo_years_simulate_apart(a->years[i], &q->run, bare, rocks)
+                           : ceduo_years_simulate(a->years[i], pool, bare, rocks);
     return status;
 }
 

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/parallel.h"
 #include "ceduo/variants.h"
 #include "core/runs/weighted.h"
 
@@ -150,7 +151,8 @@ static void read_year(const struct years_run *r, struct ceduo_year *y)
 {
     ceduo_simulated_compare(&y->wooded, r->bare);
     ceduo_result_read(&r->years->scene, &y->option, r->bare, &y->wooded, y->stands, y->controls);
-    ceduo_pool_trim(r->pool);
+    if (r->pool)
+        ceduo_pool_trim(r->pool);
 }
 
 static enum ceduo_status make_year(void *context, size_t i, struct ceduo_variant *variant)
@@ -190,23 +192,76 @@ static enum ceduo_status take_year(void *context, size_t i, struct ceduo_run *ru
     return CEDUO_OK;
 }
 
+static bool clear_marks(struct ceduo_years *years, uint64_t rocks)
+{
+    free(years->marks);
+    free(years->weights);
+    years->weights = NULL;
+    years->rocks = 0;
+    years->marked = rocks < CEDUO_PAIRED_ROCKS ? rocks : CEDUO_PAIRED_ROCKS;
+    years->marks = calloc((size_t)years->marked + 1, sizeof *years->marks);
+    return years->marks;
+}
+
 enum ceduo_status ceduo_years_simulate(struct ceduo_years *years, struct ceduo_pool *pool, const struct ceduo_simulated *bare,
                                        uint64_t rocks)
 {
     struct years_run r = {years, pool, bare, years->scene.simulation.contact_model != CEDUO_INDEX ? rocks : 0};
-    if (r.rocks > 0) {
-        free(years->marks);
-        free(years->weights);
-        years->weights = NULL;
-        years->rocks = 0;
-        years->marked = rocks < CEDUO_PAIRED_ROCKS ? rocks : CEDUO_PAIRED_ROCKS;
-        years->marks = calloc((size_t)years->marked + 1, sizeof *years->marks);
-        if (!years->marks)
-            return CEDUO_NO_MEMORY;
-    }
+    if (r.rocks > 0 && !clear_marks(years, rocks))
+        return CEDUO_NO_MEMORY;
     enum ceduo_status status = ceduo_variants_run(
         &(const struct ceduo_variants){.n = years->count, .make = make_year, .read = take_year, .pool = pool, .context = &r});
     years->rocks = status == CEDUO_OK ? r.rocks : years->rocks;
+    return status;
+}
+
+/* ---- rocks of their own ---- */
+
+/* The runs of all years. */
+struct apart {
+    const struct ceduo_years *years;
+    struct ceduo_run_def def;
+    uint64_t rocks;
+    struct ceduo_scene *scenes;
+    struct ceduo_run **runs;
+};
+
+/* Options have the same rocks in years that are as far into their rotations: what differs between them is their forests. */
+static int simulate_apart(void *context, size_t i, size_t worker)
+{
+    const struct apart *a = context;
+    struct ceduo_scene *scene = &a->scenes[i];
+    struct ceduo_run_def def = a->def;
+    (void)worker;
+    *scene = a->years->scene;
+    def.scene = scene;
+    def.option = &a->years->years[i].option;
+    scene->simulation.seed += ((uint64_t)i + 1) << 53; /* which no seed of a scene reaches */
+    enum ceduo_status status = ceduo_run_create(&def, &a->runs[i]);
+    if (status == CEDUO_OK)
+        status = ceduo_run_extend(a->runs[i], a->rocks);
+    return status;
+}
+
+enum ceduo_status ceduo_years_simulate_apart(struct ceduo_years *years, const struct ceduo_run_def *def,
+                                             const struct ceduo_simulated *bare, uint64_t rocks)
+{
+    struct apart a = {years, *def, rocks, calloc(years->count, sizeof *a.scenes), calloc(years->count, sizeof *a.runs)};
+    struct years_run r = {.years = years, .bare = bare, .rocks = rocks};
+    a.def.threads = 1;
+    a.def.rocks_most = rocks;
+    a.def.cells = 0;
+    enum ceduo_status status = a.scenes && a.runs && clear_marks(years, rocks) ? CEDUO_OK : CEDUO_NO_MEMORY;
+    if (status == CEDUO_OK)
+        status = (enum ceduo_status)ceduo_parallel(
+            &(const struct parallel){years->count, def->threads > 0 ? def->threads : 1, simulate_apart, &a});
+    for (size_t i = 0; i < years->count && status == CEDUO_OK; i++)
+        status = take_year(&r, i, a.runs[i], &rocks);
+    for (size_t i = 0; a.runs && i < years->count; i++)
+        ceduo_run_free(a.runs[i]);
+    free(a.runs);
+    free(a.scenes);
+    years->rocks = status == CEDUO_OK ? rocks : years->rocks;
     return status;
 }
 

@@ -1,0 +1,362 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The page that --batch prints: the answer, how sure it is, what it becomes over the years, what was assumed, on one screen.
+ * Of several options a table comes first. What is assumed and what is to be noted takes the lines that are left; how much more
+ * there is is said. */
+#include <math.h>
+#include <string.h>
+
+#include "base/language.h"
+#include "base/utf8.h"
+#include "page_parts.h"
+#include "plot_parts.h"
+
+#define LINES        24 /* of one option */
+#define LINES_SHARED 14 /* of several … */
+#define LINES_OPTION 2  /* … and for each */
+
+/* ---- head ---- */
+
+/* With as much of the rocks as keeps it in one line. */
+static void add_title(struct ceduo_page *page, const struct ceduo_report *report)
+{
+    const struct ceduo_result *r = report->result;
+    const struct ceduo_scene *s = r->scene;
+    const char *title = ceduo_in_language(s->title, s->title_it), *about = ceduo_rock_varies(&s->rock) ? "~" : "";
+    struct text *text = ceduo_page_add(page, CEDUO_PAGE_TITLE);
+    LOCAL_TEXT(rocks);
+    ceduo_text_format(&rocks, " \xe2\x80\x93 ");
+    ceduo_text_format(&rocks, s->blocks_count > 0 ? _("%llu rocks of many sizes") : _("%llu rocks of %s%s m (%s kg)"),
+                      (unsigned long long)ceduo_result_rocks(r), about, WRITTEN(r->rock.mean_diameter, 2),
+                      WRITTEN(r->rock.mass, 3));
+    ceduo_text_put(text, title);
+    for (char *end = rocks.bytes; *end && ceduo_utf8_width(title) + ceduo_utf8_width(rocks.bytes) > page->width;) {
+        end = strrchr(rocks.bytes, '(');
+        end = end ? end - 1 : rocks.bytes;
+        *end = '\0';
+    }
+    ceduo_text_put(text, rocks.bytes);
+}
+
+/* ---- one option ---- */
+
+/* What arrives with stems on the way (NULL: not known) beside what arrives without them; where none stand that alone. */
+static void add_arrivals(struct ceduo_page *page, const struct ceduo_result *r, bool stems)
+{
+    static const struct ceduo_page_column columns[] = {
+        {N_("of 1000 rocks"), 40, 2, 0}, {NP_("head", "without wood"), -14, 0, 0}, {NP_("head", "with the wood"), -16, 0, 0}};
+    const struct ceduo_control *c = &r->scene->controls[r->last_control];
+    const struct ceduo_arrivals *arrivals[] = {&r->bare.arrivals[r->last_control], ceduo_result_wooded(r, 0, r->last_control)};
+    struct ceduo_measure figures[2][4];
+    for (size_t i = 0; i < 2; i++) {
+        figures[i][0] = ceduo_arriving(arrivals[i]);
+        figures[i][1] = ceduo_judged(c, arrivals[i]);
+        figures[i][2] = ceduo_mean_energy(arrivals[i]);
+        figures[i][3] = ceduo_energy_p95(arrivals[i]);
+        figures[i][2].digits = 3; /* as many as the other one */
+    }
+    ceduo_page_table(page, columns, stems ? 3 : 2);
+    for (size_t k = 0; k < 4; k++) {
+        if (k == 1 && isnan(c->accepted))
+            continue;
+        ceduo_measure_name(ceduo_page_text(page), &figures[0][k], CEDUO_PHRASE);
+        for (size_t i = 0; i < (stems ? 2 : 1); i++)
+            ceduo_measure_value(ceduo_page_text(page), &figures[i][k]);
+    }
+    ceduo_page_write(page, "%s", _("stopped by stems, at rest before"));
+    for (size_t i = 0; i < (stems ? 2 : 1); i++)
+        ceduo_page_write(page, arrivals[i] ? "%.0f, %.0f" : "-",
+                         arrivals[i] ? 1000 * arrivals[i]->missed[CEDUO_STOPPED_BY_STEMS] : 0,
+                         arrivals[i] ? 1000 * arrivals[i]->missed[CEDUO_AT_REST] : 0);
+}
+
+static void add_wood(struct ceduo_page *page, const struct ceduo_result *r)
+{
+    static const struct ceduo_page_column columns[] = {
+        {N_("on the way"), 40, 2, 0}, {"", -14, 0, 0}, {NP_("head", "limit"), -15, 0, 0}, {NP_("head", "kept"), -7, 0, 0}};
+    const struct ceduo_index *s = ceduo_result_last_index(r, 0);
+    const char *threshold = SHORTEST(r->scene->simulation.threshold);
+    CEDUO_PAGE_TABLE_OF(page, columns);
+    ceduo_page_write(page, "%s", _("distance between contacts (ADC), m"));
+    ceduo_page_number(page, s->length > 0 ? s->worst_adc : NAN, 3);
+    ceduo_page_write(page, _("below %s"), threshold);
+    ceduo_page_yes(page, s->contact == CEDUO_PASS);
+    ceduo_page_write(page, _("chance of %s m without a contact"), threshold);
+    ceduo_page_percent(page, s->worst_free_run);
+    ceduo_page_write(page, _("at most %.0f %%"), 100 * CEDUO_FREE_RUN_MOST);
+    ceduo_page_yes(page, s->free_run == CEDUO_PASS);
+    ceduo_page_write(page, "%s", _("energy taken by stems, left (index), kJ"));
+    ceduo_page_write(page, "%s, %s", WRITTEN(s->dissipated * J_TO_KJ, 3), WRITTEN(s->residual * J_TO_KJ, 3));
+    ceduo_page_write(page, "%s", "");
+    ceduo_page_write(page, "%s", "");
+}
+
+/* ---- several ---- */
+
+/* Whether the years of any option differ. */
+static bool has_years(const struct ceduo_verdict *v)
+{
+    for (size_t i = 0; i < v->n; i++)
+        if (v->choices[i].years > 0 && v->choices[i].window.kind != CEDUO_WINDOW_ALIKE)
+            return true;
+    return false;
+}
+
+/* Where the doubt of the mean over the years is not known, that of today stands beside today. */
+static bool knows_rotation(const struct ceduo_report *report)
+{
+    return report->doubt && report->doubt->answer && report->doubt->answer->rotation && has_years(report->verdict);
+}
+
+static void add_span(struct ceduo_page *page, const struct ceduo_measure *m)
+{
+    struct text *text = ceduo_page_text(page);
+    if (isnan(m->may_lo))
+        ceduo_text_put(text, "-");
+    else
+        ceduo_measure_span(text, m, m->may_lo, m->may_hi);
+}
+
+/* Over the years, where there are any, and today. */
+static void add_choice(struct ceduo_page *page, const struct ceduo_report *report, size_t i)
+{
+    const struct ceduo_result *r = report->result;
+    const struct ceduo_choice *v = &report->verdict->choices[i];
+    struct ceduo_measure today = ceduo_judged(&r->scene->controls[r->last_control], ceduo_result_wooded(r, i, r->last_control));
+    struct ceduo_measure mean = today;
+    bool years = has_years(report->verdict), known = v->flown > 0 && !v->nothing;
+    ceduo_measure_doubt(&today, report->doubt, i, r->last_control);
+    ceduo_measure_doubt_over(&mean, report->doubt, i);
+    ceduo_page_write(page, "%s", r->scene->options[i].name);
+    if (years)
+        ceduo_page_write(page, known ? "%.0f" : "-", 1000 * v->mean.mean);
+    if (knows_rotation(report))
+        add_span(page, &mean);
+    if (years) {
+        ceduo_page_write(page, known ? "%.0f (%u)" : "-", 1000 * v->worst.mean, v->worst_year);
+        ceduo_page_write(page, known && v->energy_known ? "%zu/%zu" : "-", v->too_much, v->years);
+    }
+    ceduo_measure_value(ceduo_page_text(page), &today);
+    if (!knows_rotation(report))
+        add_span(page, &today);
+    ceduo_page_number(page, ceduo_result_last_index(r, i)->worst_adc, 3);
+    if (years)
+        ceduo_page_number(page, v->yield.cut_per_year, 2);
+}
+
+/* What differs between the options: over the years, and today. */
+static void add_options(struct ceduo_page *page, const struct ceduo_report *report)
+{
+#define MEAN   NP_("head", "over the years"), -5, 0, CEDUO_SPAN
+#define YEARS  NP_("head", "years"), -8, 0, 0
+#define TODAY  NP_("head", "today"), -6, 0, 0
+#define ADC    NP_("head", "ADC"), -6, 0, 0
+#define FELLED NP_("head", "felled"), -7, 0, 0
+    static const struct ceduo_page_column by_today[] = {{"", 26, 2, 0}, {MEAN},          {"", -10, 0, 0}, {YEARS},
+                                                        {TODAY},        {"", -10, 0, 0}, {ADC},           {FELLED}},
+                                          by_mean[] = {{"", 26, 2, 0}, {MEAN},  {"", -10, 0, 0}, {"", -10, 0, 0},
+                                                       {YEARS},        {TODAY}, {ADC},           {FELLED}},
+                                          alone[] = {{"", 26, 2, 0}, {TODAY}, {"", -10, 0, 0}, {ADC}};
+    const char *const below[][8] = {{_("mean"), _("worst"), _("failing"), "", _("may be"), "m", P_("head", "m3/y"), NULL},
+                                    {_("mean"), _("may be"), _("worst"), _("failing"), "", "m", P_("head", "m3/y"), NULL},
+                                    {"", _("may be"), "m", NULL}};
+    const struct ceduo_result *r = report->result;
+    const struct ceduo_measure bare = ceduo_judged(&r->scene->controls[r->last_control], &r->bare.arrivals[r->last_control]);
+    int form = knows_rotation(report) ? 1 : has_years(report->verdict) ? 0 : 2;
+    if (form == 0)
+        CEDUO_PAGE_TABLE_OF(page, by_today);
+    else if (form == 1)
+        CEDUO_PAGE_TABLE_OF(page, by_mean);
+    else
+        CEDUO_PAGE_TABLE_OF(page, alone);
+    ceduo_measure_name(ceduo_page_text(page), &bare, CEDUO_HEAD);
+    for (size_t i = 0; below[form][i]; i++)
+        ceduo_page_write(page, "%s", below[form][i]);
+    for (size_t i = 0; i < r->scene->options_count; i++)
+        add_choice(page, report, i);
+    ceduo_page_write(page, "%s", _("without forest"));
+    for (size_t i = 0; below[form][i]; i++) {
+        struct text *text = ceduo_page_text(page);
+        if (!below[form][i][0]) /* today */
+            ceduo_measure_value(text, &bare);
+    }
+}
+
+/* ---- what is assumed, and what is to be noted ---- */
+
+static void warn_unmet(void *page, bool met, const char *sentence)
+{
+    if (!met)
+        ceduo_page_warn_once(page, sentence);
+}
+
+static void gather_notes(struct ceduo_page *notes, const struct ceduo_report *report)
+{
+    const struct ceduo_result *r = report->result;
+    struct ceduo_run_remarks remarks = report->remarks;
+    size_t thin = 0, n = r->scene->options_count;
+    remarks.nothing_said = true; /* the answer says it */
+    for (size_t i = 0; r->scene->controls_count > 0 && i < n; i++) {
+        const struct ceduo_index *s = ceduo_result_last_index(r, i);
+        thin += ceduo_index_hangs_on_thin(s);
+        if (i == 0 && !isnan(s->measured))
+            ceduo_page_say(notes, CEDUO_PAGE_WARNING, _("One rock that was measured here had %s kJ."),
+                           WRITTEN(s->measured * J_TO_KJ, 3));
+    }
+    if (thin > 0 && n > 1)
+        ceduo_page_say(notes, CEDUO_PAGE_WARNING,
+                       _("Without shoots below %g cm the distance of contacts or the free run fails in %zu of %zu options."),
+                       CEDUO_THICK_DBH * 100, thin, n);
+    else if (thin > 0)
+        ceduo_page_say(notes, CEDUO_PAGE_WARNING,
+                       _("Without shoots below %g cm the distance of contacts or the free run fails."), CEDUO_THICK_DBH * 100);
+    for (size_t i = 0; i < n; i++)
+        for (size_t k = 0; k < r->scene->options[i].belts_count; k++)
+            ceduo_words_rules(&r->scene->options[i].belts[k], &r->options[i].stands[k].rules, warn_unmet, notes);
+    if (n > 1 && report->verdict && report->verdict->choices[0].years > 0)
+        ceduo_words_windows(r->scene, report->verdict, ceduo_page_warn_once, notes);
+    for (size_t i = 0; i < n; i++)
+        for (size_t k = 0; k < r->scene->options[i].belts_count; k++)
+            ceduo_words_stand_warnings(r->scene, &r->scene->options[i].belts[k], &r->options[i].stands[k], ceduo_page_warn_once,
+                                       notes);
+    ceduo_words_run_warnings(r, &remarks, ceduo_page_warn_once, notes);
+}
+
+static bool keeps_within(const struct ceduo_page *page, const struct text *text, size_t lines)
+{
+    struct ceduo_page one = {.width = page->width};
+    ceduo_text_put(ceduo_page_add(&one, CEDUO_PAGE_POINT), text->bytes);
+    size_t taken = ceduo_page_lines(&one);
+    ceduo_page_free(&one);
+    return taken <= lines;
+}
+
+/* A label, the first sentences (warnings) or other texts, and how many more there are. */
+static void compose(struct text *text, const char *label, const struct ceduo_page *sentences, size_t n)
+{
+    size_t k = 0, more = 0;
+    ceduo_text_free(text);
+    ceduo_text_format(text, "%s\t", label);
+    for (const struct ceduo_page_block *b = sentences->first; b; b = b->next, k++) {
+        if (k < n)
+            ceduo_text_format(text, "%s%s", k == 0 ? "" : b->kind == CEDUO_PAGE_WARNING ? " " : "; ", b->text.bytes);
+        else
+            more++;
+    }
+    if (more > 0)
+        ceduo_text_format(text, _(" (%zu more)"), more);
+}
+
+/* Adds as many of the sentences as keep within so many lines; the first is cut where even that has no room. */
+static void add_sentences(struct ceduo_page *page, const char *label, const struct ceduo_page *sentences, size_t lines)
+{
+    static const char cut[] = " \xe2\x80\xa6";
+    size_t n = 0;
+    LOCAL_TEXT(text);
+    for (const struct ceduo_page_block *b = sentences->first; b; b = b->next)
+        n++;
+    if (n == 0)
+        return;
+    for (compose(&text, label, sentences, n); n > 1 && !keeps_within(page, &text, lines);)
+        compose(&text, label, sentences, --n);
+    while (!keeps_within(page, &text, lines)) {
+        char *end = text.bytes + text.length;
+        end -= strcmp(end - (sizeof cut - 1), cut) == 0 ? sizeof cut - 1 : 0;
+        while (end[-1] != ' ' && end[-1] != '\t')
+            end--;
+        if (end[-1] == '\t')
+            break;
+        text.length = (size_t)(end - 1 - text.bytes);
+        text.bytes[text.length] = '\0';
+        ceduo_text_put(&text, cut);
+    }
+    ceduo_text_put(ceduo_page_add(page, CEDUO_PAGE_POINT), text.bytes);
+}
+
+/* Lines of all sentences of it. */
+static size_t lines_of(const struct ceduo_page *page, const char *label, const struct ceduo_page *sentences, size_t most)
+{
+    struct ceduo_page one = {.width = page->width};
+    add_sentences(&one, label, sentences, most);
+    size_t n = ceduo_page_lines(&one);
+    ceduo_page_free(&one);
+    return n;
+}
+
+/* False where nothing that is to be noted has room. */
+static bool add_rest(struct ceduo_page *page, const struct ceduo_report *report, size_t lines)
+{
+    struct ceduo_page assumed = {0}, notes = {0};
+    size_t taken = ceduo_page_lines(page) + 1; /* and a last one for what more there is */
+    size_t left = lines > taken + 1 ? lines - taken : 1;
+    ceduo_page_assumed(&assumed, report, false);
+    gather_notes(&notes, report);
+    size_t wanted = lines_of(page, _("ASSUMED *"), &assumed, SIZE_MAX), noted = lines_of(page, _("NOTE"), &notes, SIZE_MAX);
+    size_t share =
+        noted + 1 > left ? 1 : left - noted; /* what is to be noted goes before what is assumed, but for a line or two */
+    share = share < 2 && left > 3 ? 2 : share;
+    share = share < wanted ? share : wanted;
+    add_sentences(page, _("ASSUMED *"), &assumed, share);
+    if (share < left)
+        add_sentences(page, _("NOTE"), &notes, left - share);
+    ceduo_page_free(&assumed);
+    ceduo_page_free(&notes);
+    return share < left || noted == 0;
+}
+
+void ceduo_page_short(struct ceduo_page *page, const struct ceduo_report *report)
+{
+    const struct ceduo_result *r = report->result;
+    size_t n = r->scene->options_count;
+    bool nothing = ceduo_page_says_nothing(r);
+    add_title(page, report);
+    ceduo_page_question(page, r);
+    if (n == 1)
+        ceduo_page_add(page, CEDUO_PAGE_GAP);
+    if (n > 1 && !nothing && r->wooded)
+        add_options(page, report);
+    else if (n > 1 && !nothing)
+        ceduo_page_today(page, r);
+    ceduo_page_answer(page, report);
+    if (r->scene->blocks_count > 0 && !nothing)
+        ceduo_words_hazard(ceduo_page_add(page, CEDUO_PAGE_ANSWER), r, ceduo_result_best(r, report->verdict), r->last_control);
+    if (n == 1 && !nothing) {
+        ceduo_page_add(page, CEDUO_PAGE_GAP);
+        add_arrivals(page, r, ceduo_plot_has_stems(&r->scene->options[0]));
+        if (ceduo_plot_has_stems(&r->scene->options[0]))
+            add_wood(page, r);
+    }
+    ceduo_page_sure(page, report);
+    ceduo_page_over(page, report);
+    bool noted = add_rest(page, report, n > 1 ? LINES_SHARED + LINES_OPTION * n : LINES);
+    for (size_t i = 0; report->years && !nothing && i < n; i++) { /* they were asked for */
+        ceduo_page_say(page, CEDUO_PAGE_SECTION, "%s", r->scene->options[i].name);
+        ceduo_page_years(page, report, i);
+    }
+    ceduo_page_say(page, CEDUO_PAGE_POINT, "%s\t--details%s, --sensitivity, --report page.html; %s", _("MORE"),
+                   noted ? "" : _(" (notes)"), _("as screens: ceduo SCENE"));
+}
+
+/* ---- several scenes ---- */
+
+#define SCENE_WIDTH 32 /* columns of a scene's name */
+
+void ceduo_page_verdicts(struct ceduo_page *page, const struct ceduo_report *report)
+{
+    static const struct ceduo_page_column columns[] = {{N_("scene"), SCENE_WIDTH, 0, CEDUO_WHOLE},
+                                                       {NP_("head", "answer"), 0, 1, 0}};
+    const struct ceduo_result *r = report->result;
+    size_t n = r->scene->options_count;
+    if (!page->first)
+        CEDUO_PAGE_TABLE_OF(page, columns);
+    ceduo_page_write(page, "%s", ceduo_in_language(r->scene->title, r->scene->title_it));
+    if (n > 1)
+        ceduo_page_write(page, "%s", "");
+    for (size_t i = 0; i < n; i++) {
+        if (n > 1)
+            ceduo_page_write(page, "  %s", r->scene->options[i].name);
+        if (r->scene->controls_count > 0)
+            ceduo_words_answer(ceduo_page_text(page), r, i, r->last_control, report->doubt, page->width - SCENE_WIDTH - 1);
+        else
+            ceduo_page_write(page, "-");
+    }
+}

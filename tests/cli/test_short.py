@@ -1,0 +1,124 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The short page that --batch prints: the page of each scene that comes with the program as it is in pages/*.txt, its lines at any
+width, and that its figures are those of JSON and of --sensitivity. `test_short.py --write` writes pages/*.txt again: read them
+aloud, as who must sign them would."""
+import re
+import sys
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+from harness import PROFILES, Folder, expect, expect_equal, expect_in, good, result, run_all, wooded_scene
+from pages import WHOLE, expect_width
+from runs import FOUR, PAPER, through
+
+PAGES = Path(__file__).resolve().parent / "pages"
+SCENES = sorted((PROFILES / "scenes").glob("*.yaml"))
+ROCKS = 200
+LAWS = re.compile(r"(?i)\b(brauner|dorren|inertia|lumped|crsp|arm|gsteiger|crofton|interception|poisson|eq\.)\b")
+
+
+def page_of(scene, *arguments):
+    return good("--batch", "-n", ROCKS, *arguments, scene).out
+
+
+def above(page):
+    """What stands above what is assumed."""
+    return re.split(r"(?m)^(?:ASSUMED|IPOTESI|NOTE|NOTA|MORE|ALTRO) ", page)[0]
+
+
+def test_golden():
+    """The pages of the scenes that come with the program, a file each"""
+    for scene in SCENES:
+        wanted = (PAGES / f"{scene.stem}.txt").read_text(encoding="utf-8")
+        expect_equal(page_of(scene), wanted, scene.name)
+
+
+def test_lines():
+    """One screen of one option, 14 lines and 2 for each of several, no wider than 80, in both languages and in ASCII"""
+    for scene in SCENES:
+        options = len(result(scene, "-n", 2)["options"])
+        for language, locale in (("en", "C.UTF-8"), ("it", "C.UTF-8"), ("en", "C")):
+            page = good("--batch", "-n", 20, "--language", language, scene, env={"LC_ALL": locale}).out
+            lines = page.splitlines()
+            expect(len(lines) <= (24 if options == 1 else 14 + 2 * options), f"{len(lines)} lines", page)
+            expect_width(page)
+            expect(not LAWS.search(above(page)), "a law or an equation is named", page)
+            marks = page.count("?") if locale == "C.UTF-8" and language == "en" else page.count("?") - marks if locale == "C" else marks
+        expect_equal(marks, 0, "question marks in the place of what ASCII lacks")
+
+
+def test_figures():
+    """What the page says is what JSON holds: of 1000 with both errors, energies, ADC, what is stopped"""
+    run, page = result("-n", ROCKS, PAPER), page_of(PAPER)
+    control = run["options"][0]["controls"][0]
+    wood, bare, index = (control[k] for k in ("wooded", "bare", "index"))
+    rows = [("arrive", bare["reach_probability"] * 1000, wood["reach_probability"] * 1000),
+            ("arrive with more than 50 kJ", bare["exceed_probability"] * 1000, wood["exceed_probability"] * 1000)]
+    for name, one, two in rows:
+        expect(re.search(rf"^  {name} +{one:.0f} +{two:.0f}$", page, re.M), name, page)
+    expect(re.search(rf"mean energy of those that arrive, kJ +{bare['energy_kJ']['mean']:.3g} +{wood['energy_kJ']['mean']:.3g}$", page, re.M), page)
+    expect(re.search(rf"95 % of those stay below, kJ +{bare['energy_kJ']['p95']:.3g} +{wood['energy_kJ']['p95']:.3g}$", page, re.M), page)
+    expect(re.search(rf"left \(index\), kJ +{index['dissipated_kJ']:.3g}, {index['residual_kJ']:.3g}$", page, re.M), page)
+    expect(re.search(r"\(ADC\), m +2\.61 +below 30 +yes$", page, re.M), page)
+    lo, hi = int(wood["exceed_lo"] * 1000), -int(-wood["exceed_hi"] * 1000 // 1)
+    expect_in(f"HOW SURE  {lo}–{hi} by the number of rocks ({ROCKS}); ", page)
+    doubt = next(f for f in good("--sensitivity", "-f", "json", "-n", ROCKS, PAPER).json()[0]["figures"] if f["figure"] == "exceed_probability")
+    band = f"{1000 * doubt['doubt_p5']:.0f}–{1000 * doubt['doubt_p95']:.0f}"
+    expect_in(f"may be {band}\n", page, "the answer's doubt")
+    expect_in(f"; {band} by what is not known.", " ".join(page.split()), "how sure")
+
+
+def test_answers():
+    """Yes, no, it depends, nothing, no limit: each has its words, and says what is not known where that was not computed"""
+    with Folder() as f:
+        def first(**changes):
+            return next(line for line in page_of(f.write("s.yaml", {**wooded_scene(), **changes})).splitlines() if line.startswith("  "))
+        road = {"x_m": 110, "name": "road"}
+        expect(re.match(r"  ✔ YES: 0 of 1000 arrive with more than 1000 kJ", first(controls=[{**road, "accepted_kJ": 1e3}])), "yes")
+        expect(re.match(r"  ✘ NO: \d+ of 1000 arrive with more than 0.01 kJ", first(controls=[{**road, "accepted_kJ": 0.01}])), "no")
+        expect(re.match(r"  \d+ of 1000 arrive \(\d+ without the wood\)", first(controls=[road])), "no limit")
+        expect_in("the index leaves ", first(simulation={"contact_model": "index", "rocks": 200}, controls=[{"x_m": 110}]))
+    expect_in("what is not known was not computed, because the scene says 'doubt: none'.", " ".join(page_of(PAPER, "-s", "doubt=none").split()))
+    expect(re.search(r"\? IT DEPENDS: \d+ of 1000 arrive with more than 110 kJ", page_of(PAPER, "-s", "controls[0].accepted_kJ=110")), "depends")
+    page = " ".join(page_of(FOUR, *through("index")).split())
+    expect("of what may be true" not in page and "no column decides alone" in page, page)
+
+
+def test_several_scenes():
+    """Several scenes: a table of their verdicts, then their pages as each alone has; of one that is left no table"""
+    pages = [page_of(scene) for scene in (PAPER, "road-below")]
+    both = good("--batch", "-n", ROCKS, PAPER, "road-below").out
+    expect(both.endswith("\n\n" + "\n".join(pages)), both)
+    table = both[:-len("\n".join(pages))]
+    expect_equal([re.sub(r"(?s).*?(✘|\?) (NO|IT DEPENDS): .*", r"\1 \2", line) for line in table.splitlines() if ": " in line],
+                 ["✘ NO", "? IT DEPENDS", "? IT DEPENDS", "? IT DEPENDS"])
+    expect_width(table)
+
+
+def test_bounded():
+    """-n bounds everything that the page simulates, and the page says with how many rocks; more text than a screen is cut with a sign"""
+    page = good("--batch", "-n", 7, FOUR).out
+    expect_in("(7)", page)
+    expect_in("(7 each)", " ".join(page.split()))
+    long = "a very long remark that goes on and on, " * 9
+    page = page_of(PAPER, "-s", f"controls[0].source.text={long}", "-s", "controls[0].source.kind=assumed")
+    expect(len(page.splitlines()) <= 24 and re.search(r"ASSUMED \* .* …$", page, re.M), page)
+
+
+def test_details():
+    """--details holds the answer, too, and says nothing twice: the slope without forest once, not once for each option"""
+    text = good(*WHOLE, "-n", 50, FOUR).out
+    sentences = re.findall(r"[A-Z][^.:]{30,}[.:]", " ".join(text.split()))
+    expect_equal(len(re.findall(r"(?m)^    without forest ", text)), 1, "rows without forest")
+    expect_equal(len(re.findall(r"(?m)^    bare, ", text)), 1, "percentiles without forest")
+    twice = {s for s in sentences if sentences.count(s) > 1 and "lets the fewest" in s}
+    expect(not twice, twice)
+
+
+if __name__ == "__main__":
+    if "--write" in sys.argv:
+        for each in SCENES:
+            (PAGES / f"{each.stem}.txt").write_text(page_of(each), encoding="utf-8")
+    else:
+        run_all(__name__)
