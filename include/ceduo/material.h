@@ -8,6 +8,7 @@
 /* A row of the library of grounds: the means of published ranges. Friction is not part of the sources: assumed. */
 struct ceduo_material {
     const char *name;
+    const char *what; /* it is, marked for translation */
     double rn, rn_lo, rn_hi;
     double rt, rt_lo, rt_hi;
     double roughness_rad; /* assumed: the sources give none */

@@ -392,7 +392,7 @@ static void draw_fields(struct app *app, struct popup *p)
     in.height -= (int)p->fields_count;
     struct ceduo_area first = {in.left, in.top, in.width, in.height < 2 ? in.height : 2};
     ceduo_app_text(app, first, CEDUO_ROLE_WARN, p->message, NULL);
-    if (p->picture && !p->offers[p->at] && !p->message[0])
+    if (p->picture && (!p->offers[p->at] || p->picker.matches == 0) && !p->message[0])
         p->picture(app, p, (struct ceduo_area){in.left, in.top + 1, in.width, in.height - 1});
     else if (!p->message[0])
         draw_picks(app, p, (struct ceduo_area){in.left + 2, in.top + 1, in.width - 2, in.height - 1});

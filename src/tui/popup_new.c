@@ -122,23 +122,34 @@ static void guess_face(struct popup *p, const struct answers *a)
         set_number(&p->fields[NEW_FACE], place_of(s, s->x[end]));
 }
 
+/* The segment that falls most. */
+static size_t steepest_of(const struct ceduo_slope *s)
+{
+    size_t steepest = 0;
+    for (size_t j = 1; j + 1 < s->vertices; j++)
+        if (ceduo_slope_fall(s, s->x[j]) > ceduo_slope_fall(s, s->x[steepest]))
+            steepest = j;
+    return steepest;
+}
+
+static double degrees_at(const struct ceduo_slope *s, double x)
+{
+    return atan(ceduo_slope_fall(s, x)) * 180 / M_PI;
+}
+
 /* What is known of the profile, over the fields. */
 static void describe(struct popup *p, const struct answers *a)
 {
     const struct ceduo_slope *s = &a->profile.scene.slope;
-    size_t n = s->vertices - 1, steepest = 0;
-    for (size_t j = 1; j < n; j++)
-        if (ceduo_slope_fall(s, s->x[j]) > ceduo_slope_fall(s, s->x[steepest]))
-            steepest = j;
-    double at = s->x[steepest], degrees = 180 / M_PI;
+    double at = s->x[steepest_of(s)];
     ceduo_text_free(&p->text);
     ceduo_text_format(&p->text, _("The profile is %.4g m long and falls by %.4g m; it is steepest at %.4g m, %.0f\xc2\xb0."),
-                      s->x[n], -s->z[n], at + s->origin_x, atan(ceduo_slope_fall(s, at)) * degrees);
+                      s->x[s->vertices - 1], -s->z[s->vertices - 1], at + s->origin_x, degrees_at(s, at));
     if (s->reversed)
         ceduo_text_then(&p->text, " ", "%s", _("It was drawn upward and is turned round."));
     if (a->release >= a->first && a->release < a->last)
         ceduo_text_then(&p->text, " ", _("Rocks start at %.4g m, on %.0f\xc2\xb0."), a->release,
-                        atan(ceduo_slope_fall(s, a->release - s->origin_x)) * degrees);
+                        degrees_at(s, a->release - s->origin_x));
 }
 
 /* ---- reading ---- */
@@ -293,17 +304,38 @@ static bool filled_new(struct app *app, struct popup *p)
     return good;
 }
 
-/* The profile as far as it is known, with the release and, ruled, the lower end of the face. */
+/* Ends of a stretch of the slope in the lowest line of its picture, its name between or behind them. */
+static void draw_stretch(struct app *app, const struct ceduo_area *area, const struct ceduo_span *span, double from, double to,
+                         const char *name)
+{
+    int y = area->top + area->height - 1, right = span->left + span->width - 1;
+    int a = span->left + (int)((from - span->x0) / (span->x1 - span->x0) * (span->width - 1));
+    int b = span->left + (int)((to - span->x0) / (span->x1 - span->x0) * (span->width - 1));
+    ceduo_cells_clear_area(app->cells, (struct ceduo_area){area->left, y, area->width, 1});
+    for (int x = a; x <= b; x++)
+        ceduo_app_label(app, x, y, CEDUO_ROLE_AXIS, "%s", x == a ? "\xe2\x94\x9c" : x == b ? "\xe2\x94\xa4" : "\xe2\x94\x80");
+    int n = ceduo_cells_label_width(app->charset, name), at = b + 2 + n <= right ? b + 2 : a - 1 - n;
+    ceduo_app_label(app, at > area->left ? at : area->left, y, CEDUO_ROLE_AXIS, "%s", name);
+}
+
+/* The profile as far as it is known: the release, the lower end of the face ruled, the steepest stretch below. */
 static void draw_profile(struct app *app, struct popup *p, struct ceduo_area area)
 {
     struct answers a = {.release = NAN};
-    bool good = p->at > NEW_PROFILE && read_answers(app, p, NEW_RELEASE, &a);
-    double face = good && read_place(app, p, &a, NEW_FACE, &a.face) ? a.face - a.first : NAN;
+    bool good = p->at >= NEW_PROFILE && read_answers(app, p, p->at == NEW_PROFILE ? NEW_PROFILE : NEW_RELEASE, &a);
+    double face = good && p->at > NEW_PROFILE && read_place(app, p, &a, NEW_FACE, &a.face) ? a.face - a.first : NAN;
     app->message[0] = '\0';
     if (good) {
-        a.profile.scene.release.x.mean = a.release - a.first;
+        const struct ceduo_slope *s = &a.profile.scene.slope;
+        size_t j = steepest_of(s);
+        struct ceduo_span span = {0};
+        if (!isnan(a.release))
+            a.profile.scene.release.x.mean = a.release - a.first;
         ceduo_plot_draw(CEDUO_PLOT_PROFILE, &app->cells->canvas, &area,
-                        &(struct ceduo_picture){.scene = &a.profile.scene, .mark = face > 0 ? &face : NULL});
+                        &(struct ceduo_picture){.scene = &a.profile.scene, .mark = face > 0 ? &face : NULL, .span = &span});
+        if (span.width > 0)
+            draw_stretch(app, &area, &span, s->x[j], s->x[j + 1],
+                         ceduo_app_format(app, _("steepest, %.0f\xc2\xb0"), degrees_at(s, s->x[j])));
     }
     release_answers(&a);
 }

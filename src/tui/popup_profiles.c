@@ -307,7 +307,12 @@ void ceduo_popup_offer_stands(struct app *app, struct popup *p, const char *type
 static void add_word(struct popup *p, const struct field *f, const char *word, const char *now)
 {
     struct text shown = {0};
+    size_t n;
+    const struct ceduo_material *grounds = ceduo_materials(&n);
+    int ground = f->choices == &ceduo_material_words ? ceduo_choice_find(f->choices, word) : -1;
     ceduo_shown_value(f, word, &shown);
+    if (ground >= 0)
+        ceduo_text_format(&shown, ": %s", _(grounds[ground].what));
     ceduo_picker_add(&p->picker, ceduo_text_string(&shown), word, now && strcmp(word, now) == 0);
     ceduo_text_free(&shown);
 }

@@ -232,6 +232,34 @@ def test_stands():
     wide.whole().lacks("Marche")
 
 
+def test_new_is_drawn():
+    """n draws the profile as it is typed, turned round where it rises, its steepest stretch marked, then release and face; grounds
+    are explained beside their names"""
+    degrees = round(math.degrees(math.atan(35 / 10)))
+    with Place() as place:
+        typed, known, ground, taken = place.play("""key n
+            key Enter Ctrl-U
+            type 0 0, 50 30, 60 65, 70 90
+            dump
+            key Enter
+            dump
+            key Enter Enter
+            dump
+            type talus
+            key Enter Enter Enter Enter Enter
+            dump""")
+    for screen in (typed, known):
+        screen.whole().has(f"┤ steepest, {degrees}°")
+    typed.lacks("▼ release")
+    known.has("70 m long and falls by 90 m", f"steepest at 10 m, {degrees}°", "turned round", "Rocks start at 0 m, on 68°", "▼ release")
+    line = next(line for line in known.lines if "steepest," in line and "├" in line)
+    axis = next(line for line in known.lines if re.search(r"0 m +10 +20 +30", line))
+    for sign, number in (("├", "10"), ("┤", "20")):
+        expect(abs(line.index(sign) - axis.index(f" {number} ") - 1) <= 1, f"the stretch from 10 to 20 m begins and ends at the axis' marks", known)
+    ground.has("talus: loose blocks", "colluvium: a deep cover of soil and stones")
+    taken.lacks("New scene").has("My slope")
+
+
 def test_starts():
     """p in view 3 takes over the rock of another scene, or how it starts but not where, each as one edit that u takes back"""
     with Place() as place:
