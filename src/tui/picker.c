@@ -33,7 +33,12 @@ void ceduo_picker_add(struct picker *p, const char *text, const char *value, boo
     if (now)
         p->at = p->matches;
     p->order[p->matches++] = p->count;
-    p->picks[p->count++] = (struct pick){shown, ceduo_arena_string(&p->arena, value), now, 0};
+    p->picks[p->count++] = (struct pick){shown, ceduo_arena_string(&p->arena, value), shown, now, 0};
+}
+
+void ceduo_picker_name(struct picker *p, const char *name)
+{
+    p->picks[p->count - 1].name = ceduo_arena_string(&p->arena, name);
 }
 
 bool ceduo_picker_has(const struct picker *p, const char *value)
@@ -61,7 +66,7 @@ void ceduo_picker_filter(struct picker *p, const char *typed)
     p->top = 0;
     for (size_t i = 0; i < p->count; i++) {
         struct pick *pick = &p->picks[i];
-        pick->match = ceduo_fuzzy_match(typed, pick->text);
+        pick->match = ceduo_fuzzy_match(typed, pick->name);
         if (pick->match >= 0)
             insert(p, i);
     }

@@ -11,7 +11,8 @@
 
 struct pick {
     const char *text, *value;
-    bool now; /* what is there at present */
+    const char *name; /* the part of the text that what is typed is held against */
+    bool now;         /* what is there at present */
     int match;
 };
 
@@ -29,6 +30,9 @@ void ceduo_picker_clear(struct picker *picker);
 
 /* Adds an item; a text that is not safe to print is shown with \xHH. `now`: the cursor goes there. */
 void ceduo_picker_add(struct picker *picker, const char *text, const char *value, bool now);
+
+/* Only this name of the item that was added last is searched in, not what is said of it. */
+void ceduo_picker_name(struct picker *picker, const char *name);
 
 /* Whether a value is there already. */
 bool ceduo_picker_has(const struct picker *picker, const char *value);

@@ -67,9 +67,11 @@ static const char *describe_stand(const struct app *app, const char *value, cons
 static void add_file(const struct app *app, struct popup *p, const char *name, const char *value, const char *about,
                      const char *now)
 {
-    const char *line = about[0] ? ceduo_app_format(app, "%-*s %s", ceduo_utf8_field(name, 33), name, about) : name;
-    if (!ceduo_picker_has(&p->picker, value))
-        ceduo_picker_add(&p->picker, line, value, now && strcmp(now, value) == 0);
+    if (ceduo_picker_has(&p->picker, value))
+        return;
+    ceduo_picker_add(&p->picker, about[0] ? ceduo_app_format(app, "%-*s %s", ceduo_utf8_field(name, 33), name, about) : name,
+                     value, now && strcmp(now, value) == 0);
+    ceduo_picker_name(&p->picker, name);
 }
 
 #define HEAD_BYTES 4096 /* where a file says what it is */
@@ -311,9 +313,11 @@ static void add_word(struct popup *p, const struct field *f, const char *word, c
     const struct ceduo_material *grounds = ceduo_materials(&n);
     int ground = f->choices == &ceduo_material_words ? ceduo_choice_find(f->choices, word) : -1;
     ceduo_shown_value(f, word, &shown);
+    const char *name = ceduo_arena_string(&p->arena, ceduo_text_string(&shown));
     if (ground >= 0)
         ceduo_text_format(&shown, ": %s", _(grounds[ground].what));
     ceduo_picker_add(&p->picker, ceduo_text_string(&shown), word, now && strcmp(word, now) == 0);
+    ceduo_picker_name(&p->picker, name);
     ceduo_text_free(&shown);
 }
 
@@ -384,7 +388,7 @@ static void add_start(struct app *app, struct popup *p, const char *words, const
     for (size_t i = 0; i < p->picker.count; i++)
         if (strncmp(p->picker.picks[i].text, words, strlen(words)) == 0)
             return;
-    add_file(app, p, words, value, of, NULL);
+    ceduo_popup_item(p, ceduo_app_format(app, "%-*s %s", ceduo_utf8_field(words, 27), words, of), value);
 }
 
 static void add_starts(struct app *app, struct popup *p, const char *path, const char *name)
