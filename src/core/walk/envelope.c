@@ -15,7 +15,7 @@ static size_t first_of(int quantity)
 
 static double middle_of(int quantity, size_t bin)
 {
-    return bin == 0 ? 0 : ldexp(1 + ((double)(bin & 31) + 0.5) / 32, (int)(bin >> 5)) * envelope_least[quantity];
+    return bin == 0 ? 0 : ldexp(1 + ((double)(bin & 31) + 0.5) / 32, (int)(bin >> 5)) * envelope_min[quantity];
 }
 
 /* ---- rows ---- */

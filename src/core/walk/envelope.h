@@ -13,8 +13,8 @@
 #define ENVELOPE_VECTOR     8 /* numbers that a vector may read or write behind the last cell */
 
 /* The smallest octaves begin at a millimetre, or a millimetre a second, and at 1/16 J. */
-static const double envelope_least[ENVELOPE_QUANTITIES] = {0x1p-10, 0x1p-10, 0x1p-4};
-static const double envelope_most[ENVELOPE_QUANTITIES] = {0x1.fffffffffffffp29, 0x1.fffffffffffffp29, 0x1.fffffffffffffp35};
+static const double envelope_min[ENVELOPE_QUANTITIES] = {0x1p-10, 0x1p-10, 0x1p-4};
+static const double envelope_max[ENVELOPE_QUANTITIES] = {0x1.fffffffffffffp29, 0x1.fffffffffffffp29, 0x1.fffffffffffffp35};
 
 /* What is counted of a value within them: its exponent, and the first 5 bits behind the point. */
 #define ENVELOPE_SHIFT 47
@@ -57,10 +57,10 @@ void ceduo_envelope_read(const struct envelope_cell *cell, struct ceduo_envelope
 /* What is counted of a value. */
 static inline uint16_t envelope_place(int quantity, double value)
 {
-    double least = envelope_least[quantity], most = envelope_most[quantity];
+    double min = envelope_min[quantity], max = envelope_max[quantity];
     uint64_t bits;
-    value = value > least ? value : least;
-    value = value < most ? value : most;
+    value = value > min ? value : min;
+    value = value < max ? value : max;
     memcpy(&bits, &value, sizeof bits);
     return (uint16_t)(bits >> ENVELOPE_SHIFT);
 }

@@ -17,14 +17,14 @@ HOT struct chord chord_at(const struct ground *g, size_t j, double m)
     return (struct chord){.x0 = g->at[j].x, .z0 = g->at[j].z, .x1 = g->at[j + 1].x, .z1 = g->at[j + 1].z, .m = m};
 }
 
-/* The contact with segment j, which the flight meets before time t_most. */
-HOT struct landing land_on(const struct ground *g, const struct flight *f, size_t j, double t_most, bool blocks)
+/* The contact with segment j, which the flight meets before time t_max. */
+HOT struct landing land_on(const struct ground *g, const struct flight *f, size_t j, double t_max, bool blocks)
 {
     if (blocks)
         __builtin_prefetch(&g->segments[j]);
     const struct chord on = chord_at(g, j, slope_of(g, j, blocks));
     double c = f->on_ground && j == f->segment ? 0 : f->z - (on.z0 + on.m * (f->x - on.x0));
-    double t = min(t_most, later_root(c, f->vz - on.m * f->vx, g->gravity)); /* it may be NaN where vx is hardly more than 0 */
+    double t = min(t_max, later_root(c, f->vz - on.m * f->vx, g->gravity)); /* it may be NaN where vx is hardly more than 0 */
     struct landing l = {.t = t, .x = f->x + f->vx * t, .z = height_after(f->z, f->vz, g->half_g, t), .segment = j};
     onto_chord(&on, is_steep(on.m), is_steep(on.m), true, &l.x, &l.z);
     return l;
@@ -70,12 +70,12 @@ SELDOM __attribute__((unused)) struct landing land_far(const struct ground *g, c
                                                        int dir, double inv)
 {
     size_t last = dir > 0 ? g->n : 0, barrier = SIZE_MAX; /* end of the block that may not be passed as a whole */
-    int level = 0, most = g->top;
+    int level = 0, max = g->top;
     double xp = g->at[p].x, zp = g->at[p].z; /* kept, for a vertex far away is not at hand */
     while (p != last) {
         if (p == barrier)
-            most = g->top;
-        level = level < most ? level + 1 : most;
+            max = g->top;
+        level = level < max ? level + 1 : max;
         for (;;) {
             int shift = GROUND_BITS * level;
             size_t i = (dir > 0 ? p : p - 1) >> shift;
@@ -106,7 +106,7 @@ SELDOM __attribute__((unused)) struct landing land_far(const struct ground *g, c
             if (level == 0)
                 return land_on(g, f, i, t, true);
             barrier = q;
-            most = --level;
+            max = --level;
         }
     }
     return land_nowhere(g, f, dir, inv);

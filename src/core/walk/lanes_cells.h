@@ -12,7 +12,7 @@
 HOT mask note_cells(const struct envelope_row *row, int q, size_t cell, real value)
 {
     typedef uint16_t places __attribute__((vector_size(2 * REAL_LANES)));
-    real within = min(max(value, all(envelope_least[q])), all(envelope_most[q]));
+    real within = min(max(value, all(envelope_min[q])), all(envelope_max[q]));
     places upper = __builtin_convertvector(as_ints(within) >> ENVELOPE_SHIFT, places);
     memcpy(&row->at[q][cell], &upper, sizeof upper);
     return less(load(&row->max[q][cell]), value);

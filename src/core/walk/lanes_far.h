@@ -11,25 +11,25 @@
 
 /* A flight in one lane, and the last vertex (from 0) which it is known to clear. The vertices from there on are looked
  * at in blocks of a level. */
-struct quest {
+struct far_search {
     double x, z, vz, inv;
     uint64_t vertex;
 };
 
-HOT double above_one(const struct lanes *k, const struct quest *f, double x, double z)
+HOT double above_one(const struct lanes *k, const struct far_search *f, double x, double z)
 {
     double t = (x - f->x) * f->inv;
     return (f->z + (f->vz - k->g->half_g * t) * t) - z;
 }
 
-HOT real above_all(const struct lanes *k, const struct quest *f, real x, real z)
+HOT real above_all(const struct lanes *k, const struct far_search *f, real x, real z)
 {
     real t = (x - f->x) * f->inv;
     return height_after(all(f->z), all(f->vz), k->g->half_g, t) - z;
 }
 
 /* At which of the next vertices the flight would be under the ground; bit 0 is the one at `to`. */
-HOT unsigned vertices_under(const struct lanes *k, const struct quest *f, const double (*to)[2])
+HOT unsigned vertices_under(const struct lanes *k, const struct far_search *f, const double (*to)[2])
 {
     unsigned under = 0;
     for (unsigned at = 0; at < GROUND_GROUP; at += REAL_LANES) {
@@ -41,7 +41,7 @@ HOT unsigned vertices_under(const struct lanes *k, const struct quest *f, const 
 }
 
 /* Which blocks from `b` on the flight may touch. */
-HOT unsigned blocks_under(const struct lanes *k, const struct quest *f, const struct ground_block *b)
+HOT unsigned blocks_under(const struct lanes *k, const struct far_search *f, const struct ground_block *b)
 {
     unsigned under = 0;
     for (unsigned at = 0; at < GROUND_GROUP; at += REAL_LANES, b += REAL_LANES) {
@@ -55,7 +55,7 @@ HOT unsigned blocks_under(const struct lanes *k, const struct quest *f, const st
 }
 
 /* Looks at the vertices up to the end of their block; whether the flight lands before one. */
-HOT bool quest_vertices(const struct lanes *k, struct quest *f)
+HOT bool search_vertices(const struct lanes *k, struct far_search *f)
 {
     unsigned count = (GROUP_LAST + 1) - (f->vertex & GROUP_LAST);
     unsigned under = vertices_under(k, f, k->ground->place.pairs + f->vertex + 2) & ((1u << count) - 1);
@@ -64,7 +64,7 @@ HOT bool quest_vertices(const struct lanes *k, struct quest *f)
 }
 
 /* Looks at the blocks up to the end of the larger one which they are part of; the level to go on at. */
-HOT int quest_blocks(const struct lanes *k, struct quest *f, int level)
+HOT int search_blocks(const struct lanes *k, struct far_search *f, int level)
 {
     int shift = GROUND_BITS * level;
     uint64_t i = f->vertex >> shift, there = (k->g->n >> shift) - i, count = (GROUP_LAST + 1) - (i & GROUP_LAST);
@@ -78,7 +78,7 @@ HOT int quest_blocks(const struct lanes *k, struct quest *f, int level)
 }
 
 /* What the flight looks at when it is its turn again, and a little more of vertices. */
-HOT void fetch_for(const struct lanes *k, const struct quest *f, int level)
+HOT void fetch_for(const struct lanes *k, const struct far_search *f, int level)
 {
     const char *from = level == 0 ? (const char *)(k->ground->place.pairs + f->vertex + 2)
                                   : (const char *)(k->g->levels[level] + (f->vertex >> GROUND_BITS * level));
@@ -87,19 +87,19 @@ HOT void fetch_for(const struct lanes *k, const struct quest *f, int level)
 }
 
 /* One look of each flight that is at a level; at[l]: those of level l. Returns those that have come to where they land. */
-HOT unsigned look_at_level(const struct lanes *k, struct quest *quests, int level, unsigned at[GROUND_LEVELS])
+HOT unsigned look_at_level(const struct lanes *k, struct far_search *searches, int level, unsigned at[GROUND_LEVELS])
 {
     unsigned left = at[level], landed = 0;
     at[level] = 0;
     for (; left; left &= left - 1) {
         size_t i = (size_t)__builtin_ctz(left);
-        struct quest *f = &quests[i];
-        if (level == 0 && quest_vertices(k, f)) {
+        struct far_search *f = &searches[i];
+        if (level == 0 && search_vertices(k, f)) {
             landed |= 1u << i;
             __builtin_prefetch(&k->g->segments[f->vertex]); /* where it lands */
             continue;
         }
-        int next = level == 0 ? 1 : quest_blocks(k, f, level);
+        int next = level == 0 ? 1 : search_blocks(k, f, level);
         at[next] |= 1u << i;
         fetch_for(k, f, next);
     }
@@ -110,22 +110,22 @@ HOT unsigned look_at_level(const struct lanes *k, struct quest *quests, int leve
  * again, all flights of a level at a time. */
 SELDOM void search_far(struct lanes *k, unsigned lanes)
 {
-    struct quest quests[LANES];
+    struct far_search searches[LANES];
     unsigned at[GROUND_LEVELS] = {lanes};
     for (size_t i = 0; i < LANES; i++) {
-        quests[i] = (struct quest){k->x[i], k->z[i], k->vz[i], k->inv[i], k->vertex[i] - 1};
+        searches[i] = (struct far_search){k->x[i], k->z[i], k->vz[i], k->inv[i], k->vertex[i] - 1};
         if (lanes >> i & 1)
-            fetch_for(k, &quests[i], 0);
+            fetch_for(k, &searches[i], 0);
     }
     for (unsigned left = lanes; left;) {
         for (int level = 0; level <= k->g->top; level++)
-            left &= ~look_at_level(k, quests, level, at);
+            left &= ~look_at_level(k, searches, level, at);
         for (int level = k->g->top; level >= 0; level--)
-            left &= ~look_at_level(k, quests, level, at);
+            left &= ~look_at_level(k, searches, level, at);
     }
     for (; lanes; lanes &= lanes - 1) {
         size_t i = (size_t)__builtin_ctz(lanes);
-        k->vertex[i] = quests[i].vertex + 1;
+        k->vertex[i] = searches[i].vertex + 1;
     }
 }
 

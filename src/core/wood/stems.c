@@ -94,7 +94,7 @@ static bool make_room(struct stems *s, struct stems_side *side, size_t more)
 }
 
 /* Puts a stem among those waiting, for which there is room, in the order they are come to. */
-static inline void put_in(struct stems *s, struct stems_side *side, const struct stem *stem)
+static inline void insert_stem(struct stems *s, struct stems_side *side, const struct stem *stem)
 {
     size_t end = side->end++, i = end;
     for (; i > side->first && side->waiting[i - 1].along > stem->along; i--)
@@ -109,7 +109,7 @@ static __attribute__((noinline)) void turn_behind(struct stems *s, struct stem s
 {
     stem.along = -stem.along;
     if (make_room(s, &s->side[1], 1))
-        put_in(s, &s->side[1], &stem);
+        insert_stem(s, &s->side[1], &stem);
 }
 
 /* Puts a stem that was drawn for a side among those waiting; there is room. */
@@ -125,7 +125,7 @@ static void let_wait(struct stems *s, int i_side, struct stem *stem)
     if (behind)
         turn_behind(s, *stem);
     else
-        put_in(s, side, stem);
+        insert_stem(s, side, stem);
 }
 
 /* Draws the next places of a stream, of which none are left; the first of them, infinite where there is none. */
