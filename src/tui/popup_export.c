@@ -43,6 +43,16 @@ static void show_command(struct app *app, struct popup *p, const char *value)
         ceduo_text_put(&p->text, _("\nThere is unsaved work: s saves it first.\n"));
 }
 
+/* How sure it is, where that is known already, is part of the page. */
+static void put_page(struct app *app, struct text *text)
+{
+    struct ceduo_report report = ceduo_app_report(app);
+    struct ceduo_doubt_report doubt;
+    if (ceduo_app_doubt(app, &doubt))
+        report.doubt = &doubt;
+    ceduo_report_short(text, &report, app->charset == CEDUO_CHARSET_ASCII);
+}
+
 static void put_table(struct app *app, struct text *text)
 {
     struct ceduo_report report = ceduo_app_report(app);
@@ -102,7 +112,8 @@ static void put_screen(struct app *app, struct text *text)
 static const struct {
     const char *name, *file, *what;
     void (*put)(struct app *app, struct text *text); /* NULL: it is shown, not written */
-} exports[] = {{"table", "ceduo.txt", N_("the page, as text"), put_table},
+} exports[] = {{"page", "ceduo.txt", N_("the page, as text"), put_page},
+               {"table", "ceduo-details.txt", N_("the whole page with all figures, as text"), put_table},
                {"picture", "ceduo-screen.txt", N_("this screen, with its picture, as text"), put_screen},
                {"csv", "ceduo.csv", N_("CSV, a row for each option and control"), put_csv},
                {"json", "ceduo.json", N_("JSON"), put_json},

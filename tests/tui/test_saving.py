@@ -306,7 +306,7 @@ def test_save_as_then_quit():
 # ---- export ----
 
 def test_export():
-    """w: page, screen, CSV and JSON in files; over an existing one it asks."""
+    """w: the page, the whole page, screen, CSV and JSON in files; over an existing one it asks."""
     with Place() as place:
         screens = place.play("""wait idle
             dump
@@ -317,12 +317,13 @@ def test_export():
             key Enter
             dump
             key w Down Enter Enter
-            key w Down Down Enter Ctrl-U
+            key w Down Down Enter Enter
+            key w Down Down Down Enter Ctrl-U
             type table.csv
             key Enter
-            key w Down Down Down Enter Enter
             key w Down Down Down Down Enter Enter
             key w Down Down Down Down Down Enter Enter
+            key w Down Down Down Down Down Down Enter Enter
             clear
             key w Enter Enter
             dump
@@ -331,19 +332,22 @@ def test_export():
             type no/such/file.txt
             key Enter
             dump""", "options.yaml")
-        screens[1].has("the page, as text", "this screen, with its picture", "CSV", "JSON", "the batch command")
+        screens[1].has("the page, as text", "the whole page", "this screen, with its picture", "CSV", "JSON", "the batch command")
         screens[2].has("Export to a file", "ceduo.txt")
         expect_in("written: ceduo.txt", screens[3].note)
         screens[4].has("Enter once more replaces it")
         screens[5].has("No such file or directory")
-        page = place.text("ceduo.txt")
-        for part in ("fast", "thick", "thin", "none left", "At 80 m"):
+        page, whole = place.text("ceduo.txt"), place.text("ceduo-details.txt")
+        for part in ("thick", "thin", "none left"):
             expect_in(part, page, "the page")
+        for part in ("fast", "thick", "thin", "none left", "At 80 m"):
+            expect_in(part, whole, "the whole page")
+        expect(page.count("\n") < whole.count("\n"), "the page is the short one", page, whole)
         expect_equal(place.text("ceduo-screen.txt"), screens[0].text, "the screen as a file")
         rows = place.text("table.csv").splitlines()
         expect(rows[0].startswith("scene,title,") and len(rows) == 1 + 3 * 2, rows)
         report, drawing = place.text("ceduo.html"), place.text("ceduo-screen.svg")
-        for part in ("<h1>", "thick", "none left", "ceduo --report report.html -n ", "not computed for this page"):
+        for part in ("<h1>", "thick", "none left", "ceduo --report report.html -n ", "was not computed"):
             expect_in(part, report, "the report")
         expect_in("textLength", drawing, "the screen as a drawing")
         line = json.loads(place.text("ceduo.json"))
