@@ -204,17 +204,21 @@ void ceduo_popup_quit(struct app *app)
 
 #define RECOVERY "recover:" /* before the path of the copy */
 
-static void add_recovery(const struct app *app, struct popup *p, const struct recovery *r)
+/* `key`: what chooses it; 0: it is searched for. */
+static void add_recovery(const struct app *app, struct popup *p, const struct recovery *r, char key)
 {
     char date[32] = "";
     struct tm tm;
     if (localtime_r(&r->when, &tm))
         strftime(date, sizeof date, "%Y-%m-%d %H:%M", &tm);
     const char *slash = r->scene ? strrchr(r->scene, '/') : NULL;
-    ceduo_popup_item(p,
-                     ceduo_app_format(app, _("unsaved work of %s: %s, %s"), date, r->title[0] ? r->title : _("no title"),
-                                      slash ? slash + 1 : _("never saved")),
-                     ceduo_app_format(app, RECOVERY "%s", r->file));
+    const char *words = ceduo_app_format(app, _("unsaved work of %s: %s, %s"), date, r->title[0] ? r->title : _("no title"),
+                                         slash ? slash + 1 : _("never saved"));
+    const char *value = ceduo_app_format(app, RECOVERY "%s", r->file);
+    if (key)
+        ceduo_popup_answer(p, key, words, value);
+    else
+        ceduo_popup_item(p, words, value);
 }
 
 void ceduo_popup_offer_recoveries(const struct app *app, struct popup *p)
@@ -222,7 +226,7 @@ void ceduo_popup_offer_recoveries(const struct app *app, struct popup *p)
     size_t n;
     struct recovery *list = ceduo_recovery_list(&p->arena, &n);
     for (size_t i = 0; i < n; i++)
-        add_recovery(app, p, &list[i]);
+        add_recovery(app, p, &list[i], 0);
 }
 
 /* Whether a copy is of this scene. */
@@ -290,12 +294,13 @@ void ceduo_popup_recover(struct app *app)
         due += is_due(app, &list[i]);
     if (due > 0) {
         struct popup *p = ceduo_popup_list(app, _("Unsaved work was left behind"), chose_recover);
+        char key = '1';
         for (int other = 0; other < 2; other++)
-            for (size_t i = 0; i < n; i++)
+            for (size_t i = 0; i < n && key <= '9'; i++)
                 if (is_due(app, &list[i]) == !other)
-                    add_recovery(app, p, &list[i]);
-        ceduo_popup_item(p, _("leave it for later: o lists it, too"), "");
-        ceduo_popup_item(p, n > 1 ? _("forget all of it") : _("forget it"), "forget");
+                    add_recovery(app, p, &list[i], key++);
+        ceduo_popup_answer(p, 'n', _("leave it for later: o lists it, too"), "");
+        ceduo_popup_answer(p, 'f', n > 1 ? _("forget all of it") : _("forget it"), "forget");
     }
     ceduo_arena_free(&arena);
 }
