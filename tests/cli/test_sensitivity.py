@@ -6,6 +6,7 @@ import html
 import io
 import json
 import math
+import random
 import re
 
 from harness import DONE, INPUT, USAGE, Folder, ceduo, expect, good, expect_equal, expect_in, expect_near, run_all, scene, stand
@@ -340,6 +341,92 @@ def test_many():
         page = " ".join(ceduo("--sensitivity=4", "-n", 20, path).out.split())
         expect_in("There are too few points to say what it depends on", page)
         expect("Measure first" not in page, page)
+
+
+GROWTH = {"shoots": {"dbh_most_m": 0.16, "dbh_rate_1_y": 0.03, "height_most_m": 14, "height_rate_1_y": 0.04},
+          "trees": {"dbh_most_m": 0.45, "dbh_rate_1_y": 0.02, "height_most_m": 20, "height_rate_1_y": 0.03},
+          "shoots_young": 10, "shoots_old": 3}
+
+
+def coppice(shoots, stay):
+    """Cut every eight years, measured throughout; its shoots as old as that, or just cut"""
+    return stand(stools={"per_ha": 2500, "spacing_m": 0.35}, trees=[{"per_ha": stay, "dbh_m": 0.2, "height_m": 12, "volume_m3": 0.2}],
+                 shoots=[{"per_ha": 7500, "dbh_m": 0.04, "height_m": 5, "volume_m3": 0.004, "age_y": 8}] if shoots else None,
+                 energy=ENERGY, growth=GROWTH, cutting={"rotation_years": 8, "stay_per_ha": [stay]})
+
+
+def rotating(**changes):
+    """Two woods that are cut, with what is in doubt of both"""
+    options = [{"name": n, "forest": [{"from_m": 0, "to_m": 80, "stand": coppice(True, stay)}]} for n, stay in (("few", 50), ("many", 200))]
+    what = measured(options=options, controls=[{"x_m": 90, "accepted_kJ": 120}],
+                    doubt=[{"path": p, "lo": lo, "hi": hi} for p, (lo, hi) in ROTATING.items()], **changes)
+    del what["forest"]
+    return what
+
+
+ROTATING = {"rock.density_kg_m3": (2000, 3000), "options[*].forest[0].stand.energy.u_J_m3": (5e4, 2e5)}
+
+
+def test_over_a_rotation_as_scenes_at_random():
+    """--years: the mean over a rotation, of options and of their difference, as of 40 scenes drawn at random, within three errors"""
+    result = answer(rotating(), "--years", "--sensitivity=128", "-n", 100)
+    figures = {(f["option"], f["against"]): f for f in result["figures"] if f["figure"] == "rotation.exceed_probability"}
+    expect_equal(len(figures), 3)
+    names, draw, seen = ("few", "many"), random.Random(3), {k: [] for k in figures}
+    with Folder() as f:
+        path = f.write("s.yaml", rotating())
+        for _ in range(40):
+            u = {p: draw.uniform(lo, hi) for p, (lo, hi) in ROTATING.items()}
+            sets = [x for p, v in u.items() for k in ((0, 1) if "*" in p else (0,)) for x in ("-s", f"{p.replace('*', str(k))}={v!r}")]
+            run = good("-b", "--years", "-f", "json", "-n", 150, *sets, path).json()[0]
+            means = [o["rotation"]["exceed_probability"]["mean"] for o in run["options"]]
+            errors = [o["rotation"]["exceed_probability"]["se"] for o in run["options"]]
+            for (option, against), all_seen in seen.items():
+                i = names.index(option)
+                all_seen.append(means[i] - means[0] if against else means[i])
+    for key, figure in figures.items():
+        for share, name in ((0.05, "doubt_p5"), (0.5, "doubt_p50"), (0.95, "doubt_p95")):
+            off = 3 * math.hypot(max(figure["doubt_p5_se"], figure["doubt_p95_se"]), max(errors))
+            chance = 3 * math.sqrt(share * (1 - share) / 40)
+            below = [sum(x <= figure[name] + side for x in seen[key]) / 40 for side in (-off, off)]
+            expect(below[0] <= share + chance and below[1] >= share - chance, key, name, figure[name], off, below)
+    spread = max(seen[names[0], None]) - min(seen[names[0], None])
+    expect(0.4 * spread < figures[names[0], None]["doubt_p95"] - figures[names[0], None]["doubt_p5"] < 1.2 * spread, spread, figures)
+
+
+def test_over_a_rotation():
+    """--years: two figures more, their ranks, and years that are given; without an accepted energy what arrives, by the index none"""
+    result = answer(rotating(), "--years", "-n", 32)
+    expect_equal(sorted({f["figure"] for f in result["figures"]})[-2:], ["rotation.exceed_probability", "rotation.unprotected_energy"])
+    expect_equal(len(result["figures"]), 3 * 5)
+    (rank,) = result["ranking"]
+    expect_equal((rank["over"], round(rank["probability"] + rank["equal"] + rank["worse"], 9)), ("rotation", 1))
+    expect_equal(answer(rotating(), "-n", 32)["ranking"][0]["over"], "today")
+    cut = figure(answer(rotating(), "--years=1:2", "-n", 32), "rotation.exceed_probability")
+    full = figure(result, "rotation.exceed_probability")
+    expect(cut["value"] > full["value"] and cut["doubt_p50"] > full["doubt_p50"], "two years just after the cut", cut, full)
+    years = figure(answer(rotating(), "--years=1:2", "-n", 32), "rotation.unprotected_energy")
+    expect_equal((years["value"], years["doubt_p5"], years["doubt_p95"]), (2, 2, 2))
+    expect_equal({i["at_lo"] for i in full["inputs"]}, {None})
+    what = rotating()
+    del what["controls"][0]["accepted_kJ"]
+    arrives = answer(what, "--years=1:2", "-n", 32)
+    expect_equal([f["figure"] for f in arrives["figures"] if "rotation" in f["figure"]], ["rotation.reach_probability"] * 3)
+    expect_equal({f["within"] for f in arrives["figures"]}, {None})
+    what["simulation"] = {**what.get("simulation", {}), "contact_model": "index"}
+    none = answer(what, "--years", "-n", 32)
+    expect(not any("rotation" in f["figure"] for f in none["figures"]) and none["ranking"][0]["over"] == "today", none["ranking"])
+
+
+def test_stools_that_were_just_cut():
+    """Stools of a stand without shoots live on, whatever of the stand is in doubt: the rotation after is that of the grown stand"""
+    for shoots in (True, False):
+        what = measured(forest=[{"from_m": 0, "to_m": 80, "stand": coppice(shoots, 50)}], controls=[{"x_m": 90, "accepted_kJ": 120}],
+                        doubt=[{"path": "rock.density_kg_m3", "lo": 2599, "hi": 2601}])
+        mean = figure(answer(what, "--years", "-n", 32), "rotation.exceed_probability")
+        expect_near(mean["doubt_p50"], mean["value"], 3 * math.hypot(mean["doubt_p5_se"], (mean["sampling_hi"] - mean["value"]) / 2), shoots)
+        grown = mean if shoots else grown
+        expect_near(mean["doubt_p50"], grown["doubt_p50"], 1e-9, "the same rotation")
 
 
 def test_ranking():

@@ -10,6 +10,7 @@
 #include "physics/paper_site.h"
 #include "study/inputs.h"
 #include "study/snapshot.h"
+#include "study/sure.h"
 #include "study/verdict.h"
 
 /* ---- runs ---- */
@@ -293,6 +294,39 @@ static bool doubt(void)
         .scene = &site.scene, .inputs_count = 2, .inputs = inputs, .points = 16, .rocks = 16, .threads = 2});
 }
 
+static bool doubt_over_years(void)
+{
+    init(CEDUO_STEMS, CEDUO_LAW_LUMPED);
+    return ask_doubt(&(struct ceduo_doubt_def){.scene = &site.scene,
+                                               .inputs_count = 2,
+                                               .inputs = inputs,
+                                               .points = 8,
+                                               .rocks = 16,
+                                               .rotation = true,
+                                               .window = {.first = 1, .last = 2, .step = 1},
+                                               .threads = 2});
+}
+
+static bool sure(void)
+{
+    struct sure_answer answer = {.above = 0};
+    init(CEDUO_STEMS, CEDUO_LAW_LUMPED);
+    enum ceduo_status status = ceduo_sure_ask(&(const struct sure_def){.scene = &site.scene,
+                                                                       .inputs_count = 2,
+                                                                       .inputs = inputs,
+                                                                       .goal = CEDUO_GOAL_ARRIVE,
+                                                                       .target = .5,
+                                                                       .sure = .9,
+                                                                       .points = 8,
+                                                                       .rocks = 16,
+                                                                       .threads = 2},
+                                              &answer);
+    if (status == CEDUO_OK)
+        add(&answer.above, sizeof answer.above);
+    assert_true(status == CEDUO_OK || status == CEDUO_NO_MEMORY);
+    return status == CEDUO_OK;
+}
+
 /* What was told of a doubt on two threads: the first time something happens meanwhile. */
 static struct {
     void (*meanwhile)(void);
@@ -571,8 +605,9 @@ TEST(runs_go_on)
 
 TEST(what_stands_on_runs)
 {
-    task *const tasks[] = {question, years_of_blocks, ask_by_index, ask_both_laws, doubt,       copy_belts,  ask_of_one_option,
-                           assess,   assess_index,    follow,       follow_one,    follow_roll, record_roll, find};
+    task *const tasks[] = {question,   years_of_blocks, ask_by_index,      ask_both_laws, doubt,        doubt_over_years,
+                           sure,       copy_belts,      ask_of_one_option, assess,        assess_index, follow,
+                           follow_one, follow_roll,     record_roll,       find};
     for (size_t i = 0; i < sizeof tasks / sizeof tasks[0]; i++)
         without_memory(tasks[i]);
 }
