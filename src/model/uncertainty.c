@@ -6,7 +6,9 @@
 static const struct {
     size_t points;
     uint64_t rocks;
-} levels[UNCERTAINTY_LEVELS] = {{64, 100}, {CEDUO_DOUBT_POINTS, CEDUO_DOUBT_ROCKS}};
+    bool rotation;
+} levels[UNCERTAINTY_ROTATION] = {
+    {64, 100, false}, {CEDUO_DOUBT_POINTS, CEDUO_DOUBT_ROCKS, false}, {CEDUO_DOUBT_POINTS, CEDUO_DOUBT_ROCKS, true}};
 
 enum ceduo_status ceduo_uncertainty_make(const struct scene_file *file, size_t level, unsigned threads,
                                          const atomic_bool *cancel, struct uncertainty **uncertainty)
@@ -21,6 +23,7 @@ enum ceduo_status ceduo_uncertainty_make(const struct scene_file *file, size_t l
                                         .inputs = u->inputs.items,
                                         .points = u->points,
                                         .rocks = u->rocks,
+                                        .rotation = levels[level].rotation,
                                         .threads = threads,
                                         .cancel = cancel};
     if (status == CEDUO_OK && u->inputs.n > 0)

@@ -5,8 +5,10 @@
 #include "ceduo/doubt.h"
 #include "io/doubt_inputs.h"
 
-/* What doubt does to the scene of the live program, in levels from coarse to fine. */
-#define UNCERTAINTY_LEVELS 2
+/* What doubt does to the scene of the live program, in levels from coarse to fine; after those of today one that has the rotation
+ * of each option as well (`rotation` of the answer, ceduo_doubt_verdict()) and takes some seconds. */
+#define UNCERTAINTY_LEVELS   2
+#define UNCERTAINTY_ROTATION 3
 
 struct uncertainty {
     struct scene_file file; /* as it was; its nodes are the document's */

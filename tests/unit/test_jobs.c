@@ -178,6 +178,12 @@ TEST_WITH(the_uncertainty_comes_last, set_up, tear_down)
     assert_non_null(results.uncertainty); /* without a control there is nothing to be in doubt of */
     assert_int_equal(results.uncertainty->inputs.n, 0);
     file.scene.controls_count = 1;
+    ceduo_jobs_stop(jobs, JOB_UNCERTAINTY);
+    assert_true(ceduo_jobs_doubt(jobs, &file, UNCERTAINTY_ROTATION));
+    ceduo_jobs_wait(jobs);
+    take();
+    assert_int_equal(results.uncertainty->level, UNCERTAINTY_ROTATION - 1);
+    assert_true(results.uncertainty->answer.rotation);
 }
 
 /* What is stopped ends soon, and nothing comes of it. */
