@@ -418,6 +418,13 @@ def test_over_a_rotation():
     expect(not any("rotation" in f["figure"] for f in none["figures"]) and none["ranking"][0]["over"] == "today", none["ranking"])
 
 
+def test_a_year_as_today():
+    """A forest that neither grows nor is cut has one year, which is today's"""
+    result = answer(measured(doubt=[DENSITY]), "--years", "-n", 400)
+    today, mean = figure(result, "exceed_probability"), figure(result, "rotation.exceed_probability")
+    expect_equal([today[k] for k in ("doubt_p5", "doubt_p50", "doubt_p95")], [mean[k] for k in ("doubt_p5", "doubt_p50", "doubt_p95")])
+
+
 def test_stools_that_were_just_cut():
     """Stools of a stand without shoots live on, whatever of the stand is in doubt: the rotation after is that of the grown stand"""
     for shoots in (True, False):
