@@ -15,7 +15,7 @@ struct node {
     enum node_kind kind;
     bool quoted;                   /* a scalar in quotes: text, never a number */
     bool flow;                     /* a mapping or list in brackets */
-    bool broken;                   /* a reference that leads nowhere, or a mapping that starts from one: told already */
+    bool broken;                   /* a reference that leads nowhere, or a mapping that starts from one: reported already */
     uint32_t line, column;         /* of the value, from 1 */
     uint32_t end_line, end_column; /* of a scalar, or what is in brackets: just after it */
     uint32_t key_line, key_column; /* of its key; 0: none */

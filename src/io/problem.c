@@ -96,16 +96,6 @@ static void print_message(struct text *out, const char *message)
     ceduo_text_safe_n(out, message + tail, n - tail);
 }
 
-/* By place and message. A file that is used in two places has its faults once. */
-static bool is_known(struct problems *problems, uint64_t hash)
-{
-    for (size_t i = 0; i + sizeof hash <= problems->known.length; i += sizeof hash)
-        if (memcmp(problems->known.bytes + i, &hash, sizeof hash) == 0)
-            return true;
-    ceduo_text_add(&problems->known, (const char *)&hash, sizeof hash);
-    return false;
-}
-
 /* The same for all items of a list and whatever numbers the words hold. */
 static uint64_t kind_of(const struct source *source, const char *path, const char *words)
 {
@@ -151,7 +141,13 @@ __attribute__((format(printf, 4, 0))) static void add(struct problems *problems,
     print_message(&one, ceduo_text_string(&whole));
     ceduo_text_char(&one, '\n');
     uint64_t hash = kind_of(source, path, ceduo_text_string(&message));
-    bool known = is_known(problems, hash_bytes(ceduo_text_string(&one), one.length));
+    uint64_t place_and_words =
+        hash_bytes(ceduo_text_string(&one), one.length); /* a file used in two places has its faults once */
+    bool known = false;
+    for (size_t i = 0; i + sizeof hash <= problems->known.length && !known; i += sizeof hash)
+        known = memcmp(problems->known.bytes + i, &place_and_words, sizeof hash) == 0;
+    if (!known)
+        ceduo_text_add(&problems->known, (const char *)&place_and_words, sizeof hash);
     while (k < problems->kinds_count && problems->kinds[k].hash != hash)
         k++;
     struct problem_kind *kind = &problems->kinds[k];

@@ -47,7 +47,7 @@ struct problems {
     size_t met; /* with those that were known already: whether a step went well */
     size_t kinds_count;
     struct problem_kind kinds[CEDUO_PROBLEMS_MOST];
-    struct text known; /* hashes of those told of */
+    struct text known; /* hashes of those reported */
     bool usage;        /* at least one is about the command line */
     bool memory;       /* memory ran out: the list may lack some */
 };

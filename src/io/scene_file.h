@@ -33,7 +33,7 @@ void ceduo_scene_release(struct scene_file *file);
 /* The scene of a document that was read before: sets `file->scene` from `file->root`. */
 bool ceduo_scene_bind(struct scene_file *file, struct problems *problems);
 
-/* Changes one value. `set` is PATH=VALUE; problems are told as those of the option of the command line. */
+/* Changes one value. `set` is PATH=VALUE; problems are reported as those of the option of the command line. */
 bool ceduo_scene_set(struct scene_file *file, const char *option, const char *set, struct problems *problems);
 
 /* True where the note of a value (ceduo_notes_find()) calls it an assumption. */

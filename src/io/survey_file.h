@@ -14,11 +14,11 @@ struct survey_file {
     struct ceduo_survey survey;
 };
 
-/* Reads and checks a survey; what it holds lies in the arena. False where something is wrong, which is told. */
+/* Reads and checks a survey; what it holds lies in the arena. False where something is wrong, which is reported. */
 bool ceduo_survey_read(struct survey_file *file, struct arena *arena, const char *path, struct problems *problems);
 
 /* Adds the stand as a YAML file: what the survey says, with its standard errors as `doubt`, and what had to be assumed. False
- * where there is none: densities that no forest has, which is told, or no memory. */
+ * where there is none: densities that no forest has, which is reported, or no memory. */
 bool ceduo_survey_stand(const struct survey_file *file, struct text *yaml, struct problems *problems);
 
 #endif

@@ -374,7 +374,7 @@ static const struct field *find_fitted(struct validator *v, const char *path, bo
     return v->arena->failed ? NULL : field;
 }
 
-/* The places that one path in the head of a column sets; it must name one. Of a foreign table only the beginning is told. */
+/* The places that one path in the head of a column sets; it must name one. Of a foreign table only the beginning is shown. */
 static bool take_path(struct draws *t, size_t column, char *path)
 {
     struct validator *v = t->v;

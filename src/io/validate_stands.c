@@ -20,7 +20,7 @@ static void check_spreads(struct validator *v, const char *path, const char *lis
                            ceduo_decimal(v, stems[i].dbh_sd), ceduo_decimal(v, stems[i].dbh));
 }
 
-/* Whether a value that is needed is not there; one that could not be read is told already. */
+/* Whether a value that is needed is not there; one that could not be read is reported already. */
 static bool lacks(struct validator *v, double value, const char *path, const char *key)
 {
     return isnan(value) && ceduo_is_known(v, "%s%s", path, key);

@@ -104,15 +104,6 @@ static struct ceduo_result *allocate(const struct ceduo_scene *scene)
     return NULL;
 }
 
-static enum ceduo_judgement judge_other(const struct ceduo_arrivals *bare, const struct ceduo_arrivals *wooded,
-                                        const struct ceduo_other_energy *other)
-{
-    enum ceduo_judgement one = ceduo_judge(bare, wooded);
-    enum ceduo_judgement two = ceduo_judge_share(other->exceed_probability, other->exceed_lo, other->exceed_hi);
-    bool differ = (one == CEDUO_YES && two == CEDUO_NO) || (one == CEDUO_NO && two == CEDUO_YES);
-    return one == CEDUO_NOTHING ? one : differ ? CEDUO_DEPENDS : two;
-}
-
 /* Assesses every option of a result whose runs are read; otherwise frees it. */
 static enum ceduo_status finish(struct ceduo_result *r, enum ceduo_status status, struct ceduo_result **result)
 {
@@ -125,11 +116,17 @@ static enum ceduo_status finish(struct ceduo_result *r, enum ceduo_status status
         else
             status = copy(&r->bare, &o->wooded);
         ceduo_simulated_compare(&o->wooded, &r->bare);
-        for (size_t c = 0; c < scene->controls_count; c++)
+        for (size_t c = 0; c < scene->controls_count; c++) {
+            struct ceduo_other_energy *other = &o->others[c];
             if (!r->wooded)
                 o->differences[c] = ceduo_no_difference(scene->controls[c].accepted);
-            else if (o->others[c].known)
-                o->others[c].judgement = judge_other(&r->bare.arrivals[c], ceduo_result_wooded(r, i, c), &o->others[c]);
+            if (!r->wooded || !other->known)
+                continue;
+            enum ceduo_judgement one = ceduo_judge(&r->bare.arrivals[c], ceduo_result_wooded(r, i, c));
+            enum ceduo_judgement two = ceduo_judge_share(other->exceed_probability, other->exceed_lo, other->exceed_hi);
+            bool differ = (one == CEDUO_YES && two == CEDUO_NO) || (one == CEDUO_NO && two == CEDUO_YES);
+            other->judgement = one == CEDUO_NOTHING ? one : differ ? CEDUO_DEPENDS : two;
+        }
         ceduo_result_read(scene, &scene->options[i], &r->bare, r->wooded ? &o->wooded : &none, o->stands, o->controls);
     }
     if (status == CEDUO_OK)
