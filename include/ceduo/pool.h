@@ -41,9 +41,9 @@ enum ceduo_status ceduo_pool_extend(struct ceduo_pool *pool, uint64_t rocks);
 bool ceduo_mean_is_precise(uint64_t reached, double mean, double se, double tolerance);
 
 /* Makes them longer, from one block on by an eighth each time, until the 95 % half-width of the mean energy of every run at every
- * control that at least CEDUO_FEW_ROCKS of its rocks reach is below `tolerance` of it, or `most` rocks are done. `*met`:
+ * control that at least CEDUO_FEW_ROCKS of its rocks reach is below `tolerance` of it, or `max` rocks are done. `*met`:
  * whether it is. */
-enum ceduo_status ceduo_pool_until(struct ceduo_pool *pool, double tolerance, uint64_t most, bool *met);
+enum ceduo_status ceduo_pool_until(struct ceduo_pool *pool, double tolerance, uint64_t max, bool *met);
 
 /* Turns the pool to a scene that differs in nothing but its forests and options, names and titles. Runs of forests that
  * it has no more are freed, but for the CEDUO_POOL_SPARE that were asked for last. */

@@ -110,9 +110,9 @@ struct ceduo_difference ceduo_run_difference(const struct ceduo_run *run, const 
 struct ceduo_difference ceduo_no_difference(double accepted);
 
 /* Adds 1 to the mark of each rock that reaches a control with more than is accepted there, or reaches it where that
- * is not said. Returns how many rocks were looked at, at most `most`: fewer than all where samples are kept of the
+ * is not said. Returns how many rocks were looked at, at most `max`: fewer than all where samples are kept of the
  * first only. */
-uint64_t ceduo_run_mark(const struct ceduo_run *run, size_t control, uint16_t *marks, uint64_t most);
+uint64_t ceduo_run_mark(const struct ceduo_run *run, size_t control, uint16_t *marks, uint64_t max);
 
 #define CEDUO_EARLY_M 10.0
 
@@ -146,10 +146,10 @@ void ceduo_run_envelope(const struct ceduo_run *run, size_t cell, struct ceduo_e
 /* The weights of the rocks, where the scene has blocks; otherwise NULL. */
 const double *ceduo_run_weights(const struct ceduo_run *run);
 
-/* Energies (J) of the rocks that reached a control, in the order of the rocks, for a histogram: at most `most` of them,
+/* Energies (J) of the rocks that reached a control, in the order of the rocks, for a histogram: at most `max` of them,
  * the first. Returns how many were written; 0 where the samples are not kept. Where rocks have weights, energies are
  * taken as often as their weights say. */
-size_t ceduo_run_energies(const struct ceduo_run *run, size_t control, double *to, size_t most);
+size_t ceduo_run_energies(const struct ceduo_run *run, size_t control, double *to, size_t max);
 
 /* What each rock brought to a control, in the order of the rocks, NaN where it did not arrive; and where each stopped, NaN
  * where it did not. False where samples are not kept. */

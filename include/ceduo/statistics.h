@@ -47,8 +47,8 @@ struct ceduo_rate {
 };
 
 /* The interval of a share of n (Wilson 1927), which need not be whole: as sure as a share of so many. Its upper end is that of
- * `most`, which counts in whatever is not known; without that it is the share. [0, 1] for n = 0. */
-struct ceduo_rate ceduo_wilson(double share, double most, double n);
+ * `max`, which counts in whatever is not known; without that it is the share. [0, 1] for n = 0. */
+struct ceduo_rate ceduo_wilson(double share, double max, double n);
 
 /* The mean of differences between pairs: the same rocks under two conditions. */
 struct ceduo_paired {

@@ -42,7 +42,7 @@ struct ceduo_window {
 struct ceduo_window ceduo_window_of(const struct ceduo_option *option);
 
 /* At the most so many (> 0) of its years, evenly spread. */
-struct ceduo_window ceduo_window_of_most(struct ceduo_window window, unsigned most);
+struct ceduo_window ceduo_window_of_most(struct ceduo_window window, unsigned max);
 
 /* As ceduo_window_of(), with the first and the last year that the scene names instead, CEDUO_YEARS_MOST at the most. */
 struct ceduo_window ceduo_window_in(const struct ceduo_scene *scene, const struct ceduo_option *option);

@@ -169,11 +169,11 @@ static void add_ground(struct finder *f, const struct ceduo_material *m, bool ev
 /* ---- putting together ---- */
 
 /* All places of one origin, but for those that the scene names itself. */
-static bool make_input(struct finder *f, const struct found *first, size_t most, struct ceduo_input *input)
+static bool make_input(struct finder *f, const struct found *first, size_t max, struct ceduo_input *input)
 {
     const struct scene_file *file = f->file;
     const struct range *range = &first->range;
-    const char **places = ceduo_arena_take(f->arena, (most + 1) * sizeof *places);
+    const char **places = ceduo_arena_take(f->arena, (max + 1) * sizeof *places);
     size_t n = 0;
     for (const struct found *one = first; places && one; one = one->next)
         if (strcmp(one->origin, first->origin) == 0 && !ceduo_inputs_have(file->inputs, file->inputs_count, one->path))
@@ -199,11 +199,11 @@ static bool make_input(struct finder *f, const struct found *first, size_t most,
 
 static bool put_together(struct finder *f, struct scene_inputs *inputs)
 {
-    size_t named = f->file->inputs_count, most = named;
+    size_t named = f->file->inputs_count, max = named;
     for (const struct found *one = f->first; one; one = one->next)
-        most++;
-    inputs->items = ceduo_arena_take(f->arena, (most + 1) * sizeof *inputs->items);
-    inputs->sources = ceduo_arena_take(f->arena, (most + 1) * sizeof *inputs->sources);
+        max++;
+    inputs->items = ceduo_arena_take(f->arena, (max + 1) * sizeof *inputs->items);
+    inputs->sources = ceduo_arena_take(f->arena, (max + 1) * sizeof *inputs->sources);
     if (!inputs->items || !inputs->sources)
         return false;
     for (size_t i = 0; i < named; i++) {
@@ -216,7 +216,7 @@ static bool put_together(struct finder *f, struct scene_inputs *inputs)
         const struct found *same = f->first; /* the first of its origin */
         while (strcmp(same->origin, one->origin) != 0)
             same = same->next;
-        if (same == one && make_input(f, one, most, &inputs->items[inputs->n]))
+        if (same == one && make_input(f, one, max, &inputs->items[inputs->n]))
             inputs->sources[inputs->n++] = one->range.source;
     }
     return !f->arena->failed;

@@ -122,7 +122,7 @@ static bool says_kind(const char *bytes, size_t length)
     return false;
 }
 
-const struct source *ceduo_file_read(struct arena *arena, const char *path, size_t most, struct problems *problems)
+const struct source *ceduo_file_read(struct arena *arena, const char *path, size_t max, struct problems *problems)
 {
     struct source *source = ceduo_arena_take(arena, sizeof *source);
     char *name = ceduo_arena_string(arena, is_standard(path) ? _("standard input") : path);
@@ -132,7 +132,7 @@ const struct source *ceduo_file_read(struct arena *arena, const char *path, size
     }
     *source = (struct source){.name = name, .path = ceduo_arena_string(arena, path), .before = arena->sources};
     errno = ENOMEM;
-    if (source->path && read_file(arena, path, most, source)) {
+    if (source->path && read_file(arena, path, max, source)) {
         source->foreign = !says_kind(source->bytes, source->length);
         arena->sources = source;
         return source;
@@ -141,7 +141,7 @@ const struct source *ceduo_file_read(struct arena *arena, const char *path, size
     if (why == ENOMEM)
         ceduo_problem_memory(problems);
     else if (why == EFBIG)
-        ceduo_problem(problems, source, 0, 0, _("larger than %zu MiB"), most >> 20);
+        ceduo_problem(problems, source, 0, 0, _("larger than %zu MiB"), max >> 20);
     else
         ceduo_problem(problems, source, 0, 0, _("cannot read it: %s"),
                       why == NO_FILE ? _("a device or a socket; name a file") : strerror(why));

@@ -13,9 +13,9 @@
 /* A copy of a source with its name and its string of bytes, for as long as the arena. NULL without memory, which is reported. */
 const struct source *ceduo_source_keep(struct arena *arena, struct source source, struct problems *problems);
 
-/* Reads a whole file, at most `most` bytes; "-" is standard input. NULL where that fails, with the reason in
+/* Reads a whole file, at most `max` bytes; "-" is standard input. NULL where that fails, with the reason in
  * `problems`. Name and bytes live in the arena, which lists it among its `sources`. */
-const struct source *ceduo_file_read(struct arena *arena, const char *path, size_t most, struct problems *problems);
+const struct source *ceduo_file_read(struct arena *arena, const char *path, size_t max, struct problems *problems);
 
 /* Where a file is looked for: as it is written, beside the file that names it, then in the user's data folder, the
  * installed one, the source tree; there also by its bare name within `folder` (scenes, slopes, stands) and with .yaml

@@ -37,8 +37,8 @@ const struct source_note *ceduo_notes_find(const struct source_note *notes, cons
     for (const struct source_note *note = notes; note; note = note->before) {
         if (!ceduo_path_leads_to(note->path, path))
             continue;
-        size_t n = strlen(note->path), most = best ? strlen(best->path) : 0;
-        if (!best || n > most || (n == most && strcmp(best->kind, "changed") == 0)) /* its own goes before what is around */
+        size_t n = strlen(note->path), max = best ? strlen(best->path) : 0;
+        if (!best || n > max || (n == max && strcmp(best->kind, "changed") == 0)) /* its own goes before what is around */
             best = note;
     }
     return best;

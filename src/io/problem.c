@@ -40,11 +40,11 @@ static size_t character_length(const char *p, size_t n)
 /* A part of the line, and a caret below the column where that is in it; of a foreign source only what begins it. */
 static void print_line(struct text *out, const struct source *s, size_t line, size_t column)
 {
-    size_t from, to, most = s->foreign ? CEDUO_FOREIGN_MOST : LINE_MOST;
+    size_t from, to, max = s->foreign ? CEDUO_FOREIGN_MOST : LINE_MOST;
     if (!ceduo_source_line(s, line, &from, &to) || to == from)
         return;
-    size_t first = column > most && !s->foreign ? column - most / 2 : 1;
-    most = s->foreign && line > 1 ? 0 : most;
+    size_t first = column > max && !s->foreign ? column - max / 2 : 1;
+    max = s->foreign && line > 1 ? 0 : max;
     size_t mark = from == 0 ? ceduo_source_mark(s) : 0;
     size_t at = from + mark, c = 1;
     for (; c < first && at < to; c++)
@@ -53,7 +53,7 @@ static void print_line(struct text *out, const struct source *s, size_t line, si
     ceduo_text_put(out, "  ");
     ceduo_text_safe_n(out, s->bytes, first == 1 ? mark : 0);
     ceduo_text_put(&caret, "  ");
-    for (; at < to && c < first + most; c++) {
+    for (; at < to && c < first + max; c++) {
         size_t before = out->length, n = character_length(s->bytes + at, to - at);
         if (s->bytes[at] == '\t')
             ceduo_text_char(out, ' ');

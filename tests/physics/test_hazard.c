@@ -147,7 +147,7 @@ TEST(weights_that_are_alike_change_nothing)
     static struct weighted values[N];
     for (size_t n = 0; n <= N; n += 125) {
         const double weight = 3;
-        struct released all = {.n = N, .w = N * weight, .ww = N * weight * weight, .most = weight, .per_year = 1};
+        struct released all = {.n = N, .w = N * weight, .ww = N * weight * weight, .max = weight, .per_year = 1};
         struct weighted_sum ones = {0};
         some_values(values, weight, n);
         for (size_t i = 0; i < n; i++)
@@ -180,7 +180,7 @@ TEST(weights_that_are_alike_change_nothing)
 /* What a weight alone explains is no error: of all rocks the share is 1 without one, of none 0. */
 TEST(what_weights_explain_is_no_error)
 {
-    struct released all = {.n = N, .most = 2, .per_year = 1};
+    struct released all = {.n = N, .max = 2, .per_year = 1};
     struct weighted_sum ones = {0}, none = {0}, fives = {0};
     for (size_t i = 0; i < N; i++) {
         double w = i % 2 ? 0.5 : 1.5;
@@ -220,7 +220,7 @@ TEST(quantiles_by_hand)
          (ceduo_weighted_quantile(values, 3, 0.76), 3, 0));
     expect_near(ceduo_weighted_quantile(values, 3, 1.1), 3, 0); /* beyond all */
     assert_true(isnan(ceduo_weighted_quantile(values, 0, 0.5)));
-    const struct released all = {.n = 3, .w = 4, .ww = 6, .most = 2, .per_year = 1};
+    const struct released all = {.n = 3, .w = 4, .ww = 6, .max = 2, .per_year = 1};
     struct weighted one = {5, 1};
     struct ceduo_distribution d = ceduo_weighted_distribution(&all, &one, 1);
     expect_near(d.mean, 5, 0);
@@ -247,7 +247,7 @@ TEST(energies_and_classes_are_what_they_are_called)
 /* Three rocks of a thousand arrive, one block comes down in two years. */
 TEST(few_rocks_bound_what_they_can)
 {
-    const struct released all = {.n = N, .w = N, .ww = N, .most = 1, .per_year = 0.5};
+    const struct released all = {.n = N, .w = N, .ww = N, .max = 1, .per_year = 0.5};
     struct weighted energies[] = {{4e5, 1}, {2e4, 1}, {1e5, 1}};
     struct ceduo_hazard h;
     assert_true(ceduo_hazard_read(&all, energies, 3, 5e4, &h));
@@ -269,7 +269,7 @@ TEST(few_rocks_bound_what_they_can)
 /* Beyond the last energy of the curve there is no other. */
 TEST(a_curve_ends_where_its_energies_do)
 {
-    const struct released all = {.n = 2, .w = 2, .ww = 2, .most = 1, .per_year = 1};
+    const struct released all = {.n = 2, .w = 2, .ww = 2, .max = 1, .per_year = 1};
     struct weighted energies[] = {{1e10, 1}, {1e10, 1}};
     struct ceduo_hazard h;
     assert_true(ceduo_hazard_read(&all, energies, 2, NAN, &h));
@@ -281,7 +281,7 @@ TEST(a_curve_ends_where_its_energies_do)
  * equals it: one of a thousand blocks and ten a year, 1/100. */
 TEST(at_a_limit)
 {
-    const struct released all = {.n = N, .w = N, .ww = N, .most = 1, .per_year = 10};
+    const struct released all = {.n = N, .w = N, .ww = N, .max = 1, .per_year = 10};
     struct weighted energies[] = {{3e5, 1}, {3e4, 1}};
     struct ceduo_hazard h;
     assert_true(ceduo_hazard_read(&all, energies, 2, 3e5, &h));
@@ -299,7 +299,7 @@ TEST(at_a_limit)
 /* No rock arrives, of two hundred: nothing is known but what may be. */
 TEST(nobody_arrives)
 {
-    const struct released all = {.n = 200, .w = 200, .ww = 200, .most = 1, .per_year = 1};
+    const struct released all = {.n = 200, .w = 200, .ww = 200, .max = 1, .per_year = 1};
     struct ceduo_hazard h;
     assert_true(ceduo_hazard_read(&all, NULL, 0, 5e4, &h));
     expect_near(h.reach.rate, 0, 0);

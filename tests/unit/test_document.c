@@ -249,7 +249,7 @@ TEST_WITH(what_is_wrong_changes_nothing, set_up, tear_down)
 {
     open_scene();
     refuse("rock.diameter_m", "-1", "-1 is below 0 m");
-    refuse("rock.diameter_m", "0,5", "'0,5' is not a number");
+    refuse("rock.diameter_m", "0,5", "decimal comma: write 0.5");
     refuse("forest[0].to_m", "400", "beyond the slope");
     refuse("rock.size", "1", "unknown key");
     assert_true(d.file.scene.rock.diameter.mean == 0.5);

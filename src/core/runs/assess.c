@@ -197,7 +197,7 @@ struct ceduo_index ceduo_assess_index(const struct ceduo_scene *scene, const str
                                       const struct ceduo_control *control, double bare_mean)
 {
     const struct ceduo_rock rock = ceduo_rock_mean(&scene->rock);
-    double start = scene->release.x.mean, at = start, least = scene->simulation.contact_dbh;
+    double start = scene->release.x.mean, at = start, min = scene->simulation.contact_dbh;
     double energy = bare_mean, taken = 0; /* what is left of it, and amounts of Eq. 4 that are not yet subtracted */
     struct ceduo_index index = {.meet_nothing_probability = 1, .thick = {.contact = CEDUO_PASS}};
     struct ceduo_meeting all = {.contact = CEDUO_PASS};
@@ -219,11 +219,11 @@ struct ceduo_index ceduo_assess_index(const struct ceduo_scene *scene, const str
             taken = 0;
         }
         /* the chance that the belt, of those whose centres lie there, has no stem that counts in the rock's way */
-        const struct ceduo_stand counted = standing(stand, least);
+        const struct ceduo_stand counted = standing(stand, min);
         index.meet_nothing_probability *= chance_of_none((b - a) / ceduo_adc(&counted, rock.mean_diameter).crofton,
                                                          less_by_groups(&counted, rock.mean_diameter, b - a, false));
-        add_meeting(scene, stand, least, &all);
-        add_meeting(scene, stand, fmax(least, CEDUO_THICK_DBH), &index.thick);
+        add_meeting(scene, stand, min, &all);
+        add_meeting(scene, stand, fmax(min, CEDUO_THICK_DBH), &index.thick);
         if (!ceduo_stand_has_stems(stand))
             continue;
         index.longest_gap = fmax(index.longest_gap, a - at);

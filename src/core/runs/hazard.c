@@ -87,7 +87,7 @@ static size_t above(const struct curve *c, double energy)
 
 static struct ceduo_rate rate_of(const struct curve *c, const struct weighted_sum *ones)
 {
-    double last = c->n > 0 ? c->energies[c->n - 1].weight : c->all->most;
+    double last = c->n > 0 ? c->energies[c->n - 1].weight : c->all->max;
     struct ceduo_rate p = ceduo_weighted_share(c->all, ones, last);
     return (struct ceduo_rate){p.rate * c->all->per_year, p.lo * c->all->per_year, p.hi * c->all->per_year};
 }

@@ -229,11 +229,11 @@ bool ceduo_mean_is_precise(uint64_t reached, double mean, double se, double tole
 }
 
 /* The counts are fixed, and near to each other: few rocks are simulated in vain. */
-enum ceduo_status ceduo_pool_until(struct ceduo_pool *pool, double tolerance, uint64_t most, bool *met)
+enum ceduo_status ceduo_pool_until(struct ceduo_pool *pool, double tolerance, uint64_t max, bool *met)
 {
     *met = false;
     for (uint64_t rocks = CEDUO_BLOCK_ROCKS; !*met; rocks += rocks / 8) {
-        enum ceduo_status status = ceduo_pool_extend(pool, rocks < most ? rocks : most);
+        enum ceduo_status status = ceduo_pool_extend(pool, rocks < max ? rocks : max);
         if (status != CEDUO_OK)
             return status;
         *met = true;
@@ -244,7 +244,7 @@ enum ceduo_status ceduo_pool_until(struct ceduo_pool *pool, double tolerance, ui
                 ceduo_run_energy(pool->runs[i].run, c, &reached, &mean, &se);
                 *met = ceduo_mean_is_precise(reached, mean, se, tolerance);
             }
-        if (rocks >= most)
+        if (rocks >= max)
             break;
     }
     return CEDUO_OK;

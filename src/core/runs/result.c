@@ -231,12 +231,12 @@ uint64_t ceduo_result_rocks(const struct ceduo_result *result)
 
 uint64_t ceduo_result_unfinished(const struct ceduo_result *result)
 {
-    uint64_t most = result->bare.ends.count[CEDUO_UNFINISHED];
+    uint64_t max = result->bare.ends.count[CEDUO_UNFINISHED];
     for (size_t i = 0; i < result->options_count; i++) {
         uint64_t n = result->options[i].wooded.ends.count[CEDUO_UNFINISHED];
-        most = n > most ? n : most;
+        max = n > max ? n : max;
     }
-    return most;
+    return max;
 }
 
 const struct ceduo_index *ceduo_result_last_index(const struct ceduo_result *result, size_t option)

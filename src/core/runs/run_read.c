@@ -14,7 +14,7 @@ static struct released released_of(const struct ceduo_run *run, double missing)
         double w = run->weights[r];
         all.w += w;
         all.ww += w * w;
-        all.most = w > all.most ? w : all.most;
+        all.max = w > all.max ? w : all.max;
     }
     return all;
 }
@@ -61,12 +61,12 @@ static enum ceduo_status read_weighted(const struct ceduo_run *run, size_t contr
         weighted_sum_add(&exceed, values[i].weight, values[i].value > accepted);
         weighted_sum_add(&energy, values[i].weight, values[i].value);
     }
-    struct ceduo_rate share = ceduo_weighted_share(&all, &reach, all.most);
+    struct ceduo_rate share = ceduo_weighted_share(&all, &reach, all.max);
     a->reach_probability = share.rate;
     a->reach_lo = share.lo;
     a->reach_hi = share.hi;
     if (!isnan(accepted)) {
-        share = ceduo_weighted_share(&all, &exceed, n > 0 ? values[n - 1].weight : all.most);
+        share = ceduo_weighted_share(&all, &exceed, n > 0 ? values[n - 1].weight : all.max);
         a->exceed_probability = share.rate;
         a->exceed_lo = share.lo;
         a->exceed_hi = share.hi;
@@ -312,11 +312,11 @@ struct ceduo_difference ceduo_run_difference(const struct ceduo_run *run, const 
     return d;
 }
 
-uint64_t ceduo_run_mark(const struct ceduo_run *run, size_t control, uint16_t *marks, uint64_t most)
+uint64_t ceduo_run_mark(const struct ceduo_run *run, size_t control, uint16_t *marks, uint64_t max)
 {
     double accepted = run->ready.scene.controls[control].accepted;
     uint64_t rocks = paired_rocks(run);
-    rocks = rocks < most ? rocks : most;
+    rocks = rocks < max ? rocks : max;
     for (uint64_t r = 0; r < rocks; r++) {
         double energy = paired_energy(run, control, r);
         marks[r] = (uint16_t)(marks[r] + (isnan(accepted) ? !isnan(energy) : energy > accepted));
@@ -381,7 +381,7 @@ const double *ceduo_run_weights(const struct ceduo_run *run)
     return run->weights;
 }
 
-size_t ceduo_run_energies(const struct ceduo_run *run, size_t control, double *to, size_t most)
+size_t ceduo_run_energies(const struct ceduo_run *run, size_t control, double *to, size_t max)
 {
     double all = 0, before = 0;
     size_t reached = 0, n = 0;
@@ -391,7 +391,7 @@ size_t ceduo_run_energies(const struct ceduo_run *run, size_t control, double *t
             all += run->sized ? run->weights[r] : 1;
             reached++;
         }
-    size_t max = reached < most ? reached : most;
+    max = reached < max ? reached : max;
     for (uint64_t r = 0; n < max && r < rocks; r++) { /* untaken: rounding */
         double energy = ceduo_run_sample_energy(run, control, r);
         if (isnan(energy))

@@ -33,7 +33,7 @@ double ceduo_moments_se(const struct ceduo_moments *m)
     return m->n < 2 ? NAN : ceduo_moments_sd(m) / sqrt((double)m->n);
 }
 
-struct ceduo_rate ceduo_wilson(double share, double most, double n)
+struct ceduo_rate ceduo_wilson(double share, double max, double n)
 {
     struct ceduo_rate r = {share, 0, 1};
     double z2 = CEDUO_Z95 * CEDUO_Z95, scale = 1 + z2 / n;
@@ -41,8 +41,8 @@ struct ceduo_rate ceduo_wilson(double share, double most, double n)
         return r;
     if (share > 0)
         r.lo = fmax(0, (share + z2 / (2 * n) - CEDUO_Z95 * sqrt(share * (1 - share) / n + z2 / (4 * n * n))) / scale);
-    if (most < 1)
-        r.hi = fmin(1, (most + z2 / (2 * n) + CEDUO_Z95 * sqrt(most * (1 - most) / n + z2 / (4 * n * n))) / scale);
+    if (max < 1)
+        r.hi = fmin(1, (max + z2 / (2 * n) + CEDUO_Z95 * sqrt(max * (1 - max) / n + z2 / (4 * n * n))) / scale);
     return r;
 }
 

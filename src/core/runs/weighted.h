@@ -13,7 +13,7 @@
 /* All rocks released. */
 struct released {
     double n, w, ww; /* the sums of weights and of their squares */
-    double most;     /* the largest weight */
+    double max;      /* the largest weight */
     double per_year; /* blocks a year; NaN: only shares are asked for */
     double missing;  /* weights of the unfinished, which might have arrived */
 };

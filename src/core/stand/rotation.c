@@ -78,20 +78,20 @@ static void multiply_shoots(struct ceduo_stand *stand, double factor)
 }
 
 /* At least so many shoots in all; more than once only where rounding asks for it. */
-static void keep_shoots(struct ceduo_stand *stand, double least)
+static void keep_shoots(struct ceduo_stand *stand, double min)
 {
-    for (double sum; (sum = ceduo_stand_shoots(stand)) > 0 && sum < least;)
-        multiply_shoots(stand, least / sum * (1 + DBL_EPSILON));
+    for (double sum; (sum = ceduo_stand_shoots(stand)) > 0 && sum < min;)
+        multiply_shoots(stand, min / sum * (1 + DBL_EPSILON));
 }
 
-/* The shoots are thinned to the growing space that the trees leave, but `least` of them stay. */
-static void share_space(struct ceduo_stand *stand, const struct ceduo_growth *growth, double least)
+/* The shoots are thinned to the growing space that the trees leave, but `min` of them stay. */
+static void share_space(struct ceduo_stand *stand, const struct ceduo_growth *growth, double min)
 {
-    double most = growth->sdi_most * fmax(0, 1 - ceduo_space_of_trees(growth, stand));
+    double max = growth->sdi_most * fmax(0, 1 - ceduo_space_of_trees(growth, stand));
     double sdi = ceduo_stems_sdi(stand->shoots, stand->shoots_count);
-    if (growth->sdi_most > 0 && sdi > most) /* the index goes with their number */
-        multiply_shoots(stand, fmax(most / sdi, fmin(1, least / ceduo_stand_shoots(stand))));
-    keep_shoots(stand, least);
+    if (growth->sdi_most > 0 && sdi > max) /* the index goes with their number */
+        multiply_shoots(stand, fmax(max / sdi, fmin(1, min / ceduo_stand_shoots(stand))));
+    keep_shoots(stand, min);
 }
 
 /* ---- cuts ---- */
@@ -227,15 +227,15 @@ static void grow_shoots(struct ceduo_stand *stand, const struct ceduo_growth *gr
     if (young > 0) /* as many cohorts as each stool has */
         stand->shoots[0] = stems_of_age(
             &growth->shoots, stand->stools_per_ha * shoots_on_stool(growth, years) / (double)stand->shoots_count, years);
-    double least = fmin(stand->stools_per_ha, ceduo_stand_shoots(stand));
+    double min = fmin(stand->stools_per_ha, ceduo_stand_shoots(stand));
     for (size_t i = young; i < stand->shoots_count; i++) {
         struct ceduo_stems *s = &stand->shoots[i];
         double age = age_of(s, &growth->shoots);
         s->per_ha *= fmin(1, shoots_on_stool(growth, age + years) / shoots_on_stool(growth, age)); /* 1 for 0/0 */
         grow_stems(s, &growth->shoots, age, years);
     }
-    keep_shoots(stand, least);
-    share_space(stand, growth, least);
+    keep_shoots(stand, min);
+    share_space(stand, growth, min);
 }
 
 static enum ceduo_status before_cut(const struct ceduo_stand *stand, unsigned year, struct ceduo_grown_stand *out)

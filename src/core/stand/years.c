@@ -35,10 +35,10 @@ struct ceduo_window ceduo_window_of(const struct ceduo_option *option)
     return w;
 }
 
-struct ceduo_window ceduo_window_of_most(struct ceduo_window w, unsigned most)
+struct ceduo_window ceduo_window_of_most(struct ceduo_window w, unsigned max)
 {
     unsigned count = (w.last - w.first) / w.step + 1;
-    w.step *= (count + most - 1) / most;
+    w.step *= (count + max - 1) / max;
     return w;
 }
 
