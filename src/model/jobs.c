@@ -275,13 +275,13 @@ static bool is_wanted(const struct job *job)
     return job->level < job->levels;
 }
 
-/* Rocks of the next step, by which jobs take turns. The first look at the uncertainty goes after the first figures and
- * years, all else of it after all of theirs. */
+/* Rocks of the next step, by which jobs take turns. The first look at the uncertainty goes after the first figures and years, the
+ * final one after the second figures: the verdict hangs on it more than on their last digit. Years have many forests. */
 static uint64_t cost_of(const struct job *job)
 {
     if (job->kind == JOB_SEARCH || job->kind == JOB_PREVIEW)
         return 0;
-    return job->kind == JOB_UNCERTAINTY && job->level > 0 ? 10 * RUNS_MAX : rocks_of(job->level);
+    return rocks_of(job->level) * (job->kind == JOB_YEARS && job->level > 0 ? 2 : 1);
 }
 
 static enum job_kind next_kind(const struct jobs *q)

@@ -89,11 +89,6 @@ const struct ceduo_option *ceduo_app_option(const struct app *app)
     return &app->document.file.scene.options[app->option];
 }
 
-const struct ceduo_option_result *ceduo_app_found(const struct app *app)
-{
-    return app->live.result ? &app->live.result->options[app->option] : NULL;
-}
-
 const struct ceduo_arrivals *ceduo_app_shown(const struct app *app)
 {
     const struct ceduo_result *r = app->live.result;
@@ -157,10 +152,27 @@ static size_t doubt_levels(const struct app *app)
     return ceduo_views[app->view]->uncertainty || app->doubts ? UNCERTAINTY_LEVELS : 0;
 }
 
-bool ceduo_app_doubt_is_rough(const struct app *app)
+struct ceduo_pane ceduo_app_pane(const struct app *app, int height)
 {
-    const struct uncertainty *d = ceduo_live_uncertainty(&app->live, &app->document.file);
-    return app->live.busy && d && d->level + 1 < doubt_levels(app);
+    const struct ceduo_scene *scene = &app->document.file.scene;
+    const struct uncertainty *u = ceduo_live_uncertainty(&app->live, &app->document.file);
+    const struct ceduo_years *shown = ceduo_live_years(&app->live, scene, app->option);
+    struct ceduo_doubt_report *doubt = ceduo_must(ceduo_arena_take(app->scratch, sizeof *doubt));
+    struct ceduo_years **years =
+        ceduo_must(ceduo_arena_take(app->scratch, scene->options_count * sizeof(struct ceduo_years *)));
+    for (size_t i = 0; i < scene->options_count; i++)
+        years[i] = ceduo_live_years(&app->live, scene, i);
+    bool known = ceduo_app_doubt(app, doubt), in_year = app->view == VIEW_ROTATION && shown && app->year < shown->count;
+    return (struct ceduo_pane){.file = &app->document.file,
+                               .result = app->live.result,
+                               .verdict = &app->live.verdict,
+                               .years = years,
+                               .doubt = known && u->level + 1 == UNCERTAINTY_LEVELS ? doubt : NULL,
+                               .coarse = known ? doubt : NULL,
+                               .year = in_year ? &shown->years[app->year] : NULL,
+                               .option = app->option,
+                               .height = height,
+                               .busy = app->live.busy};
 }
 
 void ceduo_app_refresh(struct app *app)
@@ -462,6 +474,18 @@ void ceduo_app_scrolled(struct app *app, struct ceduo_area area, struct text *te
     words += strspn(words, "\n");
     if (ceduo_app_text(app, area, CEDUO_ROLE_TEXT, words, &ceduo_app_state(app)->scroll))
         ceduo_app_label(app, area.left + area.width + 1, area.top + area.height - 1, CEDUO_ROLE_TITLE, "v");
+}
+
+void ceduo_app_page(struct app *app, struct ceduo_area area, struct ceduo_page *page, int *scroll)
+{
+    struct ceduo_canvas *canvas = &app->cells->canvas;
+    int most = ceduo_page_draw(page, canvas, (struct ceduo_area){0}, 0) - area.height;
+    *scroll = *scroll > most ? most : *scroll;
+    *scroll = *scroll > 0 ? *scroll : 0;
+    ceduo_page_draw(page, canvas, area, *scroll);
+    if (*scroll < most)
+        ceduo_app_label(app, area.left + area.width + 1, area.top + area.height - 1, CEDUO_ROLE_TITLE, "v");
+    ceduo_page_free(page);
 }
 
 void ceduo_app_draw_form(struct app *app, struct ceduo_area area, bool focused)

@@ -9,6 +9,7 @@
 #include "model/live.h"
 #include "rock_trajectory.h"
 #include "view/cells.h"
+#include "view/pane.h"
 #include "view/plot.h"
 #include "view/report.h"
 #include "view/report_doubt.h"
@@ -158,15 +159,14 @@ struct ceduo_report ceduo_app_report(const struct app *app);
 /* How sure the figures of the scene are; false where that is not known yet. Without inputs it has no answer. */
 bool ceduo_app_doubt(const struct app *app, struct ceduo_doubt_report *report);
 
-/* Whether finer figures of it are on their way. */
-bool ceduo_app_doubt_is_rough(const struct app *app);
+/* What a pane of so many lines shows, until the next key. */
+struct ceduo_pane ceduo_app_pane(const struct app *app, int height);
 
 /* The path of the forest of the option shown, "forest" or "options[2].forest"; of the stand of the belt shown. Until the next
  * key. */
 const char *ceduo_app_forest(const struct app *app);
 const char *ceduo_app_stand(const struct app *app);
 const struct ceduo_option *ceduo_app_option(const struct app *app);
-const struct ceduo_option_result *ceduo_app_found(const struct app *app);
 
 /* What arrives at the last control in the column on the right: through the forest of the option shown, by the index on
  * the bare slope; NULL before the first rocks. */
@@ -205,6 +205,9 @@ void ceduo_app_add_warning(void *text, const char *sentence);
 
 /* Draws a text, scrolled as far as the view is; a mark stands to the right of it where more follows below. */
 void ceduo_app_scrolled(struct app *app, struct ceduo_area area, struct text *text);
+
+/* Draws a page from line `*scroll` on, limited to the page, with the same mark; frees it. */
+void ceduo_app_page(struct app *app, struct ceduo_area area, struct ceduo_page *page, int *scroll);
 
 /* Draws a text, shortened to its area, and frees it. */
 void ceduo_app_put(struct app *app, struct ceduo_area area, enum ceduo_role role, struct text *text);

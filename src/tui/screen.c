@@ -17,7 +17,8 @@ const struct view *const ceduo_views[VIEW_COUNT] = {
 #define WIDTH_MIN  60
 #define HEIGHT_MIN 20
 
-#define WIDE 100 /* columns with room for a blank more between the names of the views */
+#define MARKS_MORE 2   /* columns that signs of the verdict take more in ASCII */
+#define WIDE       100 /* columns with room for a blank more between the names of the views */
 
 /* Columns of the title of a view: its number, and blanks. */
 static int title_columns(const struct app *app, int view)
@@ -34,26 +35,53 @@ enum view_number ceduo_screen_view_at(const struct app *app, int column)
     return (enum view_number)v;
 }
 
-/* The scene's title: beside the views, or below them where `room` columns are too few for all of it. */
-static void draw_scene_title(struct app *app, int room)
+/* "* " before it: unsaved. */
+static const char *title_of(struct app *app)
 {
+    const struct ceduo_scene *scene = &app->document.file.scene;
     struct text safe = {0};
-    ceduo_text_safe(&safe, app->document.file.scene.title);
-    const char *title = ceduo_app_kept(app, &safe);
-    const char *shown = ceduo_app_format(app, "%s%s", ceduo_document_unsaved(&app->document) ? "* " : "", title);
-    bool below = ceduo_cells_label_width(app->charset, title) + 2 >= room;
-    int left = below ? 1 : app->width - ceduo_cells_label_width(app->charset, shown);
-    if (title[0])
-        ceduo_canvas_put(&app->cells->canvas, left, below, app->width - 1, CEDUO_ROLE_TITLE, shown);
+    ceduo_text_put(&safe, ceduo_document_unsaved(&app->document) ? "* " : "");
+    ceduo_text_safe(&safe, ceduo_in_language(scene->title, scene->title_it));
+    return ceduo_app_kept(app, &safe);
 }
 
-static void draw_title(struct app *app)
+void ceduo_screen_title(struct app *app, struct ceduo_page *page)
+{
+    static const struct ceduo_page_column columns[] = {{"", 8, 0, CEDUO_FILLS}};
+    CEDUO_PAGE_TABLE_OF(page, columns);
+    ceduo_page_mark(page, CEDUO_ROLE_TITLE, title_of(app));
+}
+
+/* The names of the views, and the scene's title where they leave room for all of it. */
+static bool draw_title(struct app *app)
 {
     int x = 0;
     for (int v = 0; v < VIEW_COUNT; x += title_columns(app, v++))
         ceduo_app_label(app, x, 0, v == (int)app->view ? CEDUO_ROLE_CURSOR : CEDUO_ROLE_DIM,
                         app->width < WIDE ? " %d %s" : " %d %s ", v + 1, ceduo_translate_in(ceduo_views[v]->title));
-    draw_scene_title(app, app->width - x - 1);
+    const char *title = title_of(app);
+    bool fits = ceduo_cells_label_width(app->charset, title) + 4 <= app->width - x;
+    if (fits)
+        ceduo_canvas_label_right(&app->cells->canvas, app->width - 1, 0, CEDUO_ROLE_TITLE, title);
+    return fits;
+}
+
+/* The answer for the option that is shown. */
+static void draw_verdict(struct app *app)
+{
+    const struct ceduo_result *r = app->live.result;
+    struct text answer = {0};
+    if (!r || r->scene->controls_count == 0)
+        return;
+    struct ceduo_pane pane = ceduo_app_pane(app, 1);
+    enum ceduo_judgement judgement = ceduo_words_judge(r, app->option, r->last_control, pane.doubt);
+    ceduo_words_answer(&answer, r, app->option, r->last_control, pane.doubt, (size_t)app->width - 1 - MARKS_MORE);
+    ceduo_canvas_put(&app->cells->canvas, 1, 1, app->width - 1,
+                     judgement == CEDUO_UNANSWERED ? CEDUO_ROLE_TITLE
+                     : judgement == CEDUO_YES      ? CEDUO_ROLE_GOOD
+                     : judgement == CEDUO_NO       ? CEDUO_ROLE_BAD
+                                                   : CEDUO_ROLE_WARN,
+                     ceduo_app_kept(app, &answer));
 }
 
 static void draw_explanation(struct app *app)
@@ -141,10 +169,11 @@ void ceduo_screen_draw(struct app *app)
     int side = app->width >= 140 ? 44 : app->width >= 100 ? 36 : 28;
     struct ceduo_area now = {app->width - side + 1, 2, side - 1, app->height - 5};
     struct ceduo_area body = {0, 2, app->width - side - 2, app->height - 5};
-    draw_title(app);
+    bool titled = draw_title(app);
+    draw_verdict(app);
     for (int y = now.top; y < now.top + now.height; y++)
         ceduo_cells_label(app->cells, now.left - 2, y, CEDUO_ROLE_AXIS, "\xe2\x94\x82");
-    ceduo_column_draw(app, now);
+    ceduo_column_draw(app, now, !titled);
     if (ceduo_views[app->view]->result && !app->live.result)
         ceduo_app_text(app, body, CEDUO_ROLE_DIM, _("the first rocks are falling \xe2\x80\xa6"), NULL);
     else

@@ -4,6 +4,7 @@
 
 #include "app.h"
 #include "base/language.h"
+#include "view/plot_parts.h"
 
 static void build(struct app *app, struct form *form)
 {
@@ -20,73 +21,41 @@ static void build(struct app *app, struct form *form)
         ceduo_form_note(form, _("a: name a range in the scene, to edit it"));
 }
 
-/* ---- what it says ---- */
-
-/* Ends a line that was added since, if there is one. */
-static void end_line(struct text *words, size_t *before)
-{
-    if (words->length > *before)
-        ceduo_text_char(words, '\n');
-    *before = words->length;
-}
-
-static void say_all(const struct app *app, const struct uncertainty *u, const struct ceduo_doubt_report *r, struct text *words)
-{
-    static const enum ceduo_doubt_kind lights[] = {CEDUO_DOUBT_CONTACT, CEDUO_DOUBT_FREE_RUN, CEDUO_DOUBT_EXCEED};
-    size_t before = words->length;
-    ceduo_doubt_both(words, r, app->option);
-    end_line(words, &before);
-    ceduo_doubt_advice(words, r, app->option, 0);
-    end_line(words, &before);
-    const struct ceduo_doubt_ranking *ranking = ceduo_doubt_verdict(r->answer);
-    for (size_t i = 0; i < ranking->count; i++) {
-        const struct ceduo_doubt_order *o = &ranking->orders[i];
-        if (o->better == app->option || o->than == app->option)
-            ceduo_doubt_order_words(words, r, i);
-        end_line(words, &before);
-    }
-    for (size_t i = 0; i < 3; i++) {
-        ceduo_doubt_light_words(words, r, app->option, lights[i]);
-        end_line(words, &before);
-    }
-    ceduo_text_format(words,
-                      ceduo_app_doubt_is_rough(app) ? _("Rough so far: %llu scenes of %llu rocks; being refined.\n")
-                                                    : _("%llu scenes of %llu rocks.\n"),
-                      (unsigned long long)u->answer.evaluations, (unsigned long long)u->rocks);
-}
-
 /* ---- drawing ---- */
 
-#define OPTIONS_MIN 6 /* in a picture that shares its room with words, if there are so many */
+#define WORDS_MIN 4 /* lines that the words keep below the picture, if there are so many */
 
+/* The picture, what it means in words, and the ranges of the scene; picture and words scroll together. */
 static void draw(struct app *app, struct ceduo_area area)
 {
     const struct uncertainty *u = ceduo_live_uncertainty(&app->live, &app->document.file);
-    struct text words = {0};
     int form = ceduo_app_form(app)->n > 1 ? area.height / 4 : 1;
     struct ceduo_area below = {area.left, area.top + area.height - form, area.width, form};
-    area.height -= form + 1;
+    struct ceduo_page page = {.width = (size_t)area.width - 2};
     struct ceduo_picture picture = ceduo_app_picture(app);
-    struct ceduo_doubt_report r;
-    int said = 0;
-    if (ceduo_app_doubt(app, &r))
-        picture.doubt = &r;
-    if (u && r.answer) {
-        say_all(app, u, &r, &words);
-        said = ceduo_app_text_lines(app, ceduo_text_string(&words), area.width);
-        /* lines that the picture keeps: options, an input, a line above each, and one between it and the words; and those
-         * that it fills: options, inputs, a line above each */
-        size_t options = r.file->scene.options_count, inputs = r.inputs->n < 12 ? r.inputs->n : 12;
-        int max = area.height - (int)(options < OPTIONS_MIN ? options : OPTIONS_MIN) - 4, lines = (int)(options + inputs + 2);
-        said = said > max ? max : said;
-        if (lines < area.height - said - 1)
-            area.height = lines + said + 1;
-    }
-    struct ceduo_area top = {area.left, area.top, area.width, area.height - said - (said > 0)};
-    struct ceduo_area text = {area.left, area.top + area.height - said, area.width, said};
-    ceduo_plot_draw(CEDUO_PLOT_DOUBT, &app->cells->canvas, &top, &picture);
-    ceduo_app_put(app, text, CEDUO_ROLE_TEXT, &words);
+    struct ceduo_pane pane = ceduo_app_pane(app, area.height - form - 1);
+    picture.doubt = pane.coarse;
+    const char *why = ceduo_blocks_doubt(&page, &picture, pane.height - WORDS_MIN - 1);
+    if (why)
+        ceduo_page_say(&page, CEDUO_PAGE_NOTE, "%s", why);
+    else
+        ceduo_page_add(&page, CEDUO_PAGE_GAP);
+    ceduo_pane_doubt(&page, &pane);
+    if (u && pane.coarse->answer)
+        ceduo_page_say(&page, CEDUO_PAGE_NOTE,
+                       pane.doubt ? _("%llu scenes of %llu rocks.")
+                                  : _("Rough so far: %llu scenes of %llu rocks; being refined."),
+                       (unsigned long long)u->answer.evaluations, (unsigned long long)u->rocks);
+    area.height = pane.height;
+    area.width -= 2;
+    ceduo_app_page(app, area, &page, &ceduo_app_state(app)->scroll);
     ceduo_app_draw_form(app, below, true);
+}
+
+static void read_on(struct app *app, int by)
+{
+    int *scroll = &ceduo_app_state(app)->scroll;
+    *scroll = *scroll + by > 0 ? *scroll + by : 0;
 }
 
 /* ---- a range of one's own ---- */
@@ -133,7 +102,7 @@ static void add(struct app *app, int unused)
     ceduo_app_say(app, "%s", _("every single value in doubt has a range of the scene already"));
 }
 
-static const struct act acts[] = {{ACTION_ADD, add, 0}, {0}};
+static const struct act acts[] = {{ACTION_ADD, add, 0}, {ACTION_PAGE_UP, read_on, -4}, {ACTION_PAGE_DOWN, read_on, 4}, {0}};
 
 const struct view ceduo_view_doubt = {.title = NP_("view", "doubt"),
                                       .panes = 1,
@@ -144,4 +113,5 @@ const struct view ceduo_view_doubt = {.title = NP_("view", "doubt"),
                                       .bar = {{ACTION_EDIT, N_("edit")},
                                               {ACTION_ADD, N_("a range")},
                                               {ACTION_DELETE, N_("delete")},
-                                              {ACTION_NEXT_OPTION, N_("next option")}}};
+                                              {ACTION_NEXT_OPTION, N_("next option")},
+                                              {ACTION_PAGE_DOWN, N_("read on")}}};

@@ -1,48 +1,56 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* View 4: what was found: the forms of the ADC, the energies that arrive, and all of it in words. */
+/* View 4: what was found: the ADC of each belt, the energy that is left, the energies that arrive, and all of it in words. */
 #include "app.h"
 #include "base/language.h"
-#include "view/words.h"
+#include "view/plot_parts.h"
 
-/* All of it in words: of this option, and of the run as a whole. */
-static void draw_page(struct app *app, struct ceduo_area page)
+#define WIDE_MIN   110 /* columns that hold pictures beside the words */
+#define HEIGHT_ALL 30  /* lines with room for the four rules of the ADC, for energy along the slope */
+#define BARS_MIN   7   /* lines of the energies as bars */
+
+static void add_blocks(struct ceduo_page *page, const struct ceduo_picture *picture, int height, ceduo_blocks_function *blocks)
 {
-    page.width -= 2; /* the mark of more below stands beside the text */
-    struct text text = {0};
+    const char *why = blocks(page, picture, height);
+    if (why)
+        ceduo_page_say(page, CEDUO_PAGE_NOTE, "%s", why);
+    ceduo_page_add(page, CEDUO_PAGE_GAP);
+}
+
+/* `bars`: the energies as bars stand among the words. */
+static void draw_page(struct app *app, struct ceduo_area area, const struct ceduo_picture *picture, bool bars)
+{
+    area.width -= 2; /* the mark of more below stands beside the text */
+    struct ceduo_page page = {.width = (size_t)area.width};
+    struct ceduo_pane pane = ceduo_app_pane(app, area.height);
     struct ceduo_report report = ceduo_app_report(app);
-    ceduo_report_option(&text, &report, app->option, page.width);
-    ceduo_words_run_warnings(report.result, &report.remarks, ceduo_app_add_warning, &text);
-    ceduo_app_scrolled(app, page, &text);
+    add_blocks(&page, picture, area.height >= HEIGHT_ALL ? area.height / 2 : area.height / 4, ceduo_blocks_adc);
+    ceduo_pane_residual(&page, &pane);
+    ceduo_page_add(&page, CEDUO_PAGE_GAP);
+    int rest = area.height - ceduo_page_draw(&page, &app->cells->canvas, (struct ceduo_area){0}, 0);
+    if (bars)
+        add_blocks(&page, picture, rest > BARS_MIN ? rest < 2 * BARS_MIN ? rest : 2 * BARS_MIN : BARS_MIN,
+                   ceduo_blocks_histogram);
+    ceduo_pane_words(&page, &report, app->option);
+    ceduo_app_page(app, area, &page, &ceduo_app_state(app)->scroll);
 }
 
 static void draw(struct app *app, struct ceduo_area area)
 {
     struct ceduo_picture picture = ceduo_app_picture(app);
-    bool wide = area.width >= 110;
-    int pictures = wide ? area.height : area.height / 2;
-    int half = wide ? area.width / 2 - 1 : area.width;
-    struct ceduo_area adc = {area.left, area.top, half, wide ? pictures / 3 : area.height >= 30 ? pictures / 2 : 0};
-    struct ceduo_area histogram = {area.left, area.top + adc.height, half, pictures - adc.height - 1};
-    struct ceduo_area page = {wide ? area.left + half + 2 : area.left, wide ? area.top : area.top + pictures,
-                              wide ? area.width - half - 2 : area.width, wide ? area.height : area.height - pictures};
-    if (wide && area.height >= 30) { /* energy along the slope as well */
-        histogram.height = pictures / 3;
-        struct ceduo_area energy = {area.left, histogram.top + histogram.height + 1, half,
-                                    area.height - adc.height - histogram.height - 1};
-        ceduo_plot_draw(CEDUO_PLOT_ENERGY, &app->cells->canvas, &energy, &picture);
+    bool wide = area.width >= WIDE_MIN, blocks = picture.scene->blocks_count > 0;
+    enum ceduo_plot plots[3] = {blocks ? CEDUO_PLOT_HAZARD : CEDUO_PLOT_HISTOGRAM, CEDUO_PLOT_ENERGY, CEDUO_PLOT_HEIGHT};
+    int half = wide ? area.width / 2 - 1 : area.width, n = !wide ? blocks : area.height >= HEIGHT_ALL ? 3 : 2;
+    struct ceduo_area page = area, plot = {area.left, area.top, half, area.height / (wide ? n : 2) - 1};
+    if (wide) {
+        page.left += half + 2;
+        page.width -= half + 2;
+    } else if (n > 0) { /* how often which energy comes, in place of the energies as bars */
+        page.height -= plot.height + 1;
+        plot.top += page.height + 1;
     }
-    if (adc.height > 4)
-        ceduo_plot_draw(CEDUO_PLOT_ADC, &app->cells->canvas, &adc, &picture);
-    if (picture.scene->blocks_count > 0 && histogram.height >= 20) { /* beside the energies how often they come */
-        struct ceduo_area hazard = {area.left, histogram.top + histogram.height / 2, half, (histogram.height + 1) / 2};
-        histogram.height = histogram.height / 2 - 1;
-        ceduo_plot_draw(CEDUO_PLOT_HAZARD, &app->cells->canvas, &hazard, &picture);
-        ceduo_plot_draw(CEDUO_PLOT_HISTOGRAM, &app->cells->canvas, &histogram, &picture);
-    } else {
-        ceduo_plot_draw(picture.scene->blocks_count > 0 ? CEDUO_PLOT_HAZARD : CEDUO_PLOT_HISTOGRAM, &app->cells->canvas,
-                        &histogram, &picture);
-    }
-    draw_page(app, page);
+    for (int i = 0; i < n; i++, plot.top += plot.height + 1)
+        ceduo_plot_draw(plots[i], &app->cells->canvas, &plot, &picture);
+    draw_page(app, page, &picture, n == 0);
 }
 
 const struct view ceduo_view_results = {

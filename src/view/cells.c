@@ -191,6 +191,13 @@ int ceduo_cells_put_end(struct ceduo_cells *cells, int column, int row, int most
     return ceduo_cells_label(cells, column, row, role, text);
 }
 
+void ceduo_cells_ascii(struct text *text, const char *string)
+{
+    struct reader reader = {CEDUO_CHARSET_ASCII, string, ""};
+    for (uint32_t code; (code = next_code(&reader)) != 0;)
+        ceduo_text_char(text, (char)code);
+}
+
 int ceduo_cells_label_width(enum ceduo_charset charset, const char *text)
 {
     struct reader reader = {charset, text, ""};

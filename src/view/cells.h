@@ -15,6 +15,7 @@
 
 #include <stdint.h>
 
+#include "base/text.h"
 #include "canvas.h"
 
 enum ceduo_charset {
@@ -62,6 +63,9 @@ int ceduo_cells_label(struct ceduo_cells *cells, int column, int row, enum ceduo
 
 /* Write the end of a text that fits into `most` cells; returns the cells it took. */
 int ceduo_cells_put_end(struct ceduo_cells *cells, int column, int row, int most, enum ceduo_role role, const char *text);
+
+/* Adds a text as it is written in ASCII. */
+void ceduo_cells_ascii(struct text *text, const char *string);
 
 /* The number of cells a text takes in a character set. */
 int ceduo_cells_label_width(enum ceduo_charset charset, const char *text);

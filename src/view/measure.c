@@ -8,30 +8,33 @@
 #include "report_doubt.h"
 #include "words.h"
 
-static struct ceduo_measure of_1000(double p, double lo, double hi)
+static struct ceduo_measure of_1000(double p, double lo, double hi, uint64_t released)
 {
     return (struct ceduo_measure){.value = 1000 * p,
                                   .lo = floor(1000 * lo),
                                   .hi = ceil(1000 * hi),
+                                  .half = 1000 * ceduo_half_width_of_share(p, ceduo_share_se(p, (double)released), released),
                                   .may_lo = NAN,
                                   .may_hi = NAN,
                                   .unit = N_("of 1000"),
-                                  .names = {N_("of 1000 arrive"), N_("arrive"), N_("arrive")}};
+                                  .names = {N_("of 1000 arrive"), N_("arrive"), N_("arrive"), N_("arrive")}};
 }
 
 struct ceduo_measure ceduo_arriving(const struct ceduo_arrivals *a)
 {
-    return a ? of_1000(a->reach_probability, a->reach_lo, a->reach_hi) : of_1000(NAN, NAN, NAN);
+    return a ? of_1000(a->reach_probability, a->reach_lo, a->reach_hi, a->released) : of_1000(NAN, NAN, NAN, 1);
 }
 
 struct ceduo_measure ceduo_judged(const struct ceduo_control *c, const struct ceduo_arrivals *a)
 {
     if (isnan(c->accepted))
         return ceduo_arriving(a);
-    struct ceduo_measure m = a ? of_1000(a->exceed_probability, a->exceed_lo, a->exceed_hi) : of_1000(NAN, NAN, NAN);
+    struct ceduo_measure m =
+        a ? of_1000(a->exceed_probability, a->exceed_lo, a->exceed_hi, a->released) : of_1000(NAN, NAN, NAN, 1);
     m.limit = ceduo_words_accepted(c);
     m.names[CEDUO_HEAD] = N_("of 1000 > %s kJ");
     m.names[CEDUO_SHORT_HEAD] = N_("> %s kJ");
+    m.names[CEDUO_ROW] = N_("above %s kJ");
     m.names[CEDUO_PHRASE] = N_("arrive with more than %s kJ");
     return m;
 }
@@ -56,33 +59,56 @@ void ceduo_measure_doubt_over(struct ceduo_measure *m, const struct ceduo_doubt_
         set_doubt(m, doubt, option, CEDUO_DOUBT_MEAN);
 }
 
-static struct ceduo_measure energy(double mean, double half, int digits, const char *head, const char *phrase)
+static struct ceduo_measure energy(double mean, double half, int digits, const char *head, const char *row, const char *phrase)
 {
     return (struct ceduo_measure){.value = mean * J_TO_KJ,
                                   .lo = (mean - half) * J_TO_KJ,
                                   .hi = (mean + half) * J_TO_KJ,
+                                  .half = NAN,
                                   .may_lo = NAN,
                                   .may_hi = NAN,
                                   .digits = digits,
                                   .unit = N_("kJ"),
-                                  .names = {head, head, phrase}};
+                                  .names = {head, head, row, phrase}};
 }
 
 struct ceduo_measure ceduo_mean_energy(const struct ceduo_arrivals *a)
 {
     return energy(a ? a->energy.mean : NAN, a ? ceduo_half_width(a->energy.se, a->reached) : NAN, 4, N_("mean, kJ"),
-                  N_("mean energy of those that arrive, kJ"));
+                  N_("mean kJ"), N_("mean energy of those that arrive, kJ"));
 }
 
 struct ceduo_measure ceduo_energy_p95(const struct ceduo_arrivals *a)
 {
-    return energy(a ? a->energy.p95 : NAN, NAN, 3, N_("95 % below, kJ"), N_("95 % of those stay below, kJ"));
+    return energy(a ? a->energy.p95 : NAN, NAN, 3, N_("95 % below, kJ"), N_("95 % below kJ"),
+                  N_("95 % of those stay below, kJ"));
 }
 
 struct ceduo_measure ceduo_energy_released(const struct ceduo_arrivals *a)
 {
     return energy(a->energy_per_released, ceduo_half_width(a->energy_per_released_se, a->released), 3, N_("kJ a rock"),
-                  N_("energy of a rock that starts, kJ"));
+                  N_("kJ a rock"), N_("energy of a rock that starts, kJ"));
+}
+
+struct ceduo_measure ceduo_missed(const struct ceduo_arrivals *a, enum ceduo_end end)
+{
+    static const char *const names[CEDUO_ENDS] = {[CEDUO_STOPPED_BY_STEMS] = N_("stems stop"),
+                                                  [CEDUO_AT_REST] = N_("at rest"),
+                                                  [CEDUO_LEFT_SLOPE] = N_("left the slope"),
+                                                  [CEDUO_UNFINISHED] = N_("unfinished")};
+    struct ceduo_measure m = of_1000(a && a->released > 0 ? a->missed[end] : NAN, NAN, NAN, 1);
+    m.half = NAN;
+    for (int i = 0; i < CEDUO_MEASURE_NAMES; i++)
+        m.names[i] = names[end];
+    return m;
+}
+
+struct ceduo_measure ceduo_height_p95(const struct ceduo_arrivals *a)
+{
+    struct ceduo_measure m =
+        energy(a->height.p95 / J_TO_KJ, NAN, 3, N_("95 % below, m"), N_("95 % below m"), N_("95 % of those stay below, m"));
+    m.unit = N_("m");
+    return m;
 }
 
 void ceduo_append_with(struct text *text, const char *sentence, const char *string)
@@ -117,6 +143,13 @@ void ceduo_measure_span(struct text *text, const struct ceduo_measure *m, double
     ceduo_text_put(text, "\xe2\x80\x93");
     end.value = hi;
     ceduo_measure_value(text, &end);
+}
+
+void ceduo_measure_error(struct text *text, const struct ceduo_measure *m)
+{
+    ceduo_measure_value(text, m);
+    if (!isnan(m->value) && !isnan(m->half))
+        ceduo_text_format(text, "\xc2\xb1%.0f", ceil(m->half));
 }
 
 void ceduo_measure_interval(struct text *text, const struct ceduo_measure *m)

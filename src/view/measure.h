@@ -10,12 +10,14 @@
 enum ceduo_measure_name {
     CEDUO_HEAD,       /* of a column that has room: "of 1000 > 50 kJ" */
     CEDUO_SHORT_HEAD, /* "> 50 kJ" */
+    CEDUO_ROW,        /* before the figure: "above 50 kJ" */
     CEDUO_PHRASE,     /* in a sentence: "arrive with more than 50 kJ" */
     CEDUO_MEASURE_NAMES
 };
 
 struct ceduo_measure {
     double value, lo, hi;                          /* in the unit shown; NaN: not known, or no interval */
+    double half;                                   /* of a share: half the width of its interval, not rounded */
     double may_lo, may_hi;                         /* 90 % of what may be true; NaN: not known, see ceduo_measure_doubt() */
     int digits;                                    /* significant; 0: a whole number */
     const char *unit, *names[CEDUO_MEASURE_NAMES]; /* marked for translation; %s in a name is the limit */
@@ -39,10 +41,15 @@ struct ceduo_measure ceduo_mean_energy(const struct ceduo_arrivals *arrivals);
 struct ceduo_measure ceduo_energy_p95(const struct ceduo_arrivals *arrivals);
 struct ceduo_measure ceduo_energy_released(const struct ceduo_arrivals *arrivals);
 
+/* Of 1000 those that end before the control in one way; the height under the rocks that 95 % of those that arrive stay below, m. */
+struct ceduo_measure ceduo_missed(const struct ceduo_arrivals *arrivals, enum ceduo_end end);
+struct ceduo_measure ceduo_height_p95(const struct ceduo_arrivals *arrivals);
+
 /* Adds a name of a measure; its value, "-" where it is not known; "480 (453–501)"; an interval alone, "453–501". */
 void ceduo_measure_name(struct text *text, const struct ceduo_measure *m, enum ceduo_measure_name name);
 void ceduo_measure_value(struct text *text, const struct ceduo_measure *m);
 void ceduo_measure_interval(struct text *text, const struct ceduo_measure *m);
+void ceduo_measure_error(struct text *text, const struct ceduo_measure *m); /* the same, shorter: "480±27" */
 void ceduo_measure_span(struct text *text, const struct ceduo_measure *m, double lo, double hi);
 
 /* A sentence with a string in the place of its one %s. */

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "page.h"
 
+#include <math.h>
 #include <stdlib.h>
 
 #include "base/grow.h"
@@ -82,6 +83,22 @@ void ceduo_page_number(struct ceduo_page *page, double value, int digits)
     cell->digits = digits;
 }
 
+struct ceduo_page_bar *ceduo_page_bar(struct ceduo_page *page, double share, enum ceduo_role role)
+{
+    struct ceduo_page_cell *cell = ceduo_page_cell(page);
+    cell->kind = CEDUO_CELL_BAR;
+    cell->role = role;
+    cell->bar = (struct ceduo_page_bar){.to = share, .least = NAN, .most = NAN, .limit = NAN, .own = CEDUO_ROLE_CONTROL};
+    return &cell->bar;
+}
+
+void ceduo_page_mark(struct ceduo_page *page, enum ceduo_role role, const char *string)
+{
+    struct ceduo_page_cell *cell = ceduo_page_cell(page);
+    cell->role = role;
+    ceduo_text_put(&cell->text, string);
+}
+
 struct ceduo_page_block *ceduo_page_picture(struct ceduo_page *page, struct ceduo_svg *svg, bool half)
 {
     struct ceduo_page_block *block = add_block(page, CEDUO_PAGE_PICTURE);
@@ -90,19 +107,34 @@ struct ceduo_page_block *ceduo_page_picture(struct ceduo_page *page, struct cedu
     return block;
 }
 
+static void free_block(struct ceduo_page_block *block)
+{
+    for (size_t i = 0; i < block->cells_count; i++) {
+        ceduo_text_free(&block->cells[i].text);
+        ceduo_text_free(&block->cells[i].shorter);
+    }
+    free(block->cells);
+    ceduo_svg_free(block->svg);
+    ceduo_text_free(&block->description);
+    ceduo_text_free(&block->text);
+    free(block);
+}
+
+void ceduo_page_drop(struct ceduo_page *page)
+{
+    struct ceduo_page_block *before = NULL, *last = page->first;
+    for (; last->next; last = last->next)
+        before = last;
+    *(before ? &before->next : &page->first) = NULL;
+    page->last = before;
+    free_block(last);
+}
+
 void ceduo_page_free(struct ceduo_page *page)
 {
     for (struct ceduo_page_block *block = page->first, *next; block; block = next) {
         next = block->next;
-        for (size_t i = 0; i < block->cells_count; i++) {
-            ceduo_text_free(&block->cells[i].text);
-            ceduo_text_free(&block->cells[i].shorter);
-        }
-        free(block->cells);
-        ceduo_svg_free(block->svg);
-        ceduo_text_free(&block->description);
-        ceduo_text_free(&block->text);
-        free(block);
+        free_block(block);
     }
     *page = (struct ceduo_page){.width = page->width};
 }

@@ -5,18 +5,19 @@
 #include "base/text.h"
 #include "cells.h"
 
-/* A page is a list of blocks. page_result.c and its neighbours build it from a result. page_text.c prints it at a width, for a
- * terminal or in a pane; page_html.c writes it as HTML. Another sink is one more file that walks the same blocks. */
+/* A page is a list of blocks. page_result.c and its neighbours build it from a result. page_text.c prints it at a width, or draws
+ * it into a pane of the terminal program or a picture; page_html.c writes it as HTML. Another sink is one more file that walks
+ * the same blocks. */
 
 struct ceduo_svg;
 
 enum ceduo_page_kind {
     CEDUO_PAGE_TITLE,
-    CEDUO_PAGE_FACT,    /* a label and what it is */
-    CEDUO_PAGE_SECTION, /* heading of an option, of a comparison */
-    CEDUO_PAGE_PLACE,   /* heading of a control in it */
-    CEDUO_PAGE_CAPTION, /* of the table that follows */
-    CEDUO_PAGE_TABLE,
+    CEDUO_PAGE_FACT,     /* a label and what it is */
+    CEDUO_PAGE_SECTION,  /* heading of an option, of a comparison */
+    CEDUO_PAGE_PLACE,    /* heading of a control in it */
+    CEDUO_PAGE_CAPTION,  /* of the table that follows */
+    CEDUO_PAGE_TABLE,    /* heads that are all empty are not shown */
     CEDUO_PAGE_SENTENCE, /* of a place */
     CEDUO_PAGE_DETAIL,   /* of what stands before */
     CEDUO_PAGE_NOTE,     /* of a section */
@@ -34,28 +35,44 @@ struct ceduo_page_column {
     const char *head; /* marked for translation; NULL: the page's own, see ceduo_page_head() */
     int width;        /* in characters; negative: set to the right; 0: the last, as wide as it comes */
     int gap;          /* blanks before it */
-    unsigned flags;
+    unsigned flags;   /* and CEDUO_DROPPED() */
 };
 
 enum ceduo_page_flag {
-    CEDUO_SPAN = 1 << 0, /* the head stands over the next column, too */
-    CEDUO_WHOLE = 1 << 1 /* never cut: the row goes on in a line below */
+    CEDUO_SPAN = 1 << 0,  /* the head stands over the next column, too */
+    CEDUO_WHOLE = 1 << 1, /* never cut: the row goes on in a line below */
+    CEDUO_FITS = 1 << 2,  /* as wide as its widest cell, and no less than its width */
+    CEDUO_FILLS = 1 << 3  /* at least its width, and what the others leave: a text that is longer loses its middle, as names
+                           * often differ at their ends; a bar is so long */
 };
 
-enum ceduo_page_cell_kind { CEDUO_CELL_TEXT, CEDUO_CELL_NUMBER, CEDUO_CELL_MEAN };
+/* Columns without room are left out, the highest rank first. */
+#define CEDUO_DROPPED(rank) ((unsigned)(rank) << 8)
+
+enum ceduo_page_cell_kind { CEDUO_CELL_TEXT, CEDUO_CELL_NUMBER, CEDUO_CELL_MEAN, CEDUO_CELL_BAR };
+
+/* A bar in shares of its column; only sinks that draw show it. NaN: not there. */
+struct ceduo_page_bar {
+    double from, to;     /* the bar; from 0 it ends at a part of a character */
+    double least, most;  /* a line with ends around it */
+    double limit;        /* a mark across it … */
+    enum ceduo_role own; /* … in this role */
+};
 
 struct ceduo_page_cell {
     enum ceduo_page_cell_kind kind;
-    enum ceduo_role role;      /* of its text in a pane; BLANK: as the others */
+    enum ceduo_role role;      /* of its text in a pane, or of its bar; BLANK: as the others */
     struct text text, shorter; /* shorter: where there is no room for the other; may be empty */
     double value, half;        /* a number; half the width of a mean's interval, NaN where it has none */
     int digits;                /* of the number, where there is room for them */
+    struct ceduo_page_bar bar;
 };
 
 struct ceduo_page_block {
     enum ceduo_page_kind kind;
-    const char *label; /* of a fact */
-    struct text text;  /* UTF-8 with the signs – − ± as they should be; a sink makes it safe to print */
+    enum ceduo_role role; /* in a pane; BLANK: that of its kind */
+    const char *label;    /* of a fact */
+    struct text text;     /* UTF-8 with the signs – − ± as they should be; a sink makes it safe to print */
     const struct ceduo_page_column *columns;
     size_t columns_count;
     size_t cells_count, cells_room; /* row by row, the heads first */
@@ -92,10 +109,16 @@ struct ceduo_page_cell *ceduo_page_cell(struct ceduo_page *page);
 struct text *ceduo_page_text(struct ceduo_page *page);                                        /* of a new cell */
 void ceduo_page_write(struct ceduo_page *page, const char *format, ...) CEDUO_PAGE_FORMAT(2); /* a new cell */
 void ceduo_page_number(struct ceduo_page *page, double value, int digits);
+/* A new cell with a bar up to a share, to which the caller adds a limit or a line around it. */
+struct ceduo_page_bar *ceduo_page_bar(struct ceduo_page *page, double share, enum ceduo_role role);
+/* A new cell in a role. */
+void ceduo_page_mark(struct ceduo_page *page, enum ceduo_role role, const char *string);
 
 /* Adds a picture, which is the page's from then on; its title (`text`) and description are for the caller to fill. */
 struct ceduo_page_block *ceduo_page_picture(struct ceduo_page *page, struct ceduo_svg *svg, bool half);
 
+/* Takes the last block away. */
+void ceduo_page_drop(struct ceduo_page *page);
 void ceduo_page_free(struct ceduo_page *page);
 
 /* Lines of what is printed of it. */
@@ -107,8 +130,8 @@ void ceduo_page_write_cell(struct text *text, const struct ceduo_page_cell *cell
 /* Prints the page, `page->width` columns wide. `plain`: its signs in ASCII. */
 void ceduo_page_print(struct text *text, const struct ceduo_page *page, bool plain);
 
-/* Draws the page into an area of cells, which is as wide as the page, from its line `first` on: headings, warnings and verdicts
- * in roles of their own. Returns how many lines the page has. */
-int ceduo_page_draw(const struct ceduo_page *page, struct ceduo_cells *cells, struct ceduo_area area, int first);
+/* Draws the page into an area that is as wide as the page, from its line `first` on: headings, warnings and verdicts in roles of
+ * their own. Returns how many lines the page has; an area of height 0 shows nothing. */
+int ceduo_page_draw(const struct ceduo_page *page, struct ceduo_canvas *canvas, struct ceduo_area area, int first);
 
 #endif

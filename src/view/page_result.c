@@ -400,12 +400,3 @@ void ceduo_report_table(struct text *text, const struct ceduo_report *report, bo
     ceduo_page_print(text, &page, plain);
     ceduo_page_free(&page);
 }
-
-void ceduo_report_option(struct text *text, const struct ceduo_report *report, size_t option, int width)
-{
-    struct ceduo_page page = {.width = width > 20 ? (size_t)width : 20};
-    ceduo_page_say(&page, CEDUO_PAGE_SECTION, "%s", report->result->scene->options[option].name);
-    ceduo_page_option(&page, report, option, true);
-    ceduo_page_print(text, &page, false);
-    ceduo_page_free(&page);
-}

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Prints a page for a terminal or a pane: paragraphs are wrapped, cells set below one another, numbers written with as many
- * digits as their column has room for. What has a role of its own is noted by where it begins. */
+/* Prints a page at a width, or draws it on a canvas: paragraphs are wrapped, cells set below one another, numbers written with as
+ * many digits as their column has room for. A page that is drawn is printed first; where a role or a bar begins is noted, and
+ * what stands between two such places is then drawn piece by piece. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -11,12 +12,16 @@
 #include "page.h"
 #include "words.h"
 
+#define MARGIN   4      /* columns at the left of a page that a pane does without */
+#define TAIL_MIN 8      /* columns that hold a beginning and an end */
 #define SMALLEST 1e-290 /* a number below it is written as 0: powers of ten with more digits than it has do not exist */
 
 /* From this byte of what is printed on, in this role. */
 struct mark {
     size_t at;
     enum ceduo_role role;
+    const struct ceduo_page_bar *bar; /* NULL: text */
+    int width;                        /* of the bar */
 };
 
 struct marks {
@@ -28,16 +33,22 @@ struct printer {
     struct text *text;
     size_t width;
     bool plain;          /* ASCII alone */
-    struct marks *marks; /* NULL: not wanted */
+    struct marks *marks; /* NULL: it is not drawn */
 };
 
-static void set_role(const struct printer *p, enum ceduo_role role)
+static void add_mark(const struct printer *p, struct mark mark)
 {
     struct marks *m = p->marks;
     if (!m)
         return;
+    mark.at = p->text->length;
     m->items = ceduo_must(ceduo_grow(m->items, m->n, &m->room, sizeof *m->items));
-    m->items[m->n++] = (struct mark){p->text->length, role};
+    m->items[m->n++] = mark;
+}
+
+static void set_role(const struct printer *p, enum ceduo_role role)
+{
+    add_mark(p, (struct mark){.role = role});
 }
 
 static void append_blanks(struct text *text, size_t n)
@@ -51,6 +62,10 @@ static void append_safe(const struct printer *p, struct text *to, const char *st
     static const char *const signs[][2] = {{"\xe2\x80\x93", "-"}, {"\xe2\x88\x92", "-"}, {"\xc2\xb1", "+-"}};
     LOCAL_TEXT(safe);
     ceduo_text_safe(&safe, string);
+    if (p->plain && p->marks) {
+        ceduo_cells_ascii(to, ceduo_text_string(&safe)); /* as the cells will show it, so that its width is known */
+        return;
+    }
     for (const char *at = ceduo_text_string(&safe); *at;) {
         size_t i = 0, n = 1;
         while (i < 3 && strncmp(at, signs[i][0], n = strlen(signs[i][0])) != 0)
@@ -109,12 +124,14 @@ static void print_wrapped(const struct printer *p, const char *string, size_t co
 
 static void print_paragraph(const struct printer *p, const struct ceduo_page_block *block)
 {
-    size_t indent = styles[block->kind].indent;
-    const char *text = ceduo_text_string(&block->text);
+    const char *begin = block->label ? block->label : styles[block->kind].first, *text = ceduo_text_string(&block->text);
+    size_t indent = styles[block->kind].indent, margin = p->marks ? strspn(begin, " ") : 0; /* panes are narrow */
     size_t label = block->kind == CEDUO_PAGE_POINT ? strcspn(text, "\t") : 0;
     LOCAL_TEXT(first);
     LOCAL_TEXT(rest);
-    ceduo_text_put(&first, block->label ? block->label : styles[block->kind].first);
+    margin = margin > MARGIN ? MARGIN : margin;
+    indent -= margin;
+    ceduo_text_put(&first, begin + margin);
     ceduo_text_add(&first, text, label);
     size_t column = ceduo_utf8_width(ceduo_text_string(&first));
     if (block->label || label > 0) {
@@ -123,9 +140,11 @@ static void print_paragraph(const struct printer *p, const struct ceduo_page_blo
     }
     append_safe(p, &rest, text + label + (label > 0));
     squeeze(&rest);
-    if (block->kind == CEDUO_PAGE_SECTION)
+    if (p->marks && rest.length == 0)
+        return;
+    if (block->kind == CEDUO_PAGE_SECTION && (!p->marks || p->text->length > 0))
         ceduo_text_char(p->text, '\n');
-    set_role(p, styles[block->kind].role);
+    set_role(p, block->role ? block->role : styles[block->kind].role);
     ceduo_text_put(p->text, ceduo_text_string(&first));
     print_wrapped(p, ceduo_text_string(&rest), column, indent);
     ceduo_text_char(p->text, '\n');
@@ -133,8 +152,8 @@ static void print_paragraph(const struct printer *p, const struct ceduo_page_blo
 
 /* ---- cells ---- */
 
-/* Set into so many columns and cut where it is longer; negative: to the right; 0: as it comes. */
-static void print_padded(const struct printer *p, const char *string, int width)
+/* Set into so many columns and cut where it is longer, at its end or in its middle; negative: to the right; 0: as it comes. */
+static void print_padded(const struct printer *p, const char *string, int width, bool ends)
 {
     size_t want = (size_t)abs(width), have = ceduo_utf8_width(string);
     if (width < 0 && have < want)
@@ -142,10 +161,15 @@ static void print_padded(const struct printer *p, const char *string, int width)
     if (have <= want || want == 0) {
         ceduo_text_put(p->text, string);
     } else {
-        size_t n = ceduo_utf8_cut(string, want - 1);
+        size_t tail = ends && want >= TAIL_MIN ? (want - 1) / 2 : 0;
+        const char *end = string;
+        while (ceduo_utf8_width(end) > tail)
+            end += ceduo_utf8_step(end);
+        size_t n = ceduo_utf8_cut(string, want - 1 - ceduo_utf8_width(end));
         ceduo_text_add(p->text, string, n);
         ceduo_text_put(p->text, p->plain ? "~" : "\xe2\x80\xa6");
-        have = ceduo_utf8_width_of(string, n) + 1;
+        ceduo_text_put(p->text, end);
+        have = ceduo_utf8_width_of(string, n) + 1 + ceduo_utf8_width(end);
     }
     if (width > 0 && have < want)
         append_blanks(p->text, want - have);
@@ -230,50 +254,131 @@ static void write_mean(struct text *text, double mean, double half, size_t width
     }
 }
 
-void ceduo_page_write_cell(struct text *to, const struct ceduo_page_cell *cell, size_t width, bool plain)
+static void write_cell(const struct printer *p, struct text *to, const struct ceduo_page_cell *cell, size_t width)
 {
-    const struct printer p = {.plain = plain};
     if (cell->kind == CEDUO_CELL_NUMBER)
         write_number(to, cell->value, cell->digits, width);
     else if (cell->kind == CEDUO_CELL_MEAN)
-        write_mean(to, cell->value, cell->half, width, plain ? "+-" : "\xc2\xb1");
+        write_mean(to, cell->value, cell->half, width, p->plain ? "+-" : "\xc2\xb1");
     else
-        append_safe(&p, to, ceduo_text_string(&cell->text));
+        append_safe(p, to, ceduo_text_string(&cell->text));
     if (cell->shorter.length > 0 && !fits(to, width)) {
         ceduo_text_free(to);
-        append_safe(&p, to, ceduo_text_string(&cell->shorter));
+        append_safe(p, to, ceduo_text_string(&cell->shorter));
     }
 }
 
+void ceduo_page_write_cell(struct text *to, const struct ceduo_page_cell *cell, size_t width, bool plain)
+{
+    write_cell(&(struct printer){.plain = plain}, to, cell, width);
+}
+
 static void print_cell(const struct printer *p, const struct ceduo_page_column *column, const struct ceduo_page_cell *cell,
-                       int width)
+                       int width, enum ceduo_role role)
 {
     LOCAL_TEXT(text);
+    set_role(p, CEDUO_ROLE_TEXT);
     append_blanks(p->text, (size_t)column->gap);
-    ceduo_page_write_cell(&text, cell, (size_t)abs(width), p->plain);
-    set_role(p, cell->role ? cell->role : CEDUO_ROLE_TEXT);
+    if (cell->kind == CEDUO_CELL_BAR) {
+        add_mark(p, (struct mark){.role = cell->role, .bar = &cell->bar, .width = width});
+        append_blanks(p->text, (size_t)width);
+        return;
+    }
+    write_cell(p, &text, cell, (size_t)abs(width) + ((column->flags & (CEDUO_FITS | CEDUO_FILLS)) != 0));
+    set_role(p, cell->role ? cell->role : role);
     if ((column->flags & CEDUO_WHOLE) && !fits(&text, (size_t)width)) {
         print_wrapped(p, ceduo_text_string(&text), (size_t)column->gap, (size_t)column->gap);
         ceduo_text_char(p->text, '\n');
         append_blanks(p->text, (size_t)(column->gap + width));
     } else {
-        print_padded(p, ceduo_text_string(&text), width);
+        print_padded(p, ceduo_text_string(&text), width, column->flags & CEDUO_FILLS);
     }
+}
+
+#define COLUMNS_MAX 24
+#define ANY_WIDTH   400 /* a cell without limits */
+
+/* The widest cell of a column; `*bars`: there is a bar in it. */
+static int widest_cell(const struct printer *p, const struct ceduo_page_block *table, size_t column, bool *bars)
+{
+    int widest = 0;
+    for (size_t i = column; i < table->cells_count; i += table->columns_count) {
+        LOCAL_TEXT(text);
+        *bars |= table->cells[i].kind == CEDUO_CELL_BAR;
+        write_cell(p, &text, &table->cells[i], ANY_WIDTH);
+        int width = (int)ceduo_utf8_width(ceduo_text_string(&text));
+        widest = width > widest ? width : widest;
+    }
+    return widest;
+}
+
+/* Sets the width of each column: 0 for one that has no room. */
+static void place_columns(const struct printer *p, const struct ceduo_page_block *table, int *widths)
+{
+    size_t n = table->columns_count;
+    int rest = (int)p->width, natural[COLUMNS_MAX], bars = 0;
+    bool has_bars[COLUMNS_MAX] = {false};
+    for (size_t i = 0; i < n; i++) {
+        const struct ceduo_page_column *c = &table->columns[i];
+        int share = (int)p->width / 2; /* that a name may take of the page: rather it is cut than columns are left out */
+        natural[i] = c->flags & (CEDUO_FITS | CEDUO_FILLS) ? widest_cell(p, table, i, &has_bars[i]) : 0;
+        widths[i] = c->flags & CEDUO_FITS ? natural[i] : 0;
+        if (c->flags & CEDUO_FILLS && !has_bars[i])
+            widths[i] = natural[i] < share ? natural[i] : share;
+        widths[i] = widths[i] > abs(c->width) ? widths[i] : abs(c->width);
+        rest -= c->gap + widths[i];
+    }
+    for (size_t rank = 9; rest < 0 && rank > 0; rank--)
+        for (size_t i = 0; i < n; i++)
+            if (table->columns[i].flags >> 8 == rank) {
+                rest += table->columns[i].gap + widths[i];
+                widths[i] = 0;
+            }
+    for (size_t i = 0; i < n; i++)
+        bars += has_bars[i] && widths[i] > 0;
+    for (size_t i = 0; i < n; i++) { /* names take what is missing, or what is left where there is no bar */
+        int more = rest < natural[i] - widths[i] ? rest : natural[i] - widths[i],
+            least = abs(table->columns[i].width) - widths[i];
+        if (!(table->columns[i].flags & CEDUO_FILLS) || widths[i] == 0 || has_bars[i] || (rest > 0 && bars > 0))
+            continue;
+        more = more > least ? more : least;
+        widths[i] += more;
+        rest -= more;
+    }
+    for (size_t i = 0; i < n && rest > 0; i++)
+        if (has_bars[i] && widths[i] > 0) {
+            widths[i] += rest / bars;
+            rest -= rest / bars--;
+        }
+}
+
+static bool has_heads(const struct ceduo_page_block *table)
+{
+    for (size_t i = 0; i < table->columns_count; i++)
+        if (table->cells[i].text.length > 0)
+            return true;
+    return false;
 }
 
 static void print_table(const struct printer *p, const struct ceduo_page_block *table)
 {
     size_t n = table->columns_count;
-    for (size_t row = 0; row + n <= table->cells_count; row += n) {
+    int widths[COLUMNS_MAX];
+    place_columns(p, table, widths);
+    for (size_t row = has_heads(table) ? 0 : n; row + n <= table->cells_count; row += n) {
         for (size_t i = 0; i < n; i++) {
             const struct ceduo_page_column *c = &table->columns[i];
             bool spans = row == 0 && (c->flags & CEDUO_SPAN);
-            int width = c->width;
+            int width = widths[i];
+            if (width == 0 && c->width != 0)
+                continue;
             if (spans)
-                width = abs(width) + c[1].gap + abs(c[1].width);
-            else if (row == 0 && i == n - 1 && width > 0) /* the last head is never cut */
+                width += c[1].gap + abs(c[1].width);
+            else if (c->width < 0)
+                width = -width;
+            else if (row == 0 && i == n - 1 && c->width > 0) /* the last head is never cut */
                 width = 0;
-            print_cell(p, c, &table->cells[row + i], width);
+            print_cell(p, c, &table->cells[row + i], width, row == 0 ? CEDUO_ROLE_AXIS : CEDUO_ROLE_TEXT);
             i += spans;
         }
         while (!p->marks && p->text->length > 0 && p->text->bytes[p->text->length - 1] == ' ')
@@ -309,11 +414,43 @@ void ceduo_page_print(struct text *text, const struct ceduo_page *page, bool pla
     print_page(&(struct printer){.text = text, .width = page->width, .plain = plain}, page);
 }
 
-int ceduo_page_draw(const struct ceduo_page *page, struct ceduo_cells *cells, struct ceduo_area area, int first)
+/* ---- drawing ---- */
+
+static void draw_bar(struct ceduo_canvas *canvas, int column, int row, const struct mark *mark)
+{
+    const struct ceduo_page_bar *b = mark->bar;
+    int width = mark->width, least = (int)(b->least * (width - 1)), most = (int)(b->most * (width - 1));
+    for (int x = least; b->most >= b->least && x <= most; x++)
+        ceduo_canvas_label(canvas, column + x, row, CEDUO_ROLE_MEAN,
+                           x == least  ? "\xe2\x94\x9c"
+                           : x == most ? "\xe2\x94\xa4"
+                                       : "\xe2\x94\x80");
+    if (b->from > 0)
+        for (int x = (int)(b->from * (width - 1)); x <= (int)(b->to * (width - 1)); x++)
+            ceduo_canvas_bar(canvas, column + x, row, 1, 1, mark->role);
+    else
+        ceduo_canvas_bar(canvas, column, row, width, b->to, mark->role);
+    if (b->limit >= 0 && b->limit <= 1)
+        ceduo_canvas_label(canvas, column + (int)fmin(round(b->limit * width), width - 1), row, b->own, "\xe2\x94\x82");
+}
+
+/* A piece of a line, in `room` columns; blanks at its ends are drawn only where they are seen. */
+static void draw_piece(struct ceduo_canvas *canvas, int column, int row, int room, enum ceduo_role role, struct text *piece)
+{
+    char *string = piece->bytes, *end = string + piece->length;
+    size_t blanks = role == CEDUO_ROLE_CURSOR ? 0 : strspn(string, " ");
+    while (role != CEDUO_ROLE_CURSOR && end > string + blanks && end[-1] == ' ')
+        *--end = '\0';
+    if (string[blanks])
+        ceduo_canvas_put(canvas, column + (int)blanks, row, room - (int)blanks, role, string + blanks);
+}
+
+int ceduo_page_draw(const struct ceduo_page *page, struct ceduo_canvas *canvas, struct ceduo_area area, int first)
 {
     LOCAL_TEXT(text);
     struct marks marks = {0};
-    print_page(&(struct printer){&text, page->width, false, &marks}, page);
+    bool plain = ceduo_canvas_label_width(canvas, "\xe2\x80\xa6") > 1;
+    print_page(&(struct printer){&text, page->width, plain, &marks}, page);
     int line = 0, column = 0;
     size_t mark = 0;
     for (size_t at = 0, end; at < text.length; at = end) {
@@ -322,12 +459,17 @@ int ceduo_page_draw(const struct ceduo_page *page, struct ceduo_cells *cells, st
         size_t next = mark < marks.n ? marks.items[mark].at : text.length;
         const char *from = text.bytes + at, *stop = memchr(from, '\n', next - at);
         end = stop ? (size_t)(stop - text.bytes) + 1 : next;
-        if (line >= first && line - first < area.height) {
-            LOCAL_TEXT(piece);
-            ceduo_text_add(&piece, from, end - at - (stop != NULL));
-            column += ceduo_cells_label(cells, area.left + column, area.top + line - first,
-                                        mark > 0 ? marks.items[mark - 1].role : CEDUO_ROLE_TEXT, ceduo_text_string(&piece));
-        }
+        const struct mark *role = mark > 0 ? &marks.items[mark - 1] : &(struct mark){.role = CEDUO_ROLE_TEXT};
+        size_t length = end - at - (stop != NULL);
+        int x = area.left + column, y = area.top + line - first;
+        bool shown = line >= first && line - first < area.height && length > 0;
+        LOCAL_TEXT(piece);
+        ceduo_text_add(&piece, from, length);
+        column += ceduo_canvas_label_width(canvas, ceduo_text_string(&piece));
+        if (shown && role->bar && !canvas->words_alone && x + role->width <= area.left + area.width)
+            draw_bar(canvas, x, y, role);
+        else if (shown && !role->bar)
+            draw_piece(canvas, x, y, area.left + area.width - x, role->role, &piece);
         line += stop != NULL;
         column = stop ? 0 : column;
     }

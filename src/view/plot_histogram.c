@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <gsl/gsl_statistics_double.h>
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -10,6 +9,8 @@
 #include "plot_parts.h"
 
 /* Energies at a control as horizontal bars. */
+
+#define MARKS_WIDTH 60 /* columns that leave room for a word in a mark */
 
 struct bins {
     double first, width; /* kJ: edge of the first, width of all */
@@ -39,15 +40,10 @@ static int bin_of(const struct bins *b, double kj)
 }
 
 struct histogram {
-    struct ceduo_canvas *canvas;
-    const struct ceduo_area *area;
     const struct ceduo_control *control;
     const struct ceduo_arrivals *arrivals, *bare; /* bare NULL: there is nothing to be held against */
     double accepted;                              /* kJ */
     struct bins bins;
-    int top, label, bar, numbers, marks; /* row of the first bar; columns they take */
-    int digits, bare_digits;             /* of the largest numbers of 1000 */
-    bool heads;                          /* a row above the bars */
     size_t n, *counts, bare_n, *bare_counts;
 };
 
@@ -73,28 +69,19 @@ static double per_1000(const struct histogram *h, bool bare, int i)
     return n > 0 ? 1000 * a->reach_probability * (double)counts[i] / (double)n : 0;
 }
 
-static void write_numbers(const struct histogram *h, int i, struct text *text)
-{
-    if (h->bare)
-        ceduo_text_format(text, "%*.0f (%*.0f)", h->digits, per_1000(h, false, i), h->bare_digits, per_1000(h, true, i));
-    else
-        ceduo_text_format(text, "%zu %5.1f %%", h->counts[i], 100.0 * (double)h->counts[i] / (double)h->n);
-}
-
-#define WORD_LEAST 60 /* columns that leave room for a word in a mark */
-
 static void add_mark(const struct histogram *h, int i, double kj, const char *name, struct text *text)
 {
     if (!isnan(kj) && bin_of(&h->bins, kj) == i)
         ceduo_text_format(text, "%s%s%s%.3g", text->length > 0 ? ", " : "\xe2\x97\x80 ", name, name[0] == '>' ? "" : " ", kj);
 }
 
-static void write_marks(const struct histogram *h, int i, struct text *text)
+/* `word`: for what the place withstands. */
+static void write_marks(const struct histogram *h, int i, const char *word, struct text *text)
 {
     const struct ceduo_distribution *e = &h->arrivals->energy;
     double end = h->bins.first + h->bins.count * h->bins.width;
     if (h->accepted >= h->bins.first && (h->accepted < end || h->bins.over))
-        add_mark(h, i, h->accepted, h->area->width < WORD_LEAST ? ">" : _("withstands"), text);
+        add_mark(h, i, h->accepted, word, text);
     add_mark(h, i, e->p50 * J_TO_KJ, "p50", text);
     add_mark(h, i, e->p95 * J_TO_KJ, "p95", text);
 }
@@ -108,115 +95,68 @@ static enum ceduo_role role_of(const struct histogram *h, int i)
                                                  : CEDUO_ROLE_WARN;
 }
 
-/* How many columns the widest of a kind of text takes. */
-static int widest(const struct histogram *h, void (*write)(const struct histogram *h, int i, struct text *text))
-{
-    int width = 0;
-    for (int i = 0; i < h->bins.count; i++) {
-        LOCAL_TEXT(text);
-        write(h, i, &text);
-        int w = ceduo_canvas_label_width(h->canvas, ceduo_text_string(&text));
-        width = w > width ? w : width;
-    }
-    return width;
-}
-
 /* What the bars are drawn to: counts, or with two runs those of 1000 released. */
 static double length_of(const struct histogram *h, int i)
 {
     return h->bare ? per_1000(h, false, i) : (double)h->counts[i];
 }
 
-static void draw_row(const struct histogram *h, int i, double most)
+static void add_row(struct ceduo_page *page, const struct histogram *h, int i, double most)
 {
-    int row = h->top + i, column = h->area->left + h->label + 1;
-    struct text label = {0}, number = {0}, marks = {0};
-    write_bin(h, i, &label);
-    write_numbers(h, i, &number);
-    write_marks(h, i, &marks);
-    ceduo_plot_put_right(h->canvas, column - 2, row, h->label, CEDUO_ROLE_AXIS, &label);
-    ceduo_canvas_bar(h->canvas, column, row, h->bar, length_of(h, i) / most, role_of(h, i));
-    if (h->bare && h->bare_counts[i] > 0) {
-        int at = column + (int)fmin(floor(per_1000(h, true, i) / most * h->bar), h->bar - 1);
-        ceduo_canvas_label(h->canvas, at, row, CEDUO_ROLE_BARE, "\xe2\x94\x82");
-    }
-    column += h->bar + 1;
-    ceduo_plot_put_right(h->canvas, column + h->numbers - 1, row, h->numbers, CEDUO_ROLE_TEXT, &number);
-    ceduo_plot_put_fitting(h->canvas, column + h->numbers + 1, row, h->marks, CEDUO_ROLE_TITLE, 1, &marks);
-}
-
-/* Returns NULL, or why there is no bar. */
-static const char *draw_rows(struct histogram *h)
-{
-    double most = 0, most_bare = 0;
-    for (int i = 0; i < h->bins.count; i++) {
-        most = fmax(most, length_of(h, i));
-        most_bare = fmax(most_bare, h->bare ? per_1000(h, true, i) : 0);
-    }
-    h->digits = snprintf(NULL, 0, "%.0f", most);
-    h->bare_digits = snprintf(NULL, 0, "%.0f", most_bare);
-    h->label = widest(h, write_bin);
-    h->numbers = widest(h, write_numbers);
-    h->marks = widest(h, write_marks);
-    h->bar = h->area->width - h->label - h->numbers - h->marks - 3;
-    if (h->bar < 4) { /* rather bars without words than no bars */
-        h->bar += h->marks;
-        h->marks = 0;
-    }
-    if (h->bar < 4) {
-        h->bar += h->numbers;
-        h->numbers = 0;
-    }
-    if (h->bar < 1)
-        return _("too narrow");
-    int end = h->label + 1 + h->bar + 1 + h->numbers;
-    if (h->heads && h->bare && h->numbers > 0)
-        ceduo_plot_say_right(h->canvas, h->area->left + end - 1, h->top - 1, end, CEDUO_ROLE_AXIS, "%s", _("wood (bare)"));
-    for (int i = 0; i < h->bins.count; i++)
-        draw_row(h, i, fmax(most, most_bare));
-    return NULL;
-}
-
-/* ---- the head ---- */
-
-#define HEADS 4 /* the longest first; the first one has a remark as well */
-
-/* With the forest and (without). */
-static void write_wooded_heads(const struct histogram *h, struct text *heads)
-{
-    double reach = h->arrivals->reach_probability * 1000, bare_reach = h->bare->reach_probability * 1000;
-    double exceed = h->arrivals->exceed_probability * 1000, bare_exceed = h->bare->exceed_probability * 1000;
-    ceduo_text_format(&heads[1], _("of 1000 released %.0f arrive (\xe2\x94\x82 bare %.0f)"), reach, bare_reach);
-    ceduo_text_format(&heads[2], _("of 1000: %.0f arrive (\xe2\x94\x82 bare %.0f)"), reach, bare_reach);
-    ceduo_text_format(&heads[3], _("of 1000: %.0f (\xe2\x94\x82 bare %.0f)"), reach, bare_reach);
-    for (int i = 1; i < HEADS && !isnan(exceed); i++)
-        ceduo_text_then(&heads[i], ", ", i == 1 ? _("%.0f (%.0f) with more than %g kJ") : "%.0f (%.0f) > %g kJ", exceed,
-                        bare_exceed, h->accepted);
-}
-
-static void write_bare_heads(const struct histogram *h, struct text *heads)
-{
-    unsigned long long reached = h->arrivals->reached, released = h->arrivals->released;
-    double exceed = h->arrivals->exceed_probability * 1000;
-    ceduo_text_format(&heads[1], _("n = %llu of %llu rocks arrive"), reached, released);
-    ceduo_text_format(&heads[2], _("n = %llu of %llu"), reached, released);
-    ceduo_text_format(&heads[3], _("n = %llu"), reached);
-    for (int i = 1; i < HEADS && !isnan(exceed); i++)
-        ceduo_text_then(&heads[i], "; ", i == 1 ? _("of 1000 released, %.0f with more than %g kJ") : _("of 1000: %.0f > %g kJ"),
-                        exceed, h->accepted);
-}
-
-static void put_head(const struct histogram *h)
-{
-    struct text heads[HEADS] = {{0}};
+    bool marked = page->width >= MARKS_WIDTH;
+    write_bin(h, i, ceduo_page_text(page));
+    struct ceduo_page_bar *bar = ceduo_page_bar(page, length_of(h, i) / most, role_of(h, i));
+    if (h->bare && h->bare_counts[i] > 0)
+        bar->limit = per_1000(h, true, i) / most;
+    bar->own = CEDUO_ROLE_BARE;
+    ceduo_page_write(page, "%.0f", length_of(h, i));
     if (h->bare)
-        write_wooded_heads(h, heads);
+        ceduo_page_write(page, "%.0f", per_1000(h, true, i));
     else
-        write_bare_heads(h, heads);
-    ceduo_text_put(&heads[0], ceduo_text_string(&heads[1]));
+        ceduo_page_write(page, "%.1f %%", 100.0 * (double)h->counts[i] / (double)h->n);
+    struct ceduo_page_cell *marks = ceduo_page_cell(page);
+    marks->role = CEDUO_ROLE_TITLE;
+    write_marks(h, i, marked ? _("withstands") : ">", &marks->text);
+}
+
+static void add_rows(struct ceduo_page *page, const struct histogram *h)
+{
+    static const struct ceduo_page_column columns[] = {{"", -6, 0, CEDUO_FITS},
+                                                       {"", 4, 1, CEDUO_FILLS},
+                                                       {"", -4, 1, CEDUO_FITS | CEDUO_DROPPED(1)},
+                                                       {"", -5, 1, CEDUO_FITS | CEDUO_DROPPED(1)},
+                                                       {"", 1, 1, CEDUO_FITS | CEDUO_DROPPED(2)}};
+    double most = 0;
+    for (int i = 0; i < h->bins.count; i++)
+        most = fmax(most, fmax(length_of(h, i), h->bare ? per_1000(h, true, i) : 0));
+    CEDUO_PAGE_TABLE_OF(page, columns);
+    if (h->bare) {
+        ceduo_text_put(&page->last->cells[1].text, _("\xe2\x94\x82 without forest"));
+        ceduo_text_put(&page->last->cells[1].shorter, _("\xe2\x94\x82 bare"));
+        ceduo_text_put(&page->last->cells[2].text, _("wood"));
+        ceduo_text_put(&page->last->cells[3].text, _("bare"));
+    }
+    for (int i = 0; i < h->bins.count; i++)
+        add_row(page, h, i, most);
+}
+
+/* What all rows add up to. */
+static void say_all(struct ceduo_page *page, const struct histogram *h)
+{
+    double exceed = h->arrivals->exceed_probability * 1000;
+    struct text *head = ceduo_page_add(page, CEDUO_PAGE_NOTE);
+    if (h->bare)
+        ceduo_text_format(head, _("of 1000: %.0f arrive (\xe2\x94\x82 bare %.0f)"), h->arrivals->reach_probability * 1000,
+                          h->bare->reach_probability * 1000);
+    else
+        ceduo_text_format(head, _("n = %llu of %llu"), (unsigned long long)h->arrivals->reached,
+                          (unsigned long long)h->arrivals->released);
+    if (!isnan(exceed) && h->bare)
+        ceduo_text_then(head, ", ", "%.0f (%.0f) > %g kJ", exceed, h->bare->exceed_probability * 1000, h->accepted);
+    else if (!isnan(exceed))
+        ceduo_text_then(head, "; ", _("of 1000: %.0f > %g kJ"), exceed, h->accepted);
     if (h->n < h->arrivals->reached || (h->bare && h->bare_n < h->bare->reached))
-        ceduo_text_then(&heads[0], "; ", _("drawn: the first %zu"), h->n > h->bare_n ? h->n : h->bare_n);
-    ceduo_plot_put_fitting(h->canvas, h->area->left, h->area->top, h->area->width, CEDUO_ROLE_TEXT, HEADS, heads);
+        ceduo_text_then(head, "; ", _("drawn: the first %zu"), h->n > h->bare_n ? h->n : h->bare_n);
 }
 
 /* ---- the picture ---- */
@@ -248,34 +188,35 @@ static void count(struct histogram *h, const struct ceduo_energies *e, const str
     h->bare_counts = bare ? count_in(&h->bins, bare) : NULL;
 }
 
-const char *ceduo_plot_histogram(struct ceduo_canvas *canvas, const struct ceduo_area *area,
-                                 const struct ceduo_picture *picture)
+#define SAID_HEIGHT 6 /* lines that leave room for a line above the rows; what stands before them says it, too */
+
+const char *ceduo_blocks_histogram(struct ceduo_page *page, const struct ceduo_picture *picture, int height)
 {
     size_t c = picture->control;
     const struct ceduo_run_snapshot *sight = ceduo_plot_sight(picture), *bare = ceduo_plot_bare(picture);
-    bool wooded = ceduo_plot_wooded(picture), head = area->height >= 4;
-    struct histogram h = {.canvas = canvas,
-                          .area = area,
-                          .control = ceduo_plot_control(picture),
+    bool wooded = ceduo_plot_wooded(picture), said = height >= SAID_HEIGHT && !page->first;
+    struct histogram h = {.control = ceduo_plot_control(picture),
                           .arrivals = ceduo_plot_arrivals(picture, c),
-                          .bare = wooded ? ceduo_plot_bare_arrivals(picture, c) : NULL,
-                          .heads = area->height >= 10};
-    int rows = area->height - head - h.heads;
+                          .bare = wooded ? ceduo_plot_bare_arrivals(picture, c) : NULL};
+    int rows = height - said - wooded;
     if (!h.control)
         return _("no control");
     if (!h.arrivals || (wooded && !h.bare))
         return _("not computed yet");
     if (sight->energies[c].n == 0 && bare->energies[c].n == 0)
         return _("no rock arrives");
-    if (rows < 1)
-        return NULL;
     h.accepted = h.control->accepted * J_TO_KJ;
-    h.top = area->top + head + h.heads;
-    count(&h, &sight->energies[c], wooded ? &bare->energies[c] : NULL, rows);
-    if (head)
-        put_head(&h);
-    const char *why = draw_rows(&h);
+    count(&h, &sight->energies[c], wooded ? &bare->energies[c] : NULL, rows > 1 ? rows : 1);
+    if (said)
+        say_all(page, &h);
+    add_rows(page, &h);
     free(h.counts);
     free(h.bare_counts);
-    return why;
+    return NULL;
+}
+
+const char *ceduo_plot_histogram(struct ceduo_canvas *canvas, const struct ceduo_area *area,
+                                 const struct ceduo_picture *picture)
+{
+    return ceduo_plot_page(canvas, area, picture, ceduo_blocks_histogram);
 }

@@ -33,20 +33,6 @@ int ceduo_plot_say(struct ceduo_canvas *canvas, int column, int row, int most, e
     return ceduo_plot_put_fitting(canvas, column, row, most, role, 1, &text);
 }
 
-void ceduo_plot_put_ends(struct ceduo_canvas *canvas, int column, int row, int most, enum ceduo_role role, const char *name)
-{
-    LOCAL_TEXT(safe);
-    ceduo_text_safe(&safe, name);
-    const char *string = ceduo_text_string(&safe), *end = string;
-    int tail = most * 2 / 5;
-    bool whole = tail < 3 || ceduo_canvas_label_width(canvas, string) <= most;
-    ceduo_canvas_put(canvas, column, row, whole ? most : most - tail, role, string);
-    while (!whole && ceduo_canvas_label_width(canvas, end) > tail)
-        end += ceduo_utf8_step(end);
-    if (!whole)
-        ceduo_canvas_label_right(canvas, column + most - 1, row, role, end);
-}
-
 void ceduo_plot_put_right(struct ceduo_canvas *canvas, int column, int row, int most, enum ceduo_role role, struct text *text)
 {
     int width = ceduo_canvas_label_width(canvas, ceduo_text_string(text));
@@ -84,6 +70,28 @@ void ceduo_plot_belt_name(struct text *text, const struct ceduo_belt *belt)
 {
     ceduo_text_put(text, belt->name ? belt->name : _("stand"));
     ceduo_text_put(text, belt->assumed ? "*" : "");
+}
+
+/* ---- pages ---- */
+
+#define WIDTH_MIN 30 /* columns below which words and bars have no room beside one another */
+
+const char *ceduo_plot_page(struct ceduo_canvas *canvas, const struct ceduo_area *area, const struct ceduo_picture *picture,
+                            ceduo_blocks_function *blocks)
+{
+    struct ceduo_page page = {.width = (size_t)area->width};
+    const char *why = blocks(&page, picture, area->height);
+    if (!why && area->width < WIDTH_MIN)
+        why = _("too narrow");
+    if (!why)
+        ceduo_page_draw(&page, canvas, *area, 0);
+    ceduo_page_free(&page);
+    return why;
+}
+
+void ceduo_page_light(struct ceduo_page *page, enum ceduo_light light)
+{
+    ceduo_page_mark(page, ceduo_plot_light_role(light), ceduo_plot_light_mark(light));
 }
 
 /* ---- what a picture shows ---- */

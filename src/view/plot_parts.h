@@ -2,6 +2,7 @@
 #ifndef CEDUO_PLOT_PARTS_H
 #define CEDUO_PLOT_PARTS_H
 
+#include "page.h"
 #include "plot.h"
 #include "words.h"
 
@@ -14,14 +15,23 @@ typedef const char *ceduo_plot_function(struct ceduo_canvas *canvas, const struc
 CEDUO_PLOT_LIST(X)
 #undef X
 
+/* A picture of rows with words and bars is a page: these add its blocks, of about `height` lines, for a pane to show among others.
+ * Each returns NULL, or why there is nothing. */
+typedef const char *ceduo_blocks_function(struct ceduo_page *page, const struct ceduo_picture *picture, int height);
+ceduo_blocks_function ceduo_blocks_adc, ceduo_blocks_histogram, ceduo_blocks_compare, ceduo_blocks_doubt;
+
+/* Draws the picture that such blocks make. */
+const char *ceduo_plot_page(struct ceduo_canvas *canvas, const struct ceduo_area *area, const struct ceduo_picture *picture,
+                            ceduo_blocks_function *blocks);
+
+/* A cell with the sign of a light. */
+void ceduo_page_light(struct ceduo_page *page, enum ceduo_light light);
+
 /* As ceduo_canvas_put(), formatted. */
 int ceduo_plot_say(struct ceduo_canvas *canvas, int column, int row, int most, enum ceduo_role role, const char *format, ...)
     __attribute__((format(printf, 6, 7)));
 
-/* A name that is too long for `most` columns loses its middle: names often differ at their ends. */
-void ceduo_plot_put_ends(struct ceduo_canvas *canvas, int column, int row, int most, enum ceduo_role role, const char *name);
-
-/* The same, its last cell in column `column`. Frees the text. */
+/* The same, its last cell in column `column`; frees the text. */
 void ceduo_plot_put_right(struct ceduo_canvas *canvas, int column, int row, int most, enum ceduo_role role, struct text *text);
 void ceduo_plot_say_right(struct ceduo_canvas *canvas, int column, int row, int most, enum ceduo_role role, const char *format,
                           ...) __attribute__((format(printf, 6, 7)));

@@ -38,9 +38,6 @@ void ceduo_report_table(struct text *text, const struct ceduo_report *report, bo
 struct ceduo_page;
 void ceduo_page_verdicts(struct ceduo_page *page, const struct ceduo_report *report);
 
-/* The part of that page that belongs to one option, in `width` columns. */
-void ceduo_report_option(struct text *text, const struct ceduo_report *report, size_t option, int width);
-
 /* One line of JSON, "ceduo-result-1". */
 void ceduo_report_json(struct text *text, const struct ceduo_report *report);
 

@@ -108,8 +108,13 @@ class Screen:
 
     @property
     def title(self):
-        """The names of the views, and the scene's title beside or below them."""
-        return "\n".join(self.lines[:2]).rstrip()
+        """The names of the views, and the scene's title beside them or above the figures."""
+        beside = re.search(r" 8 .*\S {3,}\S", self.lines[0])
+        return self.lines[0] if beside else f"{self.lines[0]}\n{self.cut(self.width - self.side + 1, self.width)[0]}"
+
+    @property
+    def verdict(self):
+        return self.lines[1]
 
     @property
     def note(self):
@@ -136,8 +141,8 @@ class Screen:
 
     @property
     def now(self):
-        """The column on the right."""
-        return "\n".join(self.cut(self.width - self.side + 1, self.width))
+        """The column on the right, without the mark of unsaved work before the title."""
+        return "\n".join(self.cut(self.width - self.side + 1, self.width)).removeprefix("* ")
 
     def figure(self, pattern):
         """The number that follows in the column on the right."""
@@ -147,10 +152,25 @@ class Screen:
 
     def pair(self, name):
         """What stands in the column on the right through the wood and without forest: numbers, None for a dash."""
-        found = re.search(rf"^ *{re.escape(name)} +(\S+|\d+ \(\d+-\d+\)) +(\S+)$", self.now, re.M)
+        found = re.search(rf"^ *{re.escape(name)} +(\S+|\d+ \(\d+[–-]\d+\)) +(\S+)$", self.now, re.M)
         expect(found, f"no '{name}' with two figures in the column on the right:", self.now)
         numbers = [re.match(r"[\d.]+", word) for word in found.groups()]
         return tuple(float(n.group()) if n else None for n in numbers)
+
+    def lights(self):
+        """The tests in the column on the right, {'Contact': 'passes', …}: the sign and the comparison must agree."""
+        found = {}
+        for name, pattern in (("Contact", r"^(?:ADC|gap)\b(.*) (\S)$"), ("Free run", r"^[\d.]+ m free (.*) (\S)$"),
+                              ("Energy", r"^energy\b(.*) (\S)$")):
+            match = re.search(pattern, self.now, re.M)
+            expect(match, f"no test '{name}' in the column on the right:", self)
+            words, sign = match.groups()
+            expect(sign in "✔✘+x?", f"{name}: the sign {sign!r}", self)
+            good, bad = re.search(r" (<|≤|<=) ", words), re.search(r" (≥|>|>=) |no (stems|forest)", words)
+            expect(sign not in "✔+" or good, f"the sign {sign!r} does not go with {name}{words}", self)
+            expect(sign not in "✘x" or bad, f"the sign {sign!r} does not go with {name}{words}", self)
+            found[name] = "passes" if sign in "✔+" else "FAILS" if sign in "✘x" else "unknown"
+        return found
 
     def has(self, *parts):
         """Each part is there, in whatever layout: runs of blanks are one."""

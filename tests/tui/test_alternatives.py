@@ -39,7 +39,7 @@ def choose(shape):
 
 
 def mass_of(screen):
-    return float(re.search(r"Rock +\S+ m +(\S+) kg", screen.now).group(1))
+    return float(re.search(r"Rock +\S+ m, +(\S+) kg", screen.now).group(1))
 
 
 def test_every_shape():

@@ -365,7 +365,7 @@ def test_export_command():
         control = batch["options"][0]["controls"][0]
         arrivals = control["wooded"], control["bare"]
         expect_equal(screen.pair("arrive"), tuple(round(a["reach_probability"] * 1000) for a in arrivals), "arrive")
-        expect_equal(screen.pair("arriving kJ"), tuple(float(f"{a['energy_kJ']['mean']:.3g}") for a in arrivals), "energy")
+        expect_equal(screen.pair("mean kJ"), tuple(float(f"{a['energy_kJ']['mean']:.3g}") for a in arrivals), "energy")
         expect_near(control["index"]["residual_kJ"], index_of(screen)[1], 0.06, "left")
 
 

@@ -111,7 +111,19 @@ TEST(signs_are_plain_for_a_plain_terminal)
     assert_non_null(strstr(text, "+-"));
 }
 
-/* Into a pane: from a line on, within its area, headings and warnings in roles of their own. */
+/* ---- drawn ---- */
+
+/* Draws a page into an area of cells at (2, 1), and compares what is seen. */
+static void expect_drawn(struct ceduo_page *page, struct ceduo_area area, enum ceduo_charset charset, int first, int lines,
+                         const char *wanted)
+{
+    LOCAL(ceduo_cells, cells) = ceduo_cells_create(area.left + area.width + 2, area.top + area.height + 1, charset);
+    assert_int_equal(ceduo_page_draw(page, &cells->canvas, area, first), lines);
+    LOCAL_BYTES char *text = ceduo_cells_dump(cells);
+    assert_string_equal(text, wanted);
+}
+
+/* From a line on, within its area, headings and warnings in roles of their own; margins are smaller than on paper. */
 TEST(a_pane_shows_lines_in_roles)
 {
     LOCAL_BY(ceduo_page_free) struct ceduo_page page = {.width = 12};
@@ -120,10 +132,56 @@ TEST(a_pane_shows_lines_in_roles)
     ceduo_page_say(&page, CEDUO_PAGE_SECTION, "%s", "option");
     ceduo_page_say(&page, CEDUO_PAGE_WARNING, "%s", "a b");
     ceduo_page_say(&page, CEDUO_PAGE_NOTE, "%s", "one");
-    assert_int_equal(ceduo_page_draw(&page, cells, (struct ceduo_area){2, 1, 12, 3}, 2), 5);
+    page.last->role = CEDUO_ROLE_DIM;
+    assert_int_equal(ceduo_page_draw(&page, &cells->canvas, (struct ceduo_area){2, 1, 12, 3}, 2), 5);
     LOCAL_BYTES char *text = ceduo_cells_dump(cells), *roles = ceduo_cells_roles(cells);
-    assert_string_equal(text, "\n  option\n      ! a b\n    one\n\n");
-    assert_string_equal(roles, "\n  TTTTTT\n  WWWWWWWWW\n  ttttt\n\n");
+    assert_string_equal(text, "\n  option\n  ! a b\n  one\n\n");
+    assert_string_equal(roles, "\n  TTTTTT\n  WWWWW\n  ddd\n\n");
+}
+
+static const struct ceduo_page_column fitted[] = {{"", 6, 0, CEDUO_FILLS},
+                                                  {"kJ", -2, 1, CEDUO_FITS},
+                                                  {"", 4, 1, CEDUO_FILLS | CEDUO_DROPPED(1)},
+                                                  {"less", -1, 1, CEDUO_FITS | CEDUO_DROPPED(2)}};
+
+static struct ceduo_page bars(size_t width)
+{
+    static const char *const names[] = {"coppice, just cut", "coppice, 25 years"};
+    struct ceduo_page page = {.width = width};
+    CEDUO_PAGE_TABLE_OF(&page, fitted);
+    for (int i = 0; i < 2; i++) {
+        ceduo_page_write(&page, "%s", names[i]);
+        ceduo_page_number(&page, i ? 123.4 : 7, 4);
+        struct ceduo_page_bar *bar = ceduo_page_bar(&page, i ? .5 : 1, CEDUO_ROLE_GOOD);
+        bar->limit = .75;
+        bar->from = i ? .25 : 0;
+        ceduo_page_write(&page, "%s", "\xc2\xb1\x31");
+    }
+    return page;
+}
+
+/* Columns are as wide as their cells; a name that is too long keeps its end, which tells it from the others; bars take what is
+ * left, and without room the columns of the highest rank go, whole. */
+TEST(columns_find_their_widths)
+{
+    LOCAL_BY(ceduo_page_free) struct ceduo_page wide = bars(40), narrow = bars(24), least = bars(14);
+    expect_drawn(&wide, (struct ceduo_area){0, 0, 40, 3}, CEDUO_CHARSET_ASCII, 0, 3,
+                 "                     kJ             less\n"
+                 "coppice, just cut 7.000 ########|##  +-1\n"
+                 "coppice, 25 years 123.4   ####  |    +-1\n\n");
+    expect_drawn(&narrow, (struct ceduo_area){3, 1, 24, 3}, CEDUO_CHARSET_BRAILLE, 0, 3,
+                 "\n                   kJ\n   coppic\xe2\x80\xa6"
+                 "t cut 7.000 \xe2\x96\x88\xe2\x96\x88\xe2\x96\x88\xe2\x96\x88\xe2\x94\x82\n   coppic\xe2\x80\xa6"
+                 "years 123.4  \xe2\x96\x88\xe2\x96\x88 \xe2\x94\x82\n\n");
+    expect_drawn(&least, (struct ceduo_area){0, 0, 14, 3}, CEDUO_CHARSET_ASCII, 0, 3,
+                 "            kJ\ncopp~cut 7.000\ncopp~ars 123.4\n\n");
+}
+
+/* What has no room at all is cut with a sign, and nothing is drawn beside the area. */
+TEST(a_pane_too_narrow_is_cut)
+{
+    LOCAL_BY(ceduo_page_free) struct ceduo_page page = bars(8);
+    expect_drawn(&page, (struct ceduo_area){0, 0, 8, 3}, CEDUO_CHARSET_ASCII, 0, 3, "\ncoppi~ ~\ncoppi~ ~\n\n");
 }
 
 /* ---- the tables of figures ---- */

@@ -1,0 +1,265 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The column of figures that stands still beside every view, in the words of the paper. */
+#include <math.h>
+#include <string.h>
+
+#include "base/language.h"
+#include "measure.h"
+#include "page_parts.h"
+#include "pane.h"
+#include "plot_parts.h"
+
+#define WIDE       34 /* columns with room for intervals */
+#define HEIGHT_MIN 18 /* lines with room for what is seen elsewhere, too, … */
+#define HEIGHT_ALL 24 /* … and for everything */
+
+static void say(struct ceduo_page *page, enum ceduo_role role, const char *format, ...) CEDUO_PAGE_FORMAT(3);
+static void say(struct ceduo_page *page, enum ceduo_role role, const char *format, ...)
+{
+    va_list args;
+    va_start(args, format);
+    ceduo_text_vformat(ceduo_page_add(page, CEDUO_PAGE_NOTE), format, args);
+    va_end(args);
+    page->last->role = role;
+}
+
+/* ---- what falls on what ---- */
+
+static void add_scene(struct ceduo_page *page, const struct ceduo_pane *pane)
+{
+    const struct ceduo_scene *s = &pane->file->scene;
+    struct ceduo_rock rock = ceduo_rock_mean(&s->rock);
+    double min = INFINITY, max = 0, per_year = 0;
+    for (size_t i = 0; i < s->blocks_count; i++) {
+        min = fmin(min, s->blocks[i].volumes[0]);
+        max = fmax(max, s->blocks[i].volumes[1]);
+        per_year += s->blocks[i].per_year;
+    }
+    if (s->options_count > 1)
+        say(page, CEDUO_ROLE_TITLE, "%s", s->options[pane->option].name);
+    if (s->blocks_count > 0) /* no single size stands for them */
+        say(page, CEDUO_ROLE_TEXT, _("Blocks %.3g\xe2\x80\x93%.3g m\xc2\xb3, %.3g/year"), min, max, per_year);
+    else if (!isnan(rock.mass) && pane->height >= HEIGHT_MIN)
+        say(page, CEDUO_ROLE_TEXT, _("Rock %.3g m, %.4g kg%s"), rock.mean_diameter, rock.mass,
+            ceduo_notes_assume(pane->file->notes, "rock") ? "*" : "");
+}
+
+/* ---- what arrives ---- */
+
+/* Of the rocks of the scene with its wood, or in a year of it; NULL: not known yet, or never (index). */
+static const struct ceduo_arrivals *wood_of(const struct ceduo_pane *pane)
+{
+    const struct ceduo_result *r = pane->result;
+    if (!pane->year)
+        return ceduo_result_wooded(r, pane->option, r->last_control);
+    return pane->year->wooded.rocks > 0 ? &pane->year->wooded.arrivals[r->last_control] : NULL;
+}
+
+/* A row: a share with the error of the rocks, an energy or a height with three digits. */
+static void add_row(struct ceduo_page *page, struct ceduo_measure wood, struct ceduo_measure bare)
+{
+    ceduo_measure_name(ceduo_page_text(page), &bare, CEDUO_ROW);
+    if (wood.digits > 0)
+        ceduo_page_number(page, wood.value, 3);
+    else if (page->width >= WIDE)
+        ceduo_page_interval(page, &wood);
+    else
+        ceduo_measure_error(ceduo_page_text(page), &wood);
+    if (bare.digits > 0)
+        ceduo_page_number(page, bare.value, 3);
+    else
+        ceduo_measure_value(ceduo_page_text(page), &bare);
+}
+
+/* What may be true of the figure in the row above. */
+static void add_doubt(struct ceduo_page *page, const struct ceduo_pane *pane, struct ceduo_measure judged)
+{
+    if (!pane->year)
+        ceduo_measure_doubt(&judged, pane->doubt, pane->option, pane->result->last_control);
+    if (isnan(judged.may_lo))
+        return;
+    ceduo_page_write(page, "  %s", _("may be"));
+    ceduo_measure_span(ceduo_page_text(page), &judged, judged.may_lo, judged.may_hi);
+    ceduo_page_write(page, "%s", "");
+}
+
+/* Years from one dangerous rock to the next: what matters where blocks of all sizes come down. */
+static void add_every(struct ceduo_page *page, const struct ceduo_arrivals *wood, const struct ceduo_arrivals *bare)
+{
+    ceduo_page_write(page, "%s", _("years apart"));
+    ceduo_words_every(ceduo_page_text(page), ceduo_hazard_feared(&wood->hazard));
+    ceduo_words_every(ceduo_page_text(page), ceduo_hazard_feared(&bare->hazard));
+}
+
+static void add_arrivals(struct ceduo_page *page, const struct ceduo_pane *pane, const struct ceduo_control *c, bool nothing)
+{
+    static const struct ceduo_page_column narrow[] = {{NULL, 13, 0, 0}, {"", -8, 0, 0}, {"", -5, 1, 0}},
+                                          wide[] = {{NULL, 13, 0, 0}, {"", -16, 0, 0}, {"", -5, 1, 0}};
+    static const enum ceduo_end ends[] = {CEDUO_STOPPED_BY_STEMS, CEDUO_AT_REST, CEDUO_LEFT_SLOPE, CEDUO_UNFINISHED};
+    const struct ceduo_distribution none = ceduo_distribution_none();
+    const struct ceduo_arrivals unknown = {.reach_probability = NAN,
+                                           .exceed_probability = NAN,
+                                           .energy_per_released = NAN,
+                                           .energy = none,
+                                           .hazard = ceduo_hazard_none(),
+                                           .height = none};
+    const struct ceduo_arrivals *bare = &pane->result->bare.arrivals[pane->result->last_control], *known = wood_of(pane);
+    const struct ceduo_arrivals *wood = known ? known : &unknown;
+    bool blocks = !isnan(bare->hazard.per_year);
+    ceduo_page_table(page, page->width >= WIDE ? wide : narrow, 3);
+    ceduo_text_put(&page->last->cells[0].text, _("of 1000"));
+    ceduo_text_put(&page->last->cells[1].text, _("wood"));
+    ceduo_text_put(&page->last->cells[2].text, _("bare"));
+    add_row(page, ceduo_arriving(wood), ceduo_arriving(bare));
+    if (!isnan(c->accepted) && !nothing)
+        add_row(page, ceduo_judged(c, wood), ceduo_judged(c, bare));
+    if (known) /* by the index it would be of the rocks without forest */
+        add_doubt(page, pane, ceduo_judged(c, wood));
+    if (blocks && !nothing)
+        add_every(page, wood, bare);
+    for (size_t i = 0; i < sizeof ends / sizeof ends[0]; i++) {
+        bool any = wood->ended[ends[i]] > 0 || bare->ended[ends[i]] > 0;
+        if (i == 0 || (i == 1 ? pane->height >= HEIGHT_MIN : any))
+            add_row(page, ceduo_missed(wood, ends[i]), ceduo_missed(bare, ends[i]));
+    }
+    if (nothing)
+        return;
+    if (blocks) { /* of them the large arrive: a mean of those would read as if the wood did harm */
+        add_row(page, ceduo_energy_released(wood), ceduo_energy_released(bare));
+        return;
+    }
+    add_row(page, ceduo_mean_energy(wood), ceduo_mean_energy(bare));
+    add_row(page, ceduo_energy_p95(wood), ceduo_energy_p95(bare));
+    if (pane->height >= HEIGHT_ALL)
+        add_row(page, ceduo_height_p95(wood), ceduo_height_p95(bare));
+}
+
+/* ---- the three tests ---- */
+
+static const char *than(enum ceduo_light light, const char *good, const char *bad)
+{
+    return light == CEDUO_PASS ? good : bad;
+}
+
+static void add_tests(struct ceduo_page *page, const struct ceduo_pane *pane, const struct ceduo_index *index)
+{
+    static const struct ceduo_page_column columns[] = {{"", 24, 0, 0}, {"", -1, 1, 0}};
+    const struct ceduo_arrivals *wood = wood_of(pane);
+    double threshold = pane->result->scene->simulation.threshold;
+    bool gap = index->length > 0 && index->longest_gap > threshold; /* the reason in the page, too */
+    CEDUO_PAGE_TABLE_OF(page, columns);
+    if (gap)
+        ceduo_page_write(page, _("gap %.3g m > %g"), index->longest_gap, threshold);
+    else if (isinf(index->worst_adc))
+        ceduo_page_write(page, "%s", index->length > 0 ? _("ADC: no stems") : _("ADC: no forest"));
+    else
+        ceduo_page_write(page, _("ADC %s m %s %g"), WRITTEN(index->worst_adc, 3), than(index->contact, "<", "\xe2\x89\xa5"),
+                         threshold);
+    ceduo_page_light(page, index->contact);
+    ceduo_page_write(page, _("%g m free %.1f %% %s %g"), threshold, index->worst_free_run * 100,
+                     than(index->free_run, "\xe2\x89\xa4", ">"), CEDUO_FREE_RUN_MOST * 100);
+    ceduo_page_light(page, index->free_run);
+    if (index->energy != CEDUO_UNKNOWN && wood)
+        ceduo_page_write(page, _("energy %.1f %% %s %g"), wood->exceed_probability * 100,
+                         than(index->energy, "\xe2\x89\xa4", ">"), CEDUO_EXCEED_MOST * 100);
+    else
+        ceduo_page_write(page, "%s", wood || !pane->result->wooded ? _("energy: not judged") : _("energy \xe2\x80\xa6"));
+    ceduo_page_light(page, index->energy);
+}
+
+static void add_index(struct ceduo_page *page, const struct ceduo_pane *pane, const struct ceduo_index *index)
+{
+    const char *taken = WRITTEN(index->dissipated * J_TO_KJ, 3), *left = WRITTEN(index->residual * J_TO_KJ, 3);
+    if (isnan(index->dissipated) && !isnan(index->residual))
+        say(page, CEDUO_ROLE_DIM, _("shares taken, left %s kJ"), left);
+    else if (isnan(index->dissipated))
+        say(page, CEDUO_ROLE_DIM, "%s", _("contacts take shares"));
+    else if (isnan(index->residual))
+        say(page, CEDUO_ROLE_DIM, _("taken %s kJ"), taken);
+    else if (index->exhausted)
+        say(page, CEDUO_ROLE_DIM, _("taken %s kJ: all of it"), taken);
+    else
+        say(page, CEDUO_ROLE_DIM, _("taken %s left %s kJ"), taken, left);
+    if (!isnan(index->measured) && pane->height >= HEIGHT_ALL)
+        say(page, CEDUO_ROLE_DIM, _("measured %s kJ (one rock)"), WRITTEN(index->measured * J_TO_KJ, 3));
+}
+
+/* What turns a test within what may be true. */
+static void add_causes(struct ceduo_page *page, const struct ceduo_pane *pane)
+{
+    static const enum ceduo_doubt_kind kinds[] = {CEDUO_DOUBT_CONTACT, CEDUO_DOUBT_FREE_RUN, CEDUO_DOUBT_EXCEED};
+    for (size_t i = 0; i < 3 && pane->doubt && pane->doubt->answer && !pane->year; i++) {
+        LOCAL_TEXT(causes);
+        if (ceduo_doubt_causes(&causes, pane->doubt, pane->option, kinds[i]))
+            say(page, CEDUO_ROLE_WARN, _("%s depends on %s"), _(ceduo_light_names[i]), ceduo_text_string(&causes));
+    }
+}
+
+/* How sure the figures are, and whether they are still being refined. */
+static void add_state(struct ceduo_page *page, const struct ceduo_pane *pane)
+{
+    const struct ceduo_arrivals *wood = wood_of(pane);
+    unsigned long long rocks = wood ? wood->released : pane->result->bare.arrivals[pane->result->last_control].released;
+    say(page, CEDUO_ROLE_DIM, pane->busy ? _("computing, %llu rocks") : _("finished, %llu rocks"), rocks);
+}
+
+/* ---- warnings ---- */
+
+/* Belts of one stand share their rules. */
+static void add_rule(void *context, bool met, const char *sentence)
+{
+    struct ceduo_page *page = context;
+    for (const struct ceduo_page_block *b = page->first; b; b = b->next)
+        if (b->text.bytes && strcmp(b->text.bytes, sentence) == 0)
+            return;
+    ceduo_page_say(page, met ? CEDUO_PAGE_NOTE : CEDUO_PAGE_WARNING, "%s", sentence);
+    page->last->role = CEDUO_ROLE_WARN;
+}
+
+static void add_warnings(struct ceduo_page *page, const struct ceduo_pane *pane)
+{
+    const struct ceduo_result *r = pane->result;
+    const struct ceduo_option *o = &r->scene->options[pane->option];
+    const struct ceduo_stand_result *stands = r->options[pane->option].stands;
+    const struct ceduo_run_remarks remarks = {.ground_assumed = pane->file->ground_assumed, .nothing_said = true};
+    ceduo_words_still(r, ceduo_page_warn, page);
+    for (size_t i = 0; i < o->belts_count; i++)
+        ceduo_words_stand_warnings(r->scene, &o->belts[i], &stands[i], ceduo_page_warn, page);
+    ceduo_words_run_warnings(r, &remarks, ceduo_page_warn, page);
+    for (size_t i = 0; i < o->belts_count; i++)
+        ceduo_words_rules(&o->belts[i], &stands[i].rules, add_rule, page);
+}
+
+/* ---- all ---- */
+
+size_t ceduo_pane_column(struct ceduo_page *page, const struct ceduo_pane *pane)
+{
+    const struct ceduo_result *r = pane->result;
+    add_scene(page, pane);
+    if (!r) {
+        say(page, CEDUO_ROLE_DIM, "%s", _("the first rocks are falling \xe2\x80\xa6"));
+        return 0;
+    }
+    const struct ceduo_control *c = &r->scene->controls[r->last_control];
+    bool nothing = ceduo_says_nothing(&r->bare.arrivals[r->last_control]); /* why stands below, and takes the room */
+    if (pane->year)
+        say(page, CEDUO_ROLE_TITLE, pane->year->cut ? _("Year %u, just cut") : _("Year %u"), pane->year->year);
+    say(page, CEDUO_ROLE_TITLE, _("At %g m%s%s"), c->x_given, c->name ? ", " : "", c->name ? c->name : "");
+    add_arrivals(page, pane, c, nothing);
+    const struct ceduo_index *index =
+        pane->year ? &pane->year->controls[r->last_control] : ceduo_result_last_index(r, pane->option);
+    if (!nothing) {
+        add_tests(page, pane, index);
+        add_index(page, pane, index);
+    }
+    add_state(page, pane);
+    if (pane->height >= HEIGHT_ALL && !nothing)
+        add_causes(page, pane);
+    size_t before = 0, all = 0;
+    for (const struct ceduo_page_block *b = page->first; b; b = b->next)
+        before++;
+    add_warnings(page, pane);
+    for (const struct ceduo_page_block *b = page->first; b; b = b->next)
+        all++;
+    return all - before;
+}

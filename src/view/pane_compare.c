@@ -1,0 +1,220 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The options side by side: today, over one whole rotation of each, and what that yields. */
+#include <math.h>
+#include <string.h>
+
+#include "base/language.h"
+#include "page_parts.h"
+#include "pane.h"
+#include "plot_parts.h"
+
+/* Columns behind the name; without rocks among stems two of them are of the index. */
+enum column { NAME, TODAY, EVERY, MEAN, MAY_BE, MARK, WORST, FAILS, YIELD, CONTACT, FREE_RUN, ENERGY, YEARS, COLUMNS };
+
+static const struct ceduo_page_column columns[COLUMNS] = {[NAME] = {"", 14, 0, CEDUO_FILLS},
+                                                          [TODAY] = {"", -5, 1, CEDUO_FITS},
+                                                          [EVERY] = {"", -1, 1, CEDUO_FITS | CEDUO_DROPPED(2)},
+                                                          [MEAN] = {"", -5, 1, CEDUO_FITS},
+                                                          [MAY_BE] = {"", -1, 1, CEDUO_FITS},
+                                                          [MARK] = {"", 1, 1, CEDUO_FITS | CEDUO_DROPPED(5)},
+                                                          [WORST] = {"", -5, 1, CEDUO_FITS | CEDUO_DROPPED(3)},
+                                                          [FAILS] = {"", -4, 1, CEDUO_FITS},
+                                                          [YIELD] = {"", -4, 1, CEDUO_FITS},
+                                                          [CONTACT] = {"", 1, 2, CEDUO_DROPPED(4)},
+                                                          [FREE_RUN] = {"", 1, 0, CEDUO_DROPPED(4)},
+                                                          [ENERGY] = {"", 1, 0, CEDUO_DROPPED(4)},
+                                                          [YEARS] = {"", 1, 2, CEDUO_FITS | CEDUO_DROPPED(6)}};
+
+#define YEARS_MOST 26 /* columns of the years at a glance */
+
+#define PENDING "\xe2\x80\xa6"
+
+static void add_share(struct ceduo_page *page, struct ceduo_portion share)
+{
+    if (isnan(share.mean))
+        ceduo_page_write(page, PENDING);
+    else if (isnan(share.half))
+        ceduo_page_write(page, "%.0f", share.mean * 1000);
+    else
+        ceduo_page_write(page, "%.0f\xc2\xb1%.0f", share.mean * 1000, ceil(share.half * 1000));
+}
+
+/* "best" for an option that is clearly better than all others over the years, "worst" for one that is worse than all. */
+static void add_mark(struct ceduo_page *page, const struct ceduo_verdict *v, size_t i)
+{
+    bool known = v->rotation.known && !v->rotation.uneven && v->rotation.rivals + 1 < v->n, worst = known;
+    bool best = known && i == v->rotation.best && v->rotation.rivals == 0;
+    for (size_t k = 0; k < v->n; k++)
+        worst &=
+            k == i || v->choices[k].mean.mean + v->choices[k].mean.half < v->choices[i].mean.mean - v->choices[i].mean.half;
+    ceduo_page_mark(page, best ? CEDUO_ROLE_GOOD : CEDUO_ROLE_BAD, best ? _("best") : worst ? _("worst") : "");
+}
+
+/* The years at a glance: a column for each, or of several that share one the worst; as high as what gets through. */
+static void add_years(struct ceduo_page *page, const struct ceduo_years *years)
+{
+    static const char *const levels[] = {" ",
+                                         "\xe2\x96\x81",
+                                         "\xe2\x96\x82",
+                                         "\xe2\x96\x83",
+                                         "\xe2\x96\x84",
+                                         "\xe2\x96\x85",
+                                         "\xe2\x96\x86",
+                                         "\xe2\x96\x87",
+                                         "\xe2\x96\x88"};
+    struct ceduo_page_cell *cell = ceduo_page_cell(page);
+    cell->role = CEDUO_ROLE_MEAN;
+    int n = years ? (int)years->count : 0, shown = n < YEARS_MOST ? n : YEARS_MOST;
+    for (int x = 0; x < shown; x++) {
+        double max = 0;
+        for (int k = x * n / shown; k < (x + 1) * n / shown; k++)
+            if (years->years[k].wooded.rocks > 0)
+                max = fmax(max, ceduo_share_of(&years->years[k].wooded.arrivals[years->last_control]));
+        ceduo_text_put(&cell->text, levels[(int)fmin(8, ceil(max * 8))]);
+    }
+}
+
+/* What may be true of it. */
+static void add_doubt(struct ceduo_page *page, const struct ceduo_pane *pane, size_t i)
+{
+    const struct ceduo_result *r = pane->result;
+    struct ceduo_measure judged = ceduo_judged(&r->scene->controls[r->last_control], NULL);
+    struct text *text = ceduo_page_text(page);
+    ceduo_measure_doubt(&judged, pane->doubt, i, r->last_control);
+    if (!isnan(judged.may_lo))
+        ceduo_measure_span(text, &judged, judged.may_lo, judged.may_hi);
+}
+
+static void add_option(struct ceduo_page *page, const struct ceduo_pane *pane, size_t i)
+{
+    const struct ceduo_result *r = pane->result;
+    const struct ceduo_verdict *v = pane->verdict;
+    const struct ceduo_choice *c = &v->choices[i];
+    const struct ceduo_index *index = ceduo_result_last_index(r, i);
+    const struct ceduo_arrivals *a = ceduo_result_wooded(r, i, r->last_control);
+    ceduo_page_mark(page, i == pane->option ? CEDUO_ROLE_CURSOR : CEDUO_ROLE_TEXT, r->scene->options[i].name);
+    if (v->wooded)
+        add_share(page, c->today);
+    else
+        ceduo_page_number(page, index->worst_adc, 3);
+    if (a && r->scene->blocks_count > 0)
+        ceduo_words_every(ceduo_page_text(page), ceduo_hazard_feared(&a->hazard));
+    else
+        ceduo_page_write(page, "%s", "");
+    if (v->wooded)
+        add_share(page, c->mean);
+    else
+        ceduo_page_number(page, index->per_100m * J_TO_KJ, 3);
+    add_doubt(page, pane, i);
+    add_mark(page, v, i);
+    if (c->years == 0)
+        ceduo_page_write(page, PENDING);
+    else if (v->wooded)
+        ceduo_page_write(page, "%.0f (%u)", c->worst.mean * 1000, c->worst_year);
+    else
+        ceduo_page_number(page, c->worst.mean, 3);
+    if (c->years == 0)
+        ceduo_page_write(page, PENDING);
+    else if (!c->nothing && (!v->wooded || c->energy_known))
+        ceduo_page_write(page, "%zu/%zu", v->wooded ? c->too_much : c->no_contact, c->years);
+    else
+        ceduo_page_write(page, "-");
+    ceduo_page_number(page, c->yield.cut_per_year, 2);
+    ceduo_page_light(page, index->contact);
+    ceduo_page_light(page, index->free_run);
+    ceduo_page_light(page, index->energy);
+    add_years(page, v->wooded ? pane->years[i] : NULL);
+}
+
+static void add_heads(struct ceduo_page *page, const struct ceduo_pane *pane)
+{
+    static const char *const simulated[COLUMNS] = {
+        [TODAY] = N_("today"), [MEAN] = N_("rotation"), [FAILS] = N_("fail"), [YIELD] = N_("m\xc2\xb3/ha y"),
+        [WORST] = N_("worst"), [CONTACT] = "C",         [FREE_RUN] = "F",     [ENERGY] = "E"};
+    static const char *const by_index[COLUMNS] = {
+        [TODAY] = N_("ADC m"), [MEAN] = N_("kJ/100 m"), [FAILS] = N_("fail"), [YIELD] = N_("m\xc2\xb3/ha y"),
+        [WORST] = N_("worst"), [CONTACT] = "C",         [FREE_RUN] = "F",     [ENERGY] = "E"};
+    const struct ceduo_result *r = pane->result;
+    struct ceduo_page_cell *heads = page->last->cells;
+    for (int i = 0; i < COLUMNS; i++) {
+        const char *head = (r->wooded ? simulated : by_index)[i];
+        ceduo_text_put(&heads[i].text, head ? ceduo_translate_in(head) : "");
+    }
+    if (r->wooded && r->scene->blocks_count > 0)
+        ceduo_text_put(&heads[EVERY].text, _("every, y"));
+    if (pane->doubt && pane->doubt->answer)
+        ceduo_text_put(&heads[MAY_BE].text, _("may be"));
+}
+
+void ceduo_pane_options(struct ceduo_page *page, const struct ceduo_pane *pane, size_t first, size_t rows)
+{
+    const struct ceduo_result *r = pane->result;
+    const struct ceduo_control *control = &r->scene->controls[r->last_control];
+    struct ceduo_measure judged = ceduo_judged(control, NULL);
+    LOCAL_TEXT(name);
+    ceduo_measure_name(&name, &judged, CEDUO_SHORT_HEAD);
+    if (r->wooded)
+        ceduo_page_say(page, CEDUO_PAGE_TITLE, _("Of 1000 rocks: %s at %.6g m"), ceduo_text_string(&name), control->x_given);
+    else
+        ceduo_page_say(page, CEDUO_PAGE_TITLE, _("At %.6g m"), control->x_given);
+    ceduo_page_table(page, columns, COLUMNS);
+    add_heads(page, pane);
+    for (size_t i = first; i < pane->verdict->n && i < first + rows; i++)
+        add_option(page, pane, i);
+}
+
+/* ---- what is to be said of them ---- */
+
+/* Lights that thin shoots alone make green today. */
+static void say_thin(struct ceduo_page *page, const struct ceduo_result *r)
+{
+    LOCAL_TEXT(names);
+    for (size_t i = 0; i < r->options_count; i++)
+        if (ceduo_index_hangs_on_thin(ceduo_result_last_index(r, i)))
+            ceduo_text_then(&names, names.length > 0 ? ", " : "", "'%s'", r->scene->options[i].name);
+    if (names.length > 0)
+        ceduo_page_say(page, CEDUO_PAGE_NOTE, _("Counting only stems from %g cm on, contact or free run fails today: %s."),
+                       CEDUO_THICK_DBH * 100, ceduo_text_string(&names));
+}
+
+/* Each line is a sentence of its own. */
+static void say_best(struct ceduo_page *page, const struct ceduo_pane *pane)
+{
+    LOCAL_TEXT(best);
+    ceduo_words_best(&best, pane->result->scene, pane->verdict);
+    for (const char *at = ceduo_text_string(&best); *at; at += strspn(at, "\n")) {
+        size_t n = strcspn(at, "\n");
+        ceduo_page_say(page, CEDUO_PAGE_NOTE, "%.*s", (int)n, at);
+        at += n;
+    }
+}
+
+void ceduo_pane_said(struct ceduo_page *page, const struct ceduo_pane *pane)
+{
+    const struct ceduo_result *r = pane->result;
+    const struct ceduo_verdict *v = pane->verdict;
+    if (r->scene->blocks_count > 0 && r->scene->controls_count > 0)
+        ceduo_words_hazard(ceduo_page_add(page, CEDUO_PAGE_NOTE), r, pane->option, r->last_control);
+    if (v->n < 2) {
+        ceduo_page_note(page, _("One way to treat this wood so far. a adds another from a preset, y a copy of this one."));
+    } else {
+        say_best(page, pane);
+        if ((!v->rotation.known || v->rotation.uneven) && v->wooded)
+            ceduo_page_note(page, _("The years of the rotation are being computed."));
+        ceduo_words_turned(r, v, ceduo_page_note, page);
+    }
+    ceduo_words_windows(r->scene, v, ceduo_page_note, page);
+    say_thin(page, r);
+    if (v->wooded && !v->accepted)
+        ceduo_page_note(page, _("What the place withstands is not given (view 3): energy is not judged."));
+    if (!r->wooded)
+        ceduo_page_note(page, _("Without forest every option sees the same rocks; the index says what stems could take, "
+                                "not what a rock loses."));
+    if (pane->busy)
+        ceduo_page_note(page, _("Computing: the figures become finer."));
+    if (v->n > 1 && r->wooded && v->accepted)
+        ceduo_page_say(page, CEDUO_PAGE_NOTE, _("fail: years in which more than %.0f of 1000 bring too much."),
+                       CEDUO_EXCEED_MOST * 1000);
+    if (v->rotation.known && !v->rotation.uneven)
+        ceduo_words_counted(ceduo_page_add(page, CEDUO_PAGE_NOTE), v->choices[0].rocks);
+}
