@@ -19,9 +19,8 @@ LIBRARY = ("base", "scene", "core", "study")
 SCIENCE = ("scene", "core")  # reaches for nothing outside
 OUTSIDE = re.compile(r"(.*printf|f?open|getenv|setlocale|yaml_.*|initscr|newterm|stdout|stderr|puts|exit|abort|d?c?n?gettext)$")
 # A rock is the same on every machine: what decides about its trajectory, and about the stand of a year, takes only what
-# rounds the same everywhere. A file is named by its room, in whichever folder of it.
+# rounds the same everywhere. A file is named by its room, in whichever folder of it; each energy law is one of them.
 TRAJECTORY = ("base/elementary", "scene/number", "scene/rock", "scene/slope", "scene/stand", "core/adc", "core/energy",
-              "core/energy_brauner", "core/energy_dorren", "core/energy_inertia",
               "core/ground", "core/prepared", "core/rotation", "core/run_simulate", "core/stems", "core/stems_avx2",
               "core/stems_avx512", "core/trajectory", "core/walk", "core/lanes", "core/lanes_avx2", "core/lanes_avx512",
               "core/wood")
@@ -107,7 +106,8 @@ def reached_for():
 
 def differs_between_machines():
     named = {f"{room_of(path)}/{path.stem}": path for path in sources() if path.suffix == ".c"}
-    return [f"{named[name]}: {words[-1]}" for name in TRAJECTORY
+    laws = [name for name in named if name.startswith("core/energy_")]
+    return [f"{named[name]}: {words[-1]}" for name in (*TRAJECTORY, *laws)
             for words in symbols(["-u"], BUILD / named[name].with_suffix(".o")) if DIFFERS.match(words[-1])]
 
 
