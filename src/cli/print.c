@@ -36,13 +36,22 @@ static void write_report(const struct arguments *a, const struct ceduo_report *r
     ceduo_text_put(out, ceduo_text_string(&page));
 }
 
-#define BLOCK_ROCKS 512   /* of each other size at the most: their intervals stand beside them */
-#define YEARS_ROCKS 10000 /* of all years of an option, where --years is not given: they give the mean to about 10 of 1000 */
-#define YEARS_MOST  50    /* of each option then; of a longer rotation some */
+#define BLOCK_ROCKS 512 /* of each other size at the most: their intervals stand beside them */
 
 enum exit_status ceduo_finished(const struct ceduo_result *result)
 {
     return ceduo_result_unfinished(result) * 1000 > ceduo_result_rocks(result) ? EXIT_RUN : EXIT_DONE;
+}
+
+#define YEARS_ROCKS 10000 /* of all years of an option: they give the mean to about 10 of 1000 */
+#define YEARS_MOST  50    /* of each option; of a longer rotation some */
+
+void ceduo_ask_years(struct ceduo_question *q)
+{
+    q->years = true;
+    q->years_rocks = YEARS_ROCKS;
+    q->year_rocks = YEARS_ROCKS; /* of a scene with blocks, whose years have the same ones */
+    q->years_most = YEARS_MOST;
 }
 
 /* What a page does not print is not simulated. */
@@ -53,10 +62,7 @@ static struct ceduo_question ask_for(const struct arguments *a, const struct sce
     if (a->stands && a->format == CEDUO_CSV) /* what is asked of the stands no rock answers */
         q.rocks = 0;
     if (page && !a->years) {
-        q.years = true;
-        q.years_rocks = YEARS_ROCKS;
-        q.year_rocks = YEARS_ROCKS; /* of a scene with blocks, whose years have the same ones */
-        q.years_most = YEARS_MOST;
+        ceduo_ask_years(&q);
         q.block_rocks = is_whole(a) ? BLOCK_ROCKS : 0;
     }
     q.run.other_energy = !page || is_whole(a);

@@ -8,6 +8,9 @@
 /* Asks for a scene, and adds the answer as --format says. */
 enum exit_status ceduo_print_report(const struct arguments *arguments, struct scene_file *file, struct text *out);
 
+/* Asks for one rotation of each option as well, with as few rocks as tell its mean: where --years is not given. */
+void ceduo_ask_years(struct ceduo_question *question);
+
 /* What is asked once for pages and pictures. */
 struct answered {
     struct ceduo_pool *pool;

@@ -17,7 +17,6 @@
 
 /* Rocks and points are moderate: a page shows no more digits. */
 #define YEAR_ROCKS  1024
-#define YEARS_MOST  50
 #define BLOCK_ROCKS 512
 #define WAYS        80 /* more are no denser to the eye, and make the page large */
 
@@ -61,9 +60,10 @@ static enum ceduo_status ask_runs(const struct arguments *a, const struct scene_
                                   struct answered *c)
 {
     struct ceduo_question q = ceduo_batch_question(a, file, progress);
-    q.years = true;
-    q.year_rocks = YEAR_ROCKS;
-    q.years_most = a->window.step > 0 ? 0 : YEARS_MOST;
+    if (a->window.step > 0)
+        q.year_rocks = YEAR_ROCKS;
+    else
+        ceduo_ask_years(&q);
     q.block_rocks = file->scene.options_count == 1 ? BLOCK_ROCKS : 0;
     return ceduo_ask_pictures(&q, true, WAYS, c);
 }

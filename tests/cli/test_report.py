@@ -132,6 +132,8 @@ def test_answer():
     lo, hi = math.floor(1000 * wooded["exceed_lo"]), math.ceil(1000 * wooded["exceed_hi"])
     expect(re.search(rf"\b{lo}–{hi} by the number of rocks \(\d+\); \d+–\d+ by what is not known\.", page.text["dl"]), page.text["dl"])
     expect_in("what is not known was not computed, because the scene says 'doubt: none'.", report("-s", "doubt=none", "paper-site")[1].text["dl"])
+    sure = re.search(r"HOW SURE (.*?) ASSUMED", " ".join(good("-b", "-n", 100, "rotation").out.split()))[1]
+    expect_in(sure, " ".join(report("rotation", few=("-n", 100))[1].text["dl"].split()), "the same as the page")
     expect_in("the index leaves ", report("-s", "simulation.contact_model=index", "paper-site")[1].text["div"])
 
 
