@@ -211,6 +211,12 @@ void ceduo_popup_copy(struct app *app)
     const struct ceduo_scene *scene = &app->document.file.scene;
     ceduo_text_safe(&text, ceduo_in_language(scene->title, scene->title_it));
     ceduo_text_format(&text, ": %s\n", ceduo_app_option(app)->name);
+    struct ceduo_doubt_report doubt;
+    const struct ceduo_result *r = app->live.result;
+    if (r && scene->controls_count > 0) {
+        ceduo_words_answer(&text, r, app->option, r->last_control, ceduo_app_doubt(app, &doubt) ? &doubt : NULL, COPY_WIDTH);
+        ceduo_text_char(&text, '\n');
+    }
     size_t lines = append_view(app, &text);
     if (app->copy(text.bytes))
         ceduo_app_say(

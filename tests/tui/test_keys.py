@@ -257,6 +257,7 @@ def test_copy():
     with Place() as place:
         for changes in ({}, {"TMUX": "/tmp/tmux-1000/default,1,0"}):
             program = Pty(place, "xterm", **changes)
+            program.writes(b"finished")
             os.write(program.fd, b"Y")
             program.writes(b"copied: ")
             out = program.end(b"q")
@@ -266,7 +267,9 @@ def test_copy():
             text = base64.b64decode(plain[0], validate=True).decode()
             expect_equal(text.split("\n")[0], "fast: current")
             said = int(re.search(rb"copied: +(\d+)", re.sub(rb"\x1b\[[\d;]*[A-Za-z]", b" ", out)).group(1))
-            expect_equal(said, len([line for line in text.split("\n")[1:] if line]), "lines, but for the first")
+            head = text.split("\n\n")[0].split("\n")
+            expect(len(head) == 2 and "kJ" in head[1], "scene and option, and the answer:", text)
+            expect_equal(said, len([line for line in text.split("\n")[2:] if line]), "lines, but for these")
             for part in ("track", "road", "\n1   5 ", "0.98", "\n2   60 30\n", "\n3   100 0\n"):
                 expect_in(part, text, "what was copied")
             expect(not re.search("[\u2800-\u28ff│\x1b]", text), "a picture, or the column beside the view, in", text)
