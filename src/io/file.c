@@ -97,10 +97,8 @@ const struct source *ceduo_source_keep(struct arena *arena, struct source source
     source.length = strlen(source.bytes);
     source.bytes = ceduo_arena_copy(arena, source.bytes, source.length);
     const char *beside = source.beside ? ceduo_arena_string(arena, source.beside) : NULL;
-    if (!kept || !source.name || !source.bytes || (source.beside && !beside)) {
-        ceduo_problem_memory(problems);
-        return NULL;
-    }
+    if (!kept || !source.name || !source.bytes || (source.beside && !beside))
+        return ceduo_problem_memory(problems);
     source.beside = beside;
     *kept = source;
     return kept;
@@ -126,10 +124,8 @@ const struct source *ceduo_file_read(struct arena *arena, const char *path, size
 {
     struct source *source = ceduo_arena_take(arena, sizeof *source);
     char *name = ceduo_arena_string(arena, is_standard(path) ? _("standard input") : path);
-    if (!source || !name) {
-        ceduo_problem_memory(problems);
-        return NULL;
-    }
+    if (!source || !name)
+        return ceduo_problem_memory(problems);
     *source = (struct source){.name = name, .path = ceduo_arena_string(arena, path), .before = arena->sources};
     errno = ENOMEM;
     if (source->path && read_file(arena, path, max, source)) {

@@ -202,9 +202,10 @@ void ceduo_problems_follow(struct problems *problems, struct problems *head)
     ceduo_problems_free(head);
 }
 
-void ceduo_problem_memory(struct problems *problems)
+void *ceduo_problem_memory(struct problems *problems)
 {
     problems->memory = true;
+    return NULL;
 }
 
 /* How many others of a kind there are, and where. */

@@ -74,7 +74,8 @@ void ceduo_problem_words(struct text *text, const char *format);
 /* Puts them after the words of `head`, which is none of them, and frees it. */
 void ceduo_problems_follow(struct problems *problems, struct problems *head);
 
-void ceduo_problem_memory(struct problems *problems);
+/* Memory ran out; NULL, so that who needed some can end with it. */
+void *ceduo_problem_memory(struct problems *problems);
 
 /* Ends the list: how many others there are of a kind, and the number of those that were not printed. */
 void ceduo_problems_close(struct problems *problems);

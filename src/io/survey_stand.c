@@ -321,10 +321,8 @@ bool ceduo_survey_stand(const struct survey_file *file, struct text *yaml, struc
 {
     struct ceduo_survey_answer answer;
     struct writer w = {.file = file, .answer = &answer, .out = yaml, .one_plot = file->survey.plots_count == 1};
-    if (ceduo_survey_ask(&file->survey, &answer) != CEDUO_OK) {
-        ceduo_problem_memory(problems);
-        return false;
-    }
+    if (ceduo_survey_ask(&file->survey, &answer) != CEDUO_OK)
+        return ceduo_problem_memory(problems);
     for (size_t i = 0; i < file->survey.plots_count; i++)
         w.area += file->survey.areas[i];
     w.stumps = !isnan(answer.stump_height) && !isnan(answer.stump_energy);

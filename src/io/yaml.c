@@ -44,8 +44,8 @@ static void *stop(struct reader *r)
 
 static void *stop_for_memory(struct reader *r)
 {
-    ceduo_problem_memory(r->problems);
-    return stop(r);
+    r->stopped = true;
+    return ceduo_problem_memory(r->problems);
 }
 
 /* Reports and stops; NULL. None of its values is a word of the file. */
@@ -285,10 +285,8 @@ const struct node *ceduo_yaml_read_value(struct arena *arena, const struct sourc
     struct reader r = {.arena = arena, .source = source, .problems = problems, .skip = skip};
     for (size_t i = source->is_option ? 0 : skip; i < skip; i++) /* a byte order mark takes no column */
         r.skip_column += !ceduo_utf8_inside(source->bytes[i]);
-    if (!yaml_parser_initialize(&r.parser)) {
-        ceduo_problem_memory(problems);
-        return NULL;
-    }
+    if (!yaml_parser_initialize(&r.parser))
+        return ceduo_problem_memory(problems);
     yaml_parser_set_encoding(&r.parser, YAML_UTF8_ENCODING);
     yaml_parser_set_input_string(&r.parser, (const unsigned char *)source->bytes + skip, source->length - skip);
     const struct node *root = read_document(&r);
