@@ -9,13 +9,13 @@
 #include "plot_parts.h"
 
 /* Columns behind the name; without rocks among stems two of them are of the index. */
-enum column { NAME, TODAY, EVERY, MEAN, MAY_BE, MARK, WORST, FAILS, YIELD, CONTACT, FREE_RUN, ENERGY, YEARS, COLUMNS };
+enum column { NAME, TODAY, MAY_BE, EVERY, MEAN, MARK, WORST, FAILS, YIELD, CONTACT, FREE_RUN, ENERGY, YEARS, COLUMNS };
 
 static const struct ceduo_page_column columns[COLUMNS] = {[NAME] = {"", 14, 0, CEDUO_FILLS},
                                                           [TODAY] = {"", -5, 1, CEDUO_FITS},
+                                                          [MAY_BE] = {"", -1, 1, CEDUO_FITS},
                                                           [EVERY] = {"", -1, 1, CEDUO_FITS | CEDUO_DROPPED(2)},
                                                           [MEAN] = {"", -5, 1, CEDUO_FITS},
-                                                          [MAY_BE] = {"", -1, 1, CEDUO_FITS},
                                                           [MARK] = {"", 1, 1, CEDUO_FITS | CEDUO_DROPPED(5)},
                                                           [WORST] = {"", -5, 1, CEDUO_FITS | CEDUO_DROPPED(3)},
                                                           [FAILS] = {"", -4, 1, CEDUO_FITS},
@@ -74,7 +74,7 @@ static void add_years(struct ceduo_page *page, const struct ceduo_years *years)
     }
 }
 
-/* What may be true of it. */
+/* What may be true of today's figure. */
 static void add_doubt(struct ceduo_page *page, const struct ceduo_pane *pane, size_t i)
 {
     const struct ceduo_result *r = pane->result;
@@ -97,6 +97,7 @@ static void add_option(struct ceduo_page *page, const struct ceduo_pane *pane, s
         add_share(page, c->today);
     else
         ceduo_page_number(page, index->worst_adc, 3);
+    add_doubt(page, pane, i);
     if (a && r->scene->blocks_count > 0)
         ceduo_words_every(ceduo_page_text(page), ceduo_hazard_feared(&a->hazard));
     else
@@ -105,7 +106,6 @@ static void add_option(struct ceduo_page *page, const struct ceduo_pane *pane, s
         add_share(page, c->mean);
     else
         ceduo_page_number(page, index->per_100m * J_TO_KJ, 3);
-    add_doubt(page, pane, i);
     add_mark(page, v, i);
     if (c->years == 0)
         ceduo_page_write(page, PENDING);

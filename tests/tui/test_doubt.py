@@ -89,9 +89,14 @@ def test_options():
     """Options: whether they separate, for the one that is shown"""
     with Place() as place:
         place.write("cuts.yaml", CUTS + DOUBT.replace("forest[0]", "options[*].forest[0]"))
-        thick, thin, further = place.play("key 7\nwait idle\ndump\nkey ]\nwait idle\ndump\nkey PgDn\ndump", "cuts.yaml")
+        thick, thin, further, compared = place.play(
+            "key 7\nwait idle\ndump\nkey ]\nwait idle\ndump\nkey PgDn\ndump\nkey 5\nwait idle\ndump", "cuts.yaml")
     thick.has("thick is better than thin in", "clear.", "depends on")
     thin.has("thick is better than thin in", "depends on") # the worse of a pair, too
+    for name in ("thick", "thin"):  # beside today's figure, of which it is
+        band = re.search(rf"^{name} .*\((\d+–\d+)\)", thin.body, re.M).group(1)
+        expect(re.search(rf"^{name} +\d+±\d+ +{band} +\d+±\d+ ", compared.body, re.M), compared)
+    expect(re.search("^ +today +may be +rotation ", compared.body, re.M), compared)
     further.has("thin is better than none left in")
 
 
