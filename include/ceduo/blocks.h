@@ -2,6 +2,7 @@
 #ifndef CEDUO_BLOCKS_H
 #define CEDUO_BLOCKS_H
 
+#include "flag.h"
 #include "run.h"
 
 /* The same scene with blocks of other sizes: what a forest does to small blocks it does not do to large ones. */
@@ -31,7 +32,7 @@ struct ceduo_blocks_def {
     double effort;
     const struct ceduo_arrivals *own; /* of the scene's own block, taken if at least as many were simulated; may be NULL */
     unsigned threads;
-    const atomic_bool *cancel; /* may be NULL */
+    const ceduo_flag *cancel; /* may be NULL */
 };
 
 /* Simulates blocks of each size through the forest to the control; sorted by volume. With the contact model index none is

@@ -3,6 +3,7 @@
 #define CEDUO_CALIBRATE_H
 
 #include "doubt.h"
+#include "flag.h"
 #include "observe.h"
 
 /* Values of scenes that are fitted to what was seen there. The likelihood of a list is multinomial, of a count binomial, of a
@@ -46,7 +47,7 @@ struct ceduo_calibration_def {
     uint64_t seed;
     unsigned threads;
     size_t steps_most;                                                            /* of each chain; 0: as many as is usual */
-    const atomic_bool *cancel;                                                    /* may be NULL */
+    const ceduo_flag *cancel;                                                     /* may be NULL */
     void (*progress)(void *context, const struct ceduo_calibration_state *state); /* may be NULL; by one thread at a time */
     void *context;
 };
@@ -90,7 +91,7 @@ bool ceduo_calibration_tells_mu(const struct ceduo_calibration_scene *scenes, si
  * samples as large as those seen. Simulates `rocks` rocks of each setting on this thread. CEDUO_NO_MEMORY, CEDUO_CANCELLED, or what
  * ceduo_scene_check() says. */
 enum ceduo_status ceduo_calibration_as_it_is(const struct ceduo_calibration_scene *scene, uint64_t rocks,
-                                             const atomic_bool *cancel, struct ceduo_predicted *to);
+                                             const ceduo_flag *cancel, struct ceduo_predicted *to);
 
 /* CEDUO_NO_MEMORY, CEDUO_CANCELLED (at once, of whatever is known), or what ceduo_scene_check() says; then nothing is to be freed. */
 enum ceduo_status ceduo_calibrate(const struct ceduo_calibration_def *def, struct ceduo_calibration *answer);

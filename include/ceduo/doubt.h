@@ -2,8 +2,7 @@
 #ifndef CEDUO_DOUBT_H
 #define CEDUO_DOUBT_H
 
-#include <stdatomic.h>
-
+#include "flag.h"
 #include "scene.h"
 #include "surface.h"
 #include "years.h"
@@ -80,7 +79,7 @@ struct ceduo_doubt_def {
     bool rotation;              /* each option over its rotation as well; not with the contact model index */
     struct ceduo_window window; /* these years instead; step 0: those of ceduo_window_in() */
     unsigned threads;
-    const atomic_bool *cancel;                                    /* may be NULL */
+    const ceduo_flag *cancel;                                     /* may be NULL */
     void (*progress)(void *context, uint64_t done, uint64_t all); /* may be NULL; by one thread at a time */
     void *context;
 };

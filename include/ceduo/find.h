@@ -2,9 +2,9 @@
 #ifndef CEDUO_FIND_H
 #define CEDUO_FIND_H
 
-#include <stdatomic.h>
 #include <stdbool.h>
 
+#include "flag.h"
 #include "status.h"
 
 /* The inverse search: for which value does a goal stay at or below its target? It depends on nothing but the goals that
@@ -20,8 +20,8 @@ struct ceduo_find_def {
     /* Sets *goal for a value; anything but CEDUO_OK ends the search. The same value must give the same goal. */
     enum ceduo_status (*goal)(void *context, double value, double *goal);
     void *context;
-    double tolerance;          /* of values that are not whole, as a share of hi - lo; 0: CEDUO_FIND_TOLERANCE */
-    const atomic_bool *cancel; /* may be NULL; raised by another thread: the call returns after the value it is at */
+    double tolerance;         /* of values that are not whole, as a share of hi - lo; 0: CEDUO_FIND_TOLERANCE */
+    const ceduo_flag *cancel; /* may be NULL; raised by another thread: the call returns after the value it is at */
 };
 
 enum ceduo_side { CEDUO_SMALLEST, CEDUO_LARGEST };

@@ -2,8 +2,7 @@
 #ifndef CEDUO_OBSERVE_H
 #define CEDUO_OBSERVE_H
 
-#include <stdatomic.h>
-
+#include "flag.h"
 #include "scene.h"
 
 /* What was seen of real rocks on a slope, and what simulated rocks do there: the ground between them is fitted to the one
@@ -128,7 +127,7 @@ void ceduo_observer_free(struct ceduo_observer *observer);
 /* Simulates `rocks` rocks of each kind in a scene, always the same, on this thread, and fills `to`, one counterpart for each
  * observation. `cancel` may be NULL. CEDUO_CANCELLED, CEDUO_NO_MEMORY or what ceduo_scene_check() says. */
 enum ceduo_status ceduo_observer_look(const struct ceduo_observer *observer, const struct ceduo_scene *scene, uint64_t rocks,
-                                      const atomic_bool *cancel, struct ceduo_counterpart *to);
+                                      const ceduo_flag *cancel, struct ceduo_counterpart *to);
 
 /* The same of one observation, value by value: *values is the caller's to free, NaN where a rock has none. Of scars one value
  * for each blow. */

@@ -2,8 +2,7 @@
 #ifndef CEDUO_RECORD_H
 #define CEDUO_RECORD_H
 
-#include <stdatomic.h>
-
+#include "flag.h"
 #include "trajectory.h"
 
 /* What rocks do on their way, beside what they bring to controls: for what was seen of real rocks. The rocks are those of a
@@ -31,8 +30,8 @@ struct ceduo_record_def {
     uint64_t rocks;
     size_t stretches_count;
     const struct ceduo_stretch *stretches;
-    bool blows;                /* on stems */
-    const atomic_bool *cancel; /* may be NULL */
+    bool blows;               /* on stems */
+    const ceduo_flag *cancel; /* may be NULL */
 };
 
 struct ceduo_rock_record {

@@ -2,9 +2,9 @@
 #ifndef CEDUO_RUN_H
 #define CEDUO_RUN_H
 
-#include <stdatomic.h>
 #include <stdint.h>
 
+#include "flag.h"
 #include "hazard.h"
 #include "scene.h"
 #include "statistics.h"
@@ -32,7 +32,7 @@ struct ceduo_run_def {
     bool arrivals_only;                /* trajectories stop behind the last control or cell: their ends are not known */
     size_t exact_bytes;                /* beyond this percentiles come from a histogram */
     bool other_energy;                 /* of a pool: each forest under the other energy law as well, see other.h */
-    const atomic_bool *cancel;         /* may be NULL; raised by another thread: the call returns soon */
+    const ceduo_flag *cancel;          /* may be NULL; raised by another thread: the call returns soon */
     void (*progress)(void *context, uint64_t rocks); /* may be NULL; called now and then by a worker, one at a time */
     void *context;
 };

@@ -14,7 +14,10 @@ enum ceduo_status {
     CEDUO_RELEASE_BELOW,     /* the release, or a part of its spread, lies below the ground */
     CEDUO_CONTROL_OFF_SLOPE, /* a control lies beyond the slope */
     CEDUO_CONTROL_BEHIND,    /* a control does not lie beyond the release */
-    CEDUO_NO_FIT             /* no curve goes through these pairs */
+    CEDUO_NO_FIT,            /* no curve goes through these pairs */
+    CEDUO_BAD_NUMBER,        /* another number or word of the scene beyond its range, as of its simulation */
+    CEDUO_BAD_BELT,          /* belts that overlap, that end before they begin, or that lie beyond the slope */
+    CEDUO_BAD_STAND          /* a number or word of a stand beyond its range, or stems without their sizes */
 };
 
 #endif

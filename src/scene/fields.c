@@ -244,7 +244,7 @@ static const struct field energy_fields[] = {
     NUMBER("fracture_ratio", NAMED(N_("fracture ratio"), NULL), AT(ceduo_stand, fracture_ratio), "", 0, 10, ABOVE, NULL,
            N_("dorren: energy of this species over that of silver fir; without it that of the species, or 1 if unknown")),
     NUMBER("green_density_kg_m3", USUAL(N_("green wood, kg/m3"), NULL, 500, 1300), AT(ceduo_stand, green_density), "kg/m3", 0,
-           3000, ABOVE, "1000", N_("inertia: density of the wood as it stands; the default is an assumption")),
+           3000, ABOVE | ZERO, "1000", N_("inertia: density of the wood as it stands; the default is an assumption")),
     WORD("offset", NAMED(N_("hit off centre"), NULL), AT(ceduo_stand, offset), 0, "whole",
          N_("brauner, a stem hit beside its middle: the whole energy, or the share of Dorren et al. 2006"),
          &ceduo_offset_words),

@@ -2,6 +2,44 @@
 #include "ceduo/scene.h"
 
 #include <math.h>
+#include <string.h>
+
+#include "schema.h"
+
+#define SPEED_MAX 1e6 /* m, m/s, rad/s: of a release; beyond it the numbers of its flight are none */
+
+/* What is there has its sizes. */
+static bool is_good_stand(const struct ceduo_stand *s)
+{
+    bool good = ceduo_schema_holds(ceduo_schema_stand(), s);
+    for (size_t i = 0; good && i < s->shoots_count + s->trees_count; i++) {
+        const struct ceduo_stems *stems = i < s->shoots_count ? &s->shoots[i] : &s->trees[i - s->shoots_count];
+        good = stems->per_ha >= 0 && (stems->per_ha == 0 || (stems->dbh > 0 && stems->height > 0)) && stems->dbh_sd >= 0;
+    }
+    const struct ceduo_stumps *stumps = &s->stumps;
+    const struct ceduo_logs *logs = &s->logs;
+    return good && (stumps->per_ha == 0 || (stumps->diameter > 0 && stumps->height > 0 && stumps->energy >= 0)) &&
+           (logs->per_ha == 0 || (logs->diameter > 0 && logs->length > 0 && logs->energy >= 0)) && s->counted_from >= 0;
+}
+
+static enum ceduo_status check_options(const struct ceduo_scene *scene)
+{
+    double end = scene->slope.x[scene->slope.vertices - 1];
+    for (size_t i = 0; i < scene->options_count; i++) {
+        double free = 0; /* from here on no belt has stems */
+        for (size_t k = 0; k < scene->options[i].belts_count; k++) {
+            const struct ceduo_belt *b = &scene->options[i].belts[k];
+            if (!is_good_stand(&b->stand))
+                return CEDUO_BAD_STAND;
+            if (ceduo_stand_is_bare(&b->stand))
+                continue;
+            if (!(b->from >= free) || !(b->to > b->from) || !(b->to <= end))
+                return CEDUO_BAD_BELT;
+            free = b->to;
+        }
+    }
+    return CEDUO_OK;
+}
 
 enum ceduo_status ceduo_scene_check(const struct ceduo_scene *scene, size_t *where)
 {
@@ -22,6 +60,11 @@ enum ceduo_status ceduo_scene_check(const struct ceduo_scene *scene, size_t *whe
         return CEDUO_RELEASE_OFF_SLOPE;
     if (!(ceduo_number_lowest(scene->release.height) >= 0))
         return CEDUO_RELEASE_BELOW;
+    const struct ceduo_number *speeds[] = {&scene->release.height, &scene->release.vx, &scene->release.vz,
+                                           &scene->release.spin};
+    for (size_t i = 0; i < sizeof speeds / sizeof speeds[0]; i++)
+        if (!(fabs(ceduo_number_lowest(*speeds[i])) < SPEED_MAX) || !(fabs(ceduo_number_highest(*speeds[i])) < SPEED_MAX))
+            return CEDUO_BAD_NUMBER;
     for (size_t i = 0; i < scene->controls_count; i++) {
         if (where)
             *where = i;
@@ -30,7 +73,15 @@ enum ceduo_status ceduo_scene_check(const struct ceduo_scene *scene, size_t *whe
         if (!(scene->controls[i].x > last))
             return CEDUO_CONTROL_BEHIND;
     }
-    return CEDUO_OK;
+    status = check_options(scene);
+    const struct object *all = ceduo_schema_scene();
+    for (size_t i = 0; i < all->n && status == CEDUO_OK; i++) {
+        bool told = strcmp(all->fields[i].key, "rock") == 0 || strcmp(all->fields[i].key, "release") == 0; /* above */
+        if (!told && !(all->fields[i].flags & (FIELD_NOWHERE | FIELD_DRAFT)) &&
+            !ceduo_schema_field_holds(&all->fields[i], scene))
+            status = CEDUO_BAD_NUMBER;
+    }
+    return status;
 }
 
 bool ceduo_scene_rock_varies(const struct ceduo_scene *scene)

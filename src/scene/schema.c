@@ -153,6 +153,58 @@ bool ceduo_schema_spread_fits(const struct field *f, struct ceduo_number n)
     return cut || isnan(n.mean) || !(below || highest > f->hi);
 }
 
+static bool holds_number(const struct field *f, double si)
+{
+    bool zero = f->flags & FIELD_ZERO, optional = f->flags & FIELD_ONE_OF || (!zero && !f->value);
+    return (optional && isnan(si)) || ((optional || zero) && si == 0) || ceduo_schema_in_range(f, si / f->scale);
+}
+
+static bool holds_spread(const struct field *f, struct ceduo_number n)
+{
+    return holds_number(f, n.mean) && n.spread >= 0 && isfinite(n.spread) && (unsigned)n.kind < ceduo_spread_words.n &&
+           ceduo_schema_spread_fits(f, n);
+}
+
+bool ceduo_schema_field_holds(const struct field *f, const void *item)
+{
+    const char *at = (const char *)item + f->offset, *items;
+    size_t n;
+    switch (f->type) {
+    case FIELD_NUMBER:
+        return f->flags & FIELD_PLACE || holds_number(f, *(const double *)(const void *)at);
+    case FIELD_SPREAD:
+        return holds_spread(f, *(const struct ceduo_number *)(const void *)at);
+    case FIELD_COUNT: { /* 0: not given */
+        uint64_t count =
+            f->size == sizeof(unsigned) ? *(const unsigned *)(const void *)at : *(const uint64_t *)(const void *)at;
+        return count == 0 || f->flags & FIELD_SETTLED || ceduo_schema_in_range(f, (double)count); /* a seed may be any */
+    }
+    case FIELD_CHOICE:
+        return *(const int *)(const void *)at >= (f->value ? 0 : -1) && *(const int *)(const void *)at < (int)f->choices->n;
+    case FIELD_GROUP:
+        return ceduo_schema_holds(f->object, at);
+    case FIELD_NUMBERS:
+    case FIELD_LIST:
+        memcpy(&items, at, sizeof items);
+        memcpy(&n, (const char *)item + f->beside, sizeof n);
+        for (size_t i = 0; items && i < n; i++)
+            if (f->type == FIELD_LIST ? !ceduo_schema_holds(f->object, items + i * f->object->size)
+                                      : !ceduo_schema_in_range(f, ((const double *)(const void *)items)[i] / f->scale))
+                return false;
+        return items || n == 0;
+    default:
+        return true;
+    }
+}
+
+bool ceduo_schema_holds(const struct object *object, const void *item)
+{
+    for (size_t i = 0; i < object->n; i++)
+        if (!(object->fields[i].flags & (FIELD_NOWHERE | FIELD_DRAFT)) && !ceduo_schema_field_holds(&object->fields[i], item))
+            return false;
+    return true;
+}
+
 bool ceduo_schema_range_text(const struct field *f, struct text *text)
 {
     bool low = isfinite(f->lo), high = isfinite(f->hi);

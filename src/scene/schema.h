@@ -171,6 +171,11 @@ bool ceduo_schema_in_range(const struct field *field, double value);
 /* Whether all that can be drawn of a number, in SI, lies in the range; what is cut at 0 and 1 need not. */
 bool ceduo_schema_spread_fits(const struct field *field, struct ceduo_number number);
 
+/* Whether all numbers and words of an item, and of what it holds, lie in the ranges of their fields, and its lists are there. A
+ * number without a default may be NaN or 0: whether it must be given is for others to check. */
+bool ceduo_schema_holds(const struct object *object, const void *item);
+bool ceduo_schema_field_holds(const struct field *field, const void *item);
+
 /* Adds the range of a field; false where it has none. */
 bool ceduo_schema_range_text(const struct field *field, struct text *text);
 

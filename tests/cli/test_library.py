@@ -56,6 +56,45 @@ def test_example():
         expect_equal(place.shell(f"cc() {{ command {CC} {STRICT} {BUILT} \"$@\"; }}\n{COMMANDS}"), OUTPUT, "output")
 
 
+def test_cpp():
+    """C++ asks as C does: one header, without a warning, and a flag that ends the call"""
+    if not shutil.which("g++"):
+        raise Skip("no C++ compiler here")
+    with Library() as place:
+        source = place.write("ask.cc", """#include <ceduo/ceduo.h>
+#include <cstdio>
+int main()
+{
+    ceduo_flag stop{true};
+    double x[] = {0, 100}, z[] = {0, -60};
+    ceduo_segment ground = ceduo_segment_default();
+    ground.rn = ceduo_number(.3);
+    ground.rt = ceduo_number(.8);
+    ground.roughness_rad = .1;
+    ceduo_option bare = {};
+    ceduo_scene scene = ceduo_scene_default();
+    scene.rock.diameter = ceduo_number(1);
+    scene.slope.vertices = 2;
+    scene.slope.x = x;
+    scene.slope.z = z;
+    scene.slope.segments = &ground;
+    scene.options = &bare;
+    scene.options_count = 1;
+    ceduo_question question = ceduo_question_default(&scene);
+    ceduo_answer answer;
+    for (int i = 0; i < 2; i++) {
+        std::printf("%d\\n", ceduo_ask(&question, nullptr, &answer));
+        ceduo_answer_release(&answer);
+        question.run.cancel = &stop;
+    }
+}
+""")
+        done = subprocess.run(["g++", "-std=c++17", "-Wall", "-Wextra", "-Wpedantic", "-Werror", *BUILT.split(), "-o", place.path / "ask",
+                               source, *place.flags("--cflags", "--libs")], capture_output=True, text=True, check=False)
+        expect_equal((done.returncode, done.stderr), (0, ""), "compiler")
+        expect_equal(place.shell("./ask"), "0\n2\n", "status: done, cancelled")
+
+
 def test_version():
     """pkg-config knows the version of the library"""
     with Library() as place:

@@ -41,7 +41,7 @@ struct ceduo_belt *plant_belt(double from, double to, double stools, double spac
 
 static struct ceduo_stems light(double per_ha, double dbh)
 {
-    return (struct ceduo_stems){.per_ha = per_ha, .dbh = dbh, .height = 1e3, .volume = 1e-12, .age = NAN};
+    return (struct ceduo_stems){.per_ha = per_ha, .dbh = dbh, .height = 150, .volume = 1e-12, .age = NAN};
 }
 
 struct ceduo_stems *plant_shoots(struct ceduo_belt *belt, double per_ha, double dbh)

@@ -45,7 +45,7 @@ TEST(dorrens_hits_take_the_share_of_their_eccentricity)
 /* What a hit takes where brauner goes by eccentricity: the printed share of V U, and all of a rock that has less. */
 TEST(hits_beside_the_middle_take_their_share)
 {
-    const double volume = 300000, u_J_m3 = 1e5; /* far more than a rock has, but at the edge of a stem */
+    const double volume = 1000, u_J_m3 = 1e7; /* far more than a rock has, but at the edge of a stem */
     uint64_t whole = 0, ends[CEDUO_ENDS] = {0};
     clear_plane(520);
     struct ceduo_belt *belt = plant_belt(10, 510, 0, 0);
@@ -322,7 +322,9 @@ TEST(rocks_are_stopped_where_their_stem_stands)
         static const char *const names[] = {"in flight", "rolling", "poisson"};
         clear_plane(520);
         plane.line.scene.simulation.seed = (uint64_t)i + 1;
-        plant_trees(plant_belt(10, 510, 0, 0), 30, .2)->volume = 1e30;
+        struct ceduo_belt *belt = plant_belt(10, 510, 0, 0);
+        belt->stand.u = 1e7;
+        plant_trees(belt, 30, .2)->volume = 1000;
         if (i == 1)
             line_scene_release(&plane.line, 0, 0, 5000, 0, 0);
         if (i == 2)

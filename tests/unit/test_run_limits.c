@@ -209,6 +209,7 @@ TEST(a_rock_without_end)
     struct ceduo_slope *slope = &site.scene.slope;
     slope->vertices = 2;
     slope->z[1] = slope->z[0];
+    site.option.belts_count = 0;
     slope->segments[0] = (struct ceduo_segment){ceduo_number(1), ceduo_number(1), NAN, 0, .5, .6};
     site.control.x = slope->x[1];
     site.scene.release =

@@ -1,0 +1,14 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef CEDUO_FLAG_H
+#define CEDUO_FLAG_H
+
+/* A flag that another thread raises to end a call soon; the same in C and in C++. */
+#ifdef __cplusplus
+#include <atomic>
+typedef std::atomic<bool> ceduo_flag;
+#else
+#include <stdatomic.h>
+typedef atomic_bool ceduo_flag;
+#endif
+
+#endif
