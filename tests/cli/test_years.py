@@ -925,8 +925,8 @@ def test_find_formats():
         expect_equal([(r["scene"], r["value"]) for r in found], [(str(a), 379), (str(b), 334)])
         rows = list(csv.DictReader(io.StringIO(good(*arguments, "-f", "csv").out)))
         for row, one in zip(rows, found):
-            expect_equal(one["yield"], None, "a stand without growth")
-            expect(all(same_cell(row[k], None if k.startswith("yield.") else one[k]) for k in row), row, one)
+            expect_equal((one["yield"], one["sure"]), (None, None), "a stand without growth, and nobody asks how sure")
+            expect(all(same_cell(row[k], None if k.startswith(("yield.", "sure.")) else one[k]) for k in row), row, one)
         expect_equal([(r["scene"], r["rocks"]) for r in rows], [(str(a), "1000"), (str(b), "1000")])
         comma = f.write('c,"d.yaml', reserves())
         row = list(csv.DictReader(io.StringIO(good(*arguments[:4], comma, "-f", "csv").out)))[0]
