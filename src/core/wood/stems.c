@@ -436,7 +436,9 @@ void ceduo_stems_meet_behind(struct stems *s, uint64_t stool)
 
 bool ceduo_stems_init(struct stems *stems, const struct wood *wood, bool poisson, enum ceduo_kernel kernel)
 {
-    *stems = (struct stems){.wood = wood, .poisson = poisson, .kernel = choose_kernel(kernel)};
+    stems->wood = wood;
+    stems->poisson = poisson;
+    stems->kernel = choose_kernel(kernel);
     bool good = true;
     for (int i = 0; i < 2; i++) {
         struct stems_side *side = &stems->side[i];
@@ -460,8 +462,11 @@ void ceduo_stems_release(struct stems *stems)
     for (int i = 0; i < 2; i++) {
         free(stems->side[i].waiting);
         free(stems->side[i].groups);
+        stems->side[i].waiting = NULL;
+        stems->side[i].groups = NULL;
     }
     free(stems->met);
     free(stems->rates);
-    *stems = (struct stems){0};
+    stems->met = NULL;
+    stems->rates = NULL;
 }

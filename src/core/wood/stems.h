@@ -22,7 +22,7 @@ static inline bool ceduo_stems_too_many(const struct stems *stems)
     return stems->effort > CEDUO_STEMS_MOST;
 }
 
-/* False without memory. */
+/* `stems` is zeroed: it is large, and mostly never touched. False without memory. */
 bool ceduo_stems_init(struct stems *stems, const struct wood *wood, bool poisson, enum ceduo_kernel kernel);
 void ceduo_stems_release(struct stems *stems);
 
