@@ -101,8 +101,10 @@ static uint64_t kind_of(const struct source *source, const char *path, const cha
 {
     uint64_t hash = source ? hash_bytes(source->name, strlen(source->name)) : HASH_START;
     for (const char *p = path; *p; p++) {
+        bool inside = *p == '[';
         hash_count(&hash, (unsigned char)*p);
-        p += *p == '[' ? strcspn(p, "]") : 0;
+        while (inside && p[1] && p[1] != ']') /* one that is never closed may stand in the key of a foreign file */
+            p++;
     }
     for (const char *p = words; *p; p++)
         if (*p < '0' || *p > '9')

@@ -72,7 +72,7 @@ def test_other_sizes():
     for rock in ({"shape": "cylinder", "diameter_m": 1e-6, "height_m": 0.75}, {"shape": "block", "axes_m": [1e-6, 0.75, 0.75]}):
         with Folder() as f:
             path = f.write("s.yaml", scene(rock=rock, forest=[{"from_m": 0, "to_m": 90, "stand": stand()}]))
-            r = ceduo("--batch", "-n", 2000, path, timeout=60)
+            r = ceduo("--batch", "--details", "-n", 2000, path, timeout=60)
             expect(r.status in (DONE, RUN), r)
             expect_in("Blocks of other sizes", r.out)
 

@@ -403,12 +403,15 @@ def test_survey_on_the_italian_screen():
 def test_reserves():
     """How many reserves: 379 for 30 m, no diameter does, and a quarter of the rocks takes more of them"""
     walk = walked("reserves")
-    expect_equal(len(walk.outputs), 3, "blocks")
+    expect_equal(len(walk.outputs), 4, "blocks")
     expect_in("per_ha = 379", walk.outputs[0])
     expect_in("no value of forest[0].stand.trees[0].dbh_m from 0.1 to 1 reaches the goal", walk.outputs[1])
     expect_in("nearest: 1, ADC 99.2", walk.outputs[1])
     many = int(re.search(r"per_ha = (\d+)", walk.outputs[2])[1])
     expect(379 < many < 600, walk.outputs[2])
+    told = int(re.search(r"as many: some (\d+)", PAGE.read_text(encoding="utf-8"))[1])
+    sure = int(re.search(r"may be true: (\d+)", walk.outputs[3])[1])
+    expect(abs(sure - told) <= 60 and sure > 1.5 * many, walk.outputs[3])
 
 
 def test_groups():
