@@ -156,7 +156,9 @@ bool ceduo_schema_spread_fits(const struct field *f, struct ceduo_number n)
 static bool holds_number(const struct field *f, double si)
 {
     bool zero = f->flags & FIELD_ZERO, optional = f->flags & FIELD_ONE_OF || (!zero && !f->value);
-    return (optional && isnan(si)) || ((optional || zero) && si == 0) || ceduo_schema_in_range(f, si / f->scale);
+    bool other =
+        f->flags & FIELD_ONE_OF && si >= f->lo * f->scale && isfinite(si); /* made of another key: 10 shoots on 10^6 stools */
+    return other || (optional && isnan(si)) || ((optional || zero) && si == 0) || ceduo_schema_in_range(f, si / f->scale);
 }
 
 static bool holds_spread(const struct field *f, struct ceduo_number n)

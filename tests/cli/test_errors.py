@@ -503,6 +503,11 @@ CASES = {
         Words("--find", "a=1:9", "--goal", "exceed=5", "@")(row),
         Words("--find", "a=1:9", "--goal", "free-run=2", "@")(row.replace("5 is", "2 is"))),
     "--goal requires --find": Words("--batch", "--goal", "adc", "@"),
+    "--sure requires --find": Words("--batch", "--sure", 0.9, "@"),
+    "--sure: 90 is not a share; write 0.9 for nine of ten cases": Words("--find", "a=1:9", "--goal", "adc", "--sure", 90, "@"),
+    "--sure: over a rotation the mean energy is not known at each point; ...": Words(
+        "--find", "options[0].forest[0].stand.cutting.rotation_years=10:30", "--goal", "energy=10", "--years", "--sure", 0.9, "--option",
+        "coppice with standards", "four-systems", start="--sure: "),
     "--find: the scene has several options; name one with --option": Words("--find", "rock.diameter_m=1:2", "--goal", "adc", "four-systems"),
     "--find takes --years without a range": Words("--find", "a=1:9", "--goal", "adc", "--years", "0:5", "@"),
     "--report: 'other.yaml' does not end in .html or .htm; name the page, or - for standard output, then the scenes: ...":
@@ -535,7 +540,7 @@ CASES = {
         Words(*mode, *words, "@")(row.replace("--check", mode[0]).replace("--format", f"--{name}")) for mode, name, words in (
             (("--find", "a=1:9", "--goal", "adc"), "plot", ("--plot", "adc")), (("--find", "a=1:9", "--goal", "adc"), "tolerance", ("-e", 0.1)),
             (("--report", "x.html"), "format", ("-f", "json")), (("--report", "x.html"), "plot", ("--plot", "adc")),
-            (("--sensitivity",), "years", ("--years", "0:2")), (("--calibrate", "a=1:2"), "option", ("--option", "x")))] + [
+            (("--sensitivity",), "tolerance", ("-e", 0.1)), (("--calibrate", "a=1:2"), "option", ("--option", "x")))] + [
         Words("--check", *words, "@")(row.replace("--format", f"--{name}")) for name, words in (
             ("format", ("-f", "json")), ("rocks", ("-n", 5)), ("output", ("-o", "x")), ("plot", ("--plot", "adc")),
             ("find", ("--find", "a=1:2", "--goal", "adc")), ("tolerance", ("-e", 0.1)), ("years", ("--years", "0:2")),
