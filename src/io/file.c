@@ -353,12 +353,14 @@ bool ceduo_file_prepare(struct pending_file *file)
 }
 
 /* The rename itself must survive a power cut; where the folder cannot be synced, nothing is lost by going on. */
-static void sync_folder(const char *target)
+static void sync_folder(char *target)
 {
-    const char *slash = strrchr(target, '/');
-    LOCAL_TEXT(folder);
-    ceduo_text_format(&folder, "%.*s", slash ? (int)(slash - target) + 1 : 1, slash ? target : ".");
-    int fd = folder.bytes ? open(folder.bytes, O_RDONLY | O_DIRECTORY | O_CLOEXEC) : -1;
+    char *slash = strrchr(target, '/'), after = slash ? slash[1] : '\0';
+    if (slash)
+        slash[1] = '\0'; /* without memory: what was asked for is done */
+    int fd = open(slash ? target : ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (slash)
+        slash[1] = after;
     if (fd >= 0) {
         fsync(fd);
         close(fd);

@@ -6,7 +6,7 @@
 
 #include "schema.h"
 
-#define SPEED_MAX 1e6 /* m, m/s, rad/s: of a release; beyond it the numbers of its flight are none */
+#define SPEED_MAX 1e12 /* m, m/s, rad/s: of a release; beyond it the numbers of its flight are none */
 
 /* What is there has its sizes. */
 static bool is_good_stand(const struct ceduo_stand *s)

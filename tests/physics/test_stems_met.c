@@ -371,7 +371,7 @@ static void plant_random(struct line_random *r, struct ceduo_belt *belt, bool sh
     double dbh = line_uniform(r, .03, .3);
     double per_ha = shoots ? belt->stand.stools_per_ha * line_uniform(r, .6, 9) : line_log_uniform(r, 10, 2000);
     struct ceduo_stems *s = shoots ? plant_shoots(belt, per_ha, dbh) : plant_trees(belt, per_ha, dbh);
-    s->height = 1000 + (double)planted_count;
+    s->height = 100 + (double)planted_count;
     s->dbh_sd = line_chance(r, .4) ? dbh * line_uniform(r, .05, .9) : 0;
     if (!shoots && line_chance(r, .4)) {
         s->group = (unsigned)line_uniform(r, 2, 12);
@@ -409,7 +409,7 @@ static double ring_reach(const struct ceduo_stand *stand)
 
 static const struct planted *planted_as(const struct ceduo_stem_passed *stem)
 {
-    size_t k = (size_t)(stem->height - 1000);
+    size_t k = (size_t)(stem->height - 100);
     assert_true(k < planted_count);
     return &planted[k];
 }
