@@ -29,6 +29,14 @@ static void end_without_memory(void)
     _exit(EXIT_RUN);
 }
 
+/* GSL's own handler would abort. Some of its functions go on with what they could not allocate. */
+static void on_gsl_error(const char *reason, const char *file, int line, int error)
+{
+    (void)reason, (void)file, (void)line;
+    if (error == GSL_ENOMEM)
+        end_without_memory();
+}
+
 /* A file opened later must not become standard output by chance. Reading from or writing to a closed one then fails as
  * it should: /dev/null is opened the wrong way round. */
 static void keep_standard_streams(void)
@@ -94,8 +102,8 @@ int main(int argc, char **argv)
     ceduo_memory_hook = end_without_memory;
     keep_standard_streams();
     ceduo_language_start();
-    signal(SIGXFSZ, SIG_IGN);    /* a file that is too large for its limit is an error like a full disk */
-    gsl_set_error_handler_off(); /* its own would abort */
+    signal(SIGXFSZ, SIG_IGN); /* a file that is too large for its limit is an error like a full disk */
+    gsl_set_error_handler(on_gsl_error);
     struct arguments arguments;
     enum exit_status status = ceduo_arguments_read(&arguments, argc, argv);
     if (status == EXIT_DONE)
