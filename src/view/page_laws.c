@@ -11,6 +11,12 @@ static bool is_known(const struct ceduo_other_energy *other)
     return other->known && other->stems;
 }
 
+/* In the terminal program the figures by the other law may be there before those of the scene's own. */
+static bool is_compared(const struct ceduo_result *r, size_t option)
+{
+    return is_known(&r->options[option].others[r->last_control]) && ceduo_result_wooded(r, option, r->last_control);
+}
+
 /* The law of the scene, or that its stands have several. */
 static const char *law_of(const struct ceduo_option *option)
 {
@@ -48,7 +54,7 @@ void ceduo_page_laws(struct ceduo_page *page, const struct ceduo_result *r)
     const struct ceduo_control *c = &r->scene->controls[r->last_control];
     bool any = false;
     for (size_t i = 0; r->wooded && i < r->scene->options_count; i++)
-        any |= is_known(&r->options[i].others[r->last_control]);
+        any |= is_compared(r, i);
     if (!any)
         return;
     ceduo_page_say(page, CEDUO_PAGE_SECTION, _("One energy law against the other"));
@@ -64,5 +70,6 @@ void ceduo_page_laws(struct ceduo_page *page, const struct ceduo_result *r)
                    SHORTEST(c->x_given), ceduo_text_string(&phrase));
     CEDUO_PAGE_TABLE_OF(page, columns);
     for (size_t i = 0; i < r->scene->options_count; i++)
-        add_option(page, r, i);
+        if (ceduo_result_wooded(r, i, r->last_control))
+            add_option(page, r, i);
 }

@@ -668,7 +668,7 @@ TEST_WOODED(pictures_draw_on_another_surface)
     struct ceduo_area area = {0, 0, 100, 30};
     for (int plot = CEDUO_PLOT_PROFILE; plot < CEDUO_PLOTS; plot++) {
         struct page page = {0};
-        struct ceduo_canvas canvas = {&surface, &page, 8, 16};
+        struct ceduo_canvas canvas = {&surface, &page, 8, 16, false};
         bool bars = plot == CEDUO_PLOT_HISTOGRAM || plot == CEDUO_PLOT_ADC || plot == CEDUO_PLOT_COMPARE;
         ceduo_plot_draw((enum ceduo_plot)plot, &canvas, &area, &p);
         if (page.labels == 0 || page.strayed)

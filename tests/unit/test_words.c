@@ -7,7 +7,9 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/utf8.h"
 #include "physics/line_scene.h"
+#include "view/page_parts.h"
 #include "view/report_doubt.h"
 #include "view/words.h"
 
@@ -83,6 +85,35 @@ static struct ceduo_result *assess(void)
     return result;
 }
 
+/* The figures by the other law may be there before those of the scene's own, of all options or of some. */
+TEST(the_other_law_is_compared_with_what_is_known)
+{
+    struct ceduo_other_energy others[OPTIONS];
+    for (int known = 0; known <= OPTIONS; known++) {
+        open_scene(50e3);
+        memset(others, 0, sizeof others);
+        struct ceduo_simulated simulated[OPTIONS];
+        const struct ceduo_simulated *wooded[OPTIONS];
+        for (int i = 0; i < OPTIONS; i++) {
+            others[i] = (struct ceduo_other_energy){.known = true, .stems = true, .model = CEDUO_DORREN};
+            simulated[i] = (struct ceduo_simulated){.rocks = i < known ? 1000 : 0, .controls = 1, .arrivals = &arrivals[i]};
+            wooded[i] = &simulated[i];
+        }
+        struct ceduo_simulated bare = {.rocks = 1000, .controls = 1, .arrivals = &arrivals[0]};
+        struct ceduo_result *result;
+        assert_int_equal(ceduo_result_assess(&scene.scene, &bare, wooded, differences, others, &result), CEDUO_OK);
+        LOCAL_BY(ceduo_page_free) struct ceduo_page page = {.width = 80};
+        LOCAL_TEXT(text);
+        ceduo_page_laws(&page, result);
+        ceduo_page_print(&text, &page, true);
+        int rows = 0;
+        for (const char *p = ceduo_text_string(&text); (p = strstr(p, "dorren")); p++)
+            rows++;
+        EXPECT(rows, ==, known);
+        ceduo_result_free(result);
+    }
+}
+
 /* ---- intervals ---- */
 
 static void expect_said(double share, double lo, double hi, const char *wanted)
@@ -137,7 +168,7 @@ TEST(an_answer_is_shortened_by_whole_clauses)
     size_t form = 0, forms = sizeof shorter / sizeof shorter[0];
     open_scene(50e3);
     for (size_t width = 200; width > 0; width--) {
-        while (form + 1 < forms && ceduo_utf8_width(shorter[form]) > width)
+        while (form + 1 < forms && (size_t)ceduo_utf8_width(shorter[form]) > width)
             form++;
         expect_answer(.479, .234, .748, width, shorter[form]);
     }
