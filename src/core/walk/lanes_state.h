@@ -318,27 +318,15 @@ SELDOM void come_down_alone(struct lanes *k, size_t i)
     k->left &= ~bit;
 }
 
-/* A flight that ends where it is. */
-SELDOM void stop_alone(struct lanes *k, size_t i, enum ceduo_end end)
+/* A flight that ends at (x, z). */
+SELDOM void end_alone(struct lanes *k, size_t i, double x, double z, enum ceduo_end end)
 {
     struct walker *w = &k->job->walkers[i];
     w->contacts = k->contacts[i];
     show_stems_met(k, i);
-    w->at.x = k->x[i];
-    w->at.z = k->z[i];
+    w->at.x = x;
+    w->at.z = z;
     k->job->ended(k->job->context, i, end);
-    refill(k, i);
-}
-
-/* A flight that leaves the slope. */
-SELDOM void leave_alone(struct lanes *k, size_t i)
-{
-    struct walker *w = &k->job->walkers[i];
-    w->contacts = k->contacts[i];
-    show_stems_met(k, i);
-    w->at.x = k->to_x[i];
-    w->at.z = k->to_z[i];
-    k->job->ended(k->job->context, i, CEDUO_LEFT_SLOPE);
     refill(k, i);
 }
 

@@ -313,7 +313,7 @@ HOT unsigned pass_stems(struct form form, struct lanes *k)
     k->aloft = (p.moved | lost) & ~p.stopped & ~p.ended & ~k->waits;
     for (unsigned done = p.stopped | p.ended; done; done &= done - 1) {
         size_t i = (size_t)__builtin_ctz(done);
-        stop_alone(k, i, p.stopped >> i & 1 ? CEDUO_STOPPED_BY_STEMS : CEDUO_UNFINISHED);
+        end_alone(k, i, k->x[i], k->z[i], p.stopped >> i & 1 ? CEDUO_STOPPED_BY_STEMS : CEDUO_UNFINISHED);
     }
     return alone;
 }

@@ -18,8 +18,10 @@ HOT void step_lanes(struct form form, struct lanes *k, bool even)
     leave &= ~alone;
     for (; pass; pass &= pass - 1)
         pass_marks_alone(k, (size_t)__builtin_ctz(pass));
-    for (; leave; leave &= leave - 1)
-        leave_alone(k, (size_t)__builtin_ctz(leave));
+    for (; leave; leave &= leave - 1) {
+        size_t i = (size_t)__builtin_ctz(leave);
+        end_alone(k, i, k->to_x[i], k->to_z[i], CEDUO_LEFT_SLOPE);
+    }
     for (; alone; alone &= alone - 1)
         come_down_alone(k, (size_t)__builtin_ctz(alone));
     if (even) {
