@@ -9,9 +9,9 @@
 #define SPEED_MAX 1e12 /* m, m/s, rad/s: of a release; beyond it the numbers of its flight are none */
 
 /* What is there has its sizes. */
-static bool is_good_stand(const struct ceduo_stand *s)
+static bool has_sizes(const struct ceduo_stand *s)
 {
-    bool good = ceduo_schema_holds(ceduo_schema_stand(), s);
+    bool good = true;
     for (size_t i = 0; good && i < s->shoots_count + s->trees_count; i++) {
         const struct ceduo_stems *stems = i < s->shoots_count ? &s->shoots[i] : &s->trees[i - s->shoots_count];
         good = stems->per_ha >= 0 && (stems->per_ha == 0 || (stems->dbh > 0 && stems->height > 0)) && stems->dbh_sd >= 0;
@@ -29,7 +29,9 @@ static enum ceduo_status check_options(const struct ceduo_scene *scene)
         double free = 0; /* from here on no belt has stems */
         for (size_t k = 0; k < scene->options[i].belts_count; k++) {
             const struct ceduo_belt *b = &scene->options[i].belts[k];
-            if (!is_good_stand(&b->stand))
+            if (!ceduo_schema_holds(ceduo_schema_belt(), b))
+                return ceduo_schema_holds(ceduo_schema_stand(), &b->stand) ? CEDUO_BAD_NUMBER : CEDUO_BAD_STAND;
+            if (!has_sizes(&b->stand))
                 return CEDUO_BAD_STAND;
             if (ceduo_stand_is_bare(&b->stand))
                 continue;
@@ -76,9 +78,9 @@ enum ceduo_status ceduo_scene_check(const struct ceduo_scene *scene, size_t *whe
     status = check_options(scene);
     const struct object *all = ceduo_schema_scene();
     for (size_t i = 0; i < all->n && status == CEDUO_OK; i++) {
-        bool told = strcmp(all->fields[i].key, "rock") == 0 || strcmp(all->fields[i].key, "release") == 0; /* above */
-        if (!told && !(all->fields[i].flags & (FIELD_NOWHERE | FIELD_DRAFT)) &&
-            !ceduo_schema_field_holds(&all->fields[i], scene))
+        const char *key = all->fields[i].key;
+        bool checked = strcmp(key, "rock") == 0 || strcmp(key, "release") == 0 || strcmp(key, "options") == 0;
+        if (!checked && !ceduo_schema_field_holds(&all->fields[i], scene))
             status = CEDUO_BAD_NUMBER;
     }
     return status;

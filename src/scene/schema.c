@@ -171,6 +171,8 @@ bool ceduo_schema_field_holds(const struct field *f, const void *item)
 {
     const char *at = (const char *)item + f->offset, *items;
     size_t n;
+    if (f->flags & (FIELD_NOWHERE | FIELD_DRAFT))
+        return true;
     switch (f->type) {
     case FIELD_NUMBER:
         return f->flags & FIELD_PLACE || holds_number(f, *(const double *)(const void *)at);
@@ -202,7 +204,7 @@ bool ceduo_schema_field_holds(const struct field *f, const void *item)
 bool ceduo_schema_holds(const struct object *object, const void *item)
 {
     for (size_t i = 0; i < object->n; i++)
-        if (!(object->fields[i].flags & (FIELD_NOWHERE | FIELD_DRAFT)) && !ceduo_schema_field_holds(&object->fields[i], item))
+        if (!ceduo_schema_field_holds(&object->fields[i], item))
             return false;
     return true;
 }
