@@ -144,26 +144,6 @@ void ceduo_figures_json(struct text *text, const struct ceduo_figure *figures, c
 
 /* ---- CSV ---- */
 
-/* A row, or the header that names its cells: the same tables make both. */
-struct row {
-    struct text *text;
-    bool header, more;
-    const struct path *group; /* the objects that the cell lies in */
-};
-
-struct path {
-    const struct path *before;
-    const char *key;
-};
-
-static void append_path(struct text *text, const struct path *path)
-{
-    if (!path)
-        return;
-    append_path(text, path->before);
-    ceduo_text_format(text, "%s.", path->key);
-}
-
 static void append_value(struct text *text, struct ceduo_value v)
 {
     char room[CEDUO_NUMBER_ROOM];
@@ -185,49 +165,41 @@ static void join(void *context, const char *sentence)
     ceduo_text_put(all, sentence);
 }
 
-static void append_cell(struct row *row, const struct ceduo_figure *f, const void *object, double scale)
+/* A cell, and a comma behind it. */
+static void append_cell(struct text *row, const struct ceduo_figure *f, const void *object, double scale)
 {
     LOCAL_TEXT(all);
-    if (row->more)
-        ceduo_text_char(row->text, ',');
-    row->more = true;
-    if (row->header) {
-        append_path(row->text, row->group);
-        ceduo_text_put(row->text, f->key);
-    } else if (f->value) {
-        append_value(row->text, value_of(f, object, scale));
+    if (f->value) {
+        append_value(row, value_of(f, object, scale));
     } else {
         say(f, object, join, &all);
         if (all.bytes)
-            ceduo_text_csv(row->text, all.bytes);
+            ceduo_text_csv(row, all.bytes);
     }
+    ceduo_text_char(row, ',');
 }
 
-/* `object` NULL: empty cells. */
-static void append_cells(struct row *row, const struct ceduo_figure *f, const void *object, double scale)
+/* In the order of ceduo_figures_columns(). `object` NULL: empty cells. */
+static void append_cells(struct text *row, const struct ceduo_figure *f, const void *object, double scale)
 {
-    const struct path *group = row->group;
     for (; !ceduo_figure_is_end(f); f++) {
-        const struct path path = {group, f->key};
         double inner = scale_of(f, scale);
         if (!f->of)
             append_cell(row, f, object, scale);
-        for (size_t i = 0; f->item && f->columns && f->columns[i]; i++) { /* each item with the name of its columns */
-            const struct path item = {&path, f->columns[i]};
-            row->group = &item;
+        for (size_t i = 0; f->item && f->columns && f->columns[i]; i++)
             append_cells(row, f->of, object ? f->item(object, i) : NULL, inner);
-        }
-        row->group = f->key ? &path : group;
         if (f->of && !f->item)
             append_cells(row, f->of, object_of(f, object), inner);
-        row->group = group;
     }
 }
 
 void ceduo_figures_csv(struct text *text, const struct ceduo_figure *columns, const void *object)
 {
-    struct row row = {.text = text, .header = !object};
-    append_cells(&row, columns, object, 1);
+    if (object)
+        append_cells(text, columns, object, 1);
+    else
+        ceduo_figures_heads(text, columns);
+    text->length--; /* the last comma */
     ceduo_text_char(text, '\n');
 }
 

@@ -82,6 +82,8 @@ void ceduo_figures_schema(struct text *text, const char *format, const struct ce
 
 /* A line for each column of ceduo_figures_csv(): path, type, unit, when it is empty, meaning, with tabs between them. */
 void ceduo_figures_columns(struct text *rows, const struct ceduo_figure *columns);
+/* Their paths alone, with a comma behind each. */
+void ceduo_figures_heads(struct text *row, const struct ceduo_figure *columns);
 
 /* The whole of a result, a sensitivity and a calibration, read from a struct ceduo_place; and of a search, read from a struct
  * ceduo_find_report. */

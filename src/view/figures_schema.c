@@ -120,7 +120,8 @@ static void append_path(struct text *text, const struct group *group)
     ceduo_text_format(text, "%s.", group->key);
 }
 
-static void add_columns(struct text *rows, const struct ceduo_figure *f, const struct group *group)
+/* `heads`: the path alone, and a comma behind it. */
+static void add_columns(struct text *rows, const struct ceduo_figure *f, const struct group *group, bool heads)
 {
     for (; !ceduo_figure_is_end(f); f++) {
         const char *unit = f->unit && f->unit[0] ? f->unit : group ? group->unit : "";
@@ -128,18 +129,27 @@ static void add_columns(struct text *rows, const struct ceduo_figure *f, const s
         const struct group own = {group, f->key, unit, null};
         if (f->item) {
             for (size_t i = 0; f->columns && f->columns[i]; i++)
-                add_columns(rows, f->of, &(struct group){&own, f->columns[i], unit, null});
+                add_columns(rows, f->of, &(struct group){&own, f->columns[i], unit, null}, heads);
         } else if (f->of) {
-            add_columns(rows, f->of, f->key ? &own : group);
+            add_columns(rows, f->of, f->key ? &own : group, heads);
         } else {
             append_path(rows, group);
-            ceduo_text_format(rows, "%s\t%s\t%s\t%s\t%s\n", f->key, types[f->value ? f->value->kind : CEDUO_VALUE_TEXT],
-                              unit[0] ? unit : "-", null ? null : "-", f->meaning);
+            ceduo_text_put(rows, f->key);
+            if (heads)
+                ceduo_text_char(rows, ',');
+            else
+                ceduo_text_format(rows, "\t%s\t%s\t%s\t%s\n", types[f->value ? f->value->kind : CEDUO_VALUE_TEXT],
+                                  unit[0] ? unit : "-", null ? null : "-", f->meaning);
         }
     }
 }
 
 void ceduo_figures_columns(struct text *rows, const struct ceduo_figure *columns)
 {
-    add_columns(rows, columns, NULL);
+    add_columns(rows, columns, NULL, false);
+}
+
+void ceduo_figures_heads(struct text *row, const struct ceduo_figure *columns)
+{
+    add_columns(row, columns, NULL, true);
 }
