@@ -11,7 +11,6 @@
 
 #include "base/json.h"
 #include "base/language.h"
-#include "base/must.h"
 #include "io/file.h"
 #include "options.h"
 #include "output.h"
@@ -124,27 +123,28 @@ static void append_copied(const struct each *e, const char *const *cells, struct
         }
 }
 
+/* The cells of a line at n places, each with a comma behind it. */
+static void append_cells(struct csv_span line, const size_t *at, size_t n, struct text *to)
+{
+    for (size_t k = 0; k < n; k++) {
+        struct csv_span left = line, f = {"", 0};
+        for (size_t i = 0; i <= at[k]; i++)
+            if (!ceduo_csv_cell(&left, ',', &f))
+                f.n = 0;
+        ceduo_text_add(to, f.p, f.n);
+        ceduo_text_char(to, ',');
+    }
+}
+
 /* A whole line, or the cells of it that --columns names. */
 static void append_line(const struct each *e, const char *line, size_t n, struct text *out)
 {
-    if (!e->columns) {
+    if (e->columns)
+        append_cells((struct csv_span){line, n}, e->columns, e->columns_count, out);
+    else
         ceduo_text_add(out, line, n);
-        ceduo_text_char(out, '\n');
-        return;
-    }
-    struct csv_span left = {line, n}, f, *cells = NULL;
-    size_t count = 0;
-    for (; ceduo_csv_cell(&left, ',', &f); count++) {
-        cells = ceduo_must(realloc(cells, (count + 1) * sizeof *cells));
-        cells[count] = f;
-    }
-    for (size_t i = 0; i < e->columns_count; i++) {
-        struct csv_span cell = cells[e->columns[i]];
-        ceduo_text_put(out, i > 0 ? "," : "");
-        ceduo_text_add(out, cell.p, cell.n);
-    }
+    out->length -= e->columns_count > 0; /* the last comma */
     ceduo_text_char(out, '\n');
-    free(cells);
 }
 
 static size_t place_of(const char *const *names, size_t n, const char *name)
@@ -194,19 +194,6 @@ static enum exit_status choose_columns(struct each *e, const struct text *header
 }
 
 /* ---- what stands in the output already ---- */
-
-/* The copied cells of a line of the output with a comma behind each, as append_copied() makes them. `at`: where each stands. */
-static void append_key(struct csv_span line, const size_t *at, size_t n, struct text *key)
-{
-    for (size_t k = 0; k < n; k++) {
-        struct csv_span left = line, f = {"", 0};
-        for (size_t i = 0; i <= at[k]; i++)
-            if (!ceduo_csv_cell(&left, ',', &f))
-                f.n = 0;
-        ceduo_text_add(key, f.p, f.n);
-        ceduo_text_char(key, ',');
-    }
-}
 
 /* The places of the copied cells in the lines that are printed; false where one is not printed. */
 static bool find_copied(const struct each *e, size_t *at, size_t *n)
@@ -284,7 +271,7 @@ static enum exit_status resume(struct each *e, const struct text *header)
     for (const char *line = old->bytes + first.length, *end = line;
          e->resumed && (end = memchr(line, '\n', (size_t)(old->bytes + old->length - line))); line = end + 1) {
         LOCAL_TEXT(key);
-        append_key((struct csv_span){line, (size_t)(end - line)}, at, n, &key);
+        append_cells((struct csv_span){line, (size_t)(end - line)}, at, n, &key);
         if (count == 0 || strcmp(done[count - 1], ceduo_text_string(&key)) != 0) {
             done[count++] = ceduo_arena_string(&e->arena, ceduo_text_string(&key));
             start = (size_t)(line - old->bytes);
@@ -308,7 +295,7 @@ enum exit_status ceduo_each_open(struct each *e, const struct arguments *a, cons
 {
     *e = (struct each){.arguments = *a, .given = a};
     enum exit_status status = a->each ? read_table(e) : EXIT_DONE;
-    if (status == EXIT_DONE)
+    if (status == EXIT_DONE && (a->each || a->columns))
         status = choose_columns(e, header);
     if (status == EXIT_DONE && a->resume)
         status = resume(e, header);
