@@ -75,7 +75,7 @@ const struct ceduo_figure ceduo_hazard_figures[] = {
     {"accepted_years", "y", "years from one that does to the next", .value = years_of,
      .offset = offsetof(struct ceduo_hazard, accepted.rate), .null = UNSAID ", or the rate is 0"},
     {"accepted_years_lo", "y", "lower end of its 95 % interval", .value = years_of,
-     .offset = offsetof(struct ceduo_hazard, accepted.hi), .null = UNSAID},
+     .offset = offsetof(struct ceduo_hazard, accepted.hi), .null = UNSAID ", or no rock could have so much energy"},
     {"accepted_years_hi", "y", "upper end of its 95 % interval", .value = years_of,
      .offset = offsetof(struct ceduo_hazard, accepted.lo), .null = UNSAID ", or " UNBOUND},
     {"matrix", "", "classes of intensity, by classes of return period", .of = matrix, .item = intensity_item,

@@ -147,13 +147,13 @@ TEST(weights_that_are_alike_change_nothing)
     static struct weighted values[N];
     for (size_t n = 0; n <= N; n += 125) {
         const double weight = 3;
-        struct released all = {.n = N, .w = N * weight, .ww = N * weight * weight, .max = weight, .per_year = 1};
+        struct released all = {.n = N, .w = N * weight, .ww = N * weight * weight, .per_year = 1};
         struct weighted_sum ones = {0};
         some_values(values, weight, n);
         for (size_t i = 0; i < n; i++)
             weighted_sum_add(&ones, weight, 1);
         struct ceduo_rate wilson = ceduo_wilson((double)n / N, (double)n / N, N);
-        struct ceduo_rate share = ceduo_weighted_share(&all, &ones, weight);
+        struct ceduo_rate share = ceduo_weighted_share(&all, &ones, -1);
         ROWS(expect_near, (share.rate, (double)n / N, 1e-12), (share.lo, wilson.lo, 1e-9), (share.hi, wilson.hi, 1e-9));
         struct ceduo_moments m = {0};
         double plain[N];
@@ -180,7 +180,7 @@ TEST(weights_that_are_alike_change_nothing)
 /* What a weight alone explains is no error: of all rocks the share is 1 without one, of none 0. */
 TEST(what_weights_explain_is_no_error)
 {
-    struct released all = {.n = N, .max = 2, .per_year = 1};
+    struct released all = {.n = N, .per_year = 1};
     struct weighted_sum ones = {0}, none = {0}, fives = {0};
     for (size_t i = 0; i < N; i++) {
         double w = i % 2 ? 0.5 : 1.5;
@@ -191,23 +191,23 @@ TEST(what_weights_explain_is_no_error)
     }
     expect_near(ceduo_weighted_se(&all, &ones), 0, 0);
     expect_near(ceduo_weighted_se(&all, &fives), 0, 0);
-    struct ceduo_rate all_of_them = ceduo_weighted_share(&all, &ones, 1), nobody = ceduo_weighted_share(&all, &none, 0.1);
+    struct ceduo_rate all_of_them = ceduo_weighted_share(&all, &ones, -1), nobody = ceduo_weighted_share(&all, &none, -1);
     expect_near(all_of_them.rate, 1, 0);
     expect_near(all_of_them.hi, 1, 0);
     assert_true(all_of_them.lo > 0.99 && all_of_them.lo < 1);
     expect_near(nobody.rate, 0, 0);
     expect_near(nobody.lo, 0, 0);
-    expect_near(nobody.hi, 3.8414588 / (N / 0.1 + 3.8414588), 1e-6); /* Wilson of 0 among as many light rocks */
+    expect_near(nobody.hi, 3.8414588 / (N + 3.8414588), 1e-8); /* Wilson of 0 among as many rocks */
     struct weighted_sum heavy = {0};
     for (size_t i = 0; i < N; i += 2)
         weighted_sum_add(&heavy, 1.5, 1); /* all heavy rocks and no other: the weights explain all of it */
-    struct ceduo_rate known = ceduo_weighted_share(&all, &heavy, 1.5);
+    struct ceduo_rate known = ceduo_weighted_share(&all, &heavy, -1);
     double alike = all.w * all.w / all.ww;
     assert_int_equal(alike, 800);
     ROWS(expect_near, (known.rate, 0.75, 1e-12), (known.lo, ceduo_wilson(.75, .75, 800).lo, 1e-9),
          (known.hi, ceduo_wilson(.75, .75, 800).hi, 1e-9));
     all.missing = all.w / 10;
-    expect_near(ceduo_weighted_share(&all, &none, 1).hi, ceduo_wilson(.1, .1, N).hi, 1e-12);
+    expect_near(ceduo_weighted_share(&all, &none, -1).hi, ceduo_wilson(.1, .1, 800).hi, 1e-12);
     all.n = 1;
     assert_true(isnan(ceduo_weighted_se(&all, &ones)));
 }
@@ -220,7 +220,7 @@ TEST(quantiles_by_hand)
          (ceduo_weighted_quantile(values, 3, 0.76), 3, 0));
     expect_near(ceduo_weighted_quantile(values, 3, 1.1), 3, 0); /* beyond all */
     assert_true(isnan(ceduo_weighted_quantile(values, 0, 0.5)));
-    const struct released all = {.n = 3, .w = 4, .ww = 6, .max = 2, .per_year = 1};
+    const struct released all = {.n = 3, .w = 4, .ww = 6, .per_year = 1};
     struct weighted one = {5, 1};
     struct ceduo_distribution d = ceduo_weighted_distribution(&all, &one, 1);
     expect_near(d.mean, 5, 0);
@@ -247,7 +247,7 @@ TEST(energies_and_classes_are_what_they_are_called)
 /* Three rocks of a thousand arrive, one block comes down in two years. */
 TEST(few_rocks_bound_what_they_can)
 {
-    const struct released all = {.n = N, .w = N, .ww = N, .max = 1, .per_year = 0.5};
+    const struct released all = {.n = N, .w = N, .ww = N, .per_year = 0.5};
     struct weighted energies[] = {{4e5, 1}, {2e4, 1}, {1e5, 1}};
     struct ceduo_hazard h;
     assert_true(ceduo_hazard_read(&all, energies, 3, 5e4, &h));
@@ -269,7 +269,7 @@ TEST(few_rocks_bound_what_they_can)
 /* Beyond the last energy of the curve there is no other. */
 TEST(a_curve_ends_where_its_energies_do)
 {
-    const struct released all = {.n = 2, .w = 2, .ww = 2, .max = 1, .per_year = 1};
+    const struct released all = {.n = 2, .w = 2, .ww = 2, .per_year = 1};
     struct weighted energies[] = {{1e10, 1}, {1e10, 1}};
     struct ceduo_hazard h;
     assert_true(ceduo_hazard_read(&all, energies, 2, NAN, &h));
@@ -281,7 +281,7 @@ TEST(a_curve_ends_where_its_energies_do)
  * equals it: one of a thousand blocks and ten a year, 1/100. */
 TEST(at_a_limit)
 {
-    const struct released all = {.n = N, .w = N, .ww = N, .max = 1, .per_year = 10};
+    const struct released all = {.n = N, .w = N, .ww = N, .per_year = 10};
     struct weighted energies[] = {{3e5, 1}, {3e4, 1}};
     struct ceduo_hazard h;
     assert_true(ceduo_hazard_read(&all, energies, 2, 3e5, &h));
@@ -299,7 +299,7 @@ TEST(at_a_limit)
 /* No rock arrives, of two hundred: nothing is known but what may be. */
 TEST(nobody_arrives)
 {
-    const struct released all = {.n = 200, .w = 200, .ww = 200, .max = 1, .per_year = 1};
+    const struct released all = {.n = 200, .w = 200, .ww = 200, .per_year = 1};
     struct ceduo_hazard h;
     assert_true(ceduo_hazard_read(&all, NULL, 0, 5e4, &h));
     expect_near(h.reach.rate, 0, 0);
@@ -308,4 +308,34 @@ TEST(nobody_arrives)
     for (size_t i = 0; i < CEDUO_RETURNS; i++)
         assert_true(isnan(h.returns[i].energy) && isnan(h.returns[i].lo) && isnan(h.returns[i].hi));
     assert_true(isnan(h.left));
+}
+
+/* A thousand rocks of which half are small, each for 1.9 blocks, and half large, each for 0.1. None of a thousand is at most 38 of
+ * 10000, and of the large ones, which alone could have more than 5 J, none of 500 is at most 5 % of 76 of 10000. So much may be at
+ * least however few large ones arrive, and with each that does it is more. */
+TEST(fewer_arrivals_raise_no_upper_end)
+{
+    static struct weighted could[N];
+    struct weighted energies[] = {{6, 0.1}, {7, 0.1}, {8, 0.1}, {9, 0.1}, {9.5, 0.1}};
+    struct released all = {.n = N, .per_year = 1, .could = could};
+    double of_all = 3.8414588 / (N + 3.8414588), of_large = 0.05 * 3.8414588 / (N / 2 + 3.8414588), before = 0;
+    for (size_t i = 0; i < N; i++) {
+        could[i] = i % 2 ? (struct weighted){10, 0.1} : (struct weighted){5, 1.9};
+        all.w += could[i].weight;
+        all.ww += could[i].weight * could[i].weight;
+    }
+    ceduo_weighted_bound(could, N);
+    ROWS(expect_near, (could[0].weight, N, 1e-9), (could[N / 2].weight, 50, 1e-9), (could[N - 1].weight, 0.1, 1e-12));
+    for (size_t n = 0; n <= LENGTH(energies); n++) {
+        struct ceduo_hazard h;
+        assert_true(ceduo_hazard_read(&all, energies, n, 5, &h));
+        expect_near(h.reach.hi, of_all, 1e-8);
+        if (n == 0)
+            expect_near(h.accepted.hi, of_large, 1e-9);
+        EXPECT(h.accepted.hi, >=, before);
+        before = h.accepted.hi;
+        assert_true(ceduo_hazard_read(&all, energies, n, 10, &h)); /* as much as none could have */
+        expect_near(h.accepted.hi, 0, 0);
+    }
+    EXPECT(before, >, 1.5 * of_large);
 }

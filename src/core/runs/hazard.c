@@ -85,21 +85,21 @@ static size_t above(const struct curve *c, double energy)
     return lo;
 }
 
-static struct ceduo_rate rate_of(const struct curve *c, const struct weighted_sum *ones)
+/* Of rocks above an energy. */
+static struct ceduo_rate rate_of(const struct curve *c, const struct weighted_sum *ones, double energy)
 {
-    double last = c->n > 0 ? c->energies[c->n - 1].weight : c->all->max;
-    struct ceduo_rate p = ceduo_weighted_share(c->all, ones, last);
+    struct ceduo_rate p = ceduo_weighted_share(c->all, ones, energy);
     return (struct ceduo_rate){p.rate * c->all->per_year, p.lo * c->all->per_year, p.hi * c->all->per_year};
 }
 
 static struct ceduo_rate exceeding(const struct curve *c, double energy)
 {
-    return rate_of(c, &c->sums[above(c, energy)]);
+    return rate_of(c, &c->sums[above(c, energy)], energy);
 }
 
 static void read_curve(const struct curve *c, double accepted, struct ceduo_hazard *h)
 {
-    h->reach = rate_of(c, &c->sums[c->n]);
+    h->reach = rate_of(c, &c->sums[c->n], -1);
     if (!isnan(accepted))
         h->accepted = exceeding(c, accepted);
     for (size_t i = 0; i < CEDUO_HAZARD_ENERGIES; i++) {
@@ -112,10 +112,10 @@ static void read_curve(const struct curve *c, double accepted, struct ceduo_haza
     for (size_t i = 0; i < CEDUO_RETURNS; i++) {
         struct ceduo_return *r = &h->returns[i];
         double wanted = 1.0 / r->years;
-        bool bounded = rate_of(c, &c->sums[0]).hi < wanted;
+        bool bounded = c->n > 0 && exceeding(c, c->energies[c->n - 1].value).hi < wanted;
         for (size_t k = 1; k <= c->n && isnan(r->lo); k++) { /* from the largest rock down, where each first reaches the rate */
-            struct ceduo_rate rate = rate_of(c, &c->sums[k]);
             double energy = c->energies[c->n - k].value;
+            struct ceduo_rate rate = rate_of(c, &c->sums[k], nextafter(energy, 0));
             r->energy = rate.rate >= wanted && isnan(r->energy) ? energy : r->energy;
             r->lo = rate.lo >= wanted ? energy : r->lo;
             r->hi = bounded && rate.hi >= wanted && isnan(r->hi) ? energy : r->hi;
@@ -125,7 +125,7 @@ static void read_curve(const struct curve *c, double accepted, struct ceduo_haza
         double from = ceduo_intensity_from[i], to = ceduo_intensity_from[i + 1]; /* from one to below the other */
         const struct weighted_sum *a = &c->sums[from > 0 ? above(c, nextafter(from, 0)) : c->n];
         const struct weighted_sum *b = &c->sums[above(c, nextafter(to, 0))];
-        h->intensity[i].within = rate_of(c, &(struct weighted_sum){a->t - b->t, a->tt - b->tt, a->tw - b->tw});
+        h->intensity[i].within = rate_of(c, &(struct weighted_sum){a->t - b->t, a->tt - b->tt, a->tw - b->tw}, from);
         for (size_t r = 0; r < CEDUO_RETURNS; r++)
             h->intensity[i].of_return[r] = ceduo_intensity_of(h->returns[r].energy) == (int)i;
     }

@@ -14,9 +14,33 @@ static struct released released_of(const struct ceduo_run *run, double missing)
         double w = run->weights[r];
         all.w += w;
         all.ww += w * w;
-        all.max = w > all.max ? w : all.max;
     }
     return all;
+}
+
+/* The largest energies that the rocks could have: of how they are released, and of falling to the lowest ground. */
+static void bound_energies(const struct ceduo_run *run, struct weighted *could)
+{
+    const struct ceduo_scene *scene = &run->ready.scene;
+    const struct ceduo_release *start = &scene->release;
+    const struct ceduo_number moves[] = {start->vx, start->vz, start->spin};
+    double squares[3], low = INFINITY;
+    for (size_t i = 0; i < 3; i++) {
+        double fastest = fmax(fabs(ceduo_number_lowest(moves[i])), fabs(ceduo_number_highest(moves[i])));
+        squares[i] = fastest * fastest;
+    }
+    for (size_t i = 0; i < scene->slope.vertices; i++)
+        low = fmin(low, scene->slope.z[i]);
+    double drop = fmax(ceduo_slope_height(&scene->slope, ceduo_number_lowest(start->x)),
+                       ceduo_slope_height(&scene->slope, ceduo_number_highest(start->x))) +
+                  ceduo_number_highest(start->height) - low;
+    for (uint64_t r = 0; r < run->rocks; r++) {
+        struct ceduo_rock rock = {0};
+        ceduo_prepared_rock(&run->ready, r, &rock);
+        double mass_energy = scene->simulation.gravity * drop + 0.5 * (squares[0] + squares[1]);
+        could[r] = (struct weighted){rock.mass * mass_energy + 0.5 * rock.moment * squares[2], run->weights[r]};
+    }
+    ceduo_weighted_bound(could, (size_t)run->rocks);
 }
 
 /* The values of a column that are there, with the weights of their rocks. */
@@ -33,15 +57,17 @@ static size_t gather_weighted(const struct ceduo_run *run, const double *column,
 static enum ceduo_status read_weighted(const struct ceduo_run *run, size_t control, const struct sums *s,
                                        struct ceduo_arrivals *a)
 {
-    const struct released all = released_of(run, s->missed[CEDUO_UNFINISHED]);
+    struct released all = released_of(run, s->missed[CEDUO_UNFINISHED]);
     const double accepted = run->ready.scene.controls[control].accepted, *height = samples_of(run, control, HEIGHT);
     struct ceduo_distribution *const to[QUANTITIES] = {
         [SPEED] = &a->speed, [HEIGHT] = &a->height, [ENERGY] = &a->energy, [TRANSLATION] = &a->translation};
     struct weighted_sum reach = {0}, exceed = {0}, energy = {0};
-    struct weighted *values = malloc(((size_t)run->rocks + 1) * sizeof *values);
+    struct weighted *values = malloc(2 * ((size_t)run->rocks + 1) * sizeof *values), *could = values + run->rocks + 1;
     size_t n = 0;
     if (!values)
         return CEDUO_NO_MEMORY;
+    bound_energies(run, could);
+    all.could = could;
     a->exact = true;
     for (int e = 0; e < CEDUO_ENDS; e++)
         a->missed[e] = s->missed[e] / all.w;
@@ -61,12 +87,12 @@ static enum ceduo_status read_weighted(const struct ceduo_run *run, size_t contr
         weighted_sum_add(&exceed, values[i].weight, values[i].value > accepted);
         weighted_sum_add(&energy, values[i].weight, values[i].value);
     }
-    struct ceduo_rate share = ceduo_weighted_share(&all, &reach, all.max);
+    struct ceduo_rate share = ceduo_weighted_share(&all, &reach, -1);
     a->reach_probability = share.rate;
     a->reach_lo = share.lo;
     a->reach_hi = share.hi;
     if (!isnan(accepted)) {
-        share = ceduo_weighted_share(&all, &exceed, n > 0 ? values[n - 1].weight : all.max);
+        share = ceduo_weighted_share(&all, &exceed, accepted);
         a->exceed_probability = share.rate;
         a->exceed_lo = share.lo;
         a->exceed_hi = share.hi;

@@ -20,16 +20,44 @@ double ceduo_weighted_se(const struct released *all, const struct weighted_sum *
     return all->n < 2 ? NAN : sqrt(variance(all, s) / (all->n - 1)) * all->n / all->w;
 }
 
-struct ceduo_rate ceduo_weighted_share(const struct released *all, const struct weighted_sum *ones, double last)
+void ceduo_weighted_bound(struct weighted *rocks, size_t n)
+{
+    ceduo_weighted_sort(rocks, n);
+    for (size_t i = n; i-- > 1;)
+        rocks[i - 1].weight += rocks[i].weight;
+}
+
+/* Wilson's upper end where none of the rocks is seen to have more than an energy: of those that could, so many as they are, and
+ * for the share that they are. */
+static double upper_of_none(const struct released *all, double energy)
+{
+    const double z2 = CEDUO_Z95 * CEDUO_Z95;
+    size_t n = (size_t)all->n, lo = 0, hi = all->could ? n : 0;
+    while (lo < hi) { /* the first that could */
+        size_t middle = (lo + hi) / 2;
+        if (all->could[middle].value > energy)
+            hi = middle;
+        else
+            lo = middle + 1;
+    }
+    if (lo == n)
+        return 0;
+    return (all->could ? all->could[lo].weight / all->w : 1) * z2 / ((double)(n - lo) + z2);
+}
+
+struct ceduo_rate ceduo_weighted_share(const struct released *all, const struct weighted_sum *ones, double energy)
 {
     double sum = ones->t / all->w, p = sum < 1 - ROUNDING ? sum : 1; /* all are summed in another order */
     double mean = all->w / all->n, v = variance(all, ones) / (mean * mean);
     double effective = all->w * all->w / all->ww; /* so many equal rocks would have the same error */
+    double missing = all->missing / all->w, least = fmin(1, missing + upper_of_none(all, energy));
     if (!(p > 0))
-        effective = all->w / last;
-    else if (p < 1 && v > 0)
+        return (struct ceduo_rate){p, 0, missing > 0 ? fmax(least, ceduo_wilson(0, missing, effective).hi) : least};
+    if (p < 1 && v > 0)
         effective = p * (1 - p) * all->n / v;
-    return ceduo_wilson(p, fmin(1, p + all->missing / all->w), effective);
+    struct ceduo_rate share = ceduo_wilson(p, fmin(1, p + missing), effective);
+    share.hi = fmax(share.hi, least);
+    return share;
 }
 
 struct ceduo_paired ceduo_weighted_paired(const struct released *all, const struct weighted_sum *s)

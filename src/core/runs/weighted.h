@@ -13,9 +13,11 @@
 /* All rocks released. */
 struct released {
     double n, w, ww; /* the sums of weights and of their squares */
-    double max;      /* the largest weight */
     double per_year; /* blocks a year; NaN: only shares are asked for */
     double missing;  /* weights of the unfinished, which might have arrived */
+    /* Of each rock the largest energy that it could have, rising, and the weights of it and of all above it; NULL: no bound is
+     * known. */
+    const struct weighted *could;
 };
 
 struct weighted {
@@ -41,10 +43,14 @@ double ceduo_weighted_se(const struct released *all, const struct weighted_sum *
 /* The same of a sum of differences between pairs, as in ceduo_paired_of(). */
 struct ceduo_paired ceduo_weighted_paired(const struct released *all, const struct weighted_sum *sum);
 
-/* The share of those that a rock is one of which it holds 1, with its 95 % interval by Wilson at the number of equal rocks
- * that would have the same error. `last`: a weight that such a rock would have, for where there is none. The upper end
- * counts the unfinished in. */
-struct ceduo_rate ceduo_weighted_share(const struct released *all, const struct weighted_sum *ones, double last);
+/* Sorts n rocks with the largest energies that they could have, and sums their weights: for `could`. */
+void ceduo_weighted_bound(struct weighted *rocks, size_t n);
+
+/* The share of those with more than an energy (-1: of all that arrive), of which `ones` holds 1, with its 95 % interval by Wilson
+ * at the number of equal rocks that would have the same error. The upper end counts the unfinished in. It is nowhere below that of
+ * none of the rocks that could have so much energy, as if all of them were as likely to: so it does not rise when fewer rocks
+ * arrive, and a few large ones do not bound what small ones do, of which each stands for many. */
+struct ceduo_rate ceduo_weighted_share(const struct released *all, const struct weighted_sum *ones, double energy);
 
 /* Of n values, which are sorted. Percentiles have intervals after Woodruff (1952). */
 struct ceduo_distribution ceduo_weighted_distribution(const struct released *all, struct weighted *values, size_t n);
