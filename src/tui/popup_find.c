@@ -6,9 +6,10 @@
 #include "base/language.h"
 #include "popup.h"
 #include "popups.h"
+#include "view/report.h"
 #include "view/typed.h"
 
-enum { FIND_GOAL, FIND_TARGET, FIND_LO, FIND_HI };
+enum { FIND_GOAL, FIND_TARGET, FIND_SURE, FIND_LO, FIND_HI };
 
 #define FIND_ROCKS 2000 /* so that the answer is there soon */
 
@@ -42,27 +43,24 @@ static size_t row_of(enum ceduo_goal goal)
     return i;
 }
 
-/* Words of the list, or what the command line takes: energy=50. */
-static bool read_word(struct app *app, const char *typed, struct ceduo_search *search)
+/* Words of the list, or what the command line takes: energy=50; the amount may stand in the field below. */
+static bool read_goal(struct app *app, struct popup *p, struct ceduo_search *search)
 {
+    const char *typed = p->fields[FIND_GOAL].text;
+    enum ceduo_goal_reading reading = ceduo_goal_read(ceduo_app_format(app, "%s", typed), &search->goal, &search->target);
     for (size_t i = 0; i < GOALS_OFFERED; i++)
         if (strcmp(typed, _(goals[i].words)) == 0) {
             search->goal = goals[i].goal;
             search->target = NAN;
-            return true;
+            reading = CEDUO_GOAL_GOOD;
         }
-    enum ceduo_goal_reading reading = ceduo_goal_read(ceduo_app_format(app, "%s", typed), &search->goal, &search->target);
-    if (reading == CEDUO_GOAL_NO_SHARE)
-        ceduo_app_warn(app, "%s", _("a share is 0 to 1, as 0.05 for 5 %"));
-    else if (reading != CEDUO_GOAL_GOOD)
-        ceduo_app_warn(app, "%s", _("the goal is one of the list, or adc, free-run, energy=KJ, exceed=SHARE, arrive=SHARE"));
-    return reading == CEDUO_GOAL_GOOD;
-}
-
-static bool read_goal(struct app *app, struct popup *p, struct ceduo_search *search)
-{
-    if (!read_word(app, p->fields[FIND_GOAL].text, search))
+    if (reading != CEDUO_GOAL_GOOD) {
+        ceduo_app_warn(app, "%s",
+                       reading == CEDUO_GOAL_NO_SHARE
+                           ? _("a share is 0 to 1, as 0.05 for 5 %")
+                           : _("the goal is one of the list, or adc, free-run, energy=KJ, exceed=SHARE, arrive=SHARE"));
         return false;
+    }
     size_t row = row_of(search->goal);
     double target;
     if (p->fields[FIND_TARGET].text[0]) {
@@ -77,6 +75,21 @@ static bool read_goal(struct app *app, struct popup *p, struct ceduo_search *sea
     if (ceduo_goals[search->goal].usual || !isnan(search->target))
         return true;
     ceduo_app_warn(app, _("how many %s? This goal has no usual limit"), _(goals[row].unit));
+    return false;
+}
+
+/* In how many of 100 cases that may be true the goal is to be reached, too. */
+static bool read_sure(struct app *app, struct popup *p, struct ceduo_search *search)
+{
+    double cases = 0;
+    if (p->fields[FIND_SURE].text[0] == '\0')
+        return true;
+    if (!ceduo_popup_number(app, p, FIND_SURE, &cases))
+        return false;
+    search->sure = cases / 100;
+    if (search->sure > 0 && search->sure <= 1)
+        return true;
+    ceduo_app_warn(app, "%s", _("sure in more than 0 and up to 100 of 100 cases; empty: it is not asked"));
     return false;
 }
 
@@ -123,7 +136,8 @@ static void append_law(struct app *app, const char *path, struct text *text)
 static bool read_fields(struct app *app, struct popup *p, struct ceduo_search *search)
 {
     *search = (struct ceduo_search){.path = p->path, .option = app->option, .rocks = FIND_ROCKS};
-    if (!read_goal(app, p, search) || !read_end(app, p, FIND_LO, &search->lo) || !read_end(app, p, FIND_HI, &search->hi))
+    if (!read_goal(app, p, search) || !read_sure(app, p, search) || !read_end(app, p, FIND_LO, &search->lo) ||
+        !read_end(app, p, FIND_HI, &search->hi))
         return false;
     if (search->lo <= search->hi)
         return true;
@@ -143,11 +157,6 @@ static bool filled_find(struct app *app, struct popup *p)
 }
 
 /* ---- what was found ---- */
-
-static const char *shown(const struct field *f, double value, char room[CEDUO_NUMBER_ROOM])
-{
-    return f ? ceduo_shown_number(f, value, room) : ceduo_number_shortest(value, room);
-}
 
 /* What was found, how far it goes, and whether it is the only one; of a rotation its yield beside the answer. */
 static void append_words(struct app *app, struct popup *p, const struct ceduo_search *s, const struct search_answer *answer,
@@ -171,15 +180,21 @@ static void append_words(struct app *app, struct popup *p, const struct ceduo_se
             ceduo_text_format(text,
                               f->side == CEDUO_SMALLEST ? _("%s: the smallest value that reaches the goal; %s")
                                                         : _("%s: the largest value that reaches the goal; %s"),
-                              shown(field, f->value, room), reached);
+                              ceduo_shown_number(field, f->value, room), reached);
         else
             ceduo_text_format(text, _("no value from %s to %s reaches the goal"), lo, hi);
         if (!f->found && !isnan(f->nearest))
-            ceduo_text_then(text, "; ", _("nearest is %s with %s"), shown(field, f->nearest, room), reached);
-        ceduo_text_then(text, " ", ceduo_goals[s->goal].below ? _("(below %g %s is wanted)") : _("(at most %g %s is wanted)"),
-                        s->target * per, unit);
+            ceduo_text_then(text, "; ", _("nearest is %s with %s"), ceduo_shown_number(field, f->nearest, room), reached);
+        if (s->sure == 0) /* otherwise there is no room, and it was typed */
+            ceduo_text_then(text, " ",
+                            ceduo_goals[s->goal].below ? _("(below %g %s is wanted)") : _("(at most %g %s is wanted)"),
+                            s->target * per, unit);
         if (!f->monotone)
             ceduo_text_then(text, "; ", _("not monotone: there may be other values"));
+    }
+    if (s->sure > 0) {
+        ceduo_text_put(text, "; ");
+        ceduo_find_sure(text, s, &answer->sure, field);
     }
     if (s->rotation)
         ceduo_text_then(text, "; ", _("over one whole rotation"));
@@ -291,6 +306,7 @@ static void ask(struct app *app, const char *path, const char *written)
     append_law(app, path, &p->text);
     ceduo_popup_choice(p, _("goal"), _(goals[0].words), offer_goals);
     ceduo_popup_field(p, _("how many (empty: usual limit)"), "");
+    ceduo_popup_field(p, _("sure in … of 100 (empty: no)"), "");
     ceduo_popup_field(p, _("values from"), ceduo_shown_number(f, lo, lo_room));
     ceduo_popup_field(p, _("to"), ceduo_shown_number(f, hi, hi_room));
 }

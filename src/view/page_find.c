@@ -4,6 +4,7 @@
 
 #include "base/language.h"
 #include "report.h"
+#include "typed.h"
 
 static void append_goal(struct text *text, enum ceduo_goal goal, double value)
 {
@@ -26,21 +27,21 @@ static double shown(const struct ceduo_search *s, const struct ceduo_found *f)
                                      : fmax(s->lo, floor(f->value * scale) / scale);
 }
 
-/* The value that is sure. */
-static void append_sure(struct text *text, const struct ceduo_search *s, const struct ceduo_sure *sure)
+void ceduo_find_sure(struct text *text, const struct ceduo_search *s, const struct ceduo_sure *sure, const struct field *field)
 {
     const struct ceduo_found *f = &sure->found;
+    char room[CEDUO_NUMBER_ROOM];
     double wanted = sure->sure * 100, reached = sure->share.value * 100, error = 196 * sure->share.se;
     if (sure->inputs == 0)
         ceduo_text_put(text, _("nothing else is in doubt: that holds as far as the scene does"));
     else if (!f->found)
         ceduo_text_format(text, _("no value is sure in %g %% of what may be true; nearest: %s, in %.0f %% (\xc2\xb1%.0f)"),
-                          wanted, SHORTEST(f->nearest), reached, error);
+                          wanted, ceduo_shown_number(field, f->nearest, room), reached, error);
     else if (f->whole_range)
         ceduo_text_format(text, _("every value of the range is sure in %g %% of what may be true"), wanted);
     else
         ceduo_text_format(text, _("to be sure in %g %% of what may be true: %s (reaches it in %.0f %%, \xc2\xb1%.0f)"), wanted,
-                          SHORTEST(shown(s, f)), reached, error);
+                          ceduo_shown_number(field, shown(s, f), room), reached, error);
 }
 
 void ceduo_find_page(struct text *text, const struct ceduo_find_report *report)
@@ -81,7 +82,7 @@ void ceduo_find_page(struct text *text, const struct ceduo_find_report *report)
     }
     if (s->sure > 0) {
         ceduo_text_put(text, "  ");
-        append_sure(text, s, report->sure);
+        ceduo_find_sure(text, s, report->sure, NULL);
         ceduo_text_char(text, '\n');
     }
     if (!f->monotone)

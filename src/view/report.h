@@ -55,6 +55,9 @@ struct ceduo_find_report {
     const struct ceduo_sure *sure;
 };
 void ceduo_find_page(struct text *text, const struct ceduo_find_report *report);
+/* The value that is sure, in the unit in which the field is shown (NULL: that of the file). */
+void ceduo_find_sure(struct text *text, const struct ceduo_search *search, const struct ceduo_sure *sure,
+                     const struct field *field);
 void ceduo_find_json(struct text *text, const struct ceduo_find_report *report); /* one line, "ceduo-find-1" */
 void ceduo_find_csv_header(struct text *text);
 void ceduo_find_csv(struct text *text, const struct ceduo_find_report *report);

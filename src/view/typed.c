@@ -200,6 +200,8 @@ bool ceduo_shown_range(const struct field *f, struct text *text)
 
 const char *ceduo_shown_number(const struct field *f, double value, char room[CEDUO_NUMBER_ROOM])
 {
+    if (!f)
+        return ceduo_number_shortest(value, room);
     snprintf(room, CEDUO_NUMBER_ROOM, "%.12g", value * f->shown.per);
     return room;
 }

@@ -469,7 +469,7 @@ def test_find():
     """f on a number finds the value for a goal and puts it there: 379 reserves; u takes it back"""
     with Place() as place:
         screens = place.play("wait idle\n" + FIND + """dump
-            key Enter Enter Enter Enter
+            key Enter Enter Enter Enter Enter
             wait idle
             dump
             key u
@@ -503,7 +503,7 @@ def test_find_other_goals():
             path = f"options[{option}].forest[0].stand.trees[0].per_ha" if option else "forest[0].stand.trees[0].per_ha"
             wanted = good("--find", f"{path}={lo}:{hi}", "--goal", goal, "-n", 2000, "-f", "json",
                           *(["--option", option] if option else []), place.path / f"{scene}.yaml").json()[0]
-            steps = "".join(f"key Ctrl-U\ntype {x}\nkey Enter\n" for x in (goal, "", lo, hi))
+            steps = "".join(f"key Ctrl-U\ntype {x}\nkey Enter\n" for x in (goal, "", "", lo, hi))
             screen = place.play("key 2\n" + ("key ]\n" if option == "more" else "") + "find trees[0].per_ha\nkey f\n" + steps + "dump",
                                 f"{scene}.yaml")[0]
             expect(wanted["found"], scene, goal, wanted)
@@ -521,7 +521,7 @@ def test_find_in_list():
             goal, lo, hi = ("exceed=0.85", 3, 3000) if which else ("adc=50", 10, 1000)
             wanted = good("--find", f"{path}={lo}:{hi}", "--goal", goal, "-n", 2000, "-f", "json",
                           *([] if which else ["--option", "more"]), place.path / f"{scene}.yaml").json()[0]
-            steps = "".join(f"key Ctrl-U\ntype {x}\nkey Enter\n" for x in (goal, "", lo, hi))
+            steps = "".join(f"key Ctrl-U\ntype {x}\nkey Enter\n" for x in (goal, "", "", lo, hi))
             asked, popup, screen = place.play("key 6\n" + ("" if which else "key ]\n") + "find stay_per_ha\nkey f\ndump\n" + keys + "dump\n" +
                                               steps + "wait idle\ndump", f"{scene}.yaml")
             asked.has(*(("Which of its numbers", "1 30", "2 30") if which else ("Which value reaches a goal?",)))
@@ -534,9 +534,26 @@ def test_find_in_list():
             expect_in(f"= {wanted['value']}", screen.note)
 
 
+def test_find_sure():
+    """f asked for how many of 100 cases says the sure value beside the plain one, which the field has, as --sure does: with
+    stems of 15 to 25 cm those of 16 cm, 10000 / 30 m / (0.68 + 0.16) m; 0, 101 and words are refused, nothing is no question"""
+    doubt = "doubt:\n  - {path: 'options[0].forest[0].stand.trees[0].dbh_m', lo: 0.15, hi: 0.25}\n"
+    for sure, words in (("90", "to be sure in 90 % of what may be true: 397"), ("0", "up to 100 of 100"), ("101", "up to 100 of 100"),
+                        ("most", "'most' is not a number"), ("", "")):
+        steps = "".join(f"key Ctrl-U\ntype {x}\nkey Enter\n" for x in ("adc", "", sure, 6, 600))
+        with Place() as place:
+            place.write("unsure.yaml", RESERVES + doubt)
+            screen, = place.play(FIND + steps + "dump", "unsure.yaml")
+        said = re.sub(r"\s+", " ", screen.popup + " " + screen.note)
+        expect_in(words, said, f"{sure} of 100")
+        expect(("= 379: the smallest value" in said) == (sure in ("90", "")), said)
+        expect(("to be sure" in said) == (sure == "90"), said)
+        expect_equal(screen.row(r"^1 +(60|379)")[1] if "= 379" in said else "379", "379", "the field")
+
+
 def test_find_nothing():
     """f where no value reaches the goal: it says so with the nearest, and the field stays"""
-    screen = shown(FIND + "key Enter Enter Enter\nkey Ctrl-U\ntype 300\nkey Enter\ndump", "reserves.yaml")[0]
+    screen = shown(FIND + "key Enter Enter Enter Enter\nkey Ctrl-U\ntype 300\nkey Enter\ndump", "reserves.yaml")[0]
     note = re.sub(r"\s+", " ", screen.note)
     expect("no value from 6 to 300" in note and "nearest is 300" in note, note)
     expect_equal(screen.row(r"^1 +60")[:2], ["1", "60"])
@@ -545,7 +562,7 @@ def test_find_nothing():
 def test_find_all():
     """f where every value of the range reaches the goal: it says so, and the field stays"""
     for word, value in (("forest[1]", "0.5"), ("forest[0]", "0.5")):
-        screen, undone = shown(f"key 2\nfind {word}\nfind spacing_m\nkey f Enter Enter Enter Enter\ndump\nkey u\ndump", "paper-site")
+        screen, undone = shown(f"key 2\nfind {word}\nfind spacing_m\nkey f Enter Enter Enter Enter Enter\ndump\nkey u\ndump", "paper-site")
         note = re.sub(r"\s+", " ", screen.note)
         expect_in("every value from 0.05 to 5 reaches the goal", note)
         expect_in(f"stays {value}", note)
@@ -560,9 +577,9 @@ def test_find_refused():
                                 ("adc", "x", 600, "'x' is not a number"), ("adc", 600, 6, "the smaller first"),
                                 ("adc", 6, "", "'' is not a number"), ("exceed", 6, 600, "index"), ("exceed=5", 6, 600, "0.05 for 5 %"),
                                 ("free-run=2", 6, 600, "0.05 for 5 %")):
-        steps = "".join(f"key Ctrl-U\ntype {x}\nkey Enter\n" for x in (goal, "", lo, hi))
+        steps = "".join(f"key Ctrl-U\ntype {x}\nkey Enter\n" for x in (goal, "", "", lo, hi))
         with Place() as place:
-            open_, closed = place.play(FIND + steps + "dump\nkey Esc Esc Esc Esc\ndump", "reserves.yaml")
+            open_, closed = place.play(FIND + steps + "dump\nkey Esc Esc Esc Esc Esc\ndump", "reserves.yaml")
             expect_equal((place.path / "reserves.yaml").read_text(), RESERVES, "the file")
         expect_in("Which value reaches a goal?", open_.text, f"{goal} {lo} {hi}: the question is gone")
         expect_in(words, re.sub(r"\s+", " ", open_.popup + " " + open_.note), f"{goal} {lo} {hi}")
@@ -582,7 +599,7 @@ def test_find_where():
 
 def test_find_invalid():
     """f over values that a scene may not have: the reason is said, the scene stays as it was"""
-    screens = shown(FIND + "key Enter Enter\nkey Ctrl-U\ntype -5\nkey Enter Enter\ndump\nkey Esc Esc Esc Esc\nwait idle\ndump", "reserves.yaml")
+    screens = shown(FIND + "key Enter Enter Enter\nkey Ctrl-U\ntype -5\nkey Enter Enter\ndump\nkey Esc Esc Esc Esc Esc\nwait idle\ndump", "reserves.yaml")
     expect_in("per hectare: -5 is below 0", re.sub(r"\s+", " ", screens[0].popup + " " + screens[0].note))
     expect_equal(screens[1].row(r"^1 +60")[:2], ["1", "60"])
     expect_in("ADC 189 m ≥ 30", screens[1].now)
