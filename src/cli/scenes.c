@@ -71,7 +71,7 @@ static enum exit_status check(const struct arguments *a, const struct scene_file
 enum exit_status ceduo_batch_read(const struct arguments *a, const char *path, struct scene_file *file)
 {
     struct problems problems = {0};
-    bool good = ceduo_scene_read(file, path, a->sets.items, a->sets.n, &problems);
+    bool good = ceduo_scene_load(file, path, a->sets.items, a->sets.n, &problems);
     ceduo_problems_close(&problems);
     if (problems.text.length > 0 && a->called && strncmp(problems.text.bytes, a->called, strlen(a->called)) != 0)
         ceduo_say_why(a->called, _("this scene cannot be computed:")); /* what follows names another file, or a change */

@@ -162,7 +162,7 @@ static bool read_source(struct scene_file *file, const struct source *source, co
     return false;
 }
 
-bool ceduo_scene_read(struct scene_file *file, const char *path, const char *const *sets, size_t sets_count,
+bool ceduo_scene_load(struct scene_file *file, const char *path, const char *const *sets, size_t sets_count,
                       struct problems *problems)
 {
     *file = (struct scene_file){.path = path};
@@ -175,7 +175,7 @@ bool ceduo_scene_read(struct scene_file *file, const char *path, const char *con
     return source && read_source(file, source, sets, sets_count, problems);
 }
 
-bool ceduo_scene_read_text(struct scene_file *file, const char *name, const char *text, struct problems *problems)
+bool ceduo_scene_load_text(struct scene_file *file, const char *name, const char *text, struct problems *problems)
 {
     *file = (struct scene_file){.path = name};
     const struct source *source = ceduo_source_keep(&file->arena, (struct source){.name = name, .bytes = text}, problems);

@@ -24,10 +24,10 @@ struct scene_file {
 
 /* Reads a scene ("-": standard input; a name without a file: a shipped scene), applies `sets` (PATH=VALUE, from left to
  * right) and checks it. False where something is wrong: see `problems`. Release it in any case. */
-bool ceduo_scene_read(struct scene_file *file, const char *path, const char *const *sets, size_t sets_count,
+bool ceduo_scene_load(struct scene_file *file, const char *path, const char *const *sets, size_t sets_count,
                       struct problems *problems);
 /* The same from text in memory. */
-bool ceduo_scene_read_text(struct scene_file *file, const char *name, const char *text, struct problems *problems);
+bool ceduo_scene_load_text(struct scene_file *file, const char *name, const char *text, struct problems *problems);
 void ceduo_scene_release(struct scene_file *file);
 
 /* The scene of a document that was read before: sets `file->scene` from `file->root`. */

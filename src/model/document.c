@@ -126,7 +126,7 @@ static bool first_state(struct document *d, bool good)
 bool ceduo_document_open(struct document *d, const char *path, struct problems *problems)
 {
     *d = (struct document){0};
-    if (!ceduo_scene_read(&d->file, path, NULL, 0, problems))
+    if (!ceduo_scene_load(&d->file, path, NULL, 0, problems))
         return first_state(d, false);
     d->raw = d->file.raw;
     d->path = strcmp(path, "-") == 0 ? NULL : ceduo_must(strdup(d->file.path));
@@ -139,7 +139,7 @@ bool ceduo_document_open(struct document *d, const char *path, struct problems *
 bool ceduo_document_new(struct document *d, const char *text, struct problems *problems)
 {
     *d = (struct document){.saved = SIZE_MAX};
-    if (!first_state(d, ceduo_scene_read_text(&d->file, _("new scene"), text, problems)))
+    if (!first_state(d, ceduo_scene_load_text(&d->file, _("new scene"), text, problems)))
         return false;
     d->recovery = ceduo_recovery_path(NULL);
     ceduo_document_keep(d);

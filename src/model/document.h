@@ -31,7 +31,7 @@ struct document {
     char *recovery; /* path of the copy that survives a crash; NULL: none can be kept */
 };
 
-/* Opens a scene (as ceduo_scene_read()). False with the reason in `problems`. */
+/* Opens a scene (as ceduo_scene_load()). False with the reason in `problems`. */
 bool ceduo_document_open(struct document *document, const char *path, struct problems *problems);
 
 /* A new scene from text that was never on disk; `path` may be NULL. */

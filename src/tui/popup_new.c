@@ -65,7 +65,7 @@ static bool make_profile(struct answers *a, const char *more)
         &yaml, "ceduo: scene/1\nrock: {diameter_m: 1}\ncontrols_m: [%.17g]\nslope:\n  %s\n  segments: [{rn: 0.3, rt: 0.8}]\n%s",
         a->last, ceduo_text_string(&a->slope), more);
     ceduo_scene_release(&a->profile);
-    bool good = ceduo_scene_read_text(&a->profile, "", ceduo_text_string(&yaml), &problems);
+    bool good = ceduo_scene_load_text(&a->profile, "", ceduo_text_string(&yaml), &problems);
     ceduo_problems_free(&problems);
     ceduo_text_free(&yaml);
     return good;

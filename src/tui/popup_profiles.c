@@ -32,7 +32,7 @@ static bool read_stand(const struct app *app, const char *value, struct scene_fi
                       value);
     const char *name = app->document.path ? app->document.path : "preset";
     *file = (struct scene_file){0};
-    bool good = ceduo_scene_read_text(file, name, yaml.bytes, &problems);
+    bool good = ceduo_scene_load_text(file, name, yaml.bytes, &problems);
     file->scene.rock = app->document.file.scene.rock;
     file->scene.simulation = app->document.file.scene.simulation;
     ceduo_problems_free(&problems);
@@ -395,7 +395,7 @@ static void add_starts(struct app *app, struct popup *p, const char *path, const
 {
     struct scene_file file = {0};
     struct problems problems = {0};
-    if (ceduo_scene_read(&file, path, NULL, 0, &problems)) {
+    if (ceduo_scene_load(&file, path, NULL, 0, &problems)) {
         LOCAL_TEXT(rock);
         LOCAL_TEXT(release);
         struct ceduo_rock mean = ceduo_rock_mean(&file.scene.rock);

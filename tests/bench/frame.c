@@ -50,7 +50,7 @@ void timing_end(struct timing *t, size_t repeat)
 void read_scene(struct scene_file *file, const char *path)
 {
     struct problems problems = {0};
-    if (!ceduo_scene_read(file, path, NULL, 0, &problems))
+    if (!ceduo_scene_load(file, path, NULL, 0, &problems))
         fail(ceduo_text_string(&problems.text));
     ceduo_problems_free(&problems);
 }

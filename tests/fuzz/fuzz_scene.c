@@ -28,7 +28,7 @@ static void check_emitted(struct scene_file *file)
     ceduo_emit(&text, plain);
     struct scene_file again;
     struct problems problems = {0};
-    if (!ceduo_scene_read_text(&again, NAME, text.bytes, &problems))
+    if (!ceduo_scene_load_text(&again, NAME, text.bytes, &problems))
         fail(problems.text.bytes, text.bytes);
     if (!ceduo_node_equal(file->root, again.root))
         fail("written out it is another scene", text.bytes);
@@ -46,7 +46,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     text[size] = '\0';
     struct scene_file file;
     struct problems problems = {0};
-    if (ceduo_scene_read_text(&file, NAME, text, &problems)) {
+    if (ceduo_scene_load_text(&file, NAME, text, &problems)) {
         struct scene_inputs inputs;
         ceduo_inputs_of(&file, &inputs);
         struct ceduo_run_def def = ceduo_run_def_default(&file.scene);

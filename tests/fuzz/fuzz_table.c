@@ -71,7 +71,7 @@ static void check_use(const char *use, const char *path)
     for (const char *at; (at = strstr(use, "%s")); use = at + 2)
         ceduo_text_format(&text, "%.*s%s", (int)(at - use), use, path);
     ceduo_text_put(&text, use);
-    if (ceduo_scene_read_text(&file, "profiles/scenes/fuzz.yaml", ceduo_text_string(&text), &problems)) {
+    if (ceduo_scene_load_text(&file, "profiles/scenes/fuzz.yaml", ceduo_text_string(&text), &problems)) {
         const char *last = strstr(ceduo_text_string(&text), "stand:");
         last = strchr(last, '\n') + 1;
         check_observed(&file, last);

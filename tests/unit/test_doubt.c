@@ -40,7 +40,7 @@ static struct scene_file file;
 static void open_wood(void)
 {
     struct problems problems = {0};
-    bool good = ceduo_scene_read_text(&file, "wood", wood, &problems);
+    bool good = ceduo_scene_load_text(&file, "wood", wood, &problems);
     ceduo_scene_bind(&file, &problems);
     if (!good || problems.count > 0)
         fail_msg("%s", ceduo_text_string(&problems.text));

@@ -66,7 +66,7 @@ static void ask(unsigned threads, size_t points, struct ceduo_doubt_answer *to)
 static void open_scene(void)
 {
     struct problems problems = {0};
-    bool good = ceduo_scene_read_text(&file, "profiles/wood.yaml", scene, &problems) && ceduo_scene_bind(&file, &problems);
+    bool good = ceduo_scene_load_text(&file, "profiles/wood.yaml", scene, &problems) && ceduo_scene_bind(&file, &problems);
     if (!good || problems.count > 0)
         fail_msg("%s", ceduo_text_string(&problems.text));
     assert_true(ceduo_inputs_of(&file, &inputs));

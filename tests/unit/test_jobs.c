@@ -15,7 +15,7 @@ static int set_up(void **state)
 {
     (void)state;
     struct problems problems = {0};
-    assert_true(ceduo_scene_read(&file, "profiles/scenes/paper-site.yaml", NULL, 0, &problems));
+    assert_true(ceduo_scene_load(&file, "profiles/scenes/paper-site.yaml", NULL, 0, &problems));
     jobs = ceduo_jobs_create(2);
     assert_non_null(jobs);
     return 0;

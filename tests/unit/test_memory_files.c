@@ -178,7 +178,7 @@ static bool read_scene(void)
     LOCAL_BY(ceduo_scene_release) struct scene_file file;
     LOCAL_BY(ceduo_problems_free) struct problems problems = {0};
     LOCAL_TEXT(text);
-    bool good = ceduo_scene_read(&file, scene_path, sets, 5, &problems);
+    bool good = ceduo_scene_load(&file, scene_path, sets, 5, &problems);
     if (good) {
         uint64_t key = ceduo_scene_key(&file.scene);
         add(&key, sizeof key);
@@ -199,7 +199,7 @@ static bool read_text(void)
     ceduo_text_lost();
     LOCAL_BY(ceduo_scene_release) struct scene_file file;
     LOCAL_BY(ceduo_problems_free) struct problems problems = {0};
-    bool good = ceduo_scene_read_text(&file, "scene", text, &problems);
+    bool good = ceduo_scene_load_text(&file, "scene", text, &problems);
     assert_true(good || problems.memory);
     if (good) {
         uint64_t key = ceduo_scene_key(&file.scene);
@@ -219,7 +219,7 @@ static bool read_file(void)
     LOCAL_BY(ceduo_scene_release) struct scene_file file;
     struct scene_inputs inputs;
     LOCAL_BY(ceduo_problems_free) struct problems problems = {0};
-    bool good = ceduo_scene_read(&file, path, NULL, 0, &problems);
+    bool good = ceduo_scene_load(&file, path, NULL, 0, &problems);
     assert_true(good || problems.memory);
     good = good && ceduo_inputs_of(&file, &inputs);
     if (good) {
@@ -268,7 +268,7 @@ static bool read_wrong(void)
     ceduo_text_lost();
     LOCAL_BY(ceduo_scene_release) struct scene_file file;
     LOCAL_BY(ceduo_problems_free) struct problems problems = {0};
-    assert_false(ceduo_scene_read(&file, wrong->name ? path : "mil", wrong->sets, wrong->n, &problems));
+    assert_false(ceduo_scene_load(&file, wrong->name ? path : "mil", wrong->sets, wrong->n, &problems));
     ceduo_problems_close(&problems);
     if (!problems.memory)
         add_text(&problems.text);

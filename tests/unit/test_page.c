@@ -228,7 +228,7 @@ static int set_up(void **state)
     (void)state;
     static const char *const sets[] = {"simulation.rocks=60", "rocks_per_year=2"};
     LOCAL_BY(ceduo_problems_free) struct problems problems = {0};
-    bool good = ceduo_scene_read(&file, "profiles/scenes/rotation.yaml", sets, 2, &problems);
+    bool good = ceduo_scene_load(&file, "profiles/scenes/rotation.yaml", sets, 2, &problems);
     struct ceduo_question question = ceduo_question_default(&file.scene);
     question.years = true;
     question.window = (struct ceduo_window){.last = 1, .step = 1};

@@ -60,7 +60,7 @@ TEST_WITH(files_that_are_followed, folder_set_up_profiles, folder_tear_down)
         ceduo_text_format(&text, "%s%s%s\n", rest, slope, rows[i].line);
         put("scene.yaml", text.bytes);
         in_folder(path, "scene.yaml");
-        bool good = ceduo_scene_read(&file, path, rows[i].set, rows[i].set != NULL, &problems);
+        bool good = ceduo_scene_load(&file, path, rows[i].set, rows[i].set != NULL, &problems);
         if (good != !rows[i].told || (!good && !strstr(problems.text.bytes, rows[i].told)))
             fail_msg("%s: %s", rows[i].line, problems.text.bytes);
         if (good) {
@@ -77,7 +77,7 @@ TEST_WITH(files_that_are_followed, folder_set_up_profiles, folder_tear_down)
     const char *const facets[] = {"slope.facets=both"};
     put("scene.yaml", rest);
     in_folder(path, "scene.yaml");
-    assert_false(ceduo_scene_read(&file, path, facets, 1, &problems));
+    assert_false(ceduo_scene_load(&file, path, facets, 1, &problems));
     assert_non_null(strstr(problems.text.bytes, "'vertices_m' is missing: the profile"));
     ceduo_problems_free(&problems);
     ceduo_scene_release(&file);
@@ -102,7 +102,7 @@ TEST(sources_of_changes)
         LOCAL_BY(ceduo_text_free) struct text line = {0}, rock = {0};
         ceduo_text_format(&line, "rock: {diameter_m: 0.5, density_kg_m3: 2600, source: %s}", rows[i].source);
         LOCAL_BYTES char *text = scene_with(line.bytes);
-        bool good = ceduo_scene_read_text(&file, "scene", text, &problems);
+        bool good = ceduo_scene_load_text(&file, "scene", text, &problems);
         ceduo_problems_free(&problems);
         assert_int_equal(good, i == 0 || i == 5);
         const struct node *before = ceduo_node_get(ceduo_node_get(file.root, "rock"), "source");
@@ -136,7 +136,7 @@ TEST(shapes_of_changes)
         LOCAL_BY(ceduo_scene_release) struct scene_file file;
         LOCAL_BY(ceduo_problems_free) struct problems problems = {0};
         LOCAL_BYTES char *text = scene_with(rows[i].rock);
-        assert_true(ceduo_scene_read_text(&file, "scene", text, &problems));
+        assert_true(ceduo_scene_load_text(&file, "scene", text, &problems));
         assert_true(ceduo_scene_set(&file, "--set", rows[i].set, &problems));
         assert_false(ceduo_scene_bind(&file, &problems));
         char *proposed = strstr(problems.text.bytes, "give the whole rock: -s '");
@@ -168,7 +168,7 @@ TEST(grounds_split_segments)
         LOCAL_TEXT(line);
         ceduo_text_format(&line, "slope: {vertices_m: [[0, 50], [40, 20], [100, 0]], materials: [%s]}", rows[i].materials);
         LOCAL_BYTES char *text = scene_with(line.bytes);
-        assert_true(ceduo_scene_read_text(&file, "scene", text, &problems));
+        assert_true(ceduo_scene_load_text(&file, "scene", text, &problems));
         const struct ceduo_slope *s = &file.scene.slope;
         assert_int_equal(s->vertices, rows[i].vertices);
         for (size_t v = 0; v < s->vertices; v++) {
@@ -242,7 +242,7 @@ TEST(notes_are_found)
         "own}}}}, "
         "{from_m: 84, to_m: 90, stand: {energy: {source: {kind: assumed, text: own}}, source: {kind: measured, except: "
         "[energy]}}}]");
-    if (!ceduo_scene_read_text(&file, "scene", text, &problems))
+    if (!ceduo_scene_load_text(&file, "scene", text, &problems))
         fail_msg("%s", problems.text.bytes);
     const struct {
         const char *path, *note;

@@ -37,7 +37,7 @@ static void read_scene(struct scene_file *file, const char *lines, const char *c
     char path[256];
     put("scene.yaml", text.bytes);
     in_folder(path, "scene.yaml");
-    bool good = ceduo_scene_read(file, path, sets, n, &problems);
+    bool good = ceduo_scene_load(file, path, sets, n, &problems);
     if (good != !told || problems.count != !good || (told && !strstr(problems.text.bytes, told)))
         fail_msg("%s\n%s\nis not told '%s' alone but:\n%s", text.bytes, n ? sets[0] : "", told ? told : "nothing",
                  ceduo_text_string(&problems.text));

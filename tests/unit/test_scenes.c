@@ -27,7 +27,7 @@ static bool read_scene(struct scene_file *file, char told[4096])
     char path[256];
     LOCAL_BY(ceduo_problems_free) struct problems problems = {0};
     in_folder(path, "scene.yaml");
-    bool good = ceduo_scene_read(file, path, NULL, 0, &problems);
+    bool good = ceduo_scene_load(file, path, NULL, 0, &problems);
     snprintf(told, 4096, "%s", ceduo_text_string(&problems.text));
     return good;
 }

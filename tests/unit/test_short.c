@@ -36,7 +36,7 @@ static void check_scene(const char *path)
 {
     struct scene_file file;
     struct problems problems = {0};
-    assert_true(ceduo_scene_read(&file, path, NULL, 0, &problems));
+    assert_true(ceduo_scene_load(&file, path, NULL, 0, &problems));
     struct ceduo_question question = ceduo_question_default(&file.scene);
     LOCAL_BY(ceduo_answer_release) struct ceduo_answer answer;
     LOCAL_BY(ceduo_verdict_release) struct ceduo_verdict verdict;

@@ -269,7 +269,7 @@ static void read_text(struct scene_file *file, const char *text)
     LOCAL_BY(ceduo_problems_free) struct problems problems = {0};
     in_folder(path, "scene.yaml");
     put("scene.yaml", text);
-    if (!ceduo_scene_read(file, path, NULL, 0, &problems))
+    if (!ceduo_scene_load(file, path, NULL, 0, &problems))
         fail_msg("%s", problems.text.bytes);
 }
 
@@ -287,7 +287,7 @@ static bool keys_with(const char *text, const char *path, const char *value, str
     if (text != last)
         put("scene.yaml", text);
     last = text;
-    bool good = ceduo_scene_read(&file, place, sets, 1, &problems);
+    bool good = ceduo_scene_load(&file, place, sets, 1, &problems);
     if (good)
         *k = keys_of(&file.scene);
     return good;

@@ -42,7 +42,7 @@ static char *told_of(const char *scene, const char *path, const char *value)
     LOCAL_BY(ceduo_problems_free) struct problems problems = {0};
     LOCAL_TEXT(set);
     char *told = NULL;
-    assert_true(ceduo_scene_read_text(&file, "scene", scene, &problems));
+    assert_true(ceduo_scene_load_text(&file, "scene", scene, &problems));
     ceduo_text_format(&set, "%s=%s", path, value);
     if (ceduo_scene_set(&file, "--set", set.bytes, &problems)) {
         ceduo_scene_bind(&file, &problems);

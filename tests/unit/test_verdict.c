@@ -15,7 +15,7 @@ static struct live live;
 static void open_scene(const char *path)
 {
     struct problems problems = {0};
-    assert_true(ceduo_scene_read(&file, path, NULL, 0, &problems));
+    assert_true(ceduo_scene_load(&file, path, NULL, 0, &problems));
     assert_true(ceduo_live_create(&live, 2));
 }
 
@@ -192,7 +192,7 @@ static int open_made(void **state)
 {
     (void)state;
     struct problems problems = {0};
-    assert_true(ceduo_scene_read(&file, "profiles/scenes/rotation.yaml", NULL, 0, &problems));
+    assert_true(ceduo_scene_load(&file, "profiles/scenes/rotation.yaml", NULL, 0, &problems));
     EXPECT(file.scene.controls_count, ==, 1);
     kept = file;
     make_alike();
