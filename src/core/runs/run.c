@@ -3,6 +3,7 @@
 #include <stdlib.h>
 
 #include "base/clock.h"
+#include "core/walk/kernel.h"
 #include "core/walk/walk.h"
 #include "run_state.h"
 
@@ -56,7 +57,7 @@ static bool allocate(struct ceduo_run *run)
     if (def->cells > 0)
         ok = ok && (run->cells = calloc(def->cells, sizeof *run->cells));
     ok = ok && ceduo_prepared_init(&run->ready, def->scene, def->option, def->cells, def->cell_x) == CEDUO_OK;
-    run->lanes_walk = ceduo_lanes_walk(def->kernel);
+    run->lanes_walk = ceduo_kernel(def->kernel)->walk;
     run->lanes = run->lanes_walk ? LANES : 1;
     return ok && (!run->lanes_walk || (run->ground_of_lanes = ceduo_lanes_ground_create(&run->ready.ground)));
 }

@@ -45,8 +45,8 @@ struct ceduo_run {
     struct ceduo_run_def def;
     struct prepared ready;
     struct lanes_ground *ground_of_lanes;
-    lanes_walk_fn *lanes_walk; /* NULL: rocks are simulated one by one */
-    size_t lanes;              /* rocks that a thread simulates at once */
+    void (*lanes_walk)(const struct lanes_job *job); /* NULL: rocks are simulated one by one */
+    size_t lanes;                                    /* rocks that a thread simulates at once */
     size_t controls, last_control;
     double stems_from;      /* as ceduo_option_stems_from(): the option may be gone when the run is read */
     int kept;               /* quantities whose samples are kept; without spin and spread, energy follows from speed */

@@ -1,17 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "kernel.h"
 
-enum ceduo_kernel ceduo_kernel_here(enum ceduo_kernel wanted)
+const struct kernel *ceduo_kernel(enum ceduo_kernel wanted)
 {
 #if defined(__x86_64__) && defined(__GNUC__)
     bool best = wanted == CEDUO_KERNEL_BEST, avx2 = __builtin_cpu_supports("avx2");
     bool avx512 = avx2 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq"); /* untaken 3: machine */
     if (avx512 && (best || wanted == CEDUO_KERNEL_AVX512))                                         /* untaken: machine */
-        return CEDUO_KERNEL_AVX512;
+        return &ceduo_kernel_avx512;
     if (avx2 && (best || wanted == CEDUO_KERNEL_AVX2)) /* untaken: machine */
-        return CEDUO_KERNEL_AVX2;
+        return &ceduo_kernel_avx2;
 #else
     (void)wanted;
 #endif
-    return CEDUO_KERNEL_SCALAR;
+    return &ceduo_kernel_scalar;
 }

@@ -3,8 +3,6 @@
 
 #include <stdlib.h>
 
-#include "kernel.h"
-
 #define SEGMENT_SHIFT 2
 _Static_assert(sizeof(struct ground_vertex) == 16, "a vertex is a pair of numbers");
 _Static_assert(sizeof(struct ground_segment) == (size_t)16 << SEGMENT_SHIFT, "a segment is pairs of numbers");
@@ -37,18 +35,4 @@ struct lanes_ground *ceduo_lanes_ground_create(const struct ground *g)
     for (size_t j = 0; j < g->n; j++)
         lanes->steep |= ground_is_steep(&g->segments[j]);
     return lanes;
-}
-
-lanes_walk_fn *ceduo_lanes_walk(enum ceduo_kernel kernel)
-{
-#if defined(__x86_64__) && defined(__GNUC__)
-    kernel = ceduo_kernel_here(kernel);
-    if (kernel == CEDUO_KERNEL_AVX512)
-        return ceduo_lanes_walk_avx512;
-    if (kernel == CEDUO_KERNEL_AVX2)
-        return ceduo_lanes_walk_avx2;
-#else
-    (void)kernel;
-#endif
-    return NULL;
 }

@@ -34,11 +34,6 @@ struct lanes_ground *ceduo_lanes_ground_create(const struct ground *g);
 /* So many rocks at once: more than a register holds, so that one works while another waits. */
 #define LANES 32
 
-/* The walk of a kind of registers, or NULL where this machine has none of the kind. */
-struct lanes_job;
-typedef void lanes_walk_fn(const struct lanes_job *job);
-lanes_walk_fn *ceduo_lanes_walk(enum ceduo_kernel kernel);
-
 /* Many rocks to be followed. They end in another order than they began. */
 struct lanes_job {
     const struct lanes_ground *ground;
@@ -49,7 +44,5 @@ struct lanes_job {
     void (*ended)(void *context, size_t lane, enum ceduo_end end);
     void *context;
 };
-
-lanes_walk_fn ceduo_lanes_walk_avx2, ceduo_lanes_walk_avx512;
 
 #endif

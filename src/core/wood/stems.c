@@ -18,21 +18,7 @@
 
 #define PAUSE_STEMS 4096 /* effort between two looks at whether the rock is still waited for */
 
-const struct stems_kernel ceduo_stems_scalar = {fill_points, make_stools};
-
-static const struct stems_kernel *choose_kernel(enum ceduo_kernel kernel)
-{
-#if defined(__x86_64__) && defined(__GNUC__)
-    kernel = ceduo_kernel_here(kernel);
-    if (kernel == CEDUO_KERNEL_AVX512)
-        return &ceduo_stems_avx512;
-    if (kernel == CEDUO_KERNEL_AVX2)
-        return &ceduo_stems_avx2;
-#else
-    (void)kernel;
-#endif
-    return &ceduo_stems_scalar;
-}
+const struct kernel ceduo_kernel_scalar = {NULL, fill_points, make_stools};
 
 /* ---- diameters ---- */
 
@@ -438,7 +424,7 @@ bool ceduo_stems_init(struct stems *stems, const struct wood *wood, bool poisson
 {
     stems->wood = wood;
     stems->poisson = poisson;
-    stems->kernel = choose_kernel(kernel);
+    stems->kernel = ceduo_kernel(kernel);
     bool good = true;
     for (int i = 0; i < 2; i++) {
         struct stems_side *side = &stems->side[i];
