@@ -54,13 +54,15 @@ static struct wood_kind kind_of(const struct ceduo_stand *stand, const struct ce
     return k;
 }
 
-/* Cohort i of the shoots. `upto`: shoots per ha of those before it, then with it. */
-static struct wood_kind shoot_kind(const struct ceduo_stand *stand, size_t i, double *upto)
+/* Cohort i of the shoots, which have no stratum of their own: all stools are one. */
+static struct wood_stratum shoot_stratum(const struct ceduo_stand *stand, size_t i, struct wood_kind *kind)
 {
-    struct wood_kind k = kind_of(stand, &stand->shoots[i]);
-    *upto += stand->shoots[i].per_ha;
-    k.share_to = i + 1 < stand->shoots_count ? *upto / ceduo_stand_shoots(stand) : 1;
-    return k;
+    double upto = 0;
+    *kind = kind_of(stand, &stand->shoots[i]);
+    for (size_t k = 0; k <= i; k++)
+        upto += stand->shoots[k].per_ha;
+    kind->share_to = i + 1 < stand->shoots_count ? upto / ceduo_stand_shoots(stand) : 1;
+    return (struct wood_stratum){.kind = kind};
 }
 
 /* Trees of class i; of groups their centres, as far off as any of their trees can be met. */
@@ -99,28 +101,44 @@ static struct wood_stratum log_stratum(const struct ceduo_stand *stand, struct w
     return (struct wood_stratum){per_m2 * ceduo_log_width(l->length), per_m2, kind, 0, 0};
 }
 
-/* Contacts with stratum i of a rule as a Poisson process along x (Eq. 2 of Ciabocco et al. 2009). `mass`: of the mean
- * rock. */
-static struct wood_stratum contact_stratum(const struct ceduo_stand *stand, enum ceduo_rule rule, size_t i, double mass,
-                                           struct wood_kind *kind)
+/* How rocks meet a stand: its stems, or the contacts of a rule. */
+struct encounter {
+    const struct ceduo_stand *stand;
+    bool poisson;
+    enum ceduo_rule rule; /* of `poisson` */
+    double mass;          /* of the mean rock, kg */
+    size_t n;             /* kinds that are met */
+};
+
+static struct encounter encounter_of(const struct ceduo_simulation *simulation, const struct ceduo_stand *stand,
+                                     const struct ceduo_rock *mean)
 {
-    struct stratum s = ceduo_stratum(stand, rule, i, mass);
-    *kind = (struct wood_kind){.dbh = NAN, .height = INFINITY, .below = INFINITY, .energy = s.energy};
-    if (s.share > 0)
-        kind->by_hit = ceduo_stem_energy_of_contact(stand->energy, s.share, mass);
-    return (struct wood_stratum){s.per_ha * s.width / HECTARE, s.per_ha / HECTARE, kind, 0, 0};
+    struct encounter e = {.stand = stand, .poisson = simulation->contact_model == CEDUO_POISSON, .mass = mean->mass};
+    e.rule = ceduo_adc_rule(stand, mean->mean_diameter, simulation->rule);
+    e.n = stand->shoots_count + stand->trees_count + (stand->stumps.per_ha > 0) + (stand->logs.per_ha > 0);
+    if (e.poisson)
+        e.n = ceduo_strata_count(stand, e.rule);
+    return e;
+}
+
+/* Kind i of what is met, with its stratum. Contacts are a Poisson process along x (Eq. 2 of Ciabocco et al. 2009). */
+static struct wood_stratum stratum_of(const struct encounter *e, size_t i, struct wood_kind *kind)
+{
+    const struct ceduo_stand *stand = e->stand;
+    size_t shoots = stand->shoots_count, low = shoots + stand->trees_count;
+    if (e->poisson) {
+        struct stratum s = ceduo_stratum(stand, e->rule, i, e->mass);
+        *kind = (struct wood_kind){.dbh = NAN, .height = INFINITY, .below = INFINITY, .energy = s.energy};
+        if (s.share > 0)
+            kind->by_hit = ceduo_stem_energy_of_contact(stand->energy, s.share, e->mass);
+        return (struct wood_stratum){s.per_ha * s.width / HECTARE, s.per_ha / HECTARE, kind, 0, 0};
+    }
+    if (i < low)
+        return i < shoots ? shoot_stratum(stand, i, kind) : tree_stratum(stand, i - shoots, kind);
+    return i == low && stand->stumps.per_ha > 0 ? stump_stratum(stand, kind) : log_stratum(stand, kind);
 }
 
 /* ---- stools ---- */
-
-/* Places of n shoots on a ring of radius 1. */
-static double *ring_of(unsigned n, size_t room)
-{
-    double *ring = calloc(2 * room, sizeof *ring);
-    for (unsigned i = 0; ring && i < n; i++)
-        ceduo_direction(i, n, &ring[i], &ring[room + i]);
-    return ring;
-}
 
 static bool make_stools(struct wood *w, size_t belt, const struct ceduo_stand *stand, const struct wood_kind *kinds)
 {
@@ -132,9 +150,11 @@ static bool make_stools(struct wood *w, size_t belt, const struct ceduo_stand *s
     s->kinds = kinds;
     s->ring_room = ((size_t)s->n / WOOD_RING_STEP + 1) * WOOD_RING_STEP;
     for (unsigned i = 0; i < (s->more > 0 ? 2 : 1); i++) {
-        double *ring = w->rings[2 * belt + i] = ring_of(s->n + i, s->ring_room);
+        double *ring = w->rings[2 * belt + i] = calloc(2 * s->ring_room, sizeof *ring);
         if (!ring)
             return false;
+        for (unsigned k = 0; k < s->n + i; k++)
+            ceduo_direction(k, s->n + i, &ring[k], &ring[s->ring_room + k]);
         s->ring[i] = ring;
         s->radius[i] = ceduo_stool_radius(s->n + i, stand->spacing);
         s->turn[i] = s->n + i > 1 ? 2 * M_PI / (s->n + i) : 0;
@@ -151,57 +171,38 @@ static bool make_stools(struct wood *w, size_t belt, const struct ceduo_stand *s
 
 /* ---- belts ---- */
 
-/* The stems of a belt in the plane: stools as one stratum, each class of trees as one. */
-static bool make_stems(struct wood *w, size_t belt, const struct ceduo_stand *stand, struct wood_kind *kinds,
-                       struct wood_stratum *strata, struct wood_belt *to)
+/* The strata of a belt: of stems the first is that of the stools. */
+static bool make_belt(struct wood *w, size_t belt, const struct encounter *e, struct wood_kind *kinds,
+                      struct wood_stratum *strata)
 {
-    double upto = 0;
-    for (size_t i = 0; i < stand->shoots_count; i++)
-        kinds[i] = shoot_kind(stand, i, &upto);
-    if (ceduo_stand_has_shoots(stand)) {
-        if (!make_stools(w, belt, stand, kinds))
-            return false;
-        const struct wood_stools *s = to->stools = &w->stools[belt];
-        double per_m2 = stand->stools_per_ha / HECTARE;
-        strata[0] = (struct wood_stratum){per_m2 * (2 * s->reach + s->most), per_m2, NULL, 0, 0};
-    }
-    size_t n = 1;
-    kinds += stand->shoots_count;
-    for (size_t i = 0; i < stand->trees_count; i++) {
-        strata[n] = tree_stratum(stand, i, kinds++);
+    const struct ceduo_stand *stand = e->stand;
+    struct wood_belt *to = &w->along[0][belt];
+    size_t n = !e->poisson;
+    for (size_t i = 0; i < e->n; i++) {
+        strata[n] = stratum_of(e, i, &kinds[i]);
+        w->group_reach = fmax(w->group_reach, strata[n].radius);
         if (strata[n].group > 0) {
             w->grouped = true;
-            w->tallest = fmax(w->tallest, strata[n].kind->height);
+            w->tallest = fmax(w->tallest, kinds[i].height);
         }
-        w->group_reach = fmax(w->group_reach, strata[n++].radius);
+        n += e->poisson || i >= stand->shoots_count;
     }
-    if (stand->stumps.per_ha > 0)
-        strata[n++] = stump_stratum(stand, kinds++);
-    if (stand->logs.per_ha > 0)
-        strata[n++] = log_stratum(stand, kinds);
     to->strata_count = n;
+    if (e->poisson || !ceduo_stand_has_shoots(stand))
+        return true;
+    if (!make_stools(w, belt, stand, kinds))
+        return false;
+    const struct wood_stools *s = to->stools = &w->stools[belt];
+    double per_m2 = stand->stools_per_ha / HECTARE;
+    strata[0] = (struct wood_stratum){per_m2 * (2 * s->reach + s->most), per_m2, NULL, 0, 0};
     return true;
-}
-
-static void make_contacts(const struct ceduo_stand *stand, enum ceduo_rule rule, double mass, struct wood_kind *kinds,
-                          struct wood_stratum *strata, struct wood_belt *to)
-{
-    to->strata_count = ceduo_strata_count(stand, rule);
-    for (size_t i = 0; i < to->strata_count; i++)
-        strata[i] = contact_stratum(stand, rule, i, mass, &kinds[i]);
-}
-
-static size_t kinds_in(const struct ceduo_belt *belt)
-{
-    const struct ceduo_stand *s = &belt->stand;
-    return s->shoots_count + s->trees_count + (s->stumps.per_ha > 0) + (s->logs.per_ha > 0);
 }
 
 static bool allocate(struct wood *w, const struct ceduo_option *option)
 {
     size_t kinds = 0;
     for (size_t i = 0; i < option->belts_count; i++)
-        kinds += kinds_in(&option->belts[i]) + 1;
+        kinds += option->belts[i].stand.shoots_count + option->belts[i].stand.trees_count + 3; /* stumps, logs, and stools */
     w->kinds = calloc(kinds + 1, sizeof *w->kinds);
     w->strata_room = calloc(kinds + 1, sizeof *w->strata_room);
     w->stools = calloc(option->belts_count + 1, sizeof *w->stools);
@@ -230,14 +231,6 @@ static size_t places_for(const struct wood *w, double b)
     return places - 1;
 }
 
-static void finish_kind(struct wood *wood, struct wood_kind *k)
-{
-    bool depends = isnan(k->energy);
-    k->whole = depends ? ceduo_stem_energy_hit(&k->by_hit, k->dbh, 1) : k->energy;
-    k->by_eccentricity = depends && ceduo_stem_energy_by_eccentricity(&k->by_hit);
-    wood->by_eccentricity |= k->by_eccentricity;
-}
-
 bool ceduo_wood_init(struct wood *wood, const struct ceduo_simulation *simulation, const struct ceduo_option *option,
                      const struct ceduo_rock *mean)
 {
@@ -246,7 +239,6 @@ bool ceduo_wood_init(struct wood *wood, const struct ceduo_simulation *simulatio
         return true;
     if (!allocate(wood, option))
         goto fail;
-    double b = mean->mean_diameter;
     size_t used = 0;
     for (size_t i = 0; i < option->belts_count; i++) {
         const struct ceduo_belt *belt = &option->belts[i];
@@ -256,12 +248,10 @@ bool ceduo_wood_init(struct wood *wood, const struct ceduo_simulation *simulatio
             continue;
         wood->bare = false;
         wood->shares |= ceduo_stand_takes_share(&belt->stand);
-        if (simulation->contact_model == CEDUO_POISSON)
-            make_contacts(&belt->stand, ceduo_adc_rule(&belt->stand, b, simulation->rule), mean->mass, &wood->kinds[used],
-                          &wood->strata_room[used], to);
-        else if (!make_stems(wood, i, &belt->stand, &wood->kinds[used], &wood->strata_room[used], to))
+        const struct encounter e = encounter_of(simulation, &belt->stand, mean);
+        if (!make_belt(wood, i, &e, &wood->kinds[used], &wood->strata_room[used]))
             goto fail;
-        used += kinds_in(belt) + 1;
+        used += e.n + 1;
     }
     for (size_t i = 0; i < wood->belts; i++) {
         const struct wood_belt *ahead = &wood->along[0][wood->belts - 1 - i];
@@ -269,9 +259,13 @@ bool ceduo_wood_init(struct wood *wood, const struct ceduo_simulation *simulatio
         wood->along[1][i].from = -ahead->to;
         wood->along[1][i].to = -ahead->from;
     }
-    wood->places = places_for(wood, b);
-    for (size_t i = 0; i < used; i++)
-        finish_kind(wood, &wood->kinds[i]);
+    wood->places = places_for(wood, mean->mean_diameter);
+    for (struct wood_kind *k = wood->kinds; k < wood->kinds + used; k++) {
+        bool depends = isnan(k->energy);
+        k->whole = depends ? ceduo_stem_energy_hit(&k->by_hit, k->dbh, 1) : k->energy;
+        k->by_eccentricity = depends && ceduo_stem_energy_by_eccentricity(&k->by_hit);
+        wood->by_eccentricity |= k->by_eccentricity;
+    }
     return true;
 fail:
     ceduo_wood_release(wood);
@@ -295,71 +289,15 @@ void ceduo_wood_release(struct wood *wood)
 
 /* Made of the same kinds and strata as the prepared forest, but without its memory: it cannot fail. */
 
-static void hash_kind(uint64_t *hash, const struct wood_kind *k)
+static void hash_stratum(uint64_t *hash, const struct wood_stratum *s)
 {
+    const struct wood_kind *k = s->kind;
+    hash_doubles(hash, s, offsetof(struct wood_stratum, kind) / sizeof(double));
     hash_doubles(hash, k, offsetof(struct wood_kind, most) / sizeof(double));
     if (isnan(k->energy))
         ceduo_stem_energy_hash(hash, &k->by_hit);
-}
-
-static void hash_stratum(uint64_t *hash, const struct wood_stratum *s)
-{
-    hash_doubles(hash, s, offsetof(struct wood_stratum, kind) / sizeof(double));
-    hash_kind(hash, s->kind);
-    if (s->group > 0) {
-        hash_count(hash, s->group);
-        hash_double(hash, s->radius);
-    }
-}
-
-/* Nothing where there is nothing: forests without it keep their keys. */
-static void hash_low(uint64_t *hash, const struct ceduo_stand *stand)
-{
-    struct wood_kind kind;
-    struct wood_stratum stratum;
-    if (stand->stumps.per_ha > 0) {
-        stratum = stump_stratum(stand, &kind);
-        hash_count(hash, 1);
-        hash_stratum(hash, &stratum);
-    }
-    if (stand->logs.per_ha > 0) {
-        stratum = log_stratum(stand, &kind);
-        hash_count(hash, 3);
-        hash_stratum(hash, &stratum);
-    }
-}
-
-static void hash_stems(uint64_t *hash, const struct ceduo_stand *stand)
-{
-    struct wood_kind kind;
-    double upto = 0;
-    hash_count(hash, stand->shoots_count);
-    if (ceduo_stand_has_shoots(stand)) {
-        hash_double(hash, stand->stools_per_ha);
-        hash_double(hash, ceduo_stand_shoots(stand));
-        hash_double(hash, stand->spacing);
-    }
-    for (size_t i = 0; i < stand->shoots_count; i++) {
-        kind = shoot_kind(stand, i, &upto);
-        hash_kind(hash, &kind);
-    }
-    hash_count(hash, stand->trees_count);
-    for (size_t i = 0; i < stand->trees_count; i++) {
-        struct wood_stratum stratum = tree_stratum(stand, i, &kind);
-        hash_stratum(hash, &stratum);
-    }
-    hash_low(hash, stand);
-}
-
-static void hash_contacts(uint64_t *hash, const struct ceduo_stand *stand, enum ceduo_rule rule, double mass)
-{
-    size_t n = ceduo_strata_count(stand, rule);
-    struct wood_kind kind;
-    hash_count(hash, n);
-    for (size_t i = 0; i < n; i++) {
-        struct wood_stratum stratum = contact_stratum(stand, rule, i, mass, &kind);
-        hash_stratum(hash, &stratum);
-    }
+    hash_count(hash, s->group);
+    hash_double(hash, s->radius);
 }
 
 bool ceduo_wood_hash(uint64_t *hash, const struct ceduo_simulation *simulation, const struct ceduo_option *option,
@@ -376,10 +314,19 @@ bool ceduo_wood_hash(uint64_t *hash, const struct ceduo_simulation *simulation, 
         bare = false;
         hash_double(hash, belt->from);
         hash_double(hash, belt->to);
-        if (simulation->contact_model == CEDUO_POISSON)
-            hash_contacts(hash, &belt->stand, ceduo_adc_rule(&belt->stand, mean->mean_diameter, simulation->rule), mean->mass);
-        else
-            hash_stems(hash, &belt->stand);
+        const struct encounter e = encounter_of(simulation, &belt->stand, mean);
+        hash_count(hash, e.n);
+        if (!e.poisson && ceduo_stand_has_shoots(e.stand)) {
+            hash_count(hash, e.stand->shoots_count);
+            hash_double(hash, e.stand->stools_per_ha);
+            hash_double(hash, ceduo_stand_shoots(e.stand));
+            hash_double(hash, e.stand->spacing);
+        }
+        for (size_t k = 0; k < e.n; k++) {
+            struct wood_kind kind;
+            const struct wood_stratum stratum = stratum_of(&e, k, &kind);
+            hash_stratum(hash, &stratum);
+        }
     }
     return !bare;
 }
