@@ -64,4 +64,9 @@ void ceduo_text_csv(struct text *text, const char *value);
 /* The nearest of some words, NULL where none is near. */
 const char *ceduo_text_nearest(const char *word, const char *const *words, size_t n);
 
+/* How well a text matches what was typed: the letters typed must stand in it in their order, in whatever case. -1:
+ * they do not. Better where words begin with them and where they stand together; best where the text begins with all
+ * of them. */
+int ceduo_fuzzy_match(const char *typed, const char *text);
+
 #endif

@@ -7,7 +7,6 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "base/fuzzy.h"
 #include "base/grow.h"
 #include "base/language.h"
 #include "base/text.h"

@@ -4,7 +4,7 @@
 
 #include <string.h>
 
-#include "base/fuzzy.h"
+#include "base/text.h"
 #include "tui/picker.h"
 
 TEST(letters_stand_in_their_order)

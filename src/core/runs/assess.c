@@ -3,7 +3,6 @@
 
 #include <math.h>
 
-#include "core/wood/groups.h"
 #include "core/wood/strata.h"
 
 /* ---- stems that count ---- */

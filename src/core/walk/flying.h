@@ -7,7 +7,6 @@
 #include <gsl/gsl_interp.h>
 
 #include "base/cancel.h"
-#include "hit.h"
 #include "landing.h"
 #include "strike.h"
 #include "walker.h"

@@ -5,7 +5,6 @@
 #ifndef CEDUO_LANES_STEMS_H
 #define CEDUO_LANES_STEMS_H
 
-#include "hit.h"
 #include "lanes_landing.h"
 
 #ifndef TOO_FEW

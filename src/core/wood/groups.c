@@ -2,7 +2,7 @@
 /* A centre at the offset c meets none of its n trees with the chance (1 - p)^n, p the share of its disc that lies in the
  * strip. Integrals go from kink to kink of p by the rule of Gauss and Kronrod with 21 points; towards the kinks, where p goes
  * with a power of 3/2, the points are closer. */
-#include "groups.h"
+#include "strata.h"
 
 #include <gsl/gsl_integration.h>
 #include <math.h>
