@@ -36,25 +36,13 @@ static void release_answers(struct answers *a)
     ceduo_text_free(&a->slope);
 }
 
-/* ---- the profile ---- */
-
-static bool read_csv(struct app *app, struct popup *p, const char *path, struct answers *a)
+static void append_quoted(struct text *yaml, const char *before, const char *value)
 {
-    struct problems problems = {0};
-    struct points points = {0};
-    bool good = ceduo_csv_slope_read(&p->arena, path, &points, &problems) && points.n > 1;
-    if (good) {
-        a->first = points.x[0];
-        a->last = points.x[points.n - 1];
-        ceduo_text_put(&a->slope, "csv: ");
-        ceduo_emit_scalar(&a->slope, path, true);
-    } else {
-        const char *why = problems.text.bytes ? problems.text.bytes : _("a profile needs two points or more");
-        ceduo_app_warn(app, "%.*s", (int)strcspn(why, "\n"), why);
-    }
-    ceduo_problems_free(&problems);
-    return good;
+    ceduo_text_put(yaml, before);
+    ceduo_emit_scalar(yaml, value, true);
 }
+
+/* ---- the profile ---- */
 
 /* The profile as a scene of its own; `more`: keys of the slope besides. */
 static bool make_profile(struct answers *a, const char *more)
@@ -71,14 +59,24 @@ static bool make_profile(struct answers *a, const char *more)
     return good;
 }
 
-/* One that was drawn upward is turned round. */
+/* From a CSV file, or points as they are typed; one that was drawn upward is turned round. */
 static bool read_profile(struct app *app, struct popup *p, struct answers *a)
 {
     const char *typed = p->fields[NEW_PROFILE].text;
     size_t n = strlen(typed);
     if (n > 4 && strcmp(typed + n - 4, ".csv") == 0) {
-        if (!read_csv(app, p, typed, a))
+        struct problems problems = {0};
+        struct points points = {0};
+        bool good = ceduo_csv_slope_read(&p->arena, typed, &points, &problems) && points.n > 1;
+        const char *why = problems.text.bytes ? problems.text.bytes : _("a profile needs two points or more");
+        if (!good)
+            ceduo_app_warn(app, "%.*s", (int)strcspn(why, "\n"), why);
+        ceduo_problems_free(&problems);
+        if (!good)
             return false;
+        a->first = points.x[0];
+        a->last = points.x[points.n - 1];
+        append_quoted(&a->slope, "csv: ", typed);
     } else {
         ceduo_text_put(&a->slope, "vertices_m: ");
         if (!ceduo_typed_points(typed, &a->slope, &a->first, &a->last)) {
@@ -161,16 +159,6 @@ static bool read_number(struct app *app, const struct popup *p, size_t field, do
     return p->fields[field].text[0] == '\0' || ceduo_popup_number(app, p, field, value);
 }
 
-static bool read_stand(struct app *app, struct popup *p, struct answers *a)
-{
-    const char *stand = p->fields[NEW_STAND].text;
-    a->counted = strcmp(stand, STAND_COUNTED) == 0;
-    if (a->counted || stand[0] == '\0' || ceduo_file_find(&p->arena, stand, NULL, "stands"))
-        return true;
-    ceduo_app_warn(app, _("no stand '%s': a file, or a name such as simple-coppice; may be left empty"), stand);
-    return false;
-}
-
 /* Where rocks start, or where the face ends. */
 static bool read_place(struct app *app, const struct popup *p, const struct answers *a, size_t field, double *x)
 {
@@ -185,44 +173,54 @@ static bool read_place(struct app *app, const struct popup *p, const struct answ
     return false;
 }
 
-static bool read_control(struct app *app, const struct popup *p, struct answers *a)
+/* One field, of which it is said what is wrong; those before it are read. */
+static bool read_field(struct app *app, struct popup *p, size_t field, struct answers *a)
 {
-    if (!read_number(app, p, NEW_CONTROL, a->last, &a->control))
+    const char *typed = p->fields[field].text;
+    double lowest = fmax(a->release, a->face), unused;
+    switch (field) {
+    case NEW_PROFILE:
+        return read_profile(app, p, a);
+    case NEW_RELEASE:
+        return read_place(app, p, a, NEW_RELEASE, &a->release);
+    case NEW_FACE:
+        return read_place(app, p, a, NEW_FACE, &a->face);
+    case NEW_MATERIAL:
+        if (ceduo_choice_find(&ceduo_material_words, typed) >= 0)
+            return true;
+        ceduo_app_warn(app, _("no ground '%s' in the library"), typed);
         return false;
-    double min = fmax(a->release, a->face);
-    if (a->control > min && a->control <= a->last)
+    case NEW_ROCK:
+        return ceduo_popup_number(app, p, NEW_ROCK, &a->rock) &&
+               ceduo_popup_value(app, ceduo_schema_at("rock.diameter_m"), typed, &unused);
+    case NEW_CONTROL:
+        if (!read_number(app, p, NEW_CONTROL, a->last, &a->control))
+            return false;
+        if (a->control > lowest && a->control <= a->last)
+            return true;
+        ceduo_app_warn(app, _("counted at %g m, outside the slope below the face, %g to %g m"), a->control, lowest, a->last);
+        return false;
+    case NEW_ACCEPTED:
+        a->has_accepted = typed[0] != '\0';
+        return read_number(app, p, NEW_ACCEPTED, 0, &a->accepted);
+    case NEW_STAND:
+        a->counted = strcmp(typed, STAND_COUNTED) == 0;
+        if (a->counted || typed[0] == '\0' || ceduo_file_find(&p->arena, typed, NULL, "stands"))
+            return true;
+        ceduo_app_warn(app, _("no stand '%s': a file, or a name such as simple-coppice; may be left empty"), typed);
+        return false;
+    default:
         return true;
-    ceduo_app_warn(app, _("counted at %g m, outside the slope below the face, %g to %g m"), a->control, min, a->last);
-    return false;
-}
-
-static bool read_rock(struct app *app, const struct popup *p, struct answers *a)
-{
-    const char *typed = p->fields[NEW_ROCK].text;
-    double unused;
-    return ceduo_popup_number(app, p, NEW_ROCK, &a->rock) &&
-           ceduo_popup_value(app, ceduo_schema_at("rock.diameter_m"), typed, &unused);
-}
-
-static bool read_material(struct app *app, const struct popup *p)
-{
-    const char *ground = p->fields[NEW_MATERIAL].text;
-    bool known = ceduo_choice_find(&ceduo_material_words, ground) >= 0;
-    if (!known)
-        ceduo_app_warn(app, _("no ground '%s' in the library"), ground);
-    return known;
+    }
 }
 
 /* All fields up to one. */
 static bool read_answers(struct app *app, struct popup *p, size_t upto, struct answers *a)
 {
-    a->has_accepted = p->fields[NEW_ACCEPTED].text[0] != '\0';
-    return (upto < NEW_PROFILE || read_profile(app, p, a)) &&
-           (upto < NEW_RELEASE || read_place(app, p, a, NEW_RELEASE, &a->release)) &&
-           (upto < NEW_FACE || read_place(app, p, a, NEW_FACE, &a->face)) && (upto < NEW_MATERIAL || read_material(app, p)) &&
-           (upto < NEW_ROCK || read_rock(app, p, a)) && (upto < NEW_CONTROL || read_control(app, p, a)) &&
-           (upto < NEW_ACCEPTED || read_number(app, p, NEW_ACCEPTED, 0, &a->accepted)) &&
-           (upto < NEW_STAND || read_stand(app, p, a));
+    bool good = true;
+    for (size_t i = NEW_TITLE; good && i <= upto; i++)
+        good = read_field(app, p, i, a);
+    return good;
 }
 
 /* What is wrong is said at its question, not after the last one. */
@@ -230,10 +228,10 @@ static bool check_new(struct app *app, struct popup *p, size_t field)
 {
     struct answers a = {.release = NAN};
     bool good = read_answers(app, p, field, &a);
-    if (good && field == NEW_PROFILE)
+    if (good && field == NEW_PROFILE) {
         guess_face(p, &a);
-    if (good && field == NEW_PROFILE)
         good = read_place(app, p, &a, NEW_RELEASE, &a.release);
+    }
     if (good && (field == NEW_PROFILE || field == NEW_RELEASE))
         describe(p, &a);
     release_answers(&a);
@@ -241,12 +239,6 @@ static bool check_new(struct app *app, struct popup *p, size_t field)
 }
 
 /* ---- the scene ---- */
-
-static void append_quoted(struct text *yaml, const char *before, const char *value)
-{
-    ceduo_text_put(yaml, before);
-    ceduo_emit_scalar(yaml, value, true);
-}
 
 /* A stretch of ground, given as it lies; a profile that is turned round has it as it was drawn. */
 static void append_material(struct text *yaml, const struct ceduo_slope *s, double from, double to, const char *material)
@@ -257,24 +249,19 @@ static void append_material(struct text *yaml, const struct ceduo_slope *s, doub
     ceduo_text_put(yaml, "}\n");
 }
 
-static void append_ground(const struct popup *p, const struct answers *a, struct text *yaml)
-{
-    const struct ceduo_slope *s = &a->profile.scene.slope;
-    ceduo_text_put(yaml, s->reversed ? "  reversed: true\n  materials:\n" : "  materials:\n");
-    bool face = a->face > a->first;
-    if (face && !s->reversed)
-        append_material(yaml, s, a->first, a->face, "cliff");
-    append_material(yaml, s, a->face, a->last, p->fields[NEW_MATERIAL].text);
-    if (face && s->reversed)
-        append_material(yaml, s, a->first, a->face, "cliff");
-}
-
 static void append_scene(struct popup *p, const struct answers *a, struct text *yaml)
 {
     append_quoted(yaml, "ceduo: scene/1\ntitle: ", p->fields[NEW_TITLE].text);
     ceduo_text_format(yaml, "\nrock: {diameter_m: %.10g}\nrelease: {x_m: %.10g}\nslope:\n  %s\n", a->rock, a->release,
                       ceduo_text_string(&a->slope));
-    append_ground(p, a, yaml);
+    const struct ceduo_slope *s = &a->profile.scene.slope;
+    bool face = a->face > a->first;
+    ceduo_text_put(yaml, s->reversed ? "  reversed: true\n  materials:\n" : "  materials:\n");
+    if (face && !s->reversed)
+        append_material(yaml, s, a->first, a->face, "cliff");
+    append_material(yaml, s, a->face, a->last, p->fields[NEW_MATERIAL].text);
+    if (face && s->reversed)
+        append_material(yaml, s, a->first, a->face, "cliff");
     ceduo_text_format(yaml, "controls:\n  - {x_m: %.10g", a->control);
     if (a->has_accepted)
         ceduo_text_format(yaml, ", accepted_kJ: %.10g", a->accepted);
