@@ -162,11 +162,11 @@ static bool want_scalar(struct binder *b, const struct node *node, const char *w
 /* "end", "end-10": a place from the end of the profile. False where it is none, or wrong, which is reported. */
 static bool read_place(struct binder *b, const struct field *f, const struct node *node, double *value)
 {
-    double back = 0;
+    double back;
     const char *text = node->text;
     if (!ceduo_schema_is_place(f) || node->kind != NODE_SCALAR || strncmp(text, "end", 3) != 0 || !b->to->end)
         return false;
-    if (text[3] && (text[3] != '-' || ceduo_number_read(text + 4, &back) != CEDUO_NUMBER_GOOD || back < 0)) {
+    if (!ceduo_schema_place_read(text, &back)) {
         report(b, node, _("'%s': write end, or end-10 for 10 m before the end of the profile"), text);
         return false;
     }

@@ -101,6 +101,9 @@ bool ceduo_document_recover(struct document *document, const char *text, struct 
 /* Node at a path, NULL where there is none. */
 const struct node *ceduo_document_node(const struct document *document, const char *path);
 
+/* The place along the slope that is written so, "10" or "end-10": m, as given; NaN where it is none, or NULL. */
+double ceduo_document_place(const struct document *document, const char *written);
+
 /* ---- for the files that implement it ---- */
 
 /* Makes `root` the scene and adds it as a new state. Returns false and changes nothing if `root` is not a valid scene. */

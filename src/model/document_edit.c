@@ -4,6 +4,7 @@
  * an edit moves such a value, they go along. */
 #include "document.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -41,6 +42,15 @@ static const struct node *node_at(const struct node *root, const char *path)
 const struct node *ceduo_document_node(const struct document *d, const char *path)
 {
     return node_at(d->file.root, path);
+}
+
+double ceduo_document_place(const struct document *d, const char *written)
+{
+    const struct ceduo_slope *s = &d->file.scene.slope;
+    double value;
+    if (written && ceduo_schema_place_read(written, &value))
+        return s->origin_x + s->x[s->vertices - 1] - value;
+    return written && ceduo_number_read(written, &value) == CEDUO_NUMBER_GOOD ? value : NAN;
 }
 
 /* Replaces the node at a path. */

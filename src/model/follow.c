@@ -46,13 +46,11 @@ const char *ceduo_changes_rounded(double value, int digits, char room[CEDUO_NUMB
     return ceduo_number_shortest(strtod(room, NULL), room);
 }
 
-/* The number at a path; NaN where there is none. */
-static double number_at(const struct document *d, const char *path)
+/* The place at a path; NaN where there is none. */
+static double place_at(const struct document *d, const char *path)
 {
     const struct node *node = ceduo_document_node(d, path);
-    double value;
-    bool good = node && node->kind == NODE_SCALAR && ceduo_number_read(node->text, &value) == CEDUO_NUMBER_GOOD;
-    return good ? value : NAN;
+    return node && node->kind == NODE_SCALAR ? ceduo_document_place(d, node->text) : NAN;
 }
 
 /* ---- borders ---- */
@@ -81,38 +79,40 @@ static bool ends_in(const char *text, const char *end)
     return n >= length && strcmp(text + n - length, end) == 0;
 }
 
-/* The neighbour at the border that was `old` and is to be `now`. */
-static void move_neighbour(struct changes *c, const struct place *place, bool to, double old, double now)
+/* The neighbour at the border that was `old` and is to be `now`, as it is written. */
+static void move_neighbour(struct changes *c, const struct place *place, bool to, double old, double now, const char *written)
 {
     char path[256], room[CEDUO_NUMBER_ROOM];
     if (!to && place->index == 0)
         return;
     size_t other = to ? place->index + 1 : place->index - 1;
     snprintf(path, sizeof path, "%.190s[%zu].%s", place->list, other, to ? "from_m" : "to_m");
-    double there = number_at(c->d, path);
+    double there = place_at(c->d, path);
     bool overlaps = to ? there < now : there > now;
     if (isnan(there) || (there != old && !overlaps))
         return;
     snprintf(path, sizeof path, "%.190s[%zu].%s", place->list, other, to ? "to_m" : "from_m");
-    double end = number_at(c->d, path);
+    double end = place_at(c->d, path);
     if (to ? end <= now : end >= now)
         ceduo_text_format(&c->refused,
                           to ? _("what comes next ends at %g m already; delete that first")
                              : _("what comes before begins at %g m only; delete that first"),
                           end);
     snprintf(path, sizeof path, "%.190s[%zu].%s", place->list, other, to ? "from_m" : "to_m");
-    ceduo_changes_add(c, "%s=%s", path, ceduo_number_shortest(now, room));
+    ceduo_number_shortest(now, room);
+    ceduo_changes_add(c, "%s=%s", path, written[0] == 'e' ? written : room); /* from the end, as this one is */
     ceduo_text_format(&c->followed, to ? _("what comes next begins at %s m now") : _("what comes before ends at %s m now"),
                       room);
 }
 
-static void follow_border(struct changes *c, const char *path, double now)
+static void follow_border(struct changes *c, const char *path, const char *value)
 {
     struct place place;
+    double now = ceduo_document_place(c->d, value);
     bool there = find_place(path, &place) && (ends_in(place.list, "forest") || ends_in(place.list, "slope.materials"));
     bool to = there && strcmp(place.key, "to_m") == 0;
-    if (to || (there && strcmp(place.key, "from_m") == 0))
-        move_neighbour(c, &place, to, number_at(c->d, path), now);
+    if (!isnan(now) && (to || (there && strcmp(place.key, "from_m") == 0)))
+        move_neighbour(c, &place, to, place_at(c->d, path), now, value);
 }
 
 /* The ground reaches as far as the profile does. */
@@ -235,9 +235,8 @@ void ceduo_changes_follow(struct changes *c, const char *path, const char *value
     double now;
     follow_end(c, path, value);
     follow_design(c, path);
+    follow_border(c, path, value);
     if (ceduo_number_read(value, &now) != CEDUO_NUMBER_GOOD)
         now = NAN;
-    else
-        follow_border(c, path, now);
     follow_stand(c, path, value, now);
 }

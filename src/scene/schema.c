@@ -251,3 +251,10 @@ bool ceduo_schema_is_place(const struct field *field)
             return true;
     return false;
 }
+
+bool ceduo_schema_place_read(const char *text, double *back)
+{
+    *back = 0;
+    bool end = strncmp(text, "end", 3) == 0;
+    return end && (!text[3] || (text[3] == '-' && ceduo_number_read(text + 4, back) == CEDUO_NUMBER_GOOD && *back >= 0));
+}

@@ -156,6 +156,9 @@ bool ceduo_schema_is_settled(const char *path);
 /* Whether it is a place along the slope, which may be told from its end: x_m, from_m, to_m, controls_m. */
 bool ceduo_schema_is_place(const struct field *field);
 
+/* Reads such a place, "end" or "end-10": so many metres before the end of the profile. False where it is none. */
+bool ceduo_schema_place_read(const char *text, double *back);
+
 /* Fills an item with its defaults. */
 void ceduo_schema_init(const struct object *object, void *item);
 

@@ -488,6 +488,10 @@ bool ceduo_form_step(const struct document *d, const struct form_cell *cell, int
     double now;
     if (!f)
         return false;
+    if (ceduo_schema_is_place(f) && ceduo_schema_place_read(cell->text, &now)) { /* by a metre: more is nearer the end */
+        ceduo_text_format(value, now - direction > 0 ? "end-%g" : "end", now - direction);
+        return true;
+    }
     if (f->type == FIELD_CHOICE) {
         const struct choices *c = f->choices;
         int at = ceduo_choice_find(c, cell->written);

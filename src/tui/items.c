@@ -40,17 +40,17 @@ static bool find_item(struct app *app, struct item *item)
 
 /* ---- splitting ---- */
 
-/* The number at `list[index].key`; NaN where there is none. */
-static double number_of(const struct app *app, const struct item *item, size_t index, const char *key)
+/* The place at `list[index].key`; NaN where there is none. */
+static double place_of(const struct app *app, const struct item *item, size_t index, const char *key)
 {
     const struct node *node = ceduo_document_node(&app->document, ceduo_app_format(app, "%s[%zu]", item->list, index));
-    return node ? ceduo_node_number(node, key) : NAN;
+    return node ? ceduo_document_place(&app->document, ceduo_node_text(node, key)) : NAN;
 }
 
 /* A stretch from_m to to_m in two halves of the same kind: two cannot lie in one place. */
 static bool split_stretch(struct app *app, const struct item *item)
 {
-    double middle = (number_of(app, item, item->index, "from_m") + number_of(app, item, item->index, "to_m")) / 2;
+    double middle = (place_of(app, item, item->index, "from_m") + place_of(app, item, item->index, "to_m")) / 2;
     middle = isnan(item->at) ? middle : item->at;
     const char *first = ceduo_app_format(app, "%s[%zu].to_m=%.10g", item->list, item->index, middle);
     const char *second = ceduo_app_format(app, "%s[%zu].from_m=%.10g", item->list, item->index + 1, middle);
@@ -208,7 +208,7 @@ static bool delete_ground(struct app *app, const struct item *item, const char *
     const char *end = first ? "from_m" : "to_m";
     struct changes c = {.d = &app->document};
     ceduo_changes_add(&c, "%s[%zu].%s=%.10g", item->list, first ? 1 : item->index - 1, end,
-                      number_of(app, item, item->index, end));
+                      place_of(app, item, item->index, end));
     ceduo_changes_add(&c, "%s", path);
     return ceduo_changes_make(&c, item->list, &app->problems);
 }

@@ -229,7 +229,8 @@ static size_t material_at(const struct app *app, double x)
     const struct node *list = ceduo_document_node(&app->document, "slope.materials");
     for (size_t i = 0; list && i < list->n; i++) {
         const struct node *item = list->items[i];
-        if (x >= ceduo_node_number(item, "from_m") && x <= ceduo_node_number(item, "to_m"))
+        if (x >= ceduo_document_place(&app->document, ceduo_node_text(item, "from_m")) &&
+            x <= ceduo_document_place(&app->document, ceduo_node_text(item, "to_m")))
             return i;
     }
     return SIZE_MAX;

@@ -58,8 +58,9 @@ static bool next_number(const char **at, bool commas_part, double *value)
         return false;
     memcpy(room, *at, used);
     room[used] = '\0';
-    *at += n;
-    return ceduo_typed_number(room, value) == CEDUO_NUMBER_GOOD;
+    bool good = ceduo_typed_number(room, value) == CEDUO_NUMBER_GOOD;
+    *at += good ? n : 0;
+    return good;
 }
 
 static size_t read_numbers(const char *typed, bool commas_part, double *values, size_t most)
@@ -118,6 +119,40 @@ static bool put_spread(const struct field *f, const char *typed, struct text *va
     return true;
 }
 
+/* "End - 10,5" as "end-10.5". */
+static bool put_place(const char *typed, struct text *value)
+{
+    double back = 0;
+    char room[CEDUO_NUMBER_ROOM];
+    typed += strspn(typed, " ");
+    if (strncasecmp(typed, "end", 3) != 0)
+        return false;
+    typed += 3 + strspn(typed + 3, " ");
+    if (*typed && (*typed != '-' || ceduo_typed_number(typed + 1, &back) != CEDUO_NUMBER_GOOD || back < 0))
+        return false;
+    ceduo_text_format(value, back > 0 ? "end-%s" : "end", ceduo_number_shortest(back, room));
+    return true;
+}
+
+/* The same for a list of which some are places from the end: 60 end-10. */
+static bool put_places(const struct field *f, const char *typed, struct text *value)
+{
+    char word[64], room[CEDUO_NUMBER_ROOM];
+    double number;
+    LOCAL_TEXT(list);
+    for (size_t n; *(typed += strspn(typed, " ;")); typed += n) {
+        n = strcspn(typed, " ;");
+        snprintf(word, sizeof word, "%.*s", (int)n, typed);
+        ceduo_text_put(&list, list.length > 0 ? ", " : "[");
+        if (ceduo_typed_number(word, &number) == CEDUO_NUMBER_GOOD)
+            ceduo_text_put(&list, as_file(f, number, room));
+        else if (!put_place(word, &list))
+            return false;
+    }
+    ceduo_text_format(value, "%s]", ceduo_text_string(&list));
+    return true;
+}
+
 /* Numbers with blanks between as a list; what is in brackets already is YAML. */
 static bool put_numbers(const struct field *f, const char *typed, struct text *value)
 {
@@ -128,6 +163,8 @@ static bool put_numbers(const struct field *f, const char *typed, struct text *v
     size_t n = read_numbers(typed, false, values, TYPED_MOST / 2);
     if (n == 0) /* no decimal commas: they part */
         n = read_numbers(typed, true, values, TYPED_MOST / 2);
+    if (n == 0 && ceduo_schema_is_place(f))
+        return put_places(f, typed, value);
     for (size_t i = 0; i < n; i++)
         ceduo_text_format(value, "%s%s", i ? ", " : "[", as_file(f, values[i], room));
     ceduo_text_put(value, n > 0 ? "]" : "");
@@ -138,6 +175,8 @@ void ceduo_typed_value(const struct field *f, const char *typed, struct text *va
 {
     double number;
     char room[CEDUO_NUMBER_ROOM];
+    if (ceduo_schema_is_place(f) && put_place(typed, value))
+        return;
     bool list = f->type == FIELD_NUMBERS || f->type == FIELD_POINTS || f->type == FIELD_SPREADS;
     if (list && put_numbers(f, typed, value))
         return;
@@ -263,7 +302,7 @@ void ceduo_shown_value(const struct field *f, const char *written, struct text *
 
 /* ---- paths ---- */
 
-static void put_place(const struct path_step *step, const char *item, struct text *places)
+static void put_item(const struct path_step *step, const char *item, struct text *places)
 {
     size_t i;
     LOCAL_TEXT(place);
@@ -288,7 +327,7 @@ void ceduo_shown_path(const char *path, struct text *text)
     size_t at = 0, n = strlen(path);
     while (ceduo_path_next(path, n, &at, &step)) {
         if (step.bracket && f) {
-            put_place(&step, _(f->shown.label), &places);
+            put_item(&step, _(f->shown.label), &places);
             named = NULL;
             continue;
         }

@@ -12,7 +12,8 @@
 enum ceduo_number_reading ceduo_typed_number(const char *typed, double *value);
 
 /* Puts what was typed into a field as a file writes it; what is no number there stays as it is, for the reader to
- * refuse. "7,5" in a diameter: 0.075; "2,6 ± 0,1": {mean: 2.6, spread: 0.1}; a point "60,5 35": [60.5, 35]. */
+ * refuse. "7,5" in a diameter: 0.075; "2,6 ± 0,1": {mean: 2.6, spread: 0.1}; a point "60,5 35": [60.5, 35];
+ * a place "End - 10,5": end-10.5. */
 void ceduo_typed_value(const struct field *field, const char *typed, struct text *value);
 
 /* Whether what was typed lies in the range of a field, and otherwise says why not, in the unit that is shown. What is

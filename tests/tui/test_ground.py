@@ -149,5 +149,48 @@ def test_any_border():
         expect_equal((grounds[0][0], grounds[-1][1]), (0, 100), "the ground is that of the whole profile")
 
 
+def test_from_the_end():
+    """A place typed from the end of the profile, as files have it: borders go along, steps and halves count from there, other
+    words are refused, and the file has it as it was typed"""
+    with Place() as place:
+        place.write("land.yaml", LAND.replace("controls: [{x_m: 90, accepted_kJ: 50}]", "controls_m: [85, 90]"))
+        typed, stepped, split, ground, refused, controls, rock = place.play("""resize 200 70
+            find forest[0].to_m
+            set End - 50,5
+            dump
+            key +
+            dump
+            key a
+            dump
+            find materials[0].to_m
+            set end
+            key y
+            dump
+            find forest[1]
+            set end+5
+            dump
+            key Esc
+            find controls_m
+            set 85 end-8,5
+            dump
+            key 3
+            find release.x_m
+            set end-98
+            dump
+            key s""", "land.yaml")
+        text = place.text("land.yaml")
+        check_good(place.path, "land.yaml")
+    expect_equal([r[1:3] for r in table(typed, BELTS)], [["10", "end-50.5"], ["end-50.5", "80"]], "typed")
+    expect_equal([r[1:3] for r in table(stepped, BELTS)], [["10", "end-49.5"], ["end-49.5", "80"]], "a metre nearer the end")
+    # from 10 to 50.5 m
+    expect_equal([r[1:3] for r in table(split, BELTS)], [["10", "30.25"], ["30.25", "end-49.5"], ["end-49.5", "80"]], "halves")
+    expect_equal([[x.rstrip("*") for x in r[1:3]] for r in table(ground, GROUNDS)], [["0", "50"], ["50", "end"]], "the ground's halves")
+    expect_in("write end, or end-10 for 10 m before the end", refused.note, "refused")
+    controls.has("85 end-8.5")
+    expect_equal(rock.row("^x, m")[-1], "end-98", "the release")
+    for line in ("to_m: end-49.5", "controls_m: [85, end-8.5]", "x_m: end-98"):
+        expect_in(line, text, "the file")
+
+
 if __name__ == "__main__":
     run_all(__name__)
