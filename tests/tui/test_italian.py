@@ -34,7 +34,7 @@ def test_views():
             expect(len(words_cut(italian)) <= len(words_cut(english)), f"{scene}, view {number}", words_cut(italian), text)
             expect("nplurals" not in text, text)
             top = " ".join(italian.text.split("\n")[0].split())
-            expect(top.startswith("1 versante 2 bosco 3 blocco 4 risultati 5 confronto 6 turno 7 dubbio"), text)
+            expect(top.startswith("1 versante 2 bosco 3 blocco 4 esiti 5 opzioni 6 turno 7 incertezza 8 osservati"), text)
 
 
 def test_numbers():
