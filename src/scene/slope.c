@@ -43,7 +43,7 @@ double ceduo_slope_face(const struct ceduo_slope *slope)
 
 enum ceduo_status ceduo_slope_check(const struct ceduo_slope *slope)
 {
-    if (slope->vertices < 2)
+    if (slope->vertices < 2 || !slope->x || !slope->z || !slope->segments)
         return CEDUO_BAD_SLOPE;
     for (size_t i = 0; i < slope->vertices; i++)
         if (!isfinite(slope->x[i]) || !isfinite(slope->z[i]))

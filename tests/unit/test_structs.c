@@ -163,6 +163,40 @@ TEST(stands_and_belts_are_refused)
     EXPECT(ceduo_scene_check(&site.scene, NULL), ==, CEDUO_BAD_STAND);
 }
 
+/* A list that is said to be there and is not. */
+TEST(missing_lists_are_refused)
+{
+    open_site();
+    double volumes[] = {1, 2};
+    struct ceduo_block_class blocks = {.per_year = 1, .exponent = 1, .volumes_count = 2, .volumes = volumes};
+    struct ceduo_scene *s = &site.scene;
+    s->blocks = &blocks;
+    s->blocks_count = 1;
+    assert_int_equal(ceduo_scene_check(s, NULL), CEDUO_OK);
+    struct ceduo_stand *stand = &site.belts[0].stand;
+    void *const pointers[] = {&blocks.volumes,
+                              &s->blocks,
+                              &s->controls,
+                              &s->options,
+                              &s->slope.x,
+                              &s->slope.z,
+                              &s->slope.segments,
+                              &s->options[0].belts,
+                              &stand->shoots,
+                              &stand->trees,
+                              &stand->cutting.stay_per_ha};
+    for (size_t i = 0; i < LENGTH(pointers); i++) {
+        void *was, *none = NULL;
+        memcpy(&was, pointers[i], sizeof was);
+        memcpy(pointers[i], &none, sizeof none);
+        EXPECT(ceduo_scene_check(s, NULL), !=, CEDUO_OK);
+        memcpy(pointers[i], &was, sizeof was);
+        EXPECT(ceduo_scene_check(s, NULL), ==, CEDUO_OK);
+    }
+    blocks.volumes = NULL;
+    EXPECT(ceduo_scene_check(s, NULL), ==, CEDUO_BAD_ROCK);
+}
+
 TEST(as_many_rocks_as_are_asked_for)
 {
     open_site();
