@@ -4,6 +4,8 @@
 #include <pthread.h>
 #include <stdlib.h>
 
+#include "gsl_errors.h"
+
 struct crew {
     const struct parallel *work;
     atomic_size_t next, workers;
@@ -12,6 +14,7 @@ struct crew {
 
 static void *take_items(void *context)
 {
+    GSL_RETURNS_ERRORS;
     struct crew *c = context;
     size_t worker = atomic_fetch_add(&c->workers, 1);
     for (size_t i; atomic_load(&c->status) == 0 && (i = atomic_fetch_add(&c->next, 1)) < c->work->n;) {

@@ -15,6 +15,7 @@
 #include <string.h>
 
 #include "base/cancel.h"
+#include "base/gsl_errors.h"
 #include "base/parallel.h"
 #include "ceduo/statistics.h"
 #include "chains.h"
@@ -438,6 +439,7 @@ static enum ceduo_status fit(struct fitting *f, struct chains *chains)
 
 enum ceduo_status ceduo_calibrate(const struct ceduo_calibration_def *def, struct ceduo_calibration *a)
 {
+    GSL_RETURNS_ERRORS;
     struct fitting f;
     struct chains chains = {.rhat = NAN, .effective_size = NAN};
     *a = (struct ceduo_calibration){.parameters_count = def->parameters_count};

@@ -10,6 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/gsl_errors.h"
 #include "base/parallel.h"
 #include "ceduo/assess.h"
 #include "ceduo/question.h"
@@ -593,6 +594,7 @@ static enum ceduo_status open_answer(struct rows *rows, struct ceduo_doubt_answe
 
 enum ceduo_status ceduo_doubt_ask(const struct ceduo_doubt_def *def, struct ceduo_doubt_answer *answer)
 {
+    GSL_RETURNS_ERRORS;
     struct rows rows;
     struct ceduo_doubt_def enough = *def;
     enough.rocks = def->rocks > GROUPS ? def->rocks : GROUPS;

@@ -12,6 +12,7 @@
 #include <string.h>
 
 #include "base/cancel.h"
+#include "base/gsl_errors.h"
 
 #define SAMPLES_MAX 128   /* bisection alone needs at most 54, the ends and the scan 10 */
 #define BRENT_MAX   12    /* values for Brent's method, then bisection has to do the rest */
@@ -255,6 +256,7 @@ static void read_samples(const struct search *h, struct ceduo_found *found)
 
 enum ceduo_status ceduo_find(const struct ceduo_find_def *def, struct ceduo_found *found)
 {
+    GSL_RETURNS_ERRORS;
     *found = (struct ceduo_found){.value = NAN, .goal_at_value = NAN, .monotone = true, .nearest = NAN, .goal_at_nearest = NAN};
     struct search h = {.def = def, .lo = def->whole ? ceil(def->lo) : def->lo, .hi = def->whole ? floor(def->hi) : def->hi};
     if (h.lo <= h.hi)

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "guess.h"
 
+#include <gsl/gsl_errno.h>
 #include <gsl/gsl_linalg.h>
 #include <gsl/gsl_multifit.h>
 #include <gsl/gsl_sort.h>
@@ -9,6 +10,7 @@
 #include <string.h>
 
 #include "base/cancel.h"
+#include "base/gsl_errors.h"
 
 #define KNOWN_BY 3   /* times as many places as terms: those within reach of the best set how much a place counts */
 #define SHARP    2.  /* of a log-likelihood: no place counts less for less than this */
@@ -82,17 +84,35 @@ static enum ceduo_status reduce(const struct guess *g, const struct known *known
     return CEDUO_OK;
 }
 
+/* The arguments of gsl_multifit_linear(). */
+struct squares {
+    gsl_matrix_view triangle;
+    gsl_vector_view values;
+    gsl_vector *c;
+    gsl_matrix *covariance;
+    gsl_multifit_linear_workspace *work;
+};
+
+static int fit_squares(void *context)
+{
+    struct squares *s = context;
+    double chisq;
+    return gsl_multifit_linear(&s->triangle.matrix, &s->values.vector, s->c, s->covariance, &chisq, s->work);
+}
+
 static enum ceduo_status solve(struct guess *g, gsl_matrix *rows)
 {
     gsl_multifit_linear_workspace *work = gsl_multifit_linear_alloc(g->terms, g->terms);
     gsl_vector *c = gsl_vector_alloc(g->terms);
     gsl_matrix *covariance = gsl_matrix_alloc(g->terms, g->terms);
-    double chisq, *kept = malloc(g->terms * sizeof *kept);
+    double *kept = malloc(g->terms * sizeof *kept);
     bool good = work && c && covariance && kept; /* untaken 3: gsl */
     if (good) {
-        gsl_matrix_view triangle = gsl_matrix_submatrix(rows, 0, 0, g->terms, g->terms);
-        gsl_vector_view values = gsl_matrix_subcolumn(rows, g->terms, 0, g->terms);
-        if (gsl_multifit_linear(&triangle.matrix, &values.vector, c, covariance, &chisq, work) == 0) { /* untaken: gsl */
+        struct squares squares = {gsl_matrix_submatrix(rows, 0, 0, g->terms, g->terms),
+                                  gsl_matrix_subcolumn(rows, g->terms, 0, g->terms), c, covariance, work};
+        int status = ceduo_gsl_try(fit_squares, &squares);
+        good = status != GSL_ENOMEM; /* untaken: gsl */
+        if (status == 0) {           /* untaken: gsl */
             for (size_t i = 0; i < g->terms; i++)
                 kept[i] = gsl_vector_get(c, i);
             free(g->coefficients);

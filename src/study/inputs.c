@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/gsl_errors.h"
 #include "scene/value.h"
 
 #define CUT 3 /* standard deviations */
@@ -109,6 +110,7 @@ bool ceduo_input_is_of(const struct ceduo_input *input, size_t option)
 
 double ceduo_input_quantile(const struct ceduo_input *input, double u)
 {
+    GSL_RETURNS_ERRORS;
     double least = gsl_cdf_ugaussian_P(-CUT), p = least + u * (1 - 2 * least), ratio = input->sd / input->mean;
     if (input->kind == CEDUO_INPUT_NORMAL)
         return input->mean + input->sd * gsl_cdf_ugaussian_Pinv(p);

@@ -8,6 +8,8 @@
 #include <stdbool.h>
 #include <stdlib.h>
 
+#include "base/gsl_errors.h"
+
 #define STEPS_MOST 200
 #define EXACT      1e-12
 
@@ -70,6 +72,7 @@ static double range_of(const double *values, size_t n)
 
 enum ceduo_status ceduo_naslund_fit(size_t n, const double *dbh, const double *height, struct ceduo_naslund *curve)
 {
+    GSL_RETURNS_ERRORS;
     struct pairs pairs = {n, dbh, height};
     double x[2];
     if (n < CEDUO_NASLUND_LEAST || !(range_of(dbh, n) > 0))

@@ -9,6 +9,7 @@
 #include <stdlib.h>
 
 #include "base/cancel.h"
+#include "base/gsl_errors.h"
 #include "base/parallel.h"
 #include "ceduo/statistics.h"
 #include "fitting.h"
@@ -230,6 +231,7 @@ enum ceduo_status ceduo_fitting_predict(struct fitting *f, struct ceduo_calibrat
 enum ceduo_status ceduo_calibration_as_it_is(const struct ceduo_calibration_scene *scene, uint64_t rocks,
                                              const atomic_bool *cancel, struct ceduo_predicted *to)
 {
+    GSL_RETURNS_ERRORS;
     size_t n = scene->observations_count;
     struct ceduo_observer *observer = NULL;
     struct ceduo_counterpart *found = calloc(n + 1, sizeof *found);

@@ -7,6 +7,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "base/gsl_errors.h"
 #include "ceduo/assess.h"
 #include "points.h"
 
@@ -185,6 +186,7 @@ static enum ceduo_status read_surface(const struct sure_def *def, const double *
 
 enum ceduo_status ceduo_sure_ask(const struct sure_def *def, struct sure_answer *answer)
 {
+    GSL_RETURNS_ERRORS;
     const struct ceduo_scene *scene = def->scene;
     size_t points = def->inputs_count > 0 ? def->points : 1, n = def->inputs_count;
     struct sure s = {.def = def, .slots = 1};

@@ -21,6 +21,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/gsl_errors.h"
 #include "base/hash.h"
 #include "ceduo/doubt.h"
 #include "ceduo/statistics.h"
@@ -50,6 +51,7 @@ static double hashed(uint64_t seed, uint64_t row, uint64_t column)
 
 enum ceduo_status ceduo_surface_points(uint64_t seed, size_t points, size_t inputs, double *u)
 {
+    GSL_RETURNS_ERRORS;
     double sobol[COORDINATES];
     size_t coordinates = inputs < COORDINATES ? inputs : COORDINATES;
     gsl_qrng *sequence = gsl_qrng_alloc(gsl_qrng_sobol, (unsigned)coordinates);
@@ -186,6 +188,7 @@ static void functions_at(const struct inputs_functions *of, double u, double *va
 enum ceduo_status ceduo_surface_open(const struct ceduo_input *inputs, size_t n, const double *u, size_t points,
                                      struct ceduo_surface **made)
 {
+    GSL_RETURNS_ERRORS;
     size_t room = 0;
     for (size_t i = 0; i < n; i++)
         room += levels_of(&inputs[i]) > 0 ? columns_of(&inputs[i]) : 2;
@@ -343,6 +346,18 @@ static void fill_matrix(const struct ceduo_surface *s, struct basis *b)
     }
 }
 
+/* The arguments of gsl_multifit_linear_svd(). */
+struct decomposed {
+    gsl_matrix *x;
+    gsl_multifit_linear_workspace *work;
+};
+
+static int decompose(void *context)
+{
+    struct decomposed *d = context;
+    return gsl_multifit_linear_svd(d->x, d->work);
+}
+
 /* The basis of these terms: the one that was made last, or a new one. */
 static enum ceduo_status open_basis(struct ceduo_surface *s, const size_t *used, size_t used_count, size_t leading,
                                     struct basis *out)
@@ -366,7 +381,7 @@ static enum ceduo_status open_basis(struct ceduo_surface *s, const size_t *used,
         memcpy(b->used, used, used_count * sizeof *used);
         list_terms(s, used, used_count, leading, &b->terms);
         fill_matrix(s, b);
-        if (gsl_multifit_linear_svd(b->x, work) == 0)
+        if (ceduo_gsl_try(decompose, &(struct decomposed){b->x, work}) == 0)
             b->work = work;
     }
     if (!b->work && work)
@@ -1021,6 +1036,7 @@ static bool allocate_fit(struct ceduo_surface_fit *fit, size_t points, size_t n)
 enum ceduo_status ceduo_surface_fit(struct ceduo_surface *s, const struct ceduo_surface_figure *figure,
                                     struct ceduo_surface_fit *fit)
 {
+    GSL_RETURNS_ERRORS;
     struct chosen chosen = {0};
     struct column c = {.y = malloc((GROUPS + 1) * s->points * sizeof *c.y)};
     *fit = (struct ceduo_surface_fit){.lo = figure->lo, .hi = figure->hi, .q2 = NAN, .explained = NAN, .whole = {NAN, NAN}};
@@ -1099,6 +1115,7 @@ static void add_figures(const struct ceduo_surface *s, const struct ceduo_groups
 enum ceduo_status ceduo_surface_values(struct ceduo_surface *s, const struct ceduo_surface_figure *figure, size_t n,
                                        double *values, struct ceduo_groups *changes)
 {
+    GSL_RETURNS_ERRORS;
     struct chosen chosen = {0};
     struct column c = {.y = malloc((GROUPS + 1) * s->points * sizeof *c.y)};
     double *room = malloc(s->points * sizeof *room);

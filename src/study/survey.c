@@ -7,6 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/gsl_errors.h"
+
 #define HECTARE      10000
 #define CLASSES_MOST 1000 /* of dbh; thicker stems share the last */
 
@@ -252,6 +254,7 @@ static bool compute(struct surveyor *s)
 
 enum ceduo_status ceduo_survey_ask(const struct ceduo_survey *survey, struct ceduo_survey_answer *answer)
 {
+    GSL_RETURNS_ERRORS;
     struct surveyor s = {.survey = survey, .answer = answer};
     *answer = (struct ceduo_survey_answer){0};
     s.counts = calloc(survey->plots_count + 1, sizeof *s.counts);

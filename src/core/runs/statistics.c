@@ -7,6 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/gsl_errors.h"
+
 void ceduo_moments_merge(struct ceduo_moments *into, const struct ceduo_moments *from)
 {
     if (from->n == 0)
@@ -48,6 +50,7 @@ struct ceduo_rate ceduo_wilson(double share, double max, double n)
 
 double ceduo_half_width(double se, uint64_t n)
 {
+    GSL_RETURNS_ERRORS;
     return n < CEDUO_FEW ? NAN : se * gsl_cdf_tdist_Pinv(0.975, (double)(n - 1));
 }
 
@@ -96,6 +99,7 @@ static size_t binomial_quantile(size_t n, double p, double q)
 
 void ceduo_quantile_interval(size_t n, double p, size_t *lo, size_t *hi)
 {
+    GSL_RETURNS_ERRORS;
     /* The number of values below the quantile is binomial: [x(lo), x(hi)] holds it unless that number is below lo or at
      * least hi, each with a chance of at most 2.5 %. */
     *lo = binomial_quantile(n, p, 0.025);
