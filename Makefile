@@ -50,15 +50,18 @@ CFLAGS ?= $(OPTIMISE_$(VARIANT))
 # -ffp-contract=off: fused multiply-adds would give different bits on different machines.
 ALL_CFLAGS = -std=c17 -D_GNU_SOURCE -Iinclude -Isrc $(WARNINGS) -ffp-contract=off -pthread \
 	-MMD -MP $(CFLAGS) $(EXTRA_CFLAGS)
-LIBRARY_LIBS := -lunistring -lgsl -lgslcblas -lm
-LIBS = -lncursesw -ltinfo -lyaml $(LIBRARY_LIBS)
+LIBRARY_LIBS := -lyaml -lunistring -lgsl -lgslcblas -lm
+LIBS = -lncursesw -ltinfo $(LIBRARY_LIBS)
 
 # The rooms of the library, with their folders; the other rooms use them.
 rooms = $(wildcard $(patsubst %,src/%/*.c,$(1)) $(patsubst %,src/%/*/*.c,$(1)))
-CORE := $(call rooms,base scene core study)
-REST := $(filter-out src/cli/main.c,$(call rooms,io model view tui cli))
+CORE := $(call rooms,base scene core study io)
+HEADERS := $(wildcard include/ceduo/*.h)
+REST := $(filter-out src/cli/main.c,$(call rooms,model view tui cli))
 object = $(patsubst %.c,$(BUILD)/%.o,$(1))
 LIBRARY := $(BUILD)/libceduo.a
+SONAME := libceduo.so.0
+SHARED := $(BUILD)/libceduo.so.$(VERSION)
 PARTS := $(BUILD)/libparts.a
 PROGRAM := $(BUILD)/ceduo
 LANGUAGES := $(patsubst src/po/%.po,%,$(wildcard src/po/*.po))
@@ -67,16 +70,26 @@ MO := $(LANGUAGES:%=$(BUILD)/locale/%/LC_MESSAGES/ceduo.mo)
 PAGES_IT := $(addprefix $(BUILD)/man/it/,ceduo.1 ceduo-workflows.7)
 
 ifeq ($(VARIANT),release)
-all: ceduo $(MO) $(PAGES_IT)
+all: ceduo $(SHARED) $(MO) $(PAGES_IT)
 ceduo: $(PROGRAM)
 	cp -f $(PROGRAM) $@
 else
-all: $(PROGRAM) $(MO) $(PAGES_IT)
+all: $(PROGRAM) $(SHARED) $(MO) $(PAGES_IT)
 endif
 
 $(LIBRARY): $(call object,$(CORE))
 	@rm -f $@
 	$(AR) rcsD $@ $^
+
+# One set of objects for both. The shared library exports the functions that its headers name, and nothing else.
+$(call object,$(CORE)): ALL_CFLAGS += -fPIC -fno-semantic-interposition
+$(SHARED): $(call object,$(CORE)) $(BUILD)/exports
+	$(CC) $(ALL_CFLAGS) $(LDFLAGS) -shared -Wl,-soname,$(SONAME) -Wl,--version-script,$(BUILD)/exports -o $@ $(filter %.o,$^) $(LIBRARY_LIBS)
+	@ln -sf $(@F) $(@D)/$(SONAME) && ln -sf $(SONAME) $(@D)/libceduo.so
+
+$(BUILD)/exports: $(HEADERS)
+	@mkdir -p $(@D)
+	@{ echo '{ global:'; grep -oh '\<ceduo_[a-z0-9_]*[([]' $(HEADERS) | LC_ALL=C sort -u | tr '([' ';;'; echo 'local: *; };'; } >$@
 
 $(PARTS): $(call object,$(REST))
 	@rm -f $@
@@ -393,14 +406,13 @@ $(BUILD)/completion/ceduo $(BUILD)/completion/_ceduo: $(COMPLETION)
 DATA := profiles/scenes/*.yaml profiles/slopes/*.yaml profiles/stands/*.yaml profiles/rules/*.yaml \
 	profiles/surveys/*.csv profiles/observed/* profiles/jobs/*.sbatch
 FOLDERS := $(patsubst profiles/%/,%,$(dir $(DATA)))
-HEADERS := $(wildcard include/ceduo/*.h)
 to = $(call quoted,$(DESTDIR)$(1))
 
 # pkg-config takes a backslash before blanks and signs.
 define PKG_CONFIG_FILE
 printf 'includedir=%s\nlibdir=%s\n' $(call quoted,$(INCLUDEDIR)) $(call quoted,$(LIBDIR)) | LC_ALL=C sed 's|[^[:alnum:]%+,./:=@_-]|\\&|g'; \
 	printf '%s\n' '' 'Name: ceduo' 'Description: rockfall simulation through coppice' 'Version: $(VERSION)' \
-	    'Cflags: -I$${includedir}' 'Libs: -L$${libdir} -lceduo $(LIBRARY_LIBS) -pthread'
+	    'Cflags: -I$${includedir}' 'Libs: -L$${libdir} -lceduo' 'Libs.private: $(LIBRARY_LIBS) -pthread'
 endef
 
 install: all $(BUILD)/completion/ceduo $(BUILD)/completion/_ceduo
@@ -416,7 +428,9 @@ install: all $(BUILD)/completion/ceduo $(BUILD)/completion/_ceduo
 	for p in $(PAGES); do install -m 644 -- $$p $(call to,$(MANDIR))/man$${p##*.}/ || exit 1; done
 	for p in $(PAGES_IT); do install -m 644 -- $$p $(call to,$(MANDIR))/it/man$${p##*.}/ || exit 1; done
 	install -d -- $(call to,$(LIBDIR))/pkgconfig $(call to,$(INCLUDEDIR))/ceduo
-	install -m 644 -- $(LIBRARY) $(call to,$(LIBDIR))/libceduo.a
+	install -m 644 -- $(LIBRARY) $(SHARED) $(call to,$(LIBDIR))/
+	ln -sf -- $(notdir $(SHARED)) $(call to,$(LIBDIR))/$(SONAME)
+	ln -sf -- $(SONAME) $(call to,$(LIBDIR))/libceduo.so
 	install -m 644 -- $(HEADERS) $(call to,$(INCLUDEDIR))/ceduo
 	{ $(PKG_CONFIG_FILE); } >$(call to,$(LIBDIR))/pkgconfig/ceduo.pc
 	chmod 644 -- $(call to,$(LIBDIR))/pkgconfig/ceduo.pc
@@ -429,7 +443,8 @@ uninstall:
 	for p in $(notdir $(PAGES)); do rm -f -- $(call to,$(MANDIR))/man$${p##*.}/$$p || exit 1; done
 	for p in $(notdir $(PAGES_IT)); do rm -f -- $(call to,$(MANDIR))/it/man$${p##*.}/$$p || exit 1; done
 	rm -f -- $(call to,$(BASHDIR))/ceduo $(call to,$(ZSHDIR))/_ceduo
-	rm -f -- $(call to,$(LIBDIR))/libceduo.a $(call to,$(LIBDIR))/pkgconfig/ceduo.pc
+	for l in libceduo.a libceduo.so $(SONAME) $(notdir $(SHARED)); do rm -f -- $(call to,$(LIBDIR))/$$l || exit 1; done
+	rm -f -- $(call to,$(LIBDIR))/pkgconfig/ceduo.pc
 	for h in $(notdir $(HEADERS)); do rm -f -- $(call to,$(INCLUDEDIR))/ceduo/$$h || exit 1; done
 	rmdir -- $(call to,$(INCLUDEDIR))/ceduo 2>/dev/null || :
 

@@ -2,8 +2,13 @@
 #ifndef CEDUO_H
 #define CEDUO_H
 
-/* All of libceduo: rockfall over a slope, and what a coppice takes from it. From C++ include this header, not its parts. Calls on
- * different objects may run side by side; what a call reads, no other may change meanwhile. */
+/* All of libceduo: scenes and their files, rockfall over a slope, and what a coppice takes from it. From C++ include this header,
+ * not its parts.
+ *
+ * There is no global state but GSL's handler of errors, and calls may run side by side in several threads: what one of them reads,
+ * such as a scene, no other may change meanwhile, and a pool, run, surface or observer that a call changes is its alone.
+ * GSL's own handler ends the program. While a call runs, errors of GSL in its threads are what the call returns; those of other
+ * threads go to the handler that was set before, which stands again after the call. Set none while a call runs. */
 #include <math.h>
 #include <stdbool.h>
 #include <stddef.h>
@@ -31,6 +36,7 @@ extern "C" {
 #include "other.h"
 #include "pool.h"
 #include "question.h"
+#include "read.h"
 #include "record.h"
 #include "regulation.h"
 #include "result.h"

@@ -128,6 +128,13 @@ struct ceduo_scene {
 /* Whatever has a default has it; there is no slope, control or option yet. */
 struct ceduo_scene ceduo_scene_default(void);
 
+/* The same for its parts. What has no default is NaN, 0 or NULL, as its member says; -1 for system and species. */
+struct ceduo_option ceduo_option_default(void);
+struct ceduo_belt ceduo_belt_default(void);
+struct ceduo_stand ceduo_stand_default(void);
+struct ceduo_stems ceduo_stems_default(void);
+struct ceduo_control ceduo_control_default(void);
+
 /* Checks that the parts fit together: rock, slope, release on it, controls beyond the release and on the slope. `where`
  * (may be NULL) is set to the index of the offending control. */
 enum ceduo_status ceduo_scene_check(const struct ceduo_scene *scene, size_t *where);

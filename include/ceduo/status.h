@@ -2,22 +2,30 @@
 #ifndef CEDUO_STATUS_H
 #define CEDUO_STATUS_H
 
-/* What a call of the core returns. The core writes no text: whoever called it knows the file and the field that a
- * status speaks of, and says so to the user. */
+/* What a call returns, and how ceduo_status_text() says it. Which file, field or item is meant, the caller knows. */
+#define CEDUO_STATUSES(X)                                                                                                      \
+    X(OK, "done")                                                                                                              \
+    X(NO_MEMORY, "out of memory")                                                                                              \
+    X(CANCELLED, "cancelled") /* by the caller's flag; the run holds whatever was finished before */                           \
+    X(BAD_ROCK, "a size, mass or density of the rock is missing, not finite or not above 0")                                   \
+    X(BAD_SLOPE, "the slope has fewer than two vertices, its x does not rise, or a coefficient is outside its range")          \
+    X(RELEASE_OFF_SLOPE, "the release, or a part of its spread, lies beyond the slope")                                        \
+    X(RELEASE_BELOW, "the release, or a part of its spread, lies below the ground")                                            \
+    X(CONTROL_OFF_SLOPE, "a control lies beyond the slope")                                                                    \
+    X(CONTROL_BEHIND, "a control does not lie beyond the release")                                                             \
+    X(NO_FIT, "no curve goes through these pairs")                                                                             \
+    X(BAD_NUMBER, "a number or word is outside its range, or a list is missing")                                               \
+    X(BAD_BELT, "a belt overlaps another, ends before it begins, or lies beyond the slope")                                    \
+    X(BAD_STAND, "a number or word of a stand is outside its range, or stems have no size")                                    \
+    X(BAD_FILE, "a scene could not be read; its messages say why")
+
 enum ceduo_status {
-    CEDUO_OK = 0,
-    CEDUO_NO_MEMORY,
-    CEDUO_CANCELLED,         /* the caller's cancel flag was raised; the run holds whatever was finished before */
-    CEDUO_BAD_ROCK,          /* a size, mass or density is missing, not finite or not above 0 */
-    CEDUO_BAD_SLOPE,         /* fewer than two vertices, x not rising, a coefficient outside its range */
-    CEDUO_RELEASE_OFF_SLOPE, /* the release, or a part of its spread, lies beyond the slope */
-    CEDUO_RELEASE_BELOW,     /* the release, or a part of its spread, lies below the ground */
-    CEDUO_CONTROL_OFF_SLOPE, /* a control lies beyond the slope */
-    CEDUO_CONTROL_BEHIND,    /* a control does not lie beyond the release */
-    CEDUO_NO_FIT,            /* no curve goes through these pairs */
-    CEDUO_BAD_NUMBER,        /* another number or word of the scene beyond its range, as of its simulation */
-    CEDUO_BAD_BELT,          /* belts that overlap, that end before they begin, or that lie beyond the slope */
-    CEDUO_BAD_STAND          /* a number or word of a stand beyond its range, or stems without their sizes */
+#define X(NAME, text) CEDUO_##NAME,
+    CEDUO_STATUSES(X)
+#undef X
 };
+
+/* A sentence in English, without a full stop; never NULL. */
+const char *ceduo_status_text(enum ceduo_status status);
 
 #endif

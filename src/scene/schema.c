@@ -136,6 +136,39 @@ struct ceduo_segment ceduo_segment_default(void)
     return segment;
 }
 
+struct ceduo_option ceduo_option_default(void)
+{
+    return (struct ceduo_option){0};
+}
+
+struct ceduo_belt ceduo_belt_default(void)
+{
+    struct ceduo_belt belt;
+    ceduo_schema_init(ceduo_schema_belt(), &belt);
+    return belt;
+}
+
+struct ceduo_stand ceduo_stand_default(void)
+{
+    struct ceduo_stand stand;
+    ceduo_schema_init(ceduo_schema_stand(), &stand);
+    return stand;
+}
+
+struct ceduo_stems ceduo_stems_default(void)
+{
+    struct ceduo_stems stems;
+    ceduo_schema_init(ceduo_schema_field(ceduo_schema_stand(), "trees")->object, &stems);
+    return stems;
+}
+
+struct ceduo_control ceduo_control_default(void)
+{
+    struct ceduo_control control;
+    ceduo_schema_init(ceduo_schema_field(ceduo_schema_scene(), "controls")->object, &control);
+    return control;
+}
+
 /* ---- ranges ---- */
 
 bool ceduo_schema_in_range(const struct field *f, double value)

@@ -1,0 +1,26 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef CEDUO_READ_H
+#define CEDUO_READ_H
+
+#include "scene.h"
+
+/* A scene as its files have it. What it points to belongs to the reading: numbers may be changed in place, and pointers may be
+ * set to memory of the caller, which is not freed. */
+struct ceduo_reading {
+    struct ceduo_scene scene;
+    const char *messages; /* what is wrong, as `ceduo --check` prints it, but always in English; "": nothing */
+    void *memory;
+};
+
+/* Reads a scene from a file: a path, the name of a scene that comes with the program, or "-" for standard input. `sets`
+ * (may be NULL) is a list that ends in NULL of changes PATH=VALUE, as of --set, made from first to last. CEDUO_BAD_FILE,
+ * with messages; CEDUO_NO_MEMORY. Release it in any case. */
+enum ceduo_status ceduo_scene_read(const char *path, const char *const *sets, struct ceduo_reading *reading);
+
+/* The same from text. Messages call it `name`, and other files that it names are looked for beside a file of that name. */
+enum ceduo_status ceduo_scene_read_text(const char *name, const char *text, struct ceduo_reading *reading);
+
+/* Frees it; a second time does nothing. */
+void ceduo_reading_release(struct ceduo_reading *reading);
+
+#endif

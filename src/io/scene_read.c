@@ -1,0 +1,56 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The library's own call for reading a scene. */
+#include "ceduo/read.h"
+
+#include <stdlib.h>
+
+#include "base/language.h"
+#include "scene_file.h"
+
+struct memory {
+    struct scene_file file;
+    struct problems problems;
+};
+
+/* `text`: NULL where the name is that of a file. */
+static enum ceduo_status read_scene(const char *name, const char *text, const char *const *sets, struct ceduo_reading *reading)
+{
+    *reading = (struct ceduo_reading){.messages = ""};
+    struct memory *m = calloc(1, sizeof *m);
+    if (!m)
+        return CEDUO_NO_MEMORY;
+    reading->memory = m;
+    size_t n = 0;
+    while (sets && sets[n])
+        n++;
+    ceduo_language_of_data(true); /* the caller's domain of messages is not ours */
+    bool good = text ? ceduo_scene_load_text(&m->file, name, text, &m->problems)
+                     : ceduo_scene_load(&m->file, name, sets, n, &m->problems);
+    ceduo_problems_close(&m->problems);
+    ceduo_language_of_data(false);
+    reading->messages = ceduo_text_string(&m->problems.text);
+    if (good)
+        reading->scene = m->file.scene;
+    return good ? CEDUO_OK : m->problems.memory ? CEDUO_NO_MEMORY : CEDUO_BAD_FILE;
+}
+
+enum ceduo_status ceduo_scene_read(const char *path, const char *const *sets, struct ceduo_reading *reading)
+{
+    return read_scene(path, NULL, sets, reading);
+}
+
+enum ceduo_status ceduo_scene_read_text(const char *name, const char *text, struct ceduo_reading *reading)
+{
+    return read_scene(name, text, NULL, reading);
+}
+
+void ceduo_reading_release(struct ceduo_reading *reading)
+{
+    struct memory *m = reading->memory;
+    if (m) {
+        ceduo_scene_release(&m->file);
+        ceduo_problems_free(&m->problems);
+        free(m);
+    }
+    *reading = (struct ceduo_reading){.messages = ""};
+}

@@ -1,0 +1,242 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The library as a program of somebody else meets it: scenes read from files, defaults, texts, and errors of GSL, whose own handler
+ * would end that program. */
+#include "expect.h"
+
+#include <gsl/gsl_errno.h>
+#include <math.h>
+#include <pthread.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/gsl_errors.h"
+#include "ceduo/ceduo.h"
+#include "study/guess.h"
+
+/* ---- memory that GSL asks for ---- */
+
+#ifdef __SANITIZE_ADDRESS__ /* which has its own */
+#define FAILS 0
+#else
+#define FAILS 1
+#endif
+static _Thread_local long fail_at; /* 0: none */
+
+#if FAILS
+void *__libc_malloc(size_t n);
+void *__libc_calloc(size_t n, size_t size);
+
+/* In the place of the C library's for GSL as well, which `--wrap` of the linker would not reach. */
+void *malloc(size_t n)
+{
+    return fail_at > 0 && --fail_at == 0 ? NULL : __libc_malloc(n);
+}
+
+void *calloc(size_t n, size_t size)
+{
+    return fail_at > 0 && --fail_at == 0 ? NULL : __libc_calloc(n, size);
+}
+#endif
+
+static int heard; /* errors that reach the handler of the caller */
+
+static void on_error(const char *reason, const char *file, int line, int error)
+{
+    (void)reason, (void)file, (void)line, (void)error;
+    heard++;
+}
+
+static gsl_error_handler_t *handler(void)
+{
+    gsl_error_handler_t *now = gsl_set_error_handler(NULL);
+    gsl_set_error_handler(now);
+    return now;
+}
+
+static enum ceduo_status fit_heights(void)
+{
+    double dbh[] = {.05, .08, .12, .15, .2, .25, .3}, height[] = {5, 7, 9, 10.5, 12, 13.5, 14};
+    struct ceduo_naslund curve;
+    return ceduo_naslund_fit(LENGTH(dbh), dbh, height, &curve);
+}
+
+static enum ceduo_status lay_points(void)
+{
+    double u[64 * 3];
+    return ceduo_surface_points(1, 64, 3, u);
+}
+
+static enum ceduo_status learn(void)
+{
+    enum { PLACES = 40 };
+    double u[PLACES], values[PLACES];
+    GSL_RETURNS_ERRORS;
+    for (int i = 0; i < PLACES; i++) {
+        u[i] = (i + .5) / PLACES;
+        values[i] = -10 * (u[i] - .4) * (u[i] - .4);
+    }
+    struct guess g = ceduo_guess_begin(1);
+    enum ceduo_status status = ceduo_guess_learn(&g, u, values, PLACES, NULL);
+    ceduo_guess_release(&g);
+    return status;
+}
+
+static enum ceduo_status fit_surface(void)
+{
+    enum { POINTS = 16 };
+    struct ceduo_input input = {.kind = CEDUO_INPUT_RANGE, .hi = 1};
+    struct ceduo_surface_fit fit;
+    struct ceduo_surface *surface;
+    static struct ceduo_groups y[POINTS];
+    double u[POINTS];
+    for (int p = 0; p < POINTS; p++) {
+        u[p] = (p + .5) / POINTS;
+        for (int g = 0; g < CEDUO_SURFACE_GROUPS; g++)
+            y[p].of[g] = u[p] * u[p] + g;
+    }
+    enum ceduo_status status = ceduo_surface_open(&input, 1, u, POINTS, &surface);
+    if (status != CEDUO_OK)
+        return status;
+    status = ceduo_surface_fit(surface, &(const struct ceduo_surface_figure){y, NULL, 0, 100, NAN}, &fit);
+    ceduo_surface_free(surface);
+    if (status == CEDUO_OK)
+        ceduo_surface_release(&fit);
+    return status;
+}
+
+TEST(gsl_without_memory_ends_no_program)
+{
+    enum ceduo_status (*const calls[])(void) = {fit_heights, lay_points, learn, fit_surface};
+    gsl_set_error_handler(NULL); /* GSL's own: it aborts */
+    for (size_t i = 0; i < LENGTH(calls); i++) {
+        long at = 1, failed = 0;
+        for (bool all = false; FAILS && !all; at++) {
+            fail_at = at;
+            enum ceduo_status status = calls[i]();
+            all = fail_at > 0; /* it asked fewer times */
+            fail_at = 0;
+            assert_true(status == CEDUO_NO_MEMORY || status == CEDUO_OK);
+            failed += status == CEDUO_NO_MEMORY;
+            assert_true(handler() == NULL);
+        }
+        EXPECT(failed, >=, FAILS);
+        EXPECT(calls[i](), ==, CEDUO_OK);
+    }
+}
+
+static void *err(void *unused)
+{
+    gsl_error("test", __FILE__, __LINE__, GSL_EFAILED);
+    return unused;
+}
+
+/* In a thread that is in no call of the library, while another is. */
+TEST(errors_of_the_caller_stay_his)
+{
+    pthread_t thread;
+    gsl_set_error_handler(on_error);
+    heard = 0;
+    bool before = ceduo_gsl_enter(), inner = ceduo_gsl_enter();
+    err(NULL);
+    EXPECT(heard, ==, 0);
+    assert_int_equal(pthread_create(&thread, NULL, err, NULL), 0);
+    pthread_join(thread, NULL);
+    EXPECT(heard, ==, 1);
+    ceduo_gsl_leave(&inner);
+    err(NULL);
+    EXPECT(heard, ==, 1);
+    ceduo_gsl_leave(&before);
+    assert_true(handler() == on_error);
+    err(NULL);
+    EXPECT(heard, ==, 2);
+}
+
+/* ---- reading ---- */
+
+static const char scene[] = "ceduo: scene/1\ntitle: mill\nrock: {shape: sphere, diameter_m: 1}\n"
+                            "slope: {vertices_m: [[0, 100], [100, 20]], segments: [{rn: 0.3, rt: 0.8, roughness_rad: 0.1}]}\n"
+                            "controls_m: [90]\nforest: []\n";
+
+TEST(a_scene_is_read)
+{
+    struct ceduo_reading r;
+    EXPECT(ceduo_scene_read("profiles/scenes/paper-site.yaml", NULL, &r), ==, CEDUO_OK);
+    assert_string_equal(r.messages, "");
+    EXPECT(r.scene.controls[0].x, ==, 135);
+    EXPECT(r.scene.options[0].belts[0].stand.stools_per_ha, ==, 3688); /* Ciabocco et al. 2009, ADS 1 */
+    EXPECT(ceduo_scene_check(&r.scene, NULL), ==, CEDUO_OK);
+    ceduo_reading_release(&r);
+    ceduo_reading_release(&r);
+    const char *const sets[] = {"rock.diameter_m=1", "rock.diameter_m=2", NULL};
+    EXPECT(ceduo_scene_read("profiles/scenes/paper-site.yaml", sets, &r), ==, CEDUO_OK);
+    EXPECT(r.scene.rock.diameter.mean, ==, 2);
+    ceduo_reading_release(&r);
+    EXPECT(ceduo_scene_read_text("mill.yaml", scene, &r), ==, CEDUO_OK);
+    assert_string_equal(r.scene.title, "mill");
+    EXPECT(r.scene.slope.z[1], ==, -80);
+    ceduo_reading_release(&r);
+}
+
+TEST(what_is_wrong_is_said)
+{
+    struct ceduo_reading r;
+    EXPECT(ceduo_scene_read_text("mill.yaml", "ceduo: scene/1\nrock: {shape: sphere, diameter_m: -1}\n", &r), ==,
+           CEDUO_BAD_FILE);
+    assert_ptr_equal(strstr(r.messages, "mill.yaml:2:35: rock.diameter_m: -1 is "), r.messages);
+    assert_non_null(strstr(r.messages, "\n  rock: {shape: sphere, diameter_m: -1}\n"));
+    assert_null(r.scene.slope.x);
+    ceduo_reading_release(&r);
+    EXPECT(ceduo_scene_read("no/such.yaml", NULL, &r), ==, CEDUO_BAD_FILE);
+    assert_non_null(strstr(r.messages, "no/such.yaml"));
+    ceduo_reading_release(&r);
+    const char *const sets[] = {"rock.colour=red", NULL};
+    EXPECT(ceduo_scene_read("profiles/scenes/paper-site.yaml", sets, &r), ==, CEDUO_BAD_FILE);
+    assert_non_null(strstr(r.messages, "--set"));
+    ceduo_reading_release(&r);
+}
+
+/* ---- defaults and texts ---- */
+
+TEST(defaults_need_no_more_than_what_has_none)
+{
+    struct ceduo_reading r;
+    assert_int_equal(ceduo_scene_read_text("mill.yaml", scene, &r), CEDUO_OK);
+    struct ceduo_stems stems = ceduo_stems_default();
+    struct ceduo_stand stand = ceduo_stand_default();
+    struct ceduo_belt belt = ceduo_belt_default();
+    struct ceduo_option option = ceduo_option_default();
+    struct ceduo_control control = ceduo_control_default();
+    assert_true(isnan(stems.volume) && isnan(stems.age) && isnan(stand.u) && isnan(belt.cut_year) && isnan(control.accepted));
+    EXPECT(stand.species, ==, -1);
+    EXPECT(stand.energy, ==, CEDUO_BRAUNER);
+    EXPECT(stand.counted_from, ==, 0);
+    stems.per_ha = 900;
+    stems.dbh = .2;
+    stems.height = 15;
+    stand.trees = &stems;
+    stand.trees_count = 1;
+    belt.from = 10;
+    belt.to = 60;
+    belt.stand = stand;
+    option.belts = &belt;
+    option.belts_count = 1;
+    control.x = 80;
+    r.scene.options = &option;
+    r.scene.controls = &control;
+    EXPECT(ceduo_scene_check(&r.scene, NULL), ==, CEDUO_OK);
+    struct ceduo_question q = ceduo_question_default(&r.scene);
+    struct ceduo_answer a;
+    EXPECT(ceduo_ask(&q, NULL, &a), ==, CEDUO_OK);
+    EXPECT(a.result->options[0].stands[0].contacts, >, 0);
+    ceduo_answer_release(&a);
+    ceduo_reading_release(&r);
+}
+
+TEST(each_status_has_a_text)
+{
+    for (int s = CEDUO_OK; s <= CEDUO_BAD_FILE; s++)
+        for (int t = CEDUO_OK; t < s; t++)
+            assert_string_not_equal(ceduo_status_text((enum ceduo_status)s), ceduo_status_text((enum ceduo_status)t));
+    assert_string_equal(ceduo_status_text((enum ceduo_status)99), "unknown status");
+    assert_string_equal(ceduo_version(), CEDUO_VERSION);
+}
