@@ -51,11 +51,11 @@ def test_install():
         expect({"bin/ceduo", "share/man/man1/ceduo.1", "share/man/man7/ceduo-model.7", "share/ceduo/scenes/paper-site.yaml",
                 "share/bash-completion/completions/ceduo", "share/zsh/site-functions/_ceduo", "share/man/man3/ceduo.3",
                 "share/locale/it/LC_MESSAGES/ceduo.mo",
-                "share/man/it/man1/ceduo.1", "share/man/it/man7/ceduo-workflows.7", "lib/libceduo.a", "lib/pkgconfig/ceduo.pc", "include/ceduo/ceduo.h"} <= names, names)
+                "share/man/it/man1/ceduo.1", "share/man/it/man7/ceduo-workflows.7", "lib/libceduo.a", "lib/libceduo.so", "lib/libceduo.so.0", "lib/pkgconfig/ceduo.pc", "include/ceduo/ceduo.h"} <= names, names)
         shipped = [p for p in (ROOT / "profiles").rglob("*.yaml")] + [p for p in (ROOT / "man").rglob("*.[1357]")]
         shipped += [*(ROOT / "profiles/jobs").iterdir(), *(ROOT / "profiles/surveys").iterdir(), *(ROOT / "profiles/observed").iterdir(),
                     *(ROOT / "include/ceduo").glob("*.h"), *(ROOT / "src/po").glob("*.po")]
-        expect_equal(len(names), len(shipped) + 7, "files installed")  # the program, its library, the Italian pages and what completes
+        expect_equal(len(names), len(shipped) + 10, "files installed")  # the program, its libraries, the Italian pages and what completes
         for name in names:
             expect_equal(oct((place.prefix / name).stat().st_mode & 0o777), "0o755" if name == "bin/ceduo" else "0o644", name)
         (place.prefix / "share/man/man1/other.1").write_text("not ours")

@@ -7,12 +7,12 @@ import shlex
 import shutil
 import subprocess
 
-from harness import ROOT, Folder, Skip, environment, expect, expect_equal, run_all
+from harness import ROOT, Folder, Skip, ceduo, environment, expect, expect_equal, run_all
 from test_install import VARIANT, make
 from test_workflows import RUN, plain
 
 PAGE = ROOT / "man/ceduo.3"
-SOURCE, COMMANDS, OUTPUT = [plain(body) for _, body in RUN.findall(PAGE.read_text(encoding="utf-8"))]
+SOURCE, COMMANDS, OUTPUT, STATIC = [plain(body) for _, body in RUN.findall(PAGE.read_text(encoding="utf-8"))]
 CC = os.environ.get("CC", "cc")
 STRICT = "-std=c17 -Wall -Wextra -Wpedantic -Wconversion -Werror"
 # What a program needs beside ceduo.pc when the library is not the one that is released.
@@ -34,7 +34,8 @@ class Library(Folder):
         stage, prefix = ("", f"{self.path}/{self.folder}") if self.folder else (f"{self.path}/root", "/opt/forest")
         self.root = stage + prefix
         make("install", "HASH=#", f"DESTDIR={stage}", "PREFIX=" + prefix.replace("$", "$$").replace("#", "$(HASH)"))
-        self.env = environment(PKG_CONFIG_PATH=f"{self.root}/lib/pkgconfig", PKG_CONFIG_SYSROOT_DIR=stage or None)
+        self.env = environment(PKG_CONFIG_PATH=f"{self.root}/lib/pkgconfig", PKG_CONFIG_SYSROOT_DIR=stage or None,
+                               LD_LIBRARY_PATH=f"{self.root}/lib", XDG_DATA_HOME=f"{self.root}/share")
         return self
 
     def flags(self, *words):
@@ -49,50 +50,69 @@ class Library(Folder):
 
 
 def test_example():
-    """The example compiles without a warning by the command of the page, runs, and prints what the page says"""
+    """The example compiles without a warning by the commands of the page, shared and static, and prints what the page says"""
     with Library() as place:
-        place.write("mill.c", SOURCE)
-        expect(COMMANDS.startswith("cc "), COMMANDS)
-        expect_equal(place.shell(f"cc() {{ command {CC} {STRICT} {BUILT} \"$@\"; }}\n{COMMANDS}"), OUTPUT, "output")
+        place.write("stools.c", SOURCE)
+        expect(COMMANDS.startswith("cc ") and STATIC.startswith("cc -static "), COMMANDS, STATIC)
+        compiler = f"cc() {{ command {CC} {STRICT} {BUILT} \"$@\"; }}\n"
+        expect_equal(place.shell(compiler + COMMANDS), OUTPUT, "output")
+        needed = place.shell("readelf -d stools")
+        expect("[libceduo.so.0]" in needed and "libgsl" not in needed, needed)
+        if not BUILT:  # sanitizers are shared
+            expect_equal(place.shell(f"{compiler}{STATIC}\nunset LD_LIBRARY_PATH\n./stools"), OUTPUT, "output")
 
 
-def test_cpp():
-    """C++ asks as C does: one header, without a warning, and a flag that ends the call"""
-    if not shutil.which("g++"):
-        raise Skip("no C++ compiler here")
-    with Library() as place:
-        source = place.write("ask.cc", """#include <ceduo/ceduo.h>
+CPP = """#include <ceduo/ceduo.h>
 #include <cstdio>
+#include <cstring>
 int main()
 {
     ceduo_flag stop{true};
-    double x[] = {0, 100}, z[] = {0, -60};
-    ceduo_segment ground = ceduo_segment_default();
-    ground.rn = ceduo_number(.3);
-    ground.rt = ceduo_number(.8);
-    ground.roughness_rad = .1;
-    ceduo_option bare = {};
-    ceduo_scene scene = ceduo_scene_default();
-    scene.rock.diameter = ceduo_number(1);
-    scene.slope.vertices = 2;
-    scene.slope.x = x;
-    scene.slope.z = z;
-    scene.slope.segments = &ground;
-    scene.options = &bare;
-    scene.options_count = 1;
-    ceduo_question question = ceduo_question_default(&scene);
+    ceduo_reading file;
+    const char *sets[] = {"simulation.rocks=50", nullptr};
+    if (std::strcmp(ceduo_version(), CEDUO_VERSION) != 0 || ceduo_scene_read("paper-site", sets, &file) != CEDUO_OK)
+        return 1;
+    ceduo_question question = ceduo_question_default(&file.scene);
     ceduo_answer answer;
     for (int i = 0; i < 2; i++) {
-        std::printf("%d\\n", ceduo_ask(&question, nullptr, &answer));
+        std::puts(ceduo_status_text(ceduo_ask(&question, nullptr, &answer)));
         ceduo_answer_release(&answer);
         question.run.cancel = &stop;
     }
+    ceduo_reading_release(&file);
+    sets[0] = "rock.diameter_m=-1";
+    if (ceduo_scene_read("paper-site", sets, &file) == CEDUO_BAD_FILE)
+        std::fputs(file.messages, stdout);
+    ceduo_reading_release(&file);
 }
-""")
-        done = subprocess.run(["g++", "-std=c++17", "-Wall", "-Wextra", "-Wpedantic", "-Werror", *BUILT.split(), "-o", place.path / "ask",
-                               source, *place.flags("--cflags", "--libs")], capture_output=True, text=True, check=False)
-        expect_equal((done.returncode, done.stderr), (0, ""), "compiler")
-        expect_equal(place.shell("./ask"), "0\n2\n", "status: done, cancelled")
+"""
+
+
+def test_cpp():
+    """C++ asks as C does, shared and static: one header, without a warning, a flag that ends the call, the program's messages"""
+    if not shutil.which("g++"):
+        raise Skip("no C++ compiler here")
+    with Library() as place:
+        place.write("ask.cc", CPP)
+        wanted = ceduo("--check", "-s", "rock.diameter_m=-1", "paper-site")
+        expect_equal(wanted.status, 2)
+        for how in [""] if BUILT else ["", "--static"]:
+            place.shell(f"g++ -std=c++17 -Wall -Wextra -Wpedantic -Werror {how.replace('--', '-')} {BUILT} -o ask ask.cc "
+                        f"$(pkg-config {how} --cflags --libs ceduo)")
+            expect_equal(place.shell("./ask"), "done\ncancelled\n" + wanted.err, "statuses, messages")
+
+
+def test_exports():
+    """The shared library has its name, and exports what the headers declare and nothing else"""
+    with Library() as place:
+        lines = place.shell(f"nm -D --defined-only {shlex.quote(place.root)}/lib/libceduo.so").splitlines()
+        names = {line.split()[-1] for line in lines}
+        text = "".join(p.read_text() for p in (ROOT / "include/ceduo").glob("*.h"))
+        text = re.sub(r"/\*.*?\*/|^#.*?$|^typedef[^;]*;", "", text, flags=re.S | re.M)
+        declared = set(re.findall(r"\b(ceduo_\w+)\([^;{}]*\);", text)) | set(re.findall(r"^extern .*?(ceduo_\w+)\[", text, re.M))
+        expect(len(declared) > 150, len(declared))
+        expect_equal(sorted(names ^ declared), [], "names")
+        expect("[libceduo.so.0]" in place.shell(f"readelf -d {shlex.quote(place.root)}/lib/libceduo.so"), "soname")
 
 
 def test_version():
@@ -107,11 +127,12 @@ def test_odd_folder():
     with Library(ODD) as place:
         flags = place.flags("--cflags", "--libs")
         expect_equal(flags[:3], [f"-I{place.root}/include", f"-L{place.root}/lib", "-lceduo"])
-        source = place.write("mill.c", SOURCE)
-        done = subprocess.run([*CC.split(), *BUILT.split(), "-o", place.path / "mill", source, *flags], capture_output=True, text=True,
+        source = place.write("stools.c", SOURCE)
+        done = subprocess.run([*CC.split(), *BUILT.split(), "-o", place.path / "stools", source, *flags], capture_output=True, text=True,
                               check=False)
         expect_equal((done.returncode, done.stderr), (0, ""), "compiler")
-        expect_equal(place.shell("./mill"), OUTPUT, "output")
+        # the loader takes a semicolon for the end of a folder's name
+        expect_equal(place.shell(f"cp {shlex.quote(place.root)}/lib/libceduo.so.0 .\nLD_LIBRARY_PATH=$PWD ./stools"), OUTPUT, "output")
 
 
 def test_headers():
