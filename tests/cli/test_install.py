@@ -113,7 +113,7 @@ def copy_of_sources(to, *left_out):
 def test_odd_data_folder():
     """DATADIR may hold what a C string or a shell would take for its own: profiles are found there"""
     with Folder() as place:
-        copy_of_sources(place.path, "src/io/file.o", "libparts.a", "ceduo")
+        copy_of_sources(place.path, "src/io/file.o", "libceduo.a", "ceduo")
         data = place.path / "it's \"so\" a\\n % ??/ folder"
         place.write(data / "scenes/there.yaml", "title: found\n")
         make("all", f"DATADIR={data}", folder=place.path)
