@@ -180,8 +180,8 @@ JOBS := $(shell expr $(CORES) + 1)
 SUPPORT := $(BUILD)/tests/main.o $(call object,$(filter-out tests/physics/test_% tests/physics/bits.c tests/physics/constants.c,$(wildcard tests/physics/*.c)))
 
 # The tests of C, less those that take more than three seconds of processor time, and that of the house: within a minute.
-SLOW_C := test_memory test_verdict test_quarry_sites test_lanes test_statistics_of_runs test_stress test_invariants test_jobs \
-	test_stems_met test_stems_map
+SLOW_C := test_memory test_memory_seen test_verdict test_quarry_sites test_lanes test_statistics_of_runs test_stress test_jobs \
+	test_stems_met test_doubt_years test_surface test_structs
 TAPS_QUICK := $(filter-out $(addprefix %/,$(SLOW_C:=.tap)),$(UNIT:=.tap)) $(T)/cli/test_house.py.tap
 do-quick:
 	@+$(MAKE) --no-print-directory -j$(CORES) all

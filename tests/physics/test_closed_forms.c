@@ -569,7 +569,8 @@ TEST(ranks_of_quantiles)
                 {100, .07, 7}, /* whole numbers that a product of doubles is above or below */
                 {100, .55, 55},
                 {100, .29, 29},
-                {5, 1, 5}};
+                {5, 1, 5},
+                {10, 0, 1}};
     for (size_t i = 0; i < LENGTH(rows); i++)
         assert_int_equal(ceduo_quantile_rank(rows[i].n, rows[i].p), rows[i].rank);
 }
@@ -600,39 +601,16 @@ TEST(intervals_of_quantiles)
         assert_int_equal(lo, rows[i].lo);
         assert_int_equal(hi, rows[i].hi);
     }
-    for (size_t n = 1; n <= 300; n++) { /* neither tail has more than 2.5 %, and one rank further in it would */
-        size_t lo, hi;
-        ceduo_quantile_interval(n, .95, &lo, &hi);
-        ROWS(assert_true, (lo == 0 || binomial_below(n, .95L, lo - 1) < .025L),
-             (lo == n || binomial_below(n, .95L, lo) >= .025L), (binomial_below(n, .95L, hi - 1) >= .975L * (1 - 1e-15L)),
-             (hi < 2 || binomial_below(n, .95L, hi - 2) < .975L));
-    }
-}
-
-TEST(a_distribution_of_exact_values)
-{
-    static const size_t sizes[] = {1, 2, 19, 20, 100, 999, 5000};
-    static double values[5000], sorted[5000];
-    struct line_random r = {.state = 5};
-    for (size_t s = 0; s < LENGTH(sizes); s++) {
-        size_t n = sizes[s], lo, hi;
-        struct ceduo_moments m = {0};
-        for (size_t i = 0; i < n; i++) {
-            values[i] = sorted[i] = floor(line_log_uniform(&r, 1, 1e4)); /* many are equal */
-            ceduo_moments_add(&m, values[i]);
+    const double shares[] = {.01, .05, .5, .95, .99};
+    for (size_t i = 0; i < LENGTH(shares); i++)
+        for (size_t n = 1; n <= 300; n++) { /* neither tail has more than 2.5 %, and one rank further in it would */
+            size_t lo, hi;
+            long double p = shares[i];
+            ceduo_quantile_interval(n, shares[i], &lo, &hi);
+            ROWS(assert_true, (lo == 0 || binomial_below(n, p, lo - 1) < .025L), (lo == n || binomial_below(n, p, lo) >= .025L),
+                 (hi > n || binomial_below(n, p, hi - 1) >= .975L * (1 - 1e-15L)),
+                 (hi < 2 || binomial_below(n, p, hi - 2) < .975L), (hi >= 1 && hi <= n + 1));
         }
-        qsort(sorted, n, sizeof *sorted, by_value);
-        ceduo_quantile_interval(n, .95, &lo, &hi);
-        struct ceduo_distribution d = ceduo_distribution_exact(values, n, &m);
-        EXPECT_IS(d, (p50, sorted[(n + 1) / 2 - 1]), (max, sorted[n - 1]));
-        EXPECT(d.mean, ==, m.mean);
-        EXPECT_IS(d, (p95, sorted[ceduo_quantile_rank(n, .95) - 1]), (p99, sorted[ceduo_quantile_rank(n, .99) - 1]));
-        ROWS(assert_true, (lo > 0 ? d.p95_lo == sorted[lo - 1] : isnan(d.p95_lo)),
-             (hi <= n ? d.p95_hi == sorted[hi - 1] : isnan(d.p95_hi)),
-             (n > 1 ? d.sd == ceduo_moments_sd(&m) && d.se == ceduo_moments_se(&m) : isnan(d.sd) && isnan(d.se)));
-    }
-    struct ceduo_distribution none = ceduo_distribution_none();
-    EXPECT_NAN(none.mean, none.p50, none.p95, none.p99, none.max);
 }
 
 /* Some shapes of many values, up to those that no range of numbers divides evenly. */

@@ -621,38 +621,3 @@ TEST_WITH(a_young_coppice_passes_thirty_metres_and_stops_nothing, open_paper, NU
 }
 
 /* ---- checks of a scene ---- */
-
-/* One place of the scene with another number in it. */
-TEST_WITH(scenes_that_do_not_fit_are_refused, open_paper, NULL)
-{
-    const struct ceduo_number x = {.mean = 1, .spread = 2, .kind = CEDUO_UNIFORM};
-    const struct ceduo_number height = {.mean = 1, .spread = .5, .kind = CEDUO_NORMAL};
-    struct ceduo_release *release = &site.scene.release;
-    const struct {
-        struct ceduo_number *at;
-        double *number;
-        struct ceduo_number value;
-        enum ceduo_status status;
-    } rows[] = {{NULL, &site.control.x, ceduo_number(153), CEDUO_CONTROL_OFF_SLOPE},
-                {NULL, &site.control.x, ceduo_number(0), CEDUO_CONTROL_BEHIND},
-                {&release->x, NULL, ceduo_number(-1), CEDUO_RELEASE_OFF_SLOPE},
-                {&release->x, NULL, ceduo_number(152.68), CEDUO_RELEASE_OFF_SLOPE},
-                {&release->x, NULL, x, CEDUO_RELEASE_OFF_SLOPE},
-                {&release->height, NULL, ceduo_number(-0.1), CEDUO_RELEASE_BELOW},
-                {&release->height, NULL, height, CEDUO_RELEASE_BELOW},
-                {NULL, &site.x[3], ceduo_number(paper_x[2]), CEDUO_BAD_SLOPE},
-                {NULL, &site.z[3], ceduo_number(NAN), CEDUO_BAD_SLOPE},
-                {NULL, &site.segments[2].rn.mean, ceduo_number(1.01), CEDUO_BAD_SLOPE},
-                {NULL, &site.segments[2].roughness_rad, ceduo_number(acos(0)), CEDUO_BAD_SLOPE},
-                {&site.scene.rock.height, NULL, ceduo_number(0), CEDUO_BAD_ROCK}};
-    for (size_t i = 0; i < LENGTH(rows); i++) {
-        size_t where = 9;
-        paper_site_init(&site);
-        if (rows[i].at)
-            *rows[i].at = rows[i].value;
-        else
-            *rows[i].number = rows[i].value.mean;
-        assert_int_equal(ceduo_scene_check(&site.scene, i == 0 ? &where : NULL), rows[i].status);
-        assert_int_equal(where, i == 0 ? 0 : 9);
-    }
-}

@@ -445,6 +445,31 @@ TEST(stems_of_another_sort_make_another_forest)
     EXPECT(key_of(DBHS), !=, key); /* or all the given one on the mean */
 }
 
+/* What takes as much of a rock is the same forest: half the volume with twice the work. Without stems there is none, nor by the
+ * index. */
+TEST(stems_that_take_the_same_are_the_same_forest)
+{
+    open_site();
+    struct ceduo_stand *stand = &site.belts[0].stand;
+    stand->trees_count = 0;
+    stand->u = 1000;
+    site.plots[0].shoots.volume = 2;
+    uint64_t key = key_of(STEMS);
+    stand->u = 2000;
+    site.plots[0].shoots.volume = 1;
+    EXPECT(key_of(STEMS), ==, key);
+    stand->shoots_count = 0;
+    key = key_of(STEMS);
+    site.belts[0].to -= 1; /* of a belt without stems */
+    EXPECT(key_of(STEMS), ==, key);
+    EXPECT(key, !=, 0);
+    site.belts[1].stand.shoots_count = site.belts[1].stand.trees_count = 0;
+    EXPECT(key_of(STEMS), ==, 0);
+    open_site();
+    site.scene.simulation.contact_model = CEDUO_INDEX;
+    EXPECT(key_of(STEMS), ==, 0);
+}
+
 /* As many shoots of three cohorts, of which the last two have each other's share. */
 TEST(cohorts_of_another_share_make_another_forest)
 {

@@ -100,33 +100,6 @@ TEST(spreads_and_roughness_heights_are_those_of_the_cut_slope)
     expect_same_ways(&site.scene, &scene);
 }
 
-/* A slope of one line that is cut in the middle of a plane too, between two grounds. */
-TEST(another_ground_is_another_segment)
-{
-    init_site(CEDUO_LAW_LUMPED);
-    LOCAL_BY(slope_free) struct ceduo_slope two = slope_new(3);
-    memcpy(two.x, (double[3]){0, 64, 160}, sizeof(double[3]));
-    memcpy(two.z, (double[3]){0, -48, -120}, sizeof(double[3]));
-    for (int what = 0; what < 5; what++) {
-        two.segments[0] = two.segments[1] = site.segments[3];
-        struct ceduo_segment *s = &two.segments[1];
-        s->rn.mean *= what == 0 ? .9 : 1;
-        s->rt.mean *= what == 1 ? .9 : 1;
-        s->rt.spread += what == 2 ? .01 : 0;
-        s->friction *= what == 3 ? .9 : 1;
-        s->roughness_rad *= what == 4 ? .9 : 1;
-        assert_int_equal(segments_inside(&two), 2);
-        LOCAL_BY(slope_free) struct ceduo_slope fine = slope_cut(&two, 1000);
-        assert_int_equal(segments_inside(&fine), 2);
-        struct ceduo_scene a = site.scene, b = site.scene;
-        a.slope = two;
-        b.slope = fine;
-        expect_same_ways(&a, &b);
-    }
-    two.segments[1] = two.segments[0];
-    assert_int_equal(segments_inside(&two), 1);
-}
-
 /* What a double can tell from a line stays: vertices moved by a nanometre, and a sliver that is as steep as it is small. */
 TEST(small_breaks_stay)
 {

@@ -193,6 +193,16 @@ TEST_WITH(a_stratum_without_a_curve_stays, fresh, NULL)
     EXPECT(grown.stand.shoots[0].dbh, >, .05);
     s.stand.cutting.stay_count = 0;
     assert_int_equal(ceduo_first_cut(&s.stand, 5), 5);
+    struct ceduo_curve *shoots = &s.stand.growth.shoots;
+    double *const numbers[] = {&shoots->dbh_most, &shoots->dbh_rate, &shoots->height_most, &shoots->height_rate};
+    for (size_t i = 0; i < LENGTH(numbers); i++) {
+        double was = *numbers[i];
+        *numbers[i] = 0;
+        LOCAL_BY(ceduo_grown_stand_release) struct ceduo_grown_stand as_filed = at(5, 3);
+        expect_same_stems(as_filed.stand.shoots, s.shoots, 1);
+        assert_int_equal(ceduo_first_cut(&s.stand, 5), CEDUO_NEVER);
+        *numbers[i] = was;
+    }
 }
 
 TEST_WITH(never_less_than_one_shoot_a_stool, fresh, NULL)
@@ -250,6 +260,11 @@ TEST_WITH(by_default_it_is_cut_when_it_is_old_enough, fresh, NULL)
     assert_int_equal(ceduo_first_cut(&s.stand, NAN), (unsigned)ceil(75 + log(1 - 20. / 45) / .014));
     s.stay[1] = 0;
     assert_int_equal(ceduo_first_cut(&s.stand, NAN), (unsigned)ceil(50 + log(1 - 20. / 45) / .014));
+    s.stand.growth = (struct ceduo_growth){.sdi_most = 0};
+    assert_int_equal(ceduo_first_cut(&s.stand, NAN), CEDUO_NEVER);
+    s.stand.cutting.stay_count = 0;
+    s.trees[0].age = 10; /* known without a curve */
+    assert_int_equal(ceduo_first_cut(&s.stand, NAN), 15);
     s.stand.trees_count = 0;
     assert_int_equal(ceduo_first_cut(&s.stand, NAN), CEDUO_NEVER);
 }

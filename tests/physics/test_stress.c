@@ -2,7 +2,7 @@
 /* Random scenes in bulk and nasty ones by name: what holds on any ground (invariants.h), the same bits when run again, no
  * invalid operation, and counts that add up.
  *
- *   test_stress [SCENES [FIRST]]        default 10000 random scenes; `make stress` has ten million
+ *   test_stress [SCENES [FIRST]]        default 40000 random scenes; `make stress` has ten million
  *
  * Invalid operations, divisions by zero and overflows are looked for while a rock goes its way, and fail the test; but
  * for flights whose horizontal speed is below 1e-150 m/s. For them the time to the next vertex overflows by design, even to
@@ -24,7 +24,7 @@
 #define CONTROLS      5
 #define ROCKS         11 /* of a nasty scene */
 
-static uint64_t scenes = 10000, first = 1000000;
+static uint64_t scenes = 40000, first = 1000000;
 static uint64_t run_rocks = 40;
 static int by_design; /* floating-point exceptions that may be raised */
 
@@ -123,7 +123,7 @@ static void expect_counts(const struct line_scene *s)
 TEST(random_scenes)
 {
     static struct line_scene scene;
-    struct invariants_tally t = {0};
+    struct invariants_tally t = {0}, of_arm = {0};
     uint64_t parted = 0;
     by_design = FE_OVERFLOW; /* some rock in millions moves by 1e-166 m/s: t2 to the next vertex is infinite, it lands before */
     for (uint64_t number = first; number < first + scenes; number++) {
@@ -135,11 +135,18 @@ TEST(random_scenes)
         parted += !are_alike(&unseen, &t.last); /* nobody looks on: rolls pass whole segments */
         if (number % RUN_EVERY == 0)
             expect_counts(&scene);
+        if (number % 4 != 0)
+            continue;
+        line_scene_arm(&scene, number);
+        invariants_expect(&scene, number, &of_arm);
     }
     uint64_t sum = 0;
     for (int i = 0; i < CEDUO_ENDS; i++)
         sum += t.ends[i];
     assert_int_equal(sum, scenes);
+    if (scenes >= 1000) /* they are worth looking at */
+        ROWS(EXPECT, (t.flights, >, 4 * scenes), (t.impacts, >, scenes), (t.ends[CEDUO_AT_REST], >, scenes / 10),
+             (t.ends[CEDUO_LEFT_SLOPE], >, scenes / 10), (t.crossed, >, scenes / 10), (of_arm.crossed, >, scenes / 40));
     print_message("%ju scenes: %ju at rest, %ju left, %ju unfinished (%ju may last, %ju sink in a crack), %ju contacts; "
                   "%ju ways part where nobody looks on\n",
                   (uintmax_t)scenes, (uintmax_t)t.ends[CEDUO_AT_REST], (uintmax_t)t.ends[CEDUO_LEFT_SLOPE],

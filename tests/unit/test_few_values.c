@@ -20,35 +20,6 @@ static int by_value(const void *a, const void *b)
     return (*x > *y) - (*x < *y);
 }
 
-/* Chance that at most k of n, by its definition. */
-static double binomial(size_t n, double p, size_t k)
-{
-    double sum = 0;
-    for (size_t i = 0; i <= k; i++)
-        sum += exp(lgamma((double)n + 1) - lgamma((double)i + 1) - lgamma((double)(n - i) + 1) + (double)i * log(p) +
-                   (double)(n - i) * log1p(-p));
-    return sum;
-}
-
-TEST(intervals_of_few_values)
-{
-    const double p[] = {.01, .05, .5, .95, .99};
-    for (size_t i = 0; i < 5; i++)
-        for (size_t n = 1; n <= 120; n++) {
-            size_t lo, hi;
-            ceduo_quantile_interval(n, p[i], &lo, &hi);
-            EXPECT(lo, <=, n);
-            EXPECT(hi, >=, 1);
-            EXPECT(hi, <=, n + 1);
-            assert_true(lo == 0 || binomial(n, p[i], lo - 1) < .025 + 1e-9);
-            EXPECT(binomial(n, p[i], lo), >, .025 - 1e-9);
-            assert_true(hi < 2 || binomial(n, p[i], hi - 2) < .975 + 1e-9);
-            EXPECT(binomial(n, p[i], hi - 1), >, .975 - 1e-9);
-        }
-    assert_int_equal(ceduo_quantile_rank(10, 0), 1);
-    assert_int_equal(ceduo_quantile_rank(10, 1), 10);
-}
-
 static void expect_near(double found, double wanted, double relative)
 {
     if (isnan(wanted))

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Scenes and rocks that are refused, grounds, growth and belts at their edges. */
+/* Scenes and rocks that are refused, grounds and belts at their edges. */
 #include "expect.h"
 #include "local.h"
 
@@ -14,47 +14,26 @@
 
 static struct paper_site site;
 
-static void expect_slope(double *where, double value, enum ceduo_status wanted)
-{
-    double was = *where;
-    *where = value;
-    assert_int_equal(ceduo_scene_check(&site.scene, NULL), wanted);
-    *where = was;
-    assert_int_equal(ceduo_scene_check(&site.scene, NULL), CEDUO_OK);
-}
+/* A number of a good scene is another then: refused for it, or not. */
+struct change {
+    double *number, value;
+    enum ceduo_status wanted;
+    size_t where; /* of the control; 9: untouched */
+};
 
-TEST(slopes_are_refused)
+static void expect_refused(const struct change *rows, size_t n)
 {
-    paper_site_init(&site);
-    struct ceduo_slope *slope = &site.scene.slope;
-    struct ceduo_segment *s = &slope->segments[3];
-    const double outside[] = {-.01, 1.01, NAN, INFINITY, -INFINITY};
-    for (size_t i = 0; i < 5; i++) {
-        expect_slope(&s->rn.mean, outside[i], CEDUO_BAD_SLOPE);
-        expect_slope(&s->rt.mean, outside[i], CEDUO_BAD_SLOPE);
+    for (size_t i = 0; i < n; i++) {
+        size_t where = 9;
+        double was = *rows[i].number;
+        EXPECT(ceduo_scene_check(&site.scene, NULL), ==, CEDUO_OK);
+        *rows[i].number = rows[i].value;
+        enum ceduo_status found = ceduo_scene_check(&site.scene, &where);
+        if (found != rows[i].wanted || found != ceduo_scene_check(&site.scene, NULL) ||
+            (rows[i].where && where != rows[i].where))
+            fail_msg("row %zu: status %d at %zu", i, found, where);
+        *rows[i].number = was;
     }
-    const double negative[] = {-.01, NAN, INFINITY};
-    for (size_t i = 0; i < 3; i++) {
-        expect_slope(&s->rn.spread, negative[i], CEDUO_BAD_SLOPE);
-        expect_slope(&s->rt.spread, negative[i], CEDUO_BAD_SLOPE);
-        expect_slope(&s->friction, negative[i], CEDUO_BAD_SLOPE);
-        expect_slope(&s->mu, negative[i], CEDUO_BAD_SLOPE);
-        expect_slope(&s->roughness_rad, negative[i], CEDUO_BAD_SLOPE);
-    }
-    expect_slope(&s->rn.mean, 0, CEDUO_OK);
-    expect_slope(&s->rt.mean, 1, CEDUO_OK);
-    expect_slope(&s->roughness_rad, 1.5707963267948968, CEDUO_BAD_SLOPE); /* a right angle */
-    expect_slope(&s->roughness_rad, 1.57, CEDUO_OK);
-    expect_slope(&s->roughness_m, .1, CEDUO_BAD_SLOPE); /* said twice */
-    s->roughness_rad = NAN;
-    s->roughness_m = .1;
-    expect_slope(&s->roughness_m, 0, CEDUO_OK);
-    expect_slope(&s->roughness_m, -.1, CEDUO_BAD_SLOPE);
-    expect_slope(&slope->x[4], NAN, CEDUO_BAD_SLOPE);
-    expect_slope(&slope->z[4], INFINITY, CEDUO_BAD_SLOPE);
-    expect_slope(&slope->x[4], slope->x[3], CEDUO_BAD_SLOPE);
-    slope->vertices = 1;
-    assert_int_equal(ceduo_scene_check(&site.scene, NULL), CEDUO_BAD_SLOPE);
 }
 
 TEST(scenes_are_refused)
@@ -62,50 +41,84 @@ TEST(scenes_are_refused)
     paper_site_init(&site);
     struct ceduo_scene *scene = &site.scene;
     struct ceduo_control controls[2] = {site.control, site.control};
+    struct ceduo_release *release = &scene->release;
+    struct ceduo_segment *s = &site.segments[3];
+    struct ceduo_belt *b = site.belts;
+    struct ceduo_stems *shoots = &site.plots[0].shoots;
     scene->controls = controls;
     scene->controls_count = 2;
-    double end = scene->slope.x[scene->slope.vertices - 1];
-    const struct {
-        double *number, value;
-        enum ceduo_status wanted;
-        size_t where;
-    } rows[] = {
-        {&scene->rock.diameter.mean, 0, CEDUO_BAD_ROCK, 9},         {&scene->release.x.mean, -1, CEDUO_RELEASE_OFF_SLOPE, 9},
-        {&scene->release.x.mean, NAN, CEDUO_RELEASE_OFF_SLOPE, 9},  {&scene->release.x.mean, end, CEDUO_RELEASE_OFF_SLOPE, 9},
-        {&scene->release.x.spread, 1, CEDUO_RELEASE_OFF_SLOPE, 9},  {&scene->release.height.mean, -1, CEDUO_RELEASE_BELOW, 9},
-        {&scene->release.height.spread, 1, CEDUO_RELEASE_BELOW, 9}, {&controls[0].x, end + 1, CEDUO_CONTROL_OFF_SLOPE, 0},
-        {&controls[1].x, NAN, CEDUO_CONTROL_OFF_SLOPE, 1},          {&controls[1].x, 0, CEDUO_CONTROL_BEHIND, 1}};
-    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
-        size_t where = 9;
-        double was = *rows[i].number;
-        *rows[i].number = rows[i].value;
-        assert_int_equal(ceduo_scene_check(scene, &where), rows[i].wanted);
-        assert_int_equal(where, rows[i].where);
-        assert_int_equal(ceduo_scene_check(scene, NULL), rows[i].wanted);
-        *rows[i].number = was;
-        assert_int_equal(ceduo_scene_check(scene, NULL), CEDUO_OK);
+    scene->rock.height.mean = 0.8;
+    const double end = site.x[PAPER_SEGMENTS];
+    const struct change rows[] = {{&scene->rock.diameter.mean, 0, CEDUO_BAD_ROCK, 9},
+                                  {&scene->rock.height.mean, 0, CEDUO_BAD_ROCK, 9},
+                                  {&release->x.mean, -1, CEDUO_RELEASE_OFF_SLOPE, 9},
+                                  {&release->x.mean, NAN, CEDUO_RELEASE_OFF_SLOPE, 9},
+                                  {&release->x.mean, end, CEDUO_RELEASE_OFF_SLOPE, 9},
+                                  {&release->x.spread, 1, CEDUO_RELEASE_OFF_SLOPE, 9},
+                                  {&release->height.mean, -.1, CEDUO_RELEASE_BELOW, 9},
+                                  {&release->height.spread, 1, CEDUO_RELEASE_BELOW, 9},
+                                  {&controls[1].x, end + 1, CEDUO_CONTROL_OFF_SLOPE, 1},
+                                  {&controls[1].x, NAN, CEDUO_CONTROL_OFF_SLOPE, 1},
+                                  {&controls[1].x, 0, CEDUO_CONTROL_BEHIND, 1},
+                                  {&site.x[4], NAN, CEDUO_BAD_SLOPE, 0},
+                                  {&site.z[4], INFINITY, CEDUO_BAD_SLOPE, 0},
+                                  {&site.x[4], site.x[3], CEDUO_BAD_SLOPE, 0},
+                                  {&s->rn.mean, 0, CEDUO_OK, 0},
+                                  {&s->rt.mean, 1, CEDUO_OK, 0},
+                                  {&s->roughness_rad, acos(0), CEDUO_BAD_SLOPE, 0}, /* a right angle */
+                                  {&s->roughness_rad, 1.57, CEDUO_OK, 0},
+                                  {&s->roughness_m, .1, CEDUO_BAD_SLOPE, 0}, /* said twice */
+                                  {&shoots->dbh, -.06, CEDUO_BAD_STAND, 0},
+                                  {&shoots->dbh, NAN, CEDUO_BAD_STAND, 0},
+                                  {&shoots->per_ha, -1, CEDUO_BAD_STAND, 0},
+                                  {&shoots->per_ha, NAN, CEDUO_BAD_STAND, 0},
+                                  {&shoots->height, 0, CEDUO_BAD_STAND, 0},
+                                  {&site.plots[1].trees.per_ha, 1e300, CEDUO_BAD_STAND, 0},
+                                  {&b[0].stand.spacing, -1, CEDUO_BAD_STAND, 0},
+                                  {&b[1].stand.stools_per_ha, NAN, CEDUO_BAD_STAND, 0},
+                                  {&b[0].from, 100, CEDUO_BAD_BELT, 0},
+                                  {&b[1].from, 20, CEDUO_BAD_BELT, 0},
+                                  {&b[1].to, 1e4, CEDUO_BAD_BELT, 0},
+                                  {&b[0].to, NAN, CEDUO_BAD_BELT, 0},
+                                  {&scene->simulation.gravity, 0, CEDUO_BAD_NUMBER, 0},
+                                  {&scene->simulation.threshold, NAN, CEDUO_BAD_NUMBER, 0}};
+    scene->options = &site.option;
+    scene->options_count = 1;
+    expect_refused(rows, LENGTH(rows));
+    double *const shares[] = {&s->rn.mean, &s->rt.mean}, *const sizes[] = {&s->rn.spread, &s->rt.spread, &s->friction, &s->mu,
+                                                                           &s->roughness_rad};
+    const double outside[] = {-.01, NAN, INFINITY, 1.01, -INFINITY};
+    for (size_t i = 0; i < LENGTH(outside); i++) {
+        for (size_t k = 0; k < LENGTH(shares); k++)
+            expect_refused(&(struct change){shares[k], outside[i], CEDUO_BAD_SLOPE, 0}, 1);
+        for (size_t k = 0; i < 3 && k < LENGTH(sizes); k++)
+            expect_refused(&(struct change){sizes[k], outside[i], CEDUO_BAD_SLOPE, 0}, 1);
     }
-    assert_int_equal(ceduo_species_find("no-such-tree"), -1);
+    s->roughness_rad = NAN;
+    s->roughness_m = .1;
+    const struct change roughness[] = {{&s->roughness_m, 0, CEDUO_OK, 0}, {&s->roughness_m, -.1, CEDUO_BAD_SLOPE, 0}};
+    expect_refused(roughness, LENGTH(roughness));
+    b[0].stand.species = 999;
+    EXPECT(ceduo_scene_check(scene, NULL), ==, CEDUO_BAD_STAND);
+    b[0].stand.species = ceduo_species_find("no-such-tree");
+    EXPECT(b[0].stand.species, ==, -1);
+    b[0].stand.energy = (enum ceduo_energy_model)9;
+    EXPECT(ceduo_scene_check(scene, NULL), ==, CEDUO_BAD_STAND);
+    scene->slope.vertices = 1;
+    EXPECT(ceduo_scene_check(scene, NULL), ==, CEDUO_BAD_SLOPE);
 }
 
 TEST(blocks_are_refused)
 {
     double volumes[2] = {0.1, 2};
     struct ceduo_block_class b[2] = {{1, 1, 2, volumes}, {1, 1, 2, volumes}};
-    const struct {
-        double *number, value;
-    } rows[] = {{&volumes[0], 0},    {&volumes[0], NAN},    {&volumes[0], 2},
-                {&b[1].per_year, 0}, {&b[1].per_year, NAN}, {&b[1].exponent, -1}};
+    const struct change rows[] = {{&volumes[0], 0, CEDUO_BAD_ROCK, 0},      {&volumes[0], NAN, CEDUO_BAD_ROCK, 0},
+                                  {&volumes[0], 2, CEDUO_BAD_ROCK, 0},      {&b[1].per_year, 0, CEDUO_BAD_ROCK, 0},
+                                  {&b[1].per_year, NAN, CEDUO_BAD_ROCK, 0}, {&b[1].exponent, -1, CEDUO_BAD_ROCK, 0}};
     paper_site_init(&site);
     site.scene.blocks = b;
     site.scene.blocks_count = 2;
-    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
-        double was = *rows[i].number;
-        assert_int_equal(ceduo_scene_check(&site.scene, NULL), CEDUO_OK);
-        *rows[i].number = rows[i].value;
-        assert_int_equal(ceduo_scene_check(&site.scene, NULL), CEDUO_BAD_ROCK);
-        *rows[i].number = was;
-    }
+    expect_refused(rows, LENGTH(rows));
     b[1].volumes_count = 1;
     assert_int_equal(ceduo_scene_check(&site.scene, NULL), CEDUO_BAD_ROCK);
 }
@@ -198,7 +211,7 @@ TEST(rocks_are_refused)
     }
 }
 
-/* ---- grounds and growth ---- */
+/* ---- grounds ---- */
 
 /* Two segments on one line: how many are made of them. */
 static size_t segments_made(void)
@@ -281,44 +294,6 @@ TEST(tables_of_stools_have_an_end)
     assert_true(ceduo_wood_init(&wood, simulation, &site.option, &rock));
     assert_int_equal(wood.places, ((size_t)1 << 20) - 1); /* more than the million stems of a way */
     ceduo_wood_release(&wood);
-}
-
-/* A stand of whose growth something is not known stays as it is; and is never cut. */
-TEST(growth_is_known_or_not)
-{
-    paper_site_init(&site);
-    struct ceduo_stand *stand = &site.belts[0].stand;
-    struct ceduo_curve *shoots = &stand->growth.shoots;
-    struct ceduo_grown_stand grown;
-    stand->growth = paper_growth;
-    stand->growth.sdi_most = 0;
-    stand->cutting = (struct ceduo_cutting){.rotation = 25};
-    double *const numbers[] = {&shoots->dbh_most, &shoots->dbh_rate, &shoots->height_most, &shoots->height_rate};
-    stand->shoots[0].age = 10;
-    for (size_t i = 0; i <= 4; i++) {
-        double was = i < 4 ? *numbers[i] : 0;
-        if (i < 4)
-            *numbers[i] = 0;
-        assert_int_equal(ceduo_stand_at(stand, NAN, 5, &grown), CEDUO_OK);
-        bool grows = grown.stand.shoots[0].dbh > stand->shoots[0].dbh;
-        assert_int_equal(grows, i == 4);
-        assert_int_equal(ceduo_first_cut(stand, 3) != CEDUO_NEVER, i == 4);
-        ceduo_grown_stand_release(&grown);
-        if (i < 4)
-            *numbers[i] = was;
-    }
-    stand->growth.shoots_old = 0;
-    assert_int_equal(ceduo_first_cut(stand, 3), CEDUO_NEVER);
-    stand->shoots_count = 0; /* trees alone: cut when they are old enough, if that is known */
-    stand->stools_per_ha = 0;
-    stand->growth = (struct ceduo_growth){.sdi_most = 0};
-    EXPECT(stand->trees_count, ==, 1);
-    stand->trees[0].age = NAN;
-    assert_int_equal(ceduo_first_cut(stand, NAN), CEDUO_NEVER);
-    stand->trees[0].age = 10;
-    assert_int_equal(ceduo_first_cut(stand, NAN), 15);
-    stand->cutting.rotation = 0;
-    assert_int_equal(ceduo_first_cut(stand, 3), CEDUO_NEVER);
 }
 
 /* ---- the index ---- */

@@ -127,42 +127,6 @@ TEST(any_struct_is_refused_or_computed)
     EXPECT(computed, <, asked * 9 / 10);
 }
 
-/* Of stands and belts, one by one. */
-TEST(stands_and_belts_are_refused)
-{
-    open_site();
-    struct ceduo_belt *b = site.belts;
-    const struct {
-        double *number, value;
-        enum ceduo_status wanted;
-    } rows[] = {{&shoots[0].dbh, -.06, CEDUO_BAD_STAND},
-                {&shoots[0].dbh, NAN, CEDUO_BAD_STAND},
-                {&shoots[0].per_ha, -1, CEDUO_BAD_STAND},
-                {&shoots[0].per_ha, NAN, CEDUO_BAD_STAND},
-                {&shoots[0].height, 0, CEDUO_BAD_STAND},
-                {&trees[1].per_ha, 1e300, CEDUO_BAD_STAND},
-                {&b[0].stand.spacing, -1, CEDUO_BAD_STAND},
-                {&b[1].stand.stools_per_ha, NAN, CEDUO_BAD_STAND},
-                {&b[0].from, 100, CEDUO_BAD_BELT},
-                {&b[1].from, 20, CEDUO_BAD_BELT},
-                {&b[1].to, 1e4, CEDUO_BAD_BELT},
-                {&b[0].to, NAN, CEDUO_BAD_BELT},
-                {&site.scene.simulation.gravity, 0, CEDUO_BAD_NUMBER},
-                {&site.scene.simulation.threshold, NAN, CEDUO_BAD_NUMBER}};
-    for (size_t i = 0; i < LENGTH(rows); i++) {
-        double was = *rows[i].number;
-        *rows[i].number = rows[i].value;
-        EXPECT(ceduo_scene_check(&site.scene, NULL), ==, rows[i].wanted);
-        *rows[i].number = was;
-        EXPECT(ceduo_scene_check(&site.scene, NULL), ==, CEDUO_OK);
-    }
-    b[0].stand.species = 999;
-    EXPECT(ceduo_scene_check(&site.scene, NULL), ==, CEDUO_BAD_STAND);
-    b[0].stand.species = -1;
-    b[0].stand.energy = (enum ceduo_energy_model)9;
-    EXPECT(ceduo_scene_check(&site.scene, NULL), ==, CEDUO_BAD_STAND);
-}
-
 /* A list that is said to be there and is not. */
 TEST(missing_lists_are_refused)
 {
