@@ -1,7 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "runs.h"
 
+#include <math.h>
+#include <stdlib.h>
+
 #include "expect.h"
+#include "local.h"
 
 struct ceduo_run *run_of(const struct ceduo_run_def *def, uint64_t rocks)
 {
@@ -35,4 +39,109 @@ struct ceduo_ends ends_of(const struct ceduo_run *run)
     struct ceduo_ends ends;
     assert_int_equal(ceduo_run_ends(run, &ends), CEDUO_OK);
     return ends;
+}
+
+void expect_same_run(const struct ceduo_run *a, const struct ceduo_run *b, size_t cells)
+{
+    struct ceduo_arrivals x = arrivals_of(a, 0), y = arrivals_of(b, 0);
+    assert_memory_equal(&x, &y, offsetof(struct ceduo_arrivals, exact)); /* behind it is padding */
+    EXPECT(x.exact, ==, y.exact);
+    struct ceduo_ends p = ends_of(a), q = ends_of(b);
+    assert_memory_equal(&p, &q, sizeof p);
+    struct ceduo_stem_counts s = ceduo_run_stems(a), t = ceduo_run_stems(b);
+    assert_memory_equal(&s, &t, sizeof s);
+    assert_int_equal(ceduo_run_contacts(a), ceduo_run_contacts(b));
+    for (size_t i = 0; i < cells; i++) {
+        struct ceduo_envelope e, f;
+        ceduo_run_envelope(a, i, &e);
+        ceduo_run_envelope(b, i, &f);
+        assert_memory_equal(&e, &f, sizeof e);
+    }
+}
+
+void expect_same_however(struct ceduo_run_def def, uint64_t rocks)
+{
+    static const unsigned threads[] = {2, 5, 16};
+    const uint64_t to[] = {999, 1024, rocks / 4, rocks / 4, 3 * rocks / 5, rocks};
+    def.rocks_most = rocks;
+    def.threads = 1;
+    LOCAL(ceduo_run, one) = run_of(&def, rocks);
+    for (size_t t = 0; t < LENGTH(threads); t++) {
+        def.threads = threads[t];
+        LOCAL(ceduo_run, many) = run_of(&def, rocks);
+        expect_same_run(one, many, def.cells);
+    }
+    def.threads = 3;
+    LOCAL(ceduo_run, steps) = run_of(&def, 100);
+    for (size_t i = 0; i < LENGTH(to); i++)
+        assert_int_equal(ceduo_run_extend(steps, to[i]), CEDUO_OK);
+    expect_same_run(one, steps, def.cells);
+    const struct ceduo_difference d = ceduo_run_difference(steps, one, 0);
+    EXPECT(d.energy_per_released.mean, ==, 0);
+    assert_false(d.energy_per_released.se > 0); /* NaN where no pair differs */
+}
+
+/* Hits on a way, all and before control 0. */
+struct hits {
+    double control;
+    uint64_t all, before;
+};
+
+static void count_hit(void *context, const struct ceduo_stem_passed *stem)
+{
+    struct hits *hits = context;
+    hits->all += stem->hit;
+    hits->before += stem->hit && stem->x < hits->control;
+}
+
+struct followed expect_as_followed(struct ceduo_run_def def, uint64_t rocks)
+{
+    def.rocks_most = rocks;
+    LOCAL(ceduo_run, run) = run_of(&def, rocks);
+    LOCAL(ceduo_follower, f) = ceduo_follower_create(def.scene, def.option);
+    LOCAL_BYTES double *energies = calloc(3 * rocks, sizeof *energies);
+    double *speeds = energies + rocks, *heights = speeds + rocks;
+    struct ceduo_arrivals a = arrivals_of(run, 0);
+    struct ceduo_stem_counts sum = {0}, counts = ceduo_run_stems(run);
+    struct ceduo_moments contacts = {0};
+    struct followed found = {0};
+    uint64_t all = 0;
+    assert_non_null(energies);
+    assert_true(ceduo_run_values(run, 0, CEDUO_SAMPLE_ENERGY, energies) &&
+                ceduo_run_values(run, 0, CEDUO_SAMPLE_SPEED, speeds) && ceduo_run_values(run, 0, CEDUO_SAMPLE_HEIGHT, heights));
+    for (uint64_t rock = 0; rock < rocks; rock++) {
+        struct ceduo_trajectory w;
+        struct ceduo_crossing c;
+        struct hits hits = {.control = def.scene->controls[0].x};
+        enum ceduo_status status =
+            ceduo_follower_follow(f, rock, &(struct ceduo_watch){.stem = count_hit, .context = &hits}, &w, &c);
+        assert_true(status == CEDUO_OK || status == CEDUO_BAD_ROCK);
+        found.bad += status == CEDUO_BAD_ROCK;
+        if (status != CEDUO_OK)
+            continue;
+        assert_int_equal(w.stems_hit, hits.all);
+        all += w.contacts;
+        sum.drawn += w.stems_drawn;
+        sum.hit += w.stems_hit;
+        sum.met += w.stools_met;
+        EXPECT(isnan(energies[rock]), ==, !c.reached);
+        if (!c.reached)
+            continue;
+        double speed = sqrt(c.vx * c.vx + c.vz * c.vz);
+        EXPECT(energies[rock], ==, .5 * w.rock.mass * (speed * speed) + .5 * w.rock.moment * (c.spin * c.spin));
+        EXPECT(speeds[rock], ==, speed);
+        EXPECT(heights[rock], ==, c.height);
+        assert_int_equal(c.stems_hit, hits.before);
+        ceduo_moments_add(&contacts, (double)c.stems_hit);
+        found.reached++;
+    }
+    assert_int_equal(ceduo_run_contacts(run), all);
+    EXPECT_SAME(sum, counts, drawn, hit, met);
+    EXPECT_IS(a, (reached, found.reached), (unfinished, found.bad));
+    assert_int_equal(ends_of(run).count[CEDUO_UNFINISHED], found.bad);
+    if (def.option) {
+        EXPECT_NEAR(a.contacts, contacts.mean, 1e-12 * contacts.mean);
+        EXPECT_NEAR(a.contacts_se, ceduo_moments_se(&contacts), 1e-9 * a.contacts_se);
+    }
+    return found;
 }

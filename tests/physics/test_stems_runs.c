@@ -162,95 +162,24 @@ TEST(differences_without_all_samples_are_the_same)
     EXPECT_NEAR(d[2].energy_per_released.se / d[0].energy_per_released.se, 1, .1);
 }
 
-static void expect_same_bits(const struct ceduo_run *a, const struct ceduo_run *b)
-{
-    struct ceduo_arrivals x = arrivals_of(a, 0);
-    struct ceduo_arrivals y = arrivals_of(b, 0);
-    assert_memory_equal(&x, &y, offsetof(struct ceduo_arrivals, exact)); /* behind it is padding */
-    struct ceduo_ends p = ends_of(a);
-    struct ceduo_ends q = ends_of(b);
-    assert_memory_equal(&p, &q, sizeof p);
-    struct ceduo_stem_counts s = ceduo_run_stems(a), t = ceduo_run_stems(b);
-    assert_memory_equal(&s, &t, sizeof s);
-}
-
 TEST(the_same_bits_among_stems_with_any_number_of_threads_and_steps)
 {
-    const uint64_t rocks = 5000;
     static const size_t bytes[] = {CEDUO_EXACT_BYTES, 5000 * sizeof(double)};
-    static const unsigned threads[] = {2, 5};
-    static const uint64_t to[] = {999, 1024, 3000, 3000, 4096, 5000};
     open_sides();
+    struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
+    def.option = &sides.options[1];
     for (size_t e = 0; e < LENGTH(bytes); e++) {
-        LOCAL(ceduo_run, base) = run_option(&site.scene, &sides.options[0], rocks, 1, bytes[e]);
-        LOCAL(ceduo_run, one) = run_option(&site.scene, &sides.options[1], rocks, 1, bytes[e]);
-        struct ceduo_difference d = ceduo_run_difference(one, base, 0), f;
-        for (size_t t = 0; t < LENGTH(threads); t++) {
-            LOCAL(ceduo_run, many) = run_option(&site.scene, &sides.options[1], rocks, threads[t], bytes[e]);
-            expect_same_bits(one, many);
-            f = ceduo_run_difference(many, base, 0);
-            assert_memory_equal(&d, &f, sizeof d);
-        }
-        struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
-        def.option = &sides.options[1];
-        def.rocks_most = rocks;
-        def.threads = 5;
         def.exact_bytes = bytes[e];
-        LOCAL(ceduo_run, steps);
-        assert_int_equal(ceduo_run_create(&def, &steps), CEDUO_OK);
-        for (size_t i = 0; i < LENGTH(to); i++)
-            assert_int_equal(ceduo_run_extend(steps, to[i]), CEDUO_OK);
-        expect_same_bits(one, steps);
-        f = ceduo_run_difference(steps, base, 0);
-        assert_memory_equal(&d, &f, sizeof d);
-        f = ceduo_run_difference(one, one, 0);
-        EXPECT_IS(f.energy_per_released, (mean, 0), (se, 0));
+        expect_same_however(def, 5000);
     }
-}
-
-/* Hits on a way, all and before the control. */
-struct before {
-    uint64_t all, control;
-};
-
-static void count_before(void *context, const struct ceduo_stem_passed *stem)
-{
-    struct before *b = context;
-    b->all += stem->hit;
-    b->control += stem->hit && stem->x < site.control.x;
 }
 
 TEST(a_run_among_stems_flies_the_rocks_that_can_be_followed)
 {
-    const uint64_t rocks = 3000;
     open_sides();
-    struct ceduo_run *run = run_option(&site.scene, &sides.options[0], rocks, 2, CEDUO_EXACT_BYTES);
-    struct ceduo_follower *f = ceduo_follower_create(&site.scene, &sides.options[0]);
-    struct ceduo_moments energy = {0}, hits = {0};
-    struct ceduo_stem_counts sum = {0}, counts = ceduo_run_stems(run);
-    for (uint64_t rock = 0; rock < rocks; rock++) {
-        struct ceduo_trajectory w;
-        struct ceduo_crossing c;
-        struct before before = {0};
-        assert_int_equal(
-            ceduo_follower_follow(f, rock, &(struct ceduo_watch){.stem = count_before, .context = &before}, &w, &c), CEDUO_OK);
-        assert_int_equal(w.stems_hit, before.all);
-        assert_true(!c.reached || c.stems_hit == before.control);
-        sum.drawn += w.stems_drawn;
-        sum.hit += w.stems_hit;
-        sum.met += w.stools_met;
-        if (!c.reached)
-            continue;
-        ceduo_moments_add(&energy, (w.rock.mass * (c.vx * c.vx + c.vz * c.vz)) / 2);
-        ceduo_moments_add(&hits, (double)c.stems_hit);
-    }
-    ceduo_follower_free(f);
-    struct ceduo_arrivals a = arrivals_of(run, 0);
-    EXPECT_SAME(sum, counts, drawn, hit, met);
-    assert_int_equal(a.reached, energy.n);
-    ROWS(expect_exact, ("mean energy", a.energy.mean, energy.mean, 1e-12), ("mean contacts", a.contacts, hits.mean, 1e-12),
-         ("their error", a.contacts_se, ceduo_moments_se(&hits), 1e-9));
-    ceduo_run_free(run);
+    struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
+    def.option = &sides.options[0];
+    EXPECT(expect_as_followed(def, 3000).reached, >, 2000);
 }
 
 /* Of blocks of all sizes the same by their weights; the error of the mean is what a regression on the weights leaves (Cochran
@@ -408,37 +337,5 @@ TEST(options_with_the_same_stems_share_a_run)
     assert_int_equal(work.rocks, 3000);
     struct ceduo_run *run = ceduo_pool_find(pool, &options[0]);
     LOCAL(ceduo_run, alone) = run_option(&site.scene, &options[1], 1000, 1, CEDUO_EXACT_BYTES);
-    expect_same_bits(run, alone);
-}
-
-/* The key of the other option when its first plot has stems of many diameters and something of it is changed. */
-enum change { NOTHING, DBH, DBH_SD, HEIGHT, VOLUME, PER_HA, SPACING, STOOLS_PER_HA, WORK, TO, CHANGES };
-
-static uint64_t key_with(enum change change)
-{
-    open_sides();
-    struct paper_plot *p = &sides.plots[0];
-    struct ceduo_stand *stand = &sides.belts[0].stand;
-    p->shoots.dbh_sd = p->trees.dbh_sd = .02;
-    double *const changed[CHANGES] = {NULL,
-                                      &p->shoots.dbh,
-                                      &p->shoots.dbh_sd,
-                                      &p->shoots.height,
-                                      &p->trees.volume,
-                                      &p->trees.per_ha,
-                                      &stand->spacing,
-                                      &stand->stools_per_ha,
-                                      &stand->u,
-                                      &sides.belts[0].to};
-    if (changed[change])
-        *changed[change] *= .9;
-    return ceduo_option_key(&site.scene, &sides.options[1]);
-}
-
-TEST(whatever_decides_about_stems_makes_another_run)
-{
-    for (int i = 0; i < CHANGES; i++)
-        for (int j = 0; j < CHANGES; j++)
-            if ((key_with((enum change)i) == key_with((enum change)j)) != (i == j))
-                fail_msg("changes %d and %d", i, j);
+    expect_same_run(run, alone, 0);
 }

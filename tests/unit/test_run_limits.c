@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Runs and pools at their limits: parts, rocks that cannot be drawn or never end, keys that tell what rocks meet. */
+/* Runs and pools at their limits: parts, rocks that cannot be drawn or never end. */
 #include "expect.h"
 #include "local.h"
 
@@ -8,127 +8,26 @@
 
 #include "ceduo/ceduo.h"
 #include "physics/paper_site.h"
+#include "physics/runs.h"
 
 static struct paper_site site;
-
-/* ---- keys ---- */
-
-static uint64_t key_of(void)
-{
-    return ceduo_option_key(&site.scene, &site.option);
-}
-
-/* Whether a number matters to the rocks: it is changed, and put back. */
-static bool matters(double *number, double value)
-{
-    uint64_t before = key_of();
-    double was = *number;
-    *number = value;
-    bool other = key_of() != before;
-    *number = was;
-    EXPECT(key_of(), ==, before);
-    return other;
-}
-
-TEST(keys_tell_what_rocks_meet)
-{
-    paper_site_init(&site);
-    struct ceduo_stand *stand = &site.belts[0].stand;
-    struct ceduo_stems *shoots = &stand->shoots[0];
-    assert_true(matters(&shoots->dbh, .123));
-    assert_true(matters(&shoots->per_ha, 1234));
-    assert_true(matters(&shoots->dbh_sd, .01));
-    assert_true(matters(&stand->spacing, .123));
-    assert_true(matters(&site.belts[0].to, 50));
-    assert_true(matters(&shoots->volume, 1.5));
-    assert_true(matters(&stand->u, 12345));
-    assert_false(matters(&stand->fracture_ratio, 9) || matters(&shoots->age, 50));
-    stand->energy = CEDUO_DORREN;
-    assert_true(matters(&stand->fracture_ratio, 9));
-    assert_false(matters(&shoots->volume, 1.5) || matters(&stand->u, 12345));
-    stand->energy = CEDUO_BRAUNER;
-    size_t trees = stand->trees_count;
-    stand->trees_count = 0; /* half the volume and twice the work take the same */
-    stand->u = 1000;
-    shoots->volume = 2;
-    uint64_t key = key_of();
-    stand->u = 2000;
-    shoots->volume = 1;
-    EXPECT(key_of(), ==, key);
-    stand->trees_count = trees;
-    /* where diameters differ, a volume that is given goes with them, and one that is not is the species' */
-    shoots->dbh_sd = .01;
-    assert_true(matters(&shoots->volume, NAN));
-    int species = stand->species;
-    key = key_of();
-    stand->species = ceduo_species_find("acer");
-    EXPECT(key_of(), !=, key);
-    stand->species = species;
-    site.scene.simulation.contact_model = CEDUO_POISSON;
-    key = key_of();
-    site.scene.simulation.rule = CEDUO_CROFTON;
-    EXPECT(key_of(), !=, key);
-    site.scene.simulation.contact_model = CEDUO_INDEX;
-    EXPECT(key_of(), ==, 0);
-    site.scene.simulation.contact_model = CEDUO_STEMS;
-    for (size_t i = 0; i < 2; i++)
-        site.belts[i].stand.shoots_count = site.belts[i].stand.trees_count = 0;
-    EXPECT(key_of(), ==, 0); /* bare: as without forest */
-    site.belts[1].stand.shoots_count = 1;
-    key = key_of();
-    site.belts[0].to -= 1;
-    EXPECT(key, !=, 0);
-    EXPECT(key_of(), ==, key);
-}
-
-/* ---- runs ---- */
-
-static struct ceduo_run *run_of(const struct ceduo_run_def *def, uint64_t rocks)
-{
-    struct ceduo_run *run;
-    assert_int_equal(ceduo_run_create(def, &run), CEDUO_OK);
-    assert_int_equal(ceduo_run_extend(run, rocks), CEDUO_OK);
-    return run;
-}
 
 /* Rocks of which some are drawn too light to compute with: these, and only these, are unfinished, at each control. */
 TEST(rocks_that_cannot_be_drawn)
 {
-    static const double cells[] = {50};
     paper_site_init(&site);
-    site.scene.simulation.rocks = 300;
     site.scene.rock = ceduo_scene_default().rock;
     site.scene.rock.diameter.mean = .5;
     site.scene.rock.mass = (struct ceduo_number){.mean = 3e-322, .spread = 2.9e-322, .kind = CEDUO_UNIFORM};
     struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
-    def.cells = 1;
-    def.cell_x = cells;
-    LOCAL(ceduo_run, run) = run_of(&def, 300);
-    LOCAL(ceduo_follower, follower) = ceduo_follower_create(&site.scene, NULL);
-    uint64_t bad = 0, reached = 0;
-    for (uint64_t rock = 0; rock < 300; rock++) {
-        struct ceduo_trajectory way;
-        struct ceduo_crossing crossing;
-        enum ceduo_status status = ceduo_follower_follow(follower, rock, NULL, &way, &crossing);
-        assert_true(status == CEDUO_OK || status == CEDUO_BAD_ROCK);
-        bad += status == CEDUO_BAD_ROCK;
-        reached += status == CEDUO_OK && crossing.reached;
-    }
-    struct ceduo_ends e;
-    struct ceduo_arrivals a;
-    assert_int_equal(ceduo_run_ends(run, &e), CEDUO_OK);
-    assert_int_equal(ceduo_run_arrivals(run, 0, &a), CEDUO_OK);
-    EXPECT(bad, >, 50);
-    EXPECT(bad, <, 250);
-    assert_int_equal(e.count[CEDUO_UNFINISHED], bad);
-    assert_int_equal(a.unfinished, bad);
-    assert_int_equal(a.reached, reached);
+    struct followed found = expect_as_followed(def, 300);
+    EXPECT(found.bad, >, 50);
+    EXPECT(found.bad, <, 250);
 }
 
 /* One number of the release has a spread: a run flies its rocks as they are followed one by one. */
 TEST(each_spread_is_drawn)
 {
-    enum { ROCKS = 40 };
     for (int i = 0; i < 5; i++) {
         paper_site_init(&site);
         site.scene.simulation.law = CEDUO_LAW_CRSP;
@@ -137,25 +36,7 @@ TEST(each_spread_is_drawn)
         struct ceduo_number *const numbers[] = {&r->x, &r->height, &r->vx, &r->vz, &r->spin};
         numbers[i]->spread = .5;
         struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
-        struct ceduo_run *run = run_of(&def, ROCKS);
-        struct ceduo_follower *follower = ceduo_follower_create(&site.scene, NULL);
-        double energies[ROCKS];
-        size_t n = ceduo_run_energies(run, 0, energies, ROCKS), reached = 0;
-        for (uint64_t rock = 0; rock < ROCKS; rock++) {
-            struct ceduo_trajectory way;
-            struct ceduo_crossing c;
-            assert_int_equal(ceduo_follower_follow(follower, rock, NULL, &way, &c), CEDUO_OK);
-            if (!c.reached)
-                continue;
-            double speed = sqrt(c.vx * c.vx + c.vz * c.vz);
-            double energy = .5 * way.rock.mass * (speed * speed) + .5 * way.rock.moment * (c.spin * c.spin);
-            EXPECT(reached, <, n);
-            assert_true(energies[reached++] == energy);
-        }
-        EXPECT(reached, ==, n);
-        EXPECT(n, >, 5);
-        ceduo_follower_free(follower);
-        ceduo_run_free(run);
+        EXPECT(expect_as_followed(def, 40).reached, >, 5);
     }
 }
 
@@ -465,23 +346,6 @@ TEST(little_is_asked_of_a_run)
     assert_null(run);
     assert_int_equal(ceduo_pool_create(&def, &pool), CEDUO_BAD_SLOPE);
     assert_null(pool);
-}
-
-TEST(a_result_of_no_control)
-{
-    paper_site_init(&site);
-    site.scene.simulation.rocks = 20;
-    site.scene.options = &site.option;
-    site.scene.options_count = 1;
-    site.scene.controls_count = 0;
-    struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
-    LOCAL(ceduo_pool, pool);
-    LOCAL(ceduo_result, result);
-    assert_int_equal(ceduo_pool_create(&def, &pool), CEDUO_OK);
-    assert_int_equal(ceduo_pool_fill(pool), CEDUO_OK);
-    assert_int_equal(ceduo_pool_extend(pool, 20), CEDUO_OK);
-    assert_int_equal(ceduo_result_create(&site.scene, pool, &result), CEDUO_OK);
-    assert_int_equal(ceduo_result_rocks(result), 20);
 }
 
 /* Forests that the scene has no more: the runs asked for last stay, so many of them. */
