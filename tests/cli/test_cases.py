@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Scenes and what --check says of them: the cases are in cases/*.txt, whose head says how one is written."""
+"""Scenes and commands, and what is told of them: the cases are in cases/*.txt, whose head says how one is written."""
 import re
+import shlex
 import sys
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
-from harness import DONE, Folder, ceduo, expect, run_all  # noqa: E402
+from harness import DONE, INPUT, USAGE, Folder, ceduo, expect, run_all  # noqa: E402
 
 CASES = Path(__file__).resolve().parent / "cases"
 
@@ -23,16 +24,29 @@ def unescaped(line):
 
 def check(folder, case):
     """Why a case does not hold; None: it does."""
-    sets, said, lines = [], [], []
+    sets, said, shown, lines, files, command, status = [], [], [], [], {}, "--check @", None
     for line in case:
         word, _, rest = line.partition(": ")
-        {"set": sets, "says": said}.get(word, lines).append(rest if word in ("set", "says") else unescaped(line))
+        if word.startswith("file "):
+            files[word[5:]] = files.get(word[5:], "") + rest + "\n"
+            continue
+        if word in ("run", "exit"):
+            command, status = (rest, status) if word == "run" else (command, int(rest))
+            continue
+        kinds = {"set": sets, "says": said, "shows": shown}
+        kinds.get(word, lines).append(rest if word in kinds else unescaped(line))
     text = [line for line in PLAIN if not any(own.startswith(line.partition(":")[0]) for own in lines)] + lines
     path = folder.write("scene.yaml", "\n".join(text) + "\n")
-    done = ceduo("--check", path, *(word for s in sets for word in ("-s", s)))
-    told = [line for line in done.err.splitlines() if not line.startswith("  ") and "is valid without this change" not in line]
-    good = len(told) == len(said) and all(any(one in line for line in told) for one in said) and (done.status == DONE) != bool(said)
-    return None if good else "\n".join([*case, "is told:", *told])
+    for name, content in files.items():
+        folder.write(name, content)
+    done = ceduo(*(path if word == "@" else word for word in shlex.split(command)), *(word for s in sets for word in ("-s", s)))
+    told = [line for line in done.err.splitlines() if not line.startswith(("  ", "try 'ceduo"))
+            and "is valid without this change" not in line]
+    changed = bool(told) and all(line.startswith("--set:") for line in told)
+    wanted = status if status is not None else DONE if not said else USAGE if changed else INPUT
+    good = len(told) == len(said) and all(any(one in line for line in told) for one in said) and done.status == wanted
+    good = good and all(one in done.out for one in shown)
+    return None if good else "\n".join([*case, f"ends with {done.status} and is told:", *told, *(done.out.splitlines() if shown else ())])
 
 
 def groups():

@@ -2,17 +2,13 @@
 #include "local.h"
 #include "unit/site.h"
 
-#include <getopt.h>
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "cli/command_line.h"
-#include "cli/options.h"
 #include "view/cells.h"
 #include "view/plot.h"
 
 #define BRAILLE CEDUO_CHARSET_BRAILLE
-#define BLOCK   CEDUO_CHARSET_BLOCK
 #define ASCII   CEDUO_CHARSET_ASCII
 
 static struct site s;
@@ -704,18 +700,6 @@ TEST_WOODED(a_point_for_each_option)
     assert_true(shows(CEDUO_PLOT_TRADEOFF, 60, 16, "not computed yet"));
 }
 
-TEST(names_are_found)
-{
-    const char *names[] = {"profile", "energy", "height", "histogram", "adc", "rotation", "stand", "compare", "tradeoff"};
-    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
-        enum ceduo_plot plot = ceduo_plot_find(names[i]);
-        assert_int_not_equal(plot, CEDUO_PLOT_NONE);
-        assert_non_null(strstr(ceduo_plot_names, names[i]));
-    }
-    assert_int_equal(ceduo_plot_find("years"), CEDUO_PLOT_NONE);
-    assert_int_equal(ceduo_plot_find(""), CEDUO_PLOT_NONE);
-}
-
 TEST_BARE(titles_name_what_is_shown)
 {
     static const struct {
@@ -752,60 +736,4 @@ TEST_WOODED(pictures_name_what_is_not_known)
     s.wooded[0] = NULL;
     assert_true(shows(CEDUO_PLOT_ENERGY, 60, 12, "not computed yet"));
     assert_true(shows(CEDUO_PLOT_HISTOGRAM, 60, 12, "not computed yet"));
-}
-
-/* ---- the command line ---- */
-
-static enum exit_status read(struct arguments *a, int argc, char **argv)
-{
-    optind = 0;
-    return ceduo_arguments_read(a, argc, argv);
-}
-
-#define READ(a, ...) read(a, sizeof((char *[]){"ceduo", __VA_ARGS__}) / sizeof(char *), (char *[]){"ceduo", __VA_ARGS__, NULL})
-
-TEST(a_picture_is_asked_for)
-{
-    struct arguments a;
-    assert_int_equal(READ(&a, "--plot", "adc", "--size", "100x30", "--charset", "block", "x.yaml"), EXIT_DONE);
-    assert_int_equal(a.mode, MODE_BATCH);
-    assert_int_equal(a.plot, CEDUO_PLOT_ADC);
-    assert_int_equal(a.plot_width, 100);
-    assert_int_equal(a.plot_height, 30);
-    assert_true(ceduo_option_given(&a, "charset"));
-    assert_int_equal(a.charset, BLOCK);
-    ceduo_arguments_free(&a);
-    assert_int_equal(READ(&a, "--plot=profile", "x.yaml"), EXIT_DONE);
-    assert_false(ceduo_option_given(&a, "charset"));
-    assert_int_equal(a.plot_width, 0);
-    ceduo_arguments_free(&a);
-    assert_int_equal(READ(&a, "--check", "--plot=profile", "x.yaml"), EXIT_USAGE); /* a check draws nothing */
-    ceduo_arguments_free(&a);
-}
-
-/* How the reading of such words ends. */
-static enum exit_status status_of(int argc, char **argv)
-{
-    LOCAL_BY(ceduo_arguments_free) struct arguments a;
-    return read(&a, argc, argv);
-}
-
-#define STATUS(...) status_of(sizeof((char *[]){"ceduo", __VA_ARGS__}) / sizeof(char *), (char *[]){"ceduo", __VA_ARGS__, NULL})
-
-TEST(wrong_pictures_are_usage_errors)
-{
-    const char *sizes[] = {"",     "80",      "x24",    "80x",       "80x24x2", "19x24",
-                           "80x5", "1001x24", "80x501", "8e1000x24", "-80x24",  "80.5x24"};
-    for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; i++) {
-        char size[16];
-        snprintf(size, sizeof size, "%s", sizes[i]);
-        assert_int_equal(STATUS("--plot", "adc", "--size", size, "x.yaml"), EXIT_USAGE);
-    }
-    assert_int_equal(STATUS("--plot", "years", "x.yaml"), EXIT_USAGE);
-    assert_int_equal(STATUS("--plot", "adc", "--charset", "latin", "x.yaml"), EXIT_USAGE);
-    assert_int_equal(STATUS("--plot", "adc", "-f", "json", "x.yaml"), EXIT_USAGE);
-    assert_int_equal(STATUS("-f", "csv", "--plot", "adc", "x.yaml"), EXIT_USAGE);
-    assert_int_equal(STATUS("-f", "table", "--plot", "adc", "x.yaml"), EXIT_DONE);
-    assert_int_equal(STATUS("--plot", "adc"), EXIT_USAGE);
-    assert_int_equal(STATUS("--batch", "--size", "80x24", "x.yaml"), EXIT_USAGE);
 }

@@ -34,94 +34,6 @@ static char *scene_with(const char *line)
     return text.bytes;
 }
 
-/* A file where a stand should be; a base that is an option's; a slope of which there is nothing. */
-TEST_WITH(files_that_are_followed, folder_set_up_profiles, folder_tear_down)
-{
-    static const char rest[] = "ceduo: scene/1\nrock: {diameter_m: 0.5}\ncontrols: [{x_m: 90}]\n";
-    static const char slope[] = "slope: {vertices_m: [[0, 50], [100, 0]], segments: [{rn: 0.3, rt: 0.8}]}\n";
-    static const char *const with_base[] = {"forest[0].stand={base: stand.yaml, stools: {per_ha: 1234}}"};
-    const struct {
-        const char *line, *told;
-        const char *const *set;
-    } rows[] = {
-        {"forest: [{from_m: 10, to_m: 80, stand: five.yaml}]", "expected a mapping, not a single value", NULL},
-        {"forest: [{from_m: 10, to_m: 80, stand: list.yaml}]", "expected a mapping, not a list", NULL},
-        {"forest: [{from_m: 10, to_m: 80, stand: {base: five.yaml, name: x}}]", "expected a mapping, not a single value", NULL},
-        {"forest: [{from_m: 10, to_m: 80, stand: {}}]", NULL, with_base}};
-    put("five.yaml", "5\n");
-    put("list.yaml", "- 5\n");
-    put("stand.yaml",
-        "ceduo: stand/1\nstools: {per_ha: 2000, spacing_m: 0.4}\nshoots: [{per_ha: 6000, dbh_m: 0.06, height_m: 6}]\n");
-    for (size_t i = 0; i < LENGTH(rows); i++) {
-        LOCAL_BY(ceduo_scene_release) struct scene_file file;
-        LOCAL_BY(ceduo_problems_free) struct problems problems = {0};
-        LOCAL_TEXT(text);
-        char path[256];
-        ceduo_text_format(&text, "%s%s%s\n", rest, slope, rows[i].line);
-        put("scene.yaml", text.bytes);
-        in_folder(path, "scene.yaml");
-        bool good = ceduo_scene_load(&file, path, rows[i].set, rows[i].set != NULL, &problems);
-        if (good != !rows[i].told || (!good && !strstr(problems.text.bytes, rows[i].told)))
-            fail_msg("%s: %s", rows[i].line, problems.text.bytes);
-        if (good) {
-            const struct ceduo_stand *s = &file.scene.options[0].belts[0].stand;
-            EXPECT(s->stools_per_ha, ==, 1234);
-            EXPECT(s->spacing, ==, 0.4);
-            EXPECT(s->shoots_count, ==, 1);
-            EXPECT(s->shoots[0].per_ha, ==, 6000);
-        }
-    }
-    char path[256];
-    struct scene_file file;
-    struct problems problems = {0};
-    const char *const facets[] = {"slope.facets=both"};
-    put("scene.yaml", rest);
-    in_folder(path, "scene.yaml");
-    assert_false(ceduo_scene_load(&file, path, facets, 1, &problems));
-    assert_non_null(strstr(problems.text.bytes, "'vertices_m' is missing: the profile"));
-    ceduo_problems_free(&problems);
-    ceduo_scene_release(&file);
-}
-
-/* A change takes its value out of the source around it: where that is no such thing as should be there, it stays and is
- * told. A key that a change makes has no place in the file. */
-TEST(sources_of_changes)
-{
-    const struct {
-        const char *source, *set, *told;
-    } rows[] = {{"{kind: measured, except: [volume_m3]}", "rock.diameter_m=0.6", NULL},
-                {"{kind: measured, except: {a: b}}", "rock.diameter_m=0.6", "source.except: expected a list of keys"},
-                {"by hand", "rock.diameter_m=0.6", "source: expected a mapping {kind, text}"},
-                {"{kind: measured, except: volume_m3}", "rock.diameter_m=0.6", "source.except: expected a list of keys"},
-                {"{kind: measured, except: [[volume_m3]]}", "rock.diameter_m=0.6", "source.except: expected a key, not a list"},
-                {"{kind: measured}", "rock.source.wide=1",
-                 "--set:1:18: rock.source.wide: unknown key; known here: kind, text, text_it, except"}};
-    for (size_t i = 0; i < LENGTH(rows); i++) {
-        LOCAL_BY(ceduo_scene_release) struct scene_file file;
-        struct problems problems = {0};
-        LOCAL_BY(ceduo_text_free) struct text line = {0}, rock = {0};
-        ceduo_text_format(&line, "rock: {diameter_m: 0.5, density_kg_m3: 2600, source: %s}", rows[i].source);
-        LOCAL_BYTES char *text = scene_with(line.bytes);
-        bool good = ceduo_scene_load_text(&file, "scene", text, &problems);
-        ceduo_problems_free(&problems);
-        assert_int_equal(good, i == 0 || i == 5);
-        const struct node *before = ceduo_node_get(ceduo_node_get(file.root, "rock"), "source");
-        assert_true(ceduo_scene_set(&file, "--set", rows[i].set, &problems));
-        const struct node *now = ceduo_node_get(ceduo_node_get(file.root, "rock"), "source");
-        assert_int_equal(now == before, i > 0 && i < 4); /* a list is added to, whatever is in it */
-        assert_int_equal(ceduo_scene_bind(&file, &problems), !rows[i].told);
-        if (rows[i].told && !strstr(problems.text.bytes, rows[i].told))
-            fail_msg("%s: %s", rows[i].set, problems.text.bytes);
-        if (!rows[i].told) {
-            ceduo_emit_flow(&rock, ceduo_node_get(file.root, "rock"));
-            assert_string_equal(rock.bytes,
-                                "{diameter_m: 0.6, density_kg_m3: 2600, source: {kind: measured, except: [volume_m3, "
-                                "diameter_m]}}");
-        }
-        ceduo_problems_free(&problems);
-    }
-}
-
 /* A shape that a change sets does not go with the sizes of the file: what is proposed instead does. */
 TEST(shapes_of_changes)
 {
@@ -146,37 +58,6 @@ TEST(shapes_of_changes)
         struct problems none = {0};
         if (!ceduo_scene_set(&file, "--set", proposed, &none) || !ceduo_scene_bind(&file, &none))
             fail_msg("%s: %s: %s", rows[i].rock, proposed, none.text.bytes);
-    }
-}
-
-/* Grounds that end where a vertex is, or behind the profile, split no segment; one that ends within does. */
-TEST(grounds_split_segments)
-{
-    const struct {
-        const char *materials;
-        size_t vertices;
-    } rows[] = {{"{from_m: 0, to_m: 100, material: cliff}", 3},
-                {"{from_m: 0, to_m: 40, material: cliff}, {from_m: 40, to_m: 100, material: talus}", 3},
-                {"{from_m: 0, to_m: 50, material: cliff}, {from_m: 50, to_m: 100, material: talus}", 4},
-                {"{from_m: 0, to_m: 100, material: cliff}, {from_m: 100, to_m: 120, material: talus}", 3},
-                {"{from_m: 0, to_m: 10, material: cliff}, {from_m: 10, to_m: 30, material: talus}, {from_m: 30, to_m: 120, "
-                 "material: colluvium}",
-                 5}};
-    for (size_t i = 0; i < LENGTH(rows); i++) {
-        LOCAL_BY(ceduo_scene_release) struct scene_file file;
-        LOCAL_BY(ceduo_problems_free) struct problems problems = {0};
-        LOCAL_TEXT(line);
-        ceduo_text_format(&line, "slope: {vertices_m: [[0, 50], [40, 20], [100, 0]], materials: [%s]}", rows[i].materials);
-        LOCAL_BYTES char *text = scene_with(line.bytes);
-        assert_true(ceduo_scene_load_text(&file, "scene", text, &problems));
-        const struct ceduo_slope *s = &file.scene.slope;
-        assert_int_equal(s->vertices, rows[i].vertices);
-        for (size_t v = 0; v < s->vertices; v++) {
-            double x = s->x[v], z = x < 40 ? 50 - x * 30 / 40 : 20 - (x - 40) * 20 / 60;
-            EXPECT(fabs(s->z[v] + s->origin_z - z), <, 1e-12);
-        }
-        assert_true(ceduo_scene_assumes_value(&file, "slope.materials[0].material"));
-        assert_false(ceduo_scene_assumes_value(&file, "slope.vertices_m[0]"));
     }
 }
 

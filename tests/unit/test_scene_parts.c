@@ -204,20 +204,6 @@ TEST_WITH(draws_of_an_assumed_ground, folder_set_up, folder_tear_down)
     assert_int_equal(file.inputs[0].places_count, 1);
     assert_string_equal(file.inputs[0].places[0], "slope.segments[1].rn");
     ceduo_scene_release(&file);
-    const char *const heads[] = {"slope.materials[cliff].rn", "forest[5].to_m", "options[*].forest[*].to_m", "simulation.law"};
-    for (size_t i = 0; i < LENGTH(heads); i++) {
-        char told[128];
-        snprintf(told, sizeof told, "the table has a column '%s', which is no value of this scene", heads[i]);
-        put("draws.csv", heads[i]);
-        read_scene(&file, lines, NULL, 0, told);
-        ceduo_scene_release(&file);
-    }
-    put("draws.csv", "rock.density_kg_m3\n");
-    read_scene(&file, lines, NULL, 0, "the table has no row");
-    ceduo_scene_release(&file);
-    put("draws.csv", "rock.density_kg_m3,release.vx_m_s,release.vz_m_s\n1,2,3\n2500\n");
-    read_scene(&file, lines, NULL, 0, "draws.csv:3:1: too few columns");
-    ceduo_scene_release(&file);
 }
 
 /* A table of very many columns: all are taken. */
