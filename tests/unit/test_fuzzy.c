@@ -1,37 +1,20 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What is typed into a list finds: its letters in their order, words by their beginnings first. */
-#include "expect.h"
-
-#include <string.h>
+#include "table.h"
 
 #include "base/text.h"
 #include "tui/picker.h"
 
 TEST(letters_stand_in_their_order)
 {
-    static const struct {
-        const char *typed, *text;
-        bool matches;
-    } cases[] = {{"", "anything", true},        {"sc", "simple-coppice", true}, {"cs", "simple-coppice", false},
-                 {"SIMPLE", "simple", true},    {"simples", "simple", false},   {"x", "", false},
-                 {"hop", "hop hornbeam", true}, {"ss", "simple", false},        {"h\xc3\xb6", "H\xc3\xb6he", true}};
-    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++)
-        if ((ceduo_fuzzy_match(cases[i].typed, cases[i].text) >= 0) != cases[i].matches)
-            fail_msg("'%s' in '%s'", cases[i].typed, cases[i].text);
+    for (TABLE(row, "unit/words.txt", "letters in their order"))
+        assert_string_equal(ceduo_fuzzy_match(row.at[0], row.at[1]) >= 0 ? "matches" : "not", row.at[2]);
 }
 
 TEST(beginnings_and_runs_are_better)
 {
-    static const char *const cases[][3] = {/* typed, better, worse */
-                                           {"sc", "simple-coppice", "basic"},
-                                           {"cop", "coppice-with-standards", "c-o-p"},
-                                           {"cop", "coppice-with-standards", "simple-coppice"},
-                                           {"large", "large-reserves", "beech-large-reserves"},
-                                           {"bs", "beech-simple-coppice", "basic"},
-                                           {"tal", "talus", "thin colluvium, all"}};
-    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++)
-        if (!(ceduo_fuzzy_match(cases[i][0], cases[i][1]) > ceduo_fuzzy_match(cases[i][0], cases[i][2])))
-            fail_msg("'%s': '%s' is no better than '%s'", cases[i][0], cases[i][1], cases[i][2]);
+    for (TABLE(row, "unit/words.txt", "better and worse"))
+        EXPECT(ceduo_fuzzy_match(row.at[0], row.at[1]), >, ceduo_fuzzy_match(row.at[0], row.at[2]));
 }
 
 TEST(the_best_stands_first)

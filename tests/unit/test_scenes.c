@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What a scene is made of: stands that start from others, grounds of the library, sources of values. */
-#include "expect.h"
 #include "local.h"
+#include "table.h"
 
 #include "folder.h"
 
@@ -76,23 +76,6 @@ TEST_WITH(bases_go_eight_files_deep, folder_set_up, folder_tear_down)
                 if (strstr(told, place) != told)
                     fail_msg("%s", told);
             }
-        }
-}
-
-TEST_WITH(bases_in_a_circle_are_refused, folder_set_up, folder_tear_down)
-{
-    for (int n = 1; n <= 9; n++)
-        for (int i = 0; i < 2; i++) {
-            LOCAL_BY(ceduo_scene_release) struct scene_file file;
-            char told[4096];
-            write_chain(n);
-            char last[16];
-            snprintf(last, sizeof last, "%d.yaml", n);
-            write_file(last, "ceduo: stand/1\nbase: 0.yaml\n");
-            write_file("scene.yaml", REST "forest: [{from_m: 10, to_m: 80, stand: %s}]\n", i ? "{base: 0.yaml}" : "0.yaml");
-            assert_false(read_scene(&file, told));
-            assert_non_null(strstr(told, ":2:7: base: more than 8 files in a chain of 'base'; do they form a loop?\n"));
-            assert_null(strstr(strstr(told, "a loop?") + 1, "a loop?"));
         }
 }
 
@@ -192,39 +175,6 @@ TEST_WITH(grounds_meet_anywhere, folder_set_up, folder_tear_down)
         }
 }
 
-/* Gaps, overlaps and ends are told by the coordinates of the file. */
-TEST_WITH(grounds_that_do_not_meet_are_told, folder_set_up, folder_tear_down)
-{
-    const struct {
-        double from[2], to[2];
-        const char *told; /* NULL: good */
-    } rows[] = {
-        {{480000.5, 480050}, {480050, 480100.5}, NULL},
-        {{480000.50000000006, 480050},
-         {480050, 480100.5},
-         "from_m: 480000.50000000006 leaves a gap or overlaps; it must begin at 480000.5"},
-        {{480000.5, 480050.00000000006},
-         {480050, 480100.5},
-         "from_m: 480050.00000000006 leaves a gap or overlaps; it must begin at 480050"},
-        {{480000.5, 480049.99999999994},
-         {480050, 480100.5},
-         "from_m: 480049.99999999994 leaves a gap or overlaps; it must begin at 480050"},
-        {{480000.5, 480050}, {480050, 480100.49999999994}, "to_m: 480100.49999999994 ends before the profile, at 480100.5"},
-        {{480000.5, 480050}, {480050, 480050}, "to_m: 480050 does not lie beyond from_m, 480050"}};
-    for (size_t i = 0; i < LENGTH(rows); i++) {
-        LOCAL_BY(ceduo_scene_release) struct scene_file file;
-        char told[4096];
-        write_file("scene.yaml",
-                   "ceduo: scene/1\nrock: {diameter_m: 0.5}\ncontrols: [{x_m: 480090}]\n"
-                   "slope: {vertices_m: [[480000.5, 64], [480100.5, 0]], materials: [{from_m: %.17g, to_m: %.17g, "
-                   "material: talus}, {from_m: %.17g, to_m: %.17g, material: cliff}]}\n",
-                   rows[i].from[0], rows[i].to[0], rows[i].from[1], rows[i].to[1]);
-        assert_int_equal(read_scene(&file, told), !rows[i].told);
-        if (rows[i].told && !strstr(told, rows[i].told))
-            fail_msg("%s", told);
-    }
-}
-
 /* ---- sources ---- */
 
 #define A "source: {kind: assumed, text: a}"
@@ -270,82 +220,23 @@ TEST_WITH(changed_values_leave_their_source, folder_set_up, folder_tear_down)
                                           {"forest[0].stand.trees[0]", NULL},
                                           {"forest[0].stand.trees[1]", "a"},
                                           {"forest[1].stand", "a"}};
-    const struct {
-        const char *sets[2], *map, *source; /* which source is another then */
-    } rows[] = {
-        {{"controls[0].accepted_kJ=60"}, "controls[0]", "{kind: assumed, text: a, except: [accepted_kJ]}"},
-        {{"controls[0].accepted_kJ=60", "controls[0].accepted_kJ=70"},
-         "controls[0]",
-         "{kind: assumed, text: a, except: [accepted_kJ]}"},
-        {{"controls[0].accepted_kJ=60", "controls[0].x_m=85"},
-         "controls[0]",
-         "{kind: assumed, text: a, except: [accepted_kJ, x_m]}"},
-        {{"controls[0].measured_speed_m_s=9"},
-         "controls[0]",
-         "{kind: assumed, text: a, except: [measured_speed_m_s]}"}, /* a new one */
-        {{"controls[1].x_m=85"}, "", "{kind: measured, text: m, except: [controls]}"},
-        {{"controls[1].x_m=85", "controls[1].x_m=86"}, "", "{kind: measured, text: m, except: [controls]}"},
-        /* beside and under a source */
-        {{"rock.density_kg_m3=2700"}, "rock", "{kind: measured, text: m, except: [density_kg_m3]}"},
-        {{"rock.diameter_m.mean=0.6"}, "rock.diameter_m", "{kind: assumed, text: a, except: [mean]}"},
-        {{"rock.diameter_m.kind=uniform"}, "rock.diameter_m", "{kind: assumed, text: a, except: [kind]}"},
-        {{"release.vx_m_s.spread=0.1"}, "release", "{kind: assumed, text: a, except: [vx_m_s.spread]}"},
-        {{"release.vx_m_s=2", "release.vx_m_s.spread=0.1"},
-         "release",
-         "{kind: assumed, text: a, except: [vx_m_s, vx_m_s.spread]}"},
-        /* of a file, and of what starts from it */
-        {{"forest[0].stand.stools.per_ha=1000"}, "forest[0].stand", "{kind: measured, text: m, except: [stools.per_ha]}"},
-        {{"forest[0].stand.stools={per_ha: 1000, spacing_m: 0.4}"},
-         "forest[0].stand",
-         "{kind: measured, text: m, except: [stools]}"},
-        {{"forest[0].stand.species=acer"}, "forest[0].stand", "{kind: measured, text: m, except: [species]}"},
-        {{"forest[0].stand.trees[0].per_ha=50"}, "forest[0].stand", "{kind: measured, text: m, except: [trees]}"},
-        {{"forest[0].stand.trees[1].per_ha=5"}, "forest[0].stand.trees[1]", "{kind: assumed, text: a, except: [per_ha]}"},
-        {{"forest[1].stand.stools.per_ha=1000"}, "forest[1].stand", "{kind: assumed, text: a, except: [stools.per_ha]}"},
-        {{"forest[0].to_m=35"}, "", "{kind: measured, text: m, except: [forest]}"},
-        {{"slope.segments[0].rn=0.35"}, "", "{kind: measured, text: m, except: [slope.segments]}"},
-        /* the source itself is said anew, whole or in part */
-        {{"controls[0].source.text=b"}, "controls[0]", "{kind: assumed, text: b}"},
-        {{"controls[0].source.kind=measured"}, "controls[0]", "{kind: measured, text: a}"},
-        {{"controls[0].source={kind: measured}"}, "controls[0]", "{kind: measured}"},
-        {{"rock.diameter_m.source.text=b"}, "rock.diameter_m", "{kind: assumed, text: b}"},
-        {{"controls[0].accepted_kJ=60", "controls[0].source.text=b"},
-         "controls[0]",
-         "{kind: assumed, text: b, except: [accepted_kJ]}"},
-        {{"controls[0].accepted_kJ=60", "controls[0].source={kind: measured, text: b}"},
-         "controls[0]",
-         "{kind: measured, text: b}"},
-        {{"controls[0].source={kind: measured, text: b}", "controls[0].accepted_kJ=60"},
-         "controls[0]",
-         "{kind: measured, text: b, except: [accepted_kJ]}"},
-        {{"controls[0].source.except=[x_m]", "controls[0].accepted_kJ=60"},
-         "controls[0]",
-         "{kind: assumed, text: a, except: [x_m, accepted_kJ]}"},
-        {{"controls[1].source.kind=measured"}, "controls[1]", "{kind: measured}"},
-        /* nothing that a source is of */
-        {{"controls[0].accepted_kJ=50"}, NULL, NULL},
-        {{"controls[0].name=road"}, NULL, NULL},
-        {{"title=other"}, NULL, NULL},
-        {{"simulation.seed=7"}, NULL, NULL},
-        {{"simulation={seed: 7}"}, NULL, NULL},
-        {{"forest[0].stand.name=other"}, NULL, NULL},
-        {{"forest[0].stand.stools.per_ha=2000"}, NULL, NULL}};
     write_file("stand.yaml", "%s", stand);
     write_file("scene.yaml", "%s", sourced);
-    for (size_t i = 0; i < LENGTH(rows); i++) {
+    for (TABLE(row, "unit/sources.txt", "sources")) {
         LOCAL_BY(ceduo_scene_release) struct scene_file file;
         LOCAL_BY(ceduo_problems_free) struct problems problems = {0};
-        char told[4096], plain[64];
+        char told[4096], plain[64], sets[256], *change, *rest = sets;
         if (!read_scene(&file, told))
             fail_msg("%s", told);
-        for (size_t k = 0; k < 2 && rows[i].sets[k]; k++)
-            assert_true(ceduo_scene_set(&file, "--set", rows[i].sets[k], &problems));
+        snprintf(sets, sizeof sets, "%s", row.at[0]);
+        while ((change = strsep(&rest, ";")))
+            assert_true(ceduo_scene_set(&file, "--set", change + strspn(change, " "), &problems));
         for (size_t k = 0; k < LENGTH(maps); k++) {
-            const char *map = maps[k][0], *text = maps[k][1];
-            bool here = rows[i].map && strcmp(rows[i].map, map) == 0;
+            const char *text = maps[k][1];
             snprintf(plain, sizeof plain, "{kind: %s, text: %s}", text && *text == 'm' ? "measured" : "assumed",
                      text ? text : "");
-            expect_source(&file, map, here ? rows[i].source : text ? plain : "", rows[i].sets[0]);
+            bool here = strcmp(row.at[1], maps[k][0]) == 0;
+            expect_source(&file, maps[k][0], here ? row.at[2] : text ? plain : "", row.at[0]);
         }
         if (!ceduo_scene_bind(&file, &problems))
             fail_msg("%s", problems.text.bytes);

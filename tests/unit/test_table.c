@@ -4,8 +4,6 @@
 #include "expect.h"
 #include "local.h"
 
-#include "folder.h"
-
 #include <malloc.h>
 #include <math.h>
 
@@ -210,43 +208,11 @@ TEST(paths_of_rows)
 
 /* ---- what a row decides about ---- */
 
-#define SLOPE    "vertices_m: [[100, 60], [130, 30], [160, 12], [200, 0]]"
-#define SEGMENTS ", segments: [{rn: 0.3, rt: 0.8, roughness_rad: 0.1}, {rn: 0.3, rt: 0.8}, {rn: 0.3, rt: 0.8}]"
-#define CURVE    "{dbh_most_m: 0.3, dbh_rate_1_y: 0.05, height_most_m: 15, height_rate_1_y: 0.06}"
-#define STAND                                                                                                                  \
-    "{name: wood, species: quercus-cerris, stools: {per_ha: 900, spacing_m: 0.4}, "                                            \
-    "shoots: [{per_ha: 2000, dbh_m: 0.1, height_m: 9, dbh_sd_m: 0.02, age_y: 12}], "                                           \
-    "trees: [{per_ha: 80, dbh_m: 0.3, height_m: 14, age_y: 40, groups: {stems: 5, radius_m: 4}}], "                            \
-    "stumps: {per_ha: 900, diameter_m: 0.2, height_m: 0.25, energy_kJ: 2}, "                                                   \
-    "logs: {per_ha: 40, length_m: 4, diameter_m: 0.25, energy_kJ: 10}, "                                                       \
-    "growth: {shoots: " CURVE ", trees: " CURVE ", shoots_young: 9, shoots_old: 3, sdi_most: 900, stump_years: 4}, "           \
-    "cutting: {rotation_years: 20, cohorts: 2, stay_per_ha: [60, 20]}"
-#define BELT "{from_m: 110, to_m: 190, cut_year: 3, stand: " STAND
-#define RULES                                                                                                                  \
-    "rules: {name: r, note: n, standards: [{species: [acer], system: bare, per_ha: 1, most_per_ha: 9, article: a, "            \
-    "year: 2000}], turns: [{species: [acer], system: bare, least_y: 1, most_y: 9, article: a, year: 2000}]}\n"
-#define REST     "\nrelease: {x_m: 101, height_m: 1}\nrocks_per_year: 3\nminimum: {reserves_per_ha: 50}\n" RULES
-#define CONTROLS "controls: [{x_m: 180, name: road, accepted_kJ: 80, measured_speed_m_s: 12}]\n"
-
 /* Together they give every key. */
-static const char *const scenes[] = {
-    "ceduo: scene/1\ntitle: one\nrock: {shape: cylinder, diameter_m: 0.5, height_m: 0.7}\nslope: {name: s, " SLOPE SEGMENTS
-    "}\n" CONTROLS "forest: [" BELT "}}]" REST,
-    "ceduo: scene/1\nrock: {diameter_m: 0.5}\nslope: {" SLOPE ", segments: [{rn: 0.3, rt: 0.8, roughness_m: 0.05}]}\n" CONTROLS
-    "options: [{name: a, forest: [" BELT ", energy: {model: dorren}}}]}, {name: b, forest: []}]" REST,
-    "ceduo: scene/1\nrock: {volume_m3: 0.2}\nslope: {" SLOPE
-    ", materials: [{from_m: 100, to_m: 150, material: cliff}, {from_m: 150, to_m: 300, material: talus}]}\n"
-    "controls_m: [170, 190]\nforest: [{from_m: 110, to_m: 190, stand: {base: "
-    "a.yaml}}]" REST,
-    "ceduo: scene/1\nrock: {mass_kg: 400}\nslope: {csv: a.csv}\n" CONTROLS REST,
-    "ceduo: scene/1\nrock: {shape: block, axes_m: [0.4, 0.5, 0.6]}\nslope: {" SLOPE SEGMENTS "}\n" CONTROLS "forest: [" BELT
-    ", energy: {model: dorren}}}]" REST,
-    "ceduo: scene/1\nrock: {diameter_m: 0.5}\nslope: {" SLOPE SEGMENTS "}\n" CONTROLS
-    "simulation: {contact_model: poisson}\nforest: [" BELT ", energy: {model: inertia}}}]" REST,
-    "ceduo: scene/1\nrock: {diameter_m: 0.5}\nslope: {" SLOPE SEGMENTS "}\n" CONTROLS
-    "blocks: [{per_year: 1, volume_m3: [0.1, 1], exponent: 1}, {per_year: 1, volume_m3: [1, 5]}]\n"
-    "design: {survey: good, blocks: poor}\n",
-};
+static const char *const scenes[] = {"tests/unit/every_key/cylinder.yaml", "tests/unit/every_key/options.yaml",
+                                     "tests/unit/every_key/grounds.yaml",  "tests/unit/every_key/profile.yaml",
+                                     "tests/unit/every_key/block.yaml",    "tests/unit/every_key/poisson.yaml",
+                                     "tests/unit/every_key/blocks.yaml"};
 
 /* What a scene decides about. */
 struct keys {
@@ -263,31 +229,22 @@ static struct keys keys_of(const struct ceduo_scene *scene)
     return k;
 }
 
-static void read_text(struct scene_file *file, const char *text)
+static void read_scene(struct scene_file *file, const char *path)
 {
-    char path[256];
     LOCAL_BY(ceduo_problems_free) struct problems problems = {0};
-    in_folder(path, "scene.yaml");
-    put("scene.yaml", text);
     if (!ceduo_scene_load(file, path, NULL, 0, &problems))
         fail_msg("%s", problems.text.bytes);
 }
 
 /* Whether the scene is good with a value, and its keys then. */
-static bool keys_with(const char *text, const char *path, const char *value, struct keys *k)
+static bool keys_with(const char *scene, const char *path, const char *value, struct keys *k)
 {
-    static const char *last;
     LOCAL_BY(ceduo_scene_release) struct scene_file file = {0};
     LOCAL_BY(ceduo_problems_free) struct problems problems = {0};
     LOCAL_TEXT(set);
     ceduo_text_format(&set, "%s=%s", path, value);
-    char place[256];
-    in_folder(place, "scene.yaml");
     const char *const sets[] = {set.bytes};
-    if (text != last)
-        put("scene.yaml", text);
-    last = text;
-    bool good = ceduo_scene_load(&file, place, sets, 1, &problems);
+    bool good = ceduo_scene_load(&file, scene, sets, 1, &problems);
     if (good)
         *k = keys_of(&file.scene);
     return good;
@@ -361,16 +318,12 @@ static void check_row(void *context, const char *path, const struct field *f)
     ceduo_text_free(&place);
 }
 
-TEST_WITH(every_row_decides_about_what_it_says, folder_set_up, folder_tear_down)
+TEST(every_row_decides_about_what_it_says)
 {
     struct keys before[LENGTH(scenes)];
-    put("a.yaml", "ceduo: stand/1\ntrees: [{per_ha: 80, dbh_m: 0.3, height_m: 14}]\n");
-    put("b.yaml", "ceduo: stand/1\ntrees: [{per_ha: 90, dbh_m: 0.3, height_m: 14}]\n");
-    put("a.csv", "distance,elevation\n100,60\n150,20\n200,0\n");
-    put("b.csv", "distance,elevation\n100,60\n150,21\n200,0\n");
     for (size_t i = 0; i < LENGTH(scenes); i++) {
         LOCAL_BY(ceduo_scene_release) struct scene_file file = {0};
-        read_text(&file, scenes[i]);
+        read_scene(&file, scenes[i]);
         before[i] = keys_of(&file.scene);
     }
     ceduo_schema_visit(ceduo_schema_scene(), "", check_row, before);
@@ -395,7 +348,7 @@ static void check_put(void *context, const char *path, const struct field *f)
         struct scene_file file = {0};
         struct value v;
         size_t n = other_values(f, values);
-        read_text(&file, scenes[i]);
+        read_scene(&file, scenes[i]);
         if (!ceduo_value_find(&file.scene, place.bytes, &v)) {
             ceduo_scene_release(&file);
             continue;
@@ -426,10 +379,8 @@ static void check_put(void *context, const char *path, const struct field *f)
     ceduo_text_free(&place);
 }
 
-TEST_WITH(put_is_as_set, folder_set_up, folder_tear_down)
+TEST(put_is_as_set)
 {
-    put("a.yaml", "ceduo: stand/1\ntrees: [{per_ha: 80, dbh_m: 0.3, height_m: 14}]\n");
-    put("a.csv", "distance,elevation\n100,60\n150,20\n200,0\n");
     ceduo_schema_visit(ceduo_schema_scene(), "", check_put, NULL);
 }
 
@@ -459,11 +410,11 @@ static struct value put_at(struct ceduo_scene *scene, const char *path, double n
     return v;
 }
 
-TEST_WITH(paths_of_numbers, folder_set_up, folder_tear_down)
+TEST(paths_of_numbers)
 {
     LOCAL_BY(ceduo_scene_release) struct scene_file file = {0};
     struct value v;
-    read_text(&file, scenes[1]);
+    read_scene(&file, scenes[1]);
     struct ceduo_scene *s = &file.scene;
     v = found(s, "options[a].forest[wood].stand.trees[0].per_ha", 80);
     v = found(s, "controls[road].accepted_kJ", 80);
@@ -497,11 +448,11 @@ TEST_WITH(paths_of_numbers, folder_set_up, folder_tear_down)
 
 /* Points of the profile are relative to the first, of numbers with a spread each part is its own, and a list of numbers
  * has places. */
-TEST_WITH(paths_of_numbers_in_lists, folder_set_up, folder_tear_down)
+TEST(paths_of_numbers_in_lists)
 {
     LOCAL_BY(ceduo_scene_release) struct scene_file file = {0};
     struct value v;
-    read_text(&file, scenes[4]);
+    read_scene(&file, scenes[4]);
     struct ceduo_scene *s = &file.scene;
     v = found(s, "slope.vertices_m[1][0]", 130);
     assert_true(ceduo_value_put(&v, 140));
@@ -524,11 +475,11 @@ TEST_WITH(paths_of_numbers_in_lists, folder_set_up, folder_tear_down)
 }
 
 /* A word is the index of its choice, -1 where none is said. */
-TEST_WITH(words_are_put_by_their_index, folder_set_up, folder_tear_down)
+TEST(words_are_put_by_their_index)
 {
     LOCAL_BY(ceduo_scene_release) struct scene_file file = {0};
     struct value v;
-    read_text(&file, scenes[0]);
+    read_scene(&file, scenes[0]);
     assert_true(ceduo_value_find(&file.scene, "simulation.contact_model", &v));
     EXPECT(ceduo_value_get(&v), ==, CEDUO_STEMS);
     assert_true(ceduo_value_put(&v, CEDUO_INDEX));
@@ -540,11 +491,11 @@ TEST_WITH(words_are_put_by_their_index, folder_set_up, folder_tear_down)
 }
 
 /* Many values are tried on one scene without memory that stays. */
-TEST_WITH(puts_take_no_memory, folder_set_up, folder_tear_down)
+TEST(puts_take_no_memory)
 {
     struct scene_file file = {0};
     struct value per_ha, diameter;
-    read_text(&file, scenes[0]);
+    read_scene(&file, scenes[0]);
     assert_true(ceduo_value_find(&file.scene, "forest[0].stand.trees[0].per_ha", &per_ha));
     assert_true(ceduo_value_find(&file.scene, "rock.diameter_m", &diameter));
     struct ceduo_run_def def = ceduo_run_def_default(&file.scene);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Values of files: where their ranges end, texts that look like something else, words that are near to others. */
-#include "expect.h"
 #include "local.h"
+#include "table.h"
 
 #include <math.h>
 #include <regex.h>
@@ -16,24 +16,11 @@
 
 /* ---- ranges ---- */
 
-/* A scene in which every parameter has its place, but for those that exclude each other. */
-#define HEAD  "ceduo: scene/1\nrelease: {vx_m_s: 1}\n"
-#define CURVE "{dbh_most_m: 0.1, dbh_rate_1_y: 0.1, height_most_m: 9, height_rate_1_y: 0.1}"
-#define STAND                                                                                                                  \
-    "{stools: {per_ha: 2000, spacing_m: 0.4}, shoots: [{per_ha: 6000, dbh_m: 0.06, height_m: 6}], "                            \
-    "trees: [{per_ha: 60, dbh_m: 0.2, height_m: 12}], energy: {model: brauner}, "                                              \
-    "growth: {shoots: " CURVE ", trees: " CURVE "}, cutting: {rotation_years: 20, stay_per_ha: [10]}}"
-#define RULES                                                                                                                  \
-    "rules: {name: r, standards: [{per_ha: 1, most_per_ha: 9, article: a, year: 2000}], turns: [{least_y: 1, "                 \
-    "most_y: 9, article: a, year: 2000}]}\n"
-static const char *const scenes[] = {
-    HEAD "rock: {shape: block, axes_m: [1, 1, 1]}\ncontrols: [{x_m: 90}]\n"
-         "slope: {vertices_m: [[0, 50], [100, 0]], segments: [{rn: 0.3, rt: 0.8}]}\n"
-         "forest: [{from_m: 10, to_m: 80, stand: " STAND "}]\nminimum: {reserves_per_ha: 5}\n"
-         "blocks: [{volume_m3: [0.1, 2], per_year: 1, exponent: 1.2}]\n" RULES,
-    HEAD "rock: {diameter_m: 0.5}\ncontrols_m: [90]\n"
-         "slope: {vertices_m: [[0, 50], [100, 0]], materials: [{from_m: 0, to_m: 100, material: talus}]}\n"
-         "options: [{name: a, forest: [{from_m: 10, to_m: 80, stand: " STAND "}]}]\n"};
+/* Together they give every key. */
+static const char *const scenes[] = {"tests/unit/every_key/cylinder.yaml", "tests/unit/every_key/options.yaml",
+                                     "tests/unit/every_key/grounds.yaml",  "tests/unit/every_key/profile.yaml",
+                                     "tests/unit/every_key/block.yaml",    "tests/unit/every_key/poisson.yaml",
+                                     "tests/unit/every_key/blocks.yaml"};
 
 /* What is told of a scene with path=value; NULL where it has no place for that. To be freed. */
 static char *told_of(const char *scene, const char *path, const char *value)
@@ -42,7 +29,7 @@ static char *told_of(const char *scene, const char *path, const char *value)
     LOCAL_BY(ceduo_problems_free) struct problems problems = {0};
     LOCAL_TEXT(set);
     char *told = NULL;
-    assert_true(ceduo_scene_load_text(&file, "scene", scene, &problems));
+    assert_true(ceduo_scene_load(&file, scene, NULL, 0, &problems));
     ceduo_text_format(&set, "%s=%s", path, value);
     if (ceduo_scene_set(&file, "--set", set.bytes, &problems)) {
         ceduo_scene_bind(&file, &problems);
@@ -54,8 +41,9 @@ static char *told_of(const char *scene, const char *path, const char *value)
 /* Whether a value lies in the range of what is at `place`; what else does not fit it is another matter. */
 static bool is_in_range(const char *path, const char *place, const char *value)
 {
-    LOCAL_BYTES char *told = told_of(scenes[0], path, value);
-    told = told ? told : told_of(scenes[1], path, value);
+    LOCAL_BYTES char *told = NULL;
+    for (size_t i = 0; !told && i < LENGTH(scenes); i++)
+        told = told_of(scenes[i], path, value);
     if (!told)
         fail_msg("no scene here holds %s", path);
     static const char *const words[] = {" is below ", " is not above ", " is above ", " is not below ", " the spread reaches "};
@@ -117,60 +105,6 @@ TEST(every_range_ends_where_its_table_says)
     ceduo_schema_visit(ceduo_schema_scene(), "", try_field, NULL);
     EXPECT(fields, >, 60);
     EXPECT(open_ends, >, 0); /* the table is walked */
-}
-
-/* Limits that are promised, whatever the table says: a right angle, shares, 2^53, sizes above nothing. */
-TEST(promised_limits)
-{
-    const struct {
-        const char *path, *value;
-        bool in;
-    } rows[] = {{"slope.segments[0].roughness_rad", "0", true},
-                {"slope.segments[0].roughness_rad", "1.5707963267948963", true},
-                {"slope.segments[0].roughness_rad", "1.5707963267948966", false}, /* the double next below pi/2 */
-                {"slope.segments[0].rn", "0", true},
-                {"slope.segments[0].rn", "-5e-324", false},
-                {"slope.segments[0].rt", "1", true},
-                {"slope.segments[0].rt", "1.0000000000000002", false},
-                {"simulation.seed", "0", true},
-                {"simulation.seed", "-1", false},
-                {"simulation.seed", "9007199254740992", true},
-                {"simulation.seed", "9007199254740993", false},
-                {"simulation.rocks", "0", false},
-                {"simulation.rocks", "1", true},
-                {"simulation.threshold_m", "0", false},
-                {"simulation.threshold_m", "5e-324", true},
-                {"controls[0].accepted_kJ", "0", true},
-                {"controls[0].accepted_kJ", "-5e-324", false},
-                {"forest[0].stand.trees[0].dbh_m", "0", false},
-                {"forest[0].stand.stools.spacing_m", "0", true}};
-    for (size_t i = 0; i < LENGTH(rows); i++)
-        if (is_in_range(rows[i].path, rows[i].path, rows[i].value) != rows[i].in)
-            fail_msg("%s = %s", rows[i].path, rows[i].value);
-}
-
-/* What is drawn reaches to the mean and the half width, of a normal one to three standard deviations: just to the limit
- * where that is inside. What is cut at 0 and 1 may reach beyond. */
-TEST(spreads_end_at_the_limits)
-{
-    const struct {
-        const char *path, *value;
-        bool in;
-    } rows[] = {{"release.height_m", "{mean: 1, spread: 1, kind: uniform}", true},
-                {"release.height_m", "{mean: 1, spread: 1.0000000000000002, kind: uniform}", false},
-                {"release.height_m", "{mean: 9999.5, spread: 0.5, kind: uniform}", true},
-                {"release.height_m", "{mean: 9999.5, spread: 0.50000000001, kind: uniform}", false},
-                {"release.height_m", "{mean: 3, spread: 1}", true},
-                {"release.height_m", "{mean: 3, spread: 1.0000000000000002}", false},
-                {"rock.axes_m[0]", "{mean: 0.5, spread: 0.5, kind: uniform}", false}, /* 0 itself is none */
-                {"rock.axes_m[0]", "{mean: 0.5, spread: 0.4999999999999999, kind: uniform}", true},
-                {"rock.axes_m[0]", "{mean: 999.5, spread: 0.5, kind: uniform}", true},
-                {"slope.segments[0].rn", "{mean: 0.9, spread: 0.5}", true},
-                {"slope.segments[0].rn.spread", "0", true}};
-    for (size_t i = 0; i < LENGTH(rows); i++)
-        if (is_in_range(rows[i].path, rows[i].path, rows[i].value) != rows[i].in)
-            fail_msg("%s = %s", rows[i].path, rows[i].value);
-    assert_false(is_in_range("slope.segments[0].rn.spread", "slope.segments[0].rn.spread", "-5e-324"));
 }
 
 /* ---- texts ---- */
@@ -273,46 +207,14 @@ TEST(plain_names_stay_plain)
 
 TEST(the_nearest_word_is_meant)
 {
-    const struct {
-        const char *word, *wanted, *words[4];
-    } rows[] = {{"height_m", "height_m", {"dbh_m", "height_m"}},
-                {"heigth_m", "height_m", {"dbh_m", "height_m"}},  /* two letters exchanged */
-                {"heiht_m", "height_m", {"dbh_m", "height_m"}},   /* one left out */
-                {"heighht_m", "height_m", {"dbh_m", "height_m"}}, /* one twice */
-                {"hright_m", "height_m", {"dbh_m", "height_m"}},  /* another */
-                {"hrigt_m", "height_m", {"dbh_m", "height_m"}},   /* two faults */
-                {"lmuped", "lumped", {"lumped", "crsp"}},
-                {"csrp", "crsp", {"lumped", "crsp"}},
-                {"bat", "cat", {"dog", "cat", "car"}}, /* 1 and 2 away */
-                {"bat", "cat", {"dog", "car", "cat"}},
-                {"bat", "cat", {"cat", "hat"}}, /* the first of two */
-                {"bat", "hat", {"hat", "cat"}},
-                {"dbh", "dbh_m", {"per_ha", "dbh_m", "dbh_sd_m"}},
-                {"density", "density_kg_m3", {"mass_kg", "density_kg_m3"}}, /* the beginning of it, however much longer */
-                {"density", "density_kg_m3", {"density_kg_m3", "dexxxxx"}}, /* than one that is too far */
-                {"density", "intensity", {"density_kg_m3", "intensity"}},   /* but nearer ones go before it */
-                {"density", "intensity", {"intensity", "density_kg_m3"}},
-                {"d", "dbh_m", {"per_ha", "dbh_m"}},
-                /* half the letters and one more: the farthest */
-                {"abcdefgh", "abc", {"abc"}},
-                {"abcdefgh", NULL, {"ab"}},
-                {"abcdefgh", "xxxxxfgh", {"xxxxxfgh"}},
-                {"abcdefgh", NULL, {"xxxxxxgh"}},
-                {"abcdefg", "axxxxfg", {"axxxxfg"}},
-                {"abcdefg", NULL, {"xxxxxfg"}},
-                {"abc", "axx", {"axx"}},
-                {"abc", NULL, {"xxx"}},
-                /* of one or two letters one must be the same */
-                {"mu", NULL, {"rn", "rt"}},
-                {"rm", "rn", {"rn", "rt"}},
-                {"q", NULL, {"x", "z"}},
-                {"", NULL, {"lumped", "x"}}};
-    for (size_t i = 0; i < LENGTH(rows); i++) {
+    for (TABLE(row, "unit/words.txt", "near words")) {
+        const char *words[4];
+        char text[128], *rest = text, *word;
         size_t n = 0;
-        while (n < 4 && rows[i].words[n])
-            n++;
-        const char *found = ceduo_text_nearest(rows[i].word, rows[i].words, n);
-        if ((found != NULL) != (rows[i].wanted != NULL) || (found && strcmp(found, rows[i].wanted) != 0))
-            fail_msg("'%s': %s for %s", rows[i].word, found ? found : "none", rows[i].wanted ? rows[i].wanted : "none");
+        snprintf(text, sizeof text, "%s", row.at[2]);
+        while ((word = strsep(&rest, ",")))
+            words[n++] = word + strspn(word, " ");
+        const char *found = ceduo_text_nearest(row.at[0], words, n);
+        assert_string_equal(found ? found : "none", row.at[1]);
     }
 }

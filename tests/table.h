@@ -1,0 +1,64 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Rows of a table in a file that anybody can add to. A column ends at "|", blanks around it are none of it but within double
+ * quotes; # begins a comment, and == the next table. for (TABLE(row, "unit/typed.txt", "numbers")) row.at[0] … */
+#ifndef TABLE_H
+#define TABLE_H
+
+#include "expect.h"
+
+#define TABLE_COLUMNS 6
+
+struct table {
+    FILE *file;
+    size_t rows;
+    char line[512];
+    const char *at[TABLE_COLUMNS]; /* "": there is none */
+};
+
+static inline struct table table_open(const char *path, const char *title)
+{
+    struct table t = {0};
+    char whole[128], head[128];
+    snprintf(whole, sizeof whole, "tests/%s", path);
+    snprintf(head, sizeof head, "== %s\n", title);
+    t.file = fopen(whole, "r");
+    assert_non_null(t.file);
+    while (fgets(t.line, sizeof t.line, t.file) && strcmp(t.line, head) != 0)
+        ;
+    return t;
+}
+
+/* Without the blanks around it, or the quotes. */
+static inline const char *table_column(char *text)
+{
+    text += strspn(text, " ");
+    for (size_t n = strlen(text); n > 0 && (text[n - 1] == ' ' || text[n - 1] == '\n'); n--)
+        text[n - 1] = '\0';
+    size_t n = strlen(text);
+    if (n < 2 || text[0] != '"' || text[n - 1] != '"')
+        return text;
+    text[n - 1] = '\0';
+    return text + 1;
+}
+
+static inline bool table_next(struct table *t)
+{
+    do
+        if (!fgets(t->line, sizeof t->line, t->file) || strncmp(t->line, "== ", 3) == 0) {
+            fclose(t->file);
+            EXPECT(t->rows, >, 0);
+            return false;
+        }
+    while (t->line[0] == '#' || t->line[0] == '\n');
+    char *rest = t->line, *column;
+    for (size_t i = 0; i < TABLE_COLUMNS; i++)
+        t->at[i] = (column = strsep(&rest, "|")) ? table_column(column) : "";
+    t->rows++;
+    return true;
+}
+
+#define TABLE(row, path, title)                                                                                                \
+    struct table row = table_open(path, title);                                                                                \
+    table_next(&row);
+
+#endif
