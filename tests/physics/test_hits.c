@@ -131,3 +131,18 @@ TEST(a_stem_as_high_as_the_rock_flies_is_not_hit)
             }
         }
 }
+
+/* Where stems are hit below a height alone it is that of the rock's middle: no stem is, however high, where it passes there. */
+TEST(a_rock_whose_middle_flies_too_high_hits_no_stem)
+{
+    const double radius = .3;
+    for (uint64_t rock = 0; rock < 20; rock++) {
+        plant(200, radius, false);
+        line_scene_release(&scene, 0, 30, 40, 0, 0);
+        double middle = stem_of_height(rock, 0, 1).clearance + radius;
+        belt.stand.hit_below = middle * (1 - 1e-12);
+        assert_false(stem_of_height(rock, 0, 90).hit);
+        belt.stand.hit_below = middle * (1 + 1e-12);
+        assert_true(stem_of_height(rock, 0, 90).hit);
+    }
+}

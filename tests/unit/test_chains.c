@@ -99,6 +99,30 @@ TEST(a_normal_law_is_drawn_from)
     expect_normal(&def);
 }
 
+/* Of each chain the first place that is looked at is where it starts. */
+static enum ceduo_status at_its_start(void *context, size_t chain, const double *x, double *log_density)
+{
+    bool *begun = context;
+    if (!begun[chain])
+        assert_memory_equal(x, starts + 2 * chain, 2 * sizeof *x);
+    begun[chain] = true;
+    *log_density = log_normal(x);
+    return CEDUO_OK;
+}
+
+TEST(chains_begin_where_they_start)
+{
+    struct chains_def def = two_dimensions();
+    bool begun[4] = {false};
+    LOCAL_BY(ceduo_chains_release) struct chains c;
+    def.density = at_its_start;
+    def.context = begun;
+    def.steps_most = 500;
+    EXPECT(ceduo_chains_run(&def, &c), ==, CEDUO_OK);
+    for (size_t k = 0; k < 4; k++)
+        assert_true(begun[k]);
+}
+
 /* Whatever the guess says, the draws are those of the density. */
 TEST(a_wrong_guess_changes_nothing)
 {

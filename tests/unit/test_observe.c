@@ -452,6 +452,8 @@ TEST(scars_are_counted_and_measured)
     double expected = 10 * mean * 0.75, spread = 0.75 * 0.75 * variance * 10 * 1.1 + 10 * mean * 0.75 * 0.25;
     EXPECT_NEAR(c.scars, expected, 1e-9);
     EXPECT_NEAR(c.deviance - heights_alone.deviance, (3 - expected) * (3 - expected) / spread, 1e-9);
+    o.share_seen = NAN; /* not known: all of them */
+    EXPECT_NEAR(look(o).scars, 10 * mean, 1e-9);
     ceduo_record_release(&record);
     atomic_bool cancelled = true;
     def.cancel = &cancelled;

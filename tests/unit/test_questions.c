@@ -205,3 +205,20 @@ TEST(a_stand_just_cut_yields)
     assert_int_equal(ceduo_yield_of(&option, 25, &beside), CEDUO_OK);
     EXPECT(beside.cut_per_year, ==, alone.cut_per_year);
 }
+
+/* The volume of belts is their mean by their lengths: 30 m and 90 m, of which the one has twice the other's. */
+TEST(volumes_of_belts_are_weighed_by_their_lengths)
+{
+    LOCAL_BY(ceduo_yield_release) struct ceduo_yield yield;
+    paper_site_init(&site);
+    for (size_t i = 0; i < 2; i++) {
+        struct ceduo_stems *trees = &site.plots[i].trees;
+        site.belts[i].stand.shoots_count = 0;
+        site.belts[i].from = i == 0 ? 10 : 40;
+        site.belts[i].to = i == 0 ? 40 : 130;
+        trees->per_ha = 100;
+        trees->volume = i == 0 ? 0.5 : 1;
+    }
+    assert_int_equal(ceduo_yield_of(&site.option, 0, &yield), CEDUO_OK);
+    EXPECT_NEAR(yield.volume_today, (30. * 50 + 90 * 100) / 120, 1e-12);
+}

@@ -32,6 +32,10 @@ TEST(half_of_ten)
     EXPECT_NEAR(s.lo[middle], 0.2, 1e-12);
     EXPECT_NEAR(s.hi[middle], 0.8, 1e-12);
     EXPECT_NEAR(s.hi[LAST], 0, 1e-12);
+    const struct ceduo_observation five = {.kind = CEDUO_OBSERVED_STOPS, .n = 5, .values = (double[]){0, 1, 1, 9, 10}};
+    ceduo_seen_stops_of(&five, simulated, 4, 4, &s); /* none and all of them have chances of 1/32: above 2.5 % */
+    EXPECT_NEAR(s.lo[middle], 0, 1e-12);
+    EXPECT_NEAR(s.hi[middle], 1, 1e-12);
 }
 
 /* Where it is known how many were released, those that went on lie farther: of the rocks seen 6 of 10, of the simulated 4 of 8. */
