@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Put before the C library by LD_PRELOAD: one call of a kind goes wrong. The test says which:
  *   FAULT=memory  FAULT_AT=n  allocation n fails; with FAULT_ON=1 all after it, too
+ *   FAULT=ways                none fails; FAULT_WAYS names a file with, for each allocation, which functions it came from
  *   FAULT=call    FAULT_AT=n  call n that opens, writes, syncs, closes, links, renames or removes fails with EIO
  *   FAULT=kill    FAULT_AT=n  SIGKILL just before that call; only the first thread's calls count: the others' come in another
  *                             order each time
@@ -23,12 +24,13 @@
 #include <sys/stat.h>
 #include <sys/syscall.h>
 #include <unistd.h>
+#include <unwind.h>
 
 void *__libc_malloc(size_t n);
 void *__libc_calloc(size_t n, size_t size);
 void *__libc_realloc(void *p, size_t n);
 
-static enum fault { NOTHING, MEMORY, CALL, KILL, SHORT, THREADS } fault;
+static enum fault { NOTHING, MEMORY, CALL, KILL, SHORT, THREADS, WAYS } fault;
 static unsigned long fault_at;
 static bool fault_on;
 static const char *fault_from; /* NULL: everything counts */
@@ -37,9 +39,9 @@ static atomic_ulong count;
 
 __attribute__((constructor)) static void set_up(void)
 {
-    static const char *const names[] = {"", "memory", "call", "kill", "short", "threads"};
+    static const char *const names[] = {"", "memory", "call", "kill", "short", "threads", "ways"};
     const char *name = getenv("FAULT"), *at = getenv("FAULT_AT");
-    for (int i = 1; name && i < 6; i++)
+    for (int i = 1; name && i < 7; i++)
         if (strcmp(name, names[i]) == 0)
             fault = (enum fault)i;
     fault_at = at ? strtoul(at, NULL, 10) : 0;
@@ -66,8 +68,55 @@ static bool happens(void)
     return n == fault_at || (fault_on && n > fault_at);
 }
 
+/* ---- which functions an allocation came from ---- */
+
+#define WAYS_MOST  (1 << 20)
+#define WAY_FRAMES 16
+
+static unsigned long ways[WAYS_MOST];
+
+struct way {
+    unsigned long hash;
+    int frames;
+};
+
+static _Unwind_Reason_Code add_frame(struct _Unwind_Context *context, void *to)
+{
+    struct way *way = to;
+    way->hash = (way->hash ^ _Unwind_GetIP(context)) * 0x100000001b3u;
+    return ++way->frames < WAY_FRAMES ? _URC_NO_REASON : _URC_END_OF_STACK;
+}
+
+static void note_way(void)
+{
+    static _Thread_local bool busy;
+    if (busy)
+        return;
+    busy = true;
+    happens();
+    unsigned long n = atomic_load(&count);
+    struct way way = {0xcbf29ce484222325u, 0};
+    _Unwind_Backtrace(add_frame, &way);
+    if (!atomic_load(&waits) && n < WAYS_MOST)
+        ways[n] = way.hash;
+    busy = false;
+}
+
+static void print_ways(void)
+{
+    FILE *file = fault == WAYS ? fopen(getenv("FAULT_WAYS"), "w") : NULL;
+    unsigned long n = atomic_load(&count);
+    fault = NOTHING;
+    for (unsigned long i = 1; file && i <= n && i < WAYS_MOST; i++)
+        fprintf(file, "%lx\n", ways[i]);
+    if (file)
+        fclose(file);
+}
+
 static bool no_memory(void)
 {
+    if (fault == WAYS)
+        note_way();
     if (fault != MEMORY || !happens())
         return false;
     errno = ENOMEM;
@@ -177,6 +226,7 @@ int pthread_create(pthread_t *thread, const pthread_attr_t *attributes, void *(*
 
 static void end_faults(void)
 {
+    print_ways();
     fault = NOTHING;
 }
 

@@ -4,6 +4,7 @@
 
 A library that is loaded before the C library (faults.c) makes one call after the other go wrong.
 """
+import itertools
 import os
 import resource
 import shlex
@@ -13,14 +14,13 @@ import sys
 from pathlib import Path
 
 sys.path[:0] = [str(Path(__file__).resolve().parent), str(Path(__file__).resolve().parents[1] / "tui")]
-from harness import (CEDUO, DONE, INPUT, OUTPUT, RUN, SANITIZED, USAGE, Folder, Skip, environment, expect,  # noqa: E402
+from harness import (CEDUO, DONE, FULL, INPUT, OUTPUT, RUN, SANITIZED, USAGE, Folder, Skip, environment, expect,  # noqa: E402
                      expect_equal, expect_in, good, only_text, run_all)
 from play import FAST, Screen  # noqa: E402
 from test_calibrate import quarry  # noqa: E402
 from test_input import FILES  # noqa: E402
 
 VARIANT = Path(os.environ.get("BUILD", "build/release")).name
-EACH = int(os.environ.get("FAULTS_EACH") or 3)  # of so many allocations one is made to fail; 1: each
 
 
 class Place(Folder):
@@ -54,6 +54,18 @@ class Place(Folder):
         only_text(done.stderr, "stderr")
         return done, mark.exists()
 
+    def allocations(self, *words, after=None):
+        """Numbers of allocations to fail: the first that comes by the same functions, and the one behind all; with FULL each."""
+        if FULL:
+            return itertools.count(1)
+        ways = self.path / "ways"
+        env = self.with_fault("ways", after=after) | {"FAULT_WAYS": str(ways)}
+        subprocess.run([CEDUO, *map(str, words)], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, env=env, cwd=self.work, check=True)
+        found = ways.read_text().split()
+        first = {way: len(found) - n for n, way in enumerate(reversed(found))}
+        print(f"# {len(found)} allocations, {len(first)} ways")
+        return [*sorted(first.values()), 10 * len(found)]
+
 
 def told(done, at):
     return f"at {at}: status {done.returncode}\n{done.stdout[:500]!r}\n{done.stderr[:800]!r}"
@@ -61,16 +73,15 @@ def told(done, at):
 
 # ---- memory ----
 
-def no_memory(words, on, each=EACH):
+def no_memory(words, on):
     """Allocations fail in turn: status 1 or 3 and 'out of memory', or the same result as ever."""
     with Place() as place:
         wanted, _ = place.run(*words, fault="none")
         expect_equal(wanted.returncode, DONE, wanted.stderr)
         plain = subprocess.run([CEDUO, *map(str, words)], stdout=subprocess.PIPE, env=environment(LC_ALL="C"), cwd=place.work,
                                check=False).stdout  # a locale needs memory, too
-        at = failed = 0
-        while True:
-            at += each
+        failed = 0
+        for at in place.allocations(*words):
             done, reached = place.run(*words, fault="memory", at=at, on=on)
             if not reached:
                 break
@@ -82,7 +93,8 @@ def no_memory(words, on, each=EACH):
             expect(done.returncode != USAGE or b"try 'ceduo --help'" in done.stderr, told(done, at))
             expect_equal(done.stdout, b"", told(done, at))
             expect_equal(sorted(p.name for p in place.work.iterdir()), sorted(FILES), told(done, at))
-        print(f"# {at - each} allocations, {failed} of them end the program")
+        expect(not reached, at)
+        print(f"# {failed} end the program")
         expect(failed > 20, f"{failed} failures: is the library loaded?")
 
 
@@ -111,7 +123,7 @@ def test_memory_batch_on():
 
 def test_memory_page():
     """Allocations of a run with its page, and of one with a change and years, fails once"""
-    no_memory(("--batch", "-n", 20, "-j", 1, "scene.yaml"), False, EACH if EACH == 1 else 10)  # most are of the same few runs
+    no_memory(("--batch", "-n", 20, "-j", 1, "scene.yaml"), False)
     no_memory(("--years", "0:3", "-f", "json", "-n", 2, "-j", 1, "-s", "forest[0].stand.stools.spacing_m=0.5", "scene.yaml"), True)
 
 
@@ -131,14 +143,15 @@ def test_memory_output():
     with Place() as place:
         out = place.work / "out.csv"
         place.run(*BATCH, "-o", "out.csv", fault="none")
-        new, at, reached = out.read_bytes(), 0, True
-        while reached:
-            at += EACH
+        new = out.read_bytes()
+        for at in place.allocations(*BATCH, "-o", "out.csv"):
             out.write_text("old")
             done, reached = place.run(*BATCH, "-o", "out.csv", fault="memory", at=at)
             expect(done.returncode in (DONE, RUN, USAGE, INPUT, OUTPUT), told(done, at))
             expect_equal(out.read_bytes(), new if done.returncode == DONE else b"old", told(done, at))
             expect_equal(sorted(p.name for p in place.work.iterdir()), sorted([*FILES, "out.csv"]), told(done, at))
+            if not reached:
+                break
 
 
 def save_without_memory(on):
@@ -149,10 +162,11 @@ def save_without_memory(on):
         dumps = [place.work / "before.txt", place.work / "after.txt"]
         scene.write_text(FAST)
         done, _ = place.run(*command, fault="none")
-        new, at, seen = scene.read_text(), 1, {}
+        new, seen = scene.read_text(), {}
         expect_equal(done.returncode, DONE, told(done, 0))
         expect_equal(new, FAST.replace("diameter_m: 0.5}   # kept", "diameter_m: 0.75}   # kept"), "the new file")
-        while True:
+        scene.write_text(FAST)
+        for at in place.allocations(*command, after="before.txt"):
             scene.write_text(FAST)
             for dump in dumps:
                 dump.unlink(missing_ok=True)
@@ -171,8 +185,7 @@ def save_without_memory(on):
                 expect(b"Cannot allocate memory" in done.stderr, told(done, at))
             else:
                 expect_equal((done.returncode, done.stderr), (RUN, b"ceduo: out of memory\n"), told(done, at))
-            at += 1 if EACH == 1 else 4 * EACH  # the screens take most of them
-        print(f"# {at} allocations: {seen}")
+        print(f"# {seen}")
         expect(min(seen.get((False, RUN), 0), seen.get((True, RUN), 0)) > 2, f"{seen}: is the library loaded?")
 
 

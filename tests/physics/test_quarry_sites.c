@@ -8,12 +8,13 @@
 #include <gsl/gsl_sort.h>
 #include <math.h>
 
+#include "full.h"
 #include "quarry_site.h"
 
 #define SITES      20
 #define VALUES     2
 #define SELDOM     1e-4
-#define TRUE_SITES 400
+#define TRUE_SITES FULL_OR(400u, 200u)
 
 /* How many of n are to be so at the least where each is with probability p. */
 static unsigned fewest(unsigned n, double p)
@@ -83,7 +84,7 @@ static double far_from_uniform(double *p, size_t n)
 /* Of a ground that is true, p of what was seen there is uniform. */
 TEST(on_the_true_ground_p_is_uniform)
 {
-    double p[QUARRY_KINDS][TRUE_SITES], one[QUARRY_KINDS];
+    double p[QUARRY_KINDS][400], one[QUARRY_KINDS];
     size_t n = 0;
     for (size_t i = 0; i < TRUE_SITES; i++) {
         struct quarry_trial trial = {.number = i, .values = VALUES, .kinds = QUARRY_KINDS, .seen = 50, .rocks = 1000};

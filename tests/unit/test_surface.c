@@ -1,12 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Shares of doubt by a surface, for functions whose shares are known in closed form. */
 #include "expect.h"
+#include "full.h"
 
 #include <stdlib.h>
 
 #include "ceduo/doubt.h"
 #include "ceduo/surface.h"
 
+#define SEEDS      FULL_OR(200u, 100u)
 #define MAX_INPUTS 40
 
 typedef double function(const double *u, size_t n);
@@ -194,16 +196,16 @@ TEST(what_does_not_vary_has_no_shares)
     ceduo_surface_release(&f);
 }
 
-/* 95 % intervals of shares hold the truth in 90 to 97 %: 200 seeds of a function of 12 inputs with noise. */
+/* 95 % intervals of shares hold the truth in 90 to 97 %: many seeds of a function of 12 inputs with noise. */
 TEST(errors_cover)
 {
     make_inputs(12, 0, 0);
     double inside = 0;
-    for (uint64_t seed = 1; seed <= 200; seed++) {
+    for (uint64_t seed = 1; seed <= SEEDS; seed++) {
         struct ceduo_surface_fit f = fit_of(linear, 12, 256, seed, 3 * sqrt(CEDUO_SURFACE_GROUPS / 2.));
         for (size_t i = 0; i < 12; i++) {
             double share = (double)((i + 1) * (i + 1)) / 650;
-            inside += (fabs(f.first[i].value - share) <= 1.96 * f.first[i].se) / 2400.;
+            inside += (fabs(f.first[i].value - share) <= 1.96 * f.first[i].se) / (12. * SEEDS);
         }
         ceduo_surface_release(&f);
     }
@@ -337,7 +339,7 @@ static double value_at_share(double share)
     return lo;
 }
 
-/* How often 95 % intervals of 200 seeds hold what is true: where a surface is all, where it is not, and with rocks that differ at
+/* How often 95 % intervals of many seeds hold what is true: where a surface is all, where it is not, and with rocks that differ at
  * all points or at each. A remainder that the points do not spread more evenly than chance would is held as often as it should
  * be; one that they do, more often. */
 TEST(errors_of_the_band_hold_the_truth)
@@ -354,15 +356,15 @@ TEST(errors_of_the_band_hold_the_truth)
         memcpy(turns, cases[c].turns, sizeof turns);
         level = fmax(1e-12, cases[c].level);
         double low = value_at_share(.05), high = value_at_share(.95), share = share_up_to(limit = .9), held = 0;
-        for (uint64_t seed = 1; seed <= 200; seed++) {
+        for (uint64_t seed = 1; seed <= SEEDS; seed++) {
             struct ceduo_surface_fit f = fit_of(rippled_sum, 3, 256, seed, cases[c].noise);
             held += fabs(f.p5 - low) <= 1.96 * f.p5_se;
             held += fabs(f.p95 - high) <= 1.96 * f.p95_se;
             held += fabs(f.below.value - share) <= 1.96 * f.below.se;
             ceduo_surface_release(&f);
         }
-        EXPECT(held / 6, >=, 90);
-        all += cases[c].even ? 0 : held / 6;
+        EXPECT(100 * held / (3 * SEEDS), >=, 90);
+        all += cases[c].even ? 0 : 100 * held / (3 * SEEDS);
         n += !cases[c].even;
     }
     EXPECT(all / n, <=, 97);
