@@ -310,6 +310,7 @@ static void draw_more(struct app *app, const struct popup *p, bool above, bool b
 }
 
 #define NOTE_LINES 5
+#define LINES_MIN  6 /* below it, where there are so many */
 
 /* Draws a box in the middle of the screen, with its note in the first lines. Returns the area below the note. */
 static struct ceduo_area draw_frame(struct app *app, struct popup *p, int lines, int note_lines)
@@ -318,14 +319,16 @@ static struct ceduo_area draw_frame(struct app *app, struct popup *p, int lines,
     if (p->kind == POPUP_FIELDS && p->text.bytes) /* no more than it takes; over a list it changes with the cursor */
         ceduo_app_text(app, (struct ceduo_area){0, 0, width - 4, 0}, CEDUO_ROLE_DIM, p->text.bytes, &wanted);
     note_lines = p->text.bytes ? wanted : 0;
-    int height = lines + note_lines + 2;
-    height = height > app->height - 2 ? app->height - 2 : height;
+    int max = app->height - 2, height = lines + note_lines + 2;
+    note_lines = height > max && note_lines > max - 2 - LINES_MIN ? max - 2 - LINES_MIN : note_lines;
+    height = height > max ? max : height;
     struct ceduo_area r = {(app->width - width) / 2, (app->height - height) / 2, width, height};
     struct ceduo_area in = {r.left + 2, r.top + 1, r.width - 4, note_lines};
     p->box = r;
     draw_box(app, r, p->title);
-    if (note_lines > 0)
-        ceduo_app_text(app, in, CEDUO_ROLE_DIM, p->text.bytes, NULL);
+    LOCAL_TEXT(note);
+    ceduo_text_put(&note, note_lines > 0 ? p->text.bytes : "");
+    ceduo_app_put(app, in, CEDUO_ROLE_DIM, &note);
     in.top += note_lines;
     in.height = r.height - 2 - note_lines;
     return in;
@@ -373,6 +376,7 @@ static void draw_list(struct app *app, struct popup *p)
         draw_picks(app, p, in);
 }
 
+#define FOOT_MIN      2  /* lines below the fields, of a message or of what is offered */
 #define PICKS_SHOWN   6  /* below the fields */
 #define PICTURE_SHOWN 16 /* or a picture instead */
 
@@ -383,13 +387,15 @@ static void draw_fields(struct app *app, struct popup *p)
         picks = p->offers[i] ? PICKS_SHOWN : picks;
     int below = p->picture ? PICTURE_SHOWN : picks;
     struct ceduo_area in = draw_frame(app, p, (int)p->fields_count + 2 + below, app->height);
-    int x = in.left + 32, width = in.width - 32;
-    for (size_t i = 0; i < p->fields_count; i++) {
-        ceduo_app_text(app, (struct ceduo_area){in.left, in.top + (int)i, 31, 1}, CEDUO_ROLE_DIM, p->labels[i], NULL);
-        draw_line(app, &p->fields[i], x, in.top + (int)i, width, i == p->at);
+    int x = in.left + 32, width = in.width - 32, n = (int)p->fields_count, at = (int)p->at;
+    int shown = n <= in.height - FOOT_MIN ? n : in.height - FOOT_MIN;
+    p->top = at < p->top ? at : at >= p->top + shown ? at + 1 - shown : p->top;
+    for (int i = p->top; i < p->top + shown; i++, in.top++, in.height--) {
+        ceduo_canvas_put(&app->cells->canvas, in.left, in.top, 31, CEDUO_ROLE_DIM, p->labels[i]);
+        draw_line(app, &p->fields[i], x, in.top, width, i == at);
     }
-    in.top += (int)p->fields_count;
-    in.height -= (int)p->fields_count;
+    if (shown < n)
+        draw_more(app, p, p->top > 0, p->top + shown < n);
     struct ceduo_area first = {in.left, in.top, in.width, in.height < 2 ? in.height : 2};
     ceduo_app_text(app, first, CEDUO_ROLE_WARN, p->message, NULL);
     if (p->picture && (!p->offers[p->at] || p->picker.matches == 0) && !p->message[0])

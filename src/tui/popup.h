@@ -36,7 +36,7 @@ struct popup {
     bool ready;            /* what is offered was listed once */
     bool moved;            /* the cursor was moved in the picker */
     bool typed_wins;       /* a new name: what is typed stays, unless the cursor was moved in the picker */
-    int top;               /* the first line shown of a text */
+    int top;               /* the first line shown of a text, or field */
     struct ceduo_area box; /* where it was drawn */
     char message[256];
     char path[1024]; /* what a choice is for */

@@ -305,11 +305,14 @@ static void draw_stretch(struct app *app, const struct ceduo_area *area, const s
     ceduo_app_label(app, at > area->left ? at : area->left, y, CEDUO_ROLE_AXIS, "%s", name);
 }
 
+#define PROFILE_MIN 6 /* lines */
+
 /* The profile as far as it is known: the release, the lower end of the face ruled, the steepest stretch below. */
 static void draw_profile(struct app *app, struct popup *p, struct ceduo_area area)
 {
     struct answers a = {.release = NAN};
-    bool good = p->at >= NEW_PROFILE && read_answers(app, p, p->at == NEW_PROFILE ? NEW_PROFILE : NEW_RELEASE, &a);
+    bool good = area.height >= PROFILE_MIN && p->at >= NEW_PROFILE &&
+                read_answers(app, p, p->at == NEW_PROFILE ? NEW_PROFILE : NEW_RELEASE, &a);
     double face = good && p->at > NEW_PROFILE && read_place(app, p, &a, NEW_FACE, &a.face) ? a.face - a.first : NAN;
     app->message[0] = '\0';
     if (good) {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "screen.h"
 
-#include <stdio.h>
+#include <limits.h>
 #include <string.h>
 
 #include "base/language.h"
@@ -15,15 +15,27 @@ const struct view *const ceduo_views[VIEW_COUNT] = {
 };
 
 #define WIDTH_MIN  60
-#define HEIGHT_MIN 20
+#define HEIGHT_MIN 16
 
-#define MARKS_MORE 2   /* columns that signs of the verdict take more in ASCII */
-#define WIDE       100 /* columns with room for a blank more between the names of the views */
+#define MARKS_MORE  2   /* columns that signs of the verdict take more in ASCII */
+#define WIDE        100 /* columns with room for a blank more between the names of the views */
+#define NAME_MIN    3   /* columns of the name of a view that is not open, */
+#define NAME_WANTED 20  /* and with room */
 
-/* Columns of the title of a view: its number, and blanks. */
+/* Columns of the title of a view: its number, blanks, and so many columns of its name that all have room. */
 static int title_columns(const struct app *app, int view)
 {
-    return (int)ceduo_utf8_width(ceduo_translate_in(ceduo_views[view]->title)) + (app->width < WIDE ? 3 : 4);
+    int own = 0;
+    for (int most = NAME_WANTED, all = INT_MAX; all > app->width && most >= NAME_MIN; most--) {
+        all = 0;
+        for (int v = 0; v < VIEW_COUNT; v++) {
+            int name = (int)ceduo_utf8_width(ceduo_translate_in(ceduo_views[v]->title));
+            int columns = (v == (int)app->view || name < most ? name : most) + (app->width < WIDE ? 3 : 4);
+            all += columns;
+            own = v == view ? columns : own;
+        }
+    }
+    return own;
 }
 
 enum view_number ceduo_screen_view_at(const struct app *app, int column)
@@ -57,8 +69,9 @@ static bool draw_title(struct app *app)
 {
     int x = 0;
     for (int v = 0; v < VIEW_COUNT; x += title_columns(app, v++))
-        ceduo_app_label(app, x, 0, v == (int)app->view ? CEDUO_ROLE_CURSOR : CEDUO_ROLE_DIM,
-                        app->width < WIDE ? " %d %s" : " %d %s ", v + 1, ceduo_translate_in(ceduo_views[v]->title));
+        ceduo_canvas_put(
+            &app->cells->canvas, x, 0, title_columns(app, v), v == (int)app->view ? CEDUO_ROLE_CURSOR : CEDUO_ROLE_DIM,
+            ceduo_app_format(app, app->width < WIDE ? " %d %s" : " %d %s ", v + 1, ceduo_translate_in(ceduo_views[v]->title)));
     const char *title = title_of(app);
     bool fits = ceduo_cells_label_width(app->charset, title) + 4 <= app->width - x;
     if (fits)
@@ -139,9 +152,9 @@ static void draw_bar(struct app *app)
 {
     int x = 0, always = 0, room = app->width + 2;
     if (app->popup || app->editing) {
-        ceduo_app_label(app, 0, app->height - 1, CEDUO_ROLE_DIM, "%s",
-                        app->popup ? ceduo_popup_bar(app)
-                                   : _("Enter takes the value  Esc leaves it as it was  empty: the default"));
+        ceduo_canvas_put(&app->cells->canvas, 0, app->height - 1, app->width, CEDUO_ROLE_DIM,
+                         app->popup ? ceduo_popup_bar(app)
+                                    : _("Enter takes the value  Esc leaves it as it was  empty: the default"));
         return;
     }
     for (int i = 0; i < ACTION_COUNT; i++)

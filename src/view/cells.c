@@ -186,9 +186,12 @@ int ceduo_cells_label(struct ceduo_cells *cells, int column, int row, enum ceduo
 
 int ceduo_cells_put_end(struct ceduo_cells *cells, int column, int row, int most, enum ceduo_role role, const char *text)
 {
-    while (*text && ceduo_cells_label_width(cells->charset, text) > most)
+    bool cut = ceduo_cells_label_width(cells->charset, text) > most;
+    int sign =
+        cut ? ceduo_cells_label(cells, column, row, role, cells->charset == CEDUO_CHARSET_ASCII ? "~" : "\xe2\x80\xa6") : 0;
+    while (*text && ceduo_cells_label_width(cells->charset, text) > most - sign)
         text += ceduo_utf8_step(text);
-    return ceduo_cells_label(cells, column, row, role, text);
+    return sign + ceduo_cells_label(cells, column + sign, row, role, text);
 }
 
 void ceduo_cells_ascii(struct text *text, const char *string)

@@ -42,8 +42,9 @@ enum ceduo_page_flag {
     CEDUO_SPAN = 1 << 0,  /* the head stands over the next column, too */
     CEDUO_WHOLE = 1 << 1, /* never cut: the row goes on in a line below */
     CEDUO_FITS = 1 << 2,  /* as wide as its widest cell, and no less than its width */
-    CEDUO_FILLS = 1 << 3  /* at least its width, and what the others leave: a text that is longer loses its middle, as names
+    CEDUO_FILLS = 1 << 3, /* at least its width, and what the others leave: a text that is longer loses its middle, as names
                            * often differ at their ends; a bar is so long */
+    CEDUO_KEPT = 1 << 4   /* left out only where names have no more than their width */
 };
 
 /* Columns without room are left out, the highest rank first. */

@@ -316,7 +316,7 @@ static int widest_cell(const struct printer *p, const struct ceduo_page_block *t
 static void place_columns(const struct printer *p, const struct ceduo_page_block *table, int *widths)
 {
     size_t n = table->columns_count;
-    int rest = (int)p->width, natural[COLUMNS_MAX], bars = 0;
+    int rest = (int)p->width, natural[COLUMNS_MAX], bars = 0, names = 0;
     bool has_bars[COLUMNS_MAX] = {false};
     for (size_t i = 0; i < n; i++) {
         const struct ceduo_page_column *c = &table->columns[i];
@@ -326,11 +326,12 @@ static void place_columns(const struct printer *p, const struct ceduo_page_block
         if (c->flags & CEDUO_FILLS && !has_bars[i])
             widths[i] = natural[i] < share ? natural[i] : share;
         widths[i] = widths[i] > abs(c->width) ? widths[i] : abs(c->width);
+        names += c->flags & CEDUO_FILLS ? widths[i] - abs(c->width) : 0; /* what they can be cut by */
         rest -= c->gap + widths[i];
     }
     for (size_t rank = 9; rest < 0 && rank > 0; rank--)
         for (size_t i = 0; i < n; i++)
-            if (table->columns[i].flags >> 8 == rank) {
+            if (table->columns[i].flags >> 8 == rank && (!(table->columns[i].flags & CEDUO_KEPT) || rest + names < 0)) {
                 rest += table->columns[i].gap + widths[i];
                 widths[i] = 0;
             }

@@ -11,19 +11,19 @@
 /* Columns behind the name; without rocks among stems two of them are of the index. */
 enum column { NAME, TODAY, MAY_BE, EVERY, MEAN, MARK, WORST, FAILS, YIELD, CONTACT, FREE_RUN, ENERGY, YEARS, COLUMNS };
 
-static const struct ceduo_page_column columns[COLUMNS] = {[NAME] = {"", 14, 0, CEDUO_FILLS},
+static const struct ceduo_page_column columns[COLUMNS] = {[NAME] = {"", 13, 0, CEDUO_FILLS},
                                                           [TODAY] = {"", -5, 1, CEDUO_FITS},
                                                           [MAY_BE] = {"", -1, 1, CEDUO_FITS},
-                                                          [EVERY] = {"", -1, 1, CEDUO_FITS | CEDUO_DROPPED(2)},
-                                                          [MEAN] = {"", -5, 1, CEDUO_FITS},
-                                                          [MARK] = {"", 1, 1, CEDUO_FITS | CEDUO_DROPPED(5)},
-                                                          [WORST] = {"", -5, 1, CEDUO_FITS | CEDUO_DROPPED(3)},
-                                                          [FAILS] = {"", -4, 1, CEDUO_FITS},
-                                                          [YIELD] = {"", -4, 1, CEDUO_FITS},
-                                                          [CONTACT] = {"", 1, 2, CEDUO_DROPPED(4)},
-                                                          [FREE_RUN] = {"", 1, 0, CEDUO_DROPPED(4)},
-                                                          [ENERGY] = {"", 1, 0, CEDUO_DROPPED(4)},
-                                                          [YEARS] = {"", 1, 2, CEDUO_FITS | CEDUO_DROPPED(6)}};
+                                                          [EVERY] = {"", -1, 1, CEDUO_FITS | CEDUO_DROPPED(4)},
+                                                          [MEAN] = {"", -5, 1, CEDUO_FITS | CEDUO_KEPT | CEDUO_DROPPED(1)},
+                                                          [MARK] = {"", 1, 1, CEDUO_FITS | CEDUO_DROPPED(7)},
+                                                          [WORST] = {"", -5, 1, CEDUO_FITS | CEDUO_DROPPED(5)},
+                                                          [FAILS] = {"", -4, 1, CEDUO_FITS | CEDUO_KEPT | CEDUO_DROPPED(2)},
+                                                          [YIELD] = {"", -4, 1, CEDUO_FITS | CEDUO_KEPT | CEDUO_DROPPED(3)},
+                                                          [CONTACT] = {"", 1, 2, CEDUO_DROPPED(6)},
+                                                          [FREE_RUN] = {"", 1, 0, CEDUO_DROPPED(6)},
+                                                          [ENERGY] = {"", 1, 0, CEDUO_DROPPED(6)},
+                                                          [YEARS] = {"", 1, 2, CEDUO_FITS | CEDUO_DROPPED(8)}};
 
 #define YEARS_MOST 26 /* columns of the years at a glance */
 

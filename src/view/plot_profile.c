@@ -232,7 +232,7 @@ static void name_control(const struct profile *p, const struct ceduo_control *co
         if (!is_free(p, y, start, start + width))
             continue;
         ceduo_canvas_label(p->canvas, start, y, CEDUO_ROLE_CONTROL, bytes);
-        if (i == 0)
+        if (i == 0 && ceduo_canvas_is_blank(p->canvas, column, y)) /* another word may stand there */
             ceduo_canvas_label(p->canvas, column, y, CEDUO_ROLE_CONTROL, "\xe2\x96\xbc");
         break;
     }

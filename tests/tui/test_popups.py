@@ -531,7 +531,7 @@ def test_share_above_one():
 def test_popups_small():
     """Popups over the smallest screen stay within it."""
     for keys in ("?", "p", "n", "o", "w", "c", "/", "s"):
-        fast(f"key 2\nresize 60 20\nkey {keys}\ndump", "paper-site")[0].whole()
+        fast(f"key 2\nresize 60 16\nkey {keys}\ndump", "paper-site")[0].whole()
 
 
 if __name__ == "__main__":

@@ -56,7 +56,7 @@ def random_script(rng, names, keys):
             left -= 4
             continue
         else:
-            lines.append(rng.choice(["resize 80 24", "resize 120 40", "resize 60 20", "resize 59 19", "resize 200 50",
+            lines.append(rng.choice(["resize 80 24", "resize 120 40", "resize 60 16", "resize 59 15", "resize 200 50",
                                      "resize 1 1", "resize 33 7", "dump screen.txt", "dump screen.txt", "dump screen.txt",
                                      "roles roles.txt"]))
             continue

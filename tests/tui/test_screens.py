@@ -344,13 +344,13 @@ def test_assumed():
 
 
 def test_too_small():
-    """Below 60 x 20 a message says what is needed; at 60 x 20 the views are there, whole and in their place."""
+    """Below 60 x 16 a message says what is needed; at 60 x 16 the views are there, whole and in their place."""
     screens = fast("""wait idle
-        resize 59 19
+        resize 59 15
         dump
-        resize 60 19
+        resize 60 15
         dump
-        resize 59 20
+        resize 59 16
         dump
         resize 20 4
         dump
@@ -359,7 +359,7 @@ def test_too_small():
         resize 80 24
         dump""")
     for screen in screens[:3]:
-        screen.whole().has(f"ceduo needs a window of 60 x 20; this one is {screen.width} x {screen.height}.", "q quits")
+        screen.whole().has(f"ceduo needs a window of 60 x 16; this one is {screen.width} x {screen.height}.", "q quits")
     screens[3].whole().has("ceduo needs a")
     screens[4].whole()
     screens[5].whole().has("Belts of forest")
@@ -367,7 +367,7 @@ def test_too_small():
 
 def check_smallest(view):
     if "smallest" not in _seen:
-        script = "wait idle\nresize 60 20\n" + "".join(f"key {v + 1}\ndump\n" for v in range(len(VIEWS)))
+        script = "wait idle\nresize 60 16\n" + "".join(f"key {v + 1}\ndump\n" for v in range(len(VIEWS)))
         _seen["smallest"] = fast(script, "cuts.yaml", charset="ascii")
     screen = _seen["smallest"][VIEWS.index(view)].whole()
     at = screen.width - screen.side - 1
@@ -380,9 +380,9 @@ def check_smallest(view):
 
 
 def test_any_size():
-    """Every view and help in sizes from 60 x 20 to 300 x 100 fills the screen exactly."""
+    """Every view and help in sizes from 60 x 16 to 300 x 100 fills the screen exactly."""
     script = ["wait idle"]
-    for width, height in ((60, 20), (61, 21), (79, 25), (99, 20), (100, 30), (139, 21), (140, 60), (300, 20), (60, 100),
+    for width, height in ((60, 16), (61, 17), (79, 25), (99, 20), (100, 30), (139, 21), (140, 60), (300, 20), (60, 100),
                           (300, 100)):
         script.append(f"resize {width} {height}")
         script += [line for v in "123456" for line in (f"key {v}", "dump")] + ["key ?", "dump", "key Esc"]
