@@ -80,6 +80,7 @@ static void write_answer(const struct arguments *a, struct scene_file *file, con
                                         .blocks = answer->blocks,
                                         .work = answer->work,
                                         .seconds = seconds,
+                                        .details = is_whole(a),
                                         .rocks_asked =
                                             a->stands && a->format == CEDUO_CSV ? ceduo_batch_question(a, file, NULL).rocks : 0,
                                         .remarks = {a->tolerance, answer->tolerance_met, file->ground_assumed}};

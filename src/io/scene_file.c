@@ -112,6 +112,7 @@ static bool make_scene(struct scene_file *file, const struct source *source, con
 {
     size_t before = problems->count;
     file->path = source->name;
+    file->name = file->name ? file->name : file->path;
     file->raw = file->root = ceduo_yaml_read(&file->arena, source, problems);
     if (!file->root)
         return false;
@@ -172,6 +173,10 @@ bool ceduo_scene_load(struct scene_file *file, const char *path, const char *con
         return false;
     }
     const struct source *source = ceduo_file_read(&file->arena, found ? found : path, YAML_BYTES_MOST, problems);
+    size_t length = strlen(path);
+    if (found && strcmp(found, path) != 0)
+        file->name =
+            ceduo_arena_copy(&file->arena, path, length > 5 && strcmp(path + length - 5, ".yaml") == 0 ? length - 5 : length);
     return source && read_source(file, source, sets, sets_count, problems);
 }
 

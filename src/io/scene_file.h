@@ -8,7 +8,8 @@
 /* A scene as read from its files. Everything that it points to lives in its arena. */
 struct scene_file {
     struct arena arena;
-    const char *path;        /* as it was given */
+    const char *path;        /* where it was found */
+    const char *name;        /* as results call it: the path, or of a scene of the profiles what its file is called */
     const struct node *raw;  /* as it is written in its file */
     const struct node *root; /* the scene, with what it refers to in place */
     struct ceduo_scene scene;

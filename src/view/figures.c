@@ -45,100 +45,93 @@ static void say(const struct ceduo_figure *f, const struct ceduo_place *place, c
 
 /* ---- JSON ---- */
 
-/* Where sentences go: items of a list, or the one of a key. */
-struct sentences {
-    struct json *json;
-    const char *key;
+struct writer {
+    struct json json;
+    bool details;
+    const char *key; /* of a sentence; NULL: an item of a list */
 };
 
 static void write_sentence(void *context, const char *sentence)
 {
-    const struct sentences *to = context;
-    ceduo_json_string(to->json, to->key, sentence);
+    struct writer *w = context;
+    ceduo_json_string(&w->json, w->key, sentence);
 }
 
-static void write_value(struct json *j, const struct ceduo_figure *f, struct ceduo_value v)
+static void write_value(struct json *j, const char *key, struct ceduo_value v)
 {
     if (v.kind == CEDUO_VALUE_NUMBER)
-        ceduo_json_number(j, f->key, v.number);
+        ceduo_json_number(j, key, v.number);
     else if (v.kind == CEDUO_VALUE_COUNT)
-        ceduo_json_count(j, f->key, v.count);
+        ceduo_json_count(j, key, v.count);
     else if (v.kind == CEDUO_VALUE_FLAG)
-        ceduo_json_flag(j, f->key, v.flag);
-    else if (v.kind == CEDUO_VALUE_TEXT || !f->optional)
-        ceduo_json_string(j, f->key, v.kind == CEDUO_VALUE_TEXT ? v.text : NULL);
+        ceduo_json_flag(j, key, v.flag);
+    else
+        ceduo_json_string(j, key, v.kind == CEDUO_VALUE_TEXT ? v.text : NULL);
 }
 
-static void write_figures(struct json *j, const struct ceduo_figure *f, const void *object, double scale);
+static void write_figures(struct writer *w, const struct ceduo_figure *f, const void *object, double scale);
 
-static void write_item(struct json *j, const struct ceduo_figure *f, const void *item, double scale)
+/* `brackets`: none where its figures stand in what is written already. */
+static void write_object(struct writer *w, const char *key, const struct ceduo_figure *of, const void *object, double scale,
+                         bool brackets)
 {
-    if (!f->plain)
-        ceduo_json_open(j, NULL, '{');
-    write_figures(j, f->of, item, scale);
-    if (!f->plain)
-        ceduo_json_close(j, '}');
+    if (brackets)
+        ceduo_json_open(&w->json, key, '{');
+    write_figures(w, of, object, scale);
+    if (brackets)
+        ceduo_json_close(&w->json, '}');
 }
 
-static void write_list(struct json *j, const struct ceduo_figure *f, const void *object, double scale)
+/* Goes to item i of a list; NULL after the last. */
+static const void *item_of(const struct ceduo_figure *f, const void *object, size_t i, struct ceduo_place *place)
+{
+    if (f->item)
+        return f->item(object, i);
+    *place = *(const struct ceduo_place *)object;
+    return f->enter(place, i) ? place : NULL;
+}
+
+static void write_list(struct writer *w, const struct ceduo_figure *f, const void *object, double scale)
 {
     struct ceduo_place place;
-    const void *item;
-    if (f->enter && f->optional && (place = *(const struct ceduo_place *)object, !f->enter(&place, 0)))
-        return;
-    ceduo_json_open(j, f->key, '[');
-    for (size_t i = 0; f->item && (item = f->item(object, i)); i++)
-        write_item(j, f, item, scale_of(f, scale));
-    for (size_t i = 0; f->enter && (place = *(const struct ceduo_place *)object, f->enter(&place, i)); i++)
-        write_item(j, f, &place, 1);
-    ceduo_json_close(j, ']');
-}
-
-static void write_object(struct json *j, const struct ceduo_figure *f, const void *object, double scale)
-{
-    if (!object) {
-        write_value(j, f, (struct ceduo_value){.kind = CEDUO_NULL});
+    const void *item = item_of(f, object, 0, &place);
+    if (f->details ? !w->details : f->null && !item) {
+        ceduo_json_string(&w->json, f->key, NULL);
         return;
     }
-    if (f->key)
-        ceduo_json_open(j, f->key, '{');
-    write_figures(j, f->of, object, scale_of(f, scale));
-    if (f->key)
-        ceduo_json_close(j, '}');
+    ceduo_json_open(&w->json, f->key, '[');
+    for (size_t i = 1; item; item = item_of(f, object, i++, &place))
+        write_object(w, NULL, f->of, item, f->item ? scale : 1, !f->plain);
+    ceduo_json_close(&w->json, ']');
 }
 
-static void write_sentences(struct json *j, const struct ceduo_figure *f, const struct ceduo_place *place)
-{
-    struct sentences to = {j, f->one ? f->key : NULL};
-    if (!place)
-        return;
-    if (!f->one)
-        ceduo_json_open(j, f->key, '[');
-    say(f, place, write_sentence, &to);
-    if (!f->one)
-        ceduo_json_close(j, ']');
-}
-
-static void write_figures(struct json *j, const struct ceduo_figure *f, const void *object, double scale)
+static void write_figures(struct writer *w, const struct ceduo_figure *f, const void *object, double scale)
 {
     for (; !ceduo_figure_is_end(f); f++) {
-        if (f->value)
-            write_value(j, f, value_of(f, object, scale));
-        else if (f->enter || f->item)
-            write_list(j, f, object, scale);
-        else if (f->of)
-            write_object(j, f, object_of(f, object), scale);
-        else
-            write_sentences(j, f, source_of(f, object));
+        const void *of = object_of(f, object);
+        if (f->value) {
+            write_value(&w->json, f->key, value_of(f, object, scale));
+        } else if (f->enter || f->item) {
+            write_list(w, f, object, scale_of(f, scale));
+        } else if (f->of && !of) {
+            ceduo_json_string(&w->json, f->key, NULL);
+        } else if (f->of) {
+            write_object(w, f->key, f->of, of, scale_of(f, scale), f->key != NULL);
+        } else {
+            w->key = f->one ? f->key : NULL;
+            if (!f->one)
+                ceduo_json_open(&w->json, f->key, '[');
+            say(f, object, write_sentence, w);
+            if (!f->one)
+                ceduo_json_close(&w->json, ']');
+        }
     }
 }
 
-void ceduo_figures_json(struct text *text, const struct ceduo_figure *figures, const void *object)
+void ceduo_figures_json(struct text *text, const struct ceduo_figure *figures, const void *object, bool details)
 {
-    struct json json = {.text = text};
-    ceduo_json_open(&json, NULL, '{');
-    write_figures(&json, figures, object, 1);
-    ceduo_json_close(&json, '}');
+    struct writer w = {.json = {.text = text}, .details = details};
+    write_object(&w, NULL, figures, object, 1, true);
     ceduo_text_char(text, '\n');
 }
 
@@ -186,7 +179,7 @@ static void append_cells(struct text *row, const struct ceduo_figure *f, const v
         double inner = scale_of(f, scale);
         if (!f->of)
             append_cell(row, f, object, scale);
-        for (size_t i = 0; f->item && f->columns && f->columns[i]; i++)
+        for (size_t i = 0; i < f->columns; i++)
             append_cells(row, f->of, object ? f->item(object, i) : NULL, inner);
         if (f->of && !f->item)
             append_cells(row, f->of, object_of(f, object), inner);
@@ -207,7 +200,7 @@ void ceduo_figures_csv(struct text *text, const struct ceduo_figure *columns, co
 
 void ceduo_report_json(struct text *text, const struct ceduo_report *report)
 {
-    ceduo_figures_json(text, ceduo_result_figures, &(struct ceduo_place){.report = report});
+    ceduo_figures_json(text, ceduo_result_figures, &(struct ceduo_place){.report = report}, report->details);
 }
 
 void ceduo_report_csv_header(struct text *text, bool stands, bool years)
@@ -243,7 +236,7 @@ void ceduo_report_csv(struct text *text, const struct ceduo_report *report, bool
 
 void ceduo_find_json(struct text *text, const struct ceduo_find_report *report)
 {
-    ceduo_figures_json(text, ceduo_find_figures, report);
+    ceduo_figures_json(text, ceduo_find_figures, report, false);
 }
 
 void ceduo_find_csv_header(struct text *text)

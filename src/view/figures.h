@@ -53,7 +53,7 @@ struct ceduo_figure {
     const char *key;                         /* NULL: the figures of `of` stand here without an object of their own */
     const char *unit;                        /* "": none */
     const char *meaning;                     /* for the manual, as is */
-    const char *null;                        /* when it is null; NULL: never */
+    const char *null;                        /* when it is null, also of a list; NULL: never */
     const void *(*from)(const void *object); /* the object to read from; NULL: the same */
     const struct ceduo_reader *value;
     size_t offset; /* in the object */
@@ -61,11 +61,11 @@ struct ceduo_figure {
     const struct ceduo_figure *of;
     bool (*enter)(struct ceduo_place *place, size_t i); /* a list: goes to item i; false after the last */
     const void *(*item)(const void *object, size_t i);  /* a list within any object; NULL after the last */
-    const char *const *columns; /* of such a list: its items in CSV, up to NULL; without them it has no columns */
+    size_t columns; /* of such a list: its items in CSV, whose heads are name[0] and so on */
     void (*say)(const struct ceduo_place *place, ceduo_words_say *say, void *context);
-    bool one;      /* of sentences: there is one, and JSON has it as text, not as a list */
-    bool optional; /* JSON omits it if it is null or empty */
-    bool plain;    /* of a list: its items are values, not objects */
+    bool one;     /* of sentences: there is one, and JSON has it as text, not as a list */
+    bool details; /* of a list: null where details are not asked for */
+    bool plain;   /* of a list: its items are values, not objects */
 };
 
 static inline bool ceduo_figure_is_end(const struct ceduo_figure *f)
@@ -73,8 +73,9 @@ static inline bool ceduo_figure_is_end(const struct ceduo_figure *f)
     return !f->value && !f->of && !f->say;
 }
 
-/* Writes what a table says of an object: one line of JSON; a row of CSV, or with object NULL the row of its heads. */
-void ceduo_figures_json(struct text *text, const struct ceduo_figure *figures, const void *object);
+/* Writes what a table says of an object: one line of JSON, with lists that are long or without; a row of CSV, or with object NULL
+ * the row of its heads. */
+void ceduo_figures_json(struct text *text, const struct ceduo_figure *figures, const void *object, bool details);
 void ceduo_figures_csv(struct text *text, const struct ceduo_figure *columns, const void *object);
 
 /* JSON Schema (draft 2020-12) of what ceduo_figures_json() writes, on one line; its $id ends in the format's name. */

@@ -78,7 +78,7 @@ static const char *figure_key(const struct ceduo_place *p)
 }
 
 VALUE(doubt_format, place, TEXT, WORD("ceduo-sensitivity-1"))
-VALUE(doubt_scene, place, TEXT, WORD(o->doubt->file->path))
+VALUE(doubt_scene, place, TEXT, WORD(o->doubt->file->name))
 VALUE(doubt_title, place, TEXT, WORD(scene_of(o)->title))
 VALUE(doubt_seed, place, COUNT, COUNT(scene_of(o)->simulation.seed))
 VALUE(doubt_rocks, place, COUNT, COUNT(o->doubt->rocks))
@@ -198,7 +198,7 @@ static const struct ceduo_figure doubt_columns[] = {
 
 void ceduo_doubt_json(struct text *text, const struct ceduo_doubt_report *r)
 {
-    ceduo_figures_json(text, ceduo_doubt_figures, &(struct ceduo_place){.doubt = r});
+    ceduo_figures_json(text, ceduo_doubt_figures, &(struct ceduo_place){.doubt = r}, false);
 }
 
 void ceduo_doubt_csv_header(struct text *text)
@@ -268,17 +268,17 @@ static bool enter_predicted(struct ceduo_place *p, size_t i)
 static void say_scenes(const struct ceduo_place *p, ceduo_words_say *say, void *context)
 {
     for (size_t i = 0; i < p->calibration->scenes_count; i++)
-        say(context, p->calibration->files[i].path);
+        say(context, p->calibration->files[i].name);
 }
 
 VALUE(calibration_format, place, TEXT, WORD("ceduo-calibration-1"))
 VALUE(calibration_seed, place, COUNT, COUNT(o->calibration->seed))
 VALUE(calibration_rocks, place, COUNT, COUNT(o->calibration->rocks))
-VALUE(first_scene, place, TEXT, WORD(o->calibration->files[0].path))
+VALUE(first_scene, place, TEXT, WORD(o->calibration->files[0].name))
 VALUE(fitted_path, place, TEXT, WORD(o->calibration->paths[o->item]))
 VALUE(correlation, place, NUMBER, NUMBER(answer_of(o)->correlation[o->item][o->column]))
 VALUE(observed_what, place, TEXT, WORD(observed_of(o)->name))
-VALUE(observed_scene, place, TEXT, WORD(file_of(o)->path))
+VALUE(observed_scene, place, TEXT, WORD(file_of(o)->name))
 VALUE(observed_option, place, TEXT, WORD(file_of(o)->scene.options[observed_of(o)->option].name))
 VALUE(observed_use, place, TEXT, WORD(observed_of(o)->use == CEDUO_OBSERVED_FIT ? "fit" : "check"))
 VALUE(observed_n, place, COUNT, COUNT(ceduo_seen_number(observed_of(o))))
@@ -324,7 +324,8 @@ static const struct ceduo_figure observation_rows[] = {
     {"inside", "", "whether the mean lies between the two", .value = inside},
     {"single_lo", "", "lower end of what the fit predicts of single rocks, 95 %", SEEN(one_lo), .null = NO_RANGE},
     {"single_hi", "", "its upper end", SEEN(one_hi), .null = NO_RANGE},
-    {"single_inside", "", "how many of the values lie between the two", .value = single_inside, .optional = true},
+    {"single_inside", "", "how many of the values lie between the two", .value = single_inside,
+     .null = "it holds no single values, or " NO_RANGE},
     END};
 
 const struct ceduo_figure ceduo_calibration_figures[] = {
@@ -352,7 +353,7 @@ static const struct ceduo_figure calibration_columns[] = {{"scene", "", "", .val
 
 void ceduo_calibration_json(struct text *text, const struct ceduo_calibration_report *r)
 {
-    ceduo_figures_json(text, ceduo_calibration_figures, &(struct ceduo_place){.calibration = r});
+    ceduo_figures_json(text, ceduo_calibration_figures, &(struct ceduo_place){.calibration = r}, false);
 }
 
 void ceduo_calibration_csv(struct text *text, const struct ceduo_calibration_report *r)

@@ -59,19 +59,16 @@ static const struct ceduo_figure matrix[] = {
     {"to_300_years", "", "the same of 300 years", AT(intensity, of_return[3])},
     END};
 
-static const char *const return_columns[] = {"10", "30", "100", "300", NULL};
-static const char *const intensity_columns[] = {"weak", "medium", "strong", NULL};
-
 const struct ceduo_figure ceduo_hazard_figures[] = {
     {"per_year", "1/y", "blocks that come down", AT(hazard, per_year)},
     {"effective_rocks", "", "equal rocks that would know the sum of the weights as well", AT(hazard, effective)},
     {"exceed_rate", "", "rocks a year that arrive with more than an energy, up to the first energy that none exceeds",
-     .of = exceed_rate, .item = exceed_item},
-    {"return", "", "energies of 10, 30, 100 and 300 years", .of = returns, .item = return_item, .columns = return_columns},
+     .of = exceed_rate, .item = exceed_item, .details = true, .null = "--details is not given"},
+    {"return", "", "energies of 10, 30, 100 and 300 years", .of = returns, .item = return_item, .columns = CEDUO_RETURNS},
     {"reach_per_year", "1/y", "rocks that arrive", AT(hazard, reach.rate)},
     {"reach_years", "y", "years from one that arrives to the next", .value = years_of,
      .offset = offsetof(struct ceduo_hazard, reach.rate), .null = NEVER},
-    {"accepted_per_year", "1/y", "rocks that arrive with more than accepted_kJ", AT(hazard, accepted.rate), .null = UNSAID},
+    {"exceed_per_year", "1/y", "rocks that arrive with more than accepted_kJ", AT(hazard, accepted.rate), .null = UNSAID},
     {"accepted_years", "y", "years from one that does to the next", .value = years_of,
      .offset = offsetof(struct ceduo_hazard, accepted.rate), .null = UNSAID ", or the rate is 0"},
     {"accepted_years_lo", "y", "lower end of its 95 % interval", .value = years_of,
@@ -79,7 +76,7 @@ const struct ceduo_figure ceduo_hazard_figures[] = {
     {"accepted_years_hi", "y", "upper end of its 95 % interval", .value = years_of,
      .offset = offsetof(struct ceduo_hazard, accepted.lo), .null = UNSAID ", or " UNBOUND},
     {"matrix", "", "classes of intensity, by classes of return period", .of = matrix, .item = intensity_item,
-     .columns = intensity_columns},
+     .columns = CEDUO_INTENSITIES},
     {"rate_left", "",
      "share of the rate without forest: of what exceeds accepted_kJ, or of all that arrive where that is not "
      "given",

@@ -199,7 +199,7 @@ static void say_of_all(const struct ceduo_place *place, ceduo_words_say *say, vo
 
 VALUE(format_of, place, TEXT, WORD("ceduo-result-1"))
 VALUE(version_of, place, TEXT, WORD(CEDUO_VERSION))
-VALUE(path_of, report, TEXT, WORD(o->file->path))
+VALUE(path_of, report, TEXT, WORD(o->file->name))
 VALUE(rocks_of, report, COUNT, COUNT(o->rocks_asked > 0 ? o->rocks_asked : ceduo_result_rocks(o->result)))
 VALUE(law_of, scene, TEXT, WORD(ceduo_law_words.names[o->simulation.law]))
 VALUE(accepted_of, control, NUMBER, NUMBER(ceduo_words_accepted(o)))
@@ -223,7 +223,7 @@ VALUE(judgement_of, place, TEXT,
 VALUE(judgement_of_other, other_energy, TEXT, WORD(ceduo_words_judgement(o->judgement)))
 VALUE(felled_of, place, NUMBER, NUMBER(ceduo_years_felled(o->report->years[o->option])))
 VALUE(find_format, find_report, TEXT, WORD("ceduo-find-1"))
-VALUE(find_path, find_report, TEXT, WORD(o->file->path))
+VALUE(find_path, find_report, TEXT, WORD(o->file->name))
 VALUE(find_option, find_report, TEXT, WORD(o->file->scene.options[o->search->option].name))
 VALUE(goal_of, search, TEXT, WORD(ceduo_goals[o->goal].word))
 VALUE(over_of, search, TEXT, WORD(o->rotation ? "rotation" : "today"))
@@ -368,12 +368,12 @@ static const struct ceduo_figure stand_columns[] = {
     END};
 static const struct ceduo_figure stand_warnings[] = {{"warnings", "", "sentences about this stand", .say = say_of_stand}, END};
 
-static const struct ceduo_figure stand[] = {{.of = stand_columns},
-                                            {.of = stand_warnings},
-                                            {"rules", "",
-                                             "what the rules of the region ask of a coppice, and whether it is kept",
-                                             .from = rules_of, .of = rules, .optional = true},
-                                            END};
+static const struct ceduo_figure stand[] = {
+    {.of = stand_columns},
+    {.of = stand_warnings},
+    {"rules", "", "what the rules of the region ask of a coppice, and whether it is kept", .from = rules_of, .of = rules,
+     .null = "the scene names no rules, or the stand is no coppice"},
+    END};
 
 static const struct ceduo_figure summary[] = {
     {"length_m", "m", "wooded length", AT(index, length)},
@@ -393,8 +393,8 @@ static const struct ceduo_figure by_index[] = {
     {"residual_kJ", "kJ", "the mean of bare.energy_kJ less that, and not below 0; of shares their product", AT(index, residual),
      .scale = J_TO_KJ, .null = "no rock arrives without forest"},
     {"exhausted", "", "whether it was cut at 0", .value = exhausted_of, .null = "no rock arrives without forest"},
-    {"measured_kJ", "kJ", "energy of translation of the rock at measured_speed_m_s; only where the control gives that",
-     AT(index, measured), .scale = J_TO_KJ, .optional = true},
+    {"measured_kJ", "kJ", "energy of translation of the rock at measured_speed_m_s", AT(index, measured), .scale = J_TO_KJ,
+     .null = "the control has no measured_speed_m_s"},
     END};
 
 static const struct ceduo_figure lights[] = {
@@ -415,6 +415,11 @@ static const struct ceduo_figure verdict_of_other[] = {
      .null = UNSAID},
     END};
 
+static const struct ceduo_figure other_mean[] = {
+    {"mean", "", "mean", AT(other_energy, energy), .null = NO_ROCK},
+    {"se", "", "standard error of the mean", AT(other_energy, energy_se), .null = FEW},
+    END};
+
 static const struct ceduo_figure other_energy[] = {
     {"model", "", "that law: dorren, or brauner where all stems of the option follow dorren", .value = energy_model_at,
      .offset = offsetof(struct ceduo_other_energy, model)},
@@ -426,9 +431,8 @@ static const struct ceduo_figure other_energy[] = {
      .null = UNSAID},
     {"exceed_lo", "", "lower end of its 95 % interval", AT(other_energy, exceed_lo), .null = UNSAID},
     {"exceed_hi", "", "upper end of its 95 % interval", AT(other_energy, exceed_hi), .null = UNSAID},
-    {"energy_kJ_mean", "kJ", "mean energy of the rocks that reach it", AT(other_energy, energy), .scale = J_TO_KJ,
-     .null = NO_ROCK},
-    {"energy_kJ_se", "kJ", "standard error of that", AT(other_energy, energy_se), .scale = J_TO_KJ, .null = FEW},
+    {"energy_kJ", "kJ", "energy of the rocks that reach it", .of = other_mean, .scale = J_TO_KJ},
+    {"energy_kJ_mean", "kJ", "energy_kJ.mean by an older name", AT(other_energy, energy), .scale = J_TO_KJ, .null = NO_ROCK},
     {"verdict", "", "what is said of the control", .of = verdict_of_other},
     END};
 
@@ -529,19 +533,19 @@ static const struct ceduo_figure rotation[] = {
     {"energy_per_released_kJ", "kJ", "plain mean over the years", IN(place, sum.energy_per_released, paired), .scale = J_TO_KJ},
     {"worst_year", "", "year with the largest share that exceeds (or arrives, or with the largest ADC)",
      AT(place, sum.worst_year)},
-    {"passes_per_year", "1/y", "rocks to be expected to pass", AT(place, sum.passes_per_year),
+    {"reach_per_year", "1/y", "rocks to be expected to arrive", AT(place, sum.passes_per_year),
      .null = "the scene has no rocks_per_year"},
-    {"exceeds_per_year", "1/y", "those of them with more than accepted_kJ", AT(place, sum.exceeds_per_year),
+    {"exceed_per_year", "1/y", "those of them with more than accepted_kJ", AT(place, sum.exceeds_per_year),
      .null = "the scene has no rocks_per_year, or the control no accepted_kJ"},
     END};
 
+#define NO_YEARS "--years is not given"
 static const struct ceduo_figure option[] = {
     {"name", "", "name of the option", .from = option_of, AT(option, name)},
     {.of = forest_rows},
     {.of = end_rows},
-    {"years", "", "with --years: an object for each year", .of = year, .enter = enter_year, .optional = true},
-    {"rotation", "", "with --years: the years together, at the last control", .from = rotation_of, .of = rotation,
-     .optional = true},
+    {"years", "", "an object for each year", .of = year, .enter = enter_year, .null = NO_YEARS},
+    {"rotation", "", "the years together, at the last control", .from = rotation_of, .of = rotation, .null = NO_YEARS},
     {"yield", "", "stem wood that the option yields", .from = place_of_yield, .of = yield, .null = NO_GROWTH},
     END};
 
@@ -571,7 +575,8 @@ static const struct ceduo_figure rock[] = {
     END};
 
 static const struct ceduo_figure scene[] = {
-    {"scene", "", "path of the file, as it was found; standard input for -", .from = report_of, .value = path_of},
+    {"scene", "", "path of the file as it was given, or the name of a scene that comes with the program; standard input for -",
+     .from = report_of, .value = path_of},
     {"title", "", "title of the scene, or the name of its file", .from = scene_of, AT(scene, title)},
     {"seed", "", "seed of the random numbers", .from = scene_of, AT(scene, simulation.seed)},
     {"rocks", "", "rocks flown", .from = report_of, .value = rocks_of},

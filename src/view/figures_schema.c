@@ -32,20 +32,25 @@ static void write_properties(struct json *j, const struct ceduo_figure *f);
 static void write_required(struct json *j, const struct ceduo_figure *f)
 {
     for (; !ceduo_figure_is_end(f); f++) {
-        if (f->key && !f->optional)
+        if (f->key)
             ceduo_json_string(j, NULL, f->key);
-        else if (!f->key)
+        else
             write_required(j, f->of);
     }
 }
 
-static void write_object(struct json *j, const struct ceduo_figure *of, bool null)
+static void write_container(struct json *j, const char *type, bool null)
 {
     ceduo_json_open(j, "type", '[');
-    ceduo_json_string(j, NULL, "object");
+    ceduo_json_string(j, NULL, type);
     if (null)
         ceduo_json_string(j, NULL, "null");
     ceduo_json_close(j, ']');
+}
+
+static void write_object(struct json *j, const struct ceduo_figure *of, bool null)
+{
+    write_container(j, "object", null);
     ceduo_json_open(j, "properties", '{');
     write_properties(j, of);
     ceduo_json_close(j, '}');
@@ -56,7 +61,7 @@ static void write_object(struct json *j, const struct ceduo_figure *of, bool nul
 
 static void write_items(struct json *j, const struct ceduo_figure *f)
 {
-    ceduo_json_string(j, "type", "array");
+    write_container(j, "array", f->null);
     ceduo_json_open(j, "items", '{');
     if (f->say)
         ceduo_json_string(j, "type", "string");
@@ -128,8 +133,11 @@ static void add_columns(struct text *rows, const struct ceduo_figure *f, const s
         const char *null = f->null ? f->null : group ? group->null : NULL;
         const struct group own = {group, f->key, unit, null};
         if (f->item) {
-            for (size_t i = 0; f->columns && f->columns[i]; i++)
-                add_columns(rows, f->of, &(struct group){&own, f->columns[i], unit, null}, heads);
+            for (size_t i = 0; i < f->columns; i++) {
+                LOCAL_TEXT(item);
+                ceduo_text_format(&item, "%s[%zu]", f->key, i);
+                add_columns(rows, f->of, &(struct group){group, ceduo_text_string(&item), unit, null}, heads);
+            }
         } else if (f->of) {
             add_columns(rows, f->of, f->key ? &own : group, heads);
         } else {

@@ -21,6 +21,7 @@ struct ceduo_report {
     struct ceduo_work work;
     const struct ceduo_block *blocks;       /* CEDUO_BLOCKS for each option; NULL: none to show */
     double seconds;                         /* that the runs took */
+    bool details;                           /* JSON has the lists that are long */
     uint64_t rocks_asked;                   /* where rows of stands are wanted and none is flown; otherwise 0 */
     struct ceduo_years *const *years;       /* one for each option; NULL: not asked for */
     const struct ceduo_verdict *verdict;    /* of all options; NULL: not known */

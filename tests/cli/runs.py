@@ -19,31 +19,35 @@ SHARES = {**PAIR, "below": MAYBE}  # a difference of shares
 SHAPE_OF_DIFFERENCE = {"reach_probability": SHARES, "exceed_probability": SHARES, "energy_per_released_kJ": PAIR}
 MISSED = {k: NUMBER for k in ("stopped_by_stems", "came_to_rest", "left_slope", "unfinished")}
 HAZARD = {"per_year": NUMBER, "effective_rocks": NUMBER, "reach_per_year": NUMBER, "reach_years": MAYBE,
-          "exceed_rate": [{k: NUMBER for k in ("energy_kJ", "per_year", "lo", "hi")}],
+          "exceed_rate": NULL,  # with --details a list
           "return": [{"years": NUMBER, **{k: MAYBE for k in ("energy_kJ", "lo", "hi")}}],
-          **{k: MAYBE for k in ("accepted_per_year", "accepted_years", "accepted_years_lo", "accepted_years_hi", "rate_left")},
+          **{k: MAYBE for k in ("exceed_per_year", "accepted_years", "accepted_years_lo", "accepted_years_hi", "rate_left")},
           "matrix": [{"intensity": TEXT, "from_kJ": NUMBER, "to_kJ": MAYBE, "per_year": NUMBER, "lo": NUMBER, "hi": NUMBER,
                       "rate_left": MAYBE, **{k: FLAG for k in ("to_30_years", "to_100_years", "to_300_years")}}]}
 ARRIVALS = {"rocks_reached": COUNT, "reach_probability": NUMBER, "reach_lo": NUMBER, "reach_hi": NUMBER,
             "exceed_probability": MAYBE, "exceed_lo": MAYBE, "exceed_hi": MAYBE, "speed_m_s": SPREAD,
             "energy_kJ": SPREAD, "translation_kJ": SPREAD, "height_m": SPREAD, "energy_per_released_kJ": PAIR, "missed": MISSED,
             "hazard": HAZARD}  # null without blocks
-INDEX = {"dissipated_kJ": MAYBE, "residual_kJ": MAYBE, "exhausted": FLAG_OR_NULL}
+INDEX = {"dissipated_kJ": MAYBE, "residual_kJ": MAYBE, "exhausted": FLAG_OR_NULL, "measured_kJ": MAYBE}
 WOODED = {**ARRIVALS, "contacts": PAIR}
 OTHER = {"model": TEXT, "rocks": COUNT, "reach_probability": NUMBER, "reach_lo": NUMBER, "reach_hi": NUMBER, "exceed_probability": MAYBE,
-         "exceed_lo": MAYBE, "exceed_hi": MAYBE, "energy_kJ_mean": MAYBE, "energy_kJ_se": MAYBE,
+         "exceed_lo": MAYBE, "exceed_hi": MAYBE, "energy_kJ": PAIR, "energy_kJ_mean": MAYBE,
          "verdict": {"answer": TEXT_OR_NULL}}  # null without stems
 CONTROL = {"x_m": NUMBER, "name": TEXT_OR_NULL, "accepted_kJ": MAYBE, "bare": ARRIVALS, "index": INDEX, "wooded": WOODED,
            "other_energy": OTHER,
            "lights": {"contact": LIGHT, "free_run": LIGHT, "energy": LIGHT, "contact_8cm": LIGHT, "free_run_8cm": LIGHT},
            "verdict": {"answer": TEXT_OR_NULL, "because": TEXT}}
+RULES = ("region", "standards_per_ha", "standards_least", "standards_most", "standards_met", "standards_article", "standards_year",
+         "turn_y", "turn_least", "turn_most", "turn_met", "turn_article", "turn_year")
+RULED = {k: TEXT_OR_NULL if k == "region" or k.endswith("article") else FLAG_OR_NULL if k.endswith("met") else MAYBE
+         for k in RULES}  # null without rules
 STAND = {"name": TEXT, "from_m": NUMBER, "to_m": NUMBER, "length_m": NUMBER, "stems_per_ha": NUMBER,
          "stools_per_ha": NUMBER, "trees_per_ha": NUMBER, "basal_area_m2_ha": NUMBER,
          "adc": {"rule": TEXT_OR_NULL, "adc_m": MAYBE, "gsteiger_stools_m": MAYBE, "gsteiger_stems_m": MAYBE,
                  "interception_m": MAYBE, "crofton_m": MAYBE},
          "passes_threshold": FLAG, "free_run_probability": NUMBER, "contacts": NUMBER, "energy_per_contact_J": MAYBE,
          "dissipated_kJ": MAYBE, "dissipated_kJ_per_100m": MAYBE, "grouped_per_ha": NUMBER, "stumps_per_ha": NUMBER,
-         "logs_per_ha": NUMBER, "warnings": [TEXT]}
+         "logs_per_ha": NUMBER, "warnings": [TEXT], "rules": RULED}
 SUMMARY = {"length_m": NUMBER, "longest_gap_m": NUMBER, "adc_m": MAYBE, "contacts": NUMBER,
            "meet_nothing_probability": NUMBER, "dissipated_kJ": MAYBE, "dissipated_kJ_per_100m": MAYBE,
            "passes_threshold": FLAG}
@@ -58,7 +62,7 @@ RESULT = {"format": TEXT, "version": TEXT, "scene": TEXT, "title": TEXT, "seed":
           "options": [{"name": TEXT, "stands": [STAND], "summary": SUMMARY, "controls": [CONTROL],
                        "ends": {"stopped_by_stems": NUMBER, "came_to_rest": NUMBER, "left_slope": NUMBER,
                                 "unfinished": COUNT},
-                       "stop_x_m": STOPS, "yield": YIELD}],
+                       "stop_x_m": STOPS, "years": NULL, "rotation": NULL, "yield": YIELD}],
           "differences": [DIFFERENCE],
           "work": {"rocks_flown": COUNT, "contacts": COUNT, "stems_drawn": COUNT, "runs": COUNT, "runs_reused": COUNT,
                    "seconds": NUMBER}}
@@ -84,13 +88,12 @@ def expect_shape(value, shape, path="$"):
         expect(shape or not value, f"{path}: {value!r} is not empty")
         for i, item in enumerate(value):
             expect_shape(item, shape[0], f"{path}[{i}]")
-    elif shape in (STOPS, YIELD, OTHER, HAZARD) and value is None:
+    elif shape in (STOPS, YIELD, OTHER, HAZARD, RULED) and value is None:
         return
     else:
         expect(isinstance(value, dict), f"{path}: {value!r} is no object")
-        allowed = set(shape) | ({"measured_kJ"} if shape is INDEX else set())
-        expect(set(shape) <= set(value) <= allowed,
-               f"{path}: missing {sorted(set(shape) - set(value))}, too many {sorted(set(value) - allowed)}")
+        expect(set(shape) == set(value),
+               f"{path}: missing {sorted(set(shape) - set(value))}, too many {sorted(set(value) - set(shape))}")
         for key in shape:
             expect_shape(value[key], shape[key], f"{path}.{key}")
 
@@ -101,7 +104,7 @@ def by_index(shape):
         return NULL
     if isinstance(shape, list):
         return [by_index(item) for item in shape]
-    special = shape in (INDEX, STOPS, HAZARD) if isinstance(shape, dict) else True
+    special = shape in (INDEX, STOPS, HAZARD, RULED) if isinstance(shape, dict) else True
     return shape if special else {key: by_index(inner) for key, inner in shape.items()}
 
 
@@ -188,10 +191,10 @@ def without_seconds(text):
 
 
 HAZARD_CELLS = (["per_year", "effective_rocks"] +
-                [f"return.{t}.{k}" for t in (10, 30, 100, 300) for k in ("years", "energy_kJ", "lo", "hi")] +
-                ["reach_per_year", "reach_years", "accepted_per_year", "accepted_years", "accepted_years_lo",
+                [f"return[{t}].{k}" for t in range(4) for k in ("years", "energy_kJ", "lo", "hi")] +
+                ["reach_per_year", "reach_years", "exceed_per_year", "accepted_years", "accepted_years_lo",
                  "accepted_years_hi"] +
-                [f"matrix.{i}.{k}" for i in ("weak", "medium", "strong")
+                [f"matrix[{i}].{k}" for i in range(3)
                  for k in ("intensity", "from_kJ", "to_kJ", "per_year", "lo", "hi", "rate_left", "to_30_years", "to_100_years",
                            "to_300_years")] + ["rate_left"])
 
@@ -210,14 +213,12 @@ def flat(prefix, shape):
 SCENE_CELLS = ["scene", "title", "seed", "rocks", "law", "rock.mass_kg", "rock.mean_diameter_m", "rock.moment_kg_m2",
                "threshold_m", "option"]
 CONTROL_CELLS = (SCENE_CELLS + flat("summary.", SUMMARY) + ["x_m", "name", "accepted_kJ"] + flat("bare.", ARRIVALS) +
-                 flat("index.", INDEX) + ["index.measured_kJ"] + flat("wooded.", WOODED) + flat("other_energy.", OTHER) +
+                 flat("index.", INDEX) + flat("wooded.", WOODED) + flat("other_energy.", OTHER) +
                  ["lights.contact", "lights.free_run", "lights.energy", "lights.contact_8cm", "lights.free_run_8cm",
                   "verdict.answer", "verdict.because", "ends.stopped_by_stems", "ends.came_to_rest", "ends.left_slope", "ends.unfinished"] +
                  flat("stop_x_m.", STOPS) + flat("difference.", SHAPE_OF_DIFFERENCE) +
                  [f"yield.{k}" for k in YIELD if k != "cuts"] + ["warnings"])
-RULES = ("region", "standards_per_ha", "standards_least", "standards_most", "standards_met", "standards_article", "standards_year",
-         "turn_y", "turn_least", "turn_most", "turn_met", "turn_article", "turn_year")
-STAND_CELLS = (SCENE_CELLS + [n for n in flat("", STAND) if n != "warnings"] + [f"rules.{n}" for n in RULES] + ["warnings"])
+STAND_CELLS = (SCENE_CELLS + [n for n in flat("", STAND) if n != "warnings"] + ["warnings"])
 
 
 def read_csv(text):
@@ -227,10 +228,10 @@ def read_csv(text):
 
 
 def look_up(mapping, name):
-    for key in name.split("."):
+    for key in re.findall(r"[^.\[\]]+", name):
         if mapping is None:
             return None
-        mapping = mapping.get(key)
+        mapping = mapping[int(key)] if isinstance(mapping, list) else mapping.get(key)
     return mapping
 
 

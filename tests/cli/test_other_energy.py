@@ -27,8 +27,8 @@ def expect_other(run, turned, model):
             both = {c["verdict"]["answer"] for c in (control, at)}
             answer = "depends" if both == {"yes", "no"} else at["verdict"]["answer"]
             expect_equal(control["other_energy"], {"verdict": {"answer": answer}, "model": model, "rocks": turned["rocks"], **shares,
-                                                   "energy_kJ_mean": wooded["energy_kJ"]["mean"],
-                                                   "energy_kJ_se": wooded["energy_kJ"]["se"]})
+                                                   "energy_kJ": {k: wooded["energy_kJ"][k] for k in ("mean", "se")},
+                                                   "energy_kJ_mean": wooded["energy_kJ"]["mean"]})
 
 
 def test_both_ways():
@@ -86,8 +86,8 @@ def test_page():
         other = result(PAPER, "-n", 800, *more)["options"][0]["controls"][0]["other_energy"]
         page = " ".join(good(*WHOLE, "-n", 800, PAPER, *more).out.split())
         exceed = re.escape(of_1000("exceed", other)) if other["exceed_probability"] is not None else ""
-        wanted = words.format(reach=re.escape(of_1000("reach", other)), exceed=exceed, mean=f"{other['energy_kJ_mean']:.1f}",
-                              half=digits(1.963 * other["energy_kJ_se"], 2))  # 1.963: Student's t of some 690 rocks
+        wanted = words.format(reach=re.escape(of_1000("reach", other)), exceed=exceed, mean=f"{other['energy_kJ']['mean']:.1f}",
+                              half=digits(1.963 * other["energy_kJ"]["se"], 2))  # 1.963: Student's t of some 690 rocks
         expect(re.search(wanted, page), wanted, page)
     none = good(*WHOLE, "-n", 5, PAPER, "-s", "forest[0].stand.trees[0].dbh_m=2", "-s", "forest[0].stand.trees[0].volume_m3=9").out
     expect_in("With the energy law dorren no rock arrives.", " ".join(none.split()))

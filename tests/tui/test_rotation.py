@@ -253,7 +253,7 @@ def test_figures():
               f"(year {rotation['worst_year']}).", text)
     expect_in(f"Yield {option['yield']['cut_m3_ha_per_year']:.2g} m³ per ha and year.", text)
     expect_in(f"mean {1000 * rotation['exceed_probability']['mean']:.0f} ±", text)
-    expect_in(f"Expected a year: {digits(rotation['passes_per_year'], 2)} pass, {digits(rotation['exceeds_per_year'], 2)} with too much",
+    expect_in(f"Expected a year: {digits(rotation['reach_per_year'], 2)} pass, {digits(rotation['exceed_per_year'], 2)} with too much",
               text)
     for screen, year in ((screens[0], years[0]), (screens[1], years[3])):
         number, cut, adc = year_said(screen)
