@@ -111,25 +111,26 @@ static void leave(struct binder *b, size_t before)
         b->path.bytes[before] = '\0';
 }
 
-static void report_unknown_key(struct binder *b, const struct object *object, const struct node *entry)
+const char *ceduo_bind_unknown_key(const struct object *object, const char *key, struct text *said)
 {
-    const char *instead = ceduo_schema_gone(object, entry->key);
     const char *words[KEYS_SHOWN_MOST] = {0};
     size_t n = 0;
     for (size_t i = 0; i < object->n && n < KEYS_SHOWN_MOST; i++) /* untaken: large */
         words[n++] = object->fields[i].key;
-    const char *near = ceduo_text_nearest(entry->key, words, n);
+    const char *near = ceduo_text_nearest(key, words, n);
+    LOCAL_TEXT(list);
+    ceduo_text_words(&list, words, n, ", ");
+    ceduo_text_format(said, near ? _("unknown key; did you mean '%s'?") : _("unknown key; known here: %s"),
+                      near ? near : ceduo_text_string(&list));
+    return near;
+}
+
+static void report_unknown_key(struct binder *b, const struct object *object, const struct node *entry)
+{
+    LOCAL_TEXT(said);
+    const char *instead = ceduo_schema_gone(object, entry->key), *near = ceduo_bind_unknown_key(object, entry->key, &said);
     size_t before = enter(b, entry->key);
-    if (instead) {
-        report_key(b, entry, "%s", _(instead));
-    } else if (near) {
-        report_key(b, entry, _("unknown key; did you mean '%s'?"), near);
-    } else {
-        struct text list = {0};
-        ceduo_text_words(&list, words, n, ", ");
-        report_key(b, entry, _("unknown key; known here: %s"), ceduo_text_string(&list));
-        ceduo_text_free(&list);
-    }
+    report_key(b, entry, "%s", instead ? _(instead) : ceduo_text_string(&said));
     leave(b, before);
     if (near) { /* what was meant is not known, but it is not missing */
         before = enter(b, near);

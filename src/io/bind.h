@@ -31,6 +31,9 @@ struct binding {
 /* Fills `item` (already holding its defaults) from a mapping. A number that is wrong keeps its default. */
 void ceduo_bind(const struct binding *to, const struct object *object, const struct node *node, void *item);
 
+/* Says that an object has no such key: which was meant, or which there are. The one that was meant, or NULL. */
+const char *ceduo_bind_unknown_key(const struct object *object, const char *key, struct text *said);
+
 /* Room for n + 1 items in the arena. NULL without memory, which is told. */
 void *ceduo_bind_take(struct arena *arena, size_t n, size_t size, struct problems *problems);
 

@@ -280,11 +280,11 @@ const struct node *ceduo_resolve_scene(struct arena *arena, const struct node *r
 
 /* ---- paths ---- */
 
-/* Whether an item has this name; a belt has its stand's. */
-static bool is_named(const struct node *item, const struct path_step *step)
+/* The name of an item; a belt has its stand's. NULL: none. */
+static const char *name_of(const struct node *item)
 {
     const char *name = ceduo_node_text(item, "name");
-    return ceduo_path_is(step, name ? name : ceduo_node_text(ceduo_node_get(item, "stand"), "name"));
+    return name ? name : ceduo_node_text(ceduo_node_get(item, "stand"), "name");
 }
 
 bool ceduo_resolve_item(const struct node *list, const struct path_step *step, size_t *index)
@@ -292,7 +292,7 @@ bool ceduo_resolve_item(const struct node *list, const struct path_step *step, s
     if (ceduo_path_index(step, index))
         return *index < list->n;
     for (*index = 0; *index < list->n; ++*index)
-        if (is_named(list->items[*index], step))
+        if (ceduo_path_is(step, name_of(list->items[*index])))
             return true;
     return false;
 }
@@ -393,18 +393,18 @@ static bool needs_no_source(const struct setter *s, const struct field *f, const
            !now.source->is_option || (old && ceduo_node_equal(&before, &now));
 }
 
-/* Why a path leads nowhere: the forests of a scene with options stand in these. */
-static const char *what_instead(const struct setter *s, const struct node *map, const struct path_step *step)
+/* Why a path leads nowhere: what is not there, or stands in the options of a scene. */
+static const struct node *fail_missing(struct setter *s, const struct node *map, const struct path_step *step)
 {
-    const struct node *options = step->p == s->set->bytes ? ceduo_node_get(map, "options") : NULL;
-    struct text words = {0};
-    if (!options || step->n != strlen("forest") || strncmp(step->p, "forest", step->n) != 0)
-        return _("there is nothing to change here");
-    ceduo_text_format(&words, _("this scene has options: use options[0].%.*s, or the name of another in place of 0"),
-                      (int)s->length, step->p);
-    const char *said = ceduo_arena_string(s->arena, ceduo_text_string(&words));
-    ceduo_text_free(&words);
-    return said ? said : "";
+    bool root = step->p == s->set->bytes;
+    if (root && ceduo_path_is(step, "forest") && ceduo_node_get(map, "options"))
+        ceduo_problem(s->problems, s->set, 1, 1,
+                      _("this scene has options: write options[0].%.*s, or the name of another in place of 0"), (int)s->length,
+                      step->p);
+    else
+        ceduo_problem(s->problems, s->set, 1, (size_t)(step->p - s->set->bytes) + 1,
+                      root ? _("this scene has no '%.*s'") : _("there is no '%.*s' here"), (int)step->n, step->p);
+    return NULL;
 }
 
 static const struct node *set_entry(struct setter *s, const struct object *object, const struct node *map,
@@ -420,8 +420,11 @@ static const struct node *set_entry(struct setter *s, const struct object *objec
     const char *instead = object ? ceduo_schema_gone(object, key) : NULL;
     if (instead)
         return fail_at(s, step, _(instead));
-    if (!f && !free_form)
-        return fail_at(s, step, _("unknown key (ceduo --list-parameters)"));
+    LOCAL_TEXT(said);
+    if (!f && !free_form) {
+        ceduo_bind_unknown_key(object, key, &said);
+        return fail_at(s, step, ceduo_text_string(&said));
+    }
     const struct node *child = ceduo_node_get(map, key);
     bool last = at >= s->length;
     if (!last && f && f->flags & FIELD_FOLLOWS && child && !(child = ceduo_resolve(s->arena, f->object, child, s->problems)))
@@ -431,7 +434,7 @@ static const struct node *set_entry(struct setter *s, const struct object *objec
     else if (!last && !child && (!f || f->type == FIELD_GROUP))
         child = ceduo_node_empty(s->arena, NODE_MAP, s->set);
     else if (!last && !child)
-        return fail_at(s, step, what_instead(s, map, step));
+        return fail_missing(s, map, step);
     if (!last && !child)
         return NULL; /* no memory for it */
     s->sourced |= needs_no_source(s, f, key, last ? child : NULL);
@@ -444,13 +447,30 @@ static const struct node *set_entry(struct setter *s, const struct object *objec
     return map ? ceduo_node_with(s->arena, map, key, child) : NULL;
 }
 
+#define ITEMS_SHOWN 12
+
+/* Names the items that there are. */
+static const struct node *fail_no_item(struct setter *s, const struct node *list, const struct path_step *step)
+{
+    LOCAL_TEXT(items);
+    LOCAL_TEXT(what);
+    for (size_t i = 0; i < list->n && i < ITEMS_SHOWN; i++) {
+        const char *name = name_of(list->items[i]);
+        ceduo_text_format(&items, "%s[%zu]%s%s", i > 0 ? ", " : "", i, name ? " " : "", name ? name : "");
+    }
+    ceduo_text_put(&items, list->n > ITEMS_SHOWN ? ", \xe2\x80\xa6" : "");
+    if (list->n > 0)
+        ceduo_text_format(&what, _("no such item; there are: %s"), ceduo_text_string(&items));
+    return fail_at(s, step, list->n > 0 ? ceduo_text_string(&what) : _("no such item; the list is empty"));
+}
+
 /* Whether several items from the first on have the name that a bracket holds. Says so. */
 static bool is_ambiguous(struct setter *s, const struct node *list, const struct path_step *step, size_t first)
 {
     struct text what = {0}, items = {0};
     size_t place, n = 0;
     for (size_t i = first; i < list->n && !ceduo_path_index(step, &place); i++)
-        if (is_named(list->items[i], step))
+        if (ceduo_path_is(step, name_of(list->items[i])))
             ceduo_text_format(&items, "%s[%zu]", n++ > 0 ? ", " : "", i);
     ceduo_text_format(&what, _("several items have this name; use one of: %s"), ceduo_text_string(&items));
     if (n > 1)
@@ -486,7 +506,7 @@ static const struct node *set_item(struct setter *s, const struct field *f, cons
     if (ceduo_path_is(step, "*") && list->n > 0)
         return set_all(s, object, list, at);
     if (!ceduo_resolve_item(list, step, &i))
-        return fail_at(s, step, _("no such item"));
+        return fail_no_item(s, list, step);
     if (is_ambiguous(s, list, step, i))
         return NULL;
     const struct node *item = set_in(s, NULL, object, list->items[i], at);

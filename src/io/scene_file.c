@@ -71,6 +71,18 @@ bool ceduo_scene_set(struct scene_file *file, const char *option, const char *se
     const struct node *value = ceduo_yaml_read_value(&file->arena, source, length + 1, problems);
     if (!value)
         return false;
+    /* what a shell passes on without quotes, and YAML cuts or takes apart */
+    LOCAL_TEXT(path);
+    ceduo_text_add(&path, source->bytes, length);
+    const struct field *field = ceduo_schema_at(ceduo_text_string(&path));
+    const char *given = equals + 1 + strspn(equals + 1, " ");
+    bool text = field ? field->type <= FIELD_FILE : value->kind == NODE_SCALAR;
+    bool cut = value->kind == NODE_SCALAR && !value->quoted && (*given == '#' || strstr(given, " #"));
+    if (text && (cut || (value->kind == NODE_MAP && !value->flow)))
+        return ceduo_problem(problems, source, 1, length + 2,
+                             cut ? _("'#' begins a comment; between quotes it is text: %s=\"%s\"")
+                                 : _("': ' makes a mapping; between quotes it is text: %s=\"%s\""),
+                             ceduo_text_string(&path), given);
     const struct node *root = ceduo_resolve_set(&file->arena, file->root, source, length, value, problems);
     if (root)
         file->root = root;
@@ -81,6 +93,7 @@ bool ceduo_scene_set(struct scene_file *file, const char *option, const char *se
 static void complain_no_scene(struct scene_file *file, const char *path, struct problems *problems)
 {
     LOCAL_TEXT(names);
+    LOCAL_TEXT(known);
     LOCAL_TEXT(folders);
     const char *near = NULL;
     char *plain = ceduo_arena_string(&file->arena, path);
@@ -93,12 +106,15 @@ static void complain_no_scene(struct scene_file *file, const char *path, struct 
         const char *const *list = ceduo_file_list(&file->arena, all[i], "scenes", &n);
         const char **words = ceduo_arena_take(&file->arena, (n + 1) * sizeof *words);
         for (size_t k = 0; words && k < n; k++)
-            words[k] = ceduo_arena_copy(&file->arena, list[k], strlen(list[k]) - 5);
+            ceduo_text_then(&known, k > 0 || i > 0 ? ", " : "", "%s",
+                            words[k] = ceduo_arena_copy(&file->arena, list[k], strlen(list[k]) - 5));
         near = near || !words || file->arena.failed ? near : ceduo_text_nearest(plain, words, n);
         ceduo_text_format(&folders, "%s%s/scenes", i > 0 ? ", " : "", all[i]);
     }
     if (near)
         ceduo_text_then(&names, "; ", _("did you mean '%s'?"), near);
+    else if (known.bytes)
+        ceduo_text_then(&names, "; ", _("scenes that come with it: %s"), known.bytes);
     if (folders.bytes)
         ceduo_text_then(&names, " ", _("(looked for here and in %s)"), folders.bytes);
     problems->memory |= names.failed || folders.failed || file->arena.failed;

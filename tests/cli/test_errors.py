@@ -450,14 +450,17 @@ CASES = {
     "there is no value after the =": Set("release.height_m=@@"),
     "expected PATH=VALUE": Set("@@rock.diameter_m"),
     "malformed path; keys are joined by '.', items are [0] or [name]": Set("rock@@..diameter_m=1"),
-    "'diameter': unknown key (ceduo --list-parameters)": Set("rock.@@diameter=1"),
-    "'3': no such item": Set("controls[@@3].x_m=50"),
+    "'diameter': unknown key; did you mean 'diameter_m'?": Set("rock.@@diameter=1"),
+    "'3': no such item; there are: [0] road, [1]": Set("controls[@@3].x_m=50"),
     "'road': several items have this name; use one of: [0], [1]": Set(
         "controls[1].name=road", "controls[@@road].accepted_kJ=1"),
     "'0': there is no list here": Set("rock[@@0]=1"),
     "'from_m': there is no mapping here": Set("forest.@@from_m=1"),
-    "'trees': there is nothing to change here": Set("forest[1].stand=bare", "forest[1].stand.@@trees[0].per_ha=1"),
-    "'forest': this scene has options: use options[0].forest[0].to_m, ...": Words(
+    "there is no 'trees' here": Set("forest[1].stand=bare", "forest[1].stand.@@trees[0].per_ha=1"),
+    "'#' begins a comment; between quotes it is text: title=\"x #1\"": Set("title=@@x #1"),
+    "': ' makes a mapping; between quotes it is text: title=\"a: b\"": Set("title=@@a: b"),
+    "this scene has no 'blocks'": Set("@@blocks.per_year=3"),
+    "this scene has options: write options[0].forest[0].to_m, ...": Words(
         "--batch", "-s", "forest[0].to_m=50", "four-systems", start="--set:1:1: "),
     "the scene is valid without this change, but not with it:": Set("forest[0].to_m=@@50"),
     # Usage
