@@ -29,9 +29,19 @@ static bool takes_path(const struct option_row *row)
     return row->value && strncmp(row->value, "PATH=", 5) == 0;
 }
 
+static bool takes_table(const struct option_row *row)
+{
+    return row->value && strstr(row->value, ".csv");
+}
+
+static bool takes_option(const struct option_row *row)
+{
+    return strcmp(row->name, "option") == 0;
+}
+
 static bool takes_file(const struct option_row *row)
 {
-    return row->value && strncmp(row->value, "FILE", 4) == 0;
+    return row->value && (strncmp(row->value, "FILE", 4) == 0 || takes_table(row));
 }
 
 /* ---- bash ---- */
@@ -42,6 +52,11 @@ static void put_pattern(const struct option_row *row)
         printf("-%c|", row->letter);
     printf("--%s)", row->name);
 }
+
+/* Names of the options of a scene, a line each, from one rock of a run. */
+#define OPTIONS(scene)                                                                                                         \
+    "-b -q -n 1 -f csv --columns option -- " scene " 2>/dev/null |\n"                                                          \
+    "            awk 'NR > 1 && !seen[$0]++ {if (sub(/^\"/, \"\") && sub(/\"$/, \"\")) gsub(/\"\"/, \"\\\"\"); print}'"
 
 /* Names hold blanks and quotes: they come one on a line, are never expanded, and readline quotes what is inserted. */
 static const char *const bash_head =
@@ -90,20 +105,43 @@ static const char *const bash_head =
     "    done < <(compgen -G \"$pattern*\")\n"
     "}\n"
     "\n"
-    "_ceduo()\n"
+    "# paths of parameters with the indices that were typed, and 0 for others\n"
+    "_ceduo_paths()\n"
     "{\n"
-    "    local cur=${COMP_WORDS[COMP_CWORD]} prev=${COMP_WORDS[COMP_CWORD-1]} program plain\n"
-    "    # --option=value comes in three words\n"
-    "    if [[ $cur == = ]]; then\n"
-    "        cur=\n"
-    "    elif [[ $prev == = ]]; then\n"
-    "        prev=${COMP_WORDS[COMP_CWORD-2]}\n"
-    "    fi\n"
-    "    _ceduo_plain \"${COMP_WORDS[0]/#'~/'/$HOME/}\"\n"
-    "    program=$plain\n"
-    "    _ceduo_plain \"$cur\"\n"
-    "    COMPREPLY=()\n"
-    "    case $prev in";
+    "    local line listed\n"
+    "    listed=$(sed 's/\\[[^]]*\\]/[]/g; s/^options\\[\\]\\.forest\\[\\]/forest[]/' <<< \"$plain\")\n"
+    "    while IFS= read -r line; do\n"
+    "        [[ $line == \"$listed\"* ]] || continue\n"
+    "        line=${line:${#listed}}\n"
+    "        COMPREPLY+=(\"$plain${line//\\[\\]/[0]}\")\n"
+    "    done\n"
+    "}\n"
+    "\n"
+    "# names of the options of the scenes that were typed\n"
+    "_ceduo_options()\n"
+    "{\n"
+    "    local word plain\n"
+    "    for word in \"${COMP_WORDS[@]:1}\"; do\n"
+    "        _ceduo_plain \"${word/#'~/'/$HOME/}\"\n"
+    "        [[ -z $plain || $plain == -* ]] || \"$program\" " OPTIONS(
+        "\"$plain\"") "\n"
+                      "    done\n"
+                      "}\n"
+                      "\n"
+                      "_ceduo()\n"
+                      "{\n"
+                      "    local cur=${COMP_WORDS[COMP_CWORD]} prev=${COMP_WORDS[COMP_CWORD-1]} program plain\n"
+                      "    # --option=value comes in three words\n"
+                      "    if [[ $cur == = ]]; then\n"
+                      "        cur=\n"
+                      "    elif [[ $prev == = ]]; then\n"
+                      "        prev=${COMP_WORDS[COMP_CWORD-2]}\n"
+                      "    fi\n"
+                      "    _ceduo_plain \"${COMP_WORDS[0]/#'~/'/$HOME/}\"\n"
+                      "    program=$plain\n"
+                      "    _ceduo_plain \"$cur\"\n"
+                      "    COMPREPLY=()\n"
+                      "    case $prev in";
 
 /* Names of the scenes among the profiles, a line each, from the program's list. */
 #define SCENES                                                                                                                 \
@@ -117,7 +155,7 @@ static void put_bash(const struct option_row *rows, size_t n)
 {
     puts(bash_head);
     for (size_t i = 0; i < n; i++) {
-        if (!rows[i].value)
+        if (!rows[i].value || rows[i].value[0] == '[') /* without a value what follows is the next word */
             continue;
         fputs("    ", stdout);
         put_pattern(&rows[i]);
@@ -126,12 +164,14 @@ static void put_bash(const struct option_row *rows, size_t n)
             printf(" _ceduo_offer < <(printf '%%s\\n' %s); return;;\n", words);
         else if (takes_path(&rows[i]))
             puts("\n"
-                 "        _ceduo_offer < <(\"$program\" " PARAMETERS(
+                 "        _ceduo_paths < <(\"$program\" " PARAMETERS(
                      "=") ")\n"
                           "        [[ ${COMPREPLY-} == *= ]] && compopt -o nospace 2>/dev/null\n"
                           "        return;;");
+        else if (takes_option(&rows[i]))
+            puts(" _ceduo_offer < <(_ceduo_options); return;;");
         else if (takes_file(&rows[i]))
-            puts(" _ceduo_files ''; return;;");
+            puts(takes_table(&rows[i]) ? " _ceduo_files '\\.csv$'; return;;" : " _ceduo_files ''; return;;");
         else
             puts(" return;;");
     }
@@ -174,7 +214,12 @@ static void put_zsh_value(const struct option_row *row)
     if (words)
         printf(":(%s)", words);
     else
-        fputs(takes_path(row) ? ":_ceduo_parameters" : takes_file(row) ? ":_files" : ": ", stdout);
+        fputs(takes_path(row)     ? ":_ceduo_parameters"
+              : takes_option(row) ? ":_ceduo_options"
+              : takes_table(row)  ? ":_files -g \"*.csv(-.)\""
+              : takes_file(row)   ? ":_files"
+                                  : ": ",
+              stdout);
 }
 
 static void put_zsh(const struct option_row *rows, size_t n)
@@ -187,14 +232,24 @@ static void put_zsh(const struct option_row *rows, size_t n)
              "") ")\"})\n"
                  "    compadd -S = -a paths\n"
                  "}\n"
-                 "_ceduo_scenes()\n"
+                 "_ceduo_options()\n"
                  "{\n"
                  "    local -a names\n"
-                 "    names=(${(f)\"$(\"${(Q)${words[1]/#\\~\\//$HOME/}}\" " SCENES ")\"})\n"
-                 "    compadd -a names\n"
-                 "    _files -g '*.(yaml|yml|jsonl)(-.)'\n"
-                 "}\n"
-                 "_arguments -s \\");
+                 "    local word\n"
+                 "    for word in ${(Q)words[2,-1]/#\\~\\//$HOME/}; do\n"
+                 "        [[ -z $word || $word == -* ]] || names+=(${(f)\"$(\"${(Q)${words[1]/#\\~\\//$HOME/}}\" " OPTIONS(
+                     "\"$word\"") ")\"})\n"
+                                  "    done\n"
+                                  "    compadd -a names\n"
+                                  "}\n"
+                                  "_ceduo_scenes()\n"
+                                  "{\n"
+                                  "    local -a names\n"
+                                  "    names=(${(f)\"$(\"${(Q)${words[1]/#\\~\\//$HOME/}}\" " SCENES ")\"})\n"
+                                  "    compadd -a names\n"
+                                  "    _files -g '*.(yaml|yml|jsonl)(-.)'\n"
+                                  "}\n"
+                                  "_arguments -s \\");
     for (size_t i = 0; i < n; i++) {
         bool letter = rows[i].letter != 0;
         fputs("    ", stdout);

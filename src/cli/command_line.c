@@ -58,8 +58,8 @@ void ceduo_arguments_help(struct text *text)
     for (size_t i = 0; i < n; i++) {
         char head[64];
         int width = snprintf(head, sizeof head, rows[i].letter ? "  -%c, --%s%s%s" : "    %c --%s%s%s",
-                             rows[i].letter ? rows[i].letter : ' ', rows[i].name,
-                             rows[i].value && rows[i].value[1] != '=' ? " " : "", rows[i].value ? rows[i].value : "");
+                             rows[i].letter ? rows[i].letter : ' ', rows[i].name, rows[i].value ? " " : "",
+                             rows[i].value ? rows[i].value : "");
         ceduo_text_format(text, "%-30s%s", head, width >= 30 ? "\n                              " : "");
         put_help(text, _(rows[i].help));
     }
@@ -86,7 +86,7 @@ static enum exit_status check_with(const struct arguments *a)
             continue;
         if (a->mode == MODE_TERMINAL)
             return ceduo_usage(NULL, _("options such as -s, -n, -f and -o require --batch"));
-        if (!page || a->mode != MODE_REPORT)
+        if (!page || (a->mode != MODE_REPORT && a->mode < MODE_PARAMETERS))
             return ceduo_usage(NULL, _("--%s cannot be used with --%s"), mode, rows[i].name);
     }
     return EXIT_DONE;
@@ -213,7 +213,7 @@ enum exit_status ceduo_arguments_read(struct arguments *a, int argc, char **argv
         size_t i = letter >= LONG ? (size_t)(letter - LONG) : 0;
         while (letter < LONG && rows[i].letter != letter)
             i++;
-        if (!optarg && rows[i].value && rows[i].value[1] != '=')
+        if (!optarg && rows[i].value)
             optarg = word_of_its_own(argc, argv);
         enum exit_status status = ceduo_option_set(a, &rows[i], optarg);
         if (status != EXIT_DONE)

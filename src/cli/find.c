@@ -62,7 +62,7 @@ static enum exit_status look(const struct arguments *a, struct scene_file *file,
     ceduo_problems_close(&problems);
     ceduo_say(&problems.text);
     if (status == CEDUO_OK)
-        put(out, a, &(struct ceduo_find_report){file, &search.def, &found, &search.yield, &search.sure});
+        put(out, a, &(struct ceduo_find_report){file, &search.def, &found, &search.yield, search.yield_depends, &search.sure});
     bool usage = problems.count > 0;
     ceduo_problems_free(&problems);
     return status == CEDUO_OK ? EXIT_DONE : usage ? EXIT_USAGE : EXIT_RUN;

@@ -92,11 +92,23 @@ static enum exit_status set_threads(struct arguments *a, const struct option_row
     return status;
 }
 
+/* What is no number may be a share in percent. */
+static enum exit_status no_number(const struct option_row *row, const char *value)
+{
+    char part[64];
+    double number;
+    size_t length = strlen(value);
+    snprintf(part, sizeof part, "%.*s", (int)(length < sizeof part ? length - (length > 0) : 0), value);
+    if (length > 0 && value[length - 1] == '%' && ceduo_number_read(part, &number) == CEDUO_NUMBER_GOOD)
+        return ceduo_usage(row->name, _("'%s' is not a number; write %s"), value, SHORTEST(number / 100));
+    return ceduo_usage(row->name, _("'%s' is not a number"), value);
+}
+
 static enum exit_status set_tolerance(struct arguments *a, const struct option_row *row, char *value)
 {
     double number;
     if (ceduo_number_read(value, &number) != CEDUO_NUMBER_GOOD)
-        return ceduo_usage(row->name, _("'%s' is not a number"), value);
+        return no_number(row, value);
     if (!(number > 0) || !(number < 1))
         return ceduo_usage(row->name, _("%s must lie above 0 and below 1"), value);
     a->tolerance = number;
@@ -106,7 +118,7 @@ static enum exit_status set_tolerance(struct arguments *a, const struct option_r
 static enum exit_status set_sure(struct arguments *a, const struct option_row *row, char *value)
 {
     if (ceduo_number_read(value, &a->sure) != CEDUO_NUMBER_GOOD)
-        return ceduo_usage(row->name, _("'%s' is not a number"), value);
+        return no_number(row, value);
     if (!(a->sure > 0) || !(a->sure <= 1))
         return ceduo_usage(row->name, _("%s is not a share; write 0.9 for nine of ten cases"), value);
     return EXIT_DONE;
@@ -213,7 +225,7 @@ static enum exit_status set_goal(struct arguments *a, const struct option_row *r
         ceduo_goal_words(&words);
         return ceduo_usage(row->name, _("'%s' is unknown; one of %s"), value, ceduo_text_string(&words));
     case CEDUO_GOAL_NO_NUMBER:
-        return ceduo_usage(row->name, _("'%s' is not a number"), number);
+        return no_number(row, number);
     case CEDUO_GOAL_NEGATIVE:
         return ceduo_usage(row->name, _("%s is below 0"), number);
     case CEDUO_GOAL_NO_SHARE:
@@ -273,12 +285,13 @@ enum {
     FIT = 1u << MODE_CALIBRATE,
     PAGE = 1u << MODE_REPORT,
     SURVEY = 1u << MODE_SURVEY,
+    LISTS = 1u << MODE_PARAMETERS | 1u << MODE_PROFILES | 1u << MODE_COLUMNS | 1u << MODE_SCHEMA,
     SCREEN = 1u << MODE_TERMINAL
 };
 
 static const struct option_row rows[] = {
     {"batch", 'b', NULL, NULL, 0, MODE_BATCH, SURVEY, N_("compute the scenes and print the result, without a terminal")},
-    {"format", 'f', "table|csv|json", set_word, AT(format), MODE_TERMINAL, CHECK | PAGE | SURVEY | SCREEN,
+    {"format", 'f', "table|csv|json", set_word, AT(format), MODE_TERMINAL, CHECK | PAGE | SURVEY | LISTS | SCREEN,
      N_("format of the output (table)")},
     {"details", 0, NULL, NULL, 0, MODE_BATCH, CHECK | FIND | DOUBT | FIT | PAGE | SURVEY,
      N_("print the whole page, with every figure, not the answer alone")},
@@ -313,7 +326,7 @@ static const struct option_row rows[] = {
      N_("adc, free-run (at most the light's limit), energy (mean kJ) or exceed (share, 0.05)")},
     {"sure", 0, "SHARE", set_sure, 0, MODE_TERMINAL, CHECK | SURVEY,
      N_("with --find: also the value that reaches the goal in this share of what may be true, such as 0.9")},
-    {"sensitivity", 0, "[=N]", set_sensitivity, 0, MODE_SENSITIVITY, CHECK | SURVEY,
+    {"sensitivity", 0, "[N]", set_sensitivity, 0, MODE_SENSITIVITY, CHECK | SURVEY,
      N_("show how sure the result is, and what that depends on; N points (256)")},
     {"report", 0, "FILE", set_report, 0, MODE_REPORT, CHECK | SURVEY,
      N_("write a page to hand in as HTML, with pictures; several scenes give chapters; - is standard output")},
@@ -341,8 +354,8 @@ static const struct option_row rows[] = {
     {"survey", 0, "FILE.csv", set_text, AT(survey), MODE_SURVEY, CHECK,
      N_("write the stand of a survey: a CSV file with a row for each stem on sample plots")},
     {"quiet", 'q', NULL, set_flag, AT(quiet), MODE_TERMINAL, 0, N_("print no progress")},
-    {"help", 0, NULL, NULL, 0, MODE_HELP, 0, N_("print this help")},
-    {"version", 0, NULL, NULL, 0, MODE_VERSION, 0, N_("print the version")},
+    {"help", 'h', NULL, NULL, 0, MODE_HELP, 0, N_("print this help")},
+    {"version", 'V', NULL, NULL, 0, MODE_VERSION, 0, N_("print the version")},
 };
 
 #define ROWS (sizeof rows / sizeof rows[0])

@@ -12,7 +12,7 @@
 struct option_row {
     const char *name;
     char letter; /* 0: none */
-    /* as the help shows it, "a|b|c" where it is one of these; "[=N]": it may have one; NULL: it takes none */
+    /* as the help shows it, "a|b|c" where it is one of these; "[N]": it may have one; NULL: it takes none */
     const char *value;
     enum exit_status (*set)(struct arguments *arguments, const struct option_row *row, char *value); /* may be NULL */
     size_t at;        /* of the member that is set, for the setters that several options share */

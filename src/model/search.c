@@ -196,15 +196,21 @@ static enum ceduo_status search_sure(struct search *s, const struct ceduo_find_d
 }
 
 /* What the option yields at a value. */
-static void read_yield(struct search *s, double value, enum ceduo_status status)
+static struct ceduo_yield yield_at(struct search *s, double value)
 {
-    struct ceduo_yield *yield = &s->yield;
-    bool known = status == CEDUO_OK && !isnan(value) && set_value(s, value) &&
-                 ceduo_yield_of(&s->file->scene.options[s->def.option], 0, yield) == CEDUO_OK;
-    if (!known)
-        *yield = (struct ceduo_yield){.cut_per_year = NAN, .died_per_year = NAN, .standing = NAN, .volume_today = NAN};
-    free(yield->fellings);
-    yield->fellings = NULL;
+    struct ceduo_yield yield = {0};
+    bool known =
+        !isnan(value) && set_value(s, value) && ceduo_yield_of(&s->file->scene.options[s->def.option], 0, &yield) == CEDUO_OK;
+    free(yield.fellings);
+    yield.fellings = NULL;
+    return known ? yield
+                 : (struct ceduo_yield){.cut_per_year = NAN, .died_per_year = NAN, .standing = NAN, .volume_today = NAN};
+}
+
+/* By more than rounding. */
+static bool differ(double a, double b)
+{
+    return fabs(a - b) > 1e-9 * fabs(a);
 }
 
 /* ---- the search ---- */
@@ -264,11 +270,23 @@ enum ceduo_status ceduo_search(struct search *s, struct ceduo_found *found, stru
                                  .tolerance = 1e-4,
                                  .cancel = s->cancel};
     s->passes = def.target;
+    char room[CEDUO_NUMBER_ROOM];
+    bool ends[] = {set_value(s, def.lo), set_value(s, def.hi)};
+    if (ends[0] != ends[1])
+        ceduo_problem(problems, &path_source, 0, 0, _("the other end of the range, %s, is possible"),
+                      ceduo_number_shortest(ends[0] ? def.lo : def.hi, room));
+    if (!ends[0] || !ends[1])
+        return CEDUO_BAD_SLOPE;
     enum ceduo_status status = ceduo_find(&def, found);
     ceduo_pool_free(s->pool);
     if (status == CEDUO_OK && s->def.sure > 0)
         status = search_sure(s, &def, found);
-    read_yield(s, found->found ? found->value : found->nearest, status);
+    if (status == CEDUO_OK) {
+        struct ceduo_yield lo = yield_at(s, def.lo), hi = yield_at(s, def.hi);
+        s->yield = yield_at(s, found->found ? found->value : found->nearest);
+        s->yield_depends = differ(lo.cut_per_year, hi.cut_per_year) || differ(lo.standing, hi.standing) ||
+                           differ(lo.died_per_year, hi.died_per_year);
+    }
     return status;
 }
 

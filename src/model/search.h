@@ -20,6 +20,7 @@ struct search {
     struct ceduo_sure sure;
     struct ceduo_yield yield; /* of the option at the value that was found, or else comes nearest: without fellings; NaN
                                 * where it is not known */
+    bool yield_depends;       /* on the value: otherwise it is the same at both ends of the range */
     /* while it is under way */
     struct problems *problems;
     double passes;           /* the largest goal that is reached */

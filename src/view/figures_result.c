@@ -116,6 +116,11 @@ static const void *found_yield_of(const void *find)
     return yield && !isnan(yield->cut_per_year) ? yield : NULL;
 }
 
+static const void *yields_of(const void *find)
+{
+    return found_yield_of(find) ? find : NULL;
+}
+
 static const void *found_of(const void *find)
 {
     return ((const struct ceduo_find_report *)find)->found;
@@ -652,14 +657,18 @@ static const struct ceduo_figure sure_rows[] = {
     {"points", "", "points of what may be true, for each", AT(sure, points)},
     {"rocks", "", "rocks at each point", AT(sure, rocks)},
     END};
+static const struct ceduo_figure found_yield[] = {
+    {.from = found_yield_of, .of = yield_rows},
+    {"depends", "", "whether it depends on the value; otherwise it is the same over the whole range",
+     AT(find_report, yield_depends)},
+    END};
 static const struct ceduo_figure search_rows[] = {
     {"monotone", "", "whether the goal only rises or only falls over the range", .from = found_of, AT(found, monotone)},
     {"evaluations", "", "values looked at", .from = found_of, AT(found, evaluations)},
     {"rocks", "", "rocks flown for each", .from = search_of, AT(search, rocks)},
     {"over", "", "today, or rotation: over one whole rotation, where the parameter is one of growth or cutting",
      .from = search_of, .value = over_of},
-    {"yield", "", "stem wood that the option yields at this value", .from = found_yield_of, .of = yield_rows,
-     .null = NO_GROWTH},
+    {"yield", "", "stem wood that the option yields at this value", .from = yields_of, .of = found_yield, .null = NO_GROWTH},
     {"sure", "", "the same search under doubt", .from = sure_of, .of = sure_rows, .null = NOT_SURE},
     END};
 

@@ -78,6 +78,8 @@ void ceduo_find_page(struct text *text, const struct ceduo_find_report *report)
     if (report->yield && !isnan(report->yield->cut_per_year)) {
         ceduo_text_then(text, "  ", _("yield: %.3g m\xc2\xb3 felled per hectare and year, %.3g m\xc2\xb3 standing per hectare"),
                         report->yield->cut_per_year, report->yield->standing);
+        if (!report->yield_depends)
+            ceduo_text_then(text, "; ", "%s", _("the same for every value of the range"));
         ceduo_text_char(text, '\n');
     }
     if (s->sure > 0) {

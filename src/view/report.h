@@ -53,6 +53,7 @@ struct ceduo_find_report {
     const struct ceduo_search *search;
     const struct ceduo_found *found;
     const struct ceduo_yield *yield; /* at that value; NaN where it is not known; NULL: none */
+    bool yield_depends;              /* on the value; otherwise it is the same over the whole range */
     const struct ceduo_sure *sure;
 };
 void ceduo_find_page(struct text *text, const struct ceduo_find_report *report);

@@ -255,6 +255,14 @@ def test_bash():
         expect_equal(completed(place, program, "--goal", "e"), ["energy", "exceed"])
         expect_equal(completed(place, program, "-s", "simulation.scale"), ["simulation.scale_rn="])
         expect_equal(completed(place, program, "--find", "rocks_per"), ["rocks_per_year="])
+        expect_equal(completed(place, program, "-s", "forest[2].stand.stools.s"), ["forest[2].stand.stools.spacing_m="])
+        expect_equal(completed(place, program, "-s", "options[selection coppice].forest[0].stand.tre")[0],
+                     "options[selection coppice].forest[0].stand.trees[0].per_ha=")
+        expect_equal(completed(place, program, "-s", "controls[0].accepted"), ["controls[0].accepted_kJ="])
+        expect_equal(completed(place, program, "four-systems", "--option", "sel"), ["selection coppice", "selection coppice, just cut"])
+        (place.path / "plots.csv").write_text("")
+        for option in ("--survey", "--each"):
+            expect_equal(completed(place, program, option, "p"), ["plots.csv"], option)
         expect_equal(completed(place, program, "paper"), ["paper-site"])
         expect_equal(completed(place, program, "mi"), ["mine.yaml"])
         for plot in completed(place, program, "--plot", ""):
