@@ -7,6 +7,8 @@
 #include <stdint.h>
 #include <string.h>
 
+#include "elementary.h"
+
 /* A number, or as many as one register holds: a text that is written for `real` serves both, with the same bits in each
  * lane. + - * / and, of `ints`, & | ^ << >> are those of C; the rest is named here. A file that includes this says how many
  * by REAL_LANES: 1; 8 where it has set its target to AVX-512 with DQ; 4, AVX2; 2, any other. */
@@ -34,18 +36,8 @@ typedef uint64_t ints;
 typedef bool mask; /* masks are joined by & and |, and by but() */
 
 OP(real, all, (double s), s)
-HOT ints as_ints(real p)
-{
-    ints i;
-    memcpy(&i, &p, sizeof i);
-    return i;
-}
-HOT real as_real(ints p)
-{
-    real x;
-    memcpy(&x, &p, sizeof x);
-    return x;
-}
+OP(ints, as_ints, (real p), elementary_bits(p))
+OP(real, as_real, (ints p), elementary_real(p))
 OP(mask, less, (real p, real q), p < q)
 OP(mask, at_least, (real p, real q), p >= q)
 OP(mask, equal, (real p, real q), p == q)

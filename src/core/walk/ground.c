@@ -35,12 +35,6 @@ static bool same_roughness(const struct ceduo_segment *a, const struct ceduo_seg
                                  : a->roughness_m == b->roughness_m;
 }
 
-static bool same_ground(const struct ceduo_segment *a, const struct ceduo_segment *b)
-{
-    return same_roughness(a, b) && a->friction == b->friction && a->mu == b->mu && same_number(a->rn, b->rn) &&
-           same_number(a->rt, b->rt);
-}
-
 /* Lines from one vertex: steepest and gentlest that pass as near to all vertices so far as rounding allows, and likewise
  * the slopes that no segment so far is turned from. */
 struct lines {
@@ -64,7 +58,9 @@ static size_t end_of_line(const struct ceduo_slope *slope, size_t j, double near
         double turn = NO_BREAK * (1 + m * m);
         if (!(fabs(next - m) <= 2 * turn)) /* by far the most of a rough profile */
             break;
-        if (!same_ground(&slope->segments[j], &slope->segments[end]))
+        const struct ceduo_segment *a = &slope->segments[j], *b = &slope->segments[end];
+        if (!same_roughness(a, b) || a->friction != b->friction || a->mu != b->mu || !same_number(a->rn, b->rn) ||
+            !same_number(a->rt, b->rt))
             break;
         double dx = x[end] - x[j], far = x[end + 1] - x[j], chord = (z[end + 1] - z[j]) / far;
         narrow(&l, m, turn);
@@ -73,16 +69,6 @@ static size_t end_of_line(const struct ceduo_slope *slope, size_t j, double near
             break;
     }
     return end;
-}
-
-static double size_of(const struct ceduo_slope *slope)
-{
-    double size = 0;
-    for (size_t i = 0; i < slope->vertices; i++) {
-        double x = fabs(slope->x[i]), z = fabs(slope->z[i]), most = x > z ? x : z;
-        size = most > size ? most : size;
-    }
-    return size;
 }
 
 static void keep_vertex(struct ground *g, size_t n, double x, double z)
@@ -174,26 +160,6 @@ static bool build_levels(struct ground *g, double margin)
     return true;
 }
 
-static bool allocate_vertices(struct ground *g, size_t most)
-{
-    struct ground_vertex *room = malloc((1 + most + GROUND_BEHIND) * sizeof *room);
-    g->at = room ? room + 1 : NULL;
-    g->x = malloc(most * sizeof *g->x);
-    g->given = malloc(most * sizeof *g->given);
-    return g->at && g->x && g->given;
-}
-
-static bool allocate_segments(struct ground *g)
-{
-    struct ground_segment *room = aligned_alloc(sizeof *room, (g->n + 3) * sizeof *room);
-    if (!room)
-        return false;
-    memset(room, 0, sizeof *room);
-    memset(room + g->n + 1, 0, 2 * sizeof *room);
-    g->segments = room + 1;
-    return true;
-}
-
 bool ceduo_ground_init(struct ground *ground, const struct ceduo_slope *slope, double gravity, double radius,
                        bool radius_varies)
 {
@@ -201,13 +167,23 @@ bool ceduo_ground_init(struct ground *ground, const struct ceduo_slope *slope, d
     ground->facets = slope->facets;
     ground->gravity = gravity;
     ground->half_g = gravity / 2;
-    if (!allocate_vertices(ground, slope->vertices))
+    double size = 0;
+    for (size_t i = 0; i < slope->vertices; i++)
+        size = max(size, max(fabs(slope->x[i]), fabs(slope->z[i])));
+    struct ground_vertex *vertices = malloc((1 + slope->vertices + GROUND_BEHIND) * sizeof *vertices);
+    ground->at = vertices ? vertices + 1 : NULL;
+    ground->x = malloc(slope->vertices * sizeof *ground->x);
+    ground->given = malloc(slope->vertices * sizeof *ground->given);
+    if (!ground->at || !ground->x || !ground->given)
         goto fail;
-    double size = size_of(slope);
     keep_vertices(ground, slope, size);
     ground->along = malloc((ground->n + 1) * sizeof(double));
-    if (!ground->along || !allocate_segments(ground))
+    struct ground_segment *segments = aligned_alloc(sizeof *segments, (ground->n + 3) * sizeof *segments);
+    ground->segments = segments ? segments + 1 : NULL;
+    if (!ground->along || !segments)
         goto fail;
+    memset(segments, 0, sizeof *segments);
+    memset(segments + ground->n + 1, 0, 2 * sizeof *segments);
     ground->along[0] = 0;
     for (size_t j = 0; j < ground->n; j++) {
         prepare_segment(ground, j, radius);

@@ -31,12 +31,6 @@ static double surely_below(const struct ground *g, int dir, size_t v, size_t far
     return (low < under ? low : under) * (1 - ROLL_MARGIN);
 }
 
-static double kept_at(const struct ground_segment *a, const struct ground_segment *b)
-{
-    double turn = a->c * b->s - a->s * b->c, cosine = a->c * b->c + a->s * b->s;
-    return turn > 0 ? (cosine > 0 ? cosine * cosine : 0) : 1;
-}
-
 /* The profile's ends are passed by no block. */
 static void set_corners(struct ground *g)
 {
@@ -46,7 +40,9 @@ static void set_corners(struct ground *g)
     for (size_t v = 1; v < n; v++) {
         while (far < n && g->along[far + 1] - g->along[v] < g->reach)
             far++;
-        g->corners[v] = (struct ground_corner){.kept = kept_at(&g->segments[v - 1], &g->segments[v]),
+        const struct ground_segment *a = &g->segments[v - 1], *b = &g->segments[v];
+        double turn = a->c * b->s - a->s * b->c, cosine = a->c * b->c + a->s * b->s;
+        g->corners[v] = (struct ground_corner){.kept = turn > 0 ? (cosine > 0 ? cosine * cosine : 0) : 1,
                                                .friction = g->segments[v].friction,
                                                .surely[0] = surely_below(g, 1, v, far)};
     }
@@ -59,16 +55,6 @@ static void set_corners(struct ground *g)
 
 /* ---- blocks ---- */
 
-static double larger(double a, double b)
-{
-    return a > b ? a : b;
-}
-
-static double smaller(double a, double b)
-{
-    return a < b ? a : b;
-}
-
 /* Segment j with the vertex at its end. */
 static struct ground_roll over_one(const struct ground *g, int side, size_t j)
 {
@@ -77,8 +63,8 @@ static struct ground_roll over_one(const struct ground *g, int side, size_t j)
     double gained = (side == 0 ? falls : -falls) - drag;
     return (struct ground_roll){.kept = c->kept,
                                 .gained = c->kept * gained,
-                                .above = larger(-gained, 0) * (1 + ROLL_MARGIN) + ROLL_SLOW * g->reach,
-                                .below = c->surely[side] - 2 * larger(gained, 0)};
+                                .above = max(-gained, 0) * (1 + ROLL_MARGIN) + ROLL_SLOW * g->reach,
+                                .below = c->surely[side] - 2 * max(gained, 0)};
 }
 
 /* One after the other. What k is does not matter for `below`: at 0 a rock gains the most. */
@@ -88,8 +74,8 @@ static struct ground_roll then(const struct ground_roll *p, const struct ground_
     if (!(p->kept > ROLL_KEPT))
         return both;
     double over = 1 / p->kept;
-    both.above = larger(p->above, (q->above - p->gained) * over);
-    both.below = smaller(p->below, (q->below - 2 * larger(p->gained, 0)) * over);
+    both.above = max(p->above, (q->above - p->gained) * over);
+    both.below = min(p->below, (q->below - 2 * max(p->gained, 0)) * over);
     return both;
 }
 

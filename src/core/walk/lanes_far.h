@@ -16,28 +16,11 @@ struct far_search {
     uint64_t vertex;
 };
 
-HOT double above_one(const struct lanes *k, const struct far_search *f, double x, double z)
-{
-    double t = (x - f->x) * f->inv;
-    return (f->z + (f->vz - k->g->half_g * t) * t) - z;
-}
-
+/* How high it is above points. */
 HOT real above_all(const struct lanes *k, const struct far_search *f, real x, real z)
 {
     real t = (x - f->x) * f->inv;
     return height_after(all(f->z), all(f->vz), k->g->half_g, t) - z;
-}
-
-/* At which of the next vertices the flight would be under the ground; bit 0 is the one at `to`. */
-HOT unsigned vertices_under(const struct lanes *k, const struct far_search *f, const double (*to)[2])
-{
-    unsigned under = 0;
-    for (unsigned at = 0; at < GROUND_GROUP; at += REAL_LANES) {
-        real x, z;
-        load_pairs(to + at, &x, &z);
-        under |= (REGISTER & ~lanes_of(at_least(above_all(k, f, x, z), all(0)))) << at;
-    }
-    return under;
 }
 
 /* Which blocks from `b` on the flight may touch. */
@@ -48,7 +31,8 @@ HOT unsigned blocks_under(const struct lanes *k, const struct far_search *f, con
         real x, z, m, rise;
         load_fours(&b->x, &x, &z, &m, &rise);
         real here = above_all(k, f, x, z);
-        real next = shifted(here, above_one(k, f, b[REAL_LANES].x, b[REAL_LANES].z));
+        double t = (b[REAL_LANES].x - f->x) * f->inv;
+        real next = shifted(here, (f->z + (f->vz - k->g->half_g * t) * t) - b[REAL_LANES].z);
         under |= (REGISTER & ~lanes_of(at_least(here, rise) & at_least(next, rise))) << at;
     }
     return under;
@@ -57,8 +41,14 @@ HOT unsigned blocks_under(const struct lanes *k, const struct far_search *f, con
 /* Looks at the vertices up to the end of their block; whether the flight lands before one. */
 HOT bool search_vertices(const struct lanes *k, struct far_search *f)
 {
-    unsigned count = (GROUP_LAST + 1) - (f->vertex & GROUP_LAST);
-    unsigned under = vertices_under(k, f, k->ground->place.pairs + f->vertex + 2) & ((1u << count) - 1);
+    const double(*to)[2] = k->ground->place.pairs + f->vertex + 2;
+    unsigned count = (GROUP_LAST + 1) - (f->vertex & GROUP_LAST), under = 0; /* bit 0 is the vertex at `to` */
+    for (unsigned at = 0; at < GROUND_GROUP; at += REAL_LANES) {
+        real x, z;
+        load_pairs(to + at, &x, &z);
+        under |= (REGISTER & ~lanes_of(at_least(above_all(k, f, x, z), all(0)))) << at;
+    }
+    under &= (1u << count) - 1;
     f->vertex += under ? (unsigned)__builtin_ctz(under) : count;
     return under;
 }

@@ -145,15 +145,6 @@ static inline void show_stems_met(const struct lanes *k, size_t i)
     w->stem_ahead = side->next = k->stem_ahead[i];
 }
 
-static void load_section(struct lanes *k, size_t i)
-{
-    const struct section *section = &k->job->walkers[i].section;
-    k->section.wide[i] = section->wide;
-    k->section.high[i] = section->high;
-    k->section.reach[i] = section->reach;
-    k->section.gyration[i] = section->gyration;
-}
-
 /* What the next stem ahead does to a rock. */
 HOT void load_hit(struct lanes *k, size_t i, const struct stem *stem)
 {
@@ -194,22 +185,17 @@ static void load_stem(struct lanes *k, size_t i)
     }
 }
 
-/* What the walker knows of itself and the scalar walk may have changed. */
-static void load_walker(struct lanes *k, size_t i)
+/* A course, with what the walker knows of itself and the scalar walk may have changed. */
+static void load_course(struct lanes *k, size_t i, const struct course *c)
 {
+    const struct lanes_ground *ground = k->ground;
     const struct walker *w = &k->job->walkers[i];
     k->spin[i] = w->spin;
     k->next_x[i] = w->next_x;
     k->stem_behind[i] = w->stem_behind;
-    load_stem(k, i);
     k->contacts[i] = w->contacts;
     k->pause[i] = w->pause;
-}
-
-static void load_course(struct lanes *k, size_t i, const struct course *c)
-{
-    const struct lanes_ground *ground = k->ground;
-    load_walker(k, i);
+    load_stem(k, i);
     k->x[i] = c->at.x;
     k->z[i] = c->at.z;
     k->vx[i] = c->at.vx;
@@ -287,8 +273,10 @@ static void refill(struct lanes *k, size_t i)
             k->mass[i] = w->rock.mass;
             k->moment[i] = w->rock.moment;
             k->number[i] = w->number;
-            if (w->has_section)
-                load_section(k, i);
+            k->section.wide[i] = w->section.wide;
+            k->section.high[i] = w->section.high;
+            k->section.reach[i] = w->section.reach;
+            k->section.gyration[i] = w->section.gyration;
             k->fresh |= bit;
             k->same_start = known || (job->alike && w->next_x == mark);
             return;

@@ -66,27 +66,8 @@ HOT void go_to_segment(struct form form, const struct lanes *k, struct passing *
     }
 }
 
-/* The scalar walk takes the stem that is before lane i. */
-static void take_stem_alone(struct lanes *k, struct passing *p, size_t i, bool hit, struct flight at, double t)
-{
-    struct walker *w = &k->job->walkers[i];
-    if (!ceduo_walk_take_stem(w, hit, at, t))
-        p->ended |= 1u << i;
-    load_stem(k, i);
-}
-
-/* The same for each of `lanes`, of which no flight passes a mark. */
+/* The scalar walk takes the stem that is before each of `lanes`, past the marks up to it where it is hit. */
 SELDOM void take_stems_alone(struct lanes *k, struct passing *p, unsigned lanes, unsigned hit)
-{
-    for (; lanes; lanes &= lanes - 1) {
-        size_t i = (size_t)__builtin_ctz(lanes);
-        show_stems_met(k, i);
-        take_stem_alone(k, p, i, hit >> i & 1, (struct flight){0}, 0);
-    }
-}
-
-/* Of each of `lanes`, whose flights pass marks up to the stem that they hit. */
-SELDOM void take_stems_past_marks(struct lanes *k, struct passing *p, unsigned lanes)
 {
     for (; lanes; lanes &= lanes - 1) {
         size_t i = (size_t)__builtin_ctz(lanes);
@@ -94,7 +75,9 @@ SELDOM void take_stems_past_marks(struct lanes *k, struct passing *p, unsigned l
         struct flight at = {.x = k->x[i], .z = k->z[i], .vx = k->vx[i], .vz = k->vz[i]};
         w->spin = k->spin[i];
         show_stems_met(k, i);
-        take_stem_alone(k, p, i, true, at, p->t[i]);
+        if (!ceduo_walk_take_stem(w, hit >> i & 1, at, p->t[i]))
+            p->ended |= 1u << i;
+        load_stem(k, i);
         k->next_x[i] = w->next_x;
         k->pause[i] = w->pause;
     }
@@ -166,13 +149,10 @@ HOT void take_stems(struct lanes *k, struct passing *p, unsigned hit, unsigned a
         waits |= lanes_of(but(less(load(&k->stem.after[i]), load(&k->stem.sure[i])), at_least(load(&k->stem.around[i]), to)))
                  << i;
     }
-    marks &= hit;
-    unsigned alone = p->under_way & ~marks & ~waits;
-    take_waiting(k, p->under_way & ~marks & waits, hit, above);
-    if (alone)
-        take_stems_alone(k, p, alone, hit);
-    if (marks)
-        take_stems_past_marks(k, p, marks);
+    waits &= ~(marks & hit);
+    take_waiting(k, p->under_way & waits, hit, above);
+    if (p->under_way & ~waits)
+        take_stems_alone(k, p, p->under_way & ~waits, hit);
 }
 
 /* How the flights from lane i on pass their next stem. Returns which hit it; those that are in the ground before have no way
@@ -260,40 +240,29 @@ HOT void land_at_stems(struct form form, struct lanes *k, unsigned moved)
     k->left &= ~moved;
 }
 
-/* Those that come to a stem before they land. */
-HOT unsigned come_to_stems(const struct lanes *k)
-{
-    unsigned begin = 0;
-    EACH_REGISTER(i)
-        begin |= lanes_of(at_least(load(&k->to_x[i]), load(&k->stem_ahead[i])) & less(all(0), load(&k->vx[i]))) << i;
-    return begin & k->live & ~k->there;
-}
-
-HOT void begin_passing(struct form form, const struct lanes *k, struct passing *p)
-{
-    const ints n = all_ints(k->g->n);
-    EACH_REGISTER(i) {
-        ints here = load_ints(&k->segment[i]), to = load_ints(&k->to[i]);
-        const struct chord on = look_here(form, k, here);
-        store_here(p, i, here, &on);
-        store(&p->end[i], on.x1);
-        store_ints(&p->last[i], pick_ints(more(to, n), n, to));
-    }
-}
-
 /* All flights along +x that come to a stem before they land, up to their landing, or to where it must be known.
  * Returns those of which the scalar walk does the rest. */
 HOT unsigned pass_stems(struct form form, struct lanes *k)
 {
     struct passing p;
-    unsigned begin = come_to_stems(k), alone = 0;
+    const ints n = all_ints(k->g->n);
+    unsigned begin = 0, alone = 0;
+    EACH_REGISTER(i)
+        begin |= lanes_of(at_least(load(&k->to_x[i]), load(&k->stem_ahead[i])) & less(all(0), load(&k->vx[i]))) << i;
+    begin &= k->live & ~k->there; /* they come to a stem before they land */
     p.knows = begin & ~k->lost;
     p.under_way = begin | k->lost;
     p.moved = p.stopped = p.ended = 0;
     k->aloft = k->waits = k->lost = 0;
     if (!p.under_way)
         return 0;
-    begin_passing(form, k, &p);
+    EACH_REGISTER(i) {
+        ints here = load_ints(&k->segment[i]), to = load_ints(&k->to[i]);
+        const struct chord on = look_here(form, k, here);
+        store_here(&p, i, here, &on);
+        store(&p.end[i], on.x1);
+        store_ints(&p.last[i], pick_ints(more(to, n), n, to));
+    }
     unsigned lost = p.under_way & ~p.knows;
     do {
         /* whose landing is not known goes on while the stem stands over the same segment */

@@ -15,31 +15,24 @@ static int by_x(const void *a, const void *b)
     return (p->what > q->what) - (p->what < q->what);
 }
 
-static bool make_cells(struct marks *marks, const struct ceduo_scene *scene, size_t cells, const double *cell_x)
+/* The controls, and the cells. */
+static bool make_marks(struct marks *marks, const struct ceduo_scene *scene, size_t cells, const double *cell_x)
 {
-    size_t room = cells + ENVELOPE_VECTOR;
-    marks->cells = cells;
+    size_t n = scene->controls_count, room = cells + ENVELOPE_VECTOR;
+    marks->at = malloc((n + 1) * sizeof *marks->at);
     marks->cell_x = malloc(2 * room * sizeof *marks->cell_x);
-    if (!marks->cell_x)
+    if (!marks->at || !marks->cell_x)
         return false;
+    marks->n = n;
+    for (size_t i = 0; i < n; i++)
+        marks->at[i] = (struct mark){scene->controls[i].x, ceduo_slope_height(&scene->slope, scene->controls[i].x), i};
+    qsort(marks->at, n, sizeof *marks->at, by_x);
+    marks->cells = cells;
     marks->cell_z = marks->cell_x + room;
     for (size_t i = 0; i < room; i++) {
         marks->cell_x[i] = i < cells ? cell_x[i] : NAN;
         marks->cell_z[i] = i < cells ? ceduo_slope_height(&scene->slope, cell_x[i]) : NAN;
     }
-    return true;
-}
-
-static bool make_marks(struct marks *marks, const struct ceduo_scene *scene)
-{
-    size_t n = scene->controls_count;
-    struct mark *at = marks->at = malloc((n + 1) * sizeof *at);
-    if (!at)
-        return false;
-    for (size_t i = 0; i < n; i++)
-        at[i] = (struct mark){scene->controls[i].x, ceduo_slope_height(&scene->slope, scene->controls[i].x), i};
-    qsort(at, n, sizeof *at, by_x);
-    marks->n = n;
     return true;
 }
 
@@ -51,7 +44,7 @@ enum ceduo_status ceduo_prepared_init(struct prepared *to, const struct ceduo_sc
     if (status != CEDUO_OK)
         return status;
     bool good = ceduo_sizes_init(&to->sizes, scene) && ceduo_wood_init(&to->wood, &scene->simulation, option, &to->mean) &&
-                make_marks(&to->marks, scene) && make_cells(&to->marks, scene, cells, cell_x) &&
+                make_marks(&to->marks, scene, cells, cell_x) &&
                 ceduo_ground_init(&to->ground, &scene->slope, scene->simulation.gravity, to->mean.radius,
                                   ceduo_scene_rock_varies(scene));
     return good ? CEDUO_OK : CEDUO_NO_MEMORY;

@@ -8,12 +8,6 @@
 
 #define GOLDEN 0x9E3779B97F4A7C15u /* 2^64 over the golden ratio */
 
-/* The density at the lower end of a class of this length in ln(volume). */
-static double density_at_start(double exponent, double length)
-{
-    return exponent > 0 ? exponent / (1 - ceduo_exp(-exponent * length)) : 1 / length;
-}
-
 bool ceduo_sizes_init(struct sizes *s, const struct ceduo_scene *scene)
 {
     uint64_t bits[2];
@@ -28,7 +22,8 @@ bool ceduo_sizes_init(struct sizes *s, const struct ceduo_scene *scene)
     for (size_t i = 0; i < s->n; i++) {
         const struct ceduo_block_class *b = &scene->blocks[i];
         double from = ceduo_log(b->volumes[0]), length = ceduo_log(b->volumes[1]) - from;
-        s->classes[i] = (struct size_class){from, length, b->exponent, b->per_year * density_at_start(b->exponent, length)};
+        double at_start = b->exponent > 0 ? b->exponent / (1 - ceduo_exp(-b->exponent * length)) : 1 / length; /* density */
+        s->classes[i] = (struct size_class){from, length, b->exponent, b->per_year * at_start};
         s->length += length;
         s->per_year += b->per_year;
     }

@@ -108,28 +108,6 @@ SELDOM bool has_enough(struct walker *w)
     return w->cancelled || w->contacts >= CEDUO_CONTACTS_MOST;
 }
 
-/* All that follows on the ground after a contact from which the rock rolls, to the next contact, flight or the end. */
-enum after_ground { GROUND_CONTACT, GROUND_FLIES, GROUND_RESTS, GROUND_LEAVES, GROUND_STOPPED, GROUND_TOO_MANY };
-
-SELDOM enum after_ground go_on_ground(struct walker *w, double along, struct landing *l)
-{
-    double u = rolling_speed(along, w->k, w->spin, w->rock.radius);
-    if (u == 0 && rests(w))
-        return GROUND_RESTS;
-    enum after_roll then = roll_on(w, u, l);
-    while (then == STANDS) {
-        if (rests(w))
-            return GROUND_RESTS;
-        if (w->contacts >= w->pause && has_enough(w))
-            return GROUND_TOO_MANY;
-        w->contacts++;
-        then = roll_on(w, 0, l);
-    }
-    if (then == STOPPED)
-        return w->gives_up ? GROUND_TOO_MANY : GROUND_STOPPED;
-    return then == TOOK_OFF ? GROUND_FLIES : then == ROLLED_OUT ? GROUND_LEAVES : GROUND_CONTACT;
-}
-
 /* Lands at `l`, which may not be known yet, past the stems before it; false where that ends it. */
 HOT bool come_down(struct walker *w, struct flight *at, struct landing *l, bool knows_landing, enum ceduo_end *end)
 {
@@ -147,20 +125,26 @@ HOT bool come_down(struct walker *w, struct flight *at, struct landing *l, bool 
     return true;
 }
 
-/* The same for a rock that rolls after a contact which it leaves with `along`: to the next contact, or into a flight. */
-static __attribute__((noinline)) bool roll_further(struct walker *w, double along, struct course *c, enum ceduo_end *end)
+/* The same for a rock that rolls after a contact, standing still where it does until it rests or rolls on. */
+bool ceduo_walk_roll(struct walker *w, struct course *c, enum ceduo_end *end)
 {
+    bool enough = false;
     w->at = c->at;
-    enum after_ground then = go_on_ground(w, along, &c->l);
+    double u = rolling_speed(c->along, w->k, w->spin, w->rock.radius);
+    enum after_roll then = u == 0 && rests(w) ? STANDS : roll_on(w, u, &c->l);
+    while (then == STANDS && !rests(w) && !(enough = w->contacts >= w->pause && has_enough(w))) {
+        w->contacts++;
+        then = roll_on(w, 0, &c->l);
+    }
+    *end = then == STANDS && !enough         ? CEDUO_AT_REST
+           : then == ROLLED_OUT              ? CEDUO_LEFT_SLOPE
+           : then == STOPPED && !w->gives_up ? CEDUO_STOPPED_BY_STEMS
+                                             : CEDUO_UNFINISHED;
     c->at = w->at;
     c->along = w->along;
     c->off = 0;
-    c->flies = then == GROUND_FLIES;
-    *end = then == GROUND_RESTS     ? CEDUO_AT_REST
-           : then == GROUND_LEAVES  ? CEDUO_LEFT_SLOPE
-           : then == GROUND_STOPPED ? CEDUO_STOPPED_BY_STEMS
-                                    : CEDUO_UNFINISHED;
-    return then == GROUND_FLIES || then == GROUND_CONTACT;
+    c->flies = then == TOOK_OFF;
+    return then == TOOK_OFF || then == ROLLED;
 }
 
 HOT void set_velocity(const struct walker *w, struct course *c)
@@ -206,7 +190,8 @@ HOT enum ceduo_end walk_over(struct walker *w, struct course c, const struct con
         if (flies)
             continue;
         c.at = at;
-        if (!roll_further(w, v.along, &c, &end))
+        c.along = v.along;
+        if (!ceduo_walk_roll(w, &c, &end))
             return end;
         at = c.at;
         v = (struct velocity){c.along, c.off};
@@ -290,11 +275,6 @@ bool ceduo_walk_rolls(const struct walker *w, struct course *c, bool knows_landi
         c->l = next_landing(w->g, &c->at);
     c->flies = !is_roll(w, &c->at, c->off, &c->l);
     return !c->flies;
-}
-
-bool ceduo_walk_roll(struct walker *w, struct course *c, enum ceduo_end *end)
-{
-    return roll_further(w, c->along, c, end);
 }
 
 void ceduo_walk_ground(const struct walker *w, size_t segment, double *rn, double *rt, double *largest_angle)
