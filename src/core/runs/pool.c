@@ -13,7 +13,7 @@ struct pooled {
     uint64_t key;
     uint64_t asked; /* when it was asked for last */
     bool beside;    /* of the other energy law alone: it goes with the scene, and no tolerance waits for it */
-    bool needed;    /* by the scene, as mark_needed() found */
+    bool needed;    /* by the scene, as drop_spare() found */
     struct ceduo_run *run;
 };
 
@@ -115,22 +115,6 @@ enum ceduo_status ceduo_pool_simulate(struct ceduo_pool *pool, const struct cedu
     return status == CEDUO_OK ? ceduo_run_extend(*run, rocks) : status;
 }
 
-/* Marks the runs that the scene needs; returns how many it does not. */
-static size_t mark_needed(struct ceduo_pool *pool)
-{
-    size_t spare = 0;
-    for (size_t i = 0; i < pool->count; i++)
-        pool->runs[i].needed = pool->runs[i].beside || pool->runs[i].key == 0;
-    for (size_t i = 0; i < pool->scene.options_count; i++) {
-        struct pooled *p = find(pool, ceduo_option_key(&pool->scene, &pool->scene.options[i]));
-        if (p)
-            p->needed = true;
-    }
-    for (size_t i = 0; i < pool->count; i++)
-        spare += !pool->runs[i].needed;
-    return spare;
-}
-
 static void add_work(struct ceduo_work *work, const struct ceduo_run *run)
 {
     struct ceduo_stem_counts stems = ceduo_run_stems(run);
@@ -141,20 +125,34 @@ static void add_work(struct ceduo_work *work, const struct ceduo_run *run)
     work->stems.met += stems.met;
 }
 
-/* Frees the run that was asked for longest ago of those that the scene does not need; returns the bytes of its samples. */
-static size_t drop_oldest(struct ceduo_pool *pool)
+/* Frees runs that the scene does not need, the one asked for longest ago first, while there are more than `most` of them and
+ * the samples of all have `bytes_most` or more. */
+static void drop_spare(struct ceduo_pool *pool, size_t most, size_t bytes_most)
 {
-    size_t oldest = SIZE_MAX;
+    size_t spare = pool->count, bytes = 0;
+    for (size_t i = 0; i < pool->count; i++) {
+        struct pooled *p = &pool->runs[i];
+        p->needed = p->beside || p->key == 0;
+        bytes += ceduo_run_sample_bytes(p->run);
+    }
+    for (size_t i = 0; i < pool->scene.options_count; i++) {
+        struct pooled *p = find(pool, ceduo_option_key(&pool->scene, &pool->scene.options[i]));
+        if (p)
+            p->needed = true;
+    }
     for (size_t i = 0; i < pool->count; i++)
-        if (!pool->runs[i].needed && (oldest == SIZE_MAX || pool->runs[i].asked < pool->runs[oldest].asked))
-            oldest = i;
-    struct ceduo_run *run = pool->runs[oldest].run;
-    size_t bytes = ceduo_run_sample_bytes(run);
-    add_work(&pool->dropped, run);
-    pool->dropped.runs++;
-    ceduo_run_free(run);
-    pool->runs[oldest] = pool->runs[--pool->count];
-    return bytes;
+        spare -= pool->runs[i].needed;
+    for (; spare > most && bytes >= bytes_most; spare--) { /* untaken: large */
+        struct pooled *oldest = NULL;
+        for (size_t i = 0; i < pool->count; i++)
+            if (!pool->runs[i].needed && (!oldest || pool->runs[i].asked < oldest->asked))
+                oldest = &pool->runs[i];
+        bytes -= ceduo_run_sample_bytes(oldest->run);
+        add_work(&pool->dropped, oldest->run);
+        pool->dropped.runs++;
+        ceduo_run_free(oldest->run);
+        *oldest = pool->runs[--pool->count];
+    }
 }
 
 void ceduo_pool_turn(struct ceduo_pool *pool, const struct ceduo_scene *scene)
@@ -162,17 +160,12 @@ void ceduo_pool_turn(struct ceduo_pool *pool, const struct ceduo_scene *scene)
     pool->scene = *scene;
     for (size_t i = 0; i < scene->options_count && scene->simulation.contact_model != CEDUO_INDEX; i++)
         pool->filled &= ceduo_pool_find(pool, &scene->options[i]) != NULL;
-    for (size_t spare = mark_needed(pool); spare > CEDUO_POOL_SPARE; spare--)
-        drop_oldest(pool);
+    drop_spare(pool, CEDUO_POOL_SPARE, 0);
 }
 
 void ceduo_pool_trim(struct ceduo_pool *pool)
 {
-    size_t spare = mark_needed(pool), bytes = 0;
-    for (size_t i = 0; i < pool->count; i++)
-        bytes += ceduo_run_sample_bytes(pool->runs[i].run);
-    for (; spare > 0 && bytes > CEDUO_EXACT_BYTES; spare--) /* untaken: large */
-        bytes -= drop_oldest(pool);
+    drop_spare(pool, 0, CEDUO_EXACT_BYTES + 1);
 }
 
 /* Of the other law arrivals are asked for alone, and a few samples that give the errors of differences. */

@@ -5,6 +5,20 @@
 
 #include "run_state.h"
 
+/* A share with its 95 % interval. */
+static void set_share(struct ceduo_rate rate, double *share, double *lo, double *hi)
+{
+    *share = rate.rate;
+    *lo = rate.lo;
+    *hi = rate.hi;
+}
+
+/* Of n rocks; the upper end of its interval counts the unfinished in. */
+static struct ceduo_rate share_of(uint64_t hits, uint64_t unfinished, uint64_t n)
+{
+    return ceduo_wilson((double)hits / (double)n, (double)(hits + unfinished) / (double)n, (double)n);
+}
+
 /* ---- rocks with weights ---- */
 
 static struct released released_of(const struct ceduo_run *run, double missing)
@@ -87,16 +101,9 @@ static enum ceduo_status read_weighted(const struct ceduo_run *run, size_t contr
         weighted_sum_add(&exceed, values[i].weight, values[i].value > accepted);
         weighted_sum_add(&energy, values[i].weight, values[i].value);
     }
-    struct ceduo_rate share = ceduo_weighted_share(&all, &reach, -1);
-    a->reach_probability = share.rate;
-    a->reach_lo = share.lo;
-    a->reach_hi = share.hi;
-    if (!isnan(accepted)) {
-        share = ceduo_weighted_share(&all, &exceed, accepted);
-        a->exceed_probability = share.rate;
-        a->exceed_lo = share.lo;
-        a->exceed_hi = share.hi;
-    }
+    set_share(ceduo_weighted_share(&all, &reach, -1), &a->reach_probability, &a->reach_lo, &a->reach_hi);
+    if (!isnan(accepted))
+        set_share(ceduo_weighted_share(&all, &exceed, accepted), &a->exceed_probability, &a->exceed_lo, &a->exceed_hi);
     a->energy_per_released = energy.t / all.w;
     a->energy_per_released_se = ceduo_weighted_se(&all, &energy);
     if (!run->ready.wood.bare && n > 0) { /* no sample is kept of stems hit, but sums */
@@ -164,15 +171,6 @@ static struct ceduo_distribution energy_from_speed(struct ceduo_distribution d, 
     return d;
 }
 
-/* A share of n rocks with its 95 % interval, whose upper end counts the unfinished in. */
-static double share(uint64_t hits, uint64_t unfinished, uint64_t n, double *lo, double *hi)
-{
-    struct ceduo_rate r = ceduo_wilson((double)hits / (double)n, (double)(hits + unfinished) / (double)n, (double)n);
-    *lo = r.lo;
-    *hi = r.hi;
-    return r.rate;
-}
-
 /* ---- what is read ---- */
 
 /* The 95th percentile of the heights of the tops of the rocks that arrive, where each is as large as it was drawn. */
@@ -215,9 +213,9 @@ enum ceduo_status ceduo_run_arrivals(const struct ceduo_run *run, size_t control
         return read_weighted(run, control, &s, a);
     for (int e = 0; e < CEDUO_ENDS; e++)
         a->missed[e] = (double)s.ended[e] / (double)run->rocks;
-    a->reach_probability = share(a->reached, a->unfinished, run->rocks, &a->reach_lo, &a->reach_hi);
+    set_share(share_of(a->reached, a->unfinished, run->rocks), &a->reach_probability, &a->reach_lo, &a->reach_hi);
     if (!isnan(run->ready.scene.controls[control].accepted))
-        a->exceed_probability = share(a->exceeded, a->unfinished, run->rocks, &a->exceed_lo, &a->exceed_hi);
+        set_share(share_of(a->exceeded, a->unfinished, run->rocks), &a->exceed_probability, &a->exceed_lo, &a->exceed_hi);
     const struct ceduo_moments *energy = &s.of[ENERGY]; /* of all released rocks; a rock that does not arrive counts as 0 */
     double n = (double)run->rocks, arrived = (double)energy->n / n;
     double m2 = energy->m2 + energy->mean * energy->mean * (double)energy->n * (1 - arrived);

@@ -117,23 +117,23 @@ struct stratum ceduo_stratum(const struct ceduo_stand *stand, enum ceduo_rule ru
                             ceduo_contact_share(stand, s, mass)};
 }
 
-/* The form's denominator for a rock of diameter b, m per ha: A/ADC. */
-static double width_per_ha(const struct ceduo_stand *stand, double b, enum ceduo_rule rule)
+/* The form's denominator for a rock of diameter b, m per ha: A/ADC; or the same with each term times its energy. */
+static double width_per_ha(const struct ceduo_stand *stand, double b, enum ceduo_rule rule, bool energies)
 {
     double sum = 0;
     for (size_t i = 0, n = ceduo_strata_count(stand, rule); i < n; i++) {
         struct stratum s = ceduo_stratum(stand, rule, i, NAN);
-        sum += s.per_ha * (b + s.width);
+        sum += s.per_ha * (b + s.width) * (energies ? s.energy : 1);
     }
     return sum;
 }
 
 struct ceduo_adc ceduo_adc(const struct ceduo_stand *stand, double b)
 {
-    return (struct ceduo_adc){.gsteiger_stools = HECTARE / width_per_ha(stand, b, CEDUO_GSTEIGER_STOOLS),
-                              .gsteiger_stems = HECTARE / width_per_ha(stand, b, CEDUO_GSTEIGER_STEMS),
-                              .interception = HECTARE / width_per_ha(stand, b, CEDUO_INTERCEPTION),
-                              .crofton = HECTARE / width_per_ha(stand, b, CEDUO_CROFTON)};
+    return (struct ceduo_adc){.gsteiger_stools = HECTARE / width_per_ha(stand, b, CEDUO_GSTEIGER_STOOLS, false),
+                              .gsteiger_stems = HECTARE / width_per_ha(stand, b, CEDUO_GSTEIGER_STEMS, false),
+                              .interception = HECTARE / width_per_ha(stand, b, CEDUO_INTERCEPTION, false),
+                              .crofton = HECTARE / width_per_ha(stand, b, CEDUO_CROFTON, false)};
 }
 
 enum ceduo_rule ceduo_adc_rule(const struct ceduo_stand *stand, double b, enum ceduo_rule rule)
@@ -159,13 +159,7 @@ double ceduo_adc_value(const struct ceduo_adc *adc, enum ceduo_rule rule)
 
 double ceduo_energy_per_metre(const struct ceduo_stand *stand, double b, enum ceduo_rule rule)
 {
-    rule = ceduo_adc_rule(stand, b, rule);
-    double sum = 0;
-    for (size_t i = 0, n = ceduo_strata_count(stand, rule); i < n; i++) {
-        struct stratum s = ceduo_stratum(stand, rule, i, NAN);
-        sum += s.per_ha * (b + s.width) * s.energy;
-    }
-    return sum / HECTARE;
+    return width_per_ha(stand, b, ceduo_adc_rule(stand, b, rule), true) / HECTARE;
 }
 
 #define ABOVE(value, most) ((value) > (most) * (1 + 1e-9)) /* what is typed as the limit itself is not beyond it */

@@ -61,6 +61,7 @@ struct ceduo_window ceduo_window_in(const struct ceduo_scene *scene, const struc
 static enum ceduo_status grow(const struct ceduo_option *option, size_t controls, struct ceduo_year *y)
 {
     size_t n = option->belts_count;
+    enum ceduo_status status = CEDUO_OK;
     y->option.name = option->name;
     y->option.belts = calloc(n + 1, sizeof *y->option.belts);
     y->grown = calloc(n + 1, sizeof *y->grown);
@@ -68,18 +69,17 @@ static enum ceduo_status grow(const struct ceduo_option *option, size_t controls
     y->controls = calloc(controls + 1, sizeof *y->controls);
     if (!y->option.belts || !y->grown || !y->stands || !y->controls)
         return CEDUO_NO_MEMORY;
-    for (size_t i = 0; i < n; i++) {
+    for (size_t i = 0; i < n && status == CEDUO_OK; i++) {
         const struct ceduo_belt *belt = &option->belts[i];
-        enum ceduo_status status = ceduo_stand_at(&belt->stand, belt->cut_year, y->year, &y->grown[i]);
-        if (status != CEDUO_OK)
-            return status;
+        struct ceduo_belt *to = &y->option.belts[i];
+        status = ceduo_stand_at(&belt->stand, belt->cut_year, y->year, &y->grown[i]);
+        *to = *belt;
+        to->stand = y->grown[i].stand;
+        to->felled = ceduo_is_cut_year(&belt->stand, belt->cut_year, y->year);
+        y->cut |= to->felled;
         y->option.belts_count = i + 1;
-        y->option.belts[i] = *belt;
-        y->option.belts[i].stand = y->grown[i].stand;
-        y->option.belts[i].felled = ceduo_is_cut_year(&belt->stand, belt->cut_year, y->year);
-        y->cut |= y->option.belts[i].felled;
     }
-    return CEDUO_OK;
+    return status;
 }
 
 enum ceduo_status ceduo_years_create(const struct ceduo_scene *scene, const struct ceduo_option *option,

@@ -7,12 +7,6 @@
 #define WAITING 128 /* rows */
 #define AT_ONCE 8   /* cells whose bins fit the fastest cache */
 
-/* What a row has in the first bin of a quantity. */
-static size_t first_of(int quantity)
-{
-    return envelope_place(quantity, 0);
-}
-
 static double middle_of(int quantity, size_t bin)
 {
     return bin == 0 ? 0 : ldexp(1 + ((double)(bin & 31) + 0.5) / 32, (int)(bin >> 5)) * envelope_min[quantity];
@@ -51,7 +45,7 @@ static void leave_out(struct envelope_row *row, size_t from, size_t to)
 {
     for (int q = 0; q < ENVELOPE_QUANTITIES; q++)
         for (size_t i = from; i < to; i++)
-            row->at[q][i] = (uint16_t)(first_of(q) + ENVELOPE_BINS);
+            row->at[q][i] = (uint16_t)(envelope_place(q, 0) + ENVELOPE_BINS);
 }
 
 /* Counts some cells of the rows that wait, from `cell` on. */
@@ -59,7 +53,7 @@ static inline __attribute__((always_inline)) void count(struct envelopes *e, int
 {
     const struct envelope_row *rows = e->rows + e->lanes;
     uint32_t *bins = e->cells[cell].bins[q];
-    const size_t first = first_of(q), step = sizeof *e->cells / sizeof *bins;
+    const size_t first = envelope_place(q, 0), step = sizeof *e->cells / sizeof *bins;
     for (size_t i = 0; i < e->waiting; i++) {
         const uint16_t *at = &rows[i].at[q][cell];
 #pragma GCC unroll 8
@@ -71,16 +65,12 @@ static inline __attribute__((always_inline)) void count(struct envelopes *e, int
 static void settle(struct envelopes *e)
 {
     size_t cell = 0;
-    for (; cell + AT_ONCE <= e->n; cell += AT_ONCE) {
-        count(e, 0, cell, AT_ONCE);
-        count(e, 1, cell, AT_ONCE);
-        count(e, 2, cell, AT_ONCE);
-    }
-    for (; cell < e->n; cell++) {
-        count(e, 0, cell, 1);
-        count(e, 1, cell, 1);
-        count(e, 2, cell, 1);
-    }
+    for (; cell + AT_ONCE <= e->n; cell += AT_ONCE)
+        for (int q = 0; q < ENVELOPE_QUANTITIES; q++)
+            count(e, q, cell, AT_ONCE);
+    for (; cell < e->n; cell++)
+        for (int q = 0; q < ENVELOPE_QUANTITIES; q++)
+            count(e, q, cell, 1);
     e->waiting = 0;
 }
 
@@ -108,7 +98,7 @@ void ceduo_envelopes_merge(struct envelope_cell *into, struct envelopes *from)
     for (size_t cell = 0; cell < from->n; cell++)
         for (int q = 0; q < ENVELOPE_QUANTITIES; q++) {
             double max = from->rows[0].max[q][cell];
-            size_t last = envelope_place(q, max) - first_of(q); /* of those that are not empty */
+            size_t last = envelope_place(q, max) - envelope_place(q, 0); /* of those that are not empty */
             into[cell].max[q] = fmax(into[cell].max[q], max);
             for (size_t i = 0; i <= last; i++)
                 into[cell].bins[q][i] += from->cells[cell].bins[q][i];

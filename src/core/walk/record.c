@@ -8,6 +8,7 @@
 
 #include "base/cancel.h"
 #include "base/grow.h"
+#include "base/real.h"
 
 /* Sums along a stretch; they become means at the end. */
 struct along {
@@ -29,84 +30,43 @@ static double square(double x)
     return x * x;
 }
 
-static double larger(double a, double b)
-{
-    return a > b ? a : b;
-}
-
 /* ---- the height of a flight above the ground ---- */
 
-static double rise(const struct ceduo_piece *p, double gravity, double t)
+/* The part of a flight above segment j, between `from` and `to`: from t[0] to t[1]; false where there is none. */
+static bool part_above(const struct ceduo_slope *s, const struct ceduo_piece *p, size_t j, double from, double to, double t[2])
 {
-    return p->z + t * (p->vz - gravity / 2 * t);
-}
-
-static double ground_at(const struct ceduo_slope *s, size_t j, double x)
-{
-    return s->z[j] + (s->z[j + 1] - s->z[j]) / (s->x[j + 1] - s->x[j]) * (x - s->x[j]);
-}
-
-/* A part of a flight, from t0 to t1, that lies above segment j. */
-struct part_of_flight {
-    size_t j;
-    double t0, t1;
-};
-
-/* The part of a flight above segment j, between `from` and `to`; false where there is none. */
-static bool part_above(const struct ceduo_slope *s, const struct ceduo_piece *p, size_t j, double from, double to,
-                       struct part_of_flight *part)
-{
-    double lo = larger(s->x[j], from), hi = fmin(s->x[j + 1], to);
+    double lo = max(s->x[j], from), hi = fmin(s->x[j + 1], to);
     double first = p->vx > 0 ? lo : hi, last = p->vx > 0 ? hi : lo;
-    *part = (struct part_of_flight){j, fmax(0, (first - p->x) / p->vx), fmin(p->seconds, (last - p->x) / p->vx)};
-    return hi > lo && part->t1 > part->t0; /* untaken: rounding */
+    t[0] = fmax(0, (first - p->x) / p->vx);
+    t[1] = fmin(p->seconds, (last - p->x) / p->vx);
+    return hi > lo && t[1] > t[0]; /* untaken: rounding */
 }
 
 static double height_in(const struct ceduo_slope *s, const struct ceduo_piece *p, double gravity, size_t j, double t)
 {
-    return rise(p, gravity, t) - ground_at(s, j, p->x + p->vx * t);
+    double m = (s->z[j + 1] - s->z[j]) / (s->x[j + 1] - s->x[j]), x = p->x + p->vx * t;
+    return p->z + t * (p->vz - gravity / 2 * t) - (s->z[j] + m * (x - s->x[j]));
 }
 
 /* Over one segment it is largest at an end, or where the flight is parallel to the ground. */
-static double largest_in(const struct ceduo_slope *s, const struct ceduo_piece *p, double gravity,
-                         const struct part_of_flight *part)
-{
-    double m = (s->z[part->j + 1] - s->z[part->j]) / (s->x[part->j + 1] - s->x[part->j]);
-    double top = (p->vz - m * p->vx) / gravity;
-    double most = larger(height_in(s, p, gravity, part->j, part->t0), height_in(s, p, gravity, part->j, part->t1));
-    return top > part->t0 && top < part->t1 ? larger(most, height_in(s, p, gravity, part->j, top)) : most;
-}
-
 static double largest_height(const struct ceduo_scene *scene, const struct ceduo_piece *p)
 {
     const struct ceduo_slope *s = &scene->slope;
-    struct part_of_flight part;
-    double most = p->z - ceduo_slope_height(s, p->x), left = fmin(p->x, p->x1), right = larger(p->x, p->x1);
+    double t[2], gravity = scene->simulation.gravity;
+    double most = p->z - ceduo_slope_height(s, p->x), left = fmin(p->x, p->x1), right = max(p->x, p->x1);
     size_t last = ceduo_slope_segment(s, right);
-    for (size_t j = ceduo_slope_segment(s, left); right > left && j <= last; j++)
-        if (part_above(s, p, j, left, right, &part))
-            most = larger(most, largest_in(s, p, scene->simulation.gravity, &part));
+    for (size_t j = ceduo_slope_segment(s, left); right > left && j <= last; j++) {
+        if (!part_above(s, p, j, left, right, t))
+            continue;
+        double top = (p->vz - (s->z[j + 1] - s->z[j]) / (s->x[j + 1] - s->x[j]) * p->vx) / gravity;
+        most = max(most, max(height_in(s, p, gravity, j, t[0]), height_in(s, p, gravity, j, t[1])));
+        if (top > t[0] && top < t[1])
+            most = max(most, height_in(s, p, gravity, j, top));
+    }
     return most;
 }
 
 /* ---- means along a stretch ---- */
-
-/* The integral of the height from the first piece of ground to the last, over time. */
-static double height_over_time(const struct ceduo_scene *scene, const struct ceduo_piece *p, double from, double to)
-{
-    const struct ceduo_slope *s = &scene->slope;
-    struct part_of_flight part;
-    double sum = 0, gravity = scene->simulation.gravity;
-    size_t last = ceduo_slope_segment(s, to);
-    for (size_t j = ceduo_slope_segment(s, from); j <= last; j++)
-        if (part_above(s, p, j, from, to, &part)) { /* Simpson's rule is exact for a parabola */
-            double middle = (part.t0 + part.t1) / 2;
-            sum += (part.t1 - part.t0) / 6 *
-                   (height_in(s, p, gravity, j, part.t0) + 4 * height_in(s, p, gravity, j, middle) +
-                    height_in(s, p, gravity, j, part.t1));
-        }
-    return sum;
-}
 
 /* The integral of sqrt(vx2 + s2) over the vertical speed s, from 0. */
 static double speed_integral(double vx, double s)
@@ -122,7 +82,15 @@ static void add_flight(const struct ceduo_scene *scene, const struct ceduo_piece
     a->speed += v / gravity * (speed_integral(p->vx, s0) - speed_integral(p->vx, s1));
     a->speed2 += v * (v * v * (last - first) + (s0 * s0 * s0 - s1 * s1 * s1) / (3 * gravity));
     a->spin2 += square(p->spin) * (hi - lo);
-    a->height += v * height_over_time(scene, p, lo, hi);
+    const struct ceduo_slope *s = &scene->slope;
+    double height = 0, t[2]; /* its integral over time, from one piece of ground to the next */
+    size_t end = ceduo_slope_segment(s, hi);
+    for (size_t j = ceduo_slope_segment(s, lo); j <= end; j++)
+        if (part_above(s, p, j, lo, hi, t)) /* Simpson's rule is exact for a parabola */
+            height += (t[1] - t[0]) / 6 *
+                      (height_in(s, p, gravity, j, t[0]) + 4 * height_in(s, p, gravity, j, (t[0] + t[1]) / 2) +
+                       height_in(s, p, gravity, j, t[1]));
+    a->height += v * height;
 }
 
 static void add_roll(const struct ceduo_piece *p, double lo, double hi, struct along *a)
@@ -138,7 +106,7 @@ static void add_roll(const struct ceduo_piece *p, double lo, double hi, struct a
 static void add_piece(const struct ceduo_scene *scene, const struct ceduo_piece *p, const struct ceduo_stretch *stretch,
                       struct along *a)
 {
-    double lo = larger(fmin(p->x, p->x1), stretch->from), hi = fmin(larger(p->x, p->x1), stretch->to);
+    double lo = max(fmin(p->x, p->x1), stretch->from), hi = fmin(max(p->x, p->x1), stretch->to);
     if (!(hi > lo))
         return;
     a->length += hi - lo;
@@ -164,10 +132,10 @@ static void on_piece(void *context, const struct ceduo_piece *p)
 {
     struct recorder *r = context;
     const struct ceduo_record_def *def = r->def;
-    double speed = sqrt(larger(square(p->vx) + square(p->vz), square(p->vx1) + square(p->vz1)));
-    r->rock->largest_speed = larger(r->rock->largest_speed, speed);
+    double speed = sqrt(max(square(p->vx) + square(p->vz), square(p->vx1) + square(p->vz1)));
+    r->rock->largest_speed = max(r->rock->largest_speed, speed);
     if (!p->rolls)
-        r->rock->largest_height = larger(r->rock->largest_height, largest_height(def->scene, p));
+        r->rock->largest_height = max(r->rock->largest_height, largest_height(def->scene, p));
     for (size_t i = 0; i < def->stretches_count; i++)
         add_piece(def->scene, p, &def->stretches[i], &r->along[i]);
 }

@@ -131,16 +131,6 @@ static inline double next_place(struct stems *s, int i_side, enum stem_stream st
     return p->next < p->count ? p->at[p->next] : draw_places(s, i_side, stream);
 }
 
-/* The kind of a shoot by its 32 bits. */
-static inline const struct wood_kind *cohort_at(const struct wood_stools *stools, uint64_t bits)
-{
-    double u = ((double)(uint32_t)bits + 0.5) * 0x1p-32;
-    size_t found = 0;
-    for (size_t k = 0; k + 1 < stools->cohorts; k++)
-        found += u >= stools->kinds[k].share_to;
-    return &stools->kinds[found];
-}
-
 /* The kind of shoot i of a stool, and its diameter. */
 static const struct wood_kind *draw_shoot(const struct stems *s, const struct stool *t, unsigned i, double *dbh)
 {
@@ -148,7 +138,9 @@ static const struct wood_kind *draw_shoot(const struct stems *s, const struct st
     if (t->stools->cohorts > 1) {
         uint64_t bits[2];
         random_bits(s->seed, s->number, t->event, shoot_draw(RANDOM_SHOOT, i / 4), bits);
-        k = cohort_at(t->stools, bits[i / 2 % 2] >> i % 2 * 32);
+        double u = ((double)(uint32_t)(bits[i / 2 % 2] >> i % 2 * 32) + 0.5) * 0x1p-32;
+        for (size_t c = 0; c + 1 < t->stools->cohorts; c++)
+            k += u >= t->stools->kinds[c].share_to;
     }
     *dbh = k->shape > 0 ? draw_dbh(s, k, t->event, shoot_draw(RANDOM_DBH, i), 0) : k->dbh;
     return k;
@@ -302,18 +294,6 @@ static bool make_to(struct stems *s, int side, enum stem_stream stream, double t
     return true;
 }
 
-/* Where stems may stand that are not drawn yet: of the next stool, or group. */
-static inline double next_reach(struct stems *s, int i, bool *group)
-{
-    double stools = next_place(s, i, STREAM_STOOLS) - s->wood->reach;
-    *group = false;
-    if (!s->wood->grouped)
-        return stools;
-    double groups = next_place(s, i, STREAM_GROUPS) - s->wood->group_reach;
-    *group = groups < stools;
-    return *group ? groups : stools;
-}
-
 static void find_next(struct stems *s, int i)
 {
     struct stems_side *side = &s->side[i];
@@ -323,7 +303,13 @@ static void find_next(struct stems *s, int i)
         side->next_waits = any && waits <= single;
         side->next = side->next_waits ? waits : single;
         side->next_known = true;
-        double reach = s->poisson ? INFINITY : next_reach(s, i, &group);
+        /* where stems may stand that are not drawn yet: of the next stool, or group */
+        double reach = s->poisson ? INFINITY : next_place(s, i, STREAM_STOOLS) - s->wood->reach;
+        if (!s->poisson && s->wood->grouped) {
+            double groups = next_place(s, i, STREAM_GROUPS) - s->wood->group_reach;
+            group = groups < reach;
+            reach = group ? groups : reach;
+        }
         side->sure = reach < single ? reach : single;
         if (!(reach <= side->next) || reach == INFINITY)
             return;
@@ -379,26 +365,21 @@ void ceduo_stems_begin(struct stems *s, uint64_t seed, uint64_t number, double b
     s->side[1].next_known = false;
 }
 
-/* The strip behind the release is drawn only when a rock goes there. The stools and groups around the release are those
- * of the strip ahead. */
-static void prepare_behind(struct stems *s)
-{
-    if (!s->poisson && !make_to(s, 0, STREAM_STOOLS, s->start + s->wood->reach))
-        return;
-    if (s->wood->grouped && !make_to(s, 0, STREAM_GROUPS, s->start + s->wood->group_reach))
-        return;
-    s->behind_ready = true;
-    find_next(s, 0);
-    start_side(s, 1, -s->start, -1);
-    find_next(s, 1);
-}
-
 void ceduo_stems_look_on(struct stems *s, int i)
 {
     struct stems_side *side = &s->side[i];
     s->pause = s->effort + PAUSE_STEMS;
     if (i == 1 && !s->behind_ready) {
-        prepare_behind(s);
+        /* The strip behind the release is drawn only when a rock goes there. The stools and groups around the release are
+         * those of the strip ahead. */
+        if (!s->poisson && !make_to(s, 0, STREAM_STOOLS, s->start + s->wood->reach))
+            return;
+        if (s->wood->grouped && !make_to(s, 0, STREAM_GROUPS, s->start + s->wood->group_reach))
+            return;
+        s->behind_ready = true;
+        find_next(s, 0);
+        start_side(s, 1, -s->start, -1);
+        find_next(s, 1);
         return;
     }
     if (side->next_known && side->next_waits) {

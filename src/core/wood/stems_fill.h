@@ -286,21 +286,15 @@ static inline void add_columns(const struct stems *s, const struct points *p, un
 
 #define STOOLS_AT_ONCE 8 /* at the most */
 
-/* How many stools are made at once: about so many that there are enough shoots, if the rock can hit half of them. */
-static inline unsigned stools_at_once(const struct points *p, const struct wood_stools *t, const struct shoots *to)
-{
-    unsigned each = t->n + (t->more > 0), count = end_of_belt(p, p->next) - p->next;
-    unsigned wanted = 2 * (STOP_SHOOTS - to->n) / each + 1, room = (SHOOTS_AT_ONCE - to->n) / each;
-    count = count < STOOLS_AT_ONCE ? count : STOOLS_AT_ONCE;
-    count = count < wanted ? count : wanted;
-    return count < room ? count : room;
-}
-
-/* The shoots of the next stools, all of one belt. */
+/* The shoots of the next stools, all of one belt: about so many that there are enough shoots, if the rock can hit half of them. */
 static inline void make_columns(struct stems *s, int side, const struct wood_stools *t, struct shoots *to)
 {
     struct points *p = &s->side[side].streams[STREAM_STOOLS];
-    unsigned k = p->next, count = stools_at_once(p, t, to);
+    unsigned k = p->next, count = end_of_belt(p, k) - k, each = t->n + (t->more > 0);
+    unsigned wanted = 2 * (STOP_SHOOTS - to->n) / each + 1, room = (SHOOTS_AT_ONCE - to->n) / each;
+    count = count < STOOLS_AT_ONCE ? count : STOOLS_AT_ONCE;
+    count = count < wanted ? count : wanted;
+    count = count < room ? count : room;
     uint64_t drawn = 0;
     p->next = k + count;
     for (unsigned i = k; i < p->next; i++)
@@ -365,19 +359,6 @@ SELDOM void set_energies(const struct stems *s, struct shoots *t, const uint64_t
     }
 }
 
-/* Those that wait already are put in order once more. */
-static inline void add_waiting(const struct stems *s, const struct stems_side *side, struct shoots *to)
-{
-    for (size_t i = side->first; i < side->end; i++) {
-        const struct stem *stem = &side->waiting[i];
-        to->along[to->n] = stem->along;
-        to->y[to->n] = stem->y;
-        to->kind[to->n] = kind_number(s, stem->kind);
-        to->stool[to->n] = stem->stool;
-        to->met[to->n++] = stem->met;
-    }
-}
-
 static void make_stools(struct stems *s, int i_side)
 {
     struct stems_side *side = &s->side[i_side];
@@ -386,7 +367,14 @@ static void make_stools(struct stems *s, int i_side)
     t.n = 0;
     memset(t.met, 0, sizeof t.met);
     _Alignas(64) uint64_t rank[SHOOTS_AT_ONCE];
-    add_waiting(s, side, &t);
+    for (size_t i = side->first; i < side->end; i++) { /* those that wait already are put in order once more */
+        const struct stem *stem = &side->waiting[i];
+        t.along[t.n] = stem->along;
+        t.y[t.n] = stem->y;
+        t.kind[t.n] = kind_number(s, stem->kind);
+        t.stool[t.n] = stem->stool;
+        t.met[t.n++] = stem->met;
+    }
     do {
         const struct wood_stools *stools = s->wood->along[i_side][p->belt[p->next]].stools;
         if (stools->cohorts > 1 || stools->n < ROW_SHOOTS) {
