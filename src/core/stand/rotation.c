@@ -131,18 +131,6 @@ static double oldest(const struct ceduo_stems *stems, size_t n, const struct ced
     return age;
 }
 
-static double default_first_cut(const struct ceduo_stand *stand)
-{
-    bool sprouts = ceduo_stand_sprouts(stand), coppice = ceduo_stand_has_shoots(stand) || sprouts;
-    double rotation = stand->cutting.rotation;
-    double age = coppice ? oldest(stand->shoots, stand->shoots_count, &stand->growth.shoots)
-                         : oldest(stand->trees, stand->trees_count, &stand->growth.trees);
-    if (sprouts)
-        age = fmax(age, (cohorts(stand) - 1) * rotation); /* it was cut when the oldest were as old as that */
-    double rotations = coppice ? cohorts(stand) : 1 + (double)oldest_to_stay(&stand->cutting);
-    return isnan(age) ? INFINITY : fmax(1, rotation * rotations - age - AGE_GRAIN);
-}
-
 unsigned ceduo_first_cut(const struct ceduo_stand *stand, double first_cut)
 {
     const struct ceduo_growth *g = &stand->growth;
@@ -151,7 +139,16 @@ unsigned ceduo_first_cut(const struct ceduo_stand *stand, double first_cut)
     bool trees_known = oldest_to_stay(&stand->cutting) == 0 || known(&g->trees);
     if (!(rotation > 0) || !shoots_known || !trees_known) /* what comes after a cut is not known */
         return CEDUO_NEVER;
-    double year = ceil(isnan(first_cut) ? default_first_cut(stand) : first_cut);
+    if (isnan(first_cut)) { /* at the end of the rotation, by the age of the oldest */
+        bool sprouts = ceduo_stand_sprouts(stand), coppice = ceduo_stand_has_shoots(stand) || sprouts;
+        double age = coppice ? oldest(stand->shoots, stand->shoots_count, &g->shoots)
+                             : oldest(stand->trees, stand->trees_count, &g->trees);
+        if (sprouts)
+            age = fmax(age, (cohorts(stand) - 1) * rotation); /* it was cut when the oldest were as old as that */
+        double rotations = coppice ? cohorts(stand) : 1 + (double)oldest_to_stay(&stand->cutting);
+        first_cut = isnan(age) ? INFINITY : fmax(1, rotation * rotations - age - AGE_GRAIN);
+    }
+    double year = ceil(first_cut);
     if (year < 0) {
         double since = fmod(-year, rotation);
         year = since > 0 ? rotation - since : 0;

@@ -250,25 +250,21 @@ HOT bool stem_on_way(const struct walker *w, double x)
 
 /* ---- contact ---- */
 
-HOT double facet_draw(struct walker *w)
+/* The draw of this contact, of two contacts at a time. */
+HOT double contact_draw(const struct walker *w, struct contact_draws *draws, enum random_kind kind)
 {
     uint64_t n = w->contacts;
-    if (w->facets_of != n >> 1) {
-        w->facets_of = n >> 1;
-        w->facets = random_pair(w->seed, w->number, n >> 1, RANDOM_FACET);
+    if (draws->of != n >> 1) {
+        draws->of = n >> 1;
+        draws->pair = random_pair(w->seed, w->number, n >> 1, kind);
     }
-    return w->facets.u[n & 1];
+    return draws->pair.u[n & 1];
 }
 
 /* The section and how it is turned at this contact: by an angle in [-pi/2, pi/2), as half a turn changes nothing. */
 HOT void turn_section(struct walker *w, struct ground_point *to)
 {
-    uint64_t n = w->contacts;
-    if (w->turns_of != n >> 1) {
-        w->turns_of = n >> 1;
-        w->turns = random_pair(w->seed, w->number, n >> 1, RANDOM_TURN);
-    }
-    double angle = (w->turns.u[n & 1] - 0.5) * HALF_TURN;
+    double angle = (contact_draw(w, &w->turns, RANDOM_TURN) - 0.5) * HALF_TURN;
     elementary_sincos(&angle, &to->sine, &to->cosine);
     to->section.wide = w->section.wide;
     to->section.high = w->section.high;
@@ -318,7 +314,7 @@ HOT void turn_facet(struct walker *w, size_t j, struct facet *f)
 {
     double largest = largest_facet(w, j), angle = 0;
     if (largest > 0)
-        angle = facet_angle(w->g->facets == CEDUO_AGAINST, largest, facet_draw(w));
+        angle = facet_angle(w->g->facets == CEDUO_AGAINST, largest, contact_draw(w, &w->facets, RANDOM_FACET));
     if (angle != f->angle) {
         f->angle = angle;
         elementary_sincos(&angle, &f->sine, &f->cosine);

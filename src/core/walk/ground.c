@@ -71,22 +71,18 @@ static size_t end_of_line(const struct ceduo_slope *slope, size_t j, double near
     return end;
 }
 
-static void keep_vertex(struct ground *g, size_t n, double x, double z)
-{
-    g->at[n] = (struct ground_vertex){x, z};
-    g->x[n] = x;
-}
-
 /* Sets n and the vertices, and what ground each segment is given. */
 static void keep_vertices(struct ground *g, const struct ceduo_slope *slope, double size)
 {
     size_t n = 0, i = 0;
     while (i + 1 < slope->vertices) {
-        keep_vertex(g, n, slope->x[i], slope->z[i]);
+        g->x[n] = slope->x[i];
+        g->at[n] = (struct ground_vertex){slope->x[i], slope->z[i]};
         g->given[n++] = &slope->segments[i];
         i = end_of_line(slope, i, ON_LINE * size);
     }
-    keep_vertex(g, n, slope->x[i], slope->z[i]);
+    g->x[n] = slope->x[i];
+    g->at[n] = (struct ground_vertex){slope->x[i], slope->z[i]};
     g->n = n;
     g->at[-1] = (struct ground_vertex){g->at[0].x - 1, INFINITY};
     for (size_t behind = 1; behind <= GROUND_BEHIND; behind++)

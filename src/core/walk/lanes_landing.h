@@ -62,6 +62,27 @@ HOT mask begin_search(struct form form, struct lanes *k, size_t i, unsigned *far
     return clear;
 }
 
+/* Takes those that are going on from vertex to vertex. Where the ground has `blocks`, those that come back along -x to where
+ * one begins are left to the scalar walk, which *far then has. */
+HOT void search_further(struct form form, struct lanes *k, unsigned going, bool blocks, unsigned *far)
+{
+    while (going) {
+        unsigned on = 0;
+        EACH_REGISTER(i) {
+            struct search s = search_of(k, i, going);
+            if (blocks) {
+                unsigned begins = lanes_of(s.going & same(s.vertex & (((uint64_t)1 << GROUND_BITS) - 1), all_ints(1)));
+                *far |= begins << i;
+                s.going = but(s.going, mask_of(begins));
+            }
+            search_on(form, k, &s);
+            store_ints(&k->vertex[i], s.vertex);
+            on |= lanes_of(s.going) << i;
+        }
+        going = on;
+    }
+}
+
 /* Which segments the flights land on, not yet where; as land_beyond(). Mostly a flight passes no more than two vertices: so
  * many are looked at without a branch that the processor might guess wrongly. Returns those left to the scalar walk. */
 HOT unsigned find_segments(struct form form, struct lanes *k)
@@ -76,20 +97,11 @@ HOT unsigned find_segments(struct form form, struct lanes *k)
         store_ints(&k->vertex[i], s.vertex);
         going |= lanes_of(s.going) << i;
     }
-    while (going) {
-        unsigned on = 0;
-        EACH_REGISTER(i) {
-            struct search s = search_of(k, i, going);
-            search_on(form, k, &s);
-            store_ints(&k->vertex[i], s.vertex);
-            on |= lanes_of(s.going) << i;
-        }
-        going = on;
-    }
+    search_further(form, k, going, false, &far);
     return far;
 }
 
-/* The same where the ground has blocks. Those that come back along -x to where blocks begin are left to the scalar walk. */
+/* The same where the ground has blocks. */
 HOT unsigned find_segments_far(struct form form, struct lanes *k)
 {
     unsigned going = 0, forth = 0, far = 0;
@@ -98,19 +110,7 @@ HOT unsigned find_segments_far(struct form form, struct lanes *k)
         forth |= lanes_of(less(all(0), load(&k->vx[i]))) << i;
     }
     search_far(k, going & forth);
-    for (going &= ~forth; going;) {
-        unsigned on = 0;
-        EACH_REGISTER(i) {
-            struct search s = search_of(k, i, going);
-            unsigned begins = lanes_of(s.going & same(s.vertex & (((uint64_t)1 << GROUND_BITS) - 1), all_ints(1)));
-            far |= begins << i;
-            s.going = but(s.going, mask_of(begins));
-            search_on(form, k, &s);
-            store_ints(&k->vertex[i], s.vertex);
-            on |= lanes_of(s.going) << i;
-        }
-        going = on;
-    }
+    search_further(form, k, going & ~forth, true, &far);
     return far;
 }
 

@@ -286,6 +286,12 @@ static void refill(struct lanes *k, size_t i)
     empty_lane(k, i);
 }
 
+static void finish(struct lanes *k, size_t i, enum ceduo_end end)
+{
+    k->job->ended(k->job->context, i, end);
+    refill(k, i);
+}
+
 /* ---- cells of envelopes ---- */
 
 /* A register of them at once: the same operations in the same order as in flying.h. */
@@ -343,8 +349,7 @@ SELDOM void come_down_alone(struct lanes *k, size_t i)
     enum ceduo_end end;
     if (!ceduo_walk_come_down(&k->job->walkers[i], &c, &end)) {
         k->aloft &= ~bit;
-        k->job->ended(k->job->context, i, end);
-        refill(k, i);
+        finish(k, i, end);
         return;
     }
     load_course(k, i, &c);
@@ -361,8 +366,7 @@ SELDOM void end_alone(struct lanes *k, size_t i, double x, double z, enum ceduo_
     show_stems_met(k, i);
     w->at.x = x;
     w->at.z = z;
-    k->job->ended(k->job->context, i, end);
-    refill(k, i);
+    finish(k, i, end);
 }
 
 /* A flight passes marks up to x, which it reaches after t. */
@@ -401,8 +405,7 @@ SELDOM void go_off_alone(struct lanes *k, size_t i, bool knows_landing)
     if (!rolls && knows_landing) /* as the lane has it */
         return;
     if (rolls && !ceduo_walk_roll(w, &c, &end)) {
-        k->job->ended(k->job->context, i, end);
-        refill(k, i);
+        finish(k, i, end);
         return;
     }
     load_course(k, i, &c);

@@ -56,7 +56,7 @@ enum ceduo_status ceduo_walk_release(struct walker *w, const struct prepared *re
     w->pause = next_pause(w);
     w->stems_pause = PAUSE;
     w->cancelled = w->gives_up = false;
-    w->facets_of = w->turns_of = UINT64_MAX;
+    w->facets.of = w->turns.of = UINT64_MAX;
     w->next_mark = 0; /* all stand below each release */
     w->next_cell = 0;
     skip_cells(w, x);
@@ -87,7 +87,7 @@ void ceduo_walk_release_again(struct walker *w, const struct walker *first, uint
     w->contacts = 0;
     w->pause = first->pause;
     w->cancelled = false;
-    w->facets_of = w->turns_of = UINT64_MAX;
+    w->facets.of = w->turns.of = UINT64_MAX;
     if (w->has_section)
         draw_section(w);
     w->next_mark = first->next_mark;

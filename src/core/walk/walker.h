@@ -57,10 +57,10 @@ struct walker {
     struct stems *stems;            /* NULL: no forest */
     double stem_ahead, stem_behind; /* x of the next stem in either direction; infinite: none */
     uint64_t stems_hit, stools_met;
-    uint64_t facets_of;        /* i, of */
-    struct random_pair facets; /* the draws of contacts 2i and 2i + 1 */
-    uint64_t turns_of;
-    struct random_pair turns; /* likewise, how the section is turned */
+    struct contact_draws {
+        uint64_t of;
+        struct random_pair pair; /* of contacts 2 of and 2 of + 1 */
+    } facets, turns;             /* turns: of the section */
     /* at a control */
     void (*cross)(void *context, const struct walker *w, size_t mark, const struct ceduo_crossing *crossing);
     const struct ceduo_watch *watch; /* NULL: nobody looks */
