@@ -3,7 +3,7 @@
 #define CEDUO_FORM_H
 
 #include "model/document.h"
-#include "view/cells.h"
+#include "view/canvas.h"
 
 /* A form: lines of fields of the document, made anew after each edit. Fields come from the table of parameters. */
 

@@ -4,7 +4,7 @@
 
 #include "base/arena.h"
 #include "line.h"
-#include "view/cells.h"
+#include "view/canvas.h"
 
 /* The one list to choose from: what is typed leaves those that match, the best first. It knows nothing of what it
  * lists. */

@@ -2,53 +2,16 @@
 #ifndef CEDUO_VIEW_CANVAS_H
 #define CEDUO_VIEW_CANVAS_H
 
-#include <stdbool.h>
-#include <stddef.h>
+#include "cells.h"
 
 /*
  * Pictures draw on a canvas. A picture is laid out in character cells, counted from 0 at the top left, and draws its data
- * in frames of such cells. A surface shows it: cells of a terminal (cells.h), or vectors on a page whose unit is a cell.
- * A surface is one table of functions, so that each picture is written once.
+ * in frames of such cells. Its text, and what is taken, stands in a grid of cells; a surface shows its lines: as dots of those
+ * cells, or as vectors on a page whose unit is a cell. A surface is one table of functions, so that each picture is written once.
  *
  * Whatever falls outside the surface is cut off. Data points that are not finite are never drawn. No function here keeps
  * a pointer it is given.
  */
-
-/* A role says what a mark is about; the surface chooses its colour. BLANK draws nothing. Each line: name, letter in dumps,
- * rank. Where marks meet in a cell the highest rank gives the role: thin marks win over those that fill. */
-#define CEDUO_ROLES(X)                                                                                                         \
-    X(BLANK, ' ', 0)                                                                                                           \
-    X(TEXT, 't', 19)                                                                                                           \
-    X(DIM, 'd', 1)                                                                                                             \
-    X(TITLE, 'T', 18)                                                                                                          \
-    X(AXIS, 'a', 2)                                                                                                            \
-    X(GROUND, 'g', 4)                                                                                                          \
-    X(CLOUD, 'c', 3)    /* all trajectories together */                                                                        \
-    X(ENVELOPE, 'e', 8) /* quantiles of the trajectories */                                                                    \
-    X(MEAN, 'm', 11)                                                                                                           \
-    X(WAY, 'w', 16) /* the trajectory of the selected rock */                                                                  \
-    X(STEM, 's', 7)                                                                                                            \
-    X(STOOL, 'S', 6)                                                                                                           \
-    X(BELT, 'b', 5) /* a stretch of forest along the slope */                                                                  \
-    X(CONTROL, 'C', 15)                                                                                                        \
-    X(GOOD, 'G', 12)                                                                                                           \
-    X(BAD, 'B', 14)                                                                                                            \
-    X(WARN, 'W', 13)                                                                                                           \
-    X(BARE, 'r', 9)  /* a curve of the bare slope */                                                                           \
-    X(WOOD, 'o', 10) /* the same curve of the wooded slope */                                                                  \
-    X(CURSOR, 'x', 17)
-
-enum ceduo_role {
-#define X(NAME, letter, rank) CEDUO_ROLE_##NAME,
-    CEDUO_ROLES(X)
-#undef X
-        CEDUO_ROLE_COUNT, /* how many roles there are, not a role */
-};
-
-/* A rectangle of cells. */
-struct ceduo_area {
-    int left, top, width, height;
-};
 
 /*
  * A plot area: a rectangle of cells and the data shown in it. The leftmost column of dots stands at
@@ -66,17 +29,8 @@ struct ceduo_frame {
 };
 
 enum {
-    CEDUO_CANVAS_MAX_WIDTH = 1000, /* cells */
-    CEDUO_CANVAS_MAX_HEIGHT = 500, /* cells */
-    CEDUO_TICKS_MAX = 64,          /* ticks of one axis */
-    CEDUO_TICK_LABEL_SIZE = 32,    /* bytes that hold every label of a tick, with the final NUL */
-};
-
-struct ceduo_canvas {
-    const struct ceduo_surface *surface;
-    void *to;           /* what the surface's functions get */
-    int dots_x, dots_y; /* dots across and down one cell: the finest that can be told apart */
-    bool words_alone;   /* pictures leave their area blank */
+    CEDUO_TICKS_MAX = 64,       /* ticks of one axis */
+    CEDUO_TICK_LABEL_SIZE = 32, /* bytes that hold every label of a tick, with the final NUL */
 };
 
 /* ---- For surfaces ---- */
@@ -114,17 +68,12 @@ struct ceduo_tick {
 };
 
 struct ceduo_surface {
-    int (*label)(void *to, int column, int row, enum ceduo_role role, const char *text);
-    int (*label_width)(const void *to, const char *text);
-    bool (*is_blank)(const void *to, int column, int row);
     void (*line)(void *to, struct ceduo_pen *pen, struct ceduo_position a, struct ceduo_position b); /* within the raster */
     void (*bar)(void *to, int column, int row, int width, double fraction, enum ceduo_role role);
     /* A line with ticks, in the column left of the frame or in the row below it, and the ticks' labels beside it. */
     void (*axis_left)(void *to, const struct ceduo_frame *frame, int count, const struct ceduo_tick *ticks);
     void (*axis_bottom)(void *to, const struct ceduo_frame *frame, int count, const struct ceduo_tick *ticks);
     void (*axis_unit)(void *to, int column, int row, const char *unit); /* among the labels of the bottom axis */
-    void (*cloud_start)(void *to);
-    void (*cloud_show)(void *to, double quantile);
     /* A disc, its radii across and down in dots; NULL: it is drawn as lines. */
     void (*disc)(void *to, const struct ceduo_raster *raster, enum ceduo_role role, struct ceduo_position centre,
                  struct ceduo_position radii);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Implements the grid, text in it, and its output. cells_surface.c draws pictures on it. */
+/* The grid, text in it, and its output. */
 #include "cells.h"
 
 #include <assert.h>
@@ -32,6 +32,7 @@ struct ceduo_cells *ceduo_cells_create(int width, int height, enum ceduo_charset
     cells->height = height;
     cells->charset = charset;
     cells->canvas = (struct ceduo_canvas){.surface = &ceduo_cells_surface,
+                                          .cells = cells,
                                           .to = cells,
                                           .dots_x = charset == CEDUO_CHARSET_ASCII ? 1 : 2,
                                           .dots_y = charset == CEDUO_CHARSET_BRAILLE ? 4 : 2};

@@ -16,7 +16,56 @@
 #include <stdint.h>
 
 #include "base/text.h"
-#include "canvas.h"
+
+/* A role says what a mark is about; the surface chooses its colour. BLANK draws nothing. Each line: name, letter in dumps,
+ * rank. Where marks meet in a cell the highest rank gives the role: thin marks win over those that fill. */
+#define CEDUO_ROLES(X)                                                                                                         \
+    X(BLANK, ' ', 0)                                                                                                           \
+    X(TEXT, 't', 19)                                                                                                           \
+    X(DIM, 'd', 1)                                                                                                             \
+    X(TITLE, 'T', 18)                                                                                                          \
+    X(AXIS, 'a', 2)                                                                                                            \
+    X(GROUND, 'g', 4)                                                                                                          \
+    X(CLOUD, 'c', 3)    /* all trajectories together */                                                                        \
+    X(ENVELOPE, 'e', 8) /* quantiles of the trajectories */                                                                    \
+    X(MEAN, 'm', 11)                                                                                                           \
+    X(WAY, 'w', 16) /* the trajectory of the selected rock */                                                                  \
+    X(STEM, 's', 7)                                                                                                            \
+    X(STOOL, 'S', 6)                                                                                                           \
+    X(BELT, 'b', 5) /* a stretch of forest along the slope */                                                                  \
+    X(CONTROL, 'C', 15)                                                                                                        \
+    X(GOOD, 'G', 12)                                                                                                           \
+    X(BAD, 'B', 14)                                                                                                            \
+    X(WARN, 'W', 13)                                                                                                           \
+    X(BARE, 'r', 9)  /* a curve of the bare slope */                                                                           \
+    X(WOOD, 'o', 10) /* the same curve of the wooded slope */                                                                  \
+    X(CURSOR, 'x', 17)
+
+enum ceduo_role {
+#define X(NAME, letter, rank) CEDUO_ROLE_##NAME,
+    CEDUO_ROLES(X)
+#undef X
+        CEDUO_ROLE_COUNT, /* how many roles there are, not a role */
+};
+
+/* A rectangle of cells. */
+struct ceduo_area {
+    int left, top, width, height;
+};
+
+/* Pictures draw on it (canvas.h). */
+struct ceduo_canvas {
+    const struct ceduo_surface *surface;
+    struct ceduo_cells *cells; /* its text, and what is taken */
+    void *to;                  /* what the surface's functions get */
+    int dots_x, dots_y;        /* dots across and down one cell: the finest that can be told apart */
+    bool words_alone;          /* pictures leave their area blank */
+};
+
+enum {
+    CEDUO_CANVAS_MAX_WIDTH = 1000, /* cells */
+    CEDUO_CANVAS_MAX_HEIGHT = 500, /* cells */
+};
 
 enum ceduo_charset {
     CEDUO_CHARSET_BRAILLE, /* UTF-8, 2 x 4 dots a cell, square where a cell is twice as high as wide */
@@ -70,9 +119,9 @@ void ceduo_cells_ascii(struct text *text, const char *string);
 /* The number of cells a text takes in a character set. */
 int ceduo_cells_label_width(enum ceduo_charset charset, const char *text);
 
-/* ---- For the surface (cells_surface.c) ---- */
+/* ---- For surfaces ---- */
 
-extern const struct ceduo_surface ceduo_cells_surface;
+extern const struct ceduo_surface ceduo_cells_surface; /* in canvas.c */
 
 /* The cell at a place; NULL outside the grid. */
 struct ceduo_cell *ceduo_cells_at(const struct ceduo_cells *cells, int column, int row);

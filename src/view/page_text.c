@@ -9,6 +9,7 @@
 
 #include "base/grow.h"
 #include "base/utf8.h"
+#include "canvas.h"
 #include "page.h"
 #include "words.h"
 

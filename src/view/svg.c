@@ -212,12 +212,6 @@ static void draw_disc(void *to, const struct ceduo_raster *raster, enum ceduo_ro
             ceduo_cells_set_dot(svg->cells, (int)(x / DOT), (int)(y / DOT), role);
 }
 
-static int label_width(const void *to, const char *text)
-{
-    (void)to;
-    return ceduo_cells_label_width(CEDUO_CHARSET_BRAILLE, text);
-}
-
 /* Cells of which the vectors show the content. */
 static void mark_drawn(struct ceduo_svg *svg, int column, int row, int width)
 {
@@ -289,46 +283,15 @@ static void draw_axis_unit(void *to, int column, int row, const char *unit)
 {
     struct ceduo_svg *svg = to;
     append_label(svg, column * CELL, (row - 1) * HIGH + BELOW, "start", unit);
-    mark_drawn(svg, column, row, label_width(NULL, unit));
-}
-
-static void start_cloud(void *to)
-{
-    struct ceduo_svg *svg = to;
-    ceduo_cells_surface.cloud_start(svg->cells);
-}
-
-/* The ways stand on the page already, each as a thin line: where many pass it is dark. */
-static void show_cloud(void *to, double quantile)
-{
-    struct ceduo_svg *svg = to;
-    end_stroke(svg);
-    ceduo_cells_surface.cloud_show(svg->cells, quantile);
-}
-
-static int draw_label(void *to, int column, int row, enum ceduo_role role, const char *text)
-{
-    struct ceduo_svg *svg = to;
-    return ceduo_cells_label(svg->cells, column, row, role, text);
-}
-
-static bool is_blank(const void *to, int column, int row)
-{
-    const struct ceduo_svg *svg = to;
-    return ceduo_cells_glyph(svg->cells, column, row) == ' ';
+    mark_drawn(svg, column, row, ceduo_canvas_label_width(&svg->canvas, unit));
 }
 
 static const struct ceduo_surface surface = {
-    .label = draw_label,
-    .label_width = label_width,
-    .is_blank = is_blank,
     .line = draw_line,
     .bar = draw_bar,
     .axis_left = draw_axis_left,
     .axis_bottom = draw_axis_bottom,
     .axis_unit = draw_axis_unit,
-    .cloud_start = start_cloud,
-    .cloud_show = show_cloud,
     .disc = draw_disc,
 };
 
@@ -338,8 +301,11 @@ struct ceduo_svg *ceduo_svg_create(int width, int height)
 {
     struct ceduo_svg *svg = ceduo_must(calloc(1, sizeof *svg));
     svg->cells = ceduo_cells_create(width, height, CEDUO_CHARSET_BRAILLE);
-    svg->canvas = (struct ceduo_canvas){
-        .surface = &surface, .to = svg, .dots_x = svg->cells->canvas.dots_x, .dots_y = svg->cells->canvas.dots_y};
+    svg->canvas = (struct ceduo_canvas){.surface = &surface,
+                                        .cells = svg->cells,
+                                        .to = svg,
+                                        .dots_x = svg->cells->canvas.dots_x,
+                                        .dots_y = svg->cells->canvas.dots_y};
     return svg;
 }
 

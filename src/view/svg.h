@@ -2,7 +2,7 @@
 #ifndef CEDUO_SVG_H
 #define CEDUO_SVG_H
 
-#include "cells.h"
+#include "canvas.h"
 #include "html.h"
 
 /*

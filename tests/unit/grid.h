@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "view/cells.h"
+#include "view/canvas.h"
 
 #define BRAILLE CEDUO_CHARSET_BRAILLE
 #define BLOCK   CEDUO_CHARSET_BLOCK

@@ -586,30 +586,11 @@ TEST_WOODED(nothing_is_drawn_beside_the_area)
     }
 }
 
-/* A surface that is no grid of cells: it only counts what a page of vectors would draw. */
+/* A surface that draws no dots: it only counts what a page of vectors would draw. */
 struct page {
-    int labels, lines, ways, bars, axes;
+    int lines, ways, bars, axes;
     bool strayed; /* a line left its frame */
 };
-
-static int page_label(void *to, int column, int row, enum ceduo_role role, const char *text)
-{
-    (void)column, (void)row, (void)role;
-    ((struct page *)to)->labels++;
-    return (int)strlen(text);
-}
-
-static int page_label_width(const void *to, const char *text)
-{
-    (void)to;
-    return (int)strlen(text);
-}
-
-static bool page_is_blank(const void *to, int column, int row)
-{
-    (void)to, (void)column, (void)row;
-    return true;
-}
 
 static void page_line(void *to, struct ceduo_pen *pen, struct ceduo_position a, struct ceduo_position b)
 {
@@ -639,36 +620,22 @@ static void page_axis_unit(void *to, int column, int row, const char *unit)
     (void)to, (void)column, (void)row, (void)unit;
 }
 
-static void page_cloud_start(void *to)
-{
-    (void)to;
-}
-
-static void page_cloud_show(void *to, double quantile)
-{
-    (void)to, (void)quantile;
-}
-
 TEST_WOODED(pictures_draw_on_another_surface)
 {
-    static const struct ceduo_surface surface = {.label = page_label,
-                                                 .label_width = page_label_width,
-                                                 .is_blank = page_is_blank,
-                                                 .line = page_line,
-                                                 .bar = page_bar,
-                                                 .axis_left = page_axis,
-                                                 .axis_bottom = page_axis,
-                                                 .axis_unit = page_axis_unit,
-                                                 .cloud_start = page_cloud_start,
-                                                 .cloud_show = page_cloud_show};
+    static const struct ceduo_surface surface = {
+        .line = page_line, .bar = page_bar, .axis_left = page_axis, .axis_bottom = page_axis, .axis_unit = page_axis_unit};
     struct ceduo_area area = {0, 0, 100, 30};
     for (int plot = CEDUO_PLOT_PROFILE; plot < CEDUO_PLOTS; plot++) {
         struct page page = {0};
-        struct ceduo_canvas canvas = {&surface, &page, 8, 16, false};
+        struct ceduo_cells *cells = ceduo_cells_create(area.width, area.height, CEDUO_CHARSET_BRAILLE);
+        struct ceduo_canvas canvas = {&surface, cells, &page, 8, 16, false};
         bool bars = plot == CEDUO_PLOT_HISTOGRAM || plot == CEDUO_PLOT_ADC || plot == CEDUO_PLOT_COMPARE;
         ceduo_plot_draw((enum ceduo_plot)plot, &canvas, &area, &p);
-        if (page.labels == 0 || page.strayed)
-            fail_msg("%s: %d labels, strayed: %d", ceduo_plot_kinds[plot].name, page.labels, page.strayed);
+        char *words = ceduo_cells_dump(cells);
+        if (strspn(words, "\n") == strlen(words) || page.strayed)
+            fail_msg("%s: strayed: %d, words:\n%s", ceduo_plot_kinds[plot].name, page.strayed, words);
+        free(words);
+        ceduo_cells_free(cells);
         bool computed =
             plot != CEDUO_PLOT_ROTATION && plot != CEDUO_PLOT_TRADEOFF && plot != CEDUO_PLOT_DOUBT && plot != CEDUO_PLOT_HAZARD;
         if (computed && (bars ? page.bars == 0 : page.lines == 0 || page.axes == 0))
