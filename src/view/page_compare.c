@@ -292,8 +292,6 @@ void ceduo_page_years_words(struct ceduo_page *page, const struct ceduo_result *
 
 void ceduo_page_years(struct ceduo_page *page, const struct ceduo_report *report, size_t option)
 {
-    if (page->width < CEDUO_PAGE_WIDTH)
-        return;
     add_years_table(page, report->result, report->years[option]);
     ceduo_page_years_words(page, report->result, report->years[option]);
 }

@@ -11,6 +11,14 @@ void ceduo_page_interval(struct ceduo_page *page, const struct ceduo_measure *m)
     ceduo_measure_interval(ceduo_page_text(page), m);
 }
 
+void ceduo_page_mean(struct ceduo_page *page, const struct ceduo_arrivals *a)
+{
+    struct ceduo_page_cell *cell = ceduo_page_cell(page);
+    cell->kind = a->reached > 0 ? CEDUO_CELL_MEAN : CEDUO_CELL_NUMBER;
+    cell->value = a->reached > 0 ? a->energy.mean * J_TO_KJ : NAN;
+    cell->half = ceduo_half_width(a->energy.se, a->reached) * J_TO_KJ;
+}
+
 void ceduo_page_per_1000(struct ceduo_page *page, double mean, double half, bool sign)
 {
     struct text *text = ceduo_page_text(page);
@@ -61,18 +69,17 @@ void ceduo_page_warn(void *page, const char *sentence)
     ceduo_page_say(page, CEDUO_PAGE_WARNING, "%s", sentence);
 }
 
-bool ceduo_page_has(const struct ceduo_page *page, const char *sentence)
+void ceduo_page_once(struct ceduo_page *page, enum ceduo_page_kind kind, const char *sentence)
 {
-    const struct ceduo_page_block *b = page->first;
-    while (b && strcmp(ceduo_text_string(&b->text), sentence) != 0)
-        b = b->next;
-    return b;
+    for (const struct ceduo_page_block *b = page->first; b; b = b->next)
+        if (strcmp(ceduo_text_string(&b->text), sentence) == 0)
+            return;
+    ceduo_page_say(page, kind, "%s", sentence);
 }
 
 void ceduo_page_warn_once(void *page, const char *sentence)
 {
-    if (!ceduo_page_has(page, sentence))
-        ceduo_page_warn(page, sentence);
+    ceduo_page_once(page, CEDUO_PAGE_WARNING, sentence);
 }
 
 void ceduo_page_note(void *page, const char *sentence)

@@ -20,9 +20,10 @@ size_t ceduo_result_best(const struct ceduo_result *result, const struct ceduo_v
 /* All of that on one screen, with what is assumed. */
 void ceduo_page_short(struct ceduo_page *page, const struct ceduo_report *report);
 
-/* What is to be warned of in the stands of n options; the same, and what the rules of a region ask of them. */
-void ceduo_page_stand_warnings(struct ceduo_page *page, const struct ceduo_result *result, size_t first, size_t n);
-void ceduo_page_stands(struct ceduo_page *page, const struct ceduo_result *result, size_t first, size_t n);
+/* What is to be warned of in the stands of an option, and what of the rules of a region they do not meet; `all`: what those ask of
+ * them. Belts of one stand share such sentences: each stands on a page once. */
+void ceduo_page_stand_warnings(struct ceduo_page *page, const struct ceduo_result *result, size_t option);
+void ceduo_page_stand_rules(struct ceduo_page *page, const struct ceduo_result *result, size_t option, bool all);
 
 /* What the rules ask of the stands of all options, as a table with their sources; nothing where no coppice has rules. */
 void ceduo_page_rules(struct ceduo_page *page, const struct ceduo_result *result);
@@ -32,13 +33,6 @@ void ceduo_page_facts(struct ceduo_page *page, const struct ceduo_report *report
 
 /* All of an option at each control, but for its heading; what arrives without forest where there is one option alone. */
 void ceduo_page_option(struct ceduo_page *page, const struct ceduo_report *report, size_t option, bool bare);
-
-/* The belts of an option and what their stems could take, by the index. */
-void ceduo_page_belts(struct ceduo_page *page, const struct ceduo_report *report, size_t option);
-void ceduo_page_residual(struct ceduo_page *page, const struct ceduo_result *result, size_t option, size_t control);
-
-/* Blocks of other sizes; CEDUO_BLOCKS of them. */
-void ceduo_page_sizes(struct ceduo_page *page, const struct ceduo_result *result, const struct ceduo_block *blocks);
 
 /* An option year by year; all options side by side, as filed and over the years. */
 void ceduo_page_years(struct ceduo_page *page, const struct ceduo_report *report, size_t option);
@@ -69,6 +63,7 @@ void ceduo_page_assumed(struct ceduo_page *page, const struct ceduo_report *repo
 
 /* A cell: "480 (453–501)"; "-" where it is not known. */
 void ceduo_page_interval(struct ceduo_page *page, const struct ceduo_measure *measure);
+void ceduo_page_mean(struct ceduo_page *page, const struct ceduo_arrivals *arrivals); /* of the energy, with its error */
 /* A cell: "480 ±10" of 1000, or "+480 ±10" if `sign`; "-" for NaN. */
 void ceduo_page_per_1000(struct ceduo_page *page, double mean, double half, bool sign);
 /* The head of the column of the share that a control is judged by: "> 50 kJ", or `otherwise` without an accepted energy. */
@@ -80,7 +75,8 @@ void ceduo_page_yes(struct ceduo_page *page, bool yes);                   /* yes
 /* Adds a warning, or a note; the context is the page. */
 void ceduo_page_warn(void *page, const char *sentence);
 void ceduo_page_note(void *page, const char *sentence);
-void ceduo_page_warn_once(void *page, const char *sentence); /* unless the page says it already */
-bool ceduo_page_has(const struct ceduo_page *page, const char *sentence);
+void ceduo_page_warn_once(void *page, const char *sentence);
+void ceduo_page_once(struct ceduo_page *page, enum ceduo_page_kind kind,
+                     const char *sentence); /* unless the page says it already */
 
 #endif

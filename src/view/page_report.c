@@ -264,8 +264,8 @@ void ceduo_page_chapter(struct ceduo_page *page, const struct ceduo_chapter *c)
     if (several)
         ceduo_page_rules(page, c->report->result);
     ceduo_page_notes(page, c->report);
-    if (several)
-        ceduo_page_stand_warnings(page, c->report->result, 0, scene->options_count);
+    for (size_t i = 0; several && i < scene->options_count; i++)
+        ceduo_page_stand_warnings(page, c->report->result, i);
     add_limits(page, c->report->result);
     if (is_crowded(c))
         ceduo_page_note(page,

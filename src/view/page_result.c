@@ -75,14 +75,7 @@ static void add_arrivals_row(struct ceduo_page *page, const char *name, const st
     if (!isnan(c->accepted))
         ceduo_page_interval(page, &judged);
     ceduo_page_interval(page, &arriving);
-    struct ceduo_page_cell *mean = ceduo_page_cell(page);
-    if (a->reached > 0) {
-        mean->kind = CEDUO_CELL_MEAN;
-        mean->value = a->energy.mean * J_TO_KJ;
-        mean->half = ceduo_half_width(a->energy.se, a->reached) * J_TO_KJ;
-    } else {
-        ceduo_text_put(&mean->text, "-");
-    }
+    ceduo_page_mean(page, a);
     ceduo_page_number(page, a->energy.p95 * J_TO_KJ, 3);
     ceduo_page_number(page, a->speed.mean, 3);
 }
@@ -96,9 +89,9 @@ static void add_arrivals_table(struct ceduo_page *page, const struct ceduo_contr
         NP_("head", "of 1000"), 16, 4, 0                                                                                       \
     }
 #define FIGURES                                                                                                                \
-    {N_("arrive"), -16, 0, 0}, {NP_("head", "arriving kJ"), -12, 0, 0}, {N_("95 %"), -6, 0, 0},                                \
+    {N_("arrive"), -16, 0, 0}, {NP_("head", "arriving kJ"), -12, 0, CEDUO_DROPPED(1)}, {N_("95 %"), -6, 0, CEDUO_DROPPED(2)},  \
     {                                                                                                                          \
-        N_("m/s"), -5, 0, 0                                                                                                    \
+        N_("m/s"), -5, 0, CEDUO_DROPPED(3)                                                                                     \
     }
     static const struct ceduo_page_column columns[] = {NAME, {NULL, -16, 0, 0}, FIGURES}, not_accepted[] = {NAME, FIGURES};
     if (isnan(c->accepted)) {
@@ -111,23 +104,6 @@ static void add_arrivals_table(struct ceduo_page *page, const struct ceduo_contr
         add_arrivals_row(page, _("through the wood"), c, wooded);
     if (bare)
         add_arrivals_row(page, _("without forest"), c, bare);
-}
-
-/* The same in sentences. */
-static void say_arrivals(struct ceduo_page *page, const char *name, const struct ceduo_arrivals *a)
-{
-    struct text *line = ceduo_page_add(page, CEDUO_PAGE_SENTENCE);
-    const char *arrive = WRITTEN_OF_1000(a->reach_probability, a->reach_lo, a->reach_hi);
-    if (!isnan(a->exceed_probability))
-        ceduo_text_format(line, _("%s: %s of 1000 arrive with more than it withstands, %s at all"), name,
-                          WRITTEN_OF_1000(a->exceed_probability, a->exceed_lo, a->exceed_hi), arrive);
-    else
-        ceduo_text_format(line, _("%s: %s of 1000 arrive"), name, arrive);
-    if (a->reached > 0)
-        ceduo_text_then(line, "; ", _("of those that arrive the mean is %s \xc2\xb1 %s kJ, 95 %% below %s"),
-                        WRITTEN(a->energy.mean * J_TO_KJ, 4), WRITTEN(ceduo_half_width(a->energy.se, a->reached) * J_TO_KJ, 2),
-                        WRITTEN(a->energy.p95 * J_TO_KJ, 3));
-    ceduo_text_char(line, '.');
 }
 
 /* How the rocks end in the forest: up to a control, and on the whole profile. */
@@ -152,32 +128,21 @@ static void say_fates(struct ceduo_page *page, const struct ceduo_simulated *f, 
                        all[CEDUO_STOPPED_BY_STEMS] * 1000, all[CEDUO_AT_REST] * 1000, all[CEDUO_LEFT_SLOPE] * 1000);
 }
 
-static bool none_arrives(const struct ceduo_arrivals *a)
-{
-    return a->reached == 0 && a->unfinished == 0;
-}
-
 static void add_arrivals(struct ceduo_page *page, const struct ceduo_result *r, size_t option, size_t control, bool with_bare)
 {
     const struct ceduo_arrivals *bare = &r->bare.arrivals[control], *wooded = ceduo_result_wooded(r, option, control);
-    const struct ceduo_arrivals *through = r->scene->options[option].belts_count > 0 ? wooded : NULL; /* said once */
-    if (page->width >= CEDUO_PAGE_WIDTH) {
-        if (wooded || with_bare)
-            add_arrivals_table(page, &r->scene->controls[control], wooded, with_bare ? bare : NULL);
-    } else {
-        if (through)
-            say_arrivals(page, _("Through the wood"), through);
-        if (with_bare)
-            say_arrivals(page, _("Without forest"), bare);
-    }
+    if (wooded || with_bare)
+        add_arrivals_table(page, &r->scene->controls[control], wooded, with_bare ? bare : NULL);
+    if (!wooded)
+        return;
     /* what reads as harm is that the small and the slow ones are stopped */
-    if (through && through->energy.mean - bare->energy.mean > CEDUO_Z95 * hypot(through->energy.se, bare->energy.se))
+    if (r->scene->options[option].belts_count > 0 &&
+        wooded->energy.mean - bare->energy.mean > CEDUO_Z95 * hypot(wooded->energy.se, bare->energy.se))
         ceduo_page_say(page, CEDUO_PAGE_SENTENCE,
                        _("Fewer arrive through the wood, but larger or faster ones, as stems stop the others first: their mean "
                          "is higher."));
-    if (wooded)
-        say_fates(page, &r->options[option].wooded, wooded, control == r->last_control);
-    if (wooded && none_arrives(wooded) && !none_arrives(bare))
+    say_fates(page, &r->options[option].wooded, wooded, control == r->last_control);
+    if (wooded->reached + wooded->unfinished == 0 && bare->reached + bare->unfinished > 0)
         ceduo_page_say(page, CEDUO_PAGE_SENTENCE, _("Through the wood no rock arrives (of 1000, below %.1f with 95 %%)."),
                        wooded->reach_hi * 1000);
 }
@@ -215,70 +180,175 @@ static void say_lights(struct ceduo_page *page, const struct ceduo_result *r, si
         say_released(page, wooded ? wooded : bare);
 }
 
-/* ---- an option ---- */
+/* ---- belts, by the index ---- */
 
-/* Sentences about stands, after the block `since`. Belts of one stand share them: each stands on the page once. */
-struct stand_warnings {
-    struct ceduo_page *page;
-    const struct ceduo_page_block *since;
-};
-
-static void say_rule_once(void *context, bool met, const char *sentence)
+static void add_belts(struct ceduo_page *page, const struct ceduo_scene *scene, const struct ceduo_option *o,
+                      const struct ceduo_option_result *found)
 {
-    const struct stand_warnings *w = context;
-    for (const struct ceduo_page_block *b = w->since ? w->since->next : NULL; b; b = b->next)
-        if (b->text.bytes && strcmp(b->text.bytes, sentence) == 0)
-            return;
-    ceduo_page_say(w->page, met ? CEDUO_PAGE_SENTENCE : CEDUO_PAGE_WARNING, "%s", sentence);
-}
-
-static void warn_once(void *context, const char *sentence)
-{
-    say_rule_once(context, false, sentence);
-}
-
-static void say_stands(struct ceduo_page *page, const struct ceduo_result *r, size_t first, size_t n, bool rules)
-{
-    struct stand_warnings w = {page, page->last};
-    for (size_t i = first; i < first + n; i++) {
-        const struct ceduo_option *o = &r->scene->options[i];
-        const struct ceduo_stand_result *stands = r->options[i].stands;
-        for (size_t k = 0; k < o->belts_count; k++)
-            ceduo_words_stand_warnings(r->scene, &o->belts[k], &stands[k], warn_once, &w);
-        for (size_t k = 0; rules && k < o->belts_count; k++)
-            ceduo_words_rules(&o->belts[k], &stands[k].rules, say_rule_once, &w);
+    static const struct ceduo_page_column columns[] = {
+        {N_("m"), 10, 4, CEDUO_WHOLE},       {N_("stand"), 27, 0, 0}, {N_("ADC m"), -7, 0, 0},   {NULL, 6, 1, 0},
+        {NP_("head", "free run"), -9, 0, 0}, {N_("kJ"), -7, 0, 0},    {N_("kJ/100 m"), -9, 0, 0}};
+    CEDUO_PAGE_TABLE_OF(page, columns);
+    ceduo_text_format(&ceduo_page_head(page)->text, "<%s m", SHORTEST(scene->simulation.threshold));
+    for (size_t i = 0; i < o->belts_count; i++) {
+        const struct ceduo_belt *b = &o->belts[i];
+        const struct ceduo_stand_result *s = &found->stands[i];
+        ceduo_page_write(page, "%s\xe2\x80\x93%s", SHORTEST(b->from_given), SHORTEST(b->to_given));
+        ceduo_page_write(page, "%s%s", b->name, b->assumed ? "*" : "");
+        ceduo_page_number(page, s->adc_m, 3);
+        ceduo_page_yes(page, s->passes_threshold);
+        ceduo_page_percent(page, s->free_run_probability);
+        ceduo_page_number(page, s->dissipated * J_TO_KJ, 3);
+        ceduo_page_number(page, s->per_100m * J_TO_KJ, 3);
     }
 }
 
-void ceduo_page_stand_warnings(struct ceduo_page *page, const struct ceduo_result *r, size_t first, size_t n)
+/* The ADC by the other rules, of each belt. */
+static void say_other_forms(struct ceduo_page *page, const struct ceduo_option *o, const struct ceduo_option_result *found)
 {
-    say_stands(page, r, first, n, false);
+    for (size_t i = 0; i < o->belts_count; i++) {
+        const struct ceduo_stand_result *s = &found->stands[i];
+        if (s->bare)
+            continue;
+        struct text *line = ceduo_page_add(page, CEDUO_PAGE_DETAIL);
+        const char *between = "";
+        ceduo_text_format(line, _("%s by %s; other forms:"), o->belts[i].name, ceduo_rule_words.names[s->rule]);
+        for (enum ceduo_rule rule = CEDUO_GSTEIGER_STOOLS; rule <= CEDUO_CROFTON; rule++)
+            if (rule != s->rule) {
+                ceduo_text_format(line, "%s %s %s m", between, ceduo_rule_words.names[rule],
+                                  WRITTEN(ceduo_adc_value(&s->adc, rule), 3));
+                between = ",";
+            }
+    }
 }
 
-void ceduo_page_stands(struct ceduo_page *page, const struct ceduo_result *r, size_t first, size_t n)
+/* The rule that was applied in all belts, or a word that says that it differs. */
+static const char *rule_of(const struct ceduo_option *o, const struct ceduo_option_result *found)
 {
-    say_stands(page, r, first, n, true);
+    const char *rule = NULL;
+    for (size_t i = 0; i < o->belts_count; i++) {
+        const char *here = ceduo_rule_words.names[found->stands[i].rule];
+        if (!found->stands[i].bare && rule && strcmp(rule, here) != 0)
+            return _("each belt's own rule");
+        rule = found->stands[i].bare ? rule : here;
+    }
+    return rule ? rule : _("no rule");
+}
+
+/* Where contacts take shares, Eq. 4 has no meaning. */
+static void say_residual(struct ceduo_page *page, const struct ceduo_result *r, size_t option, size_t control)
+{
+    const char *rule = rule_of(&r->scene->options[option], &r->options[option]);
+    const struct ceduo_index *index = &r->options[option].controls[control];
+    bool shares = isnan(index->dissipated), none = r->bare.arrivals[control].reached == 0;
+    double mean = r->bare.arrivals[control].energy.mean * J_TO_KJ;
+    double taken = index->dissipated * J_TO_KJ, left = index->residual * J_TO_KJ;
+    struct text *line = ceduo_page_add(page, CEDUO_PAGE_SENTENCE);
+    if (shares && none)
+        ceduo_text_format(line,
+                          _("By the index (%s) every contact takes a share; no rock arrives, nothing is left to "
+                            "compare."),
+                          rule);
+    else if (shares && index->exhausted)
+        ceduo_text_format(line,
+                          _("By the index (%s) contacts take shares and amounts, more than the mean rock brings: "
+                            "used up on average. Some rocks still pass."),
+                          rule);
+    else if (shares)
+        ceduo_text_format(line,
+                          _("By the index (%s) every contact takes a share, so that Eq. 4 has no meaning; of %s kJ "
+                            "%s kJ are left."),
+                          rule, WRITTEN(mean, 4), WRITTEN(left, 3));
+    else
+        ceduo_text_format(line, _("By the index (Eq. 4, %s) stems could take %s kJ"), rule, WRITTEN(taken, 3));
+    if (!shares && index->length > 0)
+        ceduo_text_then(line, ", ", _("%s kJ per 100 m (%s)"), WRITTEN(index->per_100m * J_TO_KJ, 3), rule);
+    if (!shares && none) {
+        ceduo_text_then(line, "; ", _("no rock arrives, nothing is left to compare."));
+    } else if (!shares && index->exhausted) {
+        ceduo_text_then(line, ", ", _("more than the mean rock brings: used up on average. Some rocks still pass."));
+    } else if (!shares && taken == 0) {
+        ceduo_text_then(line, "; ", _("left (Eq. 5): all of %s kJ."), WRITTEN(left, 3));
+    } else if (!shares) { /* all three with the decimals of the first, so that what is written is true */
+        int decimals = (int)fmax(0, 3 - floor(log10(mean)));
+        ceduo_text_then(line, "; ", _("left (Eq. 5): %.*f \xe2\x88\x92 %.*f = %.*f kJ."), decimals, mean, decimals, taken,
+                        decimals, left);
+    }
+    if (!isnan(index->measured))
+        ceduo_page_say(page, CEDUO_PAGE_SENTENCE, _("Measured here on one rock: %s kJ (%g m/s). One rock is no validation."),
+                       WRITTEN(index->measured * J_TO_KJ, 3), r->scene->controls[control].measured_speed);
+}
+
+/* ---- blocks of other sizes ---- */
+
+static void add_sizes(struct ceduo_page *page, const struct ceduo_result *r, const struct ceduo_block *blocks)
+{
+    static const struct ceduo_page_column columns[] = {{"", 3, 0, 0},           {"m3", -8, 0, 0},
+                                                       {"kg", -9, 0, 0},        {N_("wide m"), -8, 0, 0},
+                                                       {N_("ADC m"), -8, 0, 0}, {N_("contacts"), -10, 0, 0},
+                                                       {NULL, -18, 0, 0}};
+    const struct ceduo_control *c = &r->scene->controls[r->last_control];
+    double own = NAN;
+    for (size_t i = 0; i < CEDUO_BLOCKS; i++)
+        own = blocks[i].own ? blocks[i].volume : own;
+    ceduo_page_say(page, CEDUO_PAGE_CAPTION,
+                   _("Blocks of other sizes, same shape and release, of 1000 to %s m (> this scene's):"), SHORTEST(c->x_given));
+    CEDUO_PAGE_TABLE_OF(page, columns);
+    ceduo_page_limit(page, c, CEDUO_HEAD);
+    bool left_out = false;
+    for (size_t i = 0; i < CEDUO_BLOCKS; i++) {
+        const struct ceduo_block *b = &blocks[i];
+        if (!b->own && b->volume < 2 * own && 2 * b->volume > own)
+            continue; /* less than an octave apart the order would be chance: the scene's own stands for it */
+        const struct ceduo_measure share = ceduo_judged(c, b->arrivals.released > 0 ? &b->arrivals : NULL);
+        ceduo_page_write(page, "%s", b->own ? "  >" : "");
+        ceduo_page_number(page, b->volume, 3);
+        ceduo_page_number(page, b->mass, 3);
+        ceduo_page_number(page, b->diameter, 3);
+        ceduo_page_number(page, b->adc, 3);
+        ceduo_page_number(page, b->contacts, 3);
+        ceduo_page_interval(page, &share);
+        left_out |= b->arrivals.released == 0;
+    }
+    if (left_out && r->scene->simulation.contact_model != CEDUO_INDEX && ceduo_result_rocks(r) > 0)
+        ceduo_page_say(page, CEDUO_PAGE_SENTENCE,
+                       _("A size with a dash was left out: its rocks come to so many stems that they would cost far more than "
+                         "those of the scene."));
+}
+
+/* ---- an option ---- */
+
+void ceduo_page_stand_warnings(struct ceduo_page *page, const struct ceduo_result *r, size_t option)
+{
+    const struct ceduo_option *o = &r->scene->options[option];
+    for (size_t k = 0; k < o->belts_count; k++)
+        ceduo_words_stand_warnings(r->scene, &o->belts[k], &r->options[option].stands[k], ceduo_page_warn_once, page);
 }
 
 void ceduo_page_option(struct ceduo_page *page, const struct ceduo_report *report, size_t i, bool bare)
 {
     const struct ceduo_result *r = report->result;
+    const struct ceduo_option *option = &r->scene->options[i];
+    bool whole = page->width >= CEDUO_PAGE_WIDTH; /* a pane stands beside pictures and a column that say the rest */
     for (size_t k = 0; k < r->scene->controls_count; k++) {
         add_place(page, report, k);
         add_arrivals(page, r, i, k, bare);
         say_lights(page, r, i, k, bare);
-        if (page->width >= CEDUO_PAGE_WIDTH && r->bare.rocks > 0)
+        if (whole && r->bare.rocks > 0)
             ceduo_page_percentiles(page, r, i, k, bare);
         ceduo_page_design(page, report, i, k);
+        if (whole && k == 0 && option->belts_count > 0)
+            add_belts(page, r->scene, option, &r->options[i]);
         if (k == 0)
-            ceduo_page_belts(page, report, i);
-        ceduo_page_residual(page, r, i, k);
+            say_other_forms(page, option, &r->options[i]);
+        say_residual(page, r, i, k);
     }
-    if (report->blocks && !report->years)
-        ceduo_page_sizes(page, r, &report->blocks[i * CEDUO_BLOCKS]);
-    if (report->years)
+    if (whole && report->blocks && !report->years)
+        add_sizes(page, r, &report->blocks[i * CEDUO_BLOCKS]);
+    if (whole && report->years)
         ceduo_page_years(page, report, i);
-    ceduo_page_stands(page, r, i, 1);
+    ceduo_page_stand_warnings(page, r, i);
+    ceduo_page_stand_rules(page, r, i, true);
 }
 
 /* Of several options, what they share: the slope without forest. */
@@ -328,8 +398,7 @@ static void add_assumed(struct ceduo_page *page, const struct ceduo_report *repo
     if (times > 0 && !places) {
         LOCAL_TEXT(first); /* clause */
         ceduo_text_add(&first, said, strcspn(said, ";"));
-        if (!ceduo_page_has(page, ceduo_text_string(&first)))
-            ceduo_page_say(page, CEDUO_PAGE_ITEM, "%s", ceduo_text_string(&first));
+        ceduo_page_once(page, CEDUO_PAGE_ITEM, ceduo_text_string(&first));
     }
     if (times > 1 && places)
         ceduo_page_say(page, CEDUO_PAGE_ITEM, ngettext("%s (%s and %zu more)", "%s (%s and %zu more)", times - 1), said, place,
@@ -343,20 +412,15 @@ void ceduo_page_assumed(struct ceduo_page *page, const struct ceduo_report *repo
     add_assumed(page, report, report->file->notes, places);
 }
 
-/* A warning of the run; a gap before the first. */
-static void warn_of_run(void *context, const char *sentence)
-{
-    struct stand_warnings *w = context;
-    if (w->page->last == w->since)
-        ceduo_page_add(w->page, CEDUO_PAGE_GAP);
-    ceduo_page_warn(w->page, sentence);
-}
-
 void ceduo_page_notes(struct ceduo_page *page, const struct ceduo_report *report)
 {
     struct ceduo_run_remarks remarks = report->remarks;
     remarks.nothing_said = true; /* at the head of the page */
-    ceduo_words_run_warnings(report->result, &remarks, warn_of_run, &(struct stand_warnings){page, page->last});
+    ceduo_page_add(page, CEDUO_PAGE_GAP);
+    const struct ceduo_page_block *gap = page->last;
+    ceduo_words_run_warnings(report->result, &remarks, ceduo_page_warn, page);
+    if (page->last == gap)
+        ceduo_page_drop(page);
     const struct source_note *note = report->file->notes;
     while (note && !is_shown(report, note))
         note = note->before;

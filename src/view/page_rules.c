@@ -20,21 +20,24 @@ static const char *note_of(const struct ceduo_regulation *rules, struct text *te
     return text->bytes;
 }
 
-static void say_rule(const struct ceduo_belt *belt, const struct ceduo_compliance *c, bool turn, ceduo_words_rule *say,
-                     void *context)
+/* The number of standards or the turn of a belt. */
+static void say_rule(struct ceduo_page *page, const struct ceduo_belt *belt, const struct ceduo_compliance *c, bool turn,
+                     bool all)
 {
     item *asked = turn ? c->turn_item : c->standards_item;
+    bool met = turn ? c->turn_met : c->standards_met;
     size_t count;
     LOCAL_TEXT(sentence);
     LOCAL_TEXT(wanted);
-    bool met = turn ? c->turn_met : c->standards_met;
+    if (!all && (!asked || met))
+        return;
     if (!asked) {
         ceduo_text_format(&sentence,
                           turn ? _("%s: the rules of %s as filed name no turn for this species (%s); none is checked.")
                                : _("%s: the rules of %s as filed name no number of standards for this species (%s); none is "
                                    "checked."),
                           belt->name, c->of->name, _(ceduo_species_list(&count)[belt->stand.species].common));
-        say(context, true, sentence.bytes);
+        ceduo_page_once(page, CEDUO_PAGE_SENTENCE, sentence.bytes);
         return;
     }
     if (isnan(asked->most))
@@ -48,25 +51,31 @@ static void say_rule(const struct ceduo_belt *belt, const struct ceduo_complianc
                            : _("%s: %s asks for %s (%s, %u); %.4g are kept: %s."),
                       belt->name, c->of->name, wanted.bytes, asked->article, asked->year, turn ? c->turn : c->standards,
                       met ? _("met") : _("NOT met"));
-    say(context, met, sentence.bytes);
+    ceduo_page_once(page, met ? CEDUO_PAGE_SENTENCE : CEDUO_PAGE_WARNING, sentence.bytes);
 }
 
-void ceduo_words_rules(const struct ceduo_belt *belt, const struct ceduo_compliance *c, ceduo_words_rule *say, void *context)
+void ceduo_page_stand_rules(struct ceduo_page *page, const struct ceduo_result *r, size_t option, bool all)
 {
-    LOCAL_TEXT(sentence);
-    LOCAL_TEXT(note);
-    if (!c->of)
-        return;
-    if (belt->stand.species < 0) {
-        ceduo_text_format(&sentence, _("%s: the stand names no species; nothing that %s asks is checked."), belt->name,
-                          c->of->name);
-        say(context, true, sentence.bytes);
-    } else {
-        say_rule(belt, c, false, say, context);
-        if (!c->turn_item || !isnan(c->turn))
-            say_rule(belt, c, true, say, context);
+    const struct ceduo_option *o = &r->scene->options[option];
+    for (size_t i = 0; i < o->belts_count; i++) {
+        const struct ceduo_belt *belt = &o->belts[i];
+        const struct ceduo_compliance *c = &r->options[option].stands[i].rules;
+        LOCAL_TEXT(sentence);
+        LOCAL_TEXT(note);
+        if (!c->of)
+            continue;
+        if (belt->stand.species >= 0) {
+            say_rule(page, belt, c, false, all);
+            if (!c->turn_item || !isnan(c->turn))
+                say_rule(page, belt, c, true, all);
+        } else if (all) {
+            ceduo_text_format(&sentence, _("%s: the stand names no species; nothing that %s asks is checked."), belt->name,
+                              c->of->name);
+            ceduo_page_once(page, CEDUO_PAGE_SENTENCE, sentence.bytes);
+        }
+        if (all)
+            ceduo_page_once(page, CEDUO_PAGE_SENTENCE, note_of(c->of, &note));
     }
-    say(context, true, note_of(c->of, &note));
 }
 
 /* ---- the table ---- */

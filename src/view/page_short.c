@@ -183,12 +183,6 @@ static void add_options(struct ceduo_page *page, const struct ceduo_report *repo
 
 /* ---- what is assumed, and what is to be noted ---- */
 
-static void warn_unmet(void *page, bool met, const char *sentence)
-{
-    if (!met)
-        ceduo_page_warn_once(page, sentence);
-}
-
 static void gather_notes(struct ceduo_page *notes, const struct ceduo_report *report)
 {
     const struct ceduo_result *r = report->result;
@@ -210,14 +204,11 @@ static void gather_notes(struct ceduo_page *notes, const struct ceduo_report *re
         ceduo_page_say(notes, CEDUO_PAGE_WARNING,
                        _("Without shoots below %g cm the distance of contacts or the free run fails."), CEDUO_THICK_DBH * 100);
     for (size_t i = 0; i < n; i++)
-        for (size_t k = 0; k < r->scene->options[i].belts_count; k++)
-            ceduo_words_rules(&r->scene->options[i].belts[k], &r->options[i].stands[k].rules, warn_unmet, notes);
+        ceduo_page_stand_rules(notes, r, i, false);
     if (n > 1 && report->verdict && report->verdict->choices[0].years > 0)
         ceduo_words_windows(r->scene, report->verdict, ceduo_page_warn_once, notes);
     for (size_t i = 0; i < n; i++)
-        for (size_t k = 0; k < r->scene->options[i].belts_count; k++)
-            ceduo_words_stand_warnings(r->scene, &r->scene->options[i].belts[k], &r->options[i].stands[k], ceduo_page_warn_once,
-                                       notes);
+        ceduo_page_stand_warnings(notes, r, i);
     ceduo_words_run_warnings(r, &remarks, ceduo_page_warn_once, notes);
 }
 

@@ -203,33 +203,6 @@ static void add_state(struct ceduo_page *page, const struct ceduo_pane *pane)
     say(page, CEDUO_ROLE_DIM, pane->busy ? _("computing, %llu rocks") : _("finished, %llu rocks"), rocks);
 }
 
-/* ---- warnings ---- */
-
-/* Belts of one stand share their rules. */
-static void add_rule(void *context, bool met, const char *sentence)
-{
-    struct ceduo_page *page = context;
-    for (const struct ceduo_page_block *b = page->first; b; b = b->next)
-        if (b->text.bytes && strcmp(b->text.bytes, sentence) == 0)
-            return;
-    ceduo_page_say(page, met ? CEDUO_PAGE_NOTE : CEDUO_PAGE_WARNING, "%s", sentence);
-    page->last->role = CEDUO_ROLE_WARN;
-}
-
-static void add_warnings(struct ceduo_page *page, const struct ceduo_pane *pane)
-{
-    const struct ceduo_result *r = pane->result;
-    const struct ceduo_option *o = &r->scene->options[pane->option];
-    const struct ceduo_stand_result *stands = r->options[pane->option].stands;
-    const struct ceduo_run_remarks remarks = {.ground_assumed = pane->file->ground_assumed, .nothing_said = true};
-    ceduo_words_still(r, ceduo_page_warn, page);
-    for (size_t i = 0; i < o->belts_count; i++)
-        ceduo_words_stand_warnings(r->scene, &o->belts[i], &stands[i], ceduo_page_warn, page);
-    ceduo_words_run_warnings(r, &remarks, ceduo_page_warn, page);
-    for (size_t i = 0; i < o->belts_count; i++)
-        ceduo_words_rules(&o->belts[i], &stands[i].rules, add_rule, page);
-}
-
 /* ---- all ---- */
 
 size_t ceduo_pane_column(struct ceduo_page *page, const struct ceduo_pane *pane)
@@ -255,11 +228,14 @@ size_t ceduo_pane_column(struct ceduo_page *page, const struct ceduo_pane *pane)
     add_state(page, pane);
     if (pane->height >= HEIGHT_ALL && !nothing)
         add_causes(page, pane);
-    size_t before = 0, all = 0;
-    for (const struct ceduo_page_block *b = page->first; b; b = b->next)
-        before++;
-    add_warnings(page, pane);
-    for (const struct ceduo_page_block *b = page->first; b; b = b->next)
-        all++;
-    return all - before;
+    const struct ceduo_page_block *last = page->last;
+    const struct ceduo_run_remarks remarks = {.ground_assumed = pane->file->ground_assumed, .nothing_said = true};
+    size_t warnings = 0;
+    ceduo_words_still(r, ceduo_page_warn, page);
+    ceduo_page_stand_warnings(page, r, pane->option);
+    ceduo_words_run_warnings(r, &remarks, ceduo_page_warn, page);
+    ceduo_page_stand_rules(page, r, pane->option, false);
+    while ((last = last->next))
+        warnings++;
+    return warnings;
 }

@@ -10,16 +10,9 @@
 static void add_simulated(struct ceduo_page *page, const char *name, const struct ceduo_control *c,
                           const struct ceduo_arrivals *a)
 {
-    const struct ceduo_measure mean = ceduo_mean_energy(a), p95 = ceduo_energy_p95(a), judged = ceduo_judged(c, a);
+    const struct ceduo_measure p95 = ceduo_energy_p95(a), judged = ceduo_judged(c, a);
     ceduo_page_write(page, "%s", name);
-    struct ceduo_page_cell *cell = ceduo_page_cell(page);
-    if (a->reached > 0) {
-        cell->kind = CEDUO_CELL_MEAN;
-        cell->value = mean.value;
-        cell->half = mean.hi - mean.value;
-    } else {
-        ceduo_text_put(&cell->text, "-");
-    }
+    ceduo_page_mean(page, a);
     ceduo_page_number(page, p95.value, p95.digits);
     ceduo_page_interval(page, &judged);
 }

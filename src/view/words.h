@@ -21,11 +21,6 @@ void ceduo_words_stand_warnings(const struct ceduo_scene *scene, const struct ce
 void ceduo_words_unlikely(const struct ceduo_belt *belt, const struct ceduo_stand_result *r, ceduo_words_say *say,
                           void *context);
 
-/* What the rules of the region ask of a belt, one sentence for each; `met`: it is as they ask. */
-typedef void ceduo_words_rule(void *context, bool met, const char *sentence);
-void ceduo_words_rules(const struct ceduo_belt *belt, const struct ceduo_compliance *rules, ceduo_words_rule *say,
-                       void *context);
-
 /* What is to be said of a run as a whole. `tolerance` is 0 where none was asked for. */
 struct ceduo_run_remarks {
     double tolerance;
