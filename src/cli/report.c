@@ -12,8 +12,9 @@
 #include "say.h"
 #include "sensitivity.h"
 #include "study/snapshot.h"
-#include "view/page_html.h"
-#include "view/page_report.h"
+#include "view/html.h"
+#include "view/page.h"
+#include "view/report.h"
 
 /* Rocks and points are moderate: a page shows no more digits. */
 #define YEAR_ROCKS  1024

@@ -10,8 +10,9 @@
 #include "popup.h"
 #include "popups.h"
 #include "screen.h"
-#include "view/page_html.h"
-#include "view/page_report.h"
+#include "view/html.h"
+#include "view/page.h"
+#include "view/report.h"
 #include "view/svg.h"
 
 /* The command that gives the same figures; `how`: as what. */

@@ -86,8 +86,8 @@ struct ceduo_measure ceduo_energy_p95(const struct ceduo_arrivals *a)
 
 struct ceduo_measure ceduo_energy_released(const struct ceduo_arrivals *a)
 {
-    return energy(a->energy_per_released, ceduo_half_width(a->energy_per_released_se, a->released), 3, N_("kJ a rock"),
-                  N_("kJ a rock"), N_("energy of a rock that starts, kJ"));
+    return energy(a ? a->energy_per_released : NAN, a ? ceduo_half_width(a->energy_per_released_se, a->released) : NAN, 3,
+                  N_("kJ a rock"), N_("kJ a rock"), N_("energy of a rock that starts, kJ"));
 }
 
 struct ceduo_measure ceduo_missed(const struct ceduo_arrivals *a, enum ceduo_end end)
@@ -105,8 +105,8 @@ struct ceduo_measure ceduo_missed(const struct ceduo_arrivals *a, enum ceduo_end
 
 struct ceduo_measure ceduo_height_p95(const struct ceduo_arrivals *a)
 {
-    struct ceduo_measure m =
-        energy(a->height.p95 / J_TO_KJ, NAN, 3, N_("95 % below, m"), N_("95 % below m"), N_("95 % of those stay below, m"));
+    struct ceduo_measure m = energy(a ? a->height.p95 / J_TO_KJ : NAN, NAN, 3, N_("95 % below, m"), N_("95 % below m"),
+                                    N_("95 % of those stay below, m"));
     m.unit = N_("m");
     return m;
 }

@@ -131,6 +131,13 @@ void ceduo_page_write_cell(struct text *text, const struct ceduo_page_cell *cell
 /* Prints the page, `page->width` columns wide. `plain`: its signs in ASCII. */
 void ceduo_page_print(struct text *text, const struct ceduo_page *page, bool plain);
 
+/* Writes it as a chapter of an HTML file: no script, no network, no fonts of its own; printed on A4. `number`, from 1, makes what it
+ * is called within the file unique. Begin writes all up to the first chapter, end closes what is open. */
+struct ceduo_html;
+void ceduo_page_html_begin(struct ceduo_html *html, const char *title);
+void ceduo_page_html(struct ceduo_html *html, const struct ceduo_page *page, size_t number);
+void ceduo_page_html_end(struct ceduo_html *html);
+
 /* Draws the page into an area that is as wide as the page, from its line `first` on: headings, warnings and verdicts in roles of
  * their own. Returns how many lines the page has; an area of height 0 shows nothing. */
 int ceduo_page_draw(const struct ceduo_page *page, struct ceduo_canvas *canvas, struct ceduo_area area, int first);

@@ -1,10 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The options side by side at the last control, today and over the years; and one option year by year. */
+/* The options side by side at the last control, today and over the years; one option year by year; one energy law against the
+ * other. */
 #include <math.h>
 #include <string.h>
 
 #include "base/language.h"
 #include "page_parts.h"
+#include "scene/choices.h"
 #include "study/verdict.h"
 
 static const struct ceduo_control *last_control(const struct ceduo_result *r)
@@ -294,4 +296,65 @@ void ceduo_page_years(struct ceduo_page *page, const struct ceduo_report *report
 {
     add_years_table(page, report->result, report->years[option]);
     ceduo_page_years_words(page, report->result, report->years[option]);
+}
+
+/* ---- one energy law of stems against the other ---- */
+
+/* NULL: not known, or of no stems. */
+static const struct ceduo_other_energy *other_of(const struct ceduo_result *r, size_t option)
+{
+    const struct ceduo_other_energy *other = &r->options[option].others[r->last_control];
+    return other->known && other->stems ? other : NULL;
+}
+
+/* The law of the scene, or that its stands have several. */
+static const char *law_of(const struct ceduo_option *option)
+{
+    const char *law = NULL;
+    for (size_t i = 0; i < option->belts_count; i++) {
+        const struct ceduo_stand *stand = &option->belts[i].stand;
+        const char *here = ceduo_stand_is_bare(stand) ? law : ceduo_energy_words.names[stand->energy];
+        if (law && law != here)
+            return _("several");
+        law = here;
+    }
+    return law ? law : "-";
+}
+
+void ceduo_page_laws(struct ceduo_page *page, const struct ceduo_result *r)
+{
+    static const struct ceduo_page_column columns[] = {
+        {N_("option"), 23, 2, 0},           {NP_("head", "law of the scene"), 16, 1, 0}, {NP_("head", "of 1000"), -8, 0, 0},
+        {NP_("head", "mean kJ"), -8, 0, 0}, {NP_("head", "other law"), 11, 2, 0},        {NP_("head", "of 1000"), -8, 0, 0},
+        {NP_("head", "mean kJ"), -8, 0, 0}};
+    bool any = false; /* in the terminal program the figures by the other law may be there before those of the scene's own */
+    for (size_t i = 0; r->wooded && i < r->scene->options_count; i++)
+        any |= other_of(r, i) && ceduo_result_wooded(r, i, r->last_control);
+    if (!any)
+        return;
+    ceduo_page_say(page, CEDUO_PAGE_SECTION, _("One energy law against the other"));
+    ceduo_page_note(page,
+                    _("Two published laws disagree about what thin stems take from a rock (Brauner et al. 2005; Dorren et "
+                      "al. 2006), and nobody knows yet which of them holds there. What differs here, more rocks cannot "
+                      "decide."));
+    const struct ceduo_measure judged = ceduo_judged(last_control(r), NULL);
+    LOCAL_TEXT(phrase);
+    ceduo_measure_name(&phrase, &judged, CEDUO_PHRASE);
+    ceduo_page_say(page, CEDUO_PAGE_CAPTION,
+                   _("The same rocks at %s m: how many of 1000 %s, and the mean energy of those that arrive:"),
+                   SHORTEST(last_control(r)->x_given), ceduo_text_string(&phrase));
+    CEDUO_PAGE_TABLE_OF(page, columns);
+    for (size_t i = 0; i < r->scene->options_count; i++) {
+        const struct ceduo_arrivals *a = ceduo_result_wooded(r, i, r->last_control);
+        const struct ceduo_other_energy *other = other_of(r, i);
+        if (!a)
+            continue;
+        ceduo_page_write(page, "%s", r->scene->options[i].name);
+        ceduo_page_write(page, "%s", law_of(&r->scene->options[i]));
+        ceduo_page_write(page, "%.0f", 1000 * ceduo_share_at(a).mean);
+        ceduo_page_number(page, a->energy.mean * J_TO_KJ, 3);
+        ceduo_page_write(page, "%s", other ? ceduo_energy_words.names[other->model] : "-");
+        ceduo_page_write(page, "%s", other ? WRITTEN(1000 * ceduo_share_by_other_law(other), 0) : "-");
+        ceduo_page_number(page, other ? other->energy * J_TO_KJ : NAN, 3);
+    }
 }

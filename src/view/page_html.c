@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Writes a page as HTML. Blocks of one kind that follow one another become one list; a caption goes into the table
  * after it. */
-#include "page_html.h"
-
 #include <stdio.h>
 #include <string.h>
 
 #include "base/language.h"
+#include "html.h"
+#include "page.h"
 #include "svg.h"
 #include "words.h"
 

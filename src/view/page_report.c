@@ -1,13 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A chapter of the report: the blocks of the page in the terminal, with pictures between them. */
-#include "page_report.h"
-
-#include <math.h>
 
 #include "base/language.h"
 #include "ceduo/version.h"
 #include "io/emit.h"
-#include "page_html.h"
 #include "page_parts.h"
 #include "plot_parts.h"
 #include "svg.h"

@@ -275,11 +275,11 @@ void ceduo_page_write_cell(struct text *to, const struct ceduo_page_cell *cell, 
 }
 
 static void print_cell(const struct printer *p, const struct ceduo_page_column *column, const struct ceduo_page_cell *cell,
-                       int width, enum ceduo_role role)
+                       int gap, int width, enum ceduo_role role)
 {
     LOCAL_TEXT(text);
     set_role(p, CEDUO_ROLE_TEXT);
-    append_blanks(p->text, (size_t)column->gap);
+    append_blanks(p->text, (size_t)gap);
     if (cell->kind == CEDUO_CELL_BAR) {
         add_mark(p, (struct mark){.role = cell->role, .bar = &cell->bar, .width = width});
         append_blanks(p->text, (size_t)width);
@@ -288,9 +288,9 @@ static void print_cell(const struct printer *p, const struct ceduo_page_column *
     write_cell(p, &text, cell, (size_t)abs(width) + ((column->flags & (CEDUO_FITS | CEDUO_FILLS)) != 0));
     set_role(p, cell->role ? cell->role : role);
     if ((column->flags & CEDUO_WHOLE) && !fits(&text, (size_t)width)) {
-        print_wrapped(p, ceduo_text_string(&text), (size_t)column->gap, (size_t)column->gap);
+        print_wrapped(p, ceduo_text_string(&text), (size_t)gap, (size_t)gap);
         ceduo_text_char(p->text, '\n');
-        append_blanks(p->text, (size_t)(column->gap + width));
+        append_blanks(p->text, (size_t)(gap + width));
     } else {
         print_padded(p, ceduo_text_string(&text), width, column->flags & CEDUO_FILLS);
     }
@@ -313,6 +313,12 @@ static int widest_cell(const struct printer *p, const struct ceduo_page_block *t
     return widest;
 }
 
+/* A pane has no margin. */
+static int gap_of(const struct printer *p, const struct ceduo_page_column *column, size_t i)
+{
+    return i == 0 && p->marks ? 0 : column->gap;
+}
+
 /* Sets the width of each column: 0 for one that has no room. */
 static void place_columns(const struct printer *p, const struct ceduo_page_block *table, int *widths)
 {
@@ -328,12 +334,12 @@ static void place_columns(const struct printer *p, const struct ceduo_page_block
             widths[i] = natural[i] < share ? natural[i] : share;
         widths[i] = widths[i] > abs(c->width) ? widths[i] : abs(c->width);
         names += c->flags & CEDUO_FILLS ? widths[i] - abs(c->width) : 0; /* what they can be cut by */
-        rest -= c->gap + widths[i];
+        rest -= gap_of(p, c, i) + widths[i];
     }
     for (size_t rank = 9; rest < 0 && rank > 0; rank--)
         for (size_t i = 0; i < n; i++)
             if (table->columns[i].flags >> 8 == rank && (!(table->columns[i].flags & CEDUO_KEPT) || rest + names < 0)) {
-                rest += table->columns[i].gap + widths[i];
+                rest += gap_of(p, &table->columns[i], i) + widths[i];
                 widths[i] = 0;
             }
     for (size_t i = 0; i < n; i++)
@@ -380,7 +386,7 @@ static void print_table(const struct printer *p, const struct ceduo_page_block *
                 width = -width;
             else if (row == 0 && i == n - 1 && c->width > 0) /* the last head is never cut */
                 width = 0;
-            print_cell(p, c, &table->cells[row + i], width, row == 0 ? CEDUO_ROLE_AXIS : CEDUO_ROLE_TEXT);
+            print_cell(p, c, &table->cells[row + i], gap_of(p, c, i), width, row == 0 ? CEDUO_ROLE_AXIS : CEDUO_ROLE_TEXT);
             i += spans;
         }
         while (!p->marks && p->text->length > 0 && p->text->bytes[p->text->length - 1] == ' ')

@@ -35,8 +35,24 @@ bool ceduo_page_says_nothing(const struct ceduo_result *result);
 void ceduo_report_short(struct text *text, const struct ceduo_report *report, bool plain);
 void ceduo_report_table(struct text *text, const struct ceduo_report *report, bool plain);
 
-/* Adds a row for each option of a scene to a table of verdicts. */
+/* A page to hand in: the question and its answer first, then what it rests on, and how to compute it again. */
+
 struct ceduo_page;
+struct ceduo_snapshot;
+struct ceduo_chapter {
+    const struct ceduo_report *report;
+    const struct ceduo_snapshot *snapshot;  /* for the pictures */
+    struct ceduo_years *const *years;       /* one for each option; NULL, or NULL of an option: none */
+    const struct ceduo_doubt_report *doubt; /* NULL: not computed */
+    const char *command;                    /* that gives the same page */
+};
+
+#define CEDUO_PAGE_REPORT_WIDTH 120 /* of a page that chapters are added to: tables, not sentences, and nothing shortened */
+
+/* Adds a chapter for one scene. */
+void ceduo_page_chapter(struct ceduo_page *page, const struct ceduo_chapter *chapter);
+
+/* Adds a row for each option of a scene to a table of verdicts. */
 void ceduo_page_verdicts(struct ceduo_page *page, const struct ceduo_report *report);
 
 /* One line of JSON, "ceduo-result-1". */

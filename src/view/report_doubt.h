@@ -76,8 +76,8 @@ void ceduo_doubt_order_words(struct text *text, const struct ceduo_doubt_report 
 bool ceduo_doubt_causes(struct text *text, const struct ceduo_doubt_report *report, size_t option, enum ceduo_doubt_kind light);
 
 /* "Whether the test of energy passes depends on …"; nothing where the light does not change within what may be true. */
-void ceduo_doubt_light_words(struct text *text, const struct ceduo_doubt_report *report, size_t option,
-                             enum ceduo_doubt_kind light);
+void ceduo_doubt_light_words(struct text *text, const struct ceduo_doubt_report *report, size_t option, size_t light);
+extern const enum ceduo_doubt_kind ceduo_doubt_lights[3]; /* contact, free run, energy */
 
 void ceduo_doubt_page(struct text *text, const struct ceduo_doubt_report *report, bool plain);
 void ceduo_doubt_json(struct text *text, const struct ceduo_doubt_report *report); /* one line, "ceduo-sensitivity-1" */

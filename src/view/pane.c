@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The column of figures that stands still beside every view, in the words of the paper. */
+/* The column of figures that stands still beside every view, in the words of the paper; the energy that is left, in which the paper's
+ * method ends; and what an option and its doubt mean in words. */
 #include <math.h>
 #include <string.h>
 
@@ -71,40 +72,12 @@ static void add_row(struct ceduo_page *page, struct ceduo_measure wood, struct c
         ceduo_measure_value(ceduo_page_text(page), &bare);
 }
 
-/* What may be true of the figure in the row above. */
-static void add_doubt(struct ceduo_page *page, const struct ceduo_pane *pane, struct ceduo_measure judged)
-{
-    if (!pane->year)
-        ceduo_measure_doubt(&judged, pane->doubt, pane->option, pane->result->last_control);
-    if (isnan(judged.may_lo))
-        return;
-    ceduo_page_write(page, "  %s", _("may be"));
-    ceduo_measure_span(ceduo_page_text(page), &judged, judged.may_lo, judged.may_hi);
-    ceduo_page_write(page, "%s", "");
-}
-
-/* Years from one dangerous rock to the next: what matters where blocks of all sizes come down. */
-static void add_every(struct ceduo_page *page, const struct ceduo_arrivals *wood, const struct ceduo_arrivals *bare)
-{
-    ceduo_page_write(page, "%s", _("years apart"));
-    ceduo_words_every(ceduo_page_text(page), ceduo_hazard_feared(&wood->hazard));
-    ceduo_words_every(ceduo_page_text(page), ceduo_hazard_feared(&bare->hazard));
-}
-
 static void add_arrivals(struct ceduo_page *page, const struct ceduo_pane *pane, const struct ceduo_control *c, bool nothing)
 {
     static const struct ceduo_page_column narrow[] = {{NULL, 13, 0, 0}, {"", -8, 0, 0}, {"", -5, 1, 0}},
                                           wide[] = {{NULL, 13, 0, 0}, {"", -16, 0, 0}, {"", -5, 1, 0}};
     static const enum ceduo_end ends[] = {CEDUO_STOPPED_BY_STEMS, CEDUO_AT_REST, CEDUO_LEFT_SLOPE, CEDUO_UNFINISHED};
-    const struct ceduo_distribution none = ceduo_distribution_none();
-    const struct ceduo_arrivals unknown = {.reach_probability = NAN,
-                                           .exceed_probability = NAN,
-                                           .energy_per_released = NAN,
-                                           .energy = none,
-                                           .hazard = ceduo_hazard_none(),
-                                           .height = none};
-    const struct ceduo_arrivals *bare = &pane->result->bare.arrivals[pane->result->last_control], *known = wood_of(pane);
-    const struct ceduo_arrivals *wood = known ? known : &unknown;
+    const struct ceduo_arrivals *bare = &pane->result->bare.arrivals[pane->result->last_control], *wood = wood_of(pane);
     bool blocks = !isnan(bare->hazard.per_year);
     ceduo_page_table(page, page->width >= WIDE ? wide : narrow, 3);
     ceduo_text_put(&page->last->cells[0].text, _("of 1000"));
@@ -113,12 +86,21 @@ static void add_arrivals(struct ceduo_page *page, const struct ceduo_pane *pane,
     add_row(page, ceduo_arriving(wood), ceduo_arriving(bare));
     if (!isnan(c->accepted) && !nothing)
         add_row(page, ceduo_judged(c, wood), ceduo_judged(c, bare));
-    if (known) /* by the index it would be of the rocks without forest */
-        add_doubt(page, pane, ceduo_judged(c, wood));
-    if (blocks && !nothing)
-        add_every(page, wood, bare);
+    struct ceduo_measure judged = ceduo_judged(c, wood);
+    if (wood && !pane->year) /* by the index it would be of the rocks without forest */
+        ceduo_measure_doubt(&judged, pane->doubt, pane->option, pane->result->last_control);
+    if (!isnan(judged.may_lo)) {
+        ceduo_page_write(page, "  %s", _("may be"));
+        ceduo_measure_span(ceduo_page_text(page), &judged, judged.may_lo, judged.may_hi);
+        ceduo_page_write(page, "%s", "");
+    }
+    if (blocks && !nothing) { /* years from one dangerous rock to the next: what matters where blocks of all sizes come down */
+        ceduo_page_write(page, "%s", _("years apart"));
+        ceduo_words_every(ceduo_page_text(page), wood ? ceduo_hazard_feared(&wood->hazard) : (struct ceduo_rate){.rate = NAN});
+        ceduo_words_every(ceduo_page_text(page), ceduo_hazard_feared(&bare->hazard));
+    }
     for (size_t i = 0; i < sizeof ends / sizeof ends[0]; i++) {
-        bool any = wood->ended[ends[i]] > 0 || bare->ended[ends[i]] > 0;
+        bool any = (wood && wood->ended[ends[i]] > 0) || bare->ended[ends[i]] > 0;
         if (i == 0 || (i == 1 ? pane->height >= HEIGHT_MIN : any))
             add_row(page, ceduo_missed(wood, ends[i]), ceduo_missed(bare, ends[i]));
     }
@@ -184,25 +166,6 @@ static void add_index(struct ceduo_page *page, const struct ceduo_pane *pane, co
         say(page, CEDUO_ROLE_DIM, _("measured %s kJ (one rock)"), WRITTEN(index->measured * J_TO_KJ, 3));
 }
 
-/* What turns a test within what may be true. */
-static void add_causes(struct ceduo_page *page, const struct ceduo_pane *pane)
-{
-    static const enum ceduo_doubt_kind kinds[] = {CEDUO_DOUBT_CONTACT, CEDUO_DOUBT_FREE_RUN, CEDUO_DOUBT_EXCEED};
-    for (size_t i = 0; i < 3 && pane->doubt && pane->doubt->answer && !pane->year; i++) {
-        LOCAL_TEXT(causes);
-        if (ceduo_doubt_causes(&causes, pane->doubt, pane->option, kinds[i]))
-            say(page, CEDUO_ROLE_WARN, _("%s depends on %s"), _(ceduo_light_names[i]), ceduo_text_string(&causes));
-    }
-}
-
-/* How sure the figures are, and whether they are still being refined. */
-static void add_state(struct ceduo_page *page, const struct ceduo_pane *pane)
-{
-    const struct ceduo_arrivals *wood = wood_of(pane);
-    unsigned long long rocks = wood ? wood->released : pane->result->bare.arrivals[pane->result->last_control].released;
-    say(page, CEDUO_ROLE_DIM, pane->busy ? _("computing, %llu rocks") : _("finished, %llu rocks"), rocks);
-}
-
 /* ---- all ---- */
 
 size_t ceduo_pane_column(struct ceduo_page *page, const struct ceduo_pane *pane)
@@ -225,9 +188,15 @@ size_t ceduo_pane_column(struct ceduo_page *page, const struct ceduo_pane *pane)
         add_tests(page, pane, index);
         add_index(page, pane, index);
     }
-    add_state(page, pane);
-    if (pane->height >= HEIGHT_ALL && !nothing)
-        add_causes(page, pane);
+    const struct ceduo_arrivals *wood = wood_of(pane);
+    say(page, CEDUO_ROLE_DIM, pane->busy ? _("computing, %llu rocks") : _("finished, %llu rocks"),
+        (unsigned long long)(wood ? wood : &r->bare.arrivals[r->last_control])->released);
+    bool doubt = pane->height >= HEIGHT_ALL && !nothing && pane->doubt && pane->doubt->answer && !pane->year;
+    for (size_t i = 0; i < 3 && doubt; i++) { /* what turns a test within what may be true */
+        LOCAL_TEXT(causes);
+        if (ceduo_doubt_causes(&causes, pane->doubt, pane->option, ceduo_doubt_lights[i]))
+            say(page, CEDUO_ROLE_WARN, _("%s depends on %s"), _(ceduo_light_names[i]), ceduo_text_string(&causes));
+    }
     const struct ceduo_page_block *last = page->last;
     const struct ceduo_run_remarks remarks = {.ground_assumed = pane->file->ground_assumed, .nothing_said = true};
     size_t warnings = 0;
@@ -238,4 +207,74 @@ size_t ceduo_pane_column(struct ceduo_page *page, const struct ceduo_pane *pane)
     while ((last = last->next))
         warnings++;
     return warnings;
+}
+
+/* ---- tables and words of views 4 and 7 ---- */
+
+static void add_simulated(struct ceduo_page *page, const char *name, const struct ceduo_control *c,
+                          const struct ceduo_arrivals *a)
+{
+    const struct ceduo_measure p95 = ceduo_energy_p95(a), judged = ceduo_judged(c, a);
+    ceduo_page_write(page, "%s", name);
+    ceduo_page_mean(page, a);
+    ceduo_page_number(page, p95.value, p95.digits);
+    ceduo_page_interval(page, &judged);
+}
+
+/* A mean alone. */
+static void add_mean(struct ceduo_page *page, const char *name, const char *mean)
+{
+    ceduo_page_write(page, "%s", name);
+    ceduo_page_write(page, "%s", mean);
+    ceduo_page_write(page, "-");
+    ceduo_page_write(page, "-");
+}
+
+void ceduo_pane_residual(struct ceduo_page *page, const struct ceduo_pane *pane)
+{
+    static const struct ceduo_page_column columns[] = {
+        {"", 14, 0, CEDUO_FILLS}, {NULL, -6, 1, CEDUO_FITS}, {"", -5, 1, CEDUO_FITS}, {"", -7, 2, CEDUO_FITS}};
+    const struct ceduo_result *r = pane->result;
+    const struct ceduo_control *c = &r->scene->controls[r->last_control];
+    const struct ceduo_arrivals *bare = &r->bare.arrivals[r->last_control],
+                                *wood = ceduo_result_wooded(r, pane->option, r->last_control);
+    const struct ceduo_index *index = ceduo_result_last_index(r, pane->option);
+    const struct ceduo_measure mean = ceduo_mean_energy(bare), judged = ceduo_judged(c, bare);
+    CEDUO_PAGE_TABLE_OF(page, columns);
+    struct ceduo_page_cell *heads = page->last->cells;
+    ceduo_text_format(&heads[0].text, _("energy left at %g m"), c->x_given);
+    ceduo_text_format(&heads[0].shorter, _("left at %g m"), c->x_given);
+    ceduo_measure_name(&heads[1].text, &mean, CEDUO_SHORT_HEAD);
+    ceduo_text_put(&heads[2].text, _("95 %"));
+    ceduo_measure_name(&heads[3].text, &judged, CEDUO_SHORT_HEAD);
+    add_simulated(page, _("without forest"), c, bare);
+    if (r->scene->options[pane->option].belts_count > 0)
+        add_mean(page, _("index (Eq. 5)"), index->exhausted ? _("used up") : WRITTEN(index->residual * J_TO_KJ, 3));
+    if (wood && r->scene->options[pane->option].belts_count > 0)
+        add_simulated(page, _("simulated"), c, wood);
+    if (!isnan(index->measured))
+        add_mean(page, _("measured"), WRITTEN(index->measured * J_TO_KJ, 3));
+}
+
+void ceduo_pane_words(struct ceduo_page *page, const struct ceduo_report *report, size_t option)
+{
+    if (report->result->scene->options_count > 1)
+        ceduo_page_say(page, CEDUO_PAGE_TITLE, "%s", report->result->scene->options[option].name);
+    ceduo_page_option(page, report, option, true);
+    ceduo_words_run_warnings(report->result, &report->remarks, ceduo_page_warn, page);
+}
+
+void ceduo_pane_doubt(struct ceduo_page *page, const struct ceduo_pane *pane)
+{
+    const struct ceduo_doubt_report *r = pane->coarse;
+    if (!r || !r->answer)
+        return;
+    ceduo_doubt_both(ceduo_page_add(page, CEDUO_PAGE_NOTE), r, pane->option);
+    ceduo_doubt_advice(ceduo_page_add(page, CEDUO_PAGE_NOTE), r, pane->option, 0);
+    const struct ceduo_doubt_ranking *ranking = ceduo_doubt_verdict(r->answer);
+    for (size_t i = 0; i < ranking->count; i++)
+        if (ranking->orders[i].better == pane->option || ranking->orders[i].than == pane->option)
+            ceduo_doubt_order_words(ceduo_page_add(page, CEDUO_PAGE_NOTE), r, i);
+    for (size_t i = 0; i < 3; i++)
+        ceduo_doubt_light_words(ceduo_page_add(page, CEDUO_PAGE_NOTE), r, pane->option, i);
 }
