@@ -5,6 +5,7 @@
 #include <stdio.h>
 
 #include "base/language.h"
+#include "measure.h"
 
 const char *const ceduo_light_names[] = {N_("contact"), N_("free run"), N_("energy")};
 
@@ -49,50 +50,32 @@ __attribute__((format(printf, 3, 4))) static void say_format(ceduo_words_say *sa
     say(context, sentence.bytes);
 }
 
+/* Shoots, then trees; NULL behind the last. */
+static const struct ceduo_stems *stems_at(const struct ceduo_stand *s, size_t i)
+{
+    return i < s->shoots_count ? &s->shoots[i] : i < s->shoots_count + s->trees_count ? &s->trees[i - s->shoots_count] : NULL;
+}
+
 /* How many kinds of stem have a volume by form factor, and the first of them; but for those of which CEDUO_WARN_THICK says it. */
 static size_t form_factor_stems(const struct ceduo_stand *stand, const struct ceduo_stems **first)
 {
     size_t n = 0;
-    for (size_t i = 0; i < stand->shoots_count + stand->trees_count; i++) {
-        const struct ceduo_stems *s = i < stand->shoots_count ? &stand->shoots[i] : &stand->trees[i - stand->shoots_count];
+    for (size_t i = 0; stems_at(stand, i); i++) {
+        const struct ceduo_stems *s = stems_at(stand, i);
         enum ceduo_volume_from from;
         ceduo_stem_volume(stand, s, &from);
-        if (from != CEDUO_VOLUME_FORM_FACTOR || !(s->per_ha > 0) || ceduo_stem_unlikely(stand, s) & CEDUO_WARN_THICK)
-            continue;
-        *first = n++ == 0 ? s : *first;
+        if (from == CEDUO_VOLUME_FORM_FACTOR && s->per_ha > 0 && !(ceduo_stem_unlikely(stand, s) & CEDUO_WARN_THICK))
+            *first = n++ == 0 ? s : *first;
     }
     return n;
 }
 
-static void say_geometry(const struct ceduo_scene *scene, const struct ceduo_belt *belt, const struct ceduo_stand_result *r,
-                         ceduo_words_say *say, void *context)
-{
-    const struct ceduo_stand *s = &belt->stand;
-    double b = ceduo_rock_mean(&scene->rock).mean_diameter, per_stool = ceduo_stand_shoots(s) / s->stools_per_ha;
-    if (r->warnings & CEDUO_WARN_BELOW_FREE_PATH)
-        say_format(say, context,
-                   _("%s: Eq. 6 gives %.2f m between contacts, less than the mean free path of %.2f m over all stems, "
-                     "which no path can have: a spacing of %g m is too wide for %.1f shoots a stool."),
-                   belt->name, r->adc.interception, r->adc.gsteiger_stems, s->spacing, per_stool);
-    if (r->warnings & CEDUO_WARN_NEAR_JUMP)
-        say_format(say, context,
-                   _("%s: the rock (%.2f m) is within 10 %% of the shoots' spacing (%g m), where the paper's rule jumps "
-                     "between %.2f m (all stems) and %.2f m (Eq. 6)."),
-                   belt->name, b, s->spacing, r->adc.gsteiger_stems, r->adc.interception);
-    if (r->warnings & CEDUO_WARN_WIDE_SPACING)
-        say_format(say, context,
-                   _("%s: the shoots of a stool stand so far apart (%g m) that the rock can pass between two of them."),
-                   belt->name, s->spacing);
-}
-
 static const struct ceduo_stems *first_unlikely(const struct ceduo_stand *s, unsigned how)
 {
-    for (size_t i = 0; i < s->shoots_count + s->trees_count; i++) {
-        const struct ceduo_stems *stems = i < s->shoots_count ? &s->shoots[i] : &s->trees[i - s->shoots_count];
-        if (ceduo_stem_unlikely(s, stems) & how)
-            return stems;
-    }
-    return NULL;
+    size_t i = 0;
+    while (stems_at(s, i) && !(ceduo_stem_unlikely(s, stems_at(s, i)) & how))
+        i++;
+    return stems_at(s, i);
 }
 
 void ceduo_words_unlikely(const struct ceduo_belt *belt, const struct ceduo_stand_result *r, ceduo_words_say *say,
@@ -133,7 +116,22 @@ void ceduo_words_stand_warnings(const struct ceduo_scene *scene, const struct ce
         say_format(say, context, _("%s: %g single trees a hectare are fewer than the %g that must stay."), belt->name,
                    r->trees_per_ha, scene->reserves_minimum);
     ceduo_words_unlikely(belt, r, say, context);
-    say_geometry(scene, belt, r, say, context);
+    double diameter = ceduo_rock_mean(&scene->rock).mean_diameter;
+    if (r->warnings & CEDUO_WARN_BELOW_FREE_PATH)
+        say_format(say, context,
+                   _("%s: Eq. 6 gives %.2f m between contacts, less than the mean free path of %.2f m over all stems, "
+                     "which no path can have: a spacing of %g m is too wide for %.1f shoots a stool."),
+                   belt->name, r->adc.interception, r->adc.gsteiger_stems, s->spacing,
+                   ceduo_stand_shoots(s) / s->stools_per_ha);
+    if (r->warnings & CEDUO_WARN_NEAR_JUMP)
+        say_format(say, context,
+                   _("%s: the rock (%.2f m) is within 10 %% of the shoots' spacing (%g m), where the paper's rule jumps "
+                     "between %.2f m (all stems) and %.2f m (Eq. 6)."),
+                   belt->name, diameter, s->spacing, r->adc.gsteiger_stems, r->adc.interception);
+    if (r->warnings & CEDUO_WARN_WIDE_SPACING)
+        say_format(say, context,
+                   _("%s: the shoots of a stool stand so far apart (%g m) that the rock can pass between two of them."),
+                   belt->name, s->spacing);
     if (r->warnings & CEDUO_WARN_DORREN_THIN)
         say_format(say, context,
                    _("%s: the energy model dorren is used for stems below 10 cm, outside its data; it overshoots there."),
@@ -189,53 +187,25 @@ static void say_tolerance(const struct ceduo_result *result, const struct ceduo_
     }
 }
 
-/* Whether the interval of a share holds the limit of the energy light, and more rocks can help. */
-static bool is_close(const struct ceduo_arrivals *a)
+/* Rocks that leave the slope over its upper end, which would lie above it or come down again; and those that stems stop just below
+ * the release, in the option where they are most. */
+static void say_lost(const struct ceduo_result *result, ceduo_words_say *say, void *context)
 {
-    return a->exceed_lo <= CEDUO_EXCEED_MOST && a->exceed_hi > CEDUO_EXCEED_MOST && ceduo_energy_light(a) != CEDUO_UNKNOWN;
-}
-
-static void say_close_calls(const struct ceduo_result *result, ceduo_words_say *say, void *context)
-{
-    for (size_t i = 0; i < result->options_count; i++)
-        for (size_t c = 0; c < result->scene->controls_count; c++) {
-            const struct ceduo_arrivals *a = ceduo_result_wooded(result, i, c);
-            if (!a || !is_close(a))
-                continue;
-            say_format(say, context,
-                       _("%s, %g m: whether %.0f of 1000 rocks at most arrive with too much energy is too close to call; "
-                         "fly more rocks."),
-                       result->scene->options[i].name, result->scene->controls[c].x_given, CEDUO_EXCEED_MOST * 1000);
-        }
-}
-
-/* Rocks that leave the slope over its upper end: those would lie above it, or come down again. */
-static void say_uphill(const struct ceduo_result *result, ceduo_words_say *say, void *context)
-{
-    uint64_t most = result->bare.ends.uphill, rocks = result->bare.rocks;
-    for (size_t i = 0; result->wooded && i < result->scene->options_count; i++)
-        if (result->options[i].wooded.ends.uphill > most) {
-            most = result->options[i].wooded.ends.uphill;
-            rocks = result->options[i].wooded.rocks;
-        }
-    if (most > 0)
-        say_format(say, context,
-                   _("Of %llu rocks simulated %llu bounce back over the upper end of the profile and are counted as gone: let "
-                     "it begin farther up."),
-                   (unsigned long long)rocks, (unsigned long long)most);
-}
-
-/* Rocks that stems stop just below the release, in the option where they are most. */
-static void say_early(const struct ceduo_result *result, ceduo_words_say *say, void *context)
-{
+    const struct ceduo_simulated *uphill = &result->bare;
     double most = 0;
     size_t option = 0;
     for (size_t i = 0; result->wooded && i < result->scene->options_count; i++) {
         const struct ceduo_simulated *f = &result->options[i].wooded;
         double share = f->rocks > 0 ? (double)f->ends.early / (double)f->rocks : 0;
+        uphill = f->ends.uphill > uphill->ends.uphill ? f : uphill;
         option = share > most ? i : option;
         most = share > most ? share : most;
     }
+    if (uphill->ends.uphill > 0)
+        say_format(say, context,
+                   _("Of %llu rocks simulated %llu bounce back over the upper end of the profile and are counted as gone: let "
+                     "it begin farther up."),
+                   (unsigned long long)uphill->rocks, (unsigned long long)uphill->ends.uphill);
     if (most * 1000 >= 0.5)
         say_format(say, context,
                    _("%s: of 1000 rocks simulated stems stop %.0f within %g m of the release, before they have any speed."),
@@ -265,9 +235,17 @@ void ceduo_words_run_warnings(const struct ceduo_result *result, const struct ce
                             "take energy?",
                             (unsigned long)unfinished),
                    (unsigned long long)unfinished, CEDUO_CONTACTS_MOST);
-    say_close_calls(result, say, context);
-    say_uphill(result, say, context);
-    say_early(result, say, context);
+    for (size_t i = 0; i < result->options_count; i++)
+        for (size_t c = 0; c < result->scene->controls_count; c++) {
+            const struct ceduo_arrivals *a = ceduo_result_wooded(result, i, c);
+            if (a && a->exceed_lo <= CEDUO_EXCEED_MOST && a->exceed_hi > CEDUO_EXCEED_MOST &&
+                ceduo_energy_light(a) != CEDUO_UNKNOWN) /* and more rocks can help */
+                say_format(say, context,
+                           _("%s, %g m: whether %.0f of 1000 rocks at most arrive with too much energy is too close to call; "
+                             "fly more rocks."),
+                           result->scene->options[i].name, result->scene->controls[c].x_given, CEDUO_EXCEED_MOST * 1000);
+        }
+    say_lost(result, say, context);
     if (remarks->ground_assumed)
         say_format(say, context, _("The slope's file says no ground: talus is assumed everywhere."));
     if (result->scene->controls_count > 0 && !result->bare.arrivals[0].exact)
@@ -281,6 +259,12 @@ const char *ceduo_words_verdict(enum ceduo_light light)
     return light == CEDUO_PASS ? _("passes") : light == CEDUO_FAIL ? _("FAILS") : _("unknown");
 }
 
+static void say_verdict(struct text *text, const char *sentence, enum ceduo_light light)
+{
+    ceduo_append_with(text, sentence, ceduo_words_verdict(light));
+    ceduo_text_char(text, ' ');
+}
+
 static const struct ceduo_index *index_at(const struct ceduo_result *result, size_t option, size_t control)
 {
     return &result->options[option].controls[control];
@@ -292,18 +276,11 @@ static double thick_cm(const struct ceduo_scene *scene)
     return fmax(scene->simulation.contact_dbh, CEDUO_THICK_DBH) * 100;
 }
 
-static void say_what_counts(struct text *text, const struct ceduo_scene *scene)
-{
-    if (scene->simulation.contact_dbh > 0)
-        ceduo_text_then(text, " ", _("Stems below %g cm do not count."), scene->simulation.contact_dbh * 100);
-}
-
 void ceduo_words_contact(struct text *text, const struct ceduo_result *result, size_t option, size_t control)
 {
     const struct ceduo_index *s = index_at(result, option, control);
     double limit = result->scene->simulation.threshold;
-    ceduo_text_format(text, _("Contact: %s."), ceduo_words_verdict(s->contact));
-    ceduo_text_char(text, ' ');
+    say_verdict(text, _("Contact: %s."), s->contact);
     if (s->contact == CEDUO_PASS)
         ceduo_text_format(text, _("Every belt has an ADC below %g m (%.3g m at most) and no gap is longer."), limit,
                           s->worst_adc);
@@ -315,7 +292,8 @@ void ceduo_words_contact(struct text *text, const struct ceduo_result *result, s
         ceduo_text_format(text, _("In a belt no stem counts; a rock reaches full speed in %g m."), limit);
     else
         ceduo_text_format(text, _("A belt has an ADC of %.3g m; a rock reaches full speed in %g m."), s->worst_adc, limit);
-    say_what_counts(text, result->scene);
+    if (result->scene->simulation.contact_dbh > 0)
+        ceduo_text_then(text, " ", _("Stems below %g cm do not count."), result->scene->simulation.contact_dbh * 100);
     if (s->thick.contact != s->contact && isinf(s->thick.worst_adc))
         ceduo_text_then(text, " ", _("Counting only stems from %g cm on it fails: there are none."), thick_cm(result->scene));
     else if (s->thick.contact != s->contact)
@@ -327,8 +305,7 @@ void ceduo_words_free_run(struct text *text, const struct ceduo_result *result, 
 {
     const struct ceduo_index *s = index_at(result, option, control);
     double limit = result->scene->simulation.threshold;
-    ceduo_text_format(text, _("Free run: %s."), ceduo_words_verdict(s->free_run));
-    ceduo_text_char(text, ' ');
+    say_verdict(text, _("Free run: %s."), s->free_run);
     if (s->length > 0 && s->longest_gap > limit)
         ceduo_text_format(text, _("A gap of %.3g m has no forest: every rock runs more than %g m there."), s->longest_gap,
                           limit);
@@ -348,31 +325,8 @@ const char *ceduo_words_shown_of_1000(double p, double lo, double hi, char room[
     return room;
 }
 
-void ceduo_words_of_1000(struct text *text, double p, double lo, double hi)
-{
-    ceduo_text_put(text, WRITTEN_OF_1000(p, lo, hi));
-}
-
 void ceduo_words_energy(struct text *text, const struct ceduo_result *result, size_t option, size_t control)
 {
-    const struct ceduo_arrivals *a = ceduo_result_wooded(result, option, control);
-    const struct ceduo_control *c = &result->scene->controls[control];
-    ceduo_text_format(text, _("Energy: %s."), ceduo_words_verdict(index_at(result, option, control)->energy));
-    ceduo_text_char(text, ' ');
-    if (!result->wooded) {
-        ceduo_text_put(text, _("The index alone says nothing of single rocks (contact_model: index)."));
-    } else if (isnan(c->accepted)) {
-        ceduo_text_put(text, _("It is not said what the place withstands (accepted_kJ)."));
-    } else if (!a) {
-        ceduo_text_put(text, _("Not computed yet."));
-    } else {
-        ceduo_text_format(text, _("%s of 1000 arrive with more than %g kJ (%.0f are allowed)."),
-                          WRITTEN_OF_1000(a->exceed_probability, a->exceed_lo, a->exceed_hi), c->accepted * J_TO_KJ,
-                          CEDUO_EXCEED_MOST * 1000);
-        if (result->options[option].controls[control].energy == CEDUO_UNKNOWN)
-            ceduo_text_then(text, " ", _("%llu rocks never came to an end, and may arrive."),
-                            (unsigned long long)a->unfinished);
-        else if (is_close(a))
-            ceduo_text_then(text, " ", _("Too close to call with so few rocks."));
-    }
+    say_verdict(text, _("Energy: %s."), index_at(result, option, control)->energy);
+    ceduo_words_because(text, result, control, ceduo_result_wooded(result, option, control));
 }

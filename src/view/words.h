@@ -93,14 +93,12 @@ const char *ceduo_words_verdict(enum ceduo_light light); /* passes, FAILS, unkno
 /* What a place withstands, in kJ, as its file says it: 3.3, which a product with 0.001 makes 3.3000000000000003. */
 double ceduo_words_accepted(const struct ceduo_control *control);
 
-/* "991 (984–995)": of 1000 rocks, with the 95 % interval. */
-void ceduo_words_of_1000(struct text *text, double probability, double lo, double hi);
-
 /* A number with so many significant digits, never in exponent form where that can be avoided. "-" where it is NaN,
  * "none" where infinite. */
 void ceduo_words_number(struct text *text, double value, int digits);
 
-/* The same two in a string, for a sentence: it lives as long as the block in which it is made. */
+/* The same in a string, for a sentence, and "991 (984–995)", of 1000 rocks with the 95 % interval: it lives as long as the block in
+ * which it is made. */
 const char *ceduo_words_shown(double value, int digits, char room[CEDUO_NUMBER_ROOM]);
 const char *ceduo_words_shown_of_1000(double probability, double lo, double hi, char room[CEDUO_NUMBER_ROOM]);
 #define WRITTEN(value, digits)     ceduo_words_shown(value, digits, (char[CEDUO_NUMBER_ROOM]){0})

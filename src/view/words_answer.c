@@ -102,7 +102,10 @@ void ceduo_words_because(struct text *text, const struct ceduo_result *r, size_t
     ceduo_text_format(text, _("%s of 1000 arrive with more than %g kJ (%.0f are allowed)."),
                       WRITTEN_OF_1000(shown->exceed_probability, shown->exceed_lo, shown->exceed_hi), ceduo_words_accepted(c),
                       CEDUO_EXCEED_MOST * 1000);
-    if (judgement == CEDUO_NOT_DECIDED)
+    if (ceduo_energy_light(shown) == CEDUO_UNKNOWN)
+        ceduo_text_then(text, " ", _("%llu rocks never came to an end, and may arrive."),
+                        (unsigned long long)shown->unfinished);
+    else if (judgement == CEDUO_NOT_DECIDED)
         ceduo_text_then(text, " ", _("So many rocks do not decide it (%llu): more do."), (unsigned long long)shown->released);
     else if (also_bare)
         ceduo_text_then(text, " ", "%s", _("The slope keeps to that without the wood, too."));
@@ -176,14 +179,6 @@ static void say_index(struct text *text, const struct ceduo_result *r, size_t op
     ceduo_text_format(text, _("the index leaves %s of %s kJ"), left, mean);
 }
 
-static void say_nothing(struct text *text, const struct ceduo_arrivals *bare)
-{
-    ceduo_text_format(text,
-                      bare->reached == 0 ? _("of %llu rocks none arrives, even without the wood")
-                                         : _("of %llu rocks %llu arrive, even without the wood"),
-                      (unsigned long long)bare->released, (unsigned long long)bare->reached);
-}
-
 /* What follows the verdict, in so many columns; nothing where it has no room. */
 static void say_reason(struct text *text, const struct ceduo_result *r, size_t option, size_t control,
                        const struct ceduo_doubt_report *doubt, enum ceduo_judgement judgement, size_t width)
@@ -194,7 +189,10 @@ static void say_reason(struct text *text, const struct ceduo_result *r, size_t o
     if (wooded)
         ceduo_measure_doubt(&m, doubt, option, control);
     if (judgement == CEDUO_NOTHING)
-        say_nothing(text, bare);
+        ceduo_text_format(text,
+                          bare->reached == 0 ? _("of %llu rocks none arrives, even without the wood")
+                                             : _("of %llu rocks %llu arrive, even without the wood"),
+                          (unsigned long long)bare->released, (unsigned long long)bare->reached);
     else if (!wooded && !r->wooded && judgement != CEDUO_YES)
         say_index(text, r, option, control, width);
     else if (!wooded && r->wooded)
