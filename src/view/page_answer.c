@@ -161,19 +161,6 @@ static void say_sampling(struct text *text, const struct ceduo_report *report)
     }
 }
 
-/* What matters most among what is not known, and how it is measured. */
-static void say_heaviest(struct text *text, const struct ceduo_doubt_report *doubt, size_t option)
-{
-    const char *how;
-    LOCAL_TEXT(name);
-    if (!ceduo_doubt_heaviest(&name, &how, doubt, option))
-        return;
-    if (how)
-        ceduo_text_then(text, " ", _("Measure first: %s (%s)."), ceduo_text_string(&name), _(how));
-    else
-        ceduo_text_then(text, " ", _("It depends most on: %s."), ceduo_text_string(&name));
-}
-
 static void say_doubt(struct text *text, const struct ceduo_report *report, size_t option)
 {
     const struct ceduo_result *r = report->result;
@@ -198,7 +185,12 @@ static void say_doubt(struct text *text, const struct ceduo_report *report, size
         ceduo_text_char(text, ' ');
         ceduo_doubt_order_words(text, doubt, 0); /* how sure the best option is */
     }
-    say_heaviest(text, doubt, option);
+    const char *how; /* what matters most is measured; NULL: nothing is known that would */
+    LOCAL_TEXT(name);
+    if (ceduo_doubt_heaviest(&name, &how, doubt, option) && how)
+        ceduo_text_then(text, " ", _("Measure first: %s (%s)."), ceduo_text_string(&name), _(how));
+    else if (name.length > 0)
+        ceduo_text_then(text, " ", _("It depends most on: %s."), ceduo_text_string(&name));
 }
 
 void ceduo_page_sure(struct ceduo_page *page, const struct ceduo_report *report)

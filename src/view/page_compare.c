@@ -180,16 +180,6 @@ static void say_yield(struct ceduo_page *page, const struct ceduo_result *r, con
                                 "quality of the wood are not modelled."));
 }
 
-/* Which is best stands at the head of the page. */
-static void say_rest(struct ceduo_page *page, const struct ceduo_result *r, const struct ceduo_verdict *v)
-{
-    ceduo_words_turned(r, v, ceduo_page_note, page);
-    if (v->choices[0].years > 0)
-        ceduo_words_windows(r->scene, v, ceduo_page_note, page);
-    if (v->wooded && !v->accepted)
-        ceduo_page_note(page, _("What the place withstands is not given (accepted_kJ): energy is not judged."));
-}
-
 void ceduo_page_comparison(struct ceduo_page *page, const struct ceduo_report *report)
 {
     const struct ceduo_result *r = report->result;
@@ -205,8 +195,13 @@ void ceduo_page_comparison(struct ceduo_page *page, const struct ceduo_report *r
         add_rotations(page, r, v);
         say_yield(page, r, v);
     }
-    if (v)
-        say_rest(page, r, v);
+    if (!v)
+        return;
+    ceduo_words_turned(r, v, ceduo_page_note, page); /* which is best stands at the head of the page */
+    if (v->choices[0].years > 0)
+        ceduo_words_windows(r->scene, v, ceduo_page_note, page);
+    if (v->wooded && !v->accepted)
+        ceduo_page_note(page, _("What the place withstands is not given (accepted_kJ): energy is not judged."));
 }
 
 /* ---- one option year by year ---- */

@@ -32,36 +32,11 @@ const char *ceduo_doubt_none(const struct ceduo_doubt_report *r)
 
 #define GROUND "slope.materials["
 
-/* The stand that all places are in; NULL: none, or several. */
-static const char *stand_name(const struct ceduo_doubt_report *r, const struct ceduo_input *input)
-{
-    const struct ceduo_belt *first = ceduo_input_belt(&r->file->scene, input->places[0]);
-    for (size_t i = 1; first && i < input->places_count; i++)
-        if (ceduo_input_belt(&r->file->scene, input->places[i]) != first)
-            return NULL;
-    return first ? first->name : NULL;
-}
-
-/* "trees 2: diameter, cm": a value of stems with whose it is, for several may have one. */
-static void put_stems(struct text *text, const struct ceduo_doubt_report *r, const char *place, const char *label)
-{
-    const struct ceduo_belt *belt = ceduo_input_belt(&r->file->scene, place);
-    const char *shoots = strstr(place, ".shoots["), *trees = strstr(place, ".trees[");
-    size_t count = !belt ? 0 : shoots ? belt->stand.shoots_count : belt->stand.trees_count;
-    const char *bracket = shoots ? shoots + 8 : trees ? trees + 7 : NULL;
-    if (!bracket)
-        ceduo_text_put(text, label);
-    else if (count < 2)
-        ceduo_text_format(text, shoots ? _("shoots: %s") : _("trees: %s"), label);
-    else
-        ceduo_text_format(text, shoots ? _("shoots %lu: %s") : _("trees %lu: %s"), strtoul(bracket, NULL, 10) + 1, label);
-}
-
 void ceduo_doubt_input_name(struct text *text, const struct ceduo_doubt_report *r, size_t i)
 {
     const struct ceduo_input *input = &r->inputs->items[i];
+    const char *place = input->places[0], *ground = input->path + sizeof GROUND - 1;
     struct value v;
-    const char *place = input->places[0], *stand = stand_name(r, input);
     if (input->kind == CEDUO_INPUT_DRAWS) {
         ceduo_text_put(text, _("left open by calibration"));
         return;
@@ -70,13 +45,24 @@ void ceduo_doubt_input_name(struct text *text, const struct ceduo_doubt_report *
         ceduo_text_safe(text, input->path);
         return;
     }
-    put_stems(text, r, place, _(v.field->shown.label));
-    bool law = input->kind == CEDUO_INPUT_WORDS;
+    /* a value of stems with whose it is, for several may have one: "trees 2: diameter, cm" */
+    const struct ceduo_belt *belt = ceduo_input_belt(&r->file->scene, place), *stand = belt;
+    const char *label = _(v.field->shown.label), *shoots = strstr(place, ".shoots["), *trees = strstr(place, ".trees[");
+    size_t count = !belt ? 0 : shoots ? belt->stand.shoots_count : belt->stand.trees_count;
+    if (!shoots && !trees)
+        ceduo_text_put(text, label);
+    else if (count < 2)
+        ceduo_text_format(text, shoots ? _("shoots: %s") : _("trees: %s"), label);
+    else
+        ceduo_text_format(text, shoots ? _("shoots %lu: %s") : _("trees %lu: %s"),
+                          strtoul(strchr(shoots ? shoots : trees, '[') + 1, NULL, 10) + 1, label);
+    for (size_t k = 1; stand && k < input->places_count; k++) /* of the stand that all places are in */
+        stand = ceduo_input_belt(&r->file->scene, input->places[k]) == belt ? stand : NULL;
     if (strncmp(input->path, GROUND, sizeof GROUND - 1) == 0)
-        ceduo_text_format(text, ", %.*s", (int)strcspn(input->path + sizeof GROUND - 1, "]"), input->path + sizeof GROUND - 1);
-    else if (stand && !law) {
+        ceduo_text_format(text, ", %.*s", (int)strcspn(ground, "]"), ground);
+    else if (stand && stand->name && input->kind != CEDUO_INPUT_WORDS) {
         ceduo_text_put(text, ", ");
-        ceduo_text_safe(text, stand);
+        ceduo_text_safe(text, stand->name);
     } else if (strncmp(place, "slope.segments[", 15) == 0 && input->places_count > 1) {
         ceduo_text_then(text, ", ", _("%zu stretches"), input->places_count);
     }
@@ -138,31 +124,18 @@ double ceduo_doubt_scale(const struct ceduo_doubt_report *r)
     return r->answer->main == CEDUO_DOUBT_ENERGY ? J_TO_KJ : 1000;
 }
 
-void ceduo_doubt_value(struct text *t, const struct ceduo_doubt_report *r, double value)
+/* A value of a kind of figure: shares of 1000, energies in kJ. */
+static void append_value(struct text *t, enum ceduo_doubt_kind kind, double value)
 {
-    double scale = ceduo_doubt_scale(r);
-    ceduo_words_number(t, scale < 1 ? value * scale : round(value * scale), scale < 1 ? 3 : 0);
-}
-
-static void append_range(struct text *t, const struct ceduo_doubt_report *r, double lo, double hi)
-{
-    ceduo_doubt_value(t, r, lo);
-    ceduo_text_put(t, "\xe2\x80\x93");
-    ceduo_doubt_value(t, r, hi);
-}
-
-/* A value of any figure: shares of 1000, energies in kJ. */
-static void append_value(struct text *t, const struct ceduo_doubt_figure *f, double value)
-{
-    bool energy = f->kind == CEDUO_DOUBT_ENERGY;
+    bool energy = kind == CEDUO_DOUBT_ENERGY;
     ceduo_words_number(t, energy ? value * J_TO_KJ : round(value * 1000), energy ? 3 : 0);
 }
 
-static void append_range_of(struct text *t, const struct ceduo_doubt_figure *f, double lo, double hi)
+static void append_range(struct text *t, enum ceduo_doubt_kind kind, double lo, double hi)
 {
-    append_value(t, f, lo);
+    append_value(t, kind, lo);
     ceduo_text_put(t, "\xe2\x80\x93");
-    append_value(t, f, hi);
+    append_value(t, kind, hi);
 }
 
 /* ---- what an option may be ---- */
@@ -185,9 +158,9 @@ struct ceduo_doubt_now ceduo_doubt_now_of(const struct ceduo_doubt_report *r, si
 void ceduo_doubt_range(struct text *text, const struct ceduo_doubt_report *r, size_t option)
 {
     const struct ceduo_doubt_figure *f = main_of(r, option);
-    ceduo_doubt_value(text, r, ceduo_doubt_now_of(r, option).value);
+    append_value(text, f->kind, ceduo_doubt_now_of(r, option).value);
     ceduo_text_put(text, " (");
-    append_range(text, r, f->fit.p5, f->fit.p95);
+    append_range(text, f->kind, f->fit.p5, f->fit.p95);
     ceduo_text_char(text, ')');
 }
 
@@ -199,9 +172,9 @@ void ceduo_doubt_both(struct text *text, const struct ceduo_doubt_report *r, siz
     LOCAL_TEXT(value);
     LOCAL_TEXT(rocks);
     LOCAL_TEXT(doubt);
-    ceduo_doubt_value(&value, r, now.value);
-    append_range(&rocks, r, now.lo, now.hi);
-    append_range(&doubt, r, f->fit.p5, f->fit.p95);
+    append_value(&value, f->kind, now.value);
+    append_range(&rocks, f->kind, now.lo, now.hi);
+    append_range(&doubt, f->kind, f->fit.p5, f->fit.p95);
     ceduo_text_format(text,
                       r->answer->main == CEDUO_DOUBT_EXCEED ? _("%s of 1000 (rocks %s; doubt %s)")
                                                             : _("%s kJ per released rock (rocks %s; doubt %s)"),
@@ -227,9 +200,9 @@ static void add_options(struct ceduo_page *page, const struct ceduo_doubt_report
         const struct ceduo_doubt_figure *f = main_of(r, i);
         struct ceduo_doubt_now now = ceduo_doubt_now_of(r, i);
         ceduo_text_safe(ceduo_page_text(page), s->options[i].name);
-        ceduo_doubt_value(ceduo_page_text(page), r, now.value);
-        append_range(ceduo_page_text(page), r, now.lo, now.hi);
-        append_range(ceduo_page_text(page), r, f->fit.p5, f->fit.p95);
+        append_value(ceduo_page_text(page), f->kind, now.value);
+        append_range(ceduo_page_text(page), f->kind, now.lo, now.hi);
+        append_range(ceduo_page_text(page), f->kind, f->fit.p5, f->fit.p95);
     }
 }
 
@@ -248,9 +221,9 @@ static void add_rotation(struct ceduo_page *page, const struct ceduo_doubt_repor
         const struct ceduo_doubt_figure *f = ceduo_doubt_figure_of(r->answer, i, CEDUO_DOUBT_MEAN, false),
                                         *years = ceduo_doubt_figure_of(r->answer, i, CEDUO_DOUBT_FAILING, false);
         ceduo_text_safe(ceduo_page_text(page), s->options[i].name);
-        append_value(ceduo_page_text(page), f, f->value);
-        append_range_of(ceduo_page_text(page), f, f->sampling_lo, f->sampling_hi);
-        append_range_of(ceduo_page_text(page), f, f->fit.p5, f->fit.p95);
+        append_value(ceduo_page_text(page), f->kind, f->value);
+        append_range(ceduo_page_text(page), f->kind, f->sampling_lo, f->sampling_hi);
+        append_range(ceduo_page_text(page), f->kind, f->fit.p5, f->fit.p95);
         double lo = judged ? floor(years->fit.p5) : 0, hi = judged ? ceil(years->fit.p95) : 0; /* outwards */
         if (judged && lo == hi)
             ceduo_page_write(page, "%.0f", years->value);
@@ -295,7 +268,7 @@ static void add_inputs(struct ceduo_page *page, const struct ceduo_doubt_report 
         for (int end = 0; end < 2; end++)
             ceduo_doubt_input_shown(ceduo_page_text(page), r, g, end);
         ceduo_page_write(page, "%.0f %%", ceduo_doubt_share(f, g) * 100);
-        append_value(ceduo_page_text(page), f, f->fit.left[g]);
+        append_value(ceduo_page_text(page), f->kind, f->fit.left[g]);
     }
     if (f->fit.whole.value >= SHOWN && f->fit.whole.value > 2 * f->fit.whole.se) {
         ceduo_page_write(page, "%s", _("together, in ways not told apart"));
@@ -384,16 +357,6 @@ void ceduo_doubt_light_words(struct text *text, const struct ceduo_doubt_report 
 #define SURE   0.95
 #define LIKELY 0.8
 
-/* Of two that differ in few cases the order is not sure, but neither is it open. */
-static const char *verdict_of(const struct ceduo_doubt_order *o)
-{
-    return o->probability >= SURE              ? _("clear")
-           : o->probability >= LIKELY          ? _("likely")
-           : o->equal >= SURE                  ? _("no difference")
-           : o->probability + o->equal >= SURE ? _("hardly ever worse")
-                                               : _("undecided");
-}
-
 void ceduo_doubt_order_words(struct text *text, const struct ceduo_doubt_report *r, size_t i)
 {
     const struct ceduo_scene *s = &r->file->scene;
@@ -409,7 +372,12 @@ void ceduo_doubt_order_words(struct text *text, const struct ceduo_doubt_report 
                       ceduo_text_string(&better), ceduo_text_string(&than), o->probability * 100);
     if (o->probability < 0.995)
         ceduo_text_format(text, _(", equal in %.0f %%, worse in %.0f %%"), o->equal * 100, o->worse * 100);
-    ceduo_text_format(text, ": %s.", verdict_of(o));
+    ceduo_text_format(text, ": %s.", /* of two that differ in few cases the order is not sure, but neither is it open */
+                      o->probability >= SURE              ? _("clear")
+                      : o->probability >= LIKELY          ? _("likely")
+                      : o->equal >= SURE                  ? _("no difference")
+                      : o->probability + o->equal >= SURE ? _("hardly ever worse")
+                                                          : _("undecided"));
 }
 
 /* ---- all ---- */

@@ -89,22 +89,6 @@ static void append_shorter(struct text *text, double value, double lo, double hi
         ceduo_text_format(text, " (%s\xe2\x80\x93%s)e%d", WRITTEN(lo / unit, 2), WRITTEN(hi / unit, 2), e);
 }
 
-static void add_return(struct ceduo_page *page, const struct ceduo_return *back)
-{
-    struct ceduo_page_cell *cell = ceduo_page_cell(page);
-    double value = back->energy * J_TO_KJ, lo = back->lo * J_TO_KJ, hi = back->hi * J_TO_KJ;
-    if (isnan(value)) {
-        ceduo_text_put(&cell->text, _("none"));
-        return;
-    }
-    const char *from = isnan(lo) ? "0" : WRITTEN(lo, 3);
-    if (isnan(hi))
-        ceduo_text_format(&cell->text, "%s (> %s)", WRITTEN(value, 3), from);
-    else
-        ceduo_text_format(&cell->text, "%s (%s\xe2\x80\x93%s)", WRITTEN(value, 3), from, WRITTEN(hi, 3));
-    append_shorter(&cell->shorter, value, isnan(lo) ? 0 : lo, hi);
-}
-
 static void add_returns(struct ceduo_page *page, const struct ceduo_result *r, size_t control)
 {
     static const struct ceduo_page_column columns[] = {
@@ -117,25 +101,22 @@ static void add_returns(struct ceduo_page *page, const struct ceduo_result *r, s
         if (!h)
             continue;
         ceduo_page_write(page, "%s", name_of(r, i));
-        for (size_t t = 1; t < CEDUO_RETURNS; t++)
-            add_return(page, &h->returns[t]);
+        for (size_t t = 1; t < CEDUO_RETURNS; t++) {
+            struct ceduo_page_cell *cell = ceduo_page_cell(page);
+            double value = h->returns[t].energy * J_TO_KJ, hi = h->returns[t].hi * J_TO_KJ;
+            double lo = isnan(h->returns[t].lo) ? 0 : h->returns[t].lo * J_TO_KJ;
+            if (isnan(value)) {
+                ceduo_text_put(&cell->text, _("none"));
+                continue;
+            }
+            ceduo_text_format(&cell->text, isnan(hi) ? "%s (> %s)" : "%s (%s\xe2\x80\x93%s)", WRITTEN(value, 3), WRITTEN(lo, 3),
+                              WRITTEN(hi, 3));
+            append_shorter(&cell->shorter, value, lo, hi);
+        }
     }
 }
 
 /* ---- the square ---- */
-
-/* Which of all have this intensity at that return period, by their numbers; class -1: none arrives so often. */
-static void add_mark(struct ceduo_page *page, const struct ceduo_result *r, size_t control, size_t t, int intensity)
-{
-    struct text *cell = ceduo_page_text(page);
-    for (size_t i = 0; i <= r->scene->options_count; i++) {
-        const struct ceduo_hazard *h = hazard_of(r, i, control);
-        if (h && ceduo_intensity_of(h->returns[t].energy) == intensity)
-            ceduo_text_format(cell, cell->length > 0 ? " %zu" : "%zu", i);
-    }
-    if (cell->length == 0)
-        ceduo_text_put(cell, "\xc2\xb7");
-}
 
 static void add_square(struct ceduo_page *page, const struct ceduo_result *r, size_t control)
 {
@@ -147,10 +128,17 @@ static void add_square(struct ceduo_page *page, const struct ceduo_result *r, si
                                        N_("strong, above 300 kJ")};
     ceduo_page_say(page, CEDUO_PAGE_CAPTION, _("Intensity by return period, in the classes of Swiss practice (BAFU 2016):"));
     CEDUO_PAGE_TABLE_OF(page, columns);
-    for (int i = CEDUO_INTENSITIES - 1; i >= -1; i--) {
+    for (int i = CEDUO_INTENSITIES - 1; i >= -1; i--) { /* -1: none arrives so often */
         ceduo_page_write(page, "%s", _(rows[i + 1]));
-        for (size_t t = 1; t < CEDUO_RETURNS; t++)
-            add_mark(page, r, control, t, i);
+        for (size_t t = 1; t < CEDUO_RETURNS; t++) {
+            struct text *cell = ceduo_page_text(page); /* which of all have it at that return period, by their numbers */
+            for (size_t k = 0; k <= r->scene->options_count; k++) {
+                const struct ceduo_hazard *h = hazard_of(r, k, control);
+                if (h && ceduo_intensity_of(h->returns[t].energy) == i)
+                    ceduo_text_format(cell, cell->length > 0 ? " %zu" : "%zu", k);
+            }
+            ceduo_text_put(cell, cell->length == 0 ? "\xc2\xb7" : "");
+        }
     }
     struct text *names = ceduo_page_add(page, CEDUO_PAGE_SENTENCE);
     for (size_t i = 0; i <= r->scene->options_count; i++)
@@ -162,21 +150,6 @@ static void add_square(struct ceduo_page *page, const struct ceduo_result *r, si
 /* ---- at each control ---- */
 
 #define FEW 2 /* options, of which each has sentences of its own; more are a table */
-
-/* What arrives of each intensity. */
-static void say_left(struct ceduo_page *page, const struct ceduo_result *r, size_t option, size_t control)
-{
-    const struct ceduo_hazard *h = hazard_of(r, option + 1, control);
-    LOCAL_TEXT(said);
-    for (size_t i = 0; h && i < CEDUO_INTENSITIES; i++)
-        if (!isnan(h->intensity[i].left)) /* without forest some arrive */
-            ceduo_text_then(&said, said.length > 0 ? ", " : "", "%s %s %%", ceduo_words_intensity((int)i),
-                            WRITTEN(h->intensity[i].left * 100, 2));
-    if (said.length > 0)
-        ceduo_page_say(page, CEDUO_PAGE_SENTENCE,
-                       _("Of what arrives without forest, so much arrives with '%s', each rock by its energy here: %s."),
-                       r->scene->options[option].name, said.bytes);
-}
 
 /* The option with which what is feared is rarest. */
 static size_t rarest(const struct ceduo_result *r, size_t control)
@@ -244,7 +217,16 @@ void ceduo_page_hazard(struct ceduo_page *page, const struct ceduo_report *repor
     for (size_t i = 0; !many && i < r->scene->options_count; i++) {
         if (i == 0 || hazard_of(r, i + 1, c))
             ceduo_words_hazard(ceduo_page_add(page, CEDUO_PAGE_SENTENCE), r, i, c);
-        say_left(page, r, i, c);
+        const struct ceduo_hazard *h = hazard_of(r, i + 1, c);
+        LOCAL_TEXT(said);
+        for (size_t k = 0; h && k < CEDUO_INTENSITIES; k++)
+            if (!isnan(h->intensity[k].left)) /* without forest some arrive */
+                ceduo_text_then(&said, said.length > 0 ? ", " : "", "%s %s %%", ceduo_words_intensity((int)k),
+                                WRITTEN(h->intensity[k].left * 100, 2));
+        if (said.length > 0)
+            ceduo_page_say(page, CEDUO_PAGE_SENTENCE,
+                           _("Of what arrives without forest, so much arrives with '%s', each rock by its energy here: %s."),
+                           r->scene->options[i].name, said.bytes);
     }
     if (many) {
         ceduo_words_hazard(ceduo_page_add(page, CEDUO_PAGE_SENTENCE), r, rarest(r, c), c);

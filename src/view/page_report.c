@@ -50,13 +50,6 @@ static bool is_crowded(const struct ceduo_chapter *c)
     return ceduo_report_has_hazard(c->report) && c->report->result->scene->options_count > CROWD;
 }
 
-static struct text *section(struct ceduo_page *page, const char *title)
-{
-    struct text *text = ceduo_page_add(page, CEDUO_PAGE_SECTION);
-    ceduo_text_put(text, title);
-    return text;
-}
-
 /* ---- sections ---- */
 
 #define SLOPE_ROWS  19
@@ -65,7 +58,7 @@ static struct text *section(struct ceduo_page *page, const char *title)
 static void add_slope(struct ceduo_page *page, const struct ceduo_chapter *c)
 {
     struct ceduo_picture picture = picture_of(c, best_of(c));
-    section(page, _("The slope and the rocks"));
+    ceduo_page_say(page, CEDUO_PAGE_SECTION, "%s", _("The slope and the rocks"));
     ceduo_page_facts(page, c->report);
     add_picture(page, CEDUO_PLOT_PROFILE, WHOLE, SLOPE_ROWS, &picture,
                 _("The slope from the side with the forest on it, the ways of some rocks as thin lines, and the controls as "
@@ -107,37 +100,18 @@ static void add_compared(struct ceduo_page *page, const struct ceduo_chapter *c)
               "energy, and their mean energy."));
 }
 
-static void add_doubt(struct ceduo_page *page, const struct ceduo_chapter *c)
-{
-    if (c->doubt && c->doubt->answer)
-        ceduo_doubt_blocks(page, c->doubt, is_crowded(c) ? CEDUO_DOUBT_SHORT : CEDUO_DOUBT_ORDER);
-}
-
 #define YEARS_ROWS 17
-
-/* Whether the years of an option differ at all. */
-static bool has_years(const struct ceduo_chapter *c, size_t option)
-{
-    const struct ceduo_verdict *v = c->report->verdict;
-    return c->years && c->years[option] && c->years[option]->count > 1 && v && option < v->n &&
-           v->choices[option].window.kind != CEDUO_WINDOW_ALIKE;
-}
-
-static bool has_yields(const struct ceduo_verdict *v)
-{
-    size_t known = 0;
-    for (size_t i = 0; i < v->n; i++)
-        known += v->choices[i].yield.cut_per_year > 0;
-    return known > 1;
-}
 
 static void draw_years(struct ceduo_page *page, const struct ceduo_verdict *v, const struct ceduo_picture *picture)
 {
-    ceduo_text_put(ceduo_page_add(page, CEDUO_PAGE_DETAIL),
+    ceduo_page_say(page, CEDUO_PAGE_DETAIL, "%s",
                    _("In the picture C, F and E stand for the tests of contact, of free runs and of energy."));
-    bool both = has_yields(v);
+    size_t yields = 0;
+    for (size_t i = 0; i < v->n; i++)
+        yields += v->choices[i].yield.cut_per_year > 0;
+    bool both = yields > 1;
     if (both)
-        ceduo_text_put(ceduo_page_add(page, CEDUO_PAGE_DETAIL),
+        ceduo_page_say(page, CEDUO_PAGE_DETAIL, "%s",
                        _("Numbers beside points stand for the options in the order of the tables."));
     add_picture(page, CEDUO_PLOT_ROTATION, both ? HALF : WHOLE, YEARS_ROWS, picture,
                 _("Two curves over the years after a cut, the average distance between contacts and how many of 1000 rocks "
@@ -153,13 +127,14 @@ static void add_years(struct ceduo_page *page, const struct ceduo_chapter *c)
 {
     const struct ceduo_verdict *v = c->report->verdict;
     size_t option = v && v->rotation.known ? v->rotation.best : best_of(c);
-    if (!has_years(c, option))
+    if (!v || option >= v->n || v->choices[option].window.kind == CEDUO_WINDOW_ALIKE || !c->years || !c->years[option] ||
+        c->years[option]->count < 2) /* they do not differ at all */
         return;
     struct ceduo_picture picture = picture_of(c, option);
     const struct ceduo_scene *scene = c->report->result->scene;
-    section(page, _("Year by year"));
+    ceduo_page_say(page, CEDUO_PAGE_SECTION, "%s", _("Year by year"));
     if (scene->options_count > 1)
-        ceduo_text_put(ceduo_page_add(page, CEDUO_PAGE_PLACE), scene->options[option].name);
+        ceduo_page_say(page, CEDUO_PAGE_PLACE, "%s", scene->options[option].name);
     ceduo_page_years_words(page, c->report->result, c->years[option]);
     if (!is_crowded(c))
         draw_years(page, v, &picture);
@@ -177,11 +152,11 @@ static void add_limits(struct ceduo_page *page, const struct ceduo_result *resul
         N_("A coppice cannot promise to stop any given rock. Where people may be hurt, an engineer must judge the "
            "situation "
            "on the ground.")};
-    section(page, _("What the model cannot tell"));
+    ceduo_page_say(page, CEDUO_PAGE_SECTION, "%s", _("What the model cannot tell"));
     for (size_t i = 0; i < sizeof limits / sizeof limits[0]; i++)
-        ceduo_text_put(ceduo_page_add(page, CEDUO_PAGE_ITEM), _(limits[i]));
-    ceduo_text_put(
-        ceduo_page_add(page, CEDUO_PAGE_ITEM),
+        ceduo_page_say(page, CEDUO_PAGE_ITEM, "%s", _(limits[i]));
+    ceduo_page_say(
+        page, CEDUO_PAGE_ITEM, "%s",
         result->scene->blocks_count > 0
             ? _("How often blocks come down is as the scene says; only a survey of the wall and of what lies at its "
                 "foot can tell.")
@@ -189,26 +164,22 @@ static void add_limits(struct ceduo_page *page, const struct ceduo_result *resul
                 "can tell."));
 }
 
-/* As it would stand in its file: with what the command line changed, and the names of other files. */
-static void put_scene(struct text *text, const struct scene_file *file)
-{
-    struct arena arena = {0};
-    const struct node *root = ceduo_emit_unresolve(&arena, file->root);
-    if (root)
-        ceduo_emit(text, root);
-    ceduo_arena_free(&arena);
-}
-
 static void add_origin(struct ceduo_page *page, const struct ceduo_chapter *c)
 {
-    section(page, _("How to compute this page again"));
+    ceduo_page_say(page, CEDUO_PAGE_SECTION, "%s", _("How to compute this page again"));
     ceduo_text_format(ceduo_page_fact(page, _("Program")), "ceduo %s", CEDUO_VERSION);
-    ceduo_text_put(ceduo_page_add(page, CEDUO_PAGE_SENTENCE),
+    ceduo_page_say(page, CEDUO_PAGE_SENTENCE, "%s",
                    c->doubt ? _("This command gives the same page, to the last byte:")
                             : _("This command computes the page again, and how sure it is:"));
-    ceduo_text_put(ceduo_page_add(page, CEDUO_PAGE_CODE), c->command);
-    ceduo_text_put(ceduo_page_add(page, CEDUO_PAGE_SENTENCE), _("The scene, as its file says it:"));
-    put_scene(ceduo_page_add(page, CEDUO_PAGE_CODE), c->report->file);
+    ceduo_page_say(page, CEDUO_PAGE_CODE, "%s", c->command);
+    ceduo_page_say(page, CEDUO_PAGE_SENTENCE, "%s", _("The scene, as its file says it:"));
+    /* with what the command line changed, and the names of other files */
+    struct arena arena = {0};
+    const struct node *root = ceduo_emit_unresolve(&arena, c->report->file->root);
+    struct text *code = ceduo_page_add(page, CEDUO_PAGE_CODE);
+    if (root)
+        ceduo_emit(code, root);
+    ceduo_arena_free(&arena);
 }
 
 #define HAZARD_ROWS 16
@@ -235,7 +206,7 @@ void ceduo_page_chapter(struct ceduo_page *page, const struct ceduo_chapter *c)
 {
     const struct ceduo_scene *scene = c->report->result->scene;
     bool controls = scene->controls_count > 0, several = scene->options_count > 1;
-    ceduo_text_put(ceduo_page_add(page, CEDUO_PAGE_TITLE), ceduo_in_language(scene->title, scene->title_it));
+    ceduo_page_say(page, CEDUO_PAGE_TITLE, "%s", ceduo_in_language(scene->title, scene->title_it));
     struct ceduo_report report = *c->report;
     report.doubt = c->doubt;
     ceduo_page_question(page, report.result);
@@ -247,13 +218,14 @@ void ceduo_page_chapter(struct ceduo_page *page, const struct ceduo_chapter *c)
     if (several && controls) {
         add_compared(page, c);
     } else if (!several) {
-        section(page, _("Through the forest, and without it"));
+        ceduo_page_say(page, CEDUO_PAGE_SECTION, "%s", _("Through the forest, and without it"));
         ceduo_page_option(page, c->report, 0, true);
     }
     if (controls && !is_crowded(c))
         ceduo_page_laws(page, c->report->result);
     if (controls) {
-        add_doubt(page, c);
+        if (c->doubt && c->doubt->answer)
+            ceduo_doubt_blocks(page, c->doubt, is_crowded(c) ? CEDUO_DOUBT_SHORT : CEDUO_DOUBT_ORDER);
         add_years(page, c);
         add_hazard(page, c);
     }

@@ -101,10 +101,13 @@ static bool has_years(const struct ceduo_verdict *v)
     return false;
 }
 
-/* Where the doubt of the mean over the years is not known, that of today stands beside today. */
-static bool knows_rotation(const struct ceduo_report *report)
+/* BY_MEAN: the doubt of the mean over the years is known; otherwise that of today stands beside today. */
+enum form { BY_TODAY, BY_MEAN, TODAY_ALONE };
+
+static enum form form_of(const struct ceduo_report *report)
 {
-    return report->doubt && report->doubt->answer && report->doubt->answer->rotation && has_years(report->verdict);
+    bool doubt = report->doubt && report->doubt->answer && report->doubt->answer->rotation;
+    return !has_years(report->verdict) ? TODAY_ALONE : doubt ? BY_MEAN : BY_TODAY;
 }
 
 static void add_span(struct ceduo_page *page, const struct ceduo_measure *m)
@@ -123,20 +126,20 @@ static void add_choice(struct ceduo_page *page, const struct ceduo_report *repor
     const struct ceduo_choice *v = &report->verdict->choices[i];
     struct ceduo_measure today = ceduo_judged(&r->scene->controls[r->last_control], ceduo_result_wooded(r, i, r->last_control));
     struct ceduo_measure mean = today;
-    bool years = has_years(report->verdict), known = v->flown > 0 && !v->nothing;
+    bool years = form_of(report) != TODAY_ALONE, known = v->flown > 0 && !v->nothing;
     ceduo_measure_doubt(&today, report->doubt, i, r->last_control);
     ceduo_measure_doubt_over(&mean, report->doubt, i);
     ceduo_page_write(page, "%s", r->scene->options[i].name);
     if (years)
         ceduo_page_write(page, known ? "%.0f" : "-", 1000 * v->mean.mean);
-    if (knows_rotation(report))
+    if (form_of(report) == BY_MEAN)
         add_span(page, &mean);
     if (years) {
         ceduo_page_write(page, known ? "%.0f (%u)" : "-", 1000 * v->worst.mean, v->worst_year);
         ceduo_page_write(page, known && v->energy_known ? "%zu/%zu" : "-", v->too_much, v->years);
     }
     ceduo_measure_value(ceduo_page_text(page), &today);
-    if (!knows_rotation(report))
+    if (form_of(report) != BY_MEAN)
         add_span(page, &today);
     ceduo_page_number(page, ceduo_result_last_index(r, i)->worst_adc, 3);
     if (years)
@@ -161,10 +164,10 @@ static void add_options(struct ceduo_page *page, const struct ceduo_report *repo
                                     {"", _("may be"), "m", NULL}};
     const struct ceduo_result *r = report->result;
     const struct ceduo_measure bare = ceduo_judged(&r->scene->controls[r->last_control], &r->bare.arrivals[r->last_control]);
-    int form = knows_rotation(report) ? 1 : has_years(report->verdict) ? 0 : 2;
-    if (form == 0)
+    enum form form = form_of(report);
+    if (form == BY_TODAY)
         CEDUO_PAGE_TABLE_OF(page, by_today);
-    else if (form == 1)
+    else if (form == BY_MEAN)
         CEDUO_PAGE_TABLE_OF(page, by_mean);
     else
         CEDUO_PAGE_TABLE_OF(page, alone);
@@ -212,13 +215,14 @@ static void gather_notes(struct ceduo_page *notes, const struct ceduo_report *re
     ceduo_words_run_warnings(r, &remarks, ceduo_page_warn_once, notes);
 }
 
-static bool keeps_within(const struct ceduo_page *page, const struct text *text, size_t lines)
+/* Lines of a paragraph of the page. */
+static size_t lines_of(const struct ceduo_page *page, const struct text *text)
 {
     struct ceduo_page one = {.width = page->width};
-    ceduo_text_put(ceduo_page_add(&one, CEDUO_PAGE_POINT), text->bytes);
-    size_t taken = ceduo_page_lines(&one);
+    ceduo_text_put(ceduo_page_add(&one, CEDUO_PAGE_POINT), ceduo_text_string(text));
+    size_t n = ceduo_page_lines(&one);
     ceduo_page_free(&one);
-    return taken <= lines;
+    return n;
 }
 
 /* A label, the first sentences (warnings) or other texts, and how many more there are. */
@@ -247,9 +251,9 @@ static void add_sentences(struct ceduo_page *page, const char *label, const stru
         n++;
     if (n == 0)
         return;
-    for (compose(&text, label, sentences, n); n > 1 && !keeps_within(page, &text, lines);)
+    for (compose(&text, label, sentences, n); n > 1 && lines_of(page, &text) > lines;)
         compose(&text, label, sentences, --n);
-    while (!keeps_within(page, &text, lines)) {
+    while (lines_of(page, &text) > lines) {
         char *end = text.bytes + text.length;
         end -= strcmp(end - (sizeof cut - 1), cut) == 0 ? sizeof cut - 1 : 0;
         while (end[-1] != ' ' && end[-1] != '\t')
@@ -263,16 +267,6 @@ static void add_sentences(struct ceduo_page *page, const char *label, const stru
     ceduo_text_put(ceduo_page_add(page, CEDUO_PAGE_POINT), text.bytes);
 }
 
-/* Lines of all sentences of it. */
-static size_t lines_of(const struct ceduo_page *page, const char *label, const struct ceduo_page *sentences, size_t most)
-{
-    struct ceduo_page one = {.width = page->width};
-    add_sentences(&one, label, sentences, most);
-    size_t n = ceduo_page_lines(&one);
-    ceduo_page_free(&one);
-    return n;
-}
-
 /* False where nothing that is to be noted has room. */
 static bool add_rest(struct ceduo_page *page, const struct ceduo_report *report, size_t lines)
 {
@@ -281,7 +275,11 @@ static bool add_rest(struct ceduo_page *page, const struct ceduo_report *report,
     size_t left = lines > taken + 1 ? lines - taken : 1;
     ceduo_page_assumed(&assumed, report, false);
     gather_notes(&notes, report);
-    size_t wanted = lines_of(page, _("ASSUMED *"), &assumed, SIZE_MAX), noted = lines_of(page, _("NOTE"), &notes, SIZE_MAX);
+    LOCAL_TEXT(all_assumed);
+    LOCAL_TEXT(all_notes);
+    compose(&all_assumed, _("ASSUMED *"), &assumed, SIZE_MAX);
+    compose(&all_notes, _("NOTE"), &notes, SIZE_MAX);
+    size_t wanted = assumed.first ? lines_of(page, &all_assumed) : 0, noted = notes.first ? lines_of(page, &all_notes) : 0;
     size_t share =
         noted + 1 > left ? 1 : left - noted; /* what is to be noted goes before what is assumed, but for a line or two */
     share = share < 2 && left > 3 ? 2 : share;

@@ -74,17 +74,6 @@ static void add_years(struct ceduo_page *page, const struct ceduo_years *years)
     }
 }
 
-/* What may be true of today's figure. */
-static void add_doubt(struct ceduo_page *page, const struct ceduo_pane *pane, size_t i)
-{
-    const struct ceduo_result *r = pane->result;
-    struct ceduo_measure judged = ceduo_judged(&r->scene->controls[r->last_control], NULL);
-    struct text *text = ceduo_page_text(page);
-    ceduo_measure_doubt(&judged, pane->doubt, i, r->last_control);
-    if (!isnan(judged.may_lo))
-        ceduo_measure_span(text, &judged, judged.may_lo, judged.may_hi);
-}
-
 static void add_option(struct ceduo_page *page, const struct ceduo_pane *pane, size_t i)
 {
     const struct ceduo_result *r = pane->result;
@@ -97,7 +86,11 @@ static void add_option(struct ceduo_page *page, const struct ceduo_pane *pane, s
         add_share(page, c->today);
     else
         ceduo_page_number(page, index->worst_adc, 3);
-    add_doubt(page, pane, i);
+    struct ceduo_measure judged = ceduo_judged(&r->scene->controls[r->last_control], NULL);
+    struct text *may_be = ceduo_page_text(page);
+    ceduo_measure_doubt(&judged, pane->doubt, i, r->last_control);
+    if (!isnan(judged.may_lo))
+        ceduo_measure_span(may_be, &judged, judged.may_lo, judged.may_hi);
     if (a && r->scene->blocks_count > 0)
         ceduo_words_every(ceduo_page_text(page), ceduo_hazard_feared(&a->hazard));
     else
@@ -128,18 +121,15 @@ static void add_option(struct ceduo_page *page, const struct ceduo_pane *pane, s
 
 static void add_heads(struct ceduo_page *page, const struct ceduo_pane *pane)
 {
-    static const char *const simulated[COLUMNS] = {
-        [TODAY] = N_("today"), [MEAN] = N_("rotation"), [FAILS] = N_("fail"), [YIELD] = N_("m\xc2\xb3/ha y"),
-        [WORST] = N_("worst"), [CONTACT] = "C",         [FREE_RUN] = "F",     [ENERGY] = "E"};
-    static const char *const by_index[COLUMNS] = {
-        [TODAY] = N_("ADC m"), [MEAN] = N_("kJ/100 m"), [FAILS] = N_("fail"), [YIELD] = N_("m\xc2\xb3/ha y"),
-        [WORST] = N_("worst"), [CONTACT] = "C",         [FREE_RUN] = "F",     [ENERGY] = "E"};
+    static const char *const names[COLUMNS] = {
+        [FAILS] = N_("fail"), [YIELD] = N_("m\xc2\xb3/ha y"), [WORST] = N_("worst"), [CONTACT] = "C", [FREE_RUN] = "F",
+        [ENERGY] = "E"};
     const struct ceduo_result *r = pane->result;
     struct ceduo_page_cell *heads = page->last->cells;
-    for (int i = 0; i < COLUMNS; i++) {
-        const char *head = (r->wooded ? simulated : by_index)[i];
-        ceduo_text_put(&heads[i].text, head ? ceduo_translate_in(head) : "");
-    }
+    for (int i = 0; i < COLUMNS; i++)
+        ceduo_text_put(&heads[i].text, names[i] ? ceduo_translate_in(names[i]) : "");
+    ceduo_text_put(&heads[TODAY].text, r->wooded ? _("today") : _("ADC m"));
+    ceduo_text_put(&heads[MEAN].text, r->wooded ? _("rotation") : _("kJ/100 m"));
     if (r->wooded && r->scene->blocks_count > 0)
         ceduo_text_put(&heads[EVERY].text, _("every, y"));
     if (pane->doubt && pane->doubt->answer)
@@ -165,30 +155,6 @@ void ceduo_pane_options(struct ceduo_page *page, const struct ceduo_pane *pane, 
 
 /* ---- what is to be said of them ---- */
 
-/* Lights that thin shoots alone make green today. */
-static void say_thin(struct ceduo_page *page, const struct ceduo_result *r)
-{
-    LOCAL_TEXT(names);
-    for (size_t i = 0; i < r->options_count; i++)
-        if (ceduo_index_hangs_on_thin(ceduo_result_last_index(r, i)))
-            ceduo_text_then(&names, names.length > 0 ? ", " : "", "'%s'", r->scene->options[i].name);
-    if (names.length > 0)
-        ceduo_page_say(page, CEDUO_PAGE_NOTE, _("Counting only stems from %g cm on, contact or free run fails today: %s."),
-                       CEDUO_THICK_DBH * 100, ceduo_text_string(&names));
-}
-
-/* Each line is a sentence of its own. */
-static void say_best(struct ceduo_page *page, const struct ceduo_pane *pane)
-{
-    LOCAL_TEXT(best);
-    ceduo_words_best(&best, pane->result->scene, pane->verdict);
-    for (const char *at = ceduo_text_string(&best); *at; at += strspn(at, "\n")) {
-        size_t n = strcspn(at, "\n");
-        ceduo_page_say(page, CEDUO_PAGE_NOTE, "%.*s", (int)n, at);
-        at += n;
-    }
-}
-
 void ceduo_pane_said(struct ceduo_page *page, const struct ceduo_pane *pane)
 {
     const struct ceduo_result *r = pane->result;
@@ -198,13 +164,22 @@ void ceduo_pane_said(struct ceduo_page *page, const struct ceduo_pane *pane)
     if (v->n < 2) {
         ceduo_page_note(page, _("One way to treat this wood so far. a adds another from a preset, y a copy of this one."));
     } else {
-        say_best(page, pane);
+        LOCAL_TEXT(best);
+        ceduo_words_best(&best, r->scene, v);
+        for (char *line = best.bytes ? strtok(best.bytes, "\n") : NULL; line; line = strtok(NULL, "\n"))
+            ceduo_page_note(page, line);
         if ((!v->rotation.known || v->rotation.uneven) && v->wooded)
             ceduo_page_note(page, _("The years of the rotation are being computed."));
         ceduo_words_turned(r, v, ceduo_page_note, page);
     }
     ceduo_words_windows(r->scene, v, ceduo_page_note, page);
-    say_thin(page, r);
+    LOCAL_TEXT(thin); /* options with lights that thin shoots alone make green today */
+    for (size_t i = 0; i < r->options_count; i++)
+        if (ceduo_index_hangs_on_thin(ceduo_result_last_index(r, i)))
+            ceduo_text_then(&thin, thin.length > 0 ? ", " : "", "'%s'", r->scene->options[i].name);
+    if (thin.length > 0)
+        ceduo_page_say(page, CEDUO_PAGE_NOTE, _("Counting only stems from %g cm on, contact or free run fails today: %s."),
+                       CEDUO_THICK_DBH * 100, ceduo_text_string(&thin));
     if (v->wooded && !v->accepted)
         ceduo_page_note(page, _("What the place withstands is not given (view 3): energy is not judged."));
     if (!r->wooded)

@@ -27,12 +27,8 @@ struct ceduo_doubt_now {
 };
 struct ceduo_doubt_now ceduo_doubt_now_of(const struct ceduo_doubt_report *report, size_t option);
 
-/* By what the main figure is shown, of 1000 rocks or kJ per released rock; and a value of it, whole or with three digits. */
+/* By what the main figure is shown, of 1000 rocks or kJ per released rock. */
 double ceduo_doubt_scale(const struct ceduo_doubt_report *report);
-void ceduo_doubt_value(struct text *text, const struct ceduo_doubt_report *report, double value);
-
-/* An input with an index of its own; NULL: the last group, of several inputs together. */
-const struct ceduo_input *ceduo_doubt_input(const struct ceduo_doubt_report *report, size_t group);
 
 /* The share of an input in a figure as it is shown, from 0 to 1: an estimate may lie outside. */
 double ceduo_doubt_share(const struct ceduo_doubt_figure *figure, size_t group);
