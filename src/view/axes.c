@@ -41,13 +41,6 @@ static double multiples(double lo, double hi, struct interval interval, double *
     return floor(hi / size + slack) - *first + 1.0;
 }
 
-static int one_tick(double value, double *out, double *interval)
-{
-    *out = value == 0.0 ? 0.0 : value;
-    *interval = 0.0;
-    return 1;
-}
-
 int ceduo_ticks(double lo, double hi, int max_count, double *out, double *interval)
 {
     double ignored;
@@ -58,8 +51,10 @@ int ceduo_ticks(double lo, double hi, int max_count, double *out, double *interv
     double range = to - from;
     if (max_count < 1 || !isfinite(lo) || !isfinite(hi) || range > 1e300)
         return 0;
-    if (range < 1e-300 || range < 1e-12 * fmax(fabs(from), fabs(to)))
-        return one_tick(lo, out, interval);
+    if (range < 1e-300 || range < 1e-12 * fmax(fabs(from), fabs(to))) {
+        *out = lo == 0.0 ? 0.0 : lo; /* never -0 */
+        return 1;
+    }
     max_count = max_count < CEDUO_TICKS_MAX ? max_count : CEDUO_TICKS_MAX;
     struct interval size = {1, (int)floor(log10(range / max_count))};
     double first;
@@ -141,26 +136,18 @@ static struct ceduo_tick tick_of(const struct scale *scale, int i, double at, in
     return tick;
 }
 
-/* False if two labels would stand closer than they should. */
-static bool left_scale_fits(struct scale *scale, const struct ceduo_frame *frame, const struct ceduo_canvas *canvas)
-{
-    int apart = frame->height > 3 ? 2 : 1;
-    for (int i = 0; i < scale->count; ++i) {
-        int column;
-        if (!ceduo_frame_cell(frame, canvas, frame->x0, scale->value[i], &column, &scale->tick[i]))
-            return false;
-        if (i > 0 && abs(scale->tick[i] - scale->tick[i - 1]) < apart)
-            return false;
-    }
-    return true;
-}
-
+/* As many labels as stand clear of each other. */
 static struct scale left_scale(const struct ceduo_frame *frame, const struct ceduo_canvas *canvas)
 {
     struct scale scale = {0};
+    int apart = frame->height > 3 ? 2 : 1, column;
     for (int n = frame->height / 2 + 1; n > 0; --n) {
+        bool fits = true;
         scale.count = ceduo_ticks(frame->y0, frame->y1, n, scale.value, &scale.interval);
-        if (left_scale_fits(&scale, frame, canvas))
+        for (int i = 0; i < scale.count && fits; ++i)
+            fits = ceduo_frame_cell(frame, canvas, frame->x0, scale.value[i], &column, &scale.tick[i]) &&
+                   (i == 0 || abs(scale.tick[i] - scale.tick[i - 1]) >= apart);
+        if (fits)
             return scale;
     }
     scale.count = 0;

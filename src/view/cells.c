@@ -213,46 +213,24 @@ int ceduo_cells_label_width(enum ceduo_charset charset, const char *text)
 
 /* ---- Output ---- */
 
-static uint32_t braille_glyph(unsigned dots)
-{
-    /* Braille counts its upper six dots column by column, and the lowest two after them. */
-    static const uint8_t bits[8] = {0x01, 0x08, 0x02, 0x10, 0x04, 0x20, 0x40, 0x80};
-    uint32_t code = 0x2800;
-    for (unsigned i = 0; i < 8; ++i)
-        if (dots >> i & 1U)
-            code |= bits[i];
-    return code;
-}
-
-static uint32_t block_glyph(unsigned dots)
-{
-    /* Bits: 1 upper left, 2 upper right, 4 lower left, 8 lower right. */
-    static const uint16_t glyphs[16] = {' ',    0x2598, 0x259D, 0x2580, 0x2596, 0x258C, 0x259E, 0x259B,
-                                        0x2597, 0x259A, 0x2590, 0x259C, 0x2584, 0x2599, 0x259F, 0x2588};
-    return glyphs[dots & 15U];
-}
-
-static uint32_t glyph_of(const struct ceduo_cell *cell, enum ceduo_charset charset)
-{
-    if (cell->code != 0)
-        return cell->code;
-    if (cell->dots == 0)
-        return ' ';
-    switch (charset) {
-    case CEDUO_CHARSET_BRAILLE:
-        return braille_glyph(cell->dots);
-    case CEDUO_CHARSET_BLOCK:
-        return block_glyph(cell->dots);
-    case CEDUO_CHARSET_ASCII:
-        break;
-    }
-    return (uint32_t) " '.:"[cell->dots & 3U];
-}
-
 uint32_t ceduo_cells_glyph(const struct ceduo_cells *cells, int column, int row)
 {
+    /* Braille counts its upper six dots column by column, and the lowest two after them. */
+    static const uint8_t braille[8] = {0x01, 0x08, 0x02, 0x10, 0x04, 0x20, 0x40, 0x80};
+    /* Bits: 1 upper left, 2 upper right, 4 lower left, 8 lower right. */
+    static const uint16_t blocks[16] = {' ',    0x2598, 0x259D, 0x2580, 0x2596, 0x258C, 0x259E, 0x259B,
+                                        0x2597, 0x259A, 0x2590, 0x259C, 0x2584, 0x2599, 0x259F, 0x2588};
     const struct ceduo_cell *cell = ceduo_cells_at(cells, column, row);
-    return cell == NULL ? ' ' : glyph_of(cell, cells->charset);
+    uint32_t code = 0x2800;
+    if (cell && cell->code != 0)
+        return cell->code;
+    if (!cell || cell->dots == 0)
+        return ' ';
+    if (cells->charset != CEDUO_CHARSET_BRAILLE)
+        return cells->charset == CEDUO_CHARSET_BLOCK ? blocks[cell->dots & 15U] : (uint32_t) " '.:"[cell->dots & 3U];
+    for (unsigned i = 0; i < 8; ++i)
+        code |= cell->dots >> i & 1U ? braille[i] : 0;
+    return code;
 }
 
 enum ceduo_role ceduo_cells_role(const struct ceduo_cells *cells, int column, int row)

@@ -182,19 +182,6 @@ static bool fits(const struct text *cell, size_t width)
     return ceduo_utf8_width(ceduo_text_string(cell)) < width;
 }
 
-/* As short as can be: 3e26, 7e-3; where that has no more room either, what is small as 0.00. */
-static void write_shortest(struct text *cell, double value, size_t width)
-{
-    char power[16];
-    snprintf(power, sizeof power, "%.0e", value);
-    ceduo_text_free(cell);
-    ceduo_text_format(cell, "%.*se%ld", (int)strcspn(power, "e"), power, strtol(strchr(power, 'e') + 1, NULL, 10));
-    if (fabs(value) < 1 && !fits(cell, width)) {
-        ceduo_text_free(cell);
-        ceduo_text_format(cell, "%.*f", (int)width - (value < 0 ? 4 : 3), value);
-    }
-}
-
 /* A number; in thousands or millions (134e3) where it has no room, or with fewer digits. */
 static void write_number(struct text *cell, double value, int digits, size_t width)
 {
@@ -207,8 +194,17 @@ static void write_number(struct text *cell, double value, int digits, size_t wid
         ceduo_text_free(cell);
         ceduo_words_number(cell, value, --digits);
     }
-    if (isfinite(value) && !fits(cell, width))
-        write_shortest(cell, value, width);
+    if (!isfinite(value) || fits(cell, width))
+        return;
+    /* as short as can be: 3e26, 7e-3; where that has no more room either, what is small as 0.00 */
+    char power[16];
+    snprintf(power, sizeof power, "%.0e", value);
+    ceduo_text_free(cell);
+    ceduo_text_format(cell, "%.*se%ld", (int)strcspn(power, "e"), power, strtol(strchr(power, 'e') + 1, NULL, 10));
+    if (fabs(value) < 1 && !fits(cell, width)) {
+        ceduo_text_free(cell);
+        ceduo_text_format(cell, "%.*f", (int)width - (value < 0 ? 4 : 3), value);
+    }
 }
 
 /* A mean and its error with so many digits; false where the mean has none after so few. */
@@ -360,20 +356,15 @@ static void place_columns(const struct printer *p, const struct ceduo_page_block
         }
 }
 
-static bool has_heads(const struct ceduo_page_block *table)
-{
-    for (size_t i = 0; i < table->columns_count; i++)
-        if (table->cells[i].text.length > 0)
-            return true;
-    return false;
-}
-
 static void print_table(const struct printer *p, const struct ceduo_page_block *table)
 {
     size_t n = table->columns_count;
     int widths[COLUMNS_MAX];
+    bool heads = false;
+    for (size_t i = 0; i < n; i++)
+        heads |= table->cells[i].text.length > 0;
     place_columns(p, table, widths);
-    for (size_t row = has_heads(table) ? 0 : n; row + n <= table->cells_count; row += n) {
+    for (size_t row = heads ? 0 : n; row + n <= table->cells_count; row += n) {
         for (size_t i = 0; i < n; i++) {
             const struct ceduo_page_column *c = &table->columns[i];
             bool spans = row == 0 && (c->flags & CEDUO_SPAN);

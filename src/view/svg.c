@@ -113,13 +113,6 @@ static void end_stroke(struct ceduo_svg *svg)
     s->open = false;
 }
 
-static void begin_stroke(struct ceduo_svg *svg, enum ceduo_role role, enum style style, struct ceduo_position from)
-{
-    end_stroke(svg);
-    svg->stroke = (struct stroke){.open = true, .role = role, .style = style, .start = from, .last = from};
-    append_point(path_of(svg), 'M', from);
-}
-
 /* An angle seen from another, -pi..pi. */
 static double turn(double from, double to)
 {
@@ -157,11 +150,6 @@ static struct ceduo_position unit_of(const struct ceduo_raster *raster, struct c
     return (struct ceduo_position){(raster->left + p.x + 0.5) * DOT, (raster->top + p.y + 0.5) * DOT};
 }
 
-static bool same(struct ceduo_position a, struct ceduo_position b)
-{
-    return fabs(a.x - b.x) < 0.01 && fabs(a.y - b.y) < 0.01;
-}
-
 /* ---- the surface ---- */
 
 /* Whether a way adds something to see: a rock in a pit goes to and fro without end. */
@@ -189,8 +177,12 @@ static void draw_line(void *to, struct ceduo_pen *pen, struct ceduo_position a, 
     struct ceduo_position from = unit_of(&pen->raster, a), end = unit_of(&pen->raster, b);
     if (style == CLOUD && !gets_on(svg, first, from.x, end.x))
         return;
-    if (!s->open || s->role != pen->role || s->style != style || !same(s->last, from) || (style == CLOUD && first))
-        begin_stroke(svg, pen->role, style, from);
+    bool follows = fabs(s->last.x - from.x) < 0.01 && fabs(s->last.y - from.y) < 0.01 && !(style == CLOUD && first);
+    if (!s->open || s->role != pen->role || s->style != style || !follows) {
+        end_stroke(svg);
+        *s = (struct stroke){.open = true, .role = pen->role, .style = style, .start = from, .last = from};
+        append_point(path_of(svg), 'M', from);
+    }
     go_on(svg, end);
 }
 
@@ -337,17 +329,6 @@ static void write_path(struct ceduo_html *html, const struct look *look, const s
                          value, NULL);
 }
 
-static void write_role(struct ceduo_html *html, struct ceduo_svg *svg, unsigned role)
-{
-    const struct look *look = &paper[role];
-    struct text *paths = svg->paths[role];
-    if (paths[FILLED].length > 0)
-        ceduo_html_empty(html, "path", "fill", look->colour, "d", paths[FILLED].bytes, NULL);
-    write_path(html, look, &paths[CLOUD], "stroke-opacity", ".3");
-    write_path(html, look, &paths[DOTTED], "stroke-dasharray", "4 4");
-    write_path(html, look, &paths[PLAIN], NULL, NULL);
-}
-
 static void write_marks(struct ceduo_html *html, struct ceduo_svg *svg)
 {
     static const int ranks[CEDUO_ROLE_COUNT] = {
@@ -357,40 +338,22 @@ static void write_marks(struct ceduo_html *html, struct ceduo_svg *svg)
     };
     ceduo_html_open(html, "g", "stroke-linecap", "round", "stroke-linejoin", "round", NULL);
     for (int rank = 0; rank <= CEDUO_ROLE_COUNT; rank++)
-        for (unsigned role = 0; role < CEDUO_ROLE_COUNT; role++)
-            if (ranks[role] == rank)
-                write_role(html, svg, role);
+        for (unsigned role = 0; role < CEDUO_ROLE_COUNT; role++) {
+            const struct look *look = &paper[role];
+            const struct text *paths = svg->paths[role];
+            if (ranks[role] != rank)
+                continue;
+            if (paths[FILLED].length > 0)
+                ceduo_html_empty(html, "path", "fill", look->colour, "d", paths[FILLED].bytes, NULL);
+            write_path(html, look, &paths[CLOUD], "stroke-opacity", ".3");
+            write_path(html, look, &paths[DOTTED], "stroke-dasharray", "4 4");
+            write_path(html, look, &paths[PLAIN], NULL, NULL);
+        }
     ceduo_html_close(html);
     write_path(html, &paper[CEDUO_ROLE_AXIS], &svg->axes, NULL, NULL);
 }
 
-/* The element with its title and description; a file of its own brings its size and its paper. */
-static void open_picture(struct ceduo_html *html, const struct ceduo_svg *svg, const struct ceduo_svg_words *words)
-{
-    int width = svg->cells->width * CELL, height = svg->cells->height * HIGH;
-    char box[64], across[16], down[16], id[64];
-    const char *file = words->id ? NULL : "http://www.w3.org/2000/svg";
-    snprintf(box, sizeof box, "0 0 %d %d", width, height);
-    snprintf(across, sizeof across, "%d", width);
-    snprintf(down, sizeof down, "%d", height);
-    snprintf(id, sizeof id, "%s-d", words->id ? words->id : "picture");
-    ceduo_html_open(html, "svg", "viewBox", box, "role", "img", "aria-label", words->title, "aria-describedby", id,
-                    file ? "xmlns" : "class", file, file ? "width" : "class", file ? across : NULL, file ? "height" : "class",
-                    file ? down : NULL, NULL);
-    ceduo_html_leaf(html, "title", words->title, NULL);
-    ceduo_html_leaf(html, "desc", words->description, "id", id, NULL);
-    if (file)
-        ceduo_html_empty(html, "rect", "width", across, "height", down, "fill", "#fff", NULL);
-}
-
 /* ---- characters ---- */
-
-/* What a cell shows as text: of a picture no dots, which are vectors there. */
-static uint32_t character(const struct ceduo_cells *cells, bool screen, int column, int row)
-{
-    uint32_t code = ceduo_cells_at(cells, column, row)->code;
-    return code == DRAWN || (code == 0 && !screen) ? ' ' : ceduo_cells_glyph(cells, column, row);
-}
 
 /* Writes the text of a row: one element for each run of a role, which two blanks end. The cursor is written reversed. */
 static void write_row(struct ceduo_html *html, const struct ceduo_cells *cells, bool screen, int row)
@@ -405,7 +368,8 @@ static void write_row(struct ceduo_html *html, const struct ceduo_cells *cells, 
         int used = 0;
         for (end = from; end < cells->width && ceduo_cells_role(cells, end, row) == role; end++) {
             char bytes[4];
-            uint32_t code = character(cells, screen, end, row);
+            uint32_t code = ceduo_cells_at(cells, end, row)->code; /* of a picture no dots, which are vectors there */
+            code = code == DRAWN || (code == 0 && !screen) ? ' ' : ceduo_cells_glyph(cells, end, row);
             if (code == ' ' && !reversed && (used == 0 || end > from + used))
                 break;
             ceduo_text_add(&word, bytes, ceduo_utf8_encode(code, bytes));
@@ -444,8 +408,21 @@ static void write_cells(struct ceduo_html *html, const struct ceduo_cells *cells
 
 void ceduo_svg_write(struct ceduo_html *html, struct ceduo_svg *svg, const struct ceduo_svg_words *words)
 {
+    /* a file of its own brings its size and its paper */
+    const char *file = words->id ? NULL : "http://www.w3.org/2000/svg";
+    char box[64], across[16], down[16], id[64];
+    snprintf(across, sizeof across, "%d", svg->cells->width * CELL);
+    snprintf(down, sizeof down, "%d", svg->cells->height * HIGH);
+    snprintf(box, sizeof box, "0 0 %s %s", across, down);
+    snprintf(id, sizeof id, "%s-d", words->id ? words->id : "picture");
     end_stroke(svg);
-    open_picture(html, svg, words);
+    ceduo_html_open(html, "svg", "viewBox", box, "role", "img", "aria-label", words->title, "aria-describedby", id,
+                    file ? "xmlns" : "class", file, file ? "width" : "class", file ? across : NULL, file ? "height" : "class",
+                    file ? down : NULL, NULL);
+    ceduo_html_leaf(html, "title", words->title, NULL);
+    ceduo_html_leaf(html, "desc", words->description, "id", id, NULL);
+    if (file)
+        ceduo_html_empty(html, "rect", "width", across, "height", down, "fill", "#fff", NULL);
     write_marks(html, svg);
     ceduo_html_open(html, "g", FONT, NULL);
     ceduo_text_add(html->text, ceduo_text_string(&svg->numbers), svg->numbers.length);

@@ -45,38 +45,21 @@ static const char *as_file(const struct field *f, double shown, char room[CEDUO_
     return ceduo_number_shortest(value, room);
 }
 
-/* The next of some numbers with blanks or semicolons between, and commas where they are none of a number. */
-static bool next_number(const char **at, bool commas_part, double *value)
-{
-    char room[64];
-    const char *between = commas_part ? " \t;,[]" : " \t;[]";
-    *at += strspn(*at, between);
-    size_t n = strcspn(*at, between), used = n;
-    while (used > 0 && (*at)[used - 1] == ',')
-        used--;
-    if (used == 0 || used >= sizeof room)
-        return false;
-    memcpy(room, *at, used);
-    room[used] = '\0';
-    bool good = ceduo_typed_number(room, value) == CEDUO_NUMBER_GOOD;
-    *at += good ? n : 0;
-    return good;
-}
-
+/* Numbers with blanks or semicolons between, and commas where they are none of a number; 0 where something else is among them. */
 static size_t read_numbers(const char *typed, bool commas_part, double *values, size_t most)
 {
-    size_t n = 0;
-    while (n < most && next_number(&typed, commas_part, &values[n]))
-        n++;
-    return typed[strspn(typed, " \t;,[]")] == '\0' ? n : 0;
-}
-
-static bool rises(const double *values, size_t n)
-{
-    for (size_t i = 2; i < n; i += 2)
-        if (!(values[i] > values[i - 2]))
-            return false;
-    return n >= 4 && n % 2 == 0;
+    const char *between = commas_part ? " \t;,[]" : " \t;[]";
+    for (size_t n = 0;; n++) {
+        char room[64];
+        typed += strspn(typed, between);
+        size_t length = strcspn(typed, between), used = length;
+        while (used > 0 && typed[used - 1] == ',')
+            used--;
+        snprintf(room, sizeof room, "%.*s", (int)used, typed);
+        if (n == most || used == 0 || used >= sizeof room || ceduo_typed_number(room, &values[n]) != CEDUO_NUMBER_GOOD)
+            return typed[strspn(typed, " \t;,[]")] == '\0' ? n : 0;
+        typed += length;
+    }
 }
 
 bool ceduo_typed_points(const char *typed, struct text *vertices, double *first, double *last)
@@ -84,7 +67,10 @@ bool ceduo_typed_points(const char *typed, struct text *vertices, double *first,
     double values[TYPED_MOST / 2];
     char x[CEDUO_NUMBER_ROOM], z[CEDUO_NUMBER_ROOM];
     size_t n = strchr(typed, ';') ? 0 : read_numbers(typed, true, values, TYPED_MOST / 2);
-    if (!rises(values, n))
+    bool rises = true;
+    for (size_t i = 2; i < n; i += 2)
+        rises &= values[i] > values[i - 2];
+    if (!rises || n < 4 || n % 2 != 0)
         n = read_numbers(typed, false, values, TYPED_MOST / 2);
     if (n < 4 || n % 2 != 0)
         return false;
@@ -245,18 +231,9 @@ const char *ceduo_shown_number(const struct field *f, double value, char room[CE
     return room;
 }
 
-/* "hop hornbeam (Ostrya carpinifolia)" */
-static void put_species(const struct ceduo_species *s, struct text *shown)
+void ceduo_shown_value(const struct field *f, const char *written, struct text *shown)
 {
-    ceduo_text_format(shown, "%s (%c", _(s->common), s->name[0] - 'a' + 'A');
-    for (const char *c = s->name + 1; *c; c++)
-        ceduo_text_char(shown, *c == '-' ? ' ' : *c);
-    ceduo_text_char(shown, ')');
-}
-
-/* Words of files that are people's words, too; others stay as files have them. */
-static const char *people_say(const char *words)
-{
+    /* words of files that are people's words, too; others stay as files have them */
     static const char *const known[] = {N_("simple coppice"),
                                         N_("coppice with standards"),
                                         N_("selection coppice"),
@@ -267,56 +244,30 @@ static const char *people_say(const char *words)
                                         N_("cylinder"),
                                         N_("ellipsoid"),
                                         N_("block")};
-    for (size_t i = 0; i < sizeof known / sizeof known[0]; i++)
-        if (strcmp(known[i], words) == 0)
-            return _(known[i]);
-    return words;
-}
-
-static void put_word(const struct field *f, const char *written, struct text *shown)
-{
-    size_t n;
-    const struct ceduo_species *species = ceduo_species_list(&n);
-    int i = f->choices == &ceduo_species_words ? ceduo_species_find(written) : -1;
-    if (i >= 0)
-        put_species(&species[i], shown);
-    if (i >= 0)
-        return;
-    LOCAL_TEXT(words);
-    for (const char *c = written; *c; c++)
-        ceduo_text_char(&words, *c == '-' ? ' ' : *c);
-    ceduo_text_put(shown, people_say(ceduo_text_string(&words)));
-}
-
-void ceduo_shown_value(const struct field *f, const char *written, struct text *shown)
-{
     double value;
-    if (f && f->type == FIELD_CHOICE) {
-        put_word(f, written, shown);
+    size_t n;
+    char room[CEDUO_NUMBER_ROOM];
+    LOCAL_TEXT(words);
+    if (!f || f->type != FIELD_CHOICE) {
+        bool other = f && is_number(f) && f->shown.per != 1 && ceduo_number_read(written, &value) == CEDUO_NUMBER_GOOD;
+        ceduo_text_put(shown, other ? ceduo_shown_number(f, value, room) : written);
         return;
     }
-    char room[CEDUO_NUMBER_ROOM];
-    bool other = f && is_number(f) && f->shown.per != 1 && ceduo_number_read(written, &value) == CEDUO_NUMBER_GOOD;
-    ceduo_text_put(shown, other ? ceduo_shown_number(f, value, room) : written);
+    for (const char *c = written; *c; c++)
+        ceduo_text_char(&words, *c == '-' ? ' ' : *c);
+    const char *said = ceduo_text_string(&words);
+    int species = f->choices == &ceduo_species_words ? ceduo_species_find(written) : -1;
+    if (species >= 0) { /* "hop hornbeam (Ostrya carpinifolia)" */
+        ceduo_text_format(shown, "%s (%c%s)", _(ceduo_species_list(&n)[species].common), said[0] - 'a' + 'A', said + 1);
+        return;
+    }
+    for (size_t i = 0; i < sizeof known / sizeof known[0]; i++)
+        if (strcmp(known[i], said) == 0)
+            said = _(known[i]);
+    ceduo_text_put(shown, said);
 }
 
 /* ---- paths ---- */
-
-static void put_item(const struct path_step *step, const char *item, struct text *places)
-{
-    size_t i;
-    LOCAL_TEXT(place);
-    if (ceduo_path_index(step, &i))
-        ceduo_text_format(&place, "%s %zu", item, i + 1);
-    else
-        ceduo_text_format(&place, "%s '%.*s'", item, (int)step->n, step->p);
-    if (places->length) {
-        ceduo_text_put(&place, ", ");
-        ceduo_text_put(&place, places->bytes);
-        ceduo_text_free(places);
-    }
-    ceduo_text_put(places, ceduo_text_string(&place));
-}
 
 void ceduo_shown_path(const char *path, struct text *text)
 {
@@ -327,7 +278,16 @@ void ceduo_shown_path(const char *path, struct text *text)
     size_t at = 0, n = strlen(path);
     while (ceduo_path_next(path, n, &at, &step)) {
         if (step.bracket && f) {
-            put_item(&step, _(f->shown.label), &places);
+            size_t i;
+            LOCAL_TEXT(place);
+            if (ceduo_path_index(&step, &i))
+                ceduo_text_format(&place, "%s %zu", _(f->shown.label), i + 1);
+            else
+                ceduo_text_format(&place, "%s '%.*s'", _(f->shown.label), (int)step.n, step.p);
+            if (places.length > 0)
+                ceduo_text_format(&place, ", %s", places.bytes);
+            ceduo_text_free(&places);
+            ceduo_text_put(&places, ceduo_text_string(&place));
             named = NULL;
             continue;
         }
