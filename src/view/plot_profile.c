@@ -26,18 +26,6 @@ static void widen_by_line(struct range *r, const struct ceduo_polyline *t)
             widen(r, t->z[i]);
 }
 
-static void widen_by_belt(struct range *r, const struct ceduo_slope *slope, const struct ceduo_belt *belt)
-{
-    double from = fmax(belt->from, r->x_lo), to = fmin(belt->to, r->x_hi), tallest = ceduo_plot_tallest(&belt->stand);
-    if (!(to > from))
-        return;
-    widen(r, ceduo_slope_height(slope, from) + tallest);
-    widen(r, ceduo_slope_height(slope, to) + tallest);
-    for (size_t i = 0; i < slope->vertices; i++)
-        if (slope->x[i] > from && slope->x[i] < to)
-            widen(r, slope->z[i] + tallest);
-}
-
 static bool is_stretch(const struct ceduo_picture *p)
 {
     return p->to > p->from;
@@ -63,8 +51,17 @@ static struct range range_of(const struct ceduo_picture *p)
     if (p->selected)
         widen_by_line(&r, p->selected);
     const struct ceduo_option *option = ceduo_plot_option(p);
-    for (size_t i = 0; option && !is_stretch(p) && i < option->belts_count; i++)
-        widen_by_belt(&r, slope, &option->belts[i]);
+    for (size_t i = 0; option && !is_stretch(p) && i < option->belts_count; i++) {
+        const struct ceduo_belt *belt = &option->belts[i];
+        double from = fmax(belt->from, r.x_lo), to = fmin(belt->to, r.x_hi), tallest = ceduo_plot_tallest(&belt->stand);
+        if (!(to > from))
+            continue;
+        widen(&r, ceduo_slope_height(slope, from) + tallest);
+        widen(&r, ceduo_slope_height(slope, to) + tallest);
+        for (size_t k = 0; k < slope->vertices; k++)
+            if (slope->x[k] > from && slope->x[k] < to)
+                widen(&r, slope->z[k] + tallest);
+    }
     return r;
 }
 
@@ -127,17 +124,13 @@ struct profile {
     bool names, belts; /* rows for them */
 };
 
-static double metres_per_dot(const struct profile *p)
-{
-    return (p->frame.x1 - p->frame.x0) / (p->frame.width * p->canvas->dots_x - 1);
-}
-
 /* A row of stems at their mean distance in the stand, but no closer than can be told apart. */
 static void draw_stems(const struct profile *p, const struct ceduo_belt *belt, const struct ceduo_stems *stems,
                        enum ceduo_role role)
 {
     const struct ceduo_slope *slope = &p->picture->scene->slope;
-    double step = fmax(sqrt(1e4 / stems->per_ha), 4 * metres_per_dot(p));
+    double dot = (p->frame.x1 - p->frame.x0) / (p->frame.width * p->canvas->dots_x - 1);
+    double step = fmax(sqrt(1e4 / stems->per_ha), 4 * dot);
     double from = fmax(belt->from, p->frame.x0), to = fmin(belt->to, fmin(p->frame.x1, slope->x[slope->vertices - 1]));
     double first = ceil((from - belt->from) / step - 0.5);
     for (double i = fmax(first, 0); belt->from + (i + 0.5) * step < to; i++) {
@@ -146,56 +139,31 @@ static void draw_stems(const struct profile *p, const struct ceduo_belt *belt, c
     }
 }
 
+/* The stems that the selected rock came to, where they stand, or those of the belts. */
 static void draw_forest(const struct profile *p)
 {
+    const struct ceduo_slope *slope = &p->picture->scene->slope;
     const struct ceduo_option *option = ceduo_plot_option(p->picture);
-    for (size_t i = 0; option && i < option->belts_count; i++) {
+    for (size_t i = 0; i < p->picture->stems_count; i++) {
+        const struct ceduo_stem_passed *stem = &p->picture->stems[i];
+        double height = stem->height;
+        if (!(stem->x >= slope->x[0] && stem->x <= slope->x[slope->vertices - 1]))
+            continue;
+        for (size_t k = 0; option && k < option->belts_count && !isfinite(height);
+             k++) /* those of the model poisson have none */
+            if (stem->x >= option->belts[k].from && stem->x <= option->belts[k].to)
+                height = ceduo_plot_tallest(&option->belts[k].stand);
+        double z = ceduo_slope_height(slope, stem->x);
+        ceduo_canvas_line(p->canvas, &p->frame, stem->hit ? CEDUO_ROLE_STEM : CEDUO_ROLE_DIM, stem->x, z, stem->x,
+                          z + (isfinite(height) ? height : 0));
+    }
+    for (size_t i = 0; p->picture->stems_count == 0 && option && i < option->belts_count; i++) {
         const struct ceduo_belt *belt = &option->belts[i];
         for (size_t k = 0; k < belt->stand.shoots_count; k++)
             draw_stems(p, belt, &belt->stand.shoots[k], CEDUO_ROLE_STOOL);
         for (size_t k = 0; k < belt->stand.trees_count; k++)
             draw_stems(p, belt, &belt->stand.trees[k], CEDUO_ROLE_STEM);
     }
-}
-
-/* The height to draw a stem with: one of the contact model poisson has none of its own. */
-static double height_of(const struct profile *p, const struct ceduo_stem_passed *stem)
-{
-    const struct ceduo_option *option = ceduo_plot_option(p->picture);
-    if (isfinite(stem->height))
-        return stem->height;
-    for (size_t i = 0; option && i < option->belts_count; i++)
-        if (stem->x >= option->belts[i].from && stem->x <= option->belts[i].to)
-            return ceduo_plot_tallest(&option->belts[i].stand);
-    return 0;
-}
-
-/* The stems that the selected rock came to, where they stand. */
-static void draw_passed(const struct profile *p)
-{
-    const struct ceduo_slope *slope = &p->picture->scene->slope;
-    for (size_t i = 0; i < p->picture->stems_count; i++) {
-        const struct ceduo_stem_passed *stem = &p->picture->stems[i];
-        if (!(stem->x >= slope->x[0] && stem->x <= slope->x[slope->vertices - 1]))
-            continue;
-        double z = ceduo_slope_height(slope, stem->x);
-        ceduo_canvas_line(p->canvas, &p->frame, stem->hit ? CEDUO_ROLE_STEM : CEDUO_ROLE_DIM, stem->x, z, stem->x,
-                          z + height_of(p, stem));
-    }
-}
-
-static void draw_ways(const struct profile *p)
-{
-    const struct ceduo_run_snapshot *s = ceduo_plot_sight(p->picture);
-    if (s) {
-        ceduo_canvas_cloud_start(p->canvas);
-        for (size_t i = 0; i < s->trajectories_count; i++)
-            ceduo_canvas_cloud_add(p->canvas, &p->frame, s->trajectories[i].n, s->trajectories[i].x, s->trajectories[i].z);
-        ceduo_canvas_cloud_show(p->canvas, RARE);
-    }
-    const struct ceduo_polyline *t = p->picture->selected;
-    if (t)
-        ceduo_canvas_polyline(p->canvas, &p->frame, CEDUO_ROLE_WAY, t->n, t->x, t->z);
 }
 
 /* ---- names ---- */
@@ -238,35 +206,7 @@ static void name_control(const struct profile *p, const struct ceduo_control *co
     }
 }
 
-static void mark_release(const struct profile *p)
-{
-    const struct ceduo_scene *scene = p->picture->scene;
-    double x = scene->release.x.mean, z = ceduo_slope_height(&scene->slope, x) + scene->release.height.mean;
-    int column, row;
-    if (!ceduo_frame_cell(&p->frame, p->canvas, x, z, &column, &row) || row - 1 < p->area->top)
-        return;
-    ceduo_canvas_put(p->canvas, column, row - 1, area_end(p->area) - column, CEDUO_ROLE_TEXT, _("\xe2\x96\xbc release"));
-}
-
-static void draw_controls(const struct profile *p)
-{
-    const struct ceduo_scene *scene = p->picture->scene;
-    for (size_t c = 0; p->names && c < scene->controls_count; c++)
-        name_control(p, &scene->controls[c]);
-    for (size_t c = 0; c < scene->controls_count; c++)
-        ceduo_canvas_rule_x(p->canvas, &p->frame, CEDUO_ROLE_CONTROL, scene->controls[c].x);
-}
-
 #define FOREST_LEAST 12 /* columns that make its name worth while */
-
-/* Blank columns at the right end of a row, less one. */
-static int room_in(const struct profile *p, int row)
-{
-    int column = area_end(p->area);
-    while (column > p->area->left && ceduo_canvas_is_blank(p->canvas, column - 1, row))
-        column--;
-    return area_end(p->area) - column - 1;
-}
 
 /* Writes whose forest the trajectories go through at the right end of the highest row that has most room. */
 static void name_forest(const struct profile *p)
@@ -279,7 +219,10 @@ static void name_forest(const struct profile *p)
     const char *bytes = ceduo_text_string(&name);
     int width = ceduo_canvas_label_width(p->canvas, bytes), most = 0, row = 0;
     for (int i = 0; i < NAME_ROWS && i < p->area->height; i++) {
-        int room = room_in(p, p->area->top + i);
+        int column = area_end(p->area); /* where the blank columns at the right end begin, but for one */
+        while (column > p->area->left && ceduo_canvas_is_blank(p->canvas, column - 1, p->area->top + i))
+            column--;
+        int room = area_end(p->area) - column - 1;
         room = room < width ? room : width;
         row = room > most ? i : row;
         most = room > most ? room : most;
@@ -289,38 +232,34 @@ static void name_forest(const struct profile *p)
 }
 
 /* ├── ADS 1 ──┤ below the axis. */
-static void draw_belt_bar(const struct profile *p, const struct ceduo_belt *belt, int row)
-{
-    const struct ceduo_frame *f = &p->frame;
-    double per_metre = f->width / (f->x1 - f->x0);
-    int from = f->left + (int)lround((fmax(belt->from, f->x0) - f->x0) * per_metre);
-    int to = f->left + (int)lround((fmin(belt->to, f->x1) - f->x0) * per_metre);
-    if (to <= from)
-        return;
-    for (int column = from; column < to; column++)
-        ceduo_canvas_label(p->canvas, column, row, CEDUO_ROLE_BELT,
-                           to - from == 1     ? "\xe2\x94\x82"
-                           : column == from   ? "\xe2\x94\x9c"
-                           : column == to - 1 ? "\xe2\x94\xa4"
-                                              : "\xe2\x94\x80");
-    LOCAL_TEXT(name);
-    ceduo_text_char(&name, ' ');
-    ceduo_plot_belt_name(&name, belt);
-    ceduo_text_char(&name, ' ');
-    const char *bytes = ceduo_text_string(&name);
-    int width = ceduo_canvas_label_width(p->canvas, bytes), room = to - from - 2;
-    int start = width < room ? from + 1 + (room - width) / 2 : from + 1;
-    ceduo_canvas_put(p->canvas, start, row, room, CEDUO_ROLE_BELT, bytes);
-}
-
 static void draw_belts(const struct profile *p)
 {
     const struct ceduo_option *option = ceduo_plot_option(p->picture);
+    const struct ceduo_frame *f = &p->frame;
+    double per_metre = f->width / (f->x1 - f->x0);
     int row = p->area->top + p->area->height - 1;
     if (option && option->belts_count == 0)
-        ceduo_canvas_put(p->canvas, p->frame.left, row, area_end(p->area) - p->frame.left, CEDUO_ROLE_BELT, _("no forest"));
-    for (size_t i = 0; option && i < option->belts_count; i++)
-        draw_belt_bar(p, &option->belts[i], row);
+        ceduo_canvas_put(p->canvas, f->left, row, area_end(p->area) - f->left, CEDUO_ROLE_BELT, _("no forest"));
+    for (size_t i = 0; option && i < option->belts_count; i++) {
+        const struct ceduo_belt *belt = &option->belts[i];
+        int from = f->left + (int)lround((fmax(belt->from, f->x0) - f->x0) * per_metre);
+        int to = f->left + (int)lround((fmin(belt->to, f->x1) - f->x0) * per_metre);
+        LOCAL_TEXT(name);
+        if (to <= from)
+            continue;
+        for (int column = from; column < to; column++)
+            ceduo_canvas_label(p->canvas, column, row, CEDUO_ROLE_BELT,
+                               to - from == 1     ? "\xe2\x94\x82"
+                               : column == from   ? "\xe2\x94\x9c"
+                               : column == to - 1 ? "\xe2\x94\xa4"
+                                                  : "\xe2\x94\x80");
+        ceduo_text_char(&name, ' ');
+        ceduo_plot_belt_name(&name, belt);
+        ceduo_text_char(&name, ' ');
+        int width = ceduo_canvas_label_width(p->canvas, ceduo_text_string(&name)), room = to - from - 2;
+        int start = width < room ? from + 1 + (room - width) / 2 : from + 1;
+        ceduo_canvas_put(p->canvas, start, row, room, CEDUO_ROLE_BELT, ceduo_text_string(&name));
+    }
 }
 
 /* ---- the picture ---- */
@@ -355,17 +294,31 @@ const char *ceduo_plot_profile(struct ceduo_canvas *canvas, const struct ceduo_a
         *picture->span = (struct ceduo_span){p.frame.left, p.frame.width, p.frame.x0, p.frame.x1};
     if (isnan(p.factor))
         return _("too narrow");
-    if (picture->stems_count > 0)
-        draw_passed(&p);
-    else
-        draw_forest(&p);
-    draw_ways(&p);
+    draw_forest(&p);
+    const struct ceduo_run_snapshot *sight = ceduo_plot_sight(picture);
+    const struct ceduo_polyline *way = picture->selected;
+    if (sight) {
+        ceduo_canvas_cloud_start(canvas);
+        for (size_t i = 0; i < sight->trajectories_count; i++)
+            ceduo_canvas_cloud_add(canvas, &p.frame, sight->trajectories[i].n, sight->trajectories[i].x,
+                                   sight->trajectories[i].z);
+        ceduo_canvas_cloud_show(canvas, RARE);
+    }
+    if (way)
+        ceduo_canvas_polyline(canvas, &p.frame, CEDUO_ROLE_WAY, way->n, way->x, way->z);
     ceduo_canvas_polyline(canvas, &p.frame, CEDUO_ROLE_GROUND, slope->vertices, slope->x, slope->z);
-    mark_release(&p);
+    const struct ceduo_release *release = &picture->scene->release;
+    double z = ceduo_slope_height(slope, release->x.mean) + release->height.mean;
+    int column, row;
+    if (ceduo_frame_cell(&p.frame, canvas, release->x.mean, z, &column, &row) && row - 1 >= area->top)
+        ceduo_canvas_put(canvas, column, row - 1, area_end(area) - column, CEDUO_ROLE_TEXT, _("\xe2\x96\xbc release"));
     if (picture->mark)
         ceduo_canvas_rule_x(canvas, &p.frame, CEDUO_ROLE_TITLE, *picture->mark);
     bool noted = ceduo_plot_profile_notes(canvas, area, picture, &p.frame, p.factor);
-    draw_controls(&p);
+    for (size_t c = 0; p.names && c < picture->scene->controls_count; c++)
+        name_control(&p, &picture->scene->controls[c]);
+    for (size_t c = 0; c < picture->scene->controls_count; c++)
+        ceduo_canvas_rule_x(canvas, &p.frame, CEDUO_ROLE_CONTROL, picture->scene->controls[c].x);
     if (p.names && !noted)
         name_forest(&p);
     ceduo_plot_axes(canvas, &p.frame, slope->origin_x, slope->origin_z, _("m"));

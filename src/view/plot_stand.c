@@ -15,6 +15,7 @@
 #define JOINED_DOTS 6    /* shoots closer than this are joined */
 #define CROWD       2000 /* beyond this one place is as good as any other */
 #define TRIES       20   /* to find a place clear of the others */
+#define WORDS       4    /* ways to say what is met, the longest first */
 
 struct generator {
     uint64_t state;
@@ -91,14 +92,6 @@ static const struct ceduo_stems *cohort_at(const struct ceduo_stand *stand, doub
     return &stand->shoots[i];
 }
 
-static double thickest(const struct ceduo_stand *stand)
-{
-    double d = 0;
-    for (size_t i = 0; i < stand->shoots_count; i++)
-        d = fmax(d, stand->shoots[i].dbh);
-    return d;
-}
-
 /* Where shoot i of n stands on a ring. */
 static struct foot on_ring(const struct foot *stool, double ring, double turn, int i, int n)
 {
@@ -114,7 +107,10 @@ static void draw_stool(struct plan *p, uint64_t number)
     double mean = ceduo_stand_shoots(p->stand) / p->stand->stools_per_ha, u = uniform(&g), turn = uniform(&g);
     int n = (int)fmin(floor(mean) + (u < mean - floor(mean)), 200);
     double ring = n > 1 ? ceduo_stool_radius((unsigned)n, p->stand->spacing) : 0;
-    struct foot f = find_place(p, &g, ring + thickest(p->stand) / 2, NULL);
+    double thickest = 0;
+    for (size_t i = 0; i < p->stand->shoots_count; i++)
+        thickest = fmax(thickest, p->stand->shoots[i].dbh);
+    struct foot f = find_place(p, &g, ring + thickest / 2, NULL);
     bool met = n > 0 && in_strip(p, f.y, f.radius);
     enum ceduo_role role = met ? CEDUO_ROLE_WAY : CEDUO_ROLE_STOOL;
     p->met += met;
@@ -175,39 +171,6 @@ static void draw_stems(struct plan *p)
     free(p->feet);
 }
 
-/* ---- strip, axis and words ---- */
-
-static void draw_strip(const struct plan *p)
-{
-    ceduo_canvas_rule_y(p->canvas, &p->frame, CEDUO_ROLE_AXIS, (p->height - p->strip) / 2);
-    ceduo_canvas_rule_y(p->canvas, &p->frame, CEDUO_ROLE_AXIS, (p->height + p->strip) / 2);
-}
-
-static void put_words(const struct plan *p, const struct ceduo_area *area)
-{
-    if (!ceduo_stand_has_stems(p->stand)) {
-        ceduo_canvas_put(p->canvas, area->left, area->top + area->height - 1, area->width, CEDUO_ROLE_TEXT,
-                         _("No stems: nothing stands in a rock's way."));
-        return;
-    }
-    struct text words[3] = {{0}}; /* the longest first */
-    ceduo_text_format(&words[0], _("One pattern of many. The rock (%s m wide) meets %zu stools or trees in %g m."),
-                      WRITTEN(p->strip, 2), p->met, PATCH_M);
-    ceduo_text_format(&words[1], _("One pattern of many: %zu stools or trees are met"), p->met);
-    ceduo_text_format(&words[2], _("One pattern of many: %zu met"), p->met);
-    ceduo_plot_put_fitting(p->canvas, area->left, area->top + area->height - 1, area->width, CEDUO_ROLE_TEXT, 3, words);
-}
-
-static void draw_pattern(struct plan *p, const struct ceduo_area *area, bool words)
-{
-    draw_low(p);
-    draw_stems(p);
-    draw_strip(p);
-    ceduo_canvas_axis_bottom(p->canvas, &p->frame, _("m"));
-    if (words)
-        put_words(p, area);
-}
-
 /* ---- the trajectory of the selected rock ---- */
 
 /* A stem of the belt whose place in the plane is known. */
@@ -250,50 +213,32 @@ static double stretch_across(struct plan *p, const struct ceduo_picture *picture
     return true_height / p->height;
 }
 
-/* Of a trajectory. */
-struct tally {
-    size_t hit, flown_over;
-    double metres, factor; /* along; by which offsets are stretched */
-};
-
-static void put_words_of_way(const struct plan *p, const struct ceduo_area *area, const struct tally *t)
-{
-    struct text words[4] = {{0}}; /* the longest first */
-    ceduo_text_format(&words[3], ngettext("This rock: %zu hit in %.3g m", "This rock: %zu hits in %.3g m", t->hit), t->hit,
-                      t->metres);
-    ceduo_text_format(
-        &words[2],
-        ngettext("The way of this rock: %zu stem hit in %.3g m", "The way of this rock: %zu stems hit in %.3g m", t->hit),
-        t->hit, t->metres);
-    for (int i = 0; i < 2; i++) {
-        ceduo_text_put(&words[i], ceduo_text_string(&words[2]));
-        if (t->flown_over > 0 && i == 0)
-            ceduo_text_then(&words[i], ", ", _("%zu flown over"), t->flown_over);
-        ceduo_text_then(&words[i], "; ", _("across \xc3\x97%.2g"), t->factor);
-    }
-    ceduo_plot_put_fitting(p->canvas, area->left, area->top + area->height - 1, area->width, CEDUO_ROLE_TEXT, 4, words);
-}
-
 /* The stems that the rock came to from `from` on, at their places along and beside its trajectory. */
-static void draw_way(struct plan *p, const struct ceduo_area *area, const struct ceduo_picture *picture, double from,
-                     bool words)
+static void draw_way(struct plan *p, const struct ceduo_picture *picture, double from, struct text words[WORDS])
 {
     const struct ceduo_belt *belt = ceduo_plot_belt(picture);
-    struct tally t = {.metres = fmin(p->width, belt->to - from), .factor = stretch_across(p, picture, from)};
+    double metres = fmin(p->width, belt->to - from), factor = stretch_across(p, picture, from);
+    size_t hit = 0, flown_over = 0;
     for (size_t i = 0; i < picture->stems_count; i++) {
         const struct ceduo_stem_passed *stem = &picture->stems[i];
         if (!is_shown(p, belt, from, stem))
             continue;
-        t.hit += stem->hit;
-        t.flown_over += !stem->hit;
+        *(stem->hit ? &hit : &flown_over) += 1;
         ceduo_canvas_disc(p->canvas, &p->frame, stem->hit ? CEDUO_ROLE_WAY : CEDUO_ROLE_DIM, stem->x - from,
                           p->height / 2 + stem->y, stem->dbh / 2);
     }
-    draw_strip(p);
     struct ceduo_frame given = ceduo_plot_given(&p->frame, from + picture->scene->slope.origin_x, 0);
     ceduo_canvas_axis_bottom(p->canvas, &given, _("m"));
-    if (words)
-        put_words_of_way(p, area, &t);
+    ceduo_text_format(&words[3], ngettext("This rock: %zu hit in %.3g m", "This rock: %zu hits in %.3g m", hit), hit, metres);
+    for (int i = 0; i < 3; i++)
+        ceduo_text_format(
+            &words[i],
+            ngettext("The way of this rock: %zu stem hit in %.3g m", "The way of this rock: %zu stems hit in %.3g m", hit), hit,
+            metres);
+    if (flown_over > 0)
+        ceduo_text_then(&words[0], ", ", _("%zu flown over"), flown_over);
+    for (int i = 0; i < 2; i++)
+        ceduo_text_then(&words[i], "; ", _("across \xc3\x97%.2g"), factor);
 }
 
 /* ---- the picture ---- */
@@ -303,12 +248,13 @@ const char *ceduo_plot_stand(struct ceduo_canvas *canvas, const struct ceduo_are
     const struct ceduo_belt *belt = ceduo_plot_belt(picture);
     if (!belt || area->width < 4 || area->height < 4)
         return _("no forest");
-    bool words = area->height >= 7;
+    bool has_words = area->height >= 7;
     double from;
-    struct plan p = {.canvas = canvas,
-                     .stand = &belt->stand,
-                     .strip = ceduo_rock_mean(&picture->scene->rock).mean_diameter,
-                     .frame = {.left = area->left, .top = area->top, .width = area->width, .height = area->height - 2 - words}};
+    struct plan p = {
+        .canvas = canvas,
+        .stand = &belt->stand,
+        .strip = ceduo_rock_mean(&picture->scene->rock).mean_diameter,
+        .frame = {.left = area->left, .top = area->top, .width = area->width, .height = area->height - 2 - has_words}};
     if (!ceduo_frame_true_scale(&p.frame, canvas, 0, PATCH_M, 0, 0))
         return NULL;
     p.width = PATCH_M;
@@ -316,9 +262,27 @@ const char *ceduo_plot_stand(struct ceduo_canvas *canvas, const struct ceduo_are
     p.frame.y1 = p.height;
     p.frame.y0 = 0;
     p.dot = p.height / (p.frame.height * canvas->dots_y - 1);
-    if (find_patch(picture, belt, &from))
-        draw_way(&p, area, picture, from, words);
-    else
-        draw_pattern(&p, area, words);
+    struct text words[WORDS] = {{0}};
+    if (find_patch(picture, belt, &from)) {
+        draw_way(&p, picture, from, words);
+    } else {
+        draw_low(&p);
+        draw_stems(&p);
+        ceduo_canvas_axis_bottom(canvas, &p.frame, _("m"));
+        bool none = !ceduo_stand_has_stems(p.stand);
+        ceduo_text_format(&words[0], _("One pattern of many. The rock (%s m wide) meets %zu stools or trees in %g m."),
+                          WRITTEN(p.strip, 2), p.met, PATCH_M);
+        ceduo_text_format(&words[1], _("One pattern of many: %zu stools or trees are met"), p.met);
+        for (int i = 2; i < WORDS; i++)
+            ceduo_text_format(&words[i], _("One pattern of many: %zu met"), p.met);
+        for (int i = 0; i < WORDS && none; i++) {
+            ceduo_text_free(&words[i]);
+            ceduo_text_put(&words[i], _("No stems: nothing stands in a rock's way."));
+        }
+    }
+    ceduo_canvas_rule_y(canvas, &p.frame, CEDUO_ROLE_AXIS, (p.height - p.strip) / 2);
+    ceduo_canvas_rule_y(canvas, &p.frame, CEDUO_ROLE_AXIS, (p.height + p.strip) / 2);
+    ceduo_plot_put_fitting(canvas, area->left, area->top + area->height - 1, has_words ? area->width : 0, CEDUO_ROLE_TEXT,
+                           WORDS, words);
     return NULL;
 }

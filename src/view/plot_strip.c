@@ -92,12 +92,6 @@ static int name_columns(const struct ceduo_canvas *canvas, const struct content 
     return widest + 2;
 }
 
-static bool shown(const struct strip *s, size_t cell)
-{
-    double x = s->picture->snapshot->cell_x[cell];
-    return x >= s->from && x <= s->to;
-}
-
 /* ---- the scale ---- */
 
 /* What decides the scale. */
@@ -115,7 +109,7 @@ static size_t add_peak(const struct strip *s, const struct curve *curve, struct 
     size_t n = 0;
     for (size_t i = 0; i < o->cells; i++) {
         double v = value_at(s, curve, i);
-        if (!shown(s, i) || cells[i].passed == 0 || isnan(v))
+        if (o->cell_x[i] < s->from || o->cell_x[i] > s->to || cells[i].passed == 0 || isnan(v))
             continue;
         if (v > peak->largest)
             *peak = (struct peak){v, o->cell_x[i], peak->usual, curve->name};
@@ -125,18 +119,6 @@ static size_t add_peak(const struct strip *s, const struct curve *curve, struct 
         peak->usual = fmax(peak->usual, gsl_stats_select(values, 1, n, (n - 1) * 85 / 100));
     free(values);
     return n;
-}
-
-/* What the things at risk bear, as far as the strip can show it. */
-static double highest_accepted(const struct strip *s, double most)
-{
-    double highest = 0;
-    for (size_t c = 0; c < s->picture->scene->controls_count; c++) {
-        double accepted = s->picture->scene->controls[c].accepted * J_TO_KJ;
-        if (accepted <= most)
-            highest = fmax(highest, accepted);
-    }
-    return highest;
 }
 
 /* The top of the scale: what is usual, where a few places (the foot of a wall) would flatten all the rest. False where
@@ -149,8 +131,11 @@ static bool scale(struct strip *s, struct peak *peak)
         cells += add_peak(s, &s->content->curves[i], peak);
     bool cut = peak->largest > 1.5 * 1.15 * peak->usual && peak->usual > 0;
     double top = cut ? 1.15 * peak->usual : 1.05 * peak->largest;
-    if (s->energy)
-        top = fmax(top, 1.1 * highest_accepted(s, 2 * top));
+    double most = s->energy ? 2 * top : 0; /* what the things at risk bear, as far as the strip can show it */
+    for (size_t c = 0; c < s->picture->scene->controls_count; c++) {
+        double accepted = s->picture->scene->controls[c].accepted * J_TO_KJ;
+        top = accepted <= most ? fmax(top, 1.1 * accepted) : top;
+    }
     s->frame.y0 = 0;
     s->frame.y1 = top > 0 ? top : 1;
     return cells > 0;
@@ -194,7 +179,7 @@ static double end_of(const struct strip *s, const struct curve *curve)
     for (size_t i = o->cells; i-- > 0;) {
         double y = value_at(s, curve, i);
         int column, row;
-        if (!shown(s, i) || isnan(y))
+        if (o->cell_x[i] < s->from || o->cell_x[i] > s->to || isnan(y))
             continue;
         y = fmin(y, s->frame.y1);
         return ceduo_frame_cell(&s->frame, s->canvas, o->cell_x[i], y, &column, &row) ? y : NAN;
@@ -202,36 +187,27 @@ static double end_of(const struct strip *s, const struct curve *curve)
     return NAN;
 }
 
-/* The curves that end inside the frame, the highest first; returns how many. */
-static int sort_by_end(const struct strip *s, const struct curve **sorted, double *ends)
-{
-    int n = 0;
-    for (int i = 0; i < s->content->count; i++) {
-        const struct curve *curve = &s->content->curves[i];
-        double end = end_of(s, curve);
-        int at = n;
-        if (isnan(end))
-            continue;
-        for (; at > 0 && ends[at - 1] < end; at--) {
-            sorted[at] = sorted[at - 1];
-            ends[at] = ends[at - 1];
-        }
-        sorted[at] = curve;
-        ends[at] = end;
-        n++;
-    }
-    return n;
-}
-
-/* Each curve's name to the right of its end, none in the row of another. */
+/* The name of each curve that ends inside the frame to the right of its end, the highest first, none in the row of another. */
 static void name_curves(const struct strip *s)
 {
     const struct curve *sorted[CURVES_MOST];
     double ends[CURVES_MOST];
     int left = s->frame.left + s->frame.width + 1, room = s->area->left + s->area->width - left;
-    int last = s->frame.top + s->frame.height - 1, next = s->frame.top, n = sort_by_end(s, sorted, ends);
+    int last = s->frame.top + s->frame.height - 1, next = s->frame.top, n = 0;
     if (room < 4 || s->frame.height < s->content->count)
         return;
+    for (int i = 0; i < s->content->count; i++) {
+        double end = end_of(s, &s->content->curves[i]);
+        if (isnan(end))
+            continue;
+        int at = n++;
+        for (; at > 0 && ends[at - 1] < end; at--) {
+            sorted[at] = sorted[at - 1];
+            ends[at] = ends[at - 1];
+        }
+        sorted[at] = &s->content->curves[i];
+        ends[at] = end;
+    }
     for (int i = 0; i < n; i++) {
         int column, row, lowest = last - (n - 1 - i);
         ceduo_frame_cell(&s->frame, s->canvas, s->frame.x0, ends[i], &column, &row);
@@ -283,16 +259,6 @@ static void draw_accepted(const struct strip *s, const struct ceduo_control *c)
         ceduo_canvas_label(s->canvas, column, row, CEDUO_ROLE_BAD, label.bytes);
 }
 
-static void draw_controls(const struct strip *s)
-{
-    const struct ceduo_scene *scene = s->picture->scene;
-    for (size_t c = 0; c < scene->controls_count; c++) {
-        ceduo_canvas_rule_x(s->canvas, &s->frame, CEDUO_ROLE_CONTROL, scene->controls[c].x);
-        if (s->energy)
-            draw_accepted(s, &scene->controls[c]);
-    }
-}
-
 /* ---- the strip ---- */
 
 static void place_frame(struct strip *s)
@@ -318,43 +284,31 @@ static void place_frame(struct strip *s)
     s->frame.x1 = s->to;
 }
 
-/* How strokes tell the wooded curves from the bare ones. */
-static int put_legend(const struct strip *s, int column, int room)
+/* What is shown, how strokes tell the wooded curves from the bare ones, and what lies beyond the top, in as many words as there is
+ * room for. */
+static void put_caption(const struct strip *s, const struct peak *peak)
 {
     static const struct {
         enum ceduo_role role;
         const char *text;
     } parts[] = {{CEDUO_ROLE_WOOD, N_("\xe2\x94\x80\xe2\x94\x80 wood")}, {CEDUO_ROLE_BARE, N_("\xc2\xb7\xc2\xb7 bare")}};
-    int used = 0;
-    for (int i = 0; i < 2; i++) {
-        used += ceduo_canvas_put(s->canvas, column + used, s->area->top, room - used, parts[i].role, "  ");
-        used += ceduo_canvas_put(s->canvas, column + used, s->area->top, room - used, parts[i].role, _(parts[i].text));
+    int row = s->area->top, column = s->frame.left, end = s->area->left + s->area->width;
+    if (s->frame.top == row)
+        return;
+    column += ceduo_canvas_put(s->canvas, column, row, end - column, CEDUO_ROLE_AXIS, _(s->content->caption));
+    for (int i = 0; i < 2 && s->legend; i++) {
+        column += ceduo_canvas_put(s->canvas, column, row, end - column, parts[i].role, "  ");
+        column += ceduo_canvas_put(s->canvas, column, row, end - column, parts[i].role, _(parts[i].text));
     }
-    return used;
-}
-
-/* What lies beyond the top, in as many words as there is room for. */
-static void put_cut(const struct strip *s, const struct peak *peak, int column, int room)
-{
+    if (!(peak->largest > s->frame.y1))
+        return;
     const char *name = _(peak->curve), *unit = s->energy ? _("kJ") : _("m"), *value = WRITTEN(peak->largest, 3);
     struct text words[3] = {{0}};
     ceduo_text_then(&words[0], "; ", _("%s beyond the top: %s %s at %s m"), name, value, unit,
                     WRITTEN(peak->at + s->picture->scene->slope.origin_x, 3));
     ceduo_text_then(&words[1], "; ", _("%s up to %s %s"), name, value, unit);
     ceduo_text_then(&words[2], "; ", _("up to %s"), value);
-    ceduo_plot_put_fitting(s->canvas, column, s->area->top, room, CEDUO_ROLE_WARN, 3, words);
-}
-
-static void put_caption(const struct strip *s, const struct peak *peak)
-{
-    int left = s->frame.left, room = s->area->left + s->area->width - left;
-    if (s->frame.top == s->area->top)
-        return;
-    int used = ceduo_canvas_put(s->canvas, left, s->area->top, room, CEDUO_ROLE_AXIS, _(s->content->caption));
-    if (s->legend)
-        used += put_legend(s, left + used, room - used);
-    if (peak->largest > s->frame.y1)
-        put_cut(s, peak, left + used, room - used);
+    ceduo_plot_put_fitting(s->canvas, column, row, end - column, CEDUO_ROLE_WARN, 3, words);
 }
 
 #define FULL_ROWS  8  /* four curves need so many rows, */
@@ -391,7 +345,12 @@ static const char *draw_strip(struct strip *s)
     put_caption(s, &peak);
     for (int i = 0; i < s->content->count; i++)
         draw_curve(s, &s->content->curves[i]);
-    draw_controls(s);
+    for (size_t c = 0; c < s->picture->scene->controls_count; c++) {
+        const struct ceduo_control *control = &s->picture->scene->controls[c];
+        ceduo_canvas_rule_x(s->canvas, &s->frame, CEDUO_ROLE_CONTROL, control->x);
+        if (s->energy)
+            draw_accepted(s, control);
+    }
     name_curves(s);
     ceduo_plot_axes(s->canvas, &s->frame, s->picture->scene->slope.origin_x, 0, s->picture->no_x_axis ? NULL : _("m"));
     return NULL;
