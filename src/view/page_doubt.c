@@ -114,7 +114,7 @@ const char *ceduo_doubt_measured(const struct ceduo_doubt_report *r, size_t i)
 
 /* ---- figures ---- */
 
-static const struct ceduo_doubt_figure *main_of(const struct ceduo_doubt_report *r, size_t option)
+const struct ceduo_doubt_figure *ceduo_doubt_main(const struct ceduo_doubt_report *r, size_t option)
 {
     return ceduo_doubt_figure_of(r->answer, option, r->answer->main, false);
 }
@@ -142,7 +142,7 @@ static void append_range(struct text *t, enum ceduo_doubt_kind kind, double lo, 
 
 struct ceduo_doubt_now ceduo_doubt_now_of(const struct ceduo_doubt_report *r, size_t option)
 {
-    const struct ceduo_doubt_figure *f = main_of(r, option);
+    const struct ceduo_doubt_figure *f = ceduo_doubt_main(r, option);
     const struct ceduo_result *finer = r->finer;
     const struct ceduo_arrivals *a = finer ? ceduo_result_wooded(finer, option, finer->last_control) : NULL;
     if (!a || a->released <= r->answer->own_rocks)
@@ -157,7 +157,7 @@ struct ceduo_doubt_now ceduo_doubt_now_of(const struct ceduo_doubt_report *r, si
 
 void ceduo_doubt_range(struct text *text, const struct ceduo_doubt_report *r, size_t option)
 {
-    const struct ceduo_doubt_figure *f = main_of(r, option);
+    const struct ceduo_doubt_figure *f = ceduo_doubt_main(r, option);
     append_value(text, f->kind, ceduo_doubt_now_of(r, option).value);
     ceduo_text_put(text, " (");
     append_range(text, f->kind, f->fit.p5, f->fit.p95);
@@ -167,7 +167,7 @@ void ceduo_doubt_range(struct text *text, const struct ceduo_doubt_report *r, si
 /* What a reader takes along: both errors. */
 void ceduo_doubt_both(struct text *text, const struct ceduo_doubt_report *r, size_t option)
 {
-    const struct ceduo_doubt_figure *f = main_of(r, option);
+    const struct ceduo_doubt_figure *f = ceduo_doubt_main(r, option);
     struct ceduo_doubt_now now = ceduo_doubt_now_of(r, option);
     LOCAL_TEXT(value);
     LOCAL_TEXT(rocks);
@@ -197,7 +197,7 @@ static void add_options(struct ceduo_page *page, const struct ceduo_doubt_report
                        ceduo_text_string(&name), c->x_given);
     CEDUO_PAGE_TABLE_OF(page, columns);
     for (size_t i = 0; i < s->options_count; i++) {
-        const struct ceduo_doubt_figure *f = main_of(r, i);
+        const struct ceduo_doubt_figure *f = ceduo_doubt_main(r, i);
         struct ceduo_doubt_now now = ceduo_doubt_now_of(r, i);
         ceduo_text_safe(ceduo_page_text(page), s->options[i].name);
         append_value(ceduo_page_text(page), f->kind, now.value);
@@ -287,7 +287,7 @@ static void add_inputs(struct ceduo_page *page, const struct ceduo_doubt_report 
 
 bool ceduo_doubt_advice(struct text *text, const struct ceduo_doubt_report *r, size_t option, size_t nth)
 {
-    const struct ceduo_doubt_figure *f = main_of(r, option);
+    const struct ceduo_doubt_figure *f = ceduo_doubt_main(r, option);
     double scale = ceduo_doubt_scale(r);
     size_t named = 0;
     LOCAL_TEXT(name);
@@ -308,7 +308,7 @@ bool ceduo_doubt_advice(struct text *text, const struct ceduo_doubt_report *r, s
 
 bool ceduo_doubt_heaviest(struct text *name, const char **how, const struct ceduo_doubt_report *r, size_t option)
 {
-    const struct ceduo_doubt_figure *f = main_of(r, option);
+    const struct ceduo_doubt_figure *f = ceduo_doubt_main(r, option);
     for (size_t i = 0; f->fit.enough && i < f->uses; i++) {
         size_t g = f->order[i];
         bool law = r->inputs->items[g].kind == CEDUO_INPUT_WORDS;
@@ -389,7 +389,7 @@ void ceduo_doubt_blocks(struct ceduo_page *page, const struct ceduo_doubt_report
     ceduo_page_add(page, CEDUO_PAGE_GAP);
     if (several)
         ceduo_page_say(page, CEDUO_PAGE_SENTENCE, _("What the first option depends on:"));
-    add_inputs(page, r, main_of(r, 0));
+    add_inputs(page, r, ceduo_doubt_main(r, 0));
     ceduo_page_add(page, CEDUO_PAGE_GAP);
     for (size_t i = 0; i < FIRST; i++) {
         LOCAL_TEXT(words);

@@ -126,8 +126,3 @@ const char *ceduo_blocks_adc(struct ceduo_page *page, const struct ceduo_picture
         ceduo_page_say(page, CEDUO_PAGE_NOTE, _("and %zu more belts"), n - room + 1);
     return NULL;
 }
-
-const char *ceduo_plot_adc(struct ceduo_canvas *canvas, const struct ceduo_area *area, const struct ceduo_picture *picture)
-{
-    return ceduo_plot_page(canvas, area, picture, ceduo_blocks_adc);
-}

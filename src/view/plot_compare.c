@@ -78,24 +78,20 @@ static enum ceduo_role role_of(enum ceduo_light light)
     return light == CEDUO_UNKNOWN ? CEDUO_ROLE_WOOD : ceduo_plot_light_role(light);
 }
 
-/* A number that is not known yet becomes three dots. */
-static void add_value(struct ceduo_page *page, const struct figures *f, double number)
-{
-    ceduo_page_write(page, "%s", f->awaited ? "\xe2\x80\xa6" : number == 0 ? "0" : WRITTEN(number, 3));
-}
+#define SHOWN(number) ((number) == 0 ? "0" : WRITTEN(number, 3))
 
 static void add_option(struct ceduo_page *page, const struct comparison *c, size_t i)
 {
     struct figures f = figures_of(c, i);
-    const struct figures known = {.awaited = false};
+    const char *awaited = f.awaited ? "\xe2\x80\xa6" : NULL; /* a number that is not known yet becomes three dots */
     bool limited = c->wooded && !isnan(c->accepted);
     ceduo_page_mark(page, i == c->picture->option ? CEDUO_ROLE_TITLE : CEDUO_ROLE_TEXT, c->picture->scene->options[i].name);
     ceduo_page_bar(page, adc_share(c, f.adc), role_of(f.contact))->limit = adc_share(c, c->threshold);
-    add_value(page, &known, f.adc);
+    ceduo_page_write(page, "%s", SHOWN(f.adc));
     ceduo_page_light(page, f.contact);
     ceduo_page_bar(page, f.middle / c->middle_most, role_of(f.energy))->limit =
         limited ? 1000 * CEDUO_EXCEED_MOST / c->middle_most : NAN;
-    add_value(page, &f, f.middle);
+    ceduo_page_write(page, "%s", awaited ? awaited : SHOWN(f.middle));
     if (c->wooded)
         ceduo_page_light(page, f.energy);
     else
@@ -106,10 +102,7 @@ static void add_option(struct ceduo_page *page, const struct comparison *c, size
                    : f.last <= c->accepted ? CEDUO_ROLE_GOOD
                                            : CEDUO_ROLE_BAD)
         ->limit = c->accepted / c->last_most;
-    if (f.exhausted)
-        ceduo_page_write(page, "%s", _("used up"));
-    else
-        add_value(page, &f, f.last);
+    ceduo_page_write(page, "%s", f.exhausted ? _("used up") : awaited ? awaited : SHOWN(f.last));
 }
 
 /* A limit stands above its bars, what they are above their numbers. */
@@ -185,9 +178,4 @@ const char *ceduo_blocks_compare(struct ceduo_page *page, const struct ceduo_pic
         ceduo_page_say(page, CEDUO_PAGE_NOTE, _("and %d more options"), (int)(scene->options_count - n));
     say_bare(page, &c);
     return NULL;
-}
-
-const char *ceduo_plot_compare(struct ceduo_canvas *canvas, const struct ceduo_area *area, const struct ceduo_picture *picture)
-{
-    return ceduo_plot_page(canvas, area, picture, ceduo_blocks_compare);
 }

@@ -10,23 +10,18 @@
 #define SHOWN_LEAST  0.005 /* of the share of an input */
 #define INPUTS_LEAST 2     /* lines: a head and one input */
 
-static const struct ceduo_doubt_figure *main_of(const struct ceduo_doubt_report *r, size_t option)
-{
-    return ceduo_doubt_figure_of(r->answer, option, r->answer->main, false);
-}
-
 /* Where the axis ends. */
 static double most_of(const struct ceduo_doubt_report *r)
 {
     double most = 0, scale = ceduo_doubt_scale(r);
     for (size_t i = 0; i < r->file->scene.options_count; i++)
-        most = fmax(most, fmax(main_of(r, i)->fit.p95, ceduo_doubt_now_of(r, i).hi) * scale);
+        most = fmax(most, fmax(ceduo_doubt_main(r, i)->fit.p95, ceduo_doubt_now_of(r, i).hi) * scale);
     return most > 0 ? scale > 1 ? 1000 : ceduo_plot_round(most, true) : 1;
 }
 
 static void add_option(struct ceduo_page *page, const struct ceduo_doubt_report *r, size_t i, bool shown)
 {
-    const struct ceduo_doubt_figure *f = main_of(r, i);
+    const struct ceduo_doubt_figure *f = ceduo_doubt_main(r, i);
     const struct ceduo_doubt_now now = ceduo_doubt_now_of(r, i);
     double scale = ceduo_doubt_scale(r) / most_of(r);
     ceduo_page_mark(page, shown ? CEDUO_ROLE_TITLE : CEDUO_ROLE_TEXT, r->file->scene.options[i].name);
@@ -64,20 +59,11 @@ static void add_options(struct ceduo_page *page, const struct ceduo_doubt_report
                        n - room);
 }
 
-static void add_input(struct ceduo_page *page, const struct ceduo_doubt_report *r, const struct ceduo_doubt_figure *f, size_t g)
-{
-    double share = ceduo_doubt_share(f, g);
-    ceduo_doubt_input_name(ceduo_page_text(page), r, g);
-    ceduo_page_bar(page, share, CEDUO_ROLE_MEAN);
-    ceduo_page_write(page, "%.0f %%", share * 100);
-    ceduo_page_write(page, _("leaves %.3g"), f->fit.left[g] * ceduo_doubt_scale(r));
-}
-
 static void add_inputs(struct ceduo_page *page, const struct ceduo_doubt_report *r, size_t option, int lines)
 {
     static const struct ceduo_page_column columns[] = {
         {"", 18, 0, CEDUO_FILLS}, {"", 6, 1, CEDUO_FILLS}, {"", -5, 1, CEDUO_FITS}, {"", -8, 2, CEDUO_FITS}};
-    const struct ceduo_doubt_figure *f = main_of(r, option);
+    const struct ceduo_doubt_figure *f = ceduo_doubt_main(r, option);
     if (lines < 2)
         return;
     CEDUO_PAGE_TABLE_OF(page, columns);
@@ -85,7 +71,11 @@ static void add_inputs(struct ceduo_page *page, const struct ceduo_doubt_report 
     ceduo_text_format(&page->last->cells[3].text, _("of %.3g wide"), (f->fit.p95 - f->fit.p5) * ceduo_doubt_scale(r));
     for (size_t i = 0, n = 1; f->fit.enough && i < f->uses && n < (size_t)lines; i++)
         if (f->fit.total[f->order[i]].value >= SHOWN_LEAST) {
-            add_input(page, r, f, f->order[i]);
+            double share = ceduo_doubt_share(f, f->order[i]);
+            ceduo_doubt_input_name(ceduo_page_text(page), r, f->order[i]);
+            ceduo_page_bar(page, share, CEDUO_ROLE_MEAN);
+            ceduo_page_write(page, "%.0f %%", share * 100);
+            ceduo_page_write(page, _("leaves %.3g"), f->fit.left[f->order[i]] * ceduo_doubt_scale(r));
             n++;
         }
 }
@@ -104,9 +94,4 @@ const char *ceduo_blocks_doubt(struct ceduo_page *page, const struct ceduo_pictu
         used += b->kind == CEDUO_PAGE_TABLE ? (int)(b->cells_count / b->columns_count) : 1;
     add_inputs(page, r, picture->option, height - used);
     return NULL;
-}
-
-const char *ceduo_plot_doubt(struct ceduo_canvas *canvas, const struct ceduo_area *area, const struct ceduo_picture *picture)
-{
-    return ceduo_plot_page(canvas, area, picture, ceduo_blocks_doubt);
 }

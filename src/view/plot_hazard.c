@@ -67,17 +67,6 @@ static void draw_curve(const struct ceduo_chart *c, const struct ceduo_picture *
     }
 }
 
-/* Its number on the curve. */
-static void draw_sign(const struct ceduo_chart *c, const struct ceduo_hazard *h, size_t item)
-{
-    char sign[24];
-    size_t i = 14 + 4 * item;
-    snprintf(sign, sizeof sign, "%zu", item);
-    while (i > 0 && (i >= h->energies || logarithm(h->exceed[i].rate.rate) < RAREST))
-        i--;
-    ceduo_chart_sign(c, log_kJ(&h->exceed[i]), logarithm(h->exceed[i].rate.rate), false, role_of(item), sign);
-}
-
 static void put_years(const struct ceduo_chart *c, double years, bool rule)
 {
     const struct ceduo_frame *f = &c->frame;
@@ -99,19 +88,6 @@ static void put_energy(const struct ceduo_chart *c, double kJ, bool rule)
     if (rule)
         ceduo_canvas_rule_x(c->canvas, f, CEDUO_ROLE_AXIS, log10(kJ));
     ceduo_plot_say(c->canvas, column, f->top + f->height, 12, CEDUO_ROLE_AXIS, kJ == 1 ? _("%g kJ") : "%g", kJ);
-}
-
-static void draw_axes(const struct ceduo_chart *c)
-{
-    put_energy(c, 30, true);
-    put_energy(c, 300, true);
-    put_years(c, 30, true);
-    put_years(c, 100, true);
-    put_years(c, 300, true);
-    for (int decade = (int)c->frame.y1; decade >= RAREST; decade--)
-        put_years(c, pow(10, -decade), false);
-    for (int decade = 0; decade <= (int)c->frame.x1; decade++)
-        put_energy(c, pow(10, decade), false);
 }
 
 const char *ceduo_plot_hazard(struct ceduo_canvas *canvas, const struct ceduo_area *area, const struct ceduo_picture *picture)
@@ -141,12 +117,25 @@ const char *ceduo_plot_hazard(struct ceduo_canvas *canvas, const struct ceduo_ar
         return _("rocks arrive less than once in a thousand years");
     ceduo_plot_say(canvas, area->left, area->top, area->width, CEDUO_ROLE_AXIS,
                    _("years from one rock with more than this energy to the next"));
-    draw_axes(&c);
+    for (int i = 0; i < 2; i++)
+        put_energy(&c, (double[]){30, 300}[i], true);
+    for (int i = 0; i < 3; i++)
+        put_years(&c, (double[]){30, 100, 300}[i], true);
+    for (int decade = (int)c.frame.y1; decade >= RAREST; decade--)
+        put_years(&c, pow(10, -decade), false);
+    for (int decade = 0; decade <= (int)c.frame.x1; decade++)
+        put_energy(&c, pow(10, decade), false);
     for (size_t i = 0; i < items; i++)
         draw_curve(&c, picture, i);
     for (size_t i = 0; i < items; i++) {
-        if (hazard_of(picture, i))
-            draw_sign(&c, hazard_of(picture, i), i);
+        const struct ceduo_hazard *h = hazard_of(picture, i);
+        char sign[24];
+        size_t at = 14 + 4 * i; /* its number on the curve */
+        snprintf(sign, sizeof sign, "%zu", i);
+        while (h && at > 0 && (at >= h->energies || logarithm(h->exceed[at].rate.rate) < RAREST))
+            at--;
+        if (h)
+            ceduo_chart_sign(&c, log_kJ(&h->exceed[at]), logarithm(h->exceed[at].rate.rate), false, role_of(i), sign);
         if ((int)i < c.legend.height)
             ceduo_plot_say(canvas, c.legend.left, c.legend.top + (int)i, c.legend.width, role_of(i), "%zu %s", i,
                            i == 0 ? _("without forest") : picture->scene->options[i - 1].name);

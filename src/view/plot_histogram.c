@@ -49,18 +49,6 @@ struct histogram {
 
 /* ---- what stands in a row ---- */
 
-static void write_bin(const struct histogram *h, int i, struct text *text)
-{
-    char lo[CEDUO_TICK_LABEL_SIZE], hi[CEDUO_TICK_LABEL_SIZE];
-    double from = h->bins.first + i * h->bins.width;
-    ceduo_tick_label(from, h->bins.width, sizeof lo, lo);
-    ceduo_tick_label(from + h->bins.width, h->bins.width, sizeof hi, hi);
-    if (h->bins.over && i == h->bins.count - 1)
-        ceduo_text_format(text, "\xe2\x89\xa5 %s kJ", lo);
-    else
-        ceduo_text_format(text, "%s\xe2\x80\x93%s kJ", lo, hi);
-}
-
 /* Of 1000 released, those in bin i: bare or not. */
 static double per_1000(const struct histogram *h, bool bare, int i)
 {
@@ -75,26 +63,6 @@ static void add_mark(const struct histogram *h, int i, double kj, const char *na
         ceduo_text_format(text, "%s%s%s%.3g", text->length > 0 ? ", " : "\xe2\x97\x80 ", name, name[0] == '>' ? "" : " ", kj);
 }
 
-/* `word`: for what the place withstands. */
-static void write_marks(const struct histogram *h, int i, const char *word, struct text *text)
-{
-    const struct ceduo_distribution *e = &h->arrivals->energy;
-    double end = h->bins.first + h->bins.count * h->bins.width;
-    if (h->accepted >= h->bins.first && (h->accepted < end || h->bins.over))
-        add_mark(h, i, h->accepted, word, text);
-    add_mark(h, i, e->p50 * J_TO_KJ, "p50", text);
-    add_mark(h, i, e->p95 * J_TO_KJ, "p95", text);
-}
-
-static enum ceduo_role role_of(const struct histogram *h, int i)
-{
-    double from = h->bins.first + i * h->bins.width;
-    return isnan(h->accepted)                    ? CEDUO_ROLE_MEAN
-           : from >= h->accepted                 ? CEDUO_ROLE_BAD
-           : from + h->bins.width <= h->accepted ? CEDUO_ROLE_GOOD
-                                                 : CEDUO_ROLE_WARN;
-}
-
 /* What the bars are drawn to: counts, or with two runs those of 1000 released. */
 static double length_of(const struct histogram *h, int i)
 {
@@ -103,9 +71,21 @@ static double length_of(const struct histogram *h, int i)
 
 static void add_row(struct ceduo_page *page, const struct histogram *h, int i, double most)
 {
-    bool marked = page->width >= MARKS_WIDTH;
-    write_bin(h, i, ceduo_page_text(page));
-    struct ceduo_page_bar *bar = ceduo_page_bar(page, length_of(h, i) / most, role_of(h, i));
+    char lo[CEDUO_TICK_LABEL_SIZE], hi[CEDUO_TICK_LABEL_SIZE];
+    const struct bins *b = &h->bins;
+    const struct ceduo_distribution *e = &h->arrivals->energy;
+    double from = b->first + i * b->width, end = b->first + b->count * b->width;
+    enum ceduo_role role = isnan(h->accepted)               ? CEDUO_ROLE_MEAN
+                           : from >= h->accepted            ? CEDUO_ROLE_BAD
+                           : from + b->width <= h->accepted ? CEDUO_ROLE_GOOD
+                                                            : CEDUO_ROLE_WARN;
+    ceduo_tick_label(from, b->width, sizeof lo, lo);
+    ceduo_tick_label(from + b->width, b->width, sizeof hi, hi);
+    if (b->over && i == b->count - 1)
+        ceduo_page_write(page, "\xe2\x89\xa5 %s kJ", lo);
+    else
+        ceduo_page_write(page, "%s\xe2\x80\x93%s kJ", lo, hi);
+    struct ceduo_page_bar *bar = ceduo_page_bar(page, length_of(h, i) / most, role);
     if (h->bare && h->bare_counts[i] > 0)
         bar->limit = per_1000(h, true, i) / most;
     bar->own = CEDUO_ROLE_BARE;
@@ -116,28 +96,10 @@ static void add_row(struct ceduo_page *page, const struct histogram *h, int i, d
         ceduo_page_write(page, "%.1f %%", 100.0 * (double)h->counts[i] / (double)h->n);
     struct ceduo_page_cell *marks = ceduo_page_cell(page);
     marks->role = CEDUO_ROLE_TITLE;
-    write_marks(h, i, marked ? _("withstands") : ">", &marks->text);
-}
-
-static void add_rows(struct ceduo_page *page, const struct histogram *h)
-{
-    static const struct ceduo_page_column columns[] = {{"", -6, 0, CEDUO_FITS},
-                                                       {"", 4, 1, CEDUO_FILLS},
-                                                       {"", -4, 1, CEDUO_FITS | CEDUO_DROPPED(1)},
-                                                       {"", -5, 1, CEDUO_FITS | CEDUO_DROPPED(1)},
-                                                       {"", 1, 1, CEDUO_FITS | CEDUO_DROPPED(2)}};
-    double most = 0;
-    for (int i = 0; i < h->bins.count; i++)
-        most = fmax(most, fmax(length_of(h, i), h->bare ? per_1000(h, true, i) : 0));
-    CEDUO_PAGE_TABLE_OF(page, columns);
-    if (h->bare) {
-        ceduo_text_put(&page->last->cells[1].text, _("\xe2\x94\x82 without forest"));
-        ceduo_text_put(&page->last->cells[1].shorter, _("\xe2\x94\x82 bare"));
-        ceduo_text_put(&page->last->cells[2].text, _("wood"));
-        ceduo_text_put(&page->last->cells[3].text, _("bare"));
-    }
-    for (int i = 0; i < h->bins.count; i++)
-        add_row(page, h, i, most);
+    if (h->accepted >= b->first && (h->accepted < end || b->over))
+        add_mark(h, i, h->accepted, page->width >= MARKS_WIDTH ? _("withstands") : ">", &marks->text);
+    add_mark(h, i, e->p50 * J_TO_KJ, "p50", &marks->text);
+    add_mark(h, i, e->p95 * J_TO_KJ, "p95", &marks->text);
 }
 
 /* What all rows add up to. */
@@ -192,6 +154,11 @@ static void count(struct histogram *h, const struct ceduo_energies *e, const str
 
 const char *ceduo_blocks_histogram(struct ceduo_page *page, const struct ceduo_picture *picture, int height)
 {
+    static const struct ceduo_page_column columns[] = {{"", -6, 0, CEDUO_FITS},
+                                                       {"", 4, 1, CEDUO_FILLS},
+                                                       {"", -4, 1, CEDUO_FITS | CEDUO_DROPPED(1)},
+                                                       {"", -5, 1, CEDUO_FITS | CEDUO_DROPPED(1)},
+                                                       {"", 1, 1, CEDUO_FITS | CEDUO_DROPPED(2)}};
     size_t c = picture->control;
     const struct ceduo_run_snapshot *sight = ceduo_plot_sight(picture), *bare = ceduo_plot_bare(picture);
     bool wooded = ceduo_plot_wooded(picture), said = height >= SAID_HEIGHT && !page->first;
@@ -209,14 +176,19 @@ const char *ceduo_blocks_histogram(struct ceduo_page *page, const struct ceduo_p
     count(&h, &sight->energies[c], wooded ? &bare->energies[c] : NULL, rows > 1 ? rows : 1);
     if (said)
         say_all(page, &h);
-    add_rows(page, &h);
+    double most = 0;
+    for (int i = 0; i < h.bins.count; i++)
+        most = fmax(most, fmax(length_of(&h, i), h.bare ? per_1000(&h, true, i) : 0));
+    CEDUO_PAGE_TABLE_OF(page, columns);
+    if (h.bare) {
+        ceduo_text_put(&page->last->cells[1].text, _("\xe2\x94\x82 without forest"));
+        ceduo_text_put(&page->last->cells[1].shorter, _("\xe2\x94\x82 bare"));
+        ceduo_text_put(&page->last->cells[2].text, _("wood"));
+        ceduo_text_put(&page->last->cells[3].text, _("bare"));
+    }
+    for (int i = 0; i < h.bins.count; i++)
+        add_row(page, &h, i, most);
     free(h.counts);
     free(h.bare_counts);
     return NULL;
-}
-
-const char *ceduo_plot_histogram(struct ceduo_canvas *canvas, const struct ceduo_area *area,
-                                 const struct ceduo_picture *picture)
-{
-    return ceduo_plot_page(canvas, area, picture, ceduo_blocks_histogram);
 }

@@ -72,23 +72,6 @@ void ceduo_plot_belt_name(struct text *text, const struct ceduo_belt *belt)
     ceduo_text_put(text, belt->assumed ? "*" : "");
 }
 
-/* ---- pages ---- */
-
-#define WIDTH_MIN 30 /* columns below which words and bars have no room beside one another */
-
-const char *ceduo_plot_page(struct ceduo_canvas *canvas, const struct ceduo_area *area, const struct ceduo_picture *picture,
-                            ceduo_blocks_function *blocks)
-{
-    struct ceduo_page page = {.width = (size_t)area->width};
-    const char *why = blocks(&page, picture, area->height);
-    if (!why && area->width < WIDTH_MIN)
-        why = _("too narrow");
-    if (!why)
-        ceduo_page_draw(&page, canvas, *area, 0);
-    ceduo_page_free(&page);
-    return why;
-}
-
 void ceduo_page_light(struct ceduo_page *page, enum ceduo_light light)
 {
     ceduo_page_mark(page, ceduo_plot_light_role(light), ceduo_plot_light_mark(light));

@@ -8,21 +8,16 @@
 
 /* What several pictures share. */
 
-/* The pictures. Each returns NULL, or why there is nothing to draw. */
+/* The pictures but for those that are pages. Each returns NULL, or why there is nothing to draw. */
 typedef const char *ceduo_plot_function(struct ceduo_canvas *canvas, const struct ceduo_area *area,
                                         const struct ceduo_picture *picture);
-#define X(NAME, name, needs_run, needs_cells, by_option) ceduo_plot_function ceduo_plot_##name;
-CEDUO_PLOT_LIST(X)
-#undef X
+ceduo_plot_function ceduo_plot_profile, ceduo_plot_energy, ceduo_plot_height, ceduo_plot_rotation, ceduo_plot_stand,
+    ceduo_plot_tradeoff, ceduo_plot_hazard;
 
 /* A picture of rows with words and bars is a page: these add its blocks, of about `height` lines, for a pane to show among others.
  * Each returns NULL, or why there is nothing. */
 typedef const char *ceduo_blocks_function(struct ceduo_page *page, const struct ceduo_picture *picture, int height);
 ceduo_blocks_function ceduo_blocks_adc, ceduo_blocks_histogram, ceduo_blocks_compare, ceduo_blocks_doubt;
-
-/* Draws the picture that such blocks make. */
-const char *ceduo_plot_page(struct ceduo_canvas *canvas, const struct ceduo_area *area, const struct ceduo_picture *picture,
-                            ceduo_blocks_function *blocks);
 
 /* A cell with the sign of a light. */
 void ceduo_page_light(struct ceduo_page *page, enum ceduo_light light);

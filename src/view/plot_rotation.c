@@ -85,32 +85,6 @@ static void draw_lights(const struct rotation *r, int row)
     }
 }
 
-/* A mark above each year of a cut, and a word behind it where that does not run into the next. */
-static void draw_cuts(const struct rotation *r, int row)
-{
-    const char *word = _("cut");
-    int room = (int)ceduo_utf8_width(word) + 2, next = r->area->left + r->area->width;
-    for (size_t i = r->years->count; i-- > 0;) {
-        int column = r->years->years[i].cut ? column_of(r, r->x[i]) : -1;
-        if (column < 0)
-            continue;
-        ceduo_canvas_label(r->canvas, column, row, CEDUO_ROLE_WARN, "\xe2\x96\xbc");
-        if (next - column >= room)
-            ceduo_canvas_label(r->canvas, column + 1, row, CEDUO_ROLE_WARN, word);
-        next = column;
-    }
-}
-
-static double most_share(const struct rotation *r)
-{
-    double most = 0;
-    if (r->flown)
-        return 1000;
-    for (size_t i = 0; i < r->years->count; i++)
-        most = fmax(most, share_of(r, &r->years->years[i]));
-    return most > 0 ? 1.1 * most : 1;
-}
-
 static void draw(struct rotation *r)
 {
     const struct ceduo_area *a = r->area;
@@ -137,12 +111,27 @@ static void draw(struct rotation *r)
         first = 0;
     else
         draw_strip(r, a->top + 1, first, ADC_TOP * threshold, threshold, ceduo_text_string(&adc), adc_of);
-    draw_strip(r, a->top + 1 + first, strips - first, most_share(r),
+    double most = 0;
+    for (size_t i = 0; i < r->years->count; i++)
+        most = fmax(most, 1.1 * share_of(r, &r->years->years[i]));
+    most = r->flown ? 1000 : most > 0 ? most : 1;
+    draw_strip(r, a->top + 1 + first, strips - first, most,
                r->flown && !isnan(r->control->accepted) ? CEDUO_EXCEED_MOST * 1000 : NAN, ceduo_text_string(&share), share_of);
     ceduo_canvas_axis_bottom(r->canvas, &r->frame, _("years"));
     if (lights > 0)
         draw_lights(r, a->top + a->height - lights);
-    draw_cuts(r, a->top);
+    /* a mark above each year of a cut, and a word behind it where that does not run into the next */
+    const char *word = _("cut");
+    int room = (int)ceduo_utf8_width(word) + 2, next = a->left + a->width;
+    for (size_t i = r->years->count; i-- > 0;) {
+        int column = r->years->years[i].cut ? column_of(r, r->x[i]) : -1;
+        if (column < 0)
+            continue;
+        ceduo_canvas_label(r->canvas, column, a->top, CEDUO_ROLE_WARN, "\xe2\x96\xbc");
+        if (next - column >= room)
+            ceduo_canvas_label(r->canvas, column + 1, a->top, CEDUO_ROLE_WARN, word);
+        next = column;
+    }
 }
 
 const char *ceduo_plot_rotation(struct ceduo_canvas *canvas, const struct ceduo_area *area, const struct ceduo_picture *picture)

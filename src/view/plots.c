@@ -24,39 +24,54 @@ enum ceduo_plot ceduo_plot_find(const char *name)
     return CEDUO_PLOT_NONE;
 }
 
+/* How a picture is drawn; what it shows, %s: where, or which belt; `run`: it is of rocks, without forest where none go through
+ * one. */
+static const struct {
+    ceduo_plot_function *draw;
+    ceduo_blocks_function *blocks;
+    const char *title;
+    bool whole, run; /* whole: of all options, so that none stands before it */
+} plots[CEDUO_PLOTS] = {
+    [CEDUO_PLOT_PROFILE] = {ceduo_plot_profile, NULL, N_("slope, forest, and ways"), false, true},
+    [CEDUO_PLOT_ENERGY] = {ceduo_plot_energy, NULL, N_("energy of the rocks"), false, true},
+    [CEDUO_PLOT_HEIGHT] = {ceduo_plot_height, NULL, N_("height of the rocks above the ground"), false, true},
+    [CEDUO_PLOT_HISTOGRAM] = {NULL, ceduo_blocks_histogram, N_("energy at %s"), false, true},
+    [CEDUO_PLOT_ADC] = {NULL, ceduo_blocks_adc, N_("average distance between contacts, m"), false, false},
+    [CEDUO_PLOT_ROTATION] = {ceduo_plot_rotation, NULL, N_("year by year, up to %s"), false, false},
+    [CEDUO_PLOT_STAND] = {ceduo_plot_stand, NULL, N_("%s, from above"), false, false},
+    [CEDUO_PLOT_COMPARE] = {NULL, ceduo_blocks_compare, N_("Options side by side, up to %s"), true, false},
+    [CEDUO_PLOT_TRADEOFF] = {ceduo_plot_tradeoff, NULL, N_("Protection and yield of the options, up to %s"), true, false},
+    [CEDUO_PLOT_DOUBT] = {NULL, ceduo_blocks_doubt, N_("how sure it is at %s"), false, false},
+    [CEDUO_PLOT_HAZARD] = {ceduo_plot_hazard, NULL, N_("How often, and with how much, at %s"), true, false}};
+
+#define WIDTH_MIN 30 /* columns below which words and bars have no room beside one another */
+
+static const char *draw_page(struct ceduo_canvas *canvas, const struct ceduo_area *area, const struct ceduo_picture *picture,
+                             ceduo_blocks_function *blocks)
+{
+    struct ceduo_page page = {.width = (size_t)area->width};
+    const char *why = blocks(&page, picture, area->height);
+    if (!why && area->width < WIDTH_MIN)
+        why = _("too narrow");
+    if (!why)
+        ceduo_page_draw(&page, canvas, *area, 0);
+    ceduo_page_free(&page);
+    return why;
+}
+
 void ceduo_plot_draw(enum ceduo_plot plot, struct ceduo_canvas *canvas, const struct ceduo_area *area,
                      const struct ceduo_picture *picture)
 {
-    static ceduo_plot_function *const functions[CEDUO_PLOTS] = {
-#define X(NAME, name, needs_run, needs_cells, by_option) [CEDUO_PLOT_##NAME] = ceduo_plot_##name,
-        CEDUO_PLOT_LIST(X)
-#undef X
-    };
-    const char *why = canvas->words_alone ? NULL : functions[plot](canvas, area, picture);
+    if (canvas->words_alone)
+        return;
+    const char *why =
+        plots[plot].blocks ? draw_page(canvas, area, picture, plots[plot].blocks) : plots[plot].draw(canvas, area, picture);
     if (!why)
         return;
     int width = ceduo_canvas_label_width(canvas, why);
     int column = width < area->width ? (area->width - width) / 2 : 0;
     ceduo_canvas_put(canvas, area->left + column, area->top + (area->height - 1) / 2, area->width, CEDUO_ROLE_TEXT, why);
 }
-
-/* ---- titles ---- */
-
-/* What a picture shows; %s: where, or which belt; `run`: it is of rocks, without forest where none go through one. */
-static const struct {
-    const char *title;
-    bool whole, run; /* whole: of all options, so that none stands before it */
-} titles[CEDUO_PLOTS] = {[CEDUO_PLOT_PROFILE] = {N_("slope, forest, and ways"), false, true},
-                         [CEDUO_PLOT_ENERGY] = {N_("energy of the rocks"), false, true},
-                         [CEDUO_PLOT_HEIGHT] = {N_("height of the rocks above the ground"), false, true},
-                         [CEDUO_PLOT_HISTOGRAM] = {N_("energy at %s"), false, true},
-                         [CEDUO_PLOT_ADC] = {N_("average distance between contacts, m"), false, false},
-                         [CEDUO_PLOT_ROTATION] = {N_("year by year, up to %s"), false, false},
-                         [CEDUO_PLOT_STAND] = {N_("%s, from above"), false, false},
-                         [CEDUO_PLOT_COMPARE] = {N_("Options side by side, up to %s"), true, false},
-                         [CEDUO_PLOT_TRADEOFF] = {N_("Protection and yield of the options, up to %s"), true, false},
-                         [CEDUO_PLOT_DOUBT] = {N_("how sure it is at %s"), false, false},
-                         [CEDUO_PLOT_HAZARD] = {N_("How often, and with how much, at %s"), true, false}};
 
 void ceduo_plot_title(struct text *text, enum ceduo_plot plot, const struct ceduo_picture *p)
 {
@@ -70,9 +85,9 @@ void ceduo_plot_title(struct text *text, enum ceduo_plot plot, const struct cedu
         ceduo_plot_control_name(&place, control);
     else
         ceduo_text_put(&place, _("no control"));
-    if (!titles[plot].whole)
+    if (!plots[plot].whole)
         ceduo_text_format(text, "%s: ", option && option->name ? option->name : "");
-    ceduo_append_with(text, _(titles[plot].title), ceduo_text_string(&place));
-    if (titles[plot].run && !ceduo_plot_wooded(p))
+    ceduo_append_with(text, _(plots[plot].title), ceduo_text_string(&place));
+    if (plots[plot].run && !ceduo_plot_wooded(p))
         ceduo_text_then(text, ", ", _("without forest"));
 }

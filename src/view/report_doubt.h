@@ -20,7 +20,8 @@ struct ceduo_doubt_report {
 bool ceduo_doubt_is_off(const struct ceduo_doubt_report *report);
 const char *ceduo_doubt_none(const struct ceduo_doubt_report *report);
 
-/* The main figure of an option in the scene as it is, with the error of the rocks. */
+/* The main figure of an option; what it is in the scene as it is, with the error of the rocks. */
+const struct ceduo_doubt_figure *ceduo_doubt_main(const struct ceduo_doubt_report *report, size_t option);
 struct ceduo_doubt_now {
     double value, lo, hi;
     uint64_t rocks; /* of which it is */
