@@ -124,42 +124,12 @@ static void say_others(struct app *app, unsigned year, struct text *text)
 
 static void say_all(struct app *app, const struct ceduo_years *years, struct text *text)
 {
-    struct ceduo_years_summary s = ceduo_years_sum(years, app->live.result->last_control);
-    const struct ceduo_window *w = &years->window;
-    bool says = !isnan(s.exceed.mean);
-    struct ceduo_paired mean = says ? s.exceed : s.reach;
-    ceduo_words_window(text, ceduo_app_option(app), w);
-    const char *before = text->length > 0 ? " " : "";
-    if (w->kind == CEDUO_WINDOW_ALIKE)
-        ceduo_text_then(text, before, _("Each:"));
-    else
-        ceduo_text_then(text, before,
-                        w->kind == CEDUO_WINDOW_ROTATION ? _("One whole rotation, years %u to %u:") : _("Years %u to %u:"),
-                        w->first, w->last);
-    if (s.simulated > 0)
-        ceduo_text_then(text, " ", _("mean %.0f \xc2\xb1%.0f of 1000, worst %.0f (year %u)."), mean.mean * 1000,
-                        ceil(mean.se * CEDUO_Z95 * 1000), s.worst * 1000, s.worst_year);
-    if (s.nothing)
-        ceduo_text_then(text, " ", "%s", _("Nothing can be said: no rock arrives, even without forest."));
-    else if (s.simulated > 0 && says)
-        ceduo_text_then(text, " ", _("Years that fail: energy %zu, contact %zu, free run %zu of %zu."), s.unprotected_energy,
-                        s.unprotected_contact, s.unprotected_free_run, s.years);
-    else
-        ceduo_text_then(text, " ", _("Years that fail: contact %zu, free run %zu of %zu."), s.unprotected_contact,
-                        s.unprotected_free_run, s.years);
-    if (s.thick_contact > s.unprotected_contact || s.thick_free_run > s.unprotected_free_run)
-        ceduo_text_then(text, " ", _("From %g cm on: contact %zu, free run %zu."), CEDUO_THICK_DBH * 100, s.thick_contact,
-                        s.thick_free_run);
-    ceduo_text_char(text, ' ');
-    if (!isnan(s.passes_per_year) && !isnan(s.exceeds_per_year))
-        ceduo_text_format(text, _("Expected a year: %s pass, %s with too much."), WRITTEN(s.passes_per_year, 2),
-                          WRITTEN(s.exceeds_per_year, 2));
-    else if (!isnan(s.passes_per_year))
-        ceduo_text_format(text, _("Expected a year: %s pass."), WRITTEN(s.passes_per_year, 2));
-    ceduo_text_put(text, isnan(s.passes_per_year) ? "" : " ");
     const struct ceduo_verdict *v = &app->live.verdict;
+    ceduo_words_window(text, ceduo_app_option(app), &years->window);
+    ceduo_text_put(text, text->length > 0 ? " " : "");
+    ceduo_words_years_sum(text, app->live.result, years);
     if (app->option < v->n && !isnan(v->choices[app->option].yield.cut_per_year))
-        ceduo_text_format(text, _("Yield %.2g m\xc2\xb3 per ha and year."), v->choices[app->option].yield.cut_per_year);
+        ceduo_text_then(text, " ", _("Yield %.2g m\xc2\xb3 per ha and year."), v->choices[app->option].yield.cut_per_year);
     ceduo_text_char(text, ' ');
     ceduo_words_counted(text, years->rocks);
 }

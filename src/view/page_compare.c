@@ -229,62 +229,14 @@ static void add_years_table(struct ceduo_page *page, const struct ceduo_result *
     }
 }
 
-/* How many rocks are to be expected, where the scene says how many come down. */
-static void say_expected(struct text *line, const struct ceduo_scene *scene, const struct ceduo_years_summary *s, bool says)
-{
-    const char *passes = WRITTEN(s->passes_per_year * (double)s->years, 2);
-    ceduo_text_then(line, " ", _("With %g rocks a year %s a year are to be expected to pass"), scene->rocks_per_year,
-                    WRITTEN(s->passes_per_year, 2));
-    if (says) {
-        ceduo_text_then(line, ", ", _("%s of them with too much energy"), WRITTEN(s->exceeds_per_year, 2));
-        ceduo_text_then(line, "; ", _("in all %zu years %s and %s"), s->years, passes,
-                        WRITTEN(s->exceeds_per_year * (double)s->years, 2));
-    } else {
-        ceduo_text_then(line, "; ", _("in all %zu years %s"), s->years, passes);
-    }
-    ceduo_text_char(line, '.');
-}
-
 void ceduo_page_years_words(struct ceduo_page *page, const struct ceduo_result *r, const struct ceduo_years *years)
 {
-    const struct ceduo_years_summary s = ceduo_years_sum(years, r->last_control);
-    bool says = !isnan(last_control(r)->accepted);
     struct text *line = ceduo_page_add(page, CEDUO_PAGE_SENTENCE);
-    if (s.nothing) {
-        ceduo_text_format(line,
-                          ngettext("Of this %zu year nothing can be said.", "Of these %zu years nothing can be said.", s.years),
-                          s.years);
-        return;
-    }
-    ceduo_text_format(line,
-                      ngettext("Of this %zu year: without contact %zu, with long free runs %zu",
-                               "Of these %zu years: without contact %zu, with long free runs %zu", s.years),
-                      s.years, s.unprotected_contact, s.unprotected_free_run);
-    if (s.simulated > 0 && says)
-        ceduo_text_then(line, ", ", _("with too much energy %zu"), s.unprotected_energy);
-    ceduo_text_put(line, ". ");
-    if (s.thick_contact > s.unprotected_contact || s.thick_free_run > s.unprotected_free_run)
-        ceduo_text_format(line, _("Counting only stems from %g cm on, contact fails in %zu and free run in %zu. "),
-                          CEDUO_THICK_DBH * 100, s.thick_contact, s.thick_free_run);
-    struct ceduo_paired mean = says ? s.exceed : s.reach;
-    LOCAL_TEXT(share);
-    ceduo_text_format(&share, "%.0f", mean.mean * 1000);
-    if (!isnan(mean.se)) /* of one rock */
-        ceduo_text_format(&share, " \xc2\xb1%.0f", ceil(mean.se * CEDUO_Z95 * 1000));
-    if (s.simulated > 0)
-        ceduo_text_format(line, _("In the mean %s of 1000 %s, at worst %.0f in year %u."), ceduo_text_string(&share),
-                          says ? _("arrive with too much energy") : _("arrive"), s.worst * 1000, s.worst_year);
-    else
-        ceduo_text_format(line, _("The ADC is largest in year %u."), s.worst_year);
+    ceduo_words_years_sum(line, r, years);
     if (r->scene->options_count < 2) { /* otherwise it stands below the table of all */
         ceduo_text_char(line, ' ');
         ceduo_words_counted(line, years->rocks);
     }
-    if (s.simulated > 0 && !isnan(r->scene->rocks_per_year))
-        say_expected(line, r->scene, &s, says);
-    double felled = ceduo_years_felled(years);
-    if (felled > 0)
-        ceduo_text_then(line, " ", _("Felled: %g m of forest along the slope."), felled);
 }
 
 void ceduo_page_years(struct ceduo_page *page, const struct ceduo_report *report, size_t option)

@@ -4,6 +4,7 @@
 
 #include "base/text.h"
 #include "ceduo/result.h"
+#include "ceduo/years.h"
 #include "study/verdict.h"
 
 #define J_TO_KJ 1e-3
@@ -76,6 +77,10 @@ void ceduo_words_window(struct text *text, const struct ceduo_option *option, co
 
 /* Years of a verdict in a few words: "one whole rotation", "years 0 to 30". */
 void ceduo_words_span(struct text *text, const struct ceduo_verdict *verdict);
+
+/* What is to be said of the years of an option together, up to the last control: how much gets through, in how many a test fails,
+ * what is to be expected. */
+void ceduo_words_years_sum(struct text *text, const struct ceduo_result *result, const struct ceduo_years *years);
 
 /* How years are numbered, and with how many rocks in each they were simulated (0: by the index). */
 void ceduo_words_counted(struct text *text, uint64_t rocks);

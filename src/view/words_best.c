@@ -56,6 +56,46 @@ void ceduo_words_windows(const struct ceduo_scene *scene, const struct ceduo_ver
     }
 }
 
+void ceduo_words_years_sum(struct text *text, const struct ceduo_result *r, const struct ceduo_years *years)
+{
+    const struct ceduo_years_summary s = ceduo_years_sum(years, r->last_control);
+    const struct ceduo_window *w = &years->window;
+    bool says = !isnan(s.exceed.mean);
+    struct ceduo_paired mean = says ? s.exceed : s.reach;
+    if (w->kind == CEDUO_WINDOW_ALIKE)
+        ceduo_text_put(text, _("Each:"));
+    else
+        ceduo_text_format(text,
+                          w->kind == CEDUO_WINDOW_ROTATION ? _("One whole rotation, years %u to %u:") : _("Years %u to %u:"),
+                          w->first, w->last);
+    LOCAL_TEXT(share);
+    ceduo_text_format(&share, isnan(mean.se) ? "%.0f" : "%.0f \xc2\xb1%.0f", mean.mean * 1000, /* of one rock: no error */
+                      ceil(mean.se * CEDUO_Z95 * 1000));
+    if (s.simulated > 0)
+        ceduo_text_then(text, " ", _("mean %s of 1000, worst %.0f (year %u)."), share.bytes, s.worst * 1000, s.worst_year);
+    else if (!s.nothing)
+        ceduo_text_then(text, " ", _("the ADC is largest in year %u."), s.worst_year);
+    if (s.nothing)
+        ceduo_text_then(text, " ", "%s", _("Nothing can be said: no rock arrives, even without forest."));
+    else if (s.simulated > 0 && says)
+        ceduo_text_then(text, " ", _("Years that fail: energy %zu, contact %zu, free run %zu of %zu."), s.unprotected_energy,
+                        s.unprotected_contact, s.unprotected_free_run, s.years);
+    else
+        ceduo_text_then(text, " ", _("Years that fail: contact %zu, free run %zu of %zu."), s.unprotected_contact,
+                        s.unprotected_free_run, s.years);
+    if (s.thick_contact > s.unprotected_contact || s.thick_free_run > s.unprotected_free_run)
+        ceduo_text_then(text, " ", _("From %g cm on: contact %zu, free run %zu."), CEDUO_THICK_DBH * 100, s.thick_contact,
+                        s.thick_free_run);
+    if (!isnan(s.passes_per_year) && !isnan(s.exceeds_per_year))
+        ceduo_text_then(text, " ", _("Expected a year: %s pass, %s with too much."), WRITTEN(s.passes_per_year, 2),
+                        WRITTEN(s.exceeds_per_year, 2));
+    else if (!isnan(s.passes_per_year))
+        ceduo_text_then(text, " ", _("Expected a year: %s pass."), WRITTEN(s.passes_per_year, 2));
+    double felled = ceduo_years_felled(years);
+    if (felled > 0)
+        ceduo_text_then(text, " ", _("Felled: %g m of forest along the slope."), felled);
+}
+
 void ceduo_words_counted(struct text *text, uint64_t rocks)
 {
     if (rocks > 0)

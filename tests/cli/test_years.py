@@ -353,7 +353,7 @@ def test_index():
                      [(y["stands"], y["summary"], y["controls"][0]["index"]) for y in b["years"]], "index figures")
     with Folder() as f:
         text = good(*WHOLE, "--years", "0:26", f.write("s.yaml", mapping)).out
-    expect_in("The ADC is largest in year 1", " ".join(text.split()))
+    expect_in("the ADC is largest in year 1", " ".join(text.split()))
 
 
 # ---- CSV ----
@@ -459,9 +459,9 @@ def test_page_figures():
         expect_in(f" {1000 * control['wooded']['exceed_probability']:.0f} (", line, "of 1000")
     flat = " ".join(text.split())
     rotation = option["rotation"]
-    expect_in(f"Of these 17 years: without contact {rotation['unprotected_contact']}, with long free runs "
-              f"{rotation['unprotected_free_run']}, with too much energy {rotation['unprotected_energy']}.", flat)
-    expect_in(f"in year {rotation['worst_year']}.", flat)
+    expect_in(f"Years that fail: energy {rotation['unprotected_energy']}, contact {rotation['unprotected_contact']}, "
+              f"free run {rotation['unprotected_free_run']} of 17.", flat)
+    expect_in(f"(year {rotation['worst_year']}).", flat)
     expect_in(f"Felled: {rotation['felled_m']:g} m", flat)
 
 
