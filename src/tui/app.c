@@ -468,14 +468,6 @@ void ceduo_app_add_warning(void *text, const char *sentence)
     ceduo_text_format(text, "! %s\n", sentence);
 }
 
-void ceduo_app_scrolled(struct app *app, struct ceduo_area area, struct text *text)
-{
-    const char *words = ceduo_app_kept(app, text);
-    words += strspn(words, "\n");
-    if (ceduo_app_text(app, area, CEDUO_ROLE_TEXT, words, &ceduo_app_state(app)->scroll))
-        ceduo_app_label(app, area.left + area.width + 1, area.top + area.height - 1, CEDUO_ROLE_TITLE, "v");
-}
-
 void ceduo_app_page(struct app *app, struct ceduo_area area, struct ceduo_page *page, int *scroll)
 {
     struct ceduo_canvas *canvas = &app->cells->canvas;

@@ -203,10 +203,7 @@ void ceduo_app_end_in_more(struct app *app, struct text *text, int width, int li
 /* Adds a warning to a text, in a line of its own. */
 void ceduo_app_add_warning(void *text, const char *sentence);
 
-/* Draws a text, scrolled as far as the view is; a mark stands to the right of it where more follows below. */
-void ceduo_app_scrolled(struct app *app, struct ceduo_area area, struct text *text);
-
-/* Draws a page from line `*scroll` on, limited to the page, with the same mark; frees it. */
+/* Draws a page from line `*scroll` on, limited to the page, and frees it; a mark stands to the right where more follows below. */
 void ceduo_app_page(struct app *app, struct ceduo_area area, struct ceduo_page *page, int *scroll);
 
 /* Draws a text, shortened to its area, and frees it. */

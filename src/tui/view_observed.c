@@ -4,35 +4,17 @@
 
 #include "app.h"
 #include "base/language.h"
-#include "base/utf8.h"
 #include "edit.h"
 #include "model/keep_fit.h"
 #include "popup.h"
 #include "popups.h"
+#include "view/page_parts.h"
 #include "view/report_calibration.h"
-#include "view/words.h"
 
 #define PICTURE_MIN 8
 #define RANGE       "\xe2\x80\x93"
 
 /* ---- rows: observed, simulated with its band ---- */
-
-#define OBSERVED_WIDTH    8
-#define BAND_WIDTH        11
-#define WORD_WIDTH        10
-#define NAME_WIDTH(width) ((width)-OBSERVED_WIDTH - BAND_WIDTH - WORD_WIDTH - 3)
-
-/* A name that has no room stands in a line above. */
-static void append_row(struct text *row, int width, const char *name, const char *seen, const char *band, const char *word)
-{
-    int columns = NAME_WIDTH(width);
-    if ((int)ceduo_utf8_width(name) > columns) {
-        ceduo_text_format(row, "%s\n", name);
-        name = "";
-    }
-    ceduo_text_format(row, "%-*s %*s %*s %s\n", ceduo_utf8_field(name, columns), name, ceduo_utf8_field(seen, OBSERVED_WIDTH),
-                      seen, ceduo_utf8_field(band, BAND_WIDTH), band, word);
-}
 
 static void append_number(struct text *text, const struct ceduo_observation *o, double value, double origin)
 {
@@ -42,43 +24,47 @@ static void append_number(struct text *text, const struct ceduo_observation *o, 
         ceduo_words_number(text, ceduo_seen_shown(o->kind, value, origin), 3);
 }
 
-static void append_observation(struct text *text, const struct scene_file *file, const struct ceduo_predicted *p, int width)
+static void add_rows(struct ceduo_page *page, const struct scene_file *file, const struct ceduo_predicted *predicted)
 {
-    const struct ceduo_observation *o = &file->observations[p->observation];
+    static const struct ceduo_page_column columns[] = {{N_("mean or count"), 13, 0, CEDUO_FILLS | CEDUO_WHOLE},
+                                                       {N_("seen"), -8, 1, CEDUO_FITS},
+                                                       {N_("sim., 95 %"), -11, 1, CEDUO_FITS},
+                                                       {"", 10, 1, CEDUO_FITS}};
     double origin = file->scene.slope.origin_x;
-    struct text name = {0}, seen = {0}, band = {0};
-    ceduo_text_safe(&name, o->name);
-    if (o->use == CEDUO_OBSERVED_CHECK)
-        ceduo_text_format(&name, " %s", _("(check)"));
-    append_number(&seen, o, p->seen, origin);
-    const char *unit = ceduo_observed_quantity(o->kind)->unit;
-    ceduo_text_format(&seen, "%s%s", unit[0] ? " " : "", unit);
-    append_number(&band, o, p->lo, origin);
-    ceduo_text_put(&band, RANGE);
-    append_number(&band, o, p->hi, origin);
-    append_row(text, width, ceduo_text_string(&name), ceduo_text_string(&seen), isnan(p->lo) ? "-" : ceduo_text_string(&band),
-               !p->inside                  ? _("OUTSIDE")
-               : p->p_value < CEDUO_MISFIT ? _("mean only") /* what is refuted below is how the values are spread */
-                                           : _("inside"));
-    ceduo_text_free(&name);
-    ceduo_text_free(&seen);
-    ceduo_text_free(&band);
-}
-
-static void append_rows(struct text *text, const struct scene_file *file, const struct ceduo_predicted *p, int width)
-{
-    append_row(text, width, _("mean or count"), _("seen"), _("sim., 95 %"), "");
-    for (size_t i = 0; i < file->observations_count; i++)
-        append_observation(text, file, &p[i], width);
-    ceduo_text_char(text, '\n');
+    CEDUO_PAGE_TABLE_OF(page, columns);
+    for (size_t i = 0; i < file->observations_count; i++) {
+        const struct ceduo_predicted *p = &predicted[i];
+        const struct ceduo_observation *o = &file->observations[p->observation];
+        const char *unit = ceduo_observed_quantity(o->kind)->unit;
+        struct text *name = ceduo_page_text(page);
+        ceduo_text_safe(name, o->name);
+        if (o->use == CEDUO_OBSERVED_CHECK)
+            ceduo_text_format(name, " %s", _("(check)"));
+        struct text *seen = ceduo_page_text(page);
+        append_number(seen, o, p->seen, origin);
+        ceduo_text_then(seen, " ", "%s", unit);
+        struct text *band = ceduo_page_text(page);
+        if (isnan(p->lo)) {
+            ceduo_text_char(band, '-');
+        } else {
+            append_number(band, o, p->lo, origin);
+            ceduo_text_put(band, RANGE);
+            append_number(band, o, p->hi, origin);
+        }
+        ceduo_page_write(page, "%s",
+                         !p->inside                  ? _("OUTSIDE")
+                         : p->p_value < CEDUO_MISFIT ? _("mean only") /* what is refuted below is how the values are spread */
+                                                     : _("inside"));
+    }
+    ceduo_page_add(page, CEDUO_PAGE_GAP);
 }
 
 /* ---- words ---- */
 
 /* Of each list and count by its probability, which sees the form of a list, too. */
-static void append_misfits(struct text *text, const struct scene_file *file, const struct ceduo_predicted *p)
+static void say_misfits(struct ceduo_page *page, const struct scene_file *file, const struct ceduo_predicted *p)
 {
-    struct text bad = {0};
+    LOCAL_TEXT(bad);
     for (size_t i = 0; i < file->observations_count; i++) {
         if (p[i].p_value >= CEDUO_MISFIT)
             continue;
@@ -94,25 +80,24 @@ static void append_misfits(struct text *text, const struct scene_file *file, con
             ceduo_text_format(&bad, " (p %s)", chance);
     }
     if (bad.length > 0)
-        ceduo_text_format(text, _("The scene as it is does not give what was seen: %s.\n"), ceduo_text_string(&bad));
+        ceduo_page_say(page, CEDUO_PAGE_NOTE, _("The scene as it is does not give what was seen: %s."), bad.bytes);
     else
-        ceduo_text_put(text, _("The scene as it is can give all that was seen.\n"));
-    ceduo_text_free(&bad);
+        ceduo_page_note(page, _("The scene as it is can give all that was seen."));
 }
 
-static void say_as_it_is(struct app *app, struct text *text, int width)
+static void say_as_it_is(struct app *app, struct ceduo_page *page)
 {
     const struct scene_file *file = &app->document.file;
     const struct comparison *s = ceduo_live_comparison(&app->live, file);
     if (!s) {
-        ceduo_text_put(text, _("not computed yet"));
+        ceduo_page_note(page, _("not computed yet"));
         return;
     }
-    append_rows(text, file, s->predicted, width);
-    append_misfits(text, file, s->predicted);
+    add_rows(page, file, s->predicted);
+    say_misfits(page, file, s->predicted);
     if (ceduo_fit_has_observations(file))
-        ceduo_text_put(text, _("c fits the ground to what was seen; only a fit says what of it is determined.\n"));
-    ceduo_text_format(text, _("Simulated: %llu rocks.\n"), (unsigned long long)s->rocks);
+        ceduo_page_note(page, _("c fits the ground to what was seen; only a fit says what of it is determined."));
+    ceduo_page_say(page, CEDUO_PAGE_NOTE, _("Simulated: %llu rocks."), (unsigned long long)s->rocks);
 }
 
 static void append_best(struct text *text, const struct fit_request *w, size_t i, double best)
@@ -122,40 +107,33 @@ static void append_best(struct text *text, const struct fit_request *w, size_t i
     ceduo_calibration_number(text, w->fields[i], best);
 }
 
-/* What a short first fit tells of values that cannot be known from what was seen. */
-static void say_loose(const struct fit *f, struct text *text)
-{
-    LOCAL_TEXT(names);
-    for (size_t i = 0; i < f->request.n; i++)
-        if (f->loose.loose[i]) {
-            ceduo_text_put(&names, names.length > 0 ? ", " : "");
-            ceduo_calibration_name(&names, f->request.paths[i], f->request.fields[i]);
-        }
-    ceduo_text_format(text, _("What was seen does not hold %zu values: fix %s. c fits without it; to go on takes long.\n"),
-                      f->request.n, ceduo_text_string(&names));
-}
-
-static void say_fitting(const struct live *live, struct text *text)
+static void say_fitting(const struct live *live, struct ceduo_page *page)
 {
     const struct fit *f = live->results.fit; /* NULL: nothing is known yet */
     const struct ceduo_calibration_state *s = f ? &f->state : NULL;
-    ceduo_text_put(text, _("A fit is under way. Esc stops it, and nothing of it is kept.\n"));
+    LOCAL_TEXT(loose);
+    ceduo_page_note(page, _("A fit is under way. Esc stops it, and nothing of it is kept."));
     if (!s || s->evaluations == 0)
         return;
     if (s->stage == CEDUO_CHAINS && isfinite(s->rhat))
-        ceduo_text_format(text, _("%llu scenes; R-hat %.3f (at most 1.05 is wanted), effective size %.0f (200).\n"),
-                          (unsigned long long)s->evaluations, s->rhat, s->effective_size);
+        ceduo_page_say(page, CEDUO_PAGE_NOTE, _("%llu scenes; R-hat %.3f (at most 1.05 is wanted), effective size %.0f (200)."),
+                       (unsigned long long)s->evaluations, s->rhat, s->effective_size);
     else
-        ceduo_text_format(text, _("%llu scenes; log-likelihood %.2f.\n"), (unsigned long long)s->evaluations,
-                          s->log_likelihood);
+        ceduo_page_say(page, CEDUO_PAGE_NOTE, _("%llu scenes; log-likelihood %.2f."), (unsigned long long)s->evaluations,
+                       s->log_likelihood);
+    for (size_t i = 0; f->loose.n > 0 && i < f->request.n;
+         i++) /* a short first fit tells what cannot be known from what was seen */
+        if (f->loose.loose[i]) {
+            ceduo_text_put(&loose, loose.length > 0 ? ", " : "");
+            ceduo_calibration_name(&loose, f->request.paths[i], f->request.fields[i]);
+        }
     if (f->loose.n > 0)
-        say_loose(f, text);
-    ceduo_text_put(text, _("The best values so far:\n"));
-    for (size_t i = 0; i < f->request.n; i++) {
-        ceduo_text_put(text, "  ");
-        append_best(text, &f->request, i, s->best[i]);
-        ceduo_text_char(text, '\n');
-    }
+        ceduo_page_say(page, CEDUO_PAGE_NOTE,
+                       _("What was seen does not hold %zu values: fix %s. c fits without it; to go on takes long."),
+                       f->request.n, ceduo_text_string(&loose));
+    ceduo_page_note(page, _("The best values so far:"));
+    for (size_t i = 0; i < f->request.n; i++)
+        append_best(ceduo_page_add(page, CEDUO_PAGE_ITEM), &f->request, i, s->best[i]);
 }
 
 static struct ceduo_calibration_report report_of(const struct fit *f)
@@ -169,34 +147,15 @@ static struct ceduo_calibration_report report_of(const struct fit *f)
                                              .answer = &f->answer};
 }
 
-/* What Enter does not keep, and the command that writes it. */
-static void say_draws(const struct fit *f, struct text *text)
-{
-    char lo[CEDUO_NUMBER_ROOM], hi[CEDUO_NUMBER_ROOM];
-    ceduo_text_put(text,
-                   _("Enter keeps the best values and, as their source, these ranges. It does not keep all that fits as well, "
-                     "the draws. Once the scene is saved, as SCENE.yaml, this writes them to FITTED.draws.csv, and "
-                     "FITTED.yaml, which reads them:\n"));
-    ceduo_text_put(text, "  ceduo");
-    for (size_t i = 0; i < f->request.n; i++) {
-        struct text value = {0};
-        ceduo_text_format(&value, "%s=%s:%s", f->request.paths[i], ceduo_number_shortest(f->request.lo[i], lo),
-                          ceduo_number_shortest(f->request.hi[i], hi));
-        ceduo_text_put(text, " --calibrate ");
-        ceduo_text_quoted(text, ceduo_text_string(&value));
-        ceduo_text_free(&value);
-    }
-    ceduo_text_format(text, " -n %llu -o FITTED.yaml SCENE.yaml\n", (unsigned long long)f->request.rocks);
-}
-
-static void say_fit(const struct fit *f, struct text *text, int width)
+static void say_fit(const struct fit *f, struct ceduo_page *page)
 {
     const struct ceduo_calibration_report r = report_of(f);
-    ceduo_text_put(text,
-                   _("Fitted. Enter takes these values into the scene, Esc leaves it as it is, as the picture shows it.\n"));
+    char lo[CEDUO_NUMBER_ROOM], hi[CEDUO_NUMBER_ROOM];
+    ceduo_page_note(page,
+                    _("Fitted. Enter takes these values into the scene, Esc leaves it as it is, as the picture shows it."));
     for (size_t i = 0; i < f->request.n; i++) {
         const struct ceduo_fitted *one = &f->answer.parameters[i];
-        ceduo_text_put(text, "  ");
+        struct text *text = ceduo_page_add(page, CEDUO_PAGE_ITEM);
         append_best(text, &f->request, i, one->best);
         ceduo_text_put(text, " (");
         ceduo_calibration_number(text, f->request.fields[i], one->p2_5);
@@ -205,22 +164,37 @@ static void say_fit(const struct fit *f, struct text *text, int width)
         ceduo_text_put(text, ")");
         if (!one->determined)
             ceduo_text_format(text, ", %s", _("not determined"));
-        ceduo_text_char(text, '\n');
     }
-    ceduo_text_char(text, '\n');
-    append_rows(text, &f->file, f->answer.predicted, width);
-    ceduo_calibration_words(text, &r, (size_t)width);
-    ceduo_text_char(text, '\n');
-    say_draws(f, text);
+    ceduo_page_add(page, CEDUO_PAGE_GAP);
+    add_rows(page, &f->file, f->answer.predicted);
+    ceduo_calibration_words(page, &r);
+    ceduo_page_add(page, CEDUO_PAGE_GAP);
+    /* what Enter does not keep, and the command that writes it */
+    ceduo_page_note(page,
+                    _("Enter keeps the best values and, as their source, these ranges. It does not keep all that fits as well, "
+                      "the draws. Once the scene is saved, as SCENE.yaml, this writes them to FITTED.draws.csv, and "
+                      "FITTED.yaml, which reads them:"));
+    struct text *command = ceduo_page_add(page, CEDUO_PAGE_NOTE);
+    ceduo_text_put(command, "ceduo");
+    for (size_t i = 0; i < f->request.n; i++) {
+        LOCAL_TEXT(value);
+        ceduo_text_format(&value, "%s=%s:%s", f->request.paths[i], ceduo_number_shortest(f->request.lo[i], lo),
+                          ceduo_number_shortest(f->request.hi[i], hi));
+        ceduo_text_put(command, " --calibrate ");
+        ceduo_text_quoted(command, value.bytes);
+    }
+    ceduo_text_format(command, " -n %llu -o FITTED.yaml SCENE.yaml", (unsigned long long)f->request.rocks);
 }
 
-static void say_nothing_seen(struct text *text)
+static void say_nothing_seen(struct ceduo_page *page)
 {
-    ceduo_text_put(text, _("This scene does not say what was seen on its slope.\n\n"));
-    ceduo_text_put(
-        text, _("Where rocks have stopped, how many passed a place, how fast or how high they were, scars on stems: a asks "
-                "for what of it is known. A table of values is named in the scene's file, see man ceduo-scene.\n\n"));
-    ceduo_text_put(text, _("Here it is then compared with simulated rocks, and c fits the ground to it.\n"));
+    ceduo_page_note(page, _("This scene does not say what was seen on its slope."));
+    ceduo_page_add(page, CEDUO_PAGE_GAP);
+    ceduo_page_note(
+        page, _("Where rocks have stopped, how many passed a place, how fast or how high they were, scars on stems: a asks "
+                "for what of it is known. A table of values is named in the scene's file, see man ceduo-scene."));
+    ceduo_page_add(page, CEDUO_PAGE_GAP);
+    ceduo_page_note(page, _("Here it is then compared with simulated rocks, and c fits the ground to it."));
 }
 
 /* ---- what was observed, to edit ---- */
@@ -308,7 +282,6 @@ static void draw(struct app *app, struct ceduo_area area)
     for (size_t i = c ? c->file.observations_count : 0; i-- > 0;)
         if (c->stops[i].known && c->file.observations[i].option == app->option)
             stops = &c->stops[i];
-    struct text text = {0};
     struct view_state *state = ceduo_app_state(app);
     bool fit = f->fitting || ceduo_live_fitted(f);
     if (fit)
@@ -319,15 +292,16 @@ static void draw(struct app *app, struct ceduo_area area)
         area.height -= form + 1;
     }
     area.width -= 2; /* the mark of more below stands beside the text */
+    struct ceduo_page page = {.width = (size_t)area.width};
     if (file->observations_count == 0)
-        say_nothing_seen(&text);
+        say_nothing_seen(&page);
     else if (f->fitting)
-        say_fitting(f, &text);
+        say_fitting(f, &page);
     else if (fit)
-        say_fit(ceduo_live_fitted(f), &text, area.width);
+        say_fit(ceduo_live_fitted(f), &page);
     else
-        say_as_it_is(app, &text, area.width);
-    int max = area.height - ceduo_app_text_lines(app, ceduo_text_string(&text), area.width) - 1;
+        say_as_it_is(app, &page);
+    int max = area.height - ceduo_page_draw(&page, &app->cells->canvas, (struct ceduo_area){0}, 0) - 1;
     int height = max > area.height / 2 ? max : area.height / 2;
     if (stops && height >= PICTURE_MIN) {
         struct ceduo_area top = {area.left, area.top, area.width, height};
@@ -335,7 +309,7 @@ static void draw(struct app *app, struct ceduo_area area)
         area.top += height + 1;
         area.height -= height + 1;
     }
-    ceduo_app_scrolled(app, area, &text);
+    ceduo_app_page(app, area, &page, &state->scroll);
 }
 
 /* ---- keys ---- */

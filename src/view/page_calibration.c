@@ -220,7 +220,7 @@ static void say_misfits(struct ceduo_page *page, const struct ceduo_calibration_
         ceduo_page_note(page, _("The model can give all that it was fitted to."));
 }
 
-static void say_all(struct ceduo_page *page, const struct ceduo_calibration_report *r)
+void ceduo_calibration_words(struct ceduo_page *page, const struct ceduo_calibration_report *r)
 {
     const struct ceduo_calibration *a = r->answer;
     say_misfits(page, r);
@@ -231,14 +231,6 @@ static void say_all(struct ceduo_page *page, const struct ceduo_calibration_repo
         page, _("A ground that is fitted on a profile holds for this profile; a hundred metres beside it may be another."));
     ceduo_page_say(page, CEDUO_PAGE_NOTE, _("%llu scenes were computed with %llu rocks each; R-hat %.3f, effective size %.0f."),
                    (unsigned long long)a->evaluations, (unsigned long long)r->rocks, a->rhat, a->effective_size);
-}
-
-void ceduo_calibration_words(struct text *text, const struct ceduo_calibration_report *r, size_t width)
-{
-    struct ceduo_page page = {.width = width};
-    say_all(&page, r);
-    ceduo_page_print(text, &page, false);
-    ceduo_page_free(&page);
 }
 
 void ceduo_calibration_page(struct text *text, const struct ceduo_calibration_report *r, bool plain)
@@ -255,7 +247,7 @@ void ceduo_calibration_page(struct text *text, const struct ceduo_calibration_re
     ceduo_page_add(&page, CEDUO_PAGE_GAP);
     add_seen(&page, r);
     ceduo_page_add(&page, CEDUO_PAGE_GAP);
-    say_all(&page, r);
+    ceduo_calibration_words(&page, r);
     ceduo_page_print(text, &page, plain);
     ceduo_page_free(&page);
 }

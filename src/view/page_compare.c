@@ -232,7 +232,10 @@ static void add_years_table(struct ceduo_page *page, const struct ceduo_result *
 void ceduo_page_years_words(struct ceduo_page *page, const struct ceduo_result *r, const struct ceduo_years *years)
 {
     struct text *line = ceduo_page_add(page, CEDUO_PAGE_SENTENCE);
+    double felled = ceduo_years_felled(years);
     ceduo_words_years_sum(line, r, years);
+    if (felled > 0)
+        ceduo_text_then(line, " ", _("Felled: %g m of forest along the slope."), felled);
     if (r->scene->options_count < 2) { /* otherwise it stands below the table of all */
         ceduo_text_char(line, ' ');
         ceduo_words_counted(line, years->rocks);

@@ -281,9 +281,10 @@ static void print_cell(const struct printer *p, const struct ceduo_page_column *
         append_blanks(p->text, (size_t)width);
         return;
     }
-    write_cell(p, &text, cell, (size_t)abs(width) + ((column->flags & (CEDUO_FITS | CEDUO_FILLS)) != 0));
+    size_t room = (size_t)abs(width) + ((column->flags & (CEDUO_FITS | CEDUO_FILLS)) != 0);
+    write_cell(p, &text, cell, room);
     set_role(p, cell->role ? cell->role : role);
-    if ((column->flags & CEDUO_WHOLE) && !fits(&text, (size_t)width)) {
+    if ((column->flags & CEDUO_WHOLE) && !fits(&text, room)) {
         print_wrapped(p, ceduo_text_string(&text), (size_t)gap, (size_t)gap);
         ceduo_text_char(p->text, '\n');
         append_blanks(p->text, (size_t)(gap + width));

@@ -28,7 +28,8 @@ size_t ceduo_seen_number(const struct ceduo_observation *o);
 
 void ceduo_calibration_page(struct text *text, const struct ceduo_calibration_report *report, bool plain);
 /* What the page says in words: misfit, what is not determined, what is known only together. */
-void ceduo_calibration_words(struct text *text, const struct ceduo_calibration_report *report, size_t width);
+struct ceduo_page;
+void ceduo_calibration_words(struct ceduo_page *page, const struct ceduo_calibration_report *report);
 void ceduo_calibration_json(struct text *text, const struct ceduo_calibration_report *report); /* "ceduo-calibration-1" */
 void ceduo_calibration_csv(struct text *text, const struct ceduo_calibration_report *report);  /* a row for each value */
 

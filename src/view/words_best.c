@@ -91,9 +91,6 @@ void ceduo_words_years_sum(struct text *text, const struct ceduo_result *r, cons
                         WRITTEN(s.exceeds_per_year, 2));
     else if (!isnan(s.passes_per_year))
         ceduo_text_then(text, " ", _("Expected a year: %s pass."), WRITTEN(s.passes_per_year, 2));
-    double felled = ceduo_years_felled(years);
-    if (felled > 0)
-        ceduo_text_then(text, " ", _("Felled: %g m of forest along the slope."), felled);
 }
 
 void ceduo_words_counted(struct text *text, uint64_t rocks)
