@@ -111,17 +111,6 @@ struct ceduo_measure ceduo_height_p95(const struct ceduo_arrivals *a)
     return m;
 }
 
-void ceduo_append_with(struct text *text, const char *sentence, const char *string)
-{
-    const char *at = strstr(sentence, "%s");
-    size_t n = at ? (size_t)(at - sentence) : strlen(sentence);
-    ceduo_text_add(text, sentence, n);
-    if (!at)
-        return;
-    ceduo_text_put(text, string);
-    ceduo_text_put(text, at + 2);
-}
-
 void ceduo_measure_name(struct text *text, const struct ceduo_measure *m, enum ceduo_measure_name name)
 {
     ceduo_append_with(text, _(m->names[name]), SHORTEST(m->limit));

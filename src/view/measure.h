@@ -52,7 +52,4 @@ void ceduo_measure_interval(struct text *text, const struct ceduo_measure *m);
 void ceduo_measure_error(struct text *text, const struct ceduo_measure *m); /* the same, shorter: "480±27" */
 void ceduo_measure_span(struct text *text, const struct ceduo_measure *m, double lo, double hi);
 
-/* A sentence with a string in the place of its one %s. */
-void ceduo_append_with(struct text *text, const char *sentence, const char *string);
-
 #endif

@@ -1,10 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "measure.h"
-#include "plot_parts.h"
-
 #include <string.h>
 
 #include "base/language.h"
+#include "plot_parts.h"
 
 const struct ceduo_plot_kind ceduo_plot_kinds[CEDUO_PLOTS] = {
 #define X(NAME, name, needs_run, needs_cells, by_option) [CEDUO_PLOT_##NAME] = {#name, needs_run, needs_cells, by_option},

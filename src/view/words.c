@@ -3,9 +3,9 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 #include "base/language.h"
-#include "measure.h"
 
 const char *const ceduo_light_names[] = {N_("contact"), N_("free run"), N_("energy")};
 
@@ -38,6 +38,17 @@ const char *ceduo_words_shown(double value, int digits, char room[CEDUO_NUMBER_R
 void ceduo_words_number(struct text *text, double value, int digits)
 {
     ceduo_text_put(text, WRITTEN(value, digits));
+}
+
+void ceduo_append_with(struct text *text, const char *sentence, const char *string)
+{
+    const char *at = strstr(sentence, "%s");
+    size_t n = at ? (size_t)(at - sentence) : strlen(sentence);
+    ceduo_text_add(text, sentence, n);
+    if (!at)
+        return;
+    ceduo_text_put(text, string);
+    ceduo_text_put(text, at + 2);
 }
 
 __attribute__((format(printf, 3, 4))) static void say_format(ceduo_words_say *say, void *context, const char *format, ...)

@@ -98,6 +98,9 @@ const char *ceduo_words_verdict(enum ceduo_light light); /* passes, FAILS, unkno
 /* What a place withstands, in kJ, as its file says it: 3.3, which a product with 0.001 makes 3.3000000000000003. */
 double ceduo_words_accepted(const struct ceduo_control *control);
 
+/* A sentence with a string in the place of its one %s. */
+void ceduo_append_with(struct text *text, const char *sentence, const char *string);
+
 /* A number with so many significant digits, never in exponent form where that can be avoided. "-" where it is NaN,
  * "none" where infinite. */
 void ceduo_words_number(struct text *text, double value, int digits);
