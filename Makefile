@@ -8,7 +8,7 @@
 #   make bench ONLY=times|errors|NAME...            those that a busy machine spoils, the others, or these; make tables writes them
 #   make dist       pack the sources                VARIANT=release|debug|asan|tsan|cov|fuzz
 #   make deb        build packages for Debian, in build/deb
-#   make man        write the tables of the program into the manual
+#   make man        write the tables of the program into the manual; make samples: what its commands print
 #   make pictures   draw the pictures of README
 #   make po         bring the marked text of the sources and the manual into src/po/*.po, src/po/man/it.po
 #   make lint       run clang's warnings, cppcheck and clang-tidy
@@ -67,7 +67,7 @@ PROGRAM := $(BUILD)/ceduo
 LANGUAGES := $(patsubst src/po/%.po,%,$(wildcard src/po/*.po))
 MO := $(LANGUAGES:%=$(BUILD)/locale/%/LC_MESSAGES/ceduo.mo)
 # The Italian manual is made from the English one and src/po/man/it.po; what is not translated stays English.
-PAGES_IT := $(addprefix $(BUILD)/man/it/,ceduo.1 ceduo-workflows.7)
+PAGES_IT := $(addprefix $(BUILD)/man/it/,ceduo.1 ceduo-output.5 ceduo-terminal.7 ceduo-workflows.7)
 
 ifeq ($(VARIANT),release)
 all: ceduo $(SHARED) $(MO) $(PAGES_IT)
@@ -141,7 +141,7 @@ po: $(TEMPLATE)
 # ---- a fresh machine ----
 
 DEBIAN := gcc libc6-dev make libncurses-dev libgsl-dev libyaml-dev libunistring-dev librandom123-dev libcmocka-dev mandoc gettext po4a pkgconf python3 \
-	tmux zsh locales parallel clang-format python3-jsonschema
+	tmux zsh locales parallel clang-format jq python3-jsonschema
 
 deps:
 	@missing=; for p in $(DEBIAN); do \
@@ -174,7 +174,7 @@ TAPS := $(UNIT:=.tap) $(patsubst tests/%,$(T)/%.tap,$(SCRIPTS))
 # there are cores.
 SLOW := test_bits.sh test_workflows.py test_years.py test_editing.py test_faults.py test_hangs.py test_popups.py test_alternatives.py \
 	test_constants.sh test_random_scenes.py test_terminal.py test_rotation.py test_ways.py test_memory test_memory_files \
-	test_install.py test_input_streams.py
+	test_install.py test_input_streams.py test_pages.py
 TAPS_SLOW := $(foreach t,$(SLOW),$(filter %/$t.tap,$(TAPS)))
 JOBS := $(shell expr $(CORES) + 1)
 SUPPORT := $(BUILD)/tests/main.o $(call object,$(filter-out tests/physics/test_% tests/physics/bits.c tests/physics/constants.c,$(wildcard tests/physics/*.c)))
@@ -377,11 +377,16 @@ $(TABLES): $(BUILD)/man/tables.o $(PARTS) $(LIBRARY)
 	@mkdir -p $(@D)
 	$(CC) $(ALL_CFLAGS) $(LDFLAGS) -o $@ $^ $(LIBS)
 
-# Writes the tables of parameters, keys, goals and figures into the manual pages.
+# Writes the tables of keys, goals, ranges and figures into the manual pages.
 man: $(TABLES)
-	@for page in scene slope stand; do $(TABLES) $$page man/ceduo-$$page.5; done
+	@$(TABLES) goals man/ceduo.1
 	@$(TABLES) ranges man/ceduo-scene.5
-	@for table in keys goals search figures; do $(TABLES) $$table man/ceduo.1; done
+	@for table in search figures; do $(TABLES) $$table man/ceduo-output.5; done
+	@$(TABLES) keys man/ceduo-terminal.7
+
+# What the commands of the manual print, in the pages that show it.
+samples: all
+	@CEDUO=$(call quoted,$(CURDIR)/$(PROGRAM)) BUILD=$(BUILD) tests/cli/test_pages.py --write
 
 # What the benches found last, in the pages that show it.
 tables:
@@ -420,7 +425,7 @@ install: all $(BUILD)/completion/ceduo $(BUILD)/completion/_ceduo
 	install -m 644 -- $(BUILD)/completion/ceduo $(call to,$(BASHDIR))/ceduo
 	install -m 644 -- $(BUILD)/completion/_ceduo $(call to,$(ZSHDIR))/_ceduo
 	install -d -- $(call to,$(BINDIR)) $(foreach d,$(FOLDERS),$(call to,$(DATADIR))/$d) $(foreach n,1 3 5 7,$(call to,$(MANDIR))/man$n) \
-	    $(foreach n,1 7,$(call to,$(MANDIR))/it/man$n)
+	    $(foreach n,1 5 7,$(call to,$(MANDIR))/it/man$n)
 	install -m 755 -- $(PROGRAM) $(call to,$(BINDIR))/ceduo
 	for f in $(DATA); do install -m 644 -- $$f $(call to,$(DATADIR))/$${f#profiles/} || exit 1; done
 	for l in $(LANGUAGES); do install -d -- $(call to,$(LOCALEDIR))/$$l/LC_MESSAGES && \
@@ -477,5 +482,5 @@ deb: dist
 clean:
 	rm -rf build ceduo $(DIST).tar.gz
 
-.PHONY: all deps $(GOALS) $(addprefix do-,$(GOALS)) do-replay do-check-replay $(REPLAYS:%=do-%) $(FUZZERS:%=do-fuzz_%) do-check-threads do-check-memory do-check-slurm do-check-dist do-check-deb man tables pictures po install uninstall dist deb clean
+.PHONY: all deps $(GOALS) $(addprefix do-,$(GOALS)) do-replay do-check-replay $(REPLAYS:%=do-%) $(FUZZERS:%=do-fuzz_%) do-check-threads do-check-memory do-check-slurm do-check-dist do-check-deb man samples tables pictures po install uninstall dist deb clean
 .DELETE_ON_ERROR:

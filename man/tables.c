@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Writes a table into a manual page, between its two marks: tables scene|slope|stand PAGE that of the parameters,
- * keys that of the keys of the terminal program (in a third word's language), goals and search those of a search, ranges those of doubt, figures those of JSON. */
+/* Writes a table into a manual page, between its two marks: tables keys PAGE that of the keys of the terminal program (in a
+ * third word's language), goals and search those of a search, ranges those of doubt, figures those of JSON. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -27,41 +27,6 @@ static void put(FILE *out, const char *text)
         } else
             fputc(*text, out);
     }
-}
-
-static void put_parameter(void *context, const char *path, const struct field *f)
-{
-    FILE *out = context;
-    struct text range = {0};
-    if (f->type == FIELD_TAG || strncmp(path, "options[].forest", 16) == 0 || strncmp(path, "forest[].stand.", 15) == 0 ||
-        strncmp(path, "slope.", 6) == 0)
-        return;
-    bool limited = ceduo_schema_range_text(f, &range);
-    fprintf(out, ".It Va %s\n%s", path, f->meaning);
-    if (f->unit[0])
-        fprintf(out, "; %s", f->unit);
-    if (limited) {
-        fputs("; ", out);
-        put(out, range.bytes);
-    }
-    for (size_t i = 0; f->choices && i < f->choices->n; i++) {
-        fputs(i ? ", " : "; one of ", out);
-        put(out, f->choices->names[i]);
-    }
-    if (f->value)
-        fprintf(out, "; default %s", f->value);
-    fputs(f->type == FIELD_SPREAD || f->type == FIELD_SPREADS ? "; may have a spread.\n" : ".\n", out);
-    ceduo_text_free(&range);
-}
-
-static void put_parameters(FILE *out, const char *kind)
-{
-    const struct object *object = strcmp(kind, "stand") == 0   ? ceduo_schema_stand()
-                                  : strcmp(kind, "slope") == 0 ? ceduo_schema_slope()
-                                                               : ceduo_schema_scene();
-    fputs(".Bl -tag -width Ds\n", out);
-    ceduo_schema_visit(object, "", put_parameter, out);
-    fputs(".El\n", out);
 }
 
 /* A key as it is called: a single sign that mdoc would take for its own is hidden. */
@@ -208,10 +173,11 @@ int main(int argc, char **argv)
     size_t table = 0;
     while (table < sizeof tables / sizeof tables[0] && strcmp(argv[1], tables[table].name) != 0)
         table++;
-    bool parameters = table == sizeof tables / sizeof tables[0];
+    if (table == sizeof tables / sizeof tables[0])
+        return 2;
     char begin_mark[64], end_mark[64];
-    snprintf(begin_mark, sizeof begin_mark, ".\\\" begin %s\n", parameters ? "parameters" : argv[1]);
-    snprintf(end_mark, sizeof end_mark, ".\\\" end %s\n", parameters ? "parameters" : argv[1]);
+    snprintf(begin_mark, sizeof begin_mark, ".\\\" begin %s\n", argv[1]);
+    snprintf(end_mark, sizeof end_mark, ".\\\" end %s\n", argv[1]);
     static char page[1 << 20];
     FILE *in = fopen(argv[2], "r");
     size_t n = in ? fread(page, 1, sizeof page - 1, in) : 0;
@@ -223,10 +189,7 @@ int main(int argc, char **argv)
     if (!out)
         return 1;
     fwrite(page, 1, (size_t)(begin - page) + strlen(begin_mark), out);
-    if (parameters)
-        put_parameters(out, argv[1]);
-    else
-        tables[table].put(out);
+    tables[table].put(out);
     fputs(end, out);
     return fclose(out) == 0 ? 0 : 1;
 }

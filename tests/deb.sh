@@ -40,7 +40,7 @@ grep -q '^  - {path: stools.per_ha' stand.yaml || fail "the stand of a survey"
 $program --language it --help >it; $program --help >en
 ! cmp -s it en || fail "translations"
 [ -x /usr/share/ceduo/jobs/ceduo-array.sbatch ] || fail "the job for Slurm"
-for page in ceduo.1 ceduo-scene.5 ceduo-workflows.7 ceduo.3; do
+for page in ceduo.1 ceduo-output.5 ceduo-scene.5 ceduo-terminal.7 ceduo-workflows.7 ceduo.3; do
     [ -f "/usr/share/man/man${page##*.}/$page.gz" ] || fail "$page"
 done
 bash -c '. /usr/share/bash-completion/completions/ceduo && complete -p ceduo' >/dev/null || fail "completion"

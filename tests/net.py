@@ -314,7 +314,7 @@ def lists():
     yield Case("list/to a file", ["--list-parameters", "-o", "list.txt"])
     for shell in ("bash", "zsh"):
         yield Case(f"list/completion of {shell}", ["@completion", shell])
-    for kind, page in (("scene", "ceduo-scene.5"), ("slope", "ceduo-slope.5"), ("stand", "ceduo-stand.5"), ("keys", "ceduo.1")):
+    for kind, page in (("ranges", "ceduo-scene.5"), ("figures", "ceduo-output.5"), ("keys", "ceduo-terminal.7")):
         yield Case(f"list/manual of {kind}", ["@tables", kind, page], files={page: (ROOT / "man" / page).read_text()})
 
 

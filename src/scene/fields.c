@@ -143,9 +143,11 @@ static const struct field rules_fields[] = {
     TEXT("note_it", NAMED(N_("note, in Italian"), NULL), AT(ceduo_regulation, note_it), NO_RUN,
          N_("its note on Italian pages; without it the note")),
     ITEMS("standards", NAMED(N_("standards"), NULL), LIST(ceduo_regulation, standards, standards_count), NO_RUN,
-          N_("standards that a cut must leave; the first row about a stand counts"), &standards_object),
+          N_("standards that a cut must leave; the first row that fits applies, a row without species fits all"),
+          &standards_object),
     ITEMS("turns", NAMED(N_("turns"), NULL), LIST(ceduo_regulation, turns, turns_count), NO_RUN,
-          N_("ages at which shoots may be cut; the first row about a stand counts"), &turns_object),
+          N_("ages at which shoots may be cut; the first row that fits applies, a row without species fits all"),
+          &turns_object),
 };
 static const struct object rules_object = OBJECT(ceduo_regulation, rules_fields, "rules");
 

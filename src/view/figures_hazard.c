@@ -61,7 +61,7 @@ static const struct ceduo_figure matrix[] = {
 
 const struct ceduo_figure ceduo_hazard_figures[] = {
     {"per_year", "1/y", "blocks that come down", AT(hazard, per_year)},
-    {"effective_rocks", "", "equal rocks that would know the sum of the weights as well", AT(hazard, effective)},
+    {"effective_rocks", "", "effective sample size (Kish): (sum of weights)^2/(sum of their squares)", AT(hazard, effective)},
     {"exceed_rate", "", "rocks a year that arrive with more than an energy, up to the first energy that none exceeds",
      .of = exceed_rate, .item = exceed_item, .details = true, .null = "--details is not given"},
     {"return", "", "energies of 10, 30, 100 and 300 years", .of = returns, .item = return_item, .columns = CEDUO_RETURNS},

@@ -397,7 +397,8 @@ static const struct ceduo_figure by_index[] = {
      .scale = J_TO_KJ, .null = SHARES},
     {"residual_kJ", "kJ", "the mean of bare.energy_kJ less that, and not below 0; of shares their product", AT(index, residual),
      .scale = J_TO_KJ, .null = "no rock arrives without forest"},
-    {"exhausted", "", "whether it was cut at 0", .value = exhausted_of, .null = "no rock arrives without forest"},
+    {"exhausted", "", "true if stems could take more than the mean energy", .value = exhausted_of,
+     .null = "no rock arrives without forest"},
     {"measured_kJ", "kJ", "energy of translation of the rock at measured_speed_m_s", AT(index, measured), .scale = J_TO_KJ,
      .null = "the control has no measured_speed_m_s"},
     END};
@@ -556,8 +557,8 @@ static const struct ceduo_figure option[] = {
 
 static const struct ceduo_figure share_difference[] = {
     {.of = paired},
-    {"below", "", "where no rock fares differently: the share that may all the same, upper end of its 95 % interval",
-     .value = below_of, .null = "rocks fare differently, or the forests are the same"},
+    {"below", "", "if no rock fares differently: upper 95 % bound of the share that could", .value = below_of,
+     .null = "rocks fare differently, or the forests are the same"},
     END};
 
 static const struct ceduo_figure differences[] = {
@@ -596,10 +597,10 @@ static const struct ceduo_figure work[] = {
      "each energy law",
      AT(report, work.rocks)},
     {"contacts", "", "contacts with the ground, of all rocks", AT(report, work.contacts)},
-    {"stems_drawn", "", "stems made up along their ways, hit or not", AT(report, work.stems.drawn)},
+    {"stems_drawn", "", "stems generated along their ways, hit or not", AT(report, work.stems.drawn)},
     {"runs", "", "runs computed", AT(report, work.runs)},
-    {"runs_reused", "", "how often one was needed that was already there", AT(report, work.reused)},
-    {"seconds", "s", "time on the clock; this is the one value that changes from run to run", AT(report, seconds)},
+    {"runs_reused", "", "runs taken from the cache", AT(report, work.reused)},
+    {"seconds", "s", "wall-clock time, the one value that changes from run to run", AT(report, seconds)},
     END};
 
 const struct ceduo_figure ceduo_result_figures[] = {
@@ -621,15 +622,14 @@ const struct ceduo_figure ceduo_result_figures[] = {
 
 #define NONE "no value reaches the goal"
 #define ONE  "a value reaches it"
-static const struct ceduo_figure sought[] = {
-    {"scene", "", "path of the file", .value = find_path},
-    {"path", "", "path of the parameter", .from = search_of, AT(search, path)},
-    {"option", "", "name of the option", .value = find_option},
-    {"goal", "", "goal that was asked for", .from = search_of, .value = goal_of},
-    {"target", "", "value that it is to stay below, or at most at", .from = search_of, AT(search, target)},
-    {"lo", "", "lower end of the range", .from = search_of, AT(search, lo)},
-    {"hi", "", "upper end of the range", .from = search_of, AT(search, hi)},
-    END};
+static const struct ceduo_figure sought[] = {{"scene", "", "path of the file", .value = find_path},
+                                             {"path", "", "path of the parameter", .from = search_of, AT(search, path)},
+                                             {"option", "", "name of the option", .value = find_option},
+                                             {"goal", "", "goal that was asked for", .from = search_of, .value = goal_of},
+                                             {"target", "", "limit of the goal", .from = search_of, AT(search, target)},
+                                             {"lo", "", "lower end of the range", .from = search_of, AT(search, lo)},
+                                             {"hi", "", "upper end of the range", .from = search_of, AT(search, hi)},
+                                             END};
 static const struct ceduo_figure found_row[] = {
     {"found", "", "whether a value reaches the goal", .from = found_of, AT(found, found)}, END};
 static const struct ceduo_figure value_row[] = {{"value", "", "the value", .from = found_of, AT(found, value), .null = NONE},

@@ -63,23 +63,6 @@ def expect_small(done, size):
 
 # ---- the table ----
 
-def rows(page="man/ceduo.1", head="DIAGNOSTICS"):
-    """The messages of the manual's table, as they are printed: {message: section}."""
-    found, section, inside = {}, "", False
-    for line in (ROOT / page).read_text(encoding="utf-8").splitlines():
-        if line.startswith(".Sh "):
-            inside = line == f".Sh {head}"
-        elif inside and line.startswith(".Ss "):
-            section = line[4:].strip('"')
-        elif inside and line.startswith(".It "):
-            text = line[4:].strip('"')
-            for code, sign in (("\\(aq", "'"), ("\\-", "-"), ("\\(dq", '"'), ("\\ex", "\\x"), ("\\ ", " ")):
-                text = text.replace(code, sign)
-            expect(text not in found, f"twice in the manual: {text}")
-            found[text] = section
-    return found
-
-
 def as_pattern(row):
     """'...' stands for any words; what is in brackets at the end is a remark."""
     text = re.sub(r" \((status [^)]*|in the result)\)$", "", row)
@@ -554,52 +537,6 @@ CASES = {
     "--script is for the terminal program; it cannot be used with --batch": Words("--batch", "--script", "x", "@"),
     "--years cannot be used with --plot, except --plot rotation and --plot tradeoff": Words("--years", "0:5", "--plot", "profile", "@"),
 }
-
-
-def test_table_whole():
-    """Every row of the manual's table has a case here, and no case is without a row"""
-    wanted = set(rows())
-    expect_equal(sorted(wanted - set(CASES)), [], "rows without a case")
-    expect_equal(sorted(set(CASES) - wanted), [], "cases without a row")
-
-
-def said_in_italian():
-    """The pieces of each Italian message, between what printf fills in."""
-    text = re.sub(r'"\n"', "", (ROOT / "src/po/it.po").read_text(encoding="utf-8"))
-    messages = re.findall(r'^msgstr(?:\[\d\])? "(.*)"$', text, re.M)
-    plain = (m.replace('\\"', '"').replace("\\\\", "\\").replace("%%", "%") for m in messages)
-    split = (re.split(r"%[-+#0]*[\d.*]*(?:ll|l|z)?[a-zA-Z]", m) for m in plain)
-    return [pieces for pieces in split if max(map(len, pieces)) >= 4]
-
-
-def is_said(row, pieces):
-    """Whether a message with these pieces prints the row, perhaps behind its place and before a word of the file."""
-    text = re.sub(r" \(stato [^)]*\)$", "", row)
-    return all(piece in text for piece in pieces) and re.fullmatch(
-        r"(\S+: )?" + ".+".join(map(re.escape, pieces)) + r"(: \S+)?", text) is not None
-
-
-def begins(text, pieces):
-    """Whether the pieces stand in the text one after the other, though it may end within one of them."""
-    at = 0
-    for piece in pieces:
-        found = text.find(piece, at)
-        if found < 0:
-            return any(text.endswith(piece[:n]) for n in range(min(len(piece), len(text) - at), 0 if at else 3, -1))
-        at = found + len(piece)
-    return True
-
-
-def test_table_italian():
-    """The Italian page has a row for each of the English one, each with words that the program says in Italian"""
-    english, italian = rows(), rows(os.environ.get("BUILD", "build/release") + "/man/it/ceduo.1", "DIAGNOSTICA")
-    counts = [[list(table.values()).count(s) for s in dict.fromkeys(table.values())] for table in (english, italian)]
-    expect_equal(counts[1], counts[0], "rows of each section")
-    said = said_in_italian()
-    for row in italian:
-        begun = row.split("...")[0].strip()  # a row may end before its message does
-        known = any(begins(begun, p) if begun != row else is_said(row, p) for p in said)
-        expect(known or "No such file" in row or "No space" in row or "Permission denied" in row, f"nothing that is said: {row}")
 
 
 # ---- floods: a large file of one fault ----

@@ -9,13 +9,14 @@ say() { # status name
     n=$((n + 1))
     if [ "$1" = 0 ]; then echo "ok $n - $2"; else echo "not ok $n - $2"; fi
 }
-for page in ceduo.1 ceduo.3 ceduo-scene.5 ceduo-slope.5 ceduo-stand.5 ceduo-accuracy.7 ceduo-model.7 ceduo-validation.7 ceduo-workflows.7; do
+for page in $(cd man && ls *.[1357]); do
     mandoc -Tlint -W warning "man/$page" >"$dir/lint" 2>&1
     say $? "$page has no warning"
     sed 's/^/# /' "$dir/lint"
 done
 italian=${BUILD:-build/release}/man/it
-for page in ceduo.1 ceduo-workflows.7; do
+pages="ceduo.1 ceduo-output.5 ceduo-terminal.7 ceduo-workflows.7"
+for page in $pages; do
     mandoc -Tlint -W warning "$italian/$page" 2>&1 | grep -v 'new sentence, new line' >"$dir/lint" # po4a fills its lines
     [ ! -s "$dir/lint" ]
     say $? "the Italian $page has no warning"
@@ -25,27 +26,23 @@ done
 po4a -v -f --no-update --variable build="$dir" src/po/man/po4a.cfg >"$dir/po4a" 2>&1
 grep -q 'ceduo-workflows.7 is 100% translated' "$dir/po4a"
 say $? "all of ceduo-workflows.7 is translated"
-sed -n 's/.*\(ceduo[-a-z]*\.[17] is [0-9.]*% translated.*\)/# \1/p' "$dir/po4a"
+sed -n 's/.*\(ceduo[-a-z]*\.[157] is [0-9.]*% translated.*\)/# \1/p' "$dir/po4a"
 make --no-print-directory -s "${BUILD:-build/release}/tests/tables" VARIANT="$(basename "${BUILD:-build/release}")" >/dev/null
-for kind in scene slope stand; do
-    cp "man/ceduo-$kind.5" "$dir/page"
-    "${BUILD:-build/release}/tests/tables" $kind "$dir/page" && cmp -s "man/ceduo-$kind.5" "$dir/page"
-    say $? "the parameters of ceduo-$kind.5 are those of the program (make man)"
+for table in goals:ceduo.1 ranges:ceduo-scene.5 search:ceduo-output.5 figures:ceduo-output.5 keys:ceduo-terminal.7; do
+    page=${table#*:}
+    cp "man/$page" "$dir/page"
+    "${BUILD:-build/release}/tests/tables" "${table%:*}" "$dir/page" && cmp -s "man/$page" "$dir/page"
+    say $? "the ${table%:*} of $page are those of the program (make man)"
 done
-for table in keys goals search figures; do
-    cp man/ceduo.1 "$dir/page"
-    "${BUILD:-build/release}/tests/tables" $table "$dir/page" && cmp -s man/ceduo.1 "$dir/page"
-    say $? "the $table of ceduo.1 are those of the program (make man)"
-done
-cp "$italian/ceduo.1" "$dir/page"
+cp "$italian/ceduo-terminal.7" "$dir/page"
 LC_ALL=C.UTF-8 "${BUILD:-build/release}/tests/tables" keys "$dir/page" it
-mandoc -Tutf8 "$italian/ceduo.1" >"$dir/made" && mandoc -Tutf8 "$dir/page" | cmp -s - "$dir/made"
-say $? "the keys of the Italian ceduo.1 are those of the program (make man, make po, src/po/man/it.po)"
+mandoc -Tutf8 "$italian/ceduo-terminal.7" >"$dir/made" && mandoc -Tutf8 "$dir/page" | cmp -s - "$dir/made"
+say $? "the keys of the Italian ceduo-terminal.7 are those of the program (make man, make po, src/po/man/it.po)"
 tests/bench/tables.py --check man/ceduo-accuracy.7 man/ceduo-validation.7 README.md >"$dir/stale"
 say $? "what the benches found stands in the pages (make tables)"
 sed 's/^/# /' "$dir/stale"
 # What is typed is the same in every language, but in the survey, which test_workflows.py plays in both.
-for page in ceduo.1 ceduo-workflows.7; do
+for page in $pages; do
     python3 - "$italian/$page" "man/$page" <<'PYTHON'
 import re, sys
 played = r'^\.\\" run survey\n(?:(?!\.Bd|\.\\")[^\n]*\n)*\.Bd -literal.*?^\.Ed$'
@@ -64,4 +61,6 @@ for option in $("${CEDUO:-./ceduo}" --help | sed -nE 's/^  (-(.),|   ) --([a-z-]
     grep -qE -- "It Fl ${letter:+$letter , }-${option#*:}( |$)" man/ceduo.1
     say $? "--${option#*:} stands in ceduo.1${letter:+ with -$letter}"
 done
+[ "$(MANWIDTH=80 mandoc -Tutf8 -O width=80 man/ceduo.1 | wc -l)" -le 600 ]
+say $? "ceduo.1 has at most 600 lines"
 echo "1..$n"
