@@ -11,7 +11,19 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 from harness import (CEDUO, DONE, INPUT, OUTPUT, RUN, SANITIZED, USAGE, Folder, Skip, ceduo, environment, expect, expect_equal,
                      expect_in, good, result, run_all, scene, stand)
+from pages import WHOLE
 from runs import ENDLESS, FOUR, PAPER
+
+
+def test_energies_of_the_paper():
+    """The page has what stems take as the paper: 67.5 m of each plot at its ADC and energy of a contact, and what Eq. 5 leaves"""
+    page = good(*WHOLE, "-n", 50, PAPER).out
+    for plot, adc, joule in ((1, 1.9483, 1099.96), (2, 2.6054, 606.52)):
+        row = re.search(rf"ADS {plot} .* (\S+) +(\S+)\n", page)
+        for found, wanted in zip(row.groups(), (67.5 / adc * joule / 1e3, 100 / adc * joule / 1e3)):
+            expect_equal(found, f"{wanted:.1f}", row[0])
+    left = re.search(r"left \(Eq\. 5\): (\d+\.\d) \u2212 (\d+\.\d) = (\d+\.\d) kJ", page)
+    expect(left and left[2] == "53.8" and abs(float(left[1]) - 53.8 - float(left[3])) < 1e-9, page)
 
 
 def test_several_scenes():

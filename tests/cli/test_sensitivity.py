@@ -83,8 +83,9 @@ def test_page_of_a_run():
 def test_lights():
     """A light that changes within what may be true says on what it depends; one that does not is silent"""
     speed = {"path": "release.vx_m_s", "lo": 1, "hi": 9}
-    for doubt, energy, contact in (([speed], True, False),
-                                   ([{"path": "forest[0].stand.trees[0].per_ha", "lo": 150, "hi": 600}], False, True)):
+    trees = {"path": "forest[0].stand.trees[0].per_ha"}
+    for doubt, energy, contact, free_run in (([speed], True, False, False), ([trees | {"lo": 150, "hi": 600}], False, True, False),
+                                             ([trees | {"lo": 500, "hi": 1500}], False, False, True)):
         accepted = 150 if energy else 1e6
         with Folder() as f:
             path = f.write("s.yaml", measured(doubt=doubt, controls=[{"x_m": 90, "accepted_kJ": accepted}]))
@@ -94,6 +95,7 @@ def test_lights():
             page = " ".join(ceduo(f"--sensitivity={POINTS}", "-n", 200, path).out.split())
             expect_equal("Whether the test of energy passes depends on " in page, energy, page)
             expect_equal("Whether the test of contact passes depends on " in page, contact, page)
+            expect_equal("Whether the test of free run passes depends on " in page, free_run, page)
 
 
 def test_lights_of_two_inputs():
