@@ -5,7 +5,6 @@
 #include "local.h"
 
 #include <math.h>
-#include <stdlib.h>
 
 #include "line_scene.h"
 #include "paper_site.h"

@@ -4,7 +4,6 @@
 #include "local.h"
 
 #include <math.h>
-#include <stdlib.h>
 
 #include "ceduo/ceduo.h"
 #include "physics/paper_site.h"
