@@ -503,7 +503,8 @@ TEST(unfinished_rocks_count_for_the_upper_bound)
 }
 
 /* Blocks of all sizes fall on one of two grounds: on one they stay, on the other they bounce for ever. Nobody reaches the
- * control; the upper end is that of as many rocks as the heaviest would be, with the weights of the unfinished counted in. */
+ * control; the upper end is that of as many equal rocks as would have the same error, (sum of weights)^2 over the sum of their
+ * squares, of which the unfinished arrive by their weights; or of these and of none of the others, if that is more. */
 TEST(unfinished_blocks_count_by_their_weights)
 {
     enum { ROCKS = 60 };
@@ -524,18 +525,20 @@ TEST(unfinished_blocks_count_by_their_weights)
     LOCAL(ceduo_follower, f) = ceduo_follower_create(&flat.scene, NULL);
     struct ceduo_arrivals a = arrivals_of(run, 0);
     const double *weights = ceduo_run_weights(run);
-    double all = 0, most = 0, unfinished = 0;
+    double all = 0, squares = 0, unfinished = 0;
     for (uint64_t r = 0; r < ROCKS; r++) {
         struct ceduo_trajectory way;
         struct ceduo_crossing crossing;
         assert_int_equal(ceduo_follower_follow(f, r, NULL, &way, &crossing), CEDUO_OK);
         all += weights[r];
-        most = fmax(most, weights[r]);
+        squares += weights[r] * weights[r];
         unfinished += way.end == CEDUO_UNFINISHED ? weights[r] : 0;
     }
     ROWS(EXPECT, (a.reached, ==, 0), (a.unfinished, >, ROCKS / 4), (a.unfinished, <, ROCKS * 3 / 4));
     EXPECT(fabs(unfinished / all - (double)a.unfinished / ROCKS), >, .01); /* weights matter */
-    double hi = ceduo_wilson(unfinished / all, unfinished / all, all / most).hi;
+    const double z2 = 1.959963984540054 * 1.959963984540054;
+    double of_equal = ceduo_wilson(unfinished / all, unfinished / all, all * all / squares).hi;
+    double hi = fmax(of_equal, unfinished / all + z2 / (ROCKS + z2));
     EXPECT_NEAR(a.missed[CEDUO_UNFINISHED], unfinished / all, 1e-12);
     EXPECT_NEAR(a.reach_hi, hi, 1e-12);
 }
