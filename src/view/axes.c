@@ -223,20 +223,6 @@ static bool bottom_scale_fits(struct scale *scale, const struct ceduo_frame *fra
     return true;
 }
 
-/* Where the unit goes: after the last number or else after the first, moving none. -1 if neither has room. */
-static int unit_column(const struct scale *scale, const struct ceduo_frame *frame, int unit_width)
-{
-    if (scale->count < 1)
-        return -1;
-    int after_last = scale->end[from_left(scale, frame, scale->count - 1)] + 1;
-    if (after_last + unit_width <= frame->left + frame->width)
-        return after_last;
-    int after_first = scale->end[from_left(scale, frame, 0)] + 1;
-    if (scale->count > 1 && after_first + unit_width + LABEL_GAP <= scale->start[from_left(scale, frame, 1)])
-        return after_first;
-    return -1;
-}
-
 /* The most labels that leave room for the unit too, but two at least; the most of all if there is no such. */
 static struct scale bottom_scale(const struct ceduo_frame *frame, const struct ceduo_canvas *canvas, int unit_width,
                                  int *unit_start)
@@ -250,7 +236,13 @@ static struct scale bottom_scale(const struct ceduo_frame *frame, const struct c
         if (between || !bottom_scale_fits(&scale, frame, canvas) || (scale.count < 2 && most.count > 1))
             continue;
         most = most.count == 0 ? scale : most;
-        *unit_start = unit_column(&scale, frame, unit_width);
+        /* the unit goes after the last number or else after the first, moving none */
+        int after_last = scale.count > 0 ? scale.end[from_left(&scale, frame, scale.count - 1)] + 1 : 0;
+        int after_first = scale.count > 1 ? scale.end[from_left(&scale, frame, 0)] + 1 : 0;
+        bool room = scale.count > 1 && after_first + unit_width + LABEL_GAP <= scale.start[from_left(&scale, frame, 1)];
+        *unit_start = scale.count > 0 && after_last + unit_width <= frame->left + frame->width ? after_last
+                      : room                                                                   ? after_first
+                                                                                               : -1;
         if (unit_width == 0 || *unit_start >= 0)
             return scale;
     }

@@ -17,30 +17,26 @@ static int nearest(double position, int n)
     return (int)lround(fmin(fmax(position, 0.0), n - 1));
 }
 
-/* Counts how many trajectories pass a dot; one where a part of a trajectory ends and the next begins counts once. */
-static void count_dot(struct ceduo_cells *cells, struct ceduo_pen *pen, int x, int y)
-{
-    int width = cells->width * cells->canvas.dots_x, height = cells->height * cells->canvas.dots_y;
-    if (!cells->density || x < 0 || x >= width || y < 0 || y >= height || (x == pen->last_x && y == pen->last_y))
-        return;
-    pen->last_x = x;
-    pen->last_y = y;
-    uint32_t *count = &cells->density[(size_t)y * (size_t)width + (size_t)x];
-    *count += *count < UINT32_MAX;
-}
-
 static void put_line(void *to, struct ceduo_pen *pen, struct ceduo_position a, struct ceduo_position b)
 {
     const struct ceduo_raster *r = &pen->raster;
+    struct ceduo_cells *cells = to;
+    int across = cells->width * cells->canvas.dots_x, down = cells->height * cells->canvas.dots_y;
     int x = nearest(a.x, r->nx), y = nearest(a.y, r->ny);
     int dx = nearest(b.x, r->nx) - x, dy = nearest(b.y, r->ny) - y;
     int dots = abs(dx) > abs(dy) ? abs(dx) : abs(dy);
     for (int i = 0; i <= dots; i += pen->stroke == CEDUO_STROKE_DOTTED ? 2 : 1) {
         double part = dots > 0 ? (double)i / dots : 0;
         int at_x = r->left + x + (int)lround(part * dx), at_y = r->top + y + (int)lround(part * dy);
-        if (pen->stroke == CEDUO_STROKE_WAY)
-            count_dot(to, pen, at_x, at_y);
-        else
+        if (pen->stroke == CEDUO_STROKE_WAY) {
+            bool again = at_x == pen->last_x && at_y == pen->last_y; /* where a part of a trajectory ends and the next begins */
+            if (!cells->density || at_x < 0 || at_x >= across || at_y < 0 || at_y >= down || again)
+                continue;
+            pen->last_x = at_x;
+            pen->last_y = at_y;
+            uint32_t *count = &cells->density[(size_t)at_y * (size_t)across + (size_t)at_x];
+            *count += *count < UINT32_MAX;
+        } else
             ceduo_cells_set_dot(to, at_x, at_y, pen->role);
     }
 }
@@ -284,26 +280,17 @@ void ceduo_canvas_stairs(struct ceduo_canvas *canvas, const struct ceduo_frame *
     }
 }
 
-/* Where the surface draws discs itself. */
-static void draw_disc(struct ceduo_canvas *canvas, const struct ceduo_frame *frame, enum ceduo_role role, double x, double y,
-                      double radius)
-{
-    struct ceduo_raster raster = raster_of(canvas, frame);
-    struct ceduo_position centre;
-    if (!ceduo_frame_valid(frame) || !place(frame, &raster, x, y, &centre) || !inside(&raster, centre))
-        return;
-    struct ceduo_position radii = {fabs(radius / (frame->x1 - frame->x0)) * (raster.nx - 1),
-                                   fabs(radius / (frame->y1 - frame->y0)) * (raster.ny - 1)};
-    canvas->surface->disc(canvas->to, &raster, role, centre, radii);
-}
-
 void ceduo_canvas_disc(struct ceduo_canvas *canvas, const struct ceduo_frame *frame, enum ceduo_role role, double x, double y,
                        double radius)
 {
-    if (canvas->surface->disc) {
-        draw_disc(canvas, frame, role, x, y, radius);
+    struct ceduo_raster raster = raster_of(canvas, frame);
+    struct ceduo_position centre;
+    if (canvas->surface->disc && ceduo_frame_valid(frame) && place(frame, &raster, x, y, &centre) && inside(&raster, centre))
+        canvas->surface->disc(canvas->to, &raster, role, centre,
+                              (struct ceduo_position){fabs(radius / (frame->x1 - frame->x0)) * (raster.nx - 1),
+                                                      fabs(radius / (frame->y1 - frame->y0)) * (raster.ny - 1)});
+    if (canvas->surface->disc)
         return;
-    }
     double dot = fabs(frame->y1 - frame->y0) / (frame->height * canvas->dots_y - 1);
     int rows = (int)floor(radius / dot);
     for (int i = -rows; i <= rows; ++i) {

@@ -36,22 +36,17 @@ static void put_escaped(struct text *to, const char *string)
     }
 }
 
-static void put_attributes(struct text *to, va_list args)
-{
-    for (const char *name; (name = va_arg(args, const char *)) != NULL;) {
-        const char *value = va_arg(args, const char *);
-        if (!value)
-            continue;
-        ceduo_text_format(to, " %s=\"", name);
-        put_escaped(to, value);
-        ceduo_text_char(to, '"');
-    }
-}
-
 static void begin(struct ceduo_html *html, const char *name, va_list args)
 {
     ceduo_text_format(html->text, "<%s", name);
-    put_attributes(html->text, args);
+    for (const char *key; (key = va_arg(args, const char *)) != NULL;) {
+        const char *value = va_arg(args, const char *);
+        if (!value)
+            continue;
+        ceduo_text_format(html->text, " %s=\"", key);
+        put_escaped(html->text, value);
+        ceduo_text_char(html->text, '"');
+    }
 }
 
 void ceduo_html_open(struct ceduo_html *html, const char *name, ...)

@@ -42,23 +42,6 @@ void ceduo_page_question(struct ceduo_page *page, const struct ceduo_result *r)
 
 /* ---- the answer ---- */
 
-/* Of one option a line for each place that is judged, and for the last one. */
-static void answer_one(struct ceduo_page *page, const struct ceduo_report *report)
-{
-    const struct ceduo_result *r = report->result;
-    for (size_t k = 0; k < r->scene->controls_count; k++) {
-        if (k != r->last_control && isnan(r->scene->controls[k].accepted))
-            continue;
-        struct text *text = ceduo_page_add(page, CEDUO_PAGE_ANSWER);
-        if (k != r->last_control) {
-            ceduo_plot_control_name(text, &r->scene->controls[k]);
-            ceduo_text_put(text, ": ");
-        }
-        ceduo_words_answer(text, r, 0, k, report->doubt,
-                           page->width - CEDUO_ANSWER_INDENT - ceduo_utf8_width(ceduo_text_string(text)));
-    }
-}
-
 /* Which options keep within what is accepted, "none" or their names: today, or in every year. Returns how many. */
 static size_t append_keepers(struct text *text, const struct ceduo_report *report, bool every_year)
 {
@@ -121,14 +104,24 @@ void ceduo_page_answer(struct ceduo_page *page, const struct ceduo_report *repor
         return;
     if (ceduo_page_says_nothing(r)) /* neither error changes that */
         ceduo_words_nothing(ceduo_page_add(page, CEDUO_PAGE_ANSWER), r, r->last_control);
-    else if (n == 1)
-        answer_one(page, report);
-    else if (!r->wooded)
+    else if (n > 1 && !r->wooded)
         ceduo_text_put(ceduo_page_add(page, CEDUO_PAGE_ANSWER),
                        _("Without forest every option sees the same rocks: what arrives does not separate them. The index "
                          "says what stems could take, not what a rock loses; no column decides alone."));
-    else if (report->verdict)
+    else if (n > 1 && report->verdict)
         answer_many(page, report);
+    /* of one option a line for each place that is judged, and for the last one */
+    for (size_t k = 0; n == 1 && !ceduo_page_says_nothing(r) && k < r->scene->controls_count; k++) {
+        if (k != r->last_control && isnan(r->scene->controls[k].accepted))
+            continue;
+        struct text *text = ceduo_page_add(page, CEDUO_PAGE_ANSWER);
+        if (k != r->last_control) {
+            ceduo_plot_control_name(text, &r->scene->controls[k]);
+            ceduo_text_put(text, ": ");
+        }
+        ceduo_words_answer(text, r, 0, k, report->doubt,
+                           page->width - CEDUO_ANSWER_INDENT - ceduo_utf8_width(ceduo_text_string(text)));
+    }
 }
 
 /* ---- how sure ---- */

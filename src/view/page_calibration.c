@@ -139,32 +139,21 @@ static void add_values(struct ceduo_page *page, const struct ceduo_calibration_r
 
 /* ---- in words ---- */
 
-static void warn_of_value(struct ceduo_page *page, const struct ceduo_calibration_report *r, size_t i, const char *sentence)
-{
-    LOCAL_TEXT(name);
-    ceduo_calibration_name(&name, r->paths[i], r->fields[i]);
-    ceduo_append_with(ceduo_page_add(page, CEDUO_PAGE_WARNING), sentence, ceduo_text_string(&name));
-}
-
-static void warn_of_seen(struct ceduo_page *page, const struct ceduo_calibration_report *r, const struct ceduo_predicted *p,
-                         const char *sentence)
-{
-    LOCAL_TEXT(name);
-    append_name(&name, r, p);
-    ceduo_append_with(ceduo_page_add(page, CEDUO_PAGE_WARNING), sentence, ceduo_text_string(&name));
-}
-
 static void say_values(struct ceduo_page *page, const struct ceduo_calibration_report *r)
 {
     for (size_t i = 0; i < r->answer->parameters_count; i++) {
         const struct ceduo_fitted *f = &r->answer->parameters[i];
+        LOCAL_TEXT(name);
+        ceduo_calibration_name(&name, r->paths[i], r->fields[i]);
         if (!f->determined)
-            warn_of_value(page, r, i,
-                          _("%s is not determined by what was seen: nearly everything within its bounds fits as well."));
+            ceduo_page_say(page, CEDUO_PAGE_WARNING,
+                           _("%s is not determined by what was seen: nearly everything within its bounds fits as well."),
+                           name.bytes);
         if (f->at_bound)
-            warn_of_value(
-                page, r, i,
-                _("%s lies at a bound: what fits best may be beyond it. Widen its bounds, or ask what the model lacks."));
+            ceduo_page_say(
+                page, CEDUO_PAGE_WARNING,
+                _("%s lies at a bound: what fits best may be beyond it. Widen its bounds, or ask what the model lacks."),
+                name.bytes);
     }
     for (size_t i = 0; i < r->answer->parameters_count; i++)
         for (size_t k = 0; k < i; k++) {
@@ -182,39 +171,34 @@ static void say_values(struct ceduo_page *page, const struct ceduo_calibration_r
         }
 }
 
-/* How many of the values that were kept back lie where single rocks are predicted. */
-static void say_single(struct ceduo_page *page, const struct ceduo_calibration_report *r, const struct ceduo_predicted *p)
-{
-    const struct ceduo_observation *o = ceduo_seen_of(r, p);
-    double origin = r->files[p->scene].scene.slope.origin_x;
-    LOCAL_TEXT(name);
-    LOCAL_TEXT(range);
-    if (!o->values || isnan(p->one_lo))
-        return;
-    append_name(&name, r, p);
-    append_range(&range, ceduo_seen_shown(o->kind, p->one_lo, origin), ceduo_seen_shown(o->kind, p->one_hi, origin));
-    ceduo_page_say(page, CEDUO_PAGE_ITEM, _("%s: of %zu values %zu lie within the 95 %% predicted of single rocks, %s."),
-                   ceduo_text_string(&name), o->n, p->one_inside, ceduo_text_string(&range));
-}
-
 static void say_misfits(struct ceduo_page *page, const struct ceduo_calibration_report *r)
 {
     const struct ceduo_calibration *a = r->answer;
     for (size_t i = 0; i < a->predicted_count; i++) {
         const struct ceduo_predicted *p = &a->predicted[i];
         const struct ceduo_observation *o = ceduo_seen_of(r, p);
+        LOCAL_TEXT(name);
+        append_name(&name, r, p);
         if (p->p_value < CEDUO_MISFIT)
-            warn_of_seen(page, r, p,
-                         o->use != CEDUO_OBSERVED_FIT ? _("The fit does not hold for what was to check it: %s.")
-                         : p->inside
-                             ? _("This model can give the mean of what was seen here, but not how the values are spread: %s.")
-                             : _("This model cannot give what was seen here: %s."));
-        if (o->use == CEDUO_OBSERVED_CHECK)
-            say_single(page, r, p);
+            ceduo_page_say(page, CEDUO_PAGE_WARNING,
+                           o->use != CEDUO_OBSERVED_FIT ? _("The fit does not hold for what was to check it: %s.")
+                           : p->inside
+                               ? _("This model can give the mean of what was seen here, but not how the values are spread: %s.")
+                               : _("This model cannot give what was seen here: %s."),
+                           ceduo_text_string(&name));
+        if (o->use == CEDUO_OBSERVED_CHECK && o->values && !isnan(p->one_lo)) {
+            double origin = r->files[p->scene].scene.slope.origin_x;
+            LOCAL_TEXT(range); /* of those that were kept back, which lie where single rocks are predicted */
+            append_range(&range, ceduo_seen_shown(o->kind, p->one_lo, origin), ceduo_seen_shown(o->kind, p->one_hi, origin));
+            ceduo_page_say(page, CEDUO_PAGE_ITEM,
+                           _("%s: of %zu values %zu lie within the 95 %% predicted of single rocks, %s."),
+                           ceduo_text_string(&name), o->n, p->one_inside, ceduo_text_string(&range));
+        }
         if (o->kind == CEDUO_OBSERVED_SCARS && o->of > 0 && isnan(o->share_seen))
-            warn_of_seen(page, r, p,
-                         _("A survey finds too few scars, and %s does not say what share it found (share_seen): the "
-                           "number of blows is taken too low."));
+            ceduo_page_say(page, CEDUO_PAGE_WARNING,
+                           _("A survey finds too few scars, and %s does not say what share it found (share_seen): the "
+                             "number of blows is taken too low."),
+                           ceduo_text_string(&name));
     }
     if (!a->misfit)
         ceduo_page_note(page, _("The model can give all that it was fitted to."));

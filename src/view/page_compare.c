@@ -79,24 +79,6 @@ void ceduo_page_today(struct ceduo_page *page, const struct ceduo_result *r)
     }
 }
 
-/* A test that all options pass, or none, says nothing about which to choose. */
-static void say_separation(struct ceduo_page *page, const struct ceduo_result *r)
-{
-    size_t n = r->scene->options_count, passes[3] = {0};
-    for (size_t i = 0; i < n; i++) {
-        const struct ceduo_index *s = ceduo_result_last_index(r, i);
-        passes[0] += s->contact == CEDUO_PASS;
-        passes[1] += s->free_run == CEDUO_PASS;
-        passes[2] += s->energy == CEDUO_PASS;
-    }
-    for (size_t k = 0; k < (r->wooded && !isnan(last_control(r)->accepted) ? 3u : 2u); k++)
-        if (passes[k] == n || (passes[k] == 0 && ceduo_result_last_index(r, 0)->contact != CEDUO_UNKNOWN))
-            ceduo_page_say(page, CEDUO_PAGE_NOTE,
-                           passes[k] == n ? _("Today all options pass the test of %s: it does not separate them.")
-                                          : _("Today no option passes the test of %s: it does not separate them."),
-                           _(ceduo_light_names[k]));
-}
-
 /* ---- over the years ---- */
 
 /* `known`: false also where nothing can be said. */
@@ -163,23 +145,6 @@ static void add_rotations(struct ceduo_page *page, const struct ceduo_result *r,
         add_choice(page, r->scene->options[i].name, &v->choices[i]);
 }
 
-/* What a yield leaves out. */
-static void say_yield(struct ceduo_page *page, const struct ceduo_result *r, const struct ceduo_verdict *v)
-{
-    bool known = false;
-    for (size_t i = 0; i < v->n; i++) {
-        known |= !isnan(v->choices[i].yield.cut_per_year);
-        if (v->choices[i].yield.space > 1)
-            ceduo_page_say(
-                page, CEDUO_PAGE_NOTE,
-                _("'%s' keeps more standards than the ground bears (%.0f %% of the growing space): its yield is not computed."),
-                r->scene->options[i].name, 100 * v->choices[i].yield.space);
-    }
-    if (known)
-        ceduo_page_note(page, _("Yield: standards take growing space from the shoots (assumed). Side light, roots and the "
-                                "quality of the wood are not modelled."));
-}
-
 void ceduo_page_comparison(struct ceduo_page *page, const struct ceduo_report *report)
 {
     const struct ceduo_result *r = report->result;
@@ -190,13 +155,36 @@ void ceduo_page_comparison(struct ceduo_page *page, const struct ceduo_report *r
                    SHORTEST(last_control(r)->x_given));
     ceduo_page_say(page, CEDUO_PAGE_CAPTION, _("Today:"));
     ceduo_page_today(page, r);
-    say_separation(page, r);
-    if (v && v->choices[0].years > 0) {
-        add_rotations(page, r, v);
-        say_yield(page, r, v);
+    size_t n = r->scene->options_count, passes[3] = {0};
+    for (size_t i = 0; i < n; i++) {
+        const struct ceduo_index *s = ceduo_result_last_index(r, i);
+        passes[0] += s->contact == CEDUO_PASS;
+        passes[1] += s->free_run == CEDUO_PASS;
+        passes[2] += s->energy == CEDUO_PASS;
     }
+    /* a test that all options pass, or none, says nothing about which to choose */
+    for (size_t k = 0; k < (r->wooded && !isnan(last_control(r)->accepted) ? 3u : 2u); k++)
+        if (passes[k] == n || (passes[k] == 0 && ceduo_result_last_index(r, 0)->contact != CEDUO_UNKNOWN))
+            ceduo_page_say(page, CEDUO_PAGE_NOTE,
+                           passes[k] == n ? _("Today all options pass the test of %s: it does not separate them.")
+                                          : _("Today no option passes the test of %s: it does not separate them."),
+                           _(ceduo_light_names[k]));
     if (!v)
         return;
+    bool known = false;
+    if (v->choices[0].years > 0)
+        add_rotations(page, r, v);
+    for (size_t i = 0; v->choices[0].years > 0 && i < v->n; i++) { /* what a yield leaves out */
+        known |= !isnan(v->choices[i].yield.cut_per_year);
+        if (v->choices[i].yield.space > 1)
+            ceduo_page_say(
+                page, CEDUO_PAGE_NOTE,
+                _("'%s' keeps more standards than the ground bears (%.0f %% of the growing space): its yield is not computed."),
+                r->scene->options[i].name, 100 * v->choices[i].yield.space);
+    }
+    if (known)
+        ceduo_page_note(page, _("Yield: standards take growing space from the shoots (assumed). Side light, roots and the "
+                                "quality of the wood are not modelled."));
     ceduo_words_turned(r, v, ceduo_page_note, page); /* which is best stands at the head of the page */
     if (v->choices[0].years > 0)
         ceduo_words_windows(r->scene, v, ceduo_page_note, page);
@@ -205,29 +193,6 @@ void ceduo_page_comparison(struct ceduo_page *page, const struct ceduo_report *r
 }
 
 /* ---- one option year by year ---- */
-
-static void add_years_table(struct ceduo_page *page, const struct ceduo_result *r, const struct ceduo_years *years)
-{
-    static const struct ceduo_page_column columns[] = {
-        {N_("year"), 9, 4, 0},           CONTACTS,          {"", 5, 1, 0},
-        {N_("kJ/100 m"), -9, 0, 0},      {NULL, -16, 0, 0}, {NP_("head", "arr. kJ"), -8, 0, 0},
-        {NP_("head", "energy"), 0, 2, 0}};
-    ceduo_page_say(page, CEDUO_PAGE_CAPTION, _("Year by year, up to %s m:"), SHORTEST(last_control(r)->x_given));
-    CEDUO_PAGE_TABLE_OF(page, columns);
-    ceduo_page_limit(page, last_control(r), CEDUO_HEAD);
-    for (size_t i = 0; i < years->count; i++) {
-        const struct ceduo_year *y = &years->years[i];
-        const struct ceduo_index *s = &y->controls[r->last_control];
-        const struct ceduo_arrivals *a = y->wooded.rocks > 0 ? &y->wooded.arrivals[r->last_control] : NULL;
-        const struct ceduo_measure share = ceduo_judged(last_control(r), a);
-        ceduo_page_write(page, "%4u %s", y->year, y->cut ? P_("head", "cut") : "");
-        add_contacts(page, s);
-        ceduo_page_number(page, s->per_100m * J_TO_KJ, 3);
-        ceduo_page_interval(page, &share);
-        ceduo_page_number(page, a ? a->energy.mean * J_TO_KJ : NAN, 3);
-        ceduo_page_verdict(page, s->energy);
-    }
-}
 
 void ceduo_page_years_words(struct ceduo_page *page, const struct ceduo_result *r, const struct ceduo_years *years)
 {
@@ -244,8 +209,28 @@ void ceduo_page_years_words(struct ceduo_page *page, const struct ceduo_result *
 
 void ceduo_page_years(struct ceduo_page *page, const struct ceduo_report *report, size_t option)
 {
-    add_years_table(page, report->result, report->years[option]);
-    ceduo_page_years_words(page, report->result, report->years[option]);
+    static const struct ceduo_page_column columns[] = {
+        {N_("year"), 9, 4, 0},           CONTACTS,          {"", 5, 1, 0},
+        {N_("kJ/100 m"), -9, 0, 0},      {NULL, -16, 0, 0}, {NP_("head", "arr. kJ"), -8, 0, 0},
+        {NP_("head", "energy"), 0, 2, 0}};
+    const struct ceduo_result *r = report->result;
+    const struct ceduo_years *years = report->years[option];
+    ceduo_page_say(page, CEDUO_PAGE_CAPTION, _("Year by year, up to %s m:"), SHORTEST(last_control(r)->x_given));
+    CEDUO_PAGE_TABLE_OF(page, columns);
+    ceduo_page_limit(page, last_control(r), CEDUO_HEAD);
+    for (size_t i = 0; i < years->count; i++) {
+        const struct ceduo_year *y = &years->years[i];
+        const struct ceduo_index *s = &y->controls[r->last_control];
+        const struct ceduo_arrivals *a = y->wooded.rocks > 0 ? &y->wooded.arrivals[r->last_control] : NULL;
+        const struct ceduo_measure share = ceduo_judged(last_control(r), a);
+        ceduo_page_write(page, "%4u %s", y->year, y->cut ? P_("head", "cut") : "");
+        add_contacts(page, s);
+        ceduo_page_number(page, s->per_100m * J_TO_KJ, 3);
+        ceduo_page_interval(page, &share);
+        ceduo_page_number(page, a ? a->energy.mean * J_TO_KJ : NAN, 3);
+        ceduo_page_verdict(page, s->energy);
+    }
+    ceduo_page_years_words(page, r, years);
 }
 
 /* ---- one energy law of stems against the other ---- */

@@ -84,23 +84,6 @@ void ceduo_page_html_end(struct ceduo_html *html)
 
 #define WIDTH 60 /* characters: room enough for all digits */
 
-static bool is_number(const struct ceduo_page_column *column)
-{
-    return column->width < 0;
-}
-
-static void write_cell(struct ceduo_html *html, const struct ceduo_page_block *table, size_t row, size_t i)
-{
-    const struct ceduo_page_column *column = &table->columns[i];
-    LOCAL_TEXT(text);
-    ceduo_page_write_cell(&text, &table->cells[row + i], WIDTH, false);
-    const char *name = (row == 0 || i == 0) && text.length > 0 ? "th" : "td";
-    const char *scope = name[1] != 'h' ? NULL : row == 0 ? "col" : "row";
-    bool spans = row == 0 && (column->flags & CEDUO_SPAN);
-    ceduo_html_leaf(html, name, ceduo_text_string(&text), "scope", scope, "class", is_number(column) ? "n" : NULL,
-                    spans ? "colspan" : "class", spans ? "2" : NULL, NULL);
-}
-
 /* One with heads alone says nothing. */
 static void write_table(struct ceduo_html *html, const struct ceduo_page_block *table, const struct ceduo_page_block *caption)
 {
@@ -115,8 +98,14 @@ static void write_table(struct ceduo_html *html, const struct ceduo_page_block *
             ceduo_html_open(html, row == 0 ? "thead" : "tbody", NULL);
         ceduo_html_open(html, "tr", NULL);
         for (size_t i = 0; i < n; i++) {
-            write_cell(html, table, row, i);
-            i += row == 0 && (table->columns[i].flags & CEDUO_SPAN);
+            LOCAL_TEXT(text);
+            ceduo_page_write_cell(&text, &table->cells[row + i], WIDTH, false);
+            const char *name = (row == 0 || i == 0) && text.length > 0 ? "th" : "td";
+            const char *scope = name[1] != 'h' ? NULL : row == 0 ? "col" : "row";
+            bool spans = row == 0 && (table->columns[i].flags & CEDUO_SPAN);
+            ceduo_html_leaf(html, name, ceduo_text_string(&text), "scope", scope, "class",
+                            table->columns[i].width < 0 ? "n" : NULL, spans ? "colspan" : "class", spans ? "2" : NULL, NULL);
+            i += spans;
         }
         ceduo_html_close(html);
         if (row == 0)
@@ -127,26 +116,6 @@ static void write_table(struct ceduo_html *html, const struct ceduo_page_block *
 }
 
 /* ---- the other blocks ---- */
-
-static void write_picture(struct ceduo_html *html, const struct ceduo_page_block *block, size_t number, size_t picture)
-{
-    char id[48];
-    snprintf(id, sizeof id, "c%zu-p%zu", number, picture);
-    const struct ceduo_svg_words words = {id, ceduo_text_string(&block->text), ceduo_text_string(&block->description)};
-    ceduo_html_open(html, "figure", "class", block->half ? "half" : NULL, NULL);
-    ceduo_svg_write(html, block->svg, &words);
-    ceduo_html_leaf(html, "figcaption", words.title, NULL);
-    ceduo_html_close(html);
-}
-
-/* What stands around blocks of a kind that follow one another; NULL: nothing. */
-static const char *list_of(enum ceduo_page_kind kind)
-{
-    return kind == CEDUO_PAGE_ITEM                               ? "ul"
-           : kind == CEDUO_PAGE_FACT || kind == CEDUO_PAGE_POINT ? "dl"
-           : kind == CEDUO_PAGE_ANSWER                           ? "div"
-                                                                 : NULL;
-}
 
 /* The element of a kind, and its class; no element: not shown by this. */
 static const struct {
@@ -178,19 +147,28 @@ static void write_block(struct ceduo_html *html, const struct ceduo_page_block *
 
 void ceduo_page_html(struct ceduo_html *html, const struct ceduo_page *page, size_t number)
 {
+    /* what stands around blocks of a kind that follow one another */
+    static const char *const lists[CEDUO_PAGE_CODE + 1] = {
+        [CEDUO_PAGE_ITEM] = "ul", [CEDUO_PAGE_FACT] = "dl", [CEDUO_PAGE_POINT] = "dl", [CEDUO_PAGE_ANSWER] = "div"};
     size_t pictures = 0;
     ceduo_html_open(html, "section", NULL);
     ceduo_text_char(html->text, '\n');
     for (const struct ceduo_page_block *b = page->first, *last = NULL; b; last = b, b = b->next) {
-        const char *list = list_of(b->kind);
+        const char *list = lists[b->kind];
         bool follows = last && last->kind == b->kind, goes_on = b->next && b->next->kind == b->kind;
         if (list && !follows)
             ceduo_html_open(html, list, "class", b->kind == CEDUO_PAGE_ANSWER ? "answer" : NULL, NULL);
         if (b->kind == CEDUO_PAGE_TABLE)
             write_table(html, b, last && last->kind == CEDUO_PAGE_CAPTION ? last : NULL);
-        else if (b->kind == CEDUO_PAGE_PICTURE)
-            write_picture(html, b, number, ++pictures);
-        else if (b->kind != CEDUO_PAGE_CAPTION || !b->next || b->next->kind != CEDUO_PAGE_TABLE)
+        else if (b->kind == CEDUO_PAGE_PICTURE) {
+            char id[48];
+            snprintf(id, sizeof id, "c%zu-p%zu", number, ++pictures);
+            const struct ceduo_svg_words words = {id, ceduo_text_string(&b->text), ceduo_text_string(&b->description)};
+            ceduo_html_open(html, "figure", "class", b->half ? "half" : NULL, NULL);
+            ceduo_svg_write(html, b->svg, &words);
+            ceduo_html_leaf(html, "figcaption", words.title, NULL);
+            ceduo_html_close(html);
+        } else if (b->kind != CEDUO_PAGE_CAPTION || !b->next || b->next->kind != CEDUO_PAGE_TABLE)
             write_block(html, b);
         if (list && !goes_on)
             ceduo_html_close(html);

@@ -39,11 +39,6 @@ static struct ceduo_picture picture_of(const struct ceduo_chapter *c, size_t opt
                                   .year = SIZE_MAX};
 }
 
-static size_t best_of(const struct ceduo_chapter *c)
-{
-    return ceduo_result_best(c->report->result, c->report->verdict);
-}
-
 /* Whether the scene asks for more than fits on four sheets: then what other commands show is left to them. */
 static bool is_crowded(const struct ceduo_chapter *c)
 {
@@ -57,7 +52,7 @@ static bool is_crowded(const struct ceduo_chapter *c)
 
 static void add_slope(struct ceduo_page *page, const struct ceduo_chapter *c)
 {
-    struct ceduo_picture picture = picture_of(c, best_of(c));
+    struct ceduo_picture picture = picture_of(c, ceduo_result_best(c->report->result, c->report->verdict));
     ceduo_page_say(page, CEDUO_PAGE_SECTION, "%s", _("The slope and the rocks"));
     ceduo_page_facts(page, c->report);
     add_picture(page, CEDUO_PLOT_PROFILE, WHOLE, SLOPE_ROWS, &picture,
@@ -74,7 +69,7 @@ static void add_slope(struct ceduo_page *page, const struct ceduo_chapter *c)
 static void add_percentiles(struct ceduo_page *page, const struct ceduo_chapter *c)
 {
     const struct ceduo_result *r = c->report->result;
-    size_t option = best_of(c);
+    size_t option = ceduo_result_best(c->report->result, c->report->verdict);
     if (r->scene->options_count < 2 || r->bare.rocks == 0)
         return;
     for (size_t k = is_crowded(c) ? r->last_control : 0; k < r->scene->controls_count; k++) {
@@ -85,19 +80,6 @@ static void add_percentiles(struct ceduo_page *page, const struct ceduo_chapter 
         ceduo_page_percentiles(page, r, option, k, true);
         ceduo_page_design(page, c->report, option, k);
     }
-}
-
-static void add_compared(struct ceduo_page *page, const struct ceduo_chapter *c)
-{
-    const struct ceduo_scene *scene = c->report->result->scene;
-    struct ceduo_picture picture = picture_of(c, 0);
-    int rows = 4 + (int)scene->options_count;
-    ceduo_page_comparison(page, c->report);
-    if (!ceduo_report_has_hazard(c->report) && scene->options_count <= CROWD) /* the table says it all */
-        add_picture(
-            page, CEDUO_PLOT_COMPARE, WIDE, rows, &picture,
-            _("Bars for each option: its average distance between contacts, how many of 1000 rocks arrive with too much "
-              "energy, and their mean energy."));
 }
 
 #define YEARS_ROWS 17
@@ -126,7 +108,7 @@ static void draw_years(struct ceduo_page *page, const struct ceduo_verdict *v, c
 static void add_years(struct ceduo_page *page, const struct ceduo_chapter *c)
 {
     const struct ceduo_verdict *v = c->report->verdict;
-    size_t option = v && v->rotation.known ? v->rotation.best : best_of(c);
+    size_t option = v && v->rotation.known ? v->rotation.best : ceduo_result_best(c->report->result, c->report->verdict);
     if (!v || option >= v->n || v->choices[option].window.kind == CEDUO_WINDOW_ALIKE || !c->years || !c->years[option] ||
         c->years[option]->count < 2) /* they do not differ at all */
         return;
@@ -188,7 +170,7 @@ static void add_origin(struct ceduo_page *page, const struct ceduo_chapter *c)
 static void add_hazard(struct ceduo_page *page, const struct ceduo_chapter *c)
 {
     const struct ceduo_scene *scene = c->report->result->scene;
-    struct ceduo_picture picture = picture_of(c, best_of(c));
+    struct ceduo_picture picture = picture_of(c, ceduo_result_best(c->report->result, c->report->verdict));
     if (!ceduo_report_has_hazard(c->report))
         return;
     size_t first = is_crowded(c) ? picture.control : 0;
@@ -216,7 +198,12 @@ void ceduo_page_chapter(struct ceduo_page *page, const struct ceduo_chapter *c)
     add_slope(page, c);
     add_percentiles(page, c);
     if (several && controls) {
-        add_compared(page, c);
+        struct ceduo_picture picture = picture_of(c, 0);
+        ceduo_page_comparison(page, c->report);
+        if (!ceduo_report_has_hazard(c->report) && scene->options_count <= CROWD) /* the table says it all */
+            add_picture(page, CEDUO_PLOT_COMPARE, WIDE, 4 + (int)scene->options_count, &picture,
+                        _("Bars for each option: its average distance between contacts, how many of 1000 rocks arrive with too "
+                          "much energy, and their mean energy."));
     } else if (!several) {
         ceduo_page_say(page, CEDUO_PAGE_SECTION, "%s", _("Through the forest, and without it"));
         ceduo_page_option(page, c->report, 0, true);

@@ -222,23 +222,17 @@ static void say_other_forms(struct ceduo_page *page, const struct ceduo_option *
     }
 }
 
-/* The rule that was applied in all belts, or a word that says that it differs. */
-static const char *rule_of(const struct ceduo_option *o, const struct ceduo_option_result *found)
-{
-    const char *rule = NULL;
-    for (size_t i = 0; i < o->belts_count; i++) {
-        const char *here = ceduo_rule_words.names[found->stands[i].rule];
-        if (!found->stands[i].bare && rule && strcmp(rule, here) != 0)
-            return _("each belt's own rule");
-        rule = found->stands[i].bare ? rule : here;
-    }
-    return rule ? rule : _("no rule");
-}
-
 /* Where contacts take shares, Eq. 4 has no meaning. */
 static void say_residual(struct ceduo_page *page, const struct ceduo_result *r, size_t option, size_t control)
 {
-    const char *rule = rule_of(&r->scene->options[option], &r->options[option]);
+    const char *rule = NULL; /* that was applied in all belts, or that it differs */
+    bool several = false;
+    for (size_t i = 0; i < r->scene->options[option].belts_count; i++) {
+        const struct ceduo_stand_result *s = &r->options[option].stands[i];
+        several |= !s->bare && rule && strcmp(rule, ceduo_rule_words.names[s->rule]) != 0;
+        rule = s->bare ? rule : ceduo_rule_words.names[s->rule];
+    }
+    rule = several ? _("each belt's own rule") : rule ? rule : _("no rule");
     const struct ceduo_index *index = &r->options[option].controls[control];
     bool shares = isnan(index->dissipated), none = r->bare.arrivals[control].reached == 0;
     double mean = r->bare.arrivals[control].energy.mean * J_TO_KJ;
@@ -351,40 +345,11 @@ void ceduo_page_option(struct ceduo_page *page, const struct ceduo_report *repor
     ceduo_page_stand_rules(page, r, i, true);
 }
 
-/* Of several options, what they share: the slope without forest. */
-static void add_bare(struct ceduo_page *page, const struct ceduo_report *report)
-{
-    const struct ceduo_result *r = report->result;
-    ceduo_page_say(page, CEDUO_PAGE_SECTION, "%s", _("without forest"));
-    for (size_t k = 0; k < r->scene->controls_count; k++) {
-        const struct ceduo_arrivals *bare = &r->bare.arrivals[k];
-        add_place(page, report, k);
-        add_arrivals_table(page, &r->scene->controls[k], NULL, bare);
-        say_released(page, bare);
-        if (r->bare.rocks > 0)
-            ceduo_page_percentiles(page, r, SIZE_MAX, k, true);
-    }
-}
-
 /* ---- notes ---- */
 
 static bool is_shown(const struct ceduo_report *report, const struct source_note *note)
 {
     return strcmp(note->kind, "assumed") == 0 && (report->years || !ceduo_note_of_years(note));
-}
-
-/* How many notes say the same; 0 where one of them is before `note` in the files, that is, later in the list. */
-static size_t first_of(const struct source_note *last, const struct source_note *note)
-{
-    size_t times = 0;
-    const struct source_note *first = NULL;
-    for (const struct source_note *n = last; n; n = n->before) {
-        if (strcmp(n->kind, "assumed") != 0 || strcmp(n->text, note->text) != 0)
-            continue;
-        times++;
-        first = n;
-    }
-    return first == note ? times : 0;
 }
 
 /* The notes are kept last first. */
@@ -393,7 +358,14 @@ static void add_assumed(struct ceduo_page *page, const struct ceduo_report *repo
     if (!note)
         return;
     add_assumed(page, report, note->before, places);
-    size_t times = is_shown(report, note) ? first_of(report->file->notes, note) : 0;
+    const struct source_note *first_same = NULL; /* in the files, that is, the last in the list: said there, how often */
+    size_t times = 0;
+    for (const struct source_note *n = report->file->notes; n; n = n->before)
+        if (strcmp(n->kind, "assumed") == 0 && strcmp(n->text, note->text) == 0) {
+            times++;
+            first_same = n;
+        }
+    times = is_shown(report, note) && first_same == note ? times : 0;
     const char *said = ceduo_in_language(note->text, note->text_it), *place = note->path[0] ? note->path : _("the scene");
     if (times > 0 && !places) {
         LOCAL_TEXT(first); /* clause */
@@ -450,8 +422,16 @@ void ceduo_report_table(struct text *text, const struct ceduo_report *report, bo
     ceduo_page_answer(&page, report);
     ceduo_page_sure(&page, report);
     ceduo_page_over(&page, report);
-    if (scene->options_count > 1)
-        add_bare(&page, report);
+    if (scene->options_count > 1) /* what they share */
+        ceduo_page_say(&page, CEDUO_PAGE_SECTION, "%s", _("without forest"));
+    for (size_t k = 0; scene->options_count > 1 && k < scene->controls_count; k++) {
+        const struct ceduo_arrivals *bare = &report->result->bare.arrivals[k];
+        add_place(&page, report, k);
+        add_arrivals_table(&page, &scene->controls[k], NULL, bare);
+        say_released(&page, bare);
+        if (report->result->bare.rocks > 0)
+            ceduo_page_percentiles(&page, report->result, SIZE_MAX, k, true);
+    }
     for (size_t i = 0; i < scene->options_count; i++) {
         ceduo_page_say(&page, CEDUO_PAGE_SECTION, "%s", scene->options[i].name);
         ceduo_page_option(&page, report, i, scene->options_count == 1);

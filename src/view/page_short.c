@@ -92,22 +92,15 @@ static void add_wood(struct ceduo_page *page, const struct ceduo_result *r)
 
 /* ---- several ---- */
 
-/* Whether the years of any option differ. */
-static bool has_years(const struct ceduo_verdict *v)
-{
-    for (size_t i = 0; i < v->n; i++)
-        if (v->choices[i].years > 0 && v->choices[i].window.kind != CEDUO_WINDOW_ALIKE)
-            return true;
-    return false;
-}
-
 /* BY_MEAN: the doubt of the mean over the years is known; otherwise that of today stands beside today. */
 enum form { BY_TODAY, BY_MEAN, TODAY_ALONE };
 
 static enum form form_of(const struct ceduo_report *report)
 {
-    bool doubt = report->doubt && report->doubt->answer && report->doubt->answer->rotation;
-    return !has_years(report->verdict) ? TODAY_ALONE : doubt ? BY_MEAN : BY_TODAY;
+    bool years = false, doubt = report->doubt && report->doubt->answer && report->doubt->answer->rotation;
+    for (size_t i = 0; i < report->verdict->n; i++) /* those of any option differ */
+        years |= report->verdict->choices[i].years > 0 && report->verdict->choices[i].window.kind != CEDUO_WINDOW_ALIKE;
+    return !years ? TODAY_ALONE : doubt ? BY_MEAN : BY_TODAY;
 }
 
 static void add_span(struct ceduo_page *page, const struct ceduo_measure *m)

@@ -39,17 +39,6 @@ static void add_share(struct ceduo_page *page, struct ceduo_portion share)
         ceduo_page_write(page, "%.0f\xc2\xb1%.0f", share.mean * 1000, ceil(share.half * 1000));
 }
 
-/* "best" for an option that is clearly better than all others over the years, "worst" for one that is worse than all. */
-static void add_mark(struct ceduo_page *page, const struct ceduo_verdict *v, size_t i)
-{
-    bool known = v->rotation.known && !v->rotation.uneven && v->rotation.rivals + 1 < v->n, worst = known;
-    bool best = known && i == v->rotation.best && v->rotation.rivals == 0;
-    for (size_t k = 0; k < v->n; k++)
-        worst &=
-            k == i || v->choices[k].mean.mean + v->choices[k].mean.half < v->choices[i].mean.mean - v->choices[i].mean.half;
-    ceduo_page_mark(page, best ? CEDUO_ROLE_GOOD : CEDUO_ROLE_BAD, best ? _("best") : worst ? _("worst") : "");
-}
-
 /* The years at a glance: a column for each, or of several that share one the worst; as high as what gets through. */
 static void add_years(struct ceduo_page *page, const struct ceduo_years *years)
 {
@@ -99,7 +88,12 @@ static void add_option(struct ceduo_page *page, const struct ceduo_pane *pane, s
         add_share(page, c->mean);
     else
         ceduo_page_number(page, index->per_100m * J_TO_KJ, 3);
-    add_mark(page, v, i);
+    /* "best" for an option that is clearly better than all others over the years, "worst" for one that is worse than all */
+    bool known = v->rotation.known && !v->rotation.uneven && v->rotation.rivals + 1 < v->n, worst = known;
+    bool best = known && i == v->rotation.best && v->rotation.rivals == 0;
+    for (size_t k = 0; k < v->n; k++)
+        worst &= k == i || v->choices[k].mean.mean + v->choices[k].mean.half < c->mean.mean - c->mean.half;
+    ceduo_page_mark(page, best ? CEDUO_ROLE_GOOD : CEDUO_ROLE_BAD, best ? _("best") : worst ? _("worst") : "");
     if (c->years == 0)
         ceduo_page_write(page, PENDING);
     else if (v->wooded)

@@ -123,26 +123,6 @@ static void add_heads(struct ceduo_page *page, const struct comparison *c)
     ceduo_text_put(&heads[8].text, c->wooded ? _("mean, kJ") : P_("head", "left kJ"));
 }
 
-/* What is to be held against the options. */
-static void say_bare(struct ceduo_page *page, const struct comparison *c)
-{
-    const struct ceduo_arrivals *a = c->arrivals;
-    const char *mean = WRITTEN(c->bare * J_TO_KJ, 4);
-    struct text *foot = ceduo_page_add(page, CEDUO_PAGE_NOTE);
-    page->last->role = CEDUO_ROLE_DIM;
-    if (!a || isnan(c->bare)) {
-        ceduo_text_put(foot, a ? _("Without forest no rock arrives: nothing is left to compare.")
-                               : _("Energies are not computed yet."));
-    } else if (!c->wooded) {
-        ceduo_text_format(foot, _("left of %s kJ (mean, without forest), by the index"), mean);
-    } else {
-        const struct ceduo_measure judged = ceduo_judged(c->control, a);
-        LOCAL_TEXT(head);
-        ceduo_measure_name(&head, &judged, CEDUO_HEAD);
-        ceduo_text_format(foot, _("without forest: %.0f %s, mean %s kJ"), judged.value, ceduo_text_string(&head), mean);
-    }
-}
-
 const char *ceduo_blocks_compare(struct ceduo_page *page, const struct ceduo_picture *picture, int height)
 {
 #define VALUE      -5, 1, CEDUO_FITS
@@ -176,6 +156,20 @@ const char *ceduo_blocks_compare(struct ceduo_page *page, const struct ceduo_pic
         add_option(page, &c, i);
     if (n < scene->options_count)
         ceduo_page_say(page, CEDUO_PAGE_NOTE, _("and %d more options"), (int)(scene->options_count - n));
-    say_bare(page, &c);
+    /* what is to be held against them */
+    const char *mean = WRITTEN(c.bare * J_TO_KJ, 4);
+    struct text *foot = ceduo_page_add(page, CEDUO_PAGE_NOTE);
+    page->last->role = CEDUO_ROLE_DIM;
+    if (!arrivals || isnan(c.bare)) {
+        ceduo_text_put(foot, arrivals ? _("Without forest no rock arrives: nothing is left to compare.")
+                                      : _("Energies are not computed yet."));
+    } else if (!c.wooded) {
+        ceduo_text_format(foot, _("left of %s kJ (mean, without forest), by the index"), mean);
+    } else {
+        const struct ceduo_measure judged = ceduo_judged(c.control, arrivals);
+        LOCAL_TEXT(head);
+        ceduo_measure_name(&head, &judged, CEDUO_HEAD);
+        ceduo_text_format(foot, _("without forest: %.0f %s, mean %s kJ"), judged.value, ceduo_text_string(&head), mean);
+    }
     return NULL;
 }

@@ -92,9 +92,4 @@ double ceduo_plot_tallest(const struct ceduo_stand *stand);
 /* The name of a stand with a star where something of it is assumed. */
 void ceduo_plot_belt_name(struct text *text, const struct ceduo_belt *belt);
 
-/* What the profile is, in words: to the right of its frame where there is room, otherwise the factor alone in the top
- * row. Returns whether there was room. */
-bool ceduo_plot_profile_notes(struct ceduo_canvas *canvas, const struct ceduo_area *area, const struct ceduo_picture *picture,
-                              const struct ceduo_frame *frame, double factor);
-
 #endif

@@ -262,6 +262,121 @@ static void draw_belts(const struct profile *p)
     }
 }
 
+/* ---- the words beside it ---- */
+
+#define SIDE_LEAST 24 /* columns that make a paragraph worth while */
+
+struct notes {
+    struct ceduo_canvas *canvas;
+    const struct ceduo_picture *picture;
+    int left, width, row, end;
+    int in; /* blanks before a line under a heading */
+};
+
+__attribute__((format(printf, 3, 4))) static void note(struct notes *n, enum ceduo_role role, const char *format, ...)
+{
+    struct text line = {0};
+    va_list args;
+    bool room = n->row < n->end;
+    va_start(args, format);
+    ceduo_text_format(&line, "%*s", n->in, "");
+    ceduo_text_vformat(&line, format, args);
+    va_end(args);
+    ceduo_plot_put_fitting(n->canvas, n->left, n->row, room ? n->width : 0, role, 1, &line);
+    n->row += room;
+}
+
+static void note_ways(struct notes *n)
+{
+    const struct ceduo_picture *p = n->picture;
+    const struct ceduo_run_snapshot *s = ceduo_plot_sight(p);
+    const struct ceduo_option *option = ceduo_plot_option(p);
+    bool wooded = ceduo_plot_wooded(p) && option && ceduo_plot_has_stems(option);
+    if (!s)
+        note(n, CEDUO_ROLE_DIM, _("ways not computed yet"));
+    if (s && s->trajectories_count > 0) {
+        note(n, CEDUO_ROLE_CLOUD, wooded ? _("%zu ways of %llu through") : _("%zu ways of %llu"), s->trajectories_count,
+             (unsigned long long)s->flown.rocks);
+        n->in = wooded;
+        note(n, CEDUO_ROLE_CLOUD, "%s", !wooded ? _("without forest") : option->name ? option->name : _("the forest"));
+        n->in = 0;
+    }
+    if (p->stems_count > 0)
+        note(n, CEDUO_ROLE_STEM, _("stems this rock came to"));
+}
+
+static void note_belt(struct notes *n, const struct ceduo_belt *belt)
+{
+    LOCAL_TEXT(name);
+    ceduo_plot_belt_name(&name, belt);
+    n->row += n->row + 3 < n->end;
+    n->in = 0;
+    note(n, CEDUO_ROLE_BELT, "%s", ceduo_text_string(&name));
+    n->in = 1;
+    note(n, CEDUO_ROLE_TEXT, "%s\xe2\x80\x93%s m", SHORTEST(belt->from_given), SHORTEST(belt->to_given));
+    double count = ceduo_stand_shoots(&belt->stand) + ceduo_stand_trees(&belt->stand);
+    if (!(count > 0)) {
+        note(n, CEDUO_ROLE_TEXT, "%s", _("no stems"));
+        return;
+    }
+    note(n, CEDUO_ROLE_TEXT, _("%.*f stems/ha"), count < 10 ? 1 : 0, count);
+    note(n, CEDUO_ROLE_TEXT, _("up to %g m high"), ceduo_plot_tallest(&belt->stand));
+}
+
+static void note_control(struct notes *n, size_t c)
+{
+    const struct ceduo_arrivals *a = ceduo_plot_arrivals(n->picture, c);
+    const struct ceduo_arrivals *bare = ceduo_plot_bare_arrivals(n->picture, c);
+    const struct ceduo_control *control = &n->picture->scene->controls[c];
+    bool wooded = ceduo_plot_wooded(n->picture);
+    if (!a || !bare || n->row + 2 >= n->end)
+        return;
+    double limit = control->accepted * J_TO_KJ, reach = a->reach_probability * 1000, exceed = a->exceed_probability * 1000;
+    n->row++;
+    n->in = 0;
+    note(n, CEDUO_ROLE_CONTROL, wooded ? _("At %s m, wood (bare)") : _("At %s m without forest"), SHORTEST(control->x_given));
+    n->in = 1;
+    if (wooded)
+        note(n, CEDUO_ROLE_TEXT, _("%.0f (%.0f) of 1000"), reach, bare->reach_probability * 1000);
+    else
+        note(n, CEDUO_ROLE_TEXT, _("%.0f of 1000 arrive"), reach);
+    if (!isnan(exceed) && wooded)
+        note(n, CEDUO_ROLE_TEXT, "%.0f (%.0f) > %g kJ", exceed, bare->exceed_probability * 1000, limit);
+    else if (!isnan(exceed))
+        note(n, CEDUO_ROLE_TEXT, _("%.0f with > %g kJ"), exceed, limit);
+}
+
+/* What the profile is, in words: to the right of its frame where there is room, otherwise the factor alone in the top row. Returns
+ * whether there was room. */
+static bool put_notes(const struct profile *p)
+{
+    const struct ceduo_area *area = p->area;
+    int end = area_end(area), left = p->frame.left + p->frame.width + 2;
+    bool beside = end - left >= SIDE_LEAST, words = beside || area->width >= 30;
+    struct text factor = {0};
+    if (p->factor > 1)
+        ceduo_text_format(&factor, words ? _("heights drawn %g times") : "\xc3\x97%g", p->factor);
+    else
+        ceduo_text_format(&factor, words ? _("heights drawn at %g %%") : "%g %%", 100 * p->factor);
+    if (!beside) {
+        ceduo_plot_put_right(p->canvas, end - 1, area->top, p->factor == 1 ? 0 : area->width / 2, CEDUO_ROLE_WARN, &factor);
+        return false;
+    }
+    struct notes n = {p->canvas, p->picture, left, end - left, area->top + 2, p->frame.top + p->frame.height, 0};
+    const struct ceduo_option *option = ceduo_plot_option(p->picture);
+    if (p->factor == 1)
+        note(&n, CEDUO_ROLE_DIM, "%s", _("true to scale"));
+    else
+        note(&n, CEDUO_ROLE_WARN, "%s", factor.bytes);
+    ceduo_text_free(&factor);
+    note_ways(&n);
+    for (size_t c = 0; c < p->picture->scene->controls_count; c++)
+        note_control(&n, c);
+    for (size_t i = 0; option && i < option->belts_count; i++)
+        note_belt(&n, &option->belts[i]);
+    return true;
+}
+
 /* ---- the picture ---- */
 
 static void place_frame(struct profile *p)
@@ -314,7 +429,7 @@ const char *ceduo_plot_profile(struct ceduo_canvas *canvas, const struct ceduo_a
         ceduo_canvas_put(canvas, column, row - 1, area_end(area) - column, CEDUO_ROLE_TEXT, _("\xe2\x96\xbc release"));
     if (picture->mark)
         ceduo_canvas_rule_x(canvas, &p.frame, CEDUO_ROLE_TITLE, *picture->mark);
-    bool noted = ceduo_plot_profile_notes(canvas, area, picture, &p.frame, p.factor);
+    bool noted = put_notes(&p);
     for (size_t c = 0; p.names && c < picture->scene->controls_count; c++)
         name_control(&p, &picture->scene->controls[c]);
     for (size_t c = 0; c < picture->scene->controls_count; c++)

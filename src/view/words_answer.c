@@ -18,12 +18,21 @@ const char *ceduo_words_judgement(enum ceduo_judgement judgement)
 
 /* ---- nothing ---- */
 
-/* Where rocks start without forest, and how far they come. */
-static void say_how_far(struct text *text, const struct ceduo_result *r)
+void ceduo_words_nothing(struct text *text, const struct ceduo_result *r, size_t control)
 {
+    const struct ceduo_arrivals *bare = &r->bare.arrivals[control];
+    LOCAL_TEXT(where);
+    ceduo_plot_control_name(&where, &r->scene->controls[control]);
+    ceduo_text_format(text,
+                      bare->reached == 0
+                          ? _("Nothing can be said of the wood above %s: of %llu rocks none arrives, even without forest.")
+                          : _("Nothing can be said of the wood above %s: of %llu rocks %llu arrive, even without forest."),
+                      ceduo_text_string(&where), (unsigned long long)bare->released, (unsigned long long)bare->reached);
+    /* where rocks start without forest, and how far they come */
     const struct ceduo_slope *s = &r->scene->slope;
     double start = r->scene->release.x.mean, falls = atan(ceduo_slope_fall(s, start)) * 180 / M_PI;
-    double way = r->bare.ends.stop_max - start; /* NaN: none comes to rest */
+    double farthest = r->bare.ends.stop_max, way = farthest - start; /* NaN: none comes to rest */
+    double face = ceduo_slope_face(s);
     ceduo_text_then(text, " ",
                     falls < 0 ? _("They start at %.4g m, where the ground rises by %.0f\xc2\xb0.")
                               : _("They start at %.4g m, where the ground falls by %.0f\xc2\xb0."),
@@ -36,13 +45,7 @@ static void say_how_far(struct text *text, const struct ceduo_result *r)
         ceduo_text_then(text, " ", "%s", _("They rest there."));
     if (falls < 0)
         ceduo_text_then(text, " ", "%s", _("The profile may have been drawn upward."));
-}
-
-/* A face that they do not reach is where they should start. */
-static void say_what_to_do(struct text *text, const struct ceduo_result *r)
-{
-    const struct ceduo_slope *s = &r->scene->slope;
-    double start = r->scene->release.x.mean, face = ceduo_slope_face(s), farthest = r->bare.ends.stop_max;
+    /* what to do: a face that they do not reach is where they should start */
     if (face > start && !(farthest > face))
         ceduo_text_then(
             text, " ", _("The ground is steeper than 45\xc2\xb0 from %.4g m on: if they start there, write release.x_m: %.4g."),
@@ -52,20 +55,6 @@ static void say_what_to_do(struct text *text, const struct ceduo_result *r)
                         _("Write where they start (release.x_m), or what sets them in motion (release.height_m, vx_m_s)."));
     else
         ceduo_text_then(text, " ", "%s", _("If release and ground are right, rocks do not come as far as this place."));
-}
-
-void ceduo_words_nothing(struct text *text, const struct ceduo_result *r, size_t control)
-{
-    const struct ceduo_arrivals *bare = &r->bare.arrivals[control];
-    LOCAL_TEXT(where);
-    ceduo_plot_control_name(&where, &r->scene->controls[control]);
-    ceduo_text_format(text,
-                      bare->reached == 0
-                          ? _("Nothing can be said of the wood above %s: of %llu rocks none arrives, even without forest.")
-                          : _("Nothing can be said of the wood above %s: of %llu rocks %llu arrive, even without forest."),
-                      ceduo_text_string(&where), (unsigned long long)bare->released, (unsigned long long)bare->reached);
-    say_how_far(text, r);
-    say_what_to_do(text, r);
 }
 
 void ceduo_words_still(const struct ceduo_result *r, ceduo_words_say *say, void *context)
@@ -166,19 +155,6 @@ static void say_form(struct text *text, const struct ceduo_measure *m, const str
     ceduo_text_format(text, doubted ? _("; may be %s") : _("; %s by the rocks"), ceduo_text_string(&span));
 }
 
-/* By the index, which knows no single rocks. */
-static void say_index(struct text *text, const struct ceduo_result *r, size_t option, size_t control, size_t width)
-{
-    const struct ceduo_index *index = &r->options[option].controls[control];
-    const char *left = WRITTEN(index->residual * J_TO_KJ, 3),
-               *mean = WRITTEN(r->bare.arrivals[control].energy.mean * J_TO_KJ, 3);
-    ceduo_text_format(text, _("the index leaves %s of %s kJ in the mean; it knows no single rocks"), left, mean);
-    if (ceduo_utf8_width(text->bytes) <= width)
-        return;
-    ceduo_text_free(text);
-    ceduo_text_format(text, _("the index leaves %s of %s kJ"), left, mean);
-}
-
 /* What follows the verdict, in so many columns; nothing where it has no room. */
 static void say_reason(struct text *text, const struct ceduo_result *r, size_t option, size_t control,
                        const struct ceduo_doubt_report *doubt, enum ceduo_judgement judgement, size_t width)
@@ -193,9 +169,15 @@ static void say_reason(struct text *text, const struct ceduo_result *r, size_t o
                           bare->reached == 0 ? _("of %llu rocks none arrives, even without the wood")
                                              : _("of %llu rocks %llu arrive, even without the wood"),
                           (unsigned long long)bare->released, (unsigned long long)bare->reached);
-    else if (!wooded && !r->wooded && judgement != CEDUO_YES)
-        say_index(text, r, option, control, width);
-    else if (!wooded && r->wooded)
+    else if (!wooded && !r->wooded && judgement != CEDUO_YES) {
+        const char *left = WRITTEN(r->options[option].controls[control].residual * J_TO_KJ, 3);
+        const char *mean = WRITTEN(bare->energy.mean * J_TO_KJ, 3);
+        ceduo_text_format(text, _("the index leaves %s of %s kJ in the mean; it knows no single rocks"), left, mean);
+        if (ceduo_utf8_width(text->bytes) > width) {
+            ceduo_text_free(text);
+            ceduo_text_format(text, _("the index leaves %s of %s kJ"), left, mean);
+        }
+    } else if (!wooded && r->wooded)
         ceduo_text_put(text, _("not computed yet"));
     for (size_t i = 0; text->length == 0 && i < sizeof forms / sizeof forms[0]; i++) {
         say_form(text, &m, ceduo_plot_has_stems(&r->scene->options[option]) ? &without : NULL, &forms[i]);
