@@ -22,14 +22,8 @@ static double tick_value(double index, struct interval interval)
 
 static struct interval coarser(struct interval interval)
 {
-    switch (interval.mantissa) {
-    case 1:
-        return (struct interval){2, interval.exponent};
-    case 2:
-        return (struct interval){5, interval.exponent};
-    default:
-        return (struct interval){1, interval.exponent + 1};
-    }
+    int m = interval.mantissa;
+    return (struct interval){m == 1 ? 2 : m == 2 ? 5 : 1, interval.exponent + (m == 5)};
 }
 
 /* The first and last multiple of the interval in lo..hi; returns how many there are. */

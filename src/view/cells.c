@@ -239,36 +239,23 @@ enum ceduo_role ceduo_cells_role(const struct ceduo_cells *cells, int column, in
     return cell == NULL ? CEDUO_ROLE_BLANK : (enum ceduo_role)cell->role;
 }
 
-size_t ceduo_cells_text(const struct ceduo_cells *cells, int row, size_t size, char *buffer)
+void ceduo_cells_text(const struct ceduo_cells *cells, int row, struct text *text)
 {
     int end = cells->width;
     while (end > 0 && ceduo_cells_glyph(cells, end - 1, row) == ' ')
         --end;
-    size_t needed = 0;
-    size_t written = 0;
     for (int column = 0; column < end; ++column) {
         char bytes[4];
-        size_t length = ceduo_utf8_encode(ceduo_cells_glyph(cells, column, row), bytes);
-        needed += length;
-        if (needed < size) {
-            memcpy(buffer + written, bytes, length);
-            written = needed;
-        }
+        ceduo_text_add(text, bytes, ceduo_utf8_encode(ceduo_cells_glyph(cells, column, row), bytes));
     }
-    if (size > 0)
-        buffer[written] = '\0';
-    return needed;
 }
 
 char *ceduo_cells_dump(const struct ceduo_cells *cells)
 {
     struct text text = {0};
     for (int row = 0; row < cells->height; ++row) {
-        size_t size = ceduo_cells_text(cells, row, 0, NULL) + 1;
-        LOCAL_TEXT(line);
-        ceduo_text_format(&line, "%*s", (int)size, "");
-        ceduo_cells_text(cells, row, size, line.bytes);
-        ceduo_text_format(&text, "%s\n", line.bytes);
+        ceduo_cells_text(cells, row, &text);
+        ceduo_text_char(&text, '\n');
     }
     return text.bytes;
 }

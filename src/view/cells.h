@@ -139,12 +139,8 @@ void ceduo_cells_set_code(struct ceduo_cells *cells, int column, int row, enum c
 uint32_t ceduo_cells_glyph(const struct ceduo_cells *cells, int column, int row);
 enum ceduo_role ceduo_cells_role(const struct ceduo_cells *cells, int column, int row);
 
-/*
- * Write one row as UTF-8 without its trailing blanks. Writes at most size bytes, the final NUL among
- * them (unless size is 0), and no part of a character. Returns the bytes the whole row needs without
- * the NUL, as snprintf does; 0 for a row outside the grid.
- */
-size_t ceduo_cells_text(const struct ceduo_cells *cells, int row, size_t size, char *buffer);
+/* Adds one row as UTF-8 without its trailing blanks; nothing for a row outside the grid. */
+void ceduo_cells_text(const struct ceduo_cells *cells, int row, struct text *text);
 
 /* All rows as one UTF-8 string, each ended by a newline; to be freed by the caller. */
 char *ceduo_cells_dump(const struct ceduo_cells *cells);

@@ -7,32 +7,15 @@
 /* Line ends and tabs stay; other control characters are written as \xHH. */
 static void put_escaped(struct text *to, const char *string)
 {
-    while (*string) {
-        size_t n = strcspn(string, "&<>\"'\n\t");
+    static const char signs[] = "&<>\"'", *const names[] = {"&amp;", "&lt;", "&gt;", "&quot;", "&#39;"};
+    for (size_t n; *string; string += n + (string[n] != '\0')) {
+        n = strcspn(string, "&<>\"'\n\t");
         ceduo_text_safe_n(to, string, n);
-        string += n;
-        switch (*string) {
-        case '\0':
-            return;
-        case '&':
-            ceduo_text_put(to, "&amp;");
-            break;
-        case '<':
-            ceduo_text_put(to, "&lt;");
-            break;
-        case '>':
-            ceduo_text_put(to, "&gt;");
-            break;
-        case '"':
-            ceduo_text_put(to, "&quot;");
-            break;
-        case '\'':
-            ceduo_text_put(to, "&#39;");
-            break;
-        default:
-            ceduo_text_char(to, *string);
-        }
-        string++;
+        const char *sign = string[n] ? strchr(signs, string[n]) : NULL;
+        if (sign)
+            ceduo_text_put(to, names[sign - signs]);
+        else if (string[n])
+            ceduo_text_char(to, string[n]);
     }
 }
 

@@ -42,29 +42,21 @@ size_t ceduo_seen_number(const struct ceduo_observation *o)
     return o->kind == CEDUO_OBSERVED_PASSED ? (size_t)o->of : o->n;
 }
 
-void ceduo_calibration_source(struct text *text, const struct ceduo_calibration_report *r, size_t i)
-{
-    const struct ceduo_fitted *f = &r->answer->parameters[i];
-    const char *between = "";
-    for (size_t k = 0; k < r->answer->predicted_count; k++) {
-        const struct ceduo_observation *o = ceduo_seen_of(r, &r->answer->predicted[k]);
-        if (o->use != CEDUO_OBSERVED_FIT)
-            continue;
-        ceduo_text_format(text, "%s%zu ", between, ceduo_seen_number(o));
-        ceduo_text_safe(text, o->name);
-        between = ", ";
-    }
-    ceduo_text_format(text, "; %s 95 %% %s\xe2\x80\x93%s", r->fields[i]->key, WRITTEN(f->p2_5, 3), WRITTEN(f->p97_5, 3));
-    if (!f->determined)
-        ceduo_text_put(text, "; not determined");
-}
-
 void ceduo_calibration_sources(struct text *text, const struct ceduo_calibration_report *r)
 {
     for (size_t i = 0; i < r->answer->parameters_count; i++) {
-        if (i > 0)
-            ceduo_text_put(text, "; ");
-        ceduo_calibration_source(text, r, i);
+        const struct ceduo_fitted *f = &r->answer->parameters[i];
+        const char *between = i > 0 ? "; " : "";
+        for (size_t k = 0; k < r->answer->predicted_count; k++) {
+            const struct ceduo_observation *o = ceduo_seen_of(r, &r->answer->predicted[k]);
+            if (o->use != CEDUO_OBSERVED_FIT)
+                continue;
+            ceduo_text_format(text, "%s%zu ", between, ceduo_seen_number(o));
+            ceduo_text_safe(text, o->name);
+            between = ", ";
+        }
+        ceduo_text_format(text, "; %s 95 %% %s\xe2\x80\x93%s%s", r->fields[i]->key, WRITTEN(f->p2_5, 3), WRITTEN(f->p97_5, 3),
+                          f->determined ? "" : "; not determined");
     }
 }
 

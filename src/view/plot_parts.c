@@ -33,13 +33,6 @@ int ceduo_plot_say(struct ceduo_canvas *canvas, int column, int row, int most, e
     return ceduo_plot_put_fitting(canvas, column, row, most, role, 1, &text);
 }
 
-void ceduo_plot_put_right(struct ceduo_canvas *canvas, int column, int row, int most, enum ceduo_role role, struct text *text)
-{
-    int width = ceduo_canvas_label_width(canvas, ceduo_text_string(text));
-    width = width < most ? width : most;
-    ceduo_plot_put_fitting(canvas, column + 1 - width, row, width, role, 1, text);
-}
-
 void ceduo_plot_say_right(struct ceduo_canvas *canvas, int column, int row, int most, enum ceduo_role role, const char *format,
                           ...)
 {
@@ -48,7 +41,9 @@ void ceduo_plot_say_right(struct ceduo_canvas *canvas, int column, int row, int 
     va_start(args, format);
     ceduo_text_vformat(&text, format, args);
     va_end(args);
-    ceduo_plot_put_right(canvas, column, row, most, role, &text);
+    int width = ceduo_canvas_label_width(canvas, ceduo_text_string(&text));
+    width = width < most ? width : most;
+    ceduo_plot_put_fitting(canvas, column + 1 - width, row, width, role, 1, &text);
 }
 
 int ceduo_plot_say_fitting(struct ceduo_canvas *canvas, int column, int row, int most, enum ceduo_role role, const char *words,

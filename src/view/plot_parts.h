@@ -26,8 +26,7 @@ void ceduo_page_light(struct ceduo_page *page, enum ceduo_light light);
 int ceduo_plot_say(struct ceduo_canvas *canvas, int column, int row, int most, enum ceduo_role role, const char *format, ...)
     __attribute__((format(printf, 6, 7)));
 
-/* The same, its last cell in column `column`; frees the text. */
-void ceduo_plot_put_right(struct ceduo_canvas *canvas, int column, int row, int most, enum ceduo_role role, struct text *text);
+/* The same, its last cell in column `column`. */
 void ceduo_plot_say_right(struct ceduo_canvas *canvas, int column, int row, int most, enum ceduo_role role, const char *format,
                           ...) __attribute__((format(printf, 6, 7)));
 

@@ -353,13 +353,14 @@ static bool put_notes(const struct profile *p)
     const struct ceduo_area *area = p->area;
     int end = area_end(area), left = p->frame.left + p->frame.width + 2;
     bool beside = end - left >= SIDE_LEAST, words = beside || area->width >= 30;
-    struct text factor = {0};
+    LOCAL_TEXT(factor);
     if (p->factor > 1)
         ceduo_text_format(&factor, words ? _("heights drawn %g times") : "\xc3\x97%g", p->factor);
     else
         ceduo_text_format(&factor, words ? _("heights drawn at %g %%") : "%g %%", 100 * p->factor);
     if (!beside) {
-        ceduo_plot_put_right(p->canvas, end - 1, area->top, p->factor == 1 ? 0 : area->width / 2, CEDUO_ROLE_WARN, &factor);
+        ceduo_plot_say_right(p->canvas, end - 1, area->top, p->factor == 1 ? 0 : area->width / 2, CEDUO_ROLE_WARN, "%s",
+                             factor.bytes);
         return false;
     }
     struct notes n = {p->canvas, p->picture, left, end - left, area->top + 2, p->frame.top + p->frame.height, 0};
@@ -368,7 +369,6 @@ static bool put_notes(const struct profile *p)
         note(&n, CEDUO_ROLE_DIM, "%s", _("true to scale"));
     else
         note(&n, CEDUO_ROLE_WARN, "%s", factor.bytes);
-    ceduo_text_free(&factor);
     note_ways(&n);
     for (size_t c = 0; c < p->picture->scene->controls_count; c++)
         note_control(&n, c);

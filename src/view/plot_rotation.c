@@ -67,26 +67,9 @@ static int column_of(const struct rotation *r, double year)
     return ceduo_frame_cell(&r->frame, r->canvas, year, r->frame.y0, &column, &row) ? column : -1;
 }
 
-/* A mark below the axis for each year; of years that share a column the worst is shown. */
-static void draw_lights(const struct rotation *r, int row)
-{
-    static const char *const names[LIGHTS] = {NP_("light", "C"), NP_("light", "F"), NP_("light", "E")};
-    for (int k = 0; k < LIGHTS; k++) {
-        ceduo_canvas_label(r->canvas, r->area->left, row + k, CEDUO_ROLE_AXIS, ceduo_translate_in(names[k]));
-        for (int pass = 0; pass < 2; pass++)
-            for (size_t i = 0; i < r->years->count; i++) {
-                const struct ceduo_index *s = &r->years->years[i].controls[r->c];
-                enum ceduo_light light = k == 0 ? s->contact : k == 1 ? s->free_run : s->energy;
-                int column = column_of(r, r->x[i]);
-                if (column < 0 || (light == CEDUO_FAIL) != pass)
-                    continue;
-                ceduo_canvas_label(r->canvas, column, row + k, ceduo_plot_light_role(light), ceduo_plot_light_mark(light));
-            }
-    }
-}
-
 static void draw(struct rotation *r)
 {
+    static const char *const names[LIGHTS] = {NP_("light", "C"), NP_("light", "F"), NP_("light", "E")};
     const struct ceduo_area *a = r->area;
     double threshold = r->picture->scene->simulation.threshold;
     int lights = a->height >= 1 + STRIP_LEAST + 2 + LIGHTS ? LIGHTS : 0; /* no room: the curve alone */
@@ -118,8 +101,18 @@ static void draw(struct rotation *r)
     draw_strip(r, a->top + 1 + first, strips - first, most,
                r->flown && !isnan(r->control->accepted) ? CEDUO_EXCEED_MOST * 1000 : NAN, ceduo_text_string(&share), share_of);
     ceduo_canvas_axis_bottom(r->canvas, &r->frame, _("years"));
-    if (lights > 0)
-        draw_lights(r, a->top + a->height - lights);
+    for (int k = 0; k < lights; k++) { /* a mark for each year; of years that share a column the worst is shown */
+        int row = a->top + a->height - lights + k;
+        ceduo_canvas_label(r->canvas, a->left, row, CEDUO_ROLE_AXIS, ceduo_translate_in(names[k]));
+        for (size_t i = 0; i < 2 * r->years->count; i++) {
+            size_t year = i % r->years->count;
+            const struct ceduo_index *s = &r->years->years[year].controls[r->c];
+            enum ceduo_light light = k == 0 ? s->contact : k == 1 ? s->free_run : s->energy;
+            int column = column_of(r, r->x[year]);
+            if (column >= 0 && (light == CEDUO_FAIL) == (i >= r->years->count))
+                ceduo_canvas_label(r->canvas, column, row, ceduo_plot_light_role(light), ceduo_plot_light_mark(light));
+        }
+    }
     /* a mark above each year of a cut, and a word behind it where that does not run into the next */
     const char *word = _("cut");
     int room = (int)ceduo_utf8_width(word) + 2, next = a->left + a->width;

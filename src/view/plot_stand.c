@@ -82,16 +82,6 @@ static struct foot find_place(struct plan *p, struct generator *g, double radius
     return f;
 }
 
-/* The cohort of a shoot that stands at share u of all of them. */
-static const struct ceduo_stems *cohort_at(const struct ceduo_stand *stand, double u)
-{
-    double left = u * ceduo_stand_shoots(stand);
-    size_t i = 0;
-    while (i + 1 < stand->shoots_count && left >= stand->shoots[i].per_ha)
-        left -= stand->shoots[i++].per_ha;
-    return &stand->shoots[i];
-}
-
 /* Where shoot i of n stands on a ring. */
 static struct foot on_ring(const struct foot *stool, double ring, double turn, int i, int n)
 {
@@ -116,7 +106,11 @@ static void draw_stool(struct plan *p, uint64_t number)
     p->met += met;
     for (int i = 0; i < n; i++) {
         struct foot a = on_ring(&f, ring, turn, i, n), b = on_ring(&f, ring, turn, i + 1, n);
-        ceduo_canvas_disc(p->canvas, &p->frame, role, a.x, a.y, cohort_at(p->stand, uniform(&g))->dbh / 2);
+        double rank = uniform(&g) * ceduo_stand_shoots(p->stand); /* among all shoots, cohort by cohort */
+        size_t k = 0;
+        while (k + 1 < p->stand->shoots_count && rank >= p->stand->shoots[k].per_ha)
+            rank -= p->stand->shoots[k++].per_ha;
+        ceduo_canvas_disc(p->canvas, &p->frame, role, a.x, a.y, p->stand->shoots[k].dbh / 2);
         if (p->stand->spacing < JOINED_DOTS * p->dot)
             ceduo_canvas_line(p->canvas, &p->frame, role, a.x, a.y, b.x, b.y);
     }

@@ -36,8 +36,7 @@ void ceduo_calibration_csv(struct text *text, const struct ceduo_calibration_rep
 /* The draws, a column for each fitted value, for `doubt: {draws: …}`; `heads`: what to call them. */
 void ceduo_calibration_draws(struct text *text, const struct ceduo_calibration *answer, const char *const *heads);
 
-/* "48 stops; 95 % .44–.51": where a fitted value comes from. */
-void ceduo_calibration_source(struct text *text, const struct ceduo_calibration_report *report, size_t parameter);
-void ceduo_calibration_sources(struct text *text, const struct ceduo_calibration_report *report); /* of all */
+/* "48 stops; 95 % .44–.51": where the fitted values come from. */
+void ceduo_calibration_sources(struct text *text, const struct ceduo_calibration_report *report);
 
 #endif

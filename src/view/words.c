@@ -180,24 +180,6 @@ void ceduo_words_stand_warnings(const struct ceduo_scene *scene, const struct ce
                    ceduo_stand_u(s));
 }
 
-static void say_tolerance(const struct ceduo_result *result, const struct ceduo_run_remarks *remarks, ceduo_words_say *say,
-                          void *context)
-{
-    if (remarks->tolerance > 0 && !remarks->tolerance_met)
-        say_format(say, context, _("The tolerance of %g was not met with %llu rocks."), remarks->tolerance,
-                   (unsigned long long)ceduo_result_rocks(result));
-    for (size_t i = 0; remarks->tolerance > 0 && i < result->scene->controls_count; i++) {
-        uint64_t fewest = result->bare.arrivals[i].reached;
-        for (size_t k = 0; k < result->options_count; k++) {
-            const struct ceduo_arrivals *a = ceduo_result_wooded(result, k, i);
-            fewest = a && a->reached < fewest ? a->reached : fewest;
-        }
-        if (fewest < CEDUO_FEW_ROCKS)
-            say_format(say, context, _("At %g m only %llu rocks arrive: its mean energy was left out of the tolerance."),
-                       result->scene->controls[i].x_given, (unsigned long long)fewest);
-    }
-}
-
 /* Rocks that leave the slope over its upper end, which would lie above it or come down again; and those that stems stop just below
  * the release, in the option where they are most. */
 static void say_lost(const struct ceduo_result *result, ceduo_words_say *say, void *context)
@@ -228,7 +210,19 @@ void ceduo_words_run_warnings(const struct ceduo_result *result, const struct ce
 {
     if (!remarks->nothing_said)
         ceduo_words_still(result, say, context);
-    say_tolerance(result, remarks, say, context);
+    if (remarks->tolerance > 0 && !remarks->tolerance_met)
+        say_format(say, context, _("The tolerance of %g was not met with %llu rocks."), remarks->tolerance,
+                   (unsigned long long)ceduo_result_rocks(result));
+    for (size_t i = 0; remarks->tolerance > 0 && i < result->scene->controls_count; i++) {
+        uint64_t fewest = result->bare.arrivals[i].reached;
+        for (size_t k = 0; k < result->options_count; k++) {
+            const struct ceduo_arrivals *a = ceduo_result_wooded(result, k, i);
+            fewest = a && a->reached < fewest ? a->reached : fewest;
+        }
+        if (fewest < CEDUO_FEW_ROCKS)
+            say_format(say, context, _("At %g m only %llu rocks arrive: its mean energy was left out of the tolerance."),
+                       result->scene->controls[i].x_given, (unsigned long long)fewest);
+    }
     uint64_t unfinished = ceduo_result_unfinished(result);
     if (unfinished > 0 && result->bare.ends.count[CEDUO_UNFINISHED] == 0)
         say_format(say, context,

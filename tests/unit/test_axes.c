@@ -208,14 +208,15 @@ TEST(bottom_labels_never_touch)
             frame.x1 = 1.13 * pow(10, k) * (1 + width % 5);
             ceduo_cells_clear(cells);
             ceduo_canvas_axis_bottom(&cells->canvas, &frame, NULL);
-            char line[128], labels[128];
-            ceduo_cells_text(cells, 2, sizeof line, line);
-            ceduo_cells_text(cells, 3, sizeof labels, labels);
+            LOCAL_TEXT(line);
+            LOCAL_TEXT(labels);
+            ceduo_cells_text(cells, 2, &line);
+            ceduo_cells_text(cells, 3, &labels);
             int ticks = 0;
-            for (const char *c = line; *c != '\0'; ++c)
+            for (const char *c = ceduo_text_string(&line); *c != '\0'; ++c)
                 ticks += *c == '+';
-            assert_int_equal(words_in(labels), ticks);
-            EXPECT(strlen(labels), <=, (size_t)width + 2);
+            assert_int_equal(words_in(ceduo_text_string(&labels)), ticks);
+            EXPECT(strlen(ceduo_text_string(&labels)), <=, (size_t)width + 2);
         }
     }
 }
