@@ -92,43 +92,6 @@ static void append_name(struct text *name, const struct ceduo_calibration_report
         ceduo_text_then(name, ", ", _("scene %zu"), p->scene + 1);
 }
 
-static void add_seen(struct ceduo_page *page, const struct ceduo_calibration_report *r)
-{
-    static const struct ceduo_page_column columns[] = {{N_("seen"), 26, 2, 0},       {N_("use"), 5, 2, 0},
-                                                       {N_("rocks"), -5, 2, 0},      {N_("mean"), -8, 2, 0},
-                                                       {N_("fit, 95 %"), -15, 2, 0}, {N_("p"), -5, 2, 0}};
-    CEDUO_PAGE_TABLE_OF(page, columns);
-    for (size_t i = 0; i < r->answer->predicted_count; i++) {
-        const struct ceduo_predicted *p = &r->answer->predicted[i];
-        const struct ceduo_observation *o = ceduo_seen_of(r, p);
-        double origin = r->files[p->scene].scene.slope.origin_x;
-        append_name(ceduo_page_text(page), r, p);
-        ceduo_page_write(page, "%s", o->use == CEDUO_OBSERVED_FIT ? "fit" : "check");
-        ceduo_page_write(page, "%zu", ceduo_seen_number(o));
-        ceduo_page_write(page, "%s", WRITTEN(ceduo_seen_shown(o->kind, p->seen, origin), 3));
-        append_range(ceduo_page_text(page), ceduo_seen_shown(o->kind, p->lo, origin), ceduo_seen_shown(o->kind, p->hi, origin));
-        if (isnan(p->p_value) || p->p_value < 0.001)
-            ceduo_page_write(page, "%s", isnan(p->p_value) ? "-" : "<.001");
-        else
-            ceduo_page_write(page, "%.*f", p->p_value < 0.1 ? 3 : 2, p->p_value);
-    }
-}
-
-static void add_values(struct ceduo_page *page, const struct ceduo_calibration_report *r)
-{
-    static const struct ceduo_page_column columns[] = {
-        {N_("fitted"), 26, 2, 0}, {N_("between"), -13, 2, 0}, {N_("best"), -8, 2, 0}, {N_("not refuted, 95 %"), -18, 2, 0}};
-    CEDUO_PAGE_TABLE_OF(page, columns);
-    for (size_t i = 0; i < r->answer->parameters_count; i++) {
-        const struct ceduo_fitted *f = &r->answer->parameters[i];
-        double per = r->fields[i]->shown.per > 0 ? r->fields[i]->shown.per : 1;
-        ceduo_calibration_name(ceduo_page_text(page), r->paths[i], r->fields[i]);
-        append_range(ceduo_page_text(page), f->lo * per, f->hi * per);
-        ceduo_calibration_number(ceduo_page_text(page), r->fields[i], f->best);
-        append_range(ceduo_page_text(page), f->p2_5 * per, f->p97_5 * per);
-    }
-}
-
 /* ---- in words ---- */
 
 static void say_values(struct ceduo_page *page, const struct ceduo_calibration_report *r)
@@ -211,6 +174,11 @@ void ceduo_calibration_words(struct ceduo_page *page, const struct ceduo_calibra
 
 void ceduo_calibration_page(struct text *text, const struct ceduo_calibration_report *r, bool plain)
 {
+    static const struct ceduo_page_column fitted[] = {
+        {N_("fitted"), 26, 2, 0}, {N_("between"), -13, 2, 0}, {N_("best"), -8, 2, 0}, {N_("not refuted, 95 %"), -18, 2, 0}};
+    static const struct ceduo_page_column seen[] = {{N_("seen"), 26, 2, 0},       {N_("use"), 5, 2, 0},
+                                                    {N_("rocks"), -5, 2, 0},      {N_("mean"), -8, 2, 0},
+                                                    {N_("fit, 95 %"), -15, 2, 0}, {N_("p"), -5, 2, 0}};
     struct ceduo_page page = {.width = CEDUO_PAGE_WIDTH};
     for (size_t s = 0; s < r->scenes_count; s++) {
         struct text *title = ceduo_page_add(&page, CEDUO_PAGE_TITLE);
@@ -219,9 +187,32 @@ void ceduo_calibration_page(struct text *text, const struct ceduo_calibration_re
         ceduo_text_safe(title, ceduo_in_language(r->files[s].scene.title, r->files[s].scene.title_it));
     }
     ceduo_page_say(&page, CEDUO_PAGE_SECTION, _("Fitted to what was seen"));
-    add_values(&page, r);
+    CEDUO_PAGE_TABLE_OF(&page, fitted);
+    for (size_t i = 0; i < r->answer->parameters_count; i++) {
+        const struct ceduo_fitted *f = &r->answer->parameters[i];
+        double per = r->fields[i]->shown.per > 0 ? r->fields[i]->shown.per : 1;
+        ceduo_calibration_name(ceduo_page_text(&page), r->paths[i], r->fields[i]);
+        append_range(ceduo_page_text(&page), f->lo * per, f->hi * per);
+        ceduo_calibration_number(ceduo_page_text(&page), r->fields[i], f->best);
+        append_range(ceduo_page_text(&page), f->p2_5 * per, f->p97_5 * per);
+    }
     ceduo_page_add(&page, CEDUO_PAGE_GAP);
-    add_seen(&page, r);
+    CEDUO_PAGE_TABLE_OF(&page, seen);
+    for (size_t i = 0; i < r->answer->predicted_count; i++) {
+        const struct ceduo_predicted *p = &r->answer->predicted[i];
+        const struct ceduo_observation *o = ceduo_seen_of(r, p);
+        double origin = r->files[p->scene].scene.slope.origin_x;
+        append_name(ceduo_page_text(&page), r, p);
+        ceduo_page_write(&page, "%s", o->use == CEDUO_OBSERVED_FIT ? "fit" : "check");
+        ceduo_page_write(&page, "%zu", ceduo_seen_number(o));
+        ceduo_page_write(&page, "%s", WRITTEN(ceduo_seen_shown(o->kind, p->seen, origin), 3));
+        append_range(ceduo_page_text(&page), ceduo_seen_shown(o->kind, p->lo, origin),
+                     ceduo_seen_shown(o->kind, p->hi, origin));
+        if (isnan(p->p_value) || p->p_value < 0.001)
+            ceduo_page_write(&page, "%s", isnan(p->p_value) ? "-" : "<.001");
+        else
+            ceduo_page_write(&page, "%.*f", p->p_value < 0.1 ? 3 : 2, p->p_value);
+    }
     ceduo_page_add(&page, CEDUO_PAGE_GAP);
     ceduo_calibration_words(&page, r);
     ceduo_page_print(text, &page, plain);

@@ -89,7 +89,8 @@ void ceduo_doubt_input_end(struct text *text, const struct ceduo_doubt_report *r
         ceduo_text_put(text, word ? word : SHORTEST(value));
 }
 
-void ceduo_doubt_input_shown(struct text *text, const struct ceduo_doubt_report *r, size_t i, int end)
+/* An end of its range in the unit that people use, and short. */
+static void append_input_end(struct text *text, const struct ceduo_doubt_report *r, size_t i, int end)
 {
     const char *word;
     double value = ceduo_doubt_input_value(r, i, end, &word);
@@ -266,7 +267,7 @@ static void add_inputs(struct ceduo_page *page, const struct ceduo_doubt_report 
         }
         ceduo_doubt_input_name(ceduo_page_text(page), r, g);
         for (int end = 0; end < 2; end++)
-            ceduo_doubt_input_shown(ceduo_page_text(page), r, g, end);
+            append_input_end(ceduo_page_text(page), r, g, end);
         ceduo_page_write(page, "%.0f %%", ceduo_doubt_share(f, g) * 100);
         append_value(ceduo_page_text(page), f->kind, f->fit.left[g]);
     }

@@ -84,26 +84,6 @@ static void add_percentiles(struct ceduo_page *page, const struct ceduo_chapter 
 
 #define YEARS_ROWS 17
 
-static void draw_years(struct ceduo_page *page, const struct ceduo_verdict *v, const struct ceduo_picture *picture)
-{
-    ceduo_page_say(page, CEDUO_PAGE_DETAIL, "%s",
-                   _("In the picture C, F and E stand for the tests of contact, of free runs and of energy."));
-    size_t yields = 0;
-    for (size_t i = 0; i < v->n; i++)
-        yields += v->choices[i].yield.cut_per_year > 0;
-    bool both = yields > 1;
-    if (both)
-        ceduo_page_say(page, CEDUO_PAGE_DETAIL, "%s",
-                       _("Numbers beside points stand for the options in the order of the tables."));
-    add_picture(page, CEDUO_PLOT_ROTATION, both ? HALF : WHOLE, YEARS_ROWS, picture,
-                _("Two curves over the years after a cut, the average distance between contacts and how many of 1000 rocks "
-                  "arrive with too much energy, and below them which tests each year passes."));
-    if (both)
-        add_picture(page, CEDUO_PLOT_TRADEOFF, HALF, YEARS_ROWS, picture,
-                    _("A point for each option: wood felled per hectare and year to the right, rocks that get through "
-                      "upwards."));
-}
-
 /* The option that is best over the years. */
 static void add_years(struct ceduo_page *page, const struct ceduo_chapter *c)
 {
@@ -118,8 +98,24 @@ static void add_years(struct ceduo_page *page, const struct ceduo_chapter *c)
     if (scene->options_count > 1)
         ceduo_page_say(page, CEDUO_PAGE_PLACE, "%s", scene->options[option].name);
     ceduo_page_years_words(page, c->report->result, c->years[option]);
-    if (!is_crowded(c))
-        draw_years(page, v, &picture);
+    if (is_crowded(c))
+        return;
+    ceduo_page_say(page, CEDUO_PAGE_DETAIL, "%s",
+                   _("In the picture C, F and E stand for the tests of contact, of free runs and of energy."));
+    size_t yields = 0;
+    for (size_t i = 0; i < v->n; i++)
+        yields += v->choices[i].yield.cut_per_year > 0;
+    bool both = yields > 1;
+    if (both)
+        ceduo_page_say(page, CEDUO_PAGE_DETAIL, "%s",
+                       _("Numbers beside points stand for the options in the order of the tables."));
+    add_picture(page, CEDUO_PLOT_ROTATION, both ? HALF : WHOLE, YEARS_ROWS, &picture,
+                _("Two curves over the years after a cut, the average distance between contacts and how many of 1000 rocks "
+                  "arrive with too much energy, and below them which tests each year passes."));
+    if (both)
+        add_picture(page, CEDUO_PLOT_TRADEOFF, HALF, YEARS_ROWS, &picture,
+                    _("A point for each option: wood felled per hectare and year to the right, rocks that get through "
+                      "upwards."));
 }
 
 static void add_limits(struct ceduo_page *page, const struct ceduo_result *result)

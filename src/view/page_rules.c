@@ -99,17 +99,6 @@ static void add_rule(struct ceduo_page *page, double is, item *asked, bool met, 
         ceduo_page_yes(page, met);
 }
 
-/* Whether an earlier belt of any option has the same stand. */
-static bool is_listed(const struct ceduo_result *r, size_t option, size_t belt)
-{
-    const char *name = r->scene->options[option].belts[belt].name;
-    for (size_t i = 0; i <= option; i++)
-        for (size_t k = 0; k < (i < option ? r->scene->options[i].belts_count : belt); k++)
-            if (strcmp(r->scene->options[i].belts[k].name, name) == 0)
-                return true;
-    return false;
-}
-
 static void add_source(struct text *sources, item *asked)
 {
     LOCAL_TEXT(source);
@@ -138,7 +127,11 @@ void ceduo_page_rules(struct ceduo_page *page, const struct ceduo_result *r)
                 ceduo_page_say(page, CEDUO_PAGE_SECTION, _("What the rules of %s ask"), rules->name);
                 CEDUO_PAGE_TABLE_OF(page, columns);
             }
-            if (is_listed(r, i, k))
+            bool listed = false; /* an earlier belt of any option has the same stand */
+            for (size_t a = 0; a <= i; a++)
+                for (size_t b = 0; b < (a < i ? r->scene->options[a].belts_count : k); b++)
+                    listed |= strcmp(r->scene->options[a].belts[b].name, r->scene->options[i].belts[k].name) == 0;
+            if (listed)
                 continue;
             bool species = r->scene->options[i].belts[k].stand.species >= 0;
             ceduo_page_write(page, "%s", r->scene->options[i].belts[k].name);

@@ -19,22 +19,6 @@ static double share_of(const struct scale *s, double metres)
     return isfinite(metres) ? fmax(0, log(metres / s->lo) / log(s->hi / s->lo)) : 0;
 }
 
-static struct scale find_scale(const struct ceduo_scene *scene, const struct ceduo_option *option)
-{
-    double threshold = scene->simulation.threshold, least = threshold, most = threshold;
-    for (size_t i = 0; i < option->belts_count; i++) {
-        struct ceduo_stand_result r = ceduo_assess_stand(scene, &option->belts[i]);
-        for (int f = 0; f < RULES; f++) {
-            double v = ceduo_adc_value(&r.adc, (enum ceduo_rule)(CEDUO_GSTEIGER_STOOLS + f));
-            if (!isfinite(v) || !(v > 0))
-                continue;
-            least = fmin(least, v);
-            most = fmax(most, v);
-        }
-    }
-    return (struct scale){threshold, ceduo_plot_round(fmax(least / 1.5, LEAST), false), ceduo_plot_round(1.5 * most, true)};
-}
-
 static void add_row(struct ceduo_page *page, const struct scale *s, double metres, enum ceduo_role role)
 {
     ceduo_page_bar(page, share_of(s, metres), role)->limit = share_of(s, s->threshold);
@@ -106,7 +90,18 @@ const char *ceduo_blocks_adc(struct ceduo_page *page, const struct ceduo_picture
     const struct ceduo_option *option = ceduo_plot_option(picture);
     if (!option || option->belts_count == 0)
         return _("no forest: nothing to meet");
-    struct scale s = find_scale(picture->scene, option);
+    double threshold = picture->scene->simulation.threshold, least = threshold, most = threshold;
+    for (size_t i = 0; i < option->belts_count; i++) {
+        struct ceduo_stand_result r = ceduo_assess_stand(picture->scene, &option->belts[i]);
+        for (int f = 0; f < RULES; f++) {
+            double v = ceduo_adc_value(&r.adc, (enum ceduo_rule)(CEDUO_GSTEIGER_STOOLS + f));
+            if (!isfinite(v) || !(v > 0))
+                continue;
+            least = fmin(least, v);
+            most = fmax(most, v);
+        }
+    }
+    struct scale s = {threshold, ceduo_plot_round(fmax(least / 1.5, LEAST), false), ceduo_plot_round(1.5 * most, true)};
     int rows = 1; /* of all belts in full */
     for (size_t i = 0; i < option->belts_count; i++)
         rows += ceduo_stand_is_bare(&option->belts[i].stand) ? 1 : 1 + RULES;

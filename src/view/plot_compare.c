@@ -49,25 +49,6 @@ static struct figures figures_of(const struct comparison *c, size_t i)
     return f;
 }
 
-static void find_scales(struct comparison *c)
-{
-    c->adc_lo = c->threshold / 10;
-    c->adc_hi = c->threshold * 2;
-    c->last_most = c->bare * J_TO_KJ;
-    c->middle_most = c->wooded ? 1000 : 0;
-    for (size_t i = 0; i < c->picture->scene->options_count; i++) {
-        struct figures f = figures_of(c, i);
-        if (isfinite(f.adc) && f.adc > 0) {
-            c->adc_lo = fmin(c->adc_lo, f.adc / 1.5);
-            c->adc_hi = fmax(c->adc_hi, f.adc * 1.1);
-        }
-        c->middle_most = fmax(c->middle_most, f.middle);
-        c->last_most = fmax(c->last_most, f.last);
-    }
-    if (c->accepted <= 2 * c->last_most)
-        c->last_most = fmax(c->last_most, c->accepted);
-}
-
 static double adc_share(const struct comparison *c, double adc)
 {
     return isfinite(adc) ? log(adc / c->adc_lo) / log(c->adc_hi / c->adc_lo) : 1;
@@ -149,7 +130,21 @@ const char *ceduo_blocks_compare(struct ceduo_page *page, const struct ceduo_pic
     if (!c.control)
         return _("no control");
     c.accepted = c.control->accepted * J_TO_KJ;
-    find_scales(&c);
+    c.adc_lo = c.threshold / 10;
+    c.adc_hi = c.threshold * 2;
+    c.last_most = c.bare * J_TO_KJ;
+    c.middle_most = c.wooded ? 1000 : 0;
+    for (size_t i = 0; i < c.picture->scene->options_count; i++) {
+        struct figures f = figures_of(&c, i);
+        if (isfinite(f.adc) && f.adc > 0) {
+            c.adc_lo = fmin(c.adc_lo, f.adc / 1.5);
+            c.adc_hi = fmax(c.adc_hi, f.adc * 1.1);
+        }
+        c.middle_most = fmax(c.middle_most, f.middle);
+        c.last_most = fmax(c.last_most, f.last);
+    }
+    if (c.accepted <= 2 * c.last_most)
+        c.last_most = fmax(c.last_most, c.accepted);
     CEDUO_PAGE_TABLE_OF(page, columns);
     add_heads(page, &c);
     for (size_t i = 0; i < n; i++)

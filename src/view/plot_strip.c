@@ -314,22 +314,16 @@ static void put_caption(const struct strip *s, const struct peak *peak)
 #define FULL_ROWS  8  /* four curves need so many rows, */
 #define FULL_WIDTH 56 /* so many columns, and names beside them */
 
-static bool is_small(const struct strip *s, const struct content *full)
-{
-    const struct ceduo_span *span = s->picture->span;
-    bool axis = !s->picture->no_x_axis;
-    int names = span ? s->area->left + s->area->width - span->left - span->width : INT_MAX;
-    return s->area->height - 1 - 2 * axis < FULL_ROWS || s->area->width < FULL_WIDTH ||
-           names < name_columns(s->canvas, full) - 1;
-}
-
 static const char *draw_strip(struct strip *s)
 {
     const struct ceduo_span *span = s->picture->span;
     const struct content *fitting = contents[s->energy];
     struct peak peak;
     s->legend = ceduo_plot_wooded(s->picture);
-    s->content = &fitting[!s->legend ? 0 : is_small(s, &fitting[1]) ? 2 : 1];
+    int names = span ? s->area->left + s->area->width - span->left - span->width : INT_MAX;
+    bool small = s->area->height - 1 - 2 * !s->picture->no_x_axis < FULL_ROWS || s->area->width < FULL_WIDTH ||
+                 names < name_columns(s->canvas, &fitting[1]) - 1;
+    s->content = &fitting[!s->legend ? 0 : small ? 2 : 1];
     s->sight = ceduo_plot_sight(s->picture);
     s->bare = ceduo_plot_bare(s->picture);
     ceduo_plot_stretch(s->picture, &s->from, &s->to);

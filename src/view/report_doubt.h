@@ -41,9 +41,6 @@ void ceduo_doubt_input_name(struct text *text, const struct ceduo_doubt_report *
 double ceduo_doubt_input_value(const struct ceduo_doubt_report *report, size_t group, int end, const char **word);
 void ceduo_doubt_input_end(struct text *text, const struct ceduo_doubt_report *report, size_t group, int end);
 
-/* The same in the unit that people use, and short. */
-void ceduo_doubt_input_shown(struct text *text, const struct ceduo_doubt_report *report, size_t group, int end);
-
 /* What would measure an input, marked for translation; NULL: nothing that is known. */
 const char *ceduo_doubt_measured(const struct ceduo_doubt_report *report, size_t group);
 

@@ -67,20 +67,6 @@ static const struct ceduo_stems *stems_at(const struct ceduo_stand *s, size_t i)
     return i < s->shoots_count ? &s->shoots[i] : i < s->shoots_count + s->trees_count ? &s->trees[i - s->shoots_count] : NULL;
 }
 
-/* How many kinds of stem have a volume by form factor, and the first of them; but for those of which CEDUO_WARN_THICK says it. */
-static size_t form_factor_stems(const struct ceduo_stand *stand, const struct ceduo_stems **first)
-{
-    size_t n = 0;
-    for (size_t i = 0; stems_at(stand, i); i++) {
-        const struct ceduo_stems *s = stems_at(stand, i);
-        enum ceduo_volume_from from;
-        ceduo_stem_volume(stand, s, &from);
-        if (from == CEDUO_VOLUME_FORM_FACTOR && s->per_ha > 0 && !(ceduo_stem_unlikely(stand, s) & CEDUO_WARN_THICK))
-            *first = n++ == 0 ? s : *first;
-    }
-    return n;
-}
-
 static const struct ceduo_stems *first_unlikely(const struct ceduo_stand *s, unsigned how)
 {
     size_t i = 0;
@@ -159,8 +145,15 @@ void ceduo_words_stand_warnings(const struct ceduo_scene *scene, const struct ce
                    _("%s: the energy law inertia is an assumption. A contact takes a share of what the rock has, so that "
                      "nothing can be said of what the stems could take (Eq. 4)."),
                    belt->name);
-    const struct ceduo_stems *first = NULL;
-    size_t n = r->warnings & CEDUO_WARN_FORM_FACTOR ? form_factor_stems(s, &first) : 0;
+    const struct ceduo_stems *first = NULL; /* kind of stem with a volume by form factor; of those too thick it is said above */
+    size_t n = 0;
+    for (size_t i = 0; r->warnings & CEDUO_WARN_FORM_FACTOR && stems_at(s, i); i++) {
+        enum ceduo_volume_from from;
+        ceduo_stem_volume(s, stems_at(s, i), &from);
+        if (from == CEDUO_VOLUME_FORM_FACTOR && stems_at(s, i)->per_ha > 0 &&
+            !(ceduo_stem_unlikely(s, stems_at(s, i)) & CEDUO_WARN_THICK))
+            first = n++ == 0 ? stems_at(s, i) : first;
+    }
     if (n > 0)
         say_format(say, context,
                    s->species < 0
