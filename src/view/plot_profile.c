@@ -359,7 +359,7 @@ static bool put_notes(const struct profile *p)
     else
         ceduo_text_format(&factor, words ? _("heights drawn at %g %%") : "%g %%", 100 * p->factor);
     if (!beside) {
-        ceduo_plot_say_right(p->canvas, end - 1, area->top, p->factor == 1 ? 0 : area->width / 2, CEDUO_ROLE_WARN, "%s",
+        ceduo_plot_say_right(p->canvas, end - 1, area->top, p->factor == 1 ? 0 : area->width / 2, CEDUO_ROLE_WARN, " %s",
                              factor.bytes);
         return false;
     }
