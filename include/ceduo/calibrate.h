@@ -9,7 +9,7 @@
 /* Values of scenes that are fitted to what was seen there. The likelihood of a list is multinomial, of a count binomial, of a
  * mean normal (observe.h); their logarithms add. Every evaluation simulates the same rocks. A search over Sobol' points and by
  * the simplex of Nelder and Mead finds the best values; then adaptive Metropolis chains (Haario, Saksman and Tamminen 2001)
- * draw from all values that what was seen does not refute, each as likely before within its bounds. */
+ * draw from the posterior, with a uniform prior within the bounds. */
 
 #define CEDUO_CALIBRATION_MOST   12 /* values fitted at once */
 #define CEDUO_CALIBRATION_CHAINS 4

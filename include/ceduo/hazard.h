@@ -46,7 +46,7 @@ struct ceduo_exceeding {
 
 struct ceduo_hazard {
     double per_year;  /* blocks that come down a year; NaN: the scene does not say, and nothing else holds */
-    double effective; /* so many equal rocks would know the sum of the weights as well: (sum w)^2/sum w^2 */
+    double effective; /* effective sample size (Kish): (sum w)^2/sum w^2 */
     size_t energies;  /* of the curve, up to the first that no rock exceeds */
     struct ceduo_exceeding exceed[CEDUO_HAZARD_ENERGIES];
     struct ceduo_return returns[CEDUO_RETURNS];
