@@ -77,6 +77,8 @@ struct ceduo_doubt_def {
     uint64_t rocks;             /* of each evaluation; CEDUO_SURFACE_GROUPS at least are taken */
     uint64_t own_rocks;         /* of the scene as it is; 0: as many */
     bool rotation;              /* each option over its rotation as well; not with the contact model index */
+    bool alone;                 /* of one option alone: the surfaces of the others are not there (p5, p95 NaN), nor ranks */
+    size_t option;              /* alone: this one */
     struct ceduo_window window; /* these years instead; step 0: those of ceduo_window_in() */
     unsigned threads;
     const ceduo_flag *cancel;                                     /* may be NULL */

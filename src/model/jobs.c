@@ -228,9 +228,9 @@ static enum ceduo_status step_years(struct jobs *q, struct job *job, void **resu
 static enum ceduo_status step_uncertainty(struct jobs *q, struct job *job, void **result)
 {
     struct uncertainty *u;
-    enum ceduo_status status = ceduo_uncertainty_make(&job->file, job->level, q->threads, &q->cancel, &u);
-    if (status == CEDUO_OK && u->inputs.n == 0)
-        job->level = LEVELS_MAX; /* there is nothing finer */
+    enum ceduo_status status = ceduo_uncertainty_make(&job->file, job->option, job->level, q->threads, &q->cancel, &u);
+    if (status == CEDUO_OK)
+        job->level = u->last ? LEVELS_MAX : u->level;
     *result = u;
     return status;
 }
@@ -275,12 +275,15 @@ static bool is_wanted(const struct job *job)
     return job->level < job->levels;
 }
 
-/* Rocks of the next step, by which jobs take turns. The first look at the uncertainty goes after the first figures and years, the
- * final one after the second figures: the verdict hangs on it more than on their last digit. Years have many forests. */
+/* Rocks of the next step, by which jobs take turns. The uncertainty of one option goes after the first figures and years where a
+ * view shows that, too, otherwise after the second figures; that of all before their last: the verdict hangs on it more than on
+ * their last digit. Years have many forests. */
 static uint64_t cost_of(const struct job *job)
 {
     if (job->kind == JOB_SEARCH || job->kind == JOB_PREVIEW)
         return 0;
+    if (job->kind == JOB_UNCERTAINTY && job->level == 0 && job->levels < UNCERTAINTY_ROTATION)
+        return rocks_of(1);
     return rocks_of(job->level) * (job->kind == JOB_YEARS && job->level > 0 ? 2 : 1);
 }
 
@@ -476,9 +479,10 @@ bool ceduo_jobs_show(struct jobs *q, const struct scene_file *file, size_t shown
     return asked;
 }
 
-bool ceduo_jobs_doubt(struct jobs *q, const struct scene_file *file, size_t levels)
+bool ceduo_jobs_doubt(struct jobs *q, const struct scene_file *file, size_t shown, size_t levels)
 {
-    const struct job job = job_of(JOB_UNCERTAINTY, file, levels);
+    struct job job = job_of(JOB_UNCERTAINTY, file, levels);
+    job.option = shown;
     pthread_mutex_lock(&q->lock);
     struct job *now = &q->jobs[JOB_UNCERTAINTY];
     bool asked = false;
@@ -487,6 +491,8 @@ bool ceduo_jobs_doubt(struct jobs *q, const struct scene_file *file, size_t leve
     } else if (!(asked = ask_once(q, &job))) { /* goes on where it is, as far as is asked for now */
         asked = !is_wanted(now) && now->level < levels;
         now->levels = levels;
+        if (q->working == JOB_UNCERTAINTY && !is_wanted(now))
+            atomic_store(&q->cancel, true);
         pthread_cond_broadcast(&q->changed);
     }
     pthread_mutex_unlock(&q->lock);

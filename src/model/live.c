@@ -136,9 +136,9 @@ void ceduo_live_follow(struct live *l, const struct scene_file *file, size_t opt
     refresh(l, &file->scene);
 }
 
-void ceduo_live_doubt(struct live *l, const struct scene_file *file, size_t levels)
+void ceduo_live_doubt(struct live *l, const struct scene_file *file, size_t shown, size_t levels)
 {
-    l->busy |= ceduo_jobs_doubt(l->jobs, file, levels);
+    l->busy |= ceduo_jobs_doubt(l->jobs, file, shown, levels);
 }
 
 void ceduo_live_compare(struct live *l, const struct scene_file *file, size_t levels)

@@ -31,7 +31,7 @@ void ceduo_live_follow(struct live *live, const struct scene_file *file, size_t 
 
 /* The uncertainty of the scene up to so many levels, see ceduo_jobs_doubt(); its comparison with what was observed, likewise. A
  * fit of another scene is forgotten. */
-void ceduo_live_doubt(struct live *live, const struct scene_file *file, size_t levels);
+void ceduo_live_doubt(struct live *live, const struct scene_file *file, size_t shown, size_t levels);
 void ceduo_live_compare(struct live *live, const struct scene_file *file, size_t levels);
 
 void ceduo_live_fit(struct live *live, const struct scene_file *file, const struct fit_request *request);

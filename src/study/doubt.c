@@ -34,6 +34,11 @@ struct rows {
     pthread_mutex_t talking;
 };
 
+static bool is_asked(const struct rows *r, size_t option)
+{
+    return !r->def->alone || option == r->def->option;
+}
+
 static struct ceduo_groups *values_of(const struct rows *r, size_t row, size_t option)
 {
     return r->values + (row * r->options + option) * CEDUO_DOUBT_KINDS;
@@ -169,7 +174,7 @@ static enum ceduo_status extend(struct rows *r, size_t points)
                              .inputs = def->inputs,
                              .inputs_count = def->inputs_count,
                              .u = r->u,
-                             .only = CEDUO_ALL_OPTIONS,
+                             .only = def->alone ? def->option : CEDUO_ALL_OPTIONS,
                              .rocks = def->rocks,
                              .today = true,
                              .years = r->years,
@@ -333,6 +338,8 @@ static int read_figures_of(void *context, size_t item, size_t worker)
     bool difference = item >= r->options;
     size_t option = difference ? item - r->options + 1 : item;
     struct subject s;
+    if (!is_asked(r, option) || (difference && r->def->alone))
+        return CEDUO_OK;
     enum ceduo_status status = open_subject(r, option, difference ? 0 : option, &s);
     for (size_t kind = 0; kind < CEDUO_DOUBT_KINDS && status == CEDUO_OK; kind++) {
         struct ceduo_doubt_figure *f = &reading->answer->figures[item * CEDUO_DOUBT_KINDS + kind];
@@ -362,6 +369,8 @@ static int count_years(void *context, size_t option, size_t worker)
 {
     (void)worker;
     const struct rows *r = context;
+    if (!is_asked(r, option))
+        return CEDUO_OK;
     size_t years = r->years[option], points = r->points;
     double *values = malloc(years * points * sizeof *values), each = r->year_counts[option] / (double)years;
     struct ceduo_groups *y = malloc(years * points * sizeof *y), *changes = malloc(years * points * sizeof *changes);
@@ -397,7 +406,7 @@ static int count_years(void *context, size_t option, size_t worker)
 static bool wants_more(const struct rows *r, const struct ceduo_doubt_answer *a)
 {
     for (size_t i = 0; i < r->options; i++)
-        for (size_t over = 0; over < (r->years ? 2 : 1); over++) {
+        for (size_t over = is_asked(r, i) ? 0 : 2; over < (r->years ? 2 : 1); over++) {
             const struct ceduo_surface_fit *fit = &ceduo_doubt_figure_of(a, i, over ? CEDUO_DOUBT_MEAN : a->main, false)->fit;
             if (fit->enough ? fit->explained < CEDUO_DOUBT_EXPLAINED : fit->variance > 0 && r->points >= CEDUO_DOUBT_POINTS)
                 return true;
@@ -584,6 +593,7 @@ static enum ceduo_status open_answer(struct rows *rows, struct ceduo_doubt_answe
         f->at = malloc(def->inputs_count * sizeof *f->at);
         f->order = calloc(def->inputs_count, sizeof *f->order);
         set_sampling(f, NAN, NAN, NAN);
+        f->fit.p5 = f->fit.p95 = NAN;
         if (!f->at || !f->order) {
             a->figures_count++;
             return CEDUO_NO_MEMORY;
@@ -615,9 +625,9 @@ enum ceduo_status ceduo_doubt_ask(const struct ceduo_doubt_def *def, struct cedu
         status = (enum ceduo_status)ceduo_parallel(&(struct parallel){rows.options, def->threads, count_years, &rows});
     if (status == CEDUO_OK)
         status = read_figures(&rows, false, answer);
-    if (status == CEDUO_OK)
+    if (status == CEDUO_OK && !def->alone)
         status = rank_options(&rows, answer, answer->main, &answer->today);
-    if (status == CEDUO_OK && rows.years)
+    if (status == CEDUO_OK && !def->alone && rows.years)
         status = rank_options(&rows, answer, CEDUO_DOUBT_MEAN, &answer->over_rotation);
     answer->points = rows.points;
     answer->evaluations = rows.ends + rows.points;

@@ -137,25 +137,22 @@ bool ceduo_app_doubt(const struct app *app, struct ceduo_doubt_report *report)
 {
     const struct uncertainty *d = ceduo_live_uncertainty(&app->live, &app->document.file);
     struct uncertainty *own = (struct uncertainty *)(uintptr_t)d; /* its scene is only read */
-    if (d)
-        *report = (struct ceduo_doubt_report){.file = &own->file,
-                                              .inputs = &own->inputs,
-                                              .answer = own->inputs.n > 0 ? &own->answer : NULL,
-                                              .points = own->points,
-                                              .rocks = own->rocks,
-                                              .finer = app->live.result};
-    return d != NULL;
-}
-
-static size_t doubt_levels(const struct app *app)
-{
-    return ceduo_views[app->view]->uncertainty || app->doubts ? UNCERTAINTY_LEVELS : 0;
+    if (!d)
+        return false;
+    *report = (struct ceduo_doubt_report){.file = &own->file,
+                                          .inputs = &own->inputs,
+                                          .answer = own->inputs.n > 0 ? &own->answer : NULL,
+                                          .points = CEDUO_DOUBT_POINTS,
+                                          .rocks = CEDUO_DOUBT_ROCKS,
+                                          .finer = app->live.result,
+                                          .years = &app->live.verdict,
+                                          .over = app->over && app->view == VIEW_DOUBT && own->answer.rotation};
+    return true;
 }
 
 struct ceduo_pane ceduo_app_pane(const struct app *app, int height)
 {
     const struct ceduo_scene *scene = &app->document.file.scene;
-    const struct uncertainty *u = ceduo_live_uncertainty(&app->live, &app->document.file);
     const struct ceduo_years *shown = ceduo_live_years(&app->live, scene, app->option);
     struct ceduo_doubt_report *doubt = ceduo_must(ceduo_arena_take(app->scratch, sizeof *doubt));
     struct ceduo_years **years =
@@ -167,8 +164,7 @@ struct ceduo_pane ceduo_app_pane(const struct app *app, int height)
                                .result = app->live.result,
                                .verdict = &app->live.verdict,
                                .years = years,
-                               .doubt = known && u->level + 1 == UNCERTAINTY_LEVELS ? doubt : NULL,
-                               .coarse = known ? doubt : NULL,
+                               .doubt = known ? doubt : NULL,
                                .year = in_year ? &shown->years[app->year] : NULL,
                                .option = app->option,
                                .height = height,
@@ -186,7 +182,10 @@ void ceduo_app_refresh(struct app *app)
         app->belt = belts > 0 ? belts - 1 : 0;
     ceduo_live_follow(&app->live, &app->document.file, app->option, view->years);
     app->doubts |= view->uncertainty;
-    ceduo_live_doubt(&app->live, &app->document.file, doubt_levels(app));
+    ceduo_live_doubt(&app->live, &app->document.file, app->option,
+                     !app->doubts ? 0
+                     : view->over ? UNCERTAINTY_ROTATION
+                                  : UNCERTAINTY_LEVELS);
     ceduo_live_compare(&app->live, &app->document.file,
                        view->observed && app->document.file.observations_count > 0 ? COMPARISON_LEVELS : 0);
     for (int v = 0; v < VIEW_COUNT; v++)

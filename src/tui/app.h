@@ -48,7 +48,8 @@ struct view {
     const char *title;                                 /* marked for translation */
     int panes;                                         /* that Tab goes through; the first is the form */
     bool years;                                        /* compute the years to come while it is open */
-    bool uncertainty;                                  /* compute it as finely as may be while it is open */
+    bool uncertainty;                                  /* compute it from here on, whatever view is open */
+    bool over;                                         /* that over the rotation as well while it is open */
     bool observed;                                     /* compare with what was observed while it is open */
     bool result;                                       /* it shows nothing before the first result */
     void (*build)(struct app *app, struct form *form); /* NULL: it has no form */
@@ -91,6 +92,7 @@ struct app {
     struct view_state views[VIEW_COUNT];
     size_t option, belt;               /* that the views show */
     size_t year;                       /* index of the one under the cursor */
+    bool over;                         /* view 7: the mean over the rotation, not today */
     struct place place;                /* the cursor along the slope */
     uint64_t rock;                     /* whose trajectory is shown */
     struct rock_trajectory trajectory; /* that trajectory */

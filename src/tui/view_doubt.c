@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* View 7: how sure the answer is, what it depends on, whether the options separate, and the ranges that the scene names. */
+/* View 7: how sure the answer is today or over the rotation, what it depends on, whether the options separate, and the ranges that
+ * the scene names. */
 #include <stdio.h>
 
 #include "app.h"
@@ -28,28 +29,40 @@ static void build(struct app *app, struct form *form)
 /* The picture, what it means in words, and the ranges of the scene; picture and words scroll together. */
 static void draw(struct app *app, struct ceduo_area area)
 {
-    const struct uncertainty *u = ceduo_live_uncertainty(&app->live, &app->document.file);
     int form = ceduo_app_form(app)->n > 1 ? area.height / 4 : 1;
     struct ceduo_area below = {area.left, area.top + area.height - form, area.width, form};
     struct ceduo_page page = {.width = (size_t)area.width - 2};
     struct ceduo_picture picture = ceduo_app_picture(app);
     struct ceduo_pane pane = ceduo_app_pane(app, area.height - form - 1);
-    picture.doubt = pane.coarse;
+    const struct ceduo_doubt_report *r = pane.doubt;
+    bool waits = app->over && r && r->answer && !r->over;
+    picture.doubt = waits ? NULL : r;
     const char *why = ceduo_blocks_doubt(&page, &picture, pane.height - WORDS_MIN - 1);
+    const char *never = waits ? ceduo_uncertainty_no_rotation(&app->document.file.scene) : NULL;
+    if (never)
+        why = _(never);
     if (why)
         ceduo_page_say(&page, CEDUO_PAGE_NOTE, "%s", why);
     else
         ceduo_page_add(&page, CEDUO_PAGE_GAP);
-    ceduo_pane_doubt(&page, &pane);
-    if (u && pane.coarse->answer)
+    if (!waits)
+        ceduo_pane_doubt(&page, &pane);
+    if (r && r->answer && !waits)
         ceduo_page_say(&page, CEDUO_PAGE_NOTE,
-                       pane.doubt ? _("%llu scenes of %llu rocks.")
-                                  : _("Rough so far: %llu scenes of %llu rocks; being refined."),
-                       (unsigned long long)u->answer.evaluations, (unsigned long long)u->rocks);
+                       r->over ? _("%llu scenes of %llu rocks in each year.") : _("%llu scenes of %llu rocks."),
+                       (unsigned long long)r->answer->evaluations,
+                       (unsigned long long)(r->over ? CEDUO_DOUBT_YEAR_ROCKS : CEDUO_DOUBT_ROCKS));
     area.height = pane.height;
     area.width -= 2;
     ceduo_app_page(app, area, &page, &ceduo_app_state(app)->scroll);
     ceduo_app_draw_form(app, below, true);
+}
+
+static void turn(struct app *app, int unused)
+{
+    (void)unused;
+    app->over = !app->over;
+    ceduo_app_state(app)->scroll = 0;
 }
 
 static void read_on(struct app *app, int by)
@@ -74,17 +87,16 @@ static bool is_named(const struct node *rows, const char *path)
 static void add(struct app *app, int unused)
 {
     (void)unused;
-    const struct uncertainty *u = ceduo_live_uncertainty(&app->live, &app->document.file);
     const struct node *rows = ceduo_node_get(app->document.file.root, "doubt");
-    if (!u || u->inputs.n == 0 || (rows && rows->kind != NODE_LIST)) {
-        ceduo_app_say(app, "%s", u ? _("nothing here has a range") : _("not computed yet"));
+    struct ceduo_doubt_report r;
+    bool known = ceduo_app_doubt(app, &r) && (!r.answer || ceduo_doubt_knows(&r, app->option));
+    if (!known || !r.answer || (rows && rows->kind != NODE_LIST)) {
+        ceduo_app_say(app, "%s", known ? _("nothing here has a range") : _("not computed yet"));
         return;
     }
-    const struct ceduo_doubt_figure *f = ceduo_doubt_figure_of(&u->answer, app->option, u->answer.main, false);
-    struct ceduo_doubt_report r;
-    ceduo_app_doubt(app, &r);
+    const struct ceduo_doubt_figure *f = ceduo_doubt_main(&r, app->option);
     for (size_t i = 0; i < f->uses; i++) {
-        const struct ceduo_input *input = &u->inputs.items[f->order[i]];
+        const struct ceduo_input *input = &r.inputs->items[f->order[i]];
         if (input->kind == CEDUO_INPUT_WORDS || input->places_count != 1 || is_named(rows, input->places[0]))
             continue;
         struct text row = {0};
@@ -102,16 +114,19 @@ static void add(struct app *app, int unused)
     ceduo_app_say(app, "%s", _("every single value in doubt has a range of the scene already"));
 }
 
-static const struct act acts[] = {{ACTION_ADD, add, 0}, {ACTION_PAGE_UP, read_on, -4}, {ACTION_PAGE_DOWN, read_on, 4}, {0}};
+static const struct act acts[] = {{ACTION_ADD, add, 0},          {ACTION_NEXT_PANE, turn, 0},    {ACTION_LAST_PANE, turn, 0},
+                                  {ACTION_PAGE_UP, read_on, -4}, {ACTION_PAGE_DOWN, read_on, 4}, {0}};
 
 const struct view ceduo_view_doubt = {.title = NP_("view", "doubt"),
                                       .panes = 1,
                                       .uncertainty = true,
+                                      .over = true,
                                       .build = build,
                                       .draw = draw,
                                       .acts = {acts},
                                       .bar = {{ACTION_EDIT, N_("edit")},
                                               {ACTION_ADD, N_("a range")},
                                               {ACTION_DELETE, N_("delete")},
+                                              {ACTION_NEXT_PANE, N_("today or rotation")},
                                               {ACTION_NEXT_OPTION, N_("next option")},
                                               {ACTION_PAGE_DOWN, N_("read on")}}};

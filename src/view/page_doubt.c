@@ -117,12 +117,17 @@ const char *ceduo_doubt_measured(const struct ceduo_doubt_report *r, size_t i)
 
 const struct ceduo_doubt_figure *ceduo_doubt_main(const struct ceduo_doubt_report *r, size_t option)
 {
-    return ceduo_doubt_figure_of(r->answer, option, r->answer->main, false);
+    return ceduo_doubt_figure_of(r->answer, option, r->over ? CEDUO_DOUBT_MEAN : r->answer->main, false);
+}
+
+bool ceduo_doubt_knows(const struct ceduo_doubt_report *r, size_t option)
+{
+    return !isnan(ceduo_doubt_main(r, option)->fit.p5);
 }
 
 double ceduo_doubt_scale(const struct ceduo_doubt_report *r)
 {
-    return r->answer->main == CEDUO_DOUBT_ENERGY ? J_TO_KJ : 1000;
+    return ceduo_doubt_main(r, 0)->kind == CEDUO_DOUBT_ENERGY ? J_TO_KJ : 1000;
 }
 
 /* A value of a kind of figure: shares of 1000, energies in kJ. */
@@ -141,17 +146,27 @@ static void append_range(struct text *t, enum ceduo_doubt_kind kind, double lo, 
 
 /* ---- what an option may be ---- */
 
+/* A share, its ends outwards, as in the other views. */
+static struct ceduo_doubt_now share_now(double value, double lo, double hi, uint64_t rocks)
+{
+    return (struct ceduo_doubt_now){value, floor(fmax(0, lo) * 1000) / 1000, ceil(fmin(1, hi) * 1000) / 1000, rocks};
+}
+
 struct ceduo_doubt_now ceduo_doubt_now_of(const struct ceduo_doubt_report *r, size_t option)
 {
     const struct ceduo_doubt_figure *f = ceduo_doubt_main(r, option);
+    if (r->over) {
+        const struct ceduo_choice *c = r->years && option < r->years->n ? &r->years->choices[option] : NULL;
+        if (!c || c->flown == 0 || c->rocks <= CEDUO_DOUBT_OWN_YEAR_ROCKS)
+            return (struct ceduo_doubt_now){f->value, f->sampling_lo, f->sampling_hi, CEDUO_DOUBT_OWN_YEAR_ROCKS};
+        return share_now(c->mean.mean, c->mean.mean - c->mean.half, c->mean.mean + c->mean.half, c->rocks);
+    }
     const struct ceduo_result *finer = r->finer;
     const struct ceduo_arrivals *a = finer ? ceduo_result_wooded(finer, option, finer->last_control) : NULL;
     if (!a || a->released <= r->answer->own_rocks)
         return (struct ceduo_doubt_now){f->value, f->sampling_lo, f->sampling_hi, r->answer->own_rocks};
     if (r->answer->main == CEDUO_DOUBT_EXCEED)
-        return (struct ceduo_doubt_now){a->exceed_probability, floor(a->exceed_lo * 1000) / 1000,
-                                        ceil(a->exceed_hi * 1000) / 1000, /* outwards, as in the other views */
-                                        a->released};
+        return share_now(a->exceed_probability, a->exceed_lo, a->exceed_hi, a->released);
     double mean = a->energy_per_released, half = ceduo_half_width(a->energy_per_released_se, a->released);
     return (struct ceduo_doubt_now){mean, mean - half, mean + half, a->released};
 }
@@ -160,6 +175,8 @@ void ceduo_doubt_range(struct text *text, const struct ceduo_doubt_report *r, si
 {
     const struct ceduo_doubt_figure *f = ceduo_doubt_main(r, option);
     append_value(text, f->kind, ceduo_doubt_now_of(r, option).value);
+    if (!ceduo_doubt_knows(r, option))
+        return;
     ceduo_text_put(text, " (");
     append_range(text, f->kind, f->fit.p5, f->fit.p95);
     ceduo_text_char(text, ')');
@@ -177,8 +194,9 @@ void ceduo_doubt_both(struct text *text, const struct ceduo_doubt_report *r, siz
     append_range(&rocks, f->kind, now.lo, now.hi);
     append_range(&doubt, f->kind, f->fit.p5, f->fit.p95);
     ceduo_text_format(text,
-                      r->answer->main == CEDUO_DOUBT_EXCEED ? _("%s of 1000 (rocks %s; doubt %s)")
-                                                            : _("%s kJ per released rock (rocks %s; doubt %s)"),
+                      r->over                                 ? _("Over the rotation %s of 1000 (rocks %s; doubt %s)")
+                      : r->answer->main == CEDUO_DOUBT_EXCEED ? _("%s of 1000 (rocks %s; doubt %s)")
+                                                              : _("%s kJ per released rock (rocks %s; doubt %s)"),
                       value.bytes, rocks.bytes, doubt.bytes);
 }
 
@@ -368,7 +386,7 @@ void ceduo_doubt_order_words(struct text *text, const struct ceduo_doubt_report 
     ceduo_text_safe(&better, s->options[o->better].name);
     ceduo_text_safe(&than, s->options[o->than].name);
     ceduo_text_format(text,
-                      ranking->rotation ? _("over the rotation %s is better than %s in %.0f %% of what may be true")
+                      ranking->rotation ? _("Over the rotation %s is better than %s in %.0f %% of what may be true")
                                         : _("%s is better than %s in %.0f %% of what may be true"),
                       ceduo_text_string(&better), ceduo_text_string(&than), o->probability * 100);
     if (o->probability < 0.995)

@@ -266,8 +266,8 @@ void ceduo_pane_words(struct ceduo_page *page, const struct ceduo_report *report
 
 void ceduo_pane_doubt(struct ceduo_page *page, const struct ceduo_pane *pane)
 {
-    const struct ceduo_doubt_report *r = pane->coarse;
-    if (!r || !r->answer)
+    const struct ceduo_doubt_report *r = pane->doubt;
+    if (!r || !r->answer || !ceduo_doubt_knows(r, pane->option))
         return;
     ceduo_doubt_both(ceduo_page_add(page, CEDUO_PAGE_NOTE), r, pane->option);
     ceduo_doubt_advice(ceduo_page_add(page, CEDUO_PAGE_NOTE), r, pane->option, 0);
@@ -275,6 +275,10 @@ void ceduo_pane_doubt(struct ceduo_page *page, const struct ceduo_pane *pane)
     for (size_t i = 0; i < ranking->count; i++)
         if (ranking->orders[i].better == pane->option || ranking->orders[i].than == pane->option)
             ceduo_doubt_order_words(ceduo_page_add(page, CEDUO_PAGE_NOTE), r, i);
-    for (size_t i = 0; i < 3; i++)
+    const struct ceduo_doubt_figure *failing = ceduo_doubt_figure_of(r->answer, pane->option, CEDUO_DOUBT_FAILING, false);
+    if (r->over && !isnan(failing->fit.p5))
+        ceduo_page_say(page, CEDUO_PAGE_NOTE, _("Years that fail: %.0f, may be %.0f\xe2\x80\x93%.0f."), failing->value,
+                       floor(failing->fit.p5), ceil(failing->fit.p95)); /* outwards */
+    for (size_t i = 0; i < 3 && !r->over; i++)
         ceduo_doubt_light_words(ceduo_page_add(page, CEDUO_PAGE_NOTE), r, pane->option, i);
 }

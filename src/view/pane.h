@@ -11,13 +11,12 @@
  * tables of the views. */
 
 struct ceduo_pane {
-    const struct scene_file *file;           /* as it is now */
-    const struct ceduo_result *result;       /* NULL: nothing is computed yet */
-    const struct ceduo_verdict *verdict;     /* of all options; NULL: not known */
-    struct ceduo_years *const *years;        /* of each option; an item is NULL where it is not known */
-    const struct ceduo_doubt_report *doubt;  /* NULL: not known, or not finely enough */
-    const struct ceduo_doubt_report *coarse; /* as fine as it is */
-    const struct ceduo_year *year;           /* that the column is of; NULL: today */
+    const struct scene_file *file;          /* as it is now */
+    const struct ceduo_result *result;      /* NULL: nothing is computed yet */
+    const struct ceduo_verdict *verdict;    /* of all options; NULL: not known */
+    struct ceduo_years *const *years;       /* of each option; an item is NULL where it is not known */
+    const struct ceduo_doubt_report *doubt; /* NULL: not known yet; perhaps of the option alone */
+    const struct ceduo_year *year;          /* that the column is of; NULL: today */
     size_t option;
     int height; /* lines that are seen at once */
     bool busy;  /* finer figures are on their way */

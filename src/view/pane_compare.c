@@ -63,6 +63,26 @@ static void add_years(struct ceduo_page *page, const struct ceduo_years *years)
     }
 }
 
+/* Whether the doubt of the mean over the rotation is known. Then it stands beside that, otherwise today's beside today. */
+static bool knows_rotation(const struct ceduo_pane *pane)
+{
+    return pane->doubt && pane->doubt->answer && pane->doubt->answer->rotation && pane->verdict->wooded;
+}
+
+/* "296±7 (219–327)": the mean over the rotation, with what may be true of it. */
+static void add_mean(struct ceduo_page *page, const struct ceduo_pane *pane, size_t i)
+{
+    struct ceduo_measure mean = ceduo_judged(&pane->result->scene->controls[pane->result->last_control], NULL);
+    add_share(page, pane->verdict->choices[i].mean);
+    ceduo_measure_doubt_over(&mean, pane->doubt, i);
+    if (!knows_rotation(pane) || isnan(mean.may_lo))
+        return;
+    struct text *text = &page->last->cells[page->last->cells_count - 1].text;
+    ceduo_text_put(text, " (");
+    ceduo_measure_span(text, &mean, mean.may_lo, mean.may_hi);
+    ceduo_text_char(text, ')');
+}
+
 static void add_option(struct ceduo_page *page, const struct ceduo_pane *pane, size_t i)
 {
     const struct ceduo_result *r = pane->result;
@@ -78,14 +98,14 @@ static void add_option(struct ceduo_page *page, const struct ceduo_pane *pane, s
     struct ceduo_measure judged = ceduo_judged(&r->scene->controls[r->last_control], NULL);
     struct text *may_be = ceduo_page_text(page);
     ceduo_measure_doubt(&judged, pane->doubt, i, r->last_control);
-    if (!isnan(judged.may_lo))
+    if (!isnan(judged.may_lo) && !knows_rotation(pane))
         ceduo_measure_span(may_be, &judged, judged.may_lo, judged.may_hi);
     if (a && r->scene->blocks_count > 0)
         ceduo_words_every(ceduo_page_text(page), ceduo_hazard_feared(&a->hazard));
     else
         ceduo_page_write(page, "%s", "");
     if (v->wooded)
-        add_share(page, c->mean);
+        add_mean(page, pane, i);
     else
         ceduo_page_number(page, index->per_100m * J_TO_KJ, 3);
     /* "best" for an option that is clearly better than all others over the years, "worst" for one that is worse than all */
@@ -126,7 +146,9 @@ static void add_heads(struct ceduo_page *page, const struct ceduo_pane *pane)
     ceduo_text_put(&heads[MEAN].text, r->wooded ? _("rotation") : _("kJ/100 m"));
     if (r->wooded && r->scene->blocks_count > 0)
         ceduo_text_put(&heads[EVERY].text, _("every, y"));
-    if (pane->doubt && pane->doubt->answer)
+    if (knows_rotation(pane))
+        ceduo_text_format(&heads[MEAN].text, " (%s)", _("may be"));
+    else if (pane->doubt && pane->doubt->answer)
         ceduo_text_put(&heads[MAY_BE].text, _("may be"));
 }
 
@@ -160,11 +182,14 @@ void ceduo_pane_said(struct ceduo_page *page, const struct ceduo_pane *pane)
     } else {
         LOCAL_TEXT(best);
         ceduo_words_best(&best, r->scene, v);
+        for (size_t i = 0; knows_rotation(pane) && i < ceduo_doubt_verdict(pane->doubt->answer)->count; i++)
+            ceduo_doubt_order_words(ceduo_page_add(page, CEDUO_PAGE_NOTE), pane->doubt, i);
         for (char *line = best.bytes ? strtok(best.bytes, "\n") : NULL; line; line = strtok(NULL, "\n"))
             ceduo_page_note(page, line);
         if ((!v->rotation.known || v->rotation.uneven) && v->wooded)
             ceduo_page_note(page, _("The years of the rotation are being computed."));
-        ceduo_words_turned(r, v, ceduo_page_note, page);
+        if (!knows_rotation(pane)) /* of which the energy law is a part */
+            ceduo_words_turned(r, v, ceduo_page_note, page);
     }
     ceduo_words_windows(r->scene, v, ceduo_page_note, page);
     LOCAL_TEXT(thin); /* options with lights that thin shoots alone make green today */

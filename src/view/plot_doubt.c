@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "base/language.h"
+#include "measure.h"
 #include "plot_parts.h"
 #include "report_doubt.h"
 
@@ -27,8 +28,8 @@ static void add_option(struct ceduo_page *page, const struct ceduo_doubt_report 
     ceduo_page_mark(page, shown ? CEDUO_ROLE_TITLE : CEDUO_ROLE_TEXT, r->file->scene.options[i].name);
     struct ceduo_page_bar *bar = ceduo_page_bar(page, fmin(1, now.hi * scale), CEDUO_ROLE_TITLE);
     bar->from = fmax(1e-9, now.lo * scale); /* what the rocks leave open takes at least one cell, at 0, too */
-    bar->least = fmin(1, fmax(0, f->fit.p5 * scale));
-    bar->most = fmin(1, fmax(0, f->fit.p95 * scale));
+    bar->least = ceduo_doubt_knows(r, i) ? fmin(1, fmax(0, f->fit.p5 * scale)) : NAN;
+    bar->most = ceduo_doubt_knows(r, i) ? fmin(1, fmax(0, f->fit.p95 * scale)) : NAN;
     ceduo_doubt_range(ceduo_page_text(page), r, i);
 }
 
@@ -42,16 +43,16 @@ static void add_options(struct ceduo_page *page, const struct ceduo_doubt_report
     size_t first = option >= room ? option - room + 1 : 0;
     CEDUO_PAGE_TABLE_OF(page, columns);
     struct ceduo_page_cell *heads = page->last->cells;
-    if (r->answer->main == CEDUO_DOUBT_EXCEED) {
-        double accepted = ceduo_words_accepted(&scene->controls[ceduo_scene_last_control(scene)]);
-        ceduo_text_format(&heads[0].text, _("of 1000 > %s kJ"), SHORTEST(accepted));
+    if (ceduo_doubt_main(r, 0)->kind != CEDUO_DOUBT_ENERGY) {
+        struct ceduo_measure judged = ceduo_judged(&scene->controls[ceduo_scene_last_control(scene)], NULL);
+        ceduo_measure_name(&heads[0].text, &judged, CEDUO_HEAD);
         ceduo_text_put(&heads[1].text, "0\xe2\x80\x93"
                                        "1000");
     } else {
         ceduo_text_put(&heads[0].text, _("kJ a rock"));
         ceduo_text_format(&heads[1].text, "0\xe2\x80\x93%.4g", most_of(r));
     }
-    ceduo_text_put(&heads[2].text, _("now (may be)"));
+    ceduo_text_put(&heads[2].text, r->over ? _("rotation (may be)") : _("now (may be)"));
     for (size_t i = first; i < n && i < first + room; i++)
         add_option(page, r, i, i == option);
     if (n > room)

@@ -5,6 +5,7 @@
 #include "ceduo/doubt.h"
 #include "ceduo/result.h"
 #include "io/doubt_inputs.h"
+#include "study/verdict.h"
 
 /* What doubt does to a scene. */
 struct ceduo_doubt_report {
@@ -13,8 +14,16 @@ struct ceduo_doubt_report {
     const struct ceduo_doubt_answer *answer; /* NULL: nothing is in doubt, nothing was computed */
     size_t points;
     uint64_t rocks;
-    const struct ceduo_result *finer; /* figures of the scene as it is from more rocks; NULL: those of the answer */
+    const struct ceduo_result *finer;  /* figures of the scene as it is from more rocks; NULL: those of the answer */
+    const struct ceduo_verdict *years; /* likewise those of its years */
+    bool over;                         /* the main figure is the mean over the rotation, which the answer has */
 };
+
+/* The figure that all is about: too much energy where that is known, otherwise energy; or its mean over the rotation. */
+const struct ceduo_doubt_figure *ceduo_doubt_main(const struct ceduo_doubt_report *report, size_t option);
+
+/* Whether what may be true of an option is known: perhaps one alone was asked for. */
+bool ceduo_doubt_knows(const struct ceduo_doubt_report *report, size_t option);
 
 /* Whether the scene asks for no answer; why there is none: that, or nothing is in doubt. */
 bool ceduo_doubt_is_off(const struct ceduo_doubt_report *report);
@@ -24,7 +33,7 @@ const char *ceduo_doubt_none(const struct ceduo_doubt_report *report);
 const struct ceduo_doubt_figure *ceduo_doubt_main(const struct ceduo_doubt_report *report, size_t option);
 struct ceduo_doubt_now {
     double value, lo, hi;
-    uint64_t rocks; /* of which it is */
+    uint64_t rocks; /* of which it is; over a rotation of each year */
 };
 struct ceduo_doubt_now ceduo_doubt_now_of(const struct ceduo_doubt_report *report, size_t option);
 

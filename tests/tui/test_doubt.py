@@ -100,6 +100,40 @@ def test_options():
     further.has("thin is better than none left in")
 
 
+def test_over_the_rotation():
+    """Tab in view 7, and view 5: the mean over the rotation with its doubt, and the order of the options, as --sensitivity --years has them"""
+    option = "  - name: {}\n    forest: [{{from_m: 10, to_m: 60, stand: {}}}]\n"
+    stands = ("{name: grows, stools: {per_ha: 800, spacing_m: 0.3}, shoots: [{per_ha: 2000, dbh_m: 0.08, height_m: 8}],"
+              " growth: {shoots: {dbh_most_m: 0.2, dbh_rate_1_y: 0.1, height_most_m: 14, height_rate_1_y: 0.1}},"
+              " cutting: {rotation_years: 3, stay_per_ha: [0]}, energy: {model: brauner, u_J_m3: 100000}}",
+              "{name: stays, trees: [{per_ha: 300, dbh_m: 0.2, height_m: 12}], energy: {model: brauner, u_J_m3: 100000}}")
+    scene = CUTS[:CUTS.index("options:")] + "options:\n" + "".join(map(option.format, ("cut", "kept"), stands)) \
+        + CUTS[CUTS.index("simulation:"):] + DOUBT.replace("forest[0]", "options[*].forest[0]")
+    with Place() as place:
+        place.write("turn.yaml", scene)
+        today, over, other, back, compared, small = place.play(
+            "resize 120 40\nkey 7\nwait idle\ndump\nkey Tab\ndump\nkey ]\nwait idle\ndump\nkey Tab\ndump\n"
+            "key 5\nwait idle\ndump\nresize 80 24\ndump", "turn.yaml")
+        run = json.loads(ceduo("--sensitivity=256", "--years", "-f", "json", place.path / "turn.yaml").out)
+    bands = {f["option"]: "–".join(f"{f[k] * 1000:.0f}" for k in ("doubt_p5", "doubt_p95"))
+             for f in run["figures"] if f["figure"] == "rotation.exceed_probability" and f["against"] is None}
+    rank, = run["ranking"]
+    order = rf"Over the rotation {rank['better']} is better than {rank['than']} in {rank['probability'] * 100:.0f} % of what may be true"
+    expect_equal(sorted(bands), ["cut", "kept"])
+    for name, band in bands.items():
+        expect(re.search(rf"^{name} .* \d+ \({band}\)", over.body, re.M), name, band, over)
+        expect(re.search(rf"^{name} .* \d+±\d+ +\d+±\d+ \({band}\) ", compared.body, re.M), name, band, compared)
+        expect(re.search(rf"^{name} .* \({band}\) ", small.body, re.M), name, band, small)
+    mean = re.search(r"^cut .* (\d+) [(]", over.body, re.M)[1]
+    expect_in(f"Over the rotation {mean} of 1000 (rocks ", over.body)
+    expect_in(f"doubt {bands['kept']})", other.body)
+    for screen in (over, other, compared, small):
+        expect(re.search(order, " ".join(screen.body.split())), order, screen)
+    expect(re.search("^ +today +rotation [(]may be[)] ", compared.body, re.M), compared)
+    for screen in (today, back):
+        expect("rotation (may be)" not in screen.body, screen)
+
+
 def test_units():
     """The ends of a diameter's range stand in cm under their head, and are typed in cm; those of a density in its own unit"""
     rows = "doubt:\n  - {path: 'forest[0].stand.trees[0].dbh_m', lo: 0.15, hi: 0.25}\n  - {path: rock.density_kg_m3, lo: 2400, hi: 2700}\n"

@@ -152,38 +152,83 @@ TEST_WITH(the_other_law_comes_along, set_up, tear_down)
     assert_null(results.others);
 }
 
-/* The uncertainty goes from level to level; the same scene is asked for once, more levels go on where it is, none stops it. */
+static const struct uncertainty *uncertainty(size_t shown, size_t levels)
+{
+    assert_true(ceduo_jobs_doubt(jobs, &file, shown, levels));
+    assert_false(ceduo_jobs_doubt(jobs, &file, shown, levels));
+    ceduo_jobs_wait(jobs);
+    take();
+    assert_non_null(results.uncertainty);
+    assert_true(results.uncertainty->file.root == file.root);
+    return results.uncertainty;
+}
+
+/* Of one option alone the first level is all there is of today; more levels go on where it is, fewer are enough, none stops it. */
 TEST_WITH(the_uncertainty_comes_last, set_up, tear_down)
 {
-    assert_true(ceduo_jobs_doubt(jobs, &file, 1));
-    assert_false(ceduo_jobs_doubt(jobs, &file, 1));
-    ceduo_jobs_wait(jobs);
-    take();
-    const struct uncertainty *u = results.uncertainty;
-    assert_non_null(u);
-    assert_int_equal(u->level, 0);
+    const struct uncertainty *u = uncertainty(0, 1);
+    assert_int_equal(u->level, UNCERTAINTY_LEVELS - 1);
     assert_int_equal(u->inputs.n, 12);
-    assert_true(u->file.root == file.root);
+    assert_int_equal(u->answer.points, CEDUO_DOUBT_POINTS);
     EXPECT(u->answer.figures[CEDUO_DOUBT_EXCEED].fit.p5, <, u->answer.figures[CEDUO_DOUBT_EXCEED].fit.p95);
-    assert_true(ceduo_jobs_doubt(jobs, &file, 2));
-    assert_false(ceduo_jobs_doubt(jobs, &file, 1)); /* fewer are enough */
-    ceduo_jobs_doubt(jobs, &file, 0);
-    ceduo_jobs_wait(jobs);
-    take();                                 /* of another level, where that was ready before */
+    assert_false(ceduo_jobs_doubt(jobs, &file, 0, UNCERTAINTY_LEVELS));
+    assert_true(uncertainty(0, UNCERTAINTY_ROTATION)->answer.rotation);
+    assert_int_equal(results.uncertainty->level, UNCERTAINTY_ROTATION - 1);
     ceduo_jobs_stop(jobs, JOB_UNCERTAINTY); /* the same nodes: of another scene it would be asked anew */
     file.scene.controls_count = 0;
-    assert_true(ceduo_jobs_doubt(jobs, &file, 2));
-    ceduo_jobs_wait(jobs);
-    take();
-    assert_non_null(results.uncertainty); /* without a control there is nothing to be in doubt of */
-    assert_int_equal(results.uncertainty->inputs.n, 0);
+    u = uncertainty(0, UNCERTAINTY_ROTATION); /* without a control there is nothing to be in doubt of */
+    assert_int_equal(u->inputs.n, 0);
     file.scene.controls_count = 1;
-    ceduo_jobs_stop(jobs, JOB_UNCERTAINTY);
-    assert_true(ceduo_jobs_doubt(jobs, &file, UNCERTAINTY_ROTATION));
+}
+
+/* Three options over two years. */
+static int set_up_options(void **state)
+{
+    static const char *const sets[] = {"years.first=1", "years.last=2"};
+    struct problems problems = {0};
+    (void)state;
+    assert_true(ceduo_scene_load(&file, "profiles/scenes/staggered.yaml", sets, 2, &problems));
+    jobs = ceduo_jobs_create(2);
+    assert_non_null(jobs);
+    return 0;
+}
+
+/* Of several the shown one is first: what is said of it stays as it is when the others and the rotation come. */
+TEST_WITH(the_uncertainty_of_the_shown_option_is_first, set_up_options, tear_down)
+{
+    const size_t shown = 1, n = 3;
+    const struct ceduo_doubt_answer *a = &uncertainty(shown, 1)->answer;
+    const struct ceduo_doubt_figure *f = ceduo_doubt_figure_of(a, shown, CEDUO_DOUBT_EXCEED, false);
+    double p5 = f->fit.p5, p95 = f->fit.p95, leaves = f->fit.left[f->order[0]];
+    EXPECT(p5, <, p95);
+    for (size_t i = 0; i < n; i++)
+        if (i != shown)
+            EXPECT_NAN(ceduo_doubt_figure_of(a, i, CEDUO_DOUBT_EXCEED, false)->fit.p5);
+    EXPECT_NAN(ceduo_doubt_figure_of(a, shown, CEDUO_DOUBT_EXCEED, true)->fit.p95);
+    assert_int_equal(ceduo_doubt_verdict(a)->count, 0);
+    for (size_t levels = UNCERTAINTY_LEVELS; levels <= UNCERTAINTY_ROTATION; levels++) {
+        a = &uncertainty(shown, levels)->answer;
+        f = ceduo_doubt_figure_of(a, shown, CEDUO_DOUBT_EXCEED, false);
+        EXPECT(f->fit.p5, ==, p5);
+        EXPECT(f->fit.p95, ==, p95);
+        EXPECT(f->fit.left[f->order[0]], ==, leaves);
+        for (size_t i = 0; i < n; i++)
+            EXPECT(ceduo_doubt_figure_of(a, i, CEDUO_DOUBT_EXCEED, false)->fit.p5, >, 0);
+        assert_int_equal(ceduo_doubt_verdict(a)->count, n - 1);
+        assert_int_equal(ceduo_doubt_verdict(a)->rotation, levels == UNCERTAINTY_ROTATION);
+    }
+}
+
+/* Who leaves the views that show the rotation stops what is computed of it; who comes back goes on. */
+TEST_WITH(the_rotation_is_stopped_where_no_view_shows_it, set_up, tear_down)
+{
+    uncertainty(0, UNCERTAINTY_LEVELS);
+    assert_true(ceduo_jobs_doubt(jobs, &file, 0, UNCERTAINTY_ROTATION));
+    assert_false(ceduo_jobs_doubt(jobs, &file, 0, UNCERTAINTY_LEVELS));
     ceduo_jobs_wait(jobs);
     take();
-    assert_int_equal(results.uncertainty->level, UNCERTAINTY_ROTATION - 1);
-    assert_true(results.uncertainty->answer.rotation);
+    assert_null(results.uncertainty);
+    assert_true(uncertainty(0, UNCERTAINTY_ROTATION)->answer.rotation);
 }
 
 /* What is stopped ends soon, and nothing comes of it. */
