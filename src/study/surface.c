@@ -12,6 +12,7 @@
  * and size (Wu 1986), as the fit is linear in it. */
 #include "ceduo/surface.h"
 
+#include <gsl/gsl_blas.h>
 #include <gsl/gsl_cdf.h>
 #include <gsl/gsl_multifit.h>
 #include <gsl/gsl_qrng.h>
@@ -233,26 +234,24 @@ static void close_basis(struct basis *b)
 {
     free(b->used);
     free(b->terms.items);
-    if (b->x)
-        gsl_matrix_free(b->x);
-    if (b->work)
-        gsl_multifit_linear_free(b->work);
+    gsl_matrix_free(b->x);
+    gsl_multifit_linear_free(b->work);
     free(b->means);
     *b = (struct basis){0};
 }
 
 void ceduo_surface_free(struct ceduo_surface *s)
 {
-    for (size_t i = 0; s && i < 2; i++)
+    if (!s)
+        return;
+    for (size_t i = 0; i < 2; i++)
         close_basis(&s->bases[i]);
-    for (size_t i = 0; s && s->of && i < s->inputs_count; i++)
+    for (size_t i = 0; s->of && i < s->inputs_count; i++)
         free(s->of[i].table);
-    if (s) {
-        free(s->of);
-        free(s->functions);
-        free(s->values);
-        free(s->multipliers);
-    }
+    free(s->of);
+    free(s->functions);
+    free(s->values);
+    free(s->multipliers);
     free(s);
 }
 
@@ -384,7 +383,7 @@ static enum ceduo_status open_basis(struct ceduo_surface *s, const size_t *used,
         if (ceduo_gsl_try(decompose, &(struct decomposed){b->x, work}) == 0)
             b->work = work;
     }
-    if (!b->work && work)
+    if (!b->work)
         gsl_multifit_linear_free(work);
     *out = *b;
     return b->work ? CEDUO_OK : CEDUO_NO_MEMORY;
@@ -393,33 +392,13 @@ static enum ceduo_status open_basis(struct ceduo_surface *s, const size_t *used,
 /* Coefficients of values y at the points: V filter(S)/S U' y. */
 static void solve(const struct solution *f, const double *y, double *coefficient)
 {
-    size_t n = f->b.terms.n, points = f->s->points;
-    double *along = f->room;
-    memset(along, 0, n * sizeof *along);
-    for (size_t p = 0; p < points; p++) {
-        const double *row = gsl_matrix_const_ptr(f->b.work->A, p, 0);
-        for (size_t k = 0; k < n; k++)
-            along[k] += row[k] * y[p];
-    }
+    size_t n = f->b.terms.n;
+    gsl_vector_const_view values = gsl_vector_const_view_array(y, f->s->points);
+    gsl_vector_view along = gsl_vector_view_array(f->room, n), to = gsl_vector_view_array(coefficient, n);
+    gsl_blas_dgemv(CblasTrans, 1, f->b.work->A, &values.vector, 0, &along.vector);
     for (size_t k = 0; k < n; k++)
-        along[k] *= filter(f, k) > 0 ? filter(f, k) / gsl_vector_get(f->b.work->S, k) : 0;
-    for (size_t j = 0; j < n; j++) {
-        const double *row = gsl_matrix_const_ptr(f->b.work->Q, j, 0);
-        coefficient[j] = 0;
-        for (size_t k = 0; k < n; k++)
-            coefficient[j] += row[k] * along[k];
-    }
-}
-
-/* The variance of each coefficient where the values have variance 1. */
-static double spread_of(const struct solution *f, size_t j)
-{
-    double sum = 0;
-    for (size_t k = 0; k < f->b.terms.n; k++) {
-        double x = filter(f, k) > 0 ? gsl_matrix_get(f->b.work->Q, j, k) * filter(f, k) / gsl_vector_get(f->b.work->S, k) : 0;
-        sum += x * x;
-    }
-    return sum;
+        f->room[k] *= filter(f, k) > 0 ? filter(f, k) / gsl_vector_get(f->b.work->S, k) : 0;
+    gsl_blas_dgemv(CblasNoTrans, 1, f->b.work->Q, &along.vector, 0, &to.vector);
 }
 
 static void close_solution(struct solution *f)
@@ -443,10 +422,8 @@ static bool choose_ridge(struct solution *f, const double *y)
             f->lambda = lambda;
         }
     }
-    if (room)
-        gsl_vector_free(room);
-    if (along)
-        gsl_vector_free(along);
+    gsl_vector_free(room);
+    gsl_vector_free(along);
     return good;
 }
 
@@ -460,17 +437,6 @@ static double *remains_of(const struct solution *f, size_t group)
     return f->remains + group * f->s->points;
 }
 
-static bool allocate(struct solution *f, size_t points, size_t n)
-{
-    f->coefficient = malloc((GROUPS + 1 + 2) * n * sizeof *f->coefficient);
-    f->remains = malloc((GROUPS + 2) * points * sizeof *f->remains);
-    if (!f->coefficient || !f->remains)
-        return false;
-    f->spread = f->coefficient + (GROUPS + 1) * n, f->room = f->spread + n;
-    f->leverage = f->remains + (GROUPS + 1) * points;
-    return true;
-}
-
 /* Fits the values y of each group and of their mean, which have mean 0, by terms; close it in any case. */
 static enum ceduo_status open_solution(struct solution *f, struct ceduo_surface *s, const size_t *used, size_t used_count,
                                        size_t leading, const double *y)
@@ -481,12 +447,21 @@ static enum ceduo_status open_solution(struct solution *f, struct ceduo_surface 
     if (status != CEDUO_OK)
         return status;
     size_t n = f->b.terms.n;
-    if (!allocate(f, points, n) || !choose_ridge(f, y + GROUPS * points))
+    f->coefficient = malloc((GROUPS + 1 + 2) * n * sizeof *f->coefficient);
+    f->remains = malloc((GROUPS + 2) * points * sizeof *f->remains);
+    if (!f->coefficient || !f->remains || !choose_ridge(f, y + GROUPS * points))
         return CEDUO_NO_MEMORY;
+    f->spread = f->coefficient + (GROUPS + 1) * n, f->room = f->spread + n;
+    f->leverage = f->remains + (GROUPS + 1) * points;
     for (size_t k = 0; k < n; k++)
         f->freedom -= filter(f, k) * (2 - filter(f, k));
-    for (size_t j = 0; j < n; j++)
-        f->spread[j] = spread_of(f, j);
+    for (size_t j = 0; j < n; j++) {
+        f->spread[j] = 0;
+        for (size_t k = 0; k < n && filter(f, k) > 0; k++) { /* the smallest singular values are the last */
+            double x = gsl_matrix_get(f->b.work->Q, j, k) * filter(f, k) / gsl_vector_get(f->b.work->S, k);
+            f->spread[j] += x * x;
+        }
+    }
     for (size_t p = 0; p < points; p++) {
         f->leverage[p] = 1 / (double)points;
         for (size_t k = 0; k < n; k++)
@@ -506,20 +481,6 @@ static enum ceduo_status open_solution(struct solution *f, struct ceduo_surface 
 }
 
 /* ---- values ---- */
-
-static double width_of(double *values, size_t n)
-{
-    gsl_sort(values, 1, n);
-    return ceduo_quantile(values, n, .95) - ceduo_quantile(values, n, .05);
-}
-
-static double share_up_to(const double *sorted, size_t n, double limit)
-{
-    size_t below = 0;
-    while (below < n && sorted[below] <= limit)
-        below++;
-    return (double)below / (double)n;
-}
 
 static void bound(double *values, size_t n, double lo, double hi)
 {
@@ -561,16 +522,19 @@ static void read_changes(const struct column *c, size_t points, const double *re
 }
 
 /* What is read of values. */
-#define ENDS 4
+enum end { P5, P50, P95, BELOW, ENDS };
 struct ends {
-    double p5, p50, p95, below;
+    double of[ENDS];
 };
 
 static struct ends read_ends(double *values, size_t n, double limit)
 {
+    size_t below = 0;
     gsl_sort(values, 1, n);
-    return (struct ends){ceduo_quantile(values, n, .05), ceduo_quantile(values, n, .5), ceduo_quantile(values, n, .95),
-                         isnan(limit) ? NAN : share_up_to(values, n, limit)};
+    while (below < n && values[below] <= limit)
+        below++;
+    return (struct ends){{ceduo_quantile(values, n, .05), ceduo_quantile(values, n, .5), ceduo_quantile(values, n, .95),
+                          isnan(limit) ? NAN : (double)below / (double)n}};
 }
 
 /* The error of a mean of so few groups: 1.96 of it hold 95 %. */
@@ -587,18 +551,11 @@ struct ends_errors {
 
 static void add_sample(struct ends_errors *e, struct ends found, struct ends other)
 {
-    const double change[ENDS] = {other.p5 - found.p5, other.p50 - found.p50, other.p95 - found.p95, other.below - found.below};
     for (size_t i = 0; i < ENDS; i++) {
-        e->sum[i] += change[i];
-        e->squares[i] += change[i] * change[i];
+        double change = other.of[i] - found.of[i];
+        e->sum[i] += change;
+        e->squares[i] += change * change;
     }
-}
-
-static void add_halves(struct ends_errors *e, struct ends a, struct ends b)
-{
-    const double between[ENDS] = {a.p5 - b.p5, a.p50 - b.p50, a.p95 - b.p95, a.below - b.below};
-    for (size_t i = 0; i < ENDS; i++)
-        e->of_rocks[i] += between[i] * between[i] / 4 / (GROUPS - 1);
 }
 
 static double ends_se(const struct ends_errors *e, size_t i)
@@ -622,18 +579,23 @@ static double common_of(const double *values, size_t stride, size_t without)
     return (sum * sum - squares) / (n * (n - 1));
 }
 
-/* The variance of each input's terms, alone and with others, of all terms, and what the terms leave. */
+/* The variance of each input's terms, alone and then with others, and last what the terms leave; that of all terms. */
 struct parts {
-    double *first, *total, all, spare;
+    size_t inputs;
+    double *of, all, *spare;
 };
+#define PARTS(inputs) (2 * (inputs) + 1)
 
-/* The share of the variance that part i is: of each input alone, of each input in all, and of what the terms leave. */
-static double share_of(const struct parts *p, size_t inputs, double noise, size_t i)
+static struct parts parts_in(double *room, size_t inputs)
 {
-    double whole = fmax(0, p->all) + p->spare, part = i < inputs       ? p->first[i]
-                                                      : i < 2 * inputs ? p->total[i - inputs]
-                                                                       : p->spare;
-    return part / (whole + (whole < noise ? noise : 0)); /* of what is less than the noise it is close to 0 */
+    return (struct parts){inputs, room, 0, room + 2 * inputs};
+}
+
+/* The share of the variance that part i is. */
+static double share_of(const struct parts *p, double noise, size_t i)
+{
+    double whole = fmax(0, p->all) + *p->spare;
+    return p->of[i] / (whole + (whole < noise ? noise : 0)); /* of what is less than the noise it is close to 0 */
 }
 
 static void add_part(const struct solution *f, size_t j, double variance, struct parts *parts)
@@ -642,28 +604,33 @@ static void add_part(const struct solution *f, size_t j, double variance, struct
     parts->all += variance;
     for (size_t k = 0; k < term->n; k++) {
         size_t input = f->s->functions[term->f[k]].input;
-        parts->total[input] += variance;
+        parts->of[parts->inputs + input] += variance;
         if (term->n == 1)
-            parts->first[input] += variance;
+            parts->of[input] += variance;
     }
 }
 
-static void clear_parts(struct parts *parts, size_t inputs)
+static void clear_parts(struct parts *parts)
 {
-    memset(parts->first, 0, inputs * sizeof *parts->first);
-    memset(parts->total, 0, inputs * sizeof *parts->total);
-    parts->all = parts->spare = 0;
+    memset(parts->of, 0, PARTS(parts->inputs) * sizeof *parts->of);
+    parts->all = 0;
 }
 
-/* From all groups, or but for one. */
+/* What the terms leave, from all groups, or but for one. */
+static double spare_of(const struct solution *f, size_t without)
+{
+    double spare = 0;
+    for (size_t p = 0; p < f->s->points; p++)
+        spare += common_of(f->remains + p, f->s->points, without) / f->freedom;
+    return fmax(0, spare);
+}
+
 static void fill_parts(const struct solution *f, size_t without, struct parts *parts)
 {
-    clear_parts(parts, f->s->inputs_count);
-    for (size_t p = 0; p < f->s->points; p++)
-        parts->spare += common_of(f->remains + p, f->s->points, without) / f->freedom;
-    parts->spare = fmax(0, parts->spare);
+    clear_parts(parts);
+    *parts->spare = spare_of(f, without);
     for (size_t j = 0; j < f->b.terms.n; j++)
-        add_part(f, j, common_of(f->coefficient + j, f->b.terms.n, without) - parts->spare * f->spread[j], parts);
+        add_part(f, j, common_of(f->coefficient + j, f->b.terms.n, without) - *parts->spare * f->spread[j], parts);
 }
 
 /* With what the terms leave at each point drawn anew; `kept` is its part of the remains, without noise. */
@@ -672,15 +639,15 @@ static void draw_parts(const struct solution *f, size_t sample, double kept, dou
 {
     const struct ceduo_surface *s = f->s;
     const double *mean = remains_of(f, GROUPS), *multiplier = s->multipliers + sample * s->points;
-    clear_parts(parts, s->inputs_count);
+    clear_parts(parts);
     for (size_t p = 0; p < s->points; p++) {
         drawn[p] = kept * mean[p] / sqrt(1 - f->leverage[p]) * multiplier[p];
-        parts->spare += kept * kept * mean[p] * mean[p] * multiplier[p] * multiplier[p] / f->freedom;
+        *parts->spare += kept * kept * mean[p] * mean[p] * multiplier[p] * multiplier[p] / f->freedom;
     }
     solve(f, drawn, coefficient);
     for (size_t j = 0; j < f->b.terms.n; j++) {
-        double change = coefficient[j] * (2 * coefficients_of(f, GROUPS)[j] + coefficient[j]) - found->spare * f->spread[j];
-        add_part(f, j, common_of(f->coefficient + j, f->b.terms.n, GROUPS) - found->spare * f->spread[j] + change, parts);
+        double change = coefficient[j] * (2 * coefficients_of(f, GROUPS)[j] + coefficient[j]) - *found->spare * f->spread[j];
+        add_part(f, j, common_of(f->coefficient + j, f->b.terms.n, GROUPS) - *found->spare * f->spread[j] + change, parts);
     }
 }
 
@@ -739,32 +706,29 @@ static void read_shares(const struct solution *f, struct parts *found, struct pa
                         const struct ceduo_surface_figure *figure, const struct errors_room *room,
                         struct ceduo_surface_fit *fit, struct ends ends, struct ends_errors *errors)
 {
-    size_t inputs = f->s->inputs_count, n = f->b.terms.n;
-    for (size_t i = 0; i <= 2 * inputs; i++) {
-        struct ceduo_share *share = i < inputs ? &fit->first[i] : i < 2 * inputs ? &fit->total[i - inputs] : &fit->whole;
-        *share = (struct ceduo_share){share_of(found, inputs, fit->noise, i), 0};
-    }
-    memset(room->of_rocks, 0, (2 * inputs + 1) * sizeof *room->of_rocks);
-    memset(room->of_points, 0, (2 * inputs + 1) * sizeof *room->of_points);
+    size_t parts = PARTS(f->s->inputs_count), n = f->b.terms.n;
+    memset(room->of_rocks, 0, parts * sizeof *room->of_rocks);
+    memset(room->of_points, 0, parts * sizeof *room->of_points);
     for (size_t g = 0; g < GROUPS; g++) {
         fill_parts(f, g, other);
-        for (size_t i = 0; i <= 2 * inputs; i++)
-            room->of_rocks[i] += pow(share_of(other, inputs, fit->noise, i) - share_of(found, inputs, fit->noise, i), 2);
+        for (size_t i = 0; i < parts; i++)
+            room->of_rocks[i] += pow(share_of(other, fit->noise, i) - share_of(found, fit->noise, i), 2);
     }
     memset(room->change, 0, n * sizeof *room->change);
     for (size_t b = 0; b < SAMPLES; b++) {
         if (kept > 0) {
             draw_parts(f, b, kept, room->drawn, room->change, found, other);
-            for (size_t i = 0; i <= 2 * inputs; i++)
-                room->of_points[i] += pow(share_of(other, inputs, fit->noise, i) - share_of(found, inputs, fit->noise, i), 2);
+            for (size_t i = 0; i < parts; i++)
+                room->of_points[i] += pow(share_of(other, fit->noise, i) - share_of(found, fit->noise, i), 2);
         }
         draw_values(f, b, kept, room->change, figure, fit->mean, room->functions, room->values);
         add_sample(errors, ends, read_ends(room->values, f->s->points, figure->limit));
     }
-    for (size_t i = 0; i <= 2 * inputs; i++) {
-        struct ceduo_share *share = i < inputs ? &fit->first[i] : i < 2 * inputs ? &fit->total[i - inputs] : &fit->whole;
-        share->se = sqrt(room->of_rocks[i] * student() * (GROUPS - 1) / GROUPS + room->of_points[i] / SAMPLES);
-    }
+    for (size_t i = 0; i < parts; i++)
+        fit->first[i] =
+            (struct ceduo_share){share_of(found, fit->noise, i),
+                                 sqrt(room->of_rocks[i] * student() * (GROUPS - 1) / GROUPS + room->of_points[i] / SAMPLES)};
+    fit->whole = fit->first[parts - 1];
 }
 
 /* ---- what is left ---- */
@@ -804,7 +768,8 @@ static double left_of(const struct solution *f, const struct ceduo_surface_fit *
             for (size_t p = 0; p < s->points; p++)
                 changed[p] += change[k * s->points + p] * (at[k] - s->functions[of->first + k].at[p]);
         bound(changed, s->points, fit->lo, fit->hi);
-        width += width_of(changed, s->points) / (double)n;
+        struct ends ends = read_ends(changed, s->points, NAN);
+        width += (ends.of[P95] - ends.of[P5]) / (double)n;
     }
     return width;
 }
@@ -841,38 +806,41 @@ static struct ends read_band(const struct column *c, size_t points, const double
             bound(changed, points, figure->lo, figure->hi);
             ends[other] = read_ends(changed, points, figure->limit);
         }
-        add_halves(errors, ends[0], ends[1]);
+        for (size_t i = 0; i < ENDS; i++) {
+            double between = ends[0].of[i] - ends[1].of[i];
+            errors->of_rocks[i] += between * between / 4 / (GROUPS - 1);
+        }
     }
     return read_ends(values, points, figure->limit);
 }
 
 static void set_band(struct ceduo_surface_fit *fit, struct ends ends, const struct ends_errors *errors)
 {
-    fit->p5 = ends.p5, fit->p50 = ends.p50, fit->p95 = ends.p95;
-    fit->p5_se = ends_se(errors, 0), fit->p95_se = ends_se(errors, 2);
-    fit->below = (struct ceduo_share){ends.below, ends_se(errors, 3)};
+    fit->p5 = ends.of[P5], fit->p50 = ends.of[P50], fit->p95 = ends.of[P95];
+    fit->p5_se = ends_se(errors, P5), fit->p95_se = ends_se(errors, P95);
+    fit->below = (struct ceduo_share){ends.of[BELOW], ends_se(errors, BELOW)};
 }
 
 static enum ceduo_status read_solution(const struct solution *f, const struct column *c,
                                        const struct ceduo_surface_figure *figure, struct ceduo_surface_fit *fit)
 {
     size_t points = f->s->points, inputs = f->s->inputs_count, n = f->b.terms.n;
-    double *room = malloc(((f->s->functions_count + TABLE_MAX + 5) * points + n + 8 * inputs + 2) * sizeof *room);
+    size_t parts = PARTS(inputs);
+    double *room = malloc(((f->s->functions_count + TABLE_MAX + 5) * points + n + 4 * parts) * sizeof *room);
     if (!room)
         return CEDUO_NO_MEMORY;
-    struct parts found = {.first = room, .total = room + inputs},
-                 other = {.first = room + 2 * inputs, .total = room + 3 * inputs};
-    double *rest = room + 4 * inputs;
+    struct parts found = parts_in(room, inputs), other = parts_in(room + parts, inputs);
+    double *rest = room + 2 * parts, *change = rest + 2 * parts;
     const struct errors_room errors_room = {.of_rocks = rest,
-                                            .of_points = rest + 2 * inputs + 1,
-                                            .change = rest + 4 * inputs + 2,
-                                            .drawn = rest + 4 * inputs + 2 + n,
-                                            .values = rest + 4 * inputs + 2 + n + points,
-                                            .functions = rest + 4 * inputs + 2 + n + 2 * points};
+                                            .of_points = rest + parts,
+                                            .change = change,
+                                            .drawn = change + n,
+                                            .values = change + n + points,
+                                            .functions = change + n + 2 * points};
     struct ends_errors errors = {0};
     fill_parts(f, GROUPS, &found);
-    double kept = kept_of(f, found.spare);
-    fit->variance = fmax(0, found.all) + found.spare;
+    double kept = kept_of(f, *found.spare);
+    fit->variance = fmax(0, found.all) + *found.spare;
     read_quality(f, c->y, fit);
     struct ends ends = read_band(c, points, f->remains, kept, figure, errors_room.functions, &errors);
     read_shares(f, &found, &other, kept, figure, &errors_room, fit, ends, &errors);
@@ -903,16 +871,17 @@ static enum ceduo_status rank(struct ceduo_surface *s, const double *y, size_t *
 {
     struct solution f;
     enum ceduo_status status = open_solution(&f, s, used, used_count, 0, y);
-    double *room = malloc(2 * s->inputs_count * sizeof *room);
-    struct parts parts = {.first = room, .total = room + s->inputs_count};
+    double *room = malloc(PARTS(s->inputs_count) * sizeof *room);
     if (status == CEDUO_OK && room) {
+        struct parts parts = parts_in(room, s->inputs_count);
+        double *total = room + s->inputs_count;
         fill_parts(&f, GROUPS, &parts);
         for (size_t i = 0; i < used_count; i++)
             if (is_word(s, used[i]))
-                parts.total[used[i]] = INFINITY;
+                total[used[i]] = INFINITY;
         for (size_t i = 0; i < used_count; i++) {
             size_t input = used[i], at = i;
-            for (; at > 0 && parts.total[used[at - 1]] < parts.total[input]; at--)
+            for (; at > 0 && total[used[at - 1]] < total[input]; at--)
                 used[at] = used[at - 1];
             used[at] = input;
         }
@@ -1083,14 +1052,11 @@ static enum ceduo_status read_figure(struct ceduo_surface *s, const struct chose
     const double *remains = c->y;
     if (chosen->enough && kept > 0) {
         enum ceduo_status status = open_solution(&f, s, chosen->used, chosen->n, chosen->leading, c->y);
-        double spare = 0;
-        for (size_t p = 0; status == CEDUO_OK && p < s->points; p++)
-            spare += common_of(f.remains + p, s->points, GROUPS) / f.freedom;
         if (status != CEDUO_OK) {
             close_solution(&f);
             return status;
         }
-        kept = kept_of(&f, fmax(0, spare));
+        kept = kept_of(&f, spare_of(&f, GROUPS));
         remains = f.remains;
     }
     read_values(c, s->points, remains, kept, figure, values);
@@ -1103,15 +1069,6 @@ static enum ceduo_status read_figure(struct ceduo_surface *s, const struct chose
     return CEDUO_OK;
 }
 
-/* The sum of the figures at each point. */
-static void add_figures(const struct ceduo_surface *s, const struct ceduo_groups *y, size_t n, struct ceduo_groups *sum)
-{
-    memset(sum, 0, s->points * sizeof *sum);
-    for (size_t i = 0; i < n * s->points; i++)
-        for (size_t g = 0; g < GROUPS; g++)
-            sum[i % s->points].of[g] += y[i].of[g];
-}
-
 enum ceduo_status ceduo_surface_values(struct ceduo_surface *s, const struct ceduo_surface_figure *figure, size_t n,
                                        double *values, struct ceduo_groups *changes)
 {
@@ -1119,10 +1076,12 @@ enum ceduo_status ceduo_surface_values(struct ceduo_surface *s, const struct ced
     struct chosen chosen = {0};
     struct column c = {.y = malloc((GROUPS + 1) * s->points * sizeof *c.y)};
     double *room = malloc(s->points * sizeof *room);
-    struct ceduo_groups *sum = malloc(s->points * sizeof *sum);
+    struct ceduo_groups *sum = calloc(s->points, sizeof *sum); /* of the figures, at each point */
     enum ceduo_status status = c.y && room && sum ? CEDUO_OK : CEDUO_NO_MEMORY;
     if (status == CEDUO_OK) {
-        add_figures(s, figure->y, n, sum);
+        for (size_t i = 0; i < n * s->points; i++)
+            for (size_t g = 0; g < GROUPS; g++)
+                sum[i % s->points].of[g] += figure->y[i].of[g];
         struct spread spread = fill_column(s, sum, &c);
         status = choose(s, figure->uses, c.y, spread.variance > 0, &chosen);
     }
