@@ -39,29 +39,16 @@ static void fill_in(struct changes *c, const char *key, const char *value)
 
 /* ---- another shape ---- */
 
-/* The shape of the rock that a word names; the present one where it names none. */
-static enum ceduo_shape shape_of(const struct document *d, const char *word)
-{
-    int found = ceduo_choice_find(&ceduo_shape_words, word);
-    return found >= 0 ? (enum ceduo_shape)found : d->file.scene.rock.shape;
-}
-
-/* Length, width and height of the rock as it is; its volume is that of a box of these times a number of its shape. */
-static void sides_of(const struct ceduo_rock_def *def, const struct ceduo_rock *rock, double sides[3])
-{
-    bool cylinder = def->shape == CEDUO_CYLINDER, round = cylinder || def->shape == CEDUO_SPHERE;
-    for (int i = 0; i < 3; i++)
-        sides[i] = !round ? def->axes[i].mean : cylinder ? def->diameter.mean : rock->mean_diameter;
-    if (cylinder)
-        sides[2] = def->height.mean;
-}
-
 static void fill_sizes(struct changes *c, enum ceduo_shape shape, const struct ceduo_rock *rock)
 {
     static const double full[] = {[CEDUO_SPHERE] = 6, [CEDUO_CYLINDER] = 4, [CEDUO_ELLIPSOID] = 6};
-    double s[3];
+    const struct ceduo_rock_def *def = &c->d->file.scene.rock;
+    bool cylinder = def->shape == CEDUO_CYLINDER, round = cylinder || def->shape == CEDUO_SPHERE;
+    double s[3]; /* length, width, height: a volume is that of a box of these times a number of the shape */
     char a[CEDUO_NUMBER_ROOM], b[CEDUO_NUMBER_ROOM], third[CEDUO_NUMBER_ROOM], all[3 * CEDUO_NUMBER_ROOM + 8];
-    sides_of(&c->d->file.scene.rock, rock, s);
+    for (int i = 0; i < 3; i++)
+        s[i] = !round ? def->axes[i].mean : cylinder ? def->diameter.mean : rock->mean_diameter;
+    s[2] = cylinder ? def->height.mean : s[2];
     double box = shape == CEDUO_BLOCK ? rock->volume : rock->volume * full[shape] / M_PI;
     double scale = cbrt(box / (s[0] * s[1] * s[2]));
     if (shape == CEDUO_SPHERE) {
@@ -145,8 +132,9 @@ bool ceduo_document_set_alone(struct document *d, const char *path, const char *
                               struct problems *problems)
 {
     struct changes c = {.d = d};
-    if (strcmp(path, "rock.shape") == 0)
-        change_shape(&c, shape_of(d, value));
+    int shape = strcmp(path, "rock.shape") == 0 ? ceduo_choice_find(&ceduo_shape_words, value) : -1;
+    if (shape >= 0)
+        change_shape(&c, (enum ceduo_shape)shape);
     else
         keep_one_of_all(&c, path);
     ceduo_changes_follow(&c, path, value);

@@ -25,18 +25,6 @@ static enum ceduo_status compare_stops(struct comparison *c, const struct ceduo_
     return CEDUO_OK;
 }
 
-static enum ceduo_status compare_all_stops(struct comparison *c, const atomic_bool *cancel)
-{
-    const struct ceduo_observation *o = c->file.observations;
-    struct ceduo_observer *observer;
-    enum ceduo_status status = ceduo_observer_create(o, c->file.observations_count, &observer);
-    for (size_t i = 0; i < c->file.observations_count && status == CEDUO_OK; i++)
-        if (o[i].kind == CEDUO_OBSERVED_STOPS && o[i].values)
-            status = atomic_load(cancel) ? CEDUO_CANCELLED : compare_stops(c, observer, i);
-    ceduo_observer_free(observer);
-    return status;
-}
-
 enum ceduo_status ceduo_comparison_make(const struct scene_file *file, size_t level, const atomic_bool *cancel,
                                         struct comparison **comparison)
 {
@@ -47,8 +35,14 @@ enum ceduo_status ceduo_comparison_make(const struct scene_file *file, size_t le
     const struct ceduo_calibration_scene scene = {
         .scene = &c->file.scene, .observations_count = file->observations_count, .observations = file->observations};
     enum ceduo_status status = ceduo_calibration_as_it_is(&scene, c->rocks, cancel, c->predicted);
+    const struct ceduo_observation *o = c->file.observations;
+    struct ceduo_observer *observer = NULL;
     if (status == CEDUO_OK)
-        status = compare_all_stops(c, cancel);
+        status = ceduo_observer_create(o, c->file.observations_count, &observer);
+    for (size_t i = 0; i < c->file.observations_count && status == CEDUO_OK; i++)
+        if (o[i].kind == CEDUO_OBSERVED_STOPS && o[i].values)
+            status = atomic_load(cancel) ? CEDUO_CANCELLED : compare_stops(c, observer, i);
+    ceduo_observer_free(observer);
     if (status != CEDUO_OK) {
         ceduo_comparison_free(c);
         *comparison = NULL;

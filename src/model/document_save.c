@@ -117,16 +117,6 @@ static const struct node *references_from(struct document *d, const struct node 
     return out;
 }
 
-/* Whether the file is laid out as the program does it: then nothing is lost when that is done again. */
-static bool has_own_layout(const struct node *raw)
-{
-    struct text text = {0};
-    ceduo_emit(&text, raw);
-    bool same = text.length == raw->source->length && memcmp(text.bytes, raw->source->bytes, text.length) == 0;
-    ceduo_text_free(&text);
-    return same;
-}
-
 /* The text for a scene that lies at `to` (NULL: nowhere yet). True where it is laid out anew. */
 static bool fill_text(struct document *d, const char *to, struct text *text)
 {
@@ -135,7 +125,14 @@ static bool fill_text(struct document *d, const char *to, struct text *text)
     if (d->raw && ceduo_emit_patched(text, d->raw->source, d->raw, root))
         return false;
     ceduo_emit(text, root);
-    return d->raw && !has_own_layout(d->raw);
+    if (!d->raw)
+        return false;
+    struct text before = {0}; /* where the file is laid out as the program does it, nothing is lost */
+    const struct source *source = d->raw->source;
+    ceduo_emit(&before, d->raw);
+    bool same = before.length == source->length && memcmp(before.bytes, source->bytes, before.length) == 0;
+    ceduo_text_free(&before);
+    return !same;
 }
 
 void ceduo_document_text(struct document *d, const char *path, struct text *text)

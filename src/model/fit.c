@@ -12,22 +12,18 @@
 
 /* ---- what may be fitted ---- */
 
-/* mu acts through the shape of the rock, in one law; only rocks of two shapes determine it. */
-static bool is_identifiable(const struct scene_file *file, const struct field *field)
-{
-    const struct ceduo_calibration_scene scene = {
-        .observations_count = file->observations_count, .observations = file->observations, .scene = &file->scene};
-    return strcmp(field->key, "mu") != 0 ||
-           (file->scene.simulation.law == CEDUO_LAW_ARM && ceduo_calibration_tells_mu(&scene, 1));
-}
-
 static void offer(const struct scene_file *file, struct fit_request *to, const char *path, double lo, double hi)
 {
     struct scene_file own = *file;
     struct ceduo_input input = {0};
     own.arena = (struct arena){0};
     const struct field *field = ceduo_input_find(&own, path, &input);
-    bool there = field && input.places_count > 0 && is_identifiable(file, field);
+    bool there = field && input.places_count > 0;
+    const struct ceduo_calibration_scene scene = {
+        .observations_count = file->observations_count, .observations = file->observations, .scene = &file->scene};
+    if (there &&
+        strcmp(field->key, "mu") == 0) /* it acts through the shape of the rock: only rocks of two shapes determine it */
+        there = ceduo_calibration_tells_mu(&scene, 1);
     ceduo_arena_free(&own.arena);
     if (!there || to->n == CEDUO_CALIBRATION_MOST || strlen(path) >= FIT_PATH_ROOM || !(lo < hi))
         return;
@@ -50,17 +46,6 @@ static struct range hull(struct range a, struct range b)
     a.lo = fmin(a.lo, b.lo);
     a.hi = fmax(a.hi, b.hi);
     return a;
-}
-
-/* All that grounds of the library may be. */
-static struct range range_of_library(const char *key)
-{
-    size_t n;
-    const struct ceduo_material *all = ceduo_materials(&n);
-    struct range range = ceduo_range_of_material(&all[0], key);
-    for (size_t i = 1; i < n; i++)
-        range = hull(range, ceduo_range_of_material(&all[i], key));
-    return range;
 }
 
 /* What the values that the scene has may be, by their own row of ranges. */
@@ -87,26 +72,17 @@ static struct range range_around(const struct scene_file *file, const char *key)
 static void offer_everywhere(const struct scene_file *file, struct fit_request *to)
 {
     bool length = !isnan(file->scene.slope.segments[0].roughness_m);
+    size_t library_count;
+    const struct ceduo_material *library = ceduo_materials(&library_count);
     for (size_t k = 0; k < KEYS; k++) {
         char path[FIT_PATH_ROOM];
         const char *key = k == 2 && length ? "roughness_m" : keys[k];
         struct range range = range_around(file, key);
         if (file->ground_assumed)
             range = ceduo_range_of_material(ceduo_material_talus(), key);
-        else if (key == keys[k])
-            range = hull(range, range_of_library(key));
+        for (size_t i = 0; i < library_count && !file->ground_assumed && key == keys[k]; i++)
+            range = hull(range, ceduo_range_of_material(&library[i], key));
         snprintf(path, sizeof path, "slope.segments[*].%s", key);
-        if (law_knows(file, k))
-            offer(file, to, path, range.lo, range.hi);
-    }
-}
-
-static void offer_material(const struct scene_file *file, const struct ceduo_material *m, struct fit_request *to)
-{
-    for (size_t k = 0; k < KEYS; k++) {
-        char path[FIT_PATH_ROOM];
-        struct range range = ceduo_range_of_material(m, keys[k]);
-        snprintf(path, sizeof path, "slope.materials[%s].%s", m->name, keys[k]);
         if (law_knows(file, k))
             offer(file, to, path, range.lo, range.hi);
     }
@@ -122,8 +98,13 @@ static void offer_materials(const struct scene_file *file, const struct node *ro
             const char *name = ceduo_node_text(rows->items[i], "material");
             there |= name && strcmp(name, library[m].name) == 0;
         }
-        if (there)
-            offer_material(file, &library[m], to);
+        for (size_t k = 0; there && k < KEYS; k++) {
+            char path[FIT_PATH_ROOM];
+            struct range range = ceduo_range_of_material(&library[m], keys[k]);
+            snprintf(path, sizeof path, "slope.materials[%s].%s", library[m].name, keys[k]);
+            if (law_knows(file, k))
+                offer(file, to, path, range.lo, range.hi);
+        }
     }
 }
 
@@ -174,27 +155,23 @@ static size_t worse_of_a_pair(const struct ceduo_calibration *a, const bool *loo
 }
 
 /* First those that may be anything within their bounds, then one of each pair. One value stays. */
-static void find_loose(const struct ceduo_calibration *a, struct fit_loose *to)
-{
-    for (size_t i = 0; i < a->parameters_count && to->n + 1 < a->parameters_count; i++) {
-        to->loose[i] = a->draws_count > 0 && !a->parameters[i].determined;
-        to->n += to->loose[i];
-    }
-    for (size_t i; to->n + 1 < a->parameters_count && (i = worse_of_a_pair(a, to->loose)) != SIZE_MAX; to->n++)
-        to->loose[i] = true;
-}
-
-static enum ceduo_status fit_in_short(const struct ceduo_calibration_def *def, struct fit_loose *loose)
+static enum ceduo_status find_loose(const struct ceduo_calibration_def *def, struct fit_loose *loose)
 {
     struct ceduo_calibration_def short_def = *def;
     struct ceduo_calibration answer;
     short_def.steps_most = FIRST_STEPS;
     enum ceduo_status status = ceduo_calibrate(&short_def, &answer);
-    if (status == CEDUO_OK) {
-        find_loose(&answer, loose);
-        ceduo_calibration_free(&answer);
+    if (status != CEDUO_OK)
+        return status;
+    size_t most = answer.parameters_count - 1;
+    for (size_t i = 0; i <= most && loose->n < most; i++) {
+        loose->loose[i] = answer.draws_count > 0 && !answer.parameters[i].determined;
+        loose->n += loose->loose[i];
     }
-    return status;
+    for (size_t i; loose->n < most && (i = worse_of_a_pair(&answer, loose->loose)) != SIZE_MAX; loose->n++)
+        loose->loose[i] = true;
+    ceduo_calibration_free(&answer);
+    return CEDUO_OK;
 }
 
 /* ---- fitting ---- */
@@ -220,7 +197,7 @@ enum ceduo_status ceduo_fit_make(const struct scene_file *file, const struct fit
                                               .cancel = run->cancel,
                                               .progress = run->progress,
                                               .context = run->context};
-    enum ceduo_status status = request->n > 1 ? fit_in_short(&def, &f->loose) : CEDUO_OK;
+    enum ceduo_status status = request->n > 1 ? find_loose(&def, &f->loose) : CEDUO_OK;
     *run->loose = f->loose;
     status = status == CEDUO_OK ? ceduo_calibrate(&def, &f->answer) : status;
     if (status != CEDUO_OK) {

@@ -46,23 +46,11 @@ struct jobs {
 
 /* ---- results ---- */
 
-static void free_snapshot(struct snapshot *s)
-{
-    ceduo_snapshot_free(s->snapshot);
-    free(s);
-}
-
 static void free_years(struct years_known *y)
 {
     for (size_t i = 0; i < y->n; i++)
         ceduo_years_free(y->items[i]);
     free(y);
-}
-
-static void free_search(struct search_answer *a)
-{
-    ceduo_problems_free(&a->problems);
-    free(a);
 }
 
 static void free_result(enum job_kind kind, void *result)
@@ -71,10 +59,12 @@ static void free_result(enum job_kind kind, void *result)
         return;
     switch (kind) {
     case JOB_SEARCH:
-        free_search(result);
+        ceduo_problems_free(&((struct search_answer *)result)->problems);
+        free(result);
         break;
     case JOB_SNAPSHOT:
-        free_snapshot(result);
+        ceduo_snapshot_free(((struct snapshot *)result)->snapshot);
+        free(result);
         break;
     case JOB_COMPARISON:
         ceduo_comparison_free(result);
@@ -439,19 +429,6 @@ static void drop(struct jobs *q, enum job_kind kind)
         forget(q, kind);
 }
 
-/* A number for all that decides about the other energy law; 0: it is not asked for. */
-static uint64_t others_key(const struct ceduo_scene *scene, uint64_t key)
-{
-    struct ceduo_scene other;
-    if (scene->simulation.contact_model == CEDUO_INDEX)
-        return 0;
-    if (!ceduo_other_scene(scene, &other))
-        ceduo_no_memory();
-    uint64_t all = key * 1099511628211u ^ ceduo_jobs_key(&other);
-    ceduo_other_scene_release(&other);
-    return all;
-}
-
 bool ceduo_jobs_show(struct jobs *q, const struct scene_file *file, size_t shown, bool years)
 {
     struct job figures = job_of(JOB_SNAPSHOT, file, RUNS_LEVELS), others = figures, coming = figures;
@@ -460,7 +437,14 @@ bool ceduo_jobs_show(struct jobs *q, const struct scene_file *file, size_t shown
     coming.kind = JOB_YEARS;
     others.levels = coming.levels = RUNS_LEVELS - 1;
     figures.key = coming.key = ceduo_jobs_key(&file->scene);
-    others.key = others_key(&file->scene, figures.key);
+    others.key = 0; /* the index knows no other energy law */
+    struct ceduo_scene other;
+    if (file->scene.simulation.contact_model != CEDUO_INDEX) {
+        if (!ceduo_other_scene(&file->scene, &other))
+            ceduo_no_memory();
+        others.key = figures.key * 1099511628211u ^ ceduo_jobs_key(&other);
+        ceduo_other_scene_release(&other);
+    }
     for (size_t i = 0; years && i < file->scene.options_count; i++)
         coming.key = coming.key * 1099511628211u ^ ceduo_runs_years_key(&file->scene, i);
     pthread_mutex_lock(&q->lock);

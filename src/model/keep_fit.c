@@ -21,24 +21,20 @@ static void add(struct changes *c, struct text *change)
 
 /* ---- ground that stands in no list of segments ---- */
 
-static bool is_of_segments(const struct fit_values *fit)
-{
-    for (size_t i = 0; i < fit->n; i++)
-        for (size_t k = 0; k < fit->inputs[i].places_count; k++)
-            if (strncmp(fit->inputs[i].places[k], SEGMENTS, sizeof SEGMENTS - 1) == 0)
-                return true;
-    return false;
-}
-
 static void put_number(struct text *t, const char *before, double value)
 {
     char room[CEDUO_NUMBER_ROOM];
     ceduo_text_format(t, "%s%s", before, ceduo_number_shortest(value, room));
 }
 
-static void add_vertices(struct changes *c, const struct ceduo_slope *s)
+static void add_ground(struct changes *c, const struct document *d)
 {
+    static const char *const keys[] = {"materials", "csv", "reversed"}; /* vertices are written as they lie now */
+    const struct ceduo_slope *s = &d->file.scene.slope;
     struct text t = {0};
+    for (size_t i = 0; i < sizeof keys / sizeof keys[0]; i++)
+        if (ceduo_node_get(ceduo_node_get(d->file.root, "slope"), keys[i]))
+            ceduo_changes_add(c, "slope.%s", keys[i]);
     for (size_t i = 0; i < s->vertices; i++) {
         put_number(&t, i == 0 ? "slope.vertices_m=[[" : ", [", s->x[i] + s->origin_x);
         put_number(&t, ", ", s->z[i] + s->origin_z);
@@ -46,11 +42,6 @@ static void add_vertices(struct changes *c, const struct ceduo_slope *s)
     }
     ceduo_text_put(&t, "]");
     add(c, &t);
-}
-
-static void add_segments(struct changes *c, const struct ceduo_slope *s)
-{
-    struct text t = {0};
     for (size_t i = 0; i + 1 < s->vertices; i++) {
         const struct ceduo_segment *g = &s->segments[i];
         bool angle = isnan(g->roughness_m);
@@ -64,27 +55,7 @@ static void add_segments(struct changes *c, const struct ceduo_slope *s)
     add(c, &t);
 }
 
-static void add_ground(struct changes *c, const struct document *d)
-{
-    const struct node *slope = ceduo_node_get(d->file.root, "slope");
-    static const char *const keys[] = {"materials", "csv", "reversed"}; /* vertices are written as they lie now */
-    for (size_t i = 0; i < sizeof keys / sizeof keys[0]; i++)
-        if (ceduo_node_get(slope, keys[i]))
-            ceduo_changes_add(c, "slope.%s", keys[i]);
-    add_vertices(c, &d->file.scene.slope);
-    add_segments(c, &d->file.scene.slope);
-}
-
 /* ---- values ---- */
-
-static void add_value(struct changes *c, const struct ceduo_scene *scene, const char *place, double best)
-{
-    char room[CEDUO_NUMBER_ROOM];
-    struct value v;
-    bool spread = ceduo_value_find((struct ceduo_scene *)(uintptr_t)scene, place, &v) && v.field->type == FIELD_SPREAD &&
-                  ((const struct ceduo_number *)v.at)->spread > 0;
-    ceduo_changes_add(c, "%s%s=%s", place, spread ? ".mean" : "", ceduo_number_shortest(best, room));
-}
 
 static void add_source(struct changes *c, const char *place, const char *source)
 {
@@ -138,11 +109,21 @@ static void add_draws(struct changes *c, const struct document *d, const struct 
 bool ceduo_keep_fit(struct document *d, const struct fit_values *fit, struct problems *problems)
 {
     struct changes c = {.d = d};
-    if (is_of_segments(fit) && d->file.scene.slope.segments_given == 0)
-        add_ground(&c, d);
+    bool of_segments = false;
     for (size_t i = 0; i < fit->n; i++)
         for (size_t k = 0; k < fit->inputs[i].places_count; k++)
-            add_value(&c, &d->file.scene, fit->inputs[i].places[k], fit->best[i]);
+            of_segments |= strncmp(fit->inputs[i].places[k], SEGMENTS, sizeof SEGMENTS - 1) == 0;
+    if (of_segments && d->file.scene.slope.segments_given == 0)
+        add_ground(&c, d);
+    for (size_t i = 0; i < fit->n; i++)
+        for (size_t k = 0; k < fit->inputs[i].places_count; k++) {
+            const char *place = fit->inputs[i].places[k];
+            char room[CEDUO_NUMBER_ROOM];
+            struct value v;
+            bool spread = ceduo_value_find(&d->file.scene, place, &v) && v.field->type == FIELD_SPREAD &&
+                          ((const struct ceduo_number *)v.at)->spread > 0;
+            ceduo_changes_add(&c, "%s%s=%s", place, spread ? ".mean" : "", ceduo_number_shortest(fit->best[i], room));
+        }
     for (size_t i = 0; i < fit->n; i++)
         for (size_t k = 0; k < fit->inputs[i].places_count; k++)
             add_source(&c, fit->inputs[i].places[k], fit->source);

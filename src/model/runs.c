@@ -72,14 +72,6 @@ static bool is_precise(const struct ceduo_run_snapshot *s)
     return true;
 }
 
-static bool precise(const struct ceduo_snapshot *o)
-{
-    bool good = is_precise(o->bare);
-    for (size_t i = 0; i < o->options; i++)
-        good = good && is_precise(o->wooded[i]);
-    return good;
-}
-
 /* Hands over what is known so far; what has not changed is shared with what is kept. */
 static enum ceduo_status hand_over(struct runs *r, const struct runs_step *step)
 {
@@ -128,9 +120,13 @@ enum ceduo_status ceduo_runs_figures(struct runs *r, struct runs_step *step)
     }
     if (status == CEDUO_OK)
         status = hand_over(r, step);
-    if (status == CEDUO_OK)
-        step->enough = step->rocks * 10 > RUNS_MAX || (step->rocks >= RUNS_PICTURE && precise(r->last));
-    return status;
+    if (status != CEDUO_OK)
+        return status;
+    bool precise = is_precise(r->last->bare);
+    for (size_t i = 0; i < r->last->options; i++)
+        precise = precise && is_precise(r->last->wooded[i]);
+    step->enough = step->rocks * 10 > RUNS_MAX || (step->rocks >= RUNS_PICTURE && precise);
+    return CEDUO_OK;
 }
 
 /* ---- the other energy law ---- */

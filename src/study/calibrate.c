@@ -39,33 +39,21 @@
 
 /* ---- places ---- */
 
-static double logit(double u)
-{
-    return log(u / (1 - u));
-}
-
 static double unit(double y)
 {
     return 1 / (1 + exp(-y));
 }
 
 /* Of two places that are as good the smaller one is better, so that it does not matter which was looked at first. */
-static bool is_better(const double *u, double log_likelihood, const double *best, double most, size_t n)
-{
-    if (log_likelihood != most)
-        return log_likelihood > most;
-    for (size_t i = 0; i < n; i++)
-        if (u[i] != best[i])
-            return u[i] < best[i];
-    return false;
-}
-
 static void note_best(struct fitting *f, const double *u, double log_likelihood)
 {
+    size_t i = 0, n = f->def->parameters_count;
     pthread_mutex_lock(&f->lock);
     f->evaluations++;
-    if (is_better(u, log_likelihood, f->best, f->most, f->def->parameters_count))
-        memcpy(f->best, u, f->def->parameters_count * sizeof *u), f->most = log_likelihood;
+    while (i < n && u[i] == f->best[i])
+        i++;
+    if (log_likelihood > f->most || (log_likelihood == f->most && i < n && u[i] < f->best[i]))
+        memcpy(f->best, u, n * sizeof *u), f->most = log_likelihood;
     pthread_mutex_unlock(&f->lock);
 }
 
@@ -92,12 +80,6 @@ static void tell(struct fitting *f, enum ceduo_calibration_stage stage, double r
 
 /* ---- one evaluation ---- */
 
-/* A scene that does not fit together cannot be what was. */
-static bool is_failure(enum ceduo_status status)
-{
-    return status == CEDUO_NO_MEMORY || status == CEDUO_CANCELLED;
-}
-
 enum ceduo_status ceduo_fitting_look(struct fitting *f, size_t worker, const double *u, bool all, struct ceduo_counterpart *to)
 {
     enum ceduo_status status = CEDUO_OK;
@@ -111,13 +93,13 @@ enum ceduo_status ceduo_fitting_look(struct fitting *f, size_t worker, const dou
     return status;
 }
 
-/* The likelihood of a place. */
+/* The likelihood of a place; a scene that does not fit together cannot be what was. */
 static enum ceduo_status evaluate(struct fitting *f, size_t worker, const double *u, double *log_likelihood)
 {
     struct ceduo_counterpart *to = f->workers[worker].counterparts;
     enum ceduo_status status = ceduo_fitting_look(f, worker, u, false, to);
     *log_likelihood = status == CEDUO_OK ? 0 : -INFINITY;
-    if (is_failure(status))
+    if (status == CEDUO_NO_MEMORY || status == CEDUO_CANCELLED)
         return status;
     for (size_t i = 0; i < f->fit_count && status == CEDUO_OK; i++)
         *log_likelihood += to[i].log_likelihood;
@@ -215,7 +197,7 @@ static enum ceduo_status refine(struct fitting *f)
     gsl_sort_smallest_index(order, CHAINS, f->at_points, 1, POINTS);
     for (size_t c = 0; c < CHAINS; c++)
         for (size_t i = 0; i < d; i++)
-            f->starts[c * d + i] = logit(f->points[order[c] * d + i]);
+            f->starts[c * d + i] = log(f->points[order[c] * d + i] / (1 - f->points[order[c] * d + i]));
     return (enum ceduo_status)ceduo_parallel(&(struct parallel){REFINED, f->def->threads, refine_one, f});
 }
 
@@ -276,11 +258,7 @@ static enum ceduo_status learn(void *context, const double *y, const double *log
     for (size_t i = 0; i < POINTS; i++)
         f->known_values[i] = -f->at_points[i];
     for (size_t i = 0; i < n; i++) {
-        double prior = 0, *u = f->known + (POINTS + i) * d;
-        for (size_t k = 0; k < d; k++) {
-            u[k] = unit(y[i * d + k]);
-            prior += log(u[k]) + log1p(-u[k]);
-        }
+        double prior = prior_at(f, y + i * d, f->known + (POINTS + i) * d);
         f->known_values[POINTS + i] = log_densities[i] - prior;
     }
     return ceduo_guess_learn(&f->guess, f->known, f->known_values, POINTS + n, f->def->cancel);
@@ -429,14 +407,6 @@ static void close_fitting(struct fitting *f)
     pthread_mutex_destroy(&f->talking);
 }
 
-static enum ceduo_status fit(struct fitting *f, struct chains *chains)
-{
-    enum ceduo_status status = search(f);
-    if (status == CEDUO_OK)
-        status = refine(f);
-    return status == CEDUO_OK ? run_chains(f, chains) : status;
-}
-
 enum ceduo_status ceduo_calibrate(const struct ceduo_calibration_def *def, struct ceduo_calibration *a)
 {
     GSL_RETURNS_ERRORS;
@@ -444,7 +414,9 @@ enum ceduo_status ceduo_calibrate(const struct ceduo_calibration_def *def, struc
     struct chains chains = {.rhat = NAN, .effective_size = NAN};
     *a = (struct ceduo_calibration){.parameters_count = def->parameters_count};
     enum ceduo_status status = open_fitting(&f, def);
-    status = status == CEDUO_OK ? fit(&f, &chains) : status;
+    status = status == CEDUO_OK ? search(&f) : status;
+    status = status == CEDUO_OK ? refine(&f) : status;
+    status = status == CEDUO_OK ? run_chains(&f, &chains) : status;
     if (status == CEDUO_OK && !read_draws(&f, &chains, a))
         status = CEDUO_NO_MEMORY;
     if (status == CEDUO_OK)

@@ -165,21 +165,16 @@ static enum ceduo_status learn(struct work *w)
     return status;
 }
 
-static bool grow_tried(struct chains *c, size_t room)
-{
-    double *tried = realloc(c->tried, c->chains * room * c->dimensions * sizeof *tried);
-    c->tried = tried ? tried : c->tried;
-    double *density = realloc(c->tried_density, c->chains * room * sizeof *density);
-    c->tried_density = density ? density : c->tried_density;
-    return tried && density;
-}
-
 static bool grow(struct chains *c, size_t steps)
 {
     if (steps <= c->room)
         return true;
     size_t room = 2 * steps;
-    double *x = grow_tried(c, room) ? calloc(c->chains * room * c->dimensions, sizeof *x) : NULL;
+    double *tried = realloc(c->tried, c->chains * room * c->dimensions * sizeof *tried);
+    c->tried = tried ? tried : c->tried;
+    double *density = realloc(c->tried_density, c->chains * room * sizeof *density);
+    c->tried_density = density ? density : c->tried_density;
+    double *x = tried && density ? calloc(c->chains * room * c->dimensions, sizeof *x) : NULL;
     if (!x)
         return false;
     for (size_t k = 0; k < c->chains && c->x; k++)
@@ -289,26 +284,20 @@ const double *ceduo_chains_draw(const struct chains *c, size_t i)
     return draw_at(c, i % c->chains, c->steps / 2 + i / c->chains);
 }
 
-/* Mean and variance of a part of a chain. */
-static void moments_of(const struct chains *c, size_t chain, size_t from, size_t n, size_t i, double *mean, double *variance)
-{
-    *mean = *variance = 0;
-    for (size_t s = 0; s < n; s++)
-        *mean += draw_at(c, chain, from + s)[i] / (double)n;
-    for (size_t s = 0; s < n; s++) {
-        double d = draw_at(c, chain, from + s)[i] - *mean;
-        *variance += d * d / (double)(n - 1);
-    }
-}
-
 /* Of chains cut in two: the mean of their variances W, and the variance of all estimated with that between them. */
 static void variances(const struct chains *c, size_t i, size_t n, double *within, double *all)
 {
-    double means[2 * CEDUO_CHAINS_MOST], mean = 0, between = 0, m = 2 * (double)c->chains;
+    double means[2 * CEDUO_CHAINS_MOST] = {0}, mean = 0, between = 0, m = 2 * (double)c->chains;
     *within = 0;
     for (size_t p = 0; p < 2 * c->chains; p++) {
-        double variance;
-        moments_of(c, p / 2, c->steps - (p % 2 + 1) * n, n, i, &means[p], &variance);
+        size_t from = c->steps - (p % 2 + 1) * n;
+        double variance = 0;
+        for (size_t s = 0; s < n; s++)
+            means[p] += draw_at(c, p / 2, from + s)[i] / (double)n;
+        for (size_t s = 0; s < n; s++) {
+            double d = draw_at(c, p / 2, from + s)[i] - means[p];
+            variance += d * d / (double)(n - 1);
+        }
         *within += variance / m;
         mean += means[p] / m;
     }

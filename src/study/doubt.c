@@ -234,16 +234,6 @@ static void sort_indices(const double *values, size_t n, size_t *order)
     }
 }
 
-static void order_inputs(const struct ceduo_doubt_def *def, const bool *uses, struct ceduo_doubt_figure *f, double *room)
-{
-    f->uses = 0;
-    for (size_t i = 0; i < def->inputs_count; i++)
-        room[i] = !uses[i] ? INFINITY : isnan(f->fit.left[i]) ? 0 : f->fit.left[i];
-    sort_indices(room, def->inputs_count, f->order);
-    for (size_t i = 0; i < def->inputs_count; i++)
-        f->uses += uses[i];
-}
-
 /* The figures of one option or difference are read one after the other, as their surfaces have the terms in common. */
 struct reading {
     const struct rows *rows;
@@ -295,12 +285,6 @@ static bool is_rotation(enum ceduo_doubt_kind kind)
     return kind == CEDUO_DOUBT_MEAN || kind == CEDUO_DOUBT_FAILING;
 }
 
-/* Whether a figure is there: years fail by what the place withstands. */
-static bool is_there(const struct rows *r, enum ceduo_doubt_kind kind)
-{
-    return !is_rotation(kind) || (r->years && (kind == CEDUO_DOUBT_MEAN || r->judged == CEDUO_DOUBT_EXCEED));
-}
-
 static enum ceduo_status read_figure(const struct rows *r, const struct subject *s, struct ceduo_doubt_figure *f)
 {
     const struct ceduo_doubt_def *def = r->def;
@@ -324,9 +308,15 @@ static enum ceduo_status read_figure(const struct rows *r, const struct subject 
                                                                .hi = max,
                                                                .limit = judged ? CEDUO_EXCEED_MOST : NAN},
                           &f->fit);
-    if (status == CEDUO_OK)
-        order_inputs(def, s->uses, f, s->room);
-    return status;
+    if (status != CEDUO_OK)
+        return status;
+    f->uses = 0;
+    for (size_t i = 0; i < def->inputs_count; i++) {
+        f->uses += s->uses[i];
+        s->room[i] = !s->uses[i] ? INFINITY : isnan(f->fit.left[i]) ? 0 : f->fit.left[i];
+    }
+    sort_indices(s->room, def->inputs_count, f->order);
+    return CEDUO_OK;
 }
 
 /* An option, or behind them a difference to the first one. */
@@ -347,7 +337,8 @@ static int read_figures_of(void *context, size_t item, size_t worker)
         f->difference = difference;
         f->option = option;
         bool decides = !difference && (f->kind == reading->answer->main || f->kind == CEDUO_DOUBT_MEAN);
-        if (is_there(r, f->kind) && decides == reading->deciding)
+        bool there = !is_rotation(f->kind) || (r->years && (f->kind == CEDUO_DOUBT_MEAN || r->judged == CEDUO_DOUBT_EXCEED));
+        if (there && decides == reading->deciding) /* years fail by what the place withstands */
             status = read_figure(r, &s, f);
     }
     close_subject(&s);
@@ -429,17 +420,6 @@ static void set_difference(struct ceduo_doubt_figure *f, struct ceduo_paired d)
     set_sampling(f, d.mean, d.mean - half, d.mean + half);
 }
 
-/* Years that fail by the ends of their intervals, and by their shares. */
-static void count_own_years(const struct ceduo_years *years, size_t control, double counts[3])
-{
-    for (size_t i = 0; i < years->count; i++) {
-        const struct ceduo_arrivals *a = &years->years[i].wooded.arrivals[control];
-        counts[0] += a->exceed_lo > CEDUO_EXCEED_MOST;
-        counts[1] += a->exceed_probability > CEDUO_EXCEED_MOST;
-        counts[2] += a->exceed_hi > CEDUO_EXCEED_MOST;
-    }
-}
-
 static void set_years(struct ceduo_doubt_answer *answer, size_t options, struct ceduo_years *const *years, bool judges)
 {
     double first[3] = {0};
@@ -455,7 +435,12 @@ static void set_years(struct ceduo_doubt_answer *answer, size_t options, struct 
             set_difference(&d[CEDUO_DOUBT_MEAN], ceduo_years_difference(years[i], years[0]));
         if (!judges)
             continue;
-        count_own_years(years[i], control, counts);
+        for (size_t k = 0; k < years[i]->count; k++) { /* by the ends of their intervals, and by their shares */
+            const struct ceduo_arrivals *a = &years[i]->years[k].wooded.arrivals[control];
+            counts[0] += a->exceed_lo > CEDUO_EXCEED_MOST;
+            counts[1] += a->exceed_probability > CEDUO_EXCEED_MOST;
+            counts[2] += a->exceed_hi > CEDUO_EXCEED_MOST;
+        }
         set_sampling(&f[CEDUO_DOUBT_FAILING], counts[1], counts[0], counts[2]);
         if (i > 0)
             set_sampling(&d[CEDUO_DOUBT_FAILING], counts[1] - first[1], counts[0] - first[2], counts[2] - first[0]);

@@ -7,29 +7,17 @@
 
 #define ALSO 0.5 /* a second input is named where its share is at least this of the first one's */
 
-/* The limit of a light's figure. */
-static double limit_of(const struct ceduo_scene *scene, enum ceduo_doubt_kind light)
-{
-    return light == CEDUO_DOUBT_EXCEED    ? CEDUO_EXCEED_MOST
-           : light == CEDUO_DOUBT_CONTACT ? 1 / scene->simulation.threshold
-                                          : CEDUO_FREE_RUN_MOST;
-}
-
-/* A gap fails whatever the stands are. */
-static bool is_decided(const struct ceduo_scene *scene, size_t option, enum ceduo_doubt_kind light)
-{
-    const struct ceduo_control *control = &scene->controls[ceduo_scene_last_control(scene)];
-    struct ceduo_index index = ceduo_assess_index(scene, &scene->options[option], control, NAN);
-    return light != CEDUO_DOUBT_EXCEED && index.longest_gap > scene->simulation.threshold;
-}
-
 size_t ceduo_doubt_depends(const struct ceduo_scene *scene, const struct ceduo_doubt_answer *a, size_t option,
                            enum ceduo_doubt_kind light, size_t inputs[2])
 {
     const struct ceduo_doubt_figure *f = ceduo_doubt_figure_of(a, option, light, false);
-    double limit = limit_of(scene, light);
-    bool changes = f->fit.p5 <= limit && f->fit.p95 > limit;
-    if (!changes || !f->fit.enough || is_decided(scene, option, light))
+    double limit = light == CEDUO_DOUBT_EXCEED    ? CEDUO_EXCEED_MOST
+                   : light == CEDUO_DOUBT_CONTACT ? 1 / scene->simulation.threshold
+                                                  : CEDUO_FREE_RUN_MOST;
+    const struct ceduo_control *control = &scene->controls[ceduo_scene_last_control(scene)];
+    double gap = ceduo_assess_index(scene, &scene->options[option], control, NAN).longest_gap;
+    bool decided = light != CEDUO_DOUBT_EXCEED && gap > scene->simulation.threshold; /* whatever the stands are */
+    if (decided || !f->fit.enough || !(f->fit.p5 <= limit && f->fit.p95 > limit))
         return 0;
     const struct ceduo_share *total = f->fit.total;
     size_t first = f->order[0], second = SIZE_MAX;

@@ -43,18 +43,11 @@ static bool passes(const struct search *h, double goal)
     return goal <= h->def->target;
 }
 
-/* Where a value is among the samples, or would be. */
-static size_t place_of(const struct search *h, double value)
+static bool evaluate(struct search *h, double value, double *goal)
 {
     size_t i = 0;
     while (i < h->count && h->samples[i].value < value)
         i++;
-    return i;
-}
-
-static bool evaluate(struct search *h, double value, double *goal)
-{
-    size_t i = place_of(h, value);
     if (i < h->count && h->samples[i].value == value) {
         *goal = h->samples[i].goal;
         return true;
@@ -90,12 +83,6 @@ static double width_of(const struct bracket *b)
 
 /* ---- narrowing ---- */
 
-static bool halve(struct search *h, struct bracket *b)
-{
-    double lo = fmin(b->fail.value, b->pass.value), half = width_of(b) / 2;
-    return narrow(h, b, lo + (h->def->whole ? floor(half) : half));
-}
-
 struct brent {
     struct search *search;
     struct bracket *bracket;
@@ -116,13 +103,6 @@ static double brent_goal(double value, void *context)
     return 1;
 }
 
-/* Brent's method comes to a root from one side: a step across closes the bracket when it no longer moves. */
-static void step_across(struct search *h, struct bracket *b, double root, double width)
-{
-    double other = root == b->pass.value ? b->fail.value : b->pass.value;
-    narrow(h, b, root + copysign(PROBE * width, other - root));
-}
-
 /* Until the bracket is as narrow as `width`, the steps `left` are used up, or it gets no further. The solver is made by
  * hand because GSL's own allocation aborts the program without memory. */
 static void brent(struct search *h, struct bracket *b, double width, unsigned *left)
@@ -141,8 +121,9 @@ static void brent(struct search *h, struct bracket *b, double width, unsigned *l
         gsl_root_fsolver_iterate(&solver); /* fails only where a function is not finite */
         if (context.broken)
             break;
-        if (fabs(solver.root - before) < width) {
-            step_across(h, b, solver.root, width);
+        if (fabs(solver.root - before) < width) { /* it comes from one side: a step across closes the bracket */
+            double other = solver.root == b->pass.value ? b->fail.value : b->pass.value;
+            narrow(h, b, solver.root + copysign(PROBE * width, other - solver.root));
             *left -= *left > 0;
             break;
         }
@@ -151,51 +132,22 @@ static void brent(struct search *h, struct bracket *b, double width, unsigned *l
     free(solver.state);
 }
 
-static bool has_root(const struct search *h, const struct bracket *b)
-{
-    double t = h->def->target;
-    return isfinite(b->fail.goal - t) && isfinite(b->pass.goal - t) && b->pass.goal != t;
-}
-
 static void close_in(struct search *h, struct bracket *b)
 {
     double share = h->def->tolerance > 0 ? fmax(h->def->tolerance, DBL_EPSILON) : CEDUO_FIND_TOLERANCE;
     double width = h->def->whole ? 1 : share * (h->hi - h->lo);
     unsigned left = h->def->whole ? 0 : BRENT_MAX;
     while (h->status == CEDUO_OK && width_of(b) > width) {
-        if (left > 0 && has_root(h, b))
+        double fail = b->fail.goal - h->def->target, pass = b->pass.goal - h->def->target;
+        if (left > 0 && isfinite(fail) && isfinite(pass) && b->pass.goal != h->def->target)
             brent(h, b, width, &left);
-        if (width_of(b) > width && !halve(h, b))
+        double half = h->def->whole ? floor(width_of(b) / 2) : width_of(b) / 2;
+        if (width_of(b) > width && !narrow(h, b, fmin(b->fail.value, b->pass.value) + half))
             break;
     }
 }
 
 /* ---- the search ---- */
-
-static void scan(struct search *h)
-{
-    for (int i = 1; i <= CEDUO_FIND_SCAN; i++) {
-        double value = h->lo + (h->hi - h->lo) * i / (CEDUO_FIND_SCAN + 1), goal;
-        evaluate(h, h->def->whole ? round(value) : value, &goal);
-    }
-}
-
-/* Index of the last sample that fails, `count` where all pass. */
-static size_t last_that_fails(const struct search *h)
-{
-    size_t i = h->count;
-    while (i > 0 && passes(h, h->samples[i - 1].goal))
-        i--;
-    return i > 0 ? i - 1 : h->count;
-}
-
-static size_t first_that_passes(const struct search *h)
-{
-    size_t i = 0;
-    while (i < h->count && !passes(h, h->samples[i].goal))
-        i++;
-    return i;
-}
 
 static void find_crossing(struct search *h, struct ceduo_found *found)
 {
@@ -203,19 +155,25 @@ static void find_crossing(struct search *h, struct ceduo_found *found)
     if (!evaluate(h, h->lo, &at_lo) || !evaluate(h, h->hi, &at_hi))
         return;
     bool lo = passes(h, at_lo), hi = passes(h, at_hi);
-    if (lo == hi)
-        scan(h);
-    size_t fails = last_that_fails(h), first = first_that_passes(h);
+    for (int i = 1; lo == hi && i <= CEDUO_FIND_SCAN; i++) {
+        double value = h->lo + (h->hi - h->lo) * i / (CEDUO_FIND_SCAN + 1), goal;
+        evaluate(h, h->def->whole ? round(value) : value, &goal);
+    }
+    size_t failing = h->count, first = 0; /* up to the last sample that fails; the first that passes */
+    while (failing > 0 && passes(h, h->samples[failing - 1].goal))
+        failing--;
+    while (first < h->count && !passes(h, h->samples[first].goal))
+        first++;
     if (h->status != CEDUO_OK || first == h->count)
         return;
     struct bracket b = {.pass = h->samples[0]};
     found->side = lo && !hi ? CEDUO_LARGEST : CEDUO_SMALLEST;
-    found->whole_range = fails == h->count;
+    found->whole_range = failing == 0;
     if (!found->whole_range) {
         if (lo && !hi)
             b.fail = h->samples[h->count - 1];
         else if (lo)
-            b = (struct bracket){.fail = h->samples[fails], .pass = h->samples[fails + 1]};
+            b = (struct bracket){.fail = h->samples[failing - 1], .pass = h->samples[failing]};
         else
             b = (struct bracket){.fail = h->samples[first - 1], .pass = h->samples[first]};
         close_in(h, &b);
@@ -228,30 +186,22 @@ static void find_crossing(struct search *h, struct ceduo_found *found)
     found->goal_at_value = b.pass.goal;
 }
 
-static bool never_turns(const struct search *h)
-{
-    bool rises = false, falls = false;
-    for (size_t i = 0; i < h->count; i++) {
-        if (isnan(h->samples[i].goal))
-            return false;
-        double before = h->samples[i > 0 ? i - 1 : 0].goal, now = h->samples[i].goal;
-        double rounding = isfinite(before) && isfinite(now) ? ROUNDING * fmax(fabs(before), fabs(now)) : 0;
-        rises |= now > before + rounding;
-        falls |= now < before - rounding;
-    }
-    return !(rises && falls);
-}
-
+/* Whether the goal turns, and where it is least. */
 static void read_samples(const struct search *h, struct ceduo_found *found)
 {
+    bool rises = false, falls = false;
     found->evaluations = (unsigned)h->count;
-    found->monotone = found->monotone && never_turns(h);
     for (size_t i = 0; i < h->count; i++) {
-        if (isnan(h->samples[i].goal) || h->samples[i].goal >= found->goal_at_nearest)
+        double before = h->samples[i > 0 ? i - 1 : 0].goal, now = h->samples[i].goal;
+        double rounding = isfinite(before) && isfinite(now) ? ROUNDING * fmax(fabs(before), fabs(now)) : 0;
+        rises |= isnan(now) || now > before + rounding;
+        falls |= isnan(now) || now < before - rounding;
+        if (isnan(now) || now >= found->goal_at_nearest)
             continue;
         found->nearest = h->samples[i].value;
-        found->goal_at_nearest = h->samples[i].goal;
+        found->goal_at_nearest = now;
     }
+    found->monotone = found->monotone && !(rises && falls);
 }
 
 enum ceduo_status ceduo_find(const struct ceduo_find_def *def, struct ceduo_found *found)

@@ -40,12 +40,6 @@ double ceduo_goal_limit(enum ceduo_goal goal, const struct ceduo_simulation *sim
     return limits[goal];
 }
 
-/* Where no rock arrives all is well. */
-static double mean_kJ(const struct ceduo_arrivals *a, bool wooded, const struct ceduo_index *index)
-{
-    return a->reached == 0 ? 0 : (wooded ? a->energy.mean : index->residual) * 1e-3;
-}
-
 /* At one control; `wooded` NULL: nothing was simulated through the forest. */
 static double value_at(enum ceduo_goal goal, const struct ceduo_index *index, const struct ceduo_arrivals *wooded,
                        const struct ceduo_arrivals *bare)
@@ -55,7 +49,8 @@ static double value_at(enum ceduo_goal goal, const struct ceduo_index *index, co
            : goal == CEDUO_GOAL_FREE_RUN ? index->worst_free_run
            : goal == CEDUO_GOAL_EXCEED   ? arrivals->exceed_probability
            : goal == CEDUO_GOAL_ARRIVE   ? arrivals->reach_probability
-                                         : mean_kJ(arrivals, wooded != NULL, index);
+           : arrivals->reached == 0      ? 0 /* where no rock arrives all is well */
+                                         : (wooded ? arrivals->energy.mean : index->residual) * 1e-3;
 }
 
 static double worse_of(double a, double b)

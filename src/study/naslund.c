@@ -4,6 +4,7 @@
 
 #include <gsl/gsl_fit.h>
 #include <gsl/gsl_multifit_nlinear.h>
+#include <gsl/gsl_statistics_double.h>
 #include <math.h>
 #include <stdbool.h>
 #include <stdlib.h>
@@ -60,22 +61,12 @@ static bool begin(const struct pairs *p, double *x)
     return true;
 }
 
-static double range_of(const double *values, size_t n)
-{
-    double lo = INFINITY, hi = -INFINITY;
-    for (size_t i = 0; i < n; i++) {
-        lo = fmin(lo, values[i]);
-        hi = fmax(hi, values[i]);
-    }
-    return hi - lo;
-}
-
 enum ceduo_status ceduo_naslund_fit(size_t n, const double *dbh, const double *height, struct ceduo_naslund *curve)
 {
     GSL_RETURNS_ERRORS;
     struct pairs pairs = {n, dbh, height};
     double x[2];
-    if (n < CEDUO_NASLUND_LEAST || !(range_of(dbh, n) > 0))
+    if (n < CEDUO_NASLUND_LEAST || !(gsl_stats_max(dbh, 1, n) > gsl_stats_min(dbh, 1, n)))
         return CEDUO_NO_FIT;
     if (!begin(&pairs, x))
         return CEDUO_NO_MEMORY;

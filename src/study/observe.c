@@ -299,18 +299,6 @@ double ceduo_classes_deviance(const double *seen, const double *simulated, size_
     return deviance;
 }
 
-/* A multinomial sample. */
-static void compare_classes(struct ceduo_counterpart *c)
-{
-    double rocks = rocks_of_classes(c->count, c->classes), n = 0;
-    for (size_t i = 0; i < c->classes; i++) {
-        n += c->seen[i];
-        c->log_likelihood += c->seen[i] * log((c->count[i] + 0.5) / rocks) - lgamma(c->seen[i] + 1);
-    }
-    c->log_likelihood += lgamma(n + 1);
-    c->deviance += ceduo_classes_deviance(c->seen, c->count, c->classes);
-}
-
 /* A normal law of a difference. */
 static void compare_normal(struct ceduo_counterpart *c, double difference, double variance)
 {
@@ -339,14 +327,6 @@ static void sum_values(const struct plan *p, const double *values, size_t n, str
     c->sd = ceduo_moments_sd(&m);
 }
 
-static double mean_seen(const struct ceduo_observation *seen)
-{
-    double sum = 0;
-    for (size_t i = 0; seen->values && i < seen->n; i++)
-        sum += seen->values[i];
-    return seen->values ? sum / (double)seen->n : seen->mean;
-}
-
 /* How many scars the rocks released leave: their number differs from rock to rock, and the survey finds a share. */
 static bool compare_scars(const struct plan *p, const struct flown *f, struct ceduo_counterpart *c)
 {
@@ -372,23 +352,28 @@ static bool compare_scars(const struct plan *p, const struct flown *f, struct ce
 static bool compare(const struct plan *p, const struct flown *f, const double *values, size_t n, struct ceduo_counterpart *c)
 {
     const struct ceduo_observation *seen = p->seen;
-    *c = (struct ceduo_counterpart){.classes = p->classes, .seen_mean = mean_seen(seen), .scars = NAN, .scars_variance = NAN};
+    double sum = 0;
+    for (size_t i = 0; seen->values && i < seen->n; i++)
+        sum += seen->values[i];
+    *c = (struct ceduo_counterpart){.classes = p->classes,
+                                    .seen_mean = seen->values ? sum / (double)seen->n : seen->mean,
+                                    .scars = NAN,
+                                    .scars_variance = NAN};
     memcpy(c->seen, p->counts, sizeof c->seen);
     sum_values(p, values, n, c);
     c->variance = seen->sd * seen->sd / (double)seen->n + c->sd * c->sd / (double)c->rocks;
-    if (p->classes > 0)
-        compare_classes(c);
-    else
+    if (p->classes > 0) { /* a multinomial sample */
+        double rocks = rocks_of_classes(c->count, c->classes), all = 0;
+        for (size_t i = 0; i < c->classes; i++) {
+            all += c->seen[i];
+            c->log_likelihood += c->seen[i] * log((c->count[i] + 0.5) / rocks) - lgamma(c->seen[i] + 1);
+        }
+        c->log_likelihood += lgamma(all + 1);
+        c->deviance += ceduo_classes_deviance(c->seen, c->count, c->classes);
+    } else {
         compare_normal(c, c->seen_mean - c->mean, c->variance);
+    }
     return seen->kind != CEDUO_OBSERVED_SCARS || seen->of == 0 || compare_scars(p, f, c);
-}
-
-static enum ceduo_status look_at_one(const struct plan *p, const struct flown *f, struct ceduo_counterpart *to)
-{
-    double *values = malloc((values_max(f, p) + 1) * sizeof *values);
-    bool good = values && compare(p, f, values, take_values(f, p, values), to);
-    free(values);
-    return good ? CEDUO_OK : CEDUO_NO_MEMORY;
 }
 
 enum ceduo_status ceduo_observer_look(const struct ceduo_observer *o, const struct ceduo_scene *scene, uint64_t rocks,
@@ -398,9 +383,15 @@ enum ceduo_status ceduo_observer_look(const struct ceduo_observer *o, const stru
     for (size_t s = 0; s < o->settings_count && status == CEDUO_OK; s++) {
         struct flown f;
         status = fly(&o->settings[s], scene, rocks, cancel, &f);
-        for (size_t i = 0; i < o->n && status == CEDUO_OK; i++)
-            if (o->plans[i].setting == s)
-                status = ceduo_cancelled(cancel) ? CEDUO_CANCELLED : look_at_one(&o->plans[i], &f, &to[i]); /* untaken: race */
+        for (size_t i = 0; i < o->n && status == CEDUO_OK; i++) {
+            const struct plan *p = &o->plans[i];
+            if (p->setting != s)
+                continue;
+            double *values = malloc((values_max(&f, p) + 1) * sizeof *values);
+            bool good = values && compare(p, &f, values, take_values(&f, p, values), &to[i]);
+            free(values);
+            status = !good ? CEDUO_NO_MEMORY : ceduo_cancelled(cancel) ? CEDUO_CANCELLED : CEDUO_OK; /* untaken: race */
+        }
         land(&f);
     }
     return status;

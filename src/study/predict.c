@@ -114,11 +114,6 @@ static double sample(const struct ceduo_observation *o, const struct ceduo_count
 
 /* ---- reading ---- */
 
-static double seen_of(const struct ceduo_observation *o, const struct ceduo_counterpart *c)
-{
-    return o->kind == CEDUO_OBSERVED_PASSED ? (double)o->count : c->seen_mean;
-}
-
 /* What simulated rocks say of one observation, draw by draw. */
 struct drawn {
     const struct ceduo_counterpart *first;
@@ -131,7 +126,7 @@ static void read_one(const struct drawn *d, const struct ceduo_observation *o, g
 {
     size_t n = 0;
     double farther = 0;
-    to->seen = seen_of(o, &to->at_best);
+    to->seen = o->kind == CEDUO_OBSERVED_PASSED ? (double)o->count : to->at_best.seen_mean;
     to->p_value = to->lo = to->hi = NAN;
     for (size_t i = 0; i < d->draws; i++) {
         const struct ceduo_counterpart *c = &d->first[i * d->stride];

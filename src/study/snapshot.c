@@ -96,17 +96,6 @@ void ceduo_polyline_free(struct ceduo_polyline *line)
     *line = (struct ceduo_polyline){0};
 }
 
-static enum ceduo_status follow_trajectories(struct ceduo_follower *follower, const struct ceduo_snapshot_def *def,
-                                             struct ceduo_run_snapshot *s)
-{
-    size_t trajectories = def->trajectories < s->flown.rocks ? def->trajectories : (size_t)s->flown.rocks;
-    s->trajectories = calloc(trajectories + 1, sizeof *s->trajectories);
-    enum ceduo_status status = s->trajectories ? CEDUO_OK : CEDUO_NO_MEMORY;
-    for (size_t i = 0; i < trajectories && status == CEDUO_OK; i++)
-        status = trace(follower, def->scene, i, def->cancel, &s->trajectories[s->trajectories_count++]);
-    return status;
-}
-
 /* ---- places ---- */
 
 size_t ceduo_snapshot_places(const struct ceduo_scene *scene, double *x)
@@ -187,16 +176,18 @@ static enum ceduo_status read_sight(const struct ceduo_snapshot_def *def, const 
     enum ceduo_status status = ceduo_simulated_read(run, controls, &s->flown);
     if (status != CEDUO_OK)
         return status;
+    size_t trajectories = def->trajectories < s->flown.rocks ? def->trajectories : (size_t)s->flown.rocks;
     s->energies = calloc(controls + 1, sizeof *s->energies);
     s->envelopes = calloc(def->cells + 1, sizeof *s->envelopes);
+    s->trajectories = calloc(trajectories + 1, sizeof *s->trajectories);
     struct ceduo_follower *follower = ceduo_follower_create(def->scene, option);
-    status = s->energies && s->envelopes && follower ? CEDUO_OK : CEDUO_NO_MEMORY;
+    status = s->energies && s->envelopes && s->trajectories && follower ? CEDUO_OK : CEDUO_NO_MEMORY;
     for (size_t i = 0; i < def->cells && status == CEDUO_OK && pictures; i++)
         ceduo_run_envelope(pictures, i, &s->envelopes[i]);
     if (status == CEDUO_OK)
         status = read_energies(follower, run, def->cancel, s);
-    if (status == CEDUO_OK)
-        status = follow_trajectories(follower, def, s);
+    for (size_t i = 0; i < trajectories && status == CEDUO_OK; i++)
+        status = trace(follower, def->scene, i, def->cancel, &s->trajectories[s->trajectories_count++]);
     ceduo_follower_free(follower);
     return status;
 }
@@ -259,15 +250,6 @@ static enum ceduo_status get_sight(const struct ceduo_snapshot_def *def, const s
     return status;
 }
 
-static void read_differences(const struct ceduo_snapshot_def *def, struct ceduo_snapshot *o, size_t option)
-{
-    const struct ceduo_scene *scene = def->scene;
-    const struct ceduo_run *run = longest_run(def, &scene->options[option]);
-    const struct ceduo_run *baseline = longest_run(def, &scene->options[0]);
-    for (size_t c = 0; c < o->controls; c++)
-        o->differences[option * o->controls + c] = ceduo_run_difference(run, baseline, c);
-}
-
 enum ceduo_status ceduo_snapshot_create(const struct ceduo_snapshot_def *def, struct ceduo_snapshot **snapshot)
 {
     *snapshot = NULL;
@@ -289,8 +271,10 @@ enum ceduo_status ceduo_snapshot_create(const struct ceduo_snapshot_def *def, st
     }
     bool flies = scene->simulation.contact_model != CEDUO_INDEX;
     for (size_t i = 0; flies && i < o->options && status == CEDUO_OK; i++) {
+        const struct ceduo_run *run = longest_run(def, &scene->options[i]), *first = longest_run(def, &scene->options[0]);
         status = get_sight(def, o, &scene->options[i], &o->wooded[i]);
-        read_differences(def, o, i);
+        for (size_t c = 0; c < o->controls; c++)
+            o->differences[i * o->controls + c] = ceduo_run_difference(run, first, c);
     }
     if (status == CEDUO_OK)
         *snapshot = o;

@@ -30,12 +30,6 @@ static double scaled(enum ceduo_goal goal, double value)
     return goal == CEDUO_GOAL_ADC ? -1 / value : value;
 }
 
-/* What a goal is at a control of which the index says all. */
-static double index_value(enum ceduo_goal goal, const struct ceduo_index *index)
-{
-    return scaled(goal, goal == CEDUO_GOAL_ADC ? index->worst_adc : index->worst_free_run);
-}
-
 /* The mean energy of what arrives, in kJ, of all the groups' rocks; groups differ by what they bring to that mean. By the index it is
  * what this leaves of the mean. */
 static struct ceduo_groups energy_of(const struct point *point, const struct ceduo_control *control,
@@ -66,7 +60,7 @@ static struct ceduo_groups value_of(const struct sure *s, const struct point *po
     if (!run) {
         struct ceduo_index index = ceduo_assess_index(point->scene, point->forest, at, NAN);
         for (size_t g = 0; g < GROUPS; g++)
-            y.of[g] = index_value(goal, &index);
+            y.of[g] = scaled(goal, goal == CEDUO_GOAL_ADC ? index.worst_adc : index.worst_free_run);
         return y;
     }
     ceduo_run_briefs(run, control, GROUPS, briefs);
@@ -117,17 +111,6 @@ static struct ceduo_groups over_years(const struct sure *s, const struct ceduo_g
             y.of[g] += years[k].of[g] / (double)s->slots;
     }
     return y;
-}
-
-/* Of each point the worst control, to its first place. */
-static void read_points(const struct sure *s, size_t points, struct ceduo_groups *column)
-{
-    for (size_t p = 0; p < points; p++)
-        for (size_t c = 0; c < s->def->scene->controls_count; c++) {
-            struct ceduo_groups y = over_years(s, values_of(s, p, c));
-            if (c == 0 || mean_of(&y) > mean_of(&column[p]))
-                column[p] = y;
-        }
 }
 
 static enum ceduo_status run_points(struct sure *s, const double *u, size_t points)
@@ -201,7 +184,12 @@ enum ceduo_status ceduo_sure_ask(const struct sure_def *def, struct sure_answer 
     if (status == CEDUO_OK)
         status = run_points(&s, u, points);
     if (status == CEDUO_OK) {
-        read_points(&s, points, column);
+        for (size_t p = 0; p < points; p++)
+            for (size_t c = 0; c < scene->controls_count; c++) { /* the worst one */
+                struct ceduo_groups y = over_years(&s, values_of(&s, p, c));
+                if (c == 0 || mean_of(&y) > mean_of(&column[p]))
+                    column[p] = y;
+            }
         answer->above = mean_of(column) - scaled(def->goal, def->target);
         answer->share = (struct ceduo_share){answer->above <= 0, 0};
         if (n > 0)

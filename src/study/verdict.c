@@ -136,14 +136,6 @@ static enum ceduo_status read_choice(const struct ceduo_result *r, const struct 
 
 /* ---- all options ---- */
 
-static bool all_are_known(const struct ceduo_verdict *v, bool rotation)
-{
-    for (size_t i = 0; i < v->n; i++)
-        if (isnan(rotation ? v->choices[i].mean.mean : v->choices[i].today.mean))
-            return false;
-    return v->n > 1;
-}
-
 static bool is_beaten(struct ceduo_years *const *years, const struct ceduo_verdict *v, size_t option)
 {
     double yield = v->choices[option].yield.cut_per_year;
@@ -163,21 +155,15 @@ static double errors_worse(difference_of *difference, const void *context, size_
     return d.mean / d.se;
 }
 
-/* Under one law the order is clear, and under the other it is the other way round by more than chance makes likely. */
-static bool turns(const struct ceduo_result *r, size_t better, size_t than)
-{
-    double now = errors_worse(difference_today, r, than, better);
-    double other = errors_worse(difference_by_other_law, r, better, than);
-    return fmin(now, other) > 1 && fmax(now, other) > CEDUO_CLEAR;
-}
-
-/* False without memory. */
+/* Pairs of which under one law the order is clear, and under the other it is the other way round by more than chance makes likely.
+ * False without memory. */
 static bool find_turned(const struct ceduo_result *r, struct ceduo_verdict *v)
 {
     size_t room = 0;
     for (size_t i = 0; i < v->n; i++)
         for (size_t k = 0; k < v->n; k++) {
-            if (i == k || !turns(r, i, k))
+            double now = errors_worse(difference_today, r, k, i), other = errors_worse(difference_by_other_law, r, i, k);
+            if (i == k || !(fmin(now, other) > 1 && fmax(now, other) > CEDUO_CLEAR))
                 continue;
             struct ceduo_turned *grown = ceduo_grow(v->turned, v->turned_count, &room, sizeof *grown);
             if (!grown)
@@ -193,18 +179,13 @@ static uint64_t rocks_of(const struct ceduo_result *r, struct ceduo_years *const
     return years ? years[option]->rocks : r->options[option].wooded.rocks;
 }
 
-/* Whether two options have the same forests, today or year by year. */
-static bool are_equal(const struct ceduo_scene *s, bool rotation, size_t a, size_t b)
-{
-    const struct ceduo_option *one = &s->options[a], *two = &s->options[b];
-    return rotation ? ceduo_years_key(one) == ceduo_years_key(two) : ceduo_option_key(s, one) == ceduo_option_key(s, two);
-}
-
 /* `years` NULL: today. */
 static void find_leader(const struct ceduo_result *r, struct ceduo_years *const *years, const struct ceduo_verdict *v,
                         struct ceduo_leader *leader)
 {
-    leader->known = all_are_known(v, years != NULL);
+    leader->known = v->n > 1;
+    for (size_t i = 0; i < v->n && leader->known; i++)
+        leader->known = !isnan(years ? v->choices[i].mean.mean : v->choices[i].today.mean);
     for (size_t i = 0; i < v->n && leader->known; i++) {
         leader->known = years || !isnan(difference_today(r, i, 0).mean);
         leader->uneven |= rocks_of(r, years, i) != rocks_of(r, years, 0);
@@ -215,21 +196,12 @@ static void find_leader(const struct ceduo_result *r, struct ceduo_years *const 
     const void *context = years ? (const void *)years : r;
     find_best(difference, context, v->n, leader);
     leader->equal = leader->rivals > 0;
-    for (size_t i = 0; i < v->n; i++)
-        leader->equal &= !leader->rival[i] || (difference(context, i, leader->best).mean == 0 &&
-                                               are_equal(r->scene, years != NULL, i, leader->best));
-}
-
-static enum ceduo_status judge(const struct ceduo_result *r, struct ceduo_years *const *years, struct ceduo_verdict *v)
-{
-    if (v->nothing)
-        return CEDUO_OK;
-    find_leader(r, NULL, v, &v->today);
-    if (years)
-        find_leader(r, years, v, &v->rotation);
-    for (size_t i = 0; i < v->n && v->rotation.known; i++)
-        v->choices[i].beaten = is_beaten(years, v, i);
-    return !v->wooded || find_turned(r, v) ? CEDUO_OK : CEDUO_NO_MEMORY;
+    for (size_t i = 0; i < v->n; i++) { /* the same forests, today or year by year */
+        const struct ceduo_option *one = &r->scene->options[i], *best = &r->scene->options[leader->best];
+        bool same = years ? ceduo_years_key(one) == ceduo_years_key(best)
+                          : ceduo_option_key(r->scene, one) == ceduo_option_key(r->scene, best);
+        leader->equal &= !leader->rival[i] || (same && difference(context, i, leader->best).mean == 0);
+    }
 }
 
 enum ceduo_status ceduo_verdict_make(const struct ceduo_result *r, struct ceduo_years *const *years, struct ceduo_verdict *v)
@@ -247,8 +219,14 @@ enum ceduo_status ceduo_verdict_make(const struct ceduo_result *r, struct ceduo_
         status = read_choice(r, years ? years[i] : NULL, i, &v->choices[i]);
         v->n = i + (status == CEDUO_OK);
     }
-    if (status == CEDUO_OK)
-        status = judge(r, years, v);
+    if (status == CEDUO_OK && !v->nothing) {
+        find_leader(r, NULL, v, &v->today);
+        if (years)
+            find_leader(r, years, v, &v->rotation);
+        for (size_t i = 0; i < n && v->rotation.known; i++)
+            v->choices[i].beaten = is_beaten(years, v, i);
+        status = !v->wooded || find_turned(r, v) ? CEDUO_OK : CEDUO_NO_MEMORY;
+    }
     if (status != CEDUO_OK)
         ceduo_verdict_release(v);
     return status;
