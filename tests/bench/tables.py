@@ -132,9 +132,14 @@ class Results:
                        r["contact_to_lumped"]] for r in self.rows("bench_laws")])
 
     def doubt(self):
-        return table(["scene", "inputs", "points", "rocks", "evaluations", "seconds", "processor s"],
-                     [[Path(r["scene"]).stem, r["inputs"], r["points"], r["rocks"], r["evaluations"], digits(r["seconds_median"]),
-                       digits(r["cpu_seconds_median"])] for r in self.rows("bench_doubt")])
+        return table(["scene", "years", "inputs", "points", "rocks", "evaluations", "seconds", "processor s"],
+                     [[Path(r["scene"]).stem, r["years"], r["inputs"], r["points"], r["rocks"], r["evaluations"],
+                       digits(r["seconds_median"]), digits(r["cpu_seconds_median"])] for r in self.rows("bench_doubt")])
+
+    def doubt_error(self):
+        return table(["design", "points", "rocks", "scenes", "processor s", "band, of 1000", "shares, %"],
+                     [[r["design"], r["points"], r["rocks"], r["scenes"], digits(r["cpu_seconds"]), digits(r["band_of_1000"], 2),
+                       digits(r["shares_percent"], 2)] for r in self.rows("bench_doubt_error")])
 
     def keys(self):
         return table(["scene", "keys in", "keys", "median, ms", "p99, ms", "most, ms"],

@@ -824,15 +824,17 @@ def test_live_wood():
         t.keys("s", "q")
 
 
-def test_rough_doubt():
-    """View 7 says what is still being refined; line 2 and the column say what may be true only when it is not"""
+def test_doubt_of_the_shown_option_first():
+    """View 7 has the option that is shown first; what it says of that stays when the others come"""
     with Place() as place, Tmux(place, 120, 40) as t:
-        t.start("paper-site")
+        t.start("four-systems")
         t.keys("7")
-        rough = t.sees("Rough so far: ", "of 1000 (rocks ")
-        expect("; may be " not in rough and not re.search(r"│   may be +\d", rough), rough)
-        done = t.sees("; may be ", lacks=("Rough so far: ", "being refined"))
-        expect(re.search(r"│   may be +\d+–\d+$", done, re.M), done)
+        shown = r"doubt (\d+–\d+)\)"
+        first = re.search(shown, t.sees("of 1000 (rocks ", "; may be "))
+        all_of_them = until("the doubt of all options",
+                            lambda: (lambda s: len(re.findall(r"^[a-z].* \(\d+–\d+\) ", s, re.M)) >= 8 and s)(t.screen()), 10 * PATIENCE)
+        expect(first and first[1] == re.search(shown, all_of_them)[1], first, all_of_them)
+        expect(re.search(r"│   may be +\d+–\d+$", all_of_them, re.M), all_of_them)
         t.keys("q")
 
 

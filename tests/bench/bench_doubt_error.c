@@ -1,0 +1,186 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The error of what a sensitivity says against the time of the processor that it takes: the surface through Sobol' points
+ * (ceduo/surface.h) beside the usual design, in which every input is drawn anew alone (Saltelli et al. 2010, with the estimator of
+ * the totals by Jansen 1999). What is true comes from the usual design with many points and rocks.
+ *
+ *     bench_doubt_error [SEEDS [POINTS]]
+ *
+ * prints CSV: root mean squares over the seeds, of both ends of the 90 % band, and of the total shares of all inputs. */
+#include <gsl/gsl_sort.h>
+#include <gsl/gsl_statistics_double.h>
+#include <inttypes.h>
+#include <math.h>
+#include <stdio.h>
+
+#include "ceduo/statistics.h"
+#include "frame.h"
+#include "io/doubt_inputs.h"
+#include "study/points.h"
+
+#define INPUTS_MAX      20 /* twice as many columns, of the 40 that the points have */
+#define THREADS         2
+#define TRUE_ROCKS      1000
+#define TRUE_BAND_ROCKS 10000 /* the same rocks at all points move the whole band */
+#define FIRST_SEED      1000  /* others than those of what is true */
+#define CONTROL(of)     ceduo_scene_last_control(of)
+
+/* What is compared. */
+struct found {
+    double p5, p95, totals[INPUTS_MAX], seconds;
+    uint64_t evaluations;
+};
+
+static struct scene_file file;
+static struct scene_inputs inputs;
+
+/* ---- the surface ---- */
+
+static void by_surface(size_t points, uint64_t rocks, uint64_t seed, struct found *found)
+{
+    const struct ceduo_doubt_def def = {.scene = &file.scene,
+                                        .inputs_count = inputs.n,
+                                        .inputs = inputs.items,
+                                        .points = points,
+                                        .points_max = points,
+                                        .rocks = rocks,
+                                        .threads = THREADS};
+    struct ceduo_doubt_answer answer;
+    file.scene.simulation.seed = seed;
+    double start = processor_s();
+    if (ceduo_doubt_ask(&def, &answer) != CEDUO_OK)
+        fail("the sensitivity failed");
+    const struct ceduo_doubt_figure *f = ceduo_doubt_figure_of(&answer, 0, CEDUO_DOUBT_EXCEED, false);
+    *found = (struct found){f->fit.p5, f->fit.p95, {0}, processor_s() - start, answer.evaluations};
+    for (size_t i = 0; i < inputs.n; i++)
+        found->totals[i] = f->fit.total[i].value;
+    ceduo_doubt_free(&answer);
+}
+
+/* ---- the usual design ---- */
+
+static enum ceduo_status read_value(void *context, const struct point *point, struct ceduo_run *run)
+{
+    struct ceduo_brief brief;
+    ceduo_run_briefs(run, CONTROL(point->scene), 1, &brief);
+    ((double *)context)[point->row] = brief.exceed_probability;
+    return CEDUO_OK;
+}
+
+static void same_value(void *context, const struct point *point, const struct point *first)
+{
+    ((double *)context)[point->row] = ((double *)context)[first->row];
+}
+
+/* Rows of two independent samples A and B, then for each input A with that column of B. */
+static void fill_rows(size_t n, uint64_t seed, double *u)
+{
+    size_t d = inputs.n;
+    double *both = malloc(n * 2 * d * sizeof *both);
+    if (!both || ceduo_surface_points(seed, n, 2 * d, both) != CEDUO_OK)
+        fail("no memory");
+    for (size_t row = 0; row < n * (d + 2); row++)
+        for (size_t i = 0; i < d; i++) {
+            size_t sample = row / n; /* 0: A, 1: B, 2 + k: A with column k of B */
+            u[row * d + i] = both[row % n * 2 * d + i + (sample == 1 || sample == 2 + i ? d : 0)];
+        }
+    free(both);
+}
+
+static void run_rows(const double *u, size_t rows, uint64_t rocks, uint64_t seed, double *y)
+{
+    file.scene.simulation.seed = seed;
+    const struct points points = {.scene = &file.scene,
+                                  .inputs = inputs.items,
+                                  .inputs_count = inputs.n,
+                                  .u = u,
+                                  .only = CEDUO_ALL_OPTIONS,
+                                  .rocks = rocks,
+                                  .today = true,
+                                  .threads = THREADS,
+                                  .read = read_value,
+                                  .same = same_value,
+                                  .context = y};
+    if (ceduo_points_run(&points, 0, rows, 0) != CEDUO_OK)
+        fail("the sensitivity failed");
+}
+
+static void read_band(double *y, size_t n, struct found *found)
+{
+    gsl_sort(y, 1, n);
+    found->p5 = ceduo_quantile(y, n, .05);
+    found->p95 = ceduo_quantile(y, n, .95);
+}
+
+/* `more_rocks`: the band once more, of so many rocks. */
+static void draw_anew(size_t n, uint64_t rocks, uint64_t more_rocks, uint64_t seed, struct found *found)
+{
+    size_t rows = n * (inputs.n + 2);
+    double *u = malloc(rows * inputs.n * sizeof *u), *y = malloc(rows * sizeof *y), start = processor_s();
+    if (!u || !y)
+        fail("no memory");
+    fill_rows(n, seed, u);
+    run_rows(u, rows, rocks, seed, y);
+    double variance = gsl_stats_variance(y, 1, 2 * n);
+    for (size_t i = 0; i < inputs.n; i++) {
+        double squares = 0;
+        for (size_t p = 0; p < n; p++)
+            squares += pow(y[p] - y[(2 + i) * n + p], 2) / (double)n;
+        found->totals[i] = squares / 2 / variance;
+    }
+    if (more_rocks > 0)
+        run_rows(u, 2 * n, more_rocks, seed, y);
+    read_band(y, 2 * n, found);
+    found->evaluations = rows;
+    found->seconds = processor_s() - start;
+    free(u);
+    free(y);
+}
+
+static void by_drawing_anew(size_t points, uint64_t rocks, uint64_t seed, struct found *found)
+{
+    draw_anew(points, rocks, 0, seed, found);
+}
+
+/* ---- errors ---- */
+
+static const struct design {
+    const char *name;
+    void (*by)(size_t points, uint64_t rocks, uint64_t seed, struct found *found);
+    size_t points;
+    uint64_t rocks;
+} designs[] = {{"surface", by_surface, 64, 400},          {"surface", by_surface, 256, 400},
+               {"surface", by_surface, 1024, 400},        {"surface", by_surface, 256, 1600},
+               {"drawn anew", by_drawing_anew, 16, 400},  {"drawn anew", by_drawing_anew, 64, 400},
+               {"drawn anew", by_drawing_anew, 256, 400}, {"drawn anew", by_drawing_anew, 64, 1600}};
+
+static void measure(const struct design *d, size_t seeds, const struct found *truth)
+{
+    double band = 0, shares = 0, seconds = 0;
+    struct found found = {0};
+    for (size_t s = 0; s < seeds; s++) {
+        d->by(d->points, d->rocks, FIRST_SEED + s, &found);
+        band += (pow(found.p5 - truth->p5, 2) + pow(found.p95 - truth->p95, 2)) / (double)(2 * seeds);
+        for (size_t i = 0; i < inputs.n; i++)
+            shares += pow(found.totals[i] - truth->totals[i], 2) / (double)(inputs.n * seeds);
+        seconds += found.seconds / (double)seeds;
+    }
+    printf("%s,%zu,%" PRIu64 ",%" PRIu64 ",%.3f,%.2f,%.2f\n", d->name, d->points, d->rocks, found.evaluations, seconds,
+           1000 * sqrt(band), 100 * sqrt(shares));
+    fflush(stdout);
+}
+
+int main(int argc, char **argv)
+{
+    (void)argc;
+    size_t seeds = argument(argv, 1, 10, 1, 1000), true_points = argument(argv, 2, 1024, 2, 1 << 20);
+    struct found truth;
+    read_scene(&file, "profiles/scenes/paper-site.yaml");
+    if (!ceduo_inputs_of(&file, &inputs) || inputs.n > INPUTS_MAX)
+        fail("the inputs cannot be read");
+    draw_anew(true_points, TRUE_ROCKS, TRUE_BAND_ROCKS, 1, &truth);
+    puts("design,points,rocks,scenes,cpu_seconds,band_of_1000,shares_percent");
+    for (size_t i = 0; i < sizeof designs / sizeof designs[0]; i++)
+        measure(&designs[i], seeds, &truth);
+    ceduo_scene_release(&file);
+    return 0;
+}
