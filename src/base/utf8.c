@@ -2,6 +2,7 @@
 #include "utf8.h"
 
 #include <string.h>
+#include <unicase.h>
 #include <unilbrk.h>
 #include <unistr.h>
 #include <uniwidth.h>
@@ -35,6 +36,26 @@ size_t ceduo_utf8_encode(uint32_t code, char to[4])
 {
     int length = u8_uctomb((uint8_t *)to, code, 4);
     return length > 0 ? (size_t)length : 0;
+}
+
+const char *ceduo_utf8_fold(const char *p, size_t n, char *to, size_t room)
+{
+    size_t used = 0;
+    uint32_t code;
+    for (size_t length; n > 0; p += length, n -= length) {
+        char one[4];
+        length = ceduo_utf8_decode(p, n, &code);
+        if (length == 0) /* no UTF-8: nothing that a word is compared by */
+            length = code = 1;
+        bool dropped = code < 0x80 ? !strchr("%0123456789abcdefghijklmnopqrstuvwxyz", (int)uc_tolower(code)) : code == 0xa0;
+        size_t m = dropped ? 0 : ceduo_utf8_encode(uc_tolower(code), one);
+        if (used + m >= room)
+            break;
+        memcpy(to + used, one, m);
+        used += m;
+    }
+    to[used] = '\0';
+    return to;
 }
 
 /* One character, and its columns. */

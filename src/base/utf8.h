@@ -19,6 +19,10 @@ bool ceduo_utf8_printable(uint32_t code);
 /* Writes a code point as UTF-8; the number of bytes. */
 size_t ceduo_utf8_encode(uint32_t code, char to[4]);
 
+/* What is left of a word when case, blanks, hyphens and the like do not matter: its letters and digits, in lower case, and signs that
+ * are no ASCII. At most `room` bytes with the NUL that ends it; what does not fit is cut off. Returns `to`. */
+const char *ceduo_utf8_fold(const char *p, size_t n, char *to, size_t room);
+
 /* Whether a byte is of a character that began before it. */
 static inline bool ceduo_utf8_inside(char byte)
 {

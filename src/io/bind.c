@@ -557,7 +557,7 @@ static bool check_except(struct binder *b, const struct node *list)
 static void bind_source(struct binder *b, const struct node *node)
 {
     static const char *const kinds[] = {"measured", "literature", "assumed", "calibrated"};
-    static const struct choices kind_choices = {kinds, 4};
+    static const struct choices kind_choices = {.names = kinds, .n = 4};
     size_t before = enter(b, "source");
     const char *texts[2] = {"", NULL}; /* in English, in Italian */
     const struct node *except = NULL;

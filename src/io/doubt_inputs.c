@@ -143,7 +143,8 @@ size_t ceduo_input_ground(struct arena *arena, const struct node *root, const st
         while (row + 1 < rows->n && middle >= ceduo_node_number(rows->items[row + 1], "from_m"))
             row++;
         const char *name = ceduo_node_text(rows->items[row], "material");
-        if (name && strcmp(name, material) == 0)
+        int known = name ? ceduo_choice_find(&ceduo_material_words, name) : -1;
+        if (known >= 0 && strcmp(ceduo_material_words.names[known], material) == 0)
             places[n++] = ceduo_arena_format(arena, "slope.segments[%zu].%s", j, key);
     }
     return n;

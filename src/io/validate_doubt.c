@@ -93,7 +93,9 @@ static const char *ground_of(struct validator *v, const char *path, const char *
     if (strncmp(path, GROUND, before) != 0 || !end || end[1] != '.')
         return NULL;
     *key = end + 2;
-    return ceduo_format(v, "%.*s", (int)(end - path - (ptrdiff_t)before), path + before);
+    const char *name = ceduo_format(v, "%.*s", (int)(end - path - (ptrdiff_t)before), path + before);
+    int known = ceduo_choice_find(&ceduo_material_words, name);
+    return known < 0 ? name : ceduo_material_words.names[known];
 }
 
 /* All places of a path that the scene has. `fitted`: a ground may be wherever it is, whether the files have a list of it or not;

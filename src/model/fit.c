@@ -96,7 +96,7 @@ static void offer_materials(const struct scene_file *file, const struct node *ro
         bool there = false;
         for (size_t i = 0; i < rows->n; i++) {
             const char *name = ceduo_node_text(rows->items[i], "material");
-            there |= name && strcmp(name, library[m].name) == 0;
+            there |= name && ceduo_choice_find(&ceduo_material_words, name) == (int)m;
         }
         for (size_t k = 0; there && k < KEYS; k++) {
             char path[FIT_PATH_ROOM];

@@ -3,39 +3,58 @@
 
 #include <string.h>
 
+#include "base/utf8.h"
 #include "ceduo/observe.h"
 #include "ceduo/scene.h"
 
+#define FOLDED_MOST 64 /* bytes of a word that are compared */
+
 /* One list of words for each X-macro; those of species and materials stand beside their rows. */
-#define WORDS(name, LIST)                                                                                                      \
+#define WORDS(name, LIST, also)                                                                                                \
     static const char *const name##_names[] = {LIST(X_WORD)};                                                                  \
-    const struct choices ceduo_##name##_words = {name##_names, sizeof name##_names / sizeof name##_names[0]}
+    const struct choices ceduo_##name##_words = {name##_names, sizeof name##_names / sizeof name##_names[0], also}
 #define X_WORD(NAME, word) word,
 
-WORDS(shape, CEDUO_SHAPES);
-WORDS(facets, CEDUO_FACETS);
-WORDS(system, CEDUO_SYSTEMS);
-WORDS(rule, CEDUO_RULES);
-WORDS(contact_model, CEDUO_CONTACT_MODELS);
-WORDS(spread, CEDUO_SPREAD_KINDS);
-WORDS(quality, CEDUO_QUALITIES);
-WORDS(use, CEDUO_OBSERVED_USES);
-WORDS(offset, CEDUO_ENERGY_OFFSETS);
+static const char *const systems_also[] = {"simple-coppice|ceduo semplice",
+                                           "coppice-with-standards|ceduo matricinato|ceduo con matricine",
+                                           "selection-coppice|ceduo a sterzo|ceduo disetaneo",
+                                           "large-reserves|grandi riserve|ceduo con grandi riserve",
+                                           "high-forest|fustaia|alto fusto",
+                                           "bare|senza|senza bosco"};
+
+WORDS(shape, CEDUO_SHAPES, NULL);
+WORDS(facets, CEDUO_FACETS, NULL);
+WORDS(system, CEDUO_SYSTEMS, systems_also);
+WORDS(rule, CEDUO_RULES, NULL);
+WORDS(contact_model, CEDUO_CONTACT_MODELS, NULL);
+WORDS(spread, CEDUO_SPREAD_KINDS, NULL);
+WORDS(quality, CEDUO_QUALITIES, NULL);
+WORDS(use, CEDUO_OBSERVED_USES, NULL);
+WORDS(offset, CEDUO_ENERGY_OFFSETS, NULL);
 
 /* A flag that need not be said. */
 #define FLAGS(X) X(FALSE, "false") X(TRUE, "true")
-WORDS(flag, FLAGS);
+WORDS(flag, FLAGS, NULL);
 
 /* Laws are also parts of the names of functions. */
 #undef X_WORD
 #define X_WORD(NAME, name) #name,
-WORDS(energy, CEDUO_ENERGY_MODELS);
-WORDS(law, CEDUO_LAWS);
+WORDS(energy, CEDUO_ENERGY_MODELS, NULL);
+WORDS(law, CEDUO_LAWS, NULL);
 
 int ceduo_choice_find(const struct choices *choices, const char *word)
 {
     for (size_t i = 0; i < choices->n; i++)
         if (strcmp(choices->names[i], word) == 0)
             return (int)i;
+    char wanted[FOLDED_MOST], other[FOLDED_MOST];
+    ceduo_utf8_fold(word, strlen(word), wanted, sizeof wanted);
+    for (size_t i = 0; choices->also && i < choices->n; i++)
+        for (const char *one = choices->also[i]; *one; one += *one == '|') {
+            size_t n = strcspn(one, "|");
+            if (strcmp(ceduo_utf8_fold(one, n, other, sizeof other), wanted) == 0)
+                return (int)i;
+            one += n;
+        }
     return -1;
 }

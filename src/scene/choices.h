@@ -8,13 +8,15 @@
 struct choices {
     const char *const *names;
     size_t n;
+    const char *const *also; /* of each: it and other words that files may have, with | between them; NULL: none has any */
 };
 
 extern const struct choices ceduo_shape_words, ceduo_facets_words, ceduo_system_words, ceduo_energy_words, ceduo_offset_words,
     ceduo_flag_words, ceduo_quality_words, ceduo_law_words, ceduo_rule_words, ceduo_contact_model_words, ceduo_spread_words,
     ceduo_use_words, ceduo_species_words, ceduo_material_words;
 
-/* The value that a word stands for, -1 where it is none of them. */
+/* The value that a word stands for, -1 where it is none of them. Of words that have others beside them, case, blanks and hyphens do
+ * not matter. */
 int ceduo_choice_find(const struct choices *choices, const char *word);
 
 #endif

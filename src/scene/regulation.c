@@ -2,18 +2,15 @@
 #include "ceduo/regulation.h"
 
 #include <math.h>
-#include <string.h>
 
 /* The first that is about a stand. */
 static const struct ceduo_regulation_item *item_about(const struct ceduo_regulation_item *items, size_t n,
                                                       const struct ceduo_stand *stand)
 {
-    size_t count;
-    const struct ceduo_species *list = ceduo_species_list(&count);
     for (size_t i = 0; stand->species >= 0 && i < n; i++) {
         bool species = items[i].species_count == 0;
         for (size_t k = 0; k < items[i].species_count; k++)
-            species |= strcmp(items[i].species[k], list[stand->species].name) == 0;
+            species |= ceduo_species_find(items[i].species[k]) == stand->species;
         if (species && (items[i].system < 0 || items[i].system == (int)stand->system))
             return &items[i];
     }
