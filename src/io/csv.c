@@ -1,12 +1,56 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "csv.h"
 
+#include <stdlib.h>
 #include <string.h>
 #include <strings.h>
+#include <unistr.h>
 
 #include "base/language.h"
 #include "base/utf8.h"
 #include "file.h"
+
+#define FOLDED_MOST 128 /* bytes of the head of a column that are compared */
+#define TITLE_MOST  20  /* lines that may stand above the heads */
+
+/* ---- encodings ---- */
+
+/* What spreadsheets write that do not write UTF-8, as UTF-8: UTF-16 by its mark or its zeros, otherwise Windows-1252. What cannot
+ * be read so stays as it is. False without memory. */
+static bool recode(struct arena *arena, struct source *s)
+{
+    static const uint16_t high[32] = {
+        0x20ac, 0x81,   0x201a, 0x192,  0x201e, 0x2026, 0x2020, 0x2021, 0x2c6,  0x2030, 0x160,
+        0x2039, 0x152,  0x8d,   0x17d,  0x8f,   0x90,   0x2018, 0x2019, 0x201c, 0x201d, 0x2022,
+        0x2013, 0x2014, 0x2dc,  0x2122, 0x161,  0x203a, 0x153,  0x9d,   0x17e,  0x178}; /* from 0x80 on */
+    const unsigned char *p = (const unsigned char *)s->bytes;
+    size_t n = s->length;
+    bool marked = n >= 2 && ((p[0] == 0xff && p[1] == 0xfe) || (p[0] == 0xfe && p[1] == 0xff));
+    bool wide = n % 2 == 0 &&
+                (marked || (n >= 4 && (p[0] == 0) != (p[1] == 0) && (p[2] == 0) == (p[0] == 0) && (p[3] == 0) == (p[1] == 0)));
+    bool big = wide && (marked ? p[0] == 0xfe : p[0] == 0);
+    if (!wide && !u8_check(p, n))
+        return true;
+    size_t count = wide ? n / 2 - marked : n, length;
+    uint16_t *units = calloc(count + 1, sizeof *units);
+    for (size_t i = 0; units && i < count; i++)
+        if (wide)
+            units[i] = (uint16_t)(p[2 * (i + marked) + big] | p[2 * (i + marked) + !big] << 8);
+        else
+            units[i] = p[i] >= 0x80 && p[i] < 0xa0 ? high[p[i] - 0x80] : p[i];
+    uint8_t *bytes = units ? u16_to_u8(units, count, NULL, &length) : NULL;
+    const char *kept = bytes ? ceduo_arena_copy(arena, (const char *)bytes, length) : NULL;
+    bool good = kept || (units && !bytes && wide); /* halves of characters: no UTF-16 */
+    if (kept) {
+        s->bytes = kept;
+        s->length = length;
+    }
+    free(units);
+    free(bytes);
+    return good;
+}
+
+/* ---- lines and fields ---- */
 
 static bool next_line(const struct source *s, size_t *at, struct csv_span *line)
 {
@@ -56,35 +100,93 @@ bool ceduo_csv_is(struct csv_span f, const char *word)
     return strlen(word) == f.n && strncasecmp(f.p, word, f.n) == 0;
 }
 
+/* The present line is the header. */
+static void take_header(struct csv *csv, size_t number)
+{
+    csv->header = csv->line;
+    csv->header_number = csv->number = number;
+    csv->separator = memchr(csv->line.p, ';', csv->line.n) ? ';' : memchr(csv->line.p, '\t', csv->line.n) ? '\t' : ',';
+}
+
 bool ceduo_csv_open(struct csv *csv, struct arena *arena, const char *path, struct problems *problems)
 {
     *csv = (struct csv){.source = (struct source *)(uintptr_t)ceduo_file_read(arena, path, CSV_BYTES_MOST, problems),
                         .problems = problems};
     if (!csv->source)
         return false;
+    if (!recode(arena, csv->source))
+        return ceduo_problem_memory(problems) != NULL;
     csv->at = ceduo_source_mark(csv->source);
     if (!next_line(csv->source, &csv->at, &csv->header)) {
         ceduo_problem(problems, csv->source, 0, 0, _("the file is empty"));
         return false;
     }
-    csv->number = 1;
     csv->line = csv->header;
-    csv->separator = memchr(csv->line.p, ';', csv->line.n) ? ';' : memchr(csv->line.p, '\t', csv->line.n) ? '\t' : ',';
+    take_header(csv, 1);
     return true;
 }
 
-size_t ceduo_csv_column(const struct csv *csv, const char *const *names)
+static bool is_among(const char *word, const char *words)
+{
+    char one[FOLDED_MOST];
+    for (size_t n; *words; words += n, words += *words == '|') {
+        n = strcspn(words, "|");
+        if (strcmp(ceduo_utf8_fold(words, n, one, sizeof one), word) == 0)
+            return true;
+    }
+    return false;
+}
+
+/* Whether the head of a column is a name, alone or with a unit. */
+static bool is_head(struct csv_span head, const char *name, const char *units)
+{
+    char said[FOLDED_MOST], wanted[FOLDED_MOST], unit[FOLDED_MOST];
+    size_t before = 0;
+    while (before < head.n && head.p[before] != '(' && head.p[before] != '[')
+        before++;
+    ceduo_utf8_fold(head.p, before, said, sizeof said);
+    size_t n = strlen(ceduo_utf8_fold(name, strlen(name), wanted, sizeof wanted));
+    if (ceduo_csv_is(head, name))
+        return true;
+    if (n == 0 || strncmp(said, wanted, n) != 0)
+        return false;
+    if (before < head.n && units)
+        return !said[n] && is_among(ceduo_utf8_fold(head.p + before, head.n - before, unit, sizeof unit), units);
+    return !said[n] || (units && is_among(said + n, units));
+}
+
+size_t ceduo_csv_column(const struct csv *csv, const char *const *names, const char *units)
 {
     for (int k = 0; names[k]; k++) {
         size_t found = CEDUO_CSV_NONE;
         struct csv_span left = csv->header, f;
         for (size_t i = 0; ceduo_csv_cell(&left, csv->separator, &f); i++)
-            if (ceduo_csv_is(trim(f), names[k]))
+            if (is_head(trim(f), names[k], units))
                 found = found == CEDUO_CSV_NONE ? i : CEDUO_CSV_TWICE;
         if (found != CEDUO_CSV_NONE)
             return found;
     }
     return CEDUO_CSV_NONE;
+}
+
+void ceduo_csv_find(struct csv *csv, const struct csv_head *heads, size_t n, size_t *columns)
+{
+    struct csv best = *csv, line = *csv;
+    size_t most = 0;
+    do {
+        size_t found = 0;
+        for (size_t i = 0; i < n; i++)
+            found += ceduo_csv_column(&line, heads[i].names, heads[i].units) != CEDUO_CSV_NONE;
+        if (found > most)
+            best = line;
+        most = found > most ? found : most;
+        if (!ceduo_csv_next(&line))
+            break;
+        take_header(&line, line.number);
+    } while (line.number <= TITLE_MOST);
+    *csv = best;
+    for (size_t i = 0; i < n; i++)
+        columns[i] = ceduo_csv_column(csv, heads[i].names, heads[i].units);
 }
 
 size_t ceduo_csv_columns(const struct csv *csv, struct text *names)

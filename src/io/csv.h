@@ -7,7 +7,8 @@
 #include "problem.h"
 
 /* Tables as people export them: a header that names the columns, then rows; separated by semicolon, tab or comma, what
- * is in double quotes whole. Where commas do not separate, they may stand for the decimals. */
+ * is in double quotes whole. Where commas do not separate, they may stand for the decimals. In UTF-8, or UTF-16 or Windows-1252,
+ * which are recognised. */
 
 /* A part of a line. */
 struct csv_span {
@@ -21,6 +22,7 @@ struct csv {
     size_t at, number;         /* bytes read; number of the present line, from 1 */
     struct csv_span line;      /* the present line */
     struct csv_span header;
+    size_t header_number;
     char separator;
     char decimal; /* ',' or '.', once a number has shown it; '\0' before */
 };
@@ -31,9 +33,18 @@ bool ceduo_csv_open(struct csv *csv, struct arena *arena, const char *path, stru
 #define CEDUO_CSV_NONE  SIZE_MAX
 #define CEDUO_CSV_TWICE (SIZE_MAX - 1)
 
-/* The column of the first of some names, ended by NULL, that the header has; upper and lower case are one.
- * CEDUO_CSV_NONE: it has none; CEDUO_CSV_TWICE: it has that name twice. */
-size_t ceduo_csv_column(const struct csv *csv, const char *const *names);
+/* What a column may be called, best first and ended by NULL, and the units in which its values may be, with | between them. */
+struct csv_head {
+    const char *names[12];
+    const char *units; /* NULL: whatever stands in brackets is none */
+};
+
+/* The column of the first of some names, ended by NULL, that the header has; case, blanks, hyphens and the like do not matter, and
+ * a unit, one of `units`, may stand behind it or in brackets. CEDUO_CSV_NONE: it has none; CEDUO_CSV_TWICE: it has that name twice. */
+size_t ceduo_csv_column(const struct csv *csv, const char *const *names, const char *units);
+
+/* The columns of a table whose header may stand below a title: goes to the line that has most of them. */
+void ceduo_csv_find(struct csv *csv, const struct csv_head *heads, size_t n, size_t *columns);
 
 /* How many columns the header has, and the names of all, with a comma between them; of a foreign file the beginning of that. */
 size_t ceduo_csv_columns(const struct csv *csv, struct text *names);

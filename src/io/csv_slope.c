@@ -3,31 +3,84 @@
 #include "csv_slope.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "base/language.h"
 #include "bind.h"
 #include "csv.h"
 
-/* Names of a column, the better ones first; in other languages as their spreadsheets have them. */
-static const char *const distances[] = {"distance", "distanza", "progressiva", "entfernung", "distanz", "x", NULL};
-static const char *const elevations[] = {"elevation", "quota", "elevazione", "höhe", "hoehe", "z", NULL};
+#define BEGINNING 4096 /* bytes of a file in which it says what it is */
+#define LINE_MIN  1    /* m: a shorter line on the map is in degrees */
 
-static void read_row(struct csv *csv, size_t column_x, size_t column_z, struct points *points)
+enum column { DISTANCE, ELEVATION, EAST, NORTH, COLUMNS };
+
+/* Names of a column, the better ones first; in other languages as their spreadsheets have them. */
+#define METRES "m|mt|metri|metres|meters|m slm|m asl"
+static const struct csv_head heads[COLUMNS] = {
+    [DISTANCE] = {{"distance", "distanza", "progressiva", "entfernung", "distanz"}, METRES},
+    [ELEVATION] = {{"elevation", "quota", "elevazione", "altitudine", "höhe", "hoehe", "z"}, METRES},
+    [EAST] = {{"x", "est", "east", "easting"}, METRES},
+    [NORTH] = {{"y", "nord", "north", "northing"}, METRES},
+};
+
+/* What is no table, by what it begins with. */
+static bool check_table(const struct csv *csv, struct problems *problems)
+{
+    static const struct {
+        const char *mark, *name;
+    } kinds[] = {{"<gpx", "GPX"}, {"<LandXML", "LandXML"}, {"<kml", "KML"}, {"<", "XML"}};
+    const struct source *s = csv->source;
+    size_t i = 0, mark = ceduo_source_mark(s), n = s->length - mark < BEGINNING ? s->length - mark : BEGINNING;
+    while (s->bytes[mark] == '<' && !memmem(s->bytes + mark, n, kinds[i].mark, strlen(kinds[i].mark)))
+        i++;
+    if (s->bytes[mark] == '<')
+        ceduo_problem_own(
+            problems, (struct problem_place){.source = s},
+            _("%s is no profile; make one in QGIS: add the file and a terrain model with elevation to the map, open "
+              "View > Elevation Profile, click the line with Capture Curve from Feature, and export the "
+              "distance/elevation table as CSV"),
+            kinds[i].name);
+    return s->bytes[mark] != '<';
+}
+
+struct reader {
+    struct csv csv;
+    size_t columns[COLUMNS];
+    bool drawn;         /* a line on the map: distances are along it */
+    double east, north; /* of the point before, m */
+};
+
+static bool read_number(struct reader *r, enum column column, double *value)
 {
     const struct field *vertex = ceduo_schema_field(ceduo_schema_slope(), "vertices_m");
-    struct csv_span fx, fz;
-    double x, z, before = points->n > 0 ? points->x[points->n - 1] : -INFINITY;
-    if (!ceduo_csv_field(csv, column_x, &fx) || !ceduo_csv_field(csv, column_z, &fz)) {
+    struct csv_span field;
+    return ceduo_csv_field(&r->csv, r->columns[column], &field) &&
+           ceduo_csv_number(&r->csv, field, vertex->lo, vertex->hi, "m", value);
+}
+
+static void read_row(struct reader *r, struct points *points)
+{
+    struct csv *csv = &r->csv;
+    struct csv_span first, field;
+    double x, north, z, before = points->n > 0 ? points->x[points->n - 1] : -INFINITY;
+    const enum column along = r->drawn ? EAST : DISTANCE;
+    if (!ceduo_csv_field(csv, r->columns[along], &first) || !ceduo_csv_field(csv, r->columns[ELEVATION], &field) ||
+        (r->drawn && !ceduo_csv_field(csv, r->columns[NORTH], &field))) {
         ceduo_problem(csv->problems, csv->source, csv->number, 1, _("too few columns"));
         return;
     }
-    if (!ceduo_csv_number(csv, fx, vertex->lo, vertex->hi, "m", &x) ||
-        !ceduo_csv_number(csv, fz, vertex->lo, vertex->hi, "m", &z))
+    if (!read_number(r, along, &x) || !read_number(r, ELEVATION, &z) || (r->drawn && !read_number(r, NORTH, &north)))
         return;
+    if (r->drawn) {
+        double east = x;
+        x = points->n > 0 ? before + hypot(east - r->east, north - r->north) : 0;
+        r->east = east;
+        r->north = north;
+    }
     if (!(x > before)) {
         char a[CEDUO_NUMBER_ROOM], b[CEDUO_NUMBER_ROOM];
-        ceduo_csv_complain(csv, fx, _("distance %s does not lie beyond %s; distances must rise"), ceduo_number_shortest(x, a),
-                           ceduo_number_shortest(before, b));
+        ceduo_csv_complain(csv, first, _("distance %s does not lie beyond %s; distances must rise"),
+                           ceduo_number_shortest(x, a), ceduo_number_shortest(before, b));
         return;
     }
     points->x[points->n] = x;
@@ -37,22 +90,33 @@ static void read_row(struct csv *csv, size_t column_x, size_t column_z, struct p
 bool ceduo_csv_slope_read(struct arena *arena, const char *path, struct points *points, struct problems *problems)
 {
     size_t before = problems->met;
-    struct csv csv;
-    if (!ceduo_csv_open(&csv, arena, path, problems))
+    struct reader r = {.drawn = false};
+    if (!ceduo_csv_open(&r.csv, arena, path, problems) || !check_table(&r.csv, problems))
         return false;
-    size_t rows = ceduo_csv_lines(&csv), x = ceduo_csv_column(&csv, distances), z = ceduo_csv_column(&csv, elevations);
+    const struct source *source = r.csv.source;
+    size_t *columns = r.columns, rows = ceduo_csv_lines(&r.csv);
+    ceduo_csv_find(&r.csv, heads, COLUMNS, columns);
+    r.drawn = columns[DISTANCE] == CEDUO_CSV_NONE && columns[EAST] < CEDUO_CSV_TWICE && columns[NORTH] < CEDUO_CSV_TWICE;
+    if (columns[DISTANCE] == CEDUO_CSV_NONE && !r.drawn) /* x may be along the slope */
+        columns[DISTANCE] = columns[EAST];
     points->x = ceduo_arena_take(arena, rows * sizeof(double));
     points->z = ceduo_arena_take(arena, rows * sizeof(double));
-    csv.source->foreign = x == CEDUO_CSV_NONE && z == CEDUO_CSV_NONE;
+    size_t x = r.drawn ? columns[EAST] : columns[DISTANCE], z = columns[ELEVATION];
+    r.csv.source->foreign = x == CEDUO_CSV_NONE && z == CEDUO_CSV_NONE;
     problems->memory |= !points->x || !points->z;
     if (x == CEDUO_CSV_NONE || z == CEDUO_CSV_NONE)
-        ceduo_problem(problems, csv.source, 1, 1, _("the first line must name the columns 'distance' and 'elevation'"));
+        ceduo_problem(problems, source, 1, 1, _("the first line must name the columns 'distance' and 'elevation'"));
     else if (x == CEDUO_CSV_TWICE || z == CEDUO_CSV_TWICE)
-        ceduo_problem(problems, csv.source, 1, 1, _("a column is named twice; rename all but one"));
+        ceduo_problem(problems, source, r.csv.header_number, 1, _("a column is named twice; rename all but one"));
     if (!points->x || !points->z || problems->met > before)
         return false;
-    while (ceduo_csv_next(&csv))
-        read_row(&csv, x, z, points);
-    points->commas = csv.decimal == ',';
+    while (ceduo_csv_next(&r.csv))
+        read_row(&r, points);
+    if (r.drawn && points->n > 1 && points->x[points->n - 1] < LINE_MIN && problems->met == before)
+        ceduo_problem(problems, source, r.csv.header_number, 1,
+                      _("the line is %.2g m long on the map: x and y must be in metres, not in degrees; export it in the "
+                        "coordinates of a map, such as UTM"),
+                      points->x[points->n - 1]);
+    points->commas = r.csv.decimal == ',';
     return problems->met == before;
 }

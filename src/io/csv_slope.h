@@ -13,7 +13,8 @@ struct points {
 };
 
 /* A profile from a CSV file as QGIS writes it: a header with the columns distance and elevation (x and z will do),
- * separated by comma, semicolon or tab. Where they are not separated by commas, commas may stand for the decimals.
+ * separated by comma, semicolon or tab. Where they are not separated by commas, commas may stand for the decimals. With x, y and
+ * elevation it is a line on the map, and distances are along it.
  * False where that fails, which is reported. */
 bool ceduo_csv_slope_read(struct arena *arena, const char *path, struct points *points, struct problems *problems);
 

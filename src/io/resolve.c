@@ -189,8 +189,10 @@ static const struct node *follow(struct resolver *r, const struct object *object
     }
     if (node->kind != NODE_SCALAR)
         return merge_base(r, object, node, depth);
-    if (object == ceduo_schema_slope() && ends_in(node->text, ".csv"))
-        return csv_map(r->arena, node);
+    static const char *const tables[] = {".csv", ".gpx", ".kml", ".xml"}; /* what is no CSV is told what to do */
+    for (size_t i = 0; object == ceduo_schema_slope() && i < sizeof tables / sizeof tables[0]; i++)
+        if (ends_in(node->text, tables[i]))
+            return csv_map(r->arena, node);
     const char *path = locate(r->arena, node, object->folder, r->problems);
     const struct node *found = path ? read_file(r, node, path) : NULL;
     if (found && found->kind == NODE_MAP)

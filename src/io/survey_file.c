@@ -80,7 +80,7 @@ static void read_header(struct reader *r, struct text *unused)
     const char *missing[COLUMNS];
     size_t n = 0;
     for (int c = 0; c < COLUMNS; c++) {
-        r->columns[c] = ceduo_csv_column(&r->csv, names[c]);
+        r->columns[c] = ceduo_csv_column(&r->csv, names[c], "");
         r->csv.source->foreign &= r->columns[c] == CEDUO_CSV_NONE;
         if (r->columns[c] == CEDUO_CSV_TWICE)
             ceduo_problem(r->problems, r->csv.source, 1, 1, _("the column '%s' is there twice; rename all but one"),

@@ -142,8 +142,8 @@ static size_t find_column(const struct place *p, struct csv *csv, const char *na
 {
     const char *const own[] = {named, NULL};
     LOCAL_TEXT(all);
-    size_t known = ceduo_csv_column(csv, ceduo_observed_quantity(p->kind)->columns);
-    size_t column = named ? ceduo_csv_column(csv, own) : known;
+    size_t known = ceduo_csv_column(csv, ceduo_observed_quantity(p->kind)->columns, "");
+    size_t column = named ? ceduo_csv_column(csv, own, "") : known;
     csv->source->foreign = known == CEDUO_CSV_NONE;
     size_t n = ceduo_csv_columns(csv, &all);
     if (column == CEDUO_CSV_NONE && !named && n == 1)

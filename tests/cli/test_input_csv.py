@@ -45,6 +45,42 @@ def test_csv_of_spreadsheets():
         expect("commas in the file" not in good("-b", "-n", 1, "s.yaml", cwd=f.path).out, "dots are usual")
 
 
+def test_csv_of_offices():
+    """Heads with units, a title above them, UTF-16 and Windows-1252, and a line drawn on the map give the same slope"""
+    with Folder() as f:
+        plain = "distance,elevation\n0,64.5\n50,30\n100,0.75\n"
+        wanted = slope_numbers(f, plain)
+        italian = "Progressiva (m);Quota (m s.l.m.)\r\n0;64,5\r\n50;30\r\n100;0,75\r\n"
+        for text in (plain.replace("distance,elevation", "Distance (m),Elevation (m)"), italian,
+                     "Profilo A della parete;\n;\n" + italian, italian.encode("utf-16"), italian.encode("utf-16-be"),
+                     ("Profilo d\u2019asse \u2013 et\u00e0 1950;\n" + italian).encode("cp1252"),
+                     "Entfernung [m];H\u00d6HE (m)\n0;64,5\n50;30\n100;0,75\n".encode("cp1252"),
+                     "X,Y,Z\n0,0,64.5\n30,40,30\n60,80,0.75\n", "id,Est (m),Nord (m),Quota (m)\na,700000,4800000,64.5\n"
+                     "b,699970,4799960,30\nc,699940,4799920,0.75\n"):
+            expect_equal(slope_numbers(f, text), wanted, repr(text))
+
+
+OTHER = [  # what a GPS or a drawing program writes, and how it is called
+    ('<?xml version="1.0"?>\n<gpx version="1.1"><trk><trkseg><trkpt lat="43" lon="12"/></trkseg></trk></gpx>\n', "GPX is no profile"),
+    ('<?xml version="1.0"?>\n<LandXML version="1.2"/>\n', "LandXML is no profile"), ("<a/>\n", "XML is no profile"),
+    ("x,y,z\n12.1,43.1,300\n12.1001,43.1,200\n", "x and y must be in metres, not in degrees"),
+    ("x,y,z\n1,1,300\n1,1,200\n", "distance 0 does not lie beyond 0"),
+]
+
+
+def test_no_table():
+    """What is no table is refused with the clicks that make one; degrees are told"""
+    with Folder() as f:
+        for content, words in OTHER:
+            for name in ("line.csv", "line.gpx", "line.XML"):
+                f.write(name, content)
+                f.write("s.yaml", f"ceduo: scene/1\nrock: {{diameter_m: 0.5}}\nslope: {name}\ncontrols_m: [75]\n")
+                done = check(f, "s.yaml")
+                expect_in(words, done.err, content)
+                expect_equal(done.status, 3)
+                expect("is no profile" not in words or "Elevation Profile" in done.err, done.err)
+
+
 CSV_CASES = [
     # (content, place, words)
     ("", None, "is empty"), ("distance,height\n0,1\n", (1, None), "'distance' and 'elevation'"),
