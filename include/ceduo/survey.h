@@ -71,18 +71,23 @@ struct ceduo_survey_class {
 enum ceduo_survey_heights_from {
     CEDUO_HEIGHTS_MEASURED, /* all of them */
     CEDUO_HEIGHTS_CURVE,    /* those that are missing lie on Näslund's curve */
-    CEDUO_HEIGHTS_MEAN      /* those that are missing are the mean of those given: assumed */
+    CEDUO_HEIGHTS_MEAN,     /* those that are missing are the mean of those given: assumed */
+    CEDUO_HEIGHTS_SHOOTS,   /* none is given, and all lie on the curve of the shoots: assumed */
+    CEDUO_HEIGHTS_USUAL     /* none is given, and all are as usual: assumed */
 };
 
 /* Heights of shoots, and of standards and trees together. */
 struct ceduo_survey_heights {
     size_t given, missing;
     enum ceduo_survey_heights_from from;
-    struct ceduo_naslund curve; /* CEDUO_HEIGHTS_CURVE; then also: */
+    struct ceduo_naslund curve; /* CEDUO_HEIGHTS_CURVE, _SHOOTS, _USUAL; of the first two also: */
     size_t beyond;              /* of those that are missing: stems thicker than any that was measured */
     double thickest;            /* m, the largest dbh of those on the curve, which is of the tallest, too */
     double mean;                /* m, of those given; NaN: none is */
 };
+
+/* Heights are not known better than that where none was measured: so much less or more, assumed. */
+#define CEDUO_SURVEY_HEIGHT_DOUBT 0.3
 
 struct ceduo_survey_answer {
     struct ceduo_estimate per_ha[CEDUO_SURVEY_KINDS_COUNT], stools;
@@ -96,8 +101,7 @@ struct ceduo_survey_answer {
     double stump_energy;                 /* J, the mean; NaN: not said */
 };
 
-/* Of a kind other than stumps at least one height must be given: otherwise heights are NaN. CEDUO_NO_MEMORY or CEDUO_OK;
- * release it in the latter case. */
+/* CEDUO_NO_MEMORY or CEDUO_OK; release it in the latter case. */
 enum ceduo_status ceduo_survey_ask(const struct ceduo_survey *survey, struct ceduo_survey_answer *answer);
 void ceduo_survey_free(struct ceduo_survey_answer *answer);
 

@@ -352,7 +352,8 @@ static const struct option_row rows[] = {
     {"schema", 0, "result|find|sensitivity|calibration", set_word, AT(schema), MODE_SCHEMA, SURVEY,
      N_("print the JSON Schema of this output")},
     {"survey", 0, "FILE.csv", set_text, AT(survey), MODE_SURVEY, CHECK,
-     N_("write the stand of a survey: a CSV file with a row for each stem on sample plots")},
+     N_("write the stand of a survey: a CSV file with a row for each stem on sample plots; --survey --template writes an empty "
+        "one")},
     {"quiet", 'q', NULL, set_flag, AT(quiet), MODE_TERMINAL, 0, N_("print no progress")},
     {"help", 'h', NULL, NULL, 0, MODE_HELP, 0, N_("print this help")},
     {"version", 'V', NULL, NULL, 0, MODE_VERSION, 0, N_("print the version")},

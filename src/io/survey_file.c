@@ -11,6 +11,7 @@
 #include "base/language.h"
 #include "bind.h"
 #include "csv.h"
+#include "scene/choices.h"
 
 #define PLOTS_MOST 1000
 #define STEMS_MOST 200000
@@ -21,19 +22,21 @@
 enum column { PLOT, AREA, RADIUS, SLOPE, SPECIES, KIND, STOOL, DBH, HEIGHT, SPACING, ENERGY, COLUMNS };
 
 /* Names of a column, the first one is that of the manual; in other languages as their spreadsheets have them. */
-static const char *const names[COLUMNS][5] = {
-    [PLOT] = {"plot", "saggio", "area_di_saggio", "probefläche"},
-    [AREA] = {"area_m2", "superficie_m2", "fläche_m2"},
-    [RADIUS] = {"radius_m", "raggio_m"},
-    [SLOPE] = {"slope_deg", "pendenza_gradi", "neigung_grad"},
-    [SPECIES] = {"species", "specie", "baumart"},
-    [KIND] = {"kind", "tipo", "typ"},
-    [STOOL] = {"stool", "ceppaia", "stock"},
-    [DBH] = {"dbh_cm", "diametro_cm", "bhd_cm"},
-    [HEIGHT] = {"height_m", "altezza_m", "höhe_m"},
-    [SPACING] = {"spacing_m", "distanza_m", "abstand_m"},
-    [ENERGY] = {"energy_kJ", "energia_kJ", "energie_kJ"},
+static const struct csv_head heads[COLUMNS] = {
+    [PLOT] = {{"plot", "saggio", "area di saggio", "n saggio", "probefläche"}, NULL},
+    [AREA] = {{"area_m2", "area", "superficie", "fläche"}, "m2|m²|mq"},
+    [RADIUS] = {{"radius_m", "radius", "raggio", "r"}, "m"},
+    [SLOPE] = {{"slope_deg", "slope", "pendenza", "neigung"}, "deg|degrees|°|gradi|grad"},
+    [SPECIES] = {{"species", "specie", "baumart"}, NULL},
+    [KIND] = {{"kind", "tipo", "typ"}, NULL},
+    [STOOL] = {{"stool", "ceppaia", "n ceppaia", "stock"}, NULL},
+    [DBH] = {{"dbh_cm", "dbh", "diametro", "diam", "d", "d130", "bhd"}, "cm"},
+    [HEIGHT] = {{"height_m", "height", "altezza", "h", "höhe"}, "m"},
+    [SPACING] = {{"spacing_m", "spacing", "distanza", "abstand"}, "m"},
+    [ENERGY] = {{"energy_kJ", "energy", "energia", "energie"}, "kJ"},
 };
+
+#define PERCENT "%|percent|percento|perc" /* of a slope */
 
 static const struct {
     double lo, hi;
@@ -43,10 +46,17 @@ static const struct {
                      [ENERGY] = {0, 1e6, "kJ"}};
 
 /* Words of a kind of stem, the first one is that of the manual. */
-static const char *const kinds[CEDUO_SURVEY_KINDS_COUNT][4] = {[CEDUO_SURVEY_SHOOT] = {"shoot", "pollone"},
-                                                               [CEDUO_SURVEY_STANDARD] = {"standard", "matricina"},
-                                                               [CEDUO_SURVEY_TREE] = {"tree", "albero", "allievo"},
-                                                               [CEDUO_SURVEY_STUMP] = {"stump", "ceppo"}};
+#define X(NAME, word) word,
+static const char *const kind_names[] = {CEDUO_SURVEY_KINDS(X)};
+#undef X
+static const char *const kinds_also[] = {"shoot|shoots|pollone|polloni", "standard|standards|matricina|matricine",
+                                         "tree|trees|albero|alberi|allievo|allievi", "stump|stumps|ceppo|ceppi"};
+static const struct choices kind_words = {kind_names, CEDUO_SURVEY_KINDS_COUNT, kinds_also};
+
+/* Species of which nothing more is said, and rows that are no stems. */
+static const char *const others[] = {"other|others|altro|altra|altri|altre|altre latifoglie|altra specie"};
+static const char *const totals[] = {"total|totals|totale|totali|sum|somma|mean|average|media|medie"};
+static const struct choices other_words = {others, 1, others}, total_words = {totals, 1, totals};
 
 struct plot {
     struct csv_span name;
@@ -64,9 +74,10 @@ struct reader {
     struct csv csv;
     struct problems *problems;
     size_t columns[COLUMNS];
+    bool percent;                    /* slopes */
     struct csv_span fields[COLUMNS]; /* of the present row */
     struct plot *plots;
-    size_t plots_count;
+    size_t plots_count, plot; /* the present one */
     struct ceduo_survey_stem *stems;
     size_t stems_count, shoots_count;
     struct stool *stools; /* of each shoot */
@@ -74,19 +85,31 @@ struct reader {
 
 /* ---- header ---- */
 
+/* Whether the head of a column is one of its names but for its unit. */
+static bool is_only_head(const struct csv_span *field, int c)
+{
+    const struct csv one = {.header = *field, .separator = '\0'};
+    return memchr(field->p, '(', field->n) && ceduo_csv_column(&one, heads[c].names, NULL) == 0;
+}
+
 static void read_header(struct reader *r, struct text *unused)
 {
     struct csv_span field;
     const char *missing[COLUMNS];
     size_t n = 0;
+    ceduo_csv_find(&r->csv, heads, COLUMNS, r->columns);
+    const size_t line = r->csv.header_number;
+    if (r->columns[SLOPE] == CEDUO_CSV_NONE) {
+        r->columns[SLOPE] = ceduo_csv_column(&r->csv, heads[SLOPE].names, PERCENT);
+        r->percent = r->columns[SLOPE] < CEDUO_CSV_TWICE;
+    }
     for (int c = 0; c < COLUMNS; c++) {
-        r->columns[c] = ceduo_csv_column(&r->csv, names[c], "");
         r->csv.source->foreign &= r->columns[c] == CEDUO_CSV_NONE;
         if (r->columns[c] == CEDUO_CSV_TWICE)
-            ceduo_problem(r->problems, r->csv.source, 1, 1, _("the column '%s' is there twice; rename all but one"),
-                          names[c][0]);
+            ceduo_problem(r->problems, r->csv.source, line, 1, _("the column '%s' is there twice; rename all but one"),
+                          heads[c].names[0]);
         else if (r->columns[c] == CEDUO_CSV_NONE)
-            missing[n++] = names[c][0];
+            missing[n++] = heads[c].names[0];
     }
     for (size_t i = 0; ceduo_csv_field(&r->csv, i, &field); i++) {
         bool used = field.n == 0;
@@ -97,6 +120,12 @@ static void read_header(struct reader *r, struct text *unused)
         char word[64] = "";
         if (field.n < sizeof word)
             memcpy(word, field.p, field.n);
+        for (int c = 0; c < COLUMNS; c++)
+            if (r->columns[c] == CEDUO_CSV_NONE && heads[c].units && is_only_head(&field, c)) {
+                ceduo_csv_complain(&r->csv, field, _("'%s': its values must be in %s; convert them and name the column '%s'"),
+                                   word, ranges[c].unit, heads[c].names[0]);
+                r->columns[c] = i; /* which is there */
+            }
         const char *near = ceduo_text_nearest(word, missing, n); /* near to one that is missing: a slip */
         if (near)
             ceduo_csv_complain(&r->csv, field, _("'%s': unknown column; did you mean '%s'?"), word, near);
@@ -106,10 +135,10 @@ static void read_header(struct reader *r, struct text *unused)
     static const enum column needed[] = {PLOT, KIND, DBH};
     for (size_t i = 0; i < sizeof needed / sizeof needed[0]; i++)
         if (r->columns[needed[i]] == CEDUO_CSV_NONE)
-            ceduo_problem_own(r->problems, (struct problem_place){r->csv.source, 1, 1, NULL},
-                              _("the first line must name the column '%s'"), names[needed[i]][0]);
+            ceduo_problem_own(r->problems, (struct problem_place){r->csv.source, line, 1, NULL},
+                              _("the first line must name the column '%s'"), heads[needed[i]].names[0]);
     if (r->columns[AREA] == CEDUO_CSV_NONE && r->columns[RADIUS] == CEDUO_CSV_NONE)
-        ceduo_problem(r->problems, r->csv.source, 1, 1, _("the first line must name the column 'area_m2' or 'radius_m'"));
+        ceduo_problem(r->problems, r->csv.source, line, 1, _("the first line must name the column 'area_m2' or 'radius_m'"));
 }
 
 /* ---- rows ---- */
@@ -117,8 +146,13 @@ static void read_header(struct reader *r, struct text *unused)
 /* A number that may be left empty: NaN then. False if it is wrong, which is reported. */
 static bool read_number(struct reader *r, enum column c, double *value)
 {
+    bool percent = c == SLOPE && r->percent;
+    double hi = percent ? 100 * tan(SLOPE_MOST * M_PI / 180) : ranges[c].hi;
     *value = NAN;
-    return r->fields[c].n == 0 || ceduo_csv_number(&r->csv, r->fields[c], ranges[c].lo, ranges[c].hi, ranges[c].unit, value);
+    if (r->fields[c].n > 0 && !ceduo_csv_number(&r->csv, r->fields[c], ranges[c].lo, hi, percent ? "%" : ranges[c].unit, value))
+        return false;
+    *value = percent ? atan(*value / 100) * 180 / M_PI : *value;
+    return true;
 }
 
 static bool read_plot(struct reader *r, size_t *plot)
@@ -141,8 +175,8 @@ static bool read_plot(struct reader *r, size_t *plot)
         double now, *known = &r->plots[*plot].of[c];
         bool read = read_number(r, c, &now), differs = !isnan(now) && !isnan(*known) && now != *known;
         if (read && differs)
-            ceduo_csv_complain(&r->csv, r->fields[c], _("'%s' is %g elsewhere for this plot, here %g"), names[c][0], *known,
-                               now);
+            ceduo_csv_complain(&r->csv, r->fields[c], _("'%s' is %g elsewhere for this plot, here %g"), heads[c].names[0],
+                               *known, now);
         good = good && read && !differs;
         *known = read && isnan(*known) ? now : *known;
     }
@@ -151,39 +185,33 @@ static bool read_plot(struct reader *r, size_t *plot)
     return good;
 }
 
-static bool read_kind(struct reader *r, enum ceduo_survey_kind *kind)
+/* The value that a cell's word stands for; -1: it is none. */
+static int find_word(const struct choices *words, struct csv_span field)
 {
-    struct csv_span f = r->fields[KIND];
-    for (int k = 0; k < CEDUO_SURVEY_KINDS_COUNT; k++)
-        for (int i = 0; kinds[k][i]; i++)
-            if (ceduo_csv_is(f, kinds[k][i])) {
-                *kind = (enum ceduo_survey_kind)k;
-                return true;
-            }
-    if (f.n == 0)
-        return ceduo_csv_complain(&r->csv, f, _("the kind is missing: shoot, standard, tree or stump"));
-    return ceduo_csv_complain(&r->csv, f, _("'%.*s' is no kind of stem: shoot, standard, tree or stump"),
-                              f.n < 100 ? (int)f.n : 100, f.p);
+    char word[64] = "";
+    if (field.n < sizeof word)
+        memcpy(word, field.p, field.n);
+    return ceduo_choice_find(words, word);
 }
 
-static bool read_species(struct reader *r, int *species)
+static bool read_words(struct reader *r, struct ceduo_survey_stem *stem)
 {
-    struct csv_span f = r->fields[SPECIES];
-    size_t n;
-    const struct ceduo_species *list = ceduo_species_list(&n);
-    char word[64] = ""; /* blanks and underscores do for hyphens */
-    for (size_t i = 0; i < f.n && f.n < sizeof word; i++)
-        word[i] = f.p[i] == ' ' || f.p[i] == '_' ? '-' : f.p[i];
-    *species = -1;
-    for (size_t i = 0; i < n; i++)
-        if (strcasecmp(word, list[i].name) == 0 || ceduo_csv_is(f, list[i].common))
-            *species = (int)i;
-    if (*species >= 0 || f.n == 0)
-        return true;
+    const struct csv_span kind = r->fields[KIND], species = r->fields[SPECIES];
+    int found = find_word(&kind_words, kind);
+    bool known = found >= 0;
+    stem->kind = known ? (enum ceduo_survey_kind)found : CEDUO_SURVEY_TREE;
+    stem->species = find_word(&ceduo_species_words, species);
+    if (kind.n == 0)
+        ceduo_csv_complain(&r->csv, kind, _("the kind is missing: shoot, standard, tree or stump"));
+    else if (!known)
+        ceduo_csv_complain(&r->csv, kind, _("'%.*s' is no kind of stem: shoot, standard, tree or stump"),
+                           kind.n < 100 ? (int)kind.n : 100, kind.p);
+    if (stem->species >= 0 || species.n == 0 || find_word(&other_words, species) >= 0)
+        return known;
     LOCAL_TEXT(all);
     ceduo_text_words(&all, ceduo_species_words.names, ceduo_species_words.n, ", ");
-    return ceduo_csv_complain(&r->csv, f, _("'%.*s' is an unknown species; leave it empty, or one of: %s"),
-                              f.n < 100 ? (int)f.n : 100, f.p, ceduo_text_string(&all));
+    return ceduo_csv_complain(&r->csv, species, _("'%.*s' is an unknown species; leave it empty, or one of: %s"),
+                              species.n < 100 ? (int)species.n : 100, species.p, ceduo_text_string(&all));
 }
 
 /* The sizes of a stem. */
@@ -216,19 +244,32 @@ static bool read_sizes(struct reader *r, struct ceduo_survey_stem *stem)
     return true;
 }
 
-static void read_row(struct reader *r)
+static void read_row(struct reader *r, struct survey_file *file)
 {
     struct ceduo_survey_stem stem = {0};
+    struct csv_span left = r->csv.line, first = {0};
     bool any = false; /* there is a stem */
+    while (first.n == 0 && ceduo_csv_step(&r->csv, &left, &first))
+        ;
+    if (find_word(&total_words, first) >= 0) {
+        file->totals++;
+        return;
+    }
     for (int c = 0; c < COLUMNS; c++) {
         if (r->columns[c] >= CEDUO_CSV_TWICE || !ceduo_csv_field(&r->csv, r->columns[c], &r->fields[c]))
             r->fields[c] = (struct csv_span){r->csv.line.p + r->csv.line.n, 0};
+        if (r->fields[c].n == 1 && r->fields[c].p[0] == '-') /* nothing */
+            r->fields[c].n = 0;
         any |= c >= SPECIES && r->fields[c].n > 0;
     }
-    if (!read_plot(r, &stem.plot) || !any)
+    if (r->fields[PLOT].n == 0 && any && r->plots_count > 0) { /* cells that were joined: it stands in the first alone */
+        r->fields[PLOT] = r->plots[r->plot].name;
+        file->filled++;
+    }
+    if (!read_plot(r, &stem.plot))
         return;
-    bool kind = read_kind(r, &stem.kind), species = read_species(r, &stem.species);
-    if (!kind || !read_sizes(r, &stem) || !species)
+    r->plot = stem.plot;
+    if (!any || !read_words(r, &stem) || !read_sizes(r, &stem))
         return;
     if (stem.kind == CEDUO_SURVEY_SHOOT && r->fields[STOOL].n == 0) {
         ceduo_csv_complain(&r->csv, r->fields[STOOL],
@@ -264,22 +305,6 @@ static size_t number_stools(struct reader *r)
     return n;
 }
 
-/* Without any height there is nothing to take for those that are missing. */
-static void check_heights(struct reader *r, bool shoots)
-{
-    size_t n = 0, given = 0;
-    for (size_t i = 0; i < r->stems_count; i++) {
-        const struct ceduo_survey_stem *stem = &r->stems[i];
-        bool counts = stem->kind != CEDUO_SURVEY_STUMP && (stem->kind == CEDUO_SURVEY_SHOOT) == shoots;
-        n += counts;
-        given += counts && !isnan(stem->height);
-    }
-    if (n > 0 && given == 0)
-        ceduo_problem(r->problems, r->csv.source, 0, 0,
-                      shoots ? _("no shoot has a height_m; measure some, five or more if you can")
-                             : _("no standard and no tree has a height_m; measure some, five or more if you can"));
-}
-
 bool ceduo_survey_read(struct survey_file *file, struct arena *arena, const char *path, struct problems *problems)
 {
     struct reader r = {.problems = problems};
@@ -306,7 +331,7 @@ bool ceduo_survey_read(struct survey_file *file, struct arena *arena, const char
     for (size_t n = 0; ceduo_csv_next(&r.csv); n++) {
         if (n == STEMS_MOST)
             return ceduo_problem(problems, r.csv.source, r.csv.number, 1, _("more than %d rows"), STEMS_MOST);
-        read_row(&r);
+        read_row(&r, file);
     }
     if (problems->met == before && r.plots_count == 0)
         ceduo_problem(problems, r.csv.source, 0, 0, _("there is no plot: no row under the first"));
@@ -316,10 +341,6 @@ bool ceduo_survey_read(struct survey_file *file, struct arena *arena, const char
         if (isnan(area))
             ceduo_problem(problems, r.csv.source, r.plots[i].line, 1, _("this plot has no area_m2 and no radius_m"));
     }
-    if (problems->met == before) {
-        check_heights(&r, true);
-        check_heights(&r, false);
-    }
     problems->memory |= !file->name || !file->unused || ceduo_text_lost();
     file->survey = (struct ceduo_survey){.plots_count = r.plots_count,
                                          .areas = areas,
@@ -327,4 +348,11 @@ bool ceduo_survey_read(struct survey_file *file, struct arena *arena, const char
                                          .stems_count = r.stems_count,
                                          .stems = r.stems};
     return problems->met == before && !problems->memory;
+}
+
+void ceduo_survey_template(struct text *sheet)
+{
+    ceduo_text_put(sheet, _("plot,area_m2,slope_deg,species,kind,stool,dbh_cm,height_m,spacing_m\n"
+                            "1,200,30,hop hornbeam,shoot,1,6.5,7.2,0.35\n"
+                            "1,,,Turkey oak,standard,,24,13.5,\n"));
 }

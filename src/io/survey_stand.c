@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The stand of a survey as YAML. What was found stands first, in comments for people; then the stand. These are the same
+/* The stand of a survey as YAML. What was found stands first, in comments in the user's language; then the stand, which has the same
  * bytes in every language. */
 #include <math.h>
 #include <stdio.h>
@@ -20,7 +20,7 @@ struct writer {
     bool stumps;   /* the stand has them: all of them is known */
 };
 
-static const char *const kinds[] = {"shoots", "standards", "trees", "stumps"};
+static const char *const kinds[] = {N_("shoots"), N_("standards"), N_("trees"), N_("stumps")};
 
 /* Six digits are more than a survey knows. */
 static double rounded(double value)
@@ -52,7 +52,7 @@ static void remark_estimate(struct text *out, const char *name, const struct ced
         return;
     ceduo_text_format(out, "# %-10s %8.0f", name, e->mean);
     if (!isnan(e->se))
-        ceduo_text_format(out, " %8.0f    %.0f to %.0f", e->se, fmax(e->lo, 0), e->hi);
+        ceduo_text_format(out, _(" %8.0f    %.0f to %.0f"), e->se, fmax(e->lo, 0), e->hi);
     ceduo_text_char(out, '\n');
 }
 
@@ -60,14 +60,22 @@ static void remark_heights(struct text *out, const char *name, const struct cedu
 {
     if (h->missing == 0)
         return;
-    ceduo_text_format(out, "# heights of %s: %zu measured; %zu ", name, h->given, h->missing);
-    if (h->from == CEDUO_HEIGHTS_CURVE)
-        ceduo_text_format(out, "by Näslund's curve, h = 1.3 + d2/(%.4g + %.4g d)2, d in cm, residual %.2g m", h->curve.a,
-                          h->curve.b, h->curve.rmse);
+    if (h->from <= CEDUO_HEIGHTS_CURVE)
+        ceduo_text_format(out,
+                          _("# heights of %s: %zu measured; %zu by Näslund's curve, h = 1.3 + d2/(%.4g + %.4g d)2, d in cm, "
+                            "residual %.2g m"),
+                          name, h->given, h->missing, h->curve.a, h->curve.b, h->curve.rmse);
+    else if (h->from == CEDUO_HEIGHTS_MEAN)
+        ceduo_text_format(out, _("# heights of %s: %zu measured; %zu are the mean of these, %.3g m: assumed"), name, h->given,
+                          h->missing, h->mean);
+    else if (h->from == CEDUO_HEIGHTS_SHOOTS)
+        ceduo_text_format(out, _("# heights of %s: none measured; %zu by the curve of the shoots: assumed"), name, h->missing);
     else
-        ceduo_text_format(out, "are the mean of these, %.3g m: assumed", h->mean);
+        ceduo_text_format(out,
+                          _("# heights of %s: none measured; %zu as usual, h = 1.3 + d2/(%.4g + %.4g d)2, d in cm: assumed"),
+                          name, h->missing, h->curve.a, h->curve.b);
     if (h->beyond > 0)
-        ceduo_text_format(out, "; thicker than any of the measured: %zu", h->beyond);
+        ceduo_text_format(out, _("; thicker than any of the measured: %zu"), h->beyond);
     ceduo_text_char(out, '\n');
 }
 
@@ -86,7 +94,7 @@ static void remark_species(const struct writer *w)
             if (s->stems[i].species == k && s->stems[i].kind != CEDUO_SURVEY_STUMP)
                 own += s->stems[i].dbh * s->stems[i].dbh / s->areas[s->stems[i].plot];
         if (own > 0)
-            ceduo_text_format(w->out, "%s%s %.0f %%", said++ ? ", " : "# basal area: ", k < 0 ? "not said" : list[k].name,
+            ceduo_text_format(w->out, "%s%s %.0f %%", said++ ? ", " : _("# basal area: "), k < 0 ? _("not said") : list[k].name,
                               100 * own / all);
     }
     ceduo_text_put(w->out, said ? "\n" : "");
@@ -96,38 +104,42 @@ static void remark(const struct writer *w)
 {
     const struct ceduo_survey_answer *a = w->answer;
     struct text *out = w->out;
-    ceduo_text_put(out, "# From the survey '");
-    ceduo_text_safe(out, w->file->name);
-    ceduo_text_format(out, "': plots %zu, stems %zu, %.0f m2 of the map.\n", w->file->survey.plots_count,
-                      w->file->survey.stems_count, w->area);
-    ceduo_text_format(out, "# %-10s %8s %8s    %s\n", "", "per ha", w->one_plot ? "" : "s.e.",
-                      w->one_plot ? "" : "95 % interval");
-    remark_estimate(out, "stools", &a->stools);
+    LOCAL_TEXT(name);
+    ceduo_text_safe(&name, w->file->name);
+    ceduo_text_format(out, _("# From the survey '%s': plots %zu, stems %zu, %.0f m2 of the map.\n"), ceduo_text_string(&name),
+                      w->file->survey.plots_count, w->file->survey.stems_count, w->area);
+    ceduo_text_format(out, "# %-10s %8s %8s    %s\n", "", _("per ha"), w->one_plot ? "" : _("s.e."),
+                      w->one_plot ? "" : _("95 % interval"));
+    remark_estimate(out, _("stools"), &a->stools);
     for (int k = 0; k < CEDUO_SURVEY_KINDS_COUNT; k++)
-        remark_estimate(out, kinds[k], &a->per_ha[k]);
+        remark_estimate(out, _(kinds[k]), &a->per_ha[k]);
     if (a->stools.mean > 0)
-        ceduo_text_format(out, "# shoots on a stool: %.2f\n", a->per_ha[CEDUO_SURVEY_SHOOT].mean / a->stools.mean);
+        ceduo_text_format(out, _("# shoots on a stool: %.2f\n"), a->per_ha[CEDUO_SURVEY_SHOOT].mean / a->stools.mean);
     if (w->one_plot)
-        ceduo_text_put(out, "# One plot has no standard error: the densities are marked as assumed.\n");
-    remark_heights(out, "shoots", &a->shoots);
-    remark_heights(out, "standards and trees", &a->trees);
+        ceduo_text_put(out, _("# One plot has no standard error: the densities are marked as assumed.\n"));
+    remark_heights(out, _("shoots"), &a->shoots);
+    remark_heights(out, _("standards and trees"), &a->trees);
     for (size_t i = 0; i < a->classes_count; i++) {
         const struct ceduo_survey_class *c = &a->classes[i];
         if (c->form_factor > 0)
             ceduo_text_format(out,
-                              "# volume: %zu of %zu %s of %.0f to %.0f cm lie outside the equation of their species; "
-                              "its form factor at the nearest size, or %g without one, assumed\n",
-                              c->form_factor, c->stems, kinds[c->kind], c->from * 100, (c->from + CEDUO_SURVEY_CLASS) * 100,
+                              _("# volume: %zu of %zu %s of %.0f to %.0f cm lie outside the equation of their species; "
+                                "its form factor at the nearest size, or %g without one, assumed\n"),
+                              c->form_factor, c->stems, _(kinds[c->kind]), c->from * 100, (c->from + CEDUO_SURVEY_CLASS) * 100,
                               CEDUO_FORM_FACTOR);
     }
     remark_species(w);
     if (w->file->unused[0])
-        ceduo_text_format(out, "# columns that were not used: %s\n", w->file->unused);
+        ceduo_text_format(out, _("# columns that were not used: %s\n"), w->file->unused);
+    if (w->file->totals > 0)
+        ceduo_text_format(out, _("# rows of totals, which are no stems: %zu\n"), w->file->totals);
+    if (w->file->filled > 0)
+        ceduo_text_format(out, _("# rows without a plot, which belong to the one above: %zu\n"), w->file->filled);
     if (!(a->per_ha[CEDUO_SURVEY_STUMP].mean > 0) || w->stumps)
         return;
     ceduo_text_put(out, /* what a stump takes from a rock has no default: it is asked for, not made up */
-                   "# The stumps are not in the stand: they need a height_m, and the energy_kJ that one takes from a rock,\n"
-                   "# in at least one row of the survey, or here:\n");
+                   _("# The stumps are not in the stand: they need a height_m, and the energy_kJ that one takes from a rock,\n"
+                     "# in at least one row of the survey, or here:\n"));
     print_number(out, "# stumps: {per_ha: ", a->per_ha[CEDUO_SURVEY_STUMP].mean);
     print_number(out, ", diameter_m: ", a->stump_diameter);
     if (!isnan(a->stump_height))
@@ -179,10 +191,12 @@ static void print_classes(const struct writer *w, const char *key, bool trees)
             ceduo_text_format(&what, "; missing heights: the mean of %zu", h->given);
         else if (h->from == CEDUO_HEIGHTS_CURVE)
             ceduo_text_put(&what, "; missing heights by Näslund's curve");
+        else if (h->from != CEDUO_HEIGHTS_MEASURED)
+            ceduo_text_format(&what, "; no height measured: %s", h->from == CEDUO_HEIGHTS_USUAL ? "as usual" : "as the shoots");
         if (c->form_factor > 0)
             ceduo_text_format(&what, "; volume of %zu by form factor", c->form_factor);
         ceduo_text_put(w->out, ",\n     ");
-        print_source(w->out, w->one_plot || h->from == CEDUO_HEIGHTS_MEAN || (given && c->form_factor > 0), &what);
+        print_source(w->out, w->one_plot || h->from >= CEDUO_HEIGHTS_MEAN || (given && c->form_factor > 0), &what);
         ceduo_text_put(w->out, "}\n");
     }
 }
@@ -233,18 +247,24 @@ static void print_stumps(const struct writer *w)
 
 /* ---- doubt ---- */
 
-/* A mean and its standard error. */
-static void print_doubt(const struct writer *w, size_t *n, const char *path, const struct ceduo_estimate *e, double mean)
+/* Two numbers of what may be true. */
+static void print_row(const struct writer *w, size_t *n, const char *path, const char *first, double a, const char *second,
+                      double b)
 {
-    if (!(e->se > 0))
-        return;
     if ((*n)++ == 0)
         ceduo_text_put(w->out, "doubt:\n");
     ceduo_text_put(w->out, "  - {path: ");
     ceduo_emit_scalar(w->out, path, true);
-    print_number(w->out, ", mean: ", mean);
-    print_number(w->out, ", sd: ", e->se);
+    print_number(w->out, first, a);
+    print_number(w->out, second, b);
     ceduo_text_put(w->out, "}\n");
+}
+
+/* A mean and its standard error. */
+static void print_doubt(const struct writer *w, size_t *n, const char *path, const struct ceduo_estimate *e, double mean)
+{
+    if (e->se > 0)
+        print_row(w, n, path, ", mean: ", mean, ", sd: ", e->se);
 }
 
 static void print_doubts(const struct writer *w)
@@ -261,8 +281,15 @@ static void print_doubts(const struct writer *w)
         if (c->kind == CEDUO_SURVEY_STUMP)
             continue;
         bool tree = is_tree(c->kind);
-        snprintf(path, sizeof path, "%s[%zu].per_ha", tree ? "trees" : "shoots", at[tree]++);
+        const char *list = tree ? "trees" : "shoots";
+        snprintf(path, sizeof path, "%s[%zu].per_ha", list, at[tree]++);
         print_doubt(w, &n, path, &c->per_ha, c->per_ha.mean);
+        if ((tree ? a->trees : a->shoots).from < CEDUO_HEIGHTS_SHOOTS)
+            continue;
+        bool given = is_given_volume(w, c); /* otherwise the volume follows from the height */
+        double size = given ? c->volume : c->height, range = CEDUO_SURVEY_HEIGHT_DOUBT * size;
+        snprintf(path, sizeof path, "%s[%zu].%s", list, at[tree] - 1, given ? "volume_m3" : "height_m");
+        print_row(w, &n, path, ", lo: ", size - range, ", hi: ", size + range);
     }
 }
 
@@ -306,7 +333,9 @@ static bool check(const struct writer *w, struct problems *problems)
                                  a->classes[i].per_ha.mean, densest);
     for (size_t i = 0; i < 2; i++) {
         const struct ceduo_survey_heights *h = heights[i];
-        double tallest = h->from == CEDUO_HEIGHTS_CURVE ? ceduo_naslund_height(&h->curve, h->thickest) : 0;
+        double tallest = h->from == CEDUO_HEIGHTS_CURVE || h->from == CEDUO_HEIGHTS_SHOOTS
+                             ? ceduo_naslund_height(&h->curve, h->thickest)
+                             : 0;
         if (tallest > highest)
             return ceduo_problem(
                 problems, &source, 0, 0,

@@ -15,9 +15,11 @@
 struct surveyor {
     const struct ceduo_survey *survey;
     struct ceduo_survey_answer *answer;
-    double *counts;  /* of each plot */
-    double *heights; /* of each stem, m: measured or made */
-    double *pairs;   /* room for the dbh and the heights that were measured */
+    double *counts;     /* of each plot */
+    double *heights;    /* of each stem, m: measured or made */
+    double *pairs;      /* room for the dbh and the heights that were measured */
+    double measured;    /* m, the largest dbh with a height */
+    bool shoots_fitted; /* the shoots have a curve */
 };
 
 double ceduo_survey_horizontal(double area, double slope_rad)
@@ -123,6 +125,9 @@ static bool is_among(const struct ceduo_survey_stem *stem, bool shoots)
     return stem->kind != CEDUO_SURVEY_STUMP && (stem->kind == CEDUO_SURVEY_SHOOT) == shoots;
 }
 
+/* What stems are tall where nobody measured any: through the heights of the stands that come with the program. Assumed. */
+static const struct ceduo_naslund usual_trees = {.a = 2.4, .b = 0.186}, usual_shoots = {.a = 1.2, .b = 0.22};
+
 static bool complete_heights(struct surveyor *s, bool shoots, struct ceduo_survey_heights *h)
 {
     const struct ceduo_survey *survey = s->survey;
@@ -142,19 +147,31 @@ static bool complete_heights(struct surveyor *s, bool shoots, struct ceduo_surve
         sum += stem->height;
     }
     h->mean = h->given > 0 ? sum / (double)h->given : NAN;
-    enum ceduo_status fitted = h->missing > 0 ? ceduo_naslund_fit(h->given, dbh, height, &h->curve) : CEDUO_NO_FIT;
-    h->from = h->missing == 0 ? CEDUO_HEIGHTS_MEASURED : fitted == CEDUO_OK ? CEDUO_HEIGHTS_CURVE : CEDUO_HEIGHTS_MEAN;
+    s->measured = h->given > 0 ? measured : s->measured;
+    enum ceduo_status fitted = ceduo_naslund_fit(h->given, dbh, height, &h->curve);
+    if (shoots)
+        s->shoots_fitted = fitted == CEDUO_OK;
+    if (h->missing == 0)
+        h->from = CEDUO_HEIGHTS_MEASURED;
+    else if (h->given > 0)
+        h->from = fitted == CEDUO_OK ? CEDUO_HEIGHTS_CURVE : CEDUO_HEIGHTS_MEAN;
+    else
+        h->from = !shoots && s->shoots_fitted ? CEDUO_HEIGHTS_SHOOTS : CEDUO_HEIGHTS_USUAL;
+    if (h->from == CEDUO_HEIGHTS_SHOOTS)
+        h->curve = s->answer->shoots.curve;
+    else if (h->from == CEDUO_HEIGHTS_USUAL)
+        h->curve = shoots ? usual_shoots : usual_trees;
     for (size_t i = 0; i < survey->stems_count; i++) {
         const struct ceduo_survey_stem *stem = &survey->stems[i];
         if (!is_among(stem, shoots))
             continue;
-        if (isnan(stem->height) && h->from == CEDUO_HEIGHTS_CURVE) {
-            s->heights[i] = ceduo_naslund_height(&h->curve, stem->dbh);
-            h->beyond += stem->dbh > measured;
-            h->thickest = fmax(h->thickest, stem->dbh);
-        } else {
+        if (!isnan(stem->height) || h->from == CEDUO_HEIGHTS_MEAN) {
             s->heights[i] = isnan(stem->height) ? h->mean : stem->height;
+            continue;
         }
+        s->heights[i] = ceduo_naslund_height(&h->curve, stem->dbh);
+        h->beyond += h->from != CEDUO_HEIGHTS_USUAL && stem->dbh > s->measured;
+        h->thickest = fmax(h->thickest, stem->dbh);
     }
     return fitted != CEDUO_NO_MEMORY;
 }
