@@ -604,7 +604,8 @@ static void report_missing(struct binder *b, const struct object *object, const 
     for (size_t i = 0; i < object->n; i++) {
         const struct field *f = &object->fields[i];
         bool tag = f->type == FIELD_TAG && node->key; /* not needed where the mapping stands in another file */
-        if (!(f->flags & FIELD_REQUIRED) || tag || ceduo_node_get(node, f->key))
+        const struct field *other = ceduo_schema_unit(object, f);
+        if (!(f->flags & FIELD_REQUIRED) || tag || ceduo_node_get(node, f->key) || (other && ceduo_node_get(node, other->key)))
             continue;
         size_t before = enter(b, f->key);
         bool told = is_bad(b);
@@ -657,7 +658,11 @@ static void bind_map(struct binder *b, const struct object *object, const struct
             i++;
         } else if (f) {
             size_t before = enter(b, entry->key);
-            bind_field(b, f, entry, item);
+            const struct field *other = ceduo_schema_unit(object, f);
+            if (other && other < f && ceduo_node_get(node, other->key))
+                report(b, entry, _("%s already says this; keep one of the two"), other->key);
+            else
+                bind_field(b, f, entry, item);
             leave(b, before);
         } else if (strcmp(entry->key, "source") == 0) {
             bind_source(b, entry);

@@ -108,7 +108,9 @@ static void walk(struct finder *f, const struct object *object, const struct nod
 {
     for (size_t i = 0; i < object->n; i++) {
         const struct field *field = &object->fields[i];
+        const struct field *other = ceduo_schema_unit(object, field);
         const struct node *node = ceduo_node_get(map, field->key);
+        node = node || !other ? node : ceduo_node_get(map, other->key);
         bool list = field->type == FIELD_LIST, group = field->type == FIELD_GROUP;
         size_t before = f->path.length;
         if (field->flags & FIELD_OR_NONE)

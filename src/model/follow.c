@@ -165,7 +165,7 @@ static void follow_diameter(struct changes *c, const char *path, const struct ce
                             const struct ceduo_stems *stems, double dbh)
 {
     char height[256], room[CEDUO_NUMBER_ROOM];
-    snprintf(height, sizeof height, "%.*sheight_m", (int)(strlen(path) - strlen("dbh_m")), path);
+    snprintf(height, sizeof height, "%.*sheight_m", (int)(strrchr(path, '.') + 1 - path), path);
     if (!ceduo_scene_assumes_value(&c->d->file, height) || dbh == stems->dbh)
         return;
     double taller = ceduo_curve_height(curve, dbh) / ceduo_curve_height(curve, stems->dbh);
@@ -215,8 +215,9 @@ static void follow_stand(struct changes *c, const char *path, const char *value,
         compare_standards(c, s, ceduo_stand_trees(s), sum_of(value), false);
     else if (tree && ends_in(key, "].per_ha"))
         compare_standards(c, s, ceduo_stand_trees(s) - s->trees[i].per_ha + now, ceduo_stand_stay(s), true);
-    else if ((shoot || tree) && ends_in(key, "].dbh_m"))
-        follow_diameter(c, path, shoot ? &s->growth.shoots : &s->growth.trees, shoot ? &s->shoots[i] : &s->trees[i], now);
+    else if ((shoot || tree) && (ends_in(key, "].dbh_m") || ends_in(key, "].dbh_cm")))
+        follow_diameter(c, path, shoot ? &s->growth.shoots : &s->growth.trees, shoot ? &s->shoots[i] : &s->trees[i],
+                        ends_in(key, "_cm") ? now / 100 : now);
 }
 
 /* Both surveys are judged or none: the other one is taken as poor, which asks for more. */

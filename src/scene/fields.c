@@ -176,12 +176,16 @@ static const struct object doubt_object = OBJECT(doubt, doubt_fields, NULL);
            N_("stems per horizontal hectare")),                                                                                \
         NUMBER("dbh_m", CENTIMETRES(N_("diameter, cm"), N_("diam. cm"), 0.01, 2), AT(ceduo_stems, dbh), "m", 0, 10,            \
                REQUIRED | ABOVE, NULL, N_("diameter at breast height")),                                                       \
+        NUM(FIELD_NUMBER, "dbh_cm", USUAL(N_("diameter, cm"), N_("diam. cm"), 1, 200), AT(ceduo_stems, dbh), "cm", 0.01, 0,    \
+            1000, ABOVE, NULL, N_("the same in centimetres, instead of dbh_m")),                                               \
         NUMBER("height_m", USUAL(N_("height, m"), N_("height m"), 0.5, 50), AT(ceduo_stems, height), "m", 0, 150,              \
                REQUIRED | ABOVE, NULL, N_("height of a stem")),                                                                \
         NUMBER("volume_m3", USUAL(N_("volume, m3"), N_("vol. m3"), 0, 30), AT(ceduo_stems, volume), "m3", 0, 1000, ABOVE,      \
                NULL, N_("volume of a stem; without it from species, dbh and height")),                                         \
         NUMBER("dbh_sd_m", CENTIMETRES(N_("spread of the diameters, cm"), N_("sd cm"), 0, 0.5), AT(ceduo_stems, dbh_sd), "m",  \
                0, 10, 0, "0", N_("standard deviation of the diameters")),                                                      \
+        NUM(FIELD_NUMBER, "dbh_sd_cm", USUAL(N_("spread of the diameters, cm"), N_("sd cm"), 0, 50), AT(ceduo_stems, dbh_sd),  \
+            "cm", 0.01, 0, 1000, 0, "0", N_("the same in centimetres, instead of dbh_sd_m")),                                  \
         NUMBER("age_y", USUAL(N_("age, years"), N_("age y"), 0, 500), AT(ceduo_stems, age), "y", 0, 2000, YEARS, NULL,         \
                N_("age"))
 
@@ -276,10 +280,10 @@ const char *ceduo_schema_gone(const struct object *object, const char *key)
 
 const char *ceduo_schema_other(const struct object *object, const char *key)
 {
-    static const char *const pair[2] = {"per_ha", "per_stool"};
-    for (int i = 0; object == &stems_object && i < 2; i++)
-        if (strcmp(key, pair[i]) == 0)
-            return pair[1 - i];
+    static const char *const pairs[][2] = {{"per_ha", "per_stool"}, {"dbh_m", "dbh_cm"}, {"dbh_sd_m", "dbh_sd_cm"}};
+    for (size_t i = 0; i < 2 * (sizeof pairs / sizeof pairs[0]); i++)
+        if (strcmp(key, pairs[i / 2][i % 2]) == 0 && ceduo_schema_field(object, pairs[i / 2][1 - i % 2]))
+            return pairs[i / 2][1 - i % 2];
     return NULL;
 }
 

@@ -12,6 +12,13 @@ const struct field *ceduo_schema_field(const struct object *object, const char *
     return NULL;
 }
 
+const struct field *ceduo_schema_unit(const struct object *object, const struct field *field)
+{
+    const char *key = ceduo_schema_other(object, field->key);
+    const struct field *other = key ? ceduo_schema_field(object, key) : NULL;
+    return other && other->offset == field->offset ? other : NULL;
+}
+
 const struct field *ceduo_schema_step(const struct object *object, const struct path_step *step)
 {
     for (size_t i = 0; i < object->n; i++)

@@ -141,6 +141,8 @@ const char *ceduo_schema_gone(const struct object *object, const char *key);
 /* The key that says the same in another way, so that only one of the two may stand there; NULL: there is none. Who sets one
  * takes the other out. */
 const char *ceduo_schema_other(const struct object *object, const char *key);
+/* The same where one member holds both: a value in another unit. */
+const struct field *ceduo_schema_unit(const struct object *object, const struct field *field);
 
 /* Whether two paths are of one value: they are the same, or end in such keys of the same mapping. */
 bool ceduo_schema_same(const char *a, const char *b);

@@ -170,8 +170,12 @@ void ceduo_form_table(struct form *form, const struct document *d, const struct 
     for (size_t i = 0; node && node->kind == NODE_LIST && i < node->n; i++) {
         struct form_row *row = add_item(form, list, i);
         for (size_t k = 0; k < FORM_COLUMNS && keys[k]; k++) {
-            snprintf(path, sizeof path, "%.100s[%zu]%s%.30s", list, i, keys[k][0] ? "." : "", keys[k]);
-            fill_cell(&row->cells[k], d, field_of_item(object, keys[k], node->items[i]), path);
+            const struct field *field = field_of_item(object, keys[k], node->items[i]);
+            const struct field *other =
+                field && !ceduo_node_get(node->items[i], keys[k]) ? ceduo_schema_unit(object, field) : NULL;
+            bool instead = other && ceduo_node_get(node->items[i], other->key); /* the file has it in another unit */
+            snprintf(path, sizeof path, "%.100s[%zu]%s%.30s", list, i, keys[k][0] ? "." : "", instead ? other->key : keys[k]);
+            fill_cell(&row->cells[k], d, instead ? other : field, path);
             row->n = k + 1;
         }
     }
