@@ -28,20 +28,11 @@ struct binder {
 
 /* ---- reporting ---- */
 
-__attribute__((format(printf, 5, 0))) static void report_v(struct problems *problems, const struct node *node, bool at_key,
-                                                           const char *path, const char *format, va_list args)
-{
-    bool key = at_key && node->key_line > 0;
-    const struct problem_place place = {node->source, key ? node->key_line : node->line, key ? node->key_column : node->column,
-                                        path};
-    ceduo_problem_v(problems, place, format, args);
-}
-
 void ceduo_node_problem(struct problems *problems, const struct node *node, const char *path, const char *format, ...)
 {
     va_list args;
     va_start(args, format);
-    report_v(problems, node, false, path, format, args);
+    ceduo_problem_v(problems, (struct problem_place){node->source, node->line, node->column, path}, format, args);
     va_end(args);
 }
 
@@ -61,28 +52,23 @@ static void note_bad(struct binder *b)
         bad->n++;
 }
 
-static bool is_bad(const struct binder *b)
-{
-    for (size_t i = 0; i < b->bad->n && i < CEDUO_BAD_MOST; i++)
-        if (strcmp(b->bad->paths[i], ceduo_text_string(&b->path)) == 0)
-            return true;
-    return false;
-}
-
+/* What is wrong with a value, or (report_key) with its key alone. */
 __attribute__((format(printf, 3, 4))) static void report(struct binder *b, const struct node *node, const char *format, ...)
 {
     va_list args;
     va_start(args, format);
-    report_v(b->problems, node, false, path_here(b), format, args);
+    ceduo_problem_v(b->problems, (struct problem_place){node->source, node->line, node->column, path_here(b)}, format, args);
     va_end(args);
     note_bad(b);
 }
 
 __attribute__((format(printf, 3, 4))) static void report_key(struct binder *b, const struct node *node, const char *format, ...)
 {
+    const struct node at = {.line = node->key_line ? node->key_line : node->line,
+                            .column = node->key_line ? node->key_column : node->column};
     va_list args;
     va_start(args, format);
-    report_v(b->problems, node, true, path_here(b), format, args);
+    ceduo_problem_v(b->problems, (struct problem_place){node->source, at.line, at.column, path_here(b)}, format, args);
     va_end(args);
 }
 
@@ -141,23 +127,21 @@ static void report_unknown_key(struct binder *b, const struct object *object, co
 
 /* ---- values ---- */
 
-static const char *kind_name(const struct node *node)
+/* Whether a value is of a kind; where it is not, that is reported with what was wanted. */
+static bool want(struct binder *b, const struct node *node, enum node_kind kind, const char *wanted)
 {
-    return node->kind == NODE_MAP ? _("a mapping") : node->kind == NODE_LIST ? _("a list") : _("a single value");
-}
-
-static void report_kind(struct binder *b, const struct node *node, const char *wanted)
-{
+    if (node->kind == kind)
+        return true;
+    const char *found = node->kind == NODE_MAP ? _("a mapping") : node->kind == NODE_LIST ? _("a list") : _("a single value");
     ceduo_problem_own(b->problems, (struct problem_place){node->source, node->line, node->column, path_here(b)},
-                      _("expected %s, not %s"), wanted, kind_name(node));
+                      _("expected %s, not %s"), wanted, found);
     note_bad(b);
+    return false;
 }
 
 static bool want_scalar(struct binder *b, const struct node *node, const char *what)
 {
-    if (node->kind != NODE_SCALAR)
-        report_kind(b, node, what);
-    return node->kind == NODE_SCALAR;
+    return want(b, node, NODE_SCALAR, what);
 }
 
 /* "end", "end-10": a place from the end of the profile. False where it is none, or wrong, which is reported. */
@@ -294,27 +278,25 @@ static void bind_text(struct binder *b, const struct node *node, void *to)
         memcpy(to, &node->text, sizeof node->text);
 }
 
-static void bind_tag(struct binder *b, const struct field *f, const struct node *node)
-{
-    if (want_scalar(b, node, f->value) && strcmp(node->text, f->value) != 0)
-        report(b, node, _("'%s': expected '%s'"), node->text, f->value);
-}
-
 static void bind_source(struct binder *b, const struct node *node);
 
-/* {mean: …, spread: …, kind: …} */
-static void bind_spread_map(struct binder *b, const struct field *f, const struct node *node, struct ceduo_number *to)
+/* A number, or {mean: …, spread: …, kind: …}. */
+static void bind_spread(struct binder *b, const struct field *f, const struct node *node, struct ceduo_number *to)
 {
     struct field spread = *f;
     spread.lo = 0;
     spread.flags = 0;
     spread.hi = INFINITY;
-    bool has_mean = false;
+    *to = ceduo_number(to->mean);
+    if (node->kind != NODE_MAP) {
+        bind_number(b, f, node, &to->mean);
+        return;
+    }
     for (size_t i = 0; i < node->n; i++) {
         const struct node *entry = node->items[i];
         size_t before = enter(b, entry->key);
         if (strcmp(entry->key, "mean") == 0)
-            has_mean = bind_number(b, f, entry, &to->mean) || true;
+            bind_number(b, f, entry, &to->mean);
         else if (strcmp(entry->key, "spread") == 0)
             bind_number(b, &spread, entry, &to->spread);
         else if (strcmp(entry->key, "kind") == 0)
@@ -325,41 +307,11 @@ static void bind_spread_map(struct binder *b, const struct field *f, const struc
         if (strcmp(entry->key, "source") == 0)
             bind_source(b, entry);
     }
-    if (!has_mean && isnan(to->mean) && !(f->flags & FIELD_MEANLESS))
+    if (!ceduo_node_get(node, "mean") && isnan(to->mean) && !(f->flags & FIELD_MEANLESS))
         report(b, node, _("'mean' is missing"));
-}
-
-static void bind_spread(struct binder *b, const struct field *f, const struct node *node, struct ceduo_number *to)
-{
-    *to = ceduo_number(to->mean);
-    if (node->kind != NODE_MAP) {
-        bind_number(b, f, node, &to->mean);
-        return;
-    }
-    bind_spread_map(b, f, node, to);
     if (!ceduo_schema_spread_fits(f, *to))
         report(b, node, _("the spread reaches from %.6g to %.6g %s, beyond what is possible; make it smaller"),
                ceduo_number_lowest(*to) / f->scale, ceduo_number_highest(*to) / f->scale, f->unit);
-}
-
-static void bind_spreads(struct binder *b, const struct field *f, const struct node *node, struct ceduo_number *to)
-{
-    if (node->kind != NODE_LIST || node->n != 3) {
-        report(b, node, _("expected a list of three numbers"));
-        return;
-    }
-    for (size_t i = 0; i < 3; i++) {
-        size_t before = enter_item(b, i);
-        bind_spread(b, f, node->items[i], &to[i]);
-        leave(b, before);
-    }
-}
-
-static bool want_list(struct binder *b, const struct node *node)
-{
-    if (node->kind != NODE_LIST)
-        report_kind(b, node, _("a list"));
-    return node->kind == NODE_LIST;
 }
 
 void *ceduo_bind_take(struct arena *arena, size_t n, size_t size, struct problems *problems)
@@ -370,87 +322,48 @@ void *ceduo_bind_take(struct arena *arena, size_t n, size_t size, struct problem
     return p;
 }
 
-/* Sets a list of `item`: the pointer, and the count beside it. */
-static void put_list(const struct field *f, void *item, void *items, size_t n)
-{
-    memcpy((char *)item + f->offset, &items, sizeof items);
-    memcpy((char *)item + f->beside, &n, sizeof n);
-}
-
-static void bind_numbers(struct binder *b, const struct field *f, const struct node *node, void *item)
-{
-    double *values;
-    if (!want_list(b, node) || !(values = ceduo_bind_take(b->arena, node->n, sizeof *values, b->problems)))
-        return;
-    put_list(f, item, values, node->n);
-    for (size_t i = 0; i < node->n; i++) {
-        size_t before = enter_item(b, i);
-        values[i] = NAN;
-        bind_number(b, f, node->items[i], &values[i]);
-        leave(b, before);
-    }
-}
-
-static void bind_words(struct binder *b, const struct field *f, const struct node *node, void *item)
-{
-    const char **words;
-    if (!want_list(b, node) || !(words = ceduo_bind_take(b->arena, node->n, sizeof *words, b->problems)))
-        return;
-    put_list(f, item, words, node->n);
-    for (size_t i = 0; i < node->n; i++) {
-        size_t before = enter_item(b, i);
-        words[i] = "";
-        bind_text(b, node->items[i], &words[i]);
-        leave(b, before);
-    }
-}
-
-static void bind_points(struct binder *b, const struct field *f, const struct node *node, void *item)
-{
-    double *xz[2];
-    if (!want_list(b, node))
-        return;
-    xz[0] = ceduo_bind_take(b->arena, node->n, sizeof *xz[0], b->problems);
-    xz[1] = ceduo_bind_take(b->arena, node->n, sizeof *xz[1], b->problems);
-    if (!xz[0] || !xz[1])
-        return;
-    put_list(f, item, xz[0], node->n);
-    memcpy((char *)item + f->offset, xz, sizeof xz);
-    for (size_t i = 0; i < node->n; i++) {
-        const struct node *pair = node->items[i];
-        size_t before = enter_item(b, i);
-        xz[0][i] = xz[1][i] = NAN;
-        if (pair->kind != NODE_LIST || pair->n != 2)
-            report(b, pair, _("expected a pair [x, z]"));
-        else if (bind_number(b, f, pair->items[0], &xz[0][i]))
-            bind_number(b, f, pair->items[1], &xz[1][i]);
-        leave(b, before);
-    }
-}
-
 static void bind_map(struct binder *b, const struct object *object, const struct node *node, void *item);
 
+/* A list, of whatever its items are: memory for them, which the member points to, and each item in turn. */
 static void bind_list(struct binder *b, const struct field *f, const struct node *node, void *item)
 {
-    char *items;
-    if (f->flags & FIELD_OR_ONE && node->kind == NODE_MAP) {
-        if (!(items = ceduo_bind_take(b->arena, 1, f->object->size, b->problems)))
-            return;
-        put_list(f, item, items, 1);
-        ceduo_schema_init(f->object, items);
-        bind_map(b, f->object, node, items);
-        return;
-    }
+    const struct object *object = f->object;
+    bool points = f->type == FIELD_POINTS, words = f->type == FIELD_WORDS;
+    bool one = f->flags & FIELD_OR_ONE && node->kind == NODE_MAP; /* in place of the list */
+    size_t n = one ? 1 : node->n, size = object ? object->size : words ? sizeof(char *) : sizeof(double);
     if (f->flags & FIELD_OR_NONE && node->kind == NODE_SCALAR && strcmp(node->text, "none") == 0)
         return;
-    if (!want_list(b, node) || !(items = ceduo_bind_take(b->arena, node->n, f->object->size, b->problems)))
+    if (!one && !want(b, node, NODE_LIST, _("a list")))
         return;
-    if (!(f->flags & FIELD_NOWHERE))
-        put_list(f, item, items, node->n);
-    for (size_t i = 0; i < node->n; i++) {
-        size_t before = enter_item(b, i);
-        ceduo_schema_init(f->object, items + i * f->object->size);
-        bind_map(b, f->object, node->items[i], items + i * f->object->size);
+    void *items[2] = {ceduo_bind_take(b->arena, n, size, b->problems),
+                      points ? ceduo_bind_take(b->arena, n, size, b->problems) : NULL}; /* x and z of points */
+    if (!items[0] || (points && !items[1]))
+        return;
+    if (!(f->flags & FIELD_NOWHERE)) {
+        memcpy((char *)item + f->offset, items, points ? sizeof items : sizeof items[0]);
+        memcpy((char *)item + f->beside, &n, sizeof n);
+    }
+    for (size_t i = 0; i < n; i++) {
+        const struct node *entry = one ? node : node->items[i];
+        char *at = (char *)items[0] + i * size;
+        double *x = (double *)items[0] + i, *z = points ? (double *)items[1] + i : NULL;
+        size_t before = one ? b->path.length : enter_item(b, i);
+        if (object) {
+            ceduo_schema_init(object, at);
+            bind_map(b, object, entry, at);
+        } else if (words) {
+            *(const char **)(void *)at = "";
+            bind_text(b, entry, at);
+        } else if (points) {
+            *x = *z = NAN;
+            if (entry->kind != NODE_LIST || entry->n != 2)
+                report(b, entry, _("expected a pair [x, z]"));
+            else if (bind_number(b, f, entry->items[0], x))
+                bind_number(b, f, entry->items[1], z);
+        } else {
+            *x = NAN;
+            bind_number(b, f, entry, x);
+        }
         leave(b, before);
     }
 }
@@ -464,7 +377,8 @@ static void bind_field(struct binder *b, const struct field *f, const struct nod
         return;
     switch (f->type) { /* untaken: table */
     case FIELD_TAG:
-        bind_tag(b, f, node);
+        if (want_scalar(b, node, f->value) && strcmp(node->text, f->value) != 0)
+            report(b, node, _("'%s': expected '%s'"), node->text, f->value);
         break;
     case FIELD_TEXT:
     case FIELD_FILE:
@@ -477,7 +391,13 @@ static void bind_field(struct binder *b, const struct field *f, const struct nod
         bind_spread(b, f, node, to);
         break;
     case FIELD_SPREADS:
-        bind_spreads(b, f, node, to);
+        if (node->kind != NODE_LIST || node->n != 3)
+            report(b, node, _("expected a list of three numbers"));
+        for (size_t i = 0; node->kind == NODE_LIST && node->n == 3 && i < 3; i++) {
+            size_t before = enter_item(b, i);
+            bind_spread(b, f, node->items[i], (struct ceduo_number *)to + i);
+            leave(b, before);
+        }
         break;
     case FIELD_COUNT:
         bind_count(b, f, node, to);
@@ -488,18 +408,12 @@ static void bind_field(struct binder *b, const struct field *f, const struct nod
     case FIELD_FLAG:
         bind_flag(b, node, to);
         break;
-    case FIELD_NUMBERS:
-        bind_numbers(b, f, node, item);
-        break;
-    case FIELD_WORDS:
-        bind_words(b, f, node, item);
-        break;
-    case FIELD_POINTS:
-        bind_points(b, f, node, item);
-        break;
     case FIELD_GROUP:
         bind_map(b, f->object, node, to);
         break;
+    case FIELD_NUMBERS:
+    case FIELD_WORDS:
+    case FIELD_POINTS:
     case FIELD_LIST:
         bind_list(b, f, node, item);
         break;
@@ -608,7 +522,9 @@ static void report_missing(struct binder *b, const struct object *object, const 
         if (!(f->flags & FIELD_REQUIRED) || tag || ceduo_node_get(node, f->key) || (other && ceduo_node_get(node, other->key)))
             continue;
         size_t before = enter(b, f->key);
-        bool told = is_bad(b);
+        bool told = false;
+        for (size_t k = 0; k < b->bad->n && k < CEDUO_BAD_MOST; k++)
+            told |= strcmp(b->bad->paths[k], ceduo_text_string(&b->path)) == 0;
         note_bad(b);
         leave(b, before);
         if (!told) /* the mapping itself is good */
@@ -638,10 +554,8 @@ static bool report_decimal_comma(struct binder *b, const struct node *map, size_
 
 static void bind_map(struct binder *b, const struct object *object, const struct node *node, void *item)
 {
-    if (node->kind != NODE_MAP) {
-        report_kind(b, node, _("a mapping"));
+    if (!want(b, node, NODE_MAP, _("a mapping")))
         return;
-    }
     bool partial = b->partial;
     b->partial |= node->broken;
     size_t outer = b->file_start;
