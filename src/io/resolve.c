@@ -32,12 +32,6 @@ struct resolver {
 
 /* ---- files ---- */
 
-static bool ends_in(const char *text, const char *end)
-{
-    size_t n = strlen(text), m = strlen(end);
-    return n >= m && strcasecmp(text + n - m, end) == 0;
-}
-
 /* A copy of `found` that stands where `place` stood. */
 static struct node *in_place_of(struct arena *arena, const struct node *found, const struct node *place)
 {
@@ -62,40 +56,16 @@ const char *ceduo_resolve_path(struct arena *arena, const struct node *node, con
     return path;
 }
 
-static const char *locate(struct arena *arena, const struct node *node, const char *folder, struct problems *problems)
-{
-    const char *path = ceduo_resolve_path(arena, node, folder);
-    if (!path && arena->failed)
-        ceduo_problem_memory(problems);
-    else if (!path)
-        ceduo_node_problem(problems, node, node->key,
-                           _("cannot find '%s' beside this file or among the profiles (ceduo --list-profiles)"), node->text);
-    return path;
-}
-
-/* A mapping that only names a CSV file. */
-static const struct node *csv_map(struct arena *arena, const struct node *node)
-{
-    struct node *map = ceduo_arena_take(arena, sizeof *map);
-    if (!map)
-        return NULL;
-    *map = (struct node){.kind = NODE_MAP, .line = node->line, .column = node->column, .source = node->source};
-    const struct node *filled = ceduo_node_with(arena, map, "csv", node);
-    return filled ? in_place_of(arena, filled, node) : NULL;
-}
-
 static const struct node *follow(struct resolver *r, const struct object *object, const struct node *node, int depth);
 
 /* A node whose reference leads nowhere, marked so that the rest is still read. NULL without memory. */
 static const struct node *broken(struct resolver *r, const struct node *node)
 {
     struct node *copy = r->problems->memory ? NULL : ceduo_arena_take(r->arena, sizeof *copy);
-    if (!copy) {
-        ceduo_problem_memory(r->problems);
-        return NULL;
+    if (copy) {
+        *copy = *node;
+        copy->broken = true;
     }
-    *copy = *node;
-    copy->broken = true;
     return copy;
 }
 
@@ -104,12 +74,11 @@ static const struct node *broken(struct resolver *r, const struct node *node)
 static const struct node *without_translation(struct arena *arena, const struct node *map, const char *key,
                                               const struct node *by)
 {
-    struct text name = {0};
+    LOCAL_TEXT(name);
     ceduo_text_format(&name, "%s_it", key);
-    if (name.failed || !ceduo_node_get(by, name.bytes))
-        map = name.failed ? NULL : ceduo_node_without(arena, map, name.bytes);
-    ceduo_text_free(&name);
-    return map;
+    if (name.failed)
+        return NULL;
+    return ceduo_node_get(by, name.bytes) ? map : ceduo_node_without(arena, map, name.bytes);
 }
 
 /* The entries of `over` put over those of `base`: mappings are merged, anything else replaced. */
@@ -145,13 +114,11 @@ static const struct node *merge_base(struct resolver *r, const struct object *ob
         return in_place_of(r->arena, below, node);
     const struct node *merged = merge(r->arena, below, node);
     struct node *placed = merged ? in_place_of(r->arena, merged, node) : NULL;
-    if (!placed) {
-        ceduo_problem_memory(r->problems);
-        return NULL;
+    if (placed) { /* what is wrong with it is wrong here, not in the file of the base */
+        placed->source = node->source;
+        placed->line = node->line;
+        placed->column = node->column;
     }
-    placed->source = node->source; /* what is wrong with it is wrong here, not in the file of the base */
-    placed->line = node->line;
-    placed->column = node->column;
     return placed;
 }
 
@@ -168,10 +135,8 @@ static const struct node *read_file(struct resolver *r, const struct node *node,
         return NULL;
     }
     struct known_file *file = ceduo_arena_take(r->arena, sizeof *file);
-    if (!file) {
-        ceduo_problem_memory(r->problems);
+    if (!file)
         return NULL;
-    }
     const struct source *source = ceduo_file_read(r->arena, path, YAML_BYTES_MOST, r->problems);
     *file = (struct known_file){
         .path = path, .root = source ? ceduo_yaml_read(r->arena, source, r->problems) : NULL, .before = r->files};
@@ -182,6 +147,7 @@ static const struct node *read_file(struct resolver *r, const struct node *node,
 
 static const struct node *follow(struct resolver *r, const struct object *object, const struct node *node, int depth)
 {
+    static const char *const tables[] = {".csv", ".gpx", ".kml", ".xml"}; /* what is no CSV is told what to do */
     if (depth > BASES_MOST) {
         ceduo_node_problem(r->problems, node, node->key, _("more than %d files in a chain of 'base'; do they form a loop?"),
                            BASES_MOST);
@@ -189,86 +155,75 @@ static const struct node *follow(struct resolver *r, const struct object *object
     }
     if (node->kind != NODE_SCALAR)
         return merge_base(r, object, node, depth);
-    static const char *const tables[] = {".csv", ".gpx", ".kml", ".xml"}; /* what is no CSV is told what to do */
-    for (size_t i = 0; object == ceduo_schema_slope() && i < sizeof tables / sizeof tables[0]; i++)
-        if (ends_in(node->text, tables[i]))
-            return csv_map(r->arena, node);
-    const char *path = locate(r->arena, node, object->folder, r->problems);
+    const char *end = strrchr(node->text, '.');
+    for (size_t i = 0; end && object == ceduo_schema_slope() && i < sizeof tables / sizeof tables[0]; i++)
+        if (strcasecmp(end, tables[i]) == 0) { /* a mapping that names it as its table */
+            const struct node map = {.kind = NODE_MAP, .line = node->line, .column = node->column, .source = node->source};
+            const struct node *filled = ceduo_node_with(r->arena, &map, "csv", node);
+            return filled ? in_place_of(r->arena, filled, node) : NULL;
+        }
+    const char *path = ceduo_resolve_path(r->arena, node, object->folder);
+    if (!path && !r->arena->failed)
+        ceduo_node_problem(r->problems, node, node->key,
+                           _("cannot find '%s' beside this file or among the profiles (ceduo --list-profiles)"), node->text);
     const struct node *found = path ? read_file(r, node, path) : NULL;
     if (found && found->kind == NODE_MAP)
         found = merge_base(r, object, found, depth);
-    const struct node *placed = found ? in_place_of(r->arena, found, node) : NULL;
-    if (found && !placed)
-        ceduo_problem_memory(r->problems);
-    return placed;
+    return found ? in_place_of(r->arena, found, node) : NULL;
 }
 
 const struct node *ceduo_resolve(struct arena *arena, const struct object *object, const struct node *node,
                                  struct problems *problems)
 {
     struct resolver r = {.arena = arena, .problems = problems};
-    return follow(&r, object, node, 0);
+    size_t before = problems->met;
+    const struct node *found = follow(&r, object, node, 0);
+    problems->memory |= !found && problems->met == before;
+    return found;
 }
 
-/* A list with item i replaced. `*own`: it was made here before, and nobody else has seen it: a long list is copied
- * once, not for each of its items. */
-static const struct node *put_item(struct arena *arena, const struct node *list, bool *own, size_t i, const struct node *item)
-{
-    if (*own) {
-        ((const struct node **)(uintptr_t)list->items)[i] = item;
-        return list;
-    }
-    *own = true;
-    return ceduo_node_replaced(arena, list, i, item);
-}
-
-/* All references at and below a mapping that `object` describes. */
 static const struct node *resolve_map(struct resolver *r, const struct object *object, const struct node *map);
 
+/* All references at and below the items of a list. It is copied once, not for each of its items. */
 static const struct node *resolve_items(struct resolver *r, const struct object *object, const struct node *list)
 {
-    bool own = false;
+    bool own = false; /* it was made here, and nobody else has seen it */
     for (size_t i = 0; list && i < list->n; i++) {
-        if (list->items[i]->kind != NODE_MAP)
+        const struct node *item = list->items[i]->kind == NODE_MAP ? resolve_map(r, object, list->items[i]) : list->items[i];
+        if (item == list->items[i])
             continue;
-        const struct node *item = resolve_map(r, object, list->items[i]);
-        if (item != list->items[i])
-            list = item ? put_item(r->arena, list, &own, i, item) : NULL;
+        if (own && item)
+            ((const struct node **)(uintptr_t)list->items)[i] = item;
+        else
+            list = ceduo_node_replaced(r->arena, list, i, item);
+        own = true;
     }
     return list;
 }
 
-static const struct node *resolve_entry(struct resolver *r, const struct field *f, const struct node *entry)
-{
-    if (f->type == FIELD_GROUP && f->flags & FIELD_FOLLOWS) {
-        size_t before = r->problems->met;
-        const struct node *found = follow(r, f->object, entry, 0);
-        return found || r->problems->met == before ? found : broken(r, entry);
-    }
-    if (f->type != FIELD_LIST || entry->kind != NODE_LIST)
-        return entry;
-    if (strcmp(f->key, "forest") == 0 && entry->n > CEDUO_ITEMS_MOST) { /* before so many files are looked for */
-        ceduo_node_problem(r->problems, entry, f->key, _("%zu items; at most %d can be computed"), entry->n, CEDUO_ITEMS_MOST);
-        return broken(r, entry);
-    }
-    return resolve_items(r, f->object, entry);
-}
-
+/* All references at and below a mapping that `object` describes. NULL without memory. */
 static const struct node *resolve_map(struct resolver *r, const struct object *object, const struct node *map)
 {
-    for (size_t i = 0; i < map->n; i++) {
-        const struct field *f = ceduo_schema_field(object, map->items[i]->key);
-        if (!f)
-            continue;
-        const struct node *entry = resolve_entry(r, f, map->items[i]);
-        if (entry == map->items[i])
-            continue;
-        const struct node *replaced = entry ? ceduo_node_replaced(r->arena, map, i, entry) : NULL;
-        if (!replaced) {
-            ceduo_problem_memory(r->problems);
-            return NULL;
+    for (size_t i = 0; map && i < map->n; i++) {
+        const struct node *entry = map->items[i], *found = entry;
+        const struct field *f = ceduo_schema_field(object, entry->key);
+        size_t before = r->problems->met;
+        if (f && f->type == FIELD_GROUP && f->flags & FIELD_FOLLOWS) {
+            found = follow(r, f->object, entry, 0);
+            found = found || r->problems->met == before ? found : broken(r, entry);
+        } else if (f && f->type == FIELD_LIST && entry->kind == NODE_LIST) {
+            bool long_one =
+                strcmp(f->key, "forest") == 0 && entry->n > CEDUO_ITEMS_MOST; /* before so many files are looked for */
+            if (long_one)
+                ceduo_node_problem(r->problems, entry, f->key, _("%zu items; at most %d can be computed"), entry->n,
+                                   CEDUO_ITEMS_MOST);
+            found = long_one ? broken(r, entry) : resolve_items(r, f->object, entry);
         }
-        ceduo_node_keep_written(replaced, map); /* the same thing, only followed further */
+        if (found == entry)
+            continue;
+        const struct node *replaced = ceduo_node_replaced(r->arena, map, i, found);
+        if (replaced)
+            ceduo_node_keep_written(replaced, map); /* the same thing, only followed further */
         map = replaced;
     }
     return map;
@@ -277,7 +232,9 @@ static const struct node *resolve_map(struct resolver *r, const struct object *o
 const struct node *ceduo_resolve_scene(struct arena *arena, const struct node *root, struct problems *problems)
 {
     struct resolver r = {.arena = arena, .problems = problems};
-    return root->kind == NODE_MAP ? resolve_map(&r, ceduo_schema_scene(), root) : root;
+    const struct node *found = root->kind == NODE_MAP ? resolve_map(&r, ceduo_schema_scene(), root) : root;
+    problems->memory |= !found;
+    return found;
 }
 
 /* ---- paths ---- */
@@ -339,49 +296,35 @@ static const struct node *set_in(struct setter *s, const struct field *f, const 
 
 static const struct node *fail_at(struct setter *s, const struct path_step *step, const char *what)
 {
-    struct text word = {0};
+    LOCAL_TEXT(word);
     ceduo_text_add(&word, step->p, step->n);
     ceduo_problem(s->problems, s->set, 1, (size_t)(step->p - s->set->bytes) + 1, "'%s': %s", ceduo_text_string(&word), what);
-    ceduo_text_free(&word);
     return NULL;
 }
 
-/* A number becomes {mean: number} where one of its parts is set. */
-static const struct node *spread_map(struct setter *s, const struct node *node)
-{
-    const struct node *map = ceduo_node_empty(s->arena, NODE_MAP, s->set);
-    return map && node ? ceduo_node_with(s->arena, map, "mean", node) : map;
-}
-
-/* A `source` that says of one more value that it is not of it. */
-static const struct node *source_except(struct setter *s, const struct node *source, const struct path_step *path)
-{
-    const struct node *list = ceduo_node_get(source, "except");
-    if (source->kind != NODE_MAP || (list && list->kind != NODE_LIST))
-        return source; /* checked later */
-    for (size_t i = 0; list && i < list->n; i++)
-        if (list->items[i]->kind == NODE_SCALAR && ceduo_path_is(path, list->items[i]->text))
-            return source;
-    list = list ? list : ceduo_node_empty(s->arena, NODE_LIST, source->source);
-    char *text = ceduo_arena_copy(s->arena, path->p, path->n);
-    const struct node *item = text ? ceduo_node_scalar(s->arena, s->set, text, false) : NULL;
-    list = list && item ? ceduo_node_inserted(s->arena, list, list->n, item) : NULL;
-    return list ? ceduo_node_with(s->arena, source, "except", list) : NULL;
-}
-
-/* A value that was changed is no longer of the source around it: the innermost mapping that has one is told so. From a
+/* A value that was changed is no longer of the source around it: the innermost mapping that has one says so under `except`. From a
  * list on the path is left out, for items may move. */
 static const struct node *tell_source(struct setter *s, const struct node *map, const struct path_step *step)
 {
-    const struct node *source = ceduo_node_get(map, "source");
+    const struct node *source = ceduo_node_get(map, "source"), *list = ceduo_node_get(source, "except");
     if (s->sourced || !source)
         return map;
     s->sourced = true;
+    if (source->kind != NODE_MAP || (list && list->kind != NODE_LIST))
+        return map; /* checked later */
     size_t n = 0, most = s->length - (size_t)(step->p - s->set->bytes);
     while (n < most && step->p[n] != '[')
         n++;
-    const struct node *told = source_except(s, source, &(struct path_step){step->p, n, false});
-    return !told || told == source ? told ? map : NULL : ceduo_node_with(s->arena, map, "source", told);
+    const struct path_step path = {step->p, n, false};
+    for (size_t i = 0; list && i < list->n; i++)
+        if (list->items[i]->kind == NODE_SCALAR && ceduo_path_is(&path, list->items[i]->text))
+            return map;
+    list = list ? list : ceduo_node_empty(s->arena, NODE_LIST, source->source);
+    char *text = ceduo_arena_copy(s->arena, step->p, n);
+    const struct node *item = text ? ceduo_node_scalar(s->arena, s->set, text, false) : NULL;
+    list = list && item ? ceduo_node_inserted(s->arena, list, list->n, item) : NULL;
+    source = list ? ceduo_node_with(s->arena, source, "except", list) : NULL;
+    return source ? ceduo_node_with(s->arena, map, "source", source) : NULL;
 }
 
 /* Whether no source is of what was changed: it says the same as before, is only moved, is a name, a source or a setting
@@ -431,9 +374,10 @@ static const struct node *set_entry(struct setter *s, const struct object *objec
     bool last = at >= s->length;
     if (!last && f && f->flags & FIELD_FOLLOWS && child && !(child = ceduo_resolve(s->arena, f->object, child, s->problems)))
         return NULL;
-    if (!last && f && f->type == FIELD_SPREAD && (!child || child->kind == NODE_SCALAR))
-        child = spread_map(s, child);
-    else if (!last && !child && (!f || f->type == FIELD_GROUP))
+    if (!last && f && f->type == FIELD_SPREAD && (!child || child->kind == NODE_SCALAR)) {
+        const struct node *parts = ceduo_node_empty(s->arena, NODE_MAP, s->set); /* {mean: number} where one of them is set */
+        child = parts && child ? ceduo_node_with(s->arena, parts, "mean", child) : parts;
+    } else if (!last && !child && (!f || f->type == FIELD_GROUP))
         child = ceduo_node_empty(s->arena, NODE_MAP, s->set);
     else if (!last && !child)
         return fail_missing(s, map, step);
@@ -466,53 +410,36 @@ static const struct node *fail_no_item(struct setter *s, const struct node *list
     return fail_at(s, step, list->n > 0 ? ceduo_text_string(&what) : _("no such item; the list is empty"));
 }
 
-/* Whether several items from the first on have the name that a bracket holds. Says so. */
-static bool is_ambiguous(struct setter *s, const struct node *list, const struct path_step *step, size_t first)
+static const struct node *set_item(struct setter *s, const struct field *f, const struct node *list,
+                                   const struct path_step *step, size_t at)
 {
-    struct text what = {0}, items = {0};
-    size_t place, n = 0;
+    const struct object *object = f && f->type == FIELD_LIST ? f->object : NULL;
+    size_t first, place, n = 0;
+    LOCAL_TEXT(items);
+    LOCAL_TEXT(what);
+    /* a belt may be named by its stand: follow it first */
+    struct resolver r = {.arena = s->arena, .problems = s->problems};
+    if (object && !(list = resolve_items(&r, object, list)))
+        return NULL;
+    if (ceduo_path_is(step, "*") && list->n > 0) { /* what is around is told unless every item has told its own source */
+        bool before = s->sourced, told = true;
+        for (size_t i = 0; list && i < list->n; i++) {
+            s->sourced = before;
+            list = ceduo_node_replaced(s->arena, list, i, set_in(s, NULL, object, list->items[i], at));
+            told &= s->sourced;
+        }
+        s->sourced = told;
+        return list;
+    }
+    if (!ceduo_resolve_item(list, step, &first))
+        return fail_no_item(s, list, step);
     for (size_t i = first; i < list->n && !ceduo_path_index(step, &place); i++)
         if (ceduo_path_is(step, name_of(list->items[i])))
             ceduo_text_format(&items, "%s[%zu]", n++ > 0 ? ", " : "", i);
     ceduo_text_format(&what, _("several items have this name; use one of: %s"), ceduo_text_string(&items));
     if (n > 1)
-        fail_at(s, step, ceduo_text_string(&what));
-    ceduo_text_free(&items);
-    ceduo_text_free(&what);
-    return n > 1;
-}
-
-/* [*]: all items. What is around the list is told unless every item has told its own source. */
-static const struct node *set_all(struct setter *s, const struct object *object, const struct node *list, size_t at)
-{
-    bool before = s->sourced, told = true;
-    for (size_t i = 0; list && i < list->n; i++) {
-        s->sourced = before;
-        const struct node *item = set_in(s, NULL, object, list->items[i], at);
-        list = item ? ceduo_node_replaced(s->arena, list, i, item) : NULL;
-        told &= s->sourced;
-    }
-    s->sourced = told;
-    return list;
-}
-
-static const struct node *set_item(struct setter *s, const struct field *f, const struct node *list,
-                                   const struct path_step *step, size_t at)
-{
-    const struct object *object = f && f->type == FIELD_LIST ? f->object : NULL;
-    size_t i;
-    /* a belt may be named by its stand: follow it first */
-    struct resolver r = {.arena = s->arena, .problems = s->problems};
-    if (object && !(list = resolve_items(&r, object, list)))
-        return NULL;
-    if (ceduo_path_is(step, "*") && list->n > 0)
-        return set_all(s, object, list, at);
-    if (!ceduo_resolve_item(list, step, &i))
-        return fail_no_item(s, list, step);
-    if (is_ambiguous(s, list, step, i))
-        return NULL;
-    const struct node *item = set_in(s, NULL, object, list->items[i], at);
-    return item ? ceduo_node_replaced(s->arena, list, i, item) : NULL;
+        return fail_at(s, step, ceduo_text_string(&what));
+    return ceduo_node_replaced(s->arena, list, first, set_in(s, NULL, object, list->items[first], at));
 }
 
 /* The node with what lies from `at` on along the path replaced. A node that was followed stays marked as such. */
