@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The rock and its release, whether they are the scene's or those of something observed. */
+/* The rock and its release, whether they are the scene's or those of something observed; the blocks that come down, and the places
+ * where they are counted. */
 #include <math.h>
 #include <string.h>
 
@@ -14,44 +15,40 @@ static const struct {
               [CEDUO_ELLIPSOID] = {{"axes_m"}, "axes_m: [1, 1, 1]"},
               [CEDUO_BLOCK] = {{"axes_m"}, "axes_m: [1, 1, 1]"}};
 
-static void check_sizes(struct validator *v, const char *rock, const struct node *node, enum ceduo_shape shape)
-{
-    static const char *const sizes[] = {"diameter_m", "height_m", "axes_m", "volume_m3"};
-    const struct node *said = ceduo_node_get(node, "shape");
-    const char *name = ceduo_shape_words.names[shape];
-    int n = 0;
-    for (size_t i = 0; i < 4; i++) {
-        bool belongs = false;
-        for (size_t k = 0; shapes[shape].keys[k]; k++)
-            belongs |= strcmp(shapes[shape].keys[k], sizes[i]) == 0;
-        if (belongs || !ceduo_node_get(node, sizes[i]))
-            continue;
-        const char *path = ceduo_format(v, "%s.%s", rock, sizes[i]);
-        if (said && said->source->is_option) /* nothing of the file can be taken out there */
-            ceduo_complain(v, path, "", _("does not belong to the shape '%s'; give the whole rock: -s 'rock={shape: %s, %s}'"),
-                           name, name, shapes[shape].example);
-        else
-            ceduo_complain(v, path, "", _("does not belong to the shape '%s'; remove it"), name);
-    }
-    for (size_t i = 0; shapes[shape].keys[i]; i++) {
-        bool given = ceduo_is_given(v, rock, node, shapes[shape].keys[i]);
-        n += given;
-        if (!given && shape != CEDUO_SPHERE)
-            ceduo_complain(v, rock, "", _("'%s' is missing: the shape '%s' needs it"), shapes[shape].keys[i], name);
-    }
-    if (shape == CEDUO_SPHERE && n != 1)
-        ceduo_complain(v, rock, "", _("a sphere is given by one of diameter_m, volume_m3 and mass_kg, here %d are given"), n);
-    if (shape != CEDUO_SPHERE && ceduo_node_get(node, "mass_kg") && ceduo_node_get(node, "density_kg_m3"))
-        ceduo_complain(v, ceduo_format(v, "%s.density_kg_m3", rock), "", _("mass_kg already says this; keep one of the two"));
-}
-
 void ceduo_validate_rock(struct validator *v, const char *path, const struct node *node, const struct ceduo_rock_def *def)
 {
+    static const char *const sizes[] = {"diameter_m", "height_m", "axes_m", "volume_m3"};
+    const enum ceduo_shape shape = def->shape;
+    const char *const *keys = shapes[shape].keys, *name = ceduo_shape_words.names[shape];
+    const struct node *said = ceduo_node_get(node, "shape");
     size_t before = v->problems->met;
+    int n = 0;
     if (!ceduo_is_known(v, "%s.shape", path))
         return;
-    check_sizes(v, path, node, def->shape);
-    bool by_mass = def->shape != CEDUO_SPHERE && ceduo_is_given(v, path, node, "mass_kg");
+    for (size_t i = 0; i < 4; i++) {
+        bool belongs = false;
+        for (size_t k = 0; keys[k]; k++)
+            belongs |= strcmp(keys[k], sizes[i]) == 0;
+        if (belongs || !ceduo_node_get(node, sizes[i]))
+            continue;
+        if (said && said->source->is_option) /* nothing of the file can be taken out there */
+            ceduo_complain(v, path, sizes[i],
+                           _("does not belong to the shape '%s'; give the whole rock: -s 'rock={shape: %s, %s}'"), name, name,
+                           shapes[shape].example);
+        else
+            ceduo_complain(v, path, sizes[i], _("does not belong to the shape '%s'; remove it"), name);
+    }
+    for (size_t i = 0; keys[i]; i++) {
+        bool given = ceduo_is_given(v, path, node, keys[i]);
+        n += given;
+        if (!given && shape != CEDUO_SPHERE)
+            ceduo_complain(v, path, "", _("'%s' is missing: the shape '%s' needs it"), keys[i], name);
+    }
+    if (shape == CEDUO_SPHERE && n != 1)
+        ceduo_complain(v, path, "", _("a sphere is given by one of diameter_m, volume_m3 and mass_kg, here %d are given"), n);
+    if (shape != CEDUO_SPHERE && ceduo_node_get(node, "mass_kg") && ceduo_node_get(node, "density_kg_m3"))
+        ceduo_complain(v, path, "density_kg_m3", _("mass_kg already says this; keep one of the two"));
+    bool by_mass = shape != CEDUO_SPHERE && ceduo_is_given(v, path, node, "mass_kg");
     bool of_scene = strcmp(path, "rock") == 0;
     if (of_scene && !ceduo_is_given(v, path, node, "density_kg_m3") && !by_mass)
         ceduo_assume(v, "rock.density_kg_m3",
@@ -75,4 +72,102 @@ void ceduo_validate_release(struct validator *v, const char *path, struct ceduo_
         ceduo_complain(v, path, "", _("%s lies beyond the slope; a release may be anywhere from %s to before %s m"),
                        ceduo_decimal(v, (first >= 0 ? last : first) + v->origin), ceduo_decimal(v, v->origin),
                        ceduo_decimal(v, end + v->origin));
+}
+
+/* ---- the blocks that come down ---- */
+
+void ceduo_validate_blocks(struct validator *v)
+{
+    struct ceduo_scene *scene = &v->draft.scene;
+    const struct node *blocks = ceduo_node_get(v->root, "blocks");
+    size_t n = scene->blocks_count;
+    if (!blocks)
+        return;
+    if (n == 0 && ceduo_is_known(v, "blocks"))
+        ceduo_complain(v, "blocks", "", _("name at least one class of blocks, or remove the key"));
+    const struct ceduo_rock_def *r = &scene->rock;
+    bool spreads = r->diameter.spread > 0 || r->volume.spread > 0 || r->mass.spread > 0;
+    if (ceduo_node_get(v->root, "rocks_per_year"))
+        ceduo_complain(v, "rocks_per_year", "", _("blocks already say this; keep one of the two"));
+    if (blocks->kind == NODE_MAP && !ceduo_is_given(v, "blocks", blocks, "exponent"))
+        ceduo_complain(v, "blocks", "",
+                       _("'exponent' is missing: the number of blocks above a volume v goes with v^-exponent"));
+    if (scene->simulation.rocks > CEDUO_SIZED_ROCKS_MOST)
+        ceduo_complain(v, "simulation.rocks", "", _("with blocks each rock is kept: at most %s rocks"),
+                       ceduo_decimal(v, CEDUO_SIZED_ROCKS_MOST));
+    if (r->shape == CEDUO_SPHERE && spreads && ceduo_is_sound(v, "rock")) /* whose proportions are always the same */
+        ceduo_complain(v, "rock", "", _("blocks say how large the rocks are; give the size without a spread"));
+    if (ceduo_is_too_long(v, "blocks", n) || !ceduo_is_sound(v, "blocks"))
+        return;
+    bool good = true, single = blocks->kind == NODE_MAP;
+    scene->rocks_per_year = n > 0 ? 0 : NAN;
+    for (size_t i = 0; i < n; i++) {
+        const struct ceduo_block_class *b = &scene->blocks[i];
+        const char *path = single ? "blocks.volume_m3" : ceduo_format(v, "blocks[%zu].volume_m3", i);
+        bool two = b->volumes_count == 2, rise = two && b->volumes[0] < b->volumes[1];
+        scene->rocks_per_year += b->per_year;
+        if (!two)
+            ceduo_complain(v, path, "", _("expected two volumes, the smallest and the largest: [lo, hi]"));
+        else if (!rise)
+            ceduo_complain(v, path, "", _("%s m3 is not below %s m3; write the smaller volume first"),
+                           ceduo_decimal(v, b->volumes[0]), ceduo_decimal(v, b->volumes[1]));
+        good &= rise;
+    }
+    for (size_t i = 0; i < n && good; i++) { /* of those before it none may hold the same sizes */
+        const struct ceduo_block_class *b = scene->blocks;
+        size_t k = 0;
+        while (k < i && !(b[i].volumes[0] < b[k].volumes[1] && b[k].volumes[0] < b[i].volumes[1]))
+            k++;
+        if (k < i)
+            ceduo_complain(v, ceduo_format(v, "blocks[%zu].volume_m3", i), "",
+                           _("the class overlaps one before it, from %s to %s m3; let them touch at most"),
+                           ceduo_decimal(v, b[k].volumes[0]), ceduo_decimal(v, b[k].volumes[1]));
+    }
+}
+
+/* ---- where they are counted ---- */
+
+void ceduo_validate_controls(struct validator *v)
+{
+    struct ceduo_scene *scene = &v->draft.scene;
+    bool listed = scene->controls_count > 0;
+    size_t n = listed ? scene->controls_count : v->draft.controls_m_count;
+    const char *path = listed ? "controls" : "controls_m";
+    scene->controls_count = 0;
+    if (ceduo_node_get(v->root, "controls") && ceduo_node_get(v->root, "controls_m")) {
+        ceduo_complain(v, "controls_m", "", _("controls already say this; keep one of the two"));
+        return;
+    }
+    if (!ceduo_is_known(v, "controls") || !ceduo_is_known(v, "controls_m"))
+        return;
+    if (n == 0) {
+        ceduo_complain(v, "", "", _("'controls' is missing: name at least one place where passing rocks are counted"));
+        return;
+    }
+    if (ceduo_is_too_long(v, path, n) || (!listed && !(scene->controls = ceduo_room(v, n, sizeof *scene->controls))))
+        return;
+    double end = v->profile ? scene->slope.x[scene->slope.vertices - 1] : INFINITY;
+    bool starts = v->profile && ceduo_is_sound(v, "release.x_m");
+    double last = starts ? ceduo_number_highest(scene->release.x) : -INFINITY;
+    for (size_t i = 0; i < n; i++) {
+        struct ceduo_control *c = &scene->controls[i];
+        const char *at = ceduo_format(v, listed ? "%s[%zu].x_m" : "%s[%zu]", path, i);
+        size_t k = 0;
+        if (!listed) { /* by its x alone */
+            ceduo_schema_init(ceduo_schema_field(ceduo_schema_scene(), "controls")->object, c);
+            c->x_given = v->draft.controls_m[i];
+        }
+        c->x = c->x_given - v->origin;
+        const char *here = ceduo_decimal(v, c->x_given);
+        while (k < i && scene->controls[k].x != c->x)
+            k++;
+        if (c->x > end)
+            ceduo_complain(v, at, "", _("%s lies beyond the slope, which ends at %s m"), here,
+                           ceduo_decimal(v, end + v->origin));
+        else if (c->x <= last)
+            ceduo_complain(v, at, "", _("%s does not lie beyond the release, %s m"), here, ceduo_decimal(v, last + v->origin));
+        else if (k < i)
+            ceduo_complain(v, at, "", _("%s is given twice"), here);
+    }
+    scene->controls_count = n;
 }
