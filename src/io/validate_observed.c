@@ -23,35 +23,29 @@ static bool is_beside(const char *key)
     return false;
 }
 
-/* A path in place of the values is a table. */
-static const struct node *name_tables(struct arena *arena, const struct node *kind)
-{
-    static const char *const lists[] = {"x_m", "values", "height_m"};
-    bool place = ceduo_node_get(kind, "values") || ceduo_node_get(kind, "mean"); /* then x_m is a number */
-    double value;
-    for (size_t i = place ? 1 : 0; kind && i < 3; i++) {
-        const struct node *list = ceduo_node_get(kind, lists[i]);
-        bool number =
-            list && list->kind == NODE_SCALAR && !list->quoted && ceduo_number_read(list->text, &value) != CEDUO_NUMBER_NONE;
-        if (list && list->kind == NODE_SCALAR && !number && !ceduo_node_get(kind, "csv"))
-            kind = ceduo_node_with(arena, ceduo_node_without(arena, kind, lists[i]), "csv", list);
-    }
-    return kind;
-}
-
-/* Takes out of a kind what belongs beside it. */
+/* Takes out of a kind what belongs beside it; a path in place of its values is a table. */
 static const struct node *lift(struct arena *arena, const struct node *row, const char *key)
 {
+    static const char *const lists[] = {"x_m", "values", "height_m"};
     const struct node *kind = ceduo_node_get(row, key);
-    for (size_t i = kind->kind == NODE_MAP ? kind->n : 0; row && kind && i-- > 0;) {
+    if (kind->kind != NODE_MAP)
+        return row;
+    for (size_t i = kind->n; row && kind && i-- > 0;) {
         const struct node *entry = kind->items[i];
         if (!is_beside(entry->key) || ceduo_node_get(row, entry->key))
             continue;
         kind = ceduo_node_without(arena, kind, entry->key);
         row = ceduo_node_with(arena, row, entry->key, entry);
     }
-    if (kind && kind->kind == NODE_MAP)
-        kind = name_tables(arena, kind);
+    bool place = ceduo_node_get(kind, "values") || ceduo_node_get(kind, "mean"); /* then x_m is a number */
+    for (size_t i = place; kind && i < 3; i++) {
+        double value;
+        const struct node *list = ceduo_node_get(kind, lists[i]);
+        bool scalar = list && list->kind == NODE_SCALAR;
+        if (scalar && !ceduo_node_get(kind, "csv") &&
+            (list->quoted || ceduo_number_read(list->text, &value) == CEDUO_NUMBER_NONE))
+            kind = ceduo_node_with(arena, ceduo_node_without(arena, kind, lists[i]), "csv", list);
+    }
     return ceduo_node_with(arena, row, key, kind);
 }
 
@@ -69,19 +63,6 @@ static const struct node *arrange_row(struct validator *v, const struct node *ro
         if (!ceduo_node_get(own, scene->items[i]->key) && strcmp(scene->items[i]->key, "source") != 0)
             own = ceduo_node_with(v->arena, own, scene->items[i]->key, scene->items[i]);
     return own ? ceduo_node_with(v->arena, arranged, "release", own) : arranged;
-}
-
-/* doubt: {draws: FILE, rows: […]}: the rows are the list that may stand there alone. NULL without memory. */
-static const struct node *arrange_doubt(struct validator *v)
-{
-    const struct node *doubt = ceduo_node_get(v->root, "doubt"), *rows = ceduo_node_get(doubt, "rows");
-    if (!doubt || doubt->kind != NODE_MAP || !(v->draws = ceduo_node_get(doubt, "draws")))
-        return v->root;
-    for (size_t i = 0; i < doubt->n; i++)
-        if (strcmp(doubt->items[i]->key, "draws") != 0 && strcmp(doubt->items[i]->key, "rows") != 0)
-            ceduo_node_problem(v->problems, doubt->items[i], "doubt", _("unknown key; known here: draws, rows"));
-    const struct node *root = ceduo_node_without(v->arena, v->root, "doubt");
-    return rows ? ceduo_node_with(v->arena, root, "doubt", rows) : root;
 }
 
 /* A mapping of kinds, each with its row or a list of such, as a list of rows that have one kind each. NULL without memory. */
@@ -108,7 +89,16 @@ static const struct node *list_kinds(struct arena *arena, const struct node *kin
 
 void ceduo_arrange_observed(struct validator *v)
 {
-    const struct node *root = arrange_doubt(v), *all = ceduo_node_get(root, "observed");
+    const struct node *doubt = ceduo_node_get(v->root, "doubt"), *rows = ceduo_node_get(doubt, "rows"), *root = v->root;
+    v->draws = ceduo_node_get(doubt, "draws");
+    if (v->draws) { /* doubt: {draws: FILE, rows: […]}: the rows are the list that may stand there alone */
+        for (size_t i = 0; i < doubt->n; i++)
+            if (strcmp(doubt->items[i]->key, "draws") != 0 && strcmp(doubt->items[i]->key, "rows") != 0)
+                ceduo_node_problem(v->problems, doubt->items[i], "doubt", _("unknown key; known here: draws, rows"));
+        root = ceduo_node_without(v->arena, root, "doubt");
+        root = rows ? ceduo_node_with(v->arena, root, "doubt", rows) : root;
+    }
+    const struct node *all = ceduo_node_get(root, "observed");
     const struct node *list = all && all->kind == NODE_MAP ? list_kinds(v->arena, all) : all;
     for (size_t i = 0; list && list->kind == NODE_LIST && i < list->n; i++) {
         const struct node *row = arrange_row(v, list->items[i]);
@@ -209,6 +199,17 @@ static bool take_values(const struct place *p)
     return !of_table || ceduo_complain(v, p->at, of_table, _("names something of a table; name the table, csv"));
 }
 
+static bool check_on_slope(const struct place *p, const char *path, const char *key, double x)
+{
+    struct validator *v = p->v;
+    double lo = v->origin, hi = v->draft.scene.slope.x[v->draft.scene.slope.vertices - 1] + lo;
+    if (x < lo)
+        return ceduo_complain(v, path, key, _("%s lies before the slope, which begins at %s m"), ceduo_decimal(v, x),
+                              ceduo_decimal(v, lo));
+    return !(x > hi) || ceduo_complain(v, path, key, _("%s lies beyond the slope, which ends at %s m"), ceduo_decimal(v, x),
+                                       ceduo_decimal(v, hi));
+}
+
 /* Either values, or their mean, sd and number. */
 static bool check_form(const struct place *p)
 {
@@ -219,17 +220,6 @@ static bool check_form(const struct place *p)
     return means == 3 ||
            ceduo_complain(p->v, p->at, "",
                           means == 0 ? _("give values, or their mean, sd and n") : _("a mean needs sd and n too"));
-}
-
-static bool check_on_slope(const struct place *p, const char *path, const char *key, double x)
-{
-    struct validator *v = p->v;
-    double lo = v->origin, hi = v->draft.scene.slope.x[v->draft.scene.slope.vertices - 1] + lo;
-    if (x < lo)
-        return ceduo_complain(v, path, key, _("%s lies before the slope, which begins at %s m"), ceduo_decimal(v, x),
-                              ceduo_decimal(v, lo));
-    return !(x > hi) || ceduo_complain(v, path, key, _("%s lies beyond the slope, which ends at %s m"), ceduo_decimal(v, x),
-                                       ceduo_decimal(v, hi));
 }
 
 /* Whether every value lies on the slope beyond seen_from_m, where rocks stopped there, or is not negative; the first that does
@@ -262,15 +252,6 @@ static bool check_released(const struct place *p)
     return of == 0 || observed <= of || ceduo_complain(p->v, p->at, "of", _("%llu were seen of %llu released"), observed, of);
 }
 
-/* A place where rocks pass, beyond the release. */
-static bool check_place(const struct place *p)
-{
-    double x = p->values->x, last = ceduo_number_highest(p->release->x) + p->v->origin;
-    return check_on_slope(p, p->at, "x_m", x) &&
-           (x > last || ceduo_complain(p->v, p->at, "x_m", _("%s does not lie beyond the release, %s m"),
-                                       ceduo_decimal(p->v, x), ceduo_decimal(p->v, last)));
-}
-
 static bool check_stretch(const struct place *p, const char *path, double from, double to)
 {
     return check_on_slope(p, path, "from_m", from) && check_on_slope(p, path, "to_m", to) &&
@@ -281,11 +262,15 @@ static bool check_stretch(const struct place *p, const char *path, double from, 
 static bool check_values(const struct place *p)
 {
     const struct observed_values *values = p->values;
+    double last = ceduo_number_highest(p->release->x) + p->v->origin;
     switch (p->is->where) {
     case CEDUO_WHERE_AT_REST:
         return check_on_slope(p, p->at, "seen_from_m", values->seen_from) && check_each(p) && check_released(p);
     case CEDUO_WHERE_AT_PLACE:
-        return p->is->list ? check_form(p) && check_place(p) && check_each(p) : check_place(p) && check_released(p);
+        return (!p->is->list || check_form(p)) && check_on_slope(p, p->at, "x_m", values->x) &&
+               (values->x > last || ceduo_complain(p->v, p->at, "x_m", _("%s does not lie beyond the release, %s m"),
+                                                   ceduo_decimal(p->v, values->x), ceduo_decimal(p->v, last))) &&
+               (p->is->list ? check_each(p) : check_released(p));
     case CEDUO_WHERE_ON_STEMS: /* of which a rock may strike several */
         return check_stretch(p, p->at, values->from, values->to) && check_each(p);
     case CEDUO_WHERE_LARGEST:
@@ -342,21 +327,6 @@ static bool find_option(struct validator *v, const char *path, const struct obse
                                          ceduo_text_string(&all));
 }
 
-/* Names the keys of all kinds; several kinds may be within one. */
-static void complain_nothing(struct validator *v, const char *path)
-{
-    LOCAL_TEXT(keys);
-    const char *before = "";
-    for (int kind = 0; kind < CEDUO_OBSERVED_KINDS; kind++) {
-        const char *key = ceduo_observed_row((enum ceduo_observed_kind)kind)->path;
-        size_t n = strcspn(key, ".");
-        if (strncmp(before, key, n + 1) != 0)
-            ceduo_text_then(&keys, before[0] ? ", " : "", "%.*s", (int)n, key);
-        before = key;
-    }
-    ceduo_complain(v, path, "", _("say what was seen, one of: %s"), ceduo_text_string(&keys));
-}
-
 static void validate_row(struct validator *v, const char *path, const struct node *node, struct observed *row)
 {
     struct ceduo_observation shared = {.use = (enum ceduo_observed_use)row->use};
@@ -392,8 +362,18 @@ static void validate_row(struct validator *v, const char *path, const struct nod
             set_observation(&p, o);
         }
     }
-    if (!any)
-        complain_nothing(v, path);
+    if (any)
+        return;
+    LOCAL_TEXT(keys); /* of all kinds; several may be within one */
+    const char *key = "";
+    for (int kind = 0; kind < CEDUO_OBSERVED_KINDS; kind++) {
+        const char *last = key;
+        key = ceduo_observed_row((enum ceduo_observed_kind)kind)->path;
+        size_t n = strcspn(key, ".");
+        if (strncmp(last, key, n + 1) != 0)
+            ceduo_text_then(&keys, last[0] ? ", " : "", "%.*s", (int)n, key);
+    }
+    ceduo_complain(v, path, "", _("say what was seen, one of: %s"), ceduo_text_string(&keys));
 }
 
 void ceduo_validate_observed(struct validator *v)
