@@ -23,60 +23,39 @@
 #define OF_SLOPE(items, count) IN_SLOPE(items), sizeof((struct scene_draft *)0)->items, IN_SLOPE(count)
 _Static_assert(offsetof(struct ceduo_slope, z) == offsetof(struct ceduo_slope, x) + sizeof(double *), "points are x, z");
 
-/* Rows by their kind; each expands in one step, for `at` is three members. */
+/* Rows by their kind; `at` is three members. */
+#define ROW(...)                                                                                                               \
+    {                                                                                                                          \
+        __VA_ARGS__                                                                                                            \
+    }
 #define NUM(kind, key, says, at, unit, scale, lo, hi, flags, value, meaning)                                                   \
-    {                                                                                                                          \
-        key, kind, at, unit, scale, lo, hi, flags, value, meaning, NULL, NULL, says                                            \
-    }
+    ROW(key, kind, at, unit, scale, lo, hi, flags, value, meaning, NULL, NULL, says)
 #define NUMBER(key, says, at, unit, lo, hi, flags, value, meaning)                                                             \
-    {                                                                                                                          \
-        key, FIELD_NUMBER, at, unit, 1, lo, hi, flags, value, meaning, NULL, NULL, says                                        \
-    }
+    ROW(key, FIELD_NUMBER, at, unit, 1, lo, hi, flags, value, meaning, NULL, NULL, says)
 #define SPREAD(key, says, at, unit, lo, hi, flags, value, meaning)                                                             \
-    {                                                                                                                          \
-        key, FIELD_SPREAD, at, unit, 1, lo, hi, flags, value, meaning, NULL, NULL, says                                        \
-    }
+    ROW(key, FIELD_SPREAD, at, unit, 1, lo, hi, flags, value, meaning, NULL, NULL, says)
 #define OTHER(kind, key, says, at, flags, value, meaning, choices, object)                                                     \
-    {                                                                                                                          \
-        key, kind, at, "", 1, -INFINITY, INFINITY, flags, value, meaning, choices, object, says                                \
-    }
+    ROW(key, kind, at, "", 1, -INFINITY, INFINITY, flags, value, meaning, choices, object, says)
 #define WORD(key, says, at, flags, value, meaning, choices)                                                                    \
-    {                                                                                                                          \
-        key, FIELD_CHOICE, at, "", 1, -INFINITY, INFINITY, flags, value, meaning, choices, NULL, says                          \
-    }
+    ROW(key, FIELD_CHOICE, at, "", 1, -INFINITY, INFINITY, flags, value, meaning, choices, NULL, says)
 #define GROUP(key, says, at, flags, meaning, object)                                                                           \
-    {                                                                                                                          \
-        key, FIELD_GROUP, at, "", 1, -INFINITY, INFINITY, flags, NULL, meaning, NULL, object, says                             \
-    }
+    ROW(key, FIELD_GROUP, at, "", 1, -INFINITY, INFINITY, flags, NULL, meaning, NULL, object, says)
 #define ITEMS(key, says, at, flags, meaning, object)                                                                           \
-    {                                                                                                                          \
-        key, FIELD_LIST, at, "", 1, -INFINITY, INFINITY, flags, NULL, meaning, NULL, object, says                              \
-    }
+    ROW(key, FIELD_LIST, at, "", 1, -INFINITY, INFINITY, flags, NULL, meaning, NULL, object, says)
 #define TEXT(key, says, at, flags, meaning)                                                                                    \
-    {                                                                                                                          \
-        key, FIELD_TEXT, at, "", 1, -INFINITY, INFINITY, flags, NULL, meaning, NULL, NULL, says                                \
-    }
+    ROW(key, FIELD_TEXT, at, "", 1, -INFINITY, INFINITY, flags, NULL, meaning, NULL, NULL, says)
 #define TAG(value)                                                                                                             \
-    {                                                                                                                          \
-        "ceduo", FIELD_TAG, NOWHERE, "", 1, 0, 0, REQUIRED | FIELD_NOWHERE, value, N_("what kind of file this is"), NULL,      \
-            NULL, NAMED(N_("kind of file"), NULL)                                                                              \
-    }
+    ROW("ceduo", FIELD_TAG, NOWHERE, "", 1, 0, 0, REQUIRED | FIELD_NOWHERE, value, N_("what kind of file this is"), NULL,      \
+        NULL, NAMED(N_("kind of file"), NULL))
 
 /* What people call it: a label, and a short one for the head of a column (NULL: the same); what is usual, in the file's
  * unit; another unit that people use. */
-#define SHOWN(label, brief, unit, per, least, most)                                                                            \
-    {                                                                                                                          \
-        label, brief, unit, per, least, most                                                                                   \
-    }
-#define USUAL(label, brief, least, most)       SHOWN(label, brief, NULL, 1, least, most)
+#define USUAL(label, brief, least, most)       ROW(label, brief, NULL, 1, least, most)
 #define NAMED(label, brief)                    USUAL(label, brief, -INFINITY, INFINITY)
-#define CENTIMETRES(label, brief, least, most) SHOWN(label, brief, N_("cm"), 100, least, most)
-#define OBJECT(type, fields, folder)                                                                                           \
-    {                                                                                                                          \
-        fields, sizeof fields / sizeof fields[0], sizeof(struct type), folder                                                  \
-    }
-#define STRING(macro) TEXT_OF(macro)
-#define TEXT_OF(text) #text
+#define CENTIMETRES(label, brief, least, most) ROW(label, brief, N_("cm"), 100, least, most)
+#define OBJECT(type, fields, folder)           ROW(fields, sizeof fields / sizeof fields[0], sizeof(struct type), folder)
+#define STRING(macro)                          TEXT_OF(macro)
+#define TEXT_OF(text)                          #text
 
 enum { REQUIRED = FIELD_REQUIRED, ABOVE = FIELD_ABOVE, ZERO = FIELD_ZERO, YEARS = FIELD_YEARS, NO_RUN = FIELD_NO_RUN };
 
