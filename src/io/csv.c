@@ -76,20 +76,13 @@ static struct csv_span trim(struct csv_span f)
     return f;
 }
 
-/* Where a field that begins at p ends: at the separator, but not at one in quotes. */
-static const char *field_end(const char *p, const char *end, char separator)
-{
-    bool quoted = false;
-    for (; p < end && (quoted || *p != separator); p++)
-        quoted ^= *p == '"';
-    return p;
-}
-
 bool ceduo_csv_cell(struct csv_span *left, char separator, struct csv_span *field)
 {
     if (!left->p)
         return false;
-    const char *end = left->p + left->n, *stop = field_end(left->p, end, separator);
+    const char *end = left->p + left->n, *stop = left->p;
+    for (bool quoted = false; stop < end && (quoted || *stop != separator); stop++) /* one in quotes ends nothing */
+        quoted ^= *stop == '"';
     *field = (struct csv_span){left->p, (size_t)(stop - left->p)};
     *left = stop == end ? (struct csv_span){NULL, 0} : (struct csv_span){stop + 1, (size_t)(end - stop) - 1};
     return true;
@@ -206,19 +199,14 @@ size_t ceduo_csv_columns(const struct csv *csv, struct text *names)
     return n;
 }
 
-static bool is_blank(struct csv_span line)
-{
-    for (size_t i = 0; i < line.n; i++)
-        if (line.p[i] != ' ' && line.p[i] != '\t' && line.p[i] != ',' && line.p[i] != ';')
-            return false;
-    return true;
-}
-
 bool ceduo_csv_next(struct csv *csv)
 {
     while (next_line(csv->source, &csv->at, &csv->line)) {
+        size_t blank = 0;
+        while (blank < csv->line.n && memchr(" \t,;", csv->line.p[blank], 4))
+            blank++;
         csv->number++;
-        if (!is_blank(csv->line))
+        if (blank < csv->line.n)
             return true;
     }
     return false;
@@ -261,20 +249,6 @@ bool ceduo_csv_complain(const struct csv *csv, struct csv_span field, const char
     return false;
 }
 
-/* Where commas do not separate they may stand for the decimals, in all numbers of a file or in none: a dot beside them
- * would be one of thousands. False where a number has the other. */
-static bool take_decimal(struct csv *c, char *room)
-{
-    char *comma = c->separator == ',' ? NULL : strchr(room, ',');
-    bool dot = strchr(room, '.') != NULL;
-    if ((comma && (dot || c->decimal == '.')) || (dot && c->decimal == ','))
-        return false;
-    if (comma)
-        *comma = '.';
-    c->decimal = comma ? ',' : dot ? '.' : c->decimal;
-    return true;
-}
-
 bool ceduo_csv_number(struct csv *csv, struct csv_span f, double lo, double hi, const char *unit, double *value)
 {
     char room[512];
@@ -283,7 +257,15 @@ bool ceduo_csv_number(struct csv *csv, struct csv_span f, double lo, double hi, 
         memcpy(room, f.p, f.n);
         room[f.n] = '\0';
     }
-    bool one_decimal = !fits || take_decimal(csv, room);
+    /* where commas do not separate they may stand for the decimals, in all numbers of a file or in none: a dot beside them would
+     * be one of thousands */
+    char *comma = fits && csv->separator != ',' ? strchr(room, ',') : NULL;
+    bool dot = fits && strchr(room, '.');
+    bool one_decimal = !(comma && (dot || csv->decimal == '.')) && !(dot && csv->decimal == ',');
+    if (one_decimal && comma)
+        *comma = '.';
+    if (one_decimal && (comma || dot))
+        csv->decimal = comma ? ',' : '.';
     enum ceduo_number_reading reading =
         fits && one_decimal && !memchr(room, '\0', f.n) ? ceduo_number_read(room, value) : CEDUO_NUMBER_NONE;
     if (reading == CEDUO_NUMBER_GOOD && *value <= hi && *value >= lo)

@@ -29,48 +29,9 @@ static bool is_standard(const char *path)
     return strcmp(path, "-") == 0;
 }
 
-/* What an open file holds, straight into the arena: a large one is in memory once. A regular file that says that it is empty
- * is not read, for some of the system's never end. */
-static bool read_all(int fd, struct arena *arena, size_t max, struct source *into)
-{
-    struct stat st;
-    if (fstat(fd, &st) != 0)
-        return false;
-    bool sized = S_ISREG(st.st_mode);
-    size_t room = sized ? (size_t)st.st_size + 1 : ROOM_FIRST, n = 0; /* one more, to see the end */
-    if (sized && (uintmax_t)st.st_size > max) {
-        errno = EFBIG;
-        return false;
-    }
-    char *bytes = ceduo_arena_take(arena, room + 1);
-    for (ssize_t got = sized ? st.st_size : 1; bytes && got > 0;) {
-        got = read(fd, bytes + n, room - n);
-        if (got < 0 && errno == EINTR)
-            got = 1;
-        else if (got < 0)
-            return false;
-        else
-            n += (size_t)got;
-        if (n > max) {
-            errno = EFBIG;
-            return false;
-        }
-        if (n < room)
-            continue;
-        char *more = ceduo_arena_take(arena, 2 * room + 1);
-        if (more) /* untaken: memory */
-            memcpy(more, bytes, n);
-        bytes = more;
-        room *= 2;
-    }
-    into->bytes = bytes;
-    into->length = n;
-    if (!bytes)
-        errno = ENOMEM;
-    return bytes != NULL;
-}
-
-/* Standard input may be anything; what has a name must be a regular file or a FIFO, for a device may have no end. */
+/* What a file holds, straight into the arena: a large one is in memory once. Standard input may be anything; what has a name must
+ * be a regular file or a FIFO, for a device may have no end. A regular file that says that it is empty is not read, for some of the
+ * system's never end. */
 static bool read_file(struct arena *arena, const char *path, size_t max, struct source *into)
 {
     struct stat st = {0};
@@ -81,13 +42,36 @@ static bool read_file(struct arena *arena, const char *path, size_t max, struct 
         errno = S_ISDIR(st.st_mode) ? EISDIR : NO_FILE;
         return false;
     }
-    int fd = named ? open(path, O_RDONLY | O_NOCTTY | O_CLOEXEC) : STDIN_FILENO;
-    bool good = fd >= 0 && read_all(fd, arena, max, into);
-    int why = errno;
+    int fd = named ? open(path, O_RDONLY | O_NOCTTY | O_CLOEXEC) : STDIN_FILENO, why = 0;
+    if (fd < 0 || fstat(fd, &st) != 0)
+        why = errno;
+    bool sized = S_ISREG(st.st_mode);
+    size_t room = sized ? (size_t)st.st_size + 1 : ROOM_FIRST, n = 0; /* one more, to see the end */
+    if (why == 0 && sized && (uintmax_t)st.st_size > max)
+        why = EFBIG;
+    char *bytes = why == 0 ? ceduo_arena_take(arena, room + 1) : NULL;
+    for (ssize_t got = sized ? st.st_size : 1; bytes && why == 0 && got > 0;) {
+        got = read(fd, bytes + n, room - n);
+        if (got < 0)
+            why = errno == EINTR ? 0 : errno;
+        n += got > 0 ? (size_t)got : 0;
+        got = got < 0 ? 1 : got;
+        if (n > max)
+            why = EFBIG;
+        if (n < room || why != 0)
+            continue;
+        char *more = ceduo_arena_take(arena, 2 * room + 1);
+        if (more) /* untaken: memory */
+            memcpy(more, bytes, n);
+        bytes = more;
+        room *= 2;
+    }
     if (fd > STDIN_FILENO)
         close(fd);
-    errno = why;
-    return good;
+    into->bytes = bytes;
+    into->length = n;
+    errno = why != 0 ? why : ENOMEM;
+    return bytes && why == 0;
 }
 
 const struct source *ceduo_source_keep(struct arena *arena, struct source source, struct problems *problems)
@@ -152,25 +136,9 @@ static bool is_file(const char *path)
     return path && stat(path, &st) == 0 && !S_ISDIR(st.st_mode);
 }
 
-/* Beside the program: where it was built and where it is installed. */
-static size_t program_folders(struct arena *arena, const char **folders)
-{
-    static const char *const near[] = {"profiles", "../../profiles", "../share/ceduo"};
-    char self[PATH_MAX];
-    ssize_t n = readlink("/proc/self/exe", self, sizeof self - 1);
-    if (n <= 0) /* untaken: machine */
-        return 0;
-    self[n] = '\0';
-    char *slash = strrchr(self, '/');
-    if (!slash) /* untaken: machine */
-        return 0;
-    for (size_t i = 0; i < 3; i++)
-        folders[i] = ceduo_arena_format(arena, "%.*s/%s", (int)(slash - self), self, near[i]);
-    return 3;
-}
-
 const char *const *ceduo_file_folders(struct arena *arena)
 {
+    static const char *const near[] = {"profiles", "../../profiles", "../share/ceduo"};
     const char **folders = ceduo_arena_take(arena, 8 * sizeof *folders);
     if (!folders)
         return NULL;
@@ -180,7 +148,12 @@ const char *const *ceduo_file_folders(struct arena *arena)
         folders[n++] = ceduo_arena_format(arena, "%s/ceduo", data);
     else if (home && home[0])
         folders[n++] = ceduo_arena_format(arena, "%s/.local/share/ceduo", home);
-    n += program_folders(arena, folders + n);
+    char self[PATH_MAX]; /* beside the program: where it was built and where it is installed */
+    ssize_t length = readlink("/proc/self/exe", self, sizeof self - 1);
+    self[length > 0 ? length : 0] = '\0';
+    const char *slash = strrchr(self, '/');
+    for (size_t i = 0; slash && i < sizeof near / sizeof near[0]; i++)
+        folders[n++] = ceduo_arena_format(arena, "%.*s/%s", (int)(slash - self), self, near[i]);
     folders[n++] = ceduo_arena_string(arena, CEDUO_DATADIR);
     size_t kept = 0;
     for (size_t i = 0; i < n; i++) {
@@ -314,9 +287,18 @@ static char *follow_links(const char *path)
     return NULL;
 }
 
-/* The file beside the target. Of a name as long as a file system takes them, a part is used, cut between two characters. */
-static int open_temporary(struct pending_file *file)
+bool ceduo_file_prepare(struct pending_file *file)
 {
+    struct stat st;
+    bool exists = stat(file->path, &st) == 0;
+    if (exists && !S_ISREG(st.st_mode))
+        return true;
+    if (exists && access(file->path, W_OK) != 0)
+        return false;
+    file->target = exists ? realpath(file->path, NULL) : follow_links(file->path); /* a link stays a link */
+    if (!file->target)
+        return false;
+    /* beside the target; of a name as long as a file system takes them, a part is used, cut between two characters */
     static const char mark[] = ".ceduo-tmp-XXXXXX";
     const char *slash = strrchr(file->target, '/'), *name = slash ? slash + 1 : file->target;
     size_t n = strlen(name);
@@ -327,44 +309,15 @@ static int open_temporary(struct pending_file *file)
     ceduo_text_format(&path, "%.*s%s", (int)(name - file->target + (ptrdiff_t)n), file->target, mark);
     errno = ENOMEM;
     int fd = path.bytes ? mkostemp(path.bytes, O_CLOEXEC) : -1;
-    if (fd >= 0)
-        file->temporary = path.bytes;
-    else
+    if (fd < 0) {
         ceduo_text_free(&path);
-    return fd;
-}
-
-bool ceduo_file_prepare(struct pending_file *file)
-{
-    struct stat st;
-    bool exists = stat(file->path, &st) == 0;
-    if (exists && !S_ISREG(st.st_mode))
-        return true;
-    if (exists && access(file->path, W_OK) != 0)
         return false;
-    file->target = exists ? realpath(file->path, NULL) : follow_links(file->path); /* a link stays a link */
-    int fd = file->target ? open_temporary(file) : -1;
-    if (fd < 0)
-        return false;
+    }
+    file->temporary = path.bytes;
     mode_t mask = umask(0);
     umask(mask);
     bool good = fchmod(fd, exists ? st.st_mode & 07777 : 0666 & ~mask) == 0;
     return write_and_close(fd, file) && good;
-}
-
-/* The rename itself must survive a power cut; where the folder cannot be synced, nothing is lost by going on. */
-static void sync_folder(char *target)
-{
-    char *slash = strrchr(target, '/'), after = slash ? slash[1] : '\0';
-    if (slash)
-        slash[1] = '\0'; /* without memory: what was asked for is done */
-    int fd = open(slash ? target : ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    if (slash)
-        slash[1] = after;
-    if (fd >= 0) {
-        fsync(fd);
-        close(fd);
-    }
 }
 
 bool ceduo_file_place(struct pending_file *file)
@@ -377,8 +330,19 @@ bool ceduo_file_place(struct pending_file *file)
         return false;
     free(file->temporary);
     file->temporary = NULL;
-    if (file->wait)
-        sync_folder(file->target);
+    if (!file->wait)
+        return true;
+    /* the rename itself must survive a power cut; where the folder cannot be synced, nothing is lost by going on */
+    char *slash = strrchr(file->target, '/'), after = slash ? slash[1] : '\0';
+    if (slash)
+        slash[1] = '\0';
+    int fd = open(slash ? file->target : ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (slash)
+        slash[1] = after;
+    if (fd >= 0) {
+        fsync(fd);
+        close(fd);
+    }
     return true;
 }
 
