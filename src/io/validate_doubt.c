@@ -295,44 +295,38 @@ static void add_stand_row(struct stand_rows *s, const struct row *row, const str
     to->places_count = n;
 }
 
-static void take_stand(struct stand_rows *s, const char *within, const struct node *rows)
-{
-    const struct object *object = ceduo_schema_field(ceduo_schema_stand(), "doubt")->object;
-    struct validator *v = s->v;
-    for (size_t i = 0; i < rows->n; i++) {
-        struct doubt doubt;
-        const struct source_note *notes = NULL;
-        const struct row row = {&doubt, ceduo_format(v, "%sdoubt[%zu]", within, i), within};
-        bool twice = false;
-        if (!ceduo_is_sound(v, row.at))
-            continue;
-        ceduo_schema_init(object, &doubt);
-        ceduo_bind(&(struct binding){.arena = v->arena, .problems = v->problems, .notes = &notes, .bad = &v->bad}, object,
-                   rows->items[i], &doubt);
-        for (size_t k = 0; k < i; k++) {
-            const char *other = ceduo_node_text(rows->items[k], "path");
-            twice |= other && ceduo_schema_same(other, doubt.path);
-        }
-        if (twice)
-            ceduo_complain(v, row.at, "path", _("'%s' is given twice"), doubt.path);
-        else
-            add_stand_row(s, &row, rows->items[i]);
-    }
-}
-
 /* The rows of the stands of all belts. */
 static void take_stands(struct validator *v)
 {
     struct stand_rows s = {.v = v};
+    const struct object *object = ceduo_schema_field(ceduo_schema_stand(), "doubt")->object;
     const struct node *options = ceduo_node_get(v->root, "options");
-    bool several = options && options->kind == NODE_LIST;
-    for (size_t i = 0; i < (several ? options->n : 1); i++) {
-        const struct node *forest = ceduo_node_get(several ? options->items[i] : v->root, "forest");
-        const char *within = several ? ceduo_format(v, "options[%zu].", i) : "";
+    size_t several = options && options->kind == NODE_LIST ? options->n : 0;
+    for (size_t o = 0; o < (several ? several : 1); o++) {
+        const struct node *forest = ceduo_node_get(several ? options->items[o] : v->root, "forest");
+        const char *option = several ? ceduo_format(v, "options[%zu].", o) : "";
         for (size_t k = 0; forest && forest->kind == NODE_LIST && k < forest->n; k++) {
+            const char *within = ceduo_format(v, "%sforest[%zu].stand.", option, k);
             const struct node *rows = ceduo_node_get(ceduo_node_get(forest->items[k], "stand"), "doubt");
-            if (rows && rows->kind == NODE_LIST)
-                take_stand(&s, ceduo_format(v, "%sforest[%zu].stand.", within, k), rows);
+            for (size_t i = 0; rows && rows->kind == NODE_LIST && i < rows->n; i++) {
+                struct doubt doubt;
+                const struct source_note *notes = NULL;
+                const struct row row = {&doubt, ceduo_format(v, "%sdoubt[%zu]", within, i), within};
+                bool twice = false;
+                if (!ceduo_is_sound(v, row.at))
+                    continue;
+                ceduo_schema_init(object, &doubt);
+                ceduo_bind(&(struct binding){.arena = v->arena, .problems = v->problems, .notes = &notes, .bad = &v->bad},
+                           object, rows->items[i], &doubt);
+                for (size_t before = 0; before < i; before++) {
+                    const char *other = ceduo_node_text(rows->items[before], "path");
+                    twice |= other && ceduo_schema_same(other, doubt.path);
+                }
+                if (twice)
+                    ceduo_complain(v, row.at, "path", _("'%s' is given twice"), doubt.path);
+                else
+                    add_stand_row(&s, &row, rows->items[i]);
+            }
         }
     }
 }
@@ -376,88 +370,80 @@ static const struct field *find_fitted(struct validator *v, const char *path, bo
     return v->arena->failed ? NULL : field;
 }
 
-/* The places that one path in the head of a column sets; it must name one. Of a foreign table only the beginning is shown. */
-static bool take_path(struct draws *t, size_t column, char *path)
-{
-    struct validator *v = t->v;
-    struct ceduo_input found;
-    const struct field *f = path[0] ? find_fitted(v, path, v->ground_assumed, &found) : NULL;
-    t->csv.source->foreign &= f == NULL;
-    if (!f || found.places_count == 0) {
-        if (t->csv.source->foreign)
-            path[ceduo_utf8_cut(path, CEDUO_FOREIGN_MOST)] = '\0';
-        ceduo_node_problem(v->problems, v->draws, "doubt.draws",
-                           _("the table has a column '%s', which is no value of this scene"), path);
-        return false;
-    }
-    t->heads = ceduo_more_room(v, t->heads, t->heads_count, 1, &t->heads_room, sizeof *t->heads);
-    t->places = ceduo_more_room(v, t->places, t->places_count, found.places_count, &t->places_room, sizeof *t->places);
-    if (!t->heads || !t->places)
-        return false;
-    const struct head *last = t->heads_count > 0 ? &t->heads[t->heads_count - 1] : NULL;
-    if (!last || last->column != column || last->field != f) /* not another item of the same list */
-        t->heads[t->heads_count++] = (struct head){column, f};
-    for (size_t i = 0; i < found.places_count; i++)
-        t->places[t->places_count++] = (struct drawn){found.places[i], t->values[column]};
-    return true;
-}
-
-/* The first line; afterwards the places are sorted, and none may be there twice. */
+/* The places that the paths in the heads of the columns set; each must name one. Of a foreign table only the beginning is shown.
+ * Afterwards the places are sorted, and none may be there twice. */
 static bool take_header(struct draws *t)
 {
+    struct validator *v = t->v;
     struct csv_span left = t->csv.header, field;
+    struct ceduo_input found;
     for (size_t c = 0; ceduo_csv_step(&t->csv, &left, &field); c++) {
-        char *head = ceduo_arena_copy(t->v->arena, field.p, field.n), *rest = head;
+        char *head = ceduo_arena_copy(v->arena, field.p, field.n), *rest = head;
         char *path = head ? strtok_r(head, " ", &rest) : NULL;
-        do
-            if (!head || !take_path(t, c, path ? path : head))
+        if (!head)
+            return false;
+        path = path ? path : head;
+        do {
+            const struct field *f = path[0] ? find_fitted(v, path, v->ground_assumed, &found) : NULL;
+            t->csv.source->foreign &= f == NULL;
+            if (!f || found.places_count == 0) {
+                if (t->csv.source->foreign)
+                    path[ceduo_utf8_cut(path, CEDUO_FOREIGN_MOST)] = '\0';
+                ceduo_node_problem(v->problems, v->draws, "doubt.draws",
+                                   _("the table has a column '%s', which is no value of this scene"), path);
                 return false;
-        while (path && (path = strtok_r(NULL, " ", &rest)));
+            }
+            t->heads = ceduo_more_room(v, t->heads, t->heads_count, 1, &t->heads_room, sizeof *t->heads);
+            t->places = ceduo_more_room(v, t->places, t->places_count, found.places_count, &t->places_room, sizeof *t->places);
+            if (!t->heads || !t->places)
+                return false;
+            const struct head *last = t->heads_count > 0 ? &t->heads[t->heads_count - 1] : NULL;
+            if (!last || last->column != c || last->field != f) /* not another item of the same list */
+                t->heads[t->heads_count++] = (struct head){c, f};
+            for (size_t i = 0; i < found.places_count; i++)
+                t->places[t->places_count++] = (struct drawn){found.places[i], t->values[c]};
+        } while ((path = strtok_r(NULL, " ", &rest)));
     }
     qsort(t->places, t->places_count, sizeof *t->places, by_name);
     for (size_t i = 1; i < t->places_count; i++)
         if (by_name(&t->places[i - 1], &t->places[i]) == 0)
-            ceduo_problem(t->v->problems, t->csv.source, 1, 1, _("'%s' is given twice"), t->places[i].place);
+            ceduo_problem(v->problems, t->csv.source, 1, 1, _("'%s' is given twice"), t->places[i].place);
     return true;
-}
-
-static void read_row(struct draws *t)
-{
-    struct csv_span left = t->csv.line, span;
-    size_t c = 0, h = 0;
-    for (; c < t->columns && ceduo_csv_step(&t->csv, &left, &span); c++) {
-        double *to = &t->values[c][t->rows];
-        bool good = ceduo_csv_number(&t->csv, span, -1e12, 1e12, "", to);
-        for (; h < t->heads_count && t->heads[h].column == c; h++) {
-            const struct field *f = t->heads[h].field;
-            if (good && !ceduo_schema_in_range(f, *to))
-                ceduo_csv_complain(&t->csv, span, _("%s is outside the range of %s: %s"), ceduo_decimal(t->v, *to), f->key,
-                                   ceduo_range(t->v, f));
-        }
-    }
-    if (c < t->columns)
-        ceduo_problem(t->v->problems, t->csv.source, t->csv.number, 1, _("too few columns"));
-    else if (ceduo_csv_step(&t->csv, &left, &span))
-        ceduo_csv_complain(&t->csv, span, _("more columns than the first line has"));
-    t->rows++;
 }
 
 static bool read_table(struct draws *t, const char *path)
 {
     struct problems *problems = t->v->problems;
+    struct csv *csv = &t->csv;
     size_t before = problems->met;
     LOCAL_TEXT(names);
-    if (!ceduo_csv_open(&t->csv, t->v->arena, path, problems))
+    if (!ceduo_csv_open(csv, t->v->arena, path, problems))
         return false;
-    t->columns = ceduo_csv_columns(&t->csv, &names);
+    t->columns = ceduo_csv_columns(csv, &names);
     t->values = ceduo_room(t->v, t->columns, sizeof *t->values);
     bool good = t->values != NULL;
     for (size_t c = 0; good && c < t->columns; c++)
-        good = (t->values[c] = ceduo_room(t->v, ceduo_csv_lines(&t->csv), sizeof **t->values)) != NULL;
+        good = (t->values[c] = ceduo_room(t->v, ceduo_csv_lines(csv), sizeof **t->values)) != NULL;
     if (!good || !take_header(t))
         return false;
-    while (ceduo_csv_next(&t->csv))
-        read_row(t);
+    for (; ceduo_csv_next(csv); t->rows++) {
+        struct csv_span left = csv->line, span;
+        size_t c = 0, h = 0;
+        for (; c < t->columns && ceduo_csv_step(csv, &left, &span); c++) {
+            double *to = &t->values[c][t->rows];
+            bool number = ceduo_csv_number(csv, span, -1e12, 1e12, "", to);
+            for (; h < t->heads_count && t->heads[h].column == c; h++) {
+                const struct field *f = t->heads[h].field;
+                if (number && !ceduo_schema_in_range(f, *to))
+                    ceduo_csv_complain(csv, span, _("%s is outside the range of %s: %s"), ceduo_decimal(t->v, *to), f->key,
+                                       ceduo_range(t->v, f));
+            }
+        }
+        if (c < t->columns)
+            ceduo_problem(problems, csv->source, csv->number, 1, _("too few columns"));
+        else if (ceduo_csv_step(csv, &left, &span))
+            ceduo_csv_complain(csv, span, _("more columns than the first line has"));
+    }
     if (t->rows == 0)
         ceduo_node_problem(problems, t->v->draws, "doubt.draws", _("the table has no row"));
     return problems->met == before;

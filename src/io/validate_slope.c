@@ -16,10 +16,17 @@ static bool is_given(struct validator *v, const char *key)
 
 /* ---- the profile ---- */
 
-static bool read_csv(struct validator *v, struct points *p)
+static bool read_vertices(struct validator *v, struct points *p)
 {
-    if (!ceduo_is_known(v, "slope.csv"))
-        return false;
+    const struct ceduo_slope *s = &v->draft.scene.slope;
+    bool csv = is_given(v, "csv"), list = is_given(v, "vertices_m");
+    if (csv && list)
+        return ceduo_complain(v, "slope", "", _("vertices_m and csv together; keep one"));
+    if (!csv && !list)
+        return ceduo_complain(v, "slope", "", _("'vertices_m' is missing: the profile"));
+    *p = (struct points){.x = s->x, .z = s->z, .n = s->vertices};
+    if (list || !ceduo_is_known(v, "slope.csv"))
+        return list && ceduo_is_known(v, "slope.vertices_m");
     const struct node *node = ceduo_node_get(ceduo_node_get(v->root, "slope"), "csv");
     const char *path = ceduo_resolve_path(v->arena, node, "slopes");
     if (!path && v->arena->failed)
@@ -30,21 +37,6 @@ static bool read_csv(struct validator *v, struct points *p)
     if (good && p->commas)
         ceduo_assume(v, "slope.csv", _("commas in the file of the profile stand for decimals: 12,5 is 12.5"));
     return good;
-}
-
-static bool read_vertices(struct validator *v, struct points *p)
-{
-    const struct ceduo_slope *s = &v->draft.scene.slope;
-    bool csv = is_given(v, "csv"), list = is_given(v, "vertices_m");
-    if (csv && list)
-        ceduo_complain(v, "slope", "", _("vertices_m and csv together; keep one"));
-    else if (!csv && !list)
-        ceduo_complain(v, "slope", "", _("'vertices_m' is missing: the profile"));
-    else if (csv)
-        return read_csv(v, p);
-    else
-        *p = (struct points){.x = s->x, .z = s->z, .n = s->vertices};
-    return list && !csv && ceduo_is_known(v, "slope.vertices_m");
 }
 
 /* Rocks go along x, so x must rise and the profile fall; one that was drawn from below is known by its ends. */
@@ -236,17 +228,6 @@ static void make_materials(struct validator *v)
     }
 }
 
-static void make_talus(struct validator *v)
-{
-    struct ceduo_slope *s = &v->draft.scene.slope;
-    v->ground_assumed = true;
-    ceduo_assume(v, "slope", _("talus everywhere, its roughness and friction too"));
-    assume_mu(v, "slope");
-    s->segments = ceduo_room(v, s->vertices - 1, sizeof *s->segments);
-    for (size_t j = 0; s->segments && j + 1 < s->vertices; j++)
-        s->segments[j] = segment_of(ceduo_material_talus());
-}
-
 /* The slope as it was made before, where its part of the document is the same one: an edit elsewhere costs nothing,
  * however long the profile. */
 static bool reuse_slope(struct validator *v)
@@ -316,8 +297,15 @@ void ceduo_validate_slope(struct validator *v)
         make_segments(v);
     else if (materials)
         make_materials(v);
-    else
-        make_talus(v);
+    else {
+        struct ceduo_slope *s = &v->draft.scene.slope;
+        v->ground_assumed = true;
+        ceduo_assume(v, "slope", _("talus everywhere, its roughness and friction too"));
+        assume_mu(v, "slope");
+        s->segments = ceduo_room(v, s->vertices - 1, sizeof *s->segments);
+        for (size_t j = 0; s->segments && j + 1 < s->vertices; j++)
+            s->segments[j] = segment_of(ceduo_material_talus());
+    }
     if (!v->problems->memory && ceduo_slope_check(&v->draft.scene.slope) != CEDUO_OK)
         ceduo_complain(v, "slope", "", _("two vertices lie too close together for their distance from the first"));
 }
