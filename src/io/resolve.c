@@ -58,10 +58,11 @@ const char *ceduo_resolve_path(struct arena *arena, const struct node *node, con
 
 static const struct node *follow(struct resolver *r, const struct object *object, const struct node *node, int depth);
 
-/* A node whose reference leads nowhere, marked so that the rest is still read. NULL without memory. */
-static const struct node *broken(struct resolver *r, const struct node *node)
+/* A node whose reference leads nowhere, marked so that the rest is still read. NULL without memory, of which nothing was reported
+ * since there were `before` problems. */
+static const struct node *broken(struct resolver *r, const struct node *node, size_t before)
 {
-    struct node *copy = r->problems->memory ? NULL : ceduo_arena_take(r->arena, sizeof *copy);
+    struct node *copy = r->problems->met > before ? ceduo_arena_take(r->arena, sizeof *copy) : NULL;
     if (copy) {
         *copy = *node;
         copy->broken = true;
@@ -101,15 +102,16 @@ static const struct node *merge(struct arena *arena, const struct node *base, co
 static const struct node *merge_base(struct resolver *r, const struct object *object, const struct node *node, int depth)
 {
     const struct node *base = ceduo_node_get(node, "base");
+    size_t before = r->problems->met;
     if (!base || object != ceduo_schema_stand())
         return node;
     if (base->kind != NODE_SCALAR) {
         ceduo_node_problem(r->problems, base, "base", _("expected a path to a file"));
-        return broken(r, node);
+        return broken(r, node, before);
     }
     const struct node *below = follow(r, object, base, depth + 1);
     if (!below)
-        return broken(r, node);
+        return broken(r, node, before);
     if (below->kind != NODE_MAP) /* which is told where it is bound */
         return in_place_of(r->arena, below, node);
     const struct node *merged = merge(r->arena, below, node);
@@ -210,14 +212,14 @@ static const struct node *resolve_map(struct resolver *r, const struct object *o
         size_t before = r->problems->met;
         if (f && f->type == FIELD_GROUP && f->flags & FIELD_FOLLOWS) {
             found = follow(r, f->object, entry, 0);
-            found = found || r->problems->met == before ? found : broken(r, entry);
+            found = found ? found : broken(r, entry, before);
         } else if (f && f->type == FIELD_LIST && entry->kind == NODE_LIST) {
             bool long_one =
                 strcmp(f->key, "forest") == 0 && entry->n > CEDUO_ITEMS_MOST; /* before so many files are looked for */
             if (long_one)
                 ceduo_node_problem(r->problems, entry, f->key, _("%zu items; at most %d can be computed"), entry->n,
                                    CEDUO_ITEMS_MOST);
-            found = long_one ? broken(r, entry) : resolve_items(r, f->object, entry);
+            found = long_one ? broken(r, entry, before) : resolve_items(r, f->object, entry);
         }
         if (found == entry)
             continue;
