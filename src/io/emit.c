@@ -86,21 +86,17 @@ void ceduo_emit_flow(struct text *text, const struct node *node)
     ceduo_text_char(text, node->kind == NODE_MAP ? '}' : ']');
 }
 
-static bool fits_flow(const struct node *node, size_t indent)
-{
-    struct text line = {0};
-    ceduo_emit_flow(&line, node);
-    bool fits = !line.failed && line.length + indent <= FLOW_MOST;
-    ceduo_text_free(&line);
-    return fits;
-}
-
 static void print_block(struct text *text, const struct node *node, size_t indent)
 {
     for (size_t i = 0; i < node->n; i++) {
         const struct node *item = node->items[i];
         bool map = node->kind == NODE_MAP;
-        bool flow = item->kind == NODE_SCALAR || item->n == 0 || fits_flow(item, indent + (map ? 20 : 2));
+        bool flow = item->kind == NODE_SCALAR || item->n == 0;
+        LOCAL_TEXT(line);
+        if (!flow) { /* on one line if it fits there */
+            ceduo_emit_flow(&line, item);
+            flow = !line.failed && line.length + indent + (map ? 20 : 2) <= FLOW_MOST;
+        }
         if (map)
             ceduo_text_format(text, "%*s%s:%c", (int)indent, "", item->key, flow ? ' ' : '\n');
         else if (flow)
@@ -145,20 +141,6 @@ static const struct node *difference(struct arena *arena, const struct node *bas
     return out;
 }
 
-/* A stand as `base` and what differs; NULL where that cannot say it. */
-static const struct node *as_base(struct arena *arena, const struct node *now, const struct node *loaded)
-{
-    const struct node *w = now->written;
-    const struct node *changes = difference(arena, loaded, now);
-    if (!changes)
-        return NULL;
-    const struct node *empty = ceduo_node_empty(arena, NODE_MAP, NULL);
-    const struct node *start = w->kind == NODE_SCALAR ? ceduo_node_with(arena, empty, "base", w) : w;
-    for (size_t i = 0; start && i < changes->n; i++)
-        start = ceduo_node_with(arena, start, changes->items[i]->key, ceduo_node_get(now, changes->items[i]->key));
-    return ceduo_node_renamed(arena, start, now->key);
-}
-
 const struct node *ceduo_emit_unresolve(struct arena *arena, const struct node *node)
 {
     if (node->written) {
@@ -168,9 +150,15 @@ const struct node *ceduo_emit_unresolve(struct arena *arena, const struct node *
             same = ceduo_node_equal(was->items[i], node->items[i]);
         if (same)
             return ceduo_node_renamed(arena, node->written, node->key);
-        const struct node *base = strcmp(node->key, "stand") == 0 ? as_base(arena, node, was) : NULL;
-        if (base)
-            return base;
+        /* a stand is its base and what differs, if that can say it */
+        const struct node *changes = strcmp(node->key, "stand") == 0 ? difference(arena, was, node) : NULL, *w = node->written;
+        const struct node *start = changes ? w : NULL;
+        if (start && w->kind == NODE_SCALAR)
+            start = ceduo_node_with(arena, ceduo_node_empty(arena, NODE_MAP, NULL), "base", w);
+        for (size_t i = 0; start && i < changes->n; i++)
+            start = ceduo_node_with(arena, start, changes->items[i]->key, ceduo_node_get(node, changes->items[i]->key));
+        if (start && (start = ceduo_node_renamed(arena, start, node->key)))
+            return start;
     }
     if (node->kind == NODE_SCALAR)
         return node;
@@ -235,34 +223,26 @@ static bool patch(struct patcher *p, const struct node *old, const struct node *
     return true;
 }
 
-/* Whether a text reads back as the tree. */
-static bool reads_back(const struct text *text, const struct node *root, bool *no_memory)
-{
-    struct arena arena = {0};
-    struct problems problems = {0};
-    struct source source = {.name = "", .bytes = text->bytes, .length = text->length};
-    const struct node *again = text->failed ? NULL : ceduo_yaml_read(&arena, &source, &problems);
-    bool same = again && ceduo_node_equal(again, root);
-    *no_memory = arena.failed || problems.memory;
-    ceduo_problems_free(&problems);
-    ceduo_arena_free(&arena);
-    return same;
-}
-
 bool ceduo_emit_patched(struct text *text, const struct source *source, const struct node *old, const struct node *root)
 {
-    struct text out = {0};
+    LOCAL_TEXT(out);
     struct patcher p = {&out, source, 0};
     bool good = patch(&p, old, root), no_memory = false;
-    if (good) {
+    if (good) { /* and the text reads back as the tree */
+        struct arena arena = {0};
+        struct problems problems = {0};
         ceduo_text_add(&out, source->bytes + p.done, source->length - p.done);
-        good = reads_back(&out, root, &no_memory);
+        const struct source whole = {.name = "", .bytes = out.bytes, .length = out.length};
+        const struct node *again = out.failed ? NULL : ceduo_yaml_read(&arena, &whole, &problems);
+        good = again && ceduo_node_equal(again, root);
+        no_memory = arena.failed || problems.memory;
+        ceduo_problems_free(&problems);
+        ceduo_arena_free(&arena);
     }
     if (good)
         ceduo_text_add(text, out.bytes, out.length);
     if (no_memory)
         ceduo_no_memory();
     text->failed |= out.failed || no_memory; /* otherwise it would be laid out anew for want of memory alone */
-    ceduo_text_free(&out);
     return good && !text->failed;
 }

@@ -293,18 +293,6 @@ static int compare_stools(const void *a, const void *b)
     return memcmp(one->name.p, other->name.p, one->name.n);
 }
 
-/* Numbers the stools of all plots, and returns how many there are. */
-static size_t number_stools(struct reader *r)
-{
-    size_t n = 0;
-    qsort(r->stools, r->shoots_count, sizeof *r->stools, compare_stools);
-    for (size_t i = 0; i < r->shoots_count; i++) {
-        n += i == 0 || compare_stools(&r->stools[i - 1], &r->stools[i]) != 0;
-        r->stems[r->stools[i].stem].stool = n - 1;
-    }
-    return n;
-}
-
 bool ceduo_survey_read(struct survey_file *file, struct arena *arena, const char *path, struct problems *problems)
 {
     struct reader r = {.problems = problems};
@@ -341,12 +329,15 @@ bool ceduo_survey_read(struct survey_file *file, struct arena *arena, const char
         if (isnan(area))
             ceduo_problem(problems, r.csv.source, r.plots[i].line, 1, _("this plot has no area_m2 and no radius_m"));
     }
+    size_t stools = 0; /* are numbered over all plots */
+    qsort(r.stools, r.shoots_count, sizeof *r.stools, compare_stools);
+    for (size_t i = 0; i < r.shoots_count; i++) {
+        stools += i == 0 || compare_stools(&r.stools[i - 1], &r.stools[i]) != 0;
+        r.stems[r.stools[i].stem].stool = stools - 1;
+    }
     problems->memory |= !file->name || !file->unused || ceduo_text_lost();
-    file->survey = (struct ceduo_survey){.plots_count = r.plots_count,
-                                         .areas = areas,
-                                         .stools_count = number_stools(&r),
-                                         .stems_count = r.stems_count,
-                                         .stems = r.stems};
+    file->survey = (struct ceduo_survey){
+        .plots_count = r.plots_count, .areas = areas, .stools_count = stools, .stems_count = r.stems_count, .stems = r.stems};
     return problems->met == before && !problems->memory;
 }
 

@@ -212,39 +212,6 @@ static double stools_of(const struct writer *w)
     return stools <= shoots ? stools : rounded(stools * (1 - 1e-5)); /* untaken: rounding */
 }
 
-static void print_stools(const struct writer *w)
-{
-    const struct ceduo_estimate *spacing = &w->answer->spacing;
-    bool measured = !isnan(spacing->mean);
-    LOCAL_TEXT(what);
-    print_number(w->out, "stools: {per_ha: ", stools_of(w));
-    print_number(w->out, ", spacing_m: ", measured ? spacing->mean : CEDUO_SURVEY_SPACING);
-    ceduo_text_put(w->out, ",\n  ");
-    ceduo_text_format(&what, "n = %zu", w->file->survey.stools_count);
-    if (measured)
-        ceduo_text_format(&what, "; spacing on %zu of them", w->answer->stools_measured);
-    else
-        ceduo_text_put(&what, "; the spacing of the shoots was not measured");
-    if (w->one_plot)
-        ceduo_text_put(&what, "; one plot, no standard error");
-    print_source(w->out, w->one_plot || !measured, &what);
-    ceduo_text_put(w->out, "}\n");
-}
-
-static void print_stumps(const struct writer *w)
-{
-    const struct ceduo_survey_answer *a = w->answer;
-    LOCAL_TEXT(what);
-    print_number(w->out, "stumps: {per_ha: ", a->per_ha[CEDUO_SURVEY_STUMP].mean);
-    print_number(w->out, ", diameter_m: ", a->stump_diameter);
-    print_number(w->out, ", height_m: ", a->stump_height);
-    print_number(w->out, ", energy_kJ: ", a->stump_energy / 1000);
-    ceduo_text_put(w->out, ",\n  ");
-    ceduo_text_put(&what, "counted; what one takes from a rock is not measured");
-    print_source(w->out, true, &what);
-    ceduo_text_put(w->out, "}\n");
-}
-
 /* ---- doubt ---- */
 
 /* Two numbers of what may be true. */
@@ -305,12 +272,35 @@ static void print_stand(const struct writer *w)
     ceduo_text_put(w->out, stems || w->stumps ? "\n" : "\nsystem: bare\n");
     if (a->species >= 0)
         ceduo_text_format(w->out, "species: %s\n", ceduo_species_words.names[a->species]);
-    if (a->stools.mean > 0)
-        print_stools(w);
+    if (a->stools.mean > 0) {
+        bool measured = !isnan(a->spacing.mean);
+        LOCAL_TEXT(of_stools);
+        print_number(w->out, "stools: {per_ha: ", stools_of(w));
+        print_number(w->out, ", spacing_m: ", measured ? a->spacing.mean : CEDUO_SURVEY_SPACING);
+        ceduo_text_put(w->out, ",\n  ");
+        ceduo_text_format(&of_stools, "n = %zu", w->file->survey.stools_count);
+        if (measured)
+            ceduo_text_format(&of_stools, "; spacing on %zu of them", a->stools_measured);
+        else
+            ceduo_text_put(&of_stools, "; the spacing of the shoots was not measured");
+        if (w->one_plot)
+            ceduo_text_put(&of_stools, "; one plot, no standard error");
+        print_source(w->out, w->one_plot || !measured, &of_stools);
+        ceduo_text_put(w->out, "}\n");
+    }
     print_classes(w, "shoots:\n", false);
     print_classes(w, "trees:\n", true);
-    if (w->stumps)
-        print_stumps(w);
+    if (w->stumps) {
+        LOCAL_TEXT(of_stumps);
+        print_number(w->out, "stumps: {per_ha: ", a->per_ha[CEDUO_SURVEY_STUMP].mean);
+        print_number(w->out, ", diameter_m: ", a->stump_diameter);
+        print_number(w->out, ", height_m: ", a->stump_height);
+        print_number(w->out, ", energy_kJ: ", a->stump_energy / 1000);
+        ceduo_text_put(w->out, ",\n  ");
+        ceduo_text_put(&of_stumps, "counted; what one takes from a rock is not measured");
+        print_source(w->out, true, &of_stumps);
+        ceduo_text_put(w->out, "}\n");
+    }
     ceduo_text_format(&what, "survey of %zu plots, %.0f m2 of the map", w->file->survey.plots_count, w->area);
     print_source(w->out, false, &what);
     ceduo_text_char(w->out, '\n');

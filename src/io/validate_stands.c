@@ -104,24 +104,6 @@ static void check_stand(struct validator *v, const char *path, struct ceduo_stan
                        ceduo_decimal(v, ceduo_stand_shoots(s)), ceduo_decimal(v, s->stools_per_ha));
 }
 
-static void check_belt(struct validator *v, const char *path, const struct ceduo_belt *f, const struct ceduo_belt *before)
-{
-    const struct ceduo_slope *s = &v->draft.scene.slope;
-    double begin = v->profile ? v->origin : -INFINITY, end = v->profile ? s->x[s->vertices - 1] + v->origin : INFINITY;
-    if (f->to_given <= f->from_given)
-        ceduo_complain(v, path, "to_m", _("%s does not lie beyond from_m, %s"), ceduo_decimal(v, f->to_given),
-                       ceduo_decimal(v, f->from_given));
-    else if (before && f->from_given < before->to_given)
-        ceduo_complain(v, path, "from_m", _("%s lies before the end of the belt before it, %s; belts must not overlap"),
-                       ceduo_decimal(v, f->from_given), ceduo_decimal(v, before->to_given));
-    else if (f->from_given < begin)
-        ceduo_complain(v, path, "from_m", _("%s lies before the slope, which begins at %s m"), ceduo_decimal(v, f->from_given),
-                       ceduo_decimal(v, begin));
-    if (f->to_given > f->from_given && f->to_given > end)
-        ceduo_complain(v, path, "to_m", _("%s lies beyond the slope, which ends at %s m"), ceduo_decimal(v, f->to_given),
-                       ceduo_decimal(v, end));
-}
-
 /* Whether a stand with the name of the file that it was read from says what that says, but for name and source. */
 static bool is_as_named(struct validator *v, const struct node *stand)
 {
@@ -141,11 +123,25 @@ static bool is_as_named(struct validator *v, const struct node *stand)
 
 static void make_belts(struct validator *v, const char *path, struct ceduo_option *option)
 {
+    const struct ceduo_slope *s = &v->draft.scene.slope;
+    double begin = v->profile ? v->origin : -INFINITY, end = v->profile ? s->x[s->vertices - 1] + v->origin : INFINITY;
     for (size_t i = 0; i < option->belts_count; i++) {
         struct ceduo_belt *belt = &option->belts[i];
         const char *here = ceduo_format(v, "%s[%zu]", path, i), *stand = ceduo_format(v, "%s.stand", here), *within;
         size_t used;
-        check_belt(v, here, belt, i > 0 ? belt - 1 : NULL);
+        const double from = belt->from_given, to = belt->to_given, before = i > 0 ? belt[-1].to_given : -INFINITY;
+        if (to <= from)
+            ceduo_complain(v, here, "to_m", _("%s does not lie beyond from_m, %s"), ceduo_decimal(v, to),
+                           ceduo_decimal(v, from));
+        else if (from < before)
+            ceduo_complain(v, here, "from_m", _("%s lies before the end of the belt before it, %s; belts must not overlap"),
+                           ceduo_decimal(v, from), ceduo_decimal(v, before));
+        else if (from < begin)
+            ceduo_complain(v, here, "from_m", _("%s lies before the slope, which begins at %s m"), ceduo_decimal(v, from),
+                           ceduo_decimal(v, begin));
+        if (to > from && to > end)
+            ceduo_complain(v, here, "to_m", _("%s lies beyond the slope, which ends at %s m"), ceduo_decimal(v, to),
+                           ceduo_decimal(v, end));
         belt->from = belt->from_given - v->origin;
         belt->to = belt->to_given - v->origin;
         const struct node *node = ceduo_resolve_walk(v->root, stand, &within, &used);
