@@ -210,17 +210,6 @@ void *ceduo_problem_memory(struct problems *problems)
     return NULL;
 }
 
-/* How many others of a kind there are, and where. */
-static void append_others(struct text *text, const struct problem_kind *kind)
-{
-    ceduo_text_put(text, "  ");
-    ceduo_text_format(text, ngettext("and %zu more of this kind", "and %zu more of this kind", kind->more), kind->more);
-    for (size_t i = 0; i < kind->more && i < CEDUO_PROBLEMS_LINES; i++)
-        if (kind->lines[i] > 0 && (i == 0 || kind->lines[i] != kind->lines[i - 1]))
-            ceduo_text_format(text, i == 0 ? _(", on line %zu") : ", %zu", kind->lines[i]);
-    ceduo_text_put(text, kind->more > CEDUO_PROBLEMS_LINES && kind->lines[0] > 0 ? " \xe2\x80\xa6\n" : "\n");
-}
-
 void ceduo_problems_close(struct problems *problems)
 {
     struct text all = {0};
@@ -229,8 +218,14 @@ void ceduo_problems_close(struct problems *problems)
         const struct problem_kind *kind = &problems->kinds[k];
         rest -= 1 + kind->more;
         ceduo_text_add(&all, problems->text.bytes + from, kind->end - from);
-        if (kind->more > 0)
-            append_others(&all, kind);
+        if (kind->more > 0) { /* how many others there are, and where */
+            ceduo_text_put(&all, "  ");
+            ceduo_text_format(&all, ngettext("and %zu more of this kind", "and %zu more of this kind", kind->more), kind->more);
+            for (size_t i = 0; i < kind->more && i < CEDUO_PROBLEMS_LINES; i++)
+                if (kind->lines[i] > 0 && (i == 0 || kind->lines[i] != kind->lines[i - 1]))
+                    ceduo_text_format(&all, i == 0 ? _(", on line %zu") : ", %zu", kind->lines[i]);
+            ceduo_text_put(&all, kind->more > CEDUO_PROBLEMS_LINES && kind->lines[0] > 0 ? " \xe2\x80\xa6\n" : "\n");
+        }
         from = kind->end;
     }
     if (problems->kinds_count > 0) { /* it is not closed yet */
