@@ -132,9 +132,9 @@ class Results:
                        r["contact_to_lumped"]] for r in self.rows("bench_laws")])
 
     def doubt(self):
-        return table(["scene", "years", "inputs", "points", "rocks", "evaluations", "seconds", "processor s"],
+        return table(["scene", "years", "inputs", "points", "rocks", "evaluations", "processor s"],
                      [[Path(r["scene"]).stem, r["years"], r["inputs"], r["points"], r["rocks"], r["evaluations"],
-                       digits(r["seconds_median"]), digits(r["cpu_seconds_median"])] for r in self.rows("bench_doubt")])
+                       digits(r["cpu_seconds_median"])] for r in self.rows("bench_doubt")])
 
     def doubt_error(self):
         return table(["design", "points", "rocks", "scenes", "processor s", "band, of 1000", "shares, %"],
