@@ -240,19 +240,6 @@ static struct course course_of(struct lanes *k, size_t i)
                            .l = {.t = k->t[i], .x = k->to_x[i], .z = k->to_z[i], .segment = to, .left = left}};
 }
 
-/* An idle lane is computed like the others; its results are ignored. */
-static void empty_lane(struct lanes *k, size_t i)
-{
-    k->empty = true;
-    k->live &= ~(1u << i);
-    k->paused &= ~(1u << i);
-    k->segment[i] = k->to[i] = 1;
-    k->next_x[i] = k->stem_ahead[i] = INFINITY;
-    k->stem_behind[i] = -INFINITY;
-    k->contacts[i] = 0;
-    k->pause[i] = INT64_MAX;
-}
-
 /* The next rock, at its first contact. */
 static void refill(struct lanes *k, size_t i)
 {
@@ -283,7 +270,15 @@ static void refill(struct lanes *k, size_t i)
         }
         job->ended(job->context, i, end);
     }
-    empty_lane(k, i);
+    /* An idle lane is computed like the others; its results are ignored. */
+    k->empty = true;
+    k->live &= ~bit;
+    k->paused &= ~bit;
+    k->segment[i] = k->to[i] = 1;
+    k->next_x[i] = k->stem_ahead[i] = INFINITY;
+    k->stem_behind[i] = -INFINITY;
+    k->contacts[i] = 0;
+    k->pause[i] = INT64_MAX;
 }
 
 static void finish(struct lanes *k, size_t i, enum ceduo_end end)

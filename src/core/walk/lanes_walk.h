@@ -95,17 +95,14 @@ HOT void walk_lanes(struct form form, struct lanes *k)
 }
 
 /* With what is known of the ground and the law compiled in. */
+#define WALK(law, small, wood) walk_lanes((struct form){&(law), small, (small) && LOOK_UP_WRAPS, wood}, k)
 #define X(NAME, name)                                                                                                          \
     static void walk_##name(struct lanes *k, bool small, bool wood)                                                            \
     {                                                                                                                          \
-        if (small && wood)                                                                                                     \
-            walk_lanes((struct form){&law_##name, true, LOOK_UP_WRAPS, true}, k);                                              \
-        else if (small)                                                                                                        \
-            walk_lanes((struct form){&law_##name, true, LOOK_UP_WRAPS, false}, k);                                             \
-        else if (wood)                                                                                                         \
-            walk_lanes((struct form){&law_##name, false, false, true}, k);                                                     \
+        if (wood)                                                                                                              \
+            small ? WALK(law_##name, true, true) : WALK(law_##name, false, true);                                              \
         else                                                                                                                   \
-            walk_lanes((struct form){&law_##name, false, false, false}, k);                                                    \
+            small ? WALK(law_##name, true, false) : WALK(law_##name, false, false);                                            \
     }
 CEDUO_LAWS(X)
 #undef X

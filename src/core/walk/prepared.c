@@ -39,7 +39,7 @@ static bool make_marks(struct marks *marks, const struct ceduo_scene *scene, siz
 enum ceduo_status ceduo_prepared_init(struct prepared *to, const struct ceduo_scene *scene, const struct ceduo_option *option,
                                       size_t cells, const double *cell_x)
 {
-    *to = (struct prepared){.scene = *scene};
+    *to = (struct prepared){.scene = *scene, .varies = ceduo_rock_varies(&scene->rock)};
     enum ceduo_status status = ceduo_rock_of_means(&scene->rock, &to->mean);
     if (status != CEDUO_OK)
         return status;
@@ -55,7 +55,7 @@ enum ceduo_status ceduo_prepared_rock(const struct prepared *ready, uint64_t num
     const struct ceduo_rock_def *def = &ready->scene.rock;
     enum ceduo_status status = CEDUO_OK;
     *rock = ready->mean;
-    if (ceduo_rock_varies(def)) {
+    if (ready->varies) {
         double u[8];
         for (uint64_t i = 0; i < 8; i++)
             u[i] = random_open(ready->scene.simulation.seed, number, i, RANDOM_ROCK);

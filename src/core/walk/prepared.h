@@ -25,6 +25,7 @@ struct marks {
 struct prepared {
     struct ceduo_scene scene;
     struct ceduo_rock mean;
+    bool varies; /* so do rocks from one to the next, besides the sizes of blocks */
     struct sizes sizes;
     struct ground ground;
     struct marks marks;
