@@ -69,22 +69,6 @@ int ceduo_ticks(double lo, double hi, int max_count, double *out, double *interv
     return n;
 }
 
-/* 2e+11 and 5e-09 as 2e11 and 5e-9. */
-static void shorten_exponent(char *text)
-{
-    char *exponent = strchr(text, 'e');
-    if (exponent == NULL)
-        return;
-    char *to = exponent + 1;
-    const char *from = to;
-    if (*from == '-') {
-        ++to;
-        ++from;
-    }
-    from += strspn(from, "+0");
-    memmove(to, from, strlen(from) + 1);
-}
-
 size_t ceduo_tick_label(double value, double interval, size_t size, char *buffer)
 {
     char text[CEDUO_TICK_LABEL_SIZE];
@@ -98,7 +82,11 @@ size_t ceduo_tick_label(double value, double interval, size_t size, char *buffer
         double digits = value == 0.0 ? 1.0 : floor(log10(fabs(value)) + 1e-9) - place_of_interval + 1.0;
         snprintf(text, sizeof text, "%.*g", (int)fmin(fmax(digits, 1.0), 17.0), value);
     }
-    shorten_exponent(text);
+    char *exponent = strchr(text, 'e');
+    if (exponent) { /* 2e+11 and 5e-09 as 2e11 and 5e-9 */
+        char *to = exponent + 1 + (exponent[1] == '-'), *digits = to + strspn(to, "+0");
+        memmove(to, digits, strlen(digits) + 1);
+    }
     const char *from = text;
     if (*from == '-' && strpbrk(from, "123456789in") == NULL)
         ++from; /* rounded to "-0.0" */

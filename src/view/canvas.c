@@ -200,27 +200,19 @@ static bool clip_edge(double p, double q, double *lo, double *hi)
     return *lo <= *hi;
 }
 
-static bool clip(const struct ceduo_raster *raster, struct ceduo_position *a, struct ceduo_position *b)
-{
-    double dx = b->x - a->x;
-    double dy = b->y - a->y;
-    double lo = 0.0;
-    double hi = 1.0;
-    if (!isfinite(dx) || !isfinite(dy) || !clip_edge(-dx, a->x + 0.5, &lo, &hi) ||
-        !clip_edge(dx, raster->nx - 0.5 - a->x, &lo, &hi) || !clip_edge(-dy, a->y + 0.5, &lo, &hi) ||
-        !clip_edge(dy, raster->ny - 0.5 - a->y, &lo, &hi))
-        return false;
-    *b = (struct ceduo_position){a->x + hi * dx, a->y + hi * dy};
-    *a = (struct ceduo_position){a->x + lo * dx, a->y + lo * dy};
-    return true;
-}
-
 static void draw_line(struct ceduo_canvas *canvas, const struct ceduo_frame *frame, struct ceduo_pen *pen, double ax, double ay,
                       double bx, double by)
 {
     struct ceduo_position a, b;
-    if (place(frame, &pen->raster, ax, ay, &a) && place(frame, &pen->raster, bx, by, &b) && clip(&pen->raster, &a, &b))
-        canvas->surface->line(canvas->to, pen, a, b);
+    double lo = 0, hi = 1;
+    if (!place(frame, &pen->raster, ax, ay, &a) || !place(frame, &pen->raster, bx, by, &b))
+        return;
+    double dx = b.x - a.x, dy = b.y - a.y;
+    if (isfinite(dx) && isfinite(dy) && clip_edge(-dx, a.x + 0.5, &lo, &hi) &&
+        clip_edge(dx, pen->raster.nx - 0.5 - a.x, &lo, &hi) && clip_edge(-dy, a.y + 0.5, &lo, &hi) &&
+        clip_edge(dy, pen->raster.ny - 0.5 - a.y, &lo, &hi))
+        canvas->surface->line(canvas->to, pen, (struct ceduo_position){a.x + lo * dx, a.y + lo * dy},
+                              (struct ceduo_position){a.x + hi * dx, a.y + hi * dy});
 }
 
 static void draw_polyline(struct ceduo_canvas *canvas, const struct ceduo_frame *frame, enum ceduo_role role,

@@ -187,9 +187,9 @@ int ceduo_cells_label(struct ceduo_cells *cells, int column, int row, enum ceduo
 
 int ceduo_cells_put_end(struct ceduo_cells *cells, int column, int row, int most, enum ceduo_role role, const char *text)
 {
-    bool cut = ceduo_cells_label_width(cells->charset, text) > most;
-    int sign =
-        cut ? ceduo_cells_label(cells, column, row, role, cells->charset == CEDUO_CHARSET_ASCII ? "~" : "\xe2\x80\xa6") : 0;
+    const char *mark = cells->charset == CEDUO_CHARSET_ASCII ? "~" : "\xe2\x80\xa6";
+    bool cut = most > 0 && ceduo_cells_label_width(cells->charset, text) > most;
+    int sign = cut ? ceduo_cells_label(cells, column, row, role, mark) : 0;
     while (*text && ceduo_cells_label_width(cells->charset, text) > most - sign)
         text += ceduo_utf8_step(text);
     return sign + ceduo_cells_label(cells, column + sign, row, role, text);

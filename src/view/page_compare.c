@@ -16,20 +16,6 @@ static const struct ceduo_control *last_control(const struct ceduo_result *r)
 
 /* ---- today ---- */
 
-static void add_simulated(struct ceduo_page *page, const struct ceduo_result *r, size_t i)
-{
-    struct ceduo_portion share = ceduo_share_at(ceduo_result_wooded(r, i, r->last_control));
-    struct ceduo_paired to_first = ceduo_share_to_first(r, i);
-    ceduo_page_per_1000(page, share.mean, share.half, false);
-    if (to_first.below > 0)
-        ceduo_page_write(page, "< %.0f", ceil(to_first.below * 1000));
-    else if (i > 0 && to_first.mean == 0 && to_first.se == 0)
-        ceduo_page_write(page, "%s", _("the same"));
-    else
-        ceduo_page_per_1000(page, i == 0 ? NAN : to_first.mean, CEDUO_Z95 * to_first.se, true);
-    ceduo_page_verdict(page, ceduo_result_last_index(r, i)->energy);
-}
-
 /* ADC and free run with their tests. */
 static void add_contacts(struct ceduo_page *page, const struct ceduo_index *s)
 {
@@ -66,8 +52,18 @@ void ceduo_page_today(struct ceduo_page *page, const struct ceduo_result *r)
     for (size_t i = 0; i < r->scene->options_count; i++) {
         const struct ceduo_index *s = ceduo_result_last_index(r, i);
         ceduo_page_write(page, "%s", r->scene->options[i].name);
-        if (r->wooded)
-            add_simulated(page, r, i);
+        if (r->wooded) {
+            struct ceduo_portion share = ceduo_share_at(ceduo_result_wooded(r, i, r->last_control));
+            struct ceduo_paired to_first = ceduo_share_to_first(r, i);
+            ceduo_page_per_1000(page, share.mean, share.half, false);
+            if (to_first.below > 0)
+                ceduo_page_write(page, "< %.0f", ceil(to_first.below * 1000));
+            else if (i > 0 && to_first.mean == 0 && to_first.se == 0)
+                ceduo_page_write(page, "%s", _("the same"));
+            else
+                ceduo_page_per_1000(page, i == 0 ? NAN : to_first.mean, CEDUO_Z95 * to_first.se, true);
+            ceduo_page_verdict(page, ceduo_result_last_index(r, i)->energy);
+        }
         add_contacts(page, s);
         if (r->wooded)
             continue;

@@ -131,7 +131,7 @@ double ceduo_doubt_scale(const struct ceduo_doubt_report *r)
 }
 
 /* A value of a kind of figure: shares of 1000, energies in kJ. */
-static void append_value(struct text *t, enum ceduo_doubt_kind kind, double value)
+void ceduo_doubt_value(struct text *t, enum ceduo_doubt_kind kind, double value)
 {
     bool energy = kind == CEDUO_DOUBT_ENERGY;
     ceduo_words_number(t, energy ? value * J_TO_KJ : round(value * 1000), energy ? 3 : 0);
@@ -139,9 +139,9 @@ static void append_value(struct text *t, enum ceduo_doubt_kind kind, double valu
 
 static void append_range(struct text *t, enum ceduo_doubt_kind kind, double lo, double hi)
 {
-    append_value(t, kind, lo);
+    ceduo_doubt_value(t, kind, lo);
     ceduo_text_put(t, "\xe2\x80\x93");
-    append_value(t, kind, hi);
+    ceduo_doubt_value(t, kind, hi);
 }
 
 /* ---- what an option may be ---- */
@@ -174,7 +174,7 @@ struct ceduo_doubt_now ceduo_doubt_now_of(const struct ceduo_doubt_report *r, si
 void ceduo_doubt_range(struct text *text, const struct ceduo_doubt_report *r, size_t option)
 {
     const struct ceduo_doubt_figure *f = ceduo_doubt_main(r, option);
-    append_value(text, f->kind, ceduo_doubt_now_of(r, option).value);
+    ceduo_doubt_value(text, f->kind, ceduo_doubt_now_of(r, option).value);
     if (!ceduo_doubt_knows(r, option))
         return;
     ceduo_text_put(text, " (");
@@ -190,7 +190,7 @@ void ceduo_doubt_both(struct text *text, const struct ceduo_doubt_report *r, siz
     LOCAL_TEXT(value);
     LOCAL_TEXT(rocks);
     LOCAL_TEXT(doubt);
-    append_value(&value, f->kind, now.value);
+    ceduo_doubt_value(&value, f->kind, now.value);
     append_range(&rocks, f->kind, now.lo, now.hi);
     append_range(&doubt, f->kind, f->fit.p5, f->fit.p95);
     ceduo_text_format(text,
@@ -219,7 +219,7 @@ static void add_options(struct ceduo_page *page, const struct ceduo_doubt_report
         const struct ceduo_doubt_figure *f = ceduo_doubt_main(r, i);
         struct ceduo_doubt_now now = ceduo_doubt_now_of(r, i);
         ceduo_text_safe(ceduo_page_text(page), s->options[i].name);
-        append_value(ceduo_page_text(page), f->kind, now.value);
+        ceduo_doubt_value(ceduo_page_text(page), f->kind, now.value);
         append_range(ceduo_page_text(page), f->kind, now.lo, now.hi);
         append_range(ceduo_page_text(page), f->kind, f->fit.p5, f->fit.p95);
     }
@@ -240,7 +240,7 @@ static void add_rotation(struct ceduo_page *page, const struct ceduo_doubt_repor
         const struct ceduo_doubt_figure *f = ceduo_doubt_figure_of(r->answer, i, CEDUO_DOUBT_MEAN, false),
                                         *years = ceduo_doubt_figure_of(r->answer, i, CEDUO_DOUBT_FAILING, false);
         ceduo_text_safe(ceduo_page_text(page), s->options[i].name);
-        append_value(ceduo_page_text(page), f->kind, f->value);
+        ceduo_doubt_value(ceduo_page_text(page), f->kind, f->value);
         append_range(ceduo_page_text(page), f->kind, f->sampling_lo, f->sampling_hi);
         append_range(ceduo_page_text(page), f->kind, f->fit.p5, f->fit.p95);
         double lo = judged ? floor(years->fit.p5) : 0, hi = judged ? ceil(years->fit.p95) : 0; /* outwards */
@@ -287,7 +287,7 @@ static void add_inputs(struct ceduo_page *page, const struct ceduo_doubt_report 
         for (int end = 0; end < 2; end++)
             append_input_end(ceduo_page_text(page), r, g, end);
         ceduo_page_write(page, "%.0f %%", ceduo_doubt_share(f, g) * 100);
-        append_value(ceduo_page_text(page), f->kind, f->fit.left[g]);
+        ceduo_doubt_value(ceduo_page_text(page), f->kind, f->fit.left[g]);
     }
     if (f->fit.whole.value >= SHOWN && f->fit.whole.value > 2 * f->fit.whole.se) {
         ceduo_page_write(page, "%s", _("together, in ways not told apart"));

@@ -39,6 +39,7 @@ struct ceduo_doubt_now ceduo_doubt_now_of(const struct ceduo_doubt_report *repor
 
 /* By what the main figure is shown, of 1000 rocks or kJ per released rock. */
 double ceduo_doubt_scale(const struct ceduo_doubt_report *report);
+void ceduo_doubt_value(struct text *text, enum ceduo_doubt_kind kind, double value); /* of any figure, so shown */
 
 /* The share of an input in a figure as it is shown, from 0 to 1: an estimate may lie outside. */
 double ceduo_doubt_share(const struct ceduo_doubt_figure *figure, size_t group);

@@ -158,18 +158,6 @@ static void say_best(struct text *text, const struct ceduo_scene *scene, const s
                           numbers.bytes);
 }
 
-/* One sentence where the same option is clearly best over the years and today. */
-static bool say_both(struct text *text, const struct ceduo_scene *scene, const struct ceduo_verdict *v, const char *when)
-{
-    const struct ceduo_leader *a = &v->rotation, *b = &v->today;
-    if (!b->known || b->uneven || a->best != b->best || a->rivals > 0 || b->rivals > 0)
-        return false;
-    ceduo_text_format(text, _("%s '%s' lets the fewest %s through, as it does today: %.0f and %.0f of 1000."), when,
-                      scene->options[a->best].name, v->accepted ? _("dangerous rocks") : _("rocks"), mean_of(v, true, a->best),
-                      mean_of(v, false, a->best));
-    return true;
-}
-
 void ceduo_words_best(struct text *text, const struct ceduo_scene *scene, const struct ceduo_verdict *v)
 {
     if (v->nothing)
@@ -177,8 +165,14 @@ void ceduo_words_best(struct text *text, const struct ceduo_scene *scene, const 
     const char *when = all_of_kind(v, CEDUO_WINDOW_GIVEN) ? _("Over these years") : _("Over a whole rotation");
     bool years = v->rotation.known && !v->rotation.uneven && !all_of_kind(v, CEDUO_WINDOW_ALIKE);
     bool today = v->today.known && !v->today.uneven;
-    if (years && say_both(text, scene, v, when))
+    const struct ceduo_leader *a = &v->rotation, *b = &v->today;
+    if (years && today && a->best == b->best && a->rivals == 0 && b->rivals == 0) {
+        /* one sentence where the same option is clearly best over the years and today */
+        ceduo_text_format(text, _("%s '%s' lets the fewest %s through, as it does today: %.0f and %.0f of 1000."), when,
+                          scene->options[a->best].name, v->accepted ? _("dangerous rocks") : _("rocks"),
+                          mean_of(v, true, a->best), mean_of(v, false, a->best));
         return;
+    }
     if (years)
         say_best(text, scene, v, true, when);
     if (years && today)

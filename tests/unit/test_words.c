@@ -50,14 +50,13 @@ TEST(shares_are_shown_between_0_and_1)
 TEST(values_in_doubt_have_their_digits)
 {
     static const struct {
-        enum ceduo_doubt_kind main;
+        enum ceduo_doubt_kind kind;
         double value;
         const char *shown;
     } rows[] = {{CEDUO_DOUBT_ENERGY, 12345, "12.3"}, {CEDUO_DOUBT_EXCEED, .4567, "457"}, {CEDUO_DOUBT_REACH, .1234, "123"}};
     for (size_t i = 0; i < LENGTH(rows); i++) {
         LOCAL_TEXT(text);
-        struct ceduo_doubt_answer answer = {.main = rows[i].main};
-        ceduo_doubt_value(&text, &(struct ceduo_doubt_report){.answer = &answer}, rows[i].value);
+        ceduo_doubt_value(&text, rows[i].kind, rows[i].value);
         assert_string_equal(ceduo_text_string(&text), rows[i].shown);
     }
 }
