@@ -32,8 +32,8 @@ dpkg -L ceduo libceduo-dev libceduo0 | while read -r path; do [ -d "$path" ] || 
 cd "$work"
 export HOME="$work" XDG_DATA_HOME="$work/share" LC_ALL=C.UTF-8
 program=/usr/bin/ceduo
-$program --batch -n 100 paper-site | grep -q 'Energy per released rock' || fail "the page of the paper's site"
-$program --list-profiles | grep -q '^/usr/share/ceduo/rules/toscana.yaml' || fail "profiles"
+$program --batch -n 100 paper-site | grep -q 'HOW SURE' || fail "the page of the paper's site"
+$program --list-profiles | grep -q '/usr/share/ceduo/rules/toscana.yaml$' || fail "profiles"
 cp /usr/share/ceduo/surveys/six-plots.csv .
 $program --survey six-plots.csv -o stand.yaml
 grep -q '^  - {path: stools.per_ha' stand.yaml || fail "the stand of a survey"
