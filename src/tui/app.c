@@ -421,29 +421,18 @@ bool ceduo_app_text(struct app *app, struct ceduo_area area, enum ceduo_role rol
     return top && *top < max;
 }
 
-/* Drops the last word, and the blank or the end of a line before it. */
-static bool drop_word(struct text *text)
-{
-    size_t n = text->length;
-    while (n > 0 && text->bytes[n - 1] != ' ' && text->bytes[n - 1] != '\n')
-        n--;
-    if (n == 0)
-        return false;
-    text->length = n - 1;
-    text->bytes[n - 1] = '\0';
-    return true;
-}
-
 void ceduo_app_end_in_more(struct app *app, struct text *text, int width, int lines)
 {
     for (bool fits = false; !fits;) {
         size_t end = text->length;
         ceduo_text_put(text, " ..."); /* as wide as the sign is in ASCII */
         fits = ceduo_app_text_lines(app, text->bytes, width) <= lines;
-        text->length = end;
-        text->bytes[end] = '\0';
-        if (!fits && !drop_word(text))
+        while (!fits && end > 0 && text->bytes[end - 1] != ' ' && text->bytes[end - 1] != '\n') /* the last word, */
+            end--;
+        if (!fits && end == 0)
             return;
+        text->length = end - !fits; /* and what stands before it */
+        text->bytes[text->length] = '\0';
     }
     ceduo_text_put(text, " \xe2\x80\xa6");
 }

@@ -52,15 +52,6 @@ static bool is_meant(struct app *app, const struct form_cell *cell, const char *
     return good && sure;
 }
 
-/* A list of numbers that is shown whole is typed as it is shown: with blanks between. */
-static bool is_typed_plainly(const struct form_cell *cell, const struct node *node)
-{
-    bool numbers = node->kind == NODE_LIST && strlen(cell->text) + 1 < sizeof cell->text;
-    for (size_t i = 0; numbers && i < node->n; i++)
-        numbers = node->items[i]->kind == NODE_SCALAR;
-    return numbers;
-}
-
 /* The whole value as it is typed: what is shown may be cut or put in other words. */
 void ceduo_edit_start(struct app *app)
 {
@@ -73,9 +64,12 @@ void ceduo_edit_start(struct app *app)
     }
     const struct node *node = ceduo_document_node(&app->document, cell->path);
     struct text text = {0};
+    bool plain = node && node->kind == NODE_LIST && strlen(cell->text) + 1 < sizeof cell->text; /* shown whole: with blanks */
+    for (size_t i = 0; plain && i < node->n; i++)
+        plain = node->items[i]->kind == NODE_SCALAR;
     if (node && node->kind == NODE_SCALAR)
         ceduo_shown_value(cell->field, node->text, &text);
-    else if (node && cell->field->type != FIELD_SPREAD && !is_typed_plainly(cell, node))
+    else if (node && cell->field->type != FIELD_SPREAD && !plain)
         ceduo_emit_flow(&text, node);
     else
         ceduo_text_put(&text, cell->text);

@@ -156,58 +156,47 @@ static const struct field *field_of_item(const struct object *object, const char
     return of && of->shown.per != 1 ? of : field;
 }
 
-void ceduo_form_table(struct form *form, const struct document *d, const struct object *object, const char *list,
-                      const char *const *keys, const char *title)
+/* A line of names, and one for each item that has the group; NULL: for each. */
+static void add_items(struct form *form, const struct document *d, const struct object *object, const char *list,
+                      const char *group, const char *const *keys, const char *title)
 {
     char path[FORM_PATH];
     const struct node *node = ceduo_document_node(d, list);
+    const struct field *of = group ? ceduo_schema_field(object, group) : NULL;
+    const struct object *fields = of ? of->object : object;
     struct form_row *head = add_row(form, FORM_COLUMNS_ROW, title);
-    for (size_t k = 0; k < FORM_COLUMNS && keys[k]; k++) {
-        head->cells[k].field = find_field(object, keys[k]);
-        head->n = k + 1;
-    }
+    for (; head->n < FORM_COLUMNS && keys[head->n]; head->n++)
+        head->cells[head->n].field = find_field(fields, keys[head->n]);
     snprintf(head->list, sizeof head->list, "%s", list);
     for (size_t i = 0; node && node->kind == NODE_LIST && i < node->n; i++) {
+        const struct node *item = of ? ceduo_node_get(node->items[i], group) : node->items[i];
+        if (!item)
+            continue;
         struct form_row *row = add_item(form, list, i);
-        for (size_t k = 0; k < FORM_COLUMNS && keys[k]; k++) {
-            const struct field *field = field_of_item(object, keys[k], node->items[i]);
-            const struct field *other =
-                field && !ceduo_node_get(node->items[i], keys[k]) ? ceduo_schema_unit(object, field) : NULL;
-            bool instead = other && ceduo_node_get(node->items[i], other->key); /* the file has it in another unit */
-            snprintf(path, sizeof path, "%.100s[%zu]%s%.30s", list, i, keys[k][0] ? "." : "", instead ? other->key : keys[k]);
-            fill_cell(&row->cells[k], d, instead ? other : field, path);
-            row->n = k + 1;
+        row->group = of ? of->key : NULL;
+        for (const char *key; row->n < FORM_COLUMNS && (key = keys[row->n]); row->n++) {
+            const struct field *field = field_of_item(fields, key, item);
+            const struct field *other = field && !ceduo_node_get(item, key) ? ceduo_schema_unit(fields, field) : NULL;
+            bool instead = other && ceduo_node_get(item, other->key); /* the file has it in another unit */
+            snprintf(path, sizeof path, "%.80s[%zu]%s%.20s%s%.30s", list, i, of ? "." : "", of ? group : "", key[0] ? "." : "",
+                     instead ? other->key : key);
+            fill_cell(&row->cells[row->n], d, instead ? other : field, path);
         }
     }
-    if (!node || node->n == 0) {
-        struct form_row *row = add_row(form, FORM_FIELDS, _("none; a adds one"));
-        snprintf(row->list, sizeof row->list, "%s", list);
-    }
+    if (!node || node->n == 0)
+        snprintf(add_row(form, FORM_FIELDS, _("none; a adds one"))->list, sizeof head->list, "%s", list);
+}
+
+void ceduo_form_table(struct form *form, const struct document *d, const struct object *object, const char *list,
+                      const char *const *keys, const char *title)
+{
+    add_items(form, d, object, list, NULL, keys, title);
 }
 
 void ceduo_form_group(struct form *form, const struct document *d, const struct object *object, const char *list,
                       const char *group, const char *const *keys)
 {
-    char path[FORM_PATH];
-    const struct node *node = ceduo_document_node(d, list);
-    const struct field *of = ceduo_schema_field(object, group);
-    size_t head = form->n;
-    for (size_t i = 0; node && node->kind == NODE_LIST && i < node->n; i++) {
-        if (!ceduo_node_get(node->items[i], group))
-            continue;
-        if (form->n == head) {
-            struct form_row *names = add_row(form, FORM_COLUMNS_ROW, "");
-            for (; names->n < FORM_COLUMNS && keys[names->n]; names->n++)
-                names->cells[names->n].field = find_field(of->object, keys[names->n]);
-            snprintf(names->list, sizeof names->list, "%s", list);
-        }
-        struct form_row *row = add_item(form, list, i);
-        row->group = of->key;
-        for (; row->n < FORM_COLUMNS && keys[row->n]; row->n++) {
-            snprintf(path, sizeof path, "%.60s[%zu].%.20s.%.30s", list, i, group, keys[row->n]);
-            fill_cell(&row->cells[row->n], d, find_field(of->object, keys[row->n]), path);
-        }
-    }
+    add_items(form, d, object, list, group, keys, "");
 }
 
 void ceduo_form_points(struct form *form, const struct document *d, const struct field *field, const char *list)
@@ -280,20 +269,6 @@ struct form_cell *ceduo_form_cell(struct form *form)
     return row && form->column < row->n ? &row->cells[form->column] : NULL;
 }
 
-/* The first cell of a row that matches, by the row's name, its own or what it holds. */
-static bool matches(const struct form_row *row, const char *what, size_t *column)
-{
-    *column = 0;
-    if (strcasestr(row->label, what))
-        return true;
-    for (size_t k = 0; k < row->n; k++)
-        if (strcasestr(row->cells[k].text, what) || strcasestr(row->cells[k].path, what)) {
-            *column = k;
-            return true;
-        }
-    return false;
-}
-
 void ceduo_form_go(struct form *form, const char *list, size_t index)
 {
     size_t last = form->row;
@@ -307,13 +282,19 @@ void ceduo_form_go(struct form *form, const char *list, size_t index)
 bool ceduo_form_search(struct form *form, const char *word)
 {
     for (size_t i = 1; word[0] && i <= form->n; i++) {
-        size_t at = (form->row + i) % form->n, column;
-        if (can_hold(&form->rows[at]) && matches(&form->rows[at], word, &column)) {
-            form->row = at;
-            form->column = column;
-            ceduo_form_clamp(form);
-            return true;
-        }
+        const struct form_row *row = &form->rows[(form->row + i) % form->n];
+        size_t k = 0; /* the row's own name is that of its first cell */
+        if (!can_hold(row))
+            continue;
+        while (k < row->n && !(k == 0 && strcasestr(row->label, word)) && !strcasestr(row->cells[k].text, word) &&
+               !strcasestr(row->cells[k].path, word))
+            k++;
+        if (k == row->n && !strcasestr(row->label, word))
+            continue;
+        form->row = (form->row + i) % form->n;
+        form->column = k < row->n ? k : 0;
+        ceduo_form_clamp(form);
+        return true;
     }
     return false;
 }
@@ -384,14 +365,6 @@ static void draw_cell(const struct drawing *d, const struct form_cell *cell, int
     ceduo_canvas_put(&cells->canvas, x, y, span, role, shown);
 }
 
-/* The label of a column, or its short one where that has no room. */
-static const char *head_of(const struct form_cell *cell, int span)
-{
-    const struct field_shown *shown = &cell->field->shown;
-    bool fits = (int)ceduo_utf8_width(_(shown->label)) <= span || !shown->brief;
-    return fits ? _(shown->label) : ceduo_translate_in(shown->brief);
-}
-
 static void draw_row(const struct drawing *d, size_t i, int y)
 {
     const struct form_row *row = &d->form->rows[i];
@@ -410,10 +383,14 @@ static void draw_row(const struct drawing *d, size_t i, int y)
     for (size_t k = 0; k < row->n; k++) {
         int from, span;
         cell_place(row, width, label, k, &from, &span);
-        if (row->kind == FORM_COLUMNS_ROW)
-            ceduo_canvas_put(canvas, left + from, y, span, CEDUO_ROLE_TITLE, head_of(&row->cells[k], span));
-        else
+        if (row->kind != FORM_COLUMNS_ROW) {
             draw_cell(d, &row->cells[k], left + from, y, span, here && k == d->form->column);
+            continue;
+        }
+        const struct field_shown *shown = &row->cells[k].field->shown;
+        bool fits = (int)ceduo_utf8_width(_(shown->label)) <= span || !shown->brief;
+        ceduo_canvas_put(canvas, left + from, y, span, CEDUO_ROLE_TITLE,
+                         fits ? _(shown->label) : ceduo_translate_in(shown->brief));
     }
 }
 

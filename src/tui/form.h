@@ -62,8 +62,7 @@ void ceduo_form_rest(struct form *form, const struct document *d, const struct o
 void ceduo_form_table(struct form *form, const struct document *d, const struct object *object, const char *list,
                       const char *const *keys, const char *title);
 
-/* The same of one group of those items that have it, such as the stops among what was observed; nothing where none has. Keys
- * are the group's. */
+/* The same of one group of those items that have it, such as the stops among what was observed. Keys are the group's. */
 void ceduo_form_group(struct form *form, const struct document *d, const struct object *object, const char *list,
                       const char *group, const char *const *keys);
 

@@ -191,43 +191,32 @@ static bool ask_for_blocks(struct app *app, const struct item *item)
 
 /* ---- deleting ---- */
 
-/* The stools go with their last shoots. */
-static bool delete_shoots(struct app *app, const struct item *item)
-{
-    const char *stand = ceduo_app_format(app, "%.*s", (int)(item->key - item->list) - 1, item->list);
-    struct changes c = {.d = &app->document};
-    ceduo_changes_add(&c, "%s.stools", stand);
-    ceduo_changes_add(&c, "%s", item->list);
-    return ceduo_changes_make(&c, stand, &app->problems);
-}
-
-/* The ground before it, or behind the first, takes its place. */
-static bool delete_ground(struct app *app, const struct item *item, const char *path)
-{
-    bool first = item->index == 0;
-    const char *end = first ? "from_m" : "to_m";
-    struct changes c = {.d = &app->document};
-    ceduo_changes_add(&c, "%s[%zu].%s=%.10g", item->list, first ? 1 : item->index - 1, end,
-                      place_of(app, item, item->index, end));
-    ceduo_changes_add(&c, "%s", path);
-    return ceduo_changes_make(&c, item->list, &app->problems);
-}
-
+/* What goes with it: stools with their last shoots; the ground before it, or behind the first, takes the place of a ground. */
 static bool delete_item(struct app *app, const struct item *item, const char *path)
 {
     const struct node *list = ceduo_document_node(&app->document, item->list);
+    struct changes c = {.d = &app->document};
+    size_t n = list ? list->n : 0, index = item->index;
     if (strcmp(item->list, "slope.segments") == 0)
-        return ceduo_document_join_segments(&app->document, item->index, &app->problems);
+        return ceduo_document_join_segments(&app->document, index, &app->problems);
     if (strcmp(item->list, "slope.vertices_m") == 0)
-        return ceduo_document_remove_vertex(&app->document, item->index, &app->problems);
-    if (strcmp(item->key, "materials") == 0 && list && list->n > 1)
-        return delete_ground(app, item, path);
-    if (item->group && list && list->items[item->index]->n > 1 + !!ceduo_node_get(list->items[item->index], "name"))
-        return ceduo_document_delete(&app->document, ceduo_app_format(app, "%s.%s", path, item->group), &app->problems);
-    if ((item->group || strcmp(item->list, "blocks") == 0) && list && list->n == 1)
-        return ceduo_document_delete(&app->document, item->list, &app->problems);
-    if (strcmp(item->key, "shoots") == 0 && list && list->n == 1)
-        return delete_shoots(app, item);
+        return ceduo_document_remove_vertex(&app->document, index, &app->problems);
+    if (strcmp(item->key, "materials") == 0 && n > 1) {
+        const char *end = index == 0 ? "from_m" : "to_m";
+        ceduo_changes_add(&c, "%s[%zu].%s=%.10g", item->list, index == 0 ? 1 : index - 1, end, place_of(app, item, index, end));
+        ceduo_changes_add(&c, "%s", path);
+        return ceduo_changes_make(&c, item->list, &app->problems);
+    }
+    if (strcmp(item->key, "shoots") == 0 && n == 1) {
+        const char *stand = ceduo_app_format(app, "%.*s", (int)(item->key - item->list) - 1, item->list);
+        ceduo_changes_add(&c, "%s.stools", stand);
+        ceduo_changes_add(&c, "%s", item->list);
+        return ceduo_changes_make(&c, stand, &app->problems);
+    }
+    if (item->group && list && list->items[index]->n > 1 + !!ceduo_node_get(list->items[index], "name"))
+        path = ceduo_app_format(app, "%s.%s", path, item->group);
+    else if ((item->group || strcmp(item->list, "blocks") == 0) && n == 1)
+        path = item->list;
     return ceduo_document_delete(&app->document, path, &app->problems);
 }
 

@@ -25,24 +25,13 @@ static void cut(struct line *line, size_t from, size_t to)
     line->at = from;
 }
 
-static void insert(struct line *line, int key)
-{
-    char bytes[4];
-    size_t n = ceduo_utf8_encode((uint32_t)key, bytes), length = strlen(line->text);
-    if (length + n + 1 > sizeof line->text)
-        return; /* full */
-    memmove(line->text + line->at + n, line->text + line->at, length - line->at + 1);
-    memcpy(line->text + line->at, bytes, n);
-    line->at += n;
-}
-
 bool ceduo_line_key(struct line *line, int key)
 {
     bool fresh = line->fresh;
     line->fresh = line->asked = false;
     if (fresh && ((key >= ' ' && key < K_SPECIAL) || key == K_BACKSPACE))
         cut(line, 0, strlen(line->text));
-    const char *at = line->text + line->at;
+    char bytes[4], *at = line->text + line->at;
     size_t before = (size_t)(ceduo_utf8_back(line->text, at) - line->text);
     size_t after = line->at + (*at ? ceduo_utf8_step(at) : 0);
     if (key == K_LEFT)
@@ -59,9 +48,14 @@ bool ceduo_line_key(struct line *line, int key)
         cut(line, line->at, after);
     else if (key == K_CTRL_U)
         cut(line, 0, line->at);
-    else if (key < K_SPECIAL && ceduo_utf8_printable((uint32_t)key))
-        insert(line, key);
-    else
+    else if (key < K_SPECIAL && ceduo_utf8_printable((uint32_t)key)) {
+        size_t n = ceduo_utf8_encode((uint32_t)key, bytes), rest = strlen(at) + 1;
+        if (line->at + rest + n > sizeof line->text)
+            return true; /* full */
+        memmove(at + n, at, rest);
+        memcpy(at, bytes, n);
+        line->at += n;
+    } else
         return false;
     return true;
 }

@@ -50,24 +50,20 @@ bool ceduo_picker_has(const struct picker *p, const char *value)
 
 /* ---- matching ---- */
 
-/* Puts an item among those that match: before those that match less well. */
-static void insert(struct picker *p, size_t item)
-{
-    size_t at = p->matches++;
-    for (; at > 0 && p->picks[p->order[at - 1]].match < p->picks[item].match; at--)
-        p->order[at] = p->order[at - 1];
-    p->order[at] = item;
-}
-
 void ceduo_picker_filter(struct picker *p, const char *typed)
 {
     p->matches = p->at = 0;
     p->top = 0;
     for (size_t i = 0; i < p->count; i++) {
         struct pick *pick = &p->picks[i];
+        size_t at = p->matches;
         pick->match = ceduo_fuzzy_match(typed, pick->name);
-        if (pick->match >= 0)
-            insert(p, i);
+        if (pick->match < 0)
+            continue;
+        for (; at > 0 && p->picks[p->order[at - 1]].match < pick->match; at--) /* before those that match less well */
+            p->order[at] = p->order[at - 1];
+        p->order[at] = i;
+        p->matches++;
     }
     for (size_t i = 0; !typed[0] && i < p->matches; i++)
         if (p->picks[p->order[i]].now)

@@ -126,15 +126,6 @@ static void take_message(struct app *app, struct popup *p)
     snprintf(p->message, sizeof p->message, "%.*s", (int)sizeof p->message - 1, app->message);
 }
 
-/* A file that is typed and not there is said at once, not after the last question. */
-static void say_missing(struct popup *p, const char *typed)
-{
-    size_t n = strlen(typed), end = p->endings ? strlen(p->endings) : 0;
-    bool named = n > end && end > 0 && strcmp(typed + n - end, p->endings) == 0;
-    if (named && ceduo_picker_at(&p->picker) == NULL && access(typed, F_OK) != 0)
-        snprintf(p->message, sizeof p->message, _("there is no file '%.180s'"), typed);
-}
-
 /* The items for what is typed into the line under the cursor. */
 static void offer(struct app *app, struct popup *p)
 {
@@ -149,8 +140,10 @@ static void offer(struct app *app, struct popup *p)
     ceduo_picker_filter(&p->picker, line->fresh ? "" : line->text);
     if (line->fresh)
         ceduo_picker_go_to(&p->picker, line->text);
-    if (!line->fresh && fill && !p->typed_wins)
-        say_missing(p, line->text);
+    size_t n = strlen(line->text), end = p->endings ? strlen(p->endings) : 0;
+    bool named = n > end && end > 0 && strcmp(line->text + n - end, p->endings) == 0;
+    if (!line->fresh && fill && !p->typed_wins && named && !ceduo_picker_at(&p->picker) && access(line->text, F_OK) != 0)
+        snprintf(p->message, sizeof p->message, _("there is no file '%.180s'"), line->text); /* not after the last question */
 }
 
 static void go_to_field(struct app *app, struct popup *p, size_t field)
@@ -158,26 +151,6 @@ static void go_to_field(struct app *app, struct popup *p, size_t field)
     p->at = field;
     ceduo_line_set(&p->fields[field], p->fields[field].text);
     offer(app, p);
-}
-
-/* What matches takes the place of what was typed. */
-static void take_match(struct popup *p)
-{
-    struct line *line = &p->fields[p->at];
-    const struct pick *pick = p->offers[p->at] ? ceduo_picker_at(&p->picker) : NULL;
-    if (pick && (p->moved || !(p->typed_wins || line->fresh)))
-        ceduo_line_set(line, pick->value);
-}
-
-/* Whether a field may be left: what is wrong with it is said there. */
-static bool may_leave(struct app *app, struct popup *p)
-{
-    app->message[0] = '\0';
-    bool good = !p->check || p->check(app, p, p->at);
-    if (!good)
-        take_message(app, p);
-    app->message[0] = '\0';
-    return good;
 }
 
 /* ---- keys ---- */
@@ -240,6 +213,17 @@ static void list_key(struct app *app, struct popup *p, int key)
     }
 }
 
+/* Goes on, unless something is wrong with the field. */
+static void leave_field(struct app *app, struct popup *p)
+{
+    app->message[0] = '\0';
+    if (!p->check || p->check(app, p, p->at))
+        go_to_field(app, p, p->at + 1);
+    else
+        take_message(app, p);
+    app->message[0] = '\0';
+}
+
 static void submit(struct app *app, struct popup *p)
 {
     app->message[0] = '\0';
@@ -248,8 +232,7 @@ static void submit(struct app *app, struct popup *p)
         free_popup(p);
         return;
     }
-    if (app->popup) /* it opened another */
-        ceduo_popup_close(app);
+    ceduo_popup_close(app); /* it may have opened another */
     app->popup = p;
     take_message(app, p);
 }
@@ -271,11 +254,14 @@ static void fields_key(struct app *app, struct popup *p, int key)
     } else if (key == K_TAB && p->endings && p->offers[p->at] && ceduo_picker_complete(&p->picker, &p->fields[p->at])) {
         offer(app, p);
     } else if (key == K_TAB || key == K_DOWN || key == K_ENTER) {
-        take_match(p);
-        if (last && key == K_ENTER)
+        const struct pick *pick = p->offers[p->at] ? ceduo_picker_at(&p->picker) : NULL;
+        struct line *line = &p->fields[p->at];
+        if (pick && (p->moved || !(p->typed_wins || line->fresh))) /* what matches takes the place of what was typed */
+            ceduo_line_set(line, pick->value);
+        if (!last)
+            leave_field(app, p);
+        else if (key == K_ENTER)
             submit(app, p);
-        else if (!last && may_leave(app, p))
-            go_to_field(app, p, p->at + 1);
     } else if (ceduo_line_key(&p->fields[p->at], key)) {
         offer(app, p);
     }

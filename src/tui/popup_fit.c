@@ -19,70 +19,46 @@ static void append_bounds(struct text *text, const struct fit_request *w, size_t
                       ceduo_shown_number(w->fields[i], w->hi[i], hi));
 }
 
-/* One end in the unit that is shown; false where it is none, which is said. */
-static bool read_end(struct app *app, const struct field *field, const char *typed, double *end)
+/* Both ends in the unit that is shown; false where they are none, which is said. */
+static bool read_bounds(struct app *app, const char *typed, const struct field *field, double *lo, double *hi)
 {
-    if (ceduo_typed_number(typed, end) == CEDUO_NUMBER_GOOD)
-        return ceduo_popup_value(app, field, typed, end);
-    ceduo_app_warn(app, "%s", _("bounds are two numbers, as 0.3:0.4; an empty field is not fitted"));
-    return false;
-}
-
-static bool read_bounds(struct app *app, const struct popup *p, size_t i, const struct field *field, double *lo, double *hi)
-{
-    const char *typed = p->fields[i].text, *colon = strchr(typed, ':');
-    const char *first = colon ? ceduo_app_format(app, "%.*s", (int)(colon - typed), typed) : typed;
-    if (!read_end(app, field, first, lo) || !read_end(app, field, colon ? colon + 1 : "", hi))
-        return false;
-    if (*lo < *hi)
-        return true;
-    ceduo_app_warn(app, "%s", _("from and to are numbers, the smaller first"));
-    return false;
+    const char *colon = strchr(typed, ':');
+    const char *ends[2] = {colon ? ceduo_app_format(app, "%.*s", (int)(colon - typed), typed) : typed, colon ? colon + 1 : ""};
+    for (int i = 0; i < 2; i++) {
+        double *end = i == 0 ? lo : hi;
+        if (ceduo_typed_number(ends[i], end) != CEDUO_NUMBER_GOOD) {
+            ceduo_app_warn(app, "%s", _("bounds are two numbers, as 0.3:0.4; an empty field is not fitted"));
+            return false;
+        }
+        if (!ceduo_popup_value(app, field, ends[i], end))
+            return false;
+    }
+    if (!(*lo < *hi))
+        ceduo_app_warn(app, "%s", _("from and to are numbers, the smaller first"));
+    return *lo < *hi;
 }
 
 /* ---- the popup ---- */
 
 /* Values that follow are moved into the place of those that are not fitted. */
-static bool read_request(struct app *app, struct popup *p, struct fit_request *w)
+static bool filled_fit(struct app *app, struct popup *p)
 {
     struct fit_request all;
     ceduo_fit_offer(&app->document.file, &all);
-    *w = (struct fit_request){.rocks = all.rocks};
+    struct fit_request w = {.rocks = all.rocks};
     for (size_t i = 0; i < all.n; i++) {
         if (p->fields[i].text[0] == '\0')
             continue;
-        if (!read_bounds(app, p, i, all.fields[i], &w->lo[w->n], &w->hi[w->n]))
+        if (!read_bounds(app, p->fields[i].text, all.fields[i], &w.lo[w.n], &w.hi[w.n]))
             return false;
-        snprintf(w->paths[w->n], sizeof w->paths[w->n], "%s", all.paths[i]);
-        w->fields[w->n++] = all.fields[i];
+        snprintf(w.paths[w.n], sizeof w.paths[w.n], "%s", all.paths[i]);
+        w.fields[w.n++] = all.fields[i];
     }
-    if (w->n == 0)
+    if (w.n == 0)
         ceduo_app_warn(app, "%s", _("nothing is to be fitted: give one value its bounds, as 0.3:0.4"));
-    return w->n > 0;
-}
-
-static bool filled_fit(struct app *app, struct popup *p)
-{
-    struct fit_request request;
-    if (!read_request(app, p, &request))
-        return false;
-    ceduo_live_fit(&app->live, &app->document.file, &request);
-    return true;
-}
-
-static void append_about(struct popup *p, const struct fit_request *w)
-{
-    ceduo_text_format(
-        &p->text, _("Each value between its bounds; an empty field is not fitted. Every scene that is tried has %llu rocks."),
-        (unsigned long long)w->rocks);
-    for (size_t i = FILLED; i < w->n; i++) {
-        ceduo_text_put(&p->text, i == FILLED ? " " : "; ");
-        if (i == FILLED)
-            ceduo_text_format(&p->text, "%s ", _("Usual bounds of the others:"));
-        ceduo_calibration_name(&p->text, w->paths[i], w->fields[i]);
-        ceduo_text_char(&p->text, ' ');
-        append_bounds(&p->text, w, i);
-    }
+    else
+        ceduo_live_fit(&app->live, &app->document.file, &w);
+    return w.n > 0;
 }
 
 /* Whether a value is among those that are fitted at present, and what was seen holds it; its bounds are those. */
@@ -103,7 +79,17 @@ void ceduo_popup_fit(struct app *app)
     const struct fit *now = app->live.fitting ? app->live.results.fit : NULL;
     ceduo_fit_offer(&app->document.file, &request);
     struct popup *p = ceduo_popup_fields(app, _("What is fitted to what was seen?"), filled_fit);
-    append_about(p, &request);
+    ceduo_text_format(
+        &p->text, _("Each value between its bounds; an empty field is not fitted. Every scene that is tried has %llu rocks."),
+        (unsigned long long)request.rocks);
+    for (size_t i = FILLED; i < request.n; i++) {
+        if (i == FILLED)
+            ceduo_text_format(&p->text, " %s ", _("Usual bounds of the others:"));
+        ceduo_text_put(&p->text, i == FILLED ? "" : "; ");
+        ceduo_calibration_name(&p->text, request.paths[i], request.fields[i]);
+        ceduo_text_char(&p->text, ' ');
+        append_bounds(&p->text, &request, i);
+    }
     for (size_t i = 0; i < request.n; i++) {
         struct text label = {0}, bounds = {0};
         ceduo_calibration_name(&label, request.paths[i], request.fields[i]);

@@ -31,24 +31,6 @@ static const struct {
     {N_("doubt"), N_("what is not known, such as the ground; more rocks do not cure it")},
 };
 
-static void append_action(struct text *text, enum action action)
-{
-    const struct action_info *a = &ceduo_actions[action];
-    char keys[32];
-    for (size_t i = 0; i < sizeof groups / sizeof groups[0]; i++)
-        if (groups[i].first == action)
-            ceduo_text_format(text, "%s%s\n", i > 0 ? " \n" : "", _(groups[i].heading));
-    snprintf(keys, sizeof keys, "%s%s%s", a->word, a->word2[0] ? "  " : "", a->word2);
-    ceduo_text_format(text, "  %-16s%s\n", keys, _(a->help));
-}
-
-static void append_glossary(struct text *text)
-{
-    ceduo_text_format(text, " \n%s\n", _("Words"));
-    for (size_t i = 0; i < sizeof glossary / sizeof glossary[0]; i++)
-        ceduo_text_format(text, "  %s: %s\n", _(glossary[i].word), _(glossary[i].meaning));
-}
-
 void ceduo_popup_help(struct app *app)
 {
     struct popup *p = ceduo_popup_text(app, _("Keys"));
@@ -62,8 +44,14 @@ void ceduo_popup_help(struct app *app)
     }
     ceduo_text_free(&field);
     ceduo_text_put(&p->text, _("Every edit is live: figures and pictures follow at once.\n \n"));
-    for (int i = 0; i < ACTION_COUNT; i++)
-        append_action(&p->text, (enum action)i);
+    for (int i = 0; i < ACTION_COUNT; i++) {
+        const struct action_info *a = &ceduo_actions[i];
+        for (size_t k = 0; k < sizeof groups / sizeof groups[0]; k++)
+            if ((int)groups[k].first == i)
+                ceduo_text_format(&p->text, "%s%s\n", k > 0 ? " \n" : "", _(groups[k].heading));
+        const char *keys = ceduo_app_format(app, "%s%s%s", a->word, a->word2[0] ? "  " : "", a->word2);
+        ceduo_text_format(&p->text, "  %-16s%s\n", keys, _(a->help));
+    }
     ceduo_text_put(&p->text, " \n");
     ceduo_text_put(&p->text, _("A star marks what is assumed and not measured. Dim values are defaults.\n"
                                "A number is typed with a comma or a dot, a diameter in cm; one with a spread as "
@@ -75,5 +63,7 @@ void ceduo_popup_help(struct app *app)
                                "the index (Eq. 4 and 5 of Ciabocco et al. 2009) takes and leaves; how sure it is.\n"
                                "With the mouse: click a field or a view's name; the wheel moves; with Shift held the "
                                "terminal itself selects text.\n"));
-    append_glossary(&p->text);
+    ceduo_text_format(&p->text, " \n%s\n", _("Words"));
+    for (size_t i = 0; i < sizeof glossary / sizeof glossary[0]; i++)
+        ceduo_text_format(&p->text, "  %s: %s\n", _(glossary[i].word), _(glossary[i].meaning));
 }

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Lists of what there is to choose from: the words of a field, the program's and the user's files; and what each would
  * do to the lights. */
-#include <dirent.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -76,41 +75,26 @@ static void add_file(const struct app *app, struct popup *p, const char *name, c
 
 #define HEAD_BYTES 4096 /* where a file says what it is */
 
-/* Whether a file says early that it is of a kind: "ceduo: stand/". */
-static bool is_kind(const char *path, const char *tag)
-{
-    char head[HEAD_BYTES + 1];
-    FILE *file = fopen(path, "re");
-    size_t n = file ? fread(head, 1, HEAD_BYTES, file) : 0;
-    head[n] = '\0';
-    if (file)
-        fclose(file);
-    return strstr(head, tag) != NULL;
-}
-
-static int ends_in_yaml(const struct dirent *entry)
-{
-    size_t n = strlen(entry->d_name);
-    return n > 5 && n < 200 && entry->d_name[0] != '.' && strcmp(entry->d_name + n - 5, ".yaml") == 0;
-}
-
 #define FILES_MAX 500 /* beside a scene: more are not looked into */
 
 /* The user's own files of a kind beside the scene; `whole`: with the folder in their name. */
 static void add_beside(struct app *app, struct popup *p, const char *tag, bool whole, const char *now)
 {
-    struct dirent **entries = NULL;
     const char *scene = app->document.path && !app->document.shipped ? app->document.path : "", *slash = strrchr(scene, '/');
     const char *folder = ceduo_app_format(app, "%.*s", slash ? (int)(slash - scene) + 1 : 0, scene); /* "": the current one */
-    int n = scandir(folder[0] ? folder : ".", &entries, ends_in_yaml, alphasort);
-    for (int i = 0; i < n; i++) {
-        const char *name = entries[i]->d_name, *path = ceduo_app_format(app, "%s%s", folder, name);
-        if (i < FILES_MAX && is_kind(path, tag))
-            add_file(app, p, name, whole ? path : name,
+    size_t n;
+    const char *const *names = ceduo_file_list(&p->arena, folder[0] ? folder : ".", ".", &n);
+    for (size_t i = 0; i < n && i < FILES_MAX; i++) {
+        const char *path = ceduo_app_format(app, "%s%s", folder, names[i]);
+        char head[HEAD_BYTES + 1];
+        FILE *file = fopen(path, "re");
+        head[file ? fread(head, 1, HEAD_BYTES, file) : 0] = '\0';
+        if (file)
+            fclose(file);
+        if (strstr(head, tag))
+            add_file(app, p, names[i], whole ? path : names[i],
                      strcmp(tag, STAND_TAG) == 0 ? describe_stand(app, path, _("yours")) : _("yours, beside the scene"), now);
-        free(entries[i]);
     }
-    free(entries);
 }
 
 /* Files of a kind ("stands", …), the first of each name: the user's own, or those of the program. */
@@ -133,17 +117,6 @@ static void add_profiles(const struct app *app, struct popup *p, const char *kin
 /* ---- what a choice would do ---- */
 
 static popup_chosen chose_new_option;
-
-/* The forest of the option that is shown with a stand in every belt, as one change. */
-static void append_all_belts(struct app *app, const char *stand, struct text *set)
-{
-    const struct ceduo_option *o = ceduo_app_option(app);
-    ceduo_text_format(set, "%s=[", ceduo_app_forest(app));
-    for (size_t i = 0; i < o->belts_count; i++)
-        ceduo_text_format(set, "%s{from_m: %.10g, to_m: %.10g, stand: %s}", i ? ", " : "", o->belts[i].from_given,
-                          o->belts[i].to_given, stand);
-    ceduo_text_put(set, "]");
-}
 
 static void append_light(struct text *text, const char *name, enum ceduo_light light, enum ceduo_light now)
 {
@@ -180,10 +153,13 @@ static void append_change(struct app *app, struct popup *p, const char *value)
         return;
     }
     ceduo_text_put(&p->text, _("the lights: computing …\n"));
-    if (p->chosen == chose_new_option)
-        append_all_belts(app, value, &set);
-    else
-        ceduo_text_format(&set, "%s=%s", p->path, value);
+    const struct ceduo_option *o = ceduo_app_option(app);
+    bool all = p->chosen == chose_new_option; /* the stand in every belt */
+    ceduo_text_format(&set, "%s=%s", all ? ceduo_app_forest(app) : p->path, all ? "[" : value);
+    for (size_t i = 0; all && i < o->belts_count; i++)
+        ceduo_text_format(&set, "%s{from_m: %.10g, to_m: %.10g, stand: %s}", i ? ", " : "", o->belts[i].from_given,
+                          o->belts[i].to_given, value);
+    ceduo_text_put(&set, all ? "]" : "");
     if (set.length < JOB_TEXT)
         ceduo_jobs_preview(app->live.jobs, &app->document.file, set.bytes, app->option);
     ceduo_text_free(&set);

@@ -141,26 +141,23 @@ static void chose_disk(struct app *app, struct popup *p, const char *value)
         ask_for_name(app, NULL);
 }
 
-static void ask_which(struct app *app)
-{
-    bool gone = access(app->document.path, F_OK) != 0;
-    struct popup *p = ceduo_popup_list(
-        app, gone ? _("The file is no longer there") : _("The file has changed on disk since it was read"), chose_disk);
-    ceduo_popup_answer(p, 'n', _("never mind: do not save now"), "");
-    ceduo_popup_answer(p, 'a', _("save under another name"), "as");
-    ceduo_popup_answer(p, 'w', gone ? _("write it again") : _("write over what is there"), "write");
-}
-
 void ceduo_popup_save(struct app *app)
 {
+    const struct document *d = &app->document;
     if (asks_for_stand(app, ceduo_popup_save))
         return;
-    if (!app->document.path || app->document.shipped)
+    if (!d->path || d->shipped) {
         ask_for_name(app, NULL);
-    else if (ceduo_document_changed_on_disk(&app->document))
-        ask_which(app);
-    else
+    } else if (!ceduo_document_changed_on_disk(d)) {
         write_back(app);
+    } else {
+        bool gone = access(d->path, F_OK) != 0;
+        struct popup *p = ceduo_popup_list(
+            app, gone ? _("The file is no longer there") : _("The file has changed on disk since it was read"), chose_disk);
+        ceduo_popup_answer(p, 'n', _("never mind: do not save now"), "");
+        ceduo_popup_answer(p, 'a', _("save under another name"), "as");
+        ceduo_popup_answer(p, 'w', gone ? _("write it again") : _("write over what is there"), "write");
+    }
 }
 
 /* ---- unsaved work ---- */
@@ -238,16 +235,6 @@ static bool is_of_this(const struct app *app, const struct recovery *r)
     return same;
 }
 
-/* Puts a copy in place: in this document where it is of this one, otherwise in its own. */
-static bool take_up(struct app *app, const struct recovery *r, const char *text)
-{
-    if (!r->scene)
-        return ceduo_app_open_text(app, text);
-    if (!is_of_this(app, r) && !ceduo_app_open(app, r->scene))
-        return false;
-    return ceduo_app_edited(app, ceduo_document_recover(&app->document, text, &app->problems));
-}
-
 bool ceduo_popup_take_recovery(struct app *app, const char *value)
 {
     struct arena arena = {0};
@@ -259,7 +246,13 @@ bool ceduo_popup_take_recovery(struct app *app, const char *value)
         if (strcmp(list[i].file, value + strlen(RECOVERY)) != 0)
             continue;
         char *text = ceduo_recovery_text(list[i].file);
-        if (text && take_up(app, &list[i], text)) {
+        bool own =
+            list[i].scene != NULL; /* it has a place: the document is opened, unless it is this one, and the copy put there */
+        bool good =
+            text && (!own ? ceduo_app_open_text(app, text) : is_of_this(app, &list[i]) || ceduo_app_open(app, list[i].scene));
+        if (good && own)
+            good = ceduo_app_edited(app, ceduo_document_recover(&app->document, text, &app->problems));
+        if (good) {
             unlink(list[i].file); /* this program keeps a copy of its own now */
             app->opened = false;
             ceduo_app_say(app, "%s", _("your work is back; s saves it, u shows what was before"));

@@ -9,19 +9,13 @@
 #include "popup.h"
 #include "popups.h"
 
-/* The file that comes with the program. */
-static void offer_shipped(struct popup *p)
-{
-    const char *path = ceduo_file_find(&p->arena, "surveys/six-plots.csv", NULL, "surveys");
-    if (path && !ceduo_picker_has(&p->picker, path))
-        ceduo_popup_item(p, _("six-plots.csv: an example, made up"), path);
-}
-
 static void offer_surveys(struct app *app, struct popup *p, const char *typed)
 {
+    const char *shipped = ceduo_file_find(&p->arena, "surveys/six-plots.csv", NULL, "surveys");
     (void)app;
     ceduo_picker_add_files(&p->picker, typed, ".csv");
-    offer_shipped(p);
+    if (shipped && !ceduo_picker_has(&p->picker, shipped))
+        ceduo_popup_item(p, _("six-plots.csv: an example, made up"), shipped);
 }
 
 /* The stand of a survey on one line, as a change takes it. */

@@ -57,13 +57,6 @@ static const char *title_of(struct app *app)
     return ceduo_app_kept(app, &safe);
 }
 
-void ceduo_screen_title(struct app *app, struct ceduo_page *page)
-{
-    static const struct ceduo_page_column columns[] = {{"", 8, 0, CEDUO_FILLS}};
-    CEDUO_PAGE_TABLE_OF(page, columns);
-    ceduo_page_mark(page, CEDUO_ROLE_TITLE, title_of(app));
-}
-
 /* The names of the views, and the scene's title where they leave room for all of it. */
 static bool draw_title(struct app *app)
 {
@@ -168,6 +161,31 @@ static void draw_bar(struct app *app)
     draw_common(app, x, 2, &always);
 }
 
+/* The newest figures, which stand still in every view. Warnings that have no room whole are only counted: view 4 has them.
+ * `titled`: the scene's title stands above them. */
+static void draw_column(struct app *app, struct ceduo_area area, bool titled)
+{
+    struct ceduo_canvas *canvas = &app->cells->canvas;
+    struct ceduo_page page = {.width = (size_t)area.width};
+    struct ceduo_pane pane = ceduo_app_pane(app, area.height);
+    if (titled) {
+        static const struct ceduo_page_column columns[] = {{"", 8, 0, CEDUO_FILLS}};
+        CEDUO_PAGE_TABLE_OF(&page, columns);
+        ceduo_page_mark(&page, CEDUO_ROLE_TITLE, title_of(app));
+    }
+    size_t warnings = ceduo_pane_column(&page, &pane), left = 0;
+    for (; left < warnings; left++) {
+        if (ceduo_page_draw(&page, canvas, (struct ceduo_area){0}, 0) + (left > 0) <= area.height)
+            break;
+        ceduo_page_drop(&page);
+    }
+    if (left > 0)
+        ceduo_page_say(&page, CEDUO_PAGE_WARNING, ngettext("%zu remark more: view 4", "%zu remarks more: view 4", left), left);
+    if (ceduo_page_draw(&page, canvas, area, 0) > area.height)
+        ceduo_canvas_label_right(canvas, app->width - 1, area.top + area.height - 1, CEDUO_ROLE_TITLE, " \xe2\x80\xa6");
+    ceduo_page_free(&page);
+}
+
 void ceduo_screen_draw(struct app *app)
 {
     ceduo_cells_clear(app->cells);
@@ -186,7 +204,7 @@ void ceduo_screen_draw(struct app *app)
     draw_verdict(app);
     for (int y = now.top; y < now.top + now.height; y++)
         ceduo_cells_label(app->cells, now.left - 2, y, CEDUO_ROLE_AXIS, "\xe2\x94\x82");
-    ceduo_column_draw(app, now, !titled);
+    draw_column(app, now, !titled);
     if (ceduo_views[app->view]->result && !app->live.result)
         ceduo_app_text(app, body, CEDUO_ROLE_DIM, _("the first rocks are falling \xe2\x80\xa6"), NULL);
     else

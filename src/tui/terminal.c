@@ -57,27 +57,11 @@ static bool colours_wanted(void)
     return !(no && no[0]) && has_colors();
 }
 
-static void start_colours(void)
-{
-    if (!colours_wanted())
-        return;
-    start_color();
-    use_default_colors();
-    for (short c = 0; c < 8; c++)
-        init_pair((short)(c + 1), c, -1);
-}
-
 /* ---- bracketed paste ---- */
 
 static bool pastes; /* the terminal may be asked to say where a paste begins and ends, and to take a copy; the Linux console
                        cannot */
 #define PASTES_OFF "\033[?2004l"
-
-static void look_for_pastes(void)
-{
-    const char *name = getenv("TERM"), *move = tigetstr("cup");
-    pastes = strncmp(move, "\033[", 2) == 0 && strncmp(name, "linux", 5) != 0;
-}
 
 static void ask_for_pastes(bool on)
 {
@@ -402,14 +386,6 @@ static void take_mouse(struct app *app)
         ceduo_program_click(app, event.x, event.y);
 }
 
-static void take_special(struct app *app, int key)
-{
-    take_escape(app);
-    input.state = PLAIN;
-    if (key != K_NONE && !input.pasting)
-        ceduo_program_key(app, key);
-}
-
 /* All keys that wait. True where there was one. */
 static bool take_keys(struct app *app)
 {
@@ -422,10 +398,15 @@ static bool take_keys(struct app *app)
             take_mouse(app);
             continue;
         }
-        if (kind == KEY_CODE_YES && code != KEY_BACKSPACE)
-            take_special(app, special_key(code));
-        else
+        if (kind != KEY_CODE_YES || code == KEY_BACKSPACE) {
             take_character(app, kind == KEY_CODE_YES ? 127 : code);
+            continue;
+        }
+        int key = special_key(code);
+        take_escape(app);
+        input.state = PLAIN;
+        if (key != K_NONE && !input.pasting)
+            ceduo_program_key(app, key);
     }
     take_escape(app);
     if (is_unfinished() && is_quiet())
@@ -434,13 +415,6 @@ static bool take_keys(struct app *app)
 }
 
 /* ---- the loop ---- */
-
-static void drain_wake(void)
-{
-    char bytes[32];
-    while (read(wake[0], bytes, sizeof bytes) > 0)
-        ;
-}
 
 /* Gives the terminal back and stops, until the shell lets the program go on. */
 static void suspend(void)
@@ -466,7 +440,8 @@ static void loop(struct app *app, bool colours)
         int n = poll(fds, 3, is_unfinished() ? 1000 * SEQUENCE_SECONDS : -1);
         if (n < 0 && errno != EINTR)
             break;
-        drain_wake();
+        for (char bytes[32]; read(wake[0], bytes, sizeof bytes) > 0;)
+            ;
         if (n > 0 && fds[0].revents & (POLLHUP | POLLERR) && !(fds[0].revents & POLLIN))
             break; /* the window is gone */
         if (interrupted) {
@@ -535,11 +510,16 @@ enum terminal_end ceduo_terminal_run(struct app *app)
             fclose(keys);
         return TERMINAL_NONE;
     }
-    look_for_pastes();
+    pastes = strncmp(tigetstr("cup"), "\033[", 2) == 0 && strncmp(getenv("TERM"), "linux", 5) != 0;
     app->copy = pastes ? copy : NULL;
     ask_for_pastes(true);
     prepare_restore();
-    start_colours();
+    if (colours_wanted()) {
+        start_color();
+        use_default_colors();
+        for (short c = 0; c < 8; c++)
+            init_pair((short)(c + 1), c, -1);
+    }
     raw();
     noecho();
     nonl();

@@ -13,6 +13,7 @@
 #define WIDE       34 /* columns with room for intervals */
 #define HEIGHT_MIN 18 /* lines with room for what is seen elsewhere, too, … */
 #define HEIGHT_ALL 24 /* … and for everything */
+#define HEIGHT_LOW 15 /* with fewer the tests go before what becomes of the others and what energies arrive */
 
 static void say(struct ceduo_page *page, enum ceduo_role role, const char *format, ...) CEDUO_PAGE_FORMAT(3);
 static void say(struct ceduo_page *page, enum ceduo_role role, const char *format, ...)
@@ -101,10 +102,10 @@ static void add_arrivals(struct ceduo_page *page, const struct ceduo_pane *pane,
     }
     for (size_t i = 0; i < sizeof ends / sizeof ends[0]; i++) {
         bool any = (wood && wood->ended[ends[i]] > 0) || bare->ended[ends[i]] > 0;
-        if (i == 0 || (i == 1 ? pane->height >= HEIGHT_MIN : any))
+        if (pane->height >= HEIGHT_LOW && (i == 0 || (i == 1 ? pane->height >= HEIGHT_MIN : any)))
             add_row(page, ceduo_missed(wood, ends[i]), ceduo_missed(bare, ends[i]));
     }
-    if (nothing)
+    if (nothing || pane->height < HEIGHT_LOW)
         return;
     if (blocks) { /* of them the large arrive: a mean of those would read as if the wood did harm */
         add_row(page, ceduo_energy_released(wood), ceduo_energy_released(bare));
