@@ -456,6 +456,12 @@ void ceduo_app_add_warning(void *text, const char *sentence)
     ceduo_text_format(text, "! %s\n", sentence);
 }
 
+void ceduo_app_read_on(struct app *app, int by)
+{
+    int *scroll = &ceduo_app_state(app)->scroll;
+    *scroll = *scroll + by > 0 ? *scroll + by : 0;
+}
+
 void ceduo_app_page(struct app *app, struct ceduo_area area, struct ceduo_page *page, int *scroll)
 {
     struct ceduo_canvas *canvas = &app->cells->canvas;

@@ -205,6 +205,9 @@ void ceduo_app_end_in_more(struct app *app, struct text *text, int width, int li
 /* Adds a warning to a text, in a line of its own. */
 void ceduo_app_add_warning(void *text, const char *sentence);
 
+/* Scrolls the view by so many lines. */
+void ceduo_app_read_on(struct app *app, int by);
+
 /* Draws a page from line `*scroll` on, limited to the page, and frees it; a mark stands to the right where more follows below. */
 void ceduo_app_page(struct app *app, struct ceduo_area area, struct ceduo_page *page, int *scroll);
 

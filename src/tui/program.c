@@ -46,7 +46,7 @@ static void move_lines(struct app *app, int lines)
     else if (lines == ALL_LINES && state->pane > 0)
         state->scroll += 50;
     else
-        state->scroll = state->scroll + lines > 0 ? state->scroll + lines : 0;
+        ceduo_app_read_on(app, lines);
 }
 
 static void move_page(struct app *app, int by)

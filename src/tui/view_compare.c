@@ -75,12 +75,6 @@ static void draw(struct app *app, struct ceduo_area area)
         draw_table(app, table);
 }
 
-static void read_on(struct app *app, int by)
-{
-    int *scroll = &ceduo_app_state(app)->scroll;
-    *scroll = *scroll + by > 0 ? *scroll + by : 0;
-}
-
 static void choose(struct app *app, long i)
 {
     long n = (long)app->document.file.scene.options_count;
@@ -144,8 +138,8 @@ static const struct act acts[] = {{ACTION_UP, next_option, -1},
                                   {ACTION_DOWN, next_option, 1},
                                   {ACTION_TOP, next_option, -1000000},
                                   {ACTION_BOTTOM, next_option, 1000000},
-                                  {ACTION_PAGE_UP, read_on, -4},
-                                  {ACTION_PAGE_DOWN, read_on, 4},
+                                  {ACTION_PAGE_UP, ceduo_app_read_on, -4},
+                                  {ACTION_PAGE_DOWN, ceduo_app_read_on, 4},
                                   {ACTION_ADD, add_option, 0},
                                   {ACTION_DUPLICATE, copy_option, 0},
                                   {ACTION_DELETE, delete_option, 0},

@@ -65,12 +65,6 @@ static void turn(struct app *app, int unused)
     ceduo_app_state(app)->scroll = 0;
 }
 
-static void read_on(struct app *app, int by)
-{
-    int *scroll = &ceduo_app_state(app)->scroll;
-    *scroll = *scroll + by > 0 ? *scroll + by : 0;
-}
-
 /* ---- a range of one's own ---- */
 
 static bool is_named(const struct node *rows, const char *path)
@@ -114,8 +108,12 @@ static void add(struct app *app, int unused)
     ceduo_app_say(app, "%s", _("every single value in doubt has a range of the scene already"));
 }
 
-static const struct act acts[] = {{ACTION_ADD, add, 0},          {ACTION_NEXT_PANE, turn, 0},    {ACTION_LAST_PANE, turn, 0},
-                                  {ACTION_PAGE_UP, read_on, -4}, {ACTION_PAGE_DOWN, read_on, 4}, {0}};
+static const struct act acts[] = {{ACTION_ADD, add, 0},
+                                  {ACTION_NEXT_PANE, turn, 0},
+                                  {ACTION_LAST_PANE, turn, 0},
+                                  {ACTION_PAGE_UP, ceduo_app_read_on, -4},
+                                  {ACTION_PAGE_DOWN, ceduo_app_read_on, 4},
+                                  {0}};
 
 const struct view ceduo_view_doubt = {.title = NP_("view", "doubt"),
                                       .panes = 1,

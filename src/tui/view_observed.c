@@ -223,18 +223,6 @@ static const struct node *first_with(const struct node *rows, const char *group,
     return NULL;
 }
 
-/* All keys of a group but those of a table of values, where there is none. */
-static void build_group(struct form *form, const struct document *d, const struct object *object, const char *group)
-{
-    const struct object *of = ceduo_schema_field(object, group)->object;
-    const char *keys[FORM_COLUMNS + 1] = {NULL};
-    const struct node *rows = ceduo_document_node(d, "observed");
-    for (size_t i = 0, n = 0; i < of->n && n < FORM_COLUMNS; i++)
-        if (of->fields[i].type > FIELD_FILE || first_with(rows, group, of->fields[i].key))
-            keys[n++] = of->fields[i].key;
-    ceduo_form_group(form, d, object, "observed", group, keys);
-}
-
 static void build(struct app *app, struct form *form)
 {
     static const char *const columns[] = {"name", "use", "option", NULL};
@@ -243,11 +231,18 @@ static void build(struct app *app, struct form *form)
     const struct node *rows = ceduo_document_node(d, "observed");
     if (!rows || rows->kind != NODE_LIST || rows->n == 0)
         return;
-    for (size_t i = 0; i < GROUPS; i++)
-        if (first_with(rows, groups[i].group, NULL)) {
-            ceduo_form_heading(form, _(groups[i].what));
-            build_group(form, d, object, groups[i].group);
-        }
+    for (size_t i = 0; i < GROUPS; i++) {
+        const struct object *of = ceduo_schema_field(object, groups[i].group)->object;
+        const char *keys[FORM_COLUMNS + 1] = {NULL};
+        if (!first_with(rows, groups[i].group, NULL))
+            continue;
+        for (size_t k = 0, n = 0; k < of->n && n < FORM_COLUMNS;
+             k++) /* all but those of a table of values, where there is none */
+            if (of->fields[k].type > FIELD_FILE || first_with(rows, groups[i].group, of->fields[k].key))
+                keys[n++] = of->fields[k].key;
+        ceduo_form_heading(form, _(groups[i].what));
+        ceduo_form_group(form, d, object, "observed", groups[i].group, keys);
+    }
     ceduo_form_heading(form, _("All that was seen"));
     ceduo_form_table(form, d, object, "observed", columns, "");
 }

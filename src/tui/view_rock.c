@@ -6,22 +6,6 @@
 #include "base/language.h"
 #include "popups.h"
 
-/* What comes down: a power law, or a list of classes. */
-static void build_blocks(struct app *app, struct form *form)
-{
-    static const char *const columns[] = {"per_year", "volume_m3", "exponent", NULL};
-    static const char *const design[] = {"design.survey", "design.blocks", NULL};
-    const struct document *d = &app->document;
-    const struct node *blocks = ceduo_document_node(d, "blocks");
-    const struct object *object = ceduo_schema_field(ceduo_schema_scene(), "blocks")->object;
-    ceduo_form_heading(form, _("Blocks that come down"));
-    if (blocks && blocks->kind == NODE_MAP)
-        ceduo_form_fields(form, d, object, "blocks", columns);
-    else
-        ceduo_form_table(form, d, object, "blocks", columns, "");
-    ceduo_form_fields(form, d, ceduo_schema_scene(), "", design);
-}
-
 static void build(struct app *app, struct form *form)
 {
     static const char *const sizes[][5] = {[CEDUO_SPHERE] = {"rock.shape", "rock.diameter_m", "rock.volume_m3"},
@@ -34,6 +18,8 @@ static void build(struct app *app, struct form *form)
     static const char *const simulation[] = {"simulation.law",         "simulation.contact_model", "simulation.rule",
                                              "simulation.threshold_m", "simulation.scale_rn",      "simulation.gravity_m_s2",
                                              "simulation.seed",        "simulation.rocks",         NULL};
+    static const char *const columns[] = {"per_year", "volume_m3", "exponent", NULL};
+    static const char *const design[] = {"design.survey", "design.blocks", NULL};
     const struct document *d = &app->document;
     const struct object *scene = ceduo_schema_scene();
     ceduo_form_heading(form, _("Rock"));
@@ -45,7 +31,14 @@ static void build(struct app *app, struct form *form)
     ceduo_form_heading(form, _("Simulation"));
     ceduo_form_fields(form, d, scene, "", simulation);
     ceduo_form_rest(form, d, scene, "", "simulation");
-    build_blocks(app, form);
+    const struct node *node = ceduo_document_node(d, "blocks"); /* a power law, or a list of classes */
+    const struct object *blocks = ceduo_schema_field(scene, "blocks")->object;
+    ceduo_form_heading(form, _("Blocks that come down"));
+    if (node && node->kind == NODE_MAP)
+        ceduo_form_fields(form, d, blocks, "blocks", columns);
+    else
+        ceduo_form_table(form, d, blocks, "blocks", columns, "");
+    ceduo_form_fields(form, d, scene, "", design);
     ceduo_form_field(form, d, scene, "", "title", NULL);
 }
 

@@ -11,6 +11,8 @@
 
 /* ---- the form ---- */
 
+#define LISTED_MAX 200 /* points that are edited by hand */
+
 static void build_ground(struct app *app, struct form *form)
 {
     static const char *const materials[] = {"from_m", "to_m", "material", NULL};
@@ -33,23 +35,6 @@ static void build_ground(struct app *app, struct form *form)
     }
 }
 
-static void build_vertices(struct app *app, struct form *form)
-{
-    const struct document *d = &app->document;
-    const struct node *vertices = ceduo_document_node(d, "slope.vertices_m");
-    if (!vertices) {
-        ceduo_form_heading(form, _("Profile: from a CSV file"));
-        ceduo_form_field(form, d, ceduo_schema_slope(), "slope", "csv", NULL);
-        return;
-    }
-    if (vertices->n > 200) { /* a list too long to be edited by hand */
-        ceduo_form_note(form, _("The profile has too many vertices to list; edit its file."));
-        return;
-    }
-    ceduo_form_heading(form, _("Profile: points x z, m"));
-    ceduo_form_points(form, d, ceduo_schema_field(ceduo_schema_slope(), "vertices_m"), "slope.vertices_m");
-}
-
 static void build(struct app *app, struct form *form)
 {
     static const char *const belt_columns[] = {"from_m", "to_m", "stand", NULL};
@@ -64,7 +49,16 @@ static void build(struct app *app, struct form *form)
     else
         ceduo_form_field(form, &app->document, scene, "", "controls_m", NULL);
     build_ground(app, form);
-    build_vertices(app, form);
+    const struct node *vertices = ceduo_document_node(&app->document, "slope.vertices_m");
+    if (!vertices) {
+        ceduo_form_heading(form, _("Profile: from a CSV file"));
+        ceduo_form_field(form, &app->document, ceduo_schema_slope(), "slope", "csv", NULL);
+    } else if (vertices->n > LISTED_MAX) {
+        ceduo_form_note(form, _("The profile has too many vertices to list; edit its file."));
+    } else {
+        ceduo_form_heading(form, _("Profile: points x z, m"));
+        ceduo_form_points(form, &app->document, ceduo_schema_field(ceduo_schema_slope(), "vertices_m"), "slope.vertices_m");
+    }
 }
 
 #define ZOOM_MAX 7
@@ -84,14 +78,6 @@ static double place_x(const struct app *app)
 {
     double length = length_of(app);
     return app->place.put ? fmin(app->place.x, length) : length / 2;
-}
-
-/* The stretch of slope that the picture shows, m, relative: around the cursor once it is nearer than the whole. */
-static void shown_stretch(const struct app *app, double *from, double *to)
-{
-    double length = length_of(app), shown = ldexp(length, -app->place.zoom);
-    *from = fmin(fmax(0, place_x(app) - shown / 2), length - shown);
-    *to = *from + shown;
 }
 
 static void put_place(struct app *app, double x)
@@ -134,17 +120,6 @@ static void jump(struct app *app, int by)
     }
     if (!isnan(best))
         put_place(app, best);
-}
-
-static void zoom_by(struct app *app, int by)
-{
-    int zoom = app->place.zoom + by;
-    if (zoom < 0)
-        ceduo_app_say(app, "%s", _("this is the whole slope"));
-    else if (zoom > ZOOM_MAX)
-        ceduo_app_say(app, "%s", _("this is as near as it gets"));
-    else
-        app->place.zoom = zoom;
 }
 
 /* ---- what is there ---- */
@@ -223,37 +198,29 @@ static void chose_place(struct app *app, struct popup *p, const char *value)
         ceduo_form_go(ceduo_app_form(app), list, index);
 }
 
-/* The item of slope.materials that holds it, in metres of its file; SIZE_MAX: none. */
-static size_t material_at(const struct app *app, double x)
-{
-    const struct node *list = ceduo_document_node(&app->document, "slope.materials");
-    for (size_t i = 0; list && i < list->n; i++) {
-        const struct node *item = list->items[i];
-        if (x >= ceduo_document_place(&app->document, ceduo_node_text(item, "from_m")) &&
-            x <= ceduo_document_place(&app->document, ceduo_node_text(item, "to_m")))
-            return i;
-    }
-    return SIZE_MAX;
-}
-
 static void offer_ground(struct app *app, double x)
 {
     const struct ceduo_slope *s = &app->document.file.scene.slope;
     const struct node *segments = ceduo_document_node(&app->document, "slope.segments");
     const struct node *vertices = ceduo_document_node(&app->document, "slope.vertices_m");
     double there = written(app, x);
-    size_t j = ceduo_items_stretch_of(app, there), material = material_at(app, there);
+    const struct node *materials = ceduo_document_node(&app->document, "slope.materials");
+    size_t j = ceduo_items_stretch_of(app, there), n = materials ? materials->n : 0, material = 0;
+    while (material < n &&
+           !(there >= ceduo_document_place(&app->document, ceduo_node_text(materials->items[material], "from_m")) &&
+             there <= ceduo_document_place(&app->document, ceduo_node_text(materials->items[material], "to_m"))))
+        material++;
     if (segments && segments->n > 0) {
         size_t i = segments->n == 1 ? 0 : j;
         offer_place(app, ceduo_app_format(app, _("edit the ground here: number %zu"), i + 1), "", "slope.segments", i);
         if (vertices)
             offer_place(app, _("another ground from here on"), "+", "slope.segments", i);
-    } else if (material != SIZE_MAX) {
+    } else if (material < n) {
         offer_place(app, ceduo_app_format(app, _("edit the ground here: number %zu"), material + 1), "", "slope.materials",
                     material);
         offer_place(app, _("another ground from here on"), "+", "slope.materials", material);
     }
-    if (vertices && vertices->n <= 200) {
+    if (vertices && vertices->n <= LISTED_MAX) {
         double a = ceduo_node_item_number(vertices->items[j], 0), b = ceduo_node_item_number(vertices->items[j + 1], 0);
         bool first = there - a < b - there;
         offer_place(app,
@@ -264,51 +231,31 @@ static void offer_ground(struct app *app, double x)
     }
 }
 
-static void offer_belt(struct app *app, double x)
-{
-    const struct ceduo_option *o = ceduo_app_option(app);
-    size_t belt = belt_at(app, x);
-    const char *forest = ceduo_app_forest(app);
-    if (belt == o->belts_count)
-        return;
-    offer_place(app, ceduo_app_format(app, _("edit the belt here: %.100s"), o->belts[belt].name), "", forest, belt);
-    offer_place(app, _("two belts: end this one here and begin another"), "+", forest, belt);
-}
-
-static void offer_control(struct app *app, double x)
-{
-    const struct ceduo_scene *s = &app->document.file.scene;
-    const char *list = ceduo_document_node(&app->document, "controls_m") ? "controls_m" : "controls";
-    double near = NEAR * ldexp(length_of(app), -app->place.zoom);
-    for (size_t i = 0; i < s->controls_count; i++)
-        if (fabs(s->controls[i].x - x) <= near)
-            offer_place(app, ceduo_app_format(app, _("edit the control at %.4g m"), s->controls[i].x_given), "", list, i);
-    offer_place(app, _("count rocks here too: a new control"), "+", list, s->controls_count);
-}
-
 /* Lists what it stands on, to be edited, and what can be put there. */
 static void choose_at_place(struct app *app, int unused)
 {
     (void)unused;
-    const struct ceduo_slope *s = &app->document.file.scene.slope;
-    double x = place_x(app);
-    ceduo_popup_list(app, ceduo_app_format(app, _("At %.4g m"), x + s->origin_x), chose_place);
-    offer_belt(app, x);
+    const struct ceduo_scene *s = &app->document.file.scene;
+    const struct ceduo_option *o = ceduo_app_option(app);
+    const char *forest = ceduo_app_forest(app);
+    const char *controls = ceduo_document_node(&app->document, "controls_m") ? "controls_m" : "controls";
+    double x = place_x(app), near = NEAR * ldexp(length_of(app), -app->place.zoom);
+    size_t belt = belt_at(app, x);
+    ceduo_popup_list(app, ceduo_app_format(app, _("At %.4g m"), x + s->slope.origin_x), chose_place);
+    if (belt < o->belts_count) {
+        offer_place(app, ceduo_app_format(app, _("edit the belt here: %.100s"), o->belts[belt].name), "", forest, belt);
+        offer_place(app, _("two belts: end this one here and begin another"), "+", forest, belt);
+    }
     offer_ground(app, x);
-    offer_control(app, x);
+    for (size_t i = 0; i < s->controls_count; i++)
+        if (fabs(s->controls[i].x - x) <= near)
+            offer_place(app, ceduo_app_format(app, _("edit the control at %.4g m"), s->controls[i].x_given), "", controls, i);
+    offer_place(app, _("count rocks here too: a new control"), "+", controls, s->controls_count);
 }
 
 /* ---- the pictures ---- */
 
 enum { PANE_FORM, PANE_ROCKS, PANE_PLACE, PANES };
-
-static void say_how(struct app *app)
-{
-    if (ceduo_app_state(app)->pane == PANE_ROCKS)
-        ceduo_app_say(app, "%s", _("left, right: another rock; down, up: along its way; Tab: along the slope"));
-    else
-        say_place(app);
-}
 
 /* The picture alone where it has the focus, otherwise with the form below it. */
 static void draw(struct app *app, struct ceduo_area area)
@@ -319,8 +266,11 @@ static void draw(struct app *app, struct ceduo_area area)
     double mark = place_x(app);
     picture.span = &span;
     bool alone = ceduo_app_state(app)->pane != PANE_FORM;
-    if (app->place.zoom > 0)
-        shown_stretch(app, &picture.from, &picture.to);
+    if (app->place.zoom > 0) { /* the stretch around the cursor */
+        double length = length_of(app), shown = ldexp(length, -app->place.zoom);
+        picture.from = fmin(fmax(0, mark - shown / 2), length - shown);
+        picture.to = picture.from + shown;
+    }
     int form_height = alone ? 0 : area.height / 3;
     bool place = ceduo_app_state(app)->pane == PANE_PLACE; /* no strips: all rows for the slope at true scale */
     int room = area.height - form_height;
@@ -328,8 +278,10 @@ static void draw(struct app *app, struct ceduo_area area)
     if (place)
         picture.mark = &mark;
     int strip = room >= 24 ? room / 4 : 5;
-    if (alone && !app->message[0])
-        say_how(app);
+    if (place && !app->message[0])
+        say_place(app);
+    else if (alone && !app->message[0])
+        ceduo_app_say(app, "%s", _("left, right: another rock; down, up: along its way; Tab: along the slope"));
     struct ceduo_area profile = {area.left, area.top, area.width, room - strip * strips - (alone ? 0 : 1)};
     ceduo_plot_draw(CEDUO_PLOT_PROFILE, &app->cells->canvas, &profile, &picture);
     struct ceduo_area next = {area.left, area.top + profile.height, area.width, strip};
@@ -349,7 +301,13 @@ static void zoom(struct app *app, int by)
 {
     struct view_state *state = ceduo_app_state(app);
     state->pane = state->pane == PANE_FORM ? PANE_PLACE : state->pane;
-    zoom_by(app, by);
+    by += app->place.zoom;
+    if (by < 0)
+        ceduo_app_say(app, "%s", _("this is the whole slope"));
+    else if (by > ZOOM_MAX)
+        ceduo_app_say(app, "%s", _("this is as near as it gets"));
+    else
+        app->place.zoom = by;
 }
 
 #define ZOOM_ACTS                                                                                                              \

@@ -11,18 +11,6 @@
 
 #define FIGURES 3 /* lines */
 
-/* Of each class of trees. The radius comes first: a group must have one. */
-static void build_groups(const struct app *app, struct form *form, const char *list, size_t classes)
-{
-    static const char *const keys[] = {"groups.radius_m", "groups.stems"};
-    const struct object *trees = ceduo_schema_field(ceduo_schema_stand(), "trees")->object;
-    const struct document *d = &app->document;
-    for (size_t i = 0; i < classes; i++)
-        for (size_t k = 0; k < 2; k++)
-            ceduo_form_field(form, d, trees, ceduo_app_format(app, "%s[%zu]", list, i), keys[k],
-                             ceduo_app_format(app, k == 0 ? _("trees %zu: a group, m") : _("trees %zu: in a group"), i + 1));
-}
-
 /* How many there are comes last: then nothing of them may be missing. */
 static void build_low(struct form *form, const struct document *d, const char *path, const char *what)
 {
@@ -33,13 +21,6 @@ static void build_low(struct form *form, const struct document *d, const char *p
         snprintf(key, sizeof key, "%s.%s", what, f->key);
         ceduo_form_field(form, d, ceduo_schema_stand(), path, key, NULL);
     }
-}
-
-/* Shoots on a stool, where no one value says it. */
-static void build_per_stool(const struct app *app, struct form *form, const struct ceduo_stand *s)
-{
-    if (ceduo_stand_has_shoots(s) && (s->shoots_count > 1 || !(s->shoots[0].per_stool > 0)))
-        ceduo_form_note(form, ceduo_app_format(app, _("%.4g shoots per stool"), ceduo_stand_shoots(s) / s->stools_per_ha));
 }
 
 /* Cohorts by what the stand gives of them: shoots per stool, per hectare, or of some the one and of some the other. */
@@ -54,17 +35,6 @@ static void build_shoots(struct form *form, const struct document *d, const char
         if (i != 1 || each < s->shoots_count || s->shoots_count == 0)
             keys[n++] = columns[i];
     ceduo_form_table(form, d, ceduo_schema_field(ceduo_schema_stand(), "shoots")->object, list, keys, "");
-}
-
-/* What a cut leaves stands beside the trees of today: to change one does not change the other. */
-static void build_stay(const struct app *app, struct form *form, const char *path, const struct ceduo_stand *s)
-{
-    double today = ceduo_stand_trees(s), stay = ceduo_stand_stay(s);
-    if (s->cutting.rotation == 0)
-        return;
-    ceduo_form_field(form, &app->document, ceduo_schema_stand(), path, "cutting.stay_per_ha", _("trees that stay, per ha"));
-    if (fabs(today - stay) > 0.5)
-        ceduo_form_note(form, ceduo_app_format(app, _("! today %g, after a cut %g: two things"), today, stay));
 }
 
 static void build(struct app *app, struct form *form)
@@ -85,16 +55,26 @@ static void build(struct app *app, struct form *form)
                                               ceduo_app_option(app)->belts[app->belt].name));
     ceduo_form_fields(form, d, stand, path, what);
     const struct ceduo_stand *s = &ceduo_app_option(app)->belts[app->belt].stand;
-    build_per_stool(app, form, s);
+    if (ceduo_stand_has_shoots(s) && (s->shoots_count > 1 || !(s->shoots[0].per_stool > 0))) /* no one value says it */
+        ceduo_form_note(form, ceduo_app_format(app, _("%.4g shoots per stool"), ceduo_stand_shoots(s) / s->stools_per_ha));
     ceduo_form_field(form, d, stand, path, "stools.spacing_m", NULL);
     ceduo_form_rest(form, d, stand, path, "stools");
     ceduo_form_heading(form, _("Shoots on the stools"));
     build_shoots(form, d, ceduo_app_format(app, "%s.shoots", path), s);
     ceduo_form_heading(form, _("Single trees: standards, reserves"));
     const char *list = ceduo_app_format(app, "%s.trees", path);
-    ceduo_form_table(form, d, ceduo_schema_field(stand, "trees")->object, list, stem_columns, "");
-    build_stay(app, form, path, s);
-    build_groups(app, form, list, s->trees_count);
+    const struct object *trees = ceduo_schema_field(stand, "trees")->object;
+    ceduo_form_table(form, d, trees, list, stem_columns, "");
+    double today = ceduo_stand_trees(s), stay = ceduo_stand_stay(s);
+    if (s->cutting.rotation > 0) /* beside the trees of today: to change one does not change the other */
+        ceduo_form_field(form, d, stand, path, "cutting.stay_per_ha", _("trees that stay, per ha"));
+    if (s->cutting.rotation > 0 && fabs(today - stay) > 0.5)
+        ceduo_form_note(form, ceduo_app_format(app, _("! today %g, after a cut %g: two things"), today, stay));
+    for (size_t i = 0; i < s->trees_count; i++) { /* the radius first: a group must have one */
+        const char *item = ceduo_app_format(app, "%s[%zu]", list, i);
+        ceduo_form_field(form, d, trees, item, "groups.radius_m", ceduo_app_format(app, _("trees %zu: a group, m"), i + 1));
+        ceduo_form_field(form, d, trees, item, "groups.stems", ceduo_app_format(app, _("trees %zu: in a group"), i + 1));
+    }
     ceduo_form_heading(form, _("Energy of a contact"));
     ceduo_form_fields(form, d, stand, path, energy);
     ceduo_form_rest(form, d, stand, path, "energy");
