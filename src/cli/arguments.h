@@ -62,15 +62,15 @@ struct arguments {
     const char *find;           /* PATH of the value looked for; NULL: none */
     double find_lo, find_hi;
     enum ceduo_goal goal;
-    double goal_value;           /* NaN: the light's own limit */
-    double sure;                 /* share of what may be true in which the goal is reached; 0: not asked for */
-    size_t points;               /* of --sensitivity */
-    const char *survey;          /* a CSV file of plots; NULL: none */
-    const char *each;            /* a CSV file of which each row changes the scenes; NULL: none */
-    const char *columns;         /* of CSV, by their heads with a comma between them; NULL: all */
-    int schema;                  /* a word of the option's row */
-    bool resume;                 /* go on with what the output holds */
-    struct ceduo_page *verdicts; /* of pages of several scenes: a table that comes before them */
+    double goal_value;               /* NaN: the light's own limit */
+    double sure;                     /* share of what may be true in which the goal is reached; 0: not asked for */
+    size_t points;                   /* of --sensitivity */
+    const char *survey;              /* a CSV file of plots; NULL: none */
+    const char *each;                /* a CSV file of which each row changes the scenes; NULL: none */
+    const char *columns;             /* of CSV, by their heads with a comma between them; NULL: all */
+    int schema;                      /* a word of the option's row */
+    bool resume;                     /* go on with what the output holds */
+    struct ceduo_profiles *profiles; /* of pages of several scenes: what the table before them says */
 };
 
 #endif

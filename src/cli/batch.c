@@ -4,6 +4,7 @@
 
 #include <stdlib.h>
 
+#include "base/must.h"
 #include "interrupt.h"
 #include "output.h"
 #include "print.h"
@@ -30,12 +31,18 @@ static enum exit_status answer_scene(const struct each *e, ceduo_batch_answer *a
 }
 
 /* Pages of several scenes come behind a table of their verdicts. */
-static void put_verdicts(struct text *text, const struct ceduo_page *verdicts)
+static void put_verdicts(struct text *text, struct ceduo_profiles *profiles)
 {
     LOCAL_TEXT(pages);
+    struct ceduo_page verdicts = {.width = CEDUO_PAGE_WIDTH};
+    size_t *order = ceduo_must(calloc(profiles->count, sizeof *order));
     ceduo_text_put(&pages, ceduo_text_string(text));
     ceduo_text_free(text);
-    ceduo_page_print(text, verdicts, !ceduo_say_utf8());
+    ceduo_profiles_sort(profiles, order);
+    free(order);
+    ceduo_profiles_page(&verdicts, profiles);
+    ceduo_page_print(text, &verdicts, !ceduo_say_utf8());
+    ceduo_page_free(&verdicts);
     ceduo_say_plainly(text);
     ceduo_text_format(text, "\n%s", ceduo_text_string(&pages));
 }
@@ -43,14 +50,13 @@ static void put_verdicts(struct text *text, const struct ceduo_page *verdicts)
 /* Prints the answer of each scene, under one head of CSV. */
 static enum exit_status answer_all(const struct arguments *given, const struct text *header, ceduo_batch_answer *answer)
 {
-    struct ceduo_page verdicts = {.width = CEDUO_PAGE_WIDTH};
+    struct ceduo_profiles profiles = {0};
     struct arguments arguments = *given, *a = &arguments;
     struct output out = {.arguments = a};
     struct each each;
-    a->verdicts = &verdicts;
+    a->profiles = &profiles;
     enum exit_status status = ceduo_each_open(&each, a, header), written = status;
     struct progress progress = ceduo_progress_begin(a);
-    size_t pages = 0; /* that wait for the last one */
     bool first = true;
     while (written == EXIT_DONE && ceduo_each_next(&each)) {
         LOCAL_TEXT(one);
@@ -69,21 +75,20 @@ static enum exit_status answer_all(const struct arguments *given, const struct t
                 ceduo_text_char(&out.text, '\n');
             ceduo_each_add(&each, &one, &out.text);
             first = false;
-            pages += verdicts.first != NULL;
         }
-        written = verdicts.first ? EXIT_DONE : ceduo_output_next(&out);
+        written = profiles.count > 0 ? EXIT_DONE : ceduo_output_next(&out);
         status = worse(status, written);
         if (written == EXIT_DONE)
             ceduo_interrupt_release();
     }
     ceduo_progress_end(&progress);
-    if (pages > 1)
-        put_verdicts(&out.text, &verdicts);
-    if (pages > 0)
+    if (profiles.count > 1)
+        put_verdicts(&out.text, &profiles);
+    if (profiles.count > 0)
         status = worse(status, ceduo_output_next(&out));
     status = worse(status, each.bad_rows ? EXIT_INPUT : EXIT_DONE);
     ceduo_each_close(&each);
-    ceduo_page_free(&verdicts);
+    ceduo_profiles_free(&profiles);
     return worse(status, ceduo_output_end(&out, status != EXIT_OUTPUT && !first));
 }
 

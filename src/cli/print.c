@@ -86,7 +86,7 @@ static void write_answer(const struct arguments *a, struct scene_file *file, con
                                         .remarks = {a->tolerance, answer->tolerance_met, file->ground_assumed}};
     write_report(a, &report, out);
     if (a->format == CEDUO_TABLE)
-        ceduo_page_verdicts(a->verdicts, &report);
+        ceduo_profiles_add(a->profiles, &report);
 }
 
 enum exit_status ceduo_print_report(const struct arguments *a, struct scene_file *file, struct text *out)

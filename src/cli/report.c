@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/language.h"
+#include "base/must.h"
 #include "batch.h"
 #include "interrupt.h"
 #include "options.h"
@@ -70,7 +71,8 @@ static enum ceduo_status ask_runs(const struct arguments *a, const struct scene_
 }
 
 static void write_chapter(const struct arguments *a, const struct scene_file *file, const struct answered *c,
-                          const struct ceduo_doubt_report *doubt, size_t number, struct ceduo_html *html)
+                          const struct ceduo_doubt_report *doubt, size_t number, struct ceduo_html *html,
+                          struct ceduo_profiles *profiles)
 {
     LOCAL_TEXT(command);
     struct ceduo_page page = {.width = CEDUO_PAGE_REPORT_WIDTH};
@@ -83,10 +85,14 @@ static void write_chapter(const struct arguments *a, const struct scene_file *fi
     const struct ceduo_chapter chapter = {&report, c->snapshot, c->answer.years, doubt, ceduo_text_string(&command)};
     ceduo_page_chapter(&page, &chapter);
     ceduo_page_html(html, &page, number);
+    struct ceduo_report judged = report;
+    judged.doubt = doubt->file ? doubt : NULL;
+    ceduo_profiles_add(profiles, &judged);
     ceduo_page_free(&page);
 }
 
-static enum exit_status add_chapter(const struct arguments *a, struct scene_file *file, size_t number, struct ceduo_html *html)
+static enum exit_status add_chapter(const struct arguments *a, struct scene_file *file, size_t number, struct ceduo_html *html,
+                                    struct ceduo_profiles *profiles)
 {
     struct progress progress = ceduo_progress_begin(a);
     struct answered c;
@@ -97,7 +103,7 @@ static enum exit_status add_chapter(const struct arguments *a, struct scene_file
         status = ceduo_sensitivity_beside(a, file, &progress, &c.answer, &doubt);
     ceduo_progress_end(&progress);
     if (status == CEDUO_OK) {
-        write_chapter(a, file, &c, &doubt.report, number, html);
+        write_chapter(a, file, &c, &doubt.report, number, html, profiles);
         done = ceduo_finished(c.answer.result);
     }
     ceduo_sensitivity_release(&doubt);
@@ -107,42 +113,50 @@ static enum exit_status add_chapter(const struct arguments *a, struct scene_file
 
 /* ---- the file ---- */
 
-/* Adds the chapter of a scene that can be read; `*title`: of the first one. */
-static enum exit_status read_and_add(const struct arguments *a, const char *path, struct text *title, size_t *chapters,
-                                     struct ceduo_html *html)
-{
-    struct scene_file file;
-    enum exit_status done = ceduo_batch_read(a, path, &file);
-    if (done == EXIT_DONE) {
-        size_t before = html->text->length;
-        ceduo_interrupt_catch();
-        done = add_chapter(a, &file, *chapters + 1, html);
-        ceduo_interrupt_release();
-        if (html->text->length > before && ++*chapters == 1)
-            ceduo_text_put(title, ceduo_in_language(file.scene.title, file.scene.title_it));
-    }
-    ceduo_scene_release(&file);
-    return done;
-}
-
+/* A chapter for each scene that can be read, the worst first, behind what is said of all. */
 enum exit_status ceduo_batch_report(const struct arguments *a)
 {
     LOCAL_TEXT(all);
-    LOCAL_TEXT(body);
     LOCAL_TEXT(title);
-    struct ceduo_html html = {.text = &body}, page = {.text = &all};
+    struct ceduo_html page = {.text = &all};
+    struct ceduo_profiles profiles = {0};
+    struct text *chapters = ceduo_must(calloc(a->scenes_count, sizeof *chapters));
+    size_t *order = ceduo_must(calloc(a->scenes_count, sizeof *order));
     enum exit_status status = EXIT_DONE;
-    size_t chapters = 0;
     for (size_t i = 0; i < a->scenes_count && !atomic_load(ceduo_interrupt_flag()); i++) {
-        enum exit_status done = read_and_add(a, a->scenes[i], &title, &chapters, &html);
+        struct scene_file file;
+        enum exit_status done = ceduo_batch_read(a, a->scenes[i], &file);
+        if (done == EXIT_DONE) {
+            size_t number = profiles.count;
+            ceduo_interrupt_catch();
+            done = add_chapter(a, &file, number + 1, &(struct ceduo_html){.text = &chapters[number]}, &profiles);
+            ceduo_interrupt_release();
+            if (number == 0 && profiles.count > 0)
+                ceduo_text_put(&title, ceduo_in_language(file.scene.title, file.scene.title_it));
+        }
+        ceduo_scene_release(&file);
         status = done > status ? done : status;
     }
     ceduo_page_html_begin(&page, ceduo_text_string(&title));
-    ceduo_text_add(&all, ceduo_text_string(&body), body.length);
+    ceduo_profiles_sort(&profiles, order);
+    if (profiles.count > 1) {
+        struct ceduo_page verdicts = {.width = CEDUO_PAGE_REPORT_WIDTH};
+        ceduo_page_say(&verdicts, CEDUO_PAGE_TITLE, _("%zu scenes, the worst first"), profiles.count);
+        ceduo_profiles_page(&verdicts, &profiles);
+        ceduo_page_html(&page, &verdicts, profiles.count + 1);
+        ceduo_page_free(&verdicts);
+    }
+    for (size_t i = 0; i < profiles.count; i++)
+        ceduo_text_add(&all, ceduo_text_string(&chapters[order[i]]), chapters[order[i]].length);
     ceduo_page_html_end(&page);
-    if (chapters > 0 && status != EXIT_OUTPUT && !atomic_load(ceduo_interrupt_flag())) {
+    if (profiles.count > 0 && status != EXIT_OUTPUT && !atomic_load(ceduo_interrupt_flag())) {
         enum exit_status written = ceduo_output_write(a, &all);
         status = written > status ? written : status;
     }
+    for (size_t i = 0; i < a->scenes_count; i++)
+        ceduo_text_free(&chapters[i]);
+    free(chapters);
+    free(order);
+    ceduo_profiles_free(&profiles);
     return status;
 }

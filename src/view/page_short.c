@@ -317,28 +317,3 @@ void ceduo_page_short(struct ceduo_page *page, const struct ceduo_report *report
     ceduo_page_say(page, CEDUO_PAGE_POINT, "%s\t--details%s, --sensitivity, --report page.html; %s", _("MORE"),
                    noted ? "" : _(" (notes)"), _("as screens: ceduo SCENE"));
 }
-
-/* ---- several scenes ---- */
-
-#define SCENE_WIDTH 32 /* columns of a scene's name */
-
-void ceduo_page_verdicts(struct ceduo_page *page, const struct ceduo_report *report)
-{
-    static const struct ceduo_page_column columns[] = {{N_("scene"), SCENE_WIDTH, 0, CEDUO_WHOLE},
-                                                       {NP_("head", "answer"), 0, 1, 0}};
-    const struct ceduo_result *r = report->result;
-    size_t n = r->scene->options_count;
-    if (!page->first)
-        CEDUO_PAGE_TABLE_OF(page, columns);
-    ceduo_page_write(page, "%s", ceduo_in_language(r->scene->title, r->scene->title_it));
-    if (n > 1)
-        ceduo_page_write(page, "%s", "");
-    for (size_t i = 0; i < n; i++) {
-        if (n > 1)
-            ceduo_page_write(page, "  %s", r->scene->options[i].name);
-        if (r->scene->controls_count > 0)
-            ceduo_words_answer(ceduo_page_text(page), r, i, r->last_control, report->doubt, page->width - SCENE_WIDTH - 1);
-        else
-            ceduo_page_write(page, "-");
-    }
-}

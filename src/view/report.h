@@ -52,8 +52,17 @@ struct ceduo_chapter {
 /* Adds a chapter for one scene. */
 void ceduo_page_chapter(struct ceduo_page *page, const struct ceduo_chapter *chapter);
 
-/* Adds a row for each option of a scene to a table of verdicts. */
-void ceduo_page_verdicts(struct ceduo_page *page, const struct ceduo_report *report);
+/* Several scenes, as profiles of one slope. Zeroed at first; to be freed in any case. */
+struct ceduo_profiles {
+    size_t count;
+    struct ceduo_profile *items;
+};
+void ceduo_profiles_add(struct ceduo_profiles *profiles, const struct ceduo_report *report);
+/* Puts the worst first. Their numbers as they were added, from 0, to `order`; how many. */
+size_t ceduo_profiles_sort(struct ceduo_profiles *profiles, size_t *order);
+/* Adds what is said of each option of each, and before it, where all are about one place, of that as a whole. */
+void ceduo_profiles_page(struct ceduo_page *page, const struct ceduo_profiles *profiles);
+void ceduo_profiles_free(struct ceduo_profiles *profiles);
 
 /* One line of JSON, "ceduo-result-1". */
 void ceduo_report_json(struct text *text, const struct ceduo_report *report);

@@ -47,6 +47,7 @@ void ceduo_words_because(struct text *text, const struct ceduo_result *result, s
 struct ceduo_doubt_report;
 enum ceduo_judgement ceduo_words_judge(const struct ceduo_result *result, size_t option, size_t control,
                                        const struct ceduo_doubt_report *doubt);
+void ceduo_words_decision(struct text *text, enum ceduo_judgement judgement); /* "✘ NO"; nothing where it is not answered */
 enum ceduo_light ceduo_judgement_light(enum ceduo_judgement judgement);
 
 /* The answer in one line of at most `width` columns: "✘ NO: 479 of 1000 arrive with more than 50 kJ (50 accepted); may be

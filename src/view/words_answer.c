@@ -127,6 +127,12 @@ static const char *const verdicts[] = {[CEDUO_YES] = N_("YES"),
                                        [CEDUO_DEPENDS] = N_("IT DEPENDS"),
                                        [CEDUO_NOTHING] = N_("NOTHING CAN BE SAID")};
 
+void ceduo_words_decision(struct text *text, enum ceduo_judgement judgement)
+{
+    if (judgement != CEDUO_UNANSWERED)
+        ceduo_text_format(text, "%s %s", ceduo_plot_light_mark(ceduo_judgement_light(judgement)), _(verdicts[judgement]));
+}
+
 /* What is said, from the widest to the narrowest. */
 static const struct answer_form {
     enum ceduo_measure_name name;
@@ -194,8 +200,7 @@ void ceduo_words_answer(struct text *text, const struct ceduo_result *r, size_t 
     enum ceduo_judgement judgement = ceduo_words_judge(r, option, control, doubt);
     LOCAL_TEXT(verdict);
     LOCAL_TEXT(reason);
-    if (judgement != CEDUO_UNANSWERED)
-        ceduo_text_format(&verdict, "%s %s", ceduo_plot_light_mark(ceduo_judgement_light(judgement)), _(verdicts[judgement]));
+    ceduo_words_decision(&verdict, judgement);
     size_t taken = verdict.length > 0 ? ceduo_utf8_width(verdict.bytes) + 2 : 0;
     say_reason(&reason, r, option, control, doubt, judgement, width > taken ? width - taken : 0);
     ceduo_text_put(text, ceduo_text_string(&verdict));

@@ -96,6 +96,29 @@ def test_several_scenes():
     expect_width(table)
 
 
+def test_profiles_of_one_place():
+    """Scenes above one road: its verdict first, that of the worst profile, then the profiles, the worst first; in the report, too"""
+    road = {"x_m": 90, "name": "road", "accepted_kJ": 60}
+    sites = {"calm": wooded_scene(title="calm", controls=[road], release={"x_m": 85, "vx_m_s": 2}),  # a fall of 4 m: 24 kJ at most
+             "bare": wooded_scene(title="bare", controls=[road], forest=None),
+             "wood": wooded_scene(title="wood", controls=[road])}
+    with Folder() as f:
+        files = [f.write(f"{name}.yaml", site) for name, site in sites.items()]
+        shares = {}
+        for name, path in zip(sites, files):
+            control = result(path, "-n", 300)["options"][0]["controls"][0]
+            shares[name] = control["wooded"]["exceed_probability"]
+        expect(shares["bare"] > shares["wood"] > 0.1 and shares["calm"] == 0, shares)
+        table = good("--batch", "-n", 300, *files).out.split("\n\n")[0].splitlines()
+        expect_equal([line.split()[0] for line in table], ["scene", "road", "bare", "wood", "calm"], "order")
+        expect(re.match(r"road as a whole +✘ NO: too many arrive on 2 of 3 profiles$", table[1]), table[1])
+        page = good("--report", "-", "-n", 50, *files).out
+        expect_equal(re.findall(r"<h1[^>]*>([^<]*)", page), ["3 scenes, the worst first", "bare", "wood", "calm"])
+        expect_in("road as a whole", page)
+        other = f.write("o.yaml", wooded_scene(title="house", controls=[{**road, "name": "house"}]))
+        expect("as a whole" not in good("--batch", "-n", 50, files[1], other).out, "two places are not one")
+
+
 def test_bounded():
     """-n bounds everything that the page simulates, and the page says with how many rocks; more text than a screen is cut with a sign"""
     page = good("--batch", "-n", 7, FOUR).out

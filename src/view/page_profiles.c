@@ -1,0 +1,175 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Several scenes, as profiles of one slope: what is said of each, the worst first, and of the place below as a whole. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/language.h"
+#include "base/must.h"
+#include "measure.h"
+#include "page_parts.h"
+
+#define SCENE_WIDTH 32 /* columns of a scene's name */
+
+/* What is said of an option of a profile; a larger rank is worse. */
+struct profile_option {
+    char *name, *answer;
+    enum ceduo_judgement judgement;
+    int rank;
+    double share; /* by which the place is judged; NaN: not known */
+};
+
+struct ceduo_profile {
+    char *title, *place;
+    double accepted;
+    size_t number, n; /* number: as it was given; n: options */
+    struct profile_option *options;
+};
+
+static int rank_of(enum ceduo_judgement judgement)
+{
+    static const int ranks[] = {[CEDUO_UNANSWERED] = 0,  [CEDUO_YES] = 1,     [CEDUO_NOTHING] = 2,
+                                [CEDUO_NOT_DECIDED] = 3, [CEDUO_DEPENDS] = 4, [CEDUO_NO] = 5};
+    return ranks[judgement];
+}
+
+void ceduo_profiles_add(struct ceduo_profiles *p, const struct ceduo_report *report)
+{
+    const struct ceduo_result *r = report->result;
+    size_t n = r->scene->options_count;
+    p->items = ceduo_must(realloc(p->items, (p->count + 1) * sizeof *p->items));
+    struct ceduo_profile *to = &p->items[p->count];
+    *to = (struct ceduo_profile){.title = ceduo_must(strdup(ceduo_in_language(r->scene->title, r->scene->title_it))),
+                                 .accepted = NAN,
+                                 .number = p->count++,
+                                 .n = n,
+                                 .options = ceduo_must(calloc(n + 1, sizeof *to->options))};
+    const struct ceduo_control *c = r->scene->controls_count > 0 ? &r->scene->controls[r->last_control] : NULL;
+    if (c) {
+        to->place = c->name ? ceduo_must(strdup(c->name)) : NULL;
+        to->accepted = c->accepted;
+    }
+    for (size_t i = 0; i < n; i++) {
+        struct profile_option *option = &to->options[i];
+        LOCAL_TEXT(answer);
+        if (c)
+            ceduo_words_answer(&answer, r, i, r->last_control, report->doubt, CEDUO_PAGE_WIDTH - SCENE_WIDTH - 1);
+        option->name = ceduo_must(strdup(r->scene->options[i].name));
+        option->answer = ceduo_must(strdup(c ? ceduo_text_string(&answer) : "-"));
+        option->judgement = c ? ceduo_words_judge(r, i, r->last_control, report->doubt) : CEDUO_UNANSWERED;
+        option->rank = rank_of(option->judgement);
+        const struct ceduo_arrivals *wooded = c ? ceduo_result_wooded(r, i, r->last_control) : NULL;
+        option->share = wooded ? ceduo_judged(c, wooded).value : NAN;
+    }
+}
+
+/* The option that is best there: what a profile is worth. */
+static const struct profile_option *best_of(const struct ceduo_profile *p)
+{
+    const struct profile_option *best = p->options;
+    for (size_t i = 1; i < p->n; i++) {
+        const struct profile_option *o = &p->options[i];
+        if (o->rank < best->rank || (o->rank == best->rank && o->share < best->share))
+            best = o;
+    }
+    return best;
+}
+
+/* The worst first; the same ones as they were given. */
+static int by_worst(const void *a, const void *b)
+{
+    const struct ceduo_profile *p = a, *q = b;
+    const struct profile_option *x = best_of(p), *y = best_of(q);
+    if (x->rank != y->rank)
+        return y->rank - x->rank;
+    if (x->share != y->share && !isnan(x->share) && !isnan(y->share))
+        return x->share < y->share ? 1 : -1;
+    return (p->number > q->number) - (p->number < q->number);
+}
+
+size_t ceduo_profiles_sort(struct ceduo_profiles *p, size_t *order)
+{
+    if (p->count > 1)
+        qsort(p->items, p->count, sizeof *p->items, by_worst);
+    for (size_t i = 0; i < p->count; i++)
+        order[i] = p->items[i].number;
+    return p->count;
+}
+
+/* Whether all are about one place, and about the same options for it. */
+static bool is_one_place(const struct ceduo_profiles *p)
+{
+    const struct ceduo_profile *a = p->items;
+    for (size_t i = 0; i < p->count; i++) {
+        const struct ceduo_profile *b = &p->items[i];
+        if (isnan(b->accepted) || a->accepted != b->accepted || a->n != b->n || !a->place != !b->place ||
+            (a->place && strcmp(a->place, b->place) != 0))
+            return false;
+        for (size_t k = 0; k < a->n; k++)
+            if (b->options[k].judgement == CEDUO_UNANSWERED ||
+                (a->n > 1 && strcmp(a->options[k].name, b->options[k].name) != 0))
+                return false;
+    }
+    return true;
+}
+
+/* An option at all profiles: what is said of the worst of them. */
+static void say_whole(struct ceduo_page *page, const struct ceduo_profiles *p, size_t option)
+{
+    enum ceduo_judgement worst = CEDUO_YES;
+    size_t n = 0;
+    for (size_t i = 0; i < p->count; i++)
+        if (p->items[i].options[option].rank > rank_of(worst))
+            worst = p->items[i].options[option].judgement;
+    for (size_t i = 0; i < p->count; i++)
+        n += p->items[i].options[option].judgement == worst;
+    struct text *text = ceduo_page_text(page);
+    ceduo_words_decision(text, worst);
+    ceduo_text_then(text, ": ", worst == CEDUO_NO ? _("too many arrive on %zu of %zu profiles") : _("on %zu of %zu profiles"),
+                    n, p->count);
+}
+
+void ceduo_profiles_page(struct ceduo_page *page, const struct ceduo_profiles *p)
+{
+    static const struct ceduo_page_column columns[] = {{N_("scene"), SCENE_WIDTH, 0, CEDUO_WHOLE},
+                                                       {NP_("head", "answer"), 0, 1, 0}};
+    bool whole = p->count > 1 && is_one_place(p);
+    CEDUO_PAGE_TABLE_OF(page, columns);
+    if (whole) {
+        if (p->items->place)
+            ceduo_page_write(page, _("%s as a whole"), p->items->place);
+        else
+            ceduo_page_write(page, "%s", _("the place as a whole"));
+    }
+    for (size_t i = 0; i < p->count + whole; i++) {
+        const struct ceduo_profile *one = &p->items[i - (i > 0 && whole)];
+        bool all = whole && i == 0;
+        if (!all)
+            ceduo_page_write(page, "%s", one->title);
+        if (one->n > 1)
+            ceduo_page_write(page, "%s", "");
+        for (size_t k = 0; k < one->n; k++) {
+            if (one->n > 1)
+                ceduo_page_write(page, "  %s", one->options[k].name);
+            if (all)
+                say_whole(page, p, k);
+            else
+                ceduo_page_write(page, "%s", one->options[k].answer);
+        }
+    }
+}
+
+void ceduo_profiles_free(struct ceduo_profiles *p)
+{
+    for (size_t i = 0; i < p->count; i++) {
+        for (size_t k = 0; k < p->items[i].n; k++) {
+            free(p->items[i].options[k].name);
+            free(p->items[i].options[k].answer);
+        }
+        free(p->items[i].options);
+        free(p->items[i].title);
+        free(p->items[i].place);
+    }
+    free(p->items);
+    *p = (struct ceduo_profiles){0};
+}
