@@ -116,7 +116,10 @@ static void report_unknown_key(struct binder *b, const struct object *object, co
     LOCAL_TEXT(said);
     const char *instead = ceduo_schema_gone(object, entry->key), *near = ceduo_bind_unknown_key(object, entry->key, &said);
     size_t before = enter(b, entry->key);
-    report_key(b, entry, "%s", instead ? _(instead) : ceduo_text_string(&said));
+    if (entry->source->foreign && !instead) /* of which the words alone are shown */
+        report_key(b, entry, near ? _("unknown key; did you mean '%s'?") : _("unknown key; known here: %s"), "");
+    else
+        report_key(b, entry, "%s", instead ? _(instead) : ceduo_text_string(&said));
     leave(b, before);
     if (near) { /* what was meant is not known, but it is not missing */
         before = enter(b, near);
