@@ -18,18 +18,6 @@ static enum exit_status worse(enum exit_status a, enum exit_status b)
     return a > b ? a : b;
 }
 
-static enum exit_status answer_scene(const struct each *e, ceduo_batch_answer *answer, struct text *out)
-{
-    struct scene_file file;
-    enum exit_status status = ceduo_batch_read(&e->arguments, e->path, &file);
-    if (status == EXIT_DONE) {
-        ceduo_interrupt_catch();
-        status = answer(&e->arguments, &file, out);
-    }
-    ceduo_scene_release(&file);
-    return status;
-}
-
 /* Pages of several scenes come behind a table of their verdicts. */
 static void put_verdicts(struct text *text, struct ceduo_profiles *profiles)
 {
@@ -61,7 +49,13 @@ static enum exit_status answer_all(const struct arguments *given, const struct t
     while (written == EXIT_DONE && ceduo_each_next(&each)) {
         LOCAL_TEXT(one);
         ceduo_progress_scenes(&progress, each.at - 1, each.count);
-        enum exit_status result = answer_scene(&each, answer, &one);
+        struct scene_file file;
+        enum exit_status result = ceduo_batch_read(&each.arguments, each.path, &file);
+        if (result == EXIT_DONE) {
+            ceduo_interrupt_catch();
+            result = answer(&each.arguments, &file, &one);
+        }
+        ceduo_scene_release(&file);
         status = worse(status, result);
         if (result > EXIT_RUN ||
             (result == EXIT_RUN && !one.bytes)) /* what is printed has not failed, unfinished as it may be */

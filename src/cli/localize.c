@@ -34,13 +34,6 @@ static const char *wanted_locale(const char *category)
 
 /* ---- where translations are ---- */
 
-static bool has_translations(const char *folder)
-{
-    char path[PATH_MAX + 64];
-    snprintf(path, sizeof path, "%s/it/LC_MESSAGES/" DOMAIN ".mo", folder);
-    return access(path, R_OK) == 0;
-}
-
 /* Beside the program, where it was built or installed, then in the folder of the installation. */
 static void bind_domain(void)
 {
@@ -51,8 +44,10 @@ static void bind_domain(void)
     char *slash = strrchr(self, '/');
     const char *found = CEDUO_LOCALEDIR;
     for (size_t i = 0; slash && i < sizeof near / sizeof near[0]; i++) {
+        char path[sizeof folder + 64];
         snprintf(folder, sizeof folder, "%.*s/%s", (int)(slash - self), self, near[i]);
-        if (has_translations(folder)) {
+        snprintf(path, sizeof path, "%s/it/LC_MESSAGES/" DOMAIN ".mo", folder);
+        if (access(path, R_OK) == 0) {
             found = folder;
             break;
         }
@@ -64,26 +59,15 @@ static void bind_domain(void)
 
 /* ---- which one ---- */
 
-/* The header of a translation is that of the empty string. */
-static bool is_translated(void)
-{
-    return dgettext(DOMAIN, "")[0] != '\0';
-}
-
 /* Some versions of libc count C.UTF-8 as C: then another locale does, if there is one. */
 static void use_translation(const char *language)
 {
     static const char *const locales[] = {"it_IT.UTF-8", "C.UTF-8", "C.utf8", "en_US.UTF-8", "en_GB.UTF-8", "it_IT"};
     setenv("LANGUAGE", language, 1);
     setlocale(LC_MESSAGES, "");
-    for (size_t i = 0; !is_translated() && i < sizeof locales / sizeof locales[0]; i++)
+    /* the header of a translation is that of the empty string */
+    for (size_t i = 0; !dgettext(DOMAIN, "")[0] && i < sizeof locales / sizeof locales[0]; i++)
         setlocale(LC_MESSAGES, locales[i]);
-}
-
-/* "it", "it_IT", "it_IT.UTF-8@euro", but not "italic". */
-static bool is_italian(const char *locale)
-{
-    return strncmp(locale, "it", 2) == 0 && strchr("_.@", locale[2]);
 }
 
 void ceduo_language_set(const char *language)
@@ -102,6 +86,7 @@ void ceduo_language_start(void)
     if (!setlocale(LC_CTYPE, "") && utf8)
         setlocale(LC_CTYPE, "C.UTF-8");
     bind_domain();
-    if (!setlocale(LC_MESSAGES, "") && is_italian(messages))
+    bool italian = strncmp(messages, "it", 2) == 0 && strchr("_.@", messages[2]); /* "it_IT.UTF-8@euro", but not "italic" */
+    if (!setlocale(LC_MESSAGES, "") && italian)
         use_translation(language && language[0] ? language : "it");
 }

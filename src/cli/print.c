@@ -19,23 +19,6 @@ static bool is_whole(const struct arguments *a)
     return ceduo_option_given(a, "details");
 }
 
-static void write_report(const struct arguments *a, const struct ceduo_report *report, struct text *out)
-{
-    if (a->format == CEDUO_JSON) {
-        ceduo_report_json(out, report);
-        return;
-    }
-    if (a->format == CEDUO_CSV) {
-        ceduo_text_put(out, ""); /* without stands no row, but the header */
-        ceduo_report_csv(out, report, a->stands);
-        return;
-    }
-    LOCAL_TEXT(page);
-    (is_whole(a) ? ceduo_report_table : ceduo_report_short)(&page, report, !ceduo_say_utf8());
-    ceduo_say_plainly(&page);
-    ceduo_text_put(out, ceduo_text_string(&page));
-}
-
 #define BLOCK_ROCKS 512 /* of each other size at the most: their intervals stand beside them */
 
 enum exit_status ceduo_finished(const struct ceduo_result *result)
@@ -69,24 +52,20 @@ static struct ceduo_question ask_for(const struct arguments *a, const struct sce
     return q;
 }
 
-static void write_answer(const struct arguments *a, struct scene_file *file, const struct ceduo_answer *answer,
-                         const struct ceduo_verdict *verdict, const struct asked_doubt *doubt, double seconds, struct text *out)
+static void write_report(const struct arguments *a, const struct ceduo_report *report, struct text *out)
 {
-    const struct ceduo_report report = {.file = file,
-                                        .result = answer->result,
-                                        .years = a->years ? answer->years : NULL,
-                                        .verdict = verdict,
-                                        .doubt = doubt->report.file ? &doubt->report : NULL,
-                                        .blocks = answer->blocks,
-                                        .work = answer->work,
-                                        .seconds = seconds,
-                                        .details = is_whole(a),
-                                        .rocks_asked =
-                                            a->stands && a->format == CEDUO_CSV ? ceduo_batch_question(a, file, NULL).rocks : 0,
-                                        .remarks = {a->tolerance, answer->tolerance_met, file->ground_assumed}};
-    write_report(a, &report, out);
-    if (a->format == CEDUO_TABLE)
-        ceduo_profiles_add(a->profiles, &report);
+    if (a->format == CEDUO_JSON) {
+        ceduo_report_json(out, report);
+    } else if (a->format == CEDUO_CSV) {
+        ceduo_text_put(out, ""); /* without stands no row, but the header */
+        ceduo_report_csv(out, report, a->stands);
+    } else {
+        LOCAL_TEXT(page);
+        (is_whole(a) ? ceduo_report_table : ceduo_report_short)(&page, report, !ceduo_say_utf8());
+        ceduo_say_plainly(&page);
+        ceduo_text_put(out, ceduo_text_string(&page));
+        ceduo_profiles_add(a->profiles, report);
+    }
 }
 
 enum exit_status ceduo_print_report(const struct arguments *a, struct scene_file *file, struct text *out)
@@ -107,7 +86,19 @@ enum exit_status ceduo_print_report(const struct arguments *a, struct scene_file
     ceduo_progress_end(&progress);
     enum exit_status done = EXIT_DONE;
     if (status == CEDUO_OK) {
-        write_answer(a, file, &answer, &verdict, &doubt, seconds, out);
+        bool flown = !a->stands || a->format != CEDUO_CSV;
+        const struct ceduo_report report = {.file = file,
+                                            .result = answer.result,
+                                            .years = a->years ? answer.years : NULL,
+                                            .verdict = &verdict,
+                                            .doubt = doubt.report.file ? &doubt.report : NULL,
+                                            .blocks = answer.blocks,
+                                            .work = answer.work,
+                                            .seconds = seconds,
+                                            .details = is_whole(a),
+                                            .rocks_asked = flown ? 0 : ceduo_batch_question(a, file, NULL).rocks,
+                                            .remarks = {a->tolerance, answer.tolerance_met, file->ground_assumed}};
+        write_report(a, &report, out);
         done = ceduo_finished(answer.result);
     }
     ceduo_sensitivity_release(&doubt);

@@ -60,14 +60,6 @@ static enum exit_status choose(const struct arguments *a, struct scene_file *fil
     return good ? EXIT_DONE : EXIT_RUN;
 }
 
-/* What the scene does not bear of the command line. */
-static enum exit_status check(const struct arguments *a, const struct scene_file *file)
-{
-    if (file->scene.blocks_count > 0 && a->rocks > CEDUO_SIZED_ROCKS_MOST)
-        return ceduo_usage("rocks", _("with blocks each rock is kept: at most %s rocks"), SHORTEST(CEDUO_SIZED_ROCKS_MOST));
-    return EXIT_DONE;
-}
-
 enum exit_status ceduo_batch_read(const struct arguments *a, const char *path, struct scene_file *file)
 {
     struct problems problems = {0};
@@ -81,8 +73,8 @@ enum exit_status ceduo_batch_read(const struct arguments *a, const char *path, s
     for (const struct source *s = file->arena.sources; s && status != EXIT_OUTPUT; s = s->before)
         if (ceduo_output_is(a, s->path))
             status = EXIT_OUTPUT;
-    if (status == EXIT_DONE)
-        status = check(a, file);
+    if (status == EXIT_DONE && file->scene.blocks_count > 0 && a->rocks > CEDUO_SIZED_ROCKS_MOST)
+        status = ceduo_usage("rocks", _("with blocks each rock is kept: at most %s rocks"), SHORTEST(CEDUO_SIZED_ROCKS_MOST));
     return status == EXIT_DONE && a->mode != MODE_FIND && a->mode != MODE_CALIBRATE ? choose(a, file) : status;
 }
 
@@ -158,18 +150,11 @@ void ceduo_progress_end(const struct progress *p)
         fprintf(stderr, "\r%-78s\r", "");
 }
 
-/* -n, or with a tolerance alone as many as may be, or the scene's. */
-static uint64_t rocks_wanted(const struct arguments *a, const struct scene_file *file)
-{
-    if (a->rocks > 0)
-        return a->rocks;
-    return a->tolerance > 0 ? CEDUO_ROCKS_MOST : file->scene.simulation.rocks;
-}
-
 struct ceduo_question ceduo_batch_question(const struct arguments *a, const struct scene_file *file, struct progress *progress)
 {
     struct ceduo_question q = ceduo_question_default(&file->scene);
-    q.rocks = q.run.rocks_most = rocks_wanted(a, file);
+    q.rocks = a->rocks > 0 ? a->rocks : a->tolerance > 0 ? CEDUO_ROCKS_MOST : file->scene.simulation.rocks;
+    q.run.rocks_most = q.rocks;
     q.tolerance = a->tolerance;
     q.run.threads = a->threads;
     q.run.other_energy = true;

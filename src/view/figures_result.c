@@ -51,6 +51,11 @@ static const struct ceduo_yield *yield_at(const struct ceduo_place *p)
     return yield && !isnan(yield->cut_per_year) ? yield : NULL;
 }
 
+static const struct ceduo_stand_result *belt_result(const struct ceduo_place *p)
+{
+    return &(p->year ? p->year->stands : p->report->result->options[p->option].stands)[p->belt];
+}
+
 /* For `from`: p is the place, r its result. */
 #define OBJECT(name, object)                                                                                                   \
     static const void *name(const void *place)                                                                                 \
@@ -67,12 +72,8 @@ OBJECT(year_of, p->year)
 OBJECT(option_of, &r->scene->options[p->option])
 OBJECT(first_option_of, &r->scene->options[0])
 OBJECT(belt_of, &forest_of(p)->belts[p->belt])
-OBJECT(stand_of, &(p->year ? p->year->stands : r->options[p->option].stands)[p->belt])
-static const void *rules_of(const void *place)
-{
-    const struct ceduo_stand_result *s = stand_of(place);
-    return s && s->rules.of ? &s->rules : NULL;
-}
+OBJECT(stand_of, belt_result(p))
+OBJECT(rules_of, belt_result(p)->rules.of ? &belt_result(p)->rules : NULL)
 OBJECT(control_of, &r->scene->controls[p->control])
 OBJECT(index_of, &indices_of(p)[p->control])
 OBJECT(last_index_of, &indices_of(p)[r->last_control])
@@ -88,43 +89,20 @@ OBJECT(felling_of, &yield_at(p)->fellings[p->felling])
 OBJECT(felled_belt_of, &r->scene->options[p->option].belts[yield_at(p)->fellings[p->felling].belt])
 OBJECT(rotation_of, p->report->years ? p : NULL)
 
-static const void *standards_of(const void *compliance)
-{
-    return ((const struct ceduo_compliance *)compliance)->standards_item;
-}
-
-static const void *turn_of(const void *compliance)
-{
-    return ((const struct ceduo_compliance *)compliance)->turn_item;
-}
-
-static const void *search_of(const void *find)
-{
-    return ((const struct ceduo_find_report *)find)->search;
-}
-
-/* Where nothing is in doubt nothing was computed. */
-static const void *sure_of(const void *find)
-{
-    const struct ceduo_sure *sure = ((const struct ceduo_find_report *)find)->sure;
-    return sure && sure->inputs > 0 ? sure : NULL;
-}
-
-static const void *found_yield_of(const void *find)
-{
-    const struct ceduo_yield *yield = ((const struct ceduo_find_report *)find)->yield;
-    return yield && !isnan(yield->cut_per_year) ? yield : NULL;
-}
-
-static const void *yields_of(const void *find)
-{
-    return found_yield_of(find) ? find : NULL;
-}
-
-static const void *found_of(const void *find)
-{
-    return ((const struct ceduo_find_report *)find)->found;
-}
+/* The same of other objects: o. */
+#define OBJECT_IN(name, type, object)                                                                                          \
+    static const void *name(const void *from)                                                                                  \
+    {                                                                                                                          \
+        const struct ceduo_##type *o = from;                                                                                   \
+        return object;                                                                                                         \
+    }
+OBJECT_IN(standards_of, compliance, o->standards_item)
+OBJECT_IN(turn_of, compliance, o->turn_item)
+OBJECT_IN(search_of, find_report, o->search)
+OBJECT_IN(found_of, find_report, o->found)
+OBJECT_IN(sure_of, find_report, o->sure && o->sure->inputs > 0 ? o->sure : NULL) /* nothing in doubt: nothing was computed */
+OBJECT_IN(found_yield_of, find_report, o->yield && !isnan(o->yield->cut_per_year) ? o->yield : NULL)
+OBJECT_IN(yields_of, find_report, found_yield_of(o) ? o : NULL)
 
 /* ---- lists ---- */
 
