@@ -204,7 +204,7 @@ size_t ceduo_pane_column(struct ceduo_page *page, const struct ceduo_pane *pane)
     ceduo_words_still(r, ceduo_page_warn, page);
     ceduo_page_stand_warnings(page, r, pane->option);
     ceduo_words_run_warnings(r, &remarks, ceduo_page_warn, page);
-    ceduo_page_stand_rules(page, r, pane->option, false);
+    ceduo_page_stand_rules(page, r, pane->option, true);
     while ((last = last->next))
         warnings++;
     return warnings;
