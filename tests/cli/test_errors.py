@@ -611,7 +611,7 @@ def test_names_on_the_screen():
 
 def main():
     suite = Suite()
-    suite.run([test_table_whole, test_table_italian, test_shared_fault, test_names_on_the_screen])
+    suite.run([test_shared_fault, test_names_on_the_screen])
     for what, text, csv_text, words in FLOODS:
         suite.check(f"{what}: {words}", flood, text, csv_text, words)
     for row, case in CASES.items():
