@@ -3,11 +3,11 @@
 
 #include <stdalign.h>
 #include <stdint.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "must.h"
+#include "text.h"
 
 #define PAGE ((size_t)16 * 1024)
 
@@ -58,14 +58,9 @@ char *ceduo_arena_string(struct arena *arena, const char *string)
 
 char *ceduo_arena_vformat(struct arena *arena, const char *format, va_list args)
 {
-    va_list again;
-    va_copy(again, args);
-    int n = vsnprintf(NULL, 0, format, args);
-    char *p = n >= 0 ? ceduo_arena_take(arena, (size_t)n + 1) : NULL; /* untaken: system */
-    if (p)
-        vsnprintf(p, (size_t)n + 1, format, again);
-    va_end(again);
-    return p;
+    LOCAL_TEXT(text);
+    ceduo_text_vformat(&text, format, args);
+    return text.failed ? NULL : ceduo_arena_string(arena, ceduo_text_string(&text));
 }
 
 char *ceduo_arena_format(struct arena *arena, const char *format, ...)

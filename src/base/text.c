@@ -9,6 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "language.h"
 #include "must.h"
 #include "utf8.h"
 
@@ -69,8 +70,42 @@ void ceduo_text_char(struct text *text, char c)
     ceduo_text_add(text, &c, 1);
 }
 
+char *ceduo_number_spoken(char *number)
+{
+    for (char *dot = number; (dot = strchr(dot, '.'));)
+        *dot++ = P_("decimal", ".")[0];
+    return number;
+}
+
+/* Numbers that begin with %' stand between two marks while they are printed, by which their dots are found. */
+static void format_spoken(struct text *text, const char *format, va_list args)
+{
+    LOCAL_TEXT(marked);
+    LOCAL_TEXT(printed);
+    for (const char *c = format; *c; c++) {
+        bool spoken = c[0] == '%' && c[1] == '\''; /* as only translations have it: ISO C knows no such flag */
+        size_t n = spoken ? 2 + strcspn(c + 2, "efg") : 0;
+        if (spoken)
+            ceduo_text_format(&marked, "\1%%%.*s\2", (int)n - 1, c + 2);
+        else
+            ceduo_text_char(&marked, *c);
+        c += n;
+    }
+    ceduo_text_vformat(&printed, ceduo_text_string(&marked), args);
+    bool number = false;
+    for (const char *c = ceduo_text_string(&printed); *c; c++)
+        if (*c == '\1' || *c == '\2')
+            number = *c == '\1';
+        else
+            ceduo_text_char(text, number && *c == '.' ? P_("decimal", ".")[0] : *c);
+}
+
 void ceduo_text_vformat(struct text *text, const char *format, va_list args)
 {
+    if (strstr(format, "%'")) {
+        format_spoken(text, format, args);
+        return;
+    }
     va_list again;
     va_copy(again, args);
     int n = vsnprintf(NULL, 0, format, args);
@@ -149,7 +184,7 @@ static void write_plainly(char room[CEDUO_NUMBER_ROOM], int digits, int exponent
     *to = '\0';
 }
 
-const char *ceduo_number_shortest(double value, char room[CEDUO_NUMBER_ROOM])
+char *ceduo_number_shortest(double value, char room[CEDUO_NUMBER_ROOM])
 {
     if (!isfinite(value))
         return strcpy(room, "null");

@@ -25,6 +25,7 @@ void ceduo_text_put(struct text *text, const char *string);
 void ceduo_text_quoted(struct text *text, const char *string);
 void ceduo_text_char(struct text *text, char c);
 void ceduo_text_format(struct text *text, const char *format, ...) __attribute__((format(printf, 2, 3)));
+/* With %'g, as translations write it for people (%'.1f, %'.3g): the decimal sign of the language. */
 void ceduo_text_vformat(struct text *text, const char *format, va_list args) __attribute__((format(printf, 2, 0)));
 /* A clause or sentence after what comes between it and the one before: "; ", ", " or " ". */
 void ceduo_text_then(struct text *text, const char *between, const char *format, ...) __attribute__((format(printf, 3, 4)));
@@ -48,7 +49,10 @@ void ceduo_text_safe_n(struct text *text, const char *string, size_t n);
 
 /* The shortest decimal that reads back as the same number; "null" where it is not finite. */
 #define CEDUO_NUMBER_ROOM 32
-const char *ceduo_number_shortest(double value, char room[CEDUO_NUMBER_ROOM]);
+char *ceduo_number_shortest(double value, char room[CEDUO_NUMBER_ROOM]);
+
+/* Numbers as people of the language read them: with its decimal sign in place of each dot. */
+char *ceduo_number_spoken(char *number);
 
 enum ceduo_number_reading { CEDUO_NUMBER_GOOD, CEDUO_NUMBER_NONE, CEDUO_NUMBER_TOO_LARGE };
 

@@ -350,6 +350,8 @@ static void draw_cell(const struct drawing *d, const struct form_cell *cell, int
     if ((int)ceduo_utf8_width(shown) > span && strchr(shown, '.') &&
         ceduo_number_read(cell->text, &number) == CEDUO_NUMBER_GOOD)
         snprintf(shown, sizeof shown, "%.4g%s", number, cell->assumed ? "*" : "");
+    if (strspn(shown, "0123456789.+-e *") == strlen(shown))
+        ceduo_number_spoken(shown);
     char *more = cell->field && cell->field->type == FIELD_CHOICE ? strstr(shown, " (") : NULL;
     if (more && (int)ceduo_utf8_width(shown) > span) /* the common name of a species has room */
         *more = '\0';

@@ -131,7 +131,7 @@ static void append_lights(struct app *app, struct text *text, const struct previ
     const struct ceduo_index *now = r ? ceduo_result_last_index(r, app->option) : &f->index;
     append_light(text, _("Contact"), f->index.contact, now->contact);
     if (isfinite(f->index.worst_adc))
-        ceduo_text_format(text, ", %.3g m", f->index.worst_adc);
+        ceduo_text_format(text, _(", %.3g m"), f->index.worst_adc);
     ceduo_text_put(text, "; ");
     append_light(text, _("free run"), f->index.free_run, now->free_run);
     ceduo_text_put(text, "; ");

@@ -7,6 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/text.h"
+
 /* ---- Ticks ---- */
 
 /* An interval of 1, 2 or 5 times a power of ten, kept in parts: 3 / 10 is 0.3, but 3 * 0.1 is not. */
@@ -96,6 +98,7 @@ size_t ceduo_tick_label(double value, double interval, size_t size, char *buffer
     length = length < size ? length : size - 1;
     memcpy(buffer, from, length);
     buffer[length] = '\0';
+    ceduo_number_spoken(buffer);
     return length;
 }
 

@@ -69,7 +69,8 @@ void ceduo_calibration_draws(struct text *text, const struct ceduo_calibration *
     ceduo_text_char(text, '\n');
     for (size_t k = 0; k < a->draws_count; k++) {
         for (size_t i = 0; i < a->parameters_count; i++)
-            ceduo_text_format(text, "%s%s", i > 0 ? "," : "", SHORTEST(a->draws[k * a->parameters_count + i]));
+            ceduo_text_format(text, "%s%s", i > 0 ? "," : "",
+                              ceduo_number_shortest(a->draws[k * a->parameters_count + i], (char[CEDUO_NUMBER_ROOM]){0}));
         ceduo_text_char(text, '\n');
     }
 }
@@ -211,7 +212,7 @@ void ceduo_calibration_page(struct text *text, const struct ceduo_calibration_re
         if (isnan(p->p_value) || p->p_value < 0.001)
             ceduo_page_write(&page, "%s", isnan(p->p_value) ? "-" : "<.001");
         else
-            ceduo_page_write(&page, "%.*f", p->p_value < 0.1 ? 3 : 2, p->p_value);
+            ceduo_page_write(&page, _("%.*f"), p->p_value < 0.1 ? 3 : 2, p->p_value);
     }
     ceduo_page_add(&page, CEDUO_PAGE_GAP);
     ceduo_calibration_words(&page, r);

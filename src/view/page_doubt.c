@@ -86,7 +86,7 @@ void ceduo_doubt_input_end(struct text *text, const struct ceduo_doubt_report *r
     const char *word;
     double value = ceduo_doubt_input_value(r, i, end, &word);
     if (word || !isnan(value))
-        ceduo_text_put(text, word ? word : SHORTEST(value));
+        ceduo_text_put(text, word ? word : ceduo_number_shortest(value, (char[CEDUO_NUMBER_ROOM]){0}));
 }
 
 /* An end of its range in the unit that people use, and short. */
@@ -98,7 +98,7 @@ static void append_input_end(struct text *text, const struct ceduo_doubt_report 
     if (word)
         ceduo_text_put(text, word);
     else if (!isnan(value) && ceduo_value_find(&r->file->scene, r->inputs->items[i].places[0], &v))
-        ceduo_text_put(text, SHORTEST(strtod(WRITTEN(value * v.field->shown.per, 4), NULL))); /* 6.300 is 6300 in Italian */
+        ceduo_text_put(text, ROUNDED(value * v.field->shown.per, 4)); /* 6.300 is 6300 in Italian */
 }
 
 const char *ceduo_doubt_measured(const struct ceduo_doubt_report *r, size_t i)

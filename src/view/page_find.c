@@ -10,11 +10,11 @@ static void append_goal(struct text *text, enum ceduo_goal goal, double value)
 {
     ceduo_text_format(text, "%s ", _(ceduo_goals[goal].name));
     if (ceduo_goal_is_share(goal))
-        ceduo_text_format(text, "%.3g %%", value * 100);
+        ceduo_text_format(text, "%s %%", ROUNDED(value * 100, 3));
     else if (isinf(value))
         ceduo_text_put(text, _("without end"));
     else
-        ceduo_text_format(text, "%.4g %s", value, ceduo_goals[goal].unit);
+        ceduo_text_format(text, "%s %s", ROUNDED(value, 4), ceduo_goals[goal].unit);
 }
 
 /* With four digits, on the side that reaches the goal; JSON has them all. */
@@ -46,6 +46,7 @@ void ceduo_find_sure(struct text *text, const struct ceduo_search *s, const stru
 
 void ceduo_find_page(struct text *text, const struct ceduo_find_report *report)
 {
+    char room[CEDUO_NUMBER_ROOM];
     const struct ceduo_search *s = report->search;
     const struct ceduo_found *f = report->found;
     const struct ceduo_goal_row *row = &ceduo_goals[s->goal];
@@ -56,7 +57,7 @@ void ceduo_find_page(struct text *text, const struct ceduo_find_report *report)
     ceduo_text_safe(&option, report->file->scene.options[s->option].name);
     append_goal(&goal, s->goal, f->found ? f->goal_at_value : f->goal_at_nearest);
     if (f->found) {
-        ceduo_text_format(text, "%s = %s\n  ", path.bytes, SHORTEST(shown(s, f)));
+        ceduo_text_format(text, "%s = %s\n  ", path.bytes, ceduo_number_shortest(shown(s, f), room));
         ceduo_text_format(text,
                           f->whole_range              ? _("every value of the range reaches the goal: %s")
                           : f->side == CEDUO_SMALLEST ? _("the smallest value that reaches the goal: %s")

@@ -37,12 +37,12 @@ void ceduo_page_limit(struct ceduo_page *page, const struct ceduo_control *c, en
     bool kilo = fabs(c->accepted) < 1e6;
     ceduo_measure_name(&head->text, &m, isnan(c->accepted) ? otherwise : CEDUO_SHORT_HEAD);
     if (!isnan(c->accepted))
-        ceduo_text_format(&head->shorter, kilo ? "> %.3g kJ" : "> %.3g MJ", c->accepted * (kilo ? 1e-3 : 1e-6));
+        ceduo_text_format(&head->shorter, kilo ? "> %s kJ" : "> %s MJ", ROUNDED(c->accepted * (kilo ? 1e-3 : 1e-6), 3));
 }
 
 void ceduo_page_percent(struct ceduo_page *page, double share)
 {
-    ceduo_page_write(page, "%.1f %%", share * 100);
+    ceduo_page_write(page, _("%.1f %%"), share * 100);
 }
 
 /* A word in green or red. */

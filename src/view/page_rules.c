@@ -86,13 +86,13 @@ static void add_rule(struct ceduo_page *page, double is, item *asked, bool met, 
     if (isnan(is))
         ceduo_page_write(page, "-");
     else
-        ceduo_page_write(page, "%.4g", is);
+        ceduo_page_write(page, "%s", ROUNDED(is, 4));
     if (!asked)
         ceduo_page_write(page, "%s", species ? _("not named") : _("no species"));
     else if (isnan(asked->most))
-        ceduo_page_write(page, "\xe2\x89\xa5 %g", asked->least);
+        ceduo_page_write(page, "\xe2\x89\xa5 %s", SHORTEST(asked->least));
     else
-        ceduo_page_write(page, "%g\xe2\x80\x93%g", asked->least, asked->most);
+        ceduo_page_write(page, "%s\xe2\x80\x93%s", SHORTEST(asked->least), SHORTEST(asked->most));
     if (!asked || isnan(is))
         ceduo_page_write(page, "-");
     else

@@ -220,7 +220,7 @@ static bool write_digits(struct text *text, double mean, double half, int digits
     if (strchr(ceduo_text_string(text), 'e'))
         return false;
     /* the error up to whole units of the mean's last place */
-    const char *point = strchr(ceduo_text_string(text), '.');
+    const char *point = strpbrk(ceduo_text_string(text), ".,");
     int places = point ? (int)strlen(point + 1) : 0;
     double unit = pow(10, -places);
     ceduo_text_format(text, "%s%.*f", sign, places, ceil(half / unit) * unit);
@@ -259,6 +259,8 @@ static void write_cell(const struct printer *p, struct text *to, const struct ce
         write_mean(to, cell->value, cell->half, width, p->plain ? "+-" : "\xc2\xb1");
     else
         append_safe(p, to, ceduo_text_string(&cell->text));
+    if (cell->kind != CEDUO_CELL_TEXT && to->bytes)
+        ceduo_number_spoken(to->bytes);
     if (cell->shorter.length > 0 && !fits(to, width)) {
         ceduo_text_free(to);
         append_safe(p, to, ceduo_text_string(&cell->shorter));

@@ -91,7 +91,7 @@ static void add_heads(struct ceduo_page *page, const struct comparison *c)
 {
     struct ceduo_page_cell *heads = page->last->cells;
     struct ceduo_measure judged = ceduo_judged(c->control, NULL);
-    ceduo_text_format(&heads[1].text, "\xe2\x94\x82 %g", c->threshold);
+    ceduo_text_format(&heads[1].text, "\xe2\x94\x82 %s", SHORTEST(c->threshold));
     ceduo_text_put(&heads[2].text, _("ADC m"));
     if (c->wooded)
         ceduo_measure_name(&heads[5].text, &judged, CEDUO_SHORT_HEAD);
@@ -100,7 +100,7 @@ static void add_heads(struct ceduo_page *page, const struct comparison *c)
     if (c->wooded && !isnan(c->accepted))
         ceduo_text_format(&heads[4].text, "\xe2\x94\x82 %g", 1000 * CEDUO_EXCEED_MOST);
     if (!isnan(c->accepted))
-        ceduo_text_format(&heads[7].text, "\xe2\x94\x82 %g", c->accepted);
+        ceduo_text_format(&heads[7].text, "\xe2\x94\x82 %s", SHORTEST(c->accepted));
     ceduo_text_put(&heads[8].text, c->wooded ? _("mean, kJ") : P_("head", "left kJ"));
 }
 

@@ -50,7 +50,7 @@ static void add_options(struct ceduo_page *page, const struct ceduo_doubt_report
                                        "1000");
     } else {
         ceduo_text_put(&heads[0].text, _("kJ a rock"));
-        ceduo_text_format(&heads[1].text, "0\xe2\x80\x93%.4g", most_of(r));
+        ceduo_text_format(&heads[1].text, "0\xe2\x80\x93%s", ROUNDED(most_of(r), 4));
     }
     ceduo_text_put(&heads[2].text, r->over ? _("rotation (may be)") : _("now (may be)"));
     for (size_t i = first; i < n && i < first + room; i++)

@@ -60,7 +60,8 @@ static double per_1000(const struct histogram *h, bool bare, int i)
 static void add_mark(const struct histogram *h, int i, double kj, const char *name, struct text *text)
 {
     if (!isnan(kj) && bin_of(&h->bins, kj) == i)
-        ceduo_text_format(text, "%s%s%s%.3g", text->length > 0 ? ", " : "\xe2\x97\x80 ", name, name[0] == '>' ? "" : " ", kj);
+        ceduo_text_format(text, "%s%s%s%s", text->length > 0 ? ", " : "\xe2\x97\x80 ", name, name[0] == '>' ? "" : " ",
+                          ROUNDED(kj, 3));
 }
 
 /* What the bars are drawn to: counts, or with two runs those of 1000 released. */
@@ -93,7 +94,7 @@ static void add_row(struct ceduo_page *page, const struct histogram *h, int i, d
     if (h->bare)
         ceduo_page_write(page, "%.0f", per_1000(h, true, i));
     else
-        ceduo_page_write(page, "%.1f %%", 100.0 * (double)h->counts[i] / (double)h->n);
+        ceduo_page_write(page, _("%.1f %%"), 100.0 * (double)h->counts[i] / (double)h->n);
     struct ceduo_page_cell *marks = ceduo_page_cell(page);
     marks->role = CEDUO_ROLE_TITLE;
     if (h->accepted >= b->first && (h->accepted < end || b->over))
@@ -114,7 +115,7 @@ static void say_all(struct ceduo_page *page, const struct histogram *h)
         ceduo_text_format(head, _("n = %llu of %llu"), (unsigned long long)h->arrivals->reached,
                           (unsigned long long)h->arrivals->released);
     if (!isnan(exceed) && h->bare)
-        ceduo_text_then(head, ", ", "%.0f (%.0f) > %g kJ", exceed, h->bare->exceed_probability * 1000, h->accepted);
+        ceduo_text_then(head, ", ", _("%.0f (%.0f) > %g kJ"), exceed, h->bare->exceed_probability * 1000, h->accepted);
     else if (!isnan(exceed))
         ceduo_text_then(head, "; ", _("of 1000: %.0f > %g kJ"), exceed, h->accepted);
     if (h->n < h->arrivals->reached || (h->bare && h->bare_n < h->bare->reached))

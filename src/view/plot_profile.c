@@ -341,7 +341,7 @@ static void note_control(struct notes *n, size_t c)
     else
         note(n, CEDUO_ROLE_TEXT, _("%.0f of 1000 arrive"), reach);
     if (!isnan(exceed) && wooded)
-        note(n, CEDUO_ROLE_TEXT, "%.0f (%.0f) > %g kJ", exceed, bare->exceed_probability * 1000, limit);
+        note(n, CEDUO_ROLE_TEXT, _("%.0f (%.0f) > %g kJ"), exceed, bare->exceed_probability * 1000, limit);
     else if (!isnan(exceed))
         note(n, CEDUO_ROLE_TEXT, _("%.0f with > %g kJ"), exceed, limit);
 }

@@ -32,7 +32,13 @@ const char *ceduo_words_shown(double value, int digits, char room[CEDUO_NUMBER_R
         snprintf(room, CEDUO_NUMBER_ROOM, "%.*g", digits, value);
     else
         snprintf(room, CEDUO_NUMBER_ROOM, "%.*f", decimals > 0 ? decimals : 0, size > 0 ? value : 0);
-    return room;
+    return ceduo_number_spoken(room);
+}
+
+const char *ceduo_words_rounded(double value, int digits, char room[CEDUO_NUMBER_ROOM])
+{
+    snprintf(room, CEDUO_NUMBER_ROOM, "%.*g", digits, value);
+    return ceduo_number_spoken(room);
 }
 
 void ceduo_words_number(struct text *text, double value, int digits)

@@ -109,9 +109,12 @@ void ceduo_words_number(struct text *text, double value, int digits);
 /* The same in a string, for a sentence, and "991 (984–995)", of 1000 rocks with the 95 % interval: it lives as long as the block in
  * which it is made. */
 const char *ceduo_words_shown(double value, int digits, char room[CEDUO_NUMBER_ROOM]);
+const char *ceduo_words_rounded(double value, int digits, char room[CEDUO_NUMBER_ROOM]);
 const char *ceduo_words_shown_of_1000(double probability, double lo, double hi, char room[CEDUO_NUMBER_ROOM]);
 #define WRITTEN(value, digits)     ceduo_words_shown(value, digits, (char[CEDUO_NUMBER_ROOM]){0})
 #define WRITTEN_OF_1000(p, lo, hi) ceduo_words_shown_of_1000(p, lo, hi, (char[CEDUO_NUMBER_ROOM]){0})
-#define SHORTEST(value)            ceduo_number_shortest(value, (char[CEDUO_NUMBER_ROOM]){0})
+/* With so many digits at most: 12, 0.5, 3e+06. */
+#define ROUNDED(value, digits) ceduo_words_rounded(value, digits, (char[CEDUO_NUMBER_ROOM]){0})
+#define SHORTEST(value)        ceduo_number_spoken(ceduo_number_shortest(value, (char[CEDUO_NUMBER_ROOM]){0}))
 
 #endif

@@ -38,9 +38,11 @@ def test_views():
 
 
 def test_numbers():
-    """The figures are the same, with a dot, in both languages"""
+    """The figures are the same; Italian has a comma where English has a dot"""
     for english, italian in both("key 1\nwait idle\ndump", "fast.yaml"):
-        expect_equal(*(sorted(re.findall(r"\d+\.\d+", str(screen).split("\n", 18)[2])) for screen in (italian, english)))
+        dots, commas = (re.findall(sign, str(screen)) for screen, sign in ((english, r"\d+\.\d+"), (italian, r"\d+,\d+")))
+        expect(dots, english)
+        expect_equal(sorted(figure.replace(",", ".") for figure in commas), sorted(dots), italian)
 
 
 def test_columns():
