@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Text in the language of the locale or of --language; data the same in each."""
+import csv
 import json
 import os
 import re
@@ -77,6 +78,80 @@ def test_whole():
             fuzzy = subprocess.run(["msgattrib", "--only-fuzzy", "--no-obsolete", language], capture_output=True, text=True,
                                    check=True).stdout
             expect_equal(fuzzy, "", "guessed")
+
+
+def glossary(name):
+    """The rows of a table beside the translations."""
+    with open(ROOT / "src/po" / name, encoding="utf-8", newline="") as table:
+        return list(csv.DictReader(table))
+
+
+def english(term):
+    """A term of the sources as a word, or its plural; the name of an option, a file or a key with dots is none."""
+    return re.compile(rf"(?<![\w.-]){term}(?:e?s)?(?!\w|[-._\[=]\w)", 0 if term.isupper() else re.IGNORECASE)
+
+
+def italian(words):
+    """Words as they are declined: all but the last vowel of each, and what follows; of short words, and with a dot, as they are."""
+    def stem(word):
+        return word[:-2] if re.search("[cg]i[aeo]$", word) else word[:-1] if len(word) > 3 and word[-1] in "aeiou" else word
+    return re.compile("|".join(r"\b" + r"\s+".join(re.escape(stem(word)) + r"\w*" for word in term.split())
+                               for term in words.split("/")), re.IGNORECASE)
+
+
+def forbidden(words):
+    """Words in the singular and the plural."""
+    ends = {"o": "[oi]", "a": "[ae]", "e": "[ei]"}
+    return re.compile("|".join(r"\b" + re.escape(word[:-1]) + ends.get(word[-1], re.escape(word[-1])) + r"\b"
+                               for word in words.split("/")), re.IGNORECASE)
+
+
+def messages():
+    """The English of the program and the Italian, singular and plural by themselves."""
+    done = subprocess.run(["msgattrib", "--no-obsolete", "--no-wrap", ROOT / "src/po/it.po"], capture_output=True, text=True,
+                          check=True)
+    found = []
+    for block in done.stdout.split("\n\n")[1:]:
+        texts = {}
+        for line in block.splitlines():
+            head = re.match(r'(msg\w+(?:\[\d\])?) ', line)
+            if head:
+                word, line = head[1], line[len(head[0]):]
+                texts[word] = ""
+            if line.startswith('"'):
+                texts[word] += json.loads(line)
+        pairs = (("msgid", "msgstr"), ("msgid", "msgstr[0]"), ("msgid_plural", "msgstr[1]"))
+        found += [(texts[one], texts[other]) for one, other in pairs if one in texts and other in texts]
+    return found
+
+
+def test_glossary():
+    """One Italian word for each term of src/po/glossary.csv, and no other; src/po/glossary-exceptions.csv says where not and why"""
+    terms = glossary("glossary.csv")
+    excepted = {(row["term"], row["message"].replace("\\n", "\n")): row["reason"] for row in glossary("glossary-exceptions.csv")}
+    expect(len(terms) >= 60 and all(row["source"] for row in terms) and all(excepted.values()), terms, excepted)
+    expect_equal(len({row["english"] for row in terms}), len(terms), "a term twice")
+    texts, wrong, needed, used = messages(), [], set(), set()
+    expect(len(texts) > 1500, len(texts))
+    # A longer term is looked for first, and is not there any more for a shorter one: standard deviation, standard.
+    spelled = sorted(((one, row) for row in terms for one in row["english"].split("/")), key=lambda pair: -len(pair[0]))
+    for source, translation in texts:
+        rest = re.sub(r"'[^'\s]*'", "''", source)  # what stands in quotes is a key or a name
+        for term, row in spelled:
+            if not english(term).search(rest):
+                continue
+            rest = english(term).sub("", rest)
+            used.add(row["english"])
+            never = forbidden(row["forbidden"]).search(translation) if row["forbidden"] else None
+            repeated = term not in row["forbidden"].split("/") and english(term).search(translation)  # a word of files or options
+            if never or not (repeated or italian(row["italian"]).search(translation)):
+                if (row["english"], source) in excepted:
+                    needed.add((row["english"], source))
+                else:
+                    wrong.append(f"{term}: {row['italian']}, never {row['forbidden']}: {source!r}: {translation!r}")
+    expect(not wrong, *wrong)
+    expect_equal(set(excepted) - needed, set(), "no exceptions any more")
+    expect_equal({row["english"] for row in terms} - used, set(), "terms that no message has")
 
 
 def test_data():
