@@ -104,10 +104,16 @@ struct ceduo_design_values {
     int survey, blocks; /* enum ceduo_quality */
 };
 
+/* What an office writes at the head of a report; NULL: not said. */
+struct ceduo_report_head {
+    char *place, *owner, *parcel, *author, *date, *note;
+};
+
 /* Everything that a run depends on. */
 struct ceduo_scene {
     char *title;
     char *title_it; /* in Italian; NULL: not said */
+    struct ceduo_report_head page;
     struct ceduo_rock_def rock;
     size_t blocks_count;              /* classes that do not overlap; 0: every rock is `rock` */
     struct ceduo_block_class *blocks; /* sizes that `rock` has, scaled */

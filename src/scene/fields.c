@@ -436,6 +436,20 @@ static const struct field minimum_fields[] = {
 };
 static const struct object minimum_object = OBJECT(scene_draft, minimum_fields, NULL);
 
+/* ---- the head of a report ---- */
+
+#define HEAD(key, label, meaning) TEXT(#key, NAMED(label, NULL), AT(ceduo_report_head, key), NO_RUN, meaning)
+
+static const struct field page_fields[] = {
+    HEAD(place, N_("place"), N_("where the slope is, such as the municipality")),
+    HEAD(owner, N_("owner"), N_("whose forest it is")),
+    HEAD(parcel, N_("parcel"), N_("its parcel in the register, or in the management plan")),
+    HEAD(author, N_("author"), N_("who answers for the report and signs it")),
+    HEAD(date, N_("date"), N_("when it was written, as it is to be printed")),
+    HEAD(note, N_("note"), N_("anything else, such as the number of the file")),
+};
+static const struct object page_object = OBJECT(ceduo_report_head, page_fields, NULL);
+
 /* ---- years ---- */
 
 static const struct field window_fields[] = {
@@ -451,6 +465,8 @@ static const struct field scene_fields[] = {
     TEXT("title", NAMED(N_("title"), NULL), AT(scene_draft, scene.title), NO_RUN, N_("title of the scene")),
     TEXT("title_it", NAMED(N_("title, in Italian"), NULL), AT(scene_draft, scene.title_it), NO_RUN,
          N_("its title on Italian pages; without it the title")),
+    GROUP("page", NAMED(N_("head of the report"), NULL), AT(scene_draft, scene.page), NO_RUN,
+          N_("what stands at the head of a report; all of it may be left out"), &page_object),
     GROUP("rock", NAMED(N_("rock"), NULL), AT(scene_draft, scene.rock), REQUIRED, N_("the rock"), &ceduo_rock_object),
     ITEMS("blocks", NAMED(N_("blocks that come down"), NULL), LIST(scene_draft, scene.blocks, scene.blocks_count), FIELD_OR_ONE,
           N_("sizes of the blocks that come down and how many a year; of one class, a mapping instead of the list"),

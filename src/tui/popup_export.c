@@ -3,9 +3,11 @@
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 
 #include "base/language.h"
 #include "base/must.h"
+#include "io/emit.h"
 #include "io/file.h"
 #include "popup.h"
 #include "popups.h"
@@ -153,19 +155,59 @@ static bool filled_export(struct app *app, struct popup *p)
     return good;
 }
 
+static void ask_for_file(struct app *app, size_t i)
+{
+    struct popup *q = ceduo_popup_fields(app, _("Export to a file"), filled_export);
+    snprintf(q->path, sizeof q->path, "%s", exports[i].name);
+    q->endings = strrchr(exports[i].file, '.');
+    q->typed_wins = true;
+    ceduo_popup_choice(q, _("file"), exports[i].file, ceduo_popup_offer_files);
+}
+
+/* What was typed is the scene's from then on, as one edit. */
+static bool filled_head(struct app *app, struct popup *p)
+{
+    const struct object *page = ceduo_schema_field(ceduo_schema_scene(), "page")->object;
+    LOCAL_TEXT(head);
+    for (size_t i = 0; i < p->fields_count; i++)
+        if (p->fields[i].text[0]) {
+            ceduo_text_format(&head, "%s%s: ", head.length > 0 ? ", " : "{", page->fields[i].key);
+            ceduo_emit_scalar(&head, p->fields[i].text, true);
+        }
+    if (head.length > 0) {
+        ceduo_text_char(&head, '}');
+        if (!ceduo_app_edited(app, ceduo_document_set(&app->document, "page", head.bytes, &app->problems)))
+            return false;
+    }
+    ask_for_file(app, export_of(p->path));
+    return true;
+}
+
+static void ask_for_head(struct app *app, const char *export)
+{
+    const struct object *page = ceduo_schema_field(ceduo_schema_scene(), "page")->object;
+    struct popup *p = ceduo_popup_fields(app, _("Head of the report"), filled_head);
+    char today[32];
+    time_t now = time(NULL);
+    struct tm local;
+    /* Translators: a date, as strftime() writes it. */
+    strftime(today, sizeof today, _("%Y-%m-%d"), localtime_r(&now, &local));
+    snprintf(p->path, sizeof p->path, "%s", export);
+    ceduo_text_put(&p->text, _("Each line may stay empty. What is written here is kept in the scene, as 'page'."));
+    for (size_t i = 0; i < page->n; i++)
+        ceduo_popup_field(p, _(page->fields[i].shown.label), strcmp(page->fields[i].key, "date") == 0 ? today : "");
+}
+
 static void chose_export(struct app *app, struct popup *p, const char *value)
 {
     size_t i = export_of(value);
     (void)p;
-    if (!exports[i].put) {
+    if (!exports[i].put)
         ceduo_popup_text(app, _("The batch command that gives the same"))->preview = show_command;
-        return;
-    }
-    struct popup *q = ceduo_popup_fields(app, _("Export to a file"), filled_export);
-    snprintf(q->path, sizeof q->path, "%s", value);
-    q->endings = strrchr(exports[i].file, '.');
-    q->typed_wins = true;
-    ceduo_popup_choice(q, _("file"), exports[i].file, ceduo_popup_offer_files);
+    else if (exports[i].put == put_report && !ceduo_document_node(&app->document, "page"))
+        ask_for_head(app, value);
+    else
+        ask_for_file(app, i);
 }
 
 /* ---- the clipboard ---- */

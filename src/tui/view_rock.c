@@ -40,6 +40,8 @@ static void build(struct app *app, struct form *form)
         ceduo_form_table(form, d, blocks, "blocks", columns, "");
     ceduo_form_fields(form, d, scene, "", design);
     ceduo_form_field(form, d, scene, "", "title", NULL);
+    ceduo_form_heading(form, _("Head of the report"));
+    ceduo_form_rest(form, d, scene, "", "page");
 }
 
 #define WIDE 70 /* columns that leave room for a remark */

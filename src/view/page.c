@@ -37,6 +37,13 @@ struct text *ceduo_page_fact(struct ceduo_page *page, const char *label)
     return &block->text;
 }
 
+struct text *ceduo_page_head_line(struct ceduo_page *page, const char *label)
+{
+    struct ceduo_page_block *block = add_block(page, CEDUO_PAGE_HEAD);
+    block->label = label;
+    return &block->text;
+}
+
 void ceduo_page_table(struct ceduo_page *page, const struct ceduo_page_column *columns, size_t n)
 {
     struct ceduo_page_block *table = add_block(page, CEDUO_PAGE_TABLE);

@@ -28,7 +28,8 @@ enum ceduo_page_kind {
     CEDUO_PAGE_ANSWER,   /* a sentence of the answer */
     CEDUO_PAGE_POINT,    /* its text begins with a label and a tab */
     CEDUO_PAGE_PICTURE,  /* only sinks that draw show it; its text is its title */
-    CEDUO_PAGE_CODE      /* lines as they are in a file */
+    CEDUO_PAGE_CODE,     /* lines as they are in a file */
+    CEDUO_PAGE_HEAD      /* of a report: a label and what it is; nothing: a line to write on */
 };
 
 struct ceduo_page_column {
@@ -72,7 +73,7 @@ struct ceduo_page_cell {
 struct ceduo_page_block {
     enum ceduo_page_kind kind;
     enum ceduo_role role; /* in a pane; BLANK: that of its kind */
-    const char *label;    /* of a fact */
+    const char *label;    /* of a fact, or in a head */
     struct text text;     /* UTF-8 with the signs – − ± as they should be; a sink makes it safe to print */
     const struct ceduo_page_column *columns;
     size_t columns_count;
@@ -101,6 +102,7 @@ struct ceduo_page {
 struct text *ceduo_page_add(struct ceduo_page *page, enum ceduo_page_kind kind);
 void ceduo_page_say(struct ceduo_page *page, enum ceduo_page_kind kind, const char *format, ...) CEDUO_PAGE_FORMAT(3);
 struct text *ceduo_page_fact(struct ceduo_page *page, const char *label);
+struct text *ceduo_page_head_line(struct ceduo_page *page, const char *label); /* of a report */
 
 /* Adds a table with its heads; then its cells, row by row, to the block added last. */
 void ceduo_page_table(struct ceduo_page *page, const struct ceduo_page_column *columns, size_t n);

@@ -35,6 +35,9 @@ static const char style[] =
     "dl{display:grid;grid-template-columns:max-content 1fr;gap:.5mm 4mm;margin:1mm 0}\n"
     "dt{color:#4a4a4a}\n"
     "dd{margin:0}\n"
+    ".head{grid-template-columns:max-content 1fr max-content 1fr;gap:1mm 4mm;padding:1.5mm 0;border:solid #4a4a4a;"
+    "border-width:.2mm 0}\n"
+    ".line{border-bottom:.3mm solid #1c1c1c;min-height:5.5mm}\n"
     "ul{margin:1mm 0;padding-left:5mm}\n"
     "table{border-collapse:collapse;width:100%;margin:1.2mm 0 2mm;font-size:8.25pt;line-height:1.18;"
     "font-variant-numeric:tabular-nums;break-inside:avoid}\n"
@@ -129,9 +132,9 @@ static const struct {
 static void write_block(struct ceduo_html *html, const struct ceduo_page_block *block)
 {
     const char *text = ceduo_text_string(&block->text);
-    if (block->kind == CEDUO_PAGE_FACT) {
+    if (block->kind == CEDUO_PAGE_FACT || block->kind == CEDUO_PAGE_HEAD) {
         ceduo_html_leaf(html, "dt", block->label, NULL);
-        ceduo_html_leaf(html, "dd", text, NULL);
+        ceduo_html_leaf(html, "dd", text, "class", text[0] ? NULL : "line", NULL);
     } else if (block->kind == CEDUO_PAGE_CODE) {
         const char *line = strchr(text, '\n');
         ceduo_html_leaf(html, "pre", text, "class", line && line[1] ? NULL : "line", NULL);
@@ -148,16 +151,21 @@ static void write_block(struct ceduo_html *html, const struct ceduo_page_block *
 void ceduo_page_html(struct ceduo_html *html, const struct ceduo_page *page, size_t number)
 {
     /* what stands around blocks of a kind that follow one another */
-    static const char *const lists[CEDUO_PAGE_CODE + 1] = {
-        [CEDUO_PAGE_ITEM] = "ul", [CEDUO_PAGE_FACT] = "dl", [CEDUO_PAGE_POINT] = "dl", [CEDUO_PAGE_ANSWER] = "div"};
+    static const struct {
+        const char *element, *class;
+    } lists[CEDUO_PAGE_HEAD + 1] = {[CEDUO_PAGE_ITEM] = {"ul", NULL},
+                                    [CEDUO_PAGE_FACT] = {"dl", NULL},
+                                    [CEDUO_PAGE_POINT] = {"dl", NULL},
+                                    [CEDUO_PAGE_HEAD] = {"dl", "head"},
+                                    [CEDUO_PAGE_ANSWER] = {"div", "answer"}};
     size_t pictures = 0;
     ceduo_html_open(html, "section", NULL);
     ceduo_text_char(html->text, '\n');
     for (const struct ceduo_page_block *b = page->first, *last = NULL; b; last = b, b = b->next) {
-        const char *list = lists[b->kind];
+        const char *list = lists[b->kind].element;
         bool follows = last && last->kind == b->kind, goes_on = b->next && b->next->kind == b->kind;
         if (list && !follows)
-            ceduo_html_open(html, list, "class", b->kind == CEDUO_PAGE_ANSWER ? "answer" : NULL, NULL);
+            ceduo_html_open(html, list, "class", lists[b->kind].class, NULL);
         if (b->kind == CEDUO_PAGE_TABLE)
             write_table(html, b, last && last->kind == CEDUO_PAGE_CAPTION ? last : NULL);
         else if (b->kind == CEDUO_PAGE_PICTURE) {

@@ -47,6 +47,17 @@ static bool is_crowded(const struct ceduo_chapter *c)
 
 /* ---- sections ---- */
 
+/* What the scene says for it; there is always room to date and to sign. */
+static void add_head(struct ceduo_page *page, const struct ceduo_report_head *head)
+{
+    const char *const lines[][2] = {{_("Place"), head->place},   {_("Owner"), head->owner}, {_("Parcel"), head->parcel},
+                                    {_("Author"), head->author}, {_("Note"), head->note},   {_("Date"), head->date},
+                                    {_("Signature"), NULL}};
+    for (size_t i = 0, n = sizeof lines / sizeof lines[0]; i < n; i++)
+        if (i + 2 >= n || (lines[i][1] && lines[i][1][0]))
+            ceduo_text_put(ceduo_page_head_line(page, lines[i][0]), lines[i][1] ? lines[i][1] : "");
+}
+
 #define SLOPE_ROWS  19
 #define ENERGY_ROWS 11
 
@@ -185,6 +196,7 @@ void ceduo_page_chapter(struct ceduo_page *page, const struct ceduo_chapter *c)
     const struct ceduo_scene *scene = c->report->result->scene;
     bool controls = scene->controls_count > 0, several = scene->options_count > 1;
     ceduo_page_say(page, CEDUO_PAGE_TITLE, "%s", ceduo_in_language(scene->title, scene->title_it));
+    add_head(page, &scene->page);
     struct ceduo_report report = *c->report;
     report.doubt = c->doubt;
     ceduo_page_question(page, report.result);

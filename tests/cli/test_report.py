@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """--report: one HTML file that is well formed, needs nothing from elsewhere, and is the same each time."""
 import html
+import json
 import math
 import os
 import re
@@ -13,7 +14,7 @@ from html.parser import HTMLParser
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
-from harness import (INPUT, OUTPUT, PROFILES, USAGE, Folder, ceduo, expect, expect_equal, expect_in, good,  # noqa: E402
+from harness import (CEDUO, INPUT, OUTPUT, PROFILES, USAGE, Folder, ceduo, expect, expect_equal, expect_in, good,  # noqa: E402
                      run_all, scene)
 
 FEW = ("-n", 60, "-s", "doubt=none", "-j", 2)
@@ -103,7 +104,7 @@ def test_command():
     first, page = report("-s", "title=It's 'so' $HOME", "--option", "large reserves", "four-systems", few=DOUBT)
     command = page.text["pre"].split("ceduo: scene/1")[0]
     shell = command.replace("ceduo --report report.html", '"$CEDUO" --report -', 1)
-    env = {**os.environ, "LC_ALL": "C.UTF-8"}
+    env = {**os.environ, "CEDUO": CEDUO, "LC_ALL": "C.UTF-8"}
     again = subprocess.run(["sh", "-c", shell], env=env, cwd=PROFILES.parent, capture_output=True, text=True, check=True).stdout
     expect_equal(again, first, command)
     expect_in("ceduo 0.", page.text["dd"])
@@ -162,6 +163,29 @@ def test_odd_titles():
     expect_in(html.escape("]]> --> &lt; \\x07\\xef\\xb7\\x90\\xef\\xbf\\xbe\\xf0\\x9f\\xbf\\xbf<svg onload=x>", quote=True), text)
 
 
+HEAD = {"place": "Serra <b>", "owner": "Comune di 'Serra'", "parcel": "12 & 14/b", "author": "dott. for. A. Rossi",
+        "date": "24/11/2026", "note": "prot. 1402"}
+
+
+def test_head():
+    """The head holds what the scene says for it, escaped, and always a line to sign; what is not said is left out, but for the
+    date, which has a line of its own"""
+    lines = re.compile(r'<dl class="head">(.*?)</dl>', re.S)
+    text, page = report("-s", "page=" + json.dumps(HEAD), "paper-site")
+    check_page(text, page)
+    expect_equal(lines.search(text)[1], "\n".join(f"<dt>{key.capitalize()}</dt>\n<dd>{html.escape(HEAD[key]).replace('&#x27;', '&#39;')}</dd>"
+                                                  for key in ("place", "owner", "parcel", "author", "note", "date")) +
+                 '\n<dt>Signature</dt>\n<dd class="line"></dd>\n')
+    expect_equal(lines.search(report("-s", "page={date: ''}", "paper-site")[0])[1],
+                 '<dt>Date</dt>\n<dd class="line"></dd>\n<dt>Signature</dt>\n<dd class="line"></dd>\n', "of a scene that says nothing")
+    for key, value in HEAD.items():
+        expect_in(f"<dd>{html.escape(value).replace('&#x27;', '&#39;')}</dd>", report("-s", f"page.{key}={json.dumps(value)}", "terrace")[0])
+    plain, headed = (good("-b", "-f", "csv", *FEW, *more, "paper-site").out for more in ((), ("-s", "page=" + json.dumps(HEAD))))
+    expect_equal(headed, plain, "no figure differs")
+    listed = good("--list-parameters").out
+    expect(all(re.search(rf"^page\.{key} +text ", listed, re.M) for key in HEAD), listed)
+
+
 EVERYTHING = ("-s", "blocks={per_year: 0.5, volume_m3: [0.01, 2], exponent: 1.1}", "-s", "rules=toscana", "-s",
               "design={survey: good, blocks: poor}", "-s",
               "controls=[{x_m: 100, name: path, accepted_kJ: 30}, {x_m: 135, name: road, accepted_kJ: 50}]")
@@ -200,8 +224,8 @@ def test_chapters():
     """Several scenes give chapters in their order; a bad one is told and left out"""
     text, page = report("paper-site", "terrace", "staggered")
     check_page(text, page)
-    expect_equal(page.names.count("h1"), 3, "chapters")
-    expect_equal(page.names.count("section"), 3, "sections")
+    expect_equal(page.names.count("h1"), 4, "what is said of all, and chapters")
+    expect_equal(page.names.count("section"), 4, "sections")
     with Folder() as f:
         bad = f.path / "bad.yaml"
         bad.write_text("ceduo: scene/1\n")

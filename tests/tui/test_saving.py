@@ -322,7 +322,7 @@ def test_export():
             type table.csv
             key Enter
             key w Down Down Down Down Enter Enter
-            key w Down Down Down Down Down Enter Enter
+            key w Down Down Down Down Down Enter Enter Enter Enter Enter Enter Enter Enter
             key w Down Down Down Down Down Down Enter Enter
             clear
             key w Enter Enter
@@ -353,6 +353,41 @@ def test_export():
         line = json.loads(place.text("ceduo.json"))
         expect_equal([o["name"] for o in line["options"]], ["thick", "thin", "none left"], "options in JSON")
         expect_equal(line["format"], "ceduo-result-1", "format")
+
+
+def test_report_head():
+    """A report asks once for its head: lines may stay empty, and what is typed is kept in the scene and stands on the page."""
+    with Place() as place:
+        screens = place.play("""
+            wait idle
+            key w Down Down Down Down Down Enter
+            dump
+            type Serra 'de\u2019 Conti': <b>
+            key Enter Enter Enter Enter Ctrl-U
+            type 2026-11-24
+            key Enter Enter
+            dump
+            key Enter
+            wait idle
+            key w Down Down Down Down Down Enter
+            dump
+            key Esc
+            type u
+            key w Down Down Down Down Down Enter
+            dump
+            key Esc
+            key Ctrl-R
+            type s
+            dump""", "options.yaml")
+        screens[0].has("Head of the report", "place", "owner", "parcel", "author", "date", "note", "Each line may stay empty")
+        screens[1].has("Export to a file", "ceduo.html")
+        screens[2].has("Export to a file", "ceduo.html")
+        screens[3].has("Head of the report")
+        report, kept = place.text("ceduo.html"), place.text("options.yaml")
+        expect_in("<dt>Place</dt>\n<dd>Serra &#39;de\u2019 Conti&#39;: &lt;b&gt;</dd>\n<dt>Date</dt>\n<dd>2026-11-24</dd>", report, "the head")
+        expect("<dt>Owner</dt>" not in report, "an empty line is left out")
+        for line in ("place: \"Serra 'de\u2019 Conti': <b>\"", 'date: "2026-11-24"'):
+            expect_in(line, kept, "kept in the scene")
 
 
 def test_export_command():
