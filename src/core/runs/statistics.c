@@ -161,62 +161,17 @@ struct ceduo_distribution ceduo_distribution_by(ceduo_ranks_fn *of_ranks, void *
 
 /* ---- values of ranks ---- */
 
-#define BUCKETS      4096
-#define BUCKETS_FROM ((size_t)8 * BUCKETS) /* values: fewer are found sooner without */
-
 struct values {
     double *of;
     size_t n;
 };
 
-/* Which of equally wide ranges of values from `lo` on a value is in. */
-static inline size_t bucket_of(double value, double lo, double per_unit)
-{
-    return (size_t)((value - lo) * per_unit);
-}
-
-/* Puts the values in front that share a bucket with one of these ranks; returns their number. The ranks are then those
- * among them. */
-static size_t keep_buckets(const struct values *v, double lo, double per_unit, size_t *ranks, size_t count)
-{
-    uint64_t held[BUCKETS + 1] = {0};
-    bool wanted[BUCKETS + 1] = {false};
-    for (size_t i = 0; i < v->n; i++)
-        held[bucket_of(v->of[i], lo, per_unit)]++;
-    size_t below = 0, left_out = 0;
-    for (size_t bucket = 0, i = 0; i < count; bucket++) {
-        size_t through = below + held[bucket];
-        wanted[bucket] = ranks[i] <= through;
-        for (; i < count && ranks[i] <= through; i++)
-            ranks[i] -= left_out;
-        left_out += wanted[bucket] ? 0 : held[bucket];
-        below = through;
-    }
-    size_t kept = 0;
-    for (size_t i = 0; i < v->n; i++) { /* no branch depends on a value */
-        double value = v->of[i];
-        v->of[i] = v->of[kept];
-        v->of[kept] = value;
-        kept += wanted[bucket_of(value, lo, per_unit)];
-    }
-    return kept;
-}
-
 static void exact_ranks(void *context, const size_t *ranks, size_t count, double *to)
 {
-    struct values *v = context;
-    size_t n = v->n, among[RANKS];
-    memcpy(among, ranks, count * sizeof *ranks);
-    if (n >= BUCKETS_FROM) {
-        double lo, hi;
-        gsl_stats_minmax(&lo, &hi, v->of, 1, n);
-        double per_unit = BUCKETS / (hi - lo);
-        if (isnormal(per_unit))
-            n = keep_buckets(v, lo, per_unit, among, count);
-    }
+    const struct values *v = context;
     for (size_t i = 0, from = 0; i < count; i++) { /* each among those that are not smaller than the one before */
-        to[i] = gsl_stats_select(v->of + from, 1, n - from, among[i] - 1 - from);
-        from = among[i] - 1;
+        to[i] = gsl_stats_select(v->of + from, 1, v->n - from, ranks[i] - 1 - from);
+        from = ranks[i] - 1;
     }
 }
 
