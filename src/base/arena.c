@@ -60,6 +60,7 @@ char *ceduo_arena_vformat(struct arena *arena, const char *format, va_list args)
 {
     LOCAL_TEXT(text);
     ceduo_text_vformat(&text, format, args);
+    arena->failed |= text.failed;
     return text.failed ? NULL : ceduo_arena_string(arena, ceduo_text_string(&text));
 }
 
