@@ -11,6 +11,7 @@
 
 #include "base/language.h"
 #include "ceduo/number.h"
+#include "scene/fields.h"
 
 #define KEYS_SHOWN_MOST 32
 
@@ -444,74 +445,53 @@ static void add_note(struct binder *b, const char *kind, const char *text, const
         ceduo_problem_memory(b->problems);
 }
 
-/* The values that a source says it is not of: they get notes of their own, and its text names them. */
-static void except_values(struct binder *b, const struct node *list, struct text *text)
+static void bind_map(struct binder *b, const struct object *object, const struct node *node, void *item);
+
+/* source: {kind: measured|literature|assumed|calibrated, text: …, text_it: …, except: […]} may stand in any mapping. */
+struct source_said {
+    int kind;
+    char *text, *text_it, **except; /* except: values that it is not of */
+    size_t except_count;
+};
+
+#define UNSAID NAMED(NULL, NULL)
+static const char *const source_kinds[] = {"measured", "literature", "assumed", "calibrated"};
+static const struct choices source_words = {.names = source_kinds, .n = 4};
+static const struct field source_fields[] = {
+    WORD("kind", UNSAID, AT(source_said, kind), REQUIRED, NULL, N_("measured, literature, assumed or calibrated"),
+         &source_words),
+    TEXT("text", UNSAID, AT(source_said, text), 0, ""),
+    TEXT("text_it", UNSAID, AT(source_said, text_it), 0, ""),
+    OTHER(FIELD_WORDS, "except", UNSAID, LIST(source_said, except, except_count), 0, NULL, "", NULL, NULL),
+};
+static const struct object source_object = OBJECT(source_said, source_fields, NULL);
+
+/* Notes what a source says; the values that it is not of get notes of their own, and its text names them. */
+static void bind_source(struct binder *b, const struct node *node)
 {
-    for (size_t i = 0; i < list->n; i++) {
-        if (i == 0)
-            ceduo_text_format(text, _("changed since: %s"), list->items[i]->text);
-        else
-            ceduo_text_format(text, ", %s", list->items[i]->text);
-        size_t before = enter(b, list->items[i]->text);
+    struct source_said said;
+    LOCAL_TEXT(changed);
+    size_t before = enter(b, "source");
+    ceduo_schema_init(&source_object, &said);
+    bind_map(b, &source_object, node, &said);
+    leave(b, before);
+    if (said.kind < 0)
+        return;
+    for (size_t i = 0; i < said.except_count; i++) {
+        ceduo_text_format(&changed, i == 0 ? _("changed since: %s") : ", %s", said.except[i]);
+        before = enter(b, said.except[i]);
         add_note(b, "changed", _("the source around it is not of this value"), NULL);
         leave(b, before);
     }
-}
-
-static bool check_except(struct binder *b, const struct node *list)
-{
-    if (list->kind != NODE_LIST) {
-        report(b, list, _("expected a list of keys"));
-        return false;
-    }
-    for (size_t i = 0; i < list->n; i++)
-        if (!want_scalar(b, list->items[i], _("a key")))
-            return false;
-    return true;
-}
-
-/* source: {kind: measured|literature|assumed|calibrated, text: …, text_it: …, except: […]} may stand in any mapping. */
-static void bind_source(struct binder *b, const struct node *node)
-{
-    static const char *const kinds[] = {"measured", "literature", "assumed", "calibrated"};
-    static const struct choices kind_choices = {.names = kinds, .n = 4};
-    size_t before = enter(b, "source");
-    const char *texts[2] = {"", NULL}; /* in English, in Italian */
-    const struct node *except = NULL;
-    int kind = -1;
-    if (node->kind != NODE_MAP)
-        report(b, node, _("expected a mapping {kind, text}"));
-    for (size_t i = 0; node->kind == NODE_MAP && i < node->n; i++) {
-        const struct node *entry = node->items[i];
-        size_t outer = enter(b, entry->key);
-        if (strcmp(entry->key, "kind") == 0)
-            bind_choice(b, &kind_choices, entry, &kind);
-        else if (strcmp(entry->key, "text") == 0)
-            bind_text(b, entry, &texts[0]);
-        else if (strcmp(entry->key, "text_it") == 0)
-            bind_text(b, entry, &texts[1]);
-        else if (strcmp(entry->key, "except") == 0)
-            except = check_except(b, entry) ? entry : NULL;
-        else
-            report_key(b, entry, _("unknown key; known here: kind, text, text_it, except"));
-        leave(b, outer);
-    }
-    if (node->kind == NODE_MAP && !ceduo_node_get(node, "kind"))
-        report(b, node, _("'kind' is missing: measured, literature, assumed or calibrated"));
-    leave(b, before);
-    if (kind < 0)
-        return;
-    struct text changed = {0}, whole[2] = {{0}, {0}};
-    if (except)
-        except_values(b, except, &changed);
+    const char *const texts[2] = {said.text, said.text_it};
+    struct text whole[2] = {{0}, {0}};
     for (int i = 0; i < 2; i++) {
         ceduo_text_put(&whole[i], texts[i] ? texts[i] : "");
         if (changed.length > 0)
             ceduo_text_then(&whole[i], "; ", "%s", ceduo_text_string(&changed));
     }
-    add_note(b, kinds[kind], ceduo_text_string(&whole[0]), texts[1] ? ceduo_text_string(&whole[1]) : NULL);
+    add_note(b, source_kinds[said.kind], ceduo_text_string(&whole[0]), texts[1] ? ceduo_text_string(&whole[1]) : NULL);
     b->problems->memory |= changed.failed || whole[0].failed || whole[1].failed;
-    ceduo_text_free(&changed);
     ceduo_text_free(&whole[0]);
     ceduo_text_free(&whole[1]);
 }
@@ -575,13 +555,13 @@ static void bind_map(struct binder *b, const struct object *object, const struct
             i++;
         } else if (f) {
             size_t before = enter(b, entry->key);
-            const struct field *other = ceduo_schema_unit(object, f);
-            if (other && other < f && ceduo_node_get(node, other->key))
-                report(b, entry, _("%s already says this; keep one of the two"), other->key);
+            const char *other = ceduo_schema_other(object, f->key);
+            if (other && ceduo_schema_field(object, other) < f && ceduo_node_get(node, other))
+                report(b, entry, _("%s already says this; keep one of the two"), other);
             else
                 bind_field(b, f, entry, item);
             leave(b, before);
-        } else if (strcmp(entry->key, "source") == 0) {
+        } else if (strcmp(entry->key, "source") == 0 && object != &source_object) {
             bind_source(b, entry);
         } else {
             report_unknown_key(b, object, entry);

@@ -388,7 +388,7 @@ static const struct node *set_entry(struct setter *s, const struct object *objec
     s->sourced |= needs_no_source(s, f, key, last ? child : NULL);
     child = set_in(s, f, f && f->type == FIELD_GROUP ? f->object : NULL, child, at);
     map = child ? tell_source(s, map, step) : NULL;
-    const char *other = object ? ceduo_schema_other(object, key) : NULL;
+    const char *other = f && f->type == FIELD_NUMBER ? ceduo_schema_other(object, key) : NULL;
     if (map && other)
         map = ceduo_node_without(s->arena, map, other);
     map = map && last ? without_translation(s->arena, map, key, NULL) : map;

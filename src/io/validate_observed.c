@@ -199,17 +199,6 @@ static bool take_values(const struct place *p)
     return !of_table || ceduo_complain(v, p->at, of_table, _("names something of a table; name the table, csv"));
 }
 
-static bool check_on_slope(const struct place *p, const char *path, const char *key, double x)
-{
-    struct validator *v = p->v;
-    double lo = v->origin, hi = v->draft.scene.slope.x[v->draft.scene.slope.vertices - 1] + lo;
-    if (x < lo)
-        return ceduo_complain(v, path, key, _("%s lies before the slope, which begins at %s m"), ceduo_decimal(v, x),
-                              ceduo_decimal(v, lo));
-    return !(x > hi) || ceduo_complain(v, path, key, _("%s lies beyond the slope, which ends at %s m"), ceduo_decimal(v, x),
-                                       ceduo_decimal(v, hi));
-}
-
 /* Either values, or their mean, sd and number. */
 static bool check_form(const struct place *p)
 {
@@ -233,7 +222,7 @@ static bool check_each(const struct place *p)
         double x = values->values[i];
         const char *path = ceduo_node_get(p->node, "csv") ? ceduo_format(v, "%s.csv", p->at)
                                                           : ceduo_format(v, "%s.%s[%zu]", p->at, p->is->list, i);
-        if (stops && !check_on_slope(p, path, "", x))
+        if (stops && !ceduo_check_on_slope(p->v, path, "", x))
             return false;
         if (stops && x < values->seen_from)
             return ceduo_complain(v, path, "", _("%s lies before seen_from_m, %s"), ceduo_decimal(v, x),
@@ -252,32 +241,25 @@ static bool check_released(const struct place *p)
     return of == 0 || observed <= of || ceduo_complain(p->v, p->at, "of", _("%llu were seen of %llu released"), observed, of);
 }
 
-static bool check_stretch(const struct place *p, const char *path, double from, double to)
-{
-    return check_on_slope(p, path, "from_m", from) && check_on_slope(p, path, "to_m", to) &&
-           (to > from || ceduo_complain(p->v, path, "to_m", _("%s does not lie beyond from_m, %s"), ceduo_decimal(p->v, to),
-                                        ceduo_decimal(p->v, from)));
-}
-
 static bool check_values(const struct place *p)
 {
     const struct observed_values *values = p->values;
     double last = ceduo_number_highest(p->release->x) + p->v->origin;
     switch (p->is->where) {
     case CEDUO_WHERE_AT_REST:
-        return check_on_slope(p, p->at, "seen_from_m", values->seen_from) && check_each(p) && check_released(p);
+        return ceduo_check_on_slope(p->v, p->at, "seen_from_m", values->seen_from) && check_each(p) && check_released(p);
     case CEDUO_WHERE_AT_PLACE:
-        return (!p->is->list || check_form(p)) && check_on_slope(p, p->at, "x_m", values->x) &&
+        return (!p->is->list || check_form(p)) && ceduo_check_on_slope(p->v, p->at, "x_m", values->x) &&
                (values->x > last || ceduo_complain(p->v, p->at, "x_m", _("%s does not lie beyond the release, %s m"),
                                                    ceduo_decimal(p->v, values->x), ceduo_decimal(p->v, last))) &&
                (p->is->list ? check_each(p) : check_released(p));
     case CEDUO_WHERE_ON_STEMS: /* of which a rock may strike several */
-        return check_stretch(p, p->at, values->from, values->to) && check_each(p);
+        return ceduo_check_stretch(p->v, p->at, values->from, values->to) && check_each(p);
     case CEDUO_WHERE_LARGEST:
         return check_form(p) && check_each(p);
     case CEDUO_WHERE_ALONG:
         return check_form(p) && check_each(p) &&
-               check_stretch(p, ceduo_format(p->v, "%s.on_the_way", p->row_path), p->row->way_from, p->row->way_to);
+               ceduo_check_stretch(p->v, ceduo_format(p->v, "%s.on_the_way", p->row_path), p->row->way_from, p->row->way_to);
     }
     return false;
 }

@@ -134,10 +134,6 @@ void ceduo_validate_controls(struct validator *v)
     size_t n = listed ? scene->controls_count : v->draft.controls_m_count;
     const char *path = listed ? "controls" : "controls_m";
     scene->controls_count = 0;
-    if (ceduo_node_get(v->root, "controls") && ceduo_node_get(v->root, "controls_m")) {
-        ceduo_complain(v, "controls_m", "", _("controls already say this; keep one of the two"));
-        return;
-    }
     if (!ceduo_is_known(v, "controls") || !ceduo_is_known(v, "controls_m"))
         return;
     if (n == 0) {
@@ -146,7 +142,6 @@ void ceduo_validate_controls(struct validator *v)
     }
     if (ceduo_is_too_long(v, path, n) || (!listed && !(scene->controls = ceduo_room(v, n, sizeof *scene->controls))))
         return;
-    double end = v->profile ? scene->slope.x[scene->slope.vertices - 1] : INFINITY;
     bool starts = v->profile && ceduo_is_sound(v, "release.x_m");
     double last = starts ? ceduo_number_highest(scene->release.x) : -INFINITY;
     for (size_t i = 0; i < n; i++) {
@@ -161,10 +156,9 @@ void ceduo_validate_controls(struct validator *v)
         const char *here = ceduo_decimal(v, c->x_given);
         while (k < i && scene->controls[k].x != c->x)
             k++;
-        if (c->x > end)
-            ceduo_complain(v, at, "", _("%s lies beyond the slope, which ends at %s m"), here,
-                           ceduo_decimal(v, end + v->origin));
-        else if (c->x <= last)
+        if (!ceduo_check_on_slope(v, at, "", c->x_given))
+            continue;
+        if (c->x <= last)
             ceduo_complain(v, at, "", _("%s does not lie beyond the release, %s m"), here, ceduo_decimal(v, last + v->origin));
         else if (k < i)
             ceduo_complain(v, at, "", _("%s is given twice"), here);

@@ -20,8 +20,6 @@ static bool read_vertices(struct validator *v, struct points *p)
 {
     const struct ceduo_slope *s = &v->draft.scene.slope;
     bool csv = is_given(v, "csv"), list = is_given(v, "vertices_m");
-    if (csv && list)
-        return ceduo_complain(v, "slope", "", _("vertices_m and csv together; keep one"));
     if (!csv && !list)
         return ceduo_complain(v, "slope", "", _("'vertices_m' is missing: the profile"));
     *p = (struct points){.x = s->x, .z = s->z, .n = s->vertices};
@@ -42,7 +40,7 @@ static bool read_vertices(struct validator *v, struct points *p)
 /* Rocks go along x, so x must rise and the profile fall; one that was drawn from below is known by its ends. */
 static bool check_vertices(struct validator *v, const struct points *p)
 {
-    bool csv = is_given(v, "csv"), reversed = v->draft.scene.slope.reversed, rising = true;
+    bool csv = !is_given(v, "vertices_m"), reversed = v->draft.scene.slope.reversed, rising = true;
     const char *path = csv ? "slope.csv" : "slope.vertices_m";
     if (p->n < 2) {
         ceduo_complain(v, path, "", _("a profile needs two vertices or more"));
@@ -103,9 +101,6 @@ static void check_segments(struct validator *v, size_t n)
                        _("%zu segments for %zu stretches between vertices; give one for each, or one for all"), given, n);
     for (size_t i = 0; i < given; i++) {
         struct ceduo_segment *g = &s->segments[i];
-        if (!isnan(g->roughness_m) && !isnan(g->roughness_rad))
-            ceduo_complain(v, ceduo_format(v, "slope.segments[%zu]", i), "roughness_m",
-                           _("roughness_rad already says this; keep one"));
         if (isnan(g->roughness_m) && isnan(g->roughness_rad))
             g->roughness_rad = smooth;
     }
@@ -120,13 +115,11 @@ static void check_materials(struct validator *v, const struct points *p)
         ceduo_complain(v, "slope.materials", "", _("the list is empty"));
     for (size_t i = 0; i < n; i++) {
         double wanted = i > 0 ? rows[i - 1].to : p->n > 0 ? p->x[0] : NAN;
-        if (rows[i].to <= rows[i].from)
-            ceduo_complain(v, ceduo_format(v, "slope.materials[%zu]", i), "to_m", _("%s does not lie beyond from_m, %s"),
-                           ceduo_decimal(v, rows[i].to), ceduo_decimal(v, rows[i].from));
-        else if (rows[i].from > wanted || (i > 0 && rows[i].from < wanted))
-            ceduo_complain(v, ceduo_format(v, "slope.materials[%zu]", i), "from_m",
-                           _("%s leaves a gap or overlaps; it must begin at %s"), ceduo_decimal(v, rows[i].from),
-                           ceduo_decimal(v, wanted));
+        const char *path = ceduo_format(v, "slope.materials[%zu]", i);
+        if (ceduo_check_ends_behind(v, path, rows[i].from, rows[i].to) &&
+            (rows[i].from > wanted || (i > 0 && rows[i].from < wanted)))
+            ceduo_complain(v, path, "from_m", _("%s leaves a gap or overlaps; it must begin at %s"),
+                           ceduo_decimal(v, rows[i].from), ceduo_decimal(v, wanted));
     }
     if (v->problems->met == before && p->n > 0 && rows[n - 1].to < p->x[p->n - 1])
         ceduo_complain(v, ceduo_format(v, "slope.materials[%zu]", n - 1), "to_m", _("%s ends before the profile, at %s"),
@@ -283,8 +276,6 @@ void ceduo_validate_slope(struct validator *v)
     if (profile && !make_vertices(v, &p, v->draft.materials_count))
         return;
     size_t before = v->problems->met;
-    if (segments && materials)
-        ceduo_complain(v, "slope.materials", "", _("segments already give the ground; keep one of the two"));
     if (!segments && !materials && !is_given(v, "csv"))
         ceduo_complain(v, "slope", "", _("'segments' or 'materials' is missing: the ground"));
     if (segments && ceduo_is_known(v, "slope.segments"))

@@ -42,9 +42,7 @@ static void check_densities(struct validator *v, const char *path, const struct 
         const struct ceduo_stems *stems = &s->shoots[i];
         const char *here = ceduo_format(v, "%s.shoots[%zu]", path, i);
         bool each = is_written(v, here, "per_stool");
-        if (each && is_written(v, here, "per_ha"))
-            ceduo_complain(v, here, "per_stool", _("per_ha already says this; keep one of the two"));
-        else if (!each && lacks(v, stems->per_ha, here, ".per_ha") && ceduo_is_known(v, "%s.per_stool", here))
+        if (!each && lacks(v, stems->per_ha, here, ".per_ha") && ceduo_is_known(v, "%s.per_stool", here))
             ceduo_complain(v, here, "", _("'per_ha' or 'per_stool' is missing: how many shoots there are"));
         else if (each && !is_written(v, path, "stools.per_ha") && ceduo_is_known(v, "%s.stools.per_ha", path))
             ceduo_complain(v, path, "shoots", _("shoots without stools; add 'stools: {per_ha: …, spacing_m: …}'"));
@@ -123,25 +121,14 @@ static bool is_as_named(struct validator *v, const struct node *stand)
 
 static void make_belts(struct validator *v, const char *path, struct ceduo_option *option)
 {
-    const struct ceduo_slope *s = &v->draft.scene.slope;
-    double begin = v->profile ? v->origin : -INFINITY, end = v->profile ? s->x[s->vertices - 1] + v->origin : INFINITY;
     for (size_t i = 0; i < option->belts_count; i++) {
         struct ceduo_belt *belt = &option->belts[i];
         const char *here = ceduo_format(v, "%s[%zu]", path, i), *stand = ceduo_format(v, "%s.stand", here), *within;
         size_t used;
         const double from = belt->from_given, to = belt->to_given, before = i > 0 ? belt[-1].to_given : -INFINITY;
-        if (to <= from)
-            ceduo_complain(v, here, "to_m", _("%s does not lie beyond from_m, %s"), ceduo_decimal(v, to),
-                           ceduo_decimal(v, from));
-        else if (from < before)
+        if (ceduo_check_stretch(v, here, from, to) && from < before)
             ceduo_complain(v, here, "from_m", _("%s lies before the end of the belt before it, %s; belts must not overlap"),
                            ceduo_decimal(v, from), ceduo_decimal(v, before));
-        else if (from < begin)
-            ceduo_complain(v, here, "from_m", _("%s lies before the slope, which begins at %s m"), ceduo_decimal(v, from),
-                           ceduo_decimal(v, begin));
-        if (to > from && to > end)
-            ceduo_complain(v, here, "to_m", _("%s lies beyond the slope, which ends at %s m"), ceduo_decimal(v, to),
-                           ceduo_decimal(v, end));
         belt->from = belt->from_given - v->origin;
         belt->to = belt->to_given - v->origin;
         const struct node *node = ceduo_resolve_walk(v->root, stand, &within, &used);
@@ -163,10 +150,6 @@ void ceduo_validate_options(struct validator *v)
     bool many = ceduo_node_get(v->root, "options") != NULL;
     size_t n = scene->options_count;
     scene->options_count = 0;
-    if (many && ceduo_node_get(v->root, "forest")) {
-        ceduo_complain(v, "forest", "", _("options already say this; keep one of the two"));
-        return;
-    }
     if (!ceduo_is_known(v, "options"))
         return;
     if (many && n == 0)

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "validator.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "base/language.h"
@@ -107,6 +108,29 @@ void ceduo_check_name(struct validator *v, const char *list, size_t i, const cha
 {
     if (name && other && strcmp(name, other) == 0)
         ceduo_complain(v, ceduo_format(v, "%s[%zu]", list, i), "name", _("'%s' is given twice; names must differ"), name);
+}
+
+bool ceduo_check_on_slope(struct validator *v, const char *path, const char *key, double x)
+{
+    const struct ceduo_slope *s = &v->draft.scene.slope;
+    double end = v->profile ? s->x[s->vertices - 1] + v->origin : INFINITY;
+    if (v->profile && x < v->origin)
+        return ceduo_complain(v, path, key, _("%s lies before the slope, which begins at %s m"), ceduo_decimal(v, x),
+                              ceduo_decimal(v, v->origin));
+    return !(x > end) || ceduo_complain(v, path, key, _("%s lies beyond the slope, which ends at %s m"), ceduo_decimal(v, x),
+                                        ceduo_decimal(v, end));
+}
+
+bool ceduo_check_ends_behind(struct validator *v, const char *path, double from, double to)
+{
+    return !(to <= from) || ceduo_complain(v, path, "to_m", _("%s does not lie beyond from_m, %s"), ceduo_decimal(v, to),
+                                           ceduo_decimal(v, from));
+}
+
+bool ceduo_check_stretch(struct validator *v, const char *path, double from, double to)
+{
+    return ceduo_check_ends_behind(v, path, from, to) && ceduo_check_on_slope(v, path, "from_m", from) &&
+           ceduo_check_on_slope(v, path, "to_m", to);
 }
 
 void *ceduo_more_room(struct validator *v, void *items, size_t n, size_t more, size_t *room, size_t size)

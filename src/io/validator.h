@@ -70,6 +70,13 @@ void ceduo_assume(struct validator *v, const char *path, const char *text);
 /* Reports a list that is longer than anybody reads. */
 bool ceduo_is_too_long(struct validator *v, const char *path, size_t n);
 
+/* Whether x, in the slope's coordinates, lies on the profile (or that is not known); otherwise it is reported. */
+bool ceduo_check_on_slope(struct validator *v, const char *path, const char *key, double x);
+
+/* The same of a stretch, from_m to to_m of the mapping at `path`, which ends behind its begin. */
+bool ceduo_check_stretch(struct validator *v, const char *path, double from, double to);
+bool ceduo_check_ends_behind(struct validator *v, const char *path, double from, double to);
+
 /* Reports a name that one of the first i - 1 items of a list has, too. */
 void ceduo_check_name(struct validator *v, const char *list, size_t i, const char *name, const char *other);
 

@@ -280,7 +280,9 @@ const char *ceduo_schema_gone(const struct object *object, const char *key)
 
 const char *ceduo_schema_other(const struct object *object, const char *key)
 {
-    static const char *const pairs[][2] = {{"per_ha", "per_stool"}, {"dbh_m", "dbh_cm"}, {"dbh_sd_m", "dbh_sd_cm"}};
+    static const char *const pairs[][2] = {{"per_ha", "per_stool"},          {"dbh_m", "dbh_cm"},   {"dbh_sd_m", "dbh_sd_cm"},
+                                           {"roughness_rad", "roughness_m"}, {"vertices_m", "csv"}, {"segments", "materials"},
+                                           {"controls", "controls_m"},       {"forest", "options"}};
     for (size_t i = 0; i < 2 * (sizeof pairs / sizeof pairs[0]); i++)
         if (strcmp(key, pairs[i / 2][i % 2]) == 0 && ceduo_schema_field(object, pairs[i / 2][1 - i % 2]))
             return pairs[i / 2][1 - i % 2];

@@ -139,7 +139,7 @@ const struct field *ceduo_schema_field(const struct object *object, const char *
 /* What to do instead of a key that earlier versions had there, marked for translation; NULL: none had it. */
 const char *ceduo_schema_gone(const struct object *object, const char *key);
 /* The key that says the same in another way, so that only one of the two may stand there; NULL: there is none. Who sets one
- * takes the other out. */
+ * of two numbers takes the other out. */
 const char *ceduo_schema_other(const struct object *object, const char *key);
 /* The same where one member holds both: a value in another unit. */
 const struct field *ceduo_schema_unit(const struct object *object, const struct field *field);
