@@ -66,7 +66,7 @@ static void say_misfits(struct ceduo_page *page, const struct scene_file *file, 
 {
     LOCAL_TEXT(bad);
     for (size_t i = 0; i < file->observations_count; i++) {
-        if (p[i].p_value >= CEDUO_MISFIT)
+        if (p[i].p_value >= CEDUO_MISFIT && p[i].inside)
             continue;
         if (bad.length > 0)
             ceduo_text_put(&bad, "; ");
@@ -76,6 +76,8 @@ static void say_misfits(struct ceduo_page *page, const struct scene_file *file, 
             ceduo_text_format(&bad, " (%s)", _("no simulated rock does that"));
         else if (p[i].inside)
             ceduo_text_format(&bad, _(" (the mean fits, how the values are spread does not: p %s)"), chance);
+        else if (p[i].p_value >= CEDUO_MISFIT)
+            ceduo_text_format(&bad, _(" (the mean does not fit, though single values do: p %s)"), chance);
         else
             ceduo_text_format(&bad, " (p %s)", chance);
     }

@@ -134,6 +134,11 @@ void ceduo_measure_span(struct text *text, const struct ceduo_measure *m, double
     ceduo_measure_value(text, &end);
 }
 
+void ceduo_measure_may_be(struct text *text, const struct ceduo_measure *m)
+{
+    ceduo_measure_span(text, m, fmin(m->value, m->may_lo), fmax(m->value, m->may_hi));
+}
+
 void ceduo_measure_error(struct text *text, const struct ceduo_measure *m)
 {
     ceduo_measure_value(text, m);

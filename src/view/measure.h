@@ -51,5 +51,7 @@ void ceduo_measure_value(struct text *text, const struct ceduo_measure *m);
 void ceduo_measure_interval(struct text *text, const struct ceduo_measure *m);
 void ceduo_measure_error(struct text *text, const struct ceduo_measure *m); /* the same, shorter: "480±27" */
 void ceduo_measure_span(struct text *text, const struct ceduo_measure *m, double lo, double hi);
+void ceduo_measure_may_be(struct text *text,
+                          const struct ceduo_measure *m); /* with the figure, which may lie outside by its error */
 
 #endif

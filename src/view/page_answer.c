@@ -170,7 +170,7 @@ static void say_doubt(struct text *text, const struct ceduo_report *report, size
     }
     if (r->scene->options_count == 1 && r->wooded) {
         ceduo_text_put(text, "; ");
-        ceduo_measure_span(text, &m, m.may_lo, m.may_hi);
+        ceduo_measure_may_be(text, &m);
         ceduo_text_put(text, _(" by what is not known"));
     }
     ceduo_text_char(text, '.');
@@ -218,7 +218,7 @@ void ceduo_page_over(struct ceduo_page *page, const struct ceduo_report *report)
     ceduo_measure_doubt_over(&mean, report->doubt, 0);
     if (!isnan(mean.may_lo)) {
         ceduo_text_put(&may, _(", may be "));
-        ceduo_measure_span(&may, &mean, mean.may_lo, mean.may_hi);
+        ceduo_measure_may_be(&may, &mean);
     }
     if (c->flown == 0)
         ceduo_text_format(text, _("ADC %s m at the most, in year %u; contact fails in %zu of %zu."), WRITTEN(c->worst.mean, 3),

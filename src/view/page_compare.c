@@ -17,11 +17,11 @@ static const struct ceduo_control *last_control(const struct ceduo_result *r)
 /* ---- today ---- */
 
 /* ADC and free run with their tests. */
-static void add_contacts(struct ceduo_page *page, const struct ceduo_index *s)
+static void add_contacts(struct ceduo_page *page, const struct ceduo_result *r, const struct ceduo_index *s)
 {
-    ceduo_page_number(page, s->worst_adc, 3);
+    ceduo_page_write(page, "%s", BESIDE(s->worst_adc, 3, r->scene->simulation.threshold));
     ceduo_page_verdict(page, s->contact);
-    ceduo_page_percent(page, s->worst_free_run);
+    ceduo_page_free_run(page, s->worst_free_run);
     ceduo_page_verdict(page, s->free_run);
 }
 
@@ -64,7 +64,7 @@ void ceduo_page_today(struct ceduo_page *page, const struct ceduo_result *r)
                 ceduo_page_per_1000(page, i == 0 ? NAN : to_first.mean, CEDUO_Z95 * to_first.se, true);
             ceduo_page_verdict(page, ceduo_result_last_index(r, i)->energy);
         }
-        add_contacts(page, s);
+        add_contacts(page, r, s);
         if (r->wooded)
             continue;
         ceduo_page_number(page, s->per_100m * J_TO_KJ, 3);
@@ -220,7 +220,7 @@ void ceduo_page_years(struct ceduo_page *page, const struct ceduo_report *report
         const struct ceduo_arrivals *a = y->wooded.rocks > 0 ? &y->wooded.arrivals[r->last_control] : NULL;
         const struct ceduo_measure share = ceduo_judged(last_control(r), a);
         ceduo_page_write(page, "%4u %s", y->year, y->cut ? P_("head", "cut") : "");
-        add_contacts(page, s);
+        add_contacts(page, r, s);
         ceduo_page_number(page, s->per_100m * J_TO_KJ, 3);
         ceduo_page_interval(page, &share);
         ceduo_page_number(page, a ? a->energy.mean * J_TO_KJ : NAN, 3);

@@ -174,11 +174,12 @@ struct ceduo_doubt_now ceduo_doubt_now_of(const struct ceduo_doubt_report *r, si
 void ceduo_doubt_range(struct text *text, const struct ceduo_doubt_report *r, size_t option)
 {
     const struct ceduo_doubt_figure *f = ceduo_doubt_main(r, option);
-    ceduo_doubt_value(text, f->kind, ceduo_doubt_now_of(r, option).value);
+    double now = ceduo_doubt_now_of(r, option).value;
+    ceduo_doubt_value(text, f->kind, now);
     if (!ceduo_doubt_knows(r, option))
         return;
     ceduo_text_put(text, " (");
-    append_range(text, f->kind, f->fit.p5, f->fit.p95);
+    append_range(text, f->kind, fmin(now, f->fit.p5), fmax(now, f->fit.p95)); /* a doubt less than the rocks' error holds it */
     ceduo_text_char(text, ')');
 }
 
@@ -304,18 +305,28 @@ static void add_inputs(struct ceduo_page *page, const struct ceduo_doubt_report 
                        rest);
 }
 
+/* The name of an input and what would measure it: that of an energy law is known, though no value of it is. */
+static const char *name_measured(struct text *name, const struct ceduo_doubt_report *r, size_t g)
+{
+    if (r->inputs->items[g].kind == CEDUO_INPUT_WORDS) {
+        ceduo_text_put(name, _("what stems take from a rock"));
+        return N_("pulling tests on such stems");
+    }
+    ceduo_doubt_input_name(name, r, g);
+    return ceduo_doubt_measured(r, g);
+}
+
 bool ceduo_doubt_advice(struct text *text, const struct ceduo_doubt_report *r, size_t option, size_t nth)
 {
     const struct ceduo_doubt_figure *f = ceduo_doubt_main(r, option);
     double scale = ceduo_doubt_scale(r);
     size_t named = 0;
-    LOCAL_TEXT(name);
     for (size_t i = 0; f->fit.enough && i < f->uses; i++) {
         size_t g = f->order[i];
-        const char *how = ceduo_doubt_measured(r, g);
+        LOCAL_TEXT(name);
+        const char *how = name_measured(&name, r, g);
         if (!matters(f, g) || !how || named++ < nth)
             continue;
-        ceduo_doubt_input_name(&name, r, g);
         ceduo_text_format(text,
                           nth == 0 ? _("Measure first: %s (%s); of a doubt %.3g wide it would leave %.3g.")
                                    : _("then: %s (%s); of a doubt %.3g wide it would leave %.3g."),
@@ -329,15 +340,9 @@ bool ceduo_doubt_heaviest(struct text *name, const char **how, const struct cedu
 {
     const struct ceduo_doubt_figure *f = ceduo_doubt_main(r, option);
     for (size_t i = 0; f->fit.enough && i < f->uses; i++) {
-        size_t g = f->order[i];
-        bool law = r->inputs->items[g].kind == CEDUO_INPUT_WORDS;
-        if (!matters(f, g))
+        if (!matters(f, f->order[i]))
             continue;
-        *how = law ? N_("pulling tests on such stems") : ceduo_doubt_measured(r, g);
-        if (law)
-            ceduo_text_put(name, _("what stems take from a rock"));
-        else
-            ceduo_doubt_input_name(name, r, g);
+        *how = name_measured(name, r, f->order[i]);
         return true;
     }
     return false;

@@ -6,15 +6,15 @@
 #include "report.h"
 #include "typed.h"
 
-static void append_goal(struct text *text, enum ceduo_goal goal, double value)
+static void append_goal(struct text *text, enum ceduo_goal goal, double value, double target)
 {
     ceduo_text_format(text, "%s ", _(ceduo_goals[goal].name));
     if (ceduo_goal_is_share(goal))
-        ceduo_text_format(text, "%s %%", ROUNDED(value * 100, 3));
+        ceduo_text_format(text, "%s %%", BESIDE(value * 100, 3, target * 100));
     else if (isinf(value))
         ceduo_text_put(text, _("without end"));
     else
-        ceduo_text_format(text, "%s %s", ROUNDED(value, 4), ceduo_goals[goal].unit);
+        ceduo_text_format(text, "%s %s", BESIDE(value, 4, target), ceduo_goals[goal].unit);
 }
 
 /* With four digits, on the side that reaches the goal; JSON has them all. */
@@ -55,7 +55,7 @@ void ceduo_find_page(struct text *text, const struct ceduo_find_report *report)
     LOCAL_TEXT(goal);
     ceduo_text_safe(&path, s->path);
     ceduo_text_safe(&option, report->file->scene.options[s->option].name);
-    append_goal(&goal, s->goal, f->found ? f->goal_at_value : f->goal_at_nearest);
+    append_goal(&goal, s->goal, f->found ? f->goal_at_value : f->goal_at_nearest, s->target);
     if (f->found) {
         ceduo_text_format(text, "%s = %s\n  ", path.bytes, ceduo_number_shortest(shown(s, f), room));
         ceduo_text_format(text,

@@ -2,6 +2,7 @@
 /* How often, and with how much, where the scene has blocks: in words, the energies of return periods, and the square of
  * intensity and return period, with all options beside the slope without forest. */
 #include <math.h>
+#include <string.h>
 
 #include "base/language.h"
 #include "page_parts.h"
@@ -35,10 +36,11 @@ void ceduo_words_every(struct text *text, struct ceduo_rate rate)
 void ceduo_words_years(struct text *text, struct ceduo_rate rate)
 {
     ceduo_words_every(text, rate);
-    if (rate.rate > 0 && rate.lo > 0)
-        ceduo_text_format(text, " (%s\xe2\x80\x93%s)", WRITTEN(1 / rate.hi, 2), WRITTEN(1 / rate.lo, 2));
-    else if (rate.rate > 0)
-        ceduo_text_format(text, " (> %s)", WRITTEN(1 / rate.hi, 2));
+    const char *lo = WRITTEN(1 / rate.hi, 2), *hi = WRITTEN(1 / rate.lo, 2);
+    if (rate.rate > 0 && !(rate.lo > 0))
+        ceduo_text_format(text, " (> %s)", lo);
+    else if (rate.rate > 0 && strcmp(lo, hi) != 0)
+        ceduo_text_format(text, " (%s\xe2\x80\x93%s)", lo, hi);
 }
 
 void ceduo_words_hazard(struct text *text, const struct ceduo_result *r, size_t option, size_t control)

@@ -40,9 +40,9 @@ void ceduo_page_limit(struct ceduo_page *page, const struct ceduo_control *c, en
         ceduo_text_format(&head->shorter, kilo ? "> %s kJ" : "> %s MJ", ROUNDED(c->accepted * (kilo ? 1e-3 : 1e-6), 3));
 }
 
-void ceduo_page_percent(struct ceduo_page *page, double share)
+void ceduo_page_free_run(struct ceduo_page *page, double share)
 {
-    ceduo_page_write(page, _("%.1f %%"), share * 100);
+    ceduo_page_write(page, "%s %%", PERCENT(share, CEDUO_FREE_RUN_MOST));
 }
 
 /* A word in green or red. */

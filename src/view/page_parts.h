@@ -68,7 +68,7 @@ void ceduo_page_mean(struct ceduo_page *page, const struct ceduo_arrivals *arriv
 void ceduo_page_per_1000(struct ceduo_page *page, double mean, double half, bool sign);
 /* The head of the column of the share that a control is judged by: "> 50 kJ", or `otherwise` without an accepted energy. */
 void ceduo_page_limit(struct ceduo_page *page, const struct ceduo_control *control, enum ceduo_measure_name otherwise);
-void ceduo_page_percent(struct ceduo_page *page, double share);
+void ceduo_page_free_run(struct ceduo_page *page, double share);
 void ceduo_page_verdict(struct ceduo_page *page, enum ceduo_light light); /* pass, FAIL, ? */
 void ceduo_page_yes(struct ceduo_page *page, bool yes);                   /* yes, NO */
 

@@ -195,9 +195,9 @@ static void add_belts(struct ceduo_page *page, const struct ceduo_scene *scene, 
         const struct ceduo_stand_result *s = &found->stands[i];
         ceduo_page_write(page, "%s\xe2\x80\x93%s", SHORTEST(b->from_given), SHORTEST(b->to_given));
         ceduo_page_write(page, "%s%s", b->name, b->assumed ? "*" : "");
-        ceduo_page_number(page, s->adc_m, 3);
+        ceduo_page_write(page, "%s", BESIDE(s->adc_m, 3, scene->simulation.threshold));
         ceduo_page_yes(page, s->passes_threshold);
-        ceduo_page_percent(page, s->free_run_probability);
+        ceduo_page_free_run(page, s->free_run_probability);
         ceduo_page_number(page, s->dissipated * J_TO_KJ, 3);
         ceduo_page_number(page, s->per_100m * J_TO_KJ, 3);
     }

@@ -13,6 +13,7 @@
 #define LINES        24 /* of one option */
 #define LINES_SHARED 14 /* of several … */
 #define LINES_OPTION 2  /* … and for each */
+#define LINES_BLOCKS 2  /* … and to say how often, where that is known */
 
 /* ---- head ---- */
 
@@ -77,11 +78,11 @@ static void add_wood(struct ceduo_page *page, const struct ceduo_result *r)
     const char *threshold = SHORTEST(r->scene->simulation.threshold);
     CEDUO_PAGE_TABLE_OF(page, columns);
     ceduo_page_write(page, "%s", _("distance between contacts (ADC), m"));
-    ceduo_page_number(page, s->length > 0 ? s->worst_adc : NAN, 3);
+    ceduo_page_write(page, "%s", BESIDE(s->length > 0 ? s->worst_adc : NAN, 3, r->scene->simulation.threshold));
     ceduo_page_write(page, _("below %s"), threshold);
     ceduo_page_yes(page, s->contact == CEDUO_PASS);
     ceduo_page_write(page, _("chance of %s m without a contact"), threshold);
-    ceduo_page_percent(page, s->worst_free_run);
+    ceduo_page_free_run(page, s->worst_free_run);
     ceduo_page_write(page, _("at most %.0f %%"), 100 * CEDUO_FREE_RUN_MOST);
     ceduo_page_yes(page, s->free_run == CEDUO_PASS);
     ceduo_page_write(page, "%s", _("energy taken by stems, left (index), kJ"));
@@ -109,7 +110,7 @@ static void add_span(struct ceduo_page *page, const struct ceduo_measure *m)
     if (isnan(m->may_lo))
         ceduo_text_put(text, "-");
     else
-        ceduo_measure_span(text, m, m->may_lo, m->may_hi);
+        ceduo_measure_may_be(text, m);
 }
 
 /* Over the years, where there are any, and today. */
@@ -309,11 +310,12 @@ void ceduo_page_short(struct ceduo_page *page, const struct ceduo_report *report
     }
     ceduo_page_sure(page, report);
     ceduo_page_over(page, report);
-    bool noted = add_rest(page, report, n > 1 ? LINES_SHARED + LINES_OPTION * n : LINES);
+    size_t shared = LINES_SHARED + (r->scene->blocks_count > 0 ? LINES_BLOCKS : 0);
+    bool noted = add_rest(page, report, n > 1 ? shared + LINES_OPTION * n : LINES);
     for (size_t i = 0; report->years && !nothing && i < n; i++) { /* they were asked for */
         ceduo_page_say(page, CEDUO_PAGE_SECTION, "%s", r->scene->options[i].name);
         ceduo_page_years(page, report, i);
     }
     ceduo_page_say(page, CEDUO_PAGE_POINT, "%s\t--details%s, --sensitivity, --report page.html; %s", _("MORE"),
-                   noted ? "" : _(" (notes)"), _("as screens: ceduo SCENE"));
+                   noted ? "" : _(" (notes)"), noted ? _("as screens: ceduo SCENE") : _("or ceduo SCENE"));
 }

@@ -92,7 +92,7 @@ static void add_arrivals(struct ceduo_page *page, const struct ceduo_pane *pane,
         ceduo_measure_doubt(&judged, pane->doubt, pane->option, pane->result->last_control);
     if (!isnan(judged.may_lo)) {
         ceduo_page_write(page, "  %s", _("may be"));
-        ceduo_measure_span(ceduo_page_text(page), &judged, judged.may_lo, judged.may_hi);
+        ceduo_measure_may_be(ceduo_page_text(page), &judged);
         ceduo_page_write(page, "%s", "");
     }
     if (blocks && !nothing) { /* years from one dangerous rock to the next: what matters where blocks of all sizes come down */
@@ -132,18 +132,18 @@ static void add_tests(struct ceduo_page *page, const struct ceduo_pane *pane, co
     bool gap = index->length > 0 && index->longest_gap > threshold; /* the reason in the page, too */
     CEDUO_PAGE_TABLE_OF(page, columns);
     if (gap)
-        ceduo_page_write(page, _("gap %.3g m > %g"), index->longest_gap, threshold);
+        ceduo_page_write(page, _("gap %s m > %g"), BESIDE(index->longest_gap, 3, threshold), threshold);
     else if (isinf(index->worst_adc))
         ceduo_page_write(page, "%s", index->length > 0 ? _("ADC: no stems") : _("ADC: no forest"));
     else
-        ceduo_page_write(page, _("ADC %s m %s %g"), WRITTEN(index->worst_adc, 3), than(index->contact, "<", "\xe2\x89\xa5"),
-                         threshold);
+        ceduo_page_write(page, _("ADC %s m %s %g"), BESIDE(index->worst_adc, 3, threshold),
+                         than(index->contact, "<", "\xe2\x89\xa5"), threshold);
     ceduo_page_light(page, index->contact);
-    ceduo_page_write(page, _("%g m free %.1f %% %s %g"), threshold, index->worst_free_run * 100,
+    ceduo_page_write(page, _("%g m free %s %% %s %g"), threshold, PERCENT(index->worst_free_run, CEDUO_FREE_RUN_MOST),
                      than(index->free_run, "\xe2\x89\xa4", ">"), CEDUO_FREE_RUN_MOST * 100);
     ceduo_page_light(page, index->free_run);
     if (index->energy != CEDUO_UNKNOWN && wood)
-        ceduo_page_write(page, _("energy %.1f %% %s %g"), wood->exceed_probability * 100,
+        ceduo_page_write(page, _("energy %s %% %s %g"), PERCENT(wood->exceed_probability, CEDUO_EXCEED_MOST),
                          than(index->energy, "\xe2\x89\xa4", ">"), CEDUO_EXCEED_MOST * 100);
     else
         ceduo_page_write(page, "%s", wood || !pane->result->wooded ? _("energy: not judged") : _("energy \xe2\x80\xa6"));

@@ -79,7 +79,7 @@ static void add_mean(struct ceduo_page *page, const struct ceduo_pane *pane, siz
         return;
     struct text *text = &page->last->cells[page->last->cells_count - 1].text;
     ceduo_text_put(text, " (");
-    ceduo_measure_span(text, &mean, mean.may_lo, mean.may_hi);
+    ceduo_measure_may_be(text, &mean);
     ceduo_text_char(text, ')');
 }
 
@@ -94,12 +94,12 @@ static void add_option(struct ceduo_page *page, const struct ceduo_pane *pane, s
     if (v->wooded)
         add_share(page, c->today);
     else
-        ceduo_page_number(page, index->worst_adc, 3);
-    struct ceduo_measure judged = ceduo_judged(&r->scene->controls[r->last_control], NULL);
+        ceduo_page_write(page, "%s", BESIDE(index->worst_adc, 3, r->scene->simulation.threshold));
+    struct ceduo_measure judged = ceduo_judged(&r->scene->controls[r->last_control], a);
     struct text *may_be = ceduo_page_text(page);
     ceduo_measure_doubt(&judged, pane->doubt, i, r->last_control);
     if (!isnan(judged.may_lo) && !knows_rotation(pane))
-        ceduo_measure_span(may_be, &judged, judged.may_lo, judged.may_hi);
+        ceduo_measure_may_be(may_be, &judged);
     if (a && r->scene->blocks_count > 0)
         ceduo_words_every(ceduo_page_text(page), ceduo_hazard_feared(&a->hazard));
     else

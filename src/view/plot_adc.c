@@ -22,7 +22,7 @@ static double share_of(const struct scale *s, double metres)
 static void add_row(struct ceduo_page *page, const struct scale *s, double metres, enum ceduo_role role)
 {
     ceduo_page_bar(page, share_of(s, metres), role)->limit = share_of(s, s->threshold);
-    ceduo_page_write(page, isfinite(metres) ? _("%s m") : "%s", WRITTEN(metres, 3));
+    ceduo_page_write(page, isfinite(metres) ? _("%s m") : "%s", BESIDE(metres, 3, s->threshold));
 }
 
 static void add_check(struct ceduo_page *page, bool passes)

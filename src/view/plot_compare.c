@@ -68,7 +68,7 @@ static void add_option(struct ceduo_page *page, const struct comparison *c, size
     bool limited = c->wooded && !isnan(c->accepted);
     ceduo_page_mark(page, i == c->picture->option ? CEDUO_ROLE_TITLE : CEDUO_ROLE_TEXT, c->picture->scene->options[i].name);
     ceduo_page_bar(page, adc_share(c, f.adc), role_of(f.contact))->limit = adc_share(c, c->threshold);
-    ceduo_page_write(page, "%s", SHOWN(f.adc));
+    ceduo_page_write(page, "%s", f.adc == 0 ? "0" : BESIDE(f.adc, 3, c->threshold));
     ceduo_page_light(page, f.contact);
     ceduo_page_bar(page, f.middle / c->middle_most, role_of(f.energy))->limit =
         limited ? 1000 * CEDUO_EXCEED_MOST / c->middle_most : NAN;

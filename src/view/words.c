@@ -3,6 +3,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/language.h"
@@ -38,6 +39,30 @@ const char *ceduo_words_shown(double value, int digits, char room[CEDUO_NUMBER_R
 const char *ceduo_words_rounded(double value, int digits, char room[CEDUO_NUMBER_ROOM])
 {
     snprintf(room, CEDUO_NUMBER_ROOM, "%.*g", digits, value);
+    return ceduo_number_spoken(room);
+}
+
+/* As many digits, or decimals, as it takes to write a value on the side of a limit where it lies. */
+static int digits_beside(double value, double limit, int digits, bool decimals)
+{
+    char room[CEDUO_NUMBER_ROOM];
+    for (; digits < 9; digits++) {
+        snprintf(room, sizeof room, decimals ? "%.*f" : "%.*g", digits, value);
+        double shown = strtod(room, NULL);
+        if ((shown < limit) == (value < limit) && (shown > limit) == (value > limit))
+            break;
+    }
+    return digits;
+}
+
+const char *ceduo_words_beside(double value, int digits, double limit, char room[CEDUO_NUMBER_ROOM])
+{
+    return ceduo_words_shown(value, digits_beside(value, limit, digits, false), room);
+}
+
+const char *ceduo_words_percent(double share, double limit, char room[CEDUO_NUMBER_ROOM])
+{
+    snprintf(room, CEDUO_NUMBER_ROOM, "%.*f", digits_beside(100 * share, 100 * limit, 1, true), 100 * share);
     return ceduo_number_spoken(room);
 }
 
@@ -286,23 +311,25 @@ void ceduo_words_contact(struct text *text, const struct ceduo_result *result, s
     double limit = result->scene->simulation.threshold;
     say_verdict(text, _("Contact: %s."), s->contact);
     if (s->contact == CEDUO_PASS)
-        ceduo_text_format(text, _("Every belt has an ADC below %g m (%.3g m at most) and no gap is longer."), limit,
-                          s->worst_adc);
+        ceduo_text_format(text, _("Every belt has an ADC below %g m (%s m at most) and no gap is longer."), limit,
+                          BESIDE(s->worst_adc, 3, limit));
     else if (!(s->length > 0))
         ceduo_text_put(text, _("There is no forest on the way."));
     else if (s->longest_gap > limit)
-        ceduo_text_format(text, _("A gap of %.3g m has no forest; a rock reaches full speed in %g m."), s->longest_gap, limit);
+        ceduo_text_format(text, _("A gap of %s m has no forest; a rock reaches full speed in %g m."),
+                          BESIDE(s->longest_gap, 3, limit), limit);
     else if (isinf(s->worst_adc))
         ceduo_text_format(text, _("In a belt no stem counts; a rock reaches full speed in %g m."), limit);
     else
-        ceduo_text_format(text, _("A belt has an ADC of %.3g m; a rock reaches full speed in %g m."), s->worst_adc, limit);
+        ceduo_text_format(text, _("A belt has an ADC of %s m; a rock reaches full speed in %g m."),
+                          BESIDE(s->worst_adc, 3, limit), limit);
     if (result->scene->simulation.contact_dbh > 0)
         ceduo_text_then(text, " ", _("Stems below %g cm do not count."), result->scene->simulation.contact_dbh * 100);
     if (s->thick.contact != s->contact && isinf(s->thick.worst_adc))
         ceduo_text_then(text, " ", _("Counting only stems from %g cm on it fails: there are none."), thick_cm(result->scene));
     else if (s->thick.contact != s->contact)
-        ceduo_text_then(text, " ", _("Counting only stems from %g cm on it fails: %.3g m."), thick_cm(result->scene),
-                        s->thick.worst_adc);
+        ceduo_text_then(text, " ", _("Counting only stems from %g cm on it fails: %s m."), thick_cm(result->scene),
+                        BESIDE(s->thick.worst_adc, 3, limit));
 }
 
 void ceduo_words_free_run(struct text *text, const struct ceduo_result *result, size_t option, size_t control)
@@ -311,16 +338,16 @@ void ceduo_words_free_run(struct text *text, const struct ceduo_result *result, 
     double limit = result->scene->simulation.threshold;
     say_verdict(text, _("Free run: %s."), s->free_run);
     if (s->length > 0 && s->longest_gap > limit)
-        ceduo_text_format(text, _("A gap of %.3g m has no forest: every rock runs more than %g m there."), s->longest_gap,
-                          limit);
+        ceduo_text_format(text, _("A gap of %s m has no forest: every rock runs more than %g m there."),
+                          BESIDE(s->longest_gap, 3, limit), limit);
     else if (s->length > 0)
-        ceduo_text_format(text, _("Chance of %g m without a contact at worst %.1f %% (10 %% is allowed)."), limit,
-                          s->worst_free_run * 100);
+        ceduo_text_format(text, _("Chance of %g m without a contact at worst %s %% (10 %% is allowed)."), limit,
+                          PERCENT(s->worst_free_run, CEDUO_FREE_RUN_MOST));
     else
         ceduo_text_put(text, _("No stem stands on the way."));
     if (s->thick.free_run != s->free_run)
-        ceduo_text_then(text, " ", _("Counting only stems from %g cm on it fails: %.1f %%."), thick_cm(result->scene),
-                        s->thick.worst_free_run * 100);
+        ceduo_text_then(text, " ", _("Counting only stems from %g cm on it fails: %s %%."), thick_cm(result->scene),
+                        PERCENT(s->thick.worst_free_run, CEDUO_FREE_RUN_MOST));
 }
 
 const char *ceduo_words_shown_of_1000(double p, double lo, double hi, char room[CEDUO_NUMBER_ROOM])

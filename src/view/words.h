@@ -113,6 +113,12 @@ const char *ceduo_words_rounded(double value, int digits, char room[CEDUO_NUMBER
 const char *ceduo_words_shown_of_1000(double probability, double lo, double hi, char room[CEDUO_NUMBER_ROOM]);
 #define WRITTEN(value, digits)     ceduo_words_shown(value, digits, (char[CEDUO_NUMBER_ROOM]){0})
 #define WRITTEN_OF_1000(p, lo, hi) ceduo_words_shown_of_1000(p, lo, hi, (char[CEDUO_NUMBER_ROOM]){0})
+/* A figure beside the limit that it is judged by, with so many digits or as it takes to lie where it does: 29.98 below 30;
+ * a share in percent. */
+const char *ceduo_words_beside(double value, int digits, double limit, char room[CEDUO_NUMBER_ROOM]);
+const char *ceduo_words_percent(double share, double limit, char room[CEDUO_NUMBER_ROOM]);
+#define BESIDE(value, digits, limit) ceduo_words_beside(value, digits, limit, (char[CEDUO_NUMBER_ROOM]){0})
+#define PERCENT(share, limit)        ceduo_words_percent(share, limit, (char[CEDUO_NUMBER_ROOM]){0})
 /* With so many digits at most: 12, 0.5, 3e+06. */
 #define ROUNDED(value, digits) ceduo_words_rounded(value, digits, (char[CEDUO_NUMBER_ROOM]){0})
 #define SHORTEST(value)        ceduo_number_spoken(ceduo_number_shortest(value, (char[CEDUO_NUMBER_ROOM]){0}))

@@ -157,7 +157,10 @@ static void say_form(struct text *text, const struct ceduo_measure *m, const str
     bool doubted = !isnan(m->may_lo);
     if (!form->doubt)
         return;
-    ceduo_measure_span(&span, m, doubted ? m->may_lo : m->lo, doubted ? m->may_hi : m->hi);
+    if (doubted)
+        ceduo_measure_may_be(&span, m);
+    else
+        ceduo_measure_span(&span, m, m->lo, m->hi);
     ceduo_text_format(text, doubted ? _("; may be %s") : _("; %s by the rocks"), ceduo_text_string(&span));
 }
 

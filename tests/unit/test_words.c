@@ -36,6 +36,26 @@ TEST(numbers_are_shown_with_their_digits)
         assert_string_equal(WRITTEN(rows[i].value, rows[i].digits), rows[i].shown);
 }
 
+/* Beside its limit a figure lies where it is judged to lie; elsewhere it has the digits that all have. */
+TEST(figures_lie_on_their_side_of_a_limit)
+{
+    static const struct {
+        double value, limit;
+        const char *shown;
+    } rows[] = {
+        {29.98, 30, "29.98"}, {29.9996, 30, "29.9996"}, {30, 30, "30.0"},       {30.04, 30, "30.04"},     {29.9, 30, "29.9"},
+        {2.614, 30, "2.61"},  {194, 30, "194"},         {INFINITY, 30, "none"}, {1499.8, 1500, "1499.8"}, {NAN, 30, "-"}};
+    static const struct {
+        double share;
+        const char *shown;
+    } percents[] = {{.1, "10.0"}, {.1004, "10.04"}, {.0996, "9.96"}, {.0995, "9.95"},
+                    {.09, "9.0"}, {.857, "85.7"},   {.0004, "0.0"}};
+    for (size_t i = 0; i < LENGTH(rows); i++)
+        assert_string_equal(BESIDE(rows[i].value, 3, rows[i].limit), rows[i].shown);
+    for (size_t i = 0; i < LENGTH(percents); i++)
+        assert_string_equal(PERCENT(percents[i].share, .1), percents[i].shown);
+}
+
 /* The estimate of a share may lie below 0 or above 1; what is shown does not. */
 TEST(shares_are_shown_between_0_and_1)
 {
@@ -196,7 +216,7 @@ TEST(an_answer_depends_where_doubt_holds_the_limit)
     expect_answer(.02, .01, .04, 80, "✔ YES: 20 of 1000 arrive with more than 50 kJ (50 accepted); may be 10–40");
     expect_answer(.02, .01, .06, 80, "? IT DEPENDS: 20 of 1000 arrive with more than 50 kJ (50 accepted); may be 10–60");
     expect_answer(.479, .04, .748, 90, "? IT DEPENDS: 479 of 1000 arrive with more than 50 kJ (50 accepted); may be 40–748");
-    expect_answer(.05, .051, .06, 90, "? NOT DECIDED: 50 of 1000 arrive with more than 50 kJ (50 accepted); may be 51–60");
+    expect_answer(.05, .051, .06, 90, "? NOT DECIDED: 50 of 1000 arrive with more than 50 kJ (50 accepted); may be 50–60");
     expect_answer(.479, NAN, NAN, 99, "✘ NO: 479 of 1000 arrive with more than 50 kJ (50 accepted); 469–489 by the rocks");
     open_scene(NAN);
     expect_answer(.831, .7, .9, 80, "831 of 1000 arrive; may be 700–900");
