@@ -271,6 +271,18 @@ def test_four_systems_keys():
     expect_in("380", after)
 
 
+def test_four_systems_in_italian():
+    """Four systems: the same keys on the Italian screens, with the figures that the Italian page names"""
+    page = " ".join(PAGINA.read_text(encoding="utf-8").split())
+    with Folder() as work, Machine() as machine:
+        done = machine.run(blocks("four-systems", PAGINA)[-1], work.path, LANGUAGE="it")
+        expect(done.returncode == 0 and done.stderr == "", done.stdout, done.stderr)
+        for name, figure, sign in (("before.txt", "44,4", "\u2265"), ("after.txt", "29,2", "<")):
+            expect_in(f"{figure} m", page)
+            expect_in(f"ADC {figure} m {sign} 30", (work.path / name).read_text(encoding="utf-8"))
+        expect_in("380 fusti/ha", (work.path / "after.txt").read_text(encoding="utf-8"))
+
+
 # ---- two cuts ----
 
 def test_two_cuts():
