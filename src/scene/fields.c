@@ -145,7 +145,7 @@ static const struct field rules_fields[] = {
     ITEMS("standards", NAMED(N_("standards"), NULL), LIST(ceduo_regulation, standards, standards_count), NO_RUN,
           N_("standards that a cut must leave; the first row that fits applies, a row without species fits all"),
           &standards_object),
-    ITEMS("turns", NAMED(N_("turns"), NULL), LIST(ceduo_regulation, turns, turns_count), NO_RUN,
+    ITEMS("turns", NAMED(N_("rotations"), NULL), LIST(ceduo_regulation, turns, turns_count), NO_RUN,
           N_("ages at which shoots may be cut; the first row that fits applies, a row without species fits all"),
           &turns_object),
 };

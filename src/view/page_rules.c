@@ -33,7 +33,7 @@ static void say_rule(struct ceduo_page *page, const struct ceduo_belt *belt, con
         return;
     if (!asked) {
         ceduo_text_format(&sentence,
-                          turn ? _("%s: the rules of %s as filed name no turn for this species (%s); none is checked.")
+                          turn ? _("%s: the rules of %s as filed name no rotation for this species (%s); none is checked.")
                                : _("%s: the rules of %s as filed name no number of standards for this species (%s); none is "
                                    "checked."),
                           belt->name, c->of->name, _(ceduo_species_list(&count)[belt->stand.species].common));
@@ -41,10 +41,10 @@ static void say_rule(struct ceduo_page *page, const struct ceduo_belt *belt, con
         return;
     }
     if (isnan(asked->most))
-        ceduo_text_format(&wanted, turn ? _("a turn of %g years at least") : _("%g standards a hectare at least"),
+        ceduo_text_format(&wanted, turn ? _("a rotation of %g years at least") : _("%g standards a hectare at least"),
                           asked->least);
     else
-        ceduo_text_format(&wanted, turn ? _("a turn of %g to %g years") : _("%g to %g standards a hectare"), asked->least,
+        ceduo_text_format(&wanted, turn ? _("a rotation of %g to %g years") : _("%g to %g standards a hectare"), asked->least,
                           asked->most);
     ceduo_text_format(&sentence,
                       turn ? _("%s: %s asks for %s (%s, %u); shoots are cut at %.4g: %s.")
@@ -113,7 +113,7 @@ void ceduo_page_rules(struct ceduo_page *page, const struct ceduo_result *r)
 {
     static const struct ceduo_page_column columns[] = {
         {N_("stand"), 26, 2, CEDUO_WHOLE}, {N_("standards/ha"), -13, 0, 0}, {N_("asked for"), -13, 0, 0}, {N_("kept"), 5, 1, 0},
-        {N_("turn, years"), -12, 0, 0},    {N_("asked for"), -13, 0, 0},    {N_("kept"), 0, 1, 0}};
+        {N_("rotation, y"), -12, 0, 0},    {N_("asked for"), -13, 0, 0},    {N_("kept"), 0, 1, 0}};
     const struct ceduo_regulation *rules = NULL;
     LOCAL_TEXT(sources);
     LOCAL_TEXT(note);

@@ -109,11 +109,11 @@ def test_page():
         path = f.write("s.yaml", site(coppice(), "umbria"))
         page = " ".join(good(*WHOLE, "-n", 5, path).out.split())
         expect_in("Umbria asks for 80 standards a hectare at least (art. 33, R.R. 7, 2002); 60 are kept: NOT met.", page)
-        expect_in("Umbria asks for a turn of 15 to 40 years (art. 26, R.R. 7, 2002); shoots are cut at 25: met.", page)
+        expect_in("Umbria asks for a rotation of 15 to 40 years (art. 26, R.R. 7, 2002); shoots are cut at 25: met.", page)
         expect_equal(page.count("check the text in force"), 1, page)
 
 
-NO_TURN = "the rules of {} as filed name no turn for this species ({}); none is checked."
+NO_TURN = "the rules of {} as filed name no rotation for this species ({}); none is checked."
 
 
 def test_not_named():
