@@ -51,11 +51,13 @@ struct arguments {
     double tolerance; /* 0: none */
     unsigned threads;
     struct word_list sets; /* PATH=VALUE, in their order, --seed among them */
+    size_t cells;          /* of a row of --each: the last of these */
     struct word_list options;
     struct word_list calibrates; /* PATH=LO:HI */
     char **scenes;
     size_t scenes_count;
     const char *called; /* how messages call the present scene where there are several; NULL: they need not */
+    const char *label;  /* how a table calls its row of --each; NULL: there is none */
     char seed[64];
     bool years;                 /* every option year by year */
     struct ceduo_window window; /* those years; step 0: one whole rotation of each */

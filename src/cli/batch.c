@@ -18,21 +18,23 @@ static enum exit_status worse(enum exit_status a, enum exit_status b)
     return a > b ? a : b;
 }
 
-/* Pages of several scenes come behind a table of their verdicts. */
-static void put_verdicts(struct text *text, struct ceduo_profiles *profiles)
+/* Pages of several scenes come behind a table of their verdicts, in its order. `starts`: where each begins, and the end. */
+static void put_verdicts(struct text *text, struct ceduo_profiles *profiles, const size_t *starts)
 {
-    LOCAL_TEXT(pages);
+    struct text pages = *text;
     struct ceduo_page verdicts = {.width = CEDUO_PAGE_WIDTH};
-    size_t *order = ceduo_must(calloc(profiles->count, sizeof *order));
-    ceduo_text_put(&pages, ceduo_text_string(text));
-    ceduo_text_free(text);
-    ceduo_profiles_sort(profiles, order);
-    free(order);
+    size_t *order = ceduo_must(calloc(profiles->count, sizeof *order)), n = ceduo_profiles_sort(profiles, order);
+    *text = (struct text){0};
     ceduo_profiles_page(&verdicts, profiles);
     ceduo_page_print(text, &verdicts, !ceduo_say_utf8());
     ceduo_page_free(&verdicts);
     ceduo_say_plainly(text);
-    ceduo_text_format(text, "\n%s", ceduo_text_string(&pages));
+    for (size_t i = 0; i < n; i++) {
+        ceduo_text_char(text, '\n');
+        ceduo_text_add(text, pages.bytes + starts[order[i]], starts[order[i] + 1] - starts[order[i]]);
+    }
+    free(order);
+    ceduo_text_free(&pages);
 }
 
 /* Prints the answer of each scene, under one head of CSV. */
@@ -45,10 +47,11 @@ static enum exit_status answer_all(const struct arguments *given, const struct t
     a->profiles = &profiles;
     enum exit_status status = ceduo_each_open(&each, a, header), written = status;
     struct progress progress = ceduo_progress_begin(a);
+    size_t computed = 0, *starts = ceduo_must(calloc(each.count + 2, sizeof *starts));
     bool first = true;
     while (written == EXIT_DONE && ceduo_each_next(&each)) {
         LOCAL_TEXT(one);
-        ceduo_progress_scenes(&progress, each.at - 1, each.count);
+        ceduo_progress_scenes(&progress, computed++, each.at - 1, each.count);
         struct scene_file file;
         enum exit_status result = ceduo_batch_read(&each.arguments, each.path, &file);
         if (result == EXIT_DONE) {
@@ -65,9 +68,10 @@ static enum exit_status answer_all(const struct arguments *given, const struct t
         if (result <= EXIT_RUN && one.bytes && !atomic_load(ceduo_interrupt_flag())) {
             if (first)
                 ceduo_each_header(&each, header, &out.text);
-            else if (a->format == CEDUO_TABLE)
+            else if (a->format == CEDUO_TABLE && profiles.count == 0)
                 ceduo_text_char(&out.text, '\n');
             ceduo_each_add(&each, &one, &out.text);
+            starts[profiles.count] = out.text.length;
             first = false;
         }
         written = profiles.count > 0 ? EXIT_DONE : ceduo_output_next(&out);
@@ -75,9 +79,9 @@ static enum exit_status answer_all(const struct arguments *given, const struct t
         if (written == EXIT_DONE)
             ceduo_interrupt_release();
     }
-    ceduo_progress_end(&progress);
     if (profiles.count > 1)
-        put_verdicts(&out.text, &profiles);
+        put_verdicts(&out.text, &profiles, starts);
+    free(starts);
     if (profiles.count > 0)
         status = worse(status, ceduo_output_next(&out));
     status = worse(status, each.bad_rows ? EXIT_INPUT : EXIT_DONE);

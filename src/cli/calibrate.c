@@ -140,18 +140,15 @@ static void close_job(struct job *j)
 
 static void show(void *context, const struct ceduo_calibration_state *state)
 {
-    struct progress *p = context;
-    LOCAL_TEXT(line);
     double seconds;
-    if (!ceduo_progress_due(p, &seconds))
+    if (!ceduo_progress_due(context, &seconds))
         return;
     if (state->stage == CEDUO_CHAINS && isfinite(state->rhat))
-        ceduo_text_format(&line, _("%llu scenes; R-hat %.3f (1.05), effective size %.0f (200); %.0f s"),
-                          (unsigned long long)state->evaluations, state->rhat, state->effective_size, seconds);
+        ceduo_say_progress(_("%llu scenes; R-hat %.3f (1.05), effective size %.0f (200); %.0f s"),
+                           (unsigned long long)state->evaluations, state->rhat, state->effective_size, seconds);
     else
-        ceduo_text_format(&line, _("%llu scenes; log-likelihood %.2f; %.0f s"), (unsigned long long)state->evaluations,
-                          state->log_likelihood, seconds);
-    fprintf(stderr, "\r%-78s", ceduo_text_string(&line));
+        ceduo_say_progress(_("%llu scenes; log-likelihood %.2f; %.0f s"), (unsigned long long)state->evaluations,
+                           state->log_likelihood, seconds);
 }
 
 static void print(const struct job *j, const struct ceduo_calibration_report *report, struct text *out)
@@ -307,7 +304,6 @@ static enum exit_status compute(struct job *j)
                                         .progress = show,
                                         .context = &j->progress};
     enum ceduo_status status = ceduo_calibrate(&def, &answer);
-    ceduo_progress_end(&j->progress);
     if (status != CEDUO_OK)
         return ceduo_batch_failed(&j->files[0], status);
     struct ceduo_calibration_report report = {.scenes_count = j->scenes_count,

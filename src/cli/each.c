@@ -18,6 +18,7 @@
 #include "scene/schema.h"
 
 #define NAMES_SHOWN 10 /* of scenes that failed */
+#define LABEL_MOST  20 /* bytes */
 
 struct each_head {
     const char *name, *printed; /* printed: in CSV */
@@ -320,6 +321,15 @@ static const char *change_of(struct each *e, const struct each_head *head, const
     return ceduo_arena_string(&e->arena, ceduo_text_string(&change));
 }
 
+/* What people call a row: the first of its copied cells that is short, which a geometry is not; else its line. */
+static const char *label_of(const struct each *e, const struct each_row *row)
+{
+    for (size_t i = 0; row && row->cells && i < e->heads_count; i++)
+        if (is_copied(&e->heads[i]) && row->cells[i][0] && strlen(row->cells[i]) <= LABEL_MOST)
+            return row->cells[i];
+    return row ? e->name : NULL;
+}
+
 bool ceduo_each_next(struct each *e)
 {
     size_t scenes = e->given->scenes_count;
@@ -330,15 +340,17 @@ bool ceduo_each_next(struct each *e)
         row = e->rows ? &e->rows[e->at / scenes] : NULL;
         e->path = e->given->scenes[e->at++ % scenes];
         e->name = row ? ceduo_arena_format(&e->arena, "%s:%zu", e->given->each, row->line) : e->path;
+        e->arguments.label = label_of(e, row);
         if (row && !row->cells && !row->done)
             ceduo_each_fail(e);
     } while (row && !row->cells);
-    e->arguments.called = e->count > 1 ? e->name : NULL;
+    e->arguments.called = row || e->count > 1 ? e->name : NULL;
     struct word_list *sets = &e->arguments.sets;
     sets->n = e->given->sets.n;
     for (size_t i = 0; row && i < e->heads_count; i++)
         if (e->heads[i].sets && row->cells[i][0])
             sets->items[sets->n++] = change_of(e, &e->heads[i], row->cells[i]);
+    e->arguments.cells = sets->n - e->given->sets.n;
     return true;
 }
 
@@ -398,8 +410,10 @@ void ceduo_each_add(const struct each *e, const struct text *answer, struct text
 
 void ceduo_each_fail(struct each *e)
 {
+    const char *label = e->arguments.label;
     if (e->failures++ < NAMES_SHOWN)
-        ceduo_text_format(&e->failed, "%s%s", e->failures > 1 ? ", " : "", e->name);
+        ceduo_text_format(&e->failed, label && label != e->name ? "%s%s (%s)" : "%s%s", e->failures > 1 ? ", " : "", e->name,
+                          label);
     else if (e->failures == NAMES_SHOWN + 1)
         ceduo_text_put(&e->failed, ", \xe2\x80\xa6");
 }

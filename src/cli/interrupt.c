@@ -5,6 +5,8 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+#include "say.h"
+
 static atomic_bool raised;
 static volatile sig_atomic_t which;
 static const int signals[] = {SIGINT, SIGTERM, SIGHUP};
@@ -39,6 +41,8 @@ const atomic_bool *ceduo_interrupt_flag(void)
 void ceduo_interrupt_release(void)
 {
     set_handlers(SIG_DFL);
-    if (atomic_load(&raised))
+    if (atomic_load(&raised)) {
+        ceduo_say_no_progress();
         raise(which);
+    }
 }

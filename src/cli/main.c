@@ -108,6 +108,7 @@ int main(int argc, char **argv)
     enum exit_status status = ceduo_arguments_read(&arguments, argc, argv);
     if (status == EXIT_DONE)
         status = act(&arguments);
+    ceduo_say_no_progress();
     ceduo_arguments_free(&arguments);
     return (int)status;
 }

@@ -16,6 +16,7 @@ static enum exit_status write_after(int before, const struct arguments *a, const
 {
     const char *bytes = ceduo_text_string(text);
     const struct pending_file file = {.path = a->output, .before = before, .bytes = bytes, .n = text->length, .wait = true};
+    ceduo_say_no_progress();
     bool good = a->output ? ceduo_file_save(file) : ceduo_file_fill(STDOUT_FILENO, bytes, text->length, ceduo_interrupt_flag());
     if (good)
         return EXIT_DONE;

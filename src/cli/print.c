@@ -64,7 +64,7 @@ static void write_report(const struct arguments *a, const struct ceduo_report *r
         (is_whole(a) ? ceduo_report_table : ceduo_report_short)(&page, report, !ceduo_say_utf8());
         ceduo_say_plainly(&page);
         ceduo_text_put(out, ceduo_text_string(&page));
-        ceduo_profiles_add(a->profiles, report);
+        ceduo_profiles_add(a->profiles, report, a->label);
     }
 }
 
@@ -83,7 +83,6 @@ enum exit_status ceduo_print_report(const struct arguments *a, struct scene_file
         verdict = (struct ceduo_verdict){0};
     if (status == CEDUO_OK && a->format == CEDUO_TABLE)
         status = ceduo_sensitivity_beside(a, file, &progress, &answer, &doubt);
-    ceduo_progress_end(&progress);
     enum exit_status done = EXIT_DONE;
     if (status == CEDUO_OK) {
         bool flown = !a->stands || a->format != CEDUO_CSV;
@@ -213,7 +212,6 @@ enum exit_status ceduo_print_plots(const struct arguments *a, struct scene_file 
         add_plots(a, &file->scene, answered.snapshot, answered.answer.years, &answered.verdict, out);
         done = ceduo_finished(answered.answer.result);
     }
-    ceduo_progress_end(&progress);
     ceduo_answered_release(&answered);
     return status == CEDUO_OK ? done : ceduo_batch_failed(file, status);
 }

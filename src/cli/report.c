@@ -87,7 +87,7 @@ static void write_chapter(const struct arguments *a, const struct scene_file *fi
     ceduo_page_html(html, &page, number);
     struct ceduo_report judged = report;
     judged.doubt = doubt->file ? doubt : NULL;
-    ceduo_profiles_add(profiles, &judged);
+    ceduo_profiles_add(profiles, &judged, NULL);
     ceduo_page_free(&page);
 }
 
@@ -101,7 +101,6 @@ static enum exit_status add_chapter(const struct arguments *a, struct scene_file
     enum ceduo_status status = ask_runs(a, file, &progress, &c);
     if (status == CEDUO_OK)
         status = ceduo_sensitivity_beside(a, file, &progress, &c.answer, &doubt);
-    ceduo_progress_end(&progress);
     if (status == CEDUO_OK) {
         write_chapter(a, file, &c, &doubt.report, number, html, profiles);
         done = ceduo_finished(c.answer.result);

@@ -53,8 +53,31 @@ void ceduo_say_plainly(struct text *text)
         make_plain(text);
 }
 
+static bool line_open; /* of progress */
+
+void ceduo_say_progress(const char *format, ...)
+{
+    LOCAL_TEXT(line);
+    va_list args;
+    va_start(args, format);
+    ceduo_text_vformat(&line, format, args);
+    va_end(args);
+    fprintf(stderr, "\r%-78s", ceduo_text_string(&line));
+    line_open = true;
+}
+
+void ceduo_say_no_progress(void)
+{
+    if (line_open)
+        fprintf(stderr, "\r%-78s\r", "");
+    line_open = false;
+}
+
 void ceduo_say(struct text *text)
 {
+    if (text->length == 0)
+        return;
+    ceduo_say_no_progress();
     ceduo_say_plainly(text);
     fputs(ceduo_text_string(text), stderr);
 }

@@ -9,6 +9,11 @@
 /* Prints to standard error, as ASCII where the terminal knows no more. */
 void ceduo_say(struct text *text);
 
+/* Shows how far it is, on standard error: on one line, over what was shown before. What else is printed takes it away, as does the
+ * end of the program. */
+void ceduo_say_progress(const char *format, ...) __attribute__((format(printf, 1, 2)));
+void ceduo_say_no_progress(void);
+
 /* A line on standard error: what, and why. */
 void ceduo_say_why(const char *what, const char *why);
 

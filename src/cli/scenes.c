@@ -63,12 +63,13 @@ static enum exit_status choose(const struct arguments *a, struct scene_file *fil
 enum exit_status ceduo_batch_read(const struct arguments *a, const char *path, struct scene_file *file)
 {
     struct problems problems = {0};
-    bool good = ceduo_scene_load(file, path, a->sets.items, a->sets.n, &problems);
+    struct scene_sets sets = {a->sets.items, a->sets.n, a->cells, a->called};
+    bool good = ceduo_scene_load_row(file, path, &sets, &problems);
     ceduo_problems_close(&problems);
     if (problems.text.length > 0 && a->called && strncmp(problems.text.bytes, a->called, strlen(a->called)) != 0)
         ceduo_say_why(a->called, _("this scene cannot be computed:")); /* what follows names another file, or a change */
     ceduo_say(&problems.text);
-    enum exit_status status = good ? EXIT_DONE : problems.usage ? EXIT_USAGE : EXIT_INPUT;
+    enum exit_status status = good ? EXIT_DONE : problems.usage && !problems.cell ? EXIT_USAGE : EXIT_INPUT;
     ceduo_problems_free(&problems);
     for (const struct source *s = file->arena.sources; s && status != EXIT_OUTPUT; s = s->before)
         if (ceduo_output_is(a, s->path))
@@ -110,7 +111,6 @@ struct progress ceduo_progress_begin(const struct arguments *a)
     return (struct progress){.start = ceduo_clock(), .wanted = !a->quiet && isatty(STDERR_FILENO)};
 }
 
-/* Whether it is time to show how far it is; `*seconds`: since the start. */
 bool ceduo_progress_due(struct progress *p, double *seconds)
 {
     double t = ceduo_clock();
@@ -118,8 +118,6 @@ bool ceduo_progress_due(struct progress *p, double *seconds)
     if (!p->wanted || *seconds < 1 || t - p->shown < 0.2)
         return false;
     p->shown = t;
-    p->open = true;
-    fputc('\r', stderr); /* over what was shown before */
     return true;
 }
 
@@ -127,27 +125,26 @@ void ceduo_progress_show(void *progress, uint64_t rocks)
 {
     double seconds;
     if (ceduo_progress_due(progress, &seconds))
-        fprintf(stderr, _("%llu rocks, %.0f s"), (unsigned long long)rocks, seconds);
+        ceduo_say_progress(_("%llu rocks, %.0f s"), (unsigned long long)rocks, seconds);
 }
 
 void ceduo_progress_steps(void *progress, uint64_t done, uint64_t all)
 {
     double seconds;
     if (ceduo_progress_due(progress, &seconds))
-        fprintf(stderr, _("%llu of %llu, %.0f s"), (unsigned long long)done, (unsigned long long)all, seconds);
+        ceduo_say_progress(_("%llu of %llu, %.0f s"), (unsigned long long)done, (unsigned long long)all, seconds);
 }
 
-void ceduo_progress_scenes(struct progress *p, size_t done, size_t all)
+void ceduo_progress_scenes(struct progress *p, size_t computed, size_t done, size_t all)
 {
     double seconds;
-    if (all > 1 && done > 0 && ceduo_progress_due(p, &seconds))
-        fprintf(stderr, _("%zu of %zu scenes, %.0f s left"), done, all, seconds / (double)done * (double)(all - done));
-}
-
-void ceduo_progress_end(const struct progress *p)
-{
-    if (p->open)
-        fprintf(stderr, "\r%-78s\r", "");
+    if (computed == 0 || !ceduo_progress_due(p, &seconds))
+        return;
+    double left = seconds / (double)computed * (double)(all - done);
+    if (left < 120)
+        ceduo_say_progress(_("%zu of %zu scenes, %.0f s left"), done, all, left);
+    else
+        ceduo_say_progress(_("%zu of %zu scenes, %.0f min left"), done, all, left / 60);
 }
 
 struct ceduo_question ceduo_batch_question(const struct arguments *a, const struct scene_file *file, struct progress *progress)

@@ -20,16 +20,15 @@ void ceduo_batch_warn(const struct arguments *arguments, const struct scene_file
 /* Rocks and seconds on standard error, once a second is over: a run's `progress`. */
 struct progress {
     double start, shown;
-    bool wanted, open;
+    bool wanted;
 };
 struct progress ceduo_progress_begin(const struct arguments *arguments);
 void ceduo_progress_show(void *progress, uint64_t rocks);
-/* How many of all scenes are done, and for how long the others may take. */
-void ceduo_progress_scenes(struct progress *progress, size_t done, size_t all);
+/* How many of all scenes are done, some of them now, and for how long the others may take. */
+void ceduo_progress_scenes(struct progress *progress, size_t computed, size_t done, size_t all);
 void ceduo_progress_steps(void *progress, uint64_t done, uint64_t all);
 /* Whether it is time to show how far it is; `*seconds`: since the start. */
 bool ceduo_progress_due(struct progress *progress, double *seconds);
-void ceduo_progress_end(const struct progress *progress);
 
 /* What the command line asks of a scene: rocks as -n, -e or the scene says, threads, years. `progress` may be NULL. */
 struct ceduo_question ceduo_batch_question(const struct arguments *arguments, const struct scene_file *file,

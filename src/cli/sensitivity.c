@@ -38,7 +38,6 @@ enum ceduo_status ceduo_sensitivity_of(const struct arguments *a, struct scene_f
                                   .rocks = a->rocks > 0 ? a->rocks : CEDUO_DOUBT_ROCKS,
                                   .own_rocks = a->rocks > 0 ? a->rocks : file->scene.simulation.rocks};
     enum ceduo_status status = ceduo_sensitivity_ask(a, file, &progress, &def, NULL, d);
-    ceduo_progress_end(&progress);
     return status;
 }
 

@@ -124,6 +124,7 @@ __attribute__((format(printf, 4, 0))) static void add(struct problems *problems,
     LOCAL_TEXT(one);
     size_t k = 0;
     problems->usage |= source && source->is_option;
+    problems->cell |= source && source->is_cell;
     problems->met++;
     if (problems->count >= COUNTED) {
         problems->count++;
@@ -136,7 +137,7 @@ __attribute__((format(printf, 4, 0))) static void add(struct problems *problems,
     ceduo_text_format(&whole, "%s%s%s", path, path[0] ? ": " : "", ceduo_text_string(&message));
     if (source) {
         ceduo_text_safe(&one, source->name);
-        if (place.line > 0)
+        if (place.line > 0 && !source->is_cell)
             ceduo_text_format(&one, ":%zu:%zu", place.line, place.column);
         ceduo_text_put(&one, ": ");
     }

@@ -14,6 +14,7 @@ struct source {
     const char *bytes;
     size_t length;
     bool is_option;     /* a --set: what is wrong with it is a usage error */
+    bool is_cell;       /* of a row of --each that is set in that way: it is bad input, and has no line of its own */
     const char *beside; /* of an option: the file that its paths are looked for beside */
     bool foreign;       /* a file that does not say that it is one of ours: it may be anything, and nobody's business */
 };
@@ -49,6 +50,7 @@ struct problems {
     struct problem_kind kinds[CEDUO_PROBLEMS_MOST];
     struct text known; /* hashes of those reported */
     bool usage;        /* at least one is about the command line */
+    bool cell;         /* that which is of an option is a cell of --each */
     bool memory;       /* memory ran out: the list may lack some */
 };
 

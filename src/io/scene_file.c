@@ -58,10 +58,21 @@ static const char *equals_of(const char *set)
     return strchr(set, '='); /* a bracket that is never closed */
 }
 
-bool ceduo_scene_set(struct scene_file *file, const char *option, const char *set, struct problems *problems)
+/* How messages call a change, and what it is. */
+static struct source source_of(const struct scene_sets *sets, size_t i)
 {
-    const struct source *source = ceduo_source_keep(
-        &file->arena, (struct source){.name = option, .bytes = set, .is_option = true, .beside = file->path}, problems);
+    bool cell = i >= sets->n - sets->cells;
+    return (struct source){.name = cell ? sets->row : "--set",
+                           .bytes = sets->items[i],
+                           .length = strlen(sets->items[i]),
+                           .is_option = true,
+                           .is_cell = cell};
+}
+
+static bool set_one(struct scene_file *file, struct source set, struct problems *problems)
+{
+    set.beside = file->path;
+    const struct source *source = ceduo_source_keep(&file->arena, set, problems);
     if (!source)
         return false;
     const char *equals = equals_of(source->bytes);
@@ -87,6 +98,11 @@ bool ceduo_scene_set(struct scene_file *file, const char *option, const char *se
     if (root)
         file->root = root;
     return root != NULL;
+}
+
+bool ceduo_scene_set(struct scene_file *file, const char *option, const char *set, struct problems *problems)
+{
+    return set_one(file, (struct source){.name = option, .bytes = set, .is_option = true}, problems);
 }
 
 /* A name that is neither a file nor a scene among the profiles: the nearest of these, and where they were looked for. */
@@ -122,8 +138,8 @@ static void complain_no_scene(struct scene_file *file, const char *path, struct 
                   ceduo_text_string(&names));
 }
 
-/* From the text of a scene to the scene. */
-static bool make_scene(struct scene_file *file, const struct source *source, const char *const *sets, size_t sets_count,
+/* From the text of a scene, and the first n changes, to the scene. */
+static bool make_scene(struct scene_file *file, const struct source *source, const struct scene_sets *sets, size_t n,
                        struct problems *problems)
 {
     size_t before = problems->count;
@@ -136,8 +152,8 @@ static bool make_scene(struct scene_file *file, const struct source *source, con
         ceduo_node_problem(problems, file->root, NULL, _("a scene is a mapping that begins with 'ceduo: scene/1'"));
         return false;
     }
-    for (size_t i = 0; i < sets_count; i++)
-        if (!ceduo_scene_set(file, "--set", sets[i], problems))
+    for (size_t i = 0; i < n; i++)
+        if (!set_one(file, source_of(sets, i), problems))
             return false;
     const struct node *root = ceduo_resolve_scene(&file->arena, file->root, problems);
     if (!root)
@@ -147,7 +163,7 @@ static bool make_scene(struct scene_file *file, const struct source *source, con
 }
 
 /* Whether the scene is good with the first n changes alone. */
-static bool is_good_with(const struct source *source, const char *const *sets, size_t n, struct problems *problems)
+static bool is_good_with(const struct source *source, const struct scene_sets *sets, size_t n, struct problems *problems)
 {
     struct scene_file trial = {0};
     struct problems found = {0};
@@ -160,27 +176,32 @@ static bool is_good_with(const struct source *source, const char *const *sets, s
 
 /* Reads a scene. A change that is right by itself may not fit the rest, and what is wrong is then found at a value of the file: the
  * change is named before that. It is the one after which the scene was never good again. */
-static bool read_source(struct scene_file *file, const struct source *source, const char *const *sets, size_t n,
+static bool read_source(struct scene_file *file, const struct source *source, const struct scene_sets *sets,
                         struct problems *problems)
 {
-    if (make_scene(file, source, sets, n, problems))
+    if (make_scene(file, source, sets, sets->n, problems))
         return true;
-    if (n == 0 || problems->usage || problems->memory || !is_good_with(source, sets, 0, problems))
+    if (sets->n == 0 || problems->usage || problems->memory || !is_good_with(source, sets, 0, problems))
         return false;
-    size_t last = n - 1;
+    size_t last = sets->n - 1;
     while (last > 0 && !problems->memory && !is_good_with(source, sets, last, problems))
         last--;
-    const struct source set = {.name = "--set", .bytes = sets[last], .length = strlen(sets[last]), .is_option = true};
+    const struct source set = source_of(sets, last);
     struct problems head = {0};
-    ceduo_problem(&head, &set, 1, (size_t)(equals_of(sets[last]) - sets[last]) + 2,
+    ceduo_problem(&head, &set, 1, (size_t)(equals_of(set.bytes) - set.bytes) + 2,
                   _("the scene is valid without this change, but not with it:"));
     ceduo_problems_follow(problems, &head);
     problems->usage = true;
+    problems->cell = set.is_cell;
     return false;
 }
 
-bool ceduo_scene_load(struct scene_file *file, const char *path, const char *const *sets, size_t sets_count,
-                      struct problems *problems)
+bool ceduo_scene_load(struct scene_file *file, const char *path, const char *const *sets, size_t n, struct problems *problems)
+{
+    return ceduo_scene_load_row(file, path, &(struct scene_sets){.items = sets, .n = n}, problems);
+}
+
+bool ceduo_scene_load_row(struct scene_file *file, const char *path, const struct scene_sets *sets, struct problems *problems)
 {
     *file = (struct scene_file){.path = path};
     const char *found = strcmp(path, "-") == 0 ? path : ceduo_file_find(&file->arena, path, NULL, "scenes");
@@ -193,14 +214,14 @@ bool ceduo_scene_load(struct scene_file *file, const char *path, const char *con
     if (found && strcmp(found, path) != 0)
         file->name =
             ceduo_arena_copy(&file->arena, path, length > 5 && strcmp(path + length - 5, ".yaml") == 0 ? length - 5 : length);
-    return source && read_source(file, source, sets, sets_count, problems);
+    return source && read_source(file, source, sets, problems);
 }
 
 bool ceduo_scene_load_text(struct scene_file *file, const char *name, const char *text, struct problems *problems)
 {
     *file = (struct scene_file){.path = name};
     const struct source *source = ceduo_source_keep(&file->arena, (struct source){.name = name, .bytes = text}, problems);
-    return source && read_source(file, source, NULL, 0, problems);
+    return source && read_source(file, source, &(struct scene_sets){0}, problems);
 }
 
 void ceduo_scene_release(struct scene_file *file)

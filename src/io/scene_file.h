@@ -25,8 +25,14 @@ struct scene_file {
 
 /* Reads a scene ("-": standard input; a name without a file: a shipped scene), applies `sets` (PATH=VALUE, from left to
  * right) and checks it. False where something is wrong: see `problems`. Release it in any case. */
-bool ceduo_scene_load(struct scene_file *file, const char *path, const char *const *sets, size_t sets_count,
-                      struct problems *problems);
+bool ceduo_scene_load(struct scene_file *file, const char *path, const char *const *sets, size_t n, struct problems *problems);
+/* The same where the last of the n sets are cells of `row`, which messages call so: "slopes.csv:17". */
+struct scene_sets {
+    const char *const *items;
+    size_t n, cells;
+    const char *row;
+};
+bool ceduo_scene_load_row(struct scene_file *file, const char *path, const struct scene_sets *sets, struct problems *problems);
 /* The same from text in memory. */
 bool ceduo_scene_load_text(struct scene_file *file, const char *name, const char *text, struct problems *problems);
 void ceduo_scene_release(struct scene_file *file);

@@ -253,9 +253,9 @@ double ceduo_validate_end(void *validator)
         return before->origin_x + before->x[before->vertices - 1];
     if (csv && csv->kind == NODE_SCALAR) {
         const char *path = ceduo_resolve_path(v->arena, csv, "slopes");
-        if (path && ceduo_csv_slope_read(v->arena, path, &p, &problems) && p.n > 0)
+        if (path && ceduo_csv_slope_read(v->arena, path, &p, &problems) && p.n > 1)
             end = p.x[p.n - 1];
-    } else if (list && list->kind == NODE_LIST && list->n > 0) {
+    } else if (list && list->kind == NODE_LIST && list->n > 1) {
         const struct node *last = list->items[list->n - 1];
         if (last->kind == NODE_LIST && last->n == 2 && last->items[0]->kind == NODE_SCALAR &&
             ceduo_number_read(last->items[0]->text, &end) != CEDUO_NUMBER_GOOD)

@@ -33,13 +33,14 @@ static int rank_of(enum ceduo_judgement judgement)
     return ranks[judgement];
 }
 
-void ceduo_profiles_add(struct ceduo_profiles *p, const struct ceduo_report *report)
+void ceduo_profiles_add(struct ceduo_profiles *p, const struct ceduo_report *report, const char *name)
 {
     const struct ceduo_result *r = report->result;
     size_t n = r->scene->options_count;
     p->items = ceduo_must(realloc(p->items, (p->count + 1) * sizeof *p->items));
     struct ceduo_profile *to = &p->items[p->count];
-    *to = (struct ceduo_profile){.title = ceduo_must(strdup(ceduo_in_language(r->scene->title, r->scene->title_it))),
+    *to = (struct ceduo_profile){.title =
+                                     ceduo_must(strdup(name ? name : ceduo_in_language(r->scene->title, r->scene->title_it))),
                                  .accepted = NAN,
                                  .number = p->count++,
                                  .n = n,

@@ -57,7 +57,8 @@ struct ceduo_profiles {
     size_t count;
     struct ceduo_profile *items;
 };
-void ceduo_profiles_add(struct ceduo_profiles *profiles, const struct ceduo_report *report);
+/* `name`: NULL: the scene's title. */
+void ceduo_profiles_add(struct ceduo_profiles *profiles, const struct ceduo_report *report, const char *name);
 /* Puts the worst first. Their numbers as they were added, from 0, to `order`; how many. */
 size_t ceduo_profiles_sort(struct ceduo_profiles *profiles, size_t *order);
 /* Adds what is said of each option of each, and before it, where all are about one place, of that as a whole. */

@@ -70,9 +70,9 @@ def test_bad_rows():
         r = run(f, "-f", "csv", "--columns", "row.name")
         expect_equal((r.status, r.out), (INPUT, "row.name\na\ne\n"), str(r))
         for words in ("rows.csv:3: ", "none.csv", "rows.csv:4: ", "'x' is not a number", "rows.csv:5:", "3 of 5 failed: ",
-                      "rows.csv:3, rows.csv:4, rows.csv:5"):
+                      "rows.csv:3 (b), rows.csv:4 (c), rows.csv:5"):
             expect_in(words, r.err)
-        expect("end" not in r.err, r.err)
+        expect("end" not in r.err and "--set" not in r.err, r.err)
         r = ceduo("--check", "--each", "rows.csv", "s.yaml", cwd=f.path)
         expect_equal((r.status, "3 of 5 failed" in r.err), (INPUT, True), str(r))
         for text, words in (("", "empty"), ("a,a\n1,2\n", "'a' is given twice")):
@@ -80,6 +80,22 @@ def test_bad_rows():
             r = run(f, "-f", "csv")
             expect_equal((r.status, r.out), (INPUT, ""), str(r))
             expect_in(words, r.err)
+
+
+def test_messages():
+    """What is wrong with a cell is said of its line, once: what follows from a broken profile is not said"""
+    with Folder() as f:
+        valley(f, "the line as WKT,id,slope,rock.density_kg_m3\nLINESTRING (0 0; 0 90),a,none.csv,\n,b,one.csv,\n,c,bad.csv,\n,d,100.csv,heavy\n")
+        f.write("one.csv", "distance,elevation\n0,50\n")
+        f.write("bad.csv", "distance,elevation\n0,50\n9,x\n")
+        r = run(f, "-f", "csv")
+        lines = [line for line in r.err.splitlines() if not line.startswith(" ")]
+        expect_equal([line.split(": ")[0] for line in lines],
+                     ["rows.csv:2", "rows.csv:3", "rows.csv:4", "bad.csv:3:3", "rows.csv:5", "ceduo"], r.err)
+        for line, words in zip(lines, ("'none.csv'", "two vertices", "not with it", "'x' is not", "rock.density_kg_m3: 'heavy' is not",
+                                       "4 of 4 failed: rows.csv:2 (a), rows.csv:3 (b), rows.csv:4 (c), rows.csv:5 (d)")):
+            expect_in(words, line)
+        expect_equal(r.status, INPUT)
 
 
 def test_columns():
@@ -137,7 +153,8 @@ def test_other_answers():
         r = ceduo("-q", *words, "--each", "rows.csv", "--columns", "name,goal", "s.yaml", cwd=f.path)
         expect_equal(r.out, "name,goal\na,adc\nb,adc\n", str(r))
         page = run(f).out
-        expect_equal([line for line in page.splitlines() if line.startswith("rows.csv:")], ["rows.csv:2 \u00b7 a", "rows.csv:3 \u00b7 b"])
+        expect_equal({line for line in page.splitlines() if line.startswith("rows.csv:")}, {"rows.csv:2 \u00b7 a", "rows.csv:3 \u00b7 b"})
+        expect_equal({line.split()[0] for line in page.split("\n\n")[0].splitlines()[2:]}, {"a", "b"}, "the table calls each as its row")
 
 
 if __name__ == "__main__":

@@ -109,7 +109,9 @@ def test_profiles_of_one_place():
             control = result(path, "-n", 300)["options"][0]["controls"][0]
             shares[name] = control["wooded"]["exceed_probability"]
         expect(shares["bare"] > shares["wood"] > 0.1 and shares["calm"] == 0, shares)
-        table = good("--batch", "-n", 300, *files).out.split("\n\n")[0].splitlines()
+        text = good("--batch", "-n", 300, *files).out
+        expect_equal(re.findall(r"^(\w+) \u2013 300 rocks", text, re.M), ["bare", "wood", "calm"], "the pages, as the table")
+        table = text.split("\n\n")[0].splitlines()
         expect_equal([line.split()[0] for line in table], ["scene", "road", "bare", "wood", "calm"], "order")
         expect(re.match(r"road as a whole +✘ NO: too many arrive on 2 of 3 profiles$", table[1]), table[1])
         page = good("--report", "-", "-n", 50, *files).out

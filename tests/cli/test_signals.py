@@ -3,6 +3,7 @@
 """Signals end the program with nothing half done; progress goes to a terminal only."""
 import os
 import pty
+import re
 import signal
 import subprocess
 import sys
@@ -53,6 +54,13 @@ def test_terminal():
                                     PAPER], lambda t, s: b"rocks" in t or s > 90, "stderr")
         expect(b"rocks" in text and b"\x1b" not in text, text)
         expect_equal(status, -signal.SIGINT)
+        rows = f.write("rows.csv", "id,rock.diameter_m\n" + "".join(f"r{i},{'x' if i == 3 else 0.6}\n" for i in range(999)))
+        text, status = on_terminal(["--batch", "-f", "csv", "-n", "200000", "-j", "1", "-o", "/dev/null", "--each", str(rows), PAPER],
+                                   lambda t, s: t.count(b" left") > 3 and b"rows.csv:5" in t or s > 90, "stderr")
+        shown = text.replace(b"\r\n", b"\n").decode()
+        expect(re.search(r"\r\d+ of 999 scenes, \d+ (s|min) left *\r", shown), shown)
+        expect(re.search(r"(^|\r)[^\r\n]*rows.csv:5: .*'x' is not a number\n", shown) and "left" not in
+               re.search(r"[^\r\n]*rows.csv:5: ", shown)[0], "nothing stands before a message", shown)
         text, status = on_terminal(["--batch", "-q", "-n", "10000000", "-j", "1", "-o", "/dev/null", PAPER],
                                    lambda t, s: t or s > 1.6, "stderr")
         expect_equal(text, b"", "-q")
