@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Rows of a table in a file that anybody can add to. A column ends at "|", blanks around it are none of it but within double
- * quotes; # begins a comment, and == the next table. for (TABLE(row, "unit/typed.txt", "numbers")) row.at[0] … */
+ * quotes, where \n, \t, \", \\ and bytes such as \xc3 are as in C; # begins a comment, and == the next table. for (TABLE(row, "unit/typed.txt", "numbers")) row.at[0] … */
 #ifndef TABLE_H
 #define TABLE_H
 
@@ -28,6 +28,21 @@ static inline struct table table_open(const char *path, const char *title)
     return t;
 }
 
+static inline char *table_unescaped(char *text)
+{
+    char *to = text;
+    for (const char *from = text; *from; from++) {
+        unsigned c = (unsigned char)*from;
+        if (*from == '\\' && *++from == 'x' && sscanf(from, "x%2x", &c) == 1)
+            from += 2;
+        else if (c == '\\')
+            c = *from == 'n' ? '\n' : *from == 't' ? '\t' : (unsigned char)*from;
+        *to++ = (char)c;
+    }
+    *to = '\0';
+    return text;
+}
+
 /* Without the blanks around it, or the quotes. */
 static inline const char *table_column(char *text)
 {
@@ -38,7 +53,7 @@ static inline const char *table_column(char *text)
     if (n < 2 || text[0] != '"' || text[n - 1] != '"')
         return text;
     text[n - 1] = '\0';
-    return text + 1;
+    return table_unescaped(text + 1);
 }
 
 static inline bool table_next(struct table *t)

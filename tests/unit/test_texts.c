@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Texts: numbers, words that are near to others, an arena that is full. */
-#include "expect.h"
 #include "local.h"
+#include "table.h"
 
 #include <errno.h>
 #include <math.h>
@@ -15,44 +15,13 @@
 /* Code points that are shown as they are, by whether a terminal or a line of JSON could take them for more. */
 TEST(no_character_does_anything)
 {
-    const struct {
-        const char *from, *safe, *json;
-    } rows[] = {{"a b", "a b", "\"a b\""},
-                {"\xc3\xa0", "\xc3\xa0", "\"\xc3\xa0\""},
-                {"\x1b[2J", "\\x1b[2J", "\"\\u001b[2J\""},
-                {"\x7f", "\\x7f", "\"\\u007f\""},
-                {"\xc2\x80", "\\xc2\\x80", "\"\\u0080\""},
-                {"\xc2\x9f", "\\xc2\\x9f", "\"\\u009f\""},
-                {"\xc2\xa0", "\xc2\xa0", "\"\xc2\xa0\""},
-                {"\xe2\x80\xa7", "\xe2\x80\xa7", "\"\xe2\x80\xa7\""},
-                {"\xe2\x80\xa8", "\\xe2\\x80\\xa8", "\"\\u2028\""},
-                {"\xe2\x80\xa9", "\\xe2\\x80\\xa9", "\"\\u2029\""},
-                {"\xe2\x80\xaa", "\\xe2\\x80\\xaa", "\"\\u202a\""},
-                {"\xe2\x80\xae", "\\xe2\\x80\\xae", "\"\\u202e\""},
-                {"\xe2\x80\xaf", "\xe2\x80\xaf", "\"\xe2\x80\xaf\""},
-                {"\xe2\x81\xa5", "\xe2\x81\xa5", "\"\xe2\x81\xa5\""},
-                {"\xe2\x81\xa6", "\\xe2\\x81\\xa6", "\"\\u2066\""},
-                {"\xe2\x81\xa9", "\\xe2\\x81\\xa9", "\"\\u2069\""},
-                {"\xe2\x81\xaa", "\xe2\x81\xaa", "\"\xe2\x81\xaa\""},
-                {"\xef\xb7\x8f", "\xef\xb7\x8f", "\"\xef\xb7\x8f\""}, /* beside what Unicode keeps for no character */
-                {"\xef\xb7\x90", "\\xef\\xb7\\x90", "\"\\ufdd0\""},
-                {"\xef\xb7\xaf", "\\xef\\xb7\\xaf", "\"\\ufdef\""},
-                {"\xef\xb7\xb0", "\xef\xb7\xb0", "\"\xef\xb7\xb0\""},
-                {"\xef\xbf\xbd", "\xef\xbf\xbd", "\"\xef\xbf\xbd\""},
-                {"\xef\xbf\xbe", "\\xef\\xbf\\xbe", "\"\\ufffe\""},
-                {"\xef\xbf\xbf", "\\xef\\xbf\\xbf", "\"\\uffff\""},
-                {"\xf0\x90\x80\x80", "\xf0\x90\x80\x80", "\"\xf0\x90\x80\x80\""},
-                {"\xf0\x9f\xbf\xbe", "\\xf0\\x9f\\xbf\\xbe", "\"\\ud83f\\udffe\""}, /* of JSON two halves (RFC 8259, 7) */
-                {"\xf4\x8f\xbf\xbf", "\\xf4\\x8f\\xbf\\xbf", "\"\\udbff\\udfff\""},
-                {"\"\\", "\"\\", "\"\\\"\\\\\""},
-                {"\xff", "\\xff", "\"\\ufffd\""}};
-    for (size_t i = 0; i < LENGTH(rows); i++) {
+    for (TABLE(row, "unit/texts.txt", "characters")) {
         LOCAL_BY(ceduo_text_free) struct text safe = {0}, line = {0};
         struct json json = {.text = &line};
-        ceduo_text_safe(&safe, rows[i].from);
-        ceduo_json_string(&json, NULL, rows[i].from);
-        assert_string_equal(safe.bytes, rows[i].safe);
-        assert_string_equal(line.bytes, rows[i].json);
+        ceduo_text_safe(&safe, row.at[0]);
+        ceduo_json_string(&json, NULL, row.at[0]);
+        assert_string_equal(safe.bytes, row.at[1]);
+        assert_string_equal(line.bytes, row.at[2]);
     }
 }
 
@@ -126,24 +95,12 @@ TEST(numbers_are_read)
         assert_int_equal(ceduo_count_read(none[i], 0, 1e9, &count), CEDUO_NUMBER_NONE);
     }
     assert_int_equal(ceduo_number_read("1e999", &value), CEDUO_NUMBER_TOO_LARGE);
-    const struct {
-        const char *text;
-        double hi;
-        enum ceduo_number_reading reading;
-        uint64_t value;
-    } counts[] = {{"7", 9, CEDUO_NUMBER_GOOD, 7},
-                  {"1e3", 1e9, CEDUO_NUMBER_GOOD, 1000},
-                  {"2.0", 9, CEDUO_NUMBER_GOOD, 2},
-                  {"2.5", 9, CEDUO_NUMBER_NONE, 0},
-                  {"10", 9, CEDUO_NUMBER_TOO_LARGE, 0},
-                  {"-1", 9, CEDUO_NUMBER_TOO_LARGE, 0},
-                  {"1e999", 9, CEDUO_NUMBER_TOO_LARGE, 0},
-                  {"9007199254740993", 9.1e15, CEDUO_NUMBER_GOOD, 9007199254740993u},
-                  {"9007199254740993", 9007199254740992., CEDUO_NUMBER_TOO_LARGE, 0}};
-    for (size_t i = 0; i < LENGTH(counts); i++) {
-        assert_int_equal(ceduo_count_read(counts[i].text, 0, counts[i].hi, &count), counts[i].reading);
-        if (counts[i].reading == CEDUO_NUMBER_GOOD)
-            assert_int_equal(count, counts[i].value);
+    for (TABLE(row, "unit/texts.txt", "counts")) {
+        enum ceduo_number_reading reading = ceduo_count_read(row.at[0], 0, strtod(row.at[1], NULL), &count);
+        assert_int_equal(reading == CEDUO_NUMBER_NONE, strcmp(row.at[2], "none") == 0);
+        assert_int_equal(reading == CEDUO_NUMBER_TOO_LARGE, strcmp(row.at[2], "too large") == 0);
+        if (reading == CEDUO_NUMBER_GOOD)
+            assert_int_equal(count, strtoull(row.at[2], NULL, 10));
     }
 }
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Trees of YAML: what is written is read back, compared, walked along a path, and patched into a text. */
-#include "expect.h"
 #include "local.h"
+#include "table.h"
 
 #include <string.h>
 
@@ -84,43 +84,19 @@ TEST(scalars_are_read_back)
 
 TEST(trees_are_read_back)
 {
-    const char *const trees[] = {
-        "a: {}\nb: []\n",
-        "- - - 1\n    - 2\n  - []\n",
-        "- {}\n- a: 1\n  b: [1, 2]\n",
-        "a: [[1, 2], [3, 4], {b: [5, {c: 6}]}]\n",
-        "a: [aaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaa, bbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbb, ccccccccccccccccccccccccccccccc]\n",
-        "a: [[aaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaa, bbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbb, cccccccccccccccccccccccccccc], [], "
-        "1]\n",
-        "- [[aaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaa, bbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbb, cccccccccccccccccccccccccccc], [], 1]\n",
-        "- {a: aaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaa, b: bbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbbb, c: ccccccccccc}\n"};
     LOCAL_BY(ceduo_arena_free) struct arena arena = {0};
-    for (size_t i = 0; i < LENGTH(trees); i++)
-        expect_back(&arena, parsed(&arena, trees[i]));
+    for (TABLE(row, "unit/texts.txt", "trees that are read back"))
+        expect_back(&arena, parsed(&arena, row.at[0]));
 }
 
 TEST(trees_are_compared)
 {
-    const struct {
-        const char *a, *b;
-        bool equal;
-    } rows[] = {{"1", "1", true},
-                {"1", "1.0", false},
-                {"1", "'1'", false},
-                {"a", "'a'", true},
-                {"a", "[a]", false},
-                {"[a]", "[a, b]", false},
-                {"[a, b]", "[a, c]", false},
-                {"{a: 1}", "{a: 1}", true},
-                {"{a: 1}", "{b: 1}", false},
-                {"{a: 1}", "{a: 2}", false},
-                {"'1'", "'1'", true},
-                {"{a: 1}", "[1]", false}};
     LOCAL_BY(ceduo_arena_free) struct arena arena = {0};
-    for (size_t i = 0; i < LENGTH(rows); i++) {
-        const struct node *a = parsed(&arena, rows[i].a), *b = parsed(&arena, rows[i].b);
-        assert_int_equal(ceduo_node_equal(a, b), rows[i].equal);
-        assert_int_equal(ceduo_node_equal(b, a), rows[i].equal);
+    for (TABLE(row, "unit/texts.txt", "trees that are compared")) {
+        const struct node *a = parsed(&arena, row.at[0]), *b = parsed(&arena, row.at[1]);
+        bool equal = strcmp(row.at[2], "equal") == 0;
+        assert_int_equal(ceduo_node_equal(a, b), equal);
+        assert_int_equal(ceduo_node_equal(b, a), equal);
         assert_true(ceduo_node_equal(a, a));
         assert_false(ceduo_node_equal(a, NULL));
         assert_false(ceduo_node_equal(NULL, a));
@@ -146,38 +122,14 @@ TEST(trees_are_compared)
 /* Values put into a text, the rest of it left as it is: NULL where more has changed than values. */
 TEST(texts_are_patched)
 {
-    const struct {
-        const char *before, *now, *wanted;
-    } rows[] = {
-        {"a: 1 # c\n", "a: 2", "a: 2 # c\n"},
-        {"\357\273\277a: 1 # c\n", "a: 2", "\357\273\277a: 2 # c\n"},
-        {"'\xc3\xa0': 1 # c\nb: [1, 2] # d", "{'\xc3\xa0': 5, b: [1, 3]}", "'\xc3\xa0': 5 # c\nb: [1, 3] # d"},
-        {"a: [1, 2] # c\n", "a: [1, 2, 3]", "a: [1, 2, 3] # c\n"},
-        {"a: {b: 1} # c\n", "a: {c: 1}", "a: {c: 1} # c\n"},
-        {"a: [1] # c\n", "a: x", "a: x # c\n"},
-        {"a: 1 # c\n", "a: [x, z]", "a: [x, z] # c\n"},
-        {"a: 1\n", "a: 1", "a: 1\n"},
-        {"a: 1\n", "{a: 1, b: 2}", NULL},
-        {"a:\n  b: 1\n", "a: {b: 1, c: 2}", NULL},
-        {"a:\n  b: 1\n", "a: {c: 1}", NULL},
-        {"a:\n  - 1\n", "a: x", NULL},
-        {"5", "6", "6"},
-        {"a: 1", "a: 2", "a: 2"},
-        /* libyaml ends a line at U+2028, too: its places are others than those that are patched */
-        {"# \xe2\x80\xa8# c\na: 1", "a: 2", NULL},
-        {"# \xe2\x80\xa8# c\na: 1\n", "a: 2", NULL},
-        {"#\xe2\x80\xa8#\na:                    1\nb: 2\n# a line of some length\n", "{a: 3, b: 4}", NULL},
-        {"#\xe2\x80\xa8#\na:                    1\nb: [2]\n# a line of some length\n", "{a: 3, b: [2, 4]}", NULL},
-        {"#\xe2\x80\xa8#\na:                    \"x\n y\"\n# a line of some length\n", "a: z", NULL},
-    };
-    for (size_t i = 0; i < LENGTH(rows); i++) {
+    for (TABLE(row, "unit/texts.txt", "texts that are patched")) {
         LOCAL_BY(ceduo_arena_free) struct arena arena = {0};
         LOCAL_TEXT(text);
-        const struct node *old = parsed(&arena, rows[i].before), *now = parsed(&arena, rows[i].now);
+        const struct node *old = parsed(&arena, row.at[0]), *now = parsed(&arena, row.at[1]);
         bool good = ceduo_emit_patched(&text, old->source, old, now);
-        assert_int_equal(good, rows[i].wanted != NULL);
+        assert_int_equal(good, strcmp(row.at[2], "none") != 0);
         if (good)
-            assert_string_equal(text.bytes, rows[i].wanted);
+            assert_string_equal(text.bytes, row.at[2]);
         else
             assert_int_equal(text.length, 0);
     }

@@ -1,32 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Characters, columns and lines. What is right stands in RFC 3629, in Unicode's widths and in UAX 14. */
-#include "expect.h"
+#include "table.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/utf8.h"
 
 TEST(decoding)
 {
-    static const struct {
-        const char *bytes;
-        size_t length;
-        uint32_t code;
-    } cases[] = {
-        {"a", 1, 'a'},
-        {"\x7f", 1, 0x7f},
-        {"\xc2\x80", 2, 0x80},
-        {"\xc3\xa0", 2, 0xe0},
-        {"\xdf\xbf", 2, 0x7ff},
-        {"\xe0\xa0\x80", 3, 0x800},
-        {"\xe2\x80\xa6", 3, 0x2026},
-        {"\xed\x9f\xbf", 3, 0xd7ff},
-        {"\xee\x80\x80", 3, 0xe000},
-        {"\xef\xbf\xbf", 3, 0xffff},
-        {"\xf0\x90\x80\x80", 4, 0x10000},
-        {"\xf0\x9f\x8c\xb3", 4, 0x1f333},
-        {"\xf4\x8f\xbf\xbf", 4, 0x10ffff},
-    };
     const char *none =
         "\x80|\xc3|\xc3(|\xc3g|\xe2\x80|\xe2\x80g|"                         /* cut */
         "\xc0\xaf|\xc1\xbf|\xe0\x80\xaf|\xe0\x9f\xbf|\xf0\x8f\xbf\xbf|"     /* too long a form */
@@ -36,13 +18,14 @@ TEST(decoding)
         assert_int_equal(ceduo_utf8_decode(bytes, strlen(bytes), &code), 0);
         assert_int_equal(code, 0);
     }
-    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+    for (TABLE(row, "unit/texts.txt", "decoding")) {
         uint32_t code = 0;
+        size_t length = strlen(row.at[0]);
         char back[4];
-        assert_int_equal(ceduo_utf8_decode(cases[i].bytes, strlen(cases[i].bytes), &code), cases[i].length);
-        assert_int_equal(code, cases[i].code);
-        assert_int_equal(ceduo_utf8_encode(code, back), cases[i].length);
-        assert_memory_equal(back, cases[i].bytes, cases[i].length);
+        assert_int_equal(ceduo_utf8_decode(row.at[0], length, &code), length);
+        assert_int_equal(code, strtoul(row.at[1], NULL, 16));
+        assert_int_equal(ceduo_utf8_encode(code, back), length);
+        assert_memory_equal(back, row.at[0], length);
     }
     uint32_t code;
     assert_int_equal(ceduo_utf8_decode("\xc3\xa0", 1, &code), 0); /* its second byte is not there */
