@@ -50,51 +50,14 @@ static void splice(struct seed *s, size_t at, size_t n, const void *bytes, size_
 
 static void change(struct seed *s, const struct seed *other)
 {
-    static const char *const words[] = {"\n",
-                                        " ",
-                                        ":",
-                                        ": ",
-                                        "- ",
-                                        "[",
-                                        "]",
-                                        "{",
-                                        "}",
-                                        ",",
-                                        "=",
-                                        "\"",
-                                        "'",
-                                        "#",
-                                        "&a ",
-                                        "*a",
-                                        "!",
-                                        "|\n",
-                                        "\t",
-                                        "\xff",
-                                        "\xc3",
-                                        "\xe2\x80\xa6",
-                                        "\xef\xbb\xbf",
-                                        "1e999",
-                                        "-",
-                                        "0",
-                                        "1e-320",
-                                        "nan",
-                                        "---\n",
-                                        "? ",
-                                        "\r\n",
-                                        "\x1b[2J",
-                                        "[0]",
-                                        "[a]",
-                                        ".",
-                                        "base: ",
-                                        "mean: ",
-                                        "source: ",
-                                        "999999999",
-                                        "0.5",
-                                        "\x01",
-                                        "key ",
-                                        "type ",
-                                        "Enter ",
-                                        "Esc "};
+    static const char *const words =
+        "\n\0 \0:\0: \0- \0[\0]\0{\0}\0,\0=\0\"\0'\0#\0&a \0*a\0!\0|\n\0\t\0\xff\0\xc3\0\xe2\x80\xa6\0"
+        "\xef\xbb\xbf\0"
+        "1e999\0-\0"
+        "0\0"
+        "1e-320\0nan\0---\n\0? \0\r\n\0\x1b[2J\0[0]\0[a]\0.\0base: \0mean: \0source: \0"
+        "999999999\0"
+        "0.5\0\x01\0key \0type \0Enter \0Esc \0";
     size_t at = draw(s->n + 1), left = s->n - at;
     switch (draw(6)) {
     case 0:
@@ -102,7 +65,9 @@ static void change(struct seed *s, const struct seed *other)
             s->bytes[at] = (uint8_t)draw(256);
         break;
     case 1: {
-        const char *word = words[draw(sizeof words / sizeof words[0])];
+        const char *word = words;
+        for (size_t n = draw(45); n > 0; n--)
+            word += strlen(word) + 1;
         splice(s, at, 0, word, strlen(word));
         break;
     }
@@ -120,7 +85,9 @@ static void change(struct seed *s, const struct seed *other)
         break;
     }
     case 4: {
-        const char *word = words[draw(sizeof words / sizeof words[0])];
+        const char *word = words;
+        for (size_t n = draw(45); n > 0; n--)
+            word += strlen(word) + 1;
         size_t n = draw(12);
         splice(s, at, n < left ? n : left, word, strlen(word));
         break;

@@ -548,12 +548,11 @@ TEST(pairs_that_do_not_differ)
     EXPECT_IS(p, (se, 0), (below, 0));
 }
 
+/* Also of whole numbers that a product of doubles is above or below: .07, .55 and .29 of 100. */
 TEST(ranks_of_quantiles)
 {
     static const struct {
-        size_t n;
-        double p;
-        size_t rank;
+        double n, p, rank;
     } rows[] = {{1, .5, 1},
                 {2, .5, 1},
                 {3, .5, 2},
@@ -566,13 +565,13 @@ TEST(ranks_of_quantiles)
                 {1000, .95, 950},
                 {10000000, .95, 9500000},
                 {10000001, .95, 9500001},
-                {100, .07, 7}, /* whole numbers that a product of doubles is above or below */
+                {100, .07, 7},
                 {100, .55, 55},
                 {100, .29, 29},
                 {5, 1, 5},
                 {10, 0, 1}};
     for (size_t i = 0; i < LENGTH(rows); i++)
-        assert_int_equal(ceduo_quantile_rank(rows[i].n, rows[i].p), rows[i].rank);
+        assert_int_equal(ceduo_quantile_rank((size_t)rows[i].n, rows[i].p), rows[i].rank);
 }
 
 /* P(X <= k) of the binomial law by its own sum. */

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "local.h"
+#include "table.h"
 #include "unit/grid.h"
 
 /* ---- The cells ---- */
@@ -137,63 +138,29 @@ TEST(labels_are_cut_at_the_canvas)
 
 TEST(odd_characters_become_question_marks)
 {
-    static const struct {
-        const char *text, *utf8, *ascii;
-    } cases[] = {
-        {"a\tb\x7f", "a?b?\n", "a?b?\n"},
-        {"\x80|\xC0\xAF|\xFF", "?|??|?\n", "?|??|?\n"}, /* lone, overlong, never valid */
-        {"\xE2\x82|", "??|\n", "??|\n"},                /* broken off within */
-        {"|\xF0\x9F", "|??\n", "|??\n"},                /* broken off at the end */
-        {"\xED\xA0\x80", "???\n", "???\n"},             /* a surrogate */
-        {"\xF4\x90\x80\x80", "????\n", "????\n"},       /* above U+10FFFF */
-        {"\xE0\x80\x80\xF0\x80\x80\x80", "???????\n", "???????\n"},
-        {"森x", "?x\n", "?x\n"}, /* two cells */
-        {"🌲!", "?!\n", "?!\n"},
-        {"e\xCC\x81", "e?\n", "e?\n"}, /* a combining accent */
-        {"𝑥", "𝑥\n", "?\n"},           /* four bytes, one cell */
-        {"⠿Ж", "⠿Ж\n", "??\n"},
-    };
     LOCAL(ceduo_cells, utf8) = cells_in(12, 1, BRAILLE);
     LOCAL(ceduo_cells, ascii) = cells_in(12, 1, ASCII);
-    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; ++i) {
-        ceduo_cells_label(utf8, 0, 0, CEDUO_ROLE_TEXT, cases[i].text);
-        ceduo_cells_label(ascii, 0, 0, CEDUO_ROLE_TEXT, cases[i].text);
-        expect_and_clear(utf8, cases[i].utf8);
-        expect_and_clear(ascii, cases[i].ascii);
+    for (TABLE(row, "unit/texts.txt", "characters of a picture")) {
+        ceduo_cells_label(utf8, 0, 0, CEDUO_ROLE_TEXT, row.at[0]);
+        ceduo_cells_label(ascii, 0, 0, CEDUO_ROLE_TEXT, row.at[0]);
+        expect_and_clear(utf8, row.at[1]);
+        expect_and_clear(ascii, row.at[2]);
     }
 }
 
 TEST(ascii_has_near_equivalents)
 {
-    static const char *const pairs[][2] = {
-        {"2×3", "2x3"},
-        {"±0.3 %", "+-0.3 %"},
-        {"0…2", "0...2"},
-        {"ADS 1 · 2", "ADS 1 . 2"},
-        {"≤ 10 ≥", "<= 10 >="},
-        {"a — b–c", "a - b-c"},
-        {"35°", "35"},
-        {"✔ ✘", "+ x"},
-        {"−1", "-1"},
-        {"m²", "m2"},
-        {"é", "e"},
-        {"─│┌┤", "-|++"},
-        {"█▏", "##"},
-        {"→", "->"},
-        {"Ø ∞", "O inf"},
-        {"♣", "Y"},
-    };
     LOCAL(ceduo_cells, ascii) = cells_in(12, 1, ASCII);
     LOCAL(ceduo_cells, block) = cells_in(12, 1, BLOCK);
-    for (size_t i = 0; i < sizeof pairs / sizeof pairs[0]; ++i) {
+    for (TABLE(row, "unit/texts.txt", "near equivalents")) {
         LOCAL_TEXT(text);
         LOCAL_TEXT(other);
-        ceduo_cells_label(ascii, 0, 0, CEDUO_ROLE_TEXT, pairs[i][0]);
+        ceduo_cells_label(ascii, 0, 0, CEDUO_ROLE_TEXT, row.at[0]);
         ceduo_cells_text(ascii, 0, &text);
-        assert_string_equal(text.bytes, pairs[i][1]);
-        ceduo_cells_label(block, 0, 0, CEDUO_ROLE_TEXT, pairs[i][0]);
+        assert_string_equal(text.bytes, row.at[1]);
+        ceduo_cells_label(block, 0, 0, CEDUO_ROLE_TEXT, row.at[0]);
         ceduo_cells_text(block, 0, &other);
-        assert_string_equal(other.bytes, pairs[i][0]);
+        assert_string_equal(other.bytes, row.at[0]);
         ceduo_cells_clear(ascii);
         ceduo_cells_clear(block);
     }

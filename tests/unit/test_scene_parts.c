@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What a scene says of blocks, of what is not known and of what was seen: which places it means, where it comes from, and how
  * problems are put together. */
-#include "expect.h"
 #include "local.h"
+#include "table.h"
 
 #include <math.h>
 
@@ -426,26 +426,10 @@ TEST(notes_are_found)
         "[energy]}}}]");
     if (!ceduo_scene_load_text(&file, "scene", text.bytes, &problems))
         fail_msg("%s", problems.text.bytes);
-    const struct {
-        const char *path, *note;
-        bool assumed;
-    } rows[] = {{"forest[0].to_m", "belt", true},
-                {"forest[0]", "belt", true},
-                {"forest[0].stand", "stand", false},
-                {"forest[0].stand.name", "stand", false},
-                {"forest[0].standing", "belt", true},
-                {"forest[0].stand.stools.per_ha", "stools", true},
-                {"forest[0].stand.shoots[0].dbh_m", "stand", false},
-                {"forest[1].to_m", NULL, false},
-                {"forest[1].stand.energy.model", "own", true},
-                {"forest[2].stand.energy.model", "own", true},
-                {"release", NULL, false}};
-    for (size_t i = 0; i < LENGTH(rows); i++) {
-        const struct source_note *note = ceduo_notes_find(file.notes, rows[i].path);
-        assert_int_equal(note != NULL, rows[i].note != NULL);
-        if (note)
-            assert_string_equal(note->text, rows[i].note);
-        assert_int_equal(ceduo_scene_assumes_value(&file, rows[i].path), rows[i].assumed);
+    for (TABLE(row, "unit/sources.txt", "notes")) {
+        const struct source_note *note = ceduo_notes_find(file.notes, row.at[0]);
+        assert_string_equal(note ? note->text : "none", row.at[1]);
+        assert_int_equal(ceduo_scene_assumes_value(&file, row.at[0]), strcmp(row.at[2], "assumed") == 0);
     }
     assert_true(ceduo_notes_assume(file.notes, "forest[0].stand"));
     assert_true(ceduo_notes_assume(file.notes, "forest"));
@@ -456,22 +440,11 @@ TEST(notes_are_found)
 
 TEST(ranges_are_told)
 {
-    const struct {
-        double lo, hi;
-        unsigned flags;
-        const char *text;
-    } rows[] = {{-INFINITY, INFINITY, 0, ""},
-                {0, INFINITY, 0, ">= 0"},
-                {0, INFINITY, FIELD_ABOVE, "> 0"},
-                {0, 1, 0, "0…1"},
-                {0, 1, FIELD_ABOVE | FIELD_UNDER, ">0\xe2\x80\xa6<1"},
-                {-INFINITY, 5, 0, "…5"},
-                {-1e9, 1e9, 0, "-1e+09…1e+09"},
-                {0, 9007199254740992.0, 0, "0…9007199254740992"}};
-    for (size_t i = 0; i < LENGTH(rows); i++) {
+    for (TABLE(row, "unit/texts.txt", "ranges")) {
         LOCAL_TEXT(text);
-        const struct field f = {.lo = rows[i].lo, .hi = rows[i].hi, .flags = rows[i].flags};
-        assert_int_equal(ceduo_schema_range_text(&f, &text), rows[i].text[0] != '\0');
-        assert_string_equal(ceduo_text_string(&text), rows[i].text);
+        unsigned flags = (strstr(row.at[2], "above") ? FIELD_ABOVE : 0u) | (strstr(row.at[2], "below") ? FIELD_UNDER : 0u);
+        const struct field f = {.lo = strtod(row.at[0], NULL), .hi = strtod(row.at[1], NULL), .flags = flags};
+        assert_int_equal(ceduo_schema_range_text(&f, &text), row.at[3][0] != '\0');
+        assert_string_equal(ceduo_text_string(&text), row.at[3]);
     }
 }

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What is said of figures: an interval holds all that lies in it once it is rounded, and an option is called the
  * best only where it is more than three standard errors before the others. */
-#include "expect.h"
 #include "local.h"
+#include "table.h"
 
 #include <math.h>
 #include <string.h>
@@ -18,22 +18,8 @@
 /* So many digits, without an exponent below 1e9; from there on with it, and where more than 6 decimals would be needed. */
 TEST(numbers_are_shown_with_their_digits)
 {
-    const struct {
-        double value;
-        int digits;
-        const char *shown;
-    } rows[] = {{12.345, 3, "12.3"},
-                {999999999, 2, "999999999"},
-                {1e9, 2, "1e+09"},
-                {1.26e9, 2, "1.3e+09"},
-                {-2.5e9, 2, "-2.5e+09"},
-                {0.0123, 2, "0.012"},
-                {0.00012, 2, "0.00012"},
-                {1.2e-8, 2, "1.2e-08"},
-                {0, 3, "0"},
-                {NAN, 3, "-"}};
-    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++)
-        assert_string_equal(WRITTEN(rows[i].value, rows[i].digits), rows[i].shown);
+    for (TABLE(row, "unit/texts.txt", "digits"))
+        assert_string_equal(WRITTEN(strtod(row.at[0], NULL), atoi(row.at[1])), row.at[2]);
 }
 
 /* Beside its limit a figure lies where it is judged to lie; elsewhere it has the digits that all have. */
