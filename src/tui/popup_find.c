@@ -169,7 +169,7 @@ static void append_words(struct app *app, struct popup *p, const struct ceduo_se
     double per = goals[row_of(s->goal)].per, at = f->found ? f->goal_at_value : f->goal_at_nearest;
     char room[CEDUO_NUMBER_ROOM];
     const char *amount =
-        isinf(at) ? _("without end") : ceduo_app_format(app, "%s %s", BESIDE(at * per, 4, s->target * per), unit);
+        isinf(at) ? _("without end") : ceduo_app_format(app, "%s %s", BESIDE(at * per, 3, s->target * per), unit);
     const char *reached = ceduo_app_format(app, "%s %s", _(ceduo_goals[s->goal].name), amount);
     if (f->found && f->whole_range) { /* then the value that is there is as good as another */
         ceduo_text_format(text, _("every value from %s to %s reaches the goal; the field stays %s"), lo, hi,

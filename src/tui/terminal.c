@@ -524,6 +524,8 @@ enum terminal_end ceduo_terminal_run(struct app *app)
     noecho();
     nonl();
     keypad(stdscr, TRUE);
+    define_key("\033[1~", KEY_HOME); /* as tmux sends them, whatever TERM says */
+    define_key("\033[4~", KEY_END);
     nodelay(stdscr, TRUE);
     curs_set(0);
     mouseinterval(0);

@@ -77,7 +77,7 @@ static void say_misfits(struct ceduo_page *page, const struct scene_file *file, 
         else if (p[i].inside)
             ceduo_text_format(&bad, _(" (the mean fits, how the values are spread does not: p %s)"), chance);
         else if (p[i].p_value >= CEDUO_MISFIT)
-            ceduo_text_format(&bad, _(" (the mean does not fit, though single values do: p %s)"), chance);
+            ceduo_text_format(&bad, _(" (the mean lies outside: p %s)"), chance);
         else
             ceduo_text_format(&bad, " (p %s)", chance);
     }

@@ -79,8 +79,8 @@ static void say_year(struct app *app, const struct ceduo_years *years, struct te
         const struct ceduo_arrivals *a = &y->wooded.arrivals[c];
         struct ceduo_portion share = ceduo_share_at(a);
         ceduo_text_format(text,
-                          isnan(a->exceed_probability) ? _("of 1000 %.0f \xc2\xb1%.0f arrive")
-                                                       : _("of 1000 %.0f \xc2\xb1%.0f with more than %g kJ"),
+                          isnan(a->exceed_probability) ? _("%.0f \xc2\xb1%.0f of 1000 arrive")
+                                                       : _("%.0f \xc2\xb1%.0f of 1000 with more than %g kJ"),
                           share.mean * 1000, ceil(1000 * share.half), control->accepted * J_TO_KJ);
         ceduo_text_put(text, "; ");
     }

@@ -88,7 +88,7 @@ static void add_arrivals(struct ceduo_page *page, const struct ceduo_pane *pane,
     if (!isnan(c->accepted) && !nothing)
         add_row(page, ceduo_judged(c, wood), ceduo_judged(c, bare));
     struct ceduo_measure judged = ceduo_judged(c, wood);
-    if (wood && !pane->year) /* by the index it would be of the rocks without forest */
+    if (wood && !pane->year && !nothing) /* by the index it would be of the rocks without forest */
         ceduo_measure_doubt(&judged, pane->doubt, pane->option, pane->result->last_control);
     if (!isnan(judged.may_lo)) {
         ceduo_page_write(page, "  %s", _("may be"));
@@ -132,7 +132,7 @@ static void add_tests(struct ceduo_page *page, const struct ceduo_pane *pane, co
     bool gap = index->length > 0 && index->longest_gap > threshold; /* the reason in the page, too */
     CEDUO_PAGE_TABLE_OF(page, columns);
     if (gap)
-        ceduo_page_write(page, _("gap %s m > %g"), BESIDE(index->longest_gap, 3, threshold), threshold);
+        ceduo_page_write(page, _("gap %s m > %g"), ROUNDED(index->longest_gap, 6), threshold);
     else if (isinf(index->worst_adc))
         ceduo_page_write(page, "%s", index->length > 0 ? _("ADC: no stems") : _("ADC: no forest"));
     else

@@ -11,9 +11,9 @@
 /* Columns behind the name; without rocks among stems two of them are of the index. */
 enum column { NAME, TODAY, MAY_BE, EVERY, MEAN, MARK, WORST, FAILS, YIELD, CONTACT, FREE_RUN, ENERGY, YEARS, COLUMNS };
 
-static const struct ceduo_page_column columns[COLUMNS] = {[NAME] = {"", 13, 0, CEDUO_FILLS},
+static const struct ceduo_page_column columns[COLUMNS] = {[NAME] = {"", 12, 0, CEDUO_FILLS},
                                                           [TODAY] = {"", -5, 1, CEDUO_FITS},
-                                                          [MAY_BE] = {"", -1, 1, CEDUO_FITS},
+                                                          [MAY_BE] = {"", -1, 1, CEDUO_FITS | CEDUO_KEPT | CEDUO_DROPPED(9)},
                                                           [EVERY] = {"", -1, 1, CEDUO_FITS | CEDUO_DROPPED(4)},
                                                           [MEAN] = {"", -5, 1, CEDUO_FITS | CEDUO_KEPT | CEDUO_DROPPED(1)},
                                                           [MARK] = {"", 1, 1, CEDUO_FITS | CEDUO_DROPPED(7)},
@@ -147,7 +147,7 @@ static void add_heads(struct ceduo_page *page, const struct ceduo_pane *pane)
     if (r->wooded && r->scene->blocks_count > 0)
         ceduo_text_put(&heads[EVERY].text, _("every, y"));
     if (knows_rotation(pane))
-        ceduo_text_format(&heads[MEAN].text, " (%s)", _("may be"));
+        ceduo_text_format(&heads[MEAN].text, ", %s", _("may be"));
     else if (pane->doubt && pane->doubt->answer)
         ceduo_text_put(&heads[MAY_BE].text, _("may be"));
 }

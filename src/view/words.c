@@ -317,7 +317,7 @@ void ceduo_words_contact(struct text *text, const struct ceduo_result *result, s
         ceduo_text_put(text, _("There is no forest on the way."));
     else if (s->longest_gap > limit)
         ceduo_text_format(text, _("A gap of %s m has no forest; a rock reaches full speed in %g m."),
-                          BESIDE(s->longest_gap, 3, limit), limit);
+                          ROUNDED(s->longest_gap, 6), limit);
     else if (isinf(s->worst_adc))
         ceduo_text_format(text, _("In a belt no stem counts; a rock reaches full speed in %g m."), limit);
     else
@@ -339,7 +339,7 @@ void ceduo_words_free_run(struct text *text, const struct ceduo_result *result, 
     say_verdict(text, _("Free run: %s."), s->free_run);
     if (s->length > 0 && s->longest_gap > limit)
         ceduo_text_format(text, _("A gap of %s m has no forest: every rock runs more than %g m there."),
-                          BESIDE(s->longest_gap, 3, limit), limit);
+                          ROUNDED(s->longest_gap, 6), limit);
     else if (s->length > 0)
         ceduo_text_format(text, _("Chance of %g m without a contact at worst %s %% (10 %% is allowed)."), limit,
                           PERCENT(s->worst_free_run, CEDUO_FREE_RUN_MOST));

@@ -260,7 +260,7 @@ def test_figures():
         stand, wooded = year["stands"][0], year["controls"][0]["wooded"]
         expect_equal((number, cut), (year["year"], year["cut"]))
         expect_equal(adc, f"{stand['adc']['adc_m']:.3g}", "ADC")
-        expect_in(f": of 1000 {1000 * wooded['exceed_probability']:.0f} ±", flat(screen))
+        expect_in(f": {1000 * wooded['exceed_probability']:.0f} ±", flat(screen))
         expect_in("2–38 m: " + (f"{stand['stools_per_ha']:.0f} stools" if stand["stools_per_ha"] else "30 trees of"),
                   flat(screen), "the stems")
 
