@@ -105,6 +105,8 @@ struct ceduo_doubt_figure {
 struct ceduo_doubt_order {
     size_t better, than; /* options */
     double probability, equal, worse;
+    double difference, p5,
+        p95; /* of the figure that ranks them, the one less the other: in the scene as it is, and its doubt */
 };
 
 /* The options in rank by the scene as it is. */

@@ -82,7 +82,7 @@ enum exit_status ceduo_print_report(const struct arguments *a, struct scene_file
     else
         verdict = (struct ceduo_verdict){0};
     if (status == CEDUO_OK && a->format == CEDUO_TABLE)
-        status = ceduo_sensitivity_beside(a, file, &progress, &answer, &doubt);
+        status = ceduo_sensitivity_beside(a, file, &progress, &answer, false, &doubt);
     enum exit_status done = EXIT_DONE;
     if (status == CEDUO_OK) {
         bool flown = !a->stands || a->format != CEDUO_CSV;

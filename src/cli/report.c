@@ -82,7 +82,7 @@ static void write_chapter(const struct arguments *a, const struct scene_file *fi
                                         .blocks = c->answer.blocks,
                                         .remarks = {a->tolerance, c->answer.tolerance_met, file->ground_assumed}};
     append_command(&command, a);
-    const struct ceduo_chapter chapter = {&report, c->snapshot, c->answer.years, doubt, ceduo_text_string(&command)};
+    const struct ceduo_chapter chapter = {&report, c->snapshot, c->answer.years, doubt, ceduo_text_string(&command), true};
     ceduo_page_chapter(&page, &chapter);
     ceduo_page_html(html, &page, number);
     struct ceduo_report judged = report;
@@ -100,7 +100,8 @@ static enum exit_status add_chapter(const struct arguments *a, struct scene_file
     enum exit_status done = EXIT_DONE;
     enum ceduo_status status = ask_runs(a, file, &progress, &c);
     if (status == CEDUO_OK)
-        status = ceduo_sensitivity_beside(a, file, &progress, &c.answer, &doubt);
+        status = ceduo_sensitivity_beside(a, file, &progress, &c.answer, true, &doubt);
+    doubt.report.years = &c.verdict;
     if (status == CEDUO_OK) {
         write_chapter(a, file, &c, &doubt.report, number, html, profiles);
         done = ceduo_finished(c.answer.result);

@@ -4,8 +4,10 @@
 
 #include "interrupt.h"
 #include "io/doubt_inputs.h"
+#include "model/uncertainty.h"
 #include "options.h"
 #include "say.h"
+#include "study/points.h"
 
 enum ceduo_status ceduo_sensitivity_ask(const struct arguments *a, struct scene_file *file, struct progress *progress,
                                         struct ceduo_doubt_def *def, const struct ceduo_result *finer, struct asked_doubt *d)
@@ -17,7 +19,7 @@ enum ceduo_status ceduo_sensitivity_ask(const struct arguments *a, struct scene_
     def->inputs_count = d->inputs.n;
     def->inputs = d->inputs.items;
     def->threads = a->threads;
-    def->rotation = a->years;
+    def->rotation |= a->years;
     def->window = a->window;
     def->cancel = ceduo_interrupt_flag();
     def->progress = ceduo_progress_steps;
@@ -44,15 +46,20 @@ enum ceduo_status ceduo_sensitivity_of(const struct arguments *a, struct scene_f
 #define EFFORT_MAX 3e8 /* contacts and stems of all points: some ten seconds of a processor */
 
 enum ceduo_status ceduo_sensitivity_beside(const struct arguments *a, struct scene_file *file, struct progress *progress,
-                                           const struct ceduo_answer *answer, struct asked_doubt *d)
+                                           const struct ceduo_answer *answer, bool rotation, struct asked_doubt *d)
 {
+    const struct ceduo_scene *scene = &file->scene;
     const struct ceduo_work *work = &answer->work;
     uint64_t rocks = ceduo_result_rocks(answer->result);
-    size_t points = ceduo_option_given(a, "sensitivity") ? a->points : CEDUO_DOUBT_POINTS;
+    size_t points = ceduo_option_given(a, "sensitivity") ? a->points : CEDUO_DOUBT_POINTS, years = 0;
     struct ceduo_doubt_def def = {
         .points = points, .points_max = points, .rocks = rocks < CEDUO_DOUBT_ROCKS ? rocks : CEDUO_DOUBT_ROCKS};
-    double effort = (double)(work->contacts + work->stems.drawn) / (double)(work->rocks > 0 ? work->rocks : 1);
-    effort *= (double)def.points * (double)def.rocks * (double)file->scene.options_count;
+    double each = (double)(work->contacts + work->stems.drawn) / (double)(work->rocks > 0 ? work->rocks : 1) * (double)points;
+    double effort = each * (double)def.rocks * (double)scene->options_count;
+    for (size_t i = 0; i < scene->options_count; i++)
+        years += ceduo_points_years(scene, &scene->options[i], a->window, CEDUO_DOUBT_YEARS_MAX);
+    def.rotation = rotation && !ceduo_uncertainty_no_rotation(scene) &&
+                   effort + each * CEDUO_DOUBT_YEAR_ROCKS * (double)years <= EFFORT_MAX;
     if (effort > EFFORT_MAX || !answer->result->wooded || ceduo_page_says_nothing(answer->result))
         def.rocks = 0;
     return ceduo_sensitivity_ask(a, file, progress, &def, answer->result, d);

@@ -21,10 +21,11 @@ enum ceduo_status ceduo_sensitivity_ask(const struct arguments *arguments, struc
                                         struct ceduo_doubt_def *def, const struct ceduo_result *finer,
                                         struct asked_doubt *doubt);
 enum ceduo_status ceduo_sensitivity_of(const struct arguments *arguments, struct scene_file *file, struct asked_doubt *doubt);
-/* The same beside an answer, with no more rocks than that has. Nothing is computed where rocks among stems are not simulated, where
- * nothing can be said, or where it would take far longer than most scenes. */
+/* The same beside an answer, with no more rocks than that has; `rotation`: over the rotation of each option as well, where there is
+ * one. Nothing is computed where rocks among stems are not simulated, where nothing can be said, or where it would take far longer
+ * than most scenes. */
 enum ceduo_status ceduo_sensitivity_beside(const struct arguments *arguments, struct scene_file *file,
-                                           struct progress *progress, const struct ceduo_answer *answer,
+                                           struct progress *progress, const struct ceduo_answer *answer, bool rotation,
                                            struct asked_doubt *doubt);
 void ceduo_sensitivity_release(struct asked_doubt *doubt);
 

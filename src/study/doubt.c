@@ -507,6 +507,8 @@ static enum ceduo_status compare(const struct rows *r, enum ceduo_doubt_kind kin
             .y = s.column, .uses = s.uses, .lo = -INFINITY, .hi = INFINITY, .limit = NAN};
         status = ceduo_surface_fit(s.surface, &figure, &fit);
     }
+    o->p5 = fit.p5;
+    o->p95 = fit.p95;
     for (size_t p = 0; status == CEDUO_OK && p < r->points; p++) {
         double noise = CEDUO_Z95 * sqrt(fit.noise);
         *(fit.values[p] < -noise ? &o->probability : fit.values[p] > noise ? &o->worse : &o->equal) += 1 / (double)r->points;

@@ -75,9 +75,19 @@ static void put_json(struct app *app, struct text *text)
     ceduo_report_json(text, &report);
 }
 
-/* Of the figures as they are: nobody waits for doubt while a screen is to be used. */
+/* Whether all that will be known of doubt is. */
+static bool is_sure(const struct app *app)
+{
+    const struct uncertainty *known = ceduo_live_uncertainty(&app->live, &app->document.file);
+    return known && known->last;
+}
+
+/* Of the figures as they are, and without doubt where that is not known yet: nobody waits while a screen is to be used. */
 static void put_report(struct app *app, struct text *text)
 {
+    struct ceduo_doubt_report doubt;
+    bool sure =
+        is_sure(app) && app->live.result->wooded && !ceduo_page_says_nothing(app->live.result) && ceduo_app_doubt(app, &doubt);
     const struct ceduo_scene *scene = &app->document.file.scene;
     struct ceduo_years **years = ceduo_arena_take(app->scratch, scene->options_count * sizeof *years);
     struct ceduo_report report = ceduo_app_report(app);
@@ -90,7 +100,9 @@ static void put_report(struct app *app, struct text *text)
     const struct ceduo_chapter chapter = {.report = &report,
                                           .snapshot = ceduo_live_snapshot(&app->live, scene),
                                           .years = years,
+                                          .doubt = sure ? &doubt : NULL,
                                           .command = ceduo_app_kept(app, &command)};
+    doubt.over = false;
     ceduo_page_chapter(&page, &chapter);
     ceduo_page_html_begin(&html, ceduo_in_language(scene->title, scene->title_it));
     ceduo_page_html(&html, &page, 1);
@@ -148,7 +160,11 @@ static bool filled_export(struct app *app, struct popup *p)
     } else if (!ceduo_file_write(path, text.bytes, text.length)) {
         ceduo_app_warn(app, "%s: %s", path, strerror(errno));
     } else {
-        ceduo_app_say(app, _("written: %s"), path);
+        ceduo_app_say(app,
+                      exports[i].put == put_report && !is_sure(app)
+                          ? _("written: %s; how sure it is was not known yet: write it again in a moment")
+                          : _("written: %s"),
+                      path);
         good = true;
     }
     ceduo_text_free(&text);
@@ -272,6 +288,8 @@ void ceduo_popup_copy(struct app *app)
 void ceduo_popup_export(struct app *app)
 {
     struct popup *p = ceduo_popup_list(app, _("Export"), chose_export);
+    /* the report says how sure it is, over the rotation as well: that is computed while its file is named */
+    ceduo_live_doubt(&app->live, &app->document.file, app->option, UNCERTAINTY_ROTATION);
     for (size_t i = 0; i < EXPORTS; i++)
         ceduo_popup_item(p, _(exports[i].what), exports[i].name);
 }

@@ -154,10 +154,14 @@ static void say_sampling(struct text *text, const struct ceduo_report *report)
     }
 }
 
-static void say_doubt(struct text *text, const struct ceduo_report *report, size_t option)
+/* Of the best option; over the rotation where its doubt is known. */
+static void say_doubt(struct text *text, const struct ceduo_report *report)
 {
     const struct ceduo_result *r = report->result;
     const struct ceduo_doubt_report *doubt = report->doubt;
+    const struct ceduo_verdict *v = report->verdict && report->verdict->n > 1 ? report->verdict : NULL;
+    bool over = v && v->rotation.known && doubt && doubt->answer && doubt->answer->rotation;
+    size_t option = over ? v->rotation.best : v ? v->today.best : 0;
     struct ceduo_measure m = ceduo_judged(place_of(r), ceduo_result_wooded(r, option, r->last_control));
     ceduo_measure_doubt(&m, doubt, option, r->last_control);
     if (!doubt || !doubt->answer) {
@@ -178,9 +182,11 @@ static void say_doubt(struct text *text, const struct ceduo_report *report, size
         ceduo_text_char(text, ' ');
         ceduo_doubt_order_words(text, doubt, 0); /* how sure the best option is */
     }
+    struct ceduo_doubt_report same = *doubt;
+    same.over = over;
     const char *how; /* what matters most is measured; NULL: nothing is known that would */
     LOCAL_TEXT(name);
-    if (ceduo_doubt_heaviest(&name, &how, doubt, option) && how)
+    if (ceduo_doubt_heaviest(&name, &how, &same, option) && how)
         ceduo_text_then(text, " ", _("Measure first: %s (%s)."), ceduo_text_string(&name), _(how));
     else if (name.length > 0)
         ceduo_text_then(text, " ", _("It depends most on: %s."), ceduo_text_string(&name));
@@ -193,7 +199,7 @@ void ceduo_page_sure(struct ceduo_page *page, const struct ceduo_report *report)
     struct text *text = ceduo_page_add(page, CEDUO_PAGE_POINT);
     ceduo_text_format(text, "%s\t", _("HOW SURE"));
     say_sampling(text, report);
-    say_doubt(text, report, report->verdict && report->verdict->n > 1 ? report->verdict->today.best : 0);
+    say_doubt(text, report);
 }
 
 /* ---- over the years ---- */

@@ -157,8 +157,9 @@ struct ceduo_doubt_now ceduo_doubt_now_of(const struct ceduo_doubt_report *r, si
     const struct ceduo_doubt_figure *f = ceduo_doubt_main(r, option);
     if (r->over) {
         const struct ceduo_choice *c = r->years && option < r->years->n ? &r->years->choices[option] : NULL;
-        if (!c || c->flown == 0 || c->rocks <= CEDUO_DOUBT_OWN_YEAR_ROCKS)
-            return (struct ceduo_doubt_now){f->value, f->sampling_lo, f->sampling_hi, CEDUO_DOUBT_OWN_YEAR_ROCKS};
+        uint64_t own = r->answer->own_rocks < CEDUO_DOUBT_OWN_YEAR_ROCKS ? r->answer->own_rocks : CEDUO_DOUBT_OWN_YEAR_ROCKS;
+        if (!c || c->flown == 0 || c->rocks <= own)
+            return (struct ceduo_doubt_now){f->value, f->sampling_lo, f->sampling_hi, own};
         return share_now(c->mean.mean, c->mean.mean - c->mean.half, c->mean.mean + c->mean.half, c->rocks);
     }
     const struct ceduo_result *finer = r->finer;
@@ -236,13 +237,16 @@ static void add_rotation(struct ceduo_page *page, const struct ceduo_doubt_repor
                                                        {N_("years fail"), -11, 2, 0}};
     const struct ceduo_scene *s = &r->file->scene;
     bool judged = r->answer->main == CEDUO_DOUBT_EXCEED;
+    struct ceduo_doubt_report over = *r;
+    over.over = true;
     ceduo_page_table(page, columns, judged ? 5 : 4);
     for (size_t i = 0; i < s->options_count; i++) {
         const struct ceduo_doubt_figure *f = ceduo_doubt_figure_of(r->answer, i, CEDUO_DOUBT_MEAN, false),
                                         *years = ceduo_doubt_figure_of(r->answer, i, CEDUO_DOUBT_FAILING, false);
+        struct ceduo_doubt_now now = ceduo_doubt_now_of(&over, i);
         ceduo_text_safe(ceduo_page_text(page), s->options[i].name);
-        ceduo_doubt_value(ceduo_page_text(page), f->kind, f->value);
-        append_range(ceduo_page_text(page), f->kind, f->sampling_lo, f->sampling_hi);
+        ceduo_doubt_value(ceduo_page_text(page), f->kind, now.value);
+        append_range(ceduo_page_text(page), f->kind, now.lo, now.hi);
         append_range(ceduo_page_text(page), f->kind, f->fit.p5, f->fit.p95);
         double lo = judged ? floor(years->fit.p5) : 0, hi = judged ? ceil(years->fit.p95) : 0; /* outwards */
         if (judged && lo == hi)
@@ -392,7 +396,7 @@ void ceduo_doubt_order_words(struct text *text, const struct ceduo_doubt_report 
     ceduo_text_safe(&than, s->options[o->than].name);
     ceduo_text_format(text,
                       ranking->rotation ? _("Over the rotation %s is better than %s in %.0f %% of what may be true")
-                                        : _("%s is better than %s in %.0f %% of what may be true"),
+                                        : _("Today %s is better than %s in %.0f %% of what may be true"),
                       ceduo_text_string(&better), ceduo_text_string(&than), o->probability * 100);
     if (o->probability < 0.995)
         ceduo_text_format(text, _(", equal in %.0f %%, worse in %.0f %%"), o->equal * 100, o->worse * 100);
@@ -402,6 +406,25 @@ void ceduo_doubt_order_words(struct text *text, const struct ceduo_doubt_report 
                       : o->equal >= SURE                  ? _("no difference")
                       : o->probability + o->equal >= SURE ? _("hardly ever worse")
                                                           : _("undecided"));
+}
+
+/* Each option and the next one, and how far apart they may lie. */
+static void add_orders(struct ceduo_page *page, const struct ceduo_doubt_report *r)
+{
+    const struct ceduo_doubt_ranking *ranking = ceduo_doubt_verdict(r->answer);
+    enum ceduo_doubt_kind kind = ranking->rotation ? CEDUO_DOUBT_MEAN : r->answer->main;
+    for (size_t i = 0; i < ranking->count; i++) {
+        struct text *text = ceduo_page_add(page, CEDUO_PAGE_ITEM);
+        LOCAL_TEXT(lo);
+        LOCAL_TEXT(hi);
+        ceduo_doubt_value(&lo, kind, ranking->orders[i].p5);
+        ceduo_doubt_value(&hi, kind, ranking->orders[i].p95);
+        ceduo_doubt_order_words(text, r, i);
+        ceduo_text_then(text, " ",
+                        kind == CEDUO_DOUBT_ENERGY ? _("The difference may be %s to %s kJ per released rock.")
+                                                   : _("The difference may be %s to %s of 1000."),
+                        lo.bytes, hi.bytes);
+    }
 }
 
 /* ---- all ---- */
@@ -438,8 +461,8 @@ void ceduo_doubt_blocks(struct ceduo_page *page, const struct ceduo_doubt_report
         add_inputs(page, r, ceduo_doubt_figure_of(r->answer, 0, CEDUO_DOUBT_MEAN, false));
         ceduo_page_add(page, CEDUO_PAGE_GAP);
     }
-    for (size_t i = 0; extent >= CEDUO_DOUBT_ORDER && i < ceduo_doubt_verdict(r->answer)->count; i++)
-        ceduo_doubt_order_words(ceduo_page_add(page, CEDUO_PAGE_ITEM), r, i);
+    if (extent >= CEDUO_DOUBT_ORDER)
+        add_orders(page, r);
     if (!several) /* of several the table has it */
         ceduo_doubt_both(ceduo_page_add(page, CEDUO_PAGE_NOTE), r, 0);
     ceduo_page_say(page, CEDUO_PAGE_NOTE,

@@ -158,8 +158,9 @@ static void add_origin(struct ceduo_page *page, const struct ceduo_chapter *c)
     ceduo_page_say(page, CEDUO_PAGE_SECTION, "%s", _("How to compute this page again"));
     ceduo_text_format(ceduo_page_fact(page, _("Program")), "ceduo %s", CEDUO_VERSION);
     ceduo_page_say(page, CEDUO_PAGE_SENTENCE, "%s",
-                   c->doubt ? _("This command gives the same page, to the last byte:")
-                            : _("This command computes the page again, and how sure it is:"));
+                   c->same    ? _("This command gives the same page, to the last byte:")
+                   : c->doubt ? _("This command computes the page again:")
+                              : _("This command computes the page again, and how sure it is:"));
     ceduo_page_say(page, CEDUO_PAGE_CODE, "%s", c->command);
     ceduo_page_say(page, CEDUO_PAGE_SENTENCE, "%s", _("The scene, as its file says it:"));
     /* with what the command line changed, and the names of other files */

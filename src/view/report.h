@@ -44,7 +44,8 @@ struct ceduo_chapter {
     const struct ceduo_snapshot *snapshot;  /* for the pictures */
     struct ceduo_years *const *years;       /* one for each option; NULL, or NULL of an option: none */
     const struct ceduo_doubt_report *doubt; /* NULL: not computed */
-    const char *command;                    /* that gives the same page */
+    const char *command;                    /* that gives the same page, */
+    bool same;                              /* to the last byte */
 };
 
 #define CEDUO_PAGE_REPORT_WIDTH 120 /* of a page that chapters are added to: tables, not sentences, and nothing shortened */

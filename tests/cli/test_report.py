@@ -133,9 +133,49 @@ def test_answer():
     lo, hi = math.floor(1000 * wooded["exceed_lo"]), math.ceil(1000 * wooded["exceed_hi"])
     expect(re.search(rf"\b{lo}–{hi} by the number of rocks \(\d+\); \d+–\d+ by what is not known\.", page.text["dl"]), page.text["dl"])
     expect_in("what is not known was not computed, because the scene says 'doubt: none'.", report("-s", "doubt=none", "paper-site")[1].text["dl"])
-    sure = re.search(r"HOW SURE (.*?) ASSUMED", " ".join(good("-b", "-n", 100, "rotation").out.split()))[1]
+    sure = re.search(r"HOW SURE .*?(Over the rotation .*?) ASSUMED", " ".join(good("-b", "--years", "-n", 100, "rotation").out.split()))[1]
     expect_in(sure, " ".join(report("rotation", few=("-n", 100))[1].text["dl"].split()), "the same as the page")
     expect_in("the index leaves ", report("-s", "simulation.contact_model=index", "paper-site")[1].text["div"])
+
+
+GROWS = ("{name: grows, stools: {per_ha: 800, spacing_m: 0.3}, shoots: [{per_ha: 2000, dbh_m: 0.08, height_m: 8}],"
+         " growth: {shoots: {dbh_most_m: 0.2, dbh_rate_1_y: 0.1, height_most_m: 14, height_rate_1_y: 0.1}},"
+         " cutting: {rotation_years: 3, stay_per_ha: [0]}, energy: {model: brauner, u_J_m3: 100000}}")
+STAYS = "{name: stays, trees: [{per_ha: 300, dbh_m: 0.2, height_m: 12}], energy: {model: brauner, u_J_m3: 100000}}"
+
+
+def doubtful(f, cut, kept):
+    """Two options of one wood on the paper's slope, in doubt of what stems take."""
+    stand = "  - {{name: {}, forest: [{{from_m: 10, to_m: 60, stand: {}}}]}}\n"
+    return f.write("turn.yaml", "ceduo: scene/1\ntitle: A turn\nrock: {shape: sphere, diameter_m: 0.5, density_kg_m3: 2600}\n"
+                   "release: {x_m: 1, vx_m_s: 3}\nslope: {vertices_m: [[0, 80], [100, 0]], segments: [{rn: 0.35, rt: 0.85}]}\n"
+                   "controls: [{x_m: 80, accepted_kJ: 20}]\noptions:\n" + stand.format("cut", cut) + stand.format("kept", kept)
+                   + "simulation: {rocks: 500}\n"
+                   'doubt: [{path: "options[*].forest[0].stand.energy.u_J_m3", lo: 50000, hi: 200000}]\n')
+
+
+def test_rotation():
+    """Of a scene with a rotation the doubt of its mean is said without being asked for, of each option and of the difference,
+    and the order is that over the rotation; the short page's is today's, and says so"""
+    with Folder() as f:
+        scene = doubtful(f, GROWS, STAYS)
+        words = " ".join(report(scene, few=("--sensitivity=256",))[1].text["body"].split())
+        figures = good("--sensitivity=256", "--years", "-n", 400, "-f", "json", scene).json()[0]
+        short = " ".join(good("-b", scene).out.split())
+        still = " ".join(report(doubtful(f, STAYS, STAYS.replace("300", "200")), few=("--sensitivity=256",))[1].text["body"].split())
+    rows = [row for row in figures["figures"] if row["figure"] == "rotation.exceed_probability"]
+    first, second = sorted((row for row in rows if row["against"] is None), key=lambda row: row["value"])
+    for row in (first, second):
+        expect(re.search(rf"{row['option']} \d+ \d+–\d+ {1000 * row['doubt_p5']:.0f}–{1000 * row['doubt_p95']:.0f}", words), row, words)
+    ends = next((row["doubt_p5"], row["doubt_p95"]) for row in rows if row["against"])
+    ends = ends if first["option"] == "kept" else (-ends[1], -ends[0])  # of the better one less the other
+    order = figures["ranking"][0]
+    said = f"Over the rotation {order['better']} is better than {order['than']} in {100 * order['probability']:.0f} % of what may be true"
+    expect_in(said, words)
+    expect_in(f"The difference may be {1000 * ends[0]:.0f} to {1000 * ends[1]:.0f} of 1000.", words)
+    expect(re.search(r"HOW SURE [^.]*\. Over the rotation ", words), words)
+    expect(re.search(r"HOW SURE [^.]*\. Today (cut|kept) is better than ", short), short)
+    expect(re.search(r"HOW SURE [^.]*\. Today cut is better than kept", still) and "ver the rotation" not in still, still)
 
 
 def test_one_figure():

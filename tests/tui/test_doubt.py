@@ -113,7 +113,8 @@ def test_over_the_rotation():
         place.write("turn.yaml", scene)
         today, over, other, back, compared, small = place.play(
             "resize 120 40\nkey 7\nwait idle\ndump\nkey Tab\ndump\nkey ]\nwait idle\ndump\nkey Tab\ndump\n"
-            "key 5\nwait idle\ndump\nresize 80 24\ndump", "turn.yaml")
+            "key 5\nwait idle\ndump\nresize 80 24\ndump\nkey 1 w\nwait idle\nkey Down Down Down Down Down Enter Enter", "turn.yaml")
+        written = " ".join(re.sub("<[^>]*>", " ", place.text("ceduo.html")).split())
         run = json.loads(ceduo("--sensitivity=256", "--years", "-f", "json", place.path / "turn.yaml").out)
     bands = {f["option"]: "–".join(f"{f[k] * 1000:.0f}" for k in ("doubt_p5", "doubt_p95"))
              for f in run["figures"] if f["figure"] == "rotation.exceed_probability" and f["against"] is None}
@@ -124,6 +125,8 @@ def test_over_the_rotation():
         expect(re.search(rf"^{name} .* \d+ \({band}\)", over.body, re.M), name, band, over)
         expect(re.search(rf"^{name} .* \d+±\d+ +\d+±\d+ \({band}\) ", compared.body, re.M), name, band, compared)
         expect(re.search(rf"^{name} .* \({band}\) ", small.body, re.M), name, band, small)
+        expect(re.search(rf"{name} \d+ \d+–\d+ {band} ", written), name, band, written)
+    expect(re.search(order, written), order, written)
     mean = re.search(r"^cut .* (\d+) [(]", over.body, re.M)[1]
     expect_in(f"Over the rotation {mean} of 1000 (rocks ", over.body)
     expect_in(f"doubt {bands['kept']})", other.body)

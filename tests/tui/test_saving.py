@@ -311,6 +311,7 @@ def test_export():
         screens = place.play("""wait idle
             dump
             key w
+            wait idle
             dump
             key Enter
             dump
