@@ -13,7 +13,7 @@
 /* Colours of text have a contrast of 4.5 to what is behind them at least. What must stay together on paper is not
  * broken between two sheets. */
 static const char style[] =
-    "@page{size:A4;margin:12mm 15mm}\n"
+    "@page{size:A4;margin:10mm 15mm}\n"
     "*{box-sizing:border-box}\n"
     "html{background:#fff;color:#1c1c1c;font:9pt/1.3 'Liberation "
     "Sans',Arial,Helvetica,sans-serif;-webkit-print-color-adjust:exact;"
@@ -24,7 +24,9 @@ static const char style[] =
     "#14532d;color:#14532d;"
     "overflow-wrap:anywhere}\n"
     "h3{font-size:10.5pt;margin:3mm 0 1mm;overflow-wrap:anywhere}\n"
-    "h1,h2,h3,caption{break-after:avoid}\n"
+    "h1,h2,h3,caption,.detail:has(+figure){break-after:avoid}\n"
+    "tr,li,.answer,.warning,.head,.pair{break-inside:avoid}\n"
+    "thead{display:table-header-group}\n"
     "p,li,dd{overflow-wrap:anywhere}\n"
     "p{margin:1mm 0}\n"
     ".question{font-size:12pt;font-weight:bold;margin:2mm 0 1.5mm}\n"
@@ -51,7 +53,7 @@ static const char style[] =
     ".half{display:inline-block;width:49%;vertical-align:top}\n"
     "figcaption{font-size:8.5pt;color:#4a4a4a;margin-top:1mm}\n"
     "svg{display:block;width:100%;height:auto}\n"
-    "pre{font:6.5pt/1.25 monospace;white-space:pre-wrap;overflow-wrap:anywhere;margin:1mm 0;padding:2mm "
+    "pre{font:6pt/1.25 monospace;white-space:pre-wrap;overflow-wrap:anywhere;margin:1mm 0;padding:2mm "
     "3mm;background:#f5f5f2;"
     "columns:2;column-gap:5mm}\n"
     "pre.line{columns:1;break-inside:avoid}\n"
@@ -166,6 +168,9 @@ void ceduo_page_html(struct ceduo_html *html, const struct ceduo_page *page, siz
         bool follows = last && last->kind == b->kind, goes_on = b->next && b->next->kind == b->kind;
         if (list && !follows)
             ceduo_html_open(html, list, "class", lists[b->kind].class, NULL);
+        /* tables that follow one another are halves of one */
+        if (b->kind == CEDUO_PAGE_TABLE && !follows && goes_on)
+            ceduo_html_open(html, "div", "class", "pair", NULL);
         if (b->kind == CEDUO_PAGE_TABLE)
             write_table(html, b, last && last->kind == CEDUO_PAGE_CAPTION ? last : NULL);
         else if (b->kind == CEDUO_PAGE_PICTURE) {
@@ -178,7 +183,7 @@ void ceduo_page_html(struct ceduo_html *html, const struct ceduo_page *page, siz
             ceduo_html_close(html);
         } else if (b->kind != CEDUO_PAGE_CAPTION || !b->next || b->next->kind != CEDUO_PAGE_TABLE)
             write_block(html, b);
-        if (list && !goes_on)
+        if ((list || (b->kind == CEDUO_PAGE_TABLE && follows)) && !goes_on)
             ceduo_html_close(html);
     }
     ceduo_html_close(html);

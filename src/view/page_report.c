@@ -47,6 +47,47 @@ static bool is_crowded(const struct ceduo_chapter *c)
 
 /* ---- sections ---- */
 
+/* What is not known, as who decides reads it: what it makes of the answer. Of several options that of the best today. */
+static void add_unknown(struct ceduo_page *page, const struct ceduo_report *report)
+{
+    const struct ceduo_result *r = report->result;
+    if (r->scene->controls_count == 0 || !r->wooded || ceduo_page_says_nothing(r))
+        return;
+    const struct ceduo_doubt_report *doubt = report->doubt;
+    const struct ceduo_control *place = &r->scene->controls[r->last_control];
+    size_t option = ceduo_result_best(r, report->verdict);
+    struct ceduo_measure m = ceduo_judged(place, NULL);
+    double limit = 1000 * CEDUO_EXCEED_MOST;
+    ceduo_measure_doubt(&m, doubt, option, r->last_control);
+    if (isnan(m.may_lo)) {
+        if (!doubt || ceduo_doubt_is_off(doubt) || !doubt->inputs || doubt->inputs->n > 0)
+            ceduo_page_say(
+                page, CEDUO_PAGE_ANSWER, "%s",
+                _("Not everything here is known for certain, and what that changes was not computed: the answer holds "
+                  "if all is as the scene says."));
+        return;
+    }
+    struct text *text = ceduo_page_add(page, CEDUO_PAGE_ANSWER);
+    LOCAL_TEXT(phrase);
+    ceduo_measure_name(&phrase, &m, CEDUO_PHRASE);
+    ceduo_text_put(text, _("Not everything here is known for certain."));
+    if (r->scene->options_count > 1)
+        ceduo_text_then(text, " ", _("With '%s', in nine of ten cases that may be true, %.0f to %.0f of 1000 rocks %s."),
+                        r->scene->options[option].name, m.may_lo, m.may_hi, ceduo_text_string(&phrase));
+    else
+        ceduo_text_then(text, " ", _("In nine of ten cases that may be true, %.0f to %.0f of 1000 rocks %s."), m.may_lo,
+                        m.may_hi, ceduo_text_string(&phrase));
+    if (!isnan(place->accepted))
+        ceduo_text_then(text, " ",
+                        m.may_lo > limit    ? _("All of these are more than the %.0f accepted: knowing better would hardly "
+                                                   "change the answer.")
+                        : m.may_hi <= limit ? _("None of these is more than the %.0f accepted: knowing better would hardly "
+                                                "change the answer.")
+                                            : _("Some of these are more than the %.0f accepted and some are not: the answer "
+                                                "depends on what is not known."),
+                        limit);
+}
+
 /* What the scene says for it; there is always room to date and to sign. */
 static void add_head(struct ceduo_page *page, const struct ceduo_report_head *head)
 {
@@ -59,19 +100,27 @@ static void add_head(struct ceduo_page *page, const struct ceduo_report_head *he
 }
 
 #define SLOPE_ROWS  19
-#define ENERGY_ROWS 11
+#define SLOPE_LEAST 15
+#define STRIP_ROWS  11
 
 static void add_slope(struct ceduo_page *page, const struct ceduo_chapter *c)
 {
     struct ceduo_picture picture = picture_of(c, ceduo_result_best(c->report->result, c->report->verdict));
     ceduo_page_say(page, CEDUO_PAGE_SECTION, "%s", _("The slope and the rocks"));
     ceduo_page_facts(page, c->report);
-    add_picture(page, CEDUO_PLOT_PROFILE, WHOLE, SLOPE_ROWS, &picture,
+    add_picture(page, CEDUO_PLOT_PROFILE, WHOLE, is_crowded(c) ? SLOPE_LEAST : SLOPE_ROWS, &picture,
                 _("The slope from the side with the forest on it, the ways of some rocks as thin lines, and the controls as "
                   "upright lines."));
     bool several = c->report->result->scene->options_count > 1;
-    if (c->snapshot && c->report->result->scene->controls_count > 0 && !(several && ceduo_report_has_hazard(c->report)))
-        add_picture(page, CEDUO_PLOT_ENERGY, WHOLE, ENERGY_ROWS, &picture,
+    picture.ways = true;
+    if (c->snapshot && !is_crowded(c))
+        add_picture(
+            page, CEDUO_PLOT_HEIGHT, WHOLE, STRIP_ROWS, &picture,
+            _("Each of these ways as its height above the ground along the slope, and curves of the median and the 95th "
+              "percentile, through the forest and without it."));
+    if (c->snapshot && c->report->result->scene->controls_count > 0 && !(several && ceduo_report_has_hazard(c->report)) &&
+        c->report->result->scene->options_count <= CROWD)
+        add_picture(page, CEDUO_PLOT_ENERGY, WHOLE, STRIP_ROWS, &picture,
                     _("Curves along the slope: mean and 95th percentile of the energy of the rocks that pass each place, "
                       "through the forest and without it."));
 }
@@ -93,7 +142,7 @@ static void add_percentiles(struct ceduo_page *page, const struct ceduo_chapter 
     }
 }
 
-#define YEARS_ROWS 17
+#define YEARS_ROWS 15
 
 /* The option that is best over the years. */
 static void add_years(struct ceduo_page *page, const struct ceduo_chapter *c)
@@ -172,7 +221,7 @@ static void add_origin(struct ceduo_page *page, const struct ceduo_chapter *c)
     ceduo_arena_free(&arena);
 }
 
-#define HAZARD_ROWS 16
+#define HAZARD_ROWS 12
 
 /* How often at each place, and at the last one as curves. */
 static void add_hazard(struct ceduo_page *page, const struct ceduo_chapter *c)
@@ -202,6 +251,7 @@ void ceduo_page_chapter(struct ceduo_page *page, const struct ceduo_chapter *c)
     report.doubt = c->doubt;
     ceduo_page_question(page, report.result);
     ceduo_page_answer(page, &report);
+    add_unknown(page, &report);
     ceduo_page_sure(page, &report);
     ceduo_page_over(page, &report);
     add_slope(page, c);

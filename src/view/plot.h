@@ -36,6 +36,7 @@ struct ceduo_picture {
     struct ceduo_span *span; /* where the slope stands: a profile writes it, strips stand in it; NULL: the area's own */
     const struct ceduo_doubt_report *doubt; /* NULL: not computed */
     bool no_x_axis;                         /* of a strip that another one stands below */
+    bool ways;                              /* in the strip of heights each trajectory, too */
 };
 
 /* The pictures: name, word, whether one needs a run, and envelopes of it, and whether there is one for each option.

@@ -172,6 +172,21 @@ static void draw_curve(struct strip *s, const struct curve *curve)
     }
 }
 
+/* The trajectories above the ground that they pass over. */
+static void draw_ways(const struct strip *s)
+{
+    ceduo_canvas_cloud_start(s->canvas);
+    for (size_t i = 0; i < s->sight->trajectories_count; i++) {
+        const struct ceduo_polyline *t = &s->sight->trajectories[i];
+        double *heights = ceduo_must(malloc((t->n + 1) * sizeof *heights));
+        for (size_t k = 0; k < t->n; k++)
+            heights[k] = fmax(t->z[k] - ceduo_slope_height(&s->picture->scene->slope, t->x[k]), 0);
+        ceduo_canvas_cloud_add(s->canvas, &s->frame, t->n, t->x, heights);
+        free(heights);
+    }
+    ceduo_canvas_cloud_show(s->canvas, 0);
+}
+
 /* Where a curve ends inside the frame: its value, cut at the top; NaN where no rock passes or it lies below. */
 static double end_of(const struct strip *s, const struct curve *curve)
 {
@@ -337,6 +352,8 @@ static const char *draw_strip(struct strip *s)
     if (s->frame.width < 2 || s->frame.height < 1 || !(s->frame.x1 > s->frame.x0))
         return _("too narrow");
     put_caption(s, &peak);
+    if (s->picture->ways && !s->energy)
+        draw_ways(s);
     for (int i = 0; i < s->content->count; i++)
         draw_curve(s, &s->content->curves[i]);
     for (size_t c = 0; c < s->picture->scene->controls_count; c++) {

@@ -54,16 +54,16 @@ struct look {
 
 /* Lightness and width tell roles apart, too. */
 static const struct look paper[CEDUO_ROLE_COUNT] = {
-    [CEDUO_ROLE_BLANK] = {"#1c1c1c", 1, NULL},  [CEDUO_ROLE_TEXT] = {"#1c1c1c", 1.4, NULL},
-    [CEDUO_ROLE_DIM] = {"#595959", 1, NULL},    [CEDUO_ROLE_TITLE] = {"#1c1c1c", 1.4, NULL},
-    [CEDUO_ROLE_AXIS] = {"#4a4a4a", 1, NULL},   [CEDUO_ROLE_GROUND] = {"#4e3620", 2.4, NULL},
-    [CEDUO_ROLE_CLOUD] = {"#3f678c", 1, NULL},  [CEDUO_ROLE_ENVELOPE] = {"#3f678c", 1.6, NULL},
-    [CEDUO_ROLE_MEAN] = {"#111111", 2.2, NULL}, [CEDUO_ROLE_WAY] = {"#8a1c7c", 2, NULL},
-    [CEDUO_ROLE_STEM] = {"#2f6b2f", 1.6, NULL}, [CEDUO_ROLE_STOOL] = {"#5b7f2a", 1, NULL},
-    [CEDUO_ROLE_BELT] = {"#2f6b2f", 1.4, NULL}, [CEDUO_ROLE_CONTROL] = {"#a3161c", 1.6, NULL},
-    [CEDUO_ROLE_GOOD] = {"#20702c", 1.6, NULL}, [CEDUO_ROLE_BAD] = {"#a3161c", 2, NULL},
-    [CEDUO_ROLE_WARN] = {"#7a4a00", 1.6, NULL}, [CEDUO_ROLE_BARE] = {"#9a4a10", 2.6, NULL},
-    [CEDUO_ROLE_WOOD] = {"#14532d", 2, NULL},   [CEDUO_ROLE_CURSOR] = {"#1c1c1c", 1.4, NULL}};
+    [CEDUO_ROLE_BLANK] = {"#1c1c1c", 1, NULL},   [CEDUO_ROLE_TEXT] = {"#1c1c1c", 1.4, NULL},
+    [CEDUO_ROLE_DIM] = {"#595959", 1, NULL},     [CEDUO_ROLE_TITLE] = {"#1c1c1c", 1.4, NULL},
+    [CEDUO_ROLE_AXIS] = {"#4a4a4a", 1, NULL},    [CEDUO_ROLE_GROUND] = {"#4e3620", 2.4, NULL},
+    [CEDUO_ROLE_CLOUD] = {"#2f4f6e", 0.9, NULL}, [CEDUO_ROLE_ENVELOPE] = {"#3f678c", 1.6, NULL},
+    [CEDUO_ROLE_MEAN] = {"#111111", 2.2, NULL},  [CEDUO_ROLE_WAY] = {"#8a1c7c", 2, NULL},
+    [CEDUO_ROLE_STEM] = {"#2f6b2f", 1.6, NULL},  [CEDUO_ROLE_STOOL] = {"#5b7f2a", 1, NULL},
+    [CEDUO_ROLE_BELT] = {"#2f6b2f", 1.4, NULL},  [CEDUO_ROLE_CONTROL] = {"#a3161c", 1.6, NULL},
+    [CEDUO_ROLE_GOOD] = {"#20702c", 1.6, NULL},  [CEDUO_ROLE_BAD] = {"#a3161c", 2, NULL},
+    [CEDUO_ROLE_WARN] = {"#7a4a00", 1.6, NULL},  [CEDUO_ROLE_BARE] = {"#9a4a10", 2.6, NULL},
+    [CEDUO_ROLE_WOOD] = {"#14532d", 2, NULL},    [CEDUO_ROLE_CURSOR] = {"#1c1c1c", 1.4, NULL}};
 
 /* As a dark terminal shows the roles; text has a contrast of 4.5 to what is behind it at least. */
 #define DARK "#15181c"
@@ -345,7 +345,7 @@ static void write_marks(struct ceduo_html *html, struct ceduo_svg *svg)
                 continue;
             if (paths[FILLED].length > 0)
                 ceduo_html_empty(html, "path", "fill", look->colour, "d", paths[FILLED].bytes, NULL);
-            write_path(html, look, &paths[CLOUD], "stroke-opacity", ".3");
+            write_path(html, look, &paths[CLOUD], "stroke-opacity", ".6");
             write_path(html, look, &paths[DOTTED], "stroke-dasharray", "4 4");
             write_path(html, look, &paths[PLAIN], NULL, NULL);
         }

@@ -226,6 +226,60 @@ def test_head():
     expect(all(re.search(rf"^page\.{key} +text ", listed, re.M) for key in HEAD), listed)
 
 
+def contrast(colour, opacity=1.0):
+    """Of a colour on white paper, as WCAG has it, where a printer makes it grey"""
+    parts = [(opacity * int(colour[i:i + 2], 16) + (1 - opacity) * 255) / 255 for i in (1, 3, 5)]
+    linear = [v / 12.92 if v <= .04045 else ((v + .055) / 1.055) ** 2.4 for v in parts]
+    return 1.05 / (.2126 * linear[0] + .7152 * linear[1] + .0722 * linear[2] + .05)
+
+
+def test_trajectories():
+    """The trajectories are drawn on the slope and, each by itself, as heights above the ground; no line is too pale or too thin for
+    a black and white printer"""
+    text, page = report("paper-site", few=("-n", 200, "-s", "doubt=none"))
+    titles = re.findall(r"<figcaption>(.*?)</figcaption>", text)
+    pictures = dict(zip(titles, re.findall(r"<svg.*?</svg>", text, re.S), strict=True))
+    for what in ("slope, forest, and ways", "height of the rocks above the ground"):
+        title = next(t for t in titles if what in t)
+        ways = re.search(r'<path[^>]* d="([^"]*)" stroke-opacity=', pictures[title])
+        expect(ways and ways[1].count("M") >= 70, title, ways and ways[1].count("M"))
+    for line in re.findall(r"<path[^>]*>", text):
+        colour, width = re.search(r'stroke="(#\w+)"', line), re.search(r'stroke-width="([\d.]+)"', line)
+        opacity = re.search(r'stroke-opacity="([\d.]+)"', line)
+        if colour:
+            expect(contrast(colour[1], float(opacity[1]) if opacity else 1.0) >= 3, "too pale", line[:120])
+            expect(float(width[1]) >= 0.8, "too thin", line[:120])
+
+
+def test_whole_tables():
+    """What is through the forest and what is without stands in one piece of paper, heads come again where a table is longer than a
+    sheet"""
+    text, _ = report("paper-site")
+    pair = re.search(r'<div class="pair">(.*?)</div>', text, re.S)[1]
+    expect(pair.count("<table>") >= 2 and "wood, " in pair and "bare, " in pair, pair)
+    style = text[:text.index("</style>")]
+    for rule in (r"\btable\{[^}]*break-inside:avoid", r"\.pair\b[^{]*\{break-inside:avoid", r"thead\{display:table-header-group",
+                 r"\btr\b[^{]*\{break-inside:avoid"):
+        expect(re.search(rule, style), rule)
+
+
+def test_unknown():
+    """What is not known is a sentence of the answer: what may be true, and whether the answer depends on it"""
+    def said(*arguments, few=DOUBT):
+        return " ".join(report(*arguments, few=few)[1].text["div"].split())
+    between = r"In nine of ten cases that may be true, (\d+) to (\d+) of 1000 rocks arrive with more than (\d+) kJ\. "
+    asked = {50: "All of these are more than the 50 accepted", 2000: "None of these is more than the 50 accepted"}
+    for limit, words in asked.items():
+        found = re.search(between + words, said("-s", f"controls[0].accepted_kJ={limit}", "paper-site"))
+        expect(found and int(found[3]) == limit and (int(found[1]) > 50 or int(found[2]) <= 50), said("paper-site"))
+    wide = ("-n", 200, "-s", "doubt=[{path: rock.density_kg_m3, lo: 500, hi: 5000}]", "--sensitivity=8")
+    found = re.search(between + "Some of these are more than the 50 accepted and some are not: the answer depends on", said(
+        "-s", "controls[0].accepted_kJ=120", "paper-site", few=wide))
+    expect(found and int(found[1]) <= 50 < int(found[2]), said("-s", "controls[0].accepted_kJ=120", "paper-site", few=wide))
+    expect_in("With '", said("--option", "selection coppice", "--option", "large reserves", "four-systems"))
+    expect_in("was not computed: the answer holds if all is as the scene says.", said("paper-site", few=FEW))
+
+
 EVERYTHING = ("-s", "blocks={per_year: 0.5, volume_m3: [0.01, 2], exponent: 1.1}", "-s", "rules=toscana", "-s",
               "design={survey: good, blocks: poor}", "-s",
               "controls=[{x_m: 100, name: path, accepted_kJ: 30}, {x_m: 135, name: road, accepted_kJ: 50}]")

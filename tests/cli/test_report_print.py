@@ -22,6 +22,7 @@ SCENES = ("four-systems", "rotation", "paper-site", "blocks-above-the-road", "va
 EVERYTHING = ("-s", "blocks={per_year: 0.5, volume_m3: [0.01, 2], exponent: 1.1}", "-s", "rules=toscana", "-s",
               "design={survey: good, blocks: poor}", "-s",
               "controls=[{x_m: 100, name: path, accepted_kJ: 30}, {x_m: 135, name: road, accepted_kJ: 50}]", "-s",
+              "page={place: Serra, owner: Comune, parcel: 12, author: A. Rossi, date: 24/11/2026, note: prot. 1402}", "-s",
               "observed=[{name: marks, passed: {x_m: 100, count: 8, of: 10}}]")
 QUICK = ("-n", 2000, "--sensitivity=8")
 
@@ -128,6 +129,11 @@ def check_paper(folder, path):
         over = [(a, b) for i, a in enumerate(words) for b in words[i + 1:]
                 if min(a[2], b[2]) - max(a[0], b[0]) > 1 and min(a[3], b[3]) - max(a[1], b[1]) > 0.5 * min(a[3] - a[1], b[3] - b[1])]
         expect(not over, f"{path.name}, page {number}: over one another", over[:5])
+    # the two tables of percentiles, through the forest and without it, stand on one sheet
+    flat = [" ".join(w[4] for w in words) for _, _, words in pages]
+    for page in flat:
+        heads = [len(re.findall(rf"\b{word}, \d+ (?:of|di) \d+", page)) for word in ("(?:wood|bosco)", "(?:bare|senza)")]
+        expect_equal(heads[0], heads[1], f"{path.name}: a table cut from its other half")
 
 
 def check_report(scene, language, *more):
