@@ -7,15 +7,34 @@
 
 #include "unit/site.h"
 
-/* The runs of a scene, flown. */
-static struct ceduo_pool *pool_of(const struct site *s, uint64_t rocks, size_t cells, const double *cell_x, size_t exact_bytes)
+static struct site s; /* before each test it is made anew, with wood or with the index */
+static double x[CEDUO_SNAPSHOT_CELLS];
+static size_t cells;
+
+static int wooded(void **state)
 {
-    struct ceduo_run_def def = ceduo_run_def_default(&s->scene);
+    (void)state;
+    wooded_site_init(&s);
+    cells = ceduo_snapshot_places(&s.scene, x);
+    return 0;
+}
+
+static int by_index(void **state)
+{
+    (void)state;
+    site_init(&s);
+    return 0;
+}
+
+/* The runs of the scene, flown; with the cells where `pictures`. */
+static struct ceduo_pool *pool_of(uint64_t rocks, bool pictures, bool kept)
+{
+    struct ceduo_run_def def = ceduo_run_def_default(&s.scene);
     struct ceduo_pool *pool;
     def.rocks_most = 1000;
-    def.cells = cells;
-    def.cell_x = cell_x;
-    def.exact_bytes = exact_bytes;
+    def.cells = pictures ? cells : 0;
+    def.cell_x = x;
+    def.exact_bytes = kept ? CEDUO_EXACT_BYTES : 0;
     assert_int_equal(ceduo_pool_create(&def, &pool), CEDUO_OK);
     assert_int_equal(ceduo_pool_fill(pool), CEDUO_OK);
     assert_int_equal(ceduo_pool_extend(pool, rocks), CEDUO_OK);
@@ -29,11 +48,15 @@ static struct ceduo_snapshot *snapshot_of(const struct ceduo_snapshot_def *def)
     return o;
 }
 
-TEST(places_lie_beyond_the_release)
+/* Of one pool. */
+static struct ceduo_snapshot *snapshot_at(struct ceduo_pool *pool, size_t trajectories)
 {
-    static struct site s;
-    site_init(&s);
-    double x[CEDUO_SNAPSHOT_CELLS];
+    return snapshot_of(
+        &(struct ceduo_snapshot_def){.scene = &s.scene, .figures = pool, .pictures = pool, .trajectories = trajectories});
+}
+
+TEST_WITH(places_lie_beyond_the_release, by_index, NULL)
+{
     s.scene.release.x = (struct ceduo_number){10, 2, CEDUO_UNIFORM};
     assert_int_equal(ceduo_snapshot_places(&s.scene, x), CEDUO_SNAPSHOT_CELLS);
     EXPECT(x[0], >, 12);
@@ -44,7 +67,7 @@ TEST(places_lie_beyond_the_release)
     assert_int_equal(ceduo_snapshot_places(&s.scene, x), 0);
 }
 
-static void expect_sight(const struct ceduo_run_snapshot *sight, const struct ceduo_run *run, size_t cells)
+static void expect_sight(const struct ceduo_run_snapshot *sight, const struct ceduo_run *run)
 {
     assert_non_null(sight);
     assert_int_equal(sight->flown.rocks, ceduo_run_rocks(run));
@@ -67,13 +90,9 @@ static void expect_sight(const struct ceduo_run_snapshot *sight, const struct ce
     }
 }
 
-TEST(snapshot_is_what_the_runs_say)
+TEST_WITH(snapshot_is_what_the_runs_say, wooded, NULL)
 {
-    static struct site s;
-    wooded_site_init(&s);
-    double x[CEDUO_SNAPSHOT_CELLS];
-    size_t cells = ceduo_snapshot_places(&s.scene, x);
-    LOCAL(ceduo_pool, pool) = pool_of(&s, 300, cells, x, CEDUO_EXACT_BYTES);
+    LOCAL(ceduo_pool, pool) = pool_of(300, true, true);
     LOCAL(ceduo_snapshot, o) = snapshot_of(&(struct ceduo_snapshot_def){
         .scene = &s.scene, .figures = pool, .pictures = pool, .cells = cells, .cell_x = x, .trajectories = 20});
     assert_int_equal(o->cells, cells);
@@ -81,8 +100,8 @@ TEST(snapshot_is_what_the_runs_say)
     assert_int_equal(o->options, 2);
     for (size_t i = 0; i < cells; i++)
         EXPECT(o->cell_x[i], ==, x[i]);
-    expect_sight(o->bare, ceduo_pool_find(pool, NULL), cells);
-    expect_sight(o->wooded[0], ceduo_pool_find(pool, &s.options[0]), cells);
+    expect_sight(o->bare, ceduo_pool_find(pool, NULL));
+    expect_sight(o->wooded[0], ceduo_pool_find(pool, &s.options[0]));
     EXPECT(o->wooded[0]->flown.arrivals[1].reached, <, o->bare->flown.arrivals[1].reached);
     assert_int_equal(o->bare->trajectories_count, 20);
     assert_int_equal(o->wooded[0]->trajectories_count, 20);
@@ -93,12 +112,10 @@ TEST(snapshot_is_what_the_runs_say)
 }
 
 /* Without stems the rocks are those without forest: the same sight, and it is flown once. */
-TEST(a_forest_without_stems_is_the_bare_slope)
+TEST_WITH(a_forest_without_stems_is_the_bare_slope, wooded, NULL)
 {
-    static struct site s;
-    wooded_site_init(&s);
-    LOCAL(ceduo_pool, pool) = pool_of(&s, 300, 0, NULL, CEDUO_EXACT_BYTES);
-    LOCAL(ceduo_snapshot, o) = snapshot_of(&(struct ceduo_snapshot_def){.scene = &s.scene, .figures = pool, .pictures = pool});
+    LOCAL(ceduo_pool, pool) = pool_of(300, false, true);
+    LOCAL(ceduo_snapshot, o) = snapshot_at(pool, 0);
     assert_int_equal(ceduo_pool_work(pool).runs, 2);
     assert_ptr_equal(o->wooded[1], o->bare);
     assert_ptr_not_equal(o->wooded[0], o->bare);
@@ -110,12 +127,10 @@ TEST(a_forest_without_stems_is_the_bare_slope)
 }
 
 /* With the contact model index there is one sight, that of all options. */
-TEST(the_index_looks_at_the_bare_slope)
+TEST_WITH(the_index_looks_at_the_bare_slope, by_index, NULL)
 {
-    static struct site s;
-    site_init(&s);
-    LOCAL(ceduo_pool, pool) = pool_of(&s, 300, 0, NULL, CEDUO_EXACT_BYTES);
-    LOCAL(ceduo_snapshot, o) = snapshot_of(&(struct ceduo_snapshot_def){.scene = &s.scene, .figures = pool, .pictures = pool});
+    LOCAL(ceduo_pool, pool) = pool_of(300, false, true);
+    LOCAL(ceduo_snapshot, o) = snapshot_at(pool, 0);
     assert_int_equal(ceduo_pool_work(pool).runs, 1);
     assert_null(o->wooded[0]);
     assert_null(o->wooded[1]);
@@ -124,10 +139,8 @@ TEST(the_index_looks_at_the_bare_slope)
 }
 
 /* Runs that are not there yet leave gaps. */
-TEST(what_is_not_flown_yet_is_not_known)
+TEST_WITH(what_is_not_flown_yet_is_not_known, wooded, NULL)
 {
-    static struct site s;
-    wooded_site_init(&s);
     struct ceduo_run_def run_def = ceduo_run_def_default(&s.scene);
     LOCAL(ceduo_pool, pool);
     struct ceduo_run *run;
@@ -148,14 +161,10 @@ TEST(what_is_not_flown_yet_is_not_known)
 }
 
 /* Figures come from the longer run, curves from the one that keeps them. */
-TEST(figures_come_from_the_longer_run)
+TEST_WITH(figures_come_from_the_longer_run, wooded, NULL)
 {
-    static struct site s;
-    wooded_site_init(&s);
-    double x[CEDUO_SNAPSHOT_CELLS];
-    size_t cells = ceduo_snapshot_places(&s.scene, x);
-    LOCAL(ceduo_pool, figures) = pool_of(&s, 600, 0, NULL, CEDUO_EXACT_BYTES);
-    LOCAL(ceduo_pool, pictures) = pool_of(&s, 300, cells, x, CEDUO_EXACT_BYTES);
+    LOCAL(ceduo_pool, figures) = pool_of(600, false, true);
+    LOCAL(ceduo_pool, pictures) = pool_of(300, true, true);
     struct ceduo_snapshot_def def = {.scene = &s.scene, .figures = figures, .pictures = pictures, .cells = cells, .cell_x = x};
     struct ceduo_snapshot *o = snapshot_of(&def);
     assert_int_equal(o->wooded[0]->flown.rocks, 600);
@@ -170,13 +179,9 @@ TEST(figures_come_from_the_longer_run)
 }
 
 /* Figures do not wait for pictures; and where the run of the pictures alone has grown, all is read again. */
-TEST(pictures_may_be_behind)
+TEST_WITH(pictures_may_be_behind, wooded, NULL)
 {
-    static struct site s;
-    wooded_site_init(&s);
-    double x[CEDUO_SNAPSHOT_CELLS];
-    size_t cells = ceduo_snapshot_places(&s.scene, x);
-    LOCAL(ceduo_pool, figures) = pool_of(&s, 600, 0, NULL, CEDUO_EXACT_BYTES), *pictures;
+    LOCAL(ceduo_pool, figures) = pool_of(600, false, true), *pictures;
     struct ceduo_run_def run_def = ceduo_run_def_default(&s.scene);
     run_def.cells = cells;
     run_def.cell_x = x;
@@ -201,14 +206,13 @@ TEST(pictures_may_be_behind)
 
 /* Of a forest that was just changed one sees what it was, but not where that is now the forest of another option; of an
  * option that was not there nothing. */
-TEST(a_changed_forest_shows_what_it_was)
+TEST_WITH(a_changed_forest_shows_what_it_was, wooded, NULL)
 {
-    static struct site a, b;
-    wooded_site_init(&a);
+    static struct site b;
     wooded_site_init(&b);
-    LOCAL(ceduo_pool, pool) = pool_of(&a, 100, 0, NULL, CEDUO_EXACT_BYTES);
-    LOCAL(ceduo_snapshot, o) = snapshot_of(&(struct ceduo_snapshot_def){.scene = &a.scene, .figures = pool, .pictures = pool});
-    struct ceduo_option options[4] = {b.options[0], b.options[1], a.options[0], b.options[0]};
+    LOCAL(ceduo_pool, pool) = pool_of(100, false, true);
+    LOCAL(ceduo_snapshot, o) = snapshot_at(pool, 0);
+    struct ceduo_option options[4] = {b.options[0], b.options[1], s.options[0], b.options[0]};
     b.scene.options = options;
     b.belts[0].stand.u = 50e3;
     assert_ptr_equal(ceduo_snapshot_of(o, &b.scene, 0), o->wooded[0]);
@@ -222,14 +226,14 @@ TEST(a_changed_forest_shows_what_it_was)
 /* What has not changed since the last snapshot is not read again but shared; who is freed first does not matter. */
 TEST(sights_are_taken_over)
 {
-    static struct site a, b;
+    static struct site b;
     for (int order = 0; order < 2; order++) {
-        wooded_site_init(&a);
+        wooded(NULL);
         wooded_site_init(&b);
         b.belts[1].stand = b.belts[0].stand; /* trees where the other has none */
         b.belts[1].stand.shoots_count = 0;
-        struct ceduo_pool *pool = pool_of(&a, 300, 0, NULL, CEDUO_EXACT_BYTES);
-        struct ceduo_snapshot_def def = {.scene = &a.scene, .figures = pool, .pictures = pool, .trajectories = 5};
+        struct ceduo_pool *pool = pool_of(300, false, true);
+        struct ceduo_snapshot_def def = {.scene = &s.scene, .figures = pool, .pictures = pool, .trajectories = 5};
         struct ceduo_snapshot *first = snapshot_of(&def);
         ceduo_pool_turn(pool, &b.scene);
         def.scene = &b.scene;
@@ -256,11 +260,9 @@ TEST(sights_are_taken_over)
     }
 }
 
-TEST(longer_runs_are_read_again)
+TEST_WITH(longer_runs_are_read_again, wooded, NULL)
 {
-    static struct site s;
-    wooded_site_init(&s);
-    LOCAL(ceduo_pool, pool) = pool_of(&s, 300, 0, NULL, CEDUO_EXACT_BYTES);
+    LOCAL(ceduo_pool, pool) = pool_of(300, false, true);
     struct ceduo_snapshot_def def = {.scene = &s.scene, .figures = pool, .pictures = pool};
     LOCAL(ceduo_snapshot, first) = snapshot_of(&def);
     assert_int_equal(ceduo_pool_extend(pool, 301), CEDUO_OK);
@@ -283,26 +285,20 @@ static void expect_same_energies(const struct ceduo_run_snapshot *a, const struc
 }
 
 /* Runs too long for their samples: the energies come from rocks flown once more, the same ones. */
-TEST(energies_are_flown_where_they_were_not_kept)
+TEST_WITH(energies_are_flown_where_they_were_not_kept, wooded, NULL)
 {
-    static struct site s;
-    wooded_site_init(&s);
-    LOCAL(ceduo_pool, kept) = pool_of(&s, 300, 0, NULL, CEDUO_EXACT_BYTES), *binned = pool_of(&s, 300, 0, NULL, 0);
-    LOCAL(ceduo_snapshot, a) = snapshot_of(&(struct ceduo_snapshot_def){.scene = &s.scene, .figures = kept, .pictures = kept});
-    LOCAL(ceduo_snapshot, b) =
-        snapshot_of(&(struct ceduo_snapshot_def){.scene = &s.scene, .figures = binned, .pictures = binned});
+    LOCAL(ceduo_pool, kept) = pool_of(300, false, true), *binned = pool_of(300, false, false);
+    LOCAL(ceduo_snapshot, a) = snapshot_at(kept, 0);
+    LOCAL(ceduo_snapshot, b) = snapshot_at(binned, 0);
     expect_same_energies(a->bare, b->bare);
     expect_same_energies(a->wooded[0], b->wooded[0]);
 }
 
 /* Starts and ends where the rock does, never far below the ground, and never jumps. */
-TEST(trajectories_follow_the_rocks)
+TEST_WITH(trajectories_follow_the_rocks, wooded, NULL)
 {
-    static struct site s;
-    wooded_site_init(&s);
-    LOCAL(ceduo_pool, pool) = pool_of(&s, 20, 0, NULL, CEDUO_EXACT_BYTES);
-    LOCAL(ceduo_snapshot, o) =
-        snapshot_of(&(struct ceduo_snapshot_def){.scene = &s.scene, .figures = pool, .pictures = pool, .trajectories = 20});
+    LOCAL(ceduo_pool, pool) = pool_of(20, false, true);
+    LOCAL(ceduo_snapshot, o) = snapshot_at(pool, 20);
     uint64_t hit = 0;
     for (uint64_t i = 0; i < 40; i++) {
         const struct ceduo_option *option = i % 2 ? &s.options[0] : NULL;
@@ -323,43 +319,38 @@ TEST(trajectories_follow_the_rocks)
 }
 
 /* A rock thrown far: every point of its line and the middle of every chord lies on the parabola. */
-TEST(flights_are_sampled_finely)
+TEST_WITH(flights_are_sampled_finely, by_index, NULL)
 {
-    static struct site s;
-    site_init(&s);
     s.scene.release.vx = ceduo_number(10);
     s.scene.release.vz = ceduo_number(10);
-    LOCAL(ceduo_pool, pool) = pool_of(&s, 1, 0, NULL, CEDUO_EXACT_BYTES);
-    LOCAL(ceduo_snapshot, o) =
-        snapshot_of(&(struct ceduo_snapshot_def){.scene = &s.scene, .figures = pool, .pictures = pool, .trajectories = 1});
+    LOCAL(ceduo_pool, pool) = pool_of(1, false, true);
+    LOCAL(ceduo_snapshot, o) = snapshot_at(pool, 1);
     const struct ceduo_polyline t = o->bare->trajectories[0];
     size_t checked = 0;
     for (size_t i = 1; i < t.n && t.x[i] < 20; i++, checked++) {
-        double x = (t.x[i - 1] + t.x[i]) / 2, z = (t.z[i - 1] + t.z[i]) / 2, seconds = x / 10;
+        double z = (t.z[i - 1] + t.z[i]) / 2, seconds = (t.x[i - 1] + t.x[i]) / 2 / 10;
         EXPECT_NEAR(z, (10 - 0.5 * CEDUO_GRAVITY * seconds) * seconds, 0.06); /* a step is 0.05 m */
     }
     EXPECT(checked, >, 3);
 }
 
 /* A rock that bounces in its place, 20 m high, until it is given up: drawn whole it would have millions of points. */
-static void init_endless(struct site *s)
+static int endless(void **state)
 {
-    site_init(s);
+    by_index(state);
     for (int i = 0; i < 3; i++)
-        s->z[i] = 0;
+        s.z[i] = 0;
     for (int i = 0; i < 2; i++)
-        s->segments[i] = (struct ceduo_segment){
+        s.segments[i] = (struct ceduo_segment){
             .rn = ceduo_number(1), .rt = ceduo_number(1), .roughness_m = NAN, .roughness_rad = 0, .friction = .5};
-    s->scene.release = (struct ceduo_release){.x = ceduo_number(25), .height = ceduo_number(20)};
+    s.scene.release = (struct ceduo_release){.x = ceduo_number(25), .height = ceduo_number(20)};
+    return 0;
 }
 
-TEST(an_endless_trajectory_is_drawn_in_part)
+TEST_WITH(an_endless_trajectory_is_drawn_in_part, endless, NULL)
 {
-    static struct site s;
-    init_endless(&s);
-    LOCAL(ceduo_pool, pool) = pool_of(&s, 1, 0, NULL, CEDUO_EXACT_BYTES);
-    LOCAL(ceduo_snapshot, o) =
-        snapshot_of(&(struct ceduo_snapshot_def){.scene = &s.scene, .figures = pool, .pictures = pool, .trajectories = 1});
+    LOCAL(ceduo_pool, pool) = pool_of(1, false, true);
+    LOCAL(ceduo_snapshot, o) = snapshot_at(pool, 1);
     const struct ceduo_polyline t = o->bare->trajectories[0];
     struct ceduo_trajectory way;
     assert_int_equal(ceduo_trajectory_follow(&s.scene, NULL, 0, NULL, &way, NULL), CEDUO_OK);
@@ -370,12 +361,10 @@ TEST(an_endless_trajectory_is_drawn_in_part)
     EXPECT(t.z[t.n - 1], ==, way.z);
 }
 
-TEST(nobody_waits_for_an_endless_trajectory)
+TEST_WITH(nobody_waits_for_an_endless_trajectory, endless, NULL)
 {
-    static struct site s;
-    init_endless(&s);
     atomic_bool cancel = true;
-    LOCAL(ceduo_pool, pool) = pool_of(&s, 1, 0, NULL, CEDUO_EXACT_BYTES);
+    LOCAL(ceduo_pool, pool) = pool_of(1, false, true);
     struct ceduo_snapshot_def def = {
         .scene = &s.scene, .figures = pool, .pictures = pool, .trajectories = 1, .cancel = &cancel};
     LOCAL(ceduo_snapshot, o);
