@@ -187,6 +187,35 @@ __attribute__((unused)) static void fail_others(void)
     relieve();
 }
 
+/* What was told of a task on several threads; when it is told so often something happens meanwhile (NULL: nothing). */
+static struct {
+    void (*meanwhile)(void);
+    int at;
+    atomic_int inside, most_inside, times;
+} told;
+
+/* `counts`: this is one of those that are counted. */
+__attribute__((unused)) static void note_told(bool counts)
+{
+    int inside = atomic_fetch_add(&told.inside, 1) + 1;
+    told.most_inside = inside > told.most_inside ? inside : told.most_inside;
+    if (counts && ++told.times == told.at && told.meanwhile)
+        told.meanwhile();
+    told.inside--;
+}
+
+__attribute__((unused)) static void begin_to_tell(void (*meanwhile)(void), int at)
+{
+    told.meanwhile = meanwhile;
+    told.at = at;
+    told.most_inside = told.times = 0;
+}
+
+__attribute__((unused)) static void others_go_on(void)
+{
+    wait_for_others(500);
+}
+
 /* Does all, and adds what it found; false where there was no memory. */
 typedef bool task(void);
 

@@ -327,28 +327,17 @@ static bool sure(void)
     return status == CEDUO_OK;
 }
 
-/* What was told of a doubt on two threads: the first time something happens meanwhile. */
-static struct {
-    void (*meanwhile)(void);
-    atomic_int inside, most_inside, times;
-} told;
-
 static void tell(void *context, uint64_t done, uint64_t all)
 {
     (void)context, (void)done, (void)all;
-    int inside = atomic_fetch_add(&told.inside, 1) + 1;
-    told.most_inside = inside > told.most_inside ? inside : told.most_inside;
-    if (told.times++ == 0)
-        told.meanwhile();
-    told.inside--;
+    note_told(true);
 }
 
 static enum ceduo_status doubt_on_two_threads(uint64_t rocks, void (*meanwhile)(void))
 {
     struct ceduo_doubt_answer answer;
     init(CEDUO_STEMS, CEDUO_LAW_LUMPED);
-    told.most_inside = told.times = 0;
-    told.meanwhile = meanwhile;
+    begin_to_tell(meanwhile, 1);
     enum ceduo_status status = ceduo_doubt_ask(&(struct ceduo_doubt_def){.scene = &site.scene,
                                                                          .inputs_count = 2,
                                                                          .inputs = inputs,
@@ -360,11 +349,6 @@ static enum ceduo_status doubt_on_two_threads(uint64_t rocks, void (*meanwhile)(
     if (status == CEDUO_OK)
         ceduo_doubt_free(&answer);
     return status;
-}
-
-static void others_go_on(void)
-{
-    wait_for_others(500);
 }
 
 /* Who is told how far it is holds up nobody, and is not told meanwhile. So many rocks that the others are not at the end

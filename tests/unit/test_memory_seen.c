@@ -165,22 +165,12 @@ static bool fit(void)
 
 /* ---- a fit that goes on ---- */
 
-/* What happens as it is told how far a fit is. */
-static struct {
-    void (*meanwhile)(void); /* NULL: nothing, */
-    int at;                  /* or when it is told so often */
-    enum ceduo_calibration_stage stage;
-    atomic_int inside, most_inside, times;
-} told;
+static enum ceduo_calibration_stage counted_stage; /* stage of a fit, of which it is counted how often it is told */
 
 static void tell(void *context, const struct ceduo_calibration_state *state)
 {
     (void)context;
-    int inside = atomic_fetch_add(&told.inside, 1) + 1;
-    told.most_inside = inside > told.most_inside ? inside : told.most_inside;
-    if (state->stage == told.stage && ++told.times == told.at && told.meanwhile)
-        told.meanwhile();
-    told.inside--;
+    note_told(state->stage == counted_stage);
 }
 
 /* A fit of one value to where one rock stops, its chains of one round. */
@@ -195,10 +185,8 @@ static enum ceduo_status fit_of_one_round(unsigned threads, uint64_t rocks, void
     seen.option = 1;
     const struct ceduo_calibration_scene scene = {&ground.of.scene, &input, 1, &seen};
     struct ceduo_calibration a;
-    told.meanwhile = meanwhile;
-    told.stage = stage;
-    told.at = at;
-    told.most_inside = told.times = 0;
+    counted_stage = stage;
+    begin_to_tell(meanwhile, at);
     enum ceduo_status status = ceduo_calibrate(&(struct ceduo_calibration_def){.scenes_count = 1,
                                                                                .scenes = &scene,
                                                                                .parameters_count = 1,
@@ -213,11 +201,6 @@ static enum ceduo_status fit_of_one_round(unsigned threads, uint64_t rocks, void
         ceduo_calibration_free(&a);
     }
     return status;
-}
-
-static void others_go_on(void)
-{
-    wait_for_others(500);
 }
 
 /* Who is told how far it is holds up nobody, and is not told meanwhile. So many rocks that the others are not at the end

@@ -54,51 +54,20 @@ static struct wood_kind kind_of(const struct ceduo_stand *stand, const struct ce
     return k;
 }
 
-/* Cohort i of the shoots, which have no stratum of their own: all stools are one. */
-static struct wood_stratum shoot_stratum(const struct ceduo_stand *stand, size_t i, struct wood_kind *kind)
+static struct wood_stratum plain_stratum(double per_ha, double width, const struct wood_kind *kind)
 {
-    double upto = 0;
-    *kind = kind_of(stand, &stand->shoots[i]);
-    for (size_t k = 0; k <= i; k++)
-        upto += stand->shoots[k].per_ha;
-    kind->share_to = i + 1 < stand->shoots_count ? upto / ceduo_stand_shoots(stand) : 1;
-    return (struct wood_stratum){.kind = kind};
+    double per_m2 = per_ha / HECTARE;
+    return (struct wood_stratum){per_m2 * width, per_m2, kind, 0, 0};
 }
 
-/* Trees of class i; of groups their centres, as far off as any of their trees can be met. */
-static struct wood_stratum tree_stratum(const struct ceduo_stand *stand, size_t i, struct wood_kind *kind)
+/* Trees of a class; of groups their centres, as far off as any of their trees can be met. */
+static struct wood_stratum tree_stratum(const struct ceduo_stems *trees, const struct wood_kind *kind)
 {
-    const struct ceduo_stems *trees = &stand->trees[i];
-    double per_m2 = trees->per_ha / HECTARE;
-    *kind = kind_of(stand, trees);
     if (!ceduo_stems_are_grouped(trees))
-        return (struct wood_stratum){per_m2 * kind->dbh, per_m2, kind, 0, 0};
-    per_m2 /= trees->group;
+        return plain_stratum(trees->per_ha, kind->dbh, kind);
+    double per_m2 = trees->per_ha / HECTARE / trees->group;
     return (struct wood_stratum){per_m2 * (2 * trees->group_radius + kind->most), per_m2, kind, trees->group,
                                  trees->group_radius};
-}
-
-/* A stump takes what is said of it, whatever the law of the stems. */
-static struct wood_stratum stump_stratum(const struct ceduo_stand *stand, struct wood_kind *kind)
-{
-    const struct ceduo_stumps *s = &stand->stumps;
-    double per_m2 = s->per_ha / HECTARE;
-    *kind = (struct wood_kind){.dbh = s->diameter,
-                               .most = s->diameter,
-                               .height = s->height,
-                               .below = INFINITY,
-                               .energy = s->energy,
-                               .by_hit = {.model = CEDUO_BRAUNER}};
-    return (struct wood_stratum){per_m2 * s->diameter, per_m2, kind, 0, 0};
-}
-
-/* A log lies across the way: it has no diameter that it could be grazed beside. */
-static struct wood_stratum log_stratum(const struct ceduo_stand *stand, struct wood_kind *kind)
-{
-    const struct ceduo_logs *l = &stand->logs;
-    double per_m2 = l->per_ha / HECTARE;
-    *kind = (struct wood_kind){.dbh = NAN, .height = l->diameter, .below = INFINITY, .energy = l->energy};
-    return (struct wood_stratum){per_m2 * ceduo_log_width(l->length), per_m2, kind, 0, 0};
 }
 
 /* How rocks meet a stand: its stems, or the contacts of a rule. */
@@ -133,9 +102,29 @@ static struct wood_stratum stratum_of(const struct encounter *e, size_t i, struc
             kind->by_hit = ceduo_stem_energy_of_contact(stand->energy, s.share, e->mass);
         return (struct wood_stratum){s.per_ha * s.width / HECTARE, s.per_ha / HECTARE, kind, 0, 0};
     }
-    if (i < low)
-        return i < shoots ? shoot_stratum(stand, i, kind) : tree_stratum(stand, i - shoots, kind);
-    return i == low && stand->stumps.per_ha > 0 ? stump_stratum(stand, kind) : log_stratum(stand, kind);
+    if (i < shoots) { /* a cohort has no stratum of its own: all stools are one */
+        double upto = 0;
+        *kind = kind_of(stand, &stand->shoots[i]);
+        for (size_t k = 0; k <= i; k++)
+            upto += stand->shoots[k].per_ha;
+        kind->share_to = i + 1 < shoots ? upto / ceduo_stand_shoots(stand) : 1;
+        return (struct wood_stratum){.kind = kind};
+    }
+    if (i < low) {
+        *kind = kind_of(stand, &stand->trees[i - shoots]);
+        return tree_stratum(&stand->trees[i - shoots], kind);
+    }
+    /* what lies low takes what is said of it, whatever the law of the stems */
+    const struct ceduo_stumps *t = &stand->stumps;
+    const struct ceduo_logs *l = &stand->logs;
+    if (i == low && t->per_ha > 0) {
+        *kind = (struct wood_kind){
+            .dbh = t->diameter, .most = t->diameter, .height = t->height, .below = INFINITY, .energy = t->energy};
+        return plain_stratum(t->per_ha, t->diameter, kind);
+    }
+    /* a log lies across the way: it has no diameter that it could be grazed beside */
+    *kind = (struct wood_kind){.dbh = NAN, .height = l->diameter, .below = INFINITY, .energy = l->energy};
+    return plain_stratum(l->per_ha, ceduo_log_width(l->length), kind);
 }
 
 /* ---- stools ---- */
