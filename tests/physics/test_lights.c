@@ -191,16 +191,22 @@ TEST(a_rock_with_the_accepted_energy_does_not_exceed_it)
     assert_int_equal(ceduo_energy_light(&a), CEDUO_FAIL);
 }
 
+/* What trees between two places change at the control, of rocks with so much energy there. */
+static struct ceduo_difference by_trees(double from, double to, double accepted)
+{
+    struct ceduo_stems trees = {.per_ha = 2000, .dbh = .25, .height = 90, .volume = 1, .age = NAN};
+    struct ceduo_belt belt = {.from = from, .to = to, .stand = {.species = -1, .trees_count = 1, .trees = &trees, .u = 1e5}};
+    struct ceduo_option wood = {.belts_count = 1, .belts = &belt};
+    drop(accepted);
+    LOCAL(ceduo_run, through) = fly(&wood);
+    LOCAL(ceduo_run, bare) = fly(NULL);
+    return ceduo_run_difference(through, bare, 0);
+}
+
 /* Nor does it in a difference: some rocks are stopped by trees on the way, none exceeds, with or without the wood. */
 TEST(a_difference_counts_no_rock_with_the_accepted_energy)
 {
-    struct ceduo_stems trees = {.per_ha = 2000, .dbh = .25, .height = 90, .volume = 1, .age = NAN};
-    struct ceduo_belt belt = {.from = 1, .to = 4, .stand = {.species = -1, .trees_count = 1, .trees = &trees, .u = 1e5}};
-    struct ceduo_option wood = {.belts_count = 1, .belts = &belt};
-    drop(25);
-    LOCAL(ceduo_run, through) = fly(&wood);
-    LOCAL(ceduo_run, bare) = fly(NULL);
-    struct ceduo_difference d = ceduo_run_difference(through, bare, 0);
+    struct ceduo_difference d = by_trees(1, 4, 25);
     ROWS(EXPECT, (d.reach_probability.mean, <, 0), (d.reach_probability.se, >, 0), (d.exceed_probability.mean, ==, 0));
     assert_true(isnan(d.exceed_probability.se)); /* as no pair differs */
     EXPECT(d.exceed_probability.below, >, 0);
@@ -209,18 +215,11 @@ TEST(a_difference_counts_no_rock_with_the_accepted_energy)
 /* Stems from the control on make no difference to it: that is known, not estimated. */
 TEST(a_difference_by_stems_from_the_control_on_is_none)
 {
-    struct ceduo_stems trees = {.per_ha = 2000, .dbh = .25, .height = 90, .volume = 1, .age = NAN};
-    struct ceduo_belt belt = {.from = 4, .to = 8, .stand = {.species = -1, .trees_count = 1, .trees = &trees, .u = 1e5}};
-    struct ceduo_option wood = {.belts_count = 1, .belts = &belt};
-    drop(20);
-    EXPECT(flat.control.x, ==, belt.from);
-    LOCAL(ceduo_run, through) = fly(&wood);
-    LOCAL(ceduo_run, bare) = fly(NULL);
-    struct ceduo_difference d = ceduo_run_difference(through, bare, 0);
+    struct ceduo_difference d = by_trees(4, 8, 20);
+    EXPECT(flat.control.x, ==, 4);
     const struct ceduo_paired of[] = {d.reach_probability, d.exceed_probability, d.energy_per_released};
-    for (size_t i = 0; i < 3; i++) {
+    for (size_t i = 0; i < 3; i++)
         EXPECT_IS(of[i], (mean, 0), (se, 0), (below, 0));
-    }
 }
 
 /* Of 20 rocks on the paper's site, one has more than the next to fastest brings: 1 of 20 passes, 2 do not. */

@@ -391,6 +391,19 @@ static void look_at_first_contact(void *context, const struct ceduo_piece *p)
     ceduo_moments_add(&f->rt, p->vx / 4);
 }
 
+static struct first_contact first_contacts(const struct ceduo_scene *scene)
+{
+    struct first_contact f = {0};
+    for (uint64_t rock = 0; rock < 20000; rock++) {
+        const struct ceduo_watch watch = {.piece = look_at_first_contact, .context = &f};
+        struct ceduo_trajectory w;
+        f.seen = false;
+        assert_int_equal(ceduo_trajectory_follow(scene, NULL, rock, &watch, &w, NULL), CEDUO_OK);
+        assert_true(f.seen);
+    }
+    return f;
+}
+
 TEST(grounds_are_drawn_as_they_are_spread)
 {
     static struct line_scene flat;
@@ -399,28 +412,11 @@ TEST(grounds_are_drawn_as_they_are_spread)
     flat.segments[0].rn = (struct ceduo_number){.3, .05, CEDUO_NORMAL};
     flat.segments[0].rt = (struct ceduo_number){.8, .1, CEDUO_UNIFORM};
     line_scene_release(&flat, 500, 10, 4, 0, 0);
-    struct first_contact f = {0};
-    for (uint64_t rock = 0; rock < 20000; rock++) {
-        struct ceduo_trajectory w;
-        f.seen = false;
-        assert_int_equal(ceduo_trajectory_follow(&flat.scene, NULL, rock,
-                                                 &(struct ceduo_watch){.piece = look_at_first_contact, .context = &f}, &w,
-                                                 NULL),
-                         CEDUO_OK);
-        assert_true(f.seen);
-    }
+    struct first_contact f = first_contacts(&flat.scene);
     expect_moments("Rn", &f.rn, .3, .05 * CUT_SD);
     expect_moments("Rt", &f.rt, .8, .1 / sqrt(3));
-    f = (struct first_contact){0};
     flat.segments[0].rn = (struct ceduo_number){.95, .2, CEDUO_NORMAL}; /* cut at 1 as well */
-    for (uint64_t rock = 0; rock < 20000; rock++) {
-        struct ceduo_trajectory w;
-        f.seen = false;
-        assert_int_equal(ceduo_trajectory_follow(&flat.scene, NULL, rock,
-                                                 &(struct ceduo_watch){.piece = look_at_first_contact, .context = &f}, &w,
-                                                 NULL),
-                         CEDUO_OK);
-    }
+    f = first_contacts(&flat.scene);
     double a = -3, b = .25, pi = acos(-1), p = (erfc(-b / sqrt(2)) - erfc(-a / sqrt(2))) / 2;
     double shift = (exp(-a * a / 2) - exp(-b * b / 2)) / sqrt(2 * pi) / p;
     expect_mean("cut Rn", f.rn.mean, ceduo_moments_se(&f.rn), .95 + .2 * shift, 0, 0);
