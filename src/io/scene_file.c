@@ -12,7 +12,7 @@
 #include "base/language.h"
 #include "file.h"
 #include "resolve.h"
-#include "validate.h"
+#include "validator.h"
 
 bool ceduo_scene_bind(struct scene_file *file, struct problems *problems)
 {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "validate.h"
+#include "validator.h"
 
 #include "base/language.h"
 

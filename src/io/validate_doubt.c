@@ -12,7 +12,7 @@
 #include "doubt_inputs.h"
 #include "resolve.h"
 #include "scene/value.h"
-#include "validate.h"
+#include "validator.h"
 
 /* A row, where it stands, and what its path begins at: "" or a stand and a dot. */
 struct row {

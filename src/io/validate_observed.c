@@ -9,7 +9,7 @@
 #include "base/language.h"
 #include "csv.h"
 #include "resolve.h"
-#include "validate.h"
+#include "validator.h"
 
 /* ---- one form ---- */
 

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "base/language.h"
-#include "validate.h"
+#include "validator.h"
 
 /* What each shape is given by, and how that is written. A sphere has one of its keys, the others have all. */
 static const struct {

@@ -7,7 +7,7 @@
 #include "base/language.h"
 #include "csv_slope.h"
 #include "resolve.h"
-#include "validate.h"
+#include "validator.h"
 
 static bool is_given(struct validator *v, const char *key)
 {

@@ -6,7 +6,7 @@
 #include "base/language.h"
 #include "ceduo/rotation.h"
 #include "resolve.h"
-#include "validate.h"
+#include "validator.h"
 
 #define SHOOTS_MAX 10000 /* on a stool */
 
