@@ -113,6 +113,7 @@ GROUPS = {"shoots": 0.85, "trees": 0.85, "energy": 0.4, "growth": 0.4, "cutting"
 
 # Sizes that belong to a shape, one of these lists; a new shape has axes.
 SIZES = {"sphere": [["diameter_m"], ["volume_m3"], ["mass_kg"]], "cylinder": [["diameter_m", "height_m"]]}
+DIAMETERS = ("dbh_sd_m", "dbh_cm", "dbh_sd_cm")
 ALL_SIZES = {"diameter_m", "height_m", "axes_m", "volume_m3", "mass_kg", "density_kg_m3"}
 
 NAMES = ["road", "Straße 7", "house, \"old\"", "l'orto", "a; b", "x: y # z", "% \\ {1}", "日本の道", "naïve", "é", "- 1", "~",
@@ -473,7 +474,7 @@ class Maker:
         all_shoots = clamp(stools["per_ha"] * each, stools["per_ha"], most * cohorts)
         stand["shoots"] = []
         for _ in range(cohorts):
-            shoots = self.fill(node["shoots[]"], {"per_ha": clamp(all_shoots / cohorts, 5e-324, most)}, ("dbh_sd_m", "per_stool"))
+            shoots = self.fill(node["shoots[]"], {"per_ha": clamp(all_shoots / cohorts, 5e-324, most)}, (*DIAMETERS, "per_stool"))
             stand["shoots"].append(shoots)
             self.diameters(node["shoots[]"], shoots)
         while sum(s["per_ha"] for s in stand["shoots"]) < stools["per_ha"]:  # by rounding
@@ -487,18 +488,22 @@ class Maker:
                 self.case.used.add("forest[].stand.shoots[].per_stool")
 
     def diameters(self, node, stems):
-        """Now and then a spread of diameters, seldom larger than they are."""
-        if "dbh_sd_m" not in node or "dbh_m" not in stems or not self.chance(0.3):
-            return
-        self.value(node["dbh_sd_m"], stems)
-        if self.chance(0.93):
-            stems["dbh_sd_m"] = min(stems["dbh_sd_m"], stems["dbh_m"] * self.rng.choice([0.01, 0.2, 0.5, 1]))
+        """Now and then a spread of diameters, seldom larger than they are; now and then in cm."""
+        if "dbh_sd_m" in node and "dbh_m" in stems and self.chance(0.3):
+            self.value(node["dbh_sd_m"], stems)
+            if self.chance(0.93):
+                stems["dbh_sd_m"] = min(stems["dbh_sd_m"], stems["dbh_m"] * self.rng.choice([0.01, 0.2, 0.5, 1]))
+        for key in ("dbh_m", "dbh_sd_m"):
+            if key in stems and stems[key] * 100 / 100 == stems[key] and self.chance(0.2):
+                cm = key.replace("_m", "_cm")
+                stems[cm] = stems.pop(key) * 100
+                self.case.used.add(node[cm].path)
 
     def trees(self, stand):
         node = self.table.tree["forest[]"]["stand"]["trees[]"]
         stand["trees"] = []
         for _ in range(self.rng.choice([1, 1, 2, 4])):
-            stems = self.fill(node, {}, ("dbh_sd_m",))
+            stems = self.fill(node, {}, DIAMETERS)
             self.diameters(node, stems)
             stand["trees"].append(stems)
 

@@ -315,10 +315,10 @@ def check_controls(case, result, controls, stems, what):
 # ---- JSON: stands ----
 
 def with_per_ha(stand):
-    """A stand whose shoots are given per hectare, as those on its stools are."""
-    if "shoots" not in stand:
-        return stand
-    return {**stand, "shoots": [{"per_ha": s.get("per_stool", 0) * stand["stools"]["per_ha"], **s} for s in stand["shoots"]]}
+    """A stand whose shoots are given per hectare, as those on its stools are, and diameters in m."""
+    return {**stand, **{key: [{"per_ha": s.get("per_stool", 0) * stand.get("stools", {}).get("per_ha", 0),
+                               "dbh_m": s.get("dbh_cm", 0) / 100, "dbh_sd_m": s.get("dbh_sd_cm", 0) / 100, **s} for s in stand[key]]
+                         for key in ("shoots", "trees") if key in stand}}
 
 
 def stems_of(stand):
