@@ -221,6 +221,9 @@ void ceduo_page_over(struct ceduo_page *page, const struct ceduo_report *report)
     ceduo_text_char(text, '\t');
     struct ceduo_measure mean = ceduo_judged(place_of(report->result), NULL);
     LOCAL_TEXT(may);
+    LOCAL_TEXT(share); /* of one rock: no error */
+    ceduo_text_format(&share, isnan(c->mean.half) ? "%.0f" : "%.0f \xc2\xb1%.0f", 1000 * c->mean.mean,
+                      ceil(1000 * c->mean.half));
     ceduo_measure_doubt_over(&mean, report->doubt, 0);
     if (!isnan(mean.may_lo)) {
         ceduo_text_put(&may, _(", may be "));
@@ -230,9 +233,9 @@ void ceduo_page_over(struct ceduo_page *page, const struct ceduo_report *report)
         ceduo_text_format(text, _("ADC %s m at the most, in year %u; contact fails in %zu of %zu."), WRITTEN(c->worst.mean, 3),
                           c->worst_year, c->no_contact, c->years);
     else
-        ceduo_text_format(text, _("mean %.0f \xc2\xb1%.0f%s; worst %.0f \xc2\xb1%.0f in year %u (%llu rocks in each)"),
-                          1000 * c->mean.mean, ceil(1000 * c->mean.half), ceduo_text_string(&may), 1000 * c->worst.mean,
-                          ceil(1000 * c->worst.half), c->worst_year, (unsigned long long)c->rocks);
+        ceduo_text_format(text, _("mean %s%s; worst %.0f \xc2\xb1%.0f in year %u (%llu rocks in each)"),
+                          ceduo_text_string(&share), ceduo_text_string(&may), 1000 * c->worst.mean, ceil(1000 * c->worst.half),
+                          c->worst_year, (unsigned long long)c->rocks);
     if (c->flown > 0 && c->energy_known)
         ceduo_text_then(text, "; ", _("above the limit in %zu of %zu"), c->too_much, c->years);
     ceduo_text_put(text, c->flown > 0 ? "." : "");
