@@ -3,6 +3,7 @@
 """Where hardly a rock arrives even without forest nothing can be said, and every output says so; and profiles drawn upward."""
 import copy
 import json
+import re
 import sys
 from pathlib import Path
 
@@ -207,6 +208,19 @@ def test_mirrored_paths():
                                    doubt=[{"path": "slope.materials[talus].rn", "lo": 0.1, "hi": 0.6}])
         one, two = (good("--sensitivity=8", "-n", 200, "-f", "json", library(up)).json()[0] for up in (False, True))
         expect_equal([figure["doubt_p95"] for figure in two["figures"]], [figure["doubt_p95"] for figure in one["figures"]], "a ground")
+
+
+NO_NUMBER = re.compile(r"(?<![\w])[-+\u00b1]?(?:inf|nan|infinity)(?![\w])", re.IGNORECASE)
+OUTPUTS = ("", "--details --years", "--sensitivity=4", "--report -", "-f csv --years", "-f csv --rows stands", "-f csv --sensitivity=4",
+           "-f json --years", "-f json --sensitivity=4", *(f"--plot {kind}" for kind in ("tradeoff", "hazard", "energy", "doubt")))
+
+
+def test_no_number():
+    """One rock has no spread, and what it did not do no mean: no page, cell, object or picture says nan or inf for it"""
+    for name in ("paper-site", "rotation", "blocks-above-the-road", "vaujany"):
+        for words in OUTPUTS:
+            out = ceduo("--batch", "-n", 1, *words.split(), name).out
+            expect(out and not NO_NUMBER.search(out), name, words, NO_NUMBER.findall(out), out)
 
 
 if __name__ == "__main__":
