@@ -228,8 +228,12 @@ static void put_zsh(const struct option_row *rows, size_t n)
          "_ceduo_parameters()\n"
          "{\n"
          "    local -a paths\n"
+         "    local typed=${(Q)PREFIX} listed\n"
+         "    listed=$(sed 's/\\[[^]]*\\]/[]/g; s/^options\\[\\]\\.forest\\[\\]/forest[]/' <<< \"$typed\")\n"
          "    paths=(${(f)\"$(\"${(Q)${words[1]/#\\~\\//$HOME/}}\" " PARAMETERS(
              "") ")\"})\n"
+                 "    paths=(${(M)paths:#$listed*}) # with the indices that were typed, and 0 for others\n"
+                 "    paths=(\"$typed\"${^${paths#$listed}//'[]'/'[0]'})\n"
                  "    compadd -S = -a paths\n"
                  "}\n"
                  "_ceduo_options()\n"

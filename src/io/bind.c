@@ -189,10 +189,15 @@ static bool read_number(struct binder *b, const struct node *node, double *value
     const char *text = node->text, *comma = strchr(text, ',');
     size_t whole = strspn(text, "+-0123456789"), rest = comma ? strspn(comma + 1, "0123456789") : 0;
     bool thousands = rest == 3 && strtod(text, NULL) != 0;
+    char shown[CEDUO_NUMBER_ROOM];
+    LOCAL_TEXT(part);
+    ceduo_text_add(&part, text, strcspn(text, "%"));
     if (comma == text + whole && whole > 0 && rest > 0 && !comma[1 + rest] && !thousands)
         report(b, node, DECIMAL_COMMA, (int)whole, text, comma + 1);
     else if (comma)
         report(b, node, _("'%s' is not a number; write a dot for the decimals and nothing between thousands"), node->text);
+    else if (strcmp(text + part.length, "%") == 0 && ceduo_number_read(ceduo_text_string(&part), value) == CEDUO_NUMBER_GOOD)
+        report(b, node, _("'%s' is not a number; write %s"), text, ceduo_number_shortest(*value / 100, shown));
     else
         report(b, node, _("'%s' is not a number"), node->text);
     return false;

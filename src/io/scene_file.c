@@ -79,17 +79,18 @@ static bool set_one(struct scene_file *file, struct source set, struct problems 
     if (!equals || equals == source->bytes)
         return ceduo_problem(problems, source, 1, 1, _("expected PATH=VALUE"));
     size_t length = (size_t)(equals - source->bytes);
-    const struct node *value = ceduo_yaml_read_value(&file->arena, source, length + 1, problems);
-    if (!value)
-        return false;
     /* what a shell passes on without quotes, and YAML cuts or takes apart */
     LOCAL_TEXT(path);
     ceduo_text_add(&path, source->bytes, length);
     const struct field *field = ceduo_schema_at(ceduo_text_string(&path));
     const char *given = equals + 1 + strspn(equals + 1, " ");
-    bool text = field ? field->type <= FIELD_FILE : value->kind == NODE_SCALAR;
-    bool cut = value->kind == NODE_SCALAR && !value->quoted && (*given == '#' || strstr(given, " #"));
-    if (text && (cut || (value->kind == NODE_MAP && !value->flow)))
+    bool all = *given == '#'; /* nothing is left of it */
+    const struct node *value = all ? NULL : ceduo_yaml_read_value(&file->arena, source, length + 1, problems);
+    if (!value && !all)
+        return false;
+    bool text = field ? field->type <= FIELD_FILE : all || value->kind == NODE_SCALAR;
+    bool cut = all || (value->kind == NODE_SCALAR && !value->quoted && strstr(given, " #"));
+    if (all || (text && (cut || (value->kind == NODE_MAP && !value->flow))))
         return ceduo_problem(problems, source, 1, length + 2,
                              cut ? _("'#' begins a comment; between quotes it is text: %s=\"%s\"")
                                  : _("': ' makes a mapping; between quotes it is text: %s=\"%s\""),

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 
 #include "base/language.h"
-#include "scene_file.h"
+#include "doubt_inputs.h"
 
 struct memory {
     struct scene_file file;
@@ -26,11 +26,20 @@ static enum ceduo_status read_scene(const char *name, const char *text, const ch
     ceduo_language_of_data(true); /* the caller's domain of messages is not ours */
     bool good = text ? ceduo_scene_load_text(&m->file, name, text, &m->problems)
                      : ceduo_scene_load(&m->file, name, sets, n, &m->problems);
+    struct scene_inputs inputs = {0};
+    if (good && !ceduo_inputs_of(&m->file, &inputs))
+        good = ceduo_problem_memory(&m->problems);
     ceduo_problems_close(&m->problems);
     ceduo_language_of_data(false);
     reading->messages = ceduo_text_string(&m->problems.text);
     if (good)
-        reading->scene = m->file.scene;
+        *reading = (struct ceduo_reading){.scene = m->file.scene,
+                                          .inputs_count = inputs.n,
+                                          .inputs = inputs.items,
+                                          .observations_count = m->file.observations_count,
+                                          .observations = m->file.observations,
+                                          .messages = reading->messages,
+                                          .memory = m};
     return good ? CEDUO_OK : m->problems.memory ? CEDUO_NO_MEMORY : CEDUO_BAD_FILE;
 }
 

@@ -157,7 +157,7 @@ static const struct ceduo_figure input_range_rows[] = {
     {"at_lo", "", "the figure with this input at its lower end, all others as they are", .value = input_at_lo,
      .null = UNSAID ", or the figure is of a rotation"},
     {"at_hi", "", "the same at its upper end", .value = input_at_hi, .null = UNSAID ", or the figure is of a rotation"},
-    {"width_if_known", "", "doubt_p95 less doubt_p5 that would be left if it were known", .value = input_left,
+    {"width_if_known", "", "expected width of the 90 % range if this input were known", .value = input_left,
      .null = FEW_POINTS},
     END};
 

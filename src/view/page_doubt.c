@@ -275,7 +275,7 @@ static void add_inputs(struct ceduo_page *page, const struct ceduo_doubt_report 
                                                        {N_("from"), -9, 1, 0},
                                                        {N_("to"), -9, 1, 0},
                                                        {N_("share"), -6, 1, 0},
-                                                       {N_("left if known"), -13, 2, 0}};
+                                                       {N_("width if known"), -14, 2, 0}};
     size_t rest = 0;
     if (!f->fit.enough) {
         ceduo_page_note(page, _("There are too few points to say what it depends on; take more (--sensitivity=N)."));

@@ -429,6 +429,8 @@ CASES = {
         "forest[0].stand.trees=[{per_ha: 50, dbh_m: 0.2, height_m: 12, groups: @@{stems: 5}}]"),
     # Changes by --set
     "there is no value after the =": Set("release.height_m=@@"),
+    "rocks_per_year: '5%' is not a number; write 0.05": Set("rocks_per_year=@@5%"),
+    "'#' begins a comment; between quotes it is text: title=\"#1\"": Set("title=@@#1"),
     "expected PATH=VALUE": Set("@@rock.diameter_m"),
     "malformed path; keys are joined by '.', items are [0] or [name]": Set("rock@@..diameter_m=1"),
     "'diameter': unknown key; did you mean 'diameter_m'?": Set("rock.@@diameter=1"),

@@ -213,7 +213,9 @@ class Shells(Installed):
         for typed, wanted in COMPLETIONS:
             found = self.given(shell, start, f"ceduo {typed}").removeprefix(f"{self.path}/here/")
             expect_equal(found, folder if wanted == "old woods/" else wanted, typed)
-        for typed, wanted in (("forest", "forest of oaks"), ("--find rocks_per", "rocks_per_year=")):
+        for typed, wanted in (("forest", "forest of oaks"), ("--find rocks_per", "rocks_per_year="),
+                              ("--find options[tall].forest[2].stand.stools.s", "options[tall].forest[2].stand.stools.spacing_m="),
+                              ("-s controls[1].acc", "controls[1].accepted_kJ=")):
             expect_equal(self.given(shell, start, f"{self.path}/a\\ path/ceduo {typed}"), wanted, f"in a folder with a blank: {typed}")
 
 

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """ceduo(3): the example of the page is compiled and run with the library and the headers that were installed."""
+import json
 import os
 import re
 import shlex
@@ -79,6 +80,25 @@ int main()
         ceduo_answer_release(&answer);
         question.run.cancel = &stop;
     }
+    ceduo_doubt_def doubt{};
+    doubt.scene = &file.scene;
+    doubt.inputs_count = file.inputs_count;
+    doubt.inputs = file.inputs;
+    doubt.points = 8;
+    doubt.rocks = doubt.own_rocks = 20;
+    doubt.threads = 1;
+    ceduo_doubt_answer range;
+    if (ceduo_doubt_ask(&doubt, &range) != CEDUO_OK)
+        return 2;
+    for (size_t i = 0; i < file.inputs_count; i++)
+        std::puts(file.inputs[i].path);
+    std::printf("%.17g %.17g\\n", range.figures[0].fit.p5, range.figures[0].fit.p95);
+    ceduo_doubt_free(&range);
+    ceduo_reading_release(&file);
+    if (ceduo_scene_read("vaujany", nullptr, &file) != CEDUO_OK)
+        return 3;
+    for (size_t i = 0; i < file.observations_count; i++)
+        std::puts(file.observations[i].name);
     ceduo_reading_release(&file);
     sets[0] = "rock.diameter_m=-1";
     if (ceduo_scene_read("paper-site", sets, &file) == CEDUO_BAD_FILE)
@@ -89,17 +109,22 @@ int main()
 
 
 def test_cpp():
-    """C++ asks as C does, shared and static: one header, without a warning, a flag that ends the call, the program's messages"""
+    """C++ asks as C does, shared and static: one header, without a warning, a flag that ends the call, the program's messages, and
+    what --sensitivity says"""
     if not shutil.which("g++"):
         raise Skip("no C++ compiler here")
     with Library() as place:
         place.write("ask.cc", CPP)
         wanted = ceduo("--check", "-s", "rock.diameter_m=-1", "paper-site")
         expect_equal(wanted.status, 2)
+        figure = json.loads(ceduo("--sensitivity=8", "-n", 20, "-f", "json", "paper-site").out)["figures"][0]
+        seen = re.findall(r"^  - name: (.*)\n(?:    .*\n)*?    option:", (ROOT / "profiles/scenes/vaujany.yaml").read_text(), re.M)
+        known = "".join(f"{line}\n" for line in [*(i["path"] for i in figure["inputs"]),
+                                                f"{figure['doubt_p5']:.17g} {figure['doubt_p95']:.17g}", *seen])
         for how in [""] if BUILT else ["", "--static"]:
             place.shell(f"g++ -std=c++17 -Wall -Wextra -Wpedantic -Werror {how.replace('--', '-')} {BUILT} -o ask ask.cc "
                         f"$(pkg-config {how} --cflags --libs ceduo)")
-            expect_equal(place.shell("./ask"), "done\ncancelled\n" + wanted.err, "statuses, messages")
+            expect_equal(place.shell("./ask"), "done\ncancelled\n" + known + wanted.err, "statuses, what is not known, messages")
 
 
 def test_exports():
