@@ -177,8 +177,8 @@ void ceduo_calibration_page(struct text *text, const struct ceduo_calibration_re
 {
     static const struct ceduo_page_column fitted[] = {
         {N_("fitted"), 26, 2, 0}, {N_("between"), -13, 2, 0}, {N_("best"), -8, 2, 0}, {N_("not refuted, 95 %"), -18, 2, 0}};
-    static const struct ceduo_page_column seen[] = {{N_("seen"), 26, 2, 0},       {N_("use"), 5, 2, 0},
-                                                    {N_("rocks"), -5, 2, 0},      {N_("mean"), -8, 2, 0},
+    static const struct ceduo_page_column seen[] = {{N_("seen"), 24, 2, 0},       {N_("use"), 5, 2, 0},
+                                                    {N_("rocks"), -7, 2, 0},      {N_("mean"), -8, 2, 0},
                                                     {N_("fit, 95 %"), -15, 2, 0}, {N_("p"), -5, 2, 0}};
     struct ceduo_page page = {.width = CEDUO_PAGE_WIDTH};
     for (size_t s = 0; s < r->scenes_count; s++) {

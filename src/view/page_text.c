@@ -186,7 +186,7 @@ static bool fits(const struct text *cell, size_t width)
 static void write_number(struct text *cell, double value, int digits, size_t width)
 {
     ceduo_words_number(cell, value, digits);
-    for (int e = 3; e <= 9 && fabs(value) >= 1e3 && !fits(cell, width); e += 3) {
+    for (int e = 3; e <= 9 && isfinite(value) && fabs(value) >= 1e3 && !fits(cell, width); e += 3) {
         ceduo_text_free(cell);
         ceduo_text_format(cell, "%.0fe%d", value / pow(10, e), e);
     }

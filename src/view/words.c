@@ -28,7 +28,7 @@ const char *ceduo_words_shown(double value, int digits, char room[CEDUO_NUMBER_R
     if (isnan(value))
         snprintf(room, CEDUO_NUMBER_ROOM, "-");
     else if (isinf(value))
-        snprintf(room, CEDUO_NUMBER_ROOM, "%s", _("none"));
+        snprintf(room, CEDUO_NUMBER_ROOM, "%s", P_("number", "none"));
     else if (size > 0 && (decimals > 6 || size >= 1e9))
         snprintf(room, CEDUO_NUMBER_ROOM, "%.*g", digits, value);
     else
