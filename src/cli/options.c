@@ -39,7 +39,7 @@ static enum exit_status set_word(struct arguments *a, const struct option_row *r
         ceduo_text_format(&all, "%s%.*s", i > 0 ? ", " : "", (int)n, word);
         word += n + (word[n] == '|');
     }
-    return ceduo_usage(row->name, _("'%s' is unknown; one of %s"), value, all.bytes);
+    return ceduo_usage(row->name, _("'%s' is unknown; one of: %s"), value, all.bytes);
 }
 
 /* At once: what is wrong with a later option is said in this language. */
@@ -128,7 +128,7 @@ static enum exit_status set_plot(struct arguments *a, const struct option_row *r
 {
     a->plot = ceduo_plot_find(value);
     if (a->plot == CEDUO_PLOT_NONE)
-        return ceduo_usage(row->name, _("'%s' is unknown; one of %s"), value, ceduo_plot_names);
+        return ceduo_usage(row->name, _("'%s' is unknown; one of: %s"), value, ceduo_plot_names);
     return EXIT_DONE;
 }
 
@@ -223,7 +223,7 @@ static enum exit_status set_goal(struct arguments *a, const struct option_row *r
     switch (reading) {
     case CEDUO_GOAL_UNKNOWN:
         ceduo_goal_words(&words);
-        return ceduo_usage(row->name, _("'%s' is unknown; one of %s"), value, ceduo_text_string(&words));
+        return ceduo_usage(row->name, _("'%s' is unknown; one of: %s"), value, ceduo_text_string(&words));
     case CEDUO_GOAL_NO_NUMBER:
         return no_number(row, number);
     case CEDUO_GOAL_NEGATIVE:

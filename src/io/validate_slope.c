@@ -43,7 +43,7 @@ static bool check_vertices(struct validator *v, const struct points *p)
     bool csv = !is_given(v, "vertices_m"), reversed = v->draft.scene.slope.reversed, rising = true;
     const char *path = csv ? "slope.csv" : "slope.vertices_m";
     if (p->n < 2) {
-        ceduo_complain(v, path, "", _("a profile needs two vertices or more"));
+        ceduo_complain(v, path, "", _("a profile needs two points or more"));
         return false;
     }
     for (size_t i = 1; i < p->n; i++)

@@ -12,7 +12,7 @@ static void build(struct app *app, struct form *form)
     if (ceduo_node_get(app->document.file.root, "options"))
         ceduo_form_table(form, &app->document, options->object, "options", columns, "");
     else
-        ceduo_form_note(form, _("One way to treat this wood. a adds another from a preset, y a copy of this one."));
+        ceduo_form_note(form, _("One way to treat this wood so far. a adds another from a preset, y a copy of this one."));
     form->row = app->option + 1; /* below the names of the columns */
 }
 

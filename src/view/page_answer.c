@@ -105,9 +105,7 @@ void ceduo_page_answer(struct ceduo_page *page, const struct ceduo_report *repor
     if (ceduo_page_says_nothing(r)) /* neither error changes that */
         ceduo_words_nothing(ceduo_page_add(page, CEDUO_PAGE_ANSWER), r, r->last_control);
     else if (n > 1 && !r->wooded)
-        ceduo_text_put(ceduo_page_add(page, CEDUO_PAGE_ANSWER),
-                       _("Without forest every option sees the same rocks: what arrives does not separate them. The index "
-                         "says what stems could take, not what a rock loses; no column decides alone."));
+        ceduo_text_put(ceduo_page_add(page, CEDUO_PAGE_ANSWER), _(ceduo_words_by_index));
     else if (n > 1 && report->verdict)
         answer_many(page, report);
     /* of one option a line for each place that is judged, and for the last one */

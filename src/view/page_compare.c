@@ -185,7 +185,7 @@ void ceduo_page_comparison(struct ceduo_page *page, const struct ceduo_report *r
     if (v->choices[0].years > 0)
         ceduo_words_windows(r->scene, v, ceduo_page_note, page);
     if (v->wooded && !v->accepted)
-        ceduo_page_note(page, _("What the place withstands is not given (accepted_kJ): energy is not judged."));
+        ceduo_page_note(page, _(ceduo_words_unjudged));
 }
 
 /* ---- one option year by year ---- */

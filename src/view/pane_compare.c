@@ -200,10 +200,9 @@ void ceduo_pane_said(struct ceduo_page *page, const struct ceduo_pane *pane)
         ceduo_page_say(page, CEDUO_PAGE_NOTE, _("Counting only stems from %g cm on, contact or free run fails today: %s."),
                        CEDUO_THICK_DBH * 100, ceduo_text_string(&thin));
     if (v->wooded && !v->accepted)
-        ceduo_page_note(page, _("What the place withstands is not given (view 3): energy is not judged."));
+        ceduo_page_note(page, _(ceduo_words_unjudged));
     if (!r->wooded)
-        ceduo_page_note(page, _("Without forest every option sees the same rocks; the index says what stems could take, "
-                                "not what a rock loses."));
+        ceduo_page_note(page, _(ceduo_words_by_index));
     if (pane->busy)
         ceduo_page_note(page, _("Computing: the figures become finer."));
     if (v->n > 1 && r->wooded && v->accepted)

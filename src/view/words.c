@@ -8,6 +8,10 @@
 
 #include "base/language.h"
 
+const char *const ceduo_words_unjudged = N_("What the place withstands is not given (accepted_kJ): energy is not judged.");
+const char *const ceduo_words_by_index =
+    N_("Without forest every option sees the same rocks: what arrives does not separate them. The index says what stems could "
+       "take, not what a rock loses; no column decides alone.");
 const char *const ceduo_light_names[] = {N_("contact"), N_("free run"), N_("energy")};
 
 const char *ceduo_words_light(enum ceduo_light light)

@@ -92,6 +92,9 @@ void ceduo_words_every(struct text *text, struct ceduo_rate rate);
 void ceduo_words_years(struct text *text, struct ceduo_rate rate);
 const char *ceduo_words_intensity(int intensity);
 
+/* Why energy is not judged; why options cannot be compared by what arrives. Marked for translation. */
+extern const char *const ceduo_words_unjudged, *const ceduo_words_by_index;
+
 extern const char *const ceduo_light_names[3];           /* contact, free run, energy; marked for translation */
 const char *ceduo_words_light(enum ceduo_light light);   /* pass, fail, unknown */
 const char *ceduo_words_verdict(enum ceduo_light light); /* passes, FAILS, unknown */

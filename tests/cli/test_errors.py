@@ -372,7 +372,7 @@ CASES = {
     "x 10 does not lie beyond 10; x must rise: ...": sl(VERTICES, "[[0, 64], [10, 30], @@[10, 0]]"),
     "the profile rises, from 15 to 141.4 m, and rocks go along x: ...": sl(VERTICES, "@@[[0, 15], [100, 141.4]]"),
     "the profile falls already, from 64 to 0 m; leave 'reversed' out": sl("facets: against", "facets: against\nreversed: @@true"),
-    "a profile needs two vertices or more": sl(VERTICES, "@@[[0, 64]]"),
+    "a profile needs two points or more": sl(VERTICES, "@@[[0, 64]]"),
     "two vertices lie too close together for their distance from the first": sl(
         f"ceduo: slope/1\nname: line\nfacets: against\nvertices_m: {VERTICES}",
         "ceduo: slope/1\nname: line\nfacets: against\nvertices_m: [[-900000000, 64], [100, 30], [100.00000000000001, 0]]", at=False),
@@ -464,10 +464,10 @@ CASES = {
         Words(*words, "x.yaml")(row.replace("--shard", words[0])) for words in (("--shard", "1/2"), ("--shard=1/2",))],
     "'--merge' is gone: results of several scenes are printed together; ...": Words("--merge", "x.jsonl"),
     "'-f' needs a value": Words("--batch", "@", "-f"),
-    "--format: 'xml' is unknown; one of table, csv, json": Words("--batch", "-f", "xml", "@"),
-    "--rows: 'x' is unknown; one of controls, stands": Words("--batch", "--rows", "x", "@"),
-    "--plot: 'x' is unknown; one of profile, energy, ...": Words("--plot", "x", "@"),
-    "--charset: 'x' is unknown; one of braille, block, ascii": Words("--charset", "x", "@"),
+    "--format: 'xml' is unknown; one of: table, csv, json": Words("--batch", "-f", "xml", "@"),
+    "--rows: 'x' is unknown; one of: controls, stands": Words("--batch", "--rows", "x", "@"),
+    "--plot: 'x' is unknown; one of: profile, energy, ...": Words("--plot", "x", "@"),
+    "--charset: 'x' is unknown; one of: braille, block, ascii": Words("--charset", "x", "@"),
     "--rocks: '1.5' is not a whole number": Words("--batch", "-n", "1.5", "@"),
     "--rocks: with blocks each rock is kept: at most 1048576 rocks": Words(
         "--batch", "-n", "1048577", "-s", "blocks=[{per_year: 1, volume_m3: [1, 2]}]", "@"),
@@ -483,7 +483,7 @@ CASES = {
     "--find: 'x' is not PATH=LO:HI, such as ...": Words("--find", "x", "--goal", "adc", "@"),
     "--find: the range 9:1 ends before it begins": Words("--find", "a=9:1", "--goal", "adc", "@"),
     "--find requires a --goal": Words("--find", "a=1:9", "@"),
-    "--goal: 'x' is unknown; one of adc, free-run, energy, exceed": Words("--find", "a=1:9", "--goal", "x", "@"),
+    "--goal: 'x' is unknown; one of: adc, free-run, energy, exceed": Words("--find", "a=1:9", "--goal", "x", "@"),
     "--goal energy needs the mean energy in kJ, such as energy=50": Words("--find", "a=1:9", "--goal", "energy", "@"),
     "--goal: 5 is not a share; write 0 to 1, such as 0.05 for 5 %": lambda row: (
         Words("--find", "a=1:9", "--goal", "exceed=5", "@")(row),

@@ -62,6 +62,14 @@ def test_blocks():
     expect(re.search(r"Years are counted from today, with \d+ rocks in each; the worst is the worst of these\.", words), words)
 
 
+def test_wood_felled():
+    """On 80 columns the wood felled keeps its place beside the mean over the rotation and what may be true of it"""
+    with Place() as place:
+        screen = place.play("key 7\nwait idle\nkey 5\nwait idle\ndump", "road-below")[0].whole()
+    expect(re.search(r"^ +today +rotation, may be +fail +m³/ha y$", screen.body, re.M), screen)
+    expect_equal(len(re.findall(r"^\w.* \d+±\d+ +\d+±\d+ \(\d+–\d+\) +\d+/\d+ +[\d.-]+$", screen.body, re.M)), 3, screen)
+
+
 def test_copies():
     """Of copies none is the best, and they are said to be equal; while options have different numbers of rocks none is"""
     with Place() as place:

@@ -93,5 +93,33 @@ def test_sixty_keys():
         stand.has("3.333 shoots per stool")  # 40 shoots on 12 stools
 
 
+# What a newcomer asks first, on the paper's site unless a scene is named, the keys that answer it, and where the answer is.
+QUESTIONS = (
+    ("does it stop the rocks", "", "", "verdict", r"NO: \d+ of 1000 arrive with more than 50 kJ"),
+    ("how sure is that", "", "key 7", "body", r"\d+ \(\d+–\d+\)[^$]*Measure first: what stems take from a rock \(pulling"),
+    ("which of two cuts", "", "key 5 a End Enter a End Up Up Up Enter g d", "body",
+     r"Over a whole rotation 'selection-coppice-cut' lets the fewest dangerous rocks through, as it does today"),
+    ("what wood it costs", "four-systems", "key 5", "body", r"m³/ha y\b[^$]*large reserves +\S+ .* 3\.7"),
+    ("how many must stay", "", "key 2 /\ntype trees\nkey Enter f Down Down Enter Enter Enter Enter Enter", "note",
+     r"no value from 75 to 7500 reaches the goal; nearest is 7500 with .* \d+ of 1000 \(at most 50 of 1000 is wanted\)"),
+    ("the year after the cut", "four-systems", "key 6", "now", r"Year 1, just cut .*above 50 kJ +8\d\d"),
+    ("my own slope", "", "key n Enter\ntype line\nkey " + "Enter " * 8, "body", r"1 +15 +99 "),
+    ("my own stand", "", "key 2 c\n" + PLOT.replace("\n    key 6", ""), "body", r"Stand of belt 1: sample plot"),
+    ("a larger rock", "", "key 3 Down Enter\ntype .8\nkey Enter", "now", r"Rock 0\.8 m, 1046 kg"),
+    ("a page to hand in", "", "wait idle\nkey w\ntype hand\nkey " + "Enter " * 8, "note", r"written: ceduo\.html"),
+)
+
+
+def test_ten_questions():
+    """What a newcomer asks first takes at most 25 keys and is answered on a screen of 80 x 24, nothing of it cut without a sign"""
+    for asked, scene, script, where, answer in QUESTIONS:
+        expect(keys_in(script) <= 25, f"{asked}: {keys_in(script)} keys")
+        with Folder() as f:
+            f.write("line.csv", "distance,elevation\n0,60\n15,30\n99,0\n")
+            screen = play(f.path, f"{script}\nwait idle\ndump", *([scene] if scene else []))[0].whole()
+            expect(re.search(answer, " ".join(getattr(screen, where).split())), f"{asked}:", screen)
+            expect(asked != "a page to hand in" or "</html>" in (f.path / "ceduo.html").read_text(encoding="utf-8"), "the page")
+
+
 if __name__ == "__main__":
     run_all(__name__)
