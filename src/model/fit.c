@@ -168,7 +168,7 @@ static enum ceduo_status find_loose(const struct ceduo_calibration_def *def, str
         loose->loose[i] = answer.draws_count > 0 && !answer.parameters[i].determined;
         loose->n += loose->loose[i];
     }
-    for (size_t i; loose->n < most && (i = worse_of_a_pair(&answer, loose->loose)) != SIZE_MAX; loose->n++)
+    for (size_t i; (i = worse_of_a_pair(&answer, loose->loose)) != SIZE_MAX; loose->n++) /* one of them stays */
         loose->loose[i] = true;
     ceduo_calibration_free(&answer);
     return CEDUO_OK;
