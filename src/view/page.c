@@ -3,6 +3,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/grow.h"
 #include "base/language.h"
@@ -49,8 +50,13 @@ void ceduo_page_table(struct ceduo_page *page, const struct ceduo_page_column *c
     struct ceduo_page_block *table = add_block(page, CEDUO_PAGE_TABLE);
     table->columns = columns;
     table->columns_count = n;
-    for (size_t i = 0; i < n; i++)
-        ceduo_page_write(page, "%s", columns[i].head && columns[i].head[0] ? ceduo_translate_in(columns[i].head) : "");
+    for (size_t i = 0; i < n; i++) {
+        const char *head = columns[i].head && columns[i].head[0] ? ceduo_translate_in(columns[i].head) : "";
+        size_t brief = strcspn(head, "|");
+        struct ceduo_page_cell *cell = ceduo_page_cell(page);
+        ceduo_text_add(&cell->text, head, brief);
+        ceduo_text_put(&cell->written, head + brief + (head[brief] != '\0'));
+    }
 }
 
 struct ceduo_page_cell *ceduo_page_head(struct ceduo_page *page)
@@ -119,6 +125,7 @@ static void free_block(struct ceduo_page_block *block)
     for (size_t i = 0; i < block->cells_count; i++) {
         ceduo_text_free(&block->cells[i].text);
         ceduo_text_free(&block->cells[i].shorter);
+        ceduo_text_free(&block->cells[i].written);
     }
     free(block->cells);
     ceduo_svg_free(block->svg);

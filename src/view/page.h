@@ -33,7 +33,7 @@ enum ceduo_page_kind {
 };
 
 struct ceduo_page_column {
-    const char *head; /* marked for translation; NULL: the page's own, see ceduo_page_head() */
+    const char *head; /* marked for translation, "short|written out"; NULL: the page's own, see ceduo_page_head() */
     int width;        /* in characters; negative: set to the right; 0: the last, as wide as it comes */
     int gap;          /* blanks before it */
     unsigned flags;   /* and CEDUO_DROPPED() */
@@ -65,6 +65,7 @@ struct ceduo_page_cell {
     enum ceduo_page_cell_kind kind;
     enum ceduo_role role;      /* of its text in a pane, or of its bar; BLANK: as the others */
     struct text text, shorter; /* shorter: where there is no room for the other; may be empty */
+    struct text written;       /* of a head: written out, on pages that have room; may be empty */
     double value, half;        /* a number; half the width of a mean's interval, NaN where it has none */
     int digits;                /* of the number, where there is room for them */
     struct ceduo_page_bar bar;
@@ -84,6 +85,9 @@ struct ceduo_page_block {
     struct text description; /* of a picture, for who does not see it */
     struct ceduo_page_block *next;
 };
+
+/* From so many columns on heads are written out where they have room; on pages of HTML always. */
+#define CEDUO_PAGE_WIDE 120
 
 /* Columns of what is printed. A page narrower than this says in sentences what it would show as a table. */
 #define CEDUO_PAGE_WIDTH 80

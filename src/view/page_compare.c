@@ -30,19 +30,25 @@ static void add_contacts(struct ceduo_page *page, const struct ceduo_result *r, 
         N_("option"), 23, 2, 0                                                                                                 \
     }
 #define CONTACTS                                                                                                               \
-    {N_("ADC m"), -7, 0, 0}, {"", 5, 1, 0},                                                                                    \
+    {N_("ADC m|ADC of the worst belt, m"), -7, 0, 0}, {NP_("head", "|test of contact"), 5, 1, 0},                              \
     {                                                                                                                          \
-        NP_("head", "free run"), -7, 0, CEDUO_SPAN                                                                             \
+        NP_("head", "free run|chance of a free run"), -7, 0, CEDUO_SPAN                                                        \
     }
 
 /* What arrives with more than is withstood comes first. */
 void ceduo_page_today(struct ceduo_page *page, const struct ceduo_result *r)
 {
-    static const struct ceduo_page_column wooded[] = {
-        OPTION,   {NULL, -10, 0, 0}, {NP_("head", "to first"), -11, 0, 0}, {NP_("head", "energy"), 6, 2, 0},
-        CONTACTS, {"", 0, 1, 0}};
-    static const struct ceduo_page_column by_index[] = {
-        OPTION, CONTACTS, {"", 5, 1, 0}, {N_("kJ/100 m"), -10, 0, 0}, {NP_("head", "left kJ"), -10, 0, 0}};
+    static const struct ceduo_page_column wooded[] = {OPTION,
+                                                      {NULL, -10, 0, 0},
+                                                      {NP_("head", "to first|difference to the first option"), -11, 0, 0},
+                                                      {NP_("head", "energy|test of energy"), 6, 2, 0},
+                                                      CONTACTS,
+                                                      {NP_("head", "|test of free runs"), 0, 1, 0}};
+    static const struct ceduo_page_column by_index[] = {OPTION,
+                                                        CONTACTS,
+                                                        {NP_("head", "|test of free runs"), 5, 1, 0},
+                                                        {N_("kJ/100 m|taken per 100 m, kJ"), -10, 0, 0},
+                                                        {NP_("head", "left kJ|energy left, kJ"), -10, 0, 0}};
     if (r->wooded) {
         CEDUO_PAGE_TABLE_OF(page, wooded);
         ceduo_page_limit(page, last_control(r), CEDUO_SHORT_HEAD);
@@ -107,16 +113,19 @@ static void add_rotations(struct ceduo_page *page, const struct ceduo_result *r,
 {
     static const struct ceduo_page_column simulated[] = {{N_("option"), 22, 2, 0},
                                                          {NULL, -10, 0, 0},
-                                                         {NP_("head", "worst year"), -11, 0, 0},
-                                                         {NP_("head", "contact"), -8, 0, 0},
-                                                         {NP_("head", "free run"), -9, 0, 0},
-                                                         {NP_("head", "energy"), -7, 0, 0},
-                                                         {NP_("head", "m3/y"), -5, 0, 0},
-                                                         {N_("m3"), -6, 0, 0}};
+                                                         {NP_("head", "worst year|in the worst year (which)"), -11, 0, 0},
+                                                         {NP_("head", "contact|years in which contact fails"), -8, 0, 0},
+                                                         {NP_("head", "free run|years in which free runs fail"), -9, 0, 0},
+                                                         {NP_("head", "energy|years in which energy fails"), -7, 0, 0},
+                                                         {NP_("head", "m3/y|felled, m3 per ha and year"), -5, 0, 0},
+                                                         {NP_("head", "m3|standing, m3 per ha"), -6, 0, 0}};
     static const struct ceduo_page_column by_index[] = {
-        {N_("option"), 23, 2, 0},           {NP_("head", "ADC m, worst"), -14, 0, 0},
-        {NP_("head", "contact"), -8, 0, 0}, {NP_("head", "free run"), -9, 0, 0},
-        {NP_("head", "m3/y"), -6, 0, 0},    {N_("m3"), -7, 0, 0}};
+        {N_("option"), 23, 2, 0},
+        {NP_("head", "ADC m, worst|ADC in the worst year, m (which)"), -14, 0, 0},
+        {NP_("head", "contact|years in which contact fails"), -8, 0, 0},
+        {NP_("head", "free run|years in which free runs fail"), -9, 0, 0},
+        {NP_("head", "m3/y|felled, m3 per ha and year"), -6, 0, 0},
+        {NP_("head", "m3|standing, m3 per ha"), -7, 0, 0}};
     LOCAL_TEXT(span);
     ceduo_words_span(&span, v);
     if (v->wooded)
@@ -205,10 +214,13 @@ void ceduo_page_years_words(struct ceduo_page *page, const struct ceduo_result *
 
 void ceduo_page_years(struct ceduo_page *page, const struct ceduo_report *report, size_t option)
 {
-    static const struct ceduo_page_column columns[] = {
-        {N_("year"), 9, 4, 0},           CONTACTS,          {"", 5, 1, 0},
-        {N_("kJ/100 m"), -9, 0, 0},      {NULL, -16, 0, 0}, {NP_("head", "arr. kJ"), -8, 0, 0},
-        {NP_("head", "energy"), 0, 2, 0}};
+    static const struct ceduo_page_column columns[] = {{N_("year"), 9, 4, 0},
+                                                       CONTACTS,
+                                                       {NP_("head", "|test of free runs"), 5, 1, 0},
+                                                       {N_("kJ/100 m|taken per 100 m, kJ"), -9, 0, 0},
+                                                       {NULL, -16, 0, 0},
+                                                       {NP_("head", "arr. kJ|mean of those that arrive, kJ"), -8, 0, 0},
+                                                       {NP_("head", "energy|test of energy"), 0, 2, 0}};
     const struct ceduo_result *r = report->result;
     const struct ceduo_years *years = report->years[option];
     ceduo_page_say(page, CEDUO_PAGE_CAPTION, _("Year by year, up to %s m:"), SHORTEST(last_control(r)->x_given));
@@ -254,10 +266,13 @@ static const char *law_of(const struct ceduo_option *option)
 
 void ceduo_page_laws(struct ceduo_page *page, const struct ceduo_result *r)
 {
-    static const struct ceduo_page_column columns[] = {
-        {N_("option"), 23, 2, 0},           {NP_("head", "law of the scene"), 16, 1, 0}, {NP_("head", "of 1000"), -8, 0, 0},
-        {NP_("head", "mean kJ"), -8, 0, 0}, {NP_("head", "other law"), 11, 2, 0},        {NP_("head", "of 1000"), -8, 0, 0},
-        {NP_("head", "mean kJ"), -8, 0, 0}};
+    static const struct ceduo_page_column columns[] = {{N_("option"), 23, 2, 0},
+                                                       {NP_("head", "law of the scene"), 16, 1, 0},
+                                                       {NP_("head", "of 1000"), -8, 0, 0},
+                                                       {NP_("head", "mean kJ|mean energy, kJ"), -8, 0, 0},
+                                                       {NP_("head", "other law"), 11, 2, 0},
+                                                       {NP_("head", "of 1000"), -8, 0, 0},
+                                                       {NP_("head", "mean kJ|mean energy, kJ"), -8, 0, 0}};
     bool any = false; /* in the terminal program the figures by the other law may be there before those of the scene's own */
     for (size_t i = 0; r->wooded && i < r->scene->options_count; i++)
         any |= other_of(r, i) && ceduo_result_wooded(r, i, r->last_control);

@@ -13,14 +13,14 @@
 /* Colours of text have a contrast of 4.5 to what is behind them at least. What must stay together on paper is not
  * broken between two sheets. */
 static const char style[] =
-    "@page{size:A4;margin:10mm 15mm}\n"
+    "@page{size:A4;margin:10mm 13mm}\n"
     "*{box-sizing:border-box}\n"
-    "html{background:#fff;color:#1c1c1c;font:9pt/1.3 'Liberation "
+    "html{background:#fff;color:#1c1c1c;font:9pt/1.26 'Liberation "
     "Sans',Arial,Helvetica,sans-serif;-webkit-print-color-adjust:exact;"
     "print-color-adjust:exact}\n"
-    "body{max-width:180mm;margin:0 auto;padding:0 4mm}\n"
+    "body{max-width:184mm;margin:0 auto}\n"
     "h1{font-size:17pt;line-height:1.2;margin:2mm 0 2mm;overflow-wrap:anywhere}\n"
-    "h2{font-size:11.5pt;line-height:1.2;margin:3mm 0 1.2mm;padding-bottom:.5mm;border-bottom:.3mm solid "
+    "h2{font-size:11.5pt;line-height:1.2;margin:2.4mm 0 1mm;padding-bottom:.5mm;border-bottom:.3mm solid "
     "#14532d;color:#14532d;"
     "overflow-wrap:anywhere}\n"
     "h3{font-size:10.5pt;margin:3mm 0 1mm;overflow-wrap:anywhere}\n"
@@ -47,13 +47,14 @@ static const char style[] =
     "th,td{padding:.5mm 1.2mm;text-align:left;vertical-align:top;border-bottom:.2mm solid "
     "#c9cfc4;overflow-wrap:break-word}\n"
     "thead th,thead td{border-bottom:.35mm solid #4a4a4a;vertical-align:bottom;font-weight:bold}\n"
-    "tbody th{font-weight:normal}\n"
+    "tbody th{font-weight:normal;min-width:45mm}\n"
     ".n{text-align:right;white-space:nowrap}\n"
+    "thead .n{white-space:normal}\n"
     "figure{margin:2mm 0;break-inside:avoid}\n"
     ".half{display:inline-block;width:49%;vertical-align:top}\n"
     "figcaption{font-size:8.5pt;color:#4a4a4a;margin-top:1mm}\n"
     "svg{display:block;width:100%;height:auto}\n"
-    "pre{font:6pt/1.25 monospace;white-space:pre-wrap;overflow-wrap:anywhere;margin:1mm 0;padding:2mm "
+    "pre{font:6pt/1.15 monospace;white-space:pre-wrap;overflow-wrap:anywhere;margin:1mm 0;padding:2mm "
     "3mm;background:#f5f5f2;"
     "columns:2;column-gap:5mm}\n"
     "pre.line{columns:1;break-inside:avoid}\n"
@@ -104,10 +105,13 @@ static void write_table(struct ceduo_html *html, const struct ceduo_page_block *
         ceduo_html_open(html, "tr", NULL);
         for (size_t i = 0; i < n; i++) {
             LOCAL_TEXT(text);
-            ceduo_page_write_cell(&text, &table->cells[row + i], WIDTH, false);
+            if (row == 0 && table->cells[i].written.length > 0)
+                ceduo_text_put(&text, table->cells[i].written.bytes);
+            else
+                ceduo_page_write_cell(&text, &table->cells[row + i], WIDTH, false);
             const char *name = (row == 0 || i == 0) && text.length > 0 ? "th" : "td";
             const char *scope = name[1] != 'h' ? NULL : row == 0 ? "col" : "row";
-            bool spans = row == 0 && (table->columns[i].flags & CEDUO_SPAN);
+            bool spans = row == 0 && (table->columns[i].flags & CEDUO_SPAN) && table->cells[i + 1].written.length == 0;
             ceduo_html_leaf(html, name, ceduo_text_string(&text), "scope", scope, "class",
                             table->columns[i].width < 0 ? "n" : NULL, spans ? "colspan" : "class", spans ? "2" : NULL, NULL);
             i += spans;

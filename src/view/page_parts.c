@@ -36,6 +36,7 @@ void ceduo_page_limit(struct ceduo_page *page, const struct ceduo_control *c, en
     struct ceduo_measure m = ceduo_judged(c, NULL);
     bool kilo = fabs(c->accepted) < 1e6;
     ceduo_measure_name(&head->text, &m, isnan(c->accepted) ? otherwise : CEDUO_SHORT_HEAD);
+    ceduo_measure_name(&head->written, &m, CEDUO_HEAD);
     if (!isnan(c->accepted))
         ceduo_text_format(&head->shorter, kilo ? "> %s kJ" : "> %s MJ", ROUNDED(c->accepted * (kilo ? 1e-3 : 1e-6), 3));
 }

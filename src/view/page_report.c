@@ -100,18 +100,19 @@ static void add_head(struct ceduo_page *page, const struct ceduo_report_head *he
 }
 
 #define SLOPE_ROWS  19
-#define SLOPE_LEAST 15
+#define SLOPE_LEAST 13
 #define STRIP_ROWS  11
 
 static void add_slope(struct ceduo_page *page, const struct ceduo_chapter *c)
 {
     struct ceduo_picture picture = picture_of(c, ceduo_result_best(c->report->result, c->report->verdict));
+    bool several = c->report->result->scene->options_count > 1;
     ceduo_page_say(page, CEDUO_PAGE_SECTION, "%s", _("The slope and the rocks"));
     ceduo_page_facts(page, c->report);
-    add_picture(page, CEDUO_PLOT_PROFILE, WHOLE, is_crowded(c) ? SLOPE_LEAST : SLOPE_ROWS, &picture,
+    add_picture(page, CEDUO_PLOT_PROFILE, WHOLE, several && ceduo_report_has_hazard(c->report) ? SLOPE_LEAST : SLOPE_ROWS,
+                &picture,
                 _("The slope from the side with the forest on it, the ways of some rocks as thin lines, and the controls as "
                   "upright lines."));
-    bool several = c->report->result->scene->options_count > 1;
     picture.ways = true;
     if (c->snapshot && !is_crowded(c))
         add_picture(
@@ -271,7 +272,7 @@ void ceduo_page_chapter(struct ceduo_page *page, const struct ceduo_chapter *c)
         ceduo_page_laws(page, c->report->result);
     if (controls) {
         if (c->doubt && c->doubt->answer)
-            ceduo_doubt_blocks(page, c->doubt, is_crowded(c) ? CEDUO_DOUBT_SHORT : CEDUO_DOUBT_ORDER);
+            ceduo_doubt_blocks(page, c->doubt, scene->options_count > CROWD ? CEDUO_DOUBT_SHORT : CEDUO_DOUBT_ORDER);
         add_years(page, c);
         add_hazard(page, c);
     }
@@ -286,5 +287,9 @@ void ceduo_page_chapter(struct ceduo_page *page, const struct ceduo_chapter *c)
                         _("Not on this page, as it would be too long: the controls before the last, the other energy law and "
                           "the years as pictures ('ceduo --batch', 'ceduo --plot'), the order of the options pair by pair "
                           "('ceduo --sensitivity')."));
+    else if (scene->options_count > CROWD)
+        ceduo_page_note(
+            page, _("Not on this page, as it would be too long: the energy along the slope ('ceduo --plot energy') and the "
+                    "order of the options pair by pair ('ceduo --sensitivity')."));
     add_origin(page, c);
 }

@@ -89,9 +89,10 @@ static void add_arrivals_table(struct ceduo_page *page, const struct ceduo_contr
         NP_("head", "of 1000"), 16, 4, 0                                                                                       \
     }
 #define FIGURES                                                                                                                \
-    {N_("arrive"), -16, 0, 0}, {NP_("head", "arriving kJ"), -12, 0, CEDUO_DROPPED(1)}, {N_("95 %"), -6, 0, CEDUO_DROPPED(2)},  \
+    {N_("arrive"), -16, 0, 0}, {NP_("head", "arriving kJ|mean energy of those that arrive, kJ"), -12, 0, CEDUO_DROPPED(1)},    \
+        {NP_("head", "95 %|95 % of those below, kJ"), -6, 0, CEDUO_DROPPED(2)},                                                \
     {                                                                                                                          \
-        N_("m/s"), -5, 0, CEDUO_DROPPED(3)                                                                                     \
+        NP_("head", "m/s|mean speed, m/s"), -5, 0, CEDUO_DROPPED(3)                                                            \
     }
     static const struct ceduo_page_column columns[] = {NAME, {NULL, -16, 0, 0}, FIGURES}, not_accepted[] = {NAME, FIGURES};
     if (isnan(c->accepted)) {
@@ -185,11 +186,17 @@ static void say_lights(struct ceduo_page *page, const struct ceduo_result *r, si
 static void add_belts(struct ceduo_page *page, const struct ceduo_scene *scene, const struct ceduo_option *o,
                       const struct ceduo_option_result *found)
 {
-    static const struct ceduo_page_column columns[] = {
-        {N_("m"), 10, 4, CEDUO_WHOLE},       {N_("stand"), 27, 0, 0}, {N_("ADC m"), -7, 0, 0},   {NULL, 6, 1, 0},
-        {NP_("head", "free run"), -9, 0, 0}, {N_("kJ"), -7, 0, 0},    {N_("kJ/100 m"), -9, 0, 0}};
+    static const struct ceduo_page_column columns[] = {{NP_("head", "m|from, to, m"), 10, 4, CEDUO_WHOLE},
+                                                       {N_("stand"), 27, 0, 0},
+                                                       {N_("ADC m|ADC, m"), -7, 0, 0},
+                                                       {NULL, 6, 1, 0},
+                                                       {NP_("head", "free run|chance of a free run"), -9, 0, 0},
+                                                       {NP_("head", "kJ|energy taken, kJ"), -7, 0, 0},
+                                                       {N_("kJ/100 m|taken per 100 m, kJ"), -9, 0, 0}};
     CEDUO_PAGE_TABLE_OF(page, columns);
-    ceduo_text_format(&ceduo_page_head(page)->text, "<%s m", SHORTEST(scene->simulation.threshold));
+    struct ceduo_page_cell *head = ceduo_page_head(page);
+    ceduo_text_format(&head->text, "<%s m", SHORTEST(scene->simulation.threshold));
+    ceduo_text_format(&head->written, _("below %s m"), SHORTEST(scene->simulation.threshold));
     for (size_t i = 0; i < o->belts_count; i++) {
         const struct ceduo_belt *b = &o->belts[i];
         const struct ceduo_stand_result *s = &found->stands[i];
@@ -277,9 +284,12 @@ static void say_residual(struct ceduo_page *page, const struct ceduo_result *r, 
 
 static void add_sizes(struct ceduo_page *page, const struct ceduo_result *r, const struct ceduo_block *blocks)
 {
-    static const struct ceduo_page_column columns[] = {{"", 3, 0, 0},           {"m3", -8, 0, 0},
-                                                       {"kg", -9, 0, 0},        {N_("wide m"), -8, 0, 0},
-                                                       {N_("ADC m"), -8, 0, 0}, {N_("contacts"), -10, 0, 0},
+    static const struct ceduo_page_column columns[] = {{"", 3, 0, 0},
+                                                       {NP_("head", "m3|volume, m3"), -8, 0, 0},
+                                                       {NP_("head", "kg|mass, kg"), -9, 0, 0},
+                                                       {NP_("head", "wide m|mean diameter, m"), -8, 0, 0},
+                                                       {N_("ADC m|ADC, m"), -8, 0, 0},
+                                                       {N_("contacts"), -10, 0, 0},
                                                        {NULL, -18, 0, 0}};
     const struct ceduo_control *c = &r->scene->controls[r->last_control];
     double own = NAN;

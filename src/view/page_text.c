@@ -285,6 +285,10 @@ static void print_cell(const struct printer *p, const struct ceduo_page_column *
     }
     size_t room = (size_t)abs(width) + ((column->flags & (CEDUO_FITS | CEDUO_FILLS)) != 0);
     write_cell(p, &text, cell, room);
+    if (p->width >= CEDUO_PAGE_WIDE && cell->written.length > 0 && (width == 0 || fits(&cell->written, room))) {
+        ceduo_text_free(&text);
+        append_safe(p, &text, cell->written.bytes);
+    }
     set_role(p, cell->role ? cell->role : role);
     if ((column->flags & CEDUO_WHOLE) && !fits(&text, room)) {
         print_wrapped(p, ceduo_text_string(&text), (size_t)gap, (size_t)gap);
@@ -349,6 +353,13 @@ static void place_columns(const struct printer *p, const struct ceduo_page_block
         if (!(table->columns[i].flags & CEDUO_FILLS) || widths[i] == 0 || has_bars[i] || (rest > 0 && bars > 0))
             continue;
         more = more > least ? more : least;
+        widths[i] += more;
+        rest -= more;
+    }
+    for (size_t i = 0; i < n && p->width >= CEDUO_PAGE_WIDE; i++) { /* heads that are written out, as far as they have room */
+        int more = (int)ceduo_utf8_width(ceduo_text_string(&table->cells[i].written)) + 1 - widths[i];
+        if (widths[i] == 0 || more <= 0 || more > rest)
+            continue;
         widths[i] += more;
         rest -= more;
     }

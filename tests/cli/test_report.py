@@ -263,6 +263,30 @@ def test_whole_tables():
         expect(re.search(rule, style), rule)
 
 
+# heads that are short where there is no room, by language; of the first table that has them what stands above which column
+BRIEF = {"en": {"to first", "m3/y", "m3", "arr. kJ", "left kJ", "wide m", "arriving kJ", "mean kJ", "ADC m", "worst year"},
+         "it": {"vs prima", "m3/a", "m3", "kJ arr.", "resta kJ", "largo m", "kJ arrivo", "kJ medi", "ADC m", "contat.", "energ.",
+                "anno pegg.", "libera"}}
+
+
+def test_heads():
+    """Heads of tables are written out, in both languages, one above each column"""
+    for language, brief in BRIEF.items():
+        for arguments in (("four-systems",), ("paper-site",), ("-s", "simulation.contact_model=index", "four-systems")):
+            text, _ = report("--language", language, *arguments)
+            for table in re.findall(r"<table>(.*?)</table>", text, re.S):
+                head, *rows = re.findall(r"<tr>(.*?)</tr>", table, re.S)
+                heads = [html.unescape(h) for h in re.findall(r"<t[hd][^>]*>([^<]*)</t", head)]
+                expect(not brief & set(heads), language, arguments, heads)
+                expect("colspan" not in table, heads)
+                for row in rows:
+                    expect_equal(len(re.findall(r"<t[hd][ >]", row)), len(heads), f"{heads}: {row}")
+    text, _ = report("four-systems")
+    heads = [re.findall(r'<th[^>]*>([^<]*)</th>', h) for h in re.findall(r"<thead>(.*?)</thead>", text, re.S)]
+    expect_in(["option", "of 1000 &gt; 50 kJ", "difference to the first option", "test of energy", "ADC of the worst belt, m",
+               "test of contact", "chance of a free run", "test of free runs"], heads)
+
+
 def test_unknown():
     """What is not known is a sentence of the answer: what may be true, and whether the answer depends on it"""
     def said(*arguments, few=DOUBT):
