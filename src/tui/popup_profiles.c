@@ -120,7 +120,7 @@ static popup_chosen chose_new_option;
 
 static void append_light(struct text *text, const char *name, enum ceduo_light light, enum ceduo_light now)
 {
-    ceduo_text_format(text, "%s %s", name, ceduo_words_verdict(light));
+    ceduo_text_format(text, _("%s %s"), name, ceduo_words_verdict(light));
     if (light != now)
         ceduo_text_then(text, " ", _("(now %s)"), ceduo_words_verdict(now));
 }
