@@ -115,14 +115,15 @@ static bool is_listed(const struct ceduo_figure *figures)
     return list->title != NULL;
 }
 
-static void put_figures(FILE *out, const struct ceduo_figure *f)
+/* `within`: the path of the object that they are of, with its dot. */
+static void put_figures(FILE *out, const char *within, const struct ceduo_figure *f)
 {
     for (; !ceduo_figure_is_end(f); f++) {
         if (!f->key && !is_listed(f->of))
-            put_figures(out, f->of);
+            put_figures(out, within, f->of);
         if (!f->key)
             continue;
-        fprintf(out, ".It Va %s\n", f->key);
+        fprintf(out, ".It Va %s%s\n", within, f->key);
         put(out, f->meaning);
         fprintf(out, "%s%s", f->unit[0] ? "; " : "", f->unit);
         if (f->null) {
@@ -131,9 +132,9 @@ static void put_figures(FILE *out, const struct ceduo_figure *f)
         }
         fputs(".\n", out);
         if (f->of && !is_listed(f->of)) {
-            fputs(".Bl -tag -width Ds -compact\n", out);
-            put_figures(out, f->of);
-            fputs(".El\n", out);
+            char path[256];
+            snprintf(path, sizeof path, "%s%s.", within, f->key);
+            put_figures(out, path, f->of);
         }
     }
 }
@@ -141,16 +142,16 @@ static void put_figures(FILE *out, const struct ceduo_figure *f)
 static void put_figure_lists(FILE *out)
 {
     for (const struct ceduo_figure_list *list = ceduo_figure_lists; list->title; list++) {
-        fprintf(out, ".Pp\n%s:\n.Bl -tag -width Ds\n", list->title);
-        put_figures(out, list->figures);
+        fprintf(out, ".Pp\n%s:\n.Bl -tag -width \"reach_probability\" -compact\n", list->title);
+        put_figures(out, "", list->figures);
         fputs(".El\n", out);
     }
 }
 
 static void put_search(FILE *out)
 {
-    fputs(".Bl -tag -width Ds -compact\n", out);
-    put_figures(out, ceduo_find_figures);
+    fputs(".Bl -tag -width \"reach_probability\" -compact\n", out);
+    put_figures(out, "", ceduo_find_figures);
     fputs(".El\n", out);
 }
 

@@ -92,7 +92,7 @@ def test_messages():
         lines = [line for line in r.err.splitlines() if not line.startswith(" ")]
         expect_equal([line.split(": ")[0] for line in lines],
                      ["rows.csv:2", "rows.csv:3", "rows.csv:4", "bad.csv:3:3", "rows.csv:5", "ceduo"], r.err)
-        for line, words in zip(lines, ("'none.csv'", "two vertices", "not with it", "'x' is not", "rock.density_kg_m3: 'heavy' is not",
+        for line, words in zip(lines, ("'none.csv'", "two points", "not with it", "'x' is not", "rock.density_kg_m3: 'heavy' is not",
                                        "4 of 4 failed: rows.csv:2 (a), rows.csv:3 (b), rows.csv:4 (c), rows.csv:5 (d)")):
             expect_in(words, line)
         expect_equal(r.status, INPUT)
