@@ -76,7 +76,8 @@ struct ceduo_calibration {
     struct ceduo_predicted *predicted; /* of all scenes */
     bool misfit;                       /* of something that was to be fitted */
     bool refuted;                      /* something that was to check the fit is not as predicted */
-    bool settled;                      /* the chains agree and are long enough */
+    bool
+        settled; /* the chains agree and are long enough; otherwise they were ended, early where they would not have come to that */
     uint64_t evaluations;
     double rhat, effective_size;
     size_t draws_count;
@@ -92,6 +93,10 @@ bool ceduo_calibration_tells_mu(const struct ceduo_calibration_scene *scenes, si
  * ceduo_scene_check() says. */
 enum ceduo_status ceduo_calibration_as_it_is(const struct ceduo_calibration_scene *scene, uint64_t rocks,
                                              const ceduo_flag *cancel, struct ceduo_predicted *to);
+
+/* Which values to leave as they are, so that what was seen tells the others: first those that may be anything within their bounds,
+ * then one of each two that are known only together. One value stays. Returns how many. */
+size_t ceduo_calibration_loose(const struct ceduo_calibration *answer, bool loose[CEDUO_CALIBRATION_MOST]);
 
 /* CEDUO_NO_MEMORY, CEDUO_CANCELLED (at once, of whatever is known), or what ceduo_scene_check() says; then nothing is to be freed. */
 enum ceduo_status ceduo_calibrate(const struct ceduo_calibration_def *def, struct ceduo_calibration *answer);

@@ -137,24 +137,6 @@ bool ceduo_fit_has_observations(const struct scene_file *file)
 /* ---- what the observations hold ---- */
 
 #define FIRST_STEPS 200 /* of each chain: with the search before them some seconds */
-#define TOGETHER    0.9 /* correlation of two values of which only both are known, not each */
-
-/* The one that is known worse of two that are known only together; all of those kept: SIZE_MAX. */
-static size_t worse_of_a_pair(const struct ceduo_calibration *a, const bool *loose)
-{
-    size_t worse = SIZE_MAX;
-    double most = TOGETHER;
-    for (size_t i = 0; i < a->parameters_count; i++)
-        for (size_t k = 0; k < i; k++)
-            if (!loose[i] && !loose[k] && fabs(a->correlation[i][k]) > most) {
-                const struct ceduo_fitted *p = &a->parameters[i], *q = &a->parameters[k];
-                most = fabs(a->correlation[i][k]);
-                worse = (p->p97_5 - p->p2_5) / (p->hi - p->lo) > (q->p97_5 - q->p2_5) / (q->hi - q->lo) ? i : k;
-            }
-    return worse;
-}
-
-/* First those that may be anything within their bounds, then one of each pair. One value stays. */
 static enum ceduo_status find_loose(const struct ceduo_calibration_def *def, struct fit_loose *loose)
 {
     struct ceduo_calibration_def short_def = *def;
@@ -163,13 +145,7 @@ static enum ceduo_status find_loose(const struct ceduo_calibration_def *def, str
     enum ceduo_status status = ceduo_calibrate(&short_def, &answer);
     if (status != CEDUO_OK)
         return status;
-    size_t most = answer.parameters_count - 1;
-    for (size_t i = 0; i <= most && loose->n < most; i++) {
-        loose->loose[i] = answer.draws_count > 0 && !answer.parameters[i].determined;
-        loose->n += loose->loose[i];
-    }
-    for (size_t i; (i = worse_of_a_pair(&answer, loose->loose)) != SIZE_MAX; loose->n++) /* one of them stays */
-        loose->loose[i] = true;
+    loose->n = ceduo_calibration_loose(&answer, loose->loose);
     ceduo_calibration_free(&answer);
     return CEDUO_OK;
 }

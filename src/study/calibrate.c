@@ -286,6 +286,7 @@ static enum ceduo_status run_chains(struct fitting *f, struct chains *chains)
                              .steps_most = f->def->steps_most > 0 ? f->def->steps_most : STEPS_MOST,
                              .rhat_most = CEDUO_RHAT_MOST,
                              .effective_least = CEDUO_EFFECTIVE_LEAST,
+                             .hopeless = f->def->steps_most == 0,
                              .density = density,
                              .guess = guess_at,
                              .learn = learn,
@@ -336,6 +337,37 @@ static bool read_draws(const struct fitting *f, const struct chains *chains, str
     bool good = sorted && a->draws;
     free(sorted);
     return good;
+}
+
+/* ---- what the observations do not hold ---- */
+
+#define TOGETHER 0.9 /* correlation of two values of which only both are known, not each */
+
+/* The one that is known worse of two that are known only together; all of those kept: SIZE_MAX. */
+static size_t worse_of_a_pair(const struct ceduo_calibration *a, const bool *loose)
+{
+    size_t worse = SIZE_MAX;
+    double most = TOGETHER;
+    for (size_t i = 0; i < a->parameters_count; i++)
+        for (size_t k = 0; k < i; k++)
+            if (!loose[i] && !loose[k] && fabs(a->correlation[i][k]) > most) {
+                const struct ceduo_fitted *p = &a->parameters[i], *q = &a->parameters[k];
+                most = fabs(a->correlation[i][k]);
+                worse = (p->p97_5 - p->p2_5) / (p->hi - p->lo) > (q->p97_5 - q->p2_5) / (q->hi - q->lo) ? i : k;
+            }
+    return worse;
+}
+
+size_t ceduo_calibration_loose(const struct ceduo_calibration *a, bool loose[CEDUO_CALIBRATION_MOST])
+{
+    size_t most = a->parameters_count - 1, n = 0;
+    for (size_t i = 0; i <= most; i++) {
+        loose[i] = n < most && a->draws_count > 0 && !a->parameters[i].determined;
+        n += loose[i];
+    }
+    for (size_t i; (i = worse_of_a_pair(a, loose)) != SIZE_MAX; n++) /* one of them stays */
+        loose[i] = true;
+    return n;
 }
 
 /* ---- all of it ---- */

@@ -197,6 +197,15 @@ static void diagnose(struct chains *c, const atomic_bool *cancel)
     }
 }
 
+/* Whether chains go so slowly that they would have far from enough draws at their end: from an eighth of the way on less than a
+ * quarter, from a quarter on less than half of what is wanted. */
+static bool is_hopeless(const struct work *w)
+{
+    const struct chains_def *def = w->def;
+    double way = (double)w->chains->steps / (double)def->steps_most;
+    return def->hopeless && way >= 0.125 && w->chains->effective_size / way < fmin(0.5, 2 * way) * def->effective_least;
+}
+
 static bool is_done(struct work *w)
 {
     const struct chains_def *def = w->def;
@@ -205,7 +214,7 @@ static bool is_done(struct work *w)
         diagnose(c, def->cancel);
     c->settled = c->steps >= def->steps_least && c->rhat < def->rhat_most && c->effective_size >= def->effective_least;
     bool goes_on = !def->round || def->round(def->context, c->steps, c->rhat, c->effective_size);
-    return c->settled || c->steps >= def->steps_most || !goes_on;
+    return c->settled || c->steps >= def->steps_most || is_hopeless(w) || !goes_on;
 }
 
 static enum ceduo_status begin(struct work *w)

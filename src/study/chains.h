@@ -26,6 +26,7 @@ struct chains_def {
     unsigned threads;
     size_t steps_least, steps_most; /* of each chain */
     double rhat_most, effective_least;
+    bool hopeless; /* whether chains that would have far less than effective_least at their end are ended early */
     /* The logarithm of the density; -INFINITY where it is 0. `chain` is the caller's: one thread at a time asks for it. */
     enum ceduo_status (*density)(void *context, size_t chain, const double *x, double *log_density);
     /* The guess, up to a constant; learns between rounds from n places, in rows, and their densities. NULL: none. */

@@ -160,13 +160,48 @@ static void say_misfits(struct ceduo_page *page, const struct ceduo_calibration_
         ceduo_page_note(page, _("The model can give all that it was fitted to."));
 }
 
+/* Which values to leave as they are where the chains do not agree; of those that only their width tells apart the widest. */
+static void say_unsettled(struct ceduo_page *page, const struct ceduo_calibration_report *r)
+{
+    const struct ceduo_calibration *a = r->answer;
+    bool loose[CEDUO_CALIBRATION_MOST];
+    size_t widest = 0;
+    double most = -1;
+    LOCAL_TEXT(all);
+    LOCAL_TEXT(fixed);
+    if (a->parameters_count == 1 || a->draws_count == 0) {
+        ceduo_page_warn(page, _("The chains do not agree yet, so the ranges are rough: fit fewer values, or observe more."));
+        return;
+    }
+    for (size_t i = 0; i < a->parameters_count; i++) {
+        const struct ceduo_fitted *f = &a->parameters[i];
+        double width = (f->p97_5 - f->p2_5) / (f->hi - f->lo);
+        widest = width > most ? i : widest;
+        most = fmax(most, width);
+    }
+    if (ceduo_calibration_loose(a, loose) == 0)
+        loose[widest] = true;
+    for (size_t i = 0; i < a->parameters_count; i++) {
+        LOCAL_TEXT(name);
+        ceduo_calibration_name(&name, r->paths[i], r->fields[i]);
+        ceduo_text_format(&all, "%s%s", i > 0 ? ", " : "", name.bytes);
+        if (loose[i])
+            ceduo_text_format(&fixed, "%s%s", fixed.length > 0 ? ", " : "", name.bytes);
+    }
+    ceduo_page_say(
+        page, CEDUO_PAGE_WARNING,
+        _("What was seen does not tell these values apart: %s; the ranges are rough. Fit fewer, leaving as the scene "
+          "has them: %s. Or observe more."),
+        all.bytes, fixed.bytes);
+}
+
 void ceduo_calibration_words(struct ceduo_page *page, const struct ceduo_calibration_report *r)
 {
     const struct ceduo_calibration *a = r->answer;
     say_misfits(page, r);
     say_values(page, r);
     if (!a->settled)
-        ceduo_page_warn(page, _("The chains do not agree yet, so the ranges are rough: fit fewer values, or observe more."));
+        say_unsettled(page, r);
     ceduo_page_note(
         page, _("A ground that is fitted on a profile holds for this profile; a hundred metres beside it may be another."));
     ceduo_page_say(page, CEDUO_PAGE_NOTE, _("%llu scenes were computed with %llu rocks each; R-hat %.3f, effective size %.0f."),

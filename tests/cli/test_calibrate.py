@@ -74,6 +74,25 @@ def test_not_determined():
         expect_in("is not determined by what was seen", page)
 
 
+def test_not_told_apart():
+    """Chains that would not have enough draws at their end are ended early; which values are not told apart is said, and which to
+    leave. Where 50 stops tell four values, they are fitted."""
+    values = (f"{RN}=0.2:0.6", "slope.segments[*].roughness_rad=0.05:0.6", "slope.segments[*].friction=0.3:0.9")
+    four = [word for value in (f"{RT}=0.7:0.98", *values) for word in ("--calibrate", value)]
+    with Folder() as f:
+        path = f.write("s.yaml", quarry())
+        result = ceduo("-f", "json", "-n", 20, "-j", 2, *four, path).json()[0]
+        page = " ".join(ceduo("-n", 20, "-j", 2, *four, path).out.split())
+    expect(not result["settled"] and result["effective_size"] < 100, result)
+    expect(result["evaluations"] < 4 * 8000 / 2, "before half of the steps of four chains", result["evaluations"])
+    told = re.search(r"What was seen does not tell these values apart: (.*?); the ranges are rough\. "
+                     r"Fit fewer, leaving as the scene has them: (.*?)\. Or observe more\.", page)
+    names = ["slide Rt", "bounce Rn", "roughness, rad", "friction"]
+    expect(told and told[1] == ", ".join(names) and set(told[2].split(", ")) < set(names) | {"rad"}, page)
+    stops = ceduo("-f", "json", "-j", 2, *four, "quarry").json()[0]
+    expect(stops["settled"] and stops["effective_size"] >= 200, stops["effective_size"])
+
+
 def test_at_bound():
     """What fits best at the end of its range is named"""
     with Folder() as f:
