@@ -13,17 +13,17 @@ enum column { NAME, TODAY, MAY_BE, EVERY, MEAN, MARK, WORST, FAILS, YIELD, CONTA
 
 static const struct ceduo_page_column columns[COLUMNS] = {[NAME] = {"", 12, 0, CEDUO_FILLS},
                                                           [TODAY] = {"", -5, 1, CEDUO_FITS},
-                                                          [MAY_BE] = {"", -1, 1, CEDUO_FITS | CEDUO_KEPT | CEDUO_DROPPED(9)},
-                                                          [EVERY] = {"", -1, 1, CEDUO_FITS | CEDUO_DROPPED(4)},
+                                                          [MAY_BE] = {"", -1, 1, CEDUO_FITS | CEDUO_KEPT | CEDUO_DROPPED(4)},
+                                                          [EVERY] = {"", -1, 1, CEDUO_FITS | CEDUO_DROPPED(5)},
                                                           [MEAN] = {"", -5, 1, CEDUO_FITS | CEDUO_KEPT | CEDUO_DROPPED(1)},
-                                                          [MARK] = {"", 1, 1, CEDUO_FITS | CEDUO_DROPPED(7)},
-                                                          [WORST] = {"", -5, 1, CEDUO_FITS | CEDUO_DROPPED(5)},
+                                                          [MARK] = {"", 1, 1, CEDUO_FITS | CEDUO_DROPPED(8)},
+                                                          [WORST] = {"", -5, 1, CEDUO_FITS | CEDUO_DROPPED(6)},
                                                           [FAILS] = {"", -4, 1, CEDUO_FITS | CEDUO_KEPT | CEDUO_DROPPED(2)},
                                                           [YIELD] = {"", -4, 1, CEDUO_FITS | CEDUO_KEPT | CEDUO_DROPPED(3)},
-                                                          [CONTACT] = {"", 1, 2, CEDUO_DROPPED(6)},
-                                                          [FREE_RUN] = {"", 1, 0, CEDUO_DROPPED(6)},
-                                                          [ENERGY] = {"", 1, 0, CEDUO_DROPPED(6)},
-                                                          [YEARS] = {"", 1, 2, CEDUO_FITS | CEDUO_DROPPED(8)}};
+                                                          [CONTACT] = {"", 1, 2, CEDUO_DROPPED(7)},
+                                                          [FREE_RUN] = {"", 1, 0, CEDUO_DROPPED(7)},
+                                                          [ENERGY] = {"", 1, 0, CEDUO_DROPPED(7)},
+                                                          [YEARS] = {"", 1, 2, CEDUO_FITS | CEDUO_DROPPED(9)}};
 
 #define YEARS_MOST 26 /* columns of the years at a glance */
 

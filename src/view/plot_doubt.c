@@ -17,7 +17,8 @@ static double most_of(const struct ceduo_doubt_report *r)
     double most = 0, scale = ceduo_doubt_scale(r);
     for (size_t i = 0; i < r->file->scene.options_count; i++)
         most = fmax(most, fmax(ceduo_doubt_main(r, i)->fit.p95, ceduo_doubt_now_of(r, i).hi) * scale);
-    return most > 0 ? scale > 1 ? 1000 : ceduo_plot_round(most, true) : 1;
+    most = most > 0 ? ceduo_plot_round(most, true) : 1;
+    return scale > 1 ? fmin(1000, most) : most;
 }
 
 static void add_option(struct ceduo_page *page, const struct ceduo_doubt_report *r, size_t i, bool shown)
@@ -46,12 +47,10 @@ static void add_options(struct ceduo_page *page, const struct ceduo_doubt_report
     if (ceduo_doubt_main(r, 0)->kind != CEDUO_DOUBT_ENERGY) {
         struct ceduo_measure judged = ceduo_judged(&scene->controls[ceduo_scene_last_control(scene)], NULL);
         ceduo_measure_name(&heads[0].text, &judged, CEDUO_HEAD);
-        ceduo_text_put(&heads[1].text, "0\xe2\x80\x93"
-                                       "1000");
     } else {
         ceduo_text_put(&heads[0].text, _("kJ a rock"));
-        ceduo_text_format(&heads[1].text, "0\xe2\x80\x93%s", ROUNDED(most_of(r), 4));
     }
+    ceduo_text_format(&heads[1].text, "0\xe2\x80\x93%s", ROUNDED(most_of(r), 4));
     ceduo_text_put(&heads[2].text, r->over ? _("rotation (may be)") : _("now (may be)"));
     for (size_t i = first; i < n && i < first + room; i++)
         add_option(page, r, i, i == option);
