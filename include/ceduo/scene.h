@@ -31,7 +31,8 @@ struct ceduo_release {
 struct ceduo_control {
     double x;              /* m, relative to the slope's first vertex */
     double x_given;        /* as the user wrote it */
-    char *name;            /* NULL: none */
+    char *name;            /* as it is shown; NULL: none */
+    char *name_given;      /* as the user wrote it, where a name in another language is shown */
     double accepted;       /* J that the thing at risk bears; NaN: not said */
     double measured_speed; /* m/s of a real rock seen here; NaN: none */
 };
@@ -40,7 +41,7 @@ struct ceduo_control {
 struct ceduo_belt {
     double from, to;             /* m, relative to the slope's first vertex */
     double from_given, to_given; /* as the user wrote them */
-    char *name;                  /* of the stand */
+    char *name, *name_given;     /* of the stand: as it is shown, and as the user wrote it */
     bool assumed;                /* some value of the stand is an assumption */
     bool changed;                /* numbers of a stand from a file were changed, and no name of its own was given */
     bool felled;                 /* of a year: a cut of this year left this stand */
@@ -50,7 +51,7 @@ struct ceduo_belt {
 
 /* A silvicultural option: belts that rise along x and do not overlap. */
 struct ceduo_option {
-    char *name;
+    char *name, *name_given; /* as it is shown, and as the user wrote it */
     size_t belts_count;
     struct ceduo_belt *belts;
 };

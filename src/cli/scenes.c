@@ -27,12 +27,12 @@ enum exit_status ceduo_batch_option(const struct scene_file *file, const char *n
 {
     const struct ceduo_scene *scene = &file->scene;
     for (*index = 0; *index < scene->options_count; ++*index)
-        if (strcmp(scene->options[*index].name, name) == 0)
+        if (strcmp(scene->options[*index].name_given, name) == 0 || strcmp(scene->options[*index].name, name) == 0)
             return EXIT_DONE;
     LOCAL_TEXT(message);
     LOCAL_TEXT(names);
     for (size_t i = 0; i < scene->options_count; i++)
-        ceduo_text_format(&names, "%s'%s'", i > 0 ? ", " : "", scene->options[i].name);
+        ceduo_text_format(&names, "%s'%s'", i > 0 ? ", " : "", scene->options[i].name_given);
     ceduo_text_format(&message, _("--option: no option '%s' in %s; it has: %s"), name, file->path, ceduo_text_string(&names));
     ceduo_say_why("ceduo", ceduo_text_string(&message));
     return EXIT_USAGE;

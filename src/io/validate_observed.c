@@ -300,7 +300,7 @@ static bool find_option(struct validator *v, const char *path, const struct obse
     const struct ceduo_scene *s = &v->draft.scene;
     LOCAL_TEXT(all);
     for (*option = 0; *option < s->options_count; ++*option) {
-        const char *name = s->options[*option].name ? s->options[*option].name : "";
+        const char *name = s->options[*option].name_given ? s->options[*option].name_given : "";
         if (!row->option || strcmp(name, row->option) == 0)
             return true;
         ceduo_text_then(&all, *option > 0 ? ", " : "", "%s", name);

@@ -152,6 +152,7 @@ void ceduo_validate_controls(struct validator *v)
             ceduo_schema_init(ceduo_schema_field(ceduo_schema_scene(), "controls")->object, c);
             c->x_given = v->draft.controls_m[i];
         }
+        c->name = (char *)(uintptr_t)ceduo_in_language(c->name_given, c->name);
         c->x = c->x_given - v->origin;
         const char *here = ceduo_decimal(v, c->x_given);
         while (k < i && scene->controls[k].x != c->x)

@@ -136,9 +136,11 @@ static void make_belts(struct validator *v, const char *path, struct ceduo_optio
         if (!name && node->written && node->written->kind == NODE_SCALAR)
             name = node->written->text;
         belt->changed = name && !is_as_named(v, node);
-        name = belt->changed ? ceduo_format(v, "%s (changed)", name) : name;
-        name = name ? name : ceduo_stand_is_bare(&belt->stand) ? "bare" : "stand";
-        belt->name = (char *)(uintptr_t)name;
+        const char *shown = ceduo_in_language(name, ceduo_node_text(node, "name_it")), *plain = N_("stand");
+        if (!name)
+            shown = _(name = ceduo_stand_is_bare(&belt->stand) ? N_("bare") : plain);
+        belt->name_given = (char *)(uintptr_t)(belt->changed ? ceduo_format(v, "%s (changed)", name) : name);
+        belt->name = (char *)(uintptr_t)(belt->changed ? ceduo_format(v, _("%s (changed)"), shown) : shown);
         belt->assumed = ceduo_notes_assume(v->notes, stand);
         check_stand(v, stand, &belt->stand);
     }
@@ -156,15 +158,18 @@ void ceduo_validate_options(struct validator *v)
         ceduo_complain(v, "options", "", _("the list is empty"));
     if (!many && (scene->options = ceduo_room(v, 1, sizeof *scene->options))) { /* it has one, its forest */
         scene->options[0] = (struct ceduo_option){
-            .name = (char *)(uintptr_t) "current", .belts_count = v->draft.belts_count, .belts = v->draft.belts};
+            .name_given = (char *)(uintptr_t)N_("current"), .belts_count = v->draft.belts_count, .belts = v->draft.belts};
+        scene->options[0].name = (char *)(uintptr_t)_(scene->options[0].name_given);
         scene->options_count = 1;
         make_belts(v, "forest", &scene->options[0]);
     }
     if (n == 0 || ceduo_is_too_long(v, "options", n))
         return;
     for (size_t i = 0; i < n; i++) {
+        struct ceduo_option *o = &scene->options[i];
         for (size_t k = 0; k < i; k++)
-            ceduo_check_name(v, "options", i, scene->options[i].name, scene->options[k].name);
+            ceduo_check_name(v, "options", i, o->name_given, scene->options[k].name_given);
+        o->name = (char *)(uintptr_t)ceduo_in_language(o->name_given, o->name);
         make_belts(v, ceduo_format(v, "options[%zu].forest", i), &scene->options[i]);
     }
     scene->options_count = n;

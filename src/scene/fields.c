@@ -5,9 +5,10 @@
 
 #include <string.h>
 
-#define NAME_IT                                                                                                                \
-    TEXT("name_it", NAMED(N_("name, in Italian"), NULL), NOWHERE, FIELD_NOWHERE | NO_RUN,                                      \
-         N_("its name in Italian lists of profiles; without it the name"))
+#define NAME_IT(at, more)                                                                                                      \
+    ROW("name_it", FIELD_TEXT, at, "", 1, -INFINITY, INFINITY, NO_RUN | (more), NULL,                                          \
+        N_("its name in Italian pages, screens and lists; without it the name"), NULL, NULL,                                   \
+        NAMED(N_("name, in Italian"), NULL))
 
 /* ---- rock ---- */
 
@@ -88,7 +89,7 @@ static const struct object material_object = OBJECT(material_belt, material_fiel
 static const struct field slope_fields[] = {
     TAG("slope/1"),
     TEXT("name", NAMED(N_("name"), NULL), NOWHERE, FIELD_NOWHERE | NO_RUN, N_("name of the slope")),
-    NAME_IT,
+    NAME_IT(NOWHERE, FIELD_NOWHERE),
     WORD("facets", NAMED(N_("facets"), NULL), AT(ceduo_slope, facets), 0, "against",
          N_("which way the ground's small facets are turned"), &ceduo_facets_words),
     NUM(FIELD_POINTS, "vertices_m", NAMED(N_("point of the profile"), NULL), POINTS(ceduo_slope, x, vertices), "m", 1, -FAR,
@@ -341,7 +342,7 @@ static const struct object cutting_object = OBJECT(ceduo_stand, cutting_fields, 
 static const struct field stand_fields[] = {
     TAG("stand/1"),
     TEXT("name", NAMED(N_("name"), NULL), NOWHERE, FIELD_NOWHERE | NO_RUN, N_("name of the stand")),
-    NAME_IT,
+    NAME_IT(NOWHERE, FIELD_NOWHERE),
     OTHER(FIELD_FILE, "base", NAMED(N_("made from"), NULL), NOWHERE, FIELD_NOWHERE, NULL,
           N_("a stand file to start from: mappings given here are merged into it, lists replaced"), NULL, NULL),
     WORD("system", NAMED(N_("system"), NULL), AT(ceduo_stand, system), NO_RUN, NULL,
@@ -379,7 +380,8 @@ static const struct field belt_fields[] = {
 static const struct object belt_object = OBJECT(ceduo_belt, belt_fields, NULL);
 
 static const struct field option_fields[] = {
-    TEXT("name", NAMED(N_("name"), NULL), AT(ceduo_option, name), REQUIRED | NO_RUN, N_("name of the option")),
+    TEXT("name", NAMED(N_("name"), NULL), AT(ceduo_option, name_given), REQUIRED | NO_RUN, N_("name of the option")),
+    NAME_IT(AT(ceduo_option, name), 0),
     ITEMS("forest", NAMED(N_("belt"), NULL), LIST(ceduo_option, belts, belts_count), 0, N_("belts of forest, rising along x"),
           &belt_object),
 };
@@ -388,7 +390,8 @@ static const struct object option_object = OBJECT(ceduo_option, option_fields, N
 static const struct field control_fields[] = {
     NUMBER("x_m", NAMED(N_("counted at, m"), N_("at m")), PLACE(ceduo_control, x_given, x), "m", -FAR, FAR,
            REQUIRED | FIELD_PLACE, NULL, N_("where passing rocks are counted")),
-    TEXT("name", NAMED(N_("name"), NULL), AT(ceduo_control, name), NO_RUN, N_("what stands there")),
+    TEXT("name", NAMED(N_("name"), NULL), AT(ceduo_control, name_given), NO_RUN, N_("what stands there")),
+    NAME_IT(AT(ceduo_control, name), 0),
     NUM(FIELD_NUMBER, "accepted_kJ", USUAL(N_("withstands, kJ"), N_("withst. kJ"), 0, 20000), AT(ceduo_control, accepted), "kJ",
         1000, 0, 1e9, 0, NULL, N_("energy that what stands there withstands")),
     NUMBER("measured_speed_m_s", USUAL(N_("speed filmed, m/s"), N_("filmed m/s"), 0, 80), AT(ceduo_control, measured_speed),

@@ -82,7 +82,12 @@ static void fill_cell(struct form_cell *cell, const struct document *d, const st
     const char *written = node && node->kind == NODE_SCALAR ? node->text : usual;
     snprintf(cell->written, sizeof cell->written, "%s", written);
     struct text shown = {0};
-    if (node)
+    char other[FORM_PATH + 3];
+    snprintf(other, sizeof other, "%s_it", path);
+    const struct node *italian = node && field && field->type == FIELD_TEXT ? ceduo_document_node(d, other) : NULL;
+    if (italian && italian->kind == NODE_SCALAR && node->kind == NODE_SCALAR)
+        ceduo_text_put(&shown, ceduo_in_language(node->text, italian->text));
+    else if (node)
         show_node(&shown, node, field);
     else
         ceduo_shown_value(field, usual, &shown);

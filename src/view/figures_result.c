@@ -207,7 +207,7 @@ VALUE(judgement_of_other, other_energy, TEXT, WORD(ceduo_words_judgement(o->judg
 VALUE(felled_of, place, NUMBER, NUMBER(ceduo_years_felled(o->report->years[o->option])))
 VALUE(find_format, find_report, TEXT, WORD("ceduo-find-1"))
 VALUE(find_path, find_report, TEXT, WORD(o->file->name))
-VALUE(find_option, find_report, TEXT, WORD(o->file->scene.options[o->search->option].name))
+VALUE(find_option, find_report, TEXT, WORD(o->file->scene.options[o->search->option].name_given))
 VALUE(goal_of, search, TEXT, WORD(ceduo_goals[o->goal].word))
 VALUE(over_of, search, TEXT, WORD(o->rotation ? "rotation" : "today"))
 VALUE(side_of, found, TEXT, WORD(!o->found ? NULL : o->side == CEDUO_SMALLEST ? "smallest" : "largest"))
@@ -344,7 +344,7 @@ static const struct ceduo_figure rules[] = {
     END};
 
 static const struct ceduo_figure stand_columns[] = {
-    {"name", "", "name of the stand", .from = belt_of, AT(belt, name)},
+    {"name", "", "name of the stand", .from = belt_of, AT(belt, name_given)},
     {"from_m", "m", "where the belt begins", .from = belt_of, AT(belt, from_given)},
     {"to_m", "m", "where it ends", .from = belt_of, AT(belt, to_given)},
     {.from = stand_of, .of = stand_result},
@@ -428,7 +428,7 @@ static const struct ceduo_figure verdict[] = {
 
 static const struct ceduo_figure control[] = {
     {"x_m", "m", "as in the scene", .from = control_of, AT(control, x_given)},
-    {"name", "", "as in the scene", .from = control_of, AT(control, name), .null = "the control has none"},
+    {"name", "", "as in the scene", .from = control_of, AT(control, name_given), .null = "the control has none"},
     {"accepted_kJ", "kJ", "as in the scene", .from = control_of, .value = accepted_of, .null = "the control has none"},
     {"bare", "", "what arrives without forest", .from = bare_of, .of = arrivals},
     {"index", "", "the index of the paper", .from = index_of, .of = by_index},
@@ -525,7 +525,7 @@ static const struct ceduo_figure rotation[] = {
 
 #define NO_YEARS "--years is not given"
 static const struct ceduo_figure option[] = {
-    {"name", "", "name of the option", .from = option_of, AT(option, name)},
+    {"name", "", "name of the option", .from = option_of, AT(option, name_given)},
     {.of = forest_rows},
     {.of = end_rows},
     {"years", "", "an object for each year", .of = year, .enter = enter_year, .null = NO_YEARS},
@@ -546,11 +546,12 @@ static const struct ceduo_figure differences[] = {
      IN(difference, energy_per_released, paired), .scale = J_TO_KJ},
     END};
 
-static const struct ceduo_figure difference[] = {{"option", "", "option that is compared", .from = option_of, AT(option, name)},
-                                                 {"against", "", "the first option", .from = first_option_of, AT(option, name)},
-                                                 {"x_m", "m", "control", .from = control_of, AT(control, x_given)},
-                                                 {.from = difference_of, .of = differences},
-                                                 END};
+static const struct ceduo_figure difference[] = {
+    {"option", "", "option that is compared", .from = option_of, AT(option, name_given)},
+    {"against", "", "the first option", .from = first_option_of, AT(option, name_given)},
+    {"x_m", "m", "control", .from = control_of, AT(control, x_given)},
+    {.from = difference_of, .of = differences},
+    END};
 
 static const struct ceduo_figure rock[] = {
     {"mass_kg", "kg", "mass", AT(rock, mass)},
@@ -664,8 +665,8 @@ const struct ceduo_figure ceduo_find_columns[] = {
 
 /* ---- rows of CSV ---- */
 
-static const struct ceduo_figure option_row[] = {{"option", "", "name of the option", .from = option_of, AT(option, name)},
-                                                 END};
+static const struct ceduo_figure option_row[] = {
+    {"option", "", "name of the option", .from = option_of, AT(option, name_given)}, END};
 static const struct ceduo_figure rest[] = {{.of = summary_row},
                                            {.of = control},
                                            {.of = end_rows},

@@ -56,7 +56,7 @@ int ceduo_plot_say_fitting(struct ceduo_canvas *canvas, int column, int row, int
 void ceduo_plot_control_name(struct text *text, const struct ceduo_control *control)
 {
     if (control->name)
-        ceduo_text_format(text, _("%s (%s m)"), control->name, SHORTEST(control->x_given));
+        ceduo_text_format(text, _("%s (%s m)"), NAME_OF(control), SHORTEST(control->x_given));
     else
         ceduo_text_format(text, _("%s m"), SHORTEST(control->x_given));
 }

@@ -119,17 +119,17 @@ void ceduo_words_unlikely(const struct ceduo_belt *belt, const struct ceduo_stan
     size_t n;
     if (r->warnings & CEDUO_WARN_BASAL_AREA)
         say_format(say, context,
-                   _("%s: %.1f m2/ha of basal area are more than %d: check the stems per ha and their diameters."), belt->name,
-                   r->basal_area, CEDUO_BASAL_AREA_MOST);
+                   _("%s: %.1f m2/ha of basal area are more than %d: check the stems per ha and their diameters."),
+                   NAME_OF(belt), r->basal_area, CEDUO_BASAL_AREA_MOST);
     if (r->warnings & CEDUO_WARN_MANY_SHOOTS)
-        say_format(say, context, _("%s: %.1f shoots a stool are more than %d: check stools and shoots."), belt->name,
+        say_format(say, context, _("%s: %.1f shoots a stool are more than %d: check stools and shoots."), NAME_OF(belt),
                    ceduo_stand_shoots(s) / s->stools_per_ha, CEDUO_SHOOTS_MOST);
     if (slender)
         say_format(say, context, _("%s: stems of %.3g cm are %.3g m high, more than %d times their diameter: check both."),
-                   belt->name, slender->dbh * 100, slender->height, CEDUO_SLENDERNESS_MOST);
+                   NAME_OF(belt), slender->dbh * 100, slender->height, CEDUO_SLENDERNESS_MOST);
     if (stout)
         say_format(say, context, _("%s: stems of %.3g cm are %.3g m high, less than %d times their diameter: check both."),
-                   belt->name, stout->dbh * 100, stout->height, CEDUO_SLENDERNESS_LEAST);
+                   NAME_OF(belt), stout->dbh * 100, stout->height, CEDUO_SLENDERNESS_LEAST);
     if (thick)
         say_format(say, context,
                    isnan(thick->volume)
@@ -137,7 +137,7 @@ void ceduo_words_unlikely(const struct ceduo_belt *belt, const struct ceduo_stan
                            "were measured on, %g cm; the form factor there is assumed.")
                        : _("%s: stems of %.3g cm are thicker than the thickest that the volumes of their species "
                            "were measured on, %g cm: check them."),
-                   belt->name, thick->dbh * 100, ceduo_species_list(&n)[s->species].d_hi);
+                   NAME_OF(belt), thick->dbh * 100, ceduo_species_list(&n)[s->species].d_hi);
 }
 
 void ceduo_words_stand_warnings(const struct ceduo_scene *scene, const struct ceduo_belt *belt,
@@ -145,7 +145,7 @@ void ceduo_words_stand_warnings(const struct ceduo_scene *scene, const struct ce
 {
     const struct ceduo_stand *s = &belt->stand;
     if ((!r->bare || r->felled) && r->trees_per_ha < scene->reserves_minimum)
-        say_format(say, context, _("%s: %g single trees a hectare are fewer than the %g that must stay."), belt->name,
+        say_format(say, context, _("%s: %g single trees a hectare are fewer than the %g that must stay."), NAME_OF(belt),
                    r->trees_per_ha, scene->reserves_minimum);
     ceduo_words_unlikely(belt, r, say, context);
     double diameter = ceduo_rock_mean(&scene->rock).mean_diameter;
@@ -153,33 +153,33 @@ void ceduo_words_stand_warnings(const struct ceduo_scene *scene, const struct ce
         say_format(say, context,
                    _("%s: Eq. 6 gives %.2f m between contacts, less than the mean free path of %.2f m over all stems, "
                      "which no path can have: a spacing of %g m is too wide for %.1f shoots a stool."),
-                   belt->name, r->adc.interception, r->adc.gsteiger_stems, s->spacing,
+                   NAME_OF(belt), r->adc.interception, r->adc.gsteiger_stems, s->spacing,
                    ceduo_stand_shoots(s) / s->stools_per_ha);
     if (r->warnings & CEDUO_WARN_NEAR_JUMP)
         say_format(say, context,
                    _("%s: the rock (%.2f m) is within 10 %% of the shoots' spacing (%g m), where the paper's rule jumps "
                      "between %.2f m (all stems) and %.2f m (Eq. 6)."),
-                   belt->name, diameter, s->spacing, r->adc.gsteiger_stems, r->adc.interception);
+                   NAME_OF(belt), diameter, s->spacing, r->adc.gsteiger_stems, r->adc.interception);
     if (r->warnings & CEDUO_WARN_WIDE_SPACING)
         say_format(say, context,
                    _("%s: the shoots of a stool stand so far apart (%g m) that the rock can pass between two of them."),
-                   belt->name, s->spacing);
+                   NAME_OF(belt), s->spacing);
     if (r->warnings & CEDUO_WARN_DORREN_THIN)
         say_format(say, context,
                    _("%s: the energy model dorren is used for stems below 10 cm, outside its data; it overshoots there."),
-                   belt->name);
+                   NAME_OF(belt));
     if (r->warnings & CEDUO_WARN_RATIO_ASSUMED)
-        say_format(say, context, _("%s: the fracture ratio of this species is not known; 1 is assumed."), belt->name);
+        say_format(say, context, _("%s: the fracture ratio of this species is not known; 1 is assumed."), NAME_OF(belt));
     if (r->warnings & CEDUO_WARN_LOW)
         say_format(say, context,
                    _("%s: stumps and logs are among the contacts of the index, but the lights of contact and free run do "
                      "not count them: a rock flies over them."),
-                   belt->name);
+                   NAME_OF(belt));
     if (r->warnings & CEDUO_WARN_INERTIA)
         say_format(say, context,
                    _("%s: the energy law inertia is an assumption. A contact takes a share of what the rock has, so that "
                      "nothing can be said of what the stems could take (Eq. 4)."),
-                   belt->name);
+                   NAME_OF(belt));
     const struct ceduo_stems *first = NULL; /* kind of stem with a volume by form factor; of those too thick it is said above */
     size_t n = 0;
     for (size_t i = 0; r->warnings & CEDUO_WARN_FORM_FACTOR && stems_at(s, i); i++) {
@@ -202,10 +202,10 @@ void ceduo_words_stand_warnings(const struct ceduo_scene *scene, const struct ce
                                   "%s: %zu kinds of stem (the first %.3g cm, %.3g m high) lie outside the volumes that their "
                                   "species' equation was made from; the form factor at their edge is assumed.",
                                   n),
-                   belt->name, n, first->dbh * 100, first->height);
+                   NAME_OF(belt), n, first->dbh * 100, first->height);
     if (r->warnings & CEDUO_WARN_U_ASSUMED)
-        say_format(say, context, _("%s: the work of breaking is that of beech, %g J/m3, assumed for this species."), belt->name,
-                   ceduo_stand_u(s));
+        say_format(say, context, _("%s: the work of breaking is that of beech, %g J/m3, assumed for this species."),
+                   NAME_OF(belt), ceduo_stand_u(s));
 }
 
 /* Rocks that leave the slope over its upper end, which would lie above it or come down again; and those that stems stop just below
@@ -230,7 +230,7 @@ static void say_lost(const struct ceduo_result *result, ceduo_words_say *say, vo
     if (most * 1000 >= 0.5)
         say_format(say, context,
                    _("%s: of 1000 rocks simulated stems stop %.0f within %g m of the release, before they have any speed."),
-                   result->scene->options[option].name, most * 1000, CEDUO_EARLY_M);
+                   NAME_OF(&result->scene->options[option]), most * 1000, CEDUO_EARLY_M);
 }
 
 void ceduo_words_run_warnings(const struct ceduo_result *result, const struct ceduo_run_remarks *remarks, ceduo_words_say *say,
@@ -276,7 +276,7 @@ void ceduo_words_run_warnings(const struct ceduo_result *result, const struct ce
                 say_format(say, context,
                            _("%s, %g m: whether %.0f of 1000 rocks at most arrive with too much energy is too close to call; "
                              "fly more rocks."),
-                           result->scene->options[i].name, result->scene->controls[c].x_given, CEDUO_EXCEED_MOST * 1000);
+                           NAME_OF(&result->scene->options[i]), result->scene->controls[c].x_given, CEDUO_EXCEED_MOST * 1000);
         }
     say_lost(result, say, context);
     if (remarks->ground_assumed)

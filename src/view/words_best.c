@@ -37,13 +37,13 @@ void ceduo_words_window(struct text *text, const struct ceduo_option *option, co
         if (!still && !ceduo_stand_is_bare(&option->belts[i].stand))
             still = &option->belts[i];
     if (window->kind == CEDUO_WINDOW_UNCUT)
-        ceduo_text_format(text, _("'%s' grows, but is never cut: its next %d years stand for it."), option->name,
+        ceduo_text_format(text, _("'%s' grows, but is never cut: its next %d years stand for it."), NAME_OF(option),
                           CEDUO_YEARS_UNCUT);
     else if (window->kind == CEDUO_WINDOW_ALIKE && !still)
-        ceduo_text_format(text, _("All years of '%s' are alike: no stem stands in it."), option->name);
+        ceduo_text_format(text, _("All years of '%s' are alike: no stem stands in it."), NAME_OF(option));
     else if (window->kind == CEDUO_WINDOW_ALIKE)
         ceduo_text_format(text, _("All years of '%s' are alike: the file of '%s' has no growth (growth, cutting)."),
-                          option->name, still->name);
+                          NAME_OF(option), NAME_OF(still));
 }
 
 void ceduo_words_windows(const struct ceduo_scene *scene, const struct ceduo_verdict *v, ceduo_words_say *say, void *context)
@@ -121,7 +121,7 @@ static void append_leaders(struct text *text, const struct ceduo_scene *scene, c
         if (i != leader->best && !leader->rival[i])
             continue;
         if (names)
-            ceduo_text_format(&one, "'%s'", scene->options[i].name);
+            ceduo_text_format(&one, "'%s'", NAME_OF(&scene->options[i]));
         else
             ceduo_text_format(&one, "%.0f", mean_of(v, rotation, i));
         if (--left > 0 || leader->rivals == 0)
@@ -169,7 +169,7 @@ void ceduo_words_best(struct text *text, const struct ceduo_scene *scene, const 
     if (years && today && a->best == b->best && a->rivals == 0 && b->rivals == 0) {
         /* one sentence where the same option is clearly best over the years and today */
         ceduo_text_format(text, _("%s '%s' lets the fewest %s through, as it does today: %.0f and %.0f of 1000."), when,
-                          scene->options[a->best].name, v->accepted ? _("dangerous rocks") : _("rocks"),
+                          NAME_OF(&scene->options[a->best]), v->accepted ? _("dangerous rocks") : _("rocks"),
                           mean_of(v, true, a->best), mean_of(v, false, a->best));
         return;
     }
@@ -235,8 +235,9 @@ void ceduo_words_turned(const struct ceduo_result *r, const struct ceduo_verdict
             ceduo_text_format(&sentence,
                               _("'%s' or '%s' is undecided: the order depends on the energy law. As the scene has it %.0f "
                                 "and %.0f of 1000, with %s %.0f and %.0f."),
-                              r->scene->options[a].name, r->scene->options[b].name, of_1000(r, a, false), of_1000(r, b, false),
-                              ceduo_energy_words.names[o->model], of_1000(r, a, true), of_1000(r, b, true));
+                              NAME_OF(&r->scene->options[a]), NAME_OF(&r->scene->options[b]), of_1000(r, a, false),
+                              of_1000(r, b, false), ceduo_energy_words.names[o->model], of_1000(r, a, true),
+                              of_1000(r, b, true));
         }
         if (sentence.bytes)
             say(context, sentence.bytes);

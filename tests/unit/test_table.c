@@ -79,6 +79,7 @@ static void expect_whole(const char *name, const struct object *object, bool *se
         DERIVED(ceduo_schema_stand(), ceduo_stand, counted_from),
         DERIVED(ceduo_schema_field(ceduo_schema_stand(), "trees")->object, ceduo_stems, per_stool), /* shoots have it */
         DERIVED(belt, ceduo_belt, name),
+        DERIVED(belt, ceduo_belt, name_given),
         DERIVED(belt, ceduo_belt, assumed),
         DERIVED(belt, ceduo_belt, changed),
         DERIVED(belt, ceduo_belt, felled),

@@ -63,6 +63,7 @@ static enum ceduo_status grow(const struct ceduo_option *option, size_t controls
     size_t n = option->belts_count;
     enum ceduo_status status = CEDUO_OK;
     y->option.name = option->name;
+    y->option.name_given = option->name_given;
     y->option.belts = calloc(n + 1, sizeof *y->option.belts);
     y->grown = calloc(n + 1, sizeof *y->grown);
     y->stands = calloc(n + 1, sizeof *y->stands);
