@@ -327,10 +327,12 @@ static void add_sizes(struct ceduo_page *page, const struct ceduo_result *r, con
 
 static void add_percentile(struct ceduo_page *page, double value, double lo, double hi)
 {
-    struct text *cell = ceduo_page_text(page);
+    struct ceduo_page_cell *both = ceduo_page_cell(page);
+    struct text *cell = &both->text;
     ceduo_text_put(cell, SHOWN(value));
     if (isnan(value))
         return;
+    ceduo_text_put(&both->shorter, SHOWN(value)); /* where the interval has no room */
     if (!isnan(lo) && !isnan(hi))
         ceduo_text_format(cell, " (%s\xe2\x80\x93%s)", SHOWN(lo), SHOWN(hi));
     else if (!isnan(lo))

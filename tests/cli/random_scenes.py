@@ -688,7 +688,7 @@ class Maker:
     def spoil_word(self):
         found = self.some(lambda p: p.kind == "word")
         if found:
-            found[0][found[1]] += self.rng.choice(["x", "-", " 1"])
+            found[0][found[1]] += self.rng.choice(["x", "q", "1"])
         return bool(found) and self.spoiled(f"{found[2].path} is no word of it", found[1])
 
     def spoil_key(self):
