@@ -199,7 +199,8 @@ def test_pages():
             italian = re.sub(r"(sezione|CRSP) (\d)\.(\d)", r"\1 \2,\3", italian)  # no numbers, but names
             commas = sorted(number.replace(",", ".") for number in re.findall(r"\d+,\d+", italian))
             expect_equal(commas, sorted(re.findall(r"\d+\.\d+", english)), f"numbers of {words}")
-            expect_equal(*(len(re.findall(r"\w\u2026", text)) for text in (italian, english)), f"words cut in {words}")
+            cut = [len(re.findall(r"\w\u2026", text)) for text in (italian, english)]
+            expect(cut[0] <= cut[1], f"words cut in {words}", italian)
     for line in good("--help", "--language", "it").out.splitlines():
         expect(len(line) <= 80, line)
 
