@@ -3,7 +3,6 @@
 #include <math.h>
 
 #include "base/language.h"
-#include "page_parts.h"
 #include "scene/choices.h"
 #include "words.h"
 
