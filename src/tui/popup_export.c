@@ -173,6 +173,8 @@ static bool filled_export(struct app *app, struct popup *p)
 
 static void ask_for_file(struct app *app, size_t i)
 {
+    /* the report says how sure it is, over the rotation as well: that is computed while its file is named; a head is an edit */
+    ceduo_live_doubt(&app->live, &app->document.file, app->option, UNCERTAINTY_ROTATION);
     struct popup *q = ceduo_popup_fields(app, _("Export to a file"), filled_export);
     snprintf(q->path, sizeof q->path, "%s", exports[i].name);
     q->endings = strrchr(exports[i].file, '.');
@@ -288,8 +290,6 @@ void ceduo_popup_copy(struct app *app)
 void ceduo_popup_export(struct app *app)
 {
     struct popup *p = ceduo_popup_list(app, _("Export"), chose_export);
-    /* the report says how sure it is, over the rotation as well: that is computed while its file is named */
-    ceduo_live_doubt(&app->live, &app->document.file, app->option, UNCERTAINTY_ROTATION);
     for (size_t i = 0; i < EXPORTS; i++)
         ceduo_popup_item(p, _(exports[i].what), exports[i].name);
 }

@@ -113,7 +113,7 @@ def test_over_the_rotation():
         place.write("turn.yaml", scene)
         today, over, other, back, compared, small = place.play(
             "resize 120 40\nkey 7\nwait idle\ndump\nkey Tab\ndump\nkey ]\nwait idle\ndump\nkey Tab\ndump\n"
-            "key 5\nwait idle\ndump\nresize 80 24\ndump\nkey 1 w\nwait idle\nkey Down Down Down Down Down" + " Enter" * 8, "turn.yaml")
+            "key 5\nwait idle\ndump\nresize 80 24\ndump\nkey 1 w\nwait idle\nkey Down Down Down Down Down" + 7 * " Enter" + "\nwait idle\nkey Enter", "turn.yaml")
         written = " ".join(re.sub("<[^>]*>", " ", place.text("ceduo.html")).split())
         run = json.loads(ceduo("--sensitivity=256", "--years", "-f", "json", place.path / "turn.yaml").out)
     bands = {f["option"]: "–".join(f"{f[k] * 1000:.0f}" for k in ("doubt_p5", "doubt_p95"))
