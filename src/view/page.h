@@ -134,6 +134,9 @@ size_t ceduo_page_lines(const struct ceduo_page *page);
 /* What a cell says, with as many digits as its column has room for. `plain`: its signs in ASCII. */
 void ceduo_page_write_cell(struct text *text, const struct ceduo_page_cell *cell, size_t width, bool plain);
 
+/* Adds a text with the powers of metres as signs, "m³", "m²/ha": not those within a word, a key or a number. */
+void ceduo_page_powers(struct text *text, const char *string);
+
 /* Prints the page, `page->width` columns wide. `plain`: its signs in ASCII. */
 void ceduo_page_print(struct text *text, const struct ceduo_page *page, bool plain);
 

@@ -106,7 +106,7 @@ static void write_table(struct ceduo_html *html, const struct ceduo_page_block *
         for (size_t i = 0; i < n; i++) {
             LOCAL_TEXT(text);
             if (row == 0 && table->cells[i].written.length > 0)
-                ceduo_text_put(&text, table->cells[i].written.bytes);
+                ceduo_page_powers(&text, table->cells[i].written.bytes);
             else
                 ceduo_page_write_cell(&text, &table->cells[row + i], WIDTH, false);
             const char *name = (row == 0 || i == 0) && text.length > 0 ? "th" : "td";
@@ -137,7 +137,10 @@ static const struct {
 
 static void write_block(struct ceduo_html *html, const struct ceduo_page_block *block)
 {
-    const char *text = ceduo_text_string(&block->text);
+    LOCAL_TEXT(shown);
+    ceduo_page_powers(&shown, ceduo_text_string(&block->text));
+    /* a file's text can be read again */
+    const char *text = ceduo_text_string(block->kind == CEDUO_PAGE_CODE ? &block->text : &shown);
     if (block->kind == CEDUO_PAGE_FACT || block->kind == CEDUO_PAGE_HEAD) {
         ceduo_html_leaf(html, "dt", block->label, NULL);
         ceduo_html_leaf(html, "dd", text, "class", text[0] ? NULL : "line", NULL);

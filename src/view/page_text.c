@@ -2,6 +2,7 @@
 /* Prints a page at a width, or draws it on a canvas: paragraphs are wrapped, cells set below one another, numbers written with as
  * many digits as their column has room for. A page that is drawn is printed first; where a role or a bar begins is noted, and
  * what stands between two such places is then drawn piece by piece. */
+#include <ctype.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -57,11 +58,29 @@ static void append_blanks(struct text *text, size_t n)
     ceduo_text_format(text, "%*s", (int)n, "");
 }
 
+void ceduo_page_powers(struct text *text, const char *string)
+{
+    for (const char *at = string; *at; at++) {
+        bool power = (*at == '2' || *at == '3') && at > string && at[-1] == 'm' &&
+                     (at == string + 1 || strchr(" /(", at[-2])) && !isalnum((unsigned char)at[1]) &&
+                     !(at[1] && strchr("_.=[", at[1]) && at[2] > ' ');
+        if (power)
+            ceduo_text_put(text, *at == '2' ? "\xc2\xb2" : "\xc2\xb3");
+        else
+            ceduo_text_char(text, *at);
+    }
+}
+
 /* What may be printed: no control characters, and the signs of a page in ASCII where the terminal knows no other. */
 static void append_safe(const struct printer *p, struct text *to, const char *string)
 {
     static const char *const signs[][2] = {{"\xe2\x80\x93", "-"}, {"\xe2\x88\x92", "-"}, {"\xc2\xb1", "+-"}};
+    LOCAL_TEXT(signed_string);
     LOCAL_TEXT(safe);
+    if (!p->plain && !p->marks) {
+        ceduo_page_powers(&signed_string, string);
+        string = ceduo_text_string(&signed_string);
+    }
     ceduo_text_safe(&safe, string);
     if (p->plain && p->marks) {
         ceduo_cells_ascii(to, ceduo_text_string(&safe)); /* as the cells will show it, so that its width is known */

@@ -178,7 +178,7 @@ def blocks_of(text):
     """The table of blocks of other sizes: [(own, volume, mass, diameter, ADC, contacts, of 1000)]."""
     lines = text.splitlines()
     first = next(i for i, line in enumerate(lines) if "Blocks of other sizes" in line)
-    first = next(i for i in range(first, len(lines)) if lines[i].split()[:2] == ["m3", "kg"]) + 1
+    first = next(i for i in range(first, len(lines)) if lines[i].split()[:2] == ["m\u00b3", "kg"]) + 1
     rows = []
     for line in lines[first:]:
         found = BLOCK.match(line)

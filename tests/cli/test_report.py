@@ -287,6 +287,18 @@ def test_heads():
                "test of contact", "chance of a free run", "test of free runs"], heads)
 
 
+def test_powers():
+    """Pages write m\u00b3 and m\u00b2, in ASCII and in the scene's text m3; keys keep their names"""
+    blocks = ("-s", "blocks={per_year: 0.5, volume_m3: [0.01, 2], exponent: 1.1}", "four-systems")
+    for language, felled in (("en", "felled, m\u00b3 per ha and year"), ("it", "tagliati, m\u00b3 per ha e anno")):
+        text, page = report("--language", language, *blocks)
+        expect_in(felled, page.text["thead"])
+        expect(not re.search(r"(?<![\w.])m[23]\b", page.text["dd"] + page.text["table"] + page.text["p"]), language)
+        expect_in("volume_m3: [0.01, 2]", page.text["pre"])
+    expect_in("to 2 m\u00b3, exponent", good("-b", "--details", *FEW, *blocks).out)
+    expect_in("to 2 m3, exponent", good("-b", "--details", *FEW, *blocks, env={"LC_ALL": "C"}).out)
+
+
 def test_unknown():
     """What is not known is a sentence of the answer: what may be true, and whether the answer depends on it"""
     def said(*arguments, few=DOUBT):
