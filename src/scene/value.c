@@ -102,6 +102,9 @@ static bool find_number(struct finder *f, const struct field *field, struct valu
     v->origin = field->flags & FIELD_PLACE ? f->scene->slope.origin_x : 0;
     switch (field->type) {
     case FIELD_NUMBER:
+        if (f->object == ceduo_schema_segment() && ceduo_schema_other(f->object, field->key)) /* of stems it is counted anew */
+            v->other =
+                (double *)(void *)(f->item + ceduo_schema_field(f->object, ceduo_schema_other(f->object, field->key))->offset);
         v->relative = field->flags & FIELD_PLACE ? (double *)(void *)(f->item + field->beside) : NULL;
         return f->at == f->length;
     case FIELD_COUNT:
@@ -202,6 +205,8 @@ bool ceduo_value_put(const struct value *v, double number)
             ceduo_schema_set_count(f, at, (uint64_t)number);
         else
             memcpy(at, &here, sizeof here);
+        if (v->other)
+            *(double *)(void *)((char *)v->other + i * v->stride) = NAN;
     }
     if (v->relative)
         *v->relative = si - v->origin;

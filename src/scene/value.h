@@ -16,6 +16,7 @@ struct value {
     size_t n, stride;          /* n times, so many bytes apart: a segment may be for all stretches */
     double origin;             /* what is taken off it (SI) to be relative to the slope's first vertex: */
     double *relative;          /* here, and `at` holds it as given; NULL: `at` itself is relative */
+    double *other;             /* what says the same in another way, and is no longer given once this is put; NULL: none */
 };
 
 /* Looks up the number at a path as --set has it: forest[0].stand.trees[0].per_ha, rock.density_kg_m3.spread. False where
