@@ -501,7 +501,7 @@ def test_page():
     expect(re.search("✘ NO: .* of 1000 arrive with more than 50 kJ .*; may be ", answer), answer)
     for words in ("by the number of rocks (", "by what is not known."):
         expect_in(words, pages["page"])
-    expect_equal([page.count("<h1>") for page in pages.values()], [1, 2, 1], "chapters")
+    expect_equal([page.count("<h1>") for page in pages.values()], [1, 3, 1], "chapters, and before those of several the table of their verdicts")
     expect_in("<h1>Coppice above the mill, parcel 14</h1>", pages["mill"])
     expect_in("road to the mill (135 m)", pages["mill"])
     expect_in("ceduo --report report.html paper-site", pages["page"])
