@@ -248,6 +248,25 @@ static bool is_askable(const struct search *s)
     return true;
 }
 
+/* Whether the scene can have both ends of a range; where it can have one of them, that is said. */
+static bool can_be_ends(struct search *s, double lo, double hi)
+{
+    char room[CEDUO_NUMBER_ROOM];
+    struct problems *problems = s->problems, others = {0};
+    if (lo > hi) /* no whole number lies between */
+        return true;
+    bool first = set_value(s, lo);
+    if (!first) /* what is wrong with both is told once */
+        s->problems = &others;
+    bool last = set_value(s, hi);
+    s->problems = problems;
+    ceduo_problems_free(&others);
+    if (first != last)
+        ceduo_problem(problems, &path_source, 0, 0, _("the other end of the range, %s, is possible"),
+                      ceduo_number_shortest(first ? lo : hi, room));
+    return first && last;
+}
+
 enum ceduo_status ceduo_search(struct search *s, struct ceduo_found *found, struct problems *problems)
 {
     const struct field *field = field_at(s->def.path);
@@ -270,19 +289,15 @@ enum ceduo_status ceduo_search(struct search *s, struct ceduo_found *found, stru
                                  .tolerance = 1e-4,
                                  .cancel = s->cancel};
     s->passes = def.target;
-    char room[CEDUO_NUMBER_ROOM];
-    bool ends[] = {set_value(s, def.lo), set_value(s, def.hi)};
-    if (ends[0] != ends[1])
-        ceduo_problem(problems, &path_source, 0, 0, _("the other end of the range, %s, is possible"),
-                      ceduo_number_shortest(ends[0] ? def.lo : def.hi, room));
-    if (!ends[0] || !ends[1])
+    double first = whole ? ceil(def.lo) : def.lo, last = whole ? floor(def.hi) : def.hi;
+    if (!can_be_ends(s, first, last))
         return CEDUO_BAD_SLOPE;
     enum ceduo_status status = ceduo_find(&def, found);
     ceduo_pool_free(s->pool);
     if (status == CEDUO_OK && s->def.sure > 0)
         status = search_sure(s, &def, found);
     if (status == CEDUO_OK) {
-        struct ceduo_yield lo = yield_at(s, def.lo), hi = yield_at(s, def.hi);
+        struct ceduo_yield lo = yield_at(s, first), hi = yield_at(s, last);
         s->yield = yield_at(s, found->found ? found->value : found->nearest);
         s->yield_depends = differ(lo.cut_per_year, hi.cut_per_year) || differ(lo.standing, hi.standing) ||
                            differ(lo.died_per_year, hi.died_per_year);
