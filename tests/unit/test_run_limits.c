@@ -305,7 +305,7 @@ TEST(little_is_asked_of_a_run)
     ceduo_run_free(run);
     struct ceduo_arrivals steps, once; /* room is taken twice over, where that fits */
     const double of_control[] = {site.control.x};
-    def.exact_bytes = 6 * sizeof(double) * 300; /* four quantities, stops, and room to sort */
+    def.exact_bytes = 4 * sizeof(double) * 300; /* speed, height, stops, and room to sort */
     def.cells = 1;
     def.cell_x = of_control;
     run = run_of(&def, 200);

@@ -80,7 +80,9 @@ enum ceduo_status ceduo_run_create(const struct ceduo_run_def *def, struct ceduo
     run->sized = def->scene->blocks_count > 0;
     if (run->sized && run->def.rocks_most > CEDUO_SIZED_ROCKS_MOST)
         run->def.rocks_most = CEDUO_SIZED_ROCKS_MOST;
-    run->columns = run->controls * QUANTITIES + 1;
+    bool one_energy = def->scene->simulation.law == CEDUO_LAW_LUMPED && !ceduo_scene_rock_varies(def->scene);
+    run->kept = one_energy ? HEIGHT + 1 : QUANTITIES;
+    run->columns = run->controls * (size_t)run->kept + 1;
     uint64_t blocks = run->def.rocks_most / CEDUO_BLOCK_ROCKS + 1;
     run->slots_count = blocks < CHUNK_BLOCKS ? (size_t)blocks : CHUNK_BLOCKS;
     run->chunk = run->def.threads < CHUNK_BLOCKS ? run->def.threads : CHUNK_BLOCKS;

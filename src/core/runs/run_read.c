@@ -19,13 +19,6 @@ static struct ceduo_rate share_of(uint64_t hits, uint64_t unfinished, uint64_t n
     return ceduo_wilson((double)hits / (double)n, (double)(hits + unfinished) / (double)n, (double)n);
 }
 
-static struct ceduo_distribution *distribution_of(struct ceduo_arrivals *a, int quantity)
-{
-    struct ceduo_distribution *const of[QUANTITIES] = {
-        [SPEED] = &a->speed, [HEIGHT] = &a->height, [ENERGY] = &a->energy, [TRANSLATION] = &a->translation};
-    return of[quantity];
-}
-
 /* ---- rocks with weights ---- */
 
 static struct released released_of(const struct ceduo_run *run, double missing)
@@ -80,6 +73,8 @@ static enum ceduo_status read_weighted(const struct ceduo_run *run, size_t contr
 {
     struct released all = released_of(run, s->missed[CEDUO_UNFINISHED]);
     const double accepted = run->ready.scene.controls[control].accepted, *height = samples_of(run, control, HEIGHT);
+    struct ceduo_distribution *const to[QUANTITIES] = {
+        [SPEED] = &a->speed, [HEIGHT] = &a->height, [ENERGY] = &a->energy, [TRANSLATION] = &a->translation};
     struct weighted_sum reach = {0}, exceed = {0}, energy = {0};
     struct weighted *values = malloc(2 * ((size_t)run->rocks + 1) * sizeof *values), *could = values + run->rocks + 1;
     size_t n = 0;
@@ -91,8 +86,7 @@ static enum ceduo_status read_weighted(const struct ceduo_run *run, size_t contr
     for (int e = 0; e < CEDUO_ENDS; e++)
         a->missed[e] = s->missed[e] / all.w;
     for (int q = 0; q < QUANTITIES; q++)
-        *distribution_of(a, q) =
-            ceduo_weighted_distribution(&all, values, gather_weighted(run, samples_of(run, control, q), values));
+        *to[q] = ceduo_weighted_distribution(&all, values, gather_weighted(run, samples_of(run, control, q), values));
     for (uint64_t r = 0; r < run->rocks && run->ready.scene.design.survey >= 0; r++) {
         struct ceduo_rock rock;
         if (!isnan(height[r]) && ceduo_prepared_rock(&run->ready, r, &rock) == CEDUO_OK)
@@ -159,9 +153,22 @@ static struct ceduo_distribution distribution(const struct ceduo_run *run, size_
                                               double *scratch)
 {
     if (!run->exact)
-        return ceduo_distribution_binned(bins_of(run->bins, control, q), m);
+        return ceduo_distribution_binned(bins_of(run->bins, run, control, q), m);
     size_t n = run->room > 0 ? gather(run, samples_of(run, control, q), scratch) : 0;
     return ceduo_distribution_exact(scratch, n, m);
+}
+
+/* Energy where one mass and no spin make it follow from speed. */
+static struct ceduo_distribution energy_from_speed(struct ceduo_distribution d, double mass, const struct ceduo_moments *m)
+{
+    double *const quantiles[] = {&d.p50, &d.p50_lo, &d.p50_hi, &d.p95, &d.p95_lo, &d.p95_hi, &d.p99, &d.p99_lo, &d.p99_hi};
+    for (size_t i = 0; i < sizeof quantiles / sizeof quantiles[0]; i++)
+        *quantiles[i] = 0.5 * mass * (*quantiles[i] * *quantiles[i]);
+    d.se = ceduo_moments_se(m);
+    d.sd = ceduo_moments_sd(m);
+    d.mean = m->n > 0 ? m->mean : NAN;
+    d.max = m->n > 0 ? m->max : NAN;
+    return d;
 }
 
 /* ---- what is read ---- */
@@ -221,8 +228,14 @@ enum ceduo_status ceduo_run_arrivals(const struct ceduo_run *run, size_t control
     double *scratch = malloc(((size_t)run->rocks + 1) * sizeof(double));
     if (!scratch)
         return CEDUO_NO_MEMORY;
-    for (int q = 0; q < QUANTITIES; q++)
-        *distribution_of(a, q) = distribution(run, control, q, &s.of[q], scratch);
+    a->speed = distribution(run, control, SPEED, &s.of[SPEED], scratch);
+    a->height = distribution(run, control, HEIGHT, &s.of[HEIGHT], scratch);
+    if (run->kept == QUANTITIES) {
+        a->energy = distribution(run, control, ENERGY, &s.of[ENERGY], scratch);
+        a->translation = distribution(run, control, TRANSLATION, &s.of[TRANSLATION], scratch);
+    } else {
+        a->energy = a->translation = energy_from_speed(a->speed, run->ready.mean.mass, &s.of[ENERGY]);
+    }
     a->top_p95 = top_of(run, control, a->height.p95, scratch);
     free(scratch);
     return CEDUO_OK;
@@ -234,7 +247,7 @@ void ceduo_run_briefs(const struct ceduo_run *run, size_t control, size_t groups
     for (size_t g = 0; g < groups; g++) {
         double all = 0, reached = 0, exceeded = 0, sum = 0;
         for (uint64_t r = run->rocks * g / groups; r < run->rocks * (g + 1) / groups; r++) {
-            double energy = samples_of(run, control, ENERGY)[r], w = run->sized ? run->weights[r] : 1;
+            double energy = ceduo_run_sample_energy(run, control, r), w = run->sized ? run->weights[r] : 1;
             all += w;
             reached += isnan(energy) ? 0 : w;
             exceeded += energy > accepted ? w : 0;
@@ -280,7 +293,7 @@ static uint64_t paired_rocks(const struct ceduo_run *run)
 
 static double paired_energy(const struct ceduo_run *run, size_t control, uint64_t rock)
 {
-    return run->exact ? samples_of(run, control, ENERGY)[rock] : run->pairs[control * run->pairs_room + rock];
+    return run->exact ? ceduo_run_sample_energy(run, control, rock) : run->pairs[control * run->pairs_room + rock];
 }
 
 struct ceduo_difference ceduo_no_difference(double accepted)
@@ -398,13 +411,13 @@ size_t ceduo_run_energies(const struct ceduo_run *run, size_t control, double *t
     size_t reached = 0, n = 0;
     uint64_t rocks = run->room > 0 ? run->rocks : 0;
     for (uint64_t r = 0; r < rocks; r++)
-        if (!isnan(samples_of(run, control, ENERGY)[r])) {
+        if (!isnan(ceduo_run_sample_energy(run, control, r))) {
             all += run->sized ? run->weights[r] : 1;
             reached++;
         }
     max = reached < max ? reached : max;
     for (uint64_t r = 0; n < max && r < rocks; r++) { /* untaken: rounding */
-        double energy = samples_of(run, control, ENERGY)[r];
+        double energy = ceduo_run_sample_energy(run, control, r);
         if (isnan(energy))
             continue;
         if (!run->sized)
@@ -420,10 +433,9 @@ bool ceduo_run_values(const struct ceduo_run *run, size_t control, enum ceduo_sa
 {
     if (!run->exact)
         return false;
-    static const enum quantity quantities[] = {
-        [CEDUO_SAMPLE_SPEED] = SPEED, [CEDUO_SAMPLE_HEIGHT] = HEIGHT, [CEDUO_SAMPLE_ENERGY] = ENERGY};
-    if (run->rocks > 0)
-        memcpy(to, samples_of(run, control, quantities[what]), (size_t)run->rocks * sizeof *to);
+    const double *kept = samples_of(run, control, what == CEDUO_SAMPLE_HEIGHT ? HEIGHT : SPEED);
+    for (uint64_t r = 0; r < run->rocks; r++)
+        to[r] = what == CEDUO_SAMPLE_ENERGY ? ceduo_run_sample_energy(run, control, r) : kept[r];
     return true;
 }
 

@@ -103,6 +103,14 @@ void ceduo_run_samples_free(struct ceduo_run *run)
     run->room = 0;
 }
 
+double ceduo_run_sample_energy(const struct ceduo_run *run, size_t control, uint64_t rock)
+{
+    if (run->kept == QUANTITIES)
+        return samples_of(run, control, ENERGY)[rock];
+    double speed = samples_of(run, control, SPEED)[rock];
+    return 0.5 * run->ready.mean.mass * (speed * speed);
+}
+
 /* From samples to histograms: there are now too many rocks to keep. The first rocks' energies stay. */
 static bool bin_samples(struct ceduo_run *run)
 {
@@ -122,7 +130,7 @@ static bool bin_samples(struct ceduo_run *run)
     }
     for (size_t c = 0; c < controls; c++)
         for (uint64_t r = 0; run->room > 0 && r < run->rocks && r < room; r++) /* untaken: large */
-            pairs[c * room + r] = samples_of(run, c, ENERGY)[r];
+            pairs[c * room + r] = ceduo_run_sample_energy(run, c, r);
     ceduo_run_samples_free(run);
     run->bins = bins;
     run->pairs = pairs;

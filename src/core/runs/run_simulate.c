@@ -128,6 +128,7 @@ static void sum_arrivals(struct worker *w, size_t control)
     struct sums *to = &w->block->controls[control];
     struct ceduo_moments speed = to->of[SPEED], height = to->of[HEIGHT], energy = to->of[ENERGY],
                          translation = to->of[TRANSLATION];
+    bool spins = w->run->kept == QUANTITIES; /* otherwise all energy is translation */
     for (uint64_t i = 0; i < w->to - w->from; i++) {
         const double *of = arrivals[i].of;
         if (!arrivals[i].arrives)
@@ -135,7 +136,8 @@ static void sum_arrivals(struct worker *w, size_t control)
         ceduo_moments_add(&speed, of[SPEED]);
         ceduo_moments_add(&height, of[HEIGHT]);
         ceduo_moments_add(&energy, of[ENERGY]);
-        ceduo_moments_add(&translation, of[TRANSLATION]);
+        if (spins)
+            ceduo_moments_add(&translation, of[TRANSLATION]);
         if (w->stems)
             ceduo_moments_add(&to->contacts, arrivals[i].stems_hit);
         to->exceeded += arrivals[i].exceeds;
@@ -143,7 +145,7 @@ static void sum_arrivals(struct worker *w, size_t control)
     to->of[SPEED] = speed;
     to->of[HEIGHT] = height;
     to->of[ENERGY] = energy;
-    to->of[TRANSLATION] = translation;
+    to->of[TRANSLATION] = spins ? translation : energy;
 }
 
 /* The samples of a column; NaN where a rock has none. False without memory. */
@@ -161,11 +163,11 @@ static bool keep_arrivals(struct worker *w, size_t control)
     struct ceduo_run *run = w->run;
     const struct arrival *arrivals = &w->arrivals[control * CEDUO_BLOCK_ROCKS];
     size_t n = (size_t)(w->to - w->from), from = (size_t)w->from;
-    for (int q = 0; q < QUANTITIES; q++) {
+    for (int q = 0; q < run->kept; q++) {
         double block[CEDUO_BLOCK_ROCKS], *column = run->exact ? samples_of(run, control, q) + from : block;
         for (size_t i = 0; i < n; i++)
             column[i] = arrivals[i].arrives ? arrivals[i].of[q] : NAN;
-        if (!run->exact && !bin_column(bins_of(w->bins, control, q), column, n))
+        if (!run->exact && !bin_column(bins_of(w->bins, run, control, q), column, n))
             return false;
     }
     for (size_t i = 0; i < n && w->from + i < run->pairs_room; i++)

@@ -49,7 +49,8 @@ struct ceduo_run {
     size_t lanes;                                    /* rocks that a thread simulates at once */
     size_t controls, last_control;
     double stems_from;      /* as ceduo_option_stems_from(): the option may be gone when the run is read */
-    size_t columns;         /* of samples: controls times quantities, and the stops */
+    int kept;               /* quantities whose samples are kept; without spin and spread, energy follows from speed */
+    size_t columns;         /* of samples: controls times kept, and the stops */
     uint64_t rocks;         /* done */
     size_t chunk;           /* blocks to take on next */
     struct block whole;     /* all whole blocks */
@@ -72,7 +73,7 @@ struct ceduo_run {
 /* NULL where there are none: before the first rock, or beyond what is kept. */
 static inline double *samples_of(const struct ceduo_run *run, size_t control, int quantity)
 {
-    return run->samples ? run->samples[control * QUANTITIES + (size_t)quantity] : NULL;
+    return run->samples ? run->samples[control * (size_t)run->kept + (size_t)quantity] : NULL;
 }
 
 static inline double *stops_of(const struct ceduo_run *run)
@@ -80,9 +81,9 @@ static inline double *stops_of(const struct ceduo_run *run)
     return run->samples ? run->samples[run->columns - 1] : NULL;
 }
 
-static inline struct histogram *bins_of(struct histogram *bins, size_t control, int quantity)
+static inline struct histogram *bins_of(struct histogram *bins, const struct ceduo_run *run, size_t control, int quantity)
 {
-    return &bins[control * QUANTITIES + (size_t)quantity];
+    return &bins[control * (size_t)run->kept + (size_t)quantity];
 }
 
 /* ---- sums ---- */
@@ -98,6 +99,8 @@ struct sums ceduo_run_sums_at(const struct ceduo_run *run, size_t control);
 /* Makes room for so many rocks; where they do not fit, turns samples into histograms. False without memory. */
 bool ceduo_run_samples_prepare(struct ceduo_run *run, uint64_t rocks);
 void ceduo_run_samples_free(struct ceduo_run *run);
+/* Energy of a rock at a control, from the samples; NaN where it did not arrive. */
+double ceduo_run_sample_energy(const struct ceduo_run *run, size_t control, uint64_t rock);
 
 /* ---- simulating ---- */
 
