@@ -67,7 +67,7 @@ def kinds_of_pictures():
     """As the program names them where it knows none of that name; those of doubt
     and of a whole rotation take up to thousands of runs of a scene."""
     said = ceduo("--plot", "-", "paper-site").err
-    return [kind for kind in re.search(r"one of (.*)", said)[1].split(", ") if kind not in ("doubt", "tradeoff")]
+    return [kind for kind in re.search(r"one of: (.*)", said)[1].split(", ") if kind not in ("doubt", "tradeoff")]
 
 
 # ---- numbers ----
