@@ -100,6 +100,7 @@ def test_bounds_are_listed():
         materials = f.write("m.yaml", scene(slope={"vertices_m": [[0, 64], [100, 0]],
                                                    "materials": [{"from_m": 0, "to_m": 100, "material": "talus"}]}))
         sized = f.write("b.yaml", scene(blocks=[{"per_year": 1, "volume_m3": [0.1, 1]}]))
+        places = f.write("p.yaml", {key: value for key, value in mapping.items() if key != "controls"} | {"controls_m": [50]})
         for name, kind, unit, text, *_ in lines:
             # bounds of a range as of the value in doubt; those of what was seen: test_observed.py
             if kind not in forms or "doubt[]" in name or name.startswith("observed[]"):
@@ -112,7 +113,7 @@ def test_bounds_are_listed():
                 for value in (sign * 1e17,) if bound is None else (bound + sign * max(abs(bound) * 1e-3, 1), sign * 1e17):
                     change = name.replace("[]", "[0]") + "=" + forms[kind].format(value)
                     done = ceduo("--check", "-s", change, materials if "materials" in name else sized if "blocks" in name else
-                                 path)
+                                 places if name.startswith("controls_m") else path)
                     found = re.search(rf"({words}) ([-+.0-9e]+)(?: (\S+))?$", done.err, re.M)
                     expect(bool(found) == (bound is not None), f"{change}; shown: {text}", done)
                     if found:

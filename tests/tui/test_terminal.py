@@ -222,7 +222,9 @@ def test_utf8():
     with Place() as place, Tmux(place) as t:
         t.start("fast.yaml")
         t.keys("3")
-        t.keys("G")
+        t.keys("/")
+        t.text("title")
+        t.keys("Enter")
         t.sees("title  ")
         t.keys("Enter")
         t.text("Über ‘è’")
