@@ -192,10 +192,11 @@ static void append_stand(struct app *app, struct text *text, const char *value)
             ceduo_text_put(text, _("no stems\n"));
         else if (isnan(r.dissipated))
             ceduo_text_format(text, _("with this rock: ADC %.3g m, free run %.1f %%; contacts take shares (%s)\n"), r.adc_m,
-                              r.free_run_probability * 100, ceduo_rule_words.names[r.rule]);
+                              r.free_run_probability * 100, ceduo_words_law(ceduo_rule_words.names[r.rule]));
         else
             ceduo_text_format(text, _("with this rock: ADC %.3g m, free run %.1f %%, %.3g kJ/100 m (%s)\n"), r.adc_m,
-                              r.free_run_probability * 100, r.dissipated * J_TO_KJ, ceduo_rule_words.names[r.rule]);
+                              r.free_run_probability * 100, r.dissipated * J_TO_KJ,
+                              ceduo_words_law(ceduo_rule_words.names[r.rule]));
     }
     ceduo_scene_release(&file);
 }

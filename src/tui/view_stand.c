@@ -105,8 +105,8 @@ static int draw_figures(struct app *app, struct ceduo_area area)
     ceduo_text_char(&text, ' ');
     if (!r.bare)
         ceduo_text_format(&text, _("ADC %.3g m by %s (stools %.3g, stems %.3g, Eq. 6 %.3g, crofton %.3g)"), r.adc_m,
-                          ceduo_rule_words.names[r.rule], r.adc.gsteiger_stools, r.adc.gsteiger_stems, r.adc.interception,
-                          r.adc.crofton);
+                          ceduo_words_law(ceduo_rule_words.names[r.rule]), r.adc.gsteiger_stools, r.adc.gsteiger_stems,
+                          r.adc.interception, r.adc.crofton);
     if (!r.bare && !isnan(r.per_100m))
         ceduo_text_then(&text, "; ", _("%.3g kJ per 100 m"), r.per_100m * J_TO_KJ);
     ceduo_app_put(app, area, CEDUO_ROLE_DIM, &text);

@@ -256,7 +256,7 @@ static const char *law_of(const struct ceduo_option *option)
     const char *law = NULL;
     for (size_t i = 0; i < option->belts_count; i++) {
         const struct ceduo_stand *stand = &option->belts[i].stand;
-        const char *here = ceduo_stand_is_bare(stand) ? law : ceduo_energy_words.names[stand->energy];
+        const char *here = ceduo_stand_is_bare(stand) ? law : ceduo_words_law(ceduo_energy_words.names[stand->energy]);
         if (law && law != here)
             return _("several");
         law = here;
@@ -299,7 +299,7 @@ void ceduo_page_laws(struct ceduo_page *page, const struct ceduo_result *r)
         ceduo_page_write(page, "%s", law_of(&r->scene->options[i]));
         ceduo_page_write(page, "%.0f", 1000 * ceduo_share_at(a).mean);
         ceduo_page_number(page, a->energy.mean * J_TO_KJ, 3);
-        ceduo_page_write(page, "%s", other ? ceduo_energy_words.names[other->model] : "-");
+        ceduo_page_write(page, "%s", other ? ceduo_words_law(ceduo_energy_words.names[other->model]) : "-");
         ceduo_page_write(page, "%s", other ? WRITTEN(1000 * ceduo_share_by_other_law(other), 0) : "-");
         ceduo_page_number(page, other ? other->energy * J_TO_KJ : NAN, 3);
     }

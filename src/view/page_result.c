@@ -46,7 +46,8 @@ void ceduo_page_facts(struct ceduo_page *page, const struct ceduo_report *report
                       ngettext("%s m long, %s m high, %zu segment; law %s, facets %s%s",
                                "%s m long, %s m high, %zu segments; law %s, facets %s%s", slope->vertices - 1),
                       WRITTEN(slope->x[slope->vertices - 1], 4), WRITTEN(high - low, 4), slope->vertices - 1,
-                      ceduo_law_words.names[s->simulation.law], _(facets[slope->facets]), assumed_mark(report, "slope"));
+                      ceduo_words_law(ceduo_law_words.names[s->simulation.law]), _(facets[slope->facets]),
+                      assumed_mark(report, "slope"));
     ceduo_text_format(ceduo_page_fact(page, _("Rocks")), _("%llu, seed %llu"), (unsigned long long)ceduo_result_rocks(r),
                       (unsigned long long)s->simulation.seed);
 }
@@ -219,10 +220,11 @@ static void say_other_forms(struct ceduo_page *page, const struct ceduo_option *
             continue;
         struct text *line = ceduo_page_add(page, CEDUO_PAGE_DETAIL);
         const char *between = "";
-        ceduo_text_format(line, _("%s by %s; other forms:"), o->belts[i].name, ceduo_rule_words.names[s->rule]);
+        ceduo_text_format(line, _("%s by %s; other forms:"), o->belts[i].name,
+                          ceduo_words_law(ceduo_rule_words.names[s->rule]));
         for (enum ceduo_rule rule = CEDUO_GSTEIGER_STOOLS; rule <= CEDUO_CROFTON; rule++)
             if (rule != s->rule) {
-                ceduo_text_format(line, "%s %s %s m", between, ceduo_rule_words.names[rule],
+                ceduo_text_format(line, "%s %s %s m", between, ceduo_words_law(ceduo_rule_words.names[rule]),
                                   WRITTEN(ceduo_adc_value(&s->adc, rule), 3));
                 between = ",";
             }
@@ -236,8 +238,8 @@ static void say_residual(struct ceduo_page *page, const struct ceduo_result *r, 
     bool several = false;
     for (size_t i = 0; i < r->scene->options[option].belts_count; i++) {
         const struct ceduo_stand_result *s = &r->options[option].stands[i];
-        several |= !s->bare && rule && strcmp(rule, ceduo_rule_words.names[s->rule]) != 0;
-        rule = s->bare ? rule : ceduo_rule_words.names[s->rule];
+        several |= !s->bare && rule && strcmp(rule, ceduo_words_law(ceduo_rule_words.names[s->rule])) != 0;
+        rule = s->bare ? rule : ceduo_words_law(ceduo_rule_words.names[s->rule]);
     }
     rule = several ? _("each belt's own rule") : rule ? rule : _("no rule");
     const struct ceduo_index *index = &r->options[option].controls[control];

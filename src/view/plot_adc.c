@@ -49,7 +49,7 @@ static void add_belt(struct ceduo_page *page, const struct scale *s, const struc
         double value = ceduo_adc_value(&r->adc, rule);
         bool applied = rule == r->rule;
         LOCAL_TEXT(word);
-        ceduo_text_format(&word, "%s%s", applied ? "\xe2\x96\xb6 " : "  ", ceduo_rule_words.names[rule]);
+        ceduo_text_format(&word, "%s%s", applied ? "\xe2\x96\xb6 " : "  ", ceduo_words_law(ceduo_rule_words.names[rule]));
         ceduo_page_mark(page, applied ? CEDUO_ROLE_TITLE : CEDUO_ROLE_TEXT, word.bytes);
         add_row(page, s, value, !applied ? CEDUO_ROLE_DIM : value < s->threshold ? CEDUO_ROLE_GOOD : CEDUO_ROLE_BAD);
         if (applied)

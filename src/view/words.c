@@ -40,6 +40,17 @@ const char *ceduo_words_shown(double value, int digits, char room[CEDUO_NUMBER_R
     return ceduo_number_spoken(room);
 }
 
+const char *ceduo_words_law(const char *word)
+{
+    static const char *const said[] = {N_("lumped"),         N_("crsp"),    N_("arm"),          N_("brauner"),
+                                       N_("dorren"),         N_("inertia"), N_("interception"), N_("gsteiger-stools"),
+                                       N_("gsteiger-stems"), N_("crofton")};
+    for (size_t k = 0; k < sizeof said / sizeof said[0]; k++)
+        if (strcmp(word, said[k]) == 0)
+            return _(said[k]);
+    return word;
+}
+
 const char *ceduo_words_rounded(double value, int digits, char room[CEDUO_NUMBER_ROOM])
 {
     snprintf(room, CEDUO_NUMBER_ROOM, "%.*g", digits, value);

@@ -102,6 +102,9 @@ const char *ceduo_words_verdict(enum ceduo_light light); /* passes, FAILS, unkno
 /* What a place withstands, in kJ, as its file says it: 3.3, which a product with 0.001 makes 3.3000000000000003. */
 double ceduo_words_accepted(const struct ceduo_control *control);
 
+/* The word of a law or a rule as people say it; what it is in files where none is known. */
+const char *ceduo_words_law(const char *word);
+
 /* The name of an option, a belt or a control: that of the language, but in JSON and CSV as the file has it. */
 #define NAME_OF(x) ((x)->name_given ? ceduo_in_language((x)->name_given, (x)->name) : (x)->name)
 

@@ -188,7 +188,7 @@ void ceduo_words_best(struct text *text, const struct ceduo_scene *scene, const 
 void ceduo_words_other(struct text *text, const struct ceduo_result *r, size_t option, size_t control)
 {
     const struct ceduo_other_energy *o = &r->options[option].others[control];
-    const char *law = ceduo_energy_words.names[o->model];
+    const char *law = ceduo_words_law(ceduo_energy_words.names[o->model]);
     if (!o->known || !o->stems)
         return;
     if (isnan(o->energy)) {
@@ -236,7 +236,7 @@ void ceduo_words_turned(const struct ceduo_result *r, const struct ceduo_verdict
                               _("'%s' or '%s' is undecided: the order depends on the energy law. As the scene has it %.0f "
                                 "and %.0f of 1000, with %s %.0f and %.0f."),
                               NAME_OF(&r->scene->options[a]), NAME_OF(&r->scene->options[b]), of_1000(r, a, false),
-                              of_1000(r, b, false), ceduo_energy_words.names[o->model], of_1000(r, a, true),
+                              of_1000(r, b, false), ceduo_words_law(ceduo_energy_words.names[o->model]), of_1000(r, a, true),
                               of_1000(r, b, true));
         }
         if (sentence.bytes)
