@@ -70,8 +70,8 @@ static void set_forest(struct site *s)
     s->belts[1].name = "cut";
     s->belts[1].assumed = false;
     s->belts[1].stand = (struct ceduo_stand){.system = CEDUO_BARE, .species = -1, .u = NAN};
-    s->options[0] = (struct ceduo_option){"kept", 1, &s->belts[0]};
-    s->options[1] = (struct ceduo_option){"felled", 1, &s->belts[1]};
+    s->options[0] = (struct ceduo_option){.name = "kept", .belts_count = 1, .belts = &s->belts[0]};
+    s->options[1] = (struct ceduo_option){.name = "felled", .belts_count = 1, .belts = &s->belts[1]};
 }
 
 static const struct ceduo_envelope no_rock = {
@@ -153,8 +153,8 @@ static void site_init(struct site *s)
                                  .options = s->options}};
     s->scene.rock.diameter = ceduo_number(0.8);
     s->scene.release.vx = ceduo_number(1);
-    s->controls[0] = (struct ceduo_control){40, 40, "path", 40e3, NAN};
-    s->controls[1] = (struct ceduo_control){80, 80, NULL, NAN, NAN};
+    s->controls[0] = (struct ceduo_control){40, 40, .name = "path", .accepted = 40e3, .measured_speed = NAN};
+    s->controls[1] = (struct ceduo_control){80, 80, .accepted = NAN, .measured_speed = NAN};
     set_ground(s);
     set_forest(s);
     set_bare(s);

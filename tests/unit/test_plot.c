@@ -431,7 +431,7 @@ TEST_BARE(many_belts_get_a_row_each)
     struct ceduo_belt belts[6];
     for (int i = 0; i < 6; i++)
         belts[i] = s.belts[i % 2];
-    s.options[0] = (struct ceduo_option){"six", 6, belts};
+    s.options[0] = (struct ceduo_option){.name = "six", .belts_count = 6, .belts = belts};
     expect(CEDUO_PLOT_ADC, 70, 7, ASCII, "many-belts-get-a-row-each");
     assert_true(shows(CEDUO_PLOT_ADC, 70, 5, "and 3 more belts"));
 }
@@ -538,7 +538,7 @@ TEST_WOODED(the_way_is_shown_in_the_belt_shown)
     belts[1].to = 70;
     belts[2].from = 70;
     belts[2].to = 90;
-    s.options[0] = (struct ceduo_option){"three", 3, belts};
+    s.options[0] = (struct ceduo_option){.name = "three", .belts_count = 3, .belts = belts};
     p.stems = passed;
     p.stems_count = 4;
     assert_true(shows(CEDUO_PLOT_STAND, 70, 14, "2 stems hit in 20 m, 1 flown over"));
