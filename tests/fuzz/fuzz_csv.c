@@ -23,7 +23,8 @@ static void check_stand(struct arena *arena, const struct survey_file *survey, s
         const struct node *root = ceduo_yaml_read(arena, &source, problems);
         ceduo_schema_init(ceduo_schema_stand(), &belt.stand);
         if (root)
-            ceduo_bind(&(struct binding){arena, problems, &notes, &bad}, ceduo_schema_stand(), root, &belt.stand);
+            ceduo_bind(&(struct binding){.arena = arena, .problems = problems, .notes = &notes, .bad = &bad},
+                       ceduo_schema_stand(), root, &belt.stand);
         if (!root || problems->count > 0) {
             fprintf(stderr, "%s%s", ceduo_text_string(&problems->text), yaml.bytes);
             abort();

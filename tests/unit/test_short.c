@@ -51,7 +51,7 @@ static void check_scene(const char *path)
     for (size_t width = WIDTH_MIN; width <= WIDTH_MAX; width++) {
         struct ceduo_page page = {.width = width};
         ceduo_page_short(&page, &report);
-        check_page(path, &page, options > 1 ? 14 + 2 * options : 24);
+        check_page(path, &page, options > 1 ? (file.scene.blocks_count > 0 ? 16 : 14) + 2 * options : 24);
         ceduo_page_free(&page);
     }
     ceduo_problems_free(&problems);
