@@ -155,8 +155,8 @@ CASES = [
     # slope
     ("slope.yaml", "[50, 30]", "@@[0, 30]", "vertices_m[1]: x 0 does not lie beyond 0", "x must rise"),
     ("slope.yaml", "[50, 30]", "@@[-50, 30]", "vertices_m[1]: x -50 does not lie beyond 0", "small run"),
-    ("slope.yaml", "[[0, 64], [50, 30], [100, 0]]", "@@[[0, 64]]", "two vertices"),
-    ("slope.yaml", "[[0, 64], [50, 30], [100, 0]]", "@@[]", "two vertices"),
+    ("slope.yaml", "[[0, 64], [50, 30], [100, 0]]", "@@[[0, 64]]", "two points"),
+    ("slope.yaml", "[[0, 64], [50, 30], [100, 0]]", "@@[]", "two points"),
     ("slope.yaml", "[50, 30], ", "[50, 30], [60, 20], ", "segments", "2 segments for 3 stretches", "one for all"),
     ("slope.yaml", "[50, 30], ", "[50, @@1e10], ", "vertices_m[1]: 10000000000 is above"),
     ("slope.yaml", "roughness_m: 0.1", "roughness_m: @@0.1, roughness_rad: 0.1", "segments[1].roughness_m", "keep one"),

@@ -83,7 +83,7 @@ def refused(f, of):
 def test_one_of_both():
     """Both keys, none of them, stools that are missing, and less than one shoot a stool are refused"""
     with Folder() as f:
-        expect_in("shoots[0].per_stool: per_ha already says this", refused(f, coppice(per_stool=3, per_ha=7500)))
+        expect_in("shoots[0].per_ha: per_stool already says this", refused(f, coppice(per_stool=3, per_ha=7500)))
         expect_in("'per_ha' or 'per_stool' is missing", refused(f, coppice(dbh_sd_m=0)))
         expect_in("is not above 0", refused(f, coppice(per_stool=0)))
         expect_in("a stool has one shoot at least", refused(f, coppice(per_stool=0.9)))
