@@ -129,8 +129,10 @@ bool ceduo_check_ends_behind(struct validator *v, const char *path, double from,
 
 bool ceduo_check_stretch(struct validator *v, const char *path, double from, double to)
 {
-    return ceduo_check_ends_behind(v, path, from, to) && ceduo_check_on_slope(v, path, "from_m", from) &&
-           ceduo_check_on_slope(v, path, "to_m", to);
+    if (!ceduo_check_ends_behind(v, path, from, to))
+        return false;
+    bool begins = ceduo_check_on_slope(v, path, "from_m", from), ends = ceduo_check_on_slope(v, path, "to_m", to);
+    return begins && ends; /* both are told */
 }
 
 void *ceduo_more_room(struct validator *v, void *items, size_t n, size_t more, size_t *room, size_t size)

@@ -85,7 +85,7 @@ CSV_CASES = [
     # (content, place, words)
     ("", None, "is empty"), ("distance,height\n0,1\n", (1, None), "'distance' and 'elevation'"),
     ("0,64\n100,0\n", (1, None), "'distance' and 'elevation'"), ("\n\n", (1, None), "'distance' and 'elevation'"),
-    ("distance,elevation\n", None, "two points"), ("distance,elevation\n0,64\n", None, "two vertices"),
+    ("distance,elevation\n", None, "two points"), ("distance,elevation\n0,64\n", None, "two points"),
     ("distance,elevation\n0,64\n50,\n100,0\n", (3, 4), "missing"), ("distance,elevation\n0,64\n,30\n100,0\n", (3, 1), "missing"),
     ("distance,elevation\n0,64\n50\n100,0\n", (3, None), "too few"), ("elevation,distance\n64,0\n30\n0,100\n", (3, None), "too few"),
     ("distance,elevation\n0,64\n50,\"30,5\"\n100,0\n", (3, 5), "'30,5' is not a number; write a dot"),
