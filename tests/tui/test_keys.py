@@ -148,7 +148,9 @@ def test_paste_field():
     """A paste goes into the field that is open: line ends as one blank, nothing of it a key."""
     with Place() as place, Tmux(place) as t:
         t.start("fast.yaml")
-        t.keys("3", "G")
+        t.keys("3", "/")
+        t.text("title")
+        t.keys("Enter")
         t.sees("title  ")
         t.keys("Enter")
         t.sees("Esc leaves it as it was")
