@@ -133,6 +133,8 @@ static void say_fates(struct ceduo_page *page, const struct ceduo_simulated *f, 
 static void add_arrivals(struct ceduo_page *page, const struct ceduo_result *r, size_t option, size_t control, bool with_bare)
 {
     const struct ceduo_arrivals *bare = &r->bare.arrivals[control], *wooded = ceduo_result_wooded(r, option, control);
+    if (page->width < CEDUO_PAGE_WIDTH && with_bare && r->scene->options[option].belts_count == 0)
+        wooded = NULL; /* in a pane, where both are the same, one is enough */
     if (wooded || with_bare)
         add_arrivals_table(page, &r->scene->controls[control], wooded, with_bare ? bare : NULL);
     if (!wooded)
