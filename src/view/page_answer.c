@@ -219,9 +219,8 @@ void ceduo_page_over(struct ceduo_page *page, const struct ceduo_report *report)
     ceduo_text_char(text, '\t');
     struct ceduo_measure mean = ceduo_judged(place_of(report->result), NULL);
     LOCAL_TEXT(may);
-    LOCAL_TEXT(share); /* of one rock: no error */
-    ceduo_text_format(&share, isnan(c->mean.half) ? "%.0f" : "%.0f \xc2\xb1%.0f", 1000 * c->mean.mean,
-                      ceil(1000 * c->mean.half));
+    LOCAL_TEXT(share);
+    ceduo_append_per_1000(&share, c->mean.mean, c->mean.half);
     ceduo_measure_doubt_over(&mean, report->doubt, 0);
     if (!isnan(mean.may_lo)) {
         ceduo_text_put(&may, _(", may be "));

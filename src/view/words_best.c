@@ -69,8 +69,7 @@ void ceduo_words_years_sum(struct text *text, const struct ceduo_result *r, cons
                           w->kind == CEDUO_WINDOW_ROTATION ? _("One whole rotation, years %u to %u:") : _("Years %u to %u:"),
                           w->first, w->last);
     LOCAL_TEXT(share);
-    ceduo_text_format(&share, isnan(mean.se) ? "%.0f" : "%.0f \xc2\xb1%.0f", mean.mean * 1000, /* of one rock: no error */
-                      ceil(mean.se * CEDUO_Z95 * 1000));
+    ceduo_append_per_1000(&share, mean.mean, mean.se * CEDUO_Z95);
     if (s.simulated > 0)
         ceduo_text_then(text, " ", _("mean %s of 1000, worst %.0f (year %u)."), share.bytes, s.worst * 1000, s.worst_year);
     else if (!s.nothing)
