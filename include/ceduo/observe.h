@@ -77,8 +77,8 @@ const struct ceduo_quantity_row *ceduo_observed_quantity(enum ceduo_observed_kin
 struct ceduo_observation {
     enum ceduo_observed_kind kind;
     enum ceduo_observed_use use;
-    const char *name;                    /* as the scene has it, or made from what it is */
-    bool named;                          /* it is the scene's */
+    const char *name_given;              /* as the scene has it, or made from what it is */
+    const char *name;                    /* in the language of pages */
     size_t option;                       /* through whose forest */
     const struct ceduo_rock_def *rock;   /* NULL: the scene's */
     const struct ceduo_release *release; /* NULL: the scene's */

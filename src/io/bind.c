@@ -460,7 +460,7 @@ struct source_said {
 };
 
 #define UNSAID NAMED(NULL, NULL)
-static const char *const source_kinds[] = {"measured", "literature", "assumed", "calibrated"};
+static const char *const source_kinds[] = {N_("measured"), N_("literature"), N_("assumed"), N_("calibrated")};
 static const struct choices source_words = {.names = source_kinds, .n = 4};
 static const struct field source_fields[] = {
     WORD("kind", UNSAID, AT(source_said, kind), REQUIRED, NULL, N_("measured, literature, assumed or calibrated"),
@@ -485,7 +485,7 @@ static void bind_source(struct binder *b, const struct node *node)
     for (size_t i = 0; i < said.except_count; i++) {
         ceduo_text_format(&changed, i == 0 ? _("changed since: %s") : ", %s", said.except[i]);
         before = enter(b, said.except[i]);
-        add_note(b, "changed", _("the source around it is not of this value"), NULL);
+        add_note(b, N_("changed"), _("the source around it is not of this value"), NULL);
         leave(b, before);
     }
     const char *const texts[2] = {said.text, said.text_it};

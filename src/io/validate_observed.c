@@ -16,7 +16,7 @@
 /* What may stand beside a kind or within it. */
 static bool is_beside(const char *key)
 {
-    static const char *const keys[] = {"name", "use", "option", "rock", "release", "source"};
+    static const char *const keys[] = {"name", "name_it", "use", "option", "rock", "release", "source"};
     for (size_t i = 0; i < sizeof keys / sizeof keys[0]; i++)
         if (strcmp(key, keys[i]) == 0)
             return true;
@@ -266,6 +266,31 @@ static bool check_values(const struct place *p)
 
 /* ---- rows ---- */
 
+/* A row's name; of one that has none, what it is of and where. */
+static void set_name(const struct place *p, struct ceduo_observation *o)
+{
+    char room[CEDUO_NUMBER_ROOM], end[CEDUO_NUMBER_ROOM];
+    const char *path = p->is->path, *dot = strchr(path, '.'); /* as in largest.speed_m_s */
+    const struct field *f = ceduo_schema_field(ceduo_schema_scene(), "observed");
+    f = ceduo_schema_field(f->object, dot ? ceduo_format(p->v, "%.*s", (int)(dot - path), path) : path);
+    const char *what = f ? _((dot ? ceduo_schema_field(f->object, dot + 1) : f)->shown.label) : path;
+    double x = p->values->x, from = p->row->way_from, to = p->row->way_to;
+    if (p->row->name) {
+        o->name_given = p->row->name;
+        o->name = ceduo_in_language(p->row->name, p->row->name_it);
+    } else if (p->is->where == CEDUO_WHERE_AT_PLACE) {
+        o->name_given = ceduo_format(p->v, "%s at %s m", path, ceduo_number_shortest(x, room));
+        o->name = ceduo_format(p->v, _("%s at %s m"), what, ceduo_number_spoken(room));
+    } else if (p->is->where == CEDUO_WHERE_ALONG) {
+        o->name_given =
+            ceduo_format(p->v, "%s %s-%s m", path, ceduo_number_shortest(from, room), ceduo_number_shortest(to, end));
+        o->name = ceduo_format(p->v, "%s %s\xe2\x80\x93%s m", what, ceduo_number_spoken(room), ceduo_number_spoken(end));
+    } else {
+        o->name_given = path;
+        o->name = what;
+    }
+}
+
 /* `o`: what the kinds of a row share. */
 static void set_observation(const struct place *p, struct ceduo_observation *o)
 {
@@ -276,13 +301,7 @@ static void set_observation(const struct place *p, struct ceduo_observation *o)
         values->values[i] = values->values[i] * scale - (at_rest ? origin : 0);
     gsl_sort(values->values, 1, values->values_count);
     o->kind = p->kind;
-    o->named = p->row->name != NULL;
-    o->name = o->named ? p->row->name : p->is->path;
-    if (!o->named && p->is->where == CEDUO_WHERE_AT_PLACE)
-        o->name = ceduo_format(p->v, "%s at %s m", p->is->path, ceduo_decimal(p->v, values->x));
-    else if (!o->named && along)
-        o->name = ceduo_format(p->v, "%s %s-%s m", p->is->path, ceduo_decimal(p->v, p->row->way_from),
-                               ceduo_decimal(p->v, p->row->way_to));
+    set_name(p, o);
     o->x = values->x - origin;
     o->from = (along ? p->row->way_from : at_rest ? values->seen_from : values->from) - origin;
     o->to = (along ? p->row->way_to : values->to) - origin;

@@ -91,6 +91,8 @@ static const struct object scars_object = OBJECT(observed_values, scars_fields, 
 
 static const struct field observed_fields[] = {
     TEXT("name", NAMED(N_("name"), NULL), AT(observed, name), NO_RUN, N_("a name of its own; without it one is made")),
+    TEXT("name_it", NAMED(N_("name, in Italian"), NULL), AT(observed, name_it), NO_RUN,
+         N_("its name in Italian pages, screens and lists; without it the name")),
     WORD("use", NAMED(N_("use"), NULL), AT(observed, use), NO_RUN, "fit",
          N_("whether the ground is fitted to it, or it only checks the fit"), &ceduo_use_words),
     TEXT("option", NAMED(N_("option"), NULL), AT(observed, option), NO_RUN,

@@ -109,7 +109,7 @@ struct observed_values {
 
 /* One row of `observed`: at least one of the kinds. */
 struct observed {
-    char *name, *option;
+    char *name, *name_it, *option;
     int use;
     struct ceduo_rock_def rock;
     struct ceduo_release release;

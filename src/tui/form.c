@@ -53,7 +53,7 @@ static void show_node(struct text *to, const struct node *node, const struct fie
 {
     const char *name = node->kind == NODE_MAP ? ceduo_node_text(node, "name") : NULL;
     if (name && field && field->flags & FIELD_FOLLOWS) {
-        ceduo_text_put(to, name);
+        ceduo_text_put(to, ceduo_in_language(name, ceduo_node_text(node, "name_it")));
     } else if (node->written && node->written->kind == NODE_SCALAR) {
         ceduo_text_put(to, node->written->text);
     } else if (node->kind == NODE_SCALAR) {
@@ -458,7 +458,7 @@ void ceduo_form_explain(const struct document *d, const struct form_cell *cell, 
     }
     const struct source_note *note = ceduo_notes_find(d->file.notes, cell->path);
     if (note && cell->given)
-        ceduo_text_format(text, " [%s: %s]", note->kind, note->text);
+        ceduo_text_format(text, " [%s: %s]", _(note->kind), ceduo_in_language(note->text, note->text_it));
 }
 
 /* One unit of the second significant digit. */

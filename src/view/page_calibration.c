@@ -52,7 +52,7 @@ void ceduo_calibration_sources(struct text *text, const struct ceduo_calibration
             if (o->use != CEDUO_OBSERVED_FIT)
                 continue;
             ceduo_text_format(text, "%s%zu ", between, ceduo_seen_number(o));
-            ceduo_text_safe(text, o->name);
+            ceduo_text_safe(text, o->name_given);
             between = ", ";
         }
         ceduo_text_format(text, "; %s 95 %% %s\xe2\x80\x93%s%s", r->fields[i]->key, WRITTEN(f->p2_5, 3), WRITTEN(f->p97_5, 3),
