@@ -10,8 +10,8 @@
 #include "print.h"
 #include "say.h"
 #include "sensitivity.h"
+#include "view/figures.h"
 #include "view/page.h"
-#include "view/report_doubt.h"
 
 static enum exit_status worse(enum exit_status a, enum exit_status b)
 {
@@ -90,20 +90,18 @@ static enum exit_status answer_all(const struct arguments *given, const struct t
     return worse(status, ceduo_output_end(&out, status != EXIT_OUTPUT && !first));
 }
 
-enum exit_status ceduo_batch_run(const struct arguments *a)
-{
-    LOCAL_TEXT(header);
-    if (a->format == CEDUO_CSV)
-        ceduo_report_csv_header(&header, a->stands, a->years);
-    return answer_all(a, &header, a->plot != CEDUO_PLOT_NONE ? ceduo_print_plots : ceduo_print_report);
-}
-
-enum exit_status ceduo_batch_each(const struct arguments *a, void (*header)(struct text *out), ceduo_batch_answer *answer)
+enum exit_status ceduo_batch_each(const struct arguments *a, const struct ceduo_csv *csv, ceduo_batch_answer *answer)
 {
     LOCAL_TEXT(head);
     if (a->format == CEDUO_CSV)
-        header(&head);
+        ceduo_csv_head(&head, csv);
     return answer_all(a, &head, answer);
+}
+
+enum exit_status ceduo_batch_run(const struct arguments *a)
+{
+    return ceduo_batch_each(a, ceduo_result_csv(a->stands, a->years),
+                            a->plot != CEDUO_PLOT_NONE ? ceduo_print_plots : ceduo_print_report);
 }
 
 static enum exit_status check(const struct arguments *a, struct scene_file *file, struct text *out)
@@ -120,5 +118,5 @@ enum exit_status ceduo_batch_check(const struct arguments *a)
 
 enum exit_status ceduo_batch_sensitivity(const struct arguments *a)
 {
-    return a->plot != CEDUO_PLOT_NONE ? ceduo_batch_run(a) : ceduo_batch_each(a, ceduo_doubt_csv_header, ceduo_sensitivity_add);
+    return a->plot != CEDUO_PLOT_NONE ? ceduo_batch_run(a) : ceduo_batch_each(a, &ceduo_doubt_csv, ceduo_sensitivity_add);
 }

@@ -4,6 +4,7 @@
 
 #include "each.h"
 #include "scenes.h"
+#include "view/figures.h"
 
 /* Each prints to standard output or to --output and returns the exit status. */
 enum exit_status ceduo_batch_run(const struct arguments *arguments);
@@ -22,8 +23,7 @@ enum exit_status ceduo_batch_survey(const struct arguments *arguments);
 typedef enum exit_status ceduo_batch_answer(const struct arguments *arguments, struct scene_file *file, struct text *out);
 
 /* Prints the answer of each scene; `header` begins a CSV. Nothing is printed of what is interrupted. */
-enum exit_status ceduo_batch_each(const struct arguments *arguments, void (*header)(struct text *out),
-                                  ceduo_batch_answer *answer);
+enum exit_status ceduo_batch_each(const struct arguments *arguments, const struct ceduo_csv *csv, ceduo_batch_answer *answer);
 
 /* Opens the terminal program, or feeds it the script that was given. */
 enum exit_status ceduo_interactive_run(const struct arguments *arguments);

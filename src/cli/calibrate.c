@@ -15,7 +15,7 @@
 #include "model/keep_fit.h"
 #include "output.h"
 #include "say.h"
-#include "view/report_calibration.h"
+#include "view/figures.h"
 
 #define MOST CEDUO_CALIBRATION_MOST
 
@@ -153,12 +153,15 @@ static void show(void *context, const struct ceduo_calibration_state *state)
 
 static void print(const struct job *j, const struct ceduo_calibration_report *report, struct text *out)
 {
-    if (j->arguments->format == CEDUO_JSON)
-        ceduo_calibration_json(out, report);
-    else if (j->arguments->format == CEDUO_CSV)
-        ceduo_calibration_csv(out, report);
-    else
+    const struct ceduo_place place = {.calibration = report};
+    if (j->arguments->format == CEDUO_JSON) {
+        ceduo_figures_json(out, ceduo_calibration_figures, &place, false);
+    } else if (j->arguments->format == CEDUO_CSV) {
+        ceduo_csv_head(out, &ceduo_calibration_csv);
+        ceduo_csv_rows(out, &ceduo_calibration_csv, &place);
+    } else {
         ceduo_calibration_page(out, report, !ceduo_say_utf8());
+    }
 }
 
 /* ---- writing the scene ---- */

@@ -5,15 +5,16 @@
 #include "interrupt.h"
 #include "model/search.h"
 #include "say.h"
+#include "view/figures.h"
 
 static void put(struct text *out, const struct arguments *a, const struct ceduo_find_report *report)
 {
     if (a->format == CEDUO_JSON) {
-        ceduo_find_json(out, report);
+        ceduo_figures_json(out, ceduo_find_figures, report, false);
         return;
     }
     if (a->format == CEDUO_CSV) {
-        ceduo_find_csv(out, report);
+        ceduo_csv_rows(out, &ceduo_find_csv, report);
         return;
     }
     if (a->scenes_count > 1) {
@@ -79,5 +80,5 @@ static enum exit_status find_in(const struct arguments *a, struct scene_file *fi
 
 enum exit_status ceduo_batch_find(const struct arguments *a)
 {
-    return ceduo_batch_each(a, ceduo_find_csv_header, find_in);
+    return ceduo_batch_each(a, &ceduo_find_csv, find_in);
 }

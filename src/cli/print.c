@@ -10,6 +10,7 @@
 #include "say.h"
 #include "sensitivity.h"
 #include "study/snapshot.h"
+#include "view/figures.h"
 
 /* ---- pages ---- */
 
@@ -55,10 +56,10 @@ static struct ceduo_question ask_for(const struct arguments *a, const struct sce
 static void write_report(const struct arguments *a, const struct ceduo_report *report, struct text *out)
 {
     if (a->format == CEDUO_JSON) {
-        ceduo_report_json(out, report);
+        ceduo_figures_json(out, ceduo_result_figures, &(struct ceduo_place){.report = report}, report->details);
     } else if (a->format == CEDUO_CSV) {
         ceduo_text_put(out, ""); /* without stands no row, but the header */
-        ceduo_report_csv(out, report, a->stands);
+        ceduo_csv_rows(out, ceduo_result_csv(a->stands, a->years), &(struct ceduo_place){.report = report});
     } else {
         LOCAL_TEXT(page);
         (is_whole(a) ? ceduo_report_table : ceduo_report_short)(&page, report, !ceduo_say_utf8());

@@ -8,6 +8,7 @@
 #include "options.h"
 #include "say.h"
 #include "study/points.h"
+#include "view/figures.h"
 
 enum ceduo_status ceduo_sensitivity_ask(const struct arguments *a, struct scene_file *file, struct progress *progress,
                                         struct ceduo_doubt_def *def, const struct ceduo_result *finer, struct asked_doubt *d)
@@ -80,9 +81,9 @@ enum exit_status ceduo_sensitivity_add(const struct arguments *a, struct scene_f
         return ceduo_batch_failed(file, status);
     LOCAL_TEXT(page);
     if (a->format == CEDUO_JSON)
-        ceduo_doubt_json(&page, &d.report);
+        ceduo_figures_json(&page, ceduo_doubt_figures, &(struct ceduo_place){.doubt = &d.report}, false);
     else if (a->format == CEDUO_CSV)
-        ceduo_doubt_csv(&page, &d.report);
+        ceduo_csv_rows(&page, &ceduo_doubt_csv, &(struct ceduo_place){.doubt = &d.report});
     else
         ceduo_doubt_page(&page, &d.report, !ceduo_say_utf8());
     if (a->format == CEDUO_TABLE)

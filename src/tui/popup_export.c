@@ -12,9 +12,9 @@
 #include "popup.h"
 #include "popups.h"
 #include "screen.h"
+#include "view/figures.h"
 #include "view/html.h"
 #include "view/page.h"
-#include "view/report.h"
 #include "view/svg.h"
 
 /* The command that gives the same figures; `how`: as what. */
@@ -65,14 +65,14 @@ static void put_table(struct app *app, struct text *text)
 static void put_csv(struct app *app, struct text *text)
 {
     struct ceduo_report report = ceduo_app_report(app);
-    ceduo_report_csv_header(text, false, false);
-    ceduo_report_csv(text, &report, false);
+    ceduo_csv_head(text, &ceduo_control_csv);
+    ceduo_csv_rows(text, &ceduo_control_csv, &(struct ceduo_place){.report = &report});
 }
 
 static void put_json(struct app *app, struct text *text)
 {
     struct ceduo_report report = ceduo_app_report(app);
-    ceduo_report_json(text, &report);
+    ceduo_figures_json(text, ceduo_result_figures, &(struct ceduo_place){.report = &report}, report.details);
 }
 
 /* Whether all that will be known of doubt is. */

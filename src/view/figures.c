@@ -186,65 +186,27 @@ static void append_cells(struct text *row, const struct ceduo_figure *f, const v
     }
 }
 
-void ceduo_figures_csv(struct text *text, const struct ceduo_figure *columns, const void *object)
+void ceduo_csv_head(struct text *text, const struct ceduo_csv *csv)
 {
-    if (object)
-        append_cells(text, columns, object, 1);
-    else
-        ceduo_figures_heads(text, columns);
+    ceduo_figures_heads(text, csv->columns);
     text->length--; /* the last comma */
     ceduo_text_char(text, '\n');
 }
 
-/* ---- results and searches ---- */
-
-void ceduo_report_json(struct text *text, const struct ceduo_report *report)
+static void append_rows(struct text *text, const struct ceduo_csv *csv, const void *object, size_t level)
 {
-    ceduo_figures_json(text, ceduo_result_figures, &(struct ceduo_place){.report = report}, report->details);
-}
-
-void ceduo_report_csv_header(struct text *text, bool stands, bool years)
-{
-    ceduo_figures_csv(text, stands ? ceduo_stand_columns : years ? ceduo_year_columns : ceduo_control_columns, NULL);
-}
-
-/* Rows of the option, or of one of its years. */
-static void append_rows(struct text *text, struct ceduo_place p, const struct ceduo_figure *columns)
-{
-    const struct ceduo_scene *scene = p.report->result->scene;
-    bool stands = columns == ceduo_stand_columns;
-    size_t n = stands ? scene->options[p.option].belts_count : scene->controls_count;
-    for (size_t i = 0; i < n; i++) {
-        *(stands ? &p.belt : &p.control) = i;
-        ceduo_figures_csv(text, columns, &p);
+    if (level < CEDUO_CSV_LEVELS && csv->enter[level]) {
+        struct ceduo_place place = *(const struct ceduo_place *)object;
+        for (size_t i = 0; csv->enter[level](&place, i); i++)
+            append_rows(text, csv, &place, level + 1);
+        return;
     }
+    append_cells(text, csv->columns, object, 1);
+    text->length--;
+    ceduo_text_char(text, '\n');
 }
 
-void ceduo_report_csv(struct text *text, const struct ceduo_report *report, bool stands)
+void ceduo_csv_rows(struct text *text, const struct ceduo_csv *csv, const void *object)
 {
-    struct ceduo_place p = {.report = report};
-    for (; p.option < report->result->scene->options_count; p.option++) {
-        if (stands || !report->years)
-            append_rows(text, p, stands ? ceduo_stand_columns : ceduo_control_columns);
-        for (size_t y = 0; !stands && report->years && y < report->years[p.option]->count; y++) {
-            p.year = &report->years[p.option]->years[y];
-            append_rows(text, p, ceduo_year_columns);
-        }
-        p.year = NULL;
-    }
-}
-
-void ceduo_find_json(struct text *text, const struct ceduo_find_report *report)
-{
-    ceduo_figures_json(text, ceduo_find_figures, report, false);
-}
-
-void ceduo_find_csv_header(struct text *text)
-{
-    ceduo_figures_csv(text, ceduo_find_columns, NULL);
-}
-
-void ceduo_find_csv(struct text *text, const struct ceduo_find_report *report)
-{
-    ceduo_figures_csv(text, ceduo_find_columns, report);
+    append_rows(text, csv, object, 0);
 }

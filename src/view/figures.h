@@ -73,15 +73,22 @@ static inline bool ceduo_figure_is_end(const struct ceduo_figure *f)
     return !f->value && !f->of && !f->say;
 }
 
-/* Writes what a table says of an object: one line of JSON, with lists that are long or without; a row of CSV, or with object NULL
- * the row of its heads. */
+/* Writes what a table says of an object as one line of JSON, with lists that are long or without. */
 void ceduo_figures_json(struct text *text, const struct ceduo_figure *figures, const void *object, bool details);
-void ceduo_figures_csv(struct text *text, const struct ceduo_figure *columns, const void *object);
+
+/* A table as CSV: a row for each item of the lists that are entered one within the other, without such a list for the object. */
+#define CEDUO_CSV_LEVELS 3
+struct ceduo_csv {
+    const struct ceduo_figure *columns;
+    bool (*enter[CEDUO_CSV_LEVELS])(struct ceduo_place *place, size_t i);
+};
+void ceduo_csv_head(struct text *text, const struct ceduo_csv *csv);
+void ceduo_csv_rows(struct text *text, const struct ceduo_csv *csv, const void *object);
 
 /* JSON Schema (draft 2020-12) of what ceduo_figures_json() writes, on one line; its $id ends in the format's name. */
 void ceduo_figures_schema(struct text *text, const char *format, const struct ceduo_figure *figures);
 
-/* A line for each column of ceduo_figures_csv(): path, type, unit, when it is empty, meaning, with tabs between them. */
+/* A line for each column of CSV: path, type, unit, when it is empty, meaning, with tabs between them. */
 void ceduo_figures_columns(struct text *rows, const struct ceduo_figure *columns);
 /* Their paths alone, with a comma behind each. */
 void ceduo_figures_heads(struct text *row, const struct ceduo_figure *columns);
@@ -91,9 +98,14 @@ void ceduo_figures_heads(struct text *row, const struct ceduo_figure *columns);
 extern const struct ceduo_figure ceduo_result_figures[], ceduo_find_figures[];
 extern const struct ceduo_figure ceduo_doubt_figures[], ceduo_calibration_figures[];
 
-/* The columns of CSV, read from a struct ceduo_place: of a control, of a control in a year, of a belt. */
-extern const struct ceduo_figure ceduo_control_columns[], ceduo_year_columns[], ceduo_stand_columns[];
-extern const struct ceduo_figure ceduo_find_columns[]; /* read from a struct ceduo_find_report */
+/* Of a result a row for each option and control, its years or its stands; of a sensitivity for each figure and input; of a
+ * calibration for each value; of a search one. They are read from the same objects. */
+extern const struct ceduo_csv ceduo_control_csv, ceduo_year_csv, ceduo_stand_csv;
+extern const struct ceduo_csv ceduo_doubt_csv, ceduo_calibration_csv, ceduo_find_csv;
+static inline const struct ceduo_csv *ceduo_result_csv(bool stands, bool years)
+{
+    return stands ? &ceduo_stand_csv : years ? &ceduo_year_csv : &ceduo_control_csv;
+}
 
 /* Tables with a list of their own in the manual: they are long, or part of several objects. */
 struct ceduo_figure_list {

@@ -196,23 +196,7 @@ const struct ceduo_figure ceduo_doubt_figures[] = {
 static const struct ceduo_figure doubt_columns[] = {
     {.of = doubt_scene_rows}, {.of = doubt_figure_rows}, {"path", "", "", .value = input_path}, {.of = input_range_rows}, END};
 
-void ceduo_doubt_json(struct text *text, const struct ceduo_doubt_report *r)
-{
-    ceduo_figures_json(text, ceduo_doubt_figures, &(struct ceduo_place){.doubt = r}, false);
-}
-
-void ceduo_doubt_csv_header(struct text *text)
-{
-    ceduo_figures_csv(text, doubt_columns, NULL);
-}
-
-void ceduo_doubt_csv(struct text *text, const struct ceduo_doubt_report *r)
-{
-    struct ceduo_place p = {.doubt = r};
-    for (size_t i = 0; enter_figure(&p, i); i++)
-        for (size_t k = 0; enter_input(&p, k); k++)
-            ceduo_figures_csv(text, doubt_columns, &p);
-}
+const struct ceduo_csv ceduo_doubt_csv = {doubt_columns, {enter_figure, enter_input}};
 
 /* ---- a calibration ---- */
 
@@ -351,15 +335,4 @@ static const struct ceduo_figure calibration_columns[] = {{"scene", "", "", .val
                                                           {"misfit", "", "", .from = calibration_of, AT(calibration, misfit)},
                                                           END};
 
-void ceduo_calibration_json(struct text *text, const struct ceduo_calibration_report *r)
-{
-    ceduo_figures_json(text, ceduo_calibration_figures, &(struct ceduo_place){.calibration = r}, false);
-}
-
-void ceduo_calibration_csv(struct text *text, const struct ceduo_calibration_report *r)
-{
-    struct ceduo_place p = {.calibration = r};
-    ceduo_figures_csv(text, calibration_columns, NULL);
-    for (size_t i = 0; enter_fitted(&p, i); i++)
-        ceduo_figures_csv(text, calibration_columns, &p);
-}
+const struct ceduo_csv ceduo_calibration_csv = {calibration_columns, {enter_fitted}};

@@ -660,8 +660,9 @@ const struct ceduo_figure ceduo_find_figures[] = {{"format", "", "always ceduo-f
                                                   {.of = goal_rows},
                                                   {.of = search_rows},
                                                   END};
-const struct ceduo_figure ceduo_find_columns[] = {
+static const struct ceduo_figure find_columns[] = {
     {.of = sought}, {.of = value_row}, {.of = goal_rows}, {.of = found_row}, {.of = side_row}, {.of = search_rows}, END};
+const struct ceduo_csv ceduo_find_csv = {find_columns, {NULL}};
 
 /* ---- rows of CSV ---- */
 
@@ -675,11 +676,16 @@ static const struct ceduo_figure rest[] = {{.of = summary_row},
                                            {"warnings", "", "sentences about the run and its stands", .say = say_of_all},
                                            END};
 
-const struct ceduo_figure ceduo_control_columns[] = {{.of = scene}, {.of = option_row}, {.of = rest}, END};
-const struct ceduo_figure ceduo_year_columns[] = {{.of = scene}, {.of = option_row}, {.of = year_rows}, {.of = rest}, END};
-const struct ceduo_figure ceduo_stand_columns[] = {{.of = scene},          {.of = option_row},
-                                                   {.of = stand_columns},  {"rules", "", "", .from = rules_of, .of = rules},
-                                                   {.of = stand_warnings}, END};
+static const struct ceduo_figure control_columns[] = {{.of = scene}, {.of = option_row}, {.of = rest}, END};
+static const struct ceduo_figure year_columns[] = {{.of = scene}, {.of = option_row}, {.of = year_rows}, {.of = rest}, END};
+static const struct ceduo_figure stand_csv_columns[] = {
+    {.of = scene},          {.of = option_row},
+    {.of = stand_columns},  {"rules", "", "", .from = rules_of, .of = rules},
+    {.of = stand_warnings}, END};
+
+const struct ceduo_csv ceduo_control_csv = {control_columns, {enter_option, enter_control}};
+const struct ceduo_csv ceduo_year_csv = {year_columns, {enter_option, enter_year, enter_control}};
+const struct ceduo_csv ceduo_stand_csv = {stand_csv_columns, {enter_option, enter_belt}};
 
 /* ---- the manual ---- */
 

@@ -66,14 +66,6 @@ size_t ceduo_profiles_sort(struct ceduo_profiles *profiles, size_t *order);
 void ceduo_profiles_page(struct ceduo_page *page, const struct ceduo_profiles *profiles);
 void ceduo_profiles_free(struct ceduo_profiles *profiles);
 
-/* One line of JSON, "ceduo-result-1". */
-void ceduo_report_json(struct text *text, const struct ceduo_report *report);
-
-/* CSV: a row for each option and control, or for each stand; with years (columns year and cut) for each option, year and
- * control. The header alone by its own call. */
-void ceduo_report_csv_header(struct text *text, bool stands, bool years);
-void ceduo_report_csv(struct text *text, const struct ceduo_report *report, bool stands);
-
 /* What a search found. */
 struct ceduo_find_report {
     const struct scene_file *file;
@@ -87,8 +79,5 @@ void ceduo_find_page(struct text *text, const struct ceduo_find_report *report);
 /* The value that is sure, in the unit in which the field is shown (NULL: that of the file). */
 void ceduo_find_sure(struct text *text, const struct ceduo_search *search, const struct ceduo_sure *sure,
                      const struct field *field);
-void ceduo_find_json(struct text *text, const struct ceduo_find_report *report); /* one line, "ceduo-find-1" */
-void ceduo_find_csv_header(struct text *text);
-void ceduo_find_csv(struct text *text, const struct ceduo_find_report *report);
 
 #endif

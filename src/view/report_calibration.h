@@ -30,8 +30,6 @@ void ceduo_calibration_page(struct text *text, const struct ceduo_calibration_re
 /* What the page says in words: misfit, what is not determined, what is known only together. */
 struct ceduo_page;
 void ceduo_calibration_words(struct ceduo_page *page, const struct ceduo_calibration_report *report);
-void ceduo_calibration_json(struct text *text, const struct ceduo_calibration_report *report); /* "ceduo-calibration-1" */
-void ceduo_calibration_csv(struct text *text, const struct ceduo_calibration_report *report);  /* a row for each value */
 
 /* The draws, a column for each fitted value, for `doubt: {draws: …}`; `heads`: what to call them. */
 void ceduo_calibration_draws(struct text *text, const struct ceduo_calibration *answer, const char *const *heads);

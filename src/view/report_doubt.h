@@ -84,8 +84,5 @@ void ceduo_doubt_light_words(struct text *text, const struct ceduo_doubt_report 
 extern const enum ceduo_doubt_kind ceduo_doubt_lights[3]; /* contact, free run, energy */
 
 void ceduo_doubt_page(struct text *text, const struct ceduo_doubt_report *report, bool plain);
-void ceduo_doubt_json(struct text *text, const struct ceduo_doubt_report *report); /* one line, "ceduo-sensitivity-1" */
-void ceduo_doubt_csv_header(struct text *text);
-void ceduo_doubt_csv(struct text *text, const struct ceduo_doubt_report *report); /* a row for each figure and input */
 
 #endif

@@ -271,8 +271,8 @@ TEST(a_row_has_a_field_for_each_name)
         LOCAL_TEXT(text);
         struct ceduo_report shown = report;
         shown.years = kind == 1 ? report.years : NULL;
-        ceduo_report_csv_header(&text, kind == 2, kind == 1);
-        ceduo_report_csv(&text, &shown, kind == 2);
+        ceduo_csv_head(&text, ceduo_result_csv(kind == 2, kind == 1));
+        ceduo_csv_rows(&text, ceduo_result_csv(kind == 2, kind == 1), &(struct ceduo_place){.report = &shown});
         const char *row = strchr(text.bytes, '\n') + 1;
         assert_int_equal(fields(row), fields(text.bytes));
     }
