@@ -74,15 +74,7 @@ struct curve {
 /* Rocks above an energy. */
 static size_t above(const struct curve *c, double energy)
 {
-    size_t lo = 0, hi = c->n;
-    while (lo < hi) {
-        size_t middle = (lo + hi) / 2;
-        if (c->energies[c->n - 1 - middle].value > energy)
-            lo = middle + 1;
-        else
-            hi = middle;
-    }
-    return lo;
+    return c->n - ceduo_weighted_upto(c->energies, c->n, energy);
 }
 
 /* Of rocks above an energy. */

@@ -8,19 +8,6 @@
 #define BINS            ((size_t)1 << HISTOGRAM_BITS)
 #define LOWEST_EXPONENT (-64)
 
-/* Octave and bin of a value, from its bits; false below the smallest octave. */
-static bool place(double value, size_t *octave, size_t *bin)
-{
-    uint64_t bits;
-    memcpy(&bits, &value, sizeof bits);
-    int64_t exponent = (int64_t)(bits >> 52 & 0x7ff) - 1023 - LOWEST_EXPONENT;
-    if (!(value > 0) || exponent < 0)
-        return false;
-    *octave = exponent < HISTOGRAM_OCTAVES ? (size_t)exponent : HISTOGRAM_OCTAVES - 1;
-    *bin = (size_t)(bits >> (52 - HISTOGRAM_BITS) & (BINS - 1));
-    return true;
-}
-
 static uint32_t *octave_of(struct histogram *h, size_t octave)
 {
     if (!h->octave[octave])
@@ -30,16 +17,16 @@ static uint32_t *octave_of(struct histogram *h, size_t octave)
 
 bool ceduo_histogram_add(struct histogram *h, double value)
 {
-    size_t octave, bin;
-    if (!place(value, &octave, &bin)) {
-        h->zeros++;
-        h->n++;
-        return true;
-    }
-    uint32_t *bins = octave_of(h, octave);
-    if (!bins)
+    uint64_t bits; /* octave and bin follow from them */
+    memcpy(&bits, &value, sizeof bits);
+    int64_t octave = (int64_t)(bits >> 52 & 0x7ff) - 1023 - LOWEST_EXPONENT;
+    bool counted = value > 0 && octave >= 0;
+    uint32_t *bins = counted ? octave_of(h, octave < HISTOGRAM_OCTAVES ? (size_t)octave : HISTOGRAM_OCTAVES - 1) : NULL;
+    if (counted && !bins)
         return false;
-    bins[bin]++;
+    if (counted)
+        bins[bits >> (52 - HISTOGRAM_BITS) & (BINS - 1)]++;
+    h->zeros += !counted;
     h->n++;
     return true;
 }

@@ -67,14 +67,14 @@ enum ceduo_status ceduo_pool_for(const struct ceduo_run_def *def, struct ceduo_p
     return ceduo_pool_create(def, pool);
 }
 
-static enum ceduo_status add_run(struct ceduo_pool *pool, const struct ceduo_option *option, uint64_t key,
-                                 struct ceduo_run **run)
+/* `def` without its option. */
+static enum ceduo_status add_run(struct ceduo_pool *pool, struct ceduo_run_def def, const struct ceduo_option *option,
+                                 uint64_t key, struct ceduo_run **run)
 {
     struct pooled *runs = ceduo_grow(pool->runs, pool->count, &pool->room, sizeof *runs);
     if (!runs)
         return CEDUO_NO_MEMORY;
     pool->runs = runs;
-    struct ceduo_run_def def = pool->def;
     def.option = key != 0 ? option : NULL;
     enum ceduo_status status = ceduo_run_create(&def, run);
     if (status == CEDUO_OK)
@@ -101,7 +101,7 @@ enum ceduo_status ceduo_pool_run(struct ceduo_pool *pool, const struct ceduo_opt
     uint64_t key = ceduo_option_key(&pool->scene, option);
     struct pooled *p = find(pool, key);
     if (!p)
-        return add_run(pool, option, key, run);
+        return add_run(pool, pool->def, option, key, run);
     p->asked = ++pool->asked;
     pool->reused++;
     *run = p->run;
@@ -176,14 +176,13 @@ static enum ceduo_status fill_other(struct ceduo_pool *pool, const struct ceduo_
     enum ceduo_status status = ceduo_other_option(option, &other) ? CEDUO_OK : CEDUO_NO_MEMORY;
     uint64_t key = status == CEDUO_OK ? ceduo_option_key(&pool->scene, &other) : 0;
     if (status == CEDUO_OK && key != 0 && !find(pool, key)) {
-        struct ceduo_run_def whole = pool->def;
-        pool->def.arrivals_only = true;
-        pool->def.cells = 0;
-        pool->def.exact_bytes /= 4;
-        if (pool->def.rocks_most > CEDUO_OTHER_ROCKS)
-            pool->def.rocks_most = CEDUO_OTHER_ROCKS;
-        status = add_run(pool, &other, key, &run);
-        pool->def = whole;
+        struct ceduo_run_def def = pool->def;
+        def.arrivals_only = true;
+        def.cells = 0;
+        def.exact_bytes /= 4;
+        if (def.rocks_most > CEDUO_OTHER_ROCKS)
+            def.rocks_most = CEDUO_OTHER_ROCKS;
+        status = add_run(pool, def, &other, key, &run);
         if (status == CEDUO_OK)
             pool->runs[pool->count - 1].beside = true;
     }

@@ -121,33 +121,6 @@ static bool next_rock(void *context, size_t lane)
     return false;
 }
 
-/* What is summed in the order of the rocks, the quantities side by side. */
-static void sum_arrivals(struct worker *w, size_t control)
-{
-    const struct arrival *arrivals = &w->arrivals[control * CEDUO_BLOCK_ROCKS];
-    struct sums *to = &w->block->controls[control];
-    struct ceduo_moments speed = to->of[SPEED], height = to->of[HEIGHT], energy = to->of[ENERGY],
-                         translation = to->of[TRANSLATION];
-    bool spins = w->run->kept == QUANTITIES; /* otherwise all energy is translation */
-    for (uint64_t i = 0; i < w->to - w->from; i++) {
-        const double *of = arrivals[i].of;
-        if (!arrivals[i].arrives)
-            continue;
-        ceduo_moments_add(&speed, of[SPEED]);
-        ceduo_moments_add(&height, of[HEIGHT]);
-        ceduo_moments_add(&energy, of[ENERGY]);
-        if (spins)
-            ceduo_moments_add(&translation, of[TRANSLATION]);
-        if (w->stems)
-            ceduo_moments_add(&to->contacts, arrivals[i].stems_hit);
-        to->exceeded += arrivals[i].exceeds;
-    }
-    to->of[SPEED] = speed;
-    to->of[HEIGHT] = height;
-    to->of[ENERGY] = energy;
-    to->of[TRANSLATION] = spins ? translation : energy;
-}
-
 /* The samples of a column; NaN where a rock has none. False without memory. */
 static bool bin_column(struct histogram *bins, const double *column, size_t n)
 {
@@ -157,12 +130,25 @@ static bool bin_column(struct histogram *bins, const double *column, size_t n)
     return true;
 }
 
-/* What single rocks bring to a control. */
-static bool keep_arrivals(struct worker *w, size_t control)
+/* What the rocks bring to a control: sums, in their order, and samples. False without memory. */
+static bool sum_arrivals(struct worker *w, size_t control)
 {
     struct ceduo_run *run = w->run;
     const struct arrival *arrivals = &w->arrivals[control * CEDUO_BLOCK_ROCKS];
+    struct sums *to = &w->block->controls[control];
     size_t n = (size_t)(w->to - w->from), from = (size_t)w->from;
+    bool spins = run->kept == QUANTITIES; /* otherwise all energy is translation */
+    for (size_t i = 0; i < n; i++) {
+        if (!arrivals[i].arrives)
+            continue;
+        for (int q = 0; q < (spins ? QUANTITIES : TRANSLATION); q++)
+            ceduo_moments_add(&to->of[q], arrivals[i].of[q]);
+        if (w->stems)
+            ceduo_moments_add(&to->contacts, arrivals[i].stems_hit);
+        to->exceeded += arrivals[i].exceeds;
+    }
+    if (!spins)
+        to->of[TRANSLATION] = to->of[ENERGY];
     for (int q = 0; q < run->kept; q++) {
         double block[CEDUO_BLOCK_ROCKS], *column = run->exact ? samples_of(run, control, q) + from : block;
         for (size_t i = 0; i < n; i++)
@@ -170,8 +156,8 @@ static bool keep_arrivals(struct worker *w, size_t control)
         if (!run->exact && !bin_column(bins_of(w->bins, run, control, q), column, n))
             return false;
     }
-    for (size_t i = 0; i < n && w->from + i < run->pairs_room; i++)
-        run->pairs[control * run->pairs_room + w->from + i] = arrivals[i].arrives ? arrivals[i].of[ENERGY] : NAN;
+    for (size_t i = 0; i < n && from + i < run->pairs_room; i++)
+        run->pairs[control * run->pairs_room + from + i] = arrivals[i].arrives ? arrivals[i].of[ENERGY] : NAN;
     return true;
 }
 
@@ -194,10 +180,8 @@ static bool sum_block(struct worker *w)
     if (run->exact)
         memcpy(stops_of(run) + w->from, w->stops, n * sizeof *w->stops);
     bool kept = run->exact || bin_column(&w->bins[run->columns - 1], w->stops, n);
-    for (size_t c = 0; c < run->controls; c++) {
-        sum_arrivals(w, c);
-        kept = kept && keep_arrivals(w, c);
-    }
+    for (size_t c = 0; c < run->controls; c++)
+        kept = sum_arrivals(w, c) && kept;
     for (size_t i = 0; i < n; i++)
         if (!isnan(w->stops[i]))
             ceduo_moments_add(&w->block->stop_x, w->stops[i]);

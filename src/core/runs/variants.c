@@ -10,27 +10,6 @@ struct variant_key {
     uint64_t scene, forest;
 };
 
-static enum ceduo_status simulate(const struct ceduo_variants *all, size_t i, const struct ceduo_variant *variant)
-{
-    struct ceduo_run *run;
-    enum ceduo_status status =
-        all->pool ? ceduo_pool_run(all->pool, variant->run.option, &run) : ceduo_run_create(&variant->run, &run);
-    if (status != CEDUO_OK)
-        return status;
-    uint64_t rocks = variant->rocks;
-    for (bool again = true; again && status == CEDUO_OK;) {
-        uint64_t more = rocks;
-        status = ceduo_run_extend(run, rocks);
-        if (status == CEDUO_OK)
-            status = all->read(all->context, i, run, &more);
-        again = more > rocks;
-        rocks = more;
-    }
-    if (!all->pool)
-        ceduo_run_free(run);
-    return status;
-}
-
 enum ceduo_status ceduo_variants_run(const struct ceduo_variants *all)
 {
     struct variant_key *keys = calloc(all->n + 1, sizeof *keys);
@@ -48,10 +27,23 @@ enum ceduo_status ceduo_variants_run(const struct ceduo_variants *all)
             for (first = 0; keys[first].scene != keys[i].scene || keys[first].forest != keys[i].forest;)
                 first++;
         }
-        if (first < i)
+        if (first < i) {
             all->same(all->context, i, first);
-        else
-            status = simulate(all, i, &variant);
+            continue;
+        }
+        struct ceduo_run *run = NULL;
+        status = all->pool ? ceduo_pool_run(all->pool, variant.run.option, &run) : ceduo_run_create(&variant.run, &run);
+        uint64_t rocks = variant.rocks;
+        for (bool again = true; again && status == CEDUO_OK;) {
+            uint64_t more = rocks;
+            status = ceduo_run_extend(run, rocks);
+            if (status == CEDUO_OK)
+                status = all->read(all->context, i, run, &more);
+            again = more > rocks;
+            rocks = more;
+        }
+        if (!all->pool)
+            ceduo_run_free(run);
     }
     free(keys);
     return status;

@@ -27,19 +27,25 @@ void ceduo_weighted_bound(struct weighted *rocks, size_t n)
         rocks[i - 1].weight += rocks[i].weight;
 }
 
+size_t ceduo_weighted_upto(const struct weighted *rising, size_t n, double value)
+{
+    size_t lo = 0, hi = n;
+    while (lo < hi) {
+        size_t middle = (lo + hi) / 2;
+        if (rising[middle].value > value)
+            hi = middle;
+        else
+            lo = middle + 1;
+    }
+    return lo;
+}
+
 /* Wilson's upper end where none of the rocks is seen to have more than an energy: of those that could, so many as they are, and
  * for the share that they are. */
 static double upper_of_none(const struct released *all, double energy)
 {
     const double z2 = CEDUO_Z95 * CEDUO_Z95;
-    size_t n = (size_t)all->n, lo = 0, hi = all->could ? n : 0;
-    while (lo < hi) { /* the first that could */
-        size_t middle = (lo + hi) / 2;
-        if (all->could[middle].value > energy)
-            hi = middle;
-        else
-            lo = middle + 1;
-    }
+    size_t n = (size_t)all->n, lo = all->could ? ceduo_weighted_upto(all->could, n, energy) : 0;
     if (lo == n)
         return 0;
     return (all->could ? all->could[lo].weight / all->w : 1) * z2 / ((double)(n - lo) + z2);

@@ -55,6 +55,9 @@ struct ceduo_rate ceduo_weighted_share(const struct released *all, const struct 
 /* Of n values, which are sorted. Percentiles have intervals after Woodruff (1952). */
 struct ceduo_distribution ceduo_weighted_distribution(const struct released *all, struct weighted *values, size_t n);
 
+/* How many of sorted values are not above one. */
+size_t ceduo_weighted_upto(const struct weighted *sorted, size_t n, double value);
+
 /* The quantile p of sorted values. */
 double ceduo_weighted_quantile(const struct weighted *values, size_t n, double p);
 

@@ -9,7 +9,7 @@
 #include "base/cancel.h"
 #include "landing.h"
 #include "strike.h"
-#include "walker.h"
+#include "walk.h"
 
 #ifndef PAUSE
 #define PAUSE 4000 /* contacts, or stems */
@@ -77,8 +77,7 @@ static inline struct flight flight_to(const struct walker *w, const struct fligh
     return (struct flight){.vx = at->vx, .vz = at->vz - w->g->gravity * t, .z = height_after(at->z, at->vz, w->g->half_g, t)};
 }
 
-/* The marks that the flight from `at` to `l` passes. */
-SELDOM void pass_in_flight(struct walker *w, struct flight at, double x, double t_end)
+void ceduo_walk_pass_marks(struct walker *w, struct flight at, double x, double t_end)
 {
     while (comes_to_cells(w, x)) {
         struct flight f = flight_to(w, &at, w->marks->cell_x[w->next_cell], t_end);
@@ -93,18 +92,7 @@ SELDOM void pass_in_flight(struct walker *w, struct flight at, double x, double 
 
 SELDOM void show_flight(const struct walker *w, struct flight at, double x1, double z1, double vz1, double seconds)
 {
-    struct ceduo_piece p = {.rolls = false,
-                            .x = at.x,
-                            .z = at.z,
-                            .vx = at.vx,
-                            .vz = at.vz,
-                            .x1 = x1,
-                            .z1 = z1,
-                            .vx1 = at.vx,
-                            .vz1 = vz1,
-                            .spin = w->spin,
-                            .seconds = seconds,
-                            .contacts = w->contacts};
+    const struct ceduo_piece p = {false, at.x, at.z, at.vx, at.vz, x1, z1, at.vx, vz1, w->spin, seconds, w->contacts};
     w->watch->piece(w->watch->context, &p);
 }
 
@@ -112,7 +100,7 @@ HOT void fly(struct walker *w, struct flight *at, const struct landing *l)
 {
     double vz = at->vz - w->g->gravity * l->t;
     if (w->next_x <= l->x && at->vx > 0) /* untaken: rounding */
-        pass_in_flight(w, *at, l->x, l->t);
+        ceduo_walk_pass_marks(w, *at, l->x, l->t);
     if (w->watch && w->watch->piece)
         show_flight(w, *at, l->x, l->z, vz, l->t);
     at->x = l->x;
@@ -126,16 +114,8 @@ HOT void fly(struct walker *w, struct flight *at, const struct landing *l)
 
 SELDOM void show_stem(const struct walker *w, const struct stem *stem, double x, double clearance, double before, double taken)
 {
-    struct ceduo_stem_passed p = {.x = x,
-                                  .y = stem->y,
-                                  .dbh = stem->dbh,
-                                  .height = stem->height,
-                                  .shoot = stem->shoot,
-                                  .stool = stem->stool,
-                                  .hit = clearance < stem->height,
-                                  .clearance = clearance,
-                                  .before = before,
-                                  .taken = taken};
+    const struct ceduo_stem_passed p = {
+        x, stem->y, stem->dbh, stem->height, stem->shoot, stem->stool, clearance < stem->height, clearance, before, taken};
     w->watch->stem(w->watch->context, &p);
 }
 
@@ -180,12 +160,6 @@ static double hit_stem(struct walker *w, struct stem *stem, double x, double cle
     return share;
 }
 
-/* The segment under x, which lies between segments a and b. */
-static size_t segment_between(const struct ground *g, size_t a, size_t b, double x)
-{
-    return gsl_interp_bsearch(g->x, x, a < b ? a : b, (a < b ? b : a) + 1);
-}
-
 /* Flies past the stems between the rock and its landing `l`, which moves as stems are hit, and may not be known yet.
  * True where one stops the rock (or the trajectory is given up), at `at`. Behind a hit no landing is looked for while
  * the next stem stands over the same segment and the rock is still above the ground there: the parabola is concave, so
@@ -207,7 +181,8 @@ static __attribute__((noinline)) bool fly_past_stems(struct walker *w, struct fl
         double t = (x - at->x) / at->vx;
         t = t < 0 ? 0 : knows_landing && t > l->t ? l->t : t;
         struct landing here = {.t = t, .x = x, .z = height_after(at->z, at->vz, g->half_g, t)};
-        here.segment = near ? j : segment_between(g, j, l->segment, x);
+        here.segment =
+            near ? j : gsl_interp_bsearch(g->x, x, j < l->segment ? j : l->segment, (j < l->segment ? l->segment : j) + 1);
         double clearance = here.z - ground_height(g, here.segment, x);
         if (!knows_landing && !(clearance >= 0)) {
             *l = next_landing(g, at);

@@ -52,7 +52,7 @@ HOT struct chord load_here(const struct passing *p, size_t i)
     return (struct chord){load(&p->x0[i]), load(&p->z0[i]), load(&p->x1[i]), load(&p->z1[i]), load(&p->m[i])};
 }
 
-/* The segment under each stem at `to`, for flights that know where they land; as segment_between(). */
+/* The segment under each stem at `to`, for flights that know where they land; as fly_past_stems(). */
 HOT void go_to_segment(struct form form, const struct lanes *k, struct passing *p, size_t i, real to, struct chord *on)
 {
     unsigned far = (p->under_way & p->knows) >> i & REGISTER & ~lanes_of(at_least(load(&p->end[i]), to));

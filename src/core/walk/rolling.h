@@ -88,17 +88,9 @@ SELDOM void show_roll(struct walker *w, const struct roll *r, double u2_end, dou
 {
     const struct ground_segment *s = &w->g->segments[w->at.segment];
     double u = r->dir * sqrt(r->u2), u1 = r->dir * sqrt(u2_end);
-    struct ceduo_piece p = {.rolls = true,
-                            .x = w->at.x,
-                            .z = w->at.z,
-                            .vx = u * s->c,
-                            .vz = u * s->s,
-                            .x1 = x1,
-                            .z1 = z1,
-                            .vx1 = u1 * s->c,
-                            .vz1 = u1 * s->s,
-                            .spin = w->k > 0 ? u / w->rock.radius : 0,
-                            .contacts = w->contacts};
+    const struct ceduo_piece p = {true, w->at.x,    w->at.z,   u * s->c,  u * s->s,
+                                  x1,   z1,         u1 * s->c, u1 * s->s, w->k > 0 ? u / w->rock.radius : 0,
+                                  0,    w->contacts};
     w->watch->piece(w->watch->context, &p);
 }
 

@@ -88,12 +88,12 @@ void ceduo_walk_release_again(struct walker *w, const struct walker *first, uint
     w->pause = first->pause;
     w->cancelled = false;
     w->facets.of = w->turns.of = UINT64_MAX;
-    if (w->has_section)
-        draw_section(w);
     w->next_mark = first->next_mark;
     w->next_cell = first->next_cell;
     w->mark_x = first->mark_x;
     w->next_x = first->next_x;
+    if (w->has_section)
+        draw_section(w);
 }
 
 /* ---- the whole trajectory ---- */
@@ -228,11 +228,6 @@ enum ceduo_end ceduo_walk(struct walker *w, enum ceduo_law law)
 
 /* ---- the trajectory in pieces ---- */
 
-void ceduo_walk_pass_marks(struct walker *w, struct flight at, double x, double t)
-{
-    pass_in_flight(w, at, x, t);
-}
-
 bool ceduo_walk_take_stem(struct walker *w, bool hit, struct flight at, double t)
 {
     const struct stem stem = *ceduo_stems_next(&w->stems->side[0]);
@@ -241,7 +236,7 @@ bool ceduo_walk_take_stem(struct walker *w, bool hit, struct flight at, double t
         return false;
     if (hit) {
         if (w->next_x <= stem.along)
-            pass_in_flight(w, at, stem.along, t);
+            ceduo_walk_pass_marks(w, at, stem.along, t);
         count_hit(w, &stem);
     }
     return true;

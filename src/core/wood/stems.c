@@ -89,29 +89,18 @@ static inline void insert_stem(struct stems *s, struct stems_side *side, const s
     s->effort += (end - i) / STEPS_OF_A_STEM;
 }
 
-/* A stem that stands behind the start of the strip ahead belongs to the strip behind, whose own stools and groups begin
- * beyond those that reach over the start. */
-static __attribute__((noinline)) void turn_behind(struct stems *s, struct stem stem)
-{
-    stem.along = -stem.along;
-    if (make_room(s, &s->side[1], 1))
-        insert_stem(s, &s->side[1], &stem);
-}
-
-/* Puts a stem that was drawn for a side among those waiting; there is room. */
+/* Puts a stem that was drawn for a side among those waiting, for which there is room. One that stands behind the start of the
+ * strip ahead belongs to the strip behind, whose own stools and groups begin beyond those that reach over the start. */
 static void let_wait(struct stems *s, int i_side, struct stem *stem)
 {
     set_hit(s, stem);
-    struct stems_side *side = &s->side[i_side];
     bool behind = i_side == 0 && stem->along < s->start;
-    struct stems_side *to = behind ? &s->side[1] : side;
-    double along = behind ? -stem->along : stem->along;
+    struct stems_side *to = &s->side[behind ? 1 : i_side];
+    stem->along = behind ? -stem->along : stem->along;
     if (!stem->shoot || stem->kind->shape > 0)
-        to->other_to = fmax(to->other_to, along);
-    if (behind)
-        turn_behind(s, *stem);
-    else
-        insert_stem(s, side, stem);
+        to->other_to = fmax(to->other_to, stem->along);
+    if (!behind || make_room(s, to, 1))
+        insert_stem(s, to, stem);
 }
 
 /* Draws the next places of a stream, of which none are left; the first of them, infinite where there is none. */
@@ -131,21 +120,6 @@ static inline double next_place(struct stems *s, int i_side, enum stem_stream st
     return p->next < p->count ? p->at[p->next] : draw_places(s, i_side, stream);
 }
 
-/* The kind of shoot i of a stool, and its diameter. */
-static const struct wood_kind *draw_shoot(const struct stems *s, const struct stool *t, unsigned i, double *dbh)
-{
-    const struct wood_kind *k = t->stools->kinds;
-    if (t->stools->cohorts > 1) {
-        uint64_t bits[2];
-        random_bits(s->seed, s->number, t->event, shoot_draw(RANDOM_SHOOT, i / 4), bits);
-        double u = ((double)(uint32_t)(bits[i / 2 % 2] >> i % 2 * 32) + 0.5) * 0x1p-32;
-        for (size_t c = 0; c + 1 < t->stools->cohorts; c++)
-            k += u >= t->stools->kinds[c].share_to;
-    }
-    *dbh = k->shape > 0 ? draw_dbh(s, k, t->event, shoot_draw(RANDOM_DBH, i), 0) : k->dbh;
-    return k;
-}
-
 /* Makes a stool whose shoots spread in diameter, or stand on both sides of the release, one by one. */
 static __attribute__((noinline)) void make_other_stool(struct stems *s, int i_side)
 {
@@ -155,7 +129,16 @@ static __attribute__((noinline)) void make_other_stool(struct stems *s, int i_si
         place_shoot(&t, i, &stem.along, &stem.y);
         if (fabs(stem.y) > (s->b + t.stools->most) / 2)
             continue;
-        stem.kind = draw_shoot(s, &t, i, &stem.dbh);
+        stem.kind = t.stools->kinds;
+        if (t.stools->cohorts > 1) {
+            uint64_t bits[2];
+            random_bits(s->seed, s->number, t.event, shoot_draw(RANDOM_SHOOT, i / 4), bits);
+            double u = ((double)(uint32_t)(bits[i / 2 % 2] >> i % 2 * 32) + 0.5) * 0x1p-32;
+            for (size_t c = 0; c + 1 < t.stools->cohorts; c++)
+                stem.kind += u >= t.stools->kinds[c].share_to;
+        }
+        bool spreads = stem.kind->shape > 0;
+        stem.dbh = spreads ? draw_dbh(s, stem.kind, t.event, shoot_draw(RANDOM_DBH, i), 0) : stem.kind->dbh;
         if (fabs(stem.y) > (s->b + stem.dbh) / 2)
             continue;
         let_wait(s, i_side, &stem);
@@ -201,31 +184,6 @@ static const struct wood_stratum *stratum_at(struct stems *s, int side, const st
 
 /* ---- groups of trees ---- */
 
-/* A tree beyond the end of its belt stands as far before it instead, so that the belt is as dense there as elsewhere. */
-static double fold_into(const struct wood_belt *belt, double along)
-{
-    if (along >= belt->from && along <= belt->to)
-        return along;
-    double span = belt->to - belt->from, t = fabs(fmod(along - belt->from, 2 * span));
-    return belt->from + (t <= span ? t : 2 * span - t);
-}
-
-/* Tree i of a group, of its kind: uniform in a disc around `at`, `centre`; false where the rock passes beside it. */
-static bool place_tree(const struct stems *s, const struct wood_belt *belt, double at, double centre, double radius,
-                       uint64_t event, unsigned i, struct stem *stem)
-{
-    struct random_pair u = random_pair(s->seed, s->number, event, shoot_draw(RANDOM_GROUP, i));
-    double angle = 2 * M_PI * (u.u[1] - 0.5), off = radius * sqrt(u.u[0]), sine, cosine;
-    elementary_sincos(&angle, &sine, &cosine);
-    stem->along = fold_into(belt, at + off * cosine);
-    stem->y = centre + off * sine;
-    if (fabs(stem->y) > (s->b + stem->kind->most) / 2)
-        return false;
-    const struct wood_kind *k = stem->kind;
-    stem->dbh = k->shape > 0 ? draw_dbh(s, k, event, shoot_draw(RANDOM_DBH, i), 0) : k->dbh;
-    return fabs(stem->y) <= (s->b + stem->dbh) / 2;
-}
-
 /* Makes the next group of a side; each of its trees is one by itself. */
 static __attribute__((noinline)) void make_group(struct stems *s, int i_side)
 {
@@ -243,7 +201,21 @@ static __attribute__((noinline)) void make_group(struct stems *s, int i_side)
     double centre = p->offset[k] * (2 * t->radius + t->kind->most + s->b);
     for (unsigned i = 0; i < t->group; i++) {
         struct stem stem = {.kind = t->kind, .stool = event | (uint64_t)(i + 1) << 44};
-        if (place_tree(s, belt, p->at[k], centre, t->radius, event, i, &stem))
+        struct random_pair draw = random_pair(s->seed, s->number, event, shoot_draw(RANDOM_GROUP, i));
+        double angle = 2 * M_PI * (draw.u[1] - 0.5), off = t->radius * sqrt(draw.u[0]), sine, cosine;
+        elementary_sincos(&angle, &sine, &cosine);
+        stem.along = p->at[k] + off * cosine;
+        stem.y = centre + off * sine;
+        /* beyond the end of its belt it stands as far before it instead, so that the belt is as dense there as elsewhere */
+        if (!(stem.along >= belt->from && stem.along <= belt->to)) {
+            double span = belt->to - belt->from, past = fabs(fmod(stem.along - belt->from, 2 * span));
+            stem.along = belt->from + (past <= span ? past : 2 * span - past);
+        }
+        if (fabs(stem.y) > (s->b + t->kind->most) / 2)
+            continue;
+        bool spreads = t->kind->shape > 0;
+        stem.dbh = spreads ? draw_dbh(s, t->kind, event, shoot_draw(RANDOM_DBH, i), 0) : t->kind->dbh;
+        if (fabs(stem.y) <= (s->b + stem.dbh) / 2)
             let_wait(s, i_side, &stem);
     }
 }
@@ -429,11 +401,8 @@ void ceduo_stems_release(struct stems *stems)
     for (int i = 0; i < 2; i++) {
         free(stems->side[i].waiting);
         free(stems->side[i].groups);
-        stems->side[i].waiting = NULL;
-        stems->side[i].groups = NULL;
     }
     free(stems->met);
     free(stems->rates);
-    stems->met = NULL;
-    stems->rates = NULL;
+    *stems = (struct stems){0};
 }

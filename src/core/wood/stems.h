@@ -39,23 +39,12 @@ static inline struct stem *ceduo_stems_next(struct stems_side *side)
  * moved on. Each call does a bounded amount of work. */
 void ceduo_stems_look_on(struct stems *stems, int side);
 
-/* Whether the next stem and the one after it both wait already, as mostly they do; and takes the first of them. */
-static inline bool ceduo_stems_next_waits(const struct stems_side *side)
-{
-    return side->next_known && side->next_waits && side->first + 1 < side->end &&
-           side->waiting[side->first + 1].along < side->sure;
-}
-
-static inline void ceduo_stems_take_waiting(struct stems_side *side)
-{
-    side->next = side->waiting[++side->first].along;
-}
-
 static inline void ceduo_stems_take(struct stems *stems, int i)
 {
     struct stems_side *side = &stems->side[i];
-    if (ceduo_stems_next_waits(side))
-        ceduo_stems_take_waiting(side);
+    size_t second = side->first + 1; /* mostly both it and the first wait already */
+    if (side->next_known && side->next_waits && second < side->end && side->waiting[second].along < side->sure)
+        side->next = side->waiting[++side->first].along;
     else
         ceduo_stems_look_on(stems, i);
 }

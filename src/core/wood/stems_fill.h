@@ -328,18 +328,6 @@ static inline uint64_t rank_among(const struct shoots *t, bool equal, uint64_t r
     return sum;
 }
 
-SELDOM void rank_equal_shoots(const struct shoots *t, uint64_t rank[SHOOTS_AT_ONCE])
-{
-    rank_among(t, true, rank);
-}
-
-static inline void rank_shoots(struct shoots *t, uint64_t rank[SHOOTS_AT_ONCE])
-{
-    store(&t->along[t->n], all(-INFINITY)); /* of place 0 */
-    if (rank_among(t, false, rank) != (uint64_t)t->n * (t->n - 1) / 2)
-        rank_equal_shoots(t, rank);
-}
-
 /* What those shoots take of which it depends on the eccentricity, with ceduo_dorren_share() of many at once. */
 SELDOM void set_energies(const struct stems *s, struct shoots *t, const uint64_t *rank, struct stem *waiting)
 {
@@ -384,7 +372,9 @@ static void make_stools(struct stems *s, int i_side)
             add_row(s, &stool, &t);
         }
     } while (t.n < STOP_SHOOTS && p->next < p->count && is_plain_stool(s, i_side));
-    rank_shoots(&t, rank);
+    store(&t.along[t.n], all(-INFINITY)); /* of place 0 */
+    if (rank_among(&t, false, rank) != (uint64_t)t.n * (t.n - 1) / 2)
+        rank_among(&t, true, rank);
     for (unsigned i = 0; i < t.n; i++) {
         const struct wood_kind *kind = &s->wood->kinds[t.kind[i]];
         side->waiting[rank[i]] = (struct stem){.along = t.along[i],
