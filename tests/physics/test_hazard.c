@@ -7,7 +7,7 @@
 #include <stdlib.h>
 
 #include "core/runs/weighted.h"
-#include "core/walk/sizes.h"
+#include "core/walk/prepared.h"
 
 #define ROCKS 100000
 

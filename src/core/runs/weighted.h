@@ -5,7 +5,7 @@
 #include "ceduo/hazard.h"
 #include "ceduo/statistics.h"
 
-/* Statistics of rocks that have weights, which are 1 on the mean (sizes.h). A share or a mean is that of the weights, over
+/* Statistics of rocks that have weights, which are 1 on the mean (prepared.h). A share or a mean is that of the weights, over
  * the sum of all weights, so that nothing is above 1. Its error is that of the regression on the weights, whose mean is
  * known (Cochran 1977): what only says that heavy rocks were drawn a little too often is no error. Where all weights are
  * equal, these are the plain statistics. */

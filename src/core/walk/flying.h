@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The part of the walk above the ground: from one contact to the next, past marks and stems, and the contact itself.
- * walk.c alone includes this, so that the compiler sees the whole walk at once. */
+ * walk.c alone includes this, after walk.h, so that the compiler sees the whole walk at once. */
 #ifndef CEDUO_FLYING_H
 #define CEDUO_FLYING_H
 
@@ -9,7 +9,6 @@
 #include "base/cancel.h"
 #include "landing.h"
 #include "strike.h"
-#include "walk.h"
 
 #ifndef PAUSE
 #define PAUSE 4000 /* contacts, or stems */

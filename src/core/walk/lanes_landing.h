@@ -18,7 +18,7 @@ HOT void search_on(struct form form, const struct lanes *k, struct search *s)
 {
     ints next = s->vertex + s->step;
     real x, z;
-    look_up(&k->ground->place, form.wraps ? next : pick_ints(s->going, next, s->vertex), form.small, &x, &z);
+    look_up(&k->ground->place, form.small && LOOK_UP_WRAPS ? next : pick_ints(s->going, next, s->vertex), form.small, &x, &z);
     real t = (x - s->x) * s->inv;
     s->going &= at_least(height_after(s->z, s->vz, k->g->half_g, t) - z, all(0));
     s->vertex = pick_ints(s->going, next, s->vertex);
@@ -44,11 +44,11 @@ HOT mask begin_search(struct form form, struct lanes *k, size_t i, unsigned *far
     const ints one = all_ints(1);
     real zero = all(0), x = load(&k->x[i]), vx = load(&k->vx[i]), vz = load(&k->vz[i]), inv = 1 / vx;
     mask forth = less(zero, vx);
-    real t = (pick(forth, load(&k->x1[i]), load(&k->x0[i])) - x) * inv;
-    mask clear = at_least(vz - load(&k->m[i]) * vx, k->g->half_g * t);
+    real t = (pick(forth, load(&k->on.x1[i]), load(&k->on.x0[i])) - x) * inv;
+    mask clear = at_least(vz - load(&k->on.m[i]) * vx, k->g->half_g * t);
     if (form.wood && k->aloft) {
         mask aloft = mask_of(k->aloft >> i);
-        real end = pick(forth, load(&k->z1[i]), load(&k->z0[i]));
+        real end = pick(forth, load(&k->on.z1[i]), load(&k->on.z0[i]));
         mask above = at_least(height_after(load(&k->z[i]), vz, k->g->half_g, t) - end, zero);
         clear = (aloft & above) | but(clear, aloft);
     }
@@ -114,12 +114,6 @@ HOT unsigned find_segments_far(struct form form, struct lanes *k)
     return far;
 }
 
-/* Stores what a lane lands at, but where it waits. */
-HOT void store_unless(mask waits, bool any_waits, double *to, real p)
-{
-    store(to, any_waits ? pick(waits, load(to), p) : p);
-}
-
 /* Where the flights of the lanes from i on land on their segments, or leave the profile; as land_on() and land_nowhere().
  * Returns those that leave; *roll: those that land as near and with so little speed off the ground that they may roll. */
 HOT unsigned land_lanes(struct form form, struct lanes *k, size_t i, unsigned *roll)
@@ -129,10 +123,7 @@ HOT unsigned land_lanes(struct form form, struct lanes *k, size_t i, unsigned *r
     real inv = load(&k->inv[i]), theta;
     mask forth = less(zero, vx);
     ints from = load_ints(&k->segment[i]), vertex = load_ints(&k->vertex[i]), to = pick_ints(forth, vertex, vertex - one);
-    struct chord on;
-    look_up(&k->ground->slope, to, form.small, &on.m, &theta);
-    look_up(&k->ground->place, to, form.small, &on.x0, &on.z0);
-    look_up(&k->ground->place, to + one, form.small, &on.x1, &on.z1);
+    struct chord on = look_up_chord(form, k, to, &theta);
     mask here = same(to, from);
     if (form.wood)
         here = but(here, mask_of(k->aloft >> i));
@@ -147,18 +138,21 @@ HOT unsigned land_lanes(struct form form, struct lanes *k, size_t i, unsigned *r
     to_z = pick(left, height_after(z, vz, k->g->half_g, t_end), to_z);
     mask near = but(less(absolute(to_x - x), load(&k->radius[i])), left);
     *roll |= lanes_of(near) << i;
-    bool any_waits = form.wood && k->waits;
-    mask waits = mask_of(k->waits >> i);
-    store_unless(waits, any_waits, &k->t[i], t);
-    store_unless(waits, any_waits, &k->to_x[i], to_x);
-    store_unless(waits, any_waits, &k->to_z[i], to_z);
-    store_ints(&k->to[i], any_waits ? pick_ints(waits, load_ints(&k->to[i]), to) : to);
-    store_unless(waits, any_waits, &k->x0[i], on.x0);
-    store_unless(waits, any_waits, &k->z0[i], on.z0);
-    store_unless(waits, any_waits, &k->x1[i], on.x1);
-    store_unless(waits, any_waits, &k->z1[i], on.z1);
-    store_unless(waits, any_waits, &k->m[i], on.m);
-    store_unless(waits, any_waits, &k->theta[i], theta);
+    if (form.wood && k->waits) {
+        mask waits = mask_of(k->waits >> i);
+        t = pick(waits, load(&k->t[i]), t);
+        to_x = pick(waits, load(&k->to_x[i]), to_x);
+        to_z = pick(waits, load(&k->to_z[i]), to_z);
+        to = pick_ints(waits, load_ints(&k->to[i]), to);
+        theta = pick(waits, load(&k->theta[i]), theta);
+        on = pick_chord(waits, load_chord(&k->on, i), on);
+    }
+    store(&k->t[i], t);
+    store(&k->to_x[i], to_x);
+    store(&k->to_z[i], to_z);
+    store_ints(&k->to[i], to);
+    store(&k->theta[i], theta);
+    store_chord(&k->on, i, on);
     return lanes_of(left) << i;
 }
 
@@ -179,7 +173,7 @@ HOT void is_within(real d, real reach, mask *less_far, mask *farther)
 HOT unsigned roll_lanes(struct form form, struct lanes *k, size_t i, unsigned near, unsigned *others)
 {
     const bool spins = form.law->spins;
-    const struct chord on = {load(&k->x0[i]), load(&k->z0[i]), load(&k->x1[i]), load(&k->z1[i]), load(&k->m[i])};
+    const struct chord on = load_chord(&k->on, i);
     real zero = all(0), radius = load(&k->radius[i]), off = load(&k->off[i]), u = load(&k->along[i]), c, s, mu, friction;
     real x = load(&k->x[i]), z = load(&k->z[i]), to_x = load(&k->to_x[i]), to_z = load(&k->to_z[i]);
     ints segment = load_ints(&k->segment[i]);

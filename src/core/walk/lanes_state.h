@@ -36,11 +36,35 @@ HOT void look_up(const struct lanes_table *table, ints i, bool small, real *firs
     load_pairs_at(table->pairs, at, first, second);
 }
 
+/* A chord in each lane. */
+struct chords {
+    double x0[LANES], z0[LANES], x1[LANES], z1[LANES], m[LANES];
+};
+
+HOT struct chord load_chord(const struct chords *from, size_t i)
+{
+    return (struct chord){load(&from->x0[i]), load(&from->z0[i]), load(&from->x1[i]), load(&from->z1[i]), load(&from->m[i])};
+}
+
+HOT void store_chord(struct chords *to, size_t i, struct chord on)
+{
+    store(&to->x0[i], on.x0);
+    store(&to->z0[i], on.z0);
+    store(&to->x1[i], on.x1);
+    store(&to->z1[i], on.z1);
+    store(&to->m[i], on.m);
+}
+
+HOT struct chord pick_chord(mask m, struct chord p, struct chord q)
+{
+    return (struct chord){pick(m, p.x0, q.x0), pick(m, p.z0, q.z0), pick(m, p.x1, q.x1), pick(m, p.z1, q.z1),
+                          pick(m, p.m, q.m)};
+}
+
 /* What is known before the first step, so that the steps are compiled for it. */
 struct form {
     const struct contact_law *law;
     bool small; /* the tables have 16 numbers */
-    bool wraps; /* and what is looked up beyond them does no harm */
     bool wood;  /* there are stems */
 };
 
@@ -61,7 +85,8 @@ struct lanes {
     /* the landing to come, with the ends, slope and largest facet angle of its segment */
     double t[LANES], to_x[LANES], to_z[LANES];
     uint64_t to[LANES];
-    double x0[LANES], z0[LANES], x1[LANES], z1[LANES], m[LANES], theta[LANES];
+    struct chords on;
+    double theta[LANES];
     double along[LANES], off[LANES]; /* velocity on the segment, behind a contact */
     double inv[LANES];               /* 1/vx */
     uint64_t vertex[LANES];          /* from 1; which the search for the landing has come to */
@@ -106,6 +131,16 @@ struct lanes {
 };
 
 _Static_assert(offsetof(struct lanes, contacts) % 64 == 0, "what is for lanes is loaded from whole lines of the cache");
+
+/* Segments, and their largest facet angles. */
+HOT struct chord look_up_chord(struct form form, const struct lanes *k, ints segment, real *theta)
+{
+    struct chord on;
+    look_up(&k->ground->place, segment, form.small, &on.x0, &on.z0);
+    look_up(&k->ground->place, segment + 1, form.small, &on.x1, &on.z1);
+    look_up(&k->ground->slope, segment, form.small, &on.m, theta);
+    return on;
+}
 
 /* Lanes that come to no contact in this step. */
 HOT unsigned in_the_air(struct form form, const struct lanes *k)
@@ -207,12 +242,12 @@ static void load_course(struct lanes *k, size_t i, const struct course *c)
     k->along[i] = c->along;
     uint64_t j = c->flies ? c->l.segment + 1 : c->at.segment + 1;
     k->to[i] = j;
-    k->x0[i] = ground->place.pairs[j][0];
-    k->z0[i] = ground->place.pairs[j][1];
-    k->x1[i] = ground->place.pairs[j + 1][0];
-    k->z1[i] = ground->place.pairs[j + 1][1];
+    k->on.x0[i] = ground->place.pairs[j][0];
+    k->on.z0[i] = ground->place.pairs[j][1];
+    k->on.x1[i] = ground->place.pairs[j + 1][0];
+    k->on.z1[i] = ground->place.pairs[j + 1][1];
     const double *slope = ground->slope.pairs[j << ground->slope.shift];
-    k->m[i] = slope[0];
+    k->on.m[i] = slope[0];
     k->theta[i] = slope[1];
 }
 

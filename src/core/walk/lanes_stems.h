@@ -17,8 +17,8 @@ struct passing {
     double to[LANES], t[LANES], z[LANES], cost[LANES], share[LANES];
     /* over which segments: the last that the flight may come to, and the one under the stem */
     uint64_t last[LANES], here[LANES];
-    double x0[LANES], z0[LANES], x1[LANES], z1[LANES], m[LANES]; /* of that */
-    double end[LANES];                                           /* x where the segment under the rock ends */
+    struct chords on;  /* that */
+    double end[LANES]; /* x where the segment under the rock ends */
     /* bit i is lane i */
     unsigned under_way;
     unsigned knows;   /* its landing */
@@ -27,41 +27,18 @@ struct passing {
     unsigned ended;   /* given up */
 };
 
-HOT struct chord look_here(struct form form, const struct lanes *k, ints here)
-{
-    struct chord on;
-    real theta;
-    look_up(&k->ground->place, here, form.small, &on.x0, &on.z0);
-    look_up(&k->ground->place, here + 1, form.small, &on.x1, &on.z1);
-    look_up(&k->ground->slope, here, form.small, &on.m, &theta);
-    return on;
-}
-
-HOT void store_here(struct passing *p, size_t i, ints here, const struct chord *on)
-{
-    store_ints(&p->here[i], here);
-    store(&p->x0[i], on->x0);
-    store(&p->z0[i], on->z0);
-    store(&p->x1[i], on->x1);
-    store(&p->z1[i], on->z1);
-    store(&p->m[i], on->m);
-}
-
-HOT struct chord load_here(const struct passing *p, size_t i)
-{
-    return (struct chord){load(&p->x0[i]), load(&p->z0[i]), load(&p->x1[i]), load(&p->z1[i]), load(&p->m[i])};
-}
-
 /* The segment under each stem at `to`, for flights that know where they land; as fly_past_stems(). */
 HOT void go_to_segment(struct form form, const struct lanes *k, struct passing *p, size_t i, real to, struct chord *on)
 {
     unsigned far = (p->under_way & p->knows) >> i & REGISTER & ~lanes_of(at_least(load(&p->end[i]), to));
     ints here = load_ints(&p->here[i]), last = load_ints(&p->last[i]);
+    real theta;
     mask further = mask_of(far) & at_least(to, on->x1) & more(last, here);
     while (any(further)) {
         here = pick_ints(further, here + 1, here);
-        *on = look_here(form, k, here);
-        store_here(p, i, here, on);
+        *on = look_up_chord(form, k, here, &theta);
+        store_ints(&p->here[i], here);
+        store_chord(&p->on, i, *on);
         further &= at_least(to, on->x1) & more(last, here);
     }
 }
@@ -160,7 +137,7 @@ HOT void take_stems(struct lanes *k, struct passing *p, unsigned hit, unsigned a
 HOT unsigned come_to_stem(struct form form, struct lanes *k, struct passing *p, size_t i, unsigned *above)
 {
     real zero = all(0), to = load(&k->stem_ahead[i]), vz = load(&k->vz[i]), latest = load(&k->t[i]);
-    struct chord on = load_here(p, i);
+    struct chord on = load_chord(&p->on, i);
     go_to_segment(form, k, p, i, to, &on);
     real t = (to - load(&k->x[i])) / load(&k->vx[i]);
     mask knows = mask_of(p->knows >> i);
@@ -188,7 +165,7 @@ HOT void hit_stem_lanes(struct lanes *k, struct passing *p, size_t i, unsigned h
                        .share = load(&p->share[i])};
     real share = speed_kept(blow);
     store_ints(&k->segment[i], pick_ints(h, load_ints(&p->here[i]), load_ints(&k->segment[i])));
-    store(&p->end[i], pick(h, load(&p->x1[i]), load(&p->end[i])));
+    store(&p->end[i], pick(h, load(&p->on.x1[i]), load(&p->end[i])));
     store(&k->x[i], pick(h, load(&p->to[i]), load(&k->x[i])));
     store(&k->z[i], pick(h, load(&p->z[i]), load(&k->z[i])));
     store(&k->vx[i], pick(h, vx * share, vx));
@@ -226,16 +203,13 @@ HOT void land_at_stems(struct form form, struct lanes *k, unsigned moved)
     EACH_REGISTER(i) {
         mask m = mask_of(moved >> i);
         ints segment = load_ints(&k->segment[i]);
-        const struct chord on = look_here(form, k, segment);
+        real theta;
+        const struct chord on = look_up_chord(form, k, segment, &theta);
         store(&k->t[i], pick(m, all(0), load(&k->t[i])));
         store(&k->to_x[i], pick(m, load(&k->x[i]), load(&k->to_x[i])));
         store(&k->to_z[i], pick(m, load(&k->z[i]), load(&k->to_z[i])));
         store_ints(&k->to[i], pick_ints(m, segment, load_ints(&k->to[i])));
-        store(&k->x0[i], pick(m, on.x0, load(&k->x0[i])));
-        store(&k->z0[i], pick(m, on.z0, load(&k->z0[i])));
-        store(&k->x1[i], pick(m, on.x1, load(&k->x1[i])));
-        store(&k->z1[i], pick(m, on.z1, load(&k->z1[i])));
-        store(&k->m[i], pick(m, on.m, load(&k->m[i])));
+        store_chord(&k->on, i, pick_chord(m, on, load_chord(&k->on, i)));
     }
     k->left &= ~moved;
 }
@@ -258,8 +232,10 @@ HOT unsigned pass_stems(struct form form, struct lanes *k)
         return 0;
     EACH_REGISTER(i) {
         ints here = load_ints(&k->segment[i]), to = load_ints(&k->to[i]);
-        const struct chord on = look_here(form, k, here);
-        store_here(&p, i, here, &on);
+        real theta;
+        const struct chord on = look_up_chord(form, k, here, &theta);
+        store_ints(&p.here[i], here);
+        store_chord(&p.on, i, on);
         store(&p.end[i], on.x1);
         store_ints(&p.last[i], pick_ints(more(to, n), n, to));
     }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* One rock from its release to its end: it flies to its next contact (flying.h), is thrown off again or rolls
- * (rolling.h), until it rests, leaves the slope, is stopped by a stem, or takes too long. The walk of lanes (lanes_walk.h) does
+ * (rolling.h), until it rests, leaves the slope, is stopped by a stem, or takes too long. The walk of lanes (kernel_text.h) does
  * the same for many rocks and hands over to this one what is rare. */
 #include "walk.h"
 

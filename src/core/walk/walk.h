@@ -2,7 +2,107 @@
 #ifndef CEDUO_WALK_H
 #define CEDUO_WALK_H
 
-#include "walker.h"
+#include <math.h>
+#include <stdatomic.h>
+#include <stdint.h>
+
+#include "base/elementary.h"
+#include "ceduo/trajectory.h"
+#include "core/wood/stems.h"
+#include "envelope.h"
+#include "flight.h"
+#include "prepared.h"
+#include "random.h"
+
+/* The section in which a rock meets the ground under the law arm: an ellipse whose half-axes are one of the three pairs of
+ * the rock's, so scaled that their mean over the pairs is R. */
+struct section {
+    double wide, high; /* squares of the half-axes over that of the radius of gyration: together 5 */
+    double reach;      /* R over the radius of gyration */
+    double gyration;   /* m */
+};
+
+/* That of pair 0, 1 or 2. */
+static inline struct section section_of(const struct ceduo_rock *rock, int pair)
+{
+    const double *axes = rock->axes;
+    double a = axes[pair], b = axes[(pair + 1) % 3], longer = a < b ? b : a;
+    double mean = (axes[0] + axes[1] + axes[2]) / 3, size = longer / mean * rock->radius;
+    double a2 = (a / longer) * (a / longer), b2 = (b / longer) * (b / longer), sum = a2 + b2;
+    double gyration = size * sqrt(sum / 5);
+    return (struct section){.wide = 5 * a2 / sum, .high = 5 * b2 / sum, .reach = rock->radius / gyration, .gyration = gyration};
+}
+
+/* One rock on its trajectory. */
+struct walker {
+    const struct ground *g;
+    const struct marks *marks;
+    uint64_t seed, number;
+    bool scale_rn;
+    struct ceduo_rock rock;
+    double k;         /* 0 where the law knows no spin */
+    bool has_section; /* under the law arm */
+    struct section section;
+    double rn_u, rt_u; /* quantiles of this rock's ground */
+    struct flight at;  /* where it is now */
+    double along;      /* after a roll: speed along the segment */
+    double spin;
+    uint64_t contacts;
+    uint64_t pause;       /* contacts after which to look up: at the most, or whether to stop */
+    uint64_t stems_pause; /* the same, of the effort spent on stems */
+    size_t next_mark, next_cell;
+    double mark_x;                  /* of that mark, infinite behind the last; */
+    double next_x;                  /* or of that cell, which comes first */
+    struct envelope_row row;        /* what it brings to the cells */
+    struct stems *stems;            /* NULL: no forest */
+    double stem_ahead, stem_behind; /* x of the next stem in either direction; infinite: none */
+    uint64_t stems_hit, stools_met;
+    struct contact_draws {
+        uint64_t of;
+        struct random_pair pair; /* of contacts 2 of and 2 of + 1 */
+    } facets, turns;             /* turns: of the section */
+    /* at a control */
+    void (*cross)(void *context, const struct walker *w, size_t mark, const struct ceduo_crossing *crossing);
+    const struct ceduo_watch *watch; /* NULL: nobody looks */
+    void *context;                   /* of cross */
+    bool arrivals_only;              /* nothing is asked behind the last mark: it stops soon after, CEDUO_UNFINISHED */
+    const atomic_bool *cancel;       /* looked at now and then on long trajectories; may be NULL */
+    bool cancelled;                  /* it was raised, or memory ran out: the trajectory is not at its end */
+    bool gives_up;                   /* among stems: cancelled, or there were too many */
+};
+
+/* Where a rock stands between two contacts: in flight to `l`, or on the ground at its next contact. */
+struct course {
+    struct flight at;
+    bool flies;
+    bool aloft;        /* and `l` is not known yet, behind a stem */
+    double along, off; /* velocity, on the ground */
+    struct landing l;  /* in flight */
+};
+
+/* ---- what is next ---- */
+
+static inline bool is_behind_marks(const struct walker *w)
+{
+    return w->next_mark == w->marks->n && w->next_cell == w->marks->cells;
+}
+
+static inline bool is_cell_before(const struct walker *w, double x)
+{
+    return islessequal(w->marks->cell_x[w->next_cell], x);
+}
+
+static inline void set_next_x(struct walker *w)
+{
+    const struct marks *m = w->marks;
+    w->mark_x = w->next_mark < m->n ? m->at[w->next_mark].x : INFINITY;
+    double cell_x = m->cell_x[w->next_cell];
+    w->next_x = isless(cell_x, w->mark_x) ? cell_x : w->mark_x;
+    if (w->arrivals_only && is_behind_marks(w))
+        w->pause = 0;
+}
+
+/* ---- the walk ---- */
 
 /* Draws rock number `number` of the scene and puts it at its release. walker.stems and those who look on are the
  * caller's to set before. */
