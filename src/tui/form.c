@@ -91,6 +91,8 @@ static void fill_cell(struct form_cell *cell, const struct document *d, const st
         show_node(&shown, node, field);
     else
         ceduo_shown_value(field, usual, &shown);
+    if (field && (field->type == FIELD_NUMBERS || field->type == FIELD_SPREADS || field->type == FIELD_SPREAD) && shown.bytes)
+        ceduo_number_spoken(shown.bytes);
     snprintf(cell->text, sizeof cell->text, "%s", ceduo_text_string(&shown));
     ceduo_text_free(&shown);
 }
@@ -352,8 +354,8 @@ static void draw_cell(const struct drawing *d, const struct form_cell *cell, int
     snprintf(shown, sizeof shown, "%s%s", ceduo_text_string(&words), cell->assumed ? "*" : "");
     ceduo_text_free(&words);
     double number;
-    if ((int)ceduo_utf8_width(shown) > span && strchr(shown, '.') &&
-        ceduo_number_read(cell->text, &number) == CEDUO_NUMBER_GOOD)
+    if ((int)ceduo_utf8_width(shown) > span && strpbrk(shown, ".,") &&
+        ceduo_typed_number(cell->text, &number) == CEDUO_NUMBER_GOOD)
         snprintf(shown, sizeof shown, "%.4g%s", number, cell->assumed ? "*" : "");
     if (strspn(shown, "0123456789.+-e *") == strlen(shown))
         ceduo_number_spoken(shown);
@@ -476,7 +478,7 @@ bool ceduo_form_step(const struct document *d, const struct form_cell *cell, int
     double now;
     if (!f)
         return false;
-    if (ceduo_schema_is_place(f) && ceduo_schema_place_read(cell->text, &now)) { /* by a metre: more is nearer the end */
+    if (ceduo_schema_is_place(f) && ceduo_schema_place_read(cell->written, &now)) { /* by a metre: more is nearer the end */
         ceduo_text_format(value, now - direction > 0 ? "end-%g" : "end", now - direction);
         return true;
     }
@@ -493,7 +495,7 @@ bool ceduo_form_step(const struct document *d, const struct form_cell *cell, int
     const struct node *node = ceduo_document_node(d, cell->path);
     bool scalar = !node || node->kind == NODE_SCALAR;
     if (!scalar || (f->type != FIELD_NUMBER && f->type != FIELD_SPREAD && f->type != FIELD_COUNT) ||
-        ceduo_number_read(cell->text, &now) != CEDUO_NUMBER_GOOD)
+        ceduo_typed_number(cell->text, &now) != CEDUO_NUMBER_GOOD)
         return false;
     double step = step_of(now, f), lo = f->lo * f->shown.per, hi = f->hi * f->shown.per;
     if (direction < 0 && now != 0 && fabs(now) < 10.5 * step && step_of(now - step, f) < step && now > 0)

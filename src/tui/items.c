@@ -182,9 +182,10 @@ static bool ask_for_blocks(struct app *app, const struct item *item)
     for (size_t i = 0; i < s->blocks_count; i++)
         if (s->blocks[i].volumes[1] > (largest ? largest->volumes[1] : 0))
             largest = &s->blocks[i];
-    const char *const offered[] = {largest ? ceduo_app_format(app, "%.4g", largest->per_year / 10) : "",
-                                   largest ? ceduo_app_format(app, "%.10g %.10g", largest->volumes[1], 10 * largest->volumes[1])
-                                           : ""};
+    const char *const offered[] = {
+        largest ? ceduo_number_spoken(ceduo_app_format(app, "%.4g", largest->per_year / 10)) : "",
+        largest ? ceduo_number_spoken(ceduo_app_format(app, "%.10g %.10g", largest->volumes[1], 10 * largest->volumes[1]))
+                : ""};
     ceduo_popup_item_of(app, item->list, NULL, offered, 2);
     return false;
 }

@@ -186,7 +186,7 @@ void ceduo_popup_counts(struct app *app)
     for (size_t i = 0; i < COUNTS; i++)
         ceduo_popup_choice(p, _(fields[i].label),
                            i == COUNT_HOW   ? ALONG_SLOPE
-                           : offered[i] > 0 ? ceduo_app_format(app, "%.6g", offered[i])
+                           : offered[i] > 0 ? ceduo_number_spoken(ceduo_app_format(app, "%.6g", offered[i]))
                                             : "",
                            i == COUNT_HOW ? offer_how : NULL);
 }

@@ -99,7 +99,7 @@ static double place_of(const struct ceduo_slope *s, double x)
 static void set_number(struct line *line, double value)
 {
     char room[CEDUO_NUMBER_ROOM];
-    ceduo_line_set(line, ceduo_number_shortest(value, room));
+    ceduo_line_set(line, ceduo_shown_number(NULL, value, room));
 }
 
 /* The edge of the first face and its lower end, unless another is typed already. */
@@ -332,6 +332,7 @@ static void draw_profile(struct app *app, struct popup *p, struct ceduo_area are
 
 static void ask(struct app *app)
 {
+    char room[CEDUO_NUMBER_ROOM];
     struct popup *p = ceduo_popup_fields(app, _("New scene"), filled_new);
     ceduo_text_put(&p->text, _("The profile: a CSV file (distance, elevation), or points typed as x z, x z, … What is "
                                "left empty is not there; rocks are then counted at the end. All can be changed later."));
@@ -343,7 +344,7 @@ static void ask(struct app *app)
     ceduo_popup_field(p, _("rocks start at x, m"), "");
     ceduo_popup_field(p, _("face from the top to x, m"), "");
     ceduo_popup_choice(p, _("ground below it"), ceduo_material_talus()->name, ceduo_popup_offer_grounds);
-    ceduo_popup_field(p, _("rock: diameter, m"), "0.6");
+    ceduo_popup_field(p, _("rock: diameter, m"), ceduo_shown_number(NULL, 0.6, room));
     ceduo_popup_field(p, _("counted at x, m"), "");
     ceduo_popup_field(p, _("the place withstands, kJ"), "50");
     ceduo_popup_choice(p, _("stand on the way"), "simple-coppice", ceduo_popup_offer_stands);

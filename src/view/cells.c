@@ -3,6 +3,7 @@
 #include "cells.h"
 
 #include <assert.h>
+#include <ctype.h>
 #include <limits.h>
 #include <stdlib.h>
 #include <string.h>
@@ -148,9 +149,15 @@ static const char *ascii_for(uint32_t code)
 /* Walks through a text as it will be written, one cell after the other. */
 struct reader {
     enum ceduo_charset charset;
-    const char *text;
+    const char *begin, *text;
     const char *pending; /* the rest of an ASCII equivalent, in a constant table */
 };
+
+bool ceduo_is_power(const char *string, const char *at)
+{
+    return (*at == '2' || *at == '3') && at > string && at[-1] == 'm' && (at == string + 1 || strchr(" /(", at[-2])) &&
+           !isalnum((unsigned char)at[1]) && !(at[1] && strchr("_.=[", at[1]) && at[2] > ' ');
+}
 
 /* 0 at the end. */
 static uint32_t next_code(struct reader *reader)
@@ -159,6 +166,8 @@ static uint32_t next_code(struct reader *reader)
         return (uint32_t)*reader->pending++;
     if (*reader->text == '\0')
         return 0;
+    if (reader->charset != CEDUO_CHARSET_ASCII && ceduo_is_power(reader->begin, reader->text))
+        return *reader->text++ == '2' ? 0xB2 : 0xB3;
     if (*reader->text >= ' ' && *reader->text <= '~') /* most texts are of these alone */
         return (uint32_t)*reader->text++;
     uint32_t code;
@@ -174,7 +183,7 @@ static uint32_t next_code(struct reader *reader)
 
 int ceduo_cells_label(struct ceduo_cells *cells, int column, int row, enum ceduo_role role, const char *text)
 {
-    struct reader reader = {cells->charset, text, ""};
+    struct reader reader = {cells->charset, text, text, ""};
     int count = 0;
     uint32_t code;
     while (count < INT_MAX && (code = next_code(&reader)) != 0) {
@@ -197,14 +206,14 @@ int ceduo_cells_put_end(struct ceduo_cells *cells, int column, int row, int most
 
 void ceduo_cells_ascii(struct text *text, const char *string)
 {
-    struct reader reader = {CEDUO_CHARSET_ASCII, string, ""};
+    struct reader reader = {CEDUO_CHARSET_ASCII, string, string, ""};
     for (uint32_t code; (code = next_code(&reader)) != 0;)
         ceduo_text_char(text, (char)code);
 }
 
 int ceduo_cells_label_width(enum ceduo_charset charset, const char *text)
 {
-    struct reader reader = {charset, text, ""};
+    struct reader reader = {charset, text, text, ""};
     int count = 0;
     while (count < INT_MAX && next_code(&reader) != 0)
         ++count;

@@ -113,6 +113,9 @@ int ceduo_cells_label(struct ceduo_cells *cells, int column, int row, enum ceduo
 /* Write the end of a text that fits into `most` cells; returns the cells it took. */
 int ceduo_cells_put_end(struct ceduo_cells *cells, int column, int row, int most, enum ceduo_role role, const char *text);
 
+/* Whether a digit of a text is the power of a metre, as in m3 and m2/ha, and not part of a key: cells show m³ outside ASCII. */
+bool ceduo_is_power(const char *string, const char *at);
+
 /* Adds a text as it is written in ASCII. */
 void ceduo_cells_ascii(struct text *text, const char *string);
 

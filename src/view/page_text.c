@@ -11,6 +11,7 @@
 #include "base/grow.h"
 #include "base/utf8.h"
 #include "canvas.h"
+#include "cells.h"
 #include "page.h"
 #include "words.h"
 
@@ -61,10 +62,7 @@ static void append_blanks(struct text *text, size_t n)
 void ceduo_page_powers(struct text *text, const char *string)
 {
     for (const char *at = string; *at; at++) {
-        bool power = (*at == '2' || *at == '3') && at > string && at[-1] == 'm' &&
-                     (at == string + 1 || strchr(" /(", at[-2])) && !isalnum((unsigned char)at[1]) &&
-                     !(at[1] && strchr("_.=[", at[1]) && at[2] > ' ');
-        if (power)
+        if (ceduo_is_power(string, at))
             ceduo_text_put(text, *at == '2' ? "\xc2\xb2" : "\xc2\xb3");
         else
             ceduo_text_char(text, *at);

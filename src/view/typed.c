@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/language.h"
+#include "words.h"
 
 #define TYPED_MOST 1024 /* bytes of what is typed in a line */
 #define EVERYWHERE 2e9  /* a range so wide tells a person nothing */
@@ -226,9 +227,9 @@ bool ceduo_shown_range(const struct field *f, struct text *text)
 const char *ceduo_shown_number(const struct field *f, double value, char room[CEDUO_NUMBER_ROOM])
 {
     if (!f)
-        return ceduo_number_shortest(value, room);
+        return ceduo_number_spoken(ceduo_number_shortest(value, room));
     snprintf(room, CEDUO_NUMBER_ROOM, "%.12g", value * f->shown.per);
-    return room;
+    return ceduo_number_spoken(room);
 }
 
 void ceduo_shown_value(const struct field *f, const char *written, struct text *shown)
@@ -243,14 +244,22 @@ void ceduo_shown_value(const struct field *f, const char *written, struct text *
                                         N_("sphere"),
                                         N_("cylinder"),
                                         N_("ellipsoid"),
-                                        N_("block")};
+                                        N_("block"),
+                                        N_("stems"),
+                                        N_("index"),
+                                        N_("auto"),
+                                        N_("fit"),
+                                        N_("check")};
     double value;
     size_t n;
     char room[CEDUO_NUMBER_ROOM];
     LOCAL_TEXT(words);
     if (!f || f->type != FIELD_CHOICE) {
         bool other = f && is_number(f) && f->shown.per != 1 && ceduo_number_read(written, &value) == CEDUO_NUMBER_GOOD;
+        size_t start = shown->length;
         ceduo_text_put(shown, other ? ceduo_shown_number(f, value, room) : written);
+        if (f && is_number(f) && shown->bytes)
+            ceduo_number_spoken(shown->bytes + start);
         return;
     }
     for (const char *c = written; *c; c++)
@@ -264,7 +273,8 @@ void ceduo_shown_value(const struct field *f, const char *written, struct text *
     for (size_t i = 0; i < sizeof known / sizeof known[0]; i++)
         if (strcmp(known[i], said) == 0)
             said = _(known[i]);
-    ceduo_text_put(shown, said);
+    const char *law = ceduo_words_law(written);
+    ceduo_text_put(shown, strcmp(law, written) != 0 ? law : said);
 }
 
 /* ---- paths ---- */

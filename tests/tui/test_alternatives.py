@@ -112,7 +112,7 @@ def test_sphere_refused():
     """A size that is refused leaves the other where it is."""
     with Place() as place:
         refused, after = place.play("key 3\nfind rock.volume_m3\nset -1\ndump\nkey Esc\nclear\ndump")
-    expect_in("-1 is below 0 m3", refused.note)
+    expect_in("-1 is below 0 m³", refused.note)
     expect_equal(after.row("^diameter")[-1], "0.5", "diameter")
     expect("* fast" not in after.title, after.title)
 

@@ -45,7 +45,7 @@ def test_view():
     ends = math.floor(wooded["exceed_lo"] * 1000), math.ceil(wooded["exceed_hi"] * 1000)
     for screen in (small, large):
         screen.whole().has(f"{found:.0f} of 1000 (rocks {ends[0]}–{ends[1]}; doubt {band[0]}–{band[1]})",
-                           "Measure first: stem strength U, J/m3, upper")
+                           "Measure first: stem strength U, J/m³, upper")
         expect(re.search(r"^stem stren.* \d+ % +leaves", screen.body, re.M), "the input with its share in", screen)
         expect(re.search(rf"^current .* {found:.0f} \({band[0]}–{band[1]}\)", screen.body, re.M), "the option's line in", screen)
         expect("forest[" not in screen.body, "a path of the file in", screen)

@@ -496,7 +496,7 @@ def test_blocks():
             dump""", "fast.yaml")
         expect_in("none; a adds one", none.body, "no blocks")
         refused.has("blocks per year: 'viel' is not a number")
-        expect(re.search(r"blocks per year +0\.1_? +volumes, m3 +1 10\b", asked.popup), "what is offered", asked)
+        expect(re.search(r"blocks per year +0\.1_? +volumes, m³ +1 10\b", asked.popup), "what is offered", asked)
         found = [re.findall(r"^\d +(\S+) +(\S+ \S+) +(\S+)$", s.body.split("Blocks that come down")[1], re.M) for s in (one, two)]
         expect_equal(found, [[("1", "0.05 1", "1")], [("1", "0.05 1", "1"), ("0.1", "1 10", "-")]], "blocks")
         expect_in("none; a adds one", gone.body, "after d d")

@@ -45,6 +45,20 @@ def test_numbers():
         expect_equal(sorted(figure.replace(",", ".") for figure in commas), sorted(dots), italian)
 
 
+def test_fields():
+    """A field and the popups offer decimals with a comma and take them, the file has a dot; units have their powers"""
+    with Place() as place:
+        opened, after, new = play(place.path, "key 3\nfind rock.diameter_m\nkey Enter\ndump\nkey Esc\nset 0,75\ndump\n"
+                                  "key s\nkey n\ndump", "fast.yaml", "--language", "it")
+        expect("0,5_" in str(opened) and "kg/m\u00b3" in str(opened), opened)
+        expect("0,75" in str(after), after)
+        expect("0,6" in str(new), new)
+        expect("diameter_m: 0.75" in place.text("fast.yaml"), place.text("fast.yaml"))
+    with Place() as place:
+        (ascii_screen,) = play(place.path, "key 3\ndump", "fast.yaml", "--language", "it", charset="ascii")
+        expect("kg/m3" in str(ascii_screen), ascii_screen)
+
+
 def test_columns():
     """The rule beside the figures stands in one column, as in English"""
     for english, italian in both(VIEWS, "options.yaml"):

@@ -224,7 +224,7 @@ def test_stands():
         listed, wide = place.play("key 2\nkey p\ndump\nresize 200 50\ndump")
     area = math.pi / 4 * (3000 * 0.1 ** 2 + 200 * 0.05 ** 2 + 100 * 0.3 ** 2)
     dbh = 100 * math.sqrt(4 * area / math.pi / 3300)
-    row = re.search(r"mine\.yaml +3300/ha +([\d.]+) cm +18 y +([\d.]+) m2/ha +yours", listed.popup)
+    row = re.search(r"mine\.yaml +3300/ha +([\d.]+) cm +18 y +([\d.]+) m²/ha +yours", listed.popup)
     expect(row, listed)
     expect_equal(row.groups(), (f"{dbh:.1f}", f"{area:.1f}"))
     expect(listed.popup.index("mine.yaml") < listed.popup.index("from a sample plot") < listed.popup.index("ads-1"), listed)
@@ -360,7 +360,7 @@ def test_search():
         clear
         dump""")
     screens[0].has("Search in this view")
-    expect(screens[1].note.startswith("density, kg/m3: "), screens[1].note)
+    expect(screens[1].note.startswith("density, kg/m³: "), screens[1].note)
     notes = [s.note.split(":")[0] for s in screens[2:5]]
     expect(notes[0] != notes[1] and {"speed along, m/s", "speed upward, m/s"} <= set(notes), notes)
     expect_in("'zzz' is not found in this view", screens[5].note)
@@ -431,14 +431,14 @@ def test_counts():
     area = 400 * math.cos(math.radians(40))
     for how, per in (("slope", 10000 / area), ("map", 25)):
         before, form, screen, _ = fast(counts_script(COUNTED[0], how, *COUNTED[2:]))
-        form.has("Stand from the counts of a sample plot", "size of the plot, m2", "angle", "their mean diameter, cm")
+        form.has("Stand from the counts of a sample plot", "size of the plot, m²", "angle", "their mean diameter, cm")
         rows = [re.findall(r"^\d +(\S+) +(\S+) +(\S+)", part, re.M) for part in screen.body.split("\n    per ha")[1:]]
         found = [float(screen.row("^stools per ha")[-1]), float(rows[0][0][0]), float(rows[1][0][0])]
         for value, count in zip(found, (100, 250, 20)):
             expect_near(value, count * per, count * per * 1e-5, f"{how}: {count} in the plot, per ha")
         expect_equal(rows[0][0][1:] + rows[1][0][1:], ("7.5", "8", "18", "13"), "diameters and heights")
         expect_equal([len(r) for r in rows], [1, 1], "one class of each")
-        expect_in("306.4 m2" if how == "slope" else "400 m2", screen.note)
+        expect_in("306.4 m²" if how == "slope" else "400 m²", screen.note)
         expect_in("32.64" if how == "slope" else "25", screen.note)
         expect(screen.now != before.now, "the figures stay as they were")
     expect_near(10000 / area, 10000 / 306.4, 0.005, "this test's own arithmetic")

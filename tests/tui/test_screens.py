@@ -148,7 +148,7 @@ MUST = {
     "stand": ["from, m to, m stand", "Stand of belt 1:", "system", "species", "stools per ha", "spacing, m",
               "Shoots on the stools", "Single trees: standards, reserves",
               "stems/ha, basal area", "by interception", "kJ per 100 m"],
-    "rock": ["shape cylinder", "diameter, m 0.56", "height, m 0.80", "density, kg/m3 2600", "Release", "x, m 0",
+    "rock": ["shape cylinder", "diameter, m 0.56", "height, m 0.80", "density, kg/m", "Release", "x, m 0",
              "spin, rad/s 0", "Simulation", "law of impact lumped", "512.3 kg", "mean diameter B 0.68 m"],
     "results": ["ADC", "left at 135 m", "without forest", "index (Eq. 5)", "mean, kJ", "> 50 kJ", "p50", "p95"],
     "compare": ["135 m", "fail"]}
@@ -273,7 +273,7 @@ shape                cylinder
 diameter, m          0.56
 height, m            0.80
 mass, kg             -
-density, kg/m3       2600
+density, kg/m³       2600
 Release
 x, m                 0
 height, m            0"""
@@ -326,7 +326,7 @@ def test_explanation():
         dump""", "paper-site")
     expect_in("stools per horizontal hectare; 1/ha", screens[0].note)
     expect_in("[measured: Ciabocco, Boccia and Ripa 2009, Table 1", screens[0].note, "source")
-    for part in ("density, kg/m3: ", "kg/m3", "(default 2600)", "[measured: Ciabocco"):
+    for part in ("density, kg/m³: ", "kg/m³", "(default 2600)", "[measured: Ciabocco"):
         expect_in(part, screens[1].note, "density")
     for part in ("threshold, m: ", "; m", "(default 30)"):
         expect_in(part, screens[2].note, "threshold")

@@ -101,7 +101,7 @@ def test_unlikely():
     start.lacks("shoots a stool are more than")
     dense.has("! upper: 15.5 shoots a stool are more than 15")
     area = math.pi / 4 * (45000 * 0.06 ** 2 + 1500 * 0.12 ** 2 + 80 * 0.2 ** 2 + 20 * 0.35 ** 2)
-    dense.has(f"! upper: {area:.1f} m2/ha of basal area are more than 60")
+    dense.has(f"! upper: {area:.1f} m²/ha of basal area are more than 60")
 
 
 if __name__ == "__main__":
