@@ -138,7 +138,7 @@ static void add_plots(const struct arguments *a, const struct ceduo_scene *scene
     struct ceduo_picture picture = {
         .scene = scene, .snapshot = snapshot, .verdict = verdict, .control = ceduo_scene_last_control(scene)};
     size_t start = out->length;
-    size_t options = ceduo_plot_kinds[a->plot].by_option ? scene->options_count : 1;
+    size_t options = ceduo_plot_kinds[a->plot].flags & CEDUO_PICTURE_WHOLE ? 1 : scene->options_count;
     for (size_t o = 0; o < options; o++) {
         size_t belts = a->plot == CEDUO_PLOT_STAND ? scene->options[o].belts_count : 0;
         size_t controls = a->plot == CEDUO_PLOT_HISTOGRAM ? scene->controls_count : 0;
@@ -196,7 +196,7 @@ enum exit_status ceduo_print_plots(const struct arguments *a, struct scene_file 
 {
     if (a->plot == CEDUO_PLOT_DOUBT)
         return print_doubt(a, file, out);
-    if (!ceduo_plot_kinds[a->plot].needs_run) {
+    if (!(ceduo_plot_kinds[a->plot].flags & CEDUO_PICTURE_RUN)) {
         add_plots(a, &file->scene, NULL, NULL, NULL, out);
         return EXIT_DONE;
     }
@@ -207,7 +207,7 @@ enum exit_status ceduo_print_plots(const struct arguments *a, struct scene_file 
     enum exit_status done = EXIT_DONE;
     q.run.other_energy = false;
     q.years |= a->plot == CEDUO_PLOT_ROTATION || a->plot == CEDUO_PLOT_TRADEOFF;
-    enum ceduo_status status = ceduo_ask_pictures(&q, ceduo_plot_kinds[a->plot].needs_cells,
+    enum ceduo_status status = ceduo_ask_pictures(&q, ceduo_plot_kinds[a->plot].flags & CEDUO_PICTURE_CELLS,
                                                   a->plot == CEDUO_PLOT_PROFILE ? CEDUO_SNAPSHOT_TRAJECTORIES : 0, &answered);
     if (status == CEDUO_OK) {
         add_plots(a, &file->scene, answered.snapshot, answered.answer.years, &answered.verdict, out);

@@ -5,7 +5,6 @@
 
 #include "app.h"
 #include "base/language.h"
-#include "view/plot_parts.h"
 
 static void build(struct app *app, struct form *form)
 {
@@ -37,13 +36,10 @@ static void draw(struct app *app, struct ceduo_area area)
     const struct ceduo_doubt_report *r = pane.doubt;
     bool waits = app->over && r && r->answer && !r->over;
     picture.doubt = waits ? NULL : r;
-    const char *why = ceduo_blocks_doubt(&page, &picture, pane.height - WORDS_MIN - 1);
     const char *never = waits ? ceduo_uncertainty_no_rotation(&app->document.file.scene) : NULL;
     if (never)
-        why = _(never);
-    if (why)
-        ceduo_page_say(&page, CEDUO_PAGE_NOTE, "%s", why);
-    else
+        ceduo_page_say(&page, CEDUO_PAGE_NOTE, "%s", _(never));
+    else if (ceduo_plot_add(CEDUO_PLOT_DOUBT, &page, &picture, pane.height - WORDS_MIN - 1))
         ceduo_page_add(&page, CEDUO_PAGE_GAP);
     if (!waits)
         ceduo_pane_doubt(&page, &pane);

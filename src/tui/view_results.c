@@ -2,19 +2,10 @@
 /* View 4: what was found: the ADC of each belt, the energy that is left, the energies that arrive, and all of it in words. */
 #include "app.h"
 #include "base/language.h"
-#include "view/plot_parts.h"
 
 #define WIDE_MIN   110 /* columns that hold pictures beside the words */
 #define HEIGHT_ALL 30  /* lines with room for the four rules of the ADC, for energy along the slope */
 #define BARS_MIN   7   /* lines of the energies as bars */
-
-static void add_blocks(struct ceduo_page *page, const struct ceduo_picture *picture, int height, ceduo_blocks_function *blocks)
-{
-    const char *why = blocks(page, picture, height);
-    if (why)
-        ceduo_page_say(page, CEDUO_PAGE_NOTE, "%s", why);
-    ceduo_page_add(page, CEDUO_PAGE_GAP);
-}
 
 /* `bars`: the energies as bars stand among the words. */
 static void draw_page(struct app *app, struct ceduo_area area, const struct ceduo_picture *picture, bool bars)
@@ -23,13 +14,16 @@ static void draw_page(struct app *app, struct ceduo_area area, const struct cedu
     struct ceduo_page page = {.width = (size_t)area.width};
     struct ceduo_pane pane = ceduo_app_pane(app, area.height);
     struct ceduo_report report = ceduo_app_report(app);
-    add_blocks(&page, picture, area.height >= HEIGHT_ALL ? area.height / 2 : area.height / 4, ceduo_blocks_adc);
+    ceduo_plot_add(CEDUO_PLOT_ADC, &page, picture, area.height >= HEIGHT_ALL ? area.height / 2 : area.height / 4);
+    ceduo_page_add(&page, CEDUO_PAGE_GAP);
     ceduo_pane_residual(&page, &pane);
     ceduo_page_add(&page, CEDUO_PAGE_GAP);
     int rest = area.height - ceduo_page_draw(&page, &app->cells->canvas, (struct ceduo_area){0}, 0);
-    if (bars)
-        add_blocks(&page, picture, rest > BARS_MIN ? rest < 2 * BARS_MIN ? rest : 2 * BARS_MIN : BARS_MIN,
-                   ceduo_blocks_histogram);
+    if (bars) {
+        ceduo_plot_add(CEDUO_PLOT_HISTOGRAM, &page, picture,
+                       rest > BARS_MIN ? rest < 2 * BARS_MIN ? rest : 2 * BARS_MIN : BARS_MIN);
+        ceduo_page_add(&page, CEDUO_PAGE_GAP);
+    }
     ceduo_pane_words(&page, &report, app->option);
     ceduo_app_page(app, area, &page, &ceduo_app_state(app)->scroll);
 }

@@ -104,39 +104,47 @@ size_t ceduo_tick_label(double value, double interval, size_t size, char *buffer
 
 /* ---- Axes ---- */
 
-/* The labels of an axis: where each tick is (column or row), and on the bottom axis the columns of its text. */
+/* The labels of an axis. */
 struct scale {
     int count;
     double interval;
-    double value[CEDUO_TICKS_MAX];
-    int tick[CEDUO_TICKS_MAX];
-    int start[CEDUO_TICKS_MAX], end[CEDUO_TICKS_MAX];
+    struct ceduo_tick tick[CEDUO_TICKS_MAX + 1]; /* and the unit */
 };
 
-/* What the surface is given of a tick; its label begins at `start`. */
-static struct ceduo_tick tick_of(const struct scale *scale, int i, double at, int start)
+/* At most n ticks, but for where their labels begin. False where one lies outside. */
+static bool set_ticks(struct scale *scale, const struct ceduo_frame *frame, const struct ceduo_canvas *canvas, bool bottom,
+                      int n)
 {
-    struct ceduo_tick tick = {.cell = scale->tick[i], .at = at, .start = start};
-    ceduo_tick_label(scale->value[i], scale->interval, sizeof tick.label, tick.label);
-    return tick;
+    double value[CEDUO_TICKS_MAX];
+    scale->count = bottom ? ceduo_ticks(frame->x0, frame->x1, n, value, &scale->interval)
+                          : ceduo_ticks(frame->y0, frame->y1, n, value, &scale->interval);
+    for (int i = 0; i < scale->count; ++i) {
+        struct ceduo_tick *t = &scale->tick[i];
+        double x = bottom ? value[i] : frame->x0, y = bottom ? frame->y0 : value[i], across, down;
+        int column, row;
+        if (!ceduo_frame_cell(frame, canvas, x, y, &column, &row))
+            return false;
+        ceduo_frame_place(frame, canvas, x, y, &across, &down);
+        t->cell = bottom ? column : row;
+        t->at = bottom ? across : down;
+        ceduo_tick_label(value[i], scale->interval, sizeof t->label, t->label);
+    }
+    return true;
 }
 
 /* As many labels as stand clear of each other. */
 static struct scale left_scale(const struct ceduo_frame *frame, const struct ceduo_canvas *canvas)
 {
     struct scale scale = {0};
-    int apart = frame->height > 3 ? 2 : 1, column;
+    int apart = frame->height > 3 ? 2 : 1;
     for (int n = frame->height / 2 + 1; n > 0; --n) {
-        bool fits = true;
-        scale.count = ceduo_ticks(frame->y0, frame->y1, n, scale.value, &scale.interval);
-        for (int i = 0; i < scale.count && fits; ++i)
-            fits = ceduo_frame_cell(frame, canvas, frame->x0, scale.value[i], &column, &scale.tick[i]) &&
-                   (i == 0 || abs(scale.tick[i] - scale.tick[i - 1]) >= apart);
+        bool fits = set_ticks(&scale, frame, canvas, false, n);
+        for (int i = 1; i < scale.count && fits; ++i)
+            fits = abs(scale.tick[i].cell - scale.tick[i - 1].cell) >= apart;
         if (fits)
             return scale;
     }
-    scale.count = 0;
-    return scale;
+    return (struct scale){0};
 }
 
 int ceduo_frame_axis_width(const struct ceduo_frame *frame, const struct ceduo_canvas *canvas)
@@ -152,8 +160,7 @@ int ceduo_frame_axis_width(const struct ceduo_frame *frame, const struct ceduo_c
     struct scale scale = left_scale(&rows, canvas);
     size_t widest = 0;
     for (int i = 0; i < scale.count; ++i) {
-        char text[CEDUO_TICK_LABEL_SIZE];
-        size_t length = ceduo_tick_label(scale.value[i], scale.interval, sizeof text, text);
+        size_t length = strlen(scale.tick[i].label);
         widest = length > widest ? length : widest;
     }
     return (int)widest + 1;
@@ -163,72 +170,60 @@ void ceduo_canvas_axis_left(struct ceduo_canvas *canvas, const struct ceduo_fram
 {
     if (!ceduo_frame_valid(frame))
         return;
-    int column = frame->left - 1;
     struct scale scale = left_scale(frame, canvas);
-    struct ceduo_tick ticks[CEDUO_TICKS_MAX];
     for (int i = 0; i < scale.count; ++i) {
-        double across, down;
-        ceduo_frame_place(frame, canvas, frame->x0, scale.value[i], &across, &down);
-        ticks[i] = tick_of(&scale, i, down, -1);
-        int length = (int)strlen(ticks[i].label);
-        ticks[i].start = length <= column ? column - length : -1;
+        int length = (int)strlen(scale.tick[i].label);
+        scale.tick[i].start = length < frame->left ? frame->left - 1 - length : -1;
     }
-    canvas->surface->axis_left(canvas->to, frame, scale.count, ticks);
-}
-
-/* Which label stands i-th from the left. */
-static int from_left(const struct scale *scale, const struct ceduo_frame *frame, int i)
-{
-    return frame->x0 > frame->x1 ? scale->count - 1 - i : i;
+    canvas->surface->axis(canvas->to, frame, false, scale.count, scale.tick);
 }
 
 enum { LABEL_GAP = 2 }; /* blanks between labels */
 
+static int end_of(const struct ceduo_tick *tick)
+{
+    return tick->start + (int)strlen(tick->label);
+}
+
 /* Sets where each label goes; false if two would collide or one leave the frame. */
-static bool bottom_scale_fits(struct scale *scale, const struct ceduo_frame *frame, const struct ceduo_canvas *canvas)
+static bool bottom_scale_fits(struct scale *scale, const struct ceduo_frame *frame)
 {
     int least = frame->left > 0 ? frame->left - 1 : frame->left;
     int end = frame->left + frame->width;
     for (int i = 0; i < scale->count; ++i) {
-        int k = from_left(scale, frame, i);
-        char text[CEDUO_TICK_LABEL_SIZE];
-        int length = (int)ceduo_tick_label(scale->value[k], scale->interval, sizeof text, text);
-        int row;
-        if (!ceduo_frame_cell(frame, canvas, scale->value[k], frame->y0, &scale->tick[k], &row))
-            return false;
-        int start = scale->tick[k] - (length - 1) / 2;
+        int length = (int)strlen(scale->tick[i].label), start = scale->tick[i].cell - (length - 1) / 2;
         start = start + length > end ? end - length : start;
         start = start < least && i == 0 ? least : start;
         if (start < least || start + length > end)
             return false;
-        scale->start[k] = start;
-        scale->end[k] = start + length;
+        scale->tick[i].start = start;
         least = start + length + LABEL_GAP;
     }
     return true;
 }
 
 /* The most labels that leave room for the unit too, but two at least; the most of all if there is no such. */
-static struct scale bottom_scale(const struct ceduo_frame *frame, const struct ceduo_canvas *canvas, int unit_width,
-                                 int *unit_start)
+static struct scale bottom_scale(const struct ceduo_frame *frame, const struct ceduo_canvas *canvas, const char *unit)
 {
     struct scale most = {0};
-    *unit_start = -1;
+    int width = ceduo_canvas_label_width(canvas, unit);
     for (int n = frame->width / 3 + 1; n > 0; --n) {
         struct scale scale = {0};
-        scale.count = ceduo_ticks(frame->x0, frame->x1, n, scale.value, &scale.interval);
+        bool inside = set_ticks(&scale, frame, canvas, true, n);
         bool between = frame->x_whole && scale.interval > 0 && scale.interval < 1;
-        if (between || !bottom_scale_fits(&scale, frame, canvas) || (scale.count < 2 && most.count > 1))
+        if (between || !inside || !bottom_scale_fits(&scale, frame) || (scale.count < 2 && most.count > 1))
             continue;
         most = most.count == 0 ? scale : most;
         /* the unit goes after the last number or else after the first, moving none */
-        int after_last = scale.count > 0 ? scale.end[from_left(&scale, frame, scale.count - 1)] + 1 : 0;
-        int after_first = scale.count > 1 ? scale.end[from_left(&scale, frame, 0)] + 1 : 0;
-        bool room = scale.count > 1 && after_first + unit_width + LABEL_GAP <= scale.start[from_left(&scale, frame, 1)];
-        *unit_start = scale.count > 0 && after_last + unit_width <= frame->left + frame->width ? after_last
-                      : room                                                                   ? after_first
-                                                                                               : -1;
-        if (unit_width == 0 || *unit_start >= 0)
+        struct ceduo_tick at = {.cell = -1, .start = -1};
+        if (scale.count > 0 && end_of(&scale.tick[scale.count - 1]) + 1 + width <= frame->left + frame->width)
+            at.start = end_of(&scale.tick[scale.count - 1]) + 1;
+        else if (scale.count > 1 && end_of(&scale.tick[0]) + 1 + width + LABEL_GAP <= scale.tick[1].start)
+            at.start = end_of(&scale.tick[0]) + 1;
+        snprintf(at.label, sizeof at.label, "%s", unit);
+        if (width > 0 && at.start >= 0)
+            scale.tick[scale.count++] = at;
+        if (width == 0 || at.start >= 0)
             return scale;
     }
     return most;
@@ -238,17 +233,6 @@ void ceduo_canvas_axis_bottom(struct ceduo_canvas *canvas, const struct ceduo_fr
 {
     if (!ceduo_frame_valid(frame))
         return;
-    int row = frame->top + frame->height + 1;
-    int unit_start;
-    int unit_width = unit == NULL ? 0 : ceduo_canvas_label_width(canvas, unit);
-    struct scale scale = bottom_scale(frame, canvas, unit_width, &unit_start);
-    struct ceduo_tick ticks[CEDUO_TICKS_MAX];
-    for (int i = 0; i < scale.count; ++i) {
-        double across, down;
-        ceduo_frame_place(frame, canvas, scale.value[i], frame->y0, &across, &down);
-        ticks[i] = tick_of(&scale, i, across, scale.start[i]);
-    }
-    canvas->surface->axis_bottom(canvas->to, frame, scale.count, ticks);
-    if (unit != NULL && unit_start >= 0)
-        canvas->surface->axis_unit(canvas->to, unit_start, row, unit);
+    struct scale scale = bottom_scale(frame, canvas, unit ? unit : "");
+    canvas->surface->axis(canvas->to, frame, true, scale.count, scale.tick);
 }

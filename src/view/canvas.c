@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "canvas.h"
 
+#include <gsl/gsl_statistics_double.h>
 #include <limits.h>
 #include <math.h>
 #include <stdlib.h>
@@ -17,27 +18,36 @@ static int nearest(double position, int n)
     return (int)lround(fmin(fmax(position, 0.0), n - 1));
 }
 
+/* Dashes lie at the same columns for all lines of a frame; those of an upright line at the same rows. */
 static void put_line(void *to, struct ceduo_pen *pen, struct ceduo_position a, struct ceduo_position b)
 {
+    static const struct {
+        int on, of;
+    } dashes[CEDUO_STROKES] = {[CEDUO_STROKE_WAY] = {1, 1}, [CEDUO_STROKE_RULE] = {1, 2},   [CEDUO_STROKE_DOTS] = {1, 2},
+                               [CEDUO_STROKE_FEW] = {1, 4}, [CEDUO_STROKE_DASHES] = {4, 6}, [CEDUO_STROKE_PLAIN] = {1, 1}};
     const struct ceduo_raster *r = &pen->raster;
     struct ceduo_cells *cells = to;
     int across = cells->width * cells->canvas.dots_x, down = cells->height * cells->canvas.dots_y;
     int x = nearest(a.x, r->nx), y = nearest(a.y, r->ny);
     int dx = nearest(b.x, r->nx) - x, dy = nearest(b.y, r->ny) - y;
     int dots = abs(dx) > abs(dy) ? abs(dx) : abs(dy);
-    for (int i = 0; i <= dots; i += pen->stroke == CEDUO_STROKE_DOTTED ? 2 : 1) {
+    for (int i = 0; i <= dots; i++) {
         double part = dots > 0 ? (double)i / dots : 0;
-        int at_x = r->left + x + (int)lround(part * dx), at_y = r->top + y + (int)lround(part * dy);
-        if (pen->stroke == CEDUO_STROKE_WAY) {
-            bool again = at_x == pen->last_x && at_y == pen->last_y; /* where a part of a trajectory ends and the next begins */
-            if (!cells->density || at_x < 0 || at_x >= across || at_y < 0 || at_y >= down || again)
-                continue;
-            pen->last_x = at_x;
-            pen->last_y = at_y;
-            uint32_t *count = &cells->density[(size_t)at_y * (size_t)across + (size_t)at_x];
-            *count += *count < UINT32_MAX;
-        } else
+        int in_x = x + (int)lround(part * dx), in_y = y + (int)lround(part * dy);
+        int at_x = r->left + in_x, at_y = r->top + in_y, along = dx != 0 || dots == 0 ? in_x : in_y;
+        if (along % dashes[pen->stroke].of >= dashes[pen->stroke].on)
+            continue;
+        if (pen->stroke != CEDUO_STROKE_WAY) {
             ceduo_cells_set_dot(to, at_x, at_y, pen->role);
+            continue;
+        }
+        bool again = at_x == pen->last_x && at_y == pen->last_y; /* where a part of a trajectory ends and the next begins */
+        if (!cells->density || at_x < 0 || at_x >= across || at_y < 0 || at_y >= down || again)
+            continue;
+        pen->last_x = at_x;
+        pen->last_y = at_y;
+        uint32_t *count = &cells->density[(size_t)at_y * (size_t)across + (size_t)at_x];
+        *count += *count < UINT32_MAX;
     }
 }
 
@@ -56,39 +66,28 @@ static void put_bar(void *to, int column, int row, int width, double fraction, e
         ceduo_cells_set_code(to, column + length / parts, row, role, (uint32_t)(eighth_block + 1 - length % parts));
 }
 
-static void put_axis_left(void *to, const struct ceduo_frame *frame, int count, const struct ceduo_tick *ticks)
+/* The bottom axis meets the left one in a corner if that was drawn before. */
+static void put_axis(void *to, const struct ceduo_frame *frame, bool bottom, int count, const struct ceduo_tick *ticks)
 {
-    for (int row = frame->top; row < frame->top + frame->height; ++row)
-        ceduo_cells_label(to, frame->left - 1, row, CEDUO_ROLE_AXIS, "\xe2\x94\x82");
-    for (int i = 0; i < count; ++i) {
-        ceduo_cells_label(to, frame->left - 1, ticks[i].cell, CEDUO_ROLE_AXIS, "\xe2\x94\xa4");
-        if (ticks[i].start >= 0)
-            ceduo_cells_label(to, ticks[i].start, ticks[i].cell, CEDUO_ROLE_AXIS, ticks[i].label);
+    int left = frame->left - 1, below = frame->top + frame->height;
+    const struct ceduo_cell *above = ceduo_cells_at(to, left, below - 1);
+    if (bottom && above && above->code != 0 && above->role == CEDUO_ROLE_AXIS)
+        ceduo_cells_label(to, left, below, CEDUO_ROLE_AXIS, "\xe2\x94\x94");
+    for (int i = 0; i < (bottom ? frame->width : frame->height); ++i)
+        if (bottom)
+            ceduo_cells_label(to, frame->left + i, below, CEDUO_ROLE_AXIS, "\xe2\x94\x80");
+        else
+            ceduo_cells_label(to, left, frame->top + i, CEDUO_ROLE_AXIS, "\xe2\x94\x82");
+    for (const struct ceduo_tick *t = ticks; t < ticks + count; ++t) {
+        int row = bottom ? below : t->cell;
+        if (t->cell >= 0)
+            ceduo_cells_label(to, bottom ? t->cell : left, row, CEDUO_ROLE_AXIS, bottom ? "\xe2\x94\xac" : "\xe2\x94\xa4");
+        if (t->start >= 0)
+            ceduo_cells_label(to, t->start, row + bottom, CEDUO_ROLE_AXIS, t->label);
     }
 }
 
-/* Meets the left axis in a corner if that was drawn before. */
-static void put_axis_bottom(void *to, const struct ceduo_frame *frame, int count, const struct ceduo_tick *ticks)
-{
-    int row = frame->top + frame->height;
-    const struct ceduo_cell *above = ceduo_cells_at(to, frame->left - 1, row - 1);
-    if (above && above->code != 0 && above->role == CEDUO_ROLE_AXIS)
-        ceduo_cells_label(to, frame->left - 1, row, CEDUO_ROLE_AXIS, "\xe2\x94\x94");
-    for (int column = frame->left; column < frame->left + frame->width; ++column)
-        ceduo_cells_label(to, column, row, CEDUO_ROLE_AXIS, "\xe2\x94\x80");
-    for (int i = 0; i < count; ++i) {
-        ceduo_cells_label(to, ticks[i].cell, row, CEDUO_ROLE_AXIS, "\xe2\x94\xac");
-        ceduo_cells_label(to, ticks[i].start, row + 1, CEDUO_ROLE_AXIS, ticks[i].label);
-    }
-}
-
-static void put_axis_unit(void *to, int column, int row, const char *unit)
-{
-    ceduo_cells_label(to, column, row, CEDUO_ROLE_AXIS, unit);
-}
-
-const struct ceduo_surface ceduo_cells_surface = {
-    .line = put_line, .bar = put_bar, .axis_left = put_axis_left, .axis_bottom = put_axis_bottom, .axis_unit = put_axis_unit};
+const struct ceduo_surface ceduo_cells_surface = {.line = put_line, .bar = put_bar, .axis = put_axis};
 
 /* ---- Frames ---- */
 
@@ -153,23 +152,15 @@ bool ceduo_frame_true_scale(struct ceduo_frame *frame, const struct ceduo_canvas
     return true;
 }
 
-/* The cell of a position among n dots. */
-static int cell_of(double position, int n, int dots)
-{
-    return (int)lround(fmin(fmax(position, 0.0), n - 1)) / dots;
-}
-
 bool ceduo_frame_cell(const struct ceduo_frame *frame, const struct ceduo_canvas *canvas, double x, double y, int *column,
                       int *row)
 {
-    if (!ceduo_frame_valid(frame))
-        return false;
     struct ceduo_raster raster = raster_of(canvas, frame);
     struct ceduo_position p;
-    if (!place(frame, &raster, x, y, &p) || !inside(&raster, p))
+    if (!ceduo_frame_valid(frame) || !place(frame, &raster, x, y, &p) || !inside(&raster, p))
         return false;
-    *column = frame->left + cell_of(p.x, raster.nx, canvas->dots_x);
-    *row = frame->top + cell_of(p.y, raster.ny, canvas->dots_y);
+    *column = frame->left + nearest(p.x, raster.nx) / canvas->dots_x;
+    *row = frame->top + nearest(p.y, raster.ny) / canvas->dots_y;
     return true;
 }
 
@@ -215,8 +206,8 @@ static void draw_line(struct ceduo_canvas *canvas, const struct ceduo_frame *fra
                               (struct ceduo_position){a.x + hi * dx, a.y + hi * dy});
 }
 
-static void draw_polyline(struct ceduo_canvas *canvas, const struct ceduo_frame *frame, enum ceduo_role role,
-                          enum ceduo_stroke stroke, size_t n, const double *x, const double *y)
+void ceduo_canvas_polyline(struct ceduo_canvas *canvas, const struct ceduo_frame *frame, enum ceduo_role role,
+                           enum ceduo_stroke stroke, size_t n, const double *x, const double *y)
 {
     if (!ceduo_frame_valid(frame))
         return;
@@ -228,36 +219,29 @@ static void draw_polyline(struct ceduo_canvas *canvas, const struct ceduo_frame 
     }
 }
 
-void ceduo_canvas_polyline(struct ceduo_canvas *canvas, const struct ceduo_frame *frame, enum ceduo_role role, size_t n,
-                           const double *x, const double *y)
-{
-    draw_polyline(canvas, frame, role, CEDUO_STROKE_PLAIN, n, x, y);
-}
-
 /* Both ends must be drawable: of a polyline a single end would stay as a dot. */
 static void draw_straight(struct ceduo_canvas *canvas, const struct ceduo_frame *frame, enum ceduo_role role,
-                          enum ceduo_stroke stroke, const double x[2], const double y[2])
+                          enum ceduo_stroke stroke, double ax, double ay, double bx, double by)
 {
-    if (!ceduo_frame_valid(frame))
-        return;
     struct ceduo_pen pen = {raster_of(canvas, frame), role, stroke, INT_MIN, INT_MIN};
-    draw_line(canvas, frame, &pen, x[0], y[0], x[1], y[1]);
+    if (ceduo_frame_valid(frame))
+        draw_line(canvas, frame, &pen, ax, ay, bx, by);
 }
 
 void ceduo_canvas_line(struct ceduo_canvas *canvas, const struct ceduo_frame *frame, enum ceduo_role role, double ax, double ay,
                        double bx, double by)
 {
-    draw_straight(canvas, frame, role, CEDUO_STROKE_PLAIN, (double[]){ax, bx}, (double[]){ay, by});
+    draw_straight(canvas, frame, role, CEDUO_STROKE_PLAIN, ax, ay, bx, by);
 }
 
 void ceduo_canvas_rule_y(struct ceduo_canvas *canvas, const struct ceduo_frame *frame, enum ceduo_role role, double y)
 {
-    draw_straight(canvas, frame, role, CEDUO_STROKE_DOTTED, (double[]){frame->x0, frame->x1}, (double[]){y, y});
+    draw_straight(canvas, frame, role, CEDUO_STROKE_RULE, frame->x0, y, frame->x1, y);
 }
 
 void ceduo_canvas_rule_x(struct ceduo_canvas *canvas, const struct ceduo_frame *frame, enum ceduo_role role, double x)
 {
-    draw_straight(canvas, frame, role, CEDUO_STROKE_DOTTED, (double[]){x, x}, (double[]){frame->y1, frame->y0});
+    draw_straight(canvas, frame, role, CEDUO_STROKE_RULE, x, frame->y1, x, frame->y0);
 }
 
 void ceduo_canvas_stairs(struct ceduo_canvas *canvas, const struct ceduo_frame *frame, enum ceduo_role role, size_t n,
@@ -305,52 +289,21 @@ void ceduo_canvas_cloud_start(struct ceduo_canvas *canvas)
     canvas->cells->density = ceduo_must(calloc(ceduo_cells_dots(canvas->cells), sizeof *canvas->cells->density));
 }
 
-void ceduo_canvas_cloud_add(struct ceduo_canvas *canvas, const struct ceduo_frame *frame, size_t n, const double *x,
-                            const double *y)
-{
-    draw_polyline(canvas, frame, CEDUO_ROLE_CLOUD, CEDUO_STROKE_WAY, n, x, y);
-}
-
-/* How many dots were passed, but no more than `limit` times. */
-static size_t passed_dots(const struct ceduo_cells *cells, uint32_t limit)
-{
-    size_t n = ceduo_cells_dots(cells);
-    size_t passed = 0;
-    for (size_t i = 0; i < n; ++i)
-        passed += cells->density[i] > 0 && cells->density[i] <= limit;
-    return passed;
-}
-
-/* Halves the range of counts rather than sorting them: no memory, and few passes. */
-static uint32_t density_level(const struct ceduo_cells *cells, double quantile)
-{
-    size_t all = passed_dots(cells, UINT32_MAX), n = ceduo_cells_dots(cells);
-    uint32_t lo = 1, hi = 0;
-    for (size_t i = 0; i < n; ++i)
-        hi = cells->density[i] > hi ? cells->density[i] : hi;
-    if (hi == 0)
-        return 0;
-    double wanted = quantile > 0.0 ? fmax(fmin(quantile, 1.0) * (double)all, 1.0) : 1.0;
-    while (lo < hi) {
-        uint32_t middle = lo + (hi - lo) / 2;
-        if ((double)passed_dots(cells, middle) >= wanted)
-            hi = middle;
-        else
-            lo = middle + 1;
-    }
-    return lo;
-}
-
 void ceduo_canvas_cloud_show(struct ceduo_canvas *canvas, double quantile)
 {
     struct ceduo_cells *cells = canvas->cells;
-    uint32_t level = cells->density ? density_level(cells, quantile) : 0;
-    int width = cells->width * cells->canvas.dots_x, height = cells->height * cells->canvas.dots_y;
     const uint32_t *count = cells->density;
-    for (int y = 0; level > 0 && y < height; ++y)
-        for (int x = 0; x < width; ++x, ++count)
-            if (*count >= level)
-                ceduo_cells_set_dot(cells, x, y, CEDUO_ROLE_CLOUD);
+    size_t across = (size_t)cells->width * (size_t)cells->canvas.dots_x, n = count ? ceduo_cells_dots(cells) : 0, passed = 0;
+    double *counts = ceduo_must(malloc((n + 1) * sizeof *counts));
+    for (size_t i = 0; i < n; ++i)
+        if (count[i] > 0)
+            counts[passed++] = count[i];
+    double rank = ceil(fmin(fmax(quantile, 0), 1) * (double)passed);
+    double level = passed > 0 ? gsl_stats_select(counts, 1, passed, rank > 0 ? (size_t)rank - 1 : 0) : INFINITY;
+    for (size_t i = 0; i < n; ++i)
+        if (count[i] >= level)
+            ceduo_cells_set_dot(cells, (int)(i % across), (int)(i / across), CEDUO_ROLE_CLOUD);
+    free(counts);
 }
 
 /* ---- Text ---- */

@@ -16,7 +16,7 @@
 /*
  * A plot area: a rectangle of cells and the data shown in it. The leftmost column of dots stands at
  * x0 and the rightmost at x1, the lowest row of dots at y0 and the highest at y1. A point belongs
- * to the nearest dot; it is inside if that dot is. x0 > x1 or y0 > y1 turns the axis round.
+ * to the nearest dot; it is inside if that dot is. y0 > y1 turns the axis round.
  * A frame that is narrower than 2 or lower than 1 cell, larger than the largest surface, further
  * than that outside it, or whose ranges are empty or not finite, draws nothing.
  */
@@ -45,10 +45,16 @@ struct ceduo_position {
     double x, y;
 };
 
+/* How a line is drawn, from what lies below to what lies above; of rules and curves every second column of dots, every fourth, four
+ * of six. */
 enum ceduo_stroke {
-    CEDUO_STROKE_PLAIN,
-    CEDUO_STROKE_DOTTED,
     CEDUO_STROKE_WAY, /* one of many: a part of the cloud */
+    CEDUO_STROKE_RULE,
+    CEDUO_STROKE_DOTS,
+    CEDUO_STROKE_FEW,
+    CEDUO_STROKE_DASHES,
+    CEDUO_STROKE_PLAIN,
+    CEDUO_STROKES
 };
 
 /* What lines are drawn with: one pen for each line of several parts. */
@@ -61,7 +67,7 @@ struct ceduo_pen {
 
 /* A tick of an axis. */
 struct ceduo_tick {
-    int cell;  /* column or row */
+    int cell;  /* column or row; -1 for the unit, which stands among the labels of the bottom axis */
     double at; /* the same in parts of a cell: 3.5 is the middle of cell 3 */
     int start; /* column where the label begins, -1 where it has no room */
     char label[CEDUO_TICK_LABEL_SIZE];
@@ -71,9 +77,7 @@ struct ceduo_surface {
     void (*line)(void *to, struct ceduo_pen *pen, struct ceduo_position a, struct ceduo_position b); /* within the raster */
     void (*bar)(void *to, int column, int row, int width, double fraction, enum ceduo_role role);
     /* A line with ticks, in the column left of the frame or in the row below it, and the ticks' labels beside it. */
-    void (*axis_left)(void *to, const struct ceduo_frame *frame, int count, const struct ceduo_tick *ticks);
-    void (*axis_bottom)(void *to, const struct ceduo_frame *frame, int count, const struct ceduo_tick *ticks);
-    void (*axis_unit)(void *to, int column, int row, const char *unit); /* among the labels of the bottom axis */
+    void (*axis)(void *to, const struct ceduo_frame *frame, bool bottom, int count, const struct ceduo_tick *ticks);
     /* A disc, its radii across and down in dots; NULL: it is drawn as lines. */
     void (*disc)(void *to, const struct ceduo_raster *raster, enum ceduo_role role, struct ceduo_position centre,
                  struct ceduo_position radii);
@@ -105,8 +109,8 @@ void ceduo_canvas_line(struct ceduo_canvas *canvas, const struct ceduo_frame *fr
                        double bx, double by);
 
 /* Straight lines through n points. One that is not finite breaks the line; one left alone is a dot. */
-void ceduo_canvas_polyline(struct ceduo_canvas *canvas, const struct ceduo_frame *frame, enum ceduo_role role, size_t n,
-                           const double *x, const double *y);
+void ceduo_canvas_polyline(struct ceduo_canvas *canvas, const struct ceduo_frame *frame, enum ceduo_role role,
+                           enum ceduo_stroke stroke, size_t n, const double *x, const double *y);
 
 /*
  * Stairs: y[i] holds from x[i] to x[i + 1], where the line goes upright to y[i + 1]. The last
@@ -129,13 +133,10 @@ void ceduo_canvas_disc(struct ceduo_canvas *canvas, const struct ceduo_frame *fr
  */
 void ceduo_canvas_bar(struct ceduo_canvas *canvas, int column, int row, int width, double fraction, enum ceduo_role role);
 
-/*
- * A cloud of many trajectories. Start it, add trajectories, which draws nothing, and show it: the dots that were passed at least as often as the given quantile
- * (0..1) of all dots that were passed. 0 shows every one, 0.9 the most travelled tenth, 1 those passed most.
- */
+/* A cloud of many trajectories. Start it, draw trajectories with CEDUO_STROKE_WAY, which shows nothing, and show it: the dots that
+ * were passed at least as often as the given quantile (0..1) of all dots that were passed. 0 shows every one, 0.9 the most
+ * travelled tenth, 1 those passed most. */
 void ceduo_canvas_cloud_start(struct ceduo_canvas *canvas);
-void ceduo_canvas_cloud_add(struct ceduo_canvas *canvas, const struct ceduo_frame *frame, size_t n, const double *x,
-                            const double *y);
 void ceduo_canvas_cloud_show(struct ceduo_canvas *canvas, double quantile);
 
 /* ---- Text ---- */

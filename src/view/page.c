@@ -31,6 +31,15 @@ void ceduo_page_say(struct ceduo_page *page, enum ceduo_page_kind kind, const ch
     va_end(args);
 }
 
+void ceduo_page_line(struct ceduo_page *page, enum ceduo_role role, const char *format, ...)
+{
+    va_list args;
+    va_start(args, format);
+    ceduo_text_vformat(ceduo_page_add(page, CEDUO_PAGE_NOTE), format, args);
+    va_end(args);
+    page->last->role = role;
+}
+
 struct text *ceduo_page_fact(struct ceduo_page *page, const char *label)
 {
     struct ceduo_page_block *block = add_block(page, CEDUO_PAGE_FACT);

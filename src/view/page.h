@@ -105,6 +105,7 @@ struct ceduo_page {
 /* Adds a block and returns its text, which the caller fills; or fills it. */
 struct text *ceduo_page_add(struct ceduo_page *page, enum ceduo_page_kind kind);
 void ceduo_page_say(struct ceduo_page *page, enum ceduo_page_kind kind, const char *format, ...) CEDUO_PAGE_FORMAT(3);
+void ceduo_page_line(struct ceduo_page *page, enum ceduo_role role, const char *format, ...) CEDUO_PAGE_FORMAT(3); /* a note */
 struct text *ceduo_page_fact(struct ceduo_page *page, const char *label);
 struct text *ceduo_page_head_line(struct ceduo_page *page, const char *label); /* of a report */
 

@@ -15,16 +15,6 @@
 #define HEIGHT_ALL 24 /* … and for everything */
 #define HEIGHT_LOW 15 /* with fewer the tests go before what becomes of the others and what energies arrive */
 
-static void say(struct ceduo_page *page, enum ceduo_role role, const char *format, ...) CEDUO_PAGE_FORMAT(3);
-static void say(struct ceduo_page *page, enum ceduo_role role, const char *format, ...)
-{
-    va_list args;
-    va_start(args, format);
-    ceduo_text_vformat(ceduo_page_add(page, CEDUO_PAGE_NOTE), format, args);
-    va_end(args);
-    page->last->role = role;
-}
-
 /* ---- what falls on what ---- */
 
 static void add_scene(struct ceduo_page *page, const struct ceduo_pane *pane)
@@ -38,12 +28,12 @@ static void add_scene(struct ceduo_page *page, const struct ceduo_pane *pane)
         per_year += s->blocks[i].per_year;
     }
     if (s->options_count > 1)
-        say(page, CEDUO_ROLE_TITLE, "%s", s->options[pane->option].name);
+        ceduo_page_line(page, CEDUO_ROLE_TITLE, "%s", s->options[pane->option].name);
     if (s->blocks_count > 0) /* no single size stands for them */
-        say(page, CEDUO_ROLE_TEXT, _("Blocks %.3g\xe2\x80\x93%.3g m\xc2\xb3, %.3g/year"), min, max, per_year);
+        ceduo_page_line(page, CEDUO_ROLE_TEXT, _("Blocks %.3g\xe2\x80\x93%.3g m\xc2\xb3, %.3g/year"), min, max, per_year);
     else if (!isnan(rock.mass) && pane->height >= HEIGHT_MIN)
-        say(page, CEDUO_ROLE_TEXT, _("Rock %.3g m, %.4g kg%s"), rock.mean_diameter, rock.mass,
-            ceduo_notes_assume(pane->file->notes, "rock") ? "*" : "");
+        ceduo_page_line(page, CEDUO_ROLE_TEXT, _("Rock %.3g m, %.4g kg%s"), rock.mean_diameter, rock.mass,
+                        ceduo_notes_assume(pane->file->notes, "rock") ? "*" : "");
 }
 
 /* ---- what arrives ---- */
@@ -154,17 +144,17 @@ static void add_index(struct ceduo_page *page, const struct ceduo_pane *pane, co
 {
     const char *taken = WRITTEN(index->dissipated * J_TO_KJ, 3), *left = WRITTEN(index->residual * J_TO_KJ, 3);
     if (isnan(index->dissipated) && !isnan(index->residual))
-        say(page, CEDUO_ROLE_DIM, _("shares taken, left %s kJ"), left);
+        ceduo_page_line(page, CEDUO_ROLE_DIM, _("shares taken, left %s kJ"), left);
     else if (isnan(index->dissipated))
-        say(page, CEDUO_ROLE_DIM, "%s", _("contacts take shares"));
+        ceduo_page_line(page, CEDUO_ROLE_DIM, "%s", _("contacts take shares"));
     else if (isnan(index->residual))
-        say(page, CEDUO_ROLE_DIM, _("taken %s kJ"), taken);
+        ceduo_page_line(page, CEDUO_ROLE_DIM, _("taken %s kJ"), taken);
     else if (index->exhausted)
-        say(page, CEDUO_ROLE_DIM, _("taken %s kJ: all of it"), taken);
+        ceduo_page_line(page, CEDUO_ROLE_DIM, _("taken %s kJ: all of it"), taken);
     else
-        say(page, CEDUO_ROLE_DIM, _("taken %s left %s kJ"), taken, left);
+        ceduo_page_line(page, CEDUO_ROLE_DIM, _("taken %s left %s kJ"), taken, left);
     if (!isnan(index->measured) && pane->height >= HEIGHT_ALL)
-        say(page, CEDUO_ROLE_DIM, _("measured %s kJ (one rock)"), WRITTEN(index->measured * J_TO_KJ, 3));
+        ceduo_page_line(page, CEDUO_ROLE_DIM, _("measured %s kJ (one rock)"), WRITTEN(index->measured * J_TO_KJ, 3));
 }
 
 /* ---- all ---- */
@@ -174,14 +164,14 @@ size_t ceduo_pane_column(struct ceduo_page *page, const struct ceduo_pane *pane)
     const struct ceduo_result *r = pane->result;
     add_scene(page, pane);
     if (!r) {
-        say(page, CEDUO_ROLE_DIM, "%s", _("the first rocks are falling \xe2\x80\xa6"));
+        ceduo_page_line(page, CEDUO_ROLE_DIM, "%s", _("the first rocks are falling \xe2\x80\xa6"));
         return 0;
     }
     const struct ceduo_control *c = &r->scene->controls[r->last_control];
     bool nothing = ceduo_says_nothing(&r->bare.arrivals[r->last_control]); /* why stands below, and takes the room */
     if (pane->year)
-        say(page, CEDUO_ROLE_TITLE, pane->year->cut ? _("Year %u, just cut") : _("Year %u"), pane->year->year);
-    say(page, CEDUO_ROLE_TITLE, _("At %g m%s%s"), c->x_given, c->name ? ", " : "", c->name ? c->name : "");
+        ceduo_page_line(page, CEDUO_ROLE_TITLE, pane->year->cut ? _("Year %u, just cut") : _("Year %u"), pane->year->year);
+    ceduo_page_line(page, CEDUO_ROLE_TITLE, _("At %g m%s%s"), c->x_given, c->name ? ", " : "", c->name ? c->name : "");
     add_arrivals(page, pane, c, nothing);
     const struct ceduo_index *index =
         pane->year ? &pane->year->controls[r->last_control] : ceduo_result_last_index(r, pane->option);
@@ -190,13 +180,13 @@ size_t ceduo_pane_column(struct ceduo_page *page, const struct ceduo_pane *pane)
         add_index(page, pane, index);
     }
     const struct ceduo_arrivals *wood = wood_of(pane);
-    say(page, CEDUO_ROLE_DIM, pane->busy ? _("computing, %llu rocks") : _("finished, %llu rocks"),
-        (unsigned long long)(wood ? wood : &r->bare.arrivals[r->last_control])->released);
+    ceduo_page_line(page, CEDUO_ROLE_DIM, pane->busy ? _("computing, %llu rocks") : _("finished, %llu rocks"),
+                    (unsigned long long)(wood ? wood : &r->bare.arrivals[r->last_control])->released);
     bool doubt = pane->height >= HEIGHT_ALL && !nothing && pane->doubt && pane->doubt->answer && !pane->year;
     for (size_t i = 0; i < 3 && doubt; i++) { /* what turns a test within what may be true */
         LOCAL_TEXT(causes);
         if (ceduo_doubt_causes(&causes, pane->doubt, pane->option, ceduo_doubt_lights[i]))
-            say(page, CEDUO_ROLE_WARN, _("%s depends on %s"), _(ceduo_light_names[i]), ceduo_text_string(&causes));
+            ceduo_page_line(page, CEDUO_ROLE_WARN, _("%s depends on %s"), _(ceduo_light_names[i]), ceduo_text_string(&causes));
     }
     const struct ceduo_page_block *last = page->last;
     const struct ceduo_run_remarks remarks = {.ground_assumed = pane->file->ground_assumed, .nothing_said = true};

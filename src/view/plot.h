@@ -21,6 +21,7 @@ struct ceduo_span {
 
 /* What a picture shows. */
 struct ceduo_doubt_report;
+struct ceduo_page;
 struct ceduo_picture {
     const struct ceduo_scene *scene;       /* checked */
     const struct ceduo_snapshot *snapshot; /* NULL: nothing is computed yet */
@@ -39,7 +40,7 @@ struct ceduo_picture {
     bool ways;                              /* in the strip of heights each trajectory, too */
 };
 
-/* The pictures: name, word, whether one needs a run, and envelopes of it, and whether there is one for each option.
+/* The pictures: name, word, CEDUO_PICTURE_… of it, title (%s: where, or which belt).
  *
  * profile: the slope with rocks' trajectories as density, the option's belts, release and controls. In the belts stand
  *   rows of stems at their mean distance, or if known those that the selected rock came to. True to scale; where
@@ -63,29 +64,39 @@ struct ceduo_picture {
  * hazard: how often which energy is exceeded at the control, without forest and with each option, where the scene has
  *   blocks: years against energy, both by decades, with the limits of intensity and return period of Swiss practice. */
 #define CEDUO_PLOT_LIST(X)                                                                                                     \
-    X(PROFILE, profile, true, false, true)                                                                                     \
-    X(ENERGY, energy, true, true, true)                                                                                        \
-    X(HEIGHT, height, true, true, true)                                                                                        \
-    X(HISTOGRAM, histogram, true, false, true)                                                                                 \
-    X(ADC, adc, false, false, true)                                                                                            \
-    X(ROTATION, rotation, true, false, true)                                                                                   \
-    X(STAND, stand, false, false, true)                                                                                        \
-    X(COMPARE, compare, true, false, false)                                                                                    \
-    X(TRADEOFF, tradeoff, true, false, false)                                                                                  \
-    X(DOUBT, doubt, false, false, true)                                                                                        \
-    X(HAZARD, hazard, true, false, false)
+    X(PROFILE, profile, CEDUO_PICTURE_OF_ROCKS, N_("slope, forest, and ways"))                                                 \
+    X(ENERGY, energy, CEDUO_PICTURE_OF_ROCKS | CEDUO_PICTURE_CELLS, N_("energy of the rocks"))                                 \
+    X(HEIGHT, height, CEDUO_PICTURE_OF_ROCKS | CEDUO_PICTURE_CELLS, N_("height of the rocks above the ground"))                \
+    X(HISTOGRAM, histogram, CEDUO_PICTURE_OF_ROCKS | CEDUO_PICTURE_PAGE, N_("energy at %s"))                                   \
+    X(ADC, adc, CEDUO_PICTURE_PAGE, N_("average distance between contacts, m"))                                                \
+    X(ROTATION, rotation, CEDUO_PICTURE_RUN, N_("year by year, up to %s"))                                                     \
+    X(STAND, stand, 0, N_("%s, from above"))                                                                                   \
+    X(COMPARE, compare, CEDUO_PICTURE_OF_ALL | CEDUO_PICTURE_PAGE, N_("Options side by side, up to %s"))                       \
+    X(TRADEOFF, tradeoff, CEDUO_PICTURE_OF_ALL, N_("Protection and yield of the options, up to %s"))                           \
+    X(DOUBT, doubt, CEDUO_PICTURE_PAGE, N_("how sure it is at %s"))                                                            \
+    X(HAZARD, hazard, CEDUO_PICTURE_OF_ALL, N_("How often, and with how much, at %s"))
+
+enum ceduo_picture_flag {
+    CEDUO_PICTURE_RUN = 1 << 0,   /* needs one */
+    CEDUO_PICTURE_CELLS = 1 << 1, /* needs envelopes of it */
+    CEDUO_PICTURE_WHOLE = 1 << 2, /* of all options at once: there is one, not one for each */
+    CEDUO_PICTURE_OF_ALL = CEDUO_PICTURE_WHOLE | CEDUO_PICTURE_RUN,
+    CEDUO_PICTURE_WAYS = 1 << 3, /* of rocks, without forest where none go through one */
+    CEDUO_PICTURE_OF_ROCKS = CEDUO_PICTURE_WAYS | CEDUO_PICTURE_RUN,
+    CEDUO_PICTURE_PAGE = 1 << 4 /* rows of words and bars */
+};
 
 enum ceduo_plot {
     CEDUO_PLOT_NONE,
-#define X(NAME, name, needs_run, needs_cells, by_option) CEDUO_PLOT_##NAME,
+#define X(NAME, name, flags, title) CEDUO_PLOT_##NAME,
     CEDUO_PLOT_LIST(X)
 #undef X
         CEDUO_PLOTS
 };
 
 struct ceduo_plot_kind {
-    const char *name;
-    bool needs_run, needs_cells, by_option;
+    const char *name, *title;
+    unsigned flags;
 };
 
 extern const struct ceduo_plot_kind ceduo_plot_kinds[CEDUO_PLOTS]; /* that of CEDUO_PLOT_NONE is empty */
@@ -95,6 +106,9 @@ enum ceduo_plot ceduo_plot_find(const char *name);
 
 /* "profile, energy, …": all names. */
 extern const char *const ceduo_plot_names;
+
+/* Adds a picture that is a page as blocks, of about `height` lines, among others, or the reason why there is none. */
+bool ceduo_plot_add(enum ceduo_plot plot, struct ceduo_page *page, const struct ceduo_picture *picture, int height);
 
 /* Draws a picture, or says in the middle of the area why there is none. */
 void ceduo_plot_draw(enum ceduo_plot plot, struct ceduo_canvas *canvas, const struct ceduo_area *area,

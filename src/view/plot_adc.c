@@ -25,11 +25,6 @@ static void add_row(struct ceduo_page *page, const struct scale *s, double metre
     ceduo_page_write(page, isfinite(metres) ? _("%s m") : "%s", BESIDE(metres, 3, s->threshold));
 }
 
-static void add_check(struct ceduo_page *page, bool passes)
-{
-    ceduo_page_light(page, passes ? CEDUO_PASS : CEDUO_FAIL);
-}
-
 /* Its name, and a row for each rule. */
 static void add_belt(struct ceduo_page *page, const struct scale *s, const struct ceduo_belt *belt,
                      const struct ceduo_stand_result *r)
@@ -48,14 +43,12 @@ static void add_belt(struct ceduo_page *page, const struct scale *s, const struc
         enum ceduo_rule rule = (enum ceduo_rule)(CEDUO_GSTEIGER_STOOLS + f);
         double value = ceduo_adc_value(&r->adc, rule);
         bool applied = rule == r->rule;
+        enum ceduo_light light = r->passes_threshold ? CEDUO_PASS : CEDUO_FAIL;
         LOCAL_TEXT(word);
         ceduo_text_format(&word, "%s%s", applied ? "\xe2\x96\xb6 " : "  ", ceduo_words_law(ceduo_rule_words.names[rule]));
         ceduo_page_mark(page, applied ? CEDUO_ROLE_TITLE : CEDUO_ROLE_TEXT, word.bytes);
         add_row(page, s, value, !applied ? CEDUO_ROLE_DIM : value < s->threshold ? CEDUO_ROLE_GOOD : CEDUO_ROLE_BAD);
-        if (applied)
-            add_check(page, r->passes_threshold);
-        else
-            ceduo_page_write(page, "%s", "");
+        ceduo_page_mark(page, ceduo_plot_light_role(light), applied ? ceduo_plot_light_mark(light) : "");
         ceduo_page_write(page, "%s", applied ? _("applied") : "");
     }
 }
@@ -81,18 +74,20 @@ static void add_belts(struct ceduo_page *page, const struct scale *s, const stru
         ceduo_page_mark(page, CEDUO_ROLE_BELT, name.bytes);
         ceduo_page_write(page, "%s\xe2\x80\x93%s m", SHORTEST(belt->from_given), SHORTEST(belt->to_given));
         add_row(page, s, r.adc_m, r.passes_threshold ? CEDUO_ROLE_GOOD : CEDUO_ROLE_BAD);
-        add_check(page, r.passes_threshold);
+        ceduo_page_light(page, r.passes_threshold ? CEDUO_PASS : CEDUO_FAIL);
     }
 }
 
-const char *ceduo_blocks_adc(struct ceduo_page *page, const struct ceduo_picture *picture, int height)
+const char *ceduo_plot_adc(struct ceduo_drawing *d)
 {
-    const struct ceduo_option *option = ceduo_plot_option(picture);
+    const struct ceduo_option *option = d->option;
     if (!option || option->belts_count == 0)
         return _("no forest: nothing to meet");
-    double threshold = picture->scene->simulation.threshold, least = threshold, most = threshold;
+    double threshold = d->scene->simulation.threshold, least = threshold, most = threshold;
+    int rows = 1; /* of all belts in full */
     for (size_t i = 0; i < option->belts_count; i++) {
-        struct ceduo_stand_result r = ceduo_assess_stand(picture->scene, &option->belts[i]);
+        struct ceduo_stand_result r = ceduo_assess_stand(d->scene, &option->belts[i]);
+        rows += r.bare ? 1 : 1 + RULES;
         for (int f = 0; f < RULES; f++) {
             double v = ceduo_adc_value(&r.adc, (enum ceduo_rule)(CEDUO_GSTEIGER_STOOLS + f));
             if (!isfinite(v) || !(v > 0))
@@ -102,22 +97,18 @@ const char *ceduo_blocks_adc(struct ceduo_page *page, const struct ceduo_picture
         }
     }
     struct scale s = {threshold, ceduo_plot_round(fmax(least / 1.5, LEAST), false), ceduo_plot_round(1.5 * most, true)};
-    int rows = 1; /* of all belts in full */
-    for (size_t i = 0; i < option->belts_count; i++)
-        rows += ceduo_stand_is_bare(&option->belts[i].stand) ? 1 : 1 + RULES;
-    size_t n = option->belts_count, room = height > 2 ? (size_t)height - 1 : 1;
-    for (size_t i = 0; rows <= height && i < n; i++) {
-        struct ceduo_stand_result r = ceduo_assess_stand(picture->scene, &option->belts[i]);
-        add_belt(page, &s, &option->belts[i], &r);
-    }
-    if (rows <= height) {
-        ceduo_page_say(page, CEDUO_PAGE_NOTE,
-                       _("\xe2\x94\x82 %g m: in this distance without a contact a rock reaches its full speed."), s.threshold);
-        page->last->role = CEDUO_ROLE_DIM;
+    size_t n = option->belts_count, room = d->height > 2 ? (size_t)d->height - 1 : 1;
+    if (rows > d->height) {
+        add_belts(d->page, &s, d->scene, option, n <= room ? n : room - 1);
+        if (n > room)
+            ceduo_page_say(d->page, CEDUO_PAGE_NOTE, _("and %zu more belts"), n - room + 1);
         return NULL;
     }
-    add_belts(page, &s, picture->scene, option, n <= room ? n : room - 1);
-    if (n > room)
-        ceduo_page_say(page, CEDUO_PAGE_NOTE, _("and %zu more belts"), n - room + 1);
+    for (size_t i = 0; i < n; i++) {
+        struct ceduo_stand_result r = ceduo_assess_stand(d->scene, &option->belts[i]);
+        add_belt(d->page, &s, &option->belts[i], &r);
+    }
+    ceduo_page_line(d->page, CEDUO_ROLE_DIM,
+                    _("\xe2\x94\x82 %g m: in this distance without a contact a rock reaches its full speed."), s.threshold);
     return NULL;
 }

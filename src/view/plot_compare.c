@@ -17,33 +17,29 @@ struct figures {
 };
 
 struct comparison {
-    const struct ceduo_picture *picture;
-    const struct ceduo_control *control;
-    const struct ceduo_arrivals *arrivals; /* without forest; NULL: not known yet */
-    double bare;                           /* J, the mean of those */
-    double accepted, threshold;            /* kJ, m */
-    bool wooded;
+    const struct ceduo_drawing *d;
+    double bare;                /* J, the mean of the rocks that arrive without forest */
+    double accepted, threshold; /* kJ, m */
     double adc_lo, adc_hi, middle_most, last_most;
 };
 
 static struct figures figures_of(const struct comparison *c, size_t i)
 {
-    const struct ceduo_scene *scene = c->picture->scene;
-    struct ceduo_index index = ceduo_assess_index(scene, &scene->options[i], c->control, c->bare);
-    bool nothing = c->arrivals && ceduo_says_nothing(c->arrivals); /* then no light is on */
+    const struct ceduo_drawing *d = c->d;
+    struct ceduo_index index = ceduo_assess_index(d->scene, &d->scene->options[i], d->control, c->bare);
+    bool nothing = d->bare_arrivals && ceduo_says_nothing(d->bare_arrivals); /* then no light is on */
     struct figures f = {.adc = index.worst_adc,
                         .middle = index.per_100m * J_TO_KJ,
                         .last = index.residual * J_TO_KJ,
                         .contact = nothing ? CEDUO_UNKNOWN : index.contact,
                         .exhausted = index.exhausted};
-    if (!c->wooded)
+    if (!d->wooded)
         return f;
-    struct ceduo_picture picture = *c->picture;
-    picture.option = i;
-    const struct ceduo_arrivals *a = ceduo_plot_arrivals(&picture, picture.control);
+    const struct ceduo_run_snapshot *run = ceduo_snapshot_of(d->picture->snapshot, d->scene, i);
+    const struct ceduo_arrivals *a = ceduo_plot_arrivals(run, d->picture->control);
     f.exhausted = false;
     f.awaited = !a;
-    f.middle = ceduo_judged(c->control, a).value;
+    f.middle = ceduo_judged(d->control, a).value;
     f.last = a ? a->energy.mean * J_TO_KJ : NAN;
     f.energy = nothing ? CEDUO_UNKNOWN : ceduo_energy_light(a);
     return f;
@@ -65,20 +61,20 @@ static void add_option(struct ceduo_page *page, const struct comparison *c, size
 {
     struct figures f = figures_of(c, i);
     const char *awaited = f.awaited ? "\xe2\x80\xa6" : NULL; /* a number that is not known yet becomes three dots */
-    bool limited = c->wooded && !isnan(c->accepted);
-    ceduo_page_mark(page, i == c->picture->option ? CEDUO_ROLE_TITLE : CEDUO_ROLE_TEXT, c->picture->scene->options[i].name);
+    bool limited = c->d->wooded && !isnan(c->accepted);
+    ceduo_page_mark(page, i == c->d->picture->option ? CEDUO_ROLE_TITLE : CEDUO_ROLE_TEXT, c->d->scene->options[i].name);
     ceduo_page_bar(page, adc_share(c, f.adc), role_of(f.contact))->limit = adc_share(c, c->threshold);
     ceduo_page_write(page, "%s", f.adc == 0 ? "0" : BESIDE(f.adc, 3, c->threshold));
     ceduo_page_light(page, f.contact);
     ceduo_page_bar(page, f.middle / c->middle_most, role_of(f.energy))->limit =
         limited ? 1000 * CEDUO_EXCEED_MOST / c->middle_most : NAN;
     ceduo_page_write(page, "%s", awaited ? awaited : SHOWN(f.middle));
-    if (c->wooded)
+    if (c->d->wooded)
         ceduo_page_light(page, f.energy);
     else
         ceduo_page_write(page, "%s", "");
     ceduo_page_bar(page, f.last / c->last_most,
-                   c->wooded               ? CEDUO_ROLE_WOOD
+                   c->d->wooded            ? CEDUO_ROLE_WOOD
                    : isnan(c->accepted)    ? CEDUO_ROLE_BARE
                    : f.last <= c->accepted ? CEDUO_ROLE_GOOD
                                            : CEDUO_ROLE_BAD)
@@ -90,21 +86,21 @@ static void add_option(struct ceduo_page *page, const struct comparison *c, size
 static void add_heads(struct ceduo_page *page, const struct comparison *c)
 {
     struct ceduo_page_cell *heads = page->last->cells;
-    struct ceduo_measure judged = ceduo_judged(c->control, NULL);
+    struct ceduo_measure judged = ceduo_judged(c->d->control, NULL);
     ceduo_text_format(&heads[1].text, "\xe2\x94\x82 %s", SHORTEST(c->threshold));
     ceduo_text_put(&heads[2].text, _("ADC m"));
-    if (c->wooded)
+    if (c->d->wooded)
         ceduo_measure_name(&heads[5].text, &judged, CEDUO_SHORT_HEAD);
     else
         ceduo_text_put(&heads[5].text, _("kJ/100 m"));
-    if (c->wooded && !isnan(c->accepted))
+    if (c->d->wooded && !isnan(c->accepted))
         ceduo_text_format(&heads[4].text, "\xe2\x94\x82 %g", 1000 * CEDUO_EXCEED_MOST);
     if (!isnan(c->accepted))
         ceduo_text_format(&heads[7].text, "\xe2\x94\x82 %s", SHORTEST(c->accepted));
-    ceduo_text_put(&heads[8].text, c->wooded ? _("mean, kJ") : P_("head", "left kJ"));
+    ceduo_text_put(&heads[8].text, c->d->wooded ? _("mean, kJ") : P_("head", "left kJ"));
 }
 
-const char *ceduo_blocks_compare(struct ceduo_page *page, const struct ceduo_picture *picture, int height)
+const char *ceduo_plot_compare(struct ceduo_drawing *d)
 {
 #define VALUE      -5, 1, CEDUO_FITS
 #define BAR(flags) 6, 1, CEDUO_FILLS | (flags)
@@ -118,23 +114,21 @@ const char *ceduo_blocks_compare(struct ceduo_page *page, const struct ceduo_pic
                                                        {"", LIGHT},
                                                        {"", BAR(CEDUO_DROPPED(1))},
                                                        {"", VALUE}};
-    const struct ceduo_scene *scene = picture->scene;
-    const struct ceduo_arrivals *arrivals = ceduo_plot_bare_arrivals(picture, picture->control);
-    struct comparison c = {.picture = picture,
-                           .control = ceduo_plot_control(picture),
-                           .wooded = ceduo_plot_wooded(picture),
+    const struct ceduo_scene *scene = d->scene;
+    const struct ceduo_arrivals *arrivals = d->bare_arrivals;
+    struct comparison c = {.d = d,
                            .threshold = scene->simulation.threshold,
-                           .arrivals = arrivals,
                            .bare = arrivals && arrivals->reached > 0 ? arrivals->energy.mean : NAN};
-    size_t room = height > 3 ? (size_t)height - 2 : 1, n = scene->options_count <= room ? scene->options_count : room - 1;
-    if (!c.control)
+    struct ceduo_page *page = d->page;
+    size_t room = d->height > 3 ? (size_t)d->height - 2 : 1, n = scene->options_count <= room ? scene->options_count : room - 1;
+    if (!d->control)
         return _("no control");
-    c.accepted = c.control->accepted * J_TO_KJ;
+    c.accepted = d->control->accepted * J_TO_KJ;
     c.adc_lo = c.threshold / 10;
     c.adc_hi = c.threshold * 2;
     c.last_most = c.bare * J_TO_KJ;
-    c.middle_most = c.wooded ? 1000 : 0;
-    for (size_t i = 0; i < c.picture->scene->options_count; i++) {
+    c.middle_most = d->wooded ? 1000 : 0;
+    for (size_t i = 0; i < scene->options_count; i++) {
         struct figures f = figures_of(&c, i);
         if (isfinite(f.adc) && f.adc > 0) {
             c.adc_lo = fmin(c.adc_lo, f.adc / 1.5);
@@ -158,10 +152,10 @@ const char *ceduo_blocks_compare(struct ceduo_page *page, const struct ceduo_pic
     if (!arrivals || isnan(c.bare)) {
         ceduo_text_put(foot, arrivals ? _("Without forest no rock arrives: nothing is left to compare.")
                                       : _("Energies are not computed yet."));
-    } else if (!c.wooded) {
+    } else if (!d->wooded) {
         ceduo_text_format(foot, _("left of %s kJ (mean, without forest), by the index"), mean);
     } else {
-        const struct ceduo_measure judged = ceduo_judged(c.control, arrivals);
+        const struct ceduo_measure judged = ceduo_judged(d->control, arrivals);
         LOCAL_TEXT(head);
         ceduo_measure_name(&head, &judged, CEDUO_HEAD);
         ceduo_text_format(foot, _("without forest: %.0f %s, mean %s kJ"), judged.value, ceduo_text_string(&head), mean);

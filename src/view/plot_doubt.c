@@ -80,18 +80,18 @@ static void add_inputs(struct ceduo_page *page, const struct ceduo_doubt_report 
         }
 }
 
-const char *ceduo_blocks_doubt(struct ceduo_page *page, const struct ceduo_picture *picture, int height)
+const char *ceduo_plot_doubt(struct ceduo_drawing *d)
 {
-    const struct ceduo_doubt_report *r = picture->doubt;
+    const struct ceduo_doubt_report *r = d->picture->doubt;
     if (!r)
         return _("not computed yet");
     if (!r->answer)
         return ceduo_doubt_is_off(r) ? _("not computed: the scene says 'doubt: none'")
                                      : _("nothing is marked as assumed or named by 'doubt'");
-    add_options(page, r, picture->option, height);
+    add_options(d->page, r, d->picture->option, d->height);
     int used = 0;
-    for (const struct ceduo_page_block *b = page->first; b; b = b->next)
+    for (const struct ceduo_page_block *b = d->page->first; b; b = b->next)
         used += b->kind == CEDUO_PAGE_TABLE ? (int)(b->cells_count / b->columns_count) : 1;
-    add_inputs(page, r, picture->option, height - used);
+    add_inputs(d->page, r, d->picture->option, d->height - used);
     return NULL;
 }

@@ -17,12 +17,10 @@
 #define FIRST        10   /* of the energies: 1 kJ */
 
 /* Item 0: without forest. NULL: not known. */
-static const struct ceduo_hazard *hazard_of(const struct ceduo_picture *p, size_t item)
+static const struct ceduo_hazard *hazard_of(const struct ceduo_drawing *d, size_t item)
 {
-    struct ceduo_picture other = *p;
-    other.option = item > 0 ? item - 1 : 0;
-    const struct ceduo_arrivals *a =
-        item == 0 ? ceduo_plot_bare_arrivals(&other, p->control) : ceduo_plot_arrivals(&other, p->control);
+    const struct ceduo_run_snapshot *run = item == 0 ? d->bare : ceduo_snapshot_of(d->picture->snapshot, d->scene, item - 1);
+    const struct ceduo_arrivals *a = ceduo_plot_arrivals(run, d->picture->control);
     return a && !isnan(a->hazard.per_year) ? &a->hazard : NULL;
 }
 
@@ -43,10 +41,10 @@ static double log_kJ(const struct ceduo_exceeding *e)
 }
 
 /* The curve, cut where it leaves the frame downwards; with intervals, if the picture is of this option. */
-static void draw_curve(const struct ceduo_chart *c, const struct ceduo_picture *p, size_t item)
+static void draw_curve(const struct ceduo_drawing *d, size_t item)
 {
-    const struct ceduo_hazard *h = hazard_of(p, item);
-    const struct ceduo_frame *f = &c->frame;
+    const struct ceduo_hazard *h = hazard_of(d, item);
+    const struct ceduo_frame *f = &d->frame;
     for (size_t i = FIRST; h && i + 1 < h->energies; i++) {
         const struct ceduo_exceeding *a = &h->exceed[i], *b = a + 1;
         double x0 = log_kJ(a), y0 = logarithm(a->rate.rate), x1 = log_kJ(b), y1 = logarithm(b->rate.rate);
@@ -56,89 +54,86 @@ static void draw_curve(const struct ceduo_chart *c, const struct ceduo_picture *
             x1 = b->rate.rate > 0 ? x0 + (x1 - x0) * (y0 - RAREST) / (y0 - y1) : x0;
             y1 = RAREST;
         }
-        ceduo_canvas_line(c->canvas, f, role_of(item), x0, y0, x1, y1);
+        ceduo_canvas_line(d->canvas, f, role_of(item), x0, y0, x1, y1);
     }
-    for (size_t i = FIRST; h && item == p->option + 1 && i < h->energies; i += 2) {
+    for (size_t i = FIRST; h && item == d->picture->option + 1 && i < h->energies; i += 2) {
         const struct ceduo_exceeding *e = &h->exceed[i];
         double x = log_kJ(e);
         if (x >= f->x0 && logarithm(e->rate.hi) > RAREST)
-            ceduo_canvas_line(c->canvas, f, CEDUO_ROLE_MEAN, x, fmax(RAREST, logarithm(e->rate.lo)), x,
+            ceduo_canvas_line(d->canvas, f, CEDUO_ROLE_MEAN, x, fmax(RAREST, logarithm(e->rate.lo)), x,
                               fmin(f->y1, logarithm(e->rate.hi)));
     }
 }
 
-static void put_years(const struct ceduo_chart *c, double years, bool rule)
+static void put_years(const struct ceduo_drawing *d, double years, bool rule)
 {
-    const struct ceduo_frame *f = &c->frame;
+    const struct ceduo_frame *f = &d->frame;
     int column, row;
-    if (!ceduo_frame_cell(f, c->canvas, f->x0, -log10(years), &column, &row))
+    if (!ceduo_frame_cell(f, d->canvas, f->x0, -log10(years), &column, &row))
         return;
     if (rule)
-        ceduo_canvas_rule_y(c->canvas, f, CEDUO_ROLE_AXIS, -log10(years));
-    if (ceduo_canvas_is_blank(c->canvas, f->left - 2, row))
-        ceduo_plot_say_right(c->canvas, f->left - 2, row, AXIS_WIDTH - 2, CEDUO_ROLE_AXIS, _("%g y"), years);
+        ceduo_canvas_rule_y(d->canvas, f, CEDUO_ROLE_AXIS, -log10(years));
+    if (ceduo_canvas_is_blank(d->canvas, f->left - 2, row))
+        ceduo_plot_say(d->canvas, f->left - 2, row, 2 - AXIS_WIDTH, CEDUO_ROLE_AXIS, _("%g y"), years);
 }
 
-static void put_energy(const struct ceduo_chart *c, double kJ, bool rule)
+static void put_energy(const struct ceduo_drawing *d, double kJ, bool rule)
 {
-    const struct ceduo_frame *f = &c->frame;
+    const struct ceduo_frame *f = &d->frame;
     int column, row;
-    if (!ceduo_frame_cell(f, c->canvas, log10(kJ), RAREST, &column, &row))
+    if (!ceduo_frame_cell(f, d->canvas, log10(kJ), RAREST, &column, &row))
         return;
     if (rule)
-        ceduo_canvas_rule_x(c->canvas, f, CEDUO_ROLE_AXIS, log10(kJ));
-    ceduo_plot_say(c->canvas, column, f->top + f->height, 12, CEDUO_ROLE_AXIS, kJ == 1 ? _("%g kJ") : "%g", kJ);
+        ceduo_canvas_rule_x(d->canvas, f, CEDUO_ROLE_AXIS, log10(kJ));
+    ceduo_plot_say(d->canvas, column, f->top + f->height, 12, CEDUO_ROLE_AXIS, kJ == 1 ? _("%g kJ") : "%g", kJ);
 }
 
-const char *ceduo_plot_hazard(struct ceduo_canvas *canvas, const struct ceduo_area *area, const struct ceduo_picture *picture)
+const char *ceduo_plot_hazard(struct ceduo_drawing *d)
 {
-    const struct ceduo_hazard *bare = picture->scene->blocks_count > 0 ? hazard_of(picture, 0) : NULL;
-    size_t items = ceduo_plot_wooded(picture) ? picture->scene->options_count + 1 : 1;
-    if (picture->scene->blocks_count == 0)
-        return _("the scene does not say which blocks come down");
+    static const double energies[] = {30, 300}, years[] = {30, 100, 300};
+    bool blocks = d->scene->blocks_count > 0;
+    const struct ceduo_hazard *bare = blocks ? hazard_of(d, 0) : NULL;
+    size_t items = d->wooded ? d->scene->options_count + 1 : 1, last = bare ? bare->energies : 0;
     if (!bare)
-        return _("not computed yet");
-    if (area->width < WIDTH_LEAST || area->height < HEIGHT_LEAST)
+        return blocks ? _("not computed yet") : _("the scene does not say which blocks come down");
+    if (!ceduo_plot_chart(d, &(struct ceduo_chart_size){.axis = AXIS_WIDTH,
+                                                        .below = 1,
+                                                        .legend = LEGEND_WIDTH,
+                                                        .lines = (int)items,
+                                                        .width = WIDTH_LEAST,
+                                                        .height = HEIGHT_LEAST}))
         return _("too narrow");
-    size_t last = bare->energies;
     while (last > 0 && logarithm(bare->exceed[last - 1].rate.rate) < RAREST)
         last--;
-    struct ceduo_chart c = ceduo_chart_place(canvas, area,
-                                             &(struct ceduo_chart_size){.axis = AXIS_WIDTH,
-                                                                        .below = 1,
-                                                                        .legend = LEGEND_WIDTH,
-                                                                        .lines = (int)items,
-                                                                        .width = WIDTH_LEAST,
-                                                                        .height = HEIGHT_LEAST});
-    c.frame.x1 = last > 0 ? log10(bare->exceed[last - 1].energy * J_TO_KJ * 1.3) : 0;
-    c.frame.y0 = RAREST;
-    c.frame.y1 = ceil(logarithm(bare->reach.rate) + 1e-9);
-    if (!(c.frame.x1 > 0 && c.frame.y1 > RAREST))
+    d->frame.x1 = last > 0 ? log10(bare->exceed[last - 1].energy * J_TO_KJ * 1.3) : 0;
+    d->frame.y0 = RAREST;
+    d->frame.y1 = ceil(logarithm(bare->reach.rate) + 1e-9);
+    if (!(d->frame.x1 > 0 && d->frame.y1 > RAREST))
         return _("rocks arrive less than once in a thousand years");
-    ceduo_plot_say(canvas, area->left, area->top, area->width, CEDUO_ROLE_AXIS,
+    ceduo_plot_say(d->canvas, d->area.left, d->area.top, d->area.width, CEDUO_ROLE_AXIS, "%s",
                    _("years from one rock with more than this energy to the next"));
     for (int i = 0; i < 2; i++)
-        put_energy(&c, (double[]){30, 300}[i], true);
+        put_energy(d, energies[i], true);
     for (int i = 0; i < 3; i++)
-        put_years(&c, (double[]){30, 100, 300}[i], true);
-    for (int decade = (int)c.frame.y1; decade >= RAREST; decade--)
-        put_years(&c, pow(10, -decade), false);
-    for (int decade = 0; decade <= (int)c.frame.x1; decade++)
-        put_energy(&c, pow(10, decade), false);
+        put_years(d, years[i], true);
+    for (int decade = (int)d->frame.y1; decade >= RAREST; decade--)
+        put_years(d, pow(10, -decade), false);
+    for (int decade = 0; decade <= (int)d->frame.x1; decade++)
+        put_energy(d, pow(10, decade), false);
     for (size_t i = 0; i < items; i++)
-        draw_curve(&c, picture, i);
+        draw_curve(d, i);
     for (size_t i = 0; i < items; i++) {
-        const struct ceduo_hazard *h = hazard_of(picture, i);
+        const struct ceduo_hazard *h = hazard_of(d, i);
         char sign[24];
         size_t at = 14 + 4 * i; /* its number on the curve */
         snprintf(sign, sizeof sign, "%zu", i);
         while (h && at > 0 && (at >= h->energies || logarithm(h->exceed[at].rate.rate) < RAREST))
             at--;
         if (h)
-            ceduo_chart_sign(&c, log_kJ(&h->exceed[at]), logarithm(h->exceed[at].rate.rate), false, role_of(i), sign);
-        if ((int)i < c.legend.height)
-            ceduo_plot_say(canvas, c.legend.left, c.legend.top + (int)i, c.legend.width, role_of(i), "%zu %s", i,
-                           i == 0 ? _("without forest") : picture->scene->options[i - 1].name);
+            ceduo_plot_sign(d, log_kJ(&h->exceed[at]), logarithm(h->exceed[at].rate.rate), false, role_of(i), sign);
+        if ((int)i < d->legend.height)
+            ceduo_plot_say(d->canvas, d->legend.left, d->legend.top + (int)i, d->legend.width, role_of(i), "%zu %s", i,
+                           i == 0 ? _("without forest") : d->scene->options[i - 1].name);
     }
     return NULL;
 }

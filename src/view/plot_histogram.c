@@ -40,7 +40,6 @@ static int bin_of(const struct bins *b, double kj)
 }
 
 struct histogram {
-    const struct ceduo_control *control;
     const struct ceduo_arrivals *arrivals, *bare; /* bare NULL: there is nothing to be held against */
     double accepted;                              /* kJ */
     struct bins bins;
@@ -153,42 +152,39 @@ static void count(struct histogram *h, const struct ceduo_energies *e, const str
 
 #define SAID_HEIGHT 6 /* lines that leave room for a line above the rows; what stands before them says it, too */
 
-const char *ceduo_blocks_histogram(struct ceduo_page *page, const struct ceduo_picture *picture, int height)
+const char *ceduo_plot_histogram(struct ceduo_drawing *d)
 {
     static const struct ceduo_page_column columns[] = {{"", -6, 0, CEDUO_FITS},
                                                        {"", 4, 1, CEDUO_FILLS},
                                                        {"", -4, 1, CEDUO_FITS | CEDUO_DROPPED(1)},
                                                        {"", -5, 1, CEDUO_FITS | CEDUO_DROPPED(1)},
                                                        {"", 1, 1, CEDUO_FITS | CEDUO_DROPPED(2)}};
-    size_t c = picture->control;
-    const struct ceduo_run_snapshot *sight = ceduo_plot_sight(picture), *bare = ceduo_plot_bare(picture);
-    bool wooded = ceduo_plot_wooded(picture), said = height >= SAID_HEIGHT && !page->first;
-    struct histogram h = {.control = ceduo_plot_control(picture),
-                          .arrivals = ceduo_plot_arrivals(picture, c),
-                          .bare = wooded ? ceduo_plot_bare_arrivals(picture, c) : NULL};
-    int rows = height - said - wooded;
-    if (!h.control)
+    size_t c = d->picture->control;
+    bool wooded = d->wooded, said = d->height >= SAID_HEIGHT && !d->page->first;
+    struct histogram h = {.arrivals = d->arrivals, .bare = wooded ? d->bare_arrivals : NULL};
+    int rows = d->height - said - wooded;
+    if (!d->control)
         return _("no control");
     if (!h.arrivals || (wooded && !h.bare))
         return _("not computed yet");
-    if (sight->energies[c].n == 0 && bare->energies[c].n == 0)
+    if (d->sight->energies[c].n == 0 && d->bare->energies[c].n == 0)
         return _("no rock arrives");
-    h.accepted = h.control->accepted * J_TO_KJ;
-    count(&h, &sight->energies[c], wooded ? &bare->energies[c] : NULL, rows > 1 ? rows : 1);
+    h.accepted = d->control->accepted * J_TO_KJ;
+    count(&h, &d->sight->energies[c], wooded ? &d->bare->energies[c] : NULL, rows > 1 ? rows : 1);
     if (said)
-        say_all(page, &h);
+        say_all(d->page, &h);
     double most = 0;
     for (int i = 0; i < h.bins.count; i++)
         most = fmax(most, fmax(length_of(&h, i), h.bare ? per_1000(&h, true, i) : 0));
-    CEDUO_PAGE_TABLE_OF(page, columns);
+    CEDUO_PAGE_TABLE_OF(d->page, columns);
     if (h.bare) {
-        ceduo_text_put(&page->last->cells[1].text, _("\xe2\x94\x82 without forest"));
-        ceduo_text_put(&page->last->cells[1].shorter, _("\xe2\x94\x82 bare"));
-        ceduo_text_put(&page->last->cells[2].text, _("wood"));
-        ceduo_text_put(&page->last->cells[3].text, _("bare"));
+        ceduo_text_put(&d->page->last->cells[1].text, _("\xe2\x94\x82 without forest"));
+        ceduo_text_put(&d->page->last->cells[1].shorter, _("\xe2\x94\x82 bare"));
+        ceduo_text_put(&d->page->last->cells[2].text, _("wood"));
+        ceduo_text_put(&d->page->last->cells[3].text, _("bare"));
     }
     for (int i = 0; i < h.bins.count; i++)
-        add_row(page, &h, i, most);
+        add_row(d->page, &h, i, most);
     free(h.counts);
     free(h.bare_counts);
     return NULL;

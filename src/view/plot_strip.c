@@ -10,369 +10,290 @@
 
 /* Strips along the slope: curves of what the rocks that pass each place have in height or energy. */
 
-struct curve {
-    const char *name;
-    enum ceduo_role role;
-    int on, of_dots; /* a stroke of `on` columns of dots in each `of_dots`; 1, 1: a line */
-    bool bare;       /* of the rocks without forest */
-    size_t offset;   /* of its value in a cell */
-};
-
 #define CURVES_MOST 4
 
-/* What a strip shows. */
+/* Each pair is of heights and of energies. */
+struct curve {
+    const char *names[2]; /* NULL: there is none */
+    enum ceduo_role role;
+    enum ceduo_stroke stroke;
+    bool bare;         /* of the rocks without forest */
+    size_t offsets[2]; /* of its value in a cell */
+};
+
 struct content {
-    const char *caption;
-    int count;
+    const char *captions[2];
     struct curve curves[CURVES_MOST];
 };
 
 struct strip {
-    struct ceduo_canvas *canvas;
-    const struct ceduo_area *area;
-    const struct ceduo_picture *picture;
-    const struct ceduo_run_snapshot *sight, *bare;
-    const struct content *content;
-    bool energy, legend; /* legend: of bare and wooded curves */
-    struct ceduo_frame frame;
+    struct ceduo_drawing *d;
+    bool energy;
     double from, to; /* the stretch */
+    size_t n;        /* cells along the slope, … */
+    const double *x; /* … and where they are, m */
+    int count;
+    const struct curve *curves[CURVES_MOST];
+    double *y[CURVES_MOST]; /* of each curve, m or kJ; NaN where no rock passes */
+    double peak, peak_x;    /* the largest value, where it is, … */
+    const char *peak_name;  /* … and of which curve */
 };
 
-#define OF(member) offsetof(struct ceduo_envelope, member)
+#define OF(height_member, energy_member)                                                                                       \
+    {                                                                                                                          \
+        offsetof(struct ceduo_envelope, height_member), offsetof(struct ceduo_envelope, energy_member)                         \
+    }
 
-/* Of heights and of energies: without forest alone; both; both where there is no room to tell four curves apart. Curves
- * through the forest are strokes, those without it dots, so that the two differ without colour. */
-static const struct content contents[2][3] = {
-    {{N_("underside above the ground, m"),
-      3,
-      {{N_("max"), CEDUO_ROLE_BARE, 1, 4, false, OF(height.max)},
-       {N_("p95"), CEDUO_ROLE_ENVELOPE, 1, 2, false, OF(height.p95)},
-       {N_("p50"), CEDUO_ROLE_MEAN, 1, 1, false, OF(height.p50)}}},
-     {N_("underside, m up"),
-      4,
-      {{N_("bare p95"), CEDUO_ROLE_BARE, 1, 4, true, OF(height.p95)},
-       {N_("wood p95"), CEDUO_ROLE_WOOD, 4, 6, false, OF(height.p95)},
-       {N_("bare p50"), CEDUO_ROLE_BARE, 1, 2, true, OF(height.p50)},
-       {N_("wood p50"), CEDUO_ROLE_WOOD, 1, 1, false, OF(height.p50)}}},
-     {N_("underside p95, m"),
-      2,
-      {{N_("bare"), CEDUO_ROLE_BARE, 1, 2, true, OF(height.p95)}, {N_("wood"), CEDUO_ROLE_WOOD, 1, 1, false, OF(height.p95)}}}},
-    {{N_("energy, kJ"),
-      4,
-      {{N_("p95"), CEDUO_ROLE_ENVELOPE, 1, 2, false, OF(energy.p95)},
-       {N_("mean"), CEDUO_ROLE_MEAN, 1, 1, false, OF(mean_energy)},
-       {N_("p50"), CEDUO_ROLE_BARE, 1, 4, false, OF(energy.p50)},
-       {N_("p5"), CEDUO_ROLE_ENVELOPE, 1, 2, false, OF(energy.p5)}}},
-     {N_("energy, kJ"),
-      4,
-      {{N_("bare p95"), CEDUO_ROLE_BARE, 1, 4, true, OF(energy.p95)},
-       {N_("wood p95"), CEDUO_ROLE_WOOD, 4, 6, false, OF(energy.p95)},
-       {N_("bare mean"), CEDUO_ROLE_BARE, 1, 2, true, OF(mean_energy)},
-       {N_("wood mean"), CEDUO_ROLE_WOOD, 1, 1, false, OF(mean_energy)}}},
-     {N_("mean energy, kJ"),
-      2,
-      {{N_("bare"), CEDUO_ROLE_BARE, 1, 2, true, OF(mean_energy)},
-       {N_("wood"), CEDUO_ROLE_WOOD, 1, 1, false, OF(mean_energy)}}}},
-};
-
-static double value_at(const struct strip *s, const struct curve *curve, size_t cell)
-{
-    const struct ceduo_envelope *e = &(curve->bare ? s->bare : s->sight)->envelopes[cell];
-    return *(const double *)(const void *)((const char *)e + curve->offset) * (s->energy ? J_TO_KJ : 1);
-}
+/* Without forest alone; both; both where there is no room to tell four curves apart. Curves through the forest are strokes, those
+ * without it dots, so that the two differ without colour. */
+static const struct content contents[3] = {
+    {{N_("underside above the ground, m"), N_("energy, kJ")},
+     {{{N_("max"), N_("p50")}, CEDUO_ROLE_BARE, CEDUO_STROKE_FEW, false, OF(height.max, energy.p50)},
+      {{N_("p95"), N_("p95")}, CEDUO_ROLE_ENVELOPE, CEDUO_STROKE_DOTS, false, OF(height.p95, energy.p95)},
+      {{N_("p50"), N_("mean")}, CEDUO_ROLE_MEAN, CEDUO_STROKE_PLAIN, false, OF(height.p50, mean_energy)},
+      {{NULL, N_("p5")}, CEDUO_ROLE_ENVELOPE, CEDUO_STROKE_DOTS, false, OF(height.p50, energy.p5)}}},
+    {{N_("underside, m up"), N_("energy, kJ")},
+     {{{N_("bare p95"), N_("bare p95")}, CEDUO_ROLE_BARE, CEDUO_STROKE_FEW, true, OF(height.p95, energy.p95)},
+      {{N_("wood p95"), N_("wood p95")}, CEDUO_ROLE_WOOD, CEDUO_STROKE_DASHES, false, OF(height.p95, energy.p95)},
+      {{N_("bare p50"), N_("bare mean")}, CEDUO_ROLE_BARE, CEDUO_STROKE_DOTS, true, OF(height.p50, mean_energy)},
+      {{N_("wood p50"), N_("wood mean")}, CEDUO_ROLE_WOOD, CEDUO_STROKE_PLAIN, false, OF(height.p50, mean_energy)}}},
+    {{N_("underside p95, m"), N_("mean energy, kJ")},
+     {{{N_("bare"), N_("bare")}, CEDUO_ROLE_BARE, CEDUO_STROKE_DOTS, true, OF(height.p95, mean_energy)},
+      {{N_("wood"), N_("wood")}, CEDUO_ROLE_WOOD, CEDUO_STROKE_PLAIN, false, OF(height.p95, mean_energy)}}}};
 
 /* Columns for the names of the curves and a blank on either side. */
-static int name_columns(const struct ceduo_canvas *canvas, const struct content *content)
+static int name_columns(const struct ceduo_canvas *canvas, const struct content *content, bool energy)
 {
     int widest = 4;
-    for (int i = 0; i < content->count; i++) {
-        int width = ceduo_canvas_label_width(canvas, _(content->curves[i].name));
+    for (int i = 0; i < CURVES_MOST; i++) {
+        const char *name = content->curves[i].names[energy];
+        int width = name ? ceduo_canvas_label_width(canvas, _(name)) : 0;
         widest = width > widest ? width : widest;
     }
     return widest + 2;
 }
 
-/* ---- the scale ---- */
+/* ---- the curves ---- */
 
-/* What decides the scale. */
-struct peak {
-    double largest, at, usual; /* the largest value and where it is; what 85 % of the cells do not exceed */
-    const char *curve;         /* whose it is */
-};
-
-/* Takes in one curve; returns how many cells it has. */
-static size_t add_peak(const struct strip *s, const struct curve *curve, struct peak *peak)
+static bool in_stretch(const struct strip *s, size_t cell)
 {
-    const struct ceduo_snapshot *o = s->picture->snapshot;
-    const struct ceduo_envelope *cells = (curve->bare ? s->bare : s->sight)->envelopes;
-    double *values = ceduo_must(malloc((o->cells + 1) * sizeof *values));
+    return s->x[cell] >= s->from && s->x[cell] <= s->to;
+}
+
+/* Reads a curve; returns what 85 % of its cells in the stretch do not exceed, NaN where no rock passes. */
+static double read_curve(struct strip *s, const struct curve *curve)
+{
+    const struct ceduo_envelope *cells = (curve->bare ? s->d->bare : s->d->sight)->envelopes;
+    double *y = s->y[s->count] = ceduo_must(malloc((s->n + 1) * sizeof *y)), usual = NAN;
+    double *values = ceduo_must(malloc((s->n + 1) * sizeof *values));
     size_t n = 0;
-    for (size_t i = 0; i < o->cells; i++) {
-        double v = value_at(s, curve, i);
-        if (o->cell_x[i] < s->from || o->cell_x[i] > s->to || cells[i].passed == 0 || isnan(v))
+    for (size_t i = 0; i < s->n; i++) {
+        double value = *(const double *)(const void *)((const char *)&cells[i] + curve->offsets[s->energy]);
+        y[i] = cells[i].passed > 0 ? value * (s->energy ? J_TO_KJ : 1) : NAN;
+        if (isnan(y[i]) || !in_stretch(s, i))
             continue;
-        if (v > peak->largest)
-            *peak = (struct peak){v, o->cell_x[i], peak->usual, curve->name};
-        values[n++] = v;
+        if (y[i] > s->peak) {
+            s->peak = y[i];
+            s->peak_x = s->x[i];
+            s->peak_name = curve->names[s->energy];
+        }
+        values[n++] = y[i];
     }
     if (n > 0)
-        peak->usual = fmax(peak->usual, gsl_stats_select(values, 1, n, (n - 1) * 85 / 100));
+        usual = gsl_stats_select(values, 1, n, (n - 1) * 85 / 100);
     free(values);
-    return n;
+    s->curves[s->count++] = curve;
+    return usual;
 }
 
-/* The top of the scale: what is usual, where a few places (the foot of a wall) would flatten all the rest. False where
- * no rock passes. */
-static bool scale(struct strip *s, struct peak *peak)
+/* Reads all of them and sets the scale: its top is what is usual, where a few places (the foot of a wall) would flatten all the
+ * rest. False where no rock passes. */
+static bool read_curves(struct strip *s, const struct content *content)
 {
-    size_t cells = 0;
-    *peak = (struct peak){0};
-    for (int i = 0; i < s->content->count; i++)
-        cells += add_peak(s, &s->content->curves[i], peak);
-    bool cut = peak->largest > 1.5 * 1.15 * peak->usual && peak->usual > 0;
-    double top = cut ? 1.15 * peak->usual : 1.05 * peak->largest;
+    double usual = NAN;
+    for (int i = 0; i < CURVES_MOST; i++)
+        if (content->curves[i].names[s->energy])
+            usual = fmax(usual, read_curve(s, &content->curves[i]));
+    bool cut = s->peak > 1.5 * 1.15 * usual && usual > 0;
+    double top = cut ? 1.15 * usual : 1.05 * s->peak;
     double most = s->energy ? 2 * top : 0; /* what the things at risk bear, as far as the strip can show it */
-    for (size_t c = 0; c < s->picture->scene->controls_count; c++) {
-        double accepted = s->picture->scene->controls[c].accepted * J_TO_KJ;
+    for (size_t c = 0; c < s->d->scene->controls_count; c++) {
+        double accepted = s->d->scene->controls[c].accepted * J_TO_KJ;
         top = accepted <= most ? fmax(top, 1.1 * accepted) : top;
     }
-    s->frame.y0 = 0;
-    s->frame.y1 = top > 0 ? top : 1;
-    return cells > 0;
-}
-
-/* ---- curves ---- */
-
-/* What of the strokes, which lie at the same columns for all curves, falls on a piece of the curve. */
-static void draw_strokes(struct strip *s, const struct curve *curve, double ax, double ay, double bx, double by)
-{
-    struct ceduo_frame *f = &s->frame;
-    int dots = f->width * s->canvas->dots_x - 1;
-    double metres = (f->x1 - f->x0) / dots, step = curve->of_dots * metres, length = (curve->on - 1) * metres;
-    double slope = (by - ay) / (bx - ax);
-    for (double i = floor((ax - f->x0) / step); f->x0 + i * step < bx; i++) {
-        double from = fmax(f->x0 + i * step, ax), to = fmin(f->x0 + i * step + length, bx);
-        if (from <= to)
-            ceduo_canvas_line(s->canvas, f, curve->role, from, ay + (from - ax) * slope, to, ay + (to - ax) * slope);
-    }
-}
-
-static void draw_curve(struct strip *s, const struct curve *curve)
-{
-    const struct ceduo_snapshot *o = s->picture->snapshot;
-    for (size_t i = 1; i < o->cells; i++) {
-        double ax = o->cell_x[i - 1], bx = o->cell_x[i];
-        double ay = value_at(s, curve, i - 1), by = value_at(s, curve, i);
-        if (isnan(ay) || isnan(by))
-            continue;
-        if (curve->of_dots == 1)
-            ceduo_canvas_line(s->canvas, &s->frame, curve->role, ax, ay, bx, by);
-        else
-            draw_strokes(s, curve, ax, ay, bx, by);
-    }
+    s->d->frame.y1 = top > 0 ? top : 1;
+    return !isnan(usual);
 }
 
 /* The trajectories above the ground that they pass over. */
-static void draw_ways(const struct strip *s)
+static void draw_ways(const struct ceduo_drawing *d)
 {
-    ceduo_canvas_cloud_start(s->canvas);
-    for (size_t i = 0; i < s->sight->trajectories_count; i++) {
-        const struct ceduo_polyline *t = &s->sight->trajectories[i];
+    ceduo_canvas_cloud_start(d->canvas);
+    for (size_t i = 0; i < d->sight->trajectories_count; i++) {
+        const struct ceduo_polyline *t = &d->sight->trajectories[i];
         double *heights = ceduo_must(malloc((t->n + 1) * sizeof *heights));
         for (size_t k = 0; k < t->n; k++)
-            heights[k] = fmax(t->z[k] - ceduo_slope_height(&s->picture->scene->slope, t->x[k]), 0);
-        ceduo_canvas_cloud_add(s->canvas, &s->frame, t->n, t->x, heights);
+            heights[k] = fmax(t->z[k] - ceduo_slope_height(&d->scene->slope, t->x[k]), 0);
+        ceduo_canvas_polyline(d->canvas, &d->frame, CEDUO_ROLE_CLOUD, CEDUO_STROKE_WAY, t->n, t->x, heights);
         free(heights);
     }
-    ceduo_canvas_cloud_show(s->canvas, 0);
+    ceduo_canvas_cloud_show(d->canvas, 0);
 }
 
 /* Where a curve ends inside the frame: its value, cut at the top; NaN where no rock passes or it lies below. */
-static double end_of(const struct strip *s, const struct curve *curve)
+static double end_of(const struct strip *s, int curve)
 {
-    const struct ceduo_snapshot *o = s->picture->snapshot;
-    for (size_t i = o->cells; i-- > 0;) {
-        double y = value_at(s, curve, i);
-        int column, row;
-        if (o->cell_x[i] < s->from || o->cell_x[i] > s->to || isnan(y))
-            continue;
-        y = fmin(y, s->frame.y1);
-        return ceduo_frame_cell(&s->frame, s->canvas, o->cell_x[i], y, &column, &row) ? y : NAN;
-    }
-    return NAN;
+    int column, row;
+    size_t i = s->n;
+    while (i > 0 && (!in_stretch(s, i - 1) || isnan(s->y[curve][i - 1])))
+        i--;
+    double y = i > 0 ? fmin(s->y[curve][i - 1], s->d->frame.y1) : NAN;
+    return i > 0 && ceduo_frame_cell(&s->d->frame, s->d->canvas, s->x[i - 1], y, &column, &row) ? y : NAN;
 }
 
 /* The name of each curve that ends inside the frame to the right of its end, the highest first, none in the row of another. */
 static void name_curves(const struct strip *s)
 {
-    const struct curve *sorted[CURVES_MOST];
+    const struct ceduo_frame *f = &s->d->frame;
     double ends[CURVES_MOST];
-    int left = s->frame.left + s->frame.width + 1, room = s->area->left + s->area->width - left;
-    int last = s->frame.top + s->frame.height - 1, next = s->frame.top, n = 0;
-    if (room < 4 || s->frame.height < s->content->count)
+    int left = f->left + f->width + 1, room = s->d->area.left + s->d->area.width - left, n = 0;
+    if (room < 4 || f->height < s->count)
         return;
-    for (int i = 0; i < s->content->count; i++) {
-        double end = end_of(s, &s->content->curves[i]);
-        if (isnan(end))
-            continue;
-        int at = n++;
-        for (; at > 0 && ends[at - 1] < end; at--) {
-            sorted[at] = sorted[at - 1];
-            ends[at] = ends[at - 1];
-        }
-        sorted[at] = &s->content->curves[i];
-        ends[at] = end;
-    }
-    for (int i = 0; i < n; i++) {
-        int column, row, lowest = last - (n - 1 - i);
-        ceduo_frame_cell(&s->frame, s->canvas, s->frame.x0, ends[i], &column, &row);
-        row = row < next ? next : row > lowest ? lowest : row;
-        ceduo_canvas_put(s->canvas, left, row, room, sorted[i]->role, _(sorted[i]->name));
-        next = row + 1;
+    for (int i = 0; i < s->count; i++)
+        n += !isnan(ends[i] = end_of(s, i));
+    for (int next = f->top; n > 0; n--, next++) {
+        int best = -1, lowest = f->top + f->height - n, column, row;
+        for (int i = 0; i < s->count; i++)
+            best = !isnan(ends[i]) && (best < 0 || ends[i] > ends[best]) ? i : best;
+        ceduo_frame_cell(f, s->d->canvas, f->x0, ends[best], &column, &row);
+        next = row < next ? next : row > lowest ? lowest : row;
+        ceduo_canvas_put(s->d->canvas, left, next, room, s->curves[best]->role, _(s->curves[best]->names[s->energy]));
+        ends[best] = NAN;
     }
 }
 
 /* ---- controls ---- */
 
-static bool is_free(const struct strip *s, int column, int row, int width)
+/* What a control bears, and in words in that row or the nearest that is free of curves, before the mark or behind it; without room
+ * not in words, which stand beside the pictures, too. */
+static void draw_accepted(const struct ceduo_drawing *d, const struct ceduo_control *c)
 {
-    const struct ceduo_frame *f = &s->frame;
-    bool inside = row >= f->top && row < f->top + f->height && column >= f->left && column + width <= f->left + f->width;
-    for (int i = -1; inside && i <= width; i++) /* a blank on either side, so that it is no part of a curve */
-        inside = ceduo_canvas_is_blank(s->canvas, column + i, row);
-    return inside;
-}
-
-/* A place for a label beside a line at `row`, before it or behind it, in that row or the nearest that is free of
- * curves. False where there is none: what it says stands beside the pictures, too. */
-static bool find_free(const struct strip *s, int before, int behind, int width, int *column, int *row)
-{
-    for (int i = 0; i < 2 * s->frame.height; i++) {
-        int at = *row + (i % 2 ? -(i + 1) / 2 : i / 2);
-        *column = is_free(s, before, at, width) ? before : behind;
-        if (is_free(s, *column, at, width)) {
-            *row = at;
-            return true;
-        }
-    }
-    return false;
-}
-
-static void draw_accepted(const struct strip *s, const struct ceduo_control *c)
-{
-    double accepted = c->accepted * J_TO_KJ, reach = 0.03 * (s->frame.x1 - s->frame.x0);
-    int column, row;
-    if (isnan(accepted) || !ceduo_frame_cell(&s->frame, s->canvas, c->x, accepted, &column, &row))
+    const struct ceduo_frame *f = &d->frame;
+    double accepted = c->accepted * J_TO_KJ, reach = 0.03 * (f->x1 - f->x0);
+    int left, right, row;
+    if (isnan(accepted) || !ceduo_frame_cell(f, d->canvas, c->x, accepted, &left, &row))
         return;
-    ceduo_canvas_line(s->canvas, &s->frame, CEDUO_ROLE_BAD, c->x - reach, accepted, c->x + reach, accepted);
+    ceduo_canvas_line(d->canvas, f, CEDUO_ROLE_BAD, c->x - reach, accepted, c->x + reach, accepted);
     LOCAL_TEXT(label);
     ceduo_text_format(&label, _("withstands %g kJ"), accepted);
-    int width = ceduo_canvas_label_width(s->canvas, label.bytes), left, right;
-    ceduo_frame_cell(&s->frame, s->canvas, fmax(c->x - reach, s->frame.x0), accepted, &left, &row);
-    ceduo_frame_cell(&s->frame, s->canvas, fmin(c->x + reach, s->frame.x1), accepted, &right, &row);
-    if (find_free(s, left - 1 - width, right + 2, width, &column, &row))
-        ceduo_canvas_label(s->canvas, column, row, CEDUO_ROLE_BAD, label.bytes);
+    int width = ceduo_canvas_label_width(d->canvas, label.bytes);
+    const struct ceduo_area inside = {f->left, f->top, f->width, f->height};
+    ceduo_frame_cell(f, d->canvas, fmax(c->x - reach, f->x0), accepted, &left, &row);
+    ceduo_frame_cell(f, d->canvas, fmin(c->x + reach, f->x1), accepted, &right, &row);
+    for (int i = 0; i < 4 * f->height; i++) {
+        int column = i % 2 ? right + 2 : left - 1 - width, at = row + (i / 2 % 2 ? -(i / 2 + 1) / 2 : i / 4);
+        if (!ceduo_plot_is_free(d->canvas, &inside, column, at, width))
+            continue;
+        ceduo_canvas_label(d->canvas, column, at, CEDUO_ROLE_BAD, label.bytes);
+        break;
+    }
 }
 
 /* ---- the strip ---- */
 
-static void place_frame(struct strip *s)
+static void place_frame(struct strip *s, const struct content *content)
 {
-    const struct ceduo_area *a = s->area;
-    const struct ceduo_span *span = s->picture->span;
-    bool axis = !s->picture->no_x_axis;
+    struct ceduo_frame *f = &s->d->frame;
+    const struct ceduo_area *a = &s->d->area;
+    const struct ceduo_span *span = s->d->picture->span;
+    bool axis = !s->d->picture->no_x_axis;
     int caption = a->height - 2 * axis >= 4;
-    s->frame.top = a->top + caption;
-    s->frame.height = a->height - caption - 2 * axis;
-    if (span) {
-        s->frame.left = span->left;
-        s->frame.width = span->width;
-        s->frame.x0 = span->x0;
-        s->frame.x1 = span->x1;
-        return;
-    }
-    int labels = ceduo_frame_axis_width(&s->frame, s->canvas);
-    int names = a->width >= 40 ? name_columns(s->canvas, s->content) : 0;
-    s->frame.left = a->left + labels;
-    s->frame.width = a->width - labels - names;
-    s->frame.x0 = s->from;
-    s->frame.x1 = s->to;
+    f->top = a->top + caption;
+    f->height = a->height - caption - 2 * axis;
+    int labels = ceduo_frame_axis_width(f, s->d->canvas),
+        names = a->width >= 40 ? name_columns(s->d->canvas, content, s->energy) : 0;
+    f->left = span ? span->left : a->left + labels;
+    f->width = span ? span->width : a->width - labels - names;
+    f->x0 = s->from;
+    f->x1 = s->to;
 }
 
 /* What is shown, how strokes tell the wooded curves from the bare ones, and what lies beyond the top, in as many words as there is
  * room for. */
-static void put_caption(const struct strip *s, const struct peak *peak)
+static void put_caption(const struct strip *s, const struct content *content)
 {
     static const struct {
         enum ceduo_role role;
         const char *text;
     } parts[] = {{CEDUO_ROLE_WOOD, N_("\xe2\x94\x80\xe2\x94\x80 wood")}, {CEDUO_ROLE_BARE, N_("\xc2\xb7\xc2\xb7 bare")}};
-    int row = s->area->top, column = s->frame.left, end = s->area->left + s->area->width;
-    if (s->frame.top == row)
+    struct ceduo_canvas *canvas = s->d->canvas;
+    int row = s->d->area.top, column = s->d->frame.left, end = s->d->area.left + s->d->area.width;
+    if (s->d->frame.top == row)
         return;
-    column += ceduo_canvas_put(s->canvas, column, row, end - column, CEDUO_ROLE_AXIS, _(s->content->caption));
-    for (int i = 0; i < 2 && s->legend; i++) {
-        column += ceduo_canvas_put(s->canvas, column, row, end - column, parts[i].role, "  ");
-        column += ceduo_canvas_put(s->canvas, column, row, end - column, parts[i].role, _(parts[i].text));
+    column += ceduo_canvas_put(canvas, column, row, end - column, CEDUO_ROLE_AXIS, _(content->captions[s->energy]));
+    for (int i = 0; i < 2 && s->d->wooded; i++) {
+        column += ceduo_canvas_put(canvas, column, row, end - column, parts[i].role, "  ");
+        column += ceduo_canvas_put(canvas, column, row, end - column, parts[i].role, _(parts[i].text));
     }
-    if (!(peak->largest > s->frame.y1))
+    if (!(s->peak > s->d->frame.y1) || column >= end)
         return;
-    const char *name = _(peak->curve), *unit = s->energy ? _("kJ") : _("m"), *value = WRITTEN(peak->largest, 3);
-    struct text words[3] = {{0}};
-    ceduo_text_then(&words[0], "; ", _("%s beyond the top: %s %s at %s m"), name, value, unit,
-                    WRITTEN(peak->at + s->picture->scene->slope.origin_x, 3));
-    ceduo_text_then(&words[1], "; ", _("%s up to %s %s"), name, value, unit);
-    ceduo_text_then(&words[2], "; ", _("up to %s"), value);
-    ceduo_plot_put_fitting(s->canvas, column, row, end - column, CEDUO_ROLE_WARN, 3, words);
+    const char *name = _(s->peak_name), *unit = s->energy ? _("kJ") : _("m"), *value = WRITTEN(s->peak, 3);
+    LOCAL_TEXT(words);
+    ceduo_text_format(&words, "; ");
+    ceduo_text_format(&words, _("%s beyond the top: %s %s at %s m"), name, value, unit,
+                      WRITTEN(s->peak_x + s->d->scene->slope.origin_x, 3));
+    ceduo_text_then(&words, "\n; ", _("%s up to %s %s"), name, value, unit);
+    ceduo_text_then(&words, "\n; ", _("up to %s"), value);
+    ceduo_plot_say(canvas, column, row, end - column, CEDUO_ROLE_WARN, "%s", ceduo_text_string(&words));
 }
 
 #define FULL_ROWS  8  /* four curves need so many rows, */
 #define FULL_WIDTH 56 /* so many columns, and names beside them */
 
-static const char *draw_strip(struct strip *s)
+static const char *draw_strip(struct ceduo_drawing *d, bool energy)
 {
-    const struct ceduo_span *span = s->picture->span;
-    const struct content *fitting = contents[s->energy];
-    struct peak peak;
-    s->legend = ceduo_plot_wooded(s->picture);
-    int names = span ? s->area->left + s->area->width - span->left - span->width : INT_MAX;
-    bool small = s->area->height - 1 - 2 * !s->picture->no_x_axis < FULL_ROWS || s->area->width < FULL_WIDTH ||
-                 names < name_columns(s->canvas, &fitting[1]) - 1;
-    s->content = &fitting[!s->legend ? 0 : small ? 2 : 1];
-    s->sight = ceduo_plot_sight(s->picture);
-    s->bare = ceduo_plot_bare(s->picture);
-    ceduo_plot_stretch(s->picture, &s->from, &s->to);
-    s->from = span ? span->x0 : s->from;
-    s->to = span ? span->x1 : s->to;
-    if (!s->sight || !s->bare)
+    const struct ceduo_span *span = d->picture->span;
+    const struct ceduo_snapshot *snapshot = d->picture->snapshot;
+    struct strip s = {.d = d, .energy = energy, .from = span ? span->x0 : d->from, .to = span ? span->x1 : d->to};
+    int names = span ? d->area.left + d->area.width - span->left - span->width : INT_MAX;
+    bool small = d->area.height - 1 - 2 * !d->picture->no_x_axis < FULL_ROWS || d->area.width < FULL_WIDTH ||
+                 names < name_columns(d->canvas, &contents[1], energy) - 1;
+    const struct content *content = &contents[!d->wooded ? 0 : small ? 2 : 1];
+    const char *why = NULL;
+    if (!d->sight || !d->bare)
         return _("not computed yet");
-    if (!scale(s, &peak))
-        return _("no rock passes here");
-    place_frame(s);
-    if (s->frame.width < 2 || s->frame.height < 1 || !(s->frame.x1 > s->frame.x0))
-        return _("too narrow");
-    put_caption(s, &peak);
-    if (s->picture->ways && !s->energy)
-        draw_ways(s);
-    for (int i = 0; i < s->content->count; i++)
-        draw_curve(s, &s->content->curves[i]);
-    for (size_t c = 0; c < s->picture->scene->controls_count; c++) {
-        const struct ceduo_control *control = &s->picture->scene->controls[c];
-        ceduo_canvas_rule_x(s->canvas, &s->frame, CEDUO_ROLE_CONTROL, control->x);
-        if (s->energy)
-            draw_accepted(s, control);
+    s.n = snapshot->cells;
+    s.x = snapshot->cell_x;
+    if (!read_curves(&s, content))
+        why = _("no rock passes here");
+    place_frame(&s, content);
+    if (!why && (d->frame.width < 2 || d->frame.height < 1 || !(d->frame.x1 > d->frame.x0)))
+        why = _("too narrow");
+    if (!why) {
+        put_caption(&s, content);
+        if (d->picture->ways && !energy)
+            draw_ways(d);
+        for (int i = 0; i < s.count; i++)
+            ceduo_canvas_polyline(d->canvas, &d->frame, s.curves[i]->role, s.curves[i]->stroke, s.n, s.x, s.y[i]);
+        for (size_t c = 0; c < d->scene->controls_count; c++) {
+            ceduo_canvas_rule_x(d->canvas, &d->frame, CEDUO_ROLE_CONTROL, d->scene->controls[c].x);
+            if (energy)
+                draw_accepted(d, &d->scene->controls[c]);
+        }
+        name_curves(&s);
+        ceduo_plot_axes(d, d->scene->slope.origin_x, 0, d->picture->no_x_axis ? NULL : _("m"));
     }
-    name_curves(s);
-    ceduo_plot_axes(s->canvas, &s->frame, s->picture->scene->slope.origin_x, 0, s->picture->no_x_axis ? NULL : _("m"));
-    return NULL;
+    for (int i = 0; i < s.count; i++)
+        free(s.y[i]);
+    return why;
 }
 
-const char *ceduo_plot_height(struct ceduo_canvas *canvas, const struct ceduo_area *area, const struct ceduo_picture *picture)
+const char *ceduo_plot_height(struct ceduo_drawing *d)
 {
-    return draw_strip(&(struct strip){.canvas = canvas, .area = area, .picture = picture});
+    return draw_strip(d, false);
 }
 
-const char *ceduo_plot_energy(struct ceduo_canvas *canvas, const struct ceduo_area *area, const struct ceduo_picture *picture)
+const char *ceduo_plot_energy(struct ceduo_drawing *d)
 {
-    return draw_strip(&(struct strip){.canvas = canvas, .area = area, .picture = picture, .energy = true});
+    return draw_strip(d, true);
 }

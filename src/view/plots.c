@@ -1,16 +1,20 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/language.h"
 #include "plot_parts.h"
 
+/* ---- the pictures ---- */
+
 const struct ceduo_plot_kind ceduo_plot_kinds[CEDUO_PLOTS] = {
-#define X(NAME, name, needs_run, needs_cells, by_option) [CEDUO_PLOT_##NAME] = {#name, needs_run, needs_cells, by_option},
+#define X(NAME, name, flags, title) [CEDUO_PLOT_##NAME] = {#name, title, flags},
     CEDUO_PLOT_LIST(X)
 #undef X
 };
 
-#define X(NAME, name, needs_run, needs_cells, by_option) ", " #name
+#define X(NAME, name, flags, title) ", " #name
 const char *const ceduo_plot_names = &(CEDUO_PLOT_LIST(X))[2];
 #undef X
 
@@ -22,52 +26,76 @@ enum ceduo_plot ceduo_plot_find(const char *name)
     return CEDUO_PLOT_NONE;
 }
 
-/* How a picture is drawn; what it shows, %s: where, or which belt; `run`: it is of rocks, without forest where none go through
- * one. */
-static const struct {
-    ceduo_plot_function *draw;
-    ceduo_blocks_function *blocks;
-    const char *title;
-    bool whole, run; /* whole: of all options, so that none stands before it */
-} plots[CEDUO_PLOTS] = {
-    [CEDUO_PLOT_PROFILE] = {ceduo_plot_profile, NULL, N_("slope, forest, and ways"), false, true},
-    [CEDUO_PLOT_ENERGY] = {ceduo_plot_energy, NULL, N_("energy of the rocks"), false, true},
-    [CEDUO_PLOT_HEIGHT] = {ceduo_plot_height, NULL, N_("height of the rocks above the ground"), false, true},
-    [CEDUO_PLOT_HISTOGRAM] = {NULL, ceduo_blocks_histogram, N_("energy at %s"), false, true},
-    [CEDUO_PLOT_ADC] = {NULL, ceduo_blocks_adc, N_("average distance between contacts, m"), false, false},
-    [CEDUO_PLOT_ROTATION] = {ceduo_plot_rotation, NULL, N_("year by year, up to %s"), false, false},
-    [CEDUO_PLOT_STAND] = {ceduo_plot_stand, NULL, N_("%s, from above"), false, false},
-    [CEDUO_PLOT_COMPARE] = {NULL, ceduo_blocks_compare, N_("Options side by side, up to %s"), true, false},
-    [CEDUO_PLOT_TRADEOFF] = {ceduo_plot_tradeoff, NULL, N_("Protection and yield of the options, up to %s"), true, false},
-    [CEDUO_PLOT_DOUBT] = {NULL, ceduo_blocks_doubt, N_("how sure it is at %s"), false, false},
-    [CEDUO_PLOT_HAZARD] = {ceduo_plot_hazard, NULL, N_("How often, and with how much, at %s"), true, false}};
-
-#define WIDTH_MIN 30 /* columns below which words and bars have no room beside one another */
-
-static const char *draw_page(struct ceduo_canvas *canvas, const struct ceduo_area *area, const struct ceduo_picture *picture,
-                             ceduo_blocks_function *blocks)
+const struct ceduo_arrivals *ceduo_plot_arrivals(const struct ceduo_run_snapshot *run, size_t control)
 {
-    struct ceduo_page page = {.width = (size_t)area->width};
-    const char *why = blocks(&page, picture, area->height);
-    if (!why && area->width < WIDTH_MIN)
-        why = _("too narrow");
-    if (!why)
-        ceduo_page_draw(&page, canvas, *area, 0);
-    ceduo_page_free(&page);
-    return why;
+    return run && control < run->flown.controls ? &run->flown.arrivals[control] : NULL;
 }
+
+static struct ceduo_drawing drawing_of(const struct ceduo_picture *p)
+{
+    const struct ceduo_scene *s = p->scene;
+    const struct ceduo_slope *slope = &s->slope;
+    const double *last = &slope->x[slope->vertices - 1];
+    bool whole = !(p->to > p->from);
+    struct ceduo_drawing d = {.picture = p,
+                              .scene = s,
+                              .option = p->option < s->options_count ? &s->options[p->option] : NULL,
+                              .control = p->control < s->controls_count ? &s->controls[p->control] : NULL,
+                              .sight = ceduo_snapshot_of(p->snapshot, s, p->option),
+                              .bare = p->snapshot ? p->snapshot->bare : NULL,
+                              .wooded = s->simulation.contact_model != CEDUO_INDEX,
+                              .from = whole ? slope->x[0] : fmax(p->from, slope->x[0]),
+                              .to = whole ? *last : fmin(p->to, *last)};
+    d.belt = d.option && p->belt < d.option->belts_count ? &d.option->belts[p->belt] : NULL;
+    d.arrivals = ceduo_plot_arrivals(d.sight, p->control);
+    d.bare_arrivals = ceduo_plot_arrivals(d.bare, p->control);
+    return d;
+}
+
+static const char *draw(enum ceduo_plot plot, struct ceduo_drawing *drawing)
+{
+    static ceduo_plot_function *const functions[CEDUO_PLOTS] = {
+#define X(NAME, name, flags, title) [CEDUO_PLOT_##NAME] = ceduo_plot_##name,
+        CEDUO_PLOT_LIST(X)
+#undef X
+    };
+    return functions[plot](drawing);
+}
+
+bool ceduo_plot_add(enum ceduo_plot plot, struct ceduo_page *page, const struct ceduo_picture *picture, int height)
+{
+    struct ceduo_drawing d = drawing_of(picture);
+    d.page = page;
+    d.height = height;
+    const char *why = draw(plot, &d);
+    if (why)
+        ceduo_page_say(page, CEDUO_PAGE_NOTE, "%s", why);
+    return !why;
+}
+
+#define PAGE_WIDTH_MIN 30 /* columns below which words and bars have no room beside one another */
 
 void ceduo_plot_draw(enum ceduo_plot plot, struct ceduo_canvas *canvas, const struct ceduo_area *area,
                      const struct ceduo_picture *picture)
 {
+    struct ceduo_page page = {.width = (size_t)area->width};
+    struct ceduo_drawing d = drawing_of(picture);
+    bool is_page = ceduo_plot_kinds[plot].flags & CEDUO_PICTURE_PAGE;
     if (canvas->words_alone)
         return;
-    const char *why =
-        plots[plot].blocks ? draw_page(canvas, area, picture, plots[plot].blocks) : plots[plot].draw(canvas, area, picture);
+    d.canvas = canvas;
+    d.area = *area;
+    d.page = &page;
+    d.height = area->height;
+    const char *why = draw(plot, &d);
+    if (is_page && !why && area->width < PAGE_WIDTH_MIN)
+        why = _("too narrow");
+    if (is_page && !why)
+        ceduo_page_draw(&page, canvas, *area, 0);
+    ceduo_page_free(&page);
     if (!why)
         return;
-    int width = ceduo_canvas_label_width(canvas, why);
-    int column = width < area->width ? (area->width - width) / 2 : 0;
+    int width = ceduo_canvas_label_width(canvas, why), column = width < area->width ? (area->width - width) / 2 : 0;
     ceduo_canvas_put(canvas, area->left + column, area->top + (area->height - 1) / 2, area->width, CEDUO_ROLE_TEXT, why);
 }
 
@@ -78,48 +106,192 @@ void ceduo_plot_draw(enum ceduo_plot plot, struct ceduo_canvas *canvas, const st
 void ceduo_plot_seen(struct ceduo_canvas *canvas, const struct ceduo_area *area, const struct ceduo_seen_stops *s,
                      double origin)
 {
+    struct ceduo_drawing d = {.canvas = canvas,
+                              .frame = {.left = area->left,
+                                        .top = area->top + 1,
+                                        .width = area->width,
+                                        .height = area->height - 3,
+                                        .x0 = s->x[0],
+                                        .x1 = s->x[CEDUO_SEEN_PLACES - 1],
+                                        .y1 = 1}};
+    int axis = ceduo_frame_axis_width(&d.frame, canvas);
     if (canvas->words_alone)
         return;
     if (area->width < SEEN_WIDTH || area->height < SEEN_HEIGHT) {
         ceduo_canvas_put(canvas, area->left, area->top, area->width, CEDUO_ROLE_TEXT, _("too narrow"));
         return;
     }
-    struct ceduo_frame frame = {.left = area->left,
-                                .top = area->top + 1,
-                                .width = area->width,
-                                .height = area->height - 3,
-                                .x0 = s->x[0],
-                                .x1 = s->x[CEDUO_SEEN_PLACES - 1],
-                                .y1 = 1};
-    int axis = ceduo_frame_axis_width(&frame, canvas);
-    frame.left += axis;
-    frame.width -= axis;
-    ceduo_plot_say_fitting(canvas, area->left, area->top, area->width, CEDUO_ROLE_AXIS,
-                           _("share that lies farther: a line what was seen, shaded 95 % of simulated samples"),
-                           _("lies farther: line seen, shaded simulated"));
+    ceduo_plot_say(canvas, area->left, area->top, area->width, CEDUO_ROLE_AXIS, "%s\n%s",
+                   _("share that lies farther: a line what was seen, shaded 95 % of simulated samples"),
+                   _("lies farther: line seen, shaded simulated"));
+    d.frame.left += axis;
+    d.frame.width -= axis;
     for (size_t i = 0; i < CEDUO_SEEN_PLACES; i++)
-        ceduo_canvas_line(canvas, &frame, CEDUO_ROLE_DIM, s->x[i], s->lo[i], s->x[i], s->hi[i]);
-    ceduo_canvas_polyline(canvas, &frame, CEDUO_ROLE_ENVELOPE, CEDUO_SEEN_PLACES, s->x, s->lo);
-    ceduo_canvas_polyline(canvas, &frame, CEDUO_ROLE_ENVELOPE, CEDUO_SEEN_PLACES, s->x, s->hi);
-    ceduo_canvas_stairs(canvas, &frame, CEDUO_ROLE_MEAN, CEDUO_SEEN_PLACES, s->x, s->seen);
-    ceduo_plot_axes(canvas, &frame, origin, 0, "m");
+        ceduo_canvas_line(canvas, &d.frame, CEDUO_ROLE_DIM, s->x[i], s->lo[i], s->x[i], s->hi[i]);
+    ceduo_canvas_polyline(canvas, &d.frame, CEDUO_ROLE_ENVELOPE, CEDUO_STROKE_PLAIN, CEDUO_SEEN_PLACES, s->x, s->lo);
+    ceduo_canvas_polyline(canvas, &d.frame, CEDUO_ROLE_ENVELOPE, CEDUO_STROKE_PLAIN, CEDUO_SEEN_PLACES, s->x, s->hi);
+    ceduo_canvas_stairs(canvas, &d.frame, CEDUO_ROLE_MEAN, CEDUO_SEEN_PLACES, s->x, s->seen);
+    ceduo_plot_axes(&d, origin, 0, "m");
 }
 
-void ceduo_plot_title(struct text *text, enum ceduo_plot plot, const struct ceduo_picture *p)
+void ceduo_plot_title(struct text *text, enum ceduo_plot plot, const struct ceduo_picture *picture)
 {
-    const struct ceduo_control *control = ceduo_plot_control(p);
-    const struct ceduo_option *option = ceduo_plot_option(p);
-    const struct ceduo_belt *belt = ceduo_plot_belt(p);
+    const struct ceduo_drawing d = drawing_of(picture);
+    const struct ceduo_plot_kind *kind = &ceduo_plot_kinds[plot];
     LOCAL_TEXT(place);
     if (plot == CEDUO_PLOT_STAND)
-        ceduo_text_put(&place, belt && belt->name ? belt->name : _("no forest"));
-    else if (control)
-        ceduo_plot_control_name(&place, control);
+        ceduo_text_put(&place, d.belt && d.belt->name ? d.belt->name : _("no forest"));
+    else if (d.control)
+        ceduo_plot_control_name(&place, d.control);
     else
         ceduo_text_put(&place, _("no control"));
-    if (!plots[plot].whole)
-        ceduo_text_format(text, "%s: ", option && option->name ? option->name : "");
-    ceduo_append_with(text, _(plots[plot].title), ceduo_text_string(&place));
-    if (plots[plot].run && !ceduo_plot_wooded(p))
+    if (!(kind->flags & CEDUO_PICTURE_WHOLE))
+        ceduo_text_format(text, "%s: ", d.option && d.option->name ? d.option->name : "");
+    ceduo_append_with(text, _(kind->title), ceduo_text_string(&place));
+    if ((kind->flags & CEDUO_PICTURE_WAYS) && !d.wooded)
         ceduo_text_then(text, ", ", _("without forest"));
+}
+
+/* ---- words ---- */
+
+int ceduo_plot_say(struct ceduo_canvas *canvas, int column, int row, int most, enum ceduo_role role, const char *format, ...)
+{
+    LOCAL_TEXT(text);
+    va_list args;
+    va_start(args, format);
+    ceduo_text_vformat(&text, format, args);
+    va_end(args);
+    int room = abs(most), width = 0;
+    char *line = text.bytes;
+    for (char *end; line; line = end + 1) {
+        end = strchr(line, '\n');
+        if (end)
+            *end = '\0';
+        width = ceduo_canvas_label_width(canvas, line);
+        if (!end || width <= room)
+            break;
+    }
+    if (!line)
+        return 0;
+    width = width < room ? width : room;
+    return ceduo_canvas_put(canvas, most < 0 ? column + 1 - width : column, row, width, role, line);
+}
+
+bool ceduo_plot_is_free(const struct ceduo_canvas *canvas, const struct ceduo_area *area, int column, int row, int width)
+{
+    bool free = row >= area->top && row < area->top + area->height && column >= area->left &&
+                column + width <= area->left + area->width;
+    for (int i = -1; free && i <= width; i++)
+        free = ceduo_canvas_is_blank(canvas, column + i, row);
+    return free;
+}
+
+void ceduo_plot_control_name(struct text *text, const struct ceduo_control *control)
+{
+    if (control->name)
+        ceduo_text_format(text, _("%s (%s m)"), NAME_OF(control), SHORTEST(control->x_given));
+    else
+        ceduo_text_format(text, _("%s m"), SHORTEST(control->x_given));
+}
+
+void ceduo_plot_belt_name(struct text *text, const struct ceduo_belt *belt)
+{
+    ceduo_text_put(text, belt->name ? belt->name : _("stand"));
+    ceduo_text_put(text, belt->assumed ? "*" : "");
+}
+
+enum ceduo_role ceduo_plot_light_role(enum ceduo_light light)
+{
+    return light == CEDUO_PASS ? CEDUO_ROLE_GOOD : light == CEDUO_FAIL ? CEDUO_ROLE_BAD : CEDUO_ROLE_DIM;
+}
+
+const char *ceduo_plot_light_mark(enum ceduo_light light)
+{
+    return light == CEDUO_PASS ? "\xe2\x9c\x94" : light == CEDUO_FAIL ? "\xe2\x9c\x98" : "?";
+}
+
+void ceduo_page_light(struct ceduo_page *page, enum ceduo_light light)
+{
+    ceduo_page_mark(page, ceduo_plot_light_role(light), ceduo_plot_light_mark(light));
+}
+
+/* ---- forests ---- */
+
+bool ceduo_plot_has_stems(const struct ceduo_option *option)
+{
+    for (size_t i = 0; i < option->belts_count; i++)
+        if (!ceduo_stand_is_bare(&option->belts[i].stand))
+            return true;
+    return false;
+}
+
+double ceduo_plot_tallest(const struct ceduo_stand *stand)
+{
+    double tallest = 0;
+    for (size_t i = 0; i < stand->shoots_count; i++)
+        tallest = fmax(tallest, stand->shoots[i].per_ha > 0 ? stand->shoots[i].height : 0);
+    for (size_t i = 0; i < stand->trees_count; i++)
+        tallest = fmax(tallest, stand->trees[i].per_ha > 0 ? stand->trees[i].height : 0);
+    return tallest;
+}
+
+/* ---- frames ---- */
+
+struct ceduo_frame ceduo_plot_given(const struct ceduo_frame *frame, double x, double y)
+{
+    struct ceduo_frame given = *frame;
+    given.x0 += x;
+    given.x1 += x;
+    given.y0 += y;
+    given.y1 += y;
+    return given;
+}
+
+void ceduo_plot_axes(const struct ceduo_drawing *d, double x, double y, const char *unit)
+{
+    struct ceduo_frame given = ceduo_plot_given(&d->frame, x, y);
+    ceduo_canvas_axis_left(d->canvas, &given);
+    if (unit)
+        ceduo_canvas_axis_bottom(d->canvas, &given, unit);
+}
+
+bool ceduo_plot_chart(struct ceduo_drawing *d, const struct ceduo_chart_size *size)
+{
+    const struct ceduo_area *a = &d->area;
+    bool beside = a->width >= size->width + size->axis + size->legend + 16;
+    int below = !beside && a->height - size->lines >= size->height + 3 ? size->lines : 0;
+    d->frame = (struct ceduo_frame){.left = a->left + size->axis,
+                                    .top = a->top + 1,
+                                    .width = a->width - size->axis - 1 - (beside ? size->legend + 2 : 0),
+                                    .height = a->height - 1 - size->below - below};
+    d->legend = (struct ceduo_area){a->left, a->top + a->height - below, a->width, below};
+    if (beside)
+        d->legend = (struct ceduo_area){a->left + a->width - size->legend, a->top + 1, size->legend, a->height - 1};
+    return a->width >= size->width && a->height >= size->height;
+}
+
+void ceduo_plot_sign(const struct ceduo_drawing *d, double x, double y, bool beside, enum ceduo_role role, const char *sign)
+{
+    const struct ceduo_frame *f = &d->frame;
+    int column, row, width = ceduo_canvas_label_width(d->canvas, sign);
+    if (!ceduo_frame_cell(f, d->canvas, x, y, &column, &row))
+        return;
+    if (beside)
+        column += column + 1 + width > f->left + f->width ? -width : 1;
+    while (row + 1 < f->top + f->height && !ceduo_canvas_is_blank(d->canvas, column, row))
+        row++;
+    ceduo_canvas_label(d->canvas, column, row, role, sign);
+}
+
+double ceduo_plot_round(double value, bool up)
+{
+    static const double round[] = {1, 2, 5, 10};
+    double power = pow(10, floor(log10(value))), before = power;
+    for (int i = 0; i < 4; i++) {
+        double here = round[i] * power;
+        if (here * (1 + 1e-9) >= value)
+            return up || here <= value * (1 + 1e-9) ? here : before;
+        before = here;
+    }
+    return before;
 }

@@ -23,14 +23,14 @@
 #define TO_AND_FRO 400          /* lines of a way that gets no farther: by then all of it is to be seen */
 #define BELOW      19           /* units from the top of the bottom axis to the foot of its labels */
 
-enum style { PLAIN, DOTTED, CLOUD, FILLED, STYLES };
+enum { FILLED = CEDUO_STROKES, STYLES }; /* paths beside those of strokes */
 
 /* The path that is being drawn. Points from `start` to `last` lie within the tolerance of a straight line, as do all
  * that go on from `start` between the directions lo and hi. */
 struct stroke {
     bool open;
     enum ceduo_role role;
-    enum style style;
+    unsigned style;
     struct ceduo_position start, last;
     double lo, hi;
     bool straight; /* lo and hi are set */
@@ -168,19 +168,18 @@ static void draw_line(void *to, struct ceduo_pen *pen, struct ceduo_position a, 
 {
     struct ceduo_svg *svg = to;
     struct stroke *s = &svg->stroke;
-    enum style style = pen->stroke == CEDUO_STROKE_PLAIN ? PLAIN : pen->stroke == CEDUO_STROKE_DOTTED ? DOTTED : CLOUD;
-    bool first = pen->last_x == INT_MIN;
+    bool first = pen->last_x == INT_MIN, way = pen->stroke == CEDUO_STROKE_WAY;
     if (pen->role == CEDUO_ROLE_BLANK)
         return;
     ceduo_cells_surface.line(svg->cells, pen, a, b);
     pen->last_x = pen->last_x == INT_MIN ? 0 : pen->last_x;
     struct ceduo_position from = unit_of(&pen->raster, a), end = unit_of(&pen->raster, b);
-    if (style == CLOUD && !gets_on(svg, first, from.x, end.x))
+    if (way && !gets_on(svg, first, from.x, end.x))
         return;
-    bool follows = fabs(s->last.x - from.x) < 0.01 && fabs(s->last.y - from.y) < 0.01 && !(style == CLOUD && first);
-    if (!s->open || s->role != pen->role || s->style != style || !follows) {
+    bool follows = fabs(s->last.x - from.x) < 0.01 && fabs(s->last.y - from.y) < 0.01 && !(way && first);
+    if (!s->open || s->role != pen->role || s->style != pen->stroke || !follows) {
         end_stroke(svg);
-        *s = (struct stroke){.open = true, .role = pen->role, .style = style, .start = from, .last = from};
+        *s = (struct stroke){.open = true, .role = pen->role, .style = pen->stroke, .start = from, .last = from};
         append_point(path_of(svg), 'M', from);
     }
     go_on(svg, end);
@@ -237,53 +236,41 @@ static void append_label(struct ceduo_svg *svg, double x, double y, const char *
                     paper[CEDUO_ROLE_AXIS].colour, "text-anchor", anchor, NULL);
 }
 
-static void draw_axis_left(void *to, const struct ceduo_frame *frame, int count, const struct ceduo_tick *ticks)
+static void draw_axis(void *to, const struct ceduo_frame *frame, bool bottom, int count, const struct ceduo_tick *ticks)
 {
     struct ceduo_svg *svg = to;
-    double x = frame->left * CELL - 2.5;
-    ceduo_text_format(&svg->axes, "M%.1f %dV%d", x, frame->top * HIGH, (frame->top + frame->height) * HIGH);
-    for (int i = 0; i < count; i++) {
-        double y = floor(ticks[i].at * HIGH) + 0.5;
-        ceduo_text_format(&svg->axes, "M%.1f %.1fh-4", x, y);
-        if (ticks[i].start < 0)
-            continue;
-        append_label(svg, x - 6, y + 4, "end", ticks[i].label);
-        mark_drawn(svg, ticks[i].start, ticks[i].cell, (int)strlen(ticks[i].label));
+    int below = frame->top + frame->height;
+    double left = frame->left * CELL - 2.5, top = below * HIGH + 2.5;
+    if (bottom)
+        ceduo_text_format(&svg->axes, "M%.1f %.1fH%d", left, top, (frame->left + frame->width) * CELL);
+    else
+        ceduo_text_format(&svg->axes, "M%.1f %dV%d", left, frame->top * HIGH, below * HIGH);
+    for (const struct ceduo_tick *t = ticks; t < ticks + count; t++) {
+        int length = ceduo_canvas_label_width(&svg->canvas, t->label);
+        double at = floor(t->at * (bottom ? CELL : HIGH)) + 0.5;
+        bool unit = t->cell < 0, moved = t->start != t->cell - (length - 1) / 2;
+        if (!unit && bottom)
+            ceduo_text_format(&svg->axes, "M%.1f %.1fv4", at, top);
+        else if (!unit)
+            ceduo_text_format(&svg->axes, "M%.1f %.1fh-4", left, at);
+        if (unit)
+            append_label(svg, t->start * CELL, below * HIGH + BELOW, "start", t->label);
+        else if (bottom)
+            append_label(svg, moved ? (t->start + length / 2.0) * CELL : at, below * HIGH + BELOW, "middle", t->label);
+        else if (t->start >= 0)
+            append_label(svg, left - 6, at + 4, "end", t->label);
+        mark_drawn(svg, t->start, bottom ? below + 1 : t->cell, t->start >= 0 ? length : 0);
     }
-    for (int row = frame->top; row < frame->top + frame->height; row++)
+    if (bottom)
+        mark_drawn(svg, frame->left, below, frame->width);
+    for (int row = frame->top; row < below && !bottom; row++)
         mark_drawn(svg, frame->left - 1, row, 1);
-}
-
-static void draw_axis_bottom(void *to, const struct ceduo_frame *frame, int count, const struct ceduo_tick *ticks)
-{
-    struct ceduo_svg *svg = to;
-    int row = frame->top + frame->height;
-    double y = row * HIGH + 2.5;
-    ceduo_text_format(&svg->axes, "M%.1f %.1fH%d", frame->left * CELL - 2.5, y, (frame->left + frame->width) * CELL);
-    for (int i = 0; i < count; i++) {
-        int length = (int)strlen(ticks[i].label);
-        double x = floor(ticks[i].at * CELL) + 0.5;
-        bool moved = ticks[i].start != ticks[i].cell - (length - 1) / 2;
-        ceduo_text_format(&svg->axes, "M%.1f %.1fv4", x, y);
-        append_label(svg, moved ? (ticks[i].start + length / 2.0) * CELL : x, row * HIGH + BELOW, "middle", ticks[i].label);
-        mark_drawn(svg, ticks[i].start, row + 1, length);
-    }
-    mark_drawn(svg, frame->left, row, frame->width);
-}
-
-static void draw_axis_unit(void *to, int column, int row, const char *unit)
-{
-    struct ceduo_svg *svg = to;
-    append_label(svg, column * CELL, (row - 1) * HIGH + BELOW, "start", unit);
-    mark_drawn(svg, column, row, ceduo_canvas_label_width(&svg->canvas, unit));
 }
 
 static const struct ceduo_surface surface = {
     .line = draw_line,
     .bar = draw_bar,
-    .axis_left = draw_axis_left,
-    .axis_bottom = draw_axis_bottom,
-    .axis_unit = draw_axis_unit,
+    .axis = draw_axis,
     .disc = draw_disc,
 };
 
@@ -319,14 +306,13 @@ struct ceduo_canvas *ceduo_svg_canvas(struct ceduo_svg *svg)
     return &svg->canvas;
 }
 
-static void write_path(struct ceduo_html *html, const struct look *look, const struct text *path, const char *extra,
-                       const char *value)
+static void write_path(struct ceduo_html *html, const struct look *look, const struct text *path, const char *const extra[2])
 {
     char width[16];
     snprintf(width, sizeof width, "%g", look->width);
     if (path->length > 0)
-        ceduo_html_empty(html, "path", "fill", "none", "stroke", look->colour, "stroke-width", width, "d", path->bytes, extra,
-                         value, NULL);
+        ceduo_html_empty(html, "path", "fill", "none", "stroke", look->colour, "stroke-width", width, "d", path->bytes,
+                         extra[0], extra[1], NULL);
 }
 
 static void write_marks(struct ceduo_html *html, struct ceduo_svg *svg)
@@ -336,21 +322,22 @@ static void write_marks(struct ceduo_html *html, struct ceduo_svg *svg)
         CEDUO_ROLES(X)
 #undef X
     };
+    static const char *const strokes[CEDUO_STROKES][2] = {[CEDUO_STROKE_WAY] = {"stroke-opacity", ".6"},
+                                                          [CEDUO_STROKE_RULE] = {"stroke-dasharray", "4 4"},
+                                                          [CEDUO_STROKE_DOTS] = {"stroke-dasharray", "0 8"},
+                                                          [CEDUO_STROKE_FEW] = {"stroke-dasharray", "0 16"},
+                                                          [CEDUO_STROKE_DASHES] = {"stroke-dasharray", "12 12"}};
     ceduo_html_open(html, "g", "stroke-linecap", "round", "stroke-linejoin", "round", NULL);
     for (int rank = 0; rank <= CEDUO_ROLE_COUNT; rank++)
         for (unsigned role = 0; role < CEDUO_ROLE_COUNT; role++) {
-            const struct look *look = &paper[role];
             const struct text *paths = svg->paths[role];
-            if (ranks[role] != rank)
-                continue;
-            if (paths[FILLED].length > 0)
-                ceduo_html_empty(html, "path", "fill", look->colour, "d", paths[FILLED].bytes, NULL);
-            write_path(html, look, &paths[CLOUD], "stroke-opacity", ".6");
-            write_path(html, look, &paths[DOTTED], "stroke-dasharray", "4 4");
-            write_path(html, look, &paths[PLAIN], NULL, NULL);
+            if (ranks[role] == rank && paths[FILLED].length > 0)
+                ceduo_html_empty(html, "path", "fill", paper[role].colour, "d", paths[FILLED].bytes, NULL);
+            for (int stroke = 0; ranks[role] == rank && stroke < CEDUO_STROKES; stroke++)
+                write_path(html, &paper[role], &paths[stroke], strokes[stroke]);
         }
     ceduo_html_close(html);
-    write_path(html, &paper[CEDUO_ROLE_AXIS], &svg->axes, NULL, NULL);
+    write_path(html, &paper[CEDUO_ROLE_AXIS], &svg->axes, strokes[CEDUO_STROKE_PLAIN]);
 }
 
 /* ---- characters ---- */

@@ -5,7 +5,7 @@
 /* A way of one straight part. */
 static void count_line(struct ceduo_cells *cells, const struct ceduo_frame *frame, double ax, double ay, double bx, double by)
 {
-    ceduo_canvas_cloud_add(&cells->canvas, frame, 2, (double[]){ax, bx}, (double[]){ay, by});
+    ceduo_canvas_polyline(&cells->canvas, frame, CEDUO_ROLE_CLOUD, CEDUO_STROKE_WAY, 2, (double[]){ax, bx}, (double[]){ay, by});
 }
 
 static void draw_line(struct ceduo_cells *cells, const struct ceduo_frame *frame, double ax, double ay, double bx, double by)
@@ -96,7 +96,7 @@ TEST(what_is_not_finite_is_never_drawn)
     ceduo_canvas_bar(&cells->canvas, 0, 0, 7, nan, CEDUO_ROLE_WAY);
     expect_and_clear(cells, "\n");
     const double x[] = {0, 1, 2, 3, 4, 5, 6}, y[] = {0, 0, nan, 0, inf, 0, 0};
-    ceduo_canvas_polyline(&cells->canvas, &frame, CEDUO_ROLE_WAY, 7, x, y);
+    ceduo_canvas_polyline(&cells->canvas, &frame, CEDUO_ROLE_WAY, CEDUO_STROKE_PLAIN, 7, x, y);
     expect_and_clear(cells, ".. . ..\n");
     ceduo_canvas_stairs(&cells->canvas, &frame, CEDUO_ROLE_WAY, 7, x, y);
     expect_and_clear(cells, ".. . ..\n");
@@ -122,11 +122,11 @@ TEST(useless_frames_draw_nothing)
         const struct ceduo_frame *frame = &frames[i];
         int column, row;
         draw_point(cells, frame, CEDUO_ROLE_WAY, 0, 0);
-        ceduo_canvas_polyline(&cells->canvas, frame, CEDUO_ROLE_WAY, 2, x, x);
+        ceduo_canvas_polyline(&cells->canvas, frame, CEDUO_ROLE_WAY, CEDUO_STROKE_PLAIN, 2, x, x);
         ceduo_canvas_stairs(&cells->canvas, frame, CEDUO_ROLE_WAY, 2, x, x);
         ceduo_canvas_rule_x(&cells->canvas, frame, CEDUO_ROLE_WAY, 0);
         ceduo_canvas_rule_y(&cells->canvas, frame, CEDUO_ROLE_WAY, 0);
-        ceduo_canvas_cloud_add(&cells->canvas, frame, 2, x, x);
+        ceduo_canvas_polyline(&cells->canvas, frame, CEDUO_ROLE_CLOUD, CEDUO_STROKE_WAY, 2, x, x);
         ceduo_canvas_axis_left(&cells->canvas, frame);
         ceduo_canvas_axis_bottom(&cells->canvas, frame, "m");
         assert_false(ceduo_frame_cell(frame, kind_of(BRAILLE), 0, 0, &column, &row));
@@ -231,9 +231,9 @@ TEST(a_way_counts_once_where_its_parts_meet)
         LOCAL(ceduo_cells, cells) = cells_in(4, 1, (enum ceduo_charset)i);
         struct ceduo_frame frame = dots_of(cells);
         ceduo_canvas_cloud_start(&cells->canvas);
-        ceduo_canvas_cloud_add(&cells->canvas, &frame, 8, x, y);
+        ceduo_canvas_polyline(&cells->canvas, &frame, CEDUO_ROLE_CLOUD, CEDUO_STROKE_WAY, 8, x, y);
         ceduo_canvas_cloud_show(&cells->canvas, 1);
-        ceduo_canvas_cloud_add(&cells->canvas, &frame, 8, x, y);
+        ceduo_canvas_polyline(&cells->canvas, &frame, CEDUO_ROLE_CLOUD, CEDUO_STROKE_WAY, 8, x, y);
         ceduo_canvas_cloud_show(&cells->canvas, 0);
     }
 }

@@ -609,27 +609,21 @@ static void page_bar(void *to, int column, int row, int width, double fraction, 
     page->strayed |= !(fraction > 0 && fraction <= 1);
 }
 
-static void page_axis(void *to, const struct ceduo_frame *frame, int count, const struct ceduo_tick *ticks)
+static void page_axis(void *to, const struct ceduo_frame *frame, bool bottom, int count, const struct ceduo_tick *ticks)
 {
-    (void)frame, (void)count, (void)ticks;
+    (void)frame, (void)bottom, (void)count, (void)ticks;
     ((struct page *)to)->axes++;
-}
-
-static void page_axis_unit(void *to, int column, int row, const char *unit)
-{
-    (void)to, (void)column, (void)row, (void)unit;
 }
 
 TEST_WOODED(pictures_draw_on_another_surface)
 {
-    static const struct ceduo_surface surface = {
-        .line = page_line, .bar = page_bar, .axis_left = page_axis, .axis_bottom = page_axis, .axis_unit = page_axis_unit};
+    static const struct ceduo_surface surface = {.line = page_line, .bar = page_bar, .axis = page_axis};
     struct ceduo_area area = {0, 0, 100, 30};
     for (int plot = CEDUO_PLOT_PROFILE; plot < CEDUO_PLOTS; plot++) {
         struct page page = {0};
         struct ceduo_cells *cells = ceduo_cells_create(area.width, area.height, CEDUO_CHARSET_BRAILLE);
         struct ceduo_canvas canvas = {&surface, cells, &page, 8, 16, false};
-        bool bars = plot == CEDUO_PLOT_HISTOGRAM || plot == CEDUO_PLOT_ADC || plot == CEDUO_PLOT_COMPARE;
+        bool bars = ceduo_plot_kinds[plot].flags & CEDUO_PICTURE_PAGE;
         ceduo_plot_draw((enum ceduo_plot)plot, &canvas, &area, &p);
         char *words = ceduo_cells_dump(cells);
         if (strspn(words, "\n") == strlen(words) || page.strayed)

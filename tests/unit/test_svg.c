@@ -42,7 +42,7 @@ TEST(lines_are_where_they_are)
     struct ceduo_canvas *canvas = ceduo_svg_canvas(svg);
     struct ceduo_frame frame = frame_of(10, 5);
     double x[] = {0, 1.25, 2.5, 10}, y[] = {0, 0, 0, 5.5};
-    ceduo_canvas_polyline(canvas, &frame, CEDUO_ROLE_WOOD, 4, x, y);
+    ceduo_canvas_polyline(canvas, &frame, CEDUO_ROLE_WOOD, CEDUO_STROKE_PLAIN, 4, x, y);
     ceduo_canvas_rule_x(canvas, &frame, CEDUO_ROLE_CONTROL, 4);
     assert_false(ceduo_canvas_is_blank(canvas, 2, 5));
     assert_true(ceduo_canvas_is_blank(canvas, 15, 8));
@@ -64,7 +64,7 @@ TEST(curves_need_few_points)
             x[i] = 60 + side * 50 * cos(M_PI * i / (N - 1));
             y[i] = 10 + 50 * sin(M_PI * i / (N - 1));
         }
-        ceduo_canvas_polyline(ceduo_svg_canvas(svg), &frame, CEDUO_ROLE_MEAN, N, x, y);
+        ceduo_canvas_polyline(ceduo_svg_canvas(svg), &frame, CEDUO_ROLE_MEAN, CEDUO_STROKE_PLAIN, N, x, y);
         char *picture = put(svg), *at = strstr(picture, "d=\"M") + 4;
         double px, py, qx, qy;
         int points = 1, used;
@@ -94,7 +94,7 @@ TEST(angles_go_round)
             y[i] = 39 + (i == 0 ? 0 : (bent ? 0.1 : 0.0125) * (i % 2 ? 1 : -1)); /* dots of 4 units */
         }
         y[10] = 39;
-        ceduo_canvas_polyline(ceduo_svg_canvas(svg), &frame, CEDUO_ROLE_MEAN, 11, x, y);
+        ceduo_canvas_polyline(ceduo_svg_canvas(svg), &frame, CEDUO_ROLE_MEAN, CEDUO_STROKE_PLAIN, 11, x, y);
         char *picture = put(svg), *path = strstr(picture, "d=\"M");
         int points = 0;
         for (char *at = path; *at != '/'; at++)
@@ -144,7 +144,7 @@ TEST(ways_that_get_nowhere_are_short)
         }
         struct ceduo_canvas *canvas = ceduo_svg_canvas(svg);
         ceduo_canvas_cloud_start(canvas);
-        ceduo_canvas_cloud_add(canvas, &frame, (size_t)n, x, y);
+        ceduo_canvas_polyline(canvas, &frame, CEDUO_ROLE_CLOUD, CEDUO_STROKE_WAY, (size_t)n, x, y);
         ceduo_canvas_cloud_show(canvas, 0);
         LOCAL_BYTES char *picture = put(svg);
         length[on] = strlen(picture);
