@@ -10,6 +10,7 @@
 #include "report_doubt.h"
 #include "scene/ranges.h"
 #include "scene/value.h"
+#include "typed.h"
 
 #define FIRST 3    /* inputs that are named as what to measure first */
 #define SHOWN 0.01 /* shares from this on are shown */
@@ -95,10 +96,13 @@ static void append_input_end(struct text *text, const struct ceduo_doubt_report 
     const char *word;
     double value = ceduo_doubt_input_value(r, i, end, &word);
     struct value v;
+    if (!ceduo_value_find(&r->file->scene, r->inputs->items[i].places[0], &v))
+        return;
+    value *= v.field->shown.per;
     if (word)
-        ceduo_text_put(text, word);
-    else if (!isnan(value) && ceduo_value_find(&r->file->scene, r->inputs->items[i].places[0], &v))
-        ceduo_text_put(text, ROUNDED(value * v.field->shown.per, 4)); /* 6.300 is 6300 in Italian */
+        ceduo_shown_value(v.field, word, text);
+    else if (!isnan(value)) /* 6.300 is 6300 in Italian */
+        ceduo_text_put(text, fabs(value) < 1e4 ? ROUNDED(value, 4) : WRITTEN(value, 4));
 }
 
 const char *ceduo_doubt_measured(const struct ceduo_doubt_report *r, size_t i)

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A chapter of the report: the blocks of the page in the terminal, with pictures between them. */
 
+#include <string.h>
+
 #include "base/language.h"
 #include "ceduo/version.h"
 #include "io/emit.h"
@@ -203,6 +205,18 @@ static void add_limits(struct ceduo_page *page, const struct ceduo_result *resul
                 "can tell."));
 }
 
+/* The tree with the kinds of its sources alone: their texts fill a sheet, and no figure depends on them. */
+static const struct node *without_texts(struct arena *arena, const struct node *node)
+{
+    bool source = node->key && strcmp(node->key, "source") == 0;
+    const struct node *plain = node;
+    if (source)
+        plain = ceduo_node_without(arena, ceduo_node_without(arena, node, "text"), "text_it");
+    for (size_t i = 0; plain && !source && i < node->n; i++)
+        plain = ceduo_node_replaced(arena, plain, i, without_texts(arena, node->items[i]));
+    return plain;
+}
+
 static void add_origin(struct ceduo_page *page, const struct ceduo_chapter *c)
 {
     ceduo_page_say(page, CEDUO_PAGE_SECTION, "%s", _("How to compute this page again"));
@@ -212,10 +226,11 @@ static void add_origin(struct ceduo_page *page, const struct ceduo_chapter *c)
                    : c->doubt ? _("This command computes the page again:")
                               : _("This command computes the page again, and how sure it is:"));
     ceduo_page_say(page, CEDUO_PAGE_CODE, "%s", c->command);
-    ceduo_page_say(page, CEDUO_PAGE_SENTENCE, "%s", _("The scene, as its file says it:"));
+    ceduo_page_say(page, CEDUO_PAGE_SENTENCE, "%s", _("The scene, as its file says it, without the texts of sources:"));
     /* with what the command line changed, and the names of other files */
     struct arena arena = {0};
     const struct node *root = ceduo_emit_unresolve(&arena, c->report->file->root);
+    root = root ? without_texts(&arena, root) : NULL;
     struct text *code = ceduo_page_add(page, CEDUO_PAGE_CODE);
     if (root)
         ceduo_emit(code, root);

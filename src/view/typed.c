@@ -248,6 +248,7 @@ void ceduo_shown_value(const struct field *f, const char *written, struct text *
                                         N_("stems"),
                                         N_("index"),
                                         N_("auto"),
+                                        N_("whole"),
                                         N_("fit"),
                                         N_("check")};
     double value;
