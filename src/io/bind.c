@@ -459,7 +459,7 @@ struct source_said {
     size_t except_count;
 };
 
-#define UNSAID NAMED(NULL, NULL)
+#define UNSAID NAMED(NULL)
 static const char *const source_kinds[] = {N_("measured"), N_("literature"), N_("assumed"), N_("calibrated")};
 static const struct choices source_words = {.names = source_kinds, .n = 4};
 static const struct field source_fields[] = {

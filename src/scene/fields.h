@@ -46,12 +46,14 @@ _Static_assert(offsetof(struct ceduo_slope, z) == offsetof(struct ceduo_slope, x
     ROW(key, FIELD_TEXT, at, "", 1, -INFINITY, INFINITY, flags, NULL, meaning, NULL, NULL, says)
 #define TAG(value)                                                                                                             \
     ROW("ceduo", FIELD_TAG, NOWHERE, "", 1, 0, 0, REQUIRED | FIELD_NOWHERE, value, N_("what kind of file this is"), NULL,      \
-        NULL, NAMED(N_("kind of file"), NULL))
+        NULL, NAMED(N_("kind of file")))
 
-/* What people call it: a label, and a short one for the head of a column (NULL: the same); what is usual, in the file's
- * unit; another unit that people use. */
-#define USUAL(label, brief, least, most)       ROW(label, brief, NULL, 1, least, most)
-#define NAMED(label, brief)                    USUAL(label, brief, -INFINITY, INFINITY)
+/* What people call it: a label, and a short one for the head of a column; what is usual, in the file's unit; another unit that
+ * people use. */
+#define SHOWN(label, brief, least, most)       ROW(label, brief, NULL, 1, least, most)
+#define NAMED(label)                           SHOWN(label, NULL, -INFINITY, INFINITY)
+#define BRIEF(label, brief)                    SHOWN(label, brief, -INFINITY, INFINITY)
+#define USUAL(label, least, most)              SHOWN(label, NULL, least, most)
 #define CENTIMETRES(label, brief, least, most) ROW(label, brief, N_("cm"), 100, least, most)
 #define OBJECT(type, fields, folder)           ROW(fields, sizeof fields / sizeof fields[0], sizeof(struct type), folder)
 #define STRING(macro)                          TEXT_OF(macro)

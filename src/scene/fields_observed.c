@@ -5,24 +5,23 @@
 
 #define OF_KIND(KIND) AT(observed, values[CEDUO_OBSERVED_##KIND])
 #define POSITION(key, name, member, flags, meaning)                                                                            \
-    NUMBER(key, NAMED(name, NULL), AT(observed_values, member), "m", -FAR, FAR, (flags) | NO_RUN, NULL, meaning)
+    NUMBER(key, NAMED(name), AT(observed_values, member), "m", -FAR, FAR, (flags) | NO_RUN, NULL, meaning)
 #define VALUES(key, name, meaning)                                                                                             \
-    NUM(FIELD_NUMBERS, key, NAMED(name, NULL), LIST(observed_values, values, values_count), "", 1, -FAR, FAR, NO_RUN, NULL,    \
-        meaning)
+    NUM(FIELD_NUMBERS, key, NAMED(name), LIST(observed_values, values, values_count), "", 1, -FAR, FAR, NO_RUN, NULL, meaning)
 #define COUNT(key, name, member, lo, flags, meaning)                                                                           \
-    NUM(FIELD_COUNT, key, NAMED(name, NULL), AT(observed_values, member), "", 1, lo, 1e9, (flags) | NO_RUN, NULL, meaning)
+    NUM(FIELD_COUNT, key, NAMED(name), AT(observed_values, member), "", 1, lo, 1e9, (flags) | NO_RUN, NULL, meaning)
 #define RELEASED COUNT("of", N_("rocks released"), of, 1, 0, N_("rocks released; without it only those seen are compared"))
 #define TABLE                                                                                                                  \
-    OTHER(FIELD_FILE, "csv", NAMED(N_("table"), NULL), AT(observed_values, csv), NO_RUN, NULL,                                 \
+    OTHER(FIELD_FILE, "csv", NAMED(N_("table")), AT(observed_values, csv), NO_RUN, NULL,                                       \
           N_("a table that holds the values, instead of a list"), NULL, NULL),                                                 \
-        TEXT("column", NAMED(N_("column"), NULL), AT(observed_values, column), NO_RUN,                                         \
+        TEXT("column", NAMED(N_("column")), AT(observed_values, column), NO_RUN,                                               \
              N_("its column; without it the one that is named as usual, or the only one")),                                    \
-        TEXT("only", NAMED(N_("only"), NULL), AT(observed_values, only), NO_RUN,                                               \
+        TEXT("only", NAMED(N_("only")), AT(observed_values, only), NO_RUN,                                                     \
              N_("only those of its rows that have this in another column, such as block=1"))
 #define MEAN                                                                                                                   \
-    NUMBER("mean", NAMED(N_("mean"), NULL), AT(observed_values, mean), "", 0, 1e9, NO_RUN, NULL,                               \
+    NUMBER("mean", NAMED(N_("mean")), AT(observed_values, mean), "", 0, 1e9, NO_RUN, NULL,                                     \
            N_("instead of values: their mean")),                                                                               \
-        NUMBER("sd", NAMED(N_("standard deviation"), NULL), AT(observed_values, sd), "", 0, 1e9, NO_RUN, NULL,                 \
+        NUMBER("sd", NAMED(N_("standard deviation")), AT(observed_values, sd), "", 0, 1e9, NO_RUN, NULL,                       \
                N_("their standard deviation")),                                                                                \
         COUNT("n", N_("number"), n, 1, 0, N_("how many rocks they are of"))
 
@@ -58,23 +57,23 @@ static const struct field sample_fields[] = {
 static const struct object sample_object = OBJECT(observed_values, sample_fields, NULL);
 
 static const struct field largest_fields[] = {
-    GROUP("speed_m_s", NAMED(N_("largest speed"), NULL), OF_KIND(LARGEST_SPEED), 0, N_("largest speed of each rock on its way"),
+    GROUP("speed_m_s", NAMED(N_("largest speed")), OF_KIND(LARGEST_SPEED), 0, N_("largest speed of each rock on its way"),
           &sample_object),
-    GROUP("height_m", NAMED(N_("largest height"), NULL), OF_KIND(LARGEST_HEIGHT), 0,
+    GROUP("height_m", NAMED(N_("largest height")), OF_KIND(LARGEST_HEIGHT), 0,
           N_("largest height of each rock above the ground"), &sample_object),
 };
 static const struct object largest_object = OBJECT(observed, largest_fields, NULL);
 
 static const struct field way_fields[] = {
-    NUMBER("from_m", NAMED(N_("from, m"), N_("from m")), AT(observed, way_from), "m", -FAR, FAR, REQUIRED | NO_RUN, NULL,
+    NUMBER("from_m", BRIEF(N_("from, m"), N_("from m")), AT(observed, way_from), "m", -FAR, FAR, REQUIRED | NO_RUN, NULL,
            N_("where the stretch begins")),
-    NUMBER("to_m", NAMED(N_("to, m"), N_("to m")), AT(observed, way_to), "m", -FAR, FAR, REQUIRED | NO_RUN, NULL,
+    NUMBER("to_m", BRIEF(N_("to, m"), N_("to m")), AT(observed, way_to), "m", -FAR, FAR, REQUIRED | NO_RUN, NULL,
            N_("where it ends")),
-    GROUP("speed_m_s", NAMED(N_("mean speed"), NULL), OF_KIND(WAY_SPEED), 0,
-          N_("mean speed of each rock along it, metre by metre"), &sample_object),
-    GROUP("height_m", NAMED(N_("mean height"), NULL), OF_KIND(WAY_HEIGHT), 0, N_("mean height of each rock above the ground"),
+    GROUP("speed_m_s", NAMED(N_("mean speed")), OF_KIND(WAY_SPEED), 0, N_("mean speed of each rock along it, metre by metre"),
           &sample_object),
-    GROUP("energy_kJ", NAMED(N_("mean energy"), NULL), OF_KIND(WAY_ENERGY), 0, N_("mean energy of each rock"), &sample_object),
+    GROUP("height_m", NAMED(N_("mean height")), OF_KIND(WAY_HEIGHT), 0, N_("mean height of each rock above the ground"),
+          &sample_object),
+    GROUP("energy_kJ", NAMED(N_("mean energy")), OF_KIND(WAY_ENERGY), 0, N_("mean energy of each rock"), &sample_object),
 };
 static const struct object way_object = OBJECT(observed, way_fields, NULL);
 
@@ -84,32 +83,30 @@ static const struct field scars_fields[] = {
     VALUES("height_m", N_("heights"), N_("heights of the middles of scars above the ground")),
     TABLE,
     RELEASED,
-    NUMBER("share_seen", NAMED(N_("share seen"), NULL), AT(observed_values, share_seen), "", 0, 1, ABOVE | NO_RUN, NULL,
+    NUMBER("share_seen", NAMED(N_("share seen")), AT(observed_values, share_seen), "", 0, 1, ABOVE | NO_RUN, NULL,
            N_("share of the scars that a survey finds; bark hides 16 to 49 % of them (Stoffel 2005)")),
 };
 static const struct object scars_object = OBJECT(observed_values, scars_fields, NULL);
 
 static const struct field observed_fields[] = {
-    TEXT("name", NAMED(N_("name"), NULL), AT(observed, name), NO_RUN, N_("a name of its own; without it one is made")),
-    TEXT("name_it", NAMED(N_("name, in Italian"), NULL), AT(observed, name_it), NO_RUN,
+    TEXT("name", NAMED(N_("name")), AT(observed, name), NO_RUN, N_("a name of its own; without it one is made")),
+    TEXT("name_it", NAMED(N_("name, in Italian")), AT(observed, name_it), NO_RUN,
          N_("its name in Italian pages, screens and lists; without it the name")),
-    WORD("use", NAMED(N_("use"), NULL), AT(observed, use), NO_RUN, "fit",
+    WORD("use", NAMED(N_("use")), AT(observed, use), NO_RUN, "fit",
          N_("whether the ground is fitted to it, or it only checks the fit"), &ceduo_use_words),
-    TEXT("option", NAMED(N_("option"), NULL), AT(observed, option), NO_RUN,
-         N_("the option that stood there; without it the first")),
-    GROUP("rock", NAMED(N_("rock"), NULL), AT(observed, rock), 0, N_("the rock, where it is another than the scene's"),
+    TEXT("option", NAMED(N_("option")), AT(observed, option), NO_RUN, N_("the option that stood there; without it the first")),
+    GROUP("rock", NAMED(N_("rock")), AT(observed, rock), 0, N_("the rock, where it is another than the scene's"),
           &ceduo_rock_object),
-    GROUP("release", NAMED(N_("release"), NULL), AT(observed, release), 0,
-          N_("how it started, where that differs from the scene's"), &ceduo_release_object),
-    GROUP("stops", NAMED(N_("stops"), NULL), OF_KIND(STOPS), 0, N_("where rocks stopped"), &stops_object),
-    GROUP("passed", NAMED(N_("passed"), NULL), OF_KIND(PASSED), 0, N_("how many passed a place"), &passed_object),
-    GROUP("speed", NAMED(N_("speed"), NULL), OF_KIND(SPEED), 0, N_("speed of those that passed a place, m/s"),
+    GROUP("release", NAMED(N_("release")), AT(observed, release), 0, N_("how it started, where that differs from the scene's"),
+          &ceduo_release_object),
+    GROUP("stops", NAMED(N_("stops")), OF_KIND(STOPS), 0, N_("where rocks stopped"), &stops_object),
+    GROUP("passed", NAMED(N_("passed")), OF_KIND(PASSED), 0, N_("how many passed a place"), &passed_object),
+    GROUP("speed", NAMED(N_("speed")), OF_KIND(SPEED), 0, N_("speed of those that passed a place, m/s"), &crossing_object),
+    GROUP("height", NAMED(N_("height")), OF_KIND(HEIGHT), 0, N_("height of their underside above the ground there, m"),
           &crossing_object),
-    GROUP("height", NAMED(N_("height"), NULL), OF_KIND(HEIGHT), 0, N_("height of their underside above the ground there, m"),
-          &crossing_object),
-    GROUP("energy", NAMED(N_("energy"), NULL), OF_KIND(ENERGY), 0, N_("their energy there, kJ"), &crossing_object),
-    GROUP("largest", NAMED(N_("largest"), NULL), SAME, 0, N_("the largest of each rock on its way"), &largest_object),
-    GROUP("on_the_way", NAMED(N_("on the way"), NULL), SAME, 0, N_("means of each rock along a stretch"), &way_object),
-    GROUP("scars", NAMED(N_("scars"), NULL), OF_KIND(SCARS), 0, N_("scars on stems along a stretch"), &scars_object),
+    GROUP("energy", NAMED(N_("energy")), OF_KIND(ENERGY), 0, N_("their energy there, kJ"), &crossing_object),
+    GROUP("largest", NAMED(N_("largest")), SAME, 0, N_("the largest of each rock on its way"), &largest_object),
+    GROUP("on_the_way", NAMED(N_("on the way")), SAME, 0, N_("means of each rock along a stretch"), &way_object),
+    GROUP("scars", NAMED(N_("scars")), OF_KIND(SCARS), 0, N_("scars on stems along a stretch"), &scars_object),
 };
 const struct object ceduo_observed_object = OBJECT(observed, observed_fields, NULL);
