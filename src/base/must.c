@@ -3,8 +3,18 @@
 
 void (*ceduo_memory_hook)(void);
 
+static _Thread_local bool lost;
+
 void ceduo_no_memory(void)
 {
+    lost = true;
     if (ceduo_memory_hook)
         ceduo_memory_hook();
+}
+
+bool ceduo_memory_lost(void)
+{
+    bool was = lost;
+    lost = false;
+    return was;
 }

@@ -2,6 +2,7 @@
 #ifndef CEDUO_MUST_H
 #define CEDUO_MUST_H
 
+#include <stdbool.h>
 #include <stdlib.h>
 
 /* Running out of memory. The library returns an error, which its caller reports. The program sets a hook, which restores
@@ -11,8 +12,12 @@
 /* NULL: an error is returned. Otherwise it does not return; any thread may call it. */
 extern void (*ceduo_memory_hook)(void);
 
-/* Memory has run out: calls the hook if there is one. */
+/* Memory has run out: calls the hook if there is one, and notes it. */
 void ceduo_no_memory(void);
+
+/* Whether memory ran out in this thread since this was asked last. Who makes much of many small pieces asks once at its end, for
+ * what was made without one of them must not pass for whole. */
+bool ceduo_memory_lost(void);
 
 /* Returns what was allocated, and never NULL. */
 static inline void *ceduo_must(void *allocated)

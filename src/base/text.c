@@ -13,15 +13,6 @@
 #include "must.h"
 #include "utf8.h"
 
-static _Thread_local bool lost;
-
-bool ceduo_text_lost(void)
-{
-    bool was = lost;
-    lost = false;
-    return was;
-}
-
 static bool reserve(struct text *text, size_t more)
 {
     if (text->failed)
@@ -34,7 +25,7 @@ static bool reserve(struct text *text, size_t more)
     char *bytes = realloc(text->bytes, room);
     if (!bytes) {
         ceduo_no_memory();
-        text->failed = lost = true;
+        text->failed = true;
         return false;
     }
     text->bytes = bytes;

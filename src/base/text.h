@@ -8,16 +8,12 @@
 #include <stdint.h>
 
 /* A string that grows. Starts zeroed; `bytes` is NULL or ends in NUL. Once memory fails, `failed` stays set and nothing
- * more is added: the library checks it once at the end. In the program it never fails (must.h). */
+ * more is added: who makes it checks it once at the end, or asks ceduo_memory_lost(). In the program it never fails (must.h). */
 struct text {
     char *bytes;
     size_t length, room;
     bool failed;
 };
-
-/* Whether some text of this thread was cut short since this was asked last: what the library makes of many that are used and
- * freed on the way must not pass for whole. */
-bool ceduo_text_lost(void);
 
 void ceduo_text_add(struct text *text, const char *bytes, size_t n);
 void ceduo_text_put(struct text *text, const char *string);

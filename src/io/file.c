@@ -74,7 +74,7 @@ static bool read_file(struct arena *arena, const char *path, size_t max, struct 
     return bytes && why == 0;
 }
 
-const struct source *ceduo_source_keep(struct arena *arena, struct source source, struct problems *problems)
+const struct source *ceduo_source_keep(struct arena *arena, struct source source)
 {
     struct source *kept = ceduo_arena_take(arena, sizeof *kept);
     source.name = ceduo_arena_string(arena, source.name);
@@ -82,7 +82,7 @@ const struct source *ceduo_source_keep(struct arena *arena, struct source source
     source.bytes = ceduo_arena_copy(arena, source.bytes, source.length);
     const char *beside = source.beside ? ceduo_arena_string(arena, source.beside) : NULL;
     if (!kept || !source.name || !source.bytes || (source.beside && !beside))
-        return ceduo_problem_memory(problems);
+        return NULL;
     source.beside = beside;
     *kept = source;
     return kept;
@@ -109,7 +109,7 @@ const struct source *ceduo_file_read(struct arena *arena, const char *path, size
     struct source *source = ceduo_arena_take(arena, sizeof *source);
     char *name = ceduo_arena_string(arena, is_standard(path) ? _("standard input") : path);
     if (!source || !name)
-        return ceduo_problem_memory(problems);
+        return NULL;
     *source = (struct source){.name = name, .path = ceduo_arena_string(arena, path), .before = arena->sources};
     errno = ENOMEM;
     if (source->path && read_file(arena, path, max, source)) {
@@ -118,11 +118,9 @@ const struct source *ceduo_file_read(struct arena *arena, const char *path, size
         return source;
     }
     int why = errno;
-    if (why == ENOMEM)
-        ceduo_problem_memory(problems);
-    else if (why == EFBIG)
+    if (why == EFBIG)
         ceduo_problem(problems, source, 0, 0, _("larger than %zu MiB"), max >> 20);
-    else
+    else if (why != ENOMEM)
         ceduo_problem(problems, source, 0, 0, _("cannot read it: %s"),
                       why == NO_FILE ? _("a device or a socket; name a file") : strerror(why));
     return NULL;

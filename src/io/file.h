@@ -10,8 +10,8 @@
 #define YAML_BYTES_MOST ((size_t)16 * 1024 * 1024)
 #define CSV_BYTES_MOST  ((size_t)64 * 1024 * 1024)
 
-/* A copy of a source with its name and its string of bytes, for as long as the arena. NULL without memory, which is reported. */
-const struct source *ceduo_source_keep(struct arena *arena, struct source source, struct problems *problems);
+/* A copy of a source with its name and its string of bytes, for as long as the arena. NULL without memory. */
+const struct source *ceduo_source_keep(struct arena *arena, struct source source);
 
 /* Reads a whole file, at most `max` bytes; "-" is standard input. NULL where that fails, with the reason in
  * `problems`. Name and bytes live in the arena, which lists it among its `sources`. */

@@ -5,6 +5,7 @@
 
 #include "base/hash.h"
 #include "base/language.h"
+#include "base/must.h"
 #include "base/utf8.h"
 
 #define LINE_MOST    100  /* columns of the source line that are shown */
@@ -71,7 +72,8 @@ static void print_line(struct text *out, const struct source *s, size_t line, si
         ceduo_text_put(out, ceduo_text_string(&caret));
 }
 
-void ceduo_problem_words(struct text *out, const char *format)
+/* The words of a format, which has no %%, with dots in place of the values. */
+static void print_words(struct text *out, const char *format)
 {
     for (; *format; format++) {
         ceduo_text_put(out, *format == '%' ? "\xe2\x80\xa6" : (char[2]){*format});
@@ -112,13 +114,11 @@ static uint64_t kind_of(const struct source *source, const char *path, const cha
     return hash;
 }
 
-/* Adds a message, once. Beyond a number, whether it is known matters no more: a million of them take no time. `words`: the message
- * is those of the format alone, without the path. */
-__attribute__((format(printf, 4, 0))) static void add(struct problems *problems, struct problem_place place, bool words,
-                                                      const char *format, va_list args)
+/* Adds a message, once. Beyond a number, whether it is known matters no more: a million of them take no time. */
+void ceduo_problem_v(struct problems *problems, struct problem_place place, const char *format, va_list args)
 {
     const struct source *source = place.source;
-    const char *path = place.path && !words ? place.path : "";
+    const char *path = place.path ? place.path : "";
     LOCAL_TEXT(message);
     LOCAL_TEXT(whole);
     LOCAL_TEXT(one);
@@ -130,8 +130,8 @@ __attribute__((format(printf, 4, 0))) static void add(struct problems *problems,
         problems->count++;
         return;
     }
-    if (words)
-        ceduo_problem_words(&message, format);
+    if (source && source->foreign && !place.own)
+        print_words(&message, format);
     else
         ceduo_text_vformat(&message, format, args);
     ceduo_text_format(&whole, "%s%s%s", path, path[0] ? ": " : "", ceduo_text_string(&message));
@@ -166,29 +166,24 @@ __attribute__((format(printf, 4, 0))) static void add(struct problems *problems,
         *kind = (struct problem_kind){.hash = hash, .end = problems->text.length};
         problems->kinds_count++;
     }
-    problems->memory |= message.failed || whole.failed || one.failed || problems->text.failed || problems->known.failed;
 }
 
-void ceduo_problem_v(struct problems *problems, struct problem_place place, const char *format, va_list args)
+bool ceduo_problem_at(struct problems *problems, struct problem_place place, const char *format, ...)
 {
-    add(problems, place, place.source && place.source->foreign, format, args);
+    va_list args;
+    va_start(args, format);
+    ceduo_problem_v(problems, place, format, args);
+    va_end(args);
+    return false;
 }
 
 bool ceduo_problem(struct problems *problems, const struct source *source, size_t line, size_t column, const char *format, ...)
 {
     va_list args;
     va_start(args, format);
-    ceduo_problem_v(problems, (struct problem_place){source, line, column, NULL}, format, args);
+    ceduo_problem_v(problems, (struct problem_place){.source = source, .line = line, .column = column}, format, args);
     va_end(args);
     return false;
-}
-
-void ceduo_problem_own(struct problems *problems, struct problem_place place, const char *format, ...)
-{
-    va_list args;
-    va_start(args, format);
-    add(problems, place, false, format, args);
-    va_end(args);
 }
 
 void ceduo_problems_follow(struct problems *problems, struct problems *head)
@@ -200,15 +195,14 @@ void ceduo_problems_follow(struct problems *problems, struct problems *head)
     if (head->text.failed) /* what is cut short has no kinds */
         problems->kinds_count = 0;
     problems->text = head->text;
-    problems->memory |= head->memory || head->text.failed;
     head->text = (struct text){0};
     ceduo_problems_free(head);
 }
 
-void *ceduo_problem_memory(struct problems *problems)
+bool ceduo_problems_settle(struct problems *problems)
 {
-    problems->memory = true;
-    return NULL;
+    problems->memory |= ceduo_memory_lost();
+    return !problems->memory;
 }
 
 void ceduo_problems_close(struct problems *problems)
@@ -237,7 +231,7 @@ void ceduo_problems_close(struct problems *problems)
         ceduo_text_format(&problems->text, ngettext("%zu more problem\n", "%zu more problems\n", rest), rest);
     problems->kinds_count = 0;
     problems->count = problems->count > 0;
-    if (problems->memory)
+    if (!ceduo_problems_settle(problems))
         ceduo_text_put(&problems->text, _("out of memory\n"));
 }
 

@@ -58,26 +58,25 @@ struct problems {
  * is without its values, and of its lines only the beginning of the first is shown. */
 bool ceduo_problem(struct problems *problems, const struct source *source, size_t line, size_t column, const char *format, ...)
     __attribute__((format(printf, 5, 6)));
-/* Where something is wrong: as above, and the path of a value in the source (NULL or "": none). */
+/* Where something is wrong: as above, and the path of a value in the source (NULL or "": none), which is shown even of a foreign
+ * one. `own`: its values are none of the source's words, and are shown, too. */
 struct problem_place {
     const struct source *source;
     size_t line, column;
     const char *path;
+    bool own;
 };
+bool ceduo_problem_at(struct problems *problems, struct problem_place place, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
 void ceduo_problem_v(struct problems *problems, struct problem_place place, const char *format, va_list args)
     __attribute__((format(printf, 3, 0)));
-/* The same where path and values are none of the source's words. */
-void ceduo_problem_own(struct problems *problems, struct problem_place place, const char *format, ...)
-    __attribute__((format(printf, 3, 4)));
-
-/* Adds the words of a format, which has no %%, with dots in place of the values. */
-void ceduo_problem_words(struct text *text, const char *format);
 
 /* Puts them after the words of `head`, which is none of them, and frees it. */
 void ceduo_problems_follow(struct problems *problems, struct problems *head);
 
-/* Memory ran out; NULL, so that who needed some can end with it. */
-void *ceduo_problem_memory(struct problems *problems);
+/* Notes whether memory ran out while the input was read; false then. Asked where the reading ends well, and by
+ * ceduo_problems_close(). */
+bool ceduo_problems_settle(struct problems *problems);
 
 /* Ends the list: how many others there are of a kind, and the number of those that were not printed. */
 void ceduo_problems_close(struct problems *problems);

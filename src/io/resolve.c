@@ -58,11 +58,10 @@ const char *ceduo_resolve_path(struct arena *arena, const struct node *node, con
 
 static const struct node *follow(struct resolver *r, const struct object *object, const struct node *node, int depth);
 
-/* A node whose reference leads nowhere, marked so that the rest is still read. NULL without memory, of which nothing was reported
- * since there were `before` problems. */
-static const struct node *broken(struct resolver *r, const struct node *node, size_t before)
+/* A node whose reference leads nowhere, marked so that the rest is still read. NULL without memory. */
+static const struct node *broken(struct resolver *r, const struct node *node)
 {
-    struct node *copy = r->problems->met > before ? ceduo_arena_take(r->arena, sizeof *copy) : NULL;
+    struct node *copy = ceduo_arena_take(r->arena, sizeof *copy);
     if (copy) {
         *copy = *node;
         copy->broken = true;
@@ -77,9 +76,7 @@ static const struct node *without_translation(struct arena *arena, const struct 
 {
     LOCAL_TEXT(name);
     ceduo_text_format(&name, "%s_it", key);
-    if (name.failed)
-        return NULL;
-    return ceduo_node_get(by, name.bytes) ? map : ceduo_node_without(arena, map, name.bytes);
+    return ceduo_node_get(by, ceduo_text_string(&name)) ? map : ceduo_node_without(arena, map, ceduo_text_string(&name));
 }
 
 /* The entries of `over` put over those of `base`: mappings are merged, anything else replaced. */
@@ -102,16 +99,15 @@ static const struct node *merge(struct arena *arena, const struct node *base, co
 static const struct node *merge_base(struct resolver *r, const struct object *object, const struct node *node, int depth)
 {
     const struct node *base = ceduo_node_get(node, "base");
-    size_t before = r->problems->met;
     if (!base || object != ceduo_schema_stand())
         return node;
     if (base->kind != NODE_SCALAR) {
         ceduo_node_problem(r->problems, base, "base", _("expected a path to a file"));
-        return broken(r, node, before);
+        return broken(r, node);
     }
     const struct node *below = follow(r, object, base, depth + 1);
     if (!below)
-        return broken(r, node, before);
+        return broken(r, node);
     if (below->kind != NODE_MAP) /* which is told where it is bound */
         return in_place_of(r->arena, below, node);
     const struct node *merged = merge(r->arena, below, node);
@@ -165,7 +161,7 @@ static const struct node *follow(struct resolver *r, const struct object *object
             return filled ? in_place_of(r->arena, filled, node) : NULL;
         }
     const char *path = ceduo_resolve_path(r->arena, node, object->folder);
-    if (!path && !r->arena->failed)
+    if (!path)
         ceduo_node_problem(r->problems, node, node->key,
                            _("cannot find '%s' beside this file or among the profiles (ceduo --list-profiles)"), node->text);
     const struct node *found = path ? read_file(r, node, path) : NULL;
@@ -178,10 +174,7 @@ const struct node *ceduo_resolve(struct arena *arena, const struct object *objec
                                  struct problems *problems)
 {
     struct resolver r = {.arena = arena, .problems = problems};
-    size_t before = problems->met;
-    const struct node *found = follow(&r, object, node, 0);
-    problems->memory |= !found && problems->met == before;
-    return found;
+    return follow(&r, object, node, 0);
 }
 
 static const struct node *resolve_map(struct resolver *r, const struct object *object, const struct node *map);
@@ -209,17 +202,16 @@ static const struct node *resolve_map(struct resolver *r, const struct object *o
     for (size_t i = 0; map && i < map->n; i++) {
         const struct node *entry = map->items[i], *found = entry;
         const struct field *f = ceduo_schema_field(object, entry->key);
-        size_t before = r->problems->met;
         if (f && f->type == FIELD_GROUP && f->flags & FIELD_FOLLOWS) {
             found = follow(r, f->object, entry, 0);
-            found = found ? found : broken(r, entry, before);
+            found = found ? found : broken(r, entry);
         } else if (f && f->type == FIELD_LIST && entry->kind == NODE_LIST) {
             bool long_one =
                 strcmp(f->key, "forest") == 0 && entry->n > CEDUO_ITEMS_MOST; /* before so many files are looked for */
             if (long_one)
                 ceduo_node_problem(r->problems, entry, f->key, _("%zu items; at most %d can be computed"), entry->n,
                                    CEDUO_ITEMS_MOST);
-            found = long_one ? broken(r, entry, before) : resolve_items(r, f->object, entry);
+            found = long_one ? broken(r, entry) : resolve_items(r, f->object, entry);
         }
         if (found == entry)
             continue;
@@ -234,9 +226,7 @@ static const struct node *resolve_map(struct resolver *r, const struct object *o
 const struct node *ceduo_resolve_scene(struct arena *arena, const struct node *root, struct problems *problems)
 {
     struct resolver r = {.arena = arena, .problems = problems};
-    const struct node *found = root->kind == NODE_MAP ? resolve_map(&r, ceduo_schema_scene(), root) : root;
-    problems->memory |= !found;
-    return found;
+    return root->kind == NODE_MAP ? resolve_map(&r, ceduo_schema_scene(), root) : root;
 }
 
 /* ---- paths ---- */
@@ -471,9 +461,5 @@ const struct node *ceduo_resolve_set(struct arena *arena, const struct node *roo
                                      const struct node *value, struct problems *problems)
 {
     struct setter s = {.arena = arena, .set = set, .length = path_length, .value = value, .problems = problems};
-    size_t before = problems->met;
-    const struct node *changed = set_in(&s, NULL, ceduo_schema_scene(), root, 0);
-    if (!changed && problems->met == before)
-        ceduo_problem_memory(problems);
-    return changed;
+    return set_in(&s, NULL, ceduo_schema_scene(), root, 0);
 }

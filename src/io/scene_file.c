@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include "base/language.h"
+#include "base/must.h"
 #include "file.h"
 #include "resolve.h"
 #include "validator.h"
@@ -20,16 +21,11 @@ bool ceduo_scene_bind(struct scene_file *file, struct problems *problems)
                                             file->scene.simulation.law};
     struct validator v = {.arena = &file->arena, .root = file->root, .problems = problems, .previous = &previous};
     size_t before = problems->count;
-    bool failed = file->arena.failed;
     file->notes = NULL;
     file->ground_assumed = false;
     file->scene = (struct ceduo_scene){0};
     file->slope_node = NULL;
-    file->arena.failed = false;
-    bool validated = ceduo_validate(&v);
-    problems->memory |= file->arena.failed || ceduo_text_lost(); /* a name without room is taken for one that is not known */
-    file->arena.failed |= failed;
-    if (!validated)
+    if (!ceduo_validate(&v))
         return false;
     file->notes = v.notes;
     file->ground_assumed = v.ground_assumed;
@@ -41,7 +37,7 @@ bool ceduo_scene_bind(struct scene_file *file, struct problems *problems)
     file->scene = v.draft.scene;
     const char *slash = strrchr(file->path, '/'), *name = slash ? slash + 1 : file->path;
     file->scene.title = file->scene.title ? file->scene.title : (char *)(uintptr_t)name;
-    bool good = problems->count == before && !problems->memory;
+    bool good = ceduo_problems_settle(problems) && problems->count == before;
     file->slope_node = good ? ceduo_node_get(file->root, "slope") : NULL;
     return good;
 }
@@ -72,7 +68,7 @@ static struct source source_of(const struct scene_sets *sets, size_t i)
 static bool set_one(struct scene_file *file, struct source set, struct problems *problems)
 {
     set.beside = file->path;
-    const struct source *source = ceduo_source_keep(&file->arena, set, problems);
+    const struct source *source = ceduo_source_keep(&file->arena, set);
     if (!source)
         return false;
     const char *equals = equals_of(source->bytes);
@@ -134,7 +130,6 @@ static void complain_no_scene(struct scene_file *file, const char *path, struct 
         ceduo_text_then(&names, "; ", _("scenes that come with it: %s"), known.bytes);
     if (folders.bytes)
         ceduo_text_then(&names, " ", _("(looked for here and in %s)"), folders.bytes);
-    problems->memory |= names.failed || folders.failed || file->arena.failed;
     ceduo_problem(problems, &(struct source){.name = path}, 0, 0, _("cannot read it: %s%s"), strerror(ENOENT),
                   ceduo_text_string(&names));
 }
@@ -182,7 +177,7 @@ static bool read_source(struct scene_file *file, const struct source *source, co
 {
     if (make_scene(file, source, sets, sets->n, problems))
         return true;
-    if (sets->n == 0 || problems->usage || problems->memory || !is_good_with(source, sets, 0, problems))
+    if (sets->n == 0 || problems->usage || !ceduo_problems_settle(problems) || !is_good_with(source, sets, 0, problems))
         return false;
     size_t last = sets->n - 1;
     while (last > 0 && !problems->memory && !is_good_with(source, sets, last, problems))
@@ -205,6 +200,7 @@ bool ceduo_scene_load(struct scene_file *file, const char *path, const char *con
 bool ceduo_scene_load_row(struct scene_file *file, const char *path, const struct scene_sets *sets, struct problems *problems)
 {
     *file = (struct scene_file){.path = path};
+    ceduo_memory_lost(); /* what was lost before is of others */
     const char *found = strcmp(path, "-") == 0 ? path : ceduo_file_find(&file->arena, path, NULL, "scenes");
     if (!found && *path && !strchr(path, '/') && access(path, F_OK) != 0 && errno == ENOENT) {
         complain_no_scene(file, path, problems);
@@ -221,7 +217,8 @@ bool ceduo_scene_load_row(struct scene_file *file, const char *path, const struc
 bool ceduo_scene_load_text(struct scene_file *file, const char *name, const char *text, struct problems *problems)
 {
     *file = (struct scene_file){.path = name};
-    const struct source *source = ceduo_source_keep(&file->arena, (struct source){.name = name, .bytes = text}, problems);
+    ceduo_memory_lost();
+    const struct source *source = ceduo_source_keep(&file->arena, (struct source){.name = name, .bytes = text});
     return source && read_source(file, source, &(struct scene_sets){0}, problems);
 }
 

@@ -27,8 +27,7 @@ static enum ceduo_status read_scene(const char *name, const char *text, const ch
     bool good = text ? ceduo_scene_load_text(&m->file, name, text, &m->problems)
                      : ceduo_scene_load(&m->file, name, sets, n, &m->problems);
     struct scene_inputs inputs = {0};
-    if (good && !ceduo_inputs_of(&m->file, &inputs))
-        good = ceduo_problem_memory(&m->problems);
+    good = good && ceduo_inputs_of(&m->file, &inputs) && ceduo_problems_settle(&m->problems);
     ceduo_problems_close(&m->problems);
     ceduo_language_of_data(false);
     reading->messages = ceduo_text_string(&m->problems.text);

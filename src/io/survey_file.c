@@ -9,7 +9,7 @@
 #include <strings.h>
 
 #include "base/language.h"
-#include "bind.h"
+#include "base/must.h"
 #include "csv.h"
 #include "scene/choices.h"
 
@@ -135,8 +135,8 @@ static void read_header(struct reader *r, struct text *unused)
     static const enum column needed[] = {PLOT, KIND, DBH};
     for (size_t i = 0; i < sizeof needed / sizeof needed[0]; i++)
         if (r->columns[needed[i]] == CEDUO_CSV_NONE)
-            ceduo_problem_own(r->problems, (struct problem_place){r->csv.source, line, 1, NULL},
-                              _("the first line must name the column '%s'"), heads[needed[i]].names[0]);
+            ceduo_problem_at(r->problems, (struct problem_place){r->csv.source, line, 1, NULL, true},
+                             _("the first line must name the column '%s'"), heads[needed[i]].names[0]);
     if (r->columns[AREA] == CEDUO_CSV_NONE && r->columns[RADIUS] == CEDUO_CSV_NONE)
         ceduo_problem(r->problems, r->csv.source, line, 1, _("the first line must name the column 'area_m2' or 'radius_m'"));
 }
@@ -298,6 +298,7 @@ bool ceduo_survey_read(struct survey_file *file, struct arena *arena, const char
     struct reader r = {.problems = problems};
     const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path;
     size_t length = strlen(name), before = problems->met;
+    ceduo_memory_lost(); /* what was lost before is of others */
     length -= length > 4 && strcasecmp(name + length - 4, ".csv") == 0 ? 4 : 0;
     name = strcmp(name, "-") == 0 ? "survey" : ceduo_arena_copy(arena, name, length);
     *file = (struct survey_file){.name = name};
@@ -305,10 +306,10 @@ bool ceduo_survey_read(struct survey_file *file, struct arena *arena, const char
         return false;
     size_t rows = ceduo_csv_lines(&r.csv);
     rows = rows < STEMS_MOST ? rows : STEMS_MOST;
-    r.plots = ceduo_bind_take(arena, PLOTS_MOST, sizeof *r.plots, problems);
-    r.stems = ceduo_bind_take(arena, rows, sizeof *r.stems, problems);
-    r.stools = ceduo_bind_take(arena, rows, sizeof *r.stools, problems);
-    double *areas = ceduo_bind_take(arena, PLOTS_MOST, sizeof *areas, problems);
+    r.plots = ceduo_arena_take(arena, PLOTS_MOST * sizeof *r.plots);
+    r.stems = ceduo_arena_take(arena, rows * sizeof *r.stems);
+    r.stools = ceduo_arena_take(arena, rows * sizeof *r.stools);
+    double *areas = ceduo_arena_take(arena, PLOTS_MOST * sizeof *areas);
     if (!r.plots || !r.stems || !r.stools || !areas)
         return false;
     LOCAL_TEXT(unused);
@@ -335,10 +336,9 @@ bool ceduo_survey_read(struct survey_file *file, struct arena *arena, const char
         stools += i == 0 || compare_stools(&r.stools[i - 1], &r.stools[i]) != 0;
         r.stems[r.stools[i].stem].stool = stools - 1;
     }
-    problems->memory |= !file->name || !file->unused || ceduo_text_lost();
     file->survey = (struct ceduo_survey){
         .plots_count = r.plots_count, .areas = areas, .stools_count = stools, .stems_count = r.stems_count, .stems = r.stems};
-    return problems->met == before && !problems->memory;
+    return problems->met == before && ceduo_problems_settle(problems);
 }
 
 void ceduo_survey_template(struct text *sheet)

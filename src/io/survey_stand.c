@@ -41,7 +41,6 @@ static void print_source(struct text *out, bool assumed, const struct text *what
     ceduo_text_format(out, "source: {kind: %s, text: ", assumed ? "assumed" : "measured");
     ceduo_emit_scalar(out, ceduo_text_string(what), true);
     ceduo_text_put(out, "}");
-    out->failed |= what->failed;
 }
 
 /* ---- what was found ---- */
@@ -340,8 +339,10 @@ bool ceduo_survey_stand(const struct survey_file *file, struct text *yaml, struc
 {
     struct ceduo_survey_answer answer;
     struct writer w = {.file = file, .answer = &answer, .out = yaml, .one_plot = file->survey.plots_count == 1};
-    if (ceduo_survey_ask(&file->survey, &answer) != CEDUO_OK)
-        return ceduo_problem_memory(problems);
+    if (ceduo_survey_ask(&file->survey, &answer) != CEDUO_OK) {
+        problems->memory = true;
+        return false;
+    }
     for (size_t i = 0; i < file->survey.plots_count; i++)
         w.area += file->survey.areas[i];
     w.stumps = !isnan(answer.stump_height) && !isnan(answer.stump_energy);
@@ -351,7 +352,5 @@ bool ceduo_survey_stand(const struct survey_file *file, struct text *yaml, struc
         print_stand(&w);
     }
     ceduo_survey_free(&answer);
-    if (yaml->failed)
-        ceduo_problem_memory(problems);
-    return good && !yaml->failed;
+    return good && ceduo_problems_settle(problems);
 }

@@ -25,7 +25,7 @@ bool ceduo_validate(struct validator *v)
     ceduo_arrange_observed(v);
     const struct binding to = {v->arena, v->problems, &v->notes, &v->bad, ceduo_validate_end, v};
     ceduo_bind(&to, ceduo_schema_scene(), v->root, &v->draft);
-    if (v->bad.n > CEDUO_BAD_MOST || v->problems->memory)
+    if (v->bad.n > CEDUO_BAD_MOST || v->arena->failed)
         return false;
     ceduo_validate_rock(v, "rock", ceduo_node_get(v->root, "rock"), &scene->rock);
     ceduo_validate_blocks(v);

@@ -106,10 +106,7 @@ void ceduo_arrange_observed(struct validator *v)
     }
     if (list != all)
         root = ceduo_node_with(v->arena, root, "observed", list);
-    if (root)
-        v->root = root;
-    else
-        ceduo_problem_memory(v->problems);
+    v->root = root ? root : v->root;
 }
 
 /* ---- values ---- */

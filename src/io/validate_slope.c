@@ -27,9 +27,7 @@ static bool read_vertices(struct validator *v, struct points *p)
         return list && ceduo_is_known(v, "slope.vertices_m");
     const struct node *node = ceduo_node_get(ceduo_node_get(v->root, "slope"), "csv");
     const char *path = ceduo_resolve_path(v->arena, node, "slopes");
-    if (!path && v->arena->failed)
-        ceduo_problem_memory(v->problems);
-    else if (!path)
+    if (!path)
         ceduo_complain(v, "slope.csv", "", _("cannot find '%s' beside this file"), node->text);
     bool good = path && ceduo_csv_slope_read(v->arena, path, p, v->problems);
     if (good && p->commas)
@@ -261,13 +259,13 @@ double ceduo_validate_end(void *validator)
             ceduo_number_read(last->items[0]->text, &end) != CEDUO_NUMBER_GOOD)
             end = NAN;
     }
-    v->problems->memory |= problems.memory;
     ceduo_problems_free(&problems);
     return end;
 }
 
 void ceduo_validate_slope(struct validator *v)
 {
+    struct ceduo_slope *s = &v->draft.scene.slope;
     struct points p = {0};
     if (reuse_slope(v) || !ceduo_is_known(v, "slope"))
         return;
@@ -289,7 +287,6 @@ void ceduo_validate_slope(struct validator *v)
     else if (materials)
         make_materials(v);
     else {
-        struct ceduo_slope *s = &v->draft.scene.slope;
         v->ground_assumed = true;
         ceduo_assume(v, "slope", _("talus everywhere, its roughness and friction too"));
         assume_mu(v, "slope");
@@ -297,6 +294,6 @@ void ceduo_validate_slope(struct validator *v)
         for (size_t j = 0; s->segments && j + 1 < s->vertices; j++)
             s->segments[j] = segment_of(ceduo_material_talus());
     }
-    if (!v->problems->memory && ceduo_slope_check(&v->draft.scene.slope) != CEDUO_OK)
+    if (s->segments && ceduo_slope_check(s) != CEDUO_OK)
         ceduo_complain(v, "slope", "", _("two vertices lie too close together for their distance from the first"));
 }

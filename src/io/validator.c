@@ -9,19 +9,13 @@
 
 bool ceduo_complain(struct validator *v, const char *path, const char *key, const char *format, ...)
 {
-    LOCAL_TEXT(message);
     const char *within;
     size_t used;
     const struct node *node = ceduo_resolve_walk(v->root, key[0] ? ceduo_format(v, "%s.%s", path, key) : path, &within, &used);
     va_list args;
     va_start(args, format);
-    if (node->source->foreign)
-        ceduo_problem_words(&message, format);
-    else
-        ceduo_text_vformat(&message, format, args);
+    ceduo_problem_v(v->problems, (struct problem_place){node->source, node->line, node->column, within, false}, format, args);
     va_end(args);
-    ceduo_problem_own(v->problems, (struct problem_place){node->source, node->line, node->column, within}, "%s",
-                      ceduo_text_string(&message));
     return false;
 }
 
@@ -31,8 +25,6 @@ const char *ceduo_format(struct validator *v, const char *format, ...)
     va_start(args, format);
     const char *text = ceduo_arena_vformat(v->arena, format, args);
     va_end(args);
-    if (!text)
-        ceduo_problem_memory(v->problems);
     return text ? text : "";
 }
 
@@ -58,7 +50,7 @@ const char *ceduo_range(struct validator *v, const struct field *field)
 
 void *ceduo_room(struct validator *v, size_t n, size_t size)
 {
-    return ceduo_bind_take(v->arena, n, size, v->problems);
+    return ceduo_arena_take(v->arena, (n + 1) * size);
 }
 
 bool ceduo_is_known(struct validator *v, const char *format, ...)
@@ -69,9 +61,9 @@ bool ceduo_is_known(struct validator *v, const char *format, ...)
     if (v->bad.n > 0)
         ceduo_text_vformat(&path, format, args);
     va_end(args);
-    bool good = !path.failed;
+    bool good = true;
     for (size_t i = 0; good && i < v->bad.n; i++)
-        good = !ceduo_path_leads_to(v->bad.paths[i], path.bytes);
+        good = !ceduo_path_leads_to(v->bad.paths[i], ceduo_text_string(&path));
     return good;
 }
 

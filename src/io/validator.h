@@ -72,7 +72,7 @@ const char *ceduo_format(struct validator *v, const char *format, ...) __attribu
 const char *ceduo_words(struct validator *v, const struct choices *choices);
 const char *ceduo_range(struct validator *v, const struct field *field);
 
-/* Room for n + 1 items in the arena. NULL without memory, which is reported. */
+/* Room for n + 1 items in the arena. NULL without memory. */
 void *ceduo_room(struct validator *v, size_t n, size_t size);
 /* A list of n items with room for `more`; `*room` is how many it holds. */
 void *ceduo_more_room(struct validator *v, void *items, size_t n, size_t more, size_t *room, size_t size);

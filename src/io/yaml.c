@@ -42,16 +42,10 @@ static void *stop(struct reader *r)
     return NULL;
 }
 
-static void *stop_for_memory(struct reader *r)
-{
-    r->stopped = true;
-    return ceduo_problem_memory(r->problems);
-}
-
 /* Reports and stops; NULL. None of its values is a word of the file. */
 #define STOP(r, mark, ...)                                                                                                     \
-    (ceduo_problem_own((r)->problems, (struct problem_place){(r)->source, line_of(mark), column_of(r, mark), NULL},            \
-                       __VA_ARGS__),                                                                                           \
+    (ceduo_problem_at((r)->problems, (struct problem_place){(r)->source, line_of(mark), column_of(r, mark), NULL, true},       \
+                      __VA_ARGS__),                                                                                            \
      stop(r))
 
 /* The place of byte `offset`: libyaml gives no mark for what is no UTF-8. */
@@ -86,8 +80,10 @@ static void *syntax_problem(struct reader *r)
     const yaml_parser_t *p = &r->parser;
     const char *bytes = r->source->bytes + r->skip, *what = p->problem;
     size_t length = r->source->length - r->skip, from = 0, n;
-    if (p->error == YAML_MEMORY_ERROR)
-        return stop_for_memory(r);
+    if (p->error == YAML_MEMORY_ERROR) {
+        ceduo_no_memory();
+        return stop(r);
+    }
     if (p->error == YAML_READER_ERROR) {
         uint32_t code;
         while (from < p->problem_offset && (n = ceduo_utf8_decode(bytes + from, length - from, &code)) > 0)
@@ -120,7 +116,7 @@ static struct node *new_node(struct reader *r, enum node_kind kind, yaml_mark_t 
 {
     struct node *node = ceduo_arena_take(r->arena, sizeof *node);
     if (!node)
-        return stop_for_memory(r);
+        return stop(r);
     *node = (struct node){
         .kind = kind, .source = r->source, .line = (uint32_t)line_of(mark), .column = (uint32_t)column_of(r, mark)};
     return node;
@@ -147,7 +143,7 @@ static struct node *read_scalar(struct reader *r, const yaml_event_t *event)
     note_end(r, node, event);
     node->quoted = event->data.scalar.style != YAML_PLAIN_SCALAR_STYLE;
     node->text = ceduo_arena_copy(r->arena, value, length);
-    return node->text ? node : stop_for_memory(r);
+    return node->text ? node : stop(r);
 }
 
 static struct node *read_value(struct reader *r, const yaml_event_t *event, int depth);
@@ -184,7 +180,7 @@ static struct node *read_entry(struct reader *r, const yaml_event_t *event, cons
     node->key = ceduo_arena_string(r->arena, key);
     node->key_line = (uint32_t)line_of(event->start_mark);
     node->key_column = (uint32_t)column_of(r, event->start_mark);
-    return node->key ? node : stop_for_memory(r);
+    return node->key ? node : stop(r);
 }
 
 /* A mapping or list. */
@@ -212,14 +208,14 @@ static struct node *read_entries(struct reader *r, const yaml_event_t *start, in
             pile.items = items;
             pile.items[pile.n++] = item;
         } else if (item) {
-            stop_for_memory(r);
+            stop(r);
         }
     }
     const struct node **items = r->stopped ? NULL : ceduo_arena_take(r->arena, (pile.n + 1) * sizeof *items);
     if (items && pile.n > 0)
         memcpy(items, pile.items, pile.n * sizeof *items);
     else if (!items && !r->stopped)
-        stop_for_memory(r);
+        stop(r);
     free(pile.items);
     node->items = items;
     node->n = pile.n;
@@ -285,8 +281,10 @@ const struct node *ceduo_yaml_read_value(struct arena *arena, const struct sourc
     struct reader r = {.arena = arena, .source = source, .problems = problems, .skip = skip};
     for (size_t i = source->is_option ? 0 : skip; i < skip; i++) /* a byte order mark takes no column */
         r.skip_column += !ceduo_utf8_inside(source->bytes[i]);
-    if (!yaml_parser_initialize(&r.parser))
-        return ceduo_problem_memory(problems);
+    if (!yaml_parser_initialize(&r.parser)) {
+        ceduo_no_memory();
+        return NULL;
+    }
     yaml_parser_set_encoding(&r.parser, YAML_UTF8_ENCODING);
     yaml_parser_set_input_string(&r.parser, (const unsigned char *)source->bytes + skip, source->length - skip);
     const struct node *root = read_document(&r);

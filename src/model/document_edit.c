@@ -56,8 +56,7 @@ double ceduo_document_place(const struct document *d, const char *written)
 /* Replaces the node at a path. */
 static void put(struct edit *e, const char *path, const struct node *value)
 {
-    const struct source *source =
-        ceduo_source_keep(e->arena, (struct source){.name = path, .bytes = path, .is_option = true}, e->problems);
+    const struct source *source = ceduo_source_keep(e->arena, (struct source){.name = path, .bytes = path, .is_option = true});
     bool good = e->root && value;
     e->root = good ? ceduo_resolve_set(e->arena, e->root, source, source->length, value, e->problems) : NULL;
 }

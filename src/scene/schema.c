@@ -286,10 +286,10 @@ void ceduo_schema_visit(const struct object *object, const char *prefix,
 bool ceduo_schema_is_place(const struct field *field)
 {
     static const char *const keys[] = {"x_m", "from_m", "to_m", "controls_m"};
+    bool place = field->flags & FIELD_PLACE;
     for (size_t i = 0; i < sizeof keys / sizeof keys[0]; i++)
-        if (strcmp(field->key, keys[i]) == 0)
-            return true;
-    return false;
+        place |= strcmp(field->key, keys[i]) == 0;
+    return place;
 }
 
 bool ceduo_schema_place_read(const char *text, double *back)

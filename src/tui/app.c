@@ -320,7 +320,7 @@ bool ceduo_app_create(struct app *app, const char *path, enum ceduo_charset char
     if (!ceduo_document_open(&app->document, path ? path : "paper-site", problems))
         return false;
     if (!ceduo_live_create(&app->live, threads)) { /* no thread */
-        ceduo_problem_memory(problems);
+        problems->memory = true;
         ceduo_document_close(&app->document);
         return false;
     }

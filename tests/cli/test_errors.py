@@ -340,7 +340,7 @@ CASES = {
     "expected a pair [x, z]": sl("[50, 30]", "@@[50]"),
     "expected a list of three numbers": sc(ROCK, "rock: {shape: block, axes_m: @@[1, 2]}"),
     "'kind' is missing: measured, literature, assumed or calibrated": st("source: {kind: measured, text: by hand}", "source: @@{text: by hand}"),
-    "'mean' is missing": sc("diameter_m: 0.5}", "diameter_m: @@{spread: 0.1}}"),
+    "'mean' is missing: diameter of a sphere or cylinder": sc("diameter_m: 0.5}", "diameter_m: @@{spread: 0.1}}"),
     "the spread reaches from -0.4 to 2 m, beyond what is possible": sc(
         "diameter_m: 0.5}", "diameter_m: @@{mean: 0.8, spread: 1.2, kind: uniform}}"),
     # Rock

@@ -5,6 +5,7 @@
 
 #include <unistd.h>
 
+#include "base/must.h"
 #include "ceduo/key.h"
 #include "folder.h"
 #include "io/doubt_inputs.h"
@@ -123,6 +124,8 @@ static bool arena_fails(struct arena *arena)
 {
     bool failed = fails();
     arena->failed |= failed;
+    if (failed)
+        ceduo_no_memory();
     return failed;
 }
 
@@ -171,7 +174,7 @@ static bool format_text(void)
 
 static bool read_scene(void)
 {
-    ceduo_text_lost(); /* of a task before */
+    ceduo_memory_lost(); /* of a task before */
     static const char *sets[] = {"forest[1].stand.stools.spacing_m=0.5", "rock.density_kg_m3.spread=10",
                                  "rock.diameter_m.mean=0.6", "release.vx_m_s={mean: 2, spread: 0.5}",
                                  "controls[0].accepted_kJ=60"};
@@ -179,15 +182,15 @@ static bool read_scene(void)
     LOCAL_BY(ceduo_problems_free) struct problems problems = {0};
     LOCAL_TEXT(text);
     bool good = ceduo_scene_load(&file, scene_path, sets, 5, &problems);
+    ceduo_problems_close(&problems);
+    assert_true(good || problems.memory);
     if (good) {
         uint64_t key = ceduo_scene_key(&file.scene);
         add(&key, sizeof key);
         ceduo_emit(&text, file.root);
-        good = !text.failed && !ceduo_text_lost();
+        good = !text.failed && !ceduo_memory_lost();
         if (good)
             add_text(&text);
-    } else {
-        assert_true(problems.memory);
     }
     return good;
 }
@@ -196,10 +199,11 @@ static bool read_text(void)
 {
     static const char text[] = "ceduo: scene/1\nrock: {diameter_m: 1}\ncontrols_m: [5]\n"
                                "slope: {vertices_m: [[0, 9], [9, 0]], segments: [{rn: 0.3, rt: 0.8}]}\n";
-    ceduo_text_lost();
+    ceduo_memory_lost();
     LOCAL_BY(ceduo_scene_release) struct scene_file file;
     LOCAL_BY(ceduo_problems_free) struct problems problems = {0};
     bool good = ceduo_scene_load_text(&file, "scene", text, &problems);
+    ceduo_problems_close(&problems);
     assert_true(good || problems.memory);
     if (good) {
         uint64_t key = ceduo_scene_key(&file.scene);
@@ -215,11 +219,12 @@ static bool read_file(void)
 {
     char path[256];
     in_folder(path, file_name);
-    ceduo_text_lost();
+    ceduo_memory_lost();
     LOCAL_BY(ceduo_scene_release) struct scene_file file;
     struct scene_inputs inputs;
     LOCAL_BY(ceduo_problems_free) struct problems problems = {0};
     bool good = ceduo_scene_load(&file, path, NULL, 0, &problems);
+    ceduo_problems_close(&problems);
     assert_true(good || problems.memory);
     good = good && ceduo_inputs_of(&file, &inputs);
     if (good) {
@@ -233,21 +238,22 @@ static bool read_file(void)
         add(o->name, strlen(o->name));
         add(o->values ? o->values : &o->mean, sizeof(double));
     }
-    return good && !ceduo_text_lost();
+    return good && !ceduo_memory_lost();
 }
 
 static bool read_survey(void)
 {
-    ceduo_text_lost();
+    ceduo_memory_lost();
     LOCAL_BY(ceduo_arena_free) struct arena arena = {0};
     LOCAL_BY(ceduo_problems_free) struct problems problems = {0};
     struct survey_file file;
     LOCAL_TEXT(yaml);
     bool good = ceduo_survey_read(&file, &arena, survey_path, &problems) && ceduo_survey_stand(&file, &yaml, &problems);
+    ceduo_problems_close(&problems);
     assert_true(good || problems.memory);
     if (good)
         add_text(&yaml);
-    return good && !ceduo_text_lost();
+    return good && !ceduo_memory_lost();
 }
 
 /* What is wrong, whole or with a word that not all is said: faults of a file, a name of none, good changes of which one does
@@ -265,14 +271,14 @@ static bool read_wrong(void)
 {
     char path[256];
     in_folder(path, wrong->name ? wrong->name : "");
-    ceduo_text_lost();
+    ceduo_memory_lost();
     LOCAL_BY(ceduo_scene_release) struct scene_file file;
     LOCAL_BY(ceduo_problems_free) struct problems problems = {0};
     assert_false(ceduo_scene_load(&file, wrong->name ? path : "mil", wrong->sets, wrong->n, &problems));
     ceduo_problems_close(&problems);
     if (!problems.memory)
         add_text(&problems.text);
-    return !problems.memory && !ceduo_text_lost();
+    return !problems.memory && !ceduo_memory_lost();
 }
 
 /* ---- folders ---- */
