@@ -94,10 +94,10 @@ bool ceduo_index_hangs_on_thin(const struct ceduo_index *index)
 
 /* ---- belts ---- */
 
-/* The figures that need only stand and rock; per metre of belt. */
-static struct ceduo_stand_result assess_per_length(const struct ceduo_scene *scene, const struct ceduo_stand *stand,
-                                                   double length)
+struct ceduo_stand_result ceduo_assess_stand(const struct ceduo_scene *scene, const struct ceduo_belt *belt)
 {
+    const struct ceduo_stand *stand = &belt->stand;
+    double length = belt->to - belt->from;
     double b = ceduo_rock_mean(&scene->rock).mean_diameter;
     const struct ceduo_stand counted = from_dbh(stand, scene->simulation.contact_dbh);
     enum ceduo_rule rule = ceduo_adc_rule(&counted, b, scene->simulation.rule);
@@ -111,6 +111,7 @@ static struct ceduo_stand_result assess_per_length(const struct ceduo_scene *sce
                                    .trees_per_ha = trees,
                                    .basal_area = ceduo_stand_basal_area(stand),
                                    .bare = ceduo_stand_is_bare(stand),
+                                   .felled = belt->felled,
                                    .rule = rule,
                                    .adc = adc,
                                    .adc_m = adc_m};
@@ -167,13 +168,6 @@ enum ceduo_judgement ceduo_judge(const struct ceduo_arrivals *bare, const struct
     return within ? CEDUO_YES : CEDUO_UNANSWERED;
 }
 
-struct ceduo_stand_result ceduo_assess_stand(const struct ceduo_scene *scene, const struct ceduo_belt *belt)
-{
-    struct ceduo_stand_result r = assess_per_length(scene, &belt->stand, belt->to - belt->from);
-    r.felled = belt->felled;
-    return r;
-}
-
 /* What is left of `energy` behind `length` m of a stand where contacts take shares of it: a product over the mean number
  * of contacts of each stratum; and amounts besides, evenly mixed among them: dE/dx = -rate·E - amount. Below 0: used up. */
 static double behind(const struct ceduo_scene *scene, const struct ceduo_stand *stand, double length, double energy)
@@ -202,11 +196,12 @@ struct ceduo_index ceduo_assess_index(const struct ceduo_scene *scene, const str
     struct ceduo_meeting all = {.contact = CEDUO_PASS};
     bool forest = false;
     for (size_t i = 0; i < option->belts_count; i++) {
+        struct ceduo_belt within = option->belts[i];
         const struct ceduo_stand *stand = &option->belts[i].stand;
-        double a = fmax(option->belts[i].from, start), b = fmin(option->belts[i].to, control->x);
+        double a = within.from = fmax(within.from, start), b = within.to = fmin(within.to, control->x);
         if (!(b > a))
             continue;
-        struct ceduo_stand_result r = assess_per_length(scene, stand, b - a);
+        struct ceduo_stand_result r = ceduo_assess_stand(scene, &within);
         forest = true;
         index.length += r.bare ? 0 : b - a;
         index.contacts += r.contacts;

@@ -46,22 +46,6 @@ enum ceduo_status ceduo_run_extend(struct ceduo_run *run, uint64_t rocks)
 
 /* ---- making and freeing ---- */
 
-static bool allocate(struct ceduo_run *run)
-{
-    const struct ceduo_run_def *def = &run->def;
-    bool ok = ceduo_run_block_init(&run->whole, run->controls) && ceduo_run_block_init(&run->tail, run->controls);
-    run->slots = calloc(run->slots_count, sizeof *run->slots);
-    ok = ok && run->slots;
-    for (size_t i = 0; ok && i < run->slots_count; i++)
-        ok = ceduo_run_block_init(&run->slots[i], run->controls);
-    if (def->cells > 0)
-        ok = ok && (run->cells = calloc(def->cells, sizeof *run->cells));
-    ok = ok && ceduo_prepared_init(&run->ready, def->scene, def->option, def->cells, def->cell_x) == CEDUO_OK;
-    run->lanes_walk = ceduo_kernel(def->kernel)->walk;
-    run->lanes = run->lanes_walk ? LANES : 1;
-    return ok && (!run->lanes_walk || (run->ground_of_lanes = ceduo_lanes_ground_create(&run->ready.ground)));
-}
-
 enum ceduo_status ceduo_run_create(const struct ceduo_run_def *def, struct ceduo_run **out)
 {
     *out = NULL;
@@ -86,7 +70,17 @@ enum ceduo_status ceduo_run_create(const struct ceduo_run_def *def, struct ceduo
     uint64_t blocks = run->def.rocks_most / CEDUO_BLOCK_ROCKS + 1;
     run->slots_count = blocks < CHUNK_BLOCKS ? (size_t)blocks : CHUNK_BLOCKS;
     run->chunk = run->def.threads < CHUNK_BLOCKS ? run->def.threads : CHUNK_BLOCKS;
-    if (!allocate(run)) {
+    run->lanes_walk = ceduo_kernel(def->kernel)->walk;
+    run->lanes = run->lanes_walk ? LANES : 1;
+    run->slots = calloc(run->slots_count, sizeof *run->slots);
+    run->cells = def->cells > 0 ? calloc(def->cells, sizeof *run->cells) : NULL;
+    bool good = run->slots && (run->cells || def->cells == 0) && ceduo_run_block_init(&run->whole, run->controls) &&
+                ceduo_run_block_init(&run->tail, run->controls);
+    for (size_t i = 0; good && i < run->slots_count; i++)
+        good = ceduo_run_block_init(&run->slots[i], run->controls);
+    good = good && ceduo_prepared_init(&run->ready, def->scene, def->option, def->cells, def->cell_x) == CEDUO_OK;
+    run->ground_of_lanes = good && run->lanes_walk ? ceduo_lanes_ground_create(&run->ready.ground) : NULL;
+    if (!good || (run->lanes_walk && !run->ground_of_lanes)) {
         ceduo_run_free(run);
         return CEDUO_NO_MEMORY;
     }

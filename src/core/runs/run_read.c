@@ -158,19 +158,6 @@ static struct ceduo_distribution distribution(const struct ceduo_run *run, size_
     return ceduo_distribution_exact(scratch, n, m);
 }
 
-/* Energy where one mass and no spin make it follow from speed. */
-static struct ceduo_distribution energy_from_speed(struct ceduo_distribution d, double mass, const struct ceduo_moments *m)
-{
-    double *const quantiles[] = {&d.p50, &d.p50_lo, &d.p50_hi, &d.p95, &d.p95_lo, &d.p95_hi, &d.p99, &d.p99_lo, &d.p99_hi};
-    for (size_t i = 0; i < sizeof quantiles / sizeof quantiles[0]; i++)
-        *quantiles[i] = 0.5 * mass * (*quantiles[i] * *quantiles[i]);
-    d.se = ceduo_moments_se(m);
-    d.sd = ceduo_moments_sd(m);
-    d.mean = m->n > 0 ? m->mean : NAN;
-    d.max = m->n > 0 ? m->max : NAN;
-    return d;
-}
-
 /* ---- what is read ---- */
 
 /* The 95th percentile of the heights of the tops of the rocks that arrive, where each is as large as it was drawn. */
@@ -234,7 +221,16 @@ enum ceduo_status ceduo_run_arrivals(const struct ceduo_run *run, size_t control
         a->energy = distribution(run, control, ENERGY, &s.of[ENERGY], scratch);
         a->translation = distribution(run, control, TRANSLATION, &s.of[TRANSLATION], scratch);
     } else {
-        a->energy = a->translation = energy_from_speed(a->speed, run->ready.mean.mass, &s.of[ENERGY]);
+        /* one mass and no spin make energy follow from speed */
+        struct ceduo_distribution d = a->speed;
+        double *const quantiles[] = {&d.p50, &d.p50_lo, &d.p50_hi, &d.p95, &d.p95_lo, &d.p95_hi, &d.p99, &d.p99_lo, &d.p99_hi};
+        for (size_t i = 0; i < sizeof quantiles / sizeof quantiles[0]; i++)
+            *quantiles[i] = 0.5 * run->ready.mean.mass * (*quantiles[i] * *quantiles[i]);
+        d.se = ceduo_moments_se(energy);
+        d.sd = ceduo_moments_sd(energy);
+        d.mean = energy->n > 0 ? energy->mean : NAN;
+        d.max = energy->n > 0 ? energy->max : NAN;
+        a->energy = a->translation = d;
     }
     a->top_p95 = top_of(run, control, a->height.p95, scratch);
     free(scratch);

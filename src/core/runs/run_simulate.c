@@ -246,17 +246,6 @@ static bool worker_init(struct worker *w, struct ceduo_run *run, struct chunk *c
     return run->def.cells == 0 || ceduo_envelopes_init(&w->cells, run->def.cells, run->lanes);
 }
 
-static void worker_release(struct worker *w)
-{
-    ceduo_histograms_free(w->bins, w->run->columns);
-    ceduo_envelopes_release(&w->cells);
-    for (size_t i = 0; w->stems && i < w->run->lanes; i++)
-        ceduo_stems_release(&w->stems[i]);
-    free(w->stems);
-    free(w->walkers);
-    free(w->arrivals);
-}
-
 static enum ceduo_status finish_chunk(struct ceduo_run *run, struct chunk *chunk, unsigned n)
 {
     struct worker *workers = chunk->workers;
@@ -315,8 +304,15 @@ enum ceduo_status ceduo_run_simulate_chunk(struct ceduo_run *run, uint64_t end)
     if (status != CEDUO_OK)
         for (size_t i = 0; i < chunk.blocks; i++)
             ceduo_run_block_clear(&run->slots[i], run->controls);
-    for (unsigned i = 0; i < n; i++)
-        worker_release(&workers[i]);
+    for (struct worker *w = workers; w < workers + n; w++) {
+        ceduo_histograms_free(w->bins, run->columns);
+        ceduo_envelopes_release(&w->cells);
+        for (size_t i = 0; w->stems && i < run->lanes; i++)
+            ceduo_stems_release(&w->stems[i]);
+        free(w->stems);
+        free(w->walkers);
+        free(w->arrivals);
+    }
     free(workers);
     return status;
 }

@@ -145,16 +145,11 @@ enum ceduo_rule ceduo_adc_rule(const struct ceduo_stand *stand, double b, enum c
 
 double ceduo_adc_value(const struct ceduo_adc *adc, enum ceduo_rule rule)
 {
-    switch (rule) {
-    case CEDUO_GSTEIGER_STOOLS:
-        return adc->gsteiger_stools;
-    case CEDUO_GSTEIGER_STEMS:
-        return adc->gsteiger_stems;
-    case CEDUO_INTERCEPTION:
-        return adc->interception;
-    default:
-        return adc->crofton;
-    }
+    const double forms[] = {[CEDUO_GSTEIGER_STOOLS] = adc->gsteiger_stools,
+                            [CEDUO_GSTEIGER_STEMS] = adc->gsteiger_stems,
+                            [CEDUO_INTERCEPTION] = adc->interception,
+                            [CEDUO_CROFTON] = adc->crofton};
+    return forms[rule];
 }
 
 double ceduo_energy_per_metre(const struct ceduo_stand *stand, double b, enum ceduo_rule rule)

@@ -288,17 +288,6 @@ static struct ceduo_paired weighted_difference(const struct ceduo_years *years, 
     return ceduo_weighted_paired(&all, &sum);
 }
 
-/* Every rock goes through all years, so its own mean is one sample. */
-static double marks_se(const struct ceduo_years *years)
-{
-    if (years->weights)
-        return weighted_difference(years, NULL, years->marked).se;
-    struct ceduo_moments m = {0};
-    for (uint64_t r = 0; r < years->marked; r++)
-        ceduo_moments_add(&m, share_of_years(years, r));
-    return ceduo_moments_sd(&m) / sqrt((double)years->rocks);
-}
-
 struct ceduo_years_summary ceduo_years_sum(const struct ceduo_years *years, size_t control)
 {
     struct ceduo_years_summary s = {.years = years->count, .worst = NAN};
@@ -337,8 +326,15 @@ struct ceduo_years_summary ceduo_years_sum(const struct ceduo_years *years, size
         means[i]->mean /= (double)s.simulated;
         means[i]->se /= (double)s.simulated;
     }
-    if (years->rocks > 0 && control == years->last_control)
-        (isnan(s.exceed.mean) ? &s.reach : &s.exceed)->se = marks_se(years);
+    if (years->rocks > 0 &&
+        control == years->last_control) { /* every rock goes through all years: its own mean is one sample */
+        struct ceduo_moments m = {0};
+        for (uint64_t r = 0; r < years->marked && !years->weights; r++)
+            ceduo_moments_add(&m, share_of_years(years, r));
+        double se = years->weights ? weighted_difference(years, NULL, years->marked).se
+                                   : ceduo_moments_sd(&m) / sqrt((double)years->rocks);
+        (isnan(s.exceed.mean) ? &s.reach : &s.exceed)->se = se;
+    }
     s.passes_per_year = s.reach.mean * years->scene.rocks_per_year;
     s.exceeds_per_year = s.exceed.mean * years->scene.rocks_per_year;
     return s;

@@ -117,23 +117,7 @@ static void prepare_segment(struct ground *g, size_t j, double radius)
 
 /* ---- blocks ---- */
 
-/* Sets block i of a level from the blocks, or the vertices, of the level below: no more than a bound of what rises. */
-static void bound_block(const struct ground *g, int level, size_t i)
-{
-    struct ground_block *block = &g->levels[level][i];
-    const struct ground_block *below = g->levels[level - 1];
-    size_t first = i << GROUND_BITS, last = (i + 1) << GROUND_BITS;
-    block->rise = 0;
-    for (size_t j = first; j < last; j++) {
-        bool fine = level == 1;
-        double x0 = fine ? g->at[j].x : below[j].x, z0 = fine ? g->at[j].z : below[j].z;
-        double x1 = fine ? g->at[j + 1].x : below[j + 1].x, z1 = fine ? g->at[j + 1].z : below[j + 1].z;
-        double above0 = z0 - (block->z + block->m * (x0 - block->x)), above1 = z1 - (block->z + block->m * (x1 - block->x));
-        double rise = (above0 > above1 ? above0 : above1) + (fine ? 0 : below[j].rise);
-        block->rise = rise > block->rise ? rise : block->rise;
-    }
-}
-
+/* The blocks of each level from the blocks, or the vertices, of the level below: no more than a bound of what rises. */
 static bool build_levels(struct ground *g, double margin)
 {
     for (int level = 1; level < GROUND_LEVELS && g->n >> (GROUND_BITS * level) >= 2; level++) { /* untaken: large */
@@ -149,7 +133,14 @@ static bool build_levels(struct ground *g, double margin)
         }
         for (size_t i = 0; i < blocks; i++) {
             to[i].m = (to[i + 1].z - to[i].z) / (to[i + 1].x - to[i].x);
-            bound_block(g, level, i);
+            for (size_t j = i << GROUND_BITS; j < (i + 1) << GROUND_BITS; j++) {
+                const struct ground_block *block = &to[i], *below = level > 1 ? &g->levels[level - 1][j] : NULL;
+                double x0 = below ? below[0].x : g->at[j].x, z0 = below ? below[0].z : g->at[j].z;
+                double x1 = below ? below[1].x : g->at[j + 1].x, z1 = below ? below[1].z : g->at[j + 1].z;
+                double above0 = z0 - (block->z + block->m * (x0 - block->x));
+                double above1 = z1 - (block->z + block->m * (x1 - block->x));
+                to[i].rise = max(block->rise, max(above0, above1) + (below ? below->rise : 0));
+            }
             to[i].rise += margin;
         }
     }

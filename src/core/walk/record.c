@@ -103,29 +103,6 @@ static void add_roll(const struct ceduo_piece *p, double lo, double hi, struct a
     a->roll2 += (hi - lo) * (a2 + b2) / 2;
 }
 
-static void add_piece(const struct ceduo_scene *scene, const struct ceduo_piece *p, const struct ceduo_stretch *stretch,
-                      struct along *a)
-{
-    double lo = max(fmin(p->x, p->x1), stretch->from), hi = fmin(max(p->x, p->x1), stretch->to);
-    if (!(hi > lo))
-        return;
-    a->length += hi - lo;
-    if (p->rolls)
-        add_roll(p, lo, hi, a);
-    else
-        add_flight(scene, p, lo, hi, a);
-}
-
-/* By the lumped law rocks do not spin. */
-static struct ceduo_stretch_means means_of(const struct along *a, const struct ceduo_rock *rock, enum ceduo_law law)
-{
-    if (!(a->length > 0))
-        return (struct ceduo_stretch_means){0, NAN, NAN, NAN};
-    double spin2 = law == CEDUO_LAW_LUMPED ? 0 : a->spin2 + a->roll2 / square(rock->radius);
-    double energy = (rock->mass * a->speed2 + rock->moment * spin2) / 2;
-    return (struct ceduo_stretch_means){a->length, a->speed / a->length, a->height / a->length, energy / a->length};
-}
-
 /* ---- one rock ---- */
 
 static void on_piece(void *context, const struct ceduo_piece *p)
@@ -136,8 +113,14 @@ static void on_piece(void *context, const struct ceduo_piece *p)
     r->rock->largest_speed = max(r->rock->largest_speed, speed);
     if (!p->rolls)
         r->rock->largest_height = max(r->rock->largest_height, largest_height(def->scene, p));
-    for (size_t i = 0; i < def->stretches_count; i++)
-        add_piece(def->scene, p, &def->stretches[i], &r->along[i]);
+    for (size_t i = 0; i < def->stretches_count; i++) {
+        double lo = max(fmin(p->x, p->x1), def->stretches[i].from), hi = fmin(max(p->x, p->x1), def->stretches[i].to);
+        r->along[i].length += hi > lo ? hi - lo : 0;
+        if (hi > lo && p->rolls)
+            add_roll(p, lo, hi, &r->along[i]);
+        else if (hi > lo)
+            add_flight(def->scene, p, lo, hi, &r->along[i]);
+    }
 }
 
 static void on_stem(void *context, const struct ceduo_stem_passed *stem)
@@ -181,8 +164,15 @@ static enum ceduo_status record_rock(struct recorder *r, struct ceduo_follower *
     r->rock->mass = way.rock.mass;
     r->rock->moment = way.rock.moment;
     r->rock->stop_x = way.end == CEDUO_AT_REST || way.end == CEDUO_STOPPED_BY_STEMS ? way.x : NAN;
-    for (size_t i = 0; i < def->stretches_count; i++)
-        r->record->means[rock * def->stretches_count + i] = means_of(&r->along[i], &way.rock, def->scene->simulation.law);
+    for (size_t i = 0; i < def->stretches_count; i++) {
+        const struct along *a = &r->along[i]; /* by the lumped law rocks do not spin */
+        bool spins = def->scene->simulation.law != CEDUO_LAW_LUMPED;
+        double spin2 = spins ? a->spin2 + a->roll2 / square(way.rock.radius) : 0;
+        double length = a->length > 0 ? a->length : NAN;
+        double energy = (way.rock.mass * a->speed2 + way.rock.moment * spin2) / 2;
+        r->record->means[rock * def->stretches_count + i] =
+            (struct ceduo_stretch_means){a->length, a->speed / length, a->height / length, energy / length};
+    }
     for (size_t i = first; i < r->record->blows_count; i++)
         r->record->blows[i].height += way.rock.radius;
     return CEDUO_OK;

@@ -60,16 +60,6 @@ static struct wood_stratum plain_stratum(double per_ha, double width, const stru
     return (struct wood_stratum){per_m2 * width, per_m2, kind, 0, 0};
 }
 
-/* Trees of a class; of groups their centres, as far off as any of their trees can be met. */
-static struct wood_stratum tree_stratum(const struct ceduo_stems *trees, const struct wood_kind *kind)
-{
-    if (!ceduo_stems_are_grouped(trees))
-        return plain_stratum(trees->per_ha, kind->dbh, kind);
-    double per_m2 = trees->per_ha / HECTARE / trees->group;
-    return (struct wood_stratum){per_m2 * (2 * trees->group_radius + kind->most), per_m2, kind, trees->group,
-                                 trees->group_radius};
-}
-
 /* How rocks meet a stand: its stems, or the contacts of a rule. */
 struct encounter {
     const struct ceduo_stand *stand;
@@ -111,8 +101,13 @@ static struct wood_stratum stratum_of(const struct encounter *e, size_t i, struc
         return (struct wood_stratum){.kind = kind};
     }
     if (i < low) {
-        *kind = kind_of(stand, &stand->trees[i - shoots]);
-        return tree_stratum(&stand->trees[i - shoots], kind);
+        const struct ceduo_stems *trees = &stand->trees[i - shoots];
+        *kind = kind_of(stand, trees);
+        if (!ceduo_stems_are_grouped(trees))
+            return plain_stratum(trees->per_ha, kind->dbh, kind);
+        /* of groups their centres, as far off as any of their trees can be met */
+        double per_m2 = trees->per_ha / HECTARE / trees->group, width = 2 * trees->group_radius + kind->most;
+        return (struct wood_stratum){per_m2 * width, per_m2, kind, trees->group, trees->group_radius};
     }
     /* what lies low takes what is said of it, whatever the law of the stems */
     const struct ceduo_stumps *t = &stand->stumps;
@@ -278,17 +273,6 @@ void ceduo_wood_release(struct wood *wood)
 
 /* Made of the same kinds and strata as the prepared forest, but without its memory: it cannot fail. */
 
-static void hash_stratum(uint64_t *hash, const struct wood_stratum *s)
-{
-    const struct wood_kind *k = s->kind;
-    hash_doubles(hash, s, offsetof(struct wood_stratum, kind) / sizeof(double));
-    hash_doubles(hash, k, offsetof(struct wood_kind, most) / sizeof(double));
-    if (isnan(k->energy))
-        ceduo_stem_energy_hash(hash, &k->by_hit);
-    hash_count(hash, s->group);
-    hash_double(hash, s->radius);
-}
-
 bool ceduo_wood_hash(uint64_t *hash, const struct ceduo_simulation *simulation, const struct ceduo_option *option,
                      const struct ceduo_rock *mean)
 {
@@ -314,7 +298,12 @@ bool ceduo_wood_hash(uint64_t *hash, const struct ceduo_simulation *simulation, 
         for (size_t k = 0; k < e.n; k++) {
             struct wood_kind kind;
             const struct wood_stratum stratum = stratum_of(&e, k, &kind);
-            hash_stratum(hash, &stratum);
+            hash_doubles(hash, &stratum, offsetof(struct wood_stratum, kind) / sizeof(double));
+            hash_doubles(hash, &kind, offsetof(struct wood_kind, most) / sizeof(double));
+            if (isnan(kind.energy))
+                ceduo_stem_energy_hash(hash, &kind.by_hit);
+            hash_count(hash, stratum.group);
+            hash_double(hash, stratum.radius);
         }
     }
     return !bare;
