@@ -55,7 +55,6 @@ struct ceduo_surface_fit {
     double explained;         /* the same of the variance without noise */
     bool enough;              /* there are points enough for the terms; without, shares are NaN */
     struct ceduo_share whole; /* the share that the terms do not explain */
-    double lo, hi;            /* bounds of the values */
     double p5, p50, p95;      /* of the values */
     double p5_se, p95_se;     /* of other points and other rocks */
     struct ceduo_share below; /* of the values the share that is at most the limit */
