@@ -10,6 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/arena.h"
 #include "base/gsl_errors.h"
 #include "base/parallel.h"
 #include "ceduo/assess.h"
@@ -18,10 +19,12 @@
 #include "points.h"
 
 #define GROUPS CEDUO_SURFACE_GROUPS
+#define ALSO   0.5 /* a second input is named where its share is at least this of the first one's */
 
 /* Rows of inputs: two for each input, with it at its ends and all others NaN, then the points. */
 struct rows {
     const struct ceduo_doubt_def *def;
+    struct arena memory;
     size_t ends, points, options, most; /* most: points */
     double *u;
     struct ceduo_groups *values; /* of each row, option and kind */
@@ -62,107 +65,58 @@ static void report(void *context)
     pthread_mutex_unlock(&r->talking);
 }
 
-/* What no rock decides is the same in all groups. */
-static void read_index(const struct rows *r, const struct point *point)
+static void read_point(void *context, const struct point *point, const struct brought *at)
 {
-    const struct ceduo_control *control = &point->scene->controls[ceduo_scene_last_control(point->scene)];
+    const struct rows *r = context;
+    size_t last = ceduo_scene_last_control(point->scene);
     struct ceduo_groups *values = values_of(r, point->row, point->option);
-    struct ceduo_index index = ceduo_assess_index(point->scene, point->forest, control, NAN);
+    for (size_t g = 0; g < GROUPS && point->slot > 0; g++) {
+        const struct ceduo_brief *b = &at[last].of[g];
+        double share = r->judged == CEDUO_DOUBT_EXCEED ? b->exceed_probability : b->reach_probability;
+        double *mean = &values[CEDUO_DOUBT_MEAN].of[g]; /* of the years, added up as they come */
+        share_of(r, point)->of[g] = share;
+        *mean = (point->slot == 1 ? 0 : *mean) + share / (double)r->years[point->option];
+    }
+    if (point->slot > 0)
+        return;
+    struct ceduo_index index = ceduo_assess_index(point->scene, point->forest, &point->scene->controls[last], NAN);
     for (size_t g = 0; g < GROUPS; g++) {
-        values[CEDUO_DOUBT_CONTACT].of[g] = 1 / index.worst_adc;
+        values[CEDUO_DOUBT_REACH].of[g] = at[last].of[g].reach_probability;
+        values[CEDUO_DOUBT_EXCEED].of[g] = at[last].of[g].exceed_probability;
+        values[CEDUO_DOUBT_ENERGY].of[g] = at[last].of[g].energy_per_released;
+        values[CEDUO_DOUBT_CONTACT].of[g] = 1 / index.worst_adc; /* no rock decides it: the same in all groups */
         values[CEDUO_DOUBT_FREE_RUN].of[g] = index.worst_free_run;
     }
 }
 
-/* The mean of the years is added up as they come. */
-static void add_year(const struct rows *r, const struct point *point)
+/* Room for all rows, and for the years of a rotation. */
+static enum ceduo_status open_rows(struct rows *r, const struct ceduo_doubt_def *def)
 {
-    struct ceduo_groups *mean = &values_of(r, point->row, point->option)[CEDUO_DOUBT_MEAN];
-    for (size_t g = 0; g < GROUPS; g++)
-        mean->of[g] = (point->slot == 1 ? 0 : mean->of[g]) + share_of(r, point)->of[g] / (double)r->years[point->option];
-}
-
-static enum ceduo_status read_point(void *context, const struct point *point, struct ceduo_run *run)
-{
-    const struct rows *r = context;
-    struct ceduo_groups *values = values_of(r, point->row, point->option);
-    struct ceduo_brief briefs[GROUPS];
-    ceduo_run_briefs(run, ceduo_scene_last_control(point->scene), GROUPS, briefs);
-    for (size_t g = 0; g < GROUPS; g++) {
-        if (point->slot > 0) {
-            share_of(r, point)->of[g] =
-                r->judged == CEDUO_DOUBT_EXCEED ? briefs[g].exceed_probability : briefs[g].reach_probability;
-            continue;
-        }
-        values[CEDUO_DOUBT_REACH].of[g] = briefs[g].reach_probability;
-        values[CEDUO_DOUBT_EXCEED].of[g] = briefs[g].exceed_probability;
-        values[CEDUO_DOUBT_ENERGY].of[g] = briefs[g].energy_per_released;
+    size_t n = def->inputs_count, years = 0;
+    *r = (struct rows){.def = def, .ends = 2 * n, .options = def->scene->options_count};
+    r->most = def->points > CEDUO_DOUBT_POINTS_MAX ? def->points : CEDUO_DOUBT_POINTS_MAX;
+    r->u = ceduo_arena_take(&r->memory, (r->ends + r->most) * n * sizeof *r->u);
+    r->values = ceduo_arena_take(&r->memory, (r->ends + r->most) * r->options * CEDUO_DOUBT_KINDS * sizeof *r->values);
+    if (def->rotation) {
+        r->years = ceduo_arena_take(&r->memory, (r->options + 1) * sizeof *r->years);
+        r->first_year = ceduo_arena_take(&r->memory, (r->options + 1) * sizeof *r->first_year);
+        r->year_counts = ceduo_arena_take(&r->memory, (r->options + 1) * sizeof *r->year_counts);
     }
-    if (point->slot > 0)
-        add_year(r, point);
-    else
-        read_index(r, point);
-    return CEDUO_OK;
-}
-
-static void same_point(void *context, const struct point *point, const struct point *first)
-{
-    const struct rows *r = context;
-    if (point->slot > 0) {
-        /* year 0 is today */
-        *share_of(r, point) = first->slot > 0 ? *share_of(r, first) : values_of(r, first->row, first->option)[r->judged];
-        add_year(r, point);
-        return;
-    }
-    memcpy(values_of(r, point->row, point->option), values_of(r, first->row, first->option),
-           CEDUO_DOUBT_MEAN * sizeof(struct ceduo_groups));
-    read_index(r, point);
-}
-
-/* Room for the years of a rotation. */
-static bool open_years(struct rows *r)
-{
-    const struct ceduo_doubt_def *def = r->def;
-    size_t years = 0;
-    r->years = calloc(r->options + 1, sizeof *r->years);
-    r->first_year = calloc(r->options + 1, sizeof *r->first_year);
-    r->year_counts = calloc(r->options + 1, sizeof *r->year_counts);
-    for (size_t i = 0; r->years && r->first_year && r->year_counts && i < r->options; i++) {
+    for (size_t i = 0; r->years && !r->memory.failed && i < r->options; i++) {
         const struct ceduo_option *option = &def->scene->options[i];
         r->years[i] = ceduo_points_years(def->scene, option, def->window, CEDUO_DOUBT_YEARS_MAX);
         r->year_counts[i] = (double)ceduo_points_years(def->scene, option, def->window, SIZE_MAX);
         r->first_year[i] = years;
         years += r->years[i];
     }
-    r->shares = malloc(years * r->most * sizeof *r->shares + 1);
-    return r->years && r->first_year && r->year_counts && r->shares;
-}
-
-static enum ceduo_status open_rows(struct rows *r, const struct ceduo_doubt_def *def)
-{
-    size_t n = def->inputs_count;
-    *r = (struct rows){.def = def, .ends = 2 * n, .options = def->scene->options_count};
-    r->most = def->points > CEDUO_DOUBT_POINTS_MAX ? def->points : CEDUO_DOUBT_POINTS_MAX;
-    r->u = malloc((r->ends + r->most) * n * sizeof *r->u);
-    r->values = malloc((r->ends + r->most) * r->options * CEDUO_DOUBT_KINDS * sizeof *r->values);
+    r->shares = ceduo_arena_take(&r->memory, years * r->most * sizeof *r->shares);
     pthread_mutex_init(&r->talking, NULL);
-    if (!r->u || !r->values || (def->rotation && !open_years(r)))
+    if (r->memory.failed)
         return CEDUO_NO_MEMORY;
     for (size_t row = 0; row < r->ends; row++)
         for (size_t i = 0; i < n; i++)
             r->u[row * n + i] = i == row / 2 ? (double)(row % 2) : NAN;
     return ceduo_surface_points(def->scene->simulation.seed, r->most, n, r->u + r->ends * n);
-}
-
-static void close_rows(struct rows *r)
-{
-    free(r->u);
-    free(r->values);
-    free(r->years);
-    free(r->first_year);
-    free(r->year_counts);
-    free(r->shares);
-    pthread_mutex_destroy(&r->talking);
 }
 
 /* Evaluates up to so many points, and first the ends, which have most of their forests in common. */
@@ -177,13 +131,12 @@ static enum ceduo_status extend(struct rows *r, size_t points)
                              .only = def->alone ? def->option : CEDUO_ALL_OPTIONS,
                              .rocks = def->rocks,
                              .today = true,
-                             .years = r->years,
+                             .rotation = r->years,
                              .window = def->window,
                              .year_rocks = CEDUO_DOUBT_YEAR_ROCKS,
                              .threads = def->threads,
                              .cancel = def->cancel,
                              .read = read_point,
-                             .same = same_point,
                              .done = report,
                              .context = r};
     r->before = from;
@@ -195,11 +148,6 @@ static enum ceduo_status extend(struct rows *r, size_t points)
 }
 
 /* ---- figures ---- */
-
-static size_t figures_of(const struct ceduo_scene *scene)
-{
-    return (2 * scene->options_count - 1) * CEDUO_DOUBT_KINDS;
-}
 
 static size_t figure_at(size_t options, size_t option, enum ceduo_doubt_kind kind, bool difference)
 {
@@ -223,15 +171,13 @@ static struct ceduo_groups value_at(const struct rows *r, size_t row, size_t opt
     return y;
 }
 
-/* The indices of n values, the smallest first, equal ones in their order. */
-static void sort_indices(const double *values, size_t n, size_t *order)
+/* Puts index i, one more than there are, behind those of values that are no larger. */
+static void insert_index(const double *values, size_t i, size_t *order)
 {
-    for (size_t i = 0; i < n; i++) {
-        size_t at = i;
-        for (; at > 0 && values[order[at - 1]] > values[i]; at--)
-            order[at] = order[at - 1];
-        order[at] = i;
-    }
+    size_t at = i;
+    for (; at > 0 && values[order[at - 1]] > values[i]; at--)
+        order[at] = order[at - 1];
+    order[at] = i;
 }
 
 /* The figures of one option or difference are read one after the other, as their surfaces have the terms in common. */
@@ -241,22 +187,22 @@ struct reading {
     bool deciding; /* only the figures that decide whether there are points enough; otherwise only the others */
 };
 
-/* What a surface is made of: which inputs the options have, and room. */
+/* What a surface is made of: which inputs the options have, and room for a figure at the points. */
 struct subject {
+    struct arena memory;
     struct ceduo_surface *surface;
     bool *uses;
-    double *room;
     struct ceduo_groups *column;
 };
 
 static enum ceduo_status open_subject(const struct rows *r, size_t option, size_t against, struct subject *s)
 {
     size_t n = r->def->inputs_count;
-    *s = (struct subject){.uses = calloc(n, sizeof *s->uses),
-                          .room = malloc(n * sizeof *s->room),
-                          .column = malloc(r->points * sizeof *s->column)};
+    *s = (struct subject){0};
+    s->uses = ceduo_arena_take(&s->memory, n * sizeof *s->uses);
+    s->column = ceduo_arena_take(&s->memory, r->points * sizeof *s->column);
     enum ceduo_status status = ceduo_surface_open(r->def->inputs, n, r->u + r->ends * n, r->points, &s->surface);
-    if (!s->uses || !s->room || !s->column)
+    if (s->memory.failed)
         return CEDUO_NO_MEMORY;
     for (size_t i = 0; i < n; i++)
         s->uses[i] = ceduo_input_is_of(&r->def->inputs[i], option) || ceduo_input_is_of(&r->def->inputs[i], against);
@@ -266,18 +212,7 @@ static enum ceduo_status open_subject(const struct rows *r, size_t option, size_
 static void close_subject(struct subject *s)
 {
     ceduo_surface_free(s->surface);
-    free(s->uses);
-    free(s->room);
-    free(s->column);
-}
-
-/* How far a figure goes. */
-static double max_of(const struct rows *r, const struct ceduo_doubt_figure *f)
-{
-    double years = r->years ? r->year_counts[f->option] : NAN;
-    if (f->kind == CEDUO_DOUBT_FAILING)
-        return f->difference ? fmax(years, r->year_counts[0]) : years;
-    return f->kind == CEDUO_DOUBT_ENERGY || f->kind == CEDUO_DOUBT_CONTACT ? INFINITY : 1;
+    ceduo_arena_free(&s->memory);
 }
 
 static bool is_rotation(enum ceduo_doubt_kind kind)
@@ -285,11 +220,16 @@ static bool is_rotation(enum ceduo_doubt_kind kind)
     return kind == CEDUO_DOUBT_MEAN || kind == CEDUO_DOUBT_FAILING;
 }
 
-static enum ceduo_status read_figure(const struct rows *r, const struct subject *s, struct ceduo_doubt_figure *f)
+static enum ceduo_status read_figure(const struct rows *r, struct subject *s, struct ceduo_doubt_figure *f)
 {
     const struct ceduo_doubt_def *def = r->def;
+    double *left = ceduo_arena_take(&s->memory, def->inputs_count * sizeof *left);
+    if (!left)
+        return CEDUO_NO_MEMORY;
     bool judged = !f->difference && (f->kind == r->judged || f->kind == CEDUO_DOUBT_MEAN) && r->judged == CEDUO_DOUBT_EXCEED;
-    double max = max_of(r, f);
+    double max = f->kind == CEDUO_DOUBT_ENERGY || f->kind == CEDUO_DOUBT_CONTACT ? INFINITY : 1;
+    if (f->kind == CEDUO_DOUBT_FAILING)
+        max = fmax(r->year_counts[f->option], f->difference ? r->year_counts[0] : 0);
     for (size_t p = 0; p < r->points; p++)
         s->column[p] = value_at(r, r->ends + p, f->option, 0, f->kind, f->difference);
     for (size_t i = 0; i < def->inputs_count; i++)
@@ -300,22 +240,17 @@ static enum ceduo_status read_figure(const struct rows *r, const struct subject 
             f->at[i][end] = is_rotation(f->kind) ? NAN : ceduo_groups_mean(&y, def->rocks);
         }
     ceduo_surface_release(&f->fit);
-    enum ceduo_status status =
-        ceduo_surface_fit(s->surface,
-                          &(const struct ceduo_surface_figure){.y = s->column,
-                                                               .uses = s->uses,
-                                                               .lo = f->difference ? -max : 0,
-                                                               .hi = max,
-                                                               .limit = judged ? CEDUO_EXCEED_MOST : NAN},
-                          &f->fit);
+    const struct ceduo_surface_figure figure = {
+        .y = s->column, .uses = s->uses, .lo = f->difference ? -max : 0, .hi = max, .limit = judged ? CEDUO_EXCEED_MOST : NAN};
+    enum ceduo_status status = ceduo_surface_fit(s->surface, &figure, &f->fit);
     if (status != CEDUO_OK)
         return status;
     f->uses = 0;
     for (size_t i = 0; i < def->inputs_count; i++) {
         f->uses += s->uses[i];
-        s->room[i] = !s->uses[i] ? INFINITY : isnan(f->fit.left[i]) ? 0 : f->fit.left[i];
+        left[i] = !s->uses[i] ? INFINITY : isnan(f->fit.left[i]) ? 0 : f->fit.left[i];
+        insert_index(left, i, f->order);
     }
-    sort_indices(s->room, def->inputs_count, f->order);
     return CEDUO_OK;
 }
 
@@ -363,11 +298,13 @@ static int count_years(void *context, size_t option, size_t worker)
     if (!is_asked(r, option))
         return CEDUO_OK;
     size_t years = r->years[option], points = r->points;
-    double *values = malloc(years * points * sizeof *values), each = r->year_counts[option] / (double)years;
-    struct ceduo_groups *y = malloc(years * points * sizeof *y), *changes = malloc(years * points * sizeof *changes);
     struct subject s;
     enum ceduo_status status = open_subject(r, option, option, &s);
-    status = values && y && changes ? status : CEDUO_NO_MEMORY;
+    double *values = ceduo_arena_take(&s.memory, years * points * sizeof *values),
+           each = r->year_counts[option] / (double)years;
+    struct ceduo_groups *y = ceduo_arena_take(&s.memory, years * points * sizeof *y);
+    struct ceduo_groups *changes = ceduo_arena_take(&s.memory, years * points * sizeof *changes);
+    status = s.memory.failed ? CEDUO_NO_MEMORY : status;
     if (status == CEDUO_OK) {
         for (size_t k = 0; k < years; k++)
             memcpy(y + k * points, r->shares + (r->first_year[option] + k) * r->most, points * sizeof *y);
@@ -387,9 +324,6 @@ static int count_years(void *context, size_t option, size_t worker)
         ceduo_groups_set(failing, all, halves);
     }
     close_subject(&s);
-    free(values);
-    free(y);
-    free(changes);
     return (int)status;
 }
 
@@ -533,32 +467,29 @@ static int compare_pair(void *context, size_t item, size_t worker)
     return (int)compare(c->rows, c->kind, item < pairs ? &c->ranking->orders[item] : &c->ranking->rivals[item - pairs + 1]);
 }
 
-static enum ceduo_status rank_options(const struct rows *r, const struct ceduo_doubt_answer *a, enum ceduo_doubt_kind kind,
+static enum ceduo_status rank_options(struct rows *r, const struct ceduo_doubt_answer *a, enum ceduo_doubt_kind kind,
                                       struct ceduo_doubt_ranking *ranking)
 {
-    size_t options = r->options;
-    size_t *ranks = calloc(options, sizeof *ranks);
-    double *values = calloc(options, sizeof *values);
-    *ranking = (struct ceduo_doubt_ranking){.rotation = kind == CEDUO_DOUBT_MEAN,
-                                            .orders = calloc(2 * options, sizeof *ranking->orders)};
-    enum ceduo_status status = ranks && values && ranking->orders ? CEDUO_OK : CEDUO_NO_MEMORY;
-    if (status == CEDUO_OK) {
-        ranking->rivals = ranking->orders + options;
-        ranking->count = options - 1;
-        for (size_t i = 0; i < options; i++)
-            values[i] = ceduo_doubt_figure_of(a, i, kind, false)->value;
-        sort_indices(values, options, ranks);
-        for (size_t i = 0; i + 1 < options; i++) {
-            ranking->orders[i] = (struct ceduo_doubt_order){.better = ranks[i], .than = ranks[i + 1]};
-            ranking->rivals[i] = (struct ceduo_doubt_order){.better = ranks[0], .than = ranks[i + 1]};
-        }
-        struct comparing comparing = {r, kind, ranking};
-        struct parallel work = {options > 1 ? 2 * ranking->count - 1 : 0, r->def->threads, compare_pair, &comparing};
-        status = (enum ceduo_status)ceduo_parallel(&work);
-        ranking->rivals[0] = ranking->orders[0];
+    size_t options = r->options, *ranks = ceduo_arena_take(&r->memory, options * sizeof *ranks);
+    double *values = ceduo_arena_take(&r->memory, options * sizeof *values);
+    ranking->rotation = kind == CEDUO_DOUBT_MEAN;
+    ranking->orders = calloc(2 * options, sizeof *ranking->orders);
+    if (r->memory.failed || !ranking->orders)
+        return CEDUO_NO_MEMORY;
+    ranking->rivals = ranking->orders + options;
+    ranking->count = options - 1;
+    for (size_t i = 0; i < options; i++) {
+        values[i] = ceduo_doubt_figure_of(a, i, kind, false)->value;
+        insert_index(values, i, ranks);
     }
-    free(ranks);
-    free(values);
+    for (size_t i = 0; i + 1 < options; i++) {
+        ranking->orders[i] = (struct ceduo_doubt_order){.better = ranks[i], .than = ranks[i + 1]};
+        ranking->rivals[i] = (struct ceduo_doubt_order){.better = ranks[0], .than = ranks[i + 1]};
+    }
+    struct comparing comparing = {r, kind, ranking};
+    struct parallel work = {options > 1 ? 2 * ranking->count - 1 : 0, r->def->threads, compare_pair, &comparing};
+    enum ceduo_status status = (enum ceduo_status)ceduo_parallel(&work);
+    ranking->rivals[0] = ranking->orders[0];
     return status;
 }
 
@@ -571,20 +502,21 @@ const struct ceduo_doubt_ranking *ceduo_doubt_verdict(const struct ceduo_doubt_a
 
 static enum ceduo_status open_answer(struct rows *rows, struct ceduo_doubt_answer *a)
 {
-    const struct ceduo_doubt_def *def = rows->def;
-    *a = (struct ceduo_doubt_answer){.figures = calloc(figures_of(def->scene), sizeof *a->figures)};
-    if (!a->figures)
+    size_t n = rows->def->inputs_count, count = (2 * rows->options - 1) * CEDUO_DOUBT_KINDS;
+    *a = (struct ceduo_doubt_answer){.figures = calloc(count, sizeof *a->figures)};
+    double(*at)[2] = malloc(count * n * sizeof *at);
+    size_t *order = calloc(count * n, sizeof *order);
+    if (!a->figures || !at || !order) {
+        free(at);
+        free(order);
         return CEDUO_NO_MEMORY;
-    for (; a->figures_count < figures_of(def->scene); a->figures_count++) {
+    }
+    for (; a->figures_count < count; a->figures_count++) {
         struct ceduo_doubt_figure *f = &a->figures[a->figures_count];
-        f->at = malloc(def->inputs_count * sizeof *f->at);
-        f->order = calloc(def->inputs_count, sizeof *f->order);
+        f->at = at + a->figures_count * n;
+        f->order = order + a->figures_count * n;
         set_sampling(f, NAN, NAN, NAN);
         f->fit.p5 = f->fit.p95 = NAN;
-        if (!f->at || !f->order) {
-            a->figures_count++;
-            return CEDUO_NO_MEMORY;
-        }
     }
     return read_sampling(rows, a);
 }
@@ -618,7 +550,8 @@ enum ceduo_status ceduo_doubt_ask(const struct ceduo_doubt_def *def, struct cedu
         status = rank_options(&rows, answer, CEDUO_DOUBT_MEAN, &answer->over_rotation);
     answer->points = rows.points;
     answer->evaluations = rows.ends + rows.points;
-    close_rows(&rows);
+    pthread_mutex_destroy(&rows.talking);
+    ceduo_arena_free(&rows.memory);
     if (status != CEDUO_OK)
         ceduo_doubt_free(answer);
     return status;
@@ -626,13 +559,41 @@ enum ceduo_status ceduo_doubt_ask(const struct ceduo_doubt_def *def, struct cedu
 
 void ceduo_doubt_free(struct ceduo_doubt_answer *answer)
 {
-    for (size_t i = 0; i < answer->figures_count; i++) {
+    for (size_t i = 0; i < answer->figures_count; i++)
         ceduo_surface_release(&answer->figures[i].fit);
-        free(answer->figures[i].at);
-        free(answer->figures[i].order);
+    if (answer->figures_count > 0) { /* of all figures one after the other */
+        free(answer->figures[0].at);
+        free(answer->figures[0].order);
     }
     free(answer->figures);
     free(answer->today.orders);
     free(answer->over_rotation.orders);
     *answer = (struct ceduo_doubt_answer){0};
+}
+
+/* ---- what a light hangs on ---- */
+
+size_t ceduo_doubt_depends(const struct ceduo_scene *scene, const struct ceduo_doubt_answer *a, size_t option,
+                           enum ceduo_doubt_kind light, size_t inputs[2])
+{
+    const struct ceduo_doubt_figure *f = ceduo_doubt_figure_of(a, option, light, false);
+    double limit = light == CEDUO_DOUBT_EXCEED    ? CEDUO_EXCEED_MOST
+                   : light == CEDUO_DOUBT_CONTACT ? 1 / scene->simulation.threshold
+                                                  : CEDUO_FREE_RUN_MOST;
+    const struct ceduo_control *control = &scene->controls[ceduo_scene_last_control(scene)];
+    double gap = ceduo_assess_index(scene, &scene->options[option], control, NAN).longest_gap;
+    bool decided = light != CEDUO_DOUBT_EXCEED && gap > scene->simulation.threshold; /* whatever the stands are */
+    if (decided || !f->fit.enough || !(f->fit.p5 <= limit && f->fit.p95 > limit))
+        return 0;
+    const struct ceduo_share *total = f->fit.total;
+    size_t first = f->order[0], second = SIZE_MAX;
+    for (size_t i = 1; i < f->uses; i++)
+        if (total[f->order[i]].value > total[first].value)
+            first = f->order[i];
+    for (size_t i = 0; i < f->uses; i++)
+        if (f->order[i] != first && (second == SIZE_MAX || total[f->order[i]].value > total[second].value))
+            second = f->order[i];
+    inputs[0] = first;
+    inputs[1] = second;
+    return second != SIZE_MAX && total[second].value >= ALSO * total[first].value ? 2 : 1;
 }

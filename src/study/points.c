@@ -4,6 +4,7 @@
 #include "points.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/parallel.h"
 #include "ceduo/question.h"
@@ -23,6 +24,7 @@ struct work {
 
 struct item {
     struct work *work;
+    struct brought *brought; /* of each variant and control: equal ones are not simulated again */
     struct input_scene *copy;
     size_t row, each;          /* the first; variants of each */
     struct point point;        /* the one at hand */
@@ -37,13 +39,20 @@ static struct point point_of(const struct item *item, size_t i)
     return point;
 }
 
+/* How many years an option is asked for. */
+static size_t years_of(const struct work *w, size_t option)
+{
+    const struct points *p = w->points;
+    return p->rotation ? ceduo_points_years(p->scene, &p->scene->options[option], p->window, CEDUO_DOUBT_YEARS_MAX) : 0;
+}
+
 /* The forest of an option in a year. */
 static enum ceduo_status grow(struct item *item, struct point *point)
 {
     const struct points *p = item->work->points;
     const struct ceduo_scene *scene = &item->copy->scene;
     const struct ceduo_option *option = &scene->options[point->option];
-    size_t years = p->years[point->option], year = point->slot - 1;
+    size_t years = years_of(item->work, point->option), year = point->slot - 1;
     if (year == 0) {
         ceduo_years_free(item->years);
         struct ceduo_window window = p->window.step > 0 ? p->window : ceduo_window_in(scene, option);
@@ -58,9 +67,15 @@ static enum ceduo_status grow(struct item *item, struct point *point)
     return CEDUO_OK;
 }
 
-static void end_variant(const struct item *item, size_t i)
+static struct brought *brought_by(const struct item *item, size_t i)
+{
+    return item->brought + i * item->work->points->scene->controls_count;
+}
+
+static void tell_variant(const struct item *item, size_t i, bool simulated)
 {
     const struct points *p = item->work->points;
+    p->read(p->context, &item->point, simulated ? brought_by(item, i) : NULL);
     if (i % item->each + 1 == item->each && p->done)
         p->done(p->context);
 }
@@ -84,30 +99,26 @@ static enum ceduo_status make_variant(void *context, size_t i, struct ceduo_vari
     variant->run.arrivals_only = true;
     variant->run.cancel = p->cancel;
     variant->skip = variant->rocks == 0;
-    if (status != CEDUO_OK || !variant->skip)
-        return status;
-    status = p->read(p->context, point, NULL);
-    end_variant(item, i);
+    if (status == CEDUO_OK && variant->skip)
+        tell_variant(item, i, false);
     return status;
 }
 
 static enum ceduo_status read_variant(void *context, size_t i, struct ceduo_run *run, uint64_t *rocks)
 {
     (void)rocks;
-    struct item *item = context;
-    const struct points *p = item->work->points;
-    enum ceduo_status status = p->read(p->context, &item->point, run);
-    end_variant(item, i);
-    return status;
+    const struct item *item = context;
+    for (size_t c = 0; c < item->work->points->scene->controls_count; c++)
+        ceduo_run_briefs(run, c, CEDUO_SURFACE_GROUPS, brought_by(item, i)[c].of);
+    tell_variant(item, i, true);
+    return CEDUO_OK;
 }
 
 static void same_variant(void *context, size_t i, size_t first)
 {
-    struct item *item = context;
-    const struct points *p = item->work->points;
-    struct point other = point_of(item, first);
-    p->same(p->context, &item->point, &other);
-    end_variant(item, i);
+    const struct item *item = context;
+    memcpy(brought_by(item, i), brought_by(item, first), item->work->points->scene->controls_count * sizeof *item->brought);
+    tell_variant(item, i, true);
 }
 
 static int run_item(void *context, size_t i, size_t thread)
@@ -119,31 +130,27 @@ static int run_item(void *context, size_t i, size_t thread)
                         .copy = &w->copies[thread],
                         .row = w->from + i + (!together && w->together > 0 ? w->together - 1 : 0),
                         .each = each};
-    enum ceduo_status status = ceduo_variants_run(&(const struct ceduo_variants){.n = (together ? w->together : 1) * each,
-                                                                                 .make = make_variant,
-                                                                                 .read = read_variant,
-                                                                                 .same = same_variant,
-                                                                                 .context = &item});
+    size_t n = (together ? w->together : 1) * each;
+    item.brought = malloc((n * w->points->scene->controls_count + 1) * sizeof *item.brought);
+    struct ceduo_variants list = {.n = n, .make = make_variant, .read = read_variant, .same = same_variant, .context = &item};
+    enum ceduo_status status = item.brought ? ceduo_variants_run(&list) : CEDUO_NO_MEMORY;
     ceduo_years_free(item.years);
+    free(item.brought);
     /* of threads that end because another one failed, none says so */
     return status == CEDUO_OK || atomic_exchange(&w->failed, true) ? CEDUO_OK : (int)status;
 }
 
-/* What each row has: of each option today and its years. */
+/* What each row has: of each option today, then their years. False without memory. */
 static bool list_variants(struct work *w)
 {
     const struct points *p = w->points;
-    size_t options = p->scene->options_count, most = 0;
-    for (size_t i = 0; i < options; i++)
-        most += 1 + (p->years ? p->years[i] : 0);
-    w->variants = calloc(most + 1, sizeof *w->variants);
-    for (size_t i = 0; w->variants && p->today && i < options; i++)
-        if (p->only == CEDUO_ALL_OPTIONS || i == p->only)
-            w->variants[w->each++] = (struct point){.option = i};
-    w->today = w->each;
-    for (size_t i = 0; w->variants && p->years && i < options; i++)
-        for (size_t slot = 1; (p->only == CEDUO_ALL_OPTIONS || i == p->only) && slot <= p->years[i]; slot++)
-            w->variants[w->each++] = (struct point){.option = i, .slot = slot};
+    w->variants = calloc(p->scene->options_count * (1 + CEDUO_DOUBT_YEARS_MAX), sizeof *w->variants);
+    for (int later = !p->today; w->variants && later < 2; later++) {
+        for (size_t i = 0; i < p->scene->options_count; i++)
+            for (size_t slot = 0; (p->only == CEDUO_ALL_OPTIONS || i == p->only) && slot < (later ? years_of(w, i) : 1); slot++)
+                w->variants[w->each++] = (struct point){.option = i, .slot = slot + (later > 0)};
+        w->today = later ? w->today : w->each;
+    }
     return w->variants;
 }
 

@@ -17,30 +17,33 @@ struct point {
     const struct ceduo_option *forest; /* of the scene; of a year as it stands then */
 };
 
+/* What each group of the rocks brings to a control. */
+struct brought {
+    struct ceduo_brief of[CEDUO_SURFACE_GROUPS];
+};
+
 struct points {
     const struct ceduo_scene *scene;
     const struct ceduo_input *inputs;
     size_t inputs_count;
     const double *u;            /* rows of inputs */
     size_t only;                /* this option alone, or CEDUO_ALL_OPTIONS */
-    uint64_t rocks;             /* of each row and option today; 0: none is simulated, and `read` has no run */
+    uint64_t rocks;             /* of each row and option today; 0: none is simulated, and nothing is brought */
     bool today;                 /* slot 0 is asked for */
-    const size_t *years;        /* of each option how many years; 0: none. NULL: of none */
-    struct ceduo_window window; /* those years; step 0: of each option its own */
+    bool rotation;              /* slots 1… are, at most CEDUO_DOUBT_YEARS_MAX of each option */
+    struct ceduo_window window; /* the years of these; step 0: of each option its own */
     uint64_t year_rocks;        /* of each of these: as rocks */
     unsigned threads;
     const atomic_bool *cancel;
-    /* Called by several threads at once, each with points of its own rows; a run is only there where rocks are simulated. */
-    enum ceduo_status (*read)(void *context, const struct point *point, struct ceduo_run *run);
-    /* The point meets the same as `first` of the same rows, which has been read. */
-    void (*same)(void *context, const struct point *point, const struct point *first);
+    /* Called by several threads at once, each with points of its own rows: at each control, NULL where no rocks are
+     * simulated. */
+    void (*read)(void *context, const struct point *point, const struct brought *at);
     void (*done)(void *context); /* a row is done; may be NULL; by several threads at once */
     void *context;
 };
 
 /* Rows from…to - 1; the first `together` of them by one thread and today alone, as they have most of their forests in
- * common. In each year
- * other rocks come down, as they say more of a mean over the years, but in every row the same. Where an option has more years, or
+ * common. In each year other rocks come down, as they say more of a mean over the years, but in every row the same. Where an option has more years, or
  * in another row another number of them, they are evenly spread.
  * CEDUO_OK, CEDUO_CANCELLED, CEDUO_NO_MEMORY or what ceduo_scene_check() says. */
 enum ceduo_status ceduo_points_run(const struct points *points, size_t from, size_t to, size_t together);

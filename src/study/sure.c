@@ -51,44 +51,30 @@ static struct ceduo_groups energy_of(const struct point *point, const struct ced
     return y;
 }
 
-static struct ceduo_groups value_of(const struct sure *s, const struct point *point, size_t control, struct ceduo_run *run)
+/* The goal at a control. */
+static struct ceduo_groups value_of(enum ceduo_goal goal, const struct point *point, const struct ceduo_control *at,
+                                    const struct ceduo_brief *briefs)
 {
-    const struct ceduo_control *at = &point->scene->controls[control];
-    enum ceduo_goal goal = s->def->goal;
     struct ceduo_groups y;
-    struct ceduo_brief briefs[GROUPS];
-    if (!run) {
-        struct ceduo_index index = ceduo_assess_index(point->scene, point->forest, at, NAN);
-        for (size_t g = 0; g < GROUPS; g++)
-            y.of[g] = scaled(goal, goal == CEDUO_GOAL_ADC ? index.worst_adc : index.worst_free_run);
-        return y;
-    }
-    ceduo_run_briefs(run, control, GROUPS, briefs);
     if (goal == CEDUO_GOAL_ENERGY)
         return energy_of(point, at, briefs);
+    struct ceduo_index index = {0};
+    if (!briefs)
+        index = ceduo_assess_index(point->scene, point->forest, at, NAN);
     for (size_t g = 0; g < GROUPS; g++)
-        y.of[g] = goal == CEDUO_GOAL_EXCEED ? briefs[g].exceed_probability : briefs[g].reach_probability;
+        y.of[g] = goal == CEDUO_GOAL_ADC        ? scaled(goal, index.worst_adc)
+                  : goal == CEDUO_GOAL_FREE_RUN ? index.worst_free_run
+                  : goal == CEDUO_GOAL_EXCEED   ? briefs[g].exceed_probability
+                                                : briefs[g].reach_probability;
     return y;
 }
 
-static size_t slot_of(const struct point *point)
-{
-    return point->slot > 0 ? point->slot - 1 : 0;
-}
-
-static enum ceduo_status read_point(void *context, const struct point *point, struct ceduo_run *run)
+static void read_point(void *context, const struct point *point, const struct brought *at)
 {
     const struct sure *s = context;
     for (size_t c = 0; c < s->def->scene->controls_count; c++)
-        values_of(s, point->row, c)[slot_of(point)] = value_of(s, point, c, run);
-    return CEDUO_OK;
-}
-
-static void same_point(void *context, const struct point *point, const struct point *first)
-{
-    const struct sure *s = context;
-    for (size_t c = 0; c < s->def->scene->controls_count; c++)
-        values_of(s, point->row, c)[slot_of(point)] = values_of(s, first->row, c)[slot_of(first)];
+        values_of(s, point->row, c)[point->slot > 0 ? point->slot - 1 : 0] =
+            value_of(s->def->goal, point, &point->scene->controls[c], at ? at[c].of : NULL);
 }
 
 static double mean_of(const struct ceduo_groups *y)
@@ -117,10 +103,6 @@ static enum ceduo_status run_points(struct sure *s, const double *u, size_t poin
 {
     const struct sure_def *def = s->def;
     bool flies = ceduo_goals[def->goal].flies;
-    size_t *years = calloc(def->scene->options_count, sizeof *years);
-    if (!years)
-        return CEDUO_NO_MEMORY;
-    years[def->option] = def->rotation ? s->slots : 0;
     const struct points p = {.scene = def->scene,
                              .inputs = def->inputs,
                              .inputs_count = def->inputs_count,
@@ -130,16 +112,13 @@ static enum ceduo_status run_points(struct sure *s, const double *u, size_t poin
                                       : def->rocks > GROUPS ? def->rocks
                                                             : GROUPS,
                              .today = !def->rotation,
-                             .years = years,
+                             .rotation = def->rotation,
                              .year_rocks = flies ? CEDUO_DOUBT_YEAR_ROCKS : 0,
                              .threads = def->threads,
                              .cancel = def->cancel,
                              .read = read_point,
-                             .same = same_point,
                              .context = s};
-    enum ceduo_status status = ceduo_points_run(&p, 0, points, 0);
-    free(years);
-    return status;
+    return ceduo_points_run(&p, 0, points, 0);
 }
 
 /* What the values of a surface say. */
