@@ -121,12 +121,8 @@ static enum ceduo_status search(struct fitting *f)
 {
     size_t d = f->def->parameters_count;
     gsl_qrng *sequence = gsl_qrng_alloc(gsl_qrng_sobol, (unsigned)d);
-    f->points = calloc(POINTS * d, sizeof *f->points);
-    f->at_points = calloc(POINTS, sizeof *f->at_points);
-    if (!sequence || !f->points || !f->at_points) { /* untaken: gsl */
-        gsl_qrng_free(sequence);
+    if (!sequence) /* untaken: gsl */
         return CEDUO_NO_MEMORY;
-    }
     for (size_t i = 0; i < POINTS; i++)
         gsl_qrng_get(sequence, f->points + i * d);
     gsl_qrng_free(sequence);
@@ -155,35 +151,26 @@ static double depth(const gsl_vector *y, void *context)
     return isfinite(log_likelihood) ? -log_likelihood : 1e12 + out;
 }
 
-static void descend(struct descent *d, double *y, gsl_multimin_fminimizer *m, gsl_vector *from, gsl_vector *step)
-{
-    size_t n = d->f->def->parameters_count;
-    gsl_multimin_function f = {depth, n, d};
-    for (size_t i = 0; i < n; i++)
-        gsl_vector_set(from, i, y[i]);
-    gsl_vector_set_all(step, SIMPLEX);
-    gsl_multimin_fminimizer_set(m, &f, from, step);
-    for (size_t k = 0; k < 40 + 20 * n && d->status == CEDUO_OK; k++)
-        if (gsl_multimin_fminimizer_iterate(m) != 0 || gsl_multimin_fminimizer_size(m) < SMALL) /* untaken: gsl */
-            break;
-    for (size_t i = 0; i < n && d->status == CEDUO_OK; i++)
-        y[i] = fmax(-FAR_OUT, fmin(FAR_OUT, gsl_vector_get(m->x, i)));
-}
-
 static int refine_one(void *context, size_t start, size_t worker)
 {
     struct fitting *f = context;
     size_t n = f->def->parameters_count;
     struct descent d = {f, worker, CEDUO_OK};
+    gsl_multimin_function function = {depth, n, &d};
+    double *y = f->starts + start * n, steps[PARAMETERS];
+    for (size_t i = 0; i < n; i++)
+        steps[i] = SIMPLEX;
+    gsl_vector_view from = gsl_vector_view_array(y, n), step = gsl_vector_view_array(steps, n);
     gsl_multimin_fminimizer *m = gsl_multimin_fminimizer_alloc(gsl_multimin_fminimizer_nmsimplex2, n);
-    gsl_vector *from = gsl_vector_alloc(n), *step = gsl_vector_alloc(n);
-    if (m && from && step) /* untaken 3: gsl */
-        descend(&d, f->starts + start * n, m, from, step);
-    else
-        d.status = CEDUO_NO_MEMORY;
+    if (!m) /* untaken: gsl */
+        return CEDUO_NO_MEMORY;
+    gsl_multimin_fminimizer_set(m, &function, &from.vector, &step.vector);
+    for (size_t k = 0; k < 40 + 20 * n && d.status == CEDUO_OK; k++)
+        if (gsl_multimin_fminimizer_iterate(m) != 0 || gsl_multimin_fminimizer_size(m) < SMALL) /* untaken: gsl */
+            break;
+    for (size_t i = 0; i < n && d.status == CEDUO_OK; i++)
+        y[i] = fmax(-FAR_OUT, fmin(FAR_OUT, gsl_vector_get(m->x, i)));
     gsl_multimin_fminimizer_free(m);
-    gsl_vector_free(from);
-    gsl_vector_free(step);
     tell(f, CEDUO_REFINE, NAN, NAN);
     return (int)d.status;
 }
@@ -370,49 +357,67 @@ size_t ceduo_calibration_loose(const struct ceduo_calibration *a, bool loose[CED
     return n;
 }
 
+#define SHAPES_ALIKE 0.1 /* of the mean axis: rocks whose axes differ by no more are of one shape; assumed */
+
+/* A shape is the rock's axes over their mean, the shortest first. */
+bool ceduo_calibration_tells_mu(const struct ceduo_calibration_scene *scenes, size_t n)
+{
+    double first[3];
+    bool known = false;
+    for (size_t s = 0; s < n; s++)
+        for (size_t i = 0; i < scenes[s].observations_count; i++) {
+            const struct ceduo_observation *seen = &scenes[s].observations[i];
+            if (seen->use != CEDUO_OBSERVED_FIT || scenes[s].scene->simulation.law != CEDUO_LAW_ARM)
+                continue;
+            const struct ceduo_rock rock = ceduo_rock_mean(seen->rock ? seen->rock : &scenes[s].scene->rock);
+            const double *a = rock.axes, sum = a[0] + a[1] + a[2];
+            double least = fmin(a[0], fmin(a[1], a[2])), most = fmax(a[0], fmax(a[1], a[2]));
+            const double shape[3] = {3 * least / sum, 3 * (sum - least - most) / sum, 3 * most / sum};
+            for (size_t k = 0; known && k < 3; k++)
+                if (fabs(first[k] - shape[k]) > SHAPES_ALIKE)
+                    return true;
+            if (!known)
+                memcpy(first, shape, sizeof first);
+            known = true;
+        }
+    return false;
+}
+
 /* ---- all of it ---- */
-
-static bool open_scene(struct fitting *f, size_t s)
-{
-    const struct ceduo_calibration_scene *from = &f->def->scenes[s];
-    struct fitting_scene *to = &f->scenes[s];
-    to->fitted = calloc(from->observations_count + 1, sizeof *to->fitted);
-    for (size_t i = 0; to->fitted && i < from->observations_count; i++)
-        if (from->observations[i].use == CEDUO_OBSERVED_FIT)
-            to->fitted[to->fit_count++] = from->observations[i];
-    f->fit_count += to->fit_count;
-    f->all_count += from->observations_count;
-    return to->fitted && ceduo_observer_create(to->fitted, to->fit_count, &to->fit) == CEDUO_OK &&
-           ceduo_observer_create(from->observations, from->observations_count, &to->all) == CEDUO_OK;
-}
-
-static enum ceduo_status open_worker(struct fitting *f, struct fitting_worker *w)
-{
-    enum ceduo_status status = CEDUO_OK;
-    w->copies = calloc(f->def->scenes_count, sizeof *w->copies);
-    w->counterparts = calloc(f->all_count + 1, sizeof *w->counterparts);
-    if (!w->copies || !w->counterparts)
-        return CEDUO_NO_MEMORY;
-    for (size_t s = 0; s < f->def->scenes_count && status == CEDUO_OK; s++)
-        status = ceduo_inputs_open(&w->copies[s], f->def->scenes[s].scene, f->def->scenes[s].inputs, f->def->parameters_count);
-    return status;
-}
 
 static enum ceduo_status open_fitting(struct fitting *f, const struct ceduo_calibration_def *def)
 {
     enum ceduo_status status = CEDUO_OK;
-    *f = (struct fitting){.def = def, .most = -INFINITY, .guess = ceduo_guess_begin(def->parameters_count)};
+    size_t n = def->parameters_count;
+    *f = (struct fitting){.def = def, .most = -INFINITY, .guess = ceduo_guess_begin(n)};
     f->workers_count = def->threads > CHAINS ? def->threads : CHAINS;
     pthread_mutex_init(&f->lock, NULL);
     pthread_mutex_init(&f->talking, NULL);
-    f->scenes = calloc(def->scenes_count, sizeof *f->scenes);
-    f->workers = calloc(f->workers_count, sizeof *f->workers);
-    bool good = f->scenes && f->workers;
-    for (size_t s = 0; s < def->scenes_count && good; s++)
-        good = open_scene(f, s);
-    for (size_t w = 0; w < f->workers_count && good && status == CEDUO_OK; w++)
-        status = open_worker(f, &f->workers[w]);
-    return good ? status : CEDUO_NO_MEMORY;
+    f->points = ceduo_arena_take(&f->memory, POINTS * n * sizeof *f->points);
+    f->at_points = ceduo_arena_take(&f->memory, POINTS * sizeof *f->at_points);
+    f->scenes = ceduo_arena_take(&f->memory, def->scenes_count * sizeof *f->scenes);
+    f->workers = ceduo_arena_take(&f->memory, f->workers_count * sizeof *f->workers);
+    for (size_t s = 0; s < def->scenes_count && !f->memory.failed && status == CEDUO_OK; s++) {
+        const struct ceduo_calibration_scene *from = &def->scenes[s];
+        struct fitting_scene *to = &f->scenes[s];
+        struct ceduo_observation *fitted = ceduo_arena_take(&f->memory, (from->observations_count + 1) * sizeof *fitted);
+        for (size_t i = 0; fitted && i < from->observations_count; i++)
+            if (from->observations[i].use == CEDUO_OBSERVED_FIT)
+                fitted[to->fit_count++] = from->observations[i];
+        f->fit_count += to->fit_count;
+        f->all_count += from->observations_count;
+        status = ceduo_observer_create(fitted, to->fit_count, &to->fit);
+        if (status == CEDUO_OK)
+            status = ceduo_observer_create(from->observations, from->observations_count, &to->all);
+    }
+    for (size_t w = 0; w < f->workers_count && !f->memory.failed && status == CEDUO_OK; w++) {
+        struct fitting_worker *to = &f->workers[w];
+        to->copies = ceduo_arena_take(&f->memory, def->scenes_count * sizeof *to->copies);
+        to->counterparts = ceduo_arena_take(&f->memory, (f->all_count + 1) * sizeof *to->counterparts);
+        for (size_t s = 0; s < def->scenes_count && !f->memory.failed && status == CEDUO_OK; s++)
+            status = ceduo_inputs_open(&to->copies[s], def->scenes[s].scene, def->scenes[s].inputs, n);
+    }
+    return f->memory.failed ? CEDUO_NO_MEMORY : status;
 }
 
 static void close_fitting(struct fitting *f)
@@ -420,21 +425,13 @@ static void close_fitting(struct fitting *f)
     for (size_t s = 0; f->scenes && s < f->def->scenes_count; s++) {
         ceduo_observer_free(f->scenes[s].fit);
         ceduo_observer_free(f->scenes[s].all);
-        free(f->scenes[s].fitted);
-    }
-    for (size_t w = 0; f->workers && w < f->workers_count; w++) {
-        for (size_t s = 0; f->workers[w].copies && s < f->def->scenes_count; s++)
+        for (size_t w = 0; f->workers && w < f->workers_count && f->workers[w].copies; w++)
             ceduo_inputs_release(&f->workers[w].copies[s]);
-        free(f->workers[w].copies);
-        free(f->workers[w].counterparts);
     }
-    free(f->scenes);
-    free(f->workers);
-    free(f->points);
-    free(f->at_points);
     free(f->known);
     free(f->known_values);
     ceduo_guess_release(&f->guess);
+    ceduo_arena_free(&f->memory);
     pthread_mutex_destroy(&f->lock);
     pthread_mutex_destroy(&f->talking);
 }

@@ -24,6 +24,7 @@ struct fitting_worker {
 
 struct fitting {
     const struct ceduo_calibration_def *def;
+    struct arena memory;
     struct fitting_scene *scenes;
     size_t fit_count, all_count; /* observations of all scenes */
     size_t workers_count;

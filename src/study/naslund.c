@@ -34,18 +34,6 @@ static int residuals(const gsl_vector *x, void *context, gsl_vector *f)
     return GSL_SUCCESS;
 }
 
-static int slopes(const gsl_vector *x, void *context, gsl_matrix *j)
-{
-    const struct pairs *p = context;
-    for (size_t i = 0; i < p->n; i++) {
-        double d = p->dbh[i] * 100, below = gsl_vector_get(x, 0) + gsl_vector_get(x, 1) * d;
-        double by_a = -2 * d * d / (below * below * below);
-        gsl_matrix_set(j, i, 0, by_a);
-        gsl_matrix_set(j, i, 1, by_a * d);
-    }
-    return GSL_SUCCESS;
-}
-
 /* The line d/sqrt(h - 1.3) = a + b d. False where there is none. */
 static bool begin(const struct pairs *p, double *x)
 {
@@ -74,7 +62,7 @@ enum ceduo_status ceduo_naslund_fit(size_t n, const double *dbh, const double *h
     gsl_multifit_nlinear_workspace *w = gsl_multifit_nlinear_alloc(gsl_multifit_nlinear_trust, &how, n, 2);
     if (!w)
         return CEDUO_NO_MEMORY;
-    gsl_multifit_nlinear_fdf fdf = {.f = residuals, .df = slopes, .n = n, .p = 2, .params = &pairs};
+    gsl_multifit_nlinear_fdf fdf = {.f = residuals, .n = n, .p = 2, .params = &pairs};
     gsl_vector_view start = gsl_vector_view_array(x, 2);
     int why;
     gsl_multifit_nlinear_init(&start.vector, &fdf, w);

@@ -3,10 +3,12 @@
 #include "ceduo/survey.h"
 
 #include <gsl/gsl_cdf.h>
+#include <gsl/gsl_statistics_double.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/arena.h"
 #include "base/gsl_errors.h"
 
 #define HECTARE      10000
@@ -15,6 +17,7 @@
 struct surveyor {
     const struct ceduo_survey *survey;
     struct ceduo_survey_answer *answer;
+    struct arena memory;
     double *counts;     /* of each plot */
     double *heights;    /* of each stem, m: measured or made */
     double *pairs;      /* room for the dbh and the heights that were measured */
@@ -30,14 +33,8 @@ double ceduo_survey_horizontal(double area, double slope_rad)
 /* Mean, standard error and interval of n >= 1 values. */
 static struct ceduo_estimate estimate_of(const double *values, size_t n)
 {
-    double sum = 0, squares = 0, count = (double)n;
-    for (size_t i = 0; i < n; i++)
-        sum += values[i];
-    double mean = sum / count;
-    for (size_t i = 0; i < n; i++)
-        squares += (values[i] - mean) * (values[i] - mean);
-    double se = n > 1 ? sqrt(squares / (count - 1) / count) : NAN;
-    double half = n > 1 ? gsl_cdf_tdist_Pinv(0.975, count - 1) * se : NAN;
+    double mean = gsl_stats_mean(values, 1, n), se = n > 1 ? gsl_stats_sd_m(values, 1, n, mean) / sqrt((double)n) : NAN;
+    double half = n > 1 ? gsl_cdf_tdist_Pinv(0.975, (double)n - 1) * se : NAN;
     return (struct ceduo_estimate){mean, se, mean - half, mean + half};
 }
 
@@ -56,14 +53,6 @@ static void begin_counts(struct surveyor *s)
         s->counts[i] = 0;
 }
 
-static struct ceduo_estimate density_of_kind(struct surveyor *s, enum ceduo_survey_kind kind)
-{
-    begin_counts(s);
-    for (size_t i = 0; i < s->survey->stems_count; i++)
-        s->counts[s->survey->stems[i].plot] += s->survey->stems[i].kind == kind ? 1 : 0;
-    return density(s);
-}
-
 /* Stools with shoots, and the mean spacing of those where it was measured. False without memory. */
 static bool count_stools(struct surveyor *s)
 {
@@ -72,11 +61,13 @@ static bool count_stools(struct surveyor *s)
         double spacing;
         size_t measured;
         bool counted;
-    } *stools = calloc(survey->stools_count + 1, sizeof *stools);
-    double *spacings = calloc(survey->stools_count + 1, sizeof *spacings);
+    } *stools = ceduo_arena_take(&s->memory, (survey->stools_count + 1) * sizeof *stools);
+    double *spacings = ceduo_arena_take(&s->memory, (survey->stools_count + 1) * sizeof *spacings);
     size_t n = 0;
+    if (!stools || !spacings)
+        return false;
     begin_counts(s);
-    for (size_t i = 0; stools && i < survey->stems_count; i++) {
+    for (size_t i = 0; i < survey->stems_count; i++) {
         const struct ceduo_survey_stem *stem = &survey->stems[i];
         if (stem->kind != CEDUO_SURVEY_SHOOT)
             continue;
@@ -85,16 +76,13 @@ static bool count_stools(struct surveyor *s)
         stools[stem->stool].measured += isnan(stem->spacing) ? 0 : 1;
         stools[stem->stool].spacing += isnan(stem->spacing) ? 0 : stem->spacing;
     }
-    for (size_t i = 0; stools && spacings && i < survey->stools_count; i++)
+    for (size_t i = 0; i < survey->stools_count; i++)
         if (stools[i].measured > 0)
             spacings[n++] = stools[i].spacing / (double)stools[i].measured;
     s->answer->stools = density(s);
     s->answer->stools_measured = n;
     s->answer->spacing = n > 0 ? estimate_of(spacings, n) : (struct ceduo_estimate){NAN, NAN, NAN, NAN};
-    bool good = stools && spacings;
-    free(stools);
-    free(spacings);
-    return good;
+    return true;
 }
 
 /* ---- species ---- */
@@ -238,7 +226,7 @@ static void fill_class(struct surveyor *s, struct ceduo_survey_class *c, enum ce
 static bool make_classes(struct surveyor *s)
 {
     const struct ceduo_survey *survey = s->survey;
-    bool *present = calloc(CEDUO_SURVEY_KINDS_COUNT * CLASSES_MOST, sizeof *present);
+    bool *present = ceduo_arena_take(&s->memory, CEDUO_SURVEY_KINDS_COUNT * CLASSES_MOST * sizeof *present);
     size_t n = 0;
     for (size_t i = 0; present && i < survey->stems_count; i++) {
         const struct ceduo_survey_stem *stem = &survey->stems[i];
@@ -246,43 +234,39 @@ static bool make_classes(struct surveyor *s)
         n += !*here;
         *here = true;
     }
-    struct ceduo_survey_class *classes = present ? calloc(n + 1, sizeof *classes) : NULL;
-    s->answer->classes = classes;
+    struct ceduo_survey_class *classes = s->answer->classes = present ? calloc(n + 1, sizeof *classes) : NULL;
     for (size_t k = 0; classes && k < CEDUO_SURVEY_KINDS_COUNT * CLASSES_MOST; k++)
         if (present[k])
             fill_class(s, &classes[s->answer->classes_count++], (enum ceduo_survey_kind)(k / CLASSES_MOST), k % CLASSES_MOST);
-    free(present);
-    return classes != NULL;
+    return classes;
 }
 
 /* ---- the whole ---- */
 
-static bool compute(struct surveyor *s)
-{
-    struct ceduo_survey_answer *a = s->answer;
-    for (int kind = 0; kind < CEDUO_SURVEY_KINDS_COUNT; kind++)
-        a->per_ha[kind] = density_of_kind(s, (enum ceduo_survey_kind)kind);
-    a->species = main_species(s->survey);
-    a->stump_diameter = of_stumps(s->survey, offsetof(struct ceduo_survey_stem, dbh));
-    a->stump_height = of_stumps(s->survey, offsetof(struct ceduo_survey_stem, height));
-    a->stump_energy = of_stumps(s->survey, offsetof(struct ceduo_survey_stem, energy));
-    return count_stools(s) && complete_heights(s, true, &a->shoots) && complete_heights(s, false, &a->trees) && make_classes(s);
-}
-
-enum ceduo_status ceduo_survey_ask(const struct ceduo_survey *survey, struct ceduo_survey_answer *answer)
+enum ceduo_status ceduo_survey_ask(const struct ceduo_survey *survey, struct ceduo_survey_answer *a)
 {
     GSL_RETURNS_ERRORS;
-    struct surveyor s = {.survey = survey, .answer = answer};
-    *answer = (struct ceduo_survey_answer){0};
-    s.counts = calloc(survey->plots_count + 1, sizeof *s.counts);
-    s.heights = calloc(survey->stems_count + 1, sizeof *s.heights);
-    s.pairs = calloc(2 * survey->stems_count + 1, sizeof *s.pairs);
-    bool good = s.counts && s.heights && s.pairs && compute(&s);
-    free(s.counts);
-    free(s.heights);
-    free(s.pairs);
+    struct surveyor s = {.survey = survey, .answer = a};
+    *a = (struct ceduo_survey_answer){0};
+    s.counts = ceduo_arena_take(&s.memory, (survey->plots_count + 1) * sizeof *s.counts);
+    s.heights = ceduo_arena_take(&s.memory, (survey->stems_count + 1) * sizeof *s.heights);
+    s.pairs = ceduo_arena_take(&s.memory, (2 * survey->stems_count + 1) * sizeof *s.pairs);
+    bool good = !s.memory.failed;
+    for (int kind = 0; good && kind < CEDUO_SURVEY_KINDS_COUNT; kind++) {
+        begin_counts(&s);
+        for (size_t i = 0; i < survey->stems_count; i++)
+            s.counts[survey->stems[i].plot] += survey->stems[i].kind == (enum ceduo_survey_kind)kind ? 1 : 0;
+        a->per_ha[kind] = density(&s);
+    }
+    a->species = main_species(survey);
+    a->stump_diameter = of_stumps(survey, offsetof(struct ceduo_survey_stem, dbh));
+    a->stump_height = of_stumps(survey, offsetof(struct ceduo_survey_stem, height));
+    a->stump_energy = of_stumps(survey, offsetof(struct ceduo_survey_stem, energy));
+    good = good && count_stools(&s) && complete_heights(&s, true, &a->shoots) && complete_heights(&s, false, &a->trees) &&
+           make_classes(&s);
+    ceduo_arena_free(&s.memory);
     if (!good)
-        ceduo_survey_free(answer);
+        ceduo_survey_free(a);
     return good ? CEDUO_OK : CEDUO_NO_MEMORY;
 }
 
