@@ -48,19 +48,26 @@ static const struct field *row_at(const char *path, unsigned *flags)
         *flags |= (unsigned)f->flags;
         object = item || f->type == FIELD_GROUP ? f->object : NULL;
     }
-    return at == n && f && !f->object ? f : NULL;
+    return at == n ? f : NULL;
 }
 
-const struct field *ceduo_schema_at(const char *path)
+const struct field *ceduo_schema_row(const char *path)
 {
     unsigned flags = 0;
     return row_at(path, &flags);
 }
 
+const struct field *ceduo_schema_at(const char *path)
+{
+    const struct field *f = ceduo_schema_row(path);
+    return f && !f->object ? f : NULL;
+}
+
 bool ceduo_schema_is_settled(const char *path)
 {
     unsigned flags = 0;
-    return row_at(path, &flags) && flags & FIELD_SETTLED;
+    const struct field *f = row_at(path, &flags);
+    return f && !f->object && flags & FIELD_SETTLED;
 }
 
 /* ---- defaults ---- */

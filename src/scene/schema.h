@@ -151,6 +151,8 @@ const struct field *ceduo_schema_step(const struct object *object, const struct 
 
 /* The row of the value at a path of a scene; NULL where none is there, or the path goes on within it. */
 const struct field *ceduo_schema_at(const char *path);
+/* The same, also where it is a group or a list. */
+const struct field *ceduo_schema_row(const char *path);
 
 /* Whether the row of that value, or one around it, has FIELD_SETTLED. */
 bool ceduo_schema_is_settled(const char *path);

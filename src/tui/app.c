@@ -38,29 +38,21 @@ const char *ceduo_app_path(const struct app *app, const char *path)
     return ceduo_app_kept(app, &words);
 }
 
-__attribute__((format(printf, 3, 0))) static void say(struct app *app, bool bad, const char *format, va_list args)
+void ceduo_app_tell(struct app *app, bool bad, const char *format, ...)
 {
-    struct text safe = {0};
+    LOCAL_TEXT(safe);
+    va_list args;
+    va_start(args, format);
     ceduo_text_safe(&safe, ceduo_arena_vformat(app->scratch, format, args));
+    va_end(args);
     snprintf(app->message, sizeof app->message, "%s", ceduo_text_string(&safe));
     app->message_bad = bad;
-    ceduo_text_free(&safe);
 }
 
-void ceduo_app_say(struct app *app, const char *format, ...)
+void ceduo_app_hint(struct app *app, const char *text)
 {
-    va_list args;
-    va_start(args, format);
-    say(app, false, format, args);
-    va_end(args);
-}
-
-void ceduo_app_warn(struct app *app, const char *format, ...)
-{
-    va_list args;
-    va_start(args, format);
-    say(app, true, format, args);
-    va_end(args);
+    if (!app->message[0] && !app->popup)
+        ceduo_app_say(app, "%s", text);
 }
 
 /* The first problem's message, without the place, which the cursor shows. */
@@ -68,8 +60,7 @@ static void say_problem(struct app *app)
 {
     const char *text = ceduo_text_string(&app->problems.text);
     const char *first = ceduo_app_format(app, "%.*s", (int)strcspn(text, "\n"), text), *colon = strstr(first, ": ");
-    snprintf(app->message, sizeof app->message, "%s", colon ? colon + 2 : first);
-    app->message_bad = true;
+    ceduo_app_warn(app, "%s", colon ? colon + 2 : first);
 }
 
 /* ---- what is shown ---- */
@@ -150,20 +141,25 @@ bool ceduo_app_doubt(const struct app *app, struct ceduo_doubt_report *report)
     return true;
 }
 
+struct ceduo_years **ceduo_app_years(const struct app *app)
+{
+    const struct ceduo_scene *scene = &app->document.file.scene;
+    struct ceduo_years **years = ceduo_must(ceduo_arena_take(app->scratch, scene->options_count * sizeof *years));
+    for (size_t i = 0; i < scene->options_count; i++)
+        years[i] = ceduo_live_years(&app->live, scene, i);
+    return years;
+}
+
 struct ceduo_pane ceduo_app_pane(const struct app *app, int height)
 {
     const struct ceduo_scene *scene = &app->document.file.scene;
     const struct ceduo_years *shown = ceduo_live_years(&app->live, scene, app->option);
     struct ceduo_doubt_report *doubt = ceduo_must(ceduo_arena_take(app->scratch, sizeof *doubt));
-    struct ceduo_years **years =
-        ceduo_must(ceduo_arena_take(app->scratch, scene->options_count * sizeof(struct ceduo_years *)));
-    for (size_t i = 0; i < scene->options_count; i++)
-        years[i] = ceduo_live_years(&app->live, scene, i);
     bool known = ceduo_app_doubt(app, doubt), in_year = app->view == VIEW_ROTATION && shown && app->year < shown->count;
     return (struct ceduo_pane){.file = &app->document.file,
                                .result = app->live.result,
                                .verdict = &app->live.verdict,
-                               .years = years,
+                               .years = ceduo_app_years(app),
                                .doubt = known ? doubt : NULL,
                                .year = in_year ? &shown->years[app->year] : NULL,
                                .option = app->option,
@@ -189,7 +185,7 @@ void ceduo_app_refresh(struct app *app)
     ceduo_live_compare(&app->live, &app->document.file,
                        view->observed && app->document.file.observations_count > 0 ? COMPARISON_LEVELS : 0);
     for (int v = 0; v < VIEW_COUNT; v++)
-        ceduo_form_clear(&app->views[v].form);
+        ceduo_form_clear(&app->views[v].form, &app->document);
     if (view->build) {
         view->build(app, ceduo_app_form(app));
         ceduo_form_clamp(ceduo_app_form(app));
@@ -231,13 +227,6 @@ bool ceduo_app_news(struct app *app)
 
 /* ---- the trajectory of a rock ---- */
 
-static void say_trajectory(struct app *app)
-{
-    struct text text = {0};
-    ceduo_rock_trajectory_say(&app->trajectory, &app->document.file.scene, &text);
-    ceduo_app_say(app, "%s", ceduo_app_kept(app, &text));
-}
-
 bool ceduo_app_follow_rock(struct app *app)
 {
     uint64_t key = app->live.asked;
@@ -253,13 +242,15 @@ void ceduo_app_next_rock(struct app *app, int by)
 {
     app->rock = by > 0 || app->rock > 0 ? app->rock + (uint64_t)by : 0;
     if (ceduo_app_follow_rock(app))
-        say_trajectory(app);
+        ceduo_app_step_rock(app, 0);
 }
 
 void ceduo_app_step_rock(struct app *app, int by)
 {
+    LOCAL_TEXT(text);
     ceduo_rock_trajectory_move(&app->trajectory, by);
-    say_trajectory(app);
+    ceduo_rock_trajectory_say(&app->trajectory, &app->document.file.scene, &text);
+    ceduo_app_say(app, "%s", text.bytes);
 }
 
 /* ---- edits ---- */
@@ -269,19 +260,18 @@ bool ceduo_app_edited(struct app *app, bool good)
     ceduo_problems_close(&app->problems);
     if (!good)
         say_problem(app);
-    ceduo_problems_free(&app->problems);
-    if (good)
+    else
         ceduo_app_refresh(app);
+    ceduo_problems_free(&app->problems);
     return good;
 }
 
 bool ceduo_app_set(struct app *app, const char *path, const char *value)
 {
-    struct text said = {0};
+    LOCAL_TEXT(said);
     bool good = ceduo_app_edited(app, ceduo_document_set_alone(&app->document, path, value, &said, &app->problems));
-    const char *words = ceduo_app_kept(app, &said);
-    if (good && words[0])
-        ceduo_app_say(app, "%s", words);
+    if (good && said.length > 0)
+        ceduo_app_say(app, "%s", said.bytes);
     return good;
 }
 
@@ -332,7 +322,7 @@ void ceduo_app_free(struct app *app)
 {
     ceduo_live_free(&app->live);
     for (int v = 0; v < VIEW_COUNT; v++)
-        ceduo_form_free(&app->views[v].form);
+        free(app->views[v].form.rows);
     ceduo_rock_trajectory_free(&app->trajectory);
     ceduo_cells_free(app->cells);
     ceduo_document_close(&app->document);
@@ -449,11 +439,6 @@ void ceduo_app_put(struct app *app, struct ceduo_area area, enum ceduo_role role
     if (text->bytes)
         ceduo_app_text(app, area, role, text->bytes, NULL);
     ceduo_text_free(text);
-}
-
-void ceduo_app_add_warning(void *text, const char *sentence)
-{
-    ceduo_text_format(text, "! %s\n", sentence);
 }
 
 void ceduo_app_read_on(struct app *app, int by)

@@ -34,11 +34,12 @@ struct bar_key {
     const char *word;
 };
 
-/* What an action does; a table of them ends with a function of NULL. */
+/* What an action does: a function with a number, or one without; a table of them ends with neither. */
 struct act {
     enum action action;
     void (*function)(struct app *app, int by);
     int by;
+    void (*plain)(struct app *app);
 };
 
 #define VIEW_PANES 3
@@ -129,8 +130,9 @@ char *ceduo_app_format(const struct app *app, const char *format, ...) __attribu
 const char *ceduo_app_path(const struct app *app, const char *path);
 const char *ceduo_app_kept(const struct app *app, struct text *text); /* frees the text */
 
-void ceduo_app_say(struct app *app, const char *format, ...) __attribute__((format(printf, 2, 3)));
-void ceduo_app_warn(struct app *app, const char *format, ...) __attribute__((format(printf, 2, 3)));
+void ceduo_app_tell(struct app *app, bool bad, const char *format, ...) __attribute__((format(printf, 3, 4)));
+#define ceduo_app_say(app, ...)  ceduo_app_tell(app, false, __VA_ARGS__)
+#define ceduo_app_warn(app, ...) ceduo_app_tell(app, true, __VA_ARGS__)
 
 /* ---- the document ---- */
 
@@ -160,6 +162,9 @@ struct ceduo_report ceduo_app_report(const struct app *app);
 
 /* How sure the figures of the scene are; false where that is not known yet. Without inputs it has no answer. */
 bool ceduo_app_doubt(const struct app *app, struct ceduo_doubt_report *report);
+
+/* The years of each option, NULL where they are not known, until the next key. */
+struct ceduo_years **ceduo_app_years(const struct app *app);
 
 /* What a pane of so many lines shows, until the next key. */
 struct ceduo_pane ceduo_app_pane(const struct app *app, int height);
@@ -202,8 +207,8 @@ void ceduo_app_shorten(struct app *app, struct text *text, int width, int lines)
 /* Puts that sign behind a text of so many lines, in the place of its last words where there is no room otherwise. */
 void ceduo_app_end_in_more(struct app *app, struct text *text, int width, int lines);
 
-/* Adds a warning to a text, in a line of its own. */
-void ceduo_app_add_warning(void *text, const char *sentence);
+/* Says what keys do in a pane, until something else is said; not below a popup. */
+void ceduo_app_hint(struct app *app, const char *text);
 
 /* Scrolls the view by so many lines. */
 void ceduo_app_read_on(struct app *app, int by);

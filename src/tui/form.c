@@ -15,15 +15,10 @@
 #define VALUE_MIN  25 /* columns that the labels leave to values */
 #define COLUMN_MAX 22 /* of a table's column */
 
-void ceduo_form_clear(struct form *form)
+void ceduo_form_clear(struct form *form, const struct document *document)
 {
+    form->document = document;
     form->n = 0;
-}
-
-void ceduo_form_free(struct form *form)
-{
-    free(form->rows);
-    *form = (struct form){0};
 }
 
 static struct form_row *add_row(struct form *form, enum form_kind kind, const char *label)
@@ -52,13 +47,13 @@ void ceduo_form_note(struct form *form, const char *text)
 static void show_node(struct text *to, const struct node *node, const struct field *field)
 {
     const char *name = node->kind == NODE_MAP ? ceduo_node_text(node, "name") : NULL;
-    if (name && field && field->flags & FIELD_FOLLOWS) {
+    if (name && field->flags & FIELD_FOLLOWS) {
         ceduo_text_put(to, ceduo_in_language(name, ceduo_node_text(node, "name_it")));
     } else if (node->written && node->written->kind == NODE_SCALAR) {
         ceduo_text_put(to, node->written->text);
     } else if (node->kind == NODE_SCALAR) {
         ceduo_shown_value(field, node->text, to);
-    } else if (node->kind == NODE_MAP && field && field->type == FIELD_SPREAD) {
+    } else if (node->kind == NODE_MAP && field->type == FIELD_SPREAD) {
         const char *mean = ceduo_node_text(node, "mean"), *spread = ceduo_node_text(node, "spread");
         const char *kind = ceduo_node_text(node, "kind");
         ceduo_text_format(to, "%s \xc2\xb1 %s%s", mean ? mean : "?", spread ? spread : "0",
@@ -71,76 +66,67 @@ static void show_node(struct text *to, const struct node *node, const struct fie
     }
 }
 
-static void fill_cell(struct form_cell *cell, const struct document *d, const struct field *field, const char *path)
+static void add_cell(const struct form *form, struct form_row *row, const struct field *field, const char *path)
 {
-    const struct node *node = ceduo_document_node(d, path);
+    struct form_cell *cell = &row->cells[row->n++];
+    const struct node *node = ceduo_document_node(form->document, path), *italian = NULL;
+    const char *usual = !node && field->value ? field->value : "";
+    char other[FORM_PATH + 3];
+    LOCAL_TEXT(shown);
     snprintf(cell->path, sizeof cell->path, "%s", path);
     cell->field = field;
     cell->given = node != NULL;
-    cell->assumed = node && ceduo_scene_assumes_value(&d->file, path);
-    const char *usual = !node && field && field->value ? field->value : "";
-    const char *written = node && node->kind == NODE_SCALAR ? node->text : usual;
-    snprintf(cell->written, sizeof cell->written, "%s", written);
-    struct text shown = {0};
-    char other[FORM_PATH + 3];
+    cell->assumed = node && ceduo_scene_assumes_value(&form->document->file, path);
+    snprintf(cell->written, sizeof cell->written, "%s", node && node->kind == NODE_SCALAR ? node->text : usual);
     snprintf(other, sizeof other, "%s_it", path);
-    const struct node *italian = node && field && field->type == FIELD_TEXT ? ceduo_document_node(d, other) : NULL;
-    if (italian && italian->kind == NODE_SCALAR && node->kind == NODE_SCALAR)
+    if (node && node->kind == NODE_SCALAR && field->type == FIELD_TEXT)
+        italian = ceduo_document_node(form->document, other);
+    if (italian && italian->kind == NODE_SCALAR)
         ceduo_text_put(&shown, ceduo_in_language(node->text, italian->text));
     else if (node)
         show_node(&shown, node, field);
     else
         ceduo_shown_value(field, usual, &shown);
-    if (field && (field->type == FIELD_NUMBERS || field->type == FIELD_SPREADS || field->type == FIELD_SPREAD) && shown.bytes)
+    if ((field->type == FIELD_NUMBERS || field->type == FIELD_SPREADS || field->type == FIELD_SPREAD) && shown.bytes)
         ceduo_number_spoken(shown.bytes);
     snprintf(cell->text, sizeof cell->text, "%s", ceduo_text_string(&shown));
-    ceduo_text_free(&shown);
 }
 
-/* The field at a key that may hold a dot: of a group within the object. */
-static const struct field *find_field(const struct object *object, const char *key)
+void ceduo_form_field(struct form *form, const char *path, const char *label)
 {
-    const char *dot = strchr(key, '.');
-    char head[64];
-    if (!dot)
-        return ceduo_schema_field(object, key);
-    snprintf(head, sizeof head, "%.*s", (int)(dot - key), key);
-    const struct field *group = ceduo_schema_field(object, head);
-    return group && group->object ? find_field(group->object, dot + 1) : NULL;
+    const struct field *field = ceduo_schema_row(path);
+    add_cell(form, add_row(form, FORM_FIELDS, label ? label : _(field->shown.label)), field, path);
 }
 
-void ceduo_form_field(struct form *form, const struct document *d, const struct object *object, const char *prefix,
-                      const char *key, const char *label)
+/* The next of some words with blanks between; false behind the last. */
+static bool next_key(const char **keys, char key[FORM_PATH])
 {
-    char path[FORM_PATH];
-    const struct field *field = find_field(object, key);
-    struct form_row *row = add_row(form, FORM_FIELDS, label ? label : _(field->shown.label));
-    snprintf(path, sizeof path, "%s%s%s", prefix, prefix[0] ? "." : "", key);
-    fill_cell(&row->cells[0], d, field, path);
-    row->n = 1;
+    size_t n = strcspn(*keys, " ");
+    snprintf(key, FORM_PATH, "%.*s", (int)n, *keys);
+    *keys += n + strspn(*keys + n, " ");
+    return n > 0;
 }
 
-void ceduo_form_fields(struct form *form, const struct document *d, const struct object *object, const char *prefix,
-                       const char *const *keys)
+void ceduo_form_fields(struct form *form, const char *prefix, const char *keys)
 {
-    for (; *keys; keys++)
-        ceduo_form_field(form, d, object, prefix, *keys, NULL);
+    char key[FORM_PATH], path[2 * FORM_PATH];
+    while (next_key(&keys, key)) {
+        snprintf(path, sizeof path, "%s%s", prefix, key);
+        ceduo_form_field(form, path, NULL);
+    }
 }
 
-void ceduo_form_rest(struct form *form, const struct document *d, const struct object *object, const char *prefix,
-                     const char *group)
+void ceduo_form_rest(struct form *form, const char *group)
 {
-    const struct object *fields = find_field(object, group)->object;
-    for (size_t i = 0; i < fields->n; i++) {
-        const struct field *f = &fields->fields[i];
-        char key[FORM_PATH], path[2 * FORM_PATH];
-        snprintf(key, sizeof key, "%.60s.%.60s", group, f->key);
-        snprintf(path, sizeof path, "%s%s%s", prefix, prefix[0] ? "." : "", key);
+    const struct object *fields = ceduo_schema_row(group)->object;
+    for (const struct field *f = fields->fields; f < fields->fields + fields->n; f++) {
+        char path[FORM_PATH];
+        snprintf(path, sizeof path, "%.90s.%.60s", group, f->key);
         bool there = f->type == FIELD_GROUP || f->type == FIELD_LIST;
         for (size_t k = 0; k < form->n; k++)
             there |= form->rows[k].n > 0 && strcmp(form->rows[k].cells[0].path, path) == 0;
         if (!there)
-            ceduo_form_field(form, d, object, prefix, key, NULL);
+            ceduo_form_field(form, path, NULL);
     }
 }
 
@@ -154,67 +140,43 @@ static struct form_row *add_item(struct form *form, const char *list, size_t i)
     return row;
 }
 
-/* A number of an item that names a value of the scene, such as an end of its range, is shown and typed in that value's unit. */
-static const struct field *field_of_item(const struct object *object, const char *key, const struct node *item)
+void ceduo_form_table(struct form *form, const char *list, const char *group, const char *keys)
 {
-    const struct field *field = find_field(object, key);
-    const char *named = field && field->type == FIELD_NUMBER ? ceduo_node_text(item, "path") : NULL;
-    const struct field *of = named ? ceduo_schema_at(named) : NULL;
-    return of && of->shown.per != 1 ? of : field;
-}
-
-/* A line of names, and one for each item that has the group; NULL: for each. */
-static void add_items(struct form *form, const struct document *d, const struct object *object, const char *list,
-                      const char *group, const char *const *keys, const char *title)
-{
-    char path[FORM_PATH];
-    const struct node *node = ceduo_document_node(d, list);
-    const struct field *of = group ? ceduo_schema_field(object, group) : NULL;
-    const struct object *fields = of ? of->object : object;
-    struct form_row *head = add_row(form, FORM_COLUMNS_ROW, title);
-    for (; head->n < FORM_COLUMNS && keys[head->n]; head->n++)
-        head->cells[head->n].field = find_field(fields, keys[head->n]);
+    char key[FORM_PATH], path[FORM_PATH];
+    const struct node *node = ceduo_document_node(form->document, list);
+    const struct field *of = ceduo_schema_row(list);
+    of = group ? ceduo_schema_field(of->object, group) : of;
+    struct form_row *head = add_row(form, FORM_COLUMNS_ROW, "");
+    for (const char *rest = keys; head->n < FORM_COLUMNS && next_key(&rest, key);)
+        head->cells[head->n++].field = ceduo_schema_field(of->object, key);
     snprintf(head->list, sizeof head->list, "%s", list);
     for (size_t i = 0; node && node->kind == NODE_LIST && i < node->n; i++) {
-        const struct node *item = of ? ceduo_node_get(node->items[i], group) : node->items[i];
+        const struct node *item = group ? ceduo_node_get(node->items[i], group) : node->items[i];
         if (!item)
             continue;
         struct form_row *row = add_item(form, list, i);
-        row->group = of ? of->key : NULL;
-        for (const char *key; row->n < FORM_COLUMNS && (key = keys[row->n]); row->n++) {
-            const struct field *field = field_of_item(fields, key, item);
-            const struct field *other = field && !ceduo_node_get(item, key) ? ceduo_schema_unit(fields, field) : NULL;
-            bool instead = other && ceduo_node_get(item, other->key); /* the file has it in another unit */
-            snprintf(path, sizeof path, "%.80s[%zu]%s%.20s%s%.30s", list, i, of ? "." : "", of ? group : "", key[0] ? "." : "",
-                     instead ? other->key : key);
-            fill_cell(&row->cells[row->n], d, instead ? other : field, path);
+        row->group = group ? of->key : NULL;
+        for (const char *rest = keys; row->n < FORM_COLUMNS && next_key(&rest, key);) {
+            const struct field *field = ceduo_schema_field(of->object, key), *other = ceduo_schema_unit(of->object, field);
+            if (!ceduo_node_get(item, key) && other && ceduo_node_get(item, other->key)) /* the file has it in another unit */
+                field = other;
+            snprintf(path, sizeof path, "%.80s[%zu].%.20s%s%.30s", list, i, group ? group : "", group ? "." : "", field->key);
+            const char *named = field->type == FIELD_NUMBER ? ceduo_node_text(item, "path") : NULL;
+            const struct field *value = named ? ceduo_schema_at(named) : NULL; /* an end of its range: in its own unit */
+            add_cell(form, row, value && value->shown.per != 1 ? value : field, path);
         }
     }
     if (!node || node->n == 0)
         snprintf(add_row(form, FORM_FIELDS, _("none; a adds one"))->list, sizeof head->list, "%s", list);
 }
 
-void ceduo_form_table(struct form *form, const struct document *d, const struct object *object, const char *list,
-                      const char *const *keys, const char *title)
-{
-    add_items(form, d, object, list, NULL, keys, title);
-}
-
-void ceduo_form_group(struct form *form, const struct document *d, const struct object *object, const char *list,
-                      const char *group, const char *const *keys)
-{
-    add_items(form, d, object, list, group, keys, "");
-}
-
-void ceduo_form_points(struct form *form, const struct document *d, const struct field *field, const char *list)
+void ceduo_form_points(struct form *form, const char *list)
 {
     char path[FORM_PATH];
-    const struct node *node = ceduo_document_node(d, list);
+    const struct node *node = ceduo_document_node(form->document, list);
     for (size_t i = 0; node && node->kind == NODE_LIST && i < node->n; i++) {
-        struct form_row *row = add_item(form, list, i);
         snprintf(path, sizeof path, "%.100s[%zu]", list, i);
-        fill_cell(&row->cells[0], d, field, path);
-        row->n = 1;
+        add_cell(form, add_item(form, list, i), ceduo_schema_at(list), path);
     }
 }
 
@@ -347,7 +309,7 @@ static void draw_cell(const struct drawing *d, const struct form_cell *cell, int
     struct ceduo_cells *cells = d->cells;
     char shown[80];
     struct text words = {0};
-    if (cell->given && cell->field && strcmp(cell->field->key, "path") == 0) /* a place of the scene, in words */
+    if (cell->given && strcmp(cell->field->key, "path") == 0) /* a place of the scene, in words */
         ceduo_shown_path(cell->text, &words);
     else
         ceduo_text_put(&words, cell->text[0] ? cell->text : "-");
@@ -359,7 +321,7 @@ static void draw_cell(const struct drawing *d, const struct form_cell *cell, int
         snprintf(shown, sizeof shown, "%.4g%s", number, cell->assumed ? "*" : "");
     if (strspn(shown, "0123456789.+-e *") == strlen(shown))
         ceduo_number_spoken(shown);
-    char *more = cell->field && cell->field->type == FIELD_CHOICE ? strstr(shown, " (") : NULL;
+    char *more = cell->field->type == FIELD_CHOICE ? strstr(shown, " (") : NULL;
     if (more && (int)ceduo_utf8_width(shown) > span) /* the common name of a species has room */
         *more = '\0';
     if (cursor)
@@ -440,25 +402,25 @@ bool ceduo_form_hit(const struct form *form, struct ceduo_area area, int x, int 
 
 /* ---- explaining and stepping ---- */
 
-void ceduo_form_explain(const struct document *d, const struct form_cell *cell, struct text *text)
+void ceduo_form_explain(struct form *form, struct text *text)
 {
-    const struct field *f = cell->field;
-    struct text range = {0}, usual = {0};
-    if (!f)
+    const struct form_cell *cell = ceduo_form_cell(form);
+    if (!cell)
         return;
+    const struct field *f = cell->field;
     const char *unit = ceduo_shown_unit(f);
+    LOCAL_TEXT(range);
+    LOCAL_TEXT(usual);
     ceduo_text_format(text, "%s: %s", _(f->shown.label), _(f->meaning));
     if (unit[0])
         ceduo_text_format(text, "; %s", unit);
     if (ceduo_shown_range(f, &range))
         ceduo_text_format(text, ", %s", ceduo_text_string(&range));
-    ceduo_text_free(&range);
     if (f->value) {
         ceduo_shown_value(f, f->value, &usual);
         ceduo_text_then(text, " ", _("(default %s)"), ceduo_text_string(&usual));
-        ceduo_text_free(&usual);
     }
-    const struct source_note *note = ceduo_notes_find(d->file.notes, cell->path);
+    const struct source_note *note = ceduo_notes_find(form->document->file.notes, cell->path);
     if (note && cell->given)
         ceduo_text_format(text, " [%s: %s]", _(note->kind), ceduo_in_language(note->text, note->text_it));
 }
@@ -472,12 +434,13 @@ static double step_of(double value, const struct field *f)
     return f->type == FIELD_COUNT && step < 1 ? 1 : step;
 }
 
-bool ceduo_form_step(const struct document *d, const struct form_cell *cell, int direction, struct text *value)
+bool ceduo_form_step(struct form *form, int direction, struct text *value)
 {
-    const struct field *f = cell->field;
+    const struct form_cell *cell = ceduo_form_cell(form);
     double now;
-    if (!f)
+    if (!cell)
         return false;
+    const struct field *f = cell->field;
     if (ceduo_schema_is_place(f) && ceduo_schema_place_read(cell->written, &now)) { /* by a metre: more is nearer the end */
         ceduo_text_format(value, now - direction > 0 ? "end-%g" : "end", now - direction);
         return true;
@@ -492,7 +455,7 @@ bool ceduo_form_step(const struct document *d, const struct form_cell *cell, int
         ceduo_text_put(value, strcmp(cell->written, "true") == 0 ? "false" : "true");
         return true;
     }
-    const struct node *node = ceduo_document_node(d, cell->path);
+    const struct node *node = ceduo_document_node(form->document, cell->path);
     bool scalar = !node || node->kind == NODE_SCALAR;
     if (!scalar || (f->type != FIELD_NUMBER && f->type != FIELD_SPREAD && f->type != FIELD_COUNT) ||
         ceduo_typed_number(cell->text, &now) != CEDUO_NUMBER_GOOD)

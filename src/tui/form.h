@@ -32,42 +32,35 @@ struct form_row {
 };
 
 struct form {
+    const struct document *document;
     struct form_row *rows;
     size_t n, room;
     size_t row, column; /* the cursor */
     size_t top;         /* first line shown */
 };
 
-void ceduo_form_clear(struct form *form); /* the cursor stays */
-void ceduo_form_free(struct form *form);
+void ceduo_form_clear(struct form *form, const struct document *document); /* the cursor stays */
 
 void ceduo_form_heading(struct form *form, const char *text);
 void ceduo_form_note(struct form *form, const char *text);
 
-/* A line with one field; label NULL: that of the table of keys. */
-void ceduo_form_field(struct form *form, const struct document *d, const struct object *object, const char *prefix,
-                      const char *key, const char *label);
+/* A line with the value at a path; label NULL: that of the table of keys. */
+void ceduo_form_field(struct form *form, const char *path, const char *label);
 
-/* A line for each key; `keys` ends in NULL. */
-void ceduo_form_fields(struct form *form, const struct document *d, const struct object *object, const char *prefix,
-                       const char *const *keys);
+/* A line for each of some keys, with blanks between, behind a prefix that ends in a dot or is "". */
+void ceduo_form_fields(struct form *form, const char *prefix, const char *keys);
 
 /* A line for each field of a group (such as growth.shoots) that has none yet: what the table of the scene has and a view
  * does not name. */
-void ceduo_form_rest(struct form *form, const struct document *d, const struct object *object, const char *prefix,
-                     const char *group);
+void ceduo_form_rest(struct form *form, const char *group);
 
-/* A table of the items of a list: a line of column names, a line for each item; `keys` ends in NULL. An empty list has a
- * line that says how to add to it. `list` is the path, `object` that of its items. Keys may hold a dot. */
-void ceduo_form_table(struct form *form, const struct document *d, const struct object *object, const char *list,
-                      const char *const *keys, const char *title);
-
-/* The same of one group of those items that have it, such as the stops among what was observed. Keys are the group's. */
-void ceduo_form_group(struct form *form, const struct document *d, const struct object *object, const char *list,
-                      const char *group, const char *const *keys);
+/* A table of the items of a list: a line of column names, a line for each item; keys with blanks between. With a group: of
+ * those items that have it, such as the stops among what was observed; the keys are its own. An empty list has a line that
+ * says how to add to it. */
+void ceduo_form_table(struct form *form, const char *list, const char *group, const char *keys);
 
 /* A line for each point of a list of points. */
-void ceduo_form_points(struct form *form, const struct document *d, const struct field *field, const char *list);
+void ceduo_form_points(struct form *form, const char *list);
 
 /* Puts the cursor on a line with fields, as near as may be. */
 void ceduo_form_clamp(struct form *form);
@@ -90,10 +83,10 @@ void ceduo_form_draw(struct form *form, struct ceduo_cells *cells, struct ceduo_
 /* The line and cell at a place of the rectangle it was drawn into; false where there is none. */
 bool ceduo_form_hit(const struct form *form, struct ceduo_area area, int x, int y, size_t *row, size_t *column);
 
-/* What stands below the screen for a cell: meaning, unit, range, default, source. */
-void ceduo_form_explain(const struct document *d, const struct form_cell *cell, struct text *text);
+/* What stands below the screen for the cell under the cursor: meaning, unit, range, default, source. */
+void ceduo_form_explain(struct form *form, struct text *text);
 
-/* The value one step up (+1) or down (-1), as it would be typed; false where the field has no steps. */
-bool ceduo_form_step(const struct document *d, const struct form_cell *cell, int direction, struct text *value);
+/* Its value one step up (+1) or down (-1), as it would be typed; false where there is none, or the field has no steps. */
+bool ceduo_form_step(struct form *form, int direction, struct text *value);
 
 #endif

@@ -26,15 +26,7 @@ enum key {
     K_DELETE,
     K_SHIFT_TAB,
     K_F1,
-    K_F2,
-    K_F3,
-    K_F4,
-    K_F5,
-    K_F6,
-    K_F7,
-    K_F8,
-    K_F9,
-    K_F10
+    K_F10 = K_F1 + 9
 };
 
 /* The views. A new one is a file with a `struct view` (app.h) and a line here: name, the same in small, key, its word, what
@@ -74,7 +66,7 @@ enum key {
     X(LATER, '>', ">", K_NONE, "", 0, N_("move this item after the next"))                                                     \
     X(UNDO, 'u', "u", K_NONE, "", 2, N_("undo"))                                                                               \
     X(REDO, K_CTRL_R, "Ctrl-R", K_NONE, "", 0, N_("redo"))                                                                     \
-    X(PRESETS, 'p', "p", K_F5, "F5", 1, N_("presets"))                                                                         \
+    X(PRESETS, 'p', "p", K_F1 + 5 - 1, "F5", 1, N_("presets"))                                                                 \
     X(COUNTS, 'c', "c", K_NONE, "", 0, N_("stand from the counts of a sample plot"))                                           \
     VIEWS(VIEW_ACTION)                                                                                                         \
     X(STOP, K_ESCAPE, "Esc", K_NONE, "", 0, N_("stop a fit, or leave what it found"))                                          \
@@ -85,15 +77,15 @@ enum key {
     X(LAST_ROCK, ',', ",", K_NONE, "", 0, N_("the rock's way before"))                                                         \
     X(ZOOM, 'z', "z", K_NONE, "", 0, N_("nearer to the slope, at the cursor along it"))                                        \
     X(UNZOOM, 'Z', "Z", K_NONE, "", 0, N_("farther from the slope"))                                                           \
-    X(SEARCH, '/', "/", K_F3, "F3", 0, N_("search"))                                                                           \
+    X(SEARCH, '/', "/", K_F1 + 3 - 1, "F3", 0, N_("search"))                                                                   \
     X(AGAIN, 'N', "N", K_NONE, "", 0, N_("search again"))                                                                      \
     X(COMMANDS, ':', ":", K_NONE, "", 0, N_("commands by their names"))                                                        \
-    X(NEW, 'n', "n", K_F7, "F7", 0, N_("new scene"))                                                                           \
-    X(OPEN, 'o', "o", K_F4, "F4", 0, N_("open a scene"))                                                                       \
-    X(SAVE, 's', "s", K_F2, "F2", 2, N_("save"))                                                                               \
+    X(NEW, 'n', "n", K_F1 + 7 - 1, "F7", 0, N_("new scene"))                                                                   \
+    X(OPEN, 'o', "o", K_F1 + 4 - 1, "F4", 0, N_("open a scene"))                                                               \
+    X(SAVE, 's', "s", K_F1 + 2 - 1, "F2", 2, N_("save"))                                                                       \
     X(SAVE_AS, 'S', "S", K_NONE, "", 0, N_("save under another name"))                                                         \
     X(COPY, 'Y', "Y", K_NONE, "", 1, N_("copy what the view says"))                                                            \
-    X(EXPORT, 'w', "w", K_F6, "F6", 1, N_("export"))                                                                           \
+    X(EXPORT, 'w', "w", K_F1 + 6 - 1, "F6", 1, N_("export"))                                                                   \
     X(CHARSET, 'b', "b", K_NONE, "", 0, N_("braille, blocks or ASCII"))                                                        \
     X(THEME, 't', "t", K_NONE, "", 0, N_("colours: dark, light, none"))                                                        \
     X(REDRAW, K_CTRL_L, "Ctrl-L", K_NONE, "", 0, N_("draw the screen anew"))                                                   \

@@ -19,25 +19,16 @@ void ceduo_picker_clear(struct picker *p)
     *p = (struct picker){0};
 }
 
-void ceduo_picker_add(struct picker *p, const char *text, const char *value, bool now)
+void ceduo_picker_add(struct picker *p, const char *text, const char *name, const char *value, bool now)
 {
-    struct text safe = {0};
+    LOCAL_TEXT(safe);
     p->picks = ceduo_grow(p->picks, p->count, &p->room, sizeof *p->picks);
     p->order = ceduo_grow(p->order, p->count, &p->order_room, sizeof *p->order);
     ceduo_text_safe(&safe, text);
     if (now)
         ceduo_text_then(&safe, "  ", _("(now)"));
-    const char *shown = ceduo_arena_string(&p->arena, ceduo_text_string(&safe));
-    ceduo_text_free(&safe);
-    if (now)
-        p->at = p->matches;
-    p->order[p->matches++] = p->count;
-    p->picks[p->count++] = (struct pick){shown, ceduo_arena_string(&p->arena, value), shown, now, 0};
-}
-
-void ceduo_picker_name(struct picker *p, const char *name)
-{
-    p->picks[p->count - 1].name = ceduo_arena_string(&p->arena, name);
+    p->picks[p->count++] = (struct pick){ceduo_arena_string(&p->arena, ceduo_text_string(&safe)),
+                                         ceduo_arena_string(&p->arena, value), ceduo_arena_string(&p->arena, name), now, 0};
 }
 
 bool ceduo_picker_has(const struct picker *p, const char *value)
@@ -125,7 +116,8 @@ static int by_name(const struct dirent **a, const struct dirent **b)
 void ceduo_picker_add_files(struct picker *p, const char *typed, const char *endings)
 {
     const char *slash = strrchr(typed, '/');
-    struct text folder = {0}, path = {0};
+    LOCAL_TEXT(folder);
+    LOCAL_TEXT(path);
     struct dirent **entries = NULL;
     ceduo_text_add(&folder, typed, slash ? (size_t)(slash - typed) + 1 : 0);
     int n = scandir(folder.length ? folder.bytes : ".", &entries, NULL, by_name);
@@ -138,12 +130,10 @@ void ceduo_picker_add_files(struct picker *p, const char *typed, const char *end
         if (is_folder)
             ceduo_text_put(&path, "/");
         if (i < FILES_MAX && name[0] != '.' && (is_folder || ends_in(name, endings)) && !ceduo_picker_has(p, path.bytes))
-            ceduo_picker_add(p, path.bytes, path.bytes, false);
+            ceduo_picker_add(p, path.bytes, path.bytes, path.bytes, false);
         free(entries[i]);
     }
     free(entries);
-    ceduo_text_free(&path);
-    ceduo_text_free(&folder);
 }
 
 bool ceduo_picker_complete(const struct picker *p, struct line *line)

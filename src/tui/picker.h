@@ -20,7 +20,7 @@ struct picker {
     struct arena arena;
     struct pick *picks;
     size_t count, room;
-    size_t *order; /* those that match, best first; as they were added where nothing is typed */
+    size_t *order; /* those that match, best first, after ceduo_picker_filter() */
     size_t matches, order_room;
     size_t at; /* among those that match */
     int top;   /* the first line shown */
@@ -28,11 +28,9 @@ struct picker {
 
 void ceduo_picker_clear(struct picker *picker);
 
-/* Adds an item; a text that is not safe to print is shown with \xHH. `now`: the cursor goes there. */
-void ceduo_picker_add(struct picker *picker, const char *text, const char *value, bool now);
-
-/* Only this name of the item that was added last is searched in, not what is said of it. */
-void ceduo_picker_name(struct picker *picker, const char *name);
+/* Adds an item; a text that is not safe to print is shown with \xHH. What is typed is searched for in `name` alone, not in what
+ * is said of it. `now`: the cursor goes there. */
+void ceduo_picker_add(struct picker *picker, const char *text, const char *name, const char *value, bool now);
 
 /* Whether a value is there already. */
 bool ceduo_picker_has(const struct picker *picker, const char *value);

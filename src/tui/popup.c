@@ -3,6 +3,7 @@
  * callback runs, because that may open another. */
 #include "popup.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -14,12 +15,13 @@
 
 /* ---- making ---- */
 
-static struct popup *open_popup(struct app *app, enum popup_kind kind, const char *title)
+static struct popup *open_popup(struct app *app, enum popup_kind kind, const char *title, const char *path)
 {
     ceduo_popup_close(app);
     struct popup *p = ceduo_must(calloc(1, sizeof *p));
     p->kind = kind;
-    snprintf(p->title, sizeof p->title, "%s", title);
+    p->title = ceduo_arena_string(&p->arena, title);
+    p->path = ceduo_arena_string(&p->arena, path);
     app->popup = p;
     return p;
 }
@@ -29,7 +31,6 @@ static void free_popup(struct popup *p)
     ceduo_arena_free(&p->arena);
     ceduo_picker_clear(&p->picker);
     ceduo_text_free(&p->text);
-    free(p->kept);
     free(p);
 }
 
@@ -40,28 +41,28 @@ void ceduo_popup_close(struct app *app)
     app->popup = NULL;
 }
 
-struct popup *ceduo_popup_list(struct app *app, const char *title, popup_chosen *chosen)
+struct popup *ceduo_popup_list(struct app *app, const char *title, const char *path, popup_call *chosen)
 {
-    struct popup *p = open_popup(app, POPUP_LIST, title);
+    struct popup *p = open_popup(app, POPUP_LIST, title, path);
     p->chosen = chosen;
     return p;
 }
 
 struct popup *ceduo_popup_text(struct app *app, const char *title)
 {
-    return open_popup(app, POPUP_TEXT, title);
+    return open_popup(app, POPUP_TEXT, title, "");
 }
 
-struct popup *ceduo_popup_fields(struct app *app, const char *title, popup_filled *filled)
+struct popup *ceduo_popup_fields(struct app *app, const char *title, const char *path, popup_check *filled)
 {
-    struct popup *p = open_popup(app, POPUP_FIELDS, title);
+    struct popup *p = open_popup(app, POPUP_FIELDS, title, path);
     p->filled = filled;
     return p;
 }
 
 void ceduo_popup_item(struct popup *p, const char *text, const char *value)
 {
-    ceduo_picker_add(&p->picker, text, value, false);
+    ceduo_picker_add(&p->picker, text, text, value, false);
 }
 
 void ceduo_popup_answer(struct popup *p, char key, const char *text, const char *value)
@@ -72,84 +73,112 @@ void ceduo_popup_answer(struct popup *p, char key, const char *text, const char 
     ceduo_popup_item(p, line, value);
 }
 
-void ceduo_popup_field(struct popup *p, const char *label, const char *value)
+struct popup_field *ceduo_popup_field(struct popup *p, const char *label, const char *value)
 {
-    ceduo_popup_choice(p, label, value, NULL);
+    struct popup_field *field = &p->fields[p->fields_count < POPUP_FIELDS_MAX ? p->fields_count++ : POPUP_FIELDS_MAX - 1];
+    snprintf(field->label, sizeof field->label, "%s", label);
+    ceduo_line_set(&field->line, value);
+    return field;
 }
 
-void ceduo_popup_choice(struct popup *p, const char *label, const char *value, popup_offer *offer)
+void ceduo_popup_choice(struct popup *p, const char *label, const char *value, popup_call *offer)
 {
-    if (p->fields_count == POPUP_FIELDS_MAX)
-        return;
-    snprintf(p->labels[p->fields_count], sizeof p->labels[0], "%s", label);
-    p->offers[p->fields_count] = offer;
-    ceduo_line_set(&p->fields[p->fields_count++], value);
+    ceduo_popup_field(p, label, value)->offer = offer;
 }
 
-bool ceduo_popup_number(struct app *app, const struct popup *p, size_t field, double *value)
+const struct field ceduo_popup_amount = {
+    .key = "", .type = FIELD_NUMBER, .unit = "", .scale = 1, .hi = INFINITY, .shown = {.per = 1, .most = INFINITY}};
+
+struct field *ceduo_popup_value(struct popup *p, const char *label, const char *value, const struct field *kind)
 {
-    if (ceduo_typed_number(p->fields[field].text, value) == CEDUO_NUMBER_GOOD)
+    struct popup_field *field = ceduo_popup_field(p, label, value);
+    struct field *own = ceduo_must(ceduo_arena_take(&p->arena, sizeof *own));
+    *own = *kind;
+    own->shown.label = field->label;
+    field->value = own;
+    return own;
+}
+
+/* ---- what is typed ---- */
+
+bool ceduo_popup_is_meant(struct app *app, const struct field *field, struct line *line)
+{
+    LOCAL_TEXT(why);
+    bool good = ceduo_typed_in_range(field, line->text, &why);
+    bool asks = good && !line->asked && ceduo_typed_unusual(field, line->text, &why);
+    line->asked |= asks;
+    if (why.bytes)
+        ceduo_app_warn(app, "%s", why.bytes);
+    return good && !asks;
+}
+
+bool ceduo_popup_read(struct app *app, const struct field *field, struct line *line, struct text *value)
+{
+    const char *label = _(field->shown.label);
+    bool list = field->type == FIELD_NUMBERS, needed = field->flags & FIELD_REQUIRED;
+    double number;
+    if (!ceduo_popup_is_meant(app, field, line))
+        return false;
+    if (line->text[0] == '\0') {
+        if (needed)
+            ceduo_app_warn(app, _("%s: it is needed; %s"), label, _(field->meaning));
+        return !needed;
+    }
+    ceduo_typed_value(field, line->text, value);
+    const char *written = ceduo_text_string(value);
+    if (list ? written[0] == '[' : written[0] == '{' || ceduo_number_read(written, &number) == CEDUO_NUMBER_GOOD)
         return true;
-    ceduo_app_warn(app, _("%s: '%s' is not a number"), p->labels[field], p->fields[field].text);
+    ceduo_app_warn(app, list ? _("%s: numbers with blanks between them, not '%s'") : _("%s: '%s' is not a number"), label,
+                   line->text);
     return false;
 }
 
-bool ceduo_popup_value(struct app *app, const struct field *field, const char *typed, double *value)
+bool ceduo_popup_number(struct app *app, struct popup *p, size_t i, double *number)
 {
-    struct text written = {0}, why = {0};
-    bool good = !field || ceduo_typed_in_range(field, typed, &why);
-    if (!good)
-        ceduo_app_warn(app, "%s", ceduo_text_string(&why));
-    ceduo_typed_value(field, typed, &written);
-    good = good && ceduo_number_read(ceduo_text_string(&written), value) == CEDUO_NUMBER_GOOD;
-    ceduo_text_free(&written);
-    ceduo_text_free(&why);
-    return good;
+    LOCAL_TEXT(value);
+    if (!ceduo_popup_read(app, p->fields[i].value, &p->fields[i].line, &value))
+        return false;
+    ceduo_number_read(ceduo_text_string(&value), number);
+    return true;
 }
 
 bool ceduo_popup_may_write(struct app *app, struct popup *p)
 {
-    const char *path = p->fields[0].text;
-    if (access(path, F_OK) != 0 || (p->kept && strcmp(p->kept, path) == 0))
+    struct line *line = &p->fields[0].line;
+    if (access(line->text, F_OK) != 0 || line->asked)
         return true;
-    free(p->kept);
-    p->kept = ceduo_must(strdup(path));
+    line->asked = true;
     ceduo_app_warn(app, "%s", _("there is such a file already; Enter once more replaces it"));
     return false;
 }
 
 /* ---- what is offered ---- */
 
-/* Shows in the popup what was said. */
-static void take_message(struct app *app, struct popup *p)
-{
-    snprintf(p->message, sizeof p->message, "%.*s", (int)sizeof p->message - 1, app->message);
-}
-
 /* The items for what is typed into the line under the cursor. */
 static void offer(struct app *app, struct popup *p)
 {
+    const struct popup_field *field = &p->fields[p->at];
+    const struct line *line = &field->line;
     p->ready = true;
     p->moved = false;
-    const struct line *line = &p->fields[p->at];
-    popup_offer *fill = p->offers[p->at];
-    if (fill || p->kind == POPUP_FIELDS)
+    if (field->offer || p->kind == POPUP_FIELDS)
         ceduo_picker_clear(&p->picker);
-    if (fill)
-        fill(app, p, line->text);
+    if (field->offer)
+        field->offer(app, p);
     ceduo_picker_filter(&p->picker, line->fresh ? "" : line->text);
     if (line->fresh)
         ceduo_picker_go_to(&p->picker, line->text);
     size_t n = strlen(line->text), end = p->endings ? strlen(p->endings) : 0;
     bool named = n > end && end > 0 && strcmp(line->text + n - end, p->endings) == 0;
-    if (!line->fresh && fill && !p->typed_wins && named && !ceduo_picker_at(&p->picker) && access(line->text, F_OK) != 0)
-        snprintf(p->message, sizeof p->message, _("there is no file '%.180s'"), line->text); /* not after the last question */
+    if (!line->fresh && field->offer && !p->typed_wins && named && !ceduo_picker_at(&p->picker) &&
+        access(line->text, F_OK) != 0)
+        ceduo_app_warn(app, _("there is no file '%.180s'"), line->text); /* not after the last question */
 }
 
 static void go_to_field(struct app *app, struct popup *p, size_t field)
 {
     p->at = field;
-    ceduo_line_set(&p->fields[field], p->fields[field].text);
+    ceduo_line_set(&p->fields[field].line, p->fields[field].line.text);
     offer(app, p);
 }
 
@@ -180,18 +209,19 @@ static void text_key(struct app *app, struct popup *p, int key)
 static void choose(struct app *app, struct popup *p)
 {
     const struct pick *pick = ceduo_picker_at(&p->picker);
-    const char *value = pick ? pick->value : p->endings && p->fields[0].text[0] ? p->fields[0].text : NULL;
-    if (!value)
+    p->value = pick ? pick->value : p->endings && p->fields[0].line.text[0] ? p->fields[0].line.text : NULL;
+    if (!p->value)
         return;
     app->popup = NULL;
-    p->chosen(app, p, value);
+    p->chosen(app, p);
     free_popup(p);
 }
 
 static void list_key(struct app *app, struct popup *p, int key)
 {
+    struct line *line = &p->fields[0].line;
     int by = lines_of(key, false);
-    p->message[0] = '\0';
+    app->message[0] = '\0';
     if (key == K_ESCAPE) {
         ceduo_popup_close(app);
     } else if (key == K_ENTER) {
@@ -205,28 +235,13 @@ static void list_key(struct app *app, struct popup *p, int key)
                 choose(app, p);
                 return;
             }
-    } else if (key == K_TAB) {
-        if (ceduo_picker_complete(&p->picker, &p->fields[0]))
-            offer(app, p);
-    } else if (ceduo_line_key(&p->fields[0], key)) {
+    } else if (key == K_TAB ? ceduo_picker_complete(&p->picker, line) : ceduo_line_key(line, key)) {
         offer(app, p);
     }
 }
 
-/* Goes on, unless something is wrong with the field. */
-static void leave_field(struct app *app, struct popup *p)
-{
-    app->message[0] = '\0';
-    if (!p->check || p->check(app, p, p->at))
-        go_to_field(app, p, p->at + 1);
-    else
-        take_message(app, p);
-    app->message[0] = '\0';
-}
-
 static void submit(struct app *app, struct popup *p)
 {
-    app->message[0] = '\0';
     app->popup = NULL;
     if (p->filled(app, p)) {
         free_popup(p);
@@ -234,35 +249,36 @@ static void submit(struct app *app, struct popup *p)
     }
     ceduo_popup_close(app); /* it may have opened another */
     app->popup = p;
-    take_message(app, p);
 }
 
 static void fields_key(struct app *app, struct popup *p, int key)
 {
-    bool last = p->at + 1 >= p->fields_count, listed = p->offers[p->at] && p->picker.matches > 0;
-    int by = lines_of(key, false);
+    struct popup_field *field = &p->fields[p->at];
+    struct line *line = &field->line;
+    bool last = p->at + 1 >= p->fields_count, listed = field->offer && p->picker.matches > 0;
     bool vertical = key == K_UP || key == K_DOWN || key == K_PAGE_UP || key == K_PAGE_DOWN;
-    p->message[0] = '\0';
+    app->message[0] = '\0';
     ceduo_jobs_stop(app->live.jobs, JOB_SEARCH); /* that these fields asked for */
     if (key == K_ESCAPE && p->at == 0) {
         ceduo_popup_close(app);
     } else if (key == K_ESCAPE || key == K_SHIFT_TAB || (key == K_UP && !listed)) {
         go_to_field(app, p, p->at > 0 ? p->at - 1 : 0);
     } else if (listed && vertical) {
-        ceduo_picker_move(&p->picker, by);
+        ceduo_picker_move(&p->picker, lines_of(key, false));
         p->moved = true;
-    } else if (key == K_TAB && p->endings && p->offers[p->at] && ceduo_picker_complete(&p->picker, &p->fields[p->at])) {
+    } else if (key == K_TAB && p->endings && field->offer && ceduo_picker_complete(&p->picker, line)) {
         offer(app, p);
     } else if (key == K_TAB || key == K_DOWN || key == K_ENTER) {
-        const struct pick *pick = p->offers[p->at] ? ceduo_picker_at(&p->picker) : NULL;
-        struct line *line = &p->fields[p->at];
-        if (pick && (p->moved || !(p->typed_wins || line->fresh))) /* what matches takes the place of what was typed */
-            ceduo_line_set(line, pick->value);
-        if (!last)
-            leave_field(app, p);
-        else if (key == K_ENTER)
+        const struct pick *pick = field->offer ? ceduo_picker_at(&p->picker) : NULL;
+        LOCAL_TEXT(value);
+        if (pick && (p->moved || !(p->typed_wins || line->fresh)) && strcmp(line->text, pick->value) != 0)
+            ceduo_line_set(line, pick->value); /* what matches takes the place of what was typed */
+        if (last && key == K_ENTER)
             submit(app, p);
-    } else if (ceduo_line_key(&p->fields[p->at], key)) {
+        else if (!last && (!field->value || ceduo_popup_read(app, field->value, line, &value)) &&
+                 (!p->check || p->check(app, p)))
+            go_to_field(app, p, p->at + 1);
+    } else if (ceduo_line_key(line, key)) {
         offer(app, p);
     }
 }
@@ -301,10 +317,11 @@ static void draw_more(struct app *app, const struct popup *p, bool above, bool b
 /* Draws a box in the middle of the screen, with its note in the first lines. Returns the area below the note. */
 static struct ceduo_area draw_frame(struct app *app, struct popup *p, int lines, int note_lines)
 {
-    int width = app->width - 2 < 84 ? app->width - 2 : 84, wanted = note_lines;
-    if (p->kind == POPUP_FIELDS && p->text.bytes) /* no more than it takes; over a list it changes with the cursor */
-        ceduo_app_text(app, (struct ceduo_area){0, 0, width - 4, 0}, CEDUO_ROLE_DIM, p->text.bytes, &wanted);
-    note_lines = p->text.bytes ? wanted : 0;
+    int width = app->width - 2 < 84 ? app->width - 2 : 84,
+        wanted = ceduo_app_text_lines(app, ceduo_text_string(&p->text), width - 4);
+    if (p->kind == POPUP_FIELDS) /* no more than it takes; over a list it changes with the cursor */
+        note_lines = wanted < note_lines ? wanted : note_lines;
+    note_lines = p->text.bytes || p->preview ? note_lines : 0;
     int max = app->height - 2, height = lines + note_lines + 2;
     note_lines = height > max && note_lines > max - 2 - LINES_MIN ? max - 2 - LINES_MIN : note_lines;
     height = height > max ? max : height;
@@ -313,7 +330,7 @@ static struct ceduo_area draw_frame(struct app *app, struct popup *p, int lines,
     p->box = r;
     draw_box(app, r, p->title);
     LOCAL_TEXT(note);
-    ceduo_text_put(&note, note_lines > 0 ? p->text.bytes : "");
+    ceduo_text_put(&note, note_lines > 0 ? ceduo_text_string(&p->text) : "");
     ceduo_app_put(app, in, CEDUO_ROLE_DIM, &note);
     in.top += note_lines;
     in.height = r.height - 2 - note_lines;
@@ -351,11 +368,11 @@ static void draw_list(struct app *app, struct popup *p)
     }
     ceduo_app_label(app, in.left, in.top, CEDUO_ROLE_DIM, "%s", _("search:"));
     int x = in.left + (int)ceduo_utf8_width(_("search:")) + 1;
-    draw_line(app, &p->fields[0], x, in.top, in.left + in.width - x, true);
+    draw_line(app, &p->fields[0].line, x, in.top, in.left + in.width - x, true);
     in.top++;
     in.height--;
-    if (p->message[0])
-        ceduo_app_text(app, in, CEDUO_ROLE_WARN, p->message, NULL);
+    if (app->message[0])
+        ceduo_app_text(app, in, CEDUO_ROLE_WARN, app->message, NULL);
     else if (p->picker.matches == 0)
         ceduo_app_text(app, in, CEDUO_ROLE_DIM, _("nothing matches"), NULL);
     else
@@ -370,23 +387,23 @@ static void draw_fields(struct app *app, struct popup *p)
 {
     int picks = 0;
     for (size_t i = 0; i < p->fields_count; i++)
-        picks = p->offers[i] ? PICKS_SHOWN : picks;
+        picks = p->fields[i].offer ? PICKS_SHOWN : picks;
     int below = p->picture ? PICTURE_SHOWN : picks;
     struct ceduo_area in = draw_frame(app, p, (int)p->fields_count + 2 + below, app->height);
     int x = in.left + 32, width = in.width - 32, n = (int)p->fields_count, at = (int)p->at;
     int shown = n <= in.height - FOOT_MIN ? n : in.height - FOOT_MIN;
     p->top = at < p->top ? at : at >= p->top + shown ? at + 1 - shown : p->top;
     for (int i = p->top; i < p->top + shown; i++, in.top++, in.height--) {
-        ceduo_canvas_put(&app->cells->canvas, in.left, in.top, 31, CEDUO_ROLE_DIM, p->labels[i]);
-        draw_line(app, &p->fields[i], x, in.top, width, i == at);
+        ceduo_canvas_put(&app->cells->canvas, in.left, in.top, 31, CEDUO_ROLE_DIM, p->fields[i].label);
+        draw_line(app, &p->fields[i].line, x, in.top, width, i == at);
     }
     if (shown < n)
         draw_more(app, p, p->top > 0, p->top + shown < n);
     struct ceduo_area first = {in.left, in.top, in.width, in.height < 2 ? in.height : 2};
-    ceduo_app_text(app, first, CEDUO_ROLE_WARN, p->message, NULL);
-    if (p->picture && (!p->offers[p->at] || p->picker.matches == 0) && !p->message[0])
+    ceduo_app_text(app, first, CEDUO_ROLE_WARN, app->message, NULL);
+    if (p->picture && (!p->fields[p->at].offer || p->picker.matches == 0) && !app->message[0])
         p->picture(app, p, (struct ceduo_area){in.left, in.top + 1, in.width, in.height - 1});
-    else if (!p->message[0])
+    else if (!app->message[0])
         draw_picks(app, p, (struct ceduo_area){in.left + 2, in.top + 1, in.width - 2, in.height - 1});
 }
 
@@ -412,11 +429,10 @@ bool ceduo_popup_paste(struct app *app, const char *text)
         return false;
     if (p->kind == POPUP_FIELDS)
         ceduo_jobs_stop(app->live.jobs, JOB_SEARCH); /* as a key does */
-    p->message[0] = '\0';
-    if (ceduo_line_paste(&p->fields[p->at], text))
+    if (ceduo_line_paste(&p->fields[p->at].line, text))
         offer(app, p);
     else
-        snprintf(p->message, sizeof p->message, "%s", _(CEDUO_LINE_FULL));
+        ceduo_app_warn(app, "%s", _(CEDUO_LINE_FULL));
     return true;
 }
 
@@ -431,27 +447,31 @@ void ceduo_popup_look(struct app *app)
     if (!p->ready)
         offer(app, p);
     const struct pick *pick = ceduo_picker_at(&p->picker);
-    if (p->kind == POPUP_TEXT || !p->preview || !pick || strcmp(p->previewed, pick->value) == 0)
+    if (p->kind == POPUP_TEXT || !p->preview || !pick || p->value == pick->value)
         return;
-    snprintf(p->previewed, sizeof p->previewed, "%s", pick->value);
+    p->value = pick->value;
     p->ahead_known = false;
-    p->preview(app, p, pick->value);
+    ceduo_text_free(&p->text);
+    p->preview(app, p);
 }
 
 void ceduo_popup_previewed(struct app *app, const struct preview *preview)
 {
     struct popup *p = app->popup;
-    if (!p || p->kind == POPUP_TEXT || !p->preview || !p->previewed[0])
+    if (!p || p->kind == POPUP_TEXT || !p->preview || !p->value)
         return;
     p->ahead = *preview;
     p->ahead_known = true;
-    p->preview(app, p, p->previewed);
+    ceduo_text_free(&p->text);
+    p->preview(app, p);
 }
 
 void ceduo_popup_draw(struct app *app)
 {
     struct popup *p = app->popup;
-    if (p->kind == POPUP_TEXT && p->preview)
-        p->preview(app, p, "");
+    if (p->kind == POPUP_TEXT && p->preview) {
+        ceduo_text_free(&p->text);
+        p->preview(app, p);
+    }
     kinds[p->kind].draw(app, p);
 }

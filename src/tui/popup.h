@@ -11,23 +11,26 @@ enum popup_kind { POPUP_TEXT, POPUP_LIST, POPUP_FIELDS };
 
 #define POPUP_FIELDS_MAX 16
 
-/* An item was chosen; the popup is off the screen already, and freed after the call. */
-typedef void popup_chosen(struct app *app, struct popup *popup, const char *value);
+/* What a popup calls. */
+typedef void popup_call(struct app *app, struct popup *popup);
 
-/* The fields were filled. False: app->message says what is wrong, and it stays open. */
-typedef bool popup_filled(struct app *app, struct popup *popup);
+/* The fields were filled, or one of them is left. False: it is said what is wrong, and it stays open. */
+typedef bool popup_check(struct app *app, struct popup *popup);
 
-/* Adds to the picker what goes with the text that is typed into the line under the cursor. */
-typedef void popup_offer(struct app *app, struct popup *popup, const char *typed);
+/* A line to fill. */
+struct popup_field {
+    char label[40];
+    struct line line;
+    popup_call *offer;   /* adds to the picker what goes with the text that is typed; NULL: nothing is offered */
+    struct field *value; /* what may stand there: it is checked as the line is left; NULL: anything */
+};
 
 struct popup {
     enum popup_kind kind;
-    char title[128];
+    const char *title;
     struct arena arena;
-    struct text text; /* to read; over a list or fields: what it is about */
-    char labels[POPUP_FIELDS_MAX][40];
-    struct line fields[POPUP_FIELDS_MAX];  /* to fill; of a list the first: what is searched for */
-    popup_offer *offers[POPUP_FIELDS_MAX]; /* NULL: none; of a list: its items stay the same */
+    struct text text;                            /* to read; over a list or fields: what it is about */
+    struct popup_field fields[POPUP_FIELDS_MAX]; /* of a list the first: what is searched for, and its items if they change */
     size_t fields_count;
     size_t at;             /* the field under the cursor */
     struct picker picker;  /* of the list, or of the field under the cursor */
@@ -38,37 +41,42 @@ struct popup {
     bool typed_wins;       /* a new name: what is typed stays, unless the cursor was moved in the picker */
     int top;               /* the first line shown of a text, or field */
     struct ceduo_area box; /* where it was drawn */
-    char message[256];
-    char path[1024]; /* what a choice is for */
-    char *kept;      /* a text that goes with it */
-    popup_chosen *chosen;
-    popup_chosen *preview; /* puts `text` anew for the item under the cursor; NULL: it stays */
-    char previewed[256];   /* the item that `text` is about */
+    const char *path;      /* what a choice is for */
+    const char *kept;      /* a text that goes with it */
+    const char *value;     /* the item under the cursor, or the one that was chosen */
     struct preview ahead;  /* what it would do to the lights, once that is computed */
     bool ahead_known;
-    popup_filled *filled;
+    popup_call *chosen;  /* `value`; the popup is off the screen already, and freed after the call */
+    popup_call *preview; /* puts `text` anew for `value`; of a text: each time it is drawn; NULL: it stays */
+    popup_check *filled, *check;
     void (*picture)(struct app *app, struct popup *popup, struct ceduo_area area); /* below fields, where nothing is offered */
-    bool (*check)(struct app *app, struct popup *popup, size_t field); /* as a field is left; false: it is said why */
-    void (*then)(struct app *app);                                     /* what goes on once unsaved work is saved or given up */
+    void (*then)(struct app *app); /* what goes on once unsaved work is saved or given up */
 };
 
-/* Each opens a popup in place of any other. */
+/* Each opens a popup in place of any other; `path`: what it is for, kept as a copy. */
 struct popup *ceduo_popup_text(struct app *app, const char *title);
-struct popup *ceduo_popup_list(struct app *app, const char *title, popup_chosen *chosen);
-struct popup *ceduo_popup_fields(struct app *app, const char *title, popup_filled *filled);
+struct popup *ceduo_popup_list(struct app *app, const char *title, const char *path, popup_call *chosen);
+struct popup *ceduo_popup_fields(struct app *app, const char *title, const char *path, popup_check *filled);
 void ceduo_popup_item(struct popup *popup, const char *text, const char *value);
 /* An answer that a key gives, which stands before its words; all items of the list must be such. */
 void ceduo_popup_answer(struct popup *popup, char key, const char *text, const char *value);
-void ceduo_popup_field(struct popup *popup, const char *label, const char *value);
+struct popup_field *ceduo_popup_field(struct popup *popup, const char *label, const char *value);
 /* A field with a list of what may stand in it; what matches what is typed is taken. */
-void ceduo_popup_choice(struct popup *popup, const char *label, const char *value, popup_offer *offer);
+void ceduo_popup_choice(struct popup *popup, const char *label, const char *value, popup_call *offer);
+/* A number that is none of a file, from 0 on. */
+extern const struct field ceduo_popup_amount;
+/* A field for a value of a kind, of which it has a copy that the caller may change. */
+struct field *ceduo_popup_value(struct popup *popup, const char *label, const char *value, const struct field *kind);
 
-/* Reads a number that was typed into a field, with a dot or a comma; false where it is none, which is said. */
-bool ceduo_popup_number(struct app *app, const struct popup *popup, size_t field, double *value);
+/* Whether what is typed into a line lies in the range of its kind, and is usual; otherwise that is said, or asked back. The same
+ * once more is taken. */
+bool ceduo_popup_is_meant(struct app *app, const struct field *kind, struct line *line);
 
-/* Reads a value that was typed as its field is shown, which may be NULL, into the unit of the file; false where it is none or
- * out of range, which is said. */
-bool ceduo_popup_value(struct app *app, const struct field *field, const char *typed, double *value);
+/* Reads it as a file has it; false where it is not meant, no such value, or needed and missing, which is said. */
+bool ceduo_popup_read(struct app *app, const struct field *kind, struct line *line, struct text *value);
+
+/* The number in a field that has a kind, in the file's unit; `*number` stays where the line is empty. */
+bool ceduo_popup_number(struct app *app, struct popup *popup, size_t field, double *number);
 
 /* Returns whether the file named in the first field may be written. For an existing file it asks for Enter once more. */
 bool ceduo_popup_may_write(struct app *app, struct popup *popup);

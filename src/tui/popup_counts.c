@@ -1,14 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A stand from what a sample plot counts and measures. */
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 #include "base/language.h"
 #include "model/changes.h"
 #include "popup.h"
 #include "popups.h"
-#include "view/typed.h"
 
 /* Numbers but for COUNT_HOW. */
 enum {
@@ -30,85 +28,54 @@ enum {
 
 static const struct {
     const char *label;
-    size_t count;     /* that it is the size of; of what was not counted none need be said */
-    bool zero, empty; /* it may be that */
-    const char *path; /* of a value of a file: what is unusual there is asked back */
-} fields[COUNTS] = {
-    [COUNT_AREA] = {N_("size of the plot, m2"), COUNTS, false, false, NULL},
-    [COUNT_HOW] = {N_("measured along the slope or map"), COUNTS, true, true, NULL},
-    [COUNT_ANGLE] = {N_("angle of the slope, degrees"), COUNTS, true, false, NULL},
-    [COUNT_STOOLS] = {N_("stools counted"), COUNTS, true, true, NULL},
-    [COUNT_SHOOTS] = {N_("shoots counted on them"), COUNTS, true, true, NULL},
-    [COUNT_SHOOT_DBH] = {N_("their mean diameter, cm"), COUNT_SHOOTS, false, false, "forest[0].stand.shoots[0].dbh_m"},
-    [COUNT_SHOOT_HEIGHT] = {N_("their mean height, m"), COUNT_SHOOTS, false, false, "forest[0].stand.shoots[0].height_m"},
-    [COUNT_TREES] = {N_("single trees counted"), COUNTS, true, true, NULL},
-    [COUNT_TREE_DBH] = {N_("their mean diameter, cm"), COUNT_TREES, false, false, "forest[0].stand.trees[0].dbh_m"},
-    [COUNT_TREE_HEIGHT] = {N_("their mean height, m"), COUNT_TREES, false, false, "forest[0].stand.trees[0].height_m"}};
+    size_t count;     /* that it is the size of; of what was not counted none is read */
+    const char *path; /* of a value of a file, which says what it may be; otherwise: */
+    double most;
+    unsigned flags;
+    const char *meaning;
+} rows[COUNTS] = {
+    [COUNT_AREA] = {N_("size of the plot, m2"), COUNTS, NULL, 1e6, FIELD_REQUIRED | FIELD_ABOVE, N_("all was counted on it")},
+    [COUNT_HOW] = {N_("measured along the slope or map"), COUNTS, NULL, 0, 0, NULL},
+    [COUNT_ANGLE] = {N_("angle of the slope, degrees"), COUNTS, NULL, 90, FIELD_REQUIRED | FIELD_UNDER,
+                     N_("0 on level ground")},
+    [COUNT_STOOLS] = {N_("stools counted"), COUNTS, NULL, 1e6, 0, NULL},
+    [COUNT_SHOOTS] = {N_("shoots counted on them"), COUNTS, NULL, 1e6, 0, NULL},
+    [COUNT_SHOOT_DBH] = {N_("their mean diameter, cm"), COUNT_SHOOTS, "forest[0].stand.shoots[0].dbh_m", 0, 0, NULL},
+    [COUNT_SHOOT_HEIGHT] = {N_("their mean height, m"), COUNT_SHOOTS, "forest[0].stand.shoots[0].height_m", 0, 0, NULL},
+    [COUNT_TREES] = {N_("single trees counted"), COUNTS, NULL, 1e6, 0, NULL},
+    [COUNT_TREE_DBH] = {N_("their mean diameter, cm"), COUNT_TREES, "forest[0].stand.trees[0].dbh_m", 0, 0, NULL},
+    [COUNT_TREE_HEIGHT] = {N_("their mean height, m"), COUNT_TREES, "forest[0].stand.trees[0].height_m", 0, 0, NULL}};
 
 struct plot {
-    double values[COUNTS]; /* as typed */
+    double values[COUNTS]; /* in the units of files */
     double area, per;      /* m2, horizontal; per ha for each one that was counted */
 };
-
-/* ---- reading ---- */
-
-static bool is_needed(const struct plot *plot, size_t i)
-{
-    return fields[i].count == COUNTS || plot->values[fields[i].count] > 0;
-}
 
 static bool read_plot(struct app *app, struct popup *p, struct plot *plot)
 {
     double *v = plot->values;
-    const char *how = p->fields[COUNT_HOW].text;
-    bool along = strcmp(how, ALONG_SLOPE) == 0;
+    const char *how = p->fields[COUNT_HOW].line.text, *wrong = NULL;
     for (size_t i = 0; i < COUNTS; i++) {
-        const char *typed = p->fields[i].text;
+        bool sized = rows[i].count != COUNTS;
         v[i] = 0;
-        if (i == COUNT_HOW || (fields[i].empty && typed[0] == '\0') || !is_needed(plot, i))
+        if (i == COUNT_HOW || (sized && !(v[rows[i].count] > 0)))
             continue;
         if (!ceduo_popup_number(app, p, i, &v[i]))
             return false;
-        if (!(v[i] > 0) && !(fields[i].zero && v[i] >= 0)) {
-            ceduo_app_warn(app, fields[i].zero ? _("%s: %s is below 0") : _("%s: %s is not above 0"), p->labels[i], typed);
-            return false;
-        }
+        if (sized && v[i] == 0)
+            wrong = ceduo_app_format(app, _("%s: it is needed; %s"), _(rows[i].label), _(rows[rows[i].count].label));
     }
-    const char *wrong = v[COUNT_ANGLE] >= 90 ? _("the angle must be below 90 degrees")
-                        : v[COUNT_SHOOTS] > 0 && v[COUNT_SHOOTS] < v[COUNT_STOOLS]
-                            ? _("fewer shoots than stools: a stool has one shoot at least")
-                        : (v[COUNT_SHOOTS] > 0) != (v[COUNT_STOOLS] > 0) ? _("stools and shoots belong together: count both")
-                                                                         : NULL;
-    if (!along && strcmp(how, ON_MAP) != 0)
-        ceduo_app_warn(app, _("'%s': slope or map is wanted"), how);
-    else if (wrong)
+    if (strcmp(how, ALONG_SLOPE) != 0 && strcmp(how, ON_MAP) != 0)
+        wrong = ceduo_app_format(app, _("'%s': slope or map is wanted"), how);
+    else if (v[COUNT_SHOOTS] > 0 && v[COUNT_SHOOTS] < v[COUNT_STOOLS])
+        wrong = _("fewer shoots than stools: a stool has one shoot at least");
+    else if ((v[COUNT_SHOOTS] > 0) != (v[COUNT_STOOLS] > 0))
+        wrong = _("stools and shoots belong together: count both");
+    if (wrong)
         ceduo_app_warn(app, "%s", wrong);
-    else {
-        plot->area = along ? v[COUNT_AREA] * cos(v[COUNT_ANGLE] * M_PI / 180) : v[COUNT_AREA];
-        plot->per = 10000 / plot->area;
-        return true;
-    }
-    return false;
-}
-
-/* What is so unusual that it is asked back; the same once more is taken. */
-static bool is_usual(struct app *app, struct popup *p, const struct plot *plot)
-{
-    for (size_t i = 0; i < COUNTS; i++) {
-        struct line *line = &p->fields[i];
-        if (!fields[i].path || !is_needed(plot, i))
-            continue;
-        LOCAL_TEXT(why);
-        const struct field *f = ceduo_schema_at(fields[i].path);
-        bool good = ceduo_typed_in_range(f, line->text, &why);
-        bool asked = good && !line->asked && ceduo_typed_unusual(f, line->text, &why);
-        line->asked |= asked;
-        if (why.bytes)
-            ceduo_app_warn(app, "%s", why.bytes);
-        if (!good || asked)
-            return false;
-    }
-    return true;
+    plot->area = v[COUNT_AREA] * (strcmp(how, ALONG_SLOPE) == 0 ? cos(v[COUNT_ANGLE] * M_PI / 180) : 1);
+    plot->per = 10000 / plot->area;
+    return !wrong;
 }
 
 /* ---- the stand ---- */
@@ -120,7 +87,7 @@ static void change_stems(struct changes *c, const char *path, const struct plot 
 {
     const double *v = &plot->values[count];
     if (v[0] > 0)
-        ceduo_changes_add(c, "%s=[{per_ha: %.6g, dbh_m: %.10g, height_m: %.10g}]", path, v[0] * plot->per, v[1] / 100, v[2]);
+        ceduo_changes_add(c, "%s=[{per_ha: %.6g, dbh_m: %.10g, height_m: %.10g}]", path, v[0] * plot->per, v[1], v[2]);
     else
         ceduo_changes_remove(c, path);
 }
@@ -129,7 +96,7 @@ static bool filled_counts(struct app *app, struct popup *p)
 {
     struct plot plot;
     struct changes changes = {.d = &app->document}, *c = &changes;
-    if (!read_plot(app, p, &plot) || !is_usual(app, p, &plot))
+    if (!read_plot(app, p, &plot))
         return false;
     const struct ceduo_stand *now = &ceduo_app_option(app)->belts[app->belt].stand;
     const char *stools = ceduo_app_format(app, "%s.stools", p->path);
@@ -151,10 +118,9 @@ static bool filled_counts(struct app *app, struct popup *p)
 
 /* ---- asking ---- */
 
-static void offer_how(struct app *app, struct popup *p, const char *typed)
+static void offer_how(struct app *app, struct popup *p)
 {
     (void)app;
-    (void)typed;
     ceduo_popup_item(p, _("slope: the tape lay on the ground"), ALONG_SLOPE);
     ceduo_popup_item(p, _("map: horizontal"), ON_MAP);
 }
@@ -169,8 +135,7 @@ void ceduo_popup_counts(struct app *app)
     const struct ceduo_stand *stand = &belt->stand;
     const struct ceduo_slope *s = &app->document.file.scene.slope;
     double fall = ceduo_slope_height(s, belt->from) - ceduo_slope_height(s, belt->to);
-    struct popup *p = ceduo_popup_fields(app, _("Stand from the counts of a sample plot"), filled_counts);
-    snprintf(p->path, sizeof p->path, "%s", ceduo_app_stand(app));
+    struct popup *p = ceduo_popup_fields(app, _("Stand from the counts of a sample plot"), ceduo_app_stand(app), filled_counts);
     ceduo_text_format(&p->text,
                       _("Densities are per horizontal hectare: 400 m2 along a slope of 40 degrees are 306 m2. "
                         "Nothing counted is nothing there. Species, growth and cuts stay those of %s."),
@@ -183,10 +148,16 @@ void ceduo_popup_counts(struct app *app)
         [COUNT_TREE_DBH] = stand->trees_count ? stand->trees[0].dbh * 100 : 0,
         [COUNT_TREE_HEIGHT] = stand->trees_count ? stand->trees[0].height : 0,
     };
-    for (size_t i = 0; i < COUNTS; i++)
-        ceduo_popup_choice(p, _(fields[i].label),
-                           i == COUNT_HOW   ? ALONG_SLOPE
-                           : offered[i] > 0 ? ceduo_number_spoken(ceduo_app_format(app, "%.6g", offered[i]))
-                                            : "",
-                           i == COUNT_HOW ? offer_how : NULL);
+    for (size_t i = 0; i < COUNTS; i++) {
+        const char *value = offered[i] > 0 ? ceduo_number_spoken(ceduo_app_format(app, "%.6g", offered[i])) : "";
+        if (i == COUNT_HOW) {
+            ceduo_popup_choice(p, _(rows[i].label), ALONG_SLOPE, offer_how);
+            continue;
+        }
+        struct field *own =
+            ceduo_popup_value(p, _(rows[i].label), value, rows[i].path ? ceduo_schema_at(rows[i].path) : &ceduo_popup_amount);
+        own->flags = rows[i].path ? own->flags & ~(unsigned)FIELD_REQUIRED : rows[i].flags;
+        own->hi = rows[i].path ? own->hi : rows[i].most;
+        own->meaning = rows[i].meaning;
+    }
 }

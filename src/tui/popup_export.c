@@ -15,7 +15,6 @@
 #include "view/figures.h"
 #include "view/html.h"
 #include "view/page.h"
-#include "view/svg.h"
 
 /* The command that gives the same figures; `how`: as what. */
 static void append_command(struct app *app, struct text *text, const char *how)
@@ -28,11 +27,9 @@ static void append_command(struct app *app, struct text *text, const char *how)
 }
 
 /* More rocks may fall while it is read. */
-static void show_command(struct app *app, struct popup *p, const char *value)
+static void show_command(struct app *app, struct popup *p)
 {
     const struct ceduo_arrivals *shown = ceduo_app_shown(app);
-    (void)value;
-    ceduo_text_free(&p->text);
     append_command(app, &p->text, "--batch");
     ceduo_text_char(&p->text, '\n');
     if (shown)
@@ -46,35 +43,6 @@ static void show_command(struct app *app, struct popup *p, const char *value)
         ceduo_text_put(&p->text, _("\nThere is unsaved work: s saves it first.\n"));
 }
 
-/* How sure it is, where that is known already, is part of the page. */
-static void put_page(struct app *app, struct text *text)
-{
-    struct ceduo_report report = ceduo_app_report(app);
-    struct ceduo_doubt_report doubt;
-    if (ceduo_app_doubt(app, &doubt))
-        report.doubt = &doubt;
-    ceduo_report_short(text, &report, app->charset == CEDUO_CHARSET_ASCII);
-}
-
-static void put_table(struct app *app, struct text *text)
-{
-    struct ceduo_report report = ceduo_app_report(app);
-    ceduo_report_table(text, &report, app->charset == CEDUO_CHARSET_ASCII);
-}
-
-static void put_csv(struct app *app, struct text *text)
-{
-    struct ceduo_report report = ceduo_app_report(app);
-    ceduo_csv_head(text, &ceduo_control_csv);
-    ceduo_csv_rows(text, &ceduo_control_csv, &(struct ceduo_place){.report = &report});
-}
-
-static void put_json(struct app *app, struct text *text)
-{
-    struct ceduo_report report = ceduo_app_report(app);
-    ceduo_figures_json(text, ceduo_result_figures, &(struct ceduo_place){.report = &report}, report.details);
-}
-
 /* Whether all that will be known of doubt is. */
 static bool is_sure(const struct app *app)
 {
@@ -83,25 +51,21 @@ static bool is_sure(const struct app *app)
 }
 
 /* Of the figures as they are, and without doubt where that is not known yet: nobody waits while a screen is to be used. */
-static void put_report(struct app *app, struct text *text)
+static void put_html(struct app *app, struct ceduo_report *report, struct text *text)
 {
     struct ceduo_doubt_report doubt;
     bool sure =
         is_sure(app) && app->live.result->wooded && !ceduo_page_says_nothing(app->live.result) && ceduo_app_doubt(app, &doubt);
     const struct ceduo_scene *scene = &app->document.file.scene;
-    struct ceduo_years **years = ceduo_arena_take(app->scratch, scene->options_count * sizeof *years);
-    struct ceduo_report report = ceduo_app_report(app);
     struct ceduo_html html = {.text = text};
     struct ceduo_page page = {.width = CEDUO_PAGE_REPORT_WIDTH};
-    struct text command = {0};
-    for (size_t i = 0; i < scene->options_count; i++)
-        years[i] = ceduo_live_years(&app->live, scene, i);
+    LOCAL_TEXT(command);
     append_command(app, &command, "--report report.html");
-    const struct ceduo_chapter chapter = {.report = &report,
+    const struct ceduo_chapter chapter = {.report = report,
                                           .snapshot = ceduo_live_snapshot(&app->live, scene),
-                                          .years = years,
+                                          .years = ceduo_app_years(app),
                                           .doubt = sure ? &doubt : NULL,
-                                          .command = ceduo_app_kept(app, &command)};
+                                          .command = command.bytes};
     doubt.over = false;
     ceduo_page_chapter(&page, &chapter);
     ceduo_page_html_begin(&html, ceduo_in_language(scene->title, scene->title_it));
@@ -110,129 +74,127 @@ static void put_report(struct app *app, struct text *text)
     ceduo_page_free(&page);
 }
 
-static void put_drawing(struct app *app, struct text *text)
-{
-    ceduo_screen_draw(app);
-    ceduo_svg_screen(text, app->cells, app->document.file.scene.title);
-}
-
-static void put_screen(struct app *app, struct text *text)
-{
-    ceduo_screen_draw(app); /* without the popup, which is off already */
-    char *screen = ceduo_cells_dump(app->cells);
-    ceduo_text_put(text, screen ? screen : "");
-    free(screen);
-}
+enum export { EXPORT_PAGE, EXPORT_TABLE, EXPORT_SCREEN, EXPORT_CSV, EXPORT_JSON, EXPORT_REPORT, EXPORT_COMMAND, EXPORTS };
 
 static const struct {
-    const char *name, *file, *what;
-    void (*put)(struct app *app, struct text *text); /* NULL: it is shown, not written */
-} exports[] = {{"page", "ceduo.txt", N_("the page, as text"), put_page},
-               {"table", "ceduo-details.txt", N_("the whole page with all figures, as text"), put_table},
-               {"picture", "ceduo-screen.txt", N_("this screen, with its picture, as text"), put_screen},
-               {"csv", "ceduo.csv", N_("CSV, a row for each option and control"), put_csv},
-               {"json", "ceduo.json", N_("JSON"), put_json},
-               {"report", "ceduo.html", N_("a page to hand in, as HTML"), put_report},
-               {"drawing", "ceduo-screen.svg", N_("this screen as a drawing, SVG"), put_drawing},
-               {"command", "", N_("the batch command that gives the same"), NULL}};
-#define EXPORTS (sizeof exports / sizeof exports[0])
+    const char *file, *what; /* file NULL: it is shown, not written */
+} exports[EXPORTS] = {{"ceduo.txt", N_("the page, as text")},
+                      {"ceduo-details.txt", N_("the whole page with all figures, as text")},
+                      {"ceduo-screen.txt", N_("this screen, with its picture, as text")},
+                      {"ceduo.csv", N_("CSV, a row for each option and control")},
+                      {"ceduo.json", N_("JSON")},
+                      {"ceduo.html", N_("a page to hand in, as HTML")},
+                      {NULL, N_("the batch command that gives the same")}};
 
-static size_t export_of(const char *name)
+static void append_export(struct app *app, enum export export, struct text *text)
 {
-    size_t i = 0;
-    while (i + 1 < EXPORTS && strcmp(exports[i].name, name) != 0)
-        i++;
-    return i;
+    struct ceduo_report report = ceduo_app_report(app);
+    struct ceduo_doubt_report doubt;
+    bool ascii = app->charset == CEDUO_CHARSET_ASCII;
+    if (export == EXPORT_SCREEN) {
+        ceduo_screen_draw(app); /* without the popup, which is off already */
+        char *screen = ceduo_cells_dump(app->cells);
+        ceduo_text_put(text, screen ? screen : "");
+        free(screen);
+    } else if (!app->live.result) {
+        return;
+    } else if (export == EXPORT_PAGE) { /* how sure it is, where that is known already, is part of the page */
+        report.doubt = ceduo_app_doubt(app, &doubt) ? &doubt : NULL;
+        ceduo_report_short(text, &report, ascii);
+    } else if (export == EXPORT_TABLE) {
+        ceduo_report_table(text, &report, ascii);
+    } else if (export == EXPORT_CSV) {
+        ceduo_csv_head(text, &ceduo_control_csv);
+        ceduo_csv_rows(text, &ceduo_control_csv, &(struct ceduo_place){.report = &report});
+    } else if (export == EXPORT_JSON) {
+        ceduo_figures_json(text, ceduo_result_figures, &(struct ceduo_place){.report = &report}, report.details);
+    } else {
+        put_html(app, &report, text);
+    }
 }
 
 static bool filled_export(struct app *app, struct popup *p)
 {
-    const char *path = p->fields[0].text;
-    struct text text = {0};
-    bool good = false;
+    const char *path = p->fields[0].line.text;
+    enum export export = (enum export)atoi(p->path);
+    LOCAL_TEXT(text);
     if (!ceduo_popup_may_write(app, p))
         return false;
-    size_t i = export_of(p->path);
-    if (app->live.result || exports[i].put == put_screen || exports[i].put == put_drawing)
-        exports[i].put(app, &text);
-    if (!text.bytes) {
+    append_export(app, export, &text);
+    bool good = text.bytes && ceduo_file_write(path, text.bytes, text.length);
+    if (!text.bytes)
         ceduo_app_warn(app, "%s", _("nothing is computed yet"));
-    } else if (!ceduo_file_write(path, text.bytes, text.length)) {
+    else if (!good)
         ceduo_app_warn(app, "%s: %s", path, strerror(errno));
-    } else {
+    else
         ceduo_app_say(app,
-                      exports[i].put == put_report && !is_sure(app)
+                      export == EXPORT_REPORT && !is_sure(app)
                           ? _("written: %s; how sure it is was not known yet: write it again in a moment")
                           : _("written: %s"),
                       path);
-        good = true;
-    }
-    ceduo_text_free(&text);
     return good;
 }
 
-static void ask_for_file(struct app *app, size_t i)
+/* `export`: its number. */
+static void ask_for_file(struct app *app, const char *export)
 {
     /* the report says how sure it is, over the rotation as well: that is computed while its file is named; a head is an edit */
     ceduo_live_doubt(&app->live, &app->document.file, app->option, UNCERTAINTY_ROTATION);
-    struct popup *q = ceduo_popup_fields(app, _("Export to a file"), filled_export);
-    snprintf(q->path, sizeof q->path, "%s", exports[i].name);
-    q->endings = strrchr(exports[i].file, '.');
-    q->typed_wins = true;
-    ceduo_popup_choice(q, _("file"), exports[i].file, ceduo_popup_offer_files);
+    struct popup *p = ceduo_popup_fields(app, _("Export to a file"), export, filled_export);
+    const char *file = exports[atoi(export)].file;
+    p->endings = strrchr(file, '.');
+    p->typed_wins = true;
+    ceduo_popup_choice(p, _("file"), file, ceduo_popup_offer_files);
 }
 
 /* What was typed is the scene's from then on, as one edit. */
 static bool filled_head(struct app *app, struct popup *p)
 {
-    const struct object *page = ceduo_schema_field(ceduo_schema_scene(), "page")->object;
+    const struct object *page = ceduo_schema_row("page")->object;
     LOCAL_TEXT(head);
     for (size_t i = 0; i < p->fields_count; i++)
-        if (p->fields[i].text[0]) {
+        if (p->fields[i].line.text[0]) {
             ceduo_text_format(&head, "%s%s: ", head.length > 0 ? ", " : "{", page->fields[i].key);
-            ceduo_emit_scalar(&head, p->fields[i].text, true);
+            ceduo_emit_scalar(&head, p->fields[i].line.text, true);
         }
     if (head.length > 0) {
         ceduo_text_char(&head, '}');
         if (!ceduo_app_edited(app, ceduo_document_set(&app->document, "page", head.bytes, &app->problems)))
             return false;
     }
-    ask_for_file(app, export_of(p->path));
+    ask_for_file(app, p->path);
     return true;
 }
 
-static void ask_for_head(struct app *app, const char *export)
+static void chose_export(struct app *app, struct popup *p)
 {
-    const struct object *page = ceduo_schema_field(ceduo_schema_scene(), "page")->object;
-    struct popup *p = ceduo_popup_fields(app, _("Head of the report"), filled_head);
+    enum export export = (enum export)atoi(p->value);
+    if (export == EXPORT_COMMAND) {
+        ceduo_popup_text(app, _("The batch command that gives the same"))->preview = show_command;
+        return;
+    }
+    if (export != EXPORT_REPORT || ceduo_document_node(&app->document, "page")) {
+        ask_for_file(app, p->value);
+        return;
+    }
+    const struct object *page = ceduo_schema_row("page")->object;
+    struct popup *head = ceduo_popup_fields(app, _("Head of the report"), p->value, filled_head);
     char today[32];
     time_t now = time(NULL);
     struct tm local;
     /* Translators: a date, as strftime() writes it. */
     strftime(today, sizeof today, _("%Y-%m-%d"), localtime_r(&now, &local));
-    snprintf(p->path, sizeof p->path, "%s", export);
-    ceduo_text_put(&p->text, _("Each line may stay empty. What is written here is kept in the scene, as 'page'."));
+    ceduo_text_put(&head->text, _("Each line may stay empty. What is written here is kept in the scene, as 'page'."));
     for (size_t i = 0; i < page->n; i++)
-        ceduo_popup_field(p, _(page->fields[i].shown.label), strcmp(page->fields[i].key, "date") == 0 ? today : "");
-}
-
-static void chose_export(struct app *app, struct popup *p, const char *value)
-{
-    size_t i = export_of(value);
-    (void)p;
-    if (!exports[i].put)
-        ceduo_popup_text(app, _("The batch command that gives the same"))->preview = show_command;
-    else if (exports[i].put == put_report && !ceduo_document_node(&app->document, "page"))
-        ask_for_head(app, value);
-    else
-        ask_for_file(app, i);
+        ceduo_popup_field(head, _(page->fields[i].shown.label), strcmp(page->fields[i].key, "date") == 0 ? today : "");
 }
 
 /* ---- the clipboard ---- */
 
 #define COPY_WIDTH 78 /* of a letter */
 
-/* The view drawn by itself, long enough for all of it, its pictures left blank; runs of blank lines are one. Returns how many others there are. */
+/* The view drawn by itself, long enough for all of it, its pictures left blank; runs of blank lines are one.
+ * Returns how many others there are. */
 static size_t append_view(struct app *app, struct text *text)
 {
     struct view_state *state = ceduo_app_state(app), kept = *state;
@@ -260,20 +222,20 @@ static size_t append_view(struct app *app, struct text *text)
 
 void ceduo_popup_copy(struct app *app)
 {
-    struct text text = {0};
+    const struct ceduo_result *r = app->live.result;
+    const struct ceduo_scene *scene = &app->document.file.scene;
+    struct ceduo_doubt_report doubt;
+    LOCAL_TEXT(text);
     if (!app->copy) {
         ceduo_app_warn(app, "%s", _("this terminal has no clipboard that a program may write; w writes to a file"));
         return;
     }
-    if (ceduo_views[app->view]->result && !app->live.result) {
+    if (ceduo_views[app->view]->result && !r) {
         ceduo_app_warn(app, "%s", _("nothing is computed yet"));
         return;
     }
-    const struct ceduo_scene *scene = &app->document.file.scene;
     ceduo_text_safe(&text, ceduo_in_language(scene->title, scene->title_it));
     ceduo_text_format(&text, ": %s\n", ceduo_app_option(app)->name);
-    struct ceduo_doubt_report doubt;
-    const struct ceduo_result *r = app->live.result;
     if (r && scene->controls_count > 0) {
         ceduo_words_answer(&text, r, app->option, r->last_control, ceduo_app_doubt(app, &doubt) ? &doubt : NULL, COPY_WIDTH);
         ceduo_text_char(&text, '\n');
@@ -284,12 +246,11 @@ void ceduo_popup_copy(struct app *app)
             app, ngettext("copied: %zu line of what this view says", "copied: %zu lines of what this view says", lines), lines);
     else
         ceduo_app_warn(app, "%s", _("this view says too much for a clipboard; w writes it to a file"));
-    ceduo_text_free(&text);
 }
 
 void ceduo_popup_export(struct app *app)
 {
-    struct popup *p = ceduo_popup_list(app, _("Export"), chose_export);
-    for (size_t i = 0; i < EXPORTS; i++)
-        ceduo_popup_item(p, _(exports[i].what), exports[i].name);
+    struct popup *p = ceduo_popup_list(app, _("Export"), "", chose_export);
+    for (int i = 0; i < EXPORTS; i++)
+        ceduo_popup_item(p, _(exports[i].what), ceduo_app_format(app, "%d", i));
 }

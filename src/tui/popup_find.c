@@ -27,10 +27,9 @@ static const struct {
              {CEDUO_GOAL_ENERGY, N_("mean energy of arrivals at most … kJ"), "kJ", 1}};
 #define GOALS_OFFERED (sizeof goals / sizeof goals[0])
 
-static void offer_goals(struct app *app, struct popup *p, const char *typed)
+static void offer_goals(struct app *app, struct popup *p)
 {
     (void)app;
-    (void)typed;
     for (size_t i = 0; i < GOALS_OFFERED; i++)
         ceduo_popup_item(p, _(goals[i].words), _(goals[i].words));
 }
@@ -46,7 +45,7 @@ static size_t row_of(enum ceduo_goal goal)
 /* Words of the list, or what the command line takes: energy=50; the amount may stand in the field below. */
 static bool read_goal(struct app *app, struct popup *p, struct ceduo_search *search)
 {
-    const char *typed = p->fields[FIND_GOAL].text;
+    const char *typed = p->fields[FIND_GOAL].line.text;
     enum ceduo_goal_reading reading = ceduo_goal_read(ceduo_app_format(app, "%s", typed), &search->goal, &search->target);
     for (size_t i = 0; i < GOALS_OFFERED; i++)
         if (strcmp(typed, _(goals[i].words)) == 0) {
@@ -62,34 +61,16 @@ static bool read_goal(struct app *app, struct popup *p, struct ceduo_search *sea
         return false;
     }
     size_t row = row_of(search->goal);
-    double target;
-    if (p->fields[FIND_TARGET].text[0]) {
-        if (!ceduo_popup_number(app, p, FIND_TARGET, &target))
-            return false;
-        search->target = target / goals[row].per;
-        if (!(search->target >= 0) || (ceduo_goal_is_share(search->goal) && search->target > 1)) {
-            ceduo_app_warn(app, _("%g %s cannot be"), target, _(goals[row].unit));
-            return false;
-        }
-    }
-    if (ceduo_goals[search->goal].usual || !isnan(search->target))
-        return true;
-    ceduo_app_warn(app, _("how many %s? This goal has no usual limit"), _(goals[row].unit));
-    return false;
-}
-
-/* In how many of 100 cases that may be true the goal is to be reached, too. */
-static bool read_sure(struct app *app, struct popup *p, struct ceduo_search *search)
-{
-    double cases = 0;
-    if (p->fields[FIND_SURE].text[0] == '\0')
-        return true;
-    if (!ceduo_popup_number(app, p, FIND_SURE, &cases))
+    double amount = NAN;
+    if (!ceduo_popup_number(app, p, FIND_TARGET, &amount))
         return false;
-    search->sure = cases / 100;
-    if (search->sure > 0 && search->sure <= 1)
+    search->target = isnan(amount) ? search->target : amount / goals[row].per;
+    if (ceduo_goal_is_share(search->goal) && search->target > 1)
+        ceduo_app_warn(app, _("%g %s cannot be"), amount, _(goals[row].unit));
+    else if (!ceduo_goals[search->goal].usual && isnan(search->target))
+        ceduo_app_warn(app, _("how many %s? This goal has no usual limit"), _(goals[row].unit));
+    else
         return true;
-    ceduo_app_warn(app, "%s", _("sure in more than 0 and up to 100 of 100 cases; empty: it is not asked"));
     return false;
 }
 
@@ -106,11 +87,6 @@ static const struct field *field_of(const struct app *app, const char *path)
     *one = *list;
     one->type = FIELD_NUMBER;
     return one;
-}
-
-static bool read_end(struct app *app, const struct popup *p, size_t field, double *end)
-{
-    return ceduo_popup_number(app, p, field, end) && ceduo_popup_value(app, field_of(app, p->path), p->fields[field].text, end);
 }
 
 /* What the rules of the region ask of the trees that a cut leaves, where it is these that are looked for. */
@@ -135,10 +111,12 @@ static void append_law(struct app *app, const char *path, struct text *text)
 /* What the fields ask for; the path is the popup's. */
 static bool read_fields(struct app *app, struct popup *p, struct ceduo_search *search)
 {
-    *search = (struct ceduo_search){.path = p->path, .option = app->option, .rocks = FIND_ROCKS};
-    if (!read_goal(app, p, search) || !read_sure(app, p, search) || !read_end(app, p, FIND_LO, &search->lo) ||
-        !read_end(app, p, FIND_HI, &search->hi))
+    double cases = 0; /* of 100 that may be true: in so many the goal is to be reached, too */
+    *search = (struct ceduo_search){.path = p->path, .option = app->option, .rocks = FIND_ROCKS, .lo = NAN, .hi = NAN};
+    if (!read_goal(app, p, search) || !ceduo_popup_number(app, p, FIND_SURE, &cases) ||
+        !ceduo_popup_number(app, p, FIND_LO, &search->lo) || !ceduo_popup_number(app, p, FIND_HI, &search->hi))
         return false;
+    search->sure = cases / 100;
     if (search->lo <= search->hi)
         return true;
     ceduo_app_warn(app, "%s", _("from and to are numbers, the smaller first"));
@@ -165,7 +143,7 @@ static void append_words(struct app *app, struct popup *p, const struct ceduo_se
     const struct ceduo_found *f = &answer->found;
     const struct form_cell *cell = ceduo_form_cell(ceduo_app_form(app));
     const struct field *field = field_of(app, p->path);
-    const char *lo = p->fields[FIND_LO].text, *hi = p->fields[FIND_HI].text, *unit = _(goals[row_of(s->goal)].unit);
+    const char *lo = p->fields[FIND_LO].line.text, *hi = p->fields[FIND_HI].line.text, *unit = _(goals[row_of(s->goal)].unit);
     double per = goals[row_of(s->goal)].per, at = f->found ? f->goal_at_value : f->goal_at_nearest;
     char room[CEDUO_NUMBER_ROOM];
     const char *amount =
@@ -214,7 +192,7 @@ static bool take(struct app *app, struct popup *p, struct search_answer *answer)
         return ceduo_app_edited(app, false);
     search.target = answer->target;
     search.rotation = answer->rotation;
-    struct text words = {0};
+    LOCAL_TEXT(words);
     bool set = true;
     append_words(app, p, &search, answer, &words);
     if (found->found && !found->whole_range) {
@@ -224,9 +202,8 @@ static bool take(struct app *app, struct popup *p, struct search_answer *answer)
     } else {
         ceduo_problems_free(&app->problems);
     }
-    const char *said = ceduo_app_kept(app, &words);
     if (set)
-        ceduo_app_say(app, "%s", said);
+        ceduo_app_say(app, "%s", words.bytes);
     return true;
 }
 
@@ -238,8 +215,6 @@ void ceduo_popup_found(struct app *app, struct search_answer *answer)
     app->message[0] = '\0';
     if (take(app, p, answer))
         ceduo_popup_close(app);
-    else
-        snprintf(p->message, sizeof p->message, "%.*s", (int)sizeof p->message - 1, app->message);
 }
 
 /* ---- the range ---- */
@@ -294,42 +269,41 @@ static void propose(struct app *app, const char *path, const struct field *f, co
 /* `written`: the value that is there. */
 static void ask(struct app *app, const char *path, const char *written)
 {
-    char lo_room[CEDUO_NUMBER_ROOM], hi_room[CEDUO_NUMBER_ROOM];
+    char room[CEDUO_NUMBER_ROOM];
     double lo, hi;
     const struct field *f = field_of(app, path);
     propose(app, path, f, written, &lo, &hi);
-    struct popup *p = ceduo_popup_fields(app, _("Which value reaches a goal?"), filled_find);
-    snprintf(p->path, sizeof p->path, "%s", path);
+    struct popup *p = ceduo_popup_fields(app, _("Which value reaches a goal?"), path, filled_find);
     ceduo_text_format(&p->text,
                       _("The value of: %s. The same rocks for every value; the goal counts at the worst control. "
                         "What is found is put into the field; u takes it back."),
                       ceduo_app_path(app, path));
     append_law(app, path, &p->text);
     ceduo_popup_choice(p, _("goal"), _(goals[0].words), offer_goals);
-    ceduo_popup_field(p, _("how many (empty: usual limit)"), "");
-    ceduo_popup_field(p, _("sure in … of 100 (empty: no)"), "");
-    ceduo_popup_field(p, _("values from"), ceduo_shown_number(f, lo, lo_room));
-    ceduo_popup_field(p, _("to"), ceduo_shown_number(f, hi, hi_room));
+    ceduo_popup_value(p, _("how many (empty: usual limit)"), "", &ceduo_popup_amount);
+    struct field *cases = ceduo_popup_value(p, _("sure in … of 100 (empty: no)"), "", &ceduo_popup_amount);
+    cases->hi = 100;
+    cases->flags = FIELD_ABOVE;
+    for (int i = 0; i < 2; i++) {
+        const char *end = ceduo_shown_number(f, i == 0 ? lo : hi, room);
+        struct field *own = ceduo_popup_value(p, i == 0 ? _("values from") : _("to"), end, f);
+        own->shown.least = -INFINITY; /* no end is unusual */
+        own->shown.most = INFINITY;
+    }
 }
 
 #define NUMBERS_MOST 9 /* of a list that are asked for: one for each digit */
 
-static void chose_number(struct app *app, struct popup *p, const char *path)
+static void chose_number(struct app *app, struct popup *p)
 {
-    (void)p;
-    const struct node *node = ceduo_document_node(&app->document, path);
-    ask(app, ceduo_app_format(app, "%s", path),
-        node && node->kind == NODE_SCALAR ? ceduo_app_format(app, "%s", node->text) : "");
+    const struct node *node = ceduo_document_node(&app->document, p->value);
+    ask(app, p->value, node && node->kind == NODE_SCALAR ? node->text : "");
 }
 
-/* Which number of a list? Nobody is asked where there is only one. */
+/* Which number of a list? */
 static void ask_which(struct app *app, const char *path, const struct node *list)
 {
-    if (list->n == 1) {
-        chose_number(app, NULL, ceduo_app_format(app, "%s[0]", path));
-        return;
-    }
-    struct popup *p = ceduo_popup_list(app, _("Which of its numbers is looked for?"), chose_number);
+    struct popup *p = ceduo_popup_list(app, _("Which of its numbers is looked for?"), "", chose_number);
     for (size_t i = 0; i < list->n && i < NUMBERS_MOST; i++)
         ceduo_popup_answer(p, (char)('1' + i), list->items[i]->kind == NODE_SCALAR ? list->items[i]->text : "",
                            ceduo_app_format(app, "%s[%zu]", path, i));
@@ -339,12 +313,14 @@ void ceduo_popup_find(struct app *app)
 {
     const struct form_cell *cell = ceduo_form_cell(ceduo_app_form(app));
     const struct node *node = cell ? ceduo_document_node(&app->document, cell->path) : NULL;
-    bool usable = cell && cell->field && !(cell->field->flags & FIELD_NOWHERE);
+    bool usable = cell && !(cell->field->flags & FIELD_NOWHERE);
     enum field_type type = usable ? cell->field->type : FIELD_TEXT;
-    if (type == FIELD_NUMBERS && node && node->kind == NODE_LIST && node->n > 0)
-        ask_which(app, ceduo_app_format(app, "%s", cell->path), node);
+    if (type == FIELD_NUMBERS && node && node->kind == NODE_LIST && node->n == 1) /* nobody is asked which */
+        ask(app, ceduo_app_format(app, "%s[0]", cell->path), node->items[0]->text);
+    else if (type == FIELD_NUMBERS && node && node->kind == NODE_LIST)
+        ask_which(app, cell->path, node);
     else if (type == FIELD_NUMBER || type == FIELD_COUNT || type == FIELD_SPREAD)
-        ask(app, ceduo_app_format(app, "%s", cell->path), ceduo_app_format(app, "%s", cell->written));
+        ask(app, cell->path, cell->written);
     else
         ceduo_app_warn(app, "%s", _("put the cursor on a number first: f looks for its value that reaches a goal"));
 }

@@ -20,22 +20,22 @@ static void append_bounds(struct text *text, const struct fit_request *w, size_t
 }
 
 /* Both ends in the unit that is shown; false where they are none, which is said. */
-static bool read_bounds(struct app *app, const char *typed, const struct field *field, double *lo, double *hi)
+static bool read_bounds(struct app *app, const char *typed, const struct field *field, double ends[2])
 {
     const char *colon = strchr(typed, ':');
-    const char *ends[2] = {colon ? ceduo_app_format(app, "%.*s", (int)(colon - typed), typed) : typed, colon ? colon + 1 : ""};
+    struct line line;
     for (int i = 0; i < 2; i++) {
-        double *end = i == 0 ? lo : hi;
-        if (ceduo_typed_number(ends[i], end) != CEDUO_NUMBER_GOOD) {
-            ceduo_app_warn(app, "%s", _("bounds are two numbers, as 0.3:0.4; an empty field is not fitted"));
+        LOCAL_TEXT(end);
+        ends[i] = NAN;
+        ceduo_line_set(&line, i == 0 ? ceduo_app_format(app, "%.*s", (int)strcspn(typed, ":"), typed) : colon ? colon + 1 : "");
+        line.asked = true; /* no bound is unusual */
+        if (!ceduo_popup_read(app, field, &line, &end))
             return false;
-        }
-        if (!ceduo_popup_value(app, field, ends[i], end))
-            return false;
+        ceduo_number_read(ceduo_text_string(&end), &ends[i]);
     }
-    if (!(*lo < *hi))
+    if (!(ends[0] < ends[1]))
         ceduo_app_warn(app, "%s", _("from and to are numbers, the smaller first"));
-    return *lo < *hi;
+    return ends[0] < ends[1];
 }
 
 /* ---- the popup ---- */
@@ -47,10 +47,13 @@ static bool filled_fit(struct app *app, struct popup *p)
     ceduo_fit_offer(&app->document.file, &all);
     struct fit_request w = {.rocks = all.rocks};
     for (size_t i = 0; i < all.n; i++) {
-        if (p->fields[i].text[0] == '\0')
+        double ends[2];
+        if (p->fields[i].line.text[0] == '\0')
             continue;
-        if (!read_bounds(app, p->fields[i].text, all.fields[i], &w.lo[w.n], &w.hi[w.n]))
+        if (!read_bounds(app, p->fields[i].line.text, all.fields[i], ends))
             return false;
+        w.lo[w.n] = ends[0];
+        w.hi[w.n] = ends[1];
         snprintf(w.paths[w.n], sizeof w.paths[w.n], "%s", all.paths[i]);
         w.fields[w.n++] = all.fields[i];
     }
@@ -78,7 +81,7 @@ void ceduo_popup_fit(struct app *app)
     struct fit_request request;
     const struct fit *now = app->live.fitting ? app->live.results.fit : NULL;
     ceduo_fit_offer(&app->document.file, &request);
-    struct popup *p = ceduo_popup_fields(app, _("What is fitted to what was seen?"), filled_fit);
+    struct popup *p = ceduo_popup_fields(app, _("What is fitted to what was seen?"), "", filled_fit);
     ceduo_text_format(
         &p->text, _("Each value between its bounds; an empty field is not fitted. Every scene that is tried has %llu rocks."),
         (unsigned long long)request.rocks);

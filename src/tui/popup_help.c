@@ -34,15 +34,13 @@ static const struct {
 void ceduo_popup_help(struct app *app)
 {
     struct popup *p = ceduo_popup_text(app, _("Keys"));
-    const struct form_cell *cell = ceduo_app_state(app)->pane == 0 ? ceduo_form_cell(ceduo_app_form(app)) : NULL;
-    struct text field = {0};
-    if (cell)
-        ceduo_form_explain(&app->document, cell, &field);
+    LOCAL_TEXT(field);
+    if (ceduo_app_state(app)->pane == 0)
+        ceduo_form_explain(ceduo_app_form(app), &field);
     if (field.bytes) {
         ceduo_text_safe(&p->text, field.bytes);
         ceduo_text_put(&p->text, "\n \n");
     }
-    ceduo_text_free(&field);
     ceduo_text_put(&p->text, _("Every edit is live: figures and pictures follow at once.\n \n"));
     for (int i = 0; i < ACTION_COUNT; i++) {
         const struct action_info *a = &ceduo_actions[i];

@@ -19,7 +19,7 @@
 
 enum { NEW_TITLE, NEW_PROFILE, NEW_RELEASE, NEW_FACE, NEW_MATERIAL, NEW_ROCK, NEW_CONTROL, NEW_ACCEPTED, NEW_STAND };
 
-/* What the fields say, numbers read. */
+/* What the fields say, numbers read; where a place is not given, the first or the last x. */
 struct answers {
     struct text slope;         /* the profile as YAML: "vertices_m: …", "csv: …" */
     struct scene_file profile; /* a scene of it alone; turned round where it was drawn upward */
@@ -27,7 +27,6 @@ struct answers {
     double release;            /* where rocks start */
     double face;               /* where the face ends; the first x without one */
     double rock, control, accepted;
-    bool has_accepted, counted;
 };
 
 static void release_answers(struct answers *a)
@@ -47,47 +46,42 @@ static void append_quoted(struct text *yaml, const char *before, const char *val
 /* The profile as a scene of its own; `more`: keys of the slope besides. */
 static bool make_profile(struct answers *a, const char *more)
 {
-    struct text yaml = {0};
+    LOCAL_TEXT(yaml);
     struct problems problems = {0};
     ceduo_text_format(
         &yaml, "ceduo: scene/1\nrock: {diameter_m: 1}\ncontrols_m: [%.17g]\nslope:\n  %s\n  segments: [{rn: 0.3, rt: 0.8}]\n%s",
-        a->last, ceduo_text_string(&a->slope), more);
+        a->last, a->slope.bytes, more);
     ceduo_scene_release(&a->profile);
-    bool good = ceduo_scene_load_text(&a->profile, "", ceduo_text_string(&yaml), &problems);
+    bool good = ceduo_scene_load_text(&a->profile, "", yaml.bytes, &problems);
     ceduo_problems_free(&problems);
-    ceduo_text_free(&yaml);
     return good;
 }
 
 /* From a CSV file, or points as they are typed; one that was drawn upward is turned round. */
 static bool read_profile(struct app *app, struct popup *p, struct answers *a)
 {
-    const char *typed = p->fields[NEW_PROFILE].text;
+    const char *typed = p->fields[NEW_PROFILE].line.text, *wrong = NULL;
     size_t n = strlen(typed);
+    struct problems problems = {0};
+    struct points points = {0};
     if (n > 4 && strcmp(typed + n - 4, ".csv") == 0) {
-        struct problems problems = {0};
-        struct points points = {0};
         bool good = ceduo_csv_slope_read(&p->arena, typed, &points, &problems) && points.n > 1;
-        const char *why = problems.text.bytes ? problems.text.bytes : _("a profile needs two points or more");
         if (!good)
-            ceduo_app_warn(app, "%.*s", (int)strcspn(why, "\n"), why);
-        ceduo_problems_free(&problems);
-        if (!good)
-            return false;
-        a->first = points.x[0];
-        a->last = points.x[points.n - 1];
+            wrong = problems.text.bytes ? problems.text.bytes : _("a profile needs two points or more");
+        a->first = good ? points.x[0] : 0;
+        a->last = good ? points.x[points.n - 1] : 0;
         append_quoted(&a->slope, "csv: ", typed);
     } else {
         ceduo_text_put(&a->slope, "vertices_m: ");
-        if (!ceduo_typed_points(typed, &a->slope, &a->first, &a->last)) {
-            ceduo_app_warn(app, "%s", _("the profile: a file that ends in .csv, or points x z, x z, … with x rising"));
-            return false;
-        }
+        if (!ceduo_typed_points(typed, &a->slope, &a->first, &a->last))
+            wrong = _("the profile: a file that ends in .csv, or points x z, x z, … with x rising");
     }
-    if (make_profile(a, "") || make_profile(a, "  reversed: true\n"))
-        return true;
-    ceduo_app_warn(app, "%s", _("two points of the profile lie too close together for their distance from the first"));
-    return false;
+    if (!wrong && !make_profile(a, "") && !make_profile(a, "  reversed: true\n"))
+        wrong = _("two points of the profile lie too close together for their distance from the first");
+    if (wrong)
+        ceduo_app_warn(app, "%.*s", (int)strcspn(wrong, "\n"), wrong);
+    ceduo_problems_free(&problems);
+    return !wrong;
 }
 
 /* x of the profile in few digits. */
@@ -110,14 +104,14 @@ static void guess_face(struct popup *p, const struct answers *a)
     size_t end = isnan(edge) ? 0 : ceduo_slope_segment(s, edge);
     while (end + 1 < s->vertices && ceduo_slope_fall(s, s->x[end]) > CEDUO_FACE_FALL)
         end++;
-    if (p->kept && strcmp(p->kept, p->fields[NEW_PROFILE].text) == 0) /* for this profile that was done */
+    const char *profile = p->fields[NEW_PROFILE].line.text;
+    if (p->kept && strcmp(p->kept, profile) == 0) /* for this profile that was done */
         return;
-    free(p->kept);
-    p->kept = ceduo_must(strdup(p->fields[NEW_PROFILE].text));
-    set_number(&p->fields[NEW_RELEASE], isnan(edge) ? a->first : place_of(s, edge));
-    ceduo_line_set(&p->fields[NEW_FACE], "");
+    p->kept = ceduo_arena_string(&p->arena, profile);
+    set_number(&p->fields[NEW_RELEASE].line, isnan(edge) ? a->first : place_of(s, edge));
+    ceduo_line_set(&p->fields[NEW_FACE].line, "");
     if (!isnan(edge))
-        set_number(&p->fields[NEW_FACE], place_of(s, s->x[end]));
+        set_number(&p->fields[NEW_FACE].line, place_of(s, s->x[end]));
 }
 
 /* The segment that falls most. */
@@ -152,60 +146,42 @@ static void describe(struct popup *p, const struct answers *a)
 
 /* ---- reading ---- */
 
-/* A number, or `otherwise` where the field is empty. */
-static bool read_number(struct app *app, const struct popup *p, size_t field, double otherwise, double *value)
+/* A place from `from` to `to`, neither or one of them itself; `*x` is that of an empty field. */
+static bool read_place(struct app *app, struct popup *p, size_t i, double from, double to, double *x)
 {
-    *value = otherwise;
-    return p->fields[field].text[0] == '\0' || ceduo_popup_number(app, p, field, value);
-}
-
-/* Where rocks start, or where the face ends. */
-static bool read_place(struct app *app, const struct popup *p, const struct answers *a, size_t field, double *x)
-{
-    if (!read_number(app, p, field, a->first, x))
-        return false;
-    if (*x >= a->first && *x < a->last)
-        return true;
-    ceduo_app_warn(app,
-                   field == NEW_RELEASE ? _("rocks start at %g m, outside the profile from %g to %g m")
-                                        : _("the face ends at %g m, outside the profile from %g to %g m"),
-                   *x, a->first, a->last);
-    return false;
+    p->fields[i].value->lo = from;
+    p->fields[i].value->hi = to;
+    return ceduo_popup_number(app, p, i, x);
 }
 
 /* One field, of which it is said what is wrong; those before it are read. */
 static bool read_field(struct app *app, struct popup *p, size_t field, struct answers *a)
 {
-    const char *typed = p->fields[field].text;
-    double lowest = fmax(a->release, a->face), unused;
+    const char *typed = p->fields[field].line.text;
     switch (field) {
     case NEW_PROFILE:
         return read_profile(app, p, a);
     case NEW_RELEASE:
-        return read_place(app, p, a, NEW_RELEASE, &a->release);
+        a->release = a->first;
+        return read_place(app, p, NEW_RELEASE, a->first, a->last, &a->release);
     case NEW_FACE:
-        return read_place(app, p, a, NEW_FACE, &a->face);
+        a->face = a->first;
+        return read_place(app, p, NEW_FACE, a->first, a->last, &a->face);
     case NEW_MATERIAL:
         if (ceduo_choice_find(&ceduo_material_words, typed) >= 0)
             return true;
         ceduo_app_warn(app, _("no ground '%s' in the library"), typed);
         return false;
     case NEW_ROCK:
-        return ceduo_popup_number(app, p, NEW_ROCK, &a->rock) &&
-               ceduo_popup_value(app, ceduo_schema_at("rock.diameter_m"), typed, &unused);
+        return ceduo_popup_number(app, p, NEW_ROCK, &a->rock);
     case NEW_CONTROL:
-        if (!read_number(app, p, NEW_CONTROL, a->last, &a->control))
-            return false;
-        if (a->control > lowest && a->control <= a->last)
-            return true;
-        ceduo_app_warn(app, _("counted at %g m, outside the slope below the face, %g to %g m"), a->control, lowest, a->last);
-        return false;
+        a->control = a->last;
+        return read_place(app, p, NEW_CONTROL, fmax(a->release, a->face), a->last, &a->control);
     case NEW_ACCEPTED:
-        a->has_accepted = typed[0] != '\0';
-        return read_number(app, p, NEW_ACCEPTED, 0, &a->accepted);
+        a->accepted = NAN;
+        return ceduo_popup_number(app, p, NEW_ACCEPTED, &a->accepted);
     case NEW_STAND:
-        a->counted = strcmp(typed, STAND_COUNTED) == 0;
-        if (a->counted || typed[0] == '\0' || ceduo_file_find(&p->arena, typed, NULL, "stands"))
+        if (typed[0] == '\0' || strcmp(typed, STAND_COUNTED) == 0 || ceduo_file_find(&p->arena, typed, NULL, "stands"))
             return true;
         ceduo_app_warn(app, _("no stand '%s': a file, or a name such as simple-coppice; may be left empty"), typed);
         return false;
@@ -224,15 +200,15 @@ static bool read_answers(struct app *app, struct popup *p, size_t upto, struct a
 }
 
 /* What is wrong is said at its question, not after the last one. */
-static bool check_new(struct app *app, struct popup *p, size_t field)
+static bool check_new(struct app *app, struct popup *p)
 {
     struct answers a = {.release = NAN};
-    bool good = read_answers(app, p, field, &a);
-    if (good && field == NEW_PROFILE) {
+    bool good = read_answers(app, p, p->at, &a);
+    if (good && p->at == NEW_PROFILE) {
         guess_face(p, &a);
-        good = read_place(app, p, &a, NEW_RELEASE, &a.release);
+        good = read_field(app, p, NEW_RELEASE, &a);
     }
-    if (good && (field == NEW_PROFILE || field == NEW_RELEASE))
+    if (good && (p->at == NEW_PROFILE || p->at == NEW_RELEASE))
         describe(p, &a);
     release_answers(&a);
     return good;
@@ -251,42 +227,39 @@ static void append_material(struct text *yaml, const struct ceduo_slope *s, doub
 
 static void append_scene(struct popup *p, const struct answers *a, struct text *yaml)
 {
-    append_quoted(yaml, "ceduo: scene/1\ntitle: ", p->fields[NEW_TITLE].text);
-    ceduo_text_format(yaml, "\nrock: {diameter_m: %.10g}\nrelease: {x_m: %.10g}\nslope:\n  %s\n", a->rock, a->release,
-                      ceduo_text_string(&a->slope));
     const struct ceduo_slope *s = &a->profile.scene.slope;
+    const char *stand = p->fields[NEW_STAND].line.text;
     bool face = a->face > a->first;
-    ceduo_text_put(yaml, s->reversed ? "  reversed: true\n  materials:\n" : "  materials:\n");
+    append_quoted(yaml, "ceduo: scene/1\ntitle: ", p->fields[NEW_TITLE].line.text);
+    ceduo_text_format(yaml, "\nrock: {diameter_m: %.10g}\nrelease: {x_m: %.10g}\nslope:\n  %s\n%s  materials:\n", a->rock,
+                      a->release, a->slope.bytes, s->reversed ? "  reversed: true\n" : "");
     if (face && !s->reversed)
         append_material(yaml, s, a->first, a->face, "cliff");
-    append_material(yaml, s, a->face, a->last, p->fields[NEW_MATERIAL].text);
+    append_material(yaml, s, a->face, a->last, p->fields[NEW_MATERIAL].line.text);
     if (face && s->reversed)
         append_material(yaml, s, a->first, a->face, "cliff");
     ceduo_text_format(yaml, "controls:\n  - {x_m: %.10g", a->control);
-    if (a->has_accepted)
+    if (!isnan(a->accepted))
         ceduo_text_format(yaml, ", accepted_kJ: %.10g", a->accepted);
     ceduo_text_put(yaml, "}\n");
-    const char *stand = a->counted ? "simple-coppice" : p->fields[NEW_STAND].text;
     if (!stand[0])
         return;
     ceduo_text_format(yaml, "forest:\n  - {from_m: %.10g, to_m: %.10g", a->face, a->control);
-    append_quoted(yaml, ", stand: ", stand);
+    append_quoted(yaml, ", stand: ", strcmp(stand, STAND_COUNTED) == 0 ? "simple-coppice" : stand);
     ceduo_text_put(yaml, "}\n");
 }
 
 static bool filled_new(struct app *app, struct popup *p)
 {
     struct answers a = {.release = NAN};
-    struct text yaml = {0};
+    LOCAL_TEXT(yaml);
     bool good = read_answers(app, p, NEW_STAND, &a);
     if (good) {
         append_scene(p, &a, &yaml);
-        good = ceduo_app_open_text(app, ceduo_text_string(&yaml));
+        good = ceduo_app_open_text(app, yaml.bytes);
     }
-    bool counted = a.counted;
-    ceduo_text_free(&yaml);
     release_answers(&a);
-    if (good && counted)
+    if (good && strcmp(p->fields[NEW_STAND].line.text, STAND_COUNTED) == 0)
         ceduo_popup_counts(app);
     return good;
 }
@@ -313,7 +286,7 @@ static void draw_profile(struct app *app, struct popup *p, struct ceduo_area are
     struct answers a = {.release = NAN};
     bool good = area.height >= PROFILE_MIN && p->at >= NEW_PROFILE &&
                 read_answers(app, p, p->at == NEW_PROFILE ? NEW_PROFILE : NEW_RELEASE, &a);
-    double face = good && p->at > NEW_PROFILE && read_place(app, p, &a, NEW_FACE, &a.face) ? a.face - a.first : NAN;
+    double face = good && p->at > NEW_PROFILE && read_field(app, p, NEW_FACE, &a) ? a.face - a.first : NAN;
     app->message[0] = '\0';
     if (good) {
         const struct ceduo_slope *s = &a.profile.scene.slope;
@@ -333,7 +306,7 @@ static void draw_profile(struct app *app, struct popup *p, struct ceduo_area are
 static void ask(struct app *app)
 {
     char room[CEDUO_NUMBER_ROOM];
-    struct popup *p = ceduo_popup_fields(app, _("New scene"), filled_new);
+    struct popup *p = ceduo_popup_fields(app, _("New scene"), "", filled_new);
     ceduo_text_put(&p->text, _("The profile: a CSV file (distance, elevation), or points typed as x z, x z, … What is "
                                "left empty is not there; rocks are then counted at the end. All can be changed later."));
     p->endings = ".csv";
@@ -341,12 +314,12 @@ static void ask(struct app *app)
     p->picture = draw_profile;
     ceduo_popup_field(p, _("title"), _("My slope"));
     ceduo_popup_choice(p, _("profile (CSV file or points)"), "0 90, 10 65, 60 30, 120 0", ceduo_popup_offer_files);
-    ceduo_popup_field(p, _("rocks start at x, m"), "");
-    ceduo_popup_field(p, _("face from the top to x, m"), "");
+    ceduo_popup_value(p, _("rocks start at x, m"), "", ceduo_schema_at("release.x_m"))->flags = FIELD_UNDER;
+    ceduo_popup_value(p, _("face from the top to x, m"), "", ceduo_schema_at("release.x_m"))->flags = FIELD_UNDER;
     ceduo_popup_choice(p, _("ground below it"), ceduo_material_talus()->name, ceduo_popup_offer_grounds);
-    ceduo_popup_field(p, _("rock: diameter, m"), ceduo_shown_number(NULL, 0.6, room));
-    ceduo_popup_field(p, _("counted at x, m"), "");
-    ceduo_popup_field(p, _("the place withstands, kJ"), "50");
+    ceduo_popup_value(p, _("rock: diameter, m"), ceduo_shown_number(NULL, 0.6, room), ceduo_schema_at("rock.diameter_m"));
+    ceduo_popup_value(p, _("counted at x, m"), "", ceduo_schema_at("controls[0].x_m"))->flags = FIELD_ABOVE;
+    ceduo_popup_value(p, _("the place withstands, kJ"), "50", ceduo_schema_at("controls[0].accepted_kJ"));
     ceduo_popup_choice(p, _("stand on the way"), "simple-coppice", ceduo_popup_offer_stands);
 }
 

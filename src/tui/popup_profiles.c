@@ -69,8 +69,7 @@ static void add_file(const struct app *app, struct popup *p, const char *name, c
     if (ceduo_picker_has(&p->picker, value))
         return;
     ceduo_picker_add(&p->picker, about[0] ? ceduo_app_format(app, "%-*s %s", ceduo_utf8_field(name, 33), name, about) : name,
-                     value, now && strcmp(now, value) == 0);
-    ceduo_picker_name(&p->picker, name);
+                     name, value, now && strcmp(now, value) == 0);
 }
 
 #define HEAD_BYTES 4096 /* where a file says what it is */
@@ -116,7 +115,7 @@ static void add_profiles(const struct app *app, struct popup *p, const char *kin
 
 /* ---- what a choice would do ---- */
 
-static popup_chosen chose_new_option;
+static popup_call chose_new_option;
 
 static void append_light(struct text *text, const char *name, enum ceduo_light light, enum ceduo_light now)
 {
@@ -144,9 +143,9 @@ static void append_lights(struct app *app, struct text *text, const struct previ
 }
 
 /* What the lights would be with a value at the popup's path; it is asked for, and put once it is known. */
-static void append_change(struct app *app, struct popup *p, const char *value)
+static void append_change(struct app *app, struct popup *p)
 {
-    struct text set = {0};
+    LOCAL_TEXT(set);
     if (p->ahead_known) {
         if (p->ahead.known)
             append_lights(app, &p->text, &p->ahead);
@@ -155,28 +154,24 @@ static void append_change(struct app *app, struct popup *p, const char *value)
     ceduo_text_put(&p->text, _("the lights: computing …\n"));
     const struct ceduo_option *o = ceduo_app_option(app);
     bool all = p->chosen == chose_new_option; /* the stand in every belt */
-    ceduo_text_format(&set, "%s=%s", all ? ceduo_app_forest(app) : p->path, all ? "[" : value);
+    ceduo_text_format(&set, "%s=%s", all ? ceduo_app_forest(app) : p->path, all ? "[" : p->value);
     for (size_t i = 0; all && i < o->belts_count; i++)
         ceduo_text_format(&set, "%s{from_m: %.10g, to_m: %.10g, stand: %s}", i ? ", " : "", o->belts[i].from_given,
-                          o->belts[i].to_given, value);
+                          o->belts[i].to_given, p->value);
     ceduo_text_put(&set, all ? "]" : "");
     if (set.length < JOB_TEXT)
         ceduo_jobs_preview(app->live.jobs, &app->document.file, set.bytes, app->option);
-    ceduo_text_free(&set);
 }
 
-static void preview_word(struct app *app, struct popup *p, const char *value)
+static void preview_word(struct app *app, struct popup *p)
 {
     size_t n;
     const struct ceduo_material *rows = ceduo_materials(&n);
     const struct field *f = ceduo_schema_at(p->path);
-    int i = f && f->choices == &ceduo_material_words ? ceduo_choice_find(f->choices, value) : -1;
-    ceduo_text_free(&p->text);
+    int i = f && f->choices == &ceduo_material_words ? ceduo_choice_find(f->choices, p->value) : -1;
     if (i >= 0)
         ceduo_text_format(&p->text, _("Rn %.3g, Rt %.3g; %s\n"), rows[i].rn, rows[i].rt, rows[i].source);
-    append_change(app, p, value);
-    if (!p->text.bytes)
-        ceduo_text_put(&p->text, " ");
+    append_change(app, p);
 }
 
 /* What a preset would give, in the lines over the list. */
@@ -201,36 +196,31 @@ static void append_stand(struct app *app, struct text *text, const char *value)
     ceduo_scene_release(&file);
 }
 
-static void preview_stand(struct app *app, struct popup *p, const char *value)
+static void preview_stand(struct app *app, struct popup *p)
 {
-    ceduo_text_free(&p->text);
-    if (strcmp(value, STAND_COUNTED) == 0) {
+    if (strcmp(p->value, STAND_COUNTED) == 0) {
         ceduo_text_put(&p->text, _("asks for the plot's size, what was counted there, diameters and heights"));
-        return;
-    }
-    if (strcmp(value, STAND_SURVEY) == 0) {
+    } else if (strcmp(p->value, STAND_SURVEY) == 0) {
         ceduo_text_put(&p->text,
                        _("asks for the CSV file, and takes densities with their errors, classes and heights from it"));
-        return;
+    } else {
+        append_stand(app, &p->text, p->value);
+        append_change(app, p);
     }
-    append_stand(app, &p->text, value);
-    append_change(app, p, value);
 }
 
 /* ---- choosing ---- */
 
-static void chose_word(struct app *app, struct popup *p, const char *value)
+static void chose_word(struct app *app, struct popup *p)
 {
-    ceduo_app_set(app, p->path, value);
+    ceduo_app_set(app, p->path, p->value);
 }
 
 /* The option that is shown with another stand in every belt, as a new option. */
-static void chose_new_option(struct app *app, struct popup *p, const char *value)
+static void chose_new_option(struct app *app, struct popup *p)
 {
-    (void)p;
-    if (ceduo_app_edited(app, ceduo_document_add_option(&app->document, value, &app->problems))) {
-        app->option = app->document.file.scene.options_count - 1;
-        ceduo_app_refresh(app);
+    if (ceduo_app_edited(app, ceduo_document_add_option(&app->document, p->value, &app->problems))) {
+        ceduo_app_show_option(app, app->document.file.scene.options_count - 1);
         ceduo_app_say(app, _("added '%s'; Enter renames it, 2 changes its stand"), ceduo_app_option(app)->name);
     }
 }
@@ -247,22 +237,20 @@ static const char *listed_name(const struct app *app, const char *path)
     return n > 5 && strcmp(slash + 1 + n - 5, ".yaml") == 0 ? ceduo_app_format(app, "%.*s", (int)n - 5, slash + 1) : slash + 1;
 }
 
-static void chose_stand(struct app *app, struct popup *p, const char *value)
+static void chose_stand(struct app *app, struct popup *p)
 {
-    if (strcmp(value, STAND_COUNTED) == 0)
+    if (strcmp(p->value, STAND_COUNTED) == 0)
         ceduo_popup_counts(app);
-    else if (strcmp(value, STAND_SURVEY) == 0)
+    else if (strcmp(p->value, STAND_SURVEY) == 0)
         ceduo_popup_survey(app);
     else
-        chose_word(app, p, value);
+        chose_word(app, p);
 }
 
-static struct popup *list_stands(struct app *app, const char *title, popup_chosen *chosen)
+static void list_stands(struct app *app, const char *title, popup_call *chosen)
 {
-    struct popup *p = ceduo_popup_list(app, title, chosen);
-    snprintf(p->path, sizeof p->path, "%s", ceduo_app_stand(app));
+    struct popup *p = ceduo_popup_list(app, title, ceduo_app_stand(app), chosen);
     p->preview = preview_stand;
-    ceduo_text_put(&p->text, " "); /* lines for it */
     const char *now = listed_name(app, p->path);
     add_beside(app, p, STAND_TAG, false, now);
     add_profiles(app, p, "stands", now, false);
@@ -271,12 +259,10 @@ static struct popup *list_stands(struct app *app, const char *title, popup_chose
         ceduo_popup_item(p, _("from a survey: a CSV file of plots and stems"), STAND_SURVEY);
     }
     add_profiles(app, p, "stands", now, true);
-    return p;
 }
 
-void ceduo_popup_offer_stands(struct app *app, struct popup *p, const char *typed)
+void ceduo_popup_offer_stands(struct app *app, struct popup *p)
 {
-    (void)typed;
     ceduo_popup_item(p, _("from a sample plot: what was counted and measured"), STAND_COUNTED);
     add_beside(app, p, STAND_TAG, true, NULL);
     for (int shipped = 0; shipped < 2; shipped++)
@@ -285,7 +271,7 @@ void ceduo_popup_offer_stands(struct app *app, struct popup *p, const char *type
 
 static void add_word(struct popup *p, const struct field *f, const char *word, const char *now)
 {
-    struct text shown = {0};
+    LOCAL_TEXT(shown);
     size_t n;
     const struct ceduo_material *grounds = ceduo_materials(&n);
     int ground = f->choices == &ceduo_material_words ? ceduo_choice_find(f->choices, word) : -1;
@@ -293,16 +279,13 @@ static void add_word(struct popup *p, const struct field *f, const char *word, c
     const char *name = ceduo_arena_string(&p->arena, ceduo_text_string(&shown));
     if (ground >= 0)
         ceduo_text_format(&shown, ": %s", _(grounds[ground].what));
-    ceduo_picker_add(&p->picker, ceduo_text_string(&shown), word, now && strcmp(word, now) == 0);
-    ceduo_picker_name(&p->picker, name);
-    ceduo_text_free(&shown);
+    ceduo_picker_add(&p->picker, ceduo_text_string(&shown), name, word, now && strcmp(word, now) == 0);
 }
 
-void ceduo_popup_offer_grounds(struct app *app, struct popup *p, const char *typed)
+void ceduo_popup_offer_grounds(struct app *app, struct popup *p)
 {
     const struct field *f = ceduo_schema_at("slope.materials[0].material");
     (void)app;
-    (void)typed;
     for (size_t i = 0; i < f->choices->n; i++)
         add_word(p, f, f->choices->names[i], NULL);
 }
@@ -327,13 +310,11 @@ void ceduo_popup_choices(struct app *app, const struct form_cell *cell)
         ceduo_popup_presets(app);
         return;
     }
-    struct popup *p = ceduo_popup_list(app, ceduo_app_path(app, cell->path), chose_word);
-    snprintf(p->path, sizeof p->path, "%s", cell->path);
+    struct popup *p = ceduo_popup_list(app, ceduo_app_path(app, cell->path), cell->path, chose_word);
     if (f->type == FIELD_CHOICE) {
         for (size_t i = 0; i < f->choices->n; i++)
             add_word(p, f, f->choices->names[i], cell->written);
         p->preview = preview_word;
-        ceduo_text_put(&p->text, " ");
         return;
     }
     const char *now = listed_name(app, p->path);
@@ -389,32 +370,28 @@ static void add_starts(struct app *app, struct popup *p, const char *path, const
     ceduo_scene_release(&file);
 }
 
-static void preview_start(struct app *app, struct popup *p, const char *value)
+static void preview_start(struct app *app, struct popup *p)
 {
     (void)app;
-    ceduo_text_free(&p->text);
-    ceduo_text_put(&p->text, value);
+    ceduo_text_put(&p->text, p->value);
 }
 
-static void chose_start(struct app *app, struct popup *p, const char *value)
+static void chose_start(struct app *app, struct popup *p)
 {
     struct changes c = {.d = &app->document};
-    for (const char *line = value, *end; *line; line = *end ? end + 1 : end) {
+    for (const char *line = p->value, *end; *line; line = *end ? end + 1 : end) {
         end = line + strcspn(line, "\n");
         ceduo_changes_add(&c, "%.*s", (int)(end - line), line);
     }
-    (void)p;
-    if (ceduo_app_edited(app, ceduo_changes_make(&c, strncmp(value, "rock", 4) == 0 ? "rock" : "release", &app->problems)))
+    if (ceduo_app_edited(app, ceduo_changes_make(&c, strncmp(p->value, "rock", 4) == 0 ? "rock" : "release", &app->problems)))
         ceduo_app_say(app, "%s", _("taken over; u takes it back"));
 }
 
-void ceduo_popup_starts(struct app *app, int unused)
+void ceduo_popup_starts(struct app *app)
 {
-    struct popup *p = ceduo_popup_list(app, _("A rock, or how it starts, as another scene has it"), chose_start);
+    struct popup *p = ceduo_popup_list(app, _("A rock, or how it starts, as another scene has it"), "", chose_start);
     const char *const *folders = ceduo_file_folders(&p->arena);
-    (void)unused;
     p->preview = preview_start;
-    ceduo_text_put(&p->text, " ");
     for (size_t i = 0; folders && folders[i]; i++) {
         size_t n;
         const char *const *names = ceduo_file_list(&p->arena, folders[i], "scenes", &n);
@@ -425,29 +402,28 @@ void ceduo_popup_starts(struct app *app, int unused)
 
 /* ---- a scene to open ---- */
 
-static void offer_scenes(struct app *app, struct popup *p, const char *typed)
+static void offer_scenes(struct app *app, struct popup *p)
 {
     const char *own = app->document.path && !app->document.shipped ? app->document.path : NULL;
-    if (!strchr(typed, '/')) {
+    if (!strchr(p->fields[0].line.text, '/')) {
         ceduo_popup_offer_recoveries(app, p);
         add_beside(app, p, "ceduo: scene/", true, own);
         for (int shipped = 0; shipped < 2; shipped++)
             add_profiles(app, p, "scenes", NULL, shipped);
     }
-    ceduo_picker_add_files(&p->picker, typed, ".yaml");
+    ceduo_popup_offer_files(app, p);
 }
 
-static void chose_scene(struct app *app, struct popup *p, const char *value)
+static void chose_scene(struct app *app, struct popup *p)
 {
-    (void)p;
-    if (!ceduo_popup_take_recovery(app, value))
-        ceduo_app_open(app, value);
+    if (!ceduo_popup_take_recovery(app, p->value))
+        ceduo_app_open(app, p->value);
 }
 
 static void list_scenes(struct app *app)
 {
-    struct popup *p = ceduo_popup_list(app, _("Open a scene: a name, or the path of a file"), chose_scene);
-    p->offers[0] = offer_scenes;
+    struct popup *p = ceduo_popup_list(app, _("Open a scene: a name, or the path of a file"), "", chose_scene);
+    p->fields[0].offer = offer_scenes;
     p->endings = ".yaml";
 }
 

@@ -46,7 +46,7 @@ static bool save_to(struct app *app, const char *path)
 
 static bool filled_save(struct app *app, struct popup *p)
 {
-    const char *path = p->fields[0].text;
+    const char *path = p->fields[0].line.text;
     bool own = app->document.path && strcmp(app->document.path, path) == 0 && !ceduo_document_changed_on_disk(&app->document);
     if (path[0] == '\0') {
         ceduo_app_warn(app, "%s", _("a name is needed"));
@@ -55,27 +55,26 @@ static bool filled_save(struct app *app, struct popup *p)
     return (own || ceduo_popup_may_write(app, p)) && save_to(app, path);
 }
 
-void ceduo_popup_offer_files(struct app *app, struct popup *p, const char *typed)
+void ceduo_popup_offer_files(struct app *app, struct popup *p)
 {
     (void)app;
-    ceduo_picker_add_files(&p->picker, typed, p->endings);
+    ceduo_picker_add_files(&p->picker, p->fields[p->at].line.text, p->endings);
 }
 
 /* ---- a name for a stand that is no longer what it was ---- */
 
 static bool filled_stand(struct app *app, struct popup *p)
 {
-    struct text value = {0};
-    void (*then)(struct app * app) = p->then;
-    if (p->fields[0].text[0] == '\0') {
+    LOCAL_TEXT(value);
+    if (p->fields[0].line.text[0] == '\0') {
         ceduo_app_warn(app, "%s", _("a name is needed"));
         return false;
     }
-    ceduo_emit_scalar(&value, p->fields[0].text, true);
-    if (!ceduo_app_edited(app, ceduo_document_set(&app->document, p->path, ceduo_app_kept(app, &value), &app->problems)))
-        return false;
-    then(app);
-    return true;
+    ceduo_emit_scalar(&value, p->fields[0].line.text, true);
+    bool good = ceduo_app_edited(app, ceduo_document_set(&app->document, p->path, value.bytes, &app->problems));
+    if (good)
+        p->then(app);
+    return good;
 }
 
 /* Asks for the name of the first such stand, and then goes on. False where there is none. */
@@ -88,9 +87,9 @@ static bool asks_for_stand(struct app *app, void (*then)(struct app *app))
             const struct ceduo_belt *belt = &scene->options[o].belts[b];
             if (!belt->changed)
                 continue;
-            struct popup *p = ceduo_popup_fields(app, _("A stand was changed: its name"), filled_stand);
             const char *option = options ? ceduo_app_format(app, "options[%zu].", o) : "";
-            snprintf(p->path, sizeof p->path, "%sforest[%zu].stand.name", option, b);
+            const char *path = ceduo_app_format(app, "%sforest[%zu].stand.name", option, b);
+            struct popup *p = ceduo_popup_fields(app, _("A stand was changed: its name"), path, filled_stand);
             ceduo_text_format(&p->text, _("It stands from %g to %g m in '%s' and is no longer what its name said."),
                               belt->from_given, belt->to_given, scene->options[o].name);
             p->then = then;
@@ -105,7 +104,7 @@ static bool asks_for_stand(struct app *app, void (*then)(struct app *app))
 /* `why` the last attempt failed; NULL: none did. */
 static void ask_for_name(struct app *app, const char *why)
 {
-    struct popup *p = ceduo_popup_fields(app, _("Save as"), filled_save);
+    struct popup *p = ceduo_popup_fields(app, _("Save as"), "", filled_save);
     const struct document *d = &app->document;
     if (why)
         ceduo_text_format(&p->text, _("It could not be saved: %s. Give another name, or one in another folder."), why);
@@ -119,9 +118,8 @@ static void ask_for_name(struct app *app, const char *why)
 
 void ceduo_popup_save_as(struct app *app)
 {
-    if (asks_for_stand(app, ceduo_popup_save_as))
-        return;
-    ask_for_name(app, NULL);
+    if (!asks_for_stand(app, ceduo_popup_save_as))
+        ask_for_name(app, NULL);
 }
 
 /* Writes where the scene came from. */
@@ -132,12 +130,11 @@ static void write_back(struct app *app)
         ask_for_name(app, strerror(errno));
 }
 
-static void chose_disk(struct app *app, struct popup *p, const char *value)
+static void chose_disk(struct app *app, struct popup *p)
 {
-    (void)p;
-    if (strcmp(value, "write") == 0)
+    if (strcmp(p->value, "write") == 0)
         write_back(app);
-    else if (strcmp(value, "as") == 0)
+    else if (strcmp(p->value, "as") == 0)
         ask_for_name(app, NULL);
 }
 
@@ -153,7 +150,7 @@ void ceduo_popup_save(struct app *app)
     } else {
         bool gone = access(d->path, F_OK) != 0;
         struct popup *p = ceduo_popup_list(
-            app, gone ? _("The file is no longer there") : _("The file has changed on disk since it was read"), chose_disk);
+            app, gone ? _("The file is no longer there") : _("The file has changed on disk since it was read"), "", chose_disk);
         ceduo_popup_answer(p, 'n', _("never mind: do not save now"), "");
         ceduo_popup_answer(p, 'a', _("save under another name"), "as");
         ceduo_popup_answer(p, 'w', gone ? _("write it again") : _("write over what is there"), "write");
@@ -162,14 +159,13 @@ void ceduo_popup_save(struct app *app)
 
 /* ---- unsaved work ---- */
 
-static void chose_unsaved(struct app *app, struct popup *p, const char *value)
+static void chose_unsaved(struct app *app, struct popup *p)
 {
-    void (*then)(struct app * app) = p->then;
-    if (strcmp(value, "save") == 0) {
-        app->once_saved = then; /* once a name is given, where one is asked for */
+    if (strcmp(p->value, "save") == 0) {
+        app->once_saved = p->then; /* once a name is given, where one is asked for */
         ceduo_popup_save(app);
-    } else if (strcmp(value, "discard") == 0) {
-        then(app);
+    } else if (strcmp(p->value, "discard") == 0) {
+        p->then(app);
     }
 }
 
@@ -179,7 +175,7 @@ void ceduo_popup_once_saved(struct app *app, void (*then)(struct app *app))
         then(app);
         return;
     }
-    struct popup *p = ceduo_popup_list(app, _("There is unsaved work"), chose_unsaved);
+    struct popup *p = ceduo_popup_list(app, _("There is unsaved work"), "", chose_unsaved);
     p->then = then;
     ceduo_popup_answer(p, 'n', _("stay"), "");
     ceduo_popup_answer(p, 's', _("save it, then go on"), "save");
@@ -226,13 +222,13 @@ void ceduo_popup_offer_recoveries(const struct app *app, struct popup *p)
         add_recovery(app, p, &list[i], 0);
 }
 
-/* Whether a copy is of this scene. */
-static bool is_of_this(const struct app *app, const struct recovery *r)
+/* Whether a copy is of this scene, or of one that has no other place. */
+static bool is_due(const struct app *app, const struct recovery *r)
 {
     char *here = app->document.path ? realpath(app->document.path, NULL) : NULL;
-    bool same = r->scene && here && strcmp(here, r->scene) == 0;
+    bool due = !r->scene || (here && strcmp(here, r->scene) == 0);
     free(here);
-    return same;
+    return due;
 }
 
 bool ceduo_popup_take_recovery(struct app *app, const char *value)
@@ -249,7 +245,7 @@ bool ceduo_popup_take_recovery(struct app *app, const char *value)
         bool own =
             list[i].scene != NULL; /* it has a place: the document is opened, unless it is this one, and the copy put there */
         bool good =
-            text && (!own ? ceduo_app_open_text(app, text) : is_of_this(app, &list[i]) || ceduo_app_open(app, list[i].scene));
+            text && (!own ? ceduo_app_open_text(app, text) : is_due(app, &list[i]) || ceduo_app_open(app, list[i].scene));
         if (good && own)
             good = ceduo_app_edited(app, ceduo_document_recover(&app->document, text, &app->problems));
         if (good) {
@@ -263,19 +259,13 @@ bool ceduo_popup_take_recovery(struct app *app, const char *value)
     return true;
 }
 
-static void chose_recover(struct app *app, struct popup *p, const char *value)
+static void chose_recover(struct app *app, struct popup *p)
 {
     size_t n;
-    const struct recovery *list = strcmp(value, "forget") == 0 ? ceduo_recovery_list(&p->arena, &n) : NULL;
+    const struct recovery *list = strcmp(p->value, "forget") == 0 ? ceduo_recovery_list(&p->arena, &n) : NULL;
     for (size_t i = 0; list && i < n; i++)
         unlink(list[i].file);
-    ceduo_popup_take_recovery(app, value);
-}
-
-/* Whether a copy is of this scene, or of one that has no other place. */
-static bool is_due(const struct app *app, const struct recovery *r)
-{
-    return !r->scene || is_of_this(app, r);
+    ceduo_popup_take_recovery(app, p->value);
 }
 
 void ceduo_popup_recover(struct app *app)
@@ -286,7 +276,7 @@ void ceduo_popup_recover(struct app *app)
     for (size_t i = 0; i < n; i++)
         due += is_due(app, &list[i]);
     if (due > 0) {
-        struct popup *p = ceduo_popup_list(app, _("Unsaved work was left behind"), chose_recover);
+        struct popup *p = ceduo_popup_list(app, _("Unsaved work was left behind"), "", chose_recover);
         char key = '1';
         for (int other = 0; other < 2; other++)
             for (size_t i = 0; i < n && key <= '9'; i++)

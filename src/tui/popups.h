@@ -8,7 +8,7 @@
 
 void ceduo_popup_help(struct app *app);
 void ceduo_popup_presets(struct app *app);
-void ceduo_popup_starts(struct app *app, int unused);
+void ceduo_popup_starts(struct app *app);
 void ceduo_popup_new_option(struct app *app);
 void ceduo_popup_choices(struct app *app, const struct form_cell *cell);
 void ceduo_popup_open(struct app *app);
@@ -49,11 +49,11 @@ bool ceduo_popup_take_recovery(struct app *app, const char *value);
 /* ---- what fields of popups may hold ---- */
 
 /* Files with the popup's endings, and folders. */
-void ceduo_popup_offer_files(struct app *app, struct popup *popup, const char *typed);
+void ceduo_popup_offer_files(struct app *app, struct popup *popup);
 
 #define STAND_COUNTED "from a sample plot" /* in the place of a stand: what a sample plot counts */
 #define STAND_SURVEY  "from a survey"      /* what a CSV file of plots holds */
-void ceduo_popup_offer_stands(struct app *app, struct popup *popup, const char *typed);
-void ceduo_popup_offer_grounds(struct app *app, struct popup *popup, const char *typed);
+void ceduo_popup_offer_stands(struct app *app, struct popup *popup);
+void ceduo_popup_offer_grounds(struct app *app, struct popup *popup);
 
 #endif

@@ -63,14 +63,14 @@ static void move_column(struct app *app, int by)
 
 static bool filled_search(struct app *app, struct popup *p)
 {
-    snprintf(app->search, sizeof app->search, "%.*s", (int)sizeof app->search - 1, p->fields[0].text);
+    snprintf(app->search, sizeof app->search, "%.*s", (int)sizeof app->search - 1, p->fields[0].line.text);
     ceduo_app_search(app);
     return true;
 }
 
 static void ask_for_word(struct app *app)
 {
-    ceduo_popup_field(ceduo_popup_fields(app, _("Search in this view"), filled_search), _("word"), app->search);
+    ceduo_popup_field(ceduo_popup_fields(app, _("Search in this view"), "", filled_search), _("word"), app->search);
 }
 
 static void next_charset(struct app *app)
@@ -81,15 +81,14 @@ static void next_charset(struct app *app)
 
 /* ---- commands by name ---- */
 
-static void chose_command(struct app *app, struct popup *p, const char *value)
+static void chose_command(struct app *app, struct popup *p)
 {
-    (void)p;
-    ceduo_program_key(app, ceduo_actions[atoi(value)].key);
+    ceduo_program_key(app, ceduo_actions[atoi(p->value)].key);
 }
 
 static void list_commands(struct app *app)
 {
-    struct popup *p = ceduo_popup_list(app, _("Commands"), chose_command);
+    struct popup *p = ceduo_popup_list(app, _("Commands"), "", chose_command);
     for (int i = 0; i < ACTION_COUNT; i++)
         if (i != ACTION_COMMANDS)
             ceduo_popup_item(p, ceduo_app_format(app, "%-10s %s", ceduo_actions[i].word, _(ceduo_actions[i].help)),
@@ -111,68 +110,63 @@ static void redraw(struct app *app)
     app->redraw = true;
 }
 
-/* What the actions of all views do: a function with a number, or one without. */
-static const struct {
-    void (*function)(struct app *app, int by);
-    int by;
-    void (*plain)(struct app *app);
-} acts[ACTION_COUNT] = {[ACTION_UP] = {move_lines, -1},
-                        [ACTION_DOWN] = {move_lines, 1},
-                        [ACTION_LEFT] = {move_column, -1},
-                        [ACTION_RIGHT] = {move_column, 1},
-                        [ACTION_TOP] = {move_lines, -ALL_LINES},
-                        [ACTION_BOTTOM] = {move_lines, ALL_LINES},
-                        [ACTION_PAGE_UP] = {move_page, -1},
-                        [ACTION_PAGE_DOWN] = {move_page, 1},
-                        [ACTION_NEXT_PANE] = {next_pane, 1},
-                        [ACTION_LAST_PANE] = {next_pane, -1},
-                        [ACTION_EDIT] = {.plain = ceduo_edit_start},
-                        [ACTION_MORE] = {ceduo_edit_step, 1},
-                        [ACTION_LESS] = {ceduo_edit_step, -1},
-                        [ACTION_ADD] = {.plain = ceduo_items_add},
-                        [ACTION_DELETE] = {.plain = ceduo_items_delete},
-                        [ACTION_DUPLICATE] = {.plain = ceduo_items_duplicate},
-                        [ACTION_EARLIER] = {ceduo_items_move, -1},
-                        [ACTION_LATER] = {ceduo_items_move, 1},
-                        [ACTION_UNDO] = {undo_or_redo, -1},
-                        [ACTION_REDO] = {undo_or_redo, 1},
-                        [ACTION_PRESETS] = {.plain = ceduo_popup_presets},
-                        [ACTION_COUNTS] = {.plain = ceduo_popup_counts},
-#define V(NAME, name, key, word, help) [ACTION_VIEW_##NAME] = {show_view, VIEW_##NAME},
-                        VIEWS(V)
+/* What the actions of all views do. */
+static const struct act acts[ACTION_COUNT] = {[ACTION_UP] = {.function = move_lines, .by = -1},
+                                              [ACTION_DOWN] = {.function = move_lines, .by = 1},
+                                              [ACTION_LEFT] = {.function = move_column, .by = -1},
+                                              [ACTION_RIGHT] = {.function = move_column, .by = 1},
+                                              [ACTION_TOP] = {.function = move_lines, .by = -ALL_LINES},
+                                              [ACTION_BOTTOM] = {.function = move_lines, .by = ALL_LINES},
+                                              [ACTION_PAGE_UP] = {.function = move_page, .by = -1},
+                                              [ACTION_PAGE_DOWN] = {.function = move_page, .by = 1},
+                                              [ACTION_NEXT_PANE] = {.function = next_pane, .by = 1},
+                                              [ACTION_LAST_PANE] = {.function = next_pane, .by = -1},
+                                              [ACTION_EDIT] = {.plain = ceduo_edit_start},
+                                              [ACTION_MORE] = {.function = ceduo_edit_step, .by = 1},
+                                              [ACTION_LESS] = {.function = ceduo_edit_step, .by = -1},
+                                              [ACTION_ADD] = {.plain = ceduo_items_add},
+                                              [ACTION_DELETE] = {.plain = ceduo_items_delete},
+                                              [ACTION_DUPLICATE] = {.plain = ceduo_items_duplicate},
+                                              [ACTION_EARLIER] = {.function = ceduo_items_move, .by = -1},
+                                              [ACTION_LATER] = {.function = ceduo_items_move, .by = 1},
+                                              [ACTION_UNDO] = {.function = undo_or_redo, .by = -1},
+                                              [ACTION_REDO] = {.function = undo_or_redo, .by = 1},
+                                              [ACTION_PRESETS] = {.plain = ceduo_popup_presets},
+                                              [ACTION_COUNTS] = {.plain = ceduo_popup_counts},
+#define V(NAME, name, key, word, help) [ACTION_VIEW_##NAME] = {.function = show_view, .by = VIEW_##NAME},
+                                              VIEWS(V)
 #undef V
-                            [ACTION_FIND] = {.plain = ceduo_popup_find},
-                        [ACTION_NEXT_OPTION] = {next_option, 1},
-                        [ACTION_LAST_OPTION] = {next_option, -1},
-                        [ACTION_NEXT_ROCK] = {ceduo_app_next_rock, 1},
-                        [ACTION_LAST_ROCK] = {ceduo_app_next_rock, -1},
-                        [ACTION_SEARCH] = {.plain = ask_for_word},
-                        [ACTION_AGAIN] = {.plain = ceduo_app_search},
-                        [ACTION_COMMANDS] = {.plain = list_commands},
-                        [ACTION_NEW] = {.plain = ceduo_popup_new},
-                        [ACTION_OPEN] = {.plain = ceduo_popup_open},
-                        [ACTION_SAVE] = {.plain = ceduo_popup_save},
-                        [ACTION_SAVE_AS] = {.plain = ceduo_popup_save_as},
-                        [ACTION_COPY] = {.plain = ceduo_popup_copy},
-                        [ACTION_EXPORT] = {.plain = ceduo_popup_export},
-                        [ACTION_CHARSET] = {.plain = next_charset},
-                        [ACTION_THEME] = {.plain = next_theme},
-                        [ACTION_REDRAW] = {.plain = redraw},
-                        [ACTION_HELP] = {.plain = ceduo_popup_help},
-                        [ACTION_QUIT] = {.plain = ceduo_popup_quit}};
+                                                  [ACTION_FIND] = {.plain = ceduo_popup_find},
+                                              [ACTION_NEXT_OPTION] = {.function = next_option, .by = 1},
+                                              [ACTION_LAST_OPTION] = {.function = next_option, .by = -1},
+                                              [ACTION_NEXT_ROCK] = {.function = ceduo_app_next_rock, .by = 1},
+                                              [ACTION_LAST_ROCK] = {.function = ceduo_app_next_rock, .by = -1},
+                                              [ACTION_SEARCH] = {.plain = ask_for_word},
+                                              [ACTION_AGAIN] = {.plain = ceduo_app_search},
+                                              [ACTION_COMMANDS] = {.plain = list_commands},
+                                              [ACTION_NEW] = {.plain = ceduo_popup_new},
+                                              [ACTION_OPEN] = {.plain = ceduo_popup_open},
+                                              [ACTION_SAVE] = {.plain = ceduo_popup_save},
+                                              [ACTION_SAVE_AS] = {.plain = ceduo_popup_save_as},
+                                              [ACTION_COPY] = {.plain = ceduo_popup_copy},
+                                              [ACTION_EXPORT] = {.plain = ceduo_popup_export},
+                                              [ACTION_CHARSET] = {.plain = next_charset},
+                                              [ACTION_THEME] = {.plain = next_theme},
+                                              [ACTION_REDRAW] = {.plain = redraw},
+                                              [ACTION_HELP] = {.plain = ceduo_popup_help},
+                                              [ACTION_QUIT] = {.plain = ceduo_popup_quit}};
 
 /* The view's own, or that of all views. */
 static void act(struct app *app, enum action action)
 {
     const struct act *own = ceduo_views[app->view]->acts[ceduo_app_state(app)->pane];
-    while (own && own->function && own->action != action)
+    while (own && (own->function || own->plain) && own->action != action)
         own++;
-    if (own && own->function)
-        own->function(app, own->by);
-    else if (acts[action].function)
-        acts[action].function(app, acts[action].by);
-    else if (acts[action].plain)
-        acts[action].plain(app);
+    const struct act *a = own && (own->function || own->plain) ? own : &acts[action];
+    if (a->function)
+        a->function(app, a->by);
+    else if (a->plain)
+        a->plain(app);
 }
 
 /* What a key or a choice has led to. */
@@ -191,13 +185,13 @@ void ceduo_program_key(struct app *app, int key)
 {
     enum action action = ceduo_action_of(key);
     ceduo_arena_free(app->scratch);
+    if (!app->popup)
+        app->message[0] = '\0';
     if (app->popup) {
         ceduo_popup_key(app, key);
     } else if (app->editing) {
-        app->message[0] = '\0';
         ceduo_edit_key(app, key);
     } else {
-        app->message[0] = '\0';
         app->once_saved = NULL;
         if (action != ACTION_NONE)
             act(app, action);

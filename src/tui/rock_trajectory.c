@@ -39,27 +39,25 @@ static void add_stem(void *context, const struct ceduo_stem_passed *stem)
     s->stems[s->stems_count++] = *stem;
 }
 
-static void add_point(struct ceduo_polyline *t, double x, double z)
-{
-    t->x[t->n] = x;
-    t->z[t->n++] = z;
-}
-
 /* The line of the pieces that are shown. */
 static void draw_trail(struct rock_trajectory *s, double half_g)
 {
     size_t shown = s->at > 0 ? s->at : s->n, room = shown * FLIGHT_POINTS + 1;
-    ceduo_polyline_free(&s->line);
-    s->line.x = ceduo_must(malloc(room * sizeof(double)));
-    s->line.z = ceduo_must(malloc(room * sizeof(double)));
-    s->line.n = 0;
-    add_point(&s->line, s->whole.x0, s->whole.z0);
+    struct ceduo_polyline *line = &s->line;
+    ceduo_polyline_free(line);
+    line->x = ceduo_must(malloc(room * sizeof(double)));
+    line->z = ceduo_must(malloc(room * sizeof(double)));
+    line->x[0] = s->whole.x0;
+    line->z[0] = s->whole.z0;
+    line->n = 1;
     for (const struct ceduo_piece *p = s->pieces; p < s->pieces + shown; p++) {
         for (int i = 1; i < FLIGHT_POINTS && !p->rolls; i++) {
             double time = p->seconds * i / FLIGHT_POINTS;
-            add_point(&s->line, p->x + p->vx * time, p->z + (p->vz - half_g * time) * time);
+            line->x[line->n] = p->x + p->vx * time;
+            line->z[line->n++] = p->z + (p->vz - half_g * time) * time;
         }
-        add_point(&s->line, p->x1, p->z1);
+        line->x[line->n] = p->x1;
+        line->z[line->n++] = p->z1;
     }
 }
 
@@ -86,8 +84,8 @@ void ceduo_rock_trajectory_move(struct rock_trajectory *s, int by)
 {
     if (by > 0)
         s->at = s->at < s->n ? s->at + 1 : s->n;
-    else
-        s->at = s->at > 1 ? s->at - 1 : s->at == 1 ? 0 : s->n;
+    else if (by < 0)
+        s->at = s->at > 0 ? s->at - 1 : s->n;
 }
 
 size_t ceduo_rock_trajectory_stems(const struct rock_trajectory *s)
@@ -100,45 +98,22 @@ size_t ceduo_rock_trajectory_stems(const struct rock_trajectory *s)
     return n;
 }
 
-/* The stem that is hit at the end of the piece shown. */
-static void say_stem(const struct rock_trajectory *s, struct text *text)
-{
-    for (size_t i = 0; i < s->stems_count; i++) {
-        const struct ceduo_stem_passed *p = &s->stems[i];
-        if (!p->hit || s->stem_piece[i] != s->at)
-            continue;
-        if (isnan(p->dbh))
-            ceduo_text_then(text, "; ", _("a contact takes %.2g of %.3g kJ"), p->taken / 1e3, p->before / 1e3);
-        else
-            ceduo_text_then(text, "; ",
-                            p->shoot ? _("hits a shoot of %.2g cm: %.2g of %.3g kJ")
-                                     : _("hits a tree of %.2g cm: %.2g of %.3g kJ"),
-                            p->dbh * 100, p->taken / 1e3, p->before / 1e3);
-    }
-}
-
-static void say_end(const struct rock_trajectory *s, double origin, struct text *text)
+void ceduo_rock_trajectory_say(const struct rock_trajectory *s, const struct ceduo_scene *scene, struct text *text)
 {
     static const char *const ends[CEDUO_ENDS] = {N_("comes to rest"), N_("leaves the slope"), N_("goes on for ever"),
                                                  N_("is stopped by stems")};
-    const char *end = s->cut_short ? N_("goes on too long to be shown") : ends[s->whole.end];
-    ceduo_text_format(text, _("rock %llu: %s at %.1f m after %llu contacts"), (unsigned long long)s->rock, _(end),
-                      s->whole.x + origin, (unsigned long long)s->whole.contacts);
-    if (s->whole.stems_drawn > 0)
-        ceduo_text_then(text, ", ", _("%llu stems hit"), (unsigned long long)s->whole.stems_hit);
-}
-
-void ceduo_rock_trajectory_say(const struct rock_trajectory *s, const struct ceduo_scene *scene, struct text *text)
-{
-    double origin = scene->slope.origin_x;
+    double origin = scene->slope.origin_x, gravity = scene->simulation.gravity;
     if (s->at == 0 || s->at > s->n) {
-        say_end(s, origin, text);
+        ceduo_text_format(text, _("rock %llu: %s at %.1f m after %llu contacts"), (unsigned long long)s->rock,
+                          s->cut_short ? _("goes on too long to be shown") : _(ends[s->whole.end]), s->whole.x + origin,
+                          (unsigned long long)s->whole.contacts);
+        if (s->whole.stems_drawn > 0)
+            ceduo_text_then(text, ", ", _("%llu stems hit"), (unsigned long long)s->whole.stems_hit);
         return;
     }
     const struct ceduo_piece *p = &s->pieces[s->at - 1];
-    double up = p->vz > 0 && !p->rolls ? p->vz / scene->simulation.gravity : 0;
-    up = up < p->seconds ? up : p->seconds;
-    double x = p->x + p->vx * up, z = p->z + (p->vz - scene->simulation.gravity / 2 * up) * up;
+    double up = p->vz > 0 && !p->rolls ? fmin(p->vz / gravity, p->seconds) : 0;
+    double x = p->x + p->vx * up, z = p->z + (p->vz - gravity / 2 * up) * up;
     ceduo_text_format(text, _("rock %llu, piece %zu of %zu"), (unsigned long long)s->rock, s->at, s->n);
     if (p->rolls)
         ceduo_text_then(text, ": ", _("rolls from %.2f to %.2f m, %.1f to %.1f m/s"), p->x + origin, p->x1 + origin,
@@ -146,7 +121,18 @@ void ceduo_rock_trajectory_say(const struct rock_trajectory *s, const struct ced
     else
         ceduo_text_then(text, ": ", _("flies from %.2f to %.2f m, %.1f m/s, top %.1f m over the ground"), p->x + origin,
                         p->x1 + origin, hypot(p->vx1, p->vz1), fmax(0, z - ceduo_slope_height(&scene->slope, x)));
-    say_stem(s, text);
+    for (size_t i = 0; i < s->stems_count; i++) { /* the stem that is hit at its end */
+        const struct ceduo_stem_passed *stem = &s->stems[i];
+        if (!stem->hit || s->stem_piece[i] != s->at)
+            continue;
+        if (isnan(stem->dbh))
+            ceduo_text_then(text, "; ", _("a contact takes %.2g of %.3g kJ"), stem->taken / 1e3, stem->before / 1e3);
+        else
+            ceduo_text_then(text, "; ",
+                            stem->shoot ? _("hits a shoot of %.2g cm: %.2g of %.3g kJ")
+                                        : _("hits a tree of %.2g cm: %.2g of %.3g kJ"),
+                            stem->dbh * 100, stem->taken / 1e3, stem->before / 1e3);
+    }
 }
 
 void ceduo_rock_trajectory_free(struct rock_trajectory *s)

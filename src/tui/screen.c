@@ -76,7 +76,7 @@ static bool draw_title(struct app *app)
 static void draw_verdict(struct app *app)
 {
     const struct ceduo_result *r = app->live.result;
-    struct text answer = {0};
+    LOCAL_TEXT(answer);
     if (!r || r->scene->controls_count == 0)
         return;
     struct ceduo_pane pane = ceduo_app_pane(app, 1);
@@ -87,63 +87,54 @@ static void draw_verdict(struct app *app)
                      : judgement == CEDUO_YES      ? CEDUO_ROLE_GOOD
                      : judgement == CEDUO_NO       ? CEDUO_ROLE_BAD
                                                    : CEDUO_ROLE_WARN,
-                     ceduo_app_kept(app, &answer));
+                     answer.bytes);
 }
 
 static void draw_explanation(struct app *app)
 {
-    struct text text = {0}, safe = {0};
-    struct form_cell *cell = ceduo_form_cell(ceduo_app_form(app));
+    LOCAL_TEXT(text);
+    LOCAL_TEXT(safe);
     enum ceduo_role role = CEDUO_ROLE_TEXT;
-    if (app->message[0]) {
+    struct ceduo_area lines = {0, app->height - 3, app->width, 2};
+    if (app->message[0] && !(app->popup && app->popup->kind != POPUP_TEXT && !app->popup->asks)) { /* which shows it */
         ceduo_text_put(&text, app->message);
         role = app->message_bad ? CEDUO_ROLE_WARN : CEDUO_ROLE_GOOD;
-    } else if (cell && ceduo_app_state(app)->pane == 0) {
-        ceduo_form_explain(&app->document, cell, &text);
+    } else if (ceduo_app_state(app)->pane == 0) {
+        ceduo_form_explain(ceduo_app_form(app), &text);
     }
-    ceduo_text_safe(&safe, ceduo_app_kept(app, &text));
-    struct ceduo_area lines = {0, app->height - 3, app->width, 2};
+    ceduo_text_safe(&safe, ceduo_text_string(&text));
     ceduo_app_shorten(app, &safe, lines.width, lines.height);
-    const char *shown = ceduo_app_kept(app, &safe);
+    const char *shown = ceduo_text_string(&safe);
     if ((int)ceduo_utf8_width(shown) > app->width)
         ceduo_app_text(app, lines, role, shown, NULL);
     else
         ceduo_canvas_put(&app->cells->canvas, 0, app->height - 2, app->width, role, shown);
 }
 
-static int bar_width(const struct bar_key *k)
+static int bar_width(enum action action, const char *word)
 {
-    return (int)ceduo_utf8_width(ceduo_actions[k->action].word) + (int)ceduo_utf8_width(_(k->word)) + 3;
+    return (int)ceduo_utf8_width(ceduo_actions[action].word) + (int)ceduo_utf8_width(_(word)) + 3;
 }
 
-static int draw_key(struct app *app, int x, const struct bar_key *k)
+/* Puts a key where there is room. False where there is none. */
+static bool draw_key(struct app *app, int *x, enum action action, const char *word, int *room)
 {
-    const char *word = ceduo_actions[k->action].word;
-    ceduo_app_label(app, x, app->height - 1, CEDUO_ROLE_TITLE, "%s", word);
-    ceduo_app_label(app, x + (int)ceduo_utf8_width(word) + 1, app->height - 1, CEDUO_ROLE_DIM, "%s", _(k->word));
-    return x + bar_width(k);
-}
-
-/* Puts the keys of all views with this rank, as long as there is room. */
-static int draw_common(struct app *app, int x, int rank, int *room)
-{
-    for (int i = 0; i < ACTION_COUNT; i++) {
-        struct bar_key k = {(enum action)i, ceduo_actions[i].help};
-        bool own = false;
-        for (const struct bar_key *of_view = ceduo_views[app->view]->bar; of_view->word; of_view++)
-            own |= of_view->action == k.action;
-        if (ceduo_actions[i].bar != rank || own || bar_width(&k) > *room)
-            continue;
-        *room -= bar_width(&k);
-        x = draw_key(app, x, &k);
-    }
-    return x;
+    const char *key = ceduo_actions[action].word;
+    int width = bar_width(action, word);
+    if (width > *room)
+        return false;
+    ceduo_app_label(app, *x, app->height - 1, CEDUO_ROLE_TITLE, "%s", key);
+    ceduo_app_label(app, *x + (int)ceduo_utf8_width(key) + 1, app->height - 1, CEDUO_ROLE_DIM, "%s", _(word));
+    *x += width;
+    *room -= width;
+    return true;
 }
 
 /* The view's own keys, then those of every view, of which the last ones always have room. */
 static void draw_bar(struct app *app)
 {
-    int x = 0, always = 0, room = app->width + 2;
+    const struct bar_key *bar = ceduo_views[app->view]->bar;
+    int x = 0, room = app->width + 2;
     if (app->popup || app->editing) {
         ceduo_canvas_put(&app->cells->canvas, 0, app->height - 1, app->width, CEDUO_ROLE_DIM,
                          app->popup ? ceduo_popup_bar(app)
@@ -151,14 +142,19 @@ static void draw_bar(struct app *app)
         return;
     }
     for (int i = 0; i < ACTION_COUNT; i++)
-        always += ceduo_actions[i].bar == 2 ? bar_width(&(struct bar_key){(enum action)i, ceduo_actions[i].help}) : 0;
-    room -= always;
-    for (const struct bar_key *k = ceduo_views[app->view]->bar; k->word && bar_width(k) <= room; k++) {
-        room -= bar_width(k);
-        x = draw_key(app, x, k);
+        room -= ceduo_actions[i].bar == 2 ? bar_width((enum action)i, ceduo_actions[i].help) : 0;
+    for (const struct bar_key *k = bar; k->word && draw_key(app, &x, k->action, k->word, &room);)
+        k++;
+    for (int rank = 1; rank <= 2; rank++) {
+        for (int i = 0; i < ACTION_COUNT; i++) {
+            bool own = ceduo_actions[i].bar != rank;
+            for (const struct bar_key *k = bar; k->word; k++)
+                own |= k->action == (enum action)i;
+            if (!own)
+                draw_key(app, &x, (enum action)i, ceduo_actions[i].help, &room);
+        }
+        room = app->width;
     }
-    x = draw_common(app, x, 1, &room);
-    draw_common(app, x, 2, &always);
 }
 
 /* The newest figures, which stand still in every view. Warnings that have no room whole are only counted: view 4 has them.

@@ -14,22 +14,15 @@
 #include "screen.h"
 #include "view/svg.h"
 
+/* Of the word its beginning: it may be no script. */
 static enum script_end fail(const char *path, size_t line, const char *what, const char *word)
 {
-    struct text message = {0};
+    LOCAL_TEXT(message);
     ceduo_text_safe(&message, path);
     ceduo_text_format(&message, ":%zu: %s: ", line, what);
-    ceduo_text_safe(&message, word);
+    ceduo_text_safe_n(&message, word, ceduo_utf8_cut(word, CEDUO_FOREIGN_MOST));
     fprintf(stderr, "%s\n", message.bytes);
-    ceduo_text_free(&message);
     return SCRIPT_WRONG;
-}
-
-/* The beginning of a word of what may be no script. */
-static const char *beginning(char *word)
-{
-    word[ceduo_utf8_cut(word, CEDUO_FOREIGN_MOST)] = '\0';
-    return word;
 }
 
 /* A script sees what a search found before its next key. */
@@ -40,68 +33,24 @@ static void press_key(struct app *app, int key)
         ceduo_program_news(app);
 }
 
-static enum script_end press(struct app *app, char *names, const char *path, size_t line)
-{
-    for (char *save, *name = strtok_r(names, " \t", &save); name; name = strtok_r(NULL, " \t", &save)) {
-        int key = ceduo_key_of(name);
-        if (key == K_NONE)
-            return fail(path, line, _("no such key"), beginning(name));
-        press_key(app, key);
-    }
-    return SCRIPT_DONE;
-}
-
-static void type(struct app *app, const char *text)
-{
-    size_t n = strlen(text);
-    for (size_t i = 0; i < n;) {
-        uint32_t code;
-        size_t length = ceduo_utf8_decode(text + i, n - i, &code);
-        if (length > 0)
-            press_key(app, (int)code);
-        i += length > 0 ? length : 1;
-    }
-}
-
-static void wait_idle(struct app *app)
-{
-    ceduo_jobs_wait(app->live.jobs);
-    ceduo_program_news(app);
-}
-
-/* The screen as text, as letters of its roles, or as a drawing. */
-static char *screen_as(struct app *app, const char *what)
-{
-    struct text drawing = {0};
-    if (strcmp(what, "roles") == 0)
-        return ceduo_cells_roles(app->cells);
-    if (strcmp(what, "dump") == 0)
-        return ceduo_cells_dump(app->cells);
-    ceduo_svg_screen(&drawing, app->cells, app->document.file.scene.title);
-    return drawing.bytes;
-}
-
+/* Puts the screen as text, as letters of its roles, or as a drawing. */
 static enum script_end dump(struct app *app, const char *what, const char *name, const char *path, size_t line)
 {
+    LOCAL_TEXT(drawing);
     ceduo_program_news(app);
     ceduo_screen_draw(app);
-    char *text = ceduo_must(screen_as(app, what));
-    bool good =
-        strcmp(name, "-") == 0 ? fputs(text, stdout) >= 0 && fflush(stdout) == 0 : ceduo_file_write(name, text, strlen(text));
+    if (strcmp(what, "draw") == 0) {
+        ceduo_svg_screen(&drawing, app->cells, app->document.file.scene.title);
+    } else {
+        char *screen = ceduo_must(strcmp(what, "roles") == 0 ? ceduo_cells_roles(app->cells) : ceduo_cells_dump(app->cells));
+        ceduo_text_put(&drawing, screen);
+        free(screen);
+    }
+    bool good = strcmp(name, "-") == 0 ? fputs(drawing.bytes, stdout) >= 0 && fflush(stdout) == 0
+                                       : ceduo_file_write(name, drawing.bytes, drawing.length);
     if (!good)
         fail(path, line, strerror(errno), name);
-    free(text);
     return good ? SCRIPT_DONE : SCRIPT_UNWRITTEN;
-}
-
-static enum script_end resize(struct app *app, char *rest, const char *path, size_t line)
-{
-    int width, height, used = 0;
-    if (sscanf(rest, "%d %d%n", &width, &height, &used) != 2 || rest[used] || width < 1 || height < 1 ||
-        width > CEDUO_CANVAS_MAX_WIDTH || height > CEDUO_CANVAS_MAX_HEIGHT)
-        return fail(path, line, _("a width and a height are wanted"), beginning(rest));
-    ceduo_app_resize(app, width, height);
-    return SCRIPT_DONE;
 }
 
 static enum script_end obey(struct app *app, char *command, const char *path, size_t line)
@@ -109,21 +58,37 @@ static enum script_end obey(struct app *app, char *command, const char *path, si
     command += strspn(command, " \t");
     if (command[0] == '\0' || command[0] == '#')
         return SCRIPT_DONE;
-    char *rest = command + strcspn(command, " \t");
+    char *rest = command + strcspn(command, " \t"), *save;
     if (*rest)
         *rest++ = '\0';
-    if (strcmp(command, "key") == 0)
-        return press(app, rest, path, line);
-    if (strcmp(command, "dump") == 0 || strcmp(command, "roles") == 0 || strcmp(command, "draw") == 0)
+    if (strcmp(command, "key") == 0) {
+        for (char *name = strtok_r(rest, " \t", &save); name; name = strtok_r(NULL, " \t", &save)) {
+            int key = ceduo_key_of(name);
+            if (key == K_NONE)
+                return fail(path, line, _("no such key"), name);
+            press_key(app, key);
+        }
+    } else if (strcmp(command, "type") == 0) {
+        for (size_t i = 0, length, n = strlen(rest); i<n; i += length> 0 ? length : 1) {
+            uint32_t code;
+            length = ceduo_utf8_decode(rest + i, n - i, &code);
+            if (length > 0)
+                press_key(app, (int)code);
+        }
+    } else if (strcmp(command, "dump") == 0 || strcmp(command, "roles") == 0 || strcmp(command, "draw") == 0) {
         return dump(app, command, rest, path, line);
-    if (strcmp(command, "resize") == 0)
-        return resize(app, rest, path, line);
-    if (strcmp(command, "type") == 0)
-        type(app, rest);
-    else if (strcmp(command, "wait") == 0 && strcmp(rest, "idle") == 0)
-        wait_idle(app);
-    else
-        return fail(path, line, _("key, type, resize, wait idle, dump, roles or draw is wanted"), beginning(command));
+    } else if (strcmp(command, "resize") == 0) {
+        int width, height, used = 0;
+        if (sscanf(rest, "%d %d%n", &width, &height, &used) != 2 || rest[used] || width < 1 || height < 1 ||
+            width > CEDUO_CANVAS_MAX_WIDTH || height > CEDUO_CANVAS_MAX_HEIGHT)
+            return fail(path, line, _("a width and a height are wanted"), rest);
+        ceduo_app_resize(app, width, height);
+    } else if (strcmp(command, "wait") == 0 && strcmp(rest, "idle") == 0) {
+        ceduo_jobs_wait(app->live.jobs);
+        ceduo_program_news(app);
+    } else {
+        return fail(path, line, _("key, type, resize, wait idle, dump, roles or draw is wanted"), command);
+    }
     return SCRIPT_DONE;
 }
 

@@ -305,21 +305,6 @@ static void end_control(struct app *app, wint_t last)
     }
 }
 
-static void take_character(struct app *app, wint_t c);
-
-#define C1     0x80 /* controls of 8 bits, which begin as ESC and a character of 7 does */
-#define C1_END 0xa0
-
-static void take_c1(struct app *app, wint_t c)
-{
-    bool ends = c == 0x9c && (input.state == STRING || input.state == STRING_ESCAPED);
-    wint_t second = c - 0x40;
-    if (ends || second == '[' || second == 'O' || strchr(STRINGS, (int)second)) {
-        take_character(app, K_ESCAPE);
-        take_character(app, second);
-    }
-}
-
 static void take_character(struct app *app, wint_t c)
 {
     bool lost = input.pasting && c == CTRL('C') && is_quiet(); /* the end of the paste */
@@ -327,8 +312,6 @@ static void take_character(struct app *app, wint_t c)
     if (lost) {
         input.pasting = false;
         input.state = PLAIN;
-    } else if (c >= C1 && c < C1_END) {
-        take_c1(app, c);
     } else if (input.state == PLAIN && c != K_ESCAPE) {
         press(app, c);
     } else if (input.state == STRING || input.state == STRING_ESCAPED) {
@@ -342,7 +325,7 @@ static void take_character(struct app *app, wint_t c)
         input.number = -1;
     } else if (input.state == ESCAPED && !input.pasting && c == 'O') {
         swallow(1);
-    } else if (input.state == ESCAPED && !input.pasting && c < C1 && c > ' ' && strchr(STRINGS, (int)c)) {
+    } else if (input.state == ESCAPED && !input.pasting && c < 128 && c > ' ' && strchr(STRINGS, (int)c)) {
         input.state = STRING;
     } else if (input.state == ESCAPED) {
         input.state = PLAIN;

@@ -7,10 +7,8 @@
 
 static void build(struct app *app, struct form *form)
 {
-    static const char *const columns[] = {"name", NULL};
-    const struct field *options = ceduo_schema_field(ceduo_schema_scene(), "options");
     if (ceduo_node_get(app->document.file.root, "options"))
-        ceduo_form_table(form, &app->document, options->object, "options", columns, "");
+        ceduo_form_table(form, "options", NULL, "name");
     else
         ceduo_form_note(form, _("One way to treat this wood so far. a adds another from a preset, y a copy of this one."));
     form->row = app->option + 1; /* below the names of the columns */
@@ -60,10 +58,9 @@ static void draw(struct app *app, struct ceduo_area area)
     int pane = ceduo_app_state(app)->pane;
     bool beside = area.width >= BESIDE_MIN && app->live.verdict.n > 1;
     struct ceduo_area table = area, picture = area;
-    if (pane != PANE_TABLE && !app->message[0])
-        ceduo_app_say(app, "%s",
-                      pane == PANE_COMPARE ? _("Tab: protection against yield; up, down: another option")
-                                           : _("Tab: back to the table; up, down: another option"));
+    if (pane != PANE_TABLE)
+        ceduo_app_hint(app, pane == PANE_COMPARE ? _("Tab: protection against yield; up, down: another option")
+                                                 : _("Tab: back to the table; up, down: another option"));
     if (pane == PANE_TABLE && beside) {
         table.width = TABLE_WIDTH;
         picture.left += TABLE_WIDTH + 2;
@@ -86,23 +83,15 @@ static void next_option(struct app *app, int by)
     choose(app, (long)app->option + by);
 }
 
-static void add_option(struct app *app, int unused)
+static void copy_option(struct app *app)
 {
-    (void)unused;
-    ceduo_popup_new_option(app);
-}
-
-static void copy_option(struct app *app, int unused)
-{
-    (void)unused;
     size_t at = app->option;
     if (ceduo_app_edited(app, ceduo_document_copy_option(&app->document, at, &app->problems)))
         choose(app, (long)at + 1);
 }
 
-static void delete_option(struct app *app, int unused)
+static void delete_option(struct app *app)
 {
-    (void)unused;
     const char *path = ceduo_app_format(app, "options[%zu]", app->option);
     const char *name = ceduo_app_format(app, "%s", ceduo_app_option(app)->name);
     if (app->document.file.scene.options_count < 2)
@@ -123,29 +112,29 @@ static void move_option(struct app *app, int by)
 
 static bool filled_name(struct app *app, struct popup *p)
 {
-    return ceduo_app_edited(app, ceduo_document_rename_option(&app->document, app->option, p->fields[0].text, &app->problems));
+    return ceduo_app_edited(app,
+                            ceduo_document_rename_option(&app->document, app->option, p->fields[0].line.text, &app->problems));
 }
 
-static void rename_option(struct app *app, int unused)
+static void rename_option(struct app *app)
 {
-    (void)unused;
     if (ceduo_node_get(app->document.file.root, "options"))
-        ceduo_popup_field(ceduo_popup_fields(app, _("Name of this option"), filled_name), _("name"),
+        ceduo_popup_field(ceduo_popup_fields(app, _("Name of this option"), "", filled_name), _("name"),
                           ceduo_app_option(app)->name);
 }
 
-static const struct act acts[] = {{ACTION_UP, next_option, -1},
-                                  {ACTION_DOWN, next_option, 1},
-                                  {ACTION_TOP, next_option, -1000000},
-                                  {ACTION_BOTTOM, next_option, 1000000},
-                                  {ACTION_PAGE_UP, ceduo_app_read_on, -4},
-                                  {ACTION_PAGE_DOWN, ceduo_app_read_on, 4},
-                                  {ACTION_ADD, add_option, 0},
-                                  {ACTION_DUPLICATE, copy_option, 0},
-                                  {ACTION_DELETE, delete_option, 0},
-                                  {ACTION_EARLIER, move_option, -1},
-                                  {ACTION_LATER, move_option, 1},
-                                  {ACTION_EDIT, rename_option, 0},
+static const struct act acts[] = {{ACTION_UP, .function = next_option, .by = -1},
+                                  {ACTION_DOWN, .function = next_option, .by = 1},
+                                  {ACTION_TOP, .function = next_option, .by = -1000000},
+                                  {ACTION_BOTTOM, .function = next_option, .by = 1000000},
+                                  {ACTION_PAGE_UP, .function = ceduo_app_read_on, .by = -4},
+                                  {ACTION_PAGE_DOWN, .function = ceduo_app_read_on, .by = 4},
+                                  {ACTION_ADD, .plain = ceduo_popup_new_option},
+                                  {ACTION_DUPLICATE, .plain = copy_option},
+                                  {ACTION_DELETE, .plain = delete_option},
+                                  {ACTION_EARLIER, .function = move_option, .by = -1},
+                                  {ACTION_LATER, .function = move_option, .by = 1},
+                                  {ACTION_EDIT, .plain = rename_option},
                                   {0}};
 
 const struct view ceduo_view_compare = {.title = NP_("view", "compare"),

@@ -8,15 +8,13 @@
 
 static void build(struct app *app, struct form *form)
 {
-    static const char *const all[] = {"path", "lo", "hi", "mean", "sd", NULL}, *const few[] = {"path", "lo", "hi", NULL};
-    const struct field *doubt = ceduo_schema_field(ceduo_schema_scene(), "doubt");
     const struct node *rows = ceduo_node_get(app->document.file.root, "doubt");
     size_t n = rows && rows->kind == NODE_LIST ? rows->n : 0;
     bool means = false;
     for (size_t i = 0; i < n; i++)
         means |= ceduo_node_get(rows->items[i], "mean") != NULL;
     if (n > 0)
-        ceduo_form_table(form, &app->document, doubt->object, "doubt", means ? all : few, "");
+        ceduo_form_table(form, "doubt", NULL, means ? "path lo hi mean sd" : "path lo hi");
     else
         ceduo_form_note(form, _("a: name a range in the scene, to edit it"));
 }
@@ -54,9 +52,8 @@ static void draw(struct app *app, struct ceduo_area area)
     ceduo_app_draw_form(app, below, true);
 }
 
-static void turn(struct app *app, int unused)
+static void turn(struct app *app)
 {
-    (void)unused;
     app->over = !app->over;
     ceduo_app_state(app)->scroll = 0;
 }
@@ -74,9 +71,8 @@ static bool is_named(const struct node *rows, const char *path)
 }
 
 /* Names the most important input that the scene does not name yet, with the range that it has now. */
-static void add(struct app *app, int unused)
+static void add(struct app *app)
 {
-    (void)unused;
     const struct node *rows = ceduo_node_get(app->document.file.root, "doubt");
     struct ceduo_doubt_report r;
     bool known = ceduo_app_doubt(app, &r) && (!r.answer || ceduo_doubt_knows(&r, app->option));
@@ -104,11 +100,11 @@ static void add(struct app *app, int unused)
     ceduo_app_say(app, "%s", _("every single value in doubt has a range of the scene already"));
 }
 
-static const struct act acts[] = {{ACTION_ADD, add, 0},
-                                  {ACTION_NEXT_PANE, turn, 0},
-                                  {ACTION_LAST_PANE, turn, 0},
-                                  {ACTION_PAGE_UP, ceduo_app_read_on, -4},
-                                  {ACTION_PAGE_DOWN, ceduo_app_read_on, 4},
+static const struct act acts[] = {{ACTION_ADD, .plain = add},
+                                  {ACTION_NEXT_PANE, .plain = turn},
+                                  {ACTION_LAST_PANE, .plain = turn},
+                                  {ACTION_PAGE_UP, .function = ceduo_app_read_on, .by = -4},
+                                  {ACTION_PAGE_DOWN, .function = ceduo_app_read_on, .by = 4},
                                   {0}};
 
 const struct view ceduo_view_doubt = {.title = NP_("view", "doubt"),

@@ -227,38 +227,33 @@ static const struct node *first_with(const struct node *rows, const char *group,
 
 static void build(struct app *app, struct form *form)
 {
-    static const char *const columns[] = {"name", "use", "option", NULL};
-    const struct document *d = &app->document;
-    const struct object *object = ceduo_schema_field(ceduo_schema_scene(), "observed")->object;
-    const struct node *rows = ceduo_document_node(d, "observed");
+    const struct object *object = ceduo_schema_row("observed")->object;
+    const struct node *rows = ceduo_document_node(&app->document, "observed");
     if (!rows || rows->kind != NODE_LIST || rows->n == 0)
         return;
     for (size_t i = 0; i < GROUPS; i++) {
         const struct object *of = ceduo_schema_field(object, groups[i].group)->object;
-        const char *keys[FORM_COLUMNS + 1] = {NULL};
+        LOCAL_TEXT(keys); /* all but those of a table of values, where there is none */
         if (!first_with(rows, groups[i].group, NULL))
             continue;
-        for (size_t k = 0, n = 0; k < of->n && n < FORM_COLUMNS;
-             k++) /* all but those of a table of values, where there is none */
+        for (size_t k = 0; k < of->n; k++)
             if (of->fields[k].type > FIELD_FILE || first_with(rows, groups[i].group, of->fields[k].key))
-                keys[n++] = of->fields[k].key;
+                ceduo_text_then(&keys, keys.length > 0 ? " " : "", "%s", of->fields[k].key);
         ceduo_form_heading(form, _(groups[i].what));
-        ceduo_form_group(form, d, object, "observed", groups[i].group, keys);
+        ceduo_form_table(form, "observed", groups[i].group, ceduo_text_string(&keys));
     }
     ceduo_form_heading(form, _("All that was seen"));
-    ceduo_form_table(form, d, object, "observed", columns, "");
+    ceduo_form_table(form, "observed", NULL, "name use option");
 }
 
-static void chose_group(struct app *app, struct popup *p, const char *value)
+static void chose_group(struct app *app, struct popup *p)
 {
-    (void)p;
-    ceduo_popup_item_of(app, "observed", value, NULL, 0);
+    ceduo_popup_item_of(app, "observed", p->value, NULL, 0);
 }
 
-static void add(struct app *app, int unused)
+static void add(struct app *app)
 {
-    (void)unused;
-    struct popup *p = ceduo_popup_list(app, _("What was seen?"), chose_group);
+    struct popup *p = ceduo_popup_list(app, _("What was seen?"), "", chose_group);
     for (size_t i = 0; i < GROUPS; i++)
         ceduo_popup_answer(p, groups[i].key, _(groups[i].what), groups[i].group);
 }
@@ -311,9 +306,8 @@ static void draw(struct app *app, struct ceduo_area area)
 
 /* ---- keys ---- */
 
-static void start(struct app *app, int unused)
+static void start(struct app *app)
 {
-    (void)unused;
     if (app->document.file.observations_count == 0)
         ceduo_app_warn(app, "%s", _("nothing was seen here that could be fitted: a asks for it"));
     else if (!ceduo_fit_has_observations(&app->document.file))
@@ -323,9 +317,8 @@ static void start(struct app *app, int unused)
 }
 
 /* The best values into the scene, as one edit. */
-static void take(struct app *app, int unused)
+static void take(struct app *app)
 {
-    (void)unused;
     const struct fit *f = ceduo_live_fitted(&app->live);
     if (!f && !app->live.fitting && ceduo_app_state(app)->pane == PANE_FORM && ceduo_app_form(app)->n > 0) {
         ceduo_edit_start(app);
@@ -349,9 +342,8 @@ static void take(struct app *app, int unused)
     ceduo_text_free(&source);
 }
 
-static void stop(struct app *app, int unused)
+static void stop(struct app *app)
 {
-    (void)unused;
     if (app->live.fitting)
         ceduo_app_say(app, "%s", _("the fit is stopped; the scene is as it was"));
     else if (ceduo_live_fitted(&app->live))
@@ -359,8 +351,11 @@ static void stop(struct app *app, int unused)
     ceduo_live_drop_fit(&app->live);
 }
 
-static const struct act acts[] = {
-    {ACTION_COUNTS, start, 0}, {ACTION_EDIT, take, 0}, {ACTION_ADD, add, 0}, {ACTION_STOP, stop, 0}, {0}};
+static const struct act acts[] = {{ACTION_COUNTS, .plain = start},
+                                  {ACTION_EDIT, .plain = take},
+                                  {ACTION_ADD, .plain = add},
+                                  {ACTION_STOP, .plain = stop},
+                                  {0}};
 
 const struct view ceduo_view_observed = {.title = NP_("view", "seen"),
                                          .panes = PANES,

@@ -8,40 +8,29 @@
 
 static void build(struct app *app, struct form *form)
 {
-    static const char *const sizes[][5] = {[CEDUO_SPHERE] = {"rock.shape", "rock.diameter_m", "rock.volume_m3"},
-                                           [CEDUO_CYLINDER] = {"rock.shape", "rock.diameter_m", "rock.height_m"},
-                                           [CEDUO_ELLIPSOID] = {"rock.shape", "rock.axes_m"},
-                                           [CEDUO_BLOCK] = {"rock.shape", "rock.axes_m"}};
-    static const char *const weight[] = {"rock.mass_kg", "rock.density_kg_m3", NULL};
-    static const char *const release[] = {"release.x_m",    "release.height_m",   "release.vx_m_s",
-                                          "release.vz_m_s", "release.spin_rad_s", NULL};
-    static const char *const simulation[] = {"simulation.law",         "simulation.contact_model", "simulation.rule",
-                                             "simulation.threshold_m", "simulation.scale_rn",      "simulation.gravity_m_s2",
-                                             "simulation.seed",        "simulation.rocks",         NULL};
-    static const char *const columns[] = {"per_year", "volume_m3", "exponent", NULL};
-    static const char *const design[] = {"design.survey", "design.blocks", NULL};
-    const struct document *d = &app->document;
-    const struct object *scene = ceduo_schema_scene();
+    static const char *const sizes[] = {[CEDUO_SPHERE] = "shape diameter_m volume_m3",
+                                        [CEDUO_CYLINDER] = "shape diameter_m height_m",
+                                        [CEDUO_ELLIPSOID] = "shape axes_m",
+                                        [CEDUO_BLOCK] = "shape axes_m"};
+    static const char columns[] = "per_year volume_m3 exponent";
     ceduo_form_heading(form, _("Rock"));
-    ceduo_form_fields(form, d, scene, "", sizes[d->file.scene.rock.shape]);
-    ceduo_form_fields(form, d, scene, "", weight);
+    ceduo_form_fields(form, "rock.", sizes[app->document.file.scene.rock.shape]);
+    ceduo_form_fields(form, "rock.", "mass_kg density_kg_m3");
     ceduo_form_heading(form, _("Release"));
-    ceduo_form_fields(form, d, scene, "", release);
-    ceduo_form_rest(form, d, scene, "", "release");
+    ceduo_form_fields(form, "release.", "x_m height_m vx_m_s vz_m_s spin_rad_s");
+    ceduo_form_rest(form, "release");
     ceduo_form_heading(form, _("Simulation"));
-    ceduo_form_fields(form, d, scene, "", simulation);
-    ceduo_form_rest(form, d, scene, "", "simulation");
-    const struct node *node = ceduo_document_node(d, "blocks"); /* a power law, or a list of classes */
-    const struct object *blocks = ceduo_schema_field(scene, "blocks")->object;
+    ceduo_form_fields(form, "simulation.", "law contact_model rule threshold_m scale_rn gravity_m_s2 seed rocks");
+    ceduo_form_rest(form, "simulation");
+    const struct node *blocks = ceduo_document_node(&app->document, "blocks"); /* a power law, or a list of classes */
     ceduo_form_heading(form, _("Blocks that come down"));
-    if (node && node->kind == NODE_MAP)
-        ceduo_form_fields(form, d, blocks, "blocks", columns);
+    if (blocks && blocks->kind == NODE_MAP)
+        ceduo_form_fields(form, "blocks.", columns);
     else
-        ceduo_form_table(form, d, blocks, "blocks", columns, "");
-    ceduo_form_fields(form, d, scene, "", design);
-    ceduo_form_field(form, d, scene, "", "title", NULL);
+        ceduo_form_table(form, "blocks", NULL, columns);
+    ceduo_form_fields(form, "", "design.survey design.blocks title");
     ceduo_form_heading(form, _("Head of the report"));
-    ceduo_form_rest(form, d, scene, "", "page");
+    ceduo_form_rest(form, "page");
 }
 
 #define WIDE 70 /* columns that leave room for a remark */
@@ -66,7 +55,7 @@ static void draw(struct app *app, struct ceduo_area area)
     ceduo_app_put(app, foot, CEDUO_ROLE_DIM, &text);
 }
 
-static const struct act acts[] = {{ACTION_PRESETS, ceduo_popup_starts, 0}, {0}};
+static const struct act acts[] = {{ACTION_PRESETS, .plain = ceduo_popup_starts}, {0}};
 
 const struct view ceduo_view_rock = {
     .title = NP_("view", "rock"),

@@ -8,7 +8,6 @@
 
 static void build(struct app *app, struct form *form)
 {
-    static const char *const belt_columns[] = {"from_m", "to_m", "cut_year", "stand", NULL};
     static const struct {
         const char *key, *label;
     } fields[] = {{"cutting.stay_per_ha", N_("trees that stay, per ha")},
@@ -27,25 +26,23 @@ static void build(struct app *app, struct form *form)
                   {"growth.trees.height_most_m", N_("trees: height max, m")},
                   {"growth.trees.height_rate_1_y", N_("trees: height rate, 1/y")}};
     static const char *const groups[] = {"cutting", "growth", "growth.shoots", "growth.trees"};
-    const struct document *d = &app->document;
-    const struct object *scene = ceduo_schema_scene();
-    ceduo_form_table(form, d, ceduo_schema_field(scene, "forest")->object, ceduo_app_forest(app), belt_columns, "");
+    ceduo_form_table(form, ceduo_app_forest(app), NULL, "from_m to_m cut_year stand");
     if (ceduo_app_option(app)->belts_count > 0) {
         const char *stand = ceduo_app_stand(app), *name = ceduo_app_option(app)->belts[app->belt].name;
         ceduo_form_heading(form, ceduo_app_format(app, _("Stand of belt %zu: %.60s"), app->belt + 1, name));
         for (size_t i = 0; i < sizeof fields / sizeof fields[0]; i++)
-            ceduo_form_field(form, d, ceduo_schema_stand(), stand, fields[i].key, _(fields[i].label));
+            ceduo_form_field(form, ceduo_app_format(app, "%s.%s", stand, fields[i].key), _(fields[i].label));
         for (size_t i = 0; i < sizeof groups / sizeof groups[0]; i++)
-            ceduo_form_rest(form, d, ceduo_schema_stand(), stand, groups[i]);
+            ceduo_form_rest(form, ceduo_app_format(app, "%s.%s", stand, groups[i]));
     }
     ceduo_form_heading(form, _("Years shown (empty: one whole rotation after the first cut)"));
-    ceduo_form_field(form, d, scene, "", "years.first", _("first year"));
-    ceduo_form_field(form, d, scene, "", "years.last", _("last year"));
+    ceduo_form_field(form, "years.first", _("first year"));
+    ceduo_form_field(form, "years.last", _("last year"));
     ceduo_form_heading(form, _("What comes down, what must stay"));
-    ceduo_form_field(form, d, scene, "", "rocks_per_year", _("rocks a year"));
-    ceduo_form_field(form, d, scene, "", "minimum.reserves_per_ha", _("trees per ha at least"));
-    ceduo_form_field(form, d, scene, "", "rules", _("rules of the region"));
-    ceduo_form_rest(form, d, scene, "", "minimum");
+    ceduo_form_field(form, "rocks_per_year", _("rocks a year"));
+    ceduo_form_field(form, "minimum.reserves_per_ha", _("trees per ha at least"));
+    ceduo_form_field(form, "rules", _("rules of the region"));
+    ceduo_form_rest(form, "minimum");
 }
 
 /* The stems of a belt in the year under the cursor. */
@@ -181,8 +178,8 @@ static void draw(struct app *app, struct ceduo_area area)
     int height = area.height - form - words;
     struct ceduo_area top = {area.left, area.top, area.width, height};
     struct ceduo_area text_area = {area.left, area.top + height, area.width, words};
-    if (alone && !app->message[0])
-        ceduo_app_say(app, "%s", _("left, right: another year; Tab: back to the form"));
+    if (alone)
+        ceduo_app_hint(app, _("left, right: another year; Tab: back to the form"));
     ceduo_plot_draw(CEDUO_PLOT_ROTATION, &app->cells->canvas, &top, &picture);
     ceduo_app_put(app, text_area, CEDUO_ROLE_TEXT, &text);
     struct ceduo_area below = {area.left, area.top + area.height - form, area.width, form};
@@ -197,10 +194,10 @@ static void next_year(struct app *app, int by)
         app->year = (size_t)(year < 0 ? 0 : year >= n ? n - 1 : year);
 }
 
-static const struct act acts[] = {{ACTION_RIGHT, next_year, 1},
-                                  {ACTION_LEFT, next_year, -1},
-                                  {ACTION_TOP, next_year, -1000000},
-                                  {ACTION_BOTTOM, next_year, 1000000},
+static const struct act acts[] = {{ACTION_RIGHT, .function = next_year, .by = 1},
+                                  {ACTION_LEFT, .function = next_year, .by = -1},
+                                  {ACTION_TOP, .function = next_year, .by = -1000000},
+                                  {ACTION_BOTTOM, .function = next_year, .by = 1000000},
                                   {0}};
 
 const struct view ceduo_view_rotation = {

@@ -13,51 +13,41 @@
 
 #define LISTED_MAX 200 /* points that are edited by hand */
 
-static void build_ground(struct app *app, struct form *form)
+static void build(struct app *app, struct form *form)
 {
-    static const char *const materials[] = {"from_m", "to_m", "material", NULL};
     const struct document *d = &app->document;
-    const struct object *slope = ceduo_schema_slope();
     const struct node *segments = ceduo_document_node(d, "slope.segments");
+    const struct node *vertices = ceduo_document_node(d, "slope.vertices_m");
+    ceduo_form_heading(form, _("Belts of forest"));
+    ceduo_form_table(form, ceduo_app_forest(app), NULL, "from_m to_m stand");
+    ceduo_form_heading(form, _("Controls"));
+    if (ceduo_document_node(d, "controls"))
+        ceduo_form_table(form, "controls", NULL, "x_m name accepted_kJ measured_speed_m_s");
+    else
+        ceduo_form_field(form, "controls_m", NULL);
     ceduo_form_heading(form, _("Ground"));
-    ceduo_form_field(form, d, slope, "slope", "facets", NULL);
+    ceduo_form_field(form, "slope.facets", NULL);
     if (d->file.scene.slope.reversed)
         ceduo_form_note(form, _("the profile is drawn upward: below, x of ground and points counts from its lower end"));
     if (!segments && !ceduo_document_node(d, "slope.materials"))
         ceduo_form_note(form, _("talus is assumed everywhere"));
-    if (!segments)
-        ceduo_form_table(form, d, ceduo_schema_field(slope, "materials")->object, "slope.materials", materials, "");
     if (segments) {
         bool by_height = segments->n > 0 && ceduo_node_get(segments->items[0], "roughness_m");
         bool arm = d->file.scene.simulation.law == CEDUO_LAW_ARM; /* which knows mu, the others Rt */
-        const char *const ground[] = {"rn", arm ? "mu" : "rt", by_height ? "roughness_m" : "roughness_rad", "friction", NULL};
-        ceduo_form_table(form, d, ceduo_schema_field(slope, "segments")->object, "slope.segments", ground, "");
+        ceduo_form_table(
+            form, "slope.segments", NULL,
+            ceduo_app_format(app, "rn %s %s friction", arm ? "mu" : "rt", by_height ? "roughness_m" : "roughness_rad"));
+    } else {
+        ceduo_form_table(form, "slope.materials", NULL, "from_m to_m material");
     }
-}
-
-static void build(struct app *app, struct form *form)
-{
-    static const char *const belt_columns[] = {"from_m", "to_m", "stand", NULL};
-    static const char *const control_columns[] = {"x_m", "name", "accepted_kJ", "measured_speed_m_s", NULL};
-    const struct object *scene = ceduo_schema_scene();
-    ceduo_form_heading(form, _("Belts of forest"));
-    ceduo_form_table(form, &app->document, ceduo_schema_field(scene, "forest")->object, ceduo_app_forest(app), belt_columns,
-                     "");
-    ceduo_form_heading(form, _("Controls"));
-    if (ceduo_document_node(&app->document, "controls"))
-        ceduo_form_table(form, &app->document, ceduo_schema_field(scene, "controls")->object, "controls", control_columns, "");
-    else
-        ceduo_form_field(form, &app->document, scene, "", "controls_m", NULL);
-    build_ground(app, form);
-    const struct node *vertices = ceduo_document_node(&app->document, "slope.vertices_m");
     if (!vertices) {
         ceduo_form_heading(form, _("Profile: from a CSV file"));
-        ceduo_form_field(form, &app->document, ceduo_schema_slope(), "slope", "csv", NULL);
+        ceduo_form_field(form, "slope.csv", NULL);
     } else if (vertices->n > LISTED_MAX) {
         ceduo_form_note(form, _("The profile has too many vertices to list; edit its file."));
     } else {
         ceduo_form_heading(form, _("Profile: points x z, m"));
-        ceduo_form_points(form, &app->document, ceduo_schema_field(ceduo_schema_slope(), "vertices_m"), "slope.vertices_m");
+        ceduo_form_points(form, "slope.vertices_m");
     }
 }
 
@@ -163,7 +153,7 @@ static void say_place(struct app *app)
         ceduo_text_then(&text, "; ", _("of 100 rocks that pass the underside of 95 is below %s m; %s kJ on average"),
                         ceduo_app_kept(app, &height), ceduo_app_kept(app, &energy));
     }
-    ceduo_app_say(app, "%s", ceduo_app_kept(app, &text));
+    ceduo_app_hint(app, ceduo_app_kept(app, &text));
 }
 
 /* ---- what can be done there ---- */
@@ -181,15 +171,13 @@ static void offer_place(struct app *app, const char *line, const char *sign, con
     ceduo_popup_item(app->popup, line, ceduo_app_format(app, "%s%s#%zu", sign, list, index));
 }
 
-static void chose_place(struct app *app, struct popup *p, const char *value)
+static void chose_place(struct app *app, struct popup *p)
 {
-    (void)p;
-    bool add = value[0] == '+';
-    char *list = ceduo_app_format(app, "%s", value + add), *mark = strrchr(list, '#');
+    bool add = p->value[0] == '+';
+    char *list = ceduo_app_format(app, "%s", p->value + add), *mark = strrchr(list, '#');
     *mark = '\0';
     size_t index = strtoul(mark + 1, NULL, 10);
     ceduo_app_state(app)->pane = 0;
-    app->message[0] = '\0'; /* it was about the cursor */
     if (add)
         ceduo_items_add_at(app, list, index,
                            strncmp(list, "slope.", 6) == 0 ? written(app, place_x(app))
@@ -232,16 +220,15 @@ static void offer_ground(struct app *app, double x)
 }
 
 /* Lists what it stands on, to be edited, and what can be put there. */
-static void choose_at_place(struct app *app, int unused)
+static void choose_at_place(struct app *app)
 {
-    (void)unused;
     const struct ceduo_scene *s = &app->document.file.scene;
     const struct ceduo_option *o = ceduo_app_option(app);
     const char *forest = ceduo_app_forest(app);
     const char *controls = ceduo_document_node(&app->document, "controls_m") ? "controls_m" : "controls";
     double x = place_x(app), near = NEAR * ldexp(length_of(app), -app->place.zoom);
     size_t belt = belt_at(app, x);
-    ceduo_popup_list(app, ceduo_app_format(app, _("At %.4g m"), x + s->slope.origin_x), chose_place);
+    ceduo_popup_list(app, ceduo_app_format(app, _("At %.4g m"), x + s->slope.origin_x), "", chose_place);
     if (belt < o->belts_count) {
         offer_place(app, ceduo_app_format(app, _("edit the belt here: %.100s"), o->belts[belt].name), "", forest, belt);
         offer_place(app, _("two belts: end this one here and begin another"), "+", forest, belt);
@@ -278,10 +265,10 @@ static void draw(struct app *app, struct ceduo_area area)
     if (place)
         picture.mark = &mark;
     int strip = room >= 24 ? room / 4 : 5;
-    if (place && !app->message[0])
+    if (place)
         say_place(app);
-    else if (alone && !app->message[0])
-        ceduo_app_say(app, "%s", _("left, right: another rock; down, up: along its way; Tab: along the slope"));
+    else if (alone)
+        ceduo_app_hint(app, _("left, right: another rock; down, up: along its way; Tab: along the slope"));
     struct ceduo_area profile = {area.left, area.top, area.width, room - strip * strips - (alone ? 0 : 1)};
     ceduo_plot_draw(CEDUO_PLOT_PROFILE, &app->cells->canvas, &profile, &picture);
     struct ceduo_area next = {area.left, area.top + profile.height, area.width, strip};
@@ -311,7 +298,7 @@ static void zoom(struct app *app, int by)
 }
 
 #define ZOOM_ACTS                                                                                                              \
-    {ACTION_ZOOM, zoom, 1}, {ACTION_UNZOOM, zoom, -1},                                                                         \
+    {ACTION_ZOOM, .function = zoom, .by = 1}, {ACTION_UNZOOM, .function = zoom, .by = -1},                                     \
     {                                                                                                                          \
         0                                                                                                                      \
     }
@@ -319,19 +306,19 @@ static void zoom(struct app *app, int by)
 static const struct act form_acts[] = {ZOOM_ACTS};
 
 /* In the picture left and right go from rock to rock, up and down along its trajectory. */
-static const struct act rock_acts[] = {{ACTION_RIGHT, ceduo_app_next_rock, 1},
-                                       {ACTION_LEFT, ceduo_app_next_rock, -1},
-                                       {ACTION_DOWN, ceduo_app_step_rock, 1},
-                                       {ACTION_UP, ceduo_app_step_rock, -1},
+static const struct act rock_acts[] = {{ACTION_RIGHT, .function = ceduo_app_next_rock, .by = 1},
+                                       {ACTION_LEFT, .function = ceduo_app_next_rock, .by = -1},
+                                       {ACTION_DOWN, .function = ceduo_app_step_rock, .by = 1},
+                                       {ACTION_UP, .function = ceduo_app_step_rock, .by = -1},
                                        ZOOM_ACTS};
 
 /* Along the slope: left and right by steps, up and down from one point, border or control to the next. */
-static const struct act place_acts[] = {{ACTION_RIGHT, move_place, 1},
-                                        {ACTION_LEFT, move_place, -1},
-                                        {ACTION_DOWN, jump, 1},
-                                        {ACTION_UP, jump, -1},
-                                        {ACTION_EDIT, choose_at_place, 0},
-                                        {ACTION_ADD, choose_at_place, 0},
+static const struct act place_acts[] = {{ACTION_RIGHT, .function = move_place, .by = 1},
+                                        {ACTION_LEFT, .function = move_place, .by = -1},
+                                        {ACTION_DOWN, .function = jump, .by = 1},
+                                        {ACTION_UP, .function = jump, .by = -1},
+                                        {ACTION_EDIT, .plain = choose_at_place},
+                                        {ACTION_ADD, .plain = choose_at_place},
                                         ZOOM_ACTS};
 
 const struct view ceduo_view_slope = {.title = NP_("view", "slope"),

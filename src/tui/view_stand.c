@@ -12,77 +12,65 @@
 #define FIGURES 3 /* lines */
 
 /* How many there are comes last: then nothing of them may be missing. */
-static void build_low(struct form *form, const struct document *d, const char *path, const char *what)
+static void build_low(struct form *form, const char *group)
 {
-    const struct object *fields = ceduo_schema_field(ceduo_schema_stand(), what)->object;
-    char key[64];
+    const struct object *fields = ceduo_schema_row(group)->object;
+    char path[FORM_PATH];
     for (size_t i = 0; i < fields->n; i++) {
-        const struct field *f = &fields->fields[(i + 1) % fields->n];
-        snprintf(key, sizeof key, "%s.%s", what, f->key);
-        ceduo_form_field(form, d, ceduo_schema_stand(), path, key, NULL);
+        snprintf(path, sizeof path, "%.90s.%.60s", group, fields->fields[(i + 1) % fields->n].key);
+        ceduo_form_field(form, path, NULL);
     }
-}
-
-/* Cohorts by what the stand gives of them: shoots per stool, per hectare, or of some the one and of some the other. */
-static void build_shoots(struct form *form, const struct document *d, const char *list, const struct ceduo_stand *s)
-{
-    static const char *const columns[] = {"per_stool", "per_ha", "dbh_m", "height_m", "volume_m3", "dbh_sd_m", NULL};
-    const char *keys[sizeof columns / sizeof columns[0]] = {NULL};
-    size_t each = 0, n = 0;
-    for (size_t i = 0; i < s->shoots_count; i++)
-        each += s->shoots[i].per_stool > 0;
-    for (size_t i = each == 0; columns[i]; i++)
-        if (i != 1 || each < s->shoots_count || s->shoots_count == 0)
-            keys[n++] = columns[i];
-    ceduo_form_table(form, d, ceduo_schema_field(ceduo_schema_stand(), "shoots")->object, list, keys, "");
 }
 
 static void build(struct app *app, struct form *form)
 {
-    static const char *const belt_columns[] = {"from_m", "to_m", "stand", NULL};
-    static const char *const what[] = {"system", "species", "stools.per_ha", NULL};
-    static const char *const energy[] = {"energy.model",  "energy.u_J_m3",      "energy.fracture_ratio",
-                                         "energy.offset", "energy.hit_below_m", NULL};
-    static const char *const stem_columns[] = {"per_ha", "dbh_m", "height_m", "volume_m3", "dbh_sd_m", NULL};
-    const struct document *d = &app->document;
-    const struct object *stand = ceduo_schema_stand();
-    const struct object *belt = ceduo_schema_field(ceduo_schema_scene(), "forest")->object;
-    const char *path = ceduo_app_stand(app);
-    ceduo_form_table(form, d, belt, ceduo_app_forest(app), belt_columns, "");
+    ceduo_form_table(form, ceduo_app_forest(app), NULL, "from_m to_m stand");
     if (ceduo_app_option(app)->belts_count == 0)
         return;
-    ceduo_form_heading(form, ceduo_app_format(app, _("Stand of belt %zu: %.60s"), app->belt + 1,
-                                              ceduo_app_option(app)->belts[app->belt].name));
-    ceduo_form_fields(form, d, stand, path, what);
-    const struct ceduo_stand *s = &ceduo_app_option(app)->belts[app->belt].stand;
+    const struct ceduo_belt *belt = &ceduo_app_option(app)->belts[app->belt];
+    const struct ceduo_stand *s = &belt->stand;
+    const char *path = ceduo_app_stand(app), *in = ceduo_app_format(app, "%s.", path);
+    ceduo_form_heading(form, ceduo_app_format(app, _("Stand of belt %zu: %.60s"), app->belt + 1, belt->name));
+    ceduo_form_fields(form, in, "system species stools.per_ha");
     if (ceduo_stand_has_shoots(s) && (s->shoots_count > 1 || !(s->shoots[0].per_stool > 0))) /* no one value says it */
         ceduo_form_note(form, ceduo_app_format(app, _("%.4g shoots per stool"), ceduo_stand_shoots(s) / s->stools_per_ha));
-    ceduo_form_field(form, d, stand, path, "stools.spacing_m", NULL);
-    ceduo_form_rest(form, d, stand, path, "stools");
+    ceduo_form_fields(form, in, "stools.spacing_m");
+    ceduo_form_rest(form, ceduo_app_format(app, "%s.stools", path));
     ceduo_form_heading(form, _("Shoots on the stools"));
-    build_shoots(form, d, ceduo_app_format(app, "%s.shoots", path), s);
+    size_t each = 0; /* cohorts by what the stand gives of them: shoots per stool, per hectare, or the one and the other */
+    for (size_t i = 0; i < s->shoots_count; i++)
+        each += s->shoots[i].per_stool > 0;
+    ceduo_form_table(form, ceduo_app_format(app, "%s.shoots", path), NULL,
+                     each == 0                ? "per_ha dbh_m height_m volume_m3 dbh_sd_m"
+                     : each < s->shoots_count ? "per_stool per_ha dbh_m height_m volume_m3 dbh_sd_m"
+                                              : "per_stool dbh_m height_m volume_m3 dbh_sd_m");
     ceduo_form_heading(form, _("Single trees: standards, reserves"));
-    const char *list = ceduo_app_format(app, "%s.trees", path);
-    const struct object *trees = ceduo_schema_field(stand, "trees")->object;
-    ceduo_form_table(form, d, trees, list, stem_columns, "");
+    ceduo_form_table(form, ceduo_app_format(app, "%s.trees", path), NULL, "per_ha dbh_m height_m volume_m3 dbh_sd_m");
     double today = ceduo_stand_trees(s), stay = ceduo_stand_stay(s);
     if (s->cutting.rotation > 0) /* beside the trees of today: to change one does not change the other */
-        ceduo_form_field(form, d, stand, path, "cutting.stay_per_ha", _("trees that stay, per ha"));
+        ceduo_form_field(form, ceduo_app_format(app, "%s.cutting.stay_per_ha", path), _("trees that stay, per ha"));
     if (s->cutting.rotation > 0 && fabs(today - stay) > 0.5)
         ceduo_form_note(form, ceduo_app_format(app, _("! today %g, after a cut %g: two things"), today, stay));
     for (size_t i = 0; i < s->trees_count; i++) { /* the radius first: a group must have one */
-        const char *item = ceduo_app_format(app, "%s[%zu]", list, i);
-        ceduo_form_field(form, d, trees, item, "groups.radius_m", ceduo_app_format(app, _("trees %zu: a group, m"), i + 1));
-        ceduo_form_field(form, d, trees, item, "groups.stems", ceduo_app_format(app, _("trees %zu: in a group"), i + 1));
+        const char *item = ceduo_app_format(app, "%s.trees[%zu].groups", path, i);
+        ceduo_form_field(form, ceduo_app_format(app, "%s.radius_m", item),
+                         ceduo_app_format(app, _("trees %zu: a group, m"), i + 1));
+        ceduo_form_field(form, ceduo_app_format(app, "%s.stems", item),
+                         ceduo_app_format(app, _("trees %zu: in a group"), i + 1));
     }
     ceduo_form_heading(form, _("Energy of a contact"));
-    ceduo_form_fields(form, d, stand, path, energy);
-    ceduo_form_rest(form, d, stand, path, "energy");
+    ceduo_form_fields(form, in, "energy.model energy.u_J_m3 energy.fracture_ratio energy.offset energy.hit_below_m");
+    ceduo_form_rest(form, ceduo_app_format(app, "%s.energy", path));
     ceduo_form_heading(form, _("Stumps"));
-    build_low(form, d, path, "stumps");
+    build_low(form, ceduo_app_format(app, "%s.stumps", path));
     ceduo_form_heading(form, _("Lying logs"));
-    build_low(form, d, path, "logs");
-    ceduo_form_field(form, d, stand, path, "name", NULL);
+    build_low(form, ceduo_app_format(app, "%s.logs", path));
+    ceduo_form_fields(form, in, "name");
+}
+
+static void add_warning(void *text, const char *sentence)
+{
+    ceduo_text_format(text, "! %s\n", sentence);
 }
 
 /* The figures of the stand below the form, and above them what is unlikely about it. Returns how many lines that takes. */
@@ -94,7 +82,7 @@ static int draw_figures(struct app *app, struct ceduo_area area)
         return 0;
     const struct ceduo_belt *belt = &o->belts[app->belt];
     struct ceduo_stand_result r = ceduo_assess_stand(&app->document.file.scene, belt);
-    ceduo_words_unlikely(belt, &r, ceduo_app_add_warning, &unlikely);
+    ceduo_words_unlikely(belt, &r, add_warning, &unlikely);
     int lines = unlikely.length > 0 ? ceduo_app_text_lines(app, unlikely.bytes, area.width) : 0;
     lines = lines > area.height / 3 ? area.height / 3 : lines;
     struct ceduo_area above = {area.left, area.top + area.height - FIGURES - lines, area.width, lines};

@@ -25,8 +25,6 @@ UNKNOWN = {"CSI": "\x1b[99;99s", "CSI with a private mark": "\x1b[?1;2c", "CSI w
            "CSI of one letter": "\x1b[s", "a function key of Linux": "\x1b[[s", "SS3": "\x1bOs",
            "OSC to BEL": "\x1b]11;rgb:qsno\a", "OSC to ST": "\x1b]52;c;qsno\x1b\\", "DCS": "\x1bP1+qsno=qs\x1b\\",
            "APC": "\x1b_qsno\x1b\\", "PM": "\x1b^qsno\x1b\\", "SOS": "\x1bXqsno\x1b\\",
-           "CSI of 8 bits": "\x9b99;99s", "SS3 of 8 bits": "\x8fs", "OSC of 8 bits": "\x9d52;c;qsno\x9c", "DCS of 8 bits": "\x901+qsno\x9c",
-           "SOS of 8 bits": "\x98qs\x9c", "PM of 8 bits": "\x9eqs\x9c", "APC of 8 bits": "\x9fqs\x1b\\", "other controls": "\x84\x88\x9c",
            "one after the other": "\x1b[9s\x1b[9s\x1bOs\x1b]s\x1b[9s"}
 PAUSE = 0.1  # longer than Esc waits, shorter than what makes a key of the beginning of a sequence
 
@@ -293,15 +291,6 @@ def test_paste_of_signals():
         os.write(program.fd, b"\x03")
         until("the program ends", lambda: program.read() and os.waitpid(program.pid, os.WNOHANG)[0] == program.pid)
         expect_equal(place.text("fast.yaml"), FAST)
-
-
-def test_paste_of_8_bits():
-    """A paste between controls of 8 bits"""
-    with Place() as place, Tmux(place) as t:
-        changed(t)
-        t.text("\x9b200~qs\x9b201~")
-        t.sees("goes nowhere")
-        unharmed(t, place, "a paste of 8 bits")
 
 
 def test_quit():

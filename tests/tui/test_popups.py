@@ -112,15 +112,15 @@ def test_new_csv():
 def test_new_refused():
     """n: what cannot be a scene is explained at its own question, and nothing is lost."""
     for fields, part in ((("x", "0 10"), "points x z"), (("x", "ten by ten"), "points x z"), (("x", "none.csv"), "none.csv"),
-                         (("x", "0 60, 100 12", "100"), "rocks start at 100 m, outside the profile"),
+                         (("x", "0 60, 100 12", "100"), "rocks start at x, m: 100 itself is outside the range"),
                          (("x", "0 60, 100 12", "x"), "'x' is not a number"),
-                         (("x", "0 60, 100 12", "", "100"), "outside the profile"), (("x", "0 60, 100 12", "", "x"), "'x' is not a number"),
+                         (("x", "0 60, 100 12", "", "100"), "face from the top to x, m: 100 itself is outside"), (("x", "0 60, 100 12", "", "x"), "'x' is not a number"),
                          (("x", "0 60, 100 12", "", "", "moon"), "no ground 'moon'"),
                          (("x", "0 60, 100 12", "", "", "talus", "-1"), "-1 is below 0 m"),
                          (("x", "0 60, 100 12", "", "", "talus", "wide"), "'wide' is not a number"),
-                         (("x", "0 60, 100 12", "", "10", "talus", "0.6", "500"), "outside the slope below the face, 10 to 100 m"),
-                         (("x", "0 60, 100 12", "", "10", "talus", "0.6", "5"), "outside the slope below the face"),
-                         (("x", "0 60, 100 12", "20", "10", "talus", "0.6", "15"), "outside the slope below the face, 20 to 100 m"),
+                         (("x", "0 60, 100 12", "", "10", "talus", "0.6", "500"), "counted at x, m: 500 is above 100 m"),
+                         (("x", "0 60, 100 12", "", "10", "talus", "0.6", "5"), "counted at x, m: 5 is below 10 m"),
+                         (("x", "0 60, 100 12", "20", "10", "talus", "0.6", "15"), "counted at x, m: 15 is below 20 m"),
                          (("x", "0 60, 100 12", "", "", "talus", "0.6", "90", "much"), "'much' is not a number")):
         script = "wait idle\nkey n\n"
         for field in fields:
@@ -420,7 +420,7 @@ def counts_script(*fields):
     script = "key 2\nwait idle\nfind forest[1]\ndump\nkey c\n"
     for field in fields:
         script += f"key Ctrl-U\ntype {field}\nkey Tab\n"
-    return script + "dump\nkey Enter\ndump\n" + "key Esc\n" * len(fields) + "clear\ndump"
+    return script + "dump\nkey Enter\ndump\n" + "key Esc\n" * (len(fields) + 1) + "clear\ndump"
 
 
 COUNTED = ["400", "slope", "40", "100", "250", "7,5", "8", "20", "18", "13"]
@@ -457,14 +457,15 @@ def test_counts_of_nothing():
 
 def test_counts_refused():
     """c: what cannot be is refused with a reason, nothing changes; what is unusual is asked once."""
-    for at, value, part in ((0, "0", "not above 0"), (0, "-4", "-4"), (1, "steep", "slope or map"), (2, "90", "below 90"),
+    for at, value, part in ((0, "0", "0 itself is outside"), (0, "-4", "-4"), (1, "steep", "slope or map"), (2, "90", "90 itself is outside"),
                             (2, "x", "'x' is not a number"), (3, "3,5,5", "'3,5,5' is not a number"), (4, "50", "one shoot at least"),
-                            (3, "", "belong together"), (4, "nan", "'nan' is not a number"), (5, "0", "not above 0"),
+                            (3, "", "belong together"), (4, "nan", "'nan' is not a number"), (5, "0", "0 itself is outside"),
                             (5, "900", "900 cm? Usual is"), (9, "1000", "above 150 m"), (0, "1e-320", ""), (3, "1e300", "")):
-        before, _, refused, after = fast(counts_script(*COUNTED[:at], value, *COUNTED[at + 1:]))
-        refused.has("Stand from the counts", part)
+        later = COUNTED[at + 1:] if (at, value) in ((1, "steep"), (3, ""), (4, "50"), (0, "1e-320"), (3, "1e300")) else []
+        before, filled, refused, after = fast(counts_script(*COUNTED[:at], value, *later))
+        (refused if later or at == 9 else filled).has("Stand from the counts", part)
         expect_equal(after.text, before.text, f"after {value!r} and Esc")
-    taken = fast(counts_script(*COUNTED[:5], "900", *COUNTED[6:]).replace("key Enter\ndump", "key Enter Enter\ndump"))[2]
+    taken = fast(counts_script(*COUNTED[:5], "900", *COUNTED[6:]).replace("type 900\nkey Tab", "type 900\nkey Tab Tab"))[2]
     taken.lacks("Stand from the counts")
 
 
