@@ -5,12 +5,13 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "ceduo/calibrate.h"
 #include "study/goal.h"
 #include "view/cells.h"
 #include "view/plot.h"
 #include "view/report.h"
 
-/* Exit statuses, as the manual has them. */
+/* The command line: exit statuses, as the manual has them, and what is asked for. */
 enum exit_status { EXIT_DONE = 0, EXIT_RUN = 1, EXIT_USAGE = 2, EXIT_INPUT = 3, EXIT_OUTPUT = 4 };
 
 enum mode {
@@ -35,9 +36,15 @@ struct word_list {
     size_t n;
 };
 
+/* PATH=LO:HI; path NULL: none. */
+struct path_range {
+    const char *path;
+    double lo, hi;
+};
+
 struct arguments {
     enum mode mode;
-    uint64_t given; /* options, as bits: see ceduo_option_given() */
+    uint64_t given; /* options, as bits: see ceduo_arguments_given() */
     enum ceduo_format format;
     enum ceduo_plot plot;        /* a picture instead of the page */
     int plot_width, plot_height; /* cells, title and all */
@@ -46,33 +53,46 @@ struct arguments {
     int language;       /* a word of the option's row */
     const char *output; /* NULL: standard output */
     int stands;         /* CSV rows are stands */
+    bool details;       /* the whole page, not the short one */
     bool quiet;
     uint64_t rocks;   /* 0: the scene's */
     double tolerance; /* 0: none */
-    unsigned threads;
+    uint64_t threads;
     struct word_list sets; /* PATH=VALUE, in their order, --seed among them */
     size_t cells;          /* of a row of --each: the last of these */
     struct word_list options;
-    struct word_list calibrates; /* PATH=LO:HI */
+    size_t calibrates_count;
+    struct path_range calibrates[CEDUO_CALIBRATION_MOST];
     char **scenes;
     size_t scenes_count;
     const char *called; /* how messages call the present scene where there are several; NULL: they need not */
     const char *label;  /* how a table calls its row of --each; NULL: there is none */
-    char seed[64];
+    uint64_t seed;
+    char seed_set[64];          /* as one of the changes */
     bool years;                 /* every option year by year */
     struct ceduo_window window; /* those years; step 0: one whole rotation of each */
-    const char *find;           /* PATH of the value looked for; NULL: none */
-    double find_lo, find_hi;
+    struct path_range find;
     enum ceduo_goal goal;
     double goal_value;               /* NaN: the light's own limit */
     double sure;                     /* share of what may be true in which the goal is reached; 0: not asked for */
-    size_t points;                   /* of --sensitivity */
+    uint64_t points;                 /* of --sensitivity */
     const char *survey;              /* a CSV file of plots; NULL: none */
     const char *each;                /* a CSV file of which each row changes the scenes; NULL: none */
     const char *columns;             /* of CSV, by their heads with a comma between them; NULL: all */
     int schema;                      /* a word of the option's row */
     bool resume;                     /* go on with what the output holds */
     struct ceduo_profiles *profiles; /* of pages of several scenes: what the table before them says */
+    struct text *title;              /* of a report: that of the first scene */
 };
+
+/* EXIT_DONE, or another status once the reason is told. Free the arguments in any case. */
+enum exit_status ceduo_arguments_read(struct arguments *arguments, int argc, char **argv);
+void ceduo_arguments_free(struct arguments *arguments);
+
+/* Whether the option of this name stands on the command line. */
+bool ceduo_arguments_given(const struct arguments *arguments, const char *name);
+
+/* The page of --help. */
+void ceduo_arguments_help(struct text *text);
 
 #endif

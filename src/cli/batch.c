@@ -1,55 +1,511 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Scene by scene: --batch, --plot and --check; and what other modes share of that. */
-#include "batch.h"
-
+/* Scene by scene: --batch, --plot, --find, --sensitivity, --report and --check; with --each once for each row of a table. Its lines
+ * of CSV are the cells that are copied, then those of the result; with --columns some of both. With --resume the rows whose copied
+ * cells stand in the output are not computed again. The last of them may be there in part: it is taken out and computed. */
+#include <errno.h>
+#include <search.h>
 #include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
 
+#include "base/json.h"
+#include "base/language.h"
 #include "base/must.h"
+#include "batch.h"
 #include "interrupt.h"
+#include "io/csv.h"
+#include "io/file.h"
 #include "output.h"
-#include "print.h"
 #include "say.h"
-#include "sensitivity.h"
+#include "scene/schema.h"
 #include "view/figures.h"
+#include "view/html.h"
 #include "view/page.h"
+
+#define NAMES_SHOWN 10 /* of scenes that failed */
+#define LABEL_MOST  20 /* bytes */
+
+struct each_head {
+    const char *name, *printed; /* printed: in CSV */
+    const struct field *field;  /* of the value that it sets; NULL: of none, or of a part of a scene such as slope */
+    bool sets;
+};
+
+struct each_row {
+    size_t line;
+    const char **cells; /* NULL: the row is bad, or done */
+    bool done;          /* its lines stand in the output */
+};
+
+/* What is computed one after the other: every scene of the command line, with --each once for each row of a table. A column whose
+ * head is a path of --set changes the scene; all others are copied in front of what is printed, and say which row it is. */
+struct each {
+    struct arguments arguments; /* of the present scene: with the changes of its row */
+    const char *path;           /* the present scene */
+    const char *name;           /* as messages call it: its path, or "slopes.csv:17" */
+    size_t at, count;           /* the present one, from 1; of how many */
+    const struct arguments *given;
+    struct arena arena;
+    struct csv table; /* of --each */
+    size_t heads_count, rows_count, columns_count;
+    struct each_head *heads;
+    struct each_row *rows; /* NULL: no --each */
+    size_t *columns;       /* of --columns: numbers of cells, the copied ones first; NULL: all */
+    size_t copied;         /* columns; their places in the lines that are printed, SIZE_MAX: it is not printed */
+    size_t *copied_at;
+    bool resumed;       /* the head of the output stands there already */
+    struct text failed; /* names of those that failed */
+    size_t failures;
+    bool bad_rows; /* at least one row cannot be read */
+};
+
+static bool is_copied(const struct each_head *head)
+{
+    return !head->sets && head->name[0];
+}
+
+/* ---- the table ---- */
+
+/* The next cell of what is left of a line, without blanks around it and the quotes of CSV; NULL: nothing is left. */
+static const char *next_cell(struct each *e, char separator, struct csv_span *left)
+{
+    struct csv_span f;
+    if (!ceduo_csv_cell(left, separator, &f))
+        return NULL;
+    for (; f.n > 0 && f.p[0] == ' '; f.p++)
+        f.n--;
+    for (; f.n > 0 && f.p[f.n - 1] == ' '; f.n--)
+        ;
+    bool quoted = f.n > 1 && f.p[0] == '"' && f.p[f.n - 1] == '"';
+    char *cell = ceduo_arena_copy(&e->arena, f.p + quoted, f.n - (quoted ? 2 : 0)), *to = cell;
+    for (const char *p = cell; *p; p++) {
+        *to++ = *p;
+        p += quoted && p[0] == '"' && p[1] == '"';
+    }
+    *to = '\0';
+    return cell;
+}
+
+static bool read_heads(struct each *e)
+{
+    struct csv_span left = e->table.header;
+    LOCAL_TEXT(names);
+    e->heads = ceduo_arena_take(&e->arena, ceduo_csv_columns(&e->table, &names) * sizeof *e->heads);
+    const char *at = left.p;
+    for (const char *name; (name = next_cell(e, e->table.separator, &left)); at = left.p) {
+        const char *first = ceduo_arena_copy(&e->arena, name, strcspn(name, ".["));
+        bool sets = ceduo_schema_field(ceduo_schema_scene(), first) != NULL;
+        for (size_t i = 0; i < e->heads_count; i++)
+            if (name[0] && strcmp(e->heads[i].name, name) == 0)
+                return ceduo_problem(e->table.problems, e->table.source, 1, (size_t)(at - e->table.header.p) + 1,
+                                     _("'%s' is given twice"), name);
+        e->heads[e->heads_count++] = (struct each_head){name, name, sets ? ceduo_schema_at(name) : NULL, sets};
+    }
+    return true;
+}
+
+static void read_rows(struct each *e)
+{
+    e->rows = ceduo_arena_take(&e->arena, (ceduo_csv_lines(&e->table) + 1) * sizeof *e->rows);
+    while (ceduo_csv_next(&e->table)) {
+        struct csv_span left = e->table.line;
+        const char **cells = ceduo_arena_take(&e->arena, e->heads_count * sizeof *cells);
+        for (size_t n = 0; n < e->heads_count; n++) {
+            const char *cell = next_cell(e, e->table.separator, &left);
+            cells[n] = cell ? cell : "";
+        }
+        e->bad_rows |= left.p != NULL;
+        if (left.p)
+            ceduo_csv_complain(&e->table, left, _("more columns than the first line has"));
+        e->rows[e->rows_count++] = (struct each_row){.line = e->table.number, .cells = left.p ? NULL : cells};
+    }
+}
+
+static enum exit_status read_table(struct each *e)
+{
+    struct problems problems = {0};
+    bool good = ceduo_csv_open(&e->table, &e->arena, e->given->each, &problems);
+    if (good) {
+        e->table.source->foreign = false; /* its name was given for this */
+        good = read_heads(e);
+    }
+    if (good)
+        read_rows(e);
+    ceduo_problems_close(&problems);
+    ceduo_say(&problems.text);
+    ceduo_problems_free(&problems);
+    e->table.problems = NULL;
+    return good ? EXIT_DONE : EXIT_INPUT;
+}
+
+/* ---- lines of CSV ---- */
+
+/* The cells of a row that are copied, or their heads, each with a comma behind it. */
+static void append_copied(const struct each *e, const char *const *cells, struct text *line)
+{
+    for (size_t i = 0; i < e->heads_count; i++)
+        if (is_copied(&e->heads[i])) {
+            ceduo_text_csv(line, cells ? cells[i] : e->heads[i].printed);
+            ceduo_text_char(line, ',');
+        }
+}
+
+/* The cells of a line at n places, each with a comma behind it. */
+static void append_cells(struct csv_span line, const size_t *at, size_t n, struct text *to)
+{
+    for (size_t k = 0; k < n; k++) {
+        struct csv_span left = line, f = {"", 0};
+        for (size_t i = 0; i <= at[k]; i++)
+            if (!ceduo_csv_cell(&left, ',', &f))
+                f.n = 0;
+        ceduo_text_add(to, f.p, f.n);
+        ceduo_text_char(to, ',');
+    }
+}
+
+/* A whole line, or the cells of it that --columns names. */
+static void append_line(const struct each *e, const char *line, size_t n, struct text *out)
+{
+    if (e->columns)
+        append_cells((struct csv_span){line, n}, e->columns, e->columns_count, out);
+    else
+        ceduo_text_add(out, line, n);
+    out->length -= e->columns_count > 0; /* the last comma */
+    ceduo_text_char(out, '\n');
+}
+
+/* Names the copied columns as the table does, with row. in front of what the result has a column of its own for; then finds
+ * those of --columns among them and the result's. */
+static enum exit_status choose_columns(struct each *e, const struct text *header)
+{
+    size_t n = 0, copied, length, most = e->heads_count + 1;
+    for (size_t i = 0; i < header->length; i++)
+        most += header->bytes[i] == ',';
+    const char **names = ceduo_arena_take(&e->arena, most * sizeof *names);
+    for (size_t i = 0; i < e->heads_count; i++) {
+        struct each_head *head = &e->heads[i];
+        struct csv_span left = {header->bytes, header->length > 0 ? header->length - 1 : 0};
+        for (const char *own; is_copied(head) && (own = next_cell(e, ',', &left));)
+            if (strcmp(own, head->name) == 0)
+                head->printed = ceduo_arena_format(&e->arena, "row.%s", head->name);
+        if (is_copied(head))
+            names[n++] = head->printed;
+    }
+    struct csv_span left = {header->bytes, header->length > 0 ? header->length - 1 : 0};
+    copied = n;
+    for (const char *own; (own = next_cell(e, ',', &left));)
+        names[n++] = own;
+    e->copied_at = ceduo_arena_take(&e->arena, (copied + 1) * sizeof *e->copied_at);
+    for (; e->copied < copied; e->copied++)
+        e->copied_at[e->copied] = e->given->columns ? SIZE_MAX : e->copied;
+    if (!e->given->columns)
+        return EXIT_DONE;
+    e->columns = ceduo_arena_take(&e->arena, (strlen(e->given->columns) + 1) * sizeof *e->columns);
+    for (const char *word = e->given->columns; *word; word += length + (word[length] == ',')) {
+        length = strcspn(word, ",");
+        const char *wanted = ceduo_arena_copy(&e->arena, word, length);
+        size_t i = 0;
+        while (i < n && strcmp(names[i], wanted) != 0)
+            i++;
+        if (i == n) {
+            const char *near = ceduo_text_nearest(wanted, names, n);
+            return near ? ceduo_usage("columns", _("no column '%s'; did you mean '%s'?"), wanted, near)
+                        : ceduo_usage("columns", _("no column '%s'; --list-columns names all"), wanted);
+        }
+        if (i < copied)
+            e->copied_at[i] = e->columns_count;
+        e->columns[e->columns_count++] = i;
+    }
+    return EXIT_DONE;
+}
+
+/* Adds the line of heads, unless it stands in the output already. */
+static void add_header(const struct each *e, const struct text *header, struct text *out)
+{
+    LOCAL_TEXT(line);
+    if (header->length == 0 || e->resumed)
+        return;
+    append_copied(e, NULL, &line);
+    ceduo_text_add(&line, header->bytes, header->length - 1);
+    append_line(e, ceduo_text_string(&line), line.length, out);
+}
+
+/* ---- what stands in the output already ---- */
+
+static int by_key(const void *a, const void *b)
+{
+    return strcmp(a, b);
+}
+
+static void keep(void *key)
+{
+    (void)key; /* it lies in the arena */
+}
+
+/* Leaves out the rows that the output holds, but for the last of them, of which a line may be missing: that is taken off the
+ * output. What says which row a line is of are its copied cells. */
+static enum exit_status resume(struct each *e, const struct text *header)
+{
+    bool tells = e->copied > 0, twice = false;
+    for (size_t k = 0; k < e->copied; k++)
+        tells &= e->copied_at[k] != SIZE_MAX;
+    if (!tells)
+        return ceduo_usage("resume", _("print a column of --each that changes nothing: it says which row a line is of"));
+    const char **keys = ceduo_arena_take(&e->arena, (e->rows_count + 1) * sizeof *keys), *last = NULL;
+    void *known = NULL, *done = NULL; /* of the rows; of those that the output holds */
+    for (size_t r = 0; r < e->rows_count; r++) {
+        LOCAL_TEXT(key);
+        if (e->rows[r].cells)
+            append_copied(e, e->rows[r].cells, &key);
+        keys[r] = ceduo_arena_string(&e->arena, ceduo_text_string(&key));
+        twice |= e->rows[r].cells && *(const char **)ceduo_must(tsearch(keys[r], &known, by_key)) != keys[r];
+    }
+    tdestroy(known, keep);
+    if (twice) {
+        ceduo_say_why(e->given->each, _("two rows have the same copied cells, so that --resume cannot tell them apart"));
+        return EXIT_INPUT;
+    }
+    if (access(e->given->output, F_OK) != 0 && errno == ENOENT)
+        return EXIT_DONE;
+    struct problems problems = {0};
+    const struct source *old = ceduo_file_read(&e->arena, e->given->output, CSV_BYTES_MOST, &problems);
+    ceduo_say(&problems.text);
+    ceduo_problems_free(&problems);
+    LOCAL_TEXT(first);
+    add_header(e, header, &first);
+    if (!old)
+        return EXIT_OUTPUT;
+    if (old->length > 0 && (old->length < first.length || memcmp(old->bytes, first.bytes, first.length) != 0)) {
+        ceduo_say_why(e->given->output, _("it has other columns than these; write elsewhere, or remove it"));
+        return EXIT_OUTPUT;
+    }
+    e->resumed = old->length > 0;
+    size_t start = first.length;
+    for (const char *line = old->bytes + first.length, *end = line;
+         e->resumed && (end = memchr(line, '\n', (size_t)(old->bytes + old->length - line))); line = end + 1) {
+        LOCAL_TEXT(key);
+        append_cells((struct csv_span){line, (size_t)(end - line)}, e->copied_at, e->copied, &key);
+        if (last && strcmp(last, ceduo_text_string(&key)) == 0)
+            continue;
+        if (last)
+            ceduo_must(tsearch(last, &done, by_key));
+        last = ceduo_arena_string(&e->arena, ceduo_text_string(&key));
+        start = (size_t)(line - old->bytes);
+    }
+    for (size_t r = 0; r < e->rows_count; r++)
+        if (e->rows[r].cells && tfind(keys[r], &done, by_key))
+            e->rows[r] = (struct each_row){.done = true};
+    tdestroy(done, keep);
+    if (!e->resumed || truncate(e->given->output, (off_t)start) == 0)
+        return EXIT_DONE;
+    ceduo_say_why(e->given->output, strerror(errno));
+    return EXIT_OUTPUT;
+}
+
+/* ---- scene by scene ---- */
+
+/* Reads the table, and with --resume what stands in the output already. `header`: of the output in CSV; else empty. Another status
+ * than EXIT_DONE where nothing can be computed; the reason has been told. */
+static enum exit_status open_each(struct each *e, const struct arguments *a, const struct text *header)
+{
+    *e = (struct each){.arguments = *a, .given = a};
+    enum exit_status status = a->each ? read_table(e) : EXIT_DONE;
+    if (status == EXIT_DONE && (a->each || a->columns))
+        status = choose_columns(e, header);
+    if (status == EXIT_DONE && a->resume)
+        status = resume(e, header);
+    e->count = a->scenes_count * (a->each ? e->rows_count : 1);
+    e->arguments.sets.items = ceduo_arena_take(&e->arena, (a->sets.n + e->heads_count + 1) * sizeof *a->sets.items);
+    memcpy(e->arguments.sets.items, a->sets.items, a->sets.n * sizeof *a->sets.items);
+    return status;
+}
+
+/* The change that a cell asks for, PATH=VALUE. Texts are quoted as YAML has it; a decimal comma becomes a dot. */
+static const char *change_of(struct each *e, const struct each_head *head, const char *cell)
+{
+    const struct field *f = head->field;
+    LOCAL_TEXT(change);
+    ceduo_text_format(&change, "%s=", head->name);
+    bool text = !f || f->type == FIELD_TEXT || f->type == FIELD_FILE;
+    bool number = f && (f->type == FIELD_NUMBER || f->type == FIELD_SPREAD) && e->table.separator != ',' && !strchr(cell, '.');
+    ceduo_text_put(&change, text ? "'" : "");
+    for (const char *p = cell; *p; p++)
+        ceduo_text_add(&change, text && *p == '\'' ? "''" : number && *p == ',' ? "." : p, text && *p == '\'' ? 2 : 1);
+    ceduo_text_put(&change, text ? "'" : "");
+    return ceduo_arena_string(&e->arena, ceduo_text_string(&change));
+}
+
+/* Notes that the present scene has failed. */
+static void note_failed(struct each *e)
+{
+    const char *label = e->arguments.label;
+    if (e->failures++ < NAMES_SHOWN)
+        ceduo_text_format(&e->failed, label && label != e->name ? "%s%s (%s)" : "%s%s", e->failures > 1 ? ", " : "", e->name,
+                          label);
+    else if (e->failures == NAMES_SHOWN + 1)
+        ceduo_text_put(&e->failed, ", \xe2\x80\xa6");
+}
+
+/* Goes to the next scene that is to be computed; false after the last. What is wrong with a row is told, and the row is left out. */
+static bool next_scene(struct each *e)
+{
+    size_t scenes = e->given->scenes_count;
+    const struct each_row *row = NULL;
+    do {
+        if (e->at == e->count)
+            return false;
+        row = e->rows ? &e->rows[e->at / scenes] : NULL;
+        e->path = e->given->scenes[e->at++ % scenes];
+        e->name = row ? ceduo_arena_format(&e->arena, "%s:%zu", e->given->each, row->line) : e->path;
+        e->arguments.label = row ? e->name : NULL;
+        if (row && !row->cells && !row->done)
+            note_failed(e);
+    } while (row && !row->cells);
+    for (size_t i = e->heads_count; row && i-- > 0;) /* the first copied cell that is short, which a geometry is not */
+        if (is_copied(&e->heads[i]) && row->cells[i][0] && strlen(row->cells[i]) <= LABEL_MOST)
+            e->arguments.label = row->cells[i];
+    e->arguments.called = row || e->count > 1 ? e->name : NULL;
+    struct word_list *sets = &e->arguments.sets;
+    sets->n = e->given->sets.n;
+    for (size_t i = 0; row && i < e->heads_count; i++)
+        if (e->heads[i].sets && row->cells[i][0])
+            sets->items[sets->n++] = change_of(e, &e->heads[i], row->cells[i]);
+    e->arguments.cells = sets->n - e->given->sets.n;
+    return true;
+}
+
+/* "row": what is copied, as numbers where they are, in front of what an object of JSON holds. */
+static void add_object(const struct each *e, const char *const *cells, const struct text *answer, struct text *out)
+{
+    struct json json = {.text = out};
+    double number;
+    ceduo_json_open(&json, NULL, '{');
+    ceduo_json_open(&json, "row", '{');
+    for (size_t i = 0; i < e->heads_count; i++)
+        if (is_copied(&e->heads[i])) {
+            if (ceduo_number_read(cells[i], &number) == CEDUO_NUMBER_GOOD)
+                ceduo_json_number(&json, e->heads[i].name, number);
+            else
+                ceduo_json_string(&json, e->heads[i].name, cells[i][0] ? cells[i] : NULL);
+        }
+    ceduo_json_close(&json, '}');
+    ceduo_text_put(out, ", ");
+    ceduo_text_put(out, ceduo_text_string(answer) + 1);
+}
+
+/* Adds what is printed of the present scene. */
+static void add_answer(const struct each *e, const struct text *answer, struct text *out)
+{
+    const struct each_row *row = e->rows ? &e->rows[(e->at - 1) / e->given->scenes_count] : NULL;
+    if (e->given->format == CEDUO_CSV && (row || e->columns)) {
+        for (const char *line = ceduo_text_string(answer), *end; (end = strchr(line, '\n')); line = end + 1) {
+            LOCAL_TEXT(whole);
+            append_copied(e, row ? row->cells : NULL, &whole);
+            ceduo_text_add(&whole, line, (size_t)(end - line));
+            append_line(e, ceduo_text_string(&whole), whole.length, out);
+        }
+    } else if (e->given->format == CEDUO_JSON && row) {
+        add_object(e, row->cells, answer, out);
+    } else {
+        if (row)
+            ceduo_text_safe(out, e->name);
+        for (size_t i = 0; row && i < e->heads_count; i++)
+            if (!e->heads[i].sets && row->cells[i][0]) {
+                ceduo_text_put(out, " \xc2\xb7 ");
+                ceduo_text_safe(out, row->cells[i]);
+            }
+        ceduo_text_put(out, row ? "\n" : "");
+        ceduo_text_put(out, ceduo_text_string(answer));
+    }
+}
+
+/* Says how many of several failed, and which. */
+static void close_each(struct each *e)
+{
+    if (e->count > 1 && e->failures > 0) {
+        LOCAL_TEXT(line);
+        ceduo_text_format(&line, ngettext("%zu of %zu failed: %s", "%zu of %zu failed: %s", e->failures), e->failures, e->count,
+                          ceduo_text_string(&e->failed));
+        ceduo_say_why("ceduo", ceduo_text_string(&line));
+    }
+    ceduo_text_free(&e->failed);
+    ceduo_arena_free(&e->arena);
+}
+
+/* ---- all scenes ---- */
 
 static enum exit_status worse(enum exit_status a, enum exit_status b)
 {
     return a > b ? a : b;
 }
 
-/* Pages of several scenes come behind a table of their verdicts, in its order. `starts`: where each begins, and the end. */
-static void put_verdicts(struct text *text, struct ceduo_profiles *profiles, const size_t *starts)
+/* Pages of several scenes come behind a table of their verdicts, in its order: the worst first. `starts`: where each begins, and
+ * the end. A report has a table of several only, and the head and end of HTML. */
+static void put_verdicts(struct text *text, const struct arguments *a, const size_t *starts)
 {
     struct text pages = *text;
-    struct ceduo_page verdicts = {.width = CEDUO_PAGE_WIDTH};
-    size_t *order = ceduo_must(calloc(profiles->count, sizeof *order)), n = ceduo_profiles_sort(profiles, order);
+    bool html = a->mode == MODE_REPORT;
+    struct ceduo_html to = {.text = text};
+    struct ceduo_page verdicts = {.width = html ? CEDUO_PAGE_REPORT_WIDTH : CEDUO_PAGE_WIDTH};
+    size_t *order = ceduo_must(calloc(a->profiles->count + 1, sizeof *order)), n = ceduo_profiles_sort(a->profiles, order);
     *text = (struct text){0};
-    ceduo_profiles_page(&verdicts, profiles);
-    ceduo_page_print(text, &verdicts, !ceduo_say_utf8());
+    if (html)
+        ceduo_page_html_begin(&to, ceduo_text_string(a->title));
+    if (html && n > 1)
+        ceduo_page_say(&verdicts, CEDUO_PAGE_TITLE, _("%zu scenes, the worst first"), n);
+    if (n > 1)
+        ceduo_profiles_page(&verdicts, a->profiles);
+    if (html && n > 1) {
+        ceduo_page_html(&to, &verdicts, n + 1);
+    } else if (!html) {
+        ceduo_page_print(text, &verdicts, !ceduo_say_utf8());
+        ceduo_say_plainly(text);
+    }
     ceduo_page_free(&verdicts);
-    ceduo_say_plainly(text);
     for (size_t i = 0; i < n; i++) {
-        ceduo_text_char(text, '\n');
+        if (!html)
+            ceduo_text_char(text, '\n');
         ceduo_text_add(text, pages.bytes + starts[order[i]], starts[order[i] + 1] - starts[order[i]]);
     }
+    if (html)
+        ceduo_page_html_end(&to);
     free(order);
     ceduo_text_free(&pages);
 }
 
-/* Prints the answer of each scene, under one head of CSV. */
-static enum exit_status answer_all(const struct arguments *given, const struct text *header, ceduo_batch_answer *answer)
+static enum exit_status check(const struct arguments *a, struct scene_file *file, struct text *out)
 {
+    (void)out;
+    ceduo_batch_warn(a, file);
+    return EXIT_DONE;
+}
+
+/* Prints the answer of each scene, under one head of CSV. */
+enum exit_status ceduo_batch_run(const struct arguments *given)
+{
+    static ceduo_batch_answer *const answers[] = {[MODE_BATCH] = ceduo_print_report,
+                                                  [MODE_FIND] = ceduo_print_find,
+                                                  [MODE_SENSITIVITY] = ceduo_print_doubt,
+                                                  [MODE_REPORT] = ceduo_print_chapter,
+                                                  [MODE_CHECK] = check};
+    ceduo_batch_answer *answer = given->plot != CEDUO_PLOT_NONE ? ceduo_print_plots : answers[given->mode];
+    LOCAL_TEXT(header);
+    LOCAL_TEXT(title);
     struct ceduo_profiles profiles = {0};
     struct arguments arguments = *given, *a = &arguments;
     struct output out = {.arguments = a};
     struct each each;
     a->profiles = &profiles;
-    enum exit_status status = ceduo_each_open(&each, a, header), written = status;
+    a->title = &title;
+    if (a->format == CEDUO_CSV)
+        ceduo_csv_head(&header, a->mode == MODE_FIND          ? &ceduo_find_csv
+                                : a->mode == MODE_SENSITIVITY ? &ceduo_doubt_csv
+                                                              : ceduo_result_csv(a->stands, a->years));
+    enum exit_status status = open_each(&each, a, &header), written = status;
     struct progress progress = ceduo_progress_begin(a);
     size_t computed = 0, *starts = ceduo_must(calloc(each.count + 2, sizeof *starts));
     bool first = true;
-    while (written == EXIT_DONE && ceduo_each_next(&each)) {
+    while (written == EXIT_DONE && next_scene(&each)) {
         LOCAL_TEXT(one);
         ceduo_progress_scenes(&progress, computed++, each.at - 1, each.count);
         struct scene_file file;
@@ -62,15 +518,15 @@ static enum exit_status answer_all(const struct arguments *given, const struct t
         status = worse(status, result);
         if (result > EXIT_RUN ||
             (result == EXIT_RUN && !one.bytes)) /* what is printed has not failed, unfinished as it may be */
-            ceduo_each_fail(&each);
+            note_failed(&each);
         if (result == EXIT_OUTPUT) /* nothing is written over what was read */
             break;
         if (result <= EXIT_RUN && one.bytes && !atomic_load(ceduo_interrupt_flag())) {
             if (first)
-                ceduo_each_header(&each, header, &out.text);
+                add_header(&each, &header, &out.text);
             else if (a->format == CEDUO_TABLE && profiles.count == 0)
                 ceduo_text_char(&out.text, '\n');
-            ceduo_each_add(&each, &one, &out.text);
+            add_answer(&each, &one, &out.text);
             starts[profiles.count] = out.text.length;
             first = false;
         }
@@ -79,44 +535,13 @@ static enum exit_status answer_all(const struct arguments *given, const struct t
         if (written == EXIT_DONE)
             ceduo_interrupt_release();
     }
-    if (profiles.count > 1)
-        put_verdicts(&out.text, &profiles, starts);
+    if (profiles.count > (a->mode != MODE_REPORT))
+        put_verdicts(&out.text, a, starts);
     free(starts);
     if (profiles.count > 0)
         status = worse(status, ceduo_output_next(&out));
     status = worse(status, each.bad_rows ? EXIT_INPUT : EXIT_DONE);
-    ceduo_each_close(&each);
+    close_each(&each);
     ceduo_profiles_free(&profiles);
     return worse(status, ceduo_output_end(&out, status != EXIT_OUTPUT && !first));
-}
-
-enum exit_status ceduo_batch_each(const struct arguments *a, const struct ceduo_csv *csv, ceduo_batch_answer *answer)
-{
-    LOCAL_TEXT(head);
-    if (a->format == CEDUO_CSV)
-        ceduo_csv_head(&head, csv);
-    return answer_all(a, &head, answer);
-}
-
-enum exit_status ceduo_batch_run(const struct arguments *a)
-{
-    return ceduo_batch_each(a, ceduo_result_csv(a->stands, a->years),
-                            a->plot != CEDUO_PLOT_NONE ? ceduo_print_plots : ceduo_print_report);
-}
-
-static enum exit_status check(const struct arguments *a, struct scene_file *file, struct text *out)
-{
-    (void)out;
-    ceduo_batch_warn(a, file);
-    return EXIT_DONE;
-}
-
-enum exit_status ceduo_batch_check(const struct arguments *a)
-{
-    return answer_all(a, &(struct text){0}, check);
-}
-
-enum exit_status ceduo_batch_sensitivity(const struct arguments *a)
-{
-    return a->plot != CEDUO_PLOT_NONE ? ceduo_batch_run(a) : ceduo_batch_each(a, &ceduo_doubt_csv, ceduo_sensitivity_add);
 }

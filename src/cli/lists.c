@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* --list-parameters, --list-columns, --list-profiles, --schema and --survey. */
 #include <string.h>
 
 #include "base/language.h"
@@ -6,6 +7,7 @@
 #include "batch.h"
 #include "io/file.h"
 #include "io/node.h"
+#include "io/survey_file.h"
 #include "output.h"
 #include "say.h"
 #include "scene/schema.h"
@@ -38,14 +40,12 @@ static void align(struct text *to, const char *rows)
 /* Prints rows as a table, with what stands below it. */
 static enum exit_status print_table(const struct arguments *a, struct text *rows, const char *below)
 {
-    struct text table = {0};
+    LOCAL_TEXT(table);
     align(&table, ceduo_text_string(rows));
     ceduo_text_put(&table, below);
     ceduo_say_plainly(&table);
-    enum exit_status status = ceduo_output_write(a, &table);
     ceduo_text_free(rows);
-    ceduo_text_free(&table);
-    return status;
+    return ceduo_output_write(a, &table);
 }
 
 /* ---- parameters ---- */
@@ -119,40 +119,50 @@ static const char *title_of(struct arena *arena, const char *path)
     return title ? title : root ? "" : _("(cannot be read)");
 }
 
-/* What is typed comes first: the file's name without its ending. */
-static void put_profile(struct arena *arena, struct text *rows, const char *folder, const char *kind, const char *name)
-{
-    const char *dot = strrchr(name, '.');
-    bool rules = strcmp(kind, "rules") == 0; /* the others are in the singular */
-    LOCAL_TEXT(path);
-    ceduo_text_format(&path, "%s/%s/%s", folder, kind, name);
-    ceduo_text_safe_n(rows, name, dot ? (size_t)(dot - name) : strlen(name));
-    ceduo_text_format(rows, "\t%.*s\t", (int)(strlen(kind) - (rules ? 0 : 1)), kind);
-    ceduo_text_safe(rows, title_of(arena, path.bytes));
-    ceduo_text_char(rows, '\t');
-    ceduo_text_safe(rows, path.bytes);
-    ceduo_text_char(rows, '\n');
-}
-
-static void list_shelf(struct arena *arena, struct text *rows, const char *folder, const char *kind)
-{
-    size_t n;
-    const char *const *names = ceduo_file_list(arena, folder, kind, &n);
-    for (size_t i = 0; i < n; i++)
-        put_profile(arena, rows, folder, kind, names[i]);
-}
-
 enum exit_status ceduo_batch_profiles(const struct arguments *a)
 {
-    static const char *const kinds[] = {"scenes", "slopes", "stands", "rules"};
+    static const char *const kinds[][2] = {{"scenes", "scene"}, {"slopes", "slope"}, {"stands", "stand"}, {"rules", "rules"}};
     struct arena arena = {0};
     struct text rows = {0};
     const char *const *folders = ceduo_file_folders(&arena);
     ceduo_text_format(&rows, "%s\t%s\t%s\t%s\n", _("name"), _("kind"), _("title"), _("file"));
     for (size_t k = 0; k < sizeof kinds / sizeof kinds[0]; k++)
-        for (size_t i = 0; folders && folders[i]; i++)
-            list_shelf(&arena, &rows, folders[i], kinds[k]);
+        for (size_t f = 0, n; folders[f]; f++) {
+            const char *const *names = ceduo_file_list(&arena, folders[f], kinds[k][0], &n);
+            for (size_t i = 0; i < n; i++) { /* what is typed comes first: the file's name without its ending */
+                const char *path = ceduo_arena_format(&arena, "%s/%s/%s", folders[f], kinds[k][0], names[i]);
+                const char *dot = strrchr(names[i], '.');
+                ceduo_text_safe_n(&rows, names[i], dot ? (size_t)(dot - names[i]) : strlen(names[i]));
+                ceduo_text_format(&rows, "\t%s\t", kinds[k][1]);
+                ceduo_text_safe(&rows, title_of(&arena, path));
+                ceduo_text_char(&rows, '\t');
+                ceduo_text_safe(&rows, path);
+                ceduo_text_char(&rows, '\n');
+            }
+        }
     enum exit_status status = print_table(a, &rows, "");
     ceduo_arena_free(&arena);
     return status;
+}
+
+/* ---- surveys ---- */
+
+/* The stand of a CSV file of sample plots; or an empty one. */
+enum exit_status ceduo_batch_survey(const struct arguments *a)
+{
+    struct arena arena = {0};
+    struct problems problems = {0};
+    struct survey_file file;
+    LOCAL_TEXT(yaml);
+    bool sheet = strcmp(a->survey, "--template") == 0, standard = strcmp(a->survey, "-") == 0;
+    const char *found = standard || sheet ? NULL : ceduo_file_find(&arena, a->survey, NULL, "surveys");
+    if (sheet)
+        ceduo_survey_template(&yaml);
+    bool good = sheet || (ceduo_survey_read(&file, &arena, found ? found : a->survey, &problems) &&
+                          ceduo_survey_stand(&file, &yaml, &problems));
+    ceduo_problems_close(&problems);
+    ceduo_say(&problems.text);
+    ceduo_problems_free(&problems);
+    ceduo_arena_free(&arena);
+    return good ? ceduo_output_write(a, &yaml) : EXIT_INPUT;
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Text is translated by gettext(), which takes its language from LANGUAGE or from the name of the locale, and does nothing
  * in the locale C. A machine need not have the locale of a language: any other does, with LANGUAGE. */
-#include "localize.h"
+#include "say.h"
 
 #include <limits.h>
 #include <locale.h>

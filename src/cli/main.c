@@ -10,10 +10,10 @@
 #include "base/must.h"
 #include "batch.h"
 #include "ceduo/version.h"
-#include "command_line.h"
-#include "localize.h"
 #include "output.h"
 #include "say.h"
+#include "tui/program.h"
+#include "tui/script.h"
 #include "tui/terminal.h"
 
 /* Ends the program without memory, from any thread; nothing here allocates. What a person has edited is in the recovery
@@ -46,55 +46,52 @@ static void keep_standard_streams(void)
             open("/dev/null", fd == 0 ? O_WRONLY : O_RDONLY);
 }
 
-static enum exit_status print(const struct arguments *a, void (*fill)(struct text *text))
+static enum exit_status print(const struct arguments *a)
 {
-    struct text text = {0};
-    fill(&text);
+    LOCAL_TEXT(text);
+    if (a->mode == MODE_HELP)
+        ceduo_arguments_help(&text);
+    else
+        ceduo_text_format(&text, "ceduo %s\n", CEDUO_VERSION);
     ceduo_say_plainly(&text);
-    enum exit_status status = ceduo_output_write(a, &text);
-    ceduo_text_free(&text);
-    return status;
+    return ceduo_output_write(a, &text);
 }
 
-static void fill_version(struct text *text)
+static enum exit_status no_terminal(const char *why)
 {
-    ceduo_text_format(text, "ceduo %s\n", CEDUO_VERSION);
+    LOCAL_TEXT(text);
+    ceduo_text_format(&text, _("ceduo: %s; use 'ceduo --batch SCENE.yaml', or try 'ceduo --help'\n"), why);
+    ceduo_say(&text);
+    return EXIT_USAGE;
 }
 
-static enum exit_status act(const struct arguments *a)
+/* Opens the terminal program, or feeds it the script that was given. */
+static enum exit_status interact(const struct arguments *a)
 {
-    if (!ceduo_output_check(a)) /* told before anything is computed */
-        return EXIT_OUTPUT;
-    switch (a->mode) {
-    case MODE_BATCH:
-        return ceduo_batch_run(a);
-    case MODE_FIND:
-        return ceduo_batch_find(a);
-    case MODE_SENSITIVITY:
-        return ceduo_batch_sensitivity(a);
-    case MODE_REPORT:
-        return ceduo_batch_report(a);
-    case MODE_CALIBRATE:
-        return ceduo_batch_calibrate(a);
-    case MODE_CHECK:
-        return ceduo_batch_check(a);
-    case MODE_PARAMETERS:
-        return ceduo_batch_parameters(a);
-    case MODE_PROFILES:
-        return ceduo_batch_profiles(a);
-    case MODE_COLUMNS:
-        return ceduo_batch_columns(a);
-    case MODE_SCHEMA:
-        return ceduo_batch_schema(a);
-    case MODE_SURVEY:
-        return ceduo_batch_survey(a);
-    case MODE_HELP:
-        return print(a, ceduo_arguments_help);
-    case MODE_VERSION:
-        return print(a, fill_version);
-    default:
-        return ceduo_interactive_run(a);
+    static const enum exit_status statuses[] = {EXIT_DONE, EXIT_USAGE, EXIT_INPUT, EXIT_OUTPUT}; /* of a script */
+    const char *why = a->script ? NULL : ceduo_terminal_missing();
+    if (why)
+        return no_terminal(why);
+    struct app app;
+    struct problems problems = {0};
+    bool good = ceduo_program_create(&app, a->scenes_count > 0 ? a->scenes[0] : NULL, a->charset, (unsigned)a->threads,
+                                     a->script != NULL, &problems);
+    ceduo_problems_close(&problems);
+    ceduo_say(&problems.text);
+    ceduo_problems_free(&problems);
+    if (!good)
+        return EXIT_INPUT;
+    enum exit_status status;
+    if (a->script) {
+        status = statuses[ceduo_script_run(&app, a->script)];
+    } else {
+        enum terminal_end end = ceduo_terminal_run(&app);
+        status = end == TERMINAL_DONE ? EXIT_DONE : EXIT_RUN;
+        if (end == TERMINAL_NONE)
+            status = no_terminal(_("this terminal cannot be used"));
     }
+    ceduo_program_free(&app);
+    return status;
 }
 
 int main(int argc, char **argv)
@@ -104,10 +101,26 @@ int main(int argc, char **argv)
     ceduo_language_start();
     signal(SIGXFSZ, SIG_IGN); /* a file that is too large for its limit is an error like a full disk */
     gsl_set_error_handler(on_gsl_error);
+    static enum exit_status (*const commands[])(const struct arguments *arguments) = {
+        [MODE_TERMINAL] = interact,
+        [MODE_BATCH] = ceduo_batch_run,
+        [MODE_FIND] = ceduo_batch_run,
+        [MODE_SENSITIVITY] = ceduo_batch_run,
+        [MODE_CALIBRATE] = ceduo_batch_calibrate,
+        [MODE_REPORT] = ceduo_batch_run,
+        [MODE_CHECK] = ceduo_batch_run,
+        [MODE_PARAMETERS] = ceduo_batch_parameters,
+        [MODE_PROFILES] = ceduo_batch_profiles,
+        [MODE_COLUMNS] = ceduo_batch_columns,
+        [MODE_SCHEMA] = ceduo_batch_schema,
+        [MODE_SURVEY] = ceduo_batch_survey,
+        [MODE_HELP] = print,
+        [MODE_VERSION] = print,
+    };
     struct arguments arguments;
     enum exit_status status = ceduo_arguments_read(&arguments, argc, argv);
-    if (status == EXIT_DONE)
-        status = act(&arguments);
+    if (status == EXIT_DONE) /* whether it can be written is told before anything is computed */
+        status = ceduo_output_check(&arguments) ? commands[arguments.mode](&arguments) : EXIT_OUTPUT;
     ceduo_say_no_progress();
     ceduo_arguments_free(&arguments);
     return (int)status;

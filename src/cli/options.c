@@ -1,20 +1,39 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The table of the options, and a setter for each kind of value. What is set points into the arguments of main(). */
-#include "options.h"
-
+/* The options of the command line in one table: parsing, help and the checks of what goes together read it. A new option is a
+ * row, and a setter where its value is like no other's. The lists of changes and options are the arguments' own; their strings
+ * are those of main(). */
+#include <getopt.h>
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <strings.h>
+#include <unistd.h>
 
+#include "arguments.h"
 #include "base/language.h"
-#include "ceduo/calibrate.h"
+#include "base/must.h"
+#include "base/utf8.h"
+#include "ceduo/doubt.h"
 #include "ceduo/years.h"
-#include "localize.h"
 #include "say.h"
 
 #define WIDTH_LEAST  20
 #define HEIGHT_LEAST 6
+#define THREADS_MOST 1024
+
+struct option_row {
+    const char *name;
+    char letter; /* 0: none */
+    /* as the help shows it, "a|b|c" where it is one of these; "[N]": it may have one; NULL: it takes none */
+    const char *value;
+    enum exit_status (*set)(struct arguments *arguments, const struct option_row *row, char *value); /* may be NULL */
+    size_t at;        /* of the member that is set, for the setters that several options share */
+    enum mode mode;   /* that it asks for; MODE_TERMINAL: none */
+    unsigned without; /* modes with which it does not go: a bit for each */
+    const char *help;
+    double lo, hi; /* of a whole number */
+};
 
 /* ---- setters that several options share ---- */
 
@@ -67,28 +86,24 @@ static enum exit_status set_flag(struct arguments *a, const struct option_row *r
     return EXIT_DONE;
 }
 
-static enum exit_status read_count(const char *name, const char *value, double lo, double hi, uint64_t *to)
+/* A whole number from row->lo to row->hi; without one the member stays as it is. */
+static enum exit_status set_count(struct arguments *a, const struct option_row *row, char *value)
 {
-    switch (ceduo_count_read(value, lo, hi, to)) {
+    switch (value ? ceduo_count_read(value, row->lo, row->hi, (uint64_t *)(void *)((char *)a + row->at)) : CEDUO_NUMBER_GOOD) {
     case CEDUO_NUMBER_GOOD:
         return EXIT_DONE;
     case CEDUO_NUMBER_TOO_LARGE:
-        return ceduo_usage(name, _("%s is outside %.0f to %.0f"), value, lo, hi);
+        return ceduo_usage(row->name, _("%s is outside %.0f to %.0f"), value, row->lo, row->hi);
     default:
-        return ceduo_usage(name, _("'%s' is not a whole number"), value);
+        return ceduo_usage(row->name, _("'%s' is not a whole number"), value);
     }
 }
 
-static enum exit_status set_rocks(struct arguments *a, const struct option_row *row, char *value)
+static enum exit_status set_seed(struct arguments *a, const struct option_row *row, char *value)
 {
-    return read_count(row->name, value, 1, CEDUO_ROCKS_MOST, &a->rocks);
-}
-
-static enum exit_status set_threads(struct arguments *a, const struct option_row *row, char *value)
-{
-    uint64_t n = a->threads;
-    enum exit_status status = read_count(row->name, value, 1, THREADS_MOST, &n);
-    a->threads = (unsigned)n;
+    enum exit_status status = set_count(a, row, value);
+    snprintf(a->seed_set, sizeof a->seed_set, "simulation.seed=%llu", (unsigned long long)a->seed);
+    a->sets.items[a->sets.n++] = a->seed_set;
     return status;
 }
 
@@ -166,17 +181,6 @@ static enum exit_status set_size(struct arguments *a, const struct option_row *r
     return EXIT_DONE;
 }
 
-static enum exit_status set_seed(struct arguments *a, const struct option_row *row, char *value)
-{
-    uint64_t seed;
-    enum exit_status status = read_count(row->name, value, 0, 9007199254740992.0, &seed);
-    if (status != EXIT_DONE)
-        return status;
-    snprintf(a->seed, sizeof a->seed, "simulation.seed=%llu", (unsigned long long)seed);
-    a->sets.items[a->sets.n++] = a->seed;
-    return EXIT_DONE;
-}
-
 /* "A:B" or "A:B:STEP", whole years; without a value one whole rotation of each option. */
 static enum exit_status set_years(struct arguments *a, const struct option_row *row, char *value)
 {
@@ -198,20 +202,37 @@ static enum exit_status set_years(struct arguments *a, const struct option_row *
     return EXIT_DONE;
 }
 
-/* "PATH=LO:HI"; the path is kept without the rest. */
-static enum exit_status set_find(struct arguments *a, const struct option_row *row, char *value)
+/* "PATH=LO:HI", of which the path stays where it is. */
+static enum exit_status read_range(const struct option_row *row, char *value, const char *such_as, struct path_range *range)
 {
     char *equals = strrchr(value, '=');
-    double range[2];
-    bool good = equals && equals > value && read_numbers(equals + 1, ":", 2, 2, range);
-    if (!good)
-        return ceduo_usage(row->name, _("'%s' is not PATH=LO:HI, such as 'forest[0].stand.trees[0].per_ha=1:1000'"), value);
-    if (!(range[0] <= range[1]))
-        return ceduo_usage(row->name, _("the range %s ends before it begins"), equals + 1);
+    double ends[2];
+    if (!equals || equals == value || !read_numbers(equals + 1, ":", 2, 2, ends))
+        return ceduo_usage(row->name, _("'%s' is not PATH=LO:HI, such as '%s'"), value, such_as);
     *equals = '\0';
-    a->find = value;
-    a->find_lo = range[0];
-    a->find_hi = range[1];
+    *range = (struct path_range){value, ends[0], ends[1]};
+    return EXIT_DONE;
+}
+
+static enum exit_status set_find(struct arguments *a, const struct option_row *row, char *value)
+{
+    enum exit_status status = read_range(row, value, "forest[0].stand.trees[0].per_ha=1:1000", &a->find);
+    if (status == EXIT_DONE && !(a->find.lo <= a->find.hi))
+        return ceduo_usage(row->name, _("the range %s ends before it begins"), value + strlen(value) + 1);
+    return status;
+}
+
+static enum exit_status add_calibrate(struct arguments *a, const struct option_row *row, char *value)
+{
+    struct path_range range;
+    enum exit_status status = read_range(row, value, "slope.materials[talus].rn=0.2:0.5", &range);
+    if (status != EXIT_DONE)
+        return status;
+    if (!(range.lo < range.hi))
+        return ceduo_usage(row->name, _("the range %s is empty; HI must be above LO"), value + strlen(value) + 1);
+    if (a->calibrates_count == CEDUO_CALIBRATION_MOST)
+        return ceduo_usage(row->name, _("at most %d values can be fitted at once"), CEDUO_CALIBRATION_MOST);
+    a->calibrates[a->calibrates_count++] = range;
     return EXIT_DONE;
 }
 
@@ -235,14 +256,6 @@ static enum exit_status set_goal(struct arguments *a, const struct option_row *r
     }
 }
 
-static enum exit_status set_sensitivity(struct arguments *a, const struct option_row *row, char *value)
-{
-    uint64_t n = CEDUO_DOUBT_POINTS;
-    enum exit_status status = value ? read_count(row->name, value, 2, CEDUO_DOUBT_POINTS_MAX, &n) : EXIT_DONE;
-    a->points = (size_t)n;
-    return status;
-}
-
 /* The file is the output; standard output is where it goes without one. Where it was forgotten, the first scene stands in its
  * place, and must not be written over. */
 static enum exit_status set_report(struct arguments *a, const struct option_row *row, char *value)
@@ -255,21 +268,6 @@ static enum exit_status set_report(struct arguments *a, const struct option_row 
                              "scenes: --report page.html scene.yaml"),
                            value);
     a->output = standard ? NULL : value;
-    return EXIT_DONE;
-}
-
-/* "PATH=LO:HI"; it is kept as it is. */
-static enum exit_status add_calibrate(struct arguments *a, const struct option_row *row, char *value)
-{
-    double range[2];
-    const char *equals = strrchr(value, '=');
-    if (!equals || equals == value || !read_numbers(equals + 1, ":", 2, 2, range))
-        return ceduo_usage(row->name, _("'%s' is not PATH=LO:HI, such as 'slope.materials[talus].rn=0.2:0.5'"), value);
-    if (!(range[0] < range[1]))
-        return ceduo_usage(row->name, _("the range %s is empty; HI must be above LO"), equals + 1);
-    if (a->calibrates.n == CEDUO_CALIBRATION_MOST)
-        return ceduo_usage(row->name, _("at most %d values can be fitted at once"), CEDUO_CALIBRATION_MOST);
-    a->calibrates.items[a->calibrates.n++] = value;
     return EXIT_DONE;
 }
 
@@ -290,77 +288,83 @@ enum {
 };
 
 static const struct option_row rows[] = {
-    {"batch", 'b', NULL, NULL, 0, MODE_BATCH, SURVEY, N_("compute the scenes and print the result, without a terminal")},
+    {"batch", 'b', NULL, NULL, 0, MODE_BATCH, SURVEY,
+     .help = N_("compute the scenes and print the result, without a terminal")},
     {"format", 'f', "table|csv|json", set_word, AT(format), MODE_TERMINAL, CHECK | PAGE | SURVEY | LISTS | SCREEN,
-     N_("format of the output (table)")},
-    {"details", 0, NULL, NULL, 0, MODE_BATCH, CHECK | FIND | DOUBT | FIT | PAGE | SURVEY,
-     N_("print the whole page, with every figure, not the answer alone")},
+     .help = N_("format of the output (table)")},
+    {"details", 0, NULL, set_flag, AT(details), MODE_BATCH, CHECK | FIND | DOUBT | FIT | PAGE | SURVEY,
+     .help = N_("print the whole page, with every figure, not the answer alone")},
     {"output", 'o', "FILE", set_text, AT(output), MODE_TERMINAL, CHECK | PAGE | SCREEN,
-     N_("write to FILE; a regular file is written completely or not at all")},
+     .help = N_("write to FILE; a regular file is written completely or not at all")},
     {"set", 's', "PATH=VALUE", add_word, AT(sets), MODE_TERMINAL, SURVEY | SCREEN,
-     N_("change a parameter of the scene; may be repeated")},
-    {"rocks", 'n', "N", set_rocks, 0, MODE_TERMINAL, CHECK | SURVEY | SCREEN,
-     N_("number of rocks; with --tolerance the maximum")},
+     .help = N_("change a parameter of the scene; may be repeated")},
+    {"rocks", 'n', "N", set_count, AT(rocks), MODE_TERMINAL, CHECK | SURVEY | SCREEN,
+     .help = N_("number of rocks; with --tolerance the maximum"), .lo = 1, .hi = CEDUO_ROCKS_MOST},
     {"tolerance", 'e', "REL", set_tolerance, 0, MODE_TERMINAL, CHECK | FIND | DOUBT | FIT | SURVEY | SCREEN,
-     N_("simulate until the 95 % error of each mean energy is below REL of it")},
+     .help = N_("simulate until the 95 % error of each mean energy is below REL of it")},
     {"rows", 0, "controls|stands", set_word, AT(stands), MODE_TERMINAL, CHECK | DOUBT | FIT | PAGE | SURVEY | SCREEN,
-     N_("what each row of CSV describes (controls)")},
+     .help = N_("what each row of CSV describes (controls)")},
     {"each", 0, "ROWS.csv", set_text, AT(each), MODE_TERMINAL, FIT | PAGE | SURVEY | SCREEN,
-     N_("compute the scenes once for each row of a table: columns named as a path of --set change them, the others are "
-        "copied")},
+     .help = N_("compute the scenes once for each row of a table: columns named as a path of --set change them, the others are "
+                "copied")},
     {"columns", 0, "LIST", set_text, AT(columns), MODE_TERMINAL, CHECK | FIT | PAGE | SURVEY | SCREEN,
-     N_("print these columns of CSV, with commas between their names")},
+     .help = N_("print these columns of CSV, with commas between their names")},
     {"resume", 0, NULL, set_flag, AT(resume), MODE_TERMINAL, CHECK | FIT | PAGE | SURVEY | SCREEN,
-     N_("with --each and -o: rows that stand in FILE are not computed again; FILE grows row by row")},
-    {"seed", 0, "N", set_seed, 0, MODE_TERMINAL, SURVEY | SCREEN, N_("seed of the random numbers, 0 to 2^53")},
-    {"threads", 'j', "N", set_threads, 0, MODE_TERMINAL, SURVEY,
-     N_("number of threads; it does not change the result (all cores)")},
+     .help = N_("with --each and -o: rows that stand in FILE are not computed again; FILE grows row by row")},
+    {"seed", 0, "N", set_seed, AT(seed), MODE_TERMINAL, SURVEY | SCREEN, .help = N_("seed of the random numbers, 0 to 2^53"), 0,
+     0x1p53},
+    {"threads", 'j', "N", set_count, AT(threads), MODE_TERMINAL, SURVEY,
+     .help = N_("number of threads; it does not change the result (all cores)"), .lo = 1, .hi = THREADS_MOST},
     {"option", 0, "NAME", add_word, AT(options), MODE_TERMINAL, FIT | SURVEY | SCREEN,
-     N_("compute only this option of the scene; may be repeated")},
+     .help = N_("compute only this option of the scene; may be repeated")},
     {"years", 0, "[A:B[:STEP]]", set_years, 0, MODE_BATCH, CHECK | FIT | SURVEY,
-     N_("compute every option year by year: one whole rotation after its first cut, or the years A to B; the stands as "
-        "filed are year 0")},
+     .help = N_("compute every option year by year: one whole rotation after its first cut, or the years A to B; the stands as "
+                "filed are year 0")},
     {"find", 0, "PATH=LO:HI", set_find, 0, MODE_FIND, CHECK | PAGE | SURVEY,
-     N_("find the value of a parameter that reaches --goal at the worst control")},
+     .help = N_("find the value of a parameter that reaches --goal at the worst control")},
     {"goal", 0, "GOAL[=VALUE]", set_goal, 0, MODE_TERMINAL, CHECK | SURVEY,
-     N_("adc, free-run (at most the light's limit), energy (mean kJ) or exceed (share, 0.05)")},
+     .help = N_("adc, free-run (at most the light's limit), energy (mean kJ) or exceed (share, 0.05)")},
     {"sure", 0, "SHARE", set_sure, 0, MODE_TERMINAL, CHECK | SURVEY,
-     N_("with --find: also the value that reaches the goal in this share of what may be true, such as 0.9")},
-    {"sensitivity", 0, "[N]", set_sensitivity, 0, MODE_SENSITIVITY, CHECK | SURVEY,
-     N_("show how sure the result is, and what that depends on; N points (256)")},
+     .help = N_("with --find: also the value that reaches the goal in this share of what may be true, such as 0.9")},
+    {"sensitivity", 0, "[N]", set_count, AT(points), MODE_SENSITIVITY, CHECK | SURVEY,
+     .help = N_("show how sure the result is, and what that depends on; N points (256)"), .lo = 2,
+     .hi = CEDUO_DOUBT_POINTS_MAX},
     {"report", 0, "FILE", set_report, 0, MODE_REPORT, CHECK | SURVEY,
-     N_("write a page to hand in as HTML, with pictures; several scenes give chapters; - is standard output")},
+     .help = N_("write a page to hand in as HTML, with pictures; several scenes give chapters; - is standard output")},
     {"calibrate", 0, "PATH=LO:HI", add_calibrate, 0, MODE_CALIBRATE, CHECK | PAGE | SURVEY,
-     N_("fit this value to what was observed, between LO and HI; may be repeated; -o FILE.yaml writes the first scene with "
-        "what was found")},
+     .help =
+         N_("fit this value to what was observed, between LO and HI; may be repeated; -o FILE.yaml writes the first scene with "
+            "what was found")},
     {"plot", 0, "WHAT", set_plot, 0, MODE_BATCH, CHECK | FIND | FIT | PAGE | SURVEY,
-     N_("print a picture: profile, energy, height, histogram, adc, rotation, stand, compare, tradeoff, doubt or hazard")},
-    {"size", 0, "WxH", set_size, 0, MODE_TERMINAL, CHECK | SURVEY, N_("size of a picture in columns and lines (80x24)")},
+     .help =
+         N_("print a picture: profile, energy, height, histogram, adc, rotation, stand, compare, tradeoff, doubt or hazard")},
+    {"size", 0, "WxH", set_size, 0, MODE_TERMINAL, CHECK | SURVEY,
+     .help = N_("size of a picture in columns and lines (80x24)")},
     {"charset", 0, "braille|block|ascii", set_word, AT(charset), MODE_TERMINAL, CHECK | SURVEY,
-     N_("characters that pictures are made of (from the locale)")},
+     .help = N_("characters that pictures are made of (from the locale)")},
     {"language", 0, "it|en", set_language, AT(language), MODE_TERMINAL, 0,
-     N_("language of tables, screens and messages (from the locale)")},
+     .help = N_("language of tables, screens and messages (from the locale)")},
     {"script", 0, "FILE", set_text, AT(script), MODE_TERMINAL, CHECK | SURVEY,
-     N_("feed keys and commands to the terminal program; needs no terminal")},
-    {"check", 0, NULL, NULL, 0, MODE_CHECK, SURVEY, N_("check the scenes and print every problem; compute nothing")},
+     .help = N_("feed keys and commands to the terminal program; needs no terminal")},
+    {"check", 0, NULL, NULL, 0, MODE_CHECK, SURVEY, .help = N_("check the scenes and print every problem; compute nothing")},
     {"list-parameters", 0, NULL, NULL, 0, MODE_PARAMETERS, SURVEY,
-     N_("list path, type, unit, range, default and meaning of each parameter")},
+     .help = N_("list path, type, unit, range, default and meaning of each parameter")},
     {"list-profiles", 0, NULL, NULL, 0, MODE_PROFILES, SURVEY,
-     N_("list the scenes, slopes, stands and rules that can be named")},
+     .help = N_("list the scenes, slopes, stands and rules that can be named")},
     {"list-columns", 0, NULL, NULL, 0, MODE_COLUMNS, SURVEY,
-     N_("list path, type, unit and meaning of each column of CSV, also with --rows stands or --years")},
+     .help = N_("list path, type, unit and meaning of each column of CSV, also with --rows stands or --years")},
     {"schema", 0, "result|find|sensitivity|calibration", set_word, AT(schema), MODE_SCHEMA, SURVEY,
-     N_("print the JSON Schema of this output")},
+     .help = N_("print the JSON Schema of this output")},
     {"survey", 0, "FILE.csv", set_text, AT(survey), MODE_SURVEY, CHECK,
-     N_("write the stand of a survey: a CSV file with a row for each stem on sample plots; --survey --template writes an empty "
-        "one")},
-    {"quiet", 'q', NULL, set_flag, AT(quiet), MODE_TERMINAL, 0, N_("print no progress")},
-    {"help", 'h', NULL, NULL, 0, MODE_HELP, 0, N_("print this help")},
-    {"version", 'V', NULL, NULL, 0, MODE_VERSION, 0, N_("print the version")},
+     .help = N_("write the stand of a survey: a CSV file with a row for each stem on sample plots; --survey --template writes "
+                "an empty one")},
+    {"quiet", 'q', NULL, set_flag, AT(quiet), MODE_TERMINAL, 0, .help = N_("print no progress")},
+    {"help", 'h', NULL, NULL, 0, MODE_HELP, 0, .help = N_("print this help")},
+    {"version", 'V', NULL, NULL, 0, MODE_VERSION, 0, .help = N_("print the version")},
 };
 
 #define ROWS (sizeof rows / sizeof rows[0])
-_Static_assert(ROWS <= OPTIONS_MOST, "a bit for each");
+_Static_assert(ROWS <= 64, "arguments.given has a bit for each");
 
 /* Options of earlier versions, and what to do instead. */
 static const struct {
@@ -371,7 +375,7 @@ static const struct {
     {"merge", N_("results of several scenes are printed together; see man ceduo-workflows")},
 };
 
-const char *ceduo_option_gone(const char *word)
+static const char *instead_of(const char *word)
 {
     size_t length = strcspn(word, "=");
     for (size_t i = 0; i < sizeof gone / sizeof gone[0]; i++)
@@ -380,25 +384,127 @@ const char *ceduo_option_gone(const char *word)
     return NULL;
 }
 
-const struct option_row *ceduo_option_rows(size_t *n)
+bool ceduo_arguments_given(const struct arguments *a, const char *name)
 {
-    *n = ROWS;
-    return rows;
+    size_t i = 0;
+    while (strcmp(rows[i].name, name) != 0)
+        i++;
+    return (a->given >> i & 1) != 0;
 }
 
-bool ceduo_option_given(const struct arguments *a, const char *name)
+/* ---- the help ---- */
+
+#define HELP_COLUMN 30
+
+void ceduo_arguments_help(struct text *text)
 {
+    ceduo_text_put(text, _("ceduo: does this coppice stop the rocks?\n\n"
+                           "usage: ceduo [SCENE.yaml]\n"
+                           "       ceduo --batch [OPTION...] SCENE.yaml...\n"
+                           "       ceduo --plot WHAT [OPTION...] SCENE.yaml...\n"
+                           "       ceduo --check SCENE.yaml...\n"
+                           "       ceduo --survey PLOTS.csv [-o STAND.yaml]\n"
+                           "       ceduo --list-parameters | --list-profiles\n\n"
+                           "SCENE is a file, - for standard input, or the name of a shipped scene.\n\n"));
+    for (size_t i = 0; i < ROWS; i++) {
+        const char *value = rows[i].value ? rows[i].value : "", *blank = rows[i].value ? " " : "";
+        char head[64];
+        int width = rows[i].letter ? snprintf(head, sizeof head, "  -%c, --%s%s%s", rows[i].letter, rows[i].name, blank, value)
+                                   : snprintf(head, sizeof head, "      --%s%s%s", rows[i].name, blank, value);
+        ceduo_text_format(text, "%-*s%s%*s", HELP_COLUMN, head, width < HELP_COLUMN ? "" : "\n",
+                          width < HELP_COLUMN ? 0 : HELP_COLUMN, "");
+        for (const char *help = _(rows[i].help), *next; *help; help = next) {
+            int n = (int)ceduo_utf8_wrap(help, 79 - HELP_COLUMN, &next);
+            ceduo_text_format(text, "%.*s\n%*s", n, help, *next ? HELP_COLUMN : 0, "");
+        }
+    }
+    ceduo_text_put(text, _("\nexample: ceduo --batch -s 'forest[0].stand.stools.per_ha=2000' paper-site\n"
+                           "exit status: 0 done, 1 run failed, 2 usage, 3 bad input, 4 output failed;\n"
+                           "see man ceduo\n"));
+}
+
+/* ---- what goes together ---- */
+
+/* Says which option does not go with what is asked for. A format of its own is one that is not the page. */
+static enum exit_status check_with(const struct arguments *a)
+{
+    const char *mode = "batch";
     for (size_t i = 0; i < ROWS; i++)
-        if (strcmp(rows[i].name, name) == 0)
-            return (a->given >> i & 1) != 0;
-    return false;
+        if (rows[i].mode == a->mode && (a->given >> i & 1))
+            mode = rows[i].name;
+    for (size_t i = 0; i < ROWS; i++) {
+        bool page = strcmp(rows[i].name, "format") == 0 && a->format == CEDUO_TABLE;
+        bool doubt = a->mode == MODE_SENSITIVITY && strcmp(rows[i].name, "plot") == 0 && a->plot != CEDUO_PLOT_DOUBT;
+        if (!(a->given >> i & 1) || !(doubt || (rows[i].without >> a->mode & 1)))
+            continue;
+        if (a->mode == MODE_TERMINAL)
+            return ceduo_usage(NULL, _("options such as -s, -n, -f and -o require --batch"));
+        if (!page || (a->mode != MODE_REPORT && a->mode < MODE_PARAMETERS))
+            return ceduo_usage(NULL, _("--%s cannot be used with --%s"), mode, rows[i].name);
+    }
+    return EXIT_DONE;
 }
 
-enum ceduo_charset ceduo_option_charset(const struct arguments *a)
+/* Whether the options go together, and as many scenes are named as they want. */
+static enum exit_status check_arguments(const struct arguments *a)
 {
-    if (ceduo_option_given(a, "charset"))
-        return a->charset;
-    return ceduo_say_utf8() ? CEDUO_CHARSET_BRAILLE : CEDUO_CHARSET_ASCII;
+    if (a->mode >= MODE_HELP)
+        return EXIT_DONE;
+    if (check_with(a) != EXIT_DONE)
+        return EXIT_USAGE;
+    bool find = a->mode == MODE_FIND, screen = a->mode == MODE_TERMINAL, plot = a->plot != CEDUO_PLOT_NONE;
+    bool csv = a->format == CEDUO_CSV, wants_scene = a->mode >= MODE_BATCH && a->mode <= MODE_CHECK;
+    bool by_years = a->plot == CEDUO_PLOT_ROTATION || a->plot == CEDUO_PLOT_TRADEOFF;
+    bool no_value = find && !ceduo_goals[a->goal].usual && isnan(a->goal_value);
+    size_t standard = a->each && strcmp(a->each, "-") == 0;
+    for (size_t i = 0; i < a->scenes_count; i++)
+        standard += strcmp(a->scenes[i], "-") == 0;
+    const struct {
+        bool broken;
+        const char *why;
+    } rules[] = {
+        {find && !ceduo_arguments_given(a, "goal"), _("--find requires a --goal")},
+        {!find && ceduo_arguments_given(a, "goal"), _("--goal requires --find")},
+        {!find && ceduo_arguments_given(a, "sure"), _("--sure requires --find")},
+        {no_value && a->goal == CEDUO_GOAL_ENERGY, _("--goal energy needs the mean energy in kJ, such as energy=50")},
+        {no_value, _("--goal arrive needs the share of the rocks, such as arrive=0.5")},
+        {find && a->window.step > 0, _("--find takes --years without a range")},
+        {wants_scene && a->scenes_count == 0,
+         _("no scene given; name a file, a shipped scene such as 'paper-site', or '-' for standard input")},
+        {plot && a->format != CEDUO_TABLE, _("--plot prints a picture; it cannot be used with --format csv or json")},
+        {a->plot_width > 0 && !plot, _("--size requires --plot")},
+        {ceduo_arguments_given(a, "rows") && a->mode != MODE_COLUMNS && !csv, _("--rows requires --format csv")},
+        {a->columns && !csv, _("--columns requires --format csv")},
+        {a->resume && (!a->each || !a->output || !csv || plot), _("--resume requires --each, --output and --format csv")},
+        {ceduo_arguments_given(a, "charset") && !plot && !screen, _("--charset requires --plot or the terminal program")},
+        {a->script && !screen, _("--script is for the terminal program; it cannot be used with --batch")},
+        {a->years && plot && !by_years, _("--years cannot be used with --plot, except --plot rotation and --plot tradeoff")},
+        {screen && a->scenes_count > 1, _("the terminal program opens one scene; --batch takes several")},
+        {standard > 1, _("standard input can be read only once")},
+    };
+    if (a->mode == MODE_SURVEY && a->scenes_count > 0)
+        return ceduo_usage(NULL, _("--survey takes one CSV file, and no scene: '%s'"), a->scenes[0]);
+    if (!wants_scene && !screen && a->scenes_count > 0)
+        return ceduo_usage(NULL, _("the --list options take no scene: '%s'"), a->scenes[0]);
+    for (size_t i = 0; i < sizeof rules / sizeof rules[0]; i++)
+        if (rules[i].broken)
+            return ceduo_usage(NULL, "%s", rules[i].why);
+    return EXIT_DONE;
+}
+
+/* ---- reading ---- */
+
+#define LONG 256 /* from here on getopt's numbers of options without a letter */
+
+/* The value of an option that may be without one, where it is a word of its own: one with a colon, or that begins as a
+ * number does, unless it is a file. */
+static char *word_of_its_own(int argc, char **argv)
+{
+    char *word = optind < argc ? argv[optind] : NULL;
+    bool number = word && strcspn(word, "0123456789") <= (size_t)(word[0] == '-');
+    bool is_value = word && (number || strchr(word, ':')) && access(word, F_OK) != 0;
+    optind += is_value;
+    return is_value ? word : NULL;
 }
 
 /* A list or a check goes before what is computed, help goes before all; of two alike the first one counts. */
@@ -407,11 +513,60 @@ static int weight(enum mode mode)
     return (int)(mode < MODE_CHECK ? mode : mode < MODE_HELP ? MODE_CHECK : MODE_HELP);
 }
 
-enum exit_status ceduo_option_set(struct arguments *a, const struct option_row *row, char *value)
+enum exit_status ceduo_arguments_read(struct arguments *a, int argc, char **argv)
 {
-    enum exit_status status = row->set ? row->set(a, row, value) : EXIT_DONE;
-    a->given |= (uint64_t)1 << (row - rows);
-    if (status == EXIT_DONE && weight(row->mode) > weight(a->mode))
-        a->mode = row->mode;
-    return status;
+    struct option longs[ROWS + 1] = {{0}};
+    char shorts[2 * ROWS + 2] = ":", *letter_at = shorts + 1;
+    long cores = sysconf(_SC_NPROCESSORS_ONLN);
+    size_t most = (size_t)argc + 1;
+    *a = (struct arguments){.threads = cores > 0 && cores <= THREADS_MOST ? (uint64_t)cores : 1,
+                            .charset = ceduo_say_utf8() ? CEDUO_CHARSET_BRAILLE : CEDUO_CHARSET_ASCII,
+                            .points = CEDUO_DOUBT_POINTS,
+                            .goal_value = NAN,
+                            .sets.items = ceduo_must(calloc(most, sizeof *a->sets.items)),
+                            .options.items = ceduo_must(calloc(most, sizeof *a->options.items))};
+    for (size_t i = 0; i < ROWS; i++) {
+        int takes = !rows[i].value ? no_argument : rows[i].value[0] == '[' ? optional_argument : required_argument;
+        longs[i] = (struct option){rows[i].name, takes, NULL, LONG + (int)i};
+        if (rows[i].letter)
+            *letter_at++ = rows[i].letter;
+        if (rows[i].letter && rows[i].value)
+            *letter_at++ = ':';
+    }
+    *letter_at = '\0';
+    opterr = 0;
+    for (int letter; (letter = getopt_long(argc, argv, shorts, longs, NULL)) != -1;) {
+        const char *word = argv[optind - 1];
+        if (letter == ':')
+            return ceduo_usage(NULL, _("'%s' needs a value"), word);
+        if (letter == '?' && word[0] == '-' && word[1] == '-' && optopt)
+            return ceduo_usage(NULL, _("'%s': this option takes no value"), word);
+        if (letter == '?' && optopt && optopt < LONG)
+            return ceduo_usage(NULL, _("unknown option '-%c'"), optopt);
+        const char *instead = letter == '?' ? instead_of(word) : NULL;
+        if (instead)
+            return ceduo_usage(NULL, _("'%s' is gone: %s"), word, instead);
+        if (letter == '?')
+            return ceduo_usage(NULL, _("unknown or ambiguous option '%s'"), word);
+        size_t i = letter >= LONG ? (size_t)(letter - LONG) : 0;
+        while (letter < LONG && rows[i].letter != letter)
+            i++;
+        if (!optarg && rows[i].value)
+            optarg = word_of_its_own(argc, argv);
+        enum exit_status status = rows[i].set ? rows[i].set(a, &rows[i], optarg) : EXIT_DONE;
+        if (status != EXIT_DONE)
+            return status;
+        a->given |= (uint64_t)1 << i;
+        if (weight(rows[i].mode) > weight(a->mode))
+            a->mode = rows[i].mode;
+    }
+    a->scenes = argv + optind;
+    a->scenes_count = (size_t)(argc - optind);
+    return check_arguments(a);
+}
+
+void ceduo_arguments_free(struct arguments *a)
+{
+    free(a->sets.items);
+    free(a->options.items);
 }

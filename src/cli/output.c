@@ -95,17 +95,13 @@ static enum exit_status append(const struct arguments *a, const struct text *tex
 
 enum exit_status ceduo_output_next(struct output *o)
 {
-    enum exit_status status = EXIT_DONE;
-    if (o->arguments->resume) {
-        if (o->text.length > 0)
-            status = append(o->arguments, &o->text);
-        o->text.length = 0;
-    } else if (o->arguments->output) {
+    bool resume = o->arguments->resume;
+    if (o->arguments->output && !resume)
         set_aside(o);
-    } else if (o->text.length > 0 && !atomic_load(ceduo_interrupt_flag())) {
-        status = ceduo_output_write(o->arguments, &o->text);
-        o->text.length = 0;
-    }
+    if (o->text.length == 0 || (o->arguments->output && !resume))
+        return EXIT_DONE;
+    enum exit_status status = resume ? append(o->arguments, &o->text) : ceduo_output_write(o->arguments, &o->text);
+    o->text.length = 0;
     return status;
 }
 

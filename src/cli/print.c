@@ -1,110 +1,136 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "print.h"
-
+/* What is printed of one scene: its page, JSON or CSV; what doubt does to it; what a search finds; its pictures; its chapter of
+ * --report. */
 #include <stdlib.h>
+#include <string.h>
 
-#include "base/clock.h"
 #include "base/language.h"
+#include "batch.h"
 #include "interrupt.h"
-#include "options.h"
+#include "model/search.h"
 #include "say.h"
-#include "sensitivity.h"
-#include "study/snapshot.h"
 #include "view/figures.h"
-
-/* ---- pages ---- */
-
-/* Whether the whole page is wanted, not the short one. */
-static bool is_whole(const struct arguments *a)
-{
-    return ceduo_option_given(a, "details");
-}
+#include "view/html.h"
+#include "view/page.h"
 
 #define BLOCK_ROCKS 512 /* of each other size at the most: their intervals stand beside them */
 
-enum exit_status ceduo_finished(const struct ceduo_result *result)
-{
-    return ceduo_result_unfinished(result) * 1000 > ceduo_result_rocks(result) ? EXIT_RUN : EXIT_DONE;
-}
-
-#define YEARS_ROCKS 10000 /* of all years of an option: they give the mean to about 10 of 1000 */
-#define YEARS_MOST  50    /* of each option; of a longer rotation some */
-
-void ceduo_ask_years(struct ceduo_question *q)
-{
-    q->years = true;
-    q->years_rocks = YEARS_ROCKS;
-    q->year_rocks = YEARS_ROCKS; /* of a scene with blocks, whose years have the same ones */
-    q->years_most = YEARS_MOST;
-}
-
-/* What a page does not print is not simulated. */
-static struct ceduo_question ask_for(const struct arguments *a, const struct scene_file *file, struct progress *progress)
-{
-    struct ceduo_question q = ceduo_batch_question(a, file, progress);
-    bool page = a->format == CEDUO_TABLE;
-    if (a->stands && a->format == CEDUO_CSV) /* what is asked of the stands no rock answers */
-        q.rocks = 0;
-    if (page && !a->years) {
-        ceduo_ask_years(&q);
-        q.block_rocks = is_whole(a) ? BLOCK_ROCKS : 0;
-    }
-    q.run.other_energy = !page || is_whole(a);
-    return q;
-}
-
-static void write_report(const struct arguments *a, const struct ceduo_report *report, struct text *out)
-{
-    if (a->format == CEDUO_JSON) {
-        ceduo_figures_json(out, ceduo_result_figures, &(struct ceduo_place){.report = report}, report->details);
-    } else if (a->format == CEDUO_CSV) {
-        ceduo_text_put(out, ""); /* without stands no row, but the header */
-        ceduo_csv_rows(out, ceduo_result_csv(a->stands, a->years), &(struct ceduo_place){.report = report});
-    } else {
-        LOCAL_TEXT(page);
-        (is_whole(a) ? ceduo_report_table : ceduo_report_short)(&page, report, !ceduo_say_utf8());
-        ceduo_say_plainly(&page);
-        ceduo_text_put(out, ceduo_text_string(&page));
-        ceduo_profiles_add(a->profiles, report, a->label);
-    }
-}
+/* ---- pages ---- */
 
 enum exit_status ceduo_print_report(const struct arguments *a, struct scene_file *file, struct text *out)
 {
-    struct progress progress = ceduo_progress_begin(a);
-    struct ceduo_question q = ask_for(a, file, &progress);
-    struct ceduo_answer answer;
-    struct asked_doubt doubt = {0};
-    struct ceduo_verdict verdict;
-    enum ceduo_status status = ceduo_ask(&q, NULL, &answer);
-    double seconds = ceduo_clock() - progress.start;
-    if (status == CEDUO_OK)
-        status = ceduo_verdict_make(answer.result, answer.years, &verdict);
-    else
-        verdict = (struct ceduo_verdict){0};
-    if (status == CEDUO_OK && a->format == CEDUO_TABLE)
-        status = ceduo_sensitivity_beside(a, file, &progress, &answer, false, &doubt);
-    enum exit_status done = EXIT_DONE;
-    if (status == CEDUO_OK) {
-        bool flown = !a->stands || a->format != CEDUO_CSV;
-        const struct ceduo_report report = {.file = file,
-                                            .result = answer.result,
-                                            .years = a->years ? answer.years : NULL,
-                                            .verdict = &verdict,
-                                            .doubt = doubt.report.file ? &doubt.report : NULL,
-                                            .blocks = answer.blocks,
-                                            .work = answer.work,
-                                            .seconds = seconds,
-                                            .details = is_whole(a),
-                                            .rocks_asked = flown ? 0 : ceduo_batch_question(a, file, NULL).rocks,
-                                            .remarks = {a->tolerance, answer.tolerance_met, file->ground_assumed}};
-        write_report(a, &report, out);
-        done = ceduo_finished(answer.result);
+    struct asked c;
+    bool page = a->format == CEDUO_TABLE, stands = a->stands && a->format == CEDUO_CSV;
+    ceduo_ask_begin(&c, a, file);
+    uint64_t rocks = c.question.rocks;
+    if (stands) /* what is asked of the stands no rock answers */
+        c.question.rocks = 0;
+    if (page && !a->years) { /* what a page does not print is not simulated */
+        ceduo_ask_years(&c.question);
+        c.question.block_rocks = a->details ? BLOCK_ROCKS : 0;
     }
-    ceduo_sensitivity_release(&doubt);
-    ceduo_verdict_release(&verdict);
-    ceduo_answer_release(&answer);
-    return status == CEDUO_OK ? done : ceduo_batch_failed(file, status);
+    c.question.run.other_energy = !page || a->details;
+    enum ceduo_status status = ceduo_ask_runs(&c);
+    if (status == CEDUO_OK && page)
+        status = ceduo_ask_doubt_beside(&c, a, file, false);
+    if (status == CEDUO_OK) {
+        const struct ceduo_report report = {.file = file,
+                                            .result = c.answer.result,
+                                            .years = a->years ? c.answer.years : NULL,
+                                            .verdict = &c.verdict,
+                                            .doubt = c.doubt.file ? &c.doubt : NULL,
+                                            .blocks = c.answer.blocks,
+                                            .work = c.answer.work,
+                                            .seconds = c.seconds,
+                                            .details = a->details,
+                                            .rocks_asked = stands ? rocks : 0,
+                                            .remarks = {a->tolerance, c.answer.tolerance_met, file->ground_assumed}};
+        if (a->format == CEDUO_JSON) {
+            ceduo_figures_json(out, ceduo_result_figures, &(struct ceduo_place){.report = &report}, report.details);
+        } else if (a->format == CEDUO_CSV) {
+            ceduo_text_put(out, ""); /* without stands no row, but the header */
+            ceduo_csv_rows(out, ceduo_result_csv(a->stands, a->years), &(struct ceduo_place){.report = &report});
+        } else {
+            (a->details ? ceduo_report_table : ceduo_report_short)(out, &report, !ceduo_say_utf8());
+            ceduo_say_plainly(out);
+            ceduo_profiles_add(a->profiles, &report, a->label);
+        }
+    }
+    return ceduo_ask_end(&c, file, status);
+}
+
+enum exit_status ceduo_print_doubt(const struct arguments *a, struct scene_file *file, struct text *out)
+{
+    struct asked c;
+    ceduo_batch_warn(a, file);
+    ceduo_ask_begin(&c, a, file);
+    enum ceduo_status status = ceduo_ask_doubt(&c, a, file);
+    if (status == CEDUO_OK)
+        ceduo_text_put(out, ""); /* of what has no row the header is printed */
+    if (status == CEDUO_OK && a->format == CEDUO_JSON) {
+        ceduo_figures_json(out, ceduo_doubt_figures, &(struct ceduo_place){.doubt = &c.doubt}, false);
+    } else if (status == CEDUO_OK && a->format == CEDUO_CSV) {
+        ceduo_csv_rows(out, &ceduo_doubt_csv, &(struct ceduo_place){.doubt = &c.doubt});
+    } else if (status == CEDUO_OK) {
+        ceduo_doubt_page(out, &c.doubt, !ceduo_say_utf8());
+        ceduo_say_plainly(out);
+    }
+    return ceduo_ask_end(&c, file, status);
+}
+
+/* ---- searches ---- */
+
+/* The one option to look at. */
+static enum exit_status choose_option(const struct arguments *a, const struct scene_file *file, size_t *option)
+{
+    bool several = a->options.n == 0 && file->scene.options_count > 1;
+    *option = 0;
+    for (size_t i = 0; i < a->options.n; i++) {
+        size_t k;
+        if (ceduo_batch_option(file, a->options.items[i], &k) != EXIT_DONE)
+            return EXIT_USAGE;
+        several |= i > 0 && k != *option;
+        *option = k;
+    }
+    if (several)
+        ceduo_say_why("ceduo", _("--find: the scene has several options; name one with --option"));
+    return several ? EXIT_USAGE : EXIT_DONE;
+}
+
+enum exit_status ceduo_print_find(const struct arguments *a, struct scene_file *file, struct text *out)
+{
+    struct ceduo_search search = {.path = a->find.path,
+                                  .goal = a->goal,
+                                  .target = a->goal_value,
+                                  .lo = a->find.lo,
+                                  .hi = a->find.hi,
+                                  .rotation = a->years,
+                                  .sure = a->sure,
+                                  .sure_rocks = a->rocks,
+                                  .rocks = a->rocks > 0 ? a->rocks : file->scene.simulation.rocks};
+    struct search_answer answer;
+    if (choose_option(a, file, &search.option) != EXIT_DONE)
+        return EXIT_USAGE;
+    ceduo_batch_warn(a, file);
+    enum ceduo_status status = ceduo_search(file, &search, (unsigned)a->threads, ceduo_interrupt_flag(), &answer);
+    ceduo_problems_close(&answer.problems);
+    ceduo_say(&answer.problems.text);
+    search.target = answer.target;
+    search.rotation = answer.rotation;
+    const struct ceduo_find_report report = {file, &search, &answer.found, &answer.yield, answer.yield_depends, &answer.sure};
+    if (status == CEDUO_OK && a->format == CEDUO_JSON) {
+        ceduo_figures_json(out, ceduo_find_figures, &report, false);
+    } else if (status == CEDUO_OK && a->format == CEDUO_CSV) {
+        ceduo_csv_rows(out, &ceduo_find_csv, &report);
+    } else if (status == CEDUO_OK) {
+        if (a->scenes_count > 1)
+            ceduo_text_safe(out, file->path);
+        ceduo_text_put(out, a->scenes_count > 1 ? ":\n" : "");
+        ceduo_find_page(out, &report);
+    }
+    bool usage = answer.problems.count > 0;
+    ceduo_problems_free(&answer.problems);
+    return status == CEDUO_OK ? EXIT_DONE : usage ? EXIT_USAGE : EXIT_RUN;
 }
 
 /* ---- pictures ---- */
@@ -117,7 +143,7 @@ static void add_plot(const struct arguments *a, const struct ceduo_picture *pict
 {
     int width = a->plot_width > 0 ? a->plot_width : PLOT_WIDTH;
     int height = a->plot_width > 0 ? a->plot_height : PLOT_HEIGHT;
-    struct ceduo_cells *cells = ceduo_cells_create(width, height, ceduo_option_charset(a));
+    struct ceduo_cells *cells = ceduo_cells_create(width, height, a->charset);
     struct ceduo_area area = {.top = 1, .width = width, .height = height - 1};
     LOCAL_TEXT(title);
     ceduo_plot_title(&title, a->plot, picture);
@@ -132,11 +158,14 @@ static void add_plot(const struct arguments *a, const struct ceduo_picture *pict
 }
 
 /* One picture for each option, belt or control that it depends on. */
-static void add_plots(const struct arguments *a, const struct ceduo_scene *scene, const struct ceduo_snapshot *snapshot,
-                      struct ceduo_years *const *years, const struct ceduo_verdict *verdict, struct text *out)
+static void add_plots(const struct arguments *a, const struct ceduo_scene *scene, const struct asked *c, struct text *out)
 {
-    struct ceduo_picture picture = {
-        .scene = scene, .snapshot = snapshot, .verdict = verdict, .control = ceduo_scene_last_control(scene)};
+    struct ceduo_years *const *years = c->answer.years;
+    struct ceduo_picture picture = {.scene = scene,
+                                    .snapshot = c->snapshot,
+                                    .verdict = c->snapshot ? &c->verdict : NULL,
+                                    .doubt = c->doubt.file ? &c->doubt : NULL,
+                                    .control = ceduo_scene_last_control(scene)};
     size_t start = out->length;
     size_t options = ceduo_plot_kinds[a->plot].flags & CEDUO_PICTURE_WHOLE ? 1 : scene->options_count;
     for (size_t o = 0; o < options; o++) {
@@ -153,66 +182,97 @@ static void add_plots(const struct arguments *a, const struct ceduo_scene *scene
     }
 }
 
-enum ceduo_status ceduo_ask_pictures(struct ceduo_question *q, bool cells, size_t trajectories, struct answered *a)
-{
-    double cell_x[CEDUO_SNAPSHOT_CELLS];
-    *a = (struct answered){0};
-    q->run.cells = cells ? ceduo_snapshot_places(q->run.scene, cell_x) : 0;
-    q->run.cell_x = cell_x;
-    enum ceduo_status status = ceduo_ask(q, &a->pool, &a->answer);
-    const struct ceduo_snapshot_def def = {.scene = q->run.scene,
-                                           .figures = a->pool,
-                                           .pictures = a->pool,
-                                           .cells = q->run.cells,
-                                           .cell_x = cell_x,
-                                           .trajectories = trajectories,
-                                           .cancel = q->run.cancel};
-    if (status == CEDUO_OK)
-        status = ceduo_snapshot_create(&def, &a->snapshot);
-    return status == CEDUO_OK ? ceduo_verdict_make(a->answer.result, a->answer.years, &a->verdict) : status;
-}
-
-void ceduo_answered_release(struct answered *a)
-{
-    ceduo_verdict_release(&a->verdict);
-    ceduo_snapshot_free(a->snapshot);
-    ceduo_answer_release(&a->answer);
-    ceduo_pool_free(a->pool);
-}
-
-static enum exit_status print_doubt(const struct arguments *a, struct scene_file *file, struct text *out)
-{
-    struct asked_doubt d;
-    enum ceduo_status status = ceduo_sensitivity_of(a, file, &d);
-    struct ceduo_picture picture = {
-        .scene = &file->scene, .control = ceduo_scene_last_control(&file->scene), .doubt = &d.report};
-    for (size_t start = out->length; status == CEDUO_OK && picture.option < file->scene.options_count; picture.option++)
-        add_plot(a, &picture, start, out);
-    ceduo_sensitivity_release(&d);
-    return status == CEDUO_OK ? EXIT_DONE : ceduo_batch_failed(file, status);
-}
-
 enum exit_status ceduo_print_plots(const struct arguments *a, struct scene_file *file, struct text *out)
 {
-    if (a->plot == CEDUO_PLOT_DOUBT)
-        return print_doubt(a, file, out);
-    if (!(ceduo_plot_kinds[a->plot].flags & CEDUO_PICTURE_RUN)) {
-        add_plots(a, &file->scene, NULL, NULL, NULL, out);
-        return EXIT_DONE;
+    struct asked c;
+    enum ceduo_status status = CEDUO_OK;
+    ceduo_ask_begin(&c, a, file);
+    if (a->plot == CEDUO_PLOT_DOUBT) {
+        status = ceduo_ask_doubt(&c, a, file);
+    } else if (ceduo_plot_kinds[a->plot].flags & CEDUO_PICTURE_RUN) {
+        ceduo_batch_warn(a, file);
+        c.pictures = true;
+        c.cells = ceduo_plot_kinds[a->plot].flags & CEDUO_PICTURE_CELLS;
+        c.trajectories = a->plot == CEDUO_PLOT_PROFILE ? CEDUO_SNAPSHOT_TRAJECTORIES : 0;
+        c.question.run.other_energy = false;
+        c.question.years |= a->plot == CEDUO_PLOT_ROTATION || a->plot == CEDUO_PLOT_TRADEOFF;
+        status = ceduo_ask_runs(&c);
     }
-    ceduo_batch_warn(a, file);
-    struct progress progress = ceduo_progress_begin(a);
-    struct ceduo_question q = ceduo_batch_question(a, file, &progress);
-    struct answered answered;
-    enum exit_status done = EXIT_DONE;
-    q.run.other_energy = false;
-    q.years |= a->plot == CEDUO_PLOT_ROTATION || a->plot == CEDUO_PLOT_TRADEOFF;
-    enum ceduo_status status = ceduo_ask_pictures(&q, ceduo_plot_kinds[a->plot].flags & CEDUO_PICTURE_CELLS,
-                                                  a->plot == CEDUO_PLOT_PROFILE ? CEDUO_SNAPSHOT_TRAJECTORIES : 0, &answered);
+    if (status == CEDUO_OK)
+        add_plots(a, &file->scene, &c, out);
+    return ceduo_ask_end(&c, file, status);
+}
+
+/* ---- chapters ---- */
+
+static void append_word(struct text *text, const char *before, const char *word)
+{
+    static const char *const plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./=:,+%@";
+    ceduo_text_put(text, before);
+    if (*word && strspn(word, plain) == strlen(word))
+        ceduo_text_put(text, word);
+    else
+        ceduo_text_quoted(text, word);
+}
+
+/* All that decides about the page, and nothing else: not its own name, nor the threads. */
+static void append_command(struct text *text, const struct arguments *a)
+{
+    ceduo_text_put(text, "ceduo --report report.html");
+    if (strcmp(_("en"), "en") != 0)
+        append_word(text, " --language ", _("en"));
+    if (a->rocks > 0)
+        ceduo_text_format(text, " -n %llu", (unsigned long long)a->rocks);
+    if (a->tolerance > 0)
+        append_word(text, " -e ", ceduo_number_shortest(a->tolerance, (char[CEDUO_NUMBER_ROOM]){0}));
+    for (size_t i = 0; i < a->sets.n; i++)
+        append_word(text, " -s ", a->sets.items[i]);
+    for (size_t i = 0; i < a->options.n; i++)
+        append_word(text, " --option ", a->options.items[i]);
+    if (a->years && a->window.step > 0)
+        ceduo_text_format(text, " --years=%u:%u:%u", a->window.first, a->window.last, a->window.step);
+    if (ceduo_arguments_given(a, "sensitivity"))
+        ceduo_text_format(text, " --sensitivity=%llu", (unsigned long long)a->points);
+    for (size_t i = 0; i < a->scenes_count; i++)
+        append_word(text, " ", a->scenes[i]);
+}
+
+/* Rocks and points are moderate: a page shows no more digits. */
+#define YEAR_ROCKS 1024
+#define WAYS       80 /* more are no denser to the eye, and make the page large */
+
+enum exit_status ceduo_print_chapter(const struct arguments *a, struct scene_file *file, struct text *out)
+{
+    struct asked c;
+    ceduo_ask_begin(&c, a, file);
+    c.pictures = c.cells = true;
+    c.trajectories = WAYS;
+    if (a->window.step > 0)
+        c.question.year_rocks = YEAR_ROCKS;
+    else
+        ceduo_ask_years(&c.question);
+    c.question.block_rocks = file->scene.options_count == 1 ? BLOCK_ROCKS : 0;
+    enum ceduo_status status = ceduo_ask_runs(&c);
+    if (status == CEDUO_OK)
+        status = ceduo_ask_doubt_beside(&c, a, file, true);
     if (status == CEDUO_OK) {
-        add_plots(a, &file->scene, answered.snapshot, answered.answer.years, &answered.verdict, out);
-        done = ceduo_finished(answered.answer.result);
+        LOCAL_TEXT(command);
+        struct ceduo_page page = {.width = CEDUO_PAGE_REPORT_WIDTH};
+        struct ceduo_report report = {.file = file,
+                                      .result = c.answer.result,
+                                      .verdict = &c.verdict,
+                                      .blocks = c.answer.blocks,
+                                      .remarks = {a->tolerance, c.answer.tolerance_met, file->ground_assumed}};
+        c.doubt.years = &c.verdict;
+        append_command(&command, a);
+        const struct ceduo_chapter chapter = {&report, c.snapshot, c.answer.years, &c.doubt, ceduo_text_string(&command), true};
+        ceduo_page_chapter(&page, &chapter);
+        ceduo_page_html(&(struct ceduo_html){.text = out}, &page, a->profiles->count + 1);
+        ceduo_page_free(&page);
+        report.doubt = &c.doubt;
+        if (a->profiles->count == 0)
+            ceduo_text_put(a->title, ceduo_in_language(file->scene.title, file->scene.title_it));
+        ceduo_profiles_add(a->profiles, &report, NULL);
     }
-    ceduo_answered_release(&answered);
-    return status == CEDUO_OK ? done : ceduo_batch_failed(file, status);
+    return ceduo_ask_end(&c, file, status);
 }

@@ -23,9 +23,11 @@ static const char *const plain_signs[][2] = {
 #define PLAIN_SIGNS (sizeof plain_signs / sizeof plain_signs[0])
 
 /* For a terminal that knows ASCII alone: what it cannot show otherwise becomes a question mark. */
-static void make_plain(struct text *text)
+void ceduo_say_plainly(struct text *text)
 {
     size_t to = 0;
+    if (ceduo_say_utf8())
+        return;
     for (size_t i = 0; i < text->length; i++) {
         unsigned char c = (unsigned char)text->bytes[i];
         size_t sign = 0;
@@ -45,12 +47,6 @@ static void make_plain(struct text *text)
     text->length = to;
     if (text->bytes)
         text->bytes[to] = '\0';
-}
-
-void ceduo_say_plainly(struct text *text)
-{
-    if (!ceduo_say_utf8())
-        make_plain(text);
 }
 
 static bool line_open; /* of progress */

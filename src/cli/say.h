@@ -26,4 +26,10 @@ bool ceduo_say_utf8(void);
 /* Says on standard error what is wrong with the command line, or with this option of it. EXIT_USAGE. */
 enum exit_status ceduo_usage(const char *option, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
+/* The language and characters of the environment. Numbers have a dot in every language: LC_NUMERIC stays that of C. */
+void ceduo_language_start(void);
+
+/* Another language: "it" or "en". Where its translation is not found, text stays English. */
+void ceduo_language_set(const char *language);
+
 #endif

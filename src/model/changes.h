@@ -21,8 +21,8 @@ void ceduo_changes_remove(struct changes *changes, const char *path);
 /* Makes the edit, and frees the changes. */
 bool ceduo_changes_make(struct changes *changes, const char *what, struct problems *problems);
 
-/* A number of so many digits as text. */
-const char *ceduo_changes_rounded(double value, int digits, char room[CEDUO_NUMBER_ROOM]);
+/* A number of so many digits as text, in the arena of the document. */
+const char *ceduo_changes_rounded(struct changes *changes, double value, int digits);
 
 /* Adds what follows a value that is changed: the neighbours of a border, so that there is no new gap and no overlap; a
  * height that is assumed, by its diameter. Says what does not follow: shoots that are given per hectare, standards. */

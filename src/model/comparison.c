@@ -26,9 +26,8 @@ static enum ceduo_status compare_stops(struct comparison *c, const struct ceduo_
 }
 
 enum ceduo_status ceduo_comparison_make(const struct scene_file *file, size_t level, const atomic_bool *cancel,
-                                        struct comparison **comparison)
+                                        struct comparison *c)
 {
-    struct comparison *c = *comparison = ceduo_must(calloc(1, sizeof *c));
     *c = (struct comparison){.file = *file, .rocks = levels[level]};
     c->predicted = ceduo_must(calloc(file->observations_count + 1, sizeof *c->predicted));
     c->stops = ceduo_must(calloc(file->observations_count + 1, sizeof *c->stops));
@@ -43,15 +42,12 @@ enum ceduo_status ceduo_comparison_make(const struct scene_file *file, size_t le
         if (o[i].kind == CEDUO_OBSERVED_STOPS && o[i].values)
             status = atomic_load(cancel) ? CEDUO_CANCELLED : compare_stops(c, observer, i);
     ceduo_observer_free(observer);
-    if (status != CEDUO_OK) {
-        ceduo_comparison_free(c);
-        *comparison = NULL;
-    }
     return status;
 }
 
-void ceduo_comparison_free(struct comparison *c)
+void ceduo_comparison_free(void *comparison)
 {
+    struct comparison *c = comparison;
     free(c->predicted);
     free(c->stops);
     ceduo_arena_free(&c->file.arena);

@@ -16,10 +16,9 @@ struct comparison {
     struct ceduo_seen_stops *stops;    /* likewise: empty for all that is no list of stops */
 };
 
-/* Computes one level. `file` must have an arena of its own, which is the answer's from then on, whatever comes of it.
- * Otherwise than CEDUO_OK: *comparison is NULL. */
+/* Computes one level. `file` must have an arena of its own, which is the answer's from then on. To be freed in any case. */
 enum ceduo_status ceduo_comparison_make(const struct scene_file *file, size_t level, const atomic_bool *cancel,
-                                        struct comparison **comparison);
-void ceduo_comparison_free(struct comparison *comparison);
+                                        struct comparison *comparison);
+void ceduo_comparison_free(void *comparison);
 
 #endif

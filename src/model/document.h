@@ -41,8 +41,11 @@ void ceduo_document_close(struct document *document);
 /* Each edit makes a new state, or leaves the document as it was with the reason in `problems`. Paths as in --set. */
 bool ceduo_document_set(struct document *document, const char *path, const char *value, struct problems *problems);
 bool ceduo_document_delete(struct document *document, const char *path, struct problems *problems);
-/* A copy of item `list[index]` after it, or a first item from `text` (YAML) where the list is empty or missing. */
-bool ceduo_document_duplicate(struct document *document, const char *list, size_t index, struct problems *problems);
+/* A copy of item `list[index]` after it, and a change (PATH=VALUE; may be NULL) to each of the two; of an option under a name of
+ * its own. */
+bool ceduo_document_duplicate(struct document *document, const char *list, size_t index, const char *first, const char *second,
+                              struct problems *problems);
+/* An item from `text` (YAML) into a list, which is made where there is none. */
 bool ceduo_document_insert(struct document *document, const char *list, size_t index, const char *text,
                            struct problems *problems);
 bool ceduo_document_move(struct document *document, const char *list, size_t from, size_t to, struct problems *problems);
@@ -53,17 +56,11 @@ bool ceduo_document_add_option(struct document *document, const char *stand, str
 /* Another name for an option; what was seen through its forest and the doubts about it go along. */
 bool ceduo_document_rename_option(struct document *document, size_t index, const char *name, struct problems *problems);
 
-/* A copy of an option after it. */
-bool ceduo_document_copy_option(struct document *document, size_t index, struct problems *problems);
-
 /* Several changes as one state: PATH=VALUE each; or PATH:=VALUE, a scalar that keeps the source around it, for it only
  * follows what a person changes; or PATH alone: what stands there is taken out. */
 bool ceduo_document_set_all(struct document *document, const char *const *sets, size_t n, const char *what,
                             struct problems *problems);
 
-/* A copy of item `list[index]` after it, and a change (PATH=VALUE) to each of the two. */
-bool ceduo_document_split(struct document *document, const char *list, size_t index, const char *first, const char *second,
-                          struct problems *problems);
 /* A vertex ([x, z]) within segment `index` of the slope, both parts of the same ground. `apart`: of a ground that was one for
  * all segments each gets its own. */
 bool ceduo_document_split_segment(struct document *document, size_t index, const char *vertex, bool apart,

@@ -137,31 +137,20 @@ static void shift_doubts(struct edit *e, const char *list, size_t from, size_t t
     put(e, path, now);
 }
 
-/* Rows that call an item by a name that it is to lose call it by its number. */
-struct loss {
-    const char *start; /* "options[old]" */
-    size_t index;
+/* Another beginning of a path: rows that call an option by a name that it is to lose call it by its number; rows about the forest
+ * become those of options. */
+struct beginning {
+    const char *from, *to;
 };
 
-static const struct node *unname_row(struct arena *arena, const struct node *row, const void *context)
+static const struct node *begin_row(struct arena *arena, const struct node *row, const void *context)
 {
-    const struct loss *l = context;
+    const struct beginning *b = context;
     const char *path = ceduo_node_text(row, "path");
-    size_t n = strlen(l->start);
-    if (!path || strncmp(path, l->start, n) != 0)
+    size_t n = strlen(b->from);
+    if (!path || strncmp(path, b->from, n) != 0)
         return row;
-    return with_path(arena, row, ceduo_arena_format(arena, "options[%zu]%s", l->index, path + n));
-}
-
-/* A row about the forest as one about options. */
-static const struct node *move_row_to_options(struct arena *arena, const struct node *row, const void *context)
-{
-    (void)context;
-    const char *path = ceduo_node_text(row, "path");
-    if (!path || strncmp(path, "forest[", 7) != 0)
-        return row;
-    const char *options = strncmp(path, "forest[*]", 9) == 0 ? "*" : "current";
-    return with_path(arena, row, ceduo_arena_format(arena, "options[%s].%s", options, path));
+    return with_path(arena, row, ceduo_arena_format(arena, "%s%s", b->to, path + n));
 }
 
 /* ---- changes of a tree ---- */
@@ -279,17 +268,6 @@ static const struct node *with_new_name(struct edit *e, const struct node *list,
     }
 }
 
-bool ceduo_document_duplicate(struct document *d, const char *list, size_t index, struct problems *problems)
-{
-    struct edit e = begin(d, problems);
-    const struct node *holder = ceduo_document_node(d, list);
-    const struct node *item = holder && holder->kind == NODE_LIST && index < holder->n ? holder->items[index] : NULL;
-    if (item && strcmp(list, "options") == 0)
-        item = with_new_name(&e, holder, item);
-    put_item(&e, list, index + 1, item);
-    return commit(&e, list);
-}
-
 bool ceduo_document_move(struct document *d, const char *list, size_t from, size_t to, struct problems *problems)
 {
     struct edit e = begin(d, problems);
@@ -299,19 +277,6 @@ bool ceduo_document_move(struct document *d, const char *list, size_t from, size
     const struct node *less = ceduo_node_removed(e.arena, holder, from);
     put(&e, list, ceduo_node_inserted(e.arena, less, to, holder->items[from]));
     shift_doubts(&e, list, from, to, 0);
-    return commit(&e, list);
-}
-
-bool ceduo_document_split(struct document *d, const char *list, size_t index, const char *first, const char *second,
-                          struct problems *problems)
-{
-    struct edit e = begin(d, problems);
-    const struct node *holder = ceduo_document_node(d, list);
-    put_item(&e, list, index + 1, holder && index < holder->n ? holder->items[index] : NULL);
-    if (e.root)
-        change(&e, first);
-    if (e.root)
-        change(&e, second);
     return commit(&e, list);
 }
 
@@ -369,7 +334,9 @@ static const struct node *need_options(struct edit *e)
     options = ceduo_document_parse(e->d, "options", "[{name: current}]", e->problems);
     if (forest)
         options = ceduo_node_replaced(e->arena, options, 0, ceduo_node_with(e->arena, options->items[0], "forest", forest));
-    e->root = with_rows(e->arena, ceduo_node_without(e->arena, e->root, "forest"), move_row_to_options, NULL);
+    e->root = ceduo_node_without(e->arena, e->root, "forest");
+    e->root = with_rows(e->arena, e->root, begin_row, &(struct beginning){"forest[*]", "options[*].forest[*]"});
+    e->root = with_rows(e->arena, e->root, begin_row, &(struct beginning){"forest[", "options[current].forest["});
     e->root = ceduo_node_with(e->arena, e->root, "options", options);
     return options;
 }
@@ -393,12 +360,19 @@ bool ceduo_document_add_option(struct document *d, const char *stand, struct pro
     return commit(&e, stand);
 }
 
-bool ceduo_document_copy_option(struct document *d, size_t index, struct problems *problems)
+bool ceduo_document_duplicate(struct document *d, const char *list, size_t index, const char *first, const char *second,
+                              struct problems *problems)
 {
     struct edit e = begin(d, problems);
-    const struct node *list = need_options(&e);
-    put_item(&e, "options", index + 1, index < list->n ? with_new_name(&e, list, list->items[index]) : NULL);
-    return commit(&e, "options");
+    bool options = strcmp(list, "options") == 0;
+    const struct node *holder = options ? need_options(&e) : ceduo_document_node(d, list);
+    const struct node *item = holder && holder->kind == NODE_LIST && index < holder->n ? holder->items[index] : NULL;
+    put_item(&e, list, index + 1, item && options ? with_new_name(&e, holder, item) : item);
+    if (e.root && first)
+        change(&e, first);
+    if (e.root && second)
+        change(&e, second);
+    return commit(&e, list);
 }
 
 /* A node with every `option: old` in it as `name`. */
@@ -426,7 +400,9 @@ bool ceduo_document_rename_option(struct document *d, size_t index, const char *
     list = ceduo_node_replaced(e.arena, list, index, ceduo_node_with(e.arena, item, "name", scalar));
     e.root = ceduo_node_with(e.arena, e.root, "options", list);
     if (old)
-        e.root = with_rows(e.arena, e.root, unname_row, &(struct loss){ceduo_arena_format(e.arena, "options[%s]", old), index});
+        e.root = with_rows(e.arena, e.root, begin_row,
+                           &(struct beginning){ceduo_arena_format(e.arena, "options[%s]", old),
+                                               ceduo_arena_format(e.arena, "options[%zu]", index)});
     if (old && observed)
         e.root = ceduo_node_with(e.arena, e.root, "observed", with_option_named(e.arena, observed, old, scalar));
     return commit(&e, "options");

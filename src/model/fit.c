@@ -3,9 +3,9 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
-#include "base/must.h"
 #include "io/doubt_inputs.h"
 #include "scene/ranges.h"
 #include "scene/value.h"
@@ -36,18 +36,6 @@ static void offer(const struct scene_file *file, struct fit_request *to, const c
 static const char *const keys[] = {"rn", "rt", "roughness_rad", "friction"};
 #define KEYS (sizeof keys / sizeof keys[0])
 
-static bool law_knows(const struct scene_file *file, size_t key)
-{
-    return key != 1 || file->scene.simulation.law != CEDUO_LAW_ARM;
-}
-
-static struct range hull(struct range a, struct range b)
-{
-    a.lo = fmin(a.lo, b.lo);
-    a.hi = fmax(a.hi, b.hi);
-    return a;
-}
-
 /* What the values that the scene has may be, by their own row of ranges. */
 static struct range range_around(const struct scene_file *file, const char *key)
 {
@@ -67,42 +55,36 @@ static struct range range_around(const struct scene_file *file, const char *key)
     return range;
 }
 
-/* The ground of all stretches as one. What it is, is known where nothing was said of it: talus; otherwise it may be all that the
- * library has, and what is near the scene's own values. Roughness as a length has no library. */
-static void offer_everywhere(const struct scene_file *file, struct fit_request *to)
-{
-    bool length = !isnan(file->scene.slope.segments[0].roughness_m);
-    size_t library_count;
-    const struct ceduo_material *library = ceduo_materials(&library_count);
-    for (size_t k = 0; k < KEYS; k++) {
-        char path[FIT_PATH_ROOM];
-        const char *key = k == 2 && length ? "roughness_m" : keys[k];
-        struct range range = range_around(file, key);
-        if (file->ground_assumed)
-            range = ceduo_range_of_material(ceduo_material_talus(), key);
-        for (size_t i = 0; i < library_count && !file->ground_assumed && key == keys[k]; i++)
-            range = hull(range, ceduo_range_of_material(&library[i], key));
-        snprintf(path, sizeof path, "slope.segments[*].%s", key);
-        if (law_knows(file, k))
-            offer(file, to, path, range.lo, range.hi);
-    }
-}
-
-static void offer_materials(const struct scene_file *file, const struct node *rows, struct fit_request *to)
+/* The ground of all stretches as one (rows NULL), or each of the library that the scene names. What the one is, is known where
+ * nothing was said of it: talus; otherwise it may be all that the library has, and what is near the scene's own values. Roughness as
+ * a length has no library. */
+static void offer_ground(const struct scene_file *file, const struct node *rows, struct fit_request *to)
 {
     size_t n;
     const struct ceduo_material *library = ceduo_materials(&n);
-    for (size_t m = 0; m < n; m++) {
-        bool there = false;
-        for (size_t i = 0; i < rows->n; i++) {
+    bool length = !rows && !isnan(file->scene.slope.segments[0].roughness_m);
+    for (size_t m = 0; m < (rows ? n : 1); m++) {
+        bool there = !rows;
+        for (size_t i = 0; rows && i < rows->n; i++) {
             const char *name = ceduo_node_text(rows->items[i], "material");
             there |= name && ceduo_choice_find(&ceduo_material_words, name) == (int)m;
         }
         for (size_t k = 0; there && k < KEYS; k++) {
+            const char *key = k == 2 && length ? "roughness_m" : keys[k];
             char path[FIT_PATH_ROOM];
-            struct range range = ceduo_range_of_material(&library[m], keys[k]);
-            snprintf(path, sizeof path, "slope.materials[%s].%s", library[m].name, keys[k]);
-            if (law_knows(file, k))
+            struct range range = rows                   ? ceduo_range_of_material(&library[m], key)
+                                 : file->ground_assumed ? ceduo_range_of_material(ceduo_material_talus(), key)
+                                                        : range_around(file, key);
+            for (size_t i = 0; i < n && !rows && !file->ground_assumed && key == keys[k]; i++) {
+                struct range other = ceduo_range_of_material(&library[i], key);
+                range.lo = fmin(range.lo, other.lo);
+                range.hi = fmax(range.hi, other.hi);
+            }
+            if (rows)
+                snprintf(path, sizeof path, "slope.materials[%s].%s", library[m].name, key);
+            else
+                snprintf(path, sizeof path, "slope.segments[*].%s", key);
+            if (strcmp(key, "rt") != 0 || file->scene.simulation.law != CEDUO_LAW_ARM) /* which does not know it */
                 offer(file, to, path, range.lo, range.hi);
         }
     }
@@ -120,10 +102,8 @@ void ceduo_fit_offer(const struct scene_file *file, struct fit_request *to)
     }
     if (to->n > 0)
         return;
-    if (!file->ground_assumed && file->scene.slope.segments_given == 0 && rows && rows->kind == NODE_LIST)
-        offer_materials(file, rows, to);
-    else
-        offer_everywhere(file, to);
+    bool named = !file->ground_assumed && file->scene.slope.segments_given == 0 && rows && rows->kind == NODE_LIST;
+    offer_ground(file, named ? rows : NULL, to);
 }
 
 bool ceduo_fit_has_observations(const struct scene_file *file)
@@ -134,28 +114,13 @@ bool ceduo_fit_has_observations(const struct scene_file *file)
     return false;
 }
 
-/* ---- what the observations hold ---- */
-
-#define FIRST_STEPS 200 /* of each chain: with the search before them some seconds */
-static enum ceduo_status find_loose(const struct ceduo_calibration_def *def, struct fit_loose *loose)
-{
-    struct ceduo_calibration_def short_def = *def;
-    struct ceduo_calibration answer;
-    short_def.steps_most = FIRST_STEPS;
-    enum ceduo_status status = ceduo_calibrate(&short_def, &answer);
-    if (status != CEDUO_OK)
-        return status;
-    loose->n = ceduo_calibration_loose(&answer, loose->loose);
-    ceduo_calibration_free(&answer);
-    return CEDUO_OK;
-}
-
 /* ---- fitting ---- */
 
+#define FIRST_STEPS 200 /* of each chain: with the search before them some seconds */
+
 enum ceduo_status ceduo_fit_make(const struct scene_file *file, const struct fit_request *request, const struct fit_run *run,
-                                 struct fit **fit)
+                                 struct fit *f)
 {
-    struct fit *f = *fit = ceduo_must(calloc(1, sizeof *f));
     *f = (struct fit){.file = *file, .request = *request, .done = true};
     for (size_t i = 0; i < request->n; i++) {
         f->paths[i] = f->request.paths[i];
@@ -164,27 +129,31 @@ enum ceduo_status ceduo_fit_make(const struct scene_file *file, const struct fit
         f->inputs[i].hi = request->hi[i];
     }
     const struct ceduo_calibration_scene scene = {&f->file.scene, f->inputs, file->observations_count, file->observations};
-    const struct ceduo_calibration_def def = {.scenes_count = 1,
-                                              .scenes = &scene,
-                                              .parameters_count = request->n,
-                                              .rocks = request->rocks,
-                                              .seed = file->scene.simulation.seed,
-                                              .threads = run->threads,
-                                              .cancel = run->cancel,
-                                              .progress = run->progress,
-                                              .context = run->context};
-    enum ceduo_status status = request->n > 1 ? find_loose(&def, &f->loose) : CEDUO_OK;
-    *run->loose = f->loose;
-    status = status == CEDUO_OK ? ceduo_calibrate(&def, &f->answer) : status;
-    if (status != CEDUO_OK) {
-        ceduo_fit_free(f);
-        *fit = NULL;
+    struct ceduo_calibration_def def = {.scenes_count = 1,
+                                        .scenes = &scene,
+                                        .parameters_count = request->n,
+                                        .rocks = request->rocks,
+                                        .seed = file->scene.simulation.seed,
+                                        .threads = run->threads,
+                                        .cancel = run->cancel,
+                                        .progress = run->progress,
+                                        .context = run->context};
+    if (request->n > 1) { /* what the observations do not hold */
+        struct ceduo_calibration_def first = def;
+        first.steps_most = FIRST_STEPS;
+        enum ceduo_status status = ceduo_calibrate(&first, &f->answer);
+        if (status != CEDUO_OK)
+            return status;
+        f->loose.n = ceduo_calibration_loose(&f->answer, f->loose.loose);
+        ceduo_calibration_free(&f->answer);
     }
-    return status;
+    *run->loose = f->loose;
+    return ceduo_calibrate(&def, &f->answer);
 }
 
-void ceduo_fit_free(struct fit *f)
+void ceduo_fit_free(void *fit)
 {
+    struct fit *f = fit;
     ceduo_calibration_free(&f->answer);
     ceduo_arena_free(&f->file.arena);
     free(f);

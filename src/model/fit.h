@@ -51,10 +51,9 @@ struct fit_run {
     struct fit_loose *loose; /* told before the fit itself begins */
 };
 
-/* Fits. `file` must have an arena of its own, which is the answer's from then on, whatever comes of it. Otherwise than
- * CEDUO_OK: *fit is NULL. */
+/* Fits. `file` must have an arena of its own, which is the answer's from then on. To be freed in any case. */
 enum ceduo_status ceduo_fit_make(const struct scene_file *file, const struct fit_request *request, const struct fit_run *run,
-                                 struct fit **fit);
-void ceduo_fit_free(struct fit *fit);
+                                 struct fit *fit);
+void ceduo_fit_free(void *fit);
 
 #endif

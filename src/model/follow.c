@@ -40,10 +40,11 @@ bool ceduo_changes_make(struct changes *c, const char *what, struct problems *pr
     return good;
 }
 
-const char *ceduo_changes_rounded(double value, int digits, char room[CEDUO_NUMBER_ROOM])
+const char *ceduo_changes_rounded(struct changes *c, double value, int digits)
 {
-    snprintf(room, CEDUO_NUMBER_ROOM, "%.*g", digits, value);
-    return ceduo_number_shortest(strtod(room, NULL), room);
+    char room[CEDUO_NUMBER_ROOM];
+    snprintf(room, sizeof room, "%.*g", digits, value);
+    return ceduo_arena_string(&c->d->file.arena, ceduo_number_shortest(strtod(room, NULL), room));
 }
 
 /* The place at a path; NaN where there is none. */
@@ -55,82 +56,73 @@ static double place_at(const struct document *d, const char *path)
 
 /* ---- borders ---- */
 
-/* An item of a list, "forest[1]" of "forest[1].to_m", and the key in it. */
-struct place {
-    char list[192];
-    size_t index;
-    const char *key;
-};
-
-static bool find_place(const char *path, struct place *place)
-{
-    const char *open = strrchr(path, '['), *end;
-    if (!open || (size_t)(open - path) >= sizeof place->list)
-        return false;
-    snprintf(place->list, sizeof place->list, "%.*s", (int)(open - path), path);
-    place->index = strtoul(open + 1, (char **)(uintptr_t)&end, 10);
-    place->key = *end == ']' && end[1] == '.' ? end + 2 : "";
-    return end > open + 1 && *end == ']';
-}
-
 static bool ends_in(const char *text, const char *end)
 {
     size_t n = strlen(text), length = strlen(end);
     return n >= length && strcmp(text + n - length, end) == 0;
 }
 
-/* The neighbour at the border that was `old` and is to be `now`, as it is written. */
-static void move_neighbour(struct changes *c, const struct place *place, bool to, double old, double now, const char *written)
+/* An item of a list, "forest[1]" of "forest[1].to_m", and the key in it; "": there is none. */
+struct place {
+    const char *list, *key;
+    size_t index;
+};
+
+static struct place find_place(struct changes *c, const char *path)
 {
-    char path[256], room[CEDUO_NUMBER_ROOM];
-    if (!to && place->index == 0)
+    const char *open = strrchr(path, '[');
+    char *end = NULL;
+    size_t index = open ? strtoul(open + 1, &end, 10) : 0;
+    if (!open || end == open + 1 || *end != ']')
+        return (struct place){"", "", 0};
+    return (struct place){ceduo_arena_copy(&c->d->file.arena, path, (size_t)(open - path)), end[1] == '.' ? end + 2 : "",
+                          index};
+}
+
+/* Of a border that moves the neighbour there moves, too. */
+static void follow_border(struct changes *c, const char *path, const char *value)
+{
+    struct arena *arena = &c->d->file.arena;
+    struct place place = find_place(c, path);
+    double now = ceduo_document_place(c->d, value), old = place_at(c->d, path);
+    bool to = strcmp(place.key, "to_m") == 0;
+    if (isnan(now) || !(ends_in(place.list, "forest") || ends_in(place.list, "slope.materials")) ||
+        !(to || (strcmp(place.key, "from_m") == 0 && place.index > 0)))
         return;
-    size_t other = to ? place->index + 1 : place->index - 1;
-    snprintf(path, sizeof path, "%.190s[%zu].%s", place->list, other, to ? "from_m" : "to_m");
-    double there = place_at(c->d, path);
+    size_t other = to ? place.index + 1 : place.index - 1;
+    const char *border = ceduo_arena_format(arena, "%s[%zu].%s", place.list, other, to ? "from_m" : "to_m");
+    double there = place_at(c->d, border);
+    double end = place_at(c->d, ceduo_arena_format(arena, "%s[%zu].%s", place.list, other, to ? "to_m" : "from_m"));
     bool overlaps = to ? there < now : there > now;
     if (isnan(there) || (there != old && !overlaps))
         return;
-    snprintf(path, sizeof path, "%.190s[%zu].%s", place->list, other, to ? "to_m" : "from_m");
-    double end = place_at(c->d, path);
     if (to ? end <= now : end >= now)
         ceduo_text_format(&c->refused,
                           to ? _("what comes next ends at %g m already; delete that first")
                              : _("what comes before begins at %g m only; delete that first"),
                           end);
-    snprintf(path, sizeof path, "%.190s[%zu].%s", place->list, other, to ? "from_m" : "to_m");
-    ceduo_number_shortest(now, room);
-    ceduo_changes_add(c, "%s=%s", path, written[0] == 'e' ? written : room); /* from the end, as this one is */
+    char written[CEDUO_NUMBER_ROOM];
+    ceduo_number_shortest(now, written);
+    ceduo_changes_add(c, "%s=%s", border, value[0] == 'e' ? value : written); /* from the end, as this one is */
     ceduo_text_format(&c->followed, to ? _("what comes next begins at %s m now") : _("what comes before ends at %s m now"),
-                      room);
-}
-
-static void follow_border(struct changes *c, const char *path, const char *value)
-{
-    struct place place;
-    double now = ceduo_document_place(c->d, value);
-    bool there = find_place(path, &place) && (ends_in(place.list, "forest") || ends_in(place.list, "slope.materials"));
-    bool to = there && strcmp(place.key, "to_m") == 0;
-    if (!isnan(now) && (to || (there && strcmp(place.key, "from_m") == 0)))
-        move_neighbour(c, &place, to, place_at(c->d, path), now, value);
+                      written);
 }
 
 /* The ground reaches as far as the profile does. */
 static void follow_end(struct changes *c, const char *path, const char *value)
 {
-    struct place place;
-    char border[64], room[CEDUO_NUMBER_ROOM];
+    struct place place = find_place(c, path);
+    char room[CEDUO_NUMBER_ROOM];
     double now;
     const struct node *materials = ceduo_document_node(c->d, "slope.materials");
     const struct node *vertices = ceduo_document_node(c->d, "slope.vertices_m");
-    if (!materials || materials->kind != NODE_LIST || materials->n == 0 || !find_place(path, &place) ||
-        strcmp(place.list, "slope.vertices_m") != 0 || sscanf(value, "[%lf", &now) != 1)
+    if (!materials || materials->kind != NODE_LIST || materials->n == 0 || strcmp(place.list, "slope.vertices_m") != 0 ||
+        sscanf(value, "[%lf", &now) != 1)
         return;
-    bool first = place.index == 0, last = vertices && place.index + 1 == vertices->n;
-    if (!first && !last)
-        return;
-    snprintf(border, sizeof border, "slope.materials[%zu].%s", first ? 0 : materials->n - 1, first ? "from_m" : "to_m");
-    ceduo_changes_add(c, "%s=%s", border, ceduo_number_shortest(now, room));
+    if (place.index == 0)
+        ceduo_changes_add(c, "slope.materials[0].from_m=%s", ceduo_number_shortest(now, room));
+    else if (vertices && place.index + 1 == vertices->n)
+        ceduo_changes_add(c, "slope.materials[%zu].to_m=%s", materials->n - 1, ceduo_number_shortest(now, room));
 }
 
 /* ---- stands ---- */
@@ -149,33 +141,31 @@ static const struct ceduo_stand *find_stand(const struct document *d, const char
 /* What happens to the shoots of stools that become more or fewer. */
 static void say_shoots(struct changes *c, const struct ceduo_stand *s, double stools)
 {
-    char room[CEDUO_NUMBER_ROOM], before[CEDUO_NUMBER_ROOM];
     double shoots = ceduo_stand_shoots(s), each = shoots / s->stools_per_ha;
     if (!(stools > 0) || !(shoots > 0))
         return;
     if (s->shoots[0].per_stool > 0)
-        ceduo_text_format(&c->followed, _("%s shoots on each stool stay"), ceduo_changes_rounded(each, 3, room));
+        ceduo_text_format(&c->followed, _("%s shoots on each stool stay"), ceduo_changes_rounded(c, each, 3));
     else
         ceduo_text_format(&c->followed, _("the shoots per ha stay: %s on a stool, not %s"),
-                          ceduo_changes_rounded(shoots / stools, 3, room), ceduo_changes_rounded(each, 3, before));
+                          ceduo_changes_rounded(c, shoots / stools, 3), ceduo_changes_rounded(c, each, 3));
 }
 
 /* A height that is only assumed goes along with its diameter, as both do while stems grow. */
 static void follow_diameter(struct changes *c, const char *path, const struct ceduo_curve *curve,
                             const struct ceduo_stems *stems, double dbh)
 {
-    char height[256], room[CEDUO_NUMBER_ROOM];
-    snprintf(height, sizeof height, "%.*sheight_m", (int)(strrchr(path, '.') + 1 - path), path);
+    const char *height = ceduo_arena_format(&c->d->file.arena, "%.*sheight_m", (int)(strrchr(path, '.') + 1 - path), path);
     if (!ceduo_scene_assumes_value(&c->d->file, height) || dbh == stems->dbh)
         return;
     double taller = ceduo_curve_height(curve, dbh) / ceduo_curve_height(curve, stems->dbh);
-    ceduo_changes_rounded(taller > 0 ? stems->height * taller : stems->height, 3, room);
+    const char *written = ceduo_changes_rounded(c, taller > 0 ? stems->height * taller : stems->height, 3);
     if (taller > 0)
-        ceduo_changes_add(c, "%s:=%s", height, room);
+        ceduo_changes_add(c, "%s:=%s", height, written);
     ceduo_text_format(&c->followed,
                       taller > 0 ? _("its height, assumed, goes along by the growth curve: %s m")
                                  : _("its height, %s m, is assumed and stays: no growth curve has this diameter"),
-                      room);
+                      written);
 }
 
 /* Trees that stand today, and those that a cut leaves, are two things: who changes one is reminded of the other. */

@@ -44,10 +44,32 @@ struct jobs {
     union results fresh;
 };
 
+/* What each kind does: a step works on a copy of its job, in the thread, and makes its result unless it publishes by itself. */
+struct kind {
+    enum ceduo_status (*step)(struct jobs *jobs, struct job *job, void **result);
+    void (*free)(void *result);
+};
+static const struct kind kinds[JOB_KINDS];
+
 /* ---- results ---- */
 
-static void free_years(struct years_known *y)
+static void free_search(void *result)
 {
+    struct search_answer *answer = result;
+    ceduo_problems_free(&answer->problems);
+    free(answer);
+}
+
+static void free_snapshot(void *result)
+{
+    struct snapshot *snapshot = result;
+    ceduo_snapshot_free(snapshot->snapshot);
+    free(snapshot);
+}
+
+static void free_years(void *result)
+{
+    struct years_known *y = result;
     for (size_t i = 0; i < y->n; i++)
         ceduo_years_free(y->items[i]);
     free(y);
@@ -55,32 +77,8 @@ static void free_years(struct years_known *y)
 
 static void free_result(enum job_kind kind, void *result)
 {
-    if (!result)
-        return;
-    switch (kind) {
-    case JOB_SEARCH:
-        ceduo_problems_free(&((struct search_answer *)result)->problems);
-        free(result);
-        break;
-    case JOB_SNAPSHOT:
-        ceduo_snapshot_free(((struct snapshot *)result)->snapshot);
-        free(result);
-        break;
-    case JOB_COMPARISON:
-        ceduo_comparison_free(result);
-        break;
-    case JOB_FIT:
-        ceduo_fit_free(result);
-        break;
-    case JOB_YEARS:
-        free_years(result);
-        break;
-    case JOB_UNCERTAINTY:
-        ceduo_uncertainty_free(result);
-        break;
-    default:
-        free(result);
-    }
+    if (result)
+        kinds[kind].free(result);
 }
 
 /* Puts a result into a slot; years of options that it does not have stay. */
@@ -129,7 +127,7 @@ static void publish(struct jobs *q, const struct job *job, void *result)
         tell(q);
 }
 
-/* ---- steps, in the thread: each works on a copy of its job, and makes its result unless it publishes by itself ---- */
+/* ---- steps ---- */
 
 static uint64_t rocks_of(size_t level)
 {
@@ -139,15 +137,11 @@ static uint64_t rocks_of(size_t level)
 static enum ceduo_status step_search(struct jobs *q, struct job *job, void **result)
 {
     struct search_answer *answer = *result = ceduo_must(calloc(1, sizeof *answer));
-    struct search search = {.file = &job->file, .def = job->search, .threads = q->threads, .cancel = &q->cancel};
-    search.def.path = job->text;
-    answer->status = ceduo_search(&search, &answer->found, &answer->problems); /* what was asked may be wrong: done, too */
-    answer->target = search.def.target;
-    answer->rotation = search.def.rotation;
-    answer->yield = search.yield;
-    answer->sure = search.sure;
+    job->search.path = job->text;
+    enum ceduo_status status = ceduo_search(&job->file, &job->search, q->threads, &q->cancel, answer);
     ceduo_arena_free(&job->file.arena);
-    return answer->status == CEDUO_CANCELLED || answer->status == CEDUO_NO_MEMORY ? answer->status : CEDUO_OK;
+    answer->status = status; /* what was asked may be wrong: done, too */
+    return status == CEDUO_CANCELLED || status == CEDUO_NO_MEMORY ? status : CEDUO_OK;
 }
 
 static enum ceduo_status step_preview(struct jobs *q, struct job *job, void **result)
@@ -173,6 +167,7 @@ static void publish_snapshot(void *context, struct ceduo_snapshot *snapshot)
 
 static enum ceduo_status step_snapshot(struct jobs *q, struct job *job, void **result)
 {
+    (void)result;
     struct publisher publisher = {.queue = q, .job = job};
     struct runs_step step = {.scene = &job->file.scene,
                              .shown = job->option,
@@ -180,7 +175,6 @@ static enum ceduo_status step_snapshot(struct jobs *q, struct job *job, void **r
                              .publish = publish_snapshot,
                              .context = &publisher};
     enum ceduo_status status = ceduo_runs_figures(q->runs, &step);
-    *result = NULL;
     job->level = step.enough ? LEVELS_MAX : job->level;
     return status;
 }
@@ -199,38 +193,29 @@ static enum ceduo_status step_years(struct jobs *q, struct job *job, void **resu
     const struct ceduo_scene *scene = &job->file.scene;
     size_t n = scene->options_count;
     enum ceduo_status status = CEDUO_OK;
-    *result = NULL;
     for (size_t k = 0; k < n && status == CEDUO_OK; k++) {
-        struct years_known *years = ceduo_must(calloc(1, sizeof *years + n * sizeof years->items[0]));
+        struct years_known *years = *result = ceduo_must(calloc(1, sizeof *years + n * sizeof years->items[0]));
         size_t option = (job->option + k) % n;
-        years->n = n;
-        years->done = k + 1;
-        years->rocks = rocks_of(job->level);
+        *years = (struct years_known){.n = n, .done = k + 1, .rocks = rocks_of(job->level)};
         status = ceduo_runs_years(q->runs, scene, option, years->rocks, &years->items[option]);
-        if (status == CEDUO_OK)
+        if (status == CEDUO_OK && k + 1 < n)
             publish(q, job, years);
-        else
-            free_years(years);
     }
     return status;
 }
 
 static enum ceduo_status step_uncertainty(struct jobs *q, struct job *job, void **result)
 {
-    struct uncertainty *u;
-    enum ceduo_status status = ceduo_uncertainty_make(&job->file, job->option, job->level, q->threads, &q->cancel, &u);
-    if (status == CEDUO_OK)
-        job->level = u->last ? LEVELS_MAX : u->level;
-    *result = u;
+    struct uncertainty *u = *result = ceduo_must(calloc(1, sizeof *u));
+    enum ceduo_status status = ceduo_uncertainty_make(&job->file, job->option, job->level, q->threads, &q->cancel, u);
+    job->level = u->last ? LEVELS_MAX : u->level;
     return status;
 }
 
 static enum ceduo_status step_comparison(struct jobs *q, struct job *job, void **result)
 {
-    struct comparison *comparison;
-    enum ceduo_status status = ceduo_comparison_make(&job->file, job->level, &q->cancel, &comparison);
-    *result = comparison;
-    return status;
+    struct comparison *comparison = *result = ceduo_must(calloc(1, sizeof *comparison));
+    return ceduo_comparison_make(&job->file, job->level, &q->cancel, comparison);
 }
 
 /* Ten times a second is enough to look at. */
@@ -242,9 +227,7 @@ static void publish_progress(void *context, const struct ceduo_calibration_state
         return;
     p->last = now;
     struct fit *fit = ceduo_must(calloc(1, sizeof *fit));
-    fit->request = p->job->fit;
-    fit->state = *state;
-    fit->loose = p->loose;
+    *fit = (struct fit){.request = p->job->fit, .state = *state, .loose = p->loose};
     publish(p->queue, p->job, fit);
 }
 
@@ -252,11 +235,20 @@ static enum ceduo_status step_fit(struct jobs *q, struct job *job, void **result
 {
     struct publisher publisher = {.queue = q, .job = job};
     const struct fit_run run = {q->threads, &q->cancel, publish_progress, &publisher, &publisher.loose};
-    struct fit *fit;
-    enum ceduo_status status = ceduo_fit_make(&job->file, &job->fit, &run, &fit);
-    *result = fit;
-    return status;
+    struct fit *fit = *result = ceduo_must(calloc(1, sizeof *fit));
+    return ceduo_fit_make(&job->file, &job->fit, &run, fit);
 }
+
+static const struct kind kinds[JOB_KINDS] = {
+    [JOB_SEARCH] = {step_search, free_search},
+    [JOB_PREVIEW] = {step_preview, free},
+    [JOB_SNAPSHOT] = {step_snapshot, free_snapshot},
+    [JOB_OTHERS] = {step_others, free},
+    [JOB_COMPARISON] = {step_comparison, ceduo_comparison_free},
+    [JOB_FIT] = {step_fit, ceduo_fit_free},
+    [JOB_YEARS] = {step_years, free_years},
+    [JOB_UNCERTAINTY] = {step_uncertainty, ceduo_uncertainty_free},
+};
 
 /* ---- the thread ---- */
 
@@ -288,11 +280,6 @@ static enum job_kind next_kind(const struct jobs *q)
 
 static void *work(void *argument)
 {
-    static enum ceduo_status (*const steps[JOB_KINDS])(struct jobs * q, struct job * job, void **result) = {
-#define X(NAME, name, type) step_##name,
-        JOBS(X)
-#undef X
-    };
     struct jobs *q = argument;
     pthread_mutex_lock(&q->lock);
     while (!q->quit) {
@@ -306,8 +293,8 @@ static void *work(void *argument)
         struct job job = q->jobs[kind];
         atomic_store(&q->cancel, false);
         pthread_mutex_unlock(&q->lock);
-        void *result;
-        enum ceduo_status status = steps[kind](q, &job, &result);
+        void *result = NULL;
+        enum ceduo_status status = kinds[kind].step(q, &job, &result);
         if (status == CEDUO_NO_MEMORY)
             ceduo_no_memory();
         if (status == CEDUO_OK && result)
@@ -379,38 +366,11 @@ uint64_t ceduo_jobs_key(const struct ceduo_scene *scene)
 }
 
 /* A job on a snapshot of the scene, whose memory is the job's own. */
-static struct job job_of(enum job_kind kind, const struct scene_file *file, size_t levels)
+static struct job job_of(enum job_kind kind, const struct scene_file *file, size_t option, size_t levels)
 {
-    struct job job = {.kind = kind, .key = (uint64_t)(uintptr_t)file->root, .levels = levels, .file = *file};
+    struct job job = {.kind = kind, .option = option, .levels = levels, .file = *file};
     job.file.arena = (struct arena){0};
     return job;
-}
-
-/* Puts a job in the place of the one before, whose result nobody has taken is of no use; under the lock. */
-static void ask(struct jobs *q, const struct job *job)
-{
-    ceduo_results_drop(&q->fresh, job->kind);
-    q->jobs[job->kind] = *job;
-    q->jobs[job->kind].number = ++q->requests;
-    q->jobs[job->kind].asked = ceduo_clock();
-    atomic_store(&q->cancel, true);
-    pthread_cond_broadcast(&q->changed);
-}
-
-static void ask_alone(struct jobs *q, const struct job *job)
-{
-    pthread_mutex_lock(&q->lock);
-    ask(q, job);
-    pthread_mutex_unlock(&q->lock);
-}
-
-/* Asks unless that was asked for last. */
-static bool ask_once(struct jobs *q, const struct job *job)
-{
-    bool known = q->jobs[job->kind].number != 0 && q->jobs[job->kind].key == job->key;
-    if (!known)
-        ask(q, job);
-    return !known;
 }
 
 /* Forgets a job and its result; under the lock. */
@@ -422,24 +382,43 @@ static void forget(struct jobs *q, enum job_kind kind)
         atomic_store(&q->cancel, true);
 }
 
-/* The same while it is not done. */
-static void drop(struct jobs *q, enum job_kind kind)
+/* Puts a job in the place of the one before, whose result nobody has taken is of no use. One of the same key goes on where it is, as
+ * far as is asked for now; without levels it is stopped while it is not done. True where something is to be done. */
+static bool ask(struct jobs *q, const struct job *job)
 {
-    if (is_wanted(&q->jobs[kind]))
-        forget(q, kind);
+    pthread_mutex_lock(&q->lock);
+    struct job *now = &q->jobs[job->kind];
+    bool asked = job->levels > 0;
+    if (!asked) {
+        if (is_wanted(now))
+            forget(q, job->kind);
+    } else if (job->key != 0 && now->key == job->key) {
+        asked = !is_wanted(now) && now->level < job->levels;
+        now->levels = job->levels;
+        if (q->working == job->kind && !is_wanted(now))
+            atomic_store(&q->cancel, true);
+    } else {
+        ceduo_results_drop(&q->fresh, job->kind);
+        *now = *job;
+        now->number = ++q->requests;
+        now->asked = ceduo_clock();
+        atomic_store(&q->cancel, true);
+    }
+    if (asked)
+        pthread_cond_broadcast(&q->changed);
+    pthread_mutex_unlock(&q->lock);
+    return asked;
 }
 
 bool ceduo_jobs_show(struct jobs *q, const struct scene_file *file, size_t shown, bool years)
 {
-    struct job figures = job_of(JOB_SNAPSHOT, file, RUNS_LEVELS), others = figures, coming = figures;
-    figures.option = others.option = coming.option = shown;
-    others.kind = JOB_OTHERS;
-    coming.kind = JOB_YEARS;
-    others.levels = coming.levels = RUNS_LEVELS - 1;
-    figures.key = coming.key = ceduo_jobs_key(&file->scene);
-    others.key = 0; /* the index knows no other energy law */
+    bool index = file->scene.simulation.contact_model == CEDUO_INDEX; /* knows no other energy law */
+    struct job figures = job_of(JOB_SNAPSHOT, file, shown, RUNS_LEVELS);
+    struct job others = job_of(JOB_OTHERS, file, shown, index ? 0 : RUNS_LEVELS - 1);
+    struct job coming = job_of(JOB_YEARS, file, shown, years ? RUNS_LEVELS - 1 : 0);
     struct ceduo_scene other;
-    if (file->scene.simulation.contact_model != CEDUO_INDEX) {
+    figures.key = coming.key = ceduo_jobs_key(&file->scene);
+    if (!index) {
         if (!ceduo_other_scene(&file->scene, &other))
             ceduo_no_memory();
         others.key = figures.key * 1099511628211u ^ ceduo_jobs_key(&other);
@@ -447,76 +426,41 @@ bool ceduo_jobs_show(struct jobs *q, const struct scene_file *file, size_t shown
     }
     for (size_t i = 0; years && i < file->scene.options_count; i++)
         coming.key = coming.key * 1099511628211u ^ ceduo_runs_years_key(&file->scene, i);
-    pthread_mutex_lock(&q->lock);
-    bool asked = ask_once(q, &figures); /* otherwise the rocks meet the same */
+    bool asked = ask(q, &figures); /* otherwise the rocks meet the same */
     if (asked)
-        forget(q, JOB_YEARS);
-    if (others.key == 0)
-        drop(q, JOB_OTHERS);
-    else
-        asked |= ask_once(q, &others);
-    if (!years)
-        drop(q, JOB_YEARS);
-    else
-        asked |= ask_once(q, &coming);
-    pthread_mutex_unlock(&q->lock);
+        ceduo_jobs_stop(q, JOB_YEARS);
+    asked |= ask(q, &others);
+    asked |= ask(q, &coming);
     return asked;
 }
 
-bool ceduo_jobs_doubt(struct jobs *q, const struct scene_file *file, size_t shown, size_t levels)
+bool ceduo_jobs_ask(struct jobs *q, enum job_kind kind, const struct scene_file *file, size_t shown, size_t levels)
 {
-    struct job job = job_of(JOB_UNCERTAINTY, file, levels);
-    job.option = shown;
-    pthread_mutex_lock(&q->lock);
-    struct job *now = &q->jobs[JOB_UNCERTAINTY];
-    bool asked = false;
-    if (levels == 0) {
-        drop(q, JOB_UNCERTAINTY);
-    } else if (!(asked = ask_once(q, &job))) { /* goes on where it is, as far as is asked for now */
-        asked = !is_wanted(now) && now->level < levels;
-        now->levels = levels;
-        if (q->working == JOB_UNCERTAINTY && !is_wanted(now))
-            atomic_store(&q->cancel, true);
-        pthread_cond_broadcast(&q->changed);
-    }
-    pthread_mutex_unlock(&q->lock);
-    return asked;
-}
-
-bool ceduo_jobs_compare(struct jobs *q, const struct scene_file *file, size_t levels)
-{
-    const struct job job = job_of(JOB_COMPARISON, file, levels);
-    pthread_mutex_lock(&q->lock);
-    if (q->jobs[JOB_FIT].key != job.key)
-        forget(q, JOB_FIT);
-    bool asked = levels > 0 && ask_once(q, &job);
-    if (levels == 0)
-        drop(q, JOB_COMPARISON);
-    pthread_mutex_unlock(&q->lock);
-    return asked;
+    struct job job = job_of(kind, file, shown, levels);
+    job.key = (uint64_t)(uintptr_t)file->root;
+    return ask(q, &job);
 }
 
 void ceduo_jobs_fit(struct jobs *q, const struct scene_file *file, const struct fit_request *request)
 {
-    struct job job = job_of(JOB_FIT, file, 1);
+    struct job job = job_of(JOB_FIT, file, 0, 1);
     job.fit = *request;
-    ask_alone(q, &job);
+    ask(q, &job);
 }
 
 void ceduo_jobs_search(struct jobs *q, const struct scene_file *file, const struct ceduo_search *search)
 {
-    struct job job = job_of(JOB_SEARCH, file, 1);
+    struct job job = job_of(JOB_SEARCH, file, 0, 1);
     job.search = *search;
     snprintf(job.text, sizeof job.text, "%s", search->path);
-    ask_alone(q, &job);
+    ask(q, &job);
 }
 
 void ceduo_jobs_preview(struct jobs *q, const struct scene_file *file, const char *set, size_t option)
 {
-    struct job job = job_of(JOB_PREVIEW, file, 1);
-    job.option = option;
+    struct job job = job_of(JOB_PREVIEW, file, option, 1);
     snprintf(job.text, sizeof job.text, "%s", set);
-    ask_alone(q, &job);
+    ask(q, &job);
 }
 
 void ceduo_jobs_stop(struct jobs *q, enum job_kind kind)

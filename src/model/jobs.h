@@ -83,13 +83,10 @@ void ceduo_jobs_search(struct jobs *jobs, const struct scene_file *file, const s
 #define JOB_TEXT 1024
 void ceduo_jobs_preview(struct jobs *jobs, const struct scene_file *file, const char *set, size_t option);
 
-/* Asks what doubt does to a scene, first to option `shown`, up to so many levels (uncertainty.h); 0: nothing. A scene whose nodes are the same is
- * asked for once; what is no longer asked for is stopped. Figures and years of as many rocks go before it. */
-bool ceduo_jobs_doubt(struct jobs *jobs, const struct scene_file *file, size_t shown, size_t levels);
-
-/* Asks for the comparison of a scene with what was observed there, up to so many levels (comparison.h); 0: nothing. A fit of
- * another scene is stopped, and forgotten. */
-bool ceduo_jobs_compare(struct jobs *jobs, const struct scene_file *file, size_t levels);
+/* Asks what doubt does to a scene, first to option `shown` (JOB_UNCERTAINTY, uncertainty.h), or for its comparison with what was
+ * observed there (JOB_COMPARISON, comparison.h), up to so many levels; 0: nothing. A scene whose nodes are the same is asked for
+ * once; what is no longer asked for is stopped. Figures and years of as many rocks go before it. */
+bool ceduo_jobs_ask(struct jobs *jobs, enum job_kind kind, const struct scene_file *file, size_t shown, size_t levels);
 
 /* Asks for a fit of a scene to what was observed there. What interrupts it lets it begin again. */
 void ceduo_jobs_fit(struct jobs *jobs, const struct scene_file *file, const struct fit_request *request);

@@ -136,23 +136,18 @@ void ceduo_live_follow(struct live *l, const struct scene_file *file, size_t opt
     refresh(l, &file->scene);
 }
 
-void ceduo_live_doubt(struct live *l, const struct scene_file *file, size_t shown, size_t levels)
-{
-    l->busy |= ceduo_jobs_doubt(l->jobs, file, shown, levels);
-}
-
 void ceduo_live_compare(struct live *l, const struct scene_file *file, size_t levels)
 {
-    const struct fit *fit = ceduo_live_fitted(l);
-    if (fit && fit->file.root != file->root)
+    if (l->fit_of != file->root)
         ceduo_live_drop_fit(l);
-    l->busy |= ceduo_jobs_compare(l->jobs, file, levels);
+    l->busy |= ceduo_jobs_ask(l->jobs, JOB_COMPARISON, file, 0, levels);
 }
 
 void ceduo_live_fit(struct live *l, const struct scene_file *file, const struct fit_request *request)
 {
     ceduo_live_drop_fit(l);
     l->fit = *request;
+    l->fit_of = file->root;
     ceduo_jobs_fit(l->jobs, file, request);
     l->busy = l->fitting = true;
 }

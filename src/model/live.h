@@ -12,7 +12,8 @@ struct live {
     union results results;        /* newest of each kind; what the scene has no longer stays until better is known */
     struct ceduo_result *result;  /* the scene as it is now, by the newest snapshot; NULL before the first */
     struct ceduo_verdict verdict; /* of the result and of the years that fit the scene; n 0: none */
-    struct fit_request fit;       /* that was asked for last */
+    struct fit_request fit;       /* that was asked for last, */
+    const struct node *fit_of;    /* of this scene */
     uint64_t asked;               /* key of the runs that were asked for last */
     unsigned threads;
     bool busy, fitting;
@@ -29,9 +30,7 @@ bool ceduo_live_restart(struct live *live);
 /* The scene has changed. `years`: the years to come of the option as well. */
 void ceduo_live_follow(struct live *live, const struct scene_file *file, size_t option, bool years);
 
-/* The uncertainty of the scene up to so many levels, see ceduo_jobs_doubt(); its comparison with what was observed, likewise. A
- * fit of another scene is forgotten. */
-void ceduo_live_doubt(struct live *live, const struct scene_file *file, size_t shown, size_t levels);
+/* Its comparison with what was observed, up to so many levels. A fit of another scene is forgotten. */
 void ceduo_live_compare(struct live *live, const struct scene_file *file, size_t levels);
 
 void ceduo_live_fit(struct live *live, const struct scene_file *file, const struct fit_request *request);

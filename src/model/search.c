@@ -17,19 +17,35 @@
 #define SURE_MAX       128  /* values looked at under doubt */
 #define SURE_TOLERANCE 1e-3 /* of the range: what so few points tell is no finer */
 
+/* A search under way. */
+struct search {
+    struct scene_file *file;
+    struct ceduo_search def;
+    unsigned threads;
+    const atomic_bool *cancel;
+    struct search_answer *answer;
+    struct problems *problems; /* the answer's, or of nobody */
+    double passes;             /* the largest goal that is reached */
+    const struct node *root;   /* of the scene as it was read */
+    struct ceduo_pool *pool;   /* runs kept from value to value */
+    bool whole;                /* values are whole numbers */
+    size_t known_count;        /* what was asked under doubt */
+    struct known_sure {
+        double value;
+        struct sure_answer answer;
+    } known[SURE_MAX];
+};
+
 /* ---- what kind of number it is ---- */
 
 /* The row of a parameter; of a number in a list that of the list. */
-static const struct field *field_at(const char *path)
+static const struct field *field_at(struct search *s)
 {
+    const char *path = s->def.path, *bracket = strrchr(path, '[');
     const struct field *field = ceduo_schema_at(path);
-    char list[512];
-    const char *bracket = strrchr(path, '[');
-    if (field || !bracket || (size_t)(bracket - path) >= sizeof list)
+    if (field || !bracket)
         return field;
-    memcpy(list, path, (size_t)(bracket - path));
-    list[bracket - path] = '\0';
-    field = ceduo_schema_at(list);
+    field = ceduo_schema_at(ceduo_arena_copy(&s->file->arena, path, (size_t)(bracket - path)));
     return field && field->type == FIELD_NUMBERS ? field : NULL;
 }
 
@@ -78,7 +94,7 @@ static bool leave_input(struct search *s, const struct value *searched, struct c
     const char **places = ceduo_arena_take(arena, input->places_count * sizeof *places);
     const double **draws = ceduo_arena_take(arena, input->places_count * sizeof *draws);
     size_t n = 0;
-    for (size_t i = 0; places && draws && i < input->places_count; i++) {
+    for (size_t i = 0; i < input->places_count; i++) {
         struct value place;
         if (searched->at && ceduo_value_find(&s->file->scene, input->places[i], &place) && place.at == searched->at)
             continue;
@@ -91,12 +107,17 @@ static bool leave_input(struct search *s, const struct value *searched, struct c
     return n > 0 && ceduo_input_is_of(input, s->def.option);
 }
 
-/* What is known under doubt of the scene at a value. */
-static enum ceduo_status ask_sure(struct search *s, double value, struct sure_answer *answer)
+/* What is known under doubt of the scene at a value; it is asked once. */
+static enum ceduo_status ask_once(struct search *s, double value, struct sure_answer *answer)
 {
     struct scene_inputs inputs;
     struct value searched;
     size_t n = 0;
+    for (size_t i = 0; i < s->known_count; i++)
+        if (s->known[i].value == value) {
+            *answer = s->known[i].answer;
+            return CEDUO_OK;
+        }
     if (!set_value(s, value))
         return CEDUO_BAD_SLOPE; /* reported in problems */
     if (!ceduo_inputs_of(s->file, &inputs))
@@ -106,54 +127,29 @@ static enum ceduo_status ask_sure(struct search *s, double value, struct sure_an
     for (size_t i = 0; i < inputs.n; i++)
         if (leave_input(s, &searched, &inputs.items[i]))
             inputs.items[n++] = inputs.items[i];
-    if (s->file->arena.failed)
-        return CEDUO_NO_MEMORY;
-    s->sure.inputs = n;
-    return ceduo_sure_ask(&(const struct sure_def){.scene = &s->file->scene,
-                                                   .inputs_count = n,
-                                                   .inputs = inputs.items,
-                                                   .option = s->def.option,
-                                                   .goal = s->def.goal,
-                                                   .target = s->passes,
-                                                   .sure = s->def.sure,
-                                                   .rotation = s->def.rotation,
-                                                   .points = s->sure.points,
-                                                   .rocks = s->sure.rocks,
-                                                   .threads = s->threads,
-                                                   .cancel = s->cancel},
-                          answer);
-}
-
-/* What was asked. */
-struct known_sure {
-    double value;
-    struct sure_answer answer;
-};
-
-struct sure_search {
-    struct search *search;
-    bool whole;
-    size_t count;
-    struct known_sure known[SURE_MAX];
-};
-
-static enum ceduo_status ask_once(struct sure_search *s, double value, struct sure_answer *answer)
-{
-    for (size_t i = 0; i < s->count; i++)
-        if (s->known[i].value == value) {
-            *answer = s->known[i].answer;
-            return CEDUO_OK;
-        }
-    enum ceduo_status status = ask_sure(s->search, value, answer);
-    if (status == CEDUO_OK && s->count < SURE_MAX)
-        s->known[s->count++] = (struct known_sure){value, *answer};
+    s->answer->sure.inputs = n;
+    enum ceduo_status status = ceduo_sure_ask(&(const struct sure_def){.scene = &s->file->scene,
+                                                                       .inputs_count = n,
+                                                                       .inputs = inputs.items,
+                                                                       .option = s->def.option,
+                                                                       .goal = s->def.goal,
+                                                                       .target = s->passes,
+                                                                       .sure = s->def.sure,
+                                                                       .rotation = s->def.rotation,
+                                                                       .points = s->answer->sure.points,
+                                                                       .rocks = s->answer->sure.rocks,
+                                                                       .threads = s->threads,
+                                                                       .cancel = s->cancel},
+                                              answer);
+    if (status == CEDUO_OK && s->known_count < SURE_MAX)
+        s->known[s->known_count++] = (struct known_sure){value, *answer};
     return status;
 }
 
 /* A whole value stands for all that are nearest to it. */
 static enum ceduo_status above_at(void *context, double value, double *above)
 {
-    struct sure_search *s = context;
+    struct search *s = context;
     struct sure_answer answer;
     enum ceduo_status status = ask_once(s, s->whole ? round(value) : value, &answer);
     *above = status == CEDUO_OK ? answer.above : NAN;
@@ -165,15 +161,14 @@ static enum ceduo_status above_at(void *context, double value, double *above)
 static enum ceduo_status search_sure(struct search *s, const struct ceduo_find_def *plain, const struct ceduo_found *found)
 {
     struct ceduo_find_def def = *plain;
-    struct sure_search sure = {.search = s, .whole = plain->whole};
     struct sure_answer answer;
-    struct ceduo_found *to = &s->sure.found;
-    s->sure = (struct ceduo_sure){.sure = s->def.sure,
-                                  .points = CEDUO_DOUBT_POINTS,
-                                  .rocks = s->def.sure_rocks > 0 ? s->def.sure_rocks : CEDUO_DOUBT_ROCKS};
+    struct ceduo_found *to = &s->answer->sure.found;
+    s->answer->sure = (struct ceduo_sure){.sure = s->def.sure,
+                                          .points = CEDUO_DOUBT_POINTS,
+                                          .rocks = s->def.sure_rocks > 0 ? s->def.sure_rocks : CEDUO_DOUBT_ROCKS};
     double value = found->found ? found->value : isnan(found->nearest) ? plain->hi : found->nearest;
-    enum ceduo_status status = ask_once(&sure, value, &answer);
-    if (status != CEDUO_OK || s->sure.inputs == 0)
+    enum ceduo_status status = ask_once(s, value, &answer);
+    if (status != CEDUO_OK || s->answer->sure.inputs == 0)
         return status;
     def.tolerance = SURE_TOLERANCE;
     if (def.whole) {
@@ -182,16 +177,15 @@ static enum ceduo_status search_sure(struct search *s, const struct ceduo_find_d
         def.tolerance = def.hi > def.lo ? .5 / (def.hi - def.lo) : 0;
     }
     def.goal = above_at;
-    def.context = &sure;
     def.target = 0;
     status = ceduo_find(&def, to);
-    if (sure.whole)
+    if (s->whole)
         to->value = round(to->value), to->nearest = round(to->nearest);
     value = to->found ? to->value : to->nearest;
     if (status == CEDUO_OK && !isnan(value))
-        status = ask_once(&sure, value, &answer);
-    s->sure.share = answer.share;
-    to->evaluations = (unsigned)sure.count;
+        status = ask_once(s, value, &answer);
+    s->answer->sure.share = answer.share;
+    to->evaluations = (unsigned)s->known_count;
     return status;
 }
 
@@ -267,19 +261,26 @@ static bool can_be_ends(struct search *s, double lo, double hi)
     return first && last;
 }
 
-enum ceduo_status ceduo_search(struct search *s, struct ceduo_found *found, struct problems *problems)
+enum ceduo_status ceduo_search(struct scene_file *file, const struct ceduo_search *asked, unsigned threads,
+                               const atomic_bool *cancel, struct search_answer *answer)
 {
-    const struct field *field = field_at(s->def.path);
-    s->problems = problems;
-    s->root = s->file->root;
-    s->pool = NULL;
+    struct search search = {.file = file,
+                            .def = *asked,
+                            .threads = threads,
+                            .cancel = cancel,
+                            .answer = answer,
+                            .problems = &answer->problems,
+                            .root = file->root},
+                  *s = &search;
+    const struct field *field = field_at(s);
     if (isnan(s->def.target))
-        s->def.target = ceduo_goal_limit(s->def.goal, &s->file->scene.simulation);
+        s->def.target = ceduo_goal_limit(s->def.goal, &file->scene.simulation);
     s->def.rotation |= field && field->flags & FIELD_YEARS; /* it decides about the years to come alone */
+    *answer = (struct search_answer){.target = s->def.target, .rotation = s->def.rotation};
     if (!is_askable(s))
         return CEDUO_BAD_SLOPE;
     bool counted = field && (field->type == FIELD_COUNT || strcmp(field->unit, "1/ha") == 0); /* as a forester does */
-    bool whole = counted || (field && strcmp(field->unit, "y") == 0);
+    bool whole = s->whole = counted || (field && strcmp(field->unit, "y") == 0);
     struct ceduo_find_def def = {.lo = s->def.lo,
                                  .hi = s->def.hi,
                                  .whole = whole,
@@ -287,20 +288,21 @@ enum ceduo_status ceduo_search(struct search *s, struct ceduo_found *found, stru
                                  .goal = goal_at,
                                  .context = s,
                                  .tolerance = 1e-4,
-                                 .cancel = s->cancel};
+                                 .cancel = cancel};
     s->passes = def.target;
     double first = whole ? ceil(def.lo) : def.lo, last = whole ? floor(def.hi) : def.hi;
     if (!can_be_ends(s, first, last))
         return CEDUO_BAD_SLOPE;
+    struct ceduo_found *found = &answer->found;
     enum ceduo_status status = ceduo_find(&def, found);
     ceduo_pool_free(s->pool);
     if (status == CEDUO_OK && s->def.sure > 0)
         status = search_sure(s, &def, found);
     if (status == CEDUO_OK) {
         struct ceduo_yield lo = yield_at(s, first), hi = yield_at(s, last);
-        s->yield = yield_at(s, found->found ? found->value : found->nearest);
-        s->yield_depends = differ(lo.cut_per_year, hi.cut_per_year) || differ(lo.standing, hi.standing) ||
-                           differ(lo.died_per_year, hi.died_per_year);
+        answer->yield = yield_at(s, found->found ? found->value : found->nearest);
+        answer->yield_depends = differ(lo.cut_per_year, hi.cut_per_year) || differ(lo.standing, hi.standing) ||
+                                differ(lo.died_per_year, hi.died_per_year);
     }
     return status;
 }

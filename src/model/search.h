@@ -12,36 +12,25 @@
  * rotation, the length of a belt … Every value is tried with the same rocks, so that the answer is the same each
  * time. */
 
-struct search {
-    struct scene_file *file; /* as it was read; the search leaves it at its last value */
-    struct ceduo_search def;
-    unsigned threads;
-    const atomic_bool *cancel; /* may be NULL */
-    struct ceduo_sure sure;
+/* What a search came to. */
+struct search_answer {
+    enum ceduo_status status; /* as it was returned */
+    double target;            /* the one looked for */
+    bool rotation;            /* over one whole rotation */
+    struct ceduo_found found;
+    struct ceduo_sure sure;   /* and under doubt */
     struct ceduo_yield yield; /* of the option at the value that was found, or else comes nearest: without fellings; NaN
                                 * where it is not known */
     bool yield_depends;       /* on the value: otherwise it is the same at both ends of the range */
-    /* while it is under way */
-    struct problems *problems;
-    double passes;           /* the largest goal that is reached */
-    const struct node *root; /* of the scene as it was read */
-    struct ceduo_pool *pool; /* runs kept from value to value */
+    struct problems problems;
 };
 
 /* Looks for it; with `sure` then for the value that reaches the goal in so much of what may be true. At each value the doubt is
- * that of the scene with it, at the same points and with the same rocks, but for the value itself: who sets it knows it. A wrong path or range is reported in `problems`. CEDUO_OK also where nothing is found. */
-enum ceduo_status ceduo_search(struct search *search, struct ceduo_found *found, struct problems *problems);
-
-/* What a search came to. */
-struct search_answer {
-    enum ceduo_status status;
-    double target;            /* the one looked for */
-    bool rotation;            /* over one whole rotation */
-    struct ceduo_yield yield; /* at that value */
-    struct ceduo_found found;
-    struct ceduo_sure sure; /* and under doubt */
-    struct problems problems;
-};
+ * that of the scene with it, at the same points and with the same rocks, but for the value itself: who sets it knows it. The scene
+ * is left at the last value. A wrong path or range is reported in `problems`, which are to be freed. CEDUO_OK also where nothing
+ * is found. `cancel` may be NULL. */
+enum ceduo_status ceduo_search(struct scene_file *file, const struct ceduo_search *search, unsigned threads,
+                               const atomic_bool *cancel, struct search_answer *answer);
 
 /* What a change would do to the lights, without making it: the scene with the change, and a few rocks through it. */
 

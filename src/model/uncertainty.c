@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "uncertainty.h"
 
+#include <stdlib.h>
+
 #include "base/language.h"
-#include "base/must.h"
 
 const char *ceduo_uncertainty_no_rotation(const struct ceduo_scene *scene)
 {
@@ -15,9 +16,8 @@ const char *ceduo_uncertainty_no_rotation(const struct ceduo_scene *scene)
 }
 
 enum ceduo_status ceduo_uncertainty_make(const struct scene_file *file, size_t option, size_t level, unsigned threads,
-                                         const atomic_bool *cancel, struct uncertainty **uncertainty)
+                                         const atomic_bool *cancel, struct uncertainty *u)
 {
-    struct uncertainty *u = ceduo_must(calloc(1, sizeof *u));
     *u = (struct uncertainty){.file = *file, .level = level};
     enum ceduo_status status = ceduo_inputs_of(&u->file, &u->inputs) ? CEDUO_OK : CEDUO_NO_MEMORY;
     if (u->file.scene.controls_count == 0)
@@ -36,18 +36,12 @@ enum ceduo_status ceduo_uncertainty_make(const struct scene_file *file, size_t o
                                         .option = option,
                                         .threads = threads,
                                         .cancel = cancel};
-    if (status == CEDUO_OK && u->inputs.n > 0)
-        status = ceduo_doubt_ask(&def, &u->answer);
-    *uncertainty = u;
-    if (status != CEDUO_OK) {
-        ceduo_uncertainty_free(u);
-        *uncertainty = NULL;
-    }
-    return status;
+    return status == CEDUO_OK && u->inputs.n > 0 ? ceduo_doubt_ask(&def, &u->answer) : status;
 }
 
-void ceduo_uncertainty_free(struct uncertainty *u)
+void ceduo_uncertainty_free(void *uncertainty)
 {
+    struct uncertainty *u = uncertainty;
     if (u->answer.figures)
         ceduo_doubt_free(&u->answer);
     ceduo_arena_free(&u->file.arena);

@@ -18,13 +18,13 @@ struct uncertainty {
     bool last;                        /* there is nothing more */
 };
 
-/* Computes one level, the first of this option. `file` must have an arena of its own, which is the answer's from then on, whatever comes of it.
- * Otherwise than CEDUO_OK: *uncertainty is NULL. */
+/* Computes one level, the first of this option. `file` must have an arena of its own, which is the answer's from then on. To be
+ * freed in any case. */
 enum ceduo_status ceduo_uncertainty_make(const struct scene_file *file, size_t option, size_t level, unsigned threads,
-                                         const atomic_bool *cancel, struct uncertainty **uncertainty);
+                                         const atomic_bool *cancel, struct uncertainty *uncertainty);
 
 /* Why there is nothing over a rotation, marked for translation; NULL: there is. */
 const char *ceduo_uncertainty_no_rotation(const struct ceduo_scene *scene);
-void ceduo_uncertainty_free(struct uncertainty *uncertainty);
+void ceduo_uncertainty_free(void *uncertainty);
 
 #endif

@@ -178,10 +178,10 @@ void ceduo_app_refresh(struct app *app)
         app->belt = belts > 0 ? belts - 1 : 0;
     ceduo_live_follow(&app->live, &app->document.file, app->option, view->years);
     app->doubts |= view->uncertainty;
-    ceduo_live_doubt(&app->live, &app->document.file, app->option,
-                     !app->doubts ? 0
-                     : view->over ? UNCERTAINTY_ROTATION
-                                  : UNCERTAINTY_LEVELS);
+    app->live.busy |= ceduo_jobs_ask(app->live.jobs, JOB_UNCERTAINTY, &app->document.file, app->option,
+                                     !app->doubts ? 0
+                                     : view->over ? UNCERTAINTY_ROTATION
+                                                  : UNCERTAINTY_LEVELS);
     ceduo_live_compare(&app->live, &app->document.file,
                        view->observed && app->document.file.observations_count > 0 ? COMPARISON_LEVELS : 0);
     for (int v = 0; v < VIEW_COUNT; v++)

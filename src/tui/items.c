@@ -54,7 +54,7 @@ static bool split_stretch(struct app *app, const struct item *item)
     middle = isnan(item->at) ? middle : item->at;
     const char *first = ceduo_app_format(app, "%s[%zu].to_m=%.10g", item->list, item->index, middle);
     const char *second = ceduo_app_format(app, "%s[%zu].from_m=%.10g", item->list, item->index + 1, middle);
-    return ceduo_document_split(&app->document, item->list, item->index, first, second, &app->problems);
+    return ceduo_document_duplicate(&app->document, item->list, item->index, first, second, &app->problems);
 }
 
 /* A point on a segment of the profile, `at` along the slope (NAN: in its middle). */
@@ -155,7 +155,7 @@ static bool add_control(struct app *app, const struct item *item)
 
 static bool copy_item(struct app *app, const struct item *item)
 {
-    return item->there && ceduo_document_duplicate(&app->document, item->list, item->index, &app->problems);
+    return item->there && ceduo_document_duplicate(&app->document, item->list, item->index, NULL, NULL, &app->problems);
 }
 
 /* A first cohort of shoots needs stools to stand on. */

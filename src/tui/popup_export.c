@@ -139,7 +139,7 @@ static bool filled_export(struct app *app, struct popup *p)
 static void ask_for_file(struct app *app, const char *export)
 {
     /* the report says how sure it is, over the rotation as well: that is computed while its file is named; a head is an edit */
-    ceduo_live_doubt(&app->live, &app->document.file, app->option, UNCERTAINTY_ROTATION);
+    app->live.busy |= ceduo_jobs_ask(app->live.jobs, JOB_UNCERTAINTY, &app->document.file, app->option, UNCERTAINTY_ROTATION);
     struct popup *p = ceduo_popup_fields(app, _("Export to a file"), export, filled_export);
     const char *file = exports[atoi(export)].file;
     p->endings = strrchr(file, '.');

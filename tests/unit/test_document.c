@@ -279,7 +279,7 @@ TEST_WITH(undo_and_redo, set_up, tear_down)
 TEST_WITH(options_belts_and_segments, set_up, tear_down)
 {
     open_scene();
-    assert_true(ceduo_document_copy_option(&d, 0, &problems));
+    assert_true(ceduo_document_duplicate(&d, "options", 0, NULL, NULL, &problems));
     assert_int_equal(d.file.scene.options_count, 2);
     assert_string_equal(d.file.scene.options[0].name, "current");
     assert_string_equal(d.file.scene.options[1].name, "current (2)");
@@ -288,8 +288,8 @@ TEST_WITH(options_belts_and_segments, set_up, tear_down)
     assert_true(d.file.scene.options[2].belts[0].to == 80);
     assert_true(ceduo_document_move(&d, "options", 2, 0, &problems));
     assert_string_equal(d.file.scene.options[0].name, "large-reserves-cut");
-    assert_true(ceduo_document_split(&d, "options[1].forest", 0, "options[1].forest[0].to_m=45",
-                                     "options[1].forest[1].from_m=45", &problems));
+    assert_true(ceduo_document_duplicate(&d, "options[1].forest", 0, "options[1].forest[0].to_m=45",
+                                         "options[1].forest[1].from_m=45", &problems));
     assert_int_equal(d.file.scene.options[1].belts_count, 2);
     assert_true(ceduo_document_split_segment(&d, 0, "[20, 35]", false, &problems));
     assert_int_equal(d.file.scene.slope.vertices, 4);
@@ -445,7 +445,7 @@ TEST_WITH(what_only_moves_keeps_its_source, set_up, tear_down)
                              "controls: [{x_m: 90}]\noptions: [{name: a, forest: [{from_m: 10, to_m: 40, stand: stand.yaml}]}, "
                              "{name: b}]\n");
     open_scene();
-    assert_true(ceduo_document_copy_option(&d, 0, &problems));
+    assert_true(ceduo_document_duplicate(&d, "options", 0, NULL, NULL, &problems));
     assert_true(ceduo_document_move(&d, "options", 2, 0, &problems));
     assert_true(ceduo_document_delete(&d, "options[1]", &problems));
     assert_string_equal(d.file.scene.options[1].name, "a (2)");

@@ -111,13 +111,11 @@ TEST_WITH(a_search_comes_first, set_up, tear_down)
     assert_non_null(results.search);
     assert_int_equal(results.search->status, CEDUO_OK);
     EXPECT(file.scene.rock.diameter.mean, ==, diameter);
-    struct ceduo_found alone;
-    struct problems problems = {0};
-    struct search here = {.file = &file, .def = search, .threads = 1};
-    assert_int_equal(ceduo_search(&here, &alone, &problems), CEDUO_OK);
-    assert_true(alone.found);
-    EXPECT(alone.value, ==, results.search->found.value);
-    assert_int_equal(alone.evaluations, results.search->found.evaluations);
+    struct search_answer alone;
+    assert_int_equal(ceduo_search(&file, &search, 1, NULL, &alone), CEDUO_OK);
+    assert_true(alone.found.found);
+    EXPECT(alone.found.value, ==, results.search->found.value);
+    assert_int_equal(alone.found.evaluations, results.search->found.evaluations);
     assert_false(ceduo_jobs_wait_search(jobs));
     ceduo_jobs_wait(jobs);
     take();
@@ -163,8 +161,8 @@ TEST_WITH(the_other_law_comes_along, set_up, tear_down)
 
 static const struct uncertainty *uncertainty(size_t shown, size_t levels)
 {
-    assert_true(ceduo_jobs_doubt(jobs, &file, shown, levels));
-    assert_false(ceduo_jobs_doubt(jobs, &file, shown, levels));
+    assert_true(ceduo_jobs_ask(jobs, JOB_UNCERTAINTY, &file, shown, levels));
+    assert_false(ceduo_jobs_ask(jobs, JOB_UNCERTAINTY, &file, shown, levels));
     ceduo_jobs_wait(jobs);
     take();
     assert_non_null(results.uncertainty);
@@ -180,7 +178,7 @@ TEST_WITH(the_uncertainty_comes_last, set_up, tear_down)
     assert_int_equal(u->inputs.n, 12);
     assert_int_equal(u->answer.points, CEDUO_DOUBT_POINTS);
     EXPECT(u->answer.figures[CEDUO_DOUBT_EXCEED].fit.p5, <, u->answer.figures[CEDUO_DOUBT_EXCEED].fit.p95);
-    assert_false(ceduo_jobs_doubt(jobs, &file, 0, UNCERTAINTY_LEVELS));
+    assert_false(ceduo_jobs_ask(jobs, JOB_UNCERTAINTY, &file, 0, UNCERTAINTY_LEVELS));
     assert_true(uncertainty(0, UNCERTAINTY_ROTATION)->answer.rotation);
     assert_int_equal(results.uncertainty->level, UNCERTAINTY_ROTATION - 1);
     ceduo_jobs_stop(jobs, JOB_UNCERTAINTY); /* the same nodes: of another scene it would be asked anew */
@@ -232,8 +230,8 @@ TEST_WITH(the_uncertainty_of_the_shown_option_is_first, set_up_options, tear_dow
 TEST_WITH(the_rotation_is_stopped_where_no_view_shows_it, set_up, tear_down)
 {
     uncertainty(0, UNCERTAINTY_LEVELS);
-    assert_true(ceduo_jobs_doubt(jobs, &file, 0, UNCERTAINTY_ROTATION));
-    assert_false(ceduo_jobs_doubt(jobs, &file, 0, UNCERTAINTY_LEVELS));
+    assert_true(ceduo_jobs_ask(jobs, JOB_UNCERTAINTY, &file, 0, UNCERTAINTY_ROTATION));
+    assert_false(ceduo_jobs_ask(jobs, JOB_UNCERTAINTY, &file, 0, UNCERTAINTY_LEVELS));
     ceduo_jobs_wait(jobs);
     take();
     assert_null(results.uncertainty);

@@ -1,0 +1,275 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* One scene is read, and asked for runs, pictures, doubt; and how far that is. */
+#include <string.h>
+#include <unistd.h>
+
+#include "base/clock.h"
+#include "base/language.h"
+#include "batch.h"
+#include "interrupt.h"
+#include "model/uncertainty.h"
+#include "output.h"
+#include "say.h"
+#include "study/points.h"
+#include "view/words.h"
+
+/* ---- reading ---- */
+
+static bool is_wanted(const struct arguments *a, const char *name)
+{
+    for (size_t i = 0; name && i < a->options.n; i++)
+        if (strcmp(a->options.items[i], name) == 0)
+            return true;
+    return false;
+}
+
+enum exit_status ceduo_batch_option(const struct scene_file *file, const char *name, size_t *index)
+{
+    const struct ceduo_scene *scene = &file->scene;
+    for (*index = 0; *index < scene->options_count; ++*index)
+        if (strcmp(scene->options[*index].name_given, name) == 0 || strcmp(scene->options[*index].name, name) == 0)
+            return EXIT_DONE;
+    LOCAL_TEXT(message);
+    LOCAL_TEXT(names);
+    for (size_t i = 0; i < scene->options_count; i++)
+        ceduo_text_format(&names, "%s'%s'", i > 0 ? ", " : "", scene->options[i].name_given);
+    ceduo_text_format(&message, _("--option: no option '%s' in %s; it has: %s"), name, file->path, ceduo_text_string(&names));
+    ceduo_say_why("ceduo", ceduo_text_string(&message));
+    return EXIT_USAGE;
+}
+
+/* Keeps only the options that were asked for, in the scene's order. */
+static enum exit_status choose(const struct arguments *a, struct scene_file *file)
+{
+    for (size_t i = 0, index; i < a->options.n; i++)
+        if (ceduo_batch_option(file, a->options.items[i], &index) != EXIT_DONE)
+            return EXIT_USAGE;
+    const struct node *list = ceduo_node_get(file->root, "options");
+    if (a->options.n == 0 || !list)
+        return EXIT_DONE;
+    for (size_t k = list->n; list && k-- > 0;)
+        if (!is_wanted(a, ceduo_node_text(list->items[k], "name")))
+            list = ceduo_node_removed(&file->arena, list, k);
+    const struct node *root = list ? ceduo_node_with(&file->arena, file->root, "options", list) : NULL;
+    if (root && ceduo_node_get(root, "observed")) /* may be of an option that is left out */
+        root = ceduo_node_without(&file->arena, root, "observed");
+    struct problems problems = {0};
+    file->root = root;
+    bool good = root && ceduo_scene_bind(file, &problems);
+    ceduo_problems_free(&problems);
+    return good ? EXIT_DONE : EXIT_RUN;
+}
+
+enum exit_status ceduo_batch_read(const struct arguments *a, const char *path, struct scene_file *file)
+{
+    struct problems problems = {0};
+    struct scene_sets sets = {a->sets.items, a->sets.n, a->cells, a->called};
+    bool good = ceduo_scene_load_row(file, path, &sets, &problems);
+    ceduo_problems_close(&problems);
+    if (problems.text.length > 0 && a->called && strncmp(problems.text.bytes, a->called, strlen(a->called)) != 0)
+        ceduo_say_why(a->called, _("this scene cannot be computed:")); /* what follows names another file, or a change */
+    ceduo_say(&problems.text);
+    enum exit_status status = good ? EXIT_DONE : problems.usage && !problems.cell ? EXIT_USAGE : EXIT_INPUT;
+    ceduo_problems_free(&problems);
+    for (const struct source *s = file->arena.sources; s && status != EXIT_OUTPUT; s = s->before)
+        if (ceduo_output_is(a, s->path))
+            status = EXIT_OUTPUT;
+    if (status == EXIT_DONE && file->scene.blocks_count > 0 && a->rocks > CEDUO_SIZED_ROCKS_MOST)
+        status = ceduo_usage("rocks", _("with blocks each rock is kept: at most %s rocks"), SHORTEST(CEDUO_SIZED_ROCKS_MOST));
+    return status == EXIT_DONE && a->mode != MODE_FIND && a->mode != MODE_CALIBRATE ? choose(a, file) : status;
+}
+
+/* ---- progress ---- */
+
+struct progress ceduo_progress_begin(const struct arguments *a)
+{
+    return (struct progress){.start = ceduo_clock(), .wanted = !a->quiet && isatty(STDERR_FILENO)};
+}
+
+bool ceduo_progress_due(struct progress *p, double *seconds)
+{
+    double t = ceduo_clock();
+    *seconds = t - p->start;
+    if (!p->wanted || *seconds < 1 || t - p->shown < 0.2)
+        return false;
+    p->shown = t;
+    return true;
+}
+
+static void show_rocks(void *progress, uint64_t rocks)
+{
+    double seconds;
+    if (ceduo_progress_due(progress, &seconds))
+        ceduo_say_progress(_("%llu rocks, %.0f s"), (unsigned long long)rocks, seconds);
+}
+
+static void show_steps(void *progress, uint64_t done, uint64_t all)
+{
+    double seconds;
+    if (ceduo_progress_due(progress, &seconds))
+        ceduo_say_progress(_("%llu of %llu, %.0f s"), (unsigned long long)done, (unsigned long long)all, seconds);
+}
+
+void ceduo_progress_scenes(struct progress *p, size_t computed, size_t done, size_t all)
+{
+    double seconds;
+    if (computed == 0 || !ceduo_progress_due(p, &seconds))
+        return;
+    double left = seconds / (double)computed * (double)(all - done);
+    if (left < 120)
+        ceduo_say_progress(_("%zu of %zu scenes, %.0f s left"), done, all, left);
+    else
+        ceduo_say_progress(_("%zu of %zu scenes, %.0f min left"), done, all, left / 60);
+}
+
+/* ---- nothing to be said ---- */
+
+#define LOOK_ROCKS 1000
+
+static void warn(void *context, const char *sentence)
+{
+    const struct scene_file *file = context;
+    ceduo_say_why(file->path, sentence);
+}
+
+void ceduo_batch_warn(const struct arguments *a, const struct scene_file *file)
+{
+    struct ceduo_scene bare = file->scene;
+    bare.simulation.contact_model = CEDUO_INDEX; /* nothing is flown through the forests */
+    struct ceduo_question question = ceduo_question_default(&bare);
+    struct ceduo_answer answer;
+    question.rocks = bare.simulation.rocks < LOOK_ROCKS ? bare.simulation.rocks : LOOK_ROCKS;
+    question.run.rocks_most = question.rocks;
+    question.run.threads = (unsigned)a->threads;
+    question.run.cancel = ceduo_interrupt_flag();
+    if (ceduo_ask(&question, NULL, &answer) == CEDUO_OK)
+        ceduo_words_still(answer.result, warn, (void *)(uintptr_t)file);
+    ceduo_answer_release(&answer);
+}
+
+enum exit_status ceduo_batch_failed(const struct scene_file *file, enum ceduo_status status)
+{
+    if (status != CEDUO_CANCELLED)
+        ceduo_say_why(file->path, status == CEDUO_NO_MEMORY ? _("out of memory") : _("cannot be computed"));
+    return EXIT_RUN;
+}
+
+/* ---- runs ---- */
+
+void ceduo_ask_begin(struct asked *asked, const struct arguments *a, const struct scene_file *file)
+{
+    *asked = (struct asked){.progress = ceduo_progress_begin(a), .question = ceduo_question_default(&file->scene)};
+    struct ceduo_question *q = &asked->question;
+    q->rocks = a->rocks > 0 ? a->rocks : a->tolerance > 0 ? CEDUO_ROCKS_MOST : file->scene.simulation.rocks;
+    q->run.rocks_most = q->rocks;
+    q->tolerance = a->tolerance;
+    q->run.threads = (unsigned)a->threads;
+    q->run.other_energy = true;
+    q->run.cancel = ceduo_interrupt_flag();
+    q->run.progress = show_rocks;
+    q->run.context = &asked->progress;
+    q->years = a->years;
+    q->window = a->window;
+}
+
+#define YEARS_ROCKS 10000 /* of all years of an option: they give the mean to about 10 of 1000 */
+#define YEARS_MOST  50    /* of each option; of a longer rotation some */
+
+void ceduo_ask_years(struct ceduo_question *q)
+{
+    q->years = true;
+    q->years_rocks = YEARS_ROCKS;
+    q->year_rocks = YEARS_ROCKS; /* of a scene with blocks, whose years have the same ones */
+    q->years_most = YEARS_MOST;
+}
+
+enum ceduo_status ceduo_ask_runs(struct asked *c)
+{
+    struct ceduo_run_def *run = &c->question.run;
+    struct ceduo_pool *pool = NULL; /* for the pictures */
+    run->cells = c->cells ? ceduo_snapshot_places(run->scene, c->cell_x) : 0;
+    run->cell_x = c->cell_x;
+    enum ceduo_status status = ceduo_ask(&c->question, c->pictures ? &pool : NULL, &c->answer);
+    c->seconds = ceduo_clock() - c->progress.start;
+    const struct ceduo_snapshot_def def = {.scene = run->scene,
+                                           .figures = pool,
+                                           .pictures = pool,
+                                           .cells = run->cells,
+                                           .cell_x = c->cell_x,
+                                           .trajectories = c->trajectories,
+                                           .cancel = run->cancel};
+    if (status == CEDUO_OK && c->pictures)
+        status = ceduo_snapshot_create(&def, &c->snapshot);
+    ceduo_pool_free(pool);
+    return status == CEDUO_OK ? ceduo_verdict_make(c->answer.result, c->answer.years, &c->verdict) : status;
+}
+
+enum exit_status ceduo_ask_end(struct asked *c, const struct scene_file *file, enum ceduo_status status)
+{
+    const struct ceduo_result *r = c->answer.result;
+    bool finished = !r || ceduo_result_unfinished(r) * 1000 <= ceduo_result_rocks(r);
+    if (c->doubt.answer)
+        ceduo_doubt_free(&c->doubt_answer);
+    ceduo_verdict_release(&c->verdict);
+    ceduo_snapshot_free(c->snapshot);
+    ceduo_answer_release(&c->answer);
+    return status != CEDUO_OK ? ceduo_batch_failed(file, status) : finished ? EXIT_DONE : EXIT_RUN;
+}
+
+/* ---- doubt ---- */
+
+/* Asks with the points and rocks of `def`, of which the rest is set here. `finer`: what is known of the scene as it is from more
+ * rocks; may be NULL. */
+static enum ceduo_status ask_doubt(struct asked *c, const struct arguments *a, struct scene_file *file,
+                                   struct ceduo_doubt_def *def, const struct ceduo_result *finer)
+{
+    if (!ceduo_inputs_of(file, &c->inputs))
+        return CEDUO_NO_MEMORY;
+    def->scene = &file->scene;
+    def->inputs_count = c->inputs.n;
+    def->inputs = c->inputs.items;
+    def->points = (size_t)a->points;
+    def->threads = (unsigned)a->threads;
+    def->rotation |= a->years;
+    def->window = a->window;
+    def->cancel = ceduo_interrupt_flag();
+    def->progress = show_steps;
+    def->context = &c->progress;
+    c->doubt = (struct ceduo_doubt_report){
+        .file = file, .inputs = &c->inputs, .points = def->points, .rocks = def->rocks, .finer = finer};
+    if (c->inputs.n == 0 || (finer && (def->rocks < 2 || file->scene.controls_count == 0)))
+        return CEDUO_OK;
+    enum ceduo_status status = ceduo_doubt_ask(def, &c->doubt_answer);
+    c->doubt.answer = status == CEDUO_OK ? &c->doubt_answer : NULL;
+    return status;
+}
+
+enum ceduo_status ceduo_ask_doubt(struct asked *c, const struct arguments *a, struct scene_file *file)
+{
+    struct ceduo_doubt_def def = {.rocks = a->rocks > 0 ? a->rocks : CEDUO_DOUBT_ROCKS,
+                                  .own_rocks = a->rocks > 0 ? a->rocks : file->scene.simulation.rocks};
+    return ask_doubt(c, a, file, &def, NULL);
+}
+
+#define EFFORT_MAX 3e8 /* contacts and stems of all points: some ten seconds of a processor */
+
+enum ceduo_status ceduo_ask_doubt_beside(struct asked *c, const struct arguments *a, struct scene_file *file, bool rotation)
+{
+    const struct ceduo_scene *scene = &file->scene;
+    const struct ceduo_result *result = c->answer.result;
+    const struct ceduo_work *work = &c->answer.work;
+    uint64_t rocks = ceduo_result_rocks(result);
+    size_t years = 0;
+    struct ceduo_doubt_def def = {.points_max = (size_t)a->points,
+                                  .rocks = rocks < CEDUO_DOUBT_ROCKS ? rocks : CEDUO_DOUBT_ROCKS};
+    double each =
+        (double)(work->contacts + work->stems.drawn) / (double)(work->rocks > 0 ? work->rocks : 1) * (double)a->points;
+    double effort = each * (double)def.rocks * (double)scene->options_count;
+    for (size_t i = 0; i < scene->options_count; i++)
+        years += ceduo_points_years(scene, &scene->options[i], a->window, CEDUO_DOUBT_YEARS_MAX);
+    def.rotation = rotation && !ceduo_uncertainty_no_rotation(scene) &&
+                   effort + each * CEDUO_DOUBT_YEAR_ROCKS * (double)years <= EFFORT_MAX;
+    if (effort > EFFORT_MAX || !result->wooded || ceduo_page_says_nothing(result))
+        def.rocks = 0;
+    return ask_doubt(c, a, file, &def, result);
+}
