@@ -102,8 +102,9 @@ static void add_head(struct ceduo_page *page, const struct ceduo_report_head *he
 }
 
 #define SLOPE_ROWS  19
-#define SLOPE_LEAST 13
+#define SLOPE_LEAST 12
 #define STRIP_ROWS  11
+#define ENERGY_ROWS 9
 
 static void add_slope(struct ceduo_page *page, const struct ceduo_chapter *c)
 {
@@ -123,7 +124,7 @@ static void add_slope(struct ceduo_page *page, const struct ceduo_chapter *c)
               "percentile, through the forest and without it."));
     if (c->snapshot && c->report->result->scene->controls_count > 0 && !(several && ceduo_report_has_hazard(c->report)) &&
         c->report->result->scene->options_count <= CROWD)
-        add_picture(page, CEDUO_PLOT_ENERGY, WHOLE, STRIP_ROWS, &picture,
+        add_picture(page, CEDUO_PLOT_ENERGY, WHOLE, ENERGY_ROWS, &picture,
                     _("Curves along the slope: mean and 95th percentile of the energy of the rocks that pass each place, "
                       "through the forest and without it."));
 }
@@ -145,7 +146,7 @@ static void add_percentiles(struct ceduo_page *page, const struct ceduo_chapter 
     }
 }
 
-#define YEARS_ROWS 15
+#define YEARS_ROWS 12
 
 /* The option that is best over the years. */
 static void add_years(struct ceduo_page *page, const struct ceduo_chapter *c)
@@ -237,7 +238,7 @@ static void add_origin(struct ceduo_page *page, const struct ceduo_chapter *c)
     ceduo_arena_free(&arena);
 }
 
-#define HAZARD_ROWS 12
+#define HAZARD_ROWS 10
 
 /* How often at each place, and at the last one as curves. */
 static void add_hazard(struct ceduo_page *page, const struct ceduo_chapter *c)

@@ -196,7 +196,7 @@ def test_pages():
             expect(english != italian and "nplurals" not in italian, italian)
             if words[1] != WHOLE[1]:  # how many remarks have room depends on their lengths
                 english, italian = (re.split("\n(?:ASSUMED|IPOTESI|NOTE|NOTA|MORE|ALTRO) ", page)[0] for page in (english, italian))
-            italian = re.sub(r"(sezione|CRSP) (\d)\.(\d)", r"\1 \2,\3", italian)  # no numbers, but names
+            italian = re.sub(r"(sezione|paragrafo|CRSP) (\d)\.(\d)", r"\1 \2,\3", italian)  # no numbers, but names
             commas = sorted(number.replace(",", ".") for number in re.findall(r"\d+,\d+", italian))
             expect_equal(commas, sorted(re.findall(r"\d+\.\d+", english)), f"numbers of {words}")
             cut = [len(re.findall(r"\w\u2026", text)) for text in (italian, english)]
