@@ -164,7 +164,7 @@ def test_manual():
     expect_equal(len(terms), len(NEVER))
     with Folder() as f:
         for page in ("ceduo.1", "ceduo-output.5", "ceduo-terminal.7", "ceduo-workflows.7"):
-            least = 1 if page == "ceduo-output.5" else 100  # its keys and columns are English
+            least = 90 if page == "ceduo-output.5" else 100  # what a sample prints changes more often than words
             made = subprocess.run(["po4a-translate", "-f", "man", "-m", ROOT / "man" / page, "-M", "UTF-8", "-L", "UTF-8", "-k",
                                    str(least), "-p", ROOT / "src/po/man/it.po", "-l", f.path / page], env=environment(),
                                   capture_output=True, text=True, check=False)
