@@ -183,10 +183,9 @@ void ceduo_page_html(struct ceduo_html *html, const struct ceduo_page *page, siz
         else if (b->kind == CEDUO_PAGE_PICTURE) {
             char id[48];
             snprintf(id, sizeof id, "c%zu-p%zu", number, ++pictures);
-            const struct ceduo_svg_words words = {id, ceduo_text_string(&b->text), ceduo_text_string(&b->description)};
             ceduo_html_open(html, "figure", "class", b->half ? "half" : NULL, NULL);
-            ceduo_svg_write(html, b->svg, &words);
-            ceduo_html_leaf(html, "figcaption", words.title, NULL);
+            ceduo_svg_write(html, b->svg, id, ceduo_text_string(&b->text), ceduo_text_string(&b->description));
+            ceduo_html_leaf(html, "figcaption", ceduo_text_string(&b->text), NULL);
             ceduo_html_close(html);
         } else if (b->kind != CEDUO_PAGE_CAPTION || !b->next || b->next->kind != CEDUO_PAGE_TABLE)
             write_block(html, b);

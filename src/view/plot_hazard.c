@@ -40,21 +40,15 @@ static double log_kJ(const struct ceduo_exceeding *e)
     return log10(e->energy * J_TO_KJ);
 }
 
-/* The curve, cut where it leaves the frame downwards; with intervals, if the picture is of this option. */
+/* The curve, upright down to 0; with intervals, if the picture is of this option. */
 static void draw_curve(const struct ceduo_drawing *d, size_t item)
 {
     const struct ceduo_hazard *h = hazard_of(d, item);
     const struct ceduo_frame *f = &d->frame;
-    for (size_t i = FIRST; h && i + 1 < h->energies; i++) {
+    for (size_t i = FIRST; h && i + 1 < h->energies && h->exceed[i].rate.rate > 0; i++) {
         const struct ceduo_exceeding *a = &h->exceed[i], *b = a + 1;
-        double x0 = log_kJ(a), y0 = logarithm(a->rate.rate), x1 = log_kJ(b), y1 = logarithm(b->rate.rate);
-        if (y0 < RAREST)
-            continue;
-        if (y1 < RAREST) {
-            x1 = b->rate.rate > 0 ? x0 + (x1 - x0) * (y0 - RAREST) / (y0 - y1) : x0;
-            y1 = RAREST;
-        }
-        ceduo_canvas_line(d->canvas, f, role_of(item), x0, y0, x1, y1);
+        ceduo_canvas_line(d->canvas, f, role_of(item), log_kJ(a), logarithm(a->rate.rate), log_kJ(b->rate.rate > 0 ? b : a),
+                          logarithm(b->rate.rate));
     }
     for (size_t i = FIRST; h && item == d->picture->option + 1 && i < h->energies; i += 2) {
         const struct ceduo_exceeding *e = &h->exceed[i];

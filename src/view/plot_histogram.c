@@ -2,7 +2,6 @@
 #include <gsl/gsl_statistics_double.h>
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "base/language.h"
 #include "base/must.h"
@@ -39,21 +38,24 @@ static int bin_of(const struct bins *b, double kj)
     return i < 0 ? 0 : i < b->count ? (int)i : b->count - 1;
 }
 
+/* The rocks that arrive, in bins. */
+struct counted {
+    const struct ceduo_arrivals *arrivals;
+    size_t n, *counts;
+};
+
 struct histogram {
-    const struct ceduo_arrivals *arrivals, *bare; /* bare NULL: there is nothing to be held against */
-    double accepted;                              /* kJ */
+    struct counted rocks, bare; /* of bare no arrivals: there is nothing to be held against */
+    double accepted;            /* kJ */
     struct bins bins;
-    size_t n, *counts, bare_n, *bare_counts;
 };
 
 /* ---- what stands in a row ---- */
 
-/* Of 1000 released, those in bin i: bare or not. */
-static double per_1000(const struct histogram *h, bool bare, int i)
+/* Of 1000 released, those in bin i. */
+static double per_1000(const struct counted *c, int i)
 {
-    const struct ceduo_arrivals *a = bare ? h->bare : h->arrivals;
-    const size_t *counts = bare ? h->bare_counts : h->counts, n = bare ? h->bare_n : h->n;
-    return n > 0 ? 1000 * a->reach_probability * (double)counts[i] / (double)n : 0;
+    return c->n > 0 ? 1000 * c->arrivals->reach_probability * (double)c->counts[i] / (double)c->n : 0;
 }
 
 static void add_mark(const struct histogram *h, int i, double kj, const char *name, struct text *text)
@@ -63,18 +65,12 @@ static void add_mark(const struct histogram *h, int i, double kj, const char *na
                           ROUNDED(kj, 3));
 }
 
-/* What the bars are drawn to: counts, or with two runs those of 1000 released. */
-static double length_of(const struct histogram *h, int i)
-{
-    return h->bare ? per_1000(h, false, i) : (double)h->counts[i];
-}
-
 static void add_row(struct ceduo_page *page, const struct histogram *h, int i, double most)
 {
     char lo[CEDUO_TICK_LABEL_SIZE], hi[CEDUO_TICK_LABEL_SIZE];
     const struct bins *b = &h->bins;
-    const struct ceduo_distribution *e = &h->arrivals->energy;
-    double from = b->first + i * b->width, end = b->first + b->count * b->width;
+    const struct ceduo_distribution *e = &h->rocks.arrivals->energy;
+    double from = b->first + i * b->width, end = b->first + b->count * b->width, share = per_1000(&h->rocks, i);
     enum ceduo_role role = isnan(h->accepted)               ? CEDUO_ROLE_MEAN
                            : from >= h->accepted            ? CEDUO_ROLE_BAD
                            : from + b->width <= h->accepted ? CEDUO_ROLE_GOOD
@@ -85,15 +81,15 @@ static void add_row(struct ceduo_page *page, const struct histogram *h, int i, d
         ceduo_page_write(page, "\xe2\x89\xa5 %s kJ", lo);
     else
         ceduo_page_write(page, "%s\xe2\x80\x93%s kJ", lo, hi);
-    struct ceduo_page_bar *bar = ceduo_page_bar(page, length_of(h, i) / most, role);
-    if (h->bare && h->bare_counts[i] > 0)
-        bar->limit = per_1000(h, true, i) / most;
+    struct ceduo_page_bar *bar = ceduo_page_bar(page, share / most, role);
+    if (h->bare.arrivals && h->bare.counts[i] > 0)
+        bar->limit = per_1000(&h->bare, i) / most;
     bar->own = CEDUO_ROLE_BARE;
-    ceduo_page_write(page, "%.0f", length_of(h, i));
-    if (h->bare)
-        ceduo_page_write(page, "%.0f", per_1000(h, true, i));
+    ceduo_page_write(page, "%.0f", share);
+    if (h->bare.arrivals)
+        ceduo_page_write(page, "%.0f", per_1000(&h->bare, i));
     else
-        ceduo_page_write(page, _("%.1f %%"), 100.0 * (double)h->counts[i] / (double)h->n);
+        ceduo_page_write(page, "%s", "");
     struct ceduo_page_cell *marks = ceduo_page_cell(page);
     marks->role = CEDUO_ROLE_TITLE;
     if (h->accepted >= b->first && (h->accepted < end || b->over))
@@ -105,49 +101,43 @@ static void add_row(struct ceduo_page *page, const struct histogram *h, int i, d
 /* What all rows add up to. */
 static void say_all(struct ceduo_page *page, const struct histogram *h)
 {
-    double exceed = h->arrivals->exceed_probability * 1000;
+    const struct ceduo_arrivals *a = h->rocks.arrivals, *bare = h->bare.arrivals;
+    double exceed = a->exceed_probability * 1000;
     struct text *head = ceduo_page_add(page, CEDUO_PAGE_NOTE);
-    if (h->bare)
-        ceduo_text_format(head, _("of 1000: %.0f arrive (\xe2\x94\x82 bare %.0f)"), h->arrivals->reach_probability * 1000,
-                          h->bare->reach_probability * 1000);
+    if (bare)
+        ceduo_text_format(head, _("of 1000: %.0f arrive (\xe2\x94\x82 bare %.0f)"), a->reach_probability * 1000,
+                          bare->reach_probability * 1000);
     else
-        ceduo_text_format(head, _("n = %llu of %llu"), (unsigned long long)h->arrivals->reached,
-                          (unsigned long long)h->arrivals->released);
-    if (!isnan(exceed) && h->bare)
-        ceduo_text_then(head, ", ", _("%.0f (%.0f) > %g kJ"), exceed, h->bare->exceed_probability * 1000, h->accepted);
+        ceduo_text_format(head, _("%.0f of 1000 arrive"), a->reach_probability * 1000);
+    if (!isnan(exceed) && bare)
+        ceduo_text_then(head, ", ", _("%.0f (%.0f) > %g kJ"), exceed, bare->exceed_probability * 1000, h->accepted);
     else if (!isnan(exceed))
-        ceduo_text_then(head, "; ", _("of 1000: %.0f > %g kJ"), exceed, h->accepted);
-    if (h->n < h->arrivals->reached || (h->bare && h->bare_n < h->bare->reached))
-        ceduo_text_then(head, "; ", _("drawn: the first %zu"), h->n > h->bare_n ? h->n : h->bare_n);
+        ceduo_text_then(head, ", ", _("%.0f with > %g kJ"), exceed, h->accepted);
+    if (h->rocks.n < a->reached || (bare && h->bare.n < bare->reached))
+        ceduo_text_then(head, "; ", _("drawn: the first %zu"), h->rocks.n > h->bare.n ? h->rocks.n : h->bare.n);
 }
 
 /* ---- the picture ---- */
 
-static size_t *count_in(const struct bins *bins, const struct ceduo_energies *e)
+static void count(struct counted *c, const struct bins *bins, const struct ceduo_energies *e)
 {
-    size_t *counts = ceduo_must(calloc((size_t)bins->count, sizeof *counts));
+    c->n = e->n;
+    c->counts = ceduo_must(calloc((size_t)bins->count, sizeof *c->counts));
     for (size_t i = 0; i < e->n; i++)
-        counts[bin_of(bins, e->values[i] * J_TO_KJ)]++;
-    return counts;
+        c->counts[bin_of(bins, e->values[i] * J_TO_KJ)]++;
 }
 
-/* Puts the energies into bins that both kinds of rocks share. */
-static void count(struct histogram *h, const struct ceduo_energies *e, const struct ceduo_energies *bare, int rows)
+/* Bins that both kinds of rocks share. */
+static struct bins bins_of(const struct ceduo_energies *e, const struct ceduo_energies *bare, int rows)
 {
-    size_t n = e->n + (bare ? bare->n : 0);
+    size_t n = e->n + bare->n;
     double *all = ceduo_must(malloc((n + 1) * sizeof *all)), least, most;
-    if (e->n > 0)
-        memcpy(all, e->values, e->n * sizeof *all);
-    if (bare && bare->n > 0)
-        memcpy(all + e->n, bare->values, bare->n * sizeof *all);
+    for (size_t i = 0; i < n; i++)
+        all[i] = i < e->n ? e->values[i] : bare->values[i - e->n];
     gsl_stats_minmax(&least, &most, all, 1, n);
     double p99 = gsl_stats_select(all, 1, n, ceduo_quantile_rank(n, 0.99) - 1);
-    h->bins = bins_for(least * J_TO_KJ, p99 * J_TO_KJ, most * J_TO_KJ, rows);
     free(all);
-    h->n = e->n;
-    h->counts = count_in(&h->bins, e);
-    h->bare_n = bare ? bare->n : 0;
-    h->bare_counts = bare ? count_in(&h->bins, bare) : NULL;
+    return bins_for(least * J_TO_KJ, p99 * J_TO_KJ, most * J_TO_KJ, rows);
 }
 
 #define SAID_HEIGHT 6 /* lines that leave room for a line above the rows; what stands before them says it, too */
@@ -161,31 +151,37 @@ const char *ceduo_plot_histogram(struct ceduo_drawing *d)
                                                        {"", 1, 1, CEDUO_FITS | CEDUO_DROPPED(2)}};
     size_t c = d->picture->control;
     bool wooded = d->wooded, said = d->height >= SAID_HEIGHT && !d->page->first;
-    struct histogram h = {.arrivals = d->arrivals, .bare = wooded ? d->bare_arrivals : NULL};
     int rows = d->height - said - wooded;
+    double most = 0;
     if (!d->control)
         return _("no control");
-    if (!h.arrivals || (wooded && !h.bare))
+    if (!d->arrivals || (wooded && !d->bare_arrivals))
         return _("not computed yet");
-    if (d->sight->energies[c].n == 0 && d->bare->energies[c].n == 0)
+    const struct ceduo_energies *e = &d->sight->energies[c],
+                                *bare = wooded ? &d->bare->energies[c] : &(struct ceduo_energies){0};
+    if (e->n == 0 && bare->n == 0)
         return _("no rock arrives");
-    h.accepted = d->control->accepted * J_TO_KJ;
-    count(&h, &d->sight->energies[c], wooded ? &d->bare->energies[c] : NULL, rows > 1 ? rows : 1);
+    struct histogram h = {.accepted = d->control->accepted * J_TO_KJ,
+                          .bins = bins_of(e, bare, rows > 1 ? rows : 1),
+                          .rocks.arrivals = d->arrivals,
+                          .bare.arrivals = wooded ? d->bare_arrivals : NULL};
+    count(&h.rocks, &h.bins, e);
+    count(&h.bare, &h.bins, bare);
     if (said)
         say_all(d->page, &h);
-    double most = 0;
     for (int i = 0; i < h.bins.count; i++)
-        most = fmax(most, fmax(length_of(&h, i), h.bare ? per_1000(&h, true, i) : 0));
+        most = fmax(most, fmax(per_1000(&h.rocks, i), per_1000(&h.bare, i)));
     CEDUO_PAGE_TABLE_OF(d->page, columns);
-    if (h.bare) {
-        ceduo_text_put(&d->page->last->cells[1].text, _("\xe2\x94\x82 without forest"));
-        ceduo_text_put(&d->page->last->cells[1].shorter, _("\xe2\x94\x82 bare"));
-        ceduo_text_put(&d->page->last->cells[2].text, _("wood"));
-        ceduo_text_put(&d->page->last->cells[3].text, _("bare"));
+    if (wooded) {
+        struct ceduo_page_cell *heads = d->page->last->cells;
+        ceduo_text_put(&heads[1].text, _("\xe2\x94\x82 without forest"));
+        ceduo_text_put(&heads[1].shorter, _("\xe2\x94\x82 bare"));
+        ceduo_text_put(&heads[2].text, _("wood"));
+        ceduo_text_put(&heads[3].text, _("bare"));
     }
     for (int i = 0; i < h.bins.count; i++)
         add_row(d->page, &h, i, most);
-    free(h.counts);
-    free(h.bare_counts);
+    free(h.rocks.counts);
+    free(h.bare.counts);
     return NULL;
 }

@@ -393,23 +393,15 @@ static void write_cells(struct ceduo_html *html, const struct ceduo_cells *cells
 
 #define FONT "font-family", "monospace", "font-size", "13.3", "xml:space", "preserve"
 
-void ceduo_svg_write(struct ceduo_html *html, struct ceduo_svg *svg, const struct ceduo_svg_words *words)
+void ceduo_svg_write(struct ceduo_html *html, struct ceduo_svg *svg, const char *id, const char *title, const char *description)
 {
-    /* a file of its own brings its size and its paper */
-    const char *file = words->id ? NULL : "http://www.w3.org/2000/svg";
-    char box[64], across[16], down[16], id[64];
-    snprintf(across, sizeof across, "%d", svg->cells->width * CELL);
-    snprintf(down, sizeof down, "%d", svg->cells->height * HIGH);
-    snprintf(box, sizeof box, "0 0 %s %s", across, down);
-    snprintf(id, sizeof id, "%s-d", words->id ? words->id : "picture");
+    char box[64], described[64];
+    snprintf(box, sizeof box, "0 0 %d %d", svg->cells->width * CELL, svg->cells->height * HIGH);
+    snprintf(described, sizeof described, "%s-d", id);
     end_stroke(svg);
-    ceduo_html_open(html, "svg", "viewBox", box, "role", "img", "aria-label", words->title, "aria-describedby", id,
-                    file ? "xmlns" : "class", file, file ? "width" : "class", file ? across : NULL, file ? "height" : "class",
-                    file ? down : NULL, NULL);
-    ceduo_html_leaf(html, "title", words->title, NULL);
-    ceduo_html_leaf(html, "desc", words->description, "id", id, NULL);
-    if (file)
-        ceduo_html_empty(html, "rect", "width", across, "height", down, "fill", "#fff", NULL);
+    ceduo_html_open(html, "svg", "viewBox", box, "role", "img", "aria-label", title, "aria-describedby", described, NULL);
+    ceduo_html_leaf(html, "title", title, NULL);
+    ceduo_html_leaf(html, "desc", description, "id", described, NULL);
     write_marks(html, svg);
     ceduo_html_open(html, "g", FONT, NULL);
     ceduo_text_add(html->text, ceduo_text_string(&svg->numbers), svg->numbers.length);

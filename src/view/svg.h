@@ -23,14 +23,10 @@ void ceduo_svg_free(struct ceduo_svg *svg); /* NULL is allowed */
 /* To draw on. */
 struct ceduo_canvas *ceduo_svg_canvas(struct ceduo_svg *svg);
 
-/* What is told of a picture beside what is drawn. `id` is unlike that of every other picture of the page; NULL: the
- * picture is a file of its own. */
-struct ceduo_svg_words {
-    const char *id, *title, *description;
-};
-
-/* Adds the picture as an element of a page. May be called once. */
-void ceduo_svg_write(struct ceduo_html *html, struct ceduo_svg *svg, const struct ceduo_svg_words *words);
+/* Adds the picture as an element of a page, with what is told of it beside what is drawn. `id` is unlike that of every other picture
+ * of the page. May be called once. */
+void ceduo_svg_write(struct ceduo_html *html, struct ceduo_svg *svg, const char *id, const char *title,
+                     const char *description);
 
 /* A screen of the terminal program as a file of its own, in the colours of a dark terminal. */
 void ceduo_svg_screen(struct text *text, const struct ceduo_cells *cells, const char *title);

@@ -16,7 +16,7 @@ static char *put(struct ceduo_svg *svg)
 {
     struct text text = {0};
     struct ceduo_html html = {.text = &text};
-    ceduo_svg_write(&html, svg, &(struct ceduo_svg_words){"p", "Title <1>", "What \"it\" shows"});
+    ceduo_svg_write(&html, svg, "p", "Title <1>", "What \"it\" shows");
     ceduo_svg_free(svg);
     assert_false(text.failed);
     assert_int_equal(html.depth, 0);
