@@ -13,13 +13,10 @@
  * a pointer it is given.
  */
 
-/*
- * A plot area: a rectangle of cells and the data shown in it. The leftmost column of dots stands at
- * x0 and the rightmost at x1, the lowest row of dots at y0 and the highest at y1. A point belongs
- * to the nearest dot; it is inside if that dot is. y0 > y1 turns the axis round.
- * A frame that is narrower than 2 or lower than 1 cell, larger than the largest surface, further
- * than that outside it, or whose ranges are empty or not finite, draws nothing.
- */
+/* A plot area: a rectangle of cells and the data shown in it. The leftmost column of dots stands at x0 and the rightmost at x1,
+ * the lowest row of dots at y0 and the highest at y1. A point belongs to the nearest dot; it is inside if that dot is. y0 > y1
+ * turns the axis round. A frame that is narrower than 2 or lower than 1 cell, larger than the largest surface, further than
+ * that outside it, or whose ranges are empty or not finite, draws nothing. */
 struct ceduo_frame {
     int left, top;     /* cell of the upper left corner; may lie outside the surface */
     int width, height; /* cells; 2..CEDUO_CANVAS_MAX_WIDTH, 1..CEDUO_CANVAS_MAX_HEIGHT */
@@ -45,8 +42,8 @@ struct ceduo_position {
     double x, y;
 };
 
-/* How a line is drawn, from what lies below to what lies above; of rules and curves every second column of dots, every fourth, four
- * of six. */
+/* How a line is drawn, from what lies below to what lies above; of rules and curves every second column of dots, every fourth,
+ * four of six. */
 enum ceduo_stroke {
     CEDUO_STROKE_WAY, /* one of many: a part of the cloud */
     CEDUO_STROKE_RULE,
@@ -85,12 +82,9 @@ struct ceduo_surface {
 
 /* ---- Frames ---- */
 
-/*
- * Set the ranges of a frame, whose cells are given, so that one metre is as long across as upwards
- * where cells are twice as high as wide, that x_lo..x_hi and y_lo..y_hi (metres) just
- * fit, and that they lie in the middle. False, and the frame as it was, if its cells are out of range,
- * an extent is not finite or runs backwards, or both are empty.
- */
+/* Set the ranges of a frame, whose cells are given, so that one metre is as long across as upwards where cells are twice as
+ * high as wide, that x_lo..x_hi and y_lo..y_hi (metres) just fit, and that they lie in the middle. False, and the frame as it
+ * was, if its cells are out of range, an extent is not finite or runs backwards, or both are empty. */
 bool ceduo_frame_true_scale(struct ceduo_frame *frame, const struct ceduo_canvas *canvas, double x_lo, double x_hi, double y_lo,
                             double y_hi);
 
@@ -112,10 +106,8 @@ void ceduo_canvas_line(struct ceduo_canvas *canvas, const struct ceduo_frame *fr
 void ceduo_canvas_polyline(struct ceduo_canvas *canvas, const struct ceduo_frame *frame, enum ceduo_role role,
                            enum ceduo_stroke stroke, size_t n, const double *x, const double *y);
 
-/*
- * Stairs: y[i] holds from x[i] to x[i + 1], where the line goes upright to y[i + 1]. The last
- * point ends it. One that is not finite breaks the line.
- */
+/* Stairs: y[i] holds from x[i] to x[i + 1], where the line goes upright to y[i + 1]. The last point ends it. One that is not
+ * finite breaks the line. */
 void ceduo_canvas_stairs(struct ceduo_canvas *canvas, const struct ceduo_frame *frame, enum ceduo_role role, size_t n,
                          const double *x, const double *y);
 
@@ -127,14 +119,12 @@ void ceduo_canvas_rule_x(struct ceduo_canvas *canvas, const struct ceduo_frame *
 void ceduo_canvas_disc(struct ceduo_canvas *canvas, const struct ceduo_frame *frame, enum ceduo_role role, double x, double y,
                        double radius);
 
-/*
- * A horizontal bar, `fraction` (0..1) of `width` cells long. Above 1 it is full. 0, less and NaN give nothing, but what
- * is above 0 always shows something.
- */
+/* A horizontal bar, `fraction` (0..1) of `width` cells long. Above 1 it is full. 0, less and NaN give nothing, but what is
+ * above 0 always shows something. */
 void ceduo_canvas_bar(struct ceduo_canvas *canvas, int column, int row, int width, double fraction, enum ceduo_role role);
 
-/* A cloud of many trajectories. Start it, draw trajectories with CEDUO_STROKE_WAY, which shows nothing, and show it: the dots that
- * were passed at least as often as the given quantile (0..1) of all dots that were passed. 0 shows every one, 0.9 the most
+/* A cloud of many trajectories. Start it, draw trajectories with CEDUO_STROKE_WAY, which shows nothing, and show it: the dots
+ * that were passed at least as often as the given quantile (0..1) of all dots that were passed. 0 shows every one, 0.9 the most
  * travelled tenth, 1 those passed most. */
 void ceduo_canvas_cloud_start(struct ceduo_canvas *canvas);
 void ceduo_canvas_cloud_show(struct ceduo_canvas *canvas, double quantile);
@@ -158,41 +148,28 @@ int ceduo_canvas_put(struct ceduo_canvas *canvas, int column, int row, int most,
 
 /* ---- Axes (axes.c) ---- */
 
-/*
- * Round values within lo..hi (or hi..lo), ascending, at most max_count (1..CEDUO_TICKS_MAX; cut to
- * that) of them, apart by the least possible interval of 1, 2 or 5 times a power of ten. Returns how
- * many are in out, which has room for max_count, and their interval in *interval (may be NULL).
- * Where lo and hi are equal, or too near to tell apart, the one tick is lo and the interval 0. Returns 0
- * if max_count < 1, or a bound is not finite, or the range is beyond 1e300. Never gives -0.
- */
+/* Round values within lo..hi (or hi..lo), ascending, at most max_count (1..CEDUO_TICKS_MAX; cut to that) of them, apart by the
+ * least possible interval of 1, 2 or 5 times a power of ten. Returns how many are in out, which has room for max_count, and
+ * their interval in *interval (may be NULL). Where lo and hi are equal, or too near to tell apart, the one tick is lo and the
+ * interval 0. Returns 0 if max_count < 1, or a bound is not finite, or the range is beyond 1e300. Never gives -0. */
 int ceduo_ticks(double lo, double hi, int max_count, double *out, double *interval);
 
-/*
- * Write a tick's value with the decimals its interval (1, 2 or 5 times a power of ten, from ceduo_ticks)
- * needs; large and tiny ones as 2e11 or 5e-9. An interval of 0 writes six digits at most. Never "-0".
- * `size` bytes of buffer; CEDUO_TICK_LABEL_SIZE is always enough. Returns the length written.
- */
+/* Write a tick's value with the decimals its interval (1, 2 or 5 times a power of ten, from ceduo_ticks) needs; large and tiny
+ * ones as 2e11 or 5e-9. An interval of 0 writes six digits at most. Never "-0". `size` bytes of buffer; CEDUO_TICK_LABEL_SIZE
+ * is always enough. Returns the length written. */
 size_t ceduo_tick_label(double value, double interval, size_t size, char *buffer);
 
-/*
- * Columns that ceduo_canvas_axis_left takes to the left of this frame: the widest label and the line.
- * Depends on the height and the y range only, so that `left` can be set from it. 0 for a frame that
- * draws nothing.
- */
+/* Columns that ceduo_canvas_axis_left takes to the left of this frame: the widest label and the line. Depends on the height and
+ * the y range only, so that `left` can be set from it. 0 for a frame that draws nothing. */
 int ceduo_frame_axis_width(const struct ceduo_frame *frame, const struct ceduo_canvas *canvas);
 
-/*
- * The y axis in the column left of the frame, its labels right-aligned before it, as many as stand
- * clear of each other. A number that has not enough columns is left out, never cut.
- */
+/* The y axis in the column left of the frame, its labels right-aligned before it, as many as stand clear of each other. A
+ * number that has not enough columns is left out, never cut. */
 void ceduo_canvas_axis_left(struct ceduo_canvas *canvas, const struct ceduo_frame *frame);
 
-/*
- * The x axis in the row below the frame, its labels in the row below that, within the frame and the
- * column left of it, never touching. The unit (may be NULL) stands after the last number or, where
- * there is no room, after the first; where there is none either it is left out. Meets the left axis
- * in a corner if that was drawn before.
- */
+/* The x axis in the row below the frame, its labels in the row below that, within the frame and the column left of it, never
+ * touching. The unit (may be NULL) stands after the last number or, where there is no room, after the first; where there is
+ * none either it is left out. Meets the left axis in a corner if that was drawn before. */
 void ceduo_canvas_axis_bottom(struct ceduo_canvas *canvas, const struct ceduo_frame *frame, const char *unit);
 
 /* Whether a frame draws anything. */

@@ -87,10 +87,8 @@ struct ceduo_cells {
     uint32_t *density;          /* of trajectories, one count a dot, row after row; NULL before a cloud is started */
 };
 
-/*
- * A new, blank grid of width x height cells (1..CEDUO_CANVAS_MAX_WIDTH, 1..CEDUO_CANVAS_MAX_HEIGHT),
- * to be freed by ceduo_cells_free. NULL if a size is out of range.
- */
+/* A new, blank grid of width x height cells (1..CEDUO_CANVAS_MAX_WIDTH, 1..CEDUO_CANVAS_MAX_HEIGHT), to be freed by
+ * ceduo_cells_free. NULL if a size is out of range. */
 struct ceduo_cells *ceduo_cells_create(int width, int height, enum ceduo_charset charset);
 
 /* Free a grid and what belongs to it. NULL is allowed. */
@@ -102,12 +100,9 @@ void ceduo_cells_clear_area(struct ceduo_cells *cells, struct ceduo_area area); 
 
 /* ---- Text ---- */
 
-/*
- * Write UTF-8 text from a cell on; returns the number of cells it takes, cut off or not. One '?' each
- * for an invalid byte, a control character, and a character that takes no cell (combining marks)
- * or two (East Asian, emoji). In ASCII the others become a near equivalent, of up to three
- * characters, or '?'.
- */
+/* Write UTF-8 text from a cell on; returns the number of cells it takes, cut off or not. One '?' each for an invalid byte, a
+ * control character, and a character that takes no cell (combining marks) or two (East Asian, emoji). In ASCII the others
+ * become a near equivalent, of up to three characters, or '?'. */
 int ceduo_cells_label(struct ceduo_cells *cells, int column, int row, enum ceduo_role role, const char *text);
 
 /* Write the end of a text that fits into `most` cells; returns the cells it took. */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The column of figures that stands still beside every view, in the words of the paper; the energy that is left, in which the paper's
- * method ends; and what an option and its doubt mean in words. */
+/* The column of figures that stands still beside every view, in the words of the paper; the energy that is left, in which the
+ * paper's method ends; and what an option and its doubt mean in words. */
 #include <math.h>
 #include <string.h>
 

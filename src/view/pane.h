@@ -22,8 +22,8 @@ struct ceduo_pane {
     bool busy;  /* finer figures are on their way */
 };
 
-/* The column: what arrives with the wood and without, the three tests, what the index says, warnings. Returns how many blocks at
- * its end are warnings. */
+/* The column: what arrives with the wood and without, the three tests, what the index says, warnings. Returns how many blocks
+ * at its end are warnings. */
 size_t ceduo_pane_column(struct ceduo_page *page, const struct ceduo_pane *pane);
 
 /* The energy that is left at the last control: without forest, by the index, simulated. */

@@ -9,11 +9,11 @@
 #include "study/snapshot.h"
 #include "study/verdict.h"
 
-/* The pictures. Each one draws into a rectangle of a canvas and leaves the rest of it alone: what has no room is left
- * out, never squeezed. None has a title of its own; ceduo_plot_title() says what stands above it. */
+/* The pictures. Each one draws into a rectangle of a canvas and leaves the rest of it alone: what has no room is left out,
+ * never squeezed. None has a title of its own; ceduo_plot_title() says what stands above it. */
 
-/* The columns that show the slope and the metres at their edges (relative), so that pictures can stand above each other
- * on one axis. */
+/* The columns that show the slope and the metres at their edges (relative), so that pictures can stand above each other on one
+ * axis. */
 struct ceduo_span {
     int left, width;
     double x0, x1;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* How sure the answer is: for each option the range of what may be true, in it the error of the rocks; below, what the
- * option of the picture depends on, as bars of the share of each input, with the width of the doubt if it were known. */
+/* How sure the answer is: for each option the range of what may be true, in it the error of the rocks; below, what the option
+ * of the picture depends on, as bars of the share of each input, with the width of the doubt if it were known. */
 #include <math.h>
 
 #include "base/language.h"

@@ -8,8 +8,8 @@
 
 /* What the pictures share. */
 
-/* A picture that is being drawn, with what its indices name: NULL where there is none. What is to be seen of its option (through
- * the forest; bare with the contact model index), and without forest, is NULL where it is not known. */
+/* A picture that is being drawn, with what its indices name: NULL where there is none. What is to be seen of its option
+ * (through the forest; bare with the contact model index), and without forest, is NULL where it is not known. */
 struct ceduo_drawing {
     struct ceduo_canvas *canvas; /* NULL for a page */
     struct ceduo_area area;
@@ -62,8 +62,8 @@ double ceduo_plot_tallest(const struct ceduo_stand *stand);
 struct ceduo_frame ceduo_plot_given(const struct ceduo_frame *frame, double x, double y);
 void ceduo_plot_axes(const struct ceduo_drawing *drawing, double x, double y, const char *unit);
 
-/* Places the frame of a chart, whose ranges stay 0, and its legend: beside it where the area is wide, otherwise below it, and nowhere
- * where that leaves no `height`. False where there is no room. */
+/* Places the frame of a chart, whose ranges stay 0, and its legend: beside it where the area is wide, otherwise below it, and
+ * nowhere where that leaves no `height`. False where there is no room. */
 struct ceduo_chart_size {
     int axis, below;   /* columns of the left axis, rows of the bottom axis */
     int legend, lines; /* columns and rows of the legend */

@@ -93,8 +93,8 @@ static double height_factor(const struct ceduo_frame *frame, const struct ceduo_
     return round[i];
 }
 
-/* Fits the ranges, the ground at the bottom, the slope's start at the left; gives up columns without slope. A stretch is
- * always true to scale. Returns the factor of heights, NaN where nothing can be drawn. */
+/* Fits the ranges, the ground at the bottom, the slope's start at the left; gives up columns without slope. A stretch is always
+ * true to scale. Returns the factor of heights, NaN where nothing can be drawn. */
 static double scale(struct ceduo_frame *f, const struct ceduo_canvas *canvas, const struct range *r, bool stretch)
 {
     double factor = stretch ? 1 : height_factor(f, canvas, r);
@@ -284,8 +284,8 @@ static void add_belt(struct ceduo_page *page, const struct ceduo_belt *belt)
     ceduo_page_say(page, CEDUO_PAGE_SENTENCE, _("up to %g m high"), ceduo_plot_tallest(&belt->stand));
 }
 
-/* What the profile is, in words: to the right of its frame where there is room, otherwise the factor of heights alone in the top
- * row. Returns whether there was room. */
+/* What the profile is, in words: to the right of its frame where there is room, otherwise the factor of heights alone in the
+ * top row. Returns whether there was room. */
 static bool put_notes(const struct ceduo_drawing *d, double factor)
 {
     int end = d->area.left + d->area.width, left = d->frame.left + d->frame.width + 2;

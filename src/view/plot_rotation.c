@@ -8,8 +8,8 @@
 #include "plot_parts.h"
 #include "study/verdict.h"
 
-/* An option over the years: ADC against its limit, how many come through with too much energy, the lights, the cuts, on
- * one axis. */
+/* An option over the years: ADC against its limit, how many come through with too much energy, the lights, the cuts, on one
+ * axis. */
 
 #define LIGHTS      3
 #define ADC_TOP     2.0 /* of the scale, in limits: how far beyond the limit a bad year lies says nothing more */

@@ -4,8 +4,8 @@
 #include "base/language.h"
 #include "plot_parts.h"
 
-/* A stand from above, or a rock's trajectory through it. The stems of a stand are spread evenly and without chance, each kind for
- * itself: when a number changes, the stems that stay do not move. */
+/* A stand from above, or a rock's trajectory through it. The stems of a stand are spread evenly and without chance, each kind
+ * for itself: when a number changes, the stems that stay do not move. */
 
 #define PATCH_M     20.0 /* along the fall */
 #define STEMS_MOST  8000 /* of one kind in a patch */
@@ -54,8 +54,8 @@ static enum ceduo_role role_at(struct plan *p, double y, double radius, enum ced
 
 /* ---- a stand ---- */
 
-/* Stool i: a ring of whole shoots, now one more, now one less, so that the mean comes out. Where the picture is so small that the
- * ring would fall apart into dots, neighbours are joined. */
+/* Stool i: a ring of whole shoots, now one more, now one less, so that the mean comes out. Where the picture is so small that
+ * the ring would fall apart into dots, neighbours are joined. */
 static void draw_stool(struct plan *p, size_t i)
 {
     const struct ceduo_stand *s = p->stand;
@@ -132,8 +132,8 @@ static bool is_in(const struct ceduo_belt *belt, const struct ceduo_stem_passed 
     return stem->x >= belt->from && stem->x <= belt->to && isfinite(stem->y);
 }
 
-/* Where the patch starts that shows the trajectory: around the last stem if that stands in the belt, otherwise at the
- * first one in it. False where there is none. */
+/* Where the patch starts that shows the trajectory: around the last stem if that stands in the belt, otherwise at the first one
+ * in it. False where there is none. */
 static bool find_patch(const struct ceduo_drawing *d, double *from)
 {
     const struct ceduo_stem_passed *stems = d->picture->stems;

@@ -44,8 +44,8 @@ struct strip {
         offsetof(struct ceduo_envelope, height_member), offsetof(struct ceduo_envelope, energy_member)                         \
     }
 
-/* Without forest alone; both; both where there is no room to tell four curves apart. Curves through the forest are strokes, those
- * without it dots, so that the two differ without colour. */
+/* Without forest alone; both; both where there is no room to tell four curves apart. Curves through the forest are strokes,
+ * those without it dots, so that the two differ without colour. */
 static const struct content contents[3] = {
     {{N_("underside above the ground, m"), N_("energy, kJ")},
      {{{N_("max"), N_("p50")}, CEDUO_ROLE_BARE, CEDUO_STROKE_FEW, false, OF(height.max, energy.p50)},
@@ -174,8 +174,8 @@ static void name_curves(const struct strip *s)
 
 /* ---- controls ---- */
 
-/* What a control bears, and in words in that row or the nearest that is free of curves, before the mark or behind it; without room
- * not in words, which stand beside the pictures, too. */
+/* What a control bears, and in words in that row or the nearest that is free of curves, before the mark or behind it; without
+ * room not in words, which stand beside the pictures, too. */
 static void draw_accepted(const struct ceduo_drawing *d, const struct ceduo_control *c)
 {
     const struct ceduo_frame *f = &d->frame;
@@ -218,8 +218,8 @@ static void place_frame(struct strip *s, const struct content *content)
     f->x1 = s->to;
 }
 
-/* What is shown, how strokes tell the wooded curves from the bare ones, and what lies beyond the top, in as many words as there is
- * room for. */
+/* What is shown, how strokes tell the wooded curves from the bare ones, and what lies beyond the top, in as many words as there
+ * is room for. */
 static void put_caption(const struct strip *s, const struct content *content)
 {
     static const struct {

@@ -5,8 +5,8 @@
 #include "base/language.h"
 #include "plot_parts.h"
 
-/* Protection against yield: what an option lets through over its rotation, upwards, and the wood it gives a year, to
- * the right. The best corner is below on the right. An option that another beats in both stands in brackets. */
+/* Protection against yield: what an option lets through over its rotation, upwards, and the wood it gives a year, to the right.
+ * The best corner is below on the right. An option that another beats in both stands in brackets. */
 
 #define AXIS_WIDTH   6
 #define LEGEND_WIDTH 34 /* columns of the names beside the picture */

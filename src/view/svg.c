@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Draws pictures as vectors. Lines that follow one another become one path, from which points are left out as long as
- * the path stays within TOLERANCE of them; paths are written in the order of their roles' ranks. A grid of cells is drawn
- * on along with it: it holds the text, and knows what is taken. All characters, also those of a screen, are <text> in the
- * reader's monospace font, set to the width of their cells. */
+/* Draws pictures as vectors. Lines that follow one another become one path, from which points are left out as long as the path
+ * stays within TOLERANCE of them; paths are written in the order of their roles' ranks. A grid of cells is drawn on along with
+ * it: it holds the text, and knows what is taken. All characters, also those of a screen, are <text> in the reader's monospace
+ * font, set to the width of their cells. */
 #include "svg.h"
 
 #include <limits.h>
@@ -25,8 +25,8 @@
 
 enum { FILLED = CEDUO_STROKES, STYLES }; /* paths beside those of strokes */
 
-/* The path that is being drawn. Points from `start` to `last` lie within the tolerance of a straight line, as do all
- * that go on from `start` between the directions lo and hi. */
+/* The path that is being drawn. Points from `start` to `last` lie within the tolerance of a straight line, as do all that go on
+ * from `start` between the directions lo and hi. */
 struct stroke {
     bool open;
     enum ceduo_role role;

@@ -23,8 +23,8 @@ void ceduo_svg_free(struct ceduo_svg *svg); /* NULL is allowed */
 /* To draw on. */
 struct ceduo_canvas *ceduo_svg_canvas(struct ceduo_svg *svg);
 
-/* Adds the picture as an element of a page, with what is told of it beside what is drawn. `id` is unlike that of every other picture
- * of the page. May be called once. */
+/* Adds the picture as an element of a page, with what is told of it beside what is drawn. `id` is unlike that of every other
+ * picture of the page. May be called once. */
 void ceduo_svg_write(struct ceduo_html *html, struct ceduo_svg *svg, const char *id, const char *title,
                      const char *description);
 
