@@ -6,6 +6,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "base/arena.h"
 #include "base/cancel.h"
 #include "base/grow.h"
 #include "ceduo/key.h"
@@ -30,20 +31,6 @@ static bool is_cancelled(void *context)
     return ceduo_cancelled(t->cancel);
 }
 
-static bool make_room(struct tracer *t)
-{
-    struct ceduo_polyline *line = t->line;
-    size_t room = t->room;
-    double *x = ceduo_grow(line->x, line->n, &room, sizeof *x), *z = NULL;
-    if (x) {
-        line->x = x;
-        z = ceduo_grow(line->z, line->n, &t->room, sizeof *z);
-        line->z = z ? z : line->z;
-    }
-    t->failed = !z;
-    return z;
-}
-
 /* Leaves out what no picture could tell from the point before. */
 static void add_point(struct tracer *t, double x, double z, bool always)
 {
@@ -51,10 +38,18 @@ static void add_point(struct tracer *t, double x, double z, bool always)
     bool near = line->n > 0 && fabs(x - line->x[line->n - 1]) < t->step && fabs(z - line->z[line->n - 1]) < t->step;
     if ((near || line->n >= LINE_POINTS_MOST) && !always)
         return;
-    if (t->failed || !make_room(t))
+    size_t room = t->room;
+    double *xs = t->failed ? NULL : ceduo_grow(line->x, line->n, &room, sizeof *xs), *zs = NULL;
+    if (xs) {
+        line->x = xs;
+        zs = ceduo_grow(line->z, line->n, &t->room, sizeof *zs);
+        line->z = zs ? zs : line->z;
+    }
+    t->failed = !zs;
+    if (!zs)
         return;
-    line->x[line->n] = x;
-    line->z[line->n++] = z;
+    xs[line->n] = x;
+    zs[line->n++] = z;
 }
 
 /* A flight in chords from which the parabola departs by less than a step: it departs by g t2/8 from one over t. */
@@ -143,7 +138,7 @@ static enum ceduo_status read_energies(struct ceduo_follower *follower, const st
         struct ceduo_energies *e = &s->energies[c];
         uint64_t reached = s->flown.arrivals[c].reached;
         size_t most = reached < CEDUO_SNAPSHOT_SAMPLE ? (size_t)reached : CEDUO_SNAPSHOT_SAMPLE;
-        e->values = malloc(((most > FLOWN_MOST ? most : FLOWN_MOST) + 1) * sizeof *e->values);
+        e->values = ceduo_arena_take(&s->memory, (most > FLOWN_MOST ? most : FLOWN_MOST) * sizeof *e->values);
         if (!e->values)
             return CEDUO_NO_MEMORY;
         e->n = ceduo_run_energies(run, c, e->values, most);
@@ -158,14 +153,10 @@ static void let_go(struct ceduo_run_snapshot *s)
 {
     if (!s || atomic_fetch_sub(&s->references, 1) != 1)
         return;
-    free(s->envelopes);
-    for (size_t c = 0; s->energies && c < s->flown.controls; c++)
-        free(s->energies[c].values);
-    free(s->energies);
     for (size_t i = 0; i < s->trajectories_count; i++)
         ceduo_polyline_free(&s->trajectories[i]);
-    free(s->trajectories);
     ceduo_simulated_free(&s->flown);
+    ceduo_arena_free(&s->memory);
     free(s);
 }
 
@@ -177,11 +168,11 @@ static enum ceduo_status read_sight(const struct ceduo_snapshot_def *def, const 
     if (status != CEDUO_OK)
         return status;
     size_t trajectories = def->trajectories < s->flown.rocks ? def->trajectories : (size_t)s->flown.rocks;
-    s->energies = calloc(controls + 1, sizeof *s->energies);
-    s->envelopes = calloc(def->cells + 1, sizeof *s->envelopes);
-    s->trajectories = calloc(trajectories + 1, sizeof *s->trajectories);
+    s->energies = ceduo_arena_take(&s->memory, (controls + 1) * sizeof *s->energies);
+    s->envelopes = ceduo_arena_take(&s->memory, (def->cells + 1) * sizeof *s->envelopes);
+    s->trajectories = ceduo_arena_take(&s->memory, (trajectories + 1) * sizeof *s->trajectories);
     struct ceduo_follower *follower = ceduo_follower_create(def->scene, option);
-    status = s->energies && s->envelopes && s->trajectories && follower ? CEDUO_OK : CEDUO_NO_MEMORY;
+    status = !s->memory.failed && follower ? CEDUO_OK : CEDUO_NO_MEMORY;
     for (size_t i = 0; i < def->cells && status == CEDUO_OK && pictures; i++)
         ceduo_run_envelope(pictures, i, &s->envelopes[i]);
     if (status == CEDUO_OK)
@@ -202,20 +193,13 @@ static const struct ceduo_run *longest_run(const struct ceduo_snapshot_def *def,
     return in_b > 0 && in_b >= in_a ? b : in_a > 0 ? a : NULL;
 }
 
-static bool is_same(const struct ceduo_run_snapshot *s, uint64_t key, uint64_t rocks, uint64_t picture_rocks)
-{
-    return s && s->key == key && s->flown.rocks == rocks && s->picture_rocks == picture_rocks;
-}
-
 static struct ceduo_run_snapshot *find_sight(const struct ceduo_snapshot *o, uint64_t key, uint64_t rocks, uint64_t pictures)
 {
-    if (!o)
-        return NULL;
-    if (is_same(o->bare, key, rocks, pictures))
-        return o->bare;
-    for (size_t i = 0; i < o->options; i++)
-        if (is_same(o->wooded[i], key, rocks, pictures))
-            return o->wooded[i];
+    for (size_t i = 0; o && i <= o->options; i++) {
+        struct ceduo_run_snapshot *s = i == 0 ? o->bare : o->wooded[i - 1];
+        if (s && s->key == key && s->flown.rocks == rocks && s->picture_rocks == pictures)
+            return s;
+    }
     return NULL;
 }
 
@@ -252,16 +236,15 @@ static enum ceduo_status get_sight(const struct ceduo_snapshot_def *def, const s
 
 enum ceduo_status ceduo_snapshot_create(const struct ceduo_snapshot_def *def, struct ceduo_snapshot **snapshot)
 {
-    *snapshot = NULL;
-    struct ceduo_snapshot *o = calloc(1, sizeof *o);
+    const struct ceduo_scene *scene = def->scene;
+    struct ceduo_snapshot *o = *snapshot = calloc(1, sizeof *o);
     if (!o)
         return CEDUO_NO_MEMORY;
-    const struct ceduo_scene *scene = def->scene;
     o->controls = scene->controls_count;
-    o->cell_x = malloc((def->cells + 1) * sizeof *o->cell_x);
-    o->wooded = calloc(scene->options_count + 1, sizeof *o->wooded);
-    o->differences = calloc(scene->options_count * o->controls + 1, sizeof *o->differences);
-    enum ceduo_status status = o->cell_x && o->wooded && o->differences ? CEDUO_OK : CEDUO_NO_MEMORY;
+    o->cell_x = ceduo_arena_take(&o->memory, (def->cells + 1) * sizeof *o->cell_x);
+    o->wooded = ceduo_arena_take(&o->memory, (scene->options_count + 1) * sizeof *o->wooded);
+    o->differences = ceduo_arena_take(&o->memory, (scene->options_count * o->controls + 1) * sizeof *o->differences);
+    enum ceduo_status status = o->memory.failed ? CEDUO_NO_MEMORY : CEDUO_OK;
     if (status == CEDUO_OK) {
         o->cells = def->cells;
         o->options = scene->options_count;
@@ -276,10 +259,10 @@ enum ceduo_status ceduo_snapshot_create(const struct ceduo_snapshot_def *def, st
         for (size_t c = 0; c < o->controls; c++)
             o->differences[i * o->controls + c] = ceduo_run_difference(run, first, c);
     }
-    if (status == CEDUO_OK)
-        *snapshot = o;
-    else
+    if (status != CEDUO_OK) {
         ceduo_snapshot_free(o);
+        *snapshot = NULL;
+    }
     return status;
 }
 
@@ -290,9 +273,7 @@ void ceduo_snapshot_free(struct ceduo_snapshot *o)
     let_go(o->bare);
     for (size_t i = 0; i < o->options; i++)
         let_go(o->wooded[i]);
-    free(o->wooded);
-    free(o->differences);
-    free(o->cell_x);
+    ceduo_arena_free(&o->memory);
     free(o);
 }
 

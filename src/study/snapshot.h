@@ -6,6 +6,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "base/arena.h"
 #include "ceduo/result.h"
 
 /* What runs give for pictures: plain columns, never changed once they are made, so that one thread may make them and
@@ -27,7 +28,8 @@ struct ceduo_energies {
 /* One run, as it was at some moment. It is shared: each who keeps it has a reference. */
 struct ceduo_run_snapshot {
     atomic_uint references;
-    uint64_t key; /* ceduo_option_key() of its forest */
+    struct arena memory; /* of envelopes and energies, and where trajectories are listed */
+    uint64_t key;        /* ceduo_option_key() of its forest */
     struct ceduo_simulated flown;
     uint64_t picture_rocks;           /* of the envelopes */
     struct ceduo_envelope *envelopes; /* one for each cell */
@@ -38,6 +40,7 @@ struct ceduo_run_snapshot {
 
 /* All runs of a scene. */
 struct ceduo_snapshot {
+    struct arena memory;
     size_t cells, controls, options;
     double *cell_x;
     struct ceduo_run_snapshot *bare;      /* without forest */
