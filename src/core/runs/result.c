@@ -156,23 +156,6 @@ enum ceduo_status ceduo_result_assess(const struct ceduo_scene *scene, const str
     return finish(r, status, result);
 }
 
-/* What a pool knows of the other energy law. */
-static enum ceduo_status read_others(const struct ceduo_scene *scene, const struct ceduo_pool *pool,
-                                     struct ceduo_option_result *options)
-{
-    struct ceduo_scene other;
-    bool good = ceduo_other_scene(scene, &other);
-    const struct ceduo_run *first = good ? ceduo_pool_find(pool, &other.options[0]) : NULL;
-    enum ceduo_status status = good ? CEDUO_OK : CEDUO_NO_MEMORY;
-    for (size_t i = 0; i < scene->options_count && status == CEDUO_OK; i++) {
-        const struct ceduo_run *run = ceduo_pool_find(pool, &other.options[i]);
-        for (size_t c = 0; c < scene->controls_count && status == CEDUO_OK; c++)
-            status = ceduo_other_read(&scene->options[i], run, first, c, &options[i].others[c]);
-    }
-    ceduo_other_scene_release(&other);
-    return status;
-}
-
 enum ceduo_status ceduo_result_create(const struct ceduo_scene *scene, const struct ceduo_pool *pool,
                                       struct ceduo_result **result)
 {
@@ -197,8 +180,16 @@ enum ceduo_status ceduo_result_create(const struct ceduo_scene *scene, const str
             status = run == bare ? copy(&r->bare, &r->options[i].wooded)
                                  : ceduo_simulated_read(run, controls, &r->options[i].wooded);
     }
-    if (r->wooded && status == CEDUO_OK)
-        status = read_others(scene, pool, r->options);
+    struct ceduo_scene other = {0}; /* with the other energy law */
+    if (r->wooded && status == CEDUO_OK && !ceduo_other_scene(scene, &other))
+        status = CEDUO_NO_MEMORY;
+    for (size_t i = 0; i < r->options_count && r->wooded && status == CEDUO_OK; i++) {
+        const struct ceduo_run *first = ceduo_pool_find(pool, &other.options[0]);
+        const struct ceduo_run *run = ceduo_pool_find(pool, &other.options[i]);
+        for (size_t c = 0; c < controls && status == CEDUO_OK; c++)
+            status = ceduo_other_read(&scene->options[i], run, first, c, &r->options[i].others[c]);
+    }
+    ceduo_other_scene_release(&other);
     return finish(r, status, result);
 }
 

@@ -79,22 +79,6 @@ static struct ground_roll then(const struct ground_roll *p, const struct ground_
     return both;
 }
 
-static void set_rolls(struct ground *g, int side, int level)
-{
-    const size_t many = (size_t)1 << ROLL_BITS;
-    const struct ground_roll *below = g->rolls[side][level - 1];
-    size_t blocks = g->n >> (ROLL_BITS * level);
-    for (size_t i = 0; i < blocks; i++) {
-        struct ground_roll sum = {.kept = 1, .below = INFINITY};
-        for (size_t k = 0; k < many; k++) {
-            size_t j = i * many + (side == 0 ? k : many - 1 - k);
-            struct ground_roll next = level == 1 ? over_one(g, side, j) : below[j];
-            sum = then(&sum, &next);
-        }
-        g->rolls[side][level][i] = sum;
-    }
-}
-
 bool ceduo_ground_prepare_rolls(struct ground *g, double radius, bool radius_varies)
 {
     double each = g->along[g->n] / (double)g->n;
@@ -113,7 +97,16 @@ bool ceduo_ground_prepare_rolls(struct ground *g, double radius, bool radius_var
             g->rolls[side][level] = malloc((g->n >> (ROLL_BITS * level)) * sizeof *g->rolls[side][level]);
             if (!g->rolls[side][level])
                 return false;
-            set_rolls(g, side, level);
+            for (size_t i = 0; i < g->n >> (ROLL_BITS * level); i++) {
+                const size_t many = (size_t)1 << ROLL_BITS;
+                struct ground_roll sum = {.kept = 1, .below = INFINITY};
+                for (size_t k = 0; k < many; k++) {
+                    size_t j = i * many + (side == 0 ? k : many - 1 - k);
+                    struct ground_roll next = level == 1 ? over_one(g, side, j) : g->rolls[side][level - 1][j];
+                    sum = then(&sum, &next);
+                }
+                g->rolls[side][level][i] = sum;
+            }
         }
         g->roll_top = level;
     }

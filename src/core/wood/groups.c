@@ -28,14 +28,6 @@ static double area_corner(double a, double b)
     return area_left(a) + area_left(b) - M_PI;
 }
 
-/* The share of a disc of radius r around (x, y) that lies in the rectangle 0 to `length` by -w/2 to w/2. */
-static double share_inside(const struct group_shape *g, double length, double x, double y)
-{
-    double r = g->radius, a0 = -x / r, a1 = (length - x) / r, b0 = (-g->width / 2 - y) / r, b1 = (g->width / 2 - y) / r;
-    double area = area_corner(a1, b1) - area_corner(a0, b1) - area_corner(a1, b0) + area_corner(a0, b0);
-    return fmin(1, fmax(0, area / M_PI));
-}
-
 /* ---- integrals ---- */
 
 struct stretch {
@@ -71,7 +63,10 @@ struct across {
 static double met_at(double y, void *context)
 {
     const struct across *a = context;
-    return 1 - pow(1 - share_inside(a->shape, a->length, a->x, y), a->shape->n);
+    double r = a->shape->radius, half = a->shape->width / 2;
+    double a0 = -a->x / r, a1 = (a->length - a->x) / r, b0 = (-half - y) / r, b1 = (half - y) / r;
+    double area = area_corner(a1, b1) - area_corner(a0, b1) - area_corner(a1, b0) + area_corner(a0, b0);
+    return 1 - pow(1 - fmin(1, fmax(0, area / M_PI)), a->shape->n);
 }
 
 /* Over all offsets, of centres at x. */
