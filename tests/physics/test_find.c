@@ -258,35 +258,27 @@ TEST(large_whole_numbers)
 
 /* ---- goals that turn ---- */
 
-TEST(a_pass_between_ends_that_fail)
+TEST(goals_that_turn_between_their_ends)
 {
-    struct asked a = {.goal = parabola, .p = {60, 1}};
-    for (int whole = 0; whole < 2; whole++) {
-        struct ceduo_found found = find(&a, 0, 100, whole, 402);
+    const struct {
+        double middle, sign, target, edge, whole_edge;
+    } rows[] = {{60, 1, 402, 60 - sqrt(402), 40},    /* a pass between ends that fail */
+                {40, -1, -402, 40 + sqrt(402), 61}}; /* a fail between ends that pass */
+    for (size_t i = 0; i < 2 * LENGTH(rows); i++) {
+        bool whole = i % 2;
+        struct asked a = {.goal = parabola, .p = {rows[i / 2].middle, rows[i / 2].sign}};
+        struct ceduo_found found = find(&a, 0, 100, whole, rows[i / 2].target);
         assert_true(found.found);
         assert_false(found.monotone);
         assert_false(found.whole_range);
         EXPECT(found.side, ==, CEDUO_SMALLEST);
-        EXPECT_NEAR(found.value, (whole ? 40 : 60 - sqrt(402)), 1e-7);
-        expect_edge(&a, &found, 402, whole ? 1 : 1e-7);
+        EXPECT_NEAR(found.value, (whole ? rows[i / 2].whole_edge : rows[i / 2].edge), 1e-7);
+        expect_edge(&a, &found, rows[i / 2].target, whole ? 1 : 1e-7);
     }
+    struct asked a = {.goal = parabola, .p = {60, 1}};
     struct ceduo_found found = find(&a, 0, 60, true, 2500); /* of one side only there is nothing to see of the turn */
     assert_true(found.monotone);
     EXPECT(found.value, ==, 10);
-}
-
-TEST(a_fail_between_ends_that_pass)
-{
-    struct asked a = {.goal = parabola, .p = {40, -1}};
-    for (int whole = 0; whole < 2; whole++) {
-        struct ceduo_found found = find(&a, 0, 100, whole, -402);
-        assert_true(found.found);
-        assert_false(found.monotone);
-        assert_false(found.whole_range);
-        EXPECT(found.side, ==, CEDUO_SMALLEST);
-        EXPECT_NEAR(found.value, (whole ? 61 : 40 + sqrt(402)), 1e-7);
-        expect_edge(&a, &found, -402, whole ? 1 : 1e-7);
-    }
 }
 
 static double noisy(const struct asked *a, double value)

@@ -34,19 +34,19 @@ static uint64_t key_of(enum about about)
 
 /* ---- fields ---- */
 
-/* SPREAD: a struct ceduo_number. WORD: an enum, or an int. ELSEWHERE: walked over by itself. */
-enum kind { NUMBER, SPREAD, WORD, FLAG, COUNT, TEXT, ELSEWHERE };
+/* SPREAD: a struct ceduo_number. WORD: an enum, or an int. Members that are walked over by themselves have no row. */
+enum kind { NUMBER, SPREAD, WORD, FLAG, COUNT, TEXT };
 
 struct field {
     const char *name;
-    size_t offset, size;
+    size_t offset;
     enum kind kind;
     unsigned decides; /* about what */
 };
 
 #define FIELD(of, member, kind, decides)                                                                                       \
     {                                                                                                                          \
-#of "." #member, offsetof(struct of, member), sizeof((struct of *)0)->member, kind, decides                            \
+#of "." #member, offsetof(struct of, member), kind, decides                                                            \
     }
 
 /* Makes it another of its kind; a count becomes smaller, for there is no more than is counted. */
@@ -119,7 +119,7 @@ static void walk(enum about about, void *structure, size_t size, const struct fi
         void *at = (char *)structure + f->offset;
         if (f->kind == SPREAD) {
             walk_spread(about, at, f->name);
-        } else if (f->kind != ELSEWHERE) {
+        } else {
             change(at, f->kind);
             expect_decides(about, before, f->name, "", f->decides & about);
         }
@@ -144,20 +144,11 @@ static void walk_numbers(enum about about, double *numbers, size_t n, const char
 
 static const struct field scene_fields[] = {
     FIELD(ceduo_scene, title, TEXT, 0),
-    FIELD(ceduo_scene, rock, ELSEWHERE, 0),
-    FIELD(ceduo_scene, blocks_count, ELSEWHERE, 0),
-    FIELD(ceduo_scene, blocks, ELSEWHERE, 0),
-    FIELD(ceduo_scene, release, ELSEWHERE, 0),
-    FIELD(ceduo_scene, slope, ELSEWHERE, 0),
+
     FIELD(ceduo_scene, controls_count, COUNT, FLIGHT),
-    FIELD(ceduo_scene, controls, ELSEWHERE, 0),
     FIELD(ceduo_scene, options_count, COUNT, 0),
-    FIELD(ceduo_scene, options, ELSEWHERE, 0),
-    FIELD(ceduo_scene, simulation, ELSEWHERE, 0),
-    FIELD(ceduo_scene, design, ELSEWHERE, 0),
     FIELD(ceduo_scene, rocks_per_year, NUMBER, 0),
     FIELD(ceduo_scene, reserves_minimum, NUMBER, 0),
-    FIELD(ceduo_scene, rules, ELSEWHERE, 0),
 };
 
 static const struct field rock_fields[] = {
@@ -171,8 +162,6 @@ static const struct field rock_fields[] = {
 static const struct field class_fields[] = {
     FIELD(ceduo_block_class, per_year, NUMBER, FLIGHT),
     FIELD(ceduo_block_class, exponent, NUMBER, FLIGHT),
-    FIELD(ceduo_block_class, volumes_count, ELSEWHERE, 0),
-    FIELD(ceduo_block_class, volumes, ELSEWHERE, 0),
 };
 
 static const struct field release_fields[] = {
@@ -182,10 +171,10 @@ static const struct field release_fields[] = {
 };
 
 static const struct field slope_fields[] = {
-    FIELD(ceduo_slope, facets, WORD, FLIGHT),   FIELD(ceduo_slope, vertices, COUNT, FLIGHT),
-    FIELD(ceduo_slope, x, ELSEWHERE, 0),        FIELD(ceduo_slope, z, ELSEWHERE, 0),
-    FIELD(ceduo_slope, segments, ELSEWHERE, 0), FIELD(ceduo_slope, segments_given, ELSEWHERE, 0),
-    FIELD(ceduo_slope, origin_x, NUMBER, 0),    FIELD(ceduo_slope, origin_z, NUMBER, 0),
+    FIELD(ceduo_slope, facets, WORD, FLIGHT),
+    FIELD(ceduo_slope, vertices, COUNT, FLIGHT),
+    FIELD(ceduo_slope, origin_x, NUMBER, 0),
+    FIELD(ceduo_slope, origin_z, NUMBER, 0),
 };
 
 static const struct field segment_fields[] = {
@@ -212,14 +201,12 @@ static const struct field simulation_fields[] = {
 static const struct field option_fields[] = {
     FIELD(ceduo_option, name, TEXT, 0),
     FIELD(ceduo_option, belts_count, COUNT, WOOD),
-    FIELD(ceduo_option, belts, ELSEWHERE, 0),
 };
 
 static const struct field belt_fields[] = {
-    FIELD(ceduo_belt, from, NUMBER, WOOD),      FIELD(ceduo_belt, to, NUMBER, WOOD),
-    FIELD(ceduo_belt, from_given, NUMBER, 0),   FIELD(ceduo_belt, to_given, NUMBER, 0),
-    FIELD(ceduo_belt, name, TEXT, 0),           FIELD(ceduo_belt, assumed, FLAG, 0),
-    FIELD(ceduo_belt, cut_year, NUMBER, YEARS), FIELD(ceduo_belt, stand, ELSEWHERE, 0),
+    FIELD(ceduo_belt, from, NUMBER, WOOD),      FIELD(ceduo_belt, to, NUMBER, WOOD), FIELD(ceduo_belt, from_given, NUMBER, 0),
+    FIELD(ceduo_belt, to_given, NUMBER, 0),     FIELD(ceduo_belt, name, TEXT, 0),    FIELD(ceduo_belt, assumed, FLAG, 0),
+    FIELD(ceduo_belt, cut_year, NUMBER, YEARS),
 };
 
 /* The species says the volume of each stem where diameters spread, by its equation, and of what comes up after a cut. */
@@ -230,16 +217,11 @@ static const struct field stand_fields[] = {
     FIELD(ceduo_stand, spacing, NUMBER, WOOD),
     FIELD(ceduo_stand, shoots_count, COUNT, WOOD),
     FIELD(ceduo_stand, trees_count, COUNT, WOOD),
-    FIELD(ceduo_stand, shoots, ELSEWHERE, 0),
-    FIELD(ceduo_stand, trees, ELSEWHERE, 0),
-    FIELD(ceduo_stand, stumps, ELSEWHERE, 0),
-    FIELD(ceduo_stand, logs, ELSEWHERE, 0),
+
     FIELD(ceduo_stand, energy, WORD, WOOD),
     FIELD(ceduo_stand, u, NUMBER, BRAUNER),
     FIELD(ceduo_stand, fracture_ratio, NUMBER, DORREN),
     FIELD(ceduo_stand, green_density, NUMBER, INERTIA),
-    FIELD(ceduo_stand, growth, ELSEWHERE, 0),
-    FIELD(ceduo_stand, cutting, ELSEWHERE, 0),
 };
 
 static const struct field stems_fields[] = {
@@ -269,9 +251,10 @@ static const struct field log_fields[] = {
 };
 
 static const struct field growth_fields[] = {
-    FIELD(ceduo_growth, shoots, ELSEWHERE, 0),        FIELD(ceduo_growth, trees, ELSEWHERE, 0),
-    FIELD(ceduo_growth, shoots_young, NUMBER, YEARS), FIELD(ceduo_growth, shoots_old, NUMBER, YEARS),
-    FIELD(ceduo_growth, sdi_most, NUMBER, YEARS),     FIELD(ceduo_growth, stump_years, WORD, YEARS),
+    FIELD(ceduo_growth, shoots_young, NUMBER, YEARS),
+    FIELD(ceduo_growth, shoots_old, NUMBER, YEARS),
+    FIELD(ceduo_growth, sdi_most, NUMBER, YEARS),
+    FIELD(ceduo_growth, stump_years, WORD, YEARS),
 };
 
 static const struct field curve_fields[] = {
@@ -285,7 +268,6 @@ static const struct field cutting_fields[] = {
     FIELD(ceduo_cutting, rotation, WORD, YEARS),
     FIELD(ceduo_cutting, cohorts, WORD, YEARS),
     FIELD(ceduo_cutting, stay_count, COUNT, YEARS),
-    FIELD(ceduo_cutting, stay_per_ha, ELSEWHERE, 0),
 };
 
 /* ---- what is walked over ---- */

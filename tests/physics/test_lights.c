@@ -229,25 +229,19 @@ TEST(one_rock_of_twenty_may_exceed)
     paper_site_init(&site);
     for (int law = 0; law < CEDUO_LAW_COUNT; law++)
         for (int more = 0; more < 2; more++) {
-            struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
-            struct ceduo_run *run;
             site.scene.simulation.law = (enum ceduo_law)law;
             site.control.x = 40; /* which all reach */
             site.control.accepted = 0;
-            assert_int_equal(ceduo_run_create(&def, &run), CEDUO_OK);
-            assert_int_equal(ceduo_run_extend(run, 20), CEDUO_OK);
-            assert_int_equal(ceduo_run_energies(run, 0, energies, 20), 20);
-            ceduo_run_free(run);
+            LOCAL(ceduo_run, all) = run_option(&site.scene, NULL, 20, 1, CEDUO_EXACT_BYTES);
+            assert_int_equal(ceduo_run_energies(all, 0, energies, 20), 20);
             qsort(energies, 20, sizeof *energies, by_value);
             EXPECT(energies[17], <, energies[18]);
             EXPECT(energies[18], <, energies[19]);
             site.control.accepted = more ? next_below(energies[18]) : energies[18];
-            assert_int_equal(ceduo_run_create(&def, &run), CEDUO_OK);
-            assert_int_equal(ceduo_run_extend(run, 20), CEDUO_OK);
+            LOCAL(ceduo_run, run) = run_option(&site.scene, NULL, 20, 1, CEDUO_EXACT_BYTES);
             struct ceduo_arrivals a = arrivals_of(run, 0);
             assert_int_equal(a.exceeded, more ? 2 : 1);
             assert_int_equal(ceduo_energy_light(&a), more ? CEDUO_FAIL : CEDUO_PASS);
-            ceduo_run_free(run);
         }
 }
 

@@ -174,35 +174,18 @@ static void court_of_the_paper(enum way_out out)
     plant_plot(1, RELEASE - 6, RELEASE + 10);
 }
 
-static void court_of_large_rings(enum way_out out)
+TEST(stems_stand_as_dense_about_a_release_in_the_forest)
 {
-    clear_court(out);
-    plant_shoots(plant_belt(RELEASE - 9, RELEASE + 13, 100, .1), 20000, .06);
-}
-
-#define PAPER_PER_M (9076 * (B + .061) / 1e4)
-#define RINGS_PER_M (20000 * (B + .06) / 1e4)
-
-TEST(stems_stand_as_dense_right_from_a_release_in_the_forest_on)
-{
-    court_of_the_paper(AHEAD);
-    expect_even_court("ADS 1 from the release on", AHEAD, PAPER_PER_M, 190000);
-    court_of_large_rings(AHEAD);
-    expect_even_court("rings of 200 from the release on", AHEAD, RINGS_PER_M, 86000);
-}
-
-TEST(stems_stand_as_dense_on_both_sides_of_a_release_in_the_forest)
-{
-    court_of_the_paper(AHEAD_AND_BACK);
-    expect_even_court("ADS 1, ahead and then back", AHEAD_AND_BACK, PAPER_PER_M, 190000);
-    court_of_large_rings(AHEAD_AND_BACK);
-    expect_even_court("rings of 200, ahead and then back", AHEAD_AND_BACK, RINGS_PER_M, 86000);
-    court_of_the_paper(BACK_AND_AHEAD);
-    plane.line.scene.simulation.seed = 2;
-    expect_even_court("ADS 1, back and then ahead", BACK_AND_AHEAD, PAPER_PER_M, 190000);
-    court_of_large_rings(BACK_AND_AHEAD);
-    plane.line.scene.simulation.seed = 2;
-    expect_even_court("rings of 200, back and then ahead", BACK_AND_AHEAD, RINGS_PER_M, 86000);
+    static const char *const names[] = {"from the release on", "ahead and then back", "back and then ahead"};
+    for (enum way_out out = AHEAD; out <= BACK_AND_AHEAD; out++) {
+        court_of_the_paper(out);
+        plane.line.scene.simulation.seed += out == BACK_AND_AHEAD;
+        expect_even_court(names[out], out, 9076 * (B + .061) / 1e4, 190000);
+        clear_court(out); /* rings of 200 */
+        plant_shoots(plant_belt(RELEASE - 9, RELEASE + 13, 100, .1), 20000, .06);
+        plane.line.scene.simulation.seed += out == BACK_AND_AHEAD;
+        expect_even_court(names[out], out, 20000 * (B + .06) / 1e4, 86000);
+    }
 }
 
 /* A stool astride of the release is one stool, whichever way the rock goes first. */
@@ -237,9 +220,8 @@ TEST(a_stool_astride_of_the_release_is_one_however_far_the_rock_went_between)
     uint64_t wrong = 0, rocks = 2000;
     clear_court(AHEAD_AND_BACK);
     plant_plot(1, RELEASE - 6, RELEASE + 145);
-    for (SWEEP(rock, rocks)) {
+    for (SWEEP(rock, rocks))
         wrong += sweep.way.stools_met != different(false);
-    }
     if (wrong > 0)
         fail_msg("%ju of %ju rocks count a stool twice", (uintmax_t)wrong, (uintmax_t)rocks);
 }
