@@ -12,7 +12,6 @@
 #include "base/language.h"
 #include "base/must.h"
 #include "batch.h"
-#include "interrupt.h"
 #include "io/csv.h"
 #include "io/file.h"
 #include "output.h"

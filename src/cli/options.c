@@ -472,7 +472,7 @@ static enum exit_status check_arguments(const struct arguments *a)
         {wants_scene && a->scenes_count == 0,
          _("no scene given; name a file, a shipped scene such as 'paper-site', or '-' for standard input")},
         {plot && a->format != CEDUO_TABLE, _("--plot prints a picture; it cannot be used with --format csv or json")},
-        {a->plot_width > 0 && !plot, _("--size requires --plot")},
+        {ceduo_arguments_given(a, "size") && !plot, _("--size requires --plot")},
         {ceduo_arguments_given(a, "rows") && a->mode != MODE_COLUMNS && !csv, _("--rows requires --format csv")},
         {a->columns && !csv, _("--columns requires --format csv")},
         {a->resume && (!a->each || !a->output || !csv || plot), _("--resume requires --each, --output and --format csv")},
@@ -521,6 +521,8 @@ enum exit_status ceduo_arguments_read(struct arguments *a, int argc, char **argv
     size_t most = (size_t)argc + 1;
     *a = (struct arguments){.threads = cores > 0 && cores <= THREADS_MOST ? (uint64_t)cores : 1,
                             .charset = ceduo_say_utf8() ? CEDUO_CHARSET_BRAILLE : CEDUO_CHARSET_ASCII,
+                            .plot_width = 80,
+                            .plot_height = 24,
                             .points = CEDUO_DOUBT_POINTS,
                             .goal_value = NAN,
                             .sets.items = ceduo_must(calloc(most, sizeof *a->sets.items)),

@@ -7,7 +7,6 @@
 #include <unistd.h>
 
 #include "base/language.h"
-#include "interrupt.h"
 #include "io/file.h"
 #include "say.h"
 

@@ -6,7 +6,6 @@
 
 #include "base/language.h"
 #include "batch.h"
-#include "interrupt.h"
 #include "model/search.h"
 #include "say.h"
 #include "view/figures.h"
@@ -135,16 +134,11 @@ enum exit_status ceduo_print_find(const struct arguments *a, struct scene_file *
 
 /* ---- pictures ---- */
 
-#define PLOT_WIDTH  80
-#define PLOT_HEIGHT 24
-
 /* `start`: where this scene's pictures begin; a blank line stands between two. */
 static void add_plot(const struct arguments *a, const struct ceduo_picture *picture, size_t start, struct text *out)
 {
-    int width = a->plot_width > 0 ? a->plot_width : PLOT_WIDTH;
-    int height = a->plot_width > 0 ? a->plot_height : PLOT_HEIGHT;
-    struct ceduo_cells *cells = ceduo_cells_create(width, height, a->charset);
-    struct ceduo_area area = {.top = 1, .width = width, .height = height - 1};
+    struct ceduo_cells *cells = ceduo_cells_create(a->plot_width, a->plot_height, a->charset);
+    struct ceduo_area area = {.top = 1, .width = a->plot_width, .height = a->plot_height - 1};
     LOCAL_TEXT(title);
     ceduo_plot_title(&title, a->plot, picture);
     ceduo_plot_draw(a->plot, &cells->canvas, &area, picture);

@@ -2,6 +2,7 @@
 #ifndef CEDUO_SAY_H
 #define CEDUO_SAY_H
 
+#include <stdatomic.h>
 #include <stdbool.h>
 
 #include "arguments.h"
@@ -31,5 +32,14 @@ void ceduo_language_start(void);
 
 /* Another language: "it" or "en". Where its translation is not found, text stays English. */
 void ceduo_language_set(const char *language);
+
+/* From here on SIGINT, SIGTERM and SIGHUP raise a flag instead of ending the program; a second one ends it. */
+void ceduo_interrupt_catch(void);
+
+/* The flag, for a run to look at. */
+const atomic_bool *ceduo_interrupt_flag(void);
+
+/* Lets signals act again, and ends the program by the one that was caught, if one was. */
+void ceduo_interrupt_release(void);
 
 #endif

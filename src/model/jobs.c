@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include "base/clock.h"
+#include "base/hash.h"
 #include "base/must.h"
 #include "ceduo/key.h"
 
@@ -361,8 +362,9 @@ uint64_t ceduo_jobs_key(const struct ceduo_scene *scene)
 {
     uint64_t key = ceduo_scene_key(scene);
     for (size_t i = 0; i < scene->options_count; i++)
-        key = key * 1099511628211u ^ ceduo_option_key(scene, &scene->options[i]);
-    return key * 1099511628211u ^ scene->options_count ^ (uint64_t)scene->simulation.contact_model << 32;
+        hash_count(&key, ceduo_option_key(scene, &scene->options[i]));
+    hash_count(&key, (uint64_t)scene->simulation.contact_model);
+    return key;
 }
 
 /* A job on a snapshot of the scene, whose memory is the job's own. */
@@ -421,11 +423,12 @@ bool ceduo_jobs_show(struct jobs *q, const struct scene_file *file, size_t shown
     if (!index) {
         if (!ceduo_other_scene(&file->scene, &other))
             ceduo_no_memory();
-        others.key = figures.key * 1099511628211u ^ ceduo_jobs_key(&other);
+        others.key = figures.key;
+        hash_count(&others.key, ceduo_jobs_key(&other));
         ceduo_other_scene_release(&other);
     }
     for (size_t i = 0; years && i < file->scene.options_count; i++)
-        coming.key = coming.key * 1099511628211u ^ ceduo_runs_years_key(&file->scene, i);
+        hash_count(&coming.key, ceduo_runs_years_key(&file->scene, i));
     bool asked = ask(q, &figures); /* otherwise the rocks meet the same */
     if (asked)
         ceduo_jobs_stop(q, JOB_YEARS);

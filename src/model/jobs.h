@@ -2,11 +2,13 @@
 #ifndef CEDUO_JOBS_H
 #define CEDUO_JOBS_H
 
-#include "comparison.h"
+#include "ceduo/calibrate.h"
+#include "ceduo/doubt.h"
 #include "fit.h"
+#include "io/doubt_inputs.h"
 #include "runs.h"
 #include "search.h"
-#include "uncertainty.h"
+#include "study/seen.h"
 
 /* The queue of jobs of the live program: one thread in the background computes on a snapshot of the scene. A job goes in
  * levels from coarse to fine, and the coarsest step of all jobs is next. There is one job of a kind: a new one replaces
@@ -61,6 +63,43 @@ struct years_known {
     struct ceduo_years *items[];
 };
 
+/* The scene of the live program, as it is, compared with what was observed there; in levels from coarse to fine. */
+#define COMPARISON_LEVELS 2
+
+struct comparison {
+    struct scene_file file;            /* as it was; its nodes are the document's */
+    uint64_t rocks;                    /* of each setting */
+    struct ceduo_predicted *predicted; /* one for each observation */
+    struct ceduo_seen_stops *stops;    /* likewise: empty for all that is no list of stops */
+};
+
+/* Computes one level. `file` must have an arena of its own, which is the answer's from then on. To be freed in any case. */
+enum ceduo_status ceduo_comparison_make(const struct scene_file *file, size_t level, const atomic_bool *cancel,
+                                        struct comparison *comparison);
+void ceduo_comparison_free(void *comparison);
+
+/* What doubt does to the scene of the live program, in levels: first of one option alone, as finely as it will be, so that nothing
+ * is said that moves; then of all options; then over the rotation of each as well, which takes some seconds. */
+#define UNCERTAINTY_LEVELS   2
+#define UNCERTAINTY_ROTATION 3
+
+struct uncertainty {
+    struct scene_file file; /* as it was; its nodes are the document's */
+    struct scene_inputs inputs;
+    struct ceduo_doubt_answer answer; /* without inputs: empty */
+    size_t level;                     /* that it has come to: of one option alone the first is the second */
+    bool last;                        /* there is nothing more */
+};
+
+/* Computes one level, the first of this option. `file` must have an arena of its own, which is the answer's from then on. To be
+ * freed in any case. */
+enum ceduo_status ceduo_uncertainty_make(const struct scene_file *file, size_t option, size_t level, unsigned threads,
+                                         const atomic_bool *cancel, struct uncertainty *uncertainty);
+
+/* Why there is nothing over a rotation, marked for translation; NULL: there is. */
+const char *ceduo_uncertainty_no_rotation(const struct ceduo_scene *scene);
+void ceduo_uncertainty_free(void *uncertainty);
+
 /* NULL where no thread can be started. */
 struct jobs;
 struct jobs *ceduo_jobs_create(unsigned threads);
@@ -83,8 +122,8 @@ void ceduo_jobs_search(struct jobs *jobs, const struct scene_file *file, const s
 #define JOB_TEXT 1024
 void ceduo_jobs_preview(struct jobs *jobs, const struct scene_file *file, const char *set, size_t option);
 
-/* Asks what doubt does to a scene, first to option `shown` (JOB_UNCERTAINTY, uncertainty.h), or for its comparison with what was
- * observed there (JOB_COMPARISON, comparison.h), up to so many levels; 0: nothing. A scene whose nodes are the same is asked for
+/* Asks what doubt does to a scene, first to option `shown` (JOB_UNCERTAINTY), or for its comparison with what was
+ * observed there (JOB_COMPARISON), up to so many levels; 0: nothing. A scene whose nodes are the same is asked for
  * once; what is no longer asked for is stopped. Figures and years of as many rocks go before it. */
 bool ceduo_jobs_ask(struct jobs *jobs, enum job_kind kind, const struct scene_file *file, size_t shown, size_t levels);
 

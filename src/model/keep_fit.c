@@ -1,11 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "keep_fit.h"
+#include "changes.h"
 
 #include <math.h>
 #include <string.h>
 
 #include "base/language.h"
-#include "changes.h"
 #include "io/doubt_inputs.h"
 #include "io/emit.h"
 #include "scene/value.h"

@@ -3,14 +3,15 @@
 
 #include <dirent.h>
 #include <errno.h>
+#include <inttypes.h>
 #include <signal.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "base/hash.h"
 #include "base/must.h"
 #include "io/file.h"
 
@@ -41,17 +42,6 @@ static bool state_folder(struct text *folder)
     return folder->bytes && make_folders(folder->bytes);
 }
 
-/* A number for a scene's place: FNV-1a of its whole path. */
-static uint64_t number_of(const char *path)
-{
-    char *real = path ? realpath(path, NULL) : NULL;
-    uint64_t h = 14695981039346656037u;
-    for (const char *p = real ? real : path ? path : ""; *p; p++)
-        h = (h ^ (unsigned char)*p) * 1099511628211u;
-    free(real);
-    return h;
-}
-
 char *ceduo_recovery_path(const char *path)
 {
     struct text name = {0};
@@ -59,7 +49,10 @@ char *ceduo_recovery_path(const char *path)
         ceduo_text_free(&name);
         return NULL;
     }
-    ceduo_text_format(&name, "/%016llx-%ld.yaml", (unsigned long long)number_of(path), (long)getpid());
+    char *real = path ? realpath(path, NULL) : NULL;
+    const char *place = real ? real : path ? path : "";
+    ceduo_text_format(&name, "/%016" PRIx64 "-%ld.yaml", hash_bytes(place, strlen(place)), (long)getpid());
+    free(real);
     return name.bytes;
 }
 
@@ -130,29 +123,24 @@ static const char *rest_of_line(struct arena *arena, const char *text, const cha
     return ceduo_arena_copy(arena, at, n);
 }
 
-static bool read_head(struct arena *arena, const char *file, struct recovery *r)
-{
-    struct stat st;
-    char *text = stat(file, &st) == 0 ? ceduo_recovery_text(file) : NULL;
-    if (!text)
-        return false;
-    const char *scene = rest_of_line(arena, text, UNSAVED), *title = rest_of_line(arena, text, "\ntitle:");
-    *r = (struct recovery){.file = ceduo_arena_string(arena, file),
-                           .scene = scene && scene[0] == '/' ? scene : NULL,
-                           .title = title ? title : "",
-                           .when = st.st_mtime};
-    free(text);
-    return true;
-}
-
 struct recovery *ceduo_recovery_list(struct arena *arena, size_t *n)
 {
     struct text folder = {0}, name = {0};
     struct recovery *list = ceduo_arena_take(arena, LISTED_MAX * sizeof *list);
     DIR *dir = state_folder(&folder) ? opendir(folder.bytes) : NULL;
     *n = 0;
-    while (dir && *n < LISTED_MAX && next_left(dir, &folder, &name))
-        *n += read_head(arena, name.bytes, &list[*n]);
+    while (dir && *n < LISTED_MAX && next_left(dir, &folder, &name)) {
+        struct stat st;
+        char *text = stat(name.bytes, &st) == 0 ? ceduo_recovery_text(name.bytes) : NULL;
+        if (!text)
+            continue;
+        const char *scene = rest_of_line(arena, text, UNSAVED), *title = rest_of_line(arena, text, "\ntitle:");
+        list[(*n)++] = (struct recovery){.file = ceduo_arena_string(arena, name.bytes),
+                                         .scene = scene && scene[0] == '/' ? scene : NULL,
+                                         .title = title ? title : "",
+                                         .when = st.st_mtime};
+        free(text);
+    }
     if (dir)
         closedir(dir);
     qsort(list, *n, sizeof *list, newest_first);

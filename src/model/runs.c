@@ -3,6 +3,7 @@
 
 #include <stdlib.h>
 
+#include "base/hash.h"
 #include "base/must.h"
 #include "ceduo/key.h"
 
@@ -37,6 +38,19 @@ void ceduo_runs_free(struct runs *r)
     free(r);
 }
 
+static enum ceduo_status turn_pool(struct runs *r, const struct ceduo_scene *scene, bool arrivals_only, bool cells,
+                                   struct ceduo_pool **pool)
+{
+    struct ceduo_run_def def = ceduo_run_def_default(scene);
+    def.threads = r->threads;
+    def.rocks_most = RUNS_MAX;
+    def.cancel = r->cancel;
+    def.arrivals_only = arrivals_only;
+    def.cells = cells ? r->cells_count : 0;
+    def.cell_x = r->cells;
+    return ceduo_pool_for(&def, pool);
+}
+
 /* Turns all to a scene. What was made of the runs of another one is of no use. */
 static enum ceduo_status turn(struct runs *r, const struct ceduo_scene *scene)
 {
@@ -46,18 +60,11 @@ static enum ceduo_status turn(struct runs *r, const struct ceduo_scene *scene)
         r->last = NULL;
     }
     r->scene_key = key;
-    struct ceduo_run_def def = ceduo_run_def_default(scene);
-    def.threads = r->threads;
-    def.rocks_most = RUNS_MAX;
-    def.cancel = r->cancel;
-    enum ceduo_status status = ceduo_pool_for(&def, &r->figures);
-    def.arrivals_only = true;
+    r->cells_count = ceduo_snapshot_places(scene, r->cells);
+    enum ceduo_status status = turn_pool(r, scene, false, false, &r->figures);
     if (status == CEDUO_OK)
-        status = ceduo_pool_for(&def, &r->years);
-    def.arrivals_only = false;
-    def.cells = r->cells_count = ceduo_snapshot_places(scene, r->cells);
-    def.cell_x = r->cells;
-    return status == CEDUO_OK ? ceduo_pool_for(&def, &r->pictures) : status;
+        status = turn_pool(r, scene, true, false, &r->years);
+    return status == CEDUO_OK ? turn_pool(r, scene, false, true, &r->pictures) : status;
 }
 
 /* ---- figures ---- */
@@ -131,33 +138,17 @@ enum ceduo_status ceduo_runs_figures(struct runs *r, struct runs_step *step)
 
 /* ---- the other energy law ---- */
 
-/* Turns its pool, and its pool alone. */
-static enum ceduo_status turn_others(struct runs *r, const struct ceduo_scene *scene)
-{
-    struct ceduo_scene other;
-    enum ceduo_status status = ceduo_other_scene(scene, &other) ? CEDUO_OK : CEDUO_NO_MEMORY;
-    struct ceduo_run_def def = ceduo_run_def_default(&other);
-    def.threads = r->threads;
-    def.rocks_most = RUNS_MAX;
-    def.cancel = r->cancel;
-    def.arrivals_only = true;
-    if (status == CEDUO_OK)
-        status = ceduo_pool_for(&def, &r->others);
-    if (status != CEDUO_OK) {
-        ceduo_other_scene_release(&other);
-        return status;
-    }
-    ceduo_other_scene_release(&r->other);
-    r->other = other;
-    return CEDUO_OK;
-}
-
 enum ceduo_status ceduo_runs_others(struct runs *r, const struct ceduo_scene *scene, uint64_t rocks,
                                     struct ceduo_other_energy *others)
 {
-    enum ceduo_status status = turn_others(r, scene);
+    struct ceduo_scene other, before = r->other;
     size_t n = scene->options_count, controls = scene->controls_count;
     struct ceduo_run *first = NULL;
+    if (!ceduo_other_scene(scene, &other))
+        ceduo_no_memory();
+    enum ceduo_status status = turn_pool(r, &other, true, false, &r->others);
+    r->other = status == CEDUO_OK ? other : before; /* that the pool is turned to */
+    ceduo_other_scene_release(status == CEDUO_OK ? &before : &other);
     for (size_t i = 0; i < n && status == CEDUO_OK; i++) {
         struct ceduo_run *run;
         status = ceduo_pool_simulate(r->others, &r->other.options[i], rocks, &run);
@@ -177,7 +168,7 @@ uint64_t ceduo_runs_years_key(const struct ceduo_scene *scene, size_t option)
     const uint64_t more[] = {ceduo_years_key(&scene->options[option]), w.kind, w.first, w.last,
                              (uint64_t)scene->simulation.contact_model};
     for (size_t i = 0; i < sizeof more / sizeof more[0]; i++)
-        key = key * 1099511628211u ^ more[i];
+        hash_count(&key, more[i]);
     return key;
 }
 

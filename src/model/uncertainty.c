@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "uncertainty.h"
+#include "jobs.h"
 
 #include <stdlib.h>
 

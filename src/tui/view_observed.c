@@ -5,7 +5,7 @@
 #include "app.h"
 #include "base/language.h"
 #include "edit.h"
-#include "model/keep_fit.h"
+#include "model/changes.h"
 #include "popup.h"
 #include "popups.h"
 #include "view/page_parts.h"
