@@ -103,10 +103,16 @@ static bool read_heads(struct each *e)
     return true;
 }
 
-static void read_rows(struct each *e)
+static enum exit_status read_table(struct each *e)
 {
-    e->rows = ceduo_arena_take(&e->arena, (ceduo_csv_lines(&e->table) + 1) * sizeof *e->rows);
-    while (ceduo_csv_next(&e->table)) {
+    struct problems problems = {0};
+    bool good = ceduo_csv_open(&e->table, &e->arena, e->given->each, &problems);
+    if (good) {
+        e->table.source->foreign = false; /* its name was given for this */
+        good = read_heads(e);
+    }
+    e->rows = good ? ceduo_arena_take(&e->arena, (ceduo_csv_lines(&e->table) + 1) * sizeof *e->rows) : NULL;
+    while (good && ceduo_csv_next(&e->table)) {
         struct csv_span left = e->table.line;
         const char **cells = ceduo_arena_take(&e->arena, e->heads_count * sizeof *cells);
         for (size_t n = 0; n < e->heads_count; n++) {
@@ -118,21 +124,7 @@ static void read_rows(struct each *e)
             ceduo_csv_complain(&e->table, left, _("more columns than the first line has"));
         e->rows[e->rows_count++] = (struct each_row){.line = e->table.number, .cells = left.p ? NULL : cells};
     }
-}
-
-static enum exit_status read_table(struct each *e)
-{
-    struct problems problems = {0};
-    bool good = ceduo_csv_open(&e->table, &e->arena, e->given->each, &problems);
-    if (good) {
-        e->table.source->foreign = false; /* its name was given for this */
-        good = read_heads(e);
-    }
-    if (good)
-        read_rows(e);
-    ceduo_problems_close(&problems);
-    ceduo_say(&problems.text);
-    ceduo_problems_free(&problems);
+    ceduo_say_problems(&problems);
     e->table.problems = NULL;
     return good ? EXIT_DONE : EXIT_INPUT;
 }
@@ -268,8 +260,7 @@ static enum exit_status resume(struct each *e, const struct text *header)
         return EXIT_DONE;
     struct problems problems = {0};
     const struct source *old = ceduo_file_read(&e->arena, e->given->output, CSV_BYTES_MOST, &problems);
-    ceduo_say(&problems.text);
-    ceduo_problems_free(&problems);
+    ceduo_say_problems(&problems);
     LOCAL_TEXT(first);
     add_header(e, header, &first);
     if (!old)
@@ -373,25 +364,6 @@ static bool next_scene(struct each *e)
     return true;
 }
 
-/* "row": what is copied, as numbers where they are, in front of what an object of JSON holds. */
-static void add_object(const struct each *e, const char *const *cells, const struct text *answer, struct text *out)
-{
-    struct json json = {.text = out};
-    double number;
-    ceduo_json_open(&json, NULL, '{');
-    ceduo_json_open(&json, "row", '{');
-    for (size_t i = 0; i < e->heads_count; i++)
-        if (is_copied(&e->heads[i])) {
-            if (ceduo_number_read(cells[i], &number) == CEDUO_NUMBER_GOOD)
-                ceduo_json_number(&json, e->heads[i].name, number);
-            else
-                ceduo_json_string(&json, e->heads[i].name, cells[i][0] ? cells[i] : NULL);
-        }
-    ceduo_json_close(&json, '}');
-    ceduo_text_put(out, ", ");
-    ceduo_text_put(out, ceduo_text_string(answer) + 1);
-}
-
 /* Adds what is printed of the present scene. */
 static void add_answer(const struct each *e, const struct text *answer, struct text *out)
 {
@@ -404,7 +376,20 @@ static void add_answer(const struct each *e, const struct text *answer, struct t
             append_line(e, ceduo_text_string(&whole), whole.length, out);
         }
     } else if (e->given->format == CEDUO_JSON && row) {
-        add_object(e, row->cells, answer, out);
+        struct json json = {.text = out}; /* "row": what is copied, as numbers where they are, in front of the answer's own */
+        double number;
+        ceduo_json_open(&json, NULL, '{');
+        ceduo_json_open(&json, "row", '{');
+        for (size_t i = 0; i < e->heads_count; i++) {
+            const char *name = e->heads[i].name, *cell = row->cells[i];
+            if (is_copied(&e->heads[i]) && ceduo_number_read(cell, &number) == CEDUO_NUMBER_GOOD)
+                ceduo_json_number(&json, name, number);
+            else if (is_copied(&e->heads[i]))
+                ceduo_json_string(&json, name, cell[0] ? cell : NULL);
+        }
+        ceduo_json_close(&json, '}');
+        ceduo_text_put(out, ", ");
+        ceduo_text_put(out, ceduo_text_string(answer) + 1);
     } else {
         if (row)
             ceduo_text_safe(out, e->name);

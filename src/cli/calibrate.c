@@ -142,10 +142,8 @@ static bool fill_scene(const struct job *j, const struct ceduo_calibration_repor
             memmove(at, at + strlen(mark), strlen(at + strlen(mark)) + 1);
         }
     }
-    ceduo_problems_close(&problems);
-    ceduo_say(&problems.text);
+    ceduo_say_problems(&problems);
     ceduo_document_close(&document);
-    ceduo_problems_free(&problems);
     return good;
 }
 

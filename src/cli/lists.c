@@ -58,7 +58,7 @@ static const char *const type_names[] = {
 static void put_parameter(void *context, const char *path, const struct field *f)
 {
     struct text *text = context;
-    struct text words = {0};
+    LOCAL_TEXT(words);
     if (f->type == FIELD_TAG || strncmp(path, "options[].forest[].", 19) == 0)
         return; /* as forest[] */
     if (f->choices)
@@ -67,7 +67,6 @@ static void put_parameter(void *context, const char *path, const struct field *f
         ceduo_text_char(&words, '-');
     ceduo_text_format(text, "%s\t%s\t%s\t%s\t%s\t%s\n", path, type_names[f->type], f->unit[0] ? f->unit : "-",
                       ceduo_text_string(&words), f->value ? f->value : "-", _(f->meaning));
-    ceduo_text_free(&words);
 }
 
 enum exit_status ceduo_batch_parameters(const struct arguments *a)
@@ -160,9 +159,7 @@ enum exit_status ceduo_batch_survey(const struct arguments *a)
         ceduo_survey_template(&yaml);
     bool good = sheet || (ceduo_survey_read(&file, &arena, found ? found : a->survey, &problems) &&
                           ceduo_survey_stand(&file, &yaml, &problems));
-    ceduo_problems_close(&problems);
-    ceduo_say(&problems.text);
-    ceduo_problems_free(&problems);
+    ceduo_say_problems(&problems);
     ceduo_arena_free(&arena);
     return good ? ceduo_output_write(a, &yaml) : EXIT_INPUT;
 }

@@ -37,15 +37,6 @@ static void on_gsl_error(const char *reason, const char *file, int line, int err
         end_without_memory();
 }
 
-/* A file opened later must not become standard output by chance. Reading from or writing to a closed one then fails as
- * it should: /dev/null is opened the wrong way round. */
-static void keep_standard_streams(void)
-{
-    for (int fd = 0; fd <= 2; fd++)
-        if (fcntl(fd, F_GETFD) < 0)
-            open("/dev/null", fd == 0 ? O_WRONLY : O_RDONLY);
-}
-
 static enum exit_status print(const struct arguments *a)
 {
     LOCAL_TEXT(text);
@@ -76,9 +67,7 @@ static enum exit_status interact(const struct arguments *a)
     struct problems problems = {0};
     bool good = ceduo_program_create(&app, a->scenes_count > 0 ? a->scenes[0] : NULL, a->charset, (unsigned)a->threads,
                                      a->script != NULL, &problems);
-    ceduo_problems_close(&problems);
-    ceduo_say(&problems.text);
-    ceduo_problems_free(&problems);
+    ceduo_say_problems(&problems);
     if (!good)
         return EXIT_INPUT;
     enum exit_status status;
@@ -97,7 +86,11 @@ static enum exit_status interact(const struct arguments *a)
 int main(int argc, char **argv)
 {
     ceduo_memory_hook = end_without_memory;
-    keep_standard_streams();
+    /* A file opened later must not become standard output by chance. Reading from or writing to a closed one then fails as
+     * it should: /dev/null is opened the wrong way round. */
+    for (int fd = 0; fd <= 2; fd++)
+        if (fcntl(fd, F_GETFD) < 0)
+            open("/dev/null", fd == 0 ? O_WRONLY : O_RDONLY);
     ceduo_language_start();
     signal(SIGXFSZ, SIG_IGN); /* a file that is too large for its limit is an error like a full disk */
     gsl_set_error_handler(on_gsl_error);

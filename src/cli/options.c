@@ -115,7 +115,7 @@ static enum exit_status no_number(const struct option_row *row, const char *valu
     size_t length = strlen(value);
     snprintf(part, sizeof part, "%.*s", (int)(length < sizeof part ? length - (length > 0) : 0), value);
     if (length > 0 && value[length - 1] == '%' && ceduo_number_read(part, &number) == CEDUO_NUMBER_GOOD)
-        return ceduo_usage(row->name, _("'%s' is not a number; write %s"), value, SHORTEST(number / 100));
+        return ceduo_usage(row->name, _("'%s' is not a number; write %s"), value, ceduo_number_shortest(number / 100, part));
     return ceduo_usage(row->name, _("'%s' is not a number"), value);
 }
 

@@ -112,8 +112,8 @@ enum exit_status ceduo_print_find(const struct arguments *a, struct scene_file *
         return EXIT_USAGE;
     ceduo_batch_warn(a, file);
     enum ceduo_status status = ceduo_search(file, &search, (unsigned)a->threads, ceduo_interrupt_flag(), &answer);
-    ceduo_problems_close(&answer.problems);
-    ceduo_say(&answer.problems.text);
+    bool usage = answer.problems.count > 0;
+    ceduo_say_problems(&answer.problems);
     search.target = answer.target;
     search.rotation = answer.rotation;
     const struct ceduo_find_report report = {file, &search, &answer.found, &answer.yield, answer.yield_depends, &answer.sure};
@@ -127,8 +127,6 @@ enum exit_status ceduo_print_find(const struct arguments *a, struct scene_file *
         ceduo_text_put(out, a->scenes_count > 1 ? ":\n" : "");
         ceduo_find_page(out, &report);
     }
-    bool usage = answer.problems.count > 0;
-    ceduo_problems_free(&answer.problems);
     return status == CEDUO_OK ? EXIT_DONE : usage ? EXIT_USAGE : EXIT_RUN;
 }
 

@@ -79,6 +79,13 @@ void ceduo_say(struct text *text)
     fputs(ceduo_text_string(text), stderr);
 }
 
+void ceduo_say_problems(struct problems *problems)
+{
+    ceduo_problems_close(problems);
+    ceduo_say(&problems->text);
+    ceduo_problems_free(problems);
+}
+
 void ceduo_say_why(const char *what, const char *why)
 {
     LOCAL_TEXT(line);

@@ -6,9 +6,13 @@
 #include <stdbool.h>
 
 #include "arguments.h"
+#include "io/problem.h"
 
 /* Prints to standard error, as ASCII where the terminal knows no more. */
 void ceduo_say(struct text *text);
+
+/* Prints what is wrong, and frees it. */
+void ceduo_say_problems(struct problems *problems);
 
 /* Shows how far it is, on standard error: on one line, over what was shown before. What else is printed takes it away, as does the
  * end of the program. */

@@ -8,23 +8,6 @@
 
 static const uint64_t levels[COMPARISON_LEVELS] = {200, 2000};
 
-static enum ceduo_status compare_stops(struct comparison *c, const struct ceduo_observer *observer, size_t which)
-{
-    double *values;
-    size_t rocks, n = 0;
-    enum ceduo_status status = ceduo_observer_values(observer, &c->file.scene, which, c->rocks, &values, &rocks);
-    if (status != CEDUO_OK)
-        return status;
-    for (size_t i = 0; i < rocks; i++)
-        if (!isnan(values[i]))
-            values[n++] = values[i];
-    gsl_sort(values, 1, n);
-    if (n > 0)
-        ceduo_seen_stops_of(&c->file.observations[which], values, n, rocks, &c->stops[which]);
-    free(values);
-    return CEDUO_OK;
-}
-
 enum ceduo_status ceduo_comparison_make(const struct scene_file *file, size_t level, const atomic_bool *cancel,
                                         struct comparison *c)
 {
@@ -38,9 +21,23 @@ enum ceduo_status ceduo_comparison_make(const struct scene_file *file, size_t le
     struct ceduo_observer *observer = NULL;
     if (status == CEDUO_OK)
         status = ceduo_observer_create(o, c->file.observations_count, &observer);
-    for (size_t i = 0; i < c->file.observations_count && status == CEDUO_OK; i++)
-        if (o[i].kind == CEDUO_OBSERVED_STOPS && o[i].values)
-            status = atomic_load(cancel) ? CEDUO_CANCELLED : compare_stops(c, observer, i);
+    for (size_t i = 0; i < c->file.observations_count && status == CEDUO_OK; i++) {
+        double *values = NULL;
+        size_t rocks, n = 0;
+        if (o[i].kind != CEDUO_OBSERVED_STOPS || !o[i].values)
+            continue;
+        status = atomic_load(cancel) ? CEDUO_CANCELLED
+                                     : ceduo_observer_values(observer, &c->file.scene, i, c->rocks, &values, &rocks);
+        if (status != CEDUO_OK)
+            break;
+        for (size_t k = 0; k < rocks; k++)
+            if (!isnan(values[k]))
+                values[n++] = values[k];
+        gsl_sort(values, 1, n);
+        if (n > 0)
+            ceduo_seen_stops_of(&o[i], values, n, rocks, &c->stops[i]);
+        free(values);
+    }
     ceduo_observer_free(observer);
     return status;
 }

@@ -345,7 +345,7 @@ bool ceduo_document_add_option(struct document *d, const char *stand, struct pro
 {
     struct edit e = begin(d, problems);
     const struct ceduo_option *first = &d->file.scene.options[0];
-    struct text yaml = {0};
+    LOCAL_TEXT(yaml);
     ceduo_text_format(&yaml, "{name: \"%s\", forest: [", stand);
     for (size_t i = 0; i < first->belts_count; i++)
         ceduo_text_format(&yaml, "%s{from_m: %.10g, to_m: %.10g, stand: %s}", i ? ", " : "", first->belts[i].from_given,
@@ -355,7 +355,6 @@ bool ceduo_document_add_option(struct document *d, const char *stand, struct pro
                           d->file.scene.controls->x_given, stand);
     ceduo_text_put(&yaml, "]}");
     const struct node *item = ceduo_document_parse(d, "options", yaml.bytes, problems), *list = need_options(&e);
-    ceduo_text_free(&yaml);
     put_item(&e, "options", list->n, item ? with_new_name(&e, list, item) : NULL);
     return commit(&e, stand);
 }

@@ -127,12 +127,10 @@ static bool fill_text(struct document *d, const char *to, struct text *text)
     ceduo_emit(text, root);
     if (!d->raw)
         return false;
-    struct text before = {0}; /* where the file is laid out as the program does it, nothing is lost */
+    LOCAL_TEXT(before); /* where the file is laid out as the program does it, nothing is lost */
     const struct source *source = d->raw->source;
     ceduo_emit(&before, d->raw);
-    bool same = before.length == source->length && memcmp(before.bytes, source->bytes, before.length) == 0;
-    ceduo_text_free(&before);
-    return !same;
+    return before.length != source->length || memcmp(before.bytes, source->bytes, before.length) != 0;
 }
 
 void ceduo_document_text(struct document *d, const char *path, struct text *text)
@@ -140,15 +138,22 @@ void ceduo_document_text(struct document *d, const char *path, struct text *text
     fill_text(d, path ? path : d->path ? d->path : d->recovery, text);
 }
 
-/* From now on this text is what lies on disk. */
-static void saved_to(struct document *d, const char *path, const char *text)
+bool ceduo_document_save(struct document *d, const char *path, bool *laid_out_anew)
 {
-    struct problems problems = {0};
+    LOCAL_TEXT(text);
+    LOCAL_TEXT(backup);
     bool same = d->path && strcmp(path, d->path) == 0;
+    *laid_out_anew = fill_text(d, path, &text);
+    ceduo_text_format(&backup, "%s.bak", path);
+    if (*laid_out_anew && same && !ceduo_file_write(backup.bytes, d->raw->source->bytes, d->raw->source->length))
+        return false;
+    if (!ceduo_file_write(path, text.bytes, text.length))
+        return false;
+    struct problems problems = {0};        /* from now on this text is what lies on disk */
     char *copy = ceduo_must(strdup(path)); /* it may be the document's own */
     free(d->path);
     d->path = copy;
-    d->raw = ceduo_document_parse(d, path, text, &problems);
+    d->raw = ceduo_document_parse(d, copy, text.bytes, &problems);
     d->shipped = false;
     ceduo_problems_free(&problems);
     d->saved = d->at;
@@ -158,36 +163,18 @@ static void saved_to(struct document *d, const char *path, const char *text)
         free(d->recovery);
         d->recovery = ceduo_recovery_path(d->path);
     }
-}
-
-bool ceduo_document_save(struct document *d, const char *path, bool *laid_out_anew)
-{
-    struct text text = {0}, backup = {0};
-    bool good = true;
-    *laid_out_anew = fill_text(d, path, &text);
-    ceduo_text_format(&backup, "%s.bak", path);
-    if (*laid_out_anew && d->path && strcmp(path, d->path) == 0)
-        good = ceduo_file_write(backup.bytes, d->raw->source->bytes, d->raw->source->length);
-    good = good && ceduo_file_write(path, text.bytes, text.length);
-    int why = errno;
-    ceduo_text_free(&backup);
-    if (good)
-        saved_to(d, path, text.bytes);
-    ceduo_text_free(&text);
-    errno = why;
-    return good;
+    return true;
 }
 
 /* ---- recovery ---- */
 
 void ceduo_document_keep(struct document *d)
 {
-    struct text text = {0};
+    LOCAL_TEXT(text);
     if (!d->recovery)
         return;
     ceduo_document_text(d, NULL, &text);
     ceduo_recovery_write(d->recovery, d->path, ceduo_text_string(&text), text.length);
-    ceduo_text_free(&text);
 }
 
 void ceduo_document_forget(struct document *d)

@@ -118,8 +118,8 @@ bool ceduo_fit_has_observations(const struct scene_file *file)
 
 #define FIRST_STEPS 200 /* of each chain: with the search before them some seconds */
 
-enum ceduo_status ceduo_fit_make(const struct scene_file *file, const struct fit_request *request, const struct fit_run *run,
-                                 struct fit *f)
+enum ceduo_status ceduo_fit_make(const struct scene_file *file, const struct fit_request *request,
+                                 const struct ceduo_calibration_def *how, struct fit_loose *loose, struct fit *f)
 {
     *f = (struct fit){.file = *file, .request = *request, .done = true};
     for (size_t i = 0; i < request->n; i++) {
@@ -129,15 +129,12 @@ enum ceduo_status ceduo_fit_make(const struct scene_file *file, const struct fit
         f->inputs[i].hi = request->hi[i];
     }
     const struct ceduo_calibration_scene scene = {&f->file.scene, f->inputs, file->observations_count, file->observations};
-    struct ceduo_calibration_def def = {.scenes_count = 1,
-                                        .scenes = &scene,
-                                        .parameters_count = request->n,
-                                        .rocks = request->rocks,
-                                        .seed = file->scene.simulation.seed,
-                                        .threads = run->threads,
-                                        .cancel = run->cancel,
-                                        .progress = run->progress,
-                                        .context = run->context};
+    struct ceduo_calibration_def def = *how;
+    def.scenes_count = 1;
+    def.scenes = &scene;
+    def.parameters_count = request->n;
+    def.rocks = request->rocks;
+    def.seed = file->scene.simulation.seed;
     if (request->n > 1) { /* what the observations do not hold */
         struct ceduo_calibration_def first = def;
         first.steps_most = FIRST_STEPS;
@@ -147,7 +144,7 @@ enum ceduo_status ceduo_fit_make(const struct scene_file *file, const struct fit
         f->loose.n = ceduo_calibration_loose(&f->answer, f->loose.loose);
         ceduo_calibration_free(&f->answer);
     }
-    *run->loose = f->loose;
+    *loose = f->loose;
     return ceduo_calibrate(&def, &f->answer);
 }
 

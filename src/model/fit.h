@@ -43,17 +43,10 @@ void ceduo_fit_offer(const struct scene_file *file, struct fit_request *offer);
 /* Whether something was observed that a fit may rest on. */
 bool ceduo_fit_has_observations(const struct scene_file *file);
 
-struct fit_run {
-    unsigned threads;
-    const atomic_bool *cancel;
-    void (*progress)(void *context, const struct ceduo_calibration_state *state);
-    void *context;
-    struct fit_loose *loose; /* told before the fit itself begins */
-};
-
-/* Fits. `file` must have an arena of its own, which is the answer's from then on. To be freed in any case. */
-enum ceduo_status ceduo_fit_make(const struct scene_file *file, const struct fit_request *request, const struct fit_run *run,
-                                 struct fit *fit);
+/* Fits, with the threads and the progress of `how`; `*loose` is told before the fit itself begins. `file` must have an arena of its
+ * own, which is the answer's from then on. To be freed in any case. */
+enum ceduo_status ceduo_fit_make(const struct scene_file *file, const struct fit_request *request,
+                                 const struct ceduo_calibration_def *how, struct fit_loose *loose, struct fit *fit);
 void ceduo_fit_free(void *fit);
 
 #endif

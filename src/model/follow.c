@@ -127,17 +127,6 @@ static void follow_end(struct changes *c, const char *path, const char *value)
 
 /* ---- stands ---- */
 
-/* The stand of a path such as forest[0].stand.trees[1].per_ha, what the path is of within it, and of which item; NULL: it is
- * of no stand. */
-static const struct ceduo_stand *find_stand(const struct document *d, const char *path, const char **within, size_t *item)
-{
-    const struct ceduo_belt *belt = ceduo_input_belt(&d->file.scene, path);
-    const char *stand = strstr(path, "].stand."), *bracket = strrchr(path, '[');
-    *within = stand ? stand + strlen("].stand.") : "";
-    *item = bracket > stand ? strtoul(bracket + 1, NULL, 10) : 0;
-    return belt && stand ? &belt->stand : NULL;
-}
-
 /* What happens to the shoots of stools that become more or fewer. */
 static void say_shoots(struct changes *c, const struct ceduo_stand *s, double stools)
 {
@@ -194,9 +183,11 @@ static double sum_of(const char *list)
 
 static void follow_stand(struct changes *c, const char *path, const char *value, double now)
 {
-    const char *key;
-    size_t i;
-    const struct ceduo_stand *s = find_stand(c->d, path, &key, &i);
+    const struct ceduo_belt *belt = ceduo_input_belt(&c->d->file.scene, path);
+    const char *stand = strstr(path, "].stand."), *bracket = strrchr(path, '[');
+    const struct ceduo_stand *s = belt && stand ? &belt->stand : NULL;
+    const char *key = stand ? stand + strlen("].stand.") : ""; /* trees[1].per_ha of forest[0].stand.trees[1].per_ha */
+    size_t i = bracket > stand ? strtoul(bracket + 1, NULL, 10) : 0;
     bool shoot = s && strncmp(key, "shoots[", 7) == 0 && i < s->shoots_count;
     bool tree = s && strncmp(key, "trees[", 6) == 0 && i < s->trees_count;
     if (s && strcmp(key, "stools.per_ha") == 0)

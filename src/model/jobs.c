@@ -235,9 +235,10 @@ static void publish_progress(void *context, const struct ceduo_calibration_state
 static enum ceduo_status step_fit(struct jobs *q, struct job *job, void **result)
 {
     struct publisher publisher = {.queue = q, .job = job};
-    const struct fit_run run = {q->threads, &q->cancel, publish_progress, &publisher, &publisher.loose};
+    const struct ceduo_calibration_def how = {
+        .threads = q->threads, .cancel = &q->cancel, .progress = publish_progress, .context = &publisher};
     struct fit *fit = *result = ceduo_must(calloc(1, sizeof *fit));
-    return ceduo_fit_make(&job->file, &job->fit, &run, fit);
+    return ceduo_fit_make(&job->file, &job->fit, &how, &publisher.loose, fit);
 }
 
 static const struct kind kinds[JOB_KINDS] = {

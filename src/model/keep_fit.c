@@ -11,13 +11,6 @@
 
 #define SEGMENTS "slope.segments["
 
-/* Adds a text, and frees it. */
-static void add(struct changes *c, struct text *change)
-{
-    ceduo_changes_add(c, "%s", ceduo_text_string(change));
-    ceduo_text_free(change);
-}
-
 /* ---- ground that stands in no list of segments ---- */
 
 static void put_number(struct text *t, const char *before, double value)
@@ -30,28 +23,29 @@ static void add_ground(struct changes *c, const struct document *d)
 {
     static const char *const keys[] = {"materials", "csv", "reversed"}; /* vertices are written as they lie now */
     const struct ceduo_slope *s = &d->file.scene.slope;
-    struct text t = {0};
+    LOCAL_TEXT(vertices);
+    LOCAL_TEXT(segments);
     for (size_t i = 0; i < sizeof keys / sizeof keys[0]; i++)
         if (ceduo_node_get(ceduo_node_get(d->file.root, "slope"), keys[i]))
             ceduo_changes_add(c, "slope.%s", keys[i]);
     for (size_t i = 0; i < s->vertices; i++) {
-        put_number(&t, i == 0 ? "slope.vertices_m=[[" : ", [", s->x[i] + s->origin_x);
-        put_number(&t, ", ", s->z[i] + s->origin_z);
-        ceduo_text_put(&t, "]");
+        put_number(&vertices, i == 0 ? "slope.vertices_m=[[" : ", [", s->x[i] + s->origin_x);
+        put_number(&vertices, ", ", s->z[i] + s->origin_z);
+        ceduo_text_put(&vertices, "]");
     }
-    ceduo_text_put(&t, "]");
-    add(c, &t);
+    ceduo_text_put(&vertices, "]");
+    ceduo_changes_add(c, "%s", vertices.bytes);
     for (size_t i = 0; i + 1 < s->vertices; i++) {
         const struct ceduo_segment *g = &s->segments[i];
         bool angle = isnan(g->roughness_m);
-        put_number(&t, i == 0 ? "slope.segments=[{rn: " : ", {rn: ", g->rn.mean);
-        put_number(&t, ", rt: ", g->rt.mean);
-        put_number(&t, angle ? ", roughness_rad: " : ", roughness_m: ", angle ? g->roughness_rad : g->roughness_m);
-        put_number(&t, ", friction: ", g->friction);
-        ceduo_text_put(&t, "}");
+        put_number(&segments, i == 0 ? "slope.segments=[{rn: " : ", {rn: ", g->rn.mean);
+        put_number(&segments, ", rt: ", g->rt.mean);
+        put_number(&segments, angle ? ", roughness_rad: " : ", roughness_m: ", angle ? g->roughness_rad : g->roughness_m);
+        put_number(&segments, ", friction: ", g->friction);
+        ceduo_text_put(&segments, "}");
     }
-    ceduo_text_put(&t, "]");
-    add(c, &t);
+    ceduo_text_put(&segments, "]");
+    ceduo_changes_add(c, "%s", segments.bytes);
 }
 
 /* ---- values ---- */
@@ -59,7 +53,7 @@ static void add_ground(struct changes *c, const struct document *d)
 static void add_source(struct changes *c, const char *place, const char *source)
 {
     const char *dot = strrchr(place, '.'); /* without one the value stands in the scene itself */
-    struct text t = {0};
+    LOCAL_TEXT(t);
     bool known = false;
     if (!dot)
         return;
@@ -68,10 +62,8 @@ static void add_source(struct changes *c, const char *place, const char *source)
     ceduo_text_put(&t, "}");
     for (size_t i = 0; i < c->n; i++)
         known |= strcmp(c->sets[i], t.bytes) == 0;
-    if (known)
-        ceduo_text_free(&t);
-    else
-        add(c, &t);
+    if (!known)
+        ceduo_changes_add(c, "%s", t.bytes);
 }
 
 /* Whether a row of doubt is about a fitted value. */
@@ -90,7 +82,7 @@ static void add_draws(struct changes *c, const struct document *d, const struct 
 {
     const struct node *doubt = ceduo_node_get(d->file.root, "doubt");
     const struct node *rows = doubt && doubt->kind == NODE_MAP ? ceduo_node_get(doubt, "rows") : doubt;
-    struct text t = {0};
+    LOCAL_TEXT(t);
     bool some = false;
     ceduo_text_put(&t, "doubt={draws: ");
     ceduo_emit_scalar(&t, fit->draws, true);
@@ -102,7 +94,7 @@ static void add_draws(struct changes *c, const struct document *d, const struct 
         some = true;
     }
     ceduo_text_put(&t, some ? "]}" : "}");
-    add(c, &t);
+    ceduo_changes_add(c, "%s", t.bytes);
 }
 
 bool ceduo_keep_fit(struct document *d, const struct fit_values *fit, struct problems *problems)

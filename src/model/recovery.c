@@ -58,7 +58,7 @@ char *ceduo_recovery_path(const char *path)
 
 bool ceduo_recovery_write(const char *recovery, const char *path, const char *bytes, size_t n)
 {
-    struct text text = {0};
+    LOCAL_TEXT(text);
     char *real = path ? realpath(path, NULL) : NULL;
     ceduo_text_put(&text, UNSAVED);
     ceduo_text_safe(&text, real ? real : "a new scene");
@@ -66,7 +66,6 @@ bool ceduo_recovery_write(const char *recovery, const char *path, const char *by
     ceduo_text_add(&text, bytes, n);
     bool good = ceduo_file_save((struct pending_file){.path = recovery, .before = -1, .bytes = text.bytes, .n = text.length});
     free(real);
-    ceduo_text_free(&text);
     return good;
 }
 
@@ -125,7 +124,8 @@ static const char *rest_of_line(struct arena *arena, const char *text, const cha
 
 struct recovery *ceduo_recovery_list(struct arena *arena, size_t *n)
 {
-    struct text folder = {0}, name = {0};
+    LOCAL_TEXT(folder);
+    LOCAL_TEXT(name);
     struct recovery *list = ceduo_arena_take(arena, LISTED_MAX * sizeof *list);
     DIR *dir = state_folder(&folder) ? opendir(folder.bytes) : NULL;
     *n = 0;
@@ -144,7 +144,5 @@ struct recovery *ceduo_recovery_list(struct arena *arena, size_t *n)
     if (dir)
         closedir(dir);
     qsort(list, *n, sizeof *list, newest_first);
-    ceduo_text_free(&name);
-    ceduo_text_free(&folder);
     return list;
 }

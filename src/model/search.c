@@ -54,13 +54,11 @@ static const struct field *field_at(struct search *s)
 /* The scene with the parameter at a value. */
 static bool set_value(struct search *s, double value)
 {
-    struct text set = {0};
+    LOCAL_TEXT(set);
     char room[CEDUO_NUMBER_ROOM];
     ceduo_text_format(&set, "%s=%s", s->def.path, ceduo_number_shortest(value, room));
     s->file->root = s->root;
-    bool good = ceduo_scene_set(s->file, "--find", set.bytes, s->problems) && ceduo_scene_bind(s->file, s->problems);
-    ceduo_text_free(&set);
-    return good;
+    return ceduo_scene_set(s->file, "--find", set.bytes, s->problems) && ceduo_scene_bind(s->file, s->problems);
 }
 
 static enum ceduo_status goal_at(void *context, double value, double *goal)
@@ -210,35 +208,26 @@ static bool differ(double a, double b)
 /* ---- the search ---- */
 
 static const struct source goal_source = {.name = "--goal", .is_option = true};
-
 static const struct source sure_source = {.name = "--sure", .is_option = true};
-
 static const struct source path_source = {.name = "--find", .is_option = true};
 
 /* What the goal needs of the scene. */
 static bool is_askable(const struct search *s)
 {
+    const struct ceduo_scene *scene = &s->file->scene;
     const struct field *field = ceduo_schema_at(s->def.path);
-    if (field && (field->type <= FIELD_FILE || field->type == FIELD_CHOICE || field->type == FIELD_FLAG)) {
-        ceduo_problem(s->problems, &path_source, 0, 0, _("%s is not a number"), s->def.path);
-        return false;
-    }
+    if (field && (field->type <= FIELD_FILE || field->type == FIELD_CHOICE || field->type == FIELD_FLAG))
+        return ceduo_problem(s->problems, &path_source, 0, 0, _("%s is not a number"), s->def.path);
     bool needs_accepted = s->def.goal == CEDUO_GOAL_EXCEED;
-    for (size_t c = 0; needs_accepted && c < s->file->scene.controls_count; c++)
-        if (isnan(s->file->scene.controls[c].accepted)) {
-            ceduo_problem(s->problems, &goal_source, 0, 0, _("exceed: controls[%zu] has no accepted_kJ; add it"), c);
-            return false;
-        }
-    if (needs_accepted && s->file->scene.simulation.contact_model == CEDUO_INDEX) {
-        ceduo_problem(s->problems, &goal_source, 0, 0,
-                      _("exceed: with contact_model index no rock is simulated in the forest"));
-        return false;
-    }
-    if (s->def.sure > 0 && s->def.rotation && s->def.goal == CEDUO_GOAL_ENERGY) {
-        ceduo_problem(s->problems, &sure_source, 0, 0,
-                      _("over a rotation the mean energy is not known at each point; use the goal exceed or arrive"));
-        return false;
-    }
+    for (size_t c = 0; needs_accepted && c < scene->controls_count; c++)
+        if (isnan(scene->controls[c].accepted))
+            return ceduo_problem(s->problems, &goal_source, 0, 0, _("exceed: controls[%zu] has no accepted_kJ; add it"), c);
+    if (needs_accepted && s->file->scene.simulation.contact_model == CEDUO_INDEX)
+        return ceduo_problem(s->problems, &goal_source, 0, 0,
+                             _("exceed: with contact_model index no rock is simulated in the forest"));
+    if (s->def.sure > 0 && s->def.rotation && s->def.goal == CEDUO_GOAL_ENERGY)
+        return ceduo_problem(s->problems, &sure_source, 0, 0,
+                             _("over a rotation the mean energy is not known at each point; use the goal exceed or arrive"));
     return true;
 }
 
@@ -356,10 +345,9 @@ enum ceduo_status ceduo_preview(const struct scene_file *from, const char *set, 
 bool ceduo_preview_fits(const struct scene_file *from, const char *path, const char *value)
 {
     struct scene_file file;
-    struct text set = {0};
+    LOCAL_TEXT(set);
     ceduo_text_format(&set, "%s=%s", path, value);
     bool good = change_scene(from, set.bytes, &file);
     ceduo_arena_free(&file.arena);
-    ceduo_text_free(&set);
     return good;
 }
