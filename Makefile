@@ -106,7 +106,7 @@ $(BUILD)/%.o: %.c Makefile
 c_string = "$(subst ?,\?,$(subst ",\",$(subst \,\\,$(1))))"
 $(BUILD)/src/io/file.o: DEFINES = -DCEDUO_DATADIR=$(call quoted,$(call c_string,$(DATADIR)))
 
-$(BUILD)/src/cli/localize.o: DEFINES = -DCEDUO_LOCALEDIR=$(call quoted,$(call c_string,$(LOCALEDIR)))
+$(BUILD)/src/cli/say.o: DEFINES = -DCEDUO_LOCALEDIR=$(call quoted,$(call c_string,$(LOCALEDIR)))
 
 # ---- translations ----
 

@@ -12,7 +12,6 @@
 #include "base/must.h"
 #include "io/file.h"
 #include "io/resolve.h"
-#include "recovery.h"
 
 /* ---- states ---- */
 

@@ -299,16 +299,12 @@ bool ceduo_document_split_segment(struct document *d, size_t index, const char *
 /* Without a vertex, and without the ground of one of the segments beside it. */
 static bool remove_vertex(struct document *d, size_t vertex, size_t segment, struct problems *problems)
 {
-    struct edit e = begin(d, problems);
+    struct arena *arena = &d->file.arena;
     const struct node *vertices = ceduo_document_node(d, vertices_list), *grounds = ceduo_document_node(d, ground_list);
-    if (!vertices || vertices->n < 3 || vertex >= vertices->n)
-        return false;
-    put(&e, vertices_list, ceduo_node_removed(e.arena, vertices, vertex));
-    if (e.root && grounds && grounds->n > 1) {
-        put(&e, ground_list, ceduo_node_removed(e.arena, grounds, segment));
-        shift_doubts(&e, ground_list, segment, 0, -1);
-    }
-    return commit(&e, vertices_list);
+    const char *sets[] = {ceduo_arena_format(arena, "%s[%zu]", vertices_list, vertex),
+                          ceduo_arena_format(arena, "%s[%zu]", ground_list, segment)};
+    return vertices && vertices->n > 2 && vertex < vertices->n &&
+           ceduo_document_set_all(d, sets, grounds && grounds->n > 1 ? 2 : 1, vertices_list, problems);
 }
 
 bool ceduo_document_join_segments(struct document *d, size_t index, struct problems *problems)

@@ -14,7 +14,6 @@
 #include "io/emit.h"
 #include "io/file.h"
 #include "io/resolve.h"
-#include "recovery.h"
 
 /* ---- the file on disk ---- */
 

@@ -72,56 +72,40 @@ static const struct ceduo_other_energy *fitting_others(struct live *l, const str
     return o->items;
 }
 
-/* Assesses the scene by what was simulated through the forests of each option. */
-static void assess(struct live *l, const struct ceduo_scene *scene, const struct ceduo_snapshot *o)
+/* Assesses the scene by what was simulated through the forests of each option, and judges by its years as it is now: those of an
+ * earlier one are shown, but do not count. */
+static void refresh(struct live *l, const struct ceduo_scene *scene)
 {
+    const struct ceduo_snapshot *o = ceduo_live_snapshot(l, scene);
     size_t n = scene->options_count, controls = scene->controls_count;
+    ceduo_result_free(l->result);
+    l->result = NULL;
+    ceduo_verdict_release(&l->verdict);
+    if (!o || !o->bare)
+        return;
     const struct ceduo_simulated **wooded = ceduo_must(calloc(n + 1, sizeof *wooded));
     struct ceduo_difference *differences = ceduo_must(calloc(n * controls + 1, sizeof *differences));
+    struct ceduo_years **known = ceduo_must(calloc(n + 1, sizeof *known));
     bool in_order = o->options == n;
     for (size_t i = 0; i < n; i++) {
-        const struct ceduo_run_snapshot *sight = ceduo_snapshot_of(o, scene, i);
-        wooded[i] = sight ? &sight->flown : NULL;
-        in_order = in_order && sight == o->wooded[i];
+        const struct ceduo_run_snapshot *run = ceduo_snapshot_of(o, scene, i);
+        struct ceduo_years *years = ceduo_live_years(l, scene, i);
+        wooded[i] = run ? &run->flown : NULL;
+        in_order = in_order && run == o->wooded[i];
+        known[i] = years && years->key == ceduo_runs_years_key(scene, i) ? years : NULL;
+        if (years)
+            ceduo_years_assess(years, scene, &o->bare->flown);
     }
     for (size_t i = 0; i < n * controls; i++)
         differences[i] =
             in_order ? o->differences[i] : (struct ceduo_difference){CEDUO_NOT_PAIRED, CEDUO_NOT_PAIRED, CEDUO_NOT_PAIRED};
     if (ceduo_result_assess(scene, &o->bare->flown, wooded, differences, fitting_others(l, scene), &l->result) != CEDUO_OK)
         l->result = NULL;
+    if (l->result && ceduo_verdict_make(l->result, known, &l->verdict) != CEDUO_OK)
+        l->verdict = (struct ceduo_verdict){0};
+    free(known);
     free(differences);
     free(wooded);
-}
-
-/* Judges by the years of the scene as it is now: those of an earlier one do not count. */
-static void judge(struct live *l, const struct ceduo_scene *scene)
-{
-    struct ceduo_years **fit = ceduo_must(calloc(scene->options_count + 1, sizeof *fit));
-    for (size_t i = 0; i < scene->options_count; i++) {
-        struct ceduo_years *years = ceduo_live_years(l, scene, i);
-        fit[i] = years && years->key == ceduo_runs_years_key(scene, i) ? years : NULL;
-    }
-    if (ceduo_verdict_make(l->result, fit, &l->verdict) != CEDUO_OK)
-        l->verdict = (struct ceduo_verdict){0};
-    free(fit);
-}
-
-static void refresh(struct live *l, const struct ceduo_scene *scene)
-{
-    const struct ceduo_snapshot *o = ceduo_live_snapshot(l, scene);
-    ceduo_result_free(l->result);
-    l->result = NULL;
-    ceduo_verdict_release(&l->verdict);
-    if (!o || !o->bare)
-        return;
-    assess(l, scene, o);
-    for (size_t i = 0; i < scene->options_count; i++) {
-        struct ceduo_years *years = ceduo_live_years(l, scene, i);
-        if (years)
-            ceduo_years_assess(years, scene, &o->bare->flown);
-    }
-    if (l->result)
-        judge(l, scene);
 }
 
 /* ---- requests and news ---- */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "recovery.h"
+#include "document.h"
 
 #include <dirent.h>
 #include <errno.h>

@@ -8,7 +8,6 @@
 
 #include "base/language.h"
 #include "io/emit.h"
-#include "model/recovery.h"
 #include "popup.h"
 #include "popups.h"
 

@@ -11,7 +11,6 @@
 #include "ceduo/observe.h"
 #include "io/file.h"
 #include "model/document.h"
-#include "model/recovery.h"
 
 static const char scene[] = "# my comment\n"
                             "ceduo: scene/1\n"
