@@ -5,12 +5,15 @@
 #include "jobs.h"
 
 #include <fcntl.h>
+#include <gsl/gsl_sort.h>
+#include <math.h>
 #include <pthread.h>
 #include <stdio.h>
 #include <unistd.h>
 
 #include "base/clock.h"
 #include "base/hash.h"
+#include "base/language.h"
 #include "base/must.h"
 #include "ceduo/key.h"
 
@@ -74,6 +77,24 @@ static void free_years(void *result)
     for (size_t i = 0; i < y->n; i++)
         ceduo_years_free(y->items[i]);
     free(y);
+}
+
+static void free_uncertainty(void *result)
+{
+    struct uncertainty *u = result;
+    if (u->answer.figures)
+        ceduo_doubt_free(&u->answer);
+    ceduo_arena_free(&u->file.arena);
+    free(u);
+}
+
+static void free_comparison(void *result)
+{
+    struct comparison *c = result;
+    free(c->predicted);
+    free(c->stops);
+    ceduo_arena_free(&c->file.arena);
+    free(c);
 }
 
 static void free_result(enum job_kind kind, void *result)
@@ -205,18 +226,76 @@ static enum ceduo_status step_years(struct jobs *q, struct job *job, void **resu
     return status;
 }
 
+const char *ceduo_uncertainty_no_rotation(const struct ceduo_scene *scene)
+{
+    if (scene->simulation.contact_model == CEDUO_INDEX)
+        return N_("not computed: by the index years have no doubt");
+    for (size_t i = 0; i < scene->options_count; i++)
+        if (ceduo_window_in(scene, &scene->options[i]).kind != CEDUO_WINDOW_ALIKE)
+            return NULL;
+    return N_("not computed: all years are alike");
+}
+
 static enum ceduo_status step_uncertainty(struct jobs *q, struct job *job, void **result)
 {
     struct uncertainty *u = *result = ceduo_must(calloc(1, sizeof *u));
-    enum ceduo_status status = ceduo_uncertainty_make(&job->file, job->option, job->level, q->threads, &q->cancel, u);
+    struct ceduo_scene *scene = &u->file.scene;
+    *u = (struct uncertainty){.file = job->file, .level = job->level};
+    if (!ceduo_inputs_of(&u->file, &u->inputs))
+        return CEDUO_NO_MEMORY;
+    if (scene->controls_count == 0)
+        u->inputs.n = 0;
+    if (u->level == 0 && scene->options_count == 1)
+        u->level = UNCERTAINTY_LEVELS - 1;
+    u->last =
+        u->inputs.n == 0 || u->level + 1 == (ceduo_uncertainty_no_rotation(scene) ? UNCERTAINTY_LEVELS : UNCERTAINTY_ROTATION);
     job->level = u->last ? LEVELS_MAX : u->level;
-    return status;
+    const struct ceduo_doubt_def def = {.scene = scene,
+                                        .inputs_count = u->inputs.n,
+                                        .inputs = u->inputs.items,
+                                        .points = CEDUO_DOUBT_POINTS,
+                                        .rocks = CEDUO_DOUBT_ROCKS,
+                                        .rotation = u->level + 1 == UNCERTAINTY_ROTATION,
+                                        .alone = u->level == 0,
+                                        .option = job->option,
+                                        .threads = q->threads,
+                                        .cancel = &q->cancel};
+    return u->inputs.n > 0 ? ceduo_doubt_ask(&def, &u->answer) : CEDUO_OK;
 }
 
 static enum ceduo_status step_comparison(struct jobs *q, struct job *job, void **result)
 {
-    struct comparison *comparison = *result = ceduo_must(calloc(1, sizeof *comparison));
-    return ceduo_comparison_make(&job->file, job->level, &q->cancel, comparison);
+    static const uint64_t rocks_of_levels[COMPARISON_LEVELS] = {200, 2000};
+    struct comparison *c = *result = ceduo_must(calloc(1, sizeof *c));
+    *c = (struct comparison){.file = job->file, .rocks = rocks_of_levels[job->level]};
+    size_t count = c->file.observations_count;
+    const struct ceduo_observation *o = c->file.observations;
+    c->predicted = ceduo_must(calloc(count + 1, sizeof *c->predicted));
+    c->stops = ceduo_must(calloc(count + 1, sizeof *c->stops));
+    const struct ceduo_calibration_scene scene = {.scene = &c->file.scene, .observations_count = count, .observations = o};
+    struct ceduo_observer *observer = NULL;
+    enum ceduo_status status = ceduo_calibration_as_it_is(&scene, c->rocks, &q->cancel, c->predicted);
+    if (status == CEDUO_OK)
+        status = ceduo_observer_create(o, count, &observer);
+    for (size_t i = 0; i < count && status == CEDUO_OK; i++) {
+        double *values = NULL;
+        size_t rocks, n = 0;
+        if (o[i].kind != CEDUO_OBSERVED_STOPS || !o[i].values)
+            continue;
+        status = atomic_load(&q->cancel) ? CEDUO_CANCELLED
+                                         : ceduo_observer_values(observer, &c->file.scene, i, c->rocks, &values, &rocks);
+        if (status != CEDUO_OK)
+            break;
+        for (size_t k = 0; k < rocks; k++)
+            if (!isnan(values[k]))
+                values[n++] = values[k];
+        gsl_sort(values, 1, n);
+        if (n > 0)
+            ceduo_seen_stops_of(&o[i], values, n, rocks, &c->stops[i]);
+        free(values);
+    }
+    ceduo_observer_free(observer);
+    return status;
 }
 
 /* Ten times a second is enough to look at. */
@@ -246,10 +325,10 @@ static const struct kind kinds[JOB_KINDS] = {
     [JOB_PREVIEW] = {step_preview, free},
     [JOB_SNAPSHOT] = {step_snapshot, free_snapshot},
     [JOB_OTHERS] = {step_others, free},
-    [JOB_COMPARISON] = {step_comparison, ceduo_comparison_free},
+    [JOB_COMPARISON] = {step_comparison, free_comparison},
     [JOB_FIT] = {step_fit, ceduo_fit_free},
     [JOB_YEARS] = {step_years, free_years},
-    [JOB_UNCERTAINTY] = {step_uncertainty, ceduo_uncertainty_free},
+    [JOB_UNCERTAINTY] = {step_uncertainty, free_uncertainty},
 };
 
 /* ---- the thread ---- */

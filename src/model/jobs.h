@@ -73,11 +73,6 @@ struct comparison {
     struct ceduo_seen_stops *stops;    /* likewise: empty for all that is no list of stops */
 };
 
-/* Computes one level. `file` must have an arena of its own, which is the answer's from then on. To be freed in any case. */
-enum ceduo_status ceduo_comparison_make(const struct scene_file *file, size_t level, const atomic_bool *cancel,
-                                        struct comparison *comparison);
-void ceduo_comparison_free(void *comparison);
-
 /* What doubt does to the scene of the live program, in levels: first of one option alone, as finely as it will be, so that nothing
  * is said that moves; then of all options; then over the rotation of each as well, which takes some seconds. */
 #define UNCERTAINTY_LEVELS   2
@@ -91,14 +86,8 @@ struct uncertainty {
     bool last;                        /* there is nothing more */
 };
 
-/* Computes one level, the first of this option. `file` must have an arena of its own, which is the answer's from then on. To be
- * freed in any case. */
-enum ceduo_status ceduo_uncertainty_make(const struct scene_file *file, size_t option, size_t level, unsigned threads,
-                                         const atomic_bool *cancel, struct uncertainty *uncertainty);
-
 /* Why there is nothing over a rotation, marked for translation; NULL: there is. */
 const char *ceduo_uncertainty_no_rotation(const struct ceduo_scene *scene);
-void ceduo_uncertainty_free(void *uncertainty);
 
 /* NULL where no thread can be started. */
 struct jobs;
