@@ -75,4 +75,19 @@ bool ceduo_csv_number(struct csv *csv, struct csv_span field, double lo, double 
 bool ceduo_csv_complain(const struct csv *csv, struct csv_span field, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
+/* ---- profiles (csv_slope.c) ---- */
+
+/* A profile as its files give it. */
+struct points {
+    double *x, *z;
+    size_t n;
+    bool commas; /* for the decimals, as spreadsheets write them in Italian or German */
+};
+
+/* A profile from a CSV file as QGIS writes it: a header with the columns distance and elevation (x and z will do),
+ * separated by comma, semicolon or tab. Where they are not separated by commas, commas may stand for the decimals. With x, y and
+ * elevation it is a line on the map, and distances are along it.
+ * False where that fails, which is reported. */
+bool ceduo_csv_slope_read(struct arena *arena, const char *path, struct points *points, struct problems *problems);
+
 #endif

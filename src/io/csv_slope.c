@@ -1,7 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A profile from a CSV file: the header names the columns, each row is checked against the one before. */
-#include "csv_slope.h"
-
 #include <math.h>
 #include <string.h>
 

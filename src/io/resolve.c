@@ -28,6 +28,11 @@ struct resolver {
     struct problems *problems;
     const struct known_file *files;
     size_t files_count;
+    /* of a change: */
+    const struct source *set;
+    size_t length; /* of its path */
+    const struct node *value;
+    bool sourced; /* nothing is left to tell a source */
 };
 
 /* ---- files ---- */
@@ -170,13 +175,6 @@ static const struct node *follow(struct resolver *r, const struct object *object
     return found ? in_place_of(r->arena, found, node) : NULL;
 }
 
-const struct node *ceduo_resolve(struct arena *arena, const struct object *object, const struct node *node,
-                                 struct problems *problems)
-{
-    struct resolver r = {.arena = arena, .problems = problems};
-    return follow(&r, object, node, 0);
-}
-
 static const struct node *resolve_map(struct resolver *r, const struct object *object, const struct node *map);
 
 /* All references at and below the items of a list. It is copied once, not for each of its items. */
@@ -274,19 +272,10 @@ const struct node *ceduo_resolve_walk(const struct node *root, const char *path,
 
 /* ---- changing ---- */
 
-struct setter {
-    struct arena *arena;
-    const struct source *set;
-    size_t length; /* of the path */
-    const struct node *value;
-    bool sourced; /* nothing is left to tell a source */
-    struct problems *problems;
-};
+static const struct node *set_in(struct resolver *s, const struct field *f, const struct object *object,
+                                 const struct node *node, size_t at);
 
-static const struct node *set_in(struct setter *s, const struct field *f, const struct object *object, const struct node *node,
-                                 size_t at);
-
-static const struct node *fail_at(struct setter *s, const struct path_step *step, const char *what)
+static const struct node *fail_at(struct resolver *s, const struct path_step *step, const char *what)
 {
     LOCAL_TEXT(word);
     ceduo_text_add(&word, step->p, step->n);
@@ -296,7 +285,7 @@ static const struct node *fail_at(struct setter *s, const struct path_step *step
 
 /* A value that was changed is no longer of the source around it: the innermost mapping that has one says so under `except`. From a
  * list on the path is left out, for items may move. */
-static const struct node *tell_source(struct setter *s, const struct node *map, const struct path_step *step)
+static const struct node *tell_source(struct resolver *s, const struct node *map, const struct path_step *step)
 {
     const struct node *source = ceduo_node_get(map, "source"), *list = ceduo_node_get(source, "except");
     if (s->sourced || !source)
@@ -321,30 +310,15 @@ static const struct node *tell_source(struct setter *s, const struct node *map, 
 
 /* Whether no source is of what was changed: it says the same as before, is only moved, is a name, a source or a setting
  * of the computing. */
-static bool needs_no_source(const struct setter *s, const struct field *f, const char *key, const struct node *old)
+static bool needs_no_source(const struct resolver *s, const struct field *f, const char *key, const struct node *old)
 {
-    const struct node plain = {0};
-    struct node before = old ? *old : plain, now = *s->value;
+    struct node before = old ? *old : (struct node){0}, now = *s->value;
     before.key = now.key = NULL;
     return strcmp(key, "source") == 0 || strcmp(key, "simulation") == 0 || (f && f->type <= FIELD_TEXT) ||
            !now.source->is_option || (old && ceduo_node_equal(&before, &now));
 }
 
-/* Why a path leads nowhere: what is not there, or stands in the options of a scene. */
-static const struct node *fail_missing(struct setter *s, const struct node *map, const struct path_step *step)
-{
-    bool root = step->p == s->set->bytes;
-    if (root && ceduo_path_is(step, "forest") && ceduo_node_get(map, "options"))
-        ceduo_problem(s->problems, s->set, 1, 1,
-                      _("this scene has options: write options[0].%.*s, or the name of another in place of 0"), (int)s->length,
-                      step->p);
-    else
-        ceduo_problem(s->problems, s->set, 1, (size_t)(step->p - s->set->bytes) + 1,
-                      root ? _("this scene has no '%.*s'") : _("there is no '%.*s' here"), (int)step->n, step->p);
-    return NULL;
-}
-
-static const struct node *set_entry(struct setter *s, const struct object *object, const struct node *map,
+static const struct node *set_entry(struct resolver *s, const struct object *object, const struct node *map,
                                     const struct path_step *step, size_t at)
 {
     char key[64];
@@ -364,17 +338,25 @@ static const struct node *set_entry(struct setter *s, const struct object *objec
     }
     const struct node *child = ceduo_node_get(map, key);
     bool last = at >= s->length;
-    if (!last && f && f->flags & FIELD_FOLLOWS && child && !(child = ceduo_resolve(s->arena, f->object, child, s->problems)))
+    if (!last && f && f->flags & FIELD_FOLLOWS && child && !(child = follow(s, f->object, child, 0)))
         return NULL;
     if (!last && f && f->type == FIELD_SPREAD && (!child || child->kind == NODE_SCALAR)) {
         const struct node *parts = ceduo_node_empty(s->arena, NODE_MAP, s->set); /* {mean: number} where one of them is set */
         child = parts && child ? ceduo_node_with(s->arena, parts, "mean", child) : parts;
     } else if (!last && !child && (!f || f->type == FIELD_GROUP))
         child = ceduo_node_empty(s->arena, NODE_MAP, s->set);
-    else if (!last && !child)
-        return fail_missing(s, map, step);
+    else if (!last && !child) {
+        bool root = step->p == s->set->bytes;
+        if (root && strcmp(key, "forest") == 0 && ceduo_node_get(map, "options"))
+            ceduo_problem(s->problems, s->set, 1, 1,
+                          _("this scene has options: write options[0].%.*s, or the name of another in place of 0"),
+                          (int)s->length, step->p);
+        else
+            ceduo_problem(s->problems, s->set, 1, (size_t)(step->p - s->set->bytes) + 1,
+                          root ? _("this scene has no '%s'") : _("there is no '%s' here"), key);
+    }
     if (!last && !child)
-        return NULL; /* no memory for it */
+        return NULL;
     s->sourced |= needs_no_source(s, f, key, last ? child : NULL);
     child = set_in(s, f, f && f->type == FIELD_GROUP ? f->object : NULL, child, at);
     map = child ? tell_source(s, map, step) : NULL;
@@ -387,22 +369,7 @@ static const struct node *set_entry(struct setter *s, const struct object *objec
 
 #define ITEMS_SHOWN 12
 
-/* Names the items that there are. */
-static const struct node *fail_no_item(struct setter *s, const struct node *list, const struct path_step *step)
-{
-    LOCAL_TEXT(items);
-    LOCAL_TEXT(what);
-    for (size_t i = 0; i < list->n && i < ITEMS_SHOWN; i++) {
-        const char *name = name_of(list->items[i]);
-        ceduo_text_format(&items, "%s[%zu]%s%s", i > 0 ? ", " : "", i, name ? " " : "", name ? name : "");
-    }
-    ceduo_text_put(&items, list->n > ITEMS_SHOWN ? ", \xe2\x80\xa6" : "");
-    if (list->n > 0)
-        ceduo_text_format(&what, _("no such item; there are: %s"), ceduo_text_string(&items));
-    return fail_at(s, step, list->n > 0 ? ceduo_text_string(&what) : _("no such item; the list is empty"));
-}
-
-static const struct node *set_item(struct setter *s, const struct field *f, const struct node *list,
+static const struct node *set_item(struct resolver *s, const struct field *f, const struct node *list,
                                    const struct path_step *step, size_t at)
 {
     const struct object *object = f && f->type == FIELD_LIST ? f->object : NULL;
@@ -410,8 +377,7 @@ static const struct node *set_item(struct setter *s, const struct field *f, cons
     LOCAL_TEXT(items);
     LOCAL_TEXT(what);
     /* a belt may be named by its stand: follow it first */
-    struct resolver r = {.arena = s->arena, .problems = s->problems};
-    if (object && !(list = resolve_items(&r, object, list)))
+    if (object && !(list = resolve_items(s, object, list)))
         return NULL;
     if (ceduo_path_is(step, "*") && list->n > 0) { /* what is around is told unless every item has told its own source */
         bool before = s->sourced, told = true;
@@ -423,8 +389,16 @@ static const struct node *set_item(struct setter *s, const struct field *f, cons
         s->sourced = told;
         return list;
     }
-    if (!ceduo_resolve_item(list, step, &first))
-        return fail_no_item(s, list, step);
+    if (!ceduo_resolve_item(list, step, &first)) {
+        for (size_t i = 0; i < list->n && i < ITEMS_SHOWN; i++) {
+            const char *name = name_of(list->items[i]);
+            ceduo_text_format(&items, "%s[%zu]%s%s", i > 0 ? ", " : "", i, name ? " " : "", name ? name : "");
+        }
+        ceduo_text_put(&items, list->n > ITEMS_SHOWN ? ", \xe2\x80\xa6" : "");
+        if (list->n > 0)
+            ceduo_text_format(&what, _("no such item; there are: %s"), ceduo_text_string(&items));
+        return fail_at(s, step, list->n > 0 ? ceduo_text_string(&what) : _("no such item; the list is empty"));
+    }
     for (size_t i = first; i < list->n && !ceduo_path_index(step, &place); i++)
         if (ceduo_path_is(step, name_of(list->items[i])))
             ceduo_text_format(&items, "%s[%zu]", n++ > 0 ? ", " : "", i);
@@ -435,8 +409,8 @@ static const struct node *set_item(struct setter *s, const struct field *f, cons
 }
 
 /* The node with what lies from `at` on along the path replaced. A node that was followed stays marked as such. */
-static const struct node *set_in(struct setter *s, const struct field *f, const struct object *object, const struct node *node,
-                                 size_t at)
+static const struct node *set_in(struct resolver *s, const struct field *f, const struct object *object,
+                                 const struct node *node, size_t at)
 {
     if (at >= s->length)
         return s->value;
@@ -460,6 +434,6 @@ static const struct node *set_in(struct setter *s, const struct field *f, const 
 const struct node *ceduo_resolve_set(struct arena *arena, const struct node *root, const struct source *set, size_t path_length,
                                      const struct node *value, struct problems *problems)
 {
-    struct setter s = {.arena = arena, .set = set, .length = path_length, .value = value, .problems = problems};
+    struct resolver s = {.arena = arena, .set = set, .length = path_length, .value = value, .problems = problems};
     return set_in(&s, NULL, ceduo_schema_scene(), root, 0);
 }

@@ -4,12 +4,8 @@
 
 #include "bind.h"
 
-/* Puts in place of a path what its file holds, and merges a stand into its base. `object` says what is wanted. NULL
- * where that fails; what is wrong is in `problems`. */
-const struct node *ceduo_resolve(struct arena *arena, const struct object *object, const struct node *node,
-                                 struct problems *problems);
-
-/* The same for all that a scene refers to. */
+/* Puts in place of each path that a scene refers to what its file holds, and merges stands into their bases. NULL where that
+ * fails; what is wrong is in `problems`. */
 const struct node *ceduo_resolve_scene(struct arena *arena, const struct node *root, struct problems *problems);
 
 /* The file that a node names, in the arena; NULL where there is none. A path is looked for beside the file that it was read

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "base/language.h"
-#include "csv_slope.h"
+#include "csv.h"
 #include "resolve.h"
 #include "validator.h"
 

@@ -8,7 +8,7 @@
 #include "base/language.h"
 #include "base/must.h"
 #include "ceduo/material.h"
-#include "io/csv_slope.h"
+#include "io/csv.h"
 #include "io/emit.h"
 #include "io/file.h"
 #include "popup.h"

@@ -8,7 +8,7 @@
 
 #include "fuzz.h"
 #include "io/bind.h"
-#include "io/csv_slope.h"
+#include "io/csv.h"
 #include "io/survey_file.h"
 
 /* The stand of a survey is one that a scene takes. */
