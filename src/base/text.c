@@ -48,6 +48,13 @@ void ceduo_text_put(struct text *text, const char *string)
     ceduo_text_add(text, string, strlen(string));
 }
 
+void ceduo_text_cut(struct text *text, size_t length)
+{
+    text->length = length;
+    if (text->bytes)
+        text->bytes[length] = '\0';
+}
+
 void ceduo_text_quoted(struct text *text, const char *string)
 {
     ceduo_text_char(text, '\'');

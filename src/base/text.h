@@ -17,6 +17,8 @@ struct text {
 
 void ceduo_text_add(struct text *text, const char *bytes, size_t n);
 void ceduo_text_put(struct text *text, const char *string);
+/* Takes off what follows the first `length` bytes. */
+void ceduo_text_cut(struct text *text, size_t length);
 /* In quotes, as a shell reads it. */
 void ceduo_text_quoted(struct text *text, const char *string);
 void ceduo_text_char(struct text *text, char c);

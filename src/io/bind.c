@@ -89,9 +89,7 @@ static size_t enter_item(struct binder *b, size_t i)
 
 static void leave(struct binder *b, size_t before)
 {
-    b->path.length = before;
-    if (b->path.bytes)
-        b->path.bytes[before] = '\0';
+    ceduo_text_cut(&b->path, before);
 }
 
 const char *ceduo_bind_unknown_key(const struct object *object, const char *key, struct text *said)
@@ -149,11 +147,6 @@ static bool want(struct binder *b, const struct node *node, enum node_kind kind,
     return false;
 }
 
-static bool want_scalar(struct binder *b, const struct node *node, const char *what)
-{
-    return want(b, node, NODE_SCALAR, what);
-}
-
 /* "end", "end-10": a place from the end of the profile. False where it is none, or wrong, which is reported. */
 static bool read_place(struct binder *b, const struct field *f, const struct node *node, double *value)
 {
@@ -177,7 +170,7 @@ static bool read_place(struct binder *b, const struct field *f, const struct nod
 
 static bool read_number(struct binder *b, const struct node *node, double *value)
 {
-    if (!want_scalar(b, node, _("a number")))
+    if (!want(b, node, NODE_SCALAR, _("a number")))
         return false;
     if (node->quoted) {
         report(b, node, _("'%s' is in quotes; write the number without them"), node->text);
@@ -258,7 +251,7 @@ static void bind_count(struct binder *b, const struct field *f, const struct nod
 /* `to`: an int or an enum */
 static void bind_choice(struct binder *b, const struct choices *choices, const struct node *node, void *to)
 {
-    if (!want_scalar(b, node, _("a word")))
+    if (!want(b, node, NODE_SCALAR, _("a word")))
         return;
     int found = ceduo_choice_find(choices, node->text);
     if (found >= 0) {
@@ -275,21 +268,10 @@ static void bind_choice(struct binder *b, const struct choices *choices, const s
     ceduo_text_free(&list);
 }
 
-static void bind_flag(struct binder *b, const struct node *node, bool *to)
-{
-    if (!want_scalar(b, node, _("true or false")))
-        return;
-    bool yes = strcmp(node->text, "true") == 0;
-    if (node->quoted || (!yes && strcmp(node->text, "false") != 0))
-        report(b, node, _("'%s': expected true or false"), node->text);
-    else
-        *to = yes;
-}
-
 /* `to`: a char *, or NULL where nothing keeps it */
 static void bind_text(struct binder *b, const struct node *node, void *to)
 {
-    if (want_scalar(b, node, _("a text")) && to)
+    if (want(b, node, NODE_SCALAR, _("a text")) && to)
         memcpy(to, &node->text, sizeof node->text);
 }
 
@@ -373,7 +355,7 @@ static void bind_field(struct binder *b, const struct field *f, const struct nod
         return;
     switch (f->type) { /* untaken: table */
     case FIELD_TAG:
-        if (want_scalar(b, node, f->value) && strcmp(node->text, f->value) != 0)
+        if (want(b, node, NODE_SCALAR, f->value) && strcmp(node->text, f->value) != 0)
             report(b, node, _("'%s': expected '%s'"), node->text, f->value);
         break;
     case FIELD_TEXT:
@@ -402,7 +384,11 @@ static void bind_field(struct binder *b, const struct field *f, const struct nod
         bind_choice(b, f->choices, node, to);
         break;
     case FIELD_FLAG:
-        bind_flag(b, node, to);
+        if (!want(b, node, NODE_SCALAR, _("true or false")))
+            break;
+        *(bool *)to = strcmp(node->text, "true") == 0;
+        if (node->quoted || (!*(bool *)to && strcmp(node->text, "false") != 0))
+            report(b, node, _("'%s': expected true or false"), node->text);
         break;
     case FIELD_GROUP:
         bind_map(b, f->object, node, to);

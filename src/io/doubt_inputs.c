@@ -96,13 +96,6 @@ static void consider(struct finder *f, const struct field *field, const struct n
     add(f, path, origin, *range);
 }
 
-static void cut(struct text *text, size_t length)
-{
-    text->length = length;
-    if (text->bytes)
-        text->bytes[length] = '\0';
-}
-
 /* `map` may be NULL: nothing of the object is written. */
 static void walk(struct finder *f, const struct object *object, const struct node *map)
 {
@@ -125,9 +118,9 @@ static void walk(struct finder *f, const struct object *object, const struct nod
         for (size_t k = 0; list && node && node->kind == NODE_LIST && k < node->n; k++) {
             ceduo_text_format(&f->path, "[%zu]", k);
             walk(f, field->object, node->items[k]);
-            cut(&f->path, here);
+            ceduo_text_cut(&f->path, here);
         }
-        cut(&f->path, before);
+        ceduo_text_cut(&f->path, before);
     }
 }
 

@@ -93,13 +93,12 @@ static bool says_kind(const char *bytes, size_t length)
 {
     const char *p = bytes, *end = bytes + (length < BEGINNING ? length : BEGINNING);
     while ((p = memmem(p, (size_t)(end - p), "ceduo", 5))) {
-        for (p += 5; p < end && (*p == '"' || *p == '\'' || *p == ' ' || *p == ':'); p++)
-            ;
-        const char *kind = p;
-        while (p < end && *p >= 'a' && *p <= 'z')
-            p++;
-        if (p > kind && end - p > 1 && p[0] == '/' && p[1] >= '0' && p[1] <= '9')
+        p += 5;
+        p += strspn(p, "\"' :"); /* bytes end in NUL */
+        size_t n = strspn(p, "abcdefghijklmnopqrstuvwxyz");
+        if (n > 0 && p + n + 1 < end && p[n] == '/' && p[n + 1] >= '0' && p[n + 1] <= '9')
             return true;
+        p = p < end ? p : end;
     }
     return false;
 }

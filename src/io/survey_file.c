@@ -85,13 +85,6 @@ struct reader {
 
 /* ---- header ---- */
 
-/* Whether the head of a column is one of its names but for its unit. */
-static bool is_only_head(const struct csv_span *field, int c)
-{
-    const struct csv one = {.header = *field, .separator = '\0'};
-    return memchr(field->p, '(', field->n) && ceduo_csv_column(&one, heads[c].names, NULL) == 0;
-}
-
 static void read_header(struct reader *r, struct text *unused)
 {
     struct csv_span field;
@@ -120,8 +113,10 @@ static void read_header(struct reader *r, struct text *unused)
         char word[64] = "";
         if (field.n < sizeof word)
             memcpy(word, field.p, field.n);
-        for (int c = 0; c < COLUMNS; c++)
-            if (r->columns[c] == CEDUO_CSV_NONE && heads[c].units && is_only_head(&field, c)) {
+        const struct csv one = {.header = field, .separator = '\0'};
+        for (int c = 0; c < COLUMNS; c++) /* one of its names but for its unit */
+            if (r->columns[c] == CEDUO_CSV_NONE && heads[c].units && memchr(field.p, '(', field.n) &&
+                ceduo_csv_column(&one, heads[c].names, NULL) == 0) {
                 ceduo_csv_complain(&r->csv, field, _("'%s': its values must be in %s; convert them and name the column '%s'"),
                                    word, ranges[c].unit, heads[c].names[0]);
                 r->columns[c] = i; /* which is there */

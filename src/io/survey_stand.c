@@ -78,27 +78,6 @@ static void remark_heights(struct text *out, const char *name, const struct cedu
     ceduo_text_char(out, '\n');
 }
 
-/* The share of each species of the basal area. */
-static void remark_species(const struct writer *w)
-{
-    size_t n, said = 0;
-    const struct ceduo_species *list = ceduo_species_list(&n);
-    const struct ceduo_survey *s = &w->file->survey;
-    double all = 0;
-    for (size_t i = 0; i < s->stems_count; i++)
-        all += s->stems[i].kind == CEDUO_SURVEY_STUMP ? 0 : s->stems[i].dbh * s->stems[i].dbh / s->areas[s->stems[i].plot];
-    for (int k = -1; k < (int)n; k++) {
-        double own = 0;
-        for (size_t i = 0; i < s->stems_count; i++)
-            if (s->stems[i].species == k && s->stems[i].kind != CEDUO_SURVEY_STUMP)
-                own += s->stems[i].dbh * s->stems[i].dbh / s->areas[s->stems[i].plot];
-        if (own > 0)
-            ceduo_text_format(w->out, "%s%s %.0f %%", said++ ? ", " : _("# basal area: "), k < 0 ? _("not said") : list[k].name,
-                              100 * own / all);
-    }
-    ceduo_text_put(w->out, said ? "\n" : "");
-}
-
 static void remark(const struct writer *w)
 {
     const struct ceduo_survey_answer *a = w->answer;
@@ -127,7 +106,22 @@ static void remark(const struct writer *w)
                               c->form_factor, c->stems, _(kinds[c->kind]), c->from * 100, (c->from + CEDUO_SURVEY_CLASS) * 100,
                               CEDUO_FORM_FACTOR);
     }
-    remark_species(w);
+    const struct ceduo_survey *s = &w->file->survey; /* the share of each species of the basal area */
+    size_t n, said = 0;
+    const struct ceduo_species *list = ceduo_species_list(&n);
+    double all = 0;
+    for (int pass = 0; pass < 2; pass++)
+        for (int k = -1; k < (int)n; k++) {
+            double own = 0;
+            for (size_t i = 0; i < s->stems_count; i++)
+                if (s->stems[i].species == k && s->stems[i].kind != CEDUO_SURVEY_STUMP)
+                    own += s->stems[i].dbh * s->stems[i].dbh / s->areas[s->stems[i].plot];
+            all += pass == 0 ? own : 0;
+            if (pass == 1 && own > 0)
+                ceduo_text_format(out, "%s%s %.0f %%", said++ ? ", " : _("# basal area: "),
+                                  k < 0 ? _("not said") : list[k].name, 100 * own / all);
+        }
+    ceduo_text_put(out, said ? "\n" : "");
     if (w->file->unused[0])
         ceduo_text_format(out, _("# columns that were not used: %s\n"), w->file->unused);
     if (w->file->totals > 0)

@@ -88,22 +88,6 @@ static bool make_vertices(struct validator *v, const struct points *p, size_t ex
 
 /* ---- the ground ---- */
 
-/* `n`: stretches of the profile; 0: not known */
-static void check_segments(struct validator *v, size_t n)
-{
-    struct ceduo_slope *s = &v->draft.scene.slope;
-    size_t given = s->segments_given;
-    double smooth = ceduo_schema_default(ceduo_schema_field(ceduo_schema_segment(), "roughness_rad"));
-    if (n > 0 && given != 1 && given != n)
-        ceduo_complain(v, "slope.segments", "",
-                       _("%zu segments for %zu stretches between vertices; give one for each, or one for all"), given, n);
-    for (size_t i = 0; i < given; i++) {
-        struct ceduo_segment *g = &s->segments[i];
-        if (isnan(g->roughness_m) && isnan(g->roughness_rad))
-            g->roughness_rad = smooth;
-    }
-}
-
 /* `p`: the profile, as far as it is known */
 static void check_materials(struct validator *v, const struct points *p)
 {
@@ -186,25 +170,18 @@ static void split_at(struct ceduo_slope *s, double x)
     s->vertices++;
 }
 
-/* The rows as they lie on a profile that was mirrored. */
-static const struct material_belt *mirrored(struct validator *v)
-{
-    const struct ceduo_slope *s = &v->draft.scene.slope;
-    size_t n = v->draft.materials_count;
-    struct material_belt *rows = ceduo_room(v, n, sizeof *rows);
-    for (size_t i = 0; rows && i < n; i++) {
-        const struct material_belt *row = &v->draft.materials[n - 1 - i];
-        rows[i] = (struct material_belt){ceduo_slope_mirrored(s, row->to), ceduo_slope_mirrored(s, row->from), row->material};
-    }
-    return rows;
-}
-
 static void make_materials(struct validator *v)
 {
     struct ceduo_slope *s = &v->draft.scene.slope;
     size_t n = v->draft.materials_count, count;
     const struct ceduo_material *library = ceduo_materials(&count);
-    const struct material_belt *rows = s->reversed ? mirrored(v) : v->draft.materials;
+    struct material_belt *rows = v->draft.materials;
+    if (s->reversed && (rows = ceduo_room(v, n, sizeof *rows))) /* as they lie on a profile that was mirrored */
+        for (size_t i = 0; i < n; i++) {
+            const struct material_belt *row = &v->draft.materials[n - 1 - i];
+            rows[i] =
+                (struct material_belt){ceduo_slope_mirrored(s, row->to), ceduo_slope_mirrored(s, row->from), row->material};
+        }
     for (size_t i = 1; rows && i < n; i++)
         split_at(s, rows[i].from - v->origin);
     s->segments = rows ? ceduo_room(v, s->vertices - 1, sizeof *s->segments) : NULL;
@@ -276,8 +253,15 @@ void ceduo_validate_slope(struct validator *v)
     size_t before = v->problems->met;
     if (!segments && !materials && !is_given(v, "csv"))
         ceduo_complain(v, "slope", "", _("'segments' or 'materials' is missing: the ground"));
-    if (segments && ceduo_is_known(v, "slope.segments"))
-        check_segments(v, p.n > 0 ? p.n - 1 : 0);
+    const double smooth = ceduo_schema_default(ceduo_schema_field(ceduo_schema_segment(), "roughness_rad"));
+    bool known = segments && ceduo_is_known(v, "slope.segments");
+    if (known && p.n > 1 && s->segments_given != 1 && s->segments_given != p.n - 1)
+        ceduo_complain(v, "slope.segments", "",
+                       _("%zu segments for %zu stretches between vertices; give one for each, or one for all"),
+                       s->segments_given, p.n - 1);
+    for (size_t i = 0; known && i < s->segments_given; i++)
+        if (isnan(s->segments[i].roughness_m) && isnan(s->segments[i].roughness_rad))
+            s->segments[i].roughness_rad = smooth;
     if (materials && !segments && ceduo_is_known(v, "slope.materials"))
         check_materials(v, &p);
     if (!v->profile || v->problems->met > before || !ceduo_is_sound(v, "slope"))

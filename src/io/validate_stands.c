@@ -35,20 +35,6 @@ static bool is_written(struct validator *v, const char *path, const char *key)
     return whole[used] == '\0';
 }
 
-/* Shoots are given per hectare or per stool. */
-static void check_densities(struct validator *v, const char *path, const struct ceduo_stand *s)
-{
-    for (size_t i = 0; i < s->shoots_count; i++) {
-        const struct ceduo_stems *stems = &s->shoots[i];
-        const char *here = ceduo_format(v, "%s.shoots[%zu]", path, i);
-        bool each = is_written(v, here, "per_stool");
-        if (!each && lacks(v, stems->per_ha, here, ".per_ha") && ceduo_is_known(v, "%s.per_stool", here))
-            ceduo_complain(v, here, "", _("'per_ha' or 'per_stool' is missing: how many shoots there are"));
-        else if (each && !is_written(v, path, "stools.per_ha") && ceduo_is_known(v, "%s.stools.per_ha", path))
-            ceduo_complain(v, path, "shoots", _("shoots without stools; add 'stools: {per_ha: …, spacing_m: …}'"));
-    }
-}
-
 /* Of what is in the way besides stems no figure is assumed. */
 static void check_low(struct validator *v, const char *path, const struct ceduo_stand *s)
 {
@@ -82,7 +68,14 @@ static void check_stand(struct validator *v, const char *path, struct ceduo_stan
                        ceduo_decimal(v, s->growth.shoots_young), ceduo_decimal(v, s->growth.shoots_old));
     if (s->system == CEDUO_BARE && ceduo_stand_has_stems(s))
         ceduo_complain(v, path, "system", _("'bare', but there are stems; name the system or remove them"));
-    check_densities(v, path, s);
+    for (size_t i = 0; i < s->shoots_count; i++) { /* they are given per hectare or per stool */
+        const char *here = ceduo_format(v, "%s.shoots[%zu]", path, i);
+        bool each = is_written(v, here, "per_stool");
+        if (!each && lacks(v, s->shoots[i].per_ha, here, ".per_ha") && ceduo_is_known(v, "%s.per_stool", here))
+            ceduo_complain(v, here, "", _("'per_ha' or 'per_stool' is missing: how many shoots there are"));
+        else if (each && !is_written(v, path, "stools.per_ha") && ceduo_is_known(v, "%s.stools.per_ha", path))
+            ceduo_complain(v, path, "shoots", _("shoots without stools; add 'stools: {per_ha: …, spacing_m: …}'"));
+    }
     check_spreads(v, path, "shoots", s->shoots, s->shoots_count);
     check_spreads(v, path, "trees", s->trees, s->trees_count);
     check_low(v, path, s);

@@ -63,18 +63,6 @@ static yaml_mark_t mark_of_byte(const char *bytes, size_t offset)
     return mark;
 }
 
-static char byte_at(const struct reader *r, yaml_mark_t mark)
-{
-    const char *p = r->source->bytes + r->skip, *end = r->source->bytes + r->source->length;
-    for (size_t line = 0; line < mark.line; p++)
-        line += *p == '\n';
-    for (size_t i = 0; i < mark.column && p < end; i++)
-        do
-            p++;
-        while (p < end && ceduo_utf8_inside(*p));
-    return p < end ? *p : '\0';
-}
-
 static void *syntax_problem(struct reader *r)
 {
     const yaml_parser_t *p = &r->parser;
@@ -98,7 +86,14 @@ static void *syntax_problem(struct reader *r)
         length--;
     yaml_mark_t at = p->problem_mark, end = mark_of_byte(bytes, length); /* of the last line that has something */
     at = at.line > end.line ? end : at;
-    if (strstr(what, "tab") || byte_at(r, at) == '\t')
+    size_t byte = 0;
+    for (size_t line = 0; line < at.line; byte++)
+        line += bytes[byte] == '\n';
+    for (size_t i = 0; i < at.column && byte < length; i++)
+        do
+            byte++;
+        while (byte < length && ceduo_utf8_inside(bytes[byte]));
+    if (strstr(what, "tab") || (byte < length && bytes[byte] == '\t'))
         return STOP(r, at, _("a tab; indent with spaces"));
     if (strstr(what, "cannot start any token"))
         return STOP(r, at, _("malformed YAML: no value can start with this character; put the text in quotes"));

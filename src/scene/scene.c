@@ -43,21 +43,16 @@ static enum ceduo_status check_options(const struct ceduo_scene *scene)
     return CEDUO_OK;
 }
 
-/* What is counted is there. Lists that are not looked at here, ceduo_schema_holds() does. */
-static bool has_lists(const struct ceduo_scene *s)
-{
-    bool good =
-        (s->blocks || s->blocks_count == 0) && (s->controls || s->controls_count == 0) && (s->options || s->options_count == 0);
-    for (size_t i = 0; good && i < s->options_count; i++)
-        good = s->options[i].belts || s->options[i].belts_count == 0;
-    return good;
-}
-
 enum ceduo_status ceduo_scene_check(const struct ceduo_scene *scene, size_t *where)
 {
     struct ceduo_rock rock;
     enum ceduo_status status = ceduo_rock_of_means(&scene->rock, &rock);
-    if (status == CEDUO_OK && !has_lists(scene))
+    /* what is counted is there; lists that are not looked at here, ceduo_schema_holds() does */
+    bool lists = (scene->blocks || scene->blocks_count == 0) && (scene->controls || scene->controls_count == 0) &&
+                 (scene->options || scene->options_count == 0);
+    for (size_t i = 0; lists && i < scene->options_count; i++)
+        lists = scene->options[i].belts || scene->options[i].belts_count == 0;
+    if (status == CEDUO_OK && !lists)
         status = CEDUO_BAD_NUMBER;
     for (size_t i = 0; i < scene->blocks_count && status == CEDUO_OK; i++) {
         const struct ceduo_block_class *b = &scene->blocks[i];

@@ -143,45 +143,24 @@ struct ceduo_scene ceduo_scene_default(void)
     return draft.scene;
 }
 
-struct ceduo_segment ceduo_segment_default(void)
-{
-    struct ceduo_segment segment;
-    ceduo_schema_init(ceduo_schema_segment(), &segment);
-    return segment;
-}
-
 struct ceduo_option ceduo_option_default(void)
 {
     return (struct ceduo_option){0};
 }
 
-struct ceduo_belt ceduo_belt_default(void)
-{
-    struct ceduo_belt belt;
-    ceduo_schema_init(ceduo_schema_belt(), &belt);
-    return belt;
-}
-
-struct ceduo_stand ceduo_stand_default(void)
-{
-    struct ceduo_stand stand;
-    ceduo_schema_init(ceduo_schema_stand(), &stand);
-    return stand;
-}
-
-struct ceduo_stems ceduo_stems_default(void)
-{
-    struct ceduo_stems stems;
-    ceduo_schema_init(ceduo_schema_field(ceduo_schema_stand(), "trees")->object, &stems);
-    return stems;
-}
-
-struct ceduo_control ceduo_control_default(void)
-{
-    struct ceduo_control control;
-    ceduo_schema_init(ceduo_schema_field(ceduo_schema_scene(), "controls")->object, &control);
-    return control;
-}
+/* What the table of keys says of an item. */
+#define DEFAULT(name, schema)                                                                                                  \
+    struct ceduo_##name ceduo_##name##_default(void)                                                                           \
+    {                                                                                                                          \
+        struct ceduo_##name item;                                                                                              \
+        ceduo_schema_init(schema, &item);                                                                                      \
+        return item;                                                                                                           \
+    }
+DEFAULT(segment, ceduo_schema_segment())
+DEFAULT(belt, ceduo_schema_belt())
+DEFAULT(stand, ceduo_schema_stand())
+DEFAULT(stems, ceduo_schema_field(ceduo_schema_stand(), "trees")->object)
+DEFAULT(control, ceduo_schema_field(ceduo_schema_scene(), "controls")->object)
 
 /* ---- ranges ---- */
 
