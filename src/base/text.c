@@ -8,6 +8,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 #include "language.h"
 #include "must.h"
@@ -207,36 +208,27 @@ char *ceduo_number_shortest(double value, char room[CEDUO_NUMBER_ROOM])
     return room;
 }
 
-static const char *skip_digits(const char *p)
-{
-    while (*p >= '0' && *p <= '9')
-        p++;
-    return p;
-}
+#define DIGITS "0123456789"
 
 enum ceduo_number_reading ceduo_number_read(const char *string, double *value)
 {
     const char *p = string + (*string == '-' || *string == '+');
-    const char *whole = p;
-    p = skip_digits(p);
-    size_t digits = (size_t)(p - whole);
-    if (digits > 1 && *whole == '0')
+    size_t digits = strspn(p, DIGITS), more;
+    if (digits > 1 && *p == '0')
         return CEDUO_NUMBER_NONE;
+    p += digits;
     if (*p == '.') {
-        const char *fraction = ++p;
-        p = skip_digits(p);
-        digits += (size_t)(p - fraction);
+        more = strspn(++p, DIGITS);
+        digits += more;
+        p += more;
     }
-    if (digits == 0)
-        return CEDUO_NUMBER_NONE;
-    if (*p == 'e' || *p == 'E') {
+    if (digits > 0 && (*p == 'e' || *p == 'E')) {
         p += p[1] == '-' || p[1] == '+' ? 2 : 1;
-        const char *exponent = p;
-        p = skip_digits(p);
-        if (p == exponent)
-            return CEDUO_NUMBER_NONE;
+        more = strspn(p, DIGITS);
+        digits = more; /* of the exponent: it has one at least */
+        p += more;
     }
-    if (*p)
+    if (digits == 0 || *p)
         return CEDUO_NUMBER_NONE;
     *value = strtod(string, NULL);
     return isfinite(*value) ? CEDUO_NUMBER_GOOD : CEDUO_NUMBER_TOO_LARGE;
@@ -253,7 +245,7 @@ enum ceduo_number_reading ceduo_count_read(const char *string, double lo, double
     if (number < lo || number > hi)
         return CEDUO_NUMBER_TOO_LARGE;
     *value = (uint64_t)number;
-    if (string[strspn(string, "0123456789")] == '\0') { /* digits may say more than a double holds */
+    if (string[strspn(string, DIGITS)] == '\0') { /* digits may say more than a double holds */
         *value = strtoull(string, NULL, 10);
         if (*value > (uint64_t)hi)
             return CEDUO_NUMBER_TOO_LARGE;
@@ -321,11 +313,6 @@ const char *ceduo_text_nearest(const char *word, const char *const *words, size_
 
 enum { ANY = 1, TOGETHER = 9, WORD = 8, START = 4 };
 
-static int lower(char c)
-{
-    return c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : (unsigned char)c;
-}
-
 /* The best of all ways in which the letters stand in the text: best[k] is that of the first k letters, the last of
  * them at the byte before the one looked at (`ending`), or anywhere before it (`best`). */
 int ceduo_fuzzy_match(const char *typed, const char *text)
@@ -337,7 +324,7 @@ int ceduo_fuzzy_match(const char *typed, const char *text)
         best[k] = ending[k] = k == 0 ? 0 : -1;
     for (size_t i = 0; text[i]; i++) {
         for (size_t k = n; k > 0; k--) {
-            bool same = lower(text[i]) == lower(typed[k - 1]);
+            bool same = strncasecmp(text + i, typed + k - 1, 1) == 0;
             int worth = ANY + (i == 0 || strchr(" -_/.(,", text[i - 1]) ? WORD : 0) + (i == 0 ? START : 0), here = -1;
             if (same && best[k - 1] >= 0)
                 here = best[k - 1] + worth;

@@ -172,78 +172,70 @@ static bool format_text(void)
 
 /* ---- reading ---- */
 
+/* What is read: a file of the folder, or (NULL) a text; with changes; wrong as it is or as it becomes, whole or with a word that not
+ * all is said: faults of a file, a name of none, good changes of which one does not fit the rest, and a path of two places. */
+static const struct reading {
+    const char *name, *sets[6];
+    bool wrong;
+} readings[] = {
+    {"scene.yaml",
+     {"forest[1].stand.stools.spacing_m=0.5", "rock.density_kg_m3.spread=10", "rock.diameter_m.mean=0.6",
+      "release.vx_m_s={mean: 2, spread: 0.5}", "controls[0].accepted_kJ=60"},
+     false},
+    {NULL, {NULL}, false},
+    {"csv.yaml", {NULL}, false},
+    {"seen.yaml", {NULL}, false}, /* a scene, what was seen there, and what is not known of it */
+    {"kinds.yaml", {NULL}, false},
+    {"doubted.yaml", {NULL}, false},
+    {"faulty.yaml", {NULL}, true},
+    {"mil", {NULL}, true},
+    {"scene.yaml", {"rock.density_kg_m3=2500", "release.x_m=92", "simulation.seed=5"}, true},
+    {"scene.yaml", {"forest[wood].to_m=45"}, true},
+};
+static const struct reading *reading;
+
 static bool read_scene(void)
 {
-    ceduo_memory_lost(); /* of a task before */
-    static const char *sets[] = {"forest[1].stand.stools.spacing_m=0.5", "rock.density_kg_m3.spread=10",
-                                 "rock.diameter_m.mean=0.6", "release.vx_m_s={mean: 2, spread: 0.5}",
-                                 "controls[0].accepted_kJ=60"};
+    static const char said[] = "ceduo: scene/1\nrock: {diameter_m: 1}\ncontrols_m: [5]\n"
+                               "slope: {vertices_m: [[0, 9], [9, 0]], segments: [{rn: 0.3, rt: 0.8}]}\n";
+    char path[256];
+    in_folder(path, reading->name ? reading->name : "");
     LOCAL_BY(ceduo_scene_release) struct scene_file file;
     LOCAL_BY(ceduo_problems_free) struct problems problems = {0};
     LOCAL_TEXT(text);
-    bool good = ceduo_scene_load(&file, scene_path, sets, 5, &problems);
+    struct scene_inputs inputs = {0};
+    size_t n = 0;
+    while (reading->sets[n])
+        n++;
+    bool good = !reading->name
+                    ? ceduo_scene_load_text(&file, "scene", said, &problems)
+                    : ceduo_scene_load(&file, strchr(reading->name, '.') ? path : reading->name, reading->sets, n, &problems);
     ceduo_problems_close(&problems);
-    assert_true(good || problems.memory);
-    if (good) {
-        uint64_t key = ceduo_scene_key(&file.scene);
-        add(&key, sizeof key);
-        ceduo_emit(&text, file.root);
-        good = !text.failed && !ceduo_memory_lost();
-        if (good)
-            add_text(&text);
-    }
-    return good;
-}
-
-static bool read_text(void)
-{
-    static const char text[] = "ceduo: scene/1\nrock: {diameter_m: 1}\ncontrols_m: [5]\n"
-                               "slope: {vertices_m: [[0, 9], [9, 0]], segments: [{rn: 0.3, rt: 0.8}]}\n";
-    ceduo_memory_lost();
-    LOCAL_BY(ceduo_scene_release) struct scene_file file;
-    LOCAL_BY(ceduo_problems_free) struct problems problems = {0};
-    bool good = ceduo_scene_load_text(&file, "scene", text, &problems);
-    ceduo_problems_close(&problems);
-    assert_true(good || problems.memory);
-    if (good) {
-        uint64_t key = ceduo_scene_key(&file.scene);
-        add(&key, sizeof key);
-    }
-    return good;
-}
-
-/* A scene, what was seen there, and what is not known of it. */
-static const char *file_name;
-
-static bool read_file(void)
-{
-    char path[256];
-    in_folder(path, file_name);
-    ceduo_memory_lost();
-    LOCAL_BY(ceduo_scene_release) struct scene_file file;
-    struct scene_inputs inputs;
-    LOCAL_BY(ceduo_problems_free) struct problems problems = {0};
-    bool good = ceduo_scene_load(&file, path, NULL, 0, &problems);
-    ceduo_problems_close(&problems);
-    assert_true(good || problems.memory);
+    assert_true(reading->wrong ? !good : good || problems.memory);
+    if (reading->wrong && !problems.memory)
+        add_text(&problems.text);
+    if (reading->wrong)
+        return !problems.memory && !ceduo_memory_lost();
     good = good && ceduo_inputs_of(&file, &inputs);
-    if (good) {
-        uint64_t key = ceduo_scene_key(&file.scene);
-        add(&key, sizeof key);
-        for (size_t i = 0; i < inputs.n; i++)
-            add(inputs.items[i].path, strlen(inputs.items[i].path));
-    }
-    for (size_t i = 0; good && i < file.observations_count; i++) {
+    if (!good)
+        return false;
+    uint64_t key = ceduo_scene_key(&file.scene);
+    add(&key, sizeof key);
+    ceduo_emit(&text, file.root);
+    if (!text.failed)
+        add_text(&text);
+    for (size_t i = 0; i < inputs.n; i++)
+        add(inputs.items[i].path, strlen(inputs.items[i].path));
+    for (size_t i = 0; i < file.observations_count; i++) {
         const struct ceduo_observation *o = &file.observations[i];
         add(o->name, strlen(o->name));
         add(o->values ? o->values : &o->mean, sizeof(double));
     }
-    return good && !ceduo_memory_lost();
+    return !ceduo_memory_lost();
 }
 
 static bool read_survey(void)
 {
-    ceduo_memory_lost();
     LOCAL_BY(ceduo_arena_free) struct arena arena = {0};
     LOCAL_BY(ceduo_problems_free) struct problems problems = {0};
     struct survey_file file;
@@ -254,31 +246,6 @@ static bool read_survey(void)
     if (good)
         add_text(&yaml);
     return good && !ceduo_memory_lost();
-}
-
-/* What is wrong, whole or with a word that not all is said: faults of a file, a name of none, good changes of which one does
- * not fit the rest, and a path of two places. */
-static const struct wrong {
-    const char *name, *sets[3];
-    size_t n;
-} wrongs[] = {{"faulty.yaml", {NULL}, 0},
-              {NULL, {NULL}, 0},
-              {"scene.yaml", {"rock.density_kg_m3=2500", "release.x_m=92", "simulation.seed=5"}, 3},
-              {"scene.yaml", {"forest[wood].to_m=45"}, 1}};
-static const struct wrong *wrong;
-
-static bool read_wrong(void)
-{
-    char path[256];
-    in_folder(path, wrong->name ? wrong->name : "");
-    ceduo_memory_lost();
-    LOCAL_BY(ceduo_scene_release) struct scene_file file;
-    LOCAL_BY(ceduo_problems_free) struct problems problems = {0};
-    assert_false(ceduo_scene_load(&file, wrong->name ? path : "mil", wrong->sets, wrong->n, &problems));
-    ceduo_problems_close(&problems);
-    if (!problems.memory)
-        add_text(&problems.text);
-    return !problems.memory && !ceduo_memory_lost();
 }
 
 /* ---- folders ---- */
@@ -318,16 +285,9 @@ static bool list_profiles(void)
 TEST_WITH(scenes_are_read, set_up, folder_tear_down)
 {
     without_memory(format_text);
-    without_memory(read_scene);
-    without_memory(read_text);
-    static const char *const names[] = {"csv.yaml", "seen.yaml", "kinds.yaml", "doubted.yaml"};
-    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
-        file_name = names[i];
-        without_memory(read_file);
-    }
+    for (reading = readings; reading < readings + sizeof readings / sizeof readings[0]; reading++)
+        without_memory(read_scene);
     without_memory(read_survey);
-    for (wrong = wrongs; wrong < wrongs + sizeof wrongs / sizeof wrongs[0]; wrong++)
-        without_memory(read_wrong);
 }
 
 TEST_WITH(folders, set_up, folder_tear_down)
