@@ -26,12 +26,8 @@ struct ceduo_other_energy {
 /* The other law of an option: brauner where all its stems follow dorren, otherwise dorren. */
 enum ceduo_energy_model ceduo_other_law(const struct ceduo_option *option);
 
-/* The option with that law in every stand. Its belts are its own, all else is shared with `option`. False without
+/* The scene with that law in every stand of its options. Their belts are its own, all else is shared with `scene`. False without
  * memory. Release it in any case. */
-bool ceduo_other_option(const struct ceduo_option *option, struct ceduo_option *other);
-void ceduo_other_release(struct ceduo_option *other);
-
-/* The scene with all options so. */
 bool ceduo_other_scene(const struct ceduo_scene *scene, struct ceduo_scene *other);
 void ceduo_other_scene_release(struct ceduo_scene *other);
 

@@ -13,40 +13,29 @@ enum ceduo_energy_model ceduo_other_law(const struct ceduo_option *option)
     return CEDUO_BRAUNER;
 }
 
-bool ceduo_other_option(const struct ceduo_option *option, struct ceduo_option *other)
-{
-    enum ceduo_energy_model law = ceduo_other_law(option);
-    *other = *option;
-    other->belts = calloc(option->belts_count + 1, sizeof *other->belts);
-    if (!other->belts)
-        return false;
-    for (size_t i = 0; i < option->belts_count; i++) {
-        other->belts[i] = option->belts[i];
-        other->belts[i].stand.energy = law;
-    }
-    return true;
-}
-
-void ceduo_other_release(struct ceduo_option *other)
-{
-    free(other->belts);
-    other->belts = NULL;
-}
-
 bool ceduo_other_scene(const struct ceduo_scene *scene, struct ceduo_scene *other)
 {
     *other = *scene;
     other->options = calloc(scene->options_count + 1, sizeof *other->options);
     bool good = other->options != NULL;
-    for (size_t i = 0; good && i < scene->options_count; i++)
-        good = ceduo_other_option(&scene->options[i], &other->options[i]);
+    for (size_t i = 0; good && i < scene->options_count; i++) {
+        const struct ceduo_option *option = &scene->options[i];
+        struct ceduo_option *to = &other->options[i];
+        *to = *option;
+        to->belts = calloc(option->belts_count + 1, sizeof *to->belts);
+        good = to->belts != NULL;
+        for (size_t k = 0; good && k < option->belts_count; k++) {
+            to->belts[k] = option->belts[k];
+            to->belts[k].stand.energy = ceduo_other_law(option);
+        }
+    }
     return good;
 }
 
 void ceduo_other_scene_release(struct ceduo_scene *other)
 {
     for (size_t i = 0; other->options && i < other->options_count; i++)
-        ceduo_other_release(&other->options[i]);
+        free(other->options[i].belts);
     free(other->options);
     *other = (struct ceduo_scene){0};
 }

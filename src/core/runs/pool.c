@@ -168,28 +168,6 @@ void ceduo_pool_trim(struct ceduo_pool *pool)
     drop_spare(pool, 0, CEDUO_EXACT_BYTES + 1);
 }
 
-/* Of the other law arrivals are asked for alone, and a few samples that give the errors of differences. */
-static enum ceduo_status fill_other(struct ceduo_pool *pool, const struct ceduo_option *option)
-{
-    struct ceduo_option other;
-    struct ceduo_run *run;
-    enum ceduo_status status = ceduo_other_option(option, &other) ? CEDUO_OK : CEDUO_NO_MEMORY;
-    uint64_t key = status == CEDUO_OK ? ceduo_option_key(&pool->scene, &other) : 0;
-    if (status == CEDUO_OK && key != 0 && !find(pool, key)) {
-        struct ceduo_run_def def = pool->def;
-        def.arrivals_only = true;
-        def.cells = 0;
-        def.exact_bytes /= 4;
-        if (def.rocks_most > CEDUO_OTHER_ROCKS)
-            def.rocks_most = CEDUO_OTHER_ROCKS;
-        status = add_run(pool, def, &other, key, &run);
-        if (status == CEDUO_OK)
-            pool->runs[pool->count - 1].beside = true;
-    }
-    ceduo_other_release(&other);
-    return status;
-}
-
 enum ceduo_status ceduo_pool_fill(struct ceduo_pool *pool)
 {
     size_t n = pool->scene.options_count;
@@ -201,8 +179,24 @@ enum ceduo_status ceduo_pool_fill(struct ceduo_pool *pool)
         if (status == CEDUO_OK && wooded)
             status = ceduo_pool_run(pool, &pool->scene.options[i], &run);
     }
-    for (size_t i = 0; i < n && status == CEDUO_OK && !pool->filled && wooded && pool->def.other_energy; i++)
-        status = fill_other(pool, &pool->scene.options[i]);
+    /* of the other law arrivals are asked for alone, and a few samples that give the errors of differences */
+    struct ceduo_run_def def = pool->def;
+    def.arrivals_only = true;
+    def.cells = 0;
+    def.exact_bytes /= 4;
+    def.rocks_most = def.rocks_most > CEDUO_OTHER_ROCKS ? CEDUO_OTHER_ROCKS : def.rocks_most;
+    struct ceduo_scene other = {0};
+    if (status == CEDUO_OK && !pool->filled && wooded && def.other_energy)
+        status = ceduo_other_scene(&pool->scene, &other) ? CEDUO_OK : CEDUO_NO_MEMORY;
+    for (size_t i = 0; status == CEDUO_OK && i < other.options_count; i++) {
+        uint64_t key = ceduo_option_key(&pool->scene, &other.options[i]);
+        if (key == 0 || find(pool, key))
+            continue;
+        status = add_run(pool, def, &other.options[i], key, &run);
+        if (status == CEDUO_OK)
+            pool->runs[pool->count - 1].beside = true;
+    }
+    ceduo_other_scene_release(&other);
     pool->filled = status == CEDUO_OK;
     return status;
 }

@@ -75,15 +75,6 @@ HOT unsigned fly_over(struct lanes *k, size_t i, unsigned under_way, real to, re
     return lanes_of(high) << i;
 }
 
-/* The last of those that wait and are next one after the other, and that lane i flies over from its next stem on. */
-HOT const struct stem *last_below(const struct lanes *k, size_t i)
-{
-    const struct stem *stem = k->stem.next[i];
-    while (stem[1].along < k->stem.free_to[i] && stem[2].along < k->stem.sure[i])
-        stem++;
-    return stem;
-}
-
 /* Takes the stem that is before each of `lanes`, where the one behind it waits and is next; of those that are `above`
  * all, more of them. No branch depends on what is hit. */
 HOT void take_waiting(struct lanes *k, unsigned lanes, unsigned hit, unsigned above)
@@ -93,7 +84,10 @@ HOT void take_waiting(struct lanes *k, unsigned lanes, unsigned hit, unsigned ab
     unsigned shares = wood->shares ? lanes : 0;
     for (above &= lanes; above; above &= above - 1) {
         size_t i = (size_t)__builtin_ctz(above);
-        k->stem.next[i] = last_below(k, i);
+        const struct stem *stem = k->stem.next[i];
+        while (stem[1].along < k->stem.free_to[i] && stem[2].along < k->stem.sure[i])
+            stem++; /* to the last of those that wait and are next one after the other, and that it flies over */
+        k->stem.next[i] = stem;
     }
     for (; lanes; lanes &= lanes - 1) {
         size_t i = (size_t)__builtin_ctz(lanes);
