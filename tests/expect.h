@@ -59,6 +59,13 @@ static inline struct shown shown_unsigned(unsigned long long value)
             fail_msg("%s is %s, wanted %s, which is %s, within %s", #left, SHOWN(left), #right, SHOWN(right), SHOWN(most));    \
     } while (0)
 
+/* |value - expected| <= relative |expected| */
+static inline void expect_relative(double value, double expected, double relative)
+{
+    if (!(fabs(value - expected) <= relative * fmax(fabs(expected), 1e-300)))
+        fail_msg("%.17g is not %.17g within %g of it", value, expected, relative);
+}
+
 /* The next of the words that stand between bars, from where the last one ended: false where there is none. */
 static inline bool next_word(const char **words, char word[64])
 {

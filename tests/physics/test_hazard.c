@@ -11,12 +11,6 @@
 
 #define ROCKS 100000
 
-static void expect_near(double found, double wanted, double tolerance)
-{
-    if (!(fabs(found - wanted) <= tolerance))
-        fail_msg("found %.17g, wanted %.17g within %g", found, wanted, tolerance);
-}
-
 /* ---- sizes ---- */
 
 static double first[] = {0.02, 0.5}, second[] = {0.5, 40};
@@ -45,7 +39,7 @@ TEST(weights_sum_to_what_comes_down)
     struct ceduo_scene scene = scene_of(classes, 2);
     LOCAL_BY(ceduo_sizes_release) struct sizes sizes;
     assert_true(ceduo_sizes_init(&sizes, &scene));
-    expect_near(sizes.per_year, 3.05, 1e-12);
+    EXPECT_NEAR(sizes.per_year, 3.05, 1e-12);
     for (double v = 0.02; v < 40; v *= 1.3) {
         double rate = 0, larger = 0;
         for (uint64_t r = 0; r < ROCKS; r++) {
@@ -53,8 +47,8 @@ TEST(weights_sum_to_what_comes_down)
             rate += s.volume > v ? s.weight * sizes.per_year / ROCKS : 0;
             larger += s.volume > v;
         }
-        expect_near(rate, above(&classes[0], v) + above(&classes[1], v), 1e-3 * rate + 1e-4);
-        expect_near(larger / ROCKS, log(40 / v) / log(40 / 0.02), 1e-3);
+        EXPECT_NEAR(rate, above(&classes[0], v) + above(&classes[1], v), 1e-3 * rate + 1e-4);
+        EXPECT_NEAR(larger / ROCKS, log(40 / v) / log(40 / 0.02), 1e-3);
     }
 }
 
@@ -96,7 +90,7 @@ TEST(typical_rocks_are_as_frequent_as_blocks)
             larger += ceduo_size_of(&sizes, r).volume > 2;
         }
     double p = above(&class, 2);
-    expect_near(larger / n, p, 4 * sqrt(p * (1 - p) / n));
+    EXPECT_NEAR(larger / n, p, 4 * sqrt(p * (1 - p) / n));
     ceduo_sizes_release(&sizes);
     scene = scene_of(both, 2); /* of two classes, the second of which is rarer in each range */
     assert_true(ceduo_sizes_init(&sizes, &scene));
@@ -106,7 +100,7 @@ TEST(typical_rocks_are_as_frequent_as_blocks)
             n++;
             larger += ceduo_size_of(&sizes, r).volume > 0.5;
         }
-    expect_near(larger / n, 0.5 / 3.5, 4 * sqrt(0.5 / 3.5 * 3 / 3.5 / n));
+    EXPECT_NEAR(larger / n, 0.5 / 3.5, 4 * sqrt(0.5 / 3.5 * 3 / 3.5 / n));
     ceduo_sizes_release(&sizes);
 }
 
@@ -122,7 +116,7 @@ TEST(a_rock_is_scaled_as_a_whole)
     assert_int_equal(ceduo_rock_of_means(&def, &rock), CEDUO_OK);
     double volume = rock.volume;
     ceduo_rock_resize(&rock, 8 * volume);
-    ROWS(expect_near, (rock.mean_diameter, 2 * 0.68, 1e-15), (rock.radius, 0.68, 1e-15), (rock.mass, 8 * 512.3058, 1e-3),
+    ROWS(EXPECT_NEAR, (rock.mean_diameter, 2 * 0.68, 1e-15), (rock.radius, 0.68, 1e-15), (rock.mass, 8 * 512.3058, 1e-3),
          (rock.moment, 0.5 * rock.mass * 0.68 * 0.68, 1e-12 * rock.moment), (rock.volume, 8 * volume, 1e-15),
          (rock.axes[0], 1.12, 1e-15), (rock.axes[2], 1.6, 1e-15));
 }
@@ -154,7 +148,7 @@ TEST(weights_that_are_alike_change_nothing)
             weighted_sum_add(&ones, weight, 1);
         struct ceduo_rate wilson = ceduo_wilson((double)n / N, (double)n / N, N);
         struct ceduo_rate share = ceduo_weighted_share(&all, &ones, -1);
-        ROWS(expect_near, (share.rate, (double)n / N, 1e-12), (share.lo, wilson.lo, 1e-9), (share.hi, wilson.hi, 1e-9));
+        ROWS(EXPECT_NEAR, (share.rate, (double)n / N, 1e-12), (share.lo, wilson.lo, 1e-9), (share.hi, wilson.hi, 1e-9));
         struct ceduo_moments m = {0};
         double plain[N];
         for (size_t i = 0; i < n; i++) {
@@ -167,16 +161,16 @@ TEST(weights_that_are_alike_change_nothing)
             assert_true(isnan(a.mean) && isnan(a.p50) && isnan(a.max));
             continue;
         }
-        expect_near(a.mean, b.mean, 1e-12);
-        expect_near(a.sd, b.sd, 1e-9);
+        EXPECT_NEAR(a.mean, b.mean, 1e-12);
+        EXPECT_NEAR(a.sd, b.sd, 1e-9);
         double m1 = (double)(n - 1) / (double)n, all1 = (double)(N - 1) / N; /* divided by n - 1, and by N - 1 */
-        ROWS(expect_near, (a.se, b.se * sqrt(m1 / all1), 1e-9), (a.p50, b.p50, 0), (a.p95, b.p95, 0), (a.p99, b.p99, 0));
-        expect_near(a.p50_lo, b.p50_lo, 0.15); /* the normal law instead of the binomial one: a rank or two */
-        expect_near(a.p50_hi, b.p50_hi, 0.15);
+        ROWS(EXPECT_NEAR, (a.se, b.se * sqrt(m1 / all1), 1e-9), (a.p50, b.p50, 0), (a.p95, b.p95, 0), (a.p99, b.p99, 0));
+        EXPECT_NEAR(a.p50_lo, b.p50_lo, 0.15); /* the normal law instead of the binomial one: a rank or two */
+        EXPECT_NEAR(a.p50_hi, b.p50_hi, 0.15);
         if (n == N) /* enough for all of them */
-            ROWS(expect_near, (a.p95_lo, b.p95_lo, 0.05), (a.p95_hi, b.p95_hi, 0.05), (a.p99_lo, b.p99_lo, 0.05),
+            ROWS(EXPECT_NEAR, (a.p95_lo, b.p95_lo, 0.05), (a.p95_hi, b.p95_hi, 0.05), (a.p99_lo, b.p99_lo, 0.05),
                  (a.p99_hi, b.p99_hi, 0.05));
-        expect_near(a.max, b.max, 0);
+        EXPECT_NEAR(a.max, b.max, 0);
     }
 }
 
@@ -192,25 +186,25 @@ TEST(what_weights_explain_is_no_error)
         weighted_sum_add(&ones, w, 1);
         weighted_sum_add(&fives, w, 5);
     }
-    expect_near(ceduo_weighted_se(&all, &ones), 0, 0);
-    expect_near(ceduo_weighted_se(&all, &fives), 0, 0);
+    EXPECT_NEAR(ceduo_weighted_se(&all, &ones), 0, 0);
+    EXPECT_NEAR(ceduo_weighted_se(&all, &fives), 0, 0);
     struct ceduo_rate all_of_them = ceduo_weighted_share(&all, &ones, -1), nobody = ceduo_weighted_share(&all, &none, -1);
-    expect_near(all_of_them.rate, 1, 0);
-    expect_near(all_of_them.hi, 1, 0);
+    EXPECT_NEAR(all_of_them.rate, 1, 0);
+    EXPECT_NEAR(all_of_them.hi, 1, 0);
     assert_true(all_of_them.lo > 0.99 && all_of_them.lo < 1);
-    expect_near(nobody.rate, 0, 0);
-    expect_near(nobody.lo, 0, 0);
-    expect_near(nobody.hi, 3.8414588 / (N + 3.8414588), 1e-8); /* Wilson of 0 among as many rocks */
+    EXPECT_NEAR(nobody.rate, 0, 0);
+    EXPECT_NEAR(nobody.lo, 0, 0);
+    EXPECT_NEAR(nobody.hi, 3.8414588 / (N + 3.8414588), 1e-8); /* Wilson of 0 among as many rocks */
     struct weighted_sum heavy = {0};
     for (size_t i = 0; i < N; i += 2)
         weighted_sum_add(&heavy, 1.5, 1); /* all heavy rocks and no other: the weights explain all of it */
     struct ceduo_rate known = ceduo_weighted_share(&all, &heavy, -1);
     double alike = all.w * all.w / all.ww;
     assert_int_equal(alike, 800);
-    ROWS(expect_near, (known.rate, 0.75, 1e-12), (known.lo, ceduo_wilson(.75, .75, 800).lo, 1e-9),
+    ROWS(EXPECT_NEAR, (known.rate, 0.75, 1e-12), (known.lo, ceduo_wilson(.75, .75, 800).lo, 1e-9),
          (known.hi, ceduo_wilson(.75, .75, 800).hi, 1e-9));
     all.missing = all.w / 10;
-    expect_near(ceduo_weighted_share(&all, &none, -1).hi, ceduo_wilson(.1, .1, 800).hi, 1e-12);
+    EXPECT_NEAR(ceduo_weighted_share(&all, &none, -1).hi, ceduo_wilson(.1, .1, 800).hi, 1e-12);
     all.n = 1;
     assert_true(isnan(ceduo_weighted_se(&all, &ones)));
 }
@@ -218,16 +212,16 @@ TEST(what_weights_explain_is_no_error)
 TEST(quantiles_by_hand)
 {
     const struct weighted values[] = {{1, 1}, {2, 2}, {3, 1}};
-    expect_near(ceduo_weighted_quantile(values, 3, 0.25), 1, 0); /* a whole share is reached by its last value */
-    ROWS(expect_near, (ceduo_weighted_quantile(values, 3, 0.26), 2, 0), (ceduo_weighted_quantile(values, 3, 0.75), 2, 0),
+    EXPECT_NEAR(ceduo_weighted_quantile(values, 3, 0.25), 1, 0); /* a whole share is reached by its last value */
+    ROWS(EXPECT_NEAR, (ceduo_weighted_quantile(values, 3, 0.26), 2, 0), (ceduo_weighted_quantile(values, 3, 0.75), 2, 0),
          (ceduo_weighted_quantile(values, 3, 0.76), 3, 0));
-    expect_near(ceduo_weighted_quantile(values, 3, 1.1), 3, 0); /* beyond all */
+    EXPECT_NEAR(ceduo_weighted_quantile(values, 3, 1.1), 3, 0); /* beyond all */
     assert_true(isnan(ceduo_weighted_quantile(values, 0, 0.5)));
     const struct released all = {.n = 3, .w = 4, .ww = 6, .per_year = 1};
     struct weighted one = {5, 1};
     struct ceduo_distribution d = ceduo_weighted_distribution(&all, &one, 1);
-    expect_near(d.mean, 5, 0);
-    expect_near(d.p99, 5, 0);
+    EXPECT_NEAR(d.mean, 5, 0);
+    EXPECT_NEAR(d.p99, 5, 0);
     assert_true(isnan(d.sd) && isnan(d.se));
 }
 
@@ -241,7 +235,7 @@ TEST(energies_and_classes_are_what_they_are_called)
     } rows[] = {{0, 0}, {29999, 0}, {30000, 1}, {299999, 1}, {3e5, 2}, {1e12, 2}, {NAN, -1}};
     for (size_t i = 0; i < LENGTH(rows); i++)
         assert_int_equal(ceduo_intensity_of(rows[i].energy), rows[i].class);
-    ROWS(expect_near, (ceduo_hazard_energy(0), 100, 0), (ceduo_hazard_energy(15), 3000, 0),
+    ROWS(EXPECT_NEAR, (ceduo_hazard_energy(0), 100, 0), (ceduo_hazard_energy(15), 3000, 0),
          (ceduo_hazard_energy(CEDUO_HAZARD_ENERGIES - 1), 1e9, 0));
     for (size_t i = 1; i < CEDUO_HAZARD_ENERGIES; i++)
         EXPECT(ceduo_hazard_energy(i), >, ceduo_hazard_energy(i - 1));
@@ -254,16 +248,16 @@ TEST(few_rocks_bound_what_they_can)
     struct weighted energies[] = {{4e5, 1}, {2e4, 1}, {1e5, 1}};
     struct ceduo_hazard h;
     assert_true(ceduo_hazard_read(&all, energies, 3, 5e4, &h));
-    ROWS(expect_near, (h.reach.rate, 0.0015, 1e-15), (h.accepted.rate, 0.001, 1e-15),
+    ROWS(EXPECT_NEAR, (h.reach.rate, 0.0015, 1e-15), (h.accepted.rate, 0.001, 1e-15),
          (ceduo_hazard_feared(&h).rate, 0.001, 1e-15));
     for (size_t i = 0; i < CEDUO_INTENSITIES; i++)
-        expect_near(h.intensity[i].within.rate, 0.0005, 1e-15);
+        EXPECT_NEAR(h.intensity[i].within.rate, 0.0005, 1e-15);
     assert_true(isnan(h.returns[3].energy) && isnan(h.returns[3].lo)); /* 0.0015 a year: less than one in 300 years */
-    expect_near(h.returns[3].hi, 1e5, 0); /* 1/150 of the blocks: more than one of N may be by Wilson, two may not */
+    EXPECT_NEAR(h.returns[3].hi, 1e5, 0); /* 1/150 of the blocks: more than one of N may be by Wilson, two may not */
     assert_true(isnan(h.returns[1].hi));  /* one in 30 years is more than all three may be */
     assert_true(ceduo_hazard_read(&all, energies, 3, NAN, &h));
     assert_true(isnan(h.accepted.rate));
-    expect_near(ceduo_hazard_feared(&h).rate, 0.0015, 1e-15);
+    EXPECT_NEAR(ceduo_hazard_feared(&h).rate, 0.0015, 1e-15);
     struct ceduo_hazard none = ceduo_hazard_none();
     ceduo_hazard_compare(&h, &none);
     assert_true(isnan(h.left) && isnan(h.intensity[0].left));
@@ -277,7 +271,7 @@ TEST(a_curve_ends_where_its_energies_do)
     struct ceduo_hazard h;
     assert_true(ceduo_hazard_read(&all, energies, 2, NAN, &h));
     assert_int_equal(h.energies, CEDUO_HAZARD_ENERGIES);
-    expect_near(h.exceed[CEDUO_HAZARD_ENERGIES - 1].rate.rate, 1, 0);
+    EXPECT_NEAR(h.exceed[CEDUO_HAZARD_ENERGIES - 1].rate.rate, 1, 0);
 }
 
 /* An energy that a rock has is not exceeded by it; a class begins with its lower limit; a return period is met by a rate that
@@ -288,15 +282,15 @@ TEST(at_a_limit)
     struct weighted energies[] = {{3e5, 1}, {3e4, 1}};
     struct ceduo_hazard h;
     assert_true(ceduo_hazard_read(&all, energies, 2, 3e5, &h));
-    ROWS(expect_near, (h.accepted.rate, 0, 0), (h.intensity[0].within.rate, 0, 0), (h.intensity[1].within.rate, 0.01, 1e-15),
+    ROWS(EXPECT_NEAR, (h.accepted.rate, 0, 0), (h.intensity[0].within.rate, 0, 0), (h.intensity[1].within.rate, 0.01, 1e-15),
          (h.intensity[2].within.rate, 0.01, 1e-15));
     for (size_t i = 0; i < h.energies; i++)
-        expect_near(h.exceed[i].rate.rate, h.exceed[i].energy < 3e4 ? 0.02 : h.exceed[i].energy < 3e5 ? 0.01 : 0, 1e-15);
+        EXPECT_NEAR(h.exceed[i].rate.rate, h.exceed[i].energy < 3e4 ? 0.02 : h.exceed[i].energy < 3e5 ? 0.01 : 0, 1e-15);
     assert_int_equal(h.returns[2].years, 100);
-    expect_near(h.returns[2].energy, 3e5, 0);
+    EXPECT_NEAR(h.returns[2].energy, 3e5, 0);
     assert_true(isnan(h.returns[2].hi)); /* of none among 1000 up to 0.038 a year may be: no energy is too high */
     assert_true(ceduo_hazard_read(&all, energies, 2, nextafter(3e5, 0), &h));
-    expect_near(h.accepted.rate, 0.01, 1e-15);
+    EXPECT_NEAR(h.accepted.rate, 0.01, 1e-15);
 }
 
 /* No rock arrives, of two hundred: nothing is known but what may be. */
@@ -305,8 +299,8 @@ TEST(nobody_arrives)
     const struct released all = {.n = 200, .w = 200, .ww = 200, .per_year = 1};
     struct ceduo_hazard h;
     assert_true(ceduo_hazard_read(&all, NULL, 0, 5e4, &h));
-    expect_near(h.reach.rate, 0, 0);
-    expect_near(h.reach.hi, 3.8414588 / (200 + 3.8414588), 1e-8); /* Wilson of 0 among 200 */
+    EXPECT_NEAR(h.reach.rate, 0, 0);
+    EXPECT_NEAR(h.reach.hi, 3.8414588 / (200 + 3.8414588), 1e-8); /* Wilson of 0 among 200 */
     assert_int_equal(h.energies, 1);
     for (size_t i = 0; i < CEDUO_RETURNS; i++)
         assert_true(isnan(h.returns[i].energy) && isnan(h.returns[i].lo) && isnan(h.returns[i].hi));
@@ -328,17 +322,17 @@ TEST(fewer_arrivals_raise_no_upper_end)
         all.ww += could[i].weight * could[i].weight;
     }
     ceduo_weighted_bound(could, N);
-    ROWS(expect_near, (could[0].weight, N, 1e-9), (could[N / 2].weight, 50, 1e-9), (could[N - 1].weight, 0.1, 1e-12));
+    ROWS(EXPECT_NEAR, (could[0].weight, N, 1e-9), (could[N / 2].weight, 50, 1e-9), (could[N - 1].weight, 0.1, 1e-12));
     for (size_t n = 0; n <= LENGTH(energies); n++) {
         struct ceduo_hazard h;
         assert_true(ceduo_hazard_read(&all, energies, n, 5, &h));
-        expect_near(h.reach.hi, of_all, 1e-8);
+        EXPECT_NEAR(h.reach.hi, of_all, 1e-8);
         if (n == 0)
-            expect_near(h.accepted.hi, of_large, 1e-9);
+            EXPECT_NEAR(h.accepted.hi, of_large, 1e-9);
         EXPECT(h.accepted.hi, >=, before);
         before = h.accepted.hi;
         assert_true(ceduo_hazard_read(&all, energies, n, 10, &h)); /* as much as none could have */
-        expect_near(h.accepted.hi, 0, 0);
+        EXPECT_NEAR(h.accepted.hi, 0, 0);
     }
     EXPECT(before, >, 1.5 * of_large);
 }

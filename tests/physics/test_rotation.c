@@ -15,12 +15,6 @@
 #define COHORTS_MOST 4
 #define B            0.68 /* m: the paper's rock */
 
-static void expect_near(double value, double expected, double relative)
-{
-    if (!(fabs(value - expected) <= relative * fmax(fabs(expected), 1e-300)))
-        fail_msg("%.17g is not %.17g within %g", value, expected, relative);
-}
-
 /* ---- a stand to grow ---- */
 
 struct sample {
@@ -106,7 +100,7 @@ TEST_WITH(an_inventory_grows_along_its_curves, fresh, NULL)
         LOCAL_BY(ceduo_grown_stand_release) struct ceduo_grown_stand grown = at(INFINITY, t);
         const struct ceduo_stems *shoot = &grown.stand.shoots[0], *tree = &grown.stand.trees[0];
         double d = .16 * (1 - exp(-.022 * (a + t))), h = 6 * (1 - exp(-.035 * (a + t))) / (1 - exp(-.035 * a));
-        ROWS(expect_near, (shoot->dbh, d, 1e-13), (shoot->height, h, 1e-13), (shoot->dbh_sd, .01 * d / .05, 1e-13),
+        ROWS(expect_relative, (shoot->dbh, d, 1e-13), (shoot->height, h, 1e-13), (shoot->dbh_sd, .01 * d / .05, 1e-13),
              (shoot->volume, .004 * d * d * h / (.05 * .05 * 6), 1e-13), (shoot->age, a + t, 1e-13),
              (shoot->per_ha, 7500 * (3 + 13 * exp(-(a + t) / 5)) / (3 + 13 * exp(-a / 5)), 1e-13),
              (tree->dbh, .45 * (1 - exp(-.014 * (b + t))), 1e-13),
@@ -124,7 +118,7 @@ TEST_WITH(a_given_age_stands_over_that_of_the_curve, fresh, NULL)
     s.trees[0].age = 70;
     s.stand.growth.sdi_most = 0;
     struct ceduo_grown_stand grown = at(INFINITY, 10);
-    ROWS(expect_near, (grown.stand.shoots[0].dbh, .05 * (1 - exp(-.022 * 18)) / (1 - exp(-.022 * 8)), 1e-14),
+    ROWS(expect_relative, (grown.stand.shoots[0].dbh, .05 * (1 - exp(-.022 * 18)) / (1 - exp(-.022 * 8)), 1e-14),
          (grown.stand.shoots[0].per_ha, 7500 * (3 + 13 * exp(-18. / 5)) / (3 + 13 * exp(-8. / 5)), 1e-14),
          (grown.stand.trees[0].dbh, .2 * (1 - exp(-.014 * 80)) / (1 - exp(-.014 * 70)), 1e-14));
     EXPECT(grown.stand.shoots[0].age, ==, 18);
@@ -133,7 +127,7 @@ TEST_WITH(a_given_age_stands_over_that_of_the_curve, fresh, NULL)
     assert_int_equal(ceduo_first_cut(&s.stand, NAN), 17);
     s.shoots[0].age = 0; /* nothing has a dbh at 0: as if not given */
     grown = at(INFINITY, 10);
-    expect_near(grown.stand.shoots[0].dbh, .16 * (1 - 11. / 16 * exp(-.22)), 1e-14);
+    expect_relative(grown.stand.shoots[0].dbh, .16 * (1 - 11. / 16 * exp(-.22)), 1e-14);
     ceduo_grown_stand_release(&grown);
 }
 
@@ -145,7 +139,7 @@ TEST_WITH(no_old_shoots, fresh, NULL)
     s.stand.stools_per_ha = 1;
     assert_int_equal(ceduo_first_cut(&s.stand, 3), CEDUO_NEVER); /* nothing would come up */
     struct ceduo_grown_stand grown = at(3, 10);
-    expect_near(grown.stand.shoots[0].per_ha, 7500 * exp(-2), 1e-13);
+    expect_relative(grown.stand.shoots[0].per_ha, 7500 * exp(-2), 1e-13);
     ceduo_grown_stand_release(&grown);
     s.stand.growth.shoots_young = 0;
     grown = at(3, 10);
@@ -166,7 +160,7 @@ TEST(next_to_nothing_grows_as_a_new_stem)
         s.stand.growth.sdi_most = 0;
         LOCAL_BY(ceduo_grown_stand_release) struct ceduo_grown_stand grown = at(INFINITY, 10);
         const struct ceduo_stems *shoot = &grown.stand.shoots[0], *tree = &grown.stand.trees[0];
-        ROWS(expect_near, (shoot->dbh, .16 * (1 - exp(-.22)), 1e-13), (shoot->height, 14 * (1 - exp(-.35)), 1e-13),
+        ROWS(expect_relative, (shoot->dbh, .16 * (1 - exp(-.22)), 1e-13), (shoot->height, 14 * (1 - exp(-.35)), 1e-13),
              (tree->dbh, .45 * (1 - exp(-.14)), 1e-13), (tree->height, 20 * (1 - exp(-.3)), 1e-13));
         EXPECT_NAN(shoot->volume, tree->volume);
         EXPECT(shoot->age, ==, 10);
@@ -278,15 +272,15 @@ TEST_WITH(a_simple_coppice_after_its_cuts, fresh, NULL)
         assert_int_equal(g->trees_count, 2);
         for (unsigned j = 0; j < 2; j++) {
             double age = 25 * (j + 1) + tau;
-            expect_near(g->trees[j].dbh, .45 * (1 - exp(-.014 * age)), 1e-14);
-            expect_near(g->trees[j].height, 20 * (1 - exp(-.03 * age)), 1e-14);
+            expect_relative(g->trees[j].dbh, .45 * (1 - exp(-.014 * age)), 1e-14);
+            expect_relative(g->trees[j].height, 20 * (1 - exp(-.03 * age)), 1e-14);
             EXPECT_IS(g->trees[j], (per_ha, 30), (age, age));
             assert_true(isnan(g->trees[j].volume));
         }
         assert_int_equal(g->shoots_count, tau > 0);
         EXPECT_IS(*g, (stools_per_ha, (tau > 0 ? 2500 : 0)), (spacing, .35));
         if (tau > 0) {
-            ROWS(expect_near, (g->shoots[0].dbh, .16 * (1 - exp(-.022 * tau)), 1e-14),
+            ROWS(expect_relative, (g->shoots[0].dbh, .16 * (1 - exp(-.022 * tau)), 1e-14),
                  (g->shoots[0].height, 14 * (1 - exp(-.035 * tau)), 1e-14),
                  (g->shoots[0].per_ha, 2500 * (3 + 13 * exp(-.2 * tau)), 1e-14));
             EXPECT(g->shoots[0].dbh_sd, ==, 0);
@@ -308,15 +302,15 @@ TEST_WITH(a_selection_coppice_always_has_shoots, fresh, NULL)
         EXPECT_IS(*g, (shoots_count, 3 - missing), (stools_per_ha, 2500));
         for (unsigned i = 0; i < 3 - missing; i++) {
             double age = 13 * (i + missing) + tau;
-            expect_near(g->shoots[i].dbh, .16 * (1 - exp(-.022 * age)), 1e-14);
-            expect_near(g->shoots[i].per_ha, 2500 * (2 + (16. / 3 - 2) * exp(-age / 5)), 1e-14);
+            expect_relative(g->shoots[i].dbh, .16 * (1 - exp(-.022 * age)), 1e-14);
+            expect_relative(g->shoots[i].per_ha, 2500 * (2 + (16. / 3 - 2) * exp(-age / 5)), 1e-14);
         }
         EXPECT(g->trees_count, ==, 1);
         EXPECT(g->trees[0].age, ==, 26 + tau);
     }
     s.stand.growth.shoots_young = s.stand.growth.shoots_old = 1; /* two of three cohorts: less than one a stool */
     LOCAL_BY(ceduo_grown_stand_release) struct ceduo_grown_stand grown = at(0, 13);
-    expect_near(ceduo_stand_shoots(&grown.stand), 2500, 1e-14);
+    expect_relative(ceduo_stand_shoots(&grown.stand), 2500, 1e-14);
     EXPECT(ceduo_stand_shoots(&grown.stand), >=, 2500);
 }
 
@@ -343,8 +337,8 @@ TEST_WITH(without_cuts_it_grows_for_ever, fresh, NULL)
     s.stand.cutting.rotation = 0;
     LOCAL_BY(ceduo_grown_stand_release) struct ceduo_grown_stand never = at(3, 1000);
     expect_same_stand(&never.stand, &infinite.stand);
-    expect_near(never.stand.shoots[0].dbh, .16, 1e-6);
-    expect_near(never.stand.trees[0].dbh, .45, 1e-6);
+    expect_relative(never.stand.shoots[0].dbh, .16, 1e-6);
+    expect_relative(never.stand.trees[0].dbh, .45, 1e-6);
 }
 
 /* ---- density ---- */
@@ -363,16 +357,16 @@ TEST(the_density_index)
 {
     struct paper_plot plot; /* one mean dbh each */
     paper_plot_init(&plot, 1);
-    expect_near(ceduo_stems_sdi(&plot.shoots, 1), plot.shoots.per_ha * pow(6.1 / 25.4, 1.605), 1e-13);
+    expect_relative(ceduo_stems_sdi(&plot.shoots, 1), plot.shoots.per_ha * pow(6.1 / 25.4, 1.605), 1e-13);
     paper_plot_init(&plot, 2);
-    expect_near(ceduo_stems_sdi(&plot.trees, 1), plot.trees.per_ha * pow(4.7 / 25.4, 1.605), 1e-13);
+    expect_relative(ceduo_stems_sdi(&plot.trees, 1), plot.trees.per_ha * pow(4.7 / 25.4, 1.605), 1e-13);
     init();
     s.trees[0].dbh_sd = .02;
-    expect_near(ceduo_stems_sdi(s.trees, 2), index_by_hand(s.trees, 2), 1e-13);
+    expect_relative(ceduo_stems_sdi(s.trees, 2), index_by_hand(s.trees, 2), 1e-13);
     s.stand.growth.sdi_most = 800;
-    expect_near(ceduo_space_of_trees(&s.stand.growth, &s.stand), index_by_hand(s.trees, s.stand.trees_count) / 280, 1e-13);
+    expect_relative(ceduo_space_of_trees(&s.stand.growth, &s.stand), index_by_hand(s.trees, s.stand.trees_count) / 280, 1e-13);
     s.stand.growth.trees_sdi_most = 500;
-    expect_near(ceduo_space_of_trees(&s.stand.growth, &s.stand), index_by_hand(s.trees, s.stand.trees_count) / 500, 1e-13);
+    expect_relative(ceduo_space_of_trees(&s.stand.growth, &s.stand), index_by_hand(s.trees, s.stand.trees_count) / 500, 1e-13);
 }
 
 TEST_WITH(shoots_are_thinned_to_the_density, fresh, NULL)
@@ -384,7 +378,7 @@ TEST_WITH(shoots_are_thinned_to_the_density, fresh, NULL)
         LOCAL_BY(ceduo_grown_stand_release) struct ceduo_grown_stand grown = at(0, tau);
         double n = 2500 * (3 + 13 * exp(-.2 * tau)), dbh = 16 * (1 - exp(-.022 * tau));
         double most = 500 * pow(25.4 / dbh, 1.605);
-        expect_near(ceduo_stand_shoots(&grown.stand), fmax(fmin(n, most), 2500), 1e-12);
+        expect_relative(ceduo_stand_shoots(&grown.stand), fmax(fmin(n, most), 2500), 1e-12);
         thinned += most < n;
     }
     EXPECT(thinned, >, 5);
@@ -397,11 +391,11 @@ TEST_WITH(shoots_are_thinned_to_the_density, fresh, NULL)
     EXPECT(grown.stand.trees[1].per_ha, ==, 30);
     double trees = index_by_hand(grown.stand.trees, 2);
     EXPECT(trees, >, 50);
-    expect_near(index_by_hand(grown.stand.shoots, grown.stand.shoots_count), 600 * (1 - trees / 400), 1e-12);
+    expect_relative(index_by_hand(grown.stand.shoots, grown.stand.shoots_count), 600 * (1 - trees / 400), 1e-12);
     ceduo_grown_stand_release(&grown);
     s.stand.growth.sdi_most = 10; /* the trees alone are more */
     grown = at(0, 24);
-    expect_near(ceduo_stand_shoots(&grown.stand), 2500, 1e-12);
+    expect_relative(ceduo_stand_shoots(&grown.stand), 2500, 1e-12);
     EXPECT(grown.stand.trees[0].per_ha, ==, 30);
     EXPECT(ceduo_space_of_trees(&s.stand.growth, &grown.stand), <, 1);
     ceduo_grown_stand_release(&grown);
@@ -537,6 +531,6 @@ TEST(just_cut_only_the_selection_coppice_protects)
     double d = adc_just_cut("coppice with large reserves", 1500, (struct ceduo_cutting){25, 1, 2, large}, .35, 3);
     ROWS(EXPECT, (a, >, 30), (b, >, 30), (d, >, 30), (c, <, 30));
     double d1 = .45 * (1 - exp(-.35)), d2 = .45 * (1 - exp(-.7));
-    expect_near(a, 1e4 / (30 * (2 * B + d1 + d2)), 1e-13);
-    expect_near(d, 1e4 / (125 * (2 * B + d1 + d2)), 1e-13);
+    expect_relative(a, 1e4 / (30 * (2 * B + d1 + d2)), 1e-13);
+    expect_relative(d, 1e4 / (125 * (2 * B + d1 + d2)), 1e-13);
 }

@@ -186,16 +186,10 @@ TEST(other_seeds_are_other_rocks)
 
 /* ---- histograms ---- */
 
-static void expect_within(double value, double expected, double relative)
-{
-    if (!(fabs(value - expected) <= relative * fabs(expected)))
-        fail_msg("%.9g is not %.9g within %g", value, expected, relative);
-}
-
 static void expect_distribution_within(const struct ceduo_distribution *a, const struct ceduo_distribution *b)
 {
     EXPECT_SAME(*a, *b, mean, sd, se, max);
-    ROWS(expect_within, (a->p50, b->p50, 1e-4), (a->p95, b->p95, 1e-4), (a->p95_lo, b->p95_lo, 1e-4),
+    ROWS(expect_relative, (a->p50, b->p50, 1e-4), (a->p95, b->p95, 1e-4), (a->p95_lo, b->p95_lo, 1e-4),
          (a->p95_hi, b->p95_hi, 1e-4), (a->p99, b->p99, 1e-4));
 }
 
@@ -221,8 +215,8 @@ TEST(percentiles_of_histograms_are_those_of_all_samples)
         assert_int_equal(ceduo_run_energies(some, 0, none, 1), 0);
         struct ceduo_ends p = ends_of(some);
         struct ceduo_ends q = ends_of(all);
-        expect_within(p.stop_p50, q.stop_p50, 1e-4);
-        expect_within(p.stop_p95, q.stop_p95, 1e-4);
+        expect_relative(p.stop_p50, q.stop_p50, 1e-4);
+        expect_relative(p.stop_p95, q.stop_p95, 1e-4);
         EXPECT(p.stop_max, ==, q.stop_max);
     }
 }
@@ -251,7 +245,7 @@ TEST(envelopes_agree_with_the_control_at_the_same_place)
         if (cells[i] != 135)
             continue;
         assert_int_equal(e.passed, a.reached);
-        ROWS(expect_within, (e.mean_energy, a.energy.mean, 1. / 64), (e.energy.p50, a.energy.p50, 1. / 64),
+        ROWS(expect_relative, (e.mean_energy, a.energy.mean, 1. / 64), (e.energy.p50, a.energy.p50, 1. / 64),
              (e.energy.p95, a.energy.p95, 1. / 64), (e.speed.p50, a.speed.p50, 1. / 64), (e.speed.p95, a.speed.p95, 1. / 64),
              (e.height.p95, a.height.p95, 1. / 64));
         ROWS(EXPECT, (e.energy.max, ==, a.energy.max), (e.speed.max, ==, a.speed.max), (e.height.max, ==, a.height.max));
@@ -369,7 +363,7 @@ TEST(a_lumped_rock_of_many_masses_has_energies_of_its_own)
     /* the way does not depend on the mass */
     expect_mean("mean speed", a.speed.mean, a.speed.se, 20.612, .005, .001);
     expect_mean("mean energy", a.energy.mean / 1e3, a.energy.se / 1e3, 114.69, .05, .01);
-    expect_within(a.energy.mean, a.translation.mean, 1e-12);
+    expect_relative(a.energy.mean, a.translation.mean, 1e-12);
 }
 
 /* On the flat a rock that drops with vx leaves its first contact with Rt·vx and Rn·vz. */
