@@ -189,14 +189,13 @@ size_t ceduo_csv_columns(const struct csv *csv, struct text *names)
 {
     struct csv_span left = csv->header, f;
     size_t n = 0;
-    for (; ceduo_csv_cell(&left, csv->separator, &f); n++) {
-        f = trim(f);
+    for (; ceduo_csv_step(csv, &left, &f); n++) {
         ceduo_text_put(names, n > 0 ? ", " : "");
         ceduo_text_safe_n(names, f.p, f.n);
     }
     size_t shown = csv->source->foreign ? ceduo_utf8_cut(ceduo_text_string(names), CEDUO_FOREIGN_MOST) : names->length;
     if (shown < names->length) {
-        names->length = shown;
+        ceduo_text_cut(names, shown);
         ceduo_text_put(names, "\xe2\x80\xa6");
     }
     return n;
@@ -235,11 +234,11 @@ bool ceduo_csv_step(const struct csv *csv, struct csv_span *left, struct csv_spa
 bool ceduo_csv_field(const struct csv *csv, size_t column, struct csv_span *field)
 {
     struct csv_span left = csv->line;
-    for (size_t i = 0; i <= column; i++)
-        if (!ceduo_csv_cell(&left, csv->separator, field))
-            return false;
-    *field = trim(*field);
-    return true;
+    size_t i = 0;
+    while (ceduo_csv_step(csv, &left, field))
+        if (i++ == column)
+            return true;
+    return false;
 }
 
 bool ceduo_csv_complain(const struct csv *csv, struct csv_span field, const char *format, ...)

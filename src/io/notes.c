@@ -17,18 +17,17 @@ bool ceduo_note_of_years(const struct source_note *note)
 
 bool ceduo_notes_assume(const struct source_note *notes, const char *path)
 {
-    for (const struct source_note *note = notes; note; note = note->before)
-        if (ceduo_path_leads_to(path, note->path) && strcmp(note->kind, "assumed") == 0 && !ceduo_note_of_years(note))
-            return true;
-    return false;
+    while (notes &&
+           !(strcmp(notes->kind, "assumed") == 0 && ceduo_path_leads_to(path, notes->path) && !ceduo_note_of_years(notes)))
+        notes = notes->before;
+    return notes != NULL;
 }
 
 bool ceduo_notes_calibrated(const struct source_note *notes, const char *path)
 {
-    for (; notes; notes = notes->before)
-        if (strcmp(notes->kind, "calibrated") == 0 && ceduo_path_leads_to(path, notes->path))
-            return true;
-    return false;
+    while (notes && !(strcmp(notes->kind, "calibrated") == 0 && ceduo_path_leads_to(path, notes->path)))
+        notes = notes->before;
+    return notes != NULL;
 }
 
 const struct source_note *ceduo_notes_find(const struct source_note *notes, const char *path)

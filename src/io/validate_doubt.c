@@ -229,25 +229,6 @@ static bool add_input(struct validator *v, const struct ceduo_input *input)
     return true;
 }
 
-static void add_row(struct validator *v, size_t i)
-{
-    const struct row row = {&v->draft.doubts[i], ceduo_format(v, "doubt[%zu]", i), ""};
-    struct ceduo_input input;
-    bool twice = false;
-    if (!make_input(v, &row, &input))
-        return;
-    for (size_t k = 0; k < v->inputs_count; k++) { /* of one path, by whatever name of an item, or draws of one of its places */
-        const struct ceduo_input *b = &v->inputs[k];
-        for (size_t p = 0; p < input.places_count && b->kind == CEDUO_INPUT_DRAWS; p++)
-            twice |= bsearch(&input.places[p], b->places, b->places_count, sizeof *b->places, by_name) != NULL;
-        twice |= b->kind != CEDUO_INPUT_DRAWS && ceduo_schema_same(with_numbers(v, b->path), with_numbers(v, input.path));
-    }
-    if (twice)
-        ceduo_complain(v, row.at, "path", _("'%s' is given twice"), row.doubt->path);
-    else
-        add_input(v, &input);
-}
-
 /* ---- of stands ---- */
 
 /* A row of a stand. Many belts may have the stand: then it stands for the places in all of them. */
@@ -489,8 +470,22 @@ void ceduo_validate_doubt(struct validator *v)
         return;
     if (v->draws)
         add_draws(v);
-    for (size_t i = 0; i < n; i++)
-        add_row(v, i);
+    for (size_t i = 0; i < n; i++) {
+        const struct row row = {&v->draft.doubts[i], ceduo_format(v, "doubt[%zu]", i), ""};
+        struct ceduo_input input;
+        bool good = make_input(v, &row, &input), twice = false;
+        for (size_t k = 0; good && k < v->inputs_count;
+             k++) { /* of one path, by whatever name of an item, or draws of its places */
+            const struct ceduo_input *b = &v->inputs[k];
+            for (size_t p = 0; p < input.places_count && b->kind == CEDUO_INPUT_DRAWS; p++)
+                twice |= bsearch(&input.places[p], b->places, b->places_count, sizeof *b->places, by_name) != NULL;
+            twice |= b->kind != CEDUO_INPUT_DRAWS && ceduo_schema_same(with_numbers(v, b->path), with_numbers(v, input.path));
+        }
+        if (twice)
+            ceduo_complain(v, row.at, "path", _("'%s' is given twice"), row.doubt->path);
+        else if (good)
+            add_input(v, &input);
+    }
     v->inputs_of_scene = v->inputs_count;
     take_stands(v);
 }

@@ -219,17 +219,16 @@ static struct node *read_entries(struct reader *r, const yaml_event_t *start, in
 
 static struct node *read_value(struct reader *r, const yaml_event_t *event, int depth)
 {
-    const yaml_char_t *anchor = NULL, *tag = NULL;
-    if (event->type == YAML_SCALAR_EVENT) {
-        anchor = event->data.scalar.anchor;
-        tag = event->data.scalar.tag;
-    } else if (event->type == YAML_SEQUENCE_START_EVENT) {
-        anchor = event->data.sequence_start.anchor;
-        tag = event->data.sequence_start.tag;
-    } else if (event->type == YAML_MAPPING_START_EVENT) {
-        anchor = event->data.mapping_start.anchor;
-        tag = event->data.mapping_start.tag;
-    }
+    const bool scalar = event->type == YAML_SCALAR_EVENT, list = event->type == YAML_SEQUENCE_START_EVENT;
+    const bool map = event->type == YAML_MAPPING_START_EVENT;
+    const yaml_char_t *anchor = scalar ? event->data.scalar.anchor
+                                : list ? event->data.sequence_start.anchor
+                                : map  ? event->data.mapping_start.anchor
+                                       : NULL;
+    const yaml_char_t *tag = scalar ? event->data.scalar.tag
+                             : list ? event->data.sequence_start.tag
+                             : map  ? event->data.mapping_start.tag
+                                    : NULL;
     if (depth >= DEPTH_MOST)
         return STOP(r, event->start_mark, _("more than %d levels deep"), DEPTH_MOST);
     if (++r->values > VALUES_MOST)
@@ -238,9 +237,9 @@ static struct node *read_value(struct reader *r, const yaml_event_t *event, int 
         return STOP(r, event->start_mark, _("an anchor; remove it and write the value where it is needed"));
     if (tag)
         return STOP(r, event->start_mark, _("a tag; remove it"));
-    if (event->type == YAML_SCALAR_EVENT)
+    if (scalar)
         return read_scalar(r, event);
-    if (event->type == YAML_SEQUENCE_START_EVENT || event->type == YAML_MAPPING_START_EVENT)
+    if (list || map)
         return read_entries(r, event, depth + 1);
     return STOP(r, event->start_mark, _("an alias; write the value out")); /* nothing else stands for a value */
 }

@@ -187,15 +187,10 @@ static bool holds_number(const struct field *f, double si)
     return other || (optional && isnan(si)) || ((optional || zero) && si == 0) || ceduo_schema_in_range(f, si / f->scale);
 }
 
-static bool holds_spread(const struct field *f, struct ceduo_number n)
-{
-    return holds_number(f, n.mean) && n.spread >= 0 && isfinite(n.spread) && (unsigned)n.kind < ceduo_spread_words.n &&
-           ceduo_schema_spread_fits(f, n);
-}
-
 bool ceduo_schema_field_holds(const struct field *f, const void *item)
 {
     const char *at = (const char *)item + f->offset, *items;
+    struct ceduo_number number;
     size_t n;
     if (f->flags & (FIELD_NOWHERE | FIELD_DRAFT))
         return true;
@@ -203,7 +198,9 @@ bool ceduo_schema_field_holds(const struct field *f, const void *item)
     case FIELD_NUMBER:
         return f->flags & FIELD_PLACE || holds_number(f, *(const double *)(const void *)at);
     case FIELD_SPREAD:
-        return holds_spread(f, *(const struct ceduo_number *)(const void *)at);
+        number = *(const struct ceduo_number *)(const void *)at;
+        return holds_number(f, number.mean) && number.spread >= 0 && isfinite(number.spread) &&
+               (unsigned)number.kind < ceduo_spread_words.n && ceduo_schema_spread_fits(f, number);
     case FIELD_COUNT: { /* 0: not given */
         uint64_t count =
             f->size == sizeof(unsigned) ? *(const unsigned *)(const void *)at : *(const uint64_t *)(const void *)at;
