@@ -49,7 +49,7 @@ static void put_keys(FILE *out)
             fputs(" ,", out);
             put_key(out, a->word2);
         }
-        fprintf(out, "\n%s\n", _(a->help));
+        fprintf(out, "\n%s\n", ceduo_translate_in(a->help));
     }
     fputs(".El\n", out);
 }

@@ -24,18 +24,11 @@ char *ceduo_app_format(const struct app *app, const char *format, ...)
     return string;
 }
 
-const char *ceduo_app_kept(const struct app *app, struct text *text)
-{
-    const char *string = ceduo_arena_string(app->scratch, ceduo_text_string(text));
-    ceduo_text_free(text);
-    return string;
-}
-
 const char *ceduo_app_path(const struct app *app, const char *path)
 {
-    struct text words = {0};
+    LOCAL_TEXT(words);
     ceduo_shown_path(path, &words);
-    return ceduo_app_kept(app, &words);
+    return ceduo_arena_string(app->scratch, ceduo_text_string(&words));
 }
 
 void ceduo_app_tell(struct app *app, bool bad, const char *format, ...)

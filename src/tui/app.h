@@ -46,7 +46,6 @@ struct act {
 
 /* Describes a view: what it shows and how it handles keys. */
 struct view {
-    const char *title;                                 /* marked for translation */
     int panes;                                         /* that Tab goes through; the first is the form */
     bool years;                                        /* compute the years to come while it is open */
     bool uncertainty;                                  /* compute it from here on, whatever view is open */
@@ -128,7 +127,6 @@ bool ceduo_app_news(struct app *app);
 /* A string that lives until the next key; what a path means in words, likewise. */
 char *ceduo_app_format(const struct app *app, const char *format, ...) __attribute__((format(printf, 2, 3)));
 const char *ceduo_app_path(const struct app *app, const char *path);
-const char *ceduo_app_kept(const struct app *app, struct text *text); /* frees the text */
 
 void ceduo_app_tell(struct app *app, bool bad, const char *format, ...) __attribute__((format(printf, 3, 4)));
 #define ceduo_app_say(app, ...)  ceduo_app_tell(app, false, __VA_ARGS__)
@@ -193,6 +191,13 @@ void ceduo_app_step_rock(struct app *app, int by);
 void ceduo_app_search(struct app *app);
 
 /* ---- drawing ---- */
+
+/* Draws everything on app->cells (screen.c): titles of the views, the open view, the column of figures, the explanation of the
+ * field under the cursor, the bar of keys, and the popup over them. */
+void ceduo_screen_draw(struct app *app);
+
+/* Returns the view whose title stands in this column of the top row; VIEW_COUNT if there is none. */
+enum view_number ceduo_screen_view_at(const struct app *app, int column);
 
 /* Draws wrapped text in a rectangle from line `*top` on (NULL: the first); limits `*top` to the text. Returns whether
  * more lines follow below. */

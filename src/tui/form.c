@@ -308,13 +308,12 @@ static void draw_cell(const struct drawing *d, const struct form_cell *cell, int
 {
     struct ceduo_cells *cells = d->cells;
     char shown[80];
-    struct text words = {0};
+    LOCAL_TEXT(words);
     if (cell->given && strcmp(cell->field->key, "path") == 0) /* a place of the scene, in words */
         ceduo_shown_path(cell->text, &words);
     else
         ceduo_text_put(&words, cell->text[0] ? cell->text : "-");
     snprintf(shown, sizeof shown, "%s%s", ceduo_text_string(&words), cell->assumed ? "*" : "");
-    ceduo_text_free(&words);
     double number;
     if ((int)ceduo_utf8_width(shown) > span && strpbrk(shown, ".,") &&
         ceduo_typed_number(cell->text, &number) == CEDUO_NUMBER_GOOD)

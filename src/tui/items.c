@@ -95,17 +95,17 @@ static bool split_segment(struct app *app, const struct item *item)
 {
     const struct ceduo_slope *s = &app->document.file.scene.slope;
     const struct node *segments = ceduo_document_node(&app->document, "slope.segments");
-    bool all = segments && segments->n == 1;
     double at = isnan(item->at) ? s->origin_x + s->x[s->vertices - 1] / 2 : item->at;
-    return split_at(app, all ? ceduo_items_stretch_of(app, at) : item->index, true, item->at);
+    size_t segment = segments && segments->n == 1 ? ceduo_items_stretch_of(app, at) : item->index;
+    return split_at(app, segment, true, item->at);
 }
 
 /* A point between this one and the next, or before the last. */
 static bool split_point(struct app *app, const struct item *item)
 {
     const struct node *vertices = ceduo_document_node(&app->document, "slope.vertices_m");
-    bool last = vertices && item->index + 1 == vertices->n;
-    return split_at(app, item->index - (last && item->index > 0), false, item->at);
+    bool last = vertices && item->index > 0 && item->index + 1 == vertices->n;
+    return split_at(app, item->index - last, false, item->at);
 }
 
 /* ---- adding ---- */
@@ -202,23 +202,20 @@ static bool delete_item(struct app *app, const struct item *item, const char *pa
         return ceduo_document_join_segments(&app->document, index, &app->problems);
     if (strcmp(item->list, "slope.vertices_m") == 0)
         return ceduo_document_remove_vertex(&app->document, index, &app->problems);
+    if (item->group && list && list->items[index]->n > 1 + !!ceduo_node_get(list->items[index], "name"))
+        path = ceduo_app_format(app, "%s.%s", path, item->group);
+    else if ((item->group || strcmp(item->list, "blocks") == 0 || strcmp(item->key, "shoots") == 0) && n == 1)
+        path = item->list;
     if (strcmp(item->key, "materials") == 0 && n > 1) {
         const char *end = index == 0 ? "from_m" : "to_m";
         ceduo_changes_add(&c, "%s[%zu].%s=%.10g", item->list, index == 0 ? 1 : index - 1, end, place_of(app, item, index, end));
-        ceduo_changes_add(&c, "%s", path);
-        return ceduo_changes_make(&c, item->list, &app->problems);
+    } else if (strcmp(item->key, "shoots") == 0 && n == 1) {
+        ceduo_changes_add(&c, "%.*s.stools", (int)(item->key - item->list) - 1, item->list);
+    } else {
+        return ceduo_document_delete(&app->document, path, &app->problems);
     }
-    if (strcmp(item->key, "shoots") == 0 && n == 1) {
-        const char *stand = ceduo_app_format(app, "%.*s", (int)(item->key - item->list) - 1, item->list);
-        ceduo_changes_add(&c, "%s.stools", stand);
-        ceduo_changes_add(&c, "%s", item->list);
-        return ceduo_changes_make(&c, stand, &app->problems);
-    }
-    if (item->group && list && list->items[index]->n > 1 + !!ceduo_node_get(list->items[index], "name"))
-        path = ceduo_app_format(app, "%s.%s", path, item->group);
-    else if ((item->group || strcmp(item->list, "blocks") == 0) && n == 1)
-        path = item->list;
-    return ceduo_document_delete(&app->document, path, &app->problems);
+    ceduo_changes_add(&c, "%s", path);
+    return ceduo_changes_make(&c, item->list, &app->problems);
 }
 
 /* ---- the actions ---- */
@@ -235,17 +232,14 @@ static const struct {
              {"shoots", add_shoots, copy_item},          {"trees", add_trees, copy_item},
              {"blocks", ask_for_blocks, copy_item}};
 
-static item_function *function_for(const struct item *item, bool add)
+/* Adds or duplicates. The cursor goes to the new item, or the last where it was put before others. */
+static void make(struct app *app, const struct item *item, bool add)
 {
+    item_function *function = copy_item;
     for (size_t i = 0; i < sizeof kinds / sizeof kinds[0]; i++)
         if (strcmp(kinds[i].key, item->key) == 0)
-            return add ? kinds[i].add : kinds[i].duplicate;
-    return copy_item;
-}
-
-/* The cursor goes to the new item, or the last where it was put before others. */
-static void finish(struct app *app, const struct item *item, bool good)
-{
+            function = add ? kinds[i].add : kinds[i].duplicate;
+    bool good = function(app, item);
     if (!good && app->problems.count == 0 && !app->problems.memory && (app->message[0] || app->popup))
         return; /* it is said already, or asked for */
     if (ceduo_app_edited(app, good))
@@ -259,7 +253,7 @@ void ceduo_items_add(struct app *app)
         ceduo_app_say(app, "%s", _("a adds to a list: put the cursor on one"));
         return;
     }
-    finish(app, &item, function_for(&item, true)(app, &item));
+    make(app, &item, true);
     if (strcmp(item.key, "forest") == 0 && !app->message[0])
         ceduo_app_say(app, "%s", _("a belt of its own now: p chooses its stand, c takes it from a sample plot"));
 }
@@ -268,7 +262,7 @@ void ceduo_items_add_at(struct app *app, const char *list, size_t index, double 
 {
     struct item item = item_of(app, list, index);
     item.at = at;
-    finish(app, &item, function_for(&item, false)(app, &item));
+    make(app, &item, false);
 }
 
 void ceduo_items_delete(struct app *app)
@@ -298,7 +292,7 @@ void ceduo_items_duplicate(struct app *app)
     if (!find_item(app, &item) || !item.there)
         ceduo_app_say(app, "%s", _("y duplicates an item of a list: put the cursor on one"));
     else
-        finish(app, &item, function_for(&item, false)(app, &item));
+        make(app, &item, false);
 }
 
 void ceduo_items_move(struct app *app, int by)

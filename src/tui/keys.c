@@ -8,7 +8,7 @@
 #include "base/utf8.h"
 
 const struct action_info ceduo_actions[ACTION_COUNT] = {
-#define X(NAME, key, word, key2, word2, bar, help) {key, key2, word, word2, bar, help},
+#define X(NAME, key, word, key2, word2, bar, help, act) {key, key2, word, word2, bar, help},
     ACTIONS(X)
 #undef X
 };

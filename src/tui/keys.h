@@ -29,71 +29,73 @@ enum key {
     K_F10 = K_F1 + 9
 };
 
-/* The views. A new one is a file with a `struct view` (app.h) and a line here: name, the same in small, key, its word, what
- * the key does. */
+/* The views. A new one is a file with a `struct view` (app.h) and a line here: name, the same in small, key, its word, title. */
 #define VIEWS(V)                                                                                                               \
-    V(SLOPE, slope, '1', "1", N_("view: slope"))                                                                               \
-    V(STAND, stand, '2', "2", N_("view: stand"))                                                                               \
-    V(ROCK, rock, '3', "3", N_("view: rock and release"))                                                                      \
-    V(RESULTS, results, '4', "4", N_("view: results"))                                                                         \
-    V(COMPARE, compare, '5', "5", N_("view: compare"))                                                                         \
-    V(ROTATION, rotation, '6', "6", N_("view: rotation"))                                                                      \
-    V(DOUBT, doubt, '7', "7", N_("view: doubt"))                                                                               \
-    V(OBSERVED, observed, '8', "8", N_("view: what was seen"))
+    V(SLOPE, slope, '1', "1", NP_("view", "slope"))                                                                            \
+    V(STAND, stand, '2', "2", NP_("view", "stand"))                                                                            \
+    V(ROCK, rock, '3', "3", NP_("view", "rock"))                                                                               \
+    V(RESULTS, results, '4', "4", NP_("view", "results"))                                                                      \
+    V(COMPARE, compare, '5', "5", NP_("view", "compare"))                                                                      \
+    V(ROTATION, rotation, '6', "6", NP_("view", "rotation"))                                                                   \
+    V(DOUBT, doubt, '7', "7", NP_("view", "doubt"))                                                                            \
+    V(OBSERVED, observed, '8', "8", NP_("view", "seen"))
 
-#define VIEW_ACTION(NAME, name, key, word, help) X(VIEW_##NAME, key, word, K_NONE, "", 0, help)
+#define K_F(n) (K_F1 + (n)-1)
+
+#define VIEW_ACTION(NAME, name, key, word, help) X(VIEW_##NAME, key, word, K_NONE, "", 0, help, BY(show_view, VIEW_##NAME))
 
 /* The one table of actions: keys, bar, help and manual come from it.
- * name, first key, its word, second key, its word, in the bar, what it does */
+ * name, first key, its word, second key, its word, in the bar, what it does, and how: a function of program.c with a number, or
+ * one without; NULL: views alone do it */
 #define ACTIONS(X)                                                                                                             \
-    X(UP, K_UP, "Up", 'k', "k", 0, N_("move up"))                                                                              \
-    X(DOWN, K_DOWN, "Down", 'j', "j", 0, N_("move down"))                                                                      \
-    X(LEFT, K_LEFT, "Left", 'h', "h", 0, N_("move left"))                                                                      \
-    X(RIGHT, K_RIGHT, "Right", 'l', "l", 0, N_("move right"))                                                                  \
-    X(TOP, K_HOME, "Home", 'g', "g", 0, N_("to the first line"))                                                               \
-    X(BOTTOM, K_END, "End", 'G', "G", 0, N_("to the last line"))                                                               \
-    X(PAGE_UP, K_PAGE_UP, "PgUp", K_NONE, "", 0, N_("a page up"))                                                              \
-    X(PAGE_DOWN, K_PAGE_DOWN, "PgDn", K_NONE, "", 0, N_("a page down"))                                                        \
-    X(NEXT_PANE, K_TAB, "Tab", K_NONE, "", 0, N_("pane"))                                                                      \
-    X(LAST_PANE, K_SHIFT_TAB, "Shift-Tab", K_NONE, "", 0, N_("the pane before"))                                               \
-    X(EDIT, K_ENTER, "Enter", K_NONE, "", 1, N_("edit"))                                                                       \
-    X(MORE, '+', "+", '=', "=", 0, N_("a step more"))                                                                          \
-    X(LESS, '-', "-", '_', "_", 0, N_("a step less"))                                                                          \
-    X(ADD, 'a', "a", K_NONE, "", 1, N_("add"))                                                                                 \
-    X(DELETE, 'd', "d", K_DELETE, "Del", 0, N_("delete"))                                                                      \
-    X(DUPLICATE, 'y', "y", K_NONE, "", 0, N_("duplicate"))                                                                     \
-    X(EARLIER, '<', "<", K_NONE, "", 0, N_("move this item before the one before it"))                                         \
-    X(LATER, '>', ">", K_NONE, "", 0, N_("move this item after the next"))                                                     \
-    X(UNDO, 'u', "u", K_NONE, "", 2, N_("undo"))                                                                               \
-    X(REDO, K_CTRL_R, "Ctrl-R", K_NONE, "", 0, N_("redo"))                                                                     \
-    X(PRESETS, 'p', "p", K_F1 + 5 - 1, "F5", 1, N_("presets"))                                                                 \
-    X(COUNTS, 'c', "c", K_NONE, "", 0, N_("stand from the counts of a sample plot"))                                           \
+    X(UP, K_UP, "Up", 'k', "k", 0, N_("move up"), BY(move_lines, -1))                                                          \
+    X(DOWN, K_DOWN, "Down", 'j', "j", 0, N_("move down"), BY(move_lines, 1))                                                   \
+    X(LEFT, K_LEFT, "Left", 'h', "h", 0, N_("move left"), BY(move_column, -1))                                                 \
+    X(RIGHT, K_RIGHT, "Right", 'l', "l", 0, N_("move right"), BY(move_column, 1))                                              \
+    X(TOP, K_HOME, "Home", 'g', "g", 0, N_("to the first line"), BY(move_lines, -ALL_LINES))                                   \
+    X(BOTTOM, K_END, "End", 'G', "G", 0, N_("to the last line"), BY(move_lines, ALL_LINES))                                    \
+    X(PAGE_UP, K_PAGE_UP, "PgUp", K_NONE, "", 0, N_("a page up"), BY(move_page, -1))                                           \
+    X(PAGE_DOWN, K_PAGE_DOWN, "PgDn", K_NONE, "", 0, N_("a page down"), BY(move_page, 1))                                      \
+    X(NEXT_PANE, K_TAB, "Tab", K_NONE, "", 0, N_("pane"), BY(next_pane, 1))                                                    \
+    X(LAST_PANE, K_SHIFT_TAB, "Shift-Tab", K_NONE, "", 0, N_("the pane before"), BY(next_pane, -1))                            \
+    X(EDIT, K_ENTER, "Enter", K_NONE, "", 1, N_("edit"), DO(ceduo_edit_start))                                                 \
+    X(MORE, '+', "+", '=', "=", 0, N_("a step more"), BY(ceduo_edit_step, 1))                                                  \
+    X(LESS, '-', "-", '_', "_", 0, N_("a step less"), BY(ceduo_edit_step, -1))                                                 \
+    X(ADD, 'a', "a", K_NONE, "", 1, N_("add"), DO(ceduo_items_add))                                                            \
+    X(DELETE, 'd', "d", K_DELETE, "Del", 0, N_("delete"), DO(ceduo_items_delete))                                              \
+    X(DUPLICATE, 'y', "y", K_NONE, "", 0, N_("duplicate"), DO(ceduo_items_duplicate))                                          \
+    X(EARLIER, '<', "<", K_NONE, "", 0, N_("move this item before the one before it"), BY(ceduo_items_move, -1))               \
+    X(LATER, '>', ">", K_NONE, "", 0, N_("move this item after the next"), BY(ceduo_items_move, 1))                            \
+    X(UNDO, 'u', "u", K_NONE, "", 2, N_("undo"), BY(undo_or_redo, -1))                                                         \
+    X(REDO, K_CTRL_R, "Ctrl-R", K_NONE, "", 0, N_("redo"), BY(undo_or_redo, 1))                                                \
+    X(PRESETS, 'p', "p", K_F(5), "F5", 1, N_("presets"), DO(ceduo_popup_presets))                                              \
+    X(COUNTS, 'c', "c", K_NONE, "", 0, N_("stand from the counts of a sample plot"), DO(ceduo_popup_counts))                   \
     VIEWS(VIEW_ACTION)                                                                                                         \
-    X(STOP, K_ESCAPE, "Esc", K_NONE, "", 0, N_("stop a fit, or leave what it found"))                                          \
-    X(FIND, 'f', "f", K_NONE, "", 1, N_("find the value here that reaches a goal"))                                            \
-    X(NEXT_OPTION, ']', "]", K_NONE, "", 0, N_("next option"))                                                                 \
-    X(LAST_OPTION, '[', "[", K_NONE, "", 0, N_("the option before"))                                                           \
-    X(NEXT_ROCK, '.', ".", K_NONE, "", 0, N_("next rock's way"))                                                               \
-    X(LAST_ROCK, ',', ",", K_NONE, "", 0, N_("the rock's way before"))                                                         \
-    X(ZOOM, 'z', "z", K_NONE, "", 0, N_("nearer to the slope, at the cursor along it"))                                        \
-    X(UNZOOM, 'Z', "Z", K_NONE, "", 0, N_("farther from the slope"))                                                           \
-    X(SEARCH, '/', "/", K_F1 + 3 - 1, "F3", 0, N_("search"))                                                                   \
-    X(AGAIN, 'N', "N", K_NONE, "", 0, N_("search again"))                                                                      \
-    X(COMMANDS, ':', ":", K_NONE, "", 0, N_("commands by their names"))                                                        \
-    X(NEW, 'n', "n", K_F1 + 7 - 1, "F7", 0, N_("new scene"))                                                                   \
-    X(OPEN, 'o', "o", K_F1 + 4 - 1, "F4", 0, N_("open a scene"))                                                               \
-    X(SAVE, 's', "s", K_F1 + 2 - 1, "F2", 2, N_("save"))                                                                       \
-    X(SAVE_AS, 'S', "S", K_NONE, "", 0, N_("save under another name"))                                                         \
-    X(COPY, 'Y', "Y", K_NONE, "", 1, N_("copy what the view says"))                                                            \
-    X(EXPORT, 'w', "w", K_F1 + 6 - 1, "F6", 1, N_("export"))                                                                   \
-    X(CHARSET, 'b', "b", K_NONE, "", 0, N_("braille, blocks or ASCII"))                                                        \
-    X(THEME, 't', "t", K_NONE, "", 0, N_("colours: dark, light, none"))                                                        \
-    X(REDRAW, K_CTRL_L, "Ctrl-L", K_NONE, "", 0, N_("draw the screen anew"))                                                   \
-    X(HELP, '?', "?", K_F1, "F1", 2, N_("help"))                                                                               \
-    X(QUIT, 'q', "q", K_F10, "F10", 2, N_("quit"))
+    X(STOP, K_ESCAPE, "Esc", K_NONE, "", 0, N_("stop a fit, or leave what it found"), DO(NULL))                                \
+    X(FIND, 'f', "f", K_NONE, "", 1, N_("find the value here that reaches a goal"), DO(ceduo_popup_find))                      \
+    X(NEXT_OPTION, ']', "]", K_NONE, "", 0, N_("next option"), BY(next_option, 1))                                             \
+    X(LAST_OPTION, '[', "[", K_NONE, "", 0, N_("the option before"), BY(next_option, -1))                                      \
+    X(NEXT_ROCK, '.', ".", K_NONE, "", 0, N_("next rock's way"), BY(ceduo_app_next_rock, 1))                                   \
+    X(LAST_ROCK, ',', ",", K_NONE, "", 0, N_("the rock's way before"), BY(ceduo_app_next_rock, -1))                            \
+    X(ZOOM, 'z', "z", K_NONE, "", 0, N_("nearer to the slope, at the cursor along it"), DO(NULL))                              \
+    X(UNZOOM, 'Z', "Z", K_NONE, "", 0, N_("farther from the slope"), DO(NULL))                                                 \
+    X(SEARCH, '/', "/", K_F(3), "F3", 0, N_("search"), DO(ask_for_word))                                                       \
+    X(AGAIN, 'N', "N", K_NONE, "", 0, N_("search again"), DO(ceduo_app_search))                                                \
+    X(COMMANDS, ':', ":", K_NONE, "", 0, N_("commands by their names"), DO(list_commands))                                     \
+    X(NEW, 'n', "n", K_F(7), "F7", 0, N_("new scene"), DO(ceduo_popup_new))                                                    \
+    X(OPEN, 'o', "o", K_F(4), "F4", 0, N_("open a scene"), DO(ceduo_popup_open))                                               \
+    X(SAVE, 's', "s", K_F(2), "F2", 2, N_("save"), DO(ceduo_popup_save))                                                       \
+    X(SAVE_AS, 'S', "S", K_NONE, "", 0, N_("save under another name"), DO(ceduo_popup_save_as))                                \
+    X(COPY, 'Y', "Y", K_NONE, "", 1, N_("copy what the view says"), DO(ceduo_popup_copy))                                      \
+    X(EXPORT, 'w', "w", K_F(6), "F6", 1, N_("export"), DO(ceduo_popup_export))                                                 \
+    X(CHARSET, 'b', "b", K_NONE, "", 0, N_("braille, blocks or ASCII"), DO(next_charset))                                      \
+    X(THEME, 't', "t", K_NONE, "", 0, N_("colours: dark, light, none"), DO(next_theme))                                        \
+    X(REDRAW, K_CTRL_L, "Ctrl-L", K_NONE, "", 0, N_("draw the screen anew"), DO(redraw))                                       \
+    X(HELP, '?', "?", K_F1, "F1", 2, N_("help"), DO(ceduo_popup_help))                                                         \
+    X(QUIT, 'q', "q", K_F10, "F10", 2, N_("quit"), DO(ceduo_popup_quit))
 
 enum action {
-#define X(NAME, key, word, key2, word2, bar, help) ACTION_##NAME,
+#define X(NAME, key, word, key2, word2, bar, help, act) ACTION_##NAME,
     ACTIONS(X)
 #undef X
         ACTION_COUNT,

@@ -94,42 +94,27 @@ int ceduo_picker_draw(struct picker *p, struct ceduo_cells *cells, struct ceduo_
 
 /* ---- files ---- */
 
-static bool ends_in(const char *name, const char *endings)
-{
-    size_t n = strlen(name);
-    for (const char *e = endings; *e;) {
-        size_t length = strcspn(e, " ");
-        if (n > length && strncmp(name + n - length, e, length) == 0)
-            return true;
-        e += length + strspn(e + length, " ");
-    }
-    return false;
-}
-
-static int by_name(const struct dirent **a, const struct dirent **b)
-{
-    return strcmp((*a)->d_name, (*b)->d_name);
-}
-
 #define FILES_MAX 2000 /* of a folder: more nobody looks through */
 
-void ceduo_picker_add_files(struct picker *p, const char *typed, const char *endings)
+void ceduo_picker_add_files(struct picker *p, const char *typed, const char *ending)
 {
     const char *slash = strrchr(typed, '/');
     LOCAL_TEXT(folder);
     LOCAL_TEXT(path);
     struct dirent **entries = NULL;
     ceduo_text_add(&folder, typed, slash ? (size_t)(slash - typed) + 1 : 0);
-    int n = scandir(folder.length ? folder.bytes : ".", &entries, NULL, by_name);
-    for (int i = 0; i < n; i++) {
+    int count = scandir(folder.length ? folder.bytes : ".", &entries, NULL, alphasort);
+    for (int i = 0; i < count; i++) {
         struct stat st;
         const char *name = entries[i]->d_name;
+        size_t n = strlen(name), end = strlen(ending);
         path.length = 0;
         ceduo_text_format(&path, "%s%s", ceduo_text_string(&folder), name);
         bool is_folder = stat(path.bytes, &st) == 0 && S_ISDIR(st.st_mode);
         if (is_folder)
             ceduo_text_put(&path, "/");
-        if (i < FILES_MAX && name[0] != '.' && (is_folder || ends_in(name, endings)) && !ceduo_picker_has(p, path.bytes))
+        if (i < FILES_MAX && name[0] != '.' && (is_folder || (n > end && strcmp(name + n - end, ending) == 0)) &&
+            !ceduo_picker_has(p, path.bytes))
             ceduo_picker_add(p, path.bytes, path.bytes, path.bytes, false);
         free(entries[i]);
     }

@@ -11,7 +11,6 @@
 #include "io/file.h"
 #include "popup.h"
 #include "popups.h"
-#include "screen.h"
 #include "view/figures.h"
 #include "view/html.h"
 #include "view/page.h"
@@ -193,33 +192,6 @@ static void chose_export(struct app *app, struct popup *p)
 
 #define COPY_WIDTH 78 /* of a letter */
 
-/* The view drawn by itself, long enough for all of it, its pictures left blank; runs of blank lines are one.
- * Returns how many others there are. */
-static size_t append_view(struct app *app, struct text *text)
-{
-    struct view_state *state = ceduo_app_state(app), kept = *state;
-    struct ceduo_cells *screen = app->cells;
-    app->cells = ceduo_must(ceduo_cells_create(COPY_WIDTH, CEDUO_CANVAS_MAX_HEIGHT, app->charset));
-    app->cells->canvas.words_alone = true;
-    state->pane = 0;
-    ceduo_views[app->view]->draw(app, (struct ceduo_area){0, 0, COPY_WIDTH, CEDUO_CANVAS_MAX_HEIGHT});
-    char *lines = ceduo_cells_dump(app->cells);
-    size_t count = 0;
-    bool gap = true;
-    for (char *line = lines, *end; (end = strchr(line, '\n')); line = end + 1) {
-        bool blank = line + strspn(line, " ") == end;
-        if (!blank)
-            ceduo_text_format(text, "%s%.*s\n", gap ? "\n" : "", (int)(end - line), line);
-        count += !blank;
-        gap = blank;
-    }
-    free(lines);
-    ceduo_cells_free(app->cells);
-    app->cells = screen;
-    *state = kept;
-    return count;
-}
-
 void ceduo_popup_copy(struct app *app)
 {
     const struct ceduo_result *r = app->live.result;
@@ -240,7 +212,27 @@ void ceduo_popup_copy(struct app *app)
         ceduo_words_answer(&text, r, app->option, r->last_control, ceduo_app_doubt(app, &doubt) ? &doubt : NULL, COPY_WIDTH);
         ceduo_text_char(&text, '\n');
     }
-    size_t lines = append_view(app, &text);
+    /* the view drawn by itself, long enough for all of it, its pictures left blank; runs of blank lines are one */
+    struct view_state *state = ceduo_app_state(app), kept = *state;
+    struct ceduo_cells *screen = app->cells;
+    app->cells = ceduo_must(ceduo_cells_create(COPY_WIDTH, CEDUO_CANVAS_MAX_HEIGHT, app->charset));
+    app->cells->canvas.words_alone = true;
+    state->pane = 0;
+    ceduo_views[app->view]->draw(app, (struct ceduo_area){0, 0, COPY_WIDTH, CEDUO_CANVAS_MAX_HEIGHT});
+    char *drawn = ceduo_cells_dump(app->cells);
+    size_t lines = 0;
+    bool gap = true;
+    for (char *line = drawn, *end; (end = strchr(line, '\n')); line = end + 1) {
+        bool blank = line + strspn(line, " ") == end;
+        if (!blank)
+            ceduo_text_format(&text, "%s%.*s\n", gap ? "\n" : "", (int)(end - line), line);
+        lines += !blank;
+        gap = blank;
+    }
+    free(drawn);
+    ceduo_cells_free(app->cells);
+    app->cells = screen;
+    *state = kept;
     if (app->copy(text.bytes))
         ceduo_app_say(
             app, ngettext("copied: %zu line of what this view says", "copied: %zu lines of what this view says", lines), lines);

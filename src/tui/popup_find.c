@@ -181,40 +181,35 @@ static void append_words(struct app *app, struct popup *p, const struct ceduo_se
         ceduo_text_then(text, ", ", _("yielding %.3g m\xc2\xb3 per ha and year"), answer->yield.cut_per_year);
 }
 
-/* Puts the value that was found into the field, and says it. */
-static bool take(struct app *app, struct popup *p, struct search_answer *answer)
-{
-    struct ceduo_search search;
-    const struct ceduo_found *found = &answer->found;
-    app->problems = answer->problems;
-    answer->problems = (struct problems){0};
-    if (answer->status != CEDUO_OK || !read_fields(app, p, &search))
-        return ceduo_app_edited(app, false);
-    search.target = answer->target;
-    search.rotation = answer->rotation;
-    LOCAL_TEXT(words);
-    bool set = true;
-    append_words(app, p, &search, answer, &words);
-    if (found->found && !found->whole_range) {
-        char room[CEDUO_NUMBER_ROOM];
-        set = ceduo_document_set(&app->document, p->path, ceduo_number_shortest(found->value, room), &app->problems);
-        ceduo_app_edited(app, set);
-    } else {
-        ceduo_problems_free(&app->problems);
-    }
-    if (set)
-        ceduo_app_say(app, "%s", words.bytes);
-    return true;
-}
-
+/* Puts the value that was found into the field, and says it; a search that failed leaves the popup. */
 void ceduo_popup_found(struct app *app, struct search_answer *answer)
 {
     struct popup *p = app->popup;
+    struct ceduo_search search;
+    const struct ceduo_found *found = &answer->found;
+    LOCAL_TEXT(words);
     if (!p || p->filled != filled_find)
         return;
     app->message[0] = '\0';
-    if (take(app, p, answer))
-        ceduo_popup_close(app);
+    app->problems = answer->problems;
+    answer->problems = (struct problems){0};
+    if (answer->status != CEDUO_OK || !read_fields(app, p, &search)) {
+        ceduo_app_edited(app, false);
+        return;
+    }
+    search.target = answer->target;
+    search.rotation = answer->rotation;
+    append_words(app, p, &search, answer, &words);
+    bool good = true;
+    if (found->found && !found->whole_range) {
+        char room[CEDUO_NUMBER_ROOM];
+        good = ceduo_document_set(&app->document, p->path, ceduo_number_shortest(found->value, room), &app->problems);
+        ceduo_app_edited(app, good);
+    }
+    ceduo_problems_free(&app->problems);
+    if (good)
+        ceduo_app_say(app, "%s", words.bytes);
+    ceduo_popup_close(app);
 }
 
 /* ---- the range ---- */

@@ -12,20 +12,12 @@ static const struct {
               {ACTION_VIEW_SLOPE, N_("Views")}, {ACTION_FIND, N_("Looking further")},
               {ACTION_NEW, N_("Files")},        {ACTION_CHARSET, N_("Screen")}};
 
-/* What words and signs of the field mean here. */
+/* What words of the column on the right mean; those of fields are explained at the field. */
 static const struct {
     const char *word, *meaning;
 } glossary[] = {
     {N_("ADC"), N_("mean distance between stem hits along the fall line; less than 30 m passes")},
     {N_("free run"), N_("chance that a rock meets no stem over 30 m of forest")},
-    {N_("withstands"), N_("the energy that the road or house can take, kJ")},
-    {N_("belt"), N_("a stretch of slope with one stand")},
-    {N_("control"), N_("a place where rocks are counted: a road, a house, the end of the forest")},
-    {N_("stool"), N_("the stump of a coppice with its shoots")},
-    {N_("standard"), N_("a tree left standing when the shoots around it are cut")},
-    {N_("dbh"), N_("diameter of a stem at 1.3 m")},
-    {N_("Rn, Rt"), N_("share of the speed kept across and along the ground at a contact")},
-    {N_("U"), N_("energy that a cubic metre of stem takes, J/m3")},
     {N_("index"), N_("the paper's way: so many contacts, each takes one mean stem's energy")},
     {N_("p95"), N_("of 100 rocks 95 stay below it")},
     {N_("doubt"), N_("what is not known, such as the ground; more rocks do not cure it")},
@@ -48,7 +40,7 @@ void ceduo_popup_help(struct app *app)
             if ((int)groups[k].first == i)
                 ceduo_text_format(&p->text, "%s%s\n", k > 0 ? " \n" : "", _(groups[k].heading));
         const char *keys = ceduo_app_format(app, "%s%s%s", a->word, a->word2[0] ? "  " : "", a->word2);
-        ceduo_text_format(&p->text, "  %-16s%s\n", keys, _(a->help));
+        ceduo_text_format(&p->text, "  %-16s%s\n", keys, ceduo_translate_in(a->help));
     }
     ceduo_text_put(&p->text, " \n");
     ceduo_text_put(&p->text, _("A star marks what is assumed and not measured. Dim values are defaults.\n"

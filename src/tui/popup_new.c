@@ -84,34 +84,29 @@ static bool read_profile(struct app *app, struct popup *p, struct answers *a)
     return !wrong;
 }
 
-/* x of the profile in few digits. */
-static double place_of(const struct ceduo_slope *s, double x)
-{
-    return round((x + s->origin_x) * 100) / 100;
-}
-
-static void set_number(struct line *line, double value)
+/* A place in few digits. */
+static void put_place(struct popup *p, size_t field, double x)
 {
     char room[CEDUO_NUMBER_ROOM];
-    ceduo_line_set(line, ceduo_shown_number(NULL, value, room));
+    ceduo_line_set(&p->fields[field].line, ceduo_shown_number(NULL, round(x * 100) / 100, room));
 }
 
 /* The edge of the first face and its lower end, unless another is typed already. */
 static void guess_face(struct popup *p, const struct answers *a)
 {
     const struct ceduo_slope *s = &a->profile.scene.slope;
+    const char *profile = p->fields[NEW_PROFILE].line.text;
     double edge = ceduo_slope_face(s);
     size_t end = isnan(edge) ? 0 : ceduo_slope_segment(s, edge);
-    while (end + 1 < s->vertices && ceduo_slope_fall(s, s->x[end]) > CEDUO_FACE_FALL)
-        end++;
-    const char *profile = p->fields[NEW_PROFILE].line.text;
     if (p->kept && strcmp(p->kept, profile) == 0) /* for this profile that was done */
         return;
     p->kept = ceduo_arena_string(&p->arena, profile);
-    set_number(&p->fields[NEW_RELEASE].line, isnan(edge) ? a->first : place_of(s, edge));
+    while (end + 1 < s->vertices && ceduo_slope_fall(s, s->x[end]) > CEDUO_FACE_FALL)
+        end++;
+    put_place(p, NEW_RELEASE, isnan(edge) ? a->first : edge + s->origin_x);
     ceduo_line_set(&p->fields[NEW_FACE].line, "");
     if (!isnan(edge))
-        set_number(&p->fields[NEW_FACE].line, place_of(s, s->x[end]));
+        put_place(p, NEW_FACE, s->x[end] + s->origin_x);
 }
 
 /* The segment that falls most. */
@@ -146,27 +141,29 @@ static void describe(struct popup *p, const struct answers *a)
 
 /* ---- reading ---- */
 
-/* A place from `from` to `to`, neither or one of them itself; `*x` is that of an empty field. */
-static bool read_place(struct app *app, struct popup *p, size_t i, double from, double to, double *x)
-{
-    p->fields[i].value->lo = from;
-    p->fields[i].value->hi = to;
-    return ceduo_popup_number(app, p, i, x);
-}
-
 /* One field, of which it is said what is wrong; those before it are read. */
 static bool read_field(struct app *app, struct popup *p, size_t field, struct answers *a)
 {
     const char *typed = p->fields[field].line.text;
     switch (field) {
-    case NEW_PROFILE:
-        return read_profile(app, p, a);
+    case NEW_PROFILE: /* within which the places lie */
+        if (!read_profile(app, p, a))
+            return false;
+        for (size_t i = 0; i < 3; i++) {
+            static const size_t places[] = {NEW_RELEASE, NEW_FACE, NEW_CONTROL};
+            p->fields[places[i]].value->lo = a->first;
+            p->fields[places[i]].value->hi = a->last;
+        }
+        return true;
     case NEW_RELEASE:
         a->release = a->first;
-        return read_place(app, p, NEW_RELEASE, a->first, a->last, &a->release);
+        return ceduo_popup_number(app, p, NEW_RELEASE, &a->release);
     case NEW_FACE:
         a->face = a->first;
-        return read_place(app, p, NEW_FACE, a->first, a->last, &a->face);
+        if (!ceduo_popup_number(app, p, NEW_FACE, &a->face))
+            return false;
+        p->fields[NEW_CONTROL].value->lo = fmax(a->release, a->face);
+        return true;
     case NEW_MATERIAL:
         if (ceduo_choice_find(&ceduo_material_words, typed) >= 0)
             return true;
@@ -176,7 +173,7 @@ static bool read_field(struct app *app, struct popup *p, size_t field, struct an
         return ceduo_popup_number(app, p, NEW_ROCK, &a->rock);
     case NEW_CONTROL:
         a->control = a->last;
-        return read_place(app, p, NEW_CONTROL, fmax(a->release, a->face), a->last, &a->control);
+        return ceduo_popup_number(app, p, NEW_CONTROL, &a->control);
     case NEW_ACCEPTED:
         a->accepted = NAN;
         return ceduo_popup_number(app, p, NEW_ACCEPTED, &a->accepted);

@@ -11,6 +11,7 @@
 #include "ceduo/material.h"
 #include "io/emit.h"
 #include "io/file.h"
+#include "io/survey_file.h"
 #include "model/changes.h"
 #include "popup.h"
 #include "popups.h"
@@ -175,27 +176,6 @@ static void preview_word(struct app *app, struct popup *p)
 }
 
 /* What a preset would give, in the lines over the list. */
-static void append_stand(struct app *app, struct text *text, const char *value)
-{
-    struct scene_file file;
-    if (read_stand(app, value, &file)) {
-        const struct ceduo_belt *b = &file.scene.options[0].belts[0];
-        struct ceduo_stand_result r = ceduo_assess_stand(&file.scene, b);
-        ceduo_text_format(text, _("%s: %.0f stools, %.0f stems, %.0f trees per ha; basal area %.1f m2/ha\n"), b->name,
-                          r.stools_per_ha, r.stems_per_ha, r.trees_per_ha, r.basal_area);
-        if (r.bare)
-            ceduo_text_put(text, _("no stems\n"));
-        else if (isnan(r.dissipated))
-            ceduo_text_format(text, _("with this rock: ADC %.3g m, free run %.1f %%; contacts take shares (%s)\n"), r.adc_m,
-                              r.free_run_probability * 100, ceduo_words_law(ceduo_rule_words.names[r.rule]));
-        else
-            ceduo_text_format(text, _("with this rock: ADC %.3g m, free run %.1f %%, %.3g kJ/100 m (%s)\n"), r.adc_m,
-                              r.free_run_probability * 100, r.dissipated * J_TO_KJ,
-                              ceduo_words_law(ceduo_rule_words.names[r.rule]));
-    }
-    ceduo_scene_release(&file);
-}
-
 static void preview_stand(struct app *app, struct popup *p)
 {
     if (strcmp(p->value, STAND_COUNTED) == 0) {
@@ -204,9 +184,72 @@ static void preview_stand(struct app *app, struct popup *p)
         ceduo_text_put(&p->text,
                        _("asks for the CSV file, and takes densities with their errors, classes and heights from it"));
     } else {
-        append_stand(app, &p->text, p->value);
+        struct scene_file file;
+        if (read_stand(app, p->value, &file)) {
+            const struct ceduo_belt *b = &file.scene.options[0].belts[0];
+            struct ceduo_stand_result r = ceduo_assess_stand(&file.scene, b);
+            const char *rule = ceduo_words_law(ceduo_rule_words.names[r.rule]);
+            ceduo_text_format(&p->text, _("%s: %.0f stools, %.0f stems, %.0f trees per ha; basal area %.1f m2/ha\n"), b->name,
+                              r.stools_per_ha, r.stems_per_ha, r.trees_per_ha, r.basal_area);
+            if (r.bare)
+                ceduo_text_put(&p->text, _("no stems\n"));
+            else if (isnan(r.dissipated))
+                ceduo_text_format(&p->text, _("with this rock: ADC %.3g m, free run %.1f %%; contacts take shares (%s)\n"),
+                                  r.adc_m, r.free_run_probability * 100, rule);
+            else
+                ceduo_text_format(&p->text, _("with this rock: ADC %.3g m, free run %.1f %%, %.3g kJ/100 m (%s)\n"), r.adc_m,
+                                  r.free_run_probability * 100, r.dissipated * J_TO_KJ, rule);
+        }
+        ceduo_scene_release(&file);
         append_change(app, p);
     }
+}
+
+/* ---- a stand from a survey: a CSV file of sample plots ---- */
+
+static void offer_surveys(struct app *app, struct popup *p)
+{
+    const char *shipped = ceduo_file_find(&p->arena, "surveys/six-plots.csv", NULL, "surveys");
+    ceduo_popup_offer_files(app, p);
+    if (shipped && !ceduo_picker_has(&p->picker, shipped))
+        ceduo_popup_item(p, _("six-plots.csv: an example, made up"), shipped);
+}
+
+/* The stand of a survey on one line, as a change takes it. */
+static bool read_survey(const char *path, struct text *value, struct problems *problems)
+{
+    struct arena arena = {0};
+    struct survey_file file;
+    LOCAL_TEXT(yaml);
+    const struct node *root = NULL;
+    if (ceduo_survey_read(&file, &arena, path, problems) && ceduo_survey_stand(&file, &yaml, problems)) {
+        const struct source source = {.name = path, .bytes = yaml.bytes, .length = yaml.length};
+        root = ceduo_yaml_read(&arena, &source, problems);
+    }
+    if (root)
+        ceduo_emit_flow(value, root);
+    ceduo_arena_free(&arena);
+    return root != NULL;
+}
+
+static void chose_survey(struct app *app, struct popup *p)
+{
+    LOCAL_TEXT(value);
+    if (!read_survey(p->value, &value, &app->problems))
+        ceduo_app_edited(app, false);
+    else if (ceduo_app_set(app, p->path, value.bytes))
+        ceduo_app_say(app, _("the stand of the survey '%.100s'; it says nothing of growth and cutting"), p->value);
+}
+
+static void ask_for_survey(struct app *app)
+{
+    struct popup *p =
+        ceduo_popup_list(app, _("A survey: a CSV file with a row for each stem"), ceduo_app_stand(app), chose_survey);
+    ceduo_text_put(&p->text,
+                   _("Columns: plot, area_m2 or radius_m, slope_deg, species, kind, stool, dbh_cm, height_m, spacing_m; "
+                     "see ceduo-stand(5)."));
+    p->fields[0].offer = offer_surveys;
+    p->endings = ".csv";
 }
 
 /* ---- choosing ---- */
@@ -242,7 +285,7 @@ static void chose_stand(struct app *app, struct popup *p)
     if (strcmp(p->value, STAND_COUNTED) == 0)
         ceduo_popup_counts(app);
     else if (strcmp(p->value, STAND_SURVEY) == 0)
-        ceduo_popup_survey(app);
+        ask_for_survey(app);
     else
         chose_word(app, p);
 }

@@ -18,8 +18,6 @@ void ceduo_popup_export(struct app *app);
 void ceduo_popup_copy(struct app *app);
 void ceduo_popup_find(struct app *app);
 void ceduo_popup_counts(struct app *app);
-void ceduo_popup_survey(struct app *app);
-void ceduo_popup_fit(struct app *app);
 
 /* Asks for the fields of a new item of a list, or of one group that it has (NULL: of all of it), and adds it at the end.
  * `offered`: what stands in the first fields. */

@@ -8,7 +8,6 @@
 #include "edit.h"
 #include "popup.h"
 #include "popups.h"
-#include "screen.h"
 
 static void undo_or_redo(struct app *app, int by)
 {
@@ -91,8 +90,9 @@ static void list_commands(struct app *app)
     struct popup *p = ceduo_popup_list(app, _("Commands"), "", chose_command);
     for (int i = 0; i < ACTION_COUNT; i++)
         if (i != ACTION_COMMANDS)
-            ceduo_popup_item(p, ceduo_app_format(app, "%-10s %s", ceduo_actions[i].word, _(ceduo_actions[i].help)),
-                             ceduo_app_format(app, "%d", i));
+            ceduo_popup_item(
+                p, ceduo_app_format(app, "%-10s %s", ceduo_actions[i].word, ceduo_translate_in(ceduo_actions[i].help)),
+                ceduo_app_format(app, "%d", i));
 }
 
 static void show_view(struct app *app, int view)
@@ -111,50 +111,11 @@ static void redraw(struct app *app)
 }
 
 /* What the actions of all views do. */
-static const struct act acts[ACTION_COUNT] = {[ACTION_UP] = {.function = move_lines, .by = -1},
-                                              [ACTION_DOWN] = {.function = move_lines, .by = 1},
-                                              [ACTION_LEFT] = {.function = move_column, .by = -1},
-                                              [ACTION_RIGHT] = {.function = move_column, .by = 1},
-                                              [ACTION_TOP] = {.function = move_lines, .by = -ALL_LINES},
-                                              [ACTION_BOTTOM] = {.function = move_lines, .by = ALL_LINES},
-                                              [ACTION_PAGE_UP] = {.function = move_page, .by = -1},
-                                              [ACTION_PAGE_DOWN] = {.function = move_page, .by = 1},
-                                              [ACTION_NEXT_PANE] = {.function = next_pane, .by = 1},
-                                              [ACTION_LAST_PANE] = {.function = next_pane, .by = -1},
-                                              [ACTION_EDIT] = {.plain = ceduo_edit_start},
-                                              [ACTION_MORE] = {.function = ceduo_edit_step, .by = 1},
-                                              [ACTION_LESS] = {.function = ceduo_edit_step, .by = -1},
-                                              [ACTION_ADD] = {.plain = ceduo_items_add},
-                                              [ACTION_DELETE] = {.plain = ceduo_items_delete},
-                                              [ACTION_DUPLICATE] = {.plain = ceduo_items_duplicate},
-                                              [ACTION_EARLIER] = {.function = ceduo_items_move, .by = -1},
-                                              [ACTION_LATER] = {.function = ceduo_items_move, .by = 1},
-                                              [ACTION_UNDO] = {.function = undo_or_redo, .by = -1},
-                                              [ACTION_REDO] = {.function = undo_or_redo, .by = 1},
-                                              [ACTION_PRESETS] = {.plain = ceduo_popup_presets},
-                                              [ACTION_COUNTS] = {.plain = ceduo_popup_counts},
-#define V(NAME, name, key, word, help) [ACTION_VIEW_##NAME] = {.function = show_view, .by = VIEW_##NAME},
-                                              VIEWS(V)
-#undef V
-                                                  [ACTION_FIND] = {.plain = ceduo_popup_find},
-                                              [ACTION_NEXT_OPTION] = {.function = next_option, .by = 1},
-                                              [ACTION_LAST_OPTION] = {.function = next_option, .by = -1},
-                                              [ACTION_NEXT_ROCK] = {.function = ceduo_app_next_rock, .by = 1},
-                                              [ACTION_LAST_ROCK] = {.function = ceduo_app_next_rock, .by = -1},
-                                              [ACTION_SEARCH] = {.plain = ask_for_word},
-                                              [ACTION_AGAIN] = {.plain = ceduo_app_search},
-                                              [ACTION_COMMANDS] = {.plain = list_commands},
-                                              [ACTION_NEW] = {.plain = ceduo_popup_new},
-                                              [ACTION_OPEN] = {.plain = ceduo_popup_open},
-                                              [ACTION_SAVE] = {.plain = ceduo_popup_save},
-                                              [ACTION_SAVE_AS] = {.plain = ceduo_popup_save_as},
-                                              [ACTION_COPY] = {.plain = ceduo_popup_copy},
-                                              [ACTION_EXPORT] = {.plain = ceduo_popup_export},
-                                              [ACTION_CHARSET] = {.plain = next_charset},
-                                              [ACTION_THEME] = {.plain = next_theme},
-                                              [ACTION_REDRAW] = {.plain = redraw},
-                                              [ACTION_HELP] = {.plain = ceduo_popup_help},
-                                              [ACTION_QUIT] = {.plain = ceduo_popup_quit}};
+#define BY(f, n)                                        .function = f, .by = n
+#define DO(f)                                           .plain = f
+#define X(NAME, key, word, key2, word2, bar, help, act) [ACTION_##NAME] = {act},
+static const struct act acts[ACTION_COUNT] = {ACTIONS(X)};
+#undef X
 
 /* The view's own, or that of all views. */
 static void act(struct app *app, enum action action)

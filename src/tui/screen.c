@@ -1,6 +1,4 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "screen.h"
-
 #include <limits.h>
 #include <string.h>
 
@@ -29,7 +27,7 @@ static int title_columns(const struct app *app, int view)
     for (int most = NAME_WANTED, all = INT_MAX; all > app->width && most >= NAME_MIN; most--) {
         all = 0;
         for (int v = 0; v < VIEW_COUNT; v++) {
-            int name = (int)ceduo_utf8_width(ceduo_translate_in(ceduo_views[v]->title));
+            int name = (int)ceduo_utf8_width(ceduo_translate_in(ceduo_actions[ACTION_VIEW_SLOPE + v].help));
             int columns = (v == (int)app->view || name < most ? name : most) + (app->width < WIDE ? 3 : 4);
             all += columns;
             own = v == view ? columns : own;
@@ -51,10 +49,10 @@ enum view_number ceduo_screen_view_at(const struct app *app, int column)
 static const char *title_of(struct app *app)
 {
     const struct ceduo_scene *scene = &app->document.file.scene;
-    struct text safe = {0};
+    LOCAL_TEXT(safe);
     ceduo_text_put(&safe, ceduo_document_unsaved(&app->document) ? "* " : "");
     ceduo_text_safe(&safe, ceduo_in_language(scene->title, scene->title_it));
-    return ceduo_app_kept(app, &safe);
+    return ceduo_arena_string(app->scratch, ceduo_text_string(&safe));
 }
 
 /* The names of the views, and the scene's title where they leave room for all of it. */
@@ -62,9 +60,10 @@ static bool draw_title(struct app *app)
 {
     int x = 0;
     for (int v = 0; v < VIEW_COUNT; x += title_columns(app, v++))
-        ceduo_canvas_put(
-            &app->cells->canvas, x, 0, title_columns(app, v), v == (int)app->view ? CEDUO_ROLE_CURSOR : CEDUO_ROLE_DIM,
-            ceduo_app_format(app, app->width < WIDE ? " %d %s" : " %d %s ", v + 1, ceduo_translate_in(ceduo_views[v]->title)));
+        ceduo_canvas_put(&app->cells->canvas, x, 0, title_columns(app, v),
+                         v == (int)app->view ? CEDUO_ROLE_CURSOR : CEDUO_ROLE_DIM,
+                         ceduo_app_format(app, app->width < WIDE ? " %d %s" : " %d %s ", v + 1,
+                                          ceduo_translate_in(ceduo_actions[ACTION_VIEW_SLOPE + v].help)));
     const char *title = title_of(app);
     bool fits = ceduo_cells_label_width(app->charset, title) + 4 <= app->width - x;
     if (fits)

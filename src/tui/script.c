@@ -11,7 +11,6 @@
 #include "base/utf8.h"
 #include "io/file.h"
 #include "program.h"
-#include "screen.h"
 #include "view/svg.h"
 
 /* Of the word its beginning: it may be no script. */

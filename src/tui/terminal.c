@@ -20,7 +20,6 @@
 #include "base/clock.h"
 #include "base/language.h"
 #include "program.h"
-#include "screen.h"
 
 /* ---- colours ---- */
 
@@ -90,7 +89,8 @@ static bool copy(const char *string)
 {
     size_t n = strlen(string);
     const char *tmux = getenv("TMUX");
-    struct text copied = {0}, all = {0};
+    LOCAL_TEXT(copied);
+    LOCAL_TEXT(all);
     if (n > COPY_MOST)
         return false;
     ceduo_text_put(&copied, "\033]52;c;");
@@ -104,8 +104,6 @@ static bool copy(const char *string)
             break;
         done += written > 0 ? (size_t)written : 0;
     }
-    ceduo_text_free(&copied);
-    ceduo_text_free(&all);
     return true;
 }
 
@@ -195,18 +193,6 @@ static void set_handlers(void)
 
 /* ---- drawing ---- */
 
-static void put_cell(const struct ceduo_cells *cells, int x, int y, int theme, bool colours)
-{
-    uint32_t code = ceduo_cells_glyph(cells, x, y);
-    const struct look *look = &looks[ceduo_cells_role(cells, x, y)];
-    short colour = theme == 0 ? look->dark : theme == 1 ? look->light : -1;
-    wchar_t text[2] = {(wchar_t)(code ? code : ' '), 0};
-    cchar_t cell;
-    short pair = colours && colour >= 0 ? (short)(colour + 1) : 0;
-    if (setcchar(&cell, text, look->attributes, pair, NULL) == OK)
-        mvadd_wch(y, x, &cell);
-}
-
 static void show(struct app *app, bool colours)
 {
     if (app->width != COLS || app->height != LINES || !app->cells)
@@ -216,28 +202,20 @@ static void show(struct app *app, bool colours)
         clearok(curscr, TRUE);
     app->redraw = false;
     for (int y = 0; y < app->height; y++)
-        for (int x = 0; x < app->width; x++)
-            put_cell(app->cells, x, y, app->theme, colours);
+        for (int x = 0; x < app->width; x++) {
+            uint32_t code = ceduo_cells_glyph(app->cells, x, y);
+            const struct look *look = &looks[ceduo_cells_role(app->cells, x, y)];
+            short colour = app->theme == 0 ? look->dark : app->theme == 1 ? look->light : -1;
+            wchar_t text[2] = {(wchar_t)(code ? code : ' '), 0};
+            cchar_t cell;
+            if (setcchar(&cell, text, look->attributes, colours && colour >= 0 ? (short)(colour + 1) : 0, NULL) == OK)
+                mvadd_wch(y, x, &cell);
+        }
     wnoutrefresh(stdscr);
     doupdate();
 }
 
 /* ---- keys ---- */
-
-static int special_key(wint_t code)
-{
-    static const struct {
-        int from, to;
-    } keys[] = {{KEY_UP, K_UP},     {KEY_DOWN, K_DOWN},      {KEY_LEFT, K_LEFT},     {KEY_RIGHT, K_RIGHT},
-                {KEY_HOME, K_HOME}, {KEY_END, K_END},        {KEY_PPAGE, K_PAGE_UP}, {KEY_NPAGE, K_PAGE_DOWN},
-                {KEY_DC, K_DELETE}, {KEY_BTAB, K_SHIFT_TAB}, {KEY_ENTER, K_ENTER}};
-    for (size_t i = 0; i < sizeof keys / sizeof keys[0]; i++)
-        if ((wint_t)keys[i].from == code)
-            return keys[i].to;
-    if (code >= KEY_F(1) && code <= KEY_F(10))
-        return K_F1 + (int)code - KEY_F(1);
-    return K_NONE;
-}
 
 /* Curses makes a key of each sequence that the terminal is known for. Of any other it hands on the characters: here they are
  * swallowed whole, also if they come in pieces, and what stands between the two sequences of a paste is gathered. */
@@ -266,17 +244,12 @@ static bool is_quiet(void)
 }
 
 /* The terminal itself makes no signals of keys, because those in a paste are its text. */
-static bool is_signal(wint_t c)
-{
-    int number = c == CTRL('C') ? SIGINT : c == CTRL('Z') ? SIGTSTP : c == CTRL('\\') ? SIGQUIT : 0;
-    if (number == SIGTSTP ? may_suspend : number != 0)
-        on_signal(number);
-    return number != 0;
-}
-
 static void press(struct app *app, wint_t c)
 {
-    if (!input.pasting && !is_signal(c))
+    int number = c == CTRL('C') ? SIGINT : c == CTRL('Z') ? SIGTSTP : c == CTRL('\\') ? SIGQUIT : 0;
+    if (!input.pasting && number != 0 && (number != SIGTSTP || may_suspend))
+        on_signal(number);
+    else if (!input.pasting && number == 0)
         ceduo_program_key(app, c == '\n' || c == '\r' ? K_ENTER : c == 127 || c == 8 ? K_BACKSPACE : (int)c);
     else if (input.pasting && c != 0 && input.length + 4 < sizeof input.pasted)
         input.length += ceduo_utf8_encode(c, input.pasted + input.length);
@@ -358,7 +331,6 @@ static void take_escape(struct app *app)
 static void take_mouse(struct app *app)
 {
     MEVENT event;
-    take_escape(app);
     if (getmouse(&event) != OK || input.pasting)
         return;
     if (event.bstate & BUTTON4_PRESSED)
@@ -372,21 +344,30 @@ static void take_mouse(struct app *app)
 /* All keys that wait. True where there was one. */
 static bool take_keys(struct app *app)
 {
+    static const struct {
+        int from, to;
+    } keys[] = {{KEY_UP, K_UP},     {KEY_DOWN, K_DOWN},      {KEY_LEFT, K_LEFT},     {KEY_RIGHT, K_RIGHT},
+                {KEY_HOME, K_HOME}, {KEY_END, K_END},        {KEY_PPAGE, K_PAGE_UP}, {KEY_NPAGE, K_PAGE_DOWN},
+                {KEY_DC, K_DELETE}, {KEY_BTAB, K_SHIFT_TAB}, {KEY_ENTER, K_ENTER}};
     bool any = false;
     wint_t code;
     for (int kind; !app->quit && !interrupted && !suspended && !ending && (kind = get_wch(&code)) != ERR; any = true) {
+        int key = K_NONE;
         if (kind == KEY_CODE_YES && code == KEY_RESIZE)
             continue;
-        if (kind == KEY_CODE_YES && code == KEY_MOUSE) {
-            take_mouse(app);
-            continue;
-        }
         if (kind != KEY_CODE_YES || code == KEY_BACKSPACE) {
             take_character(app, kind == KEY_CODE_YES ? 127 : code);
             continue;
         }
-        int key = special_key(code);
         take_escape(app);
+        if (code == KEY_MOUSE) {
+            take_mouse(app);
+            continue;
+        }
+        for (size_t i = 0; i < sizeof keys / sizeof keys[0]; i++)
+            key = (wint_t)keys[i].from == code ? keys[i].to : key;
+        if (code >= KEY_F(1) && code <= KEY_F(10))
+            key = K_F1 + (int)code - KEY_F(1);
         input.state = PLAIN;
         if (key != K_NONE && !input.pasting)
             ceduo_program_key(app, key);
@@ -463,19 +444,6 @@ const char *ceduo_terminal_missing(void)
     return moves ? NULL : _("this terminal cannot place the cursor");
 }
 
-/* Opens the terminal once more for its keys, so that a read never waits; NULL if that fails. After an unwanted mouse
- * event, such as the release of a button, curses reads on and ignores nodelay(): the program would hang until the next
- * key. Standard input itself stays as it is, because the shell uses it too. */
-static FILE *open_keys(void)
-{
-    const char *name = ttyname(STDIN_FILENO);
-    int fd = name ? open(name, O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC) : -1;
-    FILE *keys = fd >= 0 ? fdopen(fd, "r") : NULL;
-    if (fd >= 0 && !keys)
-        close(fd);
-    return keys;
-}
-
 enum terminal_end ceduo_terminal_run(struct app *app)
 {
     if (pipe2(wake, O_NONBLOCK | O_CLOEXEC) != 0)
@@ -484,7 +452,12 @@ enum terminal_end ceduo_terminal_run(struct app *app)
         set_escdelay(25);
     tcgetattr(STDIN_FILENO, &saved_mode); /* as it was before curses */
     set_handlers();
-    FILE *keys = open_keys();
+    /* The terminal is opened once more for its keys, so that a read never waits: after an unwanted mouse event, such as the
+     * release of a button, curses reads on and ignores nodelay(), and the program would hang until the next key. Standard input
+     * itself stays as it is, because the shell uses it too. */
+    const char *name = ttyname(STDIN_FILENO);
+    int fd = name ? open(name, O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC) : -1;
+    FILE *keys = fd >= 0 ? fdopen(fd, "r") : NULL;
     is_open = true;
     SCREEN *screen = newterm(NULL, stdout, keys ? keys : stdin);
     if (!screen) {

@@ -137,8 +137,7 @@ static const struct act acts[] = {{ACTION_UP, .function = next_option, .by = -1}
                                   {ACTION_EDIT, .plain = rename_option},
                                   {0}};
 
-const struct view ceduo_view_compare = {.title = NP_("view", "compare"),
-                                        .panes = PANES,
+const struct view ceduo_view_compare = {.panes = PANES,
                                         .years = true,
                                         .over = true,
                                         .result = true,

@@ -85,15 +85,14 @@ static void add(struct app *app)
         const struct ceduo_input *input = &r.inputs->items[f->order[i]];
         if (input->kind == CEDUO_INPUT_WORDS || input->places_count != 1 || is_named(rows, input->places[0]))
             continue;
-        struct text row = {0};
+        LOCAL_TEXT(row);
         ceduo_text_format(&row, "{path: '%s', lo: ", input->places[0]);
         ceduo_doubt_input_end(&row, &r, f->order[i], 0);
         ceduo_text_put(&row, ", hi: ");
         ceduo_doubt_input_end(&row, &r, f->order[i], 1);
         ceduo_text_char(&row, '}');
         size_t n = rows ? rows->n : 0;
-        const char *item = ceduo_app_kept(app, &row);
-        if (ceduo_app_edited(app, ceduo_document_insert(&app->document, "doubt", n, item, &app->problems)))
+        if (ceduo_app_edited(app, ceduo_document_insert(&app->document, "doubt", n, row.bytes, &app->problems)))
             ceduo_form_go(ceduo_app_form(app), "doubt", n);
         return;
     }
@@ -107,8 +106,7 @@ static const struct act acts[] = {{ACTION_ADD, .plain = add},
                                   {ACTION_PAGE_DOWN, .function = ceduo_app_read_on, .by = 4},
                                   {0}};
 
-const struct view ceduo_view_doubt = {.title = NP_("view", "doubt"),
-                                      .panes = 1,
+const struct view ceduo_view_doubt = {.panes = 1,
                                       .uncertainty = true,
                                       .over = true,
                                       .build = build,

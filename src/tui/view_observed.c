@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* View 8: what was observed beside what is simulated, and a fit to it, which goes on in the background. */
 #include <math.h>
+#include <string.h>
 
 #include "app.h"
 #include "base/language.h"
@@ -10,6 +11,7 @@
 #include "popups.h"
 #include "view/page_parts.h"
 #include "view/report_calibration.h"
+#include "view/typed.h"
 
 #define PICTURE_MIN 8
 #define RANGE       "\xe2\x80\x93"
@@ -62,21 +64,28 @@ static void add_rows(struct ceduo_page *page, const struct scene_file *file, con
 /* ---- words ---- */
 
 /* Of each list and count by its probability, which sees the form of a list, too. */
-static void say_misfits(struct ceduo_page *page, const struct scene_file *file, const struct ceduo_predicted *p)
+static void say_as_it_is(struct app *app, struct ceduo_page *page)
 {
+    const struct scene_file *file = &app->document.file;
+    const struct comparison *s = ceduo_live_comparison(&app->live, file);
     LOCAL_TEXT(bad);
+    if (!s) {
+        ceduo_page_note(page, _("not computed yet"));
+        return;
+    }
+    add_rows(page, file, s->predicted);
     for (size_t i = 0; i < file->observations_count; i++) {
-        if (p[i].p_value >= CEDUO_MISFIT && p[i].inside)
+        const struct ceduo_predicted *p = &s->predicted[i];
+        if (p->p_value >= CEDUO_MISFIT && p->inside)
             continue;
-        if (bad.length > 0)
-            ceduo_text_put(&bad, "; ");
+        ceduo_text_put(&bad, bad.length > 0 ? "; " : "");
         ceduo_text_safe(&bad, file->observations[i].name);
-        const char *chance = p[i].p_value < 0.001 ? "<.001" : WRITTEN(p[i].p_value, 2);
-        if (isnan(p[i].p_value))
+        const char *chance = p->p_value < 0.001 ? "<.001" : WRITTEN(p->p_value, 2);
+        if (isnan(p->p_value))
             ceduo_text_format(&bad, " (%s)", _("no simulated rock does that"));
-        else if (p[i].inside)
+        else if (p->inside)
             ceduo_text_format(&bad, _(" (the mean fits, how the values are spread does not: p %s)"), chance);
-        else if (p[i].p_value >= CEDUO_MISFIT)
+        else if (p->p_value >= CEDUO_MISFIT)
             ceduo_text_format(&bad, _(" (the mean lies outside: p %s)"), chance);
         else
             ceduo_text_format(&bad, " (p %s)", chance);
@@ -85,18 +94,6 @@ static void say_misfits(struct ceduo_page *page, const struct scene_file *file, 
         ceduo_page_say(page, CEDUO_PAGE_NOTE, _("The scene as it is does not give what was seen: %s."), bad.bytes);
     else
         ceduo_page_note(page, _("The scene as it is can give all that was seen."));
-}
-
-static void say_as_it_is(struct app *app, struct ceduo_page *page)
-{
-    const struct scene_file *file = &app->document.file;
-    const struct comparison *s = ceduo_live_comparison(&app->live, file);
-    if (!s) {
-        ceduo_page_note(page, _("not computed yet"));
-        return;
-    }
-    add_rows(page, file, s->predicted);
-    say_misfits(page, file, s->predicted);
     if (ceduo_fit_has_observations(file))
         ceduo_page_note(page, _("c fits the ground to what was seen; only a fit says what of it is determined."));
     ceduo_page_say(page, CEDUO_PAGE_NOTE, _("Simulated: %llu rocks."), (unsigned long long)s->rocks);
@@ -304,6 +301,99 @@ static void draw(struct app *app, struct ceduo_area area)
     ceduo_app_page(app, area, &page, &state->scroll);
 }
 
+/* ---- which values are fitted, and between which bounds ---- */
+
+#define FILLED 4 /* values that are offered with their range; to fit more at once takes long, and is for who wants it */
+
+static void append_bounds(struct text *text, const struct fit_request *w, size_t i)
+{
+    char lo[CEDUO_NUMBER_ROOM], hi[CEDUO_NUMBER_ROOM];
+    ceduo_text_format(text, "%s:%s", ceduo_shown_number(w->fields[i], w->lo[i], lo),
+                      ceduo_shown_number(w->fields[i], w->hi[i], hi));
+}
+
+/* Both ends in the unit that is shown; false where they are none, which is said. */
+static bool read_bounds(struct app *app, const char *typed, const struct field *field, double ends[2])
+{
+    const char *colon = strchr(typed, ':');
+    struct line line;
+    for (int i = 0; i < 2; i++) {
+        LOCAL_TEXT(end);
+        ends[i] = NAN;
+        ceduo_line_set(&line, i == 0 ? ceduo_app_format(app, "%.*s", (int)strcspn(typed, ":"), typed) : colon ? colon + 1 : "");
+        line.asked = true; /* no bound is unusual */
+        if (!ceduo_popup_read(app, field, &line, &end))
+            return false;
+        ceduo_number_read(ceduo_text_string(&end), &ends[i]);
+    }
+    if (!(ends[0] < ends[1]))
+        ceduo_app_warn(app, "%s", _("from and to are numbers, the smaller first"));
+    return ends[0] < ends[1];
+}
+
+/* Values that follow are moved into the place of those that are not fitted. */
+static bool filled_fit(struct app *app, struct popup *p)
+{
+    struct fit_request all;
+    ceduo_fit_offer(&app->document.file, &all);
+    struct fit_request w = {.rocks = all.rocks};
+    for (size_t i = 0; i < all.n; i++) {
+        double ends[2];
+        if (p->fields[i].line.text[0] == '\0')
+            continue;
+        if (!read_bounds(app, p->fields[i].line.text, all.fields[i], ends))
+            return false;
+        w.lo[w.n] = ends[0];
+        w.hi[w.n] = ends[1];
+        snprintf(w.paths[w.n], sizeof w.paths[w.n], "%s", all.paths[i]);
+        w.fields[w.n++] = all.fields[i];
+    }
+    if (w.n == 0)
+        ceduo_app_warn(app, "%s", _("nothing is to be fitted: give one value its bounds, as 0.3:0.4"));
+    else
+        ceduo_live_fit(&app->live, &app->document.file, &w);
+    return w.n > 0;
+}
+
+/* Whether a value is among those that are fitted at present, and what was seen holds it; its bounds are those. */
+static bool is_held(const struct fit *now, const char *path, double *lo, double *hi)
+{
+    for (size_t i = 0; i < now->request.n; i++)
+        if (strcmp(now->request.paths[i], path) == 0 && !now->loose.loose[i]) {
+            *lo = now->request.lo[i];
+            *hi = now->request.hi[i];
+            return true;
+        }
+    return false;
+}
+
+static void ask_for_fit(struct app *app)
+{
+    struct fit_request request;
+    const struct fit *now = app->live.fitting ? app->live.results.fit : NULL;
+    ceduo_fit_offer(&app->document.file, &request);
+    struct popup *p = ceduo_popup_fields(app, _("What is fitted to what was seen?"), "", filled_fit);
+    ceduo_text_format(
+        &p->text, _("Each value between its bounds; an empty field is not fitted. Every scene that is tried has %llu rocks."),
+        (unsigned long long)request.rocks);
+    for (size_t i = FILLED; i < request.n; i++) {
+        if (i == FILLED)
+            ceduo_text_format(&p->text, " %s ", _("Usual bounds of the others:"));
+        ceduo_text_put(&p->text, i == FILLED ? "" : "; ");
+        ceduo_calibration_name(&p->text, request.paths[i], request.fields[i]);
+        ceduo_text_char(&p->text, ' ');
+        append_bounds(&p->text, &request, i);
+    }
+    for (size_t i = 0; i < request.n; i++) {
+        LOCAL_TEXT(label);
+        LOCAL_TEXT(bounds);
+        ceduo_calibration_name(&label, request.paths[i], request.fields[i]);
+        if (now && now->loose.n > 0 ? is_held(now, request.paths[i], &request.lo[i], &request.hi[i]) : i < FILLED)
+            append_bounds(&bounds, &request, i);
+        ceduo_popup_field(p, label.bytes, ceduo_text_string(&bounds));
+    }
+}
+
 /* ---- keys ---- */
 
 static void start(struct app *app)
@@ -313,7 +403,7 @@ static void start(struct app *app)
     else if (!ceduo_fit_has_observations(&app->document.file))
         ceduo_app_warn(app, "%s", _("all that was seen is to check a fit: mark what is to be fitted 'use: fit'"));
     else
-        ceduo_popup_fit(app);
+        ask_for_fit(app);
 }
 
 /* The best values into the scene, as one edit. */
@@ -330,7 +420,7 @@ static void take(struct app *app)
         return;
     }
     const struct ceduo_calibration_report r = report_of(f);
-    struct text source = {0};
+    LOCAL_TEXT(source);
     double best[CEDUO_CALIBRATION_MOST];
     for (size_t i = 0; i < f->request.n; i++)
         best[i] = f->answer.parameters[i].best;
@@ -339,7 +429,6 @@ static void take(struct app *app)
     bool good = ceduo_keep_fit(&app->document, &values, &app->problems);
     if (ceduo_app_edited(app, good))
         ceduo_app_say(app, "%s", _("the scene has the values and their ranges, not the draws; u takes them back"));
-    ceduo_text_free(&source);
 }
 
 static void stop(struct app *app)
@@ -357,8 +446,7 @@ static const struct act acts[] = {{ACTION_COUNTS, .plain = start},
                                   {ACTION_STOP, .plain = stop},
                                   {0}};
 
-const struct view ceduo_view_observed = {.title = NP_("view", "seen"),
-                                         .panes = PANES,
+const struct view ceduo_view_observed = {.panes = PANES,
                                          .observed = true,
                                          .build = build,
                                          .draw = draw,

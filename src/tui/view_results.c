@@ -48,7 +48,6 @@ static void draw(struct app *app, struct ceduo_area area)
 }
 
 const struct view ceduo_view_results = {
-    .title = NP_("view", "results"),
     .panes = 1,
     .result = true,
     .draw = draw,

@@ -58,7 +58,6 @@ static void draw(struct app *app, struct ceduo_area area)
 static const struct act acts[] = {{ACTION_PRESETS, .plain = ceduo_popup_starts}, {0}};
 
 const struct view ceduo_view_rock = {
-    .title = NP_("view", "rock"),
     .panes = 1,
     .build = build,
     .draw = draw,

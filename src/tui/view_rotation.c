@@ -45,26 +45,6 @@ static void build(struct app *app, struct form *form)
     ceduo_form_rest(form, "minimum");
 }
 
-/* The stems of a belt in the year under the cursor. */
-static void say_belt(struct text *text, const struct ceduo_belt *belt)
-{
-    const struct ceduo_stand *s = &belt->stand;
-    char from[CEDUO_NUMBER_ROOM], to[CEDUO_NUMBER_ROOM];
-    ceduo_text_format(text, "%s\xe2\x80\x93%s m: ", ceduo_number_shortest(belt->from_given, from),
-                      ceduo_number_shortest(belt->to_given, to));
-    if (ceduo_stand_is_bare(s))
-        ceduo_text_put(text, _("no stems"));
-    if (s->shoots_count > 0)
-        ceduo_text_format(text, _("%.0f stools"), s->stools_per_ha);
-    for (size_t i = 0; i < s->shoots_count; i++)
-        ceduo_text_then(text, ", ", _("%.0f shoots of %.1f cm, %.1f m"), s->shoots[i].per_ha, s->shoots[i].dbh * 100,
-                        s->shoots[i].height);
-    for (size_t i = 0; i < s->trees_count; i++)
-        ceduo_text_then(text, s->shoots_count + i > 0 ? ", " : "", _("%.0f trees of %.0f cm, %.0f m"), s->trees[i].per_ha,
-                        s->trees[i].dbh * 100, s->trees[i].height);
-    ceduo_text_put(text, ". ");
-}
-
 static void say_year(struct app *app, const struct ceduo_years *years, struct text *text)
 {
     size_t c = app->live.result->last_control;
@@ -98,15 +78,30 @@ static void say_year(struct app *app, const struct ceduo_years *years, struct te
                               yield->fellings[i].stems_per_ha);
             ceduo_text_char(text, ' ');
         }
-    for (size_t i = 0; i < y->option.belts_count; i++)
-        say_belt(text, &y->option.belts[i]);
+    for (const struct ceduo_belt *belt = y->option.belts; belt < y->option.belts + y->option.belts_count; belt++) {
+        const struct ceduo_stand *s = &belt->stand;
+        char from[CEDUO_NUMBER_ROOM], to[CEDUO_NUMBER_ROOM];
+        ceduo_text_format(text, "%s\xe2\x80\x93%s m: ", ceduo_number_shortest(belt->from_given, from),
+                          ceduo_number_shortest(belt->to_given, to));
+        if (ceduo_stand_is_bare(s))
+            ceduo_text_put(text, _("no stems"));
+        if (s->shoots_count > 0)
+            ceduo_text_format(text, _("%.0f stools"), s->stools_per_ha);
+        for (size_t i = 0; i < s->shoots_count; i++)
+            ceduo_text_then(text, ", ", _("%.0f shoots of %.1f cm, %.1f m"), s->shoots[i].per_ha, s->shoots[i].dbh * 100,
+                            s->shoots[i].height);
+        for (size_t i = 0; i < s->trees_count; i++)
+            ceduo_text_then(text, s->shoots_count + i > 0 ? ", " : "", _("%.0f trees of %.0f cm, %.0f m"), s->trees[i].per_ha,
+                            s->trees[i].dbh * 100, s->trees[i].height);
+        ceduo_text_put(text, ". ");
+    }
 }
 
 /* The same year of the other options. */
 static void say_others(struct app *app, unsigned year, struct text *text)
 {
     const struct ceduo_result *r = app->live.result;
-    struct text others = {0};
+    LOCAL_TEXT(others);
     for (size_t i = 0; i < r->options_count; i++) {
         const struct ceduo_years *years = ceduo_live_years(&app->live, r->scene, i);
         for (size_t k = 0; years && i != app->option && k < years->count; k++)
@@ -116,7 +111,6 @@ static void say_others(struct app *app, unsigned year, struct text *text)
     }
     if (others.length > 0)
         ceduo_text_format(text, _("In that year %s of 1000."), ceduo_text_string(&others));
-    ceduo_text_free(&others);
 }
 
 static void say_all(struct app *app, const struct ceduo_years *years, struct text *text)
@@ -201,7 +195,6 @@ static const struct act acts[] = {{ACTION_RIGHT, .function = next_year, .by = 1}
                                   {0}};
 
 const struct view ceduo_view_rotation = {
-    .title = NP_("view", "rotation"),
     .panes = 2,
     .years = true,
     .build = build,

@@ -124,36 +124,25 @@ static size_t belt_at(const struct app *app, double x)
     return i;
 }
 
-/* The envelope of the cell that is nearest; NULL where none is near, or no rock passes. */
-static const struct ceduo_envelope *passing(const struct ceduo_snapshot *o, const struct ceduo_run_snapshot *sight, double x)
-{
-    size_t best = 0;
-    if (!o || !sight || !sight->envelopes || o->cells < 2)
-        return NULL;
-    for (size_t i = 1; i < o->cells; i++)
-        best = fabs(o->cell_x[i] - x) < fabs(o->cell_x[best] - x) ? i : best;
-    bool near = fabs(o->cell_x[best] - x) <= fabs(o->cell_x[1] - o->cell_x[0]);
-    return near && sight->envelopes[best].passed > 0 ? &sight->envelopes[best] : NULL;
-}
-
 static void say_place(struct app *app)
 {
     const struct ceduo_scene *scene = &app->document.file.scene;
     const struct ceduo_snapshot *o = ceduo_live_snapshot(&app->live, scene);
+    const struct ceduo_run_snapshot *run = ceduo_snapshot_of(o, scene, app->option);
     double x = place_x(app);
-    size_t belt = belt_at(app, x);
-    const struct ceduo_envelope *e = passing(o, ceduo_snapshot_of(o, scene, app->option), x);
-    struct text text = {0}, height = {0}, energy = {0};
+    size_t belt = belt_at(app, x), cell = 0;
+    LOCAL_TEXT(text);
     ceduo_text_format(&text, _("%.1f m: %.0f\xc2\xb0 steep, %s"), x + scene->slope.origin_x,
                       atan(ceduo_slope_fall(&scene->slope, x)) * 180 / M_PI,
                       belt < ceduo_app_option(app)->belts_count ? ceduo_app_option(app)->belts[belt].name : _("no forest"));
-    if (e) {
-        ceduo_words_number(&height, e->height.p95, 2);
-        ceduo_words_number(&energy, e->mean_energy * J_TO_KJ, 3);
+    for (size_t i = 1; o && i < o->cells; i++) /* the nearest */
+        cell = fabs(o->cell_x[i] - x) < fabs(o->cell_x[cell] - x) ? i : cell;
+    bool near = o && o->cells > 1 && fabs(o->cell_x[cell] - x) <= fabs(o->cell_x[1] - o->cell_x[0]);
+    const struct ceduo_envelope *e = near && run && run->envelopes ? &run->envelopes[cell] : NULL;
+    if (e && e->passed > 0)
         ceduo_text_then(&text, "; ", _("of 100 rocks that pass the underside of 95 is below %s m; %s kJ on average"),
-                        ceduo_app_kept(app, &height), ceduo_app_kept(app, &energy));
-    }
-    ceduo_app_hint(app, ceduo_app_kept(app, &text));
+                        WRITTEN(e->height.p95, 2), WRITTEN(e->mean_energy * J_TO_KJ, 3));
+    ceduo_app_hint(app, text.bytes);
 }
 
 /* ---- what can be done there ---- */
@@ -321,8 +310,7 @@ static const struct act place_acts[] = {{ACTION_RIGHT, .function = move_place, .
                                         {ACTION_ADD, .plain = choose_at_place},
                                         ZOOM_ACTS};
 
-const struct view ceduo_view_slope = {.title = NP_("view", "slope"),
-                                      .panes = PANES,
+const struct view ceduo_view_slope = {.panes = PANES,
                                       .build = build,
                                       .draw = draw,
                                       .acts = {form_acts, rock_acts, place_acts},

@@ -142,8 +142,7 @@ static void draw(struct app *app, struct ceduo_area area)
         draw_plan(app, beside);
 }
 
-const struct view ceduo_view_stand = {.title = NP_("view", "stand"),
-                                      .panes = 1,
+const struct view ceduo_view_stand = {.panes = 1,
                                       .build = build,
                                       .draw = draw,
                                       .follow = ceduo_app_follow_belt,

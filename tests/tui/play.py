@@ -283,8 +283,8 @@ def fast(script, scene="fast.yaml", **options):
 def actions():
     """The program's one table of keys: (name, first word, second word, 0…2 in the bar, what it does)."""
     source = (ROOT / "src/tui/keys.h").read_text()
-    source = re.sub(r'^ *V\((\w+), \w+, ([^,]+), (".*?"), (N_.*?\))\)', r'    X(VIEW_\1, \2, \3, K_NONE, "", 0, \4)', source, flags=re.M)
-    rows = re.findall(r'X\((\w+), (?:\',\'|[^,]+), "(.*?)", [^,]+, "(.*?)", (\d), N_\("(.*?)"\)\)', source)
+    source = re.sub(r'^ *V\((\w+), \w+, ([^,]+), (".*?"), NP_\("view", (".*?")\)\)', r'    X(VIEW_\1, \2, \3, K_NONE, "", 0, N_(\4), VIEW)', source, flags=re.M)
+    rows = re.findall(r'X\((\w+), (?:\',\'|[^,]+), "(.*?)", [^,]+, "(.*?)", (\d), N_\("(.*?)"\), ', source)
     expect(len(rows) > 30 and len(rows) == len(re.findall(r"^ *X\([A-Z]", source, re.M)), rows)
     return [(name, word, word2, int(bar), text) for name, word, word2, bar, text in rows]
 

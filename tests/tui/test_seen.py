@@ -269,7 +269,7 @@ def test_bounds():
     """Bounds that are none, wrong way round or out of range are told, and nothing is fitted; all empty likewise"""
     with Place() as place:
         place.write("flight.yaml", FLIGHT + SEEN)
-        for typed, said in (("ten", "bounds are two numbers"), ("5", "bounds are two numbers"), ("9:5", "the smaller first"),
+        for typed, said in (("ten", "'ten' is not a number"), ("5", "the smaller first"), ("9:5", "the smaller first"),
                             ("5:5000", "5000"), ("", "nothing is to be fitted")):
             wrong, = place.play(f"key 8\nwait idle\nkey c Ctrl-U\n{'type ' + typed if typed else ''}\nkey Enter\nwait idle\ndump",
                                 "flight.yaml")
