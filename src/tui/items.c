@@ -27,11 +27,15 @@ static struct item item_of(const struct app *app, const char *list, size_t index
     return (struct item){.list = list, .key = dot ? dot + 1 : list, .index = index, .there = true, .at = NAN};
 }
 
-static bool find_item(struct app *app, struct item *item)
+/* `there`: an item must be under the cursor, not the line of an empty list. */
+static bool find_item(struct app *app, struct item *item, bool there)
 {
     const struct form_row *row = ceduo_form_row(ceduo_app_form(app));
-    if (!row || !row->list[0] || ceduo_app_state(app)->pane != 0) /* it is not seen */
+    bool seen = row && row->list[0] && ceduo_app_state(app)->pane == 0;
+    if (!seen || (there && row->n == 0)) {
+        ceduo_app_say(app, "%s", _("this works on an item of a list: put the cursor on one"));
         return false;
+    }
     *item = item_of(app, row->list, row->index);
     item->there = row->n > 0;
     item->group = row->group;
@@ -249,10 +253,8 @@ static void make(struct app *app, const struct item *item, bool add)
 void ceduo_items_add(struct app *app)
 {
     struct item item;
-    if (!find_item(app, &item)) {
-        ceduo_app_say(app, "%s", _("a adds to a list: put the cursor on one"));
+    if (!find_item(app, &item, false))
         return;
-    }
     make(app, &item, true);
     if (strcmp(item.key, "forest") == 0 && !app->message[0])
         ceduo_app_say(app, "%s", _("a belt of its own now: p chooses its stand, c takes it from a sample plot"));
@@ -268,10 +270,8 @@ void ceduo_items_add_at(struct app *app, const char *list, size_t index, double 
 void ceduo_items_delete(struct app *app)
 {
     struct item item;
-    if (!find_item(app, &item) || !item.there) {
-        ceduo_app_say(app, "%s", _("d deletes an item of a list: put the cursor on one"));
+    if (!find_item(app, &item, true))
         return;
-    }
     const struct node *list = ceduo_document_node(&app->document, item.list);
     if (list && list->n == 1 && strcmp(item.list, "controls") == 0) {
         ceduo_app_say(app, "%s", _("the only place where rocks are counted stays"));
@@ -289,16 +289,14 @@ void ceduo_items_delete(struct app *app)
 void ceduo_items_duplicate(struct app *app)
 {
     struct item item;
-    if (!find_item(app, &item) || !item.there)
-        ceduo_app_say(app, "%s", _("y duplicates an item of a list: put the cursor on one"));
-    else
+    if (find_item(app, &item, true))
         make(app, &item, false);
 }
 
 void ceduo_items_move(struct app *app, int by)
 {
     struct item item;
-    if (!find_item(app, &item) || !item.there || (by < 0 && item.index == 0))
+    if (!find_item(app, &item, true) || (by < 0 && item.index == 0))
         return;
     size_t to = item.index + (size_t)by;
     if (ceduo_app_edited(app, ceduo_document_move(&app->document, item.list, item.index, to, &app->problems)))

@@ -139,7 +139,7 @@ static void ask_for_file(struct app *app, const char *export)
 {
     /* the report says how sure it is, over the rotation as well: that is computed while its file is named; a head is an edit */
     app->live.busy |= ceduo_jobs_ask(app->live.jobs, JOB_UNCERTAINTY, &app->document.file, app->option, UNCERTAINTY_ROTATION);
-    struct popup *p = ceduo_popup_fields(app, _("Export to a file"), export, filled_export);
+    struct popup *p = ceduo_popup_fields(app, _(exports[atoi(export)].what), export, filled_export);
     const char *file = exports[atoi(export)].file;
     p->endings = strrchr(file, '.');
     p->typed_wins = true;
@@ -169,7 +169,7 @@ static void chose_export(struct app *app, struct popup *p)
 {
     enum export export = (enum export)atoi(p->value);
     if (export == EXPORT_COMMAND) {
-        ceduo_popup_text(app, _("The batch command that gives the same"))->preview = show_command;
+        ceduo_popup_text(app, _(exports[export].what))->preview = show_command;
         return;
     }
     if (export != EXPORT_REPORT || ceduo_document_node(&app->document, "page")) {

@@ -32,7 +32,7 @@ static bool filled_item(struct app *app, struct popup *p)
         return false;
     }
     ceduo_form_go(ceduo_app_form(app), list, n);
-    ceduo_app_say(app, "%s", _("added; u takes it back"));
+    ceduo_app_say(app, "%s", _("taken over; u takes it back"));
     return true;
 }
 

@@ -18,7 +18,7 @@ static bool save_to(struct app *app, const char *path)
 {
     bool anew;
     if (ceduo_document_is_shipped(path)) {
-        ceduo_app_warn(app, _("%s belongs to the program and is never written over; choose another name"), path);
+        ceduo_app_warn(app, "%s", _("This scene belongs to the program and is never written over; save your own copy."));
         return false;
     }
     char from[256] = ""; /* the file of before, where it is another */

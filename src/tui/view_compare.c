@@ -97,7 +97,7 @@ static void delete_option(struct app *app)
     if (app->document.file.scene.options_count < 2)
         ceduo_app_say(app, "%s", _("the only option stays"));
     else if (ceduo_app_edited(app, ceduo_document_delete(&app->document, path, &app->problems)))
-        ceduo_app_say(app, _("deleted '%s'; u brings it back"), name);
+        ceduo_app_say(app, _("deleted: %s; u brings it back"), name);
 }
 
 static void move_option(struct app *app, int by)

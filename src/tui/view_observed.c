@@ -433,10 +433,8 @@ static void take(struct app *app)
 
 static void stop(struct app *app)
 {
-    if (app->live.fitting)
-        ceduo_app_say(app, "%s", _("the fit is stopped; the scene is as it was"));
-    else if (ceduo_live_fitted(&app->live))
-        ceduo_app_say(app, "%s", _("the scene is left as it was"));
+    if (app->live.fitting || ceduo_live_fitted(&app->live))
+        ceduo_app_say(app, "%s", _("the scene is as it was"));
     ceduo_live_drop_fit(&app->live);
 }
 

@@ -8,40 +8,22 @@
 
 static void build(struct app *app, struct form *form)
 {
-    static const struct {
-        const char *key, *label;
-    } fields[] = {{"cutting.stay_per_ha", N_("trees that stay, per ha")},
-                  {"cutting.rotation_years", N_("years between two cuts")},
-                  {"cutting.cohorts", N_("cohorts of shoots")},
-                  {"growth.shoots_young", N_("shoots that come up")},
-                  {"growth.shoots_old", N_("shoots in the end")},
-                  {"growth.sdi_most", N_("density index")},
-                  {"growth.trees_sdi_most", N_("density of trees alone")},
-                  {"growth.shoots.dbh_most_m", N_("shoots: diam. max, cm")},
-                  {"growth.shoots.dbh_rate_1_y", N_("shoots: diam. rate, 1/y")},
-                  {"growth.shoots.height_most_m", N_("shoots: height max, m")},
-                  {"growth.shoots.height_rate_1_y", N_("shoots: height rate, 1/y")},
-                  {"growth.trees.dbh_most_m", N_("trees: diam. max, cm")},
-                  {"growth.trees.dbh_rate_1_y", N_("trees: diam. rate, 1/y")},
-                  {"growth.trees.height_most_m", N_("trees: height max, m")},
-                  {"growth.trees.height_rate_1_y", N_("trees: height rate, 1/y")}};
-    static const char *const groups[] = {"cutting", "growth", "growth.shoots", "growth.trees"};
     ceduo_form_table(form, ceduo_app_forest(app), NULL, "from_m to_m cut_year stand");
     if (ceduo_app_option(app)->belts_count > 0) {
         const char *stand = ceduo_app_stand(app), *name = ceduo_app_option(app)->belts[app->belt].name;
         ceduo_form_heading(form, ceduo_app_format(app, _("Stand of belt %zu: %.60s"), app->belt + 1, name));
-        for (size_t i = 0; i < sizeof fields / sizeof fields[0]; i++)
-            ceduo_form_field(form, ceduo_app_format(app, "%s.%s", stand, fields[i].key), _(fields[i].label));
-        for (size_t i = 0; i < sizeof groups / sizeof groups[0]; i++)
-            ceduo_form_rest(form, ceduo_app_format(app, "%s.%s", stand, groups[i]));
+        ceduo_form_fields(form, ceduo_app_format(app, "%s.", stand), "cutting.stay_per_ha cutting.rotation_years");
+        ceduo_form_rest(form, ceduo_app_format(app, "%s.cutting", stand));
+        ceduo_form_rest(form, ceduo_app_format(app, "%s.growth", stand));
+        ceduo_form_heading(form, _("Shoots on the stools"));
+        ceduo_form_rest(form, ceduo_app_format(app, "%s.growth.shoots", stand));
+        ceduo_form_heading(form, _("Single trees: standards, reserves"));
+        ceduo_form_rest(form, ceduo_app_format(app, "%s.growth.trees", stand));
     }
     ceduo_form_heading(form, _("Years shown (empty: one whole rotation after the first cut)"));
-    ceduo_form_field(form, "years.first", _("first year"));
-    ceduo_form_field(form, "years.last", _("last year"));
+    ceduo_form_fields(form, "years.", "first last");
     ceduo_form_heading(form, _("What comes down, what must stay"));
-    ceduo_form_field(form, "rocks_per_year", _("rocks a year"));
-    ceduo_form_field(form, "minimum.reserves_per_ha", _("trees per ha at least"));
-    ceduo_form_field(form, "rules", _("rules of the region"));
+    ceduo_form_fields(form, "", "rocks_per_year minimum.reserves_per_ha rules");
     ceduo_form_rest(form, "minimum");
 }
 

@@ -48,7 +48,7 @@ static void build(struct app *app, struct form *form)
     ceduo_form_table(form, ceduo_app_format(app, "%s.trees", path), NULL, "per_ha dbh_m height_m volume_m3 dbh_sd_m");
     double today = ceduo_stand_trees(s), stay = ceduo_stand_stay(s);
     if (s->cutting.rotation > 0) /* beside the trees of today: to change one does not change the other */
-        ceduo_form_field(form, ceduo_app_format(app, "%s.cutting.stay_per_ha", path), _("trees that stay, per ha"));
+        ceduo_form_fields(form, in, "cutting.stay_per_ha");
     if (s->cutting.rotation > 0 && fabs(today - stay) > 0.5)
         ceduo_form_note(form, ceduo_app_format(app, _("! today %g, after a cut %g: two things"), today, stay));
     for (size_t i = 0; i < s->trees_count; i++) { /* the radius first: a group must have one */

@@ -160,7 +160,7 @@ def test_strips():
     expect_in(" …", flat(screens[0]), "80x24: a sign of more in the place of what is said of the year")
     lines = [line.strip() for line in screens[0].body.split("\n") if line.strip()]
     fields = lines[next(i for i, line in enumerate(lines) if line.startswith("from, m")):]
-    expect(len(fields) >= 8 and any(line.startswith("trees that stay") for line in fields[:5]),
+    expect(len(fields) >= 8 and any(line.startswith("trees kept") for line in fields[:5]),
            "80x24: eight lines of the form, what stays after a cut among the first", screens[0])
     expect("…" not in flat(screens[3]) and "Year 0:" in flat(screens[1]), "words without room", screens[1], screens[3])
 
@@ -175,9 +175,9 @@ def test_window():
         key Tab l l l
         dump
         key Tab
-        find last year
+        find last year shown
         set 4
-        find first year
+        find first year shown
         set 2
         wait idle
         dump
@@ -529,7 +529,7 @@ def test_find_in_list():
                 for words in ("rules of Marche ask for 60 standards per ha at least (Ministry Decree", "60 are left.", "asks for 70 per ha"):
                     expect_in(words, popup.popup, "the law")
             expect(wanted["found"] and wanted["over"] == "rotation", scene, wanted)
-            values = screen.row("^trees that stay")[-2 if which else -1:]
+            values = screen.row("^trees kept")[-2 if which else -1:]
             expect_equal(values, ["30", str(wanted["value"])] if which else [str(wanted["value"])], "the field")
             expect_in(f"= {wanted['value']}", screen.note)
 

@@ -118,7 +118,7 @@ def test_typed():
         text = place.text("flight.yaml")
         check_good(place.path, "flight.yaml")
     kinds.has("What was seen?", "s stops", "c a count", "h heights", "d damaged stems").lacks("search:")
-    stops.has("added; u takes it back")
+    stops.has("taken over; u takes it back")
     expect(re.search(r"^1 +41 44\.5 52 61 +6 +-$", stops.body, re.M), stops)
     refused.has("'sixty' is not a number")
     wrong.has("how many passed a place")
@@ -261,7 +261,7 @@ def test_fit_left():
     done.has("Fitted.")
     for screen in (stopped, left):
         expect("*" not in screen.title and "Fitted." not in screen.body, screen)
-    expect_in("the scene is left as it was", left.note)
+    expect_in("the scene is as it was", left.note)
     edited.lacks("Fitted.", "under way").has("Simulated: 2000 rocks.")
 
 

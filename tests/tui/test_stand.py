@@ -86,7 +86,7 @@ def test_standards():
         find stay_per_ha
         set 80 60
         dump""")
-    expect_equal(start.row("^trees that stay")[5:7], ["60", "40"], start)
+    expect_equal(start.row("^trees kept per ha")[4:6], ["60", "40"], start)
     start.lacks("two things")
     expect_in("a cut still leaves 100 trees per ha", more.note)
     more.has("! today 140, after a cut 100: two things")

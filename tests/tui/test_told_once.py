@@ -67,8 +67,8 @@ def test_growth_in_centimetres():
         place.write("grows.yaml", WOOD.replace("name: upper\n", f"name: upper\n      {growth}\n"))
         shoots, trees = place.play("key 6\nfind forest[0].stand.growth.shoots.dbh_most_m\ndump\n"
                                    "find forest[0].stand.growth.trees.dbh_most_m\ndump", "grows.yaml")
-    expect(re.search(r"^shoots: diam. max, cm +25\b", shoots.body, re.M), shoots)
-    expect(re.search(r"^trees: diam. max, cm +60\b", trees.body, re.M), trees)
+    expect(re.search(r"^largest diam., cm +25\b", shoots.body, re.M), shoots)
+    expect(re.search(r"^largest diam., cm +60\b", trees.body, re.M), trees)
 
 
 def test_no_forest():
