@@ -452,8 +452,7 @@ void ceduo_app_page(struct app *app, struct ceduo_area area, struct ceduo_page *
     ceduo_page_free(page);
 }
 
-void ceduo_app_draw_form(struct app *app, struct ceduo_area area, bool focused)
+void ceduo_app_draw_form(struct app *app, struct ceduo_area area)
 {
-    ceduo_app_state(app)->form_area = area;
-    ceduo_form_draw(ceduo_app_form(app), app->cells, area, focused, app->editing ? app->line.text : NULL);
+    ceduo_form_draw(ceduo_app_form(app), app->cells, area, app->editing ? app->line.text : NULL);
 }

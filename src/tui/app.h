@@ -67,7 +67,6 @@ extern const struct view *const ceduo_views[VIEW_COUNT];
 /* The state of a view. */
 struct view_state {
     struct form form;
-    struct ceduo_area form_area; /* where it was drawn, for the mouse */
     int pane;
     int scroll; /* of text that is longer than its pane */
 };
@@ -227,6 +226,6 @@ void ceduo_app_label(struct app *app, int x, int y, enum ceduo_role role, const 
     __attribute__((format(printf, 5, 6)));
 
 /* Draws the form of the view that is open; nothing in an area without height. */
-void ceduo_app_draw_form(struct app *app, struct ceduo_area area, bool focused);
+void ceduo_app_draw_form(struct app *app, struct ceduo_area area);
 
 #endif

@@ -295,18 +295,10 @@ static void cell_place(const struct form_row *row, int width, int label, size_t 
     *span = each - 1;
 }
 
-/* Where a form is drawn, and how. */
-struct drawing {
-    const struct form *form;
-    struct ceduo_cells *cells;
-    struct ceduo_area area;
-    bool focused;
-    const char *edit; /* NULL: no field is open */
-};
-
-static void draw_cell(const struct drawing *d, const struct form_cell *cell, int x, int y, int span, bool cursor)
+/* `edit`: what is typed into it; NULL: it is not open. */
+static void draw_cell(struct ceduo_cells *cells, const struct form_cell *cell, int x, int y, int span, bool cursor,
+                      const char *edit)
 {
-    struct ceduo_cells *cells = d->cells;
     char shown[80];
     LOCAL_TEXT(words);
     if (cell->given && strcmp(cell->field->key, "path") == 0) /* a place of the scene, in words */
@@ -326,8 +318,8 @@ static void draw_cell(const struct drawing *d, const struct form_cell *cell, int
     if (cursor)
         for (int i = 0; i < span; i++)
             ceduo_cells_label(cells, x + i, y, CEDUO_ROLE_CURSOR, " ");
-    if (cursor && d->edit) {
-        int n = ceduo_cells_put_end(cells, x, y, span - 1, CEDUO_ROLE_CURSOR, d->edit);
+    if (cursor && edit) {
+        int n = ceduo_cells_put_end(cells, x, y, span - 1, CEDUO_ROLE_CURSOR, edit);
         ceduo_cells_label(cells, x + n, y, CEDUO_ROLE_CURSOR, "_");
         return;
     }
@@ -335,26 +327,24 @@ static void draw_cell(const struct drawing *d, const struct form_cell *cell, int
     ceduo_canvas_put(&cells->canvas, x, y, span, role, shown);
 }
 
-static void draw_row(const struct drawing *d, size_t i, int y)
+static void draw_row(const struct form *form, struct ceduo_cells *cells, size_t i, int y, const char *edit)
 {
-    const struct form_row *row = &d->form->rows[i];
-    struct ceduo_canvas *canvas = &d->cells->canvas;
-    int left = d->area.left, width = d->area.width;
+    const struct form_row *row = &form->rows[i];
+    struct ceduo_canvas *canvas = &cells->canvas;
+    int left = form->area.left, width = form->area.width, label = label_columns(form, width);
     if (row->kind == FORM_HEADING || row->kind == FORM_NOTE) {
         ceduo_canvas_put(canvas, left, y, width, row->kind == FORM_HEADING ? CEDUO_ROLE_TITLE : CEDUO_ROLE_DIM, row->label);
         return;
     }
-    bool here = i == d->form->row && d->focused;
-    int label = label_columns(d->form, width);
     if (row->kind == FORM_FIELDS) {
         int span = row->n == 0 ? width : row->list[0] ? 3 : label - 1;
-        ceduo_canvas_put(canvas, left, y, span, here && row->n == 0 ? CEDUO_ROLE_CURSOR : CEDUO_ROLE_DIM, row->label);
+        ceduo_canvas_put(canvas, left, y, span, i == form->row && row->n == 0 ? CEDUO_ROLE_CURSOR : CEDUO_ROLE_DIM, row->label);
     }
     for (size_t k = 0; k < row->n; k++) {
         int from, span;
         cell_place(row, width, label, k, &from, &span);
         if (row->kind != FORM_COLUMNS_ROW) {
-            draw_cell(d, &row->cells[k], left + from, y, span, here && k == d->form->column);
+            draw_cell(cells, &row->cells[k], left + from, y, span, i == form->row && k == form->column, edit);
             continue;
         }
         const struct field_shown *shown = &row->cells[k].field->shown;
@@ -364,9 +354,9 @@ static void draw_row(const struct drawing *d, size_t i, int y)
     }
 }
 
-void ceduo_form_draw(struct form *form, struct ceduo_cells *cells, struct ceduo_area area, bool focused, const char *edit)
+void ceduo_form_draw(struct form *form, struct ceduo_cells *cells, struct ceduo_area area, const char *edit)
 {
-    const struct drawing drawing = {form, cells, area, focused, edit};
+    form->area = area;
     if (area.height <= 0 || area.width < 8)
         return;
     size_t lines = (size_t)area.height, above = form->row;
@@ -379,22 +369,22 @@ void ceduo_form_draw(struct form *form, struct ceduo_cells *cells, struct ceduo_
     if (form->top + lines > form->n)
         form->top = form->n > lines ? form->n - lines : 0;
     for (size_t i = 0; i < lines && form->top + i < form->n; i++)
-        draw_row(&drawing, form->top + i, area.top + (int)i);
+        draw_row(form, cells, form->top + i, area.top + (int)i, edit);
 }
 
-bool ceduo_form_hit(const struct form *form, struct ceduo_area area, int x, int y, size_t *row, size_t *column)
+bool ceduo_form_click(struct form *form, int x, int y)
 {
-    size_t i = form->top + (size_t)(y - area.top);
-    if (x < area.left || x >= area.left + area.width || y < area.top || y >= area.top + area.height || i >= form->n ||
+    const struct ceduo_area *area = &form->area;
+    size_t i = form->top + (size_t)(y - area->top);
+    if (x < area->left || x >= area->left + area->width || y < area->top || y >= area->top + area->height || i >= form->n ||
         !can_hold(&form->rows[i]))
         return false;
-    *row = i;
-    *column = 0;
+    form->row = i;
+    form->column = 0;
     for (size_t k = 0; k < form->rows[i].n; k++) {
         int from, span;
-        cell_place(&form->rows[i], area.width, label_columns(form, area.width), k, &from, &span);
-        if (x - area.left >= from)
-            *column = k;
+        cell_place(&form->rows[i], area->width, label_columns(form, area->width), k, &from, &span);
+        form->column = x - area->left >= from ? k : form->column;
     }
     return true;
 }

@@ -35,8 +35,9 @@ struct form {
     const struct document *document;
     struct form_row *rows;
     size_t n, room;
-    size_t row, column; /* the cursor */
-    size_t top;         /* first line shown */
+    size_t row, column;     /* the cursor */
+    size_t top;             /* first line shown */
+    struct ceduo_area area; /* where it was drawn, for the mouse */
 };
 
 void ceduo_form_clear(struct form *form, const struct document *document); /* the cursor stays */
@@ -78,10 +79,10 @@ struct form_row *ceduo_form_row(struct form *form);
 
 /* Draws the lines into a rectangle, scrolled so that the cursor is seen. `edit`: text to show in the cell under the
  * cursor instead of its own (NULL: none). */
-void ceduo_form_draw(struct form *form, struct ceduo_cells *cells, struct ceduo_area area, bool focused, const char *edit);
+void ceduo_form_draw(struct form *form, struct ceduo_cells *cells, struct ceduo_area area, const char *edit);
 
-/* The line and cell at a place of the rectangle it was drawn into; false where there is none. */
-bool ceduo_form_hit(const struct form *form, struct ceduo_area area, int x, int y, size_t *row, size_t *column);
+/* Moves the cursor to the line and cell at a place of the screen; false where there is none. */
+bool ceduo_form_click(struct form *form, int x, int y);
 
 /* What stands below the screen for the cell under the cursor: meaning, unit, range, default, source. */
 void ceduo_form_explain(struct form *form, struct text *text);

@@ -39,8 +39,6 @@ static bool read_stand(const struct app *app, const char *value, struct scene_fi
     return good;
 }
 
-#define STAND_TAG "ceduo: stand/"
-
 /* Stems, the diameter of their mean basal area, the age of the oldest shoots where that is given, basal area; behind them
  * whose it is. */
 static const char *describe_stand(const struct app *app, const char *value, const char *whose)
@@ -64,52 +62,46 @@ static const char *describe_stand(const struct app *app, const char *value, cons
 
 /* ---- files ---- */
 
-static void add_file(const struct app *app, struct popup *p, const char *name, const char *value, const char *about,
-                     const char *now)
+#define HEAD_BYTES 4096 /* where a file says what it is */
+#define FILES_MAX  500  /* beside a scene: more are not looked into */
+
+static bool has_head(const char *path, const char *tag)
 {
-    if (ceduo_picker_has(&p->picker, value))
-        return;
-    ceduo_picker_add(&p->picker, about[0] ? ceduo_app_format(app, "%-*s %s", ceduo_utf8_field(name, 33), name, about) : name,
-                     name, value, now && strcmp(now, value) == 0);
+    char head[HEAD_BYTES + 1];
+    FILE *file = fopen(path, "re");
+    head[file ? fread(head, 1, HEAD_BYTES, file) : 0] = '\0';
+    if (file)
+        fclose(file);
+    return strstr(head, tag) != NULL;
 }
 
-#define HEAD_BYTES 4096 /* where a file says what it is */
-
-#define FILES_MAX 500 /* beside a scene: more are not looked into */
-
-/* The user's own files of a kind beside the scene; `whole`: with the folder in their name. */
-static void add_beside(struct app *app, struct popup *p, const char *tag, bool whole, const char *now)
+/* Files of a kind ("stands", …), the first of each name: those of the program, or the user's own: those beside the scene that say
+ * what they are, before others. `whole`: those with the folder in their name. */
+static void add_files(struct app *app, struct popup *p, const char *kind, bool shipped, bool whole, const char *now)
 {
     const char *scene = app->document.path && !app->document.shipped ? app->document.path : "", *slash = strrchr(scene, '/');
-    const char *folder = ceduo_app_format(app, "%.*s", slash ? (int)(slash - scene) + 1 : 0, scene); /* "": the current one */
-    size_t n;
-    const char *const *names = ceduo_file_list(&p->arena, folder[0] ? folder : ".", ".", &n);
-    for (size_t i = 0; i < n && i < FILES_MAX; i++) {
-        const char *path = ceduo_app_format(app, "%s%s", folder, names[i]);
-        char head[HEAD_BYTES + 1];
-        FILE *file = fopen(path, "re");
-        head[file ? fread(head, 1, HEAD_BYTES, file) : 0] = '\0';
-        if (file)
-            fclose(file);
-        if (strstr(head, tag))
-            add_file(app, p, names[i], whole ? path : names[i],
-                     strcmp(tag, STAND_TAG) == 0 ? describe_stand(app, path, _("yours")) : _("yours, beside the scene"), now);
-    }
-}
-
-/* Files of a kind ("stands", …), the first of each name: the user's own, or those of the program. */
-static void add_profiles(const struct app *app, struct popup *p, const char *kind, const char *now, bool shipped)
-{
+    const char *here = ceduo_app_format(app, "%.*s", slash ? (int)(slash - scene) + 1 : 0, scene); /* "": the current folder */
+    const char *tag = ceduo_app_format(app, "ceduo: %.*s", (int)strlen(kind) - 1, kind);
     const char *const *folders = ceduo_file_folders(&p->arena);
-    for (size_t i = 0; folders && folders[i]; i++) {
+    for (size_t i = shipped; i == 0 || (folders && folders[i - 1]); i++) {
+        bool beside = i == 0, stands = strcmp(kind, "stands") == 0;
+        const char *folder = !beside ? folders[i - 1] : here[0] ? here : ".", *whose = shipped ? "" : _("yours");
         size_t n;
-        const char *const *names = ceduo_file_list(&p->arena, folders[i], kind, &n);
-        for (size_t k = 0; k < n; k++) {
-            const char *name = ceduo_app_format(app, "%.*s", (int)(strlen(names[k]) - 5), names[k]);
-            const char *path = ceduo_app_format(app, "%s/%s/%s", folders[i], kind, names[k]),
-                       *whose = shipped ? "" : _("yours");
-            if (ceduo_document_is_shipped(path) == shipped)
-                add_file(app, p, name, name, strcmp(kind, "stands") == 0 ? describe_stand(app, name, whose) : whose, now);
+        const char *const *names = ceduo_file_list(&p->arena, folder, beside ? "." : kind, &n);
+        for (size_t k = 0; k < n && !(beside && k == FILES_MAX); k++) {
+            const char *path = beside ? ceduo_app_format(app, "%s%s", here, names[k])
+                                      : ceduo_app_format(app, "%s/%s/%s", folder, kind, names[k]);
+            const char *name = beside ? names[k] : ceduo_app_format(app, "%.*s", (int)strlen(names[k]) - 5, names[k]);
+            const char *value = beside && whole ? path : name;
+            if (beside ? !has_head(path, tag) : ceduo_document_is_shipped(path) != shipped)
+                continue;
+            if (ceduo_picker_has(&p->picker, value))
+                continue;
+            const char *about = stands   ? describe_stand(app, beside ? path : name, whose)
+                                : beside ? _("yours, beside the scene")
+                                         : whose;
+            const char *text = about[0] ? ceduo_app_format(app, "%-*s %s", ceduo_utf8_field(name, 33), name, about) : name;
+            ceduo_picker_add(&p->picker, text, name, value, now && strcmp(now, value) == 0);
         }
     }
 }
@@ -295,21 +287,19 @@ static void list_stands(struct app *app, const char *title, popup_call *chosen)
     struct popup *p = ceduo_popup_list(app, title, ceduo_app_stand(app), chosen);
     p->preview = preview_stand;
     const char *now = listed_name(app, p->path);
-    add_beside(app, p, STAND_TAG, false, now);
-    add_profiles(app, p, "stands", now, false);
+    add_files(app, p, "stands", false, false, now);
     if (chosen == chose_stand) {
         ceduo_popup_item(p, _("from a sample plot: what was counted and measured"), STAND_COUNTED);
         ceduo_popup_item(p, _("from a survey: a CSV file of plots and stems"), STAND_SURVEY);
     }
-    add_profiles(app, p, "stands", now, true);
+    add_files(app, p, "stands", true, false, now);
 }
 
 void ceduo_popup_offer_stands(struct app *app, struct popup *p)
 {
     ceduo_popup_item(p, _("from a sample plot: what was counted and measured"), STAND_COUNTED);
-    add_beside(app, p, STAND_TAG, true, NULL);
     for (int shipped = 0; shipped < 2; shipped++)
-        add_profiles(app, p, "stands", NULL, shipped);
+        add_files(app, p, "stands", shipped, true, NULL);
 }
 
 static void add_word(struct popup *p, const struct field *f, const char *word, const char *now)
@@ -361,9 +351,8 @@ void ceduo_popup_choices(struct app *app, const struct form_cell *cell)
         return;
     }
     const char *now = listed_name(app, p->path);
-    add_beside(app, p, strcmp(f->object->folder, "rules") == 0 ? "ceduo: rules/" : "ceduo: slope/", false, now);
     for (int shipped = 0; shipped < 2; shipped++)
-        add_profiles(app, p, f->object->folder, now, shipped);
+        add_files(app, p, f->object->folder, shipped, false, now);
 }
 
 /* ---- the rock and how it starts, as other scenes have them ---- */
@@ -450,9 +439,8 @@ static void offer_scenes(struct app *app, struct popup *p)
     const char *own = app->document.path && !app->document.shipped ? app->document.path : NULL;
     if (!strchr(p->fields[0].line.text, '/')) {
         ceduo_popup_offer_recoveries(app, p);
-        add_beside(app, p, "ceduo: scene/", true, own);
         for (int shipped = 0; shipped < 2; shipped++)
-            add_profiles(app, p, "scenes", NULL, shipped);
+            add_files(app, p, "scenes", shipped, true, own);
     }
     ceduo_popup_offer_files(app, p);
 }

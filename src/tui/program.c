@@ -173,21 +173,17 @@ void ceduo_program_paste(struct app *app, const char *text)
 void ceduo_program_click(struct app *app, int x, int y)
 {
     struct view_state *state = ceduo_app_state(app);
-    size_t row, column;
+    size_t row = state->form.row, column = state->form.column;
     if (app->popup || app->editing)
         return;
     if (y == 0) {
         enum view_number view = ceduo_screen_view_at(app, x);
         if (view < VIEW_COUNT)
             ceduo_app_show(app, view);
-    } else if (ceduo_form_hit(&state->form, state->form_area, x, y, &row, &column)) {
-        bool again = state->form.row == row && state->form.column == column && state->pane == 0;
-        state->form.row = row;
-        state->form.column = column;
-        state->pane = 0;
-        ceduo_form_clamp(&state->form);
-        if (again)
+    } else if (ceduo_form_click(&state->form, x, y)) {
+        if (state->form.row == row && state->form.column == column && state->pane == 0)
             ceduo_edit_start(app);
+        state->pane = 0;
     }
 }
 

@@ -49,7 +49,7 @@ static void draw(struct app *app, struct ceduo_area area)
     area.height = pane.height;
     area.width -= 2;
     ceduo_app_page(app, area, &page, &ceduo_app_state(app)->scroll);
-    ceduo_app_draw_form(app, below, true);
+    ceduo_app_draw_form(app, below);
 }
 
 static void turn(struct app *app)

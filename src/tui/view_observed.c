@@ -277,7 +277,7 @@ static void draw(struct app *app, struct ceduo_area area)
         state->pane = PANE_TEXT;
     int lines = state->pane == PANE_TEXT ? 0 : (int)state->form.n, form = area.height / 3 < lines ? area.height / 3 : lines;
     if (form > 0) {
-        ceduo_app_draw_form(app, (struct ceduo_area){area.left, area.top + area.height - form, area.width, form}, true);
+        ceduo_app_draw_form(app, (struct ceduo_area){area.left, area.top + area.height - form, area.width, form});
         area.height -= form + 1;
     }
     area.width -= 2; /* the mark of more below stands beside the text */

@@ -40,7 +40,7 @@ static void draw(struct app *app, struct ceduo_area area)
     struct ceduo_rock rock = ceduo_rock_mean(&app->document.file.scene.rock);
     struct text text = {0};
     if (isnan(rock.mass)) {
-        ceduo_app_draw_form(app, area, true);
+        ceduo_app_draw_form(app, area);
         return;
     }
     ceduo_text_format(&text, _("%.4g kg, %.3g m3, mean diameter B %.3g m, moment %.3g kg m2."), rock.mass, rock.volume,
@@ -50,7 +50,7 @@ static void draw(struct app *app, struct ceduo_area area)
                         _("The lumped law knows neither mass nor shape: on the ground they scale the "
                           "energy alone."));
     int lines = ceduo_app_text_lines(app, ceduo_text_string(&text), area.width);
-    ceduo_app_draw_form(app, (struct ceduo_area){area.left, area.top, area.width, area.height - lines - 1}, true);
+    ceduo_app_draw_form(app, (struct ceduo_area){area.left, area.top, area.width, area.height - lines - 1});
     struct ceduo_area foot = {area.left, area.top + area.height - lines, area.width, lines};
     ceduo_app_put(app, foot, CEDUO_ROLE_DIM, &text);
 }

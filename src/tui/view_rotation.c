@@ -159,7 +159,7 @@ static void draw(struct app *app, struct ceduo_area area)
     ceduo_plot_draw(CEDUO_PLOT_ROTATION, &app->cells->canvas, &top, &picture);
     ceduo_app_put(app, text_area, CEDUO_ROLE_TEXT, &text);
     struct ceduo_area below = {area.left, area.top + area.height - form, area.width, form};
-    ceduo_app_draw_form(app, below, true);
+    ceduo_app_draw_form(app, below);
 }
 
 static void next_year(struct app *app, int by)

@@ -270,7 +270,7 @@ static void draw(struct app *app, struct ceduo_area area)
     if (strips > 0)
         ceduo_plot_draw(CEDUO_PLOT_ENERGY, &app->cells->canvas, &next, &picture);
     struct ceduo_area below = {area.left, area.top + area.height - form_height, area.width, form_height};
-    ceduo_app_draw_form(app, below, true);
+    ceduo_app_draw_form(app, below);
 }
 
 static void zoom(struct app *app, int by)

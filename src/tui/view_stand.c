@@ -136,7 +136,7 @@ static void draw(struct app *app, struct ceduo_area area)
         struct ceduo_area below = {area.left, area.top + form.height, area.width, area.height - form.height - 4};
         draw_plan(app, below);
     }
-    ceduo_app_draw_form(app, form, true);
+    ceduo_app_draw_form(app, form);
     struct ceduo_area beside = {area.left + area.width - plan, area.top, plan, area.height - 4};
     if (wide)
         draw_plan(app, beside);
