@@ -404,9 +404,12 @@ bool ceduo_app_text(struct app *app, struct ceduo_area area, enum ceduo_role rol
     return top && *top < max;
 }
 
-void ceduo_app_end_in_more(struct app *app, struct text *text, int width, int lines)
+void ceduo_app_shorten(struct app *app, struct text *text, int width, int lines)
 {
-    for (bool fits = false; !fits;) {
+    bool fits = text->length == 0 || ceduo_app_text_lines(app, text->bytes, width) <= lines;
+    if (fits)
+        return;
+    while (!fits) {
         size_t end = text->length;
         ceduo_text_put(text, " ..."); /* as wide as the sign is in ASCII */
         fits = ceduo_app_text_lines(app, text->bytes, width) <= lines;
@@ -418,12 +421,6 @@ void ceduo_app_end_in_more(struct app *app, struct text *text, int width, int li
         text->bytes[text->length] = '\0';
     }
     ceduo_text_put(text, " \xe2\x80\xa6");
-}
-
-void ceduo_app_shorten(struct app *app, struct text *text, int width, int lines)
-{
-    if (text->length > 0 && ceduo_app_text_lines(app, text->bytes, width) > lines)
-        ceduo_app_end_in_more(app, text, width, lines);
 }
 
 void ceduo_app_put(struct app *app, struct ceduo_area area, enum ceduo_role role, struct text *text)

@@ -208,9 +208,6 @@ int ceduo_app_text_lines(struct app *app, const char *text, int width);
 /* A text that fills no more than so many lines: what is too long ends in a sign of more. */
 void ceduo_app_shorten(struct app *app, struct text *text, int width, int lines);
 
-/* Puts that sign behind a text of so many lines, in the place of its last words where there is no room otherwise. */
-void ceduo_app_end_in_more(struct app *app, struct text *text, int width, int lines);
-
 /* Says what keys do in a pane, until something else is said; not below a popup. */
 void ceduo_app_hint(struct app *app, const char *text);
 

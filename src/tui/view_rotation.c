@@ -107,24 +107,6 @@ static void say_all(struct app *app, const struct ceduo_years *years, struct tex
     ceduo_words_counted(text, years->rocks);
 }
 
-/* Takes whole sentences off the end until the rest has room, and a sign of more. */
-static void keep_fitting(struct app *app, struct text *text, int width, int lines)
-{
-    size_t whole = text->length;
-    while (ceduo_app_text_lines(app, ceduo_text_string(text), width) > lines) {
-        char *end = NULL;
-        for (char *p = text->bytes; p + 2 < text->bytes + text->length; p++)
-            if (p[0] == '.' && (p[1] == ' ' || p[1] == '\n'))
-                end = p + 1;
-        if (!end)
-            return;
-        *end = '\0';
-        text->length = (size_t)(end - text->bytes);
-    }
-    if (text->length < whole)
-        ceduo_app_end_in_more(app, text, width, lines);
-}
-
 #define PICTURE_MIN       7 /* lines of the picture beside the form: of the curve alone */
 #define PICTURE_ALONE     9 /* with the lights below it */
 #define FORM_MIN          3 /* of the form, and where there is room: */
@@ -146,7 +128,7 @@ static void draw(struct app *app, struct ceduo_area area)
     }
     int form_min = alone ? 0 : area.height >= HEIGHT_FOR_FORM ? FORM_WANTED : FORM_MIN;
     int max = area.height - form_min - (alone ? PICTURE_ALONE : PICTURE_MIN);
-    keep_fitting(app, &text, area.width, max);
+    ceduo_app_shorten(app, &text, area.width, max);
     int words = ceduo_app_text_lines(app, ceduo_text_string(&text), area.width);
     words = words > max ? max : words;
     int form = alone ? 0 : (area.height - words) / 3;
