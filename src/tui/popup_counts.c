@@ -46,14 +46,9 @@ static const struct {
     [COUNT_TREE_DBH] = {N_("their mean diameter, cm"), COUNT_TREES, "forest[0].stand.trees[0].dbh_m", 0, 0, NULL},
     [COUNT_TREE_HEIGHT] = {N_("their mean height, m"), COUNT_TREES, "forest[0].stand.trees[0].height_m", 0, 0, NULL}};
 
-struct plot {
-    double values[COUNTS]; /* in the units of files */
-    double area, per;      /* m2, horizontal; per ha for each one that was counted */
-};
-
-static bool read_plot(struct app *app, struct popup *p, struct plot *plot)
+/* The values in the units of files; false where one is not as it should be, which is said. */
+static bool read_plot(struct app *app, struct popup *p, double v[COUNTS])
 {
-    double *v = plot->values;
     const char *how = p->fields[COUNT_HOW].line.text, *wrong = NULL;
     for (size_t i = 0; i < COUNTS; i++) {
         bool sized = rows[i].count != COUNTS;
@@ -73,46 +68,41 @@ static bool read_plot(struct app *app, struct popup *p, struct plot *plot)
         wrong = _("stools and shoots belong together: count both");
     if (wrong)
         ceduo_app_warn(app, "%s", wrong);
-    plot->area = v[COUNT_AREA] * (strcmp(how, ALONG_SLOPE) == 0 ? cos(v[COUNT_ANGLE] * M_PI / 180) : 1);
-    plot->per = 10000 / plot->area;
     return !wrong;
 }
 
-/* ---- the stand ---- */
-
 #define SPACING 0.35 /* m, where the stand had no stools yet: assumed as in the presets */
-
-/* One class of stems in the place of those that stand there, or none. */
-static void change_stems(struct changes *c, const char *path, const struct plot *plot, size_t count)
-{
-    const double *v = &plot->values[count];
-    if (v[0] > 0)
-        ceduo_changes_add(c, "%s=[{per_ha: %.6g, dbh_m: %.10g, height_m: %.10g}]", path, v[0] * plot->per, v[1], v[2]);
-    else
-        ceduo_changes_remove(c, path);
-}
 
 static bool filled_counts(struct app *app, struct popup *p)
 {
-    struct plot plot;
+    double v[COUNTS];
     struct changes changes = {.d = &app->document}, *c = &changes;
-    if (!read_plot(app, p, &plot))
+    if (!read_plot(app, p, v))
         return false;
+    bool along = strcmp(p->fields[COUNT_HOW].line.text, ALONG_SLOPE) == 0;
+    double area = v[COUNT_AREA] * (along ? cos(v[COUNT_ANGLE] * M_PI / 180) : 1), per = 10000 / area; /* m2, horizontal */
     const struct ceduo_stand *now = &ceduo_app_option(app)->belts[app->belt].stand;
     const char *stools = ceduo_app_format(app, "%s.stools", p->path);
-    if (plot.values[COUNT_STOOLS] > 0)
-        ceduo_changes_add(c, "%s={per_ha: %.6g, spacing_m: %.10g}", stools, plot.values[COUNT_STOOLS] * plot.per,
+    if (v[COUNT_STOOLS] > 0)
+        ceduo_changes_add(c, "%s={per_ha: %.6g, spacing_m: %.10g}", stools, v[COUNT_STOOLS] * per,
                           now->stools_per_ha > 0 ? now->spacing : SPACING);
     else
         ceduo_changes_remove(c, stools);
-    change_stems(c, ceduo_app_format(app, "%s.shoots", p->path), &plot, COUNT_SHOOTS);
-    change_stems(c, ceduo_app_format(app, "%s.trees", p->path), &plot, COUNT_TREES);
+    for (int i = 0; i < 2; i++) { /* one class of stems in the place of those that stand there, or none */
+        const double *stems = &v[i == 0 ? COUNT_SHOOTS : COUNT_TREES];
+        const char *list = ceduo_app_format(app, "%s.%s", p->path, i == 0 ? "shoots" : "trees");
+        if (stems[0] > 0)
+            ceduo_changes_add(c, "%s=[{per_ha: %.6g, dbh_m: %.10g, height_m: %.10g}]", list, stems[0] * per, stems[1],
+                              stems[2]);
+        else
+            ceduo_changes_remove(c, list);
+    }
     if (now->system == CEDUO_BARE)
         ceduo_changes_remove(c, ceduo_app_format(app, "%s.system", p->path));
     ceduo_changes_add(c, "%s.name=%s", p->path, _("sample plot"));
     bool good = ceduo_app_edited(app, ceduo_changes_make(c, _("counts of a plot"), &app->problems));
     if (good)
-        ceduo_app_say(app, _("a plot of %.4g m2, horizontal: each stem counted stands for %.4g per ha"), plot.area, plot.per);
+        ceduo_app_say(app, _("a plot of %.4g m2, horizontal: each stem counted stands for %.4g per ha"), area, per);
     return good;
 }
 

@@ -39,28 +39,6 @@ static void add_stem(void *context, const struct ceduo_stem_passed *stem)
     s->stems[s->stems_count++] = *stem;
 }
 
-/* The line of the pieces that are shown. */
-static void draw_trail(struct rock_trajectory *s, double half_g)
-{
-    size_t shown = s->at > 0 ? s->at : s->n, room = shown * FLIGHT_POINTS + 1;
-    struct ceduo_polyline *line = &s->line;
-    ceduo_polyline_free(line);
-    line->x = ceduo_must(malloc(room * sizeof(double)));
-    line->z = ceduo_must(malloc(room * sizeof(double)));
-    line->x[0] = s->whole.x0;
-    line->z[0] = s->whole.z0;
-    line->n = 1;
-    for (const struct ceduo_piece *p = s->pieces; p < s->pieces + shown; p++) {
-        for (int i = 1; i < FLIGHT_POINTS && !p->rolls; i++) {
-            double time = p->seconds * i / FLIGHT_POINTS;
-            line->x[line->n] = p->x + p->vx * time;
-            line->z[line->n++] = p->z + (p->vz - half_g * time) * time;
-        }
-        line->x[line->n] = p->x1;
-        line->z[line->n++] = p->z1;
-    }
-}
-
 bool ceduo_rock_trajectory_follow(struct rock_trajectory *s, const struct ceduo_scene *scene, const struct ceduo_option *option,
                                   uint64_t key, uint64_t rock)
 {
@@ -76,7 +54,24 @@ bool ceduo_rock_trajectory_follow(struct rock_trajectory *s, const struct ceduo_
         if (status != CEDUO_OK && !s->cut_short)
             return false;
     }
-    draw_trail(s, scene->simulation.gravity / 2);
+    /* the line of the pieces that are shown */
+    size_t shown = s->at > 0 ? s->at : s->n, room = shown * FLIGHT_POINTS + 1;
+    struct ceduo_polyline *line = &s->line;
+    ceduo_polyline_free(line);
+    line->x = ceduo_must(malloc(room * sizeof(double)));
+    line->z = ceduo_must(malloc(room * sizeof(double)));
+    line->x[0] = s->whole.x0;
+    line->z[0] = s->whole.z0;
+    line->n = 1;
+    for (const struct ceduo_piece *p = s->pieces; p < s->pieces + shown; p++) {
+        for (int i = 1; i < FLIGHT_POINTS && !p->rolls; i++) {
+            double time = p->seconds * i / FLIGHT_POINTS;
+            line->x[line->n] = p->x + p->vx * time;
+            line->z[line->n++] = p->z + (p->vz - scene->simulation.gravity / 2 * time) * time;
+        }
+        line->x[line->n] = p->x1;
+        line->z[line->n++] = p->z1;
+    }
     return true;
 }
 

@@ -185,17 +185,6 @@ static void say_fit(const struct fit *f, struct ceduo_page *page)
     ceduo_text_format(command, " -n %llu -o FITTED.yaml SCENE.yaml", (unsigned long long)f->request.rocks);
 }
 
-static void say_nothing_seen(struct ceduo_page *page)
-{
-    ceduo_page_note(page, _("This scene does not say what was seen on its slope."));
-    ceduo_page_add(page, CEDUO_PAGE_GAP);
-    ceduo_page_note(
-        page, _("Where rocks have stopped, how many passed a place, how fast or how high they were, scars on stems: a asks "
-                "for what of it is known. A table of values is named in the scene's file, see man ceduo-scene."));
-    ceduo_page_add(page, CEDUO_PAGE_GAP);
-    ceduo_page_note(page, _("Here it is then compared with simulated rocks, and c fits the ground to it."));
-}
-
 /* ---- what was observed, to edit ---- */
 
 /* What is asked for, in the order in which it is shown; `key`: what adds it. */
@@ -282,9 +271,16 @@ static void draw(struct app *app, struct ceduo_area area)
     }
     area.width -= 2; /* the mark of more below stands beside the text */
     struct ceduo_page page = {.width = (size_t)area.width};
-    if (file->observations_count == 0)
-        say_nothing_seen(&page);
-    else if (f->fitting)
+    if (file->observations_count == 0) {
+        ceduo_page_note(&page, _("This scene does not say what was seen on its slope."));
+        ceduo_page_add(&page, CEDUO_PAGE_GAP);
+        ceduo_page_note(
+            &page,
+            _("Where rocks have stopped, how many passed a place, how fast or how high they were, scars on stems: a asks "
+              "for what of it is known. A table of values is named in the scene's file, see man ceduo-scene."));
+        ceduo_page_add(&page, CEDUO_PAGE_GAP);
+        ceduo_page_note(&page, _("Here it is then compared with simulated rocks, and c fits the ground to it."));
+    } else if (f->fitting)
         say_fitting(f, &page);
     else if (fit)
         say_fit(ceduo_live_fitted(f), &page);

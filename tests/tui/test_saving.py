@@ -333,7 +333,7 @@ def test_export():
             key Enter
             dump""", "options.yaml")
         screens[1].has("the page, as text", "the whole page", "this screen, with its picture", "CSV", "JSON", "the batch command")
-        screens[2].has("Export to a file", "ceduo.txt")
+        screens[2].has("the page, as text", "ceduo.txt")
         expect_in("written: ceduo.txt", screens[3].note)
         screens[4].has("Enter once more replaces it")
         screens[5].has("No such file or directory")
@@ -380,8 +380,8 @@ def test_report_head():
             type s
             dump""", "options.yaml")
         screens[0].has("Head of the report", "place", "owner", "parcel", "author", "date", "note", "Each line may stay empty")
-        screens[1].has("Export to a file", "ceduo.html")
-        screens[2].has("Export to a file", "ceduo.html")
+        screens[1].has("a page to hand in, as HTML", "ceduo.html")
+        screens[2].has("a page to hand in, as HTML", "ceduo.html")
         screens[3].has("Head of the report")
         report, kept = place.text("ceduo.html"), place.text("options.yaml")
         expect_in("<dt>Place</dt>\n<dd>Serra &#39;de\u2019 Conti&#39;: &lt;b&gt;</dd>\n<dt>Date</dt>\n<dd>2026-11-24</dd>", report, "the head")

@@ -328,7 +328,7 @@ def test_too_many_values():
             empty = not re.search(rf"{name} +[\d.]+:[\d.]+", asked)
             expect_equal(empty, name in named.group(1), f"{name}, where {named.group(1)} is to be fixed:\n{asked}")
         t.keys("Escape", "Escape")
-        t.sees("the fit is stopped")
+        t.sees("the scene is as it was")
 
 
 def test_quarry():
