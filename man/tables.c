@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "base/language.h"
-#include "cli/localize.h"
+#include "cli/say.h"
 #include "scene/ranges.h"
 #include "scene/schema.h"
 #include "study/goal.h"
