@@ -11,7 +11,6 @@
 
 #include "frame.h"
 #include "tui/program.h"
-#include "tui/screen.h"
 
 #define EDITS_MOST 10000
 
