@@ -11,40 +11,28 @@
 
 /* ---- Ticks ---- */
 
-/* An interval of 1, 2 or 5 times a power of ten, kept in parts: 3 / 10 is 0.3, but 3 * 0.1 is not. */
-struct interval {
-    int mantissa, exponent;
-};
-
-static double tick_value(double index, struct interval interval)
+/* A multiple of the k-th round interval: …, 0.5, 1 (0), 2 (1), 5 (2), 10, … 3 / 10 is 0.3, but 3 * 0.1 is not. */
+static double tick_value(double index, int k)
 {
-    double tens = index * interval.mantissa;
-    return interval.exponent < 0 ? tens / pow(10.0, -interval.exponent) : tens * pow(10.0, interval.exponent);
+    static const int mantissas[] = {1, 2, 5};
+    int exponent = (int)floor(k / 3.0);
+    double tens = index * mantissas[k - 3 * exponent];
+    return exponent < 0 ? tens / pow(10.0, -exponent) : tens * pow(10.0, exponent);
 }
 
-static struct interval coarser(struct interval interval)
-{
-    int m = interval.mantissa;
-    return (struct interval){m == 1 ? 2 : m == 2 ? 5 : 1, interval.exponent + (m == 5)};
-}
-
-/* The first and last multiple of the interval in lo..hi; returns how many there are. */
-static double multiples(double lo, double hi, struct interval interval, double *first)
+/* The first multiple of the interval in lo..hi; returns how many there are. */
+static double multiples(double lo, double hi, int k, double *first)
 {
     const double slack = 1e-9; /* of an interval: 0.3 belongs to 0..3 * 0.1 */
-    double size = tick_value(1.0, interval);
+    double size = tick_value(1.0, k);
     *first = ceil(lo / size - slack);
     return floor(hi / size + slack) - *first + 1.0;
 }
 
 int ceduo_ticks(double lo, double hi, int max_count, double *out, double *interval)
 {
-    double ignored;
-    interval = interval == NULL ? &ignored : interval;
+    double from = fmin(lo, hi), to = fmax(lo, hi), range = to - from, first;
     *interval = 0.0;
-    double from = fmin(lo, hi);
-    double to = fmax(lo, hi);
-    double range = to - from;
     if (max_count < 1 || !isfinite(lo) || !isfinite(hi) || range > 1e300)
         return 0;
     if (range < 1e-300 || range < 1e-12 * fmax(fabs(from), fabs(to))) {
@@ -52,54 +40,35 @@ int ceduo_ticks(double lo, double hi, int max_count, double *out, double *interv
         return 1;
     }
     max_count = max_count < CEDUO_TICKS_MAX ? max_count : CEDUO_TICKS_MAX;
-    struct interval size = {1, (int)floor(log10(range / max_count))};
-    double first;
-    double count = multiples(from, to, size, &first);
-    while (count > max_count) {
-        double next_first;
-        double next = multiples(from, to, coarser(size), &next_first);
-        if (next < 1.0)
-            break; /* 6..8 has no multiple of 5; a tick at 6 alone is better than none */
-        size = coarser(size);
-        count = next;
-        first = next_first;
-    }
-    int n = (int)fmin(count, max_count);
+    int k = 3 * (int)floor(log10(range / max_count));
+    /* 6..8 has no multiple of 5; a tick at 6 alone is better than none */
+    while (multiples(from, to, k, &first) > max_count && multiples(from, to, k + 1, &first) >= 1.0)
+        k++;
+    int n = (int)fmin(multiples(from, to, k, &first), max_count);
     for (int i = 0; i < n; ++i)
-        out[i] = tick_value(first + i, size); /* ceil may have made first -0; -0 + 0 is 0 */
-    *interval = tick_value(1.0, size);
+        out[i] = tick_value(first + i, k); /* ceil may have made first -0; -0 + 0 is 0 */
+    *interval = tick_value(1.0, k);
     return n;
 }
 
-size_t ceduo_tick_label(double value, double interval, size_t size, char *buffer)
+void ceduo_tick_label(double value, double interval, char label[CEDUO_TICK_LABEL_SIZE])
 {
-    char text[CEDUO_TICK_LABEL_SIZE];
-    double place_of_interval = interval > 0.0 ? floor(log10(interval) + 1e-9) : 0.0;
-    int decimals = place_of_interval < 0.0 ? (int)-place_of_interval : 0;
-    if (!(interval > 0.0)) {
-        snprintf(text, sizeof text, "%.6g", value);
-    } else if (decimals <= 6 && fabs(value) < 1e7) {
-        snprintf(text, sizeof text, "%.*f", decimals, value);
-    } else {
-        double digits = value == 0.0 ? 1.0 : floor(log10(fabs(value)) + 1e-9) - place_of_interval + 1.0;
-        snprintf(text, sizeof text, "%.*g", (int)fmin(fmax(digits, 1.0), 17.0), value);
-    }
-    char *exponent = strchr(text, 'e');
+    double place = interval > 0.0 ? floor(log10(interval) + 1e-9) : 0.0; /* of the last digit */
+    double digits = value == 0.0 ? 1.0 : floor(log10(fabs(value)) + 1e-9) - place + 1.0;
+    if (!(interval > 0.0))
+        snprintf(label, CEDUO_TICK_LABEL_SIZE, "%.6g", value);
+    else if (place >= -6 && fabs(value) < 1e7)
+        snprintf(label, CEDUO_TICK_LABEL_SIZE, "%.*f", place < 0 ? (int)-place : 0, value);
+    else
+        snprintf(label, CEDUO_TICK_LABEL_SIZE, "%.*g", (int)fmin(fmax(digits, 1.0), 17.0), value);
+    char *exponent = strchr(label, 'e');
     if (exponent) { /* 2e+11 and 5e-09 as 2e11 and 5e-9 */
-        char *to = exponent + 1 + (exponent[1] == '-'), *digits = to + strspn(to, "+0");
-        memmove(to, digits, strlen(digits) + 1);
+        char *to = exponent + 1 + (exponent[1] == '-'), *from = to + strspn(to, "+0");
+        memmove(to, from, strlen(from) + 1);
     }
-    const char *from = text;
-    if (*from == '-' && strpbrk(from, "123456789in") == NULL)
-        ++from; /* rounded to "-0.0" */
-    size_t length = strlen(from);
-    if (size == 0)
-        return 0;
-    length = length < size ? length : size - 1;
-    memcpy(buffer, from, length);
-    buffer[length] = '\0';
-    ceduo_number_spoken(buffer);
-    return length;
+    if (*label == '-' && strpbrk(label, "123456789") == NULL) /* rounded to "-0.0" */
+        memmove(label, label + 1, strlen(label));
+    ceduo_number_spoken(label);
 }
 
 /* ---- Axes ---- */
@@ -127,7 +96,7 @@ static bool set_ticks(struct scale *scale, const struct ceduo_frame *frame, cons
         ceduo_frame_place(frame, canvas, x, y, &across, &down);
         t->cell = bottom ? column : row;
         t->at = bottom ? across : down;
-        ceduo_tick_label(value[i], scale->interval, sizeof t->label, t->label);
+        ceduo_tick_label(value[i], scale->interval, t->label);
     }
     return true;
 }

@@ -150,14 +150,13 @@ int ceduo_canvas_put(struct ceduo_canvas *canvas, int column, int row, int most,
 
 /* Round values within lo..hi (or hi..lo), ascending, at most max_count (1..CEDUO_TICKS_MAX; cut to that) of them, apart by the
  * least possible interval of 1, 2 or 5 times a power of ten. Returns how many are in out, which has room for max_count, and
- * their interval in *interval (may be NULL). Where lo and hi are equal, or too near to tell apart, the one tick is lo and the
- * interval 0. Returns 0 if max_count < 1, or a bound is not finite, or the range is beyond 1e300. Never gives -0. */
+ * their interval. Where lo and hi are equal, or too near to tell apart, the one tick is lo and the interval 0. Returns 0 if
+ * max_count < 1, or a bound is not finite, or the range is beyond 1e300. Never gives -0. */
 int ceduo_ticks(double lo, double hi, int max_count, double *out, double *interval);
 
-/* Write a tick's value with the decimals its interval (1, 2 or 5 times a power of ten, from ceduo_ticks) needs; large and tiny
- * ones as 2e11 or 5e-9. An interval of 0 writes six digits at most. Never "-0". `size` bytes of buffer; CEDUO_TICK_LABEL_SIZE
- * is always enough. Returns the length written. */
-size_t ceduo_tick_label(double value, double interval, size_t size, char *buffer);
+/* Writes a tick's value with the decimals its interval (1, 2 or 5 times a power of ten, from ceduo_ticks) needs; large and tiny
+ * ones as 2e11 or 5e-9. An interval of 0 writes six digits at most. Never "-0". */
+void ceduo_tick_label(double value, double interval, char label[CEDUO_TICK_LABEL_SIZE]);
 
 /* Columns that ceduo_canvas_axis_left takes to the left of this frame: the widest label and the line. Depends on the height and
  * the y range only, so that `left` can be set from it. 0 for a frame that draws nothing. */

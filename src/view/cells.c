@@ -2,7 +2,6 @@
 /* The grid, text in it, and its output. */
 #include "cells.h"
 
-#include <assert.h>
 #include <ctype.h>
 #include <limits.h>
 #include <stdlib.h>
@@ -74,17 +73,11 @@ struct ceduo_cell *ceduo_cells_at(const struct ceduo_cells *cells, int column, i
     return &cells->cell[(size_t)row * (size_t)cells->width + (size_t)column];
 }
 
-/* The higher rank gives the cell its role. */
-static int role_rank(unsigned role)
-{
-    static const uint8_t ranks[CEDUO_ROLE_COUNT] = {
+const uint8_t ceduo_role_ranks[CEDUO_ROLE_COUNT] = {
 #define X(NAME, letter, rank) [CEDUO_ROLE_##NAME] = rank,
-        CEDUO_ROLES(X)
+    CEDUO_ROLES(X)
 #undef X
-    };
-    assert(role < CEDUO_ROLE_COUNT);
-    return ranks[role];
-}
+};
 
 void ceduo_cells_set_dot(struct ceduo_cells *cells, int x, int y, enum ceduo_role role)
 {
@@ -96,7 +89,7 @@ void ceduo_cells_set_dot(struct ceduo_cells *cells, int x, int y, enum ceduo_rol
         return;
     unsigned bit = (unsigned)(y % down * across + x % across);
     cell->dots = (uint8_t)(cell->dots | 1U << bit);
-    if (cell->code == 0 && role_rank(role) > role_rank(cell->role))
+    if (cell->code == 0 && ceduo_role_ranks[role] > ceduo_role_ranks[cell->role])
         cell->role = (uint8_t)role;
 }
 

@@ -48,6 +48,8 @@ enum ceduo_role {
         CEDUO_ROLE_COUNT, /* how many roles there are, not a role */
 };
 
+extern const uint8_t ceduo_role_ranks[CEDUO_ROLE_COUNT];
+
 /* A rectangle of cells. */
 struct ceduo_area {
     int left, top, width, height;

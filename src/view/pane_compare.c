@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/language.h"
+#include "base/utf8.h"
 #include "page_parts.h"
 #include "pane.h"
 #include "plot_parts.h"
@@ -11,19 +12,20 @@
 /* Columns behind the name; without rocks among stems two of them are of the index. */
 enum column { NAME, TODAY, MAY_BE, EVERY, MEAN, MARK, WORST, FAILS, YIELD, CONTACT, FREE_RUN, ENERGY, YEARS, COLUMNS };
 
-static const struct ceduo_page_column columns[COLUMNS] = {[NAME] = {"", 12, 0, CEDUO_FILLS},
-                                                          [TODAY] = {"", -5, 1, CEDUO_FITS},
-                                                          [MAY_BE] = {"", -1, 1, CEDUO_FITS | CEDUO_KEPT | CEDUO_DROPPED(4)},
-                                                          [EVERY] = {"", -1, 1, CEDUO_FITS | CEDUO_DROPPED(5)},
-                                                          [MEAN] = {"", -5, 1, CEDUO_FITS | CEDUO_KEPT | CEDUO_DROPPED(1)},
-                                                          [MARK] = {"", 1, 1, CEDUO_FITS | CEDUO_DROPPED(8)},
-                                                          [WORST] = {"", -5, 1, CEDUO_FITS | CEDUO_DROPPED(6)},
-                                                          [FAILS] = {"", -4, 1, CEDUO_FITS | CEDUO_KEPT | CEDUO_DROPPED(2)},
-                                                          [YIELD] = {"", -4, 1, CEDUO_FITS | CEDUO_KEPT | CEDUO_DROPPED(3)},
-                                                          [CONTACT] = {"", 1, 2, CEDUO_DROPPED(7)},
-                                                          [FREE_RUN] = {"", 1, 0, CEDUO_DROPPED(7)},
-                                                          [ENERGY] = {"", 1, 0, CEDUO_DROPPED(7)},
-                                                          [YEARS] = {"", 1, 2, CEDUO_FITS | CEDUO_DROPPED(9)}};
+static const struct ceduo_page_column columns[COLUMNS] = {
+    [NAME] = {"", 12, 0, CEDUO_FILLS},
+    [TODAY] = {"", -5, 1, CEDUO_FITS},
+    [MAY_BE] = {"", -1, 1, CEDUO_FITS | CEDUO_KEPT | CEDUO_DROPPED(4)},
+    [EVERY] = {"", -1, 1, CEDUO_FITS | CEDUO_DROPPED(5)},
+    [MEAN] = {"", -5, 1, CEDUO_FITS | CEDUO_KEPT | CEDUO_DROPPED(1)},
+    [MARK] = {"", 1, 1, CEDUO_FITS | CEDUO_DROPPED(8)},
+    [WORST] = {N_("worst"), -5, 1, CEDUO_FITS | CEDUO_DROPPED(6)},
+    [FAILS] = {N_("fail"), -4, 1, CEDUO_FITS | CEDUO_KEPT | CEDUO_DROPPED(2)},
+    [YIELD] = {N_("m\xc2\xb3/ha y"), -4, 1, CEDUO_FITS | CEDUO_KEPT | CEDUO_DROPPED(3)},
+    [CONTACT] = {"C", 1, 2, CEDUO_DROPPED(7)},
+    [FREE_RUN] = {"F", 1, 0, CEDUO_DROPPED(7)},
+    [ENERGY] = {"E", 1, 0, CEDUO_DROPPED(7)},
+    [YEARS] = {"", 1, 2, CEDUO_FITS | CEDUO_DROPPED(9)}};
 
 #define YEARS_MOST 26 /* columns of the years at a glance */
 
@@ -42,15 +44,6 @@ static void add_share(struct ceduo_page *page, struct ceduo_portion share)
 /* The years at a glance: a column for each, or of several that share one the worst; as high as what gets through. */
 static void add_years(struct ceduo_page *page, const struct ceduo_years *years)
 {
-    static const char *const levels[] = {" ",
-                                         "\xe2\x96\x81",
-                                         "\xe2\x96\x82",
-                                         "\xe2\x96\x83",
-                                         "\xe2\x96\x84",
-                                         "\xe2\x96\x85",
-                                         "\xe2\x96\x86",
-                                         "\xe2\x96\x87",
-                                         "\xe2\x96\x88"};
     struct ceduo_page_cell *cell = ceduo_page_cell(page);
     cell->role = CEDUO_ROLE_MEAN;
     int n = years ? (int)years->count : 0, shown = n < YEARS_MOST ? n : YEARS_MOST;
@@ -59,7 +52,9 @@ static void add_years(struct ceduo_page *page, const struct ceduo_years *years)
         for (int k = x * n / shown; k < (x + 1) * n / shown; k++)
             if (years->years[k].wooded.rocks > 0)
                 max = fmax(max, ceduo_share_of(&years->years[k].wooded.arrivals[years->last_control]));
-        ceduo_text_put(&cell->text, levels[(int)fmin(8, ceil(max * 8))]);
+        char bytes[4]; /* a block of eighths, U+2581 … U+2588 */
+        uint32_t eighths = (uint32_t)fmin(8, ceil(max * 8));
+        ceduo_text_add(&cell->text, bytes, ceduo_utf8_encode(eighths > 0 ? 0x2580 + eighths : ' ', bytes));
     }
 }
 
@@ -135,13 +130,8 @@ static void add_option(struct ceduo_page *page, const struct ceduo_pane *pane, s
 
 static void add_heads(struct ceduo_page *page, const struct ceduo_pane *pane)
 {
-    static const char *const names[COLUMNS] = {
-        [FAILS] = N_("fail"), [YIELD] = N_("m\xc2\xb3/ha y"), [WORST] = N_("worst"), [CONTACT] = "C", [FREE_RUN] = "F",
-        [ENERGY] = "E"};
     const struct ceduo_result *r = pane->result;
     struct ceduo_page_cell *heads = page->last->cells;
-    for (int i = 0; i < COLUMNS; i++)
-        ceduo_text_put(&heads[i].text, names[i] ? ceduo_translate_in(names[i]) : "");
     ceduo_text_put(&heads[TODAY].text, r->wooded ? _("today") : _("ADC m"));
     ceduo_text_put(&heads[MEAN].text, r->wooded ? _("rotation") : _("kJ/100 m"));
     if (r->wooded && r->scene->blocks_count > 0)

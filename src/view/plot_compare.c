@@ -102,18 +102,12 @@ static void add_heads(struct ceduo_page *page, const struct comparison *c)
 
 const char *ceduo_plot_compare(struct ceduo_drawing *d)
 {
-#define VALUE      -5, 1, CEDUO_FITS
-#define BAR(flags) 6, 1, CEDUO_FILLS | (flags)
-#define LIGHT      1, 1, 0
-    static const struct ceduo_page_column columns[] = {{"", 8, 0, CEDUO_FILLS},
-                                                       {"", BAR(CEDUO_DROPPED(2))},
-                                                       {"", VALUE},
-                                                       {"", LIGHT},
-                                                       {"", BAR(0)},
-                                                       {"", VALUE},
-                                                       {"", LIGHT},
-                                                       {"", BAR(CEDUO_DROPPED(1))},
-                                                       {"", VALUE}};
+    /* a name, and thrice a bar, its value and, but for the last, a light */
+    static const struct ceduo_page_column columns[] = {{"", 8, 0, CEDUO_FILLS}, {"", 6, 1, CEDUO_FILLS | CEDUO_DROPPED(2)},
+                                                       {"", -5, 1, CEDUO_FITS}, {"", 1, 1, 0},
+                                                       {"", 6, 1, CEDUO_FILLS}, {"", -5, 1, CEDUO_FITS},
+                                                       {"", 1, 1, 0},           {"", 6, 1, CEDUO_FILLS | CEDUO_DROPPED(1)},
+                                                       {"", -5, 1, CEDUO_FITS}};
     const struct ceduo_scene *scene = d->scene;
     const struct ceduo_arrivals *arrivals = d->bare_arrivals;
     struct comparison c = {.d = d,
@@ -146,19 +140,18 @@ const char *ceduo_plot_compare(struct ceduo_drawing *d)
     if (n < scene->options_count)
         ceduo_page_say(page, CEDUO_PAGE_NOTE, _("and %d more options"), (int)(scene->options_count - n));
     /* what is to be held against them */
+    const struct ceduo_measure judged = ceduo_judged(d->control, arrivals);
     const char *mean = WRITTEN(c.bare * J_TO_KJ, 4);
-    struct text *foot = ceduo_page_add(page, CEDUO_PAGE_NOTE);
-    page->last->role = CEDUO_ROLE_DIM;
-    if (!arrivals || isnan(c.bare)) {
-        ceduo_text_put(foot, arrivals ? _("Without forest no rock arrives: nothing is left to compare.")
-                                      : _("Energies are not computed yet."));
-    } else if (!d->wooded) {
-        ceduo_text_format(foot, _("left of %s kJ (mean, without forest), by the index"), mean);
-    } else {
-        const struct ceduo_measure judged = ceduo_judged(d->control, arrivals);
-        LOCAL_TEXT(head);
-        ceduo_measure_name(&head, &judged, CEDUO_HEAD);
-        ceduo_text_format(foot, _("without forest: %.0f %s, mean %s kJ"), judged.value, ceduo_text_string(&head), mean);
-    }
+    LOCAL_TEXT(head);
+    ceduo_measure_name(&head, &judged, CEDUO_HEAD);
+    if (!arrivals)
+        ceduo_page_line(page, CEDUO_ROLE_DIM, "%s", _("Energies are not computed yet."));
+    else if (isnan(c.bare))
+        ceduo_page_line(page, CEDUO_ROLE_DIM, "%s", _("Without forest no rock arrives: nothing is left to compare."));
+    else if (!d->wooded)
+        ceduo_page_line(page, CEDUO_ROLE_DIM, _("left of %s kJ (mean, without forest), by the index"), mean);
+    else
+        ceduo_page_line(page, CEDUO_ROLE_DIM, _("without forest: %.0f %s, mean %s kJ"), judged.value, ceduo_text_string(&head),
+                        mean);
     return NULL;
 }

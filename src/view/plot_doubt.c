@@ -34,7 +34,8 @@ static void add_option(struct ceduo_page *page, const struct ceduo_doubt_report 
     ceduo_doubt_range(ceduo_page_text(page), r, i);
 }
 
-static void add_options(struct ceduo_page *page, const struct ceduo_doubt_report *r, size_t option, int height)
+/* Returns the lines that it takes. */
+static int add_options(struct ceduo_page *page, const struct ceduo_doubt_report *r, size_t option, int height)
 {
     static const struct ceduo_page_column columns[] = {
         {"", 10, 0, CEDUO_FILLS}, {"", 12, 1, CEDUO_FILLS}, {"", -12, 1, CEDUO_FITS}};
@@ -57,6 +58,7 @@ static void add_options(struct ceduo_page *page, const struct ceduo_doubt_report
     if (n > room)
         ceduo_page_say(page, CEDUO_PAGE_NOTE, ngettext("%zu more option: ] goes on", "%zu more options: ] goes on", n - room),
                        n - room);
+    return 1 + (int)(n > room ? room + 1 : n);
 }
 
 static void add_inputs(struct ceduo_page *page, const struct ceduo_doubt_report *r, size_t option, int lines)
@@ -88,10 +90,7 @@ const char *ceduo_plot_doubt(struct ceduo_drawing *d)
     if (!r->answer)
         return ceduo_doubt_is_off(r) ? _("not computed: the scene says 'doubt: none'")
                                      : _("nothing is marked as assumed or named by 'doubt'");
-    add_options(d->page, r, d->picture->option, d->height);
-    int used = 0;
-    for (const struct ceduo_page_block *b = d->page->first; b; b = b->next)
-        used += b->kind == CEDUO_PAGE_TABLE ? (int)(b->cells_count / b->columns_count) : 1;
+    int used = add_options(d->page, r, d->picture->option, d->height);
     add_inputs(d->page, r, d->picture->option, d->height - used);
     return NULL;
 }

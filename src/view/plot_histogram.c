@@ -75,8 +75,8 @@ static void add_row(struct ceduo_page *page, const struct histogram *h, int i, d
                            : from >= h->accepted            ? CEDUO_ROLE_BAD
                            : from + b->width <= h->accepted ? CEDUO_ROLE_GOOD
                                                             : CEDUO_ROLE_WARN;
-    ceduo_tick_label(from, b->width, sizeof lo, lo);
-    ceduo_tick_label(from + b->width, b->width, sizeof hi, hi);
+    ceduo_tick_label(from, b->width, lo);
+    ceduo_tick_label(from + b->width, b->width, hi);
     if (b->over && i == b->count - 1)
         ceduo_page_write(page, "\xe2\x89\xa5 %s kJ", lo);
     else

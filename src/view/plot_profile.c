@@ -269,21 +269,6 @@ static void add_control(struct ceduo_page *page, const struct ceduo_drawing *d, 
         ceduo_page_say(page, CEDUO_PAGE_SENTENCE, _("%.0f with > %g kJ"), exceed, limit);
 }
 
-static void add_belt(struct ceduo_page *page, const struct ceduo_belt *belt)
-{
-    double count = ceduo_stand_shoots(&belt->stand) + ceduo_stand_trees(&belt->stand);
-    ceduo_page_add(page, CEDUO_PAGE_GAP);
-    ceduo_plot_belt_name(ceduo_page_add(page, CEDUO_PAGE_NOTE), belt);
-    page->last->role = CEDUO_ROLE_BELT;
-    ceduo_page_say(page, CEDUO_PAGE_SENTENCE, "%s\xe2\x80\x93%s m", SHORTEST(belt->from_given), SHORTEST(belt->to_given));
-    if (!(count > 0)) {
-        ceduo_page_say(page, CEDUO_PAGE_SENTENCE, "%s", _("no stems"));
-        return;
-    }
-    ceduo_page_say(page, CEDUO_PAGE_SENTENCE, _("%.*f stems/ha"), count < 10 ? 1 : 0, count);
-    ceduo_page_say(page, CEDUO_PAGE_SENTENCE, _("up to %g m high"), ceduo_plot_tallest(&belt->stand));
-}
-
 /* What the profile is, in words: to the right of its frame where there is room, otherwise the factor of heights alone in the
  * top row. Returns whether there was room. */
 static bool put_notes(const struct ceduo_drawing *d, double factor)
@@ -308,8 +293,6 @@ static bool put_notes(const struct ceduo_drawing *d, double factor)
     add_ways(&page, d);
     for (size_t c = 0; c < d->scene->controls_count; c++)
         add_control(&page, d, c);
-    for (size_t i = 0; d->option && i < d->option->belts_count; i++)
-        add_belt(&page, &d->option->belts[i]);
     ceduo_page_draw(&page, d->canvas, area, 0);
     ceduo_page_free(&page);
     return true;

@@ -37,7 +37,6 @@ struct stroke {
 };
 
 struct ceduo_svg {
-    struct ceduo_canvas canvas;
     struct ceduo_cells *cells;
     struct text paths[CEDUO_ROLE_COUNT][STYLES];
     struct text axes, numbers; /* numbers: labels of the axes, elements */
@@ -82,10 +81,7 @@ static const struct look terminal[CEDUO_ROLE_COUNT] = {
 
 static void append_number(struct text *text, double value)
 {
-    long tenths = lround(value * 10);
-    ceduo_text_format(text, "%s%ld", tenths < 0 ? "-" : "", labs(tenths) / 10);
-    if (labs(tenths) % 10 > 0)
-        ceduo_text_format(text, ".%ld", labs(tenths) % 10);
+    ceduo_text_format(text, "%g", round(value * 10) / 10 + 0.0); /* never -0 */
 }
 
 static void append_point(struct text *path, char command, struct ceduo_position p)
@@ -228,12 +224,11 @@ static void draw_bar(void *to, int column, int row, int width, double fraction, 
 static void append_label(struct ceduo_svg *svg, double x, double y, const char *anchor, const char *label)
 {
     struct ceduo_html html = {.text = &svg->numbers};
-    LOCAL_TEXT(across);
-    LOCAL_TEXT(down);
-    append_number(&across, x);
-    append_number(&down, y);
-    ceduo_html_leaf(&html, "text", label, "x", ceduo_text_string(&across), "y", ceduo_text_string(&down), "fill",
-                    paper[CEDUO_ROLE_AXIS].colour, "text-anchor", anchor, NULL);
+    char across[16], down[16];
+    snprintf(across, sizeof across, "%g", x);
+    snprintf(down, sizeof down, "%g", y);
+    ceduo_html_leaf(&html, "text", label, "x", across, "y", down, "fill", paper[CEDUO_ROLE_AXIS].colour, "text-anchor", anchor,
+                    NULL);
 }
 
 static void draw_axis(void *to, const struct ceduo_frame *frame, bool bottom, int count, const struct ceduo_tick *ticks)
@@ -246,7 +241,7 @@ static void draw_axis(void *to, const struct ceduo_frame *frame, bool bottom, in
     else
         ceduo_text_format(&svg->axes, "M%.1f %dV%d", left, frame->top * HIGH, below * HIGH);
     for (const struct ceduo_tick *t = ticks; t < ticks + count; t++) {
-        int length = ceduo_canvas_label_width(&svg->canvas, t->label);
+        int length = ceduo_canvas_label_width(&svg->cells->canvas, t->label);
         double at = floor(t->at * (bottom ? CELL : HIGH)) + 0.5;
         bool unit = t->cell < 0, moved = t->start != t->cell - (length - 1) / 2;
         if (!unit && bottom)
@@ -280,11 +275,8 @@ struct ceduo_svg *ceduo_svg_create(int width, int height)
 {
     struct ceduo_svg *svg = ceduo_must(calloc(1, sizeof *svg));
     svg->cells = ceduo_cells_create(width, height, CEDUO_CHARSET_BRAILLE);
-    svg->canvas = (struct ceduo_canvas){.surface = &surface,
-                                        .cells = svg->cells,
-                                        .to = svg,
-                                        .dots_x = svg->cells->canvas.dots_x,
-                                        .dots_y = svg->cells->canvas.dots_y};
+    svg->cells->canvas.surface = &surface;
+    svg->cells->canvas.to = svg;
     return svg;
 }
 
@@ -303,7 +295,7 @@ void ceduo_svg_free(struct ceduo_svg *svg)
 
 struct ceduo_canvas *ceduo_svg_canvas(struct ceduo_svg *svg)
 {
-    return &svg->canvas;
+    return &svg->cells->canvas;
 }
 
 static void write_path(struct ceduo_html *html, const struct look *look, const struct text *path, const char *const extra[2])
@@ -317,11 +309,6 @@ static void write_path(struct ceduo_html *html, const struct look *look, const s
 
 static void write_marks(struct ceduo_html *html, struct ceduo_svg *svg)
 {
-    static const int ranks[CEDUO_ROLE_COUNT] = {
-#define X(NAME, letter, rank) rank,
-        CEDUO_ROLES(X)
-#undef X
-    };
     static const char *const strokes[CEDUO_STROKES][2] = {[CEDUO_STROKE_WAY] = {"stroke-opacity", ".6"},
                                                           [CEDUO_STROKE_RULE] = {"stroke-dasharray", "4 4"},
                                                           [CEDUO_STROKE_DOTS] = {"stroke-dasharray", "0 8"},
@@ -331,9 +318,9 @@ static void write_marks(struct ceduo_html *html, struct ceduo_svg *svg)
     for (int rank = 0; rank <= CEDUO_ROLE_COUNT; rank++)
         for (unsigned role = 0; role < CEDUO_ROLE_COUNT; role++) {
             const struct text *paths = svg->paths[role];
-            if (ranks[role] == rank && paths[FILLED].length > 0)
+            if (ceduo_role_ranks[role] == rank && paths[FILLED].length > 0)
                 ceduo_html_empty(html, "path", "fill", paper[role].colour, "d", paths[FILLED].bytes, NULL);
-            for (int stroke = 0; ranks[role] == rank && stroke < CEDUO_STROKES; stroke++)
+            for (int stroke = 0; ceduo_role_ranks[role] == rank && stroke < CEDUO_STROKES; stroke++)
                 write_path(html, &paper[role], &paths[stroke], strokes[stroke]);
         }
     ceduo_html_close(html);

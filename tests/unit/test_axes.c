@@ -16,8 +16,7 @@ static void expect_ticks(double lo, double hi, int max_count, const char *expect
     for (int i = 0; i < count; ++i) {
         char label[CEDUO_TICK_LABEL_SIZE];
         assert_false(ticks[i] == 0.0 && signbit(ticks[i]));
-        size_t length = ceduo_tick_label(ticks[i], step, sizeof label, label);
-        assert_int_equal(length, strlen(label));
+        ceduo_tick_label(ticks[i], step, label);
         strcat(all, i > 0 ? " " : "");
         strcat(all, label);
     }
@@ -28,8 +27,8 @@ TEST(ticks_are_round)
 {
     for (TABLE(row, "unit/ticks.txt", "ticks"))
         expect_ticks(strtod(row.at[0], NULL), strtod(row.at[1], NULL), atoi(row.at[2]), row.at[3]);
-    double tenths[4];
-    assert_int_equal(ceduo_ticks(0, 0.3, 4, tenths, NULL), 4);
+    double tenths[4], step;
+    assert_int_equal(ceduo_ticks(0, 0.3, 4, tenths, &step), 4);
     EXPECT(tenths[3], ==, 0.3); /* the nearest number there is, and not 3 * 0.1 */
 }
 
@@ -51,8 +50,8 @@ TEST(ticks_are_evenly_spaced_and_never_too_many)
             }
         }
     }
-    assert_int_equal(ceduo_ticks(0, 60, 100000, ticks, NULL), 61);
-    assert_in_range(ceduo_ticks(0, 99, 100000, ticks, NULL), 1, CEDUO_TICKS_MAX);
+    assert_int_equal(ceduo_ticks(0, 60, 100000, ticks, &step), 61);
+    assert_in_range(ceduo_ticks(0, 99, 100000, ticks, &step), 1, CEDUO_TICKS_MAX);
 }
 
 TEST(tick_labels_have_no_minus_nought)
@@ -63,12 +62,9 @@ TEST(tick_labels_have_no_minus_nought)
     } rows[] = {{-0.0, 1, "0"}, {-1e-9, 0.1, "0.0"}, {-0.1, 0.1, "-0.1"}, {-2e10, 1e10, "-2e10"}, {-1e-10, 1e-10, "-1e-10"}};
     char label[CEDUO_TICK_LABEL_SIZE];
     for (size_t i = 0; i < LENGTH(rows); i++) {
-        ceduo_tick_label(rows[i].value, rows[i].step, sizeof label, label);
+        ceduo_tick_label(rows[i].value, rows[i].step, label);
         assert_string_equal(label, rows[i].label);
     }
-    assert_int_equal(ceduo_tick_label(1234, 1, 3, label), 2);
-    assert_string_equal(label, "12");
-    assert_int_equal(ceduo_tick_label(1234, 1, 0, NULL), 0);
 }
 
 /* ---- Axes ---- */

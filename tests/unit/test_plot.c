@@ -152,7 +152,6 @@ TEST_WOODED(the_wooded_profile_says_whose_forest_it_is)
     assert_true(shows(CEDUO_PLOT_PROFILE, 40, 12, "ways: copp"));
     p.option = 1;
     assert_true(shows(CEDUO_PLOT_PROFILE, 84, 20, "without forest"));
-    assert_true(shows(CEDUO_PLOT_PROFILE, 84, 20, " no stems"));
     assert_false(shows(CEDUO_PLOT_PROFILE, 84, 20, "through"));
 }
 
