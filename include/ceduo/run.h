@@ -151,10 +151,9 @@ const double *ceduo_run_weights(const struct ceduo_run *run);
  * taken as often as their weights say. */
 size_t ceduo_run_energies(const struct ceduo_run *run, size_t control, double *to, size_t max);
 
-/* What each rock brought to a control, in the order of the rocks, NaN where it did not arrive; and where each stopped, NaN
- * where it did not. False where samples are not kept. */
-enum ceduo_sample { CEDUO_SAMPLE_SPEED, CEDUO_SAMPLE_HEIGHT, CEDUO_SAMPLE_ENERGY };
+/* What each rock brought to a control, in the order of the rocks, NaN where it did not arrive; and where each stopped (m), NaN
+ * where it did not, whatever the control. False where samples are not kept. */
+enum ceduo_sample { CEDUO_SAMPLE_SPEED, CEDUO_SAMPLE_HEIGHT, CEDUO_SAMPLE_ENERGY, CEDUO_SAMPLE_STOP };
 bool ceduo_run_values(const struct ceduo_run *run, size_t control, enum ceduo_sample what, double *to);
-bool ceduo_run_stops(const struct ceduo_run *run, double *to);
 
 #endif

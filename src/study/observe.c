@@ -260,13 +260,12 @@ static size_t take_values(const struct flown *f, const struct plan *p, double *v
     if (p->row->where == CEDUO_WHERE_ON_STEMS)
         return n;
     n = (size_t)f->rocks;
-    if (f->run && p->row->where == CEDUO_WHERE_AT_REST)
-        ceduo_run_stops(f->run, values);
-    else if (f->run)
+    if (f->run)
         ceduo_run_values(f->run, p->control,
-                         quantity == CEDUO_QUANTITY_HEIGHT   ? CEDUO_SAMPLE_HEIGHT
-                         : quantity == CEDUO_QUANTITY_ENERGY ? CEDUO_SAMPLE_ENERGY
-                                                             : CEDUO_SAMPLE_SPEED,
+                         p->row->where == CEDUO_WHERE_AT_REST ? CEDUO_SAMPLE_STOP
+                         : quantity == CEDUO_QUANTITY_HEIGHT  ? CEDUO_SAMPLE_HEIGHT
+                         : quantity == CEDUO_QUANTITY_ENERGY  ? CEDUO_SAMPLE_ENERGY
+                                                              : CEDUO_SAMPLE_SPEED,
                          values);
     for (size_t i = 0; i < n; i++) {
         values[i] = f->run ? values[i] : of_record(f, i, p);

@@ -162,7 +162,7 @@ TEST(differences_of_blocks)
     assert_true(isnan(ceduo_run_difference(empty, most, 0).reach_probability.mean));
     assert_true(isnan(ceduo_run_difference(few, empty, 0).reach_probability.mean));
     EXPECT(ceduo_run_energies(empty, 0, none, 1), ==, 0);
-    assert_true(ceduo_run_stops(empty, stops)); /* of nobody */
+    assert_true(ceduo_run_values(empty, 0, CEDUO_SAMPLE_STOP, stops)); /* of nobody */
     struct ceduo_run *runs[] = {few, many, least, most, empty};
     for (size_t i = 0; i < 5; i++)
         ceduo_run_free(runs[i]);
@@ -230,8 +230,10 @@ TEST(what_needs_samples)
     def.exact_bytes = 64;
     LOCAL(ceduo_run, binned) = run_of(&def, 20);
     double values[40];
-    assert_true(ceduo_run_values(exact, 0, CEDUO_SAMPLE_SPEED, values) && ceduo_run_stops(exact, values));
-    assert_false(ceduo_run_values(binned, 0, CEDUO_SAMPLE_SPEED, values) || ceduo_run_stops(binned, values));
+    assert_true(ceduo_run_values(exact, 0, CEDUO_SAMPLE_SPEED, values) &&
+                ceduo_run_values(exact, 0, CEDUO_SAMPLE_STOP, values));
+    assert_false(ceduo_run_values(binned, 0, CEDUO_SAMPLE_SPEED, values) ||
+                 ceduo_run_values(binned, 0, CEDUO_SAMPLE_STOP, values));
     assert_true(isnan(ceduo_run_difference(exact, binned, 0).reach_probability.mean));
     assert_true(isnan(ceduo_run_difference(binned, exact, 0).reach_probability.mean));
 }

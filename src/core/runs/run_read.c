@@ -427,18 +427,9 @@ size_t ceduo_run_energies(const struct ceduo_run *run, size_t control, double *t
 
 bool ceduo_run_values(const struct ceduo_run *run, size_t control, enum ceduo_sample what, double *to)
 {
-    if (!run->exact)
-        return false;
-    const double *kept = samples_of(run, control, what == CEDUO_SAMPLE_HEIGHT ? HEIGHT : SPEED);
-    for (uint64_t r = 0; r < run->rocks; r++)
-        to[r] = what == CEDUO_SAMPLE_ENERGY ? ceduo_run_sample_energy(run, control, r) : kept[r];
-    return true;
-}
-
-bool ceduo_run_stops(const struct ceduo_run *run, double *to)
-{
-    const double *stops = stops_of(run);
+    const double *kept =
+        what == CEDUO_SAMPLE_STOP ? stops_of(run) : samples_of(run, control, what == CEDUO_SAMPLE_HEIGHT ? HEIGHT : SPEED);
     for (uint64_t r = 0; run->exact && r < run->rocks; r++)
-        to[r] = stops[r];
+        to[r] = what == CEDUO_SAMPLE_ENERGY ? ceduo_run_sample_energy(run, control, r) : kept[r];
     return run->exact;
 }
