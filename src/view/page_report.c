@@ -104,16 +104,15 @@ static void add_head(struct ceduo_page *page, const struct ceduo_report_head *he
 #define SLOPE_ROWS  19
 #define SLOPE_LEAST 12
 #define STRIP_ROWS  11
-#define ENERGY_ROWS 9
 
 static void add_slope(struct ceduo_page *page, const struct ceduo_chapter *c)
 {
     struct ceduo_picture picture = picture_of(c, ceduo_result_best(c->report->result, c->report->verdict));
-    bool several = c->report->result->scene->options_count > 1;
+    size_t options = c->report->result->scene->options_count;
+    bool long_page = options > CROWD || (options > 1 && ceduo_report_has_hazard(c->report));
     ceduo_page_say(page, CEDUO_PAGE_SECTION, "%s", _("The slope and the rocks"));
     ceduo_page_facts(page, c->report);
-    add_picture(page, CEDUO_PLOT_PROFILE, WHOLE, several && ceduo_report_has_hazard(c->report) ? SLOPE_LEAST : SLOPE_ROWS,
-                &picture,
+    add_picture(page, CEDUO_PLOT_PROFILE, WHOLE, long_page ? SLOPE_LEAST : SLOPE_ROWS, &picture,
                 _("The slope from the side with the forest on it, the ways of some rocks as thin lines, and the controls as "
                   "upright lines."));
     picture.ways = true;
@@ -122,9 +121,8 @@ static void add_slope(struct ceduo_page *page, const struct ceduo_chapter *c)
             page, CEDUO_PLOT_HEIGHT, WHOLE, STRIP_ROWS, &picture,
             _("Each of these ways as its height above the ground along the slope, and curves of the median and the 95th "
               "percentile, through the forest and without it."));
-    if (c->snapshot && c->report->result->scene->controls_count > 0 && !(several && ceduo_report_has_hazard(c->report)) &&
-        c->report->result->scene->options_count <= CROWD)
-        add_picture(page, CEDUO_PLOT_ENERGY, WHOLE, ENERGY_ROWS, &picture,
+    if (c->snapshot && c->report->result->scene->controls_count > 0 && options == 1)
+        add_picture(page, CEDUO_PLOT_ENERGY, WHOLE, STRIP_ROWS, &picture,
                     _("Curves along the slope: mean and 95th percentile of the energy of the rocks that pass each place, "
                       "through the forest and without it."));
 }
