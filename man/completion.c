@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "cli/options.h"
+#include "cli/arguments.h"
 
 /* The words that the value of an option is one of, or NULL. */
 static const char *words_of(const struct option_row *row)

@@ -85,6 +85,22 @@ struct arguments {
     struct text *title;              /* of a report: that of the first scene */
 };
 
+/* An option: parsing, help, completion and the checks of what goes together read it. */
+struct option_row {
+    const char *name;
+    char letter; /* 0: none */
+    /* as the help shows it, "a|b|c" where it is one of these; "[N]": it may have one; NULL: it takes none */
+    const char *value;
+    enum exit_status (*set)(struct arguments *arguments, const struct option_row *row, char *value); /* may be NULL */
+    size_t at;        /* of the member that is set, for the setters that several options share */
+    enum mode mode;   /* that it asks for; MODE_TERMINAL: none */
+    unsigned without; /* modes with which it does not go: a bit for each */
+    const char *help;
+    double lo, hi; /* of a whole number */
+};
+
+const struct option_row *ceduo_option_rows(size_t *n);
+
 /* EXIT_DONE, or another status once the reason is told. Free the arguments in any case. */
 enum exit_status ceduo_arguments_read(struct arguments *arguments, int argc, char **argv);
 void ceduo_arguments_free(struct arguments *arguments);

@@ -22,19 +22,6 @@
 #define HEIGHT_LEAST 6
 #define THREADS_MOST 1024
 
-struct option_row {
-    const char *name;
-    char letter; /* 0: none */
-    /* as the help shows it, "a|b|c" where it is one of these; "[N]": it may have one; NULL: it takes none */
-    const char *value;
-    enum exit_status (*set)(struct arguments *arguments, const struct option_row *row, char *value); /* may be NULL */
-    size_t at;        /* of the member that is set, for the setters that several options share */
-    enum mode mode;   /* that it asks for; MODE_TERMINAL: none */
-    unsigned without; /* modes with which it does not go: a bit for each */
-    const char *help;
-    double lo, hi; /* of a whole number */
-};
-
 /* ---- setters that several options share ---- */
 
 static enum exit_status set_text(struct arguments *a, const struct option_row *row, char *value)
@@ -365,6 +352,12 @@ static const struct option_row rows[] = {
 
 #define ROWS (sizeof rows / sizeof rows[0])
 _Static_assert(ROWS <= 64, "arguments.given has a bit for each");
+
+const struct option_row *ceduo_option_rows(size_t *n)
+{
+    *n = ROWS;
+    return rows;
+}
 
 /* Options of earlier versions, and what to do instead. */
 static const struct {
