@@ -75,7 +75,7 @@ static void add(struct app *app)
 {
     const struct node *rows = ceduo_node_get(app->document.file.root, "doubt");
     struct ceduo_doubt_report r;
-    bool known = ceduo_app_doubt(app, &r) && (!r.answer || ceduo_doubt_knows(&r, app->option));
+    bool known = ceduo_app_doubt(app, &r) && (!r.answer || !isnan(ceduo_doubt_main(&r, app->option)->fit.p5));
     if (!known || !r.answer || (rows && rows->kind != NODE_LIST)) {
         ceduo_app_say(app, "%s", known ? _("nothing here has a range") : _("not computed yet"));
         return;

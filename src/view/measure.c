@@ -20,6 +20,13 @@ static struct ceduo_measure of_1000(double p, double lo, double hi, uint64_t rel
                                   .names = {N_("of 1000 arrive"), N_("arrive"), N_("arrive"), N_("arrive")}};
 }
 
+struct ceduo_measure ceduo_share(struct ceduo_portion share)
+{
+    struct ceduo_measure m = of_1000(share.mean, fmax(0, share.mean - share.half), fmin(1, share.mean + share.half), 1);
+    m.half = 1000 * share.half;
+    return m;
+}
+
 struct ceduo_measure ceduo_arriving(const struct ceduo_arrivals *a)
 {
     return a ? of_1000(a->reach_probability, a->reach_lo, a->reach_hi, a->released) : of_1000(NAN, NAN, NAN, 1);
@@ -139,11 +146,11 @@ void ceduo_measure_may_be(struct text *text, const struct ceduo_measure *m)
     ceduo_measure_span(text, m, fmin(m->value, m->may_lo), fmax(m->value, m->may_hi));
 }
 
-void ceduo_measure_error(struct text *text, const struct ceduo_measure *m)
+void ceduo_measure_error(struct text *text, const struct ceduo_measure *m, const char *between)
 {
     ceduo_measure_value(text, m);
     if (!isnan(m->value) && !isnan(m->half))
-        ceduo_text_format(text, "\xc2\xb1%.0f", ceil(m->half));
+        ceduo_text_format(text, "%s\xc2\xb1%.0f", between, ceil(m->half));
 }
 
 void ceduo_measure_interval(struct text *text, const struct ceduo_measure *m)

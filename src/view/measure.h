@@ -29,6 +29,9 @@ struct ceduo_measure {
 struct ceduo_measure ceduo_arriving(const struct ceduo_arrivals *arrivals);
 struct ceduo_measure ceduo_judged(const struct ceduo_control *control, const struct ceduo_arrivals *arrivals);
 
+/* Such a share with half its interval, as that of years is known. */
+struct ceduo_measure ceduo_share(struct ceduo_portion share);
+
 /* Sets what doubt makes of such a share of an option at a control; of any but the last it is not known. `doubt` may be NULL. */
 struct ceduo_doubt_report;
 void ceduo_measure_doubt(struct ceduo_measure *measure, const struct ceduo_doubt_report *doubt, size_t option, size_t control);
@@ -49,7 +52,8 @@ struct ceduo_measure ceduo_height_p95(const struct ceduo_arrivals *arrivals);
 void ceduo_measure_name(struct text *text, const struct ceduo_measure *m, enum ceduo_measure_name name);
 void ceduo_measure_value(struct text *text, const struct ceduo_measure *m);
 void ceduo_measure_interval(struct text *text, const struct ceduo_measure *m);
-void ceduo_measure_error(struct text *text, const struct ceduo_measure *m); /* the same, shorter: "480±27" */
+/* The same, shorter, "480 ±27", or "480±27" with nothing between the two; of one rock, whose error is not known, "480". */
+void ceduo_measure_error(struct text *text, const struct ceduo_measure *m, const char *between);
 void ceduo_measure_span(struct text *text, const struct ceduo_measure *m, double lo, double hi);
 void ceduo_measure_may_be(struct text *text,
                           const struct ceduo_measure *m); /* with the figure, which may lie outside by its error */

@@ -220,7 +220,8 @@ void ceduo_page_over(struct ceduo_page *page, const struct ceduo_report *report)
     struct ceduo_measure mean = ceduo_judged(place_of(report->result), NULL);
     LOCAL_TEXT(may);
     LOCAL_TEXT(share);
-    ceduo_append_per_1000(&share, c->mean.mean, c->mean.half);
+    const struct ceduo_measure over = ceduo_share(c->mean);
+    ceduo_measure_error(&share, &over, " ");
     ceduo_measure_doubt_over(&mean, report->doubt, 0);
     if (!isnan(mean.may_lo)) {
         ceduo_text_put(&may, _(", may be "));

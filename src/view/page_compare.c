@@ -59,15 +59,18 @@ void ceduo_page_today(struct ceduo_page *page, const struct ceduo_result *r)
         const struct ceduo_index *s = ceduo_result_last_index(r, i);
         ceduo_page_write(page, "%s", r->scene->options[i].name);
         if (r->wooded) {
-            struct ceduo_portion share = ceduo_share_at(ceduo_result_wooded(r, i, r->last_control));
+            const struct ceduo_measure share = ceduo_share(ceduo_share_at(ceduo_result_wooded(r, i, r->last_control)));
             struct ceduo_paired to_first = ceduo_share_to_first(r, i);
-            ceduo_page_per_1000(page, share.mean, share.half, false);
+            ceduo_measure_error(ceduo_page_text(page), &share, " ");
             if (to_first.below > 0)
                 ceduo_page_write(page, "< %.0f", ceil(to_first.below * 1000));
             else if (i > 0 && to_first.mean == 0 && to_first.se == 0)
                 ceduo_page_write(page, "%s", _("the same"));
+            else if (i == 0 || isnan(to_first.mean))
+                ceduo_page_write(page, "-");
             else
-                ceduo_page_per_1000(page, i == 0 ? NAN : to_first.mean, CEDUO_Z95 * to_first.se, true);
+                ceduo_page_write(page, isnan(to_first.se) ? "%+.0f" : "%+.0f \xc2\xb1%.0f", to_first.mean * 1000,
+                                 ceil(CEDUO_Z95 * to_first.se * 1000));
             ceduo_page_verdict(page, ceduo_result_last_index(r, i)->energy);
         }
         add_contacts(page, r, s);
@@ -96,7 +99,8 @@ static void add_choice(struct ceduo_page *page, const char *name, const struct c
 {
     ceduo_page_write(page, "%s", name);
     if (c->flown > 0) {
-        ceduo_page_per_1000(page, c->mean.mean, c->mean.half, false);
+        const struct ceduo_measure mean = ceduo_share(c->mean);
+        ceduo_measure_error(ceduo_page_text(page), &mean, " ");
         ceduo_page_write(page, "%.0f (%u)", c->worst.mean * 1000, c->worst_year);
     } else {
         ceduo_page_write(page, "%s (%u)", WRITTEN(c->worst.mean, 3), c->worst_year);

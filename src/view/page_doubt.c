@@ -124,11 +124,6 @@ const struct ceduo_doubt_figure *ceduo_doubt_main(const struct ceduo_doubt_repor
     return ceduo_doubt_figure_of(r->answer, option, r->over ? CEDUO_DOUBT_MEAN : r->answer->main, false);
 }
 
-bool ceduo_doubt_knows(const struct ceduo_doubt_report *r, size_t option)
-{
-    return !isnan(ceduo_doubt_main(r, option)->fit.p5);
-}
-
 double ceduo_doubt_scale(const struct ceduo_doubt_report *r)
 {
     return ceduo_doubt_main(r, 0)->kind == CEDUO_DOUBT_ENERGY ? J_TO_KJ : 1000;
@@ -141,64 +136,49 @@ void ceduo_doubt_value(struct text *t, enum ceduo_doubt_kind kind, double value)
     ceduo_words_number(t, energy ? value * J_TO_KJ : round(value * 1000), energy ? 3 : 0);
 }
 
-static void append_range(struct text *t, enum ceduo_doubt_kind kind, double lo, double hi)
-{
-    ceduo_doubt_value(t, kind, lo);
-    ceduo_text_put(t, "\xe2\x80\x93");
-    ceduo_doubt_value(t, kind, hi);
-}
-
 /* ---- what an option may be ---- */
 
-/* A share, its ends outwards, as in the other views. */
-static struct ceduo_doubt_now share_now(double value, double lo, double hi, uint64_t rocks)
+struct ceduo_measure ceduo_doubt_measure(const struct ceduo_doubt_report *r, size_t option, uint64_t *rocks)
 {
-    return (struct ceduo_doubt_now){value, floor(fmax(0, lo) * 1000) / 1000, ceil(fmin(1, hi) * 1000) / 1000, rocks};
-}
-
-struct ceduo_doubt_now ceduo_doubt_now_of(const struct ceduo_doubt_report *r, size_t option)
-{
+    const struct ceduo_scene *s = &r->file->scene;
     const struct ceduo_doubt_figure *f = ceduo_doubt_main(r, option);
-    if (r->over) {
-        const struct ceduo_choice *c = r->years && option < r->years->n ? &r->years->choices[option] : NULL;
-        uint64_t own = r->answer->own_rocks < CEDUO_DOUBT_OWN_YEAR_ROCKS ? r->answer->own_rocks : CEDUO_DOUBT_OWN_YEAR_ROCKS;
-        if (!c || c->flown == 0 || c->rocks <= own)
-            return (struct ceduo_doubt_now){f->value, f->sampling_lo, f->sampling_hi, own};
-        return share_now(c->mean.mean, c->mean.mean - c->mean.half, c->mean.mean + c->mean.half, c->rocks);
-    }
-    const struct ceduo_result *finer = r->finer;
+    const struct ceduo_result *finer = r->over ? NULL : r->finer;
     const struct ceduo_arrivals *a = finer ? ceduo_result_wooded(finer, option, finer->last_control) : NULL;
-    if (!a || a->released <= r->answer->own_rocks)
-        return (struct ceduo_doubt_now){f->value, f->sampling_lo, f->sampling_hi, r->answer->own_rocks};
-    if (r->answer->main == CEDUO_DOUBT_EXCEED)
-        return share_now(a->exceed_probability, a->exceed_lo, a->exceed_hi, a->released);
-    double mean = a->energy_per_released, half = ceduo_half_width(a->energy_per_released_se, a->released);
-    return (struct ceduo_doubt_now){mean, mean - half, mean + half, a->released};
-}
-
-void ceduo_doubt_range(struct text *text, const struct ceduo_doubt_report *r, size_t option)
-{
-    const struct ceduo_doubt_figure *f = ceduo_doubt_main(r, option);
-    double now = ceduo_doubt_now_of(r, option).value;
-    ceduo_doubt_value(text, f->kind, now);
-    if (!ceduo_doubt_knows(r, option))
-        return;
-    ceduo_text_put(text, " (");
-    append_range(text, f->kind, fmin(now, f->fit.p5), fmax(now, f->fit.p95)); /* a doubt less than the rocks' error holds it */
-    ceduo_text_char(text, ')');
+    const struct ceduo_choice *c = r->over && r->years && option < r->years->n ? &r->years->choices[option] : NULL;
+    bool energy = f->kind == CEDUO_DOUBT_ENERGY;
+    double scale = ceduo_doubt_scale(r);
+    uint64_t own = r->answer->own_rocks;
+    own = r->over && own > CEDUO_DOUBT_OWN_YEAR_ROCKS ? CEDUO_DOUBT_OWN_YEAR_ROCKS : own;
+    struct ceduo_measure m = ceduo_share((struct ceduo_portion){NAN, NAN});
+    if (a && a->released > own) {
+        own = a->released;
+        m = energy ? ceduo_energy_released(a) : ceduo_judged(&s->controls[ceduo_scene_last_control(s)], a);
+    } else if (c && c->flown > 0 && c->rocks > own) {
+        own = c->rocks;
+        m = ceduo_share(c->mean);
+    } else {
+        m.value = f->value * scale;
+        m.lo = energy ? f->sampling_lo * scale : round(f->sampling_lo * scale);
+        m.hi = energy ? f->sampling_hi * scale : round(f->sampling_hi * scale);
+    }
+    m.digits = energy ? 3 : 0;
+    m.may_lo = energy ? f->fit.p5 * scale : round(f->fit.p5 * scale);
+    m.may_hi = energy ? f->fit.p95 * scale : round(f->fit.p95 * scale);
+    if (rocks)
+        *rocks = own;
+    return m;
 }
 
 /* What a reader takes along: both errors. */
 void ceduo_doubt_both(struct text *text, const struct ceduo_doubt_report *r, size_t option)
 {
-    const struct ceduo_doubt_figure *f = ceduo_doubt_main(r, option);
-    struct ceduo_doubt_now now = ceduo_doubt_now_of(r, option);
+    const struct ceduo_measure m = ceduo_doubt_measure(r, option, NULL);
     LOCAL_TEXT(value);
     LOCAL_TEXT(rocks);
     LOCAL_TEXT(doubt);
-    ceduo_doubt_value(&value, f->kind, now.value);
-    append_range(&rocks, f->kind, now.lo, now.hi);
-    append_range(&doubt, f->kind, f->fit.p5, f->fit.p95);
+    ceduo_measure_value(&value, &m);
+    ceduo_measure_span(&rocks, &m, m.lo, m.hi);
+    ceduo_measure_span(&doubt, &m, m.may_lo, m.may_hi);
     ceduo_text_format(text,
                       r->over                                 ? _("Over the rotation %s of 1000 (rocks %s; doubt %s)")
                       : r->answer->main == CEDUO_DOUBT_EXCEED ? _("%s of 1000 (rocks %s; doubt %s)")
@@ -206,57 +186,31 @@ void ceduo_doubt_both(struct text *text, const struct ceduo_doubt_report *r, siz
                       value.bytes, rocks.bytes, doubt.bytes);
 }
 
-static void add_options(struct ceduo_page *page, const struct ceduo_doubt_report *r)
+/* Today, or in the mean of a rotation with the years that fail. */
+static void add_options(struct ceduo_page *page, const struct ceduo_doubt_report *report, bool over)
 {
-    static const struct ceduo_page_column columns[] = {
+    static const struct ceduo_page_column today[] = {
         {N_("option"), 32, 2, 0}, {N_("now"), -7, 0, 0}, {N_("rocks"), -13, 2, 0}, {N_("doubt (90 %)"), -15, 2, 0}};
-    const struct ceduo_scene *s = &r->file->scene;
-    const struct ceduo_control *c = &s->controls[ceduo_scene_last_control(s)];
-    LOCAL_TEXT(name);
-    ceduo_text_safe(&name, c->name ? c->name : "");
-    if (r->answer->main == CEDUO_DOUBT_EXCEED)
-        ceduo_page_say(page, CEDUO_PAGE_SECTION, _("How sure is it? %s at %g m, of 1000 rocks those with more than %g kJ"),
-                       ceduo_text_string(&name), c->x_given, ceduo_words_accepted(c));
-    else
-        ceduo_page_say(page, CEDUO_PAGE_SECTION, _("How sure is it? %s at %g m, kJ per released rock"),
-                       ceduo_text_string(&name), c->x_given);
-    CEDUO_PAGE_TABLE_OF(page, columns);
-    for (size_t i = 0; i < s->options_count; i++) {
-        const struct ceduo_doubt_figure *f = ceduo_doubt_main(r, i);
-        struct ceduo_doubt_now now = ceduo_doubt_now_of(r, i);
-        ceduo_text_safe(ceduo_page_text(page), s->options[i].name);
-        ceduo_doubt_value(ceduo_page_text(page), f->kind, now.value);
-        append_range(ceduo_page_text(page), f->kind, now.lo, now.hi);
-        append_range(ceduo_page_text(page), f->kind, f->fit.p5, f->fit.p95);
-    }
-}
-
-/* In the mean of a rotation, and the years that fail. */
-static void add_rotation(struct ceduo_page *page, const struct ceduo_doubt_report *r)
-{
-    static const struct ceduo_page_column columns[] = {{N_("over the rotation, of 1000"), 32, 2, 0},
-                                                       {N_("mean"), -5, 0, 0},
-                                                       {N_("rocks"), -9, 2, 0},
-                                                       {N_("doubt (90 %)"), -13, 2, 0},
-                                                       {N_("years fail"), -11, 2, 0}};
-    const struct ceduo_scene *s = &r->file->scene;
-    bool judged = r->answer->main == CEDUO_DOUBT_EXCEED;
-    struct ceduo_doubt_report over = *r;
-    over.over = true;
-    ceduo_page_table(page, columns, judged ? 5 : 4);
-    for (size_t i = 0; i < s->options_count; i++) {
-        const struct ceduo_doubt_figure *f = ceduo_doubt_figure_of(r->answer, i, CEDUO_DOUBT_MEAN, false),
-                                        *years = ceduo_doubt_figure_of(r->answer, i, CEDUO_DOUBT_FAILING, false);
-        struct ceduo_doubt_now now = ceduo_doubt_now_of(&over, i);
-        ceduo_text_safe(ceduo_page_text(page), s->options[i].name);
-        ceduo_doubt_value(ceduo_page_text(page), f->kind, now.value);
-        append_range(ceduo_page_text(page), f->kind, now.lo, now.hi);
-        append_range(ceduo_page_text(page), f->kind, f->fit.p5, f->fit.p95);
-        double lo = judged ? floor(years->fit.p5) : 0, hi = judged ? ceil(years->fit.p95) : 0; /* outwards */
-        if (judged && lo == hi)
-            ceduo_page_write(page, "%.0f", years->value);
-        else if (judged)
-            ceduo_page_write(page, "%.0f, %.0f\xe2\x80\x93%.0f", years->value, lo, hi);
+    static const struct ceduo_page_column rotation[] = {{N_("over the rotation, of 1000"), 32, 2, 0},
+                                                        {N_("mean"), -5, 0, 0},
+                                                        {N_("rocks"), -9, 2, 0},
+                                                        {N_("doubt (90 %)"), -13, 2, 0},
+                                                        {N_("years fail"), -11, 2, 0}};
+    struct ceduo_doubt_report r = *report;
+    bool judged = over && r.answer->main == CEDUO_DOUBT_EXCEED;
+    r.over = over;
+    ceduo_page_table(page, over ? rotation : today, judged ? 5 : 4);
+    for (size_t i = 0; i < r.file->scene.options_count; i++) {
+        const struct ceduo_measure m = ceduo_doubt_measure(&r, i, NULL);
+        ceduo_text_safe(ceduo_page_text(page), r.file->scene.options[i].name);
+        ceduo_measure_value(ceduo_page_text(page), &m);
+        ceduo_measure_span(ceduo_page_text(page), &m, m.lo, m.hi);
+        ceduo_measure_span(ceduo_page_text(page), &m, m.may_lo, m.may_hi);
+        if (!judged)
+            continue;
+        const struct ceduo_doubt_figure *years = ceduo_doubt_figure_of(r.answer, i, CEDUO_DOUBT_FAILING, false);
+        double lo = floor(years->fit.p5), hi = ceil(years->fit.p95); /* outwards */
+        ceduo_page_write(page, lo == hi ? "%.0f" : "%.0f, %.0f\xe2\x80\x93%.0f", years->value, lo, hi);
     }
 }
 
@@ -435,8 +389,18 @@ static void add_orders(struct ceduo_page *page, const struct ceduo_doubt_report 
 
 void ceduo_doubt_blocks(struct ceduo_page *page, const struct ceduo_doubt_report *r, enum ceduo_doubt_extent extent)
 {
-    bool several = r->file->scene.options_count > 1;
-    add_options(page, r);
+    const struct ceduo_scene *s = &r->file->scene;
+    const struct ceduo_control *c = &s->controls[ceduo_scene_last_control(s)];
+    bool several = s->options_count > 1;
+    LOCAL_TEXT(place);
+    ceduo_text_safe(&place, c->name ? c->name : "");
+    if (r->answer->main == CEDUO_DOUBT_EXCEED)
+        ceduo_page_say(page, CEDUO_PAGE_SECTION, _("How sure is it? %s at %g m, of 1000 rocks those with more than %g kJ"),
+                       ceduo_text_string(&place), c->x_given, ceduo_words_accepted(c));
+    else
+        ceduo_page_say(page, CEDUO_PAGE_SECTION, _("How sure is it? %s at %g m, kJ per released rock"),
+                       ceduo_text_string(&place), c->x_given);
+    add_options(page, r, false);
     ceduo_page_add(page, CEDUO_PAGE_GAP);
     if (several)
         ceduo_page_say(page, CEDUO_PAGE_SENTENCE, _("What the first option depends on:"));
@@ -447,18 +411,18 @@ void ceduo_doubt_blocks(struct ceduo_page *page, const struct ceduo_doubt_report
         if (ceduo_doubt_advice(&words, r, 0, i))
             ceduo_page_say(page, CEDUO_PAGE_ITEM, "%s", words.bytes);
     }
-    for (size_t i = 0; i < 3 * r->file->scene.options_count; i++) { /* lights that change within what may be true */
+    for (size_t i = 0; i < 3 * s->options_count; i++) { /* lights that change within what may be true */
         LOCAL_TEXT(words);
         LOCAL_TEXT(name);
         ceduo_doubt_light_words(&words, r, i / 3, i % 3);
-        ceduo_text_safe(&name, r->file->scene.options[i / 3].name);
+        ceduo_text_safe(&name, s->options[i / 3].name);
         if (words.length > 0)
             ceduo_page_say(page, CEDUO_PAGE_ITEM, "%s%s%s", several ? ceduo_text_string(&name) : "", several ? ": " : "",
                            words.bytes);
     }
     if (r->answer->rotation && extent >= CEDUO_DOUBT_ORDER) {
         ceduo_page_add(page, CEDUO_PAGE_GAP);
-        add_rotation(page, r);
+        add_options(page, r, true);
         ceduo_page_add(page, CEDUO_PAGE_GAP);
         if (several)
             ceduo_page_say(page, CEDUO_PAGE_SENTENCE, _("What the mean of the first option depends on:"));
@@ -469,10 +433,12 @@ void ceduo_doubt_blocks(struct ceduo_page *page, const struct ceduo_doubt_report
         add_orders(page, r);
     if (!several) /* of several the table has it */
         ceduo_doubt_both(ceduo_page_add(page, CEDUO_PAGE_NOTE), r, 0);
+    uint64_t rocks;
+    ceduo_doubt_measure(r, 0, &rocks);
     ceduo_page_say(page, CEDUO_PAGE_NOTE,
                    _("'rocks' is the error of %llu rocks; more rocks reduce it. 'doubt' is what is not known; only measuring "
                      "reduces it. %llu scenes were computed."),
-                   (unsigned long long)ceduo_doubt_now_of(r, 0).rocks, (unsigned long long)r->answer->evaluations);
+                   (unsigned long long)rocks, (unsigned long long)r->answer->evaluations);
 }
 
 void ceduo_doubt_page(struct text *text, const struct ceduo_doubt_report *r, bool plain)

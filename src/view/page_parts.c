@@ -19,17 +19,6 @@ void ceduo_page_mean(struct ceduo_page *page, const struct ceduo_arrivals *a)
     cell->half = ceduo_half_width(a->energy.se, a->reached) * J_TO_KJ;
 }
 
-void ceduo_page_per_1000(struct ceduo_page *page, double mean, double half, bool sign)
-{
-    struct text *text = ceduo_page_text(page);
-    if (isnan(mean))
-        ceduo_text_put(text, "-");
-    else if (isnan(half)) /* of one rock */
-        ceduo_text_format(text, sign ? "%+.0f \xc2\xb1-" : "%.0f \xc2\xb1-", mean * 1000);
-    else
-        ceduo_text_format(text, sign ? "%+.0f \xc2\xb1%.0f" : "%.0f \xc2\xb1%.0f", mean * 1000, ceil(half * 1000));
-}
-
 void ceduo_page_limit(struct ceduo_page *page, const struct ceduo_control *c, enum ceduo_measure_name otherwise)
 {
     struct ceduo_page_cell *head = ceduo_page_head(page);

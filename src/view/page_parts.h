@@ -64,8 +64,6 @@ void ceduo_page_assumed(struct ceduo_page *page, const struct ceduo_report *repo
 /* A cell: "480 (453–501)"; "-" where it is not known. */
 void ceduo_page_interval(struct ceduo_page *page, const struct ceduo_measure *measure);
 void ceduo_page_mean(struct ceduo_page *page, const struct ceduo_arrivals *arrivals); /* of the energy, with its error */
-/* A cell: "480 ±10" of 1000, or "+480 ±10" if `sign`; "-" for NaN. */
-void ceduo_page_per_1000(struct ceduo_page *page, double mean, double half, bool sign);
 /* The head of the column of the share that a control is judged by: "> 50 kJ", or `otherwise` without an accepted energy. */
 void ceduo_page_limit(struct ceduo_page *page, const struct ceduo_control *control, enum ceduo_measure_name otherwise);
 void ceduo_page_free_run(struct ceduo_page *page, double share);

@@ -56,7 +56,7 @@ static void add_row(struct ceduo_page *page, struct ceduo_measure wood, struct c
     else if (page->width >= WIDE)
         ceduo_page_interval(page, &wood);
     else
-        ceduo_measure_error(ceduo_page_text(page), &wood);
+        ceduo_measure_error(ceduo_page_text(page), &wood, "");
     if (bare.digits > 0)
         ceduo_page_number(page, bare.value, 3);
     else
@@ -258,7 +258,7 @@ void ceduo_pane_words(struct ceduo_page *page, const struct ceduo_report *report
 void ceduo_pane_doubt(struct ceduo_page *page, const struct ceduo_pane *pane)
 {
     const struct ceduo_doubt_report *r = pane->doubt;
-    if (!r || !r->answer || !ceduo_doubt_knows(r, pane->option))
+    if (!r || !r->answer || isnan(ceduo_doubt_main(r, pane->option)->fit.p5))
         return;
     ceduo_doubt_both(ceduo_page_add(page, CEDUO_PAGE_NOTE), r, pane->option);
     ceduo_doubt_advice(ceduo_page_add(page, CEDUO_PAGE_NOTE), r, pane->option, 0);

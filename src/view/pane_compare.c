@@ -33,12 +33,11 @@ static const struct ceduo_page_column columns[COLUMNS] = {
 
 static void add_share(struct ceduo_page *page, struct ceduo_portion share)
 {
+    const struct ceduo_measure m = ceduo_share(share);
     if (isnan(share.mean))
         ceduo_page_write(page, PENDING);
-    else if (isnan(share.half))
-        ceduo_page_write(page, "%.0f", share.mean * 1000);
     else
-        ceduo_page_write(page, "%.0f\xc2\xb1%.0f", share.mean * 1000, ceil(share.half * 1000));
+        ceduo_measure_error(ceduo_page_text(page), &m, "");
 }
 
 /* The years at a glance: a column for each, or of several that share one the worst; as high as what gets through. */

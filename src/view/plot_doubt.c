@@ -14,24 +14,32 @@
 /* Where the axis ends. */
 static double most_of(const struct ceduo_doubt_report *r)
 {
-    double most = 0, scale = ceduo_doubt_scale(r);
-    for (size_t i = 0; i < r->file->scene.options_count; i++)
-        most = fmax(most, fmax(ceduo_doubt_main(r, i)->fit.p95, ceduo_doubt_now_of(r, i).hi) * scale);
+    double most = 0;
+    for (size_t i = 0; i < r->file->scene.options_count; i++) {
+        const struct ceduo_measure m = ceduo_doubt_measure(r, i, NULL);
+        most = fmax(most, fmax(m.may_hi, m.hi));
+    }
     most = most > 0 ? ceduo_plot_round(most, true) : 1;
-    return scale > 1 ? fmin(1000, most) : most;
+    return ceduo_doubt_scale(r) > 1 ? fmin(1000, most) : most;
 }
 
 static void add_option(struct ceduo_page *page, const struct ceduo_doubt_report *r, size_t i, bool shown)
 {
-    const struct ceduo_doubt_figure *f = ceduo_doubt_main(r, i);
-    const struct ceduo_doubt_now now = ceduo_doubt_now_of(r, i);
-    double scale = ceduo_doubt_scale(r) / most_of(r);
+    const struct ceduo_measure m = ceduo_doubt_measure(r, i, NULL);
+    double most = most_of(r);
+    bool known = !isnan(m.may_lo);
     ceduo_page_mark(page, shown ? CEDUO_ROLE_TITLE : CEDUO_ROLE_TEXT, r->file->scene.options[i].name);
-    struct ceduo_page_bar *bar = ceduo_page_bar(page, fmin(1, now.hi * scale), CEDUO_ROLE_TITLE);
-    bar->from = fmax(1e-9, now.lo * scale); /* what the rocks leave open takes at least one cell, at 0, too */
-    bar->least = ceduo_doubt_knows(r, i) ? fmin(1, fmax(0, f->fit.p5 * scale)) : NAN;
-    bar->most = ceduo_doubt_knows(r, i) ? fmin(1, fmax(0, f->fit.p95 * scale)) : NAN;
-    ceduo_doubt_range(ceduo_page_text(page), r, i);
+    struct ceduo_page_bar *bar = ceduo_page_bar(page, fmin(1, m.hi / most), CEDUO_ROLE_TITLE);
+    bar->from = fmax(1e-9, m.lo / most); /* what the rocks leave open takes at least one cell, at 0, too */
+    bar->least = known ? fmin(1, fmax(0, m.may_lo / most)) : NAN;
+    bar->most = known ? fmin(1, fmax(0, m.may_hi / most)) : NAN;
+    struct text *text = ceduo_page_text(page);
+    ceduo_measure_value(text, &m);
+    if (!known)
+        return;
+    ceduo_text_put(text, " (");
+    ceduo_measure_may_be(text, &m); /* a doubt less than the rocks' error holds it */
+    ceduo_text_char(text, ')');
 }
 
 /* Returns the lines that it takes. */

@@ -7,6 +7,8 @@
 #include "io/doubt_inputs.h"
 #include "study/verdict.h"
 
+struct ceduo_measure; /* measure.h, which needs this file */
+
 /* What doubt does to a scene. */
 struct ceduo_doubt_report {
     struct scene_file *file; /* its scene is only read, but by paths */
@@ -22,20 +24,13 @@ struct ceduo_doubt_report {
 /* The figure that all is about: too much energy where that is known, otherwise energy; or its mean over the rotation. */
 const struct ceduo_doubt_figure *ceduo_doubt_main(const struct ceduo_doubt_report *report, size_t option);
 
-/* Whether what may be true of an option is known: perhaps one alone was asked for. */
-bool ceduo_doubt_knows(const struct ceduo_doubt_report *report, size_t option);
-
 /* Whether the scene asks for no answer; why there is none: that, or nothing is in doubt. */
 bool ceduo_doubt_is_off(const struct ceduo_doubt_report *report);
 const char *ceduo_doubt_none(const struct ceduo_doubt_report *report);
 
-/* The main figure of an option; what it is in the scene as it is, with the error of the rocks. */
-const struct ceduo_doubt_figure *ceduo_doubt_main(const struct ceduo_doubt_report *report, size_t option);
-struct ceduo_doubt_now {
-    double value, lo, hi;
-    uint64_t rocks; /* of which it is; over a rotation of each year */
-};
-struct ceduo_doubt_now ceduo_doubt_now_of(const struct ceduo_doubt_report *report, size_t option);
+/* It in the unit shown, of 1000 rocks or kJ per released rock: in the scene as it is, with the error of the rocks, and what may be
+ * true (NaN: perhaps one option alone was asked for). `*rocks`, where given: of how many it is; over a rotation of each year. */
+struct ceduo_measure ceduo_doubt_measure(const struct ceduo_doubt_report *report, size_t option, uint64_t *rocks);
 
 /* By what the main figure is shown, of 1000 rocks or kJ per released rock. */
 double ceduo_doubt_scale(const struct ceduo_doubt_report *report);
@@ -62,9 +57,6 @@ enum ceduo_doubt_extent { CEDUO_DOUBT_SHORT, CEDUO_DOUBT_ORDER, CEDUO_DOUBT_ALL 
 void ceduo_doubt_blocks(struct ceduo_page *page, const struct ceduo_doubt_report *report, enum ceduo_doubt_extent extent);
 /* "469 of 1000 (rocks 438–501; doubt 92–740)": the main figure of an option with both errors. */
 void ceduo_doubt_both(struct text *text, const struct ceduo_doubt_report *report, size_t option);
-
-/* "469 (92–740)": the main figure of an option with its doubt. */
-void ceduo_doubt_range(struct text *text, const struct ceduo_doubt_report *report, size_t option);
 
 /* What to measure first (`nth` 0), second … for an option, how, and what that would leave; false where there is no more. */
 bool ceduo_doubt_advice(struct text *text, const struct ceduo_doubt_report *report, size_t option, size_t nth);

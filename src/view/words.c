@@ -86,11 +86,6 @@ void ceduo_words_number(struct text *text, double value, int digits)
     ceduo_text_put(text, WRITTEN(value, digits));
 }
 
-void ceduo_append_per_1000(struct text *text, double mean, double half)
-{
-    ceduo_text_format(text, isnan(half) ? "%.0f" : "%.0f \xc2\xb1%.0f", mean * 1000, ceil(half * 1000));
-}
-
 void ceduo_append_with(struct text *text, const char *sentence, const char *string)
 {
     const char *at = strstr(sentence, "%s");

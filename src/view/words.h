@@ -108,9 +108,6 @@ const char *ceduo_words_law(const char *word);
 /* The name of an option, a belt or a control: that of the language, but in JSON and CSV as the file has it. */
 #define NAME_OF(x) ((x)->name_given ? ceduo_in_language((x)->name_given, (x)->name) : (x)->name)
 
-/* "589 ±9" of 1000, by the half width of its interval; of one rock, whose half width is NaN, "589". */
-void ceduo_append_per_1000(struct text *text, double mean, double half);
-
 /* A sentence with a string in the place of its one %s. */
 void ceduo_append_with(struct text *text, const char *sentence, const char *string);
 

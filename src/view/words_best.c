@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "base/language.h"
+#include "measure.h"
 #include "scene/choices.h"
 #include "words.h"
 
@@ -62,6 +63,7 @@ void ceduo_words_years_sum(struct text *text, const struct ceduo_result *r, cons
     const struct ceduo_window *w = &years->window;
     bool says = !isnan(s.exceed.mean);
     struct ceduo_paired mean = says ? s.exceed : s.reach;
+    const struct ceduo_measure of_1000 = ceduo_share((struct ceduo_portion){mean.mean, mean.se * CEDUO_Z95});
     if (w->kind == CEDUO_WINDOW_ALIKE)
         ceduo_text_put(text, _("Each:"));
     else
@@ -69,7 +71,7 @@ void ceduo_words_years_sum(struct text *text, const struct ceduo_result *r, cons
                           w->kind == CEDUO_WINDOW_ROTATION ? _("One whole rotation, years %u to %u:") : _("Years %u to %u:"),
                           w->first, w->last);
     LOCAL_TEXT(share);
-    ceduo_append_per_1000(&share, mean.mean, mean.se * CEDUO_Z95);
+    ceduo_measure_error(&share, &of_1000, " ");
     if (s.simulated > 0)
         ceduo_text_then(text, " ", _("mean %s of 1000, worst %.0f (year %u)."), share.bytes, s.worst * 1000, s.worst_year);
     else if (!s.nothing)
