@@ -155,6 +155,7 @@ static bool enter_difference(struct ceduo_place *p, size_t i)
 
 static void say_of_run(const struct ceduo_place *p, ceduo_words_say *say, void *context)
 {
+    ceduo_words_still(p->report->result, say, context);
     ceduo_words_run_warnings(p->report->result, &p->report->remarks, say, context);
 }
 
@@ -254,16 +255,13 @@ static const struct ceduo_figure paired[] = {
 IS_PAIRED(energy_per_released);
 IS_PAIRED(contacts);
 
-static const struct ceduo_figure missed[] = {{"stopped_by_stems", "", "share of the released that stems stop before it",
-                                              .value = missed_at,
-                                              .offset = offsetof(struct ceduo_arrivals, missed[CEDUO_STOPPED_BY_STEMS])},
-                                             {"came_to_rest", "", "share that comes to rest before it", .value = missed_at,
-                                              .offset = offsetof(struct ceduo_arrivals, missed[CEDUO_AT_REST])},
-                                             {"left_slope", "", "share that leaves the profile before it", .value = missed_at,
-                                              .offset = offsetof(struct ceduo_arrivals, missed[CEDUO_LEFT_SLOPE])},
-                                             {"unfinished", "", "share that was still moving before it", .value = missed_at,
-                                              .offset = offsetof(struct ceduo_arrivals, missed[CEDUO_UNFINISHED])},
-                                             END};
+#define MISSED(end) .value = missed_at, .offset = offsetof(struct ceduo_arrivals, missed[end])
+static const struct ceduo_figure missed[] = {
+    {"stopped_by_stems", "", "share of the released that stems stop before it", MISSED(CEDUO_STOPPED_BY_STEMS)},
+    {"came_to_rest", "", "share that comes to rest before it", MISSED(CEDUO_AT_REST)},
+    {"left_slope", "", "share that leaves the profile before it", MISSED(CEDUO_LEFT_SLOPE)},
+    {"unfinished", "", "share that was still moving before it", MISSED(CEDUO_UNFINISHED)},
+    END};
 
 static const struct ceduo_figure arrivals[] = {
     {"rocks_reached", "", "rocks that reach the control", .value = reached_of, .null = "nothing was flown"},
@@ -441,15 +439,14 @@ static const struct ceduo_figure control[] = {
     {"verdict", "", "what is said of the control", .of = verdict},
     END};
 
-static const struct ceduo_figure ends[] = {{"stopped_by_stems", "", "share of the released that stems stop", .value = share_at,
-                                            .offset = offsetof(struct ceduo_simulated, ends.share[CEDUO_STOPPED_BY_STEMS])},
-                                           {"came_to_rest", "", "share that comes to rest by itself", .value = share_at,
-                                            .offset = offsetof(struct ceduo_simulated, ends.share[CEDUO_AT_REST])},
-                                           {"left_slope", "", "share that leaves the profile", .value = share_at,
-                                            .offset = offsetof(struct ceduo_simulated, ends.share[CEDUO_LEFT_SLOPE])},
-                                           {"unfinished", "", "count of rocks that were still moving after 1000000 contacts",
-                                            AT(simulated, ends.count[CEDUO_UNFINISHED])},
-                                           END};
+#define ENDED(end) .value = share_at, .offset = offsetof(struct ceduo_simulated, ends.share[end])
+static const struct ceduo_figure ends[] = {
+    {"stopped_by_stems", "", "share of the released that stems stop", ENDED(CEDUO_STOPPED_BY_STEMS)},
+    {"came_to_rest", "", "share that comes to rest by itself", ENDED(CEDUO_AT_REST)},
+    {"left_slope", "", "share that leaves the profile", ENDED(CEDUO_LEFT_SLOPE)},
+    {"unfinished", "", "count of rocks that were still moving after 1000000 contacts",
+     AT(simulated, ends.count[CEDUO_UNFINISHED])},
+    END};
 
 static const struct ceduo_figure stops[] = {
     {"p50", "m", "median", .value = stop_at, .offset = offsetof(struct ceduo_ends, stop_p50)},

@@ -66,7 +66,7 @@ void ceduo_measure_doubt_over(struct ceduo_measure *m, const struct ceduo_doubt_
         set_doubt(m, doubt, option, CEDUO_DOUBT_MEAN);
 }
 
-static struct ceduo_measure energy(double mean, double half, int digits, const char *head, const char *row, const char *phrase)
+static struct ceduo_measure energy(double mean, double half, int digits, const char *head, const char *phrase)
 {
     return (struct ceduo_measure){.value = mean * J_TO_KJ,
                                   .lo = (mean - half) * J_TO_KJ,
@@ -76,25 +76,24 @@ static struct ceduo_measure energy(double mean, double half, int digits, const c
                                   .may_hi = NAN,
                                   .digits = digits,
                                   .unit = N_("kJ"),
-                                  .names = {head, head, row, phrase}};
+                                  .names = {head, head, head, phrase}};
 }
 
 struct ceduo_measure ceduo_mean_energy(const struct ceduo_arrivals *a)
 {
-    return energy(a ? a->energy.mean : NAN, a ? ceduo_half_width(a->energy.se, a->reached) : NAN, 4, N_("mean, kJ"),
-                  N_("mean kJ"), N_("mean energy of those that arrive, kJ"));
+    return energy(a ? a->energy.mean : NAN, a ? ceduo_half_width(a->energy.se, a->reached) : NAN, 4, N_("mean kJ"),
+                  N_("mean energy of those that arrive, kJ"));
 }
 
 struct ceduo_measure ceduo_energy_p95(const struct ceduo_arrivals *a)
 {
-    return energy(a ? a->energy.p95 : NAN, NAN, 3, N_("95 % below, kJ"), N_("95 % below kJ"),
-                  N_("95 % of those stay below, kJ"));
+    return energy(a ? a->energy.p95 : NAN, NAN, 3, N_("95 % below kJ"), N_("95 % of those stay below, kJ"));
 }
 
 struct ceduo_measure ceduo_energy_released(const struct ceduo_arrivals *a)
 {
     return energy(a ? a->energy_per_released : NAN, a ? ceduo_half_width(a->energy_per_released_se, a->released) : NAN, 3,
-                  N_("kJ a rock"), N_("kJ a rock"), N_("energy of a rock that starts, kJ"));
+                  N_("kJ a rock"), N_("energy of a rock that starts, kJ"));
 }
 
 struct ceduo_measure ceduo_missed(const struct ceduo_arrivals *a, enum ceduo_end end)
@@ -112,8 +111,8 @@ struct ceduo_measure ceduo_missed(const struct ceduo_arrivals *a, enum ceduo_end
 
 struct ceduo_measure ceduo_height_p95(const struct ceduo_arrivals *a)
 {
-    struct ceduo_measure m = energy(a ? a->height.p95 / J_TO_KJ : NAN, NAN, 3, N_("95 % below, m"), N_("95 % below m"),
-                                    N_("95 % of those stay below, m"));
+    struct ceduo_measure m =
+        energy(a ? a->height.p95 / J_TO_KJ : NAN, NAN, 3, N_("95 % below m"), N_("95 % of those stay below, m"));
     m.unit = N_("m");
     return m;
 }

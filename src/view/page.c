@@ -40,16 +40,9 @@ void ceduo_page_line(struct ceduo_page *page, enum ceduo_role role, const char *
     page->last->role = role;
 }
 
-struct text *ceduo_page_fact(struct ceduo_page *page, const char *label)
+struct text *ceduo_page_label(struct ceduo_page *page, enum ceduo_page_kind kind, const char *label)
 {
-    struct ceduo_page_block *block = add_block(page, CEDUO_PAGE_FACT);
-    block->label = label;
-    return &block->text;
-}
-
-struct text *ceduo_page_head_line(struct ceduo_page *page, const char *label)
-{
-    struct ceduo_page_block *block = add_block(page, CEDUO_PAGE_HEAD);
+    struct ceduo_page_block *block = add_block(page, kind);
     block->label = label;
     return &block->text;
 }

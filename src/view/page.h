@@ -106,8 +106,7 @@ struct ceduo_page {
 struct text *ceduo_page_add(struct ceduo_page *page, enum ceduo_page_kind kind);
 void ceduo_page_say(struct ceduo_page *page, enum ceduo_page_kind kind, const char *format, ...) CEDUO_PAGE_FORMAT(3);
 void ceduo_page_line(struct ceduo_page *page, enum ceduo_role role, const char *format, ...) CEDUO_PAGE_FORMAT(3); /* a note */
-struct text *ceduo_page_fact(struct ceduo_page *page, const char *label);
-struct text *ceduo_page_head_line(struct ceduo_page *page, const char *label); /* of a report */
+struct text *ceduo_page_label(struct ceduo_page *page, enum ceduo_page_kind kind, const char *label); /* a fact, or a head */
 
 /* Adds a table with its heads; then its cells, row by row, to the block added last. */
 void ceduo_page_table(struct ceduo_page *page, const struct ceduo_page_column *columns, size_t n);

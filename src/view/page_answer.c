@@ -132,24 +132,26 @@ static void say_sampling(struct text *text, const struct ceduo_report *report)
     unsigned long long rocks = (unsigned long long)ceduo_result_rocks(r);
     const struct ceduo_arrivals *bare = &r->bare.arrivals[r->last_control];
     double today = 0, mean = 0;
+    LOCAL_TEXT(error);
     for (size_t i = 0; v && i < v->n; i++) {
         today = fmax(today, v->choices[i].today.half);
         if (v->choices[i].window.kind != CEDUO_WINDOW_ALIKE)
             mean = fmax(mean, v->choices[i].mean.half);
     }
     if (!r->wooded) {
-        ceduo_text_format(text, _("mean \xc2\xb1%s kJ by the number of rocks (%llu)"),
-                          WRITTEN(ceduo_half_width(bare->energy.se, bare->reached) * J_TO_KJ, 2), rocks);
+        ceduo_text_format(&error, _("mean \xc2\xb1%s kJ"),
+                          WRITTEN(ceduo_half_width(bare->energy.se, bare->reached) * J_TO_KJ, 2));
     } else if (r->scene->options_count == 1) {
         const struct ceduo_measure m = ceduo_judged(place_of(r), ceduo_result_wooded(r, 0, r->last_control));
-        ceduo_measure_span(text, &m, m.lo, m.hi);
-        ceduo_text_format(text, _(" by the number of rocks (%llu)"), rocks);
+        ceduo_measure_span(&error, &m, m.lo, m.hi);
     } else if (mean > 0) {
         ceduo_text_format(text, _("\xc2\xb1%.0f by the number of rocks today (%llu), \xc2\xb1%.0f over years (%llu each)"),
                           ceil(1000 * today), rocks, ceil(1000 * mean), (unsigned long long)v->choices[0].rocks);
     } else {
-        ceduo_text_format(text, _("\xc2\xb1%.0f by the number of rocks (%llu)"), ceil(1000 * today), rocks);
+        ceduo_text_format(&error, "\xc2\xb1%.0f", ceil(1000 * today));
     }
+    if (error.length > 0)
+        ceduo_text_format(text, _("%s by the number of rocks (%llu)"), error.bytes, rocks);
 }
 
 /* Of the best option; over the rotation where its doubt is known. */

@@ -94,10 +94,12 @@ static void append_shorter(struct text *text, double value, double lo, double hi
 static void add_returns(struct ceduo_page *page, const struct ceduo_result *r, size_t control)
 {
     static const struct ceduo_page_column columns[] = {
-        {"", 22, 4, CEDUO_WHOLE}, {N_("30 years"), -17, 1, 0}, {N_("100 years"), -17, 1, 0}, {N_("300 years"), -17, 1, 0}};
+        {"", 22, 4, CEDUO_WHOLE}, {"", -17, 1, 0}, {"", -17, 1, 0}, {"", -17, 1, 0}};
     ceduo_page_say(page, CEDUO_PAGE_CAPTION, "%s",
                    _("Energy that is reached or exceeded once in so many years, kJ (95 % interval):"));
     CEDUO_PAGE_TABLE_OF(page, columns);
+    for (size_t t = 1; t < CEDUO_RETURNS; t++)
+        ceduo_text_format(&page->last->cells[t].text, _("%u years"), ceduo_return_years[t]);
     for (size_t i = 0; i <= r->scene->options_count; i++) {
         const struct ceduo_hazard *h = hazard_of(r, i, control);
         if (!h)
@@ -122,14 +124,14 @@ static void add_returns(struct ceduo_page *page, const struct ceduo_result *r, s
 
 static void add_square(struct ceduo_page *page, const struct ceduo_result *r, size_t control)
 {
-    static const struct ceduo_page_column columns[] = {{NP_("head", "intensity"), 26, 4, CEDUO_WHOLE},
-                                                       {N_("to 30 years"), 15, 0, CEDUO_WHOLE},
-                                                       {N_("to 100 years"), 15, 0, CEDUO_WHOLE},
-                                                       {N_("to 300 years"), 0, 0, 0}};
+    static const struct ceduo_page_column columns[] = {
+        {NP_("head", "intensity"), 26, 4, CEDUO_WHOLE}, {"", 15, 0, CEDUO_WHOLE}, {"", 15, 0, CEDUO_WHOLE}, {"", 0, 0, 0}};
     static const char *const rows[] = {N_("none arrives"), N_("weak, below 30 kJ"), N_("medium, 30 to 300 kJ"),
                                        N_("strong, above 300 kJ")};
     ceduo_page_say(page, CEDUO_PAGE_CAPTION, _("Intensity by return period, in the classes of Swiss practice (BAFU 2016):"));
     CEDUO_PAGE_TABLE_OF(page, columns);
+    for (size_t t = 1; t < CEDUO_RETURNS; t++)
+        ceduo_text_format(&page->last->cells[t].text, _("to %u years"), ceduo_return_years[t]);
     for (int i = CEDUO_INTENSITIES - 1; i >= -1; i--) { /* -1: none arrives so often */
         ceduo_page_write(page, "%s", _(rows[i + 1]));
         for (size_t t = 1; t < CEDUO_RETURNS; t++) {
@@ -168,11 +170,8 @@ static size_t rarest(const struct ceduo_result *r, size_t control)
 /* The same of all options, side by side. */
 static void add_rates(struct ceduo_page *page, const struct ceduo_result *r, size_t control)
 {
-    static const struct ceduo_page_column columns[] = {{"", 26, 4, CEDUO_WHOLE},
-                                                       {N_("years between"), -21, 1, 0},
-                                                       {N_("% weak"), -9, 0, 0},
-                                                       {N_("% medium"), -9, 0, 0},
-                                                       {N_("% strong"), -9, 0, 0}};
+    static const struct ceduo_page_column columns[] = {
+        {"", 26, 4, CEDUO_WHOLE}, {N_("years between"), -21, 1, 0}, {"", -9, 0, 0}, {"", -9, 0, 0}, {"", -9, 0, 0}};
     const struct ceduo_control *c = &r->scene->controls[control];
     LOCAL_TEXT(limit);
     if (!isnan(c->accepted))
@@ -182,6 +181,8 @@ static void add_rates(struct ceduo_page *page, const struct ceduo_result *r, siz
                      "forest:"),
                    ceduo_text_string(&limit));
     CEDUO_PAGE_TABLE_OF(page, columns);
+    for (int k = 0; k < CEDUO_INTENSITIES; k++)
+        ceduo_text_format(&page->last->cells[2 + k].text, "%% %s", ceduo_words_intensity(k));
     for (size_t i = 0; i <= r->scene->options_count; i++) {
         const struct ceduo_hazard *h = hazard_of(r, i, control);
         if (!h)

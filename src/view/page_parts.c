@@ -35,23 +35,16 @@ void ceduo_page_free_run(struct ceduo_page *page, double share)
     ceduo_page_write(page, "%s %%", PERCENT(share, CEDUO_FREE_RUN_MOST));
 }
 
-/* A word in green or red. */
-static void write_word(struct ceduo_page *page, const char *word, bool good, bool bad)
-{
-    struct ceduo_page_cell *cell = ceduo_page_cell(page);
-    cell->role = good ? CEDUO_ROLE_GOOD : bad ? CEDUO_ROLE_BAD : CEDUO_ROLE_BLANK;
-    ceduo_text_put(&cell->text, word);
-}
-
 void ceduo_page_verdict(struct ceduo_page *page, enum ceduo_light light)
 {
-    bool good = light == CEDUO_PASS, bad = light == CEDUO_FAIL;
-    write_word(page, good ? _("pass") : bad ? _("FAIL") : "?", good, bad);
+    const char *const words[] = {[CEDUO_UNKNOWN] = "?", [CEDUO_PASS] = _("pass"), [CEDUO_FAIL] = _("FAIL")};
+    const enum ceduo_role roles[] = {[CEDUO_PASS] = CEDUO_ROLE_GOOD, [CEDUO_FAIL] = CEDUO_ROLE_BAD};
+    ceduo_page_mark(page, roles[light], words[light]);
 }
 
 void ceduo_page_yes(struct ceduo_page *page, bool yes)
 {
-    write_word(page, yes ? _("yes") : _("NO"), yes, !yes);
+    ceduo_page_mark(page, yes ? CEDUO_ROLE_GOOD : CEDUO_ROLE_BAD, yes ? _("yes") : _("NO"));
 }
 
 void ceduo_page_warn(void *page, const char *sentence)

@@ -98,7 +98,7 @@ static void add_head(struct ceduo_page *page, const struct ceduo_report_head *he
                                     {_("Signature"), NULL}};
     for (size_t i = 0, n = sizeof lines / sizeof lines[0]; i < n; i++)
         if (i + 2 >= n || (lines[i][1] && lines[i][1][0]))
-            ceduo_text_put(ceduo_page_head_line(page, lines[i][0]), lines[i][1] ? lines[i][1] : "");
+            ceduo_text_put(ceduo_page_label(page, CEDUO_PAGE_HEAD, lines[i][0]), lines[i][1] ? lines[i][1] : "");
 }
 
 #define SLOPE_ROWS  19
@@ -219,7 +219,7 @@ static const struct node *without_texts(struct arena *arena, const struct node *
 static void add_origin(struct ceduo_page *page, const struct ceduo_chapter *c)
 {
     ceduo_page_say(page, CEDUO_PAGE_SECTION, "%s", _("How to compute this page again"));
-    ceduo_text_format(ceduo_page_fact(page, _("Program")), "ceduo %s", CEDUO_VERSION);
+    ceduo_text_format(ceduo_page_label(page, CEDUO_PAGE_FACT, _("Program")), "ceduo %s", CEDUO_VERSION);
     ceduo_page_say(page, CEDUO_PAGE_SENTENCE, "%s",
                    c->same    ? _("This command gives the same page, to the last byte:")
                    : c->doubt ? _("This command computes the page again:")

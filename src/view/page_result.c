@@ -27,7 +27,7 @@ void ceduo_page_facts(struct ceduo_page *page, const struct ceduo_report *report
     const struct ceduo_result *r = report->result;
     const struct ceduo_scene *s = r->scene;
     const struct ceduo_slope *slope = &s->slope;
-    struct text *line = ceduo_page_fact(page, _("Rock"));
+    struct text *line = ceduo_page_label(page, CEDUO_PAGE_FACT, _("Rock"));
     ceduo_text_format(line,
                       s->blocks_count > 0 ? _("%s; rocks are the blocks below, the index is of %s kg, mean diameter %s m")
                       : ceduo_rock_varies(&s->rock) ? _("%s, %s kg, mean diameter %s m (means of its spread)")
@@ -35,21 +35,21 @@ void ceduo_page_facts(struct ceduo_page *page, const struct ceduo_report *report
                       _(shapes[s->rock.shape]), WRITTEN(r->rock.mass, 4), WRITTEN(r->rock.mean_diameter, 3));
     ceduo_text_put(line, assumed_mark(report, "rock"));
     for (size_t i = 0; i < s->blocks_count; i++)
-        ceduo_text_format(ceduo_page_fact(page, _("Blocks")), _("%g a year of %g to %g m3, exponent %g"), s->blocks[i].per_year,
-                          s->blocks[i].volumes[0], s->blocks[i].volumes[1], s->blocks[i].exponent);
+        ceduo_text_format(ceduo_page_label(page, CEDUO_PAGE_FACT, _("Blocks")), _("%g a year of %g to %g m3, exponent %g"),
+                          s->blocks[i].per_year, s->blocks[i].volumes[0], s->blocks[i].volumes[1], s->blocks[i].exponent);
     double low = 0, high = 0;
     for (size_t i = 0; i < slope->vertices; i++) {
         low = fmin(low, slope->z[i]);
         high = fmax(high, slope->z[i]);
     }
-    ceduo_text_format(ceduo_page_fact(page, _("Slope")),
+    ceduo_text_format(ceduo_page_label(page, CEDUO_PAGE_FACT, _("Slope")),
                       ngettext("%s m long, %s m high, %zu segment; law %s, facets %s%s",
                                "%s m long, %s m high, %zu segments; law %s, facets %s%s", slope->vertices - 1),
                       WRITTEN(slope->x[slope->vertices - 1], 4), WRITTEN(high - low, 4), slope->vertices - 1,
                       ceduo_words_law(ceduo_law_words.names[s->simulation.law]), _(facets[slope->facets]),
                       assumed_mark(report, "slope"));
-    ceduo_text_format(ceduo_page_fact(page, _("Rocks")), _("%llu, seed %llu"), (unsigned long long)ceduo_result_rocks(r),
-                      (unsigned long long)s->simulation.seed);
+    ceduo_text_format(ceduo_page_label(page, CEDUO_PAGE_FACT, _("Rocks")), _("%llu, seed %llu"),
+                      (unsigned long long)ceduo_result_rocks(r), (unsigned long long)s->simulation.seed);
 }
 
 /* ---- what arrives at a control ---- */
@@ -151,11 +151,19 @@ static void add_arrivals(struct ceduo_page *page, const struct ceduo_result *r, 
                        wooded->reach_hi * 1000);
 }
 
-static void say_released(struct ceduo_page *page, const struct ceduo_arrivals *a)
+/* The mean that cannot mislead: of all released; it is no energy that the place must withstand. Either may be NULL. */
+static void say_released(struct ceduo_page *page, const struct ceduo_arrivals *wooded, const struct ceduo_arrivals *bare)
 {
-    ceduo_page_say(page, CEDUO_PAGE_SENTENCE, _("Energy per released rock: %s \xc2\xb1%s kJ."),
-                   WRITTEN(a->energy_per_released * J_TO_KJ, 3),
-                   WRITTEN(ceduo_half_width(a->energy_per_released_se, a->released) * J_TO_KJ, 2));
+#define MEAN(a) WRITTEN((a)->energy_per_released *J_TO_KJ, 3)
+#define HALF(a) WRITTEN(ceduo_half_width((a)->energy_per_released_se, (a)->released) * J_TO_KJ, 2)
+    const struct ceduo_arrivals *first = wooded ? wooded : bare;
+    if (!first)
+        return;
+    struct text *line = ceduo_page_add(page, CEDUO_PAGE_SENTENCE);
+    ceduo_text_format(line, _("Energy per released rock: %s \xc2\xb1%s kJ"), MEAN(first), HALF(first));
+    if (wooded && bare)
+        ceduo_text_format(line, _(" through the wood, %s \xc2\xb1%s without it"), MEAN(bare), HALF(bare));
+    ceduo_text_char(line, '.');
 }
 
 static void say_lights(struct ceduo_page *page, const struct ceduo_result *r, size_t option, size_t control, bool with_bare)
@@ -170,18 +178,8 @@ static void say_lights(struct ceduo_page *page, const struct ceduo_result *r, si
     ceduo_words_energy(ceduo_page_add(page, CEDUO_PAGE_SENTENCE), r, option, control);
     if (r->options[option].others[control].known && r->options[option].others[control].stems)
         ceduo_words_other(ceduo_page_add(page, CEDUO_PAGE_SENTENCE), r, option, control);
-    /* the mean that cannot mislead: of all released; it is no energy that the place must withstand */
-    const struct ceduo_arrivals *wooded =
-        r->scene->options[option].belts_count > 0 ? ceduo_result_wooded(r, option, control) : NULL;
-    const char *mean = WRITTEN(bare->energy_per_released * J_TO_KJ, 3);
-    const char *half = WRITTEN(ceduo_half_width(bare->energy_per_released_se, bare->released) * J_TO_KJ, 2);
-    if (wooded && with_bare)
-        ceduo_page_say(page, CEDUO_PAGE_SENTENCE,
-                       _("Energy per released rock: %s \xc2\xb1%s kJ through the wood, %s \xc2\xb1%s without it."),
-                       WRITTEN(wooded->energy_per_released * J_TO_KJ, 3),
-                       WRITTEN(ceduo_half_width(wooded->energy_per_released_se, wooded->released) * J_TO_KJ, 2), mean, half);
-    else if (wooded || with_bare)
-        say_released(page, wooded ? wooded : bare);
+    say_released(page, r->scene->options[option].belts_count > 0 ? ceduo_result_wooded(r, option, control) : NULL,
+                 with_bare ? bare : NULL);
 }
 
 /* ---- belts, by the index ---- */
@@ -249,32 +247,25 @@ static void say_residual(struct ceduo_page *page, const struct ceduo_result *r, 
     double mean = r->bare.arrivals[control].energy.mean * J_TO_KJ;
     double taken = index->dissipated * J_TO_KJ, left = index->residual * J_TO_KJ;
     struct text *line = ceduo_page_add(page, CEDUO_PAGE_SENTENCE);
-    if (shares && none)
+    if (shares)
         ceduo_text_format(line,
-                          _("By the index (%s) every contact takes a share; no rock arrives, nothing is left to "
-                            "compare."),
+                          index->exhausted && !none ? _("By the index (%s) contacts take shares and amounts")
+                                                    : _("By the index (%s) every contact takes a share"),
                           rule);
-    else if (shares && index->exhausted)
-        ceduo_text_format(line,
-                          _("By the index (%s) contacts take shares and amounts, more than the mean rock brings: "
-                            "used up on average. Some rocks still pass."),
-                          rule);
-    else if (shares)
-        ceduo_text_format(line,
-                          _("By the index (%s) every contact takes a share, so that Eq. 4 has no meaning; of %s kJ "
-                            "%s kJ are left."),
-                          rule, WRITTEN(mean, 4), WRITTEN(left, 3));
     else
         ceduo_text_format(line, _("By the index (Eq. 4, %s) stems could take %s kJ"), rule, WRITTEN(taken, 3));
     if (!shares && index->length > 0)
         ceduo_text_then(line, ", ", _("%s kJ per 100 m (%s)"), WRITTEN(index->per_100m * J_TO_KJ, 3), rule);
-    if (!shares && none) {
+    if (none) {
         ceduo_text_then(line, "; ", _("no rock arrives, nothing is left to compare."));
-    } else if (!shares && index->exhausted) {
+    } else if (index->exhausted) {
         ceduo_text_then(line, ", ", _("more than the mean rock brings: used up on average. Some rocks still pass."));
-    } else if (!shares && taken == 0) {
+    } else if (shares) {
+        ceduo_text_then(line, ", ", _("so that Eq. 4 has no meaning; of %s kJ %s kJ are left."), WRITTEN(mean, 4),
+                        WRITTEN(left, 3));
+    } else if (taken == 0) {
         ceduo_text_then(line, "; ", _("left (Eq. 5): all of %s kJ."), WRITTEN(left, 3));
-    } else if (!shares) { /* all three with the decimals of the first, so that what is written is true */
+    } else { /* all three with the decimals of the first, so that what is written is true */
         int decimals = (int)fmax(0, 3 - floor(log10(mean)));
         ceduo_text_then(line, "; ", _("left (Eq. 5): %.*f \xe2\x88\x92 %.*f = %.*f kJ."), decimals, mean, decimals, taken,
                         decimals, left);
@@ -395,15 +386,11 @@ void ceduo_page_design(struct ceduo_page *page, const struct ceduo_report *repor
     double model = FACTOR(calibrated), speed = survey * model, energy = J_TO_KJ * speed * speed * blocks;
     if (d->survey < 0 || d->blocks < 0 || isnan(bare->speed.p95))
         return;
-    if (wooded && !isnan(wooded->speed.p95))
+    for (const struct ceduo_arrivals *a = wooded && !isnan(wooded->speed.p95) ? wooded : bare; a; a = a == bare ? NULL : bare)
         ceduo_page_say(page, CEDUO_PAGE_SENTENCE,
-                       _("Design values of UNI 11211-4, as long as the wood stands as in this option: speed %s m/s, energy %s "
-                         "kJ, height of the block's top %s m."),
-                       WRITTEN(wooded->speed.p95 * speed, 3), WRITTEN(wooded->energy.p95 * energy, 3), SHOWN(wooded->top_p95));
-    ceduo_page_say(page, CEDUO_PAGE_SENTENCE,
-                   _("Design values of UNI 11211-4, without forest: speed %s m/s, energy %s kJ, height of the block's "
-                     "top %s m."),
-                   WRITTEN(bare->speed.p95 * speed, 3), WRITTEN(bare->energy.p95 * energy, 3), SHOWN(bare->top_p95));
+                       _("Design values of UNI 11211-4, %s: speed %s m/s, energy %s kJ, height of the block's top %s m."),
+                       a == bare ? _("without forest") : _("as long as the wood stands as in this option"),
+                       WRITTEN(a->speed.p95 * speed, 3), WRITTEN(a->energy.p95 * energy, 3), SHOWN(a->top_p95));
     ceduo_page_say(
         page, CEDUO_PAGE_DETAIL,
         _("Speed: 95th percentile times %.2f for the survey of the ground and %.2f for the model, %s. Energy: 95th "
@@ -488,11 +475,9 @@ void ceduo_page_assumed(struct ceduo_page *page, const struct ceduo_report *repo
 
 void ceduo_page_notes(struct ceduo_page *page, const struct ceduo_report *report)
 {
-    struct ceduo_run_remarks remarks = report->remarks;
-    remarks.nothing_said = true; /* at the head of the page */
     ceduo_page_add(page, CEDUO_PAGE_GAP);
     const struct ceduo_page_block *gap = page->last;
-    ceduo_words_run_warnings(report->result, &remarks, ceduo_page_warn, page);
+    ceduo_words_run_warnings(report->result, &report->remarks, ceduo_page_warn, page);
     if (page->last == gap)
         ceduo_page_drop(page);
     const struct source_note *note = report->file->notes;
@@ -530,7 +515,7 @@ void ceduo_report_table(struct text *text, const struct ceduo_report *report, bo
         const struct ceduo_arrivals *bare = &report->result->bare.arrivals[k];
         add_place(&page, report, k);
         add_arrivals_table(&page, &scene->controls[k], NULL, bare);
-        say_released(&page, bare);
+        say_released(&page, NULL, bare);
         if (report->result->bare.rocks > 0)
             ceduo_page_percentiles(&page, report->result, SIZE_MAX, k, true);
     }

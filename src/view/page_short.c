@@ -183,9 +183,7 @@ static void add_options(struct ceduo_page *page, const struct ceduo_report *repo
 static void gather_notes(struct ceduo_page *notes, const struct ceduo_report *report)
 {
     const struct ceduo_result *r = report->result;
-    struct ceduo_run_remarks remarks = report->remarks;
     size_t thin = 0, n = r->scene->options_count;
-    remarks.nothing_said = true; /* the answer says it */
     for (size_t i = 0; r->scene->controls_count > 0 && i < n; i++) {
         const struct ceduo_index *s = ceduo_result_last_index(r, i);
         thin += ceduo_index_hangs_on_thin(s);
@@ -206,7 +204,7 @@ static void gather_notes(struct ceduo_page *notes, const struct ceduo_report *re
         ceduo_words_windows(r->scene, report->verdict, ceduo_page_warn_once, notes);
     for (size_t i = 0; i < n; i++)
         ceduo_page_stand_warnings(notes, r, i);
-    ceduo_words_run_warnings(r, &remarks, ceduo_page_warn_once, notes);
+    ceduo_words_run_warnings(r, &report->remarks, ceduo_page_warn_once, notes);
 }
 
 /* Lines of a paragraph of the page. */

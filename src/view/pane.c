@@ -189,7 +189,7 @@ size_t ceduo_pane_column(struct ceduo_page *page, const struct ceduo_pane *pane)
             ceduo_page_line(page, CEDUO_ROLE_WARN, _("%s depends on %s"), _(ceduo_light_names[i]), ceduo_text_string(&causes));
     }
     const struct ceduo_page_block *last = page->last;
-    const struct ceduo_run_remarks remarks = {.ground_assumed = pane->file->ground_assumed, .nothing_said = true};
+    const struct ceduo_run_remarks remarks = {.ground_assumed = pane->file->ground_assumed};
     size_t warnings = 0;
     ceduo_words_still(r, ceduo_page_warn, page);
     ceduo_page_stand_warnings(page, r, pane->option);
@@ -252,6 +252,7 @@ void ceduo_pane_words(struct ceduo_page *page, const struct ceduo_report *report
     if (report->result->scene->options_count > 1)
         ceduo_page_say(page, CEDUO_PAGE_TITLE, "%s", report->result->scene->options[option].name);
     ceduo_page_option(page, report, option, true);
+    ceduo_words_still(report->result, ceduo_page_warn, page);
     ceduo_words_run_warnings(report->result, &report->remarks, ceduo_page_warn, page);
 }
 

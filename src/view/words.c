@@ -247,8 +247,6 @@ static void say_lost(const struct ceduo_result *result, ceduo_words_say *say, vo
 void ceduo_words_run_warnings(const struct ceduo_result *result, const struct ceduo_run_remarks *remarks, ceduo_words_say *say,
                               void *context)
 {
-    if (!remarks->nothing_said)
-        ceduo_words_still(result, say, context);
     if (remarks->tolerance > 0 && !remarks->tolerance_met)
         say_format(say, context, _("The tolerance of %g was not met with %llu rocks."), remarks->tolerance,
                    (unsigned long long)ceduo_result_rocks(result));

@@ -22,12 +22,11 @@ void ceduo_words_stand_warnings(const struct ceduo_scene *scene, const struct ce
 void ceduo_words_unlikely(const struct ceduo_belt *belt, const struct ceduo_stand_result *r, ceduo_words_say *say,
                           void *context);
 
-/* What is to be said of a run as a whole. `tolerance` is 0 where none was asked for. */
+/* What is to be said of a run as a whole, but for ceduo_words_still(). `tolerance` is 0 where none was asked for. */
 struct ceduo_run_remarks {
     double tolerance;
     bool tolerance_met;
     bool ground_assumed;
-    bool nothing_said; /* where nothing can be said, that stands elsewhere on the page */
 };
 void ceduo_words_run_warnings(const struct ceduo_result *result, const struct ceduo_run_remarks *remarks, ceduo_words_say *say,
                               void *context);

@@ -150,7 +150,7 @@ MUST = {
               "stems/ha, basal area", "by interception", "kJ per 100 m"],
     "rock": ["shape cylinder", "diameter, m 0.56", "height, m 0.80", "density, kg/m", "Release", "x, m 0",
              "spin, rad/s 0", "Simulation", "law of impact lumped", "512.3 kg", "mean diameter B 0.68 m"],
-    "results": ["ADC", "left at 135 m", "without forest", "index (Eq. 5)", "mean, kJ", "> 50 kJ", "p50", "p95"],
+    "results": ["ADC", "left at 135 m", "without forest", "index (Eq. 5)", "mean kJ", "> 50 kJ", "p50", "p95"],
     "compare": ["135 m", "fail"]}
 WIDE = {"slope": ["release", "end of the forest (135 m)", "bounce Rn slide Rt", "friction", "name", "facets against"],
         "stand": ["Energy of a contact", " height", "energy law brauner", "fracture ratio"],

@@ -32,7 +32,7 @@ TEST(paragraphs_are_wrapped)
 {
     struct ceduo_page page = {.width = 24};
     ceduo_text_put(ceduo_page_add(&page, CEDUO_PAGE_TITLE), "A title that is   too long for a line ");
-    ceduo_text_put(ceduo_page_fact(&page, "Rock"), "cylinder, 512.3 kg");
+    ceduo_text_put(ceduo_page_label(&page, CEDUO_PAGE_FACT, "Rock"), "cylinder, 512.3 kg");
     ceduo_text_put(ceduo_page_add(&page, CEDUO_PAGE_SECTION), "option");
     ceduo_text_put(ceduo_page_add(&page, CEDUO_PAGE_WARNING), "a bell \a is never rung");
     expect_page(&page, false,
