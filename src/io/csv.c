@@ -68,10 +68,8 @@ static bool next_line(const struct source *s, size_t *at, struct csv_span *line)
 
 static struct csv_span trim(struct csv_span f)
 {
-    while (f.n > 0 && (f.p[0] == ' ' || f.p[0] == '"')) {
+    for (; f.n > 0 && (f.p[0] == ' ' || f.p[0] == '"'); f.n--)
         f.p++;
-        f.n--;
-    }
     while (f.n > 0 && (f.p[f.n - 1] == ' ' || f.p[f.n - 1] == '"'))
         f.n--;
     return f;
@@ -108,16 +106,17 @@ bool ceduo_csv_open(struct csv *csv, struct arena *arena, const char *path, stru
                         .problems = problems};
     if (!csv->source)
         return false;
+    if (csv->source->length > 4 && /* xlsx and ods, xls */
+        (memcmp(csv->source->bytes, "PK\3\4", 4) == 0 || memcmp(csv->source->bytes, "\xd0\xcf\x11\xe0", 4) == 0))
+        return ceduo_problem_at(problems, (struct problem_place){.source = csv->source, .own = true},
+                                _("this is a workbook; open it and save its sheet as CSV (File, Save as)"));
     if (!recode(arena, csv->source)) {
         ceduo_no_memory();
         return false;
     }
     csv->at = ceduo_source_mark(csv->source);
-    if (!next_line(csv->source, &csv->at, &csv->header)) {
-        ceduo_problem(problems, csv->source, 0, 0, _("the file is empty"));
-        return false;
-    }
-    csv->line = csv->header;
+    if (!next_line(csv->source, &csv->at, &csv->line))
+        return ceduo_problem(problems, csv->source, 0, 0, _("the file is empty"));
     take_header(csv, 1);
     return true;
 }

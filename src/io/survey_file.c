@@ -21,19 +21,19 @@
 
 enum column { PLOT, AREA, RADIUS, SLOPE, SPECIES, KIND, STOOL, DBH, HEIGHT, SPACING, ENERGY, COLUMNS };
 
-/* Names of a column, the first one is that of the manual; in other languages as their spreadsheets have them. */
+/* Names of a column, the first one is that of the manual and of messages; in other languages as their spreadsheets have them. */
 static const struct csv_head heads[COLUMNS] = {
-    [PLOT] = {{"plot", "saggio", "area di saggio", "n saggio", "probefläche"}, NULL},
-    [AREA] = {{"area_m2", "area", "superficie", "fläche"}, "m2|m²|mq"},
-    [RADIUS] = {{"radius_m", "radius", "raggio", "r"}, "m"},
-    [SLOPE] = {{"slope_deg", "slope", "pendenza", "neigung"}, "deg|degrees|°|gradi|grad"},
-    [SPECIES] = {{"species", "specie", "baumart"}, NULL},
-    [KIND] = {{"kind", "tipo", "typ"}, NULL},
-    [STOOL] = {{"stool", "ceppaia", "n ceppaia", "stock"}, NULL},
-    [DBH] = {{"dbh_cm", "dbh", "diametro", "diam", "d", "d130", "bhd"}, "cm"},
-    [HEIGHT] = {{"height_m", "height", "altezza", "h", "höhe"}, "m"},
-    [SPACING] = {{"spacing_m", "spacing", "distanza", "abstand"}, "m"},
-    [ENERGY] = {{"energy_kJ", "energy", "energia", "energie"}, "kJ"},
+    [PLOT] = {{N_("plot"), "saggio", "area di saggio", "n saggio", "ads", "probefläche"}, NULL},
+    [AREA] = {{N_("area_m2"), "area", "superficie", "sup", "fläche"}, "m2|m²|mq"},
+    [RADIUS] = {{N_("radius_m"), "radius", "raggio", "r"}, "m"},
+    [SLOPE] = {{N_("slope_deg"), "slope", "pendenza", "pend", "neigung"}, "deg|degrees|°|gradi|grad"},
+    [SPECIES] = {{N_("species"), "specie", "baumart"}, NULL},
+    [KIND] = {{N_("kind"), "tipo", "tipo fusto", "origine", "p/m", "typ"}, NULL},
+    [STOOL] = {{N_("stool"), "ceppaia", "n ceppaia", "ceppaia n", "stock"}, NULL},
+    [DBH] = {{N_("dbh_cm"), "dbh", "diametro", "diam", "d", "d130", "diametro a 1,30 m", "diametro a 1,30", "bhd"}, "cm"},
+    [HEIGHT] = {{N_("height_m"), "height", "altezza", "alt", "h", "höhe"}, "m"},
+    [SPACING] = {{N_("spacing_m"), "spacing", "distanza", "abstand"}, "m"},
+    [ENERGY] = {{N_("energy_kJ"), "energy", "energia", "energie"}, "kJ"},
 };
 
 #define PERCENT "%|percent|percento|perc" /* of a slope */
@@ -41,7 +41,7 @@ static const struct csv_head heads[COLUMNS] = {
 static const struct {
     double lo, hi;
     const char *unit;
-} ranges[COLUMNS] = {[AREA] = {1, 1e6, "m2"},  [RADIUS] = {0.5, 500, "m"}, [SLOPE] = {0, SLOPE_MOST, "degrees"},
+} ranges[COLUMNS] = {[AREA] = {1, 1e6, "m2"},  [RADIUS] = {0.5, 500, "m"}, [SLOPE] = {0, SLOPE_MOST, N_("degrees")},
                      [DBH] = {0.1, 1e6, "cm"}, [HEIGHT] = {0, 150, "m"},   [SPACING] = {0.01, 20, "m"},
                      [ENERGY] = {0, 1e6, "kJ"}};
 
@@ -49,7 +49,7 @@ static const struct {
 #define X(NAME, word) word,
 static const char *const kind_names[] = {CEDUO_SURVEY_KINDS(X)};
 #undef X
-static const char *const kinds_also[] = {"shoot|shoots|pollone|polloni", "standard|standards|matricina|matricine",
+static const char *const kinds_also[] = {"shoot|shoots|pollone|polloni|p", "standard|standards|matricina|matricine|m",
                                          "tree|trees|albero|alberi|allievo|allievi", "stump|stumps|ceppo|ceppi"};
 static const struct choices kind_words = {kind_names, CEDUO_SURVEY_KINDS_COUNT, kinds_also};
 
@@ -100,7 +100,7 @@ static void read_header(struct reader *r, struct text *unused)
         r->csv.source->foreign &= r->columns[c] == CEDUO_CSV_NONE;
         if (r->columns[c] == CEDUO_CSV_TWICE)
             ceduo_problem(r->problems, r->csv.source, line, 1, _("the column '%s' is there twice; rename all but one"),
-                          heads[c].names[0]);
+                          _(heads[c].names[0]));
         else if (r->columns[c] == CEDUO_CSV_NONE)
             missing[n++] = heads[c].names[0];
     }
@@ -118,20 +118,19 @@ static void read_header(struct reader *r, struct text *unused)
             if (r->columns[c] == CEDUO_CSV_NONE && heads[c].units && memchr(field.p, '(', field.n) &&
                 ceduo_csv_column(&one, heads[c].names, NULL) == 0) {
                 ceduo_csv_complain(&r->csv, field, _("'%s': its values must be in %s; convert them and name the column '%s'"),
-                                   word, ranges[c].unit, heads[c].names[0]);
+                                   word, ranges[c].unit, _(heads[c].names[0]));
                 r->columns[c] = i; /* which is there */
             }
         const char *near = ceduo_text_nearest(word, missing, n); /* near to one that is missing: a slip */
         if (near)
-            ceduo_csv_complain(&r->csv, field, _("'%s': unknown column; did you mean '%s'?"), word, near);
+            ceduo_csv_complain(&r->csv, field, _("'%s': unknown column; did you mean '%s'?"), word, _(near));
         ceduo_text_put(unused, unused->length > 0 ? ", " : "");
         ceduo_text_safe_n(unused, field.p, field.n);
     }
-    static const enum column needed[] = {PLOT, KIND, DBH};
-    for (size_t i = 0; i < sizeof needed / sizeof needed[0]; i++)
-        if (r->columns[needed[i]] == CEDUO_CSV_NONE)
+    for (int c = 0; c < COLUMNS; c++)
+        if ((c == PLOT || c == KIND || c == DBH) && r->columns[c] == CEDUO_CSV_NONE)
             ceduo_problem_at(r->problems, (struct problem_place){r->csv.source, line, 1, NULL, true},
-                             _("the first line must name the column '%s'"), heads[needed[i]].names[0]);
+                             _("the first line must name the column '%s'"), _(heads[c].names[0]));
     if (r->columns[AREA] == CEDUO_CSV_NONE && r->columns[RADIUS] == CEDUO_CSV_NONE)
         ceduo_problem(r->problems, r->csv.source, line, 1, _("the first line must name the column 'area_m2' or 'radius_m'"));
 }
@@ -144,7 +143,8 @@ static bool read_number(struct reader *r, enum column c, double *value)
     bool percent = c == SLOPE && r->percent;
     double hi = percent ? 100 * tan(SLOPE_MOST * M_PI / 180) : ranges[c].hi;
     *value = NAN;
-    if (r->fields[c].n > 0 && !ceduo_csv_number(&r->csv, r->fields[c], ranges[c].lo, hi, percent ? "%" : ranges[c].unit, value))
+    if (r->fields[c].n > 0 &&
+        !ceduo_csv_number(&r->csv, r->fields[c], ranges[c].lo, hi, percent ? "%" : _(ranges[c].unit), value))
         return false;
     *value = percent ? atan(*value / 100) * 180 / M_PI : *value;
     return true;
@@ -170,7 +170,7 @@ static bool read_plot(struct reader *r, size_t *plot)
         double now, *known = &r->plots[*plot].of[c];
         bool read = read_number(r, c, &now), differs = !isnan(now) && !isnan(*known) && now != *known;
         if (read && differs)
-            ceduo_csv_complain(&r->csv, r->fields[c], _("'%s' is %g elsewhere for this plot, here %g"), heads[c].names[0],
+            ceduo_csv_complain(&r->csv, r->fields[c], _("'%s' is %g elsewhere for this plot, here %g"), _(heads[c].names[0]),
                                *known, now);
         good = good && read && !differs;
         *known = read && isnan(*known) ? now : *known;
@@ -204,7 +204,8 @@ static bool read_words(struct reader *r, struct ceduo_survey_stem *stem)
     if (stem->species >= 0 || species.n == 0 || find_word(&other_words, species) >= 0)
         return known;
     LOCAL_TEXT(all);
-    ceduo_text_words(&all, ceduo_species_words.names, ceduo_species_words.n, ", ");
+    for (size_t i = 0, n; i < ceduo_species_words.n; i++)
+        ceduo_text_format(&all, "%s%s", i > 0 ? ", " : "", _(ceduo_species_list(&n)[i].common));
     return ceduo_csv_complain(&r->csv, species, _("'%.*s' is an unknown species; leave it empty, or one of: %s"),
                               species.n < 100 ? (int)species.n : 100, species.p, ceduo_text_string(&all));
 }

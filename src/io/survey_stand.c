@@ -36,10 +36,10 @@ static void print_number(struct text *out, const char *before, double value)
     ceduo_text_format(out, "%s%s", before, ceduo_number_shortest(rounded(value), room));
 }
 
-static void print_source(struct text *out, bool assumed, const struct text *what)
+static void print_source(struct text *out, bool assumed, const char *what)
 {
     ceduo_text_format(out, "source: {kind: %s, text: ", assumed ? "assumed" : "measured");
-    ceduo_emit_scalar(out, ceduo_text_string(what), true);
+    ceduo_emit_scalar(out, what, true);
     ceduo_text_put(out, "}");
 }
 
@@ -119,7 +119,7 @@ static void remark(const struct writer *w)
             all += pass == 0 ? own : 0;
             if (pass == 1 && own > 0)
                 ceduo_text_format(out, "%s%s %.0f %%", said++ ? ", " : _("# basal area: "),
-                                  k < 0 ? _("not said") : list[k].name, 100 * own / all);
+                                  k < 0 ? _("not said") : _(list[k].common), 100 * own / all);
         }
     ceduo_text_put(out, said ? "\n" : "");
     if (w->file->unused[0])
@@ -189,7 +189,8 @@ static void print_classes(const struct writer *w, const char *key, bool trees)
         if (c->form_factor > 0)
             ceduo_text_format(&what, "; volume of %zu by form factor", c->form_factor);
         ceduo_text_put(w->out, ",\n     ");
-        print_source(w->out, w->one_plot || h->from >= CEDUO_HEIGHTS_MEAN || (given && c->form_factor > 0), &what);
+        print_source(w->out, w->one_plot || h->from >= CEDUO_HEIGHTS_MEAN || (given && c->form_factor > 0),
+                     ceduo_text_string(&what));
         ceduo_text_put(w->out, "}\n");
     }
 }
@@ -278,24 +279,22 @@ static void print_stand(const struct writer *w)
             ceduo_text_put(&of_stools, "; the spacing of the shoots was not measured");
         if (w->one_plot)
             ceduo_text_put(&of_stools, "; one plot, no standard error");
-        print_source(w->out, w->one_plot || !measured, &of_stools);
+        print_source(w->out, w->one_plot || !measured, ceduo_text_string(&of_stools));
         ceduo_text_put(w->out, "}\n");
     }
     print_classes(w, "shoots:\n", false);
     print_classes(w, "trees:\n", true);
     if (w->stumps) {
-        LOCAL_TEXT(of_stumps);
         print_number(w->out, "stumps: {per_ha: ", a->per_ha[CEDUO_SURVEY_STUMP].mean);
         print_number(w->out, ", diameter_m: ", a->stump_diameter);
         print_number(w->out, ", height_m: ", a->stump_height);
         print_number(w->out, ", energy_kJ: ", a->stump_energy / 1000);
         ceduo_text_put(w->out, ",\n  ");
-        ceduo_text_put(&of_stumps, "counted; what one takes from a rock is not measured");
-        print_source(w->out, true, &of_stumps);
+        print_source(w->out, true, "counted; what one takes from a rock is not measured");
         ceduo_text_put(w->out, "}\n");
     }
     ceduo_text_format(&what, "survey of %zu plots, %.0f m2 of the map", w->file->survey.plots_count, w->area);
-    print_source(w->out, false, &what);
+    print_source(w->out, false, ceduo_text_string(&what));
     ceduo_text_char(w->out, '\n');
     print_doubts(w);
 }

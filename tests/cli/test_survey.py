@@ -140,9 +140,9 @@ SHEETS = Path(__file__).resolve().parent / "cases/surveys"
 
 
 def test_offices():
-    """Sheets as offices have them: titles, totals, joined cells, empty lines, units, plurals, percent, UTF-16, Windows-1252"""
+    """Sheets as offices have them: titles, totals, joined cells, empty lines, units, plurals, letters, percent, UTF-16, Windows-1252"""
     with Folder() as f:
-        texts = {name: good("--survey", str(SHEETS / f"{name}.csv")).out for name in ("windows", "unicode", "english", "telephone")}
+        texts = {name: good("--survey", str(SHEETS / f"{name}.csv")).out for name in ("windows", "unicode", "english", "telephone", "codes")}
         plots = ((200 * math.cos(math.radians(45)), 3, 5, 1), (150, 2, 3, 2))  # m2 of the map, stools, shoots, standards
         stools, shoots, standards = (statistics.mean(p[k] / p[0] * 10000 for p in plots) for k in (1, 2, 3))
         for name, text in texts.items():
@@ -150,7 +150,7 @@ def test_offices():
             expect_near(stand["stools_per_ha"], stools, 1e-3, name)
             expect_near(stand["trees_per_ha"], standards, 1e-3, name)
             expect_near(stand["stems_per_ha"], shoots + standards, 1e-2, name)
-        for name in ("unicode", "english"):
+        for name in ("unicode", "english", "codes"):
             expect_equal(without_comments(texts[name]), without_comments(texts["windows"]), name)
         expect_in("rows of totals, which are no stems: 2", texts["windows"])
         expect_in("rows without a plot, which belong to the one above: 9", texts["windows"])
@@ -381,7 +381,7 @@ BAD = [  # (content, place, words)
     (HEAD.replace("slope_deg", "radius_m") + "\n" + ROW, ":2:7", "area_m2 already says this"),
     (HEAD + "\n" + ROW.replace("tree", "bush"), ":2:11", "'bush' is no kind of stem: shoot, standard, tree or stump"),
     (HEAD + "\n" + ROW.replace("tree", ""), ":2:11", "the kind is missing"),
-    (HEAD + "\n" + ROW.replace(",,tree", ",oak,tree"), ":2:10", "'oak' is an unknown species; leave it empty, or one of: ostrya"),
+    (HEAD + "\n" + ROW.replace(",,tree", ",oak,tree"), ":2:10", "'oak' is an unknown species; leave it empty, or one of: hop hornbeam"),
     (HEAD + "\n" + ROW.replace(",20,", ",,"), ":2:17", "the diameter is missing"),
     (HEAD + "\n" + ROW.replace(",20,", ",0,"), ":2:17", "below 0.1 cm"),
     (HEAD + "\n" + ROW.replace(",20,", ",750,"), ":2:17", "750 cm: more than 300 cm; is it in mm?"),
@@ -424,6 +424,18 @@ def test_bad():
             expect(not (f.path / "none.yaml").exists(), content)
         r = ceduo("--survey", "not-there.csv")
         expect_equal(r.status, INPUT, r)
+
+
+def test_bad_in_italian():
+    """What is wrong is told with the words of an Italian sheet, numbers with a comma, and a workbook is called one"""
+    english = re.compile(r"area_m2|radius_m|slope_deg|dbh_cm|spacing_m|energy_kJ|\bshoot|\bstandard\b|stump|degrees|ostrya|\d\.\d")
+    with Folder() as f:
+        for content, _, words in BAD:
+            told = survey(f, content, "--language", "it").err.splitlines()[0]
+            expect(not english.search(told.split(":", 1)[1].replace("'1.2e1'", "")), words, told)
+        for begin in (b"PK\3\4\x14\0\6\0", b"\xd0\xcf\x11\xe0\xa1\xb1"):
+            (f.path / "plots.xlsx").write_bytes(begin + bytes(99))
+            expect_in("salvare il foglio come CSV", ceduo("--survey", f.path / "plots.xlsx", "--language", "it").err)
 
 
 def test_thick():
