@@ -90,19 +90,59 @@ void ceduo_doubt_input_end(struct text *text, const struct ceduo_doubt_report *r
         ceduo_text_put(text, word ? word : ceduo_number_shortest(value, (char[CEDUO_NUMBER_ROOM]){0}));
 }
 
-/* An end of its range in the unit that people use, and short. */
+/* A value, or a word, in the unit that people use, and short. */
+static void append_value(struct text *text, const struct field *field, double value, const char *word)
+{
+    value *= field->shown.per;
+    if (word)
+        ceduo_shown_value(field, word, text);
+    else if (!isnan(value)) /* 6.300 is 6300 in Italian */
+        ceduo_text_put(text, fabs(value) < 1e4 ? ROUNDED(value, 4) : WRITTEN(value, 4));
+}
+
 static void append_input_end(struct text *text, const struct ceduo_doubt_report *r, size_t i, int end)
 {
     const char *word;
     double value = ceduo_doubt_input_value(r, i, end, &word);
     struct value v;
-    if (!ceduo_value_find(&r->file->scene, r->inputs->items[i].places[0], &v))
-        return;
-    value *= v.field->shown.per;
-    if (word)
-        ceduo_shown_value(v.field, word, text);
-    else if (!isnan(value)) /* 6.300 is 6300 in Italian */
-        ceduo_text_put(text, fabs(value) < 1e4 ? ROUNDED(value, 4) : WRITTEN(value, 4));
+    if (ceduo_value_find(&r->file->scene, r->inputs->items[i].places[0], &v))
+        append_value(text, v.field, value, word);
+}
+
+static bool is_outside(const struct ceduo_input *input, double value)
+{
+    bool word = input->kind == CEDUO_INPUT_WORDS;
+    for (size_t k = 0; word && k < input->words_count; k++)
+        if (input->words[k] == (int)value)
+            return false;
+    return word || value < input->lo || value > input->hi;
+}
+
+void ceduo_doubt_outside(const struct ceduo_doubt_report *r, ceduo_words_say *say, void *context)
+{
+    for (size_t i = 0; i < r->inputs->n; i++) {
+        const struct ceduo_input *input = &r->inputs->items[i];
+        struct value v;
+        size_t k = 0;
+        while (k < input->places_count &&
+               !(ceduo_value_find(&r->file->scene, input->places[k], &v) && is_outside(input, ceduo_value_get(&v))))
+            k++;
+        if (k == input->places_count || input->kind == CEDUO_INPUT_FACTOR || input->kind == CEDUO_INPUT_DRAWS)
+            continue;
+        LOCAL_TEXT(name);
+        LOCAL_TEXT(here);
+        LOCAL_TEXT(ends);
+        LOCAL_TEXT(sentence);
+        double value = ceduo_value_get(&v);
+        ceduo_doubt_input_name(&name, r, i);
+        append_value(&here, v.field, value, input->kind == CEDUO_INPUT_WORDS ? v.field->choices->names[(int)value] : NULL);
+        append_input_end(&ends, r, i, 0);
+        ceduo_text_put(&ends, "\xe2\x80\x93");
+        append_input_end(&ends, r, i, 1);
+        ceduo_text_format(&sentence, _("%s is %s, outside its doubt (%s): what may be true is computed within that."),
+                          name.bytes, here.bytes, ends.bytes);
+        say(context, sentence.bytes);
+    }
 }
 
 const char *ceduo_doubt_measured(const struct ceduo_doubt_report *r, size_t i)
@@ -401,6 +441,7 @@ void ceduo_doubt_blocks(struct ceduo_page *page, const struct ceduo_doubt_report
         ceduo_page_say(page, CEDUO_PAGE_SECTION, _("How sure is it? %s at %g m, kJ per released rock"),
                        ceduo_text_string(&place), c->x_given);
     add_options(page, r, false);
+    ceduo_doubt_outside(r, ceduo_page_warn, page);
     ceduo_page_add(page, CEDUO_PAGE_GAP);
     if (several)
         ceduo_page_say(page, CEDUO_PAGE_SENTENCE, _("What the first option depends on:"));

@@ -184,6 +184,8 @@ static void gather_notes(struct ceduo_page *notes, const struct ceduo_report *re
 {
     const struct ceduo_result *r = report->result;
     size_t thin = 0, n = r->scene->options_count;
+    if (report->doubt && report->doubt->answer)
+        ceduo_doubt_outside(report->doubt, ceduo_page_warn_once, notes);
     for (size_t i = 0; r->scene->controls_count > 0 && i < n; i++) {
         const struct ceduo_index *s = ceduo_result_last_index(r, i);
         thin += ceduo_index_hangs_on_thin(s);

@@ -6,6 +6,7 @@
 #include "ceduo/result.h"
 #include "io/doubt_inputs.h"
 #include "study/verdict.h"
+#include "words.h"
 
 struct ceduo_measure; /* measure.h, which needs this file */
 
@@ -45,6 +46,9 @@ void ceduo_doubt_input_name(struct text *text, const struct ceduo_doubt_report *
 /* An end of an input's range, 0 or 1, as files have it; of words `*word` is the first or the last, and the value NaN. */
 double ceduo_doubt_input_value(const struct ceduo_doubt_report *report, size_t group, int end, const char **word);
 void ceduo_doubt_input_end(struct text *text, const struct ceduo_doubt_report *report, size_t group, int end);
+
+/* A warning for each input whose value in the scene is not among those that it may have. */
+void ceduo_doubt_outside(const struct ceduo_doubt_report *report, ceduo_words_say *say, void *context);
 
 /* What would measure an input, marked for translation; NULL: nothing that is known. */
 const char *ceduo_doubt_measured(const struct ceduo_doubt_report *report, size_t group);

@@ -9,7 +9,7 @@ import math
 import random
 import re
 
-from harness import DONE, INPUT, USAGE, Folder, ceduo, expect, good, expect_equal, expect_in, expect_near, run_all, scene, stand
+from harness import DONE, INPUT, PROFILES, USAGE, Folder, ceduo, expect, good, expect_equal, expect_in, expect_near, run_all, scene, stand
 
 LAW = {"path": "forest[*].stand.energy.model", "one_of": ["brauner", "dorren"]}
 DENSITY = {"path": "rock.density_kg_m3", "lo": 2400, "hi": 2750}
@@ -486,6 +486,21 @@ REFUSED = {
     "doubt[0]: 'model' is a word; give one_of": {"path": LAW["path"], "lo": 0, "hi": 1},
     "doubt[0]: 'path' is missing": {"lo": 0, "hi": 1},
 }
+
+
+def test_outside():
+    """A value outside what it may be is said so wherever its doubt is told; of the shipped scenes none is"""
+    def told(*args):
+        return " ".join(ceduo("-n", "100", *args).out.split())
+
+    changes = ("--set", "forest[0].stand.shoots[0].per_ha=20000", "--set", "forest[*].stand.energy.model=inertia")
+    for args in (("-b",), ("--sensitivity=16",)):
+        page = told(*args, *changes, "paper-site")
+        expect(re.search(r"energy law is inertia, outside its doubt \(brauner.dorren\)", page), page)
+        expect("outside its doubt" not in told(*args, "--set", "forest[0].stand.shoots[0].per_ha=9575", "paper-site"), args)
+    expect(re.search(r"per hectare, [^.]* is 20000, outside its doubt \(7077.9575\): what may be true", page), page)
+    for scene in (PROFILES / "scenes").glob("*.yaml"):
+        expect("outside its doubt" not in told("--sensitivity=4", scene), scene)
 
 
 def test_refused():
