@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The stand of a survey as YAML. What was found stands first, in comments in the user's language; then the stand, which has the same
- * bytes in every language. */
+/* The stand of a survey as YAML. What was found stands first, in comments; then the stand. Comments and the texts of sources, which
+ * pages print, are in the user's language; all else has the same bytes in every one. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -176,18 +176,19 @@ static void print_classes(const struct writer *w, const char *key, bool trees)
         print_number(w->out, ", height_m: ", c->height);
         if (given)
             print_number(w->out, ", volume_m3: ", c->volume);
-        ceduo_text_format(&what, "%s of %.0f to %.0f cm, n = %zu", kinds[c->kind], c->from * 100,
+        ceduo_text_format(&what, _("%s of %.0f to %.0f cm, n = %zu"), _(kinds[c->kind]), c->from * 100,
                           (c->from + CEDUO_SURVEY_CLASS) * 100, c->stems);
         if (w->one_plot)
-            ceduo_text_put(&what, "; one plot, no standard error");
+            ceduo_text_put(&what, _("; one plot, no standard error"));
         if (h->from == CEDUO_HEIGHTS_MEAN)
-            ceduo_text_format(&what, "; missing heights: the mean of %zu", h->given);
+            ceduo_text_format(&what, _("; missing heights: the mean of %zu"), h->given);
         else if (h->from == CEDUO_HEIGHTS_CURVE)
-            ceduo_text_put(&what, "; missing heights by Näslund's curve");
+            ceduo_text_put(&what, _("; missing heights by Näslund's curve"));
         else if (h->from != CEDUO_HEIGHTS_MEASURED)
-            ceduo_text_format(&what, "; no height measured: %s", h->from == CEDUO_HEIGHTS_USUAL ? "as usual" : "as the shoots");
+            ceduo_text_format(&what, _("; no height measured: %s"),
+                              h->from == CEDUO_HEIGHTS_USUAL ? _("as usual") : _("as the shoots"));
         if (c->form_factor > 0)
-            ceduo_text_format(&what, "; volume of %zu by form factor", c->form_factor);
+            ceduo_text_format(&what, _("; volume of %zu by form factor"), c->form_factor);
         ceduo_text_put(w->out, ",\n     ");
         print_source(w->out, w->one_plot || h->from >= CEDUO_HEIGHTS_MEAN || (given && c->form_factor > 0),
                      ceduo_text_string(&what));
@@ -274,11 +275,11 @@ static void print_stand(const struct writer *w)
         ceduo_text_put(w->out, ",\n  ");
         ceduo_text_format(&of_stools, "n = %zu", w->file->survey.stools_count);
         if (measured)
-            ceduo_text_format(&of_stools, "; spacing on %zu of them", a->stools_measured);
+            ceduo_text_format(&of_stools, _("; spacing on %zu of them"), a->stools_measured);
         else
-            ceduo_text_put(&of_stools, "; the spacing of the shoots was not measured");
+            ceduo_text_put(&of_stools, _("; the spacing of the shoots was not measured"));
         if (w->one_plot)
-            ceduo_text_put(&of_stools, "; one plot, no standard error");
+            ceduo_text_put(&of_stools, _("; one plot, no standard error"));
         print_source(w->out, w->one_plot || !measured, ceduo_text_string(&of_stools));
         ceduo_text_put(w->out, "}\n");
     }
@@ -290,10 +291,10 @@ static void print_stand(const struct writer *w)
         print_number(w->out, ", height_m: ", a->stump_height);
         print_number(w->out, ", energy_kJ: ", a->stump_energy / 1000);
         ceduo_text_put(w->out, ",\n  ");
-        print_source(w->out, true, "counted; what one takes from a rock is not measured");
+        print_source(w->out, true, _("counted; what one takes from a rock is not measured"));
         ceduo_text_put(w->out, "}\n");
     }
-    ceduo_text_format(&what, "survey of %zu plots, %.0f m2 of the map", w->file->survey.plots_count, w->area);
+    ceduo_text_format(&what, _("survey of %zu plots, %.0f m2 of the map"), w->file->survey.plots_count, w->area);
     print_source(w->out, false, ceduo_text_string(&what));
     ceduo_text_char(w->out, '\n');
     print_doubts(w);
