@@ -102,17 +102,16 @@ static void add_head(struct ceduo_page *page, const struct ceduo_report_head *he
 }
 
 #define SLOPE_ROWS  19
-#define SLOPE_LEAST 12
+#define SLOPE_LEAST 12 /* where tables of several options follow */
 #define STRIP_ROWS  11
 
 static void add_slope(struct ceduo_page *page, const struct ceduo_chapter *c)
 {
     struct ceduo_picture picture = picture_of(c, ceduo_result_best(c->report->result, c->report->verdict));
     size_t options = c->report->result->scene->options_count;
-    bool long_page = options > CROWD || (options > 1 && ceduo_report_has_hazard(c->report));
     ceduo_page_say(page, CEDUO_PAGE_SECTION, "%s", _("The slope and the rocks"));
     ceduo_page_facts(page, c->report);
-    add_picture(page, CEDUO_PLOT_PROFILE, WHOLE, long_page ? SLOPE_LEAST : SLOPE_ROWS, &picture,
+    add_picture(page, CEDUO_PLOT_PROFILE, WHOLE, options > 1 ? SLOPE_LEAST : SLOPE_ROWS, &picture,
                 _("The slope from the side with the forest on it, the ways of some rocks as thin lines, and the controls as "
                   "upright lines."));
     picture.ways = true;
@@ -275,7 +274,7 @@ void ceduo_page_chapter(struct ceduo_page *page, const struct ceduo_chapter *c)
         struct ceduo_picture picture = picture_of(c, 0);
         ceduo_page_comparison(page, c->report);
         if (!ceduo_report_has_hazard(c->report) && scene->options_count <= CROWD) /* the table says it all */
-            add_picture(page, CEDUO_PLOT_COMPARE, WIDE, 4 + (int)scene->options_count, &picture,
+            add_picture(page, CEDUO_PLOT_COMPARE, WIDE, 2 + (int)scene->options_count, &picture,
                         _("Bars for each option: its average distance between contacts, how many of 1000 rocks arrive with too "
                           "much energy, and their mean energy."));
     } else if (!several) {
