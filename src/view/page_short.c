@@ -119,7 +119,7 @@ static void add_choice(struct ceduo_page *page, const struct ceduo_report *repor
     const struct ceduo_result *r = report->result;
     const struct ceduo_choice *v = &report->verdict->choices[i];
     struct ceduo_measure today = ceduo_judged(&r->scene->controls[r->last_control], ceduo_result_wooded(r, i, r->last_control));
-    struct ceduo_measure mean = today;
+    struct ceduo_measure mean = ceduo_share(v->mean);
     bool years = form_of(report) != TODAY_ALONE, known = v->flown > 0 && !v->nothing;
     ceduo_measure_doubt(&today, report->doubt, i, r->last_control);
     ceduo_measure_doubt_over(&mean, report->doubt, i);
