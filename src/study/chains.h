@@ -39,9 +39,9 @@ struct chains_def {
 
 struct chains {
     size_t dimensions, chains, steps, room;
-    double *x; /* [chain][room][dimension] */
+    double *x; /* [step][chain][dimension] */
     size_t tried_count;
-    double *tried, *tried_density; /* proposals: [round][chain][step][dimension] */
+    double *tried, *tried_density; /* proposals likewise: all but the starts */
     double rhat, effective_size;   /* the worst of all dimensions; NaN before two rounds */
     bool settled;
 };

@@ -2,8 +2,7 @@
 #include "guess.h"
 
 #include <gsl/gsl_errno.h>
-#include <gsl/gsl_linalg.h>
-#include <gsl/gsl_multifit.h>
+#include <gsl/gsl_multilarge.h>
 #include <gsl/gsl_sort.h>
 #include <math.h>
 #include <stdlib.h>
@@ -11,21 +10,18 @@
 
 #include "base/cancel.h"
 #include "base/gsl_errors.h"
+#include "ceduo/calibrate.h"
 
-#define KNOWN_BY 3   /* times as many places as terms: those within reach of the best set how much a place counts */
-#define SHARP    2.  /* of a log-likelihood: no place counts less for less than this */
-#define BLOCK    256 /* places that are reduced at once */
-
-struct known {
-    const double *u, *values;
-    size_t n;
-    double best, reach;
-    const atomic_bool *cancel;
-};
+#define KNOWN_BY  3    /* times as many places as terms: those within reach of the best set how much a place counts */
+#define SHARP     2.   /* of a log-likelihood: no place counts less for less than this */
+#define BLOCK     256  /* places that are reduced at once */
+#define RIDGE     1e-9 /* where the places do not tell all terms, what they do not tell stays 0 */
+#define TERMS(d)  (1 + (d) + (d) * ((d) + 1) / 2)
+#define TERMS_MAX TERMS(CEDUO_CALIBRATION_MOST)
 
 struct guess ceduo_guess_begin(size_t d)
 {
-    return (struct guess){.dimensions = d, .terms = 1 + d + d * (d + 1) / 2};
+    return (struct guess){.dimensions = d, .terms = TERMS(d)};
 }
 
 void ceduo_guess_release(struct guess *g)
@@ -52,112 +48,89 @@ static double reach_of(const struct guess *g, const double *values, size_t n, do
     for (size_t i = 0; i < n; i++)
         if (isfinite(values[i]))
             down[m++] = -values[i];
-    if (m <= k)
+    if (m <= k || n <= 2 * g->terms)
         return NAN;
     gsl_sort(down, 1, m);
     *best = -down[0];
     return fmax(SHARP, (down[k] - down[0]) / 2);
 }
 
-/* What is known is reduced to a triangle of as many rows as there are terms, with what is left of the values beside it: the
- * least squares are the same. By blocks, so that many places hold up nobody who ends the work. */
-static enum ceduo_status reduce(const struct guess *g, const struct known *known, gsl_matrix *rows, gsl_vector *tau)
+/* What least squares are computed with: rows of terms, their values, and what they come to. */
+struct squares {
+    gsl_matrix *rows;
+    gsl_vector *values, *found;
+    gsl_multilarge_linear_workspace *work;
+};
+
+static int solve(void *context)
 {
-    size_t columns = g->terms + 1, row = columns;
-    for (size_t i = 0; i < known->n; i++) {
-        if (isfinite(known->values[i])) {
-            double *to = gsl_matrix_ptr(rows, row++, 0), root = exp((known->values[i] - known->best) / known->reach / 2);
-            fill_terms(g, known->u + i * g->dimensions, to);
-            to[g->terms] = known->values[i];
-            for (size_t k = 0; k < columns; k++)
-                to[k] *= root;
+    struct squares *s = context;
+    double left, size;
+    return gsl_multilarge_linear_solve(RIDGE, s->found, &left, &size, s->work);
+}
+
+/* By blocks, so that many places hold up nobody who ends the work. */
+static enum ceduo_status add_places(const struct guess *g, const double *u, const double *values, size_t n, double best,
+                                    double reach, const atomic_bool *cancel, struct squares *s)
+{
+    for (size_t i = 0, row = 0; i < n; i++) {
+        if (isfinite(values[i])) {
+            gsl_vector_view terms = gsl_matrix_row(s->rows, row);
+            double root = exp((values[i] - best) / reach / 2);
+            fill_terms(g, u + i * g->dimensions, terms.vector.data);
+            gsl_vector_scale(&terms.vector, root);
+            gsl_vector_set(s->values, row++, root * values[i]);
         }
-        if (row < rows->size1 && i + 1 < known->n)
+        if (row < BLOCK && i + 1 < n)
             continue;
-        if (ceduo_cancelled(known->cancel))
+        if (ceduo_cancelled(cancel))
             return CEDUO_CANCELLED;
-        gsl_linalg_QR_decomp(rows, tau);
-        for (row = 1; row < rows->size1; row++) /* below the triangle */
-            memset(gsl_matrix_ptr(rows, row, 0), 0, (row < columns ? row : columns) * sizeof(double));
-        row = columns;
+        if (row == 0) /* only the last block can be empty */
+            break;
+        gsl_matrix_view rows = gsl_matrix_submatrix(s->rows, 0, 0, row, g->terms);
+        gsl_vector_view row_values = gsl_vector_subvector(s->values, 0, row);
+        gsl_multilarge_linear_accumulate(&rows.matrix, &row_values.vector, s->work);
+        row = 0;
     }
     return CEDUO_OK;
 }
 
-/* The arguments of gsl_multifit_linear(). */
-struct squares {
-    gsl_matrix_view triangle;
-    gsl_vector_view values;
-    gsl_vector *c;
-    gsl_matrix *covariance;
-    gsl_multifit_linear_workspace *work;
-};
-
-static int fit_squares(void *context)
-{
-    struct squares *s = context;
-    double chisq;
-    return gsl_multifit_linear(&s->triangle.matrix, &s->values.vector, s->c, s->covariance, &chisq, s->work);
-}
-
-static enum ceduo_status solve(struct guess *g, gsl_matrix *rows)
-{
-    gsl_multifit_linear_workspace *work = gsl_multifit_linear_alloc(g->terms, g->terms);
-    gsl_vector *c = gsl_vector_alloc(g->terms);
-    gsl_matrix *covariance = gsl_matrix_alloc(g->terms, g->terms);
-    double *kept = malloc(g->terms * sizeof *kept);
-    bool good = work && c && covariance && kept; /* untaken 3: gsl */
-    if (good) {
-        struct squares squares = {gsl_matrix_submatrix(rows, 0, 0, g->terms, g->terms),
-                                  gsl_matrix_subcolumn(rows, g->terms, 0, g->terms), c, covariance, work};
-        int status = ceduo_gsl_try(fit_squares, &squares);
-        good = status != GSL_ENOMEM; /* untaken: gsl */
-        if (status == 0) {           /* untaken: gsl */
-            for (size_t i = 0; i < g->terms; i++)
-                kept[i] = gsl_vector_get(c, i);
-            free(g->coefficients);
-            g->coefficients = kept;
-            kept = NULL;
-        }
-    }
-    free(kept);
-    gsl_multifit_linear_free(work);
-    gsl_vector_free(c);
-    gsl_matrix_free(covariance);
-    return good ? CEDUO_OK : CEDUO_NO_MEMORY;
-}
-
 enum ceduo_status ceduo_guess_learn(struct guess *g, const double *u, const double *values, size_t n, const atomic_bool *cancel)
 {
-    struct known known = {u, values, n, .cancel = cancel};
-    double *down = malloc((n + 1) * sizeof *down);
-    if (!down)
-        return CEDUO_NO_MEMORY;
-    known.reach = n > 2 * g->terms ? reach_of(g, values, n, down, &known.best) : NAN;
+    double best, *down = malloc((n + 1) * sizeof *down), reach = down ? reach_of(g, values, n, down, &best) : NAN;
     free(down);
-    if (isnan(known.reach))
-        return CEDUO_OK;
-    gsl_matrix *rows = gsl_matrix_calloc(g->terms + 1 + BLOCK, g->terms + 1);
-    gsl_vector *tau = gsl_vector_alloc(g->terms + 1);
-    enum ceduo_status status = rows && tau ? reduce(g, &known, rows, tau) : CEDUO_NO_MEMORY; /* untaken 2: gsl */
+    if (!down || isnan(reach))
+        return down ? CEDUO_OK : CEDUO_NO_MEMORY;
+    struct squares s = {gsl_matrix_alloc(BLOCK, g->terms), gsl_vector_alloc(BLOCK), gsl_vector_alloc(g->terms),
+                        gsl_multilarge_linear_alloc(gsl_multilarge_linear_tsqr, g->terms)};
+    double *kept = malloc(g->terms * sizeof *kept);
+    enum ceduo_status status =
+        s.rows && s.values && s.found && s.work && kept ? CEDUO_OK : CEDUO_NO_MEMORY; /* untaken 4: gsl */
     if (status == CEDUO_OK)
-        status = solve(g, rows);
-    gsl_matrix_free(rows);
-    gsl_vector_free(tau);
-    return status;
+        status = add_places(g, u, values, n, best, reach, cancel, &s);
+    int solved = status == CEDUO_OK ? ceduo_gsl_try(solve, &s) : GSL_FAILURE;
+    if (solved == GSL_SUCCESS) {
+        memcpy(kept, s.found->data, g->terms * sizeof *kept);
+        free(g->coefficients);
+        g->coefficients = kept;
+    } else {
+        free(kept);
+    }
+    gsl_matrix_free(s.rows);
+    gsl_vector_free(s.values);
+    gsl_vector_free(s.found);
+    if (s.work)
+        gsl_multilarge_linear_free(s.work);
+    return solved == GSL_ENOMEM ? CEDUO_NO_MEMORY : status; /* untaken: gsl */
 }
 
 double ceduo_guess_at(const struct guess *g, const double *u)
 {
-    double sum = 0;
+    double sum = 0, terms[TERMS_MAX];
     if (!g->coefficients)
         return 0;
-    const double *c = g->coefficients;
-    sum += *c++;
-    for (size_t i = 0; i < g->dimensions; i++)
-        sum += *c++ * (u[i] - 0.5);
-    for (size_t i = 0; i < g->dimensions; i++)
-        for (size_t k = 0; k <= i; k++)
-            sum += *c++ * (u[i] - 0.5) * (u[k] - 0.5);
+    fill_terms(g, u, terms);
+    for (size_t i = 0; i < g->terms; i++)
+        sum += g->coefficients[i] * terms[i];
     return sum;
 }

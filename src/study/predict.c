@@ -3,7 +3,6 @@
  * the error of the simulated rocks; how often they lie as far from the simulated rocks as what was seen, is p. The rocks are
  * others than those of the fit: it prefers values whose rocks happen to do what was seen. */
 #include <gsl/gsl_randist.h>
-#include <gsl/gsl_rng.h>
 #include <gsl/gsl_sort.h>
 #include <math.h>
 #include <stdlib.h>
@@ -13,6 +12,7 @@
 #include "base/parallel.h"
 #include "ceduo/statistics.h"
 #include "fitting.h"
+#include "sequence.h"
 
 #define SAMPLES      20     /* for each draw; not more than CEDUO_SOME_VALUES */
 #define SINGLE_LEAST 400    /* values that tell 95 % of them */
@@ -192,12 +192,12 @@ enum ceduo_status ceduo_fitting_predict(struct fitting *f, struct ceduo_calibrat
     size_t d = a->parameters_count, most = CEDUO_CALIBRATION_DRAWS;
     size_t draws = a->draws_count < most ? a->draws_count : most;
     double *places = calloc((draws + 1) * d, sizeof *places), *values = calloc(draws * CEDUO_SOME_VALUES + 1, sizeof *values);
-    gsl_rng *random = gsl_rng_alloc(gsl_rng_mt19937);
+    struct sequence sequence;
+    gsl_rng random = ceduo_sequence(&sequence, f->def->seed, CEDUO_CALIBRATION_CHAINS);
     f->drawn = calloc((draws + 1) * f->all_count + 1, sizeof *f->drawn);
     a->predicted = calloc(f->all_count + 1, sizeof *a->predicted);
     a->predicted_count = f->all_count;
-    /* untaken: gsl */
-    enum ceduo_status status = places && values && random && f->drawn && a->predicted ? CEDUO_OK : CEDUO_NO_MEMORY;
+    enum ceduo_status status = places && values && f->drawn && a->predicted ? CEDUO_OK : CEDUO_NO_MEMORY;
     for (size_t k = 0; k <= draws && status == CEDUO_OK; k++)
         for (size_t i = 0; i < d; i++) {
             const struct ceduo_input *input = &f->def->scenes[0].inputs[i];
@@ -210,11 +210,8 @@ enum ceduo_status ceduo_fitting_predict(struct fitting *f, struct ceduo_calibrat
             f->workers[w].copies[s].scene.simulation.seed ^= OTHER_ROCKS;
     if (status == CEDUO_OK)
         status = (enum ceduo_status)ceduo_parallel(&(struct parallel){draws + 1, f->def->threads, look_at_draw, f});
-    if (status == CEDUO_OK) {
-        gsl_rng_set(random, (unsigned long)f->def->seed + 1);
-        read_all(f, draws, random, values, a);
-    }
-    gsl_rng_free(random);
+    if (status == CEDUO_OK)
+        read_all(f, draws, &random, values, a);
     free(places);
     free(values);
     free(f->drawn);
@@ -231,20 +228,18 @@ enum ceduo_status ceduo_calibration_as_it_is(const struct ceduo_calibration_scen
     struct ceduo_observer *observer = NULL;
     struct ceduo_counterpart *found = calloc(n + 1, sizeof *found);
     double *values = calloc(SAMPLES_ONE, sizeof *values);
-    gsl_rng *random = gsl_rng_alloc(gsl_rng_mt19937);
-    enum ceduo_status status = found && values && random ? CEDUO_OK : CEDUO_NO_MEMORY; /* untaken: gsl */
+    struct sequence sequence;
+    gsl_rng random = ceduo_sequence(&sequence, scene->scene->simulation.seed, CEDUO_CALIBRATION_CHAINS);
+    enum ceduo_status status = found && values ? CEDUO_OK : CEDUO_NO_MEMORY;
     if (status == CEDUO_OK)
         status = ceduo_observer_create(scene->observations, n, &observer);
     if (status == CEDUO_OK)
         status = ceduo_observer_look(observer, scene->scene, rocks, cancel, found);
-    if (status == CEDUO_OK)
-        gsl_rng_set(random, (unsigned long)scene->scene->simulation.seed + 1);
     for (size_t i = 0; i < n && status == CEDUO_OK; i++) {
         to[i] = (struct ceduo_predicted){.observation = i, .at_best = found[i], .one_lo = NAN, .one_hi = NAN};
-        read_one(&(struct drawn){&found[i], 0, 1, SAMPLES_ONE}, &scene->observations[i], random, values, &to[i]);
+        read_one(&(struct drawn){&found[i], 0, 1, SAMPLES_ONE}, &scene->observations[i], &random, values, &to[i]);
     }
     ceduo_observer_free(observer);
-    gsl_rng_free(random);
     free(values);
     free(found);
     return status;

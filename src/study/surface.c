@@ -24,9 +24,9 @@
 
 #include "base/arena.h"
 #include "base/gsl_errors.h"
-#include "base/hash.h"
 #include "ceduo/doubt.h"
 #include "ceduo/statistics.h"
+#include "core/walk/random.h"
 
 #define GROUPS      CEDUO_SURFACE_GROUPS
 #define COORDINATES 40  /* of GSL's Sobol' points */
@@ -36,20 +36,10 @@
 #define TABLE_MAX   12  /* functions of an input that is a table */
 #define RIDGES      56  /* that are tried */
 #define SAME        1e-8
+#define SHIFT       UINT64_MAX /* the row of the shifts of Sobol' points */
 #define ENOUGH      CEDUO_DOUBT_EXPLAINED
 
 /* ---- points ---- */
-
-/* Uniform in [0, 1), by seed, row and column. */
-static double hashed(uint64_t seed, uint64_t row, uint64_t column)
-{
-    uint64_t hash = HASH_START;
-    hash_count(&hash, seed);
-    hash_count(&hash, row);
-    hash_count(&hash, column);
-    hash_count(&hash, column); /* once more: the last one mixed in reaches the high bits only */
-    return (double)(hash >> 11) * 0x1p-53;
-}
 
 enum ceduo_status ceduo_surface_points(uint64_t seed, size_t points, size_t inputs, double *u)
 {
@@ -62,7 +52,8 @@ enum ceduo_status ceduo_surface_points(uint64_t seed, size_t points, size_t inpu
     for (size_t row = 0; row < points; row++) {
         gsl_qrng_get(sequence, sobol);
         for (size_t i = 0; i < inputs; i++) {
-            double x = i < coordinates ? sobol[i] + hashed(seed, UINT64_MAX, i) : hashed(seed, row, i);
+            double shift = random_pair(seed, i < coordinates ? SHIFT : row, i, RANDOM_POINT).u[0];
+            double x = shift + (i < coordinates ? sobol[i] : 0);
             u[row * inputs + i] = x - floor(x);
         }
     }
@@ -219,7 +210,7 @@ enum ceduo_status ceduo_surface_open(const struct ceduo_input *inputs, size_t n,
     bool good = s->of && s->functions && s->multipliers;
     for (size_t b = 0; good && b < SAMPLES; b++)
         for (size_t p = 0; p < points; p++)
-            s->multipliers[b * points + p] = gsl_cdf_ugaussian_Pinv(hashed(b, p, 0) * (1 - 0x1p-53) + 0x1p-54);
+            s->multipliers[b * points + p] = gsl_cdf_ugaussian_Pinv(random_open(b, p, 0, RANDOM_SAMPLE));
     for (size_t i = 0; good && i < n; i++)
         good = make_functions(s, i);
     return good ? CEDUO_OK : CEDUO_NO_MEMORY;
@@ -693,7 +684,7 @@ static void draw_values(const struct solution *f, const struct column *c, size_t
     for (size_t i = 0; i < f->b->chosen.n; i++) {
         size_t input = f->b->chosen.used[i];
         const struct inputs_functions *of = &s->of[input];
-        double shift = hashed(sample, UINT64_MAX, input), at[TABLE_MAX];
+        double shift = random_pair(sample, SHIFT, input, RANDOM_SAMPLE).u[0], at[TABLE_MAX];
         for (size_t p = 0; p < points; p++) {
             double u = s->u[p * s->inputs_count + input] + shift;
             functions_at(of, u - floor(u), at);
@@ -702,7 +693,7 @@ static void draw_values(const struct solution *f, const struct column *c, size_t
         }
     }
     for (size_t p = 0; p < points; p++) {
-        size_t other = (size_t)(hashed(sample, p, 1) * (double)points);
+        size_t other = (size_t)(random_pair(sample, p, 0, RANDOM_SAMPLE).u[1] * (double)points);
         values[p] = c->means[GROUPS] + f->kept * remains_of(f, GROUPS)[other] / sqrt(1 - f->leverage[other]);
     }
     for (size_t j = 0; j < f->b->terms.n; j++) {
@@ -837,7 +828,7 @@ static enum ceduo_status read_points(const struct column *c, struct ceduo_surfac
     read_values(c, fit->values);
     for (size_t b = 0; b < SAMPLES; b++) {
         for (size_t p = 0; p < c->points; p++)
-            room[p] = fit->values[(size_t)(hashed(b, p, 1) * (double)c->points)];
+            room[p] = fit->values[(size_t)(random_pair(b, p, 0, RANDOM_SAMPLE).u[1] * (double)c->points)];
         add_sample(&band, c, room);
     }
     set_band(fit, &band);

@@ -167,8 +167,8 @@ static struct chains made(double apart, double phi)
                 z = (z ^ z >> 27) * 0x94d049bb133111ebu;
                 sum += (double)((z ^ z >> 31) >> 11) * 0x1p-53;
             }
-            double before = i > 0 ? c.x[k * STEPS + i - 1] - apart * (double)k : 0;
-            c.x[k * STEPS + i] = phi * before + sqrt(1 - phi * phi) * sum + apart * (double)k;
+            double before = i > 0 ? c.x[4 * (i - 1) + k] - apart * (double)k : 0;
+            c.x[4 * i + k] = phi * before + sqrt(1 - phi * phi) * sum + apart * (double)k;
         }
     return c;
 }
@@ -201,7 +201,7 @@ TEST(draws_that_hang_together_count_less)
  * two draws: means 4, 2, 9, 2 and variances 8, 2, 0, 8, so that W = 4.5, B/n = 131/12 and R-hat² = (W/2 + B/n)/W. */
 TEST(short_chains_by_hand)
 {
-    double rhat, size, x[] = {100, 100, 100, 100, 1, 3, 2, 6, 100, 100, 100, 100, 0, 4, 9, 9};
+    double rhat, size, x[] = {100, 100, 100, 100, 100, 100, 100, 100, 1, 0, 3, 4, 2, 9, 6, 9};
     const struct chains c = {.dimensions = 1, .chains = 2, .steps = 8, .room = 8, .x = x};
     ceduo_chains_diagnose(&c, 0, &rhat, &size);
     EXPECT_NEAR(rhat, sqrt((4.5 / 2 + 131. / 12) / 4.5), 1e-12);

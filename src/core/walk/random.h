@@ -16,7 +16,10 @@ enum random_kind {
     RANDOM_SECTION, /* which section of a rock meets the ground, of law arm */
     RANDOM_TURN,    /* how it is turned at a contact */
     RANDOM_SIZE,    /* where the sequence of sizes starts, of no rock */
-    RANDOM_GROUP    /* where a tree of a group stands; its number from bit 8 on */
+    RANDOM_GROUP,   /* where a tree of a group stands; its number from bit 8 on */
+    RANDOM_POINT,   /* where a study looks: rows and columns in the place of rocks and events */
+    RANDOM_SAMPLE,  /* of its bootstrap likewise: samples and points */
+    RANDOM_SEQUENCE /* numbers one after the other: streams and numbers */
 };
 
 #define HALF_TURN 3.141592653589793 /* rad */
