@@ -261,6 +261,7 @@ static void print_stand(const struct writer *w)
 {
     const struct ceduo_survey_answer *a = w->answer;
     LOCAL_TEXT(what);
+    remark(w);
     bool stems = a->stools.mean > 0 || a->per_ha[CEDUO_SURVEY_STANDARD].mean + a->per_ha[CEDUO_SURVEY_TREE].mean > 0;
     ceduo_text_put(w->out, "ceduo: stand/1\nname: ");
     ceduo_emit_scalar(w->out, w->file->name, true);
@@ -341,10 +342,8 @@ bool ceduo_survey_stand(const struct survey_file *file, struct text *yaml, struc
         w.area += file->survey.areas[i];
     w.stumps = !isnan(answer.stump_height) && !isnan(answer.stump_energy);
     bool good = check(&w, problems);
-    if (good) {
-        remark(&w);
+    if (good)
         print_stand(&w);
-    }
     ceduo_survey_free(&answer);
     return good && ceduo_problems_settle(problems);
 }

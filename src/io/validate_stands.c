@@ -91,8 +91,8 @@ static void check_stand(struct validator *v, const char *path, struct ceduo_stan
                        _("stools without shoots; add 'shoots', or 'growth' if they were just cut, or remove the "
                          "stools"));
     else if (ceduo_stand_has_shoots(s) && ceduo_stand_shoots(s) < s->stools_per_ha * (1 - 1e-12)) /* .4 and .6 per stool */
-        ceduo_complain(v, path, "stools.per_ha", _("%s shoots on %s stools: a stool has one shoot at least"),
-                       ceduo_decimal(v, ceduo_stand_shoots(s)), ceduo_decimal(v, s->stools_per_ha));
+        ceduo_complain(v, path, "stools.per_ha", _("%.6g shoots on %.6g stools: a stool has one shoot at least"),
+                       ceduo_stand_shoots(s), s->stools_per_ha);
 }
 
 /* Whether a stand with the name of the file that it was read from says what that says, but for name and source. */

@@ -239,7 +239,7 @@ void ceduo_calibration_page(struct text *text, const struct ceduo_calibration_re
         const struct ceduo_observation *o = ceduo_seen_of(r, p);
         double origin = r->files[p->scene].scene.slope.origin_x;
         append_name(ceduo_page_text(&page), r, p);
-        ceduo_page_write(&page, "%s", o->use == CEDUO_OBSERVED_FIT ? "fit" : "check");
+        ceduo_page_write(&page, "%s", o->use == CEDUO_OBSERVED_FIT ? _("fit") : _("check"));
         ceduo_page_write(&page, "%zu", ceduo_seen_number(o));
         ceduo_page_write(&page, "%s", WRITTEN(ceduo_seen_shown(o->kind, p->seen, origin), 3));
         append_range(ceduo_page_text(&page), ceduo_seen_shown(o->kind, p->lo, origin),

@@ -59,9 +59,11 @@ void ceduo_doubt_input_name(struct text *text, const struct ceduo_doubt_report *
                           strtoul(strchr(shoots ? shoots : trees, '[') + 1, NULL, 10) + 1, label);
     for (size_t k = 1; stand && k < input->places_count; k++) /* of the stand that all places are in */
         stand = ceduo_input_belt(&r->file->scene, input->places[k]) == belt ? stand : NULL;
-    if (strncmp(input->path, GROUND, sizeof GROUND - 1) == 0)
-        ceduo_text_format(text, ", %.*s", (int)strcspn(ground, "]"), ground);
-    else if (stand && stand->name && input->kind != CEDUO_INPUT_WORDS) {
+    LOCAL_TEXT(material);
+    if (strncmp(input->path, GROUND, sizeof GROUND - 1) == 0) {
+        ceduo_text_add(&material, ground, strcspn(ground, "]"));
+        ceduo_text_format(text, ", %s", _(ceduo_text_string(&material)));
+    } else if (stand && stand->name && input->kind != CEDUO_INPUT_WORDS) {
         ceduo_text_put(text, ", ");
         ceduo_text_safe(text, stand->name);
     } else if (strncmp(place, "slope.segments[", 15) == 0 && input->places_count > 1) {
