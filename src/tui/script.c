@@ -13,13 +13,13 @@
 #include "program.h"
 #include "view/svg.h"
 
-/* Of the word its beginning: it may be no script. */
-static enum script_end fail(const char *path, size_t line, const char *what, const char *word)
+/* Of the word its first `most` bytes: it may be no script. */
+static enum script_end fail(const char *path, size_t line, const char *what, const char *word, size_t most)
 {
     LOCAL_TEXT(message);
     ceduo_text_safe(&message, path);
     ceduo_text_format(&message, ":%zu: %s: ", line, what);
-    ceduo_text_safe_n(&message, word, ceduo_utf8_cut(word, CEDUO_FOREIGN_MOST));
+    ceduo_text_safe_n(&message, word, ceduo_utf8_cut(word, most));
     fprintf(stderr, "%s\n", message.bytes);
     return SCRIPT_WRONG;
 }
@@ -48,7 +48,7 @@ static enum script_end dump(struct app *app, const char *what, const char *name,
     bool good = strcmp(name, "-") == 0 ? fputs(drawing.bytes, stdout) >= 0 && fflush(stdout) == 0
                                        : ceduo_file_write(name, drawing.bytes, drawing.length);
     if (!good)
-        fail(path, line, strerror(errno), name);
+        fail(path, line, strerror(errno), name, SIZE_MAX);
     return good ? SCRIPT_DONE : SCRIPT_UNWRITTEN;
 }
 
@@ -64,7 +64,7 @@ static enum script_end obey(struct app *app, char *command, const char *path, si
         for (char *name = strtok_r(rest, " \t", &save); name; name = strtok_r(NULL, " \t", &save)) {
             int key = ceduo_key_of(name);
             if (key == K_NONE)
-                return fail(path, line, _("no such key"), name);
+                return fail(path, line, _("no such key"), name, CEDUO_FOREIGN_MOST);
             press_key(app, key);
         }
     } else if (strcmp(command, "type") == 0) {
@@ -80,13 +80,13 @@ static enum script_end obey(struct app *app, char *command, const char *path, si
         int width, height, used = 0;
         if (sscanf(rest, "%d %d%n", &width, &height, &used) != 2 || rest[used] || width < 1 || height < 1 ||
             width > CEDUO_CANVAS_MAX_WIDTH || height > CEDUO_CANVAS_MAX_HEIGHT)
-            return fail(path, line, _("a width and a height are wanted"), rest);
+            return fail(path, line, _("a width and a height are wanted"), rest, CEDUO_FOREIGN_MOST);
         ceduo_app_resize(app, width, height);
     } else if (strcmp(command, "wait") == 0 && strcmp(rest, "idle") == 0) {
         ceduo_jobs_wait(app->live.jobs);
         ceduo_program_news(app);
     } else {
-        return fail(path, line, _("key, type, resize, wait idle, dump, roles or draw is wanted"), command);
+        return fail(path, line, _("key, type, resize, wait idle, dump, roles or draw is wanted"), command, CEDUO_FOREIGN_MOST);
     }
     return SCRIPT_DONE;
 }

@@ -86,13 +86,15 @@ void ceduo_page_today(struct ceduo_page *page, const struct ceduo_result *r)
 
 /* ---- over the years ---- */
 
-/* `known`: false also where nothing can be said. */
-static void add_fails(struct ceduo_page *page, const struct ceduo_choice *c, size_t fails, bool known)
+void ceduo_page_worst(struct ceduo_page *page, const struct ceduo_choice *c)
 {
-    if (known)
-        ceduo_page_write(page, "%zu/%zu", fails, c->years);
-    else
-        ceduo_page_write(page, "-");
+    ceduo_page_write(page, c->years > 0 ? "%s (%u)" : "-",
+                     c->flown > 0 ? WRITTEN(1000 * c->worst.mean, 0) : WRITTEN(c->worst.mean, 3), c->worst_year);
+}
+
+void ceduo_page_fails(struct ceduo_page *page, const struct ceduo_choice *c, size_t fails, bool known)
+{
+    ceduo_page_write(page, known && c->years > 0 ? "%zu/%zu" : "-", fails, c->years);
 }
 
 static void add_choice(struct ceduo_page *page, const char *name, const struct ceduo_choice *c)
@@ -101,14 +103,12 @@ static void add_choice(struct ceduo_page *page, const char *name, const struct c
     if (c->flown > 0) {
         const struct ceduo_measure mean = ceduo_share(c->mean);
         ceduo_measure_error(ceduo_page_text(page), &mean, " ");
-        ceduo_page_write(page, "%.0f (%u)", c->worst.mean * 1000, c->worst_year);
-    } else {
-        ceduo_page_write(page, "%s (%u)", WRITTEN(c->worst.mean, 3), c->worst_year);
     }
-    add_fails(page, c, c->no_contact, !c->nothing);
-    add_fails(page, c, c->free_runs, !c->nothing);
+    ceduo_page_worst(page, c);
+    ceduo_page_fails(page, c, c->no_contact, !c->nothing);
+    ceduo_page_fails(page, c, c->free_runs, !c->nothing);
     if (c->flown > 0)
-        add_fails(page, c, c->too_much, c->energy_known);
+        ceduo_page_fails(page, c, c->too_much, c->energy_known);
     ceduo_page_number(page, c->yield.cut_per_year, 2);
     ceduo_page_number(page, c->yield.standing, 3);
 }

@@ -40,6 +40,10 @@ void ceduo_page_years(struct ceduo_page *page, const struct ceduo_report *report
 void ceduo_page_years_words(struct ceduo_page *page, const struct ceduo_result *result, const struct ceduo_years *years);
 void ceduo_page_comparison(struct ceduo_page *page, const struct ceduo_report *report);
 void ceduo_page_today(struct ceduo_page *page, const struct ceduo_result *result); /* of that the table as filed */
+/* Cells of an option over the years: "812 (17)", what arrives in the worst year, or the ADC by the index, and which year that is;
+ * "3/30", years in which a test fails. "-" where it is not known. */
+void ceduo_page_worst(struct ceduo_page *page, const struct ceduo_choice *choice);
+void ceduo_page_fails(struct ceduo_page *page, const struct ceduo_choice *choice, size_t fails, bool known);
 
 /* The energy law of the scene against the other one; nothing where that is not known. */
 void ceduo_page_laws(struct ceduo_page *page, const struct ceduo_result *result);

@@ -119,18 +119,18 @@ static void add_choice(struct ceduo_page *page, const struct ceduo_report *repor
     const struct ceduo_result *r = report->result;
     const struct ceduo_choice *v = &report->verdict->choices[i];
     struct ceduo_measure today = ceduo_judged(&r->scene->controls[r->last_control], ceduo_result_wooded(r, i, r->last_control));
-    struct ceduo_measure mean = today;
-    bool years = form_of(report) != TODAY_ALONE, known = v->flown > 0 && !v->nothing;
+    struct ceduo_measure mean = ceduo_share(v->mean);
+    bool years = form_of(report) != TODAY_ALONE;
     ceduo_measure_doubt(&today, report->doubt, i, r->last_control);
     ceduo_measure_doubt_over(&mean, report->doubt, i);
     ceduo_page_write(page, "%s", r->scene->options[i].name);
     if (years)
-        ceduo_page_write(page, known ? "%.0f" : "-", 1000 * v->mean.mean);
+        ceduo_measure_value(ceduo_page_text(page), &mean);
     if (form_of(report) == BY_MEAN)
         add_span(page, &mean);
     if (years) {
-        ceduo_page_write(page, known ? "%.0f (%u)" : "-", 1000 * v->worst.mean, v->worst_year);
-        ceduo_page_write(page, known && v->energy_known ? "%zu/%zu" : "-", v->too_much, v->years);
+        ceduo_page_worst(page, v);
+        ceduo_page_fails(page, v, v->too_much, v->energy_known);
     }
     ceduo_measure_value(ceduo_page_text(page), &today);
     if (form_of(report) != BY_MEAN)
@@ -159,12 +159,9 @@ static void add_options(struct ceduo_page *page, const struct ceduo_report *repo
     const struct ceduo_result *r = report->result;
     const struct ceduo_measure bare = ceduo_judged(&r->scene->controls[r->last_control], &r->bare.arrivals[r->last_control]);
     enum form form = form_of(report);
-    if (form == BY_TODAY)
-        CEDUO_PAGE_TABLE_OF(page, by_today);
-    else if (form == BY_MEAN)
-        CEDUO_PAGE_TABLE_OF(page, by_mean);
-    else
-        CEDUO_PAGE_TABLE_OF(page, alone);
+    const struct ceduo_page_column *const columns[] = {by_today, by_mean, alone};
+    ceduo_page_table(page, columns[form],
+                     form == TODAY_ALONE ? sizeof alone / sizeof alone[0] : sizeof by_mean / sizeof by_mean[0]);
     ceduo_measure_name(ceduo_page_text(page), &bare, CEDUO_HEAD);
     for (size_t i = 0; below[form][i]; i++)
         ceduo_page_write(page, "%s", below[form][i]);

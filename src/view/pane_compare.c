@@ -31,13 +31,14 @@ static const struct ceduo_page_column columns[COLUMNS] = {
 
 #define PENDING "\xe2\x80\xa6"
 
-static void add_share(struct ceduo_page *page, struct ceduo_portion share)
+static struct text *add_share(struct ceduo_page *page, const struct ceduo_measure *share)
 {
-    const struct ceduo_measure m = ceduo_share(share);
-    if (isnan(share.mean))
-        ceduo_page_write(page, PENDING);
+    struct text *text = ceduo_page_text(page);
+    if (isnan(share->value))
+        ceduo_text_put(text, PENDING);
     else
-        ceduo_measure_error(ceduo_page_text(page), &m, "");
+        ceduo_measure_error(text, share, "");
+    return text;
 }
 
 /* The years at a glance: a column for each, or of several that share one the worst; as high as what gets through. */
@@ -66,12 +67,11 @@ static bool knows_rotation(const struct ceduo_pane *pane)
 /* "296±7 (219–327)": the mean over the rotation, with what may be true of it. */
 static void add_mean(struct ceduo_page *page, const struct ceduo_pane *pane, size_t i)
 {
-    struct ceduo_measure mean = ceduo_judged(&pane->result->scene->controls[pane->result->last_control], NULL);
-    add_share(page, pane->verdict->choices[i].mean);
+    struct ceduo_measure mean = ceduo_share(pane->verdict->choices[i].mean);
+    struct text *text = add_share(page, &mean);
     ceduo_measure_doubt_over(&mean, pane->doubt, i);
     if (!knows_rotation(pane) || isnan(mean.may_lo))
         return;
-    struct text *text = &page->last->cells[page->last->cells_count - 1].text;
     ceduo_text_put(text, " (");
     ceduo_measure_may_be(text, &mean);
     ceduo_text_char(text, ')');
@@ -85,11 +85,12 @@ static void add_option(struct ceduo_page *page, const struct ceduo_pane *pane, s
     const struct ceduo_index *index = ceduo_result_last_index(r, i);
     const struct ceduo_arrivals *a = ceduo_result_wooded(r, i, r->last_control);
     ceduo_page_mark(page, i == pane->option ? CEDUO_ROLE_CURSOR : CEDUO_ROLE_TEXT, r->scene->options[i].name);
+    struct ceduo_measure judged = ceduo_judged(&r->scene->controls[r->last_control], a);
+    const struct ceduo_measure today = ceduo_share(c->today); /* its error is right where rocks have weights, too */
     if (v->wooded)
-        add_share(page, c->today);
+        add_share(page, &today);
     else
         ceduo_page_write(page, "%s", BESIDE(index->worst_adc, 3, r->scene->simulation.threshold));
-    struct ceduo_measure judged = ceduo_judged(&r->scene->controls[r->last_control], a);
     struct text *may_be = ceduo_page_text(page);
     ceduo_measure_doubt(&judged, pane->doubt, i, r->last_control);
     if (!isnan(judged.may_lo) && !knows_rotation(pane))
@@ -108,18 +109,16 @@ static void add_option(struct ceduo_page *page, const struct ceduo_pane *pane, s
     for (size_t k = 0; k < v->n; k++)
         worst &= k == i || v->choices[k].mean.mean + v->choices[k].mean.half < c->mean.mean - c->mean.half;
     ceduo_page_mark(page, best ? CEDUO_ROLE_GOOD : CEDUO_ROLE_BAD, best ? _("best") : worst ? _("worst") : "");
-    if (c->years == 0)
+    if (c->years == 0) {
         ceduo_page_write(page, PENDING);
-    else if (v->wooded)
-        ceduo_page_write(page, "%.0f (%u)", c->worst.mean * 1000, c->worst_year);
-    else
-        ceduo_page_number(page, c->worst.mean, 3);
-    if (c->years == 0)
         ceduo_page_write(page, PENDING);
-    else if (!c->nothing && (!v->wooded || c->energy_known))
-        ceduo_page_write(page, "%zu/%zu", v->wooded ? c->too_much : c->no_contact, c->years);
-    else
-        ceduo_page_write(page, "-");
+    } else {
+        if (v->wooded)
+            ceduo_page_worst(page, c);
+        else
+            ceduo_page_number(page, c->worst.mean, 3);
+        ceduo_page_fails(page, c, v->wooded ? c->too_much : c->no_contact, v->wooded ? c->energy_known : !c->nothing);
+    }
     ceduo_page_number(page, c->yield.cut_per_year, 2);
     ceduo_page_light(page, index->contact);
     ceduo_page_light(page, index->free_run);

@@ -69,6 +69,17 @@ def test_figures():
     expect_in(f"; {band} by what is not known.", " ".join(page.split()), "how sure")
 
 
+def test_over_the_years():
+    """What may be true of the mean over the years stands beside that mean: the band is its own, with the mean, not with today's figure"""
+    figures = good("--sensitivity", "--years", "-f", "json", "-n", 100, "rotation").json()[0]["figures"]
+    page = good("--batch", "--years", "-n", 100, "rotation").out
+    for name in ("simple coppice", "coppice with standards", "selection coppice", "large reserves"):
+        doubt = next(f for f in figures if f["figure"] == "rotation.exceed_probability" and f["option"] == name and not f["against"])
+        mean, *band = map(int, re.search(rf"^  {name} +(\d+) +(\d+)–(\d+) ", page, re.M).groups())
+        lo, hi = (round(1000 * doubt[end]) for end in ("doubt_p5", "doubt_p95"))
+        expect_equal(band, [min(mean, lo), max(mean, hi)], name)
+
+
 def test_answers():
     """Yes, no, it depends, nothing, no limit: each has its words, and says what is not known where that was not computed"""
     with Folder() as f:
