@@ -319,11 +319,11 @@ def test_table_changed():
         for change, said in (("accepted_kJ=60", "; changed since: accepted_kJ"), ("accepted_kJ=50", ""), ("name=road", ""),
                              ("source={kind: assumed}", "")):
             text = " ".join(good("--batch", "--details", path, "-s", f"controls[0].{change}").out.split())
-            expect_in(f"all a guess{said} (controls[", text, change)
+            expect_in(f"all a guess{said} (control", text, change)
         for change, star in (("x_m=70", "50 kJ*"), ("accepted_kJ=50", "50 kJ*"), ("accepted_kJ=60", "60 kJ\n")):
             expect_in(f"withstands {star}", good("--batch", "--details", path, "-s", f"controls[0].{change}").out, "its star")
         twice = good("--batch", "--details", path, "-s", "controls[0].accepted_kJ=60", "-s", "controls[0].x_m=70", "-s", "controls[0].x_m=71")
-        expect_in("all a guess; changed since: accepted_kJ, x_m (controls[0])", " ".join(twice.out.split()))
+        expect_in("all a guess; changed since: accepted_kJ, x_m (control)", " ".join(twice.out.split()))
         whole = good("--batch", "--details", path, "-s", "controls=[{x_m: 75, accepted_kJ: 60}]").out
         expect("guess" not in whole, whole)
         plain = f.write("plain.yaml", scene(controls=[{"x_m": 75, "accepted_kJ": 60}, {"x_m": 80}]))
@@ -333,8 +333,8 @@ def test_table_changed():
             {"from_m": 10, "to_m": 60, "source": {"kind": "assumed", "text": "belt"}, "stand": stand(source=note)}]))
         text = " ".join(good("--batch", "--details", path, "-s", "forest[0].stand.stools.per_ha=1000", "-s",
                              "forest[0].stand.trees[0].per_ha=9", "--seed", 5, "-s", "controls[0].x_m=70").out.split())
-        for words in ("outer; changed since: controls (the scene)", "belt (forest[0])",
-                      "all a guess; changed since: stools.per_ha, trees (forest[0].stand)"):
+        for words in ("outer; changed since: controls (the scene)", "belt (stand)",
+                      "all a guess; changed since: stools.per_ha, trees (stand)"):
             expect_in(words, text)
 
 
