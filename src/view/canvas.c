@@ -87,7 +87,7 @@ static void put_axis(void *to, const struct ceduo_frame *frame, bool bottom, int
     }
 }
 
-const struct ceduo_surface ceduo_cells_surface = {.line = put_line, .bar = put_bar, .axis = put_axis};
+const struct ceduo_surface ceduo_cells_surface = {.margin = 0.5, .line = put_line, .bar = put_bar, .axis = put_axis};
 
 /* ---- Frames ---- */
 
@@ -195,13 +195,13 @@ static void draw_line(struct ceduo_canvas *canvas, const struct ceduo_frame *fra
                       double bx, double by)
 {
     struct ceduo_position a, b;
-    double lo = 0, hi = 1;
+    double lo = 0, hi = 1, margin = canvas->surface->margin;
     if (!place(frame, &pen->raster, ax, ay, &a) || !place(frame, &pen->raster, bx, by, &b))
         return;
     double dx = b.x - a.x, dy = b.y - a.y;
-    if (isfinite(dx) && isfinite(dy) && clip_edge(-dx, a.x + 0.5, &lo, &hi) &&
-        clip_edge(dx, pen->raster.nx - 0.5 - a.x, &lo, &hi) && clip_edge(-dy, a.y + 0.5, &lo, &hi) &&
-        clip_edge(dy, pen->raster.ny - 0.5 - a.y, &lo, &hi))
+    if (isfinite(dx) && isfinite(dy) && clip_edge(-dx, a.x + margin, &lo, &hi) &&
+        clip_edge(dx, pen->raster.nx - 1 + margin - a.x, &lo, &hi) && clip_edge(-dy, a.y + margin, &lo, &hi) &&
+        clip_edge(dy, pen->raster.ny - 1 + margin - a.y, &lo, &hi))
         canvas->surface->line(canvas->to, pen, (struct ceduo_position){a.x + lo * dx, a.y + lo * dy},
                               (struct ceduo_position){a.x + hi * dx, a.y + hi * dy});
 }

@@ -71,6 +71,7 @@ struct ceduo_tick {
 };
 
 struct ceduo_surface {
+    double margin; /* dots that a line may reach beyond the middles of the outermost ones: on cells half of one */
     void (*line)(void *to, struct ceduo_pen *pen, struct ceduo_position a, struct ceduo_position b); /* within the raster */
     void (*bar)(void *to, int column, int row, int width, double fraction, enum ceduo_role role);
     /* A line with ticks, in the column left of the frame or in the row below it, and the ticks' labels beside it. */
