@@ -103,7 +103,7 @@ static void add_head(struct ceduo_page *page, const struct ceduo_report_head *he
 
 #define SLOPE_ROWS  19
 #define SLOPE_LEAST 12 /* where tables of several options follow */
-#define STRIP_ROWS  11
+#define STRIP_ROWS  10
 
 static void add_slope(struct ceduo_page *page, const struct ceduo_chapter *c)
 {
@@ -143,7 +143,7 @@ static void add_percentiles(struct ceduo_page *page, const struct ceduo_chapter 
     }
 }
 
-#define YEARS_ROWS 12
+#define YEARS_ROWS 10
 
 /* The option that is best over the years. */
 static void add_years(struct ceduo_page *page, const struct ceduo_chapter *c)
@@ -235,7 +235,7 @@ static void add_origin(struct ceduo_page *page, const struct ceduo_chapter *c)
     ceduo_arena_free(&arena);
 }
 
-#define HAZARD_ROWS 10
+#define HAZARD_ROWS 9
 
 /* How often at each place, and at the last one as curves. */
 static void add_hazard(struct ceduo_page *page, const struct ceduo_chapter *c)
