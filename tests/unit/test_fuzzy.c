@@ -20,10 +20,10 @@ TEST(beginnings_and_runs_are_better)
 TEST(the_best_stands_first)
 {
     struct picker p = {0};
-    ceduo_picker_add(&p, "beech-large-reserves", "1", false);
-    ceduo_picker_add(&p, "large-reserves", "2", true);
-    ceduo_picker_add(&p, "large-reserves-cut", "3", false);
-    ceduo_picker_add(&p, "bare", "4", false);
+    ceduo_picker_add(&p, "beech-large-reserves", "beech-large-reserves", "1", false);
+    ceduo_picker_add(&p, "large-reserves", "large-reserves", "2", true);
+    ceduo_picker_add(&p, "large-reserves-cut", "large-reserves-cut", "3", false);
+    ceduo_picker_add(&p, "bare", "bare", "4", false);
     assert_string_equal(ceduo_picker_at(&p)->value, "2"); /* what is there now */
     ceduo_picker_filter(&p, "large");
     assert_int_equal(p.matches, 3);
@@ -42,9 +42,9 @@ TEST(paths_are_completed)
 {
     struct picker p = {0};
     struct line line = {.text = ""};
-    ceduo_picker_add(&p, "maps/north.csv", "maps/north.csv", false);
-    ceduo_picker_add(&p, "maps/northwest.csv", "maps/northwest.csv", false);
-    ceduo_picker_add(&p, "other/", "other/", false);
+    ceduo_picker_add(&p, "maps/north.csv", "maps/north.csv", "maps/north.csv", false);
+    ceduo_picker_add(&p, "maps/northwest.csv", "maps/northwest.csv", "maps/northwest.csv", false);
+    ceduo_picker_add(&p, "other/", "other/", "other/", false);
     assert_false(ceduo_picker_complete(&p, &line)); /* nothing in common */
     ceduo_line_set(&line, "ma");
     assert_true(ceduo_picker_complete(&p, &line));
