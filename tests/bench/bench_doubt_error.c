@@ -5,7 +5,8 @@
  *
  *     bench_doubt_error [SEEDS [POINTS]]
  *
- * prints CSV: root mean squares over the seeds, of both ends of the 90 % band, and of the total shares of all inputs. */
+ * prints CSV: root mean squares over the seeds, of both ends of the 90 % band, and of the total shares of all inputs; and, of the
+ * surface, how often what is true lies within 1.96 of the errors that it tells with them. */
 #include <gsl/gsl_sort.h>
 #include <gsl/gsl_statistics_double.h>
 #include <inttypes.h>
@@ -19,14 +20,14 @@
 
 #define INPUTS_MAX      20 /* twice as many columns, of the 40 that the points have */
 #define THREADS         2
-#define TRUE_ROCKS      1000
+#define TRUE_ROCKS      4000
 #define TRUE_BAND_ROCKS 10000 /* the same rocks at all points move the whole band */
 #define FIRST_SEED      1000  /* others than those of what is true */
 #define CONTROL(of)     ceduo_scene_last_control(of)
 
 /* What is compared. */
 struct found {
-    double p5, p95, totals[INPUTS_MAX], seconds;
+    double band[2], totals[INPUTS_MAX], band_se[2], totals_se[INPUTS_MAX], seconds;
     uint64_t evaluations;
 };
 
@@ -50,9 +51,14 @@ static void by_surface(size_t points, uint64_t rocks, uint64_t seed, struct foun
     if (ceduo_doubt_ask(&def, &answer) != CEDUO_OK)
         fail("the sensitivity failed");
     const struct ceduo_doubt_figure *f = ceduo_doubt_figure_of(&answer, 0, CEDUO_DOUBT_EXCEED, false);
-    *found = (struct found){f->fit.p5, f->fit.p95, {0}, processor_s() - start, answer.evaluations};
-    for (size_t i = 0; i < inputs.n; i++)
+    *found = (struct found){.band = {f->fit.p5, f->fit.p95},
+                            .band_se = {f->fit.p5_se, f->fit.p95_se},
+                            .seconds = processor_s() - start,
+                            .evaluations = answer.evaluations};
+    for (size_t i = 0; i < inputs.n; i++) {
         found->totals[i] = f->fit.total[i].value;
+        found->totals_se[i] = f->fit.total[i].se;
+    }
     ceduo_doubt_free(&answer);
 }
 
@@ -107,8 +113,8 @@ static void run_rows(const double *u, size_t rows, uint64_t rocks, uint64_t seed
 static void read_band(double *y, size_t n, struct found *found)
 {
     gsl_sort(y, 1, n);
-    found->p5 = ceduo_quantile(y, n, .05);
-    found->p95 = ceduo_quantile(y, n, .95);
+    found->band[0] = ceduo_quantile(y, n, .05);
+    found->band[1] = ceduo_quantile(y, n, .95);
 }
 
 /* `more_rocks`: the band once more, of so many rocks. */
@@ -148,37 +154,53 @@ static const struct design {
     void (*by)(size_t points, uint64_t rocks, uint64_t seed, struct found *found);
     size_t points;
     uint64_t rocks;
-} designs[] = {{"surface", by_surface, 64, 400},          {"surface", by_surface, 256, 400},
-               {"surface", by_surface, 1024, 400},        {"surface", by_surface, 256, 1600},
-               {"drawn anew", by_drawing_anew, 16, 400},  {"drawn anew", by_drawing_anew, 64, 400},
-               {"drawn anew", by_drawing_anew, 256, 400}, {"drawn anew", by_drawing_anew, 64, 1600}};
+    size_t times; /* so many more seeds */
+} designs[] = {{"surface", by_surface, 64, 400, 20},         {"surface", by_surface, 256, 400, 20},
+               {"surface", by_surface, 1024, 400, 1},        {"surface", by_surface, 256, 1600, 1},
+               {"drawn anew", by_drawing_anew, 16, 400, 1},  {"drawn anew", by_drawing_anew, 64, 400, 1},
+               {"drawn anew", by_drawing_anew, 256, 400, 1}, {"drawn anew", by_drawing_anew, 64, 1600, 1}};
+
+/* Sums of squared errors, and in how many the error is within 1.96 of what was told. */
+struct errors {
+    double squares, held, n;
+};
+
+static void add_errors(struct errors *e, size_t n, const double *found, const double *se, const double *truth)
+{
+    for (size_t i = 0; i < n; i++) {
+        e->squares += pow(found[i] - truth[i], 2);
+        e->held += fabs(found[i] - truth[i]) <= CEDUO_Z95 * se[i];
+    }
+    e->n += (double)n;
+}
 
 static void measure(const struct design *d, size_t seeds, const struct found *truth)
 {
-    double band = 0, shares = 0, seconds = 0;
+    double seconds = 0;
+    struct errors band = {0}, shares = {0};
     struct found found = {0};
-    for (size_t s = 0; s < seeds; s++) {
+    for (size_t s = 0; s < seeds * d->times; s++) {
         d->by(d->points, d->rocks, FIRST_SEED + s, &found);
-        band += (pow(found.p5 - truth->p5, 2) + pow(found.p95 - truth->p95, 2)) / (double)(2 * seeds);
-        for (size_t i = 0; i < inputs.n; i++)
-            shares += pow(found.totals[i] - truth->totals[i], 2) / (double)(inputs.n * seeds);
-        seconds += found.seconds / (double)seeds;
+        add_errors(&band, 2, found.band, found.band_se, truth->band);
+        add_errors(&shares, inputs.n, found.totals, found.totals_se, truth->totals);
+        seconds += found.seconds;
     }
-    printf("%s,%zu,%" PRIu64 ",%" PRIu64 ",%.3f,%.2f,%.2f\n", d->name, d->points, d->rocks, found.evaluations, seconds,
-           1000 * sqrt(band), 100 * sqrt(shares));
+    printf("%s,%zu,%" PRIu64 ",%" PRIu64 ",%.3f,%.2f,%.2f,", d->name, d->points, d->rocks, found.evaluations,
+           seconds / (double)(seeds * d->times), 1000 * sqrt(band.squares / band.n), 100 * sqrt(shares.squares / shares.n));
+    printf(d->by == by_surface ? "%.1f,%.1f\n" : ",\n", 100 * band.held / band.n, 100 * shares.held / shares.n);
     fflush(stdout);
 }
 
 int main(int argc, char **argv)
 {
     (void)argc;
-    size_t seeds = argument(argv, 1, 10, 1, 1000), true_points = argument(argv, 2, 1024, 2, 1 << 20);
+    size_t seeds = argument(argv, 1, 10, 1, 1000), true_points = argument(argv, 2, 4096, 2, 1 << 20);
     struct found truth;
     read_scene(&file, "profiles/scenes/paper-site.yaml");
     if (!ceduo_inputs_of(&file, &inputs) || inputs.n > INPUTS_MAX)
         fail("the inputs cannot be read");
     draw_anew(true_points, TRUE_ROCKS, TRUE_BAND_ROCKS, 1, &truth);
-    puts("design,points,rocks,scenes,cpu_seconds,band_of_1000,shares_percent");
+    puts("design,points,rocks,scenes,cpu_seconds,band_of_1000,shares_percent,band_held_percent,shares_held_percent");
     for (size_t i = 0; i < sizeof designs / sizeof designs[0]; i++)
         measure(&designs[i], seeds, &truth);
     ceduo_scene_release(&file);
