@@ -6,7 +6,6 @@
 
 #include "frame.h"
 #include "tui/program.h"
-#include "tui/screen.h"
 
 #define KEYS_MOST 4096
 
