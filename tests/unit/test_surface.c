@@ -347,8 +347,12 @@ TEST(errors_of_the_band_hold_the_truth)
     static const struct {
         double ripple, turns[3], level, noise;
         bool even;
-    } cases[] = {{.level = 0},  {.3, {29, 31, 37}}, {.3, {0, 0, 9}, .even = true},
-                 {.level = .2}, {.noise = .5},      {.level = .1, .noise = .4}};
+    } cases[] = {{.level = 0},
+                 {.ripple = .3, .turns = {29, 31, 37}},
+                 {.ripple = .3, .turns = {0, 0, 9}, .even = true},
+                 {.level = .2},
+                 {.noise = .5},
+                 {.level = .1, .noise = .4}};
     double all = 0, n = 0;
     make_inputs(3, 0, 0);
     for (size_t c = 0; c < sizeof cases / sizeof *cases; c++) {
