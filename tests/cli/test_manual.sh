@@ -48,7 +48,7 @@ import re, sys
 played = r'^\.\\" run survey\n(?:(?!\.Bd|\.\\")[^\n]*\n)*\.Bd -literal.*?^\.Ed$'
 pages = [re.sub(played, "", open(p).read(), flags=re.M | re.S) for p in sys.argv[1:]]
 blocks = [re.findall(r"^\.Bd -literal.*?^\.Ed$", page, re.M | re.S) for page in pages]
-odd = [b for b in blocks[0] if b not in blocks[1] and "\u00e8 sotto" not in b]
+odd = [b for b in blocks[0] if b not in blocks[1] and "\u00e8 sotto" not in b and "senza bosco" not in b and "valore minimo" not in b]
 if "workflows" in sys.argv[1]:
     odd += [b for b in blocks[1] if b not in blocks[0]]
 print(*odd, sep="\n", file=sys.stderr)

@@ -24,6 +24,7 @@ TEST(the_best_stands_first)
     ceduo_picker_add(&p, "large-reserves", "large-reserves", "2", true);
     ceduo_picker_add(&p, "large-reserves-cut", "large-reserves-cut", "3", false);
     ceduo_picker_add(&p, "bare", "bare", "4", false);
+    ceduo_picker_filter(&p, "");
     assert_string_equal(ceduo_picker_at(&p)->value, "2"); /* what is there now */
     ceduo_picker_filter(&p, "large");
     assert_int_equal(p.matches, 3);
