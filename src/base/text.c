@@ -297,7 +297,7 @@ static size_t distance(const char *a, const char *b)
 const char *ceduo_text_nearest(const char *word, const char *const *words, size_t n)
 {
     const char *best = NULL;
-    size_t length = strlen(word), min = length < 3 ? length : length / 2 + 1; /* a letter at least must be the same */
+    size_t length = strlen(word), min = length < 3 ? length : length / 2 + 2; /* a letter at least must be the same */
     for (size_t i = 0; i < n; i++) {
         size_t d = distance(word, words[i]);
         bool longer = length > 0 && strncmp(words[i], word, length) == 0; /* dbh for dbh_m */

@@ -14,6 +14,7 @@
 #include "scene/fields.h"
 
 #define KEYS_SHOWN_MOST 32
+#define KEYS_ALL_TOLD   4 /* so few are told, unless what is meant begins alike */
 
 struct binder {
     struct arena *arena;
@@ -92,15 +93,21 @@ static void leave(struct binder *b, size_t before)
     ceduo_text_cut(&b->path, before);
 }
 
+static const struct object source_object;
+
 const char *ceduo_bind_unknown_key(const struct object *object, const char *key, struct text *said)
 {
     const char *words[KEYS_SHOWN_MOST] = {0};
     size_t n = 0;
     for (size_t i = 0; i < object->n && n < KEYS_SHOWN_MOST; i++) /* untaken: large */
         words[n++] = object->fields[i].key;
+    if (object != &source_object && n < KEYS_SHOWN_MOST) /* any value has one */
+        words[n++] = "source";
     const char *near = ceduo_text_nearest(key, words, n);
     LOCAL_TEXT(list);
     ceduo_text_words(&list, words, n, ", ");
+    if (near && n <= KEYS_ALL_TOLD && near[0] != key[0])
+        near = NULL;
     ceduo_text_format(said, near ? _("unknown key; did you mean '%s'?") : _("unknown key; known here: %s"),
                       near ? near : ceduo_text_string(&list));
     return near;

@@ -114,6 +114,8 @@ static void append_input_end(struct text *text, const struct ceduo_doubt_report 
 static bool is_outside(const struct ceduo_input *input, double value)
 {
     bool word = input->kind == CEDUO_INPUT_WORDS;
+    if (input->kind == CEDUO_INPUT_FACTOR || input->kind == CEDUO_INPUT_DRAWS) /* relative to the value; rows, no range */
+        return false;
     for (size_t k = 0; word && k < input->words_count; k++)
         if (input->words[k] == (int)value)
             return false;
@@ -129,7 +131,7 @@ void ceduo_doubt_outside(const struct ceduo_doubt_report *r, ceduo_words_say *sa
         while (k < input->places_count &&
                !(ceduo_value_find(&r->file->scene, input->places[k], &v) && is_outside(input, ceduo_value_get(&v))))
             k++;
-        if (k == input->places_count || input->kind == CEDUO_INPUT_FACTOR || input->kind == CEDUO_INPUT_DRAWS)
+        if (k == input->places_count)
             continue;
         LOCAL_TEXT(name);
         LOCAL_TEXT(here);

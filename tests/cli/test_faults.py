@@ -179,7 +179,10 @@ def save_without_memory(on):
             expect_equal({p.name for p in place.work.iterdir()} - set(FILES), {p.name for p in dumps if p.exists()}, told(done, at))
             if done.returncode == DONE:  # a call of the C library that failed is an error of the save
                 screen = Screen(dumps[1].read_text(), 80, 24)
-                screen.has("saved scene.yaml" if found == new else "Cannot allocate memory")
+                if found == new:
+                    expect_equal(screen.note, "saved scene.yaml", told(done, at))
+                else:
+                    screen.has("scene.yaml: Cannot allocate memory")
                 expect_equal(" * fast" in screen.title, found != new, told(done, at))
             elif done.returncode == OUTPUT:
                 expect(b"Cannot allocate memory" in done.stderr, told(done, at))

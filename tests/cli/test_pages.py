@@ -31,14 +31,14 @@ def shown(text):
     return plain(re.sub(r"\\\[u([0-9A-F]{4})\]", lambda m: chr(int(m[1], 16)), text))
 
 
-def played(page):
+def played(page, **more):
     """Mark, name and text of each display of a page, and what its commands print."""
     with Folder() as work, Machine() as machine:
         printed = ""
         for m in MARKED.finditer(page.read_text(encoding="utf-8")):
             what, name, body = m[1], (m[2] or "").strip(), shown(m[4])
             if what == "run":
-                done = machine.run(body, work.path)
+                done = machine.run(body, work.path, **more)
                 expect(done.returncode == 0 and not done.stderr, f"{page.name}:", body, f"status {done.returncode}", done.stderr)
                 printed = done.stdout
             elif what == "file":
@@ -52,6 +52,15 @@ def test_commands():
         for _, what, _, body, printed in () if page.name in SLOW else played(page):
             if what == "shows":
                 expect_equal(printed, body, page.name)
+
+
+def test_italian_samples():
+    """What the Italian ceduo-output(5) shows is what its commands print in Italian"""
+    page = ROOT / os.environ.get("BUILD", "build/release") / "man/it/ceduo-output.5"
+    shows = [(printed, body) for _, what, _, body, printed in played(page, LANGUAGE="it") if what == "shows"]
+    expect(len(shows) > 5, f"{len(shows)} displays")
+    for printed, body in shows:
+        expect_equal(printed, body, page.name)
 
 
 def test_all_are_marked():

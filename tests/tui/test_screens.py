@@ -148,7 +148,7 @@ MUST = {
     "stand": ["from, m to, m stand", "Stand of belt 1:", "system", "species", "stools per ha", "spacing, m",
               "Shoots on the stools", "Single trees: standards, reserves",
               "stems/ha, basal area", "by interception", "kJ per 100 m"],
-    "rock": ["shape cylinder", "diameter, m 0.56", "height, m 0.80", "density, kg/m", "Release", "x, m 0",
+    "rock": ["shape cylinder", "diameter, m 0.56", "height, m 0.80", "density, kg/m", " 2600", "Release", "x, m 0",
              "spin, rad/s 0", "Simulation", "law of impact lumped", "512.3 kg", "mean diameter B 0.68 m"],
     "results": ["ADC", "left at 135 m", "without forest", "index (Eq. 5)", "mean kJ", "> 50 kJ", "p50", "p95"],
     "compare": ["135 m", "fail"]}
