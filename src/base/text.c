@@ -164,47 +164,17 @@ void ceduo_text_safe(struct text *text, const char *string)
     ceduo_text_safe_n(text, string, strlen(string));
 }
 
-/* Writes 1.234e+05 in `room`, of which the first `digits` digits count, without its exponent; a print of its own would cost
- * as much again. */
-static void write_plainly(char room[CEDUO_NUMBER_ROOM], int digits, int exponent)
-{
-    char from[CEDUO_NUMBER_ROOM], *to = room;
-    int n = 0;
-    for (const char *p = room; *p != 'e' && n < digits; p++)
-        if (*p >= '0') /* neither sign nor dot */
-            from[n++] = *p;
-    if (*room == '-')
-        to++;
-    for (int place = exponent < 0 ? exponent : 0; place < n || place <= exponent; place++) { /* digit 0 is the first */
-        if (place == exponent + 1)
-            *to++ = '.';
-        *to++ = place >= 0 && place < n ? from[place] : '0';
-    }
-    *to = '\0';
-}
-
 char *ceduo_number_shortest(double value, char room[CEDUO_NUMBER_ROOM])
 {
     if (!isfinite(value))
         return strcpy(room, "null");
     if (value == 0)
         return strcpy(room, "0"); /* and never -0 */
-    /* The fewest digits that read back. A number that has one of 15 digits or fewer is printed by 15 digits as just that, and
-     * zeros: only below the smallest normal number has each to be tried. */
+    /* A number that has a decimal of 15 digits or fewer is printed by 15 digits as just that; below the smallest normal number
+     * each has to be tried. 17 always read back. */
     int digits = fabs(value) < DBL_MIN ? 1 : 15;
-    while (snprintf(room, CEDUO_NUMBER_ROOM, "%.*e", digits - 1, value), strtod(room, NULL) != value) /* 17 always do */
+    while (snprintf(room, CEDUO_NUMBER_ROOM, "%.*g", digits, value), strtod(room, NULL) != value)
         digits++;
-    for (const char *e = strchr(room, 'e'); digits > 1 && digits <= 15 && e[-1] == '0'; e--)
-        digits--;
-    int exponent = (int)strtol(strchr(room, 'e') + 1, NULL, 10);
-    if (exponent >= -5 && exponent < 15) { /* 50, not 5e+01 */
-        write_plainly(room, digits, exponent);
-    } else if (exponent >= 15 && exponent < 17) { /* whole, and perhaps not quite what few digits read back as */
-        int decimals = digits - 1 - exponent;
-        snprintf(room, CEDUO_NUMBER_ROOM, "%.*f", decimals > 0 ? decimals : 0, value);
-    } else {
-        snprintf(room, CEDUO_NUMBER_ROOM, "%.*e", digits - 1, value);
-    }
     return room;
 }
 
