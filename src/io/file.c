@@ -263,36 +263,17 @@ static bool write_and_close(int fd, const struct pending_file *file)
     return good;
 }
 
-/* Where a path that leads to nothing yet leads, through links. To be freed. */
-static char *follow_links(const char *path)
-{
-    char *at = strdup(path);
-    for (int i = 0; at && i < 16; i++) {
-        char to[PATH_MAX];
-        ssize_t n = readlink(at, to, sizeof to - 1);
-        if (n < 0)
-            return at;
-        to[n] = '\0';
-        struct text next = {0};
-        const char *slash = to[0] == '/' ? NULL : strrchr(at, '/');
-        ceduo_text_format(&next, "%.*s%s", slash ? (int)(slash - at) + 1 : 0, at, to);
-        free(at);
-        at = next.bytes;
-    }
-    errno = at ? ELOOP : ENOMEM;
-    free(at);
-    return NULL;
-}
-
 bool ceduo_file_prepare(struct pending_file *file)
 {
     struct stat st;
-    bool exists = stat(file->path, &st) == 0;
-    if (exists && !S_ISREG(st.st_mode))
-        return true;
-    if (exists && access(file->path, W_OK) != 0)
+    bool exists = stat(file->path, &st) == 0, folder = exists && S_ISDIR(st.st_mode);
+    if (folder)
+        errno = EISDIR;
+    if (folder || (exists ? access(file->path, W_OK) != 0 : errno != ENOENT || !*file->path))
         return false;
-    file->target = exists ? realpath(file->path, NULL) : follow_links(file->path); /* a link stays a link */
+    if (exists ? !S_ISREG(st.st_mode) : lstat(file->path, &st) == 0)
+        return true;
+    file->target = exists ? realpath(file->path, NULL) : strdup(file->path); /* a link stays a link */
     if (!file->target)
         return false;
     /* beside the target; of a name as long as a file system takes them, a part is used, cut between two characters */
@@ -321,6 +302,8 @@ bool ceduo_file_place(struct pending_file *file)
 {
     if (!file->target) {
         int fd = open(file->path, O_WRONLY | O_CLOEXEC);
+        if (fd < 0 && errno == ENOENT) /* through a link that leads to nothing yet */
+            fd = open(file->path, O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
         return fd >= 0 && write_and_close(fd, file);
     }
     if (rename(file->temporary, file->target) != 0)
@@ -374,23 +357,8 @@ bool ceduo_file_same(const char *a, const char *b)
 
 bool ceduo_file_can_write(const char *path)
 {
-    struct stat st;
-    bool exists = stat(path, &st) == 0;
-    if (exists && S_ISDIR(st.st_mode))
-        errno = EISDIR;
-    if (exists ? S_ISDIR(st.st_mode) || access(path, W_OK) != 0 : errno != ENOENT || !*path)
-        return false;
-    if (exists && !S_ISREG(st.st_mode))
-        return true;
-    char *target = exists ? realpath(path, NULL) : follow_links(path);
-    if (!target)
-        return false;
-    char *slash = strrchr(target, '/');
-    if (slash)
-        slash[slash == target] = '\0';
-    bool good = access(slash ? target : ".", W_OK | X_OK) == 0; /* a file beside it is to take its place */
-    int why = errno;
-    free(target);
-    errno = why;
+    struct pending_file file = {.path = path, .before = -1, .bytes = ""};
+    bool good = ceduo_file_prepare(&file);
+    ceduo_file_drop(&file);
     return good;
 }

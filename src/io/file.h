@@ -31,7 +31,8 @@ const char *const *ceduo_file_list(struct arena *arena, const char *folder, cons
 /* Writes all bytes to an open file; `cancel` (may be NULL) ends it at the next signal. False with errno set. */
 bool ceduo_file_fill(int fd, const char *bytes, size_t n, const atomic_bool *cancel);
 
-/* Writes a regular file whole or not at all (a temporary file beside it, then a rename); anything else straight.
+/* Writes a regular file whole or not at all (a temporary file beside it, then a rename); anything else, and through a link
+ * that leads to nothing yet, straight.
  * False with errno set. */
 bool ceduo_file_write(const char *path, const char *bytes, size_t n);
 
@@ -62,7 +63,7 @@ bool ceduo_file_save(struct pending_file file);
 /* Whether two paths lead to one regular file; `b` may be "-", standard input. */
 bool ceduo_file_same(const char *a, const char *b);
 
-/* Whether ceduo_file_write() could begin, as far as that can be told without writing. False with errno set. */
+/* Whether ceduo_file_write() could begin: tried with a file beside it that goes at once. False with errno set. */
 bool ceduo_file_can_write(const char *path);
 
 #endif
