@@ -96,7 +96,13 @@ int ceduo_picker_draw(struct picker *p, struct ceduo_cells *cells, struct ceduo_
 
 #define FILES_MAX 2000 /* of a folder: more nobody looks through */
 
-void ceduo_picker_add_files(struct picker *p, const char *typed, const char *ending)
+bool ceduo_picker_is_file(const char *name, const char *endings)
+{
+    const char *dot = strrchr(name, '.'), *at = dot && dot > name && dot[1] ? strcasestr(endings, dot) : NULL;
+    return at && strchr(" ", at[strlen(dot)]);
+}
+
+void ceduo_picker_add_files(struct picker *p, const char *typed, const char *endings)
 {
     const char *slash = strrchr(typed, '/');
     LOCAL_TEXT(folder);
@@ -107,13 +113,12 @@ void ceduo_picker_add_files(struct picker *p, const char *typed, const char *end
     for (int i = 0; i < count; i++) {
         struct stat st;
         const char *name = entries[i]->d_name;
-        size_t n = strlen(name), end = strlen(ending);
         path.length = 0;
         ceduo_text_format(&path, "%s%s", ceduo_text_string(&folder), name);
         bool is_folder = stat(path.bytes, &st) == 0 && S_ISDIR(st.st_mode);
         if (is_folder)
             ceduo_text_put(&path, "/");
-        if (i < FILES_MAX && name[0] != '.' && (is_folder || (n > end && strcmp(name + n - end, ending) == 0)) &&
+        if (i < FILES_MAX && name[0] != '.' && (is_folder || ceduo_picker_is_file(name, endings)) &&
             !ceduo_picker_has(p, path.bytes))
             ceduo_picker_add(p, path.bytes, path.bytes, path.bytes, false);
         free(entries[i]);

@@ -50,8 +50,11 @@ int ceduo_picker_draw(struct picker *picker, struct ceduo_cells *cells, struct c
 
 /* ---- files ---- */
 
-/* Adds what a path that is typed may go on to: folders, and files that end as given (".csv"). */
-void ceduo_picker_add_files(struct picker *picker, const char *typed, const char *ending);
+/* Adds what a path that is typed may go on to: folders, and files that end as given. */
+void ceduo_picker_add_files(struct picker *picker, const char *typed, const char *endings);
+
+/* Whether a name ends in one of some endings (".csv .txt"), in small or capital letters. */
+bool ceduo_picker_is_file(const char *name, const char *endings);
 
 /* The longest that a typed path can be completed to without a choice; false where there is none. */
 bool ceduo_picker_complete(const struct picker *picker, struct line *line);

@@ -168,8 +168,7 @@ static void offer(struct app *app, struct popup *p)
     ceduo_picker_filter(&p->picker, line->fresh ? "" : line->text);
     if (line->fresh)
         ceduo_picker_go_to(&p->picker, line->text);
-    size_t n = strlen(line->text), end = p->endings ? strlen(p->endings) : 0;
-    bool named = n > end && end > 0 && strcmp(line->text + n - end, p->endings) == 0;
+    bool named = p->endings && ceduo_picker_is_file(line->text, p->endings);
     if (!line->fresh && field->offer && !p->typed_wins && named && !ceduo_picker_at(&p->picker) &&
         access(line->text, F_OK) != 0)
         ceduo_app_warn(app, _("there is no file '%.180s'"), line->text); /* not after the last question */

@@ -34,7 +34,7 @@ struct popup {
     size_t fields_count;
     size_t at;             /* the field under the cursor */
     struct picker picker;  /* of the list, or of the field under the cursor */
-    const char *endings;   /* of files that may be typed: ".yaml"; NULL: none */
+    const char *endings;   /* of files that may be typed: ".csv .txt"; NULL: none */
     bool asks;             /* a list of few answers: the first letter of each chooses it, nothing is searched for */
     bool ready;            /* what is offered was listed once */
     bool moved;            /* the cursor was moved in the picker */

@@ -23,8 +23,9 @@ enum {
     COUNTS
 };
 
-#define ALONG_SLOPE "slope"
-#define ON_MAP      "map"
+/* What is typed, in the language of the screen. */
+#define ALONG_SLOPE _("slope")
+#define ON_MAP      _("map")
 
 static const struct {
     const char *label;

@@ -61,10 +61,9 @@ static bool make_profile(struct answers *a, const char *more)
 static bool read_profile(struct app *app, struct popup *p, struct answers *a)
 {
     const char *typed = p->fields[NEW_PROFILE].line.text, *wrong = NULL;
-    size_t n = strlen(typed);
     struct problems problems = {0};
     struct points points = {0};
-    if (n > 4 && strcmp(typed + n - 4, ".csv") == 0) {
+    if (ceduo_picker_is_file(typed, p->endings)) {
         bool good = ceduo_csv_slope_read(&p->arena, typed, &points, &problems) && points.n > 1;
         if (!good)
             wrong = problems.text.bytes ? problems.text.bytes : _("a profile needs two points or more");
@@ -141,6 +140,12 @@ static void describe(struct popup *p, const struct answers *a)
 
 /* ---- reading ---- */
 
+/* A stand that is asked for when the slope is there. */
+static bool is_measured(const char *stand)
+{
+    return strcmp(stand, STAND_COUNTED) == 0 || strcmp(stand, STAND_SURVEY) == 0;
+}
+
 /* One field, of which it is said what is wrong; those before it are read. */
 static bool read_field(struct app *app, struct popup *p, size_t field, struct answers *a)
 {
@@ -178,7 +183,7 @@ static bool read_field(struct app *app, struct popup *p, size_t field, struct an
         a->accepted = NAN;
         return ceduo_popup_number(app, p, NEW_ACCEPTED, &a->accepted);
     case NEW_STAND:
-        if (typed[0] == '\0' || strcmp(typed, STAND_COUNTED) == 0 || ceduo_file_find(&p->arena, typed, NULL, "stands"))
+        if (typed[0] == '\0' || is_measured(typed) || ceduo_file_find(&p->arena, typed, NULL, "stands"))
             return true;
         ceduo_app_warn(app, _("no stand '%s': a file, or a name such as simple-coppice; may be left empty"), typed);
         return false;
@@ -232,7 +237,8 @@ static void append_scene(struct popup *p, const struct answers *a, struct text *
                       a->release, a->slope.bytes, s->reversed ? "  reversed: true\n" : "");
     if (face && !s->reversed)
         append_material(yaml, s, a->first, a->face, "cliff");
-    append_material(yaml, s, a->face, a->last, p->fields[NEW_MATERIAL].line.text);
+    append_material(yaml, s, a->face, a->last,
+                    ceduo_material_words.names[ceduo_choice_find(&ceduo_material_words, p->fields[NEW_MATERIAL].line.text)]);
     if (face && s->reversed)
         append_material(yaml, s, a->first, a->face, "cliff");
     ceduo_text_format(yaml, "controls:\n  - {x_m: %.10g", a->control);
@@ -242,7 +248,7 @@ static void append_scene(struct popup *p, const struct answers *a, struct text *
     if (!stand[0])
         return;
     ceduo_text_format(yaml, "forest:\n  - {from_m: %.10g, to_m: %.10g", a->face, a->control);
-    append_quoted(yaml, ", stand: ", strcmp(stand, STAND_COUNTED) == 0 ? "simple-coppice" : stand);
+    append_quoted(yaml, ", stand: ", is_measured(stand) ? "simple-coppice" : stand);
     ceduo_text_put(yaml, "}\n");
 }
 
@@ -258,6 +264,8 @@ static bool filled_new(struct app *app, struct popup *p)
     release_answers(&a);
     if (good && strcmp(p->fields[NEW_STAND].line.text, STAND_COUNTED) == 0)
         ceduo_popup_counts(app);
+    else if (good && strcmp(p->fields[NEW_STAND].line.text, STAND_SURVEY) == 0)
+        ceduo_popup_survey(app);
     return good;
 }
 
@@ -306,14 +314,14 @@ static void ask(struct app *app)
     struct popup *p = ceduo_popup_fields(app, _("New scene"), "", filled_new);
     ceduo_text_put(&p->text, _("The profile: a CSV file (distance, elevation), or points typed as x z, x z, … What is "
                                "left empty is not there; rocks are then counted at the end. All can be changed later."));
-    p->endings = ".csv";
+    p->endings = ".csv .txt";
     p->check = check_new;
     p->picture = draw_profile;
     ceduo_popup_field(p, _("title"), _("My slope"));
     ceduo_popup_choice(p, _("profile (CSV file or points)"), "0 90, 10 65, 60 30, 120 0", ceduo_popup_offer_files);
     ceduo_popup_value(p, _("rocks start at x, m"), "", ceduo_schema_at("release.x_m"))->flags = FIELD_UNDER;
     ceduo_popup_value(p, _("face from the top to x, m"), "", ceduo_schema_at("release.x_m"))->flags = FIELD_UNDER;
-    ceduo_popup_choice(p, _("ground below it"), ceduo_material_talus()->name, ceduo_popup_offer_grounds);
+    ceduo_popup_choice(p, _("ground below it"), _(ceduo_material_talus()->name), ceduo_popup_offer_grounds);
     ceduo_popup_value(p, _("rock: diameter, m"), ceduo_shown_number(NULL, 0.6, room), ceduo_schema_at("rock.diameter_m"));
     ceduo_popup_value(p, _("counted at x, m"), "", ceduo_schema_at("controls[0].x_m"))->flags = FIELD_ABOVE;
     ceduo_popup_value(p, _("the place withstands, kJ"), "50", ceduo_schema_at("controls[0].accepted_kJ"));

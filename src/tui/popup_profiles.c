@@ -40,8 +40,8 @@ static bool read_stand(const struct app *app, const char *value, struct scene_fi
 }
 
 /* Stems, the diameter of their mean basal area, the age of the oldest shoots where that is given, basal area; behind them
- * whose it is. */
-static const char *describe_stand(const struct app *app, const char *value, const char *whose)
+ * whose it is. `*said`: in Italian what a stand of the program is called, in the place of its file's name. */
+static const char *describe_stand(struct app *app, const char *value, const char *whose, const char **said)
 {
     struct scene_file file;
     const char *words = whose;
@@ -54,6 +54,8 @@ static const char *describe_stand(const struct app *app, const char *value, cons
         const char *years = isnan(age) ? "  -" : ceduo_app_format(app, "%3.0f", age);
         words = ceduo_app_format(app, _("%5.0f/ha %4.1f cm %s y %4.1f m2/ha"), r.stems_per_ha, r.bare ? 0 : dbh * 100, years,
                                  r.basal_area);
+        if (!whose[0] && ceduo_in_language("", "it")[0])
+            *said = ceduo_app_format(app, "%s", b->name);
         words = whose[0] ? ceduo_app_format(app, "%s %s", words, whose) : words;
     }
     ceduo_scene_release(&file);
@@ -97,11 +99,13 @@ static void add_files(struct app *app, struct popup *p, const char *kind, bool s
                 continue;
             if (ceduo_picker_has(&p->picker, value))
                 continue;
-            const char *about = stands   ? describe_stand(app, beside ? path : name, whose)
+            const char *said = name;
+            const char *about = stands   ? describe_stand(app, beside ? path : name, whose, &said)
                                 : beside ? _("yours, beside the scene")
                                          : whose;
-            const char *text = about[0] ? ceduo_app_format(app, "%-*s %s", ceduo_utf8_field(name, 33), name, about) : name;
-            ceduo_picker_add(&p->picker, text, name, value, now && strcmp(now, value) == 0);
+            const char *text = about[0] ? ceduo_app_format(app, "%-*s %s", ceduo_utf8_field(said, 33), said, about) : said;
+            const char *both = said == name ? name : ceduo_app_format(app, "%s %s", said, name);
+            ceduo_picker_add(&p->picker, text, both, value, now && strcmp(now, value) == 0);
         }
     }
 }
@@ -233,7 +237,7 @@ static void chose_survey(struct app *app, struct popup *p)
         ceduo_app_say(app, _("the stand of the survey '%.100s'; it says nothing of growth and cutting"), p->value);
 }
 
-static void ask_for_survey(struct app *app)
+void ceduo_popup_survey(struct app *app)
 {
     struct popup *p =
         ceduo_popup_list(app, _("A survey: a CSV file with a row for each stem"), ceduo_app_stand(app), chose_survey);
@@ -241,7 +245,7 @@ static void ask_for_survey(struct app *app)
                    _("Columns: plot, area_m2 or radius_m, slope_deg, species, kind, stool, dbh_cm, height_m, spacing_m; "
                      "see ceduo-stand(5)."));
     p->fields[0].offer = offer_surveys;
-    p->endings = ".csv";
+    p->endings = ".csv .txt";
 }
 
 /* ---- choosing ---- */
@@ -277,9 +281,15 @@ static void chose_stand(struct app *app, struct popup *p)
     if (strcmp(p->value, STAND_COUNTED) == 0)
         ceduo_popup_counts(app);
     else if (strcmp(p->value, STAND_SURVEY) == 0)
-        ask_for_survey(app);
+        ceduo_popup_survey(app);
     else
         chose_word(app, p);
+}
+
+static void offer_measured(struct popup *p)
+{
+    ceduo_popup_item(p, _("from a sample plot: what was counted and measured"), STAND_COUNTED);
+    ceduo_popup_item(p, _("from a survey: a CSV file of plots and stems"), STAND_SURVEY);
 }
 
 static void list_stands(struct app *app, const char *title, popup_call *chosen)
@@ -288,20 +298,19 @@ static void list_stands(struct app *app, const char *title, popup_call *chosen)
     p->preview = preview_stand;
     const char *now = listed_name(app, p->path);
     add_files(app, p, "stands", false, false, now);
-    if (chosen == chose_stand) {
-        ceduo_popup_item(p, _("from a sample plot: what was counted and measured"), STAND_COUNTED);
-        ceduo_popup_item(p, _("from a survey: a CSV file of plots and stems"), STAND_SURVEY);
-    }
+    if (chosen == chose_stand)
+        offer_measured(p);
     add_files(app, p, "stands", true, false, now);
 }
 
 void ceduo_popup_offer_stands(struct app *app, struct popup *p)
 {
-    ceduo_popup_item(p, _("from a sample plot: what was counted and measured"), STAND_COUNTED);
+    offer_measured(p);
     for (int shipped = 0; shipped < 2; shipped++)
         add_files(app, p, "stands", shipped, true, NULL);
 }
 
+/* `now`: what the file has, where a word of files is wanted; NULL: what is shown is taken. */
 static void add_word(struct popup *p, const struct field *f, const char *word, const char *now)
 {
     LOCAL_TEXT(shown);
@@ -312,7 +321,7 @@ static void add_word(struct popup *p, const struct field *f, const char *word, c
     const char *name = ceduo_arena_string(&p->arena, ceduo_text_string(&shown));
     if (ground >= 0)
         ceduo_text_format(&shown, ": %s", _(grounds[ground].what));
-    ceduo_picker_add(&p->picker, ceduo_text_string(&shown), name, word, now && strcmp(word, now) == 0);
+    ceduo_picker_add(&p->picker, ceduo_text_string(&shown), name, now ? word : name, now && strcmp(word, now) == 0);
 }
 
 void ceduo_popup_offer_grounds(struct app *app, struct popup *p)

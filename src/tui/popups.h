@@ -48,8 +48,10 @@ bool ceduo_popup_take_recovery(struct app *app, const char *value);
 /* Files with the popup's endings, and folders. */
 void ceduo_popup_offer_files(struct app *app, struct popup *popup);
 
-#define STAND_COUNTED "from a sample plot" /* in the place of a stand: what a sample plot counts */
-#define STAND_SURVEY  "from a survey"      /* what a CSV file of plots holds */
+#define STAND_COUNTED _("from a sample plot") /* in the place of a stand: what a sample plot counts */
+#define STAND_SURVEY  _("from a survey")      /* what a CSV file of plots holds */
+void ceduo_popup_survey(struct app *app);     /* asks for that file */
+
 void ceduo_popup_offer_stands(struct app *app, struct popup *popup);
 void ceduo_popup_offer_grounds(struct app *app, struct popup *popup);
 

@@ -169,6 +169,8 @@ void ceduo_typed_value(const struct field *f, const char *typed, struct text *va
         return;
     if (f->type == FIELD_SPREAD && put_spread(f, typed, value))
         return;
+    if (f->type == FIELD_FLAG && (strcmp(typed, _("true")) == 0 || strcmp(typed, _("false")) == 0))
+        typed = strcmp(typed, _("true")) == 0 ? "true" : "false";
     if (is_number(f) && (f->shown.per != 1 || strchr(typed, ',')) && ceduo_typed_number(typed, &number) == CEDUO_NUMBER_GOOD)
         typed = as_file(f, number, room);
     ceduo_text_put(value, typed);
@@ -250,12 +252,18 @@ void ceduo_shown_value(const struct field *f, const char *written, struct text *
                                         N_("auto"),
                                         N_("whole"),
                                         N_("fit"),
-                                        N_("check")};
+                                        N_("check"),
+                                        N_("against"),
+                                        N_("both"),
+                                        N_("good"),
+                                        N_("poor"),
+                                        N_("true"),
+                                        N_("false")};
     double value;
     size_t n;
     char room[CEDUO_NUMBER_ROOM];
     LOCAL_TEXT(words);
-    if (!f || f->type != FIELD_CHOICE) {
+    if (!f || (f->type != FIELD_CHOICE && f->type != FIELD_FLAG)) {
         bool other = f && is_number(f) && f->shown.per != 1 && ceduo_number_read(written, &value) == CEDUO_NUMBER_GOOD;
         size_t start = shown->length;
         ceduo_text_put(shown, other ? ceduo_shown_number(f, value, room) : written);
@@ -274,7 +282,8 @@ void ceduo_shown_value(const struct field *f, const char *written, struct text *
     for (size_t i = 0; i < sizeof known / sizeof known[0]; i++)
         if (strcmp(known[i], said) == 0)
             said = _(known[i]);
-    const char *law = ceduo_words_law(written);
+    int ground = f->choices == &ceduo_material_words ? ceduo_choice_find(f->choices, written) : -1;
+    const char *law = ground >= 0 ? _(f->choices->names[ground]) : ceduo_words_law(written);
     ceduo_text_put(shown, strcmp(law, written) != 0 ? law : said);
 }
 

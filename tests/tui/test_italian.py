@@ -59,6 +59,26 @@ def test_fields():
         expect("kg/m3" in str(ascii_screen), ascii_screen)
 
 
+def test_words():
+    """Words of a file are shown and taken in Italian; the file keeps its own, and a new one has those of files"""
+    with Place() as place:
+        place.write("l.csv", "Distanza;Quota\n0;60\n40;30\n99;0\n")
+        for name in ("rilievo.txt", "RILIEVO.CSV", "note.doc"):
+            place.write(name, "")
+        form, after, grounds, stands, surveys = play(
+            place.path, "resize 110 36\nkey 1\nfind slope.facets\ndump\nkey 3\nfind scale_rn\nset s\u00ec\ndump\nkey s\nkey n Enter\ntype l.csv\n"
+            "key Enter Enter Enter\ntype sottile\nkey Enter Enter Enter Enter\ndump\nkey Ctrl-U\ntype simple-coppice\ndump\n"
+            "key Ctrl-U\ntype rilievo\nkey Enter\ndump\nkey Esc s Ctrl-U\ntype new.yaml\nkey Enter", "fast.yaml", "--language", "it")
+        expect(re.search(r"asperit\u00e0 +contro il moto", str(form)), form)
+        expect(re.search(r"Rn .* s\u00ec ", str(after)) and "usuale no" in str(after), after)
+        expect("terreno sotto la parete         colluvio sottile" in str(grounds), grounds)
+        expect("ceduo semplice, 25 anni" in stands.popup, stands)
+        expect("rilievo.txt" in surveys.popup and "RILIEVO.CSV" in surveys.popup, surveys)
+        expect("note.doc" not in str(surveys), surveys)
+        expect("material: thin-colluvium" in place.text("new.yaml"), place.text("new.yaml"))
+        expect("scale_rn: true" in place.text("fast.yaml"), place.text("fast.yaml"))
+
+
 def test_columns():
     """The rule beside the figures stands in one column, as in English"""
     for english, italian in both(VIEWS, "options.yaml"):
