@@ -5,7 +5,7 @@
  *
  * First the core, without forest and through its stems, 10^2 to 10^6 rocks: the root mean square of what each figure is off
  * by, over repeats with seeds of their own, beside the standard error that the program prints. Then other numbers for the
- * same rocks, by the plain loop: antithetic pairs (u and 1 - u) of the starts alone and of all, and GSL's Sobol points
+ * same rocks, by the plain walk: antithetic pairs (u and 1 - u) of the starts alone and of all, and GSL's Sobol points
  * shifted at random (the first 40 numbers of a rock, plain ones behind). Their gain is by how much less time an error takes:
  * (error2 x time) of plain numbers over (error2 x time). CSV on stdout. What is true is known from runs with many more rocks,
  * and what is off by less than twice the truth's own error is not printed. */
@@ -131,19 +131,18 @@ static double number(struct stream *s, unsigned dimension, bool start)
     return s->mirrored && (s->kind == ANTITHETIC || start) ? 1 - u : u;
 }
 
-static void begin(void *context, uint64_t rock, struct plain_start *start)
+static void begin(struct stream *s, uint64_t rock, struct slow_def *start)
 {
-    struct stream *s = context;
     bool pairs = s->kind == ANTITHETIC || s->kind == ANTITHETIC_STARTS;
     s->mirrored = pairs && rock % 2 == 1;
     s->state = s->seed + 0x5851f42d4c957f2d * (pairs ? rock / 2 : rock);
     if (s->kind == SOBOL)
         gsl_qrng_get(s->sobol, s->point);
     if (s->spread) {
-        start->vx = 0.1 + 2.9 * number(s, 0, true);
-        start->vz = -2 * number(s, 1, true);
-        start->z += 3 * number(s, 2, true);
-        start->x += 9 * number(s, 3, true);
+        start->vx0 = 0.1 + 2.9 * number(s, 0, true);
+        start->vz0 = -2 * number(s, 1, true);
+        start->z0 = 3 * number(s, 2, true);
+        start->x0 = 9 * number(s, 3, true);
     }
     if (s->kind == ANTITHETIC_STARTS) /* from here on numbers of its own */
         s->state = s->seed + 0x5851f42d4c957f2d * (2 * rock + 1) + 77;
@@ -154,17 +153,13 @@ static double draw(void *context, uint64_t contact)
     return number(context, STARTS + (unsigned)(contact < SOBOL_MOST ? contact : SOBOL_MOST), false);
 }
 
-static void passes(void *context, double energy)
+static double run_plain(const struct paper_site *site, struct slow_def def, struct stream *s, uint64_t rocks, uint64_t seed,
+                        double value[QUANTITIES])
 {
-    struct stream *s = context;
-    s->energies[s->n++] = energy;
-}
-
-static double run_plain(struct plain_def *def, struct stream *s, uint64_t rocks, uint64_t seed, double value[QUANTITIES])
-{
-    const struct plain_source source = {.context = s, .begin = begin, .draw = draw, .passes = passes};
-    struct plain_sums sums = {0};
-    def->source = &source;
+    const struct ceduo_rock body = plain_rock(site);
+    double sum = 0;
+    def.uniform = draw;
+    def.context = s;
     s->seed = seed * 0x9e3779b97f4a7c15;
     s->n = 0;
     s->energies = malloc(rocks * sizeof *s->energies);
@@ -176,15 +171,20 @@ static double run_plain(struct plain_def *def, struct stream *s, uint64_t rocks,
     if (s->kind == SOBOL)
         gsl_qrng_init(s->sobol);
     double start = ceduo_clock();
-    plain_loop(def, rocks, &sums);
+    for (uint64_t rock = 0; rock < rocks; rock++) {
+        begin(s, rock, &def);
+        const struct slow_way way = slow_walk(&def);
+        if (way.crossing.reached)
+            sum += s->energies[s->n++] = plain_energy(&body, &way.crossing);
+    }
     double seconds = ceduo_clock() - start;
     size_t exceeded = 0;
     for (size_t i = 0; i < s->n; i++)
         exceeded += s->energies[i] > ACCEPTED;
     qsort(s->energies, s->n, sizeof *s->energies, by_value);
-    value[MEAN] = sums.energy / (double)sums.passed * 1e-3;
+    value[MEAN] = sum / (double)s->n * 1e-3;
     value[P95] = s->energies[ceduo_quantile_rank(s->n, 0.95) - 1] * 1e-3;
-    value[REACH] = (double)sums.passed / (double)rocks;
+    value[REACH] = (double)s->n / (double)rocks;
     value[EXCEED] = (double)exceeded / (double)rocks;
     free(s->energies);
     return seconds;
@@ -193,14 +193,14 @@ static double run_plain(struct plain_def *def, struct stream *s, uint64_t rocks,
 static void measure_numbers(const char *what, bool spread, size_t asked)
 {
     struct paper_site site;
-    struct plain_segment segments[PAPER_SEGMENTS];
+    struct slow_segment segments[PAPER_SEGMENTS];
     paper_site_init(&site);
-    struct plain_def def = plain_site(&site, segments);
+    const struct slow_def def = plain_site(&site, segments);
     struct stream source = {.spread = spread, .sobol = gsl_qrng_alloc(gsl_qrng_sobol, SOBOL_MOST)};
     if (!source.sobol)
         fail("no memory");
     double truth[QUANTITIES], true_se[QUANTITIES];
-    run_plain(&def, &source, PLAIN_TRUE_ROCKS, 1u << 20, truth);
+    run_plain(&site, def, &source, PLAIN_TRUE_ROCKS, 1u << 20, truth);
     for (int q = 0; q < QUANTITIES; q++) /* of shares; about so much of the others */
         true_se[q] = (q == MEAN || q == P95 ? truth[q] * 0.3 : 0.5) / sqrt(PLAIN_TRUE_ROCKS);
     for (uint64_t rocks = 100; rocks <= 100000; rocks *= 10) {
@@ -210,7 +210,7 @@ static void measure_numbers(const char *what, bool spread, size_t asked)
             for (int k = 0; k < NUMBERS; k++) { /* in turn: other work on the machine slows all alike */
                 double value[QUANTITIES];
                 source.kind = (enum numbers)k;
-                rows[k].seconds += run_plain(&def, &source, rocks, i + 1, value);
+                rows[k].seconds += run_plain(&site, def, &source, rocks, i + 1, value);
                 rows[k].repeats++;
                 for (int q = 0; q < QUANTITIES; q++) {
                     rows[k].error2[q] += (value[q] - truth[q]) * (value[q] - truth[q]);

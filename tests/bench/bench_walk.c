@@ -19,11 +19,17 @@
 #define ROCKS_LEAST 1000 /* fewer say nothing about agreement */
 #define AGREE       4.0  /* combined standard errors */
 
+/* Over the rocks of the plain loop; speed and energy of those that passed. */
+struct plain_sums {
+    uint64_t rocks, passed, contacts;
+    double contacts2, speed, speed2, energy, energy2;
+};
+
 struct site {
     const char *law, *roughness;
     struct paper_site paper;
-    struct plain_segment plain_segments[PAPER_SEGMENTS];
-    struct plain_def plain;
+    struct slow_segment plain_segments[PAPER_SEGMENTS];
+    struct slow_def plain;
     struct plain_sums plain_sums; /* over all repeats, each with its own seed */
     double plain_rate;            /* contacts per second */
 };
@@ -56,9 +62,25 @@ static void init_site(struct site *site, enum ceduo_law law, bool height)
 
 static double time_plain(struct site *site, uint64_t rocks, size_t repeat)
 {
-    site->plain.seed = repeat + 1;
+    const struct ceduo_rock rock = plain_rock(&site->paper);
+    uint64_t state = repeat + 1;
+    struct plain_sums *sums = &site->plain_sums;
+    site->plain.context = &state;
     double start = ceduo_clock();
-    plain_loop(&site->plain, rocks, &site->plain_sums);
+    for (uint64_t i = 0; i < rocks; i++) {
+        const struct slow_way way = slow_walk(&site->plain);
+        sums->rocks++;
+        sums->contacts += way.contacts;
+        sums->contacts2 += (double)(way.contacts * way.contacts);
+        if (!way.crossing.reached)
+            continue;
+        double speed = hypot(way.crossing.vx, way.crossing.vz), energy = plain_energy(&rock, &way.crossing);
+        sums->passed++;
+        sums->speed += speed;
+        sums->speed2 += speed * speed;
+        sums->energy += energy;
+        sums->energy2 += energy * energy;
+    }
     return ceduo_clock() - start;
 }
 

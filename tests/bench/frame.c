@@ -63,30 +63,48 @@ struct ceduo_run *fly_run(const struct ceduo_run_def *def, uint64_t rocks)
     return run;
 }
 
-struct plain_def plain_site(const struct paper_site *site, struct plain_segment segments[PAPER_SEGMENTS])
+struct ceduo_rock plain_rock(const struct paper_site *site)
 {
     struct ceduo_rock rock;
     if (ceduo_rock_of_means(&site->scene.rock, &rock) != CEDUO_OK)
         fail("bad rock");
-    bool height = !isnan(site->segments[0].roughness_m);
+    return rock;
+}
+
+static double draw(void *state, uint64_t contact)
+{
+    (void)contact;
+    return uniform(state);
+}
+
+struct slow_def plain_site(const struct paper_site *site, struct slow_segment segments[PAPER_SEGMENTS])
+{
+    const struct ceduo_rock rock = plain_rock(site);
     for (size_t j = 0; j < PAPER_SEGMENTS; j++) {
-        segments[j] = plain_segment_between(site->x[j], site->z[j], site->x[j + 1], site->z[j + 1]);
-        segments[j].rn = site->segments[j].rn.mean;
-        segments[j].rt = site->segments[j].rt.mean;
-        segments[j].roughness = height ? site->segments[j].roughness_m : site->segments[j].roughness_rad;
-        segments[j].friction = site->segments[j].friction;
+        const struct ceduo_segment *s = &site->segments[j];
+        segments[j] = slow_segment_between(site->x[j], site->z[j], site->x[j + 1], site->z[j + 1]);
+        segments[j].rn = s->rn.mean;
+        segments[j].rt = s->rt.mean;
+        segments[j].friction = s->friction;
+        segments[j].theta_max = isnan(s->roughness_m) ? s->roughness_rad : atan(s->roughness_m / rock.radius);
     }
-    return (struct plain_def){.count = PAPER_SEGMENTS,
-                              .segments = segments,
-                              .law = site->scene.simulation.law == CEDUO_LAW_CRSP ? PLAIN_CRSP : PLAIN_LUMPED,
-                              .roughness_is_height = height,
-                              .gravity = CEDUO_GRAVITY,
-                              .mass = rock.mass,
-                              .radius = rock.radius,
-                              .k = rock.k,
-                              .vx = site->scene.release.vx.mean,
-                              .vz = site->scene.release.vz.mean,
-                              .control = site->control.x};
+    return (struct slow_def){.count = PAPER_SEGMENTS,
+                             .segments = segments,
+                             .law = site->scene.simulation.law == CEDUO_LAW_CRSP ? SLOW_CRSP : SLOW_LUMPED,
+                             .gravity = CEDUO_GRAVITY,
+                             .radius = rock.radius,
+                             .k = rock.k,
+                             .vx0 = site->scene.release.vx.mean,
+                             .vz0 = site->scene.release.vz.mean,
+                             .uniform = draw,
+                             .max_contacts = CEDUO_CONTACTS_MOST,
+                             .control = site->control.x};
+}
+
+double plain_energy(const struct ceduo_rock *rock, const struct slow_crossing *c)
+{
+    double rim = c->spin * rock->radius;
+    return rock->mass / 2 * (c->vx * c->vx + c->vz * c->vz + rock->k * rim * rim);
 }
 
 double uniform(uint64_t *state)

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The model of plain_loop.c with all rocks of a batch as numpy arrays, on the site of bench_walk.c.
+"""The model of tests/physics/slow_walk.c with all rocks of a batch as numpy arrays, on the site of bench_walk.c.
 
     numpy_loop.py [--check BENCH_WALK] [REPEATS [ROCKS]]        default 3, 20000
 

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A rock's way down a polyline, computed slowly and plainly, in long double: the reference that the fast walk is
- * compared with. It shares no code with it. SI units, angles in radians. */
+/* A rock's way down a polyline as a rockfall program is usually written: at each contact every segment ahead is tried and the
+ * earliest hit kept, and angles go through libm. It shares no code with the program. In long double it is the reference that
+ * the fast walk is compared with; the benches, which measure the fast walk's speed against it, define SLOW_REAL as double
+ * (tests/bench/plain_walk.h). SI units, angles in radians. */
 #ifndef SLOW_WALK_H
 #define SLOW_WALK_H
 
@@ -8,9 +10,26 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#ifndef SLOW_REAL
+#define SLOW_REAL long double
+#endif
+typedef SLOW_REAL slow_real;
+
 enum slow_law { SLOW_LUMPED, SLOW_CRSP };
 enum slow_facets { SLOW_AGAINST, SLOW_BOTH };
 enum slow_end { SLOW_REST, SLOW_LEFT, SLOW_UNFINISHED };
+
+/* A direction in the plane. */
+struct slow_turn {
+    slow_real cosine, sine;
+};
+
+struct slow_segment {
+    slow_real x0, z0, x1, z1; /* its ends, x0 < x1 */
+    slow_real slope, angle;   /* dz/dx and its angle: these are set by slow_segment_between() */
+    struct slow_turn turn;    /* of the angle */
+    slow_real rn, rt, friction, theta_max;
+};
 
 /* The first crossing of a control going +x: velocity and spin as the rock comes in, and its clearance above the
  * polyline. */
@@ -20,34 +39,32 @@ struct slow_crossing {
 };
 
 struct slow_def {
-    size_t vertices;                                  /* at least 2 */
-    const double *x, *z;                              /* x strictly increasing */
-    const double *rn, *rt, *theta_max_rad, *friction; /* vertices - 1 of each */
+    size_t count;
+    const struct slow_segment *segments;
     enum slow_law law;
     enum slow_facets facets;
-    bool scale_rn; /* lumped only: Rn falls with the normal speed */
-    double gravity;
-    double radius, k;                                   /* k = I / (M R^2), ignored by the lumped law */
+    bool scale_rn;                                      /* lumped only: Rn falls with the normal speed */
+    double gravity, radius, k;                          /* k = I / (M R^2), ignored by the lumped law */
     double x0, z0, vx0, vz0, spin0;                     /* the release, on or above the ground */
     double (*uniform)(void *context, uint64_t contact); /* the facet draw of contact number `contact`, from 0 */
     void *context;
     uint64_t max_contacts; /* a rock that would need one more is unfinished */
-    size_t controls;
-    const double *control_x; /* rising */
+    double control;        /* its x; NaN: none */
     /* Called after each contact law with the outgoing state, before any rolling; may be NULL. */
     void (*on_contact)(void *context, double x, double z, double vx, double vz, double spin);
 };
 
-/* Where and how the way ended. At rest the velocity is 0; for a rock that left, the state is that at the end of the
- * profile; for an unfinished one, the state in which it comes into the contact it was not given. */
+/* Where and how the way ended. */
 struct slow_way {
     enum slow_end end;
     double x, z;
     uint64_t contacts;
-    double vx, vz, spin;
+    struct slow_crossing crossing;
 };
 
-/* `crossings` has room for def->controls and may be NULL where there are none. */
-void slow_walk(const struct slow_def *def, struct slow_way *way, struct slow_crossing *crossings);
+/* A segment between two points, without its ground. */
+struct slow_segment slow_segment_between(double x0, double z0, double x1, double z1);
+
+struct slow_way slow_walk(const struct slow_def *def);
 
 #endif

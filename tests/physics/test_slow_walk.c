@@ -102,67 +102,52 @@ static double on_ground(const struct ceduo_slope *s, double x)
     return (double)(s->z[j] + m * ((long double)x - s->x[j]));
 }
 
-struct slow_ground {
-    double rn[LINE_SEGMENTS_MOST], rt[LINE_SEGMENTS_MOST], theta[LINE_SEGMENTS_MOST], friction[LINE_SEGMENTS_MOST];
-};
-
-static void slow_ground_of(const struct ceduo_slope *slope, double radius, struct slow_ground *g)
-{
-    for (size_t j = 0; j + 1 < slope->vertices; j++) {
-        const struct ceduo_segment *s = &slope->segments[j];
-        g->rn[j] = s->rn.mean;
-        g->rt[j] = s->rt.mean;
-        g->friction[j] = s->friction;
-        g->theta[j] = isnan(s->roughness_rad) ? atan(s->roughness_m / radius) : s->roughness_rad;
-    }
-}
-
 static void trace_slow(const struct ceduo_scene *scene, uint64_t rock, struct line_random *change, struct trace *t)
 {
-    static struct slow_ground g;
+    static struct slow_segment segments[LINE_SEGMENTS_MOST];
     const struct ceduo_slope *slope = &scene->slope;
     const struct ceduo_release *r = &scene->release;
     struct ceduo_rock body;
     assert_int_equal(ceduo_rock_of_means(&scene->rock, &body), CEDUO_OK);
-    slow_ground_of(slope, body.radius, &g);
+    for (size_t j = 0; j + 1 < slope->vertices; j++) {
+        const struct ceduo_segment *s = &slope->segments[j];
+        segments[j] = slow_segment_between(slope->x[j], slope->z[j], slope->x[j + 1], slope->z[j + 1]);
+        segments[j].rn = s->rn.mean;
+        segments[j].rt = s->rt.mean;
+        segments[j].friction = s->friction;
+        segments[j].theta_max = isnan(s->roughness_rad) ? atan(s->roughness_m / body.radius) : s->roughness_rad;
+    }
     memset(t, 0, sizeof *t);
     struct slow_context context = {t, scene->simulation.seed, rock, 0, change};
     double x = nudge(r->x.mean, change);
     double z = r->height.mean > 0 ? ceduo_slope_height(slope, x) + nudge(r->height.mean, change) : on_ground(slope, x);
-    struct slow_def def = {.vertices = slope->vertices,
-                           .x = slope->x,
-                           .z = slope->z,
-                           .rn = g.rn,
-                           .rt = g.rt,
-                           .theta_max_rad = g.theta,
-                           .friction = g.friction,
-                           .law = scene->simulation.law == CEDUO_LAW_CRSP ? SLOW_CRSP : SLOW_LUMPED,
-                           .facets = slope->facets == CEDUO_BOTH ? SLOW_BOTH : SLOW_AGAINST,
-                           .scale_rn = scene->simulation.scale_rn,
-                           .gravity = nudge(scene->simulation.gravity, change),
-                           .radius = nudge(body.radius, change),
-                           .k = body.k,
-                           .x0 = x,
-                           .z0 = z,
-                           .vx0 = nudge(r->vx.mean, change),
-                           .vz0 = nudge(r->vz.mean, change),
-                           .spin0 = nudge(r->spin.mean, change),
-                           .uniform = draw,
-                           .context = &context,
-                           .max_contacts = CONTACTS,
-                           .controls = scene->controls_count,
-                           .control_x = &scene->controls[0].x,
-                           .on_contact = note_contact};
-    struct slow_way way;
-    struct slow_crossing c;
-    slow_walk(&def, &way, &c);
+    const struct slow_def def = {.count = slope->vertices - 1,
+                                 .segments = segments,
+                                 .law = scene->simulation.law == CEDUO_LAW_CRSP ? SLOW_CRSP : SLOW_LUMPED,
+                                 .facets = slope->facets == CEDUO_BOTH ? SLOW_BOTH : SLOW_AGAINST,
+                                 .scale_rn = scene->simulation.scale_rn,
+                                 .gravity = nudge(scene->simulation.gravity, change),
+                                 .radius = nudge(body.radius, change),
+                                 .k = body.k,
+                                 .x0 = x,
+                                 .z0 = z,
+                                 .vx0 = nudge(r->vx.mean, change),
+                                 .vz0 = nudge(r->vz.mean, change),
+                                 .spin0 = nudge(r->spin.mean, change),
+                                 .uniform = draw,
+                                 .context = &context,
+                                 .max_contacts = CONTACTS,
+                                 .control = scene->controls_count > 0 ? scene->controls[0].x : NAN,
+                                 .on_contact = note_contact};
+    const struct slow_way way = slow_walk(&def);
+    const struct slow_crossing *c = &way.crossing;
     static const int ends[] = {[SLOW_REST] = CEDUO_AT_REST, [SLOW_LEFT] = CEDUO_LEFT_SLOPE, [SLOW_UNFINISHED] = -1};
     t->end = ends[way.end];
     t->contacts = t->end < 0 ? CONTACTS + 1 : way.contacts;
     t->x = way.x;
     t->z = way.z;
-    t->reached = c.reached;
-    memcpy(t->crossing, (double[4]){c.vx, c.vz, c.spin, c.height}, sizeof t->crossing);
+    t->reached = c->reached;
+    memcpy(t->crossing, (double[4]){c->vx, c->vz, c->spin, c->height}, sizeof t->crossing);
 }
 
 /* ---- comparing ---- */
