@@ -137,9 +137,10 @@ class Results:
                        digits(r["cpu_seconds_median"])] for r in self.rows("bench_doubt")])
 
     def doubt_error(self):
-        return table(["design", "points", "rocks", "scenes", "processor s", "band, of 1000", "shares, %"],
+        return table(["design", "points", "rocks", "scenes", "cpu s", "band", "held, %", "shares, %", "held, %"],
                      [[r["design"], r["points"], r["rocks"], r["scenes"], digits(r["cpu_seconds"]), digits(r["band_of_1000"], 2),
-                       digits(r["shares_percent"], 2)] for r in self.rows("bench_doubt_error")])
+                       r["band_held_percent"] or "\\-", digits(r["shares_percent"], 2), r["shares_held_percent"] or "\\-"]
+                      for r in self.rows("bench_doubt_error")])
 
     def keys(self):
         return table(["scene", "keys in", "keys", "median, ms", "p99, ms", "most, ms"],
