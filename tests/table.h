@@ -11,7 +11,7 @@
 struct table {
     FILE *file;
     size_t rows;
-    char line[512];
+    char line[1024];
     const char *at[TABLE_COLUMNS]; /* "": there is none */
 };
 

@@ -1,274 +1,124 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "local.h"
+#include "table.h"
 #include "unit/grid.h"
 
-/* A way of one straight part. */
-static void count_line(struct ceduo_cells *cells, const struct ceduo_frame *frame, double ax, double ay, double bx, double by)
-{
-    ceduo_canvas_polyline(&cells->canvas, frame, CEDUO_ROLE_CLOUD, CEDUO_STROKE_WAY, 2, (double[]){ax, bx}, (double[]){ay, by});
-}
+/* ---- drawings ---- */
 
-static void draw_line(struct ceduo_cells *cells, const struct ceduo_frame *frame, double ax, double ay, double bx, double by)
-{
-    ceduo_canvas_line(&cells->canvas, frame, CEDUO_ROLE_WAY, ax, ay, bx, by);
-}
+#define NUMBERS 20
 
-/* ---- Lines ---- */
+struct drawing {
+    struct ceduo_cells *cells;
+    struct ceduo_frame frame;
+    enum ceduo_role role;
+    int taken; /* cells, by texts */
+};
 
-TEST(lines_in_each_charset)
+/* Draws through n points. */
+static void draw_points(struct drawing *d, const char *name, size_t n, const double *v)
 {
-    static const char *const expected[] = {
-        "⠑⢄\n  ⠑⢄\n",
-        "▚\n ▚\n",
-        "'.\n  '.\n",
-    };
-    static const int length[] = {8, 4, 4};
-    for (int i = 0; i <= LAST_CHARSET; ++i) {
-        LOCAL(ceduo_cells, cells) = cells_in(4, 2, (enum ceduo_charset)i);
-        struct ceduo_frame frame = dots_of(cells);
-        int to = length[i] - 1;
-        draw_line(cells, &frame, 0, frame.y1, to, frame.y1 - to);
-        expect_and_clear(cells, expected[i]);
-        draw_line(cells, &frame, to, frame.y1 - to, 0, frame.y1);
-        expect_text(cells, expected[i]);
+    double x[NUMBERS / 2], y[NUMBERS / 2];
+    for (size_t i = 0; i < n; i++) {
+        x[i] = v[2 * i];
+        y[i] = v[2 * i + 1];
     }
+    if (strcmp(name, "stairs") == 0)
+        ceduo_canvas_stairs(&d->cells->canvas, &d->frame, d->role, n, x, y);
+    else if (strcmp(name, "poly") == 0)
+        ceduo_canvas_polyline(&d->cells->canvas, &d->frame, d->role, CEDUO_STROKE_PLAIN, n, x, y);
+    else
+        ceduo_canvas_polyline(&d->cells->canvas, &d->frame, CEDUO_ROLE_CLOUD, CEDUO_STROKE_WAY, n, x, y);
 }
 
-TEST(steep_and_flat_lines_have_no_gaps)
+/* One command of a drawing, as unit/drawings.txt has them. */
+static void draw(struct drawing *d, char *command)
 {
-    LOCAL(ceduo_cells, cells) = cells_in(3, 2, BRAILLE);
-    struct ceduo_frame frame = dots_of(cells);
-    draw_line(cells, &frame, 0, 0, 1, 7);
-    expect_and_clear(cells, "⢸\n⡇\n");
-    draw_line(cells, &frame, 0, 0, 5, 1);
-    expect_and_clear(cells, "\n⣀⡠⠤\n");
-}
-
-TEST(what_lies_outside_is_clipped)
-{
-    LOCAL(ceduo_cells, cells) = cells_in(4, 2, BLOCK);
-    struct ceduo_frame frame = dots_of(cells);
-    frame.left = 1;
-    frame.width = 2;
-    frame.x1 = 3;
-    /* Both ends outside, across the frame: level, upright, slanting; and far, far away. */
-    draw_line(cells, &frame, -50, 3, 90, 3);
-    expect_and_clear(cells, " ▀▀\n\n");
-    draw_line(cells, &frame, 0, 1e6, 0, -1e6);
-    expect_and_clear(cells, " ▌\n ▌\n");
-    draw_line(cells, &frame, -10, 13, 20, -17);
-    expect_and_clear(cells, " ▚\n  ▚\n");
-    draw_line(cells, &frame, -1e9, -1e9, 1e9, 1e9);
-    expect_and_clear(cells, "  ▞\n ▞\n");
-    /* Nothing of these is inside: beside, above, past a corner, and a point just beyond the half dot. */
-    draw_line(cells, &frame, -5, 0, -1, 3);
-    draw_line(cells, &frame, -5, 4, 5, 9);
-    draw_line(cells, &frame, 3, 6, 6, 3);
-    draw_point(cells, &frame, CEDUO_ROLE_WAY, 3.6, 1);
-    draw_point(cells, &frame, CEDUO_ROLE_WAY, 1, -0.6);
-    expect_and_clear(cells, "\n\n");
-    /* The nearest dot is inside. */
-    draw_point(cells, &frame, CEDUO_ROLE_WAY, 3.4, 3.4);
-    expect_and_clear(cells, "  ▝\n\n");
-}
-
-TEST(frame_may_hang_over_the_canvas)
-{
-    LOCAL(ceduo_cells, cells) = cells_in(3, 1, ASCII);
-    struct ceduo_frame frame = {.left = -2, .top = -1, .width = 7, .height = 3, .x1 = 6, .y1 = 5};
-    draw_line(cells, &frame, 0, 3, 6, 3);
-    draw_line(cells, &frame, 3, 0, 3, 5);
-    expect_text(cells, "':'\n");
-}
-
-TEST(what_is_not_finite_is_never_drawn)
-{
-    const double nan = NAN, inf = INFINITY;
-    LOCAL(ceduo_cells, cells) = cells_in(7, 1, ASCII);
-    struct ceduo_frame frame = dots_of(cells);
-    draw_point(cells, &frame, CEDUO_ROLE_WAY, nan, 0);
-    draw_point(cells, &frame, CEDUO_ROLE_WAY, 0, inf);
-    draw_line(cells, &frame, 0, 0, inf, 0);
-    draw_line(cells, &frame, nan, 0, 3, 0);
-    draw_line(cells, &frame, -1e308, 0, 1e308, 0); /* too long to clip */
-    ceduo_canvas_rule_x(&cells->canvas, &frame, CEDUO_ROLE_WAY, nan);
-    ceduo_canvas_rule_y(&cells->canvas, &frame, CEDUO_ROLE_WAY, -inf);
-    ceduo_canvas_bar(&cells->canvas, 0, 0, 7, nan, CEDUO_ROLE_WAY);
-    expect_and_clear(cells, "\n");
-    const double x[] = {0, 1, 2, 3, 4, 5, 6}, y[] = {0, 0, nan, 0, inf, 0, 0};
-    ceduo_canvas_polyline(&cells->canvas, &frame, CEDUO_ROLE_WAY, CEDUO_STROKE_PLAIN, 7, x, y);
-    expect_and_clear(cells, ".. . ..\n");
-    ceduo_canvas_stairs(&cells->canvas, &frame, CEDUO_ROLE_WAY, 7, x, y);
-    expect_and_clear(cells, ".. . ..\n");
-}
-
-TEST(useless_frames_draw_nothing)
-{
-    static const struct ceduo_frame frames[] = {
-        {.width = 4, .height = 2, .x1 = 0, .y1 = 1},
-        {.width = 4, .height = 2, .x1 = 1, .y1 = 0},
-        {.width = 4, .height = 2, .x0 = (double)NAN, .x1 = 1, .y1 = 1},
-        {.width = 4, .height = 2, .x1 = (double)INFINITY, .y1 = 1},
-        {.width = 4, .height = 2, .x0 = -1.7e308, .x1 = 1.7e308, .y1 = 1},
-        {.width = 1, .height = 2, .x1 = 1, .y1 = 1},
-        {.width = 4, .height = 0, .x1 = 1, .y1 = 1},
-        {.width = 1001, .height = 2, .x1 = 1, .y1 = 1},
-        {.left = 2000000000, .width = 4, .height = 2, .x1 = 1, .y1 = 1},
-    };
-    const double x[] = {0, 1};
-    LOCAL(ceduo_cells, cells) = cells_in(4, 2, BRAILLE);
-    ceduo_canvas_cloud_start(&cells->canvas);
-    for (size_t i = 0; i < sizeof frames / sizeof frames[0]; ++i) {
-        const struct ceduo_frame *frame = &frames[i];
-        int column, row;
-        draw_point(cells, frame, CEDUO_ROLE_WAY, 0, 0);
-        ceduo_canvas_polyline(&cells->canvas, frame, CEDUO_ROLE_WAY, CEDUO_STROKE_PLAIN, 2, x, x);
-        ceduo_canvas_stairs(&cells->canvas, frame, CEDUO_ROLE_WAY, 2, x, x);
-        ceduo_canvas_rule_x(&cells->canvas, frame, CEDUO_ROLE_WAY, 0);
-        ceduo_canvas_rule_y(&cells->canvas, frame, CEDUO_ROLE_WAY, 0);
-        ceduo_canvas_polyline(&cells->canvas, frame, CEDUO_ROLE_CLOUD, CEDUO_STROKE_WAY, 2, x, x);
-        ceduo_canvas_axis_left(&cells->canvas, frame);
-        ceduo_canvas_axis_bottom(&cells->canvas, frame, "m");
-        assert_false(ceduo_frame_cell(frame, kind_of(BRAILLE), 0, 0, &column, &row));
+    static const char roles[] = " tdTagcemwsSbCGBWrox";
+    struct ceduo_canvas *c = &d->cells->canvas;
+    char name[16], *text;
+    int at = 0, k[4] = {0};
+    double v[NUMBERS] = {0};
+    size_t n = 0;
+    sscanf(command, " %15s%n", name, &at);
+    for (char *from = command + at; n < NUMBERS; from = text, n++) {
+        v[n] = strtod(from, &text);
+        if (text == from)
+            break;
+        if (n < 4 && fabs(v[n]) < 3e9)
+            k[n] = (int)v[n];
     }
-    ceduo_canvas_cloud_show(&cells->canvas, 0);
-    expect_text(cells, "\n\n");
+    text += strspn(text, " ");
+    text = *text == '\'' ? text + 1 : NULL;
+#define IS(word) (strcmp(name, word) == 0)
+    if (IS("frame"))
+        d->frame = (struct ceduo_frame){k[0], k[1], k[2], k[3], v[4], v[5], false, v[6], v[7]};
+    else if (IS("scale"))
+        assert_true(ceduo_frame_true_scale(&d->frame, c, v[0], v[1], v[2], v[3]));
+    else if (IS("widen"))
+        d->frame.left = ceduo_frame_axis_width(&d->frame, c);
+    else if (IS("whole"))
+        d->frame.x_whole = true;
+    else if (IS("no-cell"))
+        assert_false(ceduo_frame_cell(&d->frame, c, v[0], v[1], &k[0], &k[1]));
+    else if (IS("number") || IS("role"))
+        d->role = (enum ceduo_role)(IS("role") ? (int)(strchr(roles, text[0]) - roles) : k[0]);
+    else if (IS("line"))
+        ceduo_canvas_line(c, &d->frame, d->role, v[0], v[1], v[2], v[3]);
+    else if (IS("rule-x"))
+        ceduo_canvas_rule_x(c, &d->frame, d->role, v[0]);
+    else if (IS("rule-y"))
+        ceduo_canvas_rule_y(c, &d->frame, d->role, v[0]);
+    else if (IS("bar"))
+        ceduo_canvas_bar(c, k[0], k[1], k[2], v[3], d->role);
+    else if (IS("poly") || IS("stairs") || IS("way"))
+        draw_points(d, name, n / 2, v);
+    else if (IS("start"))
+        ceduo_canvas_cloud_start(c);
+    else if (IS("show"))
+        ceduo_canvas_cloud_show(c, v[0]);
+    else if (IS("clear"))
+        ceduo_cells_clear(d->cells);
+    else if (IS("left"))
+        ceduo_canvas_axis_left(c, &d->frame);
+    else if (IS("bottom"))
+        ceduo_canvas_axis_bottom(c, &d->frame, text);
+    else if (IS("label"))
+        d->taken += ceduo_cells_label(d->cells, k[0], k[1], d->role, text);
+    else if (IS("right"))
+        d->taken += ceduo_canvas_label_right(c, k[0], k[1], d->role, text);
+    else if (IS("put"))
+        d->taken += ceduo_canvas_put(c, k[0], k[1], k[2], d->role, text);
+    else if (IS("end"))
+        d->taken += ceduo_cells_put_end(d->cells, k[0], k[1], k[2], d->role, text);
+    else
+        fail_msg("'%s' is no command", command);
 }
 
-TEST(axes_may_be_turned_round)
+TEST(drawings_look_as_they_should)
 {
-    LOCAL(ceduo_cells, cells) = cells_in(3, 2, ASCII);
-    struct ceduo_frame frame = {.width = 3, .height = 2, .x0 = 2, .x1 = 0, .y0 = 3, .y1 = 0};
-    draw_point(cells, &frame, CEDUO_ROLE_WAY, 0, 3);
-    draw_point(cells, &frame, CEDUO_ROLE_WAY, 2, 0);
-    expect_text(cells, "'\n  .\n");
+    static const char *const sections[] = {"lines", "bars", "density", "true scale", "cells", "axes"};
+    for (size_t i = 0; i < LENGTH(sections); i++)
+        for (TABLE(row, "unit/drawings.txt", sections[i])) {
+            int width, height;
+            char charset[8], commands[1024], *rest = commands;
+            assert_int_equal(sscanf(row.at[0], "%dx%d %7s", &width, &height, charset), 3);
+            LOCAL(ceduo_cells, cells) = cells_in(width, height,
+                                                 charset[0] == 'a'   ? ASCII
+                                                 : charset[1] == 'r' ? BRAILLE
+                                                                     : BLOCK);
+            struct drawing d = {cells, dots_of(cells), CEDUO_ROLE_WAY, 0};
+            snprintf(commands, sizeof commands, "%s", row.at[1]);
+            for (char *command; (command = strsep(&rest, ";"));)
+                draw(&d, command);
+            LOCAL_BYTES char *text = ceduo_cells_dump(cells), *letters = ceduo_cells_roles(cells);
+            if ((row.at[2][0] && strcmp(text, row.at[2]) != 0) || (row.at[3][0] && strcmp(letters, row.at[3]) != 0) ||
+                (row.at[4][0] && atoi(row.at[4]) != d.taken))
+                fail_msg("%s: %s:\n%s%s%d cells, wanted\n%s%s%s", row.at[0], row.at[1], text, letters, d.taken, row.at[2],
+                         row.at[3], row.at[4]);
+        }
 }
 
-TEST(stairs_hold_the_value_before)
-{
-    const double x[] = {0, 3, 5}, y[] = {3, 1, 0};
-    LOCAL(ceduo_cells, cells) = cells_in(6, 2, ASCII);
-    struct ceduo_frame frame = dots_of(cells);
-    ceduo_canvas_stairs(&cells->canvas, &frame, CEDUO_ROLE_WOOD, 3, x, y);
-    expect_and_clear(cells, "''':\n   '':\n");
-    ceduo_canvas_stairs(&cells->canvas, &frame, CEDUO_ROLE_WOOD, 1, x, y);
-    expect_and_clear(cells, "'\n\n");
-}
-
-TEST(rules_are_dotted)
-{
-    static const char *const across[] = {"\n⡀⡀⡀⡀\n", "\n▖▖▖▖\n", "\n. .\n"};
-    static const char *const up[] = {"⠅\n⠅\n", "▘\n▘\n", "'\n'\n"};
-    for (int i = 0; i <= LAST_CHARSET; ++i) {
-        LOCAL(ceduo_cells, cells) = cells_in(4, 2, (enum ceduo_charset)i);
-        struct ceduo_frame frame = dots_of(cells);
-        ceduo_canvas_rule_y(&cells->canvas, &frame, CEDUO_ROLE_AXIS, 0);
-        expect_and_clear(cells, across[i]);
-        ceduo_canvas_rule_x(&cells->canvas, &frame, CEDUO_ROLE_AXIS, 0);
-        expect_and_clear(cells, up[i]);
-        ceduo_canvas_rule_x(&cells->canvas, &frame, CEDUO_ROLE_AXIS, -1);
-        ceduo_canvas_rule_y(&cells->canvas, &frame, CEDUO_ROLE_AXIS, frame.y1 + 1);
-        expect_and_clear(cells, "\n\n");
-    }
-}
-
-TEST(bars_go_by_eighths)
-{
-    static const struct {
-        double fraction;
-        const char *utf8, *ascii;
-    } bars[] = {
-        {-1, "\n", "\n"},           {0, "\n", "\n"},         {1e-9, "▏\n", "#\n"},    {1. / 16, "▏\n", "#\n"},
-        {2. / 16, "▎\n", "#\n"},    {3. / 16, "▍\n", "#\n"}, {4. / 16, "▌\n", "#\n"}, {5. / 16, "▋\n", "#\n"},
-        {6. / 16, "▊\n", "#\n"},    {7. / 16, "▉\n", "#\n"}, {8. / 16, "█\n", "#\n"}, {9. / 16, "█▏\n", "#\n"},
-        {15. / 16, "█▉\n", "##\n"}, {1, "██\n", "##\n"},     {7, "██\n", "##\n"},     {(double)INFINITY, "██\n", "##\n"},
-    };
-    LOCAL(ceduo_cells, utf8) = cells_in(4, 1, BRAILLE);
-    LOCAL(ceduo_cells, ascii) = cells_in(4, 1, ASCII);
-    for (size_t i = 0; i < sizeof bars / sizeof bars[0]; ++i) {
-        ceduo_canvas_bar(&utf8->canvas, 0, 0, 2, bars[i].fraction, CEDUO_ROLE_WOOD);
-        ceduo_canvas_bar(&ascii->canvas, 0, 0, 2, bars[i].fraction, CEDUO_ROLE_WOOD);
-        expect_and_clear(utf8, bars[i].utf8);
-        expect_and_clear(ascii, bars[i].ascii);
-    }
-    ceduo_canvas_bar(&utf8->canvas, 2, 0, 4, 1, CEDUO_ROLE_WOOD);
-    expect_text(utf8, "  ██\n");
-    expect_roles(utf8, "  oo\n");
-}
-
-/* ---- Density ---- */
-
-TEST(density_shows_the_most_travelled_dots)
-{
-    static const struct {
-        double quantile;
-        const char *text;
-    } shown[] = {{1, ".\n"}, {0.75, "..\n"}, {0.5, "...\n"}, {0, "....\n"}, {9, ".\n"}, {(double)NAN, "....\n"}};
-    for (size_t k = 0; k < sizeof shown / sizeof shown[0]; ++k) {
-        LOCAL(ceduo_cells, cells) = cells_in(4, 1, ASCII);
-        struct ceduo_frame frame = dots_of(cells);
-        count_line(cells, &frame, 0, 0, 3, 0); /* not started */
-        ceduo_canvas_cloud_show(&cells->canvas, 0);
-        expect_text(cells, "\n");
-        ceduo_canvas_cloud_start(&cells->canvas);
-        ceduo_canvas_cloud_show(&cells->canvas, 0);
-        for (int i = 0; i < 4; ++i)
-            count_line(cells, &frame, 0, 0, i, 0); /* passed 4, 3, 2, 1 times */
-        expect_text(cells, "\n");                  /* counting draws nothing */
-        ceduo_canvas_cloud_show(&cells->canvas, shown[k].quantile);
-        expect_text(cells, shown[k].text);
-        assert_int_equal(ceduo_cells_role(cells, 0, 0), CEDUO_ROLE_CLOUD);
-        ceduo_cells_clear(cells);
-        ceduo_canvas_cloud_show(&cells->canvas, 0);
-        expect_text(cells, "\n");
-    }
-}
-
-TEST(a_way_counts_once_where_its_parts_meet)
-{
-    const double x[] = {-9, 0, 0.2, 0.4, 1, 2, 2, 99}, y[] = {0, 0, 0, 0, 0, 0, 0, 0};
-    for (int i = 0; i <= LAST_CHARSET; ++i) {
-        LOCAL(ceduo_cells, cells) = cells_in(4, 1, (enum ceduo_charset)i);
-        struct ceduo_frame frame = dots_of(cells);
-        ceduo_canvas_cloud_start(&cells->canvas);
-        ceduo_canvas_polyline(&cells->canvas, &frame, CEDUO_ROLE_CLOUD, CEDUO_STROKE_WAY, 8, x, y);
-        ceduo_canvas_cloud_show(&cells->canvas, 1);
-        ceduo_canvas_polyline(&cells->canvas, &frame, CEDUO_ROLE_CLOUD, CEDUO_STROKE_WAY, 8, x, y);
-        ceduo_canvas_cloud_show(&cells->canvas, 0);
-    }
-}
-
-TEST(density_counts_only_within_the_canvas)
-{
-    LOCAL(ceduo_cells, cells) = cells_in(2, 1, BRAILLE);
-    struct ceduo_frame frame = {.left = -3, .top = -3, .width = 12, .height = 9, .x1 = 1, .y1 = 1};
-    ceduo_canvas_cloud_start(&cells->canvas);
-    count_line(cells, &frame, 0, 0, 1, 1);
-    count_line(cells, &frame, 0, 1, 1, 0);
-    count_line(cells, &frame, 0, 0.65, 1, 0.65);
-    ceduo_canvas_cloud_show(&cells->canvas, 0);
-    expect_roles(cells, "cc\n");
-}
-
-/* ---- True scale ---- */
-
-TEST(forty_five_degrees_are_forty_five_degrees)
-{
-    static const char *const expected[] = {
-        "      ⡠⠊\n    ⡠⠊\n  ⡠⠊\n⡠⠊\n",
-        "      ▄▀\n    ▄▀\n  ▄▀\n▗▀\n",
-        "      .'\n    .'\n  .'\n.'\n",
-    };
-    for (int i = 0; i <= LAST_CHARSET; ++i) {
-        enum ceduo_charset charset = (enum ceduo_charset)i;
-        LOCAL(ceduo_cells, cells) = cells_in(8, 4, charset);
-        struct ceduo_frame frame = {.width = 8, .height = 4};
-        /* A slope of 100 m down 100 m, in a picture that just holds it. */
-        assert_true(ceduo_frame_true_scale(&frame, kind_of(charset), 200, 300, 1000, 1100));
-        draw_line(cells, &frame, 200, 1000, 300, 1100);
-        expect_text(cells, expected[i]);
-    }
-}
+/* ---- true scale ---- */
 
 TEST(true_scale_moves_one_dot_across_for_each_dot_up)
 {
@@ -278,7 +128,7 @@ TEST(true_scale_moves_one_dot_across_for_each_dot_up)
     double dot = (frame.x1 - frame.x0) / 59;
     assert_float_equal((frame.y1 - frame.y0) / 35, dot, 1e-12);
     /* From the lower left dot on, each further dot to the right is one further up. */
-    draw_line(cells, &frame, frame.x0, frame.y0, frame.x0 + 7 * dot, frame.y0 + 7 * dot);
+    ceduo_canvas_line(&cells->canvas, &frame, CEDUO_ROLE_WAY, frame.x0, frame.y0, frame.x0 + 7 * dot, frame.y0 + 7 * dot);
     expect_text(cells, "\n\n\n\n\n\n\n  ⡠⠊\n⡠⠊\n");
 }
 
