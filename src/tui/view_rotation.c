@@ -27,31 +27,10 @@ static void build(struct app *app, struct form *form)
     ceduo_form_rest(form, "minimum");
 }
 
+/* What is felled in a year, and its stands; the column on the right has its figures. */
 static void say_year(struct app *app, const struct ceduo_years *years, struct text *text)
 {
-    size_t c = app->live.result->last_control;
-    const struct ceduo_control *control = &app->live.result->scene->controls[c];
     const struct ceduo_year *y = &years->years[app->year < years->count ? app->year : 0];
-    ceduo_text_format(text, y->cut ? _("Year %u, cut:") : _("Year %u:"), y->year);
-    ceduo_text_char(text, ' ');
-    if (y->wooded.rocks > 0) {
-        const struct ceduo_arrivals *a = &y->wooded.arrivals[c];
-        struct ceduo_portion share = ceduo_share_at(a);
-        ceduo_text_format(text,
-                          isnan(a->exceed_probability) ? _("%.0f \xc2\xb1%.0f of 1000 arrive")
-                                                       : _("%.0f \xc2\xb1%.0f of 1000 with more than %g kJ"),
-                          share.mean * 1000, ceil(1000 * share.half), control->accepted * J_TO_KJ);
-        ceduo_text_put(text, "; ");
-    }
-    double adc = y->controls[c].worst_adc, thick = y->controls[c].thick.worst_adc;
-    if (isinf(adc))
-        ceduo_text_put(text, _("no stems"));
-    else
-        ceduo_text_format(text, _("mean distance between stem hits (ADC) %s m"), WRITTEN(adc, 3));
-    if (ceduo_index_hangs_on_thin(&y->controls[c]))
-        ceduo_text_then(text, ", ", isinf(thick) ? _("of stems from 8 cm on %s") : _("of stems from 8 cm on %s m"),
-                        WRITTEN(thick, 3));
-    ceduo_text_put(text, ". ");
     const struct ceduo_verdict *v = &app->live.verdict;
     const struct ceduo_yield *yield = app->option < v->n ? &v->choices[app->option].yield : NULL;
     for (size_t i = 0; yield && i < yield->fellings_count; i++)
@@ -79,22 +58,6 @@ static void say_year(struct app *app, const struct ceduo_years *years, struct te
     }
 }
 
-/* The same year of the other options. */
-static void say_others(struct app *app, unsigned year, struct text *text)
-{
-    const struct ceduo_result *r = app->live.result;
-    LOCAL_TEXT(others);
-    for (size_t i = 0; i < r->options_count; i++) {
-        const struct ceduo_years *years = ceduo_live_years(&app->live, r->scene, i);
-        for (size_t k = 0; years && i != app->option && k < years->count; k++)
-            if (years->years[k].year == year && years->years[k].wooded.rocks > 0)
-                ceduo_text_then(&others, others.length > 0 ? ", " : "", "'%s' %.0f", r->scene->options[i].name,
-                                1000 * ceduo_share_of(&years->years[k].wooded.arrivals[r->last_control]));
-    }
-    if (others.length > 0)
-        ceduo_text_format(text, _("In that year %s of 1000."), ceduo_text_string(&others));
-}
-
 static void say_all(struct app *app, const struct ceduo_years *years, struct text *text)
 {
     const struct ceduo_verdict *v = &app->live.verdict;
@@ -107,12 +70,11 @@ static void say_all(struct app *app, const struct ceduo_years *years, struct tex
     ceduo_words_counted(text, years->rocks);
 }
 
-#define PICTURE_MIN       7 /* lines of the picture beside the form: of the curve alone */
-#define PICTURE_ALONE     9 /* with the lights below it */
-#define FORM_MIN          3 /* of the form, and where there is room: */
-#define FORM_WANTED       8
-#define HEIGHT_FOR_FORM   18
-#define HEIGHT_FOR_OTHERS 30
+#define PICTURE_MIN     7 /* lines of the picture beside the form: of the curve alone */
+#define PICTURE_ALONE   9 /* with the lights below it */
+#define FORM_MIN        3 /* of the form, and where there is room: */
+#define FORM_WANTED     8
+#define HEIGHT_FOR_FORM 18
 
 static void draw(struct app *app, struct ceduo_area area)
 {
@@ -123,8 +85,6 @@ static void draw(struct app *app, struct ceduo_area area)
         say_all(app, picture.years, &text);
         ceduo_text_char(&text, '\n');
         say_year(app, picture.years, &text);
-        if (area.height >= HEIGHT_FOR_OTHERS && app->year < picture.years->count)
-            say_others(app, picture.years->years[app->year].year, &text);
     }
     int form_min = alone ? 0 : area.height >= HEIGHT_FOR_FORM ? FORM_WANTED : FORM_MIN;
     int max = area.height - form_min - (alone ? PICTURE_ALONE : PICTURE_MIN);
