@@ -26,7 +26,7 @@ bool ceduo_changes_make(struct changes *changes, const char *what, struct proble
 const char *ceduo_changes_rounded(struct changes *changes, double value, int digits);
 
 /* Adds what follows a value that is changed: the neighbours of a border, so that there is no new gap and no overlap; a
- * height that is assumed, by its diameter. Says what does not follow: shoots that are given per hectare, standards. */
+ * height that is assumed, by its diameter. */
 void ceduo_changes_follow(struct changes *changes, const char *path, const char *value);
 
 /* As ceduo_document_set(), but what would then be said twice is taken out in the same state: a sphere has one of three

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What goes along with a value that a person changes. Borders: where a belt, or a ground, ends and the next one begins
  * in the same place, moving one moves the other; where a border is moved over the next, that one gives way. Stands: a height
- * that is assumed goes along with its diameter; of stools and standards it is said what does not. */
+ * that is assumed goes along with its diameter. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -127,19 +127,6 @@ static void follow_end(struct changes *c, const char *path, const char *value)
 
 /* ---- stands ---- */
 
-/* What happens to the shoots of stools that become more or fewer. */
-static void say_shoots(struct changes *c, const struct ceduo_stand *s, double stools)
-{
-    double shoots = ceduo_stand_shoots(s), each = shoots / s->stools_per_ha;
-    if (!(stools > 0) || !(shoots > 0))
-        return;
-    if (s->shoots[0].per_stool > 0)
-        ceduo_text_format(&c->followed, _("%s shoots on each stool stay"), ceduo_changes_rounded(c, each, 3));
-    else
-        ceduo_text_format(&c->followed, _("the shoots per ha stay: %s on a stool, not %s"),
-                          ceduo_changes_rounded(c, shoots / stools, 3), ceduo_changes_rounded(c, each, 3));
-}
-
 /* A height that is only assumed goes along with its diameter, as both do while stems grow. */
 static void follow_diameter(struct changes *c, const char *path, const struct ceduo_curve *curve,
                             const struct ceduo_stems *stems, double dbh)
@@ -157,31 +144,7 @@ static void follow_diameter(struct changes *c, const char *path, const struct ce
                       written);
 }
 
-/* Trees that stand today, and those that a cut leaves, are two things: who changes one is reminded of the other. */
-static void compare_standards(struct changes *c, const struct ceduo_stand *s, double stand, double stay, bool today)
-{
-    if (s->cutting.rotation > 0 && fabs(stand - stay) > 0.5)
-        ceduo_text_format(&c->followed,
-                          today ? _("a cut still leaves %g trees per ha: see 'trees that stay'")
-                                : _("today %g trees per ha stand: see 'single trees'"),
-                          today ? stay : stand);
-}
-
-/* The sum of [30, 30]; NaN: it is none. */
-static double sum_of(const char *list)
-{
-    double sum = 0, one;
-    char *end;
-    for (list += strspn(list, "[ "); *list && *list != ']'; list = end + strspn(end, ", ")) {
-        one = strtod(list, &end);
-        if (end == list)
-            return NAN;
-        sum += one;
-    }
-    return sum;
-}
-
-static void follow_stand(struct changes *c, const char *path, const char *value, double now)
+static void follow_stand(struct changes *c, const char *path, double now)
 {
     const struct ceduo_belt *belt = ceduo_input_belt(&c->d->file.scene, path);
     const char *stand = strstr(path, "].stand."), *bracket = strrchr(path, '[');
@@ -190,13 +153,7 @@ static void follow_stand(struct changes *c, const char *path, const char *value,
     size_t i = bracket > stand ? strtoul(bracket + 1, NULL, 10) : 0;
     bool shoot = s && strncmp(key, "shoots[", 7) == 0 && i < s->shoots_count;
     bool tree = s && strncmp(key, "trees[", 6) == 0 && i < s->trees_count;
-    if (s && strcmp(key, "stools.per_ha") == 0)
-        say_shoots(c, s, now);
-    else if (s && strcmp(key, "cutting.stay_per_ha") == 0)
-        compare_standards(c, s, ceduo_stand_trees(s), sum_of(value), false);
-    else if (tree && ends_in(key, "].per_ha"))
-        compare_standards(c, s, ceduo_stand_trees(s) - s->trees[i].per_ha + now, ceduo_stand_stay(s), true);
-    else if ((shoot || tree) && (ends_in(key, "].dbh_m") || ends_in(key, "].dbh_cm")))
+    if ((shoot || tree) && (ends_in(key, "].dbh_m") || ends_in(key, "].dbh_cm")))
         follow_diameter(c, path, shoot ? &s->growth.shoots : &s->growth.trees, shoot ? &s->shoots[i] : &s->trees[i],
                         ends_in(key, "_cm") ? now / 100 : now);
 }
@@ -220,5 +177,5 @@ void ceduo_changes_follow(struct changes *c, const char *path, const char *value
     follow_border(c, path, value);
     if (ceduo_number_read(value, &now) != CEDUO_NUMBER_GOOD)
         now = NAN;
-    follow_stand(c, path, value, now);
+    follow_stand(c, path, now);
 }
