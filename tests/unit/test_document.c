@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "folder.h"
 #include "local.h"
+#include "table.h"
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -11,6 +12,7 @@
 #include "ceduo/observe.h"
 #include "io/file.h"
 #include "model/document.h"
+#include "scene/value.h"
 
 static const char scene[] = "# my comment\n"
                             "ceduo: scene/1\n"
@@ -100,15 +102,6 @@ static void set(const char *where, const char *value)
     must(ceduo_document_set(&d, where, value, &problems));
 }
 
-static void refuse(const char *where, const char *value, const char *why)
-{
-    LOCAL_BY(ceduo_problems_free) struct problems found = {0};
-    size_t before = d.at;
-    assert_false(ceduo_document_set(&d, where, value, &found));
-    assert_non_null(strstr(found.text.bytes, why));
-    assert_int_equal(d.at, before);
-}
-
 static void set_millimetres(int mm)
 {
     char value[16];
@@ -166,93 +159,160 @@ static void walk(const char *steps)
     assert_int_equal(*steps, '\0');
 }
 
-static void expect_in(const char *file, const char *words)
+/* ---- saved elsewhere ---- */
+
+/* A scene in a/scenes whose files lie in a/slopes and a/stands; b/stands has another stand of the same name. */
+static void scatter(const char *slope_reference)
 {
-    if (!strstr(read_file(file), words))
-        fail_msg("%s is missing in\n%s", words, read_file(file));
+    static const char *const folders[] = {"a", "a/scenes", "a/slopes", "a/stands", "a/more", "b", "b/scenes", "b/stands"};
+    for (size_t i = 0; i < sizeof folders / sizeof folders[0]; i++)
+        make_folder(folders[i]);
+    char text[1024];
+    snprintf(text, sizeof text,
+             "# mine\nceduo: scene/1\nrock: {diameter_m: 0.5}\nslope: %s\ncontrols: [{x_m: 90}]\nforest:\n"
+             "  - {from_m: 10, to_m: 30, stand: ../stands/wood.yaml}\n"
+             "  - {from_m: 40, to_m: 60, stand: {base: ../stands/wood.yaml, name: V}}\n"
+             "  - {from_m: 70, to_m: 80, stand: ads-1}\n",
+             slope_reference);
+    write_file("a/scenes/s.yaml", text);
+    write_file("a/slopes/line.csv", "distance,elevation\n0,50\n40,20\n100,0\n");
+    write_file("a/slopes/line.yaml",
+               "ceduo: slope/1\nvertices_m: [[0, 50], [40, 20], [100, 0]]\nsegments: [{rn: 0.3, rt: 0.8}]\n");
+    write_file("a/slopes/by-csv.yaml", "ceduo: slope/1\ncsv: line.csv\nsegments: [{rn: 0.3, rt: 0.8}]\n");
+    write_file("a/stands/wood.yaml", stand);
+    write_file("b/stands/wood.yaml", "ceduo: stand/1\ntrees: [{per_ha: 7, dbh_m: 0.2, height_m: 12}]\n");
+    in_folder(path, "a/scenes/s.yaml");
 }
 
-TEST_WITH(changed_values_keep_comments, set_up, tear_down)
+/* What the files lead to, whatever else was changed. */
+static void expect_files(void)
 {
-    open_scene();
-    assert_false(ceduo_document_unsaved(&d));
-    set("rock.diameter_m", "0.75");
-    set("title", "\"Above: the mill\"");
-    assert_true(ceduo_document_unsaved(&d));
-    save(path);
-    const char *text = read_file("scene.yaml");
-    assert_non_null(strstr(text, "# my comment\n"));
-    assert_non_null(strstr(text, "title: \"Above: the mill\"   # a title\n"));
-    assert_non_null(strstr(text, "rock: {diameter_m: 0.75, density_kg_m3: 2600}\n"));
-    assert_non_null(strstr(text, "stand: stand.yaml}   # below the rock\n"));
+    const struct ceduo_option *o = &d.file.scene.options[0];
+    assert_int_equal(d.file.scene.slope.vertices, 3);
+    assert_true(d.file.scene.slope.z[1] == -30);
+    assert_true(o->belts[0].stand.stools_per_ha == 2000 && o->belts[1].stand.stools_per_ha == 2000);
+    assert_string_equal(o->belts[1].name, "V");
+    assert_string_equal(o->belts[2].name, "ADS 1");
 }
 
-TEST_WITH(a_changed_stand_starts_from_its_file, set_up, tear_down)
+static void reopen(const char *at)
 {
+    strcpy(path, at);
     open_scene();
-    set("forest[0].stand.stools.per_ha", "2500");
-    for (int i = 0; i < 2; i++) { /* saving twice says the same */
-        save(path);
-        const char *text = read_file("scene.yaml");
-        assert_non_null(strstr(text, "base: stand.yaml"));
-        assert_non_null(strstr(text, "# below the rock"));
-        assert_non_null(strstr(text, "2500"));
-        assert_null(strstr(text, "6000"));
-        set("rock.diameter_m", "0.6");
+    expect_files();
+}
+
+/* ---- steps ---- */
+
+static size_t count_notes(void)
+{
+    size_t n = 0;
+    for (const struct source_note *note = d.file.notes; note; note = note->before)
+        n++;
+    return n;
+}
+
+/* One row of unit/documents.txt does what it says; false where it fails. */
+static bool step(const char *const at[TABLE_COLUMNS])
+{
+    static char kept[65536], whole[512];
+    static size_t notes;
+    const char *a = at[1], *b = at[2], *hole = strchr(b, '@'); /* for the folder */
+    const struct node *node = ceduo_document_node(&d, a);
+    size_t i = (size_t)atoi(a), k = (size_t)atoi(b);
+    struct value value;
+    bool good = true;
+#define IS(word) (strcmp(at[0], word) == 0)
+    if (IS("file"))
+        write_file(a, b);
+    else if (IS("scatter"))
+        scatter(a);
+    else if (IS("files"))
+        expect_files();
+    else if (IS("open")) {
+        if (*a)
+            in_folder(path, a);
+        open_scene();
+    } else if (IS("save") || IS("lay-out")) {
+        in_folder(whole, a);
+        save_as(*a ? whole : path, IS("lay-out"));
+    } else if (IS("walk"))
+        walk(a);
+    else if (IS("set"))
+        set(a, b);
+    else if (IS("refuse")) {
+        LOCAL_BY(ceduo_problems_free) struct problems found = {0};
+        size_t before = d.at;
+        good = !ceduo_document_set(&d, a, b, &found) && strstr(found.text.bytes, at[3]) && d.at == before;
+    } else if (IS("set-all"))
+        good = ceduo_document_set_all(&d, (const char *const[]){a, b}, 2, at[3], &problems);
+    else if (IS("duplicate"))
+        good = ceduo_document_duplicate(&d, a, k, *at[3] ? at[3] : NULL, *at[4] ? at[4] : NULL, &problems);
+    else if (IS("add"))
+        good = ceduo_document_add_option(&d, a, &problems);
+    else if (IS("move"))
+        good = ceduo_document_move(&d, a, k, (size_t)atoi(at[3]), &problems);
+    else if (IS("split"))
+        good = ceduo_document_split_segment(&d, i, b, false, &problems);
+    else if (IS("delete"))
+        good = ceduo_document_delete(&d, a, &problems);
+    else if (IS("rename") || IS("cannot-rename"))
+        good = ceduo_document_rename_option(&d, i, b, &problems) == IS("rename");
+    else if (IS("undo") || IS("cannot-undo"))
+        good = ceduo_document_undo(&d) == IS("undo");
+    else if (IS("redo") || IS("cannot-redo"))
+        good = ceduo_document_redo(&d) == IS("redo");
+    else if (IS("unsaved") || IS("saved"))
+        good = ceduo_document_unsaved(&d) == IS("unsaved");
+    else if (IS("changed") || IS("unchanged"))
+        good = ceduo_document_changed_on_disk(&d) == IS("changed");
+    else if (IS("assumed") || IS("known"))
+        good = ceduo_scene_assumes_value(&d.file, a) == IS("assumed");
+    else if (IS("there") || IS("none"))
+        good = (node != NULL) == IS("there");
+    else if (IS("text"))
+        good = node && strcmp(node->text, b) == 0;
+    else if (IS("number"))
+        good = ceduo_value_find(&d.file.scene, a, &value) && ceduo_value_get(&value) == atof(b);
+    else if (IS("word"))
+        good = ceduo_value_find(&d.file.scene, a, &value) &&
+               strcmp(value.field->choices->names[(int)ceduo_value_get(&value)], b) == 0;
+    else if (IS("vertices"))
+        good = d.file.scene.slope.vertices == i;
+    else if (IS("inputs"))
+        good = d.file.inputs_count == i;
+    else if (IS("seen-through")) /* an option, and how it is called */
+        good = i < d.file.observations_count && d.file.observations[i].option == k &&
+               (!*at[3] || strcmp(d.file.observations[i].name, at[3]) == 0);
+    else if (IS("remember"))
+        strcpy(kept, read_file(a));
+    else if (IS("as-remembered"))
+        good = strcmp(kept, read_file(a)) == 0;
+    else if (IS("has") || IS("lacks")) {
+        snprintf(whole, sizeof whole, "%.*s%s%s", hole ? (int)(hole - b) : 400, b, hole ? folder : "", hole ? hole + 1 : "");
+        good = (strstr(read_file(a), whole) != NULL) == IS("has");
+    } else if (IS("notes")) { /* so many as were counted before */
+        good = !*a || count_notes() == notes;
+        notes = count_notes();
+    } else {
+        fail_msg("'%s' is no step", at[0]);
     }
-    assert_string_equal(read_file("stand.yaml"), stand);
-    open_scene();
-    assert_true(d.file.scene.options[0].belts[0].stand.stools_per_ha == 2500);
-    assert_true(d.file.scene.options[0].belts[0].stand.spacing == 0.4);
+    return good;
 }
 
-/* What its file does not have at all is added to it as well. */
-TEST_WITH(a_stand_is_given_more, set_up, tear_down)
+TEST(documents_go_through_their_steps)
 {
-    open_scene();
-    set("forest[0].stand.species", "fagus-sylvatica");
-    save(path);
-    expect_in("scene.yaml", "stand: {base: stand.yaml, species: fagus-sylvatica}}   # below the rock\n");
-    open_scene();
-    assert_int_equal(d.file.scene.options[0].belts[0].stand.species, ceduo_species_find("fagus-sylvatica"));
-}
-
-/* A slope has no base: one that is changed is written out, and its file stays. */
-TEST_WITH(a_changed_slope_is_written_out, set_up, tear_down)
-{
-    static const char slope[] = "ceduo: slope/1\nvertices_m: [[0, 50], [100, 0]]\nsegments: [{rn: 0.3, rt: 0.8}]\n"
-                                "source: {kind: assumed, text: by hand}\n";
-    write_file("slope.yaml", slope);
-    write_file("scene.yaml", "ceduo: scene/1\nrock: {diameter_m: 0.5}\nslope: slope.yaml # mine\ncontrols_m: [90]\n");
-    open_scene();
-    size_t before = 0, now = 0;
-    for (const struct source_note *n = d.file.notes; n; n = n->before)
-        before++;
-    set("rock.diameter_m", "0.6"); /* the slope is as it was made before, and so is what is said of it */
-    for (const struct source_note *n = d.file.notes; n; n = n->before)
-        now++;
-    assert_int_equal(now, before);
-    assert_true(ceduo_scene_assumes_value(&d.file, "slope.vertices_m"));
-    set("slope.facets", "both");
-    save(path);
-    assert_string_equal(read_file("slope.yaml"), slope);
-    const char *text = read_file("scene.yaml");
-    assert_non_null(strstr(text, "facets: both"));
-    assert_non_null(strstr(text, "vertices_m: [[0, 50], [100, 0]]"));
-    assert_null(strstr(text, "slope.yaml"));
-    open_scene();
-    assert_true(d.file.scene.slope.facets == CEDUO_BOTH && d.file.scene.slope.vertices == 2);
-}
-
-TEST_WITH(what_is_wrong_changes_nothing, set_up, tear_down)
-{
-    open_scene();
-    refuse("rock.diameter_m", "-1", "-1 is below 0 m");
-    refuse("rock.diameter_m", "0,5", "decimal comma: write 0.5");
-    refuse("forest[0].to_m", "400", "beyond the slope");
-    refuse("rock.size", "1", "unknown key");
-    assert_true(d.file.scene.rock.diameter.mean == 0.5);
-    assert_false(ceduo_document_unsaved(&d));
+    const char *sections =
+        "comments|base|more|slope|wrong|items|names|undo|branch|copy|source|source of a file|source of what moves|disk|"
+        "elsewhere 1|elsewhere 2|elsewhere 3|elsewhere 4|beside|profile|typed";
+    for (char section[64]; next_word(&sections, section);) {
+        assert_int_equal(set_up(NULL), 0);
+        for (TABLE(row, "unit/documents.txt", section))
+            if (!step(row.at))
+                fail_msg("%s, step %zu: %s %s %s %s: %s", section, row.rows, row.at[0], row.at[1], row.at[2], row.at[3],
+                         ceduo_text_string(&problems.text));
+        assert_int_equal(tear_down(NULL), 0);
+    }
 }
 
 TEST_WITH(undo_and_redo, set_up, tear_down)
@@ -273,96 +333,6 @@ TEST_WITH(undo_and_redo, set_up, tear_down)
     assert_true(d.file.scene.rock.diameter.mean == 0.001);
     set("rock.diameter_m", "0.9");
     assert_false(ceduo_document_redo(&d));
-}
-
-TEST_WITH(options_belts_and_segments, set_up, tear_down)
-{
-    open_scene();
-    assert_true(ceduo_document_duplicate(&d, "options", 0, NULL, NULL, &problems));
-    assert_int_equal(d.file.scene.options_count, 2);
-    assert_string_equal(d.file.scene.options[0].name, "current");
-    assert_string_equal(d.file.scene.options[1].name, "current (2)");
-    assert_true(ceduo_document_add_option(&d, "large-reserves-cut", &problems));
-    assert_string_equal(d.file.scene.options[2].name, "large-reserves-cut");
-    assert_true(d.file.scene.options[2].belts[0].to == 80);
-    assert_true(ceduo_document_move(&d, "options", 2, 0, &problems));
-    assert_string_equal(d.file.scene.options[0].name, "large-reserves-cut");
-    assert_true(ceduo_document_duplicate(&d, "options[1].forest", 0, "options[1].forest[0].to_m=45",
-                                         "options[1].forest[1].from_m=45", &problems));
-    assert_int_equal(d.file.scene.options[1].belts_count, 2);
-    assert_true(ceduo_document_split_segment(&d, 0, "[20, 35]", false, &problems));
-    assert_int_equal(d.file.scene.slope.vertices, 4);
-    assert_true(d.file.scene.slope.segments[1].rn.mean == 0.3);
-    assert_true(ceduo_document_delete(&d, "options[2]", &problems));
-    assert_int_equal(d.file.scene.options_count, 2);
-    const char *const stools_and_shoots[] = {"options[1].forest[0].stand.stools", "options[1].forest[0].stand.shoots"};
-    assert_true(ceduo_document_set_all(&d, stools_and_shoots, 2, "shoots", &problems));
-    assert_int_equal(d.file.scene.options[1].belts[0].stand.shoots_count, 0);
-    save_as(path, true);
-    open_scene();
-    assert_int_equal(d.file.scene.options_count, 2);
-    assert_int_equal(d.file.scene.options[1].belts_count, 2);
-    assert_int_equal(d.file.scene.options[1].belts[0].stand.shoots_count, 0);
-    assert_int_equal(d.file.scene.options[1].belts[1].stand.shoots_count, 1);
-    assert_int_equal(d.file.scene.slope.vertices, 4);
-}
-
-static const char of_two[] = "ceduo: scene/1\n"
-                             "rock: {diameter_m: 0.5, density_kg_m3: 2600}\n"
-                             "slope: {vertices_m: [[0, 50], [100, 0]], segments: [{rn: 0.3, rt: 0.8}]}\n"
-                             "controls_m: [90]\n"
-                             "options:\n"
-                             "  - {name: bare}\n"
-                             "  - {name: thick, forest: [{from_m: 10, to_m: 80, stand: stand.yaml}]}\n"
-                             "doubt:\n"
-                             "  - {path: \"options[thick].forest[0].to_m\", lo: 70, hi: 80}\n"
-                             "  - {path: \"slope.segments[0].rn\", lo: 0.2, hi: 0.4}\n"
-                             "observed:\n"
-                             "  - {option: thick, name: thick, stops: {x_m: [40, 60]}}\n"
-                             "  - {passed: {x_m: 80, count: 1, of: 9, option: thick}}\n"
-                             "  - {option: bare, passed: {x_m: 80, count: 8, of: 9}}\n";
-
-/* What was seen through an option's forest, and what is in doubt about it, stay with it once it has another name. */
-TEST_WITH(an_option_takes_along_what_names_it, set_up, tear_down)
-{
-    write_file("two.yaml", of_two);
-    in_folder(path, "two.yaml");
-    open_scene();
-    assert_int_equal(d.file.inputs_count, 2);
-    assert_true(ceduo_document_rename_option(&d, 1, "2 \"thick]", &problems));
-    assert_string_equal(d.file.scene.options[1].name, "2 \"thick]");
-    assert_int_equal(d.file.observations_count, 3);
-    assert_int_equal(d.file.observations[0].option, 1);
-    assert_string_equal(d.file.observations[0].name, "thick");
-    assert_int_equal(d.file.observations[1].option, 1);
-    assert_int_equal(d.file.observations[2].option, 0);
-    assert_int_equal(d.file.inputs_count, 2);
-    save(path);
-    expect_in("two.yaml", "options[1].forest[0].to_m");
-    assert_true(ceduo_document_undo(&d)); /* one state */
-    assert_string_equal(d.file.scene.options[1].name, "thick");
-    assert_int_equal(d.file.observations[0].option, 1);
-    assert_false(ceduo_document_undo(&d));
-    assert_false(ceduo_document_rename_option(&d, 1, "bare", &problems));
-    assert_string_equal(d.file.scene.options[1].name, "thick");
-    open_scene();
-    assert_int_equal(d.file.observations[1].option, 1);
-}
-
-/* Back to the state on disk is saved, whichever way it is come to; any other state is not. */
-TEST_WITH(undo_leads_back_to_what_is_saved, set_up, tear_down)
-{
-    open_scene();
-    walk("set:0.6! save:0.6 set:0.7! undo:0.6 undo:0.5! redo:0.6 set:0.8! undo:0.6");
-}
-
-/* An edit from before what is saved takes its place: no way leads back to it, though as many steps from the start. */
-TEST_WITH(a_branch_leaves_what_is_saved_behind, set_up, tear_down)
-{
-    open_scene();
-    walk("set:0.6! save:0.6 undo:0.5! set:0.7!");
-    assert_false(ceduo_document_redo(&d));
-    walk("undo:0.5! redo:0.7! set:0.8! save:0.8 undo:0.7! redo:0.8");
 }
 
 /* The oldest states are forgotten, half of them; what is on disk is known again where it is among those that are left. */
@@ -395,64 +365,6 @@ TEST_WITH(history_is_cut, set_up, tear_down)
         }
         assert_false(ceduo_document_undo(&d));
     }
-}
-
-TEST_WITH(a_changed_value_has_no_source, set_up, tear_down)
-{
-    write_file("scene.yaml", "# mine\nceduo: scene/1\nrock: {diameter_m: 0.5}\n"
-                             "slope: {vertices_m: [[0, 50], [100, 0]], segments: [{rn: 0.3, rt: 0.8}]}\n"
-                             "controls:\n  - x_m: 90\n    accepted_kJ: 50 # a wall\n"
-                             "    source: {kind: assumed, text: a guess}\n");
-    open_scene();
-    assert_true(ceduo_scene_assumes_value(&d.file, "controls[0].accepted_kJ"));
-    set("controls[0].accepted_kJ", "60");
-    assert_false(ceduo_scene_assumes_value(&d.file, "controls[0].accepted_kJ"));
-    assert_true(ceduo_scene_assumes_value(&d.file, "controls[0].x_m"));
-    assert_true(ceduo_document_undo(&d));
-    assert_true(ceduo_scene_assumes_value(&d.file, "controls[0].accepted_kJ"));
-    assert_true(ceduo_document_redo(&d));
-    save(path);
-    expect_in("scene.yaml", "    accepted_kJ: 60 # a wall\n"
-                            "    source: {kind: assumed, text: a guess, except: [accepted_kJ]}\n");
-    open_scene(); /* the file says so, too */
-    assert_false(ceduo_scene_assumes_value(&d.file, "controls[0].accepted_kJ"));
-    assert_true(ceduo_scene_assumes_value(&d.file, "controls[0].x_m"));
-}
-
-/* A source that stands in another file stays there: what is saved of the stand says what it is not of. */
-TEST_WITH(a_changed_value_of_another_file_has_no_source, set_up, tear_down)
-{
-    LOCAL_TEXT(with_source);
-    ceduo_text_format(&with_source, "%ssource: {kind: assumed, text: a guess}\n", stand);
-    write_file("stand.yaml", with_source.bytes);
-    open_scene();
-    const char *const of_it = "forest[0].stand.stools.spacing_m", *const changed = "forest[0].stand.stools.per_ha";
-    set(changed, "2500");
-    assert_false(ceduo_scene_assumes_value(&d.file, changed));
-    save(path);
-    assert_string_equal(read_file("stand.yaml"), with_source.bytes);
-    expect_in("scene.yaml", "source: {kind: assumed, text: a guess, except: [stools.per_ha]}");
-    open_scene();
-    assert_false(ceduo_scene_assumes_value(&d.file, changed));
-    assert_true(ceduo_scene_assumes_value(&d.file, of_it));
-}
-
-TEST_WITH(what_only_moves_keeps_its_source, set_up, tear_down)
-{
-    write_file("scene.yaml", "ceduo: scene/1\nsource: {kind: assumed, text: all}\nrock: {diameter_m: 0.5}\n"
-                             "slope: {vertices_m: [[0, 50], [100, 0]], segments: [{rn: 0.3, rt: 0.8}]}\n"
-                             "controls: [{x_m: 90}]\noptions: [{name: a, forest: [{from_m: 10, to_m: 40, stand: stand.yaml}]}, "
-                             "{name: b}]\n");
-    open_scene();
-    assert_true(ceduo_document_duplicate(&d, "options", 0, NULL, NULL, &problems));
-    assert_true(ceduo_document_move(&d, "options", 2, 0, &problems));
-    assert_true(ceduo_document_delete(&d, "options[1]", &problems));
-    assert_string_equal(d.file.scene.options[1].name, "a (2)");
-    assert_true(ceduo_scene_assumes_value(&d.file, "options[1].forest[0].to_m"));
-    assert_null(ceduo_document_node(&d, "source.except"));
-    set("options[1].forest[0].to_m", "45");
-    assert_false(ceduo_scene_assumes_value(&d.file, "options[1].forest[0].to_m"));
-    assert_non_null(ceduo_document_node(&d, "source.except"));
 }
 
 /* The copy of a scene whose process has ended, and in `file` where it lies; NULL: none. To be freed. */
@@ -541,14 +453,6 @@ TEST_WITH(the_newest_copies_come_first, set_up, tear_down)
     free(own);
 }
 
-/* It holds what is shown, after an undo too, and is there just as long as that is not what is on disk. */
-TEST_WITH(the_copy_follows_undo, set_up, tear_down)
-{
-    open_scene();
-    assert_null(copy_of());
-    walk("set:0.6! set:0.7! undo:0.6! redo:0.7! undo:0.6! undo:0.5 redo:0.6! save:0.6 redo:0.7! undo:0.6 undo:0.5! set:0.8!");
-}
-
 TEST_WITH(unsaved_work_belongs_to_the_name_saved_under, set_up, tear_down)
 {
     char file[400], other[256];
@@ -569,16 +473,6 @@ TEST_WITH(unsaved_work_belongs_to_the_name_saved_under, set_up, tear_down)
     unlink(file);
     unlink(other);
     free(text);
-}
-
-TEST_WITH(a_file_changed_on_disk_is_noticed, set_up, tear_down)
-{
-    open_scene();
-    assert_false(ceduo_document_changed_on_disk(&d));
-    write_file("scene.yaml", "# somebody else\n");
-    assert_true(ceduo_document_changed_on_disk(&d));
-    save(path);
-    assert_false(ceduo_document_changed_on_disk(&d));
 }
 
 static void set_time(const char *file, time_t seconds, long nanoseconds)
@@ -609,125 +503,6 @@ TEST_WITH(a_file_of_the_same_length_is_noticed, set_up, tear_down)
     assert_false(ceduo_document_changed_on_disk(&d));
     assert_int_equal(unlink(path), 0);
     assert_true(ceduo_document_changed_on_disk(&d));
-}
-
-/* ---- saved elsewhere ---- */
-
-/* A scene in a/scenes whose files lie in a/slopes and a/stands; b/stands has another stand of the same name. */
-static void scatter(const char *slope_reference)
-{
-    static const char *const folders[] = {"a", "a/scenes", "a/slopes", "a/stands", "a/more", "b", "b/scenes", "b/stands"};
-    for (size_t i = 0; i < sizeof folders / sizeof folders[0]; i++)
-        make_folder(folders[i]);
-    char text[1024];
-    snprintf(text, sizeof text,
-             "# mine\nceduo: scene/1\nrock: {diameter_m: 0.5}\nslope: %s\ncontrols: [{x_m: 90}]\nforest:\n"
-             "  - {from_m: 10, to_m: 30, stand: ../stands/wood.yaml}\n"
-             "  - {from_m: 40, to_m: 60, stand: {base: ../stands/wood.yaml, name: V}}\n"
-             "  - {from_m: 70, to_m: 80, stand: ads-1}\n",
-             slope_reference);
-    write_file("a/scenes/s.yaml", text);
-    write_file("a/slopes/line.csv", "distance,elevation\n0,50\n40,20\n100,0\n");
-    write_file("a/slopes/line.yaml",
-               "ceduo: slope/1\nvertices_m: [[0, 50], [40, 20], [100, 0]]\nsegments: [{rn: 0.3, rt: 0.8}]\n");
-    write_file("a/slopes/by-csv.yaml", "ceduo: slope/1\ncsv: line.csv\nsegments: [{rn: 0.3, rt: 0.8}]\n");
-    write_file("a/stands/wood.yaml", stand);
-    write_file("b/stands/wood.yaml", "ceduo: stand/1\ntrees: [{per_ha: 7, dbh_m: 0.2, height_m: 12}]\n");
-    in_folder(path, "a/scenes/s.yaml");
-}
-
-/* What the files lead to, whatever else was changed. */
-static void expect_files(void)
-{
-    const struct ceduo_option *o = &d.file.scene.options[0];
-    assert_int_equal(d.file.scene.slope.vertices, 3);
-    assert_true(d.file.scene.slope.z[1] == -30);
-    assert_true(o->belts[0].stand.stools_per_ha == 2000 && o->belts[1].stand.stools_per_ha == 2000);
-    assert_string_equal(o->belts[1].name, "V");
-    assert_string_equal(o->belts[2].name, "ADS 1");
-}
-
-static void reopen(const char *at)
-{
-    strcpy(path, at);
-    open_scene();
-    expect_files();
-}
-
-static const char *const slopes[] = {"../slopes/line.yaml", "../slopes/line.csv",
-                                     "{csv: ../slopes/line.csv, segments: [{rn: 0.3, rt: 0.8}]}", "../slopes/by-csv.yaml"};
-
-TEST_WITH(references_lead_to_the_same_files_from_elsewhere, set_up, tear_down)
-{
-    for (size_t i = 0; i < sizeof slopes / sizeof slopes[0]; i++) {
-        char there[256], text[4096], wanted[256];
-        if (i > 0)
-            assert_true(folder_tear_down(NULL) == 0 && set_up(NULL) == 0);
-        scatter(slopes[i]);
-        open_scene();
-        in_folder(there, "b/scenes/t.yaml");
-        save(there);
-        strcpy(text, read_file("b/scenes/t.yaml"));
-        assert_non_null(strstr(text, "# mine\n"));
-        assert_null(strstr(text, "../"));
-        assert_non_null(strstr(text, "stand: ads-1}")); /* the same from everywhere */
-        snprintf(wanted, sizeof wanted, "stand: {base: %s/a/stands/wood.yaml, name: V}", folder);
-        assert_non_null(strstr(text, wanted));
-        save(there); /* once more, though what was read still says ../ */
-        assert_string_equal(read_file("b/scenes/t.yaml"), text);
-        set("rock.diameter_m", "0.75");
-        save(there);
-        reopen(there);
-        assert_true(d.file.scene.rock.diameter.mean == 0.75);
-    }
-}
-
-/* Beside the old one they stay as they were written. */
-TEST_WITH(references_stay_where_they_lead_to_the_same, set_up, tear_down)
-{
-    char there[256], text[4096];
-    scatter(slopes[0]);
-    open_scene();
-    in_folder(there, "a/more/t.yaml");
-    save(there);
-    strcpy(text, read_file("a/more/t.yaml"));
-    assert_string_equal(text, read_file("a/scenes/s.yaml"));
-    reopen(there);
-}
-
-/* The slope's file names the profile that lies beside it: written into the scene it is another name. */
-TEST_WITH(a_changed_slope_keeps_its_profile, set_up, tear_down)
-{
-    char here[128];
-    scatter("../slopes/by-csv.yaml");
-    open_scene();
-    set("slope.facets", "both");
-    strcpy(here, path);
-    save(here);
-    reopen(here);
-    assert_int_equal(d.file.scene.slope.facets, CEDUO_BOTH);
-}
-
-/* A profile that is typed in is one beside the scene, as a stand is. */
-TEST_WITH(a_typed_profile_lies_beside_the_scene, set_up, tear_down)
-{
-    char there[256];
-    scatter(slopes[2]);
-    write_file("a/slopes/low.csv", "distance,elevation\n0,40\n40,10\n80,5\n100,0\n");
-    write_file("a/stands/low.yaml", "ceduo: stand/1\ntrees: [{per_ha: 9, dbh_m: 0.2, height_m: 12}]\n");
-    open_scene();
-    set("slope.csv", "../slopes/low.csv");
-    assert_int_equal(d.file.scene.slope.vertices, 4);
-    set("slope", "../slopes/line.csv");
-    assert_int_equal(d.file.scene.slope.vertices, 3);
-    set("slope", "{csv: ../slopes/low.csv, segments: [{rn: 0.3, rt: 0.8}]}");
-    set("forest[0].stand", "../stands/low.yaml");
-    in_folder(there, "b/scenes/t.yaml");
-    save(there);
-    strcpy(path, there);
-    open_scene();
-    assert_int_equal(d.file.scene.slope.vertices, 4);
-    assert_true(d.file.scene.options[0].belts[0].stand.trees[0].per_ha == 9);
 }
 
 /* Work on a scene that was saved elsewhere can be taken up again there. */
