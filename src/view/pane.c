@@ -124,7 +124,7 @@ static void add_tests(struct ceduo_page *page, const struct ceduo_pane *pane, co
     if (gap)
         ceduo_page_write(page, _("gap %s m > %g"), ROUNDED(index->longest_gap, 6), threshold);
     else if (isinf(index->worst_adc))
-        ceduo_page_write(page, "%s", index->length > 0 ? _("ADC: no stems") : _("ADC: no forest"));
+        ceduo_page_write(page, "%s", _("ADC: no stems"));
     else
         ceduo_page_write(page, _("ADC %s m %s %g"), BESIDE(index->worst_adc, 3, threshold),
                          than(index->contact, "<", "\xe2\x89\xa5"), threshold);
@@ -142,17 +142,8 @@ static void add_tests(struct ceduo_page *page, const struct ceduo_pane *pane, co
 
 static void add_index(struct ceduo_page *page, const struct ceduo_pane *pane, const struct ceduo_index *index)
 {
-    const char *taken = WRITTEN(index->dissipated * J_TO_KJ, 3), *left = WRITTEN(index->residual * J_TO_KJ, 3);
-    if (isnan(index->dissipated) && !isnan(index->residual))
-        ceduo_page_line(page, CEDUO_ROLE_DIM, _("shares taken, left %s kJ"), left);
-    else if (isnan(index->dissipated))
-        ceduo_page_line(page, CEDUO_ROLE_DIM, "%s", _("contacts take shares"));
-    else if (isnan(index->residual))
-        ceduo_page_line(page, CEDUO_ROLE_DIM, _("taken %s kJ"), taken);
-    else if (index->exhausted)
-        ceduo_page_line(page, CEDUO_ROLE_DIM, _("taken %s kJ: all of it"), taken);
-    else
-        ceduo_page_line(page, CEDUO_ROLE_DIM, _("taken %s left %s kJ"), taken, left);
+    ceduo_page_line(page, CEDUO_ROLE_DIM, _("taken %s left %s kJ"), WRITTEN(index->dissipated * J_TO_KJ, 3),
+                    WRITTEN(index->residual * J_TO_KJ, 3));
     if (!isnan(index->measured) && pane->height >= HEIGHT_ALL)
         ceduo_page_line(page, CEDUO_ROLE_DIM, _("measured %s kJ (one rock)"), WRITTEN(index->measured * J_TO_KJ, 3));
 }

@@ -145,9 +145,9 @@ const char *ceduo_plot_compare(struct ceduo_drawing *d)
     LOCAL_TEXT(head);
     ceduo_measure_name(&head, &judged, CEDUO_HEAD);
     if (!arrivals)
-        ceduo_page_line(page, CEDUO_ROLE_DIM, "%s", _("Energies are not computed yet."));
+        ceduo_page_line(page, CEDUO_ROLE_DIM, "%s", _("not computed yet"));
     else if (isnan(c.bare))
-        ceduo_page_line(page, CEDUO_ROLE_DIM, "%s", _("Without forest no rock arrives: nothing is left to compare."));
+        ceduo_page_line(page, CEDUO_ROLE_DIM, "%s", _("no rock arrives"));
     else if (!d->wooded)
         ceduo_page_line(page, CEDUO_ROLE_DIM, _("left of %s kJ (mean, without forest), by the index"), mean);
     else

@@ -5,6 +5,7 @@
 
 #include "base/language.h"
 #include "base/must.h"
+#include "measure.h"
 #include "plot_parts.h"
 
 /* Energies at a control as horizontal bars. */
@@ -98,21 +99,27 @@ static void add_row(struct ceduo_page *page, const struct histogram *h, int i, d
     add_mark(h, i, e->p95 * J_TO_KJ, "p95", &marks->text);
 }
 
+/* "500 (│ 800) arrive": a share of the rocks, and that without forest. */
+static void say_share(struct text *text, const struct histogram *h, const struct ceduo_measure *m,
+                      const struct ceduo_measure *bare)
+{
+    ceduo_text_format(text, h->bare.arrivals ? "%.0f (\xe2\x94\x82 %.0f) " : "%.0f ", m->value, bare->value);
+    ceduo_measure_name(text, m, CEDUO_SHORT_HEAD);
+}
+
 /* What all rows add up to. */
-static void say_all(struct ceduo_page *page, const struct histogram *h)
+static void say_all(struct ceduo_page *page, const struct histogram *h, const struct ceduo_control *c)
 {
     const struct ceduo_arrivals *a = h->rocks.arrivals, *bare = h->bare.arrivals;
-    double exceed = a->exceed_probability * 1000;
+    const struct ceduo_measure all = ceduo_arriving(a), all_bare = ceduo_arriving(bare);
+    const struct ceduo_measure judged = ceduo_judged(c, a), judged_bare = ceduo_judged(c, bare);
     struct text *head = ceduo_page_add(page, CEDUO_PAGE_NOTE);
-    if (bare)
-        ceduo_text_format(head, _("of 1000: %.0f arrive (\xe2\x94\x82 bare %.0f)"), a->reach_probability * 1000,
-                          bare->reach_probability * 1000);
-    else
-        ceduo_text_format(head, _("%.0f of 1000 arrive"), a->reach_probability * 1000);
-    if (!isnan(exceed) && bare)
-        ceduo_text_then(head, ", ", _("%.0f (%.0f) > %g kJ"), exceed, bare->exceed_probability * 1000, h->accepted);
-    else if (!isnan(exceed))
-        ceduo_text_then(head, ", ", _("%.0f with > %g kJ"), exceed, h->accepted);
+    ceduo_text_format(head, "%s: ", _("of 1000"));
+    say_share(head, h, &all, &all_bare);
+    if (!isnan(c->accepted)) {
+        ceduo_text_put(head, ", ");
+        say_share(head, h, &judged, &judged_bare);
+    }
     if (h->rocks.n < a->reached || (bare && h->bare.n < bare->reached))
         ceduo_text_then(head, "; ", _("drawn: the first %zu"), h->rocks.n > h->bare.n ? h->rocks.n : h->bare.n);
 }
@@ -168,7 +175,7 @@ const char *ceduo_plot_histogram(struct ceduo_drawing *d)
     count(&h.rocks, &h.bins, e);
     count(&h.bare, &h.bins, bare);
     if (said)
-        say_all(d->page, &h);
+        say_all(d->page, &h, d->control);
     for (int i = 0; i < h.bins.count; i++)
         most = fmax(most, fmax(per_1000(&h.rocks, i), per_1000(&h.bare, i)));
     CEDUO_PAGE_TABLE_OF(d->page, columns);

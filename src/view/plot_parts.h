@@ -40,8 +40,7 @@ const struct ceduo_arrivals *ceduo_plot_arrivals(const struct ceduo_run_snapshot
 /* A cell with the sign of a light. */
 void ceduo_page_light(struct ceduo_page *page, enum ceduo_light light);
 
-/* A text of at most `most` cells from a cell on, or, where `most` is negative, up to it; returns the cells it took. Of several
- * lines the first that has room is written, the last one cut where none has. */
+/* A text of at most `most` cells from a cell on, or, where `most` is negative, up to it; returns the cells it took. */
 int ceduo_plot_say(struct ceduo_canvas *canvas, int column, int row, int most, enum ceduo_role role, const char *format, ...)
     __attribute__((format(printf, 6, 7)));
 

@@ -176,10 +176,10 @@ static void name_control(const struct ceduo_drawing *d, const struct ceduo_contr
 /* Writes whose forest the trajectories go through at the right end of the highest row that has most room. */
 static void name_forest(const struct ceduo_drawing *d)
 {
-    if (!d->wooded || !d->sight || !d->option || !d->option->name)
+    if (!d->sight || !d->option || !d->option->name)
         return;
     LOCAL_TEXT(name);
-    ceduo_text_format(&name, _("ways: %s"), d->option->name);
+    ceduo_text_format(&name, _("ways: %s"), d->wooded ? d->option->name : _("without forest"));
     int end = d->area.left + d->area.width, width = ceduo_canvas_label_width(d->canvas, name.bytes), most = 0, row = 0;
     for (int i = 0; i < NAME_ROWS && i < d->area.height; i++) {
         int column = end; /* where the blank columns at the right end begin, but for one */
@@ -222,74 +222,12 @@ static void draw_belts(const struct ceduo_drawing *d)
     }
 }
 
-/* ---- the words beside it ---- */
-
-#define SIDE_LEAST 24 /* columns that make a paragraph worth while */
-
-static void add_ways(struct ceduo_page *page, const struct ceduo_drawing *d)
+/* Heights that are not true to scale are told at the end of the top row. */
+static void put_factor(const struct ceduo_drawing *d, double factor)
 {
-    bool wooded = d->wooded && d->option && ceduo_plot_has_stems(d->option);
-    if (!d->sight)
-        ceduo_page_line(page, CEDUO_ROLE_DIM, "%s", _("ways not computed yet"));
-    if (d->sight && d->sight->trajectories_count > 0) {
-        ceduo_page_line(page, CEDUO_ROLE_CLOUD, wooded ? _("%zu ways of %llu through") : _("%zu ways of %llu"),
-                        d->sight->trajectories_count, (unsigned long long)d->sight->flown.rocks);
-        ceduo_page_line(page, CEDUO_ROLE_CLOUD, "%s",
-                        !wooded           ? _("without forest")
-                        : d->option->name ? d->option->name
-                                          : _("the forest"));
-    }
-    if (d->picture->stems_count > 0)
-        ceduo_page_line(page, CEDUO_ROLE_STEM, "%s", _("stems this rock came to"));
-}
-
-static void add_control(struct ceduo_page *page, const struct ceduo_drawing *d, size_t c)
-{
-    const struct ceduo_arrivals *a = ceduo_plot_arrivals(d->sight, c), *bare = ceduo_plot_arrivals(d->bare, c);
-    const struct ceduo_control *control = &d->scene->controls[c];
-    if (!a || !bare)
-        return;
-    double limit = control->accepted * J_TO_KJ, reach = a->reach_probability * 1000, exceed = a->exceed_probability * 1000;
-    ceduo_page_add(page, CEDUO_PAGE_GAP);
-    ceduo_page_line(page, CEDUO_ROLE_CONTROL, d->wooded ? _("At %s m, wood (bare)") : _("At %s m without forest"),
-                    SHORTEST(control->x_given));
-    if (d->wooded)
-        ceduo_page_say(page, CEDUO_PAGE_SENTENCE, _("%.0f (%.0f) of 1000"), reach, bare->reach_probability * 1000);
-    else
-        ceduo_page_say(page, CEDUO_PAGE_SENTENCE, _("%.0f of 1000 arrive"), reach);
-    if (!isnan(exceed) && d->wooded)
-        ceduo_page_say(page, CEDUO_PAGE_SENTENCE, _("%.0f (%.0f) > %g kJ"), exceed, bare->exceed_probability * 1000, limit);
-    else if (!isnan(exceed))
-        ceduo_page_say(page, CEDUO_PAGE_SENTENCE, _("%.0f with > %g kJ"), exceed, limit);
-}
-
-/* What the profile is, in words: to the right of its frame where there is room, otherwise the factor of heights alone in the
- * top row. Returns whether there was room. */
-static bool put_notes(const struct ceduo_drawing *d, double factor)
-{
-    int end = d->area.left + d->area.width, left = d->frame.left + d->frame.width + 2;
-    bool beside = end - left >= SIDE_LEAST, words = beside || d->area.width >= 30;
-    struct ceduo_area area = {left, d->area.top + 2, end - left, d->frame.top + d->frame.height - d->area.top - 2};
-    struct ceduo_page page = {.width = (size_t)(beside ? end - left : 1)};
-    LOCAL_TEXT(scale);
-    if (factor > 1)
-        ceduo_text_format(&scale, words ? _("heights drawn %g times") : "\xc3\x97%g", factor);
-    else if (factor < 1)
-        ceduo_text_format(&scale, words ? _("heights drawn at %g %%") : "%g %%", 100 * factor);
-    else if (beside)
-        ceduo_text_put(&scale, _("true to scale"));
-    if (!beside) {
-        if (scale.length > 0)
-            ceduo_plot_say(d->canvas, end - 1, d->area.top, -d->area.width / 2, CEDUO_ROLE_WARN, " %s", scale.bytes);
-        return false;
-    }
-    ceduo_page_line(&page, factor == 1 ? CEDUO_ROLE_DIM : CEDUO_ROLE_WARN, "%s", scale.bytes);
-    add_ways(&page, d);
-    for (size_t c = 0; c < d->scene->controls_count; c++)
-        add_control(&page, d, c);
-    ceduo_page_draw(&page, d->canvas, area, 0);
-    ceduo_page_free(&page);
-    return true;
+    if (factor != 1)
+        ceduo_plot_say(d->canvas, d->area.left + d->area.width - 1, d->area.top, -d->area.width / 2, CEDUO_ROLE_WARN,
+                       d->area.width >= 30 ? _("heights drawn %g times") : "\xc3\x97%g", factor);
 }
 
 /* ---- the picture ---- */
@@ -342,12 +280,12 @@ const char *ceduo_plot_profile(struct ceduo_drawing *d)
                          _("\xe2\x96\xbc release"));
     if (d->picture->mark)
         ceduo_canvas_rule_x(d->canvas, &d->frame, CEDUO_ROLE_TITLE, *d->picture->mark);
-    bool noted = put_notes(d, factor);
+    put_factor(d, factor);
     for (size_t c = 0; names && c < d->scene->controls_count; c++)
         name_control(d, &d->scene->controls[c]);
     for (size_t c = 0; c < d->scene->controls_count; c++)
         ceduo_canvas_rule_x(d->canvas, &d->frame, CEDUO_ROLE_CONTROL, d->scene->controls[c].x);
-    if (names && !noted)
+    if (names)
         name_forest(d);
     ceduo_plot_axes(d, slope->origin_x, slope->origin_z, _("m"));
     if (belts)

@@ -40,11 +40,7 @@ static void draw_strips(struct ceduo_drawing *d, int height, const double *x, do
     double threshold = d->scene->simulation.threshold, accepted = d->control->accepted * J_TO_KJ, most = 0;
     LOCAL_TEXT(adc);
     LOCAL_TEXT(share);
-    if (d->area.width >= 60)
-        ceduo_text_format(&adc, _("ADC of the worst belt, m (limit %g; at the top: %g or more)"), threshold,
-                          ADC_TOP * threshold);
-    else
-        ceduo_text_format(&adc, _("ADC of the worst belt, m (limit %g)"), threshold);
+    ceduo_text_format(&adc, _("ADC of the worst belt, m (limit %g)"), threshold);
     for (size_t i = 0; i < years->count; i++)
         y[i] = fmin(years->years[i].controls[d->picture->control].worst_adc, ADC_TOP * threshold);
     if (first > 0)
@@ -54,10 +50,7 @@ static void draw_strips(struct ceduo_drawing *d, int height, const double *x, do
     else if (isnan(accepted))
         ceduo_text_put(&share, _("of 1000 released arrive"));
     else
-        ceduo_text_format(&share,
-                          d->area.width >= 60 ? _("of 1000 released with more than %g kJ (limit %g)")
-                                              : _("of 1000 released with > %g kJ (limit %g)"),
-                          accepted, CEDUO_EXCEED_MOST * 1000);
+        ceduo_text_format(&share, _("of 1000 released with > %g kJ (limit %g)"), accepted, CEDUO_EXCEED_MOST * 1000);
     for (size_t i = 0; i < years->count; i++) {
         const struct ceduo_year *year = &years->years[i];
         if (!d->wooded)

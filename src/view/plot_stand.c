@@ -118,10 +118,7 @@ static void draw_stems(struct plan *p, struct text *words)
         ceduo_text_put(words, _("No stems: nothing stands in a rock's way."));
         return;
     }
-    ceduo_text_format(words, _("One pattern of many. The rock (%s m wide) meets %zu stools or trees in %g m."),
-                      WRITTEN(p->strip, 2), p->met, PATCH_M);
-    ceduo_text_then(words, "\n", _("One pattern of many: %zu stools or trees are met"), p->met);
-    ceduo_text_then(words, "\n", _("One pattern of many: %zu met"), p->met);
+    ceduo_text_format(words, _("One pattern of many: %zu met"), p->met);
 }
 
 /* ---- the trajectory of the selected rock ---- */
@@ -183,17 +180,12 @@ static void draw_way(struct plan *p, double from, struct text *words)
     }
     struct ceduo_frame given = ceduo_plot_given(&p->d->frame, from + p->d->scene->slope.origin_x, 0);
     ceduo_canvas_axis_bottom(p->d->canvas, &given, _("m"));
-    LOCAL_TEXT(hits);
-    LOCAL_TEXT(across);
     ceduo_text_format(
-        &hits, ngettext("The way of this rock: %zu stem hit in %.3g m", "The way of this rock: %zu stems hit in %.3g m", hit),
+        words, ngettext("The way of this rock: %zu stem hit in %.3g m", "The way of this rock: %zu stems hit in %.3g m", hit),
         hit, metres);
-    ceduo_text_format(&across, _("across \xc3\x97%.2g"), factor);
-    ceduo_text_put(words, hits.bytes);
+    ceduo_text_then(words, "; ", _("across \xc3\x97%.2g"), factor);
     if (flown_over > 0)
-        ceduo_text_then(words, ", ", _("%zu flown over"), flown_over);
-    ceduo_text_format(words, "; %s\n%s; %s\n%s\n", across.bytes, hits.bytes, across.bytes, hits.bytes);
-    ceduo_text_format(words, ngettext("This rock: %zu hit in %.3g m", "This rock: %zu hits in %.3g m", hit), hit, metres);
+        ceduo_text_then(words, "; ", _("%zu flown over"), flown_over);
 }
 
 /* ---- the picture ---- */

@@ -218,8 +218,7 @@ static void place_frame(struct strip *s, const struct content *content)
     f->x1 = s->to;
 }
 
-/* What is shown, how strokes tell the wooded curves from the bare ones, and what lies beyond the top, in as many words as there
- * is room for. */
+/* What is shown, how strokes tell the wooded curves from the bare ones, and what lies beyond the top. */
 static void put_caption(const struct strip *s, const struct content *content)
 {
     static const struct {
@@ -237,14 +236,10 @@ static void put_caption(const struct strip *s, const struct content *content)
     }
     if (!(s->peak > s->d->frame.y1) || column >= end)
         return;
-    const char *name = _(s->peak_name), *unit = s->energy ? _("kJ") : _("m"), *value = WRITTEN(s->peak, 3);
     LOCAL_TEXT(words);
-    ceduo_text_format(&words, "; ");
-    ceduo_text_format(&words, _("%s beyond the top: %s %s at %s m"), name, value, unit,
-                      WRITTEN(s->peak_x + s->d->scene->slope.origin_x, 3));
-    ceduo_text_then(&words, "\n; ", _("%s up to %s %s"), name, value, unit);
-    ceduo_text_then(&words, "\n; ", _("up to %s"), value);
-    ceduo_plot_say(canvas, column, row, end - column, CEDUO_ROLE_WARN, "%s", ceduo_text_string(&words));
+    ceduo_text_then(&words, "; ", _("%s up to %s %s, at %s m"), _(s->peak_name), WRITTEN(s->peak, 3),
+                    s->energy ? _("kJ") : _("m"), WRITTEN(s->peak_x + s->d->scene->slope.origin_x, 3));
+    ceduo_canvas_put(canvas, column, row, end - column, CEDUO_ROLE_WARN, words.bytes);
 }
 
 #define FULL_ROWS  8  /* four curves need so many rows, */

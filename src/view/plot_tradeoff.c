@@ -44,9 +44,7 @@ const char *ceduo_plot_tradeoff(struct ceduo_drawing *d)
         return isnan(v->choices[0].mean.mean) ? _("not computed yet") : _("no option says how it grows and is cut");
     d->frame.x1 = yield > 0 ? 1.15 * yield : 1;
     d->frame.y1 = share > 0 ? 1.1 * share : 1;
-    ceduo_plot_say(d->canvas, d->area.left, d->area.top, d->area.width, CEDUO_ROLE_AXIS, "%s\n%s",
-                   v->accepted ? _("dangerous rocks of 1000 over a rotation, against wood felled, m\xc2\xb3 per ha and year")
-                               : _("rocks of 1000 that arrive over a rotation, against wood felled, m\xc2\xb3 per ha and year"),
+    ceduo_plot_say(d->canvas, d->area.left, d->area.top, d->area.width, CEDUO_ROLE_AXIS, "%s",
                    v->accepted ? _("dangerous of 1000, against m\xc2\xb3 per ha and year")
                                : _("arriving of 1000, against m\xc2\xb3 per ha and year"));
     ceduo_plot_axes(d, 0, 0, _("m\xc2\xb3"));

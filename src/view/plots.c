@@ -117,9 +117,8 @@ void ceduo_plot_seen(struct ceduo_canvas *canvas, const struct ceduo_area *area,
         ceduo_canvas_put(canvas, area->left, area->top, area->width, CEDUO_ROLE_TEXT, _("too narrow"));
         return;
     }
-    ceduo_plot_say(canvas, area->left, area->top, area->width, CEDUO_ROLE_AXIS, "%s\n%s",
-                   _("share that lies farther: a line what was seen, shaded 95 % of simulated samples"),
-                   _("lies farther: line seen, shaded simulated"));
+    ceduo_canvas_put(canvas, area->left, area->top, area->width, CEDUO_ROLE_AXIS,
+                     _("lies farther: line seen, shaded simulated"));
     d.frame.left += axis;
     d.frame.width -= axis;
     for (size_t i = 0; i < CEDUO_SEEN_PLACES; i++)
@@ -157,20 +156,9 @@ int ceduo_plot_say(struct ceduo_canvas *canvas, int column, int row, int most, e
     va_start(args, format);
     ceduo_text_vformat(&text, format, args);
     va_end(args);
-    int room = abs(most), width = 0;
-    char *line = text.bytes;
-    for (char *end; line; line = end + 1) {
-        end = strchr(line, '\n');
-        if (end)
-            *end = '\0';
-        width = ceduo_canvas_label_width(canvas, line);
-        if (!end || width <= room)
-            break;
-    }
-    if (!line)
-        return 0;
-    width = width < room ? width : room;
-    return ceduo_canvas_put(canvas, most < 0 ? column + 1 - width : column, row, width, role, line);
+    int width = ceduo_canvas_label_width(canvas, ceduo_text_string(&text));
+    width = width < abs(most) ? width : abs(most);
+    return ceduo_canvas_put(canvas, most < 0 ? column + 1 - width : column, row, width, role, ceduo_text_string(&text));
 }
 
 bool ceduo_plot_is_free(const struct ceduo_canvas *canvas, const struct ceduo_area *area, int column, int row, int width)
