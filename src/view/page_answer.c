@@ -42,8 +42,8 @@ void ceduo_page_question(struct ceduo_page *page, const struct ceduo_result *r)
 
 /* ---- the answer ---- */
 
-/* Which options keep within what is accepted, "none" or their names: today, or in every year. Returns how many. */
-static size_t append_keepers(struct text *text, const struct ceduo_report *report, bool every_year)
+/* Which options keep within what is accepted, "none" or their names: today, or in every year. */
+static void append_keepers(struct text *text, const struct ceduo_report *report, bool every_year)
 {
     const struct ceduo_result *r = report->result;
     bool depends = false;
@@ -60,7 +60,6 @@ static size_t append_keepers(struct text *text, const struct ceduo_report *repor
         ceduo_text_put(text, _("none"));
     if (depends)
         ceduo_text_put(text, _(" (it depends on what is not known)"));
-    return n;
 }
 
 static void answer_many(struct ceduo_page *page, const struct ceduo_report *report)
@@ -74,15 +73,10 @@ static void answer_many(struct ceduo_page *page, const struct ceduo_report *repo
         *second = ' ';
     if (!v->accepted || !v->wooded)
         return;
-    size_t kept = append_keepers(&today, report, false) + append_keepers(&always, report, true);
-    if (v->choices[0].years > 0 && kept == 0)
-        ceduo_text_then(text, " ", _("No option keeps within %.0f of 1000, today or in every year."), 1000 * CEDUO_EXCEED_MOST);
-    else if (v->choices[0].years > 0)
-        ceduo_text_then(text, " ", _("Options that keep within %.0f of 1000: today %s; in every year %s."),
-                        1000 * CEDUO_EXCEED_MOST, today.bytes, always.bytes);
-    else
-        ceduo_text_then(text, " ", _("Options that keep within %.0f of 1000 today: %s."), 1000 * CEDUO_EXCEED_MOST,
-                        today.bytes);
+    append_keepers(&today, report, false);
+    append_keepers(&always, report, true);
+    ceduo_text_then(text, " ", _("Options that keep within %.0f of 1000: today %s; in every year %s."),
+                    1000 * CEDUO_EXCEED_MOST, today.bytes, v->choices[0].years > 0 ? always.bytes : "-");
 }
 
 size_t ceduo_result_best(const struct ceduo_result *r, const struct ceduo_verdict *v)
@@ -166,10 +160,9 @@ static void say_doubt(struct text *text, const struct ceduo_report *report)
     ceduo_measure_doubt(&m, doubt, option, r->last_control);
     if (!doubt || !doubt->answer) {
         ceduo_text_then(text, "; ", "%s.",
-                        doubt && ceduo_doubt_is_off(doubt)
-                            ? _("what is not known was not computed, because the scene says 'doubt: none'")
-                        : doubt && doubt->inputs->n == 0 ? _("nothing in this scene is marked as assumed")
-                                                         : _("what is not known was not computed"));
+                        doubt && (ceduo_doubt_is_off(doubt) || doubt->inputs->n == 0)
+                            ? ceduo_doubt_none(doubt)
+                            : _("what is not known was not computed"));
         return;
     }
     if (r->scene->options_count == 1 && r->wooded) {
@@ -184,12 +177,7 @@ static void say_doubt(struct text *text, const struct ceduo_report *report)
     }
     struct ceduo_doubt_report same = *doubt;
     same.over = over;
-    const char *how; /* what matters most is measured; NULL: nothing is known that would */
-    LOCAL_TEXT(name);
-    if (ceduo_doubt_heaviest(&name, &how, &same, option) && how)
-        ceduo_text_then(text, " ", _("Measure first: %s (%s)."), ceduo_text_string(&name), _(how));
-    else if (name.length > 0)
-        ceduo_text_then(text, " ", _("It depends most on: %s."), ceduo_text_string(&name));
+    ceduo_doubt_advice(text, &same, option);
 }
 
 void ceduo_page_sure(struct ceduo_page *page, const struct ceduo_report *report)

@@ -120,9 +120,7 @@ static void say_values(struct ceduo_page *page, const struct ceduo_calibration_r
                 continue;
             ceduo_calibration_name(&a, r->paths[k], r->fields[k]);
             ceduo_calibration_name(&b, r->paths[i], r->fields[i]);
-            ceduo_page_say(page, CEDUO_PAGE_ITEM,
-                           c > 0 ? _("%s and %s rise together (correlation %.2f): only both are known, not each.")
-                                 : _("%s falls where %s rises (correlation %.2f): only both are known, not each."),
+            ceduo_page_say(page, CEDUO_PAGE_ITEM, _("%s and %s are known only together, not each (correlation %.2f)."),
                            ceduo_text_string(&a), ceduo_text_string(&b), c);
         }
 }

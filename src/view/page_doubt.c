@@ -12,7 +12,6 @@
 #include "scene/value.h"
 #include "typed.h"
 
-#define FIRST 3    /* inputs that are named as what to measure first */
 #define SHOWN 0.01 /* shares from this on are shown */
 
 bool ceduo_doubt_is_off(const struct ceduo_doubt_report *r)
@@ -22,11 +21,8 @@ bool ceduo_doubt_is_off(const struct ceduo_doubt_report *r)
 
 const char *ceduo_doubt_none(const struct ceduo_doubt_report *r)
 {
-    return ceduo_doubt_is_off(r) ? _("Doubt: not computed, because the scene says 'doubt: none'. What is not known may change "
-                                     "the answer more than "
-                                     "chance does.")
-                                 : _("Doubt: nothing in this scene is marked as assumed or named by 'doubt', so its values are "
-                                     "taken as they are.");
+    return ceduo_doubt_is_off(r) ? _("what is not known was not computed, because the scene says 'doubt: none'")
+                                 : _("nothing in this scene is marked as assumed");
 }
 
 /* ---- what people and files call the inputs ---- */
@@ -322,36 +318,18 @@ static const char *name_measured(struct text *name, const struct ceduo_doubt_rep
     return ceduo_doubt_measured(r, g);
 }
 
-bool ceduo_doubt_advice(struct text *text, const struct ceduo_doubt_report *r, size_t option, size_t nth)
+void ceduo_doubt_advice(struct text *text, const struct ceduo_doubt_report *r, size_t option)
 {
     const struct ceduo_doubt_figure *f = ceduo_doubt_main(r, option);
-    double scale = ceduo_doubt_scale(r);
-    size_t named = 0;
     for (size_t i = 0; f->fit.enough && i < f->uses; i++) {
         size_t g = f->order[i];
         LOCAL_TEXT(name);
         const char *how = name_measured(&name, r, g);
-        if (!matters(f, g) || !how || named++ < nth)
+        if (!matters(f, g) || !how)
             continue;
-        ceduo_text_format(text,
-                          nth == 0 ? _("Measure first: %s (%s); of a doubt %.3g wide it would leave %.3g.")
-                                   : _("then: %s (%s); of a doubt %.3g wide it would leave %.3g."),
-                          ceduo_text_string(&name), _(how), (f->fit.p95 - f->fit.p5) * scale, f->fit.left[g] * scale);
-        return true;
+        ceduo_text_then(text, text->length > 0 ? " " : "", _("Measure first: %s (%s)."), ceduo_text_string(&name), _(how));
+        return;
     }
-    return false;
-}
-
-bool ceduo_doubt_heaviest(struct text *name, const char **how, const struct ceduo_doubt_report *r, size_t option)
-{
-    const struct ceduo_doubt_figure *f = ceduo_doubt_main(r, option);
-    for (size_t i = 0; f->fit.enough && i < f->uses; i++) {
-        if (!matters(f, f->order[i]))
-            continue;
-        *how = name_measured(name, r, f->order[i]);
-        return true;
-    }
-    return false;
 }
 
 /* "dbh, ADS 1 and per hectare, ADS 1" */
@@ -451,11 +429,10 @@ void ceduo_doubt_blocks(struct ceduo_page *page, const struct ceduo_doubt_report
         ceduo_page_say(page, CEDUO_PAGE_SENTENCE, _("What the first option depends on:"));
     add_inputs(page, r, ceduo_doubt_main(r, 0));
     ceduo_page_add(page, CEDUO_PAGE_GAP);
-    for (size_t i = 0; i < FIRST; i++) {
-        LOCAL_TEXT(words);
-        if (ceduo_doubt_advice(&words, r, 0, i))
-            ceduo_page_say(page, CEDUO_PAGE_ITEM, "%s", words.bytes);
-    }
+    LOCAL_TEXT(advice);
+    ceduo_doubt_advice(&advice, r, 0);
+    if (advice.length > 0)
+        ceduo_page_say(page, CEDUO_PAGE_ITEM, "%s", advice.bytes);
     for (size_t i = 0; i < 3 * s->options_count; i++) { /* lights that change within what may be true */
         LOCAL_TEXT(words);
         LOCAL_TEXT(name);

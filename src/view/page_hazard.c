@@ -6,6 +6,7 @@
 
 #include "base/language.h"
 #include "page_parts.h"
+#include "plot_parts.h"
 
 /* What arrives at a control without forest (item 0) and through the forest of each option. NULL: not known. */
 static const struct ceduo_hazard *hazard_of(const struct ceduo_result *r, size_t item, size_t control)
@@ -51,10 +52,7 @@ void ceduo_words_hazard(struct text *text, const struct ceduo_result *r, size_t 
     LOCAL_TEXT(bare);
     LOCAL_TEXT(wood);
     LOCAL_TEXT(rock);
-    if (c->name)
-        ceduo_text_format(&place, "'%s'", c->name);
-    else
-        ceduo_text_format(&place, _("the place at %s m"), SHORTEST(c->x_given));
+    ceduo_plot_control_name(&place, c);
     if (isnan(c->accepted))
         ceduo_text_put(&rock, _("A rock"));
     else
@@ -153,8 +151,6 @@ static void add_square(struct ceduo_page *page, const struct ceduo_result *r, si
 
 /* ---- at each control ---- */
 
-#define FEW 2 /* options, of which each has sentences of its own; more are a table */
-
 /* The option with which what is feared is rarest. */
 static size_t rarest(const struct ceduo_result *r, size_t control)
 {
@@ -172,14 +168,10 @@ static void add_rates(struct ceduo_page *page, const struct ceduo_result *r, siz
 {
     static const struct ceduo_page_column columns[] = {
         {"", 26, 4, CEDUO_WHOLE}, {N_("years between"), -21, 1, 0}, {"", -9, 0, 0}, {"", -9, 0, 0}, {"", -9, 0, 0}};
-    const struct ceduo_control *c = &r->scene->controls[control];
-    LOCAL_TEXT(limit);
-    if (!isnan(c->accepted))
-        ceduo_text_format(&limit, _(" with more than %s kJ"), SHORTEST(ceduo_words_accepted(c)));
-    ceduo_page_say(page, CEDUO_PAGE_CAPTION,
-                   _("Years from one rock%s to the next, and what arrives weak, medium and strong, in %% of what does without "
-                     "forest:"),
-                   ceduo_text_string(&limit));
+    ceduo_page_say(
+        page, CEDUO_PAGE_CAPTION,
+        _("Years from one such rock to the next, and what arrives weak, medium and strong, in %% of what does without "
+          "forest:"));
     CEDUO_PAGE_TABLE_OF(page, columns);
     for (int k = 0; k < CEDUO_INTENSITIES; k++)
         ceduo_text_format(&page->last->cells[2 + k].text, "%% %s", ceduo_words_intensity(k));
@@ -216,25 +208,8 @@ void ceduo_page_hazard(struct ceduo_page *page, const struct ceduo_report *repor
                          "weighted; %llu rocks know the whole as well as %.0f equal ones would."),
                        r->bare.arrivals[c].hazard.per_year, (unsigned long long)r->bare.rocks,
                        r->bare.arrivals[c].hazard.effective);
-    bool many = r->scene->options_count > FEW && ceduo_result_wooded(r, 0, c);
-    for (size_t i = 0; !many && i < r->scene->options_count; i++) {
-        if (i == 0 || hazard_of(r, i + 1, c))
-            ceduo_words_hazard(ceduo_page_add(page, CEDUO_PAGE_SENTENCE), r, i, c);
-        const struct ceduo_hazard *h = hazard_of(r, i + 1, c);
-        LOCAL_TEXT(said);
-        for (size_t k = 0; h && k < CEDUO_INTENSITIES; k++)
-            if (!isnan(h->intensity[k].left)) /* without forest some arrive */
-                ceduo_text_then(&said, said.length > 0 ? ", " : "", "%s %s %%", ceduo_words_intensity((int)k),
-                                WRITTEN(h->intensity[k].left * 100, 2));
-        if (said.length > 0)
-            ceduo_page_say(page, CEDUO_PAGE_SENTENCE,
-                           _("Of what arrives without forest, so much arrives with '%s', each rock by its energy here: %s."),
-                           r->scene->options[i].name, said.bytes);
-    }
-    if (many) {
-        ceduo_words_hazard(ceduo_page_add(page, CEDUO_PAGE_SENTENCE), r, rarest(r, c), c);
-        add_rates(page, r, c);
-    }
+    ceduo_words_hazard(ceduo_page_add(page, CEDUO_PAGE_SENTENCE), r, rarest(r, c), c);
+    add_rates(page, r, c);
     add_returns(page, r, c);
     add_square(page, r, c);
 }

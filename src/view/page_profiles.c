@@ -126,8 +126,7 @@ static void say_whole(struct ceduo_page *page, const struct ceduo_profiles *p, s
         n += p->items[i].options[option].judgement == worst;
     struct text *text = ceduo_page_text(page);
     ceduo_words_decision(text, worst);
-    ceduo_text_then(text, ": ", worst == CEDUO_NO ? _("too many arrive on %zu of %zu profiles") : _("on %zu of %zu profiles"),
-                    n, p->count);
+    ceduo_text_then(text, ": ", _("on %zu of %zu profiles"), n, p->count);
 }
 
 void ceduo_profiles_page(struct ceduo_page *page, const struct ceduo_profiles *p)
@@ -136,12 +135,10 @@ void ceduo_profiles_page(struct ceduo_page *page, const struct ceduo_profiles *p
                                                        {NP_("head", "answer"), 0, 1, 0}};
     bool whole = p->count > 1 && is_one_place(p);
     CEDUO_PAGE_TABLE_OF(page, columns);
-    if (whole) {
-        if (p->items->place)
-            ceduo_page_write(page, _("%s as a whole"), p->items->place);
-        else
-            ceduo_page_write(page, "%s", _("the place as a whole"));
-    }
+    if (whole && p->items->place)
+        ceduo_page_write(page, _("%s as a whole"), p->items->place);
+    else if (whole)
+        ceduo_page_write(page, "%s", _("the place as a whole"));
     for (size_t i = 0; i < p->count + whole; i++) {
         const struct ceduo_profile *one = &p->items[i - (i > 0 && whole)];
         bool all = whole && i == 0;

@@ -220,9 +220,8 @@ static void add_origin(struct ceduo_page *page, const struct ceduo_chapter *c)
     ceduo_page_say(page, CEDUO_PAGE_SECTION, "%s", _("How to compute this page again"));
     ceduo_text_format(ceduo_page_label(page, CEDUO_PAGE_FACT, _("Program")), "ceduo %s", CEDUO_VERSION);
     ceduo_page_say(page, CEDUO_PAGE_SENTENCE, "%s",
-                   c->same    ? _("This command gives the same page, to the last byte:")
-                   : c->doubt ? _("This command computes the page again:")
-                              : _("This command computes the page again, and how sure it is:"));
+                   c->same ? _("This command gives the same page, to the last byte:")
+                           : _("This command computes the page again:"));
     ceduo_page_say(page, CEDUO_PAGE_CODE, "%s", c->command);
     ceduo_page_say(page, CEDUO_PAGE_SENTENCE, "%s", _("The scene, as its file says it, without the texts of sources:"));
     /* with what the command line changed, and the names of other files */
@@ -289,20 +288,16 @@ void ceduo_page_chapter(struct ceduo_page *page, const struct ceduo_chapter *c)
         add_years(page, c);
         add_hazard(page, c);
     }
-    if (several)
-        ceduo_page_rules(page, c->report->result);
+    if (several && scene->rules.name)
+        ceduo_page_say(page, CEDUO_PAGE_SECTION, _("What the rules of %s ask"), scene->rules.name);
+    for (size_t i = 0; several && i < scene->options_count; i++)
+        ceduo_page_stand_rules(page, c->report->result, i, true);
     ceduo_page_notes(page, c->report);
     for (size_t i = 0; several && i < scene->options_count; i++)
         ceduo_page_stand_warnings(page, c->report->result, i);
     add_limits(page, c->report->result);
-    if (is_crowded(c))
-        ceduo_page_note(page,
-                        _("Not on this page, as it would be too long: the controls before the last, the other energy law and "
-                          "the years as pictures ('ceduo --batch', 'ceduo --plot'), the order of the options pair by pair "
-                          "('ceduo --sensitivity')."));
-    else if (scene->options_count > CROWD)
-        ceduo_page_note(
-            page, _("Not on this page, as it would be too long: the energy along the slope ('ceduo --plot energy') and the "
-                    "order of the options pair by pair ('ceduo --sensitivity')."));
+    if (scene->options_count > CROWD)
+        ceduo_page_note(page, _("Not on this page, as it would be too long: what 'ceduo --batch', 'ceduo --plot' and 'ceduo "
+                                "--sensitivity' show."));
     add_origin(page, c);
 }

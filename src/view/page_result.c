@@ -109,10 +109,10 @@ static void add_arrivals_table(struct ceduo_page *page, const struct ceduo_contr
         add_arrivals_row(page, _("without forest"), c, bare);
 }
 
-/* How the rocks end in the forest: up to a control, and on the whole profile. */
-static void say_fates(struct ceduo_page *page, const struct ceduo_simulated *f, const struct ceduo_arrivals *a, bool last)
+/* How the rocks end in the forest up to a control. */
+static void say_fates(struct ceduo_page *page, const struct ceduo_simulated *f, const struct ceduo_arrivals *a)
 {
-    const double *missed = a->missed, *all = f->ends.share;
+    const double *missed = a->missed;
     struct text *line = ceduo_page_add(page, CEDUO_PAGE_SENTENCE);
     ceduo_text_format(line,
                       _("Of 1000, %.0f arrive; before that %.0f are stopped by stems, %.0f come to rest, %.0f leave the "
@@ -125,10 +125,6 @@ static void say_fates(struct ceduo_page *page, const struct ceduo_simulated *f, 
     if (a->reached > 0)
         ceduo_text_then(line, "; ", _("one that arrives here has hit %.3g stems"), a->contacts);
     ceduo_text_char(line, '.');
-    if (last)
-        ceduo_page_say(page, CEDUO_PAGE_SENTENCE,
-                       _("On the whole profile: of 1000, %.0f are stopped by stems, %.0f come to rest, %.0f leave it."),
-                       all[CEDUO_STOPPED_BY_STEMS] * 1000, all[CEDUO_AT_REST] * 1000, all[CEDUO_LEFT_SLOPE] * 1000);
 }
 
 static void add_arrivals(struct ceduo_page *page, const struct ceduo_result *r, size_t option, size_t control, bool with_bare)
@@ -146,10 +142,7 @@ static void add_arrivals(struct ceduo_page *page, const struct ceduo_result *r, 
         ceduo_page_say(page, CEDUO_PAGE_SENTENCE,
                        _("Fewer arrive through the wood, but larger or faster ones, as stems stop the others first: their mean "
                          "is higher."));
-    say_fates(page, &r->options[option].wooded, wooded, control == r->last_control);
-    if (wooded->reached + wooded->unfinished == 0 && bare->reached + bare->unfinished > 0)
-        ceduo_page_say(page, CEDUO_PAGE_SENTENCE, _("Through the wood no rock arrives (of 1000, below %.1f with 95 %%)."),
-                       wooded->reach_hi * 1000);
+    say_fates(page, &r->options[option].wooded, wooded);
 }
 
 /* The mean that cannot mislead: of all released; it is no energy that the place must withstand. Either may be NULL. */
@@ -232,45 +225,17 @@ static void say_other_forms(struct ceduo_page *page, const struct ceduo_option *
     }
 }
 
-/* Where contacts take shares, Eq. 4 has no meaning. */
 static void say_residual(struct ceduo_page *page, const struct ceduo_result *r, size_t option, size_t control)
 {
-    const char *rule = NULL; /* that was applied in all belts, or that it differs */
-    bool several = false;
-    for (size_t i = 0; i < r->scene->options[option].belts_count; i++) {
-        const struct ceduo_stand_result *s = &r->options[option].stands[i];
-        several |= !s->bare && rule && strcmp(rule, ceduo_words_law(ceduo_rule_words.names[s->rule])) != 0;
-        rule = s->bare ? rule : ceduo_words_law(ceduo_rule_words.names[s->rule]);
-    }
-    rule = several ? _("each belt's own rule") : rule ? rule : _("no rule");
+#define SAME(value) WRITTEN(value, (value) > 0 ? decimals + (int)floor(log10(value)) + 1 : 1)
     const struct ceduo_index *index = &r->options[option].controls[control];
-    bool shares = isnan(index->dissipated), none = r->bare.arrivals[control].reached == 0;
-    double mean = r->bare.arrivals[control].energy.mean * J_TO_KJ;
-    double taken = index->dissipated * J_TO_KJ, left = index->residual * J_TO_KJ;
-    struct text *line = ceduo_page_add(page, CEDUO_PAGE_SENTENCE);
-    if (shares)
-        ceduo_text_format(line,
-                          index->exhausted && !none ? _("By the index (%s) contacts take shares and amounts")
-                                                    : _("By the index (%s) every contact takes a share"),
-                          rule);
-    else
-        ceduo_text_format(line, _("By the index (Eq. 4, %s) stems could take %s kJ"), rule, WRITTEN(taken, 3));
-    if (!shares && index->length > 0)
-        ceduo_text_then(line, ", ", _("%s kJ per 100 m (%s)"), WRITTEN(index->per_100m * J_TO_KJ, 3), rule);
-    if (none) {
-        ceduo_text_then(line, "; ", _("no rock arrives, nothing is left to compare."));
-    } else if (index->exhausted) {
-        ceduo_text_then(line, ", ", _("more than the mean rock brings: used up on average. Some rocks still pass."));
-    } else if (shares) {
-        ceduo_text_then(line, ", ", _("so that Eq. 4 has no meaning; of %s kJ %s kJ are left."), WRITTEN(mean, 4),
-                        WRITTEN(left, 3));
-    } else if (taken == 0) {
-        ceduo_text_then(line, "; ", _("left (Eq. 5): all of %s kJ."), WRITTEN(left, 3));
-    } else { /* all three with the decimals of the first, so that what is written is true */
-        int decimals = (int)fmax(0, 3 - floor(log10(mean)));
-        ceduo_text_then(line, "; ", _("left (Eq. 5): %.*f \xe2\x88\x92 %.*f = %.*f kJ."), decimals, mean, decimals, taken,
-                        decimals, left);
-    }
+    double mean = r->bare.arrivals[control].energy.mean * J_TO_KJ, taken = index->dissipated * J_TO_KJ;
+    double left = index->residual * J_TO_KJ;
+    int decimals = mean > 0 ? (int)fmax(0, 3 - floor(log10(mean))) : 1; /* of all three, so that what is written is true */
+    ceduo_page_say(page, CEDUO_PAGE_SENTENCE,
+                   _("By the index stems could take %s kJ (Eq. 4), %s kJ per 100 m; of %s kJ %s kJ are left (Eq. 5)%s."),
+                   SAME(taken), WRITTEN(index->length > 0 ? index->per_100m * J_TO_KJ : NAN, 3), SAME(mean), SAME(left),
+                   index->exhausted ? _(": used up on average, some rocks still pass") : "");
     if (!isnan(index->measured))
         ceduo_page_say(page, CEDUO_PAGE_SENTENCE, _("Measured here on one rock: %s kJ (%g m/s). One rock is no validation."),
                        WRITTEN(index->measured * J_TO_KJ, 3), r->scene->controls[control].measured_speed);

@@ -180,23 +180,13 @@ static void add_options(struct ceduo_page *page, const struct ceduo_report *repo
 static void gather_notes(struct ceduo_page *notes, const struct ceduo_report *report)
 {
     const struct ceduo_result *r = report->result;
-    size_t thin = 0, n = r->scene->options_count;
+    size_t n = r->scene->options_count;
     if (report->doubt && report->doubt->answer)
         ceduo_doubt_outside(report->doubt, ceduo_page_warn_once, notes);
-    for (size_t i = 0; r->scene->controls_count > 0 && i < n; i++) {
-        const struct ceduo_index *s = ceduo_result_last_index(r, i);
-        thin += ceduo_index_hangs_on_thin(s);
-        if (i == 0 && !isnan(s->measured))
-            ceduo_page_say(notes, CEDUO_PAGE_WARNING, _("One rock that was measured here had %s kJ."),
-                           WRITTEN(s->measured * J_TO_KJ, 3));
-    }
-    if (thin > 0 && n > 1)
-        ceduo_page_say(notes, CEDUO_PAGE_WARNING,
-                       _("Without shoots below %g cm the distance of contacts or the free run fails in %zu of %zu options."),
-                       CEDUO_THICK_DBH * 100, thin, n);
-    else if (thin > 0)
-        ceduo_page_say(notes, CEDUO_PAGE_WARNING,
-                       _("Without shoots below %g cm the distance of contacts or the free run fails."), CEDUO_THICK_DBH * 100);
+    if (r->scene->controls_count > 0 && !isnan(ceduo_result_last_index(r, 0)->measured))
+        ceduo_page_say(notes, CEDUO_PAGE_WARNING, _("One rock that was measured here had %s kJ."),
+                       WRITTEN(ceduo_result_last_index(r, 0)->measured * J_TO_KJ, 3));
+    ceduo_words_thin(r, ceduo_page_warn_once, notes);
     for (size_t i = 0; i < n; i++)
         ceduo_page_stand_rules(notes, r, i, false);
     if (n > 1 && report->verdict && report->verdict->choices[0].years > 0)
@@ -235,7 +225,7 @@ static void compose(struct text *text, const char *label, const struct ceduo_pag
 /* Adds as many of the sentences as keep within so many lines; the first is cut where even that has no room. */
 static void add_sentences(struct ceduo_page *page, const char *label, const struct ceduo_page *sentences, size_t lines)
 {
-    static const char cut[] = " \xe2\x80\xa6";
+    static const char cut[] = " ...";
     size_t n = 0;
     LOCAL_TEXT(text);
     for (const struct ceduo_page_block *b = sentences->first; b; b = b->next)

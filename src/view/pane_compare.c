@@ -180,13 +180,7 @@ void ceduo_pane_said(struct ceduo_page *page, const struct ceduo_pane *pane)
             ceduo_words_turned(r, v, ceduo_page_note, page);
     }
     ceduo_words_windows(r->scene, v, ceduo_page_note, page);
-    LOCAL_TEXT(thin); /* options with lights that thin shoots alone make green today */
-    for (size_t i = 0; i < r->options_count; i++)
-        if (ceduo_index_hangs_on_thin(ceduo_result_last_index(r, i)))
-            ceduo_text_then(&thin, thin.length > 0 ? ", " : "", "'%s'", r->scene->options[i].name);
-    if (thin.length > 0)
-        ceduo_page_say(page, CEDUO_PAGE_NOTE, _("Counting only stems from %g cm on, contact or free run fails today: %s."),
-                       CEDUO_THICK_DBH * 100, ceduo_text_string(&thin));
+    ceduo_words_thin(r, ceduo_page_note, page);
     if (v->wooded && !v->accepted)
         ceduo_page_note(page, _(ceduo_words_unjudged));
     if (!r->wooded)

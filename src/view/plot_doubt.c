@@ -96,8 +96,7 @@ const char *ceduo_plot_doubt(struct ceduo_drawing *d)
     if (!r)
         return _("not computed yet");
     if (!r->answer)
-        return ceduo_doubt_is_off(r) ? _("not computed: the scene says 'doubt: none'")
-                                     : _("nothing is marked as assumed or named by 'doubt'");
+        return ceduo_doubt_none(r);
     int used = add_options(d->page, r, d->picture->option, d->height);
     add_inputs(d->page, r, d->picture->option, d->height - used);
     return NULL;

@@ -62,12 +62,8 @@ void ceduo_doubt_blocks(struct ceduo_page *page, const struct ceduo_doubt_report
 /* "469 of 1000 (rocks 438–501; doubt 92–740)": the main figure of an option with both errors. */
 void ceduo_doubt_both(struct text *text, const struct ceduo_doubt_report *report, size_t option);
 
-/* What to measure first (`nth` 0), second … for an option, how, and what that would leave; false where there is no more. */
-bool ceduo_doubt_advice(struct text *text, const struct ceduo_doubt_report *report, size_t option, size_t nth);
-
-/* The input that a doubt comes from above all, and what would measure it (NULL: nothing that is known), which is marked for
- * translation; false where none stands out. */
-bool ceduo_doubt_heaviest(struct text *name, const char **how, const struct ceduo_doubt_report *report, size_t option);
+/* What to measure first for an option, and how; nothing where none stands out. */
+void ceduo_doubt_advice(struct text *text, const struct ceduo_doubt_report *report, size_t option);
 
 /* In how much of what may be true one of two options is better, equal or worse, and how sure that makes the order. */
 void ceduo_doubt_order_words(struct text *text, const struct ceduo_doubt_report *report, size_t order);

@@ -125,7 +125,7 @@ void ceduo_words_unlikely(const struct ceduo_belt *belt, const struct ceduo_stan
                           void *context)
 {
     const struct ceduo_stand *s = &belt->stand;
-    const struct ceduo_stems *slender = first_unlikely(s, CEDUO_WARN_SLENDER), *stout = first_unlikely(s, CEDUO_WARN_STOUT);
+    const struct ceduo_stems *const odd[] = {first_unlikely(s, CEDUO_WARN_SLENDER), first_unlikely(s, CEDUO_WARN_STOUT)};
     const struct ceduo_stems *thick = first_unlikely(s, CEDUO_WARN_THICK);
     size_t n;
     if (r->warnings & CEDUO_WARN_BASAL_AREA)
@@ -135,19 +135,15 @@ void ceduo_words_unlikely(const struct ceduo_belt *belt, const struct ceduo_stan
     if (r->warnings & CEDUO_WARN_MANY_SHOOTS)
         say_format(say, context, _("%s: %.1f shoots a stool are more than %d: check stools and shoots."), NAME_OF(belt),
                    ceduo_stand_shoots(s) / s->stools_per_ha, CEDUO_SHOOTS_MOST);
-    if (slender)
-        say_format(say, context, _("%s: stems of %.3g cm are %.3g m high, more than %d times their diameter: check both."),
-                   NAME_OF(belt), slender->dbh * 100, slender->height, CEDUO_SLENDERNESS_MOST);
-    if (stout)
-        say_format(say, context, _("%s: stems of %.3g cm are %.3g m high, less than %d times their diameter: check both."),
-                   NAME_OF(belt), stout->dbh * 100, stout->height, CEDUO_SLENDERNESS_LEAST);
+    for (size_t i = 0; i < 2; i++)
+        if (odd[i])
+            say_format(say, context,
+                       _("%s: stems of %.3g cm are %.3g m high, usual are %d to %d times their diameter: check both."),
+                       NAME_OF(belt), odd[i]->dbh * 100, odd[i]->height, CEDUO_SLENDERNESS_LEAST, CEDUO_SLENDERNESS_MOST);
     if (thick)
         say_format(say, context,
-                   isnan(thick->volume)
-                       ? _("%s: stems of %.3g cm are thicker than the thickest that the volumes of their species "
-                           "were measured on, %g cm; the form factor there is assumed.")
-                       : _("%s: stems of %.3g cm are thicker than the thickest that the volumes of their species "
-                           "were measured on, %g cm: check them."),
+                   _("%s: stems of %.3g cm are thicker than the thickest that the volumes of their species "
+                     "were measured on, %g cm: check them."),
                    NAME_OF(belt), thick->dbh * 100, ceduo_species_list(&n)[s->species].d_hi);
 }
 
@@ -327,7 +323,7 @@ void ceduo_words_contact(struct text *text, const struct ceduo_result *result, s
         ceduo_text_format(text, _("Every belt has an ADC below %g m (%s m at most) and no gap is longer."), limit,
                           BESIDE(s->worst_adc, 3, limit));
     else if (!(s->length > 0))
-        ceduo_text_put(text, _("There is no forest on the way."));
+        ceduo_text_put(text, _("No stem stands on the way."));
     else if (s->longest_gap > limit)
         ceduo_text_format(text, _("A gap of %s m has no forest; a rock reaches full speed in %g m."),
                           ROUNDED(s->longest_gap, 6), limit);
@@ -338,9 +334,7 @@ void ceduo_words_contact(struct text *text, const struct ceduo_result *result, s
                           BESIDE(s->worst_adc, 3, limit), limit);
     if (result->scene->simulation.contact_dbh > 0)
         ceduo_text_then(text, " ", _("Stems below %g cm do not count."), result->scene->simulation.contact_dbh * 100);
-    if (s->thick.contact != s->contact && isinf(s->thick.worst_adc))
-        ceduo_text_then(text, " ", _("Counting only stems from %g cm on it fails: there are none."), thick_cm(result->scene));
-    else if (s->thick.contact != s->contact)
+    if (s->thick.contact != s->contact)
         ceduo_text_then(text, " ", _("Counting only stems from %g cm on it fails: %s m."), thick_cm(result->scene),
                         BESIDE(s->thick.worst_adc, 3, limit));
 }
@@ -351,7 +345,7 @@ void ceduo_words_free_run(struct text *text, const struct ceduo_result *result, 
     double limit = result->scene->simulation.threshold;
     say_verdict(text, _("Free run: %s."), s->free_run);
     if (s->length > 0 && s->longest_gap > limit)
-        ceduo_text_format(text, _("A gap of %s m has no forest: every rock runs more than %g m there."),
+        ceduo_text_format(text, _("A gap of %s m has no forest; a rock reaches full speed in %g m."),
                           ROUNDED(s->longest_gap, 6), limit);
     else if (s->length > 0)
         ceduo_text_format(text, _("Chance of %g m without a contact at worst %s %% (10 %% is allowed)."), limit,
@@ -361,6 +355,17 @@ void ceduo_words_free_run(struct text *text, const struct ceduo_result *result, 
     if (s->thick.free_run != s->free_run)
         ceduo_text_then(text, " ", _("Counting only stems from %g cm on it fails: %s %%."), thick_cm(result->scene),
                         PERCENT(s->thick.worst_free_run, CEDUO_FREE_RUN_MOST));
+}
+
+void ceduo_words_thin(const struct ceduo_result *r, ceduo_words_say *say, void *context)
+{
+    LOCAL_TEXT(thin);
+    for (size_t i = 0; r->scene->controls_count > 0 && i < r->options_count; i++)
+        if (ceduo_index_hangs_on_thin(ceduo_result_last_index(r, i)))
+            ceduo_text_format(&thin, "%s'%s'", thin.length > 0 ? ", " : "", NAME_OF(&r->scene->options[i]));
+    if (thin.length > 0)
+        say_format(say, context, _("Counting only stems from %g cm on, contact or free run fails today: %s."),
+                   CEDUO_THICK_DBH * 100, thin.bytes);
 }
 
 const char *ceduo_words_shown_of_1000(double p, double lo, double hi, char room[CEDUO_NUMBER_ROOM])

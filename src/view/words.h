@@ -54,6 +54,9 @@ enum ceduo_light ceduo_judgement_light(enum ceduo_judgement judgement);
 void ceduo_words_answer(struct text *text, const struct ceduo_result *result, size_t option, size_t control,
                         const struct ceduo_doubt_report *doubt, size_t width);
 
+/* Which options have lights that thin shoots alone make green today. */
+void ceduo_words_thin(const struct ceduo_result *result, ceduo_words_say *say, void *context);
+
 /* The three lights of an option at a control, each with its reason: contact, free run, energy. */
 void ceduo_words_contact(struct text *text, const struct ceduo_result *result, size_t option, size_t control);
 void ceduo_words_free_run(struct text *text, const struct ceduo_result *result, size_t option, size_t control);

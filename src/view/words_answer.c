@@ -23,10 +23,7 @@ void ceduo_words_nothing(struct text *text, const struct ceduo_result *r, size_t
     const struct ceduo_arrivals *bare = &r->bare.arrivals[control];
     LOCAL_TEXT(where);
     ceduo_plot_control_name(&where, &r->scene->controls[control]);
-    ceduo_text_format(text,
-                      bare->reached == 0
-                          ? _("Nothing can be said of the wood above %s: of %llu rocks none arrives, even without forest.")
-                          : _("Nothing can be said of the wood above %s: of %llu rocks %llu arrive, even without forest."),
+    ceduo_text_format(text, _("Nothing can be said of the wood above %s: of %llu rocks %llu arrive, even without forest."),
                       ceduo_text_string(&where), (unsigned long long)bare->released, (unsigned long long)bare->reached);
     /* where rocks start without forest, and how far they come */
     const struct ceduo_slope *s = &r->scene->slope;
@@ -39,10 +36,8 @@ void ceduo_words_nothing(struct text *text, const struct ceduo_result *r, size_t
                     start + s->origin_x, fabs(falls));
     if (r->scene->release.x_assumed)
         ceduo_text_then(text, " ", "%s", _("That is where the profile begins: release.x_m is not given."));
-    if (way >= 0.05)
-        ceduo_text_then(text, " ", _("They come to rest within %s m of it."), WRITTEN(way, 2));
-    else if (!isnan(way))
-        ceduo_text_then(text, " ", "%s", _("They rest there."));
+    if (!isnan(way))
+        ceduo_text_then(text, " ", _("They come to rest within %s m of it."), WRITTEN(way < 0.05 ? 0 : way, 2));
     if (falls < 0)
         ceduo_text_then(text, " ", "%s", _("The profile may have been drawn upward."));
     /* what to do: a face that they do not reach is where they should start */
@@ -174,10 +169,8 @@ static void say_reason(struct text *text, const struct ceduo_result *r, size_t o
     if (wooded)
         ceduo_measure_doubt(&m, doubt, option, control);
     if (judgement == CEDUO_NOTHING)
-        ceduo_text_format(text,
-                          bare->reached == 0 ? _("of %llu rocks none arrives, even without the wood")
-                                             : _("of %llu rocks %llu arrive, even without the wood"),
-                          (unsigned long long)bare->released, (unsigned long long)bare->reached);
+        ceduo_text_format(text, _("of %llu rocks %llu arrive, even without the wood"), (unsigned long long)bare->released,
+                          (unsigned long long)bare->reached);
     else if (!wooded && !r->wooded && judgement != CEDUO_YES) {
         const char *left = WRITTEN(r->options[option].controls[control].residual * J_TO_KJ, 3);
         const char *mean = WRITTEN(bare->energy.mean * J_TO_KJ, 3);

@@ -155,7 +155,7 @@ def test_page_of_a_flight():
         page, found = good("-n", 100, *fits, path).out, good("-f", "json", "-n", 100, *fits, path).json()[0]
     together = found["correlation"][0][1]
     expect(together < -0.9, "hypot(v, vz - 20 g / v) falls with either of them", found)
-    expect_in(f"speed along, m/s falls where speed upward, m/s rises (correlation {together:.2f})", " ".join(page.split()))
+    expect_in(f"speed along, m/s and speed upward, m/s are known only together, not each (correlation {together:.2f})", " ".join(page.split()))
     rows = dict(re.findall(r"^ +(speed along|diameter).*? {2,}(\S+ +\S+ +\S+)$", page, re.M))
     for name, per, value in (("speed along", 1, found["parameters"][0]), ("diameter", 100, found["parameters"][2])):
         shown = [float(number) for number in re.findall(r"[\d.]+", rows[name])]

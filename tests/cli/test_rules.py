@@ -97,10 +97,10 @@ def test_own_region():
         page = " ".join(good(*WHOLE, "-n", 5, path).out.split())
         expect_in("coppice: the stand names no species; nothing that Nowhere asks is checked.", page)
         page = " ".join(good(*WHOLE, "-n", 5, f.write("s.yaml", site(coppice("acer"), "nowhere.yaml"))).out.split())
-        expect_in("Nowhere asks for 10 standards a hectare at least (art. 1, Act 2, 1999); 60 are kept: met.", page)
+        expect_in("Nowhere asks for ≥ 10 standards a hectare (art. 1, Act 2, 1999); 60 are kept: met.", page)
         expect_in("Nowhere: check the text in force; made up.", page)
         page = " ".join(good(*WHOLE, "-n", 5, f.write("s.yaml", site(coppice("acer", system="large-reserves"), own))).out.split())
-        expect_in("! coppice: Nowhere asks for 5 to 7 standards a hectare (art. 1, Act 2, 1999); 60 are kept: NOT met.", page)
+        expect_in("! coppice: Nowhere asks for 5–7 standards a hectare (art. 1, Act 2, 1999); 60 are kept: NOT met.", page)
 
 
 def test_page():
@@ -108,8 +108,8 @@ def test_page():
     with Folder() as f:
         path = f.write("s.yaml", site(coppice(), "umbria"))
         page = " ".join(good(*WHOLE, "-n", 5, path).out.split())
-        expect_in("Umbria asks for 80 standards a hectare at least (art. 33, R.R. 7, 2002); 60 are kept: NOT met.", page)
-        expect_in("Umbria asks for a rotation of 15 to 40 years (art. 26, R.R. 7, 2002); shoots are cut at 25: met.", page)
+        expect_in("Umbria asks for ≥ 80 standards a hectare (art. 33, R.R. 7, 2002); 60 are kept: NOT met.", page)
+        expect_in("Umbria asks for a rotation of 15–40 years (art. 26, R.R. 7, 2002); shoots are cut at 25: met.", page)
         expect_equal(page.count("check the text in force"), 1, page)
 
 
@@ -132,7 +132,7 @@ def test_not_named():
                 two["options"] = [{"name": name, "forest": two["forest"]} for name in "ab"]
                 two.pop("forest")
                 good("--report", f.path / "p.html", "--sensitivity=2", "-n", 20, f.write("two.yaml", two))
-                expect_equal(">not named<" in (f.path / "p.html").read_text(), not named, f"{region} {species}")
+                expect_equal(NO_TURN.format(region.title(), common) in (f.path / "p.html").read_text(), not named, f"{region} {species}")
         own = {"name": "Nowhere", "standards": [{"species": ["acer"], "per_ha": 10, **ROW}]}
         page = " ".join(good(*WHOLE, "-n", 5, f.write("s.yaml", site(coppice(), own))).out.split())
         expect_in("the rules of Nowhere as filed name no number of standards for this species (hop hornbeam); none is checked.", page)

@@ -124,7 +124,7 @@ def test_profiles_of_one_place():
         expect_equal(re.findall(r"^(\w+) \u2013 300 rocks", text, re.M), ["bare", "wood", "calm"], "the pages, as the table")
         table = text.split("\n\n")[0].splitlines()
         expect_equal([line.split()[0] for line in table], ["scene", "road", "bare", "wood", "calm"], "order")
-        expect(re.match(r"road as a whole +✘ NO: too many arrive on 2 of 3 profiles$", table[1]), table[1])
+        expect(re.match(r"road as a whole +✘ NO: on 2 of 3 profiles$", table[1]), table[1])
         page = good("--report", "-", "-n", 50, *files).out
         expect_equal(re.findall(r"<h1[^>]*>([^<]*)", page), ["3 scenes, the worst first", "bare", "wood", "calm"])
         expect_in("road as a whole", page)
@@ -139,7 +139,7 @@ def test_bounded():
     expect_in("(7 each)", " ".join(page.split()))
     long = "a very long remark that goes on and on, " * 9
     page = page_of(PAPER, "-s", f"controls[0].source.text={long}", "-s", "controls[0].source.kind=assumed")
-    expect(len(page.splitlines()) <= 24 and re.search(r"ASSUMED \* .* …$", page, re.M), page)
+    expect(len(page.splitlines()) <= 24 and re.search(r"ASSUMED \* .* \.\.\.$", page, re.M), page)
 
 
 def test_details():

@@ -351,7 +351,7 @@ def test_survey():
     expect(0.35 < selection / now < 0.65 and 1.6 < alone / now < 2.4, rows)
     expect_equal([rows["standards alone"][light] for light in ("contact", "free_run", "energy")], ["FAIL"] * 3)
     page = " ".join(walk.outputs[3].split())
-    expect(re.search(r"standards: Toscana asks for 60 standards a hectare at least \(art. 22, D.P.G.R. 48/R, 2003\); 11\d[.\d]* are kept: met",
+    expect(re.search(r"standards: Toscana asks for ≥ 60 standards a hectare \(art. 22, D.P.G.R. 48/R, 2003\); 11\d[.\d]* are kept: met",
                      page), page)
     expect(re.search(r"is better than .*: (clear|likely|hardly ever worse|undecided)\.", " ".join(walk.outputs[4].split())), walk.outputs[4])
     expect(re.search(r"as it is: Whether the test of energy passes depends on .*roughness", " ".join(walk.outputs[4].split())),
