@@ -131,13 +131,14 @@ size_t ceduo_input_ground(struct arena *arena, const struct node *root, const st
 {
     const struct ceduo_slope *s = &scene->slope;
     const struct node *rows = ceduo_node_get(ceduo_node_get(root, "slope"), "materials");
+    bool listed = rows && rows->kind == NODE_LIST && rows->n > 0;
     size_t n = 0;
-    for (size_t j = 0; rows && rows->kind == NODE_LIST && rows->n > 0 && j + 1 < s->vertices; j++) {
+    for (size_t j = 0; (listed || !root) && j + 1 < s->vertices; j++) {
         double middle = ceduo_slope_mirrored(s, s->origin_x + (s->x[j] + s->x[j + 1]) / 2);
         size_t row = 0;
-        while (row + 1 < rows->n && middle >= ceduo_node_number(rows->items[row + 1], "from_m"))
+        while (listed && row + 1 < rows->n && middle >= ceduo_node_number(rows->items[row + 1], "from_m"))
             row++;
-        const char *name = ceduo_node_text(rows->items[row], "material");
+        const char *name = listed ? ceduo_node_text(rows->items[row], "material") : ceduo_material_talus()->name;
         int known = name ? ceduo_choice_find(&ceduo_material_words, name) : -1;
         if (known >= 0 && strcmp(ceduo_material_words.names[known], material) == 0)
             places[n++] = ceduo_arena_format(arena, "slope.segments[%zu].%s", j, key);
@@ -145,17 +146,15 @@ size_t ceduo_input_ground(struct arena *arena, const struct node *root, const st
     return n;
 }
 
-static void add_ground(struct finder *f, const struct ceduo_material *m, bool everywhere)
+static void add_ground(struct finder *f, const struct ceduo_material *m)
 {
     static const char *const keys[] = {"rn", "rt", "roughness_rad", "friction", "mu"};
-    size_t stretches = f->file->scene.slope.vertices - 1;
-    const char **places = ceduo_arena_take(f->arena, (stretches + 1) * sizeof *places);
+    const struct scene_file *file = f->file;
+    const char **places = ceduo_arena_take(f->arena, file->scene.slope.vertices * sizeof *places);
     for (size_t k = 0; places && k < sizeof keys / sizeof keys[0]; k++) {
-        if (!law_knows(f, keys[k]))
-            continue;
-        size_t n = ceduo_input_ground(f->arena, f->file->root, &f->file->scene, m->name, keys[k], places);
-        for (size_t j = 0; everywhere && j < stretches; j++)
-            places[n++] = ceduo_arena_format(f->arena, "slope.segments[%zu].%s", j, keys[k]);
+        size_t n = law_knows(f, keys[k]) ? ceduo_input_ground(f->arena, file->ground_assumed ? NULL : file->root, &file->scene,
+                                                              m->name, keys[k], places)
+                                         : 0;
         for (size_t i = 0; i < n; i++)
             add(f, places[i], ceduo_arena_format(f->arena, "slope.materials[%s].%s", m->name, keys[k]),
                 ceduo_range_of_material(m, keys[k]));
@@ -228,10 +227,8 @@ bool ceduo_inputs_of(struct scene_file *file, struct scene_inputs *inputs)
     if (ceduo_node_text(file->root, "doubt")) /* none */
         return true;
     walk(&f, ceduo_schema_scene(), file->root);
-    if (file->ground_assumed)
-        add_ground(&f, ceduo_material_talus(), true);
-    for (size_t i = 0; !file->ground_assumed && file->scene.slope.segments_given == 0 && i < count; i++)
-        add_ground(&f, &library[i], false);
+    for (size_t i = 0; file->scene.slope.segments_given == 0 && i < count; i++)
+        add_ground(&f, &library[i]);
     bool good = put_together(&f, inputs);
     ceduo_text_free(&f.path);
     return good;

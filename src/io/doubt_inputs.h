@@ -29,7 +29,7 @@ bool ceduo_input_shares(const struct ceduo_input *a, const struct ceduo_input *b
 /* The belt that a place is in, forest[0].stand… or options[2].forest[0].stand…; NULL: it is in none. */
 const struct ceduo_belt *ceduo_input_belt(const struct ceduo_scene *scene, const char *place);
 
-/* Paths of the segments of a ground of the library, one for each stretch; returns how many. */
+/* Paths of the segments of a ground of the library, one for each stretch; returns how many. `root` NULL: talus was taken for all. */
 size_t ceduo_input_ground(struct arena *arena, const struct node *root, const struct ceduo_scene *scene, const char *material,
                           const char *key, const char **places);
 

@@ -98,25 +98,21 @@ static const char *ground_of(struct validator *v, const char *path, const char *
     return known < 0 ? name : ceduo_material_words.names[known];
 }
 
-/* All places of a path that the scene has. `fitted`: a ground may be wherever it is, whether the files have a list of it or not;
- * `talus`: it was taken for all of the slope. */
-static void find_places(struct places *p, const char *path, bool fitted, bool talus)
+/* All places of a path that the scene has. Ground that stands in no list of segments has one of them for each stretch. */
+static void find_places(struct places *p, const char *path)
 {
     struct validator *v = p->v;
     struct ceduo_scene *scene = &v->draft.scene;
-    const char *key = NULL, *name = ground_of(v, path, &key);
+    const char *key, *name = ground_of(v, path, &key);
     struct value value;
-    size_t n = 0, vertices = scene->slope.vertices;
-    if (fitted && !name && scene->slope.segments_given == 0 && strncmp(path, SEGMENTS, sizeof SEGMENTS - 1) == 0)
-        key = path + sizeof SEGMENTS - 1;
-    else if (!(fitted && name && talus && strcmp(name, ceduo_material_talus()->name) == 0))
-        vertices = 0;
-    for (size_t j = 0; j + 1 < vertices; j++) /* a ground that stands in no list of segments: one place for each stretch */
-        add_place(p, ceduo_format(v, "slope.segments[%zu].%s", j, key));
-    if (vertices == 0 && !name)
+    size_t n = 0, stretches = scene->slope.vertices - 1;
+    if (name && (p->items = ceduo_room(v, stretches, sizeof *p->items)))
+        p->n = ceduo_input_ground(v->arena, v->ground_assumed ? NULL : v->root, scene, name, key, p->items);
+    else if (!name && scene->slope.segments_given == 0 && strncmp(path, SEGMENTS, sizeof SEGMENTS - 1) == 0)
+        for (size_t j = 0; j < stretches; j++)
+            add_place(p, ceduo_format(v, "slope.segments[%zu].%s", j, path + sizeof SEGMENTS - 1));
+    else if (!name)
         add_all(p, path);
-    else if (vertices == 0 && (p->items = ceduo_room(v, scene->slope.vertices, sizeof *p->items)))
-        p->n = ceduo_input_ground(v->arena, v->root, scene, name, key, p->items);
     for (size_t i = 0; i < p->n; i++)
         if (ceduo_value_find(scene, p->items[i], &value))
             p->items[n++] = p->items[i];
@@ -200,7 +196,7 @@ static bool make_input(struct validator *v, const struct row *row, struct ceduo_
                               : of_stand ? _("'%s' is not a number or a word of a stand")
                                          : _("'%s' is not a number or a word of a scene"),
                               d->path);
-    find_places(&places, path, false, false);
+    find_places(&places, path);
     if (places.n == 0)
         return false;
     /* exactly one of three forms */
@@ -337,7 +333,7 @@ struct draws {
 };
 
 /* All places of a path that is fitted, to input->places; NULL where it is no number of a scene. */
-static const struct field *find_fitted(struct validator *v, const char *path, bool talus, struct ceduo_input *input)
+static const struct field *find_fitted(struct validator *v, const char *path, struct ceduo_input *input)
 {
     struct places p = {.v = v};
     bool settled;
@@ -345,7 +341,7 @@ static const struct field *find_fitted(struct validator *v, const char *path, bo
     *input = (struct ceduo_input){.path = path, .kind = CEDUO_INPUT_RANGE};
     if (!field || field->type == FIELD_CHOICE || settled)
         return NULL;
-    find_places(&p, path, true, talus);
+    find_places(&p, path);
     input->places = p.items;
     input->places_count = p.n;
     return v->arena->failed ? NULL : field;
@@ -365,7 +361,7 @@ static bool take_header(struct draws *t)
             return false;
         path = path ? path : head;
         do {
-            const struct field *f = path[0] ? find_fitted(v, path, v->ground_assumed, &found) : NULL;
+            const struct field *f = path[0] ? find_fitted(v, path, &found) : NULL;
             t->csv.source->foreign &= f == NULL;
             if (!f || found.places_count == 0) {
                 if (t->csv.source->foreign)
@@ -495,5 +491,6 @@ const struct field *ceduo_input_find(struct scene_file *file, const char *path, 
     struct problems problems = {0};
     struct validator v = {.arena = &file->arena, .root = file->root, .problems = &problems};
     v.draft.scene = file->scene;
-    return find_fitted(&v, path, file->ground_assumed, input);
+    v.ground_assumed = file->ground_assumed;
+    return find_fitted(&v, path, input);
 }
