@@ -16,7 +16,8 @@
 #include "say.h"
 #include "view/figures.h"
 
-#define MOST CEDUO_CALIBRATION_MOST
+#define MOST     CEDUO_CALIBRATION_MOST
+#define NO_VALUE _("'%s' is no number of these scenes that can be fitted; ceduo --list-parameters shows all")
 
 /* All scenes, and the fitted values in each. */
 struct job {
@@ -41,8 +42,7 @@ static enum exit_status find_value(struct job *j, size_t i)
         struct ceduo_input *input = &j->inputs[s * j->parameters_count + i];
         j->fields[i] = ceduo_input_find(&j->files[s], path, input);
         if (!j->fields[i])
-            return ceduo_usage(
-                "calibrate", _("'%s' is not a number of a scene that can be fitted; ceduo --list-parameters shows all"), path);
+            return ceduo_usage("calibrate", NO_VALUE, path);
         input->lo = given->lo;
         input->hi = given->hi;
         places += input->places_count;
@@ -52,7 +52,7 @@ static enum exit_status find_value(struct job *j, size_t i)
                 return ceduo_usage("calibrate", _("'%s' and '%s' are the same value"), j->paths[k], path);
     }
     if (places == 0)
-        return ceduo_usage("calibrate", _("no scene has a value '%s'"), path);
+        return ceduo_usage("calibrate", NO_VALUE, path);
     double bad = !ceduo_schema_in_range(j->fields[i], given->lo) ? given->lo : given->hi;
     if (!ceduo_schema_in_range(j->fields[i], bad)) {
         LOCAL_TEXT(range);

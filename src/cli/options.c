@@ -106,23 +106,14 @@ static enum exit_status no_number(const struct option_row *row, const char *valu
     return ceduo_usage(row->name, _("'%s' is not a number"), value);
 }
 
-static enum exit_status set_tolerance(struct arguments *a, const struct option_row *row, char *value)
+/* Above 0 and at most 1. */
+static enum exit_status set_share(struct arguments *a, const struct option_row *row, char *value)
 {
-    double number;
-    if (ceduo_number_read(value, &number) != CEDUO_NUMBER_GOOD)
+    double *share = (double *)(void *)((char *)a + row->at);
+    if (ceduo_number_read(value, share) != CEDUO_NUMBER_GOOD)
         return no_number(row, value);
-    if (!(number > 0) || !(number < 1))
-        return ceduo_usage(row->name, _("%s must lie above 0 and below 1"), value);
-    a->tolerance = number;
-    return EXIT_DONE;
-}
-
-static enum exit_status set_sure(struct arguments *a, const struct option_row *row, char *value)
-{
-    if (ceduo_number_read(value, &a->sure) != CEDUO_NUMBER_GOOD)
-        return no_number(row, value);
-    if (!(a->sure > 0) || !(a->sure <= 1))
-        return ceduo_usage(row->name, _("%s is not a share; write 0.9 for nine of ten cases"), value);
+    if (!(*share > 0) || !(*share <= 1))
+        return ceduo_usage(row->name, _("%s is not a share; write 0 to 1, such as 0.05 for 5 %%"), value);
     return EXIT_DONE;
 }
 
@@ -178,24 +169,25 @@ static enum exit_status set_years(struct arguments *a, const struct option_row *
     bool good = read_numbers(value, ":", 2, 3, parts) && is_whole(parts[0]) && is_whole(parts[1]) && is_whole(parts[2]);
     if (!good)
         return ceduo_usage(row->name, _("'%s' is not a range of years; write A:B or A:B:STEP, such as 0:25"), value);
-    if (parts[0] < 0)
-        return ceduo_usage(row->name, _("%s begins before year 0, which is the stand as filed"), value);
-    if (parts[1] < parts[0] || parts[1] > 100000 || parts[2] < 1)
-        return ceduo_usage(row->name, _("%s ends before it begins, or after year 100000"), value);
-    if ((parts[1] - parts[0]) / parts[2] >= CEDUO_YEARS_MOST)
-        return ceduo_usage(row->name, _("%s is more than %d years"), value, CEDUO_YEARS_MOST);
+    if (parts[0] < 0 || parts[1] < parts[0] || parts[1] > 100000 || parts[2] < 1 ||
+        (parts[1] - parts[0]) / parts[2] >= CEDUO_YEARS_MOST)
+        return ceduo_usage(row->name, _("%s: expected at most %d years of 0 (the stand as filed) to 100000"), value,
+                           CEDUO_YEARS_MOST);
     a->window = (struct ceduo_window){
         .first = (unsigned)parts[0], .last = (unsigned)parts[1], .step = parts[2] > 100000 ? 100000 : (unsigned)parts[2]};
     return EXIT_DONE;
 }
 
-/* "PATH=LO:HI", of which the path stays where it is. */
-static enum exit_status read_range(const struct option_row *row, char *value, const char *such_as, struct path_range *range)
+/* "PATH=LO:HI", of which the path stays where it is. `one`: it may be one value. */
+static enum exit_status read_range(const struct option_row *row, char *value, const char *such_as, bool one,
+                                   struct path_range *range)
 {
     char *equals = strrchr(value, '=');
     double ends[2];
     if (!equals || equals == value || !read_numbers(equals + 1, ":", 2, 2, ends))
         return ceduo_usage(row->name, _("'%s' is not PATH=LO:HI, such as '%s'"), value, such_as);
+    if (one ? ends[1] < ends[0] : ends[1] <= ends[0])
+        return ceduo_usage(row->name, _("the range %s is empty; HI must be above LO"), equals + 1);
     *equals = '\0';
     *range = (struct path_range){value, ends[0], ends[1]};
     return EXIT_DONE;
@@ -203,24 +195,14 @@ static enum exit_status read_range(const struct option_row *row, char *value, co
 
 static enum exit_status set_find(struct arguments *a, const struct option_row *row, char *value)
 {
-    enum exit_status status = read_range(row, value, "forest[0].stand.trees[0].per_ha=1:1000", &a->find);
-    if (status == EXIT_DONE && !(a->find.lo <= a->find.hi))
-        return ceduo_usage(row->name, _("the range %s ends before it begins"), value + strlen(value) + 1);
-    return status;
+    return read_range(row, value, "forest[0].stand.trees[0].per_ha=1:1000", true, &a->find);
 }
 
 static enum exit_status add_calibrate(struct arguments *a, const struct option_row *row, char *value)
 {
-    struct path_range range;
-    enum exit_status status = read_range(row, value, "slope.materials[talus].rn=0.2:0.5", &range);
-    if (status != EXIT_DONE)
-        return status;
-    if (!(range.lo < range.hi))
-        return ceduo_usage(row->name, _("the range %s is empty; HI must be above LO"), value + strlen(value) + 1);
     if (a->calibrates_count == CEDUO_CALIBRATION_MOST)
         return ceduo_usage(row->name, _("at most %d values can be fitted at once"), CEDUO_CALIBRATION_MOST);
-    a->calibrates[a->calibrates_count++] = range;
-    return EXIT_DONE;
+    return read_range(row, value, "slope.materials[talus].rn=0.2:0.5", false, &a->calibrates[a->calibrates_count++]);
 }
 
 static enum exit_status set_goal(struct arguments *a, const struct option_row *row, char *value)
@@ -287,7 +269,7 @@ static const struct option_row rows[] = {
      .help = N_("change a parameter of the scene; may be repeated")},
     {"rocks", 'n', "N", set_count, AT(rocks), MODE_TERMINAL, CHECK | SURVEY | SCREEN,
      .help = N_("number of rocks; with --tolerance the maximum"), .lo = 1, .hi = CEDUO_ROCKS_MOST},
-    {"tolerance", 'e', "REL", set_tolerance, 0, MODE_TERMINAL, CHECK | FIND | DOUBT | FIT | SURVEY | SCREEN,
+    {"tolerance", 'e', "REL", set_share, AT(tolerance), MODE_TERMINAL, CHECK | FIND | DOUBT | FIT | SURVEY | SCREEN,
      .help = N_("simulate until the 95 % error of each mean energy is below REL of it")},
     {"rows", 0, "controls|stands", set_word, AT(stands), MODE_TERMINAL, CHECK | DOUBT | FIT | PAGE | SURVEY | SCREEN,
      .help = N_("what each row of CSV describes (controls)")},
@@ -311,7 +293,7 @@ static const struct option_row rows[] = {
      .help = N_("find the value of a parameter that reaches --goal at the worst control")},
     {"goal", 0, "GOAL[=VALUE]", set_goal, 0, MODE_TERMINAL, CHECK | SURVEY,
      .help = N_("adc, free-run (at most the light's limit), energy (mean kJ) or exceed (share, 0.05)")},
-    {"sure", 0, "SHARE", set_sure, 0, MODE_TERMINAL, CHECK | SURVEY,
+    {"sure", 0, "SHARE", set_share, AT(sure), MODE_TERMINAL, CHECK | SURVEY,
      .help = N_("with --find: also the value that reaches the goal in this share of what may be true, such as 0.9")},
     {"sensitivity", 0, "[N]", set_count, AT(points), MODE_SENSITIVITY, CHECK | SURVEY,
      .help = N_("show how sure the result is, and what that depends on; N points (256)"), .lo = 2,
@@ -419,19 +401,15 @@ void ceduo_arguments_help(struct text *text)
 /* ---- what goes together ---- */
 
 /* Says which option does not go with what is asked for. A format of its own is one that is not the page. */
-static enum exit_status check_with(const struct arguments *a)
+static enum exit_status check_with(const struct arguments *a, const char *mode)
 {
-    const char *mode = "batch";
-    for (size_t i = 0; i < ROWS; i++)
-        if (rows[i].mode == a->mode && (a->given >> i & 1))
-            mode = rows[i].name;
     for (size_t i = 0; i < ROWS; i++) {
         bool page = strcmp(rows[i].name, "format") == 0 && a->format == CEDUO_TABLE;
         bool doubt = a->mode == MODE_SENSITIVITY && strcmp(rows[i].name, "plot") == 0 && a->plot != CEDUO_PLOT_DOUBT;
         if (!(a->given >> i & 1) || !(doubt || (rows[i].without >> a->mode & 1)))
             continue;
         if (a->mode == MODE_TERMINAL)
-            return ceduo_usage(NULL, _("options such as -s, -n, -f and -o require --batch"));
+            return ceduo_usage(NULL, _("--%s requires %s"), rows[i].name, "--batch");
         if (!page || (a->mode != MODE_REPORT && a->mode < MODE_PARAMETERS))
             return ceduo_usage(NULL, _("--%s cannot be used with --%s"), mode, rows[i].name);
     }
@@ -441,48 +419,52 @@ static enum exit_status check_with(const struct arguments *a)
 /* Whether the options go together, and as many scenes are named as they want. */
 static enum exit_status check_arguments(const struct arguments *a)
 {
+    const char *mode = "batch", *goal = ceduo_goals[a->goal].word;
+    for (size_t i = 0; i < ROWS; i++)
+        if (rows[i].mode == a->mode && (a->given >> i & 1))
+            mode = rows[i].name;
     if (a->mode >= MODE_HELP)
         return EXIT_DONE;
-    if (check_with(a) != EXIT_DONE)
+    if (check_with(a, mode) != EXIT_DONE)
         return EXIT_USAGE;
     bool find = a->mode == MODE_FIND, screen = a->mode == MODE_TERMINAL, plot = a->plot != CEDUO_PLOT_NONE;
     bool csv = a->format == CEDUO_CSV, wants_scene = a->mode >= MODE_BATCH && a->mode <= MODE_CHECK;
     bool by_years = a->plot == CEDUO_PLOT_ROTATION || a->plot == CEDUO_PLOT_TRADEOFF;
-    bool no_value = find && !ceduo_goals[a->goal].usual && isnan(a->goal_value);
     size_t standard = a->each && strcmp(a->each, "-") == 0;
     for (size_t i = 0; i < a->scenes_count; i++)
         standard += strcmp(a->scenes[i], "-") == 0;
     const struct {
         bool broken;
-        const char *why;
+        const char *option, *needs, *bars; /* needs or bars */
     } rules[] = {
-        {find && !ceduo_arguments_given(a, "goal"), _("--find requires a --goal")},
-        {!find && ceduo_arguments_given(a, "goal"), _("--goal requires --find")},
-        {!find && ceduo_arguments_given(a, "sure"), _("--sure requires --find")},
-        {no_value && a->goal == CEDUO_GOAL_ENERGY, _("--goal energy needs the mean energy in kJ, such as energy=50")},
-        {no_value, _("--goal arrive needs the share of the rocks, such as arrive=0.5")},
-        {find && a->window.step > 0, _("--find takes --years without a range")},
-        {wants_scene && a->scenes_count == 0,
-         _("no scene given; name a file, a shipped scene such as 'paper-site', or '-' for standard input")},
-        {plot && a->format != CEDUO_TABLE, _("--plot prints a picture; it cannot be used with --format csv or json")},
-        {ceduo_arguments_given(a, "size") && !plot, _("--size requires --plot")},
-        {ceduo_arguments_given(a, "rows") && a->mode != MODE_COLUMNS && !csv, _("--rows requires --format csv")},
-        {a->columns && !csv, _("--columns requires --format csv")},
-        {a->resume && (!a->each || !a->output || !csv || plot), _("--resume requires --each, --output and --format csv")},
-        {ceduo_arguments_given(a, "charset") && !plot && !screen, _("--charset requires --plot or the terminal program")},
-        {a->script && !screen, _("--script is for the terminal program; it cannot be used with --batch")},
-        {a->years && plot && !by_years, _("--years cannot be used with --plot, except --plot rotation and --plot tradeoff")},
-        {screen && a->scenes_count > 1, _("the terminal program opens one scene; --batch takes several")},
-        {standard > 1, _("standard input can be read only once")},
+        {find && !ceduo_arguments_given(a, "goal"), "find", "--goal", NULL},
+        {!find && ceduo_arguments_given(a, "goal"), "goal", "--find", NULL},
+        {!find && ceduo_arguments_given(a, "sure"), "sure", "--find", NULL},
+        {find && a->window.step > 0, "find", NULL, "years A:B"},
+        {plot && a->format != CEDUO_TABLE, "plot", NULL, csv ? "format csv" : "format json"},
+        {ceduo_arguments_given(a, "size") && !plot, "size", "--plot", NULL},
+        {ceduo_arguments_given(a, "rows") && a->mode != MODE_COLUMNS && !csv, "rows", "--format csv", NULL},
+        {a->columns && !csv, "columns", "--format csv", NULL},
+        {a->resume && (!a->each || !a->output || !csv || plot), "resume", "--each --output --format csv", NULL},
+        {ceduo_arguments_given(a, "charset") && !plot && !screen, "charset", "--plot", NULL},
+        {a->script && !screen, "script", NULL, "batch"},
+        {a->years && plot && !by_years, "years", "--plot rotation|tradeoff", NULL},
     };
-    if (a->mode == MODE_SURVEY && a->scenes_count > 0)
-        return ceduo_usage(NULL, _("--survey takes one CSV file, and no scene: '%s'"), a->scenes[0]);
-    if (!wants_scene && !screen && a->scenes_count > 0)
-        return ceduo_usage(NULL, _("the --list options take no scene: '%s'"), a->scenes[0]);
     for (size_t i = 0; i < sizeof rules / sizeof rules[0]; i++)
         if (rules[i].broken)
-            return ceduo_usage(NULL, "%s", rules[i].why);
-    return EXIT_DONE;
+            return rules[i].needs ? ceduo_usage(NULL, _("--%s requires %s"), rules[i].option, rules[i].needs)
+                                  : ceduo_usage(NULL, _("--%s cannot be used with --%s"), rules[i].option, rules[i].bars);
+    if (find && !ceduo_goals[a->goal].usual && isnan(a->goal_value))
+        return ceduo_usage("goal", _("'%s' needs a value, such as %s=%s"), goal, goal,
+                           ceduo_goal_is_share(a->goal) ? "0.5" : "50");
+    if (wants_scene && a->scenes_count == 0)
+        return ceduo_usage(NULL,
+                           _("no scene given; name a file, a shipped scene such as 'paper-site', or '-' for standard input"));
+    if (!wants_scene && !screen && a->scenes_count > 0)
+        return ceduo_usage(NULL, _("--%s takes no scene: '%s'"), mode, a->scenes[0]);
+    if (screen && a->scenes_count > 1)
+        return ceduo_usage(NULL, _("the terminal program opens one scene; --batch takes several"));
+    return standard > 1 ? ceduo_usage(NULL, _("standard input can be read only once")) : EXIT_DONE;
 }
 
 /* ---- reading ---- */

@@ -342,7 +342,7 @@ static void bind_list(struct binder *b, const struct field *f, const struct node
         } else if (points) {
             *x = *z = NAN;
             if (entry->kind != NODE_LIST || entry->n != 2)
-                report(b, entry, _("expected a pair [x, z]"));
+                report(b, entry, _("expected %s"), "[x, z]");
             else if (bind_number(b, f, entry->items[0], x))
                 bind_number(b, f, entry->items[1], z);
         } else {
@@ -377,7 +377,7 @@ static void bind_field(struct binder *b, const struct field *f, const struct nod
         break;
     case FIELD_SPREADS:
         if (node->kind != NODE_LIST || node->n != 3)
-            report(b, node, _("expected a list of three numbers"));
+            report(b, node, _("expected %s"), "[a, b, c]");
         for (size_t i = 0; node->kind == NODE_LIST && node->n == 3 && i < 3; i++) {
             size_t before = enter_item(b, i);
             bind_spread(b, f, node->items[i], (struct ceduo_number *)to + i);

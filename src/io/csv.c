@@ -180,8 +180,14 @@ void ceduo_csv_find(struct csv *csv, const struct csv_head *heads, size_t n, siz
         take_header(&line, line.number);
     } while (line.number <= TITLE_MOST);
     *csv = best;
-    for (size_t i = 0; i < n; i++)
+    for (size_t i = 0; i < n; i++) {
         columns[i] = ceduo_csv_column(csv, heads[i].names, heads[i].units);
+        csv->source->foreign &= columns[i] == CEDUO_CSV_NONE;
+    }
+    for (size_t i = 0; i < n; i++)
+        if (columns[i] == CEDUO_CSV_TWICE)
+            ceduo_problem(csv->problems, csv->source, csv->header_number, 1,
+                          _("the column '%s' is there twice; rename all but one"), _(heads[i].names[0]));
 }
 
 size_t ceduo_csv_columns(const struct csv *csv, struct text *names)

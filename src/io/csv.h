@@ -43,7 +43,8 @@ struct csv_head {
  * a unit, one of `units`, may stand behind it or in brackets. CEDUO_CSV_NONE: it has none; CEDUO_CSV_TWICE: it has that name twice. */
 size_t ceduo_csv_column(const struct csv *csv, const char *const *names, const char *units);
 
-/* The columns of a table whose header may stand below a title: goes to the line that has most of them. */
+/* The columns of a table whose header may stand below a title: goes to the line that has most of them. One that is there twice
+ * is reported. */
 void ceduo_csv_find(struct csv *csv, const struct csv_head *heads, size_t n, size_t *columns);
 
 /* How many columns the header has, and the names of all, with a comma between them; of a foreign file the beginning of that. */

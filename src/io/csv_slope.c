@@ -100,11 +100,8 @@ bool ceduo_csv_slope_read(struct arena *arena, const char *path, struct points *
     points->x = ceduo_arena_take(arena, rows * sizeof(double));
     points->z = ceduo_arena_take(arena, rows * sizeof(double));
     size_t x = r.drawn ? columns[EAST] : columns[DISTANCE], z = columns[ELEVATION];
-    r.csv.source->foreign = x == CEDUO_CSV_NONE && z == CEDUO_CSV_NONE;
     if (x == CEDUO_CSV_NONE || z == CEDUO_CSV_NONE)
         ceduo_problem(problems, source, 1, 1, _("the first line must name the columns 'distance' and 'elevation'"));
-    else if (x == CEDUO_CSV_TWICE || z == CEDUO_CSV_TWICE)
-        ceduo_problem(problems, source, r.csv.header_number, 1, _("a column is named twice; rename all but one"));
     if (!points->x || !points->z || problems->met > before)
         return false;
     while (ceduo_csv_next(&r.csv))

@@ -352,8 +352,7 @@ static const struct node *set_entry(struct resolver *s, const struct object *obj
                           _("this scene has options: write options[0].%.*s, or the name of another in place of 0"),
                           (int)s->length, step->p);
         else
-            ceduo_problem(s->problems, s->set, 1, (size_t)(step->p - s->set->bytes) + 1,
-                          root ? _("this scene has no '%s'") : _("there is no '%s' here"), key);
+            ceduo_problem(s->problems, s->set, 1, (size_t)(step->p - s->set->bytes) + 1, _("there is no '%s' here"), key);
     }
     if (!last && !child)
         return NULL;
@@ -394,10 +393,9 @@ static const struct node *set_item(struct resolver *s, const struct field *f, co
             const char *name = name_of(list->items[i]);
             ceduo_text_format(&items, "%s[%zu]%s%s", i > 0 ? ", " : "", i, name ? " " : "", name ? name : "");
         }
-        ceduo_text_put(&items, list->n > ITEMS_SHOWN ? ", \xe2\x80\xa6" : "");
-        if (list->n > 0)
-            ceduo_text_format(&what, _("no such item; there are: %s"), ceduo_text_string(&items));
-        return fail_at(s, step, list->n > 0 ? ceduo_text_string(&what) : _("no such item; the list is empty"));
+        ceduo_text_put(&items, list->n > ITEMS_SHOWN ? ", \xe2\x80\xa6" : list->n == 0 ? "\xe2\x80\x93" : "");
+        ceduo_text_format(&what, _("no such item; there are: %s"), ceduo_text_string(&items));
+        return fail_at(s, step, ceduo_text_string(&what));
     }
     for (size_t i = first; i < list->n && !ceduo_path_index(step, &place); i++)
         if (ceduo_path_is(step, name_of(list->items[i])))

@@ -73,7 +73,7 @@ static bool set_one(struct scene_file *file, struct source set, struct problems 
         return false;
     const char *equals = equals_of(source->bytes);
     if (!equals || equals == source->bytes)
-        return ceduo_problem(problems, source, 1, 1, _("expected PATH=VALUE"));
+        return ceduo_problem(problems, source, 1, 1, _("expected %s"), "PATH=VALUE");
     size_t length = (size_t)(equals - source->bytes);
     /* what a shell passes on without quotes, and YAML cuts or takes apart */
     LOCAL_TEXT(path);

@@ -96,14 +96,9 @@ static void read_header(struct reader *r, struct text *unused)
         r->columns[SLOPE] = ceduo_csv_column(&r->csv, heads[SLOPE].names, PERCENT);
         r->percent = r->columns[SLOPE] < CEDUO_CSV_TWICE;
     }
-    for (int c = 0; c < COLUMNS; c++) {
-        r->csv.source->foreign &= r->columns[c] == CEDUO_CSV_NONE;
-        if (r->columns[c] == CEDUO_CSV_TWICE)
-            ceduo_problem(r->problems, r->csv.source, line, 1, _("the column '%s' is there twice; rename all but one"),
-                          _(heads[c].names[0]));
-        else if (r->columns[c] == CEDUO_CSV_NONE)
+    for (int c = 0; c < COLUMNS; c++)
+        if (r->columns[c] == CEDUO_CSV_NONE)
             missing[n++] = heads[c].names[0];
-    }
     for (size_t i = 0; ceduo_csv_field(&r->csv, i, &field); i++) {
         bool used = field.n == 0;
         for (int c = 0; c < COLUMNS; c++)
@@ -156,7 +151,7 @@ static bool read_plot(struct reader *r, size_t *plot)
     size_t i = r->plots_count;
     bool good = true;
     if (name.n == 0)
-        return ceduo_csv_complain(&r->csv, name, _("the plot is missing"));
+        return ceduo_csv_complain(&r->csv, name, _("'%s' is missing: give it in each row"), _(heads[PLOT].names[0]));
     while (i > 0 && !(r->plots[i - 1].name.n == name.n && memcmp(r->plots[i - 1].name.p, name.p, name.n) == 0))
         i--; /* mostly the last */
     if (i == 0 && r->plots_count == PLOTS_MOST)
@@ -176,7 +171,8 @@ static bool read_plot(struct reader *r, size_t *plot)
         *known = read && isnan(*known) ? now : *known;
     }
     if (r->fields[AREA].n > 0 && r->fields[RADIUS].n > 0)
-        return ceduo_csv_complain(&r->csv, r->fields[RADIUS], _("area_m2 already says this; leave one of the two empty"));
+        return ceduo_csv_complain(&r->csv, r->fields[RADIUS], _("%s already says this; keep one of the two"),
+                                  _(heads[AREA].names[0]));
     return good;
 }
 
@@ -196,9 +192,7 @@ static bool read_words(struct reader *r, struct ceduo_survey_stem *stem)
     bool known = found >= 0;
     stem->kind = known ? (enum ceduo_survey_kind)found : CEDUO_SURVEY_TREE;
     stem->species = find_word(&ceduo_species_words, species);
-    if (kind.n == 0)
-        ceduo_csv_complain(&r->csv, kind, _("the kind is missing: shoot, standard, tree or stump"));
-    else if (!known)
+    if (!known)
         ceduo_csv_complain(&r->csv, kind, _("'%.*s' is no kind of stem: shoot, standard, tree or stump"),
                            kind.n < 100 ? (int)kind.n : 100, kind.p);
     if (stem->species >= 0 || species.n == 0 || find_word(&other_words, species) >= 0)
@@ -222,19 +216,20 @@ static bool read_sizes(struct reader *r, struct ceduo_survey_stem *stem)
     if (!good)
         return false;
     if (isnan(stem->dbh))
-        return ceduo_csv_complain(csv, fields[DBH], _("the diameter is missing"));
+        return ceduo_csv_complain(csv, fields[DBH], _("'%s' is missing: give it in each row"), _(heads[DBH].names[0]));
     if (stem->dbh > DBH_MOST)
         return ceduo_csv_complain(csv, fields[DBH], _("%g cm: more than %d cm; is it in mm?"), stem->dbh, DBH_MOST);
-    if (!stump && stem->height <= CEDUO_BREAST_HEIGHT)
-        return ceduo_csv_complain(csv, fields[HEIGHT], _("%g m: a stem with a diameter at breast height is higher than %g m"),
-                                  stem->height, CEDUO_BREAST_HEIGHT);
-    if (stump && !(isnan(stem->height) || (stem->height > 0 && stem->height <= STUMP_MOST)))
-        return ceduo_csv_complain(csv, fields[HEIGHT], _("the height of a stump must be above 0 and at most %d m"), STUMP_MOST);
-    if (stem->kind != CEDUO_SURVEY_SHOOT && !isnan(stem->spacing))
-        return ceduo_csv_complain(csv, fields[SPACING],
-                                  _("spacing_m is the distance between the shoots of a stool; leave it empty here"));
-    if (!stump && !isnan(stem->energy))
-        return ceduo_csv_complain(csv, fields[ENERGY], _("energy_kJ is what a stump takes from a rock; leave it empty here"));
+    double lo = stump ? 0 : CEDUO_BREAST_HEIGHT, hi = stump ? STUMP_MOST : ranges[HEIGHT].hi;
+    if (stem->height <= lo || stem->height > hi)
+        return ceduo_csv_complain(csv, fields[HEIGHT],
+                                  _("%g m is no height of a stem of this kind: it must be above %g and at most %g m"),
+                                  stem->height, lo, hi);
+    enum column other = stem->kind != CEDUO_SURVEY_SHOOT && !isnan(stem->spacing) ? SPACING
+                        : !stump && !isnan(stem->energy)                          ? ENERGY
+                                                                                  : PLOT;
+    if (other != PLOT)
+        return ceduo_csv_complain(csv, fields[other], _("a stem of this kind has no '%s'; leave it empty here"),
+                                  _(heads[other].names[0]));
     stem->dbh /= 100;
     stem->energy *= 1000;
     return true;

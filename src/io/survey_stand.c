@@ -180,13 +180,8 @@ static void print_classes(const struct writer *w, const char *key, bool trees)
                           (c->from + CEDUO_SURVEY_CLASS) * 100, c->stems);
         if (w->one_plot)
             ceduo_text_put(&what, _("; one plot, no standard error"));
-        if (h->from == CEDUO_HEIGHTS_MEAN)
-            ceduo_text_format(&what, _("; missing heights: the mean of %zu"), h->given);
-        else if (h->from == CEDUO_HEIGHTS_CURVE)
-            ceduo_text_put(&what, _("; missing heights by Näslund's curve"));
-        else if (h->from != CEDUO_HEIGHTS_MEASURED)
-            ceduo_text_format(&what, _("; no height measured: %s"),
-                              h->from == CEDUO_HEIGHTS_USUAL ? _("as usual") : _("as the shoots"));
+        if (h->missing > 0) /* how these are known stands above */
+            ceduo_text_format(&what, _("; heights measured: %zu of %zu"), h->given, h->given + h->missing);
         if (c->form_factor > 0)
             ceduo_text_format(&what, _("; volume of %zu by form factor"), c->form_factor);
         ceduo_text_put(w->out, ",\n     ");

@@ -150,9 +150,7 @@ static bool read_range(struct validator *v, const struct row *row, const struct 
     input->lo = gamma ? ceduo_input_quantile(input, 0) : normal ? mean - 3 * sd : row->doubt->lo;
     input->hi = gamma ? ceduo_input_quantile(input, 1) : normal ? mean + 3 * sd : row->doubt->hi;
     if (!(input->lo < input->hi))
-        return ceduo_complain(v, row->at, normal ? "sd" : "hi",
-                              normal ? _("the range is empty; sd must be above 0")
-                                     : _("the range is empty; hi must be above lo"));
+        return ceduo_complain(v, row->at, normal ? "sd" : "hi", _("the range is empty; make it larger"));
     const double ends[] = {input->lo, input->hi};
     const char *const keys[] = {normal ? "mean" : "lo", normal ? "sd" : "hi"};
     for (int i = 0; i < 2; i++)
@@ -191,10 +189,8 @@ static bool make_input(struct validator *v, const struct row *row, struct ceduo_
     const struct field *field = field_of(v, path, &settled);
     if (!field || settled)
         return ceduo_complain(v, row->at, "path",
-                              field ? _("no answer is in doubt because of '%s'; name a value of the rock, its release, the "
-                                        "slope, a stand or the law")
-                              : of_stand ? _("'%s' is not a number or a word of a stand")
-                                         : _("'%s' is not a number or a word of a scene"),
+                              _("no answer is in doubt because of '%s'; name a number or a word of the rock, its release, the "
+                                "slope, a stand or the law"),
                               d->path);
     find_places(&places, path);
     if (places.n == 0)
@@ -202,10 +198,8 @@ static bool make_input(struct validator *v, const struct row *row, struct ceduo_
     /* exactly one of three forms */
     int range = !isnan(d->lo) + !isnan(d->hi), normal = !isnan(d->mean) + !isnan(d->sd);
     bool words = d->one_of != NULL, choice = field->type == FIELD_CHOICE;
-    if (range == 2 ? normal > 0 || words : normal == 2 ? range > 0 || words : !words || range + normal > 0)
-        return ceduo_complain(v, row->at, "",
-                              choice ? _("give one_of: the words that it may be") : _("give lo and hi, or mean and sd"));
-    if (words != choice)
+    bool given = range == 2 ? normal == 0 && !words : normal == 2 ? range == 0 && !words : words && range + normal == 0;
+    if (!given || words != choice)
         return ceduo_complain(v, row->at, "",
                               choice ? _("'%s' is a word; give one_of") : _("'%s' is a number; give lo and hi, or mean and sd"),
                               field->key);
@@ -436,7 +430,9 @@ static void add_draws(struct validator *v)
     }
     const char *path = ceduo_resolve_path(v->arena, v->draws, "scenes");
     if (!path)
-        ceduo_node_problem(v->problems, v->draws, "doubt.draws", _("cannot find '%s' beside this file"), v->draws->text);
+        ceduo_node_problem(v->problems, v->draws, "doubt.draws",
+                           _("cannot find '%s' beside this file or among the profiles (ceduo --list-profiles)"),
+                           v->draws->text);
     if (!path || !read_table(&t, path))
         return;
     const char **places = ceduo_room(v, t.places_count, sizeof *places);

@@ -189,7 +189,8 @@ static bool take_values(const struct place *p)
     if (path)
         return read_table(p, path) && v->problems->met == before;
     if (csv)
-        return ceduo_complain(v, p->at, "csv", _("cannot find '%s' beside this file"), csv->text);
+        return ceduo_complain(v, p->at, "csv",
+                              _("cannot find '%s' beside this file or among the profiles (ceduo --list-profiles)"), csv->text);
     if (list && values->values_count == 0)
         return ceduo_complain(v, p->at, p->is->list, _("the list is empty"));
     const char *of_table = values->column ? "column" : values->only ? "only" : NULL;
@@ -201,11 +202,8 @@ static bool check_form(const struct place *p)
 {
     const struct observed_values *values = p->values;
     int means = !isnan(values->mean) + !isnan(values->sd) + (values->n > 0);
-    if (values->values_count > 0)
-        return means == 0 || ceduo_complain(p->v, p->at, "", _("values and their mean together; keep one"));
-    return means == 3 ||
-           ceduo_complain(p->v, p->at, "",
-                          means == 0 ? _("give values, or their mean, sd and n") : _("a mean needs sd and n too"));
+    return means == (values->values_count > 0 ? 0 : 3) ||
+           ceduo_complain(p->v, p->at, "", _("give values, or their mean, sd and n"));
 }
 
 /* Whether every value lies on the slope beyond seen_from_m, where rocks stopped there, or is not negative; the first that does

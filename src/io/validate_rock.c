@@ -47,7 +47,7 @@ void ceduo_validate_rock(struct validator *v, const char *path, const struct nod
     if (shape == CEDUO_SPHERE && n != 1)
         ceduo_complain(v, path, "", _("a sphere is given by one of diameter_m, volume_m3 and mass_kg, here %d are given"), n);
     if (shape != CEDUO_SPHERE && ceduo_node_get(node, "mass_kg") && ceduo_node_get(node, "density_kg_m3"))
-        ceduo_complain(v, path, "density_kg_m3", _("mass_kg already says this; keep one of the two"));
+        ceduo_complain(v, path, "density_kg_m3", _("%s already says this; keep one of the two"), "mass_kg");
     bool by_mass = shape != CEDUO_SPHERE && ceduo_is_given(v, path, node, "mass_kg");
     bool of_scene = strcmp(path, "rock") == 0;
     if (of_scene && !ceduo_is_given(v, path, node, "density_kg_m3") && !by_mass)
@@ -84,11 +84,11 @@ void ceduo_validate_blocks(struct validator *v)
     if (!blocks)
         return;
     if (n == 0 && ceduo_is_known(v, "blocks"))
-        ceduo_complain(v, "blocks", "", _("name at least one class of blocks, or remove the key"));
+        ceduo_complain(v, "blocks", "", _("the list is empty"));
     const struct ceduo_rock_def *r = &scene->rock;
     bool spreads = r->diameter.spread > 0 || r->volume.spread > 0 || r->mass.spread > 0;
     if (ceduo_node_get(v->root, "rocks_per_year"))
-        ceduo_complain(v, "rocks_per_year", "", _("blocks already say this; keep one of the two"));
+        ceduo_complain(v, "rocks_per_year", "", _("%s already says this; keep one of the two"), "blocks");
     if (blocks->kind == NODE_MAP && !ceduo_is_given(v, "blocks", blocks, "exponent"))
         ceduo_complain(v, "blocks", "",
                        _("'exponent' is missing: the number of blocks above a volume v goes with v^-exponent"));
@@ -107,7 +107,7 @@ void ceduo_validate_blocks(struct validator *v)
         bool two = b->volumes_count == 2, rise = two && b->volumes[0] < b->volumes[1];
         scene->rocks_per_year += b->per_year;
         if (!two)
-            ceduo_complain(v, path, "", _("expected two volumes, the smallest and the largest: [lo, hi]"));
+            ceduo_complain(v, path, "", _("expected %s"), "[lo, hi]");
         else if (!rise)
             ceduo_complain(v, path, "", _("%s m3 is not below %s m3; write the smaller volume first"),
                            ceduo_decimal(v, b->volumes[0]), ceduo_decimal(v, b->volumes[1]));
@@ -162,7 +162,7 @@ void ceduo_validate_controls(struct validator *v)
         if (c->x <= last)
             ceduo_complain(v, at, "", _("%s does not lie beyond the release, %s m"), here, ceduo_decimal(v, last + v->origin));
         else if (k < i)
-            ceduo_complain(v, at, "", _("%s is given twice"), here);
+            ceduo_complain(v, at, "", _("'%s' is given twice"), here);
     }
     scene->controls_count = n;
 }

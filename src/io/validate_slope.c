@@ -28,7 +28,8 @@ static bool read_vertices(struct validator *v, struct points *p)
     const struct node *node = ceduo_node_get(ceduo_node_get(v->root, "slope"), "csv");
     const char *path = ceduo_resolve_path(v->arena, node, "slopes");
     if (!path)
-        ceduo_complain(v, "slope.csv", "", _("cannot find '%s' beside this file"), node->text);
+        ceduo_complain(v, "slope.csv", "", _("cannot find '%s' beside this file or among the profiles (ceduo --list-profiles)"),
+                       node->text);
     bool good = path && ceduo_csv_slope_read(v->arena, path, p, v->problems);
     if (good && p->commas)
         ceduo_assume(v, "slope.csv", _("commas in the file of the profile stand for decimals: 12,5 is 12.5"));

@@ -26,6 +26,16 @@ static bool lacks(struct validator *v, double value, const char *path, const cha
     return isnan(value) && ceduo_is_known(v, "%s%s", path, key);
 }
 
+/* That all numbers of a mapping are given, of which no figure is assumed. */
+static void check_given(struct validator *v, const char *path, const struct field *group, const void *item)
+{
+    const struct object *object = group->object;
+    for (const struct field *f = object->fields; f < object->fields + object->n; f++)
+        if (f->type == FIELD_NUMBER && lacks(v, *(const double *)(const void *)((const char *)item + f->offset), path,
+                                             ceduo_format(v, ".%s.%s", group->key, f->key)))
+            ceduo_complain(v, path, group->key, _("'%s' is missing: nothing is assumed here"), f->key);
+}
+
 /* Whether something is written at a key of a mapping. */
 static bool is_written(struct validator *v, const char *path, const char *key)
 {
@@ -38,20 +48,14 @@ static bool is_written(struct validator *v, const char *path, const char *key)
 /* Of what is in the way besides stems no figure is assumed. */
 static void check_low(struct validator *v, const char *path, const struct ceduo_stand *s)
 {
-    const struct ceduo_stumps *t = &s->stumps;
-    const struct ceduo_logs *l = &s->logs;
-    if (t->per_ha > 0 && (lacks(v, t->diameter, path, ".stumps.diameter_m") || lacks(v, t->height, path, ".stumps.height_m") ||
-                          lacks(v, t->energy, path, ".stumps.energy_kJ")))
-        ceduo_complain(v, path, "stumps", _("stumps need diameter_m, height_m and energy_kJ; nothing is assumed here"));
-    if (l->per_ha > 0 && (lacks(v, l->length, path, ".logs.length_m") || lacks(v, l->diameter, path, ".logs.diameter_m") ||
-                          lacks(v, l->energy, path, ".logs.energy_kJ")))
-        ceduo_complain(v, path, "logs", _("logs need length_m, diameter_m and energy_kJ; nothing is assumed here"));
-    for (size_t i = 0; i < s->trees_count; i++) {
-        const char *groups = ceduo_format(v, "%s.trees[%zu].groups", path, i);
-        if (s->trees[i].group > 1 && lacks(v, s->trees[i].group_radius, groups, ".radius_m"))
-            ceduo_complain(v, groups, "", _("groups of %s trees need radius_m, the radius of the disc in which they stand"),
-                           ceduo_decimal(v, s->trees[i].group));
-    }
+    const struct object *stand = ceduo_schema_stand(), *trees = ceduo_schema_field(stand, "trees")->object;
+    if (s->stumps.per_ha > 0)
+        check_given(v, path, ceduo_schema_field(stand, "stumps"), &s->stumps);
+    if (s->logs.per_ha > 0)
+        check_given(v, path, ceduo_schema_field(stand, "logs"), &s->logs);
+    for (size_t i = 0; i < s->trees_count; i++)
+        if (s->trees[i].group > 1)
+            check_given(v, ceduo_format(v, "%s.trees[%zu]", path, i), ceduo_schema_field(trees, "groups"), &s->trees[i]);
 }
 
 static void check_stand(struct validator *v, const char *path, struct ceduo_stand *s)

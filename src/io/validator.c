@@ -99,18 +99,16 @@ bool ceduo_is_too_long(struct validator *v, const char *path, size_t n)
 void ceduo_check_name(struct validator *v, const char *list, size_t i, const char *name, const char *other)
 {
     if (name && other && strcmp(name, other) == 0)
-        ceduo_complain(v, ceduo_format(v, "%s[%zu]", list, i), "name", _("'%s' is given twice; names must differ"), name);
+        ceduo_complain(v, ceduo_format(v, "%s[%zu]", list, i), "name", _("'%s' is given twice"), name);
 }
 
 bool ceduo_check_on_slope(struct validator *v, const char *path, const char *key, double x)
 {
     const struct ceduo_slope *s = &v->draft.scene.slope;
     double end = v->profile ? s->x[s->vertices - 1] + v->origin : INFINITY;
-    if (v->profile && x < v->origin)
-        return ceduo_complain(v, path, key, _("%s lies before the slope, which begins at %s m"), ceduo_decimal(v, x),
-                              ceduo_decimal(v, v->origin));
-    return !(x > end) || ceduo_complain(v, path, key, _("%s lies beyond the slope, which ends at %s m"), ceduo_decimal(v, x),
-                                        ceduo_decimal(v, end));
+    return !v->profile || !(x < v->origin || x > end) ||
+           ceduo_complain(v, path, key, _("%s lies beyond the slope, which goes from %s to %s m"), ceduo_decimal(v, x),
+                          ceduo_decimal(v, v->origin), ceduo_decimal(v, end));
 }
 
 bool ceduo_check_ends_behind(struct validator *v, const char *path, double from, double to)

@@ -154,8 +154,6 @@ static struct node *read_entry(struct reader *r, const yaml_event_t *event, cons
 {
     const char *key = (const char *)event->data.scalar.value;
     yaml_event_t value;
-    if (event->type == YAML_ALIAS_EVENT)
-        return STOP(r, event->start_mark, _("an alias; write the value out"));
     if (event->type != YAML_SCALAR_EVENT || strlen(key) != event->data.scalar.length)
         return STOP(r, event->start_mark, _("a key must be a plain word"));
     if (pile->n >= KEYS_MOST)
@@ -219,29 +217,13 @@ static struct node *read_entries(struct reader *r, const yaml_event_t *start, in
 
 static struct node *read_value(struct reader *r, const yaml_event_t *event, int depth)
 {
-    const bool scalar = event->type == YAML_SCALAR_EVENT, list = event->type == YAML_SEQUENCE_START_EVENT;
-    const bool map = event->type == YAML_MAPPING_START_EVENT;
-    const yaml_char_t *anchor = scalar ? event->data.scalar.anchor
-                                : list ? event->data.sequence_start.anchor
-                                : map  ? event->data.mapping_start.anchor
-                                       : NULL;
-    const yaml_char_t *tag = scalar ? event->data.scalar.tag
-                             : list ? event->data.sequence_start.tag
-                             : map  ? event->data.mapping_start.tag
-                                    : NULL;
     if (depth >= DEPTH_MOST)
         return STOP(r, event->start_mark, _("more than %d levels deep"), DEPTH_MOST);
     if (++r->values > VALUES_MOST)
         return STOP(r, event->start_mark, _("more than %d values in one file; write a long profile as CSV"), VALUES_MOST);
-    if (anchor)
-        return STOP(r, event->start_mark, _("an anchor; remove it and write the value where it is needed"));
-    if (tag)
-        return STOP(r, event->start_mark, _("a tag; remove it"));
-    if (scalar)
-        return read_scalar(r, event);
-    if (list || map)
-        return read_entries(r, event, depth + 1);
-    return STOP(r, event->start_mark, _("an alias; write the value out")); /* nothing else stands for a value */
+    if (event->type == YAML_ALIAS_EVENT || event->data.scalar.anchor || event->data.scalar.tag) /* as all values begin */
+        return STOP(r, event->start_mark, _("an alias, an anchor or a tag; write the value out without it"));
+    return event->type == YAML_SCALAR_EVENT ? read_scalar(r, event) : read_entries(r, event, depth + 1);
 }
 
 /* The one document of the stream. */

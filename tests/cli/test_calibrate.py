@@ -340,12 +340,12 @@ def test_refused():
         round_rock = f.write("r.yaml", quarry(simulation={"law": "arm"}))
         checks = f.write("c.yaml", quarry({"stops": {"x_m": STOPS, "use": "check"}}))
         for what, arguments in (("is not PATH=LO:HI", [f"{RT}", path]), ("the range 0.9:0.7 is empty", [f"{RT}=0.9:0.7", path]),
-                                ("'slope.colour' is not a number of a scene", ["slope.colour=0:1", path]),
-                                ("'simulation.law' is not a number of a scene", ["simulation.law=0:1", path]),
-                                ("'simulation.seed' is not a number of a scene that can be fitted", ["simulation.seed=1:9", path]),
-                                ("'observed[*].n' is not a number of a scene", ["observed[*].n=1:9", path]),
+                                ("'slope.colour' is no number of these scenes", ["slope.colour=0:1", path]),
+                                ("'simulation.law' is no number of these scenes", ["simulation.law=0:1", path]),
+                                ("'simulation.seed' is no number of these scenes", ["simulation.seed=1:9", path]),
+                                ("'observed[*].n' is no number of these scenes", ["observed[*].n=1:9", path]),
                                 ("1.5 is outside the range of", [f"{RT}=0.5:1.5", path]),
-                                ("no scene has a value 'slope.materials[talus].rn'", ["slope.materials[talus].rn=0.2:0.5", path]),
+                                ("'slope.materials[talus].rn' is no number of these scenes", ["slope.materials[talus].rn=0.2:0.5", path]),
                                 ("are the same value", [f"{RT}=0.7:0.9", "--calibrate", "slope.segments[0].rt=0.7:0.9", path]),
                                 ("no scene says what was seen there", [f"{RT}=0.7:0.9", nothing]),
                                 ("no scene says what was seen there", [f"{RT}=0.7:0.9", checks]),

@@ -104,7 +104,7 @@ def test_first_characters():
         expect_equal(lines[:3], [f"{path}:1:1: unknown key; known here: …", "  alpha: 1", "  ^"])
         expect_equal(lines[3:5], ["  and 1 more of this kind, on line 2", f"{path}:3:7: rock: expected a mapping, not a single value"])
         path = f.write("far.yaml", "name: [1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, *a]\n")
-        expect_equal(ceduo("--check", path).err, f"{path}:1:43: an alias; write the value out\n  name: [1, 2, 3, 4, 5… {WHY}\n")
+        expect_equal(ceduo("--check", path).err, f"{path}:1:43: an alias, an anchor or a tag; write the value out without it\n  name: [1, 2, 3, 4, 5… {WHY}\n")
         path = f.path / "passwd"
         done = ceduo("--check", f.write("s.yaml", scene(observed={"stops": {"csv": str(path), "column": FIRST}})))
         expect_equal(done.err.splitlines()[0], f"{path}:2:1: '…' is not a number")

@@ -493,10 +493,10 @@ def test_refused():
     cases = [({**POWER, "exponent": -1}, "blocks.exponent: -1 is below 0"),
              ({k: v for k, v in POWER.items() if k != "exponent"}, "blocks: 'exponent' is missing"),
              ({**POWER, "volume_m3": [2, 2]}, "blocks.volume_m3: 2 m3 is not below 2 m3; write the smaller volume first"),
-             ({**POWER, "volume_m3": [2]}, "blocks.volume_m3: expected two volumes"),
+             ({**POWER, "volume_m3": [2]}, "blocks.volume_m3: expected [lo, hi]"),
              ({**POWER, "volume_m3": [0, 2]}, "blocks.volume_m3[0]: 0 is not above 0 m3"),
              ({**POWER, "per_year": 0}, "blocks.per_year: 0 is not above 0 1/y"),
-             ([], "blocks: name at least one class of blocks, or remove the key"),
+             ([], "blocks: the list is empty"),
              ([POWER, {**POWER, "volume_m3": [5, 20]}],
               "blocks[1].volume_m3: the class overlaps one before it, from 0.01 to 10 m3; let them touch at most"),
              ([{**POWER, "volume_m3": [3, 1]}], "blocks[0].volume_m3: 3 m3 is not below 1 m3"),
@@ -511,7 +511,7 @@ def test_refused():
             r = ceduo("--check", f.write("s.yaml", falls(blocks)))
             expect_equal(r.status, INPUT, r)
             expect_in(wanted, r.err)
-        for changes, wanted in (({"rocks_per_year": 3}, "rocks_per_year: blocks already say this; keep one of the two"),
+        for changes, wanted in (({"rocks_per_year": 3}, "rocks_per_year: blocks already says this; keep one of the two"),
                                 ({"rock": {"diameter_m": {"mean": 1, "spread": 0.1}}},
                                  "rock: blocks say how large the rocks are; give the size without a spread"),
                                 ({"rock": {"volume_m3": {"mean": 1, "spread": 0.1}}}, "rock: blocks say how large"),

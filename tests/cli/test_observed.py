@@ -63,8 +63,8 @@ def test_kinds():
     accepted([{"on_the_way": {"from_m": 20, "to_m": 40, "energy_kJ": mean}}])
     accepted([{"scars": {"from_m": 20, "to_m": 40, "height_m": [0.5, 1.2], "share_seen": 0.7, "of": 10}}])
     refused("give values, or their mean, sd and n", [{"speed": {"x_m": 50}}])
-    refused("a mean needs sd and n too", [{"speed": {"x_m": 50, "mean": 3}}])
-    refused("values and their mean together; keep one", [{"speed": {"x_m": 50, "values": [3], **mean}}])
+    refused("give values, or their mean, sd and n", [{"speed": {"x_m": 50, "mean": 3}}])
+    refused("give values, or their mean, sd and n", [{"speed": {"x_m": 50, "values": [3], **mean}}])
     refused("observed[0].speed.mean: -3 is below 0", [{"speed": {"x_m": 50, "mean": -3, "sd": 1, "n": 2}}])
     refused("observed[0].largest.height_m.mean: -1 is below 0", [{"largest": {"height_m": {"mean": -1, "sd": 1, "n": 2}}}])
     refused("observed[0].speed.n: 0 is below 1", [{"speed": {"x_m": 50, "mean": 3, "sd": 1, "n": 0}}])
@@ -110,8 +110,8 @@ def test_values():
 def test_places():
     """What lies off the profile, before the release or where nobody looked"""
     refused("s.yaml:", [{"stops": {"x_m": [40, 120]}}])
-    refused("120 lies beyond the slope, which ends at 100 m", [{"stops": {"x_m": [40, 120]}}])
-    refused("-3 lies before the slope, which begins at 0 m", {"stops": {"x_m": [-3, 40]}})
+    refused("120 lies beyond the slope, which goes from 0 to 100 m", [{"stops": {"x_m": [40, 120]}}])
+    refused("-3 lies beyond the slope", {"stops": {"x_m": [-3, 40]}})
     refused("40 lies before seen_from_m, 45", {"stops": {"x_m": [40], "seen_from_m": 45}})
     refused("300 lies beyond the slope", {"stops": {"x_m": [40], "seen_from_m": 300}})
     refused("does not lie beyond the release, 0 m", {"passed": {"x_m": 0, "count": 1, "of": 2}})
@@ -129,7 +129,7 @@ def test_counts():
     """More seen than released; names and options"""
     refused("observed[0].stops.of: 3 were seen of 2 released", [{"stops": {"x_m": [40, 50, 60], "of": 2}}])
     refused("9 were seen of 8 released", {"passed": {"x_m": 50, "count": 9, "of": 8}})
-    refused("'a' is given twice; names must differ", [{**STOPS, "name": "a"}, {**STOPS, "name": "a"}])
+    refused("'a' is given twice", [{**STOPS, "name": "a"}, {**STOPS, "name": "a"}])
     refused("the scene has no option 'cut'; it has: current", [{**STOPS, "option": "cut"}])
     refused("'fitted' is unknown; did you mean 'fit'?", [{**STOPS, "use": "fitted"}])
 
@@ -197,10 +197,10 @@ def test_misplaced():
     refused("observed[0].stops.onli: unknown key", [{"stops": {"column": "a", "onli": "b"}}])
     accepted({"stops": {"csv": "t.csv", "only": "block=b"}}, ("t.csv", "x,block\n40,a\n50\n60,b\n"))
     refused("observed[0].speed.x_m: 150 lies beyond the slope", [{"speed": {"x_m": 150, **mean}}])
-    refused("observed[0].scars.from_m: -5 lies before the slope", {"scars": {"from_m": -5, "to_m": 20, "height_m": [1]}})
+    refused("observed[0].scars.from_m: -5 lies beyond the slope", {"scars": {"from_m": -5, "to_m": 20, "height_m": [1]}})
     refused("-1 is below 0", {"scars": {"from_m": 5, "to_m": 20, "height_m": [-1]}})
     refused("-1 is below 0", {"largest": {"speed_m_s": {"values": [-1]}}})
-    refused("a mean needs sd and n too", {"largest": {"speed_m_s": {"mean": 3}}})
+    refused("give values, or their mean, sd and n", {"largest": {"speed_m_s": {"mean": 3}}})
     refused("observed[0].speed.mean", [{"speed": {"x_m": 50, "mean": "fast", "sd": 1, "n": 3}}])
     refused("observed[0].scars", [{"scars": {"from_m": 5, "height_m": [1]}}])
     accepted([{"scars": {"from_m": 5, "to_m": 20, "height_m": [1, 1, 1], "of": 2}}])

@@ -98,11 +98,11 @@ def test_no_change_of_a_run():
 
 def test_refused():
     """What is wrong is told once, in the stand's file"""
-    wrong = [({**TREES, "path": "rock.mass_kg"}, "c.yaml", "doubt[0].path: 'rock.mass_kg' is not a number or a word of a stand"),
+    wrong = [({**TREES, "path": "rock.mass_kg"}, "c.yaml", "doubt[0].path: no answer is in doubt because of 'rock.mass_kg'"),
              ({**TREES, "path": "doubt[0].lo"}, "c.yaml", "doubt[0].path: no answer is in doubt because of 'doubt[0].lo'"),
              ({**TREES, "lo": 130}, "c.yaml", "doubt[0].hi: the range is empty"),
              ({**TREES, "lo": -1}, "c.yaml", "doubt[0].lo: -1 is outside the range of per_ha"),
-             ({"path": "trees[0].per_ha"}, "c.yaml", "doubt[0]: give lo and hi, or mean and sd"),
+             ({"path": "trees[0].per_ha"}, "c.yaml", "doubt[0]: 'per_ha' is a number; give lo and hi, or mean and sd"),
              ({**TREES, "low": 3}, "c.yaml", "doubt[0].low: unknown key; did you mean 'lo'?"),
              ({"lo": 1, "hi": 2}, "c.yaml", "'path' is missing")]
     with Folder() as f:

@@ -172,7 +172,7 @@ def test_no_heights():
         for kind, height in (("shoots", 1.3 + (6 / (1.2 + 0.22 * 6)) ** 2), ("trees", 1.3 + (21 / (2.4 + 0.186 * 21)) ** 2)):
             line = next(x for x in usual.split(f"{kind}:\n")[1].splitlines())
             expect_near(float(re.search(r"height_m: ([0-9.]+)", line)[1]), height, 1e-4)
-        expect_equal(usual.count("no height measured: as usual"), 2)
+        expect_equal(usual.count("heights measured: 0 of "), 2)
         stand_of(f, usual)
         _, path = stand_of(f, text)
         found = {i["path"]: i for i in json.loads(good("--sensitivity=2", "-n", 20, "-f", "json", path).out)["figures"][0]["inputs"]}
@@ -233,7 +233,7 @@ def test_heights():
         expect_in(f"dbh_m: 0.41, height_m: {naslund(41):.6g},", text)
         text = survey(f, "\n".join([head, *rows[:3], *rows[5:]])).out
         expect_in(f"height_m: {statistics.mean(naslund(d) for d in (11, 16, 22)):.6g}", text)
-        expect_in("missing heights: the mean of 3", text)
+        expect_in("heights measured: 3 of 5", text)
         expect_equal(text.count("kind: assumed"), 4, text)  # each class of trees
 
 
@@ -370,7 +370,7 @@ BAD = [  # (content, place, words)
     ("", "", "the file is empty"), ("x\n1\n", ":1:1", "must name the column 'plot'"),
     ("plot,kind\nA,tree\n", ":1:1", "'dbh_cm'"), ("plot,kind,dbh_cm\nA,tree,3\n", ":1:1", "'area_m2' or 'radius_m'"),
     ("plot,plot,area_m2,kind,dbh_cm\n", ":1:1", "'plot' is there twice"), (HEAD + "\n", "", "there is no plot"),
-    (HEAD + "\n" + ROW.replace("A", "", 1), ":2:1", "the plot is missing"),
+    (HEAD + "\n" + ROW.replace("A", "", 1), ":2:1", "'plot' is missing"),
     (HEAD + "\n" + ROW.replace("200", ""), ":2:1", "no area_m2 and no radius_m"),
     (HEAD + "\n" + ROW.replace("200", "0"), ":2:3", "below 1 m2"),
     (HEAD + "\n" + ROW.replace("200", "-5"), ":2:3", "below 1 m2"),
@@ -381,28 +381,28 @@ BAD = [  # (content, place, words)
     (HEAD + "\n" + ROW + ROW.replace("35", "36"), ":3:7", "'slope_deg' is 35 elsewhere for this plot, here 36"),
     (HEAD.replace("slope_deg", "radius_m") + "\n" + ROW, ":2:7", "area_m2 already says this"),
     (HEAD + "\n" + ROW.replace("tree", "bush"), ":2:11", "'bush' is no kind of stem: shoot, standard, tree or stump"),
-    (HEAD + "\n" + ROW.replace("tree", ""), ":2:11", "the kind is missing"),
+    (HEAD + "\n" + ROW.replace("tree", ""), ":2:11", "'' is no kind of stem"),
     (HEAD + "\n" + ROW.replace(",,tree", ",oak,tree"), ":2:10", "'oak' is an unknown species; leave it empty, or one of: hop hornbeam"),
-    (HEAD + "\n" + ROW.replace(",20,", ",,"), ":2:17", "the diameter is missing"),
+    (HEAD + "\n" + ROW.replace(",20,", ",,"), ":2:17", "'dbh_cm' is missing"),
     (HEAD + "\n" + ROW.replace(",20,", ",0,"), ":2:17", "below 0.1 cm"),
     (HEAD + "\n" + ROW.replace(",20,", ",750,"), ":2:17", "750 cm: more than 300 cm; is it in mm?"),
     (HEAD + "\n" + ROW.replace(",20,", ",300.5,"), ":2:17", "300.5 cm: more than 300 cm; is it in mm?"),
     (HEAD + "\n" + ROW.replace("tree,,20,12", "stump,,301,1"), ":2:18", "301 cm: more than 300 cm; is it in mm?"),
     (HEAD + "\n" + ROW.replace(",20,", ",2e6,"), ":2:17", "beyond 1e+06 cm"),
     (HEAD + "\n" + ROW.replace(",20,", ",nan,"), ":2:17", "'nan' is not a number"),
-    (HEAD + "\n" + ROW.replace(",12,", ",1.2,"), ":2:20", "1.2 m: a stem with a diameter at breast height is higher than 1.3 m"),
-    (HEAD + "\n" + ROW.replace(",12,", ",1.3,"), ":2:20", "1.3 m: a stem with a diameter at breast height is higher than 1.3 m"),
+    (HEAD + "\n" + ROW.replace(",12,", ",1.2,"), ":2:20", "1.2 m is no height of a stem of this kind: it must be above 1.3 and at most 150 m"),
+    (HEAD + "\n" + ROW.replace(",12,", ",1.3,"), ":2:20", "1.3 m is no height of a stem of this kind"),
     (HEAD + "\n" + ROW.replace(",12,", ",-1,"), ":2:20", "below 0 m"),
     (HEAD.replace("dbh_cm", "Diametro (mm)") + "\n" + ROW, ":1:43", "'Diametro (mm)': its values must be in cm; convert"),
     (HEAD.replace("slope_deg", "Pendenza (%)") + "\n" + ROW.replace("35", "1200"), ":2:7", "beyond 1143.01 %"),
     ("Plots;\n" + HEAD.replace(",", ";").replace("kind;", "") + "\n", ":2:1", "must name the column 'kind'"),
     (HEAD + "\n" + ROW.replace("tree", "shoot"), ":2:17", "the stool of this shoot is missing"),
-    (HEAD + "\n" + ROW.replace(",12,", ",12,0.3"), ":2:23", "spacing_m is the distance between the shoots of a stool"),
+    (HEAD + "\n" + ROW.replace(",12,", ",12,0.3"), ":2:23", "a stem of this kind has no 'spacing_m'"),
     (HEAD + "\n" + ROW.replace("tree,,20,12,", "shoot,1,6,5,0"), ":2:23", "below 0.01 m"),
-    (HEAD + "\n" + ROW.replace("tree,,20,12", "stump,,20,0"), ":2:21", "the height of a stump must be above 0"),
+    (HEAD + "\n" + ROW.replace("tree,,20,12", "stump,,20,0"), ":2:21", "0 m is no height of a stem of this kind: it must be above 0 and at most 20 m"),
     (HEAD.replace(",", ";") + "\n" + ROW.replace(",", ";").replace("20;12", "20,5;1.2e1"), ":2:22", "not both"),
     (HEAD + "\nA,1,,,tree,,20,12,\n" + "A,,,,tree,,20,12,\n" * 101, "", "are the areas in m2?"),
-    (HEAD + ",energy_kJ\n" + ROW.replace("\n", ",3\n"), ":2:24", "energy_kJ is what a stump takes from a rock"),
+    (HEAD + ",energy_kJ\n" + ROW.replace("\n", ",3\n"), ":2:24", "a stem of this kind has no 'energy_kJ'"),
     (HEAD + ",energy_kJ\n" + ROW.replace("tree", "stump").replace("\n", ",x\n"), ":2:25", "'x' is not a number"),
     (HEAD.replace("area_m2", "radius_m") + "\n" + ROW.replace("200", "-1"), ":2:3", "below 0.5 m"),
     (HEAD + "\n" + ROW.replace("tree", "b" * 120), ":2:11", "b' is no kind of stem"),
