@@ -242,16 +242,19 @@ static void read_row(struct reader *r, struct survey_file *file)
     bool any = false; /* there is a stem */
     while (first.n == 0 && ceduo_csv_step(&r->csv, &left, &first))
         ;
-    if (find_word(&total_words, first) >= 0) {
-        file->totals++;
-        return;
-    }
     for (int c = 0; c < COLUMNS; c++) {
         if (r->columns[c] >= CEDUO_CSV_TWICE || !ceduo_csv_field(&r->csv, r->columns[c], &r->fields[c]))
             r->fields[c] = (struct csv_span){r->csv.line.p + r->csv.line.n, 0};
         if (r->fields[c].n == 1 && r->fields[c].p[0] == '-') /* nothing */
             r->fields[c].n = 0;
         any |= c >= SPECIES && r->fields[c].n > 0;
+    }
+    struct csv_span word = first; /* "Totale fusti" */
+    for (size_t n = first.n; n > 0; n--)
+        word.n = strchr(" :", first.p[n - 1]) ? n - 1 : word.n;
+    if (find_word(&total_words, first) >= 0 || (r->fields[KIND].n == 0 && find_word(&total_words, word) >= 0)) {
+        file->totals++;
+        return;
     }
     if (r->fields[PLOT].n == 0 && any && r->plots_count > 0) { /* cells that were joined: it stands in the first alone */
         r->fields[PLOT] = r->plots[r->plot].name;
