@@ -224,6 +224,8 @@ void ceduo_words_turned(const struct ceduo_result *r, const struct ceduo_verdict
     for (size_t i = 0; i < v->turned_count; i++) {
         size_t a = v->turned[i].better, b = v->turned[i].than, left = v->turned_count - i;
         LOCAL_TEXT(sentence);
+        if (isnan(of_1000(r, a, true) + of_1000(r, b, true))) /* the rocks of that law still fall */
+            continue;
         if (i >= TURNED_MOST) {
             ceduo_text_format(&sentence,
                               ngettext("The order of %zu other pair of options depends on the energy law, too.",
