@@ -116,6 +116,7 @@ bool ceduo_document_set_alone(struct document *d, const char *path, const char *
         keep_one_of_all(&c, path);
     ceduo_changes_follow(&c, path, value);
     ceduo_changes_add(&c, "%s=%s", path, value);
+    ceduo_changes_remove(&c, ceduo_arena_format(&d->file.arena, "%s_it", path)); /* what is typed holds in both languages */
     if (c.filled.length)
         ceduo_text_format(said, _("filled in for the same volume: %s"), c.filled.bytes);
     if (c.taken.length)

@@ -51,7 +51,7 @@ bool ceduo_document_insert(struct document *document, const char *list, size_t i
 bool ceduo_document_move(struct document *document, const char *list, size_t from, size_t to, struct problems *problems);
 /* A new option after the last: the belts of the first with `stand` in each. A scene that has only a forest gets options
  * first, "current" the first of them. */
-bool ceduo_document_add_option(struct document *document, const char *stand, struct problems *problems);
+bool ceduo_document_add_option(struct document *document, const char *stand, const char *name, struct problems *problems);
 
 /* Another name for an option; what was seen through its forest and the doubts about it go along. */
 bool ceduo_document_rename_option(struct document *document, size_t index, const char *name, struct problems *problems);

@@ -8,6 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/language.h"
 #include "io/file.h"
 #include "io/resolve.h"
 
@@ -250,7 +251,9 @@ bool ceduo_document_insert(struct document *d, const char *list, size_t index, c
 /* A copy gets a name of its own where names must differ: the number of a copy, " (2)", grows. A larger one is a year. */
 static const struct node *with_new_name(struct edit *e, const struct node *list, const struct node *item)
 {
-    const char *name = ceduo_node_text(item, "name"), *open = name ? strrchr(name, '(') : NULL, *own = name;
+    const char *given = ceduo_node_text(item, "name"), *name = ceduo_in_language(given, ceduo_node_text(item, "name_it"));
+    const char *open = name ? strrchr(name, '(') : NULL, *own = name;
+    item = ceduo_node_without(e->arena, item, "name_it");
     size_t digits = open ? strspn(open + 1, "0123456789") : 0;
     bool copy = open && open > name + 1 && open[-1] == ' ' && digits > 0 && digits < 4 && strcmp(open + 1 + digits, ")") == 0;
     if (!name)
@@ -260,8 +263,8 @@ static const struct node *with_new_name(struct edit *e, const struct node *list,
          own = ceduo_arena_format(e->arena, "%.*s (%u)", n, name, ++i)) {
         bool taken = false;
         for (size_t k = 0; k < list->n; k++) {
-            const char *other = ceduo_node_text(list->items[k], "name");
-            taken |= other && strcmp(other, own) == 0;
+            const char *other = ceduo_node_text(list->items[k], "name"), *italian = ceduo_node_text(list->items[k], "name_it");
+            taken |= other && (strcmp(other, own) == 0 || strcmp(ceduo_in_language(other, italian), own) == 0);
         }
         if (!taken)
             return ceduo_node_with(e->arena, item, "name", ceduo_node_scalar(e->arena, item->source, own, true));
@@ -327,22 +330,24 @@ static const struct node *need_options(struct edit *e)
     const struct node *options = ceduo_node_get(e->root, "options"), *forest = ceduo_node_get(e->root, "forest");
     if (options)
         return options;
-    options = ceduo_document_parse(e->d, "options", "[{name: current}]", e->problems);
+    const char *name = _("current");
+    options = ceduo_document_parse(e->d, "options", ceduo_arena_format(e->arena, "[{name: \"%s\"}]", name), e->problems);
     if (forest)
         options = ceduo_node_replaced(e->arena, options, 0, ceduo_node_with(e->arena, options->items[0], "forest", forest));
     e->root = ceduo_node_without(e->arena, e->root, "forest");
     e->root = with_rows(e->arena, e->root, begin_row, &(struct beginning){"forest[*]", "options[*].forest[*]"});
-    e->root = with_rows(e->arena, e->root, begin_row, &(struct beginning){"forest[", "options[current].forest["});
+    e->root = with_rows(e->arena, e->root, begin_row,
+                        &(struct beginning){"forest[", ceduo_arena_format(e->arena, "options[%s].forest[", name)});
     e->root = ceduo_node_with(e->arena, e->root, "options", options);
     return options;
 }
 
-bool ceduo_document_add_option(struct document *d, const char *stand, struct problems *problems)
+bool ceduo_document_add_option(struct document *d, const char *stand, const char *name, struct problems *problems)
 {
     struct edit e = begin(d, problems);
     const struct ceduo_option *first = &d->file.scene.options[0];
     LOCAL_TEXT(yaml);
-    ceduo_text_format(&yaml, "{name: \"%s\", forest: [", stand);
+    ceduo_text_format(&yaml, "{name: \"%s\", forest: [", name);
     for (size_t i = 0; i < first->belts_count; i++)
         ceduo_text_format(&yaml, "%s{from_m: %.10g, to_m: %.10g, stand: %s}", i ? ", " : "", first->belts[i].from_given,
                           first->belts[i].to_given, stand);
@@ -392,7 +397,8 @@ bool ceduo_document_rename_option(struct document *d, size_t index, const char *
         return false;
     const struct node *item = list->items[index], *scalar = ceduo_node_scalar(e.arena, item->source, name, true);
     const char *old = ceduo_node_text(item, "name");
-    list = ceduo_node_replaced(e.arena, list, index, ceduo_node_with(e.arena, item, "name", scalar));
+    item = ceduo_node_without(e.arena, ceduo_node_with(e.arena, item, "name", scalar), "name_it");
+    list = ceduo_node_replaced(e.arena, list, index, item);
     e.root = ceduo_node_with(e.arena, e.root, "options", list);
     if (old)
         e.root = with_rows(e.arena, e.root, begin_row,

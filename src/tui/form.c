@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "form.h"
 
+#include <ctype.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -295,6 +296,16 @@ static void cell_place(const struct form_row *row, int width, int label, size_t 
     *span = each - 1;
 }
 
+#define DIGITS_MOST 5 /* more come from a computer: they are seen as the field is opened */
+
+static size_t digits_of(const char *shown)
+{
+    size_t n = 0;
+    for (const char *c = shown; *c; c++)
+        n += isdigit((unsigned char)*c) && (n > 0 || *c != '0');
+    return n;
+}
+
 /* `edit`: what is typed into it; NULL: it is not open. */
 static void draw_cell(struct ceduo_cells *cells, const struct form_cell *cell, int x, int y, int span, bool cursor,
                       const char *edit)
@@ -307,8 +318,8 @@ static void draw_cell(struct ceduo_cells *cells, const struct form_cell *cell, i
         ceduo_text_put(&words, cell->text[0] ? cell->text : "-");
     snprintf(shown, sizeof shown, "%s%s", ceduo_text_string(&words), cell->assumed ? "*" : "");
     double number;
-    if ((int)ceduo_utf8_width(shown) > span && strpbrk(shown, ".,") &&
-        ceduo_typed_number(cell->text, &number) == CEDUO_NUMBER_GOOD)
+    bool fine = digits_of(shown) > DIGITS_MOST || (int)ceduo_utf8_width(shown) > span;
+    if (fine && strpbrk(shown, ".,") && ceduo_typed_number(cell->text, &number) == CEDUO_NUMBER_GOOD)
         snprintf(shown, sizeof shown, "%.4g%s", number, cell->assumed ? "*" : "");
     if (strspn(shown, "0123456789.+-e *") == strlen(shown))
         ceduo_number_spoken(shown);

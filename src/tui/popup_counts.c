@@ -140,7 +140,7 @@ void ceduo_popup_counts(struct app *app)
         [COUNT_TREE_HEIGHT] = stand->trees_count ? stand->trees[0].height : 0,
     };
     for (size_t i = 0; i < COUNTS; i++) {
-        const char *value = offered[i] > 0 ? ceduo_number_spoken(ceduo_app_format(app, "%.6g", offered[i])) : "";
+        const char *value = offered[i] > 0 ? ceduo_number_spoken(ceduo_app_format(app, "%.4g", offered[i])) : "";
         if (i == COUNT_HOW) {
             ceduo_popup_choice(p, _(rows[i].label), ALONG_SLOPE, offer_how);
             continue;

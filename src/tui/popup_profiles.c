@@ -207,7 +207,9 @@ static void chose_word(struct app *app, struct popup *p)
 /* The option that is shown with another stand in every belt, as a new option. */
 static void chose_new_option(struct app *app, struct popup *p)
 {
-    if (ceduo_app_edited(app, ceduo_document_add_option(&app->document, p->value, &app->problems))) {
+    const char *name = p->value;
+    describe_stand(app, p->value, "", &name);
+    if (ceduo_app_edited(app, ceduo_document_add_option(&app->document, p->value, name, &app->problems))) {
         ceduo_app_show_option(app, app->document.file.scene.options_count - 1);
         ceduo_app_say(app, _("added '%s'; Enter renames it, 2 changes its stand"), ceduo_app_option(app)->name);
     }

@@ -79,6 +79,17 @@ def test_words():
         expect("scale_rn: true" in place.text("fast.yaml"), place.text("fast.yaml"))
 
 
+def test_names():
+    """A new name holds in both languages; an option of a stand of the program is called by its Italian name"""
+    with Place() as place:
+        renamed, added = play(place.path, "key 5 Enter Ctrl-U\ntype diradato\nkey Enter\ndump\nkey a\ntype sterzo, tagl\nkey Enter G\ndump\n"
+                              "wait idle\nkey s Ctrl-U\ntype new.yaml\nkey Enter", "four-systems", "--language", "it")
+        expect("diradato" in renamed.now, renamed)
+        expect("ceduo a sterzo, tagliato (2)" in added.now.replace("\n", " "), added)
+        text = place.text("new.yaml")
+        expect("name: diradato\n    name_it" not in text and "name: diradato" in text, text)
+
+
 def test_columns():
     """The rule beside the figures stands in one column, as in English"""
     for english, italian in both(VIEWS, "options.yaml"):

@@ -249,7 +249,7 @@ static bool step(const char *const at[TABLE_COLUMNS])
     else if (IS("duplicate"))
         good = ceduo_document_duplicate(&d, a, k, *at[3] ? at[3] : NULL, *at[4] ? at[4] : NULL, &problems);
     else if (IS("add"))
-        good = ceduo_document_add_option(&d, a, &problems);
+        good = ceduo_document_add_option(&d, a, a, &problems);
     else if (IS("move"))
         good = ceduo_document_move(&d, a, k, (size_t)atoi(at[3]), &problems);
     else if (IS("split"))
