@@ -392,9 +392,9 @@ samples: all
 tables:
 	@tests/bench/tables.py man/ceduo-accuracy.7 man/ceduo-validation.7
 
-# Draws the screen that README shows, by its keys.
-pictures: $(PROGRAM)
-	LC_ALL=C.UTF-8 $(PROGRAM) --language en --charset braille --script man/pictures/cuts.keys
+# Draws the screens that README shows, by their keys, and writes the page that it shows.
+pictures: all
+	@CEDUO=$(call quoted,$(CURDIR)/$(PROGRAM)) BUILD=$(BUILD) tests/cli/test_workflows.py --readme
 
 # ---- installing ----
 

@@ -158,13 +158,15 @@ def printed():
 
 
 def drawn():
-    """The screens that README.md shows as pictures, as `make pictures` draws them: path and content of each."""
+    """The pages and screens that keys of man/pictures write, each file in the language of its folder: path and content."""
     with Folder() as f:
-        (f.path / "man" / "pictures").mkdir(parents=True)
-        for keys in sorted((ROOT / "man" / "pictures").glob("*.keys")):
-            harness.good("--script", keys, "--language", "en", "--charset", "braille", cwd=f.path, timeout=600,
+        shutil.copytree(ROOT / "man" / "pictures", f.path / "pictures", ignore=lambda folder, names: {n for n in names if n.endswith("svg")})
+        for keys in sorted(f.path.glob("pictures/**/*.keys")):
+            language = "it" if keys.parent.name == "it" else "en"
+            harness.good("--script", keys, "--language", language, "--charset", "braille", cwd=keys.parent, timeout=600,
                          env={"HOME": str(f.path), "XDG_STATE_HOME": str(f.path)})
-        return [(ROOT / path.relative_to(f.path), path.read_text(encoding="utf-8")) for path in sorted(f.path.glob("man/pictures/*"))]
+        return [(ROOT / "man" / path.relative_to(f.path), path.read_text(encoding="utf-8"))
+                for path in sorted([*f.path.glob("pictures/**/*.svg"), *f.path.glob("pictures/**/*.html")])]
 
 
 def write_readme():
@@ -174,7 +176,8 @@ def write_readme():
         lines[first:last] = [("    " + line).rstrip() for line in body.splitlines()]
     README.write_text("\n".join(lines) + "\n", encoding="utf-8")
     for path, picture in drawn():
-        path.write_text(picture, encoding="utf-8")
+        if path.suffix == ".svg":
+            path.write_text(picture, encoding="utf-8")
 
 
 # ---- the page itself ----
@@ -207,8 +210,12 @@ def test_readme():
         expect(found == wanted, "README.md has", found, "the program has", wanted)
     keys = (ROOT / "man" / "pictures" / "cuts.keys").read_text()
     expect([x for x in keys.splitlines() if x.startswith("key")] == [x for x in script.splitlines() if x.startswith("key")], keys)
-    for path, wanted in drawn():
-        expect(path.read_text(encoding="utf-8") == wanted, f"{path.name} is not what the program draws: make pictures")
+    found = drawn()
+    page = next(page for path, page in found if path.suffix == ".html")
+    for words in ("Serra Sant&#39;Abbondio", "foglio 12, particella 34", "24/11/2026", "strada comunale", "Firma"):
+        expect_in(words, page, "the report that the Italian keys write")
+    for path, wanted in found:
+        expect(path.suffix == ".html" or path.read_text(encoding="utf-8") == wanted, f"{path.name} is not what the program draws: make pictures")
     for name in re.findall(r"\]\(([^)]+\.svg)\)", text):
         picture = (ROOT / name).read_text(encoding="utf-8")
         expect(len(picture.encode()) < 100_000, f"{name}: {len(picture)} bytes")
