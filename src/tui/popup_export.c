@@ -3,9 +3,11 @@
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 
 #include "base/language.h"
 #include "base/must.h"
+#include "io/emit.h"
 #include "io/file.h"
 #include "popup.h"
 #include "popups.h"
@@ -135,15 +137,32 @@ static bool filled_export(struct app *app, struct popup *p)
 /* `export`: its number. */
 static void ask_for_file(struct app *app, const char *export)
 {
-    /* the report says how sure it is, over the rotation as well: that is computed while its file is named */
+    /* the report says how sure it is, over the rotation as well: that is computed while its file is named; a head is an edit */
     app->live.busy |= ceduo_jobs_ask(app->live.jobs, JOB_UNCERTAINTY, &app->document.file, app->option, UNCERTAINTY_ROTATION);
     struct popup *p = ceduo_popup_fields(app, _(exports[atoi(export)].what), export, filled_export);
     const char *file = exports[atoi(export)].file;
-    if (atoi(export) == EXPORT_REPORT)
-        ceduo_text_put(&p->text, _("View 3 has what stands in its head: place, owner, author, date."));
     p->endings = strrchr(file, '.');
     p->typed_wins = true;
     ceduo_popup_choice(p, _("file"), file, ceduo_popup_offer_files);
+}
+
+/* What was typed is the scene's from then on, as one edit. */
+static bool filled_head(struct app *app, struct popup *p)
+{
+    const struct object *page = ceduo_schema_row("page")->object;
+    LOCAL_TEXT(head);
+    for (size_t i = 0; i < p->fields_count; i++)
+        if (p->fields[i].line.text[0]) {
+            ceduo_text_format(&head, "%s%s: ", head.length > 0 ? ", " : "{", page->fields[i].key);
+            ceduo_emit_scalar(&head, p->fields[i].line.text, true);
+        }
+    if (head.length > 0) {
+        ceduo_text_char(&head, '}');
+        if (!ceduo_app_edited(app, ceduo_document_set(&app->document, "page", head.bytes, &app->problems)))
+            return false;
+    }
+    ask_for_file(app, p->path);
+    return true;
 }
 
 static void chose_export(struct app *app, struct popup *p)
@@ -153,7 +172,20 @@ static void chose_export(struct app *app, struct popup *p)
         ceduo_popup_text(app, _(exports[export].what))->preview = show_command;
         return;
     }
-    ask_for_file(app, p->value);
+    if (export != EXPORT_REPORT || ceduo_document_node(&app->document, "page")) {
+        ask_for_file(app, p->value);
+        return;
+    }
+    const struct object *page = ceduo_schema_row("page")->object;
+    struct popup *head = ceduo_popup_fields(app, _("Head of the report"), p->value, filled_head);
+    char today[32];
+    time_t now = time(NULL);
+    struct tm local;
+    /* Translators: a date, as strftime() writes it. */
+    strftime(today, sizeof today, _("%Y-%m-%d"), localtime_r(&now, &local));
+    ceduo_text_put(&head->text, _("Each line may stay empty. What is written here is kept in the scene, as 'page'."));
+    for (size_t i = 0; i < page->n; i++)
+        ceduo_popup_field(head, _(page->fields[i].shown.label), strcmp(page->fields[i].key, "date") == 0 ? today : "");
 }
 
 /* ---- the clipboard ---- */
