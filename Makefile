@@ -305,14 +305,36 @@ do-net: all $(T)/tables $(BUILD)/man/completion
 
 DEBIAN_ALL := $(DEBIAN_FUZZ) valgrind slurmctld slurmd slurm-client munge chromium tidy poppler-utils
 DEBIAN_BENCH := python3-numpy
-# FULL: also runs what `make check` leaves out to be short.
-do-check-all: export FULL := 1
-do-check-all: do-check
-	@+$(MAKE) --no-print-directory DEBIAN="$(DEBIAN_ALL)" deps
+# All of it takes two hours. Each part leaves a log with the name of the commit; those that have passed on this commit are not run
+# again. ONLY='threads memory': these alone. FULL: also what `make check` leaves out to be short.
+ALL_PARTS := check sanitizers clang threads memory slurm dist deb
+do-all-check: export FULL := 1
+do-all-check: do-check
+do-all-sanitizers: export FULL := 1
+do-all-sanitizers:
 	@+SCENES=10000 TEST_SECONDS=20000 $(MAKE) --no-print-directory VARIANT=asan do-check
-	@+$(MAKE) --no-print-directory CC=clang VARIANT=fuzz do-replay # its sanitizer tells of offsets to null pointers, gcc's does not
+do-all-clang: # its sanitizer tells of offsets to null pointers, gcc's does not
+	@+$(MAKE) --no-print-directory CC=clang VARIANT=fuzz do-replay
+do-all-threads:
 	@+$(MAKE) --no-print-directory VARIANT=tsan do-check-threads
-	@+$(MAKE) --no-print-directory do-check-memory do-check-slurm do-check-dist do-check-deb
+$(foreach part,memory slurm dist deb,do-all-$(part)): do-all-%: do-check-%
+
+do-check-all:
+	@+$(MAKE) --no-print-directory DEBIAN="$(DEBIAN_ALL)" deps
+	@+commit=$$(git describe --always --dirty --abbrev=12 2>/dev/null || echo none); logs=build/check-all/$$commit; mkdir -p $$logs; \
+	passed() { tail -n 1 $$logs/$$1.log 2>/dev/null | grep -q '^passed '; }; \
+	case $$commit in none | *-dirty) rm -f $$logs/*.log ;; esac; \
+	for part in $(or $(ONLY),$(ALL_PARTS)); do \
+	    passed $$part && continue; \
+	    echo "$$part ..."; start=$$(date +%s); \
+	    if $(MAKE) --no-print-directory do-all-$$part >$$logs/$$part.log 2>&1; then \
+	        echo "passed $$commit $$(date -I) in $$(($$(date +%s) - start)) s" >>$$logs/$$part.log; \
+	    else tail -n 20 $$logs/$$part.log; fi; \
+	done; \
+	missing=; for part in $(ALL_PARTS); do \
+	    if passed $$part; then echo "$$part: $$(tail -n 1 $$logs/$$part.log)"; \
+	    else echo "$$part: MISSING $$logs/$$part.log"; missing=1; fi; \
+	done; [ -z "$$missing" ]
 
 # These tests use threads: workers of a run and of a pool, of the terminal program, and of years.
 THREADED := $(addprefix $(T)/,unit/test_jobs $(addprefix physics/test_,statistics_of_runs years))
