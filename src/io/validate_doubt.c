@@ -114,7 +114,7 @@ static void find_places(struct places *p, const char *path)
     else if (!name)
         add_all(p, path);
     for (size_t i = 0; i < p->n; i++)
-        if (ceduo_value_find(scene, p->items[i], &value))
+        if (p->items[i] && ceduo_value_find(scene, p->items[i], &value)) /* NULL: memory ran out */
             p->items[n++] = p->items[i];
     p->n = n;
 }
