@@ -475,9 +475,9 @@ enum exit_status ceduo_batch_run(const struct arguments *given)
     ceduo_batch_answer *answer = given->plot != CEDUO_PLOT_NONE ? ceduo_print_plots : answers[given->mode];
     LOCAL_TEXT(header);
     LOCAL_TEXT(title);
+    LOCAL_TEXT(out);
     struct ceduo_profiles profiles = {0};
     struct arguments arguments = *given, *a = &arguments;
-    struct output out = {.arguments = a};
     struct each each;
     a->profiles = &profiles;
     a->title = &title;
@@ -507,25 +507,26 @@ enum exit_status ceduo_batch_run(const struct arguments *given)
             break;
         if (result <= EXIT_RUN && one.bytes && !atomic_load(ceduo_interrupt_flag())) {
             if (first)
-                add_header(&each, &header, &out.text);
+                add_header(&each, &header, &out);
             else if (a->format == CEDUO_TABLE && profiles.count == 0)
-                ceduo_text_char(&out.text, '\n');
-            add_answer(&each, &one, &out.text);
-            starts[profiles.count] = out.text.length;
+                ceduo_text_char(&out, '\n');
+            add_answer(&each, &one, &out);
+            starts[profiles.count] = out.length;
             first = false;
         }
-        written = profiles.count > 0 ? EXIT_DONE : ceduo_output_next(&out);
+        written = profiles.count > 0 ? EXIT_DONE : ceduo_output_next(a, &out);
         status = worse(status, written);
         if (written == EXIT_DONE)
             ceduo_interrupt_release();
     }
     if (profiles.count > (a->mode != MODE_REPORT))
-        put_verdicts(&out.text, a, starts);
+        put_verdicts(&out, a, starts);
     free(starts);
     if (profiles.count > 0)
-        status = worse(status, ceduo_output_next(&out));
+        status = worse(status, ceduo_output_next(a, &out));
     status = worse(status, each.bad_rows ? EXIT_INPUT : EXIT_DONE);
     close_each(&each);
     ceduo_profiles_free(&profiles);
-    return worse(status, ceduo_output_end(&out, status != EXIT_OUTPUT && !first));
+    bool waits = a->output && !a->resume && !first && status != EXIT_OUTPUT;
+    return waits ? worse(status, ceduo_output_write(a, &out)) : status;
 }

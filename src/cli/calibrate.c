@@ -157,8 +157,8 @@ static enum exit_status write_scene(const struct job *j, const struct ceduo_cali
     LOCAL_TEXT(scene);
     ceduo_text_format(&path, "%.*s.draws.csv", (int)(strrchr(output, '.') - output), output);
     append_draws(j, r->answer, &table);
-    struct pending_file draws = {.path = path.bytes, .before = -1, .bytes = table.bytes, .n = table.length, .wait = true};
-    struct pending_file file = {.path = output, .before = -1, .wait = true};
+    struct pending_file draws = {.path = path.bytes, .bytes = table.bytes, .n = table.length, .wait = true};
+    struct pending_file file = {.path = output, .wait = true};
     enum exit_status status = EXIT_OUTPUT;
     const char *failed = path.bytes; /* with the reason in errno; NULL: the reason has been told, or nothing has failed */
     bool filled = ceduo_file_prepare(&draws);

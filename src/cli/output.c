@@ -10,22 +10,15 @@
 #include "io/file.h"
 #include "say.h"
 
-/* First what the open file `before` holds (-1: nothing). */
-static enum exit_status write_after(int before, const struct arguments *a, const struct text *text)
+enum exit_status ceduo_output_write(const struct arguments *a, const struct text *text)
 {
     const char *bytes = ceduo_text_string(text);
-    const struct pending_file file = {.path = a->output, .before = before, .bytes = bytes, .n = text->length, .wait = true};
     ceduo_say_no_progress();
-    bool good = a->output ? ceduo_file_save(file) : ceduo_file_fill(STDOUT_FILENO, bytes, text->length, ceduo_interrupt_flag());
-    if (good)
+    if (a->output ? ceduo_file_write(a->output, bytes, text->length)
+                  : ceduo_file_fill(STDOUT_FILENO, bytes, text->length, ceduo_interrupt_flag()))
         return EXIT_DONE;
     ceduo_say_why(a->output ? a->output : _("standard output"), strerror(errno));
     return EXIT_OUTPUT;
-}
-
-enum exit_status ceduo_output_write(const struct arguments *a, const struct text *text)
-{
-    return write_after(-1, a, text);
 }
 
 bool ceduo_output_is(const struct arguments *a, const char *path)
@@ -55,25 +48,6 @@ bool ceduo_output_check(const struct arguments *a)
 
 /* ---- results of several scenes ---- */
 
-#define HELD_MOST ((size_t)256 * 1024) /* bytes of results that wait in memory */
-
-/* Results that wait for the last scene go into a nameless file once they are large, so that thousands of scenes need no
- * more memory than one. Where there is no room for such a file they stay in memory. */
-static void set_aside(struct output *o)
-{
-    if (o->text.length < HELD_MOST)
-        return;
-    if (!o->spool && (o->spool = tmpfile()))
-        setvbuf(o->spool, NULL, _IONBF, 0);
-    long end = o->spool ? ftell(o->spool) : -1;
-    if (end < 0)
-        return;
-    if (fwrite(o->text.bytes, 1, o->text.length, o->spool) == o->text.length)
-        o->text.length = 0;
-    else if (fseek(o->spool, end, SEEK_SET) != 0 || ftruncate(fileno(o->spool), end) != 0)
-        o->text.failed = true;
-}
-
 /* Whole lines, or none of them. */
 static enum exit_status append(const struct arguments *a, const struct text *text)
 {
@@ -92,24 +66,11 @@ static enum exit_status append(const struct arguments *a, const struct text *tex
     return good ? EXIT_DONE : EXIT_OUTPUT;
 }
 
-enum exit_status ceduo_output_next(struct output *o)
+enum exit_status ceduo_output_next(const struct arguments *a, struct text *text)
 {
-    bool resume = o->arguments->resume;
-    if (o->arguments->output && !resume)
-        set_aside(o);
-    if (o->text.length == 0 || (o->arguments->output && !resume))
+    if (text->length == 0 || (a->output && !a->resume))
         return EXIT_DONE;
-    enum exit_status status = resume ? append(o->arguments, &o->text) : ceduo_output_write(o->arguments, &o->text);
-    o->text.length = 0;
-    return status;
-}
-
-enum exit_status ceduo_output_end(struct output *o, bool writes)
-{
-    bool waits = o->arguments->output && !o->arguments->resume && writes;
-    enum exit_status status = waits ? write_after(o->spool ? fileno(o->spool) : -1, o->arguments, &o->text) : EXIT_DONE;
-    if (o->spool)
-        fclose(o->spool);
-    ceduo_text_free(&o->text);
+    enum exit_status status = a->resume ? append(a, text) : ceduo_output_write(a, text);
+    ceduo_text_cut(text, 0);
     return status;
 }

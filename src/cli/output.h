@@ -2,8 +2,6 @@
 #ifndef CEDUO_OUTPUT_H
 #define CEDUO_OUTPUT_H
 
-#include <stdio.h>
-
 #include "arguments.h"
 #include "base/text.h"
 
@@ -17,14 +15,8 @@ bool ceduo_output_is(const struct arguments *arguments, const char *path);
 /* Writes to where --output says. EXIT_OUTPUT with the reason on standard error where that fails. */
 enum exit_status ceduo_output_write(const struct arguments *arguments, const struct text *text);
 
-/* Results of several scenes: each is written as soon as it is there, with --output all at the end. */
-struct output {
-    const struct arguments *arguments;
-    struct text text; /* not yet written */
-    FILE *spool;      /* what came before it, where that is large; NULL: nothing */
-};
-enum exit_status ceduo_output_next(struct output *output);
-/* `writes`: what waits for the end. Releases the output in any case. */
-enum exit_status ceduo_output_end(struct output *output, bool writes);
+/* Writes a result of several, unless it waits for the last of them: with --output all are written at the end, with --resume each is
+ * added to what stands there. What is written is taken out of the text. */
+enum exit_status ceduo_output_next(const struct arguments *arguments, struct text *text);
 
 #endif

@@ -20,7 +20,6 @@
 /* ---- reading ---- */
 
 #define ROOM_FIRST ((size_t)64 * 1024)
-#define PART       8192   /* bytes copied at a time: a stack may be small */
 #define BEGINNING  4096   /* bytes of a file in which it says what it is */
 #define NO_FILE    ENOSTR /* a reason of our own, by a number that no call here gives */
 
@@ -245,17 +244,10 @@ bool ceduo_file_fill(int fd, const char *bytes, size_t n, const atomic_bool *can
     return true;
 }
 
-/* First all of the open file `before` (-1: none), then the bytes. Closes `fd`: some file systems say only then that there is no
- * room. */
+/* Closes `fd`, too: some file systems say only then that there is no room. */
 static bool write_and_close(int fd, const struct pending_file *file)
 {
-    char part[PART];
-    ssize_t n = 0;
-    bool good = true;
-    for (off_t at = 0; good && file->before >= 0 && (n = pread(file->before, part, sizeof part, at)) > 0; at += n)
-        good = ceduo_file_fill(fd, part, (size_t)n, NULL);
-    good =
-        good && n == 0 && ceduo_file_fill(fd, file->bytes, file->n, NULL) && (!file->wait || !file->target || fsync(fd) == 0);
+    bool good = ceduo_file_fill(fd, file->bytes, file->n, NULL) && (!file->wait || !file->target || fsync(fd) == 0);
     int why = errno;
     if (close(fd) != 0 && good)
         return false;
@@ -345,7 +337,7 @@ bool ceduo_file_save(struct pending_file file)
 
 bool ceduo_file_write(const char *path, const char *bytes, size_t n)
 {
-    return ceduo_file_save((struct pending_file){.path = path, .before = -1, .bytes = bytes, .n = n, .wait = true});
+    return ceduo_file_save((struct pending_file){.path = path, .bytes = bytes, .n = n, .wait = true});
 }
 
 bool ceduo_file_same(const char *a, const char *b)
@@ -357,7 +349,7 @@ bool ceduo_file_same(const char *a, const char *b)
 
 bool ceduo_file_can_write(const char *path)
 {
-    struct pending_file file = {.path = path, .before = -1, .bytes = ""};
+    struct pending_file file = {.path = path, .bytes = ""};
     bool good = ceduo_file_prepare(&file);
     ceduo_file_drop(&file);
     return good;

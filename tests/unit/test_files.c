@@ -230,30 +230,6 @@ TEST_WITH(files_are_the_same, folder_set_up_profiles, folder_tear_down)
     close(was);
 }
 
-/* What was set aside goes before: where it cannot be read, or there is no room for it, that is told. */
-TEST_WITH(what_was_set_aside_goes_before, folder_set_up_profiles, folder_tear_down)
-{
-    char path[256];
-    int ends[2];
-    put("aside", "before ");
-    in_folder(path, "aside");
-    int aside = open(path, O_RDONLY);
-    put("to", "old");
-    in_folder(path, "to");
-    assert_int_equal(pipe(ends), 0);
-    assert_false(ceduo_file_save(
-        (struct pending_file){.before = ends[0], .path = path, .bytes = "after", .n = 5})); /* a pipe has no place 0 */
-    assert_int_equal(errno, ESPIPE);
-    expect_bytes(path, 99, "old");
-    assert_false(ceduo_file_save((struct pending_file){.before = aside, .path = "/dev/full", .bytes = ""}));
-    assert_int_equal(errno, ENOSPC);
-    assert_true(ceduo_file_save((struct pending_file){.before = aside, .path = path, .bytes = "after", .n = 5}));
-    expect_bytes(path, 99, "before after");
-    close(aside);
-    close(ends[0]);
-    close(ends[1]);
-}
-
 /* A socket is no file, and one that may not be written is not replaced. */
 TEST_WITH(what_cannot_be_written, folder_set_up_profiles, folder_tear_down)
 {
