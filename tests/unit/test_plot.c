@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "local.h"
+#include "table.h"
 #include "unit/site.h"
 
 #include <stdio.h>
@@ -13,6 +14,7 @@
 
 static struct site s;
 static struct ceduo_picture p;
+static size_t first_stem;
 
 static int bare_site(void **state)
 {
@@ -89,13 +91,131 @@ static int cells_of(const struct ceduo_cells *cells, enum ceduo_role role)
     return n;
 }
 
-/* ---- the profile ---- */
+/* Two of the upper half hit, one flown over; one in the lower half. */
+static const struct ceduo_stem_passed passed[] = {
+    {.x = 22, .y = 0.3, .dbh = 0.3, .height = 20, .hit = true},
+    {.x = 27, .y = -0.1, .dbh = 0.08, .height = 8, .shoot = true, .hit = true},
+    {.x = 32, .y = 0.2, .dbh = 0.08, .height = 8, .shoot = true},
+    {.x = 62, .y = -0.4, .dbh = 0.08, .height = 8, .shoot = true, .hit = true},
+};
 
-TEST_BARE(profile_is_true_to_scale)
+/* ---- rows ---- */
+
+static const struct {
+    const char *name;
+    double *number;
+} numbers[] = {{"z1", &s.z[1]},
+               {"z2", &s.z[2]},
+               {"origin-x", &s.scene.slope.origin_x},
+               {"origin-z", &s.scene.slope.origin_z},
+               {"threshold", &s.scene.simulation.threshold},
+               {"shoots", &s.shoots.per_ha},
+               {"stools", &s.belts[0].stand.stools_per_ha},
+               {"accepted", &s.controls[0].accepted},
+               {"bare-exceed", &s.arrivals[0].exceed_probability},
+               {"wood-exceed", &s.wood_arrivals[0].exceed_probability},
+               {"peak", &s.envelopes[2].height.max},
+               {"wood-peak", &s.wood_envelopes[2].height.p95}};
+static const struct {
+    const char *name;
+    size_t *number;
+} counts[] = {{"option", &p.option},
+              {"control", &p.control},
+              {"belt", &p.belt},
+              {"trees", &s.belts[0].stand.trees_count},
+              {"belts", &s.options[0].belts_count},
+              {"belts-of-second", &s.options[1].belts_count},
+              {"first-stem", &first_stem},
+              {"stems", &p.stems_count}};
+
+static struct ceduo_belt belts[6];
+
+static void set_belts(size_t n)
 {
-    expect(CEDUO_PLOT_PROFILE, 72, 22, ASCII, "profile-is-true-to-scale");
-    expect(CEDUO_PLOT_PROFILE, 44, 16, BRAILLE, "profile-is-true-to-scale-2");
+    s.options[0] = (struct ceduo_option){.name = "belts", .belts_count = n, .belts = belts};
 }
+
+/* What is other than in the site: a word, or the name of a number and its value. */
+static void change(const char *word)
+{
+    static double many[1000];
+    const char *is = strchr(word, '=');
+    size_t length = is ? (size_t)(is - word) : strlen(word);
+    double value = is ? atof(is + 1) : NAN;
+    for (size_t i = 0; i < LENGTH(numbers); i++)
+        if (is && strlen(numbers[i].name) == length && memcmp(numbers[i].name, word, length) == 0)
+            *numbers[i].number = value;
+    for (size_t i = 0; i < LENGTH(counts); i++)
+        if (is && strlen(counts[i].name) == length && memcmp(counts[i].name, word, length) == 0)
+            *counts[i].number = (size_t)value;
+    p.stems = p.stems_count > 0 ? &passed[first_stem] : NULL;
+    if (strcmp(word, "wood") == 0)
+        wooded_site_init(&s);
+    else if (strcmp(word, "stopped") == 0)
+        stop_all();
+    else if (strcmp(word, "unknown") == 0) /* the runs through the forest */
+        s.wooded[0] = NULL;
+    else if (strcmp(word, "nothing") == 0) /* is computed */
+        p.snapshot = NULL;
+    else if (strcmp(word, "long-name") == 0)
+        s.options[0].name = "coppice with standards";
+    else if (strcmp(word, "empty") == 0) /* places */
+        for (int i = 0; i < CELLS; i++)
+            s.envelopes[i] = no_rock;
+    else if (memcmp(word, "energies=", 9) == 0) /* of all rocks */
+        for (int i = 0; i < ENERGIES; i++)
+            s.values[i] = value;
+    else if (memcmp(word, "arrived=", 8) == 0)
+        s.arrivals[0].reached = (uint64_t)value;
+    else if (memcmp(word, "wood-arrived=", 13) == 0)
+        s.wood_arrivals[0].reached = (uint64_t)value;
+    else if (strcmp(word, "tail") == 0) { /* three of 1000 with far more than the others */
+        for (int i = 0; i < 1000; i++)
+            many[i] = i < 997 ? 1e3 * (i % 50) : 1e6;
+        s.energies[0] = (struct ceduo_energies){1000, many};
+    } else if (strcmp(word, "six-belts") == 0) {
+        for (int i = 0; i < 6; i++)
+            belts[i] = s.belts[i % 2];
+        set_belts(6);
+    } else if (strcmp(word, "three-belts") == 0) { /* the second is short, the third bare */
+        const double ends[3][2] = {{s.belts[0].from, 45}, {60, 70}, {70, 90}};
+        for (int i = 0; i < 3; i++) {
+            belts[i] = s.belts[i / 2];
+            belts[i].from = ends[i][0];
+            belts[i].to = ends[i][1];
+        }
+        set_belts(3);
+    } else if (!is) {
+        fail_msg("'%s' changes nothing", word);
+    }
+}
+
+TEST(pictures_show_what_they_should)
+{
+    const char *plots = "profile|strips|histogram|adc|compare|stand";
+    for (char section[64]; next_word(&plots, section);)
+        for (TABLE(row, "unit/plots.txt", section)) {
+            char words[128], name[16], charset[8], *rest = words;
+            int width, height, plot = CEDUO_PLOT_PROFILE;
+            snprintf(words, sizeof words, "%s", row.at[0]);
+            bare_site(NULL);
+            first_stem = 0;
+            for (char *word; (word = strsep(&rest, " "));)
+                if (*word)
+                    change(word);
+            assert_int_equal(sscanf(row.at[1], "%15s %dx%d %7s", name, &width, &height, charset), 4);
+            while (strcmp(ceduo_plot_kinds[plot].name, name) != 0)
+                assert_true(++plot < CEDUO_PLOTS);
+            if (row.at[2][0]) /* a file of the whole picture */
+                expect((enum ceduo_plot)plot, width, height, charset[0] == 'a' ? ASCII : BRAILLE, row.at[2]);
+            if (row.at[3][0] && !shows((enum ceduo_plot)plot, width, height, row.at[3]))
+                fail_msg("%s: %s: '%s' is missing", row.at[0], row.at[1], row.at[3]);
+            if (row.at[4][0] && shows((enum ceduo_plot)plot, width, height, row.at[4]))
+                fail_msg("%s: %s: '%s' is shown", row.at[0], row.at[1], row.at[4]);
+        }
+}
+
+/* ---- the profile ---- */
 
 TEST_BARE(span_tells_where_the_slope_stands)
 {
@@ -107,20 +227,6 @@ TEST_BARE(span_tells_where_the_slope_stands)
     assert_true(span.x0 == 0);
     assert_true(span.x1 >= 100 && span.x1 < 104);
     assert_true(span.left >= 3 && span.left + span.width <= 80);
-}
-
-TEST_BARE(heights_are_stretched_where_the_slope_is_flat_and_the_factor_is_written)
-{
-    p.snapshot = NULL;
-    s.options[0].belts_count = 0;
-    s.z[1] = -2;
-    s.z[2] = -3;
-    s.scene.slope.origin_z = 3;
-    expect(CEDUO_PLOT_PROFILE, 60, 12, ASCII, "heights-are-stretched-where-the-slope-is-flat-and-the-factor-is-written");
-    assert_false(shows(CEDUO_PLOT_PROFILE, 200, 8, "heights"));
-    s.z[1] = -800; /* a wall: pressed */
-    s.z[2] = -900;
-    assert_true(shows(CEDUO_PLOT_PROFILE, 60, 12, "heights drawn 0."));
 }
 
 TEST_BARE(the_selected_way_is_drawn_over_all)
@@ -137,31 +243,13 @@ TEST_BARE(the_selected_way_is_drawn_over_all)
     ceduo_cells_free(cells);
 }
 
-TEST_WOODED(the_wooded_profile_says_whose_forest_it_is)
-{
-    expect(CEDUO_PLOT_PROFILE, 84, 20, ASCII, "the-wooded-profile-says-whose-forest-it-is");
-    s.options[0].name = "coppice with standards";
-    expect(CEDUO_PLOT_PROFILE, 60, 16, BRAILLE, "the-wooded-profile-says-whose-forest-it-is-2");
-    assert_true(shows(CEDUO_PLOT_PROFILE, 54, 16, "ways: coppice w"));
-    assert_true(shows(CEDUO_PLOT_PROFILE, 40, 12, "ways: copp"));
-}
-
 TEST_WOODED(ways_that_are_not_known_are_not_drawn)
 {
     s.wooded[0] = NULL;
     LOCAL(ceduo_cells, cells) = draw(CEDUO_PLOT_PROFILE, 60, 16, BRAILLE);
     assert_int_equal(cells_of(cells, CEDUO_ROLE_CLOUD), 0);
     assert_true(cells_of(cells, CEDUO_ROLE_STOOL) > 5);
-    assert_false(shows(CEDUO_PLOT_PROFILE, 60, 16, "ways:"));
 }
-
-/* Two of the upper half hit, one flown over; one in the lower half. */
-static const struct ceduo_stem_passed passed[] = {
-    {.x = 22, .y = 0.3, .dbh = 0.3, .height = 20, .hit = true},
-    {.x = 27, .y = -0.1, .dbh = 0.08, .height = 8, .shoot = true, .hit = true},
-    {.x = 32, .y = 0.2, .dbh = 0.08, .height = 8, .shoot = true},
-    {.x = 62, .y = -0.4, .dbh = 0.08, .height = 8, .shoot = true, .hit = true},
-};
 
 /* The rows of a column that hold dots of a role. */
 static int rows_of(const struct ceduo_cells *cells, int column, enum ceduo_role role)
@@ -208,29 +296,11 @@ TEST_WOODED(contacts_without_size_are_drawn_as_high_as_the_stand)
     assert_true(shows(CEDUO_PLOT_STAND, 84, 20, "One pattern of many"));
 }
 
-/* Survey coordinates on the axes, the same picture. */
-TEST_BARE(axes_have_the_users_coordinates)
-{
-    s.scene.slope.origin_x = 481000;
-    s.scene.slope.origin_z = 1000;
-    assert_true(shows(CEDUO_PLOT_PROFILE, 80, 24, "481040"));
-    assert_true(shows(CEDUO_PLOT_PROFILE, 80, 24, " 960+"));
-    assert_true(shows(CEDUO_PLOT_HEIGHT, 80, 24, "481040"));
-}
-
 /* ---- strips ---- */
-
-TEST_BARE(strips_show_quantiles_along_the_slope)
-{
-    expect(CEDUO_PLOT_HEIGHT, 60, 12, ASCII, "strips-show-quantiles-along-the-slope");
-    expect(CEDUO_PLOT_ENERGY, 60, 16, BRAILLE, "strips-show-quantiles-along-the-slope-2");
-}
 
 /* Strokes through the forest, dots without it. */
 TEST_WOODED(strips_show_the_wood_beside_the_bare_slope)
 {
-    expect(CEDUO_PLOT_HEIGHT, 70, 16, ASCII, "strips-show-the-wood-beside-the-bare-slope");
-    expect(CEDUO_PLOT_ENERGY, 70, 16, BRAILLE, "strips-show-the-wood-beside-the-bare-slope-2");
     LOCAL(ceduo_cells, cells) = draw(CEDUO_PLOT_ENERGY, 70, 16, BRAILLE);
     assert_true(cells_of(cells, CEDUO_ROLE_WOOD) > 30);
     assert_true(cells_of(cells, CEDUO_ROLE_BARE) > 30);
@@ -239,10 +309,6 @@ TEST_WOODED(strips_show_the_wood_beside_the_bare_slope)
 /* Where there is no room for four curves: the one that matters, with and without forest. */
 TEST_WOODED(small_strips_show_one_pair_of_curves)
 {
-    expect(CEDUO_PLOT_ENERGY, 70, 8, ASCII, "small-strips-show-one-pair-of-curves");
-    expect(CEDUO_PLOT_HEIGHT, 70, 8, BRAILLE, "small-strips-show-one-pair-of-curves-2");
-    assert_true(shows(CEDUO_PLOT_ENERGY, 50, 24, "mean energy, kJ  -- wood  .. bare"));
-    assert_false(shows(CEDUO_PLOT_ENERGY, 50, 24, "p95"));
     struct ceduo_span span = {4, 60, 0, 100}; /* leaves no room for names */
     p.span = &span;
     struct ceduo_area area = {0, 0, 70, 20};
@@ -270,35 +336,14 @@ TEST_WOODED(names_of_curves_follow_their_ends)
     free(text);
 }
 
-/* The wood's own peak is cut as well, and told by name. */
-TEST_WOODED(a_peak_in_the_wood_is_told)
-{
-    s.wood_envelopes[2].height.p95 = 30;
-    assert_true(shows(CEDUO_PLOT_HEIGHT, 120, 16, "; wood p95 up to 30.0 m, at 25.0 m"));
-    assert_true(shows(CEDUO_PLOT_HEIGHT, 70, 16, "; wood p95 up to 30.0 m"));
-}
-
 TEST_WOODED(strips_without_wooded_rocks)
 {
     stop_all();
-    assert_true(shows(CEDUO_PLOT_ENERGY, 70, 16, "bare mean"));
-    assert_false(shows(CEDUO_PLOT_ENERGY, 70, 16, "wood mean"));
     s.wooded[0] = NULL;
-    assert_true(shows(CEDUO_PLOT_ENERGY, 70, 16, "not computed yet"));
-    assert_true(shows(CEDUO_PLOT_HEIGHT, 70, 16, "not computed yet"));
     p.option = 1; /* no stems: both runs are one, drawn in strokes */
     LOCAL(ceduo_cells, cells) = draw(CEDUO_PLOT_ENERGY, 70, 8, BRAILLE);
     assert_true(cells_of(cells, CEDUO_ROLE_WOOD) > 30);
     assert_in_range(cells_of(cells, CEDUO_ROLE_BARE), 13, 20); /* 13: the words */
-}
-
-/* Nine places of ten say how high the scale goes; the tenth is told. */
-TEST_BARE(a_peak_is_cut_and_told)
-{
-    assert_false(shows(CEDUO_PLOT_HEIGHT, 80, 12, "up to"));
-    s.envelopes[2].height.max = 30;
-    assert_true(shows(CEDUO_PLOT_HEIGHT, 80, 12, "max up to 30.0 m, at 25.0 m"));
-    expect(CEDUO_PLOT_HEIGHT, 70, 16, ASCII, "a-peak-is-cut-and-told");
 }
 
 TEST_BARE(strips_share_the_profiles_columns)
@@ -319,138 +364,9 @@ TEST_BARE(strips_share_the_profiles_columns)
     assert_int_equal(rules[1], 2);
 }
 
-TEST_BARE(places_without_rocks_stay_empty)
-{
-    for (int i = 0; i < CELLS; i++)
-        s.envelopes[i] = no_rock;
-    assert_true(shows(CEDUO_PLOT_HEIGHT, 60, 12, "no rock passes here"));
-    assert_true(shows(CEDUO_PLOT_ENERGY, 60, 12, "no rock passes here"));
-    p.snapshot = NULL;
-    assert_true(shows(CEDUO_PLOT_ENERGY, 60, 12, "not computed yet"));
-}
-
 /* ---- bars ---- */
 
-TEST_BARE(histogram_counts_by_round_bins)
-{
-    expect(CEDUO_PLOT_HISTOGRAM, 60, 8, BRAILLE, "histogram-counts-by-round-bins");
-    expect(CEDUO_PLOT_HISTOGRAM, 60, 5, ASCII, "histogram-counts-by-round-bins-2");
-    p.control = 1;
-    assert_true(shows(CEDUO_PLOT_HISTOGRAM, 60, 8, "no rock arrives"));
-    p.control = 2;
-    assert_true(shows(CEDUO_PLOT_HISTOGRAM, 60, 8, "no control"));
-}
-
-TEST_BARE(a_long_tail_goes_into_one_bin)
-{
-    static double many[1000];
-    for (int i = 0; i < 1000; i++)
-        many[i] = i < 997 ? 1e3 * (i % 50) : 1e6;
-    s.energies[0] = (struct ceduo_energies){1000, many};
-    s.arrivals[0].reached = 1000;
-    expect(CEDUO_PLOT_HISTOGRAM, 70, 8, ASCII, "a-long-tail-goes-into-one-bin");
-    s.arrivals[0].reached = 5000;
-    assert_true(shows(CEDUO_PLOT_HISTOGRAM, 100, 8, "drawn: the first 1000"));
-}
-
-TEST_BARE(equal_energies_make_a_bin)
-{
-    for (int i = 0; i < ENERGIES; i++)
-        s.values[i] = 0;
-    assert_true(shows(CEDUO_PLOT_HISTOGRAM, 60, 8, "#  800 ")); /* all that arrive */
-    for (int i = 0; i < ENERGIES; i++)
-        s.values[i] = 5e12;
-    assert_true(shows(CEDUO_PLOT_HISTOGRAM, 60, 8, "#  800 ")); /* all that arrive */
-}
-
-/* Bars through the forest, marks without it, both of 1000 released. */
-TEST_WOODED(the_histogram_marks_the_bare_slope)
-{
-    expect(CEDUO_PLOT_HISTOGRAM, 74, 12, BRAILLE, "the-histogram-marks-the-bare-slope");
-    expect(CEDUO_PLOT_HISTOGRAM, 60, 6, ASCII, "the-histogram-marks-the-bare-slope-2");
-    assert_true(shows(CEDUO_PLOT_HISTOGRAM, 50, 12, "of 1000: 500 (| 800) arrive, 100 (| 200) > 40 kJ\n"));
-    s.controls[0].accepted = s.arrivals[0].exceed_probability = s.wood_arrivals[0].exceed_probability = NAN;
-    assert_true(shows(CEDUO_PLOT_HISTOGRAM, 74, 12, "of 1000: 500 (| 800) arrive\n"));
-    s.wood_arrivals[0].reached = 50;
-    assert_true(shows(CEDUO_PLOT_HISTOGRAM, 74, 12, "; drawn: the first 8"));
-    p.control = 1;
-    assert_true(shows(CEDUO_PLOT_HISTOGRAM, 74, 12, "no rock arrives"));
-}
-
-TEST_WOODED(the_histogram_without_wooded_rocks)
-{
-    stop_all();
-    expect(CEDUO_PLOT_HISTOGRAM, 74, 10, ASCII, "the-histogram-without-wooded-rocks");
-    s.wooded[0] = NULL;
-    assert_true(shows(CEDUO_PLOT_HISTOGRAM, 74, 12, "not computed yet"));
-    p.option = 1; /* no stems */
-    assert_true(shows(CEDUO_PLOT_HISTOGRAM, 74, 12, "of 1000: 800 (| 800) arrive"));
-}
-
-TEST_BARE(adc_shows_the_forms_beside_the_threshold)
-{
-    expect(CEDUO_PLOT_ADC, 70, 9, BRAILLE, "adc-shows-the-forms-beside-the-threshold");
-    s.scene.simulation.threshold = 1e-323; /* 1.5 times 5e-324 are 5e-324 again */
-    assert_true(shows(CEDUO_PLOT_ADC, 70, 9, "9.88131e-324 m:"));
-    s.scene.simulation.threshold = 30;
-    s.shoots.per_ha = 20;
-    s.belts[0].stand.stools_per_ha = 10;
-    s.belts[0].stand.trees_count = 0;
-    assert_true(shows(CEDUO_PLOT_ADC, 70, 9, " m x\n"));
-    p.option = 1;
-    assert_true(shows(CEDUO_PLOT_ADC, 70, 9, " none x\n"));
-    s.options[1].belts_count = 0;
-    assert_true(shows(CEDUO_PLOT_ADC, 70, 9, "no forest"));
-}
-
-TEST_BARE(many_belts_get_a_row_each)
-{
-    struct ceduo_belt belts[6];
-    for (int i = 0; i < 6; i++)
-        belts[i] = s.belts[i % 2];
-    s.options[0] = (struct ceduo_option){.name = "six", .belts_count = 6, .belts = belts};
-    expect(CEDUO_PLOT_ADC, 70, 7, ASCII, "many-belts-get-a-row-each");
-    assert_true(shows(CEDUO_PLOT_ADC, 70, 5, "and 3 more belts"));
-}
-
-TEST_BARE(options_stand_side_by_side)
-{
-    expect(CEDUO_PLOT_COMPARE, 80, 9, BRAILLE, "options-stand-side-by-side");
-    expect(CEDUO_PLOT_COMPARE, 110, 6, ASCII, "options-stand-side-by-side-2");
-    p.control = 1;
-    assert_true(shows(CEDUO_PLOT_COMPARE, 120, 6, "no rock arrives"));
-}
-
-TEST_WOODED(options_are_compared_by_what_gets_through)
-{
-    expect(CEDUO_PLOT_COMPARE, 80, 9, BRAILLE, "options-are-compared-by-what-gets-through");
-    expect(CEDUO_PLOT_COMPARE, 60, 7, ASCII, "options-are-compared-by-what-gets-through-2");
-    s.wood_arrivals[0].exceed_probability = 0.05;
-    assert_true(shows(CEDUO_PLOT_COMPARE, 80, 9, " 50.0 +"));
-    s.controls[0].accepted = s.arrivals[0].exceed_probability = s.wood_arrivals[0].exceed_probability = NAN;
-    expect(CEDUO_PLOT_COMPARE, 80, 9, ASCII, "options-are-compared-by-what-gets-through-3");
-}
-
-TEST_WOODED(options_without_wooded_rocks_are_compared)
-{
-    stop_all();
-    expect(CEDUO_PLOT_COMPARE, 80, 9, ASCII, "options-without-wooded-rocks-are-compared");
-    s.wooded[0] = NULL;
-    expect(CEDUO_PLOT_COMPARE, 80, 9, BRAILLE, "options-without-wooded-rocks-are-compared-2");
-    p.snapshot = NULL;
-    assert_true(shows(CEDUO_PLOT_COMPARE, 80, 9, "not computed yet"));
-}
-
 /* ---- the stand ---- */
-
-TEST_BARE(the_stand_is_drawn_to_scale)
-{
-    expect(CEDUO_PLOT_STAND, 60, 14, BRAILLE, "the-stand-is-drawn-to-scale");
-    p.option = 1;
-    assert_true(shows(CEDUO_PLOT_STAND, 60, 12, "No stems"));
-    p.belt = 1;
-    assert_true(shows(CEDUO_PLOT_STAND, 60, 12, "no forest"));
-}
 
 /* More stools are added to those that stand. */
 TEST_BARE(stems_that_stay_do_not_move)
@@ -494,39 +410,10 @@ TEST_WOODED(the_stand_shows_the_way_of_the_rock)
 {
     p.stems = passed;
     p.stems_count = 3;
-    expect(CEDUO_PLOT_STAND, 60, 14, BRAILLE, "the-stand-shows-the-way-of-the-rock");
     LOCAL(ceduo_cells, cells) = draw(CEDUO_PLOT_STAND, 60, 14, BRAILLE);
     assert_true(cells_of(cells, CEDUO_ROLE_WAY) >= 2);
     assert_true(cells_of(cells, CEDUO_ROLE_DIM) >= 1);
     assert_int_equal(cells_of(cells, CEDUO_ROLE_STEM) + cells_of(cells, CEDUO_ROLE_STOOL), 0);
-    p.stems_count = 4; /* the last one near the end of the belt */
-    assert_true(shows(CEDUO_PLOT_STAND, 60, 14, "The way of this rock: 1 stem hit in 20 m; across x"));
-    assert_true(shows(CEDUO_PLOT_STAND, 50, 14, "The way of this rock: 1 stem hit in 20 m;"));
-    s.scene.slope.origin_x = 1000;
-    assert_true(shows(CEDUO_PLOT_STAND, 60, 14, "1065"));
-}
-
-/* The last stem in another belt: the first 20 m with stems. A belt shorter than that is shown with what follows it. */
-TEST_WOODED(the_way_is_shown_in_the_belt_shown)
-{
-    struct ceduo_belt belts[3] = {s.belts[0], s.belts[0], s.belts[1]};
-    belts[0].to = 45;
-    belts[1].from = 60;
-    belts[1].to = 70;
-    belts[2].from = 70;
-    belts[2].to = 90;
-    s.options[0] = (struct ceduo_option){.name = "three", .belts_count = 3, .belts = belts};
-    p.stems = passed;
-    p.stems_count = 4;
-    assert_true(shows(CEDUO_PLOT_STAND, 70, 14, "; 1 flown over"));
-    p.belt = 1;
-    assert_true(shows(CEDUO_PLOT_STAND, 70, 14, "1 stem hit in 10 m;"));
-    p.belt = 2;
-    assert_true(shows(CEDUO_PLOT_STAND, 70, 14, "No stems"));
-    p.belt = 0;
-    p.stems = &passed[3];
-    p.stems_count = 1;
-    assert_true(shows(CEDUO_PLOT_STAND, 70, 14, "One pattern of many"));
 }
 
 TEST_BARE(a_dense_stand_is_drawn_in_time)
@@ -666,12 +553,4 @@ TEST_BARE(titles_name_what_is_shown)
         assert_string_equal(ceduo_text_string(&title), wanted.bytes);
     }
     assert_int_equal(ceduo_scene_last_control(&s.scene), 1);
-}
-
-/* What was not flown yet is named. */
-TEST_WOODED(pictures_name_what_is_not_known)
-{
-    s.wooded[0] = NULL;
-    assert_true(shows(CEDUO_PLOT_ENERGY, 60, 12, "not computed yet"));
-    assert_true(shows(CEDUO_PLOT_HISTOGRAM, 60, 12, "not computed yet"));
 }
