@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Ways and statistics whose results are known in closed form or from published tables. */
-#include "expect.h"
+#include "table.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -466,31 +466,23 @@ TEST(four_times_the_lengths_and_twice_the_speeds_are_the_same_way)
 
 /* ---- probabilities ---- */
 
-struct wilson_row {
-    uint64_t hits, n;
-    double lo, hi;
-};
-
 /* Newcombe 1998, Table I, method 3, to its four decimals; the rest by hand from Wilson 1927. */
 TEST(intervals_of_wilson)
 {
-    static const struct wilson_row rows[] = {{81, 263, .2553, .3662}, {15, 148, .0624, .1605}, {0, 20, 0, .1611},
-                                             {1, 29, .0061, .1718},   {29, 29, .8830, 1},      {0, 999, 0, .0038},
-                                             {999, 999, .9962, 1}};
-    for (size_t i = 0; i < LENGTH(rows); i++) {
-        double n = (double)rows[i].n, p = (double)rows[i].hits / n;
+    for (TABLE(row, "physics/statistics.txt", "Wilson")) {
+        double hits = atof(row.at[0]), n = atof(row.at[1]), p = hits / n;
         struct ceduo_rate share = ceduo_wilson(p, p, n);
         double lo = share.lo, hi = share.hi;
         EXPECT(share.rate, ==, p);
-        EXPECT_NEAR(lo, rows[i].lo, .5e-4 + 1e-12);
-        EXPECT_NEAR(hi, rows[i].hi, .5e-4 + 1e-12);
-        assert_true(rows[i].hits > 0 || lo == 0);
-        assert_true(rows[i].hits < rows[i].n || hi == 1);
+        EXPECT_NEAR(lo, atof(row.at[2]), .5e-4 + 1e-12);
+        EXPECT_NEAR(hi, atof(row.at[3]), .5e-4 + 1e-12);
+        assert_true(hits > 0 || lo == 0);
+        assert_true(hits < n || hi == 1);
         /* each bound p solves (hits/n - p)2 = z2 p(1 - p)/n */
         double z2 = 1.959963984540054 * 1.959963984540054;
-        if (rows[i].hits > 0)
+        if (hits > 0)
             expect_relative((p - lo) * (p - lo), z2 * lo * (1 - lo) / n, 1e-9);
-        if (rows[i].hits < rows[i].n)
+        if (hits < n)
             expect_relative((p - hi) * (p - hi), z2 * hi * (1 - hi) / n, 1e-9);
     }
     ROWS(EXPECT, (ceduo_wilson(0, 0, 0).lo, ==, 0), (ceduo_wilson(0, 0, 0).hi, ==, 1), (ceduo_wilson(0, 0, 999).hi, <, .004));
@@ -502,12 +494,8 @@ TEST(intervals_of_wilson)
 /* Student 1908; the quantiles of 97.5 % as any table has them. */
 TEST(widths_of_few)
 {
-    static const struct {
-        uint64_t n;
-        double t;
-    } rows[] = {{10, 2.262}, {16, 2.131}, {31, 2.042}, {121, 1.980}, {10000000, 1.960}};
-    for (size_t i = 0; i < LENGTH(rows); i++)
-        EXPECT_NEAR(ceduo_half_width(2, rows[i].n), 2 * rows[i].t, 1e-3);
+    for (TABLE(row, "physics/statistics.txt", "Student"))
+        EXPECT_NEAR(ceduo_half_width(2, (uint64_t)atof(row.at[0])), 2 * atof(row.at[1]), 1e-3);
     for (uint64_t n = 0; n < 10; n++) /* too few to say */
         assert_true(isnan(ceduo_half_width(1, n)));
     expect_relative(ceduo_half_width_of_share(0.25, 0.1, 50), 0.1959963984540054, 1e-15);
@@ -542,30 +530,10 @@ TEST(pairs_that_do_not_differ)
     EXPECT_IS(p, (se, 0), (below, 0));
 }
 
-/* Also of whole numbers that a product of doubles is above or below: .07, .55 and .29 of 100. */
 TEST(ranks_of_quantiles)
 {
-    static const struct {
-        double n, p, rank;
-    } rows[] = {{1, .5, 1},
-                {2, .5, 1},
-                {3, .5, 2},
-                {20, .95, 19},
-                {21, .95, 20},
-                {100, .95, 95},
-                {100, .99, 99},
-                {101, .95, 96},
-                {999, .95, 950},
-                {1000, .95, 950},
-                {10000000, .95, 9500000},
-                {10000001, .95, 9500001},
-                {100, .07, 7},
-                {100, .55, 55},
-                {100, .29, 29},
-                {5, 1, 5},
-                {10, 0, 1}};
-    for (size_t i = 0; i < LENGTH(rows); i++)
-        assert_int_equal(ceduo_quantile_rank((size_t)rows[i].n, rows[i].p), rows[i].rank);
+    for (TABLE(row, "physics/statistics.txt", "ranks"))
+        assert_int_equal(ceduo_quantile_rank((size_t)atof(row.at[0]), atof(row.at[1])), atof(row.at[2]));
 }
 
 /* P(X <= k) of the binomial law by its own sum. */
@@ -582,17 +550,11 @@ static long double binomial_below(size_t n, long double p, size_t k)
 /* The 95 % limits of a median are in many tables: 8 and 18 of 25, 18 and 33 of 50, 40 and 61 of 100 (Conover 1999). */
 TEST(intervals_of_quantiles)
 {
-    static const struct {
-        size_t n;
-        double p;
+    for (TABLE(row, "physics/statistics.txt", "intervals of quantiles")) {
         size_t lo, hi;
-    } rows[] = {{5, .5, 0, 6},     {10, .5, 2, 9},      {20, .5, 6, 15},      {25, .5, 8, 18},   {50, .5, 18, 33},
-                {100, .5, 40, 61}, {100, .95, 90, 100}, {999, .95, 935, 963}, {30, .95, 26, 31}, {1000, .95, 936, 964}};
-    for (size_t i = 0; i < LENGTH(rows); i++) {
-        size_t lo, hi;
-        ceduo_quantile_interval(rows[i].n, rows[i].p, &lo, &hi);
-        assert_int_equal(lo, rows[i].lo);
-        assert_int_equal(hi, rows[i].hi);
+        ceduo_quantile_interval((size_t)atof(row.at[0]), atof(row.at[1]), &lo, &hi);
+        assert_int_equal(lo, atof(row.at[2]));
+        assert_int_equal(hi, atof(row.at[3]));
     }
     const double shares[] = {.01, .05, .5, .95, .99};
     for (size_t i = 0; i < LENGTH(shares); i++)

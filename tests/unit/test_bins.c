@@ -34,31 +34,24 @@ static struct ceduo_envelope cell_of(const double *values, size_t n)
     return e;
 }
 
-/* 1.5 begins the bin from 48/32 to 49/32, whose middle is 97/64; that of a power of two is 65/64 of it. */
-TEST(a_cell_reads_the_middle_of_a_bin)
+/* Of speeds p5, p50, p95 and the largest. */
+static struct ceduo_envelope expect_speeds(const double *values, size_t n, double p5, double p50, double p95, double max)
 {
-    const double values[] = {1.5, 2};
-    struct ceduo_envelope e = cell_of(values, 2);
-    EXPECT(e.speed.p5, ==, 97. / 64);
-    EXPECT(e.speed.p50, ==, 97. / 64);
-    EXPECT(e.height.p50, ==, 97. / 128);
-    EXPECT(e.energy.p50, ==, 2 * 97. / 64);
-    EXPECT(e.mean_energy, ==, (2 * 97. / 64 + 4 * 65. / 64) / 2);
+    struct ceduo_envelope e = cell_of(values, n);
+    EXPECT_IS(e.speed, (p5, p5), (p50, p50), (p95, p95), (max, max));
+    return e;
 }
 
-/* The middle of the last bin lies above all that is in it. */
-TEST(a_cell_reads_no_more_than_the_largest)
+/* 1.5 begins the bin from 48/32 to 49/32, whose middle is 97/64; that of a power of two is 65/64 of it. The middle of the last
+ * bin lies above all that is in it. */
+TEST(a_cell_reads_the_middle_of_a_bin_and_no_more_than_the_largest)
 {
     const double values[] = {1.5, 2};
-    struct ceduo_envelope e = cell_of(values, 2);
-    EXPECT(e.speed.p95, ==, 2);
-    EXPECT(e.speed.max, ==, 2);
-    EXPECT(e.height.p95, ==, 1);
-    EXPECT(e.energy.p95, ==, 4);
-    e = cell_of(values, 1);
-    EXPECT(e.speed.p5, ==, 1.5);
-    EXPECT(e.speed.p50, ==, 1.5);
-    EXPECT(e.speed.p95, ==, 1.5);
+    struct ceduo_envelope e = expect_speeds(values, 2, 97. / 64, 97. / 64, 2, 2);
+    EXPECT_IS(e.height, (p50, 97. / 128), (p95, 1));
+    EXPECT_IS(e.energy, (p50, 2 * 97. / 64), (p95, 4));
+    EXPECT(e.mean_energy, ==, (2 * 97. / 64 + 4 * 65. / 64) / 2);
+    expect_speeds(values, 1, 1.5, 1.5, 1.5, 1.5);
 }
 
 /* Of 20 rocks 5, 50 and 95 % are the 1st, the 10th and the 19th; of 21 the 2nd, the 11th and the 20th. */
@@ -67,50 +60,28 @@ TEST(a_cell_reads_the_rock_of_the_rank)
     double values[21];
     for (int i = 0; i < 21; i++)
         values[i] = ldexp(1, i);
-    struct ceduo_envelope e = cell_of(values, 20);
-    EXPECT(e.speed.p5, ==, ldexp(65. / 64, 0));
-    EXPECT(e.speed.p50, ==, ldexp(65. / 64, 9));
-    EXPECT(e.speed.p95, ==, ldexp(65. / 64, 18));
-    e = cell_of(values, 21);
-    EXPECT(e.speed.p5, ==, ldexp(65. / 64, 1));
-    EXPECT(e.speed.p50, ==, ldexp(65. / 64, 10));
-    EXPECT(e.speed.p95, ==, ldexp(65. / 64, 19));
+    expect_speeds(values, 20, 65. / 64, ldexp(65. / 64, 9), ldexp(65. / 64, 18), 0x1p19);
+    expect_speeds(values, 21, 65. / 32, ldexp(65. / 64, 10), ldexp(65. / 64, 19), 0x1p20);
 }
 
-/* Speeds have 40 octaves from 2^-10 on: what is beyond them is in the last bin, from 2^29 63/32 to 2^30. */
-TEST(a_cell_has_an_end)
+/* Speeds have 40 octaves from 2^-10 on: what is beyond them is in the last bin, from 2^29 63/32 to 2^30. What lies below is
+ * read as 0, but for the largest; likewise where nothing is brought. */
+TEST(a_cell_has_a_beginning_and_an_end)
 {
-    const double values[] = {0x1p40};
-    struct ceduo_envelope e = cell_of(values, 1);
-    EXPECT(e.speed.p50, ==, 0x1p29 * (127. / 64));
-    EXPECT(e.speed.max, ==, 0x1p40);
-    EXPECT(e.passed, ==, 1);
+    const double values[] = {0x1p40, 0x1p-11, 0}, last = 0x1p29 * (127. / 64);
+    expect_speeds(values, 1, last, last, last, 0x1p40);
+    expect_speeds(values + 1, 1, 0, 0, 0, 0x1p-11);
+    EXPECT(expect_speeds(values + 2, 1, 0, 0, 0, 0).energy.max, ==, 0);
 }
 
-/* 2^-10 begins the smallest octave of a speed: what lies below it is read as 0, but for the largest; likewise where
- * nothing is brought. */
-TEST(a_cell_has_a_beginning)
-{
-    const double values[] = {0x1p-11, 0};
-    struct ceduo_envelope e = cell_of(values, 1);
-    EXPECT(e.speed.p50, ==, 0);
-    EXPECT(e.speed.max, ==, 0x1p-11);
-    e = cell_of(values + 1, 1);
-    EXPECT(e.speed.p50, ==, 0);
-    EXPECT(e.speed.max, ==, 0);
-    EXPECT(e.energy.max, ==, 0);
-}
-
-/* 1000 rocks of 1, 2, … 1000 m/s: more than wait at a time. The 500th lies in the bin of 496 to 504. */
+/* 1000 rocks of 1, 2, … 1000 m/s: more than wait at a time. The 50th, 500th and 950th lie in the bins of 50 to 51, 496 to 504
+ * and 944 to 960. */
 TEST(a_cell_counts_all_rocks)
 {
     double values[1000];
     for (int i = 0; i < 1000; i++)
         values[i] = i + 1;
-    struct ceduo_envelope e = cell_of(values, 1000);
-    EXPECT(e.speed.p50, ==, 500);
-    EXPECT(e.speed.max, ==, 1000);
-    EXPECT(e.height.max, ==, 500);
+    EXPECT(expect_speeds(values, 1000, 50.5, 500, 952, 1000).height.max, ==, 500);
 }
 
 /* ---- histograms of long runs: 16384 bins an octave ---- */

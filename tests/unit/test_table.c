@@ -11,6 +11,7 @@
 #include "ceduo/run.h"
 #include "io/scene_file.h"
 #include "scene/value.h"
+#include "unit/every_key.h"
 
 /* ---- every byte ---- */
 
@@ -208,12 +209,6 @@ TEST(paths_of_rows)
 
 /* ---- what a row decides about ---- */
 
-/* Together they give every key. */
-static const char *const scenes[] = {"tests/unit/every_key/cylinder.yaml", "tests/unit/every_key/options.yaml",
-                                     "tests/unit/every_key/grounds.yaml",  "tests/unit/every_key/profile.yaml",
-                                     "tests/unit/every_key/block.yaml",    "tests/unit/every_key/poisson.yaml",
-                                     "tests/unit/every_key/blocks.yaml"};
-
 /* What a scene decides about. */
 struct keys {
     uint64_t flight, years;
@@ -273,17 +268,6 @@ static size_t other_values(const struct field *f, const char **to)
     return n;
 }
 
-/* The path of a parameter in the first item of each list. */
-static void first_place(const char *path, const struct field *f, struct text *to)
-{
-    for (; *path; path++) {
-        ceduo_text_char(to, *path);
-        if (*path == '[')
-            ceduo_text_char(to, '0');
-    }
-    ceduo_text_put(to, f->type == FIELD_POINTS ? "[1][1]" : f->type == FIELD_NUMBERS || f->type == FIELD_SPREADS ? "[0]" : "");
-}
-
 static void check_row(void *context, const char *path, const struct field *f)
 {
     const struct keys *before = context;
@@ -294,7 +278,7 @@ static void check_row(void *context, const char *path, const struct field *f)
         strncmp(path, "observed[]", 10) == 0 || strncmp(path, "options[].forest[].", 19) == 0)
         return; /* grounds must meet, so that no end of one can be changed alone; a base is followed before it is set;
                  * options hold what the forest does; a profile says itself whether it is reversed; of a doubt nothing can be changed alone; what was seen has test_observed.py */
-    first_place(path, f, &place);
+    first_place(path, f, "[1][1]", &place);
     for (size_t i = 0; i < LENGTH(scenes); i++) {
         const char *values[64];
         size_t n = other_values(f, values);
@@ -342,7 +326,7 @@ static void check_put(void *context, const char *path, const struct field *f)
 {
     (void)context;
     struct text place = {0};
-    first_place(path, f, &place);
+    first_place(path, f, "[1][1]", &place);
     for (size_t i = 0; i < LENGTH(scenes); i++) {
         const char *values[64];
         struct scene_file file = {0};

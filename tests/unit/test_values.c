@@ -12,15 +12,9 @@
 #include "io/emit.h"
 #include "io/node.h"
 #include "io/scene_file.h"
-#include "scene/schema.h"
+#include "unit/every_key.h"
 
 /* ---- ranges ---- */
-
-/* Together they give every key. */
-static const char *const scenes[] = {"tests/unit/every_key/cylinder.yaml", "tests/unit/every_key/options.yaml",
-                                     "tests/unit/every_key/grounds.yaml",  "tests/unit/every_key/profile.yaml",
-                                     "tests/unit/every_key/block.yaml",    "tests/unit/every_key/poisson.yaml",
-                                     "tests/unit/every_key/blocks.yaml"};
 
 /* What is told of a scene with path=value; NULL where it has no place for that. To be freed. */
 static char *told_of(const char *scene, const char *path, const char *value)
@@ -78,12 +72,7 @@ static void try_field(void *context, const char *path, const struct field *f)
     if (f->type != FIELD_NUMBER && f->type != FIELD_SPREAD && f->type != FIELD_COUNT && !listed)
         return;
     LOCAL_BY(ceduo_text_free) struct text place = {0}, whole = {0};
-    for (; *path; path++) { /* in the first item of each list */
-        ceduo_text_char(&place, *path);
-        if (*path == '[')
-            ceduo_text_char(&place, '0');
-    }
-    ceduo_text_put(&place, listed ? "[0]" : "");
+    first_place(path, f, "[0]", &place);
     ceduo_text_format(&whole, "%s%s", place.bytes, points ? "[1]" : "");
     bool count = f->type == FIELD_COUNT;
     assert_true(isfinite(f->lo));
