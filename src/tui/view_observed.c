@@ -187,18 +187,17 @@ static void say_fit(const struct fit *f, struct ceduo_page *page)
 
 /* ---- what was observed, to edit ---- */
 
-/* What is asked for, in the order in which it is shown; `key`: what adds it. */
-static const struct {
-    const char *group;
-    char key;
-    const char *what;
-} groups[] = {{"stops", 's', N_("stops: where rocks came to rest")},
-              {"passed", 'c', N_("a count: how many passed a place")},
-              {"height", 'h', N_("heights above the ground at a place, m")},
-              {"scars", 'd', N_("damaged stems: heights of their scars, m")},
-              {"speed", 'v', N_("speeds at a place, m/s")},
-              {"energy", 'e', N_("energies at a place, kJ")}};
-#define GROUPS (sizeof groups / sizeof groups[0])
+/* The next kind of what is seen behind a field of the schema (NULL: the first), a group that has numbers of its own; NULL behind
+ * the last. */
+static const struct field *next_kind(const struct field *f)
+{
+    const struct object *o = ceduo_schema_row("observed")->object;
+    for (f = f ? f + 1 : o->fields; f < o->fields + o->n; f++)
+        for (size_t k = 0; f->object && k < f->object->n; k++)
+            if (f->object->fields[k].type == FIELD_NUMBERS || f->object->fields[k].type == FIELD_COUNT)
+                return f;
+    return NULL;
+}
 
 /* The first item of the list that has the group, and in it the key (NULL: any); NULL: none has. */
 static const struct node *first_with(const struct node *rows, const char *group, const char *key)
@@ -213,20 +212,19 @@ static const struct node *first_with(const struct node *rows, const char *group,
 
 static void build(struct app *app, struct form *form)
 {
-    const struct object *object = ceduo_schema_row("observed")->object;
     const struct node *rows = ceduo_document_node(&app->document, "observed");
     if (!rows || rows->kind != NODE_LIST || rows->n == 0)
         return;
-    for (size_t i = 0; i < GROUPS; i++) {
-        const struct object *of = ceduo_schema_field(object, groups[i].group)->object;
+    for (const struct field *kind = next_kind(NULL); kind; kind = next_kind(kind)) {
+        const struct object *of = kind->object;
         LOCAL_TEXT(keys); /* all but those of a table of values, where there is none */
-        if (!first_with(rows, groups[i].group, NULL))
+        if (!first_with(rows, kind->key, NULL))
             continue;
         for (size_t k = 0; k < of->n; k++)
-            if (of->fields[k].type > FIELD_FILE || first_with(rows, groups[i].group, of->fields[k].key))
+            if (of->fields[k].type > FIELD_FILE || first_with(rows, kind->key, of->fields[k].key))
                 ceduo_text_then(&keys, keys.length > 0 ? " " : "", "%s", of->fields[k].key);
-        ceduo_form_heading(form, _(groups[i].what));
-        ceduo_form_table(form, "observed", groups[i].group, ceduo_text_string(&keys));
+        ceduo_form_heading(form, _(kind->meaning));
+        ceduo_form_table(form, "observed", kind->key, ceduo_text_string(&keys));
     }
     ceduo_form_heading(form, _("All that was seen"));
     ceduo_form_table(form, "observed", NULL, "name use option");
@@ -240,8 +238,9 @@ static void chose_group(struct app *app, struct popup *p)
 static void add(struct app *app)
 {
     struct popup *p = ceduo_popup_list(app, _("What was seen?"), "", chose_group);
-    for (size_t i = 0; i < GROUPS; i++)
-        ceduo_popup_answer(p, groups[i].key, _(groups[i].what), groups[i].group);
+    char key = '1';
+    for (const struct field *kind = next_kind(NULL); kind; kind = next_kind(kind))
+        ceduo_popup_answer(p, key++, _(kind->meaning), kind->key);
 }
 
 /* ---- drawing ---- */
