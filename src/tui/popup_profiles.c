@@ -121,33 +121,22 @@ static void preview_ground(struct app *app, struct popup *p)
         ceduo_text_format(&p->text, _("Rn %.3g, Rt %.3g; %s\n"), rows[i].rn, rows[i].rt, rows[i].source);
 }
 
-/* What a preset would give, in the lines over the list. */
+/* What a stand of the list has, over the list. */
 static void preview_stand(struct app *app, struct popup *p)
 {
-    if (strcmp(p->value, STAND_COUNTED) == 0) {
-        ceduo_text_put(&p->text, _("asks for the plot's size, what was counted there, diameters and heights"));
-    } else if (strcmp(p->value, STAND_SURVEY) == 0) {
-        ceduo_text_put(&p->text,
-                       _("asks for the CSV file, and takes densities with their errors, classes and heights from it"));
-    } else {
-        struct scene_file file;
-        if (read_stand(app, p->value, &file)) {
-            const struct ceduo_belt *b = &file.scene.options[0].belts[0];
-            struct ceduo_stand_result r = ceduo_assess_stand(&file.scene, b);
-            const char *rule = ceduo_words_law(ceduo_rule_words.names[r.rule]);
-            ceduo_text_format(&p->text, _("%s: %.0f stools, %.0f stems, %.0f trees per ha; basal area %.1f m2/ha\n"), b->name,
-                              r.stools_per_ha, r.stems_per_ha, r.trees_per_ha, r.basal_area);
-            if (r.bare)
-                ceduo_text_put(&p->text, _("no stems\n"));
-            else if (isnan(r.dissipated))
-                ceduo_text_format(&p->text, _("with this rock: ADC %.3g m, free run %.1f %%; contacts take shares (%s)\n"),
-                                  r.adc_m, r.free_run_probability * 100, rule);
-            else
-                ceduo_text_format(&p->text, _("with this rock: ADC %.3g m, free run %.1f %%, %.3g kJ/100 m (%s)\n"), r.adc_m,
-                                  r.free_run_probability * 100, r.dissipated * J_TO_KJ, rule);
-        }
-        ceduo_scene_release(&file);
+    struct scene_file file = {0};
+    if (strcmp(p->value, STAND_COUNTED) != 0 && strcmp(p->value, STAND_SURVEY) != 0 && read_stand(app, p->value, &file)) {
+        const struct ceduo_belt *b = &file.scene.options[0].belts[0];
+        struct ceduo_stand_result r = ceduo_assess_stand(&file.scene, b);
+        ceduo_text_format(&p->text, _("%s: %.0f stools, %.0f stems, %.0f trees per ha; basal area %.1f m2/ha\n"), b->name,
+                          r.stools_per_ha, r.stems_per_ha, r.trees_per_ha, r.basal_area);
+        if (!r.bare)
+            ceduo_text_format(&p->text, _("with this rock: ADC %.3g m, free run %.1f %% (%s)"), r.adc_m,
+                              r.free_run_probability * 100, ceduo_words_law(ceduo_rule_words.names[r.rule]));
+        if (!r.bare && !isnan(r.dissipated))
+            ceduo_text_then(&p->text, "; ", _("%.3g kJ per 100 m"), r.dissipated * J_TO_KJ);
     }
+    ceduo_scene_release(&file);
 }
 
 /* ---- a stand from a survey: a CSV file of sample plots ---- */

@@ -74,13 +74,13 @@ def test_string_in_the_help():
     """A string whose end comes in two pieces is no Esc: an open list stays open."""
     with Place() as place, Tmux(place) as t:
         t.start("fast.yaml")
-        t.keys(":")
-        t.sees("Commands", "search:")
+        t.keys("w")
+        t.sees("Export", "search:")
         t.text("\x1b]11;rgb:0\x1b")
         time.sleep(PAUSE)
         t.text("\\")
-        t.text("redo")
-        t.sees("Commands", "search: redo")
+        t.text("json")
+        t.sees("Export", "search: json")
 
 
 def test_escape_goes_on():
@@ -88,8 +88,8 @@ def test_escape_goes_on():
     with Place() as place, Tmux(place) as t:
         t.start("fast.yaml")
         for after in ("", "2", "\x1b", "\x1b[B", "\x1b[M ,!"):
-            t.keys("1", ":")
-            t.sees("Commands", "search:")
+            t.keys("1", "w")
+            t.sees("Export", "search:")
             t.text("\x1b" + after)
             t.sees("stools per ha" if after in ("2", "\x1b[M ,!") else "Belts of forest", lacks=("search:",))
         for held in ("\x1b[", "\x1bO", "\x1b]"):
@@ -176,10 +176,10 @@ def test_paste_list():
     """In a list and in fields a paste is what is typed; in a text it does nothing."""
     with Place() as place, Tmux(place) as t:
         t.start("fast.yaml")
-        t.keys(":")
-        t.sees("Commands", "search:")
-        paste(t, "redo\n")
-        t.sees("search: redo", "Ctrl-R", lacks=("undo",))
+        t.keys("w")
+        t.sees("Export", "search:")
+        paste(t, "json\n")
+        t.sees("search: json", "JSON", lacks=("CSV",))
         t.keys("Escape", "/")
         t.sees("Search in this view")
         paste(t, "accepted_kJ\n")

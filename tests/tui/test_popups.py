@@ -282,16 +282,6 @@ def test_picker():
     expect_equal(species[1].row("^species")[1:], ["beech", "(Fagus", "sylvatica)"])
 
 
-def test_commands():
-    """: lists every command by what it does; typing finds it, Enter runs it."""
-    listed, ran = fast("key :\ndump\ntype rotation\nkey Enter\ndump")
-    listed.has("Commands", "search: _")
-    expect_in("6 rotation", ran.title)
-    expect(ran.body != listed.body, ran)
-    undone = fast("key 2\nfind stools.per_ha\nset 9\nkey :\ntype undo\nkey Enter\ndump")[0]
-    expect_in("undone", undone.note)
-
-
 # ---- search, help, counts ----
 
 def test_search():
