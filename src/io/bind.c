@@ -17,15 +17,11 @@
 #define KEYS_ALL_TOLD   4 /* so few are told, unless what is meant begins alike */
 
 struct binder {
-    struct arena *arena;
-    struct problems *problems;
+    const struct binding *to;
     struct text path;
     size_t file_start; /* where the path within the present file begins */
     bool partial;      /* what the present mapping starts from is not known */
-    const struct binding *to;
-    struct bad_values *bad;
-    const struct source_note **notes;
-    double end; /* of the profile, m; NaN: not asked yet, or not known */
+    double end;        /* of the profile, m; NaN: not asked yet, or not known */
 };
 
 /* ---- reporting ---- */
@@ -52,9 +48,9 @@ static const char *path_here(const struct binder *b)
 /* Marks the value at the current path as invalid; later checks skip it. */
 static void note_bad(struct binder *b)
 {
-    struct bad_values *bad = b->bad;
+    struct bad_values *bad = b->to->bad;
     bool room = bad->n < CEDUO_BAD_MOST;
-    const char *path = room ? ceduo_arena_string(b->arena, ceduo_text_string(&b->path)) : NULL;
+    const char *path = room ? ceduo_arena_string(b->to->arena, ceduo_text_string(&b->path)) : NULL;
     if (path)
         bad->paths[bad->n] = path;
     bad->n += path || !room;
@@ -65,7 +61,7 @@ __attribute__((format(printf, 3, 4))) static void report(struct binder *b, const
 {
     va_list args;
     va_start(args, format);
-    ceduo_problem_v(b->problems, place_of(node, path_here(b)), format, args);
+    ceduo_problem_v(b->to->problems, place_of(node, path_here(b)), format, args);
     va_end(args);
     note_bad(b);
 }
@@ -124,12 +120,12 @@ static void report_unknown_key(struct binder *b, const struct object *object, co
     }
     size_t before = enter(b, entry->key);
     if (entry->source->foreign && !instead) { /* whose key is not repeated */
-        ceduo_problem_at(b->problems, place, near ? _("unknown key; did you mean '%s'?") : _("unknown key; known here: %s"),
+        ceduo_problem_at(b->to->problems, place, near ? _("unknown key; did you mean '%s'?") : _("unknown key; known here: %s"),
                          "");
     } else {
         place.path = path_here(b);
         place.own = true;
-        ceduo_problem_at(b->problems, place, "%s", instead ? _(instead) : ceduo_text_string(&said));
+        ceduo_problem_at(b->to->problems, place, "%s", instead ? _(instead) : ceduo_text_string(&said));
     }
     leave(b, before);
     if (near) { /* what was meant is not known, but it is not missing */
@@ -149,7 +145,7 @@ static bool want(struct binder *b, const struct node *node, enum node_kind kind,
     const char *found = node->kind == NODE_MAP ? _("a mapping") : node->kind == NODE_LIST ? _("a list") : _("a single value");
     struct problem_place place = place_of(node, path_here(b));
     place.own = true;
-    ceduo_problem_at(b->problems, place, _("expected %s, not %s"), wanted, found);
+    ceduo_problem_at(b->to->problems, place, _("expected %s, not %s"), wanted, found);
     note_bad(b);
     return false;
 }
@@ -230,8 +226,8 @@ static bool check_range(struct binder *b, const struct field *f, const struct no
 static bool bind_number(struct binder *b, const struct field *f, const struct node *node, double *to)
 {
     double value;
-    size_t wrong = b->bad->n;
-    if (!read_place(b, f, node, &value) && (b->bad->n > wrong || !read_number(b, node, &value)))
+    size_t wrong = b->to->bad->n;
+    if (!read_place(b, f, node, &value) && (b->to->bad->n > wrong || !read_number(b, node, &value)))
         return false;
     if (!check_range(b, f, node, value))
         return false;
@@ -320,8 +316,8 @@ static void bind_list(struct binder *b, const struct field *f, const struct node
         return;
     if (!one && !want(b, node, NODE_LIST, _("a list")))
         return;
-    void *items[2] = {ceduo_arena_take(b->arena, (n + 1) * size),
-                      points ? ceduo_arena_take(b->arena, (n + 1) * size) : NULL}; /* x and z of points */
+    void *items[2] = {ceduo_arena_take(b->to->arena, (n + 1) * size),
+                      points ? ceduo_arena_take(b->to->arena, (n + 1) * size) : NULL}; /* x and z of points */
     if (!items[0] || (points && !items[1]))
         return;
     if (!(f->flags & FIELD_NOWHERE)) {
@@ -416,16 +412,16 @@ static void add_note(struct binder *b, const char *kind, const char *text, const
     bool of_range = ceduo_path_leads_to("doubt", path) || strstr(path, ".stand.doubt[");
     if (of_range || ceduo_path_leads_to("observed", path)) /* not of a value that is computed with */
         return;
-    struct source_note *note = ceduo_arena_take(b->arena, sizeof *note);
+    struct source_note *note = ceduo_arena_take(b->to->arena, sizeof *note);
     if (!note)
         return;
-    *note = (struct source_note){.path = ceduo_arena_string(b->arena, path),
+    *note = (struct source_note){.path = ceduo_arena_string(b->to->arena, path),
                                  .kind = kind,
-                                 .text = ceduo_arena_string(b->arena, text),
-                                 .text_it = text_it ? ceduo_arena_string(b->arena, text_it) : NULL,
-                                 .before = *b->notes};
+                                 .text = ceduo_arena_string(b->to->arena, text),
+                                 .text_it = text_it ? ceduo_arena_string(b->to->arena, text_it) : NULL,
+                                 .before = *b->to->notes};
     if (note->path && note->text)
-        *b->notes = note;
+        *b->to->notes = note;
 }
 
 /* source: {kind: measured|literature|assumed|calibrated, text: …, text_it: …, except: […]} may stand in any mapping. */
@@ -486,14 +482,14 @@ static void report_missing(struct binder *b, const struct object *object, const 
             continue;
         size_t before = enter(b, f->key);
         bool told = false;
-        for (size_t k = 0; k < b->bad->n && k < CEDUO_BAD_MOST; k++)
-            told |= strcmp(b->bad->paths[k], ceduo_text_string(&b->path)) == 0;
+        for (size_t k = 0; k < b->to->bad->n && k < CEDUO_BAD_MOST; k++)
+            told |= strcmp(b->to->bad->paths[k], ceduo_text_string(&b->path)) == 0;
         note_bad(b);
         leave(b, before);
         struct problem_place place = place_of(node, path_here(b));
         place.own = true;
         if (!told) /* the mapping itself is good */
-            ceduo_problem_at(b->problems, place, _("'%s' is missing: %s"), f->key,
+            ceduo_problem_at(b->to->problems, place, _("'%s' is missing: %s"), f->key,
                              f->type == FIELD_TAG ? f->value : _(f->meaning));
     }
 }
@@ -558,7 +554,7 @@ static void bind_map(struct binder *b, const struct object *object, const struct
 
 void ceduo_bind(const struct binding *to, const struct object *object, const struct node *node, void *item)
 {
-    struct binder b = {.arena = to->arena, .problems = to->problems, .to = to, .notes = to->notes, .bad = to->bad, .end = NAN};
+    struct binder b = {.to = to, .end = NAN};
     bind_map(&b, object, node, item);
     ceduo_text_free(&b.path);
 }

@@ -1,9 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "csv.h"
 
+#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
+#include <uniconv.h>
 #include <unistr.h>
 
 #include "base/language.h"
@@ -20,35 +22,24 @@
  * be read so stays as it is. False without memory. */
 static bool recode(struct arena *arena, struct source *s)
 {
-    static const uint16_t high[32] = {
-        0x20ac, 0x81,   0x201a, 0x192,  0x201e, 0x2026, 0x2020, 0x2021, 0x2c6,  0x2030, 0x160,
-        0x2039, 0x152,  0x8d,   0x17d,  0x8f,   0x90,   0x2018, 0x2019, 0x201c, 0x201d, 0x2022,
-        0x2013, 0x2014, 0x2dc,  0x2122, 0x161,  0x203a, 0x153,  0x9d,   0x17e,  0x178}; /* from 0x80 on */
     const unsigned char *p = (const unsigned char *)s->bytes;
-    size_t n = s->length;
+    size_t n = s->length, length;
     bool marked = n >= 2 && ((p[0] == 0xff && p[1] == 0xfe) || (p[0] == 0xfe && p[1] == 0xff));
     bool wide = n % 2 == 0 &&
                 (marked || (n >= 4 && (p[0] == 0) != (p[1] == 0) && (p[2] == 0) == (p[0] == 0) && (p[3] == 0) == (p[1] == 0)));
     bool big = wide && (marked ? p[0] == 0xfe : p[0] == 0);
     if (!wide && !u8_check(p, n))
         return true;
-    size_t count = wide ? n / 2 - marked : n, length;
-    uint16_t *units = calloc(count + 1, sizeof *units);
-    for (size_t i = 0; units && i < count; i++)
-        if (wide)
-            units[i] = (uint16_t)(p[2 * (i + marked) + big] | p[2 * (i + marked) + !big] << 8);
-        else
-            units[i] = p[i] >= 0x80 && p[i] < 0xa0 ? high[p[i] - 0x80] : p[i];
-    uint8_t *bytes = units ? u16_to_u8(units, count, NULL, &length) : NULL;
-    const char *kept = bytes ? ceduo_arena_copy(arena, (const char *)bytes, length) : NULL;
-    bool good = kept || (units && !bytes && wide); /* halves of characters: no UTF-16 */
-    if (kept) {
-        s->bytes = kept;
-        s->length = length;
-    }
-    free(units);
+    size_t skip = wide && marked ? 2 : 0;
+    uint8_t *bytes =
+        u8_conv_from_encoding(wide ? big ? "UTF-16BE" : "UTF-16LE" : "CP1252", /* of which each byte is a sign */
+                              wide ? iconveh_error : iconveh_question_mark, s->bytes + skip, n - skip, NULL, NULL, &length);
+    bool lost = !bytes && errno == ENOMEM;
+    const char *kept = bytes ? ceduo_arena_copy(arena, (const char *)bytes, length) : s->bytes;
+    s->length = bytes ? length : n;
+    s->bytes = kept;
     free(bytes);
-    return good;
+    return kept && !lost;
 }
 
 /* ---- lines and fields ---- */

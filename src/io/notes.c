@@ -15,17 +15,9 @@ bool ceduo_note_of_years(const struct source_note *note)
     return strstr(note->path, ".growth") != NULL || strstr(note->path, ".cutting") != NULL;
 }
 
-bool ceduo_notes_assume(const struct source_note *notes, const char *path)
+bool ceduo_notes_say(const struct source_note *notes, const char *kind, const char *path)
 {
-    while (notes &&
-           !(strcmp(notes->kind, "assumed") == 0 && ceduo_path_leads_to(path, notes->path) && !ceduo_note_of_years(notes)))
-        notes = notes->before;
-    return notes != NULL;
-}
-
-bool ceduo_notes_calibrated(const struct source_note *notes, const char *path)
-{
-    while (notes && !(strcmp(notes->kind, "calibrated") == 0 && ceduo_path_leads_to(path, notes->path)))
+    while (notes && !(strcmp(notes->kind, kind) == 0 && ceduo_path_leads_to(path, notes->path) && !ceduo_note_of_years(notes)))
         notes = notes->before;
     return notes != NULL;
 }

@@ -20,7 +20,7 @@ static const char *const facets[] = {[CEDUO_AGAINST] = N_("against"), [CEDUO_BOT
 
 static const char *assumed_mark(const struct ceduo_report *report, const char *path)
 {
-    return ceduo_notes_assume(report->file->notes, path) ? "*" : "";
+    return ceduo_notes_say(report->file->notes, "assumed", path) ? "*" : "";
 }
 
 void ceduo_page_facts(struct ceduo_page *page, const struct ceduo_report *report)
@@ -347,7 +347,7 @@ void ceduo_page_design(struct ceduo_page *page, const struct ceduo_report *repor
     const struct ceduo_result *r = report->result;
     const struct ceduo_design_values *d = &r->scene->design;
     const struct ceduo_arrivals *wooded = ceduo_result_wooded(r, option, control), *bare = &r->bare.arrivals[control];
-    bool calibrated = ceduo_notes_calibrated(report->file->notes, "slope");
+    bool calibrated = ceduo_notes_say(report->file->notes, "calibrated", "slope");
     double survey = FACTOR(d->survey == CEDUO_SURVEY_GOOD), blocks = FACTOR(d->blocks == CEDUO_SURVEY_GOOD);
     double model = FACTOR(calibrated), speed = survey * model, energy = J_TO_KJ * speed * speed * blocks;
     if (d->survey < 0 || d->blocks < 0 || isnan(bare->speed.p95))

@@ -33,7 +33,7 @@ static void add_scene(struct ceduo_page *page, const struct ceduo_pane *pane)
         ceduo_page_line(page, CEDUO_ROLE_TEXT, _("Blocks %.3g\xe2\x80\x93%.3g m\xc2\xb3, %.3g/year"), min, max, per_year);
     else if (!isnan(rock.mass) && pane->height >= HEIGHT_MIN)
         ceduo_page_line(page, CEDUO_ROLE_TEXT, _("Rock %.3g m, %.4g kg%s"), rock.mean_diameter, rock.mass,
-                        ceduo_notes_assume(pane->file->notes, "rock") ? "*" : "");
+                        ceduo_notes_say(pane->file->notes, "assumed", "rock") ? "*" : "");
 }
 
 /* ---- what arrives ---- */

@@ -430,9 +430,10 @@ TEST(notes_are_found)
         assert_string_equal(note ? note->text : "none", row.at[1]);
         assert_int_equal(ceduo_scene_assumes_value(&file, row.at[0]), strcmp(row.at[2], "assumed") == 0);
     }
-    assert_true(ceduo_notes_assume(file.notes, "forest[0].stand"));
-    assert_true(ceduo_notes_assume(file.notes, "forest"));
-    assert_false(ceduo_notes_assume(file.notes, "forest[0].stand.shoots") || ceduo_notes_assume(file.notes, "forest[0].sta"));
+    assert_true(ceduo_notes_say(file.notes, "assumed", "forest[0].stand"));
+    assert_true(ceduo_notes_say(file.notes, "assumed", "forest"));
+    assert_false(ceduo_notes_say(file.notes, "assumed", "forest[0].stand.shoots") ||
+                 ceduo_notes_say(file.notes, "assumed", "forest[0].sta"));
 }
 
 /* ---- the table of parameters ---- */
