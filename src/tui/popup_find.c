@@ -136,41 +136,18 @@ static bool filled_find(struct app *app, struct popup *p)
 
 /* ---- what was found ---- */
 
-/* What was found, how far it goes, and whether it is the only one; of a rotation its yield beside the answer. */
+/* What was found, and whether it is the only one; of a rotation its yield beside the answer. */
 static void append_words(struct app *app, struct popup *p, const struct ceduo_search *s, const struct search_answer *answer,
                          struct text *text)
 {
     const struct ceduo_found *f = &answer->found;
-    const struct form_cell *cell = ceduo_form_cell(ceduo_app_form(app));
     const struct field *field = field_of(app, p->path);
-    const char *lo = p->fields[FIND_LO].line.text, *hi = p->fields[FIND_HI].line.text, *unit = _(goals[row_of(s->goal)].unit);
-    double per = goals[row_of(s->goal)].per, at = f->found ? f->goal_at_value : f->goal_at_nearest;
     char room[CEDUO_NUMBER_ROOM];
-    const char *amount =
-        isinf(at) ? _("without end") : ceduo_app_format(app, "%s %s", BESIDE(at * per, 3, s->target * per), unit);
-    const char *reached = ceduo_app_format(app, "%s %s", _(ceduo_goals[s->goal].name), amount);
-    if (f->found && f->whole_range) { /* then the value that is there is as good as another */
-        ceduo_text_format(text, _("every value from %s to %s reaches the goal; the field stays %s"), lo, hi,
-                          cell && cell->text[0] ? cell->text : _("as it is"));
-    } else {
-        if (f->found)
-            ceduo_text_format(text, "%s = ", ceduo_app_path(app, p->path));
-        if (f->found)
-            ceduo_text_format(text,
-                              f->side == CEDUO_SMALLEST ? _("%s: the smallest value that reaches the goal; %s")
-                                                        : _("%s: the largest value that reaches the goal; %s"),
-                              ceduo_shown_number(field, f->value, room), reached);
-        else
-            ceduo_text_format(text, _("no value from %s to %s reaches the goal"), lo, hi);
-        if (!f->found && !isnan(f->nearest))
-            ceduo_text_then(text, "; ", _("nearest is %s with %s"), ceduo_shown_number(field, f->nearest, room), reached);
-        if (s->sure == 0) /* otherwise there is no room, and it was typed */
-            ceduo_text_then(text, " ",
-                            ceduo_goals[s->goal].below ? _("(below %g %s is wanted)") : _("(at most %g %s is wanted)"),
-                            s->target * per, unit);
-        if (!f->monotone)
-            ceduo_text_then(text, "; ", _("not monotone: there may be other values"));
-    }
+    if (f->found && !f->whole_range) /* otherwise the field keeps its value */
+        ceduo_text_format(text, "%s = %s: ", ceduo_app_path(app, p->path), ceduo_shown_number(field, f->value, room));
+    ceduo_find_words(text, s, f, field, s->sure == 0); /* otherwise there is no room, and it was typed */
+    if (!f->monotone)
+        ceduo_text_then(text, "; ", _("not monotone: there may be other values"));
     if (s->sure > 0) {
         ceduo_text_put(text, "; ");
         ceduo_find_sure(text, s, &answer->sure, field);

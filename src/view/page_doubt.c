@@ -301,10 +301,6 @@ static void add_inputs(struct ceduo_page *page, const struct ceduo_doubt_report 
     }
     if (rest == f->uses)
         ceduo_page_note(page, _("No input stands out; more points (--sensitivity=N) may tell."));
-    else if (rest > 0)
-        ceduo_page_say(page, CEDUO_PAGE_NOTE,
-                       ngettext("%zu other input has hardly any effect.", "%zu other inputs have hardly any effect.", rest),
-                       rest);
 }
 
 /* The name of an input and what would measure it: that of an energy law is known, though no value of it is. */

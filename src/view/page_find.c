@@ -44,37 +44,46 @@ void ceduo_find_sure(struct text *text, const struct ceduo_search *s, const stru
                           ceduo_shown_number(field, shown(s, f), room), reached, error);
 }
 
-void ceduo_find_page(struct text *text, const struct ceduo_find_report *report)
+void ceduo_find_words(struct text *text, const struct ceduo_search *s, const struct ceduo_found *f, const struct field *field,
+                      bool wanted)
 {
-    char room[CEDUO_NUMBER_ROOM];
-    const struct ceduo_search *s = report->search;
-    const struct ceduo_found *f = report->found;
+    char room[CEDUO_NUMBER_ROOM], most[CEDUO_NUMBER_ROOM];
     const struct ceduo_goal_row *row = &ceduo_goals[s->goal];
-    LOCAL_TEXT(path);
-    LOCAL_TEXT(option);
     LOCAL_TEXT(goal);
-    ceduo_text_safe(&path, s->path);
-    ceduo_text_safe(&option, report->file->scene.options[s->option].name);
     append_goal(&goal, s->goal, f->found ? f->goal_at_value : f->goal_at_nearest, s->target);
-    if (f->found) {
-        ceduo_text_format(text, "%s = %s\n  ", path.bytes, ceduo_number_shortest(shown(s, f), room));
+    if (f->found)
         ceduo_text_format(text,
                           f->whole_range              ? _("every value of the range reaches the goal: %s")
                           : f->side == CEDUO_SMALLEST ? _("the smallest value that reaches the goal: %s")
                                                       : _("the largest value that reaches the goal: %s"),
                           goal.bytes);
-    } else {
-        ceduo_text_format(text, _("no value of %s from %s to %s reaches the goal"), path.bytes, SHORTEST(s->lo),
-                          SHORTEST(s->hi));
-        if (!isnan(f->nearest))
-            ceduo_text_then(text, "\n  ", _("nearest: %s, %s"), SHORTEST(f->nearest), goal.bytes);
-    }
-    ceduo_text_then(
-        text, " ", row->below ? _("(below %g %s is wanted), option '%s', %s") : _("(at most %g %s is wanted), option '%s', %s"),
-        ceduo_goal_is_share(s->goal) ? s->target * 100 : s->target, row->unit, ceduo_text_string(&option),
-        !s->rotation                  ? _("worst control")
-        : ceduo_goal_is_mean(s->goal) ? _("worst control, in the mean of one whole rotation")
-                                      : _("worst control, in the worst year of one whole rotation"));
+    else
+        ceduo_text_format(text, _("no value from %s to %s reaches the goal"), ceduo_shown_number(field, s->lo, room),
+                          ceduo_shown_number(field, s->hi, most));
+    if (!f->found && !isnan(f->nearest))
+        ceduo_text_then(text, "; ", _("nearest: %s, %s"), ceduo_shown_number(field, f->nearest, room), goal.bytes);
+    if (wanted)
+        ceduo_text_then(text, " ", row->below ? _("(below %g %s is wanted)") : _("(at most %g %s is wanted)"),
+                        ceduo_goal_is_share(s->goal) ? s->target * 100 : s->target, row->unit);
+}
+
+void ceduo_find_page(struct text *text, const struct ceduo_find_report *report)
+{
+    char room[CEDUO_NUMBER_ROOM];
+    const struct ceduo_search *s = report->search;
+    const struct ceduo_found *f = report->found;
+    LOCAL_TEXT(option);
+    ceduo_text_safe(text, s->path);
+    if (f->found)
+        ceduo_text_format(text, " = %s\n  ", ceduo_number_shortest(shown(s, f), room));
+    else
+        ceduo_text_put(text, ": ");
+    ceduo_find_words(text, s, f, NULL, true);
+    ceduo_text_safe(&option, report->file->scene.options[s->option].name);
+    ceduo_text_then(text, ", ", _("option '%s', %s"), ceduo_text_string(&option),
+                    !s->rotation                  ? _("worst control")
+                    : ceduo_goal_is_mean(s->goal) ? _("worst control, in the mean of one whole rotation")
+                                                  : _("worst control, in the worst year of one whole rotation"));
     ceduo_text_char(text, '\n');
     if (report->yield && !isnan(report->yield->cut_per_year)) {
         ceduo_text_then(text, "  ", _("yield: %.3g m\xc2\xb3 felled per hectare and year, %.3g m\xc2\xb3 standing per hectare"),
@@ -89,6 +98,5 @@ void ceduo_find_page(struct text *text, const struct ceduo_find_report *report)
         ceduo_text_char(text, '\n');
     }
     if (!f->monotone)
-        ceduo_text_then(text, "  ! ", "%s\n",
-                        _("The goal does not only rise or only fall over this range: there may be other values."));
+        ceduo_text_then(text, "  ! ", "%s\n", _("not monotone: there may be other values"));
 }

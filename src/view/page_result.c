@@ -8,6 +8,7 @@
 #include "base/language.h"
 #include "page_parts.h"
 #include "scene/choices.h"
+#include "typed.h"
 
 /* ---- head ---- */
 
@@ -407,21 +408,6 @@ static bool is_shown(const struct ceduo_report *report, const struct source_note
     return strcmp(note->kind, "assumed") == 0 && (report->years || !ceduo_note_of_years(note));
 }
 
-/* What a path of the scene is called, with its option where there are several: "stools, simple coppice". */
-static void put_place(struct text *text, const struct ceduo_scene *scene, const char *path)
-{
-    static const char *const parts[][2] = {
-        {".stools", N_("stools")},   {".shoots", N_("shoots")},   {".trees", N_("trees")},    {".energy", N_("energy law")},
-        {"forest", N_("stand")},     {"materials", N_("ground")}, {"segments", N_("ground")}, {"slope", N_("slope")},
-        {"controls", N_("control")}, {"rock", N_("rock")},        {"release", N_("release")}, {"", N_("the scene")}};
-    size_t part = 0, option = strncmp(path, "options[", 8) == 0 ? strtoul(path + 8, NULL, 10) : SIZE_MAX;
-    while (!strstr(path, parts[part][0]))
-        part++;
-    ceduo_text_put(text, _(parts[part][1]));
-    if (scene->options_count > 1 && option < scene->options_count)
-        ceduo_text_then(text, ", ", "%s", scene->options[option].name);
-}
-
 /* The notes are kept last first. */
 static void add_assumed(struct ceduo_page *page, const struct ceduo_report *report, const struct source_note *note, bool places)
 {
@@ -438,8 +424,13 @@ static void add_assumed(struct ceduo_page *page, const struct ceduo_report *repo
     times = is_shown(report, note) && first_same == note ? times : 0;
     const char *said = ceduo_in_language(note->text, note->text_it);
     LOCAL_TEXT(where);
-    put_place(&where, report->result->scene, note->path);
-    const char *place = ceduo_text_string(&where);
+    const struct ceduo_scene *scene = report->result->scene;
+    const char *dot = strncmp(note->path, "options[", 8) == 0 ? strchr(note->path, '.') : NULL;
+    size_t option = dot ? strtoul(note->path + 8, NULL, 10) : SIZE_MAX;
+    ceduo_shown_path(dot ? dot + 1 : note->path, &where);
+    if (option < scene->options_count)
+        ceduo_text_then(&where, ", ", "%s", scene->options[option].name);
+    const char *place = where.length > 0 ? where.bytes : _("the scene");
     if (times > 0 && !places) {
         LOCAL_TEXT(first); /* clause */
         ceduo_text_add(&first, said, strcspn(said, ";"));

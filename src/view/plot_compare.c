@@ -97,7 +97,7 @@ static void add_heads(struct ceduo_page *page, const struct comparison *c)
         ceduo_text_format(&heads[4].text, "\xe2\x94\x82 %g", 1000 * CEDUO_EXCEED_MOST);
     if (!isnan(c->accepted))
         ceduo_text_format(&heads[7].text, "\xe2\x94\x82 %s", SHORTEST(c->accepted));
-    ceduo_text_put(&heads[8].text, c->d->wooded ? _("mean, kJ") : P_("head", "left kJ"));
+    ceduo_text_put(&heads[8].text, c->d->wooded ? _("mean kJ") : P_("head", "left kJ"));
 }
 
 const char *ceduo_plot_compare(struct ceduo_drawing *d)

@@ -174,29 +174,12 @@ static void name_curves(const struct strip *s)
 
 /* ---- controls ---- */
 
-/* What a control bears, and in words in that row or the nearest that is free of curves, before the mark or behind it; without
- * room not in words, which stand beside the pictures, too. */
+/* A mark at what a control bears; how much that is stands beside the pictures. */
 static void draw_accepted(const struct ceduo_drawing *d, const struct ceduo_control *c)
 {
-    const struct ceduo_frame *f = &d->frame;
-    double accepted = c->accepted * J_TO_KJ, reach = 0.03 * (f->x1 - f->x0);
-    int left, right, row;
-    if (isnan(accepted) || !ceduo_frame_cell(f, d->canvas, c->x, accepted, &left, &row))
-        return;
-    ceduo_canvas_line(d->canvas, f, CEDUO_ROLE_BAD, c->x - reach, accepted, c->x + reach, accepted);
-    LOCAL_TEXT(label);
-    ceduo_text_format(&label, _("withstands %g kJ"), accepted);
-    int width = ceduo_canvas_label_width(d->canvas, label.bytes);
-    const struct ceduo_area inside = {f->left, f->top, f->width, f->height};
-    ceduo_frame_cell(f, d->canvas, fmax(c->x - reach, f->x0), accepted, &left, &row);
-    ceduo_frame_cell(f, d->canvas, fmin(c->x + reach, f->x1), accepted, &right, &row);
-    for (int i = 0; i < 4 * f->height; i++) {
-        int column = i % 2 ? right + 2 : left - 1 - width, at = row + (i / 2 % 2 ? -(i / 2 + 1) / 2 : i / 4);
-        if (!ceduo_plot_is_free(d->canvas, &inside, column, at, width))
-            continue;
-        ceduo_canvas_label(d->canvas, column, at, CEDUO_ROLE_BAD, label.bytes);
-        break;
-    }
+    double accepted = c->accepted * J_TO_KJ, reach = 0.03 * (d->frame.x1 - d->frame.x0);
+    if (!isnan(accepted))
+        ceduo_canvas_line(d->canvas, &d->frame, CEDUO_ROLE_BAD, c->x - reach, accepted, c->x + reach, accepted);
 }
 
 /* ---- the strip ---- */

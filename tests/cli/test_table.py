@@ -80,7 +80,7 @@ def test_table_widest():
     expect(word in flat and wide in flat, "cut short:", text)
     rows = re.findall(r"^    (?:through the wood|without forest) .*$", text, re.M)
     expect(all(re.search(r" \(\d\.\d±\d\.\d\)e6 +\de6 ", row) for row in rows), "mean energies", *rows)
-    head, *table = text.split("Side by side")[1].splitlines()[3:]
+    head, *table = text.split("Side by side")[1].splitlines()[2:]
     names = [name for name in (wide[:9], "large reserves") if not any(name in row for row in table)]
     expect(not names, "rows of", names, head, *table)
     expect(len({columns(row) for row in table if re.search(r"(pass|FAIL)$", row)}) == 1, "columns that do not align", *table)
@@ -318,11 +318,11 @@ def test_table_changed():
         for change, said in (("accepted_kJ=60", "; changed since: accepted_kJ"), ("accepted_kJ=50", ""), ("name=road", ""),
                              ("source={kind: assumed}", "")):
             text = " ".join(good("--batch", "--details", path, "-s", f"controls[0].{change}").out.split())
-            expect(any(f"all a guess{said} (control{end}" in text for end in (")", " and ")), change, text)
+            expect(any(f"all a guess{said} (control 1{end}" in text for end in (")", " and ")), change, text)
         for change, star in (("x_m=70", "50 kJ*"), ("accepted_kJ=50", "50 kJ*"), ("accepted_kJ=60", "60 kJ\n")):
             expect_in(f"withstands {star}", good("--batch", "--details", path, "-s", f"controls[0].{change}").out, "its star")
         twice = good("--batch", "--details", path, "-s", "controls[0].accepted_kJ=60", "-s", "controls[0].x_m=70", "-s", "controls[0].x_m=71")
-        expect_in("all a guess; changed since: accepted_kJ, x_m (control)", " ".join(twice.out.split()))
+        expect_in("all a guess; changed since: accepted_kJ, x_m (control 1)", " ".join(twice.out.split()))
         whole = good("--batch", "--details", path, "-s", "controls=[{x_m: 75, accepted_kJ: 60}]").out
         expect("guess" not in whole, whole)
         plain = f.write("plain.yaml", scene(controls=[{"x_m": 75, "accepted_kJ": 60}, {"x_m": 80}]))
@@ -332,8 +332,8 @@ def test_table_changed():
             {"from_m": 10, "to_m": 60, "source": {"kind": "assumed", "text": "belt"}, "stand": stand(source=note)}]))
         text = " ".join(good("--batch", "--details", path, "-s", "forest[0].stand.stools.per_ha=1000", "-s",
                              "forest[0].stand.trees[0].per_ha=9", "--seed", 5, "-s", "controls[0].x_m=70").out.split())
-        for words in ("outer; changed since: controls (the scene)", "belt (stand)",
-                      "all a guess; changed since: stools.per_ha, trees (stand)"):
+        for words in ("outer; changed since: controls (the scene)", "belt (belt 1)",
+                      "all a guess; changed since: stools.per_ha, trees (stand, belt 1)"):
             expect_in(words, text)
 
 

@@ -426,7 +426,7 @@ def test_reserves():
     walk = walked("reserves")
     expect_equal(len(walk.outputs), 4, "blocks")
     expect_in("per_ha = 379", walk.outputs[0])
-    expect_in("no value of forest[0].stand.trees[0].dbh_m from 0.1 to 1 reaches the goal", walk.outputs[1])
+    expect_in("forest[0].stand.trees[0].dbh_m: no value from 0.1 to 1 reaches the goal", walk.outputs[1])
     expect_in("nearest: 1, ADC 99.2", walk.outputs[1])
     many = int(re.search(r"per_ha = (\d+)", walk.outputs[2])[1])
     expect(379 < many < 600, walk.outputs[2])

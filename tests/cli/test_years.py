@@ -894,7 +894,7 @@ def test_find_nothing():
     expect_near(found["goal_at_nearest"], 1e4 / (300 * 0.88), 1e-9, "goal at the nearest")
     with Folder() as f:
         text = good("--find", f"{RESERVES}=10:300", "--goal", "adc", f.write("s.yaml", reserves())).out
-    expect(text.startswith(f"no value of {RESERVES} from 10 to 300 reaches the goal") and "nearest: 300" in text, text)
+    expect(text.startswith(f"{RESERVES}: no value from 10 to 300 reaches the goal") and "nearest: 300" in text, text)
 
 
 def test_find_everything():
