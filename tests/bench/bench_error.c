@@ -115,7 +115,8 @@ static const char *const numbers_names[NUMBERS] = {"plain", "antithetic-starts",
 struct stream {
     enum numbers kind;
     bool spread; /* starts differ */
-    uint64_t seed, state;
+    uint64_t seed;
+    struct line_random random;
     bool mirrored; /* the second rock of a pair */
     gsl_qrng *sobol;
     double point[SOBOL_MOST], shift[SOBOL_MOST];
@@ -125,7 +126,7 @@ struct stream {
 
 static double number(struct stream *s, unsigned dimension, bool start)
 {
-    double u = uniform(&s->state);
+    double u = line_uniform(&s->random, 0, 1);
     if (s->kind == SOBOL && dimension < SOBOL_MOST)
         return fmod(s->point[dimension] + s->shift[dimension], 1);
     return s->mirrored && (s->kind == ANTITHETIC || start) ? 1 - u : u;
@@ -135,7 +136,7 @@ static void begin(struct stream *s, uint64_t rock, struct slow_def *start)
 {
     bool pairs = s->kind == ANTITHETIC || s->kind == ANTITHETIC_STARTS;
     s->mirrored = pairs && rock % 2 == 1;
-    s->state = s->seed + 0x5851f42d4c957f2d * (pairs ? rock / 2 : rock);
+    s->random.state = s->seed + 0x5851f42d4c957f2d * (pairs ? rock / 2 : rock);
     if (s->kind == SOBOL)
         gsl_qrng_get(s->sobol, s->point);
     if (s->spread) {
@@ -145,7 +146,7 @@ static void begin(struct stream *s, uint64_t rock, struct slow_def *start)
         start->x0 = 9 * number(s, 3, true);
     }
     if (s->kind == ANTITHETIC_STARTS) /* from here on numbers of its own */
-        s->state = s->seed + 0x5851f42d4c957f2d * (2 * rock + 1) + 77;
+        s->random.state = s->seed + 0x5851f42d4c957f2d * (2 * rock + 1) + 77;
 }
 
 static double draw(void *context, uint64_t contact)
@@ -165,9 +166,9 @@ static double run_plain(const struct paper_site *site, struct slow_def def, stru
     s->energies = malloc(rocks * sizeof *s->energies);
     if (!s->energies)
         fail("no memory");
-    uint64_t state = s->seed;
+    struct line_random random = {.state = s->seed};
     for (int i = 0; i < SOBOL_MOST; i++)
-        s->shift[i] = uniform(&state);
+        s->shift[i] = line_uniform(&random, 0, 1);
     if (s->kind == SOBOL)
         gsl_qrng_init(s->sobol);
     double start = ceduo_clock();

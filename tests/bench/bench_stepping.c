@@ -157,9 +157,9 @@ int main(int argc, char **argv)
     struct launch *launches = calloc(n + 1, sizeof *launches);
     if (!launches || !ceduo_ground_init(&g, &site.scene.slope, CEDUO_GRAVITY, 0.34, false))
         return 1;
-    uint64_t state = 7;
+    struct line_random random = {.state = 7};
     for (size_t i = 0; i < n;) {
-        double x = 150 * uniform(&state), along = 20 * uniform(&state), off = 0.2 + 6 * uniform(&state);
+        double x = line_uniform(&random, 0, 150), along = line_uniform(&random, 0, 20), off = line_uniform(&random, 0.2, 6.2);
         size_t j = ceduo_slope_segment(&site.scene.slope, x);
         const struct ground_segment *s = &g.segments[j];
         struct flight f = {.x = x,

@@ -63,9 +63,9 @@ static void init_site(struct site *site, enum ceduo_law law, bool height)
 static double time_plain(struct site *site, uint64_t rocks, size_t repeat)
 {
     const struct ceduo_rock rock = plain_rock(&site->paper);
-    uint64_t state = repeat + 1;
+    struct line_random random = {.state = repeat + 1};
     struct plain_sums *sums = &site->plain_sums;
-    site->plain.context = &state;
+    site->plain.context = &random;
     double start = ceduo_clock();
     for (uint64_t i = 0; i < rocks; i++) {
         const struct slow_way way = slow_walk(&site->plain);

@@ -71,10 +71,10 @@ struct ceduo_rock plain_rock(const struct paper_site *site)
     return rock;
 }
 
-static double draw(void *state, uint64_t contact)
+static double draw(void *random, uint64_t contact)
 {
     (void)contact;
-    return uniform(state);
+    return line_uniform(random, 0, 1);
 }
 
 struct slow_def plain_site(const struct paper_site *site, struct slow_segment segments[PAPER_SEGMENTS])
@@ -105,12 +105,4 @@ double plain_energy(const struct ceduo_rock *rock, const struct slow_crossing *c
 {
     double rim = c->spin * rock->radius;
     return rock->mass / 2 * (c->vx * c->vx + c->vz * c->vz + rock->k * rim * rim);
-}
-
-double uniform(uint64_t *state)
-{
-    uint64_t z = *state += 0x9e3779b97f4a7c15;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111eb;
-    return (double)((z ^ (z >> 31)) >> 11) * 0x1p-53;
 }

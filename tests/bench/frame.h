@@ -6,6 +6,7 @@
 #include "ceduo/ceduo.h"
 #include "io/scene_file.h"
 #include "measure.h"
+#include "physics/line_scene.h"
 #include "physics/paper_site.h"
 #include "plain_walk.h"
 
@@ -30,12 +31,9 @@ void read_scene(struct scene_file *file, const char *path);
 struct ceduo_run *fly_run(const struct ceduo_run_def *def, uint64_t rocks);
 
 /* The paper's site for the plain walk, the means of its rock, and what energy it crosses the control with. Facets are drawn one after
- * another from one generator, whose state is the context. */
+ * another from one generator, the context. */
 struct slow_def plain_site(const struct paper_site *site, struct slow_segment segments[PAPER_SEGMENTS]);
 struct ceduo_rock plain_rock(const struct paper_site *site);
 double plain_energy(const struct ceduo_rock *rock, const struct slow_crossing *c);
-
-/* splitmix64 (Steele, Lea & Flood 2014), uniform in [0, 1). */
-double uniform(uint64_t *state);
 
 #endif

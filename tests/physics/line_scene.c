@@ -114,6 +114,14 @@ bool line_chance(struct line_random *r, double p)
     return line_uniform(r, 0, 1) < p;
 }
 
+double line_normal(struct line_random *r)
+{
+    double sum = -6;
+    for (int i = 0; i < 12; i++)
+        sum += line_uniform(r, 0, 1);
+    return sum;
+}
+
 static size_t random_profile(struct line_scene *s, struct line_random *r)
 {
     size_t n = (size_t)line_log_uniform(r, 1, LINE_SEGMENTS_MOST + 0.999);

@@ -44,6 +44,7 @@ struct line_random {
 double line_uniform(struct line_random *r, double lo, double hi);
 double line_log_uniform(struct line_random *r, double lo, double hi);
 bool line_chance(struct line_random *r, double p);
+double line_normal(struct line_random *r); /* of mean 0 and sd 1: the sum of 12, within 6 */
 
 /* The facet draw of a contact, as the walk takes them: Threefry 2x64 gives two at once. */
 double line_facet_draw(uint64_t seed, uint64_t rock, uint64_t contact);

@@ -10,6 +10,7 @@
 #include <sys/time.h>
 #include <time.h>
 
+#include "physics/line_scene.h"
 #include "study/chains.h"
 #include "study/guess.h"
 
@@ -155,20 +156,13 @@ TEST(threads_change_no_bit)
 static struct chains made(double apart, double phi)
 {
     struct chains c = {.dimensions = 1, .chains = 4, .steps = STEPS, .room = STEPS};
-    uint64_t state = 5;
+    struct line_random random = {.state = 5};
     c.x = malloc(4 * STEPS * sizeof *c.x);
     assert_non_null(c.x);
     for (size_t k = 0; k < 4; k++)
         for (size_t i = 0; i < STEPS; i++) {
-            double sum = -6;
-            for (int j = 0; j < 12; j++) { /* splitmix64 */
-                uint64_t z = state += 0x9e3779b97f4a7c15u;
-                z = (z ^ z >> 30) * 0xbf58476d1ce4e5b9u;
-                z = (z ^ z >> 27) * 0x94d049bb133111ebu;
-                sum += (double)((z ^ z >> 31) >> 11) * 0x1p-53;
-            }
             double before = i > 0 ? c.x[4 * (i - 1) + k] - apart * (double)k : 0;
-            c.x[4 * i + k] = phi * before + sqrt(1 - phi * phi) * sum + apart * (double)k;
+            c.x[4 * i + k] = phi * before + sqrt(1 - phi * phi) * line_normal(&random) + apart * (double)k;
         }
     return c;
 }
@@ -258,13 +252,6 @@ TEST(a_guess_learns_a_quadratic)
     EXPECT_NEAR(ceduo_guess_at(&g, (double[2]){0.5, 0.1}), 0.5, 1e-9);
 }
 
-/* A number from 0 to 1, the next of a row that is always the same. */
-static double next_unit(uint64_t *state)
-{
-    *state = *state * 6364136223846793005u + 1442695040888963407u;
-    return (double)(*state >> 11) * 0x1p-53;
-}
-
 /* What weighted least squares leave is orthogonal to every term, however many places there are: here of a quartic, with those
  * that lie below the best counting less and less. */
 TEST(a_guess_weighs_what_it_knows)
@@ -272,10 +259,10 @@ TEST(a_guess_weighs_what_it_knows)
     enum { N = 3000, NEAR = 9 /* three times the terms */ };
     static double u[N], values[N], sorted[NEAR + 1];
     LOCAL_BY(ceduo_guess_release) struct guess g = ceduo_guess_begin(1);
-    uint64_t random = 1;
+    struct line_random random = {.state = 1};
     double left[3] = {0}, size[3] = {0};
     for (int i = 0; i < N; i++) {
-        u[i] = next_unit(&random);
+        u[i] = line_uniform(&random, 0, 1);
         values[i] = -600 * pow(u[i] - 0.4, 4) - 90 * pow(u[i] - 0.4, 2);
     }
     for (int i = 0; i <= NEAR; i++) { /* the best ones */
@@ -317,12 +304,12 @@ TEST(a_guess_is_ended_while_it_learns)
     enum { N = 25000, D = 12 };
     double *u = malloc(N * D * sizeof *u), *values = malloc(N * sizeof *values), start, all;
     LOCAL_BY(ceduo_guess_release) struct guess g = ceduo_guess_begin(D);
-    uint64_t random = 1;
+    struct line_random random = {.state = 1};
     assert_true(u && values);
     for (int i = 0; i < N; i++) {
         values[i] = 0;
         for (int k = 0; k < D; k++) {
-            u[i * D + k] = next_unit(&random);
+            u[i * D + k] = line_uniform(&random, 0, 1);
             values[i] -= 40 * pow(u[i * D + k] - 0.3, 2);
         }
     }

@@ -8,17 +8,12 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "bench/measure.h"
 #include "ceduo/ceduo.h"
 #include "core/runs/histogram.h"
 #include "core/walk/envelope.h"
 
 /* ---- few values ---- */
-
-static int by_value(const void *a, const void *b)
-{
-    const double *x = a, *y = b;
-    return (*x > *y) - (*x < *y);
-}
 
 static void expect_near(double found, double wanted, double relative)
 {

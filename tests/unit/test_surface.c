@@ -7,24 +7,12 @@
 
 #include "ceduo/doubt.h"
 #include "ceduo/surface.h"
+#include "physics/line_scene.h"
 
 #define SEEDS      FULL_OR(200u, 100u)
 #define MAX_INPUTS 40
 
 typedef double function(const double *u, size_t n);
-
-/* A small generator of the test's own, for noise: splitmix64. */
-static double normal(uint64_t *state)
-{
-    double sum = -6;
-    for (int i = 0; i < 12; i++) {
-        uint64_t z = *state += 0x9e3779b97f4a7c15u;
-        z = (z ^ z >> 30) * 0xbf58476d1ce4e5b9u;
-        z = (z ^ z >> 27) * 0x94d049bb133111ebu;
-        sum += (double)((z ^ z >> 31) >> 11) * 0x1p-53;
-    }
-    return sum;
-}
 
 static struct ceduo_input inputs[MAX_INPUTS];
 
@@ -46,16 +34,16 @@ static struct ceduo_surface_fit fit_of(function *f, size_t n, size_t points, uin
     struct ceduo_groups *y = malloc(points * sizeof *y);
     struct ceduo_surface *surface;
     struct ceduo_surface_fit fit;
-    uint64_t state = seed + 1000;
+    struct line_random random = {.state = seed + 1000};
     assert_non_null(u);
     assert_non_null(y);
     EXPECT(ceduo_surface_points(seed, points, n, u), ==, CEDUO_OK);
     double constants[CEDUO_SURFACE_GROUPS];
     for (int g = 0; g < CEDUO_SURFACE_GROUPS; g++) /* by which groups differ */
-        constants[g] = level > 0 ? level * normal(&state) : g - (CEDUO_SURFACE_GROUPS - 1) / 2.;
+        constants[g] = level > 0 ? level * line_normal(&random) : g - (CEDUO_SURFACE_GROUPS - 1) / 2.;
     for (size_t p = 0; p < points; p++)
         for (int g = 0; g < CEDUO_SURFACE_GROUPS; g++)
-            y[p].of[g] = f(u + p * n, n) + noise * normal(&state) + constants[g];
+            y[p].of[g] = f(u + p * n, n) + noise * line_normal(&random) + constants[g];
     EXPECT(ceduo_surface_open(inputs, n, u, points, &surface), ==, CEDUO_OK);
     EXPECT(ceduo_surface_fit(surface,
                              &(const struct ceduo_surface_figure){.y = y, .lo = lowest, .hi = INFINITY, .limit = limit}, &fit),

@@ -7,6 +7,7 @@
 
 #include "ceduo/survey.h"
 #include "expect.h"
+#include "physics/line_scene.h"
 
 #define SIDE    500.0 /* m of the made-up forest */
 #define STOOLS  20000
@@ -14,16 +15,7 @@
 #define SAMPLES 200
 #define RADIUS  8.0
 
-static uint64_t state;
-
-/* Uniform in [0, 1): SplitMix64. */
-static double uniform(void)
-{
-    uint64_t z = state += 0x9e3779b97f4a7c15;
-    z = (z ^ z >> 30) * 0xbf58476d1ce4e5b9;
-    z = (z ^ z >> 27) * 0x94d049bb133111eb;
-    return (double)((z ^ z >> 31) >> 11) * 0x1p-53;
-}
+static struct line_random state;
 
 struct forest {
     double x[STOOLS], y[STOOLS];
@@ -35,9 +27,9 @@ static void make_forest(struct forest *f)
 {
     double shoots = 0;
     for (size_t i = 0; i < STOOLS; i++) {
-        f->x[i] = uniform() * SIDE;
-        f->y[i] = uniform() * SIDE;
-        f->shoots[i] = 1 + (int)(uniform() * 4);
+        f->x[i] = line_uniform(&state, 0, SIDE);
+        f->y[i] = line_uniform(&state, 0, SIDE);
+        f->shoots[i] = 1 + (int)line_uniform(&state, 0, 4);
         shoots += f->shoots[i];
     }
     f->stools_per_ha = STOOLS / (SIDE * SIDE) * 10000;
@@ -50,7 +42,7 @@ static size_t visit(const struct forest *f, struct ceduo_survey_stem *stems, siz
     size_t n = 0;
     *stools = 0;
     for (size_t p = 0; p < PLOTS; p++) {
-        double x = RADIUS + uniform() * (SIDE - 2 * RADIUS), y = RADIUS + uniform() * (SIDE - 2 * RADIUS);
+        double x = line_uniform(&state, RADIUS, SIDE - RADIUS), y = line_uniform(&state, RADIUS, SIDE - RADIUS);
         for (size_t i = 0; i < STOOLS; i++) {
             if (hypot(f->x[i] - x, f->y[i] - y) > RADIUS)
                 continue;
@@ -78,7 +70,7 @@ TEST(intervals_hold_the_truth)
     double mean = 0;
     assert_non_null(f);
     assert_non_null(stems);
-    state = 20091122;
+    state.state = 20091122;
     make_forest(f);
     for (size_t p = 0; p < PLOTS; p++)
         areas[p] = M_PI * RADIUS * RADIUS;
@@ -146,11 +138,11 @@ TEST(naslund_is_recovered)
     const struct ceduo_naslund truth = {.a = 1.3, .b = 0.21};
     double dbh[N], height[N], noisy[N];
     struct ceduo_naslund found;
-    state = 7;
+    state.state = 7;
     for (size_t i = 0; i < N; i++) {
-        dbh[i] = 0.02 + 0.3 * uniform();
+        dbh[i] = line_uniform(&state, 0.02, 0.32);
         height[i] = 1.3 + pow(100 * dbh[i] / (truth.a + truth.b * 100 * dbh[i]), 2);
-        noisy[i] = height[i] + sqrt(12) * (uniform() - 0.5) * 0.4; /* sd 0.4 m */
+        noisy[i] = height[i] + 0.4 * line_uniform(&state, -sqrt(3), sqrt(3)); /* sd 0.4 m */
         EXPECT_NEAR(ceduo_naslund_height(&truth, dbh[i]), height[i], 1e-12);
     }
     assert_int_equal(ceduo_naslund_fit(N, dbh, height, &found), CEDUO_OK);
