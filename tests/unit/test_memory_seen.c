@@ -142,27 +142,6 @@ static bool look_without_a_fit(void)
     return is_done(status);
 }
 
-/* A fit of one value, its chains of one round. Nearly all that it tries lies beyond where something was seen, and takes no time. */
-static bool fit(void)
-{
-    static const char *const place = "release.x_m";
-    const struct ceduo_input input = {place, CEDUO_INPUT_RANGE, 1, 2561, .places_count = 1, .places = &place};
-    struct ceduo_observation seen = something(CEDUO_OBSERVED_SPEED);
-    make_ground();
-    seen.option = 1;
-    const struct ceduo_calibration_scene scene = {&ground.of.scene, &input, 1, &seen}, scenes[2] = {scene, scene};
-    const struct ceduo_calibration_def def = {
-        .scenes_count = 2, .scenes = scenes, .parameters_count = 1, .rocks = 1, .seed = 1, .threads = 1, .steps_most = 1};
-    struct ceduo_calibration a;
-    enum ceduo_status status = ceduo_calibrate(&def, &a);
-    if (status == CEDUO_OK) {
-        add(&a.parameters[0].best, sizeof a.parameters[0].best);
-        add(&a.predicted[0].at_best.deviance, sizeof a.predicted[0].at_best.deviance);
-        ceduo_calibration_free(&a);
-    }
-    return is_done(status);
-}
-
 /* ---- a fit that goes on ---- */
 
 static enum ceduo_calibration_stage counted_stage; /* stage of a fit, of which it is counted how often it is told */
@@ -173,34 +152,44 @@ static void tell(void *context, const struct ceduo_calibration_state *state)
     note_told(state->stage == counted_stage);
 }
 
-/* A fit of one value to where one rock stops, its chains of one round. */
+/* Of one value, to a speed that was seen at x through the second option, the same in each scene; chains of one round. */
+static enum ceduo_status fit_of(const struct ceduo_input *input, double x, struct ceduo_calibration_def def)
+{
+    struct ceduo_observation seen = something(CEDUO_OBSERVED_SPEED);
+    make_ground();
+    seen.x = x;
+    seen.option = 1;
+    const struct ceduo_calibration_scene scene = {&ground.of.scene, input, 1, &seen}, scenes[2] = {scene, scene};
+    struct ceduo_calibration a;
+    def.scenes = scenes;
+    def.parameters_count = def.seed = def.steps_most = 1;
+    enum ceduo_status status = ceduo_calibrate(&def, &a);
+    if (status == CEDUO_OK) {
+        add(&a.parameters[0].best, sizeof a.parameters[0].best);
+        add(&a.predicted[0].at_best.deviance, sizeof a.predicted[0].at_best.deviance);
+        ceduo_calibration_free(&a);
+    }
+    return status;
+}
+
+/* A fit of a speed to what was seen of one rock, its chains of one round. */
 static enum ceduo_status fit_of_one_round(unsigned threads, uint64_t rocks, void (*meanwhile)(void),
                                           enum ceduo_calibration_stage stage, int at)
 {
     static const char *const place = "release.vx_m_s";
     const struct ceduo_input input = {place, CEDUO_INPUT_RANGE, 1, 9, .places_count = 1, .places = &place};
-    struct ceduo_observation seen = something(CEDUO_OBSERVED_SPEED);
-    make_ground();
-    seen.x = 1;
-    seen.option = 1;
-    const struct ceduo_calibration_scene scene = {&ground.of.scene, &input, 1, &seen};
-    struct ceduo_calibration a;
     counted_stage = stage;
     begin_to_tell(meanwhile, at);
-    enum ceduo_status status = ceduo_calibrate(&(struct ceduo_calibration_def){.scenes_count = 1,
-                                                                               .scenes = &scene,
-                                                                               .parameters_count = 1,
-                                                                               .rocks = rocks,
-                                                                               .seed = 1,
-                                                                               .threads = threads,
-                                                                               .steps_most = 1,
-                                                                               .progress = tell},
-                                               &a);
-    if (status == CEDUO_OK) {
-        add(&a.parameters[0].best, sizeof a.parameters[0].best);
-        ceduo_calibration_free(&a);
-    }
-    return status;
+    return fit_of(&input, 1,
+                  (struct ceduo_calibration_def){.scenes_count = 1, .rocks = rocks, .threads = threads, .progress = tell});
+}
+
+/* A fit of one value to two scenes. Nearly all that it tries lies beyond where something was seen, and takes no time. */
+static bool fit(void)
+{
+    static const char *const place = "release.x_m";
+    const struct ceduo_input input = {place, CEDUO_INPUT_RANGE, 1, 2561, .places_count = 1, .places = &place};
+    return is_done(fit_of(&input, 20, (struct ceduo_calibration_def){.scenes_count = 2, .rocks = 1, .threads = 1}));
 }
 
 /* Who is told how far it is holds up nobody, and is not told meanwhile. So many rocks that the others are not at the end
