@@ -25,6 +25,9 @@ void ceduo_page_short(struct ceduo_page *page, const struct ceduo_report *report
 void ceduo_page_stand_warnings(struct ceduo_page *page, const struct ceduo_result *result, size_t option);
 void ceduo_page_stand_rules(struct ceduo_page *page, const struct ceduo_result *result, size_t option, bool all);
 
+/* What the rules ask of the stands of all options, as a table with their sources; nothing where no coppice has rules. */
+void ceduo_page_rules(struct ceduo_page *page, const struct ceduo_result *result);
+
 /* Rock, slope and rocks, a line each. */
 void ceduo_page_facts(struct ceduo_page *page, const struct ceduo_report *report);
 

@@ -288,10 +288,8 @@ void ceduo_page_chapter(struct ceduo_page *page, const struct ceduo_chapter *c)
         add_years(page, c);
         add_hazard(page, c);
     }
-    if (several && scene->rules.name)
-        ceduo_page_say(page, CEDUO_PAGE_SECTION, _("What the rules of %s ask"), scene->rules.name);
-    for (size_t i = 0; several && i < scene->options_count; i++)
-        ceduo_page_stand_rules(page, c->report->result, i, true);
+    if (several)
+        ceduo_page_rules(page, c->report->result);
     ceduo_page_notes(page, c->report);
     for (size_t i = 0; several && i < scene->options_count; i++)
         ceduo_page_stand_warnings(page, c->report->result, i);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What the law asks of the stands of an option, in sentences. */
+/* What the law asks of the stands of all options: a row for each stand, the articles below; and the same in sentences. */
 #include <math.h>
+#include <string.h>
 
 #include "base/language.h"
 #include "page_parts.h"
@@ -71,4 +72,73 @@ void ceduo_page_stand_rules(struct ceduo_page *page, const struct ceduo_result *
         if (all)
             ceduo_page_once(page, CEDUO_PAGE_SENTENCE, note_of(c->of, &note));
     }
+}
+
+/* ---- the table ---- */
+
+/* What is, what is asked for, and whether it is kept. */
+static void add_rule(struct ceduo_page *page, double is, item *asked, bool met, bool species)
+{
+    if (isnan(is))
+        ceduo_page_write(page, "-");
+    else
+        ceduo_page_write(page, "%s", ROUNDED(is, 4));
+    if (!asked)
+        ceduo_page_write(page, "%s", species ? _("not named") : _("no species"));
+    else if (isnan(asked->most))
+        ceduo_page_write(page, "\xe2\x89\xa5 %s", SHORTEST(asked->least));
+    else
+        ceduo_page_write(page, "%s\xe2\x80\x93%s", SHORTEST(asked->least), SHORTEST(asked->most));
+    if (!asked || isnan(is))
+        ceduo_page_write(page, "-");
+    else
+        ceduo_page_yes(page, met);
+}
+
+static void add_source(struct text *sources, item *asked)
+{
+    LOCAL_TEXT(source);
+    if (!asked)
+        return;
+    ceduo_text_format(&source, "%s (%u)", asked->article, asked->year);
+    if (!strstr(ceduo_text_string(sources), source.bytes))
+        ceduo_text_format(sources, sources->length > 0 ? "; %s" : "%s", source.bytes);
+}
+
+void ceduo_page_rules(struct ceduo_page *page, const struct ceduo_result *r)
+{
+    static const struct ceduo_page_column columns[] = {
+        {N_("stand"), 26, 2, CEDUO_WHOLE}, {N_("standards/ha"), -13, 0, 0}, {N_("asked for"), -13, 0, 0}, {N_("kept"), 5, 1, 0},
+        {N_("rotation, y"), -12, 0, 0},    {N_("asked for"), -13, 0, 0},    {N_("kept"), 0, 1, 0}};
+    const struct ceduo_regulation *rules = NULL;
+    LOCAL_TEXT(sources);
+    LOCAL_TEXT(note);
+    for (size_t i = 0; i < r->scene->options_count; i++)
+        for (size_t k = 0; k < r->scene->options[i].belts_count; k++) {
+            const struct ceduo_compliance *c = &r->options[i].stands[k].rules;
+            if (!c->of)
+                continue;
+            if (!rules) {
+                rules = c->of;
+                ceduo_page_say(page, CEDUO_PAGE_SECTION, _("What the rules of %s ask"), rules->name);
+                CEDUO_PAGE_TABLE_OF(page, columns);
+            }
+            bool listed = false; /* an earlier belt of any option has the same stand */
+            for (size_t a = 0; a <= i; a++)
+                for (size_t b = 0; b < (a < i ? r->scene->options[a].belts_count : k); b++)
+                    listed |= strcmp(r->scene->options[a].belts[b].name, r->scene->options[i].belts[k].name) == 0;
+            if (listed)
+                continue;
+            bool species = r->scene->options[i].belts[k].stand.species >= 0;
+            ceduo_page_write(page, "%s", r->scene->options[i].belts[k].name);
+            add_rule(page, c->standards, c->standards_item, c->standards_met, species);
+            add_rule(page, c->turn, c->turn_item, c->turn_met, species);
+            add_source(&sources, c->standards_item);
+            add_source(&sources, isnan(c->turn) ? NULL : c->turn_item);
+        }
+    if (!rules)
+        return;
+    if (sources.length > 0)
+        ceduo_page_say(page, CEDUO_PAGE_DETAIL, _("Sources: %s."), ceduo_text_string(&sources));
+    ceduo_page_note(page, note_of(rules, &note));
 }
