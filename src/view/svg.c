@@ -253,7 +253,7 @@ static void draw_axis(void *to, const struct ceduo_frame *frame, bool bottom, in
         else if (bottom)
             append_label(svg, moved ? (t->start + length / 2.0) * CELL : at, below * HIGH + BELOW, "middle", t->label);
         else if (t->start >= 0)
-            append_label(svg, left - 6, at + 4, "end", t->label);
+            append_label(svg, left - 6, fmax(at + 4, frame->top * HIGH + 12), "end", t->label); /* below a title */
         mark_drawn(svg, t->start, bottom ? below + 1 : t->cell, t->start >= 0 ? length : 0);
     }
     if (bottom)
