@@ -129,9 +129,8 @@ enum exit_status ceduo_batch_profiles(const struct arguments *a)
         for (size_t f = 0, n; folders[f]; f++) {
             const char *const *names = ceduo_file_list(&arena, folders[f], kinds[k][0], &n);
             for (size_t i = 0; i < n; i++) { /* what is typed comes first: the file's name without its ending */
-                const char *path = ceduo_arena_format(&arena, "%s/%s/%s", folders[f], kinds[k][0], names[i]);
-                const char *dot = strrchr(names[i], '.');
-                ceduo_text_safe_n(&rows, names[i], dot ? (size_t)(dot - names[i]) : strlen(names[i]));
+                const char *path = ceduo_arena_format(&arena, "%s/%s/%s.yaml", folders[f], kinds[k][0], names[i]);
+                ceduo_text_safe(&rows, names[i]);
                 ceduo_text_format(&rows, "\t%s\t", kinds[k][1]);
                 ceduo_text_safe(&rows, title_of(&arena, path));
                 ceduo_text_char(&rows, '\t');

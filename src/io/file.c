@@ -194,13 +194,9 @@ const char *ceduo_file_find(struct arena *arena, const char *name, const char *b
     return NULL;
 }
 
-/* By what stands before .yaml: a name before its own continuation. */
 static int by_name(const void *a, const void *b)
 {
-    const char *p = *(const char *const *)a, *q = *(const char *const *)b;
-    size_t n = strlen(p) - 5, m = strlen(q) - 5;
-    int order = strncmp(p, q, n < m ? n : m);
-    return order != 0 ? order : (n > m) - (n < m);
+    return strcmp(*(const char *const *)a, *(const char *const *)b);
 }
 
 const char *const *ceduo_file_list(struct arena *arena, const char *folder, const char *shelf, size_t *n)
@@ -218,7 +214,7 @@ const char *const *ceduo_file_list(struct arena *arena, const char *folder, cons
     for (struct dirent *e; names && *n < room && (e = readdir(dir));) {
         if (e->d_name[0] == '.' || (length = strlen(e->d_name)) <= 5 || strcmp(e->d_name + length - 5, ".yaml") != 0)
             continue;
-        if (!(names[*n] = ceduo_arena_string(arena, e->d_name)))
+        if (!(names[*n] = ceduo_arena_copy(arena, e->d_name, length - 5)))
             break;
         ++*n;
     }

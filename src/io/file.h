@@ -25,7 +25,7 @@ const char *ceduo_file_find(struct arena *arena, const char *name, const char *b
 /* The folders of profiles, best first, ended by NULL. */
 const char *const *ceduo_file_folders(struct arena *arena);
 
-/* Names of the .yaml files in `folder`/`shelf`, sorted; `*n` of them. */
+/* Names of the .yaml files in `folder`/`shelf` without this ending, sorted; `*n` of them. */
 const char *const *ceduo_file_list(struct arena *arena, const char *folder, const char *shelf, size_t *n);
 
 /* Writes all bytes to an open file; `cancel` (may be NULL) ends it at the next signal. False with errno set. */

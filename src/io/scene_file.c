@@ -117,11 +117,9 @@ static void complain_no_scene(struct scene_file *file, const char *path, struct 
     for (size_t i = 0; all && all[i]; i++) {
         size_t n;
         const char *const *list = ceduo_file_list(&file->arena, all[i], "scenes", &n);
-        const char **words = ceduo_arena_take(&file->arena, (n + 1) * sizeof *words);
-        for (size_t k = 0; words && k < n; k++)
-            ceduo_text_then(&known, k > 0 || i > 0 ? ", " : "", "%s",
-                            words[k] = ceduo_arena_copy(&file->arena, list[k], strlen(list[k]) - 5));
-        near = near || !words || file->arena.failed ? near : ceduo_text_nearest(plain, words, n);
+        for (size_t k = 0; k < n; k++)
+            ceduo_text_then(&known, k > 0 || i > 0 ? ", " : "", "%s", list[k]);
+        near = near ? near : ceduo_text_nearest(plain, list, n);
         ceduo_text_format(&folders, "%s%s/scenes", i > 0 ? ", " : "", all[i]);
     }
     if (near)

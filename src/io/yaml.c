@@ -132,7 +132,7 @@ static struct node *read_scalar(struct reader *r, const yaml_event_t *event)
     const char *value = (const char *)event->data.scalar.value;
     size_t length = event->data.scalar.length;
     if (memchr(value, '\0', length))
-        return STOP(r, event->start_mark, _("a NUL character in a text; remove it"));
+        return STOP(r, event->start_mark, _("a control character (\\x%02x); remove it"), 0u);
     if (length > TEXT_MOST)
         return STOP(r, event->start_mark, _("a value of more than %d bytes; look for a missing quote"), TEXT_MOST);
     note_end(r, node, event);
@@ -240,10 +240,8 @@ static struct node *read_document(struct reader *r)
         else if (type != YAML_STREAM_START_EVENT && type != YAML_DOCUMENT_START_EVENT && type != YAML_DOCUMENT_END_EVENT &&
                  type != YAML_STREAM_END_EVENT)
             root = read_value(r, &event, 0);
-        if (type == YAML_STREAM_END_EVENT && !root && r->skip > 0 && r->source->is_option)
-            ceduo_problem(r->problems, r->source, 1, r->skip_column + 1, _("there is no value after the ="));
-        else if (type == YAML_STREAM_END_EVENT && !root)
-            ceduo_problem(r->problems, r->source, 0, 0, _("there is no value"));
+        if (type == YAML_STREAM_END_EVENT && !root)
+            ceduo_problem(r->problems, r->source, r->source->is_option, r->skip_column + 1, _("there is no value"));
         yaml_event_delete(&event);
         if (type == YAML_STREAM_END_EVENT)
             break;

@@ -90,9 +90,9 @@ static void add_files(struct app *app, struct popup *p, const char *kind, bool s
         size_t n;
         const char *const *names = ceduo_file_list(&p->arena, folder, beside ? "." : kind, &n);
         for (size_t k = 0; k < n && !(beside && k == FILES_MAX); k++) {
-            const char *path = beside ? ceduo_app_format(app, "%s%s", here, names[k])
-                                      : ceduo_app_format(app, "%s/%s/%s", folder, kind, names[k]);
-            const char *name = beside ? names[k] : ceduo_app_format(app, "%.*s", (int)strlen(names[k]) - 5, names[k]);
+            const char *path = beside ? ceduo_app_format(app, "%s%s.yaml", here, names[k])
+                                      : ceduo_app_format(app, "%s/%s/%s.yaml", folder, kind, names[k]);
+            const char *name = beside ? ceduo_app_format(app, "%s.yaml", names[k]) : names[k];
             const char *value = beside && whole ? path : name;
             if (beside ? !has_head(path, tag) : ceduo_document_is_shipped(path) != shipped)
                 continue;

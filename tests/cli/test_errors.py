@@ -312,7 +312,7 @@ CASES = {
     "a second document; keep one to a file": sc("simulation: {", "@@---\nsimulation: {"),
     "not UTF-8; save the file as UTF-8": Text(b"title: \xfc\n", place="s.yaml:1:8: "),
     "a control character (\\x01); remove it": sc("title: small", "title: sm@@\x01all"),
-    "a NUL character in a text; remove it": sc("title: small", 'title: @@"sm\\0all"'),
+    "a control character (\\x00); remove it": sc("title: small", 'title: @@"sm\\0all"'),
     "there is no value": Text("# nothing\n", place="s.yaml: "),
     "a scene is a mapping that begins with 'ceduo: scene/1'": Text("@@- 1\n"),
     # Keys and values
@@ -427,7 +427,7 @@ CASES = {
     "'radius_m' is missing: nothing is assumed here": Set(
         "forest[0].stand.trees=[{per_ha: 50, dbh_m: 0.2, height_m: 12, groups: @@{stems: 5}}]"),
     # Changes by --set
-    "there is no value after the =": Set("release.height_m=@@"),
+    "--set:1:18: there is no value": Set("release.height_m=@@"),
     "rocks_per_year: '5%' is not a number; write 0.05": Set("rocks_per_year=@@5%"),
     "'#' begins a comment; between quotes it is text: title=\"#1\"": Set("title=@@#1"),
     "expected PATH=VALUE": Set("@@rock.diameter_m"),

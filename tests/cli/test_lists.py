@@ -160,7 +160,7 @@ BAD_USAGE = [
     ("--batch", "--seed", "-1", PAPER), ("--batch", "--seed", "1.5", PAPER), ("--batch", "--seed", "9007199254740994", PAPER),
     ("--batch", "--seed", "nan", PAPER), ("--batch", "-j", "0", PAPER), ("--batch", "-j", "99999", PAPER),
     ("--batch", "-j", "two", PAPER), ("--batch", "-e", "0", PAPER), ("--batch", "-e", "-0.1", PAPER),
-    ("--batch", "-e", "1", PAPER), ("--batch", "-e", "x", PAPER), ("--batch", "-e", "nan", PAPER),
+    ("--batch", "-e", "1.5", PAPER), ("--batch", "-e", "x", PAPER), ("--batch", "-e", "nan", PAPER),
     ("--batch", "-e", "0,1", PAPER), ("--batch", "-", "-"), ("--list-profiles", PAPER), ("--list-parameters", "x"),
     ("--batch=yes", PAPER), ("--format",), ("--batch", "--\x1b[31m", PAPER), ("--batch", "-n", "\x1b[31m", PAPER),
 ]

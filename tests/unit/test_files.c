@@ -98,8 +98,7 @@ TEST_WITH(folders_are_listed, folder_set_up_profiles, folder_tear_down)
                                  "ceduo/stands/aaaaa.yaml", "ceduo/stands/aaa.yaml"};
     for (size_t i = 0; i < LENGTH(names); i++)
         put(names[i], "x");
-    const char *const wanted[] = {"B.yaml",   "a.yaml",    "a-b.yaml",   "aa.yaml",
-                                  "aaa.yaml", "aaaa.yaml", "aaaaa.yaml", "folder.yaml"};
+    const char *const wanted[] = {"B", "a", "a-b", "aa", "aaa", "aaaa", "aaaaa", "folder"};
     const char *const *list = ceduo_file_list(&arena, own, "stands", &n);
     assert_int_equal(n, LENGTH(wanted));
     for (size_t i = 0; i < n; i++)
