@@ -25,21 +25,10 @@ TEST(numbers_are_shown_with_their_digits)
 /* Beside its limit a figure lies where it is judged to lie; elsewhere it has the digits that all have. */
 TEST(figures_lie_on_their_side_of_a_limit)
 {
-    static const struct {
-        double value, limit;
-        const char *shown;
-    } rows[] = {
-        {29.98, 30, "29.98"}, {29.9996, 30, "29.9996"}, {30, 30, "30.0"},       {30.04, 30, "30.04"},     {29.9, 30, "29.9"},
-        {2.614, 30, "2.61"},  {194, 30, "194"},         {INFINITY, 30, "none"}, {1499.8, 1500, "1499.8"}, {NAN, 30, "-"}};
-    static const struct {
-        double share;
-        const char *shown;
-    } percents[] = {{.1, "10.0"}, {.1004, "10.04"}, {.0996, "9.96"}, {.0995, "9.95"},
-                    {.09, "9.0"}, {.857, "85.7"},   {.0004, "0.0"}};
-    for (size_t i = 0; i < LENGTH(rows); i++)
-        assert_string_equal(BESIDE(rows[i].value, 3, rows[i].limit), rows[i].shown);
-    for (size_t i = 0; i < LENGTH(percents); i++)
-        assert_string_equal(PERCENT(percents[i].share, .1), percents[i].shown);
+    for (TABLE(row, "unit/words.txt", "beside a limit"))
+        assert_string_equal(BESIDE(strtod(row.at[0], NULL), 3, strtod(row.at[1], NULL)), row.at[2]);
+    for (TABLE(row, "unit/words.txt", "percent beside 10"))
+        assert_string_equal(PERCENT(strtod(row.at[0], NULL), .1), row.at[1]);
 }
 
 /* The estimate of a share may lie below 0 or above 1; what is shown does not. */
@@ -153,11 +142,8 @@ static void expect_said(double share, double lo, double hi, const char *wanted)
 /* Of 1000, the lower end is rounded down and the upper one up; what is whole stays. */
 TEST(an_interval_is_rounded_outward)
 {
-    expect_said(.5, .4699, .5301, " 500 (469–531) of 1000 ");
-    expect_said(.0001, 0, .0004, " 0 (0–1) of 1000 ");
-    expect_said(.9999, .9996, 1, " 1000 (999–1000) of 1000 ");
-    expect_said(.5, .46875, .53125, " 500 (468–532) of 1000 ");
-    expect_said(.5, .25, .75, " 500 (250–750) of 1000 ");
+    for (TABLE(row, "unit/words.txt", "intervals"))
+        expect_said(atof(row.at[0]), atof(row.at[1]), atof(row.at[2]), row.at[3]);
 }
 
 /* ---- the answer in one line ---- */
@@ -198,14 +184,10 @@ TEST(an_answer_is_shortened_by_whole_clauses)
 /* 50 of 1000 are accepted: the error of the rocks or what is not known may hold that limit. */
 TEST(an_answer_depends_where_doubt_holds_the_limit)
 {
-    open_scene(50e3);
-    expect_answer(.02, .01, .04, 80, "✔ YES: 20 of 1000 arrive with more than 50 kJ (50 accepted); may be 10–40");
-    expect_answer(.02, .01, .06, 80, "? IT DEPENDS: 20 of 1000 arrive with more than 50 kJ (50 accepted); may be 10–60");
-    expect_answer(.479, .04, .748, 90, "? IT DEPENDS: 479 of 1000 arrive with more than 50 kJ (50 accepted); may be 40–748");
-    expect_answer(.05, .051, .06, 90, "? NOT DECIDED: 50 of 1000 arrive with more than 50 kJ (50 accepted); may be 50–60");
-    expect_answer(.479, NAN, NAN, 99, "✘ NO: 479 of 1000 arrive with more than 50 kJ (50 accepted); 469–489 by the rocks");
-    open_scene(NAN);
-    expect_answer(.831, .7, .9, 80, "831 of 1000 arrive; may be 700–900");
+    for (TABLE(row, "unit/words.txt", "answers")) {
+        open_scene(strtod(row.at[0], NULL));
+        expect_answer(atof(row.at[1]), strtod(row.at[2], NULL), strtod(row.at[3], NULL), (size_t)atoi(row.at[4]), row.at[5]);
+    }
 }
 
 /* ---- which is best ---- */
