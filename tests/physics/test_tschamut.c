@@ -71,25 +71,6 @@ TEST(without_its_shape_the_plate_goes_too_far)
     EXPECT_NEAR(mean[2], mean[0], 1.5);
 }
 
-/* mu acts through the shape: one block that is fitted does not tell it, two do. */
-TEST(two_shapes_tell_mu)
-{
-    struct ceduo_observation seen[BLOCKS];
-    for (size_t b = 0; b < BLOCKS; b++)
-        seen[b] = file.observations[b];
-    struct ceduo_scene lumped = file.scene;
-    lumped.simulation.law = CEDUO_LAW_LUMPED;
-    struct ceduo_calibration_scene scenes[2] = {{.scene = &file.scene, .observations_count = BLOCKS, .observations = seen},
-                                                {.scene = &lumped, .observations_count = BLOCKS, .observations = seen}};
-    EXPECT(ceduo_calibration_tells_mu(scenes, 1), ==, 0);
-    seen[2].use = CEDUO_OBSERVED_FIT;
-    EXPECT(ceduo_calibration_tells_mu(scenes, 1), ==, 1);
-    EXPECT(ceduo_calibration_tells_mu(scenes + 1, 1), ==, 0);
-    seen[2].rock = seen[0].rock;
-    EXPECT(ceduo_calibration_tells_mu(scenes, 1), ==, 0);
-    EXPECT(ceduo_calibration_tells_mu(scenes, 0), ==, 0);
-}
-
 int main(void)
 {
     return test_run(read_scene, free_scene);

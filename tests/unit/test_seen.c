@@ -112,6 +112,7 @@ TEST(two_shapes_tell_mu)
     assert_false(ceduo_calibration_tells_mu(scenes, 2)); /* of one shape */
     o[2].rock = &plate;
     assert_true(ceduo_calibration_tells_mu(scenes, 2));
+    assert_false(ceduo_calibration_tells_mu(scenes, 0));
     o[2].use = CEDUO_OBSERVED_CHECK;
     assert_false(ceduo_calibration_tells_mu(scenes, 2)); /* the other is not fitted */
     o[2].use = CEDUO_OBSERVED_FIT;
