@@ -214,7 +214,7 @@ void ceduo_page_over(struct ceduo_page *page, const struct ceduo_report *report)
     ceduo_measure_error(&share, &over, " ");
     ceduo_measure_doubt_over(&mean, report->doubt, 0);
     if (!isnan(mean.may_lo)) {
-        ceduo_text_put(&may, _(", may be "));
+        ceduo_text_format(&may, ", %s ", _("may be"));
         ceduo_measure_may_be(&may, &mean);
     }
     if (c->flown == 0)

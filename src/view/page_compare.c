@@ -255,10 +255,10 @@ void ceduo_page_laws(struct ceduo_page *page, const struct ceduo_result *r)
 {
     static const struct ceduo_page_column columns[] = {{N_("option"), 23, 2, 0},
                                                        {NP_("head", "law of the scene"), 16, 1, 0},
-                                                       {NP_("head", "of 1000"), -8, 0, 0},
+                                                       {N_("of 1000"), -8, 0, 0},
                                                        {NP_("head", "mean kJ|mean energy, kJ"), -8, 0, 0},
                                                        {NP_("head", "other law"), 11, 2, 0},
-                                                       {NP_("head", "of 1000"), -8, 0, 0},
+                                                       {N_("of 1000"), -8, 0, 0},
                                                        {NP_("head", "mean kJ|mean energy, kJ"), -8, 0, 0}};
     bool any = false; /* in the terminal program the figures by the other law may be there before those of the scene's own */
     for (size_t i = 0; r->wooded && i < r->scene->options_count; i++)

@@ -301,6 +301,10 @@ static void add_inputs(struct ceduo_page *page, const struct ceduo_doubt_report 
     }
     if (rest == f->uses)
         ceduo_page_note(page, _("No input stands out; more points (--sensitivity=N) may tell."));
+    else if (rest > 0)
+        ceduo_page_say(page, CEDUO_PAGE_NOTE,
+                       ngettext("%zu other input has hardly any effect.", "%zu other inputs have hardly any effect.", rest),
+                       rest);
 }
 
 /* The name of an input and what would measure it: that of an energy law is known, though no value of it is. */
@@ -443,7 +447,7 @@ void ceduo_doubt_blocks(struct ceduo_page *page, const struct ceduo_doubt_report
         add_options(page, r, true);
         ceduo_page_add(page, CEDUO_PAGE_GAP);
         if (several)
-            ceduo_page_say(page, CEDUO_PAGE_SENTENCE, _("What the mean of the first option depends on:"));
+            ceduo_page_say(page, CEDUO_PAGE_SENTENCE, _("What the first option depends on:"));
         add_inputs(page, r, ceduo_doubt_figure_of(r->answer, 0, CEDUO_DOUBT_MEAN, false));
         ceduo_page_add(page, CEDUO_PAGE_GAP);
     }

@@ -77,6 +77,18 @@ const char *ceduo_words_intensity(int intensity)
     return intensity < 0 ? _("none") : _(words[intensity]);
 }
 
+/* A figure and its interval, of which hi may be NaN, as 1.2 (1.1–1.3)e7: where there is no room for more. */
+static void append_shorter(struct text *text, double value, double lo, double hi)
+{
+    int e = value > 0 ? (int)floor(log10(value)) : 0;
+    double unit = pow(10, e);
+    ceduo_text_put(text, WRITTEN(value / unit, 2));
+    if (isnan(hi))
+        ceduo_text_format(text, " (> %s)e%d", WRITTEN(lo / unit, 2), e);
+    else
+        ceduo_text_format(text, " (%s\xe2\x80\x93%s)e%d", WRITTEN(lo / unit, 2), WRITTEN(hi / unit, 2), e);
+}
+
 static void add_returns(struct ceduo_page *page, const struct ceduo_result *r, size_t control)
 {
     static const struct ceduo_page_column columns[] = {
@@ -101,7 +113,7 @@ static void add_returns(struct ceduo_page *page, const struct ceduo_result *r, s
             }
             ceduo_text_format(&cell->text, isnan(hi) ? "%s (> %s)" : "%s (%s\xe2\x80\x93%s)", WRITTEN(value, 3), WRITTEN(lo, 3),
                               WRITTEN(hi, 3));
-            ceduo_text_put(&cell->shorter, WRITTEN(value, 3)); /* where the interval has no room */
+            append_shorter(&cell->shorter, value, lo, hi);
         }
     }
 }
@@ -139,18 +151,6 @@ static void add_square(struct ceduo_page *page, const struct ceduo_result *r, si
 
 /* ---- at each control ---- */
 
-/* The option with which what is feared is rarest. */
-static size_t rarest(const struct ceduo_result *r, size_t control)
-{
-    size_t best = 0;
-    for (size_t i = 1; i < r->scene->options_count; i++) {
-        const struct ceduo_hazard *h = hazard_of(r, i + 1, control), *least = hazard_of(r, best + 1, control);
-        if (h && (!least || ceduo_hazard_feared(h).rate < ceduo_hazard_feared(least).rate))
-            best = i;
-    }
-    return best;
-}
-
 /* The same of all options, side by side. */
 static void add_rates(struct ceduo_page *page, const struct ceduo_result *r, size_t control)
 {
@@ -172,7 +172,7 @@ static void add_rates(struct ceduo_page *page, const struct ceduo_result *r, siz
         struct ceduo_page_cell *cell = ceduo_page_cell(page);
         ceduo_words_years(&cell->text, rate);
         if (rate.rate > 0)
-            ceduo_words_every(&cell->shorter, rate);
+            append_shorter(&cell->shorter, 1 / rate.rate, 1 / rate.hi, rate.lo > 0 ? 1 / rate.lo : NAN);
         for (size_t k = 0; k < CEDUO_INTENSITIES; k++) {
             if (isnan(h->intensity[k].left))
                 ceduo_page_write(page, "%s", _("none"));
@@ -196,7 +196,7 @@ void ceduo_page_hazard(struct ceduo_page *page, const struct ceduo_report *repor
                          "weighted; %llu rocks know the whole as well as %.0f equal ones would."),
                        r->bare.arrivals[c].hazard.per_year, (unsigned long long)r->bare.rocks,
                        r->bare.arrivals[c].hazard.effective);
-    ceduo_words_hazard(ceduo_page_add(page, CEDUO_PAGE_SENTENCE), r, rarest(r, c), c);
+    ceduo_words_hazard(ceduo_page_add(page, CEDUO_PAGE_SENTENCE), r, ceduo_result_best(r, report->verdict), c);
     add_rates(page, r, c);
     add_returns(page, r, c);
     add_square(page, r, c);

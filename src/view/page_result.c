@@ -89,7 +89,7 @@ static void add_arrivals_table(struct ceduo_page *page, const struct ceduo_contr
 {
 #define NAME                                                                                                                   \
     {                                                                                                                          \
-        NP_("head", "of 1000"), 16, 4, 0                                                                                       \
+        N_("of 1000"), 16, 4, 0                                                                                                \
     }
 #define FIGURES                                                                                                                \
     {N_("arrive"), -16, 0, 0}, {NP_("head", "arriving kJ|mean energy of those that arrive, kJ"), -12, 0, CEDUO_DROPPED(1)},    \

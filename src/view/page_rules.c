@@ -10,11 +10,8 @@ typedef const struct ceduo_regulation_item item;
 
 static const char *note_of(const struct ceduo_regulation *rules, struct text *text)
 {
-    if (rules->note)
-        ceduo_text_format(text, _("%s: check the text in force; %s."), rules->name,
-                          ceduo_in_language(rules->note, rules->note_it));
-    else
-        ceduo_text_format(text, _("%s: check the text in force."), rules->name);
+    ceduo_text_format(text, _("%s: check the text in force"), rules->name);
+    ceduo_text_then(text, rules->note ? "; " : "", "%s.", rules->note ? ceduo_in_language(rules->note, rules->note_it) : "");
     return text->bytes;
 }
 

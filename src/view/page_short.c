@@ -144,9 +144,9 @@ static void add_choice(struct ceduo_page *page, const struct ceduo_report *repor
 static void add_options(struct ceduo_page *page, const struct ceduo_report *report)
 {
 #define MEAN   NP_("head", "over the years"), -5, 0, CEDUO_SPAN
-#define YEARS  NP_("head", "years"), -8, 0, 0
-#define TODAY  NP_("head", "today"), -6, 0, 0
-#define ADC    NP_("head", "ADC"), -6, 0, 0
+#define YEARS  N_("years"), -8, 0, 0
+#define TODAY  N_("today"), -6, 0, 0
+#define ADC    N_("ADC"), -6, 0, 0
 #define FELLED NP_("head", "felled"), -7, 0, 0
     static const struct ceduo_page_column by_today[] = {{"", 26, 2, 0}, {MEAN},          {"", -10, 0, 0}, {YEARS},
                                                         {TODAY},        {"", -10, 0, 0}, {ADC},           {FELLED}},

@@ -150,7 +150,7 @@ void ceduo_pane_options(struct ceduo_page *page, const struct ceduo_pane *pane, 
     if (r->wooded)
         ceduo_page_say(page, CEDUO_PAGE_TITLE, _("Of 1000 rocks: %s at %.6g m"), ceduo_text_string(&name), control->x_given);
     else
-        ceduo_page_say(page, CEDUO_PAGE_TITLE, _("At %.6g m"), control->x_given);
+        ceduo_page_say(page, CEDUO_PAGE_TITLE, _("At %s m"), ROUNDED(control->x_given, 6));
     ceduo_page_table(page, columns, COLUMNS);
     add_heads(page, pane);
     for (size_t i = first; i < pane->verdict->n && i < first + rows; i++)

@@ -162,7 +162,7 @@ static void say_best(struct text *text, const struct ceduo_scene *scene, const s
 void ceduo_words_best(struct text *text, const struct ceduo_scene *scene, const struct ceduo_verdict *v)
 {
     if (v->nothing)
-        ceduo_text_put(text, _("Nothing can be said of any option: no rock arrives, even without forest."));
+        ceduo_text_put(text, _("Nothing can be said: no rock arrives, even without forest."));
     const char *when = all_of_kind(v, CEDUO_WINDOW_GIVEN) ? _("Over these years") : _("Over a whole rotation");
     bool years = v->rotation.known && !v->rotation.uneven && !all_of_kind(v, CEDUO_WINDOW_ALIKE);
     bool today = v->today.known && !v->today.uneven;
