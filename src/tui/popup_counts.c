@@ -1,17 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A stand from what a sample plot counts and measures. */
 #include <math.h>
-#include <string.h>
 
 #include "base/language.h"
 #include "model/changes.h"
 #include "popup.h"
 #include "popups.h"
 
-/* Numbers but for COUNT_HOW. */
 enum {
     COUNT_AREA,
-    COUNT_HOW,
     COUNT_ANGLE,
     COUNT_STOOLS,
     COUNT_SHOOTS,
@@ -36,7 +33,6 @@ static const struct {
     const char *meaning;
 } rows[COUNTS] = {
     [COUNT_AREA] = {N_("size of the plot, m2"), COUNTS, NULL, 1e6, FIELD_REQUIRED | FIELD_ABOVE, N_("all was counted on it")},
-    [COUNT_HOW] = {N_("measured along the slope or map"), COUNTS, NULL, 0, 0, NULL},
     [COUNT_ANGLE] = {N_("angle of the slope, degrees"), COUNTS, NULL, 90, FIELD_REQUIRED | FIELD_UNDER,
                      N_("0 on level ground")},
     [COUNT_STOOLS] = {N_("stools counted"), COUNTS, NULL, 1e6, 0, NULL},
@@ -50,20 +46,18 @@ static const struct {
 /* The values in the units of files; false where one is not as it should be, which is said. */
 static bool read_plot(struct app *app, struct popup *p, double v[COUNTS])
 {
-    const char *how = p->fields[COUNT_HOW].line.text, *wrong = NULL;
+    const char *wrong = NULL;
     for (size_t i = 0; i < COUNTS; i++) {
         bool sized = rows[i].count != COUNTS;
         v[i] = 0;
-        if (i == COUNT_HOW || (sized && !(v[rows[i].count] > 0)))
+        if (sized && !(v[rows[i].count] > 0))
             continue;
         if (!ceduo_popup_number(app, p, i, &v[i]))
             return false;
         if (sized && v[i] == 0)
             wrong = ceduo_app_format(app, _("%s: it is needed; %s"), _(rows[i].label), _(rows[rows[i].count].label));
     }
-    if (strcmp(how, ALONG_SLOPE) != 0 && strcmp(how, ON_MAP) != 0)
-        wrong = ceduo_app_format(app, _("'%s': slope or map is wanted"), how);
-    else if (v[COUNT_SHOOTS] > 0 && v[COUNT_SHOOTS] < v[COUNT_STOOLS])
+    if (v[COUNT_SHOOTS] > 0 && v[COUNT_SHOOTS] < v[COUNT_STOOLS])
         wrong = _("fewer shoots than stools: a stool has one shoot at least");
     else if ((v[COUNT_SHOOTS] > 0) != (v[COUNT_STOOLS] > 0))
         wrong = _("stools and shoots belong together: count both");
@@ -80,8 +74,7 @@ static bool filled_counts(struct app *app, struct popup *p)
     struct changes changes = {.d = &app->document}, *c = &changes;
     if (!read_plot(app, p, v))
         return false;
-    bool along = strcmp(p->fields[COUNT_HOW].line.text, ALONG_SLOPE) == 0;
-    double area = v[COUNT_AREA] * (along ? cos(v[COUNT_ANGLE] * M_PI / 180) : 1), per = 10000 / area; /* m2, horizontal */
+    double area = v[COUNT_AREA] * cos(v[COUNT_ANGLE] * M_PI / 180), per = 10000 / area; /* m2, horizontal */
     const struct ceduo_stand *now = &ceduo_app_option(app)->belts[app->belt].stand;
     const char *stools = ceduo_app_format(app, "%s.stools", p->path);
     if (v[COUNT_STOOLS] > 0)
@@ -109,13 +102,6 @@ static bool filled_counts(struct app *app, struct popup *p)
 
 /* ---- asking ---- */
 
-static void offer_how(struct app *app, struct popup *p)
-{
-    (void)app;
-    ceduo_popup_item(p, _("slope: the tape lay on the ground"), ALONG_SLOPE);
-    ceduo_popup_item(p, _("map: horizontal"), ON_MAP);
-}
-
 void ceduo_popup_counts(struct app *app)
 {
     if (ceduo_app_option(app)->belts_count == 0) {
@@ -128,8 +114,9 @@ void ceduo_popup_counts(struct app *app)
     double fall = ceduo_slope_height(s, belt->from) - ceduo_slope_height(s, belt->to);
     struct popup *p = ceduo_popup_fields(app, _("Stand from the counts of a sample plot"), ceduo_app_stand(app), filled_counts);
     ceduo_text_format(&p->text,
-                      _("Densities are per horizontal hectare: 400 m2 along a slope of 40 degrees are 306 m2. "
-                        "Nothing counted is nothing there. Species, growth and cuts stay those of %s."),
+                      _("Densities are per horizontal hectare: 400 m2 along a slope of 40 degrees are 306 m2, and "
+                        "400 m2 of a map, of 0 degrees, are 400. Nothing counted is nothing there. Species, growth and cuts "
+                        "stay those of %s."),
                       belt->name);
     const double offered[COUNTS] = {
         [COUNT_AREA] = 400,
@@ -141,10 +128,6 @@ void ceduo_popup_counts(struct app *app)
     };
     for (size_t i = 0; i < COUNTS; i++) {
         const char *value = offered[i] > 0 ? ceduo_number_spoken(ceduo_app_format(app, "%.4g", offered[i])) : "";
-        if (i == COUNT_HOW) {
-            ceduo_popup_choice(p, _(rows[i].label), ALONG_SLOPE, offer_how);
-            continue;
-        }
         struct field *own =
             ceduo_popup_value(p, _(rows[i].label), value, rows[i].path ? ceduo_schema_at(rows[i].path) : &ceduo_popup_amount);
         own->flags = rows[i].path ? own->flags & ~(unsigned)FIELD_REQUIRED : rows[i].flags;

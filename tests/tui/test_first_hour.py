@@ -38,7 +38,7 @@ def test_two_minutes():
 
 
 # A face, an own profile, an own stand from a sample plot, a verdict over the rotation.
-PLOT = """key Enter Enter Enter
+PLOT = """key Enter Enter
     type 12
     key Enter
     type 40
