@@ -383,7 +383,7 @@ def test_counts():
         rows = [re.findall(r"^\d +(\S+) +(\S+) +(\S+)", part, re.M) for part in screen.body.split("\n    per ha")[1:]]
         found = [float(screen.row("^stools per ha")[-1]), float(rows[0][0][0]), float(rows[1][0][0])]
         for value, count in zip(found, (100, 250, 20)):
-            expect_equal(value, float(f"{count * per:.4g}"), f"{how}: {count} in the plot, per ha, of four digits")
+            expect_equal(f"{value:.4g}", f"{count * per:.4g}", f"{how}: {count} in the plot, per ha, to the digits of a form")
         expect_equal(rows[0][0][1:] + rows[1][0][1:], ("7.5", "8", "18", "13"), "diameters and heights")
         expect_equal([len(r) for r in rows], [1, 1], "one class of each")
         expect_in("306.4 m²" if how == "40" else "400 m²", screen.note)
