@@ -14,7 +14,7 @@
 
 #define LABEL_MIN  18 /* columns of the labels of lines */
 #define VALUE_MIN  25 /* columns that the labels leave to values */
-#define COLUMN_MAX 22 /* of a table's column */
+#define COLUMN_MAX 30 /* of a table's column */
 
 void ceduo_form_clear(struct form *form, const struct document *document)
 {

@@ -335,8 +335,8 @@ void ceduo_words_contact(struct text *text, const struct ceduo_result *result, s
     if (result->scene->simulation.contact_dbh > 0)
         ceduo_text_then(text, " ", _("Stems below %g cm do not count."), result->scene->simulation.contact_dbh * 100);
     if (s->thick.contact != s->contact)
-        ceduo_text_then(text, " ", _("Counting only stems from %g cm on it fails: %s m."), thick_cm(result->scene),
-                        BESIDE(s->thick.worst_adc, 3, limit));
+        ceduo_text_then(text, " ", _("Counting only stems from %g cm on it fails: %s%s."), thick_cm(result->scene),
+                        BESIDE(s->thick.worst_adc, 3, limit), isinf(s->thick.worst_adc) ? "" : " m");
 }
 
 void ceduo_words_free_run(struct text *text, const struct ceduo_result *result, size_t option, size_t control)
@@ -353,8 +353,8 @@ void ceduo_words_free_run(struct text *text, const struct ceduo_result *result, 
     else
         ceduo_text_put(text, _("No stem stands on the way."));
     if (s->thick.free_run != s->free_run)
-        ceduo_text_then(text, " ", _("Counting only stems from %g cm on it fails: %s %%."), thick_cm(result->scene),
-                        PERCENT(s->thick.worst_free_run, CEDUO_FREE_RUN_MOST));
+        ceduo_text_then(text, " ", _("Counting only stems from %g cm on it fails: %s%s."), thick_cm(result->scene),
+                        PERCENT(s->thick.worst_free_run, CEDUO_FREE_RUN_MOST), " %");
 }
 
 void ceduo_words_thin(const struct ceduo_result *r, ceduo_words_say *say, void *context)
