@@ -286,6 +286,7 @@ static void took_document(struct app *app)
         app->document.recovery = NULL;
     }
     app->option = app->belt = app->year = 0;
+    app->place = (struct place){0};
     app->rock = 0;
     app->editing = false;
     app->opened = true;

@@ -71,6 +71,13 @@ struct view_state {
     int scroll; /* of text that is longer than its pane */
 };
 
+/* A cursor along the slope of view 1. */
+struct place {
+    double x; /* m, relative */
+    int zoom; /* 2^zoom times as near as the whole slope */
+    bool put; /* it was moved: x holds */
+};
+
 struct app {
     struct document document;
     struct arena *scratch;    /* strings until the next key */
@@ -85,6 +92,7 @@ struct app {
     size_t option, belt;               /* that the views show */
     size_t year;                       /* index of the one under the cursor */
     bool over;                         /* view 7: the mean over the rotation, not today */
+    struct place place;                /* the cursor along the slope */
     uint64_t rock;                     /* whose trajectory is shown */
     struct rock_trajectory trajectory; /* that trajectory */
     bool editing;

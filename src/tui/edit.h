@@ -14,6 +14,10 @@ void ceduo_edit_key(struct app *app, int key);
 void ceduo_edit_step(struct app *app, int direction);
 
 void ceduo_items_add(struct app *app);
+/* Splits item `index` of a list `at` a place along the slope, m as given, or adds a control there. */
+void ceduo_items_add_at(struct app *app, const char *list, size_t index, double at);
+/* The stretch between points of the profile that holds x, both as the file of the slope has them. */
+size_t ceduo_items_stretch_of(const struct app *app, double x_written);
 void ceduo_items_delete(struct app *app);
 void ceduo_items_duplicate(struct app *app);
 void ceduo_items_move(struct app *app, int by);

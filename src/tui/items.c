@@ -17,7 +17,15 @@ struct item {
     size_t index;
     bool there;        /* false: the list is empty */
     const char *group; /* that alone of it; NULL: all */
+    double at;         /* where along the slope, m, as given; NAN: in the middle of what is split */
 };
+
+static struct item item_of(const struct app *app, const char *list, size_t index)
+{
+    list = ceduo_app_format(app, "%s", list);
+    const char *dot = strrchr(list, '.');
+    return (struct item){.list = list, .key = dot ? dot + 1 : list, .index = index, .there = true, .at = NAN};
+}
 
 /* `there`: an item must be under the cursor, not the line of an empty list. */
 static bool find_item(struct app *app, struct item *item, bool there)
@@ -28,8 +36,9 @@ static bool find_item(struct app *app, struct item *item, bool there)
         ceduo_app_say(app, "%s", _("this works on an item of a list: put the cursor on one"));
         return false;
     }
-    const char *list = ceduo_app_format(app, "%s", row->list), *dot = strrchr(list, '.');
-    *item = (struct item){list, dot ? dot + 1 : list, row->index, row->n > 0, row->group};
+    *item = item_of(app, row->list, row->index);
+    item->there = row->n > 0;
+    item->group = row->group;
     return true;
 }
 
@@ -46,13 +55,14 @@ static double place_of(const struct app *app, const struct item *item, size_t in
 static bool split_stretch(struct app *app, const struct item *item)
 {
     double middle = (place_of(app, item, item->index, "from_m") + place_of(app, item, item->index, "to_m")) / 2;
+    middle = isnan(item->at) ? middle : item->at;
     const char *first = ceduo_app_format(app, "%s[%zu].to_m=%.10g", item->list, item->index, middle);
     const char *second = ceduo_app_format(app, "%s[%zu].from_m=%.10g", item->list, item->index + 1, middle);
     return ceduo_document_duplicate(&app->document, item->list, item->index, first, second, &app->problems);
 }
 
-/* A point in the middle of a segment of the profile. */
-static bool split_middle(struct app *app, size_t segment, bool apart)
+/* A point on a segment of the profile, `at` along the slope (NAN: in its middle). */
+static bool split_at(struct app *app, size_t segment, bool apart, double at)
 {
     const struct node *vertices = ceduo_document_node(&app->document, "slope.vertices_m");
     if (!vertices || segment + 1 >= vertices->n) {
@@ -66,8 +76,22 @@ static bool split_middle(struct app *app, size_t segment, bool apart)
     }
     if (isnan(x[0] + x[1] + z[0] + z[1]))
         return false;
-    const char *vertex = ceduo_app_format(app, "[%.10g, %.10g]", (x[0] + x[1]) / 2, (z[0] + z[1]) / 2);
+    double share = isnan(at) ? 0.5 : (at - x[0]) / (x[1] - x[0]);
+    const char *vertex =
+        ceduo_app_format(app, "[%.10g, %.10g]", isnan(at) ? (x[0] + x[1]) / 2 : at, z[0] + share * (z[1] - z[0]));
     return ceduo_document_split_segment(&app->document, segment, vertex, apart, &app->problems);
+}
+
+size_t ceduo_items_stretch_of(const struct app *app, double x_written)
+{
+    const struct ceduo_slope *s = &app->document.file.scene.slope;
+    const struct node *vertices = ceduo_document_node(&app->document, "slope.vertices_m");
+    size_t j = ceduo_slope_segment(s, ceduo_slope_mirrored(s, x_written) - s->origin_x);
+    if (!vertices) /* a CSV file */
+        return s->reversed ? s->vertices - 2 - j : j;
+    for (j = 0; j + 2 < vertices->n && x_written >= ceduo_node_item_number(vertices->items[j + 1], 0);)
+        j++;
+    return j;
 }
 
 /* A segment in two, each with a ground of its own; of one ground for all segments that in the middle of the slope. */
@@ -75,9 +99,9 @@ static bool split_segment(struct app *app, const struct item *item)
 {
     const struct ceduo_slope *s = &app->document.file.scene.slope;
     const struct node *segments = ceduo_document_node(&app->document, "slope.segments");
-    size_t middle = ceduo_slope_segment(s, s->x[s->vertices - 1] / 2);
-    middle = s->reversed ? s->vertices - 2 - middle : middle;
-    return split_middle(app, segments && segments->n == 1 ? middle : item->index, true);
+    double at = isnan(item->at) ? s->origin_x + s->x[s->vertices - 1] / 2 : item->at;
+    size_t segment = segments && segments->n == 1 ? ceduo_items_stretch_of(app, at) : item->index;
+    return split_at(app, segment, true, item->at);
 }
 
 /* A point between this one and the next, or before the last. */
@@ -85,7 +109,7 @@ static bool split_point(struct app *app, const struct item *item)
 {
     const struct node *vertices = ceduo_document_node(&app->document, "slope.vertices_m");
     bool last = vertices && item->index > 0 && item->index + 1 == vertices->n;
-    return split_middle(app, item->index - last, false);
+    return split_at(app, item->index - last, false, item->at);
 }
 
 /* ---- adding ---- */
@@ -129,6 +153,7 @@ static bool add_control(struct app *app, const struct item *item)
     double start = s->release.x.mean + s->release.x.spread * 3;
     double x = (last < end ? (last + end) / 2 : (start + s->controls[0].x) / 2) + s->slope.origin_x;
     bool plain = strcmp(item->key, "controls_m") == 0;
+    x = isnan(item->at) ? x : item->at;
     return insert(app, item, 1000000, plain ? ceduo_app_format(app, "%.6g", x) : ceduo_app_format(app, "{x_m: %.6g}", x));
 }
 
@@ -233,6 +258,13 @@ void ceduo_items_add(struct app *app)
     make(app, &item, true);
     if (strcmp(item.key, "forest") == 0 && !app->message[0])
         ceduo_app_say(app, "%s", _("a belt of its own now: p chooses its stand, c takes it from a sample plot"));
+}
+
+void ceduo_items_add_at(struct app *app, const char *list, size_t index, double at)
+{
+    struct item item = item_of(app, list, index);
+    item.at = at;
+    make(app, &item, false);
 }
 
 void ceduo_items_delete(struct app *app)

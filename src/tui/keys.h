@@ -77,6 +77,8 @@ enum key {
     X(LAST_OPTION, '[', "[", K_NONE, "", 0, N_("the option before"), BY(next_option, -1))                                      \
     X(NEXT_ROCK, '.', ".", K_NONE, "", 0, N_("next rock's way"), BY(ceduo_app_next_rock, 1))                                   \
     X(LAST_ROCK, ',', ",", K_NONE, "", 0, N_("the rock's way before"), BY(ceduo_app_next_rock, -1))                            \
+    X(ZOOM, 'z', "z", K_NONE, "", 0, N_("nearer to the slope, at the cursor along it"), DO(NULL))                              \
+    X(UNZOOM, 'Z', "Z", K_NONE, "", 0, N_("farther from the slope"), DO(NULL))                                                 \
     X(SEARCH, '/', "/", K_F(3), "F3", 0, N_("search"), DO(ask_for_word))                                                       \
     X(AGAIN, 'N', "N", K_NONE, "", 0, N_("search again"), DO(ceduo_app_search))                                                \
     X(NEW, 'n', "n", K_F(7), "F7", 0, N_("new scene"), DO(ceduo_popup_new))                                                    \

@@ -4,6 +4,7 @@
 
 #include "app.h"
 #include "base/language.h"
+#include "popups.h"
 
 static void build(struct app *app, struct form *form)
 {
@@ -54,7 +55,11 @@ static void draw(struct app *app, struct ceduo_area area)
     ceduo_app_put(app, foot, CEDUO_ROLE_DIM, &text);
 }
 
-const struct view ceduo_view_rock = {.panes = 1,
-                                     .build = build,
-                                     .draw = draw,
-                                     .bar = {{ACTION_EDIT, N_("edit")}, {ACTION_MORE, N_("more")}, {ACTION_LESS, N_("less")}}};
+static const struct act acts[] = {{ACTION_PRESETS, .plain = ceduo_popup_starts}, {0}};
+
+const struct view ceduo_view_rock = {
+    .panes = 1,
+    .build = build,
+    .draw = draw,
+    .acts = {acts},
+    .bar = {{ACTION_EDIT, N_("edit")}, {ACTION_MORE, N_("more")}, {ACTION_LESS, N_("less")}, {ACTION_PRESETS, N_("presets")}}};

@@ -1,7 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* View 1: the slope, trajectories over it, height and energy along it; its ground, belts and controls to edit. */
-#include "app.h"
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
 #include "base/language.h"
+#include "edit.h"
+#include "popup.h"
+#include "view/plot_parts.h"
 
 /* ---- the form ---- */
 
@@ -45,9 +51,187 @@ static void build(struct app *app, struct form *form)
     }
 }
 
+#define ZOOM_MAX 7
+#define STEPS    100   /* of the cursor, over what is shown */
+#define NEAR     0.015 /* of what is shown: so near a point or a control is where the cursor is */
+
+/* ---- the cursor along the slope: where it is ---- */
+
+static double length_of(const struct app *app)
+{
+    const struct ceduo_slope *s = &app->document.file.scene.slope;
+    return s->x[s->vertices - 1];
+}
+
+/* m, relative: in the middle of the slope until it is moved. */
+static double place_x(const struct app *app)
+{
+    double length = length_of(app);
+    return app->place.put ? fmin(app->place.x, length) : length / 2;
+}
+
+static void put_place(struct app *app, double x)
+{
+    app->place.x = fmin(fmax(0, x), length_of(app));
+    app->place.put = true;
+}
+
+/* By a hundredth of what is shown, onto a round number. */
+static void move_place(struct app *app, int by)
+{
+    double origin = app->document.file.scene.slope.origin_x;
+    double step = ceduo_plot_round(ldexp(length_of(app), -app->place.zoom) / STEPS * 2, false);
+    double at = (place_x(app) + origin) / step;
+    put_place(app, (by > 0 ? floor(at + 1e-9) + by : ceil(at - 1e-9) + by) * step - origin);
+}
+
+/* Takes in a place if it lies on that side of the cursor and nearer than the best so far. */
+static void nearer(double here, int side, double x, double *best)
+{
+    bool beyond = side > 0 ? x > here + 1e-9 : x < here - 1e-9;
+    if (beyond && (isnan(*best) || fabs(x - here) < fabs(*best - here)))
+        *best = x;
+}
+
+/* To the next of all points, borders and controls. */
+static void jump(struct app *app, int by)
+{
+    const struct ceduo_scene *scene = &app->document.file.scene;
+    const struct ceduo_option *option = ceduo_app_option(app);
+    double here = place_x(app), best = NAN;
+    nearer(here, by, scene->release.x.mean, &best);
+    for (size_t i = 0; i < scene->slope.vertices; i++)
+        nearer(here, by, scene->slope.x[i], &best);
+    for (size_t i = 0; i < scene->controls_count; i++)
+        nearer(here, by, scene->controls[i].x, &best);
+    for (size_t i = 0; i < option->belts_count; i++) {
+        nearer(here, by, option->belts[i].from, &best);
+        nearer(here, by, option->belts[i].to, &best);
+    }
+    if (!isnan(best))
+        put_place(app, best);
+}
+
+/* ---- what is there ---- */
+
+/* The belt that it stands in; belts_count where it stands in none. */
+static size_t belt_at(const struct app *app, double x)
+{
+    const struct ceduo_option *o = ceduo_app_option(app);
+    size_t i = 0;
+    while (i < o->belts_count && !(x >= o->belts[i].from && x <= o->belts[i].to))
+        i++;
+    return i;
+}
+
+static void say_place(struct app *app)
+{
+    const struct ceduo_scene *scene = &app->document.file.scene;
+    const struct ceduo_snapshot *o = ceduo_live_snapshot(&app->live, scene);
+    const struct ceduo_run_snapshot *run = ceduo_snapshot_of(o, scene, app->option);
+    double x = place_x(app);
+    size_t belt = belt_at(app, x), cell = 0;
+    LOCAL_TEXT(text);
+    ceduo_text_format(&text, _("%.1f m: %.0f\xc2\xb0 steep, %s"), x + scene->slope.origin_x,
+                      atan(ceduo_slope_fall(&scene->slope, x)) * 180 / M_PI,
+                      belt < ceduo_app_option(app)->belts_count ? ceduo_app_option(app)->belts[belt].name : _("no forest"));
+    for (size_t i = 1; o && i < o->cells; i++) /* the nearest */
+        cell = fabs(o->cell_x[i] - x) < fabs(o->cell_x[cell] - x) ? i : cell;
+    bool near = o && o->cells > 1 && fabs(o->cell_x[cell] - x) <= fabs(o->cell_x[1] - o->cell_x[0]);
+    const struct ceduo_envelope *e = near && run && run->envelopes ? &run->envelopes[cell] : NULL;
+    if (e && e->passed > 0)
+        ceduo_text_then(&text, "; ", _("of 100 rocks that pass the underside of 95 is below %s m; %s kJ on average"),
+                        WRITTEN(e->height.p95, 2), WRITTEN(e->mean_energy * J_TO_KJ, 3));
+    ceduo_app_hint(app, text.bytes);
+}
+
+/* ---- what can be done there ---- */
+
+/* x as the file of the slope has it. */
+static double written(const struct app *app, double x)
+{
+    const struct ceduo_slope *s = &app->document.file.scene.slope;
+    return ceduo_slope_mirrored(s, x + s->origin_x);
+}
+
+/* "list#index": to edit; "+list#index": to add at the cursor. */
+static void offer_place(struct app *app, const char *line, const char *sign, const char *list, size_t index)
+{
+    ceduo_popup_item(app->popup, line, ceduo_app_format(app, "%s%s#%zu", sign, list, index));
+}
+
+static void chose_place(struct app *app, struct popup *p)
+{
+    bool add = p->value[0] == '+';
+    char *list = ceduo_app_format(app, "%s", p->value + add), *mark = strrchr(list, '#');
+    *mark = '\0';
+    size_t index = strtoul(mark + 1, NULL, 10);
+    ceduo_app_state(app)->pane = 0;
+    if (add)
+        ceduo_items_add_at(app, list, index,
+                           strncmp(list, "slope.", 6) == 0 ? written(app, place_x(app))
+                                                           : place_x(app) + app->document.file.scene.slope.origin_x);
+    else
+        ceduo_form_go(ceduo_app_form(app), list, index);
+}
+
+static void offer_ground(struct app *app, double x)
+{
+    const struct ceduo_slope *s = &app->document.file.scene.slope;
+    const struct node *segments = ceduo_document_node(&app->document, "slope.segments");
+    const struct node *vertices = ceduo_document_node(&app->document, "slope.vertices_m");
+    double there = written(app, x);
+    const struct node *materials = ceduo_document_node(&app->document, "slope.materials");
+    size_t j = ceduo_items_stretch_of(app, there), n = materials ? materials->n : 0, material = 0;
+    while (material < n &&
+           !(there >= ceduo_document_place(&app->document, ceduo_node_text(materials->items[material], "from_m")) &&
+             there <= ceduo_document_place(&app->document, ceduo_node_text(materials->items[material], "to_m"))))
+        material++;
+    if (segments && segments->n > 0) {
+        size_t i = segments->n == 1 ? 0 : j;
+        offer_place(app, ceduo_app_format(app, _("edit the ground here: number %zu"), i + 1), "", "slope.segments", i);
+        if (vertices)
+            offer_place(app, _("another ground from here on"), "+", "slope.segments", i);
+    } else if (material < n) {
+        offer_place(app, ceduo_app_format(app, _("edit the ground here: number %zu"), material + 1), "", "slope.materials",
+                    material);
+        offer_place(app, _("another ground from here on"), "+", "slope.materials", material);
+    }
+    if (vertices && vertices->n <= LISTED_MAX) {
+        double a = ceduo_node_item_number(vertices->items[j], 0), b = ceduo_node_item_number(vertices->items[j + 1], 0);
+        bool first = there - a < b - there;
+        offer_place(app,
+                    ceduo_app_format(app, _("edit the nearest point of the profile: number %zu, at %.4g m"),
+                                     j + (first ? 1 : 2), ceduo_slope_mirrored(s, first ? a : b)),
+                    "", "slope.vertices_m", j + (first ? 0 : 1));
+        offer_place(app, _("a new point of the profile here"), "+", "slope.vertices_m", j);
+    }
+}
+
+/* Lists what it stands on, to be edited, and what can be put there. */
+static void choose_at_place(struct app *app)
+{
+    const struct ceduo_scene *s = &app->document.file.scene;
+    const struct ceduo_option *o = ceduo_app_option(app);
+    const char *forest = ceduo_app_forest(app);
+    const char *controls = ceduo_document_node(&app->document, "controls_m") ? "controls_m" : "controls";
+    double x = place_x(app), near = NEAR * ldexp(length_of(app), -app->place.zoom);
+    size_t belt = belt_at(app, x);
+    ceduo_popup_list(app, ceduo_app_format(app, _("At %.4g m"), x + s->slope.origin_x), "", chose_place);
+    if (belt < o->belts_count) {
+        offer_place(app, ceduo_app_format(app, _("edit the belt here: %.100s"), o->belts[belt].name), "", forest, belt);
+        offer_place(app, _("two belts: end this one here and begin another"), "+", forest, belt);
+    }
+    offer_ground(app, x);
+    for (size_t i = 0; i < s->controls_count; i++)
+        if (fabs(s->controls[i].x - x) <= near)
+            offer_place(app, ceduo_app_format(app, _("edit the control at %.4g m"), s->controls[i].x_given), "", controls, i);
+    offer_place(app, _("count rocks here too: a new control"), "+", controls, s->controls_count);
+}
+
 /* ---- the pictures ---- */
 
-enum { PANE_FORM, PANE_ROCKS, PANES };
+enum { PANE_FORM, PANE_ROCKS, PANE_PLACE, PANES };
 
 /* The picture alone where it has the focus, otherwise with the form below it. */
 static void draw(struct app *app, struct ceduo_area area)
@@ -55,14 +239,25 @@ static void draw(struct app *app, struct ceduo_area area)
     ceduo_app_follow_rock(app);
     struct ceduo_span span;
     struct ceduo_picture picture = ceduo_app_picture(app);
+    double mark = place_x(app);
     picture.span = &span;
     bool alone = ceduo_app_state(app)->pane != PANE_FORM;
+    if (app->place.zoom > 0) { /* the stretch around the cursor */
+        double length = length_of(app), shown = ldexp(length, -app->place.zoom);
+        picture.from = fmin(fmax(0, mark - shown / 2), length - shown);
+        picture.to = picture.from + shown;
+    }
     int form_height = alone ? 0 : area.height / 3;
+    bool place = ceduo_app_state(app)->pane == PANE_PLACE; /* no strips: all rows for the slope at true scale */
     int room = area.height - form_height;
-    int strips = room >= 24 ? 2 : room >= 13 ? 1 : 0;
+    int strips = place ? 0 : room >= 24 ? 2 : room >= 13 ? 1 : 0;
+    if (place)
+        picture.mark = &mark;
     int strip = room >= 24 ? room / 4 : 5;
-    if (alone)
-        ceduo_app_hint(app, _("left, right: another rock; down, up: along its way; Tab: back to the form"));
+    if (place)
+        say_place(app);
+    else if (alone)
+        ceduo_app_hint(app, _("left, right: another rock; down, up: along its way; Tab: along the slope"));
     struct ceduo_area profile = {area.left, area.top, area.width, room - strip * strips - (alone ? 0 : 1)};
     ceduo_plot_draw(CEDUO_PLOT_PROFILE, &app->cells->canvas, &profile, &picture);
     struct ceduo_area next = {area.left, area.top + profile.height, area.width, strip};
@@ -78,19 +273,50 @@ static void draw(struct app *app, struct ceduo_area area)
     ceduo_app_draw_form(app, below);
 }
 
+static void zoom(struct app *app, int by)
+{
+    struct view_state *state = ceduo_app_state(app);
+    state->pane = state->pane == PANE_FORM ? PANE_PLACE : state->pane;
+    by += app->place.zoom;
+    if (by < 0)
+        ceduo_app_say(app, "%s", _("this is the whole slope"));
+    else if (by > ZOOM_MAX)
+        ceduo_app_say(app, "%s", _("this is as near as it gets"));
+    else
+        app->place.zoom = by;
+}
+
+#define ZOOM_ACTS                                                                                                              \
+    {ACTION_ZOOM, .function = zoom, .by = 1}, {ACTION_UNZOOM, .function = zoom, .by = -1},                                     \
+    {                                                                                                                          \
+        0                                                                                                                      \
+    }
+
+static const struct act form_acts[] = {ZOOM_ACTS};
+
 /* In the picture left and right go from rock to rock, up and down along its trajectory. */
 static const struct act rock_acts[] = {{ACTION_RIGHT, .function = ceduo_app_next_rock, .by = 1},
                                        {ACTION_LEFT, .function = ceduo_app_next_rock, .by = -1},
                                        {ACTION_DOWN, .function = ceduo_app_step_rock, .by = 1},
                                        {ACTION_UP, .function = ceduo_app_step_rock, .by = -1},
-                                       {0}};
+                                       ZOOM_ACTS};
+
+/* Along the slope: left and right by steps, up and down from one point, border or control to the next. */
+static const struct act place_acts[] = {{ACTION_RIGHT, .function = move_place, .by = 1},
+                                        {ACTION_LEFT, .function = move_place, .by = -1},
+                                        {ACTION_DOWN, .function = jump, .by = 1},
+                                        {ACTION_UP, .function = jump, .by = -1},
+                                        {ACTION_EDIT, .plain = choose_at_place},
+                                        {ACTION_ADD, .plain = choose_at_place},
+                                        ZOOM_ACTS};
 
 const struct view ceduo_view_slope = {.panes = PANES,
                                       .build = build,
                                       .draw = draw,
-                                      .acts = {NULL, rock_acts},
+                                      .acts = {form_acts, rock_acts, place_acts},
                                       .bar = {{ACTION_EDIT, N_("edit")},
                                               {ACTION_ADD, N_("add")},
                                               {ACTION_DELETE, N_("delete")},
                                               {ACTION_NEXT_PANE, N_("picture")},
+                                              {ACTION_ZOOM, N_("nearer")},
                                               {ACTION_NEXT_ROCK, N_("a rock")}}};

@@ -28,6 +28,7 @@ struct ceduo_picture {
     size_t option, belt, control;          /* indices; where there is none, the picture says so */
     const struct ceduo_polyline *selected; /* one rock's trajectory, shown before all others; NULL: none */
     const double *mark;                    /* a place along the slope that the profile marks, m, relative; NULL: none */
+    double from, to;                       /* the stretch of slope shown, m, relative; from = to: all of it */
     const struct ceduo_stem_passed *stems; /* those that the selected rock came to, in its order; NULL: not known */
     size_t stems_count;
     const struct ceduo_years *years;     /* of the option; NULL: not computed */

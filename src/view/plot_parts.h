@@ -25,7 +25,7 @@ struct ceduo_drawing {
     const struct ceduo_run_snapshot *sight, *bare;
     const struct ceduo_arrivals *arrivals, *bare_arrivals; /* at the control */
     bool wooded;                                           /* rocks go through the forest: not with the contact model index */
-    double to;                                             /* the end of the slope, which begins at 0 */
+    double from, to;                                       /* the stretch of slope to show */
 };
 
 /* Each returns NULL, or why there is nothing to draw. */

@@ -40,19 +40,24 @@ static void widen_by_ground(struct range *r, const struct ceduo_slope *slope, do
             widen(r, slope->z[i] + tall);
 }
 
-/* All that is to be seen: ground, release, trajectories, stems. */
+static bool is_stretch(const struct ceduo_drawing *d)
+{
+    return d->picture->to > d->picture->from;
+}
+
+/* All that is to be seen: ground, release, trajectories, stems; of a stretch stems may reach beyond the top. */
 static struct range range_of(const struct ceduo_drawing *d)
 {
     const struct ceduo_release *release = &d->scene->release;
-    struct range r = {0, d->to, INFINITY, -INFINITY};
-    widen_by_ground(&r, &d->scene->slope, 0, d->to, 0);
+    struct range r = {d->from, d->to, INFINITY, -INFINITY};
+    widen_by_ground(&r, &d->scene->slope, d->from, d->to, 0);
     if (release->x.mean >= r.x_lo && release->x.mean <= r.x_hi)
         widen(&r, ceduo_slope_height(&d->scene->slope, release->x.mean) + release->height.mean);
     for (size_t i = 0; d->sight && i < d->sight->trajectories_count; i++)
         widen_by_line(&r, &d->sight->trajectories[i]);
     if (d->picture->selected)
         widen_by_line(&r, d->picture->selected);
-    for (size_t i = 0; d->option && i < d->option->belts_count; i++) {
+    for (size_t i = 0; d->option && !is_stretch(d) && i < d->option->belts_count; i++) {
         const struct ceduo_belt *belt = &d->option->belts[i];
         widen_by_ground(&r, &d->scene->slope, belt->from, belt->to, ceduo_plot_tallest(&belt->stand));
     }
@@ -88,10 +93,11 @@ static double height_factor(const struct ceduo_frame *frame, const struct ceduo_
     return round[i];
 }
 
-/* Fits the ranges, the ground at the bottom, the slope's start at the left; gives up columns without slope. Returns the factor of heights, NaN where nothing can be drawn. */
-static double scale(struct ceduo_frame *f, const struct ceduo_canvas *canvas, const struct range *r)
+/* Fits the ranges, the ground at the bottom, the slope's start at the left; gives up columns without slope. A stretch is always
+ * true to scale. Returns the factor of heights, NaN where nothing can be drawn. */
+static double scale(struct ceduo_frame *f, const struct ceduo_canvas *canvas, const struct range *r, bool stretch)
 {
-    double factor = height_factor(f, canvas, r);
+    double factor = stretch ? 1 : height_factor(f, canvas, r);
     if (!fit(f, canvas, r, factor))
         return NAN;
     int needed = (int)ceil(f->width * (r->x_hi - r->x_lo) / (f->x1 - f->x0));
@@ -244,7 +250,7 @@ static double place_frame(struct ceduo_drawing *d, bool names, bool belts)
                                         .top = d->area.top + names,
                                         .width = d->area.width - axis,
                                         .height = d->area.height - names - belts - 2};
-        factor = scale(&d->frame, d->canvas, &r);
+        factor = scale(&d->frame, d->canvas, &r, is_stretch(d));
         if (isnan(factor))
             break;
         struct ceduo_frame given = ceduo_plot_given(&d->frame, d->scene->slope.origin_x, d->scene->slope.origin_z);

@@ -232,7 +232,7 @@ static const char *draw_strip(struct ceduo_drawing *d, bool energy)
 {
     const struct ceduo_span *span = d->picture->span;
     const struct ceduo_snapshot *snapshot = d->picture->snapshot;
-    struct strip s = {.d = d, .energy = energy, .from = span ? span->x0 : 0, .to = span ? span->x1 : d->to};
+    struct strip s = {.d = d, .energy = energy, .from = span ? span->x0 : d->from, .to = span ? span->x1 : d->to};
     int names = span ? d->area.left + d->area.width - span->left - span->width : INT_MAX;
     bool small = d->area.height - 1 - 2 * !d->picture->no_x_axis < FULL_ROWS || d->area.width < FULL_WIDTH ||
                  names < name_columns(d->canvas, &contents[1], energy) - 1;

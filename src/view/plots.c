@@ -34,6 +34,9 @@ const struct ceduo_arrivals *ceduo_plot_arrivals(const struct ceduo_run_snapshot
 static struct ceduo_drawing drawing_of(const struct ceduo_picture *p)
 {
     const struct ceduo_scene *s = p->scene;
+    const struct ceduo_slope *slope = &s->slope;
+    const double *last = &slope->x[slope->vertices - 1];
+    bool whole = !(p->to > p->from);
     struct ceduo_drawing d = {.picture = p,
                               .scene = s,
                               .option = p->option < s->options_count ? &s->options[p->option] : NULL,
@@ -41,7 +44,8 @@ static struct ceduo_drawing drawing_of(const struct ceduo_picture *p)
                               .sight = ceduo_snapshot_of(p->snapshot, s, p->option),
                               .bare = p->snapshot ? p->snapshot->bare : NULL,
                               .wooded = s->simulation.contact_model != CEDUO_INDEX,
-                              .to = s->slope.x[s->slope.vertices - 1]};
+                              .from = whole ? slope->x[0] : fmax(p->from, slope->x[0]),
+                              .to = whole ? *last : fmin(p->to, *last)};
     d.belt = d.option && p->belt < d.option->belts_count ? &d.option->belts[p->belt] : NULL;
     d.arrivals = ceduo_plot_arrivals(d.sight, p->control);
     d.bare_arrivals = ceduo_plot_arrivals(d.bare, p->control);

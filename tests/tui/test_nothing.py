@@ -126,5 +126,39 @@ options:
         expect("\u2718" in mended.now or "\u2714" in mended.now, mended.now)
 
 
+def test_cursor_on_a_reversed_profile():
+    """The cursor of view 1 edits the ground and the point that lie below it, where the file has them in the other order"""
+    with Folder() as f:
+        f.write("s.yaml", """ceduo: scene/1
+rock: {diameter_m: 0.68}
+slope:
+  reversed: true
+  vertices_m: [[0, 15], [60, 50], [120, 88], [146, 105], [156, 140], [160, 141.4]]
+  materials:
+    - {from_m: 0, to_m: 100, material: talus}
+    - {from_m: 100, to_m: 160, material: cliff}
+release: {x_m: 4}
+controls: [{x_m: 120}]
+""")
+        here, split = play(f.path, """resize 120 40
+            wait idle
+            key Tab Tab Down Enter
+            dump
+            key Esc Right Enter
+            type new point
+            key Enter
+            wait idle
+            key s
+            dump""", f.path / "s.yaml")
+        # From the middle, 80 m, down to the next point of the slope: 100 m, which the file has at 60 m, the second.
+        here.has("number 2, at 100 m", "edit the ground here: number 1")
+        text = (f.path / "s.yaml").read_text()
+        split.has("saved")
+        points = [tuple(float(v) for v in pair) for pair in re.findall(r"\[([\d.]+), ([\d.]+)\]", text)]
+        expect_equal(len(points), 7, text)
+        x, z = points[1] # a little below 100 m of the slope, a little below 60 m of the file
+        expect(50 < x < 60 and abs(z - (15 + x * 35 / 60)) < 1e-6, points)
+
+
 if __name__ == "__main__":
     run_all(__name__)

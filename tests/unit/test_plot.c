@@ -227,6 +227,12 @@ TEST_BARE(span_tells_where_the_slope_stands)
     assert_true(span.x0 == 0);
     assert_true(span.x1 >= 100 && span.x1 < 104);
     assert_true(span.left >= 3 && span.left + span.width <= 80);
+    p.from = 40;
+    p.to = 60;
+    ceduo_cells_clear(cells);
+    ceduo_plot_draw(CEDUO_PLOT_PROFILE, &cells->canvas, &area, &p);
+    assert_true(span.x0 == 40);
+    assert_true(span.x1 >= 60 && span.x1 < 62);
 }
 
 TEST_BARE(the_selected_way_is_drawn_over_all)
