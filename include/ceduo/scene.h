@@ -43,6 +43,7 @@ struct ceduo_belt {
     double from_given, to_given; /* as the user wrote them */
     char *name, *name_given;     /* of the stand: as it is shown, and as the user wrote it */
     bool assumed;                /* some value of the stand is an assumption */
+    bool changed;                /* numbers of a stand from a file were changed, and no name of its own was given */
     bool felled;                 /* of a year: a cut of this year left this stand */
     double cut_year;             /* a year in which it is cut, as in ceduo_first_cut(); NaN: when it is old enough */
     struct ceduo_stand stand;

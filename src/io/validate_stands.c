@@ -132,12 +132,12 @@ static void make_belts(struct validator *v, const char *path, struct ceduo_optio
         const char *name = ceduo_node_text(node, "name"); /* what the stand calls itself, or else its file */
         if (!name && node->written && node->written->kind == NODE_SCALAR)
             name = node->written->text;
-        const bool changed = name && !is_as_named(v, node);
+        belt->changed = name && !is_as_named(v, node);
         const char *shown = ceduo_in_language(name, ceduo_node_text(node, "name_it")), *plain = N_("stand");
         if (!name)
             shown = _(name = ceduo_stand_is_bare(&belt->stand) ? N_("bare") : plain);
-        belt->name_given = (char *)(uintptr_t)(changed ? ceduo_format(v, "%s (changed)", name) : name);
-        belt->name = (char *)(uintptr_t)(changed ? ceduo_format(v, _("%s (changed)"), shown) : shown);
+        belt->name_given = (char *)(uintptr_t)(belt->changed ? ceduo_format(v, "%s (changed)", name) : name);
+        belt->name = (char *)(uintptr_t)(belt->changed ? ceduo_format(v, _("%s (changed)"), shown) : shown);
         belt->assumed = ceduo_notes_say(v->notes, "assumed", stand);
         check_stand(v, stand, &belt->stand);
     }

@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include "base/language.h"
+#include "io/emit.h"
 #include "popup.h"
 #include "popups.h"
 
@@ -59,6 +60,44 @@ void ceduo_popup_offer_files(struct app *app, struct popup *p)
     ceduo_picker_add_files(&p->picker, p->fields[p->at].line.text, p->endings);
 }
 
+/* ---- a name for a stand that is no longer what it was ---- */
+
+static bool filled_stand(struct app *app, struct popup *p)
+{
+    LOCAL_TEXT(value);
+    if (p->fields[0].line.text[0] == '\0') {
+        ceduo_app_warn(app, "%s", _("a name is needed"));
+        return false;
+    }
+    ceduo_emit_scalar(&value, p->fields[0].line.text, true);
+    bool good = ceduo_app_edited(app, ceduo_document_set(&app->document, p->path, value.bytes, &app->problems));
+    if (good)
+        p->then(app);
+    return good;
+}
+
+/* Asks for the name of the first such stand, and then goes on. False where there is none. */
+static bool asks_for_stand(struct app *app, void (*then)(struct app *app))
+{
+    const struct ceduo_scene *scene = &app->document.file.scene;
+    bool options = ceduo_node_get(app->document.file.root, "options");
+    for (size_t o = 0; o < scene->options_count; o++)
+        for (size_t b = 0; b < scene->options[o].belts_count; b++) {
+            const struct ceduo_belt *belt = &scene->options[o].belts[b];
+            if (!belt->changed)
+                continue;
+            const char *option = options ? ceduo_app_format(app, "options[%zu].", o) : "";
+            const char *path = ceduo_app_format(app, "%sforest[%zu].stand.name", option, b);
+            struct popup *p = ceduo_popup_fields(app, _("A stand was changed: its name"), path, filled_stand);
+            ceduo_text_format(&p->text, _("It stands from %g to %g m in '%s' and is no longer what its name said."),
+                              belt->from_given, belt->to_given, scene->options[o].name);
+            p->then = then;
+            ceduo_popup_field(p, _("name"), belt->name);
+            return true;
+        }
+    return false;
+}
+
 /* ---- where to ---- */
 
 /* `why` the last attempt failed; NULL: none did. */
@@ -78,7 +117,8 @@ static void ask_for_name(struct app *app, const char *why)
 
 void ceduo_popup_save_as(struct app *app)
 {
-    ask_for_name(app, NULL);
+    if (!asks_for_stand(app, ceduo_popup_save_as))
+        ask_for_name(app, NULL);
 }
 
 /* Writes where the scene came from. */
@@ -100,6 +140,8 @@ static void chose_disk(struct app *app, struct popup *p)
 void ceduo_popup_save(struct app *app)
 {
     const struct document *d = &app->document;
+    if (asks_for_stand(app, ceduo_popup_save))
+        return;
     if (!d->path || d->shipped) {
         ask_for_name(app, NULL);
     } else if (!ceduo_document_changed_on_disk(d)) {

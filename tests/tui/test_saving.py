@@ -180,10 +180,14 @@ def test_save_shipped():
     shipped = PROFILES / "scenes/paper-site.yaml"
     before, stamp = shipped.read_bytes(), shipped.stat().st_mtime_ns
     with Place() as place:
-        asked, saved, later = place.play("""key 2
+        named, asked, saved, later = place.play("""key 2
             find stools.per_ha
             set 2000
             key s
+            dump
+            key Ctrl-U
+            type thinned
+            key Enter
             dump
             key Enter
             dump
@@ -191,6 +195,7 @@ def test_save_shipped():
             set 1500
             key s
             dump""", "paper-site")
+        named.has("A stand was changed: its name", "ADS 1 (changed)", "from 0 to 67.5 m in 'current'")
         asked.has("Save as", "never written over", "paper-site.yaml")
         expect_in("saved paper-site.yaml", saved.note)
         expect_in("saved paper-site.yaml", later.note)
@@ -198,9 +203,9 @@ def test_save_shipped():
         expect_in("# Test site in central Italy", place.text("paper-site.yaml"), "its comments")
         again = place.play("key 2\ndump", "paper-site.yaml")[0]
         expect_equal(again.row("^stools per ha")[-1], "1500", "stools")
-        expect_in("Stand of belt 1: ADS 1 (changed)", again.text, "no longer what its name says")
+        expect_in("Stand of belt 1: thinned", again.text, "its own name; it is not asked for again")
         # straight onto the shipped file by its path
-        asked = place.play(f"key 2\nfind stools.per_ha\nset 9\nkey s\nkey Ctrl-U\ntype {shipped}\nkey Enter\ndump\n"
+        asked = place.play(f"key 2\nfind stools.per_ha\nset 9\nkey s Enter\nkey Ctrl-U\ntype {shipped}\nkey Enter\ndump\n"
                            "key Enter\ndump", "paper-site")
         expect(shipped.read_bytes() == before and shipped.stat().st_mtime_ns == stamp, "the shipped file was written!")
     expect(shipped.read_bytes() == before and shipped.stat().st_mtime_ns == stamp, "the shipped file was written!")
@@ -213,7 +218,7 @@ def test_save_as_exists():
         screens = place.play("""key 2
             find stools.per_ha
             set 2000
-            key s Ctrl-U Enter
+            key s Enter Ctrl-U Enter
             dump
             type no/such/folder.yaml
             key Enter
@@ -230,7 +235,7 @@ def test_save_as_exists():
         screens[2].has("Enter once more replaces it")
         expect("* Test" in screens[3].title, screens[3].title)
         expect_equal(place.text("there.yaml"), "mine\n", "the other file")
-        place.play("key 2\nfind stools.per_ha\nset 2000\nkey s Ctrl-U\ntype there.yaml\nkey Enter Enter", "paper-site")
+        place.play("key 2\nfind stools.per_ha\nset 2000\nkey s Enter Ctrl-U\ntype there.yaml\nkey Enter Enter", "paper-site")
         check_good(place.path, "there.yaml")
 
 
@@ -284,7 +289,9 @@ def test_quit():
         run_script(place.path, edit + "key q Down Enter\ndump late.txt\n", "fast.yaml")
         expect("late.txt" not in place.names(), "still there after 'save and quit'")
         expect_in("per_ha: 1234", place.text("fast.yaml"), "the file after saving")
-        place.play(edit + "key q Down Enter\ndump", "paper-site")[0].has("Save as")
+        named, shipped = place.play(edit + "key q Down Enter\ndump\nkey Enter\ndump", "paper-site")
+        named.has("A stand was changed: its name")
+        shipped.has("Save as")
 
 
 def test_save_as_then_quit():

@@ -302,6 +302,7 @@ TEST_WITH(a_name_of_its_own, folder_set_up, folder_tear_down)
     put("stand.yaml", "{ceduo: stand/1, " SHOOTS "}\n");
     read_scene(&file, "forest: [{from_m: 10, to_m: 80, stand: stand.yaml}]", sets, 2, NULL);
     assert_string_equal(file.scene.options[0].belts[0].name, "mine");
+    assert_false(file.scene.options[0].belts[0].changed);
     EXPECT(file.scene.options[0].belts[0].stand.stools_per_ha, ==, 1500);
 }
 

@@ -82,6 +82,7 @@ static void expect_whole(const char *name, const struct object *object, bool *se
         DERIVED(belt, ceduo_belt, name),
         DERIVED(belt, ceduo_belt, name_given),
         DERIVED(belt, ceduo_belt, assumed),
+        DERIVED(belt, ceduo_belt, changed),
         DERIVED(belt, ceduo_belt, felled),
     };
     mark_rows(seen, object, size);
