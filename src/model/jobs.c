@@ -29,7 +29,7 @@ struct job {
     struct scene_file file;
     struct ceduo_search search;
     struct fit_request fit;
-    char path[1024]; /* of the search */
+    char text[JOB_TEXT]; /* the path of the search; the change of the preview */
 };
 
 struct jobs {
@@ -159,11 +159,17 @@ static uint64_t rocks_of(size_t level)
 static enum ceduo_status step_search(struct jobs *q, struct job *job, void **result)
 {
     struct search_answer *answer = *result = ceduo_must(calloc(1, sizeof *answer));
-    job->search.path = job->path;
+    job->search.path = job->text;
     enum ceduo_status status = ceduo_search(&job->file, &job->search, q->threads, &q->cancel, answer);
     ceduo_arena_free(&job->file.arena);
     answer->status = status; /* what was asked may be wrong: done, too */
     return status == CEDUO_CANCELLED || status == CEDUO_NO_MEMORY ? status : CEDUO_OK;
+}
+
+static enum ceduo_status step_preview(struct jobs *q, struct job *job, void **result)
+{
+    struct preview *preview = *result = ceduo_must(calloc(1, sizeof *preview));
+    return ceduo_preview(&job->file, job->text, job->option, q->threads, &q->cancel, preview);
 }
 
 struct publisher {
@@ -316,6 +322,7 @@ static enum ceduo_status step_fit(struct jobs *q, struct job *job, void **result
 
 static const struct kind kinds[JOB_KINDS] = {
     [JOB_SEARCH] = {step_search, free_search},
+    [JOB_PREVIEW] = {step_preview, free},
     [JOB_SNAPSHOT] = {step_snapshot, free_snapshot},
     [JOB_OTHERS] = {step_others, free},
     [JOB_COMPARISON] = {step_comparison, free_comparison},
@@ -336,7 +343,7 @@ static bool is_wanted(const struct job *job)
  * their last digit. Years have many forests. */
 static uint64_t cost_of(const struct job *job)
 {
-    if (job->kind == JOB_SEARCH)
+    if (job->kind == JOB_SEARCH || job->kind == JOB_PREVIEW)
         return 0;
     if (job->kind == JOB_UNCERTAINTY && job->level == 0 && job->levels < UNCERTAINTY_ROTATION)
         return rocks_of(1);
@@ -378,7 +385,7 @@ static void *work(void *argument)
         pthread_mutex_lock(&q->lock);
         if (q->jobs[kind].number == job.number && status != CEDUO_CANCELLED) /* otherwise it is repeated */
             q->jobs[kind].level = status == CEDUO_OK ? job.level + 1 : LEVELS_MAX;
-        if (kind == JOB_SEARCH)
+        if (kind == JOB_SEARCH || kind == JOB_PREVIEW)
             pthread_cond_broadcast(&q->changed);
     }
     pthread_mutex_unlock(&q->lock);
@@ -528,7 +535,14 @@ void ceduo_jobs_search(struct jobs *q, const struct scene_file *file, const stru
 {
     struct job job = job_of(JOB_SEARCH, file, 0, 1);
     job.search = *search;
-    snprintf(job.path, sizeof job.path, "%s", search->path);
+    snprintf(job.text, sizeof job.text, "%s", search->path);
+    ask(q, &job);
+}
+
+void ceduo_jobs_preview(struct jobs *q, const struct scene_file *file, const char *set, size_t option)
+{
+    struct job job = job_of(JOB_PREVIEW, file, option, 1);
+    snprintf(job.text, sizeof job.text, "%s", set);
     ask(q, &job);
 }
 
@@ -575,9 +589,9 @@ void ceduo_jobs_wait(struct jobs *q)
 bool ceduo_jobs_wait_search(struct jobs *q)
 {
     pthread_mutex_lock(&q->lock);
-    while (is_wanted(&q->jobs[JOB_SEARCH]))
+    while (is_wanted(&q->jobs[JOB_SEARCH]) || is_wanted(&q->jobs[JOB_PREVIEW]))
         pthread_cond_wait(&q->changed, &q->lock);
-    bool news = q->fresh.search;
+    bool news = q->fresh.search || q->fresh.preview;
     pthread_mutex_unlock(&q->lock);
     return news;
 }

@@ -18,6 +18,7 @@
 /* The kinds, the first first where two steps are as coarse: name, slot, what it holds. */
 #define JOBS(X)                                                                                                                \
     X(SEARCH, search, struct search_answer)                                                                                    \
+    X(PREVIEW, preview, struct preview)                                                                                        \
     X(SNAPSHOT, snapshot, struct snapshot)                                                                                     \
     X(OTHERS, others, struct others)                                                                                           \
     X(COMPARISON, comparison, struct comparison)                                                                               \
@@ -106,6 +107,10 @@ bool ceduo_jobs_show(struct jobs *jobs, const struct scene_file *file, size_t sh
 /* Asks for a search; its path is copied. */
 void ceduo_jobs_search(struct jobs *jobs, const struct scene_file *file, const struct ceduo_search *search);
 
+/* Asks what a change (PATH=VALUE, shorter than JOB_TEXT bytes) would do to the lights of an option. */
+#define JOB_TEXT 1024
+void ceduo_jobs_preview(struct jobs *jobs, const struct scene_file *file, const char *set, size_t option);
+
 /* Asks what doubt does to a scene, first to option `shown` (JOB_UNCERTAINTY), or for its comparison with what was
  * observed there (JOB_COMPARISON), up to so many levels; 0: nothing. A scene whose nodes are the same is asked for
  * once; what is no longer asked for is stopped. Figures and years of as many rocks go before it. */
@@ -136,7 +141,7 @@ void ceduo_results_free(union results *results);
 
 /* Waits until no job is left. */
 void ceduo_jobs_wait(struct jobs *jobs);
-/* Waits until no search is left; true where there is a result of one. */
+/* Waits until no search and no preview is left; true where there is a result of one. */
 bool ceduo_jobs_wait_search(struct jobs *jobs);
 
 #endif

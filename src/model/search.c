@@ -296,20 +296,58 @@ enum ceduo_status ceduo_search(struct scene_file *file, const struct ceduo_searc
     return status;
 }
 
-/* ---- a range of values ---- */
+/* ---- the preview of a change ---- */
 
-/* The scene with the value has an arena of its own, and shares the nodes and the slope of the other. */
-bool ceduo_search_may_try(const struct scene_file *from, const char *path, const char *value)
+/* The scene with the change, in an arena of its own; it shares the nodes and the slope of the other. Release it by its
+ * arena alone. */
+static bool change_scene(const struct scene_file *from, const char *set, struct scene_file *file)
 {
-    struct scene_file file = *from;
     struct problems problems = {0};
+    *file = *from;
+    file->arena = (struct arena){0};
+    bool good = ceduo_scene_set(file, "preview", set, &problems);
+    const struct node *root = good ? ceduo_resolve_scene(&file->arena, file->root, &problems) : NULL;
+    file->root = root;
+    good = root && problems.count == 0 && ceduo_scene_bind(file, &problems);
+    ceduo_problems_free(&problems);
+    return good;
+}
+
+enum ceduo_status ceduo_preview(const struct scene_file *from, const char *set, size_t option, unsigned threads,
+                                const atomic_bool *cancel, struct preview *preview)
+{
+    struct scene_file file;
+    enum ceduo_status status = CEDUO_OK;
+    *preview = (struct preview){.known = false};
+    if (change_scene(from, set, &file) && option < file.scene.options_count) {
+        struct ceduo_question q = ceduo_question_default(&file.scene);
+        struct ceduo_answer answer;
+        q.rocks = q.run.rocks_most = PREVIEW_ROCKS;
+        q.only = option;
+        q.run.threads = threads;
+        q.run.arrivals_only = true;
+        q.run.cancel = cancel;
+        status = ceduo_ask(&q, NULL, &answer);
+        if (status == CEDUO_OK) {
+            const struct ceduo_result *r = answer.result;
+            const struct ceduo_arrivals *a = ceduo_result_wooded(r, option, r->last_control);
+            *preview = (struct preview){.known = true,
+                                        .index = *ceduo_result_last_index(r, option),
+                                        .reach = a ? a->reach_probability : NAN,
+                                        .exceed = a ? a->exceed_probability : NAN};
+        }
+        ceduo_answer_release(&answer);
+    }
+    ceduo_arena_free(&file.arena);
+    return status == CEDUO_CANCELLED || status == CEDUO_NO_MEMORY ? status : CEDUO_OK;
+}
+
+bool ceduo_preview_fits(const struct scene_file *from, const char *path, const char *value)
+{
+    struct scene_file file;
     LOCAL_TEXT(set);
     ceduo_text_format(&set, "%s=%s", path, value);
-    file.arena = (struct arena){0};
-    bool good = ceduo_scene_set(&file, "--find", set.bytes, &problems);
-    file.root = good ? ceduo_resolve_scene(&file.arena, file.root, &problems) : NULL;
-    good = file.root && problems.count == 0 && ceduo_scene_bind(&file, &problems);
-    ceduo_problems_free(&problems);
+    bool good = change_scene(from, set.bytes, &file);
     ceduo_arena_free(&file.arena);
     return good;
 }

@@ -32,7 +32,22 @@ struct search_answer {
 enum ceduo_status ceduo_search(struct scene_file *file, const struct ceduo_search *search, unsigned threads,
                                const atomic_bool *cancel, struct search_answer *answer);
 
+/* What a change would do to the lights, without making it: the scene with the change, and a few rocks through it. */
+
+#define PREVIEW_ROCKS 1024 /* one block: some milliseconds, and a share to 3 in 100 */
+
+struct preview {
+    bool known;               /* false: that is no scene */
+    struct ceduo_index index; /* of the last control, its lights among them */
+    double reach, exceed;     /* shares of the released; NaN: not known */
+};
+
+/* `set`: PATH=VALUE as for --set. The file stays as it is; it may be read by others meanwhile. CEDUO_CANCELLED,
+ * CEDUO_NO_MEMORY or CEDUO_OK. */
+enum ceduo_status ceduo_preview(const struct scene_file *file, const char *set, size_t option, unsigned threads,
+                                const atomic_bool *cancel, struct preview *preview);
+
 /* Whether a value may stand at a path: the scene with it is a scene. */
-bool ceduo_search_may_try(const struct scene_file *file, const char *path, const char *value);
+bool ceduo_preview_fits(const struct scene_file *file, const char *path, const char *value);
 
 #endif

@@ -449,6 +449,18 @@ void ceduo_popup_look(struct app *app)
     if (p->kind == POPUP_TEXT || !p->preview || !pick || p->value == pick->value)
         return;
     p->value = pick->value;
+    p->ahead_known = false;
+    ceduo_text_free(&p->text);
+    p->preview(app, p);
+}
+
+void ceduo_popup_previewed(struct app *app, const struct preview *preview)
+{
+    struct popup *p = app->popup;
+    if (!p || p->kind == POPUP_TEXT || !p->preview || !p->value)
+        return;
+    p->ahead = *preview;
+    p->ahead_known = true;
     ceduo_text_free(&p->text);
     p->preview(app, p);
 }

@@ -44,8 +44,10 @@ struct popup {
     const char *path;      /* what a choice is for */
     const char *kept;      /* a text that goes with it */
     const char *value;     /* the item under the cursor, or the one that was chosen */
-    popup_call *chosen;    /* `value`; the popup is off the screen already, and freed after the call */
-    popup_call *preview;   /* puts `text` anew for `value`; of a text: each time it is drawn; NULL: it stays */
+    struct preview ahead;  /* what it would do to the lights, once that is computed */
+    bool ahead_known;
+    popup_call *chosen;  /* `value`; the popup is off the screen already, and freed after the call */
+    popup_call *preview; /* puts `text` anew for `value`; of a text: each time it is drawn; NULL: it stays */
     popup_check *filled, *check;
     void (*picture)(struct app *app, struct popup *popup, struct ceduo_area area); /* below fields, where nothing is offered */
     void (*then)(struct app *app); /* what goes on once unsaved work is saved or given up */
@@ -85,6 +87,8 @@ void ceduo_popup_draw(struct app *app);
 
 /* After a key: the note over a list is about the item under the cursor. */
 void ceduo_popup_look(struct app *app);
+/* What that item would do to the lights is known. */
+void ceduo_popup_previewed(struct app *app, const struct preview *preview);
 const char *ceduo_popup_bar(const struct app *app); /* its keys */
 void ceduo_popup_key(struct app *app, int key);
 bool ceduo_popup_paste(struct app *app, const char *text); /* false: nothing is typed there */

@@ -194,7 +194,7 @@ void ceduo_popup_found(struct app *app, struct search_answer *answer)
 static bool fits(const struct app *app, const char *path, double value)
 {
     char room[CEDUO_NUMBER_ROOM];
-    return ceduo_search_may_try(&app->document.file, path, ceduo_number_shortest(value, room));
+    return ceduo_preview_fits(&app->document.file, path, ceduo_number_shortest(value, room));
 }
 
 /* A value of three digits between `now` and `end`, as near to the end as the scene allows; `now` itself is allowed. */

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Lists of what there is to choose from: the words of a field, the program's and the user's files. */
+/* Lists of what there is to choose from: the words of a field, the program's and the user's files; and what each would
+ * do to the lights. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -109,16 +110,65 @@ static void add_files(struct app *app, struct popup *p, const char *kind, bool s
     }
 }
 
-/* ---- what a choice is ---- */
+/* ---- what a choice would do ---- */
 
-static void preview_ground(struct app *app, struct popup *p)
+static popup_call chose_new_option;
+
+static void append_light(struct text *text, const char *name, enum ceduo_light light, enum ceduo_light now)
+{
+    ceduo_text_format(text, _("%s %s"), name, ceduo_words_verdict(light));
+    if (light != now)
+        ceduo_text_then(text, " ", _("(now %s)"), ceduo_words_verdict(now));
+}
+
+static void append_lights(struct app *app, struct text *text, const struct preview *f)
+{
+    const struct ceduo_result *r = app->live.result;
+    const struct ceduo_index *now = r ? ceduo_result_last_index(r, app->option) : &f->index;
+    append_light(text, _("Contact"), f->index.contact, now->contact);
+    if (isfinite(f->index.worst_adc))
+        ceduo_text_format(text, _(", %.3g m"), f->index.worst_adc);
+    ceduo_text_put(text, "; ");
+    append_light(text, _("free run"), f->index.free_run, now->free_run);
+    ceduo_text_put(text, "; ");
+    append_light(text, _("energy"), f->index.energy, now->energy);
+    if (!isnan(f->exceed))
+        ceduo_text_then(text, ", ", _("about %.0f of 1000 with too much"), 1000 * f->exceed);
+    else if (!isnan(f->reach))
+        ceduo_text_then(text, ", ", _("about %.0f of 1000 arrive"), 1000 * f->reach);
+    ceduo_text_put(text, "\n");
+}
+
+/* What the lights would be with a value at the popup's path; it is asked for, and put once it is known. */
+static void append_change(struct app *app, struct popup *p)
+{
+    LOCAL_TEXT(set);
+    if (p->ahead_known) {
+        if (p->ahead.known)
+            append_lights(app, &p->text, &p->ahead);
+        return;
+    }
+    ceduo_text_put(&p->text, _("the lights: computing …\n"));
+    const struct ceduo_option *o = ceduo_app_option(app);
+    bool all = p->chosen == chose_new_option; /* the stand in every belt */
+    ceduo_text_format(&set, "%s=%s", all ? ceduo_app_forest(app) : p->path, all ? "[" : p->value);
+    for (size_t i = 0; all && i < o->belts_count; i++)
+        ceduo_text_format(&set, "%s{from_m: %.10g, to_m: %.10g, stand: %s}", i ? ", " : "", o->belts[i].from_given,
+                          o->belts[i].to_given, p->value);
+    ceduo_text_put(&set, all ? "]" : "");
+    if (set.length < JOB_TEXT)
+        ceduo_jobs_preview(app->live.jobs, &app->document.file, set.bytes, app->option);
+}
+
+static void preview_word(struct app *app, struct popup *p)
 {
     size_t n;
     const struct ceduo_material *rows = ceduo_materials(&n);
-    int i = ceduo_choice_find(&ceduo_material_words, p->value);
-    (void)app;
+    const struct field *f = ceduo_schema_at(p->path);
+    int i = f && f->choices == &ceduo_material_words ? ceduo_choice_find(f->choices, p->value) : -1;
     if (i >= 0)
         ceduo_text_format(&p->text, _("Rn %.3g, Rt %.3g; %s\n"), rows[i].rn, rows[i].rt, rows[i].source);
+    append_change(app, p);
 }
 
 /* What a stand of the list has, over the list. */
@@ -135,6 +185,8 @@ static void preview_stand(struct app *app, struct popup *p)
                               r.free_run_probability * 100, ceduo_words_law(ceduo_rule_words.names[r.rule]));
         if (!r.bare && !isnan(r.dissipated))
             ceduo_text_then(&p->text, "; ", _("%.3g kJ per 100 m"), r.dissipated * J_TO_KJ);
+        ceduo_text_char(&p->text, '\n');
+        append_change(app, p);
     }
     ceduo_scene_release(&file);
 }
@@ -296,7 +348,7 @@ void ceduo_popup_choices(struct app *app, const struct form_cell *cell)
     if (f->type == FIELD_CHOICE) {
         for (size_t i = 0; i < f->choices->n; i++)
             add_word(p, f, f->choices->names[i], cell->written);
-        p->preview = f->choices == &ceduo_material_words ? preview_ground : NULL;
+        p->preview = preview_word;
         return;
     }
     const char *now = listed_name(app, p->path);

@@ -198,8 +198,11 @@ bool ceduo_program_news(struct app *app)
     ceduo_arena_free(app->scratch);
     bool changed = ceduo_app_news(app);
     union results *results = &app->live.results;
+    if (results->preview)
+        ceduo_popup_previewed(app, results->preview);
     if (results->search)
         ceduo_popup_found(app, results->search);
+    ceduo_results_drop(results, JOB_PREVIEW);
     ceduo_results_drop(results, JOB_SEARCH);
     return changed;
 }

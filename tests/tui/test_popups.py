@@ -9,6 +9,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 from play import Place, actions, check_good, fast  # noqa: E402
 from harness import expect, expect_equal, expect_in, expect_near, run_all  # noqa: E402
+from test_screens import lights  # noqa: E402
 
 
 # ---- presets, new, open ----
@@ -289,7 +290,7 @@ def test_starts():
 
 
 def test_picker():
-    """Typing leaves what matches, the best first, and marks what is there now."""
+    """Typing leaves what matches, the best first, marks what is there now, and says what a choice does to the lights."""
     all_, some, none, took = fast("""key 2
         wait idle
         key p
@@ -303,13 +304,34 @@ def test_picker():
         dump""", "wood.yaml")
     all_.has("from a sample plot", "simple-coppice")
     expect(re.search(r"search: lresc_ large-reserves-cut", some.popup), "the best match first", some)
+    expect(re.search(r"Contact (passes|FAILS).*free run .*energy .*about \d+ of 1000 with too much", some.popup), some)
     none.has("nothing matches")
     expect_equal(took.row("^system")[1:], ["large", "reserves"], "the one that was under the cursor")
     now = fast("key 2\nkey p\ndump", "paper-site")[0]
     expect(re.search(r"ads-1 +9076.*\(now\)", now.text), "what is there now is marked", now)
     species = fast("key 2\nwait idle\nfind species\nkey Enter\ntype beech\ndump\nkey Enter\ndump", "wood.yaml")
-    species[0].has("search: beech_", "beech (Fagus sylvatica)")
+    species[0].has("search: beech_", "beech (Fagus sylvatica)", "about")
     expect_equal(species[1].row("^species")[1:], ["beech", "(Fagus", "sylvatica)"])
+
+
+def test_preview_is_what_comes():
+    """The lights that a choice is said to have are those that it has once it is taken."""
+    for name in ("bare", "simple-coppice", "large-reserves-cut"):
+        ahead, after = fast(f"key 2\nwait idle\nkey p\ntype {name}\ndump\nkey Enter\nwait idle\ndump", "wood.yaml")
+        found = re.search(r"Contact (\w+).*?free run (\w+).*?energy (\w+).*?about (\d+) of 1000", ahead.popup)
+        expect(found, "no lights in", ahead.popup)
+        expect_equal(list(found.groups()[:3]), [lights(after, "braille")[k] for k in ("Contact", "Free run", "Energy")], name)
+        expect_near(float(found.group(4)), after.pair("above 250 kJ")[0], 60, f"{name}: of 1000")  # 4 s.e. of 1024 rocks
+
+
+def test_commands():
+    """: lists every command by what it does; typing finds it, Enter runs it."""
+    listed, ran = fast("key :\ndump\ntype rotation\nkey Enter\ndump")
+    listed.has("Commands", "search: _")
+    expect_in("6 rotation", ran.title)
+    expect(ran.body != listed.body, ran)
+    undone = fast("key 2\nfind stools.per_ha\nset 9\nkey :\ntype undo\nkey Enter\ndump")[0]
+    expect_in("undone", undone.note)
 
 
 # ---- search, help, counts ----

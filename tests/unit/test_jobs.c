@@ -123,6 +123,15 @@ TEST_WITH(a_search_comes_first, set_up, tear_down)
     assert_null(results.search);
 }
 
+/* A preview is waited for as a search is. */
+TEST_WITH(a_preview_is_waited_for, set_up, tear_down)
+{
+    ceduo_jobs_preview(jobs, &file, "rock.diameter_m=0.6", 0);
+    assert_true(ceduo_jobs_wait_search(jobs));
+    take();
+    assert_non_null(results.preview);
+}
+
 /* The other energy law beside the figures: of as many rocks as said, and asked for again where it alone changes. */
 TEST_WITH(the_other_law_comes_along, set_up, tear_down)
 {
