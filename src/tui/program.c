@@ -2,6 +2,7 @@
 #include "program.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 
 #include "base/language.h"
 #include "edit.h"
@@ -75,6 +76,23 @@ static void next_charset(struct app *app)
 {
     app->charset = (enum ceduo_charset)((app->charset + 1) % 3);
     ceduo_app_resize(app, app->width, app->height);
+}
+
+/* ---- commands by name ---- */
+
+static void chose_command(struct app *app, struct popup *p)
+{
+    ceduo_program_key(app, ceduo_actions[atoi(p->value)].key);
+}
+
+static void list_commands(struct app *app)
+{
+    struct popup *p = ceduo_popup_list(app, _("Commands"), "", chose_command);
+    for (int i = 0; i < ACTION_COUNT; i++)
+        if (i != ACTION_COMMANDS)
+            ceduo_popup_item(
+                p, ceduo_app_format(app, "%-10s %s", ceduo_actions[i].word, ceduo_translate_in(ceduo_actions[i].help)),
+                ceduo_app_format(app, "%d", i));
 }
 
 static void show_view(struct app *app, int view)

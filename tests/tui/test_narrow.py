@@ -58,7 +58,7 @@ def test_typed():
     """A field that is being edited, and each popup: help, lists, and fields of which not all have room."""
     field = "key Esc Esc Esc Esc Esc Esc Esc Esc 2 /\nkey Ctrl-U\ntype stools.per_ha\nkey Enter\n"
     popups = ["?", "p", "n", "n Enter Enter Enter Enter Enter", "o", "w", "f", "c", "c Down Down Down Down Down Down Down", "/", "S",
-              "8 a 1", "Enter"]
+              ":", "8 a 1", "Enter"]
     check("paper-site", [f"{field}key {keys}" for keys in popups])
 
 
