@@ -184,7 +184,7 @@ static void preview_stand(struct app *app, struct popup *p)
             ceduo_text_format(&p->text, _("with this rock: ADC %.3g m, free run %.1f %% (%s)"), r.adc_m,
                               r.free_run_probability * 100, ceduo_words_law(ceduo_rule_words.names[r.rule]));
         if (!r.bare && !isnan(r.dissipated))
-            ceduo_text_then(&p->text, "; ", _("%.3g kJ per 100 m"), r.dissipated * J_TO_KJ);
+            ceduo_text_then(&p->text, ", ", _("%.3g kJ/100 m"), r.dissipated * J_TO_KJ);
         ceduo_text_char(&p->text, '\n');
         append_change(app, p);
     }
@@ -429,7 +429,7 @@ void ceduo_popup_starts(struct app *app)
         size_t n;
         const char *const *names = ceduo_file_list(&p->arena, folders[i], "scenes", &n);
         for (size_t k = 0; k < n; k++)
-            add_starts(app, p, ceduo_app_format(app, "%s/scenes/%s", folders[i], names[k]), names[k]);
+            add_starts(app, p, ceduo_app_format(app, "%s/scenes/%s.yaml", folders[i], names[k]), names[k]);
     }
 }
 
