@@ -336,7 +336,8 @@ void ceduo_words_contact(struct text *text, const struct ceduo_result *result, s
         ceduo_text_then(text, " ", _("Stems below %g cm do not count."), result->scene->simulation.contact_dbh * 100);
     if (s->thick.contact != s->contact)
         ceduo_text_then(text, " ", _("Counting only stems from %g cm on it fails: %s%s."), thick_cm(result->scene),
-                        BESIDE(s->thick.worst_adc, 3, limit), isinf(s->thick.worst_adc) ? "" : " m");
+                        isinf(s->thick.worst_adc) ? _("no stems") : BESIDE(s->thick.worst_adc, 3, limit),
+                        isinf(s->thick.worst_adc) ? "" : " m");
 }
 
 void ceduo_words_free_run(struct text *text, const struct ceduo_result *result, size_t option, size_t control)
