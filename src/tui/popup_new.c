@@ -285,13 +285,17 @@ static void draw_stretch(struct app *app, const struct ceduo_area *area, const s
 
 #define PROFILE_MIN 6 /* lines */
 
-/* The profile as far as it is known: the release, the lower end of the face ruled, the steepest stretch below. */
+/* The profile as far as it is known: the release, the lower end of the face ruled, the control, the steepest stretch below. */
 static void draw_profile(struct app *app, struct popup *p, struct ceduo_area area)
 {
     struct answers a = {.release = NAN};
     bool good = area.height >= PROFILE_MIN && p->at >= NEW_PROFILE &&
                 read_answers(app, p, p->at == NEW_PROFILE ? NEW_PROFILE : NEW_RELEASE, &a);
     double face = good && p->at > NEW_PROFILE && read_field(app, p, NEW_FACE, &a) ? a.face - a.first : NAN;
+    if (good && p->at > NEW_PROFILE && read_field(app, p, NEW_CONTROL, &a)) {
+        a.profile.scene.controls[0].x = a.control - a.first;
+        a.profile.scene.controls[0].x_given = a.control;
+    }
     app->message[0] = '\0';
     if (good) {
         const struct ceduo_slope *s = &a.profile.scene.slope;

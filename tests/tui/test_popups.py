@@ -236,7 +236,7 @@ def test_new_is_drawn():
     are explained beside their names"""
     degrees = round(math.degrees(math.atan(35 / 10)))
     with Place() as place:
-        typed, known, ground, taken = place.play("""key n
+        typed, known, ground, counted, taken = place.play("""key n
             key Enter Ctrl-U
             type 0 0, 50 30, 60 65, 70 90
             dump
@@ -245,7 +245,10 @@ def test_new_is_drawn():
             key Enter Enter
             dump
             type talus
-            key Enter Enter Enter Enter Enter
+            key Enter Enter
+            type 40
+            dump
+            key Enter Enter Enter
             dump""")
     for screen in (typed, known):
         screen.whole().has(f"┤ steepest, {degrees}°")
@@ -255,6 +258,7 @@ def test_new_is_drawn():
     axis = next(line for line in known.lines if re.search(r"0 m +10 +20 +30", line))
     for sign, number in (("├", "10"), ("┤", "20")):
         expect(abs(line.index(sign) - axis.index(f" {number} ") - 1) <= 1, f"the stretch from 10 to 20 m begins and ends at the axis' marks", known)
+    counted.whole().has("▼ 40 m")
     ground.has("talus: loose blocks", "colluvium: a deep cover of soil and stones")
     taken.lacks("New scene").has("My slope")
 
