@@ -266,6 +266,8 @@ class Suite:
         print(f"{word} {self.count} - {name.replace('#', '')}{note}", flush=True)
         for line in details.splitlines()[:60]:
             print("#", "".join(c if c.isprintable() else ascii(c)[1:-1] for c in line))
+        if self.failed and os.environ.get("TEST_FIRST"):  # the first failure is enough
+            self.end()
 
     def run(self, functions):
         """Each function is a test; its name is the first line of its docstring."""

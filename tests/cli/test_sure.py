@@ -104,6 +104,14 @@ def test_as_scenes_at_random():
     expect(reached[found["value"]] < 0.8 - error, reached)
 
 
+def test_what_is_too_much():
+    """Where anything is withstood no rock has too much, whatever is true; where nothing is, all that arrive have"""
+    strong, weak = (wood() | {"controls": [{"x_m": 90, "accepted_kJ": kj}]} for kj in (1e6, 1e-6))
+    answer = find(strong, "exceed=0.2", 0.9, "-n", 50)["sure"]
+    expect_equal((answer["value"], answer["probability"]), (1, 1))
+    expect_equal(find(weak, "exceed=0.2", 0.9, "-n", 50)["sure"], find(weak, "arrive=0.2", 0.9, "-n", 50)["sure"])
+
+
 def test_over_a_rotation():
     """Over a rotation: the mean of its years; of the mean energy that is refused"""
     with Folder() as f:

@@ -258,7 +258,9 @@ def test_new_is_drawn():
     axis = next(line for line in known.lines if re.search(r"0 m +10 +20 +30", line))
     for sign, number in (("├", "10"), ("┤", "20")):
         expect(abs(line.index(sign) - axis.index(f" {number} ") - 1) <= 1, f"the stretch from 10 to 20 m begins and ends at the axis' marks", known)
-    counted.whole().has("▼ 40 m")
+    line = next(line for line in counted.whole().lines if "▼ 40 m" in line)
+    axis = next(line for line in counted.lines if re.search(r"0 m +10 +20 +30", line))
+    expect(abs(line.index("▼ 40 m") - axis.index(" 40 ") - 1) <= 1, "the control is drawn where it is:", counted)
     ground.has("talus: loose blocks", "colluvium: a deep cover of soil and stones")
     taken.lacks("New scene").has("My slope")
 

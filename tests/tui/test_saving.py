@@ -5,6 +5,7 @@ import json
 import os
 import re
 import sys
+import time
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
@@ -357,6 +358,7 @@ def test_export():
 
 def test_report_head():
     """A report asks once for its head: lines may stay empty, and what is typed is kept in the scene and stands on the page."""
+    days = [time.strftime("%Y-%m-%d")]  # two where midnight passes
     with Place() as place:
         screens = place.play("""
             wait idle
@@ -380,6 +382,8 @@ def test_report_head():
             type s
             dump""", "options.yaml")
         screens[0].has("Head of the report", "place", "owner", "parcel", "author", "date", "note", "Each line may stay empty")
+        days.append(time.strftime("%Y-%m-%d"))
+        expect(any(re.search(f"date +{day}", screens[0].text) for day in days), "the date is today's:", screens[0])
         screens[1].has("a page to hand in, as HTML", "ceduo.html")
         screens[2].has("a page to hand in, as HTML", "ceduo.html")
         screens[3].has("Head of the report")

@@ -26,6 +26,7 @@ static void make_inputs(size_t n, size_t words, size_t each)
 
 static double lowest = -INFINITY, limit = NAN;
 static double level; /* sd of what a group of rocks brings at all points */
+static double tilt;  /* what every other group has more of the first input, the others less */
 
 /* Values of the function with noise. */
 static struct ceduo_surface_fit fit_of(function *f, size_t n, size_t points, uint64_t seed, double noise)
@@ -43,7 +44,7 @@ static struct ceduo_surface_fit fit_of(function *f, size_t n, size_t points, uin
         constants[g] = level > 0 ? level * line_normal(&random) : g - (CEDUO_SURFACE_GROUPS - 1) / 2.;
     for (size_t p = 0; p < points; p++)
         for (int g = 0; g < CEDUO_SURFACE_GROUPS; g++)
-            y[p].of[g] = f(u + p * n, n) + noise * line_normal(&random) + constants[g];
+            y[p].of[g] = f(u + p * n, n) + noise * line_normal(&random) + constants[g] + (g % 2 ? tilt : -tilt) * u[p * n];
     EXPECT(ceduo_surface_open(inputs, n, u, points, &surface), ==, CEDUO_OK);
     EXPECT(ceduo_surface_fit(surface,
                              &(const struct ceduo_surface_figure){.y = y, .lo = lowest, .hi = INFINITY, .limit = limit}, &fit),
@@ -199,6 +200,19 @@ TEST(errors_cover)
     }
     EXPECT(inside, >=, .90);
     EXPECT(inside, <=, .97);
+}
+
+/* Groups see 1 ± t of the first input and 2 of the second. Its share, 1/5, changes by 2 * 1/5 * 4/5 of what the mean of 1 ± t does:
+ * the variance of that is t2 / 15, and its error as of 16 values Student's. */
+TEST(errors_of_rocks_are_those_of_a_mean)
+{
+    make_inputs(2, 0, 0);
+    tilt = 1e-3;
+    struct ceduo_surface_fit f = fit_of(linear, 2, 256, 1, 0);
+    EXPECT_NEAR(f.first[0].value, .2, 1e-5);
+    EXPECT_NEAR(f.first[0].se / (.32 * tilt / sqrt(15) * 2.13145 / 1.95996), 1, .01);
+    tilt = 0;
+    ceduo_surface_release(&f);
 }
 
 /* ---- what a surface cannot be ---- */
