@@ -323,6 +323,8 @@ def test_stumps():
         alone = survey(f, HEAD + ",energy_kJ\nA,200,,,stump,,30,0.2,,2\nB,200,,,,,,,,\n").out
         expect("system: bare" not in alone, alone)
         stand_of(f, alone)
+        rows = "A,200,,ostrya-carpinifolia,tree,,20,12,\nA,,,quercus-cerris,tree,,10,9,\nA,,,quercus-cerris,stump,,40,0.2,\n"
+        expect_in("# basal area: hop hornbeam 80 %, Turkey oak 20 %\n", survey(f, f"{HEAD}\n{rows}").out, "of stems that stand: 400 to 100 cm2")
 
 
 def test_bare():
