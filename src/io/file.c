@@ -251,7 +251,8 @@ static bool write_and_close(int fd, const struct pending_file *file)
     return good;
 }
 
-bool ceduo_file_prepare(struct pending_file *file)
+/* Finds the file that is to be replaced, and the mode of the new one; no target: the path is written straight. */
+static bool find_target(struct pending_file *file, mode_t *mode)
 {
     struct stat st;
     bool exists = stat(file->path, &st) == 0, folder = exists && S_ISDIR(st.st_mode);
@@ -261,9 +262,20 @@ bool ceduo_file_prepare(struct pending_file *file)
         return false;
     if (exists ? !S_ISREG(st.st_mode) : lstat(file->path, &st) == 0)
         return true;
+    mode_t mask = umask(0);
+    umask(mask);
+    *mode = exists ? st.st_mode & 07777 : 0666 & ~mask;
     file->target = exists ? realpath(file->path, NULL) : strdup(file->path); /* a link stays a link */
-    if (!file->target)
+    return file->target;
+}
+
+bool ceduo_file_prepare(struct pending_file *file)
+{
+    mode_t mode;
+    if (!find_target(file, &mode))
         return false;
+    if (!file->target)
+        return true;
     /* beside the target; of a name as long as a file system takes them, a part is used, cut between two characters */
     static const char mark[] = ".ceduo-tmp-XXXXXX";
     const char *slash = strrchr(file->target, '/'), *name = slash ? slash + 1 : file->target;
@@ -280,9 +292,7 @@ bool ceduo_file_prepare(struct pending_file *file)
         return false;
     }
     file->temporary = path.bytes;
-    mode_t mask = umask(0);
-    umask(mask);
-    bool good = fchmod(fd, exists ? st.st_mode & 07777 : 0666 & ~mask) == 0;
+    bool good = fchmod(fd, mode) == 0;
     return write_and_close(fd, file) && good;
 }
 
@@ -345,8 +355,15 @@ bool ceduo_file_same(const char *a, const char *b)
 
 bool ceduo_file_can_write(const char *path)
 {
-    struct pending_file file = {.path = path, .bytes = ""};
-    bool good = ceduo_file_prepare(&file);
+    struct pending_file file = {.path = path};
+    mode_t mode;
+    bool good = find_target(&file, &mode);
+    if (good && file.target) { /* a file beside it is to take its place */
+        char *slash = strrchr(file.target, '/');
+        if (slash)
+            slash[slash == file.target] = '\0';
+        good = access(slash ? file.target : ".", W_OK | X_OK) == 0;
+    }
     ceduo_file_drop(&file);
     return good;
 }

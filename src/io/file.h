@@ -62,7 +62,7 @@ bool ceduo_file_save(struct pending_file file);
 /* Whether two paths lead to one regular file; `b` may be "-", standard input. */
 bool ceduo_file_same(const char *a, const char *b);
 
-/* Whether ceduo_file_write() could begin: tried with a file beside it that goes at once. False with errno set. */
+/* Whether ceduo_file_write() could begin, as far as that can be told without writing. False with errno set. */
 bool ceduo_file_can_write(const char *path);
 
 #endif

@@ -358,15 +358,23 @@ void ceduo_words_free_run(struct text *text, const struct ceduo_result *result, 
                         PERCENT(s->thick.worst_free_run, CEDUO_FREE_RUN_MOST), " %");
 }
 
+#define NAMED_MAX 2 /* options; more are counted */
+
 void ceduo_words_thin(const struct ceduo_result *r, ceduo_words_say *say, void *context)
 {
-    LOCAL_TEXT(thin);
+    LOCAL_TEXT(where);
+    size_t n = 0;
     for (size_t i = 0; r->scene->controls_count > 0 && i < r->options_count; i++)
         if (ceduo_index_hangs_on_thin(ceduo_result_last_index(r, i)))
-            ceduo_text_format(&thin, "%s'%s'", thin.length > 0 ? ", " : "", NAME_OF(&r->scene->options[i]));
-    if (thin.length > 0)
-        say_format(say, context, _("Counting only stems from %g cm on, contact or free run fails today: %s."),
-                   CEDUO_THICK_DBH * 100, thin.bytes);
+            ceduo_text_format(&where, "%s'%s'", n++ > 0 ? ", " : ": ", NAME_OF(&r->scene->options[i]));
+    if (n == 0)
+        return;
+    if (r->options_count == 1 || n > NAMED_MAX)
+        ceduo_text_cut(&where, 0);
+    if (n > NAMED_MAX)
+        ceduo_text_format(&where, _(" in %zu of %zu options"), n, r->options_count);
+    say_format(say, context, _("Counting only stems from %g cm on, contact or free run fails today%s."), CEDUO_THICK_DBH * 100,
+               ceduo_text_string(&where));
 }
 
 const char *ceduo_words_shown_of_1000(double p, double lo, double hi, char room[CEDUO_NUMBER_ROOM])

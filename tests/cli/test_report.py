@@ -331,7 +331,7 @@ def test_office():
     expect_equal(page.text["p"].count("Design values of UNI 11211-4"), 4, page.text["p"])
     expect_in("What the rules of Toscana ask", page.text["h2"])
     expect_in("check the text in force", page.text["p"])
-    expect_in("(art. 22, D.P.G.R. 48/R, 2003)", page.text["p"])
+    expect_in("art. 22, D.P.G.R. 48/R (2003)", page.text["p"])
     expect_in("How often, and with how much, at road (135 m)", page.text["figcaption"])
 
 

@@ -132,7 +132,7 @@ def test_not_named():
                 two["options"] = [{"name": name, "forest": two["forest"]} for name in "ab"]
                 two.pop("forest")
                 good("--report", f.path / "p.html", "--sensitivity=2", "-n", 20, f.write("two.yaml", two))
-                expect_equal(NO_TURN.format(region.title(), common) in (f.path / "p.html").read_text(), not named, f"{region} {species}")
+                expect_equal(">not named<" in (f.path / "p.html").read_text(), not named, f"{region} {species}")
         own = {"name": "Nowhere", "standards": [{"species": ["acer"], "per_ha": 10, **ROW}]}
         page = " ".join(good(*WHOLE, "-n", 5, f.write("s.yaml", site(coppice(), own))).out.split())
         expect_in("the rules of Nowhere as filed name no number of standards for this species (hop hornbeam); none is checked.", page)

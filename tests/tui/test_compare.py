@@ -58,7 +58,7 @@ def test_blocks():
     found = re.findall(r"^\w.* \d+±\d+ +(\d+) +\d+±\d+ +\d+ \(\d+\)", screen.body, re.M)
     expect_equal(found, [f"{y:.0f}" for y in years], screen)
     words = " ".join(screen.body.split())
-    expect(re.search(rf"reaches 'road' every {bare:.0f}( \(.*\))? years without forest, every {years[0]:.0f} ", words), words)
+    expect(re.search(rf"reaches road \(135 m\) every {bare:.0f}( \(.*\))? years without forest, every {years[0]:.0f} ", words), words)
     expect(re.search(r"Years are counted from today, with \d+ rocks in each; the worst is the worst of these\.", words), words)
 
 
