@@ -233,11 +233,15 @@ static void say_residual(struct ceduo_page *page, const struct ceduo_result *r, 
     double mean = r->bare.arrivals[control].energy.mean * J_TO_KJ, taken = index->dissipated * J_TO_KJ;
     double left = index->residual * J_TO_KJ;
     int decimals = mean > 0 ? (int)fmax(0, 3 - floor(log10(mean))) : 1; /* of all three, so that what is written is true */
+    LOCAL_TEXT(rest);
+    if (index->exhausted)
+        ceduo_text_put(&rest, _("nothing is left on average, some rocks still pass"));
+    else
+        ceduo_text_format(&rest, _("%s kJ are left"), SAME(left));
     if (index->length > 0)
         ceduo_page_say(page, CEDUO_PAGE_SENTENCE,
-                       _("By the index stems could take %s kJ (Eq. 4), %s kJ per 100 m; of %s kJ %s kJ are left (Eq. 5)%s."),
-                       SAME(taken), WRITTEN(index->per_100m * J_TO_KJ, 3), SAME(mean), SAME(left),
-                       index->exhausted ? _(": used up on average, some rocks still pass") : "");
+                       _("By the index stems could take %s kJ (Eq. 4), %s kJ per 100 m; of %s kJ %s (Eq. 5)."), SAME(taken),
+                       WRITTEN(index->per_100m * J_TO_KJ, 3), SAME(mean), rest.bytes);
     if (!isnan(index->measured))
         ceduo_page_say(page, CEDUO_PAGE_SENTENCE, _("Measured here on one rock: %s kJ (%g m/s). One rock is no validation."),
                        WRITTEN(index->measured * J_TO_KJ, 3), r->scene->controls[control].measured_speed);

@@ -279,11 +279,11 @@ def test_table_left():
     for arguments in ((PAPER,), ("-s", "forest[0].stand.shoots=[]", PAPER), ("tschamut",), ("vaujany",)):
         text = " ".join(good(*WHOLE, "-n", 200, *arguments).out.split())
         found = re.findall(r"stems could take (\S+) kJ \(Eq\. 4\), \S+ kJ per 100 m; of (\S+) kJ (\S+) kJ are left \(Eq\. 5\)\.", text)
-        expect(found, text)
+        expect(found or "stems could take" not in text, text)
         for words in found:
             taken, mean, left = map(float, words)
             unit = 10.0 ** -len(words[1].partition(".")[2])
-            expect(len({len(w.partition(".")[2]) for w in words if w != "0"}) == 1, words)
+            expect(taken > 0 and len({len(w.partition(".")[2]) for w in words}) == 1, words)
             expect_near(mean - taken, left, 1.01 * unit, words)
 
 
@@ -293,8 +293,9 @@ def test_table_verdicts():
     expect_order(text, "Contact: FAILS", "(?i)gap", "60 m")
     for model in MODELS:
         text = good(*WHOLE, PAPER, "-s", "forest[0].stand.shoots[0].volume_m3=1", *through(model)).out
-        expect_order(text, "(?i)used up on average", "(?i)some rocks still pass")
-        expect(not re.search(r"= 0(\.0*)? kJ", text), text)
+        text = " ".join(text.split())
+        expect_in("nothing is left on average, some rocks still pass (Eq. 5)", text)
+        expect(not re.search(r" 0(\.0*)? kJ are left", text), text)
 
 
 def test_table_assumed():
