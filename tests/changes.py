@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Do the tests notice when a line is wrong? tests/changes.py [WORD...] puts each change of changes.txt (those whose block holds a
-word) into a copy of the tree, builds it and runs the tests named, until one fails. Fails where none does."""
+word) into a copy of the tree, builds it and runs the tests named, until one fails. Fails where none does. The tests must pass
+before: one that fails already seems to notice everything."""
 import os
 import re
 import shutil
