@@ -430,7 +430,7 @@ static void put_verdicts(struct text *text, const struct arguments *a, const siz
     struct text pages = *text;
     bool html = a->mode == MODE_REPORT;
     struct ceduo_html to = {.text = text};
-    struct ceduo_page verdicts = {.width = html ? CEDUO_PAGE_REPORT_WIDTH : CEDUO_PAGE_WIDTH};
+    LOCAL_PAGE(verdicts, html ? CEDUO_PAGE_REPORT_WIDTH : CEDUO_PAGE_WIDTH);
     size_t *order = ceduo_must(calloc(a->profiles->count + 1, sizeof *order)), n = ceduo_profiles_sort(a->profiles, order);
     *text = (struct text){0};
     if (html)
@@ -445,7 +445,6 @@ static void put_verdicts(struct text *text, const struct arguments *a, const siz
         ceduo_page_print(text, &verdicts, !ceduo_say_utf8());
         ceduo_say_plainly(text);
     }
-    ceduo_page_free(&verdicts);
     for (size_t i = 0; i < n; i++) {
         if (!html)
             ceduo_text_char(text, '\n');

@@ -249,7 +249,7 @@ enum exit_status ceduo_print_chapter(const struct arguments *a, struct scene_fil
         status = ceduo_ask_doubt_beside(&c, a, file, true);
     if (status == CEDUO_OK) {
         LOCAL_TEXT(command);
-        struct ceduo_page page = {.width = CEDUO_PAGE_REPORT_WIDTH};
+        LOCAL_PAGE(page, CEDUO_PAGE_REPORT_WIDTH);
         struct ceduo_report report = {.file = file,
                                       .result = c.answer.result,
                                       .verdict = &c.verdict,
@@ -260,7 +260,6 @@ enum exit_status ceduo_print_chapter(const struct arguments *a, struct scene_fil
         const struct ceduo_chapter chapter = {&report, c.snapshot, c.answer.years, &c.doubt, ceduo_text_string(&command), true};
         ceduo_page_chapter(&page, &chapter);
         ceduo_page_html(&(struct ceduo_html){.text = out}, &page, a->profiles->count + 1);
-        ceduo_page_free(&page);
         report.doubt = &c.doubt;
         if (a->profiles->count == 0)
             ceduo_text_put(a->title, ceduo_in_language(file->scene.title, file->scene.title_it));

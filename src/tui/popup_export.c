@@ -57,7 +57,7 @@ static void put_html(struct app *app, struct ceduo_report *report, struct text *
         is_sure(app) && app->live.result->wooded && !ceduo_page_says_nothing(app->live.result) && ceduo_app_doubt(app, &doubt);
     const struct ceduo_scene *scene = &app->document.file.scene;
     struct ceduo_html html = {.text = text};
-    struct ceduo_page page = {.width = CEDUO_PAGE_REPORT_WIDTH};
+    LOCAL_PAGE(page, CEDUO_PAGE_REPORT_WIDTH);
     LOCAL_TEXT(command);
     append_command(app, &command, "--report report.html");
     const struct ceduo_chapter chapter = {.report = report,
@@ -70,7 +70,6 @@ static void put_html(struct app *app, struct ceduo_report *report, struct text *
     ceduo_page_html_begin(&html, ceduo_in_language(scene->title, scene->title_it));
     ceduo_page_html(&html, &page, 1);
     ceduo_page_html_end(&html);
-    ceduo_page_free(&page);
 }
 
 enum export { EXPORT_PAGE, EXPORT_TABLE, EXPORT_SCREEN, EXPORT_CSV, EXPORT_JSON, EXPORT_REPORT, EXPORT_COMMAND, EXPORTS };

@@ -100,6 +100,9 @@ struct ceduo_page {
     struct ceduo_page_block *first, *last;
 };
 
+/* A page that is freed where its block ends. */
+#define LOCAL_PAGE(name, columns) __attribute__((cleanup(ceduo_page_free))) struct ceduo_page name = {.width = (columns)}
+
 #define CEDUO_PAGE_FORMAT(n) __attribute__((format(printf, n, (n) + 1)))
 
 /* Adds a block and returns its text, which the caller fills; or fills it. */

@@ -213,7 +213,7 @@ void ceduo_calibration_page(struct text *text, const struct ceduo_calibration_re
     static const struct ceduo_page_column seen[] = {{N_("seen"), 24, 2, 0},       {N_("use"), 5, 2, 0},
                                                     {N_("rocks"), -7, 2, 0},      {N_("mean"), -8, 2, 0},
                                                     {N_("fit, 95 %"), -15, 2, 0}, {N_("p"), -5, 2, 0}};
-    struct ceduo_page page = {.width = CEDUO_PAGE_WIDTH};
+    LOCAL_PAGE(page, CEDUO_PAGE_WIDTH);
     for (size_t s = 0; s < r->scenes_count; s++) {
         struct text *title = ceduo_page_add(&page, CEDUO_PAGE_TITLE);
         if (r->scenes_count > 1)
@@ -250,5 +250,4 @@ void ceduo_calibration_page(struct text *text, const struct ceduo_calibration_re
     ceduo_page_add(&page, CEDUO_PAGE_GAP);
     ceduo_calibration_words(&page, r);
     ceduo_page_print(text, &page, plain);
-    ceduo_page_free(&page);
 }

@@ -465,12 +465,11 @@ void ceduo_doubt_blocks(struct ceduo_page *page, const struct ceduo_doubt_report
 
 void ceduo_doubt_page(struct text *text, const struct ceduo_doubt_report *r, bool plain)
 {
-    struct ceduo_page page = {.width = CEDUO_PAGE_WIDTH};
+    LOCAL_PAGE(page, CEDUO_PAGE_WIDTH);
     ceduo_text_safe(ceduo_page_add(&page, CEDUO_PAGE_TITLE), ceduo_in_language(r->file->scene.title, r->file->scene.title_it));
     if (r->answer)
         ceduo_doubt_blocks(&page, r, CEDUO_DOUBT_ALL);
     else
         ceduo_page_note(&page, ceduo_doubt_none(r));
     ceduo_page_print(text, &page, plain);
-    ceduo_page_free(&page);
 }

@@ -473,16 +473,15 @@ void ceduo_page_notes(struct ceduo_page *page, const struct ceduo_report *report
 
 void ceduo_report_short(struct text *text, const struct ceduo_report *report, bool plain)
 {
-    struct ceduo_page page = {.width = CEDUO_PAGE_WIDTH};
+    LOCAL_PAGE(page, CEDUO_PAGE_WIDTH);
     ceduo_page_short(&page, report);
     ceduo_page_print(text, &page, plain);
-    ceduo_page_free(&page);
 }
 
 void ceduo_report_table(struct text *text, const struct ceduo_report *report, bool plain)
 {
     const struct ceduo_scene *scene = report->result->scene;
-    struct ceduo_page page = {.width = CEDUO_PAGE_WIDTH};
+    LOCAL_PAGE(page, CEDUO_PAGE_WIDTH);
     ceduo_page_say(&page, CEDUO_PAGE_TITLE, "%s", ceduo_in_language(scene->title, scene->title_it));
     ceduo_page_facts(&page, report);
     ceduo_page_question(&page, report->result);
@@ -509,5 +508,4 @@ void ceduo_report_table(struct text *text, const struct ceduo_report *report, bo
         ceduo_page_hazard(&page, report, c, c == 0);
     ceduo_page_notes(&page, report);
     ceduo_page_print(text, &page, plain);
-    ceduo_page_free(&page);
 }

@@ -196,81 +196,54 @@ static void gather_notes(struct ceduo_page *notes, const struct ceduo_report *re
     ceduo_words_run_warnings(r, &report->remarks, ceduo_page_warn_once, notes);
 }
 
-/* Lines of a paragraph of the page. */
-static size_t lines_of(const struct ceduo_page *page, const struct text *text)
+/* A point of sentences (warnings) or of other texts, and how many more there are. */
+static void add_point(struct ceduo_page *page, const char *label, const struct text *said, size_t more)
 {
-    struct ceduo_page one = {.width = page->width};
-    ceduo_text_put(ceduo_page_add(&one, CEDUO_PAGE_POINT), ceduo_text_string(text));
-    size_t n = ceduo_page_lines(&one);
-    ceduo_page_free(&one);
-    return n;
-}
-
-/* A label, the first sentences (warnings) or other texts, and how many more there are. */
-static void compose(struct text *text, const char *label, const struct ceduo_page *sentences, size_t n)
-{
-    size_t k = 0, more = 0;
-    ceduo_text_free(text);
-    ceduo_text_format(text, "%s\t", label);
-    for (const struct ceduo_page_block *b = sentences->first; b; b = b->next, k++) {
-        if (k < n)
-            ceduo_text_format(text, "%s%s", k == 0 ? "" : b->kind == CEDUO_PAGE_WARNING ? " " : "; ", b->text.bytes);
-        else
-            more++;
-    }
+    struct text *text = ceduo_page_add(page, CEDUO_PAGE_POINT);
+    ceduo_text_format(text, "%s\t%s", label, ceduo_text_string(said));
     if (more > 0)
-        ceduo_text_format(text, _(" (%zu more)"), more);
+        ceduo_text_then(text, said->length > 0 ? " " : "", _("(%zu more)"), more);
 }
 
-/* Adds as many of the sentences as keep within so many lines; the first is cut where even that has no room. */
-static void add_sentences(struct ceduo_page *page, const char *label, const struct ceduo_page *sentences, size_t lines)
+/* Adds those of the sentences, whole ones, that keep within so many lines. False where not even how many more has room. */
+static bool add_sentences(struct ceduo_page *page, const char *label, const struct ceduo_page *sentences, size_t lines)
 {
-    static const char cut[] = " ...";
-    size_t n = 0;
-    LOCAL_TEXT(text);
+    LOCAL_PAGE(tried, page->width);
+    LOCAL_TEXT(said);
+    size_t more = 0;
     for (const struct ceduo_page_block *b = sentences->first; b; b = b->next)
-        n++;
-    if (n == 0)
-        return;
-    for (compose(&text, label, sentences, n); n > 1 && lines_of(page, &text) > lines;)
-        compose(&text, label, sentences, --n);
-    while (lines_of(page, &text) > lines) {
-        char *end = text.bytes + text.length;
-        end -= strcmp(end - (sizeof cut - 1), cut) == 0 ? sizeof cut - 1 : 0;
-        while (end[-1] != ' ' && end[-1] != '\t')
-            end--;
-        if (end[-1] == '\t')
-            break;
-        text.length = (size_t)(end - 1 - text.bytes);
-        text.bytes[text.length] = '\0';
-        ceduo_text_put(&text, cut);
+        more++;
+    if (more == 0 || lines == 0)
+        return more == 0;
+    for (const struct ceduo_page_block *b = sentences->first; b; b = b->next) {
+        size_t before = said.length; /* the first goes before how many more */
+        ceduo_text_then(&said, before == 0 ? "" : b->kind == CEDUO_PAGE_WARNING ? " " : "; ", "%s", b->text.bytes);
+        add_point(&tried, label, &said, before == 0 ? 0 : more - 1);
+        if (ceduo_page_lines(&tried) > lines)
+            ceduo_text_cut(&said, before);
+        else
+            more--;
+        ceduo_page_free(&tried);
     }
-    ceduo_text_put(ceduo_page_add(page, CEDUO_PAGE_POINT), text.bytes);
+    add_point(&tried, label, &said, more);
+    bool counted = ceduo_page_lines(&tried) <= lines;
+    add_point(page, label, &said, counted ? more : 0);
+    return counted;
 }
 
-/* False where nothing that is to be noted has room. */
+/* What is to be noted goes before what is assumed, but for a line or two. False where not all of it, or how much more, is said. */
 static bool add_rest(struct ceduo_page *page, const struct ceduo_report *report, size_t lines)
 {
-    struct ceduo_page assumed = {0}, notes = {0};
+    LOCAL_PAGE(assumed, 0);
+    LOCAL_PAGE(notes, 0);
+    LOCAL_PAGE(tried, page->width);
     size_t taken = ceduo_page_lines(page) + 1; /* and a last one for what more there is */
     size_t left = lines > taken + 1 ? lines - taken : 1;
     ceduo_page_assumed(&assumed, report, false);
     gather_notes(&notes, report);
-    LOCAL_TEXT(all_assumed);
-    LOCAL_TEXT(all_notes);
-    compose(&all_assumed, _("ASSUMED *"), &assumed, SIZE_MAX);
-    compose(&all_notes, _("NOTE"), &notes, SIZE_MAX);
-    size_t wanted = assumed.first ? lines_of(page, &all_assumed) : 0, noted = notes.first ? lines_of(page, &all_notes) : 0;
-    size_t share =
-        noted + 1 > left ? 1 : left - noted; /* what is to be noted goes before what is assumed, but for a line or two */
-    share = share < 2 && left > 3 ? 2 : share;
-    share = share < wanted ? share : wanted;
-    add_sentences(page, _("ASSUMED *"), &assumed, share);
-    if (share < left)
-        add_sentences(page, _("NOTE"), &notes, left - share);
-    ceduo_page_free(&assumed);
-    ceduo_page_free(&notes);
-    return share < left || noted == 0;
+    add_sentences(&tried, _("NOTE"), &notes, left - (left > 3 ? 2 : 1));
+    add_sentences(page, _("ASSUMED *"), &assumed, left - ceduo_page_lines(&tried));
+    return add_sentences(page, _("NOTE"), &notes, left + taken - 1 - ceduo_page_lines(page));
 }
 
 void ceduo_page_short(struct ceduo_page *page, const struct ceduo_report *report)

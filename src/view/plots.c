@@ -78,7 +78,7 @@ bool ceduo_plot_add(enum ceduo_plot plot, struct ceduo_page *page, const struct 
 void ceduo_plot_draw(enum ceduo_plot plot, struct ceduo_canvas *canvas, const struct ceduo_area *area,
                      const struct ceduo_picture *picture)
 {
-    struct ceduo_page page = {.width = (size_t)area->width};
+    LOCAL_PAGE(page, (size_t)area->width);
     struct ceduo_drawing d = drawing_of(picture);
     bool is_page = ceduo_plot_kinds[plot].flags & CEDUO_PICTURE_PAGE;
     if (canvas->words_alone)
@@ -92,7 +92,6 @@ void ceduo_plot_draw(enum ceduo_plot plot, struct ceduo_canvas *canvas, const st
         why = _("too narrow");
     if (is_page && !why)
         ceduo_page_draw(&page, canvas, *area, 0);
-    ceduo_page_free(&page);
     if (!why)
         return;
     int width = ceduo_canvas_label_width(canvas, why), column = width < area->width ? (area->width - width) / 2 : 0;

@@ -133,13 +133,13 @@ def test_profiles_of_one_place():
 
 
 def test_bounded():
-    """-n bounds everything that the page simulates, and the page says with how many rocks; more text than a screen is cut with a sign"""
+    """-n bounds everything that the page simulates, and the page says with how many rocks; a text that has no room is left out and counted"""
     page = good("--batch", "-n", 7, FOUR).out
     expect_in("(7)", page)
     expect_in("(7 each)", " ".join(page.split()))
     long = "a very long remark that goes on and on, " * 9
     page = page_of(PAPER, "-s", f"controls[0].source.text={long}", "-s", "controls[0].source.kind=assumed")
-    expect(len(page.splitlines()) <= 24 and re.search(r"ASSUMED \* .* \.\.\.$", page, re.M), page)
+    expect(len(page.splitlines()) <= 24 and re.search(r"ASSUMED \* stems [^(]*\(1 more\)$", page, re.M) and "remark" not in page, page)
 
 
 def test_details():
