@@ -168,9 +168,8 @@ static void say_lights(struct ceduo_page *page, const struct ceduo_result *r, si
         ceduo_page_say(page, CEDUO_PAGE_SENTENCE, _("Contact, free run and energy: nothing can be said."));
         return;
     }
-    ceduo_words_contact(ceduo_page_add(page, CEDUO_PAGE_SENTENCE), r, option, control);
-    ceduo_words_free_run(ceduo_page_add(page, CEDUO_PAGE_SENTENCE), r, option, control);
-    ceduo_words_energy(ceduo_page_add(page, CEDUO_PAGE_SENTENCE), r, option, control);
+    for (size_t i = 0; i < 3; i++)
+        ceduo_words_test(ceduo_page_add(page, CEDUO_PAGE_SENTENCE), r, option, control, i);
     if (r->options[option].others[control].known && r->options[option].others[control].stems)
         ceduo_words_other(ceduo_page_add(page, CEDUO_PAGE_SENTENCE), r, option, control);
     say_released(page, r->scene->options[option].belts_count > 0 ? ceduo_result_wooded(r, option, control) : NULL,

@@ -297,65 +297,51 @@ const char *ceduo_words_verdict(enum ceduo_light light)
     return light == CEDUO_PASS ? _("passes") : light == CEDUO_FAIL ? _("FAILS") : _("unknown");
 }
 
-static void say_verdict(struct text *text, const char *sentence, enum ceduo_light light)
+/* Why contact or free run holds, or not. */
+static void say_reason(struct text *text, const struct ceduo_index *s, double limit, bool contact)
 {
-    ceduo_append_with(text, sentence, ceduo_words_verdict(light));
-    ceduo_text_char(text, ' ');
-}
-
-static const struct ceduo_index *index_at(const struct ceduo_result *result, size_t option, size_t control)
-{
-    return &result->options[option].controls[control];
-}
-
-/* From which diameter on stems are thick. */
-static double thick_cm(const struct ceduo_scene *scene)
-{
-    return fmax(scene->simulation.contact_dbh, CEDUO_THICK_DBH) * 100;
-}
-
-void ceduo_words_contact(struct text *text, const struct ceduo_result *result, size_t option, size_t control)
-{
-    const struct ceduo_index *s = index_at(result, option, control);
-    double limit = result->scene->simulation.threshold;
-    say_verdict(text, _("Contact: %s."), s->contact);
-    if (s->contact == CEDUO_PASS)
-        ceduo_text_format(text, _("Every belt has an ADC below %g m (%s m at most) and no gap is longer."), limit,
-                          BESIDE(s->worst_adc, 3, limit));
+    const char *adc = BESIDE(s->worst_adc, 3, limit);
+    if (contact && s->contact == CEDUO_PASS)
+        ceduo_text_format(text, _("Every belt has an ADC below %g m (%s m at most) and no gap is longer."), limit, adc);
     else if (!(s->length > 0))
         ceduo_text_put(text, _("No stem stands on the way."));
     else if (s->longest_gap > limit)
         ceduo_text_format(text, _("A gap of %s m has no forest; a rock reaches full speed in %g m."),
                           ROUNDED(s->longest_gap, 6), limit);
+    else if (!contact)
+        ceduo_text_format(text, _("Chance of %g m without a contact at worst %s %% (10 %% is allowed)."), limit,
+                          PERCENT(s->worst_free_run, CEDUO_FREE_RUN_MOST));
     else if (isinf(s->worst_adc))
         ceduo_text_format(text, _("In a belt no stem counts; a rock reaches full speed in %g m."), limit);
     else
-        ceduo_text_format(text, _("A belt has an ADC of %s m; a rock reaches full speed in %g m."),
-                          BESIDE(s->worst_adc, 3, limit), limit);
-    if (result->scene->simulation.contact_dbh > 0)
-        ceduo_text_then(text, " ", _("Stems below %g cm do not count."), result->scene->simulation.contact_dbh * 100);
-    if (s->thick.contact != s->contact)
-        ceduo_text_then(text, " ", _("Counting only stems from %g cm on it fails: %s%s."), thick_cm(result->scene),
-                        isinf(s->thick.worst_adc) ? _("no stems") : BESIDE(s->thick.worst_adc, 3, limit),
-                        isinf(s->thick.worst_adc) ? "" : " m");
+        ceduo_text_format(text, _("A belt has an ADC of %s m; a rock reaches full speed in %g m."), adc, limit);
 }
 
-void ceduo_words_free_run(struct text *text, const struct ceduo_result *result, size_t option, size_t control)
+void ceduo_words_test(struct text *text, const struct ceduo_result *result, size_t option, size_t control, size_t test)
 {
-    const struct ceduo_index *s = index_at(result, option, control);
-    double limit = result->scene->simulation.threshold;
-    say_verdict(text, _("Free run: %s."), s->free_run);
-    if (s->length > 0 && s->longest_gap > limit)
-        ceduo_text_format(text, _("A gap of %s m has no forest; a rock reaches full speed in %g m."),
-                          ROUNDED(s->longest_gap, 6), limit);
-    else if (s->length > 0)
-        ceduo_text_format(text, _("Chance of %g m without a contact at worst %s %% (10 %% is allowed)."), limit,
-                          PERCENT(s->worst_free_run, CEDUO_FREE_RUN_MOST));
-    else
-        ceduo_text_put(text, _("No stem stands on the way."));
-    if (s->thick.free_run != s->free_run)
-        ceduo_text_then(text, " ", _("Counting only stems from %g cm on it fails: %s%s."), thick_cm(result->scene),
-                        PERCENT(s->thick.worst_free_run, CEDUO_FREE_RUN_MOST), " %");
+    static const char *const sentences[] = {N_("Contact: %s."), N_("Free run: %s."), N_("Energy: %s.")};
+    const struct ceduo_index *s = &result->options[option].controls[control];
+    const enum ceduo_light lights[] = {s->contact, s->free_run, s->energy}, thick[] = {s->thick.contact, s->thick.free_run};
+    double limit = result->scene->simulation.threshold, counted = result->scene->simulation.contact_dbh;
+    ceduo_append_with(text, _(sentences[test]), ceduo_words_verdict(lights[test]));
+    ceduo_text_char(text, ' ');
+    if (test == 2) {
+        ceduo_words_because(text, result, control, ceduo_result_wooded(result, option, control));
+        return;
+    }
+    say_reason(text, s, limit, test == 0);
+    if (test == 0 && counted > 0)
+        ceduo_text_then(text, " ", _("Stems below %g cm do not count."), counted * 100);
+    if (thick[test] == lights[test])
+        return;
+    bool stems = test == 1 || isfinite(s->thick.worst_adc);
+    ceduo_text_then(text, " ", _("Counting only stems from %g cm on it fails: %s%s."), fmax(counted, CEDUO_THICK_DBH) * 100,
+                    !stems      ? _("no stems")
+                    : test == 0 ? BESIDE(s->thick.worst_adc, 3, limit)
+                                : PERCENT(s->thick.worst_free_run, CEDUO_FREE_RUN_MOST),
+                    !stems      ? ""
+                    : test == 0 ? " m"
+                                : " %");
 }
 
 #define NAMED_MAX 2 /* options; more are counted */
@@ -381,10 +367,4 @@ const char *ceduo_words_shown_of_1000(double p, double lo, double hi, char room[
 {
     snprintf(room, CEDUO_NUMBER_ROOM, "%.0f (%.0f\xe2\x80\x93%.0f)", p * 1000, floor(lo * 1000), ceil(hi * 1000));
     return room;
-}
-
-void ceduo_words_energy(struct text *text, const struct ceduo_result *result, size_t option, size_t control)
-{
-    say_verdict(text, _("Energy: %s."), index_at(result, option, control)->energy);
-    ceduo_words_because(text, result, control, ceduo_result_wooded(result, option, control));
 }

@@ -57,10 +57,8 @@ void ceduo_words_answer(struct text *text, const struct ceduo_result *result, si
 /* Which options have lights that thin shoots alone make green today. */
 void ceduo_words_thin(const struct ceduo_result *result, ceduo_words_say *say, void *context);
 
-/* The three lights of an option at a control, each with its reason: contact, free run, energy. */
-void ceduo_words_contact(struct text *text, const struct ceduo_result *result, size_t option, size_t control);
-void ceduo_words_free_run(struct text *text, const struct ceduo_result *result, size_t option, size_t control);
-void ceduo_words_energy(struct text *text, const struct ceduo_result *result, size_t option, size_t control);
+/* One of the tests of an option at a control, as ceduo_light_names has them, with its reason. */
+void ceduo_words_test(struct text *text, const struct ceduo_result *result, size_t option, size_t control, size_t test);
 
 /* What the same rocks do under the other energy law; nothing where that is not known, or no stem stands. */
 void ceduo_words_other(struct text *text, const struct ceduo_result *result, size_t option, size_t control);

@@ -134,7 +134,7 @@ static void expect_said(double share, double lo, double hi, const char *wanted)
     arrivals[0].exceed_lo = lo;
     arrivals[0].exceed_hi = hi;
     LOCAL(ceduo_result, result) = assess();
-    ceduo_words_energy(&text, result, 0, 0);
+    ceduo_words_test(&text, result, 0, 0, 2);
     if (!strstr(text.bytes, wanted))
         fail_msg("'%s' is missing in: %s", wanted, text.bytes);
 }
