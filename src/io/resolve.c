@@ -393,9 +393,9 @@ static const struct node *set_item(struct resolver *s, const struct field *f, co
             const char *name = name_of(list->items[i]);
             ceduo_text_format(&items, "%s[%zu]%s%s", i > 0 ? ", " : "", i, name ? " " : "", name ? name : "");
         }
-        ceduo_text_put(&items, list->n > ITEMS_SHOWN ? ", \xe2\x80\xa6" : list->n == 0 ? "\xe2\x80\x93" : "");
+        ceduo_text_put(&items, list->n > ITEMS_SHOWN ? ", \xe2\x80\xa6" : "");
         ceduo_text_format(&what, _("no such item; there are: %s"), ceduo_text_string(&items));
-        return fail_at(s, step, ceduo_text_string(&what));
+        return fail_at(s, step, list->n > 0 ? ceduo_text_string(&what) : _("the list is empty"));
     }
     for (size_t i = first; i < list->n && !ceduo_path_index(step, &place); i++)
         if (ceduo_path_is(step, name_of(list->items[i])))
