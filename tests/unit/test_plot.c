@@ -142,12 +142,13 @@ static void change(const char *word)
     const char *is = strchr(word, '=');
     size_t length = is ? (size_t)(is - word) : strlen(word);
     double value = is ? atof(is + 1) : NAN;
+    bool known = false;
     for (size_t i = 0; i < LENGTH(numbers); i++)
         if (is && strlen(numbers[i].name) == length && memcmp(numbers[i].name, word, length) == 0)
-            *numbers[i].number = value;
+            *numbers[i].number = value, known = true;
     for (size_t i = 0; i < LENGTH(counts); i++)
         if (is && strlen(counts[i].name) == length && memcmp(counts[i].name, word, length) == 0)
-            *counts[i].number = (size_t)value;
+            *counts[i].number = (size_t)value, known = true;
     p.stems = p.stems_count > 0 ? &passed[first_stem] : NULL;
     if (strcmp(word, "wood") == 0)
         wooded_site_init(&s);
@@ -185,7 +186,7 @@ static void change(const char *word)
             belts[i].to = ends[i][1];
         }
         set_belts(3);
-    } else if (!is) {
+    } else if (!known) {
         fail_msg("'%s' changes nothing", word);
     }
 }
