@@ -177,7 +177,7 @@ static void say_doubt(struct text *text, const struct ceduo_report *report)
     }
     struct ceduo_doubt_report same = *doubt;
     same.over = over;
-    ceduo_doubt_advice(text, &same, option);
+    ceduo_doubt_advice(text, &same, option, 1);
 }
 
 void ceduo_page_sure(struct ceduo_page *page, const struct ceduo_report *report)

@@ -161,6 +161,20 @@ void ceduo_page_comparison(struct ceduo_page *page, const struct ceduo_report *r
     ceduo_page_say(page, CEDUO_PAGE_SECTION, _("Side by side, up to %s m"), SHORTEST(last_control(r)->x_given));
     ceduo_page_say(page, CEDUO_PAGE_CAPTION, _("Today:"));
     ceduo_page_today(page, r);
+    size_t n = r->scene->options_count, passes[3] = {0};
+    for (size_t i = 0; i < n; i++) {
+        const struct ceduo_index *s = ceduo_result_last_index(r, i);
+        const enum ceduo_light lights[3] = {s->contact, s->free_run, s->energy};
+        for (size_t k = 0; k < 3; k++)
+            passes[k] += lights[k] == CEDUO_PASS;
+    }
+    /* a test that all options pass, or none, says nothing about which to choose */
+    for (size_t k = 0; k < (r->wooded && !isnan(last_control(r)->accepted) ? 3u : 2u); k++)
+        if (passes[k] == n || (passes[k] == 0 && ceduo_result_last_index(r, 0)->contact != CEDUO_UNKNOWN))
+            ceduo_page_say(page, CEDUO_PAGE_NOTE,
+                           passes[k] == n ? _("Today all options pass the test of %s: it does not separate them.")
+                                          : _("Today no option passes the test of %s: it does not separate them."),
+                           _(ceduo_light_names[k]));
     if (!v)
         return;
     bool known = false;

@@ -318,17 +318,18 @@ static const char *name_measured(struct text *name, const struct ceduo_doubt_rep
     return ceduo_doubt_measured(r, g);
 }
 
-void ceduo_doubt_advice(struct text *text, const struct ceduo_doubt_report *r, size_t option)
+void ceduo_doubt_advice(struct text *text, const struct ceduo_doubt_report *r, size_t option, size_t most)
 {
     const struct ceduo_doubt_figure *f = ceduo_doubt_main(r, option);
-    for (size_t i = 0; f->fit.enough && i < f->uses; i++) {
+    size_t named = 0;
+    for (size_t i = 0; f->fit.enough && i < f->uses && named < most; i++) {
         size_t g = f->order[i];
         LOCAL_TEXT(name);
         const char *how = name_measured(&name, r, g);
         if (!matters(f, g) || !how)
             continue;
-        ceduo_text_then(text, text->length > 0 ? " " : "", _("Measure first: %s (%s)."), ceduo_text_string(&name), _(how));
-        return;
+        ceduo_text_then(text, text->length > 0 ? " " : "", named++ == 0 ? _("Measure first: %s (%s).") : _("Then: %s (%s)."),
+                        ceduo_text_string(&name), _(how));
     }
 }
 
@@ -430,7 +431,7 @@ void ceduo_doubt_blocks(struct ceduo_page *page, const struct ceduo_doubt_report
     add_inputs(page, r, ceduo_doubt_main(r, 0));
     ceduo_page_add(page, CEDUO_PAGE_GAP);
     LOCAL_TEXT(advice);
-    ceduo_doubt_advice(&advice, r, 0);
+    ceduo_doubt_advice(&advice, r, 0, 3);
     if (advice.length > 0)
         ceduo_page_say(page, CEDUO_PAGE_ITEM, "%s", advice.bytes);
     for (size_t i = 0; i < 3 * s->options_count; i++) { /* lights that change within what may be true */

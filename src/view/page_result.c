@@ -110,10 +110,10 @@ static void add_arrivals_table(struct ceduo_page *page, const struct ceduo_contr
         add_arrivals_row(page, _("without forest"), c, bare);
 }
 
-/* How the rocks end in the forest up to a control. */
-static void say_fates(struct ceduo_page *page, const struct ceduo_simulated *f, const struct ceduo_arrivals *a)
+/* How the rocks end in the forest: up to a control, and on the whole profile. */
+static void say_fates(struct ceduo_page *page, const struct ceduo_simulated *f, const struct ceduo_arrivals *a, bool last)
 {
-    const double *missed = a->missed;
+    const double *missed = a->missed, *all = f->ends.share;
     struct text *line = ceduo_page_add(page, CEDUO_PAGE_SENTENCE);
     ceduo_text_format(line,
                       _("Of 1000, %.0f arrive; before that %.0f are stopped by stems, %.0f come to rest, %.0f leave the "
@@ -126,6 +126,10 @@ static void say_fates(struct ceduo_page *page, const struct ceduo_simulated *f, 
     if (a->reached > 0)
         ceduo_text_then(line, "; ", _("one that arrives here has hit %.3g stems"), a->contacts);
     ceduo_text_char(line, '.');
+    if (last)
+        ceduo_page_say(page, CEDUO_PAGE_SENTENCE,
+                       _("On the whole profile: of 1000, %.0f are stopped by stems, %.0f come to rest, %.0f leave it."),
+                       all[CEDUO_STOPPED_BY_STEMS] * 1000, all[CEDUO_AT_REST] * 1000, all[CEDUO_LEFT_SLOPE] * 1000);
 }
 
 static void add_arrivals(struct ceduo_page *page, const struct ceduo_result *r, size_t option, size_t control, bool with_bare)
@@ -143,7 +147,7 @@ static void add_arrivals(struct ceduo_page *page, const struct ceduo_result *r, 
         ceduo_page_say(page, CEDUO_PAGE_SENTENCE,
                        _("Fewer arrive through the wood, but larger or faster ones, as stems stop the others first: their mean "
                          "is higher."));
-    say_fates(page, &r->options[option].wooded, wooded);
+    say_fates(page, &r->options[option].wooded, wooded, control == r->last_control);
 }
 
 /* The mean that cannot mislead: of all released; it is no energy that the place must withstand. Either may be NULL. */
@@ -237,7 +241,10 @@ static void say_residual(struct ceduo_page *page, const struct ceduo_result *r, 
         ceduo_text_put(&rest, _("nothing is left on average, some rocks still pass"));
     else
         ceduo_text_format(&rest, _("%s kJ are left"), SAME(left));
-    if (index->length > 0)
+    if (isnan(taken) && mean > 0)
+        ceduo_page_say(page, CEDUO_PAGE_SENTENCE, _("By the index contacts take shares of the energy; of %s kJ %s."),
+                       SAME(mean), rest.bytes);
+    else if (index->length > 0 && mean > 0)
         ceduo_page_say(page, CEDUO_PAGE_SENTENCE,
                        _("By the index stems could take %s kJ (Eq. 4), %s kJ per 100 m; of %s kJ %s (Eq. 5)."), SAME(taken),
                        WRITTEN(index->per_100m * J_TO_KJ, 3), SAME(mean), rest.bytes);

@@ -142,8 +142,13 @@ static void add_tests(struct ceduo_page *page, const struct ceduo_pane *pane, co
 
 static void add_index(struct ceduo_page *page, const struct ceduo_pane *pane, const struct ceduo_index *index)
 {
-    ceduo_page_line(page, CEDUO_ROLE_DIM, _("taken %s left %s kJ"), WRITTEN(index->dissipated * J_TO_KJ, 3),
-                    WRITTEN(index->residual * J_TO_KJ, 3));
+    const char *taken = WRITTEN(index->dissipated * J_TO_KJ, 3), *left = WRITTEN(index->residual * J_TO_KJ, 3);
+    if (isnan(index->dissipated))
+        ceduo_page_line(page, CEDUO_ROLE_DIM, _("shares taken, left %s kJ"), left);
+    else if (index->exhausted)
+        ceduo_page_line(page, CEDUO_ROLE_DIM, _("taken %s kJ: all of it"), taken);
+    else
+        ceduo_page_line(page, CEDUO_ROLE_DIM, _("taken %s left %s kJ"), taken, left);
     if (!isnan(index->measured) && pane->height >= HEIGHT_ALL)
         ceduo_page_line(page, CEDUO_ROLE_DIM, _("measured %s kJ (one rock)"), WRITTEN(index->measured * J_TO_KJ, 3));
 }
@@ -253,7 +258,7 @@ void ceduo_pane_doubt(struct ceduo_page *page, const struct ceduo_pane *pane)
     if (!r || !r->answer || isnan(ceduo_doubt_main(r, pane->option)->fit.p5))
         return;
     ceduo_doubt_both(ceduo_page_add(page, CEDUO_PAGE_NOTE), r, pane->option);
-    ceduo_doubt_advice(ceduo_page_add(page, CEDUO_PAGE_NOTE), r, pane->option);
+    ceduo_doubt_advice(ceduo_page_add(page, CEDUO_PAGE_NOTE), r, pane->option, 1);
     const struct ceduo_doubt_ranking *ranking = ceduo_doubt_verdict(r->answer);
     for (size_t i = 0; i < ranking->count; i++)
         if (ranking->orders[i].better == pane->option || ranking->orders[i].than == pane->option)

@@ -62,8 +62,8 @@ void ceduo_doubt_blocks(struct ceduo_page *page, const struct ceduo_doubt_report
 /* "469 of 1000 (rocks 438–501; doubt 92–740)": the main figure of an option with both errors. */
 void ceduo_doubt_both(struct text *text, const struct ceduo_doubt_report *report, size_t option);
 
-/* What to measure first for an option, and how; nothing where none stands out. */
-void ceduo_doubt_advice(struct text *text, const struct ceduo_doubt_report *report, size_t option);
+/* What to measure first for an option, and then, at most so many, and how; nothing where none stands out. */
+void ceduo_doubt_advice(struct text *text, const struct ceduo_doubt_report *report, size_t option, size_t most);
 
 /* In how much of what may be true one of two options is better, equal or worse, and how sure that makes the order. */
 void ceduo_doubt_order_words(struct text *text, const struct ceduo_doubt_report *report, size_t order);

@@ -128,6 +128,9 @@ def expect_option(text, option, alone=True):
         shares = [f"{share * 1000:.0f}" for share in (reach, *(missed[k] for k in ways))]
         expect_in("Of 1000, {} arrive; before that {} are stopped by stems, {} come to rest, {} leave the slope".format(*shares),
                   flat_text, "ends before the control")
+        shares = [f"{option['ends'][k] * 1000:.0f}" for k in ways]
+        expect_in("On the whole profile: of 1000, {} are stopped by stems, {} come to rest, {} leave it".format(*shares),
+                  flat_text, "ends")
         energies = [digits(control[k]["energy_per_released_kJ"]["mean"], 3) for k in ("wooded", "bare")]
         place = flat_text[[m.end() for m in re.finditer(r" At [\d.]+ m", flat_text)][i]:]
         expect(place.index(" of 1000 ") < place.index("Energy per released rock"), "a mean over all stands above the shares", text)

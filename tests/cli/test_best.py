@@ -13,7 +13,7 @@ from runs import FOUR, THICK, THIN, through, treated
 
 
 def test_table_options():
-    """Table of the four systems: each option, then side by side with the differences"""
+    """Table of the four systems: each option, then side by side with the differences, what does not separate them said"""
     text, run = good(*WHOLE, "-n", 500, FOUR).out, result(FOUR, "-n", 500)
     names = [o["name"] for o in run["options"]]
     expect_order(text, *[re.escape(n) for n in names], "(?i)side by side")
@@ -36,12 +36,15 @@ def test_table_options():
     for difference in run["differences"]:
         d = difference["exceed_probability"]
         expect_cells(rows[difference["option"]], f"{d['mean'] * 1000:+.0f} ±{math.ceil(d['se'] * 1959.963984540054)}")
+    expect_in("Today no option passes the test of energy: it does not separate them", words, "what does not separate them")
     least = round(1000 * run["options"][0]["controls"][0]["wooded"]["exceed_probability"])
     expect_in(f"Today 'simple coppice, 25 years' lets the fewest dangerous rocks through: {least} of 1000.", words, "the best today")
     expect_in("Over a whole rotation ", words, "over the rotation")
     expect_in("in the worst of these years, counted from today, with 136 rocks in each; ", words)  # six times 500 in 22 years, their mean number
     expect("By contact" not in words, words)
     expect_width(text)
+    same = good(*WHOLE, "-n", 50, FOUR, "--option", "large reserves", "--option", "coppice with standards").out
+    expect_order(same, "(?i)today all options pass the test of contact: it does not separate")
 
 
 def test_table_options_index():

@@ -305,7 +305,7 @@ def test_left_without_effect():
 
 
 def test_page_of_shares():
-    """The page names an input whose share is more than two errors and 1 %, as at most 100 %, and counts the others"""
+    """The page names an input whose share is more than two errors and 1 %, as at most 100 %, and counts the others; the first three are what to measure"""
     what = measured(doubt=[DENSITY, {"path": "release.vx_m_s", "lo": 4, "hi": 6}, {**IDLE, "lo": 150},
                            {"path": "slope.segments[0].friction", "lo": 0.45, "hi": 0.55}])
     between = named = 0
@@ -319,6 +319,7 @@ def test_page_of_shares():
             shares = [f"{min(100, 100 * i['total']):.0f}" for i in told]
             table = page[page.index("it depends on"):].split("\n\n")[0]
             expect_equal(re.findall(r" (\d+) %", table), shares, f"seed {seed}: {page}")
+            expect_equal(re.findall(r"(Measure first|Then): ", page), ["Measure first", "Then", "Then"][:len(told)], page)
             expect_in(f"{4 - len(told)} other input" if told else "No input stands out", " ".join(page.split()))
             between += any(i["total_se"] < i["total"] < 2 * i["total_se"] and i["total"] > 0.01 for i in found["inputs"])
             named += len(told) > 0
