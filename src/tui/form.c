@@ -320,7 +320,8 @@ static void draw_cell(struct ceduo_cells *cells, const struct form_cell *cell, i
     double number;
     bool fine = digits_of(shown) > DIGITS_MOST || (int)ceduo_utf8_width(shown) > span;
     if (fine && strpbrk(shown, ".,") && ceduo_typed_number(cell->text, &number) == CEDUO_NUMBER_GOOD)
-        snprintf(shown, sizeof shown, "%.4g%s", number, cell->assumed ? "*" : "");
+        snprintf(shown, sizeof shown, fabs(number) < 1e4 || fabs(number) >= 1e9 ? "%.4g%s" : "%.0f%s", number,
+                 cell->assumed ? "*" : "");
     if (strspn(shown, "0123456789.+-e *") == strlen(shown))
         ceduo_number_spoken(shown);
     char *more = cell->field->type == FIELD_CHOICE ? strstr(shown, " (") : NULL;

@@ -20,10 +20,6 @@ enum {
     COUNTS
 };
 
-/* What is typed, in the language of the screen. */
-#define ALONG_SLOPE _("slope")
-#define ON_MAP      _("map")
-
 static const struct {
     const char *label;
     size_t count;     /* that it is the size of; of what was not counted none is read */

@@ -42,6 +42,8 @@ def test_per_hectare():
     for screen in (start, fewer):
         expect(any(line.split()[:2] == ["1", "9000"] for line in screen.body.split("\n")), screen)
     fewer.has("6.333 shoots per stool")
+    exact, = play(FAST.replace("{per_ha: 9000,", "{per_ha: 12345.678,"), "key 2\ndump")
+    expect(any(line.split()[:2] == ["1", "12346"] for line in exact.body.split("\n")), exact)
 
 
 def test_diameter():
