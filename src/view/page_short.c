@@ -135,7 +135,7 @@ static void add_choice(struct ceduo_page *page, const struct ceduo_report *repor
     ceduo_measure_value(ceduo_page_text(page), &today);
     if (form_of(report) != BY_MEAN)
         add_span(page, &today);
-    ceduo_page_number(page, ceduo_result_last_index(r, i)->worst_adc, 3);
+    ceduo_page_write(page, "%s", BESIDE(ceduo_result_last_index(r, i)->worst_adc, 3, r->scene->simulation.threshold));
     if (years)
         ceduo_page_number(page, v->yield.cut_per_year, 2);
 }

@@ -80,6 +80,15 @@ def test_over_the_years():
         expect_equal(band, [min(mean, lo), max(mean, hi)], name)
 
 
+def test_beside_the_threshold():
+    """An ADC is written with as many digits as show on which side of the threshold it lies, as on the whole page"""
+    adc = result("-n", 2, "rotation")["options"][0]["stands"][0]["adc"]["adc_m"]
+    for threshold in (adc * 0.9999, adc * 1.0001):
+        page = good("--batch", "-n", 2, "-s", f"simulation.threshold_m={threshold}", "rotation").out
+        shown = float(re.search(r"(?m)^  simple coppice .* ([\d.]+) +[\d.]+$", page).group(1))
+        expect((shown < threshold) == (adc < threshold) and abs(shown / adc - 1) < 0.005, f"{shown}, {threshold}", page)
+
+
 def test_answers():
     """Yes, no, it depends, nothing, no limit: each has its words, and says what is not known where that was not computed"""
     with Folder() as f:
