@@ -436,12 +436,16 @@ def test_counts():
     """c: counts of a plot to hectares: 400 m2 along a slope of 40 degrees are 306.4 m2; sizes of stems are taken too."""
     area = 400 * math.cos(math.radians(40))
     for how, per in (("40", 10000 / area), ("0", 25)):
-        before, form, screen, _ = fast(counts_script(COUNTED[0], how, *COUNTED[2:]))
+        with Place() as place:
+            before, form, screen, _ = place.play(counts_script(COUNTED[0], how, *COUNTED[2:]) + "\nkey s", "fast.yaml")
+            lower = place.text("fast.yaml").split("to_m: 80")[1]
         form.has("Stand from the counts of a sample plot", "size of the plot, m²", "angle", "their mean diameter, cm")
         rows = [re.findall(r"^\d +(\S+) +(\S+) +(\S+)", part, re.M) for part in screen.body.split("\n    per ha")[1:]]
         found = [float(screen.row("^stools per ha")[-1]), float(rows[0][0][0]), float(rows[1][0][0])]
         for value, count in zip(found, (100, 250, 20)):
             expect_equal(f"{value:.4g}", f"{count * per:.4g}", f"{how}: {count} in the plot, per ha, to the digits of a form")
+        for value, count in zip(re.findall(r"per_ha: ([\d.]+)", lower), (100, 250, 20)):
+            expect_near(float(value), count * per, count * per * 1e-5, f"{how}: {count} in the plot, per ha of the file")
         expect_equal(rows[0][0][1:] + rows[1][0][1:], ("7.5", "8", "18", "13"), "diameters and heights")
         expect_equal([len(r) for r in rows], [1, 1], "one class of each")
         expect_in("306.4 m²" if how == "40" else "400 m²", screen.note)
