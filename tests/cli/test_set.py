@@ -91,7 +91,7 @@ def test_set_all():
     with Folder() as f:
         belts = [{"from_m": x, "to_m": x + 9, "stand": stand()} for x in (10, 20)]
         path = f.write("s.yaml", scene(forest=belts, doubt=[]))
-        expect_in("'*': no such item", ceduo("--check", "-s", "doubt[*].lo=1", path).err)
+        expect_in("'*': the list is empty", ceduo("--check", "-s", "doubt[*].lo=1", path).err)
         done = ceduo("--check", "-s", "forest[*].to_m=-1", path)
         expect_in("--set:1:16: forest[0].to_m", done.err)
         trees = stand(stools=None, shoots=None)
