@@ -115,7 +115,10 @@ void ceduo_progress_scenes(struct progress *p, size_t computed, size_t done, siz
     if (computed == 0 || !ceduo_progress_due(p, &seconds))
         return;
     double left = seconds / (double)computed * (double)(all - done);
-    ceduo_say_progress(_("%zu of %zu scenes, %.0f s left"), done, all, left);
+    if (left < 120)
+        ceduo_say_progress(_("%zu of %zu scenes, %.0f s left"), done, all, left);
+    else
+        ceduo_say_progress(_("%zu of %zu scenes, %.0f min left"), done, all, left / 60);
 }
 
 /* ---- nothing to be said ---- */

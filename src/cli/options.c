@@ -106,14 +106,21 @@ static enum exit_status no_number(const struct option_row *row, const char *valu
     return ceduo_usage(row->name, _("'%s' is not a number"), value);
 }
 
-/* Above 0 and at most 1. */
-static enum exit_status set_share(struct arguments *a, const struct option_row *row, char *value)
+static enum exit_status set_tolerance(struct arguments *a, const struct option_row *row, char *value)
 {
-    double *share = (double *)(void *)((char *)a + row->at);
-    if (ceduo_number_read(value, share) != CEDUO_NUMBER_GOOD)
+    if (ceduo_number_read(value, &a->tolerance) != CEDUO_NUMBER_GOOD)
         return no_number(row, value);
-    if (!(*share > 0) || !(*share <= 1))
-        return ceduo_usage(row->name, _("%s is not a share; write 0 to 1, such as 0.05 for 5 %%"), value);
+    if (!(a->tolerance > 0) || !(a->tolerance < 1))
+        return ceduo_usage(row->name, _("%s must lie above 0 and below 1"), value);
+    return EXIT_DONE;
+}
+
+static enum exit_status set_sure(struct arguments *a, const struct option_row *row, char *value)
+{
+    if (ceduo_number_read(value, &a->sure) != CEDUO_NUMBER_GOOD)
+        return no_number(row, value);
+    if (!(a->sure > 0) || !(a->sure <= 1))
+        return ceduo_usage(row->name, _("%s is not a share; write 0.9 for nine of ten cases"), value);
     return EXIT_DONE;
 }
 
@@ -269,7 +276,7 @@ static const struct option_row rows[] = {
      .help = N_("change a parameter of the scene; may be repeated")},
     {"rocks", 'n', "N", set_count, AT(rocks), MODE_TERMINAL, CHECK | SURVEY | SCREEN,
      .help = N_("number of rocks; with --tolerance the maximum"), .lo = 1, .hi = CEDUO_ROCKS_MOST},
-    {"tolerance", 'e', "REL", set_share, AT(tolerance), MODE_TERMINAL, CHECK | FIND | DOUBT | FIT | SURVEY | SCREEN,
+    {"tolerance", 'e', "REL", set_tolerance, 0, MODE_TERMINAL, CHECK | FIND | DOUBT | FIT | SURVEY | SCREEN,
      .help = N_("simulate until the 95 % error of each mean energy is below REL of it")},
     {"rows", 0, "controls|stands", set_word, AT(stands), MODE_TERMINAL, CHECK | DOUBT | FIT | PAGE | SURVEY | SCREEN,
      .help = N_("what each row of CSV describes (controls)")},
@@ -293,7 +300,7 @@ static const struct option_row rows[] = {
      .help = N_("find the value of a parameter that reaches --goal at the worst control")},
     {"goal", 0, "GOAL[=VALUE]", set_goal, 0, MODE_TERMINAL, CHECK | SURVEY,
      .help = N_("adc, free-run (at most the light's limit), energy (mean kJ) or exceed (share, 0.05)")},
-    {"sure", 0, "SHARE", set_share, AT(sure), MODE_TERMINAL, CHECK | SURVEY,
+    {"sure", 0, "SHARE", set_sure, 0, MODE_TERMINAL, CHECK | SURVEY,
      .help = N_("with --find: also the value that reaches the goal in this share of what may be true, such as 0.9")},
     {"sensitivity", 0, "[N]", set_count, AT(points), MODE_SENSITIVITY, CHECK | SURVEY,
      .help = N_("show how sure the result is, and what that depends on; N points (256)"), .lo = 2,

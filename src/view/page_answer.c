@@ -75,8 +75,12 @@ static void answer_many(struct ceduo_page *page, const struct ceduo_report *repo
         return;
     append_keepers(&today, report, false);
     append_keepers(&always, report, true);
-    ceduo_text_then(text, " ", _("Options that keep within %.0f of 1000: today %s; in every year %s."),
-                    1000 * CEDUO_EXCEED_MOST, today.bytes, v->choices[0].years > 0 ? always.bytes : "-");
+    if (v->choices[0].years > 0)
+        ceduo_text_then(text, " ", _("Options that keep within %.0f of 1000: today %s; in every year %s."),
+                        1000 * CEDUO_EXCEED_MOST, today.bytes, always.bytes);
+    else
+        ceduo_text_then(text, " ", _("Options that keep within %.0f of 1000 today: %s."), 1000 * CEDUO_EXCEED_MOST,
+                        today.bytes);
 }
 
 size_t ceduo_result_best(const struct ceduo_result *r, const struct ceduo_verdict *v)

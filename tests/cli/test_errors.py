@@ -471,8 +471,8 @@ CASES = {
     "--rocks: with blocks each rock is kept: at most 1048576 rocks": Words(
         "--batch", "-n", "1048577", "-s", "blocks=[{per_year: 1, volume_m3: [1, 2]}]", "@"),
     "--rocks: 0 is outside 1 to 10000000": Words("--batch", "-n", "0", "@"),
-    "--tolerance: 1.5 is not a share; ...": lambda row: (
-        Words("--batch", "-e", "1.5", "@")(row), Words("--batch", "-e", "0", "@")(row.replace("1.5 is", "0 is"))),
+    "--tolerance: 1 must lie above 0 and below 1": lambda row: (
+        Words("--batch", "-e", "1", "@")(row), Words("--batch", "-e", "0", "@")(row.replace("1 must", "0 must"))),
     "--size: '80' is not a size; write COLUMNSxLINES, such as 80x24": Words("--plot", "adc", "--size", "80", "@"),
     "--size: 10x5 is outside 20x6 to 1000x500": Words("--plot", "adc", "--size", "10x5", "@"),
     "--years: '5' is not a range of years; write A:B or A:B:STEP, such as 0:25": Words("--years", "5", "@"),
@@ -488,7 +488,7 @@ CASES = {
         Words("--find", "a=1:9", "--goal", "free-run=2", "@")(row.replace("5 is", "2 is"))),
     "--goal requires --find": Words("--batch", "--goal", "adc", "@"),
     "--sure requires --find": Words("--batch", "--sure", 0.9, "@"),
-    "--sure: 90 is not a share; ...": Words("--find", "a=1:9", "--goal", "adc", "--sure", 90, "@"),
+    "--sure: 90 is not a share; write 0.9 for nine of ten cases": Words("--find", "a=1:9", "--goal", "adc", "--sure", 90, "@"),
     "--sure: over a rotation the mean energy is not known at each point; ...": Words(
         "--find", "options[0].forest[0].stand.cutting.rotation_years=10:30", "--goal", "energy=10", "--years", "--sure", 0.9, "--option",
         "coppice with standards", "four-systems", start="--sure: "),
