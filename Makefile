@@ -308,9 +308,8 @@ DEBIAN_BENCH := python3-numpy
 # All of it takes two hours. Each part leaves a log with the name of the commit; those that have passed on this commit are not run
 # again. ONLY='threads memory': these alone. FULL: also what `make check` leaves out to be short.
 ALL_PARTS := check sanitizers clang threads memory slurm dist deb
-do-all-check: export FULL := 1
+do-all-check do-all-sanitizers: export FULL := 1
 do-all-check: do-check
-do-all-sanitizers: export FULL := 1
 do-all-sanitizers:
 	@+SCENES=10000 TEST_SECONDS=20000 $(MAKE) --no-print-directory VARIANT=asan do-check
 do-all-clang: # its sanitizer tells of offsets to null pointers, gcc's does not

@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "base/language.h"
+#include "io/emit.h"
 #include "io/file.h"
 #include "io/resolve.h"
 
@@ -347,7 +348,9 @@ bool ceduo_document_add_option(struct document *d, const char *stand, const char
     struct edit e = begin(d, problems);
     const struct ceduo_option *first = &d->file.scene.options[0];
     LOCAL_TEXT(yaml);
-    ceduo_text_format(&yaml, "{name: \"%s\", forest: [", name);
+    ceduo_text_put(&yaml, "{name: ");
+    ceduo_emit_scalar(&yaml, name, true);
+    ceduo_text_put(&yaml, ", forest: [");
     for (size_t i = 0; i < first->belts_count; i++)
         ceduo_text_format(&yaml, "%s{from_m: %.10g, to_m: %.10g, stand: %s}", i ? ", " : "", first->belts[i].from_given,
                           first->belts[i].to_given, stand);

@@ -76,7 +76,8 @@ struct ceduo_find_report {
     const struct ceduo_sure *sure;
 };
 void ceduo_find_page(struct text *text, const struct ceduo_find_report *report);
-/* Which values reach the goal, and if wanted which limit that is; the value that is sure: in the unit in which the field is shown (NULL: that of the file). */
+/* Which values reach the goal, and if wanted which limit that is; the value that is sure. Both in the unit in which the field is
+ * shown (NULL: that of the file). */
 void ceduo_find_words(struct text *text, const struct ceduo_search *search, const struct ceduo_found *found,
                       const struct field *field, bool wanted);
 void ceduo_find_sure(struct text *text, const struct ceduo_search *search, const struct ceduo_sure *sure,
