@@ -26,8 +26,6 @@ struct job {
     struct scene_file *files;
     struct ceduo_calibration_scene *scenes;
     struct ceduo_input *inputs; /* [scene][parameter] */
-    const char *paths[MOST];
-    const struct field *fields[MOST];
 };
 
 /* ---- the values ---- */
@@ -36,12 +34,13 @@ struct job {
 static enum exit_status find_value(struct job *j, size_t i)
 {
     const struct path_range *given = &j->arguments->calibrates[i];
-    const char *path = j->paths[i] = given->path;
+    const char *path = given->path;
+    const struct field *field = NULL;
     size_t places = 0, arms = 0;
     for (size_t s = 0; s < j->scenes_count; s++) {
         struct ceduo_input *input = &j->inputs[s * j->parameters_count + i];
-        j->fields[i] = ceduo_input_find(&j->files[s], path, input);
-        if (!j->fields[i])
+        field = ceduo_input_find(&j->files[s], path, input);
+        if (!field)
             return ceduo_usage("calibrate", NO_VALUE, path);
         input->lo = given->lo;
         input->hi = given->hi;
@@ -49,17 +48,17 @@ static enum exit_status find_value(struct job *j, size_t i)
         arms += j->files[s].scene.simulation.law == CEDUO_LAW_ARM;
         for (size_t k = 0; k < i; k++)
             if (ceduo_input_shares(input, &j->inputs[s * j->parameters_count + k]))
-                return ceduo_usage("calibrate", _("'%s' and '%s' are the same value"), j->paths[k], path);
+                return ceduo_usage("calibrate", _("'%s' and '%s' are the same value"), j->inputs[k].path, path);
     }
     if (places == 0)
         return ceduo_usage("calibrate", NO_VALUE, path);
-    double bad = !ceduo_schema_in_range(j->fields[i], given->lo) ? given->lo : given->hi;
-    if (!ceduo_schema_in_range(j->fields[i], bad)) {
+    double bad = !ceduo_schema_in_range(field, given->lo) ? given->lo : given->hi;
+    if (!ceduo_schema_in_range(field, bad)) {
         LOCAL_TEXT(range);
-        ceduo_schema_range_text(j->fields[i], &range);
+        ceduo_schema_range_text(field, &range);
         return ceduo_usage("calibrate", _("%s is outside the range of %s: %s"), SHORTEST(bad), path, ceduo_text_string(&range));
     }
-    bool mu = strcmp(j->fields[i]->key, "mu") == 0; /* acts through the shape of the rock, in one law */
+    bool mu = strcmp(field->key, "mu") == 0; /* acts through the shape of the rock, in one law */
     if (mu && arms == 0)
         return ceduo_usage("calibrate", _("'%s' has no part in this law; only arm knows it"), path);
     if (mu && !ceduo_calibration_tells_mu(j->scenes, j->scenes_count))
@@ -105,7 +104,7 @@ static void append_draws(const struct job *j, const struct ceduo_calibration *an
     const char *names[MOST];
     for (size_t i = 0; i < j->parameters_count; i++) {
         ceduo_text_words(&heads[i], j->inputs[i].places, j->inputs[i].places_count, " ");
-        names[i] = heads[i].length > 0 ? ceduo_text_string(&heads[i]) : j->paths[i];
+        names[i] = heads[i].length > 0 ? ceduo_text_string(&heads[i]) : j->inputs[i].path;
     }
     ceduo_calibration_draws(out, answer, names);
     for (size_t i = 0; i < j->parameters_count; i++)
@@ -121,12 +120,8 @@ static bool fill_scene(const struct job *j, const struct ceduo_calibration_repor
     struct document document = {0};
     struct problems problems = {0};
     LOCAL_TEXT(source);
-    double best[MOST];
     ceduo_calibration_sources(&source, r);
-    for (size_t i = 0; i < j->parameters_count; i++)
-        best[i] = r->answer->parameters[i].best;
-    const struct fit_values fit = {j->parameters_count,        j->inputs,       j->fields, best,
-                                   ceduo_text_string(&source), draws->temporary};
+    const struct fit_values fit = {r->answer, r->inputs, ceduo_text_string(&source), draws->temporary};
     bool good = ceduo_document_open(&document, a->scenes[0], &problems);
     free(document.recovery); /* what the terminal program keeps of the scene is not ours */
     document.recovery = NULL;
@@ -222,8 +217,7 @@ static enum exit_status compute(struct job *j)
         return ceduo_batch_failed(&j->files[0], status);
     struct ceduo_calibration_report report = {.scenes_count = j->scenes_count,
                                               .files = j->files,
-                                              .paths = j->paths,
-                                              .fields = j->fields,
+                                              .inputs = j->inputs,
                                               .rocks = def.rocks,
                                               .seed = def.seed,
                                               .answer = &answer};

@@ -2,7 +2,7 @@
 #ifndef CEDUO_CHANGES_H
 #define CEDUO_CHANGES_H
 
-#include "ceduo/doubt.h"
+#include "ceduo/calibrate.h"
 #include "document.h"
 
 /* What is to be changed as one edit, and how that is said. Starts with the document alone. */
@@ -38,12 +38,10 @@ bool ceduo_document_set_alone(struct document *document, const char *path, const
 
 /* What was fitted goes into a document: the best values, where they come from, and the draws as its doubt. */
 struct fit_values {
-    size_t n;
+    const struct ceduo_calibration *answer;
     const struct ceduo_input *inputs; /* places in the document's scene; those without are left out */
-    const struct field *const *fields;
-    const double *best;
-    const char *source; /* what the fit rests on */
-    const char *draws;  /* path of the table of draws, as the document is to name it; NULL: none */
+    const char *source;               /* what the fit rests on */
+    const char *draws;                /* path of the table of draws, as the document is to name it; NULL: none */
 };
 
 /* One edit, which undo takes back. A ground from materials is written out as segments. False with the reason in `problems`. */

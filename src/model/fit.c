@@ -27,10 +27,9 @@ static void offer(const struct scene_file *file, struct fit_request *to, const c
     ceduo_arena_free(&own.arena);
     if (!there || to->n == CEDUO_CALIBRATION_MOST || strlen(path) >= FIT_PATH_ROOM || !(lo < hi))
         return;
-    to->fields[to->n] = field;
-    snprintf(to->paths[to->n], FIT_PATH_ROOM, "%s", path);
-    to->lo[to->n] = lo;
-    to->hi[to->n++] = hi;
+    struct fit_value *value = &to->values[to->n++];
+    *value = (struct fit_value){.lo = lo, .hi = hi};
+    strcpy(value->path, path);
 }
 
 static const char *const keys[] = {"rn", "rt", "roughness_rad", "friction"};
@@ -123,10 +122,10 @@ enum ceduo_status ceduo_fit_make(const struct scene_file *file, const struct fit
 {
     *f = (struct fit){.file = *file, .request = *request, .done = true};
     for (size_t i = 0; i < request->n; i++) {
-        f->paths[i] = f->request.paths[i];
-        ceduo_input_find(&f->file, f->paths[i], &f->inputs[i]); /* it was offered: it is there */
-        f->inputs[i].lo = request->lo[i];
-        f->inputs[i].hi = request->hi[i];
+        const struct fit_value *value = &f->request.values[i];
+        ceduo_input_find(&f->file, value->path, &f->inputs[i]); /* it was offered: it is there */
+        f->inputs[i].lo = value->lo;
+        f->inputs[i].hi = value->hi;
     }
     const struct ceduo_calibration_scene scene = {&f->file.scene, f->inputs, file->observations_count, file->observations};
     struct ceduo_calibration_def def = *how;

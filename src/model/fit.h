@@ -12,10 +12,11 @@
 /* What is to be fitted. */
 struct fit_request {
     size_t n;
-    char paths[CEDUO_CALIBRATION_MOST][FIT_PATH_ROOM];
-    const struct field *fields[CEDUO_CALIBRATION_MOST];
-    double lo[CEDUO_CALIBRATION_MOST], hi[CEDUO_CALIBRATION_MOST]; /* in the unit of the file */
-    uint64_t rocks;                                                /* of each evaluation */
+    struct fit_value {
+        char path[FIT_PATH_ROOM];
+        double lo, hi; /* in the unit of the file */
+    } values[CEDUO_CALIBRATION_MOST];
+    uint64_t rocks; /* of each evaluation */
 };
 
 /* Values that what was observed does not hold, each by itself, as a short first fit tells: to fix them is quicker, and says as
@@ -28,10 +29,9 @@ struct fit_loose {
 struct fit {
     struct fit_request request;
     struct fit_loose loose;
-    bool done;                                 /* false: under way, and has come so far: */
-    struct ceduo_calibration_state state;      /* nothing below is known yet */
-    struct scene_file file;                    /* as it was; its nodes are the document's */
-    const char *paths[CEDUO_CALIBRATION_MOST]; /* of the request */
+    bool done;                            /* false: under way, and has come so far: */
+    struct ceduo_calibration_state state; /* nothing below is known yet */
+    struct scene_file file;               /* as it was; its nodes are the document's */
     struct ceduo_input inputs[CEDUO_CALIBRATION_MOST];
     struct ceduo_calibration answer;
 };

@@ -71,7 +71,7 @@ static bool is_fitted(const struct document *d, const struct fit_values *fit, co
 {
     const char *path = ceduo_node_text(row, "path");
     for (size_t i = 0; path && i < d->file.inputs_of_scene; i++)
-        for (size_t k = 0; strcmp(d->file.inputs[i].path, path) == 0 && k < fit->n; k++)
+        for (size_t k = 0; strcmp(d->file.inputs[i].path, path) == 0 && k < fit->answer->parameters_count; k++)
             if (ceduo_input_shares(&d->file.inputs[i], &fit->inputs[k]))
                 return true;
     return false;
@@ -101,21 +101,22 @@ bool ceduo_keep_fit(struct document *d, const struct fit_values *fit, struct pro
 {
     struct changes c = {.d = d};
     bool of_segments = false;
-    for (size_t i = 0; i < fit->n; i++)
+    for (size_t i = 0; i < fit->answer->parameters_count; i++)
         for (size_t k = 0; k < fit->inputs[i].places_count; k++)
             of_segments |= strncmp(fit->inputs[i].places[k], SEGMENTS, sizeof SEGMENTS - 1) == 0;
     if (of_segments && d->file.scene.slope.segments_given == 0)
         add_ground(&c, d);
-    for (size_t i = 0; i < fit->n; i++)
+    for (size_t i = 0; i < fit->answer->parameters_count; i++)
         for (size_t k = 0; k < fit->inputs[i].places_count; k++) {
             const char *place = fit->inputs[i].places[k];
             char room[CEDUO_NUMBER_ROOM];
             struct value v;
             bool spread = ceduo_value_find(&d->file.scene, place, &v) && v.field->type == FIELD_SPREAD &&
                           ((const struct ceduo_number *)v.at)->spread > 0;
-            ceduo_changes_add(&c, "%s%s=%s", place, spread ? ".mean" : "", ceduo_number_shortest(fit->best[i], room));
+            ceduo_changes_add(&c, "%s%s=%s", place, spread ? ".mean" : "",
+                              ceduo_number_shortest(fit->answer->parameters[i].best, room));
         }
-    for (size_t i = 0; i < fit->n; i++)
+    for (size_t i = 0; i < fit->answer->parameters_count; i++)
         for (size_t k = 0; k < fit->inputs[i].places_count; k++)
             add_source(&c, fit->inputs[i].places[k], fit->source);
     if (fit->draws)

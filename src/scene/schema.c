@@ -63,6 +63,13 @@ const struct field *ceduo_schema_at(const char *path)
     return f && !f->object ? f : NULL;
 }
 
+const struct field *ceduo_schema_fitted(const char *path)
+{
+    static const char ground[] = "slope.materials[";
+    const char *key = strncmp(path, ground, sizeof ground - 1) == 0 ? strstr(path, "].") : NULL;
+    return key ? ceduo_schema_field(ceduo_schema_segment(), key + 2) : ceduo_schema_at(path);
+}
+
 bool ceduo_schema_is_settled(const char *path)
 {
     unsigned flags = 0;

@@ -151,6 +151,8 @@ const struct field *ceduo_schema_step(const struct object *object, const struct 
 
 /* The row of the value at a path of a scene; NULL where none is there, or the path goes on within it. */
 const struct field *ceduo_schema_at(const char *path);
+/* The same of a value that is fitted, which may be of a ground of the library: slope.materials[NAME].KEY. */
+const struct field *ceduo_schema_fitted(const char *path);
 /* The same, also where it is a group or a list. */
 const struct field *ceduo_schema_row(const char *path);
 

@@ -99,11 +99,11 @@ static void say_as_it_is(struct app *app, struct ceduo_page *page)
     ceduo_page_say(page, CEDUO_PAGE_NOTE, _("Simulated: %llu rocks."), (unsigned long long)s->rocks);
 }
 
-static void append_best(struct text *text, const struct fit_request *w, size_t i, double best)
+static void append_best(struct text *text, const char *path, double best)
 {
-    ceduo_calibration_name(text, w->paths[i], w->fields[i]);
+    ceduo_calibration_name(text, path);
     ceduo_text_char(text, ' ');
-    ceduo_calibration_number(text, w->fields[i], best);
+    ceduo_calibration_number(text, path, best);
 }
 
 static void say_fitting(const struct live *live, struct ceduo_page *page)
@@ -124,7 +124,7 @@ static void say_fitting(const struct live *live, struct ceduo_page *page)
          i++) /* a short first fit tells what cannot be known from what was seen */
         if (f->loose.loose[i]) {
             ceduo_text_put(&loose, loose.length > 0 ? ", " : "");
-            ceduo_calibration_name(&loose, f->request.paths[i], f->request.fields[i]);
+            ceduo_calibration_name(&loose, f->request.values[i].path);
         }
     if (f->loose.n > 0)
         ceduo_page_say(page, CEDUO_PAGE_NOTE,
@@ -132,15 +132,14 @@ static void say_fitting(const struct live *live, struct ceduo_page *page)
                        f->request.n, ceduo_text_string(&loose));
     ceduo_page_note(page, _("The best values so far:"));
     for (size_t i = 0; i < f->request.n; i++)
-        append_best(ceduo_page_add(page, CEDUO_PAGE_ITEM), &f->request, i, s->best[i]);
+        append_best(ceduo_page_add(page, CEDUO_PAGE_ITEM), f->request.values[i].path, s->best[i]);
 }
 
 static struct ceduo_calibration_report report_of(const struct fit *f)
 {
     return (struct ceduo_calibration_report){.scenes_count = 1,
                                              .files = &f->file,
-                                             .paths = f->paths,
-                                             .fields = f->request.fields,
+                                             .inputs = f->inputs,
                                              .rocks = f->request.rocks,
                                              .seed = f->file.scene.simulation.seed,
                                              .answer = &f->answer};
@@ -155,11 +154,12 @@ static void say_fit(const struct fit *f, struct ceduo_page *page)
     for (size_t i = 0; i < f->request.n; i++) {
         const struct ceduo_fitted *one = &f->answer.parameters[i];
         struct text *text = ceduo_page_add(page, CEDUO_PAGE_ITEM);
-        append_best(text, &f->request, i, one->best);
+        const char *path = f->inputs[i].path;
+        append_best(text, path, one->best);
         ceduo_text_put(text, " (");
-        ceduo_calibration_number(text, f->request.fields[i], one->p2_5);
+        ceduo_calibration_number(text, path, one->p2_5);
         ceduo_text_put(text, RANGE);
-        ceduo_calibration_number(text, f->request.fields[i], one->p97_5);
+        ceduo_calibration_number(text, path, one->p97_5);
         ceduo_text_put(text, ")");
         if (!one->determined)
             ceduo_text_format(text, ", %s", _("not determined"));
@@ -177,8 +177,8 @@ static void say_fit(const struct fit *f, struct ceduo_page *page)
     ceduo_text_put(command, "ceduo");
     for (size_t i = 0; i < f->request.n; i++) {
         LOCAL_TEXT(value);
-        ceduo_text_format(&value, "%s=%s:%s", f->request.paths[i], ceduo_number_shortest(f->request.lo[i], lo),
-                          ceduo_number_shortest(f->request.hi[i], hi));
+        ceduo_text_format(&value, "%s=%s:%s", f->inputs[i].path, ceduo_number_shortest(f->inputs[i].lo, lo),
+                          ceduo_number_shortest(f->inputs[i].hi, hi));
         ceduo_text_put(command, " --calibrate ");
         ceduo_text_quoted(command, value.bytes);
     }
@@ -300,30 +300,31 @@ static void draw(struct app *app, struct ceduo_area area)
 
 #define FILLED 4 /* values that are offered with their range; to fit more at once takes long, and is for who wants it */
 
-static void append_bounds(struct text *text, const struct fit_request *w, size_t i)
+static void append_bounds(struct text *text, const struct fit_value *value)
 {
+    const struct field *field = ceduo_schema_fitted(value->path);
     char lo[CEDUO_NUMBER_ROOM], hi[CEDUO_NUMBER_ROOM];
-    ceduo_text_format(text, "%s:%s", ceduo_shown_number(w->fields[i], w->lo[i], lo),
-                      ceduo_shown_number(w->fields[i], w->hi[i], hi));
+    ceduo_text_format(text, "%s:%s", ceduo_shown_number(field, value->lo, lo), ceduo_shown_number(field, value->hi, hi));
 }
 
 /* Both ends in the unit that is shown; false where they are none, which is said. */
-static bool read_bounds(struct app *app, const char *typed, const struct field *field, double ends[2])
+static bool read_bounds(struct app *app, const char *typed, struct fit_value *value)
 {
     const char *colon = strchr(typed, ':');
     struct line line;
     for (int i = 0; i < 2; i++) {
         LOCAL_TEXT(end);
-        ends[i] = NAN;
+        double *to = i == 0 ? &value->lo : &value->hi;
+        *to = NAN;
         ceduo_line_set(&line, i == 0 ? ceduo_app_format(app, "%.*s", (int)strcspn(typed, ":"), typed) : colon ? colon + 1 : "");
         line.asked = true; /* no bound is unusual */
-        if (!ceduo_popup_read(app, field, &line, &end))
+        if (!ceduo_popup_read(app, ceduo_schema_fitted(value->path), &line, &end))
             return false;
-        ceduo_number_read(ceduo_text_string(&end), &ends[i]);
+        ceduo_number_read(ceduo_text_string(&end), to);
     }
-    if (!(ends[0] < ends[1]))
+    if (!(value->lo < value->hi))
         ceduo_app_warn(app, "%s", _("from and to are numbers, the smaller first"));
-    return ends[0] < ends[1];
+    return value->lo < value->hi;
 }
 
 /* Values that follow are moved into the place of those that are not fitted. */
@@ -333,15 +334,11 @@ static bool filled_fit(struct app *app, struct popup *p)
     ceduo_fit_offer(&app->document.file, &all);
     struct fit_request w = {.rocks = all.rocks};
     for (size_t i = 0; i < all.n; i++) {
-        double ends[2];
         if (p->fields[i].line.text[0] == '\0')
             continue;
-        if (!read_bounds(app, p->fields[i].line.text, all.fields[i], ends))
+        if (!read_bounds(app, p->fields[i].line.text, &all.values[i]))
             return false;
-        w.lo[w.n] = ends[0];
-        w.hi[w.n] = ends[1];
-        snprintf(w.paths[w.n], sizeof w.paths[w.n], "%s", all.paths[i]);
-        w.fields[w.n++] = all.fields[i];
+        w.values[w.n++] = all.values[i];
     }
     if (w.n == 0)
         ceduo_app_warn(app, "%s", _("nothing is to be fitted: give one value its bounds, as 0.3:0.4"));
@@ -351,12 +348,11 @@ static bool filled_fit(struct app *app, struct popup *p)
 }
 
 /* Whether a value is among those that are fitted at present, and what was seen holds it; its bounds are those. */
-static bool is_held(const struct fit *now, const char *path, double *lo, double *hi)
+static bool is_held(const struct fit *now, struct fit_value *value)
 {
     for (size_t i = 0; i < now->request.n; i++)
-        if (strcmp(now->request.paths[i], path) == 0 && !now->loose.loose[i]) {
-            *lo = now->request.lo[i];
-            *hi = now->request.hi[i];
+        if (strcmp(now->request.values[i].path, value->path) == 0 && !now->loose.loose[i]) {
+            *value = now->request.values[i];
             return true;
         }
     return false;
@@ -375,16 +371,16 @@ static void ask_for_fit(struct app *app)
         if (i == FILLED)
             ceduo_text_format(&p->text, " %s ", _("Usual bounds of the others:"));
         ceduo_text_put(&p->text, i == FILLED ? "" : "; ");
-        ceduo_calibration_name(&p->text, request.paths[i], request.fields[i]);
+        ceduo_calibration_name(&p->text, request.values[i].path);
         ceduo_text_char(&p->text, ' ');
-        append_bounds(&p->text, &request, i);
+        append_bounds(&p->text, &request.values[i]);
     }
     for (size_t i = 0; i < request.n; i++) {
         LOCAL_TEXT(label);
         LOCAL_TEXT(bounds);
-        ceduo_calibration_name(&label, request.paths[i], request.fields[i]);
-        if (now && now->loose.n > 0 ? is_held(now, request.paths[i], &request.lo[i], &request.hi[i]) : i < FILLED)
-            append_bounds(&bounds, &request, i);
+        ceduo_calibration_name(&label, request.values[i].path);
+        if (now && now->loose.n > 0 ? is_held(now, &request.values[i]) : i < FILLED)
+            append_bounds(&bounds, &request.values[i]);
         ceduo_popup_field(p, label.bytes, ceduo_text_string(&bounds));
     }
 }
@@ -416,11 +412,8 @@ static void take(struct app *app)
     }
     const struct ceduo_calibration_report r = report_of(f);
     LOCAL_TEXT(source);
-    double best[CEDUO_CALIBRATION_MOST];
-    for (size_t i = 0; i < f->request.n; i++)
-        best[i] = f->answer.parameters[i].best;
     ceduo_calibration_sources(&source, &r);
-    const struct fit_values values = {f->request.n, f->inputs, f->request.fields, best, ceduo_text_string(&source), NULL};
+    const struct fit_values values = {&f->answer, f->inputs, ceduo_text_string(&source), NULL};
     bool good = ceduo_keep_fit(&app->document, &values, &app->problems);
     if (ceduo_app_edited(app, good))
         ceduo_app_say(app, "%s", _("the scene has the values and their ranges, not the draws; u takes them back"));

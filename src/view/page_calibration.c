@@ -11,19 +11,26 @@
 #define TOGETHER 0.7 /* correlation that is worth a sentence */
 #define GROUND   "slope.materials["
 
-void ceduo_calibration_name(struct text *text, const char *path, const struct field *field)
+void ceduo_calibration_name(struct text *text, const char *path)
 {
     const char *name = path + sizeof GROUND - 1, *bracket = strchr(path, '[');
-    ceduo_text_put(text, _(field->shown.label));
+    ceduo_text_put(text, _(ceduo_schema_fitted(path)->shown.label));
     if (strncmp(path, GROUND, sizeof GROUND - 1) == 0)
         ceduo_text_format(text, ", %.*s", (int)strcspn(name, "]"), name);
     else if (bracket && bracket[1] != '*')
         ceduo_text_format(text, " [%.*s]", (int)strcspn(bracket + 1, "]"), bracket + 1);
 }
 
-void ceduo_calibration_number(struct text *text, const struct field *field, double value)
+/* In the unit that people use. */
+static double shown(const char *path, double value)
 {
-    ceduo_words_number(text, value * (field->shown.per > 0 ? field->shown.per : 1), 3);
+    double per = ceduo_schema_fitted(path)->shown.per;
+    return value * (per > 0 ? per : 1);
+}
+
+void ceduo_calibration_number(struct text *text, const char *path, double value)
+{
+    ceduo_words_number(text, shown(path, value), 3);
 }
 
 double ceduo_seen_shown(enum ceduo_observed_kind kind, double value, double origin)
@@ -55,8 +62,8 @@ void ceduo_calibration_sources(struct text *text, const struct ceduo_calibration
             ceduo_text_safe(text, o->name_given);
             between = ", ";
         }
-        ceduo_text_format(text, "; %s 95 %% %s\xe2\x80\x93%s%s", r->fields[i]->key, WRITTEN(f->p2_5, 3), WRITTEN(f->p97_5, 3),
-                          f->determined ? "" : "; not determined");
+        ceduo_text_format(text, "; %s 95 %% %s\xe2\x80\x93%s%s", ceduo_schema_fitted(r->inputs[i].path)->key,
+                          WRITTEN(f->p2_5, 3), WRITTEN(f->p97_5, 3), f->determined ? "" : "; not determined");
     }
 }
 
@@ -100,7 +107,7 @@ static void say_values(struct ceduo_page *page, const struct ceduo_calibration_r
     for (size_t i = 0; i < r->answer->parameters_count; i++) {
         const struct ceduo_fitted *f = &r->answer->parameters[i];
         LOCAL_TEXT(name);
-        ceduo_calibration_name(&name, r->paths[i], r->fields[i]);
+        ceduo_calibration_name(&name, r->inputs[i].path);
         if (!f->determined)
             ceduo_page_say(page, CEDUO_PAGE_WARNING,
                            _("%s is not determined by what was seen: nearly everything within its bounds fits as well."),
@@ -118,8 +125,8 @@ static void say_values(struct ceduo_page *page, const struct ceduo_calibration_r
             double c = r->answer->correlation[i][k];
             if (!(fabs(c) >= TOGETHER))
                 continue;
-            ceduo_calibration_name(&a, r->paths[k], r->fields[k]);
-            ceduo_calibration_name(&b, r->paths[i], r->fields[i]);
+            ceduo_calibration_name(&a, r->inputs[k].path);
+            ceduo_calibration_name(&b, r->inputs[i].path);
             ceduo_page_say(page, CEDUO_PAGE_ITEM, _("%s and %s are known only together, not each (correlation %.2f)."),
                            ceduo_text_string(&a), ceduo_text_string(&b), c);
         }
@@ -181,7 +188,7 @@ static void say_unsettled(struct ceduo_page *page, const struct ceduo_calibratio
         loose[widest] = true;
     for (size_t i = 0; i < a->parameters_count; i++) {
         LOCAL_TEXT(name);
-        ceduo_calibration_name(&name, r->paths[i], r->fields[i]);
+        ceduo_calibration_name(&name, r->inputs[i].path);
         ceduo_text_format(&all, "%s%s", i > 0 ? ", " : "", name.bytes);
         if (loose[i])
             ceduo_text_format(&fixed, "%s%s", fixed.length > 0 ? ", " : "", name.bytes);
@@ -224,11 +231,11 @@ void ceduo_calibration_page(struct text *text, const struct ceduo_calibration_re
     CEDUO_PAGE_TABLE_OF(&page, fitted);
     for (size_t i = 0; i < r->answer->parameters_count; i++) {
         const struct ceduo_fitted *f = &r->answer->parameters[i];
-        double per = r->fields[i]->shown.per > 0 ? r->fields[i]->shown.per : 1;
-        ceduo_calibration_name(ceduo_page_text(&page), r->paths[i], r->fields[i]);
-        append_range(ceduo_page_text(&page), f->lo * per, f->hi * per);
-        ceduo_calibration_number(ceduo_page_text(&page), r->fields[i], f->best);
-        append_range(ceduo_page_text(&page), f->p2_5 * per, f->p97_5 * per);
+        const char *path = r->inputs[i].path;
+        ceduo_calibration_name(ceduo_page_text(&page), path);
+        append_range(ceduo_page_text(&page), shown(path, f->lo), shown(path, f->hi));
+        ceduo_calibration_number(ceduo_page_text(&page), path, f->best);
+        append_range(ceduo_page_text(&page), shown(path, f->p2_5), shown(path, f->p97_5));
     }
     ceduo_page_add(&page, CEDUO_PAGE_GAP);
     CEDUO_PAGE_TABLE_OF(&page, seen);

@@ -5,21 +5,19 @@
 #include "base/text.h"
 #include "ceduo/calibrate.h"
 #include "io/scene_file.h"
-#include "scene/schema.h"
 
 /* What was fitted to what was seen. */
 struct ceduo_calibration_report {
     size_t scenes_count;
     const struct scene_file *files;
-    const char *const *paths; /* of the fitted values, as they were given */
-    const struct field *const *fields;
+    const struct ceduo_input *inputs; /* the fitted values */
     uint64_t rocks, seed;
     const struct ceduo_calibration *answer;
 };
 
 /* What people call a fitted value: "bounce Rn, talus"; a number of it in the unit that people use. */
-void ceduo_calibration_name(struct text *text, const char *path, const struct field *field);
-void ceduo_calibration_number(struct text *text, const struct field *field, double value);
+void ceduo_calibration_name(struct text *text, const char *path);
+void ceduo_calibration_number(struct text *text, const char *path, double value);
 
 /* What was seen, in the unit that files have: m, m/s, kJ, a count. */
 double ceduo_seen_shown(enum ceduo_observed_kind kind, double value, double origin);
