@@ -93,9 +93,19 @@ HOT void store_ints(uint64_t *to, ints p)
     memcpy(to, &p, sizeof p);
 }
 
-#if REAL_LANES == 8
+#if REAL_LANES >= 4
 
 #include <immintrin.h>
+
+/* The pairs at i and j, loaded by hand, which is faster than the machine's gathers. */
+HOT __m256d two_rows(const double (*pairs)[2], uint64_t i, uint64_t j)
+{
+    return _mm256_insertf128_pd(_mm256_castpd128_pd256(_mm_loadu_pd(pairs[i])), _mm_loadu_pd(pairs[j]), 1);
+}
+
+#endif
+
+#if REAL_LANES == 8
 
 typedef __mmask8 mask;
 
@@ -147,11 +157,6 @@ HOT real shifted(real p, double last) /* without its first number, and with anot
     return (real)_mm512_alignr_epi64((__m512i)all(last), (__m512i)p, 1);
 }
 
-/* The pairs at i[0], i[1] …, loaded by hand, which is faster than the machine's gathers. */
-HOT __m256d two_rows(const double (*pairs)[2], uint64_t i, uint64_t j)
-{
-    return _mm256_insertf128_pd(_mm256_castpd128_pd256(_mm_loadu_pd(pairs[i])), _mm_loadu_pd(pairs[j]), 1);
-}
 HOT real four_rows(const double (*pairs)[2], const uint64_t *i)
 {
     return _mm512_insertf64x4(_mm512_castpd256_pd512(two_rows(pairs, i[0], i[2])), two_rows(pairs, i[4], i[6]), 1);
@@ -164,8 +169,6 @@ HOT void load_pairs_at(const double (*pairs)[2], const uint64_t *i, real *a, rea
 }
 
 #elif REAL_LANES == 4
-
-#include <immintrin.h>
 
 typedef int64_t mask __attribute__((vector_size(32))); /* all bits of a lane, or none */
 
@@ -207,10 +210,6 @@ HOT void load_fours(const double *from, real *a, real *b, real *c, real *d)
     *d = _mm256_permute2f128_pd(bd, bd2, 0x31);
 }
 OP(real, shifted, (real p, double last), _mm256_blend_pd(_mm256_permute4x64_pd(p, 0x39), all(last), 8))
-HOT real two_rows(const double (*pairs)[2], uint64_t i, uint64_t j)
-{
-    return _mm256_insertf128_pd(_mm256_castpd128_pd256(_mm_loadu_pd(pairs[i])), _mm_loadu_pd(pairs[j]), 1);
-}
 HOT void load_pairs_at(const double (*pairs)[2], const uint64_t *i, real *a, real *b)
 {
     real even = two_rows(pairs, i[0], i[2]), odd = two_rows(pairs, i[1], i[3]);
