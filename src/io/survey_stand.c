@@ -109,18 +109,13 @@ static void remark(const struct writer *w)
     const struct ceduo_survey *s = &w->file->survey; /* the share of each species of the basal area */
     size_t n, said = 0;
     const struct ceduo_species *list = ceduo_species_list(&n);
-    double all = 0;
-    for (int pass = 0; pass < 2; pass++)
-        for (int k = -1; k < (int)n; k++) {
-            double own = 0;
-            for (size_t i = 0; i < s->stems_count; i++)
-                if (s->stems[i].species == k && s->stems[i].kind != CEDUO_SURVEY_STUMP)
-                    own += s->stems[i].dbh * s->stems[i].dbh / s->areas[s->stems[i].plot];
-            all += pass == 0 ? own : 0;
-            if (pass == 1 && own > 0)
-                ceduo_text_format(out, "%s%s %.0f %%", said++ ? ", " : _("# basal area: "),
-                                  k < 0 ? _("not said") : _(list[k].common), 100 * own / all);
-        }
+    double all = 0, own;
+    for (int k = -1; k < (int)n; k++)
+        all += ceduo_survey_basal(s, k);
+    for (int k = -1; k < (int)n; k++)
+        if ((own = ceduo_survey_basal(s, k)) > 0)
+            ceduo_text_format(out, "%s%s %.0f %%", said++ ? ", " : _("# basal area: "),
+                              k < 0 ? _("not said") : _(list[k].common), 100 * own / all);
     ceduo_text_put(out, said ? "\n" : "");
     if (w->file->unused[0])
         ceduo_text_format(out, _("# columns that were not used: %s\n"), w->file->unused);

@@ -87,6 +87,17 @@ static bool count_stools(struct surveyor *s)
 
 /* ---- species ---- */
 
+double ceduo_survey_basal(const struct ceduo_survey *survey, int species)
+{
+    double sum = 0;
+    for (size_t i = 0; i < survey->stems_count; i++) {
+        const struct ceduo_survey_stem *stem = &survey->stems[i];
+        if (stem->species == species && stem->kind != CEDUO_SURVEY_STUMP)
+            sum += stem->dbh * stem->dbh / survey->areas[stem->plot];
+    }
+    return sum;
+}
+
 static int main_species(const struct ceduo_survey *survey)
 {
     size_t count;
@@ -94,12 +105,7 @@ static int main_species(const struct ceduo_survey *survey)
     int best = -1;
     double most = 0;
     for (int k = 0; k < (int)count; k++) {
-        double area = 0;
-        for (size_t i = 0; i < survey->stems_count; i++) {
-            const struct ceduo_survey_stem *stem = &survey->stems[i];
-            bool is_of = stem->species == k && stem->kind != CEDUO_SURVEY_STUMP;
-            area += is_of ? stem->dbh * stem->dbh / survey->areas[stem->plot] : 0;
-        }
+        double area = ceduo_survey_basal(survey, k);
         best = area > most ? k : best;
         most = fmax(area, most);
     }
