@@ -244,35 +244,30 @@ static bool on_stretch(const struct ceduo_blow *b, const struct plan *p)
     return b->x >= p->seen->from && b->x <= p->seen->to;
 }
 
-static size_t values_max(const struct flown *f, const struct plan *p)
+/* The n values of one observation, which are the caller's to free; NULL without memory. */
+static double *values_of(const struct flown *f, const struct plan *p, size_t *n)
 {
-    return p->row->where == CEDUO_WHERE_ON_STEMS ? f->record.blows_count : (size_t)f->rocks;
-}
-
-/* The values of one observation, as many as values_max() at the most; returns how many. */
-static size_t take_values(const struct flown *f, const struct plan *p, double *values)
-{
-    size_t n = 0;
+    bool of_blows = p->row->where == CEDUO_WHERE_ON_STEMS;
+    size_t all = of_blows ? f->record.blows_count : (size_t)f->rocks;
     enum ceduo_quantity quantity = p->row->quantity;
-    for (size_t i = 0; p->row->where == CEDUO_WHERE_ON_STEMS && i < f->record.blows_count; i++)
+    double *values = malloc((all + 1) * sizeof *values);
+    *n = of_blows || !values ? 0 : all;
+    for (size_t i = 0; values && of_blows && i < all; i++)
         if (on_stretch(&f->record.blows[i], p))
-            values[n++] = f->record.blows[i].height;
-    if (p->row->where == CEDUO_WHERE_ON_STEMS)
-        return n;
-    n = (size_t)f->rocks;
-    if (f->run)
+            values[(*n)++] = f->record.blows[i].height;
+    if (f->run && values)
         ceduo_run_values(f->run, p->control,
                          p->row->where == CEDUO_WHERE_AT_REST ? CEDUO_SAMPLE_STOP
                          : quantity == CEDUO_QUANTITY_HEIGHT  ? CEDUO_SAMPLE_HEIGHT
                          : quantity == CEDUO_QUANTITY_ENERGY  ? CEDUO_SAMPLE_ENERGY
                                                               : CEDUO_SAMPLE_SPEED,
                          values);
-    for (size_t i = 0; i < n; i++) {
+    for (size_t i = 0; i < *n && !of_blows; i++) {
         values[i] = f->run ? values[i] : of_record(f, i, p);
         if (p->row->where == CEDUO_WHERE_AT_REST && values[i] < p->seen->from)
             values[i] = NAN;
     }
-    return n;
+    return values;
 }
 
 /* ---- comparing ---- */
@@ -386,8 +381,9 @@ enum ceduo_status ceduo_observer_look(const struct ceduo_observer *o, const stru
             const struct plan *p = &o->plans[i];
             if (p->setting != s)
                 continue;
-            double *values = malloc((values_max(&f, p) + 1) * sizeof *values);
-            bool good = values && compare(p, &f, values, take_values(&f, p, values), &to[i]);
+            size_t n;
+            double *values = values_of(&f, p, &n);
+            bool good = values && compare(p, &f, values, n, &to[i]);
             free(values);
             status = !good ? CEDUO_NO_MEMORY : ceduo_cancelled(cancel) ? CEDUO_CANCELLED : CEDUO_OK; /* untaken: race */
         }
@@ -404,8 +400,8 @@ enum ceduo_status ceduo_observer_values(const struct ceduo_observer *o, const st
     *values = NULL;
     *n = 0;
     enum ceduo_status status = fly(&o->settings[p->setting], scene, rocks, NULL, &f);
-    if (status == CEDUO_OK && (*values = malloc((values_max(&f, p) + 1) * sizeof **values)))
-        *n = take_values(&f, p, *values);
+    if (status == CEDUO_OK)
+        *values = values_of(&f, p, n);
     land(&f);
     return status == CEDUO_OK && !*values ? CEDUO_NO_MEMORY : status;
 }
