@@ -24,8 +24,7 @@ void ceduo_calibration_name(struct text *text, const char *path)
 /* In the unit that people use. */
 static double shown(const char *path, double value)
 {
-    double per = ceduo_schema_fitted(path)->shown.per;
-    return value * (per > 0 ? per : 1);
+    return value * ceduo_schema_fitted(path)->shown.per;
 }
 
 void ceduo_calibration_number(struct text *text, const char *path, double value)
