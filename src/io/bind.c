@@ -26,19 +26,6 @@ struct binder {
 
 /* ---- reporting ---- */
 
-static struct problem_place place_of(const struct node *node, const char *path)
-{
-    return (struct problem_place){.source = node->source, .line = node->line, .column = node->column, .path = path};
-}
-
-void ceduo_node_problem(struct problems *problems, const struct node *node, const char *path, const char *format, ...)
-{
-    va_list args;
-    va_start(args, format);
-    ceduo_problem_v(problems, place_of(node, path), format, args);
-    va_end(args);
-}
-
 static const char *path_here(const struct binder *b)
 {
     const char *path = ceduo_text_string(&b->path) + (b->path.bytes ? b->file_start : 0);
@@ -61,7 +48,7 @@ __attribute__((format(printf, 3, 4))) static void report(struct binder *b, const
 {
     va_list args;
     va_start(args, format);
-    ceduo_problem_v(b->to->problems, place_of(node, path_here(b)), format, args);
+    ceduo_problem_v(b->to->problems, ceduo_node_place(node, path_here(b)), format, args);
     va_end(args);
     note_bad(b);
 }
@@ -113,7 +100,7 @@ static void report_unknown_key(struct binder *b, const struct object *object, co
 {
     LOCAL_TEXT(said);
     const char *instead = ceduo_schema_gone(object, entry->key), *near = ceduo_bind_unknown_key(object, entry->key, &said);
-    struct problem_place place = place_of(entry, NULL);
+    struct problem_place place = ceduo_node_place(entry, NULL);
     if (entry->key_line) {
         place.line = entry->key_line;
         place.column = entry->key_column;
@@ -143,7 +130,7 @@ static bool want(struct binder *b, const struct node *node, enum node_kind kind,
     if (node->kind == kind)
         return true;
     const char *found = node->kind == NODE_MAP ? _("a mapping") : node->kind == NODE_LIST ? _("a list") : _("a single value");
-    struct problem_place place = place_of(node, path_here(b));
+    struct problem_place place = ceduo_node_place(node, path_here(b));
     place.own = true;
     ceduo_problem_at(b->to->problems, place, _("expected %s, not %s"), wanted, found);
     note_bad(b);
@@ -486,7 +473,7 @@ static void report_missing(struct binder *b, const struct object *object, const 
             told |= strcmp(b->to->bad->paths[k], ceduo_text_string(&b->path)) == 0;
         note_bad(b);
         leave(b, before);
-        struct problem_place place = place_of(node, path_here(b));
+        struct problem_place place = ceduo_node_place(node, path_here(b));
         place.own = true;
         if (!told) /* the mapping itself is good */
             ceduo_problem_at(b->to->problems, place, _("'%s' is missing: %s"), f->key,

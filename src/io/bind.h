@@ -34,8 +34,4 @@ void ceduo_bind(const struct binding *to, const struct object *object, const str
 /* Says that an object has no such key: which was meant, or which there are. The one that was meant, or NULL. */
 const char *ceduo_bind_unknown_key(const struct object *object, const char *key, struct text *said);
 
-/* Reports a problem at a node, with the path of the value within its file. */
-void ceduo_node_problem(struct problems *problems, const struct node *node, const char *path, const char *format, ...)
-    __attribute__((format(printf, 4, 5)));
-
 #endif

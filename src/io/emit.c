@@ -172,20 +172,6 @@ const struct node *ceduo_emit_unresolve(struct arena *arena, const struct node *
 
 /* ---- patching ---- */
 
-/* Byte of line and column, both from 1, columns in characters. */
-static size_t byte_of(const struct source *s, uint32_t line, uint32_t column)
-{
-    size_t at, end;
-    if (!ceduo_source_line(s, line, &at, &end))
-        return s->length;
-    at += line == 1 ? ceduo_source_mark(s) : 0;
-    for (uint32_t c = 1; c < column && at < s->length; c++)
-        do
-            at++;
-        while (at < s->length && ceduo_utf8_inside(s->bytes[at]));
-    return at;
-}
-
 struct patcher {
     struct text *text;
     const struct source *source;
@@ -195,8 +181,8 @@ struct patcher {
 /* Puts `now` in the place of what stands between the marks of `old`; where these are out of order it will not read back. */
 static bool patch_span(struct patcher *p, const struct node *old, const struct node *now)
 {
-    size_t from = byte_of(p->source, old->line, old->column);
-    size_t to = byte_of(p->source, old->end_line, old->end_column);
+    size_t from = ceduo_source_byte(p->source, old->line, old->column);
+    size_t to = ceduo_source_byte(p->source, old->end_line, old->end_column);
     if (from < p->done)
         return false;
     ceduo_text_add(p->text, p->source->bytes + p->done, from - p->done);

@@ -128,6 +128,11 @@ const struct node *ceduo_node_scalar(struct arena *arena, const struct source *s
     return node->text ? node : NULL;
 }
 
+struct problem_place ceduo_node_place(const struct node *node, const char *path)
+{
+    return (struct problem_place){.source = node->source, .line = node->line, .column = node->column, .path = path};
+}
+
 bool ceduo_node_equal(const struct node *a, const struct node *b)
 {
     if (a == b)

@@ -67,6 +67,9 @@ void ceduo_node_keep_written(const struct node *made, const struct node *from);
 const struct node *ceduo_node_empty(struct arena *arena, enum node_kind kind, const struct source *source);
 const struct node *ceduo_node_scalar(struct arena *arena, const struct source *source, const char *text, bool quoted);
 
+/* Where something is wrong with a node: `path` is that of the value within its file. */
+struct problem_place ceduo_node_place(const struct node *node, const char *path);
+
 /* Whether two values say the same, wherever they stand. */
 bool ceduo_node_equal(const struct node *a, const struct node *b);
 

@@ -30,6 +30,19 @@ bool ceduo_source_line(const struct source *s, size_t line, size_t *from, size_t
     return true;
 }
 
+size_t ceduo_source_byte(const struct source *s, size_t line, size_t column)
+{
+    size_t at, end;
+    if (!ceduo_source_line(s, line, &at, &end))
+        return s->length;
+    at += line == 1 ? ceduo_source_mark(s) : 0;
+    for (size_t c = 1; c < column && at < s->length; c++)
+        do
+            at++;
+        while (at < s->length && ceduo_utf8_inside(s->bytes[at]));
+    return at;
+}
+
 /* Bytes of one character, even of one that is no UTF-8. */
 static size_t character_length(const char *p, size_t n)
 {

@@ -30,6 +30,9 @@ static inline size_t ceduo_source_mark(const struct source *source)
 /* The bytes of line number `line` (from 1) without its end; false where the source has fewer lines. */
 bool ceduo_source_line(const struct source *source, size_t line, size_t *from, size_t *to);
 
+/* The byte at a line and column, both from 1, columns in characters; its length where the source has no such line. */
+size_t ceduo_source_byte(const struct source *source, size_t line, size_t column);
+
 #define CEDUO_PROBLEMS_MOST  20 /* printed in full */
 #define CEDUO_PROBLEMS_LINES 5  /* of others of a kind */
 

@@ -107,7 +107,7 @@ static const struct node *merge_base(struct resolver *r, const struct object *ob
     if (!base || object != ceduo_schema_stand())
         return node;
     if (base->kind != NODE_SCALAR) {
-        ceduo_node_problem(r->problems, base, "base", _("expected a path to a file"));
+        ceduo_problem_at(r->problems, ceduo_node_place(base, "base"), _("expected a path to a file"));
         return broken(r, node);
     }
     const struct node *below = follow(r, object, base, depth + 1);
@@ -134,7 +134,7 @@ static const struct node *read_file(struct resolver *r, const struct node *node,
             return f->root;
         }
     if (r->files_count == FILES_MOST) {
-        ceduo_node_problem(r->problems, node, node->key, _("more than %d files in one scene"), FILES_MOST);
+        ceduo_problem_at(r->problems, ceduo_node_place(node, node->key), _("more than %d files in one scene"), FILES_MOST);
         return NULL;
     }
     struct known_file *file = ceduo_arena_take(r->arena, sizeof *file);
@@ -152,8 +152,8 @@ static const struct node *follow(struct resolver *r, const struct object *object
 {
     static const char *const tables[] = {".csv", ".gpx", ".kml", ".xml"}; /* what is no CSV is told what to do */
     if (depth > BASES_MOST) {
-        ceduo_node_problem(r->problems, node, node->key, _("more than %d files in a chain of 'base'; do they form a loop?"),
-                           BASES_MOST);
+        ceduo_problem_at(r->problems, ceduo_node_place(node, node->key),
+                         _("more than %d files in a chain of 'base'; do they form a loop?"), BASES_MOST);
         return NULL;
     }
     if (node->kind != NODE_SCALAR)
@@ -167,8 +167,8 @@ static const struct node *follow(struct resolver *r, const struct object *object
         }
     const char *path = ceduo_resolve_path(r->arena, node, object->folder);
     if (!path)
-        ceduo_node_problem(r->problems, node, node->key,
-                           _("cannot find '%s' beside this file or among the profiles (ceduo --list-profiles)"), node->text);
+        ceduo_problem_at(r->problems, ceduo_node_place(node, node->key),
+                         _("cannot find '%s' beside this file or among the profiles (ceduo --list-profiles)"), node->text);
     const struct node *found = path ? read_file(r, node, path) : NULL;
     if (found && found->kind == NODE_MAP)
         found = merge_base(r, object, found, depth);
@@ -207,8 +207,8 @@ static const struct node *resolve_map(struct resolver *r, const struct object *o
             bool long_one =
                 strcmp(f->key, "forest") == 0 && entry->n > CEDUO_ITEMS_MOST; /* before so many files are looked for */
             if (long_one)
-                ceduo_node_problem(r->problems, entry, f->key, _("%zu items; at most %d can be computed"), entry->n,
-                                   CEDUO_ITEMS_MOST);
+                ceduo_problem_at(r->problems, ceduo_node_place(entry, f->key), _("%zu items; at most %d can be computed"),
+                                 entry->n, CEDUO_ITEMS_MOST);
             found = long_one ? broken(r, entry) : resolve_items(r, f->object, entry);
         }
         if (found == entry)
@@ -268,6 +268,14 @@ const struct node *ceduo_resolve_walk(const struct node *root, const char *path,
             *within = path[at] == '.' ? path + at + 1 : path + at;
     }
     return root;
+}
+
+const struct node *ceduo_resolve_at(const struct node *root, const char *path)
+{
+    const char *within;
+    size_t used = 0;
+    const struct node *node = root ? ceduo_resolve_walk(root, path, &within, &used) : NULL;
+    return path[used] == '\0' ? node : NULL;
 }
 
 /* ---- changing ---- */

@@ -23,4 +23,7 @@ bool ceduo_resolve_item(const struct node *list, const struct path_step *step, s
  * `*used` how many bytes of the path led to it. */
 const struct node *ceduo_resolve_walk(const struct node *root, const char *path, const char **within, size_t *used);
 
+/* The node at a path; NULL where there is none, or no root. */
+const struct node *ceduo_resolve_at(const struct node *root, const char *path);
+
 #endif

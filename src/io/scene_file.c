@@ -17,8 +17,7 @@
 
 bool ceduo_scene_bind(struct scene_file *file, struct problems *problems)
 {
-    const struct previous_slope previous = {file->slope_node, file->scene.slope, file->notes, file->ground_assumed,
-                                            file->scene.simulation.law};
+    const struct scene_file previous = *file;
     struct validator v = {.arena = &file->arena, .root = file->root, .problems = problems, .previous = &previous};
     size_t before = problems->count;
     file->notes = NULL;
@@ -142,10 +141,9 @@ static bool make_scene(struct scene_file *file, const struct source *source, con
     file->raw = file->root = ceduo_yaml_read(&file->arena, source, problems);
     if (!file->root)
         return false;
-    if (file->root->kind != NODE_MAP) {
-        ceduo_node_problem(problems, file->root, NULL, _("a scene is a mapping that begins with 'ceduo: scene/1'"));
-        return false;
-    }
+    if (file->root->kind != NODE_MAP)
+        return ceduo_problem_at(problems, ceduo_node_place(file->root, NULL),
+                                _("a scene is a mapping that begins with 'ceduo: scene/1'"));
     for (size_t i = 0; i < n; i++)
         if (!set_one(file, source_of(sets, i), problems))
             return false;

@@ -27,7 +27,7 @@ bool ceduo_validate(struct validator *v)
     ceduo_bind(&to, ceduo_schema_scene(), v->root, &v->draft);
     if (v->bad.n > CEDUO_BAD_MOST || v->arena->failed)
         return false;
-    ceduo_validate_rock(v, "rock", ceduo_node_get(v->root, "rock"), &scene->rock);
+    ceduo_validate_rock(v, "rock", &scene->rock);
     ceduo_validate_blocks(v);
     ceduo_validate_slope(v);
     ceduo_validate_release(v, "release", &scene->release);

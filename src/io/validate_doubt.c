@@ -37,10 +37,8 @@ struct places {
 /* The list that a path before its [*] leads to; NULL: none. */
 static const struct node *list_at(const struct node *root, const char *path)
 {
-    const char *within;
-    size_t used;
-    const struct node *node = ceduo_resolve_walk(root, path, &within, &used);
-    return path[used] == '\0' && node->kind == NODE_LIST ? node : NULL;
+    const struct node *node = ceduo_resolve_at(root, path);
+    return node && node->kind == NODE_LIST ? node : NULL;
 }
 
 /* The path with the number of an item in place of its name: paths of one place are alike. */
@@ -360,9 +358,8 @@ static bool take_header(struct draws *t)
             if (!f || found.places_count == 0) {
                 if (t->csv.source->foreign)
                     path[ceduo_utf8_cut(path, CEDUO_FOREIGN_MOST)] = '\0';
-                ceduo_node_problem(v->problems, v->draws, "doubt.draws",
-                                   _("the table has a column '%s', which is no value of this scene"), path);
-                return false;
+                return ceduo_problem_at(v->problems, ceduo_node_place(v->draws, "doubt.draws"),
+                                        _("the table has a column '%s', which is no value of this scene"), path);
             }
             t->heads = ceduo_more_room(v, t->heads, t->heads_count, 1, &t->heads_room, sizeof *t->heads);
             t->places = ceduo_more_room(v, t->places, t->places_count, found.places_count, &t->places_room, sizeof *t->places);
@@ -416,7 +413,7 @@ static bool read_table(struct draws *t, const char *path)
             ceduo_csv_complain(csv, span, _("more columns than the first line has"));
     }
     if (t->rows == 0)
-        ceduo_node_problem(problems, t->v->draws, "doubt.draws", _("the table has no row"));
+        ceduo_problem_at(problems, ceduo_node_place(t->v->draws, "doubt.draws"), _("the table has no row"));
     return problems->met == before;
 }
 
@@ -425,14 +422,13 @@ static void add_draws(struct validator *v)
 {
     struct draws t = {.v = v};
     if (v->draws->kind != NODE_SCALAR) {
-        ceduo_node_problem(v->problems, v->draws, "doubt.draws", _("expected the path of a table"));
+        ceduo_problem_at(v->problems, ceduo_node_place(v->draws, "doubt.draws"), _("expected the path of a table"));
         return;
     }
     const char *path = ceduo_resolve_path(v->arena, v->draws, "scenes");
     if (!path)
-        ceduo_node_problem(v->problems, v->draws, "doubt.draws",
-                           _("cannot find '%s' beside this file or among the profiles (ceduo --list-profiles)"),
-                           v->draws->text);
+        ceduo_problem_at(v->problems, ceduo_node_place(v->draws, "doubt.draws"),
+                         _("cannot find '%s' beside this file or among the profiles (ceduo --list-profiles)"), v->draws->text);
     if (!path || !read_table(&t, path))
         return;
     const char **places = ceduo_room(v, t.places_count, sizeof *places);

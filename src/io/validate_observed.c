@@ -94,7 +94,8 @@ void ceduo_arrange_observed(struct validator *v)
     if (v->draws) { /* doubt: {draws: FILE, rows: […]}: the rows are the list that may stand there alone */
         for (size_t i = 0; i < doubt->n; i++)
             if (strcmp(doubt->items[i]->key, "draws") != 0 && strcmp(doubt->items[i]->key, "rows") != 0)
-                ceduo_node_problem(v->problems, doubt->items[i], "doubt", _("unknown key; known here: draws, rows"));
+                ceduo_problem_at(v->problems, ceduo_node_place(doubt->items[i], "doubt"),
+                                 _("unknown key; known here: draws, rows"));
         root = ceduo_node_without(v->arena, root, "doubt");
         root = rows ? ceduo_node_with(v->arena, root, "doubt", rows) : root;
     }
@@ -265,10 +266,8 @@ static bool check_values(const struct place *p)
 static void set_name(const struct place *p, struct ceduo_observation *o)
 {
     char room[CEDUO_NUMBER_ROOM], end[CEDUO_NUMBER_ROOM];
-    const char *path = p->is->path, *dot = strchr(path, '.'); /* as in largest.speed_m_s */
-    const struct field *f = ceduo_schema_field(ceduo_schema_scene(), "observed");
-    f = ceduo_schema_field(f->object, dot ? ceduo_format(p->v, "%.*s", (int)(dot - path), path) : path);
-    const char *what = f ? _((dot ? ceduo_schema_field(f->object, dot + 1) : f)->shown.label) : path;
+    const struct field *field = ceduo_schema_row(p->at); /* NULL without memory */
+    const char *path = p->is->path, *what = field ? _(field->shown.label) : path;
     double x = p->values->x, from = p->row->way_from, to = p->row->way_to;
     if (p->row->name) {
         o->name_given = p->row->name;
@@ -323,13 +322,14 @@ static bool find_option(struct validator *v, const char *path, const struct obse
                                          ceduo_text_string(&all));
 }
 
-static void validate_row(struct validator *v, const char *path, const struct node *node, struct observed *row)
+static void validate_row(struct validator *v, const char *path, struct observed *row)
 {
     struct ceduo_observation shared = {.use = (enum ceduo_observed_use)row->use};
     size_t before = v->problems->met;
     bool any = false;
+    const struct node *node = ceduo_resolve_at(v->root, path);
     if (ceduo_node_get(node, "rock")) {
-        ceduo_validate_rock(v, ceduo_format(v, "%s.rock", path), ceduo_node_get(node, "rock"), &row->rock);
+        ceduo_validate_rock(v, ceduo_format(v, "%s.rock", path), &row->rock);
         shared.rock = &row->rock;
     }
     if (ceduo_node_get(node, "release")) {
@@ -339,8 +339,7 @@ static void validate_row(struct validator *v, const char *path, const struct nod
     bool good = find_option(v, path, row, &shared.option) && v->problems->met == before;
     for (int kind = 0; kind < CEDUO_OBSERVED_KINDS; kind++) {
         const struct ceduo_observed_row *is = ceduo_observed_row((enum ceduo_observed_kind)kind);
-        const char *dot = strchr(is->path, '.'); /* as in largest.speed_m_s */
-        const char *around = dot ? ceduo_format(v, "%.*s", (int)(dot - is->path), is->path) : NULL;
+        const char *at = ceduo_format(v, "%s.%s", path, is->path);
         const struct place p = {.v = v,
                                 .row = row,
                                 .row_path = path,
@@ -348,9 +347,8 @@ static void validate_row(struct validator *v, const char *path, const struct nod
                                 .kind = (enum ceduo_observed_kind)kind,
                                 .is = is,
                                 .values = &row->values[kind],
-                                .at = ceduo_format(v, "%s.%s", path, is->path),
-                                .node = dot ? ceduo_node_get(ceduo_node_get(node, around), dot + 1)
-                                            : ceduo_node_get(node, is->path)};
+                                .at = at,
+                                .node = ceduo_resolve_at(v->root, at)};
         any |= p.node != NULL;
         if (p.node && (!is->list || take_values(&p)) && check_values(&p) && good) {
             struct ceduo_observation *o = &v->observations[v->observations_count++];
@@ -380,7 +378,7 @@ void ceduo_validate_observed(struct validator *v)
         return;
     v->observations = ceduo_room(v, n * CEDUO_OBSERVED_KINDS, sizeof *v->observations);
     for (size_t i = 0; v->observations && i < n; i++)
-        validate_row(v, ceduo_format(v, "observed[%zu]", i), ceduo_node_get(v->root, "observed")->items[i], &rows[i]);
+        validate_row(v, ceduo_format(v, "observed[%zu]", i), &rows[i]);
     for (size_t i = 0; i < n; i++)
         for (size_t k = 0; k < i; k++)
             ceduo_check_name(v, "observed", i, rows[i].name, rows[k].name);

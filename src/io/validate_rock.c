@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/language.h"
+#include "resolve.h"
 #include "validator.h"
 
 /* What each shape is given by, and how that is written. A sphere has one of its keys, the others have all. */
@@ -15,12 +16,12 @@ static const struct {
               [CEDUO_ELLIPSOID] = {{"axes_m"}, "axes_m: [1, 1, 1]"},
               [CEDUO_BLOCK] = {{"axes_m"}, "axes_m: [1, 1, 1]"}};
 
-void ceduo_validate_rock(struct validator *v, const char *path, const struct node *node, const struct ceduo_rock_def *def)
+void ceduo_validate_rock(struct validator *v, const char *path, const struct ceduo_rock_def *def)
 {
     static const char *const sizes[] = {"diameter_m", "height_m", "axes_m", "volume_m3"};
     const enum ceduo_shape shape = def->shape;
     const char *const *keys = shapes[shape].keys, *name = ceduo_shape_words.names[shape];
-    const struct node *said = ceduo_node_get(node, "shape");
+    const struct node *node = ceduo_resolve_at(v->root, path), *said = ceduo_node_get(node, "shape");
     size_t before = v->problems->met;
     int n = 0;
     if (!ceduo_is_known(v, "%s.shape", path))

@@ -7,6 +7,7 @@
 #include "base/language.h"
 #include "csv.h"
 #include "resolve.h"
+#include "scene_file.h"
 #include "validator.h"
 
 static bool is_given(struct validator *v, const char *key)
@@ -201,13 +202,13 @@ static void make_materials(struct validator *v)
  * however long the profile. */
 static bool reuse_slope(struct validator *v)
 {
-    const struct previous_slope *previous = v->previous;
+    const struct scene_file *previous = v->previous;
     const struct node *node = ceduo_node_get(v->root, "slope");
-    bool same_law = previous->law == v->draft.scene.simulation.law; /* which decides what is assumed */
-    if (!node || node != previous->node || !same_law)
+    bool same_law = previous->scene.simulation.law == v->draft.scene.simulation.law; /* which decides what is assumed */
+    if (!node || node != previous->slope_node || !same_law)
         return false;
-    v->draft.scene.slope = previous->slope;
-    v->origin = previous->slope.origin_x;
+    v->draft.scene.slope = previous->scene.slope;
+    v->origin = previous->scene.slope.origin_x;
     v->profile = true;
     v->ground_assumed = previous->ground_assumed;
     for (const struct source_note *n = previous->notes; n; n = n->before)
@@ -221,7 +222,7 @@ double ceduo_validate_end(void *validator)
     struct validator *v = validator;
     const struct node *slope = ceduo_node_get(v->root, "slope"), *csv = ceduo_node_get(slope, "csv");
     const struct node *list = ceduo_node_get(slope, "vertices_m");
-    const struct ceduo_slope *before = v->previous->node && v->previous->node == slope ? &v->previous->slope : NULL;
+    const struct ceduo_slope *before = slope && v->previous->slope_node == slope ? &v->previous->scene.slope : NULL;
     struct problems problems = {0}; /* they are reported when the slope is validated */
     struct points p = {0};
     double end = NAN;

@@ -39,10 +39,7 @@ static void check_given(struct validator *v, const char *path, const struct fiel
 /* Whether something is written at a key of a mapping. */
 static bool is_written(struct validator *v, const char *path, const char *key)
 {
-    const char *within, *whole = ceduo_format(v, "%s.%s", path, key);
-    size_t used;
-    ceduo_resolve_walk(v->root, whole, &within, &used);
-    return whole[used] == '\0';
+    return ceduo_resolve_at(v->root, ceduo_format(v, "%s.%s", path, key)) != NULL;
 }
 
 /* Of what is in the way besides stems no figure is assumed. */

@@ -14,7 +14,7 @@ bool ceduo_complain(struct validator *v, const char *path, const char *key, cons
     const struct node *node = ceduo_resolve_walk(v->root, key[0] ? ceduo_format(v, "%s.%s", path, key) : path, &within, &used);
     va_list args;
     va_start(args, format);
-    ceduo_problem_v(v->problems, (struct problem_place){node->source, node->line, node->column, within, false}, format, args);
+    ceduo_problem_v(v->problems, ceduo_node_place(node, within), format, args);
     va_end(args);
     return false;
 }

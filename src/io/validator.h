@@ -9,21 +9,13 @@
 
 /* A scene that is being checked, and what every check needs: each subject has a file of its own, validate_*.c. */
 
-/* What was made of a slope before: where its part of the document is still the same it is taken over. */
-struct previous_slope {
-    const struct node *node; /* NULL: none */
-    struct ceduo_slope slope;
-    const struct source_note *notes;
-    bool ground_assumed;
-    enum ceduo_law law;
-};
-
+struct scene_file;
 struct validator {
     struct arena *arena;
     const struct node *root; /* the scene, with what it refers to in place */
     struct problems *problems;
-    const struct previous_slope *previous;
-    struct scene_draft draft; /* its scene is the result */
+    const struct scene_file *previous; /* as it was: a slope is taken over where its part of the document is the same */
+    struct scene_draft draft;          /* its scene is the result */
     const struct source_note *notes;
     struct bad_values bad;
     bool profile;        /* the slope has its vertices */
@@ -44,7 +36,7 @@ bool ceduo_validate(struct validator *v);
 
 /* Its checks by subject, in the order in which the scene is built. */
 
-void ceduo_validate_rock(struct validator *v, const char *path, const struct node *node, const struct ceduo_rock_def *def);
+void ceduo_validate_rock(struct validator *v, const char *path, const struct ceduo_rock_def *def);
 void ceduo_validate_blocks(struct validator *v);
 void ceduo_validate_slope(struct validator *v);
 double ceduo_validate_end(void *validator); /* the last x of the profile, before it is validated; NaN: not known */

@@ -86,14 +86,8 @@ static void *syntax_problem(struct reader *r)
         length--;
     yaml_mark_t at = p->problem_mark, end = mark_of_byte(bytes, length); /* of the last line that has something */
     at = at.line > end.line ? end : at;
-    size_t byte = 0;
-    for (size_t line = 0; line < at.line; byte++)
-        line += bytes[byte] == '\n';
-    for (size_t i = 0; i < at.column && byte < length; i++)
-        do
-            byte++;
-        while (byte < length && ceduo_utf8_inside(bytes[byte]));
-    if (strstr(what, "tab") || (byte < length && bytes[byte] == '\t'))
+    size_t byte = ceduo_source_byte(r->source, line_of(at), column_of(r, at));
+    if (strstr(what, "tab") || (byte < r->skip + length && r->source->bytes[byte] == '\t'))
         return STOP(r, at, _("a tab; indent with spaces"));
     if (strstr(what, "cannot start any token"))
         return STOP(r, at, _("malformed YAML: no value can start with this character; put the text in quotes"));

@@ -32,18 +32,9 @@ static bool commit(const struct edit *e, const char *what)
     return e->root && ceduo_document_commit(e->d, e->root, what, e->problems);
 }
 
-/* The node of a tree at a path, NULL where there is none. */
-static const struct node *node_at(const struct node *root, const char *path)
-{
-    const char *within;
-    size_t used = 0;
-    const struct node *node = root ? ceduo_resolve_walk(root, path, &within, &used) : NULL;
-    return used == strlen(path) ? node : NULL;
-}
-
 const struct node *ceduo_document_node(const struct document *d, const char *path)
 {
-    return node_at(d->file.root, path);
+    return ceduo_resolve_at(d->file.root, path);
 }
 
 double ceduo_document_place(const struct document *d, const char *written)
@@ -127,7 +118,7 @@ static void shift_doubts(struct edit *e, const char *list, size_t from, size_t t
         return;
     e->root = with_rows(e->arena, e->root, shift_row, &(struct shift){list, from, to, by});
     const char *path = within ? ceduo_arena_copy(e->arena, list, (size_t)(within - list) + strlen(".stand")) : NULL;
-    const struct node *stand = path ? node_at(e->root, path) : NULL;
+    const struct node *stand = path ? ceduo_resolve_at(e->root, path) : NULL;
     if (!stand)
         return;
     const struct node *now = with_rows(e->arena, stand, shift_row, &(struct shift){within + strlen(".stand."), from, to, by});
@@ -164,7 +155,7 @@ static void take_out(struct edit *e, const char **path)
     const char *dot = strrchr(*path, '.'), *bracket = strrchr(*path, '[');
     const char *cut = bracket && (!dot || bracket > dot) ? bracket : dot, *last = cut ? cut + 1 : *path;
     const char *parent = ceduo_arena_copy(e->arena, *path, cut ? (size_t)(cut - *path) : 0);
-    const struct node *holder = parent[0] ? node_at(e->root, parent) : e->root, *less = NULL;
+    const struct node *holder = parent[0] ? ceduo_resolve_at(e->root, parent) : e->root, *less = NULL;
     size_t index = strtoul(last, NULL, 10);
     bool list = holder && holder->kind == NODE_LIST;
     if (list && index < holder->n)
@@ -190,7 +181,7 @@ static void take_out(struct edit *e, const char **path)
 /* Puts an item into a list, which is made where there is none. */
 static void put_item(struct edit *e, const char *list, size_t index, const struct node *item)
 {
-    const struct node *holder = node_at(e->root, list);
+    const struct node *holder = ceduo_resolve_at(e->root, list);
     holder = holder ? holder : ceduo_document_parse(e->d, list, "[]", e->problems);
     if (holder->kind != NODE_LIST || !item) {
         e->root = NULL;
@@ -212,7 +203,7 @@ static void change(struct edit *e, const char *set)
     bool keeps = equals > set && equals[-1] == ':';
     const char *path = ceduo_arena_copy(e->arena, set, (size_t)(equals - set) - keeps);
     const struct node *value = ceduo_document_parse(e->d, path, equals + 1, e->problems);
-    const struct node *old = value && keeps ? node_at(e->root, path) : NULL;
+    const struct node *old = value && keeps ? ceduo_resolve_at(e->root, path) : NULL;
     put(e, path, old ? ceduo_node_scalar(e->arena, old->source, value->text, false) : value);
 }
 
