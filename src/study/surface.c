@@ -66,7 +66,6 @@ enum ceduo_status ceduo_surface_points(uint64_t seed, size_t points, size_t inpu
 struct function {
     size_t input;
     int degree;
-    double *at; /* its value at each point */
 };
 
 /* An input's functions, `count` from `first` on. */
@@ -80,8 +79,8 @@ struct term {
 };
 
 struct terms {
-    size_t n, room;
-    struct term *items;
+    size_t n;
+    struct term *items; /* NULL: they are counted only */
 };
 
 /* The inputs that terms are made of, in order of rank where there are too many for all products; see list_terms(). */
@@ -90,13 +89,40 @@ struct chosen {
     bool enough; /* points for single terms */
 };
 
-/* Terms with their values at the points, less their means, decomposed as U S V'. */
-struct basis {
+/* Terms with their values at the points, less their means, decomposed as U S V', and fitted to the values of a figure. */
+struct solution {
+    const struct ceduo_surface *s;
     struct arena memory;
     struct chosen chosen;
     struct terms terms;
     double *x, *means; /* x: a row for each point */
     gsl_multifit_linear_workspace *work;
+    double lambda, freedom;
+    double *coefficient; /* of each group's terms, then of their mean */
+    double *remains;     /* of each group at each point, then of their mean */
+    double *leverage;    /* of each point */
+    double *change;      /* of the coefficients of the mean in a sample of the bootstrap */
+    double *spread;      /* the variance of each coefficient where the values have variance 1 */
+    double *room;        /* as many as there are terms */
+    double spare, kept;  /* the variance that the terms leave without noise; how much of the mean's remains is that */
+};
+
+/* A figure's values at the points, of each group and of their mean (GROUPS), less their means over the points: as the same rocks
+ * are at every point, groups differ by a constant. Of what remains of them (without terms: of all) so much is kept that is no
+ * noise. */
+struct column {
+    const struct ceduo_surface_figure *figure;
+    size_t points;
+    double *y, means[GROUPS + 1];
+    double variance, noise; /* of the mean: without the noise of the rocks, and that */
+    const double *remains;
+    double kept;
+};
+
+/* The variance of each input's terms, alone and then with others, and last what the terms leave; that of all terms. */
+struct parts {
+    size_t n;
+    double *of, all, *spare;
 };
 
 struct ceduo_surface {
@@ -106,8 +132,13 @@ struct ceduo_surface {
     struct arena memory;
     struct inputs_functions *of;
     struct function *functions;
-    double *multipliers;   /* of the bootstrap: normal, of each sample for each point */
-    struct basis bases[2]; /* the last ones, without and with products */
+    double *at;                   /* of each function its value at each point */
+    double *multipliers;          /* of the bootstrap: normal, of each sample for each point */
+    struct solution solutions[2]; /* the last ones, without and with products */
+    struct column c;              /* the figure at hand */
+    struct parts found, other;    /* of it, and of a part of the rocks or of other points */
+    size_t *used;                 /* room for the inputs that are chosen, */
+    double *room, *values;        /* for values of functions, and for one at each point */
 };
 
 /* Values of a table's column: of words one for each but the last, of rows the values of each place and their squares. */
@@ -158,42 +189,50 @@ static void functions_at(const struct inputs_functions *of, double u, double *va
     values[1] = sqrt(5) * (1.5 * x * x - .5);
 }
 
-/* Makes the functions of an input, and their values at the points. False without memory. */
+/* The values of an input's functions at the points, shifted, to the rows of `at`. */
+static void fill_functions(const struct ceduo_surface *s, size_t input, double shift, double *at)
+{
+    const struct inputs_functions *of = &s->of[input];
+    double values[TABLE_MAX];
+    for (size_t p = 0; p < s->points; p++) {
+        double u = s->u[p * s->inputs_count + input] + shift;
+        functions_at(of, u - floor(u), values);
+        for (size_t k = 0; k < of->count; k++)
+            at[(of->first + k) * s->points + p] = values[k];
+    }
+}
+
+/* Makes the functions of an input. False without memory. */
 static bool make_functions(struct ceduo_surface *s, size_t i)
 {
     const struct ceduo_input *input = &s->inputs[i];
     struct inputs_functions *of = &s->of[i];
     struct function *functions = s->functions + s->functions_count;
     bool words = input->kind == CEDUO_INPUT_WORDS, table = words || input->kind == CEDUO_INPUT_DRAWS;
+    size_t columns = !table ? 2 : words ? input->words_count - 1 : 2 * input->places_count;
     *of = (struct inputs_functions){.first = s->functions_count};
     if (table) {
-        size_t columns = words ? input->words_count - 1 : 2 * input->places_count;
         of->levels = words ? input->words_count : input->draws_count;
         if (!(of->table = ceduo_arena_take(&s->memory, of->levels * TABLE_MAX * sizeof *of->table)))
             return false;
-        for (size_t c = 0; c < columns && c < TABLE_MAX; c++) {
-            for (size_t l = 0; l < of->levels; l++)
-                of->table[l * TABLE_MAX + of->count] = column_at(input, c, l);
-            functions[of->count].degree = words || c < input->places_count ? 1 : 2;
-            of->count += make_orthonormal(of->table, of->levels, of->count);
-        }
-    } else {
-        for (; of->count < 2; of->count++)
-            functions[of->count].degree = (int)of->count + 1;
     }
-    double *at = ceduo_arena_take(&s->memory, (of->count * s->points + 1) * sizeof *at);
-    for (size_t p = 0; at && p < s->points; p++) {
-        double values[TABLE_MAX];
-        functions_at(of, s->u[p * s->inputs_count + i], values);
-        for (size_t k = 0; k < of->count; k++)
-            at[k * s->points + p] = values[k];
-    }
-    for (size_t k = 0; at && k < of->count; k++) {
-        functions[k].input = i;
-        functions[k].at = at + k * s->points;
+    for (size_t c = 0; c < columns && c < TABLE_MAX; c++) {
+        for (size_t l = 0; l < of->levels; l++)
+            of->table[l * TABLE_MAX + of->count] = column_at(input, c, l);
+        bool first = words || c < (table ? input->places_count : 1);
+        functions[of->count] = (struct function){i, first ? 1 : 2};
+        of->count += !table || make_orthonormal(of->table, of->levels, of->count);
     }
     s->functions_count += of->count;
-    return at;
+    return true;
+}
+
+static bool take_parts(struct ceduo_surface *s, struct parts *parts)
+{
+    parts->n = 2 * s->inputs_count + 1;
+    parts->of = ceduo_arena_take(&s->memory, parts->n * sizeof *parts->of);
+    parts->spare = parts->of ? parts->of + parts->n - 1 : NULL;
+    return parts->of;
 }
 
 enum ceduo_status ceduo_surface_open(const struct ceduo_input *inputs, size_t n, const double *u, size_t points,
@@ -203,32 +242,39 @@ enum ceduo_status ceduo_surface_open(const struct ceduo_input *inputs, size_t n,
     struct ceduo_surface *s = *made = calloc(1, sizeof *s);
     if (!s)
         return CEDUO_NO_MEMORY;
-    *s = (struct ceduo_surface){.inputs = inputs, .u = u, .points = points, .inputs_count = n};
+    *s = (struct ceduo_surface){.inputs = inputs, .u = u, .points = points, .inputs_count = n, .c.points = points};
     s->of = ceduo_arena_take(&s->memory, (n + 1) * sizeof *s->of);
     s->functions = ceduo_arena_take(&s->memory, (n * TABLE_MAX + 1) * sizeof *s->functions);
     s->multipliers = ceduo_arena_take(&s->memory, SAMPLES * points * sizeof *s->multipliers);
-    bool good = s->of && s->functions && s->multipliers;
+    s->c.y = ceduo_arena_take(&s->memory, (GROUPS + 1) * points * sizeof *s->c.y);
+    s->used = ceduo_arena_take(&s->memory, (n + 1) * sizeof *s->used);
+    s->values = ceduo_arena_take(&s->memory, points * sizeof *s->values);
+    bool good = take_parts(s, &s->found) && take_parts(s, &s->other) && !s->memory.failed;
     for (size_t b = 0; good && b < SAMPLES; b++)
         for (size_t p = 0; p < points; p++)
             s->multipliers[b * points + p] = gsl_cdf_ugaussian_Pinv(random_open(b, p, 0, RANDOM_SAMPLE));
     for (size_t i = 0; good && i < n; i++)
         good = make_functions(s, i);
-    return good ? CEDUO_OK : CEDUO_NO_MEMORY;
+    s->at = ceduo_arena_take(&s->memory, (s->functions_count + 1) * points * sizeof *s->at);
+    s->room = ceduo_arena_take(&s->memory, (s->functions_count + TABLE_MAX + 3) * points * sizeof *s->room);
+    for (size_t i = 0; i < n && !s->memory.failed; i++)
+        fill_functions(s, i, 0, s->at);
+    return good && !s->memory.failed ? CEDUO_OK : CEDUO_NO_MEMORY;
 }
 
-static void close_basis(struct basis *b)
+static void close_solution(struct solution *f)
 {
-    gsl_multifit_linear_free(b->work);
-    ceduo_arena_free(&b->memory);
-    *b = (struct basis){0};
+    gsl_multifit_linear_free(f->work);
+    ceduo_arena_free(&f->memory);
+    *f = (struct solution){0};
 }
 
 void ceduo_surface_free(struct ceduo_surface *s)
 {
     if (!s)
         return;
-    close_basis(&s->bases[0]);
-    close_basis(&s->bases[1]);
+    close_solution(&s->solutions[0]);
+    close_solution(&s->solutions[1]);
     ceduo_arena_free(&s->memory);
     free(s);
 }
@@ -237,7 +283,7 @@ void ceduo_surface_free(struct ceduo_surface *s)
 
 static void add_term(struct terms *t, struct term term)
 {
-    if (t->n < t->room)
+    if (t->items)
         t->items[t->n] = term;
     t->n++;
 }
@@ -269,8 +315,7 @@ static void add_products(const struct ceduo_surface *s, const struct chosen *cho
     }
 }
 
-/* All terms of the inputs used, in order of rank; only the leading ones have products. More than there is room for are counted
- * only. */
+/* All terms of the inputs used, in order of rank; only the leading ones have products. */
 static size_t list_terms(const struct ceduo_surface *s, const struct chosen *chosen, struct terms *t)
 {
     for (size_t c = 0; c < chosen->n; c++)
@@ -286,106 +331,93 @@ static bool is_enough(const struct ceduo_surface *s, const struct chosen *chosen
     return PER_TERM * (double)list_terms(s, chosen, &(struct terms){0}) <= (double)s->points;
 }
 
-static double term_at(const struct ceduo_surface *s, const struct term *term, size_t point)
+/* From the values of the functions. */
+static double term_at(const struct ceduo_surface *s, const double *at, const struct term *term, size_t point)
 {
     double x = 1;
     for (size_t k = 0; k < term->n; k++)
-        x *= s->functions[term->f[k]].at[point];
+        x *= at[term->f[k] * s->points + point];
     return x;
 }
 
 /* ---- one fit ---- */
 
-/* Terms that are fitted to the values of a figure. */
-struct solution {
-    const struct ceduo_surface *s;
-    const struct basis *b; /* the surface's */
-    struct arena memory;
-    double lambda, freedom;
-    double *coefficient; /* of each group's terms, then of their mean */
-    double *remains;     /* of each group at each point, then of their mean */
-    double *leverage;    /* of each point */
-    double *spread;      /* the variance of each coefficient where the values have variance 1 */
-    double *room;        /* as many as there are terms */
-    double spare, kept;  /* the variance that the terms leave without noise; how much of the mean's remains is that */
-};
-
 /* The share of a singular value that the ridge leaves. */
 static double filter(const struct solution *f, size_t k)
 {
-    double sigma = gsl_vector_get(f->b->work->S, k);
+    double sigma = gsl_vector_get(f->work->S, k);
     return sigma > 0 ? sigma * sigma / (sigma * sigma + f->lambda * f->lambda) : 0;
 }
 
-/* The arguments of gsl_multifit_linear_svd(). */
-struct decomposed {
-    gsl_matrix_view x;
-    gsl_multifit_linear_workspace *work;
-};
-
-static int decompose(void *context)
+static int decompose(void *solution)
 {
-    struct decomposed *d = context;
-    return gsl_multifit_linear_svd(&d->x.matrix, d->work);
+    const struct solution *f = solution;
+    gsl_matrix_view x = gsl_matrix_view_array(f->x, f->s->points, f->terms.n);
+    return gsl_multifit_linear_svd(&x.matrix, f->work);
 }
 
-/* The basis of these terms: the one that was made last, or a new one. NULL without memory. */
-static const struct basis *basis_of(struct ceduo_surface *s, const struct chosen *chosen)
+/* Lists the terms, for which there are points enough, and decomposes their values; what was made last is taken again where it is of
+ * the same. NULL without memory. */
+static struct solution *solution_of(struct ceduo_surface *s, const struct chosen *chosen)
 {
-    struct basis *b = &s->bases[chosen->leading > 0];
+    struct solution *f = &s->solutions[chosen->leading > 0];
     size_t points = s->points, bytes = chosen->n * sizeof *chosen->used;
-    if (b->work && b->chosen.n == chosen->n && b->chosen.leading == chosen->leading &&
-        memcmp(b->chosen.used, chosen->used, bytes) == 0)
-        return b;
-    close_basis(b);
-    b->chosen = *chosen;
-    b->chosen.used = ceduo_arena_take(&b->memory, bytes + 1);
-    b->terms = (struct terms){0, points, ceduo_arena_take(&b->memory, points * sizeof *b->terms.items)};
-    if (b->memory.failed)
+    if (f->chosen.used && f->chosen.n == chosen->n && f->chosen.leading == chosen->leading &&
+        memcmp(f->chosen.used, chosen->used, bytes) == 0)
+        return f;
+    close_solution(f);
+    size_t *used = ceduo_arena_take(&f->memory, bytes + 1);
+    f->s = s;
+    f->terms.items = ceduo_arena_take(&f->memory, points * sizeof *f->terms.items);
+    if (f->memory.failed)
         return NULL;
-    memcpy(b->chosen.used, chosen->used, bytes);
-    size_t n = list_terms(s, chosen, &b->terms);
-    b->x = ceduo_arena_take(&b->memory, points * n * sizeof *b->x);
-    b->means = ceduo_arena_take(&b->memory, n * sizeof *b->means);
-    gsl_multifit_linear_workspace *work = gsl_multifit_linear_alloc(points, n);
-    for (size_t j = 0; j < n && !b->memory.failed; j++) {
+    size_t n = list_terms(s, chosen, &f->terms);
+    f->x = ceduo_arena_take(&f->memory, points * n * sizeof *f->x);
+    f->means = ceduo_arena_take(&f->memory, n * sizeof *f->means);
+    f->coefficient = ceduo_arena_take(&f->memory, (GROUPS + 1) * n * sizeof *f->coefficient);
+    f->change = ceduo_arena_take(&f->memory, n * sizeof *f->change);
+    f->spread = ceduo_arena_take(&f->memory, n * sizeof *f->spread);
+    f->room = ceduo_arena_take(&f->memory, n * sizeof *f->room);
+    f->remains = ceduo_arena_take(&f->memory, (GROUPS + 1) * points * sizeof *f->remains);
+    f->leverage = ceduo_arena_take(&f->memory, points * sizeof *f->leverage);
+    f->work = gsl_multifit_linear_alloc(points, n);
+    for (size_t j = 0; j < n && !f->memory.failed; j++) {
         for (size_t p = 0; p < points; p++) {
-            b->x[p * n + j] = term_at(s, &b->terms.items[j], p);
-            b->means[j] += b->x[p * n + j] / (double)points;
+            f->x[p * n + j] = term_at(s, s->at, &f->terms.items[j], p);
+            f->means[j] += f->x[p * n + j] / (double)points;
         }
         for (size_t p = 0; p < points; p++)
-            b->x[p * n + j] -= b->means[j];
+            f->x[p * n + j] -= f->means[j];
     }
-    if (work && !b->memory.failed &&
-        ceduo_gsl_try(decompose, &(struct decomposed){gsl_matrix_view_array(b->x, points, n), work}) == 0)
-        return b->work = work, b;
-    gsl_multifit_linear_free(work);
-    return NULL;
+    if (!f->work || f->memory.failed || ceduo_gsl_try(decompose, f) != 0)
+        return NULL;
+    f->chosen = (struct chosen){memcpy(used, chosen->used, bytes), chosen->n, chosen->leading, true};
+    return f;
 }
 
 /* Coefficients of values y at the points: V filter(S)/S U' y. */
 static void solve(const struct solution *f, const double *y, double *coefficient)
 {
-    size_t n = f->b->terms.n;
+    size_t n = f->terms.n;
     gsl_vector_const_view values = gsl_vector_const_view_array(y, f->s->points);
     gsl_vector_view along = gsl_vector_view_array(f->room, n), to = gsl_vector_view_array(coefficient, n);
-    gsl_blas_dgemv(CblasTrans, 1, f->b->work->A, &values.vector, 0, &along.vector);
+    gsl_blas_dgemv(CblasTrans, 1, f->work->A, &values.vector, 0, &along.vector);
     for (size_t k = 0; k < n; k++)
-        f->room[k] *= filter(f, k) > 0 ? filter(f, k) / gsl_vector_get(f->b->work->S, k) : 0;
-    gsl_blas_dgemv(CblasNoTrans, 1, f->b->work->Q, &along.vector, 0, &to.vector);
+        f->room[k] *= filter(f, k) > 0 ? filter(f, k) / gsl_vector_get(f->work->S, k) : 0;
+    gsl_blas_dgemv(CblasNoTrans, 1, f->work->Q, &along.vector, 0, &to.vector);
 }
 
 /* Takes the ridge of the least score. GSL's own search ends at the smallest singular value, which of orthonormal functions is a
  * strong ridge already. */
 static void choose_ridge(struct solution *f, const double *y)
 {
-    double tried[RIDGES], delta, best = INFINITY, max = gsl_vector_get(f->b->work->S, 0);
-    gsl_vector_view ridges = gsl_vector_view_array(tried, RIDGES), along = gsl_vector_view_array(f->room, f->b->terms.n);
+    double tried[RIDGES], delta, best = INFINITY, max = gsl_vector_get(f->work->S, 0);
+    gsl_vector_view ridges = gsl_vector_view_array(tried, RIDGES), along = gsl_vector_view_array(f->room, f->terms.n);
     gsl_vector_const_view values = gsl_vector_const_view_array(y, f->s->points);
-    gsl_multifit_linear_gcv_init(&values.vector, &ridges.vector, &along.vector, &delta, f->b->work);
+    gsl_multifit_linear_gcv_init(&values.vector, &ridges.vector, &along.vector, &delta, f->work);
     for (int i = 0; i <= RIDGES; i++) {
         double lambda = max * pow(10, -7. * i / RIDGES);
-        double score = gsl_multifit_linear_gcv_calc(lambda, &along.vector, delta, f->b->work);
+        double score = gsl_multifit_linear_gcv_calc(lambda, &along.vector, delta, f->work);
         if (score < best) {
             best = score;
             f->lambda = lambda;
@@ -395,7 +427,7 @@ static void choose_ridge(struct solution *f, const double *y)
 
 static double *coefficients_of(const struct solution *f, size_t group)
 {
-    return f->coefficient + group * f->b->terms.n;
+    return f->coefficient + group * f->terms.n;
 }
 
 static double *remains_of(const struct solution *f, size_t group)
@@ -425,29 +457,25 @@ static double spare_of(const struct solution *f, size_t without)
     return fmax(0, spare);
 }
 
-/* Fits the values y of each group and of their mean, which have mean 0, by terms; free its memory in any case. */
-static enum ceduo_status open_solution(struct solution *f, struct ceduo_surface *s, const struct chosen *chosen,
-                                       const double *y)
+/* Fits the figure at hand by terms. NULL without memory. */
+static struct solution *fit_terms(struct ceduo_surface *s, const struct chosen *chosen)
 {
-    size_t points = s->points;
-    *f = (struct solution){.s = s, .b = basis_of(s, chosen), .freedom = (double)points - 1};
-    if (!f->b)
-        return CEDUO_NO_MEMORY;
-    size_t n = f->b->terms.n;
-    f->coefficient = ceduo_arena_take(&f->memory, (GROUPS + 1) * n * sizeof *f->coefficient);
-    f->spread = ceduo_arena_take(&f->memory, n * sizeof *f->spread);
-    f->room = ceduo_arena_take(&f->memory, n * sizeof *f->room);
-    f->remains = ceduo_arena_take(&f->memory, (GROUPS + 1) * points * sizeof *f->remains);
-    f->leverage = ceduo_arena_take(&f->memory, points * sizeof *f->leverage);
-    if (f->memory.failed)
-        return CEDUO_NO_MEMORY;
+    struct solution *f = solution_of(s, chosen);
+    if (!f)
+        return NULL;
+    size_t points = s->points, n = f->terms.n;
+    const double *y = s->c.y;
+    f->freedom = (double)points - 1;
+    f->lambda = 0;
+    memset(f->spread, 0, n * sizeof *f->spread);
+    memset(f->change, 0, n * sizeof *f->change);
     choose_ridge(f, y + GROUPS * points);
-    const gsl_matrix *left = f->b->work->A, *right = f->b->work->Q;
+    const gsl_matrix *left = f->work->A, *right = f->work->Q;
     for (size_t k = 0; k < n; k++)
         f->freedom -= filter(f, k) * (2 - filter(f, k));
     for (size_t j = 0; j < n; j++)
         for (size_t k = 0; k < n && filter(f, k) > 0; k++) { /* the smallest singular values are the last */
-            double x = gsl_matrix_get(right, j, k) * filter(f, k) / gsl_vector_get(f->b->work->S, k);
+            double x = gsl_matrix_get(right, j, k) * filter(f, k) / gsl_vector_get(f->work->S, k);
             f->spread[j] += x * x;
         }
     for (size_t p = 0; p < points; p++) {
@@ -462,7 +490,7 @@ static enum ceduo_status open_solution(struct solution *f, struct ceduo_surface 
         for (size_t p = 0; p < points; p++) {
             remains[p] = y[g * points + p];
             for (size_t j = 0; j < n; j++)
-                remains[p] -= f->b->x[p * n + j] * coefficient[j];
+                remains[p] -= f->x[p * n + j] * coefficient[j];
         }
     }
     double squares = 0;
@@ -470,36 +498,29 @@ static enum ceduo_status open_solution(struct solution *f, struct ceduo_surface 
         squares += remains_of(f, GROUPS)[p] * remains_of(f, GROUPS)[p] / f->freedom;
     f->spare = spare_of(f, GROUPS);
     f->kept = squares > 0 ? sqrt(fmin(1, f->spare / squares)) : 0;
-    return CEDUO_OK;
+    return f;
 }
 
 /* ---- values ---- */
 
-/* A figure's values at the points, of each group and of their mean (GROUPS), less their means over the points: as the same rocks
- * are at every point, groups differ by a constant. Of what remains of them (without terms: of all) so much is kept that is no
- * noise. */
-struct column {
-    const struct ceduo_surface_figure *figure;
-    size_t points;
-    double *y, means[GROUPS + 1];
-    double variance, noise; /* of the mean: without the noise of the rocks, and that */
-    const double *remains;
-    double kept;
-};
-
-static void fill_column(struct column *c, const struct ceduo_groups *groups)
+/* Makes a figure the one at hand: `groups` of each point, of n figures their sum. */
+static void fill_column(struct column *c, const struct ceduo_groups *groups, size_t n)
 {
     double points = (double)c->points, squares = 0, common = 0, *mean = c->y + GROUPS * c->points;
-    memset(mean, 0, c->points * sizeof *mean);
+    memset(c->y, 0, (GROUPS + 1) * c->points * sizeof *c->y);
     c->means[GROUPS] = 0;
     for (size_t g = 0; g < GROUPS; g++) {
+        double *y = c->y + g * c->points;
         c->means[g] = 0;
-        for (size_t p = 0; p < c->points; p++)
-            c->means[g] += groups[p].of[g] / points;
+        for (size_t p = 0; p < c->points; p++) {
+            for (size_t i = 0; i < n; i++)
+                y[p] += groups[i * c->points + p].of[g];
+            c->means[g] += y[p] / points;
+        }
         c->means[GROUPS] += c->means[g] / GROUPS;
         for (size_t p = 0; p < c->points; p++) {
-            c->y[g * c->points + p] = groups[p].of[g] - c->means[g];
-            mean[p] += (groups[p].of[g] - c->means[g]) / GROUPS;
+            y[p] -= c->means[g];
+            mean[p] += y[p] / GROUPS;
         }
     }
     for (size_t p = 0; p < c->points; p++) {
@@ -568,11 +589,11 @@ struct band {
     double ends[ENDS], sum[ENDS], squares[ENDS], of_rocks[ENDS];
 };
 
-/* `room`: three values for each point. */
-static struct band read_band(const struct column *c, double *room)
+static struct band read_band(const struct ceduo_surface *s)
 {
+    const struct column *c = &s->c;
     struct band band = {0};
-    double *values = room, *changes = room + c->points, *changed = room + 2 * c->points, ends[2][ENDS];
+    double *values = s->room, *changes = values + c->points, *changed = changes + c->points, ends[2][ENDS];
     read_values(c, values);
     for (size_t half = 1; half < GROUPS; half++) {
         read_changes(c, half, changes);
@@ -610,20 +631,6 @@ static double band_se(const struct band *b, enum end i)
 
 /* ---- shares ---- */
 
-/* The variance of each input's terms, alone and then with others, and last what the terms leave; that of all terms. */
-struct parts {
-    size_t n;
-    double *of, all, *spare;
-};
-
-static struct parts take_parts(struct solution *f)
-{
-    size_t n = 2 * f->s->inputs_count + 1;
-    struct parts parts = {.n = n, .of = ceduo_arena_take(&f->memory, n * sizeof *parts.of)};
-    parts.spare = parts.of ? parts.of + n - 1 : NULL;
-    return parts;
-}
-
 /* The share of the variance that part i is. */
 static double share_of(const struct parts *p, double noise, size_t i)
 {
@@ -633,7 +640,7 @@ static double share_of(const struct parts *p, double noise, size_t i)
 
 static void add_part(const struct solution *f, size_t j, double variance, struct parts *parts)
 {
-    const struct term *term = &f->b->terms.items[j];
+    const struct term *term = &f->terms.items[j];
     parts->all += variance;
     for (size_t k = 0; k < term->n; k++) {
         size_t input = f->s->functions[term->f[k]].input;
@@ -653,60 +660,45 @@ static void fill_parts(const struct solution *f, size_t without, struct parts *p
 {
     clear_parts(parts);
     *parts->spare = without == GROUPS ? f->spare : spare_of(f, without);
-    for (size_t j = 0; j < f->b->terms.n; j++)
-        add_part(f, j, common_of(f->coefficient + j, f->b->terms.n, without) - *parts->spare * f->spread[j], parts);
+    for (size_t j = 0; j < f->terms.n; j++)
+        add_part(f, j, common_of(f->coefficient + j, f->terms.n, without) - *parts->spare * f->spread[j], parts);
 }
 
-/* With what the terms leave at each point, without noise, drawn anew. */
-static void draw_parts(const struct solution *f, size_t sample, double *drawn, double *change, struct parts *parts)
+/* With what the terms leave at each point, without noise, drawn anew: the coefficients change by f->change. */
+static void draw_parts(const struct solution *f, size_t sample, struct parts *parts)
 {
     const struct ceduo_surface *s = f->s;
-    const double *mean = remains_of(f, GROUPS), *multiplier = s->multipliers + sample * s->points;
+    const double *mean = remains_of(f, GROUPS), *multiplier = s->multipliers + sample * s->points, *change = f->change;
+    double *drawn = s->values;
     clear_parts(parts);
     for (size_t p = 0; p < s->points; p++) {
         drawn[p] = f->kept * mean[p] / sqrt(1 - f->leverage[p]) * multiplier[p];
         *parts->spare += f->kept * f->kept * mean[p] * mean[p] * multiplier[p] * multiplier[p] / f->freedom;
     }
-    solve(f, drawn, change);
-    for (size_t j = 0; j < f->b->terms.n; j++) {
+    solve(f, drawn, f->change);
+    for (size_t j = 0; j < f->terms.n; j++) {
         double more = change[j] * (2 * coefficients_of(f, GROUPS)[j] + change[j]) - f->spare * f->spread[j];
-        add_part(f, j, common_of(f->coefficient + j, f->b->terms.n, GROUPS) - f->spare * f->spread[j] + more, parts);
+        add_part(f, j, common_of(f->coefficient + j, f->terms.n, GROUPS) - f->spare * f->spread[j] + more, parts);
     }
 }
 
-/* Values of the surface at points shifted at random, with its coefficients changed and the remainder of any point. `room`: for the
- * values of all functions. */
-static void draw_values(const struct solution *f, const struct column *c, size_t sample, const double *change, double *room,
-                        double *values)
+/* To s->values those of the surface at points shifted at random, with its coefficients changed and the remainder of any point. */
+static void draw_values(const struct solution *f, size_t sample)
 {
     const struct ceduo_surface *s = f->s;
-    size_t points = s->points;
-    for (size_t i = 0; i < f->b->chosen.n; i++) {
-        size_t input = f->b->chosen.used[i];
-        const struct inputs_functions *of = &s->of[input];
-        double shift = random_pair(sample, SHIFT, input, RANDOM_SAMPLE).u[0], at[TABLE_MAX];
-        for (size_t p = 0; p < points; p++) {
-            double u = s->u[p * s->inputs_count + input] + shift;
-            functions_at(of, u - floor(u), at);
-            for (size_t k = 0; k < of->count; k++)
-                room[(of->first + k) * points + p] = at[k];
-        }
+    for (size_t i = 0; i < f->chosen.n; i++) {
+        size_t input = f->chosen.used[i];
+        fill_functions(s, input, random_pair(sample, SHIFT, input, RANDOM_SAMPLE).u[0], s->room);
     }
-    for (size_t p = 0; p < points; p++) {
-        size_t other = (size_t)(random_pair(sample, p, 0, RANDOM_SAMPLE).u[1] * (double)points);
-        values[p] = c->means[GROUPS] + f->kept * remains_of(f, GROUPS)[other] / sqrt(1 - f->leverage[other]);
+    for (size_t p = 0; p < s->points; p++) {
+        size_t other = (size_t)(random_pair(sample, p, 0, RANDOM_SAMPLE).u[1] * (double)s->points);
+        s->values[p] = s->c.means[GROUPS] + f->kept * remains_of(f, GROUPS)[other] / sqrt(1 - f->leverage[other]);
     }
-    for (size_t j = 0; j < f->b->terms.n; j++) {
-        const struct term *term = &f->b->terms.items[j];
-        double coefficient = coefficients_of(f, GROUPS)[j] + change[j];
-        for (size_t p = 0; p < points; p++) {
-            double x = room[term->f[0] * points + p];
-            for (size_t k = 1; k < term->n; k++)
-                x *= room[term->f[k] * points + p];
-            values[p] += coefficient * (x - f->b->means[j]);
-        }
-    }
-    bound(c, values);
+    for (size_t j = 0; j < f->terms.n; j++)
+        for (size_t p = 0; p < s->points; p++)
+            s->values[p] +=
+                (coefficients_of(f, GROUPS)[j] + f->change[j]) * (term_at(s, s->room, &f->terms.items[j], p) - f->means[j]);
+    bound(&s->c, s->values);
 }
 
 /* ---- what is left ---- */
@@ -717,8 +709,8 @@ static void add_changes(const struct solution *f, size_t input, double *change)
     const struct ceduo_surface *s = f->s;
     const struct inputs_functions *of = &s->of[input];
     memset(change, 0, of->count * s->points * sizeof *change);
-    for (size_t j = 0; j < f->b->terms.n; j++) {
-        const struct term *term = &f->b->terms.items[j];
+    for (size_t j = 0; j < f->terms.n; j++) {
+        const struct term *term = &f->terms.items[j];
         for (size_t k = 0; k < term->n; k++) {
             if (s->functions[term->f[k]].input != input)
                 continue;
@@ -726,17 +718,17 @@ static void add_changes(const struct solution *f, size_t input, double *change)
             rest.f[k] = rest.f[--rest.n];
             double *row = change + (term->f[k] - of->first) * s->points;
             for (size_t p = 0; p < s->points; p++)
-                row[p] += coefficients_of(f, GROUPS)[j] * term_at(s, &rest, p);
+                row[p] += coefficients_of(f, GROUPS)[j] * term_at(s, s->at, &rest, p);
         }
     }
 }
 
 /* p95 - p5 of what remains of the values, on the mean, if an input is known. */
-static double left_of(const struct solution *f, const struct column *c, const double *values, size_t input, double *room)
+static double left_of(const struct solution *f, const double *values, size_t input)
 {
     const struct ceduo_surface *s = f->s;
     const struct inputs_functions *of = &s->of[input];
-    double *change = room, *changed = room + TABLE_MAX * s->points, at[TABLE_MAX], ends[ENDS], width = 0;
+    double *change = s->room, *changed = change + TABLE_MAX * s->points, at[TABLE_MAX], ends[ENDS], width = 0;
     size_t n = of->levels > 0 && of->levels < CLASSES ? of->levels : CLASSES;
     add_changes(f, input, change);
     for (size_t i = 0; i < n; i++) {
@@ -744,8 +736,8 @@ static double left_of(const struct solution *f, const struct column *c, const do
         memcpy(changed, values, s->points * sizeof *changed);
         for (size_t k = 0; k < of->count; k++)
             for (size_t p = 0; p < s->points; p++)
-                changed[p] += change[k * s->points + p] * (at[k] - s->functions[of->first + k].at[p]);
-        bound(c, changed);
+                changed[p] += change[k * s->points + p] * (at[k] - s->at[(of->first + k) * s->points + p]);
+        bound(&s->c, changed);
         read_ends(changed, s->points, NAN, ends);
         width += (ends[P95] - ends[P5]) / (double)n;
     }
@@ -754,8 +746,9 @@ static double left_of(const struct solution *f, const struct column *c, const do
 
 /* ---- the fit ---- */
 
-static void read_quality(const struct solution *f, const double *y, struct ceduo_surface_fit *fit)
+static void read_quality(const struct solution *f, struct ceduo_surface_fit *fit)
 {
+    const double *y = f->s->c.y;
     size_t points = f->s->points;
     double left_out = 0, squares = 0, common[2] = {0};
     for (size_t p = 0; p < points; p++) {
@@ -776,128 +769,114 @@ static void set_band(struct ceduo_surface_fit *fit, const struct band *b)
     fit->below = (struct ceduo_share){b->ends[BELOW], band_se(b, BELOW)};
 }
 
-/* Shares with their errors, the band of the values with its own, and what is left of it. */
-static enum ceduo_status read_solution(struct solution *f, struct column *c, struct ceduo_surface_fit *fit)
+/* Adds the squares of what the shares of one differ from those of the other. */
+static void add_squares(const struct parts *a, const struct parts *b, double noise, double *sums)
 {
-    size_t points = f->s->points, inputs = f->s->inputs_count, n = f->b->terms.n;
-    struct parts found = take_parts(f), other = take_parts(f);
-    double *of_rocks = ceduo_arena_take(&f->memory, found.n * sizeof *of_rocks);
-    double *of_points = ceduo_arena_take(&f->memory, found.n * sizeof *of_points);
-    double *change = ceduo_arena_take(&f->memory, n * sizeof *change);
-    double *values = ceduo_arena_take(&f->memory, points * sizeof *values);
-    double *room = ceduo_arena_take(&f->memory, (f->s->functions_count + TABLE_MAX + 3) * points * sizeof *room);
-    if (f->memory.failed)
-        return CEDUO_NO_MEMORY;
-    fill_parts(f, GROUPS, &found);
-    c->remains = f->remains, c->kept = f->kept;
-    fit->variance = fmax(0, found.all) + f->spare;
-    read_quality(f, c->y, fit);
-    struct band band = read_band(c, room);
+    for (size_t i = 0; i < a->n; i++)
+        sums[i] += pow(share_of(a, noise, i) - share_of(b, noise, i), 2);
+}
+
+/* Shares with their errors, the band of the values with its own, and what is left of it. False without memory. */
+static bool read_solution(struct ceduo_surface *s, struct solution *f, struct ceduo_surface_fit *fit)
+{
+    struct parts *found = &s->found, *other = &s->other;
+    double *of_rocks = calloc(2 * found->n, sizeof *of_rocks), *of_points = of_rocks + found->n;
+    if (!of_rocks)
+        return false;
+    fill_parts(f, GROUPS, found);
+    s->c.remains = f->remains, s->c.kept = f->kept;
+    fit->variance = fmax(0, found->all) + f->spare;
+    read_quality(f, fit);
+    struct band band = read_band(s);
     for (size_t g = 0; g < GROUPS; g++) {
-        fill_parts(f, g, &other);
-        for (size_t i = 0; i < found.n; i++)
-            of_rocks[i] += pow(share_of(&other, fit->noise, i) - share_of(&found, fit->noise, i), 2);
+        fill_parts(f, g, other);
+        add_squares(other, found, fit->noise, of_rocks);
     }
     for (size_t b = 0; b < SAMPLES; b++) {
         if (f->kept > 0) {
-            draw_parts(f, b, values, change, &other);
-            for (size_t i = 0; i < found.n; i++)
-                of_points[i] += pow(share_of(&other, fit->noise, i) - share_of(&found, fit->noise, i), 2);
+            draw_parts(f, b, other);
+            add_squares(other, found, fit->noise, of_points);
         }
-        draw_values(f, c, b, change, room, values);
-        add_sample(&band, c, values);
+        draw_values(f, b);
+        add_sample(&band, &s->c, s->values);
     }
-    for (size_t i = 0; i < found.n; i++)
-        fit->first[i] = (struct ceduo_share){share_of(&found, fit->noise, i),
+    for (size_t i = 0; i < found->n; i++)
+        fit->first[i] = (struct ceduo_share){share_of(found, fit->noise, i),
                                              sqrt(of_rocks[i] * student() * (GROUPS - 1) / GROUPS + of_points[i] / SAMPLES)};
-    fit->whole = fit->first[found.n - 1];
+    fit->whole = fit->first[found->n - 1];
     set_band(fit, &band);
-    read_values(c, fit->values);
-    for (size_t i = 0; i < inputs; i++)
-        fit->left[i] = left_of(f, c, fit->values, i, room);
-    return CEDUO_OK;
+    read_values(&s->c, fit->values);
+    for (size_t i = 0; i < s->inputs_count; i++)
+        fit->left[i] = left_of(f, fit->values, i);
+    free(of_rocks);
+    return true;
 }
 
 /* Without a surface: the points alone, drawn anew. */
-static enum ceduo_status read_points(const struct column *c, struct ceduo_surface_fit *fit)
+static void read_points(struct ceduo_surface *s, struct ceduo_surface_fit *fit)
 {
-    double *room = malloc(3 * c->points * sizeof *room);
-    if (!room)
-        return CEDUO_NO_MEMORY;
-    struct band band = read_band(c, room);
-    read_values(c, fit->values);
+    struct band band = read_band(s);
+    read_values(&s->c, fit->values);
     for (size_t b = 0; b < SAMPLES; b++) {
-        for (size_t p = 0; p < c->points; p++)
-            room[p] = fit->values[(size_t)(random_pair(b, p, 0, RANDOM_SAMPLE).u[1] * (double)c->points)];
-        add_sample(&band, c, room);
+        for (size_t p = 0; p < s->points; p++)
+            s->values[p] = fit->values[(size_t)(random_pair(b, p, 0, RANDOM_SAMPLE).u[1] * (double)s->points)];
+        add_sample(&band, &s->c, s->values);
     }
     set_band(fit, &band);
-    free(room);
-    return CEDUO_OK;
 }
 
 /* Sorts the inputs by the variance that they bring in a fit without products, the most first; words before all, as they decide
- * what others do. */
-static enum ceduo_status rank(struct ceduo_surface *s, const double *y, struct chosen *chosen)
+ * what others do. False without memory. */
+static bool rank(struct ceduo_surface *s, const struct chosen *chosen)
 {
-    struct solution f;
-    enum ceduo_status status = open_solution(&f, s, &(const struct chosen){.used = chosen->used, .n = chosen->n}, y);
-    struct parts parts = take_parts(&f);
-    if (status == CEDUO_OK && parts.of) {
-        double *total = parts.of + s->inputs_count;
-        size_t *used = chosen->used;
-        fill_parts(&f, GROUPS, &parts);
-        for (size_t i = 0; i < chosen->n; i++)
-            if (is_word(s, used[i]))
-                total[used[i]] = INFINITY;
-        for (size_t i = 0; i < chosen->n; i++) {
-            size_t input = used[i], at = i;
-            for (; at > 0 && total[used[at - 1]] < total[input]; at--)
-                used[at] = used[at - 1];
-            used[at] = input;
-        }
+    const struct solution *f = fit_terms(s, &(const struct chosen){.used = chosen->used, .n = chosen->n});
+    double *total = s->found.of + s->inputs_count;
+    size_t *used = chosen->used;
+    if (!f)
+        return false;
+    fill_parts(f, GROUPS, &s->found);
+    for (size_t i = 0; i < chosen->n; i++)
+        if (is_word(s, used[i]))
+            total[used[i]] = INFINITY;
+    for (size_t i = 0; i < chosen->n; i++) {
+        size_t input = used[i], at = i;
+        for (; at > 0 && total[used[at - 1]] < total[input]; at--)
+            used[at] = used[at - 1];
+        used[at] = input;
     }
-    ceduo_arena_free(&f.memory);
-    return parts.of ? status : CEDUO_NO_MEMORY;
+    return true;
 }
 
-/* Chooses the inputs that have products, at the most so many as there are points for. */
-static enum ceduo_status choose(struct ceduo_surface *s, const bool *uses, const struct column *c, struct chosen *chosen)
+/* Chooses the inputs that have products, at the most so many as there are points for. False without memory. */
+static bool choose(struct ceduo_surface *s, struct chosen *chosen)
 {
-    *chosen = (struct chosen){.used = calloc(s->inputs_count + 1, sizeof *chosen->used)};
-    if (!chosen->used)
-        return CEDUO_NO_MEMORY;
+    const bool *uses = s->c.figure->uses;
+    *chosen = (struct chosen){.used = s->used};
     for (size_t i = 0; i < s->inputs_count; i++)
         if ((!uses || uses[i]) && s->of[i].count > 0)
             chosen->used[chosen->n++] = i;
-    chosen->enough = c->variance > 0 && chosen->n > 0 && is_enough(s, chosen);
+    chosen->enough = s->c.variance > 0 && chosen->n > 0 && is_enough(s, chosen);
     if (!chosen->enough)
-        return CEDUO_OK;
+        return true;
     struct chosen tried = *chosen;
     for (tried.leading = chosen->n; tried.leading > 0 && !is_enough(s, &tried);)
         tried.leading--;
     chosen->leading = tried.leading;
     bool ranked = tried.leading < chosen->n;
-    enum ceduo_status status = ranked ? rank(s, c->y, &tried) : CEDUO_OK;
+    bool good = !ranked || rank(s, &tried);
     /* products of inputs that do nothing may stand for those of others: fewer are tried */
-    for (double best = -INFINITY; status == CEDUO_OK && tried.leading > 0 && best < ENOUGH; tried.leading /= 2) {
-        struct solution f;
+    for (double best = -INFINITY; good && tried.leading > 0 && best < ENOUGH; tried.leading /= 2) {
         struct ceduo_surface_fit fit;
-        if (best > -INFINITY && !ranked) {
-            status = rank(s, c->y, &tried);
-            ranked = true;
-        }
-        if (status != CEDUO_OK)
-            break;
-        status = open_solution(&f, s, &tried, c->y);
-        if (status == CEDUO_OK) {
-            read_quality(&f, c->y, &fit);
-            if (fit.explained > best)
-                best = fit.explained, chosen->leading = tried.leading;
-        }
-        ceduo_arena_free(&f.memory);
+        if (best > -INFINITY && !ranked)
+            good = ranked = rank(s, &tried);
+        const struct solution *f = good ? fit_terms(s, &tried) : NULL;
+        good = f;
+        if (f)
+            read_quality(f, &fit);
+        if (f && fit.explained > best)
+            best = fit.explained, chosen->leading = tried.leading;
     }
-    return status;
+    return good;
 }
 
 /* Room for what is told of each point and input, in one piece. */
@@ -920,30 +899,21 @@ enum ceduo_status ceduo_surface_fit(struct ceduo_surface *s, const struct ceduo_
                                     struct ceduo_surface_fit *fit)
 {
     GSL_RETURNS_ERRORS;
-    struct chosen chosen = {0};
-    struct column c = {.figure = figure, .points = s->points, .y = malloc((GROUPS + 1) * s->points * sizeof *c.y)};
+    struct chosen chosen;
+    struct solution *f;
     *fit = (struct ceduo_surface_fit){.q2 = NAN, .explained = NAN, .whole = {NAN, NAN}};
-    enum ceduo_status status = allocate_fit(fit, s->points, s->inputs_count) && c.y ? CEDUO_OK : CEDUO_NO_MEMORY;
-    if (status == CEDUO_OK) {
-        fill_column(&c, figure->y);
-        fit->mean = c.means[GROUPS], fit->variance = c.variance, fit->noise = c.noise;
-        status = choose(s, figure->uses, &c, &chosen);
-    }
-    fit->enough = chosen.enough;
-    if (status == CEDUO_OK && chosen.enough) {
-        struct solution f;
-        status = open_solution(&f, s, &chosen, c.y);
-        if (status == CEDUO_OK)
-            status = read_solution(&f, &c, fit);
-        ceduo_arena_free(&f.memory);
-    } else if (status == CEDUO_OK) {
-        status = read_points(&c, fit);
-    }
-    free(c.y);
-    free(chosen.used);
-    if (status != CEDUO_OK)
+    s->c.figure = figure;
+    fill_column(&s->c, figure->y, 1);
+    fit->mean = s->c.means[GROUPS], fit->variance = s->c.variance, fit->noise = s->c.noise;
+    bool good = allocate_fit(fit, s->points, s->inputs_count) && choose(s, &chosen);
+    fit->enough = good && chosen.enough;
+    if (fit->enough)
+        good = (f = fit_terms(s, &chosen)) && read_solution(s, f, fit);
+    else if (good)
+        read_points(s, fit);
+    if (!good)
         ceduo_surface_release(fit);
-    return status;
+    return good ? CEDUO_OK : CEDUO_NO_MEMORY;
 }
 
 void ceduo_surface_release(struct ceduo_surface_fit *fit)
@@ -958,40 +928,26 @@ enum ceduo_status ceduo_surface_values(struct ceduo_surface *s, const struct ced
                                        double *values, struct ceduo_groups *changes)
 {
     GSL_RETURNS_ERRORS;
-    struct chosen chosen = {0};
-    struct column c = {.figure = figure, .points = s->points, .y = malloc((GROUPS + 1) * s->points * sizeof *c.y)};
-    double *room = malloc(s->points * sizeof *room);
-    struct ceduo_groups *sum = calloc(s->points, sizeof *sum); /* of the figures, at each point */
-    enum ceduo_status status = c.y && room && sum ? CEDUO_OK : CEDUO_NO_MEMORY;
-    if (status == CEDUO_OK) {
-        for (size_t i = 0; i < n * s->points; i++)
-            for (size_t g = 0; g < GROUPS; g++)
-                sum[i % s->points].of[g] += figure->y[i].of[g];
-        fill_column(&c, sum);
-        status = choose(s, figure->uses, &c, &chosen);
-    }
-    for (size_t i = 0; i < n && status == CEDUO_OK; i++) {
-        struct solution f = {0};
-        fill_column(&c, figure->y + i * s->points);
-        if (chosen.enough && c.kept > 0) {
-            status = open_solution(&f, s, &chosen, c.y);
-            c.remains = f.remains, c.kept = f.kept;
+    struct chosen chosen;
+    s->c.figure = figure;
+    fill_column(&s->c, figure->y, n); /* the sum of the figures says by what terms */
+    bool good = choose(s, &chosen);
+    for (size_t i = 0; i < n && good; i++) {
+        fill_column(&s->c, figure->y + i * s->points, 1);
+        if (chosen.enough && s->c.kept > 0) {
+            const struct solution *f = fit_terms(s, &chosen);
+            if (!f)
+                return CEDUO_NO_MEMORY;
+            s->c.remains = f->remains, s->c.kept = f->kept;
         }
-        if (status == CEDUO_OK) {
-            read_values(&c, values + i * s->points);
-            for (size_t half = 1; half < GROUPS; half++) {
-                read_changes(&c, half, room);
-                for (size_t p = 0; p < s->points; p++)
-                    changes[i * s->points + p].of[half] = room[p];
-            }
+        read_values(&s->c, values + i * s->points);
+        for (size_t half = 1; half < GROUPS; half++) {
+            read_changes(&s->c, half, s->values);
+            for (size_t p = 0; p < s->points; p++)
+                changes[i * s->points + p].of[half] = s->values[p];
         }
-        ceduo_arena_free(&f.memory);
     }
-    free(chosen.used);
-    free(c.y);
-    free(room);
-    free(sum);
-    return status;
+    return good ? CEDUO_OK : CEDUO_NO_MEMORY;
 }
 
 /* Sums over the halves are sums over the groups again. */
