@@ -259,13 +259,15 @@ enum ceduo_status ceduo_ask_doubt_beside(struct asked *c, const struct arguments
     const struct ceduo_work *work = &c->answer.work;
     uint64_t rocks = ceduo_result_rocks(result);
     size_t years = 0;
-    struct ceduo_doubt_def def = {.points_max = (size_t)a->points,
+    struct ceduo_doubt_def def = {.scene = scene,
+                                  .window = a->window,
+                                  .points_max = (size_t)a->points,
                                   .rocks = rocks < CEDUO_DOUBT_ROCKS ? rocks : CEDUO_DOUBT_ROCKS};
     double each =
         (double)(work->contacts + work->stems.drawn) / (double)(work->rocks > 0 ? work->rocks : 1) * (double)a->points;
     double effort = each * (double)def.rocks * (double)scene->options_count;
     for (size_t i = 0; i < scene->options_count; i++)
-        years += ceduo_points_years(scene, &scene->options[i], a->window, CEDUO_DOUBT_YEARS_MAX);
+        years += ceduo_points_years(&def, i, CEDUO_DOUBT_YEARS_MAX);
     def.rotation = rotation && !ceduo_uncertainty_no_rotation(scene) &&
                    effort + each * CEDUO_DOUBT_YEAR_ROCKS * (double)years <= EFFORT_MAX;
     if (effort > EFFORT_MAX || !result->wooded || ceduo_page_says_nothing(result))

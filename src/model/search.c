@@ -126,18 +126,18 @@ static enum ceduo_status ask_once(struct search *s, double value, struct sure_an
         if (leave_input(s, &searched, &inputs.items[i]))
             inputs.items[n++] = inputs.items[i];
     s->answer->sure.inputs = n;
-    enum ceduo_status status = ceduo_sure_ask(&(const struct sure_def){.scene = &s->file->scene,
-                                                                       .inputs_count = n,
-                                                                       .inputs = inputs.items,
-                                                                       .option = s->def.option,
+    enum ceduo_status status = ceduo_sure_ask(&(const struct sure_def){.of = {.scene = &s->file->scene,
+                                                                              .inputs_count = n,
+                                                                              .inputs = inputs.items,
+                                                                              .option = s->def.option,
+                                                                              .rotation = s->def.rotation,
+                                                                              .points = s->answer->sure.points,
+                                                                              .rocks = s->answer->sure.rocks,
+                                                                              .threads = s->threads,
+                                                                              .cancel = s->cancel},
                                                                        .goal = s->def.goal,
                                                                        .target = s->passes,
-                                                                       .sure = s->def.sure,
-                                                                       .rotation = s->def.rotation,
-                                                                       .points = s->answer->sure.points,
-                                                                       .rocks = s->answer->sure.rocks,
-                                                                       .threads = s->threads,
-                                                                       .cancel = s->cancel},
+                                                                       .sure = s->def.sure},
                                               answer);
     if (status == CEDUO_OK && s->known_count < SURE_MAX)
         s->known[s->known_count++] = (struct known_sure){value, *answer};

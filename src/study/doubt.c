@@ -24,6 +24,7 @@
 /* Rows of inputs: two for each input, with it at its ends and all others NaN, then the points. */
 struct rows {
     const struct ceduo_doubt_def *def;
+    struct ceduo_doubt_answer *answer;
     struct arena memory;
     size_t ends, points, options, most; /* most: points */
     double *u;
@@ -32,7 +33,9 @@ struct rows {
     size_t *years, *first_year;  /* of each option how many, and where they begin; NULL: not asked for */
     double *year_counts;         /* of each option how many years these stand for */
     struct ceduo_groups *shares; /* of each year and point */
-    uint64_t before, all;        /* evaluations, for the progress */
+    bool deciding; /* only figures that decide whether there are points enough are read; otherwise only the others */
+    struct ceduo_doubt_ranking *ranking; /* that is made */
+    uint64_t before, all;                /* evaluations, for the progress */
     atomic_size_t done;
     pthread_mutex_t talking;
 };
@@ -90,10 +93,10 @@ static void read_point(void *context, const struct point *point, const struct br
 }
 
 /* Room for all rows, and for the years of a rotation. */
-static enum ceduo_status open_rows(struct rows *r, const struct ceduo_doubt_def *def)
+static enum ceduo_status open_rows(struct rows *r, const struct ceduo_doubt_def *def, struct ceduo_doubt_answer *answer)
 {
     size_t n = def->inputs_count, years = 0;
-    *r = (struct rows){.def = def, .ends = 2 * n, .options = def->scene->options_count};
+    *r = (struct rows){.def = def, .answer = answer, .ends = 2 * n, .options = def->scene->options_count};
     r->most = def->points > CEDUO_DOUBT_POINTS_MAX ? def->points : CEDUO_DOUBT_POINTS_MAX;
     r->u = ceduo_arena_take(&r->memory, (r->ends + r->most) * n * sizeof *r->u);
     r->values = ceduo_arena_take(&r->memory, (r->ends + r->most) * r->options * CEDUO_DOUBT_KINDS * sizeof *r->values);
@@ -103,9 +106,8 @@ static enum ceduo_status open_rows(struct rows *r, const struct ceduo_doubt_def 
         r->year_counts = ceduo_arena_take(&r->memory, (r->options + 1) * sizeof *r->year_counts);
     }
     for (size_t i = 0; r->years && !r->memory.failed && i < r->options; i++) {
-        const struct ceduo_option *option = &def->scene->options[i];
-        r->years[i] = ceduo_points_years(def->scene, option, def->window, CEDUO_DOUBT_YEARS_MAX);
-        r->year_counts[i] = (double)ceduo_points_years(def->scene, option, def->window, SIZE_MAX);
+        r->years[i] = ceduo_points_years(def, i, CEDUO_DOUBT_YEARS_MAX);
+        r->year_counts[i] = (double)ceduo_points_years(def, i, SIZE_MAX);
         r->first_year[i] = years;
         years += r->years[i];
     }
@@ -122,23 +124,8 @@ static enum ceduo_status open_rows(struct rows *r, const struct ceduo_doubt_def 
 /* Evaluates up to so many points, and first the ends, which have most of their forests in common. */
 static enum ceduo_status extend(struct rows *r, size_t points)
 {
-    const struct ceduo_doubt_def *def = r->def;
     size_t from = r->points > 0 ? r->ends + r->points : 0;
-    const struct points p = {.scene = def->scene,
-                             .inputs = def->inputs,
-                             .inputs_count = def->inputs_count,
-                             .u = r->u,
-                             .only = def->alone ? def->option : CEDUO_ALL_OPTIONS,
-                             .rocks = def->rocks,
-                             .today = true,
-                             .rotation = r->years,
-                             .window = def->window,
-                             .year_rocks = CEDUO_DOUBT_YEAR_ROCKS,
-                             .threads = def->threads,
-                             .cancel = def->cancel,
-                             .read = read_point,
-                             .done = report,
-                             .context = r};
+    const struct points p = {.def = r->def, .u = r->u, .today = true, .read = read_point, .done = report, .context = r};
     r->before = from;
     r->all = r->ends + points;
     atomic_store(&r->done, 0);
@@ -161,16 +148,6 @@ const struct ceduo_doubt_figure *ceduo_doubt_figure_of(const struct ceduo_doubt_
     return &answer->figures[figure_at(options, option, kind, difference)];
 }
 
-/* The value of a row; of a difference that of its option less that of `against`. */
-static struct ceduo_groups value_at(const struct rows *r, size_t row, size_t option, size_t against, enum ceduo_doubt_kind kind,
-                                    bool difference)
-{
-    struct ceduo_groups y = values_of(r, row, option)[kind];
-    for (size_t g = 0; difference && g < CEDUO_SURFACE_GROUPS; g++)
-        y.of[g] -= values_of(r, row, against)[kind].of[g];
-    return y;
-}
-
 /* Puts index i, one more than there are, behind those of values that are no larger. */
 static void insert_index(const double *values, size_t i, size_t *order)
 {
@@ -180,15 +157,10 @@ static void insert_index(const double *values, size_t i, size_t *order)
     order[at] = i;
 }
 
-/* The figures of one option or difference are read one after the other, as their surfaces have the terms in common. */
-struct reading {
-    const struct rows *rows;
-    struct ceduo_doubt_answer *answer;
-    bool deciding; /* only the figures that decide whether there are points enough; otherwise only the others */
-};
-
-/* What a surface is made of: which inputs the options have, and room for a figure at the points. */
+/* What a surface is made of: an option, or its difference to another one, which inputs they have, and room for a figure at the
+ * points. */
 struct subject {
+    size_t option, against; /* the same: no difference */
     struct arena memory;
     struct ceduo_surface *surface;
     bool *uses;
@@ -198,7 +170,7 @@ struct subject {
 static enum ceduo_status open_subject(const struct rows *r, size_t option, size_t against, struct subject *s)
 {
     size_t n = r->def->inputs_count;
-    *s = (struct subject){0};
+    *s = (struct subject){.option = option, .against = against};
     s->uses = ceduo_arena_take(&s->memory, n * sizeof *s->uses);
     s->column = ceduo_arena_take(&s->memory, r->points * sizeof *s->column);
     enum ceduo_status status = ceduo_surface_open(r->def->inputs, n, r->u + r->ends * n, r->points, &s->surface);
@@ -215,6 +187,24 @@ static void close_subject(struct subject *s)
     ceduo_arena_free(&s->memory);
 }
 
+static struct ceduo_groups value_at(const struct rows *r, const struct subject *s, size_t row, enum ceduo_doubt_kind kind)
+{
+    struct ceduo_groups y = values_of(r, row, s->option)[kind];
+    for (size_t g = 0; s->option != s->against && g < GROUPS; g++)
+        y.of[g] -= values_of(r, row, s->against)[kind].of[g];
+    return y;
+}
+
+static enum ceduo_status fit(const struct rows *r, const struct subject *s, enum ceduo_doubt_kind kind,
+                             struct ceduo_surface_figure figure, struct ceduo_surface_fit *fit)
+{
+    for (size_t p = 0; p < r->points; p++)
+        s->column[p] = value_at(r, s, r->ends + p, kind);
+    figure.y = s->column;
+    figure.uses = s->uses;
+    return ceduo_surface_fit(s->surface, &figure, fit);
+}
+
 static bool is_rotation(enum ceduo_doubt_kind kind)
 {
     return kind == CEDUO_DOUBT_MEAN || kind == CEDUO_DOUBT_FAILING;
@@ -229,20 +219,16 @@ static enum ceduo_status read_figure(const struct rows *r, struct subject *s, st
     bool judged = !f->difference && (f->kind == r->judged || f->kind == CEDUO_DOUBT_MEAN) && r->judged == CEDUO_DOUBT_EXCEED;
     double max = f->kind == CEDUO_DOUBT_ENERGY || f->kind == CEDUO_DOUBT_CONTACT ? INFINITY : 1;
     if (f->kind == CEDUO_DOUBT_FAILING)
-        max = fmax(r->year_counts[f->option], f->difference ? r->year_counts[0] : 0);
-    for (size_t p = 0; p < r->points; p++)
-        s->column[p] = value_at(r, r->ends + p, f->option, 0, f->kind, f->difference);
+        max = fmax(r->year_counts[s->option], r->year_counts[s->against]);
     for (size_t i = 0; i < def->inputs_count; i++)
         for (size_t end = 0; end < 2; end++) {
-            struct ceduo_groups y = {{0}};
-            if (!is_rotation(f->kind))
-                y = value_at(r, 2 * i + end, f->option, 0, f->kind, f->difference);
+            const struct ceduo_groups y = value_at(r, s, 2 * i + end, f->kind);
             f->at[i][end] = is_rotation(f->kind) ? NAN : ceduo_groups_mean(&y, def->rocks);
         }
     ceduo_surface_release(&f->fit);
     const struct ceduo_surface_figure figure = {
-        .y = s->column, .uses = s->uses, .lo = f->difference ? -max : 0, .hi = max, .limit = judged ? CEDUO_EXCEED_MOST : NAN};
-    enum ceduo_status status = ceduo_surface_fit(s->surface, &figure, &f->fit);
+        .lo = f->difference ? -max : 0, .hi = max, .limit = judged ? CEDUO_EXCEED_MOST : NAN};
+    enum ceduo_status status = fit(r, s, f->kind, figure, &f->fit);
     if (status != CEDUO_OK)
         return status;
     f->uses = 0;
@@ -254,12 +240,12 @@ static enum ceduo_status read_figure(const struct rows *r, struct subject *s, st
     return CEDUO_OK;
 }
 
-/* An option, or behind them a difference to the first one. */
+/* An option, or behind them a difference to the first one: its figures one after the other, as their surfaces have the terms in
+ * common. */
 static int read_figures_of(void *context, size_t item, size_t worker)
 {
     (void)worker;
-    const struct reading *reading = context;
-    const struct rows *r = reading->rows;
+    const struct rows *r = context;
     bool difference = item >= r->options;
     size_t option = difference ? item - r->options + 1 : item;
     struct subject s;
@@ -267,24 +253,24 @@ static int read_figures_of(void *context, size_t item, size_t worker)
         return CEDUO_OK;
     enum ceduo_status status = open_subject(r, option, difference ? 0 : option, &s);
     for (size_t kind = 0; kind < CEDUO_DOUBT_KINDS && status == CEDUO_OK; kind++) {
-        struct ceduo_doubt_figure *f = &reading->answer->figures[item * CEDUO_DOUBT_KINDS + kind];
+        struct ceduo_doubt_figure *f = &r->answer->figures[item * CEDUO_DOUBT_KINDS + kind];
         f->kind = (enum ceduo_doubt_kind)kind;
         f->difference = difference;
         f->option = option;
-        bool decides = !difference && (f->kind == reading->answer->main || f->kind == CEDUO_DOUBT_MEAN);
+        bool decides = !difference && (f->kind == r->answer->main || f->kind == CEDUO_DOUBT_MEAN);
         bool there = !is_rotation(f->kind) || (r->years && (f->kind == CEDUO_DOUBT_MEAN || r->judged == CEDUO_DOUBT_EXCEED));
-        if (there && decides == reading->deciding) /* years fail by what the place withstands */
+        if (there && decides == r->deciding) /* years fail by what the place withstands */
             status = read_figure(r, &s, f);
     }
     close_subject(&s);
     return (int)status;
 }
 
-static enum ceduo_status read_figures(const struct rows *r, bool deciding, struct ceduo_doubt_answer *answer)
+static enum ceduo_status read_figures(struct rows *r, bool deciding)
 {
-    struct reading reading = {r, answer, deciding};
-    size_t items = deciding ? r->options : answer->figures_count / CEDUO_DOUBT_KINDS;
-    return (enum ceduo_status)ceduo_parallel(&(struct parallel){items, r->def->threads, read_figures_of, &reading});
+    size_t items = deciding ? r->options : r->answer->figures_count / CEDUO_DOUBT_KINDS;
+    r->deciding = deciding;
+    return (enum ceduo_status)ceduo_parallel(&(struct parallel){items, r->def->threads, read_figures_of, r});
 }
 
 /* ---- which years fail ---- */
@@ -328,8 +314,9 @@ static int count_years(void *context, size_t option, size_t worker)
 }
 
 /* Whether more points would tell more: a surface of an option explains too little. */
-static bool wants_more(const struct rows *r, const struct ceduo_doubt_answer *a)
+static bool wants_more(const struct rows *r)
 {
+    const struct ceduo_doubt_answer *a = r->answer;
     for (size_t i = 0; i < r->options; i++)
         for (size_t over = is_asked(r, i) ? 0 : 2; over < (r->years ? 2 : 1); over++) {
             const struct ceduo_surface_fit *fit = &ceduo_doubt_figure_of(a, i, over ? CEDUO_DOUBT_MEAN : a->main, false)->fit;
@@ -383,9 +370,10 @@ static void set_years(struct ceduo_doubt_answer *answer, size_t options, struct 
     }
 }
 
-static enum ceduo_status read_sampling(struct rows *rows, struct ceduo_doubt_answer *answer)
+static enum ceduo_status read_sampling(struct rows *rows)
 {
     const struct ceduo_doubt_def *def = rows->def;
+    struct ceduo_doubt_answer *answer = rows->answer;
     struct ceduo_question q = ceduo_question_default(def->scene);
     struct ceduo_answer is;
     size_t options = def->scene->options_count;
@@ -428,66 +416,51 @@ static enum ceduo_status read_sampling(struct rows *rows, struct ceduo_doubt_ans
 
 /* ---- ranks ---- */
 
-/* How two options compare where they differ by more than the rocks alone would make them: by the surface of their difference. */
-static enum ceduo_status compare(const struct rows *r, enum ceduo_doubt_kind kind, struct ceduo_doubt_order *o)
-{
-    struct subject s;
-    struct ceduo_surface_fit fit = {0};
-    enum ceduo_status status = open_subject(r, o->better, o->than, &s);
-    if (status == CEDUO_OK) {
-        for (size_t p = 0; p < r->points; p++)
-            s.column[p] = value_at(r, r->ends + p, o->better, o->than, kind, true);
-        const struct ceduo_surface_figure figure = {
-            .y = s.column, .uses = s.uses, .lo = -INFINITY, .hi = INFINITY, .limit = NAN};
-        status = ceduo_surface_fit(s.surface, &figure, &fit);
-    }
-    o->p5 = fit.p5;
-    o->p95 = fit.p95;
-    for (size_t p = 0; status == CEDUO_OK && p < r->points; p++) {
-        double noise = CEDUO_Z95 * sqrt(fit.noise);
-        *(fit.values[p] < -noise ? &o->probability : fit.values[p] > noise ? &o->worse : &o->equal) += 1 / (double)r->points;
-    }
-    ceduo_surface_release(&fit);
-    close_subject(&s);
-    return status;
-}
-
-/* Each option and the next one, then the best one and each but the second, with which it has been compared. */
-struct comparing {
-    const struct rows *rows;
-    enum ceduo_doubt_kind kind;
-    struct ceduo_doubt_ranking *ranking;
-};
-
+/* How two options compare where they differ by more than the rocks alone would make them: by the surface of their difference. Each
+ * option and the next one, then the best one and each but the second, with which it has been compared. */
 static int compare_pair(void *context, size_t item, size_t worker)
 {
     (void)worker;
-    const struct comparing *c = context;
-    size_t pairs = c->ranking->count;
-    return (int)compare(c->rows, c->kind, item < pairs ? &c->ranking->orders[item] : &c->ranking->rivals[item - pairs + 1]);
+    const struct rows *r = context;
+    struct ceduo_doubt_ranking *ranking = r->ranking;
+    struct ceduo_doubt_order *o = item < ranking->count ? &ranking->orders[item] : &ranking->rivals[item - ranking->count + 1];
+    enum ceduo_doubt_kind kind = ranking->rotation ? CEDUO_DOUBT_MEAN : r->answer->main;
+    struct subject s;
+    struct ceduo_surface_fit found = {0};
+    enum ceduo_status status = open_subject(r, o->better, o->than, &s);
+    if (status == CEDUO_OK)
+        status = fit(r, &s, kind, (struct ceduo_surface_figure){.lo = -INFINITY, .hi = INFINITY, .limit = NAN}, &found);
+    o->p5 = found.p5;
+    o->p95 = found.p95;
+    for (size_t p = 0; status == CEDUO_OK && p < r->points; p++) {
+        double noise = CEDUO_Z95 * sqrt(found.noise), value = found.values[p];
+        *(value < -noise ? &o->probability : value > noise ? &o->worse : &o->equal) += 1 / (double)r->points;
+    }
+    ceduo_surface_release(&found);
+    close_subject(&s);
+    return (int)status;
 }
 
-static enum ceduo_status rank_options(struct rows *r, const struct ceduo_doubt_answer *a, enum ceduo_doubt_kind kind,
-                                      struct ceduo_doubt_ranking *ranking)
+static enum ceduo_status rank_options(struct rows *r, bool rotation, struct ceduo_doubt_ranking *ranking)
 {
     size_t options = r->options, *ranks = ceduo_arena_take(&r->memory, options * sizeof *ranks);
     double *values = ceduo_arena_take(&r->memory, options * sizeof *values);
-    ranking->rotation = kind == CEDUO_DOUBT_MEAN;
+    r->ranking = ranking;
+    ranking->rotation = rotation;
     ranking->orders = calloc(2 * options, sizeof *ranking->orders);
     if (r->memory.failed || !ranking->orders)
         return CEDUO_NO_MEMORY;
     ranking->rivals = ranking->orders + options;
     ranking->count = options - 1;
     for (size_t i = 0; i < options; i++) {
-        values[i] = ceduo_doubt_figure_of(a, i, kind, false)->value;
+        values[i] = ceduo_doubt_figure_of(r->answer, i, rotation ? CEDUO_DOUBT_MEAN : r->answer->main, false)->value;
         insert_index(values, i, ranks);
     }
     for (size_t i = 0; i + 1 < options; i++) {
         ranking->orders[i] = (struct ceduo_doubt_order){.better = ranks[i], .than = ranks[i + 1]};
         ranking->rivals[i] = (struct ceduo_doubt_order){.better = ranks[0], .than = ranks[i + 1]};
     }
-    struct comparing comparing = {r, kind, ranking};
-    struct parallel work = {options > 1 ? 2 * ranking->count - 1 : 0, r->def->threads, compare_pair, &comparing};
+    struct parallel work = {options > 1 ? 2 * ranking->count - 1 : 0, r->def->threads, compare_pair, r};
     enum ceduo_status status = (enum ceduo_status)ceduo_parallel(&work);
     ranking->rivals[0] = ranking->orders[0];
     return status;
@@ -500,17 +473,16 @@ const struct ceduo_doubt_ranking *ceduo_doubt_verdict(const struct ceduo_doubt_a
 
 /* ---- all of it ---- */
 
-static enum ceduo_status open_answer(struct rows *rows, struct ceduo_doubt_answer *a)
+/* Room for all figures, with what they say of each input behind them. */
+static enum ceduo_status open_answer(struct rows *r)
 {
-    size_t n = rows->def->inputs_count, count = (2 * rows->options - 1) * CEDUO_DOUBT_KINDS;
-    *a = (struct ceduo_doubt_answer){.figures = calloc(count, sizeof *a->figures)};
-    double(*at)[2] = malloc(count * n * sizeof *at);
-    size_t *order = calloc(count * n, sizeof *order);
-    if (!a->figures || !at || !order) {
-        free(at);
-        free(order);
+    struct ceduo_doubt_answer *a = r->answer;
+    size_t n = r->def->inputs_count, count = (2 * r->options - 1) * CEDUO_DOUBT_KINDS;
+    a->figures = calloc(count, sizeof *a->figures + n * (sizeof *a->figures->at + sizeof *a->figures->order));
+    if (!a->figures)
         return CEDUO_NO_MEMORY;
-    }
+    double(*at)[2] = (void *)(a->figures + count);
+    size_t *order = (void *)(at + count * n);
     for (; a->figures_count < count; a->figures_count++) {
         struct ceduo_doubt_figure *f = &a->figures[a->figures_count];
         f->at = at + a->figures_count * n;
@@ -518,7 +490,7 @@ static enum ceduo_status open_answer(struct rows *rows, struct ceduo_doubt_answe
         set_sampling(f, NAN, NAN, NAN);
         f->fit.p5 = f->fit.p95 = NAN;
     }
-    return read_sampling(rows, a);
+    return read_sampling(r);
 }
 
 enum ceduo_status ceduo_doubt_ask(const struct ceduo_doubt_def *def, struct ceduo_doubt_answer *answer)
@@ -529,25 +501,25 @@ enum ceduo_status ceduo_doubt_ask(const struct ceduo_doubt_def *def, struct cedu
     enough.rocks = def->rocks > GROUPS ? def->rocks : GROUPS;
     enough.rotation = def->rotation && def->scene->simulation.contact_model != CEDUO_INDEX;
     *answer = (struct ceduo_doubt_answer){0};
-    enum ceduo_status status = open_rows(&rows, &enough);
+    enum ceduo_status status = open_rows(&rows, &enough, answer);
     if (status == CEDUO_OK)
-        status = open_answer(&rows, answer);
+        status = open_answer(&rows);
     for (size_t points = def->points; status == CEDUO_OK; points *= 2) {
         status = extend(&rows, points);
         if (status == CEDUO_OK)
-            status = read_figures(&rows, true, answer);
-        if (2 * points > (def->points_max > 0 ? def->points_max : CEDUO_DOUBT_POINTS_MAX) || !wants_more(&rows, answer))
+            status = read_figures(&rows, true);
+        if (2 * points > (def->points_max > 0 ? def->points_max : CEDUO_DOUBT_POINTS_MAX) || !wants_more(&rows))
             break;
     }
     answer->rotation = rows.years;
     if (status == CEDUO_OK && rows.years && rows.judged == CEDUO_DOUBT_EXCEED)
         status = (enum ceduo_status)ceduo_parallel(&(struct parallel){rows.options, def->threads, count_years, &rows});
     if (status == CEDUO_OK)
-        status = read_figures(&rows, false, answer);
+        status = read_figures(&rows, false);
     if (status == CEDUO_OK && !def->alone)
-        status = rank_options(&rows, answer, answer->main, &answer->today);
+        status = rank_options(&rows, false, &answer->today);
     if (status == CEDUO_OK && !def->alone && rows.years)
-        status = rank_options(&rows, answer, CEDUO_DOUBT_MEAN, &answer->over_rotation);
+        status = rank_options(&rows, true, &answer->over_rotation);
     answer->points = rows.points;
     answer->evaluations = rows.ends + rows.points;
     pthread_mutex_destroy(&rows.talking);
@@ -561,10 +533,6 @@ void ceduo_doubt_free(struct ceduo_doubt_answer *answer)
 {
     for (size_t i = 0; i < answer->figures_count; i++)
         ceduo_surface_release(&answer->figures[i].fit);
-    if (answer->figures_count > 0) { /* of all figures one after the other */
-        free(answer->figures[0].at);
-        free(answer->figures[0].order);
-    }
     free(answer->figures);
     free(answer->today.orders);
     free(answer->over_rotation.orders);

@@ -7,7 +7,6 @@
 #include <string.h>
 
 #include "base/parallel.h"
-#include "ceduo/question.h"
 #include "ceduo/variants.h"
 #include "inputs.h"
 
@@ -39,24 +38,21 @@ static struct point point_of(const struct item *item, size_t i)
     return point;
 }
 
-/* How many years an option is asked for. */
-static size_t years_of(const struct work *w, size_t option)
+static struct ceduo_window window_of(const struct ceduo_doubt_def *def, const struct ceduo_scene *scene, size_t option)
 {
-    const struct points *p = w->points;
-    return p->rotation ? ceduo_points_years(p->scene, &p->scene->options[option], p->window, CEDUO_DOUBT_YEARS_MAX) : 0;
+    return def->window.step > 0 ? def->window : ceduo_window_in(scene, &scene->options[option]);
 }
 
 /* The forest of an option in a year. */
 static enum ceduo_status grow(struct item *item, struct point *point)
 {
-    const struct points *p = item->work->points;
+    const struct ceduo_doubt_def *def = item->work->points->def;
     const struct ceduo_scene *scene = &item->copy->scene;
-    const struct ceduo_option *option = &scene->options[point->option];
-    size_t years = years_of(item->work, point->option), year = point->slot - 1;
+    size_t years = ceduo_points_years(def, point->option, CEDUO_DOUBT_YEARS_MAX), year = point->slot - 1;
     if (year == 0) {
         ceduo_years_free(item->years);
-        struct ceduo_window window = p->window.step > 0 ? p->window : ceduo_window_in(scene, option);
-        enum ceduo_status status = ceduo_years_create(scene, option, window, &item->years);
+        enum ceduo_status status =
+            ceduo_years_create(scene, &scene->options[point->option], window_of(def, scene, point->option), &item->years);
         if (status != CEDUO_OK)
             return status;
     }
@@ -69,7 +65,7 @@ static enum ceduo_status grow(struct item *item, struct point *point)
 
 static struct brought *brought_by(const struct item *item, size_t i)
 {
-    return item->brought + i * item->work->points->scene->controls_count;
+    return item->brought + i * item->work->points->def->scene->controls_count;
 }
 
 static void tell_variant(const struct item *item, size_t i, bool simulated)
@@ -87,7 +83,7 @@ static enum ceduo_status make_variant(void *context, size_t i, struct ceduo_vari
     struct point *point = &item->point;
     enum ceduo_status status = atomic_load(&item->work->failed) ? CEDUO_CANCELLED : CEDUO_OK;
     if (i % item->each == 0)
-        ceduo_inputs_set(item->copy, p->u + (item->row + i / item->each) * p->inputs_count);
+        ceduo_inputs_set(item->copy, p->u + (item->row + i / item->each) * p->def->inputs_count);
     *point = point_of(item, i);
     point->scene = &item->copy->scene;
     point->forest = &point->scene->options[point->option];
@@ -95,10 +91,10 @@ static enum ceduo_status make_variant(void *context, size_t i, struct ceduo_vari
         status = grow(item, point);
     variant->run = ceduo_run_def_default(point->scene);
     variant->run.option = point->forest;
-    variant->rocks = variant->run.rocks_most = point->slot > 0 ? p->year_rocks : p->rocks;
+    variant->skip = p->def->rocks == 0;
+    variant->rocks = variant->run.rocks_most = point->slot > 0 ? CEDUO_DOUBT_YEAR_ROCKS : p->def->rocks;
     variant->run.arrivals_only = true;
-    variant->run.cancel = p->cancel;
-    variant->skip = variant->rocks == 0;
+    variant->run.cancel = p->def->cancel;
     if (status == CEDUO_OK && variant->skip)
         tell_variant(item, i, false);
     return status;
@@ -108,7 +104,7 @@ static enum ceduo_status read_variant(void *context, size_t i, struct ceduo_run 
 {
     (void)rocks;
     const struct item *item = context;
-    for (size_t c = 0; c < item->work->points->scene->controls_count; c++)
+    for (size_t c = 0; c < item->work->points->def->scene->controls_count; c++)
         ceduo_run_briefs(run, c, CEDUO_SURFACE_GROUPS, brought_by(item, i)[c].of);
     tell_variant(item, i, true);
     return CEDUO_OK;
@@ -117,7 +113,8 @@ static enum ceduo_status read_variant(void *context, size_t i, struct ceduo_run 
 static void same_variant(void *context, size_t i, size_t first)
 {
     const struct item *item = context;
-    memcpy(brought_by(item, i), brought_by(item, first), item->work->points->scene->controls_count * sizeof *item->brought);
+    memcpy(brought_by(item, i), brought_by(item, first),
+           item->work->points->def->scene->controls_count * sizeof *item->brought);
     tell_variant(item, i, true);
 }
 
@@ -131,7 +128,7 @@ static int run_item(void *context, size_t i, size_t thread)
                         .row = w->from + i + (!together && w->together > 0 ? w->together - 1 : 0),
                         .each = each};
     size_t n = (together ? w->together : 1) * each;
-    item.brought = malloc((n * w->points->scene->controls_count + 1) * sizeof *item.brought);
+    item.brought = malloc((n * w->points->def->scene->controls_count + 1) * sizeof *item.brought);
     struct ceduo_variants list = {.n = n, .make = make_variant, .read = read_variant, .same = same_variant, .context = &item};
     enum ceduo_status status = item.brought ? ceduo_variants_run(&list) : CEDUO_NO_MEMORY;
     ceduo_years_free(item.years);
@@ -143,12 +140,14 @@ static int run_item(void *context, size_t i, size_t thread)
 /* What each row has: of each option today, then their years. False without memory. */
 static bool list_variants(struct work *w)
 {
-    const struct points *p = w->points;
-    w->variants = calloc(p->scene->options_count * (1 + CEDUO_DOUBT_YEARS_MAX), sizeof *w->variants);
-    for (int later = !p->today; w->variants && later < 2; later++) {
-        for (size_t i = 0; i < p->scene->options_count; i++)
-            for (size_t slot = 0; (p->only == CEDUO_ALL_OPTIONS || i == p->only) && slot < (later ? years_of(w, i) : 1); slot++)
+    const struct ceduo_doubt_def *def = w->points->def;
+    w->variants = calloc(def->scene->options_count * (1 + CEDUO_DOUBT_YEARS_MAX), sizeof *w->variants);
+    for (int later = !w->points->today; w->variants && later < (def->rotation ? 2 : 1); later++) {
+        for (size_t i = 0; i < def->scene->options_count; i++) {
+            size_t slots = later ? ceduo_points_years(def, i, CEDUO_DOUBT_YEARS_MAX) : 1;
+            for (size_t slot = 0; (!def->alone || i == def->option) && slot < slots; slot++)
                 w->variants[w->each++] = (struct point){.option = i, .slot = slot + (later > 0)};
+        }
         w->today = later ? w->today : w->each;
     }
     return w->variants;
@@ -158,23 +157,22 @@ enum ceduo_status ceduo_points_run(const struct points *p, size_t from, size_t t
 {
     struct work w = {.points = p, .from = from, .together = together};
     size_t items = to - from - (together > 0 ? together - 1 : 0);
-    w.copies = calloc(p->threads, sizeof *w.copies);
+    w.copies = calloc(p->def->threads, sizeof *w.copies);
     enum ceduo_status status = w.copies && list_variants(&w) ? CEDUO_OK : CEDUO_NO_MEMORY;
-    for (size_t i = 0; i < p->threads && status == CEDUO_OK; i++)
-        status = ceduo_inputs_open(&w.copies[i], p->scene, p->inputs, p->inputs_count);
+    for (size_t i = 0; i < p->def->threads && status == CEDUO_OK; i++)
+        status = ceduo_inputs_open(&w.copies[i], p->def->scene, p->def->inputs, p->def->inputs_count);
     if (status == CEDUO_OK)
-        status = (enum ceduo_status)ceduo_parallel(&(struct parallel){items, p->threads, run_item, &w});
-    for (size_t i = 0; w.copies && i < p->threads; i++)
+        status = (enum ceduo_status)ceduo_parallel(&(struct parallel){items, p->def->threads, run_item, &w});
+    for (size_t i = 0; w.copies && i < p->def->threads; i++)
         ceduo_inputs_release(&w.copies[i]);
     free(w.copies);
     free(w.variants);
     return status;
 }
 
-size_t ceduo_points_years(const struct ceduo_scene *scene, const struct ceduo_option *option, struct ceduo_window window,
-                          size_t most)
+size_t ceduo_points_years(const struct ceduo_doubt_def *def, size_t option, size_t most)
 {
-    struct ceduo_window w = window.step > 0 ? window : ceduo_window_in(scene, option);
+    struct ceduo_window w = window_of(def, def->scene, option);
     size_t count = (w.last - w.first) / w.step + 1;
     return count < most ? count : most;
 }

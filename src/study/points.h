@@ -23,18 +23,11 @@ struct brought {
 };
 
 struct points {
-    const struct ceduo_scene *scene;
-    const struct ceduo_input *inputs;
-    size_t inputs_count;
-    const double *u;            /* rows of inputs */
-    size_t only;                /* this option alone, or CEDUO_ALL_OPTIONS */
-    uint64_t rocks;             /* of each row and option today; 0: none is simulated, and nothing is brought */
-    bool today;                 /* slot 0 is asked for */
-    bool rotation;              /* slots 1… are, at most CEDUO_DOUBT_YEARS_MAX of each option */
-    struct ceduo_window window; /* the years of these; step 0: of each option its own */
-    uint64_t year_rocks;        /* of each of these: as rocks */
-    unsigned threads;
-    const atomic_bool *cancel;
+    /* The scene, its inputs, which options and years are asked for, and how many rocks; 0: none is simulated, and nothing is
+     * brought. Slots 1… are there where a rotation is asked for, at most CEDUO_DOUBT_YEARS_MAX of each option. */
+    const struct ceduo_doubt_def *def;
+    const double *u; /* rows of inputs */
+    bool today;      /* slot 0 is asked for */
     /* Called by several threads at once, each with points of its own rows: at each control, NULL where no rocks are
      * simulated. */
     void (*read)(void *context, const struct point *point, const struct brought *at);
@@ -49,8 +42,7 @@ struct points {
 enum ceduo_status ceduo_points_run(const struct points *points, size_t from, size_t to, size_t together);
 
 /* How many years of the option stand for its rotation, at most so many. */
-size_t ceduo_points_years(const struct ceduo_scene *scene, const struct ceduo_option *option, struct ceduo_window window,
-                          size_t most);
+size_t ceduo_points_years(const struct ceduo_doubt_def *def, size_t option, size_t most);
 
 /* Of groups that may differ by a rock. */
 double ceduo_groups_mean(const struct ceduo_groups *groups, uint64_t rocks);

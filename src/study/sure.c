@@ -21,7 +21,7 @@ struct sure {
 
 static struct ceduo_groups *values_of(const struct sure *s, size_t row, size_t control)
 {
-    return s->values + (row * s->def->scene->controls_count + control) * s->slots;
+    return s->values + (row * s->def->of.scene->controls_count + control) * s->slots;
 }
 
 /* An ADC has no end where nothing stands; its inverse has. The other goals are as they are. */
@@ -72,7 +72,7 @@ static struct ceduo_groups value_of(enum ceduo_goal goal, const struct point *po
 static void read_point(void *context, const struct point *point, const struct brought *at)
 {
     const struct sure *s = context;
-    for (size_t c = 0; c < s->def->scene->controls_count; c++)
+    for (size_t c = 0; c < s->def->of.scene->controls_count; c++)
         values_of(s, point->row, c)[point->slot > 0 ? point->slot - 1 : 0] =
             value_of(s->def->goal, point, &point->scene->controls[c], at ? at[c].of : NULL);
 }
@@ -99,28 +99,6 @@ static struct ceduo_groups over_years(const struct sure *s, const struct ceduo_g
     return y;
 }
 
-static enum ceduo_status run_points(struct sure *s, const double *u, size_t points)
-{
-    const struct sure_def *def = s->def;
-    bool flies = ceduo_goals[def->goal].flies;
-    const struct points p = {.scene = def->scene,
-                             .inputs = def->inputs,
-                             .inputs_count = def->inputs_count,
-                             .u = u,
-                             .only = def->option,
-                             .rocks = !flies                ? 0
-                                      : def->rocks > GROUPS ? def->rocks
-                                                            : GROUPS,
-                             .today = !def->rotation,
-                             .rotation = def->rotation,
-                             .year_rocks = flies ? CEDUO_DOUBT_YEAR_ROCKS : 0,
-                             .threads = def->threads,
-                             .cancel = def->cancel,
-                             .read = read_point,
-                             .context = s};
-    return ceduo_points_run(&p, 0, points, 0);
-}
-
 /* What the values of a surface say. */
 static enum ceduo_status read_surface(const struct sure_def *def, const double *u, size_t points,
                                       const struct ceduo_groups *column, struct sure_answer *answer)
@@ -134,7 +112,7 @@ static enum ceduo_status read_surface(const struct sure_def *def, const double *
                                                       : ceduo_goal_is_share(def->goal) ? 1
                                                                                        : INFINITY,
                                                 .limit = scaled(def->goal, def->target)};
-    enum ceduo_status status = ceduo_surface_open(def->inputs, def->inputs_count, u, points, &surface);
+    enum ceduo_status status = ceduo_surface_open(def->of.inputs, def->of.inputs_count, u, points, &surface);
     if (status == CEDUO_OK)
         status = ceduo_surface_fit(surface, &figure, &fit);
     if (status == CEDUO_OK) {
@@ -149,11 +127,14 @@ static enum ceduo_status read_surface(const struct sure_def *def, const double *
 enum ceduo_status ceduo_sure_ask(const struct sure_def *def, struct sure_answer *answer)
 {
     GSL_RETURNS_ERRORS;
-    const struct ceduo_scene *scene = def->scene;
-    size_t points = def->inputs_count > 0 ? def->points : 1, n = def->inputs_count;
+    struct ceduo_doubt_def of = def->of;
+    const struct ceduo_scene *scene = of.scene;
+    size_t points = of.inputs_count > 0 ? of.points : 1, n = of.inputs_count;
     struct sure s = {.def = def, .slots = 1};
-    if (def->rotation)
-        s.slots = ceduo_points_years(scene, &scene->options[def->option], (struct ceduo_window){0}, CEDUO_DOUBT_YEARS_MAX);
+    if (of.rotation)
+        s.slots = ceduo_points_years(&of, of.option, CEDUO_DOUBT_YEARS_MAX);
+    of.alone = true;
+    of.rocks = !ceduo_goals[def->goal].flies ? 0 : of.rocks > GROUPS ? of.rocks : GROUPS;
     double *u = malloc((points * n + 1) * sizeof *u);
     struct ceduo_groups *column = malloc(points * sizeof *column);
     s.values = malloc(points * scene->controls_count * s.slots * sizeof *s.values + 1);
@@ -161,7 +142,8 @@ enum ceduo_status ceduo_sure_ask(const struct sure_def *def, struct sure_answer 
     if (status == CEDUO_OK && n > 0)
         status = ceduo_surface_points(scene->simulation.seed, points, n, u);
     if (status == CEDUO_OK)
-        status = run_points(&s, u, points);
+        status = ceduo_points_run(
+            &(const struct points){.def = &of, .u = u, .today = !of.rotation, .read = read_point, .context = &s}, 0, points, 0);
     if (status == CEDUO_OK) {
         for (size_t p = 0; p < points; p++)
             for (size_t c = 0; c < scene->controls_count; c++) { /* the worst one */

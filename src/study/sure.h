@@ -7,18 +7,12 @@
 
 /* In how much of what may be true of a scene an option reaches a goal. */
 struct sure_def {
-    const struct ceduo_scene *scene;
-    size_t inputs_count; /* those that the option has, see ceduo_input_is_of() */
-    const struct ceduo_input *inputs;
-    size_t option;
+    /* the scene, one option alone, the inputs that it has (ceduo_input_is_of()), points and rocks; over a rotation: not of
+     * CEDUO_GOAL_ENERGY. More points are never taken, and progress is not told */
+    struct ceduo_doubt_def of;
     enum ceduo_goal goal;
-    double target;  /* a goal up to it is reached; */
-    double sure;    /* in so much of what may be true */
-    bool rotation;  /* over the option's rotation: not of CEDUO_GOAL_ENERGY */
-    size_t points;  /* >= 2 */
-    uint64_t rocks; /* of each, today: CEDUO_SURFACE_GROUPS at least are taken; in a rotation each year has its own number */
-    unsigned threads;
-    const atomic_bool *cancel; /* may be NULL */
+    double target; /* a goal up to it is reached; */
+    double sure;   /* in so much of what may be true */
 };
 
 struct sure_answer {

@@ -91,16 +91,9 @@ static void fill_rows(size_t n, uint64_t seed, double *u)
 static void run_rows(const double *u, size_t rows, uint64_t rocks, uint64_t seed, double *y)
 {
     file.scene.simulation.seed = seed;
-    const struct points points = {.scene = &file.scene,
-                                  .inputs = inputs.items,
-                                  .inputs_count = inputs.n,
-                                  .u = u,
-                                  .only = CEDUO_ALL_OPTIONS,
-                                  .rocks = rocks,
-                                  .today = true,
-                                  .threads = THREADS,
-                                  .read = read_value,
-                                  .context = y};
+    const struct ceduo_doubt_def def = {
+        .scene = &file.scene, .inputs = inputs.items, .inputs_count = inputs.n, .rocks = rocks, .threads = THREADS};
+    const struct points points = {.def = &def, .u = u, .today = true, .read = read_value, .context = y};
     if (ceduo_points_run(&points, 0, rows, 0) != CEDUO_OK)
         fail("the sensitivity failed");
 }

@@ -310,15 +310,7 @@ static bool doubt_over_years(void)
 static bool sure(void)
 {
     struct sure_answer answer = {.above = 0};
-    const struct sure_def def = {.scene = &site.scene,
-                                 .inputs_count = 2,
-                                 .inputs = inputs,
-                                 .goal = CEDUO_GOAL_ARRIVE,
-                                 .target = .5,
-                                 .sure = .9,
-                                 .points = 8,
-                                 .rocks = 16,
-                                 .threads = 2};
+    const struct sure_def def = {.of = doubt_def(8, 16), .goal = CEDUO_GOAL_ARRIVE, .target = .5, .sure = .9};
     init(CEDUO_STEMS, CEDUO_LAW_LUMPED);
     enum ceduo_status status = ceduo_sure_ask(&def, &answer);
     if (status == CEDUO_OK)
