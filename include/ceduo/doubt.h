@@ -34,6 +34,7 @@ struct ceduo_input {
     /* CEDUO_INPUT_DRAWS: of each place its values, row by row; the places are sorted by their names */
     const double *const *draws;
     const char *const *places; /* paths, each with its place in brackets: forest[0].stand.trees[0].per_ha */
+    const char *source;        /* where its range comes from, marked for translation; NULL: not said */
 };
 
 #define CEDUO_GAMMA_MOST 2.0

@@ -43,6 +43,18 @@ void *ceduo_arena_take(struct arena *arena, size_t size)
     return p;
 }
 
+void *ceduo_arena_more(struct arena *arena, void *items, size_t n, size_t more, size_t *room, size_t size)
+{
+    if (n + more <= *room)
+        return items;
+    size_t all = 2 * n + more;
+    void *grown = ceduo_arena_take(arena, all * size);
+    if (grown && n > 0)
+        memcpy(grown, items, n * size);
+    *room = grown ? all : *room;
+    return grown;
+}
+
 char *ceduo_arena_copy(struct arena *arena, const char *bytes, size_t n)
 {
     char *p = ceduo_arena_take(arena, n + 1);

@@ -18,6 +18,10 @@ struct arena {
 /* `size` zeroed bytes, aligned for anything; NULL without memory. */
 void *ceduo_arena_take(struct arena *arena, size_t size);
 
+/* A list of n items of `size` bytes with room for `more`; `*room` is how many it holds. It may have moved. NULL without memory, and
+ * the list stays as it was. */
+void *ceduo_arena_more(struct arena *arena, void *items, size_t n, size_t more, size_t *room, size_t size);
+
 /* A copy of n bytes as a string; of a string. NULL without memory. */
 char *ceduo_arena_copy(struct arena *arena, const char *bytes, size_t n);
 char *ceduo_arena_string(struct arena *arena, const char *string);

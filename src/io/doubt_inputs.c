@@ -12,29 +12,21 @@
 #include "scene/ranges.h"
 #include "scene/value.h"
 
-/* A place that is in doubt, before places are put together. */
+/* An input that is found; places with one origin are its places. */
 struct found {
-    const char *path, *origin; /* places with one origin are one input */
-    struct range range;
-    struct found *next;
+    const char *origin;
+    struct ceduo_input input;
+    const char **places;
+    size_t room;
 };
 
 struct finder {
     struct scene_file *file;
     struct arena *arena;
-    struct found *first, **last;
+    struct found *found;
+    size_t n, room;
     struct text path;
 };
-
-static void add(struct finder *f, const char *path, const char *origin, struct range range)
-{
-    struct found *found = ceduo_arena_take(f->arena, sizeof *found);
-    if (!found || !path || !origin)
-        return;
-    *found = (struct found){path, origin, range, NULL};
-    *f->last = found;
-    f->last = &found->next;
-}
 
 bool ceduo_inputs_have(const struct ceduo_input *inputs, size_t n, const char *place)
 {
@@ -60,6 +52,46 @@ const struct ceduo_belt *ceduo_input_belt(const struct ceduo_scene *s, const cha
     bool within = sscanf(place, "options[%zu].forest[%zu].", &i, &k) == 2 ||
                   (s->options_count == 1 && sscanf(place, "forest[%zu].", &k) == 1);
     return within && i < s->options_count && k < s->options[i].belts_count ? &s->options[i].belts[k] : NULL;
+}
+
+/* ---- putting together ---- */
+
+/* An input for the places of one origin, of which `path` is the first. */
+static struct ceduo_input make_input(struct finder *f, const char *path, const struct range *range)
+{
+    struct ceduo_input input = {.kind = range->kind, .lo = range->lo, .hi = range->hi, .source = range->source};
+    if (range->kind != CEDUO_INPUT_WORDS)
+        return input;
+    int *words = ceduo_arena_take(f->arena, sizeof range->words / sizeof range->words[0] * sizeof *words);
+    for (size_t i = 0; words && range->words[i]; i++)
+        words[input.words_count++] = ceduo_choice_find(ceduo_schema_at(path)->choices, range->words[i]);
+    input.words = words;
+    return input;
+}
+
+/* Adds a place to the input of its origin, unless the scene names it itself. */
+static void add(struct finder *f, const char *path, const char *origin, struct range range)
+{
+    size_t i = 0;
+    if (!path || !origin)
+        return;
+    while (i < f->n && strcmp(f->found[i].origin, origin) != 0)
+        i++;
+    if (i == f->n) {
+        struct found *all = ceduo_arena_more(f->arena, f->found, f->n, 1, &f->room, sizeof *all);
+        if (!all)
+            return;
+        f->found = all;
+        f->found[f->n++] = (struct found){.origin = origin, .input = make_input(f, path, &range)};
+    }
+    struct found *to = &f->found[i];
+    size_t n = to->input.places_count;
+    const char **places = ceduo_arena_more(f->arena, to->places, n, 1, &to->room, sizeof *places);
+    if (!places)
+        return;
+    to->input.places = to->places = places;
+    places[n] = path;
+    to->input.places_count += !ceduo_inputs_have(f->file->inputs, f->file->inputs_count, path);
 }
 
 /* ---- what is marked as assumed ---- */
@@ -161,75 +193,28 @@ static void add_ground(struct finder *f, const struct ceduo_material *m)
     }
 }
 
-/* ---- putting together ---- */
-
-/* All places of one origin, but for those that the scene names itself. */
-static bool make_input(struct finder *f, const struct found *first, size_t max, struct ceduo_input *input)
-{
-    const struct scene_file *file = f->file;
-    const struct range *range = &first->range;
-    const char **places = ceduo_arena_take(f->arena, (max + 1) * sizeof *places);
-    size_t n = 0;
-    for (const struct found *one = first; places && one; one = one->next)
-        if (strcmp(one->origin, first->origin) == 0 && !ceduo_inputs_have(file->inputs, file->inputs_count, one->path))
-            places[n++] = one->path;
-    bool ground = strncmp(first->origin, "slope.materials", 15) == 0;
-    *input = (struct ceduo_input){.path = ground  ? first->origin
-                                          : n > 0 ? places[0]
-                                                  : first->path,
-                                  .kind = range->kind,
-                                  .lo = range->lo,
-                                  .hi = range->hi,
-                                  .places = places,
-                                  .places_count = n};
-    if (range->kind == CEDUO_INPUT_WORDS) {
-        int *words = ceduo_arena_take(f->arena, sizeof range->words / sizeof range->words[0] * sizeof *words);
-        const struct choices *choices = ceduo_schema_at(first->path)->choices;
-        input->words = words;
-        for (size_t i = 0; words && range->words[i]; i++)
-            words[input->words_count++] = ceduo_choice_find(choices, range->words[i]);
-    }
-    return n > 0;
-}
-
-static bool put_together(struct finder *f, struct scene_inputs *inputs)
-{
-    size_t named = f->file->inputs_count, max = named;
-    for (const struct found *one = f->first; one; one = one->next)
-        max++;
-    inputs->items = ceduo_arena_take(f->arena, (max + 1) * sizeof *inputs->items);
-    inputs->sources = ceduo_arena_take(f->arena, (max + 1) * sizeof *inputs->sources);
-    if (!inputs->items || !inputs->sources)
-        return false;
-    for (size_t i = 0; i < named; i++) {
-        if (f->file->inputs[i].places_count == 0) /* of a stand, and the scene says otherwise */
-            continue;
-        inputs->items[inputs->n] = f->file->inputs[i];
-        inputs->sources[inputs->n++] = i < f->file->inputs_of_scene ? N_("doubt, in the scene") : N_("doubt, in the stand");
-    }
-    for (const struct found *one = f->first; one; one = one->next) {
-        const struct found *same = f->first; /* the first of its origin */
-        while (strcmp(same->origin, one->origin) != 0)
-            same = same->next;
-        if (same == one && make_input(f, one, max, &inputs->items[inputs->n]))
-            inputs->sources[inputs->n++] = one->range.source;
-    }
-    return true;
-}
-
 bool ceduo_inputs_of(struct scene_file *file, struct scene_inputs *inputs)
 {
     struct finder f = {.file = file, .arena = &file->arena};
     size_t count;
     const struct ceduo_material *library = ceduo_materials(&count);
     *inputs = (struct scene_inputs){0};
-    f.last = &f.first;
     if (ceduo_node_text(file->root, "doubt")) /* none */
         return true;
     walk(&f, ceduo_schema_scene(), file->root);
     for (size_t i = 0; file->scene.slope.segments_given == 0 && i < count; i++)
         add_ground(&f, &library[i]);
-    bool good = put_together(&f, inputs);
     ceduo_text_free(&f.path);
-    return good;
+    inputs->items = ceduo_arena_take(f.arena, (file->inputs_count + f.n + 1) * sizeof *inputs->items);
+    for (size_t i = 0; inputs->items && i < file->inputs_count; i++)
+        if (file->inputs[i].places_count > 0) /* otherwise it is of a stand, and the scene says otherwise */
+            inputs->items[inputs->n++] = file->inputs[i];
+    for (size_t i = 0; inputs->items && i < f.n; i++) {
+        struct ceduo_input *input = &f.found[i].input;
+        if (input->places_count == 0)
+            continue;
+        input->path = strncmp(f.found[i].origin, "slope.materials", 15) == 0 ? f.found[i].origin : input->places[0];
+        inputs->items[inputs->n++] = *input;
+    }
+    return !f.arena->failed;
 }

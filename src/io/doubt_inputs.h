@@ -10,7 +10,6 @@
 struct scene_inputs {
     size_t n;
     struct ceduo_input *items; /* in the arena of the scene's file */
-    const char **sources;      /* of each: where its range comes from */
 };
 
 /* False without memory. `doubt: none`: there are none. */

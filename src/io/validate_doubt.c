@@ -59,7 +59,7 @@ static const char *with_numbers(struct validator *v, const char *path)
 
 static void add_place(struct places *p, const char *path)
 {
-    const char **items = ceduo_more_room(p->v, p->items, p->n, 1, &p->room, sizeof *items);
+    const char **items = ceduo_arena_more(p->v->arena, p->items, p->n, 1, &p->room, sizeof *items);
     if (!items)
         return;
     p->items = items;
@@ -96,30 +96,30 @@ static const char *ground_of(struct validator *v, const char *path, const char *
     return known < 0 ? name : ceduo_material_words.names[known];
 }
 
-/* All places of a path that the scene has. Ground that stands in no list of segments has one of them for each stretch. */
+/* Adds all places of a path that the scene has. Ground that stands in no list of segments has one of them for each stretch. */
 static void find_places(struct places *p, const char *path)
 {
     struct validator *v = p->v;
     struct ceduo_scene *scene = &v->draft.scene;
     const char *key, *name = ground_of(v, path, &key);
     struct value value;
-    size_t n = 0, stretches = scene->slope.vertices - 1;
-    if (name && (p->items = ceduo_room(v, stretches, sizeof *p->items)))
+    size_t n = p->n, stretches = scene->slope.vertices - 1;
+    if (name && (p->items = ceduo_room(v, stretches, sizeof *p->items))) /* such a path has no other places */
         p->n = ceduo_input_ground(v->arena, v->ground_assumed ? NULL : v->root, scene, name, key, p->items);
     else if (!name && scene->slope.segments_given == 0 && strncmp(path, SEGMENTS, sizeof SEGMENTS - 1) == 0)
         for (size_t j = 0; j < stretches; j++)
             add_place(p, ceduo_format(v, "slope.segments[%zu].%s", j, path + sizeof SEGMENTS - 1));
     else if (!name)
         add_all(p, path);
-    for (size_t i = 0; i < p->n; i++)
+    for (size_t i = n; i < p->n; i++)
         if (p->items[i] && ceduo_value_find(scene, p->items[i], &value)) /* NULL: memory ran out */
             p->items[n++] = p->items[i];
     p->n = n;
 }
 
 /* The row of the table of keys that a path means, whether the scene has such an item or not; NULL: it is of no number and no
- * word. `*settled`: no answer is in doubt because of it. */
-static const struct field *field_of(struct validator *v, const char *path, bool *settled)
+ * word, or no answer is in doubt because of it. */
+static const struct field *field_of(struct validator *v, const char *path)
 {
     const char *key, *ground = ground_of(v, path, &key);
     char *first = ceduo_arena_string(v->arena, path); /* of the first item where it says [*] */
@@ -129,8 +129,8 @@ static const struct field *field_of(struct validator *v, const char *path, bool 
     const struct field *f = ground || !first ? NULL : ceduo_schema_at(first);
     if (ground && ceduo_choice_find(&ceduo_material_words, ground) >= 0)
         f = ceduo_schema_field(ceduo_schema_segment(), key);
-    *settled = first && ceduo_schema_is_settled(first);
-    bool value = f && (f->type == FIELD_NUMBER || f->type == FIELD_SPREAD || f->type == FIELD_COUNT || f->type == FIELD_CHOICE);
+    bool value = f && !ceduo_schema_is_settled(first) &&
+                 (f->type == FIELD_NUMBER || f->type == FIELD_SPREAD || f->type == FIELD_COUNT || f->type == FIELD_CHOICE);
     return value ? f : NULL;
 }
 
@@ -176,22 +176,22 @@ static bool read_words(struct validator *v, const struct row *row, const struct 
     return words && n >= 2;
 }
 
-/* One input of a row. False if the scene has no such place, as of a stand that was exchanged, or the row is unusable, which has
- * been reported. */
-static bool make_input(struct validator *v, const struct row *row, struct ceduo_input *input)
+/* One input of a row, with its places. False if the scene has no such place, as of a stand that was exchanged, or the row is unusable,
+ * which has been reported. */
+static bool make_input(struct validator *v, const struct row *row, struct places *places, struct ceduo_input *input)
 {
     const struct doubt *d = row->doubt;
-    struct places places = {.v = v};
     const char *path = ceduo_format(v, "%s%s", row->within, d->path);
-    bool of_stand = row->within[0] != '\0', settled;
-    const struct field *field = field_of(v, path, &settled);
-    if (!field || settled)
+    bool of_stand = row->within[0] != '\0';
+    const struct field *field = field_of(v, path);
+    *places = (struct places){.v = v};
+    if (!field)
         return ceduo_complain(v, row->at, "path",
                               _("no answer is in doubt because of '%s'; name a number or a word of the rock, its release, the "
                                 "slope, a stand or the law"),
                               d->path);
-    find_places(&places, path);
-    if (places.n == 0)
+    find_places(places, path);
+    if (places->n == 0)
         return false;
     /* exactly one of three forms */
     int range = !isnan(d->lo) + !isnan(d->hi), normal = !isnan(d->mean) + !isnan(d->sd);
@@ -201,102 +201,99 @@ static bool make_input(struct validator *v, const struct row *row, struct ceduo_
         return ceduo_complain(v, row->at, "",
                               choice ? _("'%s' is a word; give one_of") : _("'%s' is a number; give lo and hi, or mean and sd"),
                               field->key);
-    *input =
-        (struct ceduo_input){.path = of_stand ? places.items[0] : d->path, .places = places.items, .places_count = places.n};
+    *input = (struct ceduo_input){.path = of_stand ? places->items[0] : d->path,
+                                  .places = places->items,
+                                  .places_count = places->n,
+                                  .source = of_stand ? N_("doubt, in the stand") : N_("doubt, in the scene")};
     return choice ? read_words(v, row, field, input) : read_range(v, row, field, input);
 }
 
-/* Adds an input; false without memory. */
-static bool add_input(struct validator *v, const struct ceduo_input *input)
+static void add_input(struct validator *v, struct ceduo_input input)
 {
-    struct ceduo_input *inputs = ceduo_more_room(v, v->inputs, v->inputs_count, 1, &v->inputs_room, sizeof *inputs);
+    struct ceduo_input *inputs = ceduo_arena_more(v->arena, v->inputs, v->inputs_count, 1, &v->inputs_room, sizeof *inputs);
     if (!inputs)
-        return false;
+        return;
     v->inputs = inputs;
-    v->inputs[v->inputs_count++] = *input;
-    return true;
+    v->inputs[v->inputs_count++] = input;
 }
 
 /* ---- of stands ---- */
 
-/* A row of a stand. Many belts may have the stand: then it stands for the places in all of them. */
+/* A row of the stand of a belt. */
 struct stand_row {
-    const struct node *node;
-    size_t input; /* SIZE_MAX: none, as the row is unusable or about what the stand has not */
+    const struct node *list;
+    size_t i;                /* in the list */
+    const char *at, *within; /* where it stands; the stand and a dot */
+    bool done;
 };
 
-struct stand_rows {
-    struct validator *v;
-    struct stand_row *items;
-    size_t n, room;
-};
-
-/* Adds the places of a row to those of its input, but for what the scene itself names. */
-static void add_stand_row(struct stand_rows *s, const struct row *row, const struct node *node)
+/* All rows that nothing is wrong with, of all belts in turn. */
+static struct stand_row *list_rows(struct validator *v, size_t *n)
 {
-    struct validator *v = s->v;
-    struct ceduo_input input;
-    size_t k = 0;
-    while (k < s->n && s->items[k].node != node)
-        k++;
-    if (k == s->n) {
-        struct stand_row *items = ceduo_more_room(v, s->items, s->n, 1, &s->room, sizeof *items);
-        if (!items)
-            return;
-        s->items = items;
-        s->items[s->n++] = (struct stand_row){node, SIZE_MAX};
-        if (!make_input(v, row, &input) || !add_input(v, &input))
-            return;
-        s->items[k].input = v->inputs_count - 1;
-        v->inputs[s->items[k].input].places_count = 0;
-    } else if (s->items[k].input == SIZE_MAX || !make_input(v, row, &input)) {
-        return;
-    }
-    struct ceduo_input *to = &v->inputs[s->items[k].input];
-    const char **all = ceduo_room(v, to->places_count + input.places_count, sizeof *all);
-    size_t n = all ? to->places_count : 0;
-    if (n > 0)
-        memcpy(all, to->places, n * sizeof *all);
-    for (size_t i = 0; all && i < input.places_count; i++)
-        if (!ceduo_inputs_have(v->inputs, v->inputs_of_scene, input.places[i]))
-            all[n++] = input.places[i];
-    to->places = all;
-    to->places_count = n;
-}
-
-/* The rows of the stands of all belts. */
-static void take_stands(struct validator *v)
-{
-    struct stand_rows s = {.v = v};
-    const struct object *object = ceduo_schema_field(ceduo_schema_stand(), "doubt")->object;
+    struct stand_row *all = NULL;
     const struct node *options = ceduo_node_get(v->root, "options");
-    size_t several = options && options->kind == NODE_LIST ? options->n : 0;
+    size_t room = 0, several = options && options->kind == NODE_LIST ? options->n : 0;
     for (size_t o = 0; o < (several ? several : 1); o++) {
         const struct node *forest = ceduo_node_get(several ? options->items[o] : v->root, "forest");
         const char *option = several ? ceduo_format(v, "options[%zu].", o) : "";
         for (size_t k = 0; forest && forest->kind == NODE_LIST && k < forest->n; k++) {
             const char *within = ceduo_format(v, "%sforest[%zu].stand.", option, k);
-            const struct node *rows = ceduo_node_get(ceduo_node_get(forest->items[k], "stand"), "doubt");
-            for (size_t i = 0; rows && rows->kind == NODE_LIST && i < rows->n; i++) {
-                struct doubt doubt;
-                const struct source_note *notes = NULL;
-                const struct row row = {&doubt, ceduo_format(v, "%sdoubt[%zu]", within, i), within};
-                bool twice = false;
-                if (!ceduo_is_sound(v, row.at))
+            const struct node *list = ceduo_node_get(ceduo_node_get(forest->items[k], "stand"), "doubt");
+            for (size_t i = 0; list && list->kind == NODE_LIST && i < list->n; i++) {
+                const char *at = ceduo_format(v, "%sdoubt[%zu]", within, i);
+                if (!ceduo_is_sound(v, at))
                     continue;
-                ceduo_schema_init(object, &doubt);
-                ceduo_bind(&(struct binding){.arena = v->arena, .problems = v->problems, .notes = &notes, .bad = &v->bad},
-                           object, rows->items[i], &doubt);
-                for (size_t before = 0; before < i; before++) {
-                    const char *other = ceduo_node_text(rows->items[before], "path");
-                    twice |= other && ceduo_schema_same(other, doubt.path);
-                }
-                if (twice)
-                    ceduo_complain(v, row.at, "path", _("'%s' is given twice"), doubt.path);
-                else
-                    add_stand_row(&s, &row, rows->items[i]);
+                struct stand_row *rows = ceduo_arena_more(v->arena, all, *n, 1, &room, sizeof *all);
+                if (!rows)
+                    return NULL;
+                all = rows;
+                all[(*n)++] = (struct stand_row){list, i, at, within, false};
             }
         }
+    }
+    return all;
+}
+
+/* Many belts may have the stand of a row: then it stands for the places in all of them, but for what the scene itself names. */
+static void take_stands(struct validator *v)
+{
+    size_t n = 0;
+    struct stand_row *rows = list_rows(v, &n);
+    const struct object *object = ceduo_schema_field(ceduo_schema_stand(), "doubt")->object;
+    for (struct stand_row *r = rows; rows && r < rows + n; r++) {
+        const struct node *node = r->list->items[r->i];
+        const struct source_note *notes = NULL;
+        struct doubt doubt;
+        const struct row row = {&doubt, r->at, r->within};
+        struct places places;
+        struct ceduo_input input;
+        bool twice = false;
+        if (r->done)
+            continue;
+        ceduo_schema_init(object, &doubt);
+        ceduo_bind(&(struct binding){.arena = v->arena, .problems = v->problems, .notes = &notes, .bad = &v->bad}, object, node,
+                   &doubt);
+        for (size_t before = 0; before < r->i; before++) {
+            const char *other = ceduo_node_text(r->list->items[before], "path");
+            twice |= other && ceduo_schema_same(other, doubt.path);
+        }
+        if (twice)
+            ceduo_complain(v, row.at, "path", _("'%s' is given twice"), doubt.path);
+        bool good = !twice && make_input(v, &row, &places, &input);
+        for (struct stand_row *same = r + 1; same < rows + n; same++)
+            if (same->list->items[same->i] == node) {
+                same->done = true;
+                if (good)
+                    find_places(&places, ceduo_format(v, "%s%s", same->within, doubt.path));
+            }
+        if (!good)
+            continue;
+        input.places = places.items;
+        input.places_count = 0;
+        for (size_t i = 0; i < places.n; i++)
+            if (!ceduo_inputs_have(v->inputs, v->inputs_of_scene, places.items[i]))
+                places.items[input.places_count++] = places.items[i];
+        add_input(v, input);
     }
 }
 
@@ -328,10 +325,9 @@ struct draws {
 static const struct field *find_fitted(struct validator *v, const char *path, struct ceduo_input *input)
 {
     struct places p = {.v = v};
-    bool settled;
-    const struct field *field = field_of(v, path, &settled);
+    const struct field *field = field_of(v, path);
     *input = (struct ceduo_input){.path = path, .kind = CEDUO_INPUT_RANGE};
-    if (!field || field->type == FIELD_CHOICE || settled)
+    if (!field || field->type == FIELD_CHOICE)
         return NULL;
     find_places(&p, path);
     input->places = p.items;
@@ -361,8 +357,9 @@ static bool take_header(struct draws *t)
                 return ceduo_problem_at(v->problems, ceduo_node_place(v->draws, "doubt.draws"),
                                         _("the table has a column '%s', which is no value of this scene"), path);
             }
-            t->heads = ceduo_more_room(v, t->heads, t->heads_count, 1, &t->heads_room, sizeof *t->heads);
-            t->places = ceduo_more_room(v, t->places, t->places_count, found.places_count, &t->places_room, sizeof *t->places);
+            t->heads = ceduo_arena_more(v->arena, t->heads, t->heads_count, 1, &t->heads_room, sizeof *t->heads);
+            t->places =
+                ceduo_arena_more(v->arena, t->places, t->places_count, found.places_count, &t->places_room, sizeof *t->places);
             if (!t->heads || !t->places)
                 return false;
             const struct head *last = t->heads_count > 0 ? &t->heads[t->heads_count - 1] : NULL;
@@ -444,9 +441,10 @@ static void add_draws(struct validator *v)
                                       .places_count = t.places_count,
                                       .places = places,
                                       .draws_count = t.rows,
-                                      .draws = draws};
+                                      .draws = draws,
+                                      .source = N_("doubt, in the scene")};
     if (places && draws)
-        add_input(v, &input);
+        add_input(v, input);
 }
 
 /* ---- all ---- */
@@ -460,8 +458,9 @@ void ceduo_validate_doubt(struct validator *v)
         add_draws(v);
     for (size_t i = 0; i < n; i++) {
         const struct row row = {&v->draft.doubts[i], ceduo_format(v, "doubt[%zu]", i), ""};
+        struct places places;
         struct ceduo_input input;
-        bool good = make_input(v, &row, &input), twice = false;
+        bool good = make_input(v, &row, &places, &input), twice = false;
         for (size_t k = 0; good && k < v->inputs_count;
              k++) { /* of one path, by whatever name of an item, or draws of its places */
             const struct ceduo_input *b = &v->inputs[k];
@@ -472,7 +471,7 @@ void ceduo_validate_doubt(struct validator *v)
         if (twice)
             ceduo_complain(v, row.at, "path", _("'%s' is given twice"), row.doubt->path);
         else if (good)
-            add_input(v, &input);
+            add_input(v, input);
     }
     v->inputs_of_scene = v->inputs_count;
     take_stands(v);

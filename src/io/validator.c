@@ -124,15 +124,3 @@ bool ceduo_check_stretch(struct validator *v, const char *path, double from, dou
     bool begins = ceduo_check_on_slope(v, path, "from_m", from), ends = ceduo_check_on_slope(v, path, "to_m", to);
     return begins && ends; /* both are told */
 }
-
-void *ceduo_more_room(struct validator *v, void *items, size_t n, size_t more, size_t *room, size_t size)
-{
-    if (n + more <= *room)
-        return items;
-    size_t all = 2 * n + more;
-    void *grown = ceduo_room(v, all, size);
-    if (grown && n > 0)
-        memcpy(grown, items, n * size);
-    *room = grown ? all : *room;
-    return grown;
-}

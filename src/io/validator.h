@@ -66,8 +66,6 @@ const char *ceduo_range(struct validator *v, const struct field *field);
 
 /* Room for n + 1 items in the arena. NULL without memory. */
 void *ceduo_room(struct validator *v, size_t n, size_t size);
-/* A list of n items with room for `more`; `*room` is how many it holds. */
-void *ceduo_more_room(struct validator *v, void *items, size_t n, size_t more, size_t *room, size_t size);
 
 /* Whether nothing is wrong with a value or what it stands in; what is wrong within it does not count. */
 bool ceduo_is_known(struct validator *v, const char *format, ...) __attribute__((format(printf, 2, 3)));

@@ -92,7 +92,7 @@ VALUE(figure_number, place, NUMBER, NUMBER(shown(o, *(const double *)member(f, f
 #define FIGURE(member) .value = figure_number, .offset = offsetof(struct ceduo_doubt_figure, member)
 VALUE(input_path, place, TEXT, WORD(o->doubt->inputs->items[o->input].path))
 VALUE(input_places, place, COUNT, COUNT(o->doubt->inputs->items[o->input].places_count))
-VALUE(input_source, place, TEXT, WORD(o->doubt->inputs->sources[o->input]))
+VALUE(input_source, place, TEXT, WORD(o->doubt->inputs->items[o->input].source))
 VALUE(doubt_q2, place, NUMBER, NUMBER(figure_of(o)->fit.q2))
 VALUE(doubt_unexplained, place, NUMBER, NUMBER(figure_of(o)->fit.whole.value))
 VALUE(input_measured, place, TEXT, WORD(ceduo_doubt_measured(o->doubt, o->input)))
