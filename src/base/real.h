@@ -134,29 +134,10 @@ HOT void keep(mask which, ints p, void *to)
 #define LOOK_UP_16
 OP(real, look_up_16, (const double *table, ints i), _mm512_permutex2var_pd(load(table), (__m512i)i, load(table + 8)))
 
-/* Pairs and fours of numbers from an address on, by columns. */
-HOT void load_pairs(const double (*from)[2], real *a, real *b)
-{
-    real p = load(from[0]), q = load(from[4]);
-    *a = _mm512_permutex2var_pd(p, _mm512_setr_epi64(0, 2, 4, 6, 8, 10, 12, 14), q);
-    *b = _mm512_permutex2var_pd(p, _mm512_setr_epi64(1, 3, 5, 7, 9, 11, 13, 15), q);
-}
-HOT void load_fours(const double *from, real *a, real *b, real *c, real *d)
-{
-    __m512i even = _mm512_setr_epi64(0, 4, 8, 12, 1, 5, 9, 13), odd = _mm512_setr_epi64(2, 6, 10, 14, 3, 7, 11, 15);
-    real p = load(from), q = load(from + 8), r = load(from + 16), s = load(from + 24);
-    real ab = _mm512_permutex2var_pd(p, even, q), cd = _mm512_permutex2var_pd(p, odd, q);
-    real ab2 = _mm512_permutex2var_pd(r, even, s), cd2 = _mm512_permutex2var_pd(r, odd, s);
-    *a = _mm512_shuffle_f64x2(ab, ab2, 0x44);
-    *b = _mm512_shuffle_f64x2(ab, ab2, 0xee);
-    *c = _mm512_shuffle_f64x2(cd, cd2, 0x44);
-    *d = _mm512_shuffle_f64x2(cd, cd2, 0xee);
-}
-HOT real shifted(real p, double last) /* without its first number, and with another at its end */
-{
-    return (real)_mm512_alignr_epi64((__m512i)all(last), (__m512i)p, 1);
-}
-
+#define EVEN(p, q) __builtin_shufflevector(p, q, 0, 2, 4, 6, 8, 10, 12, 14)
+#define ODD(p, q)  __builtin_shufflevector(p, q, 1, 3, 5, 7, 9, 11, 13, 15)
+#define NEXT(p, q) __builtin_shufflevector(p, q, 1, 2, 3, 4, 5, 6, 7, 8)
+/* The pairs at i[0], i[1] … */
 HOT real four_rows(const double (*pairs)[2], const uint64_t *i)
 {
     return _mm512_insertf64x4(_mm512_castpd256_pd512(two_rows(pairs, i[0], i[2])), two_rows(pairs, i[4], i[6]), 1);
@@ -193,23 +174,9 @@ HOT void keep(mask which, ints p, void *to)
     _mm256_storeu_si256(to, _mm256_permutevar8x32_epi32((__m256i)p, (__m256i)kept[lanes_of(which)]));
 }
 
-HOT void load_pairs(const double (*from)[2], real *a, real *b)
-{
-    real p = load(from[0]), q = load(from[2]);
-    *a = _mm256_permute4x64_pd(_mm256_unpacklo_pd(p, q), 0xd8);
-    *b = _mm256_permute4x64_pd(_mm256_unpackhi_pd(p, q), 0xd8);
-}
-HOT void load_fours(const double *from, real *a, real *b, real *c, real *d)
-{
-    real p = load(from), q = load(from + 4), r = load(from + 8), s = load(from + 12);
-    real ac = _mm256_unpacklo_pd(p, q), bd = _mm256_unpackhi_pd(p, q);
-    real ac2 = _mm256_unpacklo_pd(r, s), bd2 = _mm256_unpackhi_pd(r, s);
-    *a = _mm256_permute2f128_pd(ac, ac2, 0x20);
-    *b = _mm256_permute2f128_pd(bd, bd2, 0x20);
-    *c = _mm256_permute2f128_pd(ac, ac2, 0x31);
-    *d = _mm256_permute2f128_pd(bd, bd2, 0x31);
-}
-OP(real, shifted, (real p, double last), _mm256_blend_pd(_mm256_permute4x64_pd(p, 0x39), all(last), 8))
+#define EVEN(p, q) __builtin_shufflevector(p, q, 0, 2, 4, 6)
+#define ODD(p, q)  __builtin_shufflevector(p, q, 1, 3, 5, 7)
+#define NEXT(p, q) __builtin_shufflevector(p, q, 1, 2, 3, 4)
 HOT void load_pairs_at(const double (*pairs)[2], const uint64_t *i, real *a, real *b)
 {
     real even = two_rows(pairs, i[0], i[2]), odd = two_rows(pairs, i[1], i[3]);
@@ -248,6 +215,10 @@ HOT void keep(mask which, ints p, void *to)
     }
 }
 
+#define EVEN(p, q) __builtin_shufflevector(p, q, 0, 2)
+#define ODD(p, q)  __builtin_shufflevector(p, q, 1, 3)
+#define NEXT(p, q) __builtin_shufflevector(p, q, 1, 2)
+
 #endif
 
 /* ---- what is the same for them ---- */
@@ -277,6 +248,25 @@ HOT real real_of(ints p)
 }
 
 #endif
+
+/* Pairs and fours of numbers from an address on, by columns. */
+HOT void load_pairs(const double (*from)[2], real *a, real *b)
+{
+    real p = load(from[0]), q = load(from[REAL_LANES / 2]);
+    *a = EVEN(p, q);
+    *b = ODD(p, q);
+}
+HOT void load_fours(const double (*from)[2], real *a, real *b, real *c, real *d)
+{
+    real ac, bd, ac2, bd2;
+    load_pairs(from, &ac, &bd);
+    load_pairs(from + REAL_LANES, &ac2, &bd2);
+    *a = EVEN(ac, ac2);
+    *b = EVEN(bd, bd2);
+    *c = ODD(ac, ac2);
+    *d = ODD(bd, bd2);
+}
+OP(real, shifted, (real p, double last), NEXT(p, all(last))) /* without its first number, and with another at its end */
 
 OP(bool, any, (mask p), lanes_of(p) != 0)
 OP(real, real_of_small, (ints p), as_real(p | 0x4330000000000000) - 0x1p52) /* of integers below 2^52 */

@@ -29,7 +29,7 @@ HOT unsigned blocks_under(const struct lanes *k, const struct far_search *f, con
     unsigned under = 0;
     for (unsigned at = 0; at < GROUND_GROUP; at += REAL_LANES, b += REAL_LANES) {
         real x, z, m, rise;
-        load_fours(&b->x, &x, &z, &m, &rise);
+        load_fours((const double(*)[2]) & b->x, &x, &z, &m, &rise);
         real here = above_all(k, f, x, z);
         double t = (b[REAL_LANES].x - f->x) * f->inv;
         real next = shifted(here, (f->z + (f->vz - k->g->half_g * t) * t) - b[REAL_LANES].z);
