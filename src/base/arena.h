@@ -32,4 +32,7 @@ char *ceduo_arena_vformat(struct arena *arena, const char *format, va_list args)
 
 void ceduo_arena_free(struct arena *arena);
 
+/* An arena that is freed where its block ends. */
+#define LOCAL_ARENA(name) __attribute__((cleanup(ceduo_arena_free))) struct arena name = {0}
+
 #endif

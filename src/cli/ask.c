@@ -52,16 +52,14 @@ static enum exit_status choose(const struct arguments *a, struct scene_file *fil
     const struct node *root = list ? ceduo_node_with(&file->arena, file->root, "options", list) : NULL;
     if (root && ceduo_node_get(root, "observed")) /* may be of an option that is left out */
         root = ceduo_node_without(&file->arena, root, "observed");
-    struct problems problems = {0};
+    LOCAL_PROBLEMS(problems);
     file->root = root;
-    bool good = root && ceduo_scene_bind(file, &problems);
-    ceduo_problems_free(&problems);
-    return good ? EXIT_DONE : EXIT_RUN;
+    return root && ceduo_scene_bind(file, &problems) ? EXIT_DONE : EXIT_RUN;
 }
 
 enum exit_status ceduo_batch_read(const struct arguments *a, const char *path, struct scene_file *file)
 {
-    struct problems problems = {0};
+    LOCAL_PROBLEMS(problems);
     struct scene_sets sets = {a->sets.items, a->sets.n, a->cells, a->called};
     bool good = ceduo_scene_load_row(file, path, &sets, &problems);
     ceduo_problems_close(&problems);
@@ -69,7 +67,6 @@ enum exit_status ceduo_batch_read(const struct arguments *a, const char *path, s
         ceduo_say_why(a->called, _("this scene cannot be computed:")); /* what follows names another file, or a change */
     ceduo_say(&problems.text);
     enum exit_status status = good ? EXIT_DONE : problems.usage && !problems.cell ? EXIT_USAGE : EXIT_INPUT;
-    ceduo_problems_free(&problems);
     for (const struct source *s = file->arena.sources; s && status != EXIT_OUTPUT; s = s->before)
         if (ceduo_output_is(a, s->path))
             status = EXIT_OUTPUT;

@@ -108,20 +108,19 @@ enum exit_status ceduo_batch_schema(const struct arguments *a)
 
 static const char *title_of(struct arena *arena, const char *path)
 {
-    struct problems problems = {0};
+    LOCAL_PROBLEMS(problems);
     const struct source *source = ceduo_file_read(arena, path, YAML_BYTES_MOST, &problems);
     const struct node *root = source ? ceduo_yaml_read(arena, source, &problems) : NULL;
     const char *title = ceduo_in_language(ceduo_node_text(root, "title"), ceduo_node_text(root, "title_it"));
     if (!title)
         title = ceduo_in_language(ceduo_node_text(root, "name"), ceduo_node_text(root, "name_it"));
-    ceduo_problems_free(&problems);
     return title ? title : root ? "" : _("(cannot be read)");
 }
 
 enum exit_status ceduo_batch_profiles(const struct arguments *a)
 {
     static const char *const kinds[][2] = {{"scenes", "scene"}, {"slopes", "slope"}, {"stands", "stand"}, {"rules", "rules"}};
-    struct arena arena = {0};
+    LOCAL_ARENA(arena);
     struct text rows = {0};
     const char *const *folders = ceduo_file_folders(&arena);
     ceduo_text_format(&rows, "%s\t%s\t%s\t%s\n", _("name"), _("kind"), _("title"), _("file"));
@@ -138,9 +137,7 @@ enum exit_status ceduo_batch_profiles(const struct arguments *a)
                 ceduo_text_char(&rows, '\n');
             }
         }
-    enum exit_status status = print_table(a, &rows, "");
-    ceduo_arena_free(&arena);
-    return status;
+    return print_table(a, &rows, "");
 }
 
 /* ---- surveys ---- */
@@ -148,7 +145,7 @@ enum exit_status ceduo_batch_profiles(const struct arguments *a)
 /* The stand of a CSV file of sample plots; or an empty one. */
 enum exit_status ceduo_batch_survey(const struct arguments *a)
 {
-    struct arena arena = {0};
+    LOCAL_ARENA(arena);
     struct problems problems = {0};
     struct survey_file file;
     LOCAL_TEXT(yaml);
@@ -159,6 +156,5 @@ enum exit_status ceduo_batch_survey(const struct arguments *a)
     bool good = sheet || (ceduo_survey_read(&file, &arena, found ? found : a->survey, &problems) &&
                           ceduo_survey_stand(&file, &yaml, &problems));
     ceduo_say_problems(&problems);
-    ceduo_arena_free(&arena);
     return good ? ceduo_output_write(a, &yaml) : EXIT_INPUT;
 }

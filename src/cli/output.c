@@ -31,7 +31,7 @@ bool ceduo_output_is(const struct arguments *a, const char *path)
 
 bool ceduo_output_check(const struct arguments *a)
 {
-    struct arena arena = {0};
+    LOCAL_ARENA(arena);
     bool good = !a->output || ceduo_file_can_write(a->output);
     if (!good)
         ceduo_say_why(*a->output ? a->output : "--output", *a->output ? strerror(errno) : _("name a file"));
@@ -41,9 +41,7 @@ bool ceduo_output_check(const struct arguments *a)
             path = ceduo_file_find(&arena, path, NULL, "scenes");
         good = !ceduo_output_is(a, path);
     }
-    good = good && !(a->survey && ceduo_output_is(a, a->survey)) && !(a->each && ceduo_output_is(a, a->each));
-    ceduo_arena_free(&arena);
-    return good;
+    return good && !(a->survey && ceduo_output_is(a, a->survey)) && !(a->each && ceduo_output_is(a, a->each));
 }
 
 /* ---- results of several scenes ---- */

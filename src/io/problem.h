@@ -85,4 +85,7 @@ bool ceduo_problems_settle(struct problems *problems);
 void ceduo_problems_close(struct problems *problems);
 void ceduo_problems_free(struct problems *problems);
 
+/* Problems that are freed where their block ends. */
+#define LOCAL_PROBLEMS(name) __attribute__((cleanup(ceduo_problems_free))) struct problems name = {0}
+
 #endif

@@ -71,13 +71,10 @@ bool ceduo_recovery_write(const char *recovery, const char *path, const char *by
 
 char *ceduo_recovery_text(const char *path)
 {
-    struct arena arena = {0};
-    struct problems problems = {0};
+    LOCAL_ARENA(arena);
+    LOCAL_PROBLEMS(problems);
     const struct source *source = ceduo_file_read(&arena, path, YAML_BYTES_MOST, &problems);
-    char *copy = source ? ceduo_must(strdup(source->bytes)) : NULL;
-    ceduo_problems_free(&problems);
-    ceduo_arena_free(&arena);
-    return copy;
+    return source ? ceduo_must(strdup(source->bytes)) : NULL;
 }
 
 /* The next copy in the folder whose process has ended: its name is put. */

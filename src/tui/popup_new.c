@@ -47,21 +47,19 @@ static void append_quoted(struct text *yaml, const char *before, const char *val
 static bool make_profile(struct answers *a, const char *more)
 {
     LOCAL_TEXT(yaml);
-    struct problems problems = {0};
+    LOCAL_PROBLEMS(problems);
     ceduo_text_format(
         &yaml, "ceduo: scene/1\nrock: {diameter_m: 1}\ncontrols_m: [%.17g]\nslope:\n  %s\n  segments: [{rn: 0.3, rt: 0.8}]\n%s",
         a->last, a->slope.bytes, more);
     ceduo_scene_release(&a->profile);
-    bool good = ceduo_scene_load_text(&a->profile, "", yaml.bytes, &problems);
-    ceduo_problems_free(&problems);
-    return good;
+    return ceduo_scene_load_text(&a->profile, "", yaml.bytes, &problems);
 }
 
 /* From a CSV file, or points as they are typed; one that was drawn upward is turned round. */
 static bool read_profile(struct app *app, struct popup *p, struct answers *a)
 {
     const char *typed = p->fields[NEW_PROFILE].line.text, *wrong = NULL;
-    struct problems problems = {0};
+    LOCAL_PROBLEMS(problems);
     struct points points = {0};
     if (ceduo_picker_is_file(typed, p->endings)) {
         bool good = ceduo_csv_slope_read(&p->arena, typed, &points, &problems) && points.n > 1;
@@ -79,7 +77,6 @@ static bool read_profile(struct app *app, struct popup *p, struct answers *a)
         wrong = _("two points of the profile lie too close together for their distance from the first");
     if (wrong)
         ceduo_app_warn(app, "%.*s", (int)strcspn(wrong, "\n"), wrong);
-    ceduo_problems_free(&problems);
     return !wrong;
 }
 

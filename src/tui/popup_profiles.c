@@ -24,7 +24,7 @@
 /* A scene of nothing but the stand, with the rock of this one; false where it is none. To be released in any case. */
 static bool read_stand(const struct app *app, const char *value, struct scene_file *file)
 {
-    struct problems problems = {0};
+    LOCAL_PROBLEMS(problems);
     LOCAL_TEXT(yaml);
     ceduo_text_format(&yaml,
                       "{ceduo: scene/1, rock: {diameter_m: 0.68}, slope: {vertices_m: [[0, 10], [100, 0]], segments: "
@@ -35,7 +35,6 @@ static bool read_stand(const struct app *app, const char *value, struct scene_fi
     bool good = ceduo_scene_load_text(file, name, yaml.bytes, &problems);
     file->scene.rock = app->document.file.scene.rock;
     file->scene.simulation = app->document.file.scene.simulation;
-    ceduo_problems_free(&problems);
     return good;
 }
 
@@ -204,7 +203,7 @@ static void offer_surveys(struct app *app, struct popup *p)
 /* The stand of a survey on one line, as a change takes it. */
 static bool read_survey(const char *path, struct text *value, struct problems *problems)
 {
-    struct arena arena = {0};
+    LOCAL_ARENA(arena);
     struct survey_file file;
     LOCAL_TEXT(yaml);
     const struct node *root = NULL;
@@ -214,7 +213,6 @@ static bool read_survey(const char *path, struct text *value, struct problems *p
     }
     if (root)
         ceduo_emit_flow(value, root);
-    ceduo_arena_free(&arena);
     return root != NULL;
 }
 
@@ -385,7 +383,7 @@ static void add_start(struct app *app, struct popup *p, const char *words, const
 static void add_starts(struct app *app, struct popup *p, const char *path, const char *name)
 {
     struct scene_file file = {0};
-    struct problems problems = {0};
+    LOCAL_PROBLEMS(problems);
     if (ceduo_scene_load(&file, path, NULL, 0, &problems)) {
         LOCAL_TEXT(rock);
         LOCAL_TEXT(release);
@@ -399,7 +397,6 @@ static void add_starts(struct app *app, struct popup *p, const char *path, const
                       ceduo_app_format(app, _("start: %.3g m high, %.3g m/s"), r->height.mean, hypot(r->vx.mean, r->vz.mean)),
                       release.bytes, of);
     }
-    ceduo_problems_free(&problems);
     ceduo_scene_release(&file);
 }
 

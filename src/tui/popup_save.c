@@ -232,7 +232,7 @@ static bool is_due(const struct app *app, const struct recovery *r)
 
 bool ceduo_popup_take_recovery(struct app *app, const char *value)
 {
-    struct arena arena = {0};
+    LOCAL_ARENA(arena);
     size_t n;
     if (strncmp(value, RECOVERY, strlen(RECOVERY)) != 0)
         return false;
@@ -254,7 +254,6 @@ bool ceduo_popup_take_recovery(struct app *app, const char *value)
         }
         free(text);
     }
-    ceduo_arena_free(&arena);
     return true;
 }
 
@@ -269,7 +268,7 @@ static void chose_recover(struct app *app, struct popup *p)
 
 void ceduo_popup_recover(struct app *app)
 {
-    struct arena arena = {0};
+    LOCAL_ARENA(arena);
     size_t n, due = 0;
     const struct recovery *list = ceduo_recovery_list(&arena, &n);
     for (size_t i = 0; i < n; i++)
@@ -284,5 +283,4 @@ void ceduo_popup_recover(struct app *app)
         ceduo_popup_answer(p, 'n', _("leave it for later: o lists it, too"), "");
         ceduo_popup_answer(p, 'f', n > 1 ? _("forget all of it") : _("forget it"), "forget");
     }
-    ceduo_arena_free(&arena);
 }

@@ -93,13 +93,12 @@ static enum script_end obey(struct app *app, char *command, const char *path, si
 
 enum script_end ceduo_script_run(struct app *app, const char *path)
 {
-    struct arena arena = {0};
-    struct problems problems = {0};
+    LOCAL_ARENA(arena);
+    LOCAL_PROBLEMS(problems);
     const struct source *source = ceduo_file_read(&arena, path, YAML_BYTES_MOST, &problems);
-    bool good = source != NULL;
     if (problems.text.bytes)
         fputs(problems.text.bytes, stderr);
-    char *text = good ? ceduo_arena_copy(&arena, source->bytes, source->length) : NULL;
+    char *text = source ? ceduo_arena_copy(&arena, source->bytes, source->length) : NULL;
     ceduo_app_resize(app, 80, 24);
     enum script_end end_of_it = text ? SCRIPT_DONE : SCRIPT_UNREADABLE;
     for (size_t line = 1; end_of_it == SCRIPT_DONE && *text && !app->quit; line++) {
@@ -111,7 +110,5 @@ enum script_end ceduo_script_run(struct app *app, const char *path)
         end_of_it = obey(app, text, path, line);
         text = more ? end + 1 : end;
     }
-    ceduo_problems_free(&problems);
-    ceduo_arena_free(&arena);
     return end_of_it;
 }
