@@ -38,15 +38,18 @@ struct search {
 
 /* ---- what kind of number it is ---- */
 
-/* The row of a parameter; of a number in a list that of the list. */
-static const struct field *field_at(struct search *s)
+const struct field *ceduo_search_field(struct arena *arena, const char *path)
 {
-    const char *path = s->def.path, *bracket = strrchr(path, '[');
-    const struct field *field = ceduo_schema_at(path);
-    if (field || !bracket)
+    const char *bracket = strrchr(path, '[');
+    const struct field *field = ceduo_schema_at(path), *list = NULL;
+    if (!field && bracket)
+        list = ceduo_schema_at(ceduo_arena_copy(arena, path, (size_t)(bracket - path)));
+    if (!list || list->type != FIELD_NUMBERS)
         return field;
-    field = ceduo_schema_at(ceduo_arena_copy(&s->file->arena, path, (size_t)(bracket - path)));
-    return field && field->type == FIELD_NUMBERS ? field : NULL;
+    struct field *one = ceduo_arena_take(arena, sizeof *one);
+    *one = *list;
+    one->type = FIELD_NUMBER;
+    return one;
 }
 
 /* ---- one value ---- */
@@ -235,7 +238,8 @@ static bool is_askable(const struct search *s)
 static bool can_be_ends(struct search *s, double lo, double hi)
 {
     char room[CEDUO_NUMBER_ROOM];
-    struct problems *problems = s->problems, others = {0};
+    struct problems *problems = s->problems;
+    LOCAL_PROBLEMS(others);
     if (lo > hi) /* no whole number lies between */
         return true;
     bool first = set_value(s, lo);
@@ -243,7 +247,6 @@ static bool can_be_ends(struct search *s, double lo, double hi)
         s->problems = &others;
     bool last = set_value(s, hi);
     s->problems = problems;
-    ceduo_problems_free(&others);
     if (first != last)
         ceduo_problem(problems, &path_source, 0, 0, _("the other end of the range, %s, is possible"),
                       ceduo_number_shortest(first ? lo : hi, room));
@@ -261,7 +264,7 @@ enum ceduo_status ceduo_search(struct scene_file *file, const struct ceduo_searc
                             .problems = &answer->problems,
                             .root = file->root},
                   *s = &search;
-    const struct field *field = field_at(s);
+    const struct field *field = ceduo_search_field(&file->arena, asked->path);
     if (isnan(s->def.target))
         s->def.target = ceduo_goal_limit(s->def.goal, &file->scene.simulation);
     s->def.rotation |= field && field->flags & FIELD_YEARS; /* it decides about the years to come alone */
@@ -302,15 +305,13 @@ enum ceduo_status ceduo_search(struct scene_file *file, const struct ceduo_searc
  * arena alone. */
 static bool change_scene(const struct scene_file *from, const char *set, struct scene_file *file)
 {
-    struct problems problems = {0};
+    LOCAL_PROBLEMS(problems);
     *file = *from;
     file->arena = (struct arena){0};
     bool good = ceduo_scene_set(file, "preview", set, &problems);
     const struct node *root = good ? ceduo_resolve_scene(&file->arena, file->root, &problems) : NULL;
     file->root = root;
-    good = root && problems.count == 0 && ceduo_scene_bind(file, &problems);
-    ceduo_problems_free(&problems);
-    return good;
+    return root && problems.count == 0 && ceduo_scene_bind(file, &problems);
 }
 
 enum ceduo_status ceduo_preview(const struct scene_file *from, const char *set, size_t option, unsigned threads,

@@ -47,6 +47,9 @@ struct preview {
 enum ceduo_status ceduo_preview(const struct scene_file *file, const char *set, size_t option, unsigned threads,
                                 const atomic_bool *cancel, struct preview *preview);
 
+/* The row of the number at a path; of one in a list that of the list, as of one number, in the arena. NULL: there is none. */
+const struct field *ceduo_search_field(struct arena *arena, const char *path);
+
 /* Whether a value may stand at a path: the scene with it is a scene. */
 bool ceduo_preview_fits(const struct scene_file *file, const char *path, const char *value);
 

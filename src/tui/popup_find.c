@@ -76,24 +76,11 @@ static bool read_goal(struct app *app, struct popup *p, struct ceduo_search *sea
 
 /* ---- what is asked for ---- */
 
-/* The row of the value, until the next key; of a number in a list that of the list, as of one number. */
-static const struct field *field_of(const struct app *app, const char *path)
-{
-    const struct field *field = ceduo_schema_at(path), *list = NULL;
-    const char *bracket = strrchr(path, '[');
-    if (field || !bracket || !(list = ceduo_schema_at(ceduo_app_format(app, "%.*s", (int)(bracket - path), path))))
-        return field;
-    struct field *one = ceduo_arena_take(app->scratch, sizeof *one);
-    *one = *list;
-    one->type = FIELD_NUMBER;
-    return one;
-}
-
 /* What the rules of the region ask of the trees that a cut leaves, where it is these that are looked for. */
 static void append_law(struct app *app, const char *path, struct text *text)
 {
     const struct ceduo_option *o = ceduo_app_option(app);
-    const struct field *field = field_of(app, path);
+    const struct field *field = ceduo_search_field(app->scratch, path);
     const char *stand = ceduo_app_stand(app);
     bool standards = strncmp(path, stand, strlen(stand)) == 0 &&
                      (strcmp(field->key, "stay_per_ha") == 0 || strncmp(path + strlen(stand), ".trees[", 7) == 0);
@@ -141,7 +128,7 @@ static void append_words(struct app *app, struct popup *p, const struct ceduo_se
                          struct text *text)
 {
     const struct ceduo_found *f = &answer->found;
-    const struct field *field = field_of(app, p->path);
+    const struct field *field = ceduo_search_field(app->scratch, p->path);
     char room[CEDUO_NUMBER_ROOM];
     if (f->found && !f->whole_range) /* otherwise the field keeps its value */
         ceduo_text_format(text, "%s = %s: ", ceduo_app_path(app, p->path), ceduo_shown_number(field, f->value, room));
@@ -243,7 +230,7 @@ static void ask(struct app *app, const char *path, const char *written)
 {
     char room[CEDUO_NUMBER_ROOM];
     double lo, hi;
-    const struct field *f = field_of(app, path);
+    const struct field *f = ceduo_search_field(app->scratch, path);
     propose(app, path, f, written, &lo, &hi);
     struct popup *p = ceduo_popup_fields(app, _("Which value reaches a goal?"), path, filled_find);
     ceduo_text_format(&p->text,
