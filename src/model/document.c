@@ -73,28 +73,19 @@ bool ceduo_document_commit(struct document *d, const struct node *root, const ch
     return true;
 }
 
-static bool go_to(struct document *d, size_t state)
+bool ceduo_document_turn(struct document *d, int by)
 {
-    struct problems problems = {0};
-    bool good = adopt(d, d->states[state].root, &problems);
-    if (good)
-        d->at = state;
-    ceduo_problems_free(&problems);
+    LOCAL_PROBLEMS(problems);
+    size_t state = d->at + (size_t)by; /* before the first it is larger than any */
+    bool good = state < d->count && adopt(d, d->states[state].root, &problems);
+    if (!good)
+        return false;
+    d->at = state;
     if (ceduo_document_unsaved(d))
         ceduo_document_keep(d);
     else
         ceduo_document_forget(d);
-    return good;
-}
-
-bool ceduo_document_undo(struct document *d)
-{
-    return d->at > 0 && go_to(d, d->at - 1);
-}
-
-bool ceduo_document_redo(struct document *d)
-{
-    return d->at + 1 < d->count && go_to(d, d->at + 1);
+    return true;
 }
 
 bool ceduo_document_unsaved(const struct document *d)

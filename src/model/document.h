@@ -66,14 +66,11 @@ bool ceduo_document_set_all(struct document *document, const char *const *sets, 
 bool ceduo_document_split_segment(struct document *document, size_t index, const char *vertex, bool apart,
                                   struct problems *problems);
 
-/* Takes the vertex behind segment `index` out, or the one before the last segment: its ground goes. */
-bool ceduo_document_join_segments(struct document *document, size_t index, struct problems *problems);
+/* Takes a vertex out, and the ground of one of the segments beside it. */
+bool ceduo_document_remove_vertex(struct document *document, size_t vertex, size_t segment, struct problems *problems);
 
-/* Takes a vertex out, and the ground of the segment that begins there, or of the last. */
-bool ceduo_document_remove_vertex(struct document *document, size_t vertex, struct problems *problems);
-
-bool ceduo_document_undo(struct document *document);
-bool ceduo_document_redo(struct document *document);
+/* Undoes an edit (-1), or makes it again (1). False where there is none. */
+bool ceduo_document_turn(struct document *document, int by);
 bool ceduo_document_unsaved(const struct document *document);
 
 /* Writes the scene to `path`. Comments stay where only values changed; `*laid_out_anew` says when they could not (where

@@ -291,8 +291,7 @@ bool ceduo_document_split_segment(struct document *d, size_t index, const char *
     return commit(&e, vertices_list);
 }
 
-/* Without a vertex, and without the ground of one of the segments beside it. */
-static bool remove_vertex(struct document *d, size_t vertex, size_t segment, struct problems *problems)
+bool ceduo_document_remove_vertex(struct document *d, size_t vertex, size_t segment, struct problems *problems)
 {
     struct arena *arena = &d->file.arena;
     const struct node *vertices = ceduo_document_node(d, vertices_list), *grounds = ceduo_document_node(d, ground_list);
@@ -300,18 +299,6 @@ static bool remove_vertex(struct document *d, size_t vertex, size_t segment, str
                           ceduo_arena_format(arena, "%s[%zu]", ground_list, segment)};
     return vertices && vertices->n > 2 && vertex < vertices->n &&
            ceduo_document_set_all(d, sets, grounds && grounds->n > 1 ? 2 : 1, vertices_list, problems);
-}
-
-bool ceduo_document_join_segments(struct document *d, size_t index, struct problems *problems)
-{
-    const struct node *vertices = ceduo_document_node(d, vertices_list);
-    return remove_vertex(d, vertices && index + 2 < vertices->n ? index + 1 : index, index, problems);
-}
-
-bool ceduo_document_remove_vertex(struct document *d, size_t vertex, struct problems *problems)
-{
-    const struct node *vertices = ceduo_document_node(d, vertices_list);
-    return remove_vertex(d, vertex, vertices && vertex + 1 < vertices->n ? vertex : vertex - (vertex > 0), problems);
 }
 
 /* ---- options ---- */

@@ -196,16 +196,18 @@ static bool ask_for_blocks(struct app *app, const struct item *item)
 
 /* ---- deleting ---- */
 
-/* What goes with it: stools with their last shoots; the ground before it, or behind the first, takes the place of a ground. */
+/* What goes with it: a segment and its vertex, the one behind it where it is not the last; stools with their last shoots; the ground
+ * before it, or behind the first, takes the place of a ground. */
 static bool delete_item(struct app *app, const struct item *item, const char *path)
 {
     const struct node *list = ceduo_document_node(&app->document, item->list);
+    const struct node *vertices = ceduo_document_node(&app->document, "slope.vertices_m");
     struct changes c = {.d = &app->document};
-    size_t n = list ? list->n : 0, index = item->index;
+    size_t n = list ? list->n : 0, index = item->index, last = vertices && vertices->n > 0 ? vertices->n - 1 : 0;
     if (strcmp(item->list, "slope.segments") == 0)
-        return ceduo_document_join_segments(&app->document, index, &app->problems);
-    if (strcmp(item->list, "slope.vertices_m") == 0)
-        return ceduo_document_remove_vertex(&app->document, index, &app->problems);
+        return ceduo_document_remove_vertex(&app->document, index + (index + 1 < last), index, &app->problems);
+    if (list && list == vertices)
+        return ceduo_document_remove_vertex(&app->document, index, index - (index > 0 && index >= last), &app->problems);
     if (item->group && list && list->items[index]->n > 1 + !!ceduo_node_get(list->items[index], "name"))
         path = ceduo_app_format(app, "%s.%s", path, item->group);
     else if ((item->group || strcmp(item->list, "blocks") == 0 || strcmp(item->key, "shoots") == 0) && n == 1)

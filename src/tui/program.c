@@ -12,14 +12,13 @@
 static void undo_or_redo(struct app *app, int by)
 {
     struct document *d = &app->document;
-    bool redo = by > 0, there = redo ? d->at + 1 < d->count : true;
-    const char *what = ceduo_app_path(app, there ? d->states[d->at + redo].what : "");
-    if (!(redo ? ceduo_document_redo(d) : ceduo_document_undo(d))) {
+    bool redo = by > 0;
+    if (!ceduo_document_turn(d, by)) {
         ceduo_app_say(app, "%s", redo ? _("nothing to redo") : _("nothing to undo"));
         return;
     }
     ceduo_app_refresh(app);
-    ceduo_app_say(app, redo ? _("again: %s") : _("undone: %s"), what);
+    ceduo_app_say(app, redo ? _("again: %s") : _("undone: %s"), ceduo_app_path(app, d->states[d->at + !redo].what));
 }
 
 static void next_option(struct app *app, int by)
