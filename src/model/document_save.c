@@ -27,7 +27,7 @@ static bool is_own(const char *folder)
 
 bool ceduo_document_is_shipped(const char *path)
 {
-    struct arena arena = {0};
+    LOCAL_ARENA(arena);
     const char *const *folders = ceduo_file_folders(&arena);
     char *real = realpath(path, NULL);
     bool shipped = false;
@@ -38,7 +38,6 @@ bool ceduo_document_is_shipped(const char *path)
         free(folder);
     }
     free(real);
-    ceduo_arena_free(&arena);
     return shipped;
 }
 
@@ -64,49 +63,41 @@ bool ceduo_document_changed_on_disk(const struct document *d)
 /* ---- saving ---- */
 
 /* A path to a file as it must be written in a scene that lies at `to`: as it is where it leads to the same file from
- * there, otherwise whole. It stays a path of the file that it was read from, wherever the scene was saved since. */
+ * there, otherwise whole. It stays a path of the file that it was read from, wherever the scene was saved since. A table of
+ * draws lies beside the scene that was written with it: then its bare name is enough. */
 static const struct node *reference_from(struct document *d, const struct node *node, const char *folder, const char *to)
 {
     const struct source *s = node->source;
-    if (s && !s->is_option && strcmp(s->name, to) == 0)
+    const char *slash = strcmp(node->key, "draws") == 0 ? strrchr(node->text, '/') : NULL;
+    if (!slash && s && !s->is_option && strcmp(s->name, to) == 0)
         return node;
-    struct arena found = {0};
-    const char *now = ceduo_resolve_path(&found, node, folder);
-    const char *then = now ? ceduo_file_find(&found, node->text, to, folder) : NULL;
-    if (now && !(then && ceduo_file_same(now, then))) {
-        char *whole = ceduo_must(realpath(now, NULL));
-        node = ceduo_node_renamed(&d->file.arena, ceduo_node_scalar(&d->file.arena, s, whole, false), node->key);
-        free(whole);
+    LOCAL_ARENA(found);
+    const char *now = ceduo_resolve_path(&found, node, folder), *written = NULL;
+    const char *const names[] = {slash ? slash + 1 : node->text, node->text};
+    for (int i = 0; now && !written && i < 2; i++) {
+        const char *then = ceduo_file_find(&found, names[i], to, folder);
+        written = then && ceduo_file_same(now, then) ? names[i] : NULL;
     }
-    ceduo_arena_free(&found);
+    if (!now || written == node->text)
+        return node;
+    char *whole = ceduo_must(realpath(now, NULL));
+    node =
+        ceduo_node_renamed(&d->file.arena, ceduo_node_scalar(&d->file.arena, s, written ? written : whole, false), node->key);
+    free(whole);
     return node;
-}
-
-/* A table of draws lies beside the scene that was written with it: then its bare name is enough. */
-static const struct node *draws_from(struct document *d, const struct node *node, const char *to)
-{
-    const char *slash = strrchr(node->text, '/'), *name = slash ? slash + 1 : node->text;
-    struct arena found = {0};
-    const char *now = ceduo_resolve_path(&found, node, "scenes"), *then = ceduo_file_find(&found, name, to, "scenes");
-    bool beside = now && then && ceduo_file_same(now, then);
-    ceduo_arena_free(&found);
-    if (!beside)
-        return reference_from(d, node, "scenes", to);
-    return ceduo_node_renamed(&d->file.arena, ceduo_node_scalar(&d->file.arena, node->source, name, false), node->key);
 }
 
 /* All paths of an unresolved tree, for a scene that lies at `to`. */
 static const struct node *references_from(struct document *d, const struct node *node, const char *to)
 {
-    static const char *const keys[][2] = {{"slope", "slopes"}, {"stand", "stands"},  {"base", "stands"},    {"csv", "slopes"},
-                                          {"x_m", "scenes"},   {"values", "scenes"}, {"height_m", "scenes"}};
+    static const char *const keys[][2] = {{"slope", "slopes"},  {"stand", "stands"},   {"base", "stands"},
+                                          {"csv", "slopes"},    {"draws", "scenes"},   {"x_m", "scenes"},
+                                          {"values", "scenes"}, {"height_m", "scenes"}};
     double number; /* the last three may be a table of what was seen */
     bool path = node->kind == NODE_SCALAR && node->key && ceduo_number_read(node->text, &number) == CEDUO_NUMBER_NONE;
     for (size_t i = 0; i < sizeof keys / sizeof keys[0] && path; i++)
         if (strcmp(node->key, keys[i][0]) == 0)
             return reference_from(d, node, keys[i][1], to);
-    if (node->kind == NODE_SCALAR && node->key && strcmp(node->key, "draws") == 0)
-        return draws_from(d, node, to);
     const struct node *out = node;
     for (size_t i = 0; node->kind != NODE_SCALAR && i < node->n; i++) {
         const struct node *item = references_from(d, node->items[i], to);
@@ -148,13 +139,12 @@ bool ceduo_document_save(struct document *d, const char *path, bool *laid_out_an
         return false;
     if (!ceduo_file_write(path, text.bytes, text.length))
         return false;
-    struct problems problems = {0};        /* from now on this text is what lies on disk */
+    LOCAL_PROBLEMS(problems);              /* from now on this text is what lies on disk */
     char *copy = ceduo_must(strdup(path)); /* it may be the document's own */
     free(d->path);
     d->path = copy;
     d->raw = ceduo_document_parse(d, copy, text.bytes, &problems);
     d->shipped = false;
-    ceduo_problems_free(&problems);
     d->saved = d->at;
     ceduo_document_note_disk(d);
     ceduo_document_forget(d);
