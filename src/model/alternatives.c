@@ -82,27 +82,22 @@ static void change_shape(struct changes *c, enum ceduo_shape shape)
 
 /* ---- one of several ---- */
 
-/* Takes the others of a group of keys out where `key` is one of it. */
+/* Takes out what would say the same as a value: of the rock the other sizes, or what says its mass otherwise. */
 static void keep_one_of_all(struct changes *c, const char *path)
 {
-    static const struct {
-        const char *map; /* begins so, or holds it */
-        const char *keys[3];
-    } groups[] = {{"rock", {"diameter_m", "volume_m3", "mass_kg"}},
-                  {"rock", {"mass_kg", "density_kg_m3"}},
-                  {"slope.segments[", {"roughness_m", "roughness_rad"}},
-                  {".shoots[", {"per_ha", "per_stool"}}};
-    const char *dot = strrchr(path, '.');
+    static const char *const of_rock[2][3] = {{"mass_kg", "density_kg_m3"}, {"diameter_m", "volume_m3", "mass_kg"}};
+    bool sphere = c->d->file.scene.rock.shape == CEDUO_SPHERE, is_one = false; /* whose mass is a size */
+    const char *dot = strrchr(path, '.'), *key = dot ? dot + 1 : path;
     const char *map = ceduo_arena_copy(&c->d->file.arena, path, dot ? (size_t)(dot - path) : 0);
-    bool sphere = c->d->file.scene.rock.shape == CEDUO_SPHERE; /* whose mass is a size */
-    for (size_t g = 0; g < sizeof groups / sizeof groups[0]; g++) {
-        bool is_one = false, its = g < 2 ? strcmp(map, "rock") == 0 && sphere == (g == 0) : strstr(map, groups[g].map) != NULL;
-        for (size_t i = 0; its && i < 3 && groups[g].keys[i]; i++)
-            is_one |= strcmp(groups[g].keys[i], dot + 1) == 0;
-        for (size_t i = 0; is_one && i < 3 && groups[g].keys[i]; i++)
-            if (strcmp(groups[g].keys[i], dot + 1) != 0)
-                take_out(c, map, groups[g].keys[i]);
-    }
+    const struct field *holder = ceduo_schema_row(map), *f = ceduo_schema_at(path);
+    const char *other = holder && holder->object && f ? ceduo_schema_other(holder->object, key) : NULL;
+    if (other && !ceduo_schema_unit(holder->object, f))
+        take_out(c, map, other);
+    for (size_t i = 0; strcmp(map, "rock") == 0 && i < 3 && of_rock[sphere][i]; i++)
+        is_one |= strcmp(of_rock[sphere][i], key) == 0;
+    for (size_t i = 0; is_one && i < 3 && of_rock[sphere][i]; i++)
+        if (strcmp(of_rock[sphere][i], key) != 0)
+            take_out(c, map, of_rock[sphere][i]);
 }
 
 bool ceduo_document_set_alone(struct document *d, const char *path, const char *value, struct text *said,
@@ -116,7 +111,6 @@ bool ceduo_document_set_alone(struct document *d, const char *path, const char *
         keep_one_of_all(&c, path);
     ceduo_changes_follow(&c, path, value);
     ceduo_changes_add(&c, "%s=%s", path, value);
-    ceduo_changes_remove(&c, ceduo_arena_format(&d->file.arena, "%s_it", path)); /* what is typed holds in both languages */
     if (c.filled.length)
         ceduo_text_format(said, _("filled in for the same volume: %s"), c.filled.bytes);
     if (c.taken.length)
