@@ -14,6 +14,19 @@
 
 #define BLOCK_ROCKS 512 /* of each other size at the most: their intervals stand beside them */
 
+/* Adds an answer as JSON, or its rows as CSV; false where a page is wanted. */
+static bool print_figures(const struct arguments *a, const struct ceduo_figure *figures, const struct ceduo_csv *csv,
+                          const void *object, struct text *out)
+{
+    if (a->format == CEDUO_JSON) {
+        ceduo_figures_json(out, figures, object, a->details);
+    } else if (a->format == CEDUO_CSV) {
+        ceduo_text_put(out, ""); /* of what has no row the header is printed */
+        ceduo_csv_rows(out, csv, object);
+    }
+    return a->format != CEDUO_TABLE;
+}
+
 /* ---- pages ---- */
 
 enum exit_status ceduo_print_report(const struct arguments *a, struct scene_file *file, struct text *out)
@@ -44,12 +57,8 @@ enum exit_status ceduo_print_report(const struct arguments *a, struct scene_file
                                             .details = a->details,
                                             .rocks_asked = stands ? rocks : 0,
                                             .remarks = {a->tolerance, c.answer.tolerance_met, file->ground_assumed}};
-        if (a->format == CEDUO_JSON) {
-            ceduo_figures_json(out, ceduo_result_figures, &(struct ceduo_place){.report = &report}, report.details);
-        } else if (a->format == CEDUO_CSV) {
-            ceduo_text_put(out, ""); /* without stands no row, but the header */
-            ceduo_csv_rows(out, ceduo_result_csv(a->stands, a->years), &(struct ceduo_place){.report = &report});
-        } else {
+        if (!print_figures(a, ceduo_result_figures, ceduo_result_csv(a->stands, a->years),
+                           &(struct ceduo_place){.report = &report}, out)) {
             (a->details ? ceduo_report_table : ceduo_report_short)(out, &report, !ceduo_say_utf8());
             ceduo_say_plainly(out);
             ceduo_profiles_add(a->profiles, &report, a->label);
@@ -64,13 +73,8 @@ enum exit_status ceduo_print_doubt(const struct arguments *a, struct scene_file 
     ceduo_batch_warn(a, file);
     ceduo_ask_begin(&c, a, file);
     enum ceduo_status status = ceduo_ask_doubt(&c, a, file);
-    if (status == CEDUO_OK)
-        ceduo_text_put(out, ""); /* of what has no row the header is printed */
-    if (status == CEDUO_OK && a->format == CEDUO_JSON) {
-        ceduo_figures_json(out, ceduo_doubt_figures, &(struct ceduo_place){.doubt = &c.doubt}, false);
-    } else if (status == CEDUO_OK && a->format == CEDUO_CSV) {
-        ceduo_csv_rows(out, &ceduo_doubt_csv, &(struct ceduo_place){.doubt = &c.doubt});
-    } else if (status == CEDUO_OK) {
+    const struct ceduo_place place = {.doubt = &c.doubt};
+    if (status == CEDUO_OK && !print_figures(a, ceduo_doubt_figures, &ceduo_doubt_csv, &place, out)) {
         ceduo_doubt_page(out, &c.doubt, !ceduo_say_utf8());
         ceduo_say_plainly(out);
     }
@@ -117,11 +121,7 @@ enum exit_status ceduo_print_find(const struct arguments *a, struct scene_file *
     search.target = answer.target;
     search.rotation = answer.rotation;
     const struct ceduo_find_report report = {file, &search, &answer.found, &answer.yield, answer.yield_depends, &answer.sure};
-    if (status == CEDUO_OK && a->format == CEDUO_JSON) {
-        ceduo_figures_json(out, ceduo_find_figures, &report, false);
-    } else if (status == CEDUO_OK && a->format == CEDUO_CSV) {
-        ceduo_csv_rows(out, &ceduo_find_csv, &report);
-    } else if (status == CEDUO_OK) {
+    if (status == CEDUO_OK && !print_figures(a, ceduo_find_figures, &ceduo_find_csv, &report, out)) {
         if (a->scenes_count > 1)
             ceduo_text_safe(out, file->path);
         ceduo_text_put(out, a->scenes_count > 1 ? ":\n" : "");
