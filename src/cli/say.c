@@ -13,46 +13,31 @@
 #include <unistd.h>
 
 #include "base/language.h"
+#include "view/cells.h"
 
 bool ceduo_say_utf8(void)
 {
     return strcmp(nl_langinfo(CODESET), "UTF-8") == 0;
 }
 
-/* What is written in place of the signs that the program itself uses, and of accented letters, so that columns stay; none is
- * longer. */
-static const char *const plain_signs[][2] = {
-    {"\xe2\x80\xa6", "..."}, {"\xe2\x80\x93", "-"}, {"\xe2\x88\x92", "-"}, {"\xc2\xb1", "+-"}, {"\xc3\xa0", "a"},
-    {"\xc3\xa8", "e"},       {"\xc3\xa9", "e"},     {"\xc3\xac", "i"},     {"\xc3\xb2", "o"},  {"\xc3\xb9", "u"},
-    {"\xc3\x80", "A"},       {"\xc3\x88", "E"},     {"\xc2\xb3", "3"},     {"\xc2\xb2", "2"},  {"\xc3\x8c", "I"},
-    {"\xc3\x92", "O"},       {"\xe2\x9c\x94", "+"}, {"\xe2\x9c\x98", "x"}};
-#define PLAIN_SIGNS (sizeof plain_signs / sizeof plain_signs[0])
-
-/* For a terminal that knows ASCII alone: what it cannot show otherwise becomes a question mark. */
+/* For a terminal that knows ASCII alone. */
 void ceduo_say_plainly(struct text *text)
 {
-    size_t to = 0;
+    struct text plain = {0};
     if (ceduo_say_utf8())
         return;
-    for (size_t i = 0; i < text->length; i++) {
-        unsigned char c = (unsigned char)text->bytes[i];
-        size_t sign = 0;
-        while (sign < PLAIN_SIGNS && strncmp(text->bytes + i, plain_signs[sign][0], strlen(plain_signs[sign][0])) != 0)
+    for (const char *p = ceduo_text_string(text), *sign; *p; p = sign) {
+        LOCAL_TEXT(others);
+        for (sign = p; *sign && (unsigned char)*sign < 0x80;)
             sign++;
-        if (sign < PLAIN_SIGNS) {
-            size_t n = strlen(plain_signs[sign][1]);
-            memcpy(text->bytes + to, plain_signs[sign][1], n);
-            to += n;
-            i += strlen(plain_signs[sign][0]) - 1;
-        } else if (c < 0x80) {
-            text->bytes[to++] = text->bytes[i];
-        } else if ((c & 0xc0) != 0x80) {
-            text->bytes[to++] = '?';
-        }
+        ceduo_text_add(&plain, p, (size_t)(sign - p));
+        for (p = sign; (unsigned char)*sign >= 0x80;)
+            sign++;
+        ceduo_text_add(&others, p, (size_t)(sign - p));
+        ceduo_cells_ascii(&plain, ceduo_text_string(&others));
     }
-    text->length = to;
-    if (text->bytes)
-        text->bytes[to] = '\0';
+    ceduo_text_free(text);
+    *text = plain;
 }
 
 static bool line_open; /* of progress */
