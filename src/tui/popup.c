@@ -186,14 +186,10 @@ static void go_to_field(struct app *app, struct popup *p, size_t field)
 /* Returns how many lines a key moves by, letters only where nothing is typed; 0 if it does not move. */
 static int lines_of(int key, bool letters)
 {
-    static const struct {
-        int key, letter, lines;
-    } keys[] = {{K_UP, 'k', -1},      {K_DOWN, 'j', 1},       {K_PAGE_UP, 0, -10},
-                {K_PAGE_DOWN, 0, 10}, {K_HOME, 'g', -100000}, {K_END, 'G', 100000}};
-    for (size_t i = 0; i < sizeof keys / sizeof keys[0]; i++)
-        if (key == keys[i].key || (letters && key != 0 && key == keys[i].letter))
-            return keys[i].lines;
-    return 0;
+    static const int lines[ACTION_COUNT] = {[ACTION_UP] = -1,        [ACTION_DOWN] = 1,      [ACTION_PAGE_UP] = -10,
+                                            [ACTION_PAGE_DOWN] = 10, [ACTION_TOP] = -100000, [ACTION_BOTTOM] = 100000};
+    enum action action = ceduo_action_of(key);
+    return action != ACTION_NONE && (letters || ceduo_actions[action].key == key) ? lines[action] : 0;
 }
 
 static void text_key(struct app *app, struct popup *p, int key)
