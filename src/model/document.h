@@ -49,8 +49,10 @@ bool ceduo_document_duplicate(struct document *document, const char *list, size_
 bool ceduo_document_insert(struct document *document, const char *list, size_t index, const char *text,
                            struct problems *problems);
 bool ceduo_document_move(struct document *document, const char *list, size_t from, size_t to, struct problems *problems);
-/* A new option after the last: the belts of the first with `stand` in each. A scene that has only a forest gets options
- * first, "current" the first of them. */
+/* The belts of the first option with `stand` in each, as YAML; where it has none, one down to the first control. */
+void ceduo_document_belts(const struct document *document, const char *stand, struct text *yaml);
+/* A new option after the last, with those belts. A scene that has only a forest gets options first, "current" the first of
+ * them. */
 bool ceduo_document_add_option(struct document *document, const char *stand, const char *name, struct problems *problems);
 
 /* Another name for an option; what was seen through its forest and the doubts about it go along. */

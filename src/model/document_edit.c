@@ -321,21 +321,27 @@ static const struct node *need_options(struct edit *e)
     return options;
 }
 
+void ceduo_document_belts(const struct document *d, const char *stand, struct text *yaml)
+{
+    const struct ceduo_scene *s = &d->file.scene;
+    size_t n = s->options[0].belts_count;
+    const struct ceduo_belt none = {.from_given = s->slope.origin_x, .to_given = s->controls->x_given};
+    const struct ceduo_belt *belts = n > 0 ? s->options[0].belts : &none;
+    for (size_t i = 0; i == 0 || i < n; i++)
+        ceduo_text_format(yaml, "%s{from_m: %.10g, to_m: %.10g, stand: %s}", i ? ", " : "[", belts[i].from_given,
+                          belts[i].to_given, stand);
+    ceduo_text_char(yaml, ']');
+}
+
 bool ceduo_document_add_option(struct document *d, const char *stand, const char *name, struct problems *problems)
 {
     struct edit e = begin(d, problems);
-    const struct ceduo_option *first = &d->file.scene.options[0];
     LOCAL_TEXT(yaml);
     ceduo_text_put(&yaml, "{name: ");
     ceduo_emit_scalar(&yaml, name, true);
-    ceduo_text_put(&yaml, ", forest: [");
-    for (size_t i = 0; i < first->belts_count; i++)
-        ceduo_text_format(&yaml, "%s{from_m: %.10g, to_m: %.10g, stand: %s}", i ? ", " : "", first->belts[i].from_given,
-                          first->belts[i].to_given, stand);
-    if (first->belts_count == 0)
-        ceduo_text_format(&yaml, "{from_m: %.10g, to_m: %.10g, stand: %s}", d->file.scene.slope.origin_x,
-                          d->file.scene.controls->x_given, stand);
-    ceduo_text_put(&yaml, "]}");
+    ceduo_text_put(&yaml, ", forest: ");
+    ceduo_document_belts(d, stand, &yaml);
+    ceduo_text_char(&yaml, '}');
     const struct node *item = ceduo_document_parse(d, "options", yaml.bytes, problems), *list = need_options(&e);
     put_item(&e, "options", list->n, item ? with_new_name(&e, list, item) : NULL);
     return commit(&e, stand);

@@ -148,13 +148,10 @@ static void append_change(struct app *app, struct popup *p)
         return;
     }
     ceduo_text_put(&p->text, _("the lights: computing …\n"));
-    const struct ceduo_option *o = ceduo_app_option(app);
     bool all = p->chosen == chose_new_option; /* the stand in every belt */
-    ceduo_text_format(&set, "%s=%s", all ? ceduo_app_forest(app) : p->path, all ? "[" : p->value);
-    for (size_t i = 0; all && i < o->belts_count; i++)
-        ceduo_text_format(&set, "%s{from_m: %.10g, to_m: %.10g, stand: %s}", i ? ", " : "", o->belts[i].from_given,
-                          o->belts[i].to_given, p->value);
-    ceduo_text_put(&set, all ? "]" : "");
+    ceduo_text_format(&set, "%s=%s", all ? ceduo_app_forest(app) : p->path, all ? "" : p->value);
+    if (all)
+        ceduo_document_belts(&app->document, p->value, &set);
     if (set.length < JOB_TEXT)
         ceduo_jobs_preview(app->live.jobs, &app->document.file, set.bytes, app->option);
 }
@@ -243,7 +240,7 @@ static void chose_word(struct app *app, struct popup *p)
     ceduo_app_set(app, p->path, p->value);
 }
 
-/* The option that is shown with another stand in every belt, as a new option. */
+/* A new option with another stand in every belt. */
 static void chose_new_option(struct app *app, struct popup *p)
 {
     const char *name = p->value;

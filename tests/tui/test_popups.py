@@ -328,6 +328,10 @@ def test_preview_is_what_comes():
         expect(found, "no lights in", ahead.popup)
         expect_equal(list(found.groups()[:3]), [lights(after, "braille")[k] for k in ("Contact", "Free run", "Energy")], name)
         expect_near(float(found.group(4)), after.pair("above 250 kJ")[0], 60, f"{name}: of 1000")  # 4 s.e. of 1024 rocks
+    keys = "key 5 a\ntype bare\nkey Enter 1 d 5 a\ntype simple-coppice\nwait idle\ndump\nkey Enter\nwait idle\ndump"
+    ahead, after = fast(keys, "wood.yaml")  # beside an option without belts: the new one has those of the first
+    found = re.search(r"Contact (\w+).*?free run (\w+).*?energy (\w+)", ahead.popup)
+    expect_equal(list(found.groups()), [lights(after, "braille")[k] for k in ("Contact", "Free run", "Energy")], ahead.popup)
 
 
 def test_commands():
