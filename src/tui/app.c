@@ -209,15 +209,6 @@ void ceduo_app_follow_belt(struct app *app)
     ceduo_app_refresh(app);
 }
 
-bool ceduo_app_news(struct app *app)
-{
-    bool changed = ceduo_live_news(&app->live, &app->document.file.scene);
-    const struct ceduo_years *years = ceduo_live_years(&app->live, &app->document.file.scene, app->option);
-    if (years && app->year >= years->count)
-        app->year = 0;
-    return changed;
-}
-
 /* ---- the trajectory of a rock ---- */
 
 bool ceduo_app_follow_rock(struct app *app)
@@ -241,8 +232,7 @@ void ceduo_app_next_rock(struct app *app, int by)
 void ceduo_app_step_rock(struct app *app, int by)
 {
     LOCAL_TEXT(text);
-    ceduo_rock_trajectory_move(&app->trajectory, by);
-    ceduo_rock_trajectory_say(&app->trajectory, &app->document.file.scene, &text);
+    ceduo_rock_trajectory_step(&app->trajectory, by, &app->document.file.scene, &text);
     ceduo_app_say(app, "%s", text.bytes);
 }
 
@@ -377,7 +367,7 @@ void ceduo_app_label(struct app *app, int x, int y, enum ceduo_role role, const 
     va_end(args);
 }
 
-static int draw_wrapped(struct app *app, struct ceduo_area area, enum ceduo_role role, const char *text, int skip)
+int ceduo_app_text(struct app *app, struct ceduo_area area, enum ceduo_role role, const char *text, int skip)
 {
     int lines = 0;
     size_t width = area.width > 0 ? (size_t)area.width : 0;
@@ -392,16 +382,7 @@ static int draw_wrapped(struct app *app, struct ceduo_area area, enum ceduo_role
 
 int ceduo_app_text_lines(struct app *app, const char *text, int width)
 {
-    return draw_wrapped(app, (struct ceduo_area){0, 0, width, 0}, CEDUO_ROLE_TEXT, text, 0);
-}
-
-bool ceduo_app_text(struct app *app, struct ceduo_area area, enum ceduo_role role, const char *text, int *top)
-{
-    int max = top ? ceduo_app_text_lines(app, text, area.width) - area.height : 0;
-    if (top && *top > max)
-        *top = max > 0 ? max : 0;
-    draw_wrapped(app, area, role, text, top ? *top : 0);
-    return top && *top < max;
+    return ceduo_app_text(app, (struct ceduo_area){.width = width}, CEDUO_ROLE_TEXT, text, 0);
 }
 
 void ceduo_app_shorten(struct app *app, struct text *text, int width, int lines)
@@ -427,7 +408,7 @@ void ceduo_app_put(struct app *app, struct ceduo_area area, enum ceduo_role role
 {
     ceduo_app_shorten(app, text, area.width, area.height);
     if (text->bytes)
-        ceduo_app_text(app, area, role, text->bytes, NULL);
+        ceduo_app_text(app, area, role, text->bytes, 0);
     ceduo_text_free(text);
 }
 

@@ -120,9 +120,6 @@ bool ceduo_app_open_text(struct app *app, const char *text);
 
 void ceduo_app_resize(struct app *app, int width, int height);
 
-/* Takes the news of the jobs. True where the screen has changed. */
-bool ceduo_app_news(struct app *app);
-
 /* A string that lives until the next key; what a path means in words, likewise. */
 char *ceduo_app_format(const struct app *app, const char *format, ...) __attribute__((format(printf, 2, 3)));
 const char *ceduo_app_path(const struct app *app, const char *path);
@@ -198,11 +195,10 @@ void ceduo_screen_draw(struct app *app);
 /* Returns the view whose title stands in this column of the top row; VIEW_COUNT if there is none. */
 enum view_number ceduo_screen_view_at(const struct app *app, int column);
 
-/* Draws wrapped text in a rectangle from line `*top` on (NULL: the first); limits `*top` to the text. Returns whether
- * more lines follow below. */
-bool ceduo_app_text(struct app *app, struct ceduo_area area, enum ceduo_role role, const char *text, int *top);
+/* Draws wrapped text in a rectangle, without its first lines. Returns how many lines it has. */
+int ceduo_app_text(struct app *app, struct ceduo_area area, enum ceduo_role role, const char *text, int skip);
 
-/* Lines that it takes. */
+/* The same, drawing nothing. */
 int ceduo_app_text_lines(struct app *app, const char *text, int width);
 
 /* A text that fills no more than so many lines: what is too long ends in a sign of more. */

@@ -292,7 +292,7 @@ static void draw_box(struct app *app, struct ceduo_area r, const char *title)
                 continue;
             ceduo_cells_label(app->cells, r.left + x, r.top + y, CEDUO_ROLE_AXIS, c);
         }
-    ceduo_app_text(app, (struct ceduo_area){r.left + 2, r.top, r.width - 4, 1}, CEDUO_ROLE_TITLE, title, NULL);
+    ceduo_app_text(app, (struct ceduo_area){r.left + 2, r.top, r.width - 4, 1}, CEDUO_ROLE_TITLE, title, 0);
 }
 
 /* Marks on the edge of the box that there is more above or below. */
@@ -335,8 +335,10 @@ static struct ceduo_area draw_frame(struct app *app, struct popup *p, int lines,
 static void draw_text(struct app *app, struct popup *p)
 {
     struct ceduo_area in = draw_frame(app, p, app->height, 0);
-    bool more = ceduo_app_text(app, in, CEDUO_ROLE_TEXT, ceduo_text_string(&p->text), &p->top);
-    draw_more(app, p, p->top > 0, more);
+    int last = ceduo_app_text_lines(app, ceduo_text_string(&p->text), in.width) - in.height;
+    p->top = p->top < last ? p->top : last > 0 ? last : 0;
+    ceduo_app_text(app, in, CEDUO_ROLE_TEXT, ceduo_text_string(&p->text), p->top);
+    draw_more(app, p, p->top > 0, p->top < last);
 }
 
 static void draw_picks(struct app *app, struct popup *p, struct ceduo_area area)
@@ -367,9 +369,9 @@ static void draw_list(struct app *app, struct popup *p)
     in.top++;
     in.height--;
     if (app->message[0])
-        ceduo_app_text(app, in, CEDUO_ROLE_WARN, app->message, NULL);
+        ceduo_app_text(app, in, CEDUO_ROLE_WARN, app->message, 0);
     else if (p->picker.matches == 0)
-        ceduo_app_text(app, in, CEDUO_ROLE_DIM, _("nothing matches"), NULL);
+        ceduo_app_text(app, in, CEDUO_ROLE_DIM, _("nothing matches"), 0);
     else
         draw_picks(app, p, in);
 }
@@ -395,7 +397,7 @@ static void draw_fields(struct app *app, struct popup *p)
     if (shown < n)
         draw_more(app, p, p->top > 0, p->top + shown < n);
     struct ceduo_area first = {in.left, in.top, in.width, in.height < 2 ? in.height : 2};
-    ceduo_app_text(app, first, CEDUO_ROLE_WARN, app->message, NULL);
+    ceduo_app_text(app, first, CEDUO_ROLE_WARN, app->message, 0);
     if (p->picture && (!p->fields[p->at].offer || p->picker.matches == 0) && !app->message[0])
         p->picture(app, p, (struct ceduo_area){in.left, in.top + 1, in.width, in.height - 1});
     else if (!app->message[0])

@@ -213,8 +213,12 @@ void ceduo_program_free(struct app *app)
 bool ceduo_program_news(struct app *app)
 {
     ceduo_arena_free(app->scratch);
-    bool changed = ceduo_app_news(app);
+    const struct ceduo_scene *scene = &app->document.file.scene;
+    bool changed = ceduo_live_news(&app->live, scene);
+    const struct ceduo_years *years = ceduo_live_years(&app->live, scene, app->option);
     union results *results = &app->live.results;
+    if (years && app->year >= years->count)
+        app->year = 0;
     if (results->preview)
         ceduo_popup_previewed(app, results->preview);
     if (results->search)

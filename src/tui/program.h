@@ -16,7 +16,7 @@ void ceduo_program_paste(struct app *app, const char *text); /* into the line th
 void ceduo_program_click(struct app *app, int x, int y);
 void ceduo_program_wheel(struct app *app, int by);
 
-/* As ceduo_app_news(), and what a search found. */
+/* Takes the news of the jobs, and what a search found. True where the screen has changed. */
 bool ceduo_program_news(struct app *app);
 
 #endif

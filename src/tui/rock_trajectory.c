@@ -75,14 +75,6 @@ bool ceduo_rock_trajectory_follow(struct rock_trajectory *s, const struct ceduo_
     return true;
 }
 
-void ceduo_rock_trajectory_move(struct rock_trajectory *s, int by)
-{
-    if (by > 0)
-        s->at = s->at < s->n ? s->at + 1 : s->n;
-    else if (by < 0)
-        s->at = s->at > 0 ? s->at - 1 : s->n;
-}
-
 size_t ceduo_rock_trajectory_stems(const struct rock_trajectory *s)
 {
     size_t n = 0;
@@ -93,11 +85,15 @@ size_t ceduo_rock_trajectory_stems(const struct rock_trajectory *s)
     return n;
 }
 
-void ceduo_rock_trajectory_say(const struct rock_trajectory *s, const struct ceduo_scene *scene, struct text *text)
+void ceduo_rock_trajectory_step(struct rock_trajectory *s, int by, const struct ceduo_scene *scene, struct text *text)
 {
     static const char *const ends[CEDUO_ENDS] = {N_("comes to rest"), N_("leaves the slope"), N_("goes on for ever"),
                                                  N_("is stopped by stems")};
     double origin = scene->slope.origin_x, gravity = scene->simulation.gravity;
+    if (by > 0)
+        s->at = s->at < s->n ? s->at + 1 : s->n;
+    else if (by < 0)
+        s->at = s->at > 0 ? s->at - 1 : s->n;
     if (s->at == 0 || s->at > s->n) {
         ceduo_text_format(text, _("rock %llu: %s at %.1f m after %llu contacts"), (unsigned long long)s->rock,
                           s->cut_short ? _("goes on too long to be shown") : _(ends[s->whole.end]), s->whole.x + origin,

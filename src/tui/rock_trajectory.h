@@ -24,14 +24,11 @@ struct rock_trajectory {
 bool ceduo_rock_trajectory_follow(struct rock_trajectory *trajectory, const struct ceduo_scene *scene,
                                   const struct ceduo_option *option, uint64_t key, uint64_t rock);
 
-/* A piece further or back. */
-void ceduo_rock_trajectory_move(struct rock_trajectory *trajectory, int by);
-
 /* How many of the stems lie on what is shown. */
 size_t ceduo_rock_trajectory_stems(const struct rock_trajectory *trajectory);
 
-/* Says what happens on the last piece shown, or how the trajectory ends. */
-void ceduo_rock_trajectory_say(const struct rock_trajectory *trajectory, const struct ceduo_scene *scene, struct text *text);
+/* A piece further (1) or back (-1), or none; says what happens on the last one shown, or how the trajectory ends. */
+void ceduo_rock_trajectory_step(struct rock_trajectory *trajectory, int by, const struct ceduo_scene *scene, struct text *text);
 
 void ceduo_rock_trajectory_free(struct rock_trajectory *trajectory);
 

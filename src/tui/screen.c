@@ -105,7 +105,7 @@ static void draw_explanation(struct app *app)
     ceduo_app_shorten(app, &safe, lines.width, lines.height);
     const char *shown = ceduo_text_string(&safe);
     if ((int)ceduo_utf8_width(shown) > app->width)
-        ceduo_app_text(app, lines, role, shown, NULL);
+        ceduo_app_text(app, lines, role, shown, 0);
     else
         ceduo_canvas_put(&app->cells->canvas, 0, app->height - 2, app->width, role, shown);
 }
@@ -189,7 +189,7 @@ void ceduo_screen_draw(struct app *app)
         const char *text =
             ceduo_app_format(app, _("ceduo needs a window of %d x %d; this one is %d x %d. Make it larger; q quits."),
                              WIDTH_MIN, HEIGHT_MIN, app->width, app->height);
-        ceduo_app_text(app, all, CEDUO_ROLE_WARN, text, NULL);
+        ceduo_app_text(app, all, CEDUO_ROLE_WARN, text, 0);
         return;
     }
     int side = app->width >= 140 ? 44 : app->width >= 100 ? 36 : 28;
@@ -201,7 +201,7 @@ void ceduo_screen_draw(struct app *app)
         ceduo_cells_label(app->cells, now.left - 2, y, CEDUO_ROLE_AXIS, "\xe2\x94\x82");
     draw_column(app, now, !titled);
     if (ceduo_views[app->view]->result && !app->live.result)
-        ceduo_app_text(app, body, CEDUO_ROLE_DIM, _("the first rocks are falling \xe2\x80\xa6"), NULL);
+        ceduo_app_text(app, body, CEDUO_ROLE_DIM, _("the first rocks are falling \xe2\x80\xa6"), 0);
     else
         ceduo_views[app->view]->draw(app, body);
     draw_explanation(app);
