@@ -34,33 +34,24 @@ static void offer_goals(struct app *app, struct popup *p)
         ceduo_popup_item(p, _(goals[i].words), _(goals[i].words));
 }
 
-static size_t row_of(enum ceduo_goal goal)
-{
-    size_t i = 0;
-    while (i + 1 < GOALS_OFFERED && goals[i].goal != goal)
-        i++;
-    return i;
-}
-
 /* Words of the list, or what the command line takes: energy=50; the amount may stand in the field below. */
 static bool read_goal(struct app *app, struct popup *p, struct ceduo_search *search)
 {
     const char *typed = p->fields[FIND_GOAL].line.text;
     enum ceduo_goal_reading reading = ceduo_goal_read(ceduo_app_format(app, "%s", typed), &search->goal, &search->target);
-    for (size_t i = 0; i < GOALS_OFFERED; i++)
-        if (strcmp(typed, _(goals[i].words)) == 0) {
-            search->goal = goals[i].goal;
-            search->target = NAN;
-            reading = CEDUO_GOAL_GOOD;
-        }
-    if (reading != CEDUO_GOAL_GOOD) {
+    size_t row = 0;
+    while (row < GOALS_OFFERED && strcmp(typed, _(goals[row].words)) != 0 &&
+           !(reading == CEDUO_GOAL_GOOD && goals[row].goal == search->goal))
+        row++;
+    if (row == GOALS_OFFERED) {
         ceduo_app_warn(app, "%s",
                        reading == CEDUO_GOAL_NO_SHARE
                            ? _("a share is 0 to 1, as 0.05 for 5 %")
                            : _("the goal is one of the list, or adc, free-run, energy=KJ, exceed=SHARE, arrive=SHARE"));
         return false;
     }
-    size_t row = row_of(search->goal);
+    search->goal = goals[row].goal;
+    search->target = reading == CEDUO_GOAL_GOOD ? search->target : NAN;
     double amount = NAN;
     if (!ceduo_popup_number(app, p, FIND_TARGET, &amount))
         return false;
