@@ -147,6 +147,18 @@ static bool is_measured(const char *stand)
 static bool read_field(struct app *app, struct popup *p, size_t field, struct answers *a)
 {
     const char *typed = p->fields[field].line.text;
+    double *const numbers[NEW_STAND + 1] = {[NEW_RELEASE] = &a->release,
+                                            [NEW_FACE] = &a->face,
+                                            [NEW_ROCK] = &a->rock,
+                                            [NEW_CONTROL] = &a->control,
+                                            [NEW_ACCEPTED] = &a->accepted};
+    if (numbers[field]) {
+        *numbers[field] = field == NEW_CONTROL ? a->last : field == NEW_ACCEPTED ? NAN : a->first;
+        bool good = ceduo_popup_number(app, p, field, numbers[field]);
+        if (good && field == NEW_FACE)
+            p->fields[NEW_CONTROL].value->lo = fmax(a->release, a->face);
+        return good;
+    }
     switch (field) {
     case NEW_PROFILE: /* within which the places lie */
         if (!read_profile(app, p, a))
@@ -157,28 +169,11 @@ static bool read_field(struct app *app, struct popup *p, size_t field, struct an
             p->fields[places[i]].value->hi = a->last;
         }
         return true;
-    case NEW_RELEASE:
-        a->release = a->first;
-        return ceduo_popup_number(app, p, NEW_RELEASE, &a->release);
-    case NEW_FACE:
-        a->face = a->first;
-        if (!ceduo_popup_number(app, p, NEW_FACE, &a->face))
-            return false;
-        p->fields[NEW_CONTROL].value->lo = fmax(a->release, a->face);
-        return true;
     case NEW_MATERIAL:
         if (ceduo_choice_find(&ceduo_material_words, typed) >= 0)
             return true;
         ceduo_app_warn(app, _("no ground '%s' in the library"), typed);
         return false;
-    case NEW_ROCK:
-        return ceduo_popup_number(app, p, NEW_ROCK, &a->rock);
-    case NEW_CONTROL:
-        a->control = a->last;
-        return ceduo_popup_number(app, p, NEW_CONTROL, &a->control);
-    case NEW_ACCEPTED:
-        a->accepted = NAN;
-        return ceduo_popup_number(app, p, NEW_ACCEPTED, &a->accepted);
     case NEW_STAND:
         if (typed[0] == '\0' || is_measured(typed) || ceduo_file_find(&p->arena, typed, NULL, "stands"))
             return true;
