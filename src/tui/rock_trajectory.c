@@ -24,7 +24,7 @@ static void add_piece(void *context, const struct ceduo_piece *piece)
     if (s->n == PIECES_MAX)
         return;
     s->pieces = ceduo_grow(s->pieces, s->n, &s->room, sizeof *s->pieces);
-    s->pieces[s->n++] = *piece;
+    s->pieces[s->n++] = (struct rock_piece){*piece, s->stems_count};
 }
 
 static void add_stem(void *context, const struct ceduo_stem_passed *stem)
@@ -32,11 +32,10 @@ static void add_stem(void *context, const struct ceduo_stem_passed *stem)
     struct rock_trajectory *s = context;
     if (s->n >= PIECES_MAX)
         return;
-    size_t room = s->stems_room; /* of both arrays */
-    s->stems = ceduo_grow(s->stems, s->stems_count, &room, sizeof *s->stems);
-    s->stem_piece = ceduo_grow(s->stem_piece, s->stems_count, &s->stems_room, sizeof *s->stem_piece);
-    s->stem_piece[s->stems_count] = stem->hit ? s->n : s->n + 1; /* flown over: on the piece that is under way */
+    s->stems = ceduo_grow(s->stems, s->stems_count, &s->stems_room, sizeof *s->stems);
     s->stems[s->stems_count++] = *stem;
+    if (stem->hit && s->n > 0) /* flown over: on the piece that is under way */
+        s->pieces[s->n - 1].stems = s->stems_count;
 }
 
 bool ceduo_rock_trajectory_follow(struct rock_trajectory *s, const struct ceduo_scene *scene, const struct ceduo_option *option,
@@ -63,7 +62,8 @@ bool ceduo_rock_trajectory_follow(struct rock_trajectory *s, const struct ceduo_
     line->x[0] = s->whole.x0;
     line->z[0] = s->whole.z0;
     line->n = 1;
-    for (const struct ceduo_piece *p = s->pieces; p < s->pieces + shown; p++) {
+    for (size_t k = 0; k < shown; k++) {
+        const struct ceduo_piece *p = &s->pieces[k].piece;
         for (int i = 1; i < FLIGHT_POINTS && !p->rolls; i++) {
             double time = p->seconds * i / FLIGHT_POINTS;
             line->x[line->n] = p->x + p->vx * time;
@@ -77,12 +77,7 @@ bool ceduo_rock_trajectory_follow(struct rock_trajectory *s, const struct ceduo_
 
 size_t ceduo_rock_trajectory_stems(const struct rock_trajectory *s)
 {
-    size_t n = 0;
-    if (s->at == 0)
-        return s->stems_count;
-    while (n < s->stems_count && s->stem_piece[n] <= s->at)
-        n++;
-    return n;
+    return s->at > 0 ? s->pieces[s->at - 1].stems : s->stems_count;
 }
 
 void ceduo_rock_trajectory_step(struct rock_trajectory *s, int by, const struct ceduo_scene *scene, struct text *text)
@@ -102,7 +97,7 @@ void ceduo_rock_trajectory_step(struct rock_trajectory *s, int by, const struct 
             ceduo_text_then(text, ", ", _("%llu stems hit"), (unsigned long long)s->whole.stems_hit);
         return;
     }
-    const struct ceduo_piece *p = &s->pieces[s->at - 1];
+    const struct ceduo_piece *p = &s->pieces[s->at - 1].piece;
     double up = p->vz > 0 && !p->rolls ? fmin(p->vz / gravity, p->seconds) : 0;
     double x = p->x + p->vx * up, z = p->z + (p->vz - gravity / 2 * up) * up;
     ceduo_text_format(text, _("rock %llu, piece %zu of %zu"), (unsigned long long)s->rock, s->at, s->n);
@@ -112,9 +107,9 @@ void ceduo_rock_trajectory_step(struct rock_trajectory *s, int by, const struct 
     else
         ceduo_text_then(text, ": ", _("flies from %.2f to %.2f m, %.1f m/s, top %.1f m over the ground"), p->x + origin,
                         p->x1 + origin, hypot(p->vx1, p->vz1), fmax(0, z - ceduo_slope_height(&scene->slope, x)));
-    for (size_t i = 0; i < s->stems_count; i++) { /* the stem that is hit at its end */
+    for (size_t i = s->at > 1 ? s->pieces[s->at - 2].stems : 0; i < s->pieces[s->at - 1].stems; i++) {
         const struct ceduo_stem_passed *stem = &s->stems[i];
-        if (!stem->hit || s->stem_piece[i] != s->at)
+        if (!stem->hit) /* at its end */
             continue;
         if (isnan(stem->dbh))
             ceduo_text_then(text, "; ", _("a contact takes %.2g of %.3g kJ"), stem->taken / 1e3, stem->before / 1e3);
@@ -130,7 +125,6 @@ void ceduo_rock_trajectory_free(struct rock_trajectory *s)
 {
     free(s->pieces);
     free(s->stems);
-    free(s->stem_piece);
     ceduo_polyline_free(&s->line);
     *s = (struct rock_trajectory){0};
 }

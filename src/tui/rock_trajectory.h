@@ -5,13 +5,18 @@
 #include "base/text.h"
 #include "study/snapshot.h"
 
-/* The trajectory of one rock, piece by piece: flights, and rolls along the ground. */
+/* A piece of it: a flight, or a roll along the ground. */
+struct rock_piece {
+    struct ceduo_piece piece;
+    size_t stems; /* that it has come to, up to its end */
+};
+
+/* The trajectory of one rock, piece by piece. */
 struct rock_trajectory {
     uint64_t key, rock; /* of the run and the rock that they were followed for */
     size_t n, room, at; /* pieces; how many of them are shown, 0: all */
-    struct ceduo_piece *pieces;
+    struct rock_piece *pieces;
     struct ceduo_stem_passed *stems; /* that it comes to */
-    size_t *stem_piece;              /* the piece, counted from 1, on which or at whose end each of them stands */
     size_t stems_count, stems_room;
     double begun;   /* s: when the following began */
     bool cut_short; /* it took too long to be followed to its end */
