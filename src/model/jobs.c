@@ -321,14 +321,9 @@ static enum ceduo_status step_fit(struct jobs *q, struct job *job, void **result
 }
 
 static const struct kind kinds[JOB_KINDS] = {
-    [JOB_SEARCH] = {step_search, free_search},
-    [JOB_PREVIEW] = {step_preview, free},
-    [JOB_SNAPSHOT] = {step_snapshot, free_snapshot},
-    [JOB_OTHERS] = {step_others, free},
-    [JOB_COMPARISON] = {step_comparison, free_comparison},
-    [JOB_FIT] = {step_fit, ceduo_fit_free},
-    [JOB_YEARS] = {step_years, free_years},
-    [JOB_UNCERTAINTY] = {step_uncertainty, free_uncertainty},
+#define X(NAME, name, type, free) [JOB_##NAME] = {step_##name, free},
+    JOBS(X)
+#undef X
 };
 
 /* ---- the thread ---- */

@@ -15,19 +15,19 @@
  * the one before, and any new one interrupts the step under way, which is repeated later. What a step computes goes into
  * the slot of its kind, from which the program takes it. */
 
-/* The kinds, the first first where two steps are as coarse: name, slot, what it holds. */
+/* The kinds, the first first where two steps are as coarse: name, slot, what it holds, by what that is freed. */
 #define JOBS(X)                                                                                                                \
-    X(SEARCH, search, struct search_answer)                                                                                    \
-    X(PREVIEW, preview, struct preview)                                                                                        \
-    X(SNAPSHOT, snapshot, struct snapshot)                                                                                     \
-    X(OTHERS, others, struct others)                                                                                           \
-    X(COMPARISON, comparison, struct comparison)                                                                               \
-    X(FIT, fit, struct fit)                                                                                                    \
-    X(YEARS, years, struct years_known)                                                                                        \
-    X(UNCERTAINTY, uncertainty, struct uncertainty)
+    X(SEARCH, search, struct search_answer, free_search)                                                                       \
+    X(PREVIEW, preview, struct preview, free)                                                                                  \
+    X(SNAPSHOT, snapshot, struct snapshot, free_snapshot)                                                                      \
+    X(OTHERS, others, struct others, free)                                                                                     \
+    X(COMPARISON, comparison, struct comparison, free_comparison)                                                              \
+    X(FIT, fit, struct fit, ceduo_fit_free)                                                                                    \
+    X(YEARS, years, struct years_known, free_years)                                                                            \
+    X(UNCERTAINTY, uncertainty, struct uncertainty, free_uncertainty)
 
 enum job_kind {
-#define X(NAME, name, type) JOB_##NAME,
+#define X(NAME, name, type, free) JOB_##NAME,
     JOBS(X)
 #undef X
         JOB_KINDS
@@ -37,7 +37,7 @@ enum job_kind {
 union results {
     void *slots[JOB_KINDS];
     struct {
-#define X(NAME, name, type) type *name;
+#define X(NAME, name, type, free) type *name;
         JOBS(X)
 #undef X
     };
