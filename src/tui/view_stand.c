@@ -22,6 +22,8 @@ static void build_low(struct form *form, const char *group)
     }
 }
 
+#define STEMS "dbh_m height_m volume_m3 dbh_sd_m"
+
 static void build(struct app *app, struct form *form)
 {
     ceduo_form_table(form, ceduo_app_forest(app), NULL, "from_m to_m stand");
@@ -41,11 +43,10 @@ static void build(struct app *app, struct form *form)
     for (size_t i = 0; i < s->shoots_count; i++)
         each += s->shoots[i].per_stool > 0;
     ceduo_form_table(form, ceduo_app_format(app, "%s.shoots", path), NULL,
-                     each == 0                ? "per_ha dbh_m height_m volume_m3 dbh_sd_m"
-                     : each < s->shoots_count ? "per_stool per_ha dbh_m height_m volume_m3 dbh_sd_m"
-                                              : "per_stool dbh_m height_m volume_m3 dbh_sd_m");
+                     ceduo_app_format(app, "%s%s" STEMS, each > 0 ? "per_stool " : "",
+                                      each == 0 || each < s->shoots_count ? "per_ha " : ""));
     ceduo_form_heading(form, _("Single trees: standards, reserves"));
-    ceduo_form_table(form, ceduo_app_format(app, "%s.trees", path), NULL, "per_ha dbh_m height_m volume_m3 dbh_sd_m");
+    ceduo_form_table(form, ceduo_app_format(app, "%s.trees", path), NULL, "per_ha " STEMS);
     double today = ceduo_stand_trees(s), stay = ceduo_stand_stay(s);
     if (s->cutting.rotation > 0) /* beside the trees of today: to change one does not change the other */
         ceduo_form_fields(form, in, "cutting.stay_per_ha");
