@@ -22,13 +22,6 @@ void ceduo_changes_remove(struct changes *changes, const char *path);
 /* Makes the edit, and frees the changes. */
 bool ceduo_changes_make(struct changes *changes, const char *what, struct problems *problems);
 
-/* A number of so many digits as text, in the arena of the document. */
-const char *ceduo_changes_rounded(struct changes *changes, double value, int digits);
-
-/* Adds what follows a value that is changed: the neighbours of a border, so that there is no new gap and no overlap; a
- * height that is assumed, by its diameter. */
-void ceduo_changes_follow(struct changes *changes, const char *path, const char *value);
-
 /* As ceduo_document_set(), but what would then be said twice is taken out in the same state: a sphere has one of three
  * sizes, a rock a mass or a density, the ground a roughness in m or rad, shoots a number per ha or per stool. Another
  * shape takes the sizes out that do not belong to it and gets its own, of the same volume. Neighbours follow a border,
