@@ -1,14 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Prints a page at a width, or draws it on a canvas: paragraphs are wrapped, cells set below one another, numbers written with as
- * many digits as their column has room for. A page that is drawn is printed first; where a role or a bar begins is noted, and
- * what stands between two such places is then drawn piece by piece. */
+ * many digits as their column has room for. Of a page that is drawn a piece is printed, up to where a line, a role or a bar ends,
+ * and put on the canvas. */
 #include <ctype.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/grow.h"
 #include "base/utf8.h"
 #include "canvas.h"
 #include "cells.h"
@@ -19,39 +18,80 @@
 #define TAIL_MIN 8      /* columns that hold a beginning and an end */
 #define SMALLEST 1e-290 /* a number below it is written as 0: powers of ten with more digits than it has do not exist */
 
-/* From this byte of what is printed on, in this role. */
-struct mark {
-    size_t at;
+/* Where a page is drawn, and the piece that is being printed. */
+struct drawing {
+    struct ceduo_canvas *canvas;
+    struct ceduo_area area;
+    int first, column; /* the line at the top of the area; where the piece begins */
     enum ceduo_role role;
-    const struct ceduo_page_bar *bar; /* NULL: text */
-    int width;                        /* of the bar */
-};
-
-struct marks {
-    struct mark *items;
-    size_t n, room;
+    const struct ceduo_page_bar *bar; /* that the piece is; NULL: text */
 };
 
 struct printer {
     struct text *text;
     size_t width;
-    bool plain;          /* ASCII alone */
-    struct marks *marks; /* NULL: it is not drawn */
+    bool plain;              /* ASCII alone */
+    struct drawing *drawing; /* NULL: it is printed */
+    int line;                /* how many have ended */
 };
 
-static void add_mark(const struct printer *p, struct mark mark)
+static void draw_bar(const struct drawing *d, int column, int row, int width)
 {
-    struct marks *m = p->marks;
-    if (!m)
-        return;
-    mark.at = p->text->length;
-    m->items = ceduo_must(ceduo_grow(m->items, m->n, &m->room, sizeof *m->items));
-    m->items[m->n++] = mark;
+    const struct ceduo_page_bar *b = d->bar;
+    int least = (int)(b->least * (width - 1)), most = (int)(b->most * (width - 1));
+    for (int x = least; b->most >= b->least && x <= most; x++)
+        ceduo_canvas_label(d->canvas, column + x, row, CEDUO_ROLE_MEAN,
+                           x == least  ? "\xe2\x94\x9c"
+                           : x == most ? "\xe2\x94\xa4"
+                                       : "\xe2\x94\x80");
+    if (b->from > 0)
+        for (int x = (int)(b->from * (width - 1)); x <= (int)(b->to * (width - 1)); x++)
+            ceduo_canvas_bar(d->canvas, column + x, row, 1, 1, d->role);
+    else
+        ceduo_canvas_bar(d->canvas, column, row, width, b->to, d->role);
+    if (b->limit >= 0 && b->limit <= 1)
+        ceduo_canvas_label(d->canvas, column + (int)fmin(round(b->limit * width), width - 1), row, b->own, "\xe2\x94\x82");
 }
 
-static void set_role(const struct printer *p, enum ceduo_role role)
+/* In `room` columns; blanks at its ends are drawn only where they are seen. */
+static void draw_text(const struct drawing *d, int column, int row, int room, struct text *piece)
 {
-    add_mark(p, (struct mark){.role = role});
+    char *string = piece->bytes, *end = string + piece->length;
+    size_t blanks = d->role == CEDUO_ROLE_CURSOR ? 0 : strspn(string, " ");
+    while (d->role != CEDUO_ROLE_CURSOR && end > string + blanks && end[-1] == ' ')
+        *--end = '\0';
+    if (string[blanks])
+        ceduo_canvas_put(d->canvas, column + (int)blanks, row, room - (int)blanks, d->role, string + blanks);
+}
+
+/* Draws the piece that was printed, if that is to be done; the next one is a text, or a bar, in a role. */
+static void begin_piece(struct printer *p, enum ceduo_role role, const struct ceduo_page_bar *bar)
+{
+    struct drawing *d = p->drawing;
+    if (!d)
+        return;
+    const struct ceduo_area *a = &d->area;
+    int x = a->left + d->column, row = p->line - d->first;
+    int width = ceduo_canvas_label_width(d->canvas, ceduo_text_string(p->text)), room = a->left + a->width - x;
+    if (width > 0 && row >= 0 && row < a->height && !d->bar)
+        draw_text(d, x, a->top + row, room, p->text);
+    else if (width > 0 && row >= 0 && row < a->height && !d->canvas->words_alone && width <= room)
+        draw_bar(d, x, a->top + row, width);
+    d->column += width;
+    d->role = role;
+    d->bar = bar;
+    ceduo_text_cut(p->text, 0);
+}
+
+static void end_line(struct printer *p)
+{
+    if (p->drawing) {
+        begin_piece(p, p->drawing->role, p->drawing->bar);
+        p->drawing->column = 0;
+    } else {
+        ceduo_text_char(p->text, '\n');
+    }
+    p->line++;
 }
 
 static void append_blanks(struct text *text, size_t n)
@@ -75,12 +115,12 @@ static void append_safe(const struct printer *p, struct text *to, const char *st
     static const char *const signs[][2] = {{"\xe2\x80\x93", "-"}, {"\xe2\x88\x92", "-"}, {"\xc2\xb1", "+-"}};
     LOCAL_TEXT(signed_string);
     LOCAL_TEXT(safe);
-    if (!p->plain && !p->marks) {
+    if (!p->plain && !p->drawing) {
         ceduo_page_powers(&signed_string, string);
         string = ceduo_text_string(&signed_string);
     }
     ceduo_text_safe(&safe, string);
-    if (p->plain && p->marks) {
+    if (p->plain && p->drawing) {
         ceduo_cells_ascii(to, ceduo_text_string(&safe)); /* as the cells will show it, so that its width is known */
         return;
     }
@@ -127,12 +167,12 @@ static void squeeze(struct text *text)
 }
 
 /* A text that begins at `column`; its other lines are indented. */
-static void print_wrapped(const struct printer *p, const char *string, size_t column, size_t indent)
+static void print_wrapped(struct printer *p, const char *string, size_t column, size_t indent)
 {
     for (const char *at = string, *next; *at; at = next) {
         size_t n = ceduo_utf8_wrap(at, p->width > column ? p->width - column : 1, &next);
         if (at > string) {
-            ceduo_text_char(p->text, '\n');
+            end_line(p);
             append_blanks(p->text, indent);
         }
         ceduo_text_add(p->text, at, n);
@@ -140,10 +180,10 @@ static void print_wrapped(const struct printer *p, const char *string, size_t co
     }
 }
 
-static void print_paragraph(const struct printer *p, const struct ceduo_page_block *block)
+static void print_paragraph(struct printer *p, const struct ceduo_page_block *block)
 {
     const char *begin = block->label ? block->label : styles[block->kind].first, *text = ceduo_text_string(&block->text);
-    size_t indent = styles[block->kind].indent, margin = p->marks ? strspn(begin, " ") : 0; /* panes are narrow */
+    size_t indent = styles[block->kind].indent, margin = p->drawing ? strspn(begin, " ") : 0; /* panes are narrow */
     size_t label = block->kind == CEDUO_PAGE_POINT ? strcspn(text, "\t") : 0;
     LOCAL_TEXT(first);
     LOCAL_TEXT(rest);
@@ -158,20 +198,20 @@ static void print_paragraph(const struct printer *p, const struct ceduo_page_blo
     }
     append_safe(p, &rest, text + label + (label > 0));
     squeeze(&rest);
-    if (p->marks && rest.length == 0)
+    if (p->drawing && rest.length == 0)
         return;
-    if (block->kind == CEDUO_PAGE_SECTION && (!p->marks || p->text->length > 0))
-        ceduo_text_char(p->text, '\n');
-    set_role(p, block->role ? block->role : styles[block->kind].role);
+    if (block->kind == CEDUO_PAGE_SECTION && (!p->drawing || p->line > 0))
+        end_line(p);
+    begin_piece(p, block->role ? block->role : styles[block->kind].role, NULL);
     ceduo_text_put(p->text, ceduo_text_string(&first));
     print_wrapped(p, ceduo_text_string(&rest), column, indent);
-    ceduo_text_char(p->text, '\n');
+    end_line(p);
 }
 
 /* ---- cells ---- */
 
 /* Set into so many columns and cut where it is longer, at its end or in its middle; negative: to the right; 0: as it comes. */
-static void print_padded(const struct printer *p, const char *string, int width, bool ends)
+static void print_padded(struct printer *p, const char *string, int width, bool ends)
 {
     size_t want = (size_t)abs(width), have = ceduo_utf8_width(string);
     if (width < 0 && have < want)
@@ -289,14 +329,14 @@ void ceduo_page_write_cell(struct text *to, const struct ceduo_page_cell *cell, 
     write_cell(&(struct printer){.plain = plain}, to, cell, width);
 }
 
-static void print_cell(const struct printer *p, const struct ceduo_page_column *column, const struct ceduo_page_cell *cell,
-                       int gap, int width, enum ceduo_role role)
+static void print_cell(struct printer *p, const struct ceduo_page_column *column, const struct ceduo_page_cell *cell, int gap,
+                       int width, enum ceduo_role role)
 {
     LOCAL_TEXT(text);
-    set_role(p, CEDUO_ROLE_TEXT);
+    begin_piece(p, CEDUO_ROLE_TEXT, NULL);
     append_blanks(p->text, (size_t)gap);
     if (cell->kind == CEDUO_CELL_BAR) {
-        add_mark(p, (struct mark){.role = cell->role, .bar = &cell->bar, .width = width});
+        begin_piece(p, cell->role, &cell->bar);
         append_blanks(p->text, (size_t)width);
         return;
     }
@@ -306,10 +346,10 @@ static void print_cell(const struct printer *p, const struct ceduo_page_column *
         ceduo_text_free(&text);
         append_safe(p, &text, cell->written.bytes);
     }
-    set_role(p, cell->role ? cell->role : role);
+    begin_piece(p, cell->role ? cell->role : role, NULL);
     if ((column->flags & CEDUO_WHOLE) && !fits(&text, room)) {
         print_wrapped(p, ceduo_text_string(&text), (size_t)gap, (size_t)gap);
-        ceduo_text_char(p->text, '\n');
+        end_line(p);
         append_blanks(p->text, (size_t)(gap + width));
     } else {
         print_padded(p, ceduo_text_string(&text), width, column->flags & CEDUO_FILLS);
@@ -336,7 +376,7 @@ static int widest_cell(const struct printer *p, const struct ceduo_page_block *t
 /* A pane has no margin. */
 static int gap_of(const struct printer *p, const struct ceduo_page_column *column, size_t i)
 {
-    return i == 0 && p->marks ? 0 : column->gap;
+    return i == 0 && p->drawing ? 0 : column->gap;
 }
 
 /* Sets the width of each column: 0 for one that has no room. */
@@ -387,7 +427,7 @@ static void place_columns(const struct printer *p, const struct ceduo_page_block
         }
 }
 
-static void print_table(const struct printer *p, const struct ceduo_page_block *table)
+static void print_table(struct printer *p, const struct ceduo_page_block *table)
 {
     size_t n = table->columns_count;
     int widths[COLUMNS_MAX];
@@ -411,98 +451,41 @@ static void print_table(const struct printer *p, const struct ceduo_page_block *
             print_cell(p, c, &table->cells[row + i], gap_of(p, c, i), width, row == 0 ? CEDUO_ROLE_AXIS : CEDUO_ROLE_TEXT);
             i += spans;
         }
-        while (!p->marks && p->text->length > 0 && p->text->bytes[p->text->length - 1] == ' ')
+        while (!p->drawing && p->text->length > 0 && p->text->bytes[p->text->length - 1] == ' ')
             p->text->bytes[--p->text->length] = '\0';
-        ceduo_text_char(p->text, '\n');
+        end_line(p);
     }
 }
 
-static void print_page(const struct printer *p, const struct ceduo_page *page)
+/* Returns the number of lines. */
+static int print_page(const struct ceduo_page *page, struct text *text, bool plain, struct drawing *drawing)
 {
+    struct printer p = {.text = text, .width = page->width, .plain = plain, .drawing = drawing};
     for (const struct ceduo_page_block *block = page->first; block; block = block->next) {
         if (block->kind == CEDUO_PAGE_TABLE)
-            print_table(p, block);
+            print_table(&p, block);
         else if (block->kind == CEDUO_PAGE_GAP)
-            ceduo_text_char(p->text, '\n');
+            end_line(&p);
         else if (block->kind < CEDUO_PAGE_PICTURE)
-            print_paragraph(p, block);
+            print_paragraph(&p, block);
     }
+    return p.line;
 }
 
 size_t ceduo_page_lines(const struct ceduo_page *page)
 {
     LOCAL_TEXT(text);
-    size_t n = 0;
-    ceduo_page_print(&text, page, false);
-    for (size_t i = 0; i < text.length; i++)
-        n += text.bytes[i] == '\n';
-    return n;
+    return (size_t)print_page(page, &text, false, NULL);
 }
 
 void ceduo_page_print(struct text *text, const struct ceduo_page *page, bool plain)
 {
-    print_page(&(struct printer){.text = text, .width = page->width, .plain = plain}, page);
-}
-
-/* ---- drawing ---- */
-
-static void draw_bar(struct ceduo_canvas *canvas, int column, int row, const struct mark *mark)
-{
-    const struct ceduo_page_bar *b = mark->bar;
-    int width = mark->width, least = (int)(b->least * (width - 1)), most = (int)(b->most * (width - 1));
-    for (int x = least; b->most >= b->least && x <= most; x++)
-        ceduo_canvas_label(canvas, column + x, row, CEDUO_ROLE_MEAN,
-                           x == least  ? "\xe2\x94\x9c"
-                           : x == most ? "\xe2\x94\xa4"
-                                       : "\xe2\x94\x80");
-    if (b->from > 0)
-        for (int x = (int)(b->from * (width - 1)); x <= (int)(b->to * (width - 1)); x++)
-            ceduo_canvas_bar(canvas, column + x, row, 1, 1, mark->role);
-    else
-        ceduo_canvas_bar(canvas, column, row, width, b->to, mark->role);
-    if (b->limit >= 0 && b->limit <= 1)
-        ceduo_canvas_label(canvas, column + (int)fmin(round(b->limit * width), width - 1), row, b->own, "\xe2\x94\x82");
-}
-
-/* A piece of a line, in `room` columns; blanks at its ends are drawn only where they are seen. */
-static void draw_piece(struct ceduo_canvas *canvas, int column, int row, int room, enum ceduo_role role, struct text *piece)
-{
-    char *string = piece->bytes, *end = string + piece->length;
-    size_t blanks = role == CEDUO_ROLE_CURSOR ? 0 : strspn(string, " ");
-    while (role != CEDUO_ROLE_CURSOR && end > string + blanks && end[-1] == ' ')
-        *--end = '\0';
-    if (string[blanks])
-        ceduo_canvas_put(canvas, column + (int)blanks, row, room - (int)blanks, role, string + blanks);
+    print_page(page, text, plain, NULL);
 }
 
 int ceduo_page_draw(const struct ceduo_page *page, struct ceduo_canvas *canvas, struct ceduo_area area, int first)
 {
-    LOCAL_TEXT(text);
-    struct marks marks = {0};
-    bool plain = ceduo_canvas_label_width(canvas, "\xe2\x80\xa6") > 1;
-    print_page(&(struct printer){&text, page->width, plain, &marks}, page);
-    int line = 0, column = 0;
-    size_t mark = 0;
-    for (size_t at = 0, end; at < text.length; at = end) {
-        while (mark < marks.n && marks.items[mark].at <= at)
-            mark++;
-        size_t next = mark < marks.n ? marks.items[mark].at : text.length;
-        const char *from = text.bytes + at, *stop = memchr(from, '\n', next - at);
-        end = stop ? (size_t)(stop - text.bytes) + 1 : next;
-        const struct mark *role = mark > 0 ? &marks.items[mark - 1] : &(struct mark){.role = CEDUO_ROLE_TEXT};
-        size_t length = end - at - (stop != NULL);
-        int x = area.left + column, y = area.top + line - first;
-        bool shown = line >= first && line - first < area.height && length > 0;
-        LOCAL_TEXT(piece);
-        ceduo_text_add(&piece, from, length);
-        column += ceduo_canvas_label_width(canvas, ceduo_text_string(&piece));
-        if (shown && role->bar && !canvas->words_alone && x + role->width <= area.left + area.width)
-            draw_bar(canvas, x, y, role);
-        else if (shown && !role->bar)
-            draw_piece(canvas, x, y, area.left + area.width - x, role->role, &piece);
-        line += stop != NULL;
-        column = stop ? 0 : column;
-    }
-    free(marks.items);
-    return line;
+    LOCAL_TEXT(piece);
+    struct drawing drawing = {.canvas = canvas, .area = area, .first = first};
+    return print_page(page, &piece, ceduo_canvas_label_width(canvas, "\xe2\x80\xa6") > 1, &drawing);
 }
