@@ -98,13 +98,28 @@ void ceduo_page_number(struct ceduo_page *page, double value, int digits)
     cell->digits = digits;
 }
 
-struct ceduo_page_bar *ceduo_page_bar(struct ceduo_page *page, double share, enum ceduo_role role)
+struct ceduo_page_bar *ceduo_page_bar(struct ceduo_page *page, double value, enum ceduo_role role)
 {
     struct ceduo_page_cell *cell = ceduo_page_cell(page);
     cell->kind = CEDUO_CELL_BAR;
     cell->role = role;
-    cell->bar = (struct ceduo_page_bar){.to = share, .least = NAN, .most = NAN, .limit = NAN, .own = CEDUO_ROLE_CONTROL};
+    cell->bar = (struct ceduo_page_bar){.to = value, .least = NAN, .most = NAN, .limit = NAN, .own = CEDUO_ROLE_CONTROL};
     return &cell->bar;
+}
+
+void ceduo_page_scale(struct ceduo_page *page, size_t column, double lo, double hi)
+{
+    const struct ceduo_page_block *table = page->last;
+    for (size_t i = column; i < table->cells_count; i += table->columns_count) {
+        struct ceduo_page_bar *b = &table->cells[i].bar;
+        double *const ends[] = {&b->from, &b->to, &b->least, &b->most, &b->limit};
+        for (size_t k = 0; k < sizeof ends / sizeof ends[0]; k++) {
+            double value = *ends[k], share = lo > 0 && isfinite(value) ? log(value / lo) / log(hi / lo) : value / hi;
+            bool limit = ends[k] == &b->limit; /* one beyond the scale is not drawn */
+            if (!isnan(value))
+                *ends[k] = limit ? share : fmin(1, fmax(0, share));
+        }
+    }
 }
 
 void ceduo_page_mark(struct ceduo_page *page, enum ceduo_role role, const char *string)

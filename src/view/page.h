@@ -53,7 +53,7 @@ enum ceduo_page_flag {
 
 enum ceduo_page_cell_kind { CEDUO_CELL_TEXT, CEDUO_CELL_NUMBER, CEDUO_CELL_MEAN, CEDUO_CELL_BAR };
 
-/* A bar in shares of its column; only sinks that draw show it. NaN: not there. */
+/* A bar in shares of its column, see ceduo_page_scale(); only sinks that draw show it. NaN: not there. */
 struct ceduo_page_bar {
     double from, to;     /* the bar; from 0 it ends at a part of a character */
     double least, most;  /* a line with ends around it */
@@ -119,8 +119,10 @@ struct ceduo_page_cell *ceduo_page_cell(struct ceduo_page *page);
 struct text *ceduo_page_text(struct ceduo_page *page);                                        /* of a new cell */
 void ceduo_page_write(struct ceduo_page *page, const char *format, ...) CEDUO_PAGE_FORMAT(2); /* a new cell */
 void ceduo_page_number(struct ceduo_page *page, double value, int digits);
-/* A new cell with a bar up to a share, to which the caller adds a limit or a line around it. */
-struct ceduo_page_bar *ceduo_page_bar(struct ceduo_page *page, double share, enum ceduo_role role);
+/* A new cell with a bar up to a value, to which the caller adds a limit or a line around it. */
+struct ceduo_page_bar *ceduo_page_bar(struct ceduo_page *page, double value, enum ceduo_role role);
+/* Makes shares of the values of all bars of a column: even ones from 0 on, or logarithmic ones from `lo` on. */
+void ceduo_page_scale(struct ceduo_page *page, size_t column, double lo, double hi);
 /* A new cell in a role. */
 void ceduo_page_mark(struct ceduo_page *page, enum ceduo_role role, const char *string);
 

@@ -17,9 +17,8 @@ struct bar {
     const char *instead; /* of the number; NULL: nothing */
 };
 
-/* Logarithmic from `lo` on; 0: even. */
 struct scale {
-    double lo, hi, limit; /* NaN: none */
+    double lo, hi, limit; /* lo: 0: not logarithmic; limit: NaN: none */
     const char *head;
 };
 
@@ -51,11 +50,6 @@ static void read_option(const struct ceduo_drawing *d, size_t i, double bare, st
     }
 }
 
-static double share_of(const struct scale *s, double value)
-{
-    return s->lo == 0 ? value / s->hi : isfinite(value) ? log(value / s->lo) / log(s->hi / s->lo) : 1;
-}
-
 static void add_option(struct ceduo_page *page, const struct ceduo_drawing *d, size_t i, const struct scale scales[BARS],
                        const struct bar bars[BARS])
 {
@@ -63,7 +57,7 @@ static void add_option(struct ceduo_page *page, const struct ceduo_drawing *d, s
     for (size_t k = 0; k < BARS; k++) {
         const struct bar *b = &bars[k];
         const struct scale *s = &scales[k];
-        ceduo_page_bar(page, share_of(s, b->value), b->role)->limit = share_of(s, s->limit);
+        ceduo_page_bar(page, b->value, b->role)->limit = s->limit;
         ceduo_page_write(page, "%s",
                          b->instead      ? b->instead
                          : b->value == 0 ? "0"
@@ -103,8 +97,17 @@ const char *ceduo_plot_compare(struct ceduo_drawing *d)
         ceduo_measure_name(&head, &judged, CEDUO_SHORT_HEAD);
         scales[SHARE].head = head.bytes;
     }
+    CEDUO_PAGE_TABLE_OF(page, columns);
+    for (size_t k = 0; k < BARS; k++) { /* a limit stands above its bars, what they are above their numbers */
+        struct ceduo_page_cell *heads = &page->last->cells[3 * k + 1];
+        if (!isnan(scales[k].limit))
+            ceduo_text_format(&heads[0].text, "\xe2\x94\x82 %s", SHORTEST(scales[k].limit));
+        ceduo_text_put(&heads[1].text, scales[k].head);
+    }
     for (size_t i = 0; i < scene->options_count; i++) {
         read_option(d, i, bare, bars);
+        if (i < n)
+            add_option(page, d, i, scales, bars);
         if (isfinite(bars[ADC].value) && bars[ADC].value > 0) {
             scales[ADC].lo = fmin(scales[ADC].lo, bars[ADC].value / 1.5);
             scales[ADC].hi = fmax(scales[ADC].hi, bars[ADC].value * 1.1);
@@ -114,17 +117,8 @@ const char *ceduo_plot_compare(struct ceduo_drawing *d)
     }
     if (accepted <= 2 * scales[ENERGY].hi)
         scales[ENERGY].hi = fmax(scales[ENERGY].hi, accepted);
-    CEDUO_PAGE_TABLE_OF(page, columns);
-    for (size_t k = 0; k < BARS; k++) { /* a limit stands above its bars, what they are above their numbers */
-        struct ceduo_page_cell *heads = &page->last->cells[3 * k + 1];
-        if (!isnan(scales[k].limit))
-            ceduo_text_format(&heads[0].text, "\xe2\x94\x82 %s", SHORTEST(scales[k].limit));
-        ceduo_text_put(&heads[1].text, scales[k].head);
-    }
-    for (size_t i = 0; i < n; i++) {
-        read_option(d, i, bare, bars);
-        add_option(page, d, i, scales, bars);
-    }
+    for (size_t k = 0; k < BARS; k++)
+        ceduo_page_scale(page, 3 * k + 1, scales[k].lo, scales[k].hi);
     if (n < scene->options_count)
         ceduo_page_say(page, CEDUO_PAGE_NOTE, _("and %d more options"), (int)(scene->options_count - n));
     /* what is to be held against them */

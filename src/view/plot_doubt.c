@@ -11,34 +11,19 @@
 #define SHOWN_LEAST  0.005 /* of the share of an input */
 #define INPUTS_LEAST 2     /* lines: a head and one input */
 
-/* Where the axis ends. */
-static double most_of(const struct ceduo_doubt_report *r)
+static void add_option(struct ceduo_page *page, const struct ceduo_measure *m, enum ceduo_role role, const char *name)
 {
-    double most = 0;
-    for (size_t i = 0; i < r->file->scene.options_count; i++) {
-        const struct ceduo_measure m = ceduo_doubt_measure(r, i, NULL);
-        most = fmax(most, fmax(m.may_hi, m.hi));
-    }
-    most = most > 0 ? ceduo_plot_round(most, true) : 1;
-    return ceduo_doubt_scale(r) > 1 ? fmin(1000, most) : most;
-}
-
-static void add_option(struct ceduo_page *page, const struct ceduo_doubt_report *r, size_t i, bool shown)
-{
-    const struct ceduo_measure m = ceduo_doubt_measure(r, i, NULL);
-    double most = most_of(r);
-    bool known = !isnan(m.may_lo);
-    ceduo_page_mark(page, shown ? CEDUO_ROLE_TITLE : CEDUO_ROLE_TEXT, r->file->scene.options[i].name);
-    struct ceduo_page_bar *bar = ceduo_page_bar(page, fmin(1, m.hi / most), CEDUO_ROLE_TITLE);
-    bar->from = fmax(1e-9, m.lo / most); /* what the rocks leave open takes at least one cell, at 0, too */
-    bar->least = known ? fmin(1, fmax(0, m.may_lo / most)) : NAN;
-    bar->most = known ? fmin(1, fmax(0, m.may_hi / most)) : NAN;
+    ceduo_page_mark(page, role, name);
+    struct ceduo_page_bar *bar = ceduo_page_bar(page, m->hi, CEDUO_ROLE_TITLE);
+    bar->from = fmax(1e-9, m->lo); /* what the rocks leave open takes at least one cell, at 0, too */
+    bar->least = m->may_lo;
+    bar->most = m->may_hi;
     struct text *text = ceduo_page_text(page);
-    ceduo_measure_value(text, &m);
-    if (!known)
+    ceduo_measure_value(text, m);
+    if (isnan(m->may_lo))
         return;
     ceduo_text_put(text, " (");
-    ceduo_measure_may_be(text, &m); /* a doubt less than the rocks' error holds it */
+    ceduo_measure_may_be(text, m); /* a doubt less than the rocks' error holds it */
     ceduo_text_char(text, ')');
 }
 
@@ -59,10 +44,18 @@ static int add_options(struct ceduo_page *page, const struct ceduo_doubt_report 
     } else {
         ceduo_text_put(&heads[0].text, _("kJ a rock"));
     }
-    ceduo_text_format(&heads[1].text, "0\xe2\x80\x93%s", ROUNDED(most_of(r), 4));
     ceduo_text_put(&heads[2].text, r->over ? _("rotation (may be)") : _("now (may be)"));
-    for (size_t i = first; i < n && i < first + room; i++)
-        add_option(page, r, i, i == option);
+    double end = 0; /* of the axis */
+    for (size_t i = 0; i < n; i++) {
+        const struct ceduo_measure m = ceduo_doubt_measure(r, i, NULL);
+        end = fmax(end, fmax(m.may_hi, m.hi));
+        if (i >= first && i < first + room)
+            add_option(page, &m, i == option ? CEDUO_ROLE_TITLE : CEDUO_ROLE_TEXT, scene->options[i].name);
+    }
+    end = end > 0 ? ceduo_plot_round(end, true) : 1;
+    end = ceduo_doubt_scale(r) > 1 ? fmin(1000, end) : end;
+    ceduo_text_format(&page->last->cells[1].text, "0\xe2\x80\x93%s", ROUNDED(end, 4));
+    ceduo_page_scale(page, 1, 0, end);
     if (n > room)
         ceduo_page_say(page, CEDUO_PAGE_NOTE, ngettext("%zu more option: ] goes on", "%zu more options: ] goes on", n - room),
                        n - room);

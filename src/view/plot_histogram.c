@@ -66,7 +66,7 @@ static void add_mark(const struct histogram *h, int i, double kj, const char *na
                           ROUNDED(kj, 3));
 }
 
-static void add_row(struct ceduo_page *page, const struct histogram *h, int i, double most)
+static void add_row(struct ceduo_page *page, const struct histogram *h, int i)
 {
     char lo[CEDUO_TICK_LABEL_SIZE], hi[CEDUO_TICK_LABEL_SIZE];
     const struct bins *b = &h->bins;
@@ -82,9 +82,9 @@ static void add_row(struct ceduo_page *page, const struct histogram *h, int i, d
         ceduo_page_write(page, "\xe2\x89\xa5 %s kJ", lo);
     else
         ceduo_page_write(page, "%s\xe2\x80\x93%s kJ", lo, hi);
-    struct ceduo_page_bar *bar = ceduo_page_bar(page, share / most, role);
+    struct ceduo_page_bar *bar = ceduo_page_bar(page, share, role);
     if (h->bare.arrivals && h->bare.counts[i] > 0)
-        bar->limit = per_1000(&h->bare, i) / most;
+        bar->limit = per_1000(&h->bare, i);
     bar->own = CEDUO_ROLE_BARE;
     ceduo_page_write(page, "%.0f", share);
     if (h->bare.arrivals)
@@ -176,8 +176,6 @@ const char *ceduo_plot_histogram(struct ceduo_drawing *d)
     count(&h.bare, &h.bins, bare);
     if (said)
         say_all(d->page, &h, d->control);
-    for (int i = 0; i < h.bins.count; i++)
-        most = fmax(most, fmax(per_1000(&h.rocks, i), per_1000(&h.bare, i)));
     CEDUO_PAGE_TABLE_OF(d->page, columns);
     if (wooded) {
         struct ceduo_page_cell *heads = d->page->last->cells;
@@ -186,8 +184,11 @@ const char *ceduo_plot_histogram(struct ceduo_drawing *d)
         ceduo_text_put(&heads[2].text, _("wood"));
         ceduo_text_put(&heads[3].text, _("bare"));
     }
-    for (int i = 0; i < h.bins.count; i++)
-        add_row(d->page, &h, i, most);
+    for (int i = 0; i < h.bins.count; i++) {
+        add_row(d->page, &h, i);
+        most = fmax(most, fmax(per_1000(&h.rocks, i), per_1000(&h.bare, i)));
+    }
+    ceduo_page_scale(d->page, 1, 0, most);
     free(h.rocks.counts);
     free(h.bare.counts);
     return NULL;
