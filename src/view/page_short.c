@@ -205,7 +205,7 @@ static void add_point(struct ceduo_page *page, const char *label, const struct t
         ceduo_text_then(text, said->length > 0 ? " " : "", _("(%zu more)"), more);
 }
 
-/* Adds those of the sentences, whole ones, that keep within so many lines. False where not even how many more has room. */
+/* Adds those of the sentences, whole ones, that keep within so many lines. False where none has room, or not even how many more. */
 static bool add_sentences(struct ceduo_page *page, const char *label, const struct ceduo_page *sentences, size_t lines)
 {
     LOCAL_PAGE(tried, page->width);
@@ -213,8 +213,6 @@ static bool add_sentences(struct ceduo_page *page, const char *label, const stru
     size_t more = 0;
     for (const struct ceduo_page_block *b = sentences->first; b; b = b->next)
         more++;
-    if (more == 0 || lines == 0)
-        return more == 0;
     for (const struct ceduo_page_block *b = sentences->first; b; b = b->next) {
         size_t before = said.length; /* the first goes before how many more */
         ceduo_text_then(&said, before == 0 ? "" : b->kind == CEDUO_PAGE_WARNING ? " " : "; ", "%s", b->text.bytes);
@@ -225,6 +223,8 @@ static bool add_sentences(struct ceduo_page *page, const char *label, const stru
             more--;
         ceduo_page_free(&tried);
     }
+    if (said.length == 0)
+        return more == 0;
     add_point(&tried, label, &said, more);
     bool counted = ceduo_page_lines(&tried) <= lines;
     add_point(page, label, &said, counted ? more : 0);
@@ -242,8 +242,8 @@ static bool add_rest(struct ceduo_page *page, const struct ceduo_report *report,
     ceduo_page_assumed(&assumed, report, false);
     gather_notes(&notes, report);
     add_sentences(&tried, _("NOTE"), &notes, left - (left > 3 ? 2 : 1));
-    add_sentences(page, _("ASSUMED *"), &assumed, left - ceduo_page_lines(&tried));
-    return add_sentences(page, _("NOTE"), &notes, left + taken - 1 - ceduo_page_lines(page));
+    bool said = add_sentences(page, _("ASSUMED *"), &assumed, left - ceduo_page_lines(&tried));
+    return add_sentences(page, _("NOTE"), &notes, left + taken - 1 - ceduo_page_lines(page)) && said;
 }
 
 void ceduo_page_short(struct ceduo_page *page, const struct ceduo_report *report)

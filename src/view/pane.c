@@ -54,7 +54,7 @@ static void add_row(struct ceduo_page *page, struct ceduo_measure wood, struct c
     if (wood.digits > 0)
         ceduo_page_number(page, wood.value, 3);
     else if (page->width >= WIDE)
-        ceduo_page_interval(page, &wood);
+        ceduo_measure_interval(ceduo_page_text(page), &wood);
     else
         ceduo_measure_error(ceduo_page_text(page), &wood, "");
     if (bare.digits > 0)
@@ -143,11 +143,12 @@ static void add_tests(struct ceduo_page *page, const struct ceduo_pane *pane, co
 static void add_index(struct ceduo_page *page, const struct ceduo_pane *pane, const struct ceduo_index *index)
 {
     const char *taken = WRITTEN(index->dissipated * J_TO_KJ, 3), *left = WRITTEN(index->residual * J_TO_KJ, 3);
-    if (isnan(index->dissipated))
+    bool known = !isnan(index->residual); /* rocks arrive without forest */
+    if (known && isnan(index->dissipated))
         ceduo_page_line(page, CEDUO_ROLE_DIM, _("shares taken, left %s kJ"), left);
-    else if (index->exhausted)
+    else if (known && index->exhausted)
         ceduo_page_line(page, CEDUO_ROLE_DIM, _("taken %s kJ: all of it"), taken);
-    else
+    else if (known)
         ceduo_page_line(page, CEDUO_ROLE_DIM, _("taken %s left %s kJ"), taken, left);
     if (!isnan(index->measured) && pane->height >= HEIGHT_ALL)
         ceduo_page_line(page, CEDUO_ROLE_DIM, _("measured %s kJ (one rock)"), WRITTEN(index->measured * J_TO_KJ, 3));
@@ -205,7 +206,7 @@ static void add_simulated(struct ceduo_page *page, const char *name, const struc
     ceduo_page_write(page, "%s", name);
     ceduo_page_mean(page, a);
     ceduo_page_number(page, p95.value, p95.digits);
-    ceduo_page_interval(page, &judged);
+    ceduo_measure_interval(ceduo_page_text(page), &judged);
 }
 
 /* A mean alone. */

@@ -44,6 +44,7 @@ def test_lines():
             expect(len(lines) <= (24 if options == 1 else shared + 2 * options), f"{len(lines)} lines", page)
             expect_width(page)
             expect(not LAWS.search(above(page)), "a law or an equation is named", page)
+            expect(not re.search(r"(?m)^(ASSUMED \*|IPOTESI \*|NOTE|NOTA) +\(", page), "a heading says how many more, and nothing else", page)
             marks = page.count("?") if locale == "C.UTF-8" and language == "en" else page.count("?") - marks if locale == "C" else marks
         expect_equal(marks, 0, "question marks in the place of what ASCII lacks")
 
