@@ -254,13 +254,13 @@ enum exit_status ceduo_print_chapter(const struct arguments *a, struct scene_fil
                                       .result = c.answer.result,
                                       .verdict = &c.verdict,
                                       .blocks = c.answer.blocks,
-                                      .remarks = {a->tolerance, c.answer.tolerance_met, file->ground_assumed}};
+                                      .remarks = {a->tolerance, c.answer.tolerance_met, file->ground_assumed},
+                                      .doubt = &c.doubt};
         c.doubt.years = &c.verdict;
         append_command(&command, a);
-        const struct ceduo_chapter chapter = {&report, c.snapshot, c.answer.years, &c.doubt, ceduo_text_string(&command), true};
+        const struct ceduo_chapter chapter = {&report, c.snapshot, c.answer.years, ceduo_text_string(&command), true};
         ceduo_page_chapter(&page, &chapter);
         ceduo_page_html(&(struct ceduo_html){.text = out}, &page, a->profiles->count + 1);
-        report.doubt = &c.doubt;
         if (a->profiles->count == 0)
             ceduo_text_put(a->title, ceduo_in_language(file->scene.title, file->scene.title_it));
         ceduo_profiles_add(a->profiles, &report, NULL);

@@ -50,7 +50,7 @@ static bool is_sure(const struct app *app)
 }
 
 /* Of the figures as they are, and without doubt where that is not known yet: nobody waits while a screen is to be used. */
-static void put_html(struct app *app, struct ceduo_report *report, struct text *text)
+static void put_html(struct app *app, struct ceduo_report report, struct text *text)
 {
     struct ceduo_doubt_report doubt;
     bool sure =
@@ -60,12 +60,12 @@ static void put_html(struct app *app, struct ceduo_report *report, struct text *
     LOCAL_PAGE(page, CEDUO_PAGE_REPORT_WIDTH);
     LOCAL_TEXT(command);
     append_command(app, &command, "--report report.html");
-    const struct ceduo_chapter chapter = {.report = report,
+    const struct ceduo_chapter chapter = {.report = &report,
                                           .snapshot = ceduo_live_snapshot(&app->live, scene),
                                           .years = ceduo_app_years(app),
-                                          .doubt = sure ? &doubt : NULL,
                                           .command = command.bytes};
     doubt.over = false;
+    report.doubt = sure ? &doubt : NULL;
     ceduo_page_chapter(&page, &chapter);
     ceduo_page_html_begin(&html, ceduo_in_language(scene->title, scene->title_it));
     ceduo_page_html(&html, &page, 1);
@@ -107,7 +107,7 @@ static void append_export(struct app *app, enum export export, struct text *text
     } else if (export == EXPORT_JSON) {
         ceduo_figures_json(text, ceduo_result_figures, &(struct ceduo_place){.report = &report}, report.details);
     } else {
-        put_html(app, &report, text);
+        put_html(app, report, text);
     }
 }
 

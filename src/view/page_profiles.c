@@ -13,14 +13,14 @@
 
 /* What is said of an option of a profile; a larger rank is worse. */
 struct profile_option {
-    char *name, *answer;
+    const char *name, *answer;
     enum ceduo_judgement judgement;
     int rank;
     double share; /* by which the place is judged; NaN: not known */
 };
 
 struct ceduo_profile {
-    char *title, *place;
+    const char *title, *place;
     double accepted;
     size_t number, n; /* number: as it was given; n: options */
     struct profile_option *options;
@@ -33,30 +33,31 @@ static int rank_of(enum ceduo_judgement judgement)
     return ranks[judgement];
 }
 
+static const char *keep(struct ceduo_profiles *p, const char *string)
+{
+    return ceduo_must(ceduo_arena_string(&p->arena, string));
+}
+
 void ceduo_profiles_add(struct ceduo_profiles *p, const struct ceduo_report *report, const char *name)
 {
     const struct ceduo_result *r = report->result;
     size_t n = r->scene->options_count;
     p->items = ceduo_must(realloc(p->items, (p->count + 1) * sizeof *p->items));
     struct ceduo_profile *to = &p->items[p->count];
-    *to = (struct ceduo_profile){.title =
-                                     ceduo_must(strdup(name ? name : ceduo_in_language(r->scene->title, r->scene->title_it))),
-                                 .accepted = NAN,
+    const struct ceduo_control *c = r->scene->controls_count > 0 ? &r->scene->controls[r->last_control] : NULL;
+    *to = (struct ceduo_profile){.title = keep(p, name ? name : ceduo_in_language(r->scene->title, r->scene->title_it)),
+                                 .place = c && c->name ? keep(p, c->name) : NULL,
+                                 .accepted = c ? c->accepted : NAN,
                                  .number = p->count++,
                                  .n = n,
-                                 .options = ceduo_must(calloc(n + 1, sizeof *to->options))};
-    const struct ceduo_control *c = r->scene->controls_count > 0 ? &r->scene->controls[r->last_control] : NULL;
-    if (c) {
-        to->place = c->name ? ceduo_must(strdup(c->name)) : NULL;
-        to->accepted = c->accepted;
-    }
+                                 .options = ceduo_must(ceduo_arena_take(&p->arena, (n + 1) * sizeof *to->options))};
     for (size_t i = 0; i < n; i++) {
         struct profile_option *option = &to->options[i];
         LOCAL_TEXT(answer);
         if (c)
             ceduo_words_answer(&answer, r, i, r->last_control, report->doubt, CEDUO_PAGE_WIDTH - SCENE_WIDTH - 1);
-        option->name = ceduo_must(strdup(r->scene->options[i].name));
-        option->answer = ceduo_must(strdup(c ? ceduo_text_string(&answer) : "-"));
+        option->name = keep(p, r->scene->options[i].name);
+        option->answer = keep(p, c ? ceduo_text_string(&answer) : "-");
         option->judgement = c ? ceduo_words_judge(r, i, r->last_control, report->doubt) : CEDUO_UNANSWERED;
         option->rank = rank_of(option->judgement);
         const struct ceduo_arrivals *wooded = c ? ceduo_result_wooded(r, i, r->last_control) : NULL;
@@ -159,15 +160,7 @@ void ceduo_profiles_page(struct ceduo_page *page, const struct ceduo_profiles *p
 
 void ceduo_profiles_free(struct ceduo_profiles *p)
 {
-    for (size_t i = 0; i < p->count; i++) {
-        for (size_t k = 0; k < p->items[i].n; k++) {
-            free(p->items[i].options[k].name);
-            free(p->items[i].options[k].answer);
-        }
-        free(p->items[i].options);
-        free(p->items[i].title);
-        free(p->items[i].place);
-    }
+    ceduo_arena_free(&p->arena);
     free(p->items);
     *p = (struct ceduo_profiles){0};
 }

@@ -260,13 +260,11 @@ void ceduo_page_chapter(struct ceduo_page *page, const struct ceduo_chapter *c)
     bool controls = scene->controls_count > 0, several = scene->options_count > 1;
     ceduo_page_say(page, CEDUO_PAGE_TITLE, "%s", ceduo_in_language(scene->title, scene->title_it));
     add_head(page, &scene->page);
-    struct ceduo_report report = *c->report;
-    report.doubt = c->doubt;
-    ceduo_page_question(page, report.result);
-    ceduo_page_answer(page, &report);
-    add_unknown(page, &report);
-    ceduo_page_sure(page, &report);
-    ceduo_page_over(page, &report);
+    ceduo_page_question(page, c->report->result);
+    ceduo_page_answer(page, c->report);
+    add_unknown(page, c->report);
+    ceduo_page_sure(page, c->report);
+    ceduo_page_over(page, c->report);
     add_slope(page, c);
     add_percentiles(page, c);
     if (several && controls) {
@@ -283,8 +281,8 @@ void ceduo_page_chapter(struct ceduo_page *page, const struct ceduo_chapter *c)
     if (controls && !is_crowded(c))
         ceduo_page_laws(page, c->report->result);
     if (controls) {
-        if (c->doubt && c->doubt->answer)
-            ceduo_doubt_blocks(page, c->doubt, scene->options_count > CROWD ? CEDUO_DOUBT_SHORT : CEDUO_DOUBT_ORDER);
+        if (c->report->doubt && c->report->doubt->answer)
+            ceduo_doubt_blocks(page, c->report->doubt, scene->options_count > CROWD ? CEDUO_DOUBT_SHORT : CEDUO_DOUBT_ORDER);
         add_years(page, c);
         add_hazard(page, c);
     }

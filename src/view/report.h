@@ -2,6 +2,7 @@
 #ifndef CEDUO_REPORT_H
 #define CEDUO_REPORT_H
 
+#include "base/arena.h"
 #include "ceduo/blocks.h"
 #include "ceduo/find.h"
 #include "ceduo/years.h"
@@ -41,11 +42,10 @@ struct ceduo_page;
 struct ceduo_snapshot;
 struct ceduo_chapter {
     const struct ceduo_report *report;
-    const struct ceduo_snapshot *snapshot;  /* for the pictures */
-    struct ceduo_years *const *years;       /* one for each option; NULL, or NULL of an option: none */
-    const struct ceduo_doubt_report *doubt; /* NULL: not computed */
-    const char *command;                    /* that gives the same page, */
-    bool same;                              /* to the last byte */
+    const struct ceduo_snapshot *snapshot; /* for the pictures */
+    struct ceduo_years *const *years;      /* one for each option; NULL, or NULL of an option: none */
+    const char *command;                   /* that gives the same page, */
+    bool same;                             /* to the last byte */
 };
 
 #define CEDUO_PAGE_REPORT_WIDTH 120 /* of a page that chapters are added to: tables, not sentences, and nothing shortened */
@@ -57,6 +57,7 @@ void ceduo_page_chapter(struct ceduo_page *page, const struct ceduo_chapter *cha
 struct ceduo_profiles {
     size_t count;
     struct ceduo_profile *items;
+    struct arena arena; /* of what they hold */
 };
 /* `name`: NULL: the scene's title. */
 void ceduo_profiles_add(struct ceduo_profiles *profiles, const struct ceduo_report *report, const char *name);
