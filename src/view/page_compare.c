@@ -235,7 +235,7 @@ void ceduo_page_years(struct ceduo_page *page, const struct ceduo_report *report
         ceduo_page_write(page, "%4u %s", y->year, y->cut ? P_("head", "cut") : "");
         add_contacts(page, r, s);
         ceduo_page_number(page, s->per_100m * J_TO_KJ, 3);
-        ceduo_page_interval(page, &share);
+        ceduo_measure_interval(ceduo_page_text(page), &share);
         ceduo_page_number(page, a ? a->energy.mean * J_TO_KJ : NAN, 3);
         ceduo_page_verdict(page, s->energy);
     }

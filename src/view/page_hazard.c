@@ -71,12 +71,6 @@ void ceduo_words_hazard(struct text *text, const struct ceduo_result *r, size_t 
 
 /* ---- energies of return periods ---- */
 
-const char *ceduo_words_intensity(int intensity)
-{
-    static const char *const words[CEDUO_INTENSITIES] = {N_("weak"), N_("medium"), N_("strong")};
-    return intensity < 0 ? _("none") : _(words[intensity]);
-}
-
 /* A figure and its interval, of which hi may be NaN, as 1.2 (1.1–1.3)e7: where there is no room for more. */
 static void append_shorter(struct text *text, double value, double lo, double hi)
 {
@@ -156,13 +150,14 @@ static void add_rates(struct ceduo_page *page, const struct ceduo_result *r, siz
 {
     static const struct ceduo_page_column columns[] = {
         {"", 26, 4, CEDUO_WHOLE}, {N_("years between"), -21, 1, 0}, {"", -9, 0, 0}, {"", -9, 0, 0}, {"", -9, 0, 0}};
+    static const char *const classes[CEDUO_INTENSITIES] = {N_("weak"), N_("medium"), N_("strong")};
     ceduo_page_say(
         page, CEDUO_PAGE_CAPTION,
         _("Years from one such rock to the next, and what arrives weak, medium and strong, in %% of what does without "
           "forest:"));
     CEDUO_PAGE_TABLE_OF(page, columns);
     for (int k = 0; k < CEDUO_INTENSITIES; k++)
-        ceduo_text_format(&page->last->cells[2 + k].text, "%% %s", ceduo_words_intensity(k));
+        ceduo_text_format(&page->last->cells[2 + k].text, "%% %s", _(classes[k]));
     for (size_t i = 0; i <= r->scene->options_count; i++) {
         const struct ceduo_hazard *h = hazard_of(r, i, control);
         if (!h)

@@ -6,11 +6,6 @@
 
 #include "base/language.h"
 
-void ceduo_page_interval(struct ceduo_page *page, const struct ceduo_measure *m)
-{
-    ceduo_measure_interval(ceduo_page_text(page), m);
-}
-
 void ceduo_page_mean(struct ceduo_page *page, const struct ceduo_arrivals *a)
 {
     struct ceduo_page_cell *cell = ceduo_page_cell(page);

@@ -65,9 +65,7 @@ void ceduo_page_assumed(struct ceduo_page *page, const struct ceduo_report *repo
 
 /* ---- words and cells that several of them use ---- */
 
-/* A cell: "480 (453–501)"; "-" where it is not known. */
-void ceduo_page_interval(struct ceduo_page *page, const struct ceduo_measure *measure);
-void ceduo_page_mean(struct ceduo_page *page, const struct ceduo_arrivals *arrivals); /* of the energy, with its error */
+void ceduo_page_mean(struct ceduo_page *page, const struct ceduo_arrivals *arrivals); /* cell of the energy, with its error */
 /* The head of the column of the share that a control is judged by: "> 50 kJ", or `otherwise` without an accepted energy. */
 void ceduo_page_limit(struct ceduo_page *page, const struct ceduo_control *control, enum ceduo_measure_name otherwise);
 void ceduo_page_free_run(struct ceduo_page *page, double share);

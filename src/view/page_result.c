@@ -76,8 +76,8 @@ static void add_arrivals_row(struct ceduo_page *page, const char *name, const st
     const struct ceduo_measure judged = ceduo_judged(c, a), arriving = ceduo_arriving(a);
     ceduo_page_write(page, "%s", name);
     if (!isnan(c->accepted))
-        ceduo_page_interval(page, &judged);
-    ceduo_page_interval(page, &arriving);
+        ceduo_measure_interval(ceduo_page_text(page), &judged);
+    ceduo_measure_interval(ceduo_page_text(page), &arriving);
     ceduo_page_mean(page, a);
     ceduo_page_number(page, a->energy.p95 * J_TO_KJ, 3);
     ceduo_page_number(page, a->speed.mean, 3);
@@ -284,7 +284,7 @@ static void add_sizes(struct ceduo_page *page, const struct ceduo_result *r, con
         ceduo_page_number(page, b->diameter, 3);
         ceduo_page_number(page, b->adc, 3);
         ceduo_page_number(page, b->contacts, 3);
-        ceduo_page_interval(page, &share);
+        ceduo_measure_interval(ceduo_page_text(page), &share);
         left_out |= b->arrivals.released == 0;
     }
     if (left_out && r->scene->simulation.contact_model != CEDUO_INDEX && ceduo_result_rocks(r) > 0)
@@ -432,9 +432,15 @@ static void add_assumed(struct ceduo_page *page, const struct ceduo_report *repo
             times++;
             first_same = n;
         }
-    times = is_shown(report, note) && first_same == note ? times : 0;
+    if (!is_shown(report, note) || first_same != note)
+        return;
     const char *said = ceduo_in_language(note->text, note->text_it);
     LOCAL_TEXT(where);
+    if (!places) {
+        ceduo_text_add(&where, said, strcspn(said, ";")); /* its first clause */
+        ceduo_page_once(page, CEDUO_PAGE_ITEM, ceduo_text_string(&where));
+        return;
+    }
     const struct ceduo_scene *scene = report->result->scene;
     const char *dot = strncmp(note->path, "options[", 8) == 0 ? strchr(note->path, '.') : NULL;
     size_t option = dot ? strtoul(note->path + 8, NULL, 10) : SIZE_MAX;
@@ -442,15 +448,10 @@ static void add_assumed(struct ceduo_page *page, const struct ceduo_report *repo
     if (option < scene->options_count)
         ceduo_text_then(&where, ", ", "%s", scene->options[option].name);
     const char *place = where.length > 0 ? where.bytes : _("the scene");
-    if (times > 0 && !places) {
-        LOCAL_TEXT(first); /* clause */
-        ceduo_text_add(&first, said, strcspn(said, ";"));
-        ceduo_page_once(page, CEDUO_PAGE_ITEM, ceduo_text_string(&first));
-    }
-    if (times > 1 && places)
+    if (times > 1)
         ceduo_page_say(page, CEDUO_PAGE_ITEM, ngettext("%s (%s and %zu more)", "%s (%s and %zu more)", times - 1), said, place,
                        times - 1);
-    else if (times == 1 && places)
+    else
         ceduo_page_say(page, CEDUO_PAGE_ITEM, "%s (%s)", said, place);
 }
 

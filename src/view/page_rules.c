@@ -15,6 +15,13 @@ static const char *note_of(const struct ceduo_regulation *rules, struct text *te
     return text->bytes;
 }
 
+/* "≥ 50", "20–30" */
+static void append_asked(struct text *text, item *asked)
+{
+    ceduo_text_format(text, isnan(asked->most) ? "\xe2\x89\xa5 %s" : "%s\xe2\x80\x93%s", SHORTEST(asked->least),
+                      SHORTEST(asked->most));
+}
+
 /* The number of standards or the turn of a belt. */
 static void say_rule(struct ceduo_page *page, const struct ceduo_belt *belt, const struct ceduo_compliance *c, bool turn,
                      bool all)
@@ -35,10 +42,7 @@ static void say_rule(struct ceduo_page *page, const struct ceduo_belt *belt, con
         ceduo_page_once(page, CEDUO_PAGE_SENTENCE, sentence.bytes);
         return;
     }
-    if (isnan(asked->most))
-        ceduo_text_format(&wanted, "\xe2\x89\xa5 %s", SHORTEST(asked->least));
-    else
-        ceduo_text_format(&wanted, "%s\xe2\x80\x93%s", SHORTEST(asked->least), SHORTEST(asked->most));
+    append_asked(&wanted, asked);
     ceduo_text_format(&sentence,
                       turn ? _("%s: %s asks for a rotation of %s years (%s, %u); shoots are cut at %.4g: %s.")
                            : _("%s: %s asks for %s standards a hectare (%s, %u); %.4g are kept: %s."),
@@ -82,10 +86,8 @@ static void add_rule(struct ceduo_page *page, double is, item *asked, bool met, 
         ceduo_page_write(page, "%s", ROUNDED(is, 4));
     if (!asked)
         ceduo_page_write(page, "%s", species ? _("not named") : _("no species"));
-    else if (isnan(asked->most))
-        ceduo_page_write(page, "\xe2\x89\xa5 %s", SHORTEST(asked->least));
     else
-        ceduo_page_write(page, "%s\xe2\x80\x93%s", SHORTEST(asked->least), SHORTEST(asked->most));
+        append_asked(ceduo_page_text(page), asked);
     if (!asked || isnan(is))
         ceduo_page_write(page, "-");
     else

@@ -44,9 +44,6 @@ void ceduo_page_light(struct ceduo_page *page, enum ceduo_light light);
 int ceduo_plot_say(struct ceduo_canvas *canvas, int column, int row, int most, enum ceduo_role role, const char *format, ...)
     __attribute__((format(printf, 6, 7)));
 
-/* Whether a text has room in an area, and a blank on either side, so that it is no part of a curve. */
-bool ceduo_plot_is_free(const struct ceduo_canvas *canvas, const struct ceduo_area *area, int column, int row, int width);
-
 /* "end of the forest (135 m)", or "135 m". */
 void ceduo_plot_control_name(struct text *text, const struct ceduo_control *control);
 

@@ -159,6 +159,16 @@ static void draw_forest(const struct ceduo_drawing *d)
 #define NAME_ROWS    4
 #define FOREST_LEAST 12 /* columns that make the name of a forest worth while */
 
+/* Whether a text has room in an area, and a blank on either side, so that it is no part of a curve. */
+static bool is_free(const struct ceduo_canvas *canvas, const struct ceduo_area *area, int column, int row, int width)
+{
+    bool free = row >= area->top && row < area->top + area->height && column >= area->left &&
+                column + width <= area->left + area->width;
+    for (int i = -1; free && i <= width; i++)
+        free = ceduo_canvas_is_blank(canvas, column + i, row);
+    return free;
+}
+
 /* Beside its rule, to the right or the left, in the highest row that has room; nowhere where none has. */
 static void name_control(const struct ceduo_drawing *d, const struct ceduo_control *control)
 {
@@ -170,7 +180,7 @@ static void name_control(const struct ceduo_drawing *d, const struct ceduo_contr
     int width = ceduo_canvas_label_width(d->canvas, name.bytes);
     for (int i = 0; i < 2 * NAME_ROWS && i < 2 * d->area.height; i++) {
         int start = i % 2 ? column - 1 - width : column + 2, y = d->area.top + i / 2;
-        if (!ceduo_plot_is_free(d->canvas, &d->area, start, y, width))
+        if (!is_free(d->canvas, &d->area, start, y, width))
             continue;
         ceduo_canvas_label(d->canvas, start, y, CEDUO_ROLE_CONTROL, name.bytes);
         if (i < 2 && ceduo_canvas_is_blank(d->canvas, column, y)) /* another word may stand there */
@@ -228,14 +238,6 @@ static void draw_belts(const struct ceduo_drawing *d)
     }
 }
 
-/* Heights that are not true to scale are told at the end of the top row. */
-static void put_factor(const struct ceduo_drawing *d, double factor)
-{
-    if (factor != 1)
-        ceduo_plot_say(d->canvas, d->area.left + d->area.width - 1, d->area.top, -d->area.width / 2, CEDUO_ROLE_WARN,
-                       d->area.width >= 30 ? _("heights drawn %g times") : "\xc3\x97%g", factor);
-}
-
 /* ---- the picture ---- */
 
 /* Returns the factor of heights, NaN where nothing can be drawn. */
@@ -286,7 +288,9 @@ const char *ceduo_plot_profile(struct ceduo_drawing *d)
                          _("\xe2\x96\xbc release"));
     if (d->picture->mark)
         ceduo_canvas_rule_x(d->canvas, &d->frame, CEDUO_ROLE_TITLE, *d->picture->mark);
-    put_factor(d, factor);
+    if (factor != 1) /* heights are not true to scale */
+        ceduo_plot_say(d->canvas, d->area.left + d->area.width - 1, d->area.top, -d->area.width / 2, CEDUO_ROLE_WARN,
+                       d->area.width >= 30 ? _("heights drawn %g times") : "\xc3\x97%g", factor);
     for (size_t c = 0; names && c < d->scene->controls_count; c++)
         name_control(d, &d->scene->controls[c]);
     for (size_t c = 0; c < d->scene->controls_count; c++)

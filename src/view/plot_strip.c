@@ -172,16 +172,6 @@ static void name_curves(const struct strip *s)
     }
 }
 
-/* ---- controls ---- */
-
-/* A mark at what a control bears; how much that is stands beside the pictures. */
-static void draw_accepted(const struct ceduo_drawing *d, const struct ceduo_control *c)
-{
-    double accepted = c->accepted * J_TO_KJ, reach = 0.03 * (d->frame.x1 - d->frame.x0);
-    if (!isnan(accepted))
-        ceduo_canvas_line(d->canvas, &d->frame, CEDUO_ROLE_BAD, c->x - reach, accepted, c->x + reach, accepted);
-}
-
 /* ---- the strip ---- */
 
 static void place_frame(struct strip *s, const struct content *content)
@@ -253,10 +243,12 @@ static const char *draw_strip(struct ceduo_drawing *d, bool energy)
             draw_ways(d);
         for (int i = 0; i < s.count; i++)
             ceduo_canvas_polyline(d->canvas, &d->frame, s.curves[i]->role, s.curves[i]->stroke, s.n, s.x, s.y[i]);
-        for (size_t c = 0; c < d->scene->controls_count; c++) {
-            ceduo_canvas_rule_x(d->canvas, &d->frame, CEDUO_ROLE_CONTROL, d->scene->controls[c].x);
+        for (size_t c = 0; c < d->scene->controls_count; c++) { /* with a mark at what it bears; how much stands beside */
+            double x = d->scene->controls[c].x, accepted = d->scene->controls[c].accepted * J_TO_KJ;
+            double reach = 0.03 * (d->frame.x1 - d->frame.x0);
+            ceduo_canvas_rule_x(d->canvas, &d->frame, CEDUO_ROLE_CONTROL, x);
             if (energy)
-                draw_accepted(d, &d->scene->controls[c]);
+                ceduo_canvas_line(d->canvas, &d->frame, CEDUO_ROLE_BAD, x - reach, accepted, x + reach, accepted);
         }
         name_curves(&s);
         ceduo_plot_axes(d, d->scene->slope.origin_x, 0, d->picture->no_x_axis ? NULL : _("m"));

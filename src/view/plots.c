@@ -164,15 +164,6 @@ int ceduo_plot_say(struct ceduo_canvas *canvas, int column, int row, int most, e
     return ceduo_canvas_put(canvas, most < 0 ? column + 1 - width : column, row, width, role, ceduo_text_string(&text));
 }
 
-bool ceduo_plot_is_free(const struct ceduo_canvas *canvas, const struct ceduo_area *area, int column, int row, int width)
-{
-    bool free = row >= area->top && row < area->top + area->height && column >= area->left &&
-                column + width <= area->left + area->width;
-    for (int i = -1; free && i <= width; i++)
-        free = ceduo_canvas_is_blank(canvas, column + i, row);
-    return free;
-}
-
 void ceduo_plot_control_name(struct text *text, const struct ceduo_control *control)
 {
     if (control->name)

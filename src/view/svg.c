@@ -45,38 +45,25 @@ struct ceduo_svg {
     int idle;              /* its lines since that grew by a unit */
 };
 
-struct look {
-    const char *colour;
-    double width;       /* of lines, units */
-    const char *weight; /* of text; NULL: normal */
-};
-
-/* Lightness and width tell roles apart, too. */
-static const struct look paper[CEDUO_ROLE_COUNT] = {
-    [CEDUO_ROLE_BLANK] = {"#1c1c1c", 1, NULL},   [CEDUO_ROLE_TEXT] = {"#1c1c1c", 1.4, NULL},
-    [CEDUO_ROLE_DIM] = {"#595959", 1, NULL},     [CEDUO_ROLE_TITLE] = {"#1c1c1c", 1.4, NULL},
-    [CEDUO_ROLE_AXIS] = {"#4a4a4a", 1, NULL},    [CEDUO_ROLE_GROUND] = {"#4e3620", 2.4, NULL},
-    [CEDUO_ROLE_CLOUD] = {"#2f4f6e", 0.9, NULL}, [CEDUO_ROLE_ENVELOPE] = {"#3f678c", 1.6, NULL},
-    [CEDUO_ROLE_MEAN] = {"#111111", 2.2, NULL},  [CEDUO_ROLE_WAY] = {"#8a1c7c", 2, NULL},
-    [CEDUO_ROLE_STEM] = {"#2f6b2f", 1.6, NULL},  [CEDUO_ROLE_STOOL] = {"#5b7f2a", 1, NULL},
-    [CEDUO_ROLE_BELT] = {"#2f6b2f", 1.4, NULL},  [CEDUO_ROLE_CONTROL] = {"#a3161c", 1.6, NULL},
-    [CEDUO_ROLE_GOOD] = {"#20702c", 1.6, NULL},  [CEDUO_ROLE_BAD] = {"#a3161c", 2, NULL},
-    [CEDUO_ROLE_WARN] = {"#7a4a00", 1.6, NULL},  [CEDUO_ROLE_BARE] = {"#9a4a10", 2.6, NULL},
-    [CEDUO_ROLE_WOOD] = {"#14532d", 2, NULL},    [CEDUO_ROLE_CURSOR] = {"#1c1c1c", 1.4, NULL}};
-
-/* As a dark terminal shows the roles; text has a contrast of 4.5 to what is behind it at least. */
+/* On paper lightness and the width of lines tell roles apart, too; a dark terminal shows some in bold. Text has a contrast of 4.5
+ * to what is behind it at least. */
 #define DARK "#15181c"
-static const struct look terminal[CEDUO_ROLE_COUNT] = {
-    [CEDUO_ROLE_BLANK] = {"#d6dbe1", 1, NULL},  [CEDUO_ROLE_TEXT] = {"#d6dbe1", 1, NULL},
-    [CEDUO_ROLE_DIM] = {"#8d96a0", 1, NULL},    [CEDUO_ROLE_TITLE] = {"#f2f5f8", 1, "bold"},
-    [CEDUO_ROLE_AXIS] = {"#8d96a0", 1, NULL},   [CEDUO_ROLE_GROUND] = {"#d9b45b", 1, NULL},
-    [CEDUO_ROLE_CLOUD] = {"#56b6c2", 1, NULL},  [CEDUO_ROLE_ENVELOPE] = {"#7aa7f0", 1, NULL},
-    [CEDUO_ROLE_MEAN] = {"#f2f5f8", 1, "bold"}, [CEDUO_ROLE_WAY] = {"#e08ce0", 1, "bold"},
-    [CEDUO_ROLE_STEM] = {"#7ec46b", 1, NULL},   [CEDUO_ROLE_STOOL] = {"#7ec46b", 1, NULL},
-    [CEDUO_ROLE_BELT] = {"#7ec46b", 1, NULL},   [CEDUO_ROLE_CONTROL] = {"#f2777a", 1, NULL},
-    [CEDUO_ROLE_GOOD] = {"#8fd97a", 1, "bold"}, [CEDUO_ROLE_BAD] = {"#ff8a85", 1, "bold"},
-    [CEDUO_ROLE_WARN] = {"#d9b45b", 1, NULL},   [CEDUO_ROLE_BARE] = {"#56b6c2", 1, NULL},
-    [CEDUO_ROLE_WOOD] = {"#7ec46b", 1, NULL},   [CEDUO_ROLE_CURSOR] = {"#d6dbe1", 1, NULL}};
+static const struct look {
+    const char *colour;
+    double width;                 /* of lines, units */
+    const char *on_dark, *weight; /* weight: of text; NULL: normal */
+} looks[CEDUO_ROLE_COUNT] = {
+    [CEDUO_ROLE_BLANK] = {"#1c1c1c", 1, "#d6dbe1", NULL},    [CEDUO_ROLE_TEXT] = {"#1c1c1c", 1.4, "#d6dbe1", NULL},
+    [CEDUO_ROLE_DIM] = {"#595959", 1, "#8d96a0", NULL},      [CEDUO_ROLE_TITLE] = {"#1c1c1c", 1.4, "#f2f5f8", "bold"},
+    [CEDUO_ROLE_AXIS] = {"#4a4a4a", 1, "#8d96a0", NULL},     [CEDUO_ROLE_GROUND] = {"#4e3620", 2.4, "#d9b45b", NULL},
+    [CEDUO_ROLE_CLOUD] = {"#2f4f6e", 0.9, "#56b6c2", NULL},  [CEDUO_ROLE_ENVELOPE] = {"#3f678c", 1.6, "#7aa7f0", NULL},
+    [CEDUO_ROLE_MEAN] = {"#111111", 2.2, "#f2f5f8", "bold"}, [CEDUO_ROLE_WAY] = {"#8a1c7c", 2, "#e08ce0", "bold"},
+    [CEDUO_ROLE_STEM] = {"#2f6b2f", 1.6, "#7ec46b", NULL},   [CEDUO_ROLE_STOOL] = {"#5b7f2a", 1, "#7ec46b", NULL},
+    [CEDUO_ROLE_BELT] = {"#2f6b2f", 1.4, "#7ec46b", NULL},   [CEDUO_ROLE_CONTROL] = {"#a3161c", 1.6, "#f2777a", NULL},
+    [CEDUO_ROLE_GOOD] = {"#20702c", 1.6, "#8fd97a", "bold"}, [CEDUO_ROLE_BAD] = {"#a3161c", 2, "#ff8a85", "bold"},
+    [CEDUO_ROLE_WARN] = {"#7a4a00", 1.6, "#d9b45b", NULL},   [CEDUO_ROLE_BARE] = {"#9a4a10", 2.6, "#56b6c2", NULL},
+    [CEDUO_ROLE_WOOD] = {"#14532d", 2, "#7ec46b", NULL},     [CEDUO_ROLE_CURSOR] = {"#1c1c1c", 1.4, "#d6dbe1", NULL}};
+
 /* ---- paths ---- */
 
 static void append_number(struct text *text, double value)
@@ -119,20 +106,19 @@ static double turn(double from, double to)
 static void go_on(struct ceduo_svg *svg, struct ceduo_position to)
 {
     struct stroke *s = &svg->stroke;
-    double dx = to.x - s->start.x, dy = to.y - s->start.y, length = hypot(dx, dy);
-    if (length < TOLERANCE)
+    if (hypot(to.x - s->start.x, to.y - s->start.y) < TOLERANCE)
         return;
-    double angle = atan2(dy, dx), half = asin(fmin(TOLERANCE / length, 1));
-    bool ahead = hypot(dx, dy) >= hypot(s->last.x - s->start.x, s->last.y - s->start.y);
-    if (s->straight && (!ahead || turn(s->lo, angle) < 0 || turn(angle, s->hi) < 0)) {
+    double angle, half;
+    for (;;) {
+        double dx = to.x - s->start.x, dy = to.y - s->start.y, length = hypot(dx, dy);
+        angle = atan2(dy, dx);
+        half = asin(fmin(TOLERANCE / length, 1));
+        bool ahead = length >= hypot(s->last.x - s->start.x, s->last.y - s->start.y);
+        if (!s->straight || (ahead && turn(s->lo, angle) >= 0 && turn(angle, s->hi) >= 0))
+            break;
         append_point(path_of(svg), 'L', s->last);
         s->start = s->last;
         s->straight = false;
-        dx = to.x - s->start.x;
-        dy = to.y - s->start.y;
-        length = hypot(dx, dy);
-        angle = atan2(dy, dx);
-        half = asin(fmin(TOLERANCE / fmax(length, TOLERANCE), 1));
     }
     double lo = angle - half, hi = angle + half;
     s->lo = s->straight && turn(s->lo, lo) < 0 ? s->lo : lo;
@@ -227,7 +213,7 @@ static void append_label(struct ceduo_svg *svg, double x, double y, const char *
     char across[16], down[16];
     snprintf(across, sizeof across, "%g", x);
     snprintf(down, sizeof down, "%g", y);
-    ceduo_html_leaf(&html, "text", label, "x", across, "y", down, "fill", paper[CEDUO_ROLE_AXIS].colour, "text-anchor", anchor,
+    ceduo_html_leaf(&html, "text", label, "x", across, "y", down, "fill", looks[CEDUO_ROLE_AXIS].colour, "text-anchor", anchor,
                     NULL);
 }
 
@@ -319,12 +305,12 @@ static void write_marks(struct ceduo_html *html, struct ceduo_svg *svg)
         for (unsigned role = 0; role < CEDUO_ROLE_COUNT; role++) {
             const struct text *paths = svg->paths[role];
             if (ceduo_role_ranks[role] == rank && paths[FILLED].length > 0)
-                ceduo_html_empty(html, "path", "fill", paper[role].colour, "d", paths[FILLED].bytes, NULL);
+                ceduo_html_empty(html, "path", "fill", looks[role].colour, "d", paths[FILLED].bytes, NULL);
             for (int stroke = 0; ceduo_role_ranks[role] == rank && stroke < CEDUO_STROKES; stroke++)
-                write_path(html, &paper[role], &paths[stroke], strokes[stroke]);
+                write_path(html, &looks[role], &paths[stroke], strokes[stroke]);
         }
     ceduo_html_close(html);
-    write_path(html, &paper[CEDUO_ROLE_AXIS], &svg->axes, strokes[CEDUO_STROKE_PLAIN]);
+    write_path(html, &looks[CEDUO_ROLE_AXIS], &svg->axes, strokes[CEDUO_STROKE_PLAIN]);
 }
 
 /* ---- characters ---- */
@@ -332,9 +318,10 @@ static void write_marks(struct ceduo_html *html, struct ceduo_svg *svg)
 /* Writes the text of a row: one element for each run of a role, which two blanks end. The cursor is written reversed. */
 static void write_row(struct ceduo_html *html, const struct ceduo_cells *cells, bool screen, int row)
 {
-    const struct look *looks = screen ? terminal : paper;
     for (int from = 0, end; from < cells->width; from = end) {
         enum ceduo_role role = ceduo_cells_role(cells, from, row);
+        const struct look *look = &looks[role];
+        const char *colour = screen ? look->on_dark : look->colour;
         bool reversed = role == CEDUO_ROLE_CURSOR && ceduo_cells_at(cells, from, row)->code != 0;
         LOCAL_TEXT(word);
         char x[16], y[16], width[16];
@@ -357,17 +344,17 @@ static void write_row(struct ceduo_html *html, const struct ceduo_cells *cells, 
         if (reversed) {
             snprintf(y, sizeof y, "%d", row * HIGH);
             snprintf(width, sizeof width, "%d", (end - from) * CELL);
-            ceduo_html_empty(html, "rect", "x", x, "y", y, "width", width, "height", "16", "fill", looks[role].colour, NULL);
+            ceduo_html_empty(html, "rect", "x", x, "y", y, "width", width, "height", "16", "fill", colour, NULL);
         }
         snprintf(y, sizeof y, "%d", row * HIGH + BASELINE);
         snprintf(width, sizeof width, "%d", used * CELL);
         if (used > 0) {
             word.bytes[length] = '\0';
             ceduo_html_leaf(html, "text", word.bytes, "x", x, "y", y, "textLength", width, "fill",
-                            !reversed ? looks[role].colour
+                            !reversed ? colour
                             : screen  ? DARK
                                       : "#fff",
-                            "font-weight", looks[role].weight, NULL);
+                            "font-weight", screen ? look->weight : NULL, NULL);
         }
     }
 }

@@ -47,7 +47,6 @@ struct ceduo_doubt_report;
 enum ceduo_judgement ceduo_words_judge(const struct ceduo_result *result, size_t option, size_t control,
                                        const struct ceduo_doubt_report *doubt);
 void ceduo_words_decision(struct text *text, enum ceduo_judgement judgement); /* "✘ NO"; nothing where it is not answered */
-enum ceduo_light ceduo_judgement_light(enum ceduo_judgement judgement);
 
 /* The answer in one line of at most `width` columns: "✘ NO: 479 of 1000 arrive with more than 50 kJ (50 accepted); may be
  * 234–748". Where there is less room whole clauses are left out; the verdict always stands. */
@@ -86,11 +85,10 @@ void ceduo_words_years_sum(struct text *text, const struct ceduo_result *result,
 /* How years are numbered, and with how many rocks in each they were simulated (0: by the index). */
 void ceduo_words_counted(struct text *text, uint64_t rocks);
 
-/* How often what is feared at a control happens, in one sentence; "13" and "13 (9–14)" years; a class of intensity, -1: none. */
+/* How often what is feared at a control happens, in one sentence; "13" and "13 (9–14)" years. */
 void ceduo_words_hazard(struct text *text, const struct ceduo_result *result, size_t option, size_t control);
 void ceduo_words_every(struct text *text, struct ceduo_rate rate);
 void ceduo_words_years(struct text *text, struct ceduo_rate rate);
-const char *ceduo_words_intensity(int intensity);
 
 /* Why energy is not judged; why options cannot be compared by what arrives. Marked for translation. */
 extern const char *const ceduo_words_unjudged, *const ceduo_words_by_index;

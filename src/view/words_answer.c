@@ -8,12 +8,20 @@
 #include "plot_parts.h"
 #include "words.h"
 
+/* What files and people call it. */
+static const struct {
+    const char *word, *verdict;
+    enum ceduo_light light;
+} judgements[] = {[CEDUO_UNANSWERED] = {NULL, NULL, CEDUO_UNKNOWN},
+                  [CEDUO_YES] = {"yes", N_("YES"), CEDUO_PASS},
+                  [CEDUO_NO] = {"no", N_("NO"), CEDUO_FAIL},
+                  [CEDUO_NOT_DECIDED] = {"not-decided", N_("NOT DECIDED"), CEDUO_UNKNOWN},
+                  [CEDUO_DEPENDS] = {"depends", N_("IT DEPENDS"), CEDUO_UNKNOWN},
+                  [CEDUO_NOTHING] = {"nothing", N_("NOTHING CAN BE SAID"), CEDUO_UNKNOWN}};
+
 const char *ceduo_words_judgement(enum ceduo_judgement judgement)
 {
-    static const char *const words[] = {
-        [CEDUO_UNANSWERED] = NULL,           [CEDUO_YES] = "yes",         [CEDUO_NO] = "no",
-        [CEDUO_NOT_DECIDED] = "not-decided", [CEDUO_DEPENDS] = "depends", [CEDUO_NOTHING] = "nothing"};
-    return words[judgement];
+    return judgements[judgement].word;
 }
 
 /* ---- nothing ---- */
@@ -111,21 +119,10 @@ enum ceduo_judgement ceduo_words_judge(const struct ceduo_result *r, size_t opti
     return open ? CEDUO_DEPENDS : judgement;
 }
 
-enum ceduo_light ceduo_judgement_light(enum ceduo_judgement judgement)
-{
-    return judgement == CEDUO_YES ? CEDUO_PASS : judgement == CEDUO_NO ? CEDUO_FAIL : CEDUO_UNKNOWN;
-}
-
-static const char *const verdicts[] = {[CEDUO_YES] = N_("YES"),
-                                       [CEDUO_NO] = N_("NO"),
-                                       [CEDUO_NOT_DECIDED] = N_("NOT DECIDED"),
-                                       [CEDUO_DEPENDS] = N_("IT DEPENDS"),
-                                       [CEDUO_NOTHING] = N_("NOTHING CAN BE SAID")};
-
 void ceduo_words_decision(struct text *text, enum ceduo_judgement judgement)
 {
     if (judgement != CEDUO_UNANSWERED)
-        ceduo_text_format(text, "%s %s", ceduo_plot_light_mark(ceduo_judgement_light(judgement)), _(verdicts[judgement]));
+        ceduo_text_format(text, "%s %s", ceduo_plot_light_mark(judgements[judgement].light), _(judgements[judgement].verdict));
 }
 
 /* What is said, from the widest to the narrowest. */
