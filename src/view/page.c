@@ -42,9 +42,9 @@ void ceduo_page_line(struct ceduo_page *page, enum ceduo_role role, const char *
 
 struct text *ceduo_page_label(struct ceduo_page *page, enum ceduo_page_kind kind, const char *label)
 {
-    struct ceduo_page_block *block = add_block(page, kind);
-    block->label = label;
-    return &block->text;
+    struct text *text = ceduo_page_add(page, kind);
+    ceduo_text_format(text, "%s\t", label);
+    return text;
 }
 
 void ceduo_page_table(struct ceduo_page *page, const struct ceduo_page_column *columns, size_t n)

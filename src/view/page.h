@@ -13,7 +13,7 @@ struct ceduo_svg;
 
 enum ceduo_page_kind {
     CEDUO_PAGE_TITLE,
-    CEDUO_PAGE_FACT,     /* a label and what it is */
+    CEDUO_PAGE_FACT,     /* what it is, after its label */
     CEDUO_PAGE_SECTION,  /* heading of an option, of a comparison */
     CEDUO_PAGE_PLACE,    /* heading of a control in it */
     CEDUO_PAGE_CAPTION,  /* of the table that follows */
@@ -26,10 +26,10 @@ enum ceduo_page_kind {
     CEDUO_PAGE_GAP,
     CEDUO_PAGE_QUESTION, /* what the page answers */
     CEDUO_PAGE_ANSWER,   /* a sentence of the answer */
-    CEDUO_PAGE_POINT,    /* its text begins with a label and a tab */
+    CEDUO_PAGE_POINT,    /* after its label */
     CEDUO_PAGE_PICTURE,  /* only sinks that draw show it; its text is its title */
     CEDUO_PAGE_CODE,     /* lines as they are in a file */
-    CEDUO_PAGE_HEAD      /* of a report: a label and what it is; nothing: a line to write on */
+    CEDUO_PAGE_HEAD      /* of a report: what it is, after its label; nothing: a line to write on */
 };
 
 struct ceduo_page_column {
@@ -74,8 +74,7 @@ struct ceduo_page_cell {
 struct ceduo_page_block {
     enum ceduo_page_kind kind;
     enum ceduo_role role; /* in a pane; BLANK: that of its kind */
-    const char *label;    /* of a fact, or in a head */
-    struct text text;     /* UTF-8 with the signs – − ± as they should be; a sink makes it safe to print */
+    struct text text; /* UTF-8 with the signs – − ± as they should be; sinks make it safe to print; a label ends in a tab */
     const struct ceduo_page_column *columns;
     size_t columns_count;
     size_t cells_count, cells_room; /* row by row, the heads first */
@@ -109,7 +108,7 @@ struct ceduo_page {
 struct text *ceduo_page_add(struct ceduo_page *page, enum ceduo_page_kind kind);
 void ceduo_page_say(struct ceduo_page *page, enum ceduo_page_kind kind, const char *format, ...) CEDUO_PAGE_FORMAT(3);
 void ceduo_page_line(struct ceduo_page *page, enum ceduo_role role, const char *format, ...) CEDUO_PAGE_FORMAT(3); /* a note */
-struct text *ceduo_page_label(struct ceduo_page *page, enum ceduo_page_kind kind, const char *label); /* a fact, or a head */
+struct text *ceduo_page_label(struct ceduo_page *page, enum ceduo_page_kind kind, const char *label); /* fact, point, head */
 
 /* Adds a table with its heads; then its cells, row by row, to the block added last. */
 void ceduo_page_table(struct ceduo_page *page, const struct ceduo_page_column *columns, size_t n);

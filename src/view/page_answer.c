@@ -188,8 +188,7 @@ void ceduo_page_sure(struct ceduo_page *page, const struct ceduo_report *report)
 {
     if (ceduo_page_says_nothing(report->result))
         return;
-    struct text *text = ceduo_page_add(page, CEDUO_PAGE_POINT);
-    ceduo_text_format(text, "%s\t", _("HOW SURE"));
+    struct text *text = ceduo_page_label(page, CEDUO_PAGE_POINT, _("HOW SURE"));
     say_sampling(text, report);
     say_doubt(text, report);
 }
@@ -203,12 +202,11 @@ void ceduo_page_over(struct ceduo_page *page, const struct ceduo_report *report)
     const struct ceduo_option *option = report->result->scene->options;
     if (!c || c->years == 0 || ceduo_page_says_nothing(report->result))
         return;
-    struct text *text = ceduo_page_add(page, CEDUO_PAGE_POINT);
     if (c->window.kind == CEDUO_WINDOW_ALIKE) {
-        ceduo_text_format(text, "%s\t", _("OVER TIME"));
-        ceduo_words_window(text, option, &c->window);
+        ceduo_words_window(ceduo_page_label(page, CEDUO_PAGE_POINT, _("OVER TIME")), option, &c->window);
         return;
     }
+    struct text *text = ceduo_page_add(page, CEDUO_PAGE_POINT);
     ceduo_text_format(text, ngettext("OVER %zu YEAR", "OVER %zu YEARS", c->years), c->years);
     ceduo_text_char(text, '\t');
     struct ceduo_measure mean = ceduo_judged(place_of(report->result), NULL);

@@ -141,17 +141,15 @@ static void write_block(struct ceduo_html *html, const struct ceduo_page_block *
     ceduo_page_powers(&shown, ceduo_text_string(&block->text));
     /* a file's text can be read again */
     const char *text = ceduo_text_string(block->kind == CEDUO_PAGE_CODE ? &block->text : &shown);
-    if (block->kind == CEDUO_PAGE_FACT || block->kind == CEDUO_PAGE_HEAD) {
-        ceduo_html_leaf(html, "dt", block->label, NULL);
-        ceduo_html_leaf(html, "dd", text, "class", text[0] ? NULL : "line", NULL);
-    } else if (block->kind == CEDUO_PAGE_CODE) {
+    if (block->kind == CEDUO_PAGE_CODE) {
         const char *line = strchr(text, '\n');
         ceduo_html_leaf(html, "pre", text, "class", line && line[1] ? NULL : "line", NULL);
-    } else if (block->kind == CEDUO_PAGE_POINT) {
+    } else if (block->kind == CEDUO_PAGE_FACT || block->kind == CEDUO_PAGE_POINT || block->kind == CEDUO_PAGE_HEAD) {
         LOCAL_TEXT(label);
         ceduo_text_add(&label, text, strcspn(text, "\t"));
+        text += label.length + 1;
         ceduo_html_leaf(html, "dt", ceduo_text_string(&label), NULL);
-        ceduo_html_leaf(html, "dd", text + label.length + 1, NULL);
+        ceduo_html_leaf(html, "dd", text, "class", text[0] ? NULL : "line", NULL);
     } else if (block->kind != CEDUO_PAGE_GAP && text[0]) {
         ceduo_html_leaf(html, elements[block->kind].element, text, "class", elements[block->kind].class, NULL);
     }

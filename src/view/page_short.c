@@ -199,8 +199,8 @@ static void gather_notes(struct ceduo_page *notes, const struct ceduo_report *re
 /* A point of sentences (warnings) or of other texts, and how many more there are. */
 static void add_point(struct ceduo_page *page, const char *label, const struct text *said, size_t more)
 {
-    struct text *text = ceduo_page_add(page, CEDUO_PAGE_POINT);
-    ceduo_text_format(text, "%s\t%s", label, ceduo_text_string(said));
+    struct text *text = ceduo_page_label(page, CEDUO_PAGE_POINT, label);
+    ceduo_text_put(text, ceduo_text_string(said));
     if (more > 0)
         ceduo_text_then(text, said->length > 0 ? " " : "", _("(%zu more)"), more);
 }
@@ -276,6 +276,6 @@ void ceduo_page_short(struct ceduo_page *page, const struct ceduo_report *report
         ceduo_page_say(page, CEDUO_PAGE_SECTION, "%s", r->scene->options[i].name);
         ceduo_page_years(page, report, i);
     }
-    ceduo_page_say(page, CEDUO_PAGE_POINT, "%s\t--details%s, --sensitivity, --report page.html; %s", _("MORE"),
-                   noted ? "" : _(" (notes)"), noted ? _("as screens: ceduo SCENE") : _("or ceduo SCENE"));
+    ceduo_text_format(ceduo_page_label(page, CEDUO_PAGE_POINT, _("MORE")), "--details%s, --sensitivity, --report page.html; %s",
+                      noted ? "" : _(" (notes)"), noted ? _("as screens: ceduo SCENE") : _("or ceduo SCENE"));
 }

@@ -182,9 +182,9 @@ static void print_wrapped(struct printer *p, const char *string, size_t column, 
 
 static void print_paragraph(struct printer *p, const struct ceduo_page_block *block)
 {
-    const char *begin = block->label ? block->label : styles[block->kind].first, *text = ceduo_text_string(&block->text);
+    const char *begin = styles[block->kind].first, *text = ceduo_text_string(&block->text);
     size_t indent = styles[block->kind].indent, margin = p->drawing ? strspn(begin, " ") : 0; /* panes are narrow */
-    size_t label = block->kind == CEDUO_PAGE_POINT ? strcspn(text, "\t") : 0;
+    size_t label = block->kind == CEDUO_PAGE_FACT || block->kind == CEDUO_PAGE_POINT ? strcspn(text, "\t") : 0;
     LOCAL_TEXT(first);
     LOCAL_TEXT(rest);
     margin = margin > MARGIN ? MARGIN : margin;
@@ -192,7 +192,7 @@ static void print_paragraph(struct printer *p, const struct ceduo_page_block *bl
     ceduo_text_put(&first, begin + margin);
     ceduo_text_add(&first, text, label);
     size_t column = ceduo_utf8_width(ceduo_text_string(&first));
-    if (block->label || label > 0) {
+    if (label > 0) {
         append_blanks(&first, column < indent ? indent - column : 2);
         column = ceduo_utf8_width(first.bytes);
     }
