@@ -109,31 +109,20 @@ void ceduo_page_powers(struct text *text, const char *string)
     }
 }
 
-/* What may be printed: no control characters, and the signs of a page in ASCII where the terminal knows no other. */
+/* What may be printed: no control characters, and where the terminal knows no other ASCII alone, so that its width is known. */
 static void append_safe(const struct printer *p, struct text *to, const char *string)
 {
-    static const char *const signs[][2] = {{"\xe2\x80\x93", "-"}, {"\xe2\x88\x92", "-"}, {"\xc2\xb1", "+-"}};
-    LOCAL_TEXT(signed_string);
+    LOCAL_TEXT(powers);
     LOCAL_TEXT(safe);
     if (!p->plain && !p->drawing) {
-        ceduo_page_powers(&signed_string, string);
-        string = ceduo_text_string(&signed_string);
+        ceduo_page_powers(&powers, string);
+        string = ceduo_text_string(&powers);
     }
     ceduo_text_safe(&safe, string);
-    if (p->plain && p->drawing) {
-        ceduo_cells_ascii(to, ceduo_text_string(&safe)); /* as the cells will show it, so that its width is known */
-        return;
-    }
-    for (const char *at = ceduo_text_string(&safe); *at;) {
-        size_t i = 0, n = 1;
-        while (i < 3 && strncmp(at, signs[i][0], n = strlen(signs[i][0])) != 0)
-            i++;
-        if (i < 3 && p->plain)
-            ceduo_text_put(to, signs[i][1]);
-        else
-            ceduo_text_add(to, at, n = i < 3 ? n : 1);
-        at += n;
-    }
+    if (p->plain)
+        ceduo_cells_ascii(to, ceduo_text_string(&safe));
+    else
+        ceduo_text_put(to, ceduo_text_string(&safe));
 }
 
 /* ---- paragraphs ---- */

@@ -65,15 +65,14 @@ static void add_row(struct ceduo_page *page, struct ceduo_measure wood, struct c
 
 static void add_arrivals(struct ceduo_page *page, const struct ceduo_pane *pane, const struct ceduo_control *c, bool nothing)
 {
-    static const struct ceduo_page_column narrow[] = {{NULL, 13, 0, 0}, {"", -8, 0, 0}, {"", -5, 1, 0}},
-                                          wide[] = {{NULL, 13, 0, 0}, {"", -16, 0, 0}, {"", -5, 1, 0}};
+#define OF_1000 N_("of 1000"), 13, 0, 0
+#define BARE    N_("bare"), -5, 1, 0
+    static const struct ceduo_page_column narrow[] = {{OF_1000}, {N_("wood"), -8, 0, 0}, {BARE}},
+                                          wide[] = {{OF_1000}, {N_("wood"), -16, 0, 0}, {BARE}};
     static const enum ceduo_end ends[] = {CEDUO_STOPPED_BY_STEMS, CEDUO_AT_REST, CEDUO_LEFT_SLOPE, CEDUO_UNFINISHED};
     const struct ceduo_arrivals *bare = &pane->result->bare.arrivals[pane->result->last_control], *wood = wood_of(pane);
     bool blocks = !isnan(bare->hazard.per_year);
     ceduo_page_table(page, page->width >= WIDE ? wide : narrow, 3);
-    ceduo_text_put(&page->last->cells[0].text, _("of 1000"));
-    ceduo_text_put(&page->last->cells[1].text, _("wood"));
-    ceduo_text_put(&page->last->cells[2].text, _("bare"));
     add_row(page, ceduo_arriving(wood), ceduo_arriving(bare));
     if (!isnan(c->accepted) && !nothing)
         add_row(page, ceduo_judged(c, wood), ceduo_judged(c, bare));
@@ -221,7 +220,7 @@ static void add_mean(struct ceduo_page *page, const char *name, const char *mean
 void ceduo_pane_residual(struct ceduo_page *page, const struct ceduo_pane *pane)
 {
     static const struct ceduo_page_column columns[] = {
-        {"", 14, 0, CEDUO_FILLS}, {NULL, -6, 1, CEDUO_FITS}, {"", -5, 1, CEDUO_FITS}, {"", -7, 2, CEDUO_FITS}};
+        {"", 14, 0, CEDUO_FILLS}, {"", -6, 1, CEDUO_FITS}, {N_("95 %"), -5, 1, CEDUO_FITS}, {"", -7, 2, CEDUO_FITS}};
     const struct ceduo_result *r = pane->result;
     const struct ceduo_control *c = &r->scene->controls[r->last_control];
     const struct ceduo_arrivals *bare = &r->bare.arrivals[r->last_control],
@@ -233,7 +232,6 @@ void ceduo_pane_residual(struct ceduo_page *page, const struct ceduo_pane *pane)
     ceduo_text_format(&heads[0].text, _("energy left at %g m"), c->x_given);
     ceduo_text_format(&heads[0].shorter, _("left at %g m"), c->x_given);
     ceduo_measure_name(&heads[1].text, &mean, CEDUO_SHORT_HEAD);
-    ceduo_text_put(&heads[2].text, _("95 %"));
     ceduo_measure_name(&heads[3].text, &judged, CEDUO_SHORT_HEAD);
     add_simulated(page, _("without forest"), c, bare);
     if (r->scene->options[pane->option].belts_count > 0)

@@ -65,12 +65,11 @@ static int add_options(struct ceduo_page *page, const struct ceduo_doubt_report 
 static void add_inputs(struct ceduo_page *page, const struct ceduo_doubt_report *r, size_t option, int lines)
 {
     static const struct ceduo_page_column columns[] = {
-        {"", 18, 0, CEDUO_FILLS}, {"", 6, 1, CEDUO_FILLS}, {"", -5, 1, CEDUO_FITS}, {"", -8, 2, CEDUO_FITS}};
+        {N_("it depends on"), 18, 0, CEDUO_FILLS}, {"", 6, 1, CEDUO_FILLS}, {"", -5, 1, CEDUO_FITS}, {"", -8, 2, CEDUO_FITS}};
     const struct ceduo_doubt_figure *f = ceduo_doubt_main(r, option);
     if (lines < 2)
         return;
     CEDUO_PAGE_TABLE_OF(page, columns);
-    ceduo_text_put(&page->last->cells[0].text, _("it depends on"));
     ceduo_text_format(&page->last->cells[3].text, _("of %.3g wide"), (f->fit.p95 - f->fit.p5) * ceduo_doubt_scale(r));
     for (size_t i = 0, n = 1; f->fit.enough && i < f->uses && n < (size_t)lines; i++)
         if (f->fit.total[f->order[i]].value >= SHOWN_LEAST) {

@@ -165,26 +165,26 @@ static void say_reason(struct text *text, const struct ceduo_result *r, size_t o
     struct ceduo_measure m = ceduo_judged(c, wooded ? wooded : bare), without = ceduo_judged(c, bare);
     if (wooded)
         ceduo_measure_doubt(&m, doubt, option, control);
-    if (judgement == CEDUO_NOTHING)
-        ceduo_text_format(text, _("of %llu rocks %llu arrive, even without the wood"), (unsigned long long)bare->released,
-                          (unsigned long long)bare->reached);
-    else if (!wooded && !r->wooded && judgement != CEDUO_YES) {
-        const char *left = WRITTEN(r->options[option].controls[control].residual * J_TO_KJ, 3);
-        const char *mean = WRITTEN(bare->energy.mean * J_TO_KJ, 3);
-        ceduo_text_format(text, _("the index leaves %s of %s kJ in the mean; it knows no single rocks"), left, mean);
-        if (ceduo_utf8_width(text->bytes) > width) {
-            ceduo_text_free(text);
-            ceduo_text_format(text, _("the index leaves %s of %s kJ"), left, mean);
-        }
-    } else if (!wooded && r->wooded)
-        ceduo_text_put(text, _("not computed yet"));
-    for (size_t i = 0; text->length == 0 && i < sizeof forms / sizeof forms[0]; i++) {
-        say_form(text, &m, ceduo_plot_has_stems(&r->scene->options[option]) ? &without : NULL, &forms[i]);
-        if (ceduo_utf8_width(ceduo_text_string(text)) > width)
-            ceduo_text_free(text);
-    }
-    if (ceduo_utf8_width(ceduo_text_string(text)) > width)
+    const char *left = WRITTEN(r->options[option].controls[control].residual * J_TO_KJ, 3);
+    const char *mean = WRITTEN(bare->energy.mean * J_TO_KJ, 3);
+    for (size_t i = 0; i < sizeof forms / sizeof forms[0]; i++) {
         ceduo_text_free(text);
+        if (judgement == CEDUO_NOTHING)
+            ceduo_text_format(text, _("of %llu rocks %llu arrive, even without the wood"), (unsigned long long)bare->released,
+                              (unsigned long long)bare->reached);
+        else if (!wooded && r->wooded)
+            ceduo_text_put(text, _("not computed yet"));
+        else if (!wooded && judgement != CEDUO_YES)
+            ceduo_text_format(text,
+                              i == 0 ? _("the index leaves %s of %s kJ in the mean; it knows no single rocks")
+                                     : _("the index leaves %s of %s kJ"),
+                              left, mean);
+        else
+            say_form(text, &m, ceduo_plot_has_stems(&r->scene->options[option]) ? &without : NULL, &forms[i]);
+        if (ceduo_utf8_width(text->bytes) <= width)
+            return;
+    }
+    ceduo_text_free(text);
 }
 
 void ceduo_words_answer(struct text *text, const struct ceduo_result *r, size_t option, size_t control,
