@@ -112,7 +112,7 @@ static enum ceduo_status evaluate(struct fitting *f, size_t worker, const double
 static int look_at_point(void *context, size_t i, size_t worker)
 {
     struct fitting *f = context;
-    enum ceduo_status status = evaluate(f, worker, f->points + i * f->def->parameters_count, &f->at_points[i]);
+    enum ceduo_status status = evaluate(f, worker, f->known + i * f->def->parameters_count, &f->known_values[i]);
     tell(f, CEDUO_SEARCH, NAN, NAN);
     return (int)status;
 }
@@ -124,7 +124,7 @@ static enum ceduo_status search(struct fitting *f)
     if (!sequence) /* untaken: gsl */
         return CEDUO_NO_MEMORY;
     for (size_t i = 0; i < POINTS; i++)
-        gsl_qrng_get(sequence, f->points + i * d);
+        gsl_qrng_get(sequence, f->known + i * d);
     gsl_qrng_free(sequence);
     return (enum ceduo_status)ceduo_parallel(&(struct parallel){POINTS, f->def->threads, look_at_point, f});
 }
@@ -179,12 +179,10 @@ static int refine_one(void *context, size_t start, size_t worker)
 static enum ceduo_status refine(struct fitting *f)
 {
     size_t d = f->def->parameters_count, order[POINTS];
-    for (size_t i = 0; i < POINTS; i++)
-        f->at_points[i] = -f->at_points[i];
-    gsl_sort_smallest_index(order, CHAINS, f->at_points, 1, POINTS);
+    gsl_sort_largest_index(order, CHAINS, f->known_values, 1, POINTS);
     for (size_t c = 0; c < CHAINS; c++)
         for (size_t i = 0; i < d; i++)
-            f->starts[c * d + i] = log(f->points[order[c] * d + i] / (1 - f->points[order[c] * d + i]));
+            f->starts[c * d + i] = log(f->known[order[c] * d + i] / (1 - f->known[order[c] * d + i]));
     return (enum ceduo_status)ceduo_parallel(&(struct parallel){REFINED, f->def->threads, refine_one, f});
 }
 
@@ -227,12 +225,14 @@ static bool grow_known(struct fitting *f, size_t n)
     size_t d = f->def->parameters_count, room = 2 * (POINTS + n);
     if (POINTS + n <= f->known_room)
         return true;
-    double *known = realloc(f->known, room * d * sizeof *known);
-    f->known = known ? known : f->known;
-    double *values = realloc(f->known_values, room * sizeof *values);
-    f->known_values = values ? values : f->known_values;
-    f->known_room = known && values ? room : 0;
-    return known && values;
+    double *known = ceduo_arena_take(&f->memory, room * d * sizeof *known);
+    double *values = ceduo_arena_take(&f->memory, room * sizeof *values);
+    if (!known || !values)
+        return false;
+    f->known = memcpy(known, f->known, POINTS * d * sizeof *known); /* what was tried is told anew each time */
+    f->known_values = memcpy(values, f->known_values, POINTS * sizeof *values);
+    f->known_room = room;
+    return true;
 }
 
 static enum ceduo_status learn(void *context, const double *y, const double *log_densities, size_t n)
@@ -241,9 +241,6 @@ static enum ceduo_status learn(void *context, const double *y, const double *log
     size_t d = f->def->parameters_count;
     if (!grow_known(f, n))
         return CEDUO_NO_MEMORY;
-    memcpy(f->known, f->points, POINTS * d * sizeof *f->known);
-    for (size_t i = 0; i < POINTS; i++)
-        f->known_values[i] = -f->at_points[i];
     for (size_t i = 0; i < n; i++) {
         double prior = prior_at(f, y + i * d, f->known + (POINTS + i) * d);
         f->known_values[POINTS + i] = log_densities[i] - prior;
@@ -260,13 +257,10 @@ static bool on_round(void *context, size_t steps, double rhat, double effective_
 
 static enum ceduo_status run_chains(struct fitting *f, struct chains *chains)
 {
-    double scales[PARAMETERS];
-    for (size_t i = 0; i < PARAMETERS; i++)
-        scales[i] = FIRST_STEP;
     struct chains_def def = {.dimensions = f->def->parameters_count,
                              .chains = CHAINS,
                              .starts = f->starts,
-                             .scales = scales,
+                             .first_step = FIRST_STEP,
                              .seed = f->def->seed,
                              .threads = f->def->threads,
                              .steps_least = STEPS_LEAST,
@@ -393,8 +387,9 @@ static enum ceduo_status open_fitting(struct fitting *f, const struct ceduo_cali
     f->workers_count = def->threads > CHAINS ? def->threads : CHAINS;
     pthread_mutex_init(&f->lock, NULL);
     pthread_mutex_init(&f->talking, NULL);
-    f->points = ceduo_arena_take(&f->memory, POINTS * n * sizeof *f->points);
-    f->at_points = ceduo_arena_take(&f->memory, POINTS * sizeof *f->at_points);
+    f->known = ceduo_arena_take(&f->memory, POINTS * n * sizeof *f->known);
+    f->known_values = ceduo_arena_take(&f->memory, POINTS * sizeof *f->known_values);
+    f->known_room = POINTS;
     f->scenes = ceduo_arena_take(&f->memory, def->scenes_count * sizeof *f->scenes);
     f->workers = ceduo_arena_take(&f->memory, f->workers_count * sizeof *f->workers);
     for (size_t s = 0; s < def->scenes_count && !f->memory.failed && status == CEDUO_OK; s++) {
@@ -428,8 +423,6 @@ static void close_fitting(struct fitting *f)
         for (size_t w = 0; f->workers && w < f->workers_count && f->workers[w].copies; w++)
             ceduo_inputs_release(&f->workers[w].copies[s]);
     }
-    free(f->known);
-    free(f->known_values);
     ceduo_guess_release(&f->guess);
     ceduo_arena_free(&f->memory);
     pthread_mutex_destroy(&f->lock);

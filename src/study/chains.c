@@ -207,7 +207,7 @@ static enum ceduo_status begin(struct work *w)
         return CEDUO_NO_MEMORY;
     w->factor = 2.38 / sqrt((double)d);
     for (size_t i = 0; i < d; i++)
-        gsl_matrix_set(w->root, i, i, w->factor * def->scales[i]);
+        gsl_matrix_set(w->root, i, i, w->factor * def->first_step);
     memcpy(w->chains->x, def->starts, def->chains * d * sizeof *w->chains->x);
     for (size_t c = 0; c < def->chains && status == CEDUO_OK; c++) {
         w->walks[c].random = ceduo_sequence(&w->walks[c].sequence, def->seed, c);

@@ -21,7 +21,7 @@
 struct chains_def {
     size_t dimensions, chains;
     const double *starts; /* [chain][dimension] */
-    const double *scales; /* of the first steps, one for each dimension */
+    double first_step;    /* the standard deviation of the first steps, in each dimension */
     uint64_t seed;
     unsigned threads;
     size_t steps_least, steps_most; /* of each chain */

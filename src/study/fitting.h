@@ -12,8 +12,7 @@
 
 struct fitting_scene {
     size_t fit_count;
-    struct ceduo_observation *fitted; /* those that are not only to check */
-    struct ceduo_observer *fit, *all;
+    struct ceduo_observer *fit, *all; /* fit: of those that are not only to check */
 };
 
 /* What a worker needs for itself. */
@@ -29,9 +28,8 @@ struct fitting {
     size_t fit_count, all_count; /* observations of all scenes */
     size_t workers_count;
     struct fitting_worker *workers;
-    double *points, *at_points; /* Sobol' points; their log-likelihoods */
     struct guess guess;
-    double *known, *known_values; /* what it learns from: the points, then what the chains have tried */
+    double *known, *known_values; /* what it learns from: Sobol' points, then what the chains have tried; log-likelihoods */
     size_t known_room;
     double starts[CEDUO_CALIBRATION_CHAINS * CEDUO_CALIBRATION_MOST];
     pthread_mutex_t lock, talking;

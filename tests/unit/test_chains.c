@@ -45,14 +45,14 @@ static enum ceduo_status learn_nothing(void *context, const double *x, const dou
     return CEDUO_OK;
 }
 
-static const double starts[8] = {5, 0, -5, 0, 1, -4, 3, -2}, scales[2] = {1, 1};
+static const double starts[8] = {5, 0, -5, 0, 1, -4, 3, -2};
 
 static struct chains_def two_dimensions(void)
 {
     return (struct chains_def){.dimensions = 2,
                                .chains = 4,
                                .starts = starts,
-                               .scales = scales,
+                               .first_step = 1,
                                .seed = 3,
                                .threads = 1,
                                .steps_least = 500,

@@ -267,12 +267,12 @@ static enum ceduo_status learn(void *context, const double *x, const double *log
 
 static bool draw(void)
 {
-    static const double starts[2] = {-1, 1}, scale = 1;
+    static const double starts[2] = {-1, 1};
     LOCAL_BY(ceduo_guess_release) struct guess guess = ceduo_guess_begin(1);
     const struct chains_def def = {.dimensions = 1,
                                    .chains = 2,
                                    .starts = starts,
-                                   .scales = &scale,
+                                   .first_step = 1,
                                    .seed = 1,
                                    .threads = 2,
                                    .steps_most = 201,
