@@ -16,7 +16,6 @@
 #include "say.h"
 #include "view/figures.h"
 
-#define MOST     CEDUO_CALIBRATION_MOST
 #define NO_VALUE _("'%s' is no number of these scenes that can be fitted; ceduo --list-parameters shows all")
 
 /* All scenes, and the fitted values in each. */
@@ -97,20 +96,6 @@ static bool writes_scene(const struct arguments *a)
     return dot && (strcmp(dot, ".yaml") == 0 || strcmp(dot, ".yml") == 0);
 }
 
-/* The heads of the table of draws: the places of each value in the first scene. */
-static void append_draws(const struct job *j, const struct ceduo_calibration *answer, struct text *out)
-{
-    struct text heads[MOST] = {{0}};
-    const char *names[MOST];
-    for (size_t i = 0; i < j->parameters_count; i++) {
-        ceduo_text_words(&heads[i], j->inputs[i].places, j->inputs[i].places_count, " ");
-        names[i] = heads[i].length > 0 ? ceduo_text_string(&heads[i]) : j->inputs[i].path;
-    }
-    ceduo_calibration_draws(out, answer, names);
-    for (size_t i = 0; i < j->parameters_count; i++)
-        ceduo_text_free(&heads[i]);
-}
-
 /* The text of the first scene with the best values. It is made while the table of draws lies under a name of its own, and names
  * it as it will be called. */
 static bool fill_scene(const struct job *j, const struct ceduo_calibration_report *r, const struct pending_file *draws,
@@ -151,7 +136,7 @@ static enum exit_status write_scene(const struct job *j, const struct ceduo_cali
     LOCAL_TEXT(table);
     LOCAL_TEXT(scene);
     ceduo_text_format(&path, "%.*s.draws.csv", (int)(strrchr(output, '.') - output), output);
-    append_draws(j, r->answer, &table);
+    ceduo_calibration_draws(&table, r);
     struct pending_file draws = {.path = path.bytes, .bytes = table.bytes, .n = table.length, .wait = true};
     struct pending_file file = {.path = output, .wait = true};
     enum exit_status status = EXIT_OUTPUT;
@@ -215,12 +200,8 @@ static enum exit_status compute(struct job *j)
     enum ceduo_status status = ceduo_calibrate(&def, &answer);
     if (status != CEDUO_OK)
         return ceduo_batch_failed(&j->files[0], status);
-    struct ceduo_calibration_report report = {.scenes_count = j->scenes_count,
-                                              .files = j->files,
-                                              .inputs = j->inputs,
-                                              .rocks = def.rocks,
-                                              .seed = def.seed,
-                                              .answer = &answer};
+    struct ceduo_calibration_report report = {
+        .scenes_count = j->scenes_count, .files = j->files, .inputs = j->inputs, .rocks = def.rocks, .answer = &answer};
     const struct ceduo_place place = {.calibration = &report};
     if (print.format == CEDUO_JSON) {
         ceduo_figures_json(&out, ceduo_calibration_figures, &place, false);

@@ -43,14 +43,15 @@ static void note_bad(struct binder *b)
     bad->n += path || !room;
 }
 
-/* What is wrong with a value. */
-__attribute__((format(printf, 3, 4))) static void report(struct binder *b, const struct node *node, const char *format, ...)
+/* What is wrong with a value; false, so that a check can end with it. */
+__attribute__((format(printf, 3, 4))) static bool report(struct binder *b, const struct node *node, const char *format, ...)
 {
     va_list args;
     va_start(args, format);
     ceduo_problem_v(b->to->problems, ceduo_node_place(node, path_here(b)), format, args);
     va_end(args);
     note_bad(b);
+    return false;
 }
 
 /* ---- the path ---- */
@@ -144,10 +145,8 @@ static bool read_place(struct binder *b, const struct field *f, const struct nod
     const char *text = node->text;
     if (!ceduo_schema_is_place(f) || node->kind != NODE_SCALAR || strncmp(text, "end", 3) != 0 || !b->to->end)
         return false;
-    if (!ceduo_schema_place_read(text, &back)) {
-        report(b, node, _("'%s': write end, or end-10 for 10 m before the end of the profile"), text);
-        return false;
-    }
+    if (!ceduo_schema_place_read(text, &back))
+        return report(b, node, _("'%s': write end, or end-10 for 10 m before the end of the profile"), text);
     if (isnan(b->end))
         b->end = b->to->end(b->to->context);
     if (isnan(b->end))
@@ -162,19 +161,11 @@ static bool read_number(struct binder *b, const struct node *node, double *value
 {
     if (!want(b, node, NODE_SCALAR, _("a number")))
         return false;
-    if (node->quoted) {
-        report(b, node, _("'%s' is in quotes; write the number without them"), node->text);
-        return false;
-    }
-    switch (ceduo_number_read(node->text, value)) {
-    case CEDUO_NUMBER_GOOD:
-        return true;
-    case CEDUO_NUMBER_TOO_LARGE:
-        report(b, node, _("too large a number"));
-        return false;
-    default:
-        break;
-    }
+    if (node->quoted)
+        return report(b, node, _("'%s' is in quotes; write the number without them"), node->text);
+    enum ceduo_number_reading reading = ceduo_number_read(node->text, value);
+    if (reading != CEDUO_NUMBER_NONE)
+        return reading == CEDUO_NUMBER_GOOD || report(b, node, _("too large a number"));
     const char *text = node->text, *comma = strchr(text, ',');
     size_t whole = strspn(text, "+-0123456789"), rest = comma ? strspn(comma + 1, "0123456789") : 0;
     bool thousands = rest == 3 && strtod(text, NULL) != 0;
@@ -182,14 +173,12 @@ static bool read_number(struct binder *b, const struct node *node, double *value
     LOCAL_TEXT(part);
     ceduo_text_add(&part, text, strcspn(text, "%"));
     if (comma == text + whole && whole > 0 && rest > 0 && !comma[1 + rest] && !thousands)
-        report(b, node, DECIMAL_COMMA, (int)whole, text, comma + 1);
-    else if (comma)
-        report(b, node, _("'%s' is not a number; write a dot for the decimals and nothing between thousands"), node->text);
-    else if (strcmp(text + part.length, "%") == 0 && ceduo_number_read(ceduo_text_string(&part), value) == CEDUO_NUMBER_GOOD)
-        report(b, node, _("'%s' is not a number; write %s"), text, ceduo_number_shortest(*value / 100, shown));
-    else
-        report(b, node, _("'%s' is not a number"), node->text);
-    return false;
+        return report(b, node, DECIMAL_COMMA, (int)whole, text, comma + 1);
+    if (comma)
+        return report(b, node, _("'%s' is not a number; write a dot for the decimals and nothing between thousands"), text);
+    if (strcmp(text + part.length, "%") == 0 && ceduo_number_read(ceduo_text_string(&part), value) == CEDUO_NUMBER_GOOD)
+        return report(b, node, _("'%s' is not a number; write %s"), text, ceduo_number_shortest(*value / 100, shown));
+    return report(b, node, _("'%s' is not a number"), text);
 }
 
 static bool check_range(struct binder *b, const struct field *f, const struct node *node, double value)
@@ -198,16 +187,14 @@ static bool check_range(struct binder *b, const struct field *f, const struct no
     const char *unit = f->unit[0] ? f->unit : "", *gap = f->unit[0] ? " " : "";
     const char *said = ceduo_number_shortest(value, room);
     if (value < f->lo)
-        report(b, node, _("%s is below %s%s%s"), said, ceduo_number_shortest(f->lo, limit), gap, unit);
-    else if (f->flags & FIELD_ABOVE && !(value > f->lo))
-        report(b, node, _("%s is not above %s%s%s"), said, ceduo_number_shortest(f->lo, limit), gap, unit);
-    else if (value > f->hi)
-        report(b, node, _("%s is above %s%s%s"), said, ceduo_number_shortest(f->hi, limit), gap, unit);
-    else if (f->flags & FIELD_UNDER && !(value < f->hi))
-        report(b, node, _("%s is not below %s%s%s"), said, ceduo_number_shortest(f->hi, limit), gap, unit);
-    else
-        return true;
-    return false;
+        return report(b, node, _("%s is below %s%s%s"), said, ceduo_number_shortest(f->lo, limit), gap, unit);
+    if (f->flags & FIELD_ABOVE && !(value > f->lo))
+        return report(b, node, _("%s is not above %s%s%s"), said, ceduo_number_shortest(f->lo, limit), gap, unit);
+    if (value > f->hi)
+        return report(b, node, _("%s is above %s%s%s"), said, ceduo_number_shortest(f->hi, limit), gap, unit);
+    if (f->flags & FIELD_UNDER && !(value < f->hi))
+        return report(b, node, _("%s is not below %s%s%s"), said, ceduo_number_shortest(f->hi, limit), gap, unit);
+    return true;
 }
 
 static bool bind_number(struct binder *b, const struct field *f, const struct node *node, double *to)

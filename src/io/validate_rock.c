@@ -40,7 +40,7 @@ void ceduo_validate_rock(struct validator *v, const char *path, const struct ced
             ceduo_complain(v, path, sizes[i], _("does not belong to the shape '%s'; remove it"), name);
     }
     for (size_t i = 0; keys[i]; i++) {
-        bool given = ceduo_is_given(v, path, node, keys[i]);
+        bool given = ceduo_is_given(v, path, keys[i]);
         n += given;
         if (!given && shape != CEDUO_SPHERE)
             ceduo_complain(v, path, "", _("'%s' is missing: the shape '%s' needs it"), keys[i], name);
@@ -49,9 +49,9 @@ void ceduo_validate_rock(struct validator *v, const char *path, const struct ced
         ceduo_complain(v, path, "", _("a sphere is given by one of diameter_m, volume_m3 and mass_kg, here %d are given"), n);
     if (shape != CEDUO_SPHERE && ceduo_node_get(node, "mass_kg") && ceduo_node_get(node, "density_kg_m3"))
         ceduo_complain(v, path, "density_kg_m3", _("%s already says this; keep one of the two"), "mass_kg");
-    bool by_mass = shape != CEDUO_SPHERE && ceduo_is_given(v, path, node, "mass_kg");
+    bool by_mass = shape != CEDUO_SPHERE && ceduo_is_given(v, path, "mass_kg");
     bool of_scene = strcmp(path, "rock") == 0;
-    if (of_scene && !ceduo_is_given(v, path, node, "density_kg_m3") && !by_mass)
+    if (of_scene && !ceduo_is_given(v, path, "density_kg_m3") && !by_mass)
         ceduo_assume(v, "rock.density_kg_m3",
                      ceduo_format(v, _("density of limestone, %g kg/m3"), ceduo_scene_default().rock.density.mean));
     struct ceduo_rock rock;
@@ -90,7 +90,7 @@ void ceduo_validate_blocks(struct validator *v)
     bool spreads = r->diameter.spread > 0 || r->volume.spread > 0 || r->mass.spread > 0;
     if (ceduo_node_get(v->root, "rocks_per_year"))
         ceduo_complain(v, "rocks_per_year", "", _("%s already says this; keep one of the two"), "blocks");
-    if (blocks->kind == NODE_MAP && !ceduo_is_given(v, "blocks", blocks, "exponent"))
+    if (blocks->kind == NODE_MAP && !ceduo_is_given(v, "blocks", "exponent"))
         ceduo_complain(v, "blocks", "",
                        _("'exponent' is missing: the number of blocks above a volume v goes with v^-exponent"));
     if (scene->simulation.rocks > CEDUO_SIZED_ROCKS_MOST)

@@ -10,17 +10,12 @@
 #include "scene_file.h"
 #include "validator.h"
 
-static bool is_given(struct validator *v, const char *key)
-{
-    return ceduo_is_given(v, "slope", ceduo_node_get(v->root, "slope"), key);
-}
-
 /* ---- the profile ---- */
 
 static bool read_vertices(struct validator *v, struct points *p)
 {
     const struct ceduo_slope *s = &v->draft.scene.slope;
-    bool csv = is_given(v, "csv"), list = is_given(v, "vertices_m");
+    bool csv = ceduo_is_given(v, "slope", "csv"), list = ceduo_is_given(v, "slope", "vertices_m");
     if (!csv && !list)
         return ceduo_complain(v, "slope", "", _("'vertices_m' is missing: the profile"));
     *p = (struct points){.x = s->x, .z = s->z, .n = s->vertices};
@@ -40,7 +35,7 @@ static bool read_vertices(struct validator *v, struct points *p)
 /* Rocks go along x, so x must rise and the profile fall; one that was drawn from below is known by its ends. */
 static bool check_vertices(struct validator *v, const struct points *p)
 {
-    bool csv = !is_given(v, "vertices_m"), reversed = v->draft.scene.slope.reversed, rising = true;
+    bool csv = !ceduo_is_given(v, "slope", "vertices_m"), reversed = v->draft.scene.slope.reversed, rising = true;
     const char *path = csv ? "slope.csv" : "slope.vertices_m";
     if (p->n < 2) {
         ceduo_complain(v, path, "", _("a profile needs two points or more"));
@@ -249,11 +244,11 @@ void ceduo_validate_slope(struct validator *v)
     if (reuse_slope(v) || !ceduo_is_known(v, "slope"))
         return;
     bool profile = read_vertices(v, &p) && check_vertices(v, &p);
-    bool segments = is_given(v, "segments"), materials = is_given(v, "materials");
+    bool segments = ceduo_is_given(v, "slope", "segments"), materials = ceduo_is_given(v, "slope", "materials");
     if (profile && !make_vertices(v, &p, v->draft.materials_count))
         return;
     size_t before = v->problems->met;
-    if (!segments && !materials && !is_given(v, "csv"))
+    if (!segments && !materials && !ceduo_is_given(v, "slope", "csv"))
         ceduo_complain(v, "slope", "", _("'segments' or 'materials' is missing: the ground"));
     const double smooth = ceduo_schema_default(ceduo_schema_field(ceduo_schema_segment(), "roughness_rad"));
     bool known = segments && ceduo_is_known(v, "slope.segments");

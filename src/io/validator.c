@@ -75,9 +75,10 @@ bool ceduo_is_sound(struct validator *v, const char *path)
     return ceduo_is_known(v, "%s", path);
 }
 
-bool ceduo_is_given(struct validator *v, const char *path, const struct node *map, const char *key)
+bool ceduo_is_given(struct validator *v, const char *path, const char *key)
 {
-    return ceduo_node_get(map, key) || !ceduo_is_known(v, "%s.%s", path, key);
+    const char *whole = ceduo_format(v, "%s.%s", path, key);
+    return ceduo_resolve_at(v->root, whole) || !ceduo_is_known(v, "%s", whole);
 }
 
 void ceduo_assume(struct validator *v, const char *path, const char *text)

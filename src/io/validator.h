@@ -73,8 +73,8 @@ bool ceduo_is_known(struct validator *v, const char *format, ...) __attribute__(
 /* The same, and nothing is wrong within it. */
 bool ceduo_is_sound(struct validator *v, const char *path);
 
-/* Whether something stands there, though it may be wrong; the second for a key of a mapping at `path`. */
-bool ceduo_is_given(struct validator *v, const char *path, const struct node *map, const char *key);
+/* Whether something stands at a key of the mapping at `path`, though it may be wrong. */
+bool ceduo_is_given(struct validator *v, const char *path, const char *key);
 
 /* Adds an assumption of the program itself to those of the files. */
 void ceduo_assume(struct validator *v, const char *path, const char *text);

@@ -137,12 +137,8 @@ static void say_fitting(const struct live *live, struct ceduo_page *page)
 
 static struct ceduo_calibration_report report_of(const struct fit *f)
 {
-    return (struct ceduo_calibration_report){.scenes_count = 1,
-                                             .files = &f->file,
-                                             .inputs = f->inputs,
-                                             .rocks = f->request.rocks,
-                                             .seed = f->file.scene.simulation.seed,
-                                             .answer = &f->answer};
+    return (struct ceduo_calibration_report){
+        .scenes_count = 1, .files = &f->file, .inputs = f->inputs, .rocks = f->request.rocks, .answer = &f->answer};
 }
 
 static void say_fit(const struct fit *f, struct ceduo_page *page)
@@ -253,11 +249,9 @@ static void draw(struct app *app, struct ceduo_area area)
     const struct live *f = &app->live;
     const struct comparison *c = ceduo_live_comparison(f, file);
     const struct ceduo_seen_stops *stops = NULL; /* of the option that is shown, otherwise the first there are */
-    for (size_t i = c ? c->file.observations_count : 0; i-- > 0;)
-        if (c->stops[i].known)
-            stops = &c->stops[i];
-    for (size_t i = c ? c->file.observations_count : 0; i-- > 0;)
-        if (c->stops[i].known && c->file.observations[i].option == app->option)
+    const struct ceduo_observation *seen = c ? c->file.observations : NULL;
+    for (size_t i = 0; c && i < c->file.observations_count; i++)
+        if (c->stops[i].known && (!stops || (seen[i].option == app->option && seen[stops - c->stops].option != app->option)))
             stops = &c->stops[i];
     struct view_state *state = ceduo_app_state(app);
     bool fit = f->fitting || ceduo_live_fitted(f);

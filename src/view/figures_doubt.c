@@ -256,7 +256,7 @@ static void say_scenes(const struct ceduo_place *p, ceduo_words_say *say, void *
 }
 
 VALUE(calibration_format, place, TEXT, WORD("ceduo-calibration-1"))
-VALUE(calibration_seed, place, COUNT, COUNT(o->calibration->seed))
+VALUE(calibration_seed, place, COUNT, COUNT(o->calibration->files[0].scene.simulation.seed))
 VALUE(calibration_rocks, place, COUNT, COUNT(o->calibration->rocks))
 VALUE(first_scene, place, TEXT, WORD(o->calibration->files[0].name))
 VALUE(fitted_path, place, TEXT, WORD(o->calibration->inputs[o->item].path))

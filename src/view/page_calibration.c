@@ -66,11 +66,15 @@ void ceduo_calibration_sources(struct text *text, const struct ceduo_calibration
     }
 }
 
-void ceduo_calibration_draws(struct text *text, const struct ceduo_calibration *a, const char *const *heads)
+void ceduo_calibration_draws(struct text *text, const struct ceduo_calibration_report *r)
 {
+    const struct ceduo_calibration *a = r->answer;
     for (size_t i = 0; i < a->parameters_count; i++) {
+        const struct ceduo_input *input = &r->inputs[i];
+        LOCAL_TEXT(places);
+        ceduo_text_words(&places, input->places, input->places_count, " ");
         ceduo_text_put(text, i > 0 ? "," : "");
-        ceduo_text_csv(text, heads[i]);
+        ceduo_text_csv(text, places.length > 0 ? places.bytes : input->path);
     }
     ceduo_text_char(text, '\n');
     for (size_t k = 0; k < a->draws_count; k++) {

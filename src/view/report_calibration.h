@@ -11,7 +11,7 @@ struct ceduo_calibration_report {
     size_t scenes_count;
     const struct scene_file *files;
     const struct ceduo_input *inputs; /* the fitted values */
-    uint64_t rocks, seed;
+    uint64_t rocks;
     const struct ceduo_calibration *answer;
 };
 
@@ -29,8 +29,8 @@ void ceduo_calibration_page(struct text *text, const struct ceduo_calibration_re
 struct ceduo_page;
 void ceduo_calibration_words(struct ceduo_page *page, const struct ceduo_calibration_report *report);
 
-/* The draws, a column for each fitted value, for `doubt: {draws: …}`; `heads`: what to call them. */
-void ceduo_calibration_draws(struct text *text, const struct ceduo_calibration *answer, const char *const *heads);
+/* The draws as a table for `doubt: {draws: …}`: a column for each fitted value, whose head is its places in the first scene. */
+void ceduo_calibration_draws(struct text *text, const struct ceduo_calibration_report *report);
 
 /* "48 stops; 95 % .44–.51": where the fitted values come from. */
 void ceduo_calibration_sources(struct text *text, const struct ceduo_calibration_report *report);
