@@ -44,17 +44,13 @@ static bool recode(struct arena *arena, struct source *s)
 
 /* ---- lines and fields ---- */
 
-static bool next_line(const struct source *s, size_t *at, struct csv_span *line)
+static bool next_line(struct csv *csv)
 {
-    if (*at >= s->length)
-        return false;
-    const char *from = s->bytes + *at, *end = memchr(from, '\n', s->length - *at);
-    line->p = from;
-    line->n = end ? (size_t)(end - from) : s->length - *at;
-    *at += line->n + 1;
-    if (line->n > 0 && line->p[line->n - 1] == '\r')
-        line->n--;
-    return true;
+    size_t from, to;
+    bool good = ceduo_source_next(csv->source, &csv->at, &from, &to);
+    if (good)
+        csv->line = (struct csv_span){csv->source->bytes + from, to - from};
+    return good;
 }
 
 static struct csv_span trim(struct csv_span f)
@@ -106,7 +102,7 @@ bool ceduo_csv_open(struct csv *csv, struct arena *arena, const char *path, stru
         return false;
     }
     csv->at = ceduo_source_mark(csv->source);
-    if (!next_line(csv->source, &csv->at, &csv->line))
+    if (!next_line(csv))
         return ceduo_problem(problems, csv->source, 0, 0, _("the file is empty"));
     take_header(csv, 1);
     return true;
@@ -199,7 +195,7 @@ size_t ceduo_csv_columns(const struct csv *csv, struct text *names)
 
 bool ceduo_csv_next(struct csv *csv)
 {
-    while (next_line(csv->source, &csv->at, &csv->line)) {
+    while (next_line(csv)) {
         size_t blank = 0;
         while (blank < csv->line.n && memchr(" \t,;", csv->line.p[blank], 4))
             blank++;

@@ -13,27 +13,32 @@
 #define TAIL         200
 #define COUNTED      1000
 
-bool ceduo_source_line(const struct source *s, size_t line, size_t *from, size_t *to)
+bool ceduo_source_next(const struct source *s, size_t *at, size_t *from, size_t *to)
 {
-    size_t at = 0;
-    for (size_t i = 1; i < line; i++) {
-        const char *end = memchr(s->bytes + at, '\n', s->length - at);
-        if (!end)
-            return false;
-        at = (size_t)(end - s->bytes) + 1;
-    }
-    const char *end = memchr(s->bytes + at, '\n', s->length - at);
-    *from = at;
+    if (*at >= s->length)
+        return false;
+    const char *end = memchr(s->bytes + *at, '\n', s->length - *at);
+    *from = *at;
     *to = end ? (size_t)(end - s->bytes) : s->length;
+    *at = *to + 1;
     if (*to > *from && s->bytes[*to - 1] == '\r')
         --*to;
     return true;
 }
 
+/* Line number `line`, from 1; false where the source has fewer. */
+static bool find_line(const struct source *s, size_t line, size_t *from, size_t *to)
+{
+    size_t at = 0, i = 0;
+    while (i < line && ceduo_source_next(s, &at, from, to))
+        i++;
+    return i == line;
+}
+
 size_t ceduo_source_byte(const struct source *s, size_t line, size_t column)
 {
     size_t at, end;
-    if (!ceduo_source_line(s, line, &at, &end))
+    if (!find_line(s, line, &at, &end))
         return s->length;
     at += line == 1 ? ceduo_source_mark(s) : 0;
     for (size_t c = 1; c < column && at < s->length; c++)
@@ -55,7 +60,7 @@ static size_t character_length(const char *p, size_t n)
 static void print_line(struct text *out, const struct source *s, size_t line, size_t column)
 {
     size_t from, to, max = s->foreign ? CEDUO_FOREIGN_MOST : LINE_MOST;
-    if (!ceduo_source_line(s, line, &from, &to) || to == from)
+    if (!find_line(s, line, &from, &to) || to == from)
         return;
     size_t first = column > max && !s->foreign ? column - max / 2 : 1;
     max = s->foreign && line > 1 ? 0 : max;

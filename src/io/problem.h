@@ -27,8 +27,8 @@ static inline size_t ceduo_source_mark(const struct source *source)
     return source->length >= 3 && memcmp(source->bytes, "\xef\xbb\xbf", 3) == 0 ? 3 : 0;
 }
 
-/* The bytes of line number `line` (from 1) without its end; false where the source has fewer lines. */
-bool ceduo_source_line(const struct source *source, size_t line, size_t *from, size_t *to);
+/* The bytes of the line at *at without its end; *at is then the next one. False at the end of the source. */
+bool ceduo_source_next(const struct source *source, size_t *at, size_t *from, size_t *to);
 
 /* The byte at a line and column, both from 1, columns in characters; its length where the source has no such line. */
 size_t ceduo_source_byte(const struct source *source, size_t line, size_t column);
