@@ -18,21 +18,17 @@
 bool ceduo_scene_bind(struct scene_file *file, struct problems *problems)
 {
     const struct scene_file previous = *file;
-    struct validator v = {.arena = &file->arena, .root = file->root, .problems = problems, .previous = &previous};
+    struct validator v = {.file = file,
+                          .arena = &file->arena,
+                          .notes = &file->notes,
+                          .root = file->root,
+                          .problems = problems,
+                          .previous = &previous};
     size_t before = problems->count;
-    file->notes = NULL;
-    file->ground_assumed = false;
-    file->scene = (struct ceduo_scene){0};
-    file->slope_node = NULL;
+    *file =
+        (struct scene_file){.arena = file->arena, .path = file->path, .name = file->name, .raw = file->raw, .root = file->root};
     if (!ceduo_validate(&v))
         return false;
-    file->notes = v.notes;
-    file->ground_assumed = v.ground_assumed;
-    file->inputs = v.inputs;
-    file->inputs_count = v.inputs_count;
-    file->inputs_of_scene = v.inputs_of_scene;
-    file->observations = v.observations;
-    file->observations_count = v.observations_count;
     file->scene = v.draft.scene;
     const char *slash = strrchr(file->path, '/'), *name = slash ? slash + 1 : file->path;
     file->scene.title = file->scene.title ? file->scene.title : (char *)(uintptr_t)name;
@@ -101,17 +97,14 @@ bool ceduo_scene_set(struct scene_file *file, const char *option, const char *se
     return set_one(file, (struct source){.name = option, .bytes = set, .is_option = true}, problems);
 }
 
-/* A name that is neither a file nor a scene among the profiles: the nearest of these, and where they were looked for. */
-static void complain_no_scene(struct scene_file *file, const char *path, struct problems *problems)
+/* A name that is neither a file nor a scene among the profiles (`plain`: without its ending, NULL without memory): the nearest of
+ * these, and where they were looked for. */
+static void complain_no_scene(struct scene_file *file, const char *path, const char *plain, struct problems *problems)
 {
     LOCAL_TEXT(names);
     LOCAL_TEXT(known);
     LOCAL_TEXT(folders);
     const char *near = NULL;
-    char *plain = ceduo_arena_string(&file->arena, path);
-    size_t length = plain ? strlen(plain) : 0;
-    if (length > 5 && strcmp(plain + length - 5, ".yaml") == 0)
-        plain[length - 5] = '\0';
     const char *const *all = plain ? ceduo_file_folders(&file->arena) : NULL;
     for (size_t i = 0; all && all[i]; i++) {
         size_t n;
@@ -197,16 +190,17 @@ bool ceduo_scene_load_row(struct scene_file *file, const char *path, const struc
 {
     *file = (struct scene_file){.path = path};
     ceduo_memory_lost(); /* what was lost before is of others */
+    size_t length = strlen(path);
+    length -= length > 5 && strcmp(path + length - 5, ".yaml") == 0 ? 5 : 0;
+    const char *plain = ceduo_arena_copy(&file->arena, path, length);
     const char *found = strcmp(path, "-") == 0 ? path : ceduo_file_find(&file->arena, path, NULL, "scenes");
     if (!found && *path && !strchr(path, '/') && access(path, F_OK) != 0 && errno == ENOENT) {
-        complain_no_scene(file, path, problems);
+        complain_no_scene(file, path, plain, problems);
         return false;
     }
     const struct source *source = ceduo_file_read(&file->arena, found ? found : path, YAML_BYTES_MOST, problems);
-    size_t length = strlen(path);
     if (found && strcmp(found, path) != 0)
-        file->name =
-            ceduo_arena_copy(&file->arena, path, length > 5 && strcmp(path + length - 5, ".yaml") == 0 ? length - 5 : length);
+        file->name = plain;
     return source && read_source(file, source, sets, problems);
 }
 

@@ -17,9 +17,9 @@ struct scene_file {
     const struct node *slope_node;   /* that scene.slope was made from */
     size_t inputs_count;             /* what it says is not known, then what its stands say */
     size_t inputs_of_scene;
-    const struct ceduo_input *inputs;
+    struct ceduo_input *inputs;
     size_t observations_count; /* what was seen there */
-    const struct ceduo_observation *observations;
+    struct ceduo_observation *observations;
     bool ground_assumed; /* the slope's file says no ground: talus was taken */
 };
 

@@ -105,7 +105,7 @@ static void find_places(struct places *p, const char *path)
     struct value value;
     size_t n = p->n, stretches = scene->slope.vertices - 1;
     if (name && (p->items = ceduo_room(v, stretches, sizeof *p->items))) /* such a path has no other places */
-        p->n = ceduo_input_ground(v->arena, v->ground_assumed ? NULL : v->root, scene, name, key, p->items);
+        p->n = ceduo_input_ground(v->arena, v->file->ground_assumed ? NULL : v->root, scene, name, key, p->items);
     else if (!name && scene->slope.segments_given == 0 && strncmp(path, SEGMENTS, sizeof SEGMENTS - 1) == 0)
         for (size_t j = 0; j < stretches; j++)
             add_place(p, ceduo_format(v, "slope.segments[%zu].%s", j, path + sizeof SEGMENTS - 1));
@@ -122,14 +122,9 @@ static void find_places(struct places *p, const char *path)
 static const struct field *field_of(struct validator *v, const char *path)
 {
     const char *key, *ground = ground_of(v, path, &key);
-    char *first = ceduo_arena_string(v->arena, path); /* of the first item where it says [*] */
-    for (char *p = first; p && *p; p++)
-        if (p[0] == '[' && p[1] == '*')
-            p[1] = '0';
-    const struct field *f = ground || !first ? NULL : ceduo_schema_at(first);
-    if (ground && ceduo_choice_find(&ceduo_material_words, ground) >= 0)
-        f = ceduo_schema_field(ceduo_schema_segment(), key);
-    bool value = f && !ceduo_schema_is_settled(first) &&
+    bool known = !ground || ceduo_choice_find(&ceduo_material_words, ground) >= 0;
+    const struct field *f = known ? ceduo_schema_fitted(path) : NULL;
+    bool value = f && !ceduo_schema_is_settled(path) &&
                  (f->type == FIELD_NUMBER || f->type == FIELD_SPREAD || f->type == FIELD_COUNT || f->type == FIELD_CHOICE);
     return value ? f : NULL;
 }
@@ -210,11 +205,12 @@ static bool make_input(struct validator *v, const struct row *row, struct places
 
 static void add_input(struct validator *v, struct ceduo_input input)
 {
-    struct ceduo_input *inputs = ceduo_arena_more(v->arena, v->inputs, v->inputs_count, 1, &v->inputs_room, sizeof *inputs);
+    struct ceduo_input *inputs =
+        ceduo_arena_more(v->arena, v->file->inputs, v->file->inputs_count, 1, &v->inputs_room, sizeof *inputs);
     if (!inputs)
         return;
-    v->inputs = inputs;
-    v->inputs[v->inputs_count++] = input;
+    v->file->inputs = inputs;
+    v->file->inputs[v->file->inputs_count++] = input;
 }
 
 /* ---- of stands ---- */
@@ -291,7 +287,7 @@ static void take_stands(struct validator *v)
         input.places = places.items;
         input.places_count = 0;
         for (size_t i = 0; i < places.n; i++)
-            if (!ceduo_inputs_have(v->inputs, v->inputs_of_scene, places.items[i]))
+            if (!ceduo_inputs_have(v->file->inputs, v->file->inputs_of_scene, places.items[i]))
                 places.items[input.places_count++] = places.items[i];
         add_input(v, input);
     }
@@ -461,9 +457,9 @@ void ceduo_validate_doubt(struct validator *v)
         struct places places;
         struct ceduo_input input;
         bool good = make_input(v, &row, &places, &input), twice = false;
-        for (size_t k = 0; good && k < v->inputs_count;
+        for (size_t k = 0; good && k < v->file->inputs_count;
              k++) { /* of one path, by whatever name of an item, or draws of its places */
-            const struct ceduo_input *b = &v->inputs[k];
+            const struct ceduo_input *b = &v->file->inputs[k];
             for (size_t p = 0; p < input.places_count && b->kind == CEDUO_INPUT_DRAWS; p++)
                 twice |= bsearch(&input.places[p], b->places, b->places_count, sizeof *b->places, by_name) != NULL;
             twice |= b->kind != CEDUO_INPUT_DRAWS && ceduo_schema_same(with_numbers(v, b->path), with_numbers(v, input.path));
@@ -473,15 +469,14 @@ void ceduo_validate_doubt(struct validator *v)
         else if (good)
             add_input(v, input);
     }
-    v->inputs_of_scene = v->inputs_count;
+    v->file->inputs_of_scene = v->file->inputs_count;
     take_stands(v);
 }
 
 const struct field *ceduo_input_find(struct scene_file *file, const char *path, struct ceduo_input *input)
 {
     struct problems problems = {0};
-    struct validator v = {.arena = &file->arena, .root = file->root, .problems = &problems};
+    struct validator v = {.file = file, .arena = &file->arena, .root = file->root, .problems = &problems};
     v.draft.scene = file->scene;
-    v.ground_assumed = file->ground_assumed;
     return find_fitted(&v, path, input);
 }

@@ -9,6 +9,7 @@
 #include "base/language.h"
 #include "csv.h"
 #include "resolve.h"
+#include "scene_file.h"
 #include "validator.h"
 
 /* ---- one form ---- */
@@ -351,7 +352,7 @@ static void validate_row(struct validator *v, const char *path, struct observed 
                                 .node = ceduo_resolve_at(v->root, at)};
         any |= p.node != NULL;
         if (p.node && (!is->list || take_values(&p)) && check_values(&p) && good) {
-            struct ceduo_observation *o = &v->observations[v->observations_count++];
+            struct ceduo_observation *o = &v->file->observations[v->file->observations_count++];
             *o = shared;
             set_observation(&p, o);
         }
@@ -376,8 +377,8 @@ void ceduo_validate_observed(struct validator *v)
     size_t n = v->draft.observed_count;
     if (n == 0 || !ceduo_is_sound(v, "observed") || !v->profile || ceduo_is_too_long(v, "observed", n))
         return;
-    v->observations = ceduo_room(v, n * CEDUO_OBSERVED_KINDS, sizeof *v->observations);
-    for (size_t i = 0; v->observations && i < n; i++)
+    v->file->observations = ceduo_room(v, n * CEDUO_OBSERVED_KINDS, sizeof *v->file->observations);
+    for (size_t i = 0; v->file->observations && i < n; i++)
         validate_row(v, ceduo_format(v, "observed[%zu]", i), &rows[i]);
     for (size_t i = 0; i < n; i++)
         for (size_t k = 0; k < i; k++)

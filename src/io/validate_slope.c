@@ -37,10 +37,8 @@ static bool check_vertices(struct validator *v, const struct points *p)
 {
     bool csv = !ceduo_is_given(v, "slope", "vertices_m"), reversed = v->draft.scene.slope.reversed, rising = true;
     const char *path = csv ? "slope.csv" : "slope.vertices_m";
-    if (p->n < 2) {
-        ceduo_complain(v, path, "", _("a profile needs two points or more"));
-        return false;
-    }
+    if (p->n < 2)
+        return ceduo_complain(v, path, "", _("a profile needs two points or more"));
     for (size_t i = 1; i < p->n; i++)
         if (p->x[i] <= p->x[i - 1]) {
             ceduo_complain(v, ceduo_format(v, "slope.vertices_m[%zu]", i), "",
@@ -205,7 +203,7 @@ static bool reuse_slope(struct validator *v)
     v->draft.scene.slope = previous->scene.slope;
     v->origin = previous->scene.slope.origin_x;
     v->profile = true;
-    v->ground_assumed = previous->ground_assumed;
+    v->file->ground_assumed = previous->ground_assumed;
     for (const struct source_note *n = previous->notes; n; n = n->before)
         if (strcmp(n->kind, "assumed") == 0 && strncmp(n->path, "slope", 5) == 0 && n->made)
             ceduo_assume(v, n->path, n->text);
@@ -229,9 +227,7 @@ double ceduo_validate_end(void *validator)
             end = p.x[p.n - 1];
     } else if (list && list->kind == NODE_LIST && list->n > 1) {
         const struct node *last = list->items[list->n - 1];
-        if (last->kind == NODE_LIST && last->n == 2 && last->items[0]->kind == NODE_SCALAR &&
-            ceduo_number_read(last->items[0]->text, &end) != CEDUO_NUMBER_GOOD)
-            end = NAN;
+        end = last->n == 2 ? ceduo_node_item_number(last, 0) : NAN;
     }
     ceduo_problems_free(&problems);
     return end;
@@ -268,7 +264,7 @@ void ceduo_validate_slope(struct validator *v)
     else if (materials)
         make_materials(v);
     else {
-        v->ground_assumed = true;
+        v->file->ground_assumed = true;
         ceduo_assume(v, "slope", _("talus everywhere, its roughness and friction too"));
         assume_mu(v, "slope");
         s->segments = ceduo_room(v, s->vertices - 1, sizeof *s->segments);

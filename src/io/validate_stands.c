@@ -135,7 +135,7 @@ static void make_belts(struct validator *v, const char *path, struct ceduo_optio
             shown = _(name = ceduo_stand_is_bare(&belt->stand) ? N_("bare") : plain);
         belt->name_given = (char *)(uintptr_t)(belt->changed ? ceduo_format(v, "%s (changed)", name) : name);
         belt->name = (char *)(uintptr_t)(belt->changed ? ceduo_format(v, _("%s (changed)"), shown) : shown);
-        belt->assumed = ceduo_notes_say(v->notes, "assumed", stand);
+        belt->assumed = ceduo_notes_say(*v->notes, "assumed", stand);
         check_stand(v, stand, &belt->stand);
     }
 }

@@ -86,8 +86,8 @@ void ceduo_assume(struct validator *v, const char *path, const char *text)
     struct source_note *note = ceduo_room(v, 0, sizeof *note);
     if (!note)
         return;
-    *note = (struct source_note){.path = path, .kind = "assumed", .text = text, .before = v->notes, .made = true};
-    v->notes = note;
+    *note = (struct source_note){.path = path, .kind = "assumed", .text = text, .before = *v->notes, .made = true};
+    *v->notes = note;
 }
 
 bool ceduo_is_too_long(struct validator *v, const char *path, size_t n)

@@ -11,22 +11,18 @@
 
 struct scene_file;
 struct validator {
-    struct arena *arena;
+    struct scene_file *file; /* notes, inputs and observations go there as they are found */
+    struct arena *arena;     /* its own, and its notes: */
+    const struct source_note **notes;
     const struct node *root; /* the scene, with what it refers to in place */
     struct problems *problems;
     const struct scene_file *previous; /* as it was: a slope is taken over where its part of the document is the same */
     struct scene_draft draft;          /* its scene is the result */
-    const struct source_note *notes;
     struct bad_values bad;
-    bool profile;        /* the slope has its vertices */
-    bool ground_assumed; /* the slope's file says no ground: talus was taken */
-    double origin;       /* the slope's first x, which is taken off every x */
-    size_t inputs_count, inputs_room;
-    size_t inputs_of_scene; /* what the scene says is not known comes before what its stands say */
-    struct ceduo_input *inputs;
+    bool profile;  /* the slope has its vertices */
+    double origin; /* the slope's first x, which is taken off every x */
+    size_t inputs_room;
     const struct node *draws; /* of doubt: a table of values that a calibration left open; NULL: none */
-    size_t observations_count;
-    struct ceduo_observation *observations;
 };
 
 /* Makes a scene of the values in its files, and checks it: places become relative to the slope's first vertex, materials

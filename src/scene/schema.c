@@ -66,8 +66,8 @@ const struct field *ceduo_schema_at(const char *path)
 const struct field *ceduo_schema_fitted(const char *path)
 {
     static const char ground[] = "slope.materials[";
-    const char *key = strncmp(path, ground, sizeof ground - 1) == 0 ? strstr(path, "].") : NULL;
-    return key ? ceduo_schema_field(ceduo_schema_segment(), key + 2) : ceduo_schema_at(path);
+    const char *end = strncmp(path, ground, sizeof ground - 1) == 0 ? strchr(path, ']') : NULL;
+    return end && end[1] == '.' ? ceduo_schema_field(ceduo_schema_segment(), end + 2) : ceduo_schema_at(path);
 }
 
 bool ceduo_schema_is_settled(const char *path)
