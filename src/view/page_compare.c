@@ -25,27 +25,26 @@ static void add_contacts(struct ceduo_page *page, const struct ceduo_result *r, 
     ceduo_page_verdict(page, s->free_run);
 }
 
-#define OPTION                                                                                                                 \
-    {                                                                                                                          \
-        N_("option"), 23, 2, 0                                                                                                 \
-    }
-#define CONTACTS                                                                                                               \
-    {N_("ADC m|ADC of the worst belt, m"), -7, 0, 0}, {NP_("head", "|test of contact"), 5, 1, 0},                              \
-    {                                                                                                                          \
-        NP_("head", "free run|chance of a free run"), -7, 0, CEDUO_SPAN                                                        \
-    }
+#define OPTION   N_("option"), 23, 2, 0
+#define ADC      N_("ADC m|ADC of the worst belt, m"), -7, 0, 0
+#define CONTACT  NP_("head", "|test of contact"), 5, 1, 0
+#define FREE_RUN NP_("head", "free run|chance of a free run"), -7, 0, CEDUO_SPAN
 
 /* What arrives with more than is withstood comes first. */
 void ceduo_page_today(struct ceduo_page *page, const struct ceduo_result *r)
 {
-    static const struct ceduo_page_column wooded[] = {OPTION,
+    static const struct ceduo_page_column wooded[] = {{OPTION},
                                                       {NULL, -10, 0, 0},
                                                       {NP_("head", "to first|difference to the first option"), -11, 0, 0},
                                                       {NP_("head", "energy|test of energy"), 6, 2, 0},
-                                                      CONTACTS,
+                                                      {ADC},
+                                                      {CONTACT},
+                                                      {FREE_RUN},
                                                       {NP_("head", "|test of free runs"), 0, 1, 0}};
-    static const struct ceduo_page_column by_index[] = {OPTION,
-                                                        CONTACTS,
+    static const struct ceduo_page_column by_index[] = {{OPTION},
+                                                        {ADC},
+                                                        {CONTACT},
+                                                        {FREE_RUN},
                                                         {NP_("head", "|test of free runs"), 5, 1, 0},
                                                         {N_("kJ/100 m|taken per 100 m, kJ"), -10, 0, 0},
                                                         {NP_("head", "left kJ|energy left, kJ"), -10, 0, 0}};
@@ -124,7 +123,7 @@ static void add_rotations(struct ceduo_page *page, const struct ceduo_result *r,
                                                          {NP_("head", "m3/y|felled, m3 per ha and year"), -5, 0, 0},
                                                          {NP_("head", "m3|standing, m3 per ha"), -6, 0, 0}};
     static const struct ceduo_page_column by_index[] = {
-        {N_("option"), 23, 2, 0},
+        {OPTION},
         {NP_("head", "ADC m, worst|ADC in the worst year, m (which)"), -14, 0, 0},
         {NP_("head", "contact|years in which contact fails"), -8, 0, 0},
         {NP_("head", "free run|years in which free runs fail"), -9, 0, 0},
@@ -216,7 +215,9 @@ void ceduo_page_years_words(struct ceduo_page *page, const struct ceduo_result *
 void ceduo_page_years(struct ceduo_page *page, const struct ceduo_report *report, size_t option)
 {
     static const struct ceduo_page_column columns[] = {{N_("year"), 9, 4, 0},
-                                                       CONTACTS,
+                                                       {ADC},
+                                                       {CONTACT},
+                                                       {FREE_RUN},
                                                        {NP_("head", "|test of free runs"), 5, 1, 0},
                                                        {N_("kJ/100 m|taken per 100 m, kJ"), -9, 0, 0},
                                                        {NULL, -16, 0, 0},
@@ -267,7 +268,7 @@ static const char *law_of(const struct ceduo_option *option)
 
 void ceduo_page_laws(struct ceduo_page *page, const struct ceduo_result *r)
 {
-    static const struct ceduo_page_column columns[] = {{N_("option"), 23, 2, 0},
+    static const struct ceduo_page_column columns[] = {{OPTION},
                                                        {NP_("head", "law of the scene"), 16, 1, 0},
                                                        {N_("of 1000"), -8, 0, 0},
                                                        {NP_("head", "mean kJ|mean energy, kJ"), -8, 0, 0},

@@ -87,17 +87,13 @@ static void add_arrivals_row(struct ceduo_page *page, const char *name, const st
 static void add_arrivals_table(struct ceduo_page *page, const struct ceduo_control *c, const struct ceduo_arrivals *wooded,
                                const struct ceduo_arrivals *bare)
 {
-#define NAME                                                                                                                   \
-    {                                                                                                                          \
-        N_("of 1000"), 16, 4, 0                                                                                                \
-    }
-#define FIGURES                                                                                                                \
-    {N_("arrive"), -16, 0, 0}, {NP_("head", "arriving kJ|mean energy of those that arrive, kJ"), -12, 0, CEDUO_DROPPED(1)},    \
-        {NP_("head", "95 %|95 % of those below, kJ"), -6, 0, CEDUO_DROPPED(2)},                                                \
-    {                                                                                                                          \
-        NP_("head", "m/s|mean speed, m/s"), -5, 0, CEDUO_DROPPED(3)                                                            \
-    }
-    static const struct ceduo_page_column columns[] = {NAME, {NULL, -16, 0, 0}, FIGURES}, not_accepted[] = {NAME, FIGURES};
+#define NAME   N_("of 1000"), 16, 4, 0
+#define ARRIVE N_("arrive"), -16, 0, 0
+#define MEAN   NP_("head", "arriving kJ|mean energy of those that arrive, kJ"), -12, 0, CEDUO_DROPPED(1)
+#define P95    NP_("head", "95 %|95 % of those below, kJ"), -6, 0, CEDUO_DROPPED(2)
+#define SPEED  NP_("head", "m/s|mean speed, m/s"), -5, 0, CEDUO_DROPPED(3)
+    static const struct ceduo_page_column columns[] = {{NAME}, {NULL, -16, 0, 0}, {ARRIVE}, {MEAN}, {P95}, {SPEED}},
+                                          not_accepted[] = {{NAME}, {ARRIVE}, {MEAN}, {P95}, {SPEED}};
     if (isnan(c->accepted)) {
         CEDUO_PAGE_TABLE_OF(page, not_accepted);
     } else {
@@ -153,15 +149,15 @@ static void add_arrivals(struct ceduo_page *page, const struct ceduo_result *r, 
 /* The mean that cannot mislead: of all released; it is no energy that the place must withstand. Either may be NULL. */
 static void say_released(struct ceduo_page *page, const struct ceduo_arrivals *wooded, const struct ceduo_arrivals *bare)
 {
-#define MEAN(a) WRITTEN((a)->energy_per_released *J_TO_KJ, 3)
-#define HALF(a) WRITTEN(ceduo_half_width((a)->energy_per_released_se, (a)->released) * J_TO_KJ, 2)
+#define RELEASED(a) WRITTEN((a)->energy_per_released *J_TO_KJ, 3)
+#define HALF(a)     WRITTEN(ceduo_half_width((a)->energy_per_released_se, (a)->released) * J_TO_KJ, 2)
     const struct ceduo_arrivals *first = wooded ? wooded : bare;
     if (!first)
         return;
     struct text *line = ceduo_page_add(page, CEDUO_PAGE_SENTENCE);
-    ceduo_text_format(line, _("Energy per released rock: %s \xc2\xb1%s kJ"), MEAN(first), HALF(first));
+    ceduo_text_format(line, _("Energy per released rock: %s \xc2\xb1%s kJ"), RELEASED(first), HALF(first));
     if (wooded && bare)
-        ceduo_text_format(line, _(" through the wood, %s \xc2\xb1%s without it"), MEAN(bare), HALF(bare));
+        ceduo_text_format(line, _(" through the wood, %s \xc2\xb1%s without it"), RELEASED(bare), HALF(bare));
     ceduo_text_char(line, '.');
 }
 

@@ -9,12 +9,10 @@
  * energy, both by decades. The slope without forest and each option by its number; the limits of Swiss practice are rules.
  * Rarer than once in a thousand years nothing is shown. */
 
-#define AXIS_WIDTH   8
-#define LEGEND_WIDTH 30
-#define WIDTH_LEAST  24
-#define HEIGHT_LEAST 8
-#define RAREST       (-3) /* log10 of the lowest rate shown, 1/y */
-#define FIRST        10   /* of the energies: 1 kJ */
+#define RAREST (-3) /* log10 of the lowest rate shown, 1/y */
+#define FIRST  10   /* of the energies: 1 kJ */
+
+static const struct ceduo_chart_size size = {.axis = 8, .below = 1, .legend = 30, .width = 24, .height = 8};
 
 /* Item 0: without forest. NULL: not known. */
 static const struct ceduo_hazard *hazard_of(const struct ceduo_drawing *d, size_t item)
@@ -68,7 +66,7 @@ static void put_years(const struct ceduo_drawing *d, double years, bool rule)
     if (rule)
         ceduo_canvas_rule_y(d->canvas, f, CEDUO_ROLE_AXIS, -log10(years));
     if (ceduo_canvas_is_blank(d->canvas, f->left - 2, row))
-        ceduo_plot_say(d->canvas, f->left - 2, row, 2 - AXIS_WIDTH, CEDUO_ROLE_AXIS, _("%g y"), years);
+        ceduo_plot_say(d->canvas, f->left - 2, row, 2 - size.axis, CEDUO_ROLE_AXIS, _("%g y"), years);
 }
 
 static void put_energy(const struct ceduo_drawing *d, double kJ, bool rule)
@@ -90,12 +88,7 @@ const char *ceduo_plot_hazard(struct ceduo_drawing *d)
     size_t items = d->wooded ? d->scene->options_count + 1 : 1, last = bare ? bare->energies : 0;
     if (!bare)
         return blocks ? _("not computed yet") : _("the scene does not say which blocks come down");
-    if (!ceduo_plot_chart(d, &(struct ceduo_chart_size){.axis = AXIS_WIDTH,
-                                                        .below = 1,
-                                                        .legend = LEGEND_WIDTH,
-                                                        .lines = (int)items,
-                                                        .width = WIDTH_LEAST,
-                                                        .height = HEIGHT_LEAST}))
+    if (!ceduo_plot_chart(d, &size, items))
         return _("too narrow");
     while (last > 0 && logarithm(bare->exceed[last - 1].rate.rate) < RAREST)
         last--;

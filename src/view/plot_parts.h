@@ -58,14 +58,14 @@ double ceduo_plot_tallest(const struct ceduo_stand *stand);
 struct ceduo_frame ceduo_plot_given(const struct ceduo_frame *frame, double x, double y);
 void ceduo_plot_axes(const struct ceduo_drawing *drawing, double x, double y, const char *unit);
 
-/* Places the frame of a chart, whose ranges stay 0, and its legend: beside it where the area is wide, otherwise below it, and
- * nowhere where that leaves no `height`. False where there is no room. */
+/* Places the frame of a chart, whose ranges stay 0, and its legend of so many lines: beside it where the area is wide, otherwise
+ * below it, and nowhere where that leaves no `height`. False where there is no room. */
 struct ceduo_chart_size {
     int axis, below;   /* columns of the left axis, rows of the bottom axis */
-    int legend, lines; /* columns and rows of the legend */
+    int legend;        /* columns */
     int width, height; /* the least of the picture */
 };
-bool ceduo_plot_chart(struct ceduo_drawing *drawing, const struct ceduo_chart_size *size);
+bool ceduo_plot_chart(struct ceduo_drawing *drawing, const struct ceduo_chart_size *size, size_t lines);
 
 /* A sign at a point, or beside it; a little lower where another stands there. */
 void ceduo_plot_sign(const struct ceduo_drawing *drawing, double x, double y, bool beside, enum ceduo_role role,

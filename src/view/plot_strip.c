@@ -39,27 +39,24 @@ struct strip {
     const char *peak_name;  /* … and of which curve */
 };
 
-#define OF(height_member, energy_member)                                                                                       \
-    {                                                                                                                          \
-        offsetof(struct ceduo_envelope, height_member), offsetof(struct ceduo_envelope, energy_member)                         \
-    }
+#define OF(heights, energies) offsetof(struct ceduo_envelope, heights), offsetof(struct ceduo_envelope, energies)
 
 /* Without forest alone; both; both where there is no room to tell four curves apart. Curves through the forest are strokes,
  * those without it dots, so that the two differ without colour. */
 static const struct content contents[3] = {
     {{N_("underside above the ground, m"), N_("energy, kJ")},
-     {{{N_("max"), N_("p50")}, CEDUO_ROLE_BARE, CEDUO_STROKE_FEW, false, OF(height.max, energy.p50)},
-      {{N_("p95"), N_("p95")}, CEDUO_ROLE_ENVELOPE, CEDUO_STROKE_DOTS, false, OF(height.p95, energy.p95)},
-      {{N_("p50"), N_("mean")}, CEDUO_ROLE_MEAN, CEDUO_STROKE_PLAIN, false, OF(height.p50, mean_energy)},
-      {{NULL, N_("p5")}, CEDUO_ROLE_ENVELOPE, CEDUO_STROKE_DOTS, false, OF(height.p50, energy.p5)}}},
+     {{{N_("max"), N_("p50")}, CEDUO_ROLE_BARE, CEDUO_STROKE_FEW, false, {OF(height.max, energy.p50)}},
+      {{N_("p95"), N_("p95")}, CEDUO_ROLE_ENVELOPE, CEDUO_STROKE_DOTS, false, {OF(height.p95, energy.p95)}},
+      {{N_("p50"), N_("mean")}, CEDUO_ROLE_MEAN, CEDUO_STROKE_PLAIN, false, {OF(height.p50, mean_energy)}},
+      {{NULL, N_("p5")}, CEDUO_ROLE_ENVELOPE, CEDUO_STROKE_DOTS, false, {OF(height.p50, energy.p5)}}}},
     {{N_("underside, m up"), N_("energy, kJ")},
-     {{{N_("bare p95"), N_("bare p95")}, CEDUO_ROLE_BARE, CEDUO_STROKE_FEW, true, OF(height.p95, energy.p95)},
-      {{N_("wood p95"), N_("wood p95")}, CEDUO_ROLE_WOOD, CEDUO_STROKE_DASHES, false, OF(height.p95, energy.p95)},
-      {{N_("bare p50"), N_("bare mean")}, CEDUO_ROLE_BARE, CEDUO_STROKE_DOTS, true, OF(height.p50, mean_energy)},
-      {{N_("wood p50"), N_("wood mean")}, CEDUO_ROLE_WOOD, CEDUO_STROKE_PLAIN, false, OF(height.p50, mean_energy)}}},
+     {{{N_("bare p95"), N_("bare p95")}, CEDUO_ROLE_BARE, CEDUO_STROKE_FEW, true, {OF(height.p95, energy.p95)}},
+      {{N_("wood p95"), N_("wood p95")}, CEDUO_ROLE_WOOD, CEDUO_STROKE_DASHES, false, {OF(height.p95, energy.p95)}},
+      {{N_("bare p50"), N_("bare mean")}, CEDUO_ROLE_BARE, CEDUO_STROKE_DOTS, true, {OF(height.p50, mean_energy)}},
+      {{N_("wood p50"), N_("wood mean")}, CEDUO_ROLE_WOOD, CEDUO_STROKE_PLAIN, false, {OF(height.p50, mean_energy)}}}},
     {{N_("underside p95, m"), N_("mean energy, kJ")},
-     {{{N_("bare"), N_("bare")}, CEDUO_ROLE_BARE, CEDUO_STROKE_DOTS, true, OF(height.p95, mean_energy)},
-      {{N_("wood"), N_("wood")}, CEDUO_ROLE_WOOD, CEDUO_STROKE_PLAIN, false, OF(height.p95, mean_energy)}}}};
+     {{{N_("bare"), N_("bare")}, CEDUO_ROLE_BARE, CEDUO_STROKE_DOTS, true, {OF(height.p95, mean_energy)}},
+      {{N_("wood"), N_("wood")}, CEDUO_ROLE_WOOD, CEDUO_STROKE_PLAIN, false, {OF(height.p95, mean_energy)}}}}};
 
 /* Columns for the names of the curves and a blank on either side. */
 static int name_columns(const struct ceduo_canvas *canvas, const struct content *content, bool energy)

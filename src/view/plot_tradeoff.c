@@ -8,11 +8,6 @@
 /* Protection against yield: what an option lets through over its rotation, upwards, and the wood it gives a year, to the right.
  * The best corner is below on the right. An option that another beats in both stands in brackets. */
 
-#define AXIS_WIDTH   6
-#define LEGEND_WIDTH 34 /* columns of the names beside the picture */
-#define WIDTH_LEAST  24
-#define HEIGHT_LEAST 6
-
 static bool is_known(const struct ceduo_choice *c)
 {
     return !isnan(c->mean.mean) && !isnan(c->yield.cut_per_year);
@@ -20,17 +15,13 @@ static bool is_known(const struct ceduo_choice *c)
 
 const char *ceduo_plot_tradeoff(struct ceduo_drawing *d)
 {
+    static const struct ceduo_chart_size size = {.axis = 6, .below = 2, .legend = 34, .width = 24, .height = 6};
     const struct ceduo_verdict *v = d->picture->verdict;
     double yield = 0, share = 0;
     size_t known = 0;
     if (!v || !v->wooded)
         return !v ? _("not computed yet") : _("without rocks among stems there is nothing to compare");
-    if (!ceduo_plot_chart(d, &(struct ceduo_chart_size){.axis = AXIS_WIDTH,
-                                                        .below = 2,
-                                                        .legend = LEGEND_WIDTH,
-                                                        .lines = (int)v->n + 1,
-                                                        .width = WIDTH_LEAST,
-                                                        .height = HEIGHT_LEAST}))
+    if (!ceduo_plot_chart(d, &size, v->n + 1))
         return _("too narrow");
     for (size_t i = 0; i < v->n; i++) {
         const struct ceduo_choice *c = &v->choices[i];

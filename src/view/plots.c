@@ -233,11 +233,11 @@ void ceduo_plot_axes(const struct ceduo_drawing *d, double x, double y, const ch
         ceduo_canvas_axis_bottom(d->canvas, &given, unit);
 }
 
-bool ceduo_plot_chart(struct ceduo_drawing *d, const struct ceduo_chart_size *size)
+bool ceduo_plot_chart(struct ceduo_drawing *d, const struct ceduo_chart_size *size, size_t lines)
 {
     const struct ceduo_area *a = &d->area;
     bool beside = a->width >= size->width + size->axis + size->legend + 16;
-    int below = !beside && a->height - size->lines >= size->height + 3 ? size->lines : 0;
+    int below = !beside && a->height - (int)lines >= size->height + 3 ? (int)lines : 0;
     d->frame = (struct ceduo_frame){.left = a->left + size->axis,
                                     .top = a->top + 1,
                                     .width = a->width - size->axis - 1 - (beside ? size->legend + 2 : 0),
