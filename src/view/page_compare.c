@@ -2,7 +2,6 @@
 /* The options side by side at the last control, today and over the years; one option year by year; one energy law against the
  * other. */
 #include <math.h>
-#include <string.h>
 
 #include "base/language.h"
 #include "page_parts.h"

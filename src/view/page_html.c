@@ -8,7 +8,6 @@
 #include "html.h"
 #include "page.h"
 #include "svg.h"
-#include "words.h"
 
 /* Colours of text have a contrast of 4.5 to what is behind them at least. What must stay together on paper is not
  * broken between two sheets. */

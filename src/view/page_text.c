@@ -2,7 +2,6 @@
 /* Prints a page at a width, or draws it on a canvas: paragraphs are wrapped, cells set below one another, numbers written with as
  * many digits as their column has room for. Of a page that is drawn a piece is printed, up to where a line, a role or a bar ends,
  * and put on the canvas. */
-#include <ctype.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

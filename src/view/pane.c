@@ -2,7 +2,6 @@
 /* The column of figures that stands still beside every view, in the words of the paper; the energy that is left, in which the
  * paper's method ends; and what an option and its doubt mean in words. */
 #include <math.h>
-#include <string.h>
 
 #include "base/language.h"
 #include "measure.h"

@@ -6,7 +6,6 @@
 #include "base/must.h"
 #include "base/utf8.h"
 #include "plot_parts.h"
-#include "study/verdict.h"
 
 /* An option over the years: ADC against its limit, how many come through with too much energy, the lights, the cuts, on one
  * axis. */
