@@ -219,32 +219,20 @@ static double guess_at(void *context, const double *y)
     return isfinite(prior) ? FLATTER * ceduo_guess_at(&f->guess, u) + prior : -INFINITY;
 }
 
-/* Room for the points, and n more. */
-static bool grow_known(struct fitting *f, size_t n)
-{
-    size_t d = f->def->parameters_count, room = 2 * (POINTS + n);
-    if (POINTS + n <= f->known_room)
-        return true;
-    double *known = ceduo_arena_take(&f->memory, room * d * sizeof *known);
-    double *values = ceduo_arena_take(&f->memory, room * sizeof *values);
-    if (!known || !values)
-        return false;
-    f->known = memcpy(known, f->known, POINTS * d * sizeof *known); /* what was tried is told anew each time */
-    f->known_values = memcpy(values, f->known_values, POINTS * sizeof *values);
-    f->known_room = room;
-    return true;
-}
-
+/* What the chains have tried since is added to what is known. */
 static enum ceduo_status learn(void *context, const double *y, const double *log_densities, size_t n)
 {
     struct fitting *f = context;
-    size_t d = f->def->parameters_count;
-    if (!grow_known(f, n))
+    size_t d = f->def->parameters_count, known = f->known_count, more = POINTS + n - known, room = f->known_room;
+    f->known = ceduo_arena_more(&f->memory, f->known, known, more, &room, d * sizeof *f->known);
+    f->known_values = ceduo_arena_more(&f->memory, f->known_values, known, more, &f->known_room, sizeof *f->known_values);
+    if (!f->known || !f->known_values)
         return CEDUO_NO_MEMORY;
-    for (size_t i = 0; i < n; i++) {
+    for (size_t i = known - POINTS; i < n; i++) {
         double prior = prior_at(f, y + i * d, f->known + (POINTS + i) * d);
         f->known_values[POINTS + i] = log_densities[i] - prior;
     }
+    f->known_count = POINTS + n;
     return ceduo_guess_learn(&f->guess, f->known, f->known_values, POINTS + n, f->def->cancel);
 }
 
@@ -389,7 +377,7 @@ static enum ceduo_status open_fitting(struct fitting *f, const struct ceduo_cali
     pthread_mutex_init(&f->talking, NULL);
     f->known = ceduo_arena_take(&f->memory, POINTS * n * sizeof *f->known);
     f->known_values = ceduo_arena_take(&f->memory, POINTS * sizeof *f->known_values);
-    f->known_room = POINTS;
+    f->known_count = f->known_room = POINTS;
     f->scenes = ceduo_arena_take(&f->memory, def->scenes_count * sizeof *f->scenes);
     f->workers = ceduo_arena_take(&f->memory, f->workers_count * sizeof *f->workers);
     for (size_t s = 0; s < def->scenes_count && !f->memory.failed && status == CEDUO_OK; s++) {

@@ -30,7 +30,7 @@ struct fitting {
     struct fitting_worker *workers;
     struct guess guess;
     double *known, *known_values; /* what it learns from: Sobol' points, then what the chains have tried; log-likelihoods */
-    size_t known_room;
+    size_t known_count, known_room;
     double starts[CEDUO_CALIBRATION_CHAINS * CEDUO_CALIBRATION_MOST];
     pthread_mutex_t lock, talking;
     double best[CEDUO_CALIBRATION_MOST], most; /* under `lock`, as are: */

@@ -18,12 +18,12 @@
 
 /* ---- rows: observed, simulated with its band ---- */
 
-static void append_number(struct text *text, const struct ceduo_observation *o, double value, double origin)
+static void append_number(struct text *text, const struct scene_file *file, const struct ceduo_predicted *p, double value)
 {
-    if (o->kind == CEDUO_OBSERVED_PASSED)
+    if (file->observations[p->observation].kind == CEDUO_OBSERVED_PASSED)
         ceduo_text_format(text, "%.0f", value);
     else
-        ceduo_words_number(text, ceduo_seen_shown(o->kind, value, origin), 3);
+        ceduo_words_number(text, ceduo_seen_shown(file, p, value), 3);
 }
 
 static void add_rows(struct ceduo_page *page, const struct scene_file *file, const struct ceduo_predicted *predicted)
@@ -32,7 +32,6 @@ static void add_rows(struct ceduo_page *page, const struct scene_file *file, con
                                                        {N_("seen"), -8, 1, CEDUO_FITS},
                                                        {N_("sim., 95 %"), -11, 1, CEDUO_FITS},
                                                        {"", 10, 1, CEDUO_FITS}};
-    double origin = file->scene.slope.origin_x;
     CEDUO_PAGE_TABLE_OF(page, columns);
     for (size_t i = 0; i < file->observations_count; i++) {
         const struct ceduo_predicted *p = &predicted[i];
@@ -43,15 +42,15 @@ static void add_rows(struct ceduo_page *page, const struct scene_file *file, con
         if (o->use == CEDUO_OBSERVED_CHECK)
             ceduo_text_format(name, " %s", _("(check)"));
         struct text *seen = ceduo_page_text(page);
-        append_number(seen, o, p->seen, origin);
+        append_number(seen, file, p, p->seen);
         ceduo_text_then(seen, " ", "%s", unit);
         struct text *band = ceduo_page_text(page);
         if (isnan(p->lo)) {
             ceduo_text_char(band, '-');
         } else {
-            append_number(band, o, p->lo, origin);
+            append_number(band, file, p, p->lo);
             ceduo_text_put(band, RANGE);
-            append_number(band, o, p->hi, origin);
+            append_number(band, file, p, p->hi);
         }
         ceduo_page_write(page, "%s",
                          !p->inside                  ? _("OUTSIDE")

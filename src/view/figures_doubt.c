@@ -270,8 +270,7 @@ VALUE(deviance, place, NUMBER, NUMBER(predicted_of(o)->at_best.deviance))
 VALUE(p_value, place, NUMBER, NUMBER(predicted_of(o)->p_value))
 VALUE(inside, place, FLAG, IS(predicted_of(o)->inside))
 VALUE(seen_number, place, NUMBER,
-      NUMBER(ceduo_seen_shown(observed_of(o)->kind, *(const double *)member(f, predicted_of(o)),
-                              file_of(o)->scene.slope.origin_x)))
+      NUMBER(ceduo_seen_shown(file_of(o), predicted_of(o), *(const double *)member(f, predicted_of(o)))))
 #define SEEN(member) .value = seen_number, .offset = offsetof(struct ceduo_predicted, member)
 VALUE(single_inside, place, COUNT,
       observed_of(o)->values && !isnan(predicted_of(o)->one_lo) ? COUNT(predicted_of(o)->one_inside) : NOTHING)

@@ -32,10 +32,11 @@ void ceduo_calibration_number(struct text *text, const char *path, double value)
     ceduo_words_number(text, shown(path, value), 3);
 }
 
-double ceduo_seen_shown(enum ceduo_observed_kind kind, double value, double origin)
+double ceduo_seen_shown(const struct scene_file *file, const struct ceduo_predicted *p, double value)
 {
+    const enum ceduo_observed_kind kind = file->observations[p->observation].kind;
     bool place = ceduo_observed_row(kind)->quantity == CEDUO_QUANTITY_PLACE;
-    return place ? value + origin : value * (1 / ceduo_observed_quantity(kind)->scale);
+    return place ? value + file->scene.slope.origin_x : value * (1 / ceduo_observed_quantity(kind)->scale);
 }
 
 const struct ceduo_observation *ceduo_seen_of(const struct ceduo_calibration_report *r, const struct ceduo_predicted *p)
@@ -141,6 +142,7 @@ static void say_misfits(struct ceduo_page *page, const struct ceduo_calibration_
     for (size_t i = 0; i < a->predicted_count; i++) {
         const struct ceduo_predicted *p = &a->predicted[i];
         const struct ceduo_observation *o = ceduo_seen_of(r, p);
+        const struct scene_file *file = &r->files[p->scene];
         LOCAL_TEXT(name);
         append_name(&name, r, p);
         if (p->p_value < CEDUO_MISFIT)
@@ -151,9 +153,8 @@ static void say_misfits(struct ceduo_page *page, const struct ceduo_calibration_
                                : _("This model cannot give what was seen here: %s."),
                            ceduo_text_string(&name));
         if (o->use == CEDUO_OBSERVED_CHECK && o->values && !isnan(p->one_lo)) {
-            double origin = r->files[p->scene].scene.slope.origin_x;
             LOCAL_TEXT(range); /* of those that were kept back, which lie where single rocks are predicted */
-            append_range(&range, ceduo_seen_shown(o->kind, p->one_lo, origin), ceduo_seen_shown(o->kind, p->one_hi, origin));
+            append_range(&range, ceduo_seen_shown(file, p, p->one_lo), ceduo_seen_shown(file, p, p->one_hi));
             ceduo_page_say(page, CEDUO_PAGE_ITEM,
                            _("%s: of %zu values %zu lie within the 95 %% predicted of single rocks, %s."),
                            ceduo_text_string(&name), o->n, p->one_inside, ceduo_text_string(&range));
@@ -245,13 +246,12 @@ void ceduo_calibration_page(struct text *text, const struct ceduo_calibration_re
     for (size_t i = 0; i < r->answer->predicted_count; i++) {
         const struct ceduo_predicted *p = &r->answer->predicted[i];
         const struct ceduo_observation *o = ceduo_seen_of(r, p);
-        double origin = r->files[p->scene].scene.slope.origin_x;
+        const struct scene_file *file = &r->files[p->scene];
         append_name(ceduo_page_text(&page), r, p);
         ceduo_page_write(&page, "%s", o->use == CEDUO_OBSERVED_FIT ? _("fit") : _("check"));
         ceduo_page_write(&page, "%zu", ceduo_seen_number(o));
-        ceduo_page_write(&page, "%s", WRITTEN(ceduo_seen_shown(o->kind, p->seen, origin), 3));
-        append_range(ceduo_page_text(&page), ceduo_seen_shown(o->kind, p->lo, origin),
-                     ceduo_seen_shown(o->kind, p->hi, origin));
+        ceduo_page_write(&page, "%s", WRITTEN(ceduo_seen_shown(file, p, p->seen), 3));
+        append_range(ceduo_page_text(&page), ceduo_seen_shown(file, p, p->lo), ceduo_seen_shown(file, p, p->hi));
         if (isnan(p->p_value) || p->p_value < 0.001)
             ceduo_page_write(&page, "%s", isnan(p->p_value) ? "-" : "<.001");
         else

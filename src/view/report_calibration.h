@@ -20,7 +20,7 @@ void ceduo_calibration_name(struct text *text, const char *path);
 void ceduo_calibration_number(struct text *text, const char *path, double value);
 
 /* What was seen, in the unit that files have: m, m/s, kJ, a count. */
-double ceduo_seen_shown(enum ceduo_observed_kind kind, double value, double origin);
+double ceduo_seen_shown(const struct scene_file *file, const struct ceduo_predicted *p, double value);
 const struct ceduo_observation *ceduo_seen_of(const struct ceduo_calibration_report *report, const struct ceduo_predicted *p);
 size_t ceduo_seen_number(const struct ceduo_observation *o);
 
