@@ -56,29 +56,26 @@ static void put(struct edit *e, const char *path, const struct node *value)
 
 /* ---- rows of doubt ---- */
 
-/* What becomes of a row: itself, another in its place, or NULL: it goes. */
-typedef const struct node *row_change(struct arena *arena, const struct node *row, const void *context);
+/* What becomes of the path of a row: itself, another in its place, or NULL: the row goes. */
+typedef const char *path_change(struct arena *arena, const char *path, const void *context);
 
-static const struct node *with_rows(struct arena *arena, const struct node *root, row_change *change, const void *context)
+static const struct node *with_paths(struct arena *arena, const struct node *root, path_change *change, const void *context)
 {
     const struct node *rows = ceduo_node_get(root, "doubt"), *now = rows;
     if (!rows || rows->kind != NODE_LIST)
         return root;
     for (size_t i = rows->n; i-- > 0;) {
-        const struct node *row = change(arena, rows->items[i], context);
-        if (!row)
+        const struct node *row = rows->items[i];
+        const char *path = ceduo_node_text(row, "path"), *changed = path ? change(arena, path, context) : path;
+        if (path && !changed)
             now = ceduo_node_removed(arena, now, i);
-        else if (row != rows->items[i])
-            now = ceduo_node_replaced(arena, now, i, row);
+        else if (changed != path)
+            now = ceduo_node_replaced(
+                arena, now, i, ceduo_node_with(arena, row, "path", ceduo_node_scalar(arena, row->source, changed, true)));
     }
     if (now == rows)
         return root;
     return now->n == 0 ? ceduo_node_without(arena, root, "doubt") : ceduo_node_with(arena, root, "doubt", now);
-}
-
-static const struct node *with_path(struct arena *arena, const struct node *row, const char *path)
-{
-    return ceduo_node_with(arena, row, "path", ceduo_node_scalar(arena, row->source, path, true));
 }
 
 /* What became of an item of a list: one was put in before `from` (by 1), or that one was taken out (by -1), or moved to
@@ -89,24 +86,23 @@ struct shift {
     int by;
 };
 
-static const struct node *shift_row(struct arena *arena, const struct node *row, const void *context)
+static const char *shift_path(struct arena *arena, const char *path, const void *context)
 {
     const struct shift *s = context;
-    const char *path = ceduo_node_text(row, "path");
     size_t n = strlen(s->list);
     char *end;
-    if (!path || strncmp(path, s->list, n) != 0 || path[n] != '[' || path[n + 1] < '0' || path[n + 1] > '9')
-        return row;
+    if (strncmp(path, s->list, n) != 0 || path[n] != '[' || path[n + 1] < '0' || path[n + 1] > '9')
+        return path;
     size_t at = strtoul(path + n + 1, &end, 10), now = at;
     if (s->by < 0 && at == s->from)
-        return *end == ']' ? NULL : row;
+        return *end == ']' ? NULL : path;
     if (s->by != 0)
         now = at < s->from ? at : s->by < 0 ? at - 1 : at + 1;
     else if (at == s->from)
         now = s->to;
     else if (at >= (s->from < s->to ? s->from : s->to) && at <= (s->from < s->to ? s->to : s->from))
         now = s->from < s->to ? at - 1 : at + 1;
-    return now == at || *end != ']' ? row : with_path(arena, row, ceduo_arena_format(arena, "%s[%zu%s", s->list, now, end));
+    return now == at || *end != ']' ? path : ceduo_arena_format(arena, "%s[%zu%s", s->list, now, end);
 }
 
 /* Rows about the items of a list go along with them: those of the scene, and those of the stand that the list is in. A
@@ -116,12 +112,12 @@ static void shift_doubts(struct edit *e, const char *list, size_t from, size_t t
     const char *within = strstr(list, ".stand.");
     if (!e->root)
         return;
-    e->root = with_rows(e->arena, e->root, shift_row, &(struct shift){list, from, to, by});
+    e->root = with_paths(e->arena, e->root, shift_path, &(struct shift){list, from, to, by});
     const char *path = within ? ceduo_arena_copy(e->arena, list, (size_t)(within - list) + strlen(".stand")) : NULL;
     const struct node *stand = path ? ceduo_resolve_at(e->root, path) : NULL;
     if (!stand)
         return;
-    const struct node *now = with_rows(e->arena, stand, shift_row, &(struct shift){within + strlen(".stand."), from, to, by});
+    const struct node *now = with_paths(e->arena, stand, shift_path, &(struct shift){within + strlen(".stand."), from, to, by});
     if (now == stand)
         return;
     if (!ceduo_node_get(now, "doubt"))
@@ -136,14 +132,11 @@ struct beginning {
     const char *from, *to;
 };
 
-static const struct node *begin_row(struct arena *arena, const struct node *row, const void *context)
+static const char *begin_path(struct arena *arena, const char *path, const void *context)
 {
     const struct beginning *b = context;
-    const char *path = ceduo_node_text(row, "path");
     size_t n = strlen(b->from);
-    if (!path || strncmp(path, b->from, n) != 0)
-        return row;
-    return with_path(arena, row, ceduo_arena_format(arena, "%s%s", b->to, path + n));
+    return strncmp(path, b->from, n) == 0 ? ceduo_arena_format(arena, "%s%s", b->to, path + n) : path;
 }
 
 /* ---- changes of a tree ---- */
@@ -314,9 +307,9 @@ static const struct node *need_options(struct edit *e)
     if (forest)
         options = ceduo_node_replaced(e->arena, options, 0, ceduo_node_with(e->arena, options->items[0], "forest", forest));
     e->root = ceduo_node_without(e->arena, e->root, "forest");
-    e->root = with_rows(e->arena, e->root, begin_row, &(struct beginning){"forest[*]", "options[*].forest[*]"});
-    e->root = with_rows(e->arena, e->root, begin_row,
-                        &(struct beginning){"forest[", ceduo_arena_format(e->arena, "options[%s].forest[", name)});
+    e->root = with_paths(e->arena, e->root, begin_path, &(struct beginning){"forest[*]", "options[*].forest[*]"});
+    e->root = with_paths(e->arena, e->root, begin_path,
+                         &(struct beginning){"forest[", ceduo_arena_format(e->arena, "options[%s].forest[", name)});
     e->root = ceduo_node_with(e->arena, e->root, "options", options);
     return options;
 }
@@ -388,9 +381,9 @@ bool ceduo_document_rename_option(struct document *d, size_t index, const char *
     list = ceduo_node_replaced(e.arena, list, index, item);
     e.root = ceduo_node_with(e.arena, e.root, "options", list);
     if (old)
-        e.root = with_rows(e.arena, e.root, begin_row,
-                           &(struct beginning){ceduo_arena_format(e.arena, "options[%s]", old),
-                                               ceduo_arena_format(e.arena, "options[%zu]", index)});
+        e.root = with_paths(e.arena, e.root, begin_path,
+                            &(struct beginning){ceduo_arena_format(e.arena, "options[%s]", old),
+                                                ceduo_arena_format(e.arena, "options[%zu]", index)});
     if (old && observed)
         e.root = ceduo_node_with(e.arena, e.root, "observed", with_option_named(e.arena, observed, old, scalar));
     return commit(&e, "options");
