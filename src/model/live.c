@@ -130,7 +130,6 @@ void ceduo_live_compare(struct live *l, const struct scene_file *file, size_t le
 void ceduo_live_fit(struct live *l, const struct scene_file *file, const struct fit_request *request)
 {
     ceduo_live_drop_fit(l);
-    l->fit = *request;
     l->fit_of = file->root;
     ceduo_jobs_fit(l->jobs, file, request);
     l->busy = l->fitting = true;

@@ -12,8 +12,7 @@ struct live {
     union results results;        /* newest of each kind; what the scene has no longer stays until better is known */
     struct ceduo_result *result;  /* the scene as it is now, by the newest snapshot; NULL before the first */
     struct ceduo_verdict verdict; /* of the result and of the years that fit the scene; n 0: none */
-    struct fit_request fit;       /* that was asked for last, */
-    const struct node *fit_of;    /* of this scene */
+    const struct node *fit_of;    /* the scene that is fitted, or was last */
     uint64_t asked;               /* key of the runs that were asked for last */
     unsigned threads;
     bool busy, fitting;
