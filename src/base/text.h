@@ -48,6 +48,8 @@ void ceduo_text_safe_n(struct text *text, const char *string, size_t n);
 /* The shortest decimal that reads back as the same number; "null" where it is not finite. */
 #define CEDUO_NUMBER_ROOM 32
 char *ceduo_number_shortest(double value, char room[CEDUO_NUMBER_ROOM]);
+/* The same in the memory of a block. */
+#define NUMERAL(value) ceduo_number_shortest(value, (char[CEDUO_NUMBER_ROOM]){0})
 
 /* Numbers as people of the language read them: with its decimal sign in place of each dot. */
 char *ceduo_number_spoken(char *number);

@@ -216,7 +216,7 @@ static void append_command(struct text *text, const struct arguments *a)
     if (a->rocks > 0)
         ceduo_text_format(text, " -n %llu", (unsigned long long)a->rocks);
     if (a->tolerance > 0)
-        append_word(text, " -e ", ceduo_number_shortest(a->tolerance, (char[CEDUO_NUMBER_ROOM]){0}));
+        append_word(text, " -e ", NUMERAL(a->tolerance));
     for (size_t i = 0; i < a->sets.n; i++)
         append_word(text, " -s ", a->sets.items[i]);
     for (size_t i = 0; i < a->options.n; i++)

@@ -102,8 +102,7 @@ static void follow_border(struct changes *c, const char *path, const char *value
                           to ? _("what comes next ends at %g m already; delete that first")
                              : _("what comes before begins at %g m only; delete that first"),
                           end);
-    char written[CEDUO_NUMBER_ROOM];
-    ceduo_number_shortest(now, written);
+    const char *written = NUMERAL(now);
     ceduo_changes_add(c, "%s=%s", border, value[0] == 'e' ? value : written); /* from the end, as this one is */
     ceduo_text_format(&c->followed, to ? _("what comes next begins at %s m now") : _("what comes before ends at %s m now"),
                       written);
@@ -113,7 +112,6 @@ static void follow_border(struct changes *c, const char *path, const char *value
 static void follow_end(struct changes *c, const char *path, const char *value)
 {
     struct place place = find_place(c, path);
-    char room[CEDUO_NUMBER_ROOM];
     double now;
     const struct node *materials = ceduo_document_node(c->d, "slope.materials");
     const struct node *vertices = ceduo_document_node(c->d, "slope.vertices_m");
@@ -121,9 +119,9 @@ static void follow_end(struct changes *c, const char *path, const char *value)
         sscanf(value, "[%lf", &now) != 1)
         return;
     if (place.index == 0)
-        ceduo_changes_add(c, "slope.materials[0].from_m=%s", ceduo_number_shortest(now, room));
+        ceduo_changes_add(c, "slope.materials[0].from_m=%s", NUMERAL(now));
     else if (vertices && place.index + 1 == vertices->n)
-        ceduo_changes_add(c, "slope.materials[%zu].to_m=%s", materials->n - 1, ceduo_number_shortest(now, room));
+        ceduo_changes_add(c, "slope.materials[%zu].to_m=%s", materials->n - 1, NUMERAL(now));
 }
 
 /* ---- stands ---- */

@@ -15,8 +15,7 @@
 
 static void put_number(struct text *t, const char *before, double value)
 {
-    char room[CEDUO_NUMBER_ROOM];
-    ceduo_text_format(t, "%s%s", before, ceduo_number_shortest(value, room));
+    ceduo_text_format(t, "%s%s", before, NUMERAL(value));
 }
 
 static void add_ground(struct changes *c, const struct document *d)
@@ -109,12 +108,10 @@ bool ceduo_keep_fit(struct document *d, const struct fit_values *fit, struct pro
     for (size_t i = 0; i < fit->answer->parameters_count; i++)
         for (size_t k = 0; k < fit->inputs[i].places_count; k++) {
             const char *place = fit->inputs[i].places[k];
-            char room[CEDUO_NUMBER_ROOM];
             struct value v;
             bool spread = ceduo_value_find(&d->file.scene, place, &v) && v.field->type == FIELD_SPREAD &&
                           ((const struct ceduo_number *)v.at)->spread > 0;
-            ceduo_changes_add(&c, "%s%s=%s", place, spread ? ".mean" : "",
-                              ceduo_number_shortest(fit->answer->parameters[i].best, room));
+            ceduo_changes_add(&c, "%s%s=%s", place, spread ? ".mean" : "", NUMERAL(fit->answer->parameters[i].best));
         }
     for (size_t i = 0; i < fit->answer->parameters_count; i++)
         for (size_t k = 0; k < fit->inputs[i].places_count; k++)

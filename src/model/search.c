@@ -58,8 +58,7 @@ const struct field *ceduo_search_field(struct arena *arena, const char *path)
 static bool set_value(struct search *s, double value)
 {
     LOCAL_TEXT(set);
-    char room[CEDUO_NUMBER_ROOM];
-    ceduo_text_format(&set, "%s=%s", s->def.path, ceduo_number_shortest(value, room));
+    ceduo_text_format(&set, "%s=%s", s->def.path, NUMERAL(value));
     s->file->root = s->root;
     return ceduo_scene_set(s->file, "--find", set.bytes, s->problems) && ceduo_scene_bind(s->file, s->problems);
 }
@@ -237,7 +236,6 @@ static bool is_askable(const struct search *s)
 /* Whether the scene can have both ends of a range; where it can have one of them, that is said. */
 static bool can_be_ends(struct search *s, double lo, double hi)
 {
-    char room[CEDUO_NUMBER_ROOM];
     struct problems *problems = s->problems;
     LOCAL_PROBLEMS(others);
     if (lo > hi) /* no whole number lies between */
@@ -248,8 +246,7 @@ static bool can_be_ends(struct search *s, double lo, double hi)
     bool last = set_value(s, hi);
     s->problems = problems;
     if (first != last)
-        ceduo_problem(problems, &path_source, 0, 0, _("the other end of the range, %s, is possible"),
-                      ceduo_number_shortest(first ? lo : hi, room));
+        ceduo_problem(problems, &path_source, 0, 0, _("the other end of the range, %s, is possible"), NUMERAL(first ? lo : hi));
     return first && last;
 }
 

@@ -157,8 +157,7 @@ void ceduo_popup_found(struct app *app, struct search_answer *answer)
     append_words(app, p, &search, answer, &words);
     bool good = true;
     if (found->found && !found->whole_range) {
-        char room[CEDUO_NUMBER_ROOM];
-        good = ceduo_document_set(&app->document, p->path, ceduo_number_shortest(found->value, room), &app->problems);
+        good = ceduo_document_set(&app->document, p->path, NUMERAL(found->value), &app->problems);
         ceduo_app_edited(app, good);
     }
     ceduo_problems_free(&app->problems);
@@ -171,8 +170,7 @@ void ceduo_popup_found(struct app *app, struct search_answer *answer)
 
 static bool fits(const struct app *app, const char *path, double value)
 {
-    char room[CEDUO_NUMBER_ROOM];
-    return ceduo_preview_fits(&app->document.file, path, ceduo_number_shortest(value, room));
+    return ceduo_preview_fits(&app->document.file, path, NUMERAL(value));
 }
 
 /* A value of three digits between `now` and `end`, as near to the end as the scene allows; `now` itself is allowed. */

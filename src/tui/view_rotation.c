@@ -41,9 +41,7 @@ static void say_year(struct app *app, const struct ceduo_years *years, struct te
         }
     for (const struct ceduo_belt *belt = y->option.belts; belt < y->option.belts + y->option.belts_count; belt++) {
         const struct ceduo_stand *s = &belt->stand;
-        char from[CEDUO_NUMBER_ROOM], to[CEDUO_NUMBER_ROOM];
-        ceduo_text_format(text, "%s\xe2\x80\x93%s m: ", ceduo_number_shortest(belt->from_given, from),
-                          ceduo_number_shortest(belt->to_given, to));
+        ceduo_text_format(text, "%s\xe2\x80\x93%s m: ", NUMERAL(belt->from_given), NUMERAL(belt->to_given));
         if (ceduo_stand_is_bare(s))
             ceduo_text_put(text, _("no stems"));
         if (s->shoots_count > 0)
