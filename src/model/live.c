@@ -18,16 +18,6 @@ void ceduo_live_free(struct live *l)
     *l = (struct live){0};
 }
 
-bool ceduo_live_restart(struct live *l)
-{
-    struct live next;
-    if (!ceduo_live_create(&next, l->threads))
-        return false;
-    ceduo_live_free(l);
-    *l = next;
-    return true;
-}
-
 const struct ceduo_snapshot *ceduo_live_snapshot(const struct live *l, const struct ceduo_scene *scene)
 {
     const struct ceduo_snapshot *o = l->results.snapshot ? l->results.snapshot->snapshot : NULL;

@@ -22,10 +22,6 @@ struct live {
 bool ceduo_live_create(struct live *live, unsigned threads);
 void ceduo_live_free(struct live *live);
 
-/* Forgets all, and lets go of the memory of the scene they were of. False, and nothing changed, where no thread can be
- * started. */
-bool ceduo_live_restart(struct live *live);
-
 /* The scene has changed. `years`: the years to come of the option as well. */
 void ceduo_live_follow(struct live *live, const struct scene_file *file, size_t option, bool years);
 

@@ -318,15 +318,18 @@ void ceduo_app_free(struct app *app)
  * it is let go first. */
 static bool take_opened(struct app *app, struct document *next, bool good)
 {
+    struct live live;
     if (!good) {
         say_problem(app);
-    } else if (!ceduo_live_restart(&app->live)) {
+    } else if (!ceduo_live_create(&live, app->live.threads)) { /* no thread */
         ceduo_document_close(next);
         ceduo_app_warn(app, "%s", _("out of memory"));
         good = false;
     } else {
+        ceduo_live_free(&app->live);
         ceduo_document_forget(&app->document);
         ceduo_document_close(&app->document);
+        app->live = live;
         app->document = *next;
         took_document(app);
     }
