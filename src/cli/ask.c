@@ -14,14 +14,6 @@
 
 /* ---- reading ---- */
 
-static bool is_wanted(const struct arguments *a, const char *name)
-{
-    for (size_t i = 0; name && i < a->options.n; i++)
-        if (strcmp(a->options.items[i], name) == 0)
-            return true;
-    return false;
-}
-
 enum exit_status ceduo_batch_option(const struct scene_file *file, const char *name, size_t *index)
 {
     const struct ceduo_scene *scene = &file->scene;
@@ -40,14 +32,17 @@ enum exit_status ceduo_batch_option(const struct scene_file *file, const char *n
 /* Keeps only the options that were asked for, in the scene's order. */
 static enum exit_status choose(const struct arguments *a, struct scene_file *file)
 {
-    for (size_t i = 0, index; i < a->options.n; i++)
+    bool *wanted = ceduo_arena_take(&file->arena, file->scene.options_count * sizeof *wanted);
+    for (size_t i = 0, index; i < a->options.n; i++) {
         if (ceduo_batch_option(file, a->options.items[i], &index) != EXIT_DONE)
             return EXIT_USAGE;
+        wanted[index] = true;
+    }
     const struct node *list = ceduo_node_get(file->root, "options");
     if (a->options.n == 0 || !list)
         return EXIT_DONE;
     for (size_t k = list->n; list && k-- > 0;)
-        if (!is_wanted(a, ceduo_node_text(list->items[k], "name")))
+        if (!wanted[k])
             list = ceduo_node_removed(&file->arena, list, k);
     const struct node *root = list ? ceduo_node_with(&file->arena, file->root, "options", list) : NULL;
     if (root && ceduo_node_get(root, "observed")) /* may be of an option that is left out */

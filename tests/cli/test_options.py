@@ -161,6 +161,9 @@ def test_option():
     expect_equal(result(PAPER, "-n", 1, "--option", "current")["options"][0]["name"], "current")
     done = ceduo("--batch", FOUR, "--option", "nope")
     expect(done.status == USAGE and done.out == "" and "'nope'" in done.err, done)
+    for name in ("in three, top first", "in tre, dall'alto"):  # as it is called in the language that is read
+        left = result("staggered", "-n", 20, "--language", "it", "--option", name)["options"]
+        expect_equal([o["name"] for o in left], ["in three, top first"])
     done = ceduo("--check", FOUR, "--option", "nope")
     expect(done.status == USAGE, done)
 
