@@ -168,18 +168,6 @@ static void follow_design(struct changes *c, const char *path)
         }
 }
 
-/* Adds what follows a value that is changed. */
-static void follow(struct changes *c, const char *path, const char *value)
-{
-    double now;
-    follow_end(c, path, value);
-    follow_design(c, path);
-    follow_border(c, path, value);
-    if (ceduo_number_read(value, &now) != CEDUO_NUMBER_GOOD)
-        now = NAN;
-    follow_stand(c, path, now);
-}
-
 /* ---- what would say the same ---- */
 
 /* What people call a value: its label without the unit. */
@@ -280,12 +268,16 @@ bool ceduo_document_set_alone(struct document *d, const char *path, const char *
                               struct problems *problems)
 {
     struct changes c = {.d = d};
+    double now;
     int shape = strcmp(path, "rock.shape") == 0 ? ceduo_choice_find(&ceduo_shape_words, value) : -1;
     if (shape >= 0)
         change_shape(&c, (enum ceduo_shape)shape);
     else
         keep_one_of_all(&c, path);
-    follow(&c, path, value);
+    follow_end(&c, path, value);
+    follow_design(&c, path);
+    follow_border(&c, path, value);
+    follow_stand(&c, path, ceduo_number_read(value, &now) == CEDUO_NUMBER_GOOD ? now : NAN);
     ceduo_changes_add(&c, "%s=%s", path, value);
     if (c.filled.length)
         ceduo_text_format(said, _("filled in for the same volume: %s"), c.filled.bytes);
