@@ -209,11 +209,10 @@ void ceduo_page_over(struct ceduo_page *page, const struct ceduo_report *report)
     struct text *text = ceduo_page_add(page, CEDUO_PAGE_POINT);
     ceduo_text_format(text, ngettext("OVER %zu YEAR", "OVER %zu YEARS", c->years), c->years);
     ceduo_text_char(text, '\t');
-    struct ceduo_measure mean = ceduo_judged(place_of(report->result), NULL);
+    struct ceduo_measure mean = ceduo_share(c->mean);
     LOCAL_TEXT(may);
     LOCAL_TEXT(share);
-    const struct ceduo_measure over = ceduo_share(c->mean);
-    ceduo_measure_error(&share, &over, " ");
+    ceduo_measure_error(&share, &mean, " ");
     ceduo_measure_doubt_over(&mean, report->doubt, 0);
     if (!isnan(mean.may_lo)) {
         ceduo_text_format(&may, ", %s ", _("may be"));
