@@ -58,9 +58,8 @@ void ceduo_json_close(struct json *json, char bracket)
 
 void ceduo_json_number(struct json *json, const char *key, double value)
 {
-    char room[CEDUO_NUMBER_ROOM];
     begin(json, key);
-    ceduo_text_put(json->text, ceduo_number_shortest(value, room));
+    ceduo_text_put(json->text, NUMERAL(value));
 }
 
 void ceduo_json_count(struct json *json, const char *key, uint64_t value)

@@ -169,7 +169,6 @@ static bool read_number(struct binder *b, const struct node *node, double *value
     const char *text = node->text, *comma = strchr(text, ',');
     size_t whole = strspn(text, "+-0123456789"), rest = comma ? strspn(comma + 1, "0123456789") : 0;
     bool thousands = rest == 3 && strtod(text, NULL) != 0;
-    char shown[CEDUO_NUMBER_ROOM];
     LOCAL_TEXT(part);
     ceduo_text_add(&part, text, strcspn(text, "%"));
     if (comma == text + whole && whole > 0 && rest > 0 && !comma[1 + rest] && !thousands)
@@ -177,23 +176,21 @@ static bool read_number(struct binder *b, const struct node *node, double *value
     if (comma)
         return report(b, node, _("'%s' is not a number; write a dot for the decimals and nothing between thousands"), text);
     if (strcmp(text + part.length, "%") == 0 && ceduo_number_read(ceduo_text_string(&part), value) == CEDUO_NUMBER_GOOD)
-        return report(b, node, _("'%s' is not a number; write %s"), text, ceduo_number_shortest(*value / 100, shown));
+        return report(b, node, _("'%s' is not a number; write %s"), text, NUMERAL(*value / 100));
     return report(b, node, _("'%s' is not a number"), text);
 }
 
 static bool check_range(struct binder *b, const struct field *f, const struct node *node, double value)
 {
-    char room[CEDUO_NUMBER_ROOM], limit[CEDUO_NUMBER_ROOM];
-    const char *unit = f->unit[0] ? f->unit : "", *gap = f->unit[0] ? " " : "";
-    const char *said = ceduo_number_shortest(value, room);
+    const char *said = NUMERAL(value), *gap = f->unit[0] ? " " : "", *unit = f->unit;
     if (value < f->lo)
-        return report(b, node, _("%s is below %s%s%s"), said, ceduo_number_shortest(f->lo, limit), gap, unit);
+        return report(b, node, _("%s is below %s%s%s"), said, NUMERAL(f->lo), gap, unit);
     if (f->flags & FIELD_ABOVE && !(value > f->lo))
-        return report(b, node, _("%s is not above %s%s%s"), said, ceduo_number_shortest(f->lo, limit), gap, unit);
+        return report(b, node, _("%s is not above %s%s%s"), said, NUMERAL(f->lo), gap, unit);
     if (value > f->hi)
-        return report(b, node, _("%s is above %s%s%s"), said, ceduo_number_shortest(f->hi, limit), gap, unit);
+        return report(b, node, _("%s is above %s%s%s"), said, NUMERAL(f->hi), gap, unit);
     if (f->flags & FIELD_UNDER && !(value < f->hi))
-        return report(b, node, _("%s is not below %s%s%s"), said, ceduo_number_shortest(f->hi, limit), gap, unit);
+        return report(b, node, _("%s is not below %s%s%s"), said, NUMERAL(f->hi), gap, unit);
     return true;
 }
 

@@ -76,9 +76,8 @@ static void read_row(struct reader *r, struct points *points)
         r->north = north;
     }
     if (!(x > before)) {
-        char a[CEDUO_NUMBER_ROOM], b[CEDUO_NUMBER_ROOM];
-        ceduo_csv_complain(csv, first, _("distance %s does not lie beyond %s; distances must rise"),
-                           ceduo_number_shortest(x, a), ceduo_number_shortest(before, b));
+        ceduo_csv_complain(csv, first, _("distance %s does not lie beyond %s; distances must rise"), NUMERAL(x),
+                           NUMERAL(before));
         return;
     }
     points->x[points->n] = x;

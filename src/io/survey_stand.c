@@ -32,8 +32,7 @@ static double rounded(double value)
 
 static void print_number(struct text *out, const char *before, double value)
 {
-    char room[CEDUO_NUMBER_ROOM];
-    ceduo_text_format(out, "%s%s", before, ceduo_number_shortest(rounded(value), room));
+    ceduo_text_format(out, "%s%s", before, NUMERAL(rounded(value)));
 }
 
 static void print_source(struct text *out, bool assumed, const char *what)

@@ -148,8 +148,8 @@ static bool read_range(struct validator *v, const struct row *row, const struct 
     const char *const keys[] = {normal ? "mean" : "lo", normal ? "sd" : "hi"};
     for (int i = 0; i < 2; i++)
         if (!ceduo_schema_in_range(field, ends[i]))
-            return ceduo_complain(v, row->at, keys[i], _("%s is outside the range of %s: %s"), ceduo_decimal(v, ends[i]),
-                                  field->key, ceduo_range(v, field));
+            return ceduo_complain(v, row->at, keys[i], _("%s is outside the range of %s: %s"), NUMERAL(ends[i]), field->key,
+                                  ceduo_range(v, field));
     return true;
 }
 
@@ -396,7 +396,7 @@ static bool read_table(struct draws *t, const char *path)
             for (; h < t->heads_count && t->heads[h].column == c; h++) {
                 const struct field *f = t->heads[h].field;
                 if (number && !ceduo_schema_in_range(f, *to))
-                    ceduo_csv_complain(csv, span, _("%s is outside the range of %s: %s"), ceduo_decimal(t->v, *to), f->key,
+                    ceduo_csv_complain(csv, span, _("%s is outside the range of %s: %s"), NUMERAL(*to), f->key,
                                        ceduo_range(t->v, f));
             }
         }

@@ -222,10 +222,9 @@ static bool check_each(const struct place *p)
         if (stops && !ceduo_check_on_slope(p->v, path, "", x))
             return false;
         if (stops && x < values->seen_from)
-            return ceduo_complain(v, path, "", _("%s lies before seen_from_m, %s"), ceduo_decimal(v, x),
-                                  ceduo_decimal(v, values->seen_from));
+            return ceduo_complain(v, path, "", _("%s lies before seen_from_m, %s"), NUMERAL(x), NUMERAL(values->seen_from));
         if (!stops && x < 0)
-            return ceduo_complain(v, path, "", _("%s is below 0"), ceduo_decimal(v, x));
+            return ceduo_complain(v, path, "", _("%s is below 0"), NUMERAL(x));
     }
     return true;
 }
@@ -248,7 +247,7 @@ static bool check_values(const struct place *p)
     case CEDUO_WHERE_AT_PLACE:
         return (!p->is->list || check_form(p)) && ceduo_check_on_slope(p->v, p->at, "x_m", values->x) &&
                (values->x > last || ceduo_complain(p->v, p->at, "x_m", _("%s does not lie beyond the release, %s m"),
-                                                   ceduo_decimal(p->v, values->x), ceduo_decimal(p->v, last))) &&
+                                                   NUMERAL(values->x), NUMERAL(last))) &&
                (p->is->list ? check_each(p) : check_released(p));
     case CEDUO_WHERE_ON_STEMS: /* of which a rock may strike several */
         return ceduo_check_stretch(p->v, p->at, values->from, values->to) && check_each(p);
@@ -266,7 +265,6 @@ static bool check_values(const struct place *p)
 /* A row's name; of one that has none, what it is of and where. */
 static void set_name(const struct place *p, struct ceduo_observation *o)
 {
-    char room[CEDUO_NUMBER_ROOM], end[CEDUO_NUMBER_ROOM];
     const struct field *field = ceduo_schema_row(p->at); /* NULL without memory */
     const char *path = p->is->path, *what = field ? _(field->shown.label) : path;
     double x = p->values->x, from = p->row->way_from, to = p->row->way_to;
@@ -274,12 +272,12 @@ static void set_name(const struct place *p, struct ceduo_observation *o)
         o->name_given = p->row->name;
         o->name = ceduo_in_language(p->row->name, p->row->name_it);
     } else if (p->is->where == CEDUO_WHERE_AT_PLACE) {
-        o->name_given = ceduo_format(p->v, "%s at %s m", path, ceduo_number_shortest(x, room));
-        o->name = ceduo_format(p->v, _("%s at %s m"), what, ceduo_number_spoken(room));
+        o->name_given = ceduo_format(p->v, "%s at %s m", path, NUMERAL(x));
+        o->name = ceduo_format(p->v, _("%s at %s m"), what, ceduo_number_spoken(NUMERAL(x)));
     } else if (p->is->where == CEDUO_WHERE_ALONG) {
-        o->name_given =
-            ceduo_format(p->v, "%s %s-%s m", path, ceduo_number_shortest(from, room), ceduo_number_shortest(to, end));
-        o->name = ceduo_format(p->v, "%s %s\xe2\x80\x93%s m", what, ceduo_number_spoken(room), ceduo_number_spoken(end));
+        o->name_given = ceduo_format(p->v, "%s %s-%s m", path, NUMERAL(from), NUMERAL(to));
+        o->name = ceduo_format(p->v, "%s %s\xe2\x80\x93%s m", what, ceduo_number_spoken(NUMERAL(from)),
+                               ceduo_number_spoken(NUMERAL(to)));
     } else {
         o->name_given = path;
         o->name = what;

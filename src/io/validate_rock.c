@@ -71,8 +71,7 @@ void ceduo_validate_release(struct validator *v, const char *path, struct ceduo_
     double end = slope->x[slope->vertices - 1], first = ceduo_number_lowest(*x), last = ceduo_number_highest(*x);
     if (!(first >= 0) || !(last < end))
         ceduo_complain(v, path, "", _("%s lies beyond the slope; a release may be anywhere from %s to before %s m"),
-                       ceduo_decimal(v, (first >= 0 ? last : first) + v->origin), ceduo_decimal(v, v->origin),
-                       ceduo_decimal(v, end + v->origin));
+                       NUMERAL((first >= 0 ? last : first) + v->origin), NUMERAL(v->origin), NUMERAL(end + v->origin));
 }
 
 /* ---- the blocks that come down ---- */
@@ -95,7 +94,7 @@ void ceduo_validate_blocks(struct validator *v)
                        _("'exponent' is missing: the number of blocks above a volume v goes with v^-exponent"));
     if (scene->simulation.rocks > CEDUO_SIZED_ROCKS_MOST)
         ceduo_complain(v, "simulation.rocks", "", _("with blocks each rock is kept: at most %s rocks"),
-                       ceduo_decimal(v, CEDUO_SIZED_ROCKS_MOST));
+                       NUMERAL(CEDUO_SIZED_ROCKS_MOST));
     if (r->shape == CEDUO_SPHERE && spreads && ceduo_is_sound(v, "rock")) /* whose proportions are always the same */
         ceduo_complain(v, "rock", "", _("blocks say how large the rocks are; give the size without a spread"));
     if (ceduo_is_too_long(v, "blocks", n) || !ceduo_is_sound(v, "blocks"))
@@ -110,8 +109,8 @@ void ceduo_validate_blocks(struct validator *v)
         if (!two)
             ceduo_complain(v, path, "", _("expected %s"), "[lo, hi]");
         else if (!rise)
-            ceduo_complain(v, path, "", _("%s m3 is not below %s m3; write the smaller volume first"),
-                           ceduo_decimal(v, b->volumes[0]), ceduo_decimal(v, b->volumes[1]));
+            ceduo_complain(v, path, "", _("%s m3 is not below %s m3; write the smaller volume first"), NUMERAL(b->volumes[0]),
+                           NUMERAL(b->volumes[1]));
         good &= rise;
     }
     for (size_t i = 0; i < n && good; i++) { /* of those before it none may hold the same sizes */
@@ -122,7 +121,7 @@ void ceduo_validate_blocks(struct validator *v)
         if (k < i)
             ceduo_complain(v, ceduo_format(v, "blocks[%zu].volume_m3", i), "",
                            _("the class overlaps one before it, from %s to %s m3; let them touch at most"),
-                           ceduo_decimal(v, b[k].volumes[0]), ceduo_decimal(v, b[k].volumes[1]));
+                           NUMERAL(b[k].volumes[0]), NUMERAL(b[k].volumes[1]));
     }
 }
 
@@ -155,13 +154,13 @@ void ceduo_validate_controls(struct validator *v)
         }
         c->name = (char *)(uintptr_t)ceduo_in_language(c->name_given, c->name);
         c->x = c->x_given - v->origin;
-        const char *here = ceduo_decimal(v, c->x_given);
+        const char *here = NUMERAL(c->x_given);
         while (k < i && scene->controls[k].x != c->x)
             k++;
         if (!ceduo_check_on_slope(v, at, "", c->x_given))
             continue;
         if (c->x <= last)
-            ceduo_complain(v, at, "", _("%s does not lie beyond the release, %s m"), here, ceduo_decimal(v, last + v->origin));
+            ceduo_complain(v, at, "", _("%s does not lie beyond the release, %s m"), here, NUMERAL(last + v->origin));
         else if (k < i)
             ceduo_complain(v, at, "", _("'%s' is given twice"), here);
     }

@@ -43,7 +43,7 @@ static bool check_vertices(struct validator *v, const struct points *p)
         if (p->x[i] <= p->x[i - 1]) {
             ceduo_complain(v, ceduo_format(v, "slope.vertices_m[%zu]", i), "",
                            _("x %s does not lie beyond %s; x must rise: write a wall with a small run, such as 0.01 m"),
-                           ceduo_decimal(v, p->x[i]), ceduo_decimal(v, p->x[i - 1]));
+                           NUMERAL(p->x[i]), NUMERAL(p->x[i - 1]));
             rising = false;
         }
     if (!rising || (!csv && !ceduo_is_sound(v, "slope.vertices_m")))
@@ -53,10 +53,10 @@ static bool check_vertices(struct validator *v, const struct points *p)
         ceduo_complain(v, path, "",
                        _("the profile rises, from %s to %s m, and rocks go along x: if it was drawn upward, write "
                          "'reversed: true' in slope, which mirrors it with its ground"),
-                       ceduo_decimal(v, first), ceduo_decimal(v, last));
+                       NUMERAL(first), NUMERAL(last));
     else if (last < first && reversed)
         ceduo_complain(v, "slope.reversed", "", _("the profile falls already, from %s to %s m; leave 'reversed' out"),
-                       ceduo_decimal(v, first), ceduo_decimal(v, last));
+                       NUMERAL(first), NUMERAL(last));
     return reversed ? last >= first : last <= first;
 }
 
@@ -95,12 +95,12 @@ static void check_materials(struct validator *v, const struct points *p)
         const char *path = ceduo_format(v, "slope.materials[%zu]", i);
         if (ceduo_check_ends_behind(v, path, rows[i].from, rows[i].to) &&
             (rows[i].from > wanted || (i > 0 && rows[i].from < wanted)))
-            ceduo_complain(v, path, "from_m", _("%s leaves a gap or overlaps; it must begin at %s"),
-                           ceduo_decimal(v, rows[i].from), ceduo_decimal(v, wanted));
+            ceduo_complain(v, path, "from_m", _("%s leaves a gap or overlaps; it must begin at %s"), NUMERAL(rows[i].from),
+                           NUMERAL(wanted));
     }
     if (v->problems->met == before && p->n > 0 && rows[n - 1].to < p->x[p->n - 1])
         ceduo_complain(v, ceduo_format(v, "slope.materials[%zu]", n - 1), "to_m", _("%s ends before the profile, at %s"),
-                       ceduo_decimal(v, rows[n - 1].to), ceduo_decimal(v, p->x[p->n - 1]));
+                       NUMERAL(rows[n - 1].to), NUMERAL(p->x[p->n - 1]));
 }
 
 /* What no file says: only the law arm has a mu. */

@@ -17,7 +17,7 @@ static void check_spreads(struct validator *v, const char *path, const char *lis
         if (stems[i].dbh_sd > stems[i].dbh) /* not where one of them could not be read: NaN, and 0 */
             ceduo_complain(v, ceduo_format(v, "%s.%s[%zu]", path, list, i), "dbh_sd_m",
                            _("%s m is more than the diameter itself, %s m: make two entries of stems so different"),
-                           ceduo_decimal(v, stems[i].dbh_sd), ceduo_decimal(v, stems[i].dbh));
+                           NUMERAL(stems[i].dbh_sd), NUMERAL(stems[i].dbh));
 }
 
 /* Whether a value that is needed is not there; one that could not be read is reported already. */
@@ -66,7 +66,7 @@ static void check_stand(struct validator *v, const char *path, struct ceduo_stan
         return;
     if (s->growth.shoots_young < s->growth.shoots_old && ceduo_is_known(v, "%s.growth.shoots_young", path))
         ceduo_complain(v, path, "growth.shoots_young", _("%s is below shoots_old, %s: shoots only become fewer"),
-                       ceduo_decimal(v, s->growth.shoots_young), ceduo_decimal(v, s->growth.shoots_old));
+                       NUMERAL(s->growth.shoots_young), NUMERAL(s->growth.shoots_old));
     if (s->system == CEDUO_BARE && ceduo_stand_has_stems(s))
         ceduo_complain(v, path, "system", _("'bare', but there are stems; name the system or remove them"));
     for (size_t i = 0; i < s->shoots_count; i++) { /* they are given per hectare or per stool */
@@ -84,7 +84,7 @@ static void check_stand(struct validator *v, const char *path, struct ceduo_stan
         return;
     if (s->stools_per_ha > 0 && ceduo_stand_shoots(s) / s->stools_per_ha > SHOOTS_MAX)
         ceduo_complain(v, path, "shoots", _("%s shoots on each stool are more than the %s that can be drawn"),
-                       ceduo_decimal(v, ceduo_stand_shoots(s) / s->stools_per_ha), ceduo_decimal(v, SHOOTS_MAX));
+                       NUMERAL(ceduo_stand_shoots(s) / s->stools_per_ha), NUMERAL(SHOOTS_MAX));
     if (ceduo_stand_has_shoots(s) && !(s->stools_per_ha > 0))
         ceduo_complain(v, path, "shoots", _("shoots without stools; add 'stools: {per_ha: …, spacing_m: …}'"));
     else if (s->shoots_count == 0 && s->stools_per_ha > 0 && !ceduo_stand_sprouts(s))
@@ -122,7 +122,7 @@ static void make_belts(struct validator *v, const char *path, struct ceduo_optio
         const double from = belt->from_given, to = belt->to_given, before = i > 0 ? belt[-1].to_given : -INFINITY;
         if (ceduo_check_stretch(v, here, from, to) && from < before)
             ceduo_complain(v, here, "from_m", _("%s lies before the end of the belt before it, %s; belts must not overlap"),
-                           ceduo_decimal(v, from), ceduo_decimal(v, before));
+                           NUMERAL(from), NUMERAL(before));
         belt->from = belt->from_given - v->origin;
         belt->to = belt->to_given - v->origin;
         const struct node *node = ceduo_resolve_walk(v->root, stand, &within, &used);

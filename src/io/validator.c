@@ -28,12 +28,6 @@ const char *ceduo_format(struct validator *v, const char *format, ...)
     return text ? text : "";
 }
 
-const char *ceduo_decimal(struct validator *v, double x)
-{
-    char room[CEDUO_NUMBER_ROOM];
-    return ceduo_format(v, "%s", ceduo_number_shortest(x, room));
-}
-
 const char *ceduo_words(struct validator *v, const struct choices *choices)
 {
     LOCAL_TEXT(words);
@@ -108,14 +102,13 @@ bool ceduo_check_on_slope(struct validator *v, const char *path, const char *key
     const struct ceduo_slope *s = &v->draft.scene.slope;
     double end = v->profile ? s->x[s->vertices - 1] + v->origin : INFINITY;
     return !v->profile || !(x < v->origin || x > end) ||
-           ceduo_complain(v, path, key, _("%s lies beyond the slope, which goes from %s to %s m"), ceduo_decimal(v, x),
-                          ceduo_decimal(v, v->origin), ceduo_decimal(v, end));
+           ceduo_complain(v, path, key, _("%s lies beyond the slope, which goes from %s to %s m"), NUMERAL(x),
+                          NUMERAL(v->origin), NUMERAL(end));
 }
 
 bool ceduo_check_ends_behind(struct validator *v, const char *path, double from, double to)
 {
-    return !(to <= from) || ceduo_complain(v, path, "to_m", _("%s does not lie beyond from_m, %s"), ceduo_decimal(v, to),
-                                           ceduo_decimal(v, from));
+    return !(to <= from) || ceduo_complain(v, path, "to_m", _("%s does not lie beyond from_m, %s"), NUMERAL(to), NUMERAL(from));
 }
 
 bool ceduo_check_stretch(struct validator *v, const char *path, double from, double to)

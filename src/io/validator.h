@@ -52,8 +52,7 @@ void ceduo_arrange_observed(struct validator *v);
 bool ceduo_complain(struct validator *v, const char *path, const char *key, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
 
-/* Strings in the arena, "" without memory: a number as the files have it; as printf() makes it, such as the path of an item. */
-const char *ceduo_decimal(struct validator *v, double x);
+/* A string in the arena as printf() makes it, such as the path of an item; "" without memory. */
 const char *ceduo_format(struct validator *v, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
 /* The words of a choice with a comma between them, and the range of a field. */

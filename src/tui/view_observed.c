@@ -143,7 +143,6 @@ static struct ceduo_calibration_report report_of(const struct fit *f)
 static void say_fit(const struct fit *f, struct ceduo_page *page)
 {
     const struct ceduo_calibration_report r = report_of(f);
-    char lo[CEDUO_NUMBER_ROOM], hi[CEDUO_NUMBER_ROOM];
     ceduo_page_note(page,
                     _("Fitted. Enter takes these values into the scene, Esc leaves it as it is, as the picture shows it."));
     for (size_t i = 0; i < f->request.n; i++) {
@@ -172,8 +171,7 @@ static void say_fit(const struct fit *f, struct ceduo_page *page)
     ceduo_text_put(command, "ceduo");
     for (size_t i = 0; i < f->request.n; i++) {
         LOCAL_TEXT(value);
-        ceduo_text_format(&value, "%s=%s:%s", f->inputs[i].path, ceduo_number_shortest(f->inputs[i].lo, lo),
-                          ceduo_number_shortest(f->inputs[i].hi, hi));
+        ceduo_text_format(&value, "%s=%s:%s", f->inputs[i].path, NUMERAL(f->inputs[i].lo), NUMERAL(f->inputs[i].hi));
         ceduo_text_put(command, " --calibrate ");
         ceduo_text_quoted(command, value.bytes);
     }

@@ -80,8 +80,7 @@ void ceduo_calibration_draws(struct text *text, const struct ceduo_calibration_r
     ceduo_text_char(text, '\n');
     for (size_t k = 0; k < a->draws_count; k++) {
         for (size_t i = 0; i < a->parameters_count; i++)
-            ceduo_text_format(text, "%s%s", i > 0 ? "," : "",
-                              ceduo_number_shortest(a->draws[k * a->parameters_count + i], (char[CEDUO_NUMBER_ROOM]){0}));
+            ceduo_text_format(text, "%s%s", i > 0 ? "," : "", NUMERAL(a->draws[k * a->parameters_count + i]));
         ceduo_text_char(text, '\n');
     }
 }
