@@ -102,10 +102,9 @@ static void follow_border(struct changes *c, const char *path, const char *value
                           to ? _("what comes next ends at %g m already; delete that first")
                              : _("what comes before begins at %g m only; delete that first"),
                           end);
-    const char *written = NUMERAL(now);
-    ceduo_changes_add(c, "%s=%s", border, value[0] == 'e' ? value : written); /* from the end, as this one is */
+    ceduo_changes_add(c, "%s=%s", border, value[0] == 'e' ? value : NUMERAL(now)); /* from the end, as this one is */
     ceduo_text_format(&c->followed, to ? _("what comes next begins at %s m now") : _("what comes before ends at %s m now"),
-                      written);
+                      ceduo_number_spoken(NUMERAL(now)));
 }
 
 /* The ground reaches as far as the profile does. */
@@ -140,7 +139,7 @@ static void follow_diameter(struct changes *c, const char *path, const struct ce
     ceduo_text_format(&c->followed,
                       taller > 0 ? _("its height, assumed, goes along by the growth curve: %s m")
                                  : _("its height, %s m, is assumed and stays: no growth curve has this diameter"),
-                      written);
+                      ceduo_number_spoken(ceduo_arena_string(&c->d->file.arena, written)));
 }
 
 static void follow_stand(struct changes *c, const char *path, double now)
@@ -193,7 +192,9 @@ static void fill_in(struct changes *c, const char *key, const char *value)
 {
     ceduo_changes_add(c, "rock.%s=%s", key, value);
     const struct field *f = put_name(c, &c->filled, "rock", key);
-    ceduo_text_format(&c->filled, " %s %s", value, f ? f->unit : "");
+    bool list = value[0] == '['; /* whose commas stand between numbers */
+    const char *spoken = list ? value : ceduo_number_spoken(ceduo_arena_string(&c->d->file.arena, value));
+    ceduo_text_format(&c->filled, " %s %s", spoken, f ? f->unit : "");
 }
 
 /* ---- another shape ---- */

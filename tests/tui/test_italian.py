@@ -39,7 +39,9 @@ def test_views():
 
 def test_numbers():
     """The figures are the same; Italian has a comma where English has a dot"""
-    for english, italian in both("key 1\nwait idle\ndump", "fast.yaml"):
+    belts = "key 6\nwait idle\ndump\nkey 1 Right Enter Ctrl-U\ntype 50.5\nkey Enter\ndump"  # what follows is said, too
+    shape = "key 3 Enter Down Enter\ndump"
+    for english, italian in both("key 1\nwait idle\ndump", "fast.yaml") + both(belts, "paper-site") + both(shape, "fast.yaml"):
         dots, commas = (re.findall(sign, str(screen)) for screen, sign in ((english, r"\d+\.\d+"), (italian, r"\d+,\d+")))
         expect(dots, english)
         expect_equal(sorted(figure.replace(",", ".") for figure in commas), sorted(dots), italian)
