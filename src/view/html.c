@@ -68,8 +68,3 @@ void ceduo_html_leaf(struct ceduo_html *html, const char *name, const char *text
     put_escaped(html->text, text);
     ceduo_text_format(html->text, "</%s>\n", name);
 }
-
-void ceduo_html_put(struct ceduo_html *html, const char *text)
-{
-    put_escaped(html->text, text);
-}

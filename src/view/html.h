@@ -24,7 +24,4 @@ void ceduo_html_close(struct ceduo_html *html); /* the one opened last */
 void ceduo_html_empty(struct ceduo_html *html, const char *name, ...) __attribute__((sentinel));
 void ceduo_html_leaf(struct ceduo_html *html, const char *name, const char *text, ...) __attribute__((sentinel));
 
-/* Adds a text. */
-void ceduo_html_put(struct ceduo_html *html, const char *text);
-
 #endif

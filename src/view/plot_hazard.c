@@ -57,26 +57,22 @@ static void draw_curve(const struct ceduo_drawing *d, size_t item)
     }
 }
 
-static void put_years(const struct ceduo_drawing *d, double years, bool rule)
+static void put_years(const struct ceduo_drawing *d, double years)
 {
     const struct ceduo_frame *f = &d->frame;
     int column, row;
     if (!ceduo_frame_cell(f, d->canvas, f->x0, -log10(years), &column, &row))
         return;
-    if (rule)
-        ceduo_canvas_rule_y(d->canvas, f, CEDUO_ROLE_AXIS, -log10(years));
     if (ceduo_canvas_is_blank(d->canvas, f->left - 2, row))
         ceduo_plot_say(d->canvas, f->left - 2, row, 2 - size.axis, CEDUO_ROLE_AXIS, _("%g y"), years);
 }
 
-static void put_energy(const struct ceduo_drawing *d, double kJ, bool rule)
+static void put_energy(const struct ceduo_drawing *d, double kJ)
 {
     const struct ceduo_frame *f = &d->frame;
     int column, row;
     if (!ceduo_frame_cell(f, d->canvas, log10(kJ), RAREST, &column, &row))
         return;
-    if (rule)
-        ceduo_canvas_rule_x(d->canvas, f, CEDUO_ROLE_AXIS, log10(kJ));
     ceduo_plot_say(d->canvas, column, f->top + f->height, 12, CEDUO_ROLE_AXIS, kJ == 1 ? _("%g kJ") : "%g", kJ);
 }
 
@@ -99,14 +95,18 @@ const char *ceduo_plot_hazard(struct ceduo_drawing *d)
         return _("rocks arrive less than once in a thousand years");
     ceduo_plot_say(d->canvas, d->area.left, d->area.top, d->area.width, CEDUO_ROLE_AXIS, "%s",
                    _("years from one rock with more than this energy to the next"));
-    for (int i = 0; i < 2; i++)
-        put_energy(d, energies[i], true);
-    for (int i = 0; i < 3; i++)
-        put_years(d, years[i], true);
+    for (int i = 0; i < 2; i++) {
+        ceduo_canvas_rule_x(d->canvas, &d->frame, CEDUO_ROLE_AXIS, log10(energies[i]));
+        put_energy(d, energies[i]);
+    }
+    for (int i = 0; i < 3; i++) {
+        ceduo_canvas_rule_y(d->canvas, &d->frame, CEDUO_ROLE_AXIS, -log10(years[i]));
+        put_years(d, years[i]);
+    }
     for (int decade = (int)d->frame.y1; decade >= RAREST; decade--)
-        put_years(d, pow(10, -decade), false);
+        put_years(d, pow(10, -decade));
     for (int decade = 0; decade <= (int)d->frame.x1; decade++)
-        put_energy(d, pow(10, decade), false);
+        put_energy(d, pow(10, decade));
     for (size_t i = 0; i < items; i++)
         draw_curve(d, i);
     for (size_t i = 0; i < items; i++) {

@@ -214,10 +214,10 @@ TEST(html_is_escaped)
     LOCAL_TEXT(text);
     struct ceduo_html html = {.text = &text};
     ceduo_html_open(&html, "p", "class", "a\"b", "id", NULL, NULL);
-    ceduo_html_put(&html, "<&>'\"\a\n\xc3\xa8\xff");
+    ceduo_html_leaf(&html, "b", "<&>'\"\a\n\xc3\xa8\xff", NULL);
     ceduo_html_close(&html);
     ceduo_html_empty(&html, "meta", "name", "x", NULL);
     ceduo_html_leaf(&html, "li", "1 < 2", NULL);
-    assert_string_equal(text.bytes, "<p class=\"a&quot;b\">&lt;&amp;&gt;&#39;&quot;\\x07\n\xc3\xa8\\xff</p>\n"
+    assert_string_equal(text.bytes, "<p class=\"a&quot;b\"><b>&lt;&amp;&gt;&#39;&quot;\\x07\n\xc3\xa8\\xff</b>\n</p>\n"
                                     "<meta name=\"x\"/>\n<li>1 &lt; 2</li>\n");
 }
