@@ -5,10 +5,10 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/arena.h"
 #include "base/cancel.h"
-#include "base/grow.h"
 #include "ceduo/key.h"
 
 /* ---- trajectories ---- */
@@ -17,12 +17,12 @@
 #define FLIGHT_POINTS_MOST 64
 #define RESOLUTION         2000 /* parts of the slope's length that a picture may show */
 
+/* The line that is followed. */
 struct tracer {
     const atomic_bool *cancel;
-    struct ceduo_polyline *line;
-    size_t room;
     double gravity, step;
-    bool failed;
+    size_t n;
+    double x[LINE_POINTS_MOST + 1], z[LINE_POINTS_MOST + 1]; /* the last is always there */
 };
 
 static bool is_cancelled(void *context)
@@ -34,29 +34,18 @@ static bool is_cancelled(void *context)
 /* Leaves out what no picture could tell from the point before. */
 static void add_point(struct tracer *t, double x, double z, bool always)
 {
-    struct ceduo_polyline *line = t->line;
-    bool near = line->n > 0 && fabs(x - line->x[line->n - 1]) < t->step && fabs(z - line->z[line->n - 1]) < t->step;
-    if ((near || line->n >= LINE_POINTS_MOST) && !always)
+    bool near = t->n > 0 && fabs(x - t->x[t->n - 1]) < t->step && fabs(z - t->z[t->n - 1]) < t->step;
+    if ((near || t->n >= LINE_POINTS_MOST) && !always)
         return;
-    size_t room = t->room;
-    double *xs = t->failed ? NULL : ceduo_grow(line->x, line->n, &room, sizeof *xs), *zs = NULL;
-    if (xs) {
-        line->x = xs;
-        zs = ceduo_grow(line->z, line->n, &t->room, sizeof *zs);
-        line->z = zs ? zs : line->z;
-    }
-    t->failed = !zs;
-    if (!zs)
-        return;
-    xs[line->n] = x;
-    zs[line->n++] = z;
+    t->x[t->n] = x;
+    t->z[t->n++] = z;
 }
 
 /* A flight in chords from which the parabola departs by less than a step: it departs by g t2/8 from one over t. */
 static void trace_piece(void *context, const struct ceduo_piece *p)
 {
     struct tracer *t = context;
-    if (t->line->n == 0)
+    if (t->n == 0)
         add_point(t, p->x, p->z, true);
     double sag = t->gravity * p->seconds * p->seconds / 8;
     int n = p->rolls ? 1 : (int)fmin(ceil(sqrt(sag / t->step)), FLIGHT_POINTS_MOST);
@@ -67,28 +56,23 @@ static void trace_piece(void *context, const struct ceduo_piece *p)
     add_point(t, p->x1, p->z1, false);
 }
 
-static enum ceduo_status trace(struct ceduo_follower *follower, const struct ceduo_scene *scene, uint64_t rock,
-                               const atomic_bool *cancel, struct ceduo_polyline *line)
+static enum ceduo_status trace(struct ceduo_follower *follower, uint64_t rock, struct tracer *t, struct arena *memory,
+                               struct ceduo_polyline *line)
 {
-    const struct ceduo_slope *slope = &scene->slope;
-    *line = (struct ceduo_polyline){0};
-    struct tracer tracer = {.cancel = cancel,
-                            .line = line,
-                            .gravity = scene->simulation.gravity,
-                            .step = (slope->x[slope->vertices - 1] - slope->x[0]) / RESOLUTION};
     struct ceduo_trajectory way;
-    const struct ceduo_watch watch = {.enough = is_cancelled, .piece = trace_piece, .context = &tracer};
+    const struct ceduo_watch watch = {.enough = is_cancelled, .piece = trace_piece, .context = t};
+    t->n = 0;
     enum ceduo_status status = ceduo_follower_follow(follower, rock, &watch, &way, NULL);
-    if (status == CEDUO_OK)
-        add_point(&tracer, way.x, way.z, true);
-    return tracer.failed ? CEDUO_NO_MEMORY : status;
-}
-
-void ceduo_polyline_free(struct ceduo_polyline *line)
-{
-    free(line->x);
-    free(line->z);
-    *line = (struct ceduo_polyline){0};
+    if (status != CEDUO_OK)
+        return status;
+    add_point(t, way.x, way.z, true);
+    double *x = ceduo_arena_take(memory, 2 * t->n * sizeof *x);
+    if (!x)
+        return CEDUO_NO_MEMORY;
+    *line = (struct ceduo_polyline){t->n, x, x + t->n};
+    memcpy(line->x, t->x, t->n * sizeof *t->x);
+    memcpy(line->z, t->z, t->n * sizeof *t->z);
+    return CEDUO_OK;
 }
 
 /* ---- places ---- */
@@ -107,10 +91,9 @@ size_t ceduo_snapshot_places(const struct ceduo_scene *scene, double *x)
 
 #define FLOWN_MOST 4000 /* rocks simulated once more where a run is too long to keep its samples */
 
-static enum ceduo_status fly_energies(struct ceduo_follower *follower, const atomic_bool *cancel, struct ceduo_run_snapshot *s)
+static enum ceduo_status fly_energies(struct ceduo_follower *follower, struct tracer *tracer, struct ceduo_run_snapshot *s)
 {
-    struct tracer waits = {.cancel = cancel};
-    const struct ceduo_watch watch = {.enough = is_cancelled, .context = &waits};
+    const struct ceduo_watch watch = {.enough = is_cancelled, .context = tracer};
     size_t controls = s->flown.controls;
     uint64_t rocks = s->flown.rocks < FLOWN_MOST ? s->flown.rocks : FLOWN_MOST;
     struct ceduo_crossing *crossings = calloc(controls + 1, sizeof *crossings);
@@ -130,7 +113,7 @@ static enum ceduo_status fly_energies(struct ceduo_follower *follower, const ato
     return status;
 }
 
-static enum ceduo_status read_energies(struct ceduo_follower *follower, const struct ceduo_run *run, const atomic_bool *cancel,
+static enum ceduo_status read_energies(struct ceduo_follower *follower, const struct ceduo_run *run, struct tracer *tracer,
                                        struct ceduo_run_snapshot *s)
 {
     bool kept = true;
@@ -146,15 +129,13 @@ static enum ceduo_status read_energies(struct ceduo_follower *follower, const st
     }
     for (size_t c = 0; c < s->flown.controls && !kept; c++)
         s->energies[c].n = 0;
-    return kept ? CEDUO_OK : fly_energies(follower, cancel, s);
+    return kept ? CEDUO_OK : fly_energies(follower, tracer, s);
 }
 
 static void let_go(struct ceduo_run_snapshot *s)
 {
     if (!s || atomic_fetch_sub(&s->references, 1) != 1)
         return;
-    for (size_t i = 0; i < s->trajectories_count; i++)
-        ceduo_polyline_free(&s->trajectories[i]);
     ceduo_simulated_free(&s->flown);
     ceduo_arena_free(&s->memory);
     free(s);
@@ -163,6 +144,7 @@ static void let_go(struct ceduo_run_snapshot *s)
 static enum ceduo_status read_sight(const struct ceduo_snapshot_def *def, const struct ceduo_option *option,
                                     const struct ceduo_run *run, const struct ceduo_run *pictures, struct ceduo_run_snapshot *s)
 {
+    const struct ceduo_slope *slope = &def->scene->slope;
     size_t controls = def->scene->controls_count;
     enum ceduo_status status = ceduo_simulated_read(run, controls, &s->flown);
     if (status != CEDUO_OK)
@@ -172,13 +154,20 @@ static enum ceduo_status read_sight(const struct ceduo_snapshot_def *def, const 
     s->envelopes = ceduo_arena_take(&s->memory, (def->cells + 1) * sizeof *s->envelopes);
     s->trajectories = ceduo_arena_take(&s->memory, (trajectories + 1) * sizeof *s->trajectories);
     struct ceduo_follower *follower = ceduo_follower_create(def->scene, option);
-    status = !s->memory.failed && follower ? CEDUO_OK : CEDUO_NO_MEMORY;
+    struct tracer *tracer = malloc(sizeof *tracer);
+    status = !s->memory.failed && follower && tracer ? CEDUO_OK : CEDUO_NO_MEMORY;
+    if (tracer) {
+        tracer->cancel = def->cancel;
+        tracer->gravity = def->scene->simulation.gravity;
+        tracer->step = (slope->x[slope->vertices - 1] - slope->x[0]) / RESOLUTION;
+    }
     for (size_t i = 0; i < def->cells && status == CEDUO_OK && pictures; i++)
         ceduo_run_envelope(pictures, i, &s->envelopes[i]);
     if (status == CEDUO_OK)
-        status = read_energies(follower, run, def->cancel, s);
+        status = read_energies(follower, run, tracer, s);
     for (size_t i = 0; i < trajectories && status == CEDUO_OK; i++)
-        status = trace(follower, def->scene, i, def->cancel, &s->trajectories[s->trajectories_count++]);
+        status = trace(follower, i, tracer, &s->memory, &s->trajectories[s->trajectories_count++]);
+    free(tracer);
     ceduo_follower_free(follower);
     return status;
 }

@@ -17,7 +17,6 @@ struct ceduo_polyline {
     size_t n;
     double *x, *z; /* m */
 };
-void ceduo_polyline_free(struct ceduo_polyline *line);
 
 /* Energies of rocks that reached a control, in the order of the rocks. */
 struct ceduo_energies {
@@ -28,7 +27,7 @@ struct ceduo_energies {
 /* One run, as it was at some moment. It is shared: each who keeps it has a reference. */
 struct ceduo_run_snapshot {
     atomic_uint references;
-    struct arena memory; /* of envelopes and energies, and where trajectories are listed */
+    struct arena memory; /* of envelopes, energies and trajectories */
     uint64_t key;        /* ceduo_option_key() of its forest */
     struct ceduo_simulated flown;
     uint64_t picture_rocks;           /* of the envelopes */

@@ -56,9 +56,9 @@ bool ceduo_rock_trajectory_follow(struct rock_trajectory *s, const struct ceduo_
     /* the line of the pieces that are shown */
     size_t shown = s->at > 0 ? s->at : s->n, room = shown * FLIGHT_POINTS + 1;
     struct ceduo_polyline *line = &s->line;
-    ceduo_polyline_free(line);
-    line->x = ceduo_must(malloc(room * sizeof(double)));
-    line->z = ceduo_must(malloc(room * sizeof(double)));
+    free(line->x);
+    line->x = ceduo_must(malloc(2 * room * sizeof(double)));
+    line->z = line->x + room;
     line->x[0] = s->whole.x0;
     line->z[0] = s->whole.z0;
     line->n = 1;
@@ -125,6 +125,6 @@ void ceduo_rock_trajectory_free(struct rock_trajectory *s)
 {
     free(s->pieces);
     free(s->stems);
-    ceduo_polyline_free(&s->line);
+    free(s->line.x);
     *s = (struct rock_trajectory){0};
 }
