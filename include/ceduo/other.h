@@ -15,10 +15,7 @@ struct ceduo_other_energy {
     bool known;
     bool stems; /* there are any; otherwise no law changes anything */
     enum ceduo_energy_model model;
-    uint64_t rocks, reached;                         /* simulated: of a pool at most CEDUO_OTHER_ROCKS */
-    double reach_probability, reach_lo, reach_hi;    /* of all released, as in struct ceduo_arrivals */
-    double exceed_probability, exceed_lo, exceed_hi; /* NaN without an accepted energy */
-    double energy, energy_se;                        /* J, mean of those that reach it; NaN where none does */
+    struct ceduo_arrivals arrivals;   /* where it is known; of a pool of at most CEDUO_OTHER_ROCKS */
     enum ceduo_judgement judgement;   /* of the control by this law; CEDUO_DEPENDS: one law says yes, the other no */
     struct ceduo_difference to_first; /* to the first option under its other law; NaN: not known */
 };

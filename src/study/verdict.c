@@ -23,12 +23,6 @@ struct ceduo_portion ceduo_share_at(const struct ceduo_arrivals *a)
     return (struct ceduo_portion){share, half};
 }
 
-double ceduo_share_by_other_law(const struct ceduo_other_energy *other)
-{
-    bool accepts = other->known && !isnan(other->exceed_probability);
-    return !other->known ? NAN : accepts ? other->exceed_probability : other->reach_probability;
-}
-
 /* The difference of what is compared. */
 static struct ceduo_paired compared(const struct ceduo_result *r, const struct ceduo_difference *d)
 {
@@ -97,16 +91,9 @@ static struct ceduo_paired difference_over_years(const void *context, size_t opt
 
 static void read_years(const struct ceduo_years *years, struct ceduo_choice *c)
 {
-    const struct ceduo_years_summary s = ceduo_years_sum(years, years->last_control);
-    c->years = s.years;
-    c->flown = s.simulated;
+    const struct ceduo_years_summary s = c->over = ceduo_years_sum(years, years->last_control);
     c->rocks = years->rocks;
-    c->nothing = s.nothing;
     c->energy_known &= !s.nothing;
-    c->no_contact = s.unprotected_contact;
-    c->free_runs = s.unprotected_free_run;
-    c->too_much = s.unprotected_energy;
-    c->worst_year = s.worst_year;
     c->worst.mean = s.worst; /* by the index an ADC: it has no error */
     for (size_t i = 0; i < years->count; i++)
         if (years->years[i].year == s.worst_year && years->years[i].wooded.rocks > 0)

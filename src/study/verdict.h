@@ -3,6 +3,7 @@
 #define CEDUO_VERDICT_H
 
 #include "ceduo/result.h"
+#include "ceduo/years.h"
 #include "ceduo/yield.h"
 
 /* The options side by side at the last control: today, over one whole rotation of each, and what that yields. One
@@ -23,21 +24,15 @@ struct ceduo_portion {
 };
 struct ceduo_portion ceduo_share_at(const struct ceduo_arrivals *arrivals); /* NULL is allowed */
 
-/* The same share under the other energy law; NaN: not known. */
-double ceduo_share_by_other_law(const struct ceduo_other_energy *other);
-
 /* The same of an option less that of the first option; NaN also where the two have not as many rocks. */
 struct ceduo_paired ceduo_share_to_first(const struct ceduo_result *result, size_t option);
 
 /* What is known of one option. */
 struct ceduo_choice {
     struct ceduo_portion today, worst, mean; /* worst and mean: of the years */
-    unsigned worst_year;
-    size_t years, flown;                    /* flown: years in which rocks were simulated */
-    uint64_t rocks;                         /* in each of them, which may be fewer than today */
-    size_t no_contact, free_runs, too_much; /* years in which that light fails */
-    bool energy_known;                      /* too_much is */
-    bool nothing;                           /* none of the three is: nothing can be said */
+    struct ceduo_years_summary over;         /* of the years at the last control; years 0: they are not known */
+    uint64_t rocks;                          /* in each of them, which may be fewer than today */
+    bool energy_known;                       /* in how many of them the light of energy fails */
     bool beaten; /* another option yields as much and lets clearly fewer rocks through, or yields more and lets no more
                   * through */
     struct ceduo_window window;

@@ -54,6 +54,22 @@ READ(fixed_text_at, char const *, TEXT, WORD(m))
     }                                                                                                                          \
     static const struct ceduo_reader name[1] = {{name##_read, CEDUO_VALUE_##kind}};
 
+/* For `from`: p is the place. */
+#define FROM(name, object)                                                                                                     \
+    static const void *name(const void *place)                                                                                 \
+    {                                                                                                                          \
+        const struct ceduo_place *p = place;                                                                                   \
+        return object;                                                                                                         \
+    }
+
+/* For `enter`: a member of the place, p, goes through n items. */
+#define ENTER(name, member, n)                                                                                                 \
+    static bool name(struct ceduo_place *p, size_t i)                                                                          \
+    {                                                                                                                          \
+        p->member = i;                                                                                                         \
+        return i < (n);                                                                                                        \
+    }
+
 /* Why something is not known. */
 #define NO_ROCK "no rock arrives"
 #define FEW     "fewer than two rocks arrive"

@@ -101,6 +101,9 @@ OBJECT_IN(turn_of, compliance, o->turn_item)
 OBJECT_IN(search_of, find_report, o->search)
 OBJECT_IN(found_of, find_report, o->found)
 OBJECT_IN(sure_of, find_report, o->sure && o->sure->inputs > 0 ? o->sure : NULL) /* nothing in doubt: nothing was computed */
+OBJECT_IN(nearest_of, find_report, o->found->found ? NULL : o->found)
+OBJECT_IN(sure_found_of, sure, o->found.found ? o : NULL)
+OBJECT_IN(sure_nearest_of, sure, o->found.found ? NULL : o)
 OBJECT_IN(found_yield_of, find_report, o->yield && !isnan(o->yield->cut_per_year) ? o->yield : NULL)
 OBJECT_IN(yields_of, find_report, found_yield_of(o) ? o : NULL)
 
@@ -115,17 +118,8 @@ static bool enter_option(struct ceduo_place *p, size_t i)
     return inside;
 }
 
-static bool enter_belt(struct ceduo_place *p, size_t i)
-{
-    p->belt = i;
-    return i < forest_of(p)->belts_count;
-}
-
-static bool enter_control(struct ceduo_place *p, size_t i)
-{
-    p->control = i;
-    return i < p->report->result->scene->controls_count;
-}
+ENTER(enter_belt, belt, forest_of(p)->belts_count)
+ENTER(enter_control, control, p->report->result->scene->controls_count)
 
 static bool enter_year(struct ceduo_place *p, size_t i)
 {
@@ -213,12 +207,6 @@ VALUE(goal_of, search, TEXT, WORD(ceduo_goals[o->goal].word))
 VALUE(over_of, search, TEXT, WORD(o->rotation ? "rotation" : "today"))
 VALUE(side_of, found, TEXT, WORD(!o->found ? NULL : o->side == CEDUO_SMALLEST ? "smallest" : "largest"))
 VALUE(sure_side, sure, TEXT, WORD(!o->found.found ? NULL : o->found.side == CEDUO_SMALLEST ? "smallest" : "largest"))
-VALUE(sure_probability, sure, NUMBER, NUMBER(o->found.found ? o->share.value : NAN))
-VALUE(sure_error, sure, NUMBER, NUMBER(o->found.found ? o->share.se : NAN))
-VALUE(sure_nearest, sure, NUMBER, NUMBER(o->found.found ? NAN : o->found.nearest))
-VALUE(sure_at_nearest, sure, NUMBER, NUMBER(o->found.found ? NAN : o->share.value))
-VALUE(nearest_of, found, NUMBER, NUMBER(o->found ? NAN : o->nearest))
-VALUE(nearest_goal, found, NUMBER, NUMBER(o->found ? NAN : o->goal_at_nearest))
 
 /* ---- the tables ---- */
 
@@ -398,23 +386,24 @@ static const struct ceduo_figure verdict_of_other[] = {
     END};
 
 static const struct ceduo_figure other_mean[] = {
-    {"mean", "", "mean", AT(other_energy, energy), .null = NO_ROCK},
-    {"se", "", "standard error of the mean", AT(other_energy, energy_se), .null = FEW},
+    {"mean", "", "mean", AT(other_energy, arrivals.energy.mean), .null = NO_ROCK},
+    {"se", "", "standard error of the mean", AT(other_energy, arrivals.energy.se), .null = FEW},
     END};
 
 static const struct ceduo_figure other_energy[] = {
     {"model", "", "that law: dorren, or brauner where all stems of the option follow dorren", .value = energy_model_at,
      .offset = offsetof(struct ceduo_other_energy, model)},
-    {"rocks", "", "simulated under it: the first 10240 of the run, if it has more", AT(other_energy, rocks)},
-    {"reach_probability", "", "share of these that reach the control", AT(other_energy, reach_probability)},
-    {"reach_lo", "", "lower end of its 95 % interval", AT(other_energy, reach_lo)},
-    {"reach_hi", "", "upper end of its 95 % interval", AT(other_energy, reach_hi)},
-    {"exceed_probability", "", "share of these that reach it with more than accepted_kJ", AT(other_energy, exceed_probability),
-     .null = UNSAID},
-    {"exceed_lo", "", "lower end of its 95 % interval", AT(other_energy, exceed_lo), .null = UNSAID},
-    {"exceed_hi", "", "upper end of its 95 % interval", AT(other_energy, exceed_hi), .null = UNSAID},
+    {"rocks", "", "simulated under it: the first 10240 of the run, if it has more", AT(other_energy, arrivals.released)},
+    {"reach_probability", "", "share of these that reach the control", AT(other_energy, arrivals.reach_probability)},
+    {"reach_lo", "", "lower end of its 95 % interval", AT(other_energy, arrivals.reach_lo)},
+    {"reach_hi", "", "upper end of its 95 % interval", AT(other_energy, arrivals.reach_hi)},
+    {"exceed_probability", "", "share of these that reach it with more than accepted_kJ",
+     AT(other_energy, arrivals.exceed_probability), .null = UNSAID},
+    {"exceed_lo", "", "lower end of its 95 % interval", AT(other_energy, arrivals.exceed_lo), .null = UNSAID},
+    {"exceed_hi", "", "upper end of its 95 % interval", AT(other_energy, arrivals.exceed_hi), .null = UNSAID},
     {"energy_kJ", "kJ", "energy of the rocks that reach it", .of = other_mean, .scale = J_TO_KJ},
-    {"energy_kJ_mean", "kJ", "energy_kJ.mean by an older name", AT(other_energy, energy), .scale = J_TO_KJ, .null = NO_ROCK},
+    {"energy_kJ_mean", "kJ", "energy_kJ.mean by an older name", AT(other_energy, arrivals.energy.mean), .scale = J_TO_KJ,
+     .null = NO_ROCK},
     {"verdict", "", "what is said of the control", .of = verdict_of_other},
     END};
 
@@ -615,8 +604,8 @@ static const struct ceduo_figure side_row[] = {{"side", "", "smallest or largest
                                                END};
 static const struct ceduo_figure goal_rows[] = {
     {"goal_at_value", "", "goal at this value", .from = found_of, AT(found, goal_at_value), .null = NONE},
-    {"nearest", "", "value that comes nearest", .from = found_of, .value = nearest_of, .null = ONE},
-    {"goal_at_nearest", "", "goal at that value", .from = found_of, .value = nearest_goal, .null = ONE},
+    {"nearest", "", "value that comes nearest", .from = nearest_of, AT(found, nearest), .null = ONE},
+    {"goal_at_nearest", "", "goal at that value", .from = nearest_of, AT(found, goal_at_nearest), .null = ONE},
     END};
 #define NOT_SURE "--sure is not given, or nothing is in doubt"
 static const struct ceduo_figure sure_rows[] = {
@@ -624,11 +613,13 @@ static const struct ceduo_figure sure_rows[] = {
     {"found", "", "whether a value reaches it in so much", AT(sure, found.found)},
     {"value", "", "the value", AT(sure, found.value), .null = NONE},
     {"side", "", "smallest or largest: which of the values that do this is", .value = sure_side, .null = NONE},
-    {"probability", "", "share of what may be true in which this value reaches the goal", .value = sure_probability,
+    {"probability", "", "share of what may be true in which this value reaches the goal", .from = sure_found_of,
+     AT(sure, share.value), .null = NONE},
+    {"probability_se", "", "its standard error, by the points and by the rocks", .from = sure_found_of, AT(sure, share.se),
      .null = NONE},
-    {"probability_se", "", "its standard error, by the points and by the rocks", .value = sure_error, .null = NONE},
-    {"nearest", "", "value that is surest", .value = sure_nearest, .null = ONE},
-    {"probability_at_nearest", "", "share in which that reaches the goal", .value = sure_at_nearest, .null = ONE},
+    {"nearest", "", "value that is surest", .from = sure_nearest_of, AT(sure, found.nearest), .null = ONE},
+    {"probability_at_nearest", "", "share in which that reaches the goal", .from = sure_nearest_of, AT(sure, share.value),
+     .null = ONE},
     {"evaluations", "", "values looked at", AT(sure, found.evaluations)},
     {"points", "", "points of what may be true, for each", AT(sure, points)},
     {"rocks", "", "rocks at each point", AT(sure, rocks)},

@@ -50,7 +50,7 @@ static void append_keepers(struct text *text, const struct ceduo_report *report,
     size_t n = 0;
     for (size_t i = 0; i < r->scene->options_count; i++) {
         const struct ceduo_choice *c = &report->verdict->choices[i];
-        if (every_year ? !c->energy_known || c->years == 0 || c->too_much > 0
+        if (every_year ? !c->energy_known || c->over.years == 0 || c->over.unprotected_energy > 0
                        : ceduo_result_last_index(r, i)->energy != CEDUO_PASS)
             continue;
         ceduo_text_format(text, n++ > 0 ? ", '%s'" : "'%s'", r->scene->options[i].name);
@@ -75,7 +75,7 @@ static void answer_many(struct ceduo_page *page, const struct ceduo_report *repo
         return;
     append_keepers(&today, report, false);
     append_keepers(&always, report, true);
-    if (v->choices[0].years > 0)
+    if (v->choices[0].over.years > 0)
         ceduo_text_then(text, " ", _("Options that keep within %.0f of 1000: today %s; in every year %s."),
                         1000 * CEDUO_EXCEED_MOST, today.bytes, always.bytes);
     else
@@ -200,14 +200,14 @@ void ceduo_page_over(struct ceduo_page *page, const struct ceduo_report *report)
     const struct ceduo_verdict *v = report->verdict;
     const struct ceduo_choice *c = v && v->n == 1 ? &v->choices[0] : NULL; /* of several a table says it */
     const struct ceduo_option *option = report->result->scene->options;
-    if (!c || c->years == 0 || ceduo_page_says_nothing(report->result))
+    if (!c || c->over.years == 0 || ceduo_page_says_nothing(report->result))
         return;
     if (c->window.kind == CEDUO_WINDOW_ALIKE) {
         ceduo_words_window(ceduo_page_label(page, CEDUO_PAGE_POINT, _("OVER TIME")), option, &c->window);
         return;
     }
     struct text *text = ceduo_page_add(page, CEDUO_PAGE_POINT);
-    ceduo_text_format(text, ngettext("OVER %zu YEAR", "OVER %zu YEARS", c->years), c->years);
+    ceduo_text_format(text, ngettext("OVER %zu YEAR", "OVER %zu YEARS", c->over.years), c->over.years);
     ceduo_text_char(text, '\t');
     struct ceduo_measure mean = ceduo_share(c->mean);
     LOCAL_TEXT(may);
@@ -218,16 +218,16 @@ void ceduo_page_over(struct ceduo_page *page, const struct ceduo_report *report)
         ceduo_text_format(&may, ", %s ", _("may be"));
         ceduo_measure_may_be(&may, &mean);
     }
-    if (c->flown == 0)
+    if (c->over.simulated == 0)
         ceduo_text_format(text, _("ADC %s m at the most, in year %u; contact fails in %zu of %zu."), WRITTEN(c->worst.mean, 3),
-                          c->worst_year, c->no_contact, c->years);
+                          c->over.worst_year, c->over.unprotected_contact, c->over.years);
     else
         ceduo_text_format(text, _("mean %s%s; worst %.0f \xc2\xb1%.0f in year %u (%llu rocks in each)"),
                           ceduo_text_string(&share), ceduo_text_string(&may), 1000 * c->worst.mean, ceil(1000 * c->worst.half),
-                          c->worst_year, (unsigned long long)c->rocks);
-    if (c->flown > 0 && c->energy_known)
-        ceduo_text_then(text, "; ", _("above the limit in %zu of %zu"), c->too_much, c->years);
-    ceduo_text_put(text, c->flown > 0 ? "." : "");
+                          c->over.worst_year, (unsigned long long)c->rocks);
+    if (c->over.simulated > 0 && c->energy_known)
+        ceduo_text_then(text, "; ", _("above the limit in %zu of %zu"), c->over.unprotected_energy, c->over.years);
+    ceduo_text_put(text, c->over.simulated > 0 ? "." : "");
     if (c->window.kind == CEDUO_WINDOW_UNCUT)
         ceduo_text_then(text, " ", "%s", _("It grows, but is never cut."));
 }

@@ -193,7 +193,7 @@ struct ceduo_measure ceduo_doubt_measure(const struct ceduo_doubt_report *r, siz
     if (a && a->released > own) {
         own = a->released;
         m = energy ? ceduo_energy_released(a) : ceduo_judged(&s->controls[ceduo_scene_last_control(s)], a);
-    } else if (c && c->flown > 0 && c->rocks > own) {
+    } else if (c && c->over.simulated > 0 && c->rocks > own) {
         own = c->rocks;
         m = ceduo_share(c->mean);
     } else {

@@ -100,7 +100,7 @@ static enum form form_of(const struct ceduo_report *report)
 {
     bool years = false, doubt = report->doubt && report->doubt->answer && report->doubt->answer->rotation;
     for (size_t i = 0; i < report->verdict->n; i++) /* those of any option differ */
-        years |= report->verdict->choices[i].years > 0 && report->verdict->choices[i].window.kind != CEDUO_WINDOW_ALIKE;
+        years |= report->verdict->choices[i].over.years > 0 && report->verdict->choices[i].window.kind != CEDUO_WINDOW_ALIKE;
     return !years ? TODAY_ALONE : doubt ? BY_MEAN : BY_TODAY;
 }
 
@@ -130,7 +130,7 @@ static void add_choice(struct ceduo_page *page, const struct ceduo_report *repor
         add_span(page, &mean);
     if (years) {
         ceduo_page_worst(page, v);
-        ceduo_page_fails(page, v, v->too_much, v->energy_known);
+        ceduo_page_fails(page, v, v->over.unprotected_energy, v->energy_known);
     }
     ceduo_measure_value(ceduo_page_text(page), &today);
     if (form_of(report) != BY_MEAN)
@@ -189,7 +189,7 @@ static void gather_notes(struct ceduo_page *notes, const struct ceduo_report *re
     ceduo_words_thin(r, ceduo_page_warn_once, notes);
     for (size_t i = 0; i < n; i++)
         ceduo_page_stand_rules(notes, r, i, false);
-    if (n > 1 && report->verdict && report->verdict->choices[0].years > 0)
+    if (n > 1 && report->verdict && report->verdict->choices[0].over.years > 0)
         ceduo_words_windows(r->scene, report->verdict, ceduo_page_warn_once, notes);
     for (size_t i = 0; i < n; i++)
         ceduo_page_stand_warnings(notes, r, i);

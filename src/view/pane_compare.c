@@ -109,7 +109,7 @@ static void add_option(struct ceduo_page *page, const struct ceduo_pane *pane, s
     for (size_t k = 0; k < v->n; k++)
         worst &= k == i || v->choices[k].mean.mean + v->choices[k].mean.half < c->mean.mean - c->mean.half;
     ceduo_page_mark(page, best ? CEDUO_ROLE_GOOD : CEDUO_ROLE_BAD, best ? _("best") : worst ? _("worst") : "");
-    if (c->years == 0) {
+    if (c->over.years == 0) {
         ceduo_page_write(page, PENDING);
         ceduo_page_write(page, PENDING);
     } else {
@@ -117,7 +117,8 @@ static void add_option(struct ceduo_page *page, const struct ceduo_pane *pane, s
             ceduo_page_worst(page, c);
         else
             ceduo_page_number(page, c->worst.mean, 3);
-        ceduo_page_fails(page, c, v->wooded ? c->too_much : c->no_contact, v->wooded ? c->energy_known : !c->nothing);
+        ceduo_page_fails(page, c, v->wooded ? c->over.unprotected_energy : c->over.unprotected_contact,
+                         v->wooded ? c->energy_known : !c->over.nothing);
     }
     ceduo_page_number(page, c->yield.cut_per_year, 2);
     ceduo_page_light(page, index->contact);

@@ -189,34 +189,35 @@ void ceduo_words_best(struct text *text, const struct ceduo_scene *scene, const 
 void ceduo_words_other(struct text *text, const struct ceduo_result *r, size_t option, size_t control)
 {
     const struct ceduo_other_energy *o = &r->options[option].others[control];
+    const struct ceduo_arrivals *a = &o->arrivals;
     const char *law = ceduo_words_law(ceduo_energy_words.names[o->model]);
     if (!o->known || !o->stems)
         return;
-    if (isnan(o->energy)) {
+    if (isnan(a->energy.mean)) {
         ceduo_text_format(text, _("With the energy law %s no rock arrives."), law);
         return;
     }
-    const char *mean = WRITTEN(o->energy * J_TO_KJ, 3);
-    const char *half = WRITTEN(ceduo_half_width(o->energy_se, o->reached) * J_TO_KJ, 2);
-    const char *reach = WRITTEN_OF_1000(o->reach_probability, o->reach_lo, o->reach_hi);
-    if (isnan(o->exceed_probability))
+    const char *mean = WRITTEN(a->energy.mean * J_TO_KJ, 3);
+    const char *half = WRITTEN(ceduo_half_width(a->energy.se, a->reached) * J_TO_KJ, 2);
+    const char *reach = WRITTEN_OF_1000(a->reach_probability, a->reach_lo, a->reach_hi);
+    if (isnan(a->exceed_probability))
         ceduo_text_format(text, _("With the energy law %s: %s of 1000 arrive; their mean is %s \xc2\xb1%s kJ."), law, reach,
                           mean, half);
     else
         ceduo_text_format(text,
                           _("With the energy law %s: %s of 1000 arrive, %s with more than it withstands; the mean of those "
                             "that arrive is %s \xc2\xb1%s kJ."),
-                          law, reach, WRITTEN_OF_1000(o->exceed_probability, o->exceed_lo, o->exceed_hi), mean, half);
-    if (o->rocks < ceduo_result_rocks(r))
+                          law, reach, WRITTEN_OF_1000(a->exceed_probability, a->exceed_lo, a->exceed_hi), mean, half);
+    if (a->released < ceduo_result_rocks(r))
         ceduo_text_then(text, " ", _("Under this law the first %llu rocks alone were simulated."),
-                        (unsigned long long)o->rocks);
+                        (unsigned long long)a->released);
 }
 
 static double of_1000(const struct ceduo_result *r, size_t option, bool other)
 {
-    size_t c = r->last_control;
-    return 1000 * (other ? ceduo_share_by_other_law(&r->options[option].others[c])
-                         : ceduo_share_at(ceduo_result_wooded(r, option, c)).mean);
+    const struct ceduo_other_energy *o = &r->options[option].others[r->last_control];
+    const struct ceduo_arrivals *by_other = o->known ? &o->arrivals : NULL;
+    return 1000 * ceduo_share_at(other ? by_other : ceduo_result_wooded(r, option, r->last_control)).mean;
 }
 
 void ceduo_words_turned(const struct ceduo_result *r, const struct ceduo_verdict *v, ceduo_words_say *say, void *context)

@@ -273,8 +273,7 @@ static void make_verdict(const double mean[OPTIONS], const double today[OPTIONS]
     for (size_t i = 0; i < OPTIONS; i++)
         choices[i] = (struct ceduo_choice){.mean = {mean[i], .01},
                                            .today = {today[i], .01},
-                                           .years = 25,
-                                           .flown = 25,
+                                           .over = {.years = 25, .simulated = 25},
                                            .window = {CEDUO_WINDOW_ROTATION, 1, 25, 1}};
 }
 

@@ -48,20 +48,6 @@ enum ceduo_status ceduo_other_read(const struct ceduo_option *option, const stru
         other->stems |= !ceduo_stand_is_bare(&option->belts[i].stand);
     if (!other->known)
         return CEDUO_OK;
-    struct ceduo_arrivals a;
-    enum ceduo_status status = ceduo_run_arrivals(run, control, &a);
-    if (status != CEDUO_OK)
-        return status;
-    other->rocks = a.released;
-    other->reached = a.reached;
-    other->reach_probability = a.reach_probability;
-    other->reach_lo = a.reach_lo;
-    other->reach_hi = a.reach_hi;
-    other->exceed_probability = a.exceed_probability;
-    other->exceed_lo = a.exceed_lo;
-    other->exceed_hi = a.exceed_hi;
-    other->energy = a.energy.mean;
-    other->energy_se = a.energy.se;
     other->to_first = ceduo_run_difference(run, first, control);
-    return CEDUO_OK;
+    return ceduo_run_arrivals(run, control, &other->arrivals);
 }

@@ -123,7 +123,8 @@ static enum ceduo_status finish(struct ceduo_result *r, enum ceduo_status status
             if (!r->wooded || !other->known)
                 continue;
             enum ceduo_judgement one = ceduo_judge(&r->bare.arrivals[c], ceduo_result_wooded(r, i, c));
-            enum ceduo_judgement two = ceduo_judge_share(other->exceed_probability, other->exceed_lo, other->exceed_hi);
+            const struct ceduo_arrivals *a = &other->arrivals;
+            enum ceduo_judgement two = ceduo_judge_share(a->exceed_probability, a->exceed_lo, a->exceed_hi);
             bool differ = (one == CEDUO_YES && two == CEDUO_NO) || (one == CEDUO_NO && two == CEDUO_YES);
             other->judgement = one == CEDUO_NOTHING ? one : differ ? CEDUO_DEPENDS : two;
         }
