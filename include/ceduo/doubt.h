@@ -106,8 +106,7 @@ struct ceduo_doubt_figure {
 struct ceduo_doubt_order {
     size_t better, than; /* options */
     double probability, equal, worse;
-    double difference, p5,
-        p95; /* of the figure that ranks them, the one less the other: in the scene as it is, and its doubt */
+    double p5, p95; /* doubt of the figure that ranks them, the one less the other */
 };
 
 /* The options in rank by the scene as it is. */
@@ -115,7 +114,6 @@ struct ceduo_doubt_ranking {
     bool rotation;                    /* by the mean over a rotation, otherwise by today's main figure */
     size_t count;                     /* pairs: one less than options; 0: there is one option alone, or it is not known */
     struct ceduo_doubt_order *orders; /* each option and the next one */
-    struct ceduo_doubt_order *rivals; /* the best one and each of the others, in rank */
 };
 
 struct ceduo_doubt_answer {

@@ -15,33 +15,30 @@
 #define STAND   "forest[0].stand."
 #define STEMS   "forest[0].stand.trees[0]."
 
-#define FACTOR(path, lo, hi, source, measured)                                                                                 \
+#define ROW(kind, path, lo, hi, source, measured)                                                                              \
     {                                                                                                                          \
-        path, CEDUO_INPUT_FACTOR, lo, hi, {0}, source, measured                                                                \
-    }
-#define RANGE(path, lo, hi, source, measured)                                                                                  \
-    {                                                                                                                          \
-        path, CEDUO_INPUT_RANGE, lo, hi, {0}, source, measured                                                                 \
+        path, CEDUO_INPUT_##kind, lo, hi, {0}, source, measured                                                                \
     }
 
 static const struct range ranges[] = {
-    RANGE("rock.density_kg_m3", 2400, 2750, N_("limestones and dolomites; assumed"), N_("a piece of the rock, weighed")),
-    FACTOR(SEGMENT "rn", 0.9, 1.1, ASSUMED, N_("stops of past rocks")),
-    FACTOR(SEGMENT "rt", 0.95, 1.05, ASSUMED, N_("stops of past rocks")),
-    FACTOR(SEGMENT "roughness_rad", 0.5, 1.5, ASSUMED, N_("stops of past rocks")),
-    FACTOR(SEGMENT "roughness_m", 0.5, 1.5, ASSUMED, N_("heights of the stones on the slope")),
-    RANGE(SEGMENT "friction", 0.3, 0.8, ASSUMED, N_("stops of past rocks")),
-    RANGE(SEGMENT "mu", 0.4, 0.9, ASSUMED, N_("stops of past rocks")),
-    FACTOR(STAND "stools.per_ha", 0.85, 1.15, PLOTS, N_("more sample plots")),
-    FACTOR(STAND "shoots[0].per_stool", 0.85, 1.15, PLOTS, N_("more sample plots")),
-    FACTOR(STEMS "per_ha", 0.85, 1.15, PLOTS, N_("more sample plots")),
-    FACTOR(STEMS "dbh_m", 0.9, 1.1, PLOTS, N_("dbh on more plots")),
-    FACTOR(STEMS "volume_m3", 0.75, 1.25, N_("volume tables of single stems; assumed"), N_("some stems, felled and measured")),
-    FACTOR(STAND "energy.u_J_m3", 0.8, 1.2, ASSUMED, PULLED),
-    FACTOR(STAND "energy.fracture_ratio", 0.8, 1.2, ASSUMED, PULLED),
-    FACTOR(STAND "stumps.energy_kJ", 0.5, 2, ASSUMED, N_("pulling tests on stumps")),
-    FACTOR(STAND "logs.energy_kJ", 0.5, 2, ASSUMED, N_("pulling tests on lying logs")),
-    FACTOR(STAND "growth.trees_sdi_most", 0.5, 2, ASSUMED, N_("plots of full woods of these standards")),
+    ROW(RANGE, "rock.density_kg_m3", 2400, 2750, N_("limestones and dolomites; assumed"), N_("a piece of the rock, weighed")),
+    ROW(FACTOR, SEGMENT "rn", 0.9, 1.1, ASSUMED, N_("stops of past rocks")),
+    ROW(FACTOR, SEGMENT "rt", 0.95, 1.05, ASSUMED, N_("stops of past rocks")),
+    ROW(FACTOR, SEGMENT "roughness_rad", 0.5, 1.5, ASSUMED, N_("stops of past rocks")),
+    ROW(FACTOR, SEGMENT "roughness_m", 0.5, 1.5, ASSUMED, N_("heights of the stones on the slope")),
+    ROW(RANGE, SEGMENT "friction", 0.3, 0.8, ASSUMED, N_("stops of past rocks")),
+    ROW(RANGE, SEGMENT "mu", 0.4, 0.9, ASSUMED, N_("stops of past rocks")),
+    ROW(FACTOR, STAND "stools.per_ha", 0.85, 1.15, PLOTS, N_("more sample plots")),
+    ROW(FACTOR, STAND "shoots[0].per_stool", 0.85, 1.15, PLOTS, N_("more sample plots")),
+    ROW(FACTOR, STEMS "per_ha", 0.85, 1.15, PLOTS, N_("more sample plots")),
+    ROW(FACTOR, STEMS "dbh_m", 0.9, 1.1, PLOTS, N_("dbh on more plots")),
+    ROW(FACTOR, STEMS "volume_m3", 0.75, 1.25, N_("volume tables of single stems; assumed"),
+        N_("some stems, felled and measured")),
+    ROW(FACTOR, STAND "energy.u_J_m3", 0.8, 1.2, ASSUMED, PULLED),
+    ROW(FACTOR, STAND "energy.fracture_ratio", 0.8, 1.2, ASSUMED, PULLED),
+    ROW(FACTOR, STAND "stumps.energy_kJ", 0.5, 2, ASSUMED, N_("pulling tests on stumps")),
+    ROW(FACTOR, STAND "logs.energy_kJ", 0.5, 2, ASSUMED, N_("pulling tests on lying logs")),
+    ROW(FACTOR, STAND "growth.trees_sdi_most", 0.5, 2, ASSUMED, N_("plots of full woods of these standards")),
     {.path = STAND "energy.model",
      .kind = CEDUO_INPUT_WORDS,
      .lo = NAN,

@@ -416,15 +416,13 @@ static enum ceduo_status read_sampling(struct rows *rows)
 
 /* ---- ranks ---- */
 
-/* How two options compare where they differ by more than the rocks alone would make them: by the surface of their difference. Each
- * option and the next one, then the best one and each but the second, with which it has been compared. */
+/* How two options compare where they differ by more than the rocks alone would make them: by the surface of their difference. */
 static int compare_pair(void *context, size_t item, size_t worker)
 {
     (void)worker;
     const struct rows *r = context;
-    struct ceduo_doubt_ranking *ranking = r->ranking;
-    struct ceduo_doubt_order *o = item < ranking->count ? &ranking->orders[item] : &ranking->rivals[item - ranking->count + 1];
-    enum ceduo_doubt_kind kind = ranking->rotation ? CEDUO_DOUBT_MEAN : r->answer->main;
+    struct ceduo_doubt_order *o = &r->ranking->orders[item];
+    enum ceduo_doubt_kind kind = r->ranking->rotation ? CEDUO_DOUBT_MEAN : r->answer->main;
     struct subject s;
     struct ceduo_surface_fit found = {0};
     enum ceduo_status status = open_subject(r, o->better, o->than, &s);
@@ -447,23 +445,17 @@ static enum ceduo_status rank_options(struct rows *r, bool rotation, struct cedu
     double *values = ceduo_arena_take(&r->memory, options * sizeof *values);
     r->ranking = ranking;
     ranking->rotation = rotation;
-    ranking->orders = calloc(2 * options, sizeof *ranking->orders);
+    ranking->orders = calloc(options, sizeof *ranking->orders);
     if (r->memory.failed || !ranking->orders)
         return CEDUO_NO_MEMORY;
-    ranking->rivals = ranking->orders + options;
     ranking->count = options - 1;
     for (size_t i = 0; i < options; i++) {
         values[i] = ceduo_doubt_figure_of(r->answer, i, rotation ? CEDUO_DOUBT_MEAN : r->answer->main, false)->value;
         insert_index(values, i, ranks);
     }
-    for (size_t i = 0; i + 1 < options; i++) {
+    for (size_t i = 0; i < ranking->count; i++)
         ranking->orders[i] = (struct ceduo_doubt_order){.better = ranks[i], .than = ranks[i + 1]};
-        ranking->rivals[i] = (struct ceduo_doubt_order){.better = ranks[0], .than = ranks[i + 1]};
-    }
-    struct parallel work = {options > 1 ? 2 * ranking->count - 1 : 0, r->def->threads, compare_pair, r};
-    enum ceduo_status status = (enum ceduo_status)ceduo_parallel(&work);
-    ranking->rivals[0] = ranking->orders[0];
-    return status;
+    return (enum ceduo_status)ceduo_parallel(&(struct parallel){ranking->count, r->def->threads, compare_pair, r});
 }
 
 const struct ceduo_doubt_ranking *ceduo_doubt_verdict(const struct ceduo_doubt_answer *answer)

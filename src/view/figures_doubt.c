@@ -49,11 +49,7 @@ static bool enter_input(struct ceduo_place *p, size_t i)
     return i < figure_of(p)->uses;
 }
 
-static bool enter_order(struct ceduo_place *p, size_t i)
-{
-    p->item = i;
-    return p->doubt->answer && i < ceduo_doubt_verdict(p->doubt->answer)->count;
-}
+ENTER(enter_order, item, p->doubt->answer ? ceduo_doubt_verdict(p->doubt->answer)->count : 0)
 
 static struct ceduo_value end_of(const struct ceduo_place *p, int end)
 {
@@ -77,10 +73,15 @@ static const char *figure_key(const struct ceduo_place *p)
     return reaches ? "rotation.reach_probability" : keys[kind];
 }
 
+FROM(doubted_scene, scene_of(p))
+FROM(doubted_figure, figure_of(p))
+FROM(input_of, &p->doubt->inputs->items[p->input])
+FROM(first_of, &figure_of(p)->fit.first[p->input])
+FROM(total_of, &figure_of(p)->fit.total[p->input])
+FROM(ranked, order_of(p))
+
 VALUE(doubt_format, place, TEXT, WORD("ceduo-sensitivity-1"))
 VALUE(doubt_scene, place, TEXT, WORD(o->doubt->file->name))
-VALUE(doubt_title, place, TEXT, WORD(scene_of(o)->title))
-VALUE(doubt_seed, place, COUNT, COUNT(scene_of(o)->simulation.seed))
 VALUE(doubt_rocks, place, COUNT, COUNT(o->doubt->rocks))
 VALUE(doubt_points, place, COUNT, COUNT(o->doubt->answer ? o->doubt->answer->points : o->doubt->points))
 VALUE(doubt_evaluations, place, COUNT, COUNT(o->doubt->answer ? o->doubt->answer->evaluations : 0))
@@ -90,35 +91,25 @@ VALUE(doubt_x, place, NUMBER, NUMBER(scene_of(o)->controls[ceduo_scene_last_cont
 VALUE(doubt_figure, place, TEXT, WORD(figure_key(o)))
 VALUE(figure_number, place, NUMBER, NUMBER(shown(o, *(const double *)member(f, figure_of(o)))))
 #define FIGURE(member) .value = figure_number, .offset = offsetof(struct ceduo_doubt_figure, member)
-VALUE(input_path, place, TEXT, WORD(o->doubt->inputs->items[o->input].path))
-VALUE(input_places, place, COUNT, COUNT(o->doubt->inputs->items[o->input].places_count))
-VALUE(input_source, place, TEXT, WORD(o->doubt->inputs->items[o->input].source))
-VALUE(doubt_q2, place, NUMBER, NUMBER(figure_of(o)->fit.q2))
-VALUE(doubt_unexplained, place, NUMBER, NUMBER(figure_of(o)->fit.whole.value))
 VALUE(input_measured, place, TEXT, WORD(ceduo_doubt_measured(o->doubt, o->input)))
 VALUE(input_lo, place, ANY, end_of(o, 0))
 VALUE(input_hi, place, ANY, end_of(o, 1))
-VALUE(input_first, place, NUMBER, NUMBER(figure_of(o)->fit.first[o->input].value))
-VALUE(input_first_se, place, NUMBER, NUMBER(figure_of(o)->fit.first[o->input].se))
-VALUE(input_total, place, NUMBER, NUMBER(figure_of(o)->fit.total[o->input].value))
-VALUE(input_total_se, place, NUMBER, NUMBER(figure_of(o)->fit.total[o->input].se))
 VALUE(input_at_lo, place, NUMBER, NUMBER(shown(o, figure_of(o)->at[o->input][0])))
 VALUE(input_at_hi, place, NUMBER, NUMBER(shown(o, figure_of(o)->at[o->input][1])))
 VALUE(input_left, place, NUMBER, NUMBER(shown(o, figure_of(o)->fit.left[o->input])))
 VALUE(order_better, place, TEXT, WORD(scene_of(o)->options[order_of(o)->better].name_given))
 VALUE(order_than, place, TEXT, WORD(scene_of(o)->options[order_of(o)->than].name_given))
 VALUE(order_over, place, TEXT, WORD(ceduo_doubt_verdict(o->doubt->answer)->rotation ? "rotation" : "today"))
-VALUE(order_number, place, NUMBER, NUMBER(*(const double *)member(f, order_of(o))))
-#define ORDER(member) .value = order_number, .offset = offsetof(struct ceduo_doubt_order, member)
 
 #define FEW_POINTS "there are too few points, or nothing varies"
 
-static const struct ceduo_figure doubt_scene_rows[] = {{"scene", "", "path of the file", .value = doubt_scene},
-                                                       {"title", "", "title of the scene", .value = doubt_title},
-                                                       {"seed", "", "seed of the random numbers", .value = doubt_seed},
-                                                       {"rocks", "", "rocks of each scene computed", .value = doubt_rocks},
-                                                       {"points", "", "points of what may be true", .value = doubt_points},
-                                                       END};
+static const struct ceduo_figure doubt_scene_rows[] = {
+    {"scene", "", "path of the file", .value = doubt_scene},
+    {"title", "", "title of the scene", .from = doubted_scene, AT(scene, title)},
+    {"seed", "", "seed of the random numbers", .from = doubted_scene, AT(scene, simulation.seed)},
+    {"rocks", "", "rocks of each scene computed", .value = doubt_rocks},
+    {"points", "", "points of what may be true", .value = doubt_points},
+    END};
 
 static const struct ceduo_figure doubt_figure_rows[] = {
     {"option", "", "name of the option", .value = doubt_option},
@@ -141,19 +132,19 @@ static const struct ceduo_figure doubt_figure_rows[] = {
      .null = "the figure is not the share that exceeds, today or in the mean of a rotation"},
     {"within_se", "", "its standard error", FIGURE(fit.below.se),
      .null = "the figure is not the share that exceeds, today or in the mean of a rotation"},
-    {"q2", "", "share of the variance that the surface predicts, leaving out each point in turn", .value = doubt_q2,
-     .null = FEW_POINTS},
-    {"unexplained", "", "share of the variance that neither single inputs nor pairs explain", .value = doubt_unexplained,
-     .null = FEW_POINTS},
+    {"q2", "", "share of the variance that the surface predicts, leaving out each point in turn", .from = doubted_figure,
+     AT(doubt_figure, fit.q2), .null = FEW_POINTS},
+    {"unexplained", "", "share of the variance that neither single inputs nor pairs explain", .from = doubted_figure,
+     AT(doubt_figure, fit.whole.value), .null = FEW_POINTS},
     END};
 
 static const struct ceduo_figure input_range_rows[] = {
     {"lo", "", "lower end of its range, or its first word", .value = input_lo, .null = "it has no one range"},
     {"hi", "", "upper end of its range, or its last word", .value = input_hi, .null = "it has no one range"},
-    {"first", "", "share of the variance that it causes alone", .value = input_first, .null = FEW_POINTS},
-    {"first_se", "", "its standard error", .value = input_first_se, .null = FEW_POINTS},
-    {"total", "", "share that it causes alone or with others", .value = input_total, .null = FEW_POINTS},
-    {"total_se", "", "its standard error", .value = input_total_se, .null = FEW_POINTS},
+    {"first", "", "share of the variance that it causes alone", .from = first_of, AT(share, value), .null = FEW_POINTS},
+    {"first_se", "", "its standard error", .from = first_of, AT(share, se), .null = FEW_POINTS},
+    {"total", "", "share that it causes alone or with others", .from = total_of, AT(share, value), .null = FEW_POINTS},
+    {"total_se", "", "its standard error", .from = total_of, AT(share, se), .null = FEW_POINTS},
     {"at_lo", "", "the figure with this input at its lower end, all others as they are", .value = input_at_lo,
      .null = UNSAID ", or the figure is of a rotation"},
     {"at_hi", "", "the same at its upper end", .value = input_at_hi, .null = UNSAID ", or the figure is of a rotation"},
@@ -162,9 +153,9 @@ static const struct ceduo_figure input_range_rows[] = {
     END};
 
 static const struct ceduo_figure input_rows[] = {
-    {"path", "", "path of the input", .value = input_path},
-    {"places", "", "how many values of the scene move with it", .value = input_places},
-    {"source", "", "where its range comes from", .value = input_source},
+    {"path", "", "path of the input", .from = input_of, AT(input, path)},
+    {"places", "", "how many values of the scene move with it", .from = input_of, AT(input, places_count)},
+    {"source", "", "where its range comes from", .from = input_of, AT(input, source)},
     {"measured_by", "", "what would measure it", .value = input_measured, .null = "nothing that is known"},
     {.of = input_range_rows},
     END};
@@ -179,9 +170,9 @@ static const struct ceduo_figure ranking_rows[] = {
     {"than", "", "name of the next one", .value = order_than},
     {"x_m", "m", "the last control", .value = doubt_x},
     {"over", "", "today, or rotation: by the mean over a rotation", .value = order_over},
-    {"probability", "", "share of what may be true in which it is better", ORDER(probability)},
-    {"equal", "", "in which neither is", ORDER(equal)},
-    {"worse", "", "in which it is worse", ORDER(worse)},
+    {"probability", "", "share of what may be true in which it is better", .from = ranked, AT(doubt_order, probability)},
+    {"equal", "", "in which neither is", .from = ranked, AT(doubt_order, equal)},
+    {"worse", "", "in which it is worse", .from = ranked, AT(doubt_order, worse)},
     END};
 
 const struct ceduo_figure ceduo_doubt_figures[] = {
@@ -193,8 +184,11 @@ const struct ceduo_figure ceduo_doubt_figures[] = {
     {"evaluations", "", "scenes computed", .value = doubt_evaluations},
     END};
 
-static const struct ceduo_figure doubt_columns[] = {
-    {.of = doubt_scene_rows}, {.of = doubt_figure_rows}, {"path", "", "", .value = input_path}, {.of = input_range_rows}, END};
+static const struct ceduo_figure doubt_columns[] = {{.of = doubt_scene_rows},
+                                                    {.of = doubt_figure_rows},
+                                                    {"path", "", "", .from = input_of, AT(input, path)},
+                                                    {.of = input_range_rows},
+                                                    END};
 
 const struct ceduo_csv ceduo_doubt_csv = {doubt_columns, {enter_figure, enter_input}};
 
@@ -220,34 +214,12 @@ static const struct scene_file *file_of(const struct ceduo_place *p)
     return &p->calibration->files[predicted_of(p)->scene];
 }
 
-static const void *fitted_of(const void *place)
-{
-    const struct ceduo_place *p = place;
-    return &answer_of(p)->parameters[p->item];
-}
-
-static const void *calibration_of(const void *place)
-{
-    return answer_of(place);
-}
-
-static bool enter_fitted(struct ceduo_place *p, size_t i)
-{
-    p->item = i;
-    return i < answer_of(p)->parameters_count;
-}
-
-static bool enter_column(struct ceduo_place *p, size_t i)
-{
-    p->column = i;
-    return i < answer_of(p)->parameters_count;
-}
-
-static bool enter_predicted(struct ceduo_place *p, size_t i)
-{
-    p->item = i;
-    return i < answer_of(p)->predicted_count;
-}
+FROM(calibration_of, answer_of(p))
+FROM(fitted_of, &answer_of(p)->parameters[p->item])
+FROM(prediction_of, predicted_of(p))
+ENTER(enter_fitted, item, answer_of(p)->parameters_count)
+ENTER(enter_column, column, answer_of(p)->parameters_count)
+ENTER(enter_predicted, item, answer_of(p)->predicted_count)
 
 static void say_scenes(const struct ceduo_place *p, ceduo_words_say *say, void *context)
 {
@@ -266,9 +238,6 @@ VALUE(observed_scene, place, TEXT, WORD(file_of(o)->name))
 VALUE(observed_option, place, TEXT, WORD(file_of(o)->scene.options[observed_of(o)->option].name_given))
 VALUE(observed_use, place, TEXT, WORD(observed_of(o)->use == CEDUO_OBSERVED_FIT ? "fit" : "check"))
 VALUE(observed_n, place, COUNT, COUNT(ceduo_seen_number(observed_of(o))))
-VALUE(deviance, place, NUMBER, NUMBER(predicted_of(o)->at_best.deviance))
-VALUE(p_value, place, NUMBER, NUMBER(predicted_of(o)->p_value))
-VALUE(inside, place, FLAG, IS(predicted_of(o)->inside))
 VALUE(seen_number, place, NUMBER,
       NUMBER(ceduo_seen_shown(file_of(o), predicted_of(o), *(const double *)member(f, predicted_of(o)))))
 #define SEEN(member) .value = seen_number, .offset = offsetof(struct ceduo_predicted, member)
@@ -299,12 +268,13 @@ static const struct ceduo_figure observation_rows[] = {
     {"option", "", "name of its option", .value = observed_option},
     {"use", "", "fit or check", .value = observed_use},
     {"n", "", "how many rocks were observed", .value = observed_n},
-    {"deviance", "", "deviance at the best values", .value = deviance},
-    {"p_value", "", "how often simulated rocks deviate as much", .value = p_value, .null = NO_RANGE},
+    {"deviance", "", "deviance at the best values", .from = prediction_of, AT(predicted, at_best.deviance)},
+    {"p_value", "", "how often simulated rocks deviate as much", .from = prediction_of, AT(predicted, p_value),
+     .null = NO_RANGE},
     {"seen", "", "mean of what was observed", SEEN(seen)},
     {"predicted_lo", "", "lower end of what the fit predicts of that mean, 95 %", SEEN(lo), .null = NO_RANGE},
     {"predicted_hi", "", "its upper end", SEEN(hi), .null = NO_RANGE},
-    {"inside", "", "whether the mean lies between the two", .value = inside},
+    {"inside", "", "whether the mean lies between the two", .from = prediction_of, AT(predicted, inside)},
     {"single_lo", "", "lower end of what the fit predicts of single rocks, 95 %", SEEN(one_lo), .null = NO_RANGE},
     {"single_hi", "", "its upper end", SEEN(one_hi), .null = NO_RANGE},
     {"single_inside", "", "how many of the values lie between the two", .value = single_inside,

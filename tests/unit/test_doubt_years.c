@@ -173,7 +173,6 @@ static void expect_order(void)
     EXPECT_NEAR(o->probability + o->equal + o->worse, 1, 1e-12);
     EXPECT(better, >=, o->probability - .1);
     EXPECT(better, <=, o->probability + o->equal + .1);
-    EXPECT(ranking->rivals[0].probability, ==, o->probability);
 }
 
 TEST(over_a_rotation_as_point_by_point)
