@@ -73,12 +73,12 @@ static const char *figure_key(const struct ceduo_place *p)
     return reaches ? "rotation.reach_probability" : keys[kind];
 }
 
-FROM(doubted_scene, scene_of(p))
-FROM(doubted_figure, figure_of(p))
-FROM(input_of, &p->doubt->inputs->items[p->input])
-FROM(first_of, &figure_of(p)->fit.first[p->input])
-FROM(total_of, &figure_of(p)->fit.total[p->input])
-FROM(ranked, order_of(p))
+OBJECT(doubted_scene, place, scene_of(o))
+OBJECT(doubted_figure, place, figure_of(o))
+OBJECT(input_of, place, &o->doubt->inputs->items[o->input])
+OBJECT(first_of, place, &figure_of(o)->fit.first[o->input])
+OBJECT(total_of, place, &figure_of(o)->fit.total[o->input])
+OBJECT(ranked, place, order_of(o))
 
 VALUE(doubt_format, place, TEXT, WORD("ceduo-sensitivity-1"))
 VALUE(doubt_scene, place, TEXT, WORD(o->doubt->file->name))
@@ -214,9 +214,9 @@ static const struct scene_file *file_of(const struct ceduo_place *p)
     return &p->calibration->files[predicted_of(p)->scene];
 }
 
-FROM(calibration_of, answer_of(p))
-FROM(fitted_of, &answer_of(p)->parameters[p->item])
-FROM(prediction_of, predicted_of(p))
+OBJECT(calibration_of, place, answer_of(o))
+OBJECT(fitted_of, place, &answer_of(o)->parameters[o->item])
+OBJECT(prediction_of, place, predicted_of(o))
 ENTER(enter_fitted, item, answer_of(p)->parameters_count)
 ENTER(enter_column, column, answer_of(p)->parameters_count)
 ENTER(enter_predicted, item, answer_of(p)->predicted_count)

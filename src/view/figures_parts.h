@@ -54,11 +54,11 @@ READ(fixed_text_at, char const *, TEXT, WORD(m))
     }                                                                                                                          \
     static const struct ceduo_reader name[1] = {{name##_read, CEDUO_VALUE_##kind}};
 
-/* For `from`: p is the place. */
-#define FROM(name, object)                                                                                                     \
-    static const void *name(const void *place)                                                                                 \
+/* For `from`: o is the object that a row is read from, another one where it leads to. */
+#define OBJECT(name, type, object)                                                                                             \
+    static const void *name(const void *from)                                                                                  \
     {                                                                                                                          \
-        const struct ceduo_place *p = place;                                                                                   \
+        const struct ceduo_##type *o = from;                                                                                   \
         return object;                                                                                                         \
     }
 

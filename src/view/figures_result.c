@@ -13,33 +13,38 @@ READ(energy_model_at, enum ceduo_energy_model, TEXT, WORD(ceduo_energy_words.nam
 
 /* ---- objects of a place ---- */
 
+static const struct ceduo_result *result_of(const struct ceduo_place *p)
+{
+    return p->report->result;
+}
+
 /* The option as it is filed, or in a year. */
 static const struct ceduo_option *forest_of(const struct ceduo_place *p)
 {
-    return p->year ? &p->year->option : &p->report->result->scene->options[p->option];
+    return p->year ? &p->year->option : &result_of(p)->scene->options[p->option];
 }
 
 static const struct ceduo_index *indices_of(const struct ceduo_place *p)
 {
-    return p->year ? p->year->controls : p->report->result->options[p->option].controls;
+    return p->year ? p->year->controls : result_of(p)->options[p->option].controls;
 }
 
 static const struct ceduo_simulated *wood_of(const struct ceduo_place *p)
 {
-    return p->year && p->year->wooded.rocks > 0 ? &p->year->wooded : &p->report->result->options[p->option].wooded;
+    return p->year && p->year->wooded.rocks > 0 ? &p->year->wooded : &result_of(p)->options[p->option].wooded;
 }
 
 static const struct ceduo_arrivals *through_the_wood(const struct ceduo_place *p)
 {
     if (!p->year)
-        return ceduo_result_wooded(p->report->result, p->option, p->control);
+        return ceduo_result_wooded(result_of(p), p->option, p->control);
     return p->year->wooded.rocks > 0 ? &p->year->wooded.arrivals[p->control] : NULL;
 }
 
 /* Of today alone; NULL where no stem stands. */
 static const struct ceduo_other_energy *other_law(const struct ceduo_place *p)
 {
-    const struct ceduo_other_energy *other = &p->report->result->options[p->option].others[p->control];
+    const struct ceduo_other_energy *other = &result_of(p)->options[p->option].others[p->control];
     return !p->year && other->known && other->stems ? other : NULL;
 }
 
@@ -53,73 +58,56 @@ static const struct ceduo_yield *yield_at(const struct ceduo_place *p)
 
 static const struct ceduo_stand_result *belt_result(const struct ceduo_place *p)
 {
-    return &(p->year ? p->year->stands : p->report->result->options[p->option].stands)[p->belt];
+    return &(p->year ? p->year->stands : result_of(p)->options[p->option].stands)[p->belt];
 }
 
-/* For `from`: p is the place, r its result. */
-#define OBJECT(name, object)                                                                                                   \
-    static const void *name(const void *place)                                                                                 \
-    {                                                                                                                          \
-        const struct ceduo_place *p = place;                                                                                   \
-        const struct ceduo_result *r = p->report->result;                                                                      \
-        (void)r;                                                                                                               \
-        return object;                                                                                                         \
-    }
-OBJECT(report_of, p->report)
-OBJECT(scene_of, r->scene)
-OBJECT(rock_of, &r->rock)
-OBJECT(year_of, p->year)
-OBJECT(option_of, &r->scene->options[p->option])
-OBJECT(first_option_of, &r->scene->options[0])
-OBJECT(belt_of, &forest_of(p)->belts[p->belt])
-OBJECT(stand_of, belt_result(p))
-OBJECT(rules_of, belt_result(p)->rules.of ? &belt_result(p)->rules : NULL)
-OBJECT(control_of, &r->scene->controls[p->control])
-OBJECT(index_of, &indices_of(p)[p->control])
-OBJECT(last_index_of, &indices_of(p)[r->last_control])
-OBJECT(bare_of, &r->bare.arrivals[p->control])
-OBJECT(wooded_of, through_the_wood(p))
-OBJECT(other_of, other_law(p))
-OBJECT(flown_of, wood_of(p))
-OBJECT(stops_of, wood_of(p)->ends.stop_x.n > 0 ? p : NULL)
-OBJECT(difference_of, p->option > 0 && !p->year ? &r->options[p->option].differences[p->control] : NULL)
-OBJECT(yield_of, yield_at(p))
-OBJECT(place_of_yield, yield_at(p) ? p : NULL)
-OBJECT(felling_of, &yield_at(p)->fellings[p->felling])
-OBJECT(felled_belt_of, &r->scene->options[p->option].belts[yield_at(p)->fellings[p->felling].belt])
-OBJECT(rotation_of, p->report->years ? p : NULL)
-
-/* The same of other objects: o. */
-#define OBJECT_IN(name, type, object)                                                                                          \
-    static const void *name(const void *from)                                                                                  \
-    {                                                                                                                          \
-        const struct ceduo_##type *o = from;                                                                                   \
-        return object;                                                                                                         \
-    }
-OBJECT_IN(standards_of, compliance, o->standards_item)
-OBJECT_IN(turn_of, compliance, o->turn_item)
-OBJECT_IN(search_of, find_report, o->search)
-OBJECT_IN(found_of, find_report, o->found)
-OBJECT_IN(sure_of, find_report, o->sure && o->sure->inputs > 0 ? o->sure : NULL) /* nothing in doubt: nothing was computed */
-OBJECT_IN(nearest_of, find_report, o->found->found ? NULL : o->found)
-OBJECT_IN(sure_found_of, sure, o->found.found ? o : NULL)
-OBJECT_IN(sure_nearest_of, sure, o->found.found ? NULL : o)
-OBJECT_IN(found_yield_of, find_report, o->yield && !isnan(o->yield->cut_per_year) ? o->yield : NULL)
-OBJECT_IN(yields_of, find_report, found_yield_of(o) ? o : NULL)
+OBJECT(report_of, place, o->report)
+OBJECT(scene_of, place, result_of(o)->scene)
+OBJECT(rock_of, place, &result_of(o)->rock)
+OBJECT(year_of, place, o->year)
+OBJECT(option_of, place, &result_of(o)->scene->options[o->option])
+OBJECT(first_option_of, place, &result_of(o)->scene->options[0])
+OBJECT(belt_of, place, &forest_of(o)->belts[o->belt])
+OBJECT(stand_of, place, belt_result(o))
+OBJECT(rules_of, place, belt_result(o)->rules.of ? &belt_result(o)->rules : NULL)
+OBJECT(control_of, place, &result_of(o)->scene->controls[o->control])
+OBJECT(index_of, place, &indices_of(o)[o->control])
+OBJECT(last_index_of, place, &indices_of(o)[result_of(o)->last_control])
+OBJECT(bare_of, place, &result_of(o)->bare.arrivals[o->control])
+OBJECT(wooded_of, place, through_the_wood(o))
+OBJECT(other_of, place, other_law(o))
+OBJECT(flown_of, place, wood_of(o))
+OBJECT(stops_of, place, wood_of(o)->ends.stop_x.n > 0 ? o : NULL)
+OBJECT(difference_of, place, o->option > 0 && !o->year ? &result_of(o)->options[o->option].differences[o->control] : NULL)
+OBJECT(yield_of, place, yield_at(o))
+OBJECT(place_of_yield, place, yield_at(o) ? o : NULL)
+OBJECT(felling_of, place, &yield_at(o)->fellings[o->felling])
+OBJECT(felled_belt_of, place, &result_of(o)->scene->options[o->option].belts[yield_at(o)->fellings[o->felling].belt])
+OBJECT(rotation_of, place, o->report->years ? o : NULL)
+OBJECT(standards_of, compliance, o->standards_item)
+OBJECT(turn_of, compliance, o->turn_item)
+OBJECT(search_of, find_report, o->search)
+OBJECT(found_of, find_report, o->found)
+OBJECT(sure_of, find_report, o->sure && o->sure->inputs > 0 ? o->sure : NULL) /* nothing in doubt: nothing was computed */
+OBJECT(nearest_of, find_report, o->found->found ? NULL : o->found)
+OBJECT(sure_found_of, sure, o->found.found ? o : NULL)
+OBJECT(sure_nearest_of, sure, o->found.found ? NULL : o)
+OBJECT(found_yield_of, find_report, o->yield && !isnan(o->yield->cut_per_year) ? o->yield : NULL)
+OBJECT(yields_of, find_report, found_yield_of(o) ? o : NULL)
 
 /* ---- lists ---- */
 
 static bool enter_option(struct ceduo_place *p, size_t i)
 {
     p->option = i;
-    bool inside = i < p->report->result->scene->options_count;
+    bool inside = i < result_of(p)->scene->options_count;
     if (inside && p->report->years)
-        p->sum = ceduo_years_sum(p->report->years[i], p->report->result->last_control);
+        p->sum = ceduo_years_sum(p->report->years[i], result_of(p)->last_control);
     return inside;
 }
 
 ENTER(enter_belt, belt, forest_of(p)->belts_count)
-ENTER(enter_control, control, p->report->result->scene->controls_count)
+ENTER(enter_control, control, result_of(p)->scene->controls_count)
 
 static bool enter_year(struct ceduo_place *p, size_t i)
 {
@@ -132,30 +120,30 @@ static bool enter_year(struct ceduo_place *p, size_t i)
 static bool enter_felling(struct ceduo_place *p, size_t i)
 {
     const struct ceduo_yield *yield = yield_at(p);
-    struct ceduo_window rotation = ceduo_window_of(&p->report->result->scene->options[p->option]);
+    struct ceduo_window rotation = ceduo_window_of(&result_of(p)->scene->options[p->option]);
     p->felling = i;
     return yield && i < yield->fellings_count && yield->fellings[i].year <= rotation.last + 1;
 }
 
 static bool enter_difference(struct ceduo_place *p, size_t i)
 {
-    size_t controls = p->report->result->scene->controls_count;
+    size_t controls = result_of(p)->scene->controls_count;
     p->option = controls > 0 ? 1 + i / controls : SIZE_MAX;
     p->control = controls > 0 ? i % controls : 0;
-    return p->option < p->report->result->scene->options_count;
+    return p->option < result_of(p)->scene->options_count;
 }
 
 /* ---- sentences ---- */
 
 static void say_of_run(const struct ceduo_place *p, ceduo_words_say *say, void *context)
 {
-    ceduo_words_still(p->report->result, say, context);
-    ceduo_words_run_warnings(p->report->result, &p->report->remarks, say, context);
+    ceduo_words_still(result_of(p), say, context);
+    ceduo_words_run_warnings(result_of(p), &p->report->remarks, say, context);
 }
 
 static void say_of_stand(const struct ceduo_place *p, ceduo_words_say *say, void *context)
 {
-    ceduo_words_stand_warnings(p->report->result->scene, belt_of(p), stand_of(p), say, context);
+    ceduo_words_stand_warnings(result_of(p)->scene, belt_of(p), stand_of(p), say, context);
 }
 
 static void say_because(const struct ceduo_place *p, ceduo_words_say *say, void *context)
@@ -197,7 +185,7 @@ VALUE(stop_at, place, NUMBER, NUMBER(*(const double *)member(f, &wood_of(o)->end
 VALUE(too_much_of, place, COUNT, o->sum.nothing || isnan(o->sum.exceed.mean) ? NOTHING : COUNT(o->sum.unprotected_energy))
 VALUE(fails_of, place, COUNT, o->sum.nothing ? NOTHING : COUNT(*(const size_t *)member(f, o)))
 VALUE(judgement_of, place, TEXT,
-      WORD(ceduo_words_judgement(ceduo_judge(&o->report->result->bare.arrivals[o->control], through_the_wood(o)))))
+      WORD(ceduo_words_judgement(ceduo_judge(&result_of(o)->bare.arrivals[o->control], through_the_wood(o)))))
 VALUE(judgement_of_other, other_energy, TEXT, WORD(ceduo_words_judgement(o->judgement)))
 VALUE(felled_of, place, NUMBER, NUMBER(ceduo_years_felled(o->report->years[o->option])))
 VALUE(find_format, find_report, TEXT, WORD("ceduo-find-1"))
