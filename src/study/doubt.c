@@ -35,7 +35,7 @@ struct rows {
     struct ceduo_groups *shares; /* of each year and point */
     bool deciding; /* only figures that decide whether there are points enough are read; otherwise only the others */
     struct ceduo_doubt_ranking *ranking; /* that is made */
-    uint64_t before, all;                /* evaluations, for the progress */
+    size_t all;                          /* evaluations, for the progress */
     atomic_size_t done;
     pthread_mutex_t talking;
 };
@@ -64,7 +64,7 @@ static void report(void *context)
     size_t done = atomic_fetch_add(&r->done, 1) + 1;
     if (!def->progress || pthread_mutex_trylock(&r->talking) != 0)
         return;
-    def->progress(def->context, r->before + done, r->all);
+    def->progress(def->context, done, r->all);
     pthread_mutex_unlock(&r->talking);
 }
 
@@ -126,9 +126,8 @@ static enum ceduo_status extend(struct rows *r, size_t points)
 {
     size_t from = r->points > 0 ? r->ends + r->points : 0;
     const struct points p = {.def = r->def, .u = r->u, .today = true, .read = read_point, .done = report, .context = r};
-    r->before = from;
     r->all = r->ends + points;
-    atomic_store(&r->done, 0);
+    atomic_store(&r->done, from);
     enum ceduo_status status = ceduo_points_run(&p, from, r->ends + points, from == 0 ? r->ends : 0);
     r->points = points;
     return status;
