@@ -79,8 +79,8 @@ static enum ceduo_status goal_at(void *context, double value, double *goal)
     q.years = s->def.rotation;
     enum ceduo_status status = ceduo_ask(&q, &s->pool, &answer);
     if (status == CEDUO_OK)
-        *goal = !s->def.rotation ? ceduo_goal_reached(s->def.goal, answer.result, s->def.option)
-                                 : ceduo_goal_over_years(s->def.goal, answer.years[s->def.option], &answer.result->bare);
+        *goal =
+            ceduo_goal_reached(s->def.goal, answer.result, s->def.option, s->def.rotation ? answer.years[s->def.option] : NULL);
     ceduo_answer_release(&answer);
     return status;
 }

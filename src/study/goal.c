@@ -58,33 +58,29 @@ static double worse_of(double a, double b)
     return isnan(b) || b > a ? b : a;
 }
 
-double ceduo_goal_reached(enum ceduo_goal goal, const struct ceduo_result *result, size_t option)
-{
-    double worst = -INFINITY;
-    for (size_t c = 0; c < result->scene->controls_count; c++)
-        worst = worse_of(worst, value_at(goal, &result->options[option].controls[c], ceduo_result_wooded(result, option, c),
-                                         &result->bare.arrivals[c]));
-    return worst;
-}
-
 bool ceduo_goal_is_mean(enum ceduo_goal goal)
 {
     return goal == CEDUO_GOAL_EXCEED || goal == CEDUO_GOAL_ARRIVE;
 }
 
-double ceduo_goal_over_years(enum ceduo_goal goal, const struct ceduo_years *years, const struct ceduo_simulated *bare)
+double ceduo_goal_reached(enum ceduo_goal goal, const struct ceduo_result *result, size_t option,
+                          const struct ceduo_years *years)
 {
     double worst = -INFINITY;
-    for (size_t c = 0; c < years->scene.controls_count; c++) {
+    size_t n = years ? years->count : 1; /* today is one year */
+    for (size_t c = 0; c < result->scene->controls_count; c++) {
         double worst_year = -INFINITY, sum = 0;
-        for (size_t i = 0; i < years->count; i++) {
-            const struct ceduo_year *y = &years->years[i];
-            double value =
-                value_at(goal, &y->controls[c], y->wooded.rocks > 0 ? &y->wooded.arrivals[c] : NULL, &bare->arrivals[c]);
+        for (size_t i = 0; i < n; i++) {
+            const struct ceduo_year *y = years ? &years->years[i] : NULL;
+            const struct ceduo_arrivals *wooded = !y                    ? ceduo_result_wooded(result, option, c)
+                                                  : y->wooded.rocks > 0 ? &y->wooded.arrivals[c]
+                                                                        : NULL;
+            const struct ceduo_index *controls = y ? y->controls : result->options[option].controls;
+            double value = value_at(goal, &controls[c], wooded, &result->bare.arrivals[c]);
             worst_year = worse_of(worst_year, value);
             sum += value;
         }
-        worst = worse_of(worst, ceduo_goal_is_mean(goal) ? sum / (double)years->count : worst_year);
+        worst = worse_of(worst, ceduo_goal_is_mean(goal) ? sum / (double)n : worst_year);
     }
     return worst;
 }

@@ -32,12 +32,11 @@ void ceduo_goal_words(struct text *text);
 /* The limit of the light that the goal belongs to; NaN where there is none. */
 double ceduo_goal_limit(enum ceduo_goal goal, const struct ceduo_simulation *simulation);
 
-/* What an option reaches at its worst control, in the goal's unit; NaN where that is not known. */
-double ceduo_goal_reached(enum ceduo_goal goal, const struct ceduo_result *result, size_t option);
-
-/* The same over years: of shares of the rocks the mean at the worst control, of the others the worst year. */
+/* What an option reaches at its worst control, in the goal's unit; NaN where that is not known. `years`: over them, of shares of the
+ * rocks the mean, of the others the worst year; NULL: today. */
 bool ceduo_goal_is_mean(enum ceduo_goal goal);
-double ceduo_goal_over_years(enum ceduo_goal goal, const struct ceduo_years *years, const struct ceduo_simulated *bare);
+double ceduo_goal_reached(enum ceduo_goal goal, const struct ceduo_result *result, size_t option,
+                          const struct ceduo_years *years);
 
 enum ceduo_goal_reading { CEDUO_GOAL_GOOD, CEDUO_GOAL_UNKNOWN, CEDUO_GOAL_NO_NUMBER, CEDUO_GOAL_NEGATIVE, CEDUO_GOAL_NO_SHARE };
 

@@ -98,9 +98,9 @@ TEST(a_goal_is_reached_at_the_worst_control)
         site.scene.controls = controls;
         site.scene.controls_count = 2;
         assert_int_equal(ceduo_ask(&q, NULL, &answer), CEDUO_OK);
-        double reached = ceduo_goal_reached(CEDUO_GOAL_EXCEED, answer.result, 0);
+        double reached = ceduo_goal_reached(CEDUO_GOAL_EXCEED, answer.result, 0, NULL);
         const struct ceduo_arrivals *a = answer.result->options[0].wooded.arrivals;
-        EXPECT(ceduo_goal_reached(CEDUO_GOAL_ARRIVE, answer.result, 0), ==,
+        EXPECT(ceduo_goal_reached(CEDUO_GOAL_ARRIVE, answer.result, 0, NULL), ==,
                fmax(a[0].reach_probability, a[1].reach_probability));
         if (i == 0)
             EXPECT(reached, ==, fmax(a[0].exceed_probability, a[1].exceed_probability));
