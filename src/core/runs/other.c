@@ -15,27 +15,28 @@ enum ceduo_energy_model ceduo_other_law(const struct ceduo_option *option)
 
 bool ceduo_other_scene(const struct ceduo_scene *scene, struct ceduo_scene *other)
 {
+    size_t n = scene->options_count, belts = 0;
+    for (size_t i = 0; i < n; i++)
+        belts += scene->options[i].belts_count;
     *other = *scene;
-    other->options = calloc(scene->options_count + 1, sizeof *other->options);
-    bool good = other->options != NULL;
-    for (size_t i = 0; good && i < scene->options_count; i++) {
+    other->options = calloc(1, (n + 1) * sizeof *other->options + belts * sizeof(struct ceduo_belt));
+    if (!other->options)
+        return false;
+    struct ceduo_belt *to = (void *)(other->options + n + 1); /* behind the options */
+    for (size_t i = 0; i < n; i++) {
         const struct ceduo_option *option = &scene->options[i];
-        struct ceduo_option *to = &other->options[i];
-        *to = *option;
-        to->belts = calloc(option->belts_count + 1, sizeof *to->belts);
-        good = to->belts != NULL;
-        for (size_t k = 0; good && k < option->belts_count; k++) {
-            to->belts[k] = option->belts[k];
-            to->belts[k].stand.energy = ceduo_other_law(option);
+        other->options[i] = *option;
+        other->options[i].belts = to;
+        for (size_t k = 0; k < option->belts_count; k++) {
+            *to = option->belts[k];
+            to++->stand.energy = ceduo_other_law(option);
         }
     }
-    return good;
+    return true;
 }
 
 void ceduo_other_scene_release(struct ceduo_scene *other)
 {
-    for (size_t i = 0; other->options && i < other->options_count; i++)
-        free(other->options[i].belts);
     free(other->options);
     *other = (struct ceduo_scene){0};
 }
