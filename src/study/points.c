@@ -31,13 +31,6 @@ struct item {
     struct ceduo_years *years; /* of the option at hand */
 };
 
-static struct point point_of(const struct item *item, size_t i)
-{
-    struct point point = item->work->variants[i % item->each];
-    point.row = item->row + i / item->each;
-    return point;
-}
-
 static struct ceduo_window window_of(const struct ceduo_doubt_def *def, const struct ceduo_scene *scene, size_t option)
 {
     return def->window.step > 0 ? def->window : ceduo_window_in(scene, &scene->options[option]);
@@ -84,7 +77,8 @@ static enum ceduo_status make_variant(void *context, size_t i, struct ceduo_vari
     enum ceduo_status status = atomic_load(&item->work->failed) ? CEDUO_CANCELLED : CEDUO_OK;
     if (i % item->each == 0)
         ceduo_inputs_set(item->copy, p->u + (item->row + i / item->each) * p->def->inputs_count);
-    *point = point_of(item, i);
+    *point = item->work->variants[i % item->each];
+    point->row = item->row + i / item->each;
     point->scene = &item->copy->scene;
     point->forest = &point->scene->options[point->option];
     if (status == CEDUO_OK && point->slot > 0)

@@ -63,15 +63,10 @@ enum ceduo_status ceduo_surface_points(uint64_t seed, size_t points, size_t inpu
 
 /* ---- functions of one input ---- */
 
-struct function {
-    size_t input;
-    int degree;
-};
-
-/* An input's functions, `count` from `first` on. */
+/* An input's functions, `count` from `first` on, those of degree 1 before all others. */
 struct inputs_functions {
-    size_t first, count, levels; /* levels: of a table; 0: a range */
-    double *table;               /* a row of functions for each level */
+    size_t first, count, linear, levels; /* levels: of a table; 0: a range */
+    double *table;                       /* a row of functions for each level */
 };
 
 struct term {
@@ -98,13 +93,13 @@ struct solution {
     double *x, *means; /* x: a row for each point */
     gsl_multifit_linear_workspace *work;
     double lambda, freedom;
-    double *coefficient; /* of each group's terms, then of their mean */
-    double *remains;     /* of each group at each point, then of their mean */
-    double *leverage;    /* of each point */
-    double *change;      /* of the coefficients of the mean in a sample of the bootstrap */
-    double *spread;      /* the variance of each coefficient where the values have variance 1 */
-    double *room;        /* as many as there are terms */
-    double spare, kept;  /* the variance that the terms leave without noise; how much of the mean's remains is that */
+    double *coefficient, *mean; /* of each group's terms, then of their mean */
+    double *remains, *left;     /* of each group at each point, then of their mean */
+    double *leverage;           /* of each point */
+    double *change;             /* of the coefficients of the mean in a sample of the bootstrap */
+    double *spread;             /* the variance of each coefficient where the values have variance 1 */
+    double *room;               /* as many as there are terms */
+    double spare, kept;         /* the variance that the terms leave without noise; how much of the mean's remains is that */
 };
 
 /* A figure's values at the points, of each group and of their mean (GROUPS), less their means over the points: as the same rocks
@@ -131,7 +126,7 @@ struct ceduo_surface {
     size_t points, inputs_count, functions_count;
     struct arena memory;
     struct inputs_functions *of;
-    struct function *functions;
+    size_t *input;                /* of each function */
     double *at;                   /* of each function its value at each point */
     double *multipliers;          /* of the bootstrap: normal, of each sample for each point */
     struct solution solutions[2]; /* the last ones, without and with products */
@@ -207,7 +202,6 @@ static bool make_functions(struct ceduo_surface *s, size_t i)
 {
     const struct ceduo_input *input = &s->inputs[i];
     struct inputs_functions *of = &s->of[i];
-    struct function *functions = s->functions + s->functions_count;
     bool words = input->kind == CEDUO_INPUT_WORDS, table = words || input->kind == CEDUO_INPUT_DRAWS;
     size_t columns = !table ? 2 : words ? input->words_count - 1 : 2 * input->places_count;
     *of = (struct inputs_functions){.first = s->functions_count};
@@ -219,11 +213,12 @@ static bool make_functions(struct ceduo_surface *s, size_t i)
     for (size_t c = 0; c < columns && c < TABLE_MAX; c++) {
         for (size_t l = 0; l < of->levels; l++)
             of->table[l * TABLE_MAX + of->count] = column_at(input, c, l);
-        bool first = words || c < (table ? input->places_count : 1);
-        functions[of->count] = (struct function){i, first ? 1 : 2};
-        of->count += !table || make_orthonormal(of->table, of->levels, of->count);
+        bool kept = !table || make_orthonormal(of->table, of->levels, of->count);
+        s->input[s->functions_count] = i;
+        s->functions_count += kept;
+        of->count += kept;
+        of->linear += kept && (words || c < (table ? input->places_count : 1));
     }
-    s->functions_count += of->count;
     return true;
 }
 
@@ -244,7 +239,7 @@ enum ceduo_status ceduo_surface_open(const struct ceduo_input *inputs, size_t n,
         return CEDUO_NO_MEMORY;
     *s = (struct ceduo_surface){.inputs = inputs, .u = u, .points = points, .inputs_count = n, .c.points = points};
     s->of = ceduo_arena_take(&s->memory, (n + 1) * sizeof *s->of);
-    s->functions = ceduo_arena_take(&s->memory, (n * TABLE_MAX + 1) * sizeof *s->functions);
+    s->input = ceduo_arena_take(&s->memory, (n * TABLE_MAX + 1) * sizeof *s->input);
     s->multipliers = ceduo_arena_take(&s->memory, SAMPLES * points * sizeof *s->multipliers);
     s->c.y = ceduo_arena_take(&s->memory, (GROUPS + 1) * points * sizeof *s->c.y);
     s->used = ceduo_arena_take(&s->memory, (n + 1) * sizeof *s->used);
@@ -302,9 +297,7 @@ static void add_products(const struct ceduo_surface *s, const struct chosen *cho
         size_t all_words = words + is_word(s, chosen->used[c]);
         if (term.n == 2 && all_words < 2)
             continue;
-        for (size_t k = 0; k < of->count; k++) {
-            if (s->functions[of->first + k].degree > 1)
-                continue;
+        for (size_t k = 0; k < of->linear; k++) {
             struct term product = term;
             product.f[product.n++] = of->first + k;
             if (product.n > 1)
@@ -391,6 +384,8 @@ static struct solution *solution_of(struct ceduo_surface *s, const struct chosen
     }
     if (!f->work || f->memory.failed || ceduo_gsl_try(decompose, f) != 0)
         return NULL;
+    f->mean = f->coefficient + GROUPS * n;
+    f->left = f->remains + GROUPS * points;
     f->chosen = (struct chosen){memcpy(used, chosen->used, bytes), chosen->n, chosen->leading, true};
     return f;
 }
@@ -423,16 +418,6 @@ static void choose_ridge(struct solution *f, const double *y)
             f->lambda = lambda;
         }
     }
-}
-
-static double *coefficients_of(const struct solution *f, size_t group)
-{
-    return f->coefficient + group * f->terms.n;
-}
-
-static double *remains_of(const struct solution *f, size_t group)
-{
-    return f->remains + group * f->s->points;
 }
 
 /* The mean of the products of two different groups' values, `stride` apart; `without`: but for those of one (GROUPS: of all). */
@@ -485,7 +470,7 @@ static struct solution *fit_terms(struct ceduo_surface *s, const struct chosen *
         f->leverage[p] = fmin(f->leverage[p], .99);
     }
     for (size_t g = 0; g <= GROUPS; g++) {
-        double *coefficient = coefficients_of(f, g), *remains = remains_of(f, g);
+        double *coefficient = f->coefficient + g * n, *remains = f->remains + g * points;
         solve(f, y + g * points, coefficient);
         for (size_t p = 0; p < points; p++) {
             remains[p] = y[g * points + p];
@@ -495,7 +480,7 @@ static struct solution *fit_terms(struct ceduo_surface *s, const struct chosen *
     }
     double squares = 0;
     for (size_t p = 0; p < points; p++)
-        squares += remains_of(f, GROUPS)[p] * remains_of(f, GROUPS)[p] / f->freedom;
+        squares += f->left[p] * f->left[p] / f->freedom;
     f->spare = spare_of(f, GROUPS);
     f->kept = squares > 0 ? sqrt(fmin(1, f->spare / squares)) : 0;
     return f;
@@ -643,7 +628,7 @@ static void add_part(const struct solution *f, size_t j, double variance, struct
     const struct term *term = &f->terms.items[j];
     parts->all += variance;
     for (size_t k = 0; k < term->n; k++) {
-        size_t input = f->s->functions[term->f[k]].input;
+        size_t input = f->s->input[term->f[k]];
         parts->of[f->s->inputs_count + input] += variance;
         if (term->n == 1)
             parts->of[input] += variance;
@@ -668,16 +653,16 @@ static void fill_parts(const struct solution *f, size_t without, struct parts *p
 static void draw_parts(const struct solution *f, size_t sample, struct parts *parts)
 {
     const struct ceduo_surface *s = f->s;
-    const double *mean = remains_of(f, GROUPS), *multiplier = s->multipliers + sample * s->points, *change = f->change;
+    const double *multiplier = s->multipliers + sample * s->points, *change = f->change;
     double *drawn = s->values;
     clear_parts(parts);
     for (size_t p = 0; p < s->points; p++) {
-        drawn[p] = f->kept * mean[p] / sqrt(1 - f->leverage[p]) * multiplier[p];
-        *parts->spare += f->kept * f->kept * mean[p] * mean[p] * multiplier[p] * multiplier[p] / f->freedom;
+        drawn[p] = f->kept * f->left[p] / sqrt(1 - f->leverage[p]) * multiplier[p];
+        *parts->spare += f->kept * f->kept * f->left[p] * f->left[p] * multiplier[p] * multiplier[p] / f->freedom;
     }
     solve(f, drawn, f->change);
     for (size_t j = 0; j < f->terms.n; j++) {
-        double more = change[j] * (2 * coefficients_of(f, GROUPS)[j] + change[j]) - f->spare * f->spread[j];
+        double more = change[j] * (2 * f->mean[j] + change[j]) - f->spare * f->spread[j];
         add_part(f, j, common_of(f->coefficient + j, f->terms.n, GROUPS) - f->spare * f->spread[j] + more, parts);
     }
 }
@@ -692,12 +677,11 @@ static void draw_values(const struct solution *f, size_t sample)
     }
     for (size_t p = 0; p < s->points; p++) {
         size_t other = (size_t)(random_pair(sample, p, 0, RANDOM_SAMPLE).u[1] * (double)s->points);
-        s->values[p] = s->c.means[GROUPS] + f->kept * remains_of(f, GROUPS)[other] / sqrt(1 - f->leverage[other]);
+        s->values[p] = s->c.means[GROUPS] + f->kept * f->left[other] / sqrt(1 - f->leverage[other]);
     }
     for (size_t j = 0; j < f->terms.n; j++)
         for (size_t p = 0; p < s->points; p++)
-            s->values[p] +=
-                (coefficients_of(f, GROUPS)[j] + f->change[j]) * (term_at(s, s->room, &f->terms.items[j], p) - f->means[j]);
+            s->values[p] += (f->mean[j] + f->change[j]) * (term_at(s, s->room, &f->terms.items[j], p) - f->means[j]);
     bound(&s->c, s->values);
 }
 
@@ -712,13 +696,13 @@ static void add_changes(const struct solution *f, size_t input, double *change)
     for (size_t j = 0; j < f->terms.n; j++) {
         const struct term *term = &f->terms.items[j];
         for (size_t k = 0; k < term->n; k++) {
-            if (s->functions[term->f[k]].input != input)
+            if (s->input[term->f[k]] != input)
                 continue;
             struct term rest = *term;
             rest.f[k] = rest.f[--rest.n];
             double *row = change + (term->f[k] - of->first) * s->points;
             for (size_t p = 0; p < s->points; p++)
-                row[p] += coefficients_of(f, GROUPS)[j] * term_at(s, s->at, &rest, p);
+                row[p] += f->mean[j] * term_at(s, s->at, &rest, p);
         }
     }
 }
@@ -753,7 +737,7 @@ static void read_quality(const struct solution *f, struct ceduo_surface_fit *fit
     double left_out = 0, squares = 0, common[2] = {0};
     for (size_t p = 0; p < points; p++) {
         double keep = 1 - f->leverage[p];
-        left_out += pow(remains_of(f, GROUPS)[p] / keep, 2);
+        left_out += pow(f->left[p] / keep, 2);
         squares += pow(y[GROUPS * points + p], 2);
         common[0] += common_of(f->remains + p, points, GROUPS) / (keep * keep);
         common[1] += common_of(y + p, points, GROUPS);
