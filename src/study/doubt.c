@@ -6,7 +6,6 @@
 #include "ceduo/doubt.h"
 
 #include <math.h>
-#include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -37,7 +36,7 @@ struct rows {
     struct ceduo_doubt_ranking *ranking; /* that is made */
     size_t all;                          /* evaluations, for the progress */
     atomic_size_t done;
-    pthread_mutex_t talking;
+    atomic_bool talking;
 };
 
 static bool is_asked(const struct rows *r, size_t option)
@@ -62,10 +61,10 @@ static void report(void *context)
     struct rows *r = context;
     const struct ceduo_doubt_def *def = r->def;
     size_t done = atomic_fetch_add(&r->done, 1) + 1;
-    if (!def->progress || pthread_mutex_trylock(&r->talking) != 0)
+    if (!def->progress || atomic_exchange(&r->talking, true))
         return;
     def->progress(def->context, done, r->all);
-    pthread_mutex_unlock(&r->talking);
+    atomic_store(&r->talking, false);
 }
 
 static void read_point(void *context, const struct point *point, const struct brought *at)
@@ -112,7 +111,6 @@ static enum ceduo_status open_rows(struct rows *r, const struct ceduo_doubt_def 
         years += r->years[i];
     }
     r->shares = ceduo_arena_take(&r->memory, years * r->most * sizeof *r->shares);
-    pthread_mutex_init(&r->talking, NULL);
     if (r->memory.failed)
         return CEDUO_NO_MEMORY;
     for (size_t row = 0; row < r->ends; row++)
@@ -513,7 +511,6 @@ enum ceduo_status ceduo_doubt_ask(const struct ceduo_doubt_def *def, struct cedu
         status = rank_options(&rows, true, &answer->over_rotation);
     answer->points = rows.points;
     answer->evaluations = rows.ends + rows.points;
-    pthread_mutex_destroy(&rows.talking);
     ceduo_arena_free(&rows.memory);
     if (status != CEDUO_OK)
         ceduo_doubt_free(answer);
