@@ -86,7 +86,7 @@ enum exit_status ceduo_batch_columns(const struct arguments *a)
 {
     struct text rows = {0};
     ceduo_text_format(&rows, "%s\t%s\t%s\t%s\t%s\n", _("column"), _("type"), _("unit"), _("empty if"), _("meaning"));
-    ceduo_figures_columns(&rows, ceduo_result_csv(a->stands, a->years)->columns);
+    ceduo_figures_columns(&rows, ceduo_result_csv(a->stands, a->years)->columns, false);
     return print_table(a, &rows, "");
 }
 

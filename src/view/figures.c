@@ -188,7 +188,7 @@ static void append_cells(struct text *row, const struct ceduo_figure *f, const v
 
 void ceduo_csv_head(struct text *text, const struct ceduo_csv *csv)
 {
-    ceduo_figures_heads(text, csv->columns);
+    ceduo_figures_columns(text, csv->columns, true);
     text->length--; /* the last comma */
     ceduo_text_char(text, '\n');
 }

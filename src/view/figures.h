@@ -88,10 +88,9 @@ void ceduo_csv_rows(struct text *text, const struct ceduo_csv *csv, const void *
 /* JSON Schema (draft 2020-12) of what ceduo_figures_json() writes, on one line; its $id ends in the format's name. */
 void ceduo_figures_schema(struct text *text, const char *format, const struct ceduo_figure *figures);
 
-/* A line for each column of CSV: path, type, unit, when it is empty, meaning, with tabs between them. */
-void ceduo_figures_columns(struct text *rows, const struct ceduo_figure *columns);
-/* Their paths alone, with a comma behind each. */
-void ceduo_figures_heads(struct text *row, const struct ceduo_figure *columns);
+/* A line for each column of CSV: path, type, unit, when it is empty, meaning, with tabs between them; or their `heads`, the paths
+ * alone, with a comma behind each. */
+void ceduo_figures_columns(struct text *rows, const struct ceduo_figure *columns, bool heads);
 
 /* The whole of a result, a sensitivity and a calibration, read from a struct ceduo_place; and of a search, read from a struct
  * ceduo_find_report. */

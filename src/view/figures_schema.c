@@ -125,7 +125,6 @@ static void append_path(struct text *text, const struct group *group)
     ceduo_text_format(text, "%s.", group->key);
 }
 
-/* `heads`: the path alone, and a comma behind it. */
 static void add_columns(struct text *rows, const struct ceduo_figure *f, const struct group *group, bool heads)
 {
     for (; !ceduo_figure_is_end(f); f++) {
@@ -152,12 +151,7 @@ static void add_columns(struct text *rows, const struct ceduo_figure *f, const s
     }
 }
 
-void ceduo_figures_columns(struct text *rows, const struct ceduo_figure *columns)
+void ceduo_figures_columns(struct text *rows, const struct ceduo_figure *columns, bool heads)
 {
-    add_columns(rows, columns, NULL, false);
-}
-
-void ceduo_figures_heads(struct text *row, const struct ceduo_figure *columns)
-{
-    add_columns(row, columns, NULL, true);
+    add_columns(rows, columns, NULL, heads);
 }
