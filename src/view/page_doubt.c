@@ -275,6 +275,9 @@ static void add_inputs(struct ceduo_page *page, const struct ceduo_doubt_report 
                                                        {N_("share"), -6, 1, 0},
                                                        {N_("width if known"), -14, 2, 0}};
     size_t rest = 0;
+    ceduo_page_add(page, CEDUO_PAGE_GAP);
+    if (r->file->scene.options_count > 1)
+        ceduo_page_say(page, CEDUO_PAGE_SENTENCE, _("What the first option depends on:"));
     if (!f->fit.enough) {
         ceduo_page_note(page, _("There are too few points to say what it depends on; take more (--sensitivity=N)."));
         return;
@@ -425,9 +428,6 @@ void ceduo_doubt_blocks(struct ceduo_page *page, const struct ceduo_doubt_report
                        ceduo_text_string(&place), c->x_given);
     add_options(page, r, false);
     ceduo_doubt_outside(r, ceduo_page_warn, page);
-    ceduo_page_add(page, CEDUO_PAGE_GAP);
-    if (several)
-        ceduo_page_say(page, CEDUO_PAGE_SENTENCE, _("What the first option depends on:"));
     add_inputs(page, r, ceduo_doubt_main(r, 0));
     ceduo_page_add(page, CEDUO_PAGE_GAP);
     LOCAL_TEXT(advice);
@@ -446,9 +446,6 @@ void ceduo_doubt_blocks(struct ceduo_page *page, const struct ceduo_doubt_report
     if (r->answer->rotation && extent >= CEDUO_DOUBT_ORDER) {
         ceduo_page_add(page, CEDUO_PAGE_GAP);
         add_options(page, r, true);
-        ceduo_page_add(page, CEDUO_PAGE_GAP);
-        if (several)
-            ceduo_page_say(page, CEDUO_PAGE_SENTENCE, _("What the first option depends on:"));
         add_inputs(page, r, ceduo_doubt_figure_of(r->answer, 0, CEDUO_DOUBT_MEAN, false));
         ceduo_page_add(page, CEDUO_PAGE_GAP);
     }
