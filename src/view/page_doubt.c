@@ -413,7 +413,7 @@ static void add_orders(struct ceduo_page *page, const struct ceduo_doubt_report 
 
 /* ---- all ---- */
 
-void ceduo_doubt_blocks(struct ceduo_page *page, const struct ceduo_doubt_report *r, enum ceduo_doubt_extent extent)
+void ceduo_doubt_blocks(struct ceduo_page *page, const struct ceduo_doubt_report *r, bool all)
 {
     const struct ceduo_scene *s = &r->file->scene;
     const struct ceduo_control *c = &s->controls[ceduo_scene_last_control(s)];
@@ -443,13 +443,13 @@ void ceduo_doubt_blocks(struct ceduo_page *page, const struct ceduo_doubt_report
             ceduo_page_say(page, CEDUO_PAGE_ITEM, "%s%s%s", several ? ceduo_text_string(&name) : "", several ? ": " : "",
                            words.bytes);
     }
-    if (r->answer->rotation && extent >= CEDUO_DOUBT_ORDER) {
+    if (r->answer->rotation && all) {
         ceduo_page_add(page, CEDUO_PAGE_GAP);
         add_options(page, r, true);
         add_inputs(page, r, ceduo_doubt_figure_of(r->answer, 0, CEDUO_DOUBT_MEAN, false));
         ceduo_page_add(page, CEDUO_PAGE_GAP);
     }
-    if (extent >= CEDUO_DOUBT_ORDER)
+    if (all)
         add_orders(page, r);
     if (!several) /* of several the table has it */
         ceduo_doubt_both(ceduo_page_add(page, CEDUO_PAGE_NOTE), r, 0);
@@ -466,7 +466,7 @@ void ceduo_doubt_page(struct text *text, const struct ceduo_doubt_report *r, boo
     LOCAL_PAGE(page, CEDUO_PAGE_WIDTH);
     ceduo_text_safe(ceduo_page_add(&page, CEDUO_PAGE_TITLE), ceduo_in_language(r->file->scene.title, r->file->scene.title_it));
     if (r->answer)
-        ceduo_doubt_blocks(&page, r, CEDUO_DOUBT_ALL);
+        ceduo_doubt_blocks(&page, r, true);
     else
         ceduo_page_note(&page, ceduo_doubt_none(r));
     ceduo_page_print(text, &page, plain);

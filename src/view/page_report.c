@@ -282,7 +282,7 @@ void ceduo_page_chapter(struct ceduo_page *page, const struct ceduo_chapter *c)
         ceduo_page_laws(page, c->report->result);
     if (controls) {
         if (c->report->doubt && c->report->doubt->answer)
-            ceduo_doubt_blocks(page, c->report->doubt, scene->options_count > CROWD ? CEDUO_DOUBT_SHORT : CEDUO_DOUBT_ORDER);
+            ceduo_doubt_blocks(page, c->report->doubt, scene->options_count <= CROWD);
         add_years(page, c);
         add_hazard(page, c);
     }

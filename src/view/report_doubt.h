@@ -55,10 +55,9 @@ const char *ceduo_doubt_measured(const struct ceduo_doubt_report *report, size_t
 
 struct ceduo_page;
 
-/* Adds what was found as blocks: a section with tables and what to measure first; then how sure the order of the options is;
- * then the paths of the inputs that move together, which may be many lines. */
-enum ceduo_doubt_extent { CEDUO_DOUBT_SHORT, CEDUO_DOUBT_ORDER, CEDUO_DOUBT_ALL };
-void ceduo_doubt_blocks(struct ceduo_page *page, const struct ceduo_doubt_report *report, enum ceduo_doubt_extent extent);
+/* Adds what was found as blocks: a section with tables and what to measure first; of `all` also the mean over a rotation, and how
+ * sure the order of the options is. */
+void ceduo_doubt_blocks(struct ceduo_page *page, const struct ceduo_doubt_report *report, bool all);
 /* "469 of 1000 (rocks 438–501; doubt 92–740)": the main figure of an option with both errors. */
 void ceduo_doubt_both(struct text *text, const struct ceduo_doubt_report *report, size_t option);
 
