@@ -16,8 +16,11 @@
 
 /* A row, where it stands, and what its path begins at: "" or a stand and a dot. */
 struct row {
-    const struct doubt *doubt;
+    struct doubt doubt;
     const char *at, *within;
+    const struct node *list; /* of the stand of a belt, and which of its items */
+    size_t i;
+    bool done;
 };
 
 /* By the string that each begins with. */
@@ -133,15 +136,15 @@ static const struct field *field_of(struct validator *v, const char *path)
 
 static bool read_range(struct validator *v, const struct row *row, const struct field *field, struct ceduo_input *input)
 {
-    double mean = row->doubt->mean, sd = row->doubt->sd;
+    double mean = row->doubt.mean, sd = row->doubt.sd;
     bool normal = !isnan(mean), gamma = normal && field->lo >= 0 && mean > 0 && sd > mean / 3;
     input->kind = gamma ? CEDUO_INPUT_GAMMA : normal ? CEDUO_INPUT_NORMAL : CEDUO_INPUT_RANGE;
     input->mean = mean;
     input->sd = sd;
     if (gamma && sd > CEDUO_GAMMA_MOST * mean)
         return ceduo_complain(v, row->at, "sd", _("sd is more than %g times the mean; give lo and hi"), CEDUO_GAMMA_MOST);
-    input->lo = gamma ? ceduo_input_quantile(input, 0) : normal ? mean - 3 * sd : row->doubt->lo;
-    input->hi = gamma ? ceduo_input_quantile(input, 1) : normal ? mean + 3 * sd : row->doubt->hi;
+    input->lo = gamma ? ceduo_input_quantile(input, 0) : normal ? mean - 3 * sd : row->doubt.lo;
+    input->hi = gamma ? ceduo_input_quantile(input, 1) : normal ? mean + 3 * sd : row->doubt.hi;
     if (!(input->lo < input->hi))
         return ceduo_complain(v, row->at, normal ? "sd" : "hi", _("the range is empty; make it larger"));
     const double ends[] = {input->lo, input->hi};
@@ -155,7 +158,7 @@ static bool read_range(struct validator *v, const struct row *row, const struct 
 
 static bool read_words(struct validator *v, const struct row *row, const struct field *field, struct ceduo_input *input)
 {
-    size_t n = row->doubt->one_of_count;
+    size_t n = row->doubt.one_of_count;
     int *words = ceduo_room(v, n, sizeof *words);
     input->kind = CEDUO_INPUT_WORDS;
     input->words = words;
@@ -163,10 +166,10 @@ static bool read_words(struct validator *v, const struct row *row, const struct 
     if (n < 2)
         ceduo_complain(v, row->at, "one_of", _("name at least two words"));
     for (size_t i = 0; words && i < n; i++) {
-        words[i] = ceduo_choice_find(field->choices, row->doubt->one_of[i]);
+        words[i] = ceduo_choice_find(field->choices, row->doubt.one_of[i]);
         if (words[i] < 0)
             return ceduo_complain(v, ceduo_format(v, "%s.one_of[%zu]", row->at, i), "", _("'%s' is unknown; one of: %s"),
-                                  row->doubt->one_of[i], ceduo_words(v, field->choices));
+                                  row->doubt.one_of[i], ceduo_words(v, field->choices));
     }
     return words && n >= 2;
 }
@@ -175,7 +178,7 @@ static bool read_words(struct validator *v, const struct row *row, const struct 
  * which has been reported. */
 static bool make_input(struct validator *v, const struct row *row, struct places *places, struct ceduo_input *input)
 {
-    const struct doubt *d = row->doubt;
+    const struct doubt *d = &row->doubt;
     const char *path = ceduo_format(v, "%s%s", row->within, d->path);
     bool of_stand = row->within[0] != '\0';
     const struct field *field = field_of(v, path);
@@ -215,18 +218,10 @@ static void add_input(struct validator *v, struct ceduo_input input)
 
 /* ---- of stands ---- */
 
-/* A row of the stand of a belt. */
-struct stand_row {
-    const struct node *list;
-    size_t i;                /* in the list */
-    const char *at, *within; /* where it stands; the stand and a dot */
-    bool done;
-};
-
 /* All rows that nothing is wrong with, of all belts in turn. */
-static struct stand_row *list_rows(struct validator *v, size_t *n)
+static struct row *list_rows(struct validator *v, size_t *n)
 {
-    struct stand_row *all = NULL;
+    struct row *all = NULL;
     const struct node *options = ceduo_node_get(v->root, "options");
     size_t room = 0, several = options && options->kind == NODE_LIST ? options->n : 0;
     for (size_t o = 0; o < (several ? several : 1); o++) {
@@ -239,11 +234,11 @@ static struct stand_row *list_rows(struct validator *v, size_t *n)
                 const char *at = ceduo_format(v, "%sdoubt[%zu]", within, i);
                 if (!ceduo_is_sound(v, at))
                     continue;
-                struct stand_row *rows = ceduo_arena_more(v->arena, all, *n, 1, &room, sizeof *all);
+                struct row *rows = ceduo_arena_more(v->arena, all, *n, 1, &room, sizeof *all);
                 if (!rows)
                     return NULL;
                 all = rows;
-                all[(*n)++] = (struct stand_row){list, i, at, within, false};
+                all[(*n)++] = (struct row){.at = at, .within = within, .list = list, .i = i};
             }
         }
     }
@@ -254,33 +249,31 @@ static struct stand_row *list_rows(struct validator *v, size_t *n)
 static void take_stands(struct validator *v)
 {
     size_t n = 0;
-    struct stand_row *rows = list_rows(v, &n);
+    struct row *rows = list_rows(v, &n);
     const struct object *object = ceduo_schema_field(ceduo_schema_stand(), "doubt")->object;
-    for (struct stand_row *r = rows; rows && r < rows + n; r++) {
+    for (struct row *r = rows; rows && r < rows + n; r++) {
         const struct node *node = r->list->items[r->i];
         const struct source_note *notes = NULL;
-        struct doubt doubt;
-        const struct row row = {&doubt, r->at, r->within};
         struct places places;
         struct ceduo_input input;
         bool twice = false;
         if (r->done)
             continue;
-        ceduo_schema_init(object, &doubt);
+        ceduo_schema_init(object, &r->doubt);
         ceduo_bind(&(struct binding){.arena = v->arena, .problems = v->problems, .notes = &notes, .bad = &v->bad}, object, node,
-                   &doubt);
+                   &r->doubt);
         for (size_t before = 0; before < r->i; before++) {
             const char *other = ceduo_node_text(r->list->items[before], "path");
-            twice |= other && ceduo_schema_same(other, doubt.path);
+            twice |= other && ceduo_schema_same(other, r->doubt.path);
         }
         if (twice)
-            ceduo_complain(v, row.at, "path", _("'%s' is given twice"), doubt.path);
-        bool good = !twice && make_input(v, &row, &places, &input);
-        for (struct stand_row *same = r + 1; same < rows + n; same++)
+            ceduo_complain(v, r->at, "path", _("'%s' is given twice"), r->doubt.path);
+        bool good = !twice && make_input(v, r, &places, &input);
+        for (struct row *same = r + 1; same < rows + n; same++)
             if (same->list->items[same->i] == node) {
                 same->done = true;
                 if (good)
-                    find_places(&places, ceduo_format(v, "%s%s", same->within, doubt.path));
+                    find_places(&places, ceduo_format(v, "%s%s", same->within, r->doubt.path));
             }
         if (!good)
             continue;
@@ -453,19 +446,19 @@ void ceduo_validate_doubt(struct validator *v)
     if (v->draws)
         add_draws(v);
     for (size_t i = 0; i < n; i++) {
-        const struct row row = {&v->draft.doubts[i], ceduo_format(v, "doubt[%zu]", i), ""};
+        const struct row row = {.doubt = v->draft.doubts[i], .at = ceduo_format(v, "doubt[%zu]", i), .within = ""};
         struct places places;
         struct ceduo_input input;
         bool good = make_input(v, &row, &places, &input), twice = false;
-        for (size_t k = 0; good && k < v->file->inputs_count;
-             k++) { /* of one path, by whatever name of an item, or draws of its places */
+        /* of one path, by whatever name of an item, or draws of its places */
+        for (size_t k = 0; good && k < v->file->inputs_count; k++) {
             const struct ceduo_input *b = &v->file->inputs[k];
             for (size_t p = 0; p < input.places_count && b->kind == CEDUO_INPUT_DRAWS; p++)
                 twice |= bsearch(&input.places[p], b->places, b->places_count, sizeof *b->places, by_name) != NULL;
             twice |= b->kind != CEDUO_INPUT_DRAWS && ceduo_schema_same(with_numbers(v, b->path), with_numbers(v, input.path));
         }
         if (twice)
-            ceduo_complain(v, row.at, "path", _("'%s' is given twice"), row.doubt->path);
+            ceduo_complain(v, row.at, "path", _("'%s' is given twice"), row.doubt.path);
         else if (good)
             add_input(v, input);
     }
