@@ -6,10 +6,7 @@
 
 const struct field *ceduo_schema_field(const struct object *object, const char *key)
 {
-    for (size_t i = 0; i < object->n; i++)
-        if (strcmp(object->fields[i].key, key) == 0)
-            return &object->fields[i];
-    return NULL;
+    return ceduo_schema_step(object, &(const struct path_step){.p = key, .n = strlen(key)});
 }
 
 const struct field *ceduo_schema_unit(const struct object *object, const struct field *field)

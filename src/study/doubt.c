@@ -49,11 +49,6 @@ static struct ceduo_groups *values_of(const struct rows *r, size_t row, size_t o
     return r->values + (row * r->options + option) * CEDUO_DOUBT_KINDS;
 }
 
-static struct ceduo_groups *share_of(const struct rows *r, const struct point *point)
-{
-    return r->shares + (r->first_year[point->option] + point->slot - 1) * r->most + (point->row - r->ends);
-}
-
 /* ---- the rows ---- */
 
 static void report(void *context)
@@ -76,7 +71,7 @@ static void read_point(void *context, const struct point *point, const struct br
         const struct ceduo_brief *b = &at[last].of[g];
         double share = r->judged == CEDUO_DOUBT_EXCEED ? b->exceed_probability : b->reach_probability;
         double *mean = &values[CEDUO_DOUBT_MEAN].of[g]; /* of the years, added up as they come */
-        share_of(r, point)->of[g] = share;
+        r->shares[(r->first_year[point->option] + point->slot - 1) * r->most + point->row - r->ends].of[g] = share;
         *mean = (point->slot == 1 ? 0 : *mean) + share / (double)r->years[point->option];
     }
     if (point->slot > 0)
