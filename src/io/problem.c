@@ -48,14 +48,6 @@ size_t ceduo_source_byte(const struct source *s, size_t line, size_t column)
     return at;
 }
 
-/* Bytes of one character, even of one that is no UTF-8. */
-static size_t character_length(const char *p, size_t n)
-{
-    uint32_t code;
-    size_t length = ceduo_utf8_decode(p, n, &code);
-    return length ? length : 1;
-}
-
 /* A part of the line, and a caret below the column where that is in it; of a foreign source only what begins it. */
 static void print_line(struct text *out, const struct source *s, size_t line, size_t column)
 {
@@ -67,13 +59,13 @@ static void print_line(struct text *out, const struct source *s, size_t line, si
     size_t mark = from == 0 ? ceduo_source_mark(s) : 0;
     size_t at = from + mark, c = 1;
     for (; c < first && at < to; c++)
-        at += character_length(s->bytes + at, to - at);
+        at += ceduo_utf8_step(s->bytes + at);
     LOCAL_TEXT(caret);
     ceduo_text_put(out, "  ");
     ceduo_text_safe_n(out, s->bytes, first == 1 ? mark : 0);
     ceduo_text_put(&caret, "  ");
     for (; at < to && c < first + max; c++) {
-        size_t before = out->length, n = character_length(s->bytes + at, to - at);
+        size_t before = out->length, n = ceduo_utf8_step(s->bytes + at);
         if (s->bytes[at] == '\t')
             ceduo_text_char(out, ' ');
         else

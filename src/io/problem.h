@@ -11,7 +11,7 @@ struct source {
     const char *name;            /* as the user knows it */
     const char *path;            /* of a file; "-": standard input */
     const struct source *before; /* that was read before it into the same memory */
-    const char *bytes;
+    const char *bytes;           /* with a NUL behind them */
     size_t length;
     bool is_option;     /* a --set: what is wrong with it is a usage error */
     bool is_cell;       /* of a row of --each that is set in that way: it is bad input, and has no line of its own */

@@ -117,17 +117,16 @@ static void make_belts(struct validator *v, const char *path, struct ceduo_optio
 {
     for (size_t i = 0; i < option->belts_count; i++) {
         struct ceduo_belt *belt = &option->belts[i];
-        const char *here = ceduo_format(v, "%s[%zu]", path, i), *stand = ceduo_format(v, "%s.stand", here), *within;
-        size_t used;
+        const char *here = ceduo_format(v, "%s[%zu]", path, i), *stand = ceduo_format(v, "%s.stand", here);
         const double from = belt->from_given, to = belt->to_given, before = i > 0 ? belt[-1].to_given : -INFINITY;
         if (ceduo_check_stretch(v, here, from, to) && from < before)
             ceduo_complain(v, here, "from_m", _("%s lies before the end of the belt before it, %s; belts must not overlap"),
                            NUMERAL(from), NUMERAL(before));
         belt->from = belt->from_given - v->origin;
         belt->to = belt->to_given - v->origin;
-        const struct node *node = ceduo_resolve_walk(v->root, stand, &within, &used);
+        const struct node *node = ceduo_resolve_at(v->root, stand);
         const char *name = ceduo_node_text(node, "name"); /* what the stand calls itself, or else its file */
-        if (!name && node->written && node->written->kind == NODE_SCALAR)
+        if (!name && node && node->written && node->written->kind == NODE_SCALAR)
             name = node->written->text;
         belt->changed = name && !is_as_named(v, node);
         const char *shown = ceduo_in_language(name, ceduo_node_text(node, "name_it")), *plain = N_("stand");
