@@ -43,15 +43,21 @@ def noticed(tree, name, old, new, tests):
         path.write_text(text, encoding="utf-8")
 
 
+def changes():
+    """File, line, what is put in its place and tests of each."""
+    for block in Path(__file__).with_suffix(".txt").read_text(encoding="utf-8").strip().split("\n\n"):
+        if not block.startswith("#"):
+            yield [re.sub(r"^[-+] ", "", line) for line in block.splitlines()]
+
+
 def main():
     missed = 0
     with tempfile.TemporaryDirectory(prefix="ceduo-changes-") as folder:
         tree = Path(folder) / "tree"
         shutil.copytree(ROOT, tree, symlinks=True, ignore=shutil.ignore_patterns(".git", "asan", "cov", "fuzz", "tsan"))
-        for block in Path(__file__).with_suffix(".txt").read_text(encoding="utf-8").strip().split("\n\n"):
-            if block.startswith("#") or not any(word in block for word in sys.argv[1:] or [""]):
+        for name, old, new, tests in changes():
+            if not any(word in " ".join((name, old, new, tests)) for word in sys.argv[1:] or [""]):
                 continue
-            name, old, new, tests = (re.sub(r"^[-+] ", "", line) for line in block.splitlines())
             good, why = noticed(tree, name, old, new, tests)
             missed += not good
             print(f"{name}: + {new}\n    {why}", flush=True)
