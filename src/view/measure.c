@@ -16,7 +16,6 @@ static struct ceduo_measure of_1000(double p, double lo, double hi, uint64_t rel
                                   .half = 1000 * ceduo_half_width_of_share(p, ceduo_share_se(p, (double)released), released),
                                   .may_lo = NAN,
                                   .may_hi = NAN,
-                                  .unit = N_("of 1000"),
                                   .names = {N_("of 1000 arrive"), N_("arrive"), N_("arrive"), N_("arrive")}};
 }
 
@@ -75,7 +74,6 @@ static struct ceduo_measure energy(double mean, double half, int digits, const c
                                   .may_lo = NAN,
                                   .may_hi = NAN,
                                   .digits = digits,
-                                  .unit = N_("kJ"),
                                   .names = {head, head, head, phrase}};
 }
 
@@ -111,10 +109,7 @@ struct ceduo_measure ceduo_missed(const struct ceduo_arrivals *a, enum ceduo_end
 
 struct ceduo_measure ceduo_height_p95(const struct ceduo_arrivals *a)
 {
-    struct ceduo_measure m =
-        energy(a ? a->height.p95 / J_TO_KJ : NAN, NAN, 3, N_("95 % below m"), N_("95 % of those stay below, m"));
-    m.unit = N_("m");
-    return m;
+    return energy(a ? a->height.p95 / J_TO_KJ : NAN, NAN, 3, N_("95 % below m"), N_("95 % of those stay below, m"));
 }
 
 void ceduo_measure_name(struct text *text, const struct ceduo_measure *m, enum ceduo_measure_name name)

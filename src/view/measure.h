@@ -16,11 +16,11 @@ enum ceduo_measure_name {
 };
 
 struct ceduo_measure {
-    double value, lo, hi;                          /* in the unit shown; NaN: not known, or no interval */
-    double half;                                   /* of a share: half the width of its interval, not rounded */
-    double may_lo, may_hi;                         /* 90 % of what may be true; NaN: not known, see ceduo_measure_doubt() */
-    int digits;                                    /* significant; 0: a whole number */
-    const char *unit, *names[CEDUO_MEASURE_NAMES]; /* marked for translation; %s in a name is the limit */
+    double value, lo, hi;                   /* in the unit shown; NaN: not known, or no interval */
+    double half;                            /* of a share: half the width of its interval, not rounded */
+    double may_lo, may_hi;                  /* 90 % of what may be true; NaN: not known, see ceduo_measure_doubt() */
+    int digits;                             /* significant; 0: a whole number */
+    const char *names[CEDUO_MEASURE_NAMES]; /* marked for translation; %s in a name is the limit */
     double limit;
 };
 
