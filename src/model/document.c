@@ -73,7 +73,7 @@ bool ceduo_document_commit(struct document *d, const struct node *root, const ch
     return true;
 }
 
-bool ceduo_document_turn(struct document *d, int by)
+bool ceduo_document_undo_or_redo(struct document *d, int by)
 {
     LOCAL_PROBLEMS(problems);
     size_t state = d->at + (size_t)by; /* before the first it is larger than any */

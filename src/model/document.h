@@ -72,7 +72,7 @@ bool ceduo_document_split_segment(struct document *document, size_t index, const
 bool ceduo_document_remove_vertex(struct document *document, size_t vertex, size_t segment, struct problems *problems);
 
 /* Undoes an edit (-1), or makes it again (1). False where there is none. */
-bool ceduo_document_turn(struct document *document, int by);
+bool ceduo_document_undo_or_redo(struct document *document, int by);
 bool ceduo_document_unsaved(const struct document *document);
 
 /* Writes the scene to `path`. Comments stay where only values changed; `*laid_out_anew` says when they could not (where

@@ -13,7 +13,7 @@ static void undo_or_redo(struct app *app, int by)
 {
     struct document *d = &app->document;
     bool redo = by > 0;
-    if (!ceduo_document_turn(d, by)) {
+    if (!ceduo_document_undo_or_redo(d, by)) {
         ceduo_app_say(app, "%s", redo ? _("nothing to redo") : _("nothing to undo"));
         return;
     }

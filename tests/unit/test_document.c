@@ -149,7 +149,7 @@ static void walk(const char *steps)
         else if (strcmp(step, "save") == 0)
             save(path);
         else
-            assert_true(ceduo_document_turn(&d, step[0] == 'u' ? -1 : 1));
+            assert_true(ceduo_document_undo_or_redo(&d, step[0] == 'u' ? -1 : 1));
         snprintf(copied, sizeof copied, "rock: {diameter_m: %s, ", diameter);
         if (d.file.scene.rock.diameter.mean != atof(diameter) || ceduo_document_unsaved(&d) != unsaved)
             fail_msg("%g, %d at %s", d.file.scene.rock.diameter.mean, ceduo_document_unsaved(&d), steps);
@@ -259,9 +259,9 @@ static bool step(const char *const at[TABLE_COLUMNS])
     else if (IS("rename") || IS("cannot-rename"))
         good = ceduo_document_rename_option(&d, i, b, &problems) == IS("rename");
     else if (IS("undo") || IS("cannot-undo"))
-        good = ceduo_document_turn(&d, -1) == IS("undo");
+        good = ceduo_document_undo_or_redo(&d, -1) == IS("undo");
     else if (IS("redo") || IS("cannot-redo"))
-        good = ceduo_document_turn(&d, 1) == IS("redo");
+        good = ceduo_document_undo_or_redo(&d, 1) == IS("redo");
     else if (IS("unsaved") || IS("saved"))
         good = ceduo_document_unsaved(&d) == IS("unsaved");
     else if (IS("changed") || IS("unchanged"))
@@ -318,21 +318,21 @@ TEST(documents_go_through_their_steps)
 TEST_WITH(undo_and_redo, set_up, tear_down)
 {
     open_scene();
-    assert_false(ceduo_document_turn(&d, -1));
+    assert_false(ceduo_document_undo_or_redo(&d, -1));
     for (int i = 1; i <= 100; i++) {
         set_millimetres(i);
     }
     for (int i = 99; i >= 1; i--) {
-        assert_true(ceduo_document_turn(&d, -1));
+        assert_true(ceduo_document_undo_or_redo(&d, -1));
         assert_true(d.file.scene.rock.diameter.mean == (double)i / 1000);
     }
-    assert_true(ceduo_document_turn(&d, -1));
-    assert_false(ceduo_document_turn(&d, -1));
+    assert_true(ceduo_document_undo_or_redo(&d, -1));
+    assert_false(ceduo_document_undo_or_redo(&d, -1));
     assert_false(ceduo_document_unsaved(&d));
-    assert_true(ceduo_document_turn(&d, 1));
+    assert_true(ceduo_document_undo_or_redo(&d, 1));
     assert_true(d.file.scene.rock.diameter.mean == 0.001);
     set("rock.diameter_m", "0.9");
-    assert_false(ceduo_document_turn(&d, 1));
+    assert_false(ceduo_document_undo_or_redo(&d, 1));
 }
 
 /* The oldest states are forgotten, half of them; what is on disk is known again where it is among those that are left. */
@@ -351,19 +351,19 @@ TEST_WITH(history_is_cut, set_up, tear_down)
         for (int i = 11; i >= 5; i--) {
             assert_true(d.file.scene.rock.diameter.mean == (100 + i) / 1000.);
             assert_int_equal(ceduo_document_unsaved(&d), i != saved);
-            assert_int_equal(ceduo_document_turn(&d, -1), i > 5);
+            assert_int_equal(ceduo_document_undo_or_redo(&d, -1), i > 5);
         }
         for (int i = 6; i <= 11; i++)
-            assert_true(ceduo_document_turn(&d, 1));
-        assert_false(ceduo_document_turn(&d, 1));
+            assert_true(ceduo_document_undo_or_redo(&d, 1));
+        assert_false(ceduo_document_undo_or_redo(&d, 1));
         for (int i = 12; i <= 20; i++) /* no more goes until as much again is taken up */
             set_millimetres(100 + i);
         for (int i = 19; i >= 5; i--) {
-            assert_true(ceduo_document_turn(&d, -1));
+            assert_true(ceduo_document_undo_or_redo(&d, -1));
             assert_true(d.file.scene.rock.diameter.mean == (100 + i) / 1000.);
             assert_int_equal(ceduo_document_unsaved(&d), i != saved);
         }
-        assert_false(ceduo_document_turn(&d, -1));
+        assert_false(ceduo_document_undo_or_redo(&d, -1));
     }
 }
 
@@ -401,7 +401,7 @@ TEST_WITH(unsaved_work_is_found_again, set_up, tear_down)
     open_scene();
     assert_true(ceduo_document_recover(&d, text, &problems));
     assert_true(d.file.scene.rock.diameter.mean == 0.123);
-    assert_true(ceduo_document_turn(&d, -1));
+    assert_true(ceduo_document_undo_or_redo(&d, -1));
     assert_true(d.file.scene.rock.diameter.mean == 0.5);
     free(text);
     assert_false(ceduo_document_recover(&d, "[a, list]", &problems)); /* which is no scene */
