@@ -179,6 +179,7 @@ static void close_subject(struct subject *s)
     ceduo_arena_free(&s->memory);
 }
 
+/* What a row has of a subject: of a difference that of its option less that of the other. */
 static struct ceduo_groups value_at(const struct rows *r, const struct subject *s, size_t row, enum ceduo_doubt_kind kind)
 {
     struct ceduo_groups y = values_of(r, row, s->option)[kind];
@@ -187,8 +188,9 @@ static struct ceduo_groups value_at(const struct rows *r, const struct subject *
     return y;
 }
 
-static enum ceduo_status fit(const struct rows *r, const struct subject *s, enum ceduo_doubt_kind kind,
-                             struct ceduo_surface_figure figure, struct ceduo_surface_fit *fit)
+/* Fits what the points have of a subject; `figure`: within what bounds. */
+static enum ceduo_status fit_points(const struct rows *r, const struct subject *s, enum ceduo_doubt_kind kind,
+                                    struct ceduo_surface_figure figure, struct ceduo_surface_fit *fit)
 {
     for (size_t p = 0; p < r->points; p++)
         s->column[p] = value_at(r, s, r->ends + p, kind);
@@ -220,7 +222,7 @@ static enum ceduo_status read_figure(const struct rows *r, struct subject *s, st
     ceduo_surface_release(&f->fit);
     const struct ceduo_surface_figure figure = {
         .lo = f->difference ? -max : 0, .hi = max, .limit = judged ? CEDUO_EXCEED_MOST : NAN};
-    enum ceduo_status status = fit(r, s, f->kind, figure, &f->fit);
+    enum ceduo_status status = fit_points(r, s, f->kind, figure, &f->fit);
     if (status != CEDUO_OK)
         return status;
     f->uses = 0;
@@ -419,7 +421,7 @@ static int compare_pair(void *context, size_t item, size_t worker)
     struct ceduo_surface_fit found = {0};
     enum ceduo_status status = open_subject(r, o->better, o->than, &s);
     if (status == CEDUO_OK)
-        status = fit(r, &s, kind, (struct ceduo_surface_figure){.lo = -INFINITY, .hi = INFINITY, .limit = NAN}, &found);
+        status = fit_points(r, &s, kind, (struct ceduo_surface_figure){.lo = -INFINITY, .hi = INFINITY, .limit = NAN}, &found);
     o->p5 = found.p5;
     o->p95 = found.p95;
     for (size_t p = 0; status == CEDUO_OK && p < r->points; p++) {
