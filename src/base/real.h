@@ -69,6 +69,13 @@ typedef uint64_t ints __attribute__((vector_size(8 * REAL_LANES)));
 #define EACH_LANE(i) for (size_t i = 0; i < REAL_LANES; i++)
 #define REGISTER     ((1u << REAL_LANES) - 1) /* a bit for each lane */
 
+/* Numbers of two registers by their places. Before version 12 gcc has another word for it. */
+#if defined(__clang__) || __GNUC__ >= 12
+#define SHUFFLED(p, q, ...) __builtin_shufflevector(p, q, __VA_ARGS__)
+#else
+#define SHUFFLED(p, q, ...) __builtin_shuffle(p, q, (ints){__VA_ARGS__})
+#endif
+
 OP(ints, as_ints, (real p), (ints)p)
 OP(real, as_real, (ints p), (real)p)
 OP(ints, all_ints, (uint64_t s), (ints){0} + s)
@@ -134,9 +141,9 @@ HOT void keep(mask which, ints p, void *to)
 #define LOOK_UP_16
 OP(real, look_up_16, (const double *table, ints i), _mm512_permutex2var_pd(load(table), (__m512i)i, load(table + 8)))
 
-#define EVEN(p, q) __builtin_shufflevector(p, q, 0, 2, 4, 6, 8, 10, 12, 14)
-#define ODD(p, q)  __builtin_shufflevector(p, q, 1, 3, 5, 7, 9, 11, 13, 15)
-#define NEXT(p, q) __builtin_shufflevector(p, q, 1, 2, 3, 4, 5, 6, 7, 8)
+#define EVEN(p, q) SHUFFLED(p, q, 0, 2, 4, 6, 8, 10, 12, 14)
+#define ODD(p, q)  SHUFFLED(p, q, 1, 3, 5, 7, 9, 11, 13, 15)
+#define NEXT(p, q) SHUFFLED(p, q, 1, 2, 3, 4, 5, 6, 7, 8)
 /* The pairs at i[0], i[1] … */
 HOT real four_rows(const double (*pairs)[2], const uint64_t *i)
 {
@@ -174,9 +181,9 @@ HOT void keep(mask which, ints p, void *to)
     _mm256_storeu_si256(to, _mm256_permutevar8x32_epi32((__m256i)p, (__m256i)kept[lanes_of(which)]));
 }
 
-#define EVEN(p, q) __builtin_shufflevector(p, q, 0, 2, 4, 6)
-#define ODD(p, q)  __builtin_shufflevector(p, q, 1, 3, 5, 7)
-#define NEXT(p, q) __builtin_shufflevector(p, q, 1, 2, 3, 4)
+#define EVEN(p, q) SHUFFLED(p, q, 0, 2, 4, 6)
+#define ODD(p, q)  SHUFFLED(p, q, 1, 3, 5, 7)
+#define NEXT(p, q) SHUFFLED(p, q, 1, 2, 3, 4)
 HOT void load_pairs_at(const double (*pairs)[2], const uint64_t *i, real *a, real *b)
 {
     real even = two_rows(pairs, i[0], i[2]), odd = two_rows(pairs, i[1], i[3]);
@@ -215,9 +222,9 @@ HOT void keep(mask which, ints p, void *to)
     }
 }
 
-#define EVEN(p, q) __builtin_shufflevector(p, q, 0, 2)
-#define ODD(p, q)  __builtin_shufflevector(p, q, 1, 3)
-#define NEXT(p, q) __builtin_shufflevector(p, q, 1, 2)
+#define EVEN(p, q) SHUFFLED(p, q, 0, 2)
+#define ODD(p, q)  SHUFFLED(p, q, 1, 3)
+#define NEXT(p, q) SHUFFLED(p, q, 1, 2)
 
 #endif
 
