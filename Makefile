@@ -303,11 +303,11 @@ do-coverage:
 do-net: all $(T)/tables $(BUILD)/man/completion
 	@CC="$(CC)" tests/net.py --program $(PROGRAM) $(if $(BEFORE),--before '$(BEFORE)') $(if $(ONLY),--only '$(value ONLY)')
 
-DEBIAN_ALL := $(DEBIAN_FUZZ) valgrind slurmctld slurmd slurm-client munge chromium tidy poppler-utils
+DEBIAN_ALL := $(DEBIAN_FUZZ) gcc-aarch64-linux-gnu qemu-user valgrind slurmctld slurmd slurm-client munge chromium tidy poppler-utils
 DEBIAN_BENCH := python3-numpy
 # All of it takes two hours. Each part leaves a log with the name of the commit; those that have passed on this commit are not run
 # again. ONLY='threads memory': these alone. FULL: also what `make check` leaves out to be short.
-ALL_PARTS := check sanitizers clang threads memory slurm dist deb
+ALL_PARTS := check sanitizers clang threads memory arm slurm dist deb
 do-all-check do-all-sanitizers: export FULL := 1
 do-all-check: do-check
 do-all-sanitizers:
@@ -316,7 +316,7 @@ do-all-clang: # its sanitizer tells of offsets to null pointers, gcc's does not
 	@+$(MAKE) --no-print-directory CC=clang VARIANT=fuzz do-replay
 do-all-threads:
 	@+$(MAKE) --no-print-directory VARIANT=tsan do-check-threads
-$(foreach part,memory slurm dist deb,do-all-$(part)): do-all-%: do-check-%
+$(foreach part,memory arm slurm dist deb,do-all-$(part)): do-all-%: do-check-%
 
 do-check-all:
 	@+$(MAKE) --no-print-directory DEBIAN="$(DEBIAN_ALL)" deps
@@ -356,6 +356,10 @@ do-check-memory: all
 	printf '%s\n' 'key 2 Down Down Enter' 'type 0.5' 'key Enter u Ctrl-R' 'resize 120 40' 'key 1 a 3 4 5 6 ? Esc' 'dump -' \
 	    >$(BUILD)/valgrind.keys
 	$(VALGRIND) $(PROGRAM) --script $(BUILD)/valgrind.keys profiles/scenes/paper-site.yaml >/dev/null
+
+# Another kind of processor.
+do-check-arm:
+	tests/arm.sh
 
 # Runs the workflows again, with Slurm on one node for their job arrays; if Slurm cannot be started, it says why.
 do-check-slurm: all

@@ -1,0 +1,33 @@
+#!/bin/sh
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Another kind of processor: tests of physics, compiled for 64-bit ARM and run by qemu, and the bits of rocks, which are those of
+# this machine. Debian's libraries for ARM are unpacked below build and not installed.
+set -e
+cd "$(dirname "$0")/.."
+arm=$PWD/build/debian-arm
+mkdir -p "$arm/lists/partial" "$arm/archives/partial" "$arm/root"
+: >"$arm/status"
+for step in update 'install -y -q --download-only --no-install-recommends libncurses-dev libgsl-dev libyaml-dev libunistring-dev libcmocka-dev'; do
+    apt-get -q -o APT::Architecture=arm64 -o APT::Architectures=arm64 -o Dir::State::Lists="$arm/lists" \
+        -o Dir::Cache::Archives="$arm/archives" -o Dir::Cache::pkgcache= -o Dir::Cache::srcpkgcache= \
+        -o Dir::State::status="$arm/status" $step >"$arm/apt.log" 2>&1 || { cat "$arm/apt.log"; exit 1; }
+done
+rm -f "$arm"/archives/libc6-dev_* # the compiler has its own
+for package in "$arm"/archives/*.deb; do dpkg -x "$package" "$arm/root"; done
+link=$(printf -- "-L%s -Wl,-rpath-link,%s " "$arm"/root/usr/lib/aarch64-linux-gnu "$arm"/root/usr/lib/aarch64-linux-gnu "$arm"/root/lib/aarch64-linux-gnu "$arm"/root/lib/aarch64-linux-gnu)
+tests='physics/test_golden physics/test_lanes physics/test_years unit/test_elementary'
+make --no-print-directory VARIANT=arm CC=aarch64-linux-gnu-gcc CFLAGS=-O2 LDFLAGS="$link" $(printf 'build/arm/tests/%s ' $tests)
+for test in $tests; do qemu-aarch64 -L "$arm/root" "build/arm/tests/$test"; done
+
+bits() { # of which build, compiler...
+    build=build/$1
+    shift
+    "$@" -std=c17 -Iinclude -Isrc -Itests -o $build/bits tests/physics/bits.c tests/physics/paper_site.c $build/libceduo.a \
+        -lunistring -lgsl -lgslcblas -lm -pthread
+}
+make --no-print-directory build/release/libceduo.a
+bits release gcc
+bits arm aarch64-linux-gnu-gcc $link
+build/release/bits 1 >build/release/bits.txt
+qemu-aarch64 -L "$arm/root" build/arm/bits 1 | cmp - build/release/bits.txt
+echo "the same bits on ARM"
