@@ -14,7 +14,8 @@ for step in update 'install -y -q --download-only --no-install-recommends libncu
 done
 rm -f "$arm"/archives/libc6-dev_* # the compiler has its own
 for package in "$arm"/archives/*.deb; do dpkg -x "$package" "$arm/root"; done
-link=$(printf -- "-L%s -Wl,-rpath-link,%s " "$arm"/root/usr/lib/aarch64-linux-gnu "$arm"/root/usr/lib/aarch64-linux-gnu "$arm"/root/lib/aarch64-linux-gnu "$arm"/root/lib/aarch64-linux-gnu)
+linked() { printf -- '-L%s -Wl,-rpath-link,%s ' "$1" "$1"; }
+link=$(linked "$arm/root/usr/lib/aarch64-linux-gnu" && linked "$arm/root/lib/aarch64-linux-gnu")
 tests='physics/test_golden physics/test_lanes physics/test_years unit/test_elementary'
 make --no-print-directory VARIANT=arm CC=aarch64-linux-gnu-gcc CFLAGS=-O2 LDFLAGS="$link" $(printf 'build/arm/tests/%s ' $tests)
 for test in $tests; do qemu-aarch64 -L "$arm/root" "build/arm/tests/$test"; done
