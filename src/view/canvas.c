@@ -107,6 +107,7 @@ bool ceduo_frame_valid(const struct ceduo_frame *frame)
     return frame_cells_valid(frame) && range_valid(frame->x0, frame->x1) && range_valid(frame->y0, frame->y1);
 }
 
+/* Of a frame whose cells are valid: others are as large as they like. */
 static struct ceduo_raster raster_of(const struct ceduo_canvas *canvas, const struct ceduo_frame *frame)
 {
     return (struct ceduo_raster){frame->left * canvas->dots_x, frame->top * canvas->dots_y, frame->width * canvas->dots_x,
@@ -154,9 +155,11 @@ bool ceduo_frame_true_scale(struct ceduo_frame *frame, const struct ceduo_canvas
 bool ceduo_frame_cell(const struct ceduo_frame *frame, const struct ceduo_canvas *canvas, double x, double y, int *column,
                       int *row)
 {
+    if (!ceduo_frame_valid(frame))
+        return false;
     struct ceduo_raster raster = raster_of(canvas, frame);
     struct ceduo_position p;
-    if (!ceduo_frame_valid(frame) || !place(frame, &raster, x, y, &p) || !inside(&raster, p))
+    if (!place(frame, &raster, x, y, &p) || !inside(&raster, p))
         return false;
     *column = frame->left + nearest(p.x, raster.nx) / canvas->dots_x;
     *row = frame->top + nearest(p.y, raster.ny) / canvas->dots_y;
@@ -166,9 +169,11 @@ bool ceduo_frame_cell(const struct ceduo_frame *frame, const struct ceduo_canvas
 bool ceduo_frame_place(const struct ceduo_frame *frame, const struct ceduo_canvas *canvas, double x, double y, double *across,
                        double *down)
 {
+    if (!ceduo_frame_valid(frame))
+        return false;
     struct ceduo_raster raster = raster_of(canvas, frame);
     struct ceduo_position p;
-    if (!ceduo_frame_valid(frame) || !place(frame, &raster, x, y, &p))
+    if (!place(frame, &raster, x, y, &p))
         return false;
     *across = (raster.left + p.x + 0.5) / canvas->dots_x;
     *down = (raster.top + p.y + 0.5) / canvas->dots_y;
@@ -222,9 +227,10 @@ void ceduo_canvas_polyline(struct ceduo_canvas *canvas, const struct ceduo_frame
 static void draw_straight(struct ceduo_canvas *canvas, const struct ceduo_frame *frame, enum ceduo_role role,
                           enum ceduo_stroke stroke, double ax, double ay, double bx, double by)
 {
+    if (!ceduo_frame_valid(frame))
+        return;
     struct ceduo_pen pen = {raster_of(canvas, frame), role, stroke, INT_MIN, INT_MIN};
-    if (ceduo_frame_valid(frame))
-        draw_line(canvas, frame, &pen, ax, ay, bx, by);
+    draw_line(canvas, frame, &pen, ax, ay, bx, by);
 }
 
 void ceduo_canvas_line(struct ceduo_canvas *canvas, const struct ceduo_frame *frame, enum ceduo_role role, double ax, double ay,
@@ -258,9 +264,11 @@ void ceduo_canvas_stairs(struct ceduo_canvas *canvas, const struct ceduo_frame *
 void ceduo_canvas_disc(struct ceduo_canvas *canvas, const struct ceduo_frame *frame, enum ceduo_role role, double x, double y,
                        double radius)
 {
+    if (!ceduo_frame_valid(frame))
+        return;
     struct ceduo_raster raster = raster_of(canvas, frame);
     struct ceduo_position centre;
-    if (canvas->surface->disc && ceduo_frame_valid(frame) && place(frame, &raster, x, y, &centre) && inside(&raster, centre))
+    if (canvas->surface->disc && place(frame, &raster, x, y, &centre) && inside(&raster, centre))
         canvas->surface->disc(canvas->to, &raster, role, centre,
                               (struct ceduo_position){fabs(radius / (frame->x1 - frame->x0)) * (raster.nx - 1),
                                                       fabs(radius / (frame->y1 - frame->y0)) * (raster.ny - 1)});
