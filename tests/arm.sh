@@ -5,7 +5,7 @@
 set -e
 cd "$(dirname "$0")/.."
 arm=$PWD/build/debian-arm
-mkdir -p "$arm/lists/partial" "$arm/archives/partial" "$arm/root"
+mkdir -p "$arm/lists/partial" "$arm/archives/partial" "$arm/system"
 : >"$arm/status"
 for step in update 'install -y -q --download-only --no-install-recommends libncurses-dev libgsl-dev libyaml-dev libunistring-dev libcmocka-dev'; do
     apt-get -q -o APT::Architecture=arm64 -o APT::Architectures=arm64 -o Dir::State::Lists="$arm/lists" \
@@ -13,12 +13,12 @@ for step in update 'install -y -q --download-only --no-install-recommends libncu
         -o Dir::State::status="$arm/status" $step >"$arm/apt.log" 2>&1 || { cat "$arm/apt.log"; exit 1; }
 done
 rm -f "$arm"/archives/libc6-dev_* # the compiler has its own
-for package in "$arm"/archives/*.deb; do dpkg -x "$package" "$arm/root"; done
+for package in "$arm"/archives/*.deb; do dpkg -x "$package" "$arm/system"; done
 linked() { printf -- '-L%s -Wl,-rpath-link,%s ' "$1" "$1"; }
-link=$(linked "$arm/root/usr/lib/aarch64-linux-gnu" && linked "$arm/root/lib/aarch64-linux-gnu")
+link=$(linked "$arm/system/usr/lib/aarch64-linux-gnu" && linked "$arm/system/lib/aarch64-linux-gnu")
 tests='physics/test_golden physics/test_lanes physics/test_years unit/test_elementary'
 make --no-print-directory VARIANT=arm CC=aarch64-linux-gnu-gcc CFLAGS=-O2 LDFLAGS="$link" $(printf 'build/arm/tests/%s ' $tests)
-for test in $tests; do qemu-aarch64 -L "$arm/root" "build/arm/tests/$test"; done
+for test in $tests; do qemu-aarch64 -L "$arm/system" "build/arm/tests/$test"; done
 
 bits() { # of which build, compiler...
     build=build/$1
@@ -30,5 +30,5 @@ make --no-print-directory build/release/libceduo.a
 bits release gcc
 bits arm aarch64-linux-gnu-gcc $link
 build/release/bits 1 >build/release/bits.txt
-qemu-aarch64 -L "$arm/root" build/arm/bits 1 | cmp - build/release/bits.txt
+qemu-aarch64 -L "$arm/system" build/arm/bits 1 | cmp - build/release/bits.txt
 echo "the same bits on ARM"
