@@ -2,16 +2,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Lines and branches of the rooms of PARTS that the tests have gone through: tests/coverage.py BUILD
 
-BUILD is the folder of a build with gcc's --coverage whose tests were run. A branch that none of them took has to be
-explained by a comment on its line or the one before, /* untaken: TAG */, or /* untaken 3: TAG */ of three; one that is not is
-named and the status is 1. What is explained and taken all the same is named, too.
+BUILD is the folder of a build with clang's counters whose tests were run. A branch is one way out of a condition of the source
+or one case of a switch; what a macro has is counted where it is defined. One that no test took has to be explained by a comment
+on its line or the one before, /* untaken: TAG */, or /* untaken 3: TAG */ of three; one that is not is named and the status is
+1. What is explained and taken all the same is named, too.
 """
 import json
-import os
 import re
 import subprocess
 import sys
-import tempfile
 from collections import defaultdict
 from pathlib import Path
 
@@ -19,40 +18,41 @@ ROOT = Path(__file__).resolve().parents[1]
 PARTS = ("src/base/", "src/scene/", "src/core/", "src/study/", "src/io/")
 
 
-class Line:
+class File:
     def __init__(self):
-        self.count = 0
-        self.function = ""
-        self.branches = []  # how often each was taken
+        self.ways = defaultdict(lambda: [0, 0])  # line and column of each condition -> how often it was true, and false
+        self.lines = 0, 0  # that were reached, and all
 
-    def add(self, found):
-        """What one object says of it: headers are part of several, and a macro may make several functions of a line."""
-        self.count += found["count"]
-        self.function = found.get("function_name", self.function)
-        counts = [b["count"] for b in found["branches"]]
-        self.branches += [0] * (len(counts) - len(self.branches))
-        for i, count in enumerate(counts):
-            self.branches[i] += count
+    def add(self, branch):
+        """An inline function or a macro is in several objects and places."""
+        counts = self.ways[branch[0], branch[1]]
+        counts[0] += branch[4]
+        counts[1] += branch[5]
 
     def missed(self):
-        return sum(count == 0 for count in self.branches)
+        """Number of a line -> ways out of its conditions that nobody took, in words."""
+        found = defaultdict(list)
+        for (line, column), counts in sorted(self.ways.items()):
+            found[line] += [f"{column} {way}" for way, count in zip(("true", "false"), counts) if count == 0]
+        return found
 
 
 def read(build):
-    """Path and number of each line that is code -> Line."""
-    notes = sorted(p.resolve() for part in PARTS for p in (build / part).rglob("*.gcno"))
-    if not notes:
-        sys.exit(f"{build}: no build with --coverage")
-    with tempfile.TemporaryDirectory() as folder:
-        done = subprocess.run([os.environ.get("GCOV") or "gcov", "--json-format", "--stdout", "--branch-probabilities", *notes],
-                              cwd=folder, stdout=subprocess.PIPE, check=True)
-    files = defaultdict(lambda: defaultdict(Line))
-    for text in done.stdout.splitlines():
-        for found in json.loads(text)["files"]:
-            if found["file"].startswith(PARTS):
-                for line in found["lines"]:
-                    files[found["file"]][line["line_number"]].add(line)
-    return files
+    """Path of each file -> File."""
+    counts = build / "all.profdata"
+    subprocess.run(["llvm-profdata", "merge", "-sparse", "-o", counts, *(build / "counts").glob("*.profraw")], check=True)
+    done = subprocess.run(["llvm-cov", "export", "-instr-profile", counts, build / "libceduo.so"], stdout=subprocess.PIPE,
+                          check=True)
+    files = defaultdict(File)
+    for found in json.loads(done.stdout)["data"][0]["files"]:
+        path = str(Path(found["filename"]).relative_to(ROOT))
+        files[path].lines = found["summary"]["lines"]["covered"], found["summary"]["lines"]["count"]
+        for branch in found["branches"]:
+            files[path].add(branch)
+        for expansion in found["expansions"]:
+            for branch in expansion["branches"]:
+                files[str(Path(expansion["filenames"][branch[6]]).relative_to(ROOT))].add(branch)
+    return {path: file for path, file in files.items() if path.startswith(PARTS)}
 
 
 # ---- what is explained ----
@@ -90,10 +90,8 @@ def share(part, whole):
 def report(files):
     print(f"{'':28} {'lines':>22} {'branches':>25}")
     sums = defaultdict(lambda: [0] * 4)
-    for path in sorted(files):
-        lines = files[path].values()
-        counts = (sum(x.count > 0 for x in lines), len(lines), sum(len(x.branches) - x.missed() for x in lines),
-                  sum(len(x.branches) for x in lines))
+    for path, file in sorted(files.items()):
+        counts = *file.lines, sum(bool(n) for pair in file.ways.values() for n in pair), 2 * len(file.ways)
         for name in (str(Path(path).parent), "both"):
             sums[name] = [a + b for a, b in zip(sums[name], counts)]
         print(f"{path:28}", share(*counts[:2]), share(*counts[2:]))
@@ -104,16 +102,16 @@ def report(files):
 def judge(files):
     """Prints lines with branches that nobody took and nothing explains, and marks that are not needed; true if all is explained."""
     good, explained = True, defaultdict(int)
-    for path in sorted(files):
-        reasons = marks(path)
-        for number, line in sorted(files[path].items()):
-            missed, (most, tag) = line.missed(), reasons.get(number, (0, None))
-            explained[tag] += min(missed, most)
-            if missed > most or tag and tag not in TAGS:
+    for path, file in sorted(files.items()):
+        reasons, missed = marks(path), file.missed()
+        for number in sorted(reasons.keys() | missed.keys()):
+            ways, (most, tag) = missed[number], reasons.get(number, (0, None))
+            explained[tag] += min(len(ways), most)
+            if len(ways) > most or tag and tag not in TAGS:
                 good = False
-                print(f"{path}:{number}: {missed} not taken, {most} explained: {line.function}")
-            elif missed < most:
-                print(f"{path}:{number}: stale, {missed} of {most} not taken: {line.function}")
+                print(f"{path}:{number}: {len(ways)} not taken, {most} explained: column {', '.join(ways)}")
+            elif len(ways) < most:
+                print(f"{path}:{number}: stale, {len(ways)} of {most} not taken")
     print(f"not taken and explained: {sum(explained.values())}", ", ".join(f"{tag} {explained[tag]}" for tag in TAGS))
     return good
 

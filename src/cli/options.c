@@ -4,6 +4,7 @@
  * are those of main(). */
 #include <getopt.h>
 #include <math.h>
+#include <sched.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -499,7 +500,8 @@ enum exit_status ceduo_arguments_read(struct arguments *a, int argc, char **argv
 {
     struct option longs[ROWS + 1] = {{0}};
     char shorts[2 * ROWS + 2] = ":", *letter_at = shorts + 1;
-    long cores = sysconf(_SC_NPROCESSORS_ONLN);
+    cpu_set_t given; /* the processors that a job of Slurm or taskset leaves to it */
+    long cores = sched_getaffinity(0, sizeof given, &given) == 0 ? CPU_COUNT(&given) : sysconf(_SC_NPROCESSORS_ONLN);
     size_t most = (size_t)argc + 1;
     *a = (struct arguments){.threads = cores > 0 && cores <= THREADS_MOST ? (uint64_t)cores : 1,
                             .charset = ceduo_say_utf8() ? CEDUO_CHARSET_BRAILLE : CEDUO_CHARSET_ASCII,

@@ -34,7 +34,7 @@ CEDUO = str(Path(os.environ.get("CEDUO") or ROOT / "ceduo").resolve())
 PROGRAM = Path(CEDUO).read_bytes() if Path(CEDUO).exists() else b""
 SANITIZED = b"__asan_init" in PROGRAM or b"__tsan_init" in PROGRAM  # they need memory of their own, and time
 FULL = "FULL" in os.environ  # make check-all: what depends on the number of rocks has as many as it can use
-SLOWER = 20 if b"__gcov" in PROGRAM else 10 if SANITIZED else 1  # by so much what hangs is waited for
+SLOWER = 5 if b"__llvm_profile" in PROGRAM else 10 if SANITIZED else 1  # by so much what hangs is waited for
 
 DONE, RUN, USAGE, INPUT, OUTPUT = range(5)  # exit statuses
 

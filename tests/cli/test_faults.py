@@ -382,7 +382,7 @@ def test_read_only_folder():
         f.write("theirs/scene.yaml", FAST)
         f.write("play.txt", "key 3 Down\nkey Enter Ctrl-U\ntype 0.75\nkey Enter\nkey s\ndump -\nkey Esc q\ndump -\n")
         os.chmod(f.path / "theirs", 0o555)
-        counts = f.path / "counts"  # of a build with gcc's --coverage: the other user cannot write to their own place
+        counts = f.path / "counts"  # of a build that counts: the other user cannot write to their own place
         counts.mkdir()
         counts.chmod(0o777)
         other = {"user": 65534, "group": 65534, "extra_groups": []} if os.geteuid() == 0 else {}
@@ -390,7 +390,7 @@ def test_read_only_folder():
         def run(*words):
             try:
                 return subprocess.run([f.path / "ceduo", *map(str, words)], cwd=f.path / "theirs", check=False,
-                                      env=environment(GCOV_PREFIX=str(counts)),
+                                      env=environment(LLVM_PROFILE_FILE=f"{counts}/%m.profraw"),
                                       stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, timeout=60, **other)
             except PermissionError as why:
                 raise Skip(f"another user cannot be taken on: {why}") from why
