@@ -61,6 +61,9 @@ TAGS = {
     "memory": "an allocation fails just here; the tests of faults make each fail, in a build that does not count",
     "table": "a value that is none of its table's, which readers and checks do not let through",
     "machine": "another processor than the one that the tests run on, or a place where the program's own path is not known",
+    "constant": "known when the program is compiled: no condition is left",
+    "end": "the program ends there, and what it counted is lost; the tests of faults and of GSL's errors do it",
+    "twice": "setjmp returns twice and is counted once",
     "race": "another program comes between two calls of the system, or who ends a work between two looks at whether it is ended",
     "system": "a call of the system that is interrupted or fails late, which the tests of faults do, in a build that does not count",
     "rounding": "a guard against the last bit of a sum, or against an underflow, that no test has met",
@@ -110,7 +113,7 @@ def judge(files):
             if len(ways) > most or tag and tag not in TAGS:
                 good = False
                 print(f"{path}:{number}: {len(ways)} not taken, {most} explained: column {', '.join(ways)}")
-            elif len(ways) < most:
+            elif len(ways) < most and tag != "machine":
                 print(f"{path}:{number}: stale, {len(ways)} of {most} not taken")
     print(f"not taken and explained: {sum(explained.values())}", ", ".join(f"{tag} {explained[tag]}" for tag in TAGS))
     return good

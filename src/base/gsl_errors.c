@@ -29,7 +29,7 @@ static void on_error(const char *reason, const char *file, int line, int error)
     pthread_mutex_lock(&lock);
     gsl_error_handler_t *theirs = before;
     pthread_mutex_unlock(&lock);
-    if (theirs) {
+    if (theirs) { /* untaken: end */
         theirs(reason, file, line, error);
     } else { /* it prints what is wrong and aborts */
         gsl_set_error_handler(NULL);
@@ -66,7 +66,7 @@ int ceduo_gsl_try(int (*call)(void *context), void *context)
     jmp_buf out;
     volatile int status = GSL_ENOMEM;
     way_out = &out;
-    if (setjmp(out) == 0)
+    if (setjmp(out) == 0) /* untaken: twice */
         status = call(context);
     way_out = NULL;
     return status;

@@ -8,7 +8,7 @@ static _Thread_local bool lost;
 void ceduo_no_memory(void)
 {
     lost = true;
-    if (ceduo_memory_hook)
+    if (ceduo_memory_hook) /* untaken: end */
         ceduo_memory_hook();
 }
 

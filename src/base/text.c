@@ -90,7 +90,10 @@ static void format_spoken(struct text *text, const char *format, va_list args)
             ceduo_text_char(&marked, *c);
         c += n;
     }
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wformat-nonliteral" /* what is printed is that of the format */
     ceduo_text_vformat(&printed, ceduo_text_string(&marked), args);
+#pragma GCC diagnostic pop
     bool number = false;
     for (const char *c = ceduo_text_string(&printed); *c; c++)
         if (*c == '\1' || *c == '\2')

@@ -556,6 +556,7 @@ TEST(intervals_of_quantiles)
         assert_int_equal(lo, atof(row.at[2]));
         assert_int_equal(hi, atof(row.at[3]));
     }
+    assert_true(isnan(ceduo_quantile(NULL, 0, .5)));
     const double shares[] = {.01, .05, .5, .95, .99};
     for (size_t i = 0; i < LENGTH(shares); i++)
         for (size_t n = 1; n <= 300; n++) { /* neither tail has more than 2.5 %, and one rank further in it would */

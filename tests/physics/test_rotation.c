@@ -169,6 +169,18 @@ TEST(next_to_nothing_grows_as_a_new_stem)
     }
 }
 
+/* With one rate for both, a stem has the same share of the greatest height as of the greatest width. */
+TEST(a_curve_gives_heights_by_widths)
+{
+    const struct ceduo_curve curve = {.4, .03, 20, .03}, faster = {.4, .03, 20, .06};
+    for (double share = 0; share < 1; share += .1) {
+        EXPECT_NEAR(ceduo_curve_height(&curve, .4 * share), 20 * share, 1e-12);
+        EXPECT_NEAR(ceduo_curve_height(&faster, .4 * share), 20 * (1 - (1 - share) * (1 - share)), 1e-12);
+    }
+    assert_true(isnan(ceduo_curve_height(&curve, .4)));
+    assert_true(isnan(ceduo_curve_height(&(struct ceduo_curve){.4, .03, 0, .03}, .1)));
+}
+
 TEST_WITH(thicker_than_its_curve_it_grows_no_more, fresh, NULL)
 {
     s.shoots[0] = paper_stems(4000, .16, 9);

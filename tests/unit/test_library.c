@@ -6,8 +6,11 @@
 #include <gsl/gsl_errno.h>
 #include <math.h>
 #include <pthread.h>
+#include <signal.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include "base/gsl_errors.h"
 #include "ceduo/ceduo.h"
@@ -130,6 +133,28 @@ static void *err(void *unused)
     return unused;
 }
 
+/* A handler that is set within a call is there after it. */
+TEST(a_handler_set_meanwhile_stays)
+{
+    gsl_set_error_handler(NULL);
+    bool before = ceduo_gsl_enter();
+    gsl_set_error_handler(on_error);
+    ceduo_gsl_leave(&before);
+    assert_true(handler() == on_error);
+}
+
+static int without_memory(void *unused)
+{
+    (void)unused;
+    gsl_error("test", __FILE__, __LINE__, GSL_ENOMEM);
+    return GSL_SUCCESS;
+}
+
+TEST(a_call_of_gsl_without_memory_is_left)
+{
+    assert_int_equal(ceduo_gsl_try(without_memory, NULL), GSL_ENOMEM);
+}
+
 /* In a thread that is in no call of the library, while another is. */
 TEST(errors_of_the_caller_stay_his)
 {
@@ -149,6 +174,24 @@ TEST(errors_of_the_caller_stay_his)
     assert_true(handler() == on_error);
     err(NULL);
     EXPECT(heard, ==, 2);
+}
+
+/* It has none of his own: GSL's aborts, as without the library. */
+TEST(errors_of_the_caller_end_him)
+{
+    pid_t child = fork();
+    if (child == 0) {
+        pthread_t thread;
+        close(STDERR_FILENO);
+        gsl_set_error_handler(NULL);
+        ceduo_gsl_enter();
+        if (pthread_create(&thread, NULL, err, NULL) == 0)
+            pthread_join(thread, NULL);
+        _exit(0);
+    }
+    int status;
+    assert_int_equal(waitpid(child, &status, 0), child);
+    assert_true(WIFSIGNALED(status) && WTERMSIG(status) == SIGABRT);
 }
 
 /* ---- reading ---- */

@@ -257,6 +257,17 @@ static bool ask(struct ceduo_question q)
     return status == CEDUO_OK;
 }
 
+/* Each year with rocks of its own. */
+static bool ask_years_apart(void)
+{
+    init(CEDUO_STEMS, CEDUO_LAW_LUMPED);
+    struct ceduo_question q = ceduo_question_default(&site.scene);
+    q.years = true;
+    q.window = (struct ceduo_window){.last = 2, .step = 1};
+    q.years_rocks = 60;
+    return ask(q);
+}
+
 /* Under both energy laws. */
 static bool ask_both_laws(void)
 {
@@ -399,7 +410,7 @@ static bool assess(void)
     static struct ceduo_arrivals bare = {.released = 10, .reached = 10}, wooded = {.released = 10, .reached = 4};
     const struct ceduo_simulated flown[2] = {{.rocks = 10, .controls = 1, .arrivals = &bare},
                                              {.rocks = 10, .controls = 1, .arrivals = &wooded}};
-    const struct ceduo_difference difference = {.reach_probability = {-.6, .1}};
+    const struct ceduo_difference difference = {.reach_probability = {-.6, .1, 0}};
     LOCAL(ceduo_result, result);
     enum ceduo_status status = ceduo_result_assess(&site.scene, &flown[0], &(const struct ceduo_simulated *){&flown[1]},
                                                    &difference, &(const struct ceduo_other_energy){0}, &result);
@@ -567,9 +578,9 @@ TEST(runs_go_on)
 
 TEST(what_stands_on_runs)
 {
-    task *const tasks[] = {question,   years_of_blocks, ask_by_index,      ask_both_laws, doubt,        doubt_over_years,
-                           sure,       copy_belts,      ask_of_one_option, assess,        assess_index, follow,
-                           follow_one, follow_roll,     record_roll,       find};
+    task *const tasks[] = {question, years_of_blocks, ask_by_index,      ask_both_laws,   doubt,  doubt_over_years,
+                           sure,     copy_belts,      ask_of_one_option, ask_years_apart, assess, assess_index,
+                           follow,   follow_one,      follow_roll,       record_roll,     find};
     for (size_t i = 0; i < sizeof tasks / sizeof tasks[0]; i++)
         without_memory(tasks[i]);
 }

@@ -23,8 +23,12 @@ TEST(no_rocks_are_not_precise)
     struct ceduo_question q = question_of(0);
     LOCAL_BY(ceduo_answer_release) struct ceduo_answer answer;
     q.tolerance = .1;
+    q.years = true;
+    q.window = (struct ceduo_window){.last = 2, .step = 1};
+    q.years_rocks = 100;
     assert_int_equal(ceduo_ask(&q, NULL, &answer), CEDUO_OK);
     assert_int_equal(ceduo_result_rocks(answer.result), 0);
+    assert_int_equal(answer.years[0]->rocks, 0);
     assert_null(ceduo_result_wooded(answer.result, 0, 0));
     assert_true(isnan(ceduo_share_to_first(answer.result, 0).mean));
     assert_false(answer.tolerance_met);
@@ -82,6 +86,25 @@ TEST(other_sizes_are_cancelled)
     assert_int_equal(ceduo_ask(&q, &pool, &answer), CEDUO_OK);
     assert_non_null(answer.blocks);
     ceduo_answer_release(&answer);
+}
+
+/* Of two options one is asked for, and nothing is known of what the other's rocks cost. */
+TEST(other_sizes_of_one_option)
+{
+    struct ceduo_question q = question_of(50);
+    struct ceduo_option options[2] = {site.option, site.option};
+    struct ceduo_answer answers[2];
+    site.scene.options = options;
+    q.block_rocks = 50;
+    q.only = 0;
+    for (size_t i = 0; i < 2; i++) {
+        site.scene.options_count = i + 1;
+        assert_int_equal(ceduo_ask(&q, NULL, &answers[i]), CEDUO_OK);
+    }
+    for (size_t b = 0; b < CEDUO_BLOCKS; b++)
+        EXPECT(answers[0].blocks[b].arrivals.reached, ==, answers[1].blocks[b].arrivals.reached);
+    ceduo_answer_release(&answers[0]);
+    ceduo_answer_release(&answers[1]);
 }
 
 /* At the worst of two controls; not known where it is not of one of them, whichever comes first. */

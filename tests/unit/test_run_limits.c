@@ -140,6 +140,71 @@ TEST(differences_of_the_first_rocks)
     }
 }
 
+/* So few that fewer rocks have come than have room. */
+TEST(differences_of_few_rocks)
+{
+    enum { ROCKS = 500 };
+    paper_site_init(&site);
+    struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
+    struct ceduo_run *runs[2][2];
+    for (int binned = 0; binned < 2; binned++)
+        for (int wood = 0; wood < 2; wood++) {
+            def.option = wood ? &site.option : NULL;
+            def.exact_bytes = binned ? (ROCKS + 100) * sizeof(double) : CEDUO_EXACT_BYTES;
+            runs[binned][wood] = run_of(&def, ROCKS);
+        }
+    struct ceduo_difference exact = ceduo_run_difference(runs[0][0], runs[0][1], 0),
+                            binned = ceduo_run_difference(runs[1][0], runs[1][1], 0);
+    struct ceduo_arrivals a;
+    assert_int_equal(ceduo_run_arrivals(runs[1][0], 0, &a), CEDUO_OK);
+    assert_false(a.exact);
+    EXPECT(binned.reach_probability.se, ==, exact.reach_probability.se);
+    EXPECT_NEAR(binned.energy_per_released.se, exact.energy_per_released.se, 1e-9 * exact.energy_per_released.se);
+    uint16_t marks[ROCKS + 100] = {0};
+    EXPECT(ceduo_run_mark(runs[1][0], 0, marks, ROCKS + 100), ==, ROCKS);
+    for (int i = 0; i < 4; i++)
+        ceduo_run_free(runs[i / 2][i % 2]);
+}
+
+struct alike {
+    int read[3]; /* times that each was simulated */
+    size_t as[3];
+};
+
+static enum ceduo_status make_variant(void *context, size_t i, struct ceduo_variant *variant)
+{
+    (void)context;
+    variant->run = ceduo_run_def_default(&site.scene);
+    variant->run.option = i == 1 ? &site.option : NULL;
+    variant->rocks = 5;
+    return CEDUO_OK;
+}
+
+static enum ceduo_status read_variant(void *context, size_t i, struct ceduo_run *run, uint64_t *more)
+{
+    (void)run, (void)more;
+    ((struct alike *)context)->read[i]++;
+    return CEDUO_OK;
+}
+
+static void same_variant(void *context, size_t i, size_t first)
+{
+    ((struct alike *)context)->as[i] = first;
+}
+
+/* Of bare ground, wood and bare ground the third is as the first. */
+TEST(what_is_alike_is_simulated_once)
+{
+    struct alike alike = {0};
+    paper_site_init(&site);
+    assert_int_equal(ceduo_variants_run(&(struct ceduo_variants){
+                         .n = 3, .context = &alike, .make = make_variant, .read = read_variant, .same = same_variant}),
+                     CEDUO_OK);
+    assert_true(alike.read[0] == 1 && alike.read[1] == 1 && alike.read[2] == 0);
+    assert_int_equal(alike.as[2], 0);
+    assert_int_equal(alike.as[1], 0);
+}
+
 /* Blocks of all sizes: the difference of two runs is one of the rocks that both have, whichever is longer. */
 TEST(differences_of_blocks)
 {

@@ -7,6 +7,8 @@
 
 #include "base/utf8.h"
 
+#define WORD 5000 /* bytes */
+
 TEST(decoding)
 {
     const char *none =
@@ -78,4 +80,16 @@ TEST(lines)
     lines_are("a\xff\xff"
               "b c",
               3, (const char *[]){"a\xff\xff", "b c", NULL});
+
+    static char word[WORD + 1];
+    memset(word, 'a', WORD);
+    const char *next;
+    assert_int_equal(ceduo_utf8_wrap(word, 3, &next), 3); /* longer than where a place to break it is looked for */
+}
+
+/* Bytes that are no character are nothing that a word is compared by. */
+TEST(folding)
+{
+    char to[16];
+    assert_string_equal(ceduo_utf8_fold("A\xff-\xc3\x80\xc3", 6, to, sizeof to), "a\xc3\xa0");
 }

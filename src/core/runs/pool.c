@@ -142,7 +142,7 @@ static void drop_spare(struct ceduo_pool *pool, size_t most, size_t bytes_most)
     }
     for (size_t i = 0; i < pool->count; i++)
         spare -= pool->runs[i].needed;
-    for (; spare > most && bytes >= bytes_most; spare--) { /* untaken: large */
+    for (; spare > most && bytes >= bytes_most; spare--) {
         struct pooled *oldest = NULL;
         for (size_t i = 0; i < pool->count; i++)
             if (!pool->runs[i].needed && (!oldest || pool->runs[i].asked < oldest->asked))

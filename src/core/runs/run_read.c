@@ -89,8 +89,10 @@ static enum ceduo_status read_weighted(const struct ceduo_run *run, size_t contr
         *to[q] = ceduo_weighted_distribution(&all, values, gather_weighted(run, samples_of(run, control, q), values));
     for (uint64_t r = 0; r < run->rocks && run->ready.scene.design.survey >= 0; r++) {
         struct ceduo_rock rock;
-        if (!isnan(height[r]) && ceduo_prepared_rock(&run->ready, r, &rock) == CEDUO_OK)
-            values[n++] = (struct weighted){height[r] + rock.mean_diameter, run->weights[r]};
+        if (isnan(height[r]))
+            continue;
+        ceduo_prepared_rock(&run->ready, r, &rock); /* which was drawn for the run */
+        values[n++] = (struct weighted){height[r] + rock.mean_diameter, run->weights[r]};
     }
     ceduo_weighted_sort(values, n);
     a->top_p95 = ceduo_weighted_quantile(values, n, 0.95);
@@ -173,8 +175,9 @@ static double top_of(const struct ceduo_run *run, size_t control, double height_
         return height_p95 + run->ready.mean.mean_diameter;
     for (uint64_t r = 0; run->exact && run->room > 0 && r < run->rocks; r++) {
         struct ceduo_rock rock;
-        if (isnan(height[r]) || ceduo_prepared_rock(&run->ready, r, &rock) != CEDUO_OK)
+        if (isnan(height[r]))
             continue;
+        ceduo_prepared_rock(&run->ready, r, &rock); /* which was drawn for the run */
         scratch[n] = height[r] + rock.mean_diameter;
         ceduo_moments_add(&m, scratch[n++]);
     }

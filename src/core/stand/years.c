@@ -241,7 +241,7 @@ static int simulate_apart(void *context, size_t i, size_t worker)
     enum ceduo_status status = ceduo_run_create(&def, &a->runs[i]);
     if (status == CEDUO_OK)
         status = ceduo_run_extend(a->runs[i], a->rocks);
-    return status;
+    return (int)status;
 }
 
 enum ceduo_status ceduo_years_simulate_apart(struct ceduo_years *years, const struct ceduo_run_def *def,
@@ -254,8 +254,7 @@ enum ceduo_status ceduo_years_simulate_apart(struct ceduo_years *years, const st
     a.def.cells = 0;
     enum ceduo_status status = a.scenes && a.runs && clear_marks(years, rocks) ? CEDUO_OK : CEDUO_NO_MEMORY;
     if (status == CEDUO_OK)
-        status = (enum ceduo_status)ceduo_parallel(
-            &(const struct parallel){years->count, def->threads > 0 ? def->threads : 1, simulate_apart, &a});
+        status = (enum ceduo_status)ceduo_parallel(&(const struct parallel){years->count, def->threads, simulate_apart, &a});
     for (size_t i = 0; i < years->count && status == CEDUO_OK; i++)
         status = take_year(&r, i, a.runs[i], &rocks);
     for (size_t i = 0; a.runs && i < years->count; i++)

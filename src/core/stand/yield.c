@@ -39,7 +39,8 @@ static enum ceduo_status sum_rotation(const struct ceduo_belt *belt, unsigned fi
                               : ceduo_stand_before_cut(stand, belt->cut_year, first + t, &next);
         if (status == CEDUO_OK) {
             size_t n = now.stand.shoots_count, m = next.stand.shoots_count;
-            double died = 0;                            /* shoots alone: trees do not die */
+            double died = 0; /* shoots alone: trees do not die */
+            /* untaken: bound */
             for (size_t i = 1; i <= n && i <= m; i++) { /* both end with the oldest: a younger cohort may have come up */
                 const struct ceduo_stems *before = &now.stand.shoots[n - i], *after = &next.stand.shoots[m - i];
                 died += fmax(0, before->per_ha - after->per_ha) * ceduo_stem_volume(&now.stand, before, &from);

@@ -194,7 +194,7 @@ static __attribute__((noinline)) bool fly_past_stems(struct walker *w, struct fl
                 return true;
             continue;
         }
-        clearance = clearance > 0 ? clearance : 0; /* untaken: rounding */
+        clearance = clearance > 0 ? clearance : 0;
         if (!(clearance < stem.height)) {
             if (w->watch && w->watch->stem)
                 show_stem(w, &stem, x, clearance, 0, 0);

@@ -24,6 +24,7 @@
 HOT void look_up(const struct lanes_table *table, ints i, bool small, real *first, real *second)
 {
 #ifdef LOOK_UP_16
+    /* untaken 2: machine */
     if (small) { /* without going to memory lane by lane */
         *first = look_up_16(table->first, i);
         *second = look_up_16(table->second, i);

@@ -101,6 +101,7 @@ HOT struct impact arm_struck(struct impact in, const struct ground_point *at)
     s.off = s.off + j.normal;
     s.turn = arm_slow(at, j.normal, s.turn + (r * j.normal + h * j.along));
     mask down = less(s.off, all(0));
+    /* untaken 2: constant */
     if (REAL_LANES > 1 || any(down)) { /* among several lanes one is mostly */
         struct arm_state second = arm_stop(at, s);
         s.along = pick(down, second.along, s.along);

@@ -61,7 +61,7 @@ double ceduo_stem_energy_share(const struct stem_energy *e, double mass, double 
 
 unsigned ceduo_stem_energy_warnings(const struct ceduo_stand *stand, const struct ceduo_stems *stems)
 {
-    return laws[stand->energy]->warnings ? laws[stand->energy]->warnings(stand, stems) : 0;
+    return laws[stand->energy]->warnings(stand, stems);
 }
 
 double ceduo_contact_energy(const struct ceduo_stand *stand, const struct ceduo_stems *stems)

@@ -167,7 +167,7 @@ static const struct wood_stratum *stratum_at(struct stems *s, int side, const st
 {
     double left = mark * rates_in(s, side, j)->rate[stream], rate = 0;
     const struct wood_stratum *found = NULL;
-    for (size_t k = 0; k < belt->strata_count; k++) { /* untaken: rounding */
+    for (size_t k = 0; k < belt->strata_count; k++) {
         const struct wood_stratum *stratum = &belt->strata[k];
         if (stream_of(stratum) != stream)
             continue;
