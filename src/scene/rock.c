@@ -28,7 +28,7 @@ static enum ceduo_status rock_from_sizes(enum ceduo_shape shape, const union siz
     double d = s->diameter, h = s->height, a[3] = {s->axes[0], s->axes[1], s->axes[2]}, longest, squares;
     for (size_t i = 0; i < 8; i++)
         good = good && !(s->all[i] <= 0) && !isinf(s->all[i]);
-    switch (shape) { /* untaken: table */
+    switch (shape) {
     case CEDUO_SPHERE:
         if (isnan(d))
             d = ceduo_cbrt(6 * (isnan(s->volume) ? s->mass / s->density : s->volume) / M_PI);

@@ -14,7 +14,7 @@ static bool has_sizes(const struct ceduo_stand *s)
     bool good = true;
     for (size_t i = 0; good && i < s->shoots_count + s->trees_count; i++) {
         const struct ceduo_stems *stems = i < s->shoots_count ? &s->shoots[i] : &s->trees[i - s->shoots_count];
-        good = stems->per_ha >= 0 && (stems->per_ha == 0 || (stems->dbh > 0 && stems->height > 0)) && stems->dbh_sd >= 0;
+        good = stems->per_ha >= 0 && (stems->per_ha == 0 || (stems->dbh > 0 && stems->height > 0));
     }
     const struct ceduo_stumps *stumps = &s->stumps;
     const struct ceduo_logs *logs = &s->logs;

@@ -70,8 +70,7 @@ const struct field *ceduo_schema_fitted(const char *path)
 bool ceduo_schema_is_settled(const char *path)
 {
     unsigned flags = 0;
-    const struct field *f = row_at(path, &flags);
-    return f && !f->object && flags & FIELD_SETTLED;
+    return row_at(path, &flags) && flags & FIELD_SETTLED;
 }
 
 /* ---- defaults ---- */
@@ -194,17 +193,12 @@ static bool holds_number(const struct field *f, double si)
 bool ceduo_schema_field_holds(const struct field *f, const void *item)
 {
     const char *at = (const char *)item + f->offset, *items;
-    struct ceduo_number number;
     size_t n;
     if (f->flags & (FIELD_NOWHERE | FIELD_DRAFT))
         return true;
     switch (f->type) {
     case FIELD_NUMBER:
         return f->flags & FIELD_PLACE || holds_number(f, *(const double *)(const void *)at);
-    case FIELD_SPREAD:
-        number = *(const struct ceduo_number *)(const void *)at;
-        return holds_number(f, number.mean) && number.spread >= 0 && isfinite(number.spread) &&
-               (unsigned)number.kind < ceduo_spread_words.n && ceduo_schema_spread_fits(f, number);
     case FIELD_COUNT: { /* 0: not given */
         uint64_t count =
             f->size == sizeof(unsigned) ? *(const unsigned *)(const void *)at : *(const uint64_t *)(const void *)at;

@@ -181,7 +181,8 @@ bool ceduo_schema_in_range(const struct field *field, double value);
 bool ceduo_schema_spread_fits(const struct field *field, struct ceduo_number number);
 
 /* Whether all numbers and words of an item, and of what it holds, lie in the ranges of their fields, and its lists are there. A
- * number without a default may be NaN or 0: whether it must be given is for others to check. */
+ * number without a default may be NaN or 0: whether it must be given is for others to check. So are spreads: those of a rock, its
+ * release and the ground. */
 bool ceduo_schema_holds(const struct object *object, const void *item);
 bool ceduo_schema_field_holds(const struct field *field, const void *item);
 

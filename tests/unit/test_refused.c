@@ -74,6 +74,9 @@ TEST(scenes_are_refused)
                                   {&shoots->per_ha, NAN, CEDUO_BAD_STAND, 0},
                                   {&shoots->height, 0, CEDUO_BAD_STAND, 0},
                                   {&site.plots[1].trees.per_ha, 1e300, CEDUO_BAD_STAND, 0},
+                                  {&shoots->dbh_sd, -.01, CEDUO_BAD_STAND, 0},
+                                  {&shoots->dbh_sd, NAN, CEDUO_BAD_STAND, 0},
+                                  {&b[0].stand.counted_from, NAN, CEDUO_BAD_STAND, 0},
                                   {&b[0].stand.spacing, -1, CEDUO_BAD_STAND, 0},
                                   {&b[1].stand.stools_per_ha, NAN, CEDUO_BAD_STAND, 0},
                                   {&b[0].from, 100, CEDUO_BAD_BELT, 0},
@@ -85,6 +88,13 @@ TEST(scenes_are_refused)
     scene->options = &site.option;
     scene->options_count = 1;
     expect_refused(rows, LENGTH(rows));
+    struct ceduo_stumps *stumps = &b[0].stand.stumps;
+    struct ceduo_logs *logs = &b[0].stand.logs;
+    *stumps = (struct ceduo_stumps){.per_ha = 9, .diameter = .3, .height = .3, .energy = 9e3};
+    *logs = (struct ceduo_logs){.per_ha = 9, .diameter = .3, .length = 5, .energy = 9e3};
+    double *const low[] = {&stumps->diameter, &stumps->height, &stumps->energy, &logs->diameter, &logs->length, &logs->energy};
+    for (size_t i = 0; i < LENGTH(low); i++)
+        expect_refused(&(struct change){low[i], NAN, CEDUO_BAD_STAND, 0}, 1);
     double *const shares[] = {&s->rn.mean, &s->rt.mean}, *const sizes[] = {&s->rn.spread, &s->rt.spread, &s->friction, &s->mu,
                                                                            &s->roughness_rad};
     const double outside[] = {-.01, NAN, INFINITY, 1.01, -INFINITY};
@@ -104,6 +114,11 @@ TEST(scenes_are_refused)
     EXPECT(b[0].stand.species, ==, -1);
     b[0].stand.energy = (enum ceduo_energy_model)9;
     EXPECT(ceduo_scene_check(scene, NULL), ==, CEDUO_BAD_STAND);
+    scene->options = NULL;
+    scene->options_count = 0;
+    scene->controls = NULL;
+    scene->controls_count = 0; /* a bare slope may be all that is asked about */
+    EXPECT(ceduo_scene_check(scene, NULL), ==, CEDUO_OK);
     scene->slope.vertices = 1;
     EXPECT(ceduo_scene_check(scene, NULL), ==, CEDUO_BAD_SLOPE);
 }
