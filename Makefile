@@ -210,8 +210,8 @@ $(UNIT): $(T)/%: $(BUILD)/tests/%.o $(SUPPORT) $(PARTS) $(LIBRARY)
 	$(CC) $(ALL_CFLAGS) $(LDFLAGS) -o $@ $^ -lcmocka $(LIBS)
 
 WRAPPED := malloc calloc realloc aligned_alloc strdup realpath free pthread_create
-$(T)/unit/test_memory_files: WRAPPED += fsync ceduo_arena_take ceduo_arena_copy ceduo_arena_string \
-	ceduo_arena_vformat
+$(T)/unit/test_memory_files: WRAPPED += fsync ceduo_arena_take ceduo_arena_more ceduo_arena_copy \
+	ceduo_arena_string ceduo_arena_vformat
 $(T)/unit/test_memory $(T)/unit/test_memory_files $(T)/unit/test_memory_seen: LDFLAGS += $(WRAPPED:%=-Wl,--wrap=%)
 
 $(UNIT:=.tap): %.tap: %

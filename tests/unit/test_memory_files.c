@@ -22,13 +22,14 @@ static const char scene[] =
     "controls: [{x_m: 90, name: road, accepted_kJ: 50, source: {kind: assumed, text: said}}]\n"
     "forest:\n"
     "  - {from_m: 10, to_m: 50, stand: stand.yaml}\n"
-    "  - {from_m: 50, to_m: 80, stand: {base: stand.yaml, stools: {per_ha: 1500}}}\n";
+    "  - {from_m: 50, to_m: 80, stand: {base: stand.yaml, stools: {per_ha: 1500}, source: {text: said}}}\n";
 
 static const char slope[] = "ceduo: slope/1\ncsv: profile.csv\n"
                             "materials: [{from_m: 0, to_m: 30, material: cliff}, {from_m: 30, to_m: 100, material: talus}]\n";
 
 static const char stand[] =
-    "ceduo: stand/1\nname: wood\nstools: {per_ha: 2000, spacing_m: 0.4}\n"
+    "ceduo: stand/1\nname: wood\nsource: {kind: assumed, text: a guess, text_it: a occhio}\n"
+    "stools: {per_ha: 2000, spacing_m: 0.4}\n"
     "shoots: [{per_ha: 6000, dbh_m: 0.06, height_m: 6}]\ntrees: [{per_ha: 60, dbh_m: 0.2, height_m: 12}]\n";
 
 static const char faulty[] = "ceduo: scene/1\nrock: {diameter_m: -1, size: 2}\nslope: {vertices_m: [[0, 1], 2]}\n"
@@ -43,6 +44,11 @@ static const char seen[] =
     "  - {name: few, stops: {x_m: stops.csv, only: block=1, use: check}, release: {vx_m_s: 3}, rock: {diameter_m: 0.4}}\n"
     "  - {passed: {x_m: 30, count: 1, of: 2}, on_the_way: {from_m: 5, to_m: 9, height_m: {mean: 1, sd: 1, n: 4}}}\n"
     "doubt: {draws: draws.csv, rows: [{path: release.vx_m_s, lo: 1, hi: 3}]}\n";
+
+static const char upward[] =
+    "ceduo: scene/1\nrock: {diameter_m: 0.5}\ncontrols_m: [90]\n"
+    "slope: {reversed: true, vertices_m: [[0, 0], [60, 20], [100, 50]],"
+    " materials: [{from_m: 0, to_m: 70, material: talus}, {from_m: 70, to_m: 100, material: cliff}]}\n";
 
 static const char kinds[] = "ceduo: scene/1\nrock: {diameter_m: 0.5}\nslope: profile.csv\ncontrols_m: [90]\n"
                             "observed: {speed: [{x_m: 30, values: [4, 5]}, {x_m: 40, mean: 3, sd: 1, n: 4}], scars: {from_m: "
@@ -85,6 +91,7 @@ static int set_up(void **state)
     put("faulty.yaml", faulty);
     put("csv.yaml", by_csv);
     put("seen.yaml", seen);
+    put("upward.yaml", upward);
     put("kinds.yaml", kinds);
     put("doubted.yaml", doubted);
     put("doubtful.yaml", doubtful);
@@ -112,10 +119,12 @@ int __wrap_fsync(int fd)
 
 /* What stands in an arena comes from few pages: here each piece of it can fail. */
 void *__real_ceduo_arena_take(struct arena *arena, size_t size);
+void *__real_ceduo_arena_more(struct arena *arena, void *items, size_t n, size_t more, size_t *room, size_t size);
 char *__real_ceduo_arena_copy(struct arena *arena, const char *bytes, size_t n);
 char *__real_ceduo_arena_string(struct arena *arena, const char *string);
 char *__real_ceduo_arena_vformat(struct arena *arena, const char *format, va_list args);
 void *__wrap_ceduo_arena_take(struct arena *arena, size_t size);
+void *__wrap_ceduo_arena_more(struct arena *arena, void *items, size_t n, size_t more, size_t *room, size_t size);
 char *__wrap_ceduo_arena_copy(struct arena *arena, const char *bytes, size_t n);
 char *__wrap_ceduo_arena_string(struct arena *arena, const char *string);
 __attribute__((format(printf, 2, 0))) char *__wrap_ceduo_arena_vformat(struct arena *arena, const char *format, va_list args);
@@ -132,6 +141,11 @@ static bool arena_fails(struct arena *arena)
 void *__wrap_ceduo_arena_take(struct arena *arena, size_t size)
 {
     return arena_fails(arena) ? NULL : __real_ceduo_arena_take(arena, size);
+}
+
+void *__wrap_ceduo_arena_more(struct arena *arena, void *items, size_t n, size_t more, size_t *room, size_t size)
+{
+    return arena_fails(arena) ? NULL : __real_ceduo_arena_more(arena, items, n, more, room, size);
 }
 
 char *__wrap_ceduo_arena_copy(struct arena *arena, const char *bytes, size_t n)
@@ -185,6 +199,7 @@ static const struct reading {
     {NULL, {NULL}, false},
     {"csv.yaml", {NULL}, false},
     {"seen.yaml", {NULL}, false}, /* a scene, what was seen there, and what is not known of it */
+    {"upward.yaml", {NULL}, false},
     {"kinds.yaml", {NULL}, false},
     {"doubted.yaml", {NULL}, false},
     {"faulty.yaml", {NULL}, true},
@@ -232,6 +247,19 @@ static bool read_scene(void)
         add(o->values ? o->values : &o->mean, sizeof(double));
     }
     return !ceduo_memory_lost();
+}
+
+/* By the library's own call. */
+static bool read_by_library(void)
+{
+    char path[256];
+    LOCAL_BY(ceduo_reading_release) struct ceduo_reading read;
+    in_folder(path, "seen.yaml");
+    bool good = is_done(ceduo_scene_read(path, NULL, &read));
+    for (size_t i = 0; i < read.inputs_count; i++)
+        add(read.inputs[i].path, strlen(read.inputs[i].path));
+    assert_int_equal(read.observations_count > 0, good);
+    return good;
 }
 
 static bool read_survey(void)
@@ -287,6 +315,7 @@ TEST_WITH(scenes_are_read, set_up, folder_tear_down)
     without_memory(format_text);
     for (reading = readings; reading < readings + sizeof readings / sizeof readings[0]; reading++)
         without_memory(read_scene);
+    without_memory(read_by_library);
     without_memory(read_survey);
 }
 
