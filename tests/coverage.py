@@ -60,6 +60,7 @@ def read(build):
 TAGS = {
     "memory": "an allocation fails just here; the tests of faults make each fail, in a build that does not count",
     "table": "a value that is none of its table's, which readers and checks do not let through",
+    "complaint": "a call that reports a problem, and is false always, ends a chain",
     "machine": "another processor than the one that the tests run on, or a place where the program's own path is not known",
     "constant": "known when the program is compiled: no condition is left",
     "end": "the program ends there, and what it counted is lost; the tests of faults and of GSL's errors do it",

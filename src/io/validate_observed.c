@@ -175,7 +175,7 @@ static bool read_table(const struct place *p, const char *path)
         else if (ceduo_csv_number(&csv, field, -1e9, 1e9, "", &to->values[to->values_count]))
             to->values_count++;
     }
-    return to->values_count > 0 || ceduo_complain(v, p->at, "csv", _("the table has no such row"));
+    return to->values_count > 0 || ceduo_complain(v, p->at, "csv", _("the table has no such row")); /* untaken: complaint */
 }
 
 /* Values from a table, if they are not listed. False if there is a problem. */
@@ -196,6 +196,7 @@ static bool take_values(const struct place *p)
     if (list && values->values_count == 0)
         return ceduo_complain(v, p->at, p->is->list, _("the list is empty"));
     const char *of_table = values->column ? "column" : values->only ? "only" : NULL;
+    /* untaken: complaint */
     return !of_table || ceduo_complain(v, p->at, of_table, _("names something of a table; name the table, csv"));
 }
 
@@ -205,7 +206,7 @@ static bool check_form(const struct place *p)
     const struct observed_values *values = p->values;
     int means = !isnan(values->mean) + !isnan(values->sd) + (values->n > 0);
     return means == (values->values_count > 0 ? 0 : 3) ||
-           ceduo_complain(p->v, p->at, "", _("give values, or their mean, sd and n"));
+           ceduo_complain(p->v, p->at, "", _("give values, or their mean, sd and n")); /* untaken: complaint */
 }
 
 /* Whether every value lies on the slope beyond seen_from_m, where rocks stopped there, or is not negative; the first that does
@@ -234,6 +235,7 @@ static bool check_released(const struct place *p)
 {
     const struct observed_values *values = p->values;
     unsigned long long observed = p->is->list ? values->values_count : values->count, of = values->of;
+    /* untaken: complaint */
     return of == 0 || observed <= of || ceduo_complain(p->v, p->at, "of", _("%llu were seen of %llu released"), observed, of);
 }
 
@@ -241,11 +243,12 @@ static bool check_values(const struct place *p)
 {
     const struct observed_values *values = p->values;
     double last = ceduo_number_highest(p->release->x) + p->v->origin;
-    switch (p->is->where) {
+    switch (p->is->where) { /* untaken: table */
     case CEDUO_WHERE_AT_REST:
         return ceduo_check_on_slope(p->v, p->at, "seen_from_m", values->seen_from) && check_each(p) && check_released(p);
     case CEDUO_WHERE_AT_PLACE:
         return (!p->is->list || check_form(p)) && ceduo_check_on_slope(p->v, p->at, "x_m", values->x) &&
+               /* untaken: complaint */
                (values->x > last || ceduo_complain(p->v, p->at, "x_m", _("%s does not lie beyond the release, %s m"),
                                                    NUMERAL(values->x), NUMERAL(last))) &&
                (p->is->list ? check_each(p) : check_released(p));
@@ -317,8 +320,9 @@ static bool find_option(struct validator *v, const char *path, const struct obse
             return true;
         ceduo_text_then(&all, *option > 0 ? ", " : "", "%s", name);
     }
-    return row->option && ceduo_complain(v, path, "option", _("the scene has no option '%s'; it has: %s"), row->option,
-                                         ceduo_text_string(&all));
+    if (row->option)
+        ceduo_complain(v, path, "option", _("the scene has no option '%s'; it has: %s"), row->option, ceduo_text_string(&all));
+    return false;
 }
 
 static void validate_row(struct validator *v, const char *path, struct observed *row)

@@ -110,7 +110,7 @@ static bool is_as_named(struct validator *v, const struct node *stand)
             return false;
     const struct node *a = ceduo_node_without(v->arena, ceduo_node_without(v->arena, stand, "name"), "source");
     const struct node *b = ceduo_node_without(v->arena, ceduo_node_without(v->arena, followed, "name"), "source");
-    return !a || !b || ceduo_node_equal(a, b); /* untaken: memory */
+    return !a || !b || ceduo_node_equal(a, b);
 }
 
 static void make_belts(struct validator *v, const char *path, struct ceduo_option *option)

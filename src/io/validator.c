@@ -102,12 +102,14 @@ bool ceduo_check_on_slope(struct validator *v, const char *path, const char *key
     const struct ceduo_slope *s = &v->draft.scene.slope;
     double end = v->profile ? s->x[s->vertices - 1] + v->origin : INFINITY;
     return !v->profile || !(x < v->origin || x > end) ||
+           /* untaken: complaint */
            ceduo_complain(v, path, key, _("%s lies beyond the slope, which goes from %s to %s m"), NUMERAL(x),
                           NUMERAL(v->origin), NUMERAL(end));
 }
 
 bool ceduo_check_ends_behind(struct validator *v, const char *path, double from, double to)
 {
+    /* untaken: complaint */
     return !(to <= from) || ceduo_complain(v, path, "to_m", _("%s does not lie beyond from_m, %s"), NUMERAL(to), NUMERAL(from));
 }
 

@@ -132,6 +132,9 @@ def test_set_base():
         expect_equal(one("forest[0].stand.stools.per_ha=1800")["stools_per_ha"], 1800)
         expect_equal(one("forest[base].stand.shoots[0].per_ha=4000")["stems_per_ha"], 4100)
         expect_equal(one("forest[0].stand.trees=[]")["trees_per_ha"], 0)
+        alike = {"base": "base.yaml", "source": {"kind": "assumed"}}
+        path = f.write("s.yaml", scene(forest=[{"from_m": 10, "to_m": 60, "stand": alike}]))
+        expect_equal(one()["name"], "base", "nothing is changed but where it comes from")
 
 
 BAD_SETS = [
