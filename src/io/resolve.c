@@ -96,7 +96,7 @@ static const struct node *merge(struct arena *arena, const struct node *base, co
             entry = merge(arena, old, entry);
         else if (old)
             merged = without_translation(arena, merged, entry->key, over);
-        merged = entry && merged ? ceduo_node_with(arena, merged, entry->key, entry) : NULL;
+        merged = entry ? ceduo_node_with(arena, merged, entry->key, entry) : NULL;
     }
     return merged;
 }

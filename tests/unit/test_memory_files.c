@@ -259,6 +259,7 @@ static bool read_by_library(void)
     for (size_t i = 0; i < read.inputs_count; i++)
         add(read.inputs[i].path, strlen(read.inputs[i].path));
     assert_int_equal(read.observations_count > 0, good);
+    assert_true(!good || read.messages[0] == '\0');
     return good;
 }
 
