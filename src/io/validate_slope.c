@@ -225,12 +225,12 @@ double ceduo_validate_end(void *validator)
         const char *path = ceduo_resolve_path(v->arena, csv, "slopes");
         if (path && ceduo_csv_slope_read(v->arena, path, &p, &problems) && p.n > 1)
             end = p.x[p.n - 1];
-    } else if (list && list->kind == NODE_LIST && list->n > 1) {
+    } else if (list && list->n > 1) {
         const struct node *last = list->items[list->n - 1];
         end = last->n == 2 ? ceduo_node_item_number(last, 0) : NAN;
     }
     ceduo_problems_free(&problems);
-    return end;
+    return ceduo_schema_in_range(ceduo_schema_at("slope.vertices_m"), end) ? end : NAN;
 }
 
 void ceduo_validate_slope(struct validator *v)
