@@ -81,11 +81,11 @@ static const struct object source_object;
 
 const char *ceduo_bind_unknown_key(const struct object *object, const char *key, struct text *said)
 {
-    const char *words[KEYS_SHOWN_MOST] = {0};
+    const char *words[KEYS_SHOWN_MOST + 1]; /* and the source */
     size_t n = 0;
     for (size_t i = 0; i < object->n && n < KEYS_SHOWN_MOST; i++) /* untaken: large */
         words[n++] = object->fields[i].key;
-    if (object != &source_object && n < KEYS_SHOWN_MOST) /* any value has one */
+    if (object != &source_object) /* any value has one */
         words[n++] = "source";
     const char *near = ceduo_text_nearest(key, words, n);
     LOCAL_TEXT(list);
@@ -143,7 +143,7 @@ static bool read_place(struct binder *b, const struct field *f, const struct nod
 {
     double back;
     const char *text = node->text;
-    if (!ceduo_schema_is_place(f) || node->kind != NODE_SCALAR || strncmp(text, "end", 3) != 0 || !b->to->end)
+    if (!ceduo_schema_is_place(f) || node->kind != NODE_SCALAR || strncmp(text, "end", 3) != 0)
         return false;
     if (!ceduo_schema_place_read(text, &back))
         return report(b, node, _("'%s': write end, or end-10 for 10 m before the end of the profile"), text);
@@ -164,14 +164,16 @@ static bool read_number(struct binder *b, const struct node *node, double *value
     if (node->quoted)
         return report(b, node, _("'%s' is in quotes; write the number without them"), node->text);
     enum ceduo_number_reading reading = ceduo_number_read(node->text, value);
+    if (reading == CEDUO_NUMBER_GOOD)
+        return true;
     if (reading != CEDUO_NUMBER_NONE)
-        return reading == CEDUO_NUMBER_GOOD || report(b, node, _("too large a number"));
+        return report(b, node, _("too large a number"));
     const char *text = node->text, *comma = strchr(text, ',');
     size_t whole = strspn(text, "+-0123456789"), rest = comma ? strspn(comma + 1, "0123456789") : 0;
     bool thousands = rest == 3 && strtod(text, NULL) != 0;
     LOCAL_TEXT(part);
     ceduo_text_add(&part, text, strcspn(text, "%"));
-    if (comma == text + whole && whole > 0 && rest > 0 && !comma[1 + rest] && !thousands)
+    if (comma == text + whole && rest > 0 && !comma[1 + rest] && !thousands)
         return report(b, node, DECIMAL_COMMA, (int)whole, text, comma + 1);
     if (comma)
         return report(b, node, _("'%s' is not a number; write a dot for the decimals and nothing between thousands"), text);

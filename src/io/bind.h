@@ -22,8 +22,8 @@ struct binding {
     struct problems *problems;        /* what is wrong, with the path of each value; reading goes on, so that all is found */
     const struct source_note **notes; /* every source */
     struct bad_values *bad;           /* what is wrong */
-    /* Where the profile ends, m in its own coordinates, for places such as end-10: asked once, when a file has one. NULL, or NaN
-     * as the answer: such places cannot be read. */
+    /* Where the profile ends, m in its own coordinates, for places such as end-10: asked once, when a file has one. NaN as the
+     * answer: such places cannot be read. NULL where the object has no place. */
     double (*end)(void *context);
     void *context;
 };

@@ -51,11 +51,18 @@ def test_decimal_commas():
                         ("rock: {diameter_m: 0,06}", "rock.diameter_m: decimal comma: write 0.06"),
                         ("rock: {diameter_m: 1}\nrelease: {vz_m_s: -0,3}", "release.vz_m_s: decimal comma: write -0.3"),
                         ("rock: {diameter_m: 1}\nrelease:\n  vz_m_s: -0,3", "release.vz_m_s: decimal comma: write -0.3"),
-                        ("rock: {diameter_m: 1, 6}", "rock.6: unknown key")):
+                        ("rock: {diameter_m: 0,350}", "rock.diameter_m: decimal comma: write 0.350"),
+                        ("rock:\n  diameter_m: 0,350", "rock.diameter_m: decimal comma: write 0.350"),
+                        ("rock:\n  diameter_m: 0,6x", "'0,6x' is not a number; write a dot for the decimals and"),
+                        ("rock:\n  diameter_m: x%", "'x%' is not a number\n"),
+                        ("rock: {diameter_m: 1, 6}", "rock.6: unknown key"),
+                        (f"rock: {{diameter_m: 1,\n{21 * ' '}6}}", "rock.6: unknown key"),
+                        ("rock: {diameter_m: 1, shape: sphere,6}", "rock.6: unknown key")):
         with Folder() as f:
             f.write("s.yaml", f"ceduo: scene/1\n{text}\n{GROUND}controls_m: [90]\n")
-            told = [line for line in check(f, "s.yaml").err.splitlines() if line.startswith("s.yaml")]
-        expect(len(told) == 1 and words in told[0], text, told)
+            lines = [line for line in check(f, "s.yaml").err.splitlines() if line.startswith("s.yaml")]
+        expect(len(lines) == 1 and words in f"{lines[0]}\n", text, lines)
+    told("ceduo: scene/1\nrock: {diameter_m: ,6}\ncontrols_m: [90]\n" + GROUND, "rock.diameter_m: '' is not a number", "rock.6: unknown key")
     expect_equal(good("--check", "-s", "title='0,5'", "-s", "title=0,5", "paper-site").err, "")
 
 

@@ -220,10 +220,13 @@ def test_grazed_stems():
 
 
 def test_glancing_is_gone():
-    """energy.glancing, in a file and by -s, is refused with what to do instead"""
+    """energy.glancing, in files of ceduo's or not, and by -s, is refused with what to do instead"""
     with Folder() as f:
         path = f.write("s.yaml", wooded_scene(forest=[belt(20, 80, energy={"glancing": True})]))
-        for done in (ceduo("--batch", path), ceduo("--batch", "paper-site", "-s", "forest[0].stand.energy.glancing=true")):
+        f.write("own.yaml", "energy: {glancing: true}\n")
+        foreign = f.write("t.yaml", wooded_scene(forest=[{"from_m": 20, "to_m": 80, "stand": "own.yaml"}]))
+        for done in (ceduo("--batch", path), ceduo("--batch", "paper-site", "-s", "forest[0].stand.energy.glancing=true"),
+                     ceduo("--batch", foreign)):
             expect_in("this key is gone: a hit takes what its law says, however slightly it touches; leave it out", done.err)
             expect(done.status in (USAGE, INPUT), done.status)
 
