@@ -48,26 +48,24 @@ struct reader {
     double east, north; /* of the point before, m */
 };
 
-static bool read_number(struct reader *r, enum column column, double *value)
+static bool read_number(struct csv *csv, struct csv_span field, double *value)
 {
     const struct field *vertex = ceduo_schema_field(ceduo_schema_slope(), "vertices_m");
-    struct csv_span field;
-    return ceduo_csv_field(&r->csv, r->columns[column], &field) &&
-           ceduo_csv_number(&r->csv, field, vertex->lo, vertex->hi, "m", value);
+    return ceduo_csv_number(csv, field, vertex->lo, vertex->hi, "m", value);
 }
 
 static void read_row(struct reader *r, struct points *points)
 {
     struct csv *csv = &r->csv;
-    struct csv_span first, field;
+    struct csv_span first, second, height;
     double x, north, z, before = points->n > 0 ? points->x[points->n - 1] : -INFINITY;
-    const enum column along = r->drawn ? EAST : DISTANCE;
-    if (!ceduo_csv_field(csv, r->columns[along], &first) || !ceduo_csv_field(csv, r->columns[ELEVATION], &field) ||
-        (r->drawn && !ceduo_csv_field(csv, r->columns[NORTH], &field))) {
+    if (!ceduo_csv_field(csv, r->columns[r->drawn ? EAST : DISTANCE], &first) ||
+        !ceduo_csv_field(csv, r->columns[ELEVATION], &height) ||
+        (r->drawn && !ceduo_csv_field(csv, r->columns[NORTH], &second))) {
         ceduo_problem(csv->problems, csv->source, csv->number, 1, _("too few columns"));
         return;
     }
-    if (!read_number(r, along, &x) || !read_number(r, ELEVATION, &z) || (r->drawn && !read_number(r, NORTH, &north)))
+    if (!read_number(csv, first, &x) || !read_number(csv, height, &z) || (r->drawn && !read_number(csv, second, &north)))
         return;
     if (r->drawn) {
         double east = x;

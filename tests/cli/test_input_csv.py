@@ -53,6 +53,7 @@ def test_csv_of_offices():
         italian = "Progressiva (m);Quota (m s.l.m.)\r\n0;64,5\r\n50;30\r\n100;0,75\r\n"
         for text in (plain.replace("distance,elevation", "Distance (m),Elevation (m)"), italian,
                      "Profilo A della parete;\n;\n" + italian, italian.encode("utf-16"), italian.encode("utf-16-be"),
+                     ("\ufeff" + italian).encode("utf-16-be"), "N\0te\n" + plain, ("\u00fever\n" + italian).encode("cp1252"),
                      ("Profilo d\u2019asse \u2013 et\u00e0 1950;\n" + italian).encode("cp1252"),
                      "Entfernung [m];H\u00d6HE (m)\n0;64,5\n50;30\n100;0,75\n".encode("cp1252"),
                      "X,Y,Z\n0,0,64.5\n30,40,30\n60,80,0.75\n", "id,Est (m),Nord (m),Quota (m)\na,700000,4800000,64.5\n"
@@ -65,6 +66,8 @@ OTHER = [  # what a GPS or a drawing program writes, and how it is called
     ('<?xml version="1.0"?>\n<LandXML version="1.2"/>\n', "LandXML is no profile"), ("<a/>\n", "XML is no profile"),
     ("x,y,z\n12.1,43.1,300\n12.1001,43.1,200\n", "x and y must be in metres, not in degrees"),
     ("x,y,z\n1,1,300\n1,1,200\n", "distance 0 does not lie beyond 0"),
+    ("\ufeffdistance;elevation\n\udc00;1\n".encode("utf-16-le", "surrogatepass"), "must name the columns"),
+    ("x,y,z\n12.1,43.1,300\n12.1001,-,250\n12.1002,43.1,200\n", "'-' is not a number"),
 ]
 
 
@@ -77,6 +80,7 @@ def test_no_table():
                 f.write("s.yaml", f"ceduo: scene/1\nrock: {{diameter_m: 0.5}}\nslope: {name}\ncontrols_m: [75]\n")
                 done = check(f, "s.yaml")
                 expect_in(words, done.err, content)
+                expect_equal("degrees" in done.err, "degrees" in words, done.err)
                 expect_equal(done.status, 3)
                 expect("is no profile" not in words or "Elevation Profile" in done.err, done.err)
 
@@ -88,6 +92,7 @@ CSV_CASES = [
     ("distance,elevation\n", None, "two points"), ("distance,elevation\n0,64\n", None, "two points"),
     ("distance,elevation\n0,64\n50,\n100,0\n", (3, 4), "missing"), ("distance,elevation\n0,64\n,30\n100,0\n", (3, 1), "missing"),
     ("distance,elevation\n0,64\n50\n100,0\n", (3, None), "too few"), ("elevation,distance\n64,0\n30\n0,100\n", (3, None), "too few"),
+    ("x,z,y\n0,64,0\n30,30\n60,0,80\n", (3, None), "too few"), ("x,y,z\n0,0,64\n30,b,30\n60,80,0\n", (3, 4), "'b' is not a number"),
     ("distance,elevation\n0,64\n50,\"30,5\"\n100,0\n", (3, 5), "'30,5' is not a number; write a dot"),
     ("distance;elevation\n0;64\n50;1.030,5\n100;0\n", (3, 4), "not both"),
     ("distance;elevation\n0;64,5\n50.5;30\n100;0\n", (3, 1), "not both"),

@@ -14,6 +14,7 @@
 
 #include "base/gsl_errors.h"
 #include "ceduo/ceduo.h"
+#include "folder.h"
 #include "study/guess.h"
 
 /* ---- memory that GSL asks for ---- */
@@ -236,6 +237,33 @@ TEST(what_is_wrong_is_said)
     EXPECT(ceduo_scene_read("profiles/scenes/paper-site.yaml", sets, &r), ==, CEDUO_BAD_FILE);
     assert_non_null(strstr(r.messages, "--set"));
     ceduo_reading_release(&r);
+}
+
+/* In whatever library it fails, as that which reads the signs of an old spreadsheet. */
+TEST_WITH(a_scene_is_read_without_memory, folder_set_up, folder_tear_down)
+{
+    char path[256], line[18000]; /* longer than what goes into a page of an arena */
+    long failed = 0;
+    enum ceduo_status status = CEDUO_OK;
+    snprintf(line, sizeof line, "Profil%17000s\nEntfernung;H\xf6he\n0;90\n100;0\n", "");
+    put("line.csv", line);
+    put("scene.yaml", "ceduo: scene/1\nrock: {diameter_m: 1}\nslope: line.csv\ncontrols_m: [90]\n");
+    in_folder(path, "scene.yaml");
+    for (long at = 1, left = 0; left == 0; at++) { /* until it asks fewer times */
+        struct ceduo_reading r;
+        fail_at = at;
+        status = ceduo_scene_read(path, NULL, &r);
+        left = fail_at;
+        fail_at = 0;
+        failed += status == CEDUO_NO_MEMORY;
+        if (status == CEDUO_OK)
+            EXPECT(r.scene.slope.z[1], ==, -90);
+        else if (status != CEDUO_NO_MEMORY)
+            fail_msg("allocation %ld: %s", at, r.messages);
+        ceduo_reading_release(&r);
+    }
+    EXPECT(status, ==, CEDUO_OK);
+    EXPECT(failed, >=, FAILS);
 }
 
 /* ---- defaults and texts ---- */
