@@ -119,22 +119,19 @@ void ceduo_emit(struct text *text, const struct node *root)
 
 /* ---- back to files ---- */
 
-/* The entries of `now` that differ from `base`, which nothing was taken from. False where one is gone. */
+/* The entries of `now` that differ from `base`, which nothing was taken from. NULL where one is gone. */
 static const struct node *difference(struct arena *arena, const struct node *base, const struct node *now)
 {
     const struct node *out = ceduo_node_empty(arena, NODE_MAP, NULL);
     for (size_t i = 0; i < base->n; i++)
         if (!ceduo_node_get(now, base->items[i]->key))
             return NULL;
-    for (size_t i = 0; out && i < now->n; i++) {
+    for (size_t i = 0; i < now->n; i++) {
         const struct node *entry = now->items[i], *old = ceduo_node_get(base, entry->key);
         if (old && ceduo_node_equal(old, entry))
             continue;
-        if (old && old->kind == NODE_MAP) { /* which it still is */
+        if (old && old->kind == NODE_MAP) /* which it still is */
             entry = difference(arena, old, entry);
-            if (!entry)
-                return NULL;
-        }
         out = ceduo_node_with(arena, out, now->items[i]->key, entry);
     }
     return out;
@@ -150,19 +147,19 @@ const struct node *ceduo_emit_unresolve(struct arena *arena, const struct node *
         if (same)
             return ceduo_node_renamed(arena, node->written, node->key);
         /* a stand is its base and what differs, if that can say it */
-        const struct node *changes = strcmp(node->key, "stand") == 0 ? difference(arena, was, node) : NULL, *w = node->written;
-        const struct node *start = changes ? w : NULL;
-        if (start && w->kind == NODE_SCALAR)
-            start = ceduo_node_with(arena, ceduo_node_empty(arena, NODE_MAP, NULL), "base", w);
-        for (size_t i = 0; start && i < changes->n; i++)
+        const struct node *changes = strcmp(node->key, "stand") == 0 ? difference(arena, was, node) : NULL;
+        const struct node *start = node->written;
+        if (changes && start->kind == NODE_SCALAR)
+            start = ceduo_node_with(arena, ceduo_node_empty(arena, NODE_MAP, NULL), "base", start);
+        for (size_t i = 0; changes && i < changes->n; i++)
             start = ceduo_node_with(arena, start, changes->items[i]->key, ceduo_node_get(node, changes->items[i]->key));
-        if (start && (start = ceduo_node_renamed(arena, start, node->key)))
-            return start;
+        if (changes)
+            return ceduo_node_renamed(arena, start, node->key);
     }
     if (node->kind == NODE_SCALAR)
         return node;
     const struct node *out = node;
-    for (size_t i = 0; out && i < node->n; i++) {
+    for (size_t i = 0; i < node->n; i++) {
         const struct node *item = ceduo_emit_unresolve(arena, node->items[i]);
         if (item != node->items[i])
             out = ceduo_node_replaced(arena, out, i, item);

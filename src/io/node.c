@@ -74,7 +74,7 @@ const struct node *ceduo_node_replaced(struct arena *arena, const struct node *n
 
 const struct node *ceduo_node_inserted(struct arena *arena, const struct node *node, size_t i, const struct node *value)
 {
-    return value ? splice(arena, node, i, 0, value) : NULL;
+    return splice(arena, node, i, 0, value);
 }
 
 const struct node *ceduo_node_removed(struct arena *arena, const struct node *node, size_t i)
@@ -85,7 +85,7 @@ const struct node *ceduo_node_removed(struct arena *arena, const struct node *no
 const struct node *ceduo_node_renamed(struct arena *arena, const struct node *value, const char *key)
 {
     struct node *copy = ceduo_arena_take(arena, sizeof *copy);
-    if (!copy || !value) /* untaken: memory */
+    if (!copy || !value)
         return NULL;
     *copy = *value;
     copy->key = key ? ceduo_arena_string(arena, key) : NULL;

@@ -210,7 +210,7 @@ static const struct node *without_texts(struct arena *arena, const struct node *
     const struct node *plain = node;
     if (source)
         plain = ceduo_node_without(arena, ceduo_node_without(arena, node, "text"), "text_it");
-    for (size_t i = 0; plain && !source && i < node->n; i++)
+    for (size_t i = 0; !source && i < node->n; i++)
         plain = ceduo_node_replaced(arena, plain, i, without_texts(arena, node->items[i]));
     return plain;
 }
@@ -227,10 +227,7 @@ static void add_origin(struct ceduo_page *page, const struct ceduo_chapter *c)
     /* with what the command line changed, and the names of other files */
     struct arena arena = {0};
     const struct node *root = ceduo_emit_unresolve(&arena, c->report->file->root);
-    root = root ? without_texts(&arena, root) : NULL;
-    struct text *code = ceduo_page_add(page, CEDUO_PAGE_CODE);
-    if (root)
-        ceduo_emit(code, root);
+    ceduo_emit(ceduo_page_add(page, CEDUO_PAGE_CODE), without_texts(&arena, root));
     ceduo_arena_free(&arena);
 }
 

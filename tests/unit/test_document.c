@@ -303,7 +303,7 @@ static bool step(const char *const at[TABLE_COLUMNS])
 TEST(documents_go_through_their_steps)
 {
     const char *sections =
-        "comments|base|more|slope|wrong|items|names|undo|branch|copy|source|source of a file|source of what moves|disk|"
+        "comments|base|less|more|slope|wrong|items|names|undo|branch|copy|source|source of a file|source of what moves|disk|"
         "elsewhere 1|elsewhere 2|elsewhere 3|elsewhere 4|beside|profile|typed";
     for (char section[64]; next_word(&sections, section);) {
         assert_int_equal(set_up(NULL), 0);

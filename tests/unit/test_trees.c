@@ -3,6 +3,7 @@
 #include "local.h"
 #include "table.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "base/utf8.h"
@@ -110,6 +111,10 @@ TEST(trees_are_compared)
     assert_string_equal(ceduo_node_text(map, "a"), "1");
     assert_ptr_equal(ceduo_node_without(&arena, map, "c"), map);
     assert_true(ceduo_node_equal(ceduo_node_without(&arena, map, "b"), parsed(&arena, "{a: 1}")));
+    assert_true(ceduo_node_item_number(b, 2) == 3);
+    const char *const none[] = {"[1, 2]", "[1, 2, [3]]", "[1, 2, x]", "{a: 1, b: 2, c: 3}", "word"};
+    for (size_t i = 0; i < LENGTH(none); i++)
+        assert_true(isnan(ceduo_node_item_number(parsed(&arena, none[i]), 2)));
     const char *const less[] = {"[2, 3]", "[1, 3]", "[1, 2]"};
     const char *const more[] = {"[9, 1, 2, 3]", "[1, 9, 2, 3]", "[1, 2, 9, 3]", "[1, 2, 3, 9]"};
     const struct node *list = parsed(&arena, "[1, 2, 3]"), *nine = parsed(&arena, "9");
