@@ -117,7 +117,7 @@ static void consider(struct finder *f, const struct field *field, const struct n
         return;
     const struct ceduo_belt *belt = ceduo_input_belt(&f->file->scene, path);
     bool law = !node && range->kind == CEDUO_INPUT_WORDS; /* nobody chose it */
-    if (!ceduo_scene_assumes_value(f->file, path) && !(law && belt && !ceduo_stand_is_bare(&belt->stand)))
+    if (!ceduo_scene_assumes_value(f->file, path) && !(law && !ceduo_stand_is_bare(&belt->stand)))
         return;
     if (strcmp(key, "model") == 0)
         origin = "energy law";

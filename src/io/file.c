@@ -144,11 +144,10 @@ const char *const *ceduo_file_folders(struct arena *arena)
         folders[n++] = ceduo_arena_format(arena, "%s/ceduo", data);
     else if (home && home[0])
         folders[n++] = ceduo_arena_format(arena, "%s/.local/share/ceduo", home);
-    char self[PATH_MAX]; /* beside the program: where it was built and where it is installed */
-    ssize_t length = readlink("/proc/self/exe", self, sizeof self - 1);
-    self[length > 0 ? length : 0] = '\0';
-    const char *slash = strrchr(self, '/');
-    for (size_t i = 0; slash && i < sizeof near / sizeof near[0]; i++)
+    char self[PATH_MAX] = ""; /* beside the program: where it was built and where it is installed */
+    /* untaken: machine */
+    const char *slash = readlink("/proc/self/exe", self, sizeof self - 1) > 0 ? strrchr(self, '/') : NULL;
+    for (size_t i = 0; slash && i < sizeof near / sizeof near[0]; i++) /* untaken: machine */
         folders[n++] = ceduo_arena_format(arena, "%.*s/%s", (int)(slash - self), self, near[i]);
     folders[n++] = ceduo_arena_string(arena, CEDUO_DATADIR);
     size_t kept = 0;
@@ -211,7 +210,7 @@ const char *const *ceduo_file_list(struct arena *arena, const char *folder, cons
         room++;
     rewinddir(dir);
     const char **names = ceduo_arena_take(arena, room * sizeof *names);
-    for (struct dirent *e; names && *n < room && (e = readdir(dir));) {
+    for (struct dirent *e; names && *n < room && (e = readdir(dir));) { /* untaken: race */
         if (e->d_name[0] == '.' || (length = strlen(e->d_name)) <= 5 || strcmp(e->d_name + length - 5, ".yaml") != 0)
             continue;
         if (!(names[*n] = ceduo_arena_copy(arena, e->d_name, length - 5)))

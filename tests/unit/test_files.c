@@ -225,6 +225,7 @@ TEST_WITH(files_are_the_same, folder_set_up_profiles, folder_tear_down)
     assert_false(ceduo_file_same(other, "-"));
     close(STDIN_FILENO);
     assert_false(ceduo_file_same(link, "-"));
+    expect_told("-", 9, "standard input: cannot read it: Bad file descriptor");
     dup2(was, STDIN_FILENO);
     close(was);
 }

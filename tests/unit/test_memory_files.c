@@ -289,6 +289,14 @@ static bool write_link(void)
     return good;
 }
 
+/* Beside a file, whose place it then takes. */
+static bool write_over(void)
+{
+    bool good = ceduo_file_write(survey_path, survey, sizeof survey - 1);
+    assert_true(good || errno == ENOMEM);
+    return good;
+}
+
 /* In the place of a file, which is asked for where it is. */
 static bool ask_to_write(void)
 {
@@ -324,5 +332,6 @@ TEST_WITH(folders, set_up, folder_tear_down)
 {
     without_memory(list_profiles);
     without_memory(write_link);
+    without_memory(write_over);
     without_memory(ask_to_write);
 }

@@ -407,6 +407,11 @@ TEST(problems_are_put_together)
     assert_null(strstr(problems.text.bytes, "kind aau\n"));
     assert_non_null(strstr(problems.text.bytes, "4980 more problems\n"));
     ceduo_problems_free(&problems);
+    for (int i = 0; i < 8; i++) /* of one kind, and on no line */
+        ceduo_problem(&problems, NULL, 0, 0, "kind %d", i);
+    ceduo_problems_close(&problems);
+    assert_string_equal(problems.text.bytes, "kind 0\n  and 7 more of this kind\n");
+    ceduo_problems_free(&problems);
 }
 
 /* Where a value comes from is said by the innermost mapping on the way to it. */
