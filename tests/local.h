@@ -22,6 +22,7 @@ LOCAL_FREES(ceduo_pool)
 LOCAL_FREES(ceduo_result)
 LOCAL_FREES(ceduo_run)
 LOCAL_FREES(ceduo_snapshot)
+LOCAL_FREES(ceduo_surface)
 LOCAL_FREES(ceduo_years)
 
 #define LOCAL(type, name) __attribute__((cleanup(type##_free_local))) struct type *name

@@ -91,7 +91,8 @@ static enum ceduo_status open_rows(struct rows *r, const struct ceduo_doubt_def 
 {
     size_t n = def->inputs_count, years = 0;
     *r = (struct rows){.def = def, .answer = answer, .ends = 2 * n, .options = def->scene->options_count};
-    r->most = def->points > CEDUO_DOUBT_POINTS_MAX ? def->points : CEDUO_DOUBT_POINTS_MAX;
+    r->most = def->points_max > 0 ? def->points_max : CEDUO_DOUBT_POINTS_MAX;
+    r->most = def->points > r->most ? def->points : r->most;
     r->u = ceduo_arena_take(&r->memory, (r->ends + r->most) * n * sizeof *r->u);
     r->values = ceduo_arena_take(&r->memory, (r->ends + r->most) * r->options * CEDUO_DOUBT_KINDS * sizeof *r->values);
     if (def->rotation) {
@@ -150,12 +151,13 @@ static void insert_index(const double *values, size_t i, size_t *order)
 }
 
 /* What a surface is made of: an option, or its difference to another one, which inputs they have, and room for a figure at the
- * points. */
+ * points and for what is left of it. */
 struct subject {
     size_t option, against; /* the same: no difference */
     struct arena memory;
     struct ceduo_surface *surface;
     bool *uses;
+    double *left; /* of each input */
     struct ceduo_groups *column;
 };
 
@@ -164,6 +166,7 @@ static enum ceduo_status open_subject(const struct rows *r, size_t option, size_
     size_t n = r->def->inputs_count;
     *s = (struct subject){.option = option, .against = against};
     s->uses = ceduo_arena_take(&s->memory, n * sizeof *s->uses);
+    s->left = ceduo_arena_take(&s->memory, n * sizeof *s->left);
     s->column = ceduo_arena_take(&s->memory, r->points * sizeof *s->column);
     enum ceduo_status status = ceduo_surface_open(r->def->inputs, n, r->u + r->ends * n, r->points, &s->surface);
     if (s->memory.failed)
@@ -204,12 +207,9 @@ static bool is_rotation(enum ceduo_doubt_kind kind)
     return kind == CEDUO_DOUBT_MEAN || kind == CEDUO_DOUBT_FAILING;
 }
 
-static enum ceduo_status read_figure(const struct rows *r, struct subject *s, struct ceduo_doubt_figure *f)
+static enum ceduo_status read_figure(const struct rows *r, const struct subject *s, struct ceduo_doubt_figure *f)
 {
     const struct ceduo_doubt_def *def = r->def;
-    double *left = ceduo_arena_take(&s->memory, def->inputs_count * sizeof *left);
-    if (!left)
-        return CEDUO_NO_MEMORY;
     bool judged = !f->difference && (f->kind == r->judged || f->kind == CEDUO_DOUBT_MEAN) && r->judged == CEDUO_DOUBT_EXCEED;
     double max = f->kind == CEDUO_DOUBT_ENERGY || f->kind == CEDUO_DOUBT_CONTACT ? INFINITY : 1;
     if (f->kind == CEDUO_DOUBT_FAILING)
@@ -228,8 +228,8 @@ static enum ceduo_status read_figure(const struct rows *r, struct subject *s, st
     f->uses = 0;
     for (size_t i = 0; i < def->inputs_count; i++) {
         f->uses += s->uses[i];
-        left[i] = !s->uses[i] ? INFINITY : isnan(f->fit.left[i]) ? 0 : f->fit.left[i];
-        insert_index(left, i, f->order);
+        s->left[i] = !s->uses[i] ? INFINITY : isnan(f->fit.left[i]) ? 0 : f->fit.left[i];
+        insert_index(s->left, i, f->order);
     }
     return CEDUO_OK;
 }
@@ -494,7 +494,7 @@ enum ceduo_status ceduo_doubt_ask(const struct ceduo_doubt_def *def, struct cedu
         status = extend(&rows, points);
         if (status == CEDUO_OK)
             status = read_figures(&rows, true);
-        if (2 * points > (def->points_max > 0 ? def->points_max : CEDUO_DOUBT_POINTS_MAX) || !wants_more(&rows))
+        if (2 * points > rows.most || !wants_more(&rows))
             break;
     }
     answer->rotation = rows.years;

@@ -41,9 +41,7 @@ static struct ceduo_groups energy_of(const struct point *point, const struct ced
         reach += briefs[g].reach_probability / GROUPS;
         energy += briefs[g].energy_per_released / GROUPS;
     }
-    if (reach == 0)
-        return y;
-    double mean = energy / reach, left = mean;
+    double mean = energy / reach, left = mean; /* NaN where none arrives */
     if (point->scene->simulation.contact_model == CEDUO_INDEX)
         left = ceduo_assess_index(point->scene, point->forest, control, mean).residual;
     for (size_t g = 0; g < GROUPS && left > 0; g++)

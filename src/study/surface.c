@@ -168,7 +168,7 @@ static bool make_orthonormal(double *table, size_t levels, size_t done)
         after += table[l * TABLE_MAX + done] * table[l * TABLE_MAX + done] / n;
     for (size_t l = 0; l < levels; l++)
         table[l * TABLE_MAX + done] /= sqrt(after);
-    return after > SAME * before && after > 0;
+    return after > SAME * before;
 }
 
 /* The functions of an input at quantile u. */
@@ -197,8 +197,8 @@ static void fill_functions(const struct ceduo_surface *s, size_t input, double s
     }
 }
 
-/* Makes the functions of an input. False without memory. */
-static bool make_functions(struct ceduo_surface *s, size_t i)
+/* Makes the functions of an input. */
+static void make_functions(struct ceduo_surface *s, size_t i)
 {
     const struct ceduo_input *input = &s->inputs[i];
     struct inputs_functions *of = &s->of[i];
@@ -208,7 +208,7 @@ static bool make_functions(struct ceduo_surface *s, size_t i)
     if (table) {
         of->levels = words ? input->words_count : input->draws_count;
         if (!(of->table = ceduo_arena_take(&s->memory, of->levels * TABLE_MAX * sizeof *of->table)))
-            return false;
+            return;
     }
     for (size_t c = 0; c < columns && c < TABLE_MAX; c++) {
         for (size_t l = 0; l < of->levels; l++)
@@ -219,15 +219,13 @@ static bool make_functions(struct ceduo_surface *s, size_t i)
         of->count += kept;
         of->linear += kept && (words || c < (table ? input->places_count : 1));
     }
-    return true;
 }
 
-static bool take_parts(struct ceduo_surface *s, struct parts *parts)
+static void take_parts(struct ceduo_surface *s, struct parts *parts)
 {
     parts->n = 2 * s->inputs_count + 1;
     parts->of = ceduo_arena_take(&s->memory, parts->n * sizeof *parts->of);
     parts->spare = parts->of ? parts->of + parts->n - 1 : NULL;
-    return parts->of;
 }
 
 enum ceduo_status ceduo_surface_open(const struct ceduo_input *inputs, size_t n, const double *u, size_t points,
@@ -244,17 +242,18 @@ enum ceduo_status ceduo_surface_open(const struct ceduo_input *inputs, size_t n,
     s->c.y = ceduo_arena_take(&s->memory, (GROUPS + 1) * points * sizeof *s->c.y);
     s->used = ceduo_arena_take(&s->memory, (n + 1) * sizeof *s->used);
     s->values = ceduo_arena_take(&s->memory, points * sizeof *s->values);
-    bool good = take_parts(s, &s->found) && take_parts(s, &s->other) && !s->memory.failed;
-    for (size_t b = 0; good && b < SAMPLES; b++)
+    take_parts(s, &s->found);
+    take_parts(s, &s->other);
+    for (size_t b = 0; !s->memory.failed && b < SAMPLES; b++)
         for (size_t p = 0; p < points; p++)
             s->multipliers[b * points + p] = gsl_cdf_ugaussian_Pinv(random_open(b, p, 0, RANDOM_SAMPLE));
-    for (size_t i = 0; good && i < n; i++)
-        good = make_functions(s, i);
+    for (size_t i = 0; i < n && !s->memory.failed; i++)
+        make_functions(s, i);
     s->at = ceduo_arena_take(&s->memory, (s->functions_count + 1) * points * sizeof *s->at);
     s->room = ceduo_arena_take(&s->memory, (s->functions_count + TABLE_MAX + 3) * points * sizeof *s->room);
     for (size_t i = 0; i < n && !s->memory.failed; i++)
         fill_functions(s, i, 0, s->at);
-    return good && !s->memory.failed ? CEDUO_OK : CEDUO_NO_MEMORY;
+    return s->memory.failed ? CEDUO_NO_MEMORY : CEDUO_OK;
 }
 
 static void close_solution(struct solution *f)
@@ -482,7 +481,7 @@ static struct solution *fit_terms(struct ceduo_surface *s, const struct chosen *
     for (size_t p = 0; p < points; p++)
         squares += f->left[p] * f->left[p] / f->freedom;
     f->spare = spare_of(f, GROUPS);
-    f->kept = squares > 0 ? sqrt(fmin(1, f->spare / squares)) : 0;
+    f->kept = squares > 0 ? sqrt(fmin(1, f->spare / squares)) : 0; /* untaken: rounding */
     return f;
 }
 
@@ -743,7 +742,7 @@ static void read_quality(const struct solution *f, struct ceduo_surface_fit *fit
         common[1] += common_of(y + p, points, GROUPS);
     }
     fit->q2 = 1 - left_out / squares;
-    fit->explained = common[1] > 0 ? 1 - fmax(0, common[0]) / common[1] : 0;
+    fit->explained = 1 - fmax(0, common[0]) / common[1];
 }
 
 static void set_band(struct ceduo_surface_fit *fit, const struct band *b)
@@ -843,7 +842,7 @@ static bool choose(struct ceduo_surface *s, struct chosen *chosen)
     if (!chosen->enough)
         return true;
     struct chosen tried = *chosen;
-    for (tried.leading = chosen->n; tried.leading > 0 && !is_enough(s, &tried);)
+    for (tried.leading = chosen->n; !is_enough(s, &tried);) /* without products there are enough */
         tried.leading--;
     chosen->leading = tried.leading;
     bool ranked = tried.leading < chosen->n;
@@ -915,8 +914,9 @@ enum ceduo_status ceduo_surface_values(struct ceduo_surface *s, const struct ced
     struct chosen chosen;
     s->c.figure = figure;
     fill_column(&s->c, figure->y, n); /* the sum of the figures says by what terms */
-    bool good = choose(s, &chosen);
-    for (size_t i = 0; i < n && good; i++) {
+    if (!choose(s, &chosen))
+        return CEDUO_NO_MEMORY;
+    for (size_t i = 0; i < n; i++) {
         fill_column(&s->c, figure->y + i * s->points, 1);
         if (chosen.enough && s->c.kept > 0) {
             const struct solution *f = fit_terms(s, &chosen);
@@ -931,7 +931,7 @@ enum ceduo_status ceduo_surface_values(struct ceduo_surface *s, const struct ced
                 changes[i * s->points + p].of[half] = s->values[p];
         }
     }
-    return good ? CEDUO_OK : CEDUO_NO_MEMORY;
+    return CEDUO_OK;
 }
 
 /* Sums over the halves are sums over the groups again. */

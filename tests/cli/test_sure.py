@@ -50,20 +50,48 @@ def test_known_law():
     expect(1500 - 3 * STEPS <= worst["value"] <= 1500 and worst["probability"] == 1, worst)
 
 
+def test_free_run():
+    """The chance of a free run is one of n + m trees, too: as many fewer of the one as there are more of the other"""
+    for sure in (0.1, 0.9):
+        found = find(wood(), "free-run=0.001", sure)
+        expect_near(found["sure"]["value"], found["value"] - 1000 * (1 - sure), 3 * STEPS, sure)
+
+
+def largest(*controls, contact_model="index", goal="energy=30", forest=()):
+    """Of the diameter, where the density is in doubt."""
+    mapping = wood(doubt=[{"path": "rock.density_kg_m3", "lo": 2000, "hi": 3000}], simulation={"contact_model": contact_model})
+    mapping |= {"forest": list(forest), "controls": [{"x_m": x, "accepted_kJ": 20} for x in controls]}
+    return find(mapping, goal, 0.9, "-n", 200, path="rock.diameter_m", lo=0.1, hi=1)
+
+
 def test_largest():
     """Where less is surer the value is the largest; beyond the range none is sure, and the nearest is named"""
-    deep = wood(doubt=[{"path": "rock.density_kg_m3", "lo": 2000, "hi": 3000}], simulation={"contact_model": "index"})
-    deep["forest"] = []
-    found = find(deep, "energy=30", 0.9, "-n", 200, path="rock.diameter_m", lo=0.1, hi=1)["sure"]
-    expect_equal((found["found"], found["side"]), (True, "largest"))
-    plain = find(deep, "energy=30", 0.9, "-n", 200, path="rock.diameter_m", lo=0.1, hi=1)["value"]
-    # energy goes with the mass: with 2900 kg/m3, nine of ten cases are below, instead of 2600
-    expect_near(found["value"], plain * (2600 / 2900) ** (1 / 3), 0.01 * plain)
+    for model in ("index", "stems"):
+        found = largest(90, contact_model=model)
+        expect_equal((found["sure"]["found"], found["sure"]["side"]), (True, "largest"), model)
+        # energy goes with the mass: with 2900 kg/m3, nine of ten cases are below, instead of 2600
+        expect_near(found["sure"]["value"], found["value"] * (2600 / 2900) ** (1 / 3), 0.01 * found["value"], model)
     none = find(wood(), "adc=4", 0.9, hi=1000)["sure"]
     expect_equal((none["found"], none["value"], none["probability"], none["nearest"]), (False, None, None, 1000))
     expect_near(none["probability_at_nearest"], 0.5, 0.02)
     expect_in("no value is sure in 90 % of what may be true; nearest: 1000, in 50 %", find(wood(), "adc=4", 0.9, hi=1000, form="table"))
     expect_in("every value of the range is sure in 90 % of what may be true", find(wood(), "adc=4", 0.9, lo=2000, form="table"))
+
+
+def test_worst_control():
+    """Of two places the worse one counts, whichever comes first"""
+    upper, lower = (largest(x)["sure"]["value"] for x in (30, 90))
+    expect(abs(upper - lower) > 0.02, (upper, lower))
+    for controls in ((30, 90), (90, 30)):
+        expect_equal(largest(*controls)["sure"]["value"], min(upper, lower), controls)
+
+
+def test_no_energy():
+    """Where no rock arrives, or the index leaves nothing, any value is sure"""
+    thick = {"from_m": 0, "to_m": 90, "stand": stand(stools=None, shoots=None, trees=[{"per_ha": 3000, "dbh_m": 0.5, "height_m": 20}])}
+    for model in ("index", "stems"):
+        found = largest(90, contact_model=model, goal="energy=0.001", forest=[thick])["sure"]
+        expect_equal((found["found"], found["value"], found["probability"]), (True, 0.1, 1), model)
 
 
 def test_nothing_in_doubt():
@@ -124,6 +152,18 @@ def test_over_a_rotation():
     found = find(mapping, "exceed=0.5", 0.9, "--years", "-n", 100, path="forest[0].stand.cutting.stay_per_ha[0]", lo=100, hi=103)
     expect_equal(found["over"], "rotation")
     expect(found["sure"]["points"] == 256 and 0 <= (found["sure"]["probability"] or found["sure"]["probability_at_nearest"]) <= 1, found)
+
+
+def test_worst_year():
+    """What hangs on the index is that of the worst year: where what is in doubt changes nothing of it, as without"""
+    mapping = wood(doubt=[{"path": "rock.density_kg_m3", "lo": 2000, "hi": 3000}])
+    wooded = {"from_m": 0, "to_m": 90, "stand": "coppice-with-standards"}
+    both = [{**wooded, "to_m": 45, "cut_year": 0}, {**wooded, "from_m": 45, "cut_year": 10}]  # years are shown from 10 on
+    for forest in ([wooded], both):
+        mapping["forest"] = forest
+        found = find(mapping, "adc=100", 0.9, "--years", path="forest[0].stand.cutting.stay_per_ha[0]", lo=10, hi=300)
+        expect(found["found"] and found["value"] > 10, found)
+        expect_equal((found["over"], found["sure"]["value"], found["sure"]["probability"]), ("rotation", found["value"], 1), forest)
 
 
 def test_threads():

@@ -5,6 +5,7 @@
 #include "ceduo/doubt.h"
 #include "io/scene_file.h"
 #include "study/inputs.h"
+#include "study/sure.h"
 
 /* The doubt of a density with a large error: within 1 % of its mean, where a uniform law cut at 0 was 17 and 37 % above. */
 TEST(gamma_laws_keep_the_mean)
@@ -82,6 +83,52 @@ TEST(doubt_of_a_known_law)
     ceduo_scene_release(&file);
 }
 
+/* Of sixty inputs 256 points are too few for their terms: twice as many are taken, and the energy is as the density. */
+TEST(more_points_where_inputs_are_many)
+{
+    enum { MANY = 60 };
+    static const char *const places[] = {"rock.density_kg_m3", "forest[0].stand.trees[0].height_m"};
+    struct ceduo_input inputs[MANY];
+    struct ceduo_doubt_answer a;
+    for (size_t i = 0; i < MANY; i++)
+        inputs[i] = i == 0 ? range_of(&places[0], 2400, 2700) : range_of(&places[1], 11, 13);
+    open_wood();
+    file.scene.controls[0].accepted = NAN;
+    const struct ceduo_doubt_def def = {.scene = &file.scene,
+                                        .inputs_count = MANY,
+                                        .inputs = inputs,
+                                        .points = CEDUO_DOUBT_POINTS,
+                                        .rocks = CEDUO_SURFACE_GROUPS,
+                                        .threads = 2};
+    EXPECT(ceduo_doubt_ask(&def, &a), ==, CEDUO_OK);
+    EXPECT(a.points, ==, 2 * CEDUO_DOUBT_POINTS);
+    const struct ceduo_doubt_figure *f = ceduo_doubt_figure_of(&a, 0, CEDUO_DOUBT_ENERGY, false);
+    assert_true(f->fit.enough);
+    EXPECT_NEAR(f->fit.total[0].value, 1, 1e-6);
+    EXPECT_NEAR(f->fit.p5 / f->fit.p95, 2415. / 2685, .002);
+    ceduo_doubt_free(&a);
+    ceduo_scene_release(&file);
+}
+
+/* Where no rock arrives there is no energy, by the index and among stems. */
+TEST(no_rock_brings_no_energy)
+{
+    const enum ceduo_contact_model models[] = {CEDUO_INDEX, CEDUO_STEMS};
+    open_wood();
+    file.scene.slope.segments[0].rt = ceduo_number(0);
+    file.scene.slope.segments[0].friction = 100;
+    for (int i = 0; i < 2; i++) {
+        struct sure_answer answer;
+        const struct sure_def def = {
+            .of = {.scene = &file.scene, .points = 2, .rocks = 16, .threads = 1}, .goal = CEDUO_GOAL_ENERGY, .target = 5};
+        file.scene.simulation.contact_model = models[i];
+        EXPECT(ceduo_sure_ask(&def, &answer), ==, CEDUO_OK);
+        EXPECT(answer.above, ==, -5);
+        EXPECT(answer.share.value, ==, 1);
+    }
+    ceduo_scene_release(&file);
+}
+
 /* A light changes where its limit lies from p5 on and below p95; a second input is named from half of the first one's share on.
  * Where there were too few points nothing is named. */
 TEST(what_a_light_depends_on)
@@ -110,10 +157,10 @@ TEST(what_a_light_depends_on)
     ceduo_scene_release(&file);
 }
 
-/* Each of two words, and each of two rows, has half of the range; its ends are of it. */
+/* Each of two words, and each of two rows, has half of the range; its ends are of it. A key may stand in no other. */
 TEST(words_and_rows_share_the_range)
 {
-    static const char *const places[] = {"simulation.rule", "rock.density_kg_m3"};
+    static const char *const places[] = {"simulation.rule", "rock.density_kg_m3", "rocks_per_year"};
     const int words[] = {CEDUO_INTERCEPTION, CEDUO_CROFTON};
     const double rows[] = {2500, 2700}, *const draws[] = {rows};
     const struct ceduo_input inputs[] = {{.path = places[0],
@@ -127,15 +174,17 @@ TEST(words_and_rows_share_the_range)
                                           .draws_count = 2,
                                           .draws = draws,
                                           .places_count = 1,
-                                          .places = &places[1]}};
+                                          .places = &places[1]},
+                                         range_of(&places[2], 1, 3)};
     const double u[] = {0, .4999, .5, 1};
     struct input_scene copy;
     open_wood();
-    EXPECT(ceduo_inputs_open(&copy, &file.scene, inputs, 2), ==, CEDUO_OK);
+    EXPECT(ceduo_inputs_open(&copy, &file.scene, inputs, 3), ==, CEDUO_OK);
     for (int i = 0; i < 4; i++) {
-        ceduo_inputs_set(&copy, (double[]){u[i], u[i]});
+        ceduo_inputs_set(&copy, (double[]){u[i], u[i], u[i]});
         EXPECT((int)copy.scene.simulation.rule, ==, words[i / 2]);
         EXPECT_NEAR(copy.scene.rock.density.mean, rows[i / 2], 1e-9);
+        EXPECT_NEAR(copy.scene.rocks_per_year, 1 + 2 * u[i], 1e-9);
     }
     ceduo_inputs_release(&copy);
     ceduo_scene_release(&file);

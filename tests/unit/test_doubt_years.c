@@ -66,16 +66,21 @@ static void look_at_point(struct input_scene *copy, const double *u, size_t poin
     ceduo_answer_release(&own);
 }
 
+static struct ceduo_doubt_def def_of(unsigned threads, size_t points)
+{
+    return (struct ceduo_doubt_def){.scene = &file.scene,
+                                    .inputs_count = inputs.n,
+                                    .inputs = inputs.items,
+                                    .points = points,
+                                    .rocks = CEDUO_SURFACE_GROUPS,
+                                    .own_rocks = ROCKS,
+                                    .rotation = true,
+                                    .threads = threads};
+}
+
 static void ask(unsigned threads, size_t points, struct ceduo_doubt_answer *to)
 {
-    const struct ceduo_doubt_def def = {.scene = &file.scene,
-                                        .inputs_count = inputs.n,
-                                        .inputs = inputs.items,
-                                        .points = points,
-                                        .rocks = CEDUO_SURFACE_GROUPS,
-                                        .own_rocks = ROCKS,
-                                        .rotation = true,
-                                        .threads = threads};
+    const struct ceduo_doubt_def def = def_of(threads, points);
     EXPECT(ceduo_doubt_ask(&def, to), ==, CEDUO_OK);
 }
 
@@ -202,6 +207,30 @@ TEST(over_a_rotation_bits_do_not_depend_on_threads)
         if (threads > 1)
             ceduo_doubt_free(&other);
     }
+    ceduo_doubt_free(&answer);
+    ceduo_scene_release(&file);
+}
+
+/* One option alone has the bits that it has among others, of which there are no surfaces; also of points that may not grow. */
+TEST(one_option_alone_over_a_rotation)
+{
+    struct ceduo_doubt_answer alone;
+    open_scene();
+    struct ceduo_doubt_def def = def_of(2, 16);
+    ask(2, 16, &answer);
+    def.alone = true;
+    def.option = 1;
+    def.points_max = 8;
+    EXPECT(ceduo_doubt_ask(&def, &alone), ==, CEDUO_OK);
+    EXPECT(alone.points, ==, 16);
+    for (int kind = 0; kind < CEDUO_DOUBT_KINDS; kind++) {
+        const struct ceduo_surface_fit *f = &ceduo_doubt_figure_of(&answer, 1, (enum ceduo_doubt_kind)kind, false)->fit,
+                                       *g = &ceduo_doubt_figure_of(&alone, 1, (enum ceduo_doubt_kind)kind, false)->fit;
+        assert_memory_equal(f->values, g->values, 16 * sizeof *f->values);
+        assert_null(ceduo_doubt_figure_of(&alone, 0, (enum ceduo_doubt_kind)kind, false)->fit.values);
+    }
+    EXPECT(ceduo_doubt_verdict(&alone)->count, ==, 0);
+    ceduo_doubt_free(&alone);
     ceduo_doubt_free(&answer);
     ceduo_scene_release(&file);
 }

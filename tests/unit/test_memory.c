@@ -305,9 +305,14 @@ static enum ceduo_status ask_doubt(struct ceduo_doubt_def def)
     return status;
 }
 
+/* With a second option, without trees. */
 static bool doubt(void)
 {
-    return is_done(ask_doubt(doubt_def(16, 16)));
+    struct ceduo_doubt_def def = doubt_def(16, 16);
+    struct ceduo_option options[2] = {site.option, {.name = NULL}};
+    site.scene.options = options;
+    site.scene.options_count = 2;
+    return is_done(ask_doubt(def));
 }
 
 static bool doubt_over_years(void)
@@ -370,7 +375,40 @@ TEST(a_place_that_is_not_there)
     assert_int_equal(ask_doubt(def), CEDUO_BAD_SLOPE);
 }
 
-/* A copy of a scene with more belts than the arena gives room for at once. */
+/* Points enough for all terms, but not for all products, so that inputs are ranked; and what the terms tell little of, so that
+ * fewer are tried. One input is of the rows of a calibration. */
+static bool fit_surface(void)
+{
+    enum { INPUTS = 9, POINTS = 128, ROWS = 200, FIGURES = 2 };
+    static double rows[ROWS], u[POINTS * INPUTS], values[FIGURES * POINTS];
+    static struct ceduo_groups y[FIGURES * POINTS], changes[FIGURES * POINTS];
+    const double *const draws[] = {rows};
+    struct ceduo_input of[INPUTS] = {{.kind = CEDUO_INPUT_DRAWS, .places_count = 1, .draws_count = ROWS, .draws = draws}};
+    for (size_t i = 1; i < INPUTS; i++)
+        of[i] = (struct ceduo_input){.kind = CEDUO_INPUT_RANGE, .hi = 1};
+    for (size_t i = 0; i < ROWS; i++)
+        rows[i] = (double)i;
+    LOCAL(ceduo_surface, surface) = NULL;
+    LOCAL_BY(ceduo_surface_release) struct ceduo_surface_fit fit = {0};
+    enum ceduo_status status = ceduo_surface_points(1, POINTS, INPUTS, u);
+    for (size_t i = 0; i < FIGURES * POINTS && status == CEDUO_OK; i++)
+        for (size_t g = 0; g < CEDUO_SURFACE_GROUPS; g++)
+            y[i].of[g] = sin(40 * u[i % POINTS * INPUTS + i / POINTS]) + .1 * sin((double)(i * CEDUO_SURFACE_GROUPS + g));
+    const struct ceduo_surface_figure figure = {.y = y, .lo = -INFINITY, .hi = INFINITY, .limit = NAN};
+    if (status == CEDUO_OK)
+        status = ceduo_surface_open(of, INPUTS, u, POINTS, &surface);
+    if (status == CEDUO_OK)
+        status = ceduo_surface_fit(surface, &figure, &fit);
+    if (status == CEDUO_OK)
+        add(fit.values, POINTS * sizeof *fit.values);
+    if (status == CEDUO_OK)
+        status = ceduo_surface_values(surface, &figure, FIGURES, values, changes);
+    if (status == CEDUO_OK)
+        add(values, sizeof values);
+    return is_done(status);
+}
+
+/* A copy of a scene with more belts than the arena gives room for at once, whose shoots are in doubt. */
 static bool copy_belts(void)
 {
     enum { MANY = 300 };
@@ -381,7 +419,9 @@ static bool copy_belts(void)
         belts[i] = site.belts[0];
     site.option.belts = belts;
     site.option.belts_count = MANY;
-    enum ceduo_status status = ceduo_inputs_open(&copy, &site.scene, inputs, 2);
+    static const char *const shoots = "forest[0].stand.shoots[0].per_ha";
+    const struct ceduo_input of_shoots = {shoots, CEDUO_INPUT_FACTOR, .9, 1.1, .places_count = 1, .places = &shoots};
+    enum ceduo_status status = ceduo_inputs_open(&copy, &site.scene, &of_shoots, 1);
     if (status == CEDUO_OK) {
         assert_ptr_not_equal(copy.scene.options[0].belts[MANY - 1].stand.shoots, belts[0].stand.shoots);
         add(&copy.scene.options[0].belts[MANY - 1].to, sizeof belts[0].to);
@@ -580,7 +620,7 @@ TEST(what_stands_on_runs)
 {
     task *const tasks[] = {question, years_of_blocks, ask_by_index,      ask_both_laws,   doubt,  doubt_over_years,
                            sure,     copy_belts,      ask_of_one_option, ask_years_apart, assess, assess_index,
-                           follow,   follow_one,      follow_roll,       record_roll,     find};
+                           follow,   follow_one,      follow_roll,       record_roll,     find,   fit_surface};
     for (size_t i = 0; i < sizeof tasks / sizeof tasks[0]; i++)
         without_memory(tasks[i]);
 }

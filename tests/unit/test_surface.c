@@ -27,6 +27,7 @@ static void make_inputs(size_t n, size_t words, size_t each)
 static double lowest = -INFINITY, limit = NAN;
 static double level; /* sd of what a group of rocks brings at all points */
 static double tilt;  /* what every other group has more of the first input, the others less */
+static bool still;   /* the last input is the same at all points */
 
 /* Values of the function with noise. */
 static struct ceduo_surface_fit fit_of(function *f, size_t n, size_t points, uint64_t seed, double noise)
@@ -39,6 +40,8 @@ static struct ceduo_surface_fit fit_of(function *f, size_t n, size_t points, uin
     assert_non_null(u);
     assert_non_null(y);
     EXPECT(ceduo_surface_points(seed, points, n, u), ==, CEDUO_OK);
+    for (size_t p = 0; p < points && still; p++)
+        u[p * n + n - 1] = .5;
     double constants[CEDUO_SURFACE_GROUPS];
     for (int g = 0; g < CEDUO_SURFACE_GROUPS; g++) /* by which groups differ */
         constants[g] = level > 0 ? level * line_normal(&random) : g - (CEDUO_SURFACE_GROUPS - 1) / 2.;
@@ -140,6 +143,117 @@ TEST(words_are_exact)
     }
     EXPECT_NEAR(f.variance, 15, 1e-4);
     ceduo_surface_release(&f);
+}
+
+#define DRAWN  32 /* rows */
+#define PLACES 7
+
+static double rows[PLACES][DRAWN];
+
+static double of_rows(const double *u, size_t n)
+{
+    (void)n;
+    return rows[0][(size_t)(DRAWN * u[0])];
+}
+
+/* A calibration of more values than there are functions has the first ones; one whose rows are all the same has none, and alone it
+ * tells nothing. */
+TEST(rows_of_a_calibration)
+{
+    static const double same[DRAWN] = {0};
+    const double *draws[PLACES], *const none[] = {same};
+    struct line_random random = {.state = 1};
+    for (size_t k = 0; k < PLACES; k++) {
+        for (size_t i = 0; i < DRAWN; i++)
+            rows[k][i] = line_normal(&random);
+        draws[k] = rows[k];
+    }
+    inputs[0] = (struct ceduo_input){.kind = CEDUO_INPUT_DRAWS, .places_count = PLACES, .draws_count = DRAWN, .draws = draws};
+    inputs[1] = (struct ceduo_input){.kind = CEDUO_INPUT_DRAWS, .places_count = 1, .draws_count = DRAWN, .draws = none};
+    struct ceduo_surface_fit f = fit_of(of_rows, 2, 256, 1, 0);
+    assert_true(f.enough);
+    EXPECT_NEAR(f.first[0].value, 1, 1e-6);
+    EXPECT_NEAR(f.total[0].value, 1, 1e-6);
+    EXPECT_NEAR(f.total[1].value, 0, 1e-6);
+    ceduo_surface_release(&f);
+    inputs[0] = inputs[1];
+    f = fit_of(of_rows, 1, 256, 1, 0);
+    assert_false(f.enough);
+    assert_true(isnan(f.total[0].value));
+    EXPECT(f.p95 - f.p5, >, 1);
+    ceduo_surface_release(&f);
+}
+
+static double turning(const double *u, size_t n)
+{
+    static int calls;
+    (void)u, (void)n;
+    return calls++ / CEDUO_SURFACE_GROUPS % 2;
+}
+
+/* It brings nothing, and takes nothing from the others; alone, of two words, it has no term that varies. */
+TEST(an_input_that_is_the_same_at_all_points)
+{
+    make_inputs(3, 0, 0);
+    still = true;
+    struct ceduo_surface_fit f = fit_of(linear, 3, 256, 1, 0);
+    still = false;
+    const double share[] = {.2, .8, 0};
+    for (size_t i = 0; i < 3; i++)
+        EXPECT_NEAR(f.total[i].value, share[i], 1e-6);
+    EXPECT_NEAR(f.q2, 1, 1e-9);
+    ceduo_surface_release(&f);
+    make_inputs(1, 1, 2);
+    still = true;
+    f = fit_of(turning, 1, 256, 1, 0);
+    still = false;
+    assert_true(f.enough);
+    EXPECT(f.total[0].value, ==, 0);
+    EXPECT_NEAR(f.whole.value, 1, 1e-9);
+    EXPECT_NEAR(f.p5, 0, 1e-9);
+    EXPECT_NEAR(f.p95, 1, 1e-9);
+    ceduo_surface_release(&f);
+}
+
+enum { FEW_POINTS = 128, FEW_INPUTS = 13 };
+
+static struct ceduo_surface *of_few_points(const double *u)
+{
+    struct ceduo_surface *surface;
+    EXPECT(ceduo_surface_open(inputs, FEW_INPUTS, u, FEW_POINTS, &surface), ==, CEDUO_OK);
+    return surface;
+}
+
+/* Figures of one surface may depend on other inputs each, of which not all have products: each has the bits that it has alone. */
+TEST(figures_of_one_surface)
+{
+    static double u[FEW_POINTS * FEW_INPUTS];
+    static struct ceduo_groups y[FEW_POINTS];
+    make_inputs(FEW_INPUTS, 0, 0);
+    EXPECT(ceduo_surface_points(1, FEW_POINTS, FEW_INPUTS, u), ==, CEDUO_OK);
+    for (size_t p = 0; p < FEW_POINTS; p++)
+        for (int g = 0; g < CEDUO_SURFACE_GROUPS; g++)
+            y[p].of[g] = linear(u + p * FEW_INPUTS, FEW_INPUTS) + 99 * u[p * FEW_INPUTS + 10] * u[p * FEW_INPUTS + 12];
+    struct ceduo_surface *together = of_few_points(u);
+    for (size_t turn = 0; turn < 4; turn++) {
+        size_t n = FEW_INPUTS - turn % 3;
+        struct ceduo_surface *alone = of_few_points(u);
+        struct ceduo_surface_fit f, g;
+        bool uses[FEW_INPUTS];
+        for (size_t i = 0; i < FEW_INPUTS; i++)
+            uses[i] = i < n;
+        const struct ceduo_surface_figure figure = {.y = y, .uses = uses, .lo = -INFINITY, .hi = INFINITY, .limit = NAN};
+        EXPECT(ceduo_surface_fit(together, &figure, &f), ==, CEDUO_OK);
+        EXPECT(ceduo_surface_fit(alone, &figure, &g), ==, CEDUO_OK);
+        assert_true(f.enough);
+        EXPECT(f.explained > .99, ==, n == FEW_INPUTS);
+        assert_memory_equal(f.values, g.values, FEW_POINTS * sizeof *f.values);
+        assert_memory_equal(f.total, g.total, FEW_INPUTS * sizeof *f.total);
+        ceduo_surface_release(&f);
+        ceduo_surface_release(&g);
+        ceduo_surface_free(alone);
+    }
+    ceduo_surface_free(together);
 }
 
 /* ---- with noise ---- */
