@@ -226,7 +226,7 @@ static enum ceduo_status learn(void *context, const double *y, const double *log
     size_t d = f->def->parameters_count, known = f->known_count, more = POINTS + n - known, room = f->known_room;
     f->known = ceduo_arena_more(&f->memory, f->known, known, more, &room, d * sizeof *f->known);
     f->known_values = ceduo_arena_more(&f->memory, f->known_values, known, more, &f->known_room, sizeof *f->known_values);
-    if (!f->known || !f->known_values)
+    if (f->memory.failed)
         return CEDUO_NO_MEMORY;
     for (size_t i = known - POINTS; i < n; i++) {
         double prior = prior_at(f, y + i * d, f->known + (POINTS + i) * d);

@@ -104,8 +104,7 @@ enum ceduo_status ceduo_guess_learn(struct guess *g, const double *u, const doub
     struct squares s = {gsl_matrix_alloc(BLOCK, g->terms), gsl_vector_alloc(BLOCK), gsl_vector_alloc(g->terms),
                         gsl_multilarge_linear_alloc(gsl_multilarge_linear_tsqr, g->terms)};
     double *kept = malloc(g->terms * sizeof *kept);
-    enum ceduo_status status =
-        s.rows && s.values && s.found && s.work && kept ? CEDUO_OK : CEDUO_NO_MEMORY; /* untaken 4: gsl */
+    enum ceduo_status status = s.rows && s.values && s.found && s.work && kept ? CEDUO_OK : CEDUO_NO_MEMORY;
     if (status == CEDUO_OK)
         status = add_places(g, u, values, n, best, reach, cancel, &s);
     int solved = status == CEDUO_OK ? ceduo_gsl_try(solve, &s) : GSL_FAILURE;
@@ -121,7 +120,7 @@ enum ceduo_status ceduo_guess_learn(struct guess *g, const double *u, const doub
     gsl_vector_free(s.found);
     if (s.work)
         gsl_multilarge_linear_free(s.work);
-    return solved == GSL_ENOMEM ? CEDUO_NO_MEMORY : status; /* untaken: gsl */
+    return solved == GSL_ENOMEM ? CEDUO_NO_MEMORY : status;
 }
 
 double ceduo_guess_at(const struct guess *g, const double *u)

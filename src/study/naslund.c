@@ -76,5 +76,5 @@ enum ceduo_status ceduo_naslund_fit(size_t n, const double *dbh, const double *h
     }
     curve->rmse = sqrt(sum / (double)n);
     gsl_multifit_nlinear_free(w);
-    return curve->a >= 0 && curve->b > 0 && isfinite(curve->rmse) ? CEDUO_OK : CEDUO_NO_FIT; /* untaken: rounding */
+    return curve->a >= 0 && curve->b > 0 && isfinite(curve->rmse) ? CEDUO_OK : CEDUO_NO_FIT;
 }

@@ -52,6 +52,8 @@ static void on_progress(void *context, const struct ceduo_calibration_state *sta
         w->best = state->best[0];
 }
 
+static unsigned threads = 1;
+
 static struct ceduo_calibration fit_of(const struct ceduo_scene *scene, const struct ceduo_observation *seen, size_t n,
                                        uint64_t rocks, struct way *way)
 {
@@ -61,7 +63,7 @@ static struct ceduo_calibration fit_of(const struct ceduo_scene *scene, const st
                                               .parameters_count = 1,
                                               .rocks = rocks,
                                               .seed = 1,
-                                              .threads = 1,
+                                              .threads = threads,
                                               .progress = way ? on_progress : NULL,
                                               .context = way};
     struct ceduo_calibration a;
@@ -135,6 +137,20 @@ TEST(what_lies_at_a_bound)
     assert_false(p.determined || p.at_bound);
 }
 
+/* More threads than chains change no bit. */
+TEST(threads_change_nothing)
+{
+    struct ceduo_scene scene = flight(0);
+    const struct ceduo_observation seen = speed(14, 1);
+    LOCAL_BY(ceduo_calibration_free) struct ceduo_calibration one = fit_of(&scene, &seen, 1, 2, NULL);
+    threads = CEDUO_CALIBRATION_CHAINS + 1;
+    LOCAL_BY(ceduo_calibration_free) struct ceduo_calibration many = fit_of(&scene, &seen, 1, 2, NULL);
+    threads = 1;
+    EXPECT(many.draws_count, ==, one.draws_count);
+    assert_memory_equal(many.draws, one.draws, one.draws_count * sizeof *one.draws);
+    assert_memory_equal(many.parameters, one.parameters, sizeof *one.parameters);
+}
+
 /* What says nothing leaves the value as it was before, uniform: draws with variance 1/12 of the range squared. */
 TEST(nothing_seen_leaves_a_uniform_law)
 {
@@ -165,6 +181,45 @@ TEST(a_simplex_stays_within_its_bounds)
     EXPECT(way.best, <=, LO + (HI - LO) / (1 + exp(-9)));
     EXPECT(way.best, >, HI - 0.01);
     EXPECT(a.parameters[0].best, <=, HI);
+}
+
+/* ---- what the observations do not hold ---- */
+
+/* Three values by whether they are determined, how much of its bounds each may be, and how they go together (1 with 0, 2 with 0, 2
+ * with 1): of two that are known only together the one that is known worse is left, the closest two first; one value stays, and
+ * without draws all. */
+TEST(what_is_to_be_left_as_it_is)
+{
+    static const struct {
+        bool determined[3];
+        double width[3], together[3];
+        size_t draws;
+        bool loose[3];
+    } cases[] = {{{true, true, true}, {.1, .2, .3}, {.9, 0, -.9}, 9, {false, false, false}},
+                 {{true, true, true}, {.1, .2, .3}, {.91, 0, 0}, 9, {false, true, false}},
+                 {{true, true, true}, {.2, .1, .3}, {-.91, 0, 0}, 9, {true, false, false}},
+                 {{true, true, true}, {.1, .3, .2}, {.92, 0, -.99}, 9, {false, true, false}},
+                 {{true, true, true}, {.1, .2, .3}, {.92, 0, -.99}, 9, {false, true, true}},
+                 {{true, true, true}, {.1, .2, .3}, {.99, 0, -.92}, 9, {false, true, false}},
+                 {{false, true, true}, {.9, .2, .3}, {.95, .95, 0}, 9, {true, false, false}},
+                 {{false, false, false}, {.9, .9, .9}, {0, 0, 0}, 9, {true, true, false}},
+                 {{false, false, false}, {NAN, NAN, NAN}, {NAN, NAN, NAN}, 0, {false, false, false}}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        struct ceduo_calibration a = {.parameters_count = 3, .draws_count = cases[i].draws};
+        bool loose[CEDUO_CALIBRATION_MOST];
+        size_t n = 0;
+        for (size_t k = 0; k < 3; k++) {
+            double hi = pow(10, -(double)k); /* the width is a share of it */
+            a.parameters[k] = (struct ceduo_fitted){
+                .hi = hi, .p2_5 = .05 * hi, .p97_5 = (.05 + cases[i].width[k]) * hi, .determined = cases[i].determined[k]};
+            n += cases[i].loose[k];
+        }
+        a.correlation[1][0] = cases[i].together[0], a.correlation[2][0] = cases[i].together[1];
+        a.correlation[2][1] = cases[i].together[2];
+        EXPECT(ceduo_calibration_loose(&a, loose), ==, n);
+        for (size_t k = 0; k < 3; k++)
+            EXPECT(loose[k], ==, cases[i].loose[k]);
+    }
 }
 
 /* ---- what is predicted ---- */

@@ -252,6 +252,20 @@ TEST(a_guess_learns_a_quadratic)
     EXPECT_NEAR(ceduo_guess_at(&g, (double[2]){0.5, 0.1}), 0.5, 1e-9);
 }
 
+/* The same where all places without a value come last, behind a whole number of blocks. */
+TEST(a_guess_ends_without_values)
+{
+    enum { KNOWN = 512, N = KNOWN + 5 };
+    static double u[N], values[N];
+    LOCAL_BY(ceduo_guess_release) struct guess g = ceduo_guess_begin(1);
+    for (int i = 0; i < N; i++) {
+        u[i] = (double)i / N;
+        values[i] = i < KNOWN ? 1 + u[i] - 2 * u[i] * u[i] : -INFINITY;
+    }
+    EXPECT(ceduo_guess_learn(&g, u, values, N, NULL), ==, CEDUO_OK);
+    EXPECT_NEAR(ceduo_guess_at(&g, (double[1]){0.3}), 1 + 0.3 - 0.18, 1e-9);
+}
+
 /* What weighted least squares leave is orthogonal to every term, however many places there are: here of a quartic, with those
  * that lie below the best counting less and less. */
 TEST(a_guess_weighs_what_it_knows)

@@ -152,14 +152,19 @@ static void tell(void *context, const struct ceduo_calibration_state *state)
     note_told(state->stage == counted_stage);
 }
 
-/* Of one value, to a speed that was seen at x through the second option, the same in each scene; chains of one round. */
+#define SEEN 200 /* times */
+
+/* Of one value, to a speed that was seen at x through the second option, so often in each scene; chains of one round. */
 static enum ceduo_status fit_of(const struct ceduo_input *input, double x, struct ceduo_calibration_def def)
 {
-    struct ceduo_observation seen = something(CEDUO_OBSERVED_SPEED);
+    struct ceduo_observation seen[SEEN];
     make_ground();
-    seen.x = x;
-    seen.option = 1;
-    const struct ceduo_calibration_scene scene = {&ground.of.scene, input, 1, &seen}, scenes[2] = {scene, scene};
+    for (size_t i = 0; i < SEEN; i++) {
+        seen[i] = something(CEDUO_OBSERVED_SPEED);
+        seen[i].x = x;
+        seen[i].option = 1;
+    }
+    const struct ceduo_calibration_scene scene = {&ground.of.scene, input, SEEN, seen}, scenes[2] = {scene, scene};
     struct ceduo_calibration a;
     def.scenes = scenes;
     def.parameters_count = def.seed = def.steps_most = 1;
@@ -190,6 +195,20 @@ static bool fit(void)
     static const char *const place = "release.x_m";
     const struct ceduo_input input = {place, CEDUO_INPUT_RANGE, 1, 2561, .places_count = 1, .places = &place};
     return is_done(fit_of(&input, 20, (struct ceduo_calibration_def){.scenes_count = 2, .rocks = 1, .threads = 1}));
+}
+
+static bool fit_on_many_threads(void)
+{
+    static const char *const place = "release.x_m";
+    const struct ceduo_input input = {place, CEDUO_INPUT_RANGE, 1, 2561, .places_count = 1, .places = &place};
+    return is_done(fit_of(&input, 20, (struct ceduo_calibration_def){.scenes_count = 1, .rocks = 1, .threads = 5000}));
+}
+
+/* What so many workers need takes room of its own. */
+TEST(workers_of_a_fit)
+{
+    for (unsigned long at = 1; at <= 4; at++)
+        assert_false(begin(fit_on_many_threads, at, false));
 }
 
 /* Who is told how far it is holds up nobody, and is not told meanwhile. So many rocks that the others are not at the end

@@ -31,7 +31,7 @@ static struct ceduo_pool *pool_of(uint64_t rocks, bool pictures, bool kept)
 {
     struct ceduo_run_def def = ceduo_run_def_default(&s.scene);
     struct ceduo_pool *pool;
-    def.rocks_most = 1000;
+    def.rocks_most = 5000;
     def.cells = pictures ? cells : 0;
     def.cell_x = x;
     def.exact_bytes = kept ? CEDUO_EXACT_BYTES : 0;
@@ -288,6 +288,16 @@ static void expect_same_energies(const struct ceduo_run_snapshot *a, const struc
 TEST_WITH(energies_are_flown_where_they_were_not_kept, wooded, NULL)
 {
     LOCAL(ceduo_pool, kept) = pool_of(300, false, true), *binned = pool_of(300, false, false);
+    LOCAL(ceduo_snapshot, a) = snapshot_at(kept, 0);
+    LOCAL(ceduo_snapshot, b) = snapshot_at(binned, 0);
+    expect_same_energies(a->bare, b->bare);
+    expect_same_energies(a->wooded[0], b->wooded[0]);
+}
+
+/* Of very long runs some are enough. */
+TEST_WITH(energies_are_flown_of_so_many_rocks, wooded, NULL)
+{
+    LOCAL(ceduo_pool, kept) = pool_of(4000, false, true), *binned = pool_of(4500, false, false);
     LOCAL(ceduo_snapshot, a) = snapshot_at(kept, 0);
     LOCAL(ceduo_snapshot, b) = snapshot_at(binned, 0);
     expect_same_energies(a->bare, b->bare);
