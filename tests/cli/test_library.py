@@ -17,7 +17,7 @@ SOURCE, COMMANDS, OUTPUT, STATIC = [plain(body) for _, body in RUN.findall(PAGE.
 CC = os.environ.get("CC", "cc")
 STRICT = "-std=c17 -Wall -Wextra -Wpedantic -Wconversion -Werror"
 # What a program needs beside ceduo.pc when the library is not the one that is released.
-BUILT = {"asan": "-fsanitize=address,undefined", "tsan": "-fsanitize=thread", "cov": "-fprofile-instr-generate"}.get(VARIANT, "")
+BUILT = {"asan": "-fsanitize=address,undefined", "tsan": "-fsanitize=thread"}.get(VARIANT, "")
 # Blanks and signs of the shell, of make and of pkg-config, all of which a user may have in the name of a folder.
 ODD = "it's a \"wood\" & 50% \\more; `x` $y #1"
 
