@@ -234,7 +234,7 @@ $(BUILD)/tests/%.o: DEFINES = -Itests
 FUZZERS := $(patsubst tests/fuzz/fuzz_%.c,%,$(wildcard tests/fuzz/fuzz_*.c))
 REPLAYS := $(FUZZERS:%=replay_%)
 CHANGES_scene := 8000
-CHANGES_csv := 60000
+CHANGES_csv := 20000
 CHANGES_set := 3000
 CHANGES_table := 1000
 CHANGES_keys := 2000
