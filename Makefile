@@ -292,7 +292,7 @@ do-lint:
 # so are that of the house, which runs nothing, and that of the installed library, whose users have other compilers.
 COUNTED := $(patsubst $(T)/%,build/cov/tests/%,$(filter-out $(T)/tui/% %/test_workflows.py.tap %/test_house.py.tap %/test_library.py.tap,\
 	$(TAPS)))
-DEBIAN_COVERAGE := clang llvm libclang-rt-dev
+DEBIAN_COVERAGE := $(DEBIAN_FUZZ) llvm
 do-coverage:
 	@+$(MAKE) --no-print-directory DEBIAN="$(DEBIAN_COVERAGE)" deps
 	@+$(MAKE) --no-print-directory -j$(CORES) CC=clang VARIANT=cov all $(REPLAYS:%=build/cov/tests/fuzz/%)
@@ -358,7 +358,7 @@ define IN_VALGRIND
 --find forest[0].stand.stools.per_ha=500:5000 --goal adc=30 paper-site
 --script $(BUILD)/valgrind.keys paper-site
 endef
-export IN_VALGRIND
+do-check-memory: export IN_VALGRIND := $(IN_VALGRIND)
 do-check-memory: all
 	printf '%s\n' 'key 2 Down Down Enter' 'type 0.5' 'key Enter u Ctrl-R' 'resize 120 40' 'key 1 a 3 4 5 6 ? Esc' 'dump -' \
 	    >$(BUILD)/valgrind.keys

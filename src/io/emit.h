@@ -9,7 +9,7 @@ void ceduo_emit(struct text *text, const struct node *root);
 
 /* The tree as it is to be written to the scene's own file: what came from another file and is unchanged is its path
  * again, a changed stand starts from its file by `base`, a changed slope is written out. For the
- * program, where no arena fails for want of memory. */
+ * program, where no arena fails. */
 const struct node *ceduo_emit_unresolve(struct arena *arena, const struct node *root);
 
 /* Writes `root` (unresolved) as the text of `source`, whose tree is `old`, with the changed values alone put in place, so

@@ -108,24 +108,27 @@ static enum ceduo_status fit_surface(void)
     return status;
 }
 
+/* Each of its allocations fails in turn. */
+static void call_without_memory(enum ceduo_status (*call)(void))
+{
+    long at = 1, failed = 0;
+    gsl_set_error_handler(NULL); /* GSL's own: it aborts */
+    for (bool all = false; FAILS && !all; at++) {
+        fail_at = at;
+        enum ceduo_status status = call();
+        all = fail_at > 0; /* it asked fewer times */
+        fail_at = 0;
+        assert_true(status == CEDUO_NO_MEMORY || status == CEDUO_OK);
+        failed += status == CEDUO_NO_MEMORY;
+        assert_true(handler() == NULL);
+    }
+    EXPECT(failed, >=, FAILS);
+    EXPECT(call(), ==, CEDUO_OK);
+}
+
 TEST(gsl_without_memory_ends_no_program)
 {
-    enum ceduo_status (*const calls[])(void) = {fit_heights, lay_points, learn, fit_surface};
-    gsl_set_error_handler(NULL); /* GSL's own: it aborts */
-    for (size_t i = 0; i < LENGTH(calls); i++) {
-        long at = 1, failed = 0;
-        for (bool all = false; FAILS && !all; at++) {
-            fail_at = at;
-            enum ceduo_status status = calls[i]();
-            all = fail_at > 0; /* it asked fewer times */
-            fail_at = 0;
-            assert_true(status == CEDUO_NO_MEMORY || status == CEDUO_OK);
-            failed += status == CEDUO_NO_MEMORY;
-            assert_true(handler() == NULL);
-        }
-        EXPECT(failed, >=, FAILS);
-        EXPECT(calls[i](), ==, CEDUO_OK);
-    }
+    ROWS(call_without_memory, (fit_heights), (lay_points), (learn), (fit_surface));
 }
 
 static void *err(void *unused)
@@ -239,31 +242,28 @@ TEST(what_is_wrong_is_said)
     ceduo_reading_release(&r);
 }
 
+static enum ceduo_status read_in_folder(void)
+{
+    char path[256];
+    struct ceduo_reading r;
+    in_folder(path, "scene.yaml");
+    enum ceduo_status status = ceduo_scene_read(path, NULL, &r);
+    if (status == CEDUO_OK)
+        EXPECT(r.scene.slope.z[1], ==, -90);
+    else if (status != CEDUO_NO_MEMORY)
+        fail_msg("%s", r.messages);
+    ceduo_reading_release(&r);
+    return status;
+}
+
 /* In whatever library it fails, as that which reads the signs of an old spreadsheet. */
 TEST_WITH(a_scene_is_read_without_memory, folder_set_up, folder_tear_down)
 {
-    char path[256], line[18000]; /* longer than what goes into a page of an arena */
-    long failed = 0;
-    enum ceduo_status status = CEDUO_OK;
+    char line[18000]; /* longer than what goes into a page of an arena */
     snprintf(line, sizeof line, "Profil%17000s\nEntfernung;H\xf6he\n0;90\n100;0\n", "");
     put("line.csv", line);
     put("scene.yaml", "ceduo: scene/1\nrock: {diameter_m: 1}\nslope: line.csv\ncontrols_m: [90]\n");
-    in_folder(path, "scene.yaml");
-    for (long at = 1, left = 0; left == 0; at++) { /* until it asks fewer times */
-        struct ceduo_reading r;
-        fail_at = at;
-        status = ceduo_scene_read(path, NULL, &r);
-        left = fail_at;
-        fail_at = 0;
-        failed += status == CEDUO_NO_MEMORY;
-        if (status == CEDUO_OK)
-            EXPECT(r.scene.slope.z[1], ==, -90);
-        else if (status != CEDUO_NO_MEMORY)
-            fail_msg("allocation %ld: %s", at, r.messages);
-        ceduo_reading_release(&r);
-    }
-    EXPECT(status, ==, CEDUO_OK);
-    EXPECT(failed, >=, FAILS);
+    call_without_memory(read_in_folder);
 }
 
 /* ---- defaults and texts ---- */

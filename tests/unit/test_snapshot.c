@@ -284,24 +284,18 @@ static void expect_same_energies(const struct ceduo_run_snapshot *a, const struc
     }
 }
 
-/* Runs too long for their samples: the energies come from rocks flown once more, the same ones. */
+/* Runs too long for their samples: the energies come from rocks flown once more, the same ones; of very long runs some are
+ * enough. */
 TEST_WITH(energies_are_flown_where_they_were_not_kept, wooded, NULL)
 {
-    LOCAL(ceduo_pool, kept) = pool_of(300, false, true), *binned = pool_of(300, false, false);
-    LOCAL(ceduo_snapshot, a) = snapshot_at(kept, 0);
-    LOCAL(ceduo_snapshot, b) = snapshot_at(binned, 0);
-    expect_same_energies(a->bare, b->bare);
-    expect_same_energies(a->wooded[0], b->wooded[0]);
-}
-
-/* Of very long runs some are enough. */
-TEST_WITH(energies_are_flown_of_so_many_rocks, wooded, NULL)
-{
-    LOCAL(ceduo_pool, kept) = pool_of(4000, false, true), *binned = pool_of(4500, false, false);
-    LOCAL(ceduo_snapshot, a) = snapshot_at(kept, 0);
-    LOCAL(ceduo_snapshot, b) = snapshot_at(binned, 0);
-    expect_same_energies(a->bare, b->bare);
-    expect_same_energies(a->wooded[0], b->wooded[0]);
+    static const uint64_t rocks[][2] = {{300, 300}, {4000, 4500}};
+    for (size_t i = 0; i < LENGTH(rocks); i++) {
+        LOCAL(ceduo_pool, kept) = pool_of(rocks[i][0], false, true), *binned = pool_of(rocks[i][1], false, false);
+        LOCAL(ceduo_snapshot, a) = snapshot_at(kept, 0);
+        LOCAL(ceduo_snapshot, b) = snapshot_at(binned, 0);
+        expect_same_energies(a->bare, b->bare);
+        expect_same_energies(a->wooded[0], b->wooded[0]);
+    }
 }
 
 /* Starts and ends where the rock does, never far below the ground, and never jumps. */

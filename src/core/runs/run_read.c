@@ -67,6 +67,15 @@ static size_t gather_weighted(const struct ceduo_run *run, const double *column,
     return n;
 }
 
+/* Height of the top of a rock whose underside has this height; NaN stays. The rock was drawn for the run, so it can be drawn. */
+static double top_of(const struct ceduo_run *run, uint64_t number, double height)
+{
+    struct ceduo_rock rock = {0};
+    if (!isnan(height))
+        ceduo_prepared_rock(&run->ready, number, &rock);
+    return height + rock.mean_diameter;
+}
+
 /* From the samples, in the order of the rocks, and from sums of the weights by the ways that rocks end. */
 static enum ceduo_status read_weighted(const struct ceduo_run *run, size_t control, const struct sums *s,
                                        struct ceduo_arrivals *a)
@@ -88,11 +97,9 @@ static enum ceduo_status read_weighted(const struct ceduo_run *run, size_t contr
     for (int q = 0; q < QUANTITIES; q++)
         *to[q] = ceduo_weighted_distribution(&all, values, gather_weighted(run, samples_of(run, control, q), values));
     for (uint64_t r = 0; r < run->rocks && run->ready.scene.design.survey >= 0; r++) {
-        struct ceduo_rock rock;
-        if (isnan(height[r]))
-            continue;
-        ceduo_prepared_rock(&run->ready, r, &rock); /* which was drawn for the run */
-        values[n++] = (struct weighted){height[r] + rock.mean_diameter, run->weights[r]};
+        double top = top_of(run, r, height[r]);
+        if (!isnan(top))
+            values[n++] = (struct weighted){top, run->weights[r]};
     }
     ceduo_weighted_sort(values, n);
     a->top_p95 = ceduo_weighted_quantile(values, n, 0.95);
@@ -163,7 +170,7 @@ static struct ceduo_distribution distribution(const struct ceduo_run *run, size_
 /* ---- what is read ---- */
 
 /* The 95th percentile of the heights of the tops of the rocks that arrive, where each is as large as it was drawn. */
-static double top_of(const struct ceduo_run *run, size_t control, double height_p95, double *scratch)
+static double top_p95(const struct ceduo_run *run, size_t control, double height_p95, double *scratch)
 {
     const struct ceduo_scene *scene = &run->ready.scene;
     const double *height = samples_of(run, control, HEIGHT);
@@ -174,12 +181,11 @@ static double top_of(const struct ceduo_run *run, size_t control, double height_
     if (!ceduo_scene_rock_varies(scene))
         return height_p95 + run->ready.mean.mean_diameter;
     for (uint64_t r = 0; run->exact && run->room > 0 && r < run->rocks; r++) {
-        struct ceduo_rock rock;
-        if (isnan(height[r]))
+        double top = top_of(run, r, height[r]);
+        if (isnan(top))
             continue;
-        ceduo_prepared_rock(&run->ready, r, &rock); /* which was drawn for the run */
-        scratch[n] = height[r] + rock.mean_diameter;
-        ceduo_moments_add(&m, scratch[n++]);
+        scratch[n++] = top;
+        ceduo_moments_add(&m, top);
     }
     return n > 0 ? ceduo_distribution_exact(scratch, n, &m).p95 : NAN;
 }
@@ -235,7 +241,7 @@ enum ceduo_status ceduo_run_arrivals(const struct ceduo_run *run, size_t control
         d.max = energy->n > 0 ? energy->max : NAN;
         a->energy = a->translation = d;
     }
-    a->top_p95 = top_of(run, control, a->height.p95, scratch);
+    a->top_p95 = top_p95(run, control, a->height.p95, scratch);
     free(scratch);
     return CEDUO_OK;
 }
