@@ -40,6 +40,8 @@ def blocks(way, page=PAGE):
 
 # What stands for Slurm: the tasks of an array one after the other. Where tests/slurm.sh runs these tests it is a real one.
 SLURM = "SLURM_CONF" in os.environ
+# Options of GNU parallel. Told no number of jobs it asks lscpu for that of processors, which complains where there is no /sys.
+PARALLEL = "-j 2"
 SBATCH = """#!/bin/sh
 tasks=${1#--array=}
 shift
@@ -68,7 +70,7 @@ class Machine(Folder):
 
     def run(self, text, cwd, **more):
         env = harness.environment(PATH=f"{self.path / 'bin'}{os.pathsep}{os.environ['PATH']}", HOME=str(self.path),
-                                  XDG_STATE_HOME=str(self.path), SBATCH_WAIT="1", **more)
+                                  XDG_STATE_HOME=str(self.path), SBATCH_WAIT="1", PARALLEL=PARALLEL, **more)
         return subprocess.run(["sh", "-e"], input=text, text=True, encoding="utf-8", capture_output=True, cwd=cwd, env=env,
                               timeout=600, check=False)
 
