@@ -309,7 +309,7 @@ DEBIAN_ALL := $(DEBIAN_FUZZ) gcc-aarch64-linux-gnu qemu-user valgrind slurmctld 
 DEBIAN_BENCH := python3-numpy
 # All of it takes two hours. Each part leaves a log with the name of the commit; those that have passed on this commit are not run
 # again. ONLY='threads memory': these alone. FULL: also what `make check` leaves out to be short.
-ALL_PARTS := check sanitizers clang threads memory arm slurm dist deb
+ALL_PARTS := check sanitizers clang threads memory arm slurm dist deb lint
 do-all-check do-all-sanitizers: export FULL := 1
 do-all-check: do-check
 do-all-sanitizers:
@@ -319,6 +319,7 @@ do-all-clang: # its sanitizer tells of offsets to null pointers, gcc's does not
 do-all-threads:
 	@+$(MAKE) --no-print-directory VARIANT=tsan do-check-threads
 $(foreach part,memory arm slurm dist deb,do-all-$(part)): do-all-%: do-check-%
+do-all-lint: do-lint
 
 do-check-all:
 	@+$(MAKE) --no-print-directory DEBIAN="$(DEBIAN_ALL)" deps

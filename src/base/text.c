@@ -243,7 +243,7 @@ void ceduo_text_csv(struct text *text, const char *value)
             ceduo_text_add(text, *bytes == '"' ? "\"\"" : bytes, *bytes == '"' ? 2 : 1);
         ceduo_text_char(text, '"');
     }
-    text->failed |= safe.failed;
+    text->failed |= safe.failed; /* NOLINT(clang-analyzer-unix.Malloc): it does not know that `safe` is freed here */
 }
 
 /* Levenshtein's distance between short words. */

@@ -518,7 +518,7 @@ enum exit_status ceduo_batch_run(const struct arguments *given)
         if (written == EXIT_DONE)
             ceduo_interrupt_release();
     }
-    if (profiles.count > (a->mode != MODE_REPORT))
+    if (profiles.count > (a->mode == MODE_REPORT ? 0u : 1u))
         put_verdicts(&out, a, starts);
     free(starts);
     if (profiles.count > 0)

@@ -68,7 +68,7 @@ enum exit_status ceduo_output_next(const struct arguments *a, struct text *text)
 {
     if (text->length == 0 || (a->output && !a->resume))
         return EXIT_DONE;
-    enum exit_status status = a->resume ? append(a, text) : ceduo_output_write(a, text);
+    enum exit_status status = a->output ? append(a, text) : ceduo_output_write(a, text);
     ceduo_text_cut(text, 0);
     return status;
 }

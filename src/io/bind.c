@@ -198,7 +198,7 @@ static bool check_range(struct binder *b, const struct field *f, const struct no
 
 static bool bind_number(struct binder *b, const struct field *f, const struct node *node, double *to)
 {
-    double value;
+    double value = 0;
     size_t wrong = b->to->bad->n;
     if (!read_place(b, f, node, &value) && (b->to->bad->n > wrong || !read_number(b, node, &value)))
         return false;
@@ -210,7 +210,7 @@ static bool bind_number(struct binder *b, const struct field *f, const struct no
 
 static void bind_count(struct binder *b, const struct field *f, const struct node *node, void *to)
 {
-    double value;
+    double value = 0;
     uint64_t count;
     if (!read_number(b, node, &value))
         return;

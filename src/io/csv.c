@@ -195,9 +195,10 @@ size_t ceduo_csv_columns(const struct csv *csv, struct text *names)
 
 bool ceduo_csv_next(struct csv *csv)
 {
+    static const char blanks[] = {' ', '\t', ',', ';'};
     while (next_line(csv)) {
         size_t blank = 0;
-        while (blank < csv->line.n && memchr(" \t,;", csv->line.p[blank], 4))
+        while (blank < csv->line.n && memchr(blanks, csv->line.p[blank], sizeof blanks))
             blank++;
         csv->number++;
         if (blank < csv->line.n)

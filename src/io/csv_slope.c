@@ -57,8 +57,8 @@ static bool read_number(struct csv *csv, struct csv_span field, double *value)
 static void read_row(struct reader *r, struct points *points)
 {
     struct csv *csv = &r->csv;
-    struct csv_span first, second, height;
-    double x, north, z, before = points->n > 0 ? points->x[points->n - 1] : -INFINITY;
+    struct csv_span first, second = {0}, height;
+    double x, north = 0, z, before = points->n > 0 ? points->x[points->n - 1] : -INFINITY;
     if (!ceduo_csv_field(csv, r->columns[r->drawn ? EAST : DISTANCE], &first) ||
         !ceduo_csv_field(csv, r->columns[ELEVATION], &height) ||
         (r->drawn && !ceduo_csv_field(csv, r->columns[NORTH], &second))) {

@@ -97,7 +97,7 @@ static enum ceduo_status add_places(const struct guess *g, const double *u, cons
 
 enum ceduo_status ceduo_guess_learn(struct guess *g, const double *u, const double *values, size_t n, const atomic_bool *cancel)
 {
-    double best, *down = malloc((n + 1) * sizeof *down), reach = down ? reach_of(g, values, n, down, &best) : NAN;
+    double best = 0, *down = malloc((n + 1) * sizeof *down), reach = down ? reach_of(g, values, n, down, &best) : NAN;
     free(down);
     if (!down || isnan(reach))
         return down ? CEDUO_OK : CEDUO_NO_MEMORY;

@@ -763,9 +763,10 @@ static void add_squares(const struct parts *a, const struct parts *b, double noi
 static bool read_solution(struct ceduo_surface *s, struct solution *f, struct ceduo_surface_fit *fit)
 {
     struct parts *found = &s->found, *other = &s->other;
-    double *of_rocks = calloc(2 * found->n, sizeof *of_rocks), *of_points = of_rocks + found->n;
+    double *of_rocks = calloc(2 * found->n, sizeof *of_rocks);
     if (!of_rocks)
         return false;
+    double *of_points = of_rocks + found->n;
     fill_parts(f, GROUPS, found);
     s->c.remains = f->remains, s->c.kept = f->kept;
     fit->variance = fmax(0, found->all) + f->spare;

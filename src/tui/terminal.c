@@ -466,7 +466,7 @@ enum terminal_end ceduo_terminal_run(struct app *app)
             fclose(keys);
         return TERMINAL_NONE;
     }
-    pastes = strncmp(tigetstr("cup"), "\033[", 2) == 0 && strncmp(getenv("TERM"), "linux", 5) != 0;
+    pastes = strncmp(tigetstr("cup"), "\033[", 2) == 0 && strncmp(termname(), "linux", 5) != 0;
     app->copy = pastes ? copy : NULL;
     ask_for_pastes(true);
     prepare_restore();

@@ -159,9 +159,9 @@ static void name_curves(const struct strip *s)
     for (int i = 0; i < s->count; i++)
         n += !isnan(ends[i] = end_of(s, i));
     for (int next = f->top; n > 0; n--, next++) {
-        int best = -1, lowest = f->top + f->height - n, column, row;
-        for (int i = 0; i < s->count; i++)
-            best = !isnan(ends[i]) && (best < 0 || ends[i] > ends[best]) ? i : best;
+        int best = 0, lowest = f->top + f->height - n, column, row;
+        for (int i = 1; i < s->count; i++)
+            best = isnan(ends[best]) || ends[i] > ends[best] ? i : best;
         ceduo_frame_cell(f, s->d->canvas, f->x0, ends[best], &column, &row);
         next = row < next ? next : row > lowest ? lowest : row;
         ceduo_canvas_put(s->d->canvas, left, next, room, s->curves[best]->role, _(s->curves[best]->names[s->energy]));

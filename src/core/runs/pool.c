@@ -143,10 +143,10 @@ static void drop_spare(struct ceduo_pool *pool, size_t most, size_t bytes_most)
     for (size_t i = 0; i < pool->count; i++)
         spare -= pool->runs[i].needed;
     for (; spare > most && bytes >= bytes_most; spare--) {
-        struct pooled *oldest = NULL;
-        for (size_t i = 0; i < pool->count; i++)
-            if (!pool->runs[i].needed && (!oldest || pool->runs[i].asked < oldest->asked))
-                oldest = &pool->runs[i];
+        struct pooled *oldest = pool->runs;
+        for (struct pooled *p = pool->runs; p < pool->runs + pool->count; p++)
+            if (!p->needed && (oldest->needed || p->asked < oldest->asked))
+                oldest = p;
         bytes -= ceduo_run_sample_bytes(oldest->run);
         add_work(&pool->dropped, oldest->run);
         pool->dropped.runs++;

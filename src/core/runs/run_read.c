@@ -85,10 +85,11 @@ static enum ceduo_status read_weighted(const struct ceduo_run *run, size_t contr
     struct ceduo_distribution *const to[QUANTITIES] = {
         [SPEED] = &a->speed, [HEIGHT] = &a->height, [ENERGY] = &a->energy, [TRANSLATION] = &a->translation};
     struct weighted_sum reach = {0}, exceed = {0}, energy = {0};
-    struct weighted *values = malloc(2 * ((size_t)run->rocks + 1) * sizeof *values), *could = values + run->rocks + 1;
+    struct weighted *values = malloc(2 * ((size_t)run->rocks + 1) * sizeof *values);
     size_t n = 0;
     if (!values)
         return CEDUO_NO_MEMORY;
+    struct weighted *could = values + run->rocks + 1;
     bound_energies(run, could);
     all.could = could;
     a->exact = true;

@@ -166,7 +166,7 @@ bool ceduo_ground_init(struct ground *ground, const struct ceduo_slope *slope, d
     keep_vertices(ground, slope, size);
     ground->along = malloc((ground->n + 1) * sizeof(double));
     struct ground_segment *segments = aligned_alloc(sizeof *segments, (ground->n + 3) * sizeof *segments);
-    ground->segments = segments ? segments + 1 : NULL;
+    ground->segments = segments ? &segments[1] : NULL;
     if (!ground->along || !segments)
         goto fail;
     memset(segments, 0, sizeof *segments);
