@@ -289,7 +289,6 @@ bool ceduo_app_create(struct app *app, const char *path, enum ceduo_charset char
                       struct problems *problems)
 {
     *app = (struct app){.charset = charset, .no_recovery = no_recovery, .doubts = !no_recovery};
-    app->scratch = ceduo_must(calloc(1, sizeof *app->scratch));
     if (!ceduo_document_open(&app->document, path ? path : "paper-site", problems))
         return false;
     if (!ceduo_live_create(&app->live, threads)) { /* no thread */
@@ -297,6 +296,7 @@ bool ceduo_app_create(struct app *app, const char *path, enum ceduo_charset char
         ceduo_document_close(&app->document);
         return false;
     }
+    app->scratch = ceduo_must(calloc(1, sizeof *app->scratch));
     took_document(app);
     return true;
 }
