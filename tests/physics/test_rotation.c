@@ -148,6 +148,17 @@ TEST_WITH(no_old_shoots, fresh, NULL)
     ceduo_grown_stand_release(&grown);
 }
 
+/* After some 3500 years e^(-t/5) is too small for a number, but each stool keeps a shoot. */
+TEST_WITH(for_ages_a_shoot_a_stool, fresh, NULL)
+{
+    s.stand.growth.shoots_old = 0;
+    for (unsigned t = 3400; t < 4000; t += 5) {
+        struct ceduo_grown_stand grown = at(INFINITY, t);
+        expect_relative(ceduo_stand_shoots(&grown.stand), 2500, 1e-13);
+        ceduo_grown_stand_release(&grown);
+    }
+}
+
 /* By its curve a stem of 1e-320 m is some 1e-318 years old; what it is wide later was beyond all numbers. */
 TEST(next_to_nothing_grows_as_a_new_stem)
 {

@@ -45,10 +45,11 @@ static double age_of(const struct ceduo_stems *stems, const struct ceduo_curve *
     return share < 1 ? -ceduo_log1p(-share) / curve->dbh_rate : INFINITY;
 }
 
+/* Where in the end there are none, next to none: some are left of which keep_shoots() can make one a stool. */
 static double shoots_on_stool(const struct ceduo_growth *growth, double age)
 {
     double surplus = fmax(0, growth->shoots_young - growth->shoots_old);
-    return growth->shoots_old + surplus * ceduo_exp(-age / SHOOTS_FALL);
+    return fmax(DBL_MIN, growth->shoots_old + surplus * ceduo_exp(-age / SHOOTS_FALL));
 }
 
 /* ---- density ---- */
@@ -77,11 +78,11 @@ static void multiply_shoots(struct ceduo_stand *stand, double factor)
         stand->shoots[i].per_ha *= factor;
 }
 
-/* At least so many shoots in all; more than once only where rounding asks for it. */
+/* At least so many shoots in all; more than once only where rounding asks for it, or next to none are left. */
 static void keep_shoots(struct ceduo_stand *stand, double min)
 {
     for (double sum; (sum = ceduo_stand_shoots(stand)) > 0 && sum < min;)
-        multiply_shoots(stand, min / sum * (1 + DBL_EPSILON));
+        multiply_shoots(stand, fmin(min / sum * (1 + DBL_EPSILON), DBL_MAX));
 }
 
 /* The shoots are thinned to the growing space that the trees leave, but `min` of them stay. */
@@ -228,7 +229,7 @@ static void grow_shoots(struct ceduo_stand *stand, const struct ceduo_growth *gr
     for (size_t i = young; i < stand->shoots_count; i++) {
         struct ceduo_stems *s = &stand->shoots[i];
         double age = age_of(s, &growth->shoots);
-        s->per_ha *= fmin(1, shoots_on_stool(growth, age + years) / shoots_on_stool(growth, age)); /* 1 for 0/0 */
+        s->per_ha *= fmin(1, shoots_on_stool(growth, age + years) / shoots_on_stool(growth, age));
         grow_stems(s, &growth->shoots, age, years);
     }
     keep_shoots(stand, min);
