@@ -15,8 +15,8 @@
 #include "paper_site.h"
 #include "runs.h"
 
-#define SCENES        FULL_OR(1200u, 600u)
-#define LASTING_EVERY 600 /* scenes of which one may go on for ever */
+#define SCENES        FULL_OR(1200u, 700u) /* in 689 a rock flies back to a stem before the low end, where it would leave */
+#define LASTING_EVERY 600                  /* scenes of which one may go on for ever */
 #define CONTROLS_MOST 4
 #define CELLS_MOST    150
 #define LONG_VERTICES 4097

@@ -258,7 +258,7 @@ static struct course course_of(struct lanes *k, size_t i)
     struct walker *w = &k->job->walkers[i];
     unsigned bit = 1u << i;
     bool left = k->left & bit;
-    size_t to = left ? (k->to[i] == 0 ? 0 : w->g->n - 1) : k->to[i] - 1;
+    size_t to = left ? (k->vx[i] < 0 ? 0 : w->g->n - 1) : k->to[i] - 1;
     w->spin = k->spin[i];
     w->contacts = k->contacts[i];
     show_stems_met(k, i);
