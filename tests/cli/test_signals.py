@@ -11,7 +11,7 @@ import time
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
-from harness import CEDUO, DONE, Failure, Folder, environment, expect, expect_equal, only_text, run_all
+from harness import CEDUO, DONE, SLOWER, Failure, Folder, environment, expect, expect_equal, only_text, run_all
 from runs import ENDLESS, FOUR, PAPER
 
 
@@ -55,7 +55,8 @@ def test_terminal():
         expect(b"rocks" in text and b"\x1b" not in text, text)
         expect_equal(status, -signal.SIGINT)
         rows = f.write("rows.csv", "id,rock.diameter_m\n" + "".join(f"r{i},{'x' if i == 3 else 0.6}\n" for i in range(999)))
-        text, status = on_terminal(["--batch", "-f", "csv", "-n", "200000", "-j", "1", "-o", "/dev/null", "--each", str(rows), PAPER],
+        text, status = on_terminal(["--batch", "-f", "csv", "-n", str(200000 // SLOWER), "-j", "1", "-o", "/dev/null", "--each",
+                                    str(rows), PAPER],
                                    lambda t, s: t.count(b" left") > 3 and b"rows.csv:5" in t or s > 90, "stderr")
         shown = text.replace(b"\r\n", b"\n").decode()
         expect(re.search(r"\r\d+ of 999 scenes, \d+ (s|min) left *\r", shown), shown)
