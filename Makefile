@@ -307,13 +307,15 @@ do-net: all $(T)/tables $(BUILD)/man/completion
 
 DEBIAN_ALL := $(DEBIAN_FUZZ) gcc-aarch64-linux-gnu qemu-user valgrind slurmctld slurmd slurm-client munge chromium tidy poppler-utils
 DEBIAN_BENCH := python3-numpy
-# All of it takes two hours. Each part leaves a log with the name of the commit; those that have passed on this commit are not run
-# again. ONLY='threads memory': these alone. FULL: also what `make check` leaves out to be short.
-ALL_PARTS := check sanitizers clang threads memory arm slurm dist deb lint
+# All of it takes two and a half hours on two cores. Each part leaves a log with the name of the commit; those that have passed on
+# this commit are not run again. ONLY='threads memory': these alone. FULL: also what `make check` leaves out to be short.
+ALL_PARTS := check sanitizers scenes clang threads memory arm slurm dist deb lint
 do-all-check do-all-sanitizers: export FULL := 1
 do-all-check: do-check
 do-all-sanitizers:
-	@+SCENES=10000 TEST_SECONDS=20000 $(MAKE) --no-print-directory VARIANT=asan do-check
+	@+TEST_SECONDS=20000 $(MAKE) --no-print-directory VARIANT=asan do-check
+do-all-scenes:
+	@+SCENES=10000 TEST_SECONDS=20000 $(MAKE) --no-print-directory VARIANT=asan do-check-scenes
 do-all-clang: # its sanitizer tells of offsets to null pointers, gcc's does not
 	@+$(MAKE) --no-print-directory CC=clang VARIANT=fuzz do-replay
 do-all-threads:
@@ -338,13 +340,14 @@ do-check-all:
 	    else echo "$$part: MISSING $$logs/$$part.log"; missing=1; fi; \
 	done; [ -z "$$missing" ]
 
-# These tests use threads: workers of a run and of a pool, of the terminal program, and of years.
-THREADED := $(addprefix $(T)/,unit/test_jobs.tap physics/test_statistics_of_runs.tap physics/test_years.tap tui/test_screens.py.tap \
+# CHECKED_threads use threads: workers of a run and of a pool, of the terminal program, and of years.
+CHECKED_scenes := $(T)/cli/test_random_scenes.py.tap
+CHECKED_threads := $(addprefix $(T)/,unit/test_jobs.tap physics/test_statistics_of_runs.tap physics/test_years.tap tui/test_screens.py.tap \
 	tui/test_editing.py.tap tui/test_rotation.py.tap cli/test_years.py.tap cli/test_sensitivity.py.tap)
-do-check-threads: all
-	@rm -f $(THREADED)
-	@+$(MAKE) --no-print-directory -j$(CORES) $(THREADED)
-	@tests/summary $(THREADED)
+do-check-scenes do-check-threads: do-check-%: all
+	@rm -f $(CHECKED_$*)
+	@+$(MAKE) --no-print-directory -j$(CORES) $(CHECKED_$*)
+	@tests/summary $(CHECKED_$*)
 
 # Runs these under valgrind: every scene as a batch, a picture, a report, years, a doubt, a search, and the terminal program with
 # a script. What is not known takes most of the time, and is asked of two of them.
@@ -515,5 +518,5 @@ deb: dist
 clean:
 	rm -rf build ceduo $(DIST).tar.gz
 
-.PHONY: all deps $(GOALS) $(addprefix do-,$(GOALS)) do-replay do-check-replay $(REPLAYS:%=do-%) $(FUZZERS:%=do-fuzz_%) do-check-threads do-check-memory do-check-slurm do-check-dist do-check-deb man samples tables pictures po install uninstall dist deb clean
+.PHONY: all deps $(GOALS) $(addprefix do-,$(GOALS)) do-replay do-check-replay $(REPLAYS:%=do-%) $(FUZZERS:%=do-fuzz_%) do-check-scenes do-check-threads do-check-memory do-check-slurm do-check-dist do-check-deb man samples tables pictures po install uninstall dist deb clean
 .DELETE_ON_ERROR:
