@@ -311,11 +311,12 @@ DEBIAN_BENCH := python3-numpy
 # this commit are not run again. ONLY='threads memory': these alone. FULL: also what `make check` leaves out to be short.
 ALL_PARTS := check sanitizers scenes clang threads memory arm slurm dist deb lint
 do-all-check do-all-sanitizers: export FULL := 1
+do-all-sanitizers do-all-scenes: export TEST_SECONDS := 20000
 do-all-check: do-check
 do-all-sanitizers:
-	@+TEST_SECONDS=20000 $(MAKE) --no-print-directory VARIANT=asan do-check
+	@+$(MAKE) --no-print-directory VARIANT=asan do-check
 do-all-scenes:
-	@+SCENES=10000 TEST_SECONDS=20000 $(MAKE) --no-print-directory VARIANT=asan do-check-scenes
+	@+SCENES=10000 $(MAKE) --no-print-directory VARIANT=asan do-check-scenes
 do-all-clang: # its sanitizer tells of offsets to null pointers, gcc's does not
 	@+$(MAKE) --no-print-directory CC=clang VARIANT=fuzz do-replay
 do-all-threads:
@@ -340,8 +341,8 @@ do-check-all:
 	    else echo "$$part: MISSING $$logs/$$part.log"; missing=1; fi; \
 	done; [ -z "$$missing" ]
 
-# CHECKED_threads use threads: workers of a run and of a pool, of the terminal program, and of years.
 CHECKED_scenes := $(T)/cli/test_random_scenes.py.tap
+# These tests use threads: workers of a run and of a pool, of the terminal program, and of years.
 CHECKED_threads := $(addprefix $(T)/,unit/test_jobs.tap physics/test_statistics_of_runs.tap physics/test_years.tap tui/test_screens.py.tap \
 	tui/test_editing.py.tap tui/test_rotation.py.tap cli/test_years.py.tap cli/test_sensitivity.py.tap)
 do-check-scenes do-check-threads: do-check-%: all

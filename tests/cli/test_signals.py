@@ -66,7 +66,7 @@ def test_terminal():
                                    lambda t, s: t or s > 1.6, "stderr")
         expect_equal(text, b"", "-q")
         start = time.monotonic()
-        text, status = on_terminal(["--batch", "-n", "10", "-s", "doubt=none", "-o", "/dev/null", PAPER], lambda *_: False, "stderr")
+        text, status = on_terminal(["--batch", "-n", "10", "-o", "/dev/null", PAPER], lambda *_: False, "stderr")
         expect_equal(status, DONE)
         expect(not text or time.monotonic() - start >= 1, "short work", text)
 
