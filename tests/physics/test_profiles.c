@@ -116,6 +116,21 @@ TEST(small_breaks_stay)
     assert_int_equal(segments_inside(&sliver), 3);
 }
 
+/* A face keeps its foot, however narrow it is: within rounding of the profile's length too. */
+TEST(a_narrow_face_keeps_its_foot)
+{
+    init_site(CEDUO_LAW_LUMPED);
+    for (double wide = 1; wide > 1e-18; wide /= 10)
+        for (int up = 0; up < 2; up++) {
+            LOCAL_BY(slope_free) struct ceduo_slope face = slope_new(3);
+            memcpy(face.x, (double[3]){0, wide, 2}, sizeof(double[3]));
+            memcpy(face.z, up ? (double[3]){0, 300, 299} : (double[3]){0, -300, -301}, sizeof(double[3]));
+            for (size_t j = 0; j < 2; j++)
+                face.segments[j] = site.segments[3];
+            assert_int_equal(segments_inside(&face), 2);
+        }
+}
+
 /* ---- flights over blocks ---- */
 
 /* Waves of many lengths. */

@@ -55,8 +55,8 @@ static size_t end_of_line(const struct ceduo_slope *slope, size_t j, double near
     size_t end = j + 1;
     for (; end + 1 < slope->vertices; end++) {
         double m = (z[end] - z[end - 1]) / (x[end] - x[end - 1]), next = (z[end + 1] - z[end]) / (x[end + 1] - x[end]);
-        double turn = NO_BREAK * (1 + m * m);
-        if (!(fabs(next - m) <= 2 * turn)) /* by far the most of a rough profile */
+        double turn = NO_BREAK * (1 + m * next); /* less than 0 beyond a right angle */
+        if (!(fabs(next - m) <= 2 * turn))       /* by far the most of a rough profile */
             break;
         const struct ceduo_segment *a = &slope->segments[j], *b = &slope->segments[end];
         if (!same_roughness(a, b) || a->friction != b->friction || a->mu != b->mu || !same_number(a->rn, b->rn) ||
@@ -64,7 +64,7 @@ static size_t end_of_line(const struct ceduo_slope *slope, size_t j, double near
             break;
         double dx = x[end] - x[j], far = x[end + 1] - x[j], chord = (z[end + 1] - z[j]) / far;
         narrow(&l, m, turn);
-        narrow(&l, (z[end] - z[j]) / dx, near * (1 + fabs(m)) / dx);
+        narrow(&l, (z[end] - z[j]) / dx, near * (1 + fmin(fabs(m), fabs(next))) / dx);
         if (!(chord >= l.lo && chord <= l.hi && fabs(chord - next) <= turn))
             break;
     }
