@@ -190,8 +190,10 @@ static __attribute__((noinline)) bool fly_past_stems(struct walker *w, struct fl
         }
         struct stem stem;
         if (!take_stem(w, side, &stem)) {
-            if (w->gives_up)
+            if (w->gives_up) {
+                fly(w, at, &here); /* past the marks before */
                 return true;
+            }
             continue;
         }
         clearance = clearance > 0 ? clearance : 0;

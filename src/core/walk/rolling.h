@@ -130,15 +130,15 @@ static __attribute__((noinline)) enum at_stem roll_to_stem(struct walker *w, str
         if (r->dir > 0 ? !(x <= x_end) : !(x >= x_end))
             return NO_STEM;
         struct stem stem;
-        if (!take_stem(w, r->dir > 0 ? 0 : 1, &stem)) {
-            if (w->gives_up)
-                return STOPPED_AT_STEM;
+        bool taken = take_stem(w, r->dir > 0 ? 0 : 1, &stem);
+        if (!taken && !w->gives_up)
             continue;
-        }
         double z = ground_height(g, j, x), way = ground_length(&g->segments[j], w->at.x, w->at.z, x, z);
         double u2 = r->u2 + rate * way;
         roll_to(w, r, way, u2 > 0 ? u2 : 0, x, z); /* untaken: rounding */
         r->left -= way;
+        if (!taken)
+            return STOPPED_AT_STEM;
         double share = hit_stem(w, &stem, x, 0, 0.5 * w->rock.mass * r->u2 * (1 + w->k));
         r->u2 *= share * share;
         set_rolling_speed(w, r);

@@ -232,14 +232,11 @@ bool ceduo_walk_take_stem(struct walker *w, bool hit, struct flight at, double t
 {
     const struct stem stem = *ceduo_stems_next(&w->stems->side[0]);
     go_to_next_stem(w, 0);
-    if (w->gives_up)
-        return false;
-    if (hit) {
-        if (w->next_x <= stem.along)
-            ceduo_walk_pass_marks(w, at, stem.along, t);
+    if ((hit || w->gives_up) && w->next_x <= stem.along)
+        ceduo_walk_pass_marks(w, at, stem.along, t);
+    if (hit && !w->gives_up)
         count_hit(w, &stem);
-    }
-    return true;
+    return !w->gives_up;
 }
 
 bool ceduo_walk_come_down(struct walker *w, struct course *c, enum ceduo_end *end)
