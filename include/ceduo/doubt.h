@@ -81,6 +81,7 @@ struct ceduo_doubt_def {
     bool alone;                 /* of one option alone: the surfaces of the others are not there (p5, p95 NaN), nor ranks */
     size_t option;              /* alone: this one */
     struct ceduo_window window; /* these years instead; step 0: those of ceduo_window_in() */
+    uint64_t effort_max; /* contacts and stems of all points today, or of their years: beyond, CEDUO_CANCELLED; 0: no end */
     unsigned threads;
     const ceduo_flag *cancel;                                     /* may be NULL */
     void (*progress)(void *context, uint64_t done, uint64_t all); /* may be NULL; by one thread at a time */

@@ -232,7 +232,8 @@ static enum ceduo_status ask_doubt(struct asked *c, const struct arguments *a, s
         return CEDUO_OK;
     enum ceduo_status status = ceduo_doubt_ask(def, &c->doubt_answer);
     c->doubt.answer = status == CEDUO_OK ? &c->doubt_answer : NULL;
-    return status;
+    bool too_much = status == CEDUO_CANCELLED && !atomic_load(ceduo_interrupt_flag());
+    return too_much ? CEDUO_OK : status;
 }
 
 enum ceduo_status ceduo_ask_doubt(struct asked *c, const struct arguments *a, struct scene_file *file)
@@ -254,6 +255,7 @@ enum ceduo_status ceduo_ask_doubt_beside(struct asked *c, const struct arguments
     struct ceduo_doubt_def def = {.scene = scene,
                                   .window = a->window,
                                   .points_max = (size_t)a->points,
+                                  .effort_max = (uint64_t)EFFORT_MAX,
                                   .rocks = rocks < CEDUO_DOUBT_ROCKS ? rocks : CEDUO_DOUBT_ROCKS};
     double each =
         (double)(work->contacts + work->stems.drawn) / (double)(work->rocks > 0 ? work->rocks : 1) * (double)a->points;

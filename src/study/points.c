@@ -18,6 +18,7 @@ struct work {
     size_t each, today;         /* variants of a row, first those of today */
     struct point *variants;     /* option and slot of each */
     struct input_scene *copies; /* of the scene, for each thread */
+    _Atomic uint64_t effort;    /* contacts and stems of all variants so far */
     atomic_bool failed;         /* nothing more once any thread has failed */
 };
 
@@ -101,7 +102,9 @@ static enum ceduo_status read_variant(void *context, size_t i, struct ceduo_run 
     for (size_t c = 0; c < item->work->points->def->scene->controls_count; c++)
         ceduo_run_briefs(run, c, CEDUO_SURFACE_GROUPS, brought_by(item, i)[c].of);
     tell_variant(item, i, true);
-    return CEDUO_OK;
+    uint64_t effort = ceduo_run_contacts(run) + ceduo_run_stems(run).drawn, most = item->work->points->def->effort_max;
+    effort += atomic_fetch_add(&item->work->effort, effort);
+    return most > 0 && effort > most ? CEDUO_CANCELLED : CEDUO_OK;
 }
 
 static void same_variant(void *context, size_t i, size_t first)

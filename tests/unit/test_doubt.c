@@ -110,6 +110,32 @@ TEST(more_points_where_inputs_are_many)
     ceduo_scene_release(&file);
 }
 
+/* Points are given up at the same bound of their work with any number of threads. */
+TEST(too_much_work_is_given_up)
+{
+    static const char *const place = "slope.segments[0].rn";
+    const struct ceduo_input input = range_of(&place, .2, .6);
+    struct ceduo_doubt_answer a;
+    open_wood();
+    struct ceduo_doubt_def def = {
+        .scene = &file.scene, .inputs_count = 1, .inputs = &input, .points = 64, .points_max = 64, .rocks = 8, .threads = 1};
+    uint64_t few = 1, enough = 1 << 20; /* contacts */
+    while (enough - few > 1) {
+        def.effort_max = (few + enough) / 2;
+        *(ceduo_doubt_ask(&def, &a) == CEDUO_OK ? &enough : &few) = def.effort_max;
+        ceduo_doubt_free(&a);
+    }
+    EXPECT(enough, >, 64 * 8); /* each rock touches the ground */
+    EXPECT(enough, <, 1 << 20);
+    def.threads = 2;
+    for (int i = 0; i < 20; i++) {
+        def.effort_max = enough - (uint64_t)i % 2;
+        EXPECT(ceduo_doubt_ask(&def, &a), ==, (i % 2 == 0 ? CEDUO_OK : CEDUO_CANCELLED));
+        ceduo_doubt_free(&a);
+    }
+    ceduo_scene_release(&file);
+}
+
 /* Where no rock arrives there is no energy, by the index and among stems. */
 TEST(no_rock_brings_no_energy)
 {
