@@ -129,6 +129,13 @@ TEST(a_narrow_face_keeps_its_foot)
                 face.segments[j] = site.segments[3];
             assert_int_equal(segments_inside(&face), 2);
         }
+    LOCAL_BY(slope_free)
+    struct ceduo_slope steep = slope_new(3); /* both parts are upright, but for a hundredth of a micrometre */
+    memcpy(steep.x, (double[3]){0, 1e-17, 1e-8}, sizeof(double[3]));
+    memcpy(steep.z, (double[3]){0, -300, -600}, sizeof(double[3]));
+    for (size_t j = 0; j < 2; j++)
+        steep.segments[j] = site.segments[3];
+    assert_int_equal(segments_inside(&steep), 2);
 }
 
 /* ---- flights over blocks ---- */

@@ -43,7 +43,8 @@ HOT void go_to_segment(struct form form, const struct lanes *k, struct passing *
     }
 }
 
-/* The scalar walk takes the stem that is before each of `lanes`, past the marks up to it where it is hit. */
+/* The scalar walk takes the stem that is before each of `lanes`, past the marks up to it where it is hit or the rock
+ * is given up. */
 SELDOM void take_stems_alone(struct lanes *k, struct passing *p, unsigned lanes, unsigned hit)
 {
     for (; lanes; lanes &= lanes - 1) {

@@ -124,8 +124,8 @@ bool ceduo_walk_start(struct walker *w, struct course *c, enum ceduo_end *end);
 /* Notes the marks that a flight passes up to x, where it lands after t. */
 void ceduo_walk_pass_marks(struct walker *w, struct flight at, double x, double t);
 
-/* Takes the next stem ahead, and if it is hit, passes the marks up to it by the flight that leads there in t. False
- * where the rock is not to be followed further. */
+/* Takes the next stem ahead. False where the rock is not to be followed further; there, and if it is hit, the marks up to it are
+ * passed by the flight that leads there in t. */
 bool ceduo_walk_take_stem(struct walker *w, bool hit, struct flight at, double t);
 
 /* To the next contact. */
