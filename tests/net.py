@@ -33,7 +33,7 @@ import test_input  # noqa: E402
 import test_random_keys  # noqa: E402
 import test_rotation  # noqa: E402
 import test_screens  # noqa: E402
-from harness import PROFILES, SLOWER  # noqa: E402
+from harness import PATIENCE, PROFILES  # noqa: E402
 
 # Not compared: what differs from run to run; and the version wherever it stands but in --version, which a new one alone
 # would make differ in every JSON.
@@ -44,7 +44,6 @@ BLANKED = [(re.compile(pattern), blank) for pattern, blank in (
 SHOWN = 20  # lines of a difference
 LOOKED = 400  # lines from the first that differs on: more would take long to lay beside each other
 WIDE = 160  # a line that is longer is shown in parts
-SECONDS = 300 * SLOWER  # a case that takes longer hangs
 
 # The programs, as `make` lays them out.
 TOOLS = {"ceduo": "ceduo", "@tables": "tests/tables", "@completion": "man/completion"}
@@ -403,7 +402,7 @@ class Program:
         try:
             done = subprocess.run([tool, *map(str, words)], executable=self.paths[tool], input=case.stdin,
                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE, cwd=folder,
-                                  env={**play.home(folder / "home"), **case.env}, timeout=SECONDS, check=False)
+                                  env={**play.home(folder / "home"), **case.env}, timeout=PATIENCE, check=False)
         except subprocess.TimeoutExpired:
             return "hangs", b"", b""
         return done.returncode, done.stdout, done.stderr

@@ -28,7 +28,7 @@ def main():
                 for i in range(TIMES):
                     with Running(*arguments, path, terminal=not arguments) as r:
                         r.work(0.6 + 0.07 * i)
-                        seconds.append(end(r) * 1000)
+                        seconds.append(end(r)[0] * 1000)
                 print(f"{name},\"{way}\",{statistics.median(seconds):.1f},{max(seconds):.1f}", flush=True)
 
 

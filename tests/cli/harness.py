@@ -35,6 +35,7 @@ PROGRAM = Path(CEDUO).read_bytes() if Path(CEDUO).exists() else b""
 SANITIZED = b"__asan_init" in PROGRAM or b"__tsan_init" in PROGRAM  # they need memory of their own, and time
 FULL = "FULL" in os.environ  # make check-all: what depends on the number of rocks has as many as it can use
 SLOWER = 5 if b"__llvm_profile" in PROGRAM else 10 if SANITIZED else 1  # by so much what hangs is waited for
+PATIENCE = 600 * SLOWER  # seconds until what has not come or ended counts as hanging: none is ever waited for in full
 
 DONE, RUN, USAGE, INPUT, OUTPUT = range(5)  # exit statuses
 
@@ -130,20 +131,26 @@ def only_text(data, what):
     expect(not bad, f"{what} holds control characters {ascii(bad)}:", repr(data[:2000]))
 
 
-def ceduo(*arguments, stdin=b"", env=None, cwd=ROOT, timeout=120, **options):
+def ceduo(*arguments, stdin=b"", env=None, cwd=ROOT, **options):
     """Runs the program to its end. A crash, a hang or a control character in its output is a failure everywhere."""
     command = [CEDUO, *map(str, arguments)]
     start = time.monotonic()
     try:
         done = subprocess.run(command, input=stdin, stdout=subprocess.PIPE, stderr=subprocess.PIPE, cwd=cwd,
-                              env=environment(**(env or {})), timeout=timeout * SLOWER, check=False, **options)
+                              env=environment(**(env or {})), timeout=PATIENCE, check=False, **options)
     except subprocess.TimeoutExpired as late:
-        raise Failure(f"ceduo {' '.join(map(str, arguments))}", f"not ended after {timeout * SLOWER} s") from late
+        raise Failure(f"ceduo {' '.join(map(str, arguments))}", f"not ended after {PATIENCE} s") from late
     result = Result(arguments, done.returncode, done.stdout, done.stderr, time.monotonic() - start)
     expect(0 <= result.status <= 4, result)
     only_text(result.out_bytes, "stdout")
     only_text(result.err_bytes, "stderr")
     return result
+
+
+def processor_seconds(pid):
+    """What a process has taken of processors so far. On a machine with much to do it tells how soon one ends better than a clock does."""
+    times = Path(f"/proc/{pid}/stat").read_text().rsplit(")", 1)[1].split()
+    return (int(times[11]) + int(times[12])) / os.sysconf("SC_CLK_TCK")
 
 
 def good(*arguments, **options):

@@ -103,11 +103,10 @@ MODES = ("--check", "--batch")
 
 
 def check(folder, path, *arguments, modes=MODES, **options):
-    """A bad scene: status 3, nothing on stdout, within 5 s, both to check and to run."""
+    """A bad scene: status 3, nothing on stdout, both to check and to run."""
     for mode in modes:
-        done = ceduo(mode, *arguments, path, cwd=folder.path, timeout=60, **options)
+        done = ceduo(mode, *arguments, path, cwd=folder.path, **options)
         expect(done.status == INPUT and done.out == "" and done.err != "", done)
-        expect(done.seconds < 20, f"{done.seconds:.1f} s", done)
     return done
 
 

@@ -1,14 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Scenes that are in order and whose rocks are much work, and how long the program takes to notice that it shall end."""
+"""Scenes that are in order and whose rocks are much work, and what the program still takes to notice that it shall end."""
 import os
 import pty
 import signal
 import subprocess
 import time
 
-from harness import CEDUO, SLOWER, environment, expect, scene, stand
-
-PATIENCE = 60 * SLOWER  # seconds until something that must come counts as missing
+from harness import CEDUO, PATIENCE, environment, expect, processor_seconds, scene, stand
 
 
 def dense_trees(per_ha, **changes):
@@ -89,28 +87,26 @@ class Running:
             time.sleep(seconds)
         expect(os.waitpid(self.pid, os.WNOHANG)[0] == 0, "it ended before it was told to")
 
-    def ended(self, begin):
-        """Waits for its end; how it ended, and the seconds from `begin` on."""
+    def end(self, tell):
+        """Tells it to end and waits for it; how it ended, and the seconds of the clock and of processor that it still took."""
+        before, begin = processor_seconds(self.pid), time.monotonic()
+        tell()
         while time.monotonic() < begin + PATIENCE:
             if self.fd is not None:
                 self.read(0.0005)
-            pid, status = os.waitpid(self.pid, os.WNOHANG)
+            pid, status, used = os.wait4(self.pid, os.WNOHANG)
             if pid:
                 self.pid = 0
-                return status, time.monotonic() - begin
+                return status, (time.monotonic() - begin, used.ru_utime + used.ru_stime - before)
             time.sleep(0.0005)
         expect(False, f"still running {PATIENCE} s later")
 
     def end_by_signal(self, number):
-        begin = time.monotonic()
-        os.kill(self.pid, number)
-        status, seconds = self.ended(begin)
+        status, seconds = self.end(lambda: os.kill(self.pid, number))
         expect(os.WIFSIGNALED(status) and os.WTERMSIG(status) == number, f"ended by {number} as {status}")
         return seconds
 
     def end_by_key(self, key):
-        begin = time.monotonic()
-        os.write(self.fd, key.encode())
-        status, seconds = self.ended(begin)
+        status, seconds = self.end(lambda: os.write(self.fd, key.encode()))
         expect(os.WIFEXITED(status) and os.WEXITSTATUS(status) == 0, f"ended by {key!r} as {status}")
         return seconds

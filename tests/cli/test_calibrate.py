@@ -8,7 +8,7 @@ import subprocess
 from pathlib import Path
 
 from harness import (CEDUO, DONE, INPUT, OUTPUT, ROOT, SLOWER, USAGE, Folder, ceduo, environment, expect, expect_equal, expect_in, expect_near,
-                     good, run_all, scene, stand)
+                     good, processor_seconds, run_all, scene, stand)
 
 GROUND = {"rn": 0.35, "rt": 0.88, "roughness_rad": 0.25, "friction": 0.5}
 # stops of 30 rocks on that ground, of seed 777: the same law, so that the fit must be able to give them
@@ -329,7 +329,7 @@ def test_draws_of_many_places():
     with Folder() as f:
         f.write("t.csv", f"{head}\n0.8\n0.9\n")
         doubt = {"draws": "t.csv", "rows": [{"path": "slope.segments[*].rn", "lo": 0.2, "hi": 0.5}]}
-        expect_equal(ceduo("--check", f.write("s.yaml", quarry(slope=slope, doubt=doubt)), timeout=20).err, "")
+        expect_equal(ceduo("--check", f.write("s.yaml", quarry(slope=slope, doubt=doubt))).err, "")
 
 
 def test_refused():
@@ -358,15 +358,8 @@ def test_refused():
             expect_in(what, r.err)
 
 
-def processor_seconds(pid):
-    """What a process has taken of processors so far."""
-    times = Path(f"/proc/{pid}/stat").read_text().rsplit(")", 1)[1].split()
-    return (int(times[11]) + int(times[12])) / os.sysconf("SC_CLK_TCK")
-
-
 def interrupted(word, *arguments):
-    """Interrupts a calibration once it shows a word; what it printed, its status, and the seconds of processor it still took:
-    on a machine with much to do they tell how soon it ended better than a clock does."""
+    """Interrupts a calibration once it shows a word; what it printed, its status, and the seconds of processor it still took."""
     reads, writes = os.openpty()  # a terminal is told how far it is
     child = subprocess.Popen([CEDUO, "-j", "1", "-f", "json", *map(str, arguments)], stdout=subprocess.PIPE, stderr=writes,
                              env=environment(), cwd=ROOT)

@@ -15,8 +15,8 @@ import threading
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
-from harness import (CEDUO, INPUT, OUTPUT, PROFILES, ROOT, RUN, SANITIZED, SLOWER, USAGE, Folder, Skip, Suite,  # noqa: E402
-                     environment, expect, expect_equal, expect_in, only_text, scene)
+from harness import (CEDUO, INPUT, OUTPUT, PATIENCE, PROFILES, ROOT, RUN, SANITIZED, SLOWER, USAGE, Folder, Skip,  # noqa: E402
+                     Suite, environment, expect, expect_equal, expect_in, only_text, scene)
 from test_input import FILES, SCENE, mutated  # noqa: E402
 
 SECONDS = 10 * SLOWER
@@ -41,7 +41,7 @@ def limited(*arguments, program=CEDUO, stdin=subprocess.DEVNULL, stdout=None, en
     with tempfile.TemporaryFile() as out, tempfile.TemporaryFile() as err:
         p = subprocess.Popen([program, *map(str, arguments)], stdin=stdin, stdout=stdout or out, stderr=err, preexec_fn=limit,
                              env=environment(**(env or {})), **options)
-        watch = threading.Timer(SLOWER * 120, p.kill)
+        watch = threading.Timer(PATIENCE, p.kill)
         watch.start()
         _, status, usage = os.wait4(p.pid, 0)
         watch.cancel()

@@ -14,8 +14,8 @@ import sys
 from pathlib import Path
 
 sys.path[:0] = [str(Path(__file__).resolve().parent), str(Path(__file__).resolve().parents[1] / "tui")]
-from harness import (CEDUO, DONE, FULL, INPUT, OUTPUT, RUN, SANITIZED, USAGE, Folder, Skip, environment, expect,  # noqa: E402
-                     expect_equal, expect_in, good, only_text, run_all)
+from harness import (CEDUO, DONE, FULL, INPUT, OUTPUT, PATIENCE, RUN, SANITIZED, USAGE, Folder, Skip,  # noqa: E402
+                     environment, expect, expect_equal, expect_in, good, only_text, run_all)
 from play import FAST, Screen  # noqa: E402
 from test_calibrate import quarry  # noqa: E402
 from test_input import FILES  # noqa: E402
@@ -50,7 +50,7 @@ class Place(Folder):
         """Runs the program with the fault. Says whether it came to it."""
         mark = self.path / "mark"
         done = subprocess.run([CEDUO, *map(str, words)], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-                              env=self.with_fault(**fault), cwd=self.work, timeout=60, check=False)
+                              env=self.with_fault(**fault), cwd=self.work, timeout=PATIENCE, check=False)
         only_text(done.stdout, "stdout")
         only_text(done.stderr, "stderr")
         return done, mark.exists()
@@ -393,7 +393,7 @@ def test_read_only_folder():
             try:
                 return subprocess.run([f.path / "ceduo", *map(str, words)], cwd=f.path / "theirs", check=False,
                                       env=environment(LLVM_PROFILE_FILE=f"{counts}/%m.profraw"),
-                                      stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, timeout=60, **other)
+                                      stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, timeout=PATIENCE, **other)
             except PermissionError as why:
                 raise Skip(f"another user cannot be taken on: {why}") from why
 
@@ -434,7 +434,7 @@ def test_small_stack():
             out = "new.yaml" if words[0] == "--script" else "out"
             into = () if words[0] in ("--check", "--script") else ("-o", out)
             done = subprocess.run([CEDUO, *map(str, (*words, *into))], cwd=f.path, env=environment(), preexec_fn=limit,
-                                  stdout=subprocess.PIPE, stderr=subprocess.PIPE, check=False, timeout=300)
+                                  stdout=subprocess.PIPE, stderr=subprocess.PIPE, check=False, timeout=PATIENCE)
             expect(done.returncode == DONE and done.stderr == b"", words, told(done, 0))
             expect_equal(f.names(), sorted({"play.txt"} if words[0] == "--check" else {"play.txt", out}), words)
             expect(words[0] == "--check" or (f.path / out).stat().st_size > 0, words, "an empty file")

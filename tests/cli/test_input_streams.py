@@ -12,8 +12,8 @@ import time
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
-from harness import (CEDUO, DONE, INPUT, OUTPUT, PROFILES, SANITIZED, SLOWER, USAGE, Folder, ceduo, environment, expect, expect_equal,
-                     expect_in, good, run_all, scene, wooded_scene)
+from harness import (CEDUO, DONE, INPUT, OUTPUT, PATIENCE, PROFILES, SANITIZED, USAGE, Folder, ceduo, environment, expect,
+                     expect_equal, expect_in, good, run_all, scene, wooded_scene)
 from inputs import check, flat_scene
 
 
@@ -68,13 +68,13 @@ def test_no_files():
         blocks = [p for p in Path("/dev").iterdir() if p.is_block_device() and os.access(p, os.R_OK)][:1]
         for path in (f.path / "socket.yaml", Path("/dev/null"), Path("/dev/zero"), *blocks):
             for words in (("--check", path), ("--batch", path), ("--script", path, "s.yaml")):
-                expect_refused(ceduo(*words, cwd=f.path, timeout=20, preexec_fn=bounded), path, DEVICE)
+                expect_refused(ceduo(*words, cwd=f.path, preexec_fn=bounded), path, DEVICE)
             for change in ({"slope": str(path)}, {"slope": {"csv": str(path)}},
                            {"forest": [{"from_m": 10, "to_m": 20, "stand": {"base": str(path)}}]}):
-                expect_refused(ceduo("--check", f.write("refers.yaml", scene(**change)), timeout=20, preexec_fn=bounded), path, DEVICE)
+                expect_refused(ceduo("--check", f.write("refers.yaml", scene(**change)), preexec_fn=bounded), path, DEVICE)
         with open("/dev/zero", "rb") as stream:
             done = subprocess.run([CEDUO, "--check", "-"], stdin=stream, capture_output=True, text=True, env=environment(),
-                                  preexec_fn=bounded, timeout=20 * SLOWER, check=False)
+                                  preexec_fn=bounded, timeout=PATIENCE, check=False)
         expect_equal((done.returncode, done.stderr), (INPUT, "standard input: larger than 16 MiB\n"))
 
 
@@ -92,13 +92,13 @@ def test_streams():
         os.write(master, text + b"\x04")  # the key that ends it
         with open(os.ttyname(slave), "rb") as stream:
             done = subprocess.run([CEDUO, "--check", "-"], stdin=stream, capture_output=True, env=environment(),
-                                  timeout=20 * SLOWER, check=False)
+                                  timeout=PATIENCE, check=False)
         expect(done.returncode == DONE and done.stderr == b"", done)
         ours, theirs = socket.socketpair()
         with ours, theirs:
             ours.sendall(text)
             ours.shutdown(socket.SHUT_WR)
-            done = subprocess.run([CEDUO, "--check", "-"], stdin=theirs, capture_output=True, env=environment(), timeout=20 * SLOWER,
+            done = subprocess.run([CEDUO, "--check", "-"], stdin=theirs, capture_output=True, env=environment(), timeout=PATIENCE,
                                   check=False)
             expect(done.returncode == DONE and done.stderr == b"", done)
         done = subprocess.run(["sh", "-c", 'exec "$0" --check - <&-', CEDUO], capture_output=True, env=environment(), check=False)
@@ -120,7 +120,7 @@ def test_fifo():
         try:
             time.sleep(0.1)
             done = subprocess.Popen([CEDUO, "--check", fifo], stderr=subprocess.PIPE, env=environment())
-            err = done.communicate(timeout=10)[1]
+            err = done.communicate(timeout=PATIENCE)[1]
             expect_equal((done.returncode, err), (DONE, b""))
         finally:
             writer.kill()
@@ -137,7 +137,7 @@ def test_fifo_first():
         expect(done.poll() is None, "it did not wait")
         with open(fifo, "wb") as out:
             out.write(flat_scene())
-        expect_equal((done.communicate(timeout=10 * SLOWER)[1], done.returncode), (b"", DONE))
+        expect_equal((done.communicate(timeout=PATIENCE)[1], done.returncode), (b"", DONE))
 
 
 def test_names_with_escapes():

@@ -12,8 +12,7 @@ import time
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
-from harness import (ROOT, SLOWER, Folder, Skip, ceduo, environment, expect, expect_equal, expect_in, good,  # noqa: E402
-                     run_all)
+from harness import PATIENCE, ROOT, Folder, Skip, ceduo, environment, expect, expect_equal, expect_in, good, run_all  # noqa: E402
 
 VARIANT = Path(os.environ.get("BUILD", "build/release")).name
 
@@ -21,7 +20,7 @@ VARIANT = Path(os.environ.get("BUILD", "build/release")).name
 def make(*words, folder=ROOT):
     env = {k: v for k, v in environment().items() if k not in ("MAKEFLAGS", "MFLAGS", "MAKELEVEL")}
     done = subprocess.run(["make", "-s", "-C", str(folder), f"VARIANT={VARIANT}", *words], env=env, capture_output=True, text=True,
-                          check=False, timeout=300)
+                          check=False, timeout=PATIENCE)
     expect(done.returncode == 0, "make", words, done.stdout, done.stderr)
 
 
@@ -196,7 +195,7 @@ class Shells(Installed):
         master, slave = pty.openpty()
         with subprocess.Popen(shell, stdin=slave, stdout=slave, stderr=slave, cwd=here, env=env, start_new_session=True) as process:
             os.close(slave)
-            seen, end, asked = b"", time.monotonic() + 60 * SLOWER, False
+            seen, end, asked = b"", time.monotonic() + PATIENCE, False
             os.write(master, start.encode() + b"; echo READY$((1 + 1))\n")
             while time.monotonic() < end and not (calls.exists() and calls.read_bytes().endswith(b"\n")):
                 if select.select([master], [], [], 0.02)[0]:

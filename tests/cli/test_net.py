@@ -9,7 +9,7 @@ import sys
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
-from harness import CEDUO, PROFILES, ROOT, Folder, Skip, expect, expect_equal, expect_in, run_all  # noqa: E402
+from harness import CEDUO, PATIENCE, PROFILES, ROOT, Folder, Skip, expect, expect_equal, expect_in, run_all  # noqa: E402
 
 # A program that answers at once. It writes what a script dumps.
 FAKE = """\
@@ -26,7 +26,7 @@ esac
 def net(*words, tree=ROOT, **env):
     """Status and what is printed, both streams one after the other."""
     done = subprocess.run([sys.executable, tree / "tests/net.py", *map(str, words)], stdin=subprocess.DEVNULL,
-                          stdout=subprocess.PIPE, stderr=subprocess.PIPE, env={**os.environ, **env}, timeout=600, check=False)
+                          stdout=subprocess.PIPE, stderr=subprocess.PIPE, env={**os.environ, **env}, timeout=PATIENCE, check=False)
     return done.returncode, (done.stdout + done.stderr).decode()
 
 

@@ -9,7 +9,7 @@ import sys
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
-from harness import (CEDUO, DONE, INPUT, OUTPUT, RUN, USAGE, Folder, Skip, ceduo, environment, expect, expect_equal,
+from harness import (CEDUO, DONE, INPUT, OUTPUT, PATIENCE, RUN, USAGE, Folder, Skip, ceduo, environment, expect, expect_equal,
                      expect_in, good, result, run_all, scene, stand)
 from pages import WHOLE
 from runs import ENDLESS, FOUR, PAPER
@@ -77,9 +77,9 @@ def test_stdin():
 def test_stdin_closed():
     """A closed standard input: no matter for files, an error for '-'"""
     shell = ["sh", "-c", '"$0" "$@" <&-', CEDUO, "--batch", "-n", "10"]
-    done = subprocess.run([*shell, str(PAPER)], env=environment(), capture_output=True, timeout=20, check=False)
+    done = subprocess.run([*shell, str(PAPER)], env=environment(), capture_output=True, timeout=PATIENCE, check=False)
     expect(done.returncode == DONE and done.stdout and not done.stderr, done)
-    done = subprocess.run([*shell, "-"], env=environment(), capture_output=True, timeout=20, check=False)
+    done = subprocess.run([*shell, "-"], env=environment(), capture_output=True, timeout=PATIENCE, check=False)
     expect(done.returncode == INPUT and not done.stdout and done.stderr, done)
 
 
@@ -151,7 +151,7 @@ def test_output_devices():
         with subprocess.Popen(["cat", str(fifo)], stdout=subprocess.PIPE) as cat:
             try:
                 good("--batch", "-n", 5, "-o", fifo, PAPER)
-                expect_equal(cat.communicate(timeout=10)[0].decode(), good("--batch", "-n", 5, PAPER).out, "FIFO")
+                expect_equal(cat.communicate(timeout=PATIENCE)[0].decode(), good("--batch", "-n", 5, PAPER).out, "FIFO")
             finally:
                 cat.kill()
 
@@ -223,11 +223,11 @@ def test_stdout_closed():
     """A closed standard output is status 4 in every mode that prints"""
     for mode in MODES:
         done = subprocess.run(["sh", "-c", '"$0" "$@" >&-', CEDUO, *mode], env=environment(), capture_output=True,
-                              timeout=20, check=False)
+                              timeout=PATIENCE, check=False)
         expect(done.returncode == OUTPUT and done.stderr, mode, done)
     with Folder() as f:  # what is opened later must not become standard output or error
         done = subprocess.run(["sh", "-c", '"$0" "$@" >&- 2>&-', CEDUO, "--batch", "-n", "5", "-o",
-                               str(f.path / "out.txt"), str(PAPER)], env=environment(), timeout=20, check=False)
+                               str(f.path / "out.txt"), str(PAPER)], env=environment(), timeout=PATIENCE, check=False)
         expect_equal(done.returncode, DONE, "only the file is written")
         expect_equal((f.path / "out.txt").read_text(), good("--batch", "-n", 5, PAPER).out)
 
@@ -236,7 +236,7 @@ def test_stdout_full():
     """A full disk behind standard output is status 4 in every mode that prints"""
     for mode in MODES:
         with open("/dev/full", "wb") as full:
-            done = subprocess.run([CEDUO, *mode], stdout=full, stderr=subprocess.PIPE, env=environment(), timeout=20,
+            done = subprocess.run([CEDUO, *mode], stdout=full, stderr=subprocess.PIPE, env=environment(), timeout=PATIENCE,
                                   check=False)
         expect(done.returncode == OUTPUT and done.stderr, mode, done)
 
@@ -248,7 +248,7 @@ def test_closed_pipe():
         os.close(read)
         with subprocess.Popen([CEDUO, *mode], stdout=write, stderr=subprocess.PIPE, env=environment()) as p:
             os.close(write)
-            noise = p.communicate(timeout=20)[1]
+            noise = p.communicate(timeout=PATIENCE)[1]
         expect(p.returncode in (-signal.SIGPIPE, DONE) and noise == b"", mode, p.returncode, noise)
 
 

@@ -56,7 +56,7 @@ def limits():
 
 
 def run(folder, *arguments):
-    return ceduo(*arguments, cwd=folder, timeout=10 * SECONDS, preexec_fn=limits)
+    return ceduo(*arguments, cwd=folder, preexec_fn=limits)
 
 
 def table_of_parameters():

@@ -15,7 +15,7 @@ import xml.etree.ElementTree as ElementTree
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
-from harness import FULL, PROFILES, SANITIZED, SLOWER, Folder, Skip, expect, expect_equal, good, run_all  # noqa: E402
+from harness import FULL, PATIENCE, PROFILES, SANITIZED, Folder, Skip, expect, expect_equal, good, run_all  # noqa: E402
 
 SCENES = sorted(path.stem for path in (PROFILES / "scenes").glob("*.yaml"))
 # eight options with all that a scene can ask for
@@ -88,12 +88,12 @@ def chromium(folder, *arguments):
     command = [program, "--headless", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage", "--window-size=794,1123",
                "--proxy-server=127.0.0.1:1", f"--user-data-dir={folder}/browser", *arguments]
     env = {**os.environ, "HOME": str(folder), "XDG_CONFIG_HOME": str(folder), "XDG_CACHE_HOME": str(folder)}
-    return subprocess.run(command, env=env, capture_output=True, text=True, timeout=300 * SLOWER, check=True).stdout
+    return subprocess.run(command, env=env, capture_output=True, text=True, timeout=PATIENCE, check=True).stdout
 
 
 def report(folder, scene, language, *more):
     path = folder / f"{scene}-{language}.html"
-    good("--report", path, "--language", language, *QUICK, *more, scene, timeout=600)
+    good("--report", path, "--language", language, *QUICK, *more, scene)
     return path
 
 

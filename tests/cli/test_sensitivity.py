@@ -43,7 +43,7 @@ def answer(what, *arguments, points=POINTS):
 
 def good_of(what, *arguments, rocks=100):
     with Folder() as f:
-        return good("-f", "json", "-n", rocks, *arguments, f.write("s.yaml", what), timeout=200).out
+        return good("-f", "json", "-n", rocks, *arguments, f.write("s.yaml", what)).out
 
 
 def paths(result):
@@ -334,7 +334,7 @@ def test_many():
              for key, lo, hi in (("trees[0].dbh_m", 0.119, 0.121), ("trees[0].height_m", 7, 10), ("energy.u_J_m3", 99e3, 101e3))]
     with Folder() as f:
         path = f.write("s.yaml", measured(forest=belts, doubt=[*doubt[1:], speed]))
-        inputs = figure(ceduo("--sensitivity=512", "-f", "json", "-n", 64, path, timeout=120).json()[0], "energy_per_released_kJ")["inputs"]
+        inputs = figure(ceduo("--sensitivity=512", "-f", "json", "-n", 64, path).json()[0], "energy_per_released_kJ")["inputs"]
         expect_equal({i["path"] for i in inputs}, {row["path"] for row in [*doubt[1:], speed]})
         expect_equal(max(inputs, key=lambda i: i["total"])["path"], speed["path"], "the heaviest, wherever it stands")
         expect(inputs[0]["path"] == speed["path"] and inputs[0]["total"] > 0.8, inputs[0])

@@ -4,6 +4,7 @@
 import os
 import pty
 import re
+import resource
 import signal
 import subprocess
 import sys
@@ -11,7 +12,8 @@ import time
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
-from harness import CEDUO, DONE, SLOWER, Failure, Folder, environment, expect, expect_equal, only_text, run_all
+from harness import (CEDUO, DONE, PATIENCE, SLOWER, Failure, Folder, environment, expect, expect_equal, only_text,
+                     processor_seconds, run_all)
 from runs import ENDLESS, FOUR, PAPER
 
 
@@ -23,7 +25,7 @@ def on_terminal(arguments, stop, which):
         os.close(slave)
         os.set_blocking(master, False)
         text, start, sent = b"", time.monotonic(), False
-        while time.monotonic() - start < 30:
+        while time.monotonic() - start < PATIENCE:
             try:
                 text += os.read(master, 65536)
             except BlockingIOError:
@@ -51,13 +53,13 @@ def test_terminal():
         expect_equal(status, -signal.SIGINT)
         expect(b"\x1b" not in text, text)
         text, status = on_terminal(["--batch", "-n", "10000000", "-j", "1", "-s", "simulation.law=crsp", "-o", "/dev/null",
-                                    PAPER], lambda t, s: b"rocks" in t or s > 90, "stderr")
+                                    PAPER], lambda t, _: b"rocks" in t, "stderr")
         expect(b"rocks" in text and b"\x1b" not in text, text)
         expect_equal(status, -signal.SIGINT)
         rows = f.write("rows.csv", "id,rock.diameter_m\n" + "".join(f"r{i},{'x' if i == 3 else 0.6}\n" for i in range(999)))
         text, status = on_terminal(["--batch", "-f", "csv", "-n", str(200000 // SLOWER), "-j", "1", "-o", "/dev/null", "--each",
                                     str(rows), PAPER],
-                                   lambda t, s: t.count(b" left") > 3 and b"rows.csv:5" in t or s > 90, "stderr")
+                                   lambda t, _: t.count(b" left") > 3 and b"rows.csv:5" in t, "stderr")
         shown = text.replace(b"\r\n", b"\n").decode()
         expect(re.search(r"\r\d+ of 999 scenes, \d+ (s|min) left *\r", shown), shown)
         expect(re.search(r"(^|\r)[^\r\n]*rows.csv:5: .*'x' is not a number\n", shown) and "left" not in
@@ -71,7 +73,12 @@ def test_terminal():
         expect(not text or time.monotonic() - start >= 1, "short work", text)
 
 
-def interrupted(number, path, most):
+def children_seconds():
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
+
+
+def interrupted(number, path):
     with Folder() as f:
         old = f.write("old.txt", "old")
         for target in (None, f.path / "new.txt", old):
@@ -80,39 +87,40 @@ def interrupted(number, path, most):
                                   stderr=subprocess.PIPE, env=environment()) as p:
                 time.sleep(0.25)
                 expect(p.poll() is None, "it ended before the signal", p.returncode)
+                before = children_seconds() + processor_seconds(p.pid)
                 p.send_signal(number)
-                start = time.monotonic()
                 try:
-                    out, err = p.communicate(timeout=120)
+                    out, err = p.communicate(timeout=PATIENCE)
                 except subprocess.TimeoutExpired as late:
                     p.kill()
                     raise Failure("it goes on after the signal") from late
             expect_equal(p.returncode, -number, "status")
             expect_equal((out, err), (b"", b""))
-            expect(time.monotonic() - start < most, f"ended {time.monotonic() - start:.1f} s after the signal")
+            seconds = children_seconds() - before
+            expect(seconds < SLOWER, f"ended after {seconds:.2f} s of processor")
             expect_equal(f.names(), ["old.txt"])
             expect_equal(old.read_text(), "old")
 
 
 def test_interrupt():
     """SIGINT in a long run ends by that signal, no file written"""
-    interrupted(signal.SIGINT, PAPER, 2)
+    interrupted(signal.SIGINT, PAPER)
 
 
 def test_terminate():
     """SIGTERM in a long run ends by that signal, no file written"""
-    interrupted(signal.SIGTERM, PAPER, 2)
+    interrupted(signal.SIGTERM, PAPER)
 
 
 def test_hang_up():
     """SIGHUP in a long run ends by that signal, no file written"""
-    interrupted(signal.SIGHUP, PAPER, 2)
+    interrupted(signal.SIGHUP, PAPER)
 
 
 def test_interrupt_endless():
-    """SIGINT where rocks never come to rest ends the program within a second"""
+    """SIGINT where rocks never come to rest ends the program at once"""
     with Folder() as f:
-        interrupted(signal.SIGINT, f.write("endless.yaml", ENDLESS), 1)
+        interrupted(signal.SIGINT, f.write("endless.yaml", ENDLESS))
 
 
 def test_nohup():
@@ -123,7 +131,7 @@ def test_nohup():
                               stderr=subprocess.PIPE, env=environment()) as p:
             time.sleep(0.1)
             p.send_signal(signal.SIGHUP)
-            out, err = p.communicate(timeout=120)
+            out, err = p.communicate(timeout=PATIENCE)
     finally:
         signal.signal(signal.SIGHUP, old)
     expect(p.returncode == DONE and b"300000" in out and err == b"", p.returncode, out, err)
@@ -135,7 +143,7 @@ def test_interrupt_between():
                           stdout=subprocess.PIPE, stderr=subprocess.PIPE, env=environment()) as p:
         time.sleep(0.2)
         p.send_signal(signal.SIGINT)
-        out, _ = p.communicate(timeout=120)
+        out, _ = p.communicate(timeout=PATIENCE)
     expect_equal((p.returncode, out), (-signal.SIGINT, b""))
 
 

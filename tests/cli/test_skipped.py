@@ -19,7 +19,7 @@ def bounded(*arguments, **options):
     def limit():
         resource.setrlimit(resource.RLIMIT_CPU, (SECONDS, SECONDS))
 
-    return good(*arguments, preexec_fn=limit, timeout=120, **options)
+    return good(*arguments, preexec_fn=limit, **options)
 
 
 def test_no_rocks():

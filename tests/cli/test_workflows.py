@@ -15,7 +15,7 @@ import sys
 import xml.etree.ElementTree as ElementTree
 
 import harness
-from harness import CEDUO, ROOT, Folder, expect, expect_equal, expect_in, expect_near
+from harness import CEDUO, PATIENCE, ROOT, Folder, expect, expect_equal, expect_in, expect_near
 
 PAGE = ROOT / "man" / "ceduo-workflows.7"
 PAGINA = ROOT / os.environ.get("BUILD", "build/release") / "man/it/ceduo-workflows.7"
@@ -72,7 +72,7 @@ class Machine(Folder):
         env = harness.environment(PATH=f"{self.path / 'bin'}{os.pathsep}{os.environ['PATH']}", HOME=str(self.path),
                                   XDG_STATE_HOME=str(self.path), SBATCH_WAIT="1", PARALLEL=PARALLEL, **more)
         return subprocess.run(["sh", "-e"], input=text, text=True, encoding="utf-8", capture_output=True, cwd=cwd, env=env,
-                              timeout=600, check=False)
+                              timeout=PATIENCE, check=False)
 
 
 class Walk:
@@ -165,7 +165,7 @@ def drawn():
         shutil.copytree(ROOT / "man" / "pictures", f.path / "pictures", ignore=lambda folder, names: {n for n in names if n.endswith("svg")})
         for keys in sorted(f.path.glob("pictures/**/*.keys")):
             language = "it" if keys.parent.name == "it" else "en"
-            harness.good("--script", keys, "--language", language, "--charset", "braille", cwd=keys.parent, timeout=600,
+            harness.good("--script", keys, "--language", language, "--charset", "braille", cwd=keys.parent,
                          env={"HOME": str(f.path), "XDG_STATE_HOME": str(f.path)})
         return [(ROOT / "man" / path.relative_to(f.path), path.read_text(encoding="utf-8"))
                 for path in sorted([*f.path.glob("pictures/**/*.svg"), *f.path.glob("pictures/**/*.html")])]

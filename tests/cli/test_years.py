@@ -15,7 +15,7 @@ import time
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
-from harness import (CEDUO, FULL, PROFILES, USAGE, Failure, Folder, ceduo, environment, expect, expect_equal,
+from harness import (CEDUO, FULL, PATIENCE, PROFILES, USAGE, Failure, Folder, ceduo, environment, expect, expect_equal,
                      expect_in, expect_near, good, result, results, run_all)
 from pages import WHOLE
 
@@ -617,7 +617,7 @@ def test_right_after_the_cut():
 def test_old_and_young():
     """From year to year a coppice has fewer shoots, and fewer rocks come through: old ones protect better"""
     stand, rocks = coppice(45, [], trees=None), 20000 if FULL else 5000
-    years = years_of(site(belt(0, 135, stand, cut_year=1), rocks=rocks), "2:45", timeout=150)
+    years = years_of(site(belt(0, 135, stand, cut_year=1), rocks=rocks), "2:45")
     rows = []
     for year in years:
         s, a = year["stands"][0], year["controls"][0]["wooded"]
@@ -1018,7 +1018,7 @@ def test_interrupt():
                 expect(p.poll() is None, "it ended before the signal", p.returncode)
                 p.send_signal(signal.SIGINT)
                 try:
-                    out, err = p.communicate(timeout=120)
+                    out, err = p.communicate(timeout=PATIENCE)
                 except subprocess.TimeoutExpired as late:
                     p.kill()
                     raise Failure("it goes on after the signal") from late

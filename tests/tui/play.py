@@ -9,7 +9,7 @@ import unicodedata
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "cli"))
-from harness import CEDUO, DONE, ROOT, SLOWER, Failure, Folder, Result, environment, expect, only_text  # noqa: E402
+from harness import CEDUO, DONE, PATIENCE, ROOT, Failure, Folder, Result, environment, expect, only_text  # noqa: E402
 
 VIEWS = ["slope", "stand", "rock", "results", "compare", "rotation"]
 
@@ -208,16 +208,16 @@ def home(folder):
                        XDG_CACHE_HOME=at + "/cache", TERM=None, COLUMNS=None, LINES=None)
 
 
-def run_script(folder, script, *arguments, timeout=60, name="play.txt"):
+def run_script(folder, script, *arguments, name="play.txt"):
     """Plays a script with no terminal at all; the program ends by itself, whatever its status."""
     (folder / name).write_text(script)
     command = [CEDUO, "--script", name, *map(str, arguments)]
     start = time.monotonic()
     try:
         done = subprocess.run(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-                              cwd=folder, env=home(folder), timeout=timeout * SLOWER, check=False, start_new_session=True)
+                              cwd=folder, env=home(folder), timeout=PATIENCE, check=False, start_new_session=True)
     except subprocess.TimeoutExpired as late:
-        raise Failure(f"not ended after {timeout * SLOWER} s", script) from late
+        raise Failure(f"not ended after {PATIENCE} s", script) from late
     result = Result(command[1:], done.returncode, done.stdout, done.stderr, time.monotonic() - start)
     expect(0 <= result.status <= 4, "the program crashed on", script, result)
     only_text(result.out_bytes, "stdout")
@@ -292,6 +292,6 @@ def actions():
 def check_good(folder, name):
     """The program itself finds nothing wrong with a scene."""
     done = subprocess.run([CEDUO, "--check", name], cwd=folder, env=home(folder), stdin=subprocess.DEVNULL,
-                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=60, check=False)
+                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=PATIENCE, check=False)
     expect(done.returncode == DONE, f"{name}: ceduo --check says", done.stdout.decode(), "of",
            (Path(folder) / name).read_text()[:3000])

@@ -13,7 +13,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 from play import FAST, Place, actions, home  # noqa: E402
-from harness import CEDUO, PROFILES, ROOT, Failure, Suite, expect  # noqa: E402
+from harness import CEDUO, PATIENCE, PROFILES, ROOT, Failure, Suite, expect  # noqa: E402
 
 KEYS = int(os.environ.get("KEYS") or 3000)
 SEED = int(os.environ.get("SEED") or 1)
@@ -95,7 +95,7 @@ def run_once(seed, names):
         again = f"SEED={seed} KEYS={RUN} CEDUO={CEDUO} {sys.argv[0]} plays this again; scene {scene}, {charset}"
         try:
             done = subprocess.run(command, cwd=work, env=home(place.path), stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
-                                  stderr=subprocess.PIPE, timeout=120, check=False, start_new_session=True)
+                                  stderr=subprocess.PIPE, timeout=PATIENCE, check=False, start_new_session=True)
         except subprocess.TimeoutExpired as late:
             raise Failure(again, "hangs") from late
         err = done.stderr.decode("utf-8", "replace")
@@ -105,7 +105,7 @@ def run_once(seed, names):
             if before.get(path) == path.read_text():
                 continue
             check = subprocess.run([CEDUO, "--check", path.name], cwd=work, env=home(place.path), stdin=subprocess.DEVNULL,
-                                   stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=60, check=False)
+                                   stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=PATIENCE, check=False)
             expect(check.returncode == 0, again, f"{path.name} on disk is no valid scene:", check.stdout.decode()[:2000],
                    path.read_text()[:2000])
         for path in before:

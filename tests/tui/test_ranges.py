@@ -8,7 +8,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 from play import Place, home  # noqa: E402
-from harness import CEDUO, DONE, expect, expect_equal, run_all  # noqa: E402
+from harness import CEDUO, DONE, PATIENCE, expect, expect_equal, run_all  # noqa: E402
 
 # view, path, of the file's unit in one that is shown
 FIELDS = [(1, "forest[0].from_m", 1), (1, "forest[0].to_m", 1), (1, "forest[1].from_m", 1), (1, "forest[1].to_m", 1),
@@ -24,7 +24,7 @@ FIELDS = [(1, "forest[0].from_m", 1), (1, "forest[0].to_m", 1), (1, "forest[1].f
 
 def accepts(place, scene, path, value):
     done = subprocess.run([CEDUO, "--check", "-s", f"{path}={value:.12g}", scene], cwd=place.path, env=home(place.path),
-                          stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=60, check=False)
+                          stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=PATIENCE, check=False)
     return done.returncode == DONE
 
 

@@ -17,21 +17,21 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 from play import FAST, Place, check_good, home  # noqa: E402
-from harness import CEDUO, SANITIZED, SLOWER, USAGE, Failure, Skip, Suite, expect, expect_equal, expect_in, tests_of  # noqa: E402
+from harness import (CEDUO, PATIENCE, SANITIZED, USAGE, Failure, Skip, Suite, expect, expect_equal, expect_in,  # noqa: E402
+                     tests_of)
 
-PATIENCE = 20 * SLOWER  # seconds until something that must come counts as missing; none of it is ever waited for in full
 ASAN = b"__asan_init" in Path(CEDUO).read_bytes()
 
 
-def until(what, found, patience=PATIENCE):
+def until(what, found):
     """Polls until found() is true, and returns that."""
-    end = time.monotonic() + patience
+    end = time.monotonic() + PATIENCE
     while True:
         value = found()
         if value:
             return value
         if time.monotonic() > end:
-            raise Failure(f"waited {patience} s in vain: {what() if callable(what) else what}")
+            raise Failure(f"waited {PATIENCE} s in vain: {what() if callable(what) else what}")
         time.sleep(0.01)
 
 
@@ -183,16 +183,19 @@ def test_function_keys():
     """Function keys, arrows, Shift-Tab, Del, PgDn come as the terminal sends them; Esc without delay."""
     with Place() as place, Tmux(place) as t:
         t.start("fast.yaml")
-        t.keys("F1")
-        t.sees("Every edit is live")
-        t.keys("NPage")
-        t.sees("redo", lacks=("Every edit is live",))
-        t.keys("End")
-        t.sees("terminal itself")
-        start = time.monotonic()
-        t.keys("Escape")
-        t.sees("Belts of forest", lacks=("terminal itself",))
-        expect(time.monotonic() - start < 0.5, f"Esc took {time.monotonic() - start:.2f} s")
+        took = []
+        for _ in range(5):
+            t.keys("F1")
+            t.sees("Every edit is live")
+            t.keys("NPage")
+            t.sees("redo", lacks=("Every edit is live",))
+            t.keys("End")
+            t.sees("terminal itself")
+            start = time.monotonic()
+            t.keys("Escape")
+            t.sees("Belts of forest", lacks=("terminal itself",))
+            took.append(time.monotonic() - start)
+        expect(min(took) < 0.5, f"Esc took {min(took):.2f} s at least")  # curses waits for a whole second unless it is told not to
         t.keys("Down", "Right")
         t.sees("to, m: where the belt ends")
         t.keys("DC")
@@ -796,7 +799,7 @@ def test_refining_ends():
     """On the paper's site the figures are refined by themselves, until the mark says that they are fine."""
     with Place() as place, Tmux(place) as t:
         t.start("paper-site")
-        screen = until("figures that are refined no more", lambda: (lambda s: "finished, " in s and s)(t.screen()), 10 * PATIENCE)
+        screen = until("figures that are refined no more", lambda: (lambda s: "finished, " in s and s)(t.screen()))
         expect(re.search(r"finished, \d{5,} rocks", screen), screen)
         expect(re.search(r"arrive +\d+±\d+ +\d+", screen) and re.search(r"energy [\d.]+ % > 5 +✘", screen), screen)
 
@@ -809,7 +812,7 @@ def test_live_wood():
         for _ in range(20):
             t.keys("+")
         t.sees("stools per ha         3200")
-        screen = until("figures that are refined no more", lambda: (lambda s: "finished, " in s and s)(t.screen()), 10 * PATIENCE)
+        screen = until("figures that are refined no more", lambda: (lambda s: "finished, " in s and s)(t.screen()))
         found = re.search(r"arrive +(\d+)±\d+ +(\d+)", screen)
         expect(found and int(found.group(1)) < 930 and found.group(2) == "1000", screen)
         t.keys("3")
@@ -834,7 +837,7 @@ def test_doubt_of_the_shown_option_first():
         shown = r"doubt (\d+–\d+)\)"
         first = re.search(shown, t.sees("of 1000 (rocks ", "; may be "))
         all_of_them = until("the doubt of all options",
-                            lambda: (lambda s: len(re.findall(r"^[a-z].* \(\d+–\d+\) ", s, re.M)) >= 8 and s)(t.screen()), 10 * PATIENCE)
+                            lambda: (lambda s: len(re.findall(r"^[a-z].* \(\d+–\d+\) ", s, re.M)) >= 8 and s)(t.screen()))
         expect(first and first[1] == re.search(shown, all_of_them)[1], first, all_of_them)
         expect(re.search(r"│   may be +\d+–\d+$", all_of_them, re.M), all_of_them)
         t.keys("q")
