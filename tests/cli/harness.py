@@ -6,6 +6,7 @@ The program is the one that the environment's CEDUO names, or ./ceduo of this so
 import json
 import os
 import re
+import resource
 import shutil
 import signal
 import subprocess
@@ -148,9 +149,16 @@ def ceduo(*arguments, stdin=b"", env=None, cwd=ROOT, **options):
 
 
 def processor_seconds(pid):
-    """What a process has taken of processors so far. On a machine with much to do it tells how soon one ends better than a clock does."""
+    """What a process that runs has taken of processors so far. On a machine with much to do this and the next tell better than a clock
+    how soon a process ends."""
     times = Path(f"/proc/{pid}/stat").read_text().rsplit(")", 1)[1].split()
     return (int(times[11]) + int(times[12])) / os.sysconf("SC_CLK_TCK")
+
+
+def children_seconds():
+    """What all processes that were waited for have taken of processors."""
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
 
 
 def good(*arguments, **options):

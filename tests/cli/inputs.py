@@ -3,7 +3,7 @@
 import re
 from pathlib import Path
 
-from harness import INPUT, ceduo, expect, expect_equal
+from harness import INPUT, ceduo, children_seconds, expect, expect_equal
 
 SCENE = """\
 ceduo: scene/1
@@ -103,10 +103,12 @@ MODES = ("--check", "--batch")
 
 
 def check(folder, path, *arguments, modes=MODES, **options):
-    """A bad scene: status 3, nothing on stdout, both to check and to run."""
+    """A bad scene: status 3, nothing on stdout, within 20 s of processor, both to check and to run."""
     for mode in modes:
+        before = children_seconds()
         done = ceduo(mode, *arguments, path, cwd=folder.path, **options)
         expect(done.status == INPUT and done.out == "" and done.err != "", done)
+        expect(children_seconds() - before < 20, f"{children_seconds() - before:.1f} s of processor", done)
     return done
 
 

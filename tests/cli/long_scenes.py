@@ -6,7 +6,7 @@ import signal
 import subprocess
 import time
 
-from harness import CEDUO, PATIENCE, environment, expect, processor_seconds, scene, stand
+from harness import CEDUO, PATIENCE, children_seconds, environment, expect, processor_seconds, scene, stand
 
 
 def dense_trees(per_ha, **changes):
@@ -89,15 +89,15 @@ class Running:
 
     def end(self, tell):
         """Tells it to end and waits for it; how it ended, and the seconds of the clock and of processor that it still took."""
-        before, begin = processor_seconds(self.pid), time.monotonic()
+        before, begin = children_seconds() + processor_seconds(self.pid), time.monotonic()
         tell()
         while time.monotonic() < begin + PATIENCE:
             if self.fd is not None:
                 self.read(0.0005)
-            pid, status, used = os.wait4(self.pid, os.WNOHANG)
+            pid, status = os.waitpid(self.pid, os.WNOHANG)
             if pid:
                 self.pid = 0
-                return status, (time.monotonic() - begin, used.ru_utime + used.ru_stime - before)
+                return status, (time.monotonic() - begin, children_seconds() - before)
             time.sleep(0.0005)
         expect(False, f"still running {PATIENCE} s later")
 

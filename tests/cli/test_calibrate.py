@@ -7,8 +7,8 @@ import signal
 import subprocess
 from pathlib import Path
 
-from harness import (CEDUO, DONE, INPUT, OUTPUT, ROOT, SLOWER, USAGE, Folder, ceduo, environment, expect, expect_equal, expect_in, expect_near,
-                     good, processor_seconds, run_all, scene, stand)
+from harness import (CEDUO, DONE, INPUT, OUTPUT, ROOT, SLOWER, USAGE, Folder, ceduo, children_seconds, environment, expect, expect_equal, expect_in,
+                     expect_near, good, processor_seconds, run_all, scene, stand)
 
 GROUND = {"rn": 0.35, "rt": 0.88, "roughness_rad": 0.25, "friction": 0.5}
 # stops of 30 rocks on that ground, of seed 777: the same law, so that the fit must be able to give them
@@ -367,14 +367,11 @@ def interrupted(word, *arguments):
     shown = b""
     while not re.search(word, shown):
         shown += os.read(reads, 1000)
-    before = processor_seconds(child.pid)
-    os.kill(child.pid, signal.SIGINT)
-    out = child.stdout.read()
-    _, status, used = os.wait4(child.pid, 0)
-    child.returncode = os.waitstatus_to_exitcode(status)
-    child.stdout.close()
+    before = children_seconds() + processor_seconds(child.pid)
+    child.send_signal(signal.SIGINT)
+    out, _ = child.communicate()
     os.close(reads)
-    return out, child.returncode, used.ru_utime + used.ru_stime - before
+    return out, child.returncode, children_seconds() - before
 
 
 def test_interrupted():
