@@ -305,7 +305,8 @@ do-coverage:
 do-net: all $(T)/tables $(BUILD)/man/completion
 	@CC="$(CC)" tests/net.py --program $(PROGRAM) $(if $(BEFORE),--before '$(BEFORE)') $(if $(ONLY),--only '$(value ONLY)')
 
-DEBIAN_ALL := $(DEBIAN_FUZZ) gcc-aarch64-linux-gnu qemu-user valgrind slurmctld slurmd slurm-client munge chromium tidy poppler-utils
+DEBIAN_ALL := $(DEBIAN_FUZZ) gcc-aarch64-linux-gnu libc6-dev-arm64-cross qemu-user valgrind slurmctld slurmd slurm-client munge \
+	chromium tidy poppler-utils
 DEBIAN_BENCH := python3-numpy
 # All of it takes two and a half hours on two cores. Each part leaves a log with the name of the commit; those that have passed on
 # this commit are not run again. ONLY='threads memory': these alone. FULL: also what `make check` leaves out to be short.
