@@ -207,6 +207,25 @@ TEST(a_rock_that_is_given_up_has_arrived_before)
     }
 }
 
+/* The same of a rock that rolls, each contact a radius far: in wide groups most trees stand beside its way, so that it is given up
+ * between two that it hits, and within a radius. */
+TEST(a_rock_that_is_given_up_has_arrived_where_it_rolled)
+{
+    clear_plane(20000);
+    line_scene_release(&plane.line, 0, 0, 2e5, 0, 0);
+    struct ceduo_stems *trees = plant_trees(plant_belt(0, 20000, 0, 0), 4000, .01);
+    trees->group = 200;
+    trees->group_radius = 100;
+    sweep_one(0);
+    EXPECT_IS(sweep.way, (end, CEDUO_UNFINISHED), (stems_hit, sweep.count));
+    double before = fmax(sweep.stems[sweep.count - 1].x, (double)(sweep.way.contacts - 1) * (B / 2));
+    ROWS(EXPECT, (before, >, 10000), (sweep.way.x, >, before + 1e-6), (sweep.way.x, <, before + B / 2));
+    plane.line.scene.controls_count = 1;
+    plane.line.control = (struct ceduo_control){.x = (before + sweep.way.x) / 2, .accepted = NAN, .measured_speed = NAN};
+    LOCAL(ceduo_run, run) = run_option(&plane.line.scene, &plane.line.option, 1, 1, CEDUO_EXACT_BYTES);
+    EXPECT_IS(arrivals_of(run, 0), (reached, 1), (unfinished, 0));
+}
+
 /* Of blocks of all sizes the same by their weights; the error of the mean is what a regression on the weights leaves (Cochran
  * 1977), and what it spreads from seed to seed. */
 TEST(stems_hit_by_blocks)
