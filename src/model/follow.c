@@ -192,9 +192,12 @@ static void fill_in(struct changes *c, const char *key, const char *value)
 {
     ceduo_changes_add(c, "rock.%s=%s", key, value);
     const struct field *f = put_name(c, &c->filled, "rock", key);
-    bool list = value[0] == '['; /* whose commas stand between numbers */
-    const char *spoken = list ? value : ceduo_number_spoken(ceduo_arena_string(&c->d->file.arena, value));
-    ceduo_text_format(&c->filled, " %s %s", spoken, f ? f->unit : "");
+    char *spoken = ceduo_arena_string(&c->d->file.arena, value), *end = spoken;
+    for (const char *from = value; *from; from++) /* a list as forms show it: its commas would be taken for decimal ones */
+        if (!strchr("[],", *from))
+            *end++ = *from;
+    *end = '\0';
+    ceduo_text_format(&c->filled, " %s %s", ceduo_number_spoken(spoken), f ? f->unit : "");
 }
 
 /* ---- another shape ---- */

@@ -92,6 +92,13 @@ def test_names():
         expect("name: diradato\n    name_it" not in text and "name: diradato" in text, text)
 
 
+def test_sizes():
+    """What is said of another shape's sizes has commas in its numbers and none between them"""
+    with Place() as place:
+        (said,) = play(place.path, "key 3\nwait idle\nfind rock.shape\nkey Enter End Enter\ndump", "fast.yaml", "--language", "it")
+        expect(re.search(r"volume: assi 0,403 0,403 0,403 m;", said.note), said)
+
+
 def test_columns():
     """The rule beside the figures stands in one column, as in English"""
     for english, italian in both(VIEWS, "options.yaml"):
