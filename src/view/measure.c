@@ -137,7 +137,7 @@ void ceduo_measure_span(struct text *text, const struct ceduo_measure *m, double
 
 void ceduo_measure_may_be(struct text *text, const struct ceduo_measure *m)
 {
-    ceduo_measure_span(text, m, fmin(m->value, m->may_lo), fmax(m->value, m->may_hi));
+    ceduo_measure_span(text, m, fmin(fmin(m->value, m->lo), m->may_lo), fmax(fmax(m->value, m->hi), m->may_hi));
 }
 
 void ceduo_measure_error(struct text *text, const struct ceduo_measure *m, const char *between)

@@ -55,7 +55,7 @@ void ceduo_measure_interval(struct text *text, const struct ceduo_measure *m);
 /* The same, shorter, "480 ±27", or "480±27" with nothing between the two; of one rock, whose error is not known, "480". */
 void ceduo_measure_error(struct text *text, const struct ceduo_measure *m, const char *between);
 void ceduo_measure_span(struct text *text, const struct ceduo_measure *m, double lo, double hi);
-void ceduo_measure_may_be(struct text *text,
-                          const struct ceduo_measure *m); /* with the figure, which may lie outside by its error */
+/* By both errors: what may be true, and what the number of rocks leaves open, which doubt may be less than. */
+void ceduo_measure_may_be(struct text *text, const struct ceduo_measure *m);
 
 #endif

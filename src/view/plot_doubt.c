@@ -23,7 +23,7 @@ static void add_option(struct ceduo_page *page, const struct ceduo_measure *m, e
     if (isnan(m->may_lo))
         return;
     ceduo_text_put(text, " (");
-    ceduo_measure_may_be(text, m); /* a doubt less than the rocks' error holds it */
+    ceduo_measure_may_be(text, m);
     ceduo_text_char(text, ')');
 }
 

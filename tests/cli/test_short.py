@@ -3,6 +3,7 @@
 """The short page that --batch prints: the page of each scene that comes with the program as it is in pages/*.txt, its lines at any
 width, and that its figures are those of JSON and of --sensitivity. `test_short.py --write` writes pages/*.txt again: read them
 aloud, as who must sign them would."""
+import math
 import re
 import sys
 from pathlib import Path
@@ -71,14 +72,17 @@ def test_figures():
 
 
 def test_over_the_years():
-    """What may be true of the mean over the years stands beside that mean: the band is its own, with the mean, not with today's figure"""
+    """What may be true of the mean over the years stands beside that mean: the band is its own by both errors, not that of today"""
     figures = good("--sensitivity", "--years", "-f", "json", "-n", 100, "rotation").json()[0]["figures"]
     page = good("--batch", "--years", "-n", 100, "rotation").out
-    for name in ("simple coppice", "coppice with standards", "selection coppice", "large reserves"):
+    for option in result("--years", "-n", 100, "rotation")["options"]:
+        name, rocks = option["name"], option["rotation"]["exceed_probability"]
         doubt = next(f for f in figures if f["figure"] == "rotation.exceed_probability" and f["option"] == name and not f["against"])
         mean, *band = map(int, re.search(rf"^  {name} +(\d+) +(\d+)–(\d+) ", page, re.M).groups())
         lo, hi = (round(1000 * doubt[end]) for end in ("doubt_p5", "doubt_p95"))
-        expect_equal(band, [min(mean, lo), max(mean, hi)], name)
+        half = 1.959964 * rocks["se"]
+        expect_equal(mean, round(1000 * rocks["mean"]), name)
+        expect_equal(band, [min(math.floor(1000 * (rocks["mean"] - half)), lo), max(math.ceil(1000 * (rocks["mean"] + half)), hi)], name)
 
 
 def test_beside_the_threshold():

@@ -159,8 +159,8 @@ static void expect_answer(double share, double may_lo, double may_hi, size_t wid
     for (size_t i = 0; i < answer.figures_count; i++)
         figures[i].fit = (struct ceduo_surface_fit){.p5 = may_lo, .p95 = may_hi};
     *(isnan(scene.control.accepted) ? &arrivals[0].reach_probability : &arrivals[0].exceed_probability) = share;
-    arrivals[0].exceed_lo = share - .01;
-    arrivals[0].exceed_hi = share + .01;
+    arrivals[0].reach_lo = arrivals[0].exceed_lo = fmax(0, share - .01);
+    arrivals[0].reach_hi = arrivals[0].exceed_hi = share + .01;
     LOCAL(ceduo_result, result) = assess();
     ceduo_words_answer(&text, result, 0, 0, &doubt, width);
     assert_string_equal(ceduo_text_string(&text), wanted);
