@@ -65,9 +65,28 @@ bool ceduo_index_hangs_on_thin(const struct ceduo_index *index);
  * said what is too much, and where it hangs on rocks that never came to an end. */
 enum ceduo_light ceduo_energy_light(const struct ceduo_arrivals *arrivals);
 
+/* Beyond these a warning asks to check the ground: mean speed (m/s) and 95th percentile of the height (m) at a control. Assumed. */
+#define CEDUO_SPEED_USUAL  35.0
+#define CEDUO_HEIGHT_USUAL 10.0
+
 /* Whether nothing can be said of a forest: even without it no rock arrives, or fewer than one of CEDUO_ARRIVE_LEAST released
- * where that many were simulated. Rocks that never came to an end may arrive. False where none was simulated. */
+ * where that many were simulated, or the ground contradicts the terrain (CEDUO_TERRAIN_CONTRADICTS). Rocks that never came to
+ * an end may arrive. False where none was simulated. */
 bool ceduo_says_nothing(const struct ceduo_arrivals *bare);
+
+/* What arrives without forest beside how the place lies. Rocks usually reach places that lie this steeply below the release or
+ * below the foot of a face, and rarely places as flat as that; Evans and Hungr (1993) suggest 27.5 degrees as the smallest shadow
+ * angle. The limits are assumed. */
+#define CEDUO_REACH_STEEP  35.0 /* degrees */
+#define CEDUO_SHADOW_STEEP 32.0
+#define CEDUO_SHADOW_FLAT  24.0
+#define CEDUO_ARRIVE_FEW   0.01 /* share of the released that is few at a steep place, */
+#define CEDUO_ARRIVE_MANY  0.1  /* and many at a flat one */
+#define CEDUO_BENCH_LENGTH 10.0 /* m: a bench or ditch of this length may well hold rocks */
+enum ceduo_terrain { CEDUO_TERRAIN_AGREES, CEDUO_TERRAIN_CONTRADICTS, CEDUO_TERRAIN_BENCH, CEDUO_TERRAIN_FAR };
+/* AGREES: nothing is unusual, or no rock was simulated. CONTRADICTS: few arrive at a steep place. BENCH: likewise, but a bench lies
+ * before it. FAR: many arrive at a flat place. */
+enum ceduo_terrain ceduo_terrain(const struct ceduo_arrivals *bare);
 
 /* Does the forest keep rocks with too much energy to at most CEDUO_EXCEED_MOST of the released? By one energy law and with the
  * error of the rocks alone; unanswered without an accepted energy, and where what arrives through the forest is not known

@@ -5,15 +5,17 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/* A row of the library of grounds: the means of published ranges. Friction is not part of the sources: assumed. */
+/* A ground of the library. Restitutions are the means of published ranges. Roughness and friction are assumed: no source has
+ * them for a rock that keeps its motion while it rolls; they follow two bare field sites (ceduo-validation(7)). */
 struct ceduo_material {
     const char *name;
     const char *what; /* it is, marked for translation */
     double rn, rn_lo, rn_hi;
     double rt, rt_lo, rt_hi;
-    double roughness_rad; /* assumed: the sources give none */
-    double mu;            /* likewise, for the law arm */
-    bool literature;      /* false: an assumption of ours */
+    double roughness, roughness_lo, roughness_hi; /* m: the height S of CRSP */
+    double friction, friction_lo, friction_hi;    /* tan of the angle of friction */
+    double mu;                                    /* Coulomb's, for the law arm; assumed */
+    bool literature;                              /* false: an assumption of ours */
     const char *source;
 };
 

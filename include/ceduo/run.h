@@ -73,9 +73,10 @@ struct ceduo_arrivals {
     double energy_per_released, energy_per_released_se;           /* J */
     double top_p95; /* m: 95th percentile of the height of the rocks' tops above the ground, their underside's and their mean
                      * diameter; NaN where the scene asks for no design values, or sizes differ and samples are not kept */
-    double contacts, contacts_se; /* with stems, of those that reached; NaN: bare run */
-    struct ceduo_hazard hazard;   /* where the scene has blocks */
-    bool exact;                   /* percentiles from every sample */
+    double contacts, contacts_se;       /* with stems, of those that reached; NaN: bare run */
+    struct ceduo_hazard hazard;         /* where the scene has blocks */
+    struct ceduo_topography topography; /* of the control */
+    bool exact;                         /* percentiles from every sample */
 };
 
 /* CEDUO_NO_MEMORY or CEDUO_OK. `control` counts in the scene's order. */

@@ -74,10 +74,11 @@ struct ceduo_simulation {
     uint64_t seed;  /* 0…2^53 */
     enum ceduo_contact_model contact_model;
     enum ceduo_rule rule;
-    double threshold;   /* m */
-    double contact_dbh; /* m: ADC, free run and index count stems from this dbh on */
-    double gravity;     /* m/s2 */
-    bool scale_rn;      /* lumped: Rn divided by 1 + (Vn/9.144 m/s)2 */
+    double threshold;    /* m */
+    double contact_dbh;  /* m: ADC, free run and index count stems from this dbh on */
+    double gravity;      /* m/s2 */
+    bool scale_rn;       /* lumped: Rn divided by 1 + (Vn/9.144 m/s)2 */
+    bool friction_bound; /* friction limits what impacts and rolling lose along the ground; false: the published laws */
 };
 
 /* Blocks of some sizes that come down. Number above a volume v goes with v^-exponent, cut at the largest; 0: as many in

@@ -33,13 +33,32 @@ struct ceduo_segment {
  * `origin_x`, `origin_z` are what was taken off. */
 struct ceduo_slope {
     enum ceduo_facets facets;
-    size_t vertices;                /* >= 2 */
+    size_t vertices;                /* >= 2; of the profile that is simulated */
     double *x, *z;                  /* m, x strictly increasing */
     struct ceduo_segment *segments; /* vertices - 1 */
+    double tolerance;               /* m, >= 0: distance within which points of the profile are left out; 0: none is */
+    double simplified_to;           /* the tolerance that x, z were made with; 0: they are all points, */
+    double simplified_at;           /* and the place of the release that was kept, m */
+    size_t points;                  /* of the profile before that; 0: x, z are all that is known */
+    double *points_x, *points_z;    /* likewise, relative as x, z */
     size_t segments_given;          /* as the files have them: 1 is for all; 0: they follow from something else */
     bool reversed;                  /* its file has it upward: it was mirrored as it was read, with its ground */
     double origin_x, origin_z;
 };
+
+/* The tolerance of a profile whose ground comes from the library, m: the roughness of such a ground stands for smaller relief.
+ * Assumed. */
+#define CEDUO_SLOPE_TOLERANCE 0.5
+
+/* Simplify a profile to slope->tolerance (Douglas and Peucker 1973, perpendicular distance). Vertices between different grounds,
+ * the place `release_x`, and both ends are kept.
+ * `to`: a copy whose x, z and segments are its own; x is NULL if the profile is simplified already: use `slope` itself.
+ * Free it by ceduo_slope_simplified_free() in either case. Return CEDUO_NO_MEMORY or CEDUO_OK. */
+enum ceduo_status ceduo_slope_simplify(const struct ceduo_slope *slope, double release_x, struct ceduo_slope *to);
+void ceduo_slope_simplified_free(struct ceduo_slope *slope);
+
+/* True if two segments have the same ground. */
+bool ceduo_segment_same(const struct ceduo_segment *a, const struct ceduo_segment *b);
 
 /* Friction by default; restitution and roughness are not known. */
 struct ceduo_segment ceduo_segment_default(void);
@@ -59,6 +78,21 @@ double ceduo_slope_fall(const struct ceduo_slope *slope, double x);
 /* Where rocks are likely to start: the upper end of the first segment that falls by more than CEDUO_FACE_FALL. NaN: there is none. */
 #define CEDUO_FACE_FALL 1.0 /* metres down for each along, 45 degrees: more than any scree; assumed */
 double ceduo_slope_face(const struct ceduo_slope *slope);
+
+/* How a place lies below the release. Angles are inclinations of straight lines, rad, > 0 if the place lies lower. */
+struct ceduo_topography {
+    double reach;  /* from the release */
+    double shadow; /* from the foot of the face; NaN: there is no face between */
+    double foot;   /* m, relative; NaN likewise */
+    double bench;  /* m: longest stretch of at most CEDUO_BENCH_INCLINATION between foot (or release) and place; 0: none */
+};
+#define CEDUO_FACE_LENGTH       5.0   /* m of ground: a face is as long at least, and steeper than CEDUO_FACE_FALL throughout */
+#define CEDUO_BENCH_INCLINATION 0.268 /* metres down for each along, 15 degrees; ground that rises is flat, too */
+
+/* Topography of the place x beyond `release_x`, where rocks start `release_height` above the ground (m, relative). The foot is the
+ * lower end of the last face (Evans and Hungr 1993 measure the shadow angle from there, the top of the talus). */
+struct ceduo_topography ceduo_slope_topography(const struct ceduo_slope *slope, double release_x, double release_height,
+                                               double x);
 
 /* CEDUO_BAD_SLOPE where it is not as described above. */
 enum ceduo_status ceduo_slope_check(const struct ceduo_slope *slope);

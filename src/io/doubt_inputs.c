@@ -180,7 +180,7 @@ size_t ceduo_input_ground(struct arena *arena, const struct node *root, const st
 
 static void add_ground(struct finder *f, const struct ceduo_material *m)
 {
-    static const char *const keys[] = {"rn", "rt", "roughness_rad", "friction", "mu"};
+    static const char *const keys[] = {"rn", "rt", "roughness_m", "friction", "mu"};
     const struct scene_file *file = f->file;
     const char **places = ceduo_arena_take(f->arena, file->scene.slope.vertices * sizeof *places);
     for (size_t k = 0; places && k < sizeof keys / sizeof keys[0]; k++) {

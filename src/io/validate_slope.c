@@ -5,10 +5,13 @@
 #include <string.h>
 
 #include "base/language.h"
+#include "base/must.h"
 #include "csv.h"
 #include "resolve.h"
 #include "scene_file.h"
 #include "validator.h"
+
+#define TOLERANCE "slope.tolerance_m"
 
 /* ---- the profile ---- */
 
@@ -69,7 +72,9 @@ static bool make_vertices(struct validator *v, const struct points *p, size_t ex
     s->z = ceduo_room(v, p->n + extra, sizeof(double));
     if (!s->x || !s->z)
         return false;
-    s->vertices = p->n;
+    s->vertices = s->points = p->n;
+    s->points_x = s->x;
+    s->points_z = s->z;
     s->origin_x = p->x[0];
     s->origin_z = s->reversed ? p->z[last] : p->z[0];
     for (size_t i = 0; i < p->n; i++) {
@@ -146,7 +151,9 @@ static struct ceduo_segment segment_of(const struct ceduo_material *row)
     struct ceduo_segment segment = ceduo_segment_default();
     segment.rn = ceduo_number(row->rn);
     segment.rt = ceduo_number(row->rt);
-    segment.roughness_rad = row->roughness_rad;
+    segment.roughness_m = row->roughness;
+    segment.roughness_rad = NAN;
+    segment.friction = row->friction;
     segment.mu = row->mu;
     return segment;
 }
@@ -177,6 +184,14 @@ static void make_materials(struct validator *v)
             rows[i] =
                 (struct material_belt){ceduo_slope_mirrored(s, row->to), ceduo_slope_mirrored(s, row->from), row->material};
         }
+    if (n > 1) { /* the points of the file stay beside the borders of the grounds */
+        s->points_x = ceduo_room(v, s->points, sizeof(double));
+        s->points_z = ceduo_room(v, s->points, sizeof(double));
+        if (!s->points_x || !s->points_z)
+            return;
+        memcpy(s->points_x, s->x, s->points * sizeof(double));
+        memcpy(s->points_z, s->z, s->points * sizeof(double));
+    }
     for (size_t i = 1; rows && i < n; i++)
         split_at(s, rows[i].from - v->origin);
     s->segments = rows ? ceduo_room(v, s->vertices - 1, sizeof *s->segments) : NULL;
@@ -273,4 +288,40 @@ void ceduo_validate_slope(struct validator *v)
     }
     if (s->segments && ceduo_slope_check(s) != CEDUO_OK)
         ceduo_complain(v, "slope", "", _("two vertices lie too close together for their distance from the first"));
+    bool each = segments && s->segments_given > 1;
+    if (each && s->tolerance > 0)
+        ceduo_complain(
+            v, "slope.tolerance_m", "",
+            _("each stretch between two points has a ground of its own here; remove 'tolerance_m', or give one ground "
+              "for all, or 'materials'"));
+    if (!isnan(s->tolerance))
+        return;
+    s->tolerance = segments ? 0 : CEDUO_SLOPE_TOLERANCE;
+    if (!segments)
+        ceduo_assume(v, TOLERANCE, ceduo_format(v, _("profile simplified to %g m"), s->tolerance));
+}
+
+void ceduo_simplify_slope(struct validator *v)
+{
+    struct ceduo_slope *s = &v->draft.scene.slope, to;
+    if (!v->profile || !s->segments || !ceduo_is_sound(v, "slope") || !ceduo_is_sound(v, "release.x_m"))
+        return;
+    if (ceduo_slope_simplify(s, v->draft.scene.release.x.mean, &to) != CEDUO_OK)
+        ceduo_no_memory();
+    if (!to.x)
+        return;
+    double *x = ceduo_room(v, to.vertices, sizeof *x), *z = ceduo_room(v, to.vertices, sizeof *z);
+    struct ceduo_segment *segments = ceduo_room(v, to.vertices - 1, sizeof *segments);
+    if (x && z && segments) {
+        memcpy(x, to.x, to.vertices * sizeof *x);
+        memcpy(z, to.z, to.vertices * sizeof *z);
+        memcpy(segments, to.segments, (to.vertices - 1) * sizeof *segments);
+        s->vertices = to.vertices;
+        s->x = x;
+        s->z = z;
+        s->segments = segments;
+        s->simplified_to = to.simplified_to;
+        s->simplified_at = to.simplified_at;
+    }
+    ceduo_slope_simplified_free(&to);
 }

@@ -35,7 +35,8 @@ bool ceduo_validate(struct validator *v);
 void ceduo_validate_rock(struct validator *v, const char *path, const struct ceduo_rock_def *def);
 void ceduo_validate_blocks(struct validator *v);
 void ceduo_validate_slope(struct validator *v);
-double ceduo_validate_end(void *validator); /* the last x of the profile, before it is validated; NaN: not known */
+void ceduo_simplify_slope(struct validator *v); /* requires the release, which stays a vertex */
+double ceduo_validate_end(void *validator);     /* the last x of the profile, before it is validated; NaN: not known */
 void ceduo_validate_release(struct validator *v, const char *path, struct ceduo_release *release);
 void ceduo_validate_controls(struct validator *v);
 void ceduo_validate_options(struct validator *v);

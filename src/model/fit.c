@@ -32,7 +32,7 @@ static void offer(const struct scene_file *file, struct fit_request *to, const c
     strcpy(value->path, path);
 }
 
-static const char *const keys[] = {"rn", "rt", "roughness_rad", "friction"};
+static const char *const keys[] = {"rn", "rt", "roughness_m", "friction"};
 #define KEYS (sizeof keys / sizeof keys[0])
 
 /* What the values that the scene has may be, by their own row of ranges. */
@@ -56,12 +56,12 @@ static struct range range_around(const struct scene_file *file, const char *key)
 
 /* The ground of all stretches as one (rows NULL), or each of the library that the scene names. What the one is, is known where
  * nothing was said of it: talus; otherwise it may be all that the library has, and what is near the scene's own values. Roughness as
- * a length has no library. */
+ * an angle has no library. */
 static void offer_ground(const struct scene_file *file, const struct node *rows, struct fit_request *to)
 {
     size_t n;
     const struct ceduo_material *library = ceduo_materials(&n);
-    bool length = !rows && !isnan(file->scene.slope.segments[0].roughness_m);
+    bool angle = !rows && isnan(file->scene.slope.segments[0].roughness_m);
     for (size_t m = 0; m < (rows ? n : 1); m++) {
         bool there = !rows;
         for (size_t i = 0; rows && i < rows->n; i++) {
@@ -69,7 +69,7 @@ static void offer_ground(const struct scene_file *file, const struct node *rows,
             there |= name && ceduo_choice_find(&ceduo_material_words, name) == (int)m;
         }
         for (size_t k = 0; there && k < KEYS; k++) {
-            const char *key = k == 2 && length ? "roughness_m" : keys[k];
+            const char *key = k == 2 && angle ? "roughness_rad" : keys[k];
             char path[FIT_PATH_ROOM];
             struct range range = rows                   ? ceduo_range_of_material(&library[m], key)
                                  : file->ground_assumed ? ceduo_range_of_material(ceduo_material_talus(), key)

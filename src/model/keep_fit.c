@@ -20,7 +20,8 @@ static void put_number(struct text *t, const char *before, double value)
 
 static void add_ground(struct changes *c, const struct document *d)
 {
-    static const char *const keys[] = {"materials", "csv", "reversed"}; /* vertices are written as they lie now */
+    static const char *const keys[] = {"materials", "csv", "reversed",
+                                       "tolerance_m"}; /* vertices are written as they are simulated */
     const struct ceduo_slope *s = &d->file.scene.slope;
     LOCAL_TEXT(vertices);
     LOCAL_TEXT(segments);

@@ -98,6 +98,10 @@ static const struct field slope_fields[] = {
           N_("the ground from the library, instead of segments"), &material_object),
     OTHER(FIELD_FILE, "csv", NAMED(N_("file")), NOWHERE, FIELD_NOWHERE, NULL,
           N_("the profile from a CSV file with distance and elevation, instead of vertices_m"), NULL, NULL),
+    NUMBER(
+        "tolerance_m", NAMED(N_("simplify to, m")), AT(ceduo_slope, tolerance), "m", 0, 100, 0, NULL,
+        N_("distance within which points of the profile are left out: the roughness of the ground stands for smaller relief; "
+           "without it 0.5 for ground from the library, an assumption, and 0, all points, for segments")),
     OTHER(FIELD_FLAG, "reversed", NAMED(N_("drawn upward")), AT(ceduo_slope, reversed), 0, "false",
           N_("whether the profile is drawn upward: it is mirrored with its segments or materials, so that x begins at its top; "
              "places in the scene are of the mirrored profile"),
@@ -396,7 +400,7 @@ static const struct field control_fields[] = {
 static const struct object control_object = OBJECT(ceduo_control, control_fields, NULL);
 
 static const struct field simulation_fields[] = {
-    WORD("law", NAMED(N_("law of impact")), AT(ceduo_simulation, law), 0, "lumped", N_("law of an impact on the ground"),
+    WORD("law", NAMED(N_("law of impact")), AT(ceduo_simulation, law), 0, "crsp", N_("law of an impact on the ground"),
          &ceduo_law_words),
     NUM(FIELD_COUNT, "rocks", NAMED(N_("rocks (batch)")), AT(ceduo_simulation, rocks), "", 1, 1, CEDUO_ROCKS_MOST,
         NO_RUN | FIELD_SETTLED, "1000", N_("rocks simulated")),
@@ -419,6 +423,11 @@ static const struct field simulation_fields[] = {
            STRING(CEDUO_GRAVITY), N_("acceleration of gravity")),
     OTHER(FIELD_FLAG, "scale_rn", NAMED(N_("Rn by speed")), AT(ceduo_simulation, scale_rn), 0, "false",
           N_("lumped: Rn falls with the speed of the impact, as in CRSP"), NULL, NULL),
+    OTHER(FIELD_FLAG, "friction_bound", NAMED(N_("friction bound")), AT(ceduo_simulation, friction_bound), 0, "true",
+          N_("limit the tangential loss of an impact to friction times its normal impulse, and let rolling rocks lose to "
+             "friction "
+             "alone; false: the published laws"),
+          NULL, NULL),
 };
 static const struct object simulation_object = OBJECT(ceduo_simulation, simulation_fields, NULL);
 

@@ -28,6 +28,7 @@ static const struct range ranges[] = {
     ROW(FACTOR, SEGMENT "roughness_m", 0.5, 1.5, ASSUMED, N_("heights of the stones on the slope")),
     ROW(RANGE, SEGMENT "friction", 0.3, 0.8, ASSUMED, N_("stops of past rocks")),
     ROW(RANGE, SEGMENT "mu", 0.4, 0.9, ASSUMED, N_("stops of past rocks")),
+    ROW(RANGE, "slope.tolerance_m", 0.25, 1, ASSUMED, NULL),
     ROW(FACTOR, STAND "stools.per_ha", 0.85, 1.15, PLOTS, N_("more sample plots")),
     ROW(FACTOR, STAND "shoots[0].per_stool", 0.85, 1.15, PLOTS, N_("more sample plots")),
     ROW(FACTOR, STEMS "per_ha", 0.85, 1.15, PLOTS, N_("more sample plots")),
@@ -65,15 +66,17 @@ const struct range *ceduo_range_of(const struct field *field)
 
 struct range ceduo_range_of_material(const struct ceduo_material *m, const char *key)
 {
-    if (strcmp(key, "rn") == 0)
-        return (struct range){NULL, CEDUO_INPUT_RANGE, m->rn_lo, m->rn_hi, {0}, m->source, NULL};
-    if (strcmp(key, "rt") == 0)
-        return (struct range){NULL, CEDUO_INPUT_RANGE, m->rt_lo, m->rt_hi, {0}, m->source, NULL};
-    struct range r = *ceduo_range_of(ceduo_schema_field(ceduo_schema_segment(), key));
-    if (strcmp(key, "roughness_rad") == 0) {
-        r.lo *= m->roughness_rad;
-        r.hi *= m->roughness_rad;
-        r.kind = CEDUO_INPUT_RANGE;
-    }
-    return r;
+    const struct {
+        const char *key, *source;
+        double lo, hi;
+    } of_ground[] = {{"rn", m->source, m->rn_lo, m->rn_hi},
+                     {"rt", m->source, m->rt_lo, m->rt_hi},
+                     {"roughness_m", ASSUMED, m->roughness_lo, m->roughness_hi},
+                     {"friction", ASSUMED, m->friction_lo, m->friction_hi}};
+    const struct range *r = ceduo_range_of(ceduo_schema_field(ceduo_schema_segment(), key));
+    for (size_t i = 0; i < sizeof of_ground / sizeof of_ground[0]; i++)
+        if (strcmp(key, of_ground[i].key) == 0)
+            return (struct range){NULL, CEDUO_INPUT_RANGE,   of_ground[i].lo, of_ground[i].hi,
+                                  {0},  of_ground[i].source, r->measured};
+    return *r;
 }

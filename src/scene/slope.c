@@ -3,6 +3,10 @@
 
 #include <gsl/gsl_interp.h>
 #include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/elementary.h"
 
 size_t ceduo_slope_segment(const struct ceduo_slope *slope, double x)
 {
@@ -39,6 +43,173 @@ double ceduo_slope_face(const struct ceduo_slope *slope)
         if (fall(slope, j) > CEDUO_FACE_FALL)
             return slope->x[j];
     return NAN;
+}
+
+/* ---- topography ---- */
+
+/* Where the last face ends in (from, to]. */
+static double foot_between(const struct ceduo_slope *s, double from, double to)
+{
+    double foot = NAN, length = 0; /* of the segments before, all of which are steep */
+    for (size_t j = 0; j + 1 < s->vertices && s->x[j + 1] <= to; j++) {
+        double dx = s->x[j + 1] - s->x[j], dz = s->z[j + 1] - s->z[j];
+        length = fall(s, j) > CEDUO_FACE_FALL ? length + sqrt(dx * dx + dz * dz) : 0;
+        if (length >= CEDUO_FACE_LENGTH && s->x[j + 1] > from)
+            foot = s->x[j + 1];
+    }
+    return foot;
+}
+
+static double longest_bench(const struct ceduo_slope *s, double from, double to)
+{
+    double longest = 0, length = 0;
+    for (size_t j = 0; j + 1 < s->vertices; j++) {
+        double a = fmax(s->x[j], from), b = fmin(s->x[j + 1], to);
+        if (!(b > a))
+            continue;
+        length = fall(s, j) <= CEDUO_BENCH_INCLINATION ? length + (b - a) : 0;
+        longest = fmax(longest, length);
+    }
+    return longest;
+}
+
+struct ceduo_topography ceduo_slope_topography(const struct ceduo_slope *slope, double release_x, double release_height,
+                                               double x)
+{
+    double z = ceduo_slope_height(slope, x), start = ceduo_slope_height(slope, release_x) + release_height;
+    double foot = foot_between(slope, release_x, x);
+    struct ceduo_topography t = {.reach = ceduo_atan((start - z) / (x - release_x)), .shadow = NAN, .foot = foot};
+    if (foot < x)
+        t.shadow = ceduo_atan((ceduo_slope_height(slope, foot) - z) / (x - foot));
+    t.bench = longest_bench(slope, isnan(foot) ? release_x : foot, x);
+    return t;
+}
+
+/* ---- simplification ---- */
+
+static bool same_number(struct ceduo_number a, struct ceduo_number b)
+{
+    return a.mean == b.mean && a.spread == b.spread && (a.kind == b.kind || a.spread == 0);
+}
+
+bool ceduo_segment_same(const struct ceduo_segment *a, const struct ceduo_segment *b)
+{
+    bool roughness = isnan(a->roughness_m) ? isnan(b->roughness_m) && a->roughness_rad == b->roughness_rad
+                                           : a->roughness_m == b->roughness_m;
+    return roughness && a->friction == b->friction && a->mu == b->mu && same_number(a->rn, b->rn) && same_number(a->rt, b->rt);
+}
+
+/* A profile under work: all its points, and which of them are kept. */
+struct points {
+    size_t n;
+    double *x, *z;
+    bool *kept;
+};
+
+/* Keep the point at x; insert it into its segment if there is none. */
+static void keep_at(struct points *p, double x)
+{
+    if (!(x >= p->x[0]) || !(x <= p->x[p->n - 1]))
+        return;
+    size_t i = gsl_interp_bsearch(p->x, x, 0, p->n - 1);
+    double share = (x - p->x[i]) / (p->x[i + 1] - p->x[i]);
+    if (share > 0 && share < 1) {
+        double z = p->z[i] + share * (p->z[i + 1] - p->z[i]);
+        size_t after = p->n - ++i;
+        memmove(p->x + i + 1, p->x + i, after * sizeof *p->x);
+        memmove(p->z + i + 1, p->z + i, after * sizeof *p->z);
+        memmove(p->kept + i + 1, p->kept + i, after * sizeof *p->kept);
+        p->x[i] = x;
+        p->z[i] = z;
+        p->n++;
+    } else if (share > 0) {
+        i++;
+    }
+    p->kept[i] = true;
+}
+
+/* Keep the point farthest from the line between two kept ones if it is farther than `tolerance`, and so on on both sides.
+ * `stack`: capacity for the places of all points. */
+static void keep_far(struct points *p, double tolerance, size_t *stack)
+{
+    size_t depth = 0, from = 0;
+    for (size_t i = p->n - 1; i > 0; i--)
+        if (p->kept[i])
+            stack[depth++] = i;
+    while (depth > 0) {
+        size_t to = stack[depth - 1], far = from;
+        double dx = p->x[to] - p->x[from], dz = p->z[to] - p->z[from], most = tolerance * sqrt(dx * dx + dz * dz);
+        for (size_t i = from + 1; i < to; i++) {
+            double off = fabs((p->z[i] - p->z[from]) * dx - (p->x[i] - p->x[from]) * dz);
+            if (off > most) {
+                most = off;
+                far = i;
+            }
+        }
+        if (far > from) {
+            p->kept[far] = true;
+            stack[depth++] = far;
+        } else {
+            from = to;
+            depth--;
+        }
+    }
+}
+
+enum ceduo_status ceduo_slope_simplify(const struct ceduo_slope *slope, double release_x, struct ceduo_slope *to)
+{
+    *to = *slope;
+    to->x = to->z = NULL;
+    to->segments = NULL;
+    bool as_it_is = slope->tolerance == 0 || slope->simplified_at == release_x;
+    if (slope->tolerance == slope->simplified_to && as_it_is)
+        return CEDUO_OK;
+    bool known = slope->points > 0;
+    size_t n = known ? slope->points : slope->vertices, capacity = n + slope->vertices + 1;
+    const double *x = known ? slope->points_x : slope->x, *z = known ? slope->points_z : slope->z;
+    struct points p = {.n = n};
+    p.x = to->x = malloc(capacity * sizeof *to->x);
+    p.z = to->z = malloc(capacity * sizeof *to->z);
+    to->segments = malloc(capacity * sizeof *to->segments);
+    p.kept = calloc(capacity, sizeof *p.kept);
+    size_t *stack = malloc(capacity * sizeof *stack);
+    bool good = p.x && p.z && to->segments && p.kept && stack;
+    if (good) {
+        memcpy(p.x, x, n * sizeof *x);
+        memcpy(p.z, z, n * sizeof *z);
+        p.kept[0] = p.kept[n - 1] = true;
+        keep_at(&p, release_x);
+        for (size_t j = 1; j + 1 < slope->vertices; j++)
+            if (!ceduo_segment_same(&slope->segments[j - 1], &slope->segments[j]))
+                keep_at(&p, slope->x[j]);
+        if (slope->tolerance > 0)
+            keep_far(&p, slope->tolerance, stack);
+        to->vertices = 0;
+        for (size_t i = 0; i < p.n; i++)
+            if (p.kept[i] || slope->tolerance == 0) {
+                to->x[to->vertices] = p.x[i];
+                to->z[to->vertices++] = p.z[i];
+            }
+        for (size_t j = 0; j + 1 < to->vertices; j++)
+            to->segments[j] = slope->segments[ceduo_slope_segment(slope, (to->x[j] + to->x[j + 1]) / 2)];
+        to->simplified_to = slope->tolerance;
+        to->simplified_at = release_x;
+    }
+    free(p.kept);
+    free(stack);
+    if (good)
+        return CEDUO_OK;
+    ceduo_slope_simplified_free(to);
+    return CEDUO_NO_MEMORY;
+}
+
+void ceduo_slope_simplified_free(struct ceduo_slope *slope)
+{
+    free(slope->x);
+    free(slope->z);
+    free(slope->segments);
+    slope->x = slope->z = NULL;
+    slope->segments = NULL;
 }
 
 enum ceduo_status ceduo_slope_check(const struct ceduo_slope *slope)

@@ -121,7 +121,8 @@ static bool find_number(struct finder *f, const struct field *field, struct valu
         v->at = next_index(f, n, &i) ? items + i * sizeof(double) : NULL;
         return v->at && f->at == f->length;
     case FIELD_POINTS: /* materials may have put vertices of their own between; all is relative to the first x */
-        if (s->segments_given == 0 || !next_index(f, s->vertices, &i) || !next_index(f, 2, &n) || (n == 0 && i == 0))
+        if (s->segments_given == 0 || s->simplified_to > 0 || !next_index(f, s->vertices, &i) || !next_index(f, 2, &n) ||
+            (n == 0 && i == 0))
             return false;
         v->at = n == 0 ? &s->x[i] : &s->z[i];
         v->origin = n == 0 ? s->origin_x : s->origin_z;

@@ -163,7 +163,8 @@ static void preview_word(struct app *app, struct popup *p)
     const struct field *f = ceduo_schema_at(p->path);
     int i = f && f->choices == &ceduo_material_words ? ceduo_choice_find(f->choices, p->value) : -1;
     if (i >= 0)
-        ceduo_text_format(&p->text, _("Rn %.3g, Rt %.3g; %s\n"), rows[i].rn, rows[i].rt, rows[i].source);
+        ceduo_text_format(&p->text, _("Rn %.3g, Rt %.3g (%s), roughness %.3g m, friction %.3g\n"), rows[i].rn, rows[i].rt,
+                          rows[i].source, rows[i].roughness, rows[i].friction);
     append_change(app, p);
 }
 

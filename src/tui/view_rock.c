@@ -20,7 +20,8 @@ static void build(struct app *app, struct form *form)
     ceduo_form_fields(form, "release.", "x_m height_m vx_m_s vz_m_s spin_rad_s");
     ceduo_form_rest(form, "release");
     ceduo_form_heading(form, _("Simulation"));
-    ceduo_form_fields(form, "simulation.", "law contact_model rule threshold_m scale_rn gravity_m_s2 seed rocks");
+    ceduo_form_fields(form, "simulation.",
+                      "law contact_model rule threshold_m scale_rn friction_bound gravity_m_s2 seed rocks");
     ceduo_form_rest(form, "simulation");
     const struct node *blocks = ceduo_document_node(&app->document, "blocks"); /* a power law, or a list of classes */
     ceduo_form_heading(form, _("Blocks that come down"));

@@ -39,6 +39,7 @@ static void build(struct app *app, struct form *form)
             ceduo_app_format(app, "rn %s %s friction", arm ? "mu" : "rt", by_height ? "roughness_m" : "roughness_rad"));
     } else {
         ceduo_form_table(form, "slope.materials", NULL, "from_m to_m material");
+        ceduo_form_field(form, "slope.tolerance_m", NULL);
     }
     if (!vertices) {
         ceduo_form_heading(form, _("Profile: from a CSV file"));

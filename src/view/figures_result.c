@@ -64,6 +64,7 @@ static const struct ceduo_stand_result *belt_result(const struct ceduo_place *p)
 OBJECT(report_of, place, o->report)
 OBJECT(scene_of, place, result_of(o)->scene)
 OBJECT(rock_of, place, &result_of(o)->rock)
+OBJECT(slope_of, place, &result_of(o)->scene->slope)
 OBJECT(year_of, place, o->year)
 OBJECT(option_of, place, &result_of(o)->scene->options[o->option])
 OBJECT(first_option_of, place, &result_of(o)->scene->options[0])
@@ -74,6 +75,7 @@ OBJECT(control_of, place, &result_of(o)->scene->controls[o->control])
 OBJECT(index_of, place, &indices_of(o)[o->control])
 OBJECT(last_index_of, place, &indices_of(o)[result_of(o)->last_control])
 OBJECT(bare_of, place, &result_of(o)->bare.arrivals[o->control])
+OBJECT(topography_of, place, &result_of(o)->bare.arrivals[o->control].topography)
 OBJECT(wooded_of, place, through_the_wood(o))
 OBJECT(other_of, place, other_law(o))
 OBJECT(flown_of, place, wood_of(o))
@@ -167,6 +169,8 @@ VALUE(format_of, place, TEXT, WORD("ceduo-result-1"))
 VALUE(version_of, place, TEXT, WORD(CEDUO_VERSION))
 VALUE(path_of, report, TEXT, WORD(o->file->name))
 VALUE(rocks_of, report, COUNT, COUNT(o->rocks_asked > 0 ? o->rocks_asked : ceduo_result_rocks(o->result)))
+VALUE(points_of, slope, COUNT, COUNT(o->points > 0 ? o->points : o->vertices))
+VALUE(used_of, slope, COUNT, COUNT(o->vertices))
 VALUE(law_of, scene, TEXT, WORD(ceduo_law_words.names[o->simulation.law]))
 VALUE(accepted_of, control, NUMBER, NUMBER(ceduo_words_accepted(o)))
 VALUE(reached_of, arrivals, COUNT, isnan(o->reach_probability) ? NOTHING : COUNT(o->reached))
@@ -401,10 +405,18 @@ static const struct ceduo_figure verdict[] = {
     {"because", "", "why, in a sentence", .say = say_because, .one = true},
     END};
 
+#define DEGREES (180 / M_PI)
+static const struct ceduo_figure topography[] = {
+    {"reach_angle_deg", "deg", "inclination of the line from the release", AT(topography, reach), .scale = DEGREES},
+    {"shadow_angle_deg", "deg", "inclination of the line from the foot of the face", AT(topography, shadow), .scale = DEGREES,
+     .null = "no ground steeper than 45 degrees over 5 m lies between release and control"},
+    END};
+
 static const struct ceduo_figure control[] = {
     {"x_m", "m", "as in the scene", .from = control_of, AT(control, x_given)},
     {"name", "", "as in the scene", .from = control_of, AT(control, name_given), .null = "the control has none"},
     {"accepted_kJ", "kJ", "as in the scene", .from = control_of, .value = accepted_of, .null = "the control has none"},
+    {"topography", "", "how the control lies below the release", .from = topography_of, .of = topography},
     {"bare", "", "what arrives without forest", .from = bare_of, .of = arrivals},
     {"index", "", "the index of the paper", .from = index_of, .of = by_index},
     {"wooded", "", "what arrives through the forest of this option", .from = wooded_of, .of = wooded,
@@ -533,6 +545,12 @@ static const struct ceduo_figure rock[] = {
     {"moment_kg_m2", "kg m2", "moment of inertia", AT(rock, moment)},
     END};
 
+static const struct ceduo_figure profile[] = {
+    {"points", "", "its points, as given", .value = points_of},
+    {"used", "", "points after simplifying, which are simulated", .value = used_of},
+    {"tolerance_m", "m", "distance within which points are left out; 0: none", AT(slope, tolerance)},
+    END};
+
 static const struct ceduo_figure scene[] = {
     {"scene", "", "path of the file as it was given, or the name of a scene that comes with the program; standard input for -",
      .from = report_of, .value = path_of},
@@ -541,6 +559,7 @@ static const struct ceduo_figure scene[] = {
     {"rocks", "", "rocks flown", .from = report_of, .value = rocks_of},
     {"law", "", "law of the impacts: lumped, crsp or arm", .from = scene_of, .value = law_of},
     {"rock", "", "the rock; with spreads, that of the means", .from = rock_of, .of = rock},
+    {"slope", "", "the profile", .from = slope_of, .of = profile},
     {"threshold_m", "m", "ADC below which a stand protects", .from = scene_of, AT(scene, simulation.threshold)},
     END};
 

@@ -44,12 +44,13 @@ void ceduo_page_facts(struct ceduo_page *page, const struct ceduo_report *report
         low = fmin(low, slope->z[i]);
         high = fmax(high, slope->z[i]);
     }
-    ceduo_text_format(ceduo_page_label(page, CEDUO_PAGE_FACT, _("Slope")),
-                      ngettext("%s m long, %s m high, %zu segment; law %s, facets %s%s",
-                               "%s m long, %s m high, %zu segments; law %s, facets %s%s", slope->vertices - 1),
-                      WRITTEN(slope->x[slope->vertices - 1], 4), WRITTEN(high - low, 4), slope->vertices - 1,
-                      ceduo_words_law(ceduo_law_words.names[s->simulation.law]), _(facets[slope->facets]),
-                      assumed_mark(report, "slope"));
+    line = ceduo_page_label(page, CEDUO_PAGE_FACT, _("Slope"));
+    ceduo_text_format(line, _("%s m long, %s m high, "), WRITTEN(slope->x[slope->vertices - 1], 4), WRITTEN(high - low, 4));
+    ceduo_words_points(line, slope);
+    ceduo_text_format(line, _("; law %s, facets %s%s"), ceduo_words_law(ceduo_law_words.names[s->simulation.law]),
+                      _(facets[slope->facets]), assumed_mark(report, "slope"));
+    if (!s->simulation.friction_bound && s->simulation.law != CEDUO_LAW_ARM)
+        ceduo_text_put(line, _("; published law, without the friction bound"));
     ceduo_text_format(ceduo_page_label(page, CEDUO_PAGE_FACT, _("Rocks")), _("%llu, seed %llu"),
                       (unsigned long long)ceduo_result_rocks(r), (unsigned long long)s->simulation.seed);
 }
@@ -68,6 +69,7 @@ static void add_place(struct ceduo_page *page, const struct ceduo_report *report
     if (!isnan(c->accepted))
         ceduo_text_then(place, ", ", _("withstands %s kJ%s"), SHORTEST(ceduo_words_accepted(c)),
                         ceduo_scene_assumes_value(report->file, where.bytes) ? "*" : "");
+    ceduo_words_topography(place, &report->result->bare.arrivals[i].topography, false);
 }
 
 static void add_arrivals_row(struct ceduo_page *page, const char *name, const struct ceduo_control *c,

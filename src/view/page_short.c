@@ -194,6 +194,12 @@ static void gather_notes(struct ceduo_page *notes, const struct ceduo_report *re
     for (size_t i = 0; i < n; i++)
         ceduo_page_stand_warnings(notes, r, i);
     ceduo_words_run_warnings(r, &report->remarks, ceduo_page_warn_once, notes);
+    if (r->scene->slope.points > r->scene->slope.vertices) {
+        struct text *points = ceduo_page_add(notes, CEDUO_PAGE_WARNING);
+        ceduo_text_put(points, _("Profile: "));
+        ceduo_words_points(points, &r->scene->slope);
+        ceduo_text_char(points, '.');
+    }
 }
 
 /* A point of sentences (warnings) or of other texts, and how many more there are. */

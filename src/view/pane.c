@@ -167,6 +167,11 @@ size_t ceduo_pane_column(struct ceduo_page *page, const struct ceduo_pane *pane)
     if (pane->year)
         ceduo_page_line(page, CEDUO_ROLE_TITLE, pane->year->cut ? _("Year %u, just cut") : _("Year %u"), pane->year->year);
     ceduo_page_line(page, CEDUO_ROLE_TITLE, _("At %g m%s%s"), c->x_given, c->name ? ", " : "", c->name ? c->name : "");
+    if (pane->height >= HEIGHT_ALL) {
+        LOCAL_TEXT(angles);
+        ceduo_words_topography(&angles, &r->bare.arrivals[r->last_control].topography, true);
+        ceduo_page_line(page, CEDUO_ROLE_DIM, "%s", ceduo_text_string(&angles));
+    }
     add_arrivals(page, pane, c, nothing);
     const struct ceduo_index *index =
         pane->year ? &pane->year->controls[r->last_control] : ceduo_result_last_index(r, pane->option);

@@ -263,6 +263,17 @@ static double place_frame(struct ceduo_drawing *d, bool names, bool belts)
     return factor;
 }
 
+/* Mark the points that simplifying keeps, if it leaves out others and there is room. */
+static void mark_points(struct ceduo_drawing *d, const struct ceduo_slope *slope)
+{
+    int column, row;
+    if (slope->points <= slope->vertices || (int)slope->vertices > d->area.width / 3)
+        return;
+    for (size_t i = 0; i < slope->vertices; i++)
+        if (ceduo_frame_cell(&d->frame, d->canvas, slope->x[i], slope->z[i], &column, &row))
+            ceduo_canvas_put(d->canvas, column, row, 1, CEDUO_ROLE_GROUND, "\xe2\x80\xa2");
+}
+
 const char *ceduo_plot_profile(struct ceduo_drawing *d)
 {
     const struct ceduo_slope *slope = &d->scene->slope;
@@ -283,6 +294,7 @@ const char *ceduo_plot_profile(struct ceduo_drawing *d)
     if (way)
         ceduo_canvas_polyline(d->canvas, &d->frame, CEDUO_ROLE_WAY, CEDUO_STROKE_PLAIN, way->n, way->x, way->z);
     ceduo_canvas_polyline(d->canvas, &d->frame, CEDUO_ROLE_GROUND, CEDUO_STROKE_PLAIN, slope->vertices, slope->x, slope->z);
+    mark_points(d, slope);
     if (ceduo_frame_cell(&d->frame, d->canvas, release->x.mean, z, &column, &row) && row - 1 >= d->area.top)
         ceduo_canvas_put(d->canvas, column, row - 1, d->area.left + d->area.width - column, CEDUO_ROLE_TEXT,
                          _("\xe2\x96\xbc release"));

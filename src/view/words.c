@@ -256,6 +256,7 @@ void ceduo_words_run_warnings(const struct ceduo_result *result, const struct ce
             say_format(say, context, _("At %g m only %llu rocks arrive: its mean energy was left out of the tolerance."),
                        result->scene->controls[i].x_given, (unsigned long long)fewest);
     }
+    ceduo_words_ground(result, say, context);
     uint64_t unfinished = ceduo_result_unfinished(result);
     if (unfinished > 0 && result->bare.ends.count[CEDUO_UNFINISHED] == 0)
         say_format(say, context,

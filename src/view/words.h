@@ -14,6 +14,18 @@
 /* Takes sentences one by one. */
 typedef void ceduo_words_say(void *context, const char *sentence);
 
+/* Append "271 points, 13 after simplifying to 0.5 m" of a profile, or its points alone if none is left out. */
+void ceduo_words_points(struct text *text, const struct ceduo_slope *slope);
+
+/* Append "reach angle 37°, shadow angle 34°" of a control, after a comma if the text is not empty; `brief`: without "angle". */
+void ceduo_words_topography(struct text *text, const struct ceduo_topography *topography, bool brief);
+
+/* Append why a control contradicts its terrain (CEDUO_TERRAIN_CONTRADICTS): its angle, what is usual, and what to check. */
+void ceduo_words_contradiction(struct text *text, const struct ceduo_arrivals *bare);
+
+/* Warnings of controls where more or fewer rocks arrive than the terrain suggests, or faster and higher than rocks on slopes do. */
+void ceduo_words_ground(const struct ceduo_result *result, ceduo_words_say *say, void *context);
+
 /* What is to be said of a belt: one sentence for each bit of its warnings, handed to `say` one by one. */
 void ceduo_words_stand_warnings(const struct ceduo_scene *scene, const struct ceduo_belt *belt,
                                 const struct ceduo_stand_result *stand, ceduo_words_say *say, void *context);

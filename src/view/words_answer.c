@@ -53,6 +53,8 @@ void ceduo_words_nothing(struct text *text, const struct ceduo_result *r, size_t
         ceduo_text_then(
             text, " ", _("The ground is steeper than 45\xc2\xb0 from %.4g m on: if they start there, write release.x_m: %.4g."),
             face + s->origin_x, face + s->origin_x);
+    else if (ceduo_terrain(bare) == CEDUO_TERRAIN_CONTRADICTS)
+        ceduo_words_contradiction(text, bare);
     else if (!(farthest > s->x[ceduo_slope_segment(s, start) + 1]))
         ceduo_text_then(text, " ", "%s",
                         _("Write where they start (release.x_m), or what sets them in motion (release.height_m, vx_m_s)."));

@@ -79,6 +79,7 @@ USUAL = {
     "release.height_m": (0, 20), "release.vx_m_s": (-1, 10), "release.vz_m_s": (-5, 5), "release.spin_rad_s": (-20, 20),
     "slope.segments[].rn": (0.2, 0.6), "slope.segments[].rt": (0.6, 0.95), "slope.segments[].roughness_rad": (0, 0.4),
     "slope.segments[].roughness_m": (0, 0.5), "slope.segments[].friction": (0.2, 0.9),
+    "slope.tolerance_m": (0.05, 3),
     "controls[].accepted_kJ": (1, 1000), "controls[].measured_speed_m_s": (1, 40),
     "forest[].cut_year": (-20, 60),
     "forest[].stand.stools.per_ha": (200, 5000), "forest[].stand.stools.spacing_m": (0.1, 1),
@@ -116,6 +117,8 @@ SIZES = {"sphere": [["diameter_m"], ["volume_m3"], ["mass_kg"]], "cylinder": [["
 DIAMETERS = ("dbh_sd_m", "dbh_cm", "dbh_sd_cm")
 ALL_SIZES = {"diameter_m", "height_m", "axes_m", "volume_m3", "mass_kg", "density_kg_m3"}
 
+TOLERANCE = 0.5  # m: of profiles whose ground comes from the library
+
 NAMES = ["road", "Straße 7", "house, \"old\"", "l'orto", "a; b", "x: y # z", "% \\ {1}", "日本の道", "naïve", "é", "- 1", "~",
          "wall\tand fence", "one\ntwo", "bell\u0007", "a name that is rather longer than the column in which it is to stand",
          "word" * 30, " ", "null", "1e3", "[0]", "=SUM(A1)"]
@@ -148,6 +151,7 @@ class Case:
         self.used = set()   # paths of parameters
         self.words = set()  # (path, word)
         self.ends = set()   # (path, end) at which a value stands
+        self.tolerance = 0  # m: of the profile
         self.belts = []     # of each option: [(from, to, whole stand)]
 
     def text(self):
@@ -396,6 +400,7 @@ class Maker:
             slope["csv"] = self.csv(xs, zs)
             self.case.used.add("slope.csv")
             if len(slope) == 1 and self.chance(0.3):
+                self.case.tolerance = TOLERANCE
                 return slope["csv"]  # on talus
         else:
             slope["vertices_m"] = [[x, z] for x, z in zip(xs, zs)]
@@ -404,7 +409,9 @@ class Maker:
             slope["materials"] = self.materials(xs)
         else:
             slope["segments"] = [self.segment() for _ in range(1 if self.chance(0.4) else len(xs) - 1)]
-        self.fill(self.table.tree["slope"], slope, ("segments", "materials", "reversed"))
+        each = len(slope.get("segments", [])) > 1  # has a ground of its own: its points are all kept
+        self.fill(self.table.tree["slope"], slope, ("segments", "materials", "reversed", *["tolerance_m"] * each))
+        self.case.tolerance = slope.get("tolerance_m", 0 if "segments" in slope else TOLERANCE)
         if self.chance(0.1):
             name = f"s{self.index}-slope.yaml"
             self.forget(slope)

@@ -33,8 +33,9 @@ WOODED = {**ARRIVALS, "contacts": PAIR}
 OTHER = {"model": TEXT, "rocks": COUNT, "reach_probability": NUMBER, "reach_lo": NUMBER, "reach_hi": NUMBER, "exceed_probability": MAYBE,
          "exceed_lo": MAYBE, "exceed_hi": MAYBE, "energy_kJ": PAIR, "energy_kJ_mean": MAYBE,
          "verdict": {"answer": TEXT_OR_NULL}}  # null without stems
-CONTROL = {"x_m": NUMBER, "name": TEXT_OR_NULL, "accepted_kJ": MAYBE, "bare": ARRIVALS, "index": INDEX, "wooded": WOODED,
-           "other_energy": OTHER,
+TOPOGRAPHY = {"reach_angle_deg": NUMBER, "shadow_angle_deg": MAYBE}
+CONTROL = {"x_m": NUMBER, "name": TEXT_OR_NULL, "accepted_kJ": MAYBE, "topography": TOPOGRAPHY,
+           "bare": ARRIVALS, "index": INDEX, "wooded": WOODED, "other_energy": OTHER,
            "lights": {"contact": LIGHT, "free_run": LIGHT, "energy": LIGHT, "contact_8cm": LIGHT, "free_run_8cm": LIGHT},
            "verdict": {"answer": TEXT_OR_NULL, "because": TEXT}}
 RULES = ("region", "standards_per_ha", "standards_least", "standards_most", "standards_met", "standards_article", "standards_year",
@@ -57,7 +58,8 @@ STOPS = {"p50": NUMBER, "p95": NUMBER, "max": NUMBER}
 DIFFERENCES = tuple(SHAPE_OF_DIFFERENCE)
 DIFFERENCE = {"option": TEXT, "against": TEXT, "x_m": NUMBER, **SHAPE_OF_DIFFERENCE}
 RESULT = {"format": TEXT, "version": TEXT, "scene": TEXT, "title": TEXT, "seed": COUNT, "rocks": COUNT, "law": TEXT,
-          "rock": {"mass_kg": NUMBER, "mean_diameter_m": NUMBER, "moment_kg_m2": NUMBER}, "threshold_m": NUMBER,
+          "rock": {"mass_kg": NUMBER, "mean_diameter_m": NUMBER, "moment_kg_m2": NUMBER},
+          "slope": {"points": COUNT, "used": COUNT, "tolerance_m": NUMBER}, "threshold_m": NUMBER,
           "warnings": [TEXT],
           "options": [{"name": TEXT, "stands": [STAND], "summary": SUMMARY, "controls": [CONTROL],
                        "ends": {"stopped_by_stems": NUMBER, "came_to_rest": NUMBER, "left_slope": NUMBER,
@@ -211,9 +213,9 @@ def flat(prefix, shape):
 
 
 SCENE_CELLS = ["scene", "title", "seed", "rocks", "law", "rock.mass_kg", "rock.mean_diameter_m", "rock.moment_kg_m2",
-               "threshold_m", "option"]
-CONTROL_CELLS = (SCENE_CELLS + flat("summary.", SUMMARY) + ["x_m", "name", "accepted_kJ"] + flat("bare.", ARRIVALS) +
-                 flat("index.", INDEX) + flat("wooded.", WOODED) + flat("other_energy.", OTHER) +
+               "slope.points", "slope.used", "slope.tolerance_m", "threshold_m", "option"]
+CONTROL_CELLS = (SCENE_CELLS + flat("summary.", SUMMARY) + ["x_m", "name", "accepted_kJ"] + flat("topography.", TOPOGRAPHY) +
+                 flat("bare.", ARRIVALS) + flat("index.", INDEX) + flat("wooded.", WOODED) + flat("other_energy.", OTHER) +
                  ["lights.contact", "lights.free_run", "lights.energy", "lights.contact_8cm", "lights.free_run_8cm",
                   "verdict.answer", "verdict.because", "ends.stopped_by_stems", "ends.came_to_rest", "ends.left_slope", "ends.unfinished"] +
                  flat("stop_x_m.", STOPS) + flat("difference.", SHAPE_OF_DIFFERENCE) +
@@ -292,7 +294,7 @@ def treated(**stands):
         for name, st in stands.items()])
 
 
-# Nothing takes energy from these rocks: each makes as many contacts as are allowed.
+# Nothing takes energy from these rocks: each makes as many contacts as are allowed. By the law crsp Rn falls with the speed: they rest.
 ENDLESS = scene(title="endless", release={"x_m": 5, "height_m": 3},
                 slope={"vertices_m": [[0, 0], [100, 0]], "segments": [{"rn": 1, "rt": 1, "roughness_rad": 0, "friction": 0}]},
-                controls=[{"x_m": 30, "accepted_kJ": 1}])
+                controls=[{"x_m": 30, "accepted_kJ": 1}], simulation={"rocks": 200, "law": "lumped"})

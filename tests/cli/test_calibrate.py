@@ -11,17 +11,22 @@ from harness import (CEDUO, DONE, INPUT, OUTPUT, ROOT, SLOWER, USAGE, Folder, ce
                      expect_near, good, processor_seconds, run_all, scene, stand)
 
 GROUND = {"rn": 0.35, "rt": 0.88, "roughness_rad": 0.25, "friction": 0.5}
-# stops of 30 rocks on that ground, of seed 777: the same law, so that the fit must be able to give them
+# stops of 30 rocks on that ground, of seed 777, by the published law lumped: the same law, so that the fit must be able to give them
 STOPS = [113.5, 114.6, 115.0, 116.7, 116.7, 118.0, 118.3, 119.3, 119.8, 120.3, 120.4, 120.5, 121.9, 122.8,
          124.0, 124.8, 125.0, 125.4, 125.6, 125.9, 126.5, 126.9, 127.8, 127.9, 128.2, 129.1, 129.5, 130.8, 131.0,
          132.6]
+# 50 stops in another quarry, by the same law: Rn .36, Rt .87, roughness .24 rad, friction .55
+FIFTY = [120.3, 120.1, 125.1, 120.2, 125.0, 127.0, 125.2, 116.0, 123.2, 127.5, 110.4, 124.0, 122.3, 121.8, 128.0, 128.1, 113.6,
+         124.3, 125.5, 129.9, 123.4, 129.6, 123.9, 130.1, 118.7, 126.2, 124.2, 119.8, 124.1, 118.8, 123.7, 117.2, 105.1, 122.5,
+         112.0, 113.3, 108.8, 123.0, 127.7, 127.0, 123.8, 124.3, 128.1, 124.8, 119.3, 113.1, 116.2, 120.5, 113.4, 112.2]
+PUBLISHED = {"rocks": 200, "law": "lumped", "friction_bound": False}
 RN, RT, MU = "slope.segments[*].rn", "slope.segments[*].rt", "slope.segments[*].mu"
 
 
 def quarry(observed=None, **changes):
     return scene(**{"title": "A quarry", "rock": {"diameter_m": 0.8}, "release": {"height_m": 2, "vx_m_s": 0.5},
                     "slope": {"vertices_m": [[0, 60], [15, 42], [40, 20], [60, 8], [90, 2], [200, 0]], "segments": [GROUND]},
-                    "controls": [{"x_m": 60}], "forest": None,
+                    "controls": [{"x_m": 60}], "forest": None, "simulation": PUBLISHED,
                     "observed": {"stops": {"x_m": STOPS, "of": 30}} if observed is None else observed, **changes})
 
 
@@ -89,7 +94,11 @@ def test_not_told_apart():
                      r"Fit fewer, leaving as the scene has them: (.*?)\. Or observe more\.", page)
     names = ["slide Rt", "bounce Rn", "roughness, rad", "friction"]
     expect(told and told[1] == ", ".join(names) and set(told[2].split(", ")) < set(names) | {"rad"}, page)
-    stops = ceduo("-f", "json", "-j", 2, *four, "quarry").json()[0]
+    with Folder() as f:
+        more = quarry({"stops": {"x_m": FIFTY, "of": 50}}, rock={"shape": "block", "axes_m": [0.9, 0.7, 0.6], "density_kg_m3": 2600},
+                      slope={"vertices_m": [[0, 62], [12, 44], [25, 33], [40, 22], [60, 9], [85, 3], [200, 1]],
+                             "segments": [{"rn": 0.35, "rt": 0.85, "roughness_rad": 0.25, "friction": 0.5}]})
+        stops = ceduo("-f", "json", "-n", 10000, "-j", 2, *four, f.write("m.yaml", more)).json()[0]
     expect(stops["settled"] and stops["effective_size"] >= 200, stops["effective_size"])
 
 

@@ -137,7 +137,7 @@ def test_memory():
     millions, most = (10, 300) if FULL else (2, 80)
     short = {"vertices_m": [[0, 4], [4, 0]], "segments": [{"rn": 0.3, "rt": 0.9}]}
     with Folder() as f:
-        path = f.write("many.yaml", scene(slope=short, controls=[{"x_m": 3}], simulation={"contact_model": "index"}))
+        path = f.write("many.yaml", scene(slope=short, controls=[{"x_m": 3}], simulation={"contact_model": "index", "law": "lumped"}))
         used = peak_memory("--batch", "-q", "-f", "json", "-n", millions * 1000000, path)
         expect(used < most, f"{used:.0f} MB")
 

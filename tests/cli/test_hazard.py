@@ -317,7 +317,7 @@ def test_unknown_lower_end():
     """An energy that as many rocks bring as just come down so often has 0 as its lower end on the page, null in JSON"""
     seen = 0
     with Folder() as f:
-        for per_year in (0.0035, 0.004, 0.005, 0.006, 0.008):
+        for per_year in (0.0035, 0.004, 0.005, 0.006, 0.007, 0.008):  # through the wood comes about a half
             path = f.write("s.yaml", slope_site(blocks={"per_year": per_year, "volume_m3": [0.1, 0.2], "exponent": 1}, controls=[{"x_m": 140}]))
             rows = re.findall(r"\n    (?:without forest|through the wood)  .*", good(*WHOLE, "-n", 300, path).out)
             result = good("--batch", "-f", "json", "-n", 300, path).json()[0]

@@ -141,10 +141,10 @@ def mean_diameter(rock):
     return (6 * volume / math.pi) ** (1 / 3)
 
 
-def ground_at(case, x):
+def ground_at(case, x, within=0):
     """The lowest ground about x: the x of a control is known to its last bits only."""
     xs, zs = case.xs, case.zs
-    slack = 8 * EPSILON * max(abs(xs[0]), abs(xs[-1]))
+    slack = 8 * EPSILON * max(abs(xs[0]), abs(xs[-1])) + within
     lowest = math.inf
     for i in range(len(xs) - 1):
         a, b = max(xs[i], x - slack), min(xs[i + 1], x + slack)
@@ -167,7 +167,8 @@ def most_energy(case, result, x):
     rock, gravity = result["rock"], scene["simulation"].get("gravity_m_s2", 9.81)
     spin = mean.get("spin_rad_s", 0) if result["law"] != "lumped" else 0
     start = max(ground_at(case, case.start), highest_ground_at(case, case.start)) + mean.get("height_m", 0)
-    fall = start - ground_at(case, x)
+    off = case.tolerance  # each point of the simplified profile lies so near one of the profile; the release lies on both
+    fall = start - ground_at(case, x, off) + off
     room = 1e-9 * (abs(start) + abs(fall)) * gravity
     return rock["mass_kg"] * (speed2 / 2 + gravity * fall + room) + rock["moment_kg_m2"] * spin ** 2 / 2
 
@@ -176,6 +177,12 @@ def highest_ground_at(case, x):
     turned = random_scenes.Case(0)
     turned.xs, turned.zs = case.xs, [-z for z in case.zs]
     return -ground_at(turned, x)
+
+
+def check_slope(case, slope):
+    """Which points are left out of the profile; between grounds and at the release more may stand."""
+    expect_equal((slope["points"], slope["tolerance_m"]), (len(case.xs), case.tolerance), "points, tolerance_m")
+    expect(slope["used"] >= (2 if case.tolerance > 0 else slope["points"]), slope)
 
 
 # ---- JSON: arrivals ----
@@ -548,6 +555,7 @@ def check_result(case, result, rocks):
     expect_equal(result["rocks"], rocks, "rocks")
     expect_equal(result["seed"], scene["simulation"].get("seed", 1), "seed")
     expect_close(result["rock"]["mean_diameter_m"], mean_diameter(scene["rock"]), "mean_diameter_m")
+    check_slope(case, result["slope"])
     names = [o["name"] for o in scene["options"]] if "options" in scene else ["current"]
     expect_equal([o["name"] for o in result["options"]], names, "options")
     for i, option in enumerate(result["options"]):

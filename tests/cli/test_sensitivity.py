@@ -86,7 +86,7 @@ def test_lights():
     trees = {"path": "forest[0].stand.trees[0].per_ha"}
     for doubt, energy, contact, free_run in (([speed], True, False, False), ([trees | {"lo": 150, "hi": 600}], False, True, False),
                                              ([trees | {"lo": 500, "hi": 1500}], False, False, True)):
-        accepted = 150 if energy else 1e6
+        accepted = 120 if energy else 1e6  # kJ: from 1 to 9 m/s at the release .01 to .15 of the rocks pass with more
         with Folder() as f:
             path = f.write("s.yaml", measured(doubt=doubt, controls=[{"x_m": 90, "accepted_kJ": accepted}]))
             result = answer(measured(doubt=doubt, controls=[{"x_m": 90, "accepted_kJ": accepted}]))
@@ -230,10 +230,10 @@ def test_energy_law_of_nobody():
 
 def test_ground_of_the_library():
     """A ground of the library has its published range, wherever it is"""
-    slope = {"vertices_m": [[0, 60], [50, 30], [100, 0]], "materials": [{"from_m": 0, "to_m": 100, "material": "talus"}]}
+    slope = {"vertices_m": [[0, 60], [50, 25], [100, 0]], "materials": [{"from_m": 0, "to_m": 100, "material": "talus"}]}
     result = answer(measured(slope=slope))
     inputs = {i["path"]: i for i in result["figures"][0]["inputs"]}
-    expect_equal(sorted(inputs), [f"slope.materials[talus].{k}" for k in ("friction", "rn", "roughness_rad", "rt")])
+    expect_equal(sorted(inputs), [f"slope.materials[talus].{k}" for k in ("friction", "rn", "roughness_m", "rt")] + ["slope.tolerance_m"])
     rn = inputs["slope.materials[talus].rn"]
     expect_equal((rn["lo"], rn["hi"], rn["places"]), (0.30, 0.33, 2))  # Pfeiffer et al. 1993
     named = {"path": "slope.materials[talus].rn", "lo": 0.2, "hi": 0.5}
@@ -256,7 +256,7 @@ def test_no_effect():
     """What has no effect on a figure has no share of it: with the law lumped mass moves no trajectory"""
     slope = {"vertices_m": [[0, 50], [60, 8], [160, 0]],
              "segments": [{"rn": 0.3, "rt": 0.9, "roughness_rad": 0.2, "friction": 0.5}]}
-    result = answer(measured(forest=[], slope=slope, controls=[{"x_m": 100}],
+    result = answer(measured(forest=[], slope=slope, controls=[{"x_m": 100}], simulation={"rocks": 200, "law": "lumped"},
                              doubt=[{"path": "release.height_m", "lo": 0, "hi": 6},
                                     {"path": "rock.density_kg_m3", "lo": 2400, "hi": 2700}]), points=64)
     density = [i for i in figure(result, "reach_probability")["inputs"] if i["path"] == "rock.density_kg_m3"][0]
@@ -270,8 +270,8 @@ IDLE = {"path": "forest[0].stand.trees[0].per_ha", "lo": 400, "hi": 600}  # of a
 
 
 def energies_in_doubt(points, seeds, idle):
-    """The energy per rock started at rest: it goes as density times gravity."""
-    what = measured(forest=[{"from_m": 92, "to_m": 99, "stand": wood()}] if idle else [], release={"x_m": 5},
+    """The energy per rock started at rest: it goes as density times gravity by the law lumped, which has no scale of speed."""
+    what = measured(forest=[{"from_m": 92, "to_m": 99, "stand": wood()}] if idle else [], release={"x_m": 5}, simulation={"rocks": 200, "law": "lumped"},
                     rock={"shape": "sphere", "diameter_m": 0.7, "density_kg_m3": 2650}, doubt=CLOSED + [IDLE] * idle)
     with Folder() as f:
         path = f.write("s.yaml", what)

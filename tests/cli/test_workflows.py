@@ -305,7 +305,7 @@ def test_two_cuts():
         expect_equal((rows["simple"][light], rows["selection"][light]), ("FAIL", "pass"), light)
     expect(rows["selection"]["share"] < rows["simple"]["share"], "too much energy", rows)
     expect(1.6 < rows["selection"]["taken"] / rows["simple"]["taken"] < 2, rows)
-    expect(160 < float(rows["simple"]["adc"]) < 180, rows)
+    expect_equal(rows["simple"]["adc"], "219", "60 reserves of 20 cm, a block of 56 cm: 10^4/(60 (.2 + .56))")
     bare = re.findall(r"without forest +(\d+) \([^)]*\) +1000 \(", page)
     expect_equal(len(bare), 1, "the slope without forest, which the options share")
     expect(200 < int(bare[0]) < 300, page)
@@ -357,7 +357,7 @@ def test_survey():
     expect_in("36 measured; 106 by N\u00e4slund", head)
     rows = side_by_side(walk.outputs[3])
     now, alone, selection = (rows[name]["share"] for name in ("as it is", "standards alone", "selection"))
-    expect(0.35 < selection / now < 0.65 and 1.6 < alone / now < 2.4, rows)
+    expect(selection < 0.9 * now and alone > 1.2 * now, rows)
     expect_equal([rows["standards alone"][light] for light in ("contact", "free_run", "energy")], ["FAIL"] * 3)
     page = " ".join(walk.outputs[3].split())
     expect(re.search(r"standards: Toscana asks for ≥ 60 standards a hectare \(art. 22, D.P.G.R. 48/R, 2003\); 11\d[.\d]* are kept: met",
@@ -494,8 +494,8 @@ def test_hazard():
 def test_fit():
     """Does it fit: the ranges hold the values that the stops were made with, and the scene that is written carries them"""
     walk = walked("fit")
-    for name, truth in (("bounce Rn", 0.36), ("slide Rt", 0.87)):
-        low, high = map(float, re.search(name + r" .* (0\.\d+)–(0\.\d+)$", walk.outputs[0], re.M).groups())
+    for name, truth in (("roughness, m", 0.12), ("friction", 0.35)):
+        low, high = map(float, re.search("^  " + name + r" .* (0\.\d+)–(0\.\d+)$", walk.outputs[0], re.M).groups())
         expect(low < truth < high, name, low, high)
     expect_in("are known only together", walk.outputs[0])
     expect_in("The model can give all that it was fitted to", walk.outputs[0])

@@ -15,10 +15,11 @@ static void show(const char *what, const struct ceduo_distribution *d)
 int main(int argc, char **argv)
 {
     unsigned threads = argc > 1 ? (unsigned)strtoul(argv[1], NULL, 10) : 1;
-    for (int law = 0; law < CEDUO_LAW_COUNT; law++) {
+    for (int kind = 0; kind < 2 * CEDUO_LAW_COUNT; kind++) {
         struct paper_site site;
         paper_site_init(&site);
-        site.scene.simulation.law = (enum ceduo_law)law;
+        site.scene.simulation.law = (enum ceduo_law)(kind / 2);
+        site.scene.simulation.friction_bound = kind & 1;
         site.scene.rock.density = (struct ceduo_number){2600, 100, CEDUO_NORMAL};
         struct ceduo_run_def def = ceduo_run_def_default(&site.scene);
         def.threads = threads;

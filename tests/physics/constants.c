@@ -69,15 +69,20 @@ static void show_fine(const char *name, struct ceduo_scene scene, double by, uin
 
 int main(void)
 {
-    for (int law = 0; law < CEDUO_LAW_COUNT; law++) {
-        static const char *const names[][4] = {{"lumped", "lumped-forest", "lumped-cut", "lumped-moved"},
-                                               {"crsp", "crsp-forest", "crsp-cut", "crsp-moved"},
-                                               {"arm", "arm-forest", "arm-cut", "arm-moved"}};
-        const char *const *name = names[law];
+    for (int kind = 0; kind < CEDUO_LAW_COUNT + 2; kind++) { /* the last two have the friction bound */
+        static const char *const names[][4] = {
+            {"lumped", "lumped-forest", "lumped-cut", "lumped-moved"},
+            {"crsp", "crsp-forest", "crsp-cut", "crsp-moved"},
+            {"arm", "arm-forest", "arm-cut", "arm-moved"},
+            {"lumped-bound", "lumped-bound-forest", "lumped-bound-cut", "lumped-bound-moved"},
+            {"crsp-bound", "crsp-bound-forest", "crsp-bound-cut", "crsp-bound-moved"}};
+        const char *const *name = names[kind];
+        int law = kind < CEDUO_LAW_COUNT ? kind : kind - CEDUO_LAW_COUNT;
         static struct paper_site site;
         paper_site_init(&site);
         paper_site_read_theta(&site, law == CEDUO_LAW_CRSP ? PAPER_HEIGHT : PAPER_ANGLE);
         site.scene.simulation.law = (enum ceduo_law)law;
+        site.scene.simulation.friction_bound = kind >= CEDUO_LAW_COUNT;
         show(name[0], &site.scene, NULL, 5000);
         show(name[1], &site.scene, &site.option, 2000);
         show_fine(name[2], site.scene, 0, 2000);

@@ -19,6 +19,7 @@ struct watch {
     uint64_t pieces, flights, impacts;
     uint64_t in_crack;                               /* so many pieces flew from wall to wall of a crack */
     double size, under, energy_off, gain, crsp_gain; /* largest so far */
+    double over_bound, roll_off;                     /* with the friction bound: largest so far, of the speed */
     bool bad;                                        /* not a number, or a gap between pieces */
 };
 
@@ -129,7 +130,8 @@ static void look_at_roll(struct watch *w, const struct ceduo_piece *p)
 static void look_at_crsp(struct watch *w, const struct ceduo_piece *p)
 {
     const struct ceduo_slope *s = &w->scene->scene.slope;
-    if (w->scene->scene.simulation.law != CEDUO_LAW_CRSP || !w->smooth || p->contacts != w->last.contacts + 1)
+    const struct ceduo_simulation *simulation = &w->scene->scene.simulation;
+    if (simulation->law != CEDUO_LAW_CRSP || simulation->friction_bound || !w->smooth || p->contacts != w->last.contacts + 1)
         return;
     size_t j = ceduo_slope_segment(s, p->x);
     if (p->x == s->x[j] || p->x == s->x[j + 1])
@@ -142,6 +144,31 @@ static void look_at_crsp(struct watch *w, const struct ceduo_piece *p)
     double rounding = 1e-15 * (w->last.vx1 * w->last.vx1 + w->last.vz1 * w->last.vz1 + p->vx * p->vx + p->vz * p->vz);
     if (e1 > most * e0 + rounding && e0 > 1e-280) /* below, squares lose their bits */
         w->crsp_gain = fmax(w->crsp_gain, e0 > 0 ? e1 / (most * e0) - 1 : INFINITY);
+    w->impacts++;
+}
+
+/* With the friction bound a rock that goes on rolling keeps its speed, and one that flies from a smooth segment has lost at
+ * most friction times the normal impulse along it. */
+static void look_at_bound(struct watch *w, const struct ceduo_piece *p)
+{
+    const struct ceduo_simulation *simulation = &w->scene->scene.simulation;
+    const struct ceduo_slope *s = &w->scene->scene.slope;
+    if (simulation->law == CEDUO_LAW_ARM || !simulation->friction_bound || p->contacts != w->last.contacts + 1)
+        return;
+    double before = hypot(w->last.vx1, w->last.vz1), after = hypot(p->vx, p->vz);
+    if (w->last.rolls && p->rolls) {
+        w->roll_off = fmax(w->roll_off, before > 0 ? fabs(after - before) / before : after);
+        w->impacts++;
+        return;
+    }
+    size_t j = ceduo_slope_segment(s, p->x);
+    if (p->rolls || !w->smooth || p->x == s->x[j] || p->x == s->x[j + 1])
+        return; /* the speed after the impact is not known, or its segment */
+    double dx = s->x[j + 1] - s->x[j], dz = s->z[j + 1] - s->z[j], length = hypot(dx, dz);
+    double vt = (w->last.vx1 * dx + w->last.vz1 * dz) / length, vt_out = (p->vx * dx + p->vz * dz) / length;
+    double vn = (w->last.vz1 * dx - w->last.vx1 * dz) / length, vn_out = (p->vz * dx - p->vx * dz) / length;
+    double most = s->segments[j].friction * (fmax(0, -vn) + vn_out);
+    w->over_bound = fmax(w->over_bound, (fabs(vt) - fabs(vt_out) - most) / before);
     w->impacts++;
 }
 
@@ -163,6 +190,7 @@ static void look_at_piece(void *context, const struct ceduo_piece *p)
         if (after > before && before > 1e-280)
             w->gain = fmax(w->gain, after / before - 1);
         look_at_crsp(w, p);
+        look_at_bound(w, p);
     }
     w->last = *p;
     w->pieces++;
@@ -215,6 +243,8 @@ void invariants_expect(struct line_scene *s, uint64_t number, struct invariants_
     expect_number(number, "energy of a flight changes by", w.energy_off, ENERGY);
     expect_number(number, "a contact gains", w.gain, ENERGY);
     expect_number(number, "a contact of crsp gains", w.crsp_gain, ENERGY);
+    expect_number(number, "an impact takes more speed than friction can, by", w.over_bound, ENERGY);
+    expect_number(number, "a rock that goes on rolling changes its speed by", w.roll_off, ENERGY);
     expect_number(number, "metres below the ground:", w.under, fmax(UNDER, UNDER_SIZE * w.size));
     expect_crossing(number, &crossing);
     double end = s->x[s->scene.slope.vertices - 1];

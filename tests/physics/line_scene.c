@@ -231,6 +231,7 @@ void line_scene_random(struct line_scene *s, uint64_t number, unsigned lasting_e
     s->control =
         (struct ceduo_control){.x = at + (end - at) * line_uniform(r, 0.01, 1), .accepted = NAN, .measured_speed = NAN};
     scene->controls_count = 1;
+    scene->simulation.friction_bound = line_chance(r, 0.5); /* the last draw: the rest of a scene stays as it was without it */
 }
 
 void line_scene_arm(struct line_scene *s, uint64_t number)

@@ -50,8 +50,9 @@ double line_normal(struct line_random *r); /* of mean 0 and sd 1: the sum of 12,
 double line_facet_draw(uint64_t seed, uint64_t rock, uint64_t contact);
 
 /* Random scene number `number`: 1 to 200 segments; terrain of noise of 5 cm to 5 m, of long slopes, with walls and
- * slivers of 1e-9 m, or of level steps; survey coordinates; rocks of 1 cm to 10 m; both laws, facets on either side;
- * friction, Rn and Rt from 0 on. One in `lasting_every` (0: none) has Rn or Rt 1, so that a rock may go on for ever. */
+ * slivers of 1e-9 m, or of level steps; survey coordinates; rocks of 1 cm to 10 m; both laws, with and without the friction
+ * bound; facets on either side; friction, Rn and Rt from 0 on. One in `lasting_every` (0: none) has Rn or Rt 1, so that a rock
+ * may go on for ever. */
 void line_scene_random(struct line_scene *s, uint64_t number, unsigned lasting_every);
 
 /* Makes it one of the law arm, mostly of a rock that is not round. */

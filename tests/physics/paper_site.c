@@ -111,6 +111,9 @@ void paper_site_init(struct paper_site *site)
     scene->options_count = 1;
     scene->options = &site->option;
     scene->simulation = ceduo_scene_default().simulation;
+    scene->simulation.law = CEDUO_LAW_LUMPED;
+    /* Figures of the paper's slope are those of the published laws; the friction bound gives 150 kJ instead of 115. */
+    scene->simulation.friction_bound = false;
 }
 
 void paper_site_read_theta(struct paper_site *site, enum paper_theta theta)

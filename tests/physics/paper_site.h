@@ -37,7 +37,8 @@ double paper_theta(size_t segment);
 /* Plot ADS `number` (1 or 2) of Table 1. `plot` points into itself: it must not be copied. */
 void paper_plot_init(struct paper_plot *plot, int number);
 
-/* The whole site: lumped, theta in radians, facets against the rock, friction 0.5. `site` must not be copied. */
+/* The whole site: lumped without the friction bound, theta in radians, facets against the rock, friction 0.5. `site` must not
+ * be copied. */
 void paper_site_init(struct paper_site *site);
 
 /* Growth of hop hornbeam and of the standards among it: D, k, H and m assumed. */

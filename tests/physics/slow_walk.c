@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The contact law `crsp` is that of Pfeiffer & Higgins (1990) and of the CRSP 3.0 manual; rolling in steps of one
- * radius is CRSP's too, measured along the ground so that a slope cut more finely gives the same way. */
+ * radius is CRSP's too, measured along the ground so that a slope cut more finely gives the same way. With
+ * `friction_bound` an impact takes at most friction times its normal impulse along the ground, and a rock that goes on
+ * rolling loses to friction alone: assumptions of ceduo 0.5. */
 #include "slow_walk.h"
 
 #include <tgmath.h>
@@ -22,6 +24,7 @@ struct walker {
     struct slow_way *way;
     const struct slow_segment *at; /* the segment it is on, or the one under it at its release */
     bool on_ground;
+    bool rolled; /* true if it came to this contact rolling */
     slow_real x, z, vx, vz, spin;
     struct touch touch; /* of the flight that comes next */
 };
@@ -261,6 +264,7 @@ static enum todo fly(struct walker *w)
     w->z = ground(w->at, w->x);
     w->vz -= g * w->touch.time;
     w->on_ground = true;
+    w->rolled = false;
     return TODO_CONTACT;
 }
 
@@ -294,14 +298,44 @@ static slow_real crsp_tangential(const struct walker *w, slow_real vn, slow_real
     return vt < 0 || (vt == 0 && w->spin < 0) ? -speed : speed;
 }
 
+/* Speed along the facet and speed of the rim after an impact. */
+struct tangential {
+    slow_real speed, rim;
+};
+
+/* Limit the loss along the facet to `most`, which friction can take at this normal impulse. Mirror the impact first, so that
+ * the rock comes in with a positive speed: friction then turns the spin forward while the rim is slower than the rock, and
+ * backward otherwise, until the rock rolls. */
+static struct tangential with_friction_bound(const struct walker *w, slow_real vt, struct tangential law, slow_real most)
+{
+    const slow_real mirror = vt < 0 ? -1 : 1, least = fabs(vt) - most;
+    if (!(fabs(law.speed) < least))
+        return law;
+    if (w->def->law != SLOW_CRSP)
+        return (struct tangential){mirror * least, 0};
+    const slow_real rim = mirror * w->spin * (slow_real)w->def->radius, change = most / inertia(w->def);
+    slow_real rolls = rim;
+    if (rim < least)
+        rolls = rim + change < least ? rim + change : least;
+    else if (rim > least)
+        rolls = rim - change > least ? rim - change : least;
+    return (struct tangential){mirror * least, mirror * rolls};
+}
+
 static void apply_law(struct walker *w, struct slow_turn a)
 {
     const struct slow_def *def = w->def;
     const bool crsp = def->law == SLOW_CRSP;
-    const slow_real vn = not_below_0(-outward(w, a)), vt = along(w, a), rebound = w->at->rn * vn;
-    const slow_real out = crsp ? crsp_tangential(w, vn, vt) : w->at->rt * vt;
-    set_velocity(w, a, out, crsp || def->scale_rn ? rebound / (1 + square(vn / normal_speed)) : rebound);
-    w->spin = rolling_spin(def, out);
+    const slow_real vn = not_below_0(-outward(w, a)), vt = along(w, a);
+    slow_real rebound = w->at->rn * vn;
+    if (crsp || def->scale_rn)
+        rebound /= 1 + square(vn / normal_speed);
+    const slow_real speed = crsp ? crsp_tangential(w, vn, vt) : w->at->rt * vt;
+    struct tangential out = {speed, crsp ? speed : 0};
+    if (def->friction_bound)
+        out = with_friction_bound(w, vt, out, w->at->friction * (vn + rebound));
+    set_velocity(w, a, out.speed, rebound);
+    w->spin = rolling_spin(def, out.rim);
 }
 
 /* A flight that stays within one radius, both along the ground and above the segment, is rolling; else it is flown. */
@@ -320,13 +354,20 @@ static enum todo contact(struct walker *w)
     const struct slow_def *def = w->def;
     if (w->way->contacts >= def->max_contacts)
         return end(w, SLOW_UNFINISHED);
+    const struct walker before = *w;
     apply_law(w, facet(w));
     if (outward(w, w->at->turn) < 0) /* a facet turned away from the segment may send the rock into it */
         set_velocity(w, w->at->turn, along(w, w->at->turn), 0);
+    const enum todo next = roll_or_fly(w);
+    if (def->friction_bound && w->rolled && next == TODO_ROLL) { /* it keeps rolling: nothing struck it */
+        w->vx = before.vx;
+        w->vz = before.vz;
+        w->spin = before.spin;
+    }
     w->way->contacts++;
     if (def->on_contact)
         def->on_contact(def->context, (double)w->x, (double)w->z, (double)w->vx, (double)w->vz, (double)w->spin);
-    return roll_or_fly(w);
+    return next;
 }
 
 /* ---- rolling ---- */
@@ -391,6 +432,7 @@ static enum todo roll_piece(struct walker *w, struct roll *roll)
     if (!ends)
         return pass_vertex(w, roll);
     set_rolling_velocity(w, roll);
+    w->rolled = true;
     return TODO_CONTACT;
 }
 

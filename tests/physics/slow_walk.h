@@ -44,6 +44,7 @@ struct slow_def {
     enum slow_law law;
     enum slow_facets facets;
     bool scale_rn;                                      /* lumped only: Rn falls with the normal speed */
+    bool friction_bound;                                /* false: the published laws and rolling of CRSP */
     double gravity, radius, k;                          /* k = I / (M R^2), ignored by the lumped law */
     double x0, z0, vx0, vz0, spin0;                     /* the release, on or above the ground */
     double (*uniform)(void *context, uint64_t contact); /* the facet draw of contact number `contact`, from 0 */

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Figures of Ciabocco, Boccia and Ripa 2009 and of the equations they use, to the digits that are known. */
+/* Figures of Ciabocco, Boccia and Ripa 2009 and of the equations they use, to the digits that are known. The paper's figures
+ * are those of the published laws: its scenes have no friction bound (paper_site_init()). */
 #include "expect.h"
 
 #include <math.h>
 
-#include "core/walk/law_crsp.h"
-#include "core/walk/law_lumped.h"
+#include "core/walk/strike.h"
 #include "line_scene.h"
 #include "paper_site.h"
 
@@ -152,6 +152,49 @@ TEST_WITH(impacts_of_the_lumped_law, open_paper, NULL)
     expect_exact(out.vt, 8.3);
 }
 
+struct bounded_row {
+    const struct contact_law *law;
+    struct impact in;
+    double rn, rt, k, friction;
+    double vn_out, vt_out, spin_out;
+    bool as_published;
+};
+
+/* The law and the bound of friction, on the segment itself. */
+static struct impact strike_flat(const struct contact_law *law, const struct ground_point *at, struct impact in)
+{
+    double spin = in.spin;
+    struct velocity out = strike(law, at, 0, 1, (struct velocity){.along = in.vt, .off = -in.vn}, &spin);
+    return (struct impact){.vn = out.off, .vt = out.along, .spin = spin};
+}
+
+TEST_WITH(impacts_with_the_friction_bound, open_paper, NULL)
+{
+    static const struct bounded_row rows[] = {
+        {&law_lumped, {1, 10, 0}, .31, .83, .4, .5, .310000, 9.345000, 0, false},
+        {&law_lumped, {5, 10, 0}, .31, .83, .4, .5, 1.550000, 8.300000, 0, true},
+        {&law_lumped, {.2, -6, 0}, .31, .83, .4, .6, .062000, -5.842800, 0, false},
+        {&law_crsp, {1, 10, 0}, .31, .83, .4, .5, .306336, 9.346832, 4.802707, false},
+        {&law_crsp, {1, 10, 29.411765}, .31, .83, .4, .5, .306336, 9.346832, 27.490682, false},
+        {&law_crsp, {5, 10, 0}, .31, .83, .4, .5, 1.193228, 7.041038, 20.708937, true},
+        {&law_crsp, {2, -12, -20}, .40, .90, .4, .6, .763476, -10.341915, -30.417396, false},
+    };
+    for (size_t i = 0; i < LENGTH(rows); i++) {
+        const struct bounded_row *r = &rows[i];
+        struct ground_point at = {.rn = r->rn, .rt = r->rt, .radius = 0.34, .k = r->k, .friction = r->friction, .bound = true};
+        struct impact out = strike_flat(r->law, &at, r->in), in = r->in;
+        ROWS(expect_decimals, (out.vn, r->vn_out, 6), (out.vt, r->vt_out, 6), (out.spin, r->spin_out, 6));
+        in.vt = -in.vt; /* the mirror image */
+        in.spin = -in.spin;
+        struct impact mirror = strike_flat(r->law, &at, in);
+        EXPECT_IS(mirror, (vt, -out.vt), (spin, -out.spin), (vn, out.vn));
+        at.bound = false;
+        struct impact published = strike_flat(r->law, &at, r->in);
+        EXPECT(published.vn, ==, out.vn);
+        EXPECT(published.vt == out.vt && published.spin == out.spin, ==, r->as_published);
+    }
+}
+
 /* ---- ways ---- */
 
 TEST_WITH(slope_chains_as_table_3, open_paper, NULL)
@@ -195,6 +238,7 @@ static void rolling_and_resting(enum ceduo_law law, double x, uint64_t contacts)
     static const double pz[] = {0, -2, -2, -1.8, -3, -3, -3.2, -2.9, -2.9};
     struct line_scene s;
     line_scene_init(&s, LENGTH(px), px, pz, (struct line_ground){.3, .99, .1}, .34, law);
+    s.scene.simulation.friction_bound = false; /* golden figures of the published laws and of CRSP's rolling */
     line_scene_release(&s, 1, 0, 0, 0, 0);
     assert_int_equal(line_scene_follow(&s, &walked), CEDUO_OK);
     assert_int_equal(walked.way.end, CEDUO_AT_REST);

@@ -192,10 +192,15 @@ static const struct field control_fields[] = {
 };
 
 static const struct field simulation_fields[] = {
-    FIELD(ceduo_simulation, law, WORD, FLIGHT),       FIELD(ceduo_simulation, rocks, COUNT, 0),
-    FIELD(ceduo_simulation, seed, COUNT, FLIGHT),     FIELD(ceduo_simulation, contact_model, WORD, STEMS | POISSON),
-    FIELD(ceduo_simulation, rule, WORD, POISSON),     FIELD(ceduo_simulation, threshold, NUMBER, 0),
-    FIELD(ceduo_simulation, gravity, NUMBER, FLIGHT), FIELD(ceduo_simulation, scale_rn, FLAG, FLIGHT),
+    FIELD(ceduo_simulation, law, WORD, FLIGHT),
+    FIELD(ceduo_simulation, rocks, COUNT, 0),
+    FIELD(ceduo_simulation, seed, COUNT, FLIGHT),
+    FIELD(ceduo_simulation, contact_model, WORD, STEMS | POISSON),
+    FIELD(ceduo_simulation, rule, WORD, POISSON),
+    FIELD(ceduo_simulation, threshold, NUMBER, 0),
+    FIELD(ceduo_simulation, gravity, NUMBER, FLIGHT),
+    FIELD(ceduo_simulation, scale_rn, FLAG, FLIGHT),
+    FIELD(ceduo_simulation, friction_bound, FLAG, FLIGHT),
 };
 
 static const struct field option_fields[] = {

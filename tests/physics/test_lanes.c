@@ -298,24 +298,25 @@ TEST(random_scenes_of_rocks_that_are_not_round)
 
 /* ---- scenes of their own ---- */
 
-/* Every reading of the paper's site: laws, theta, facets, scaled Rn, forest. */
+/* Every reading of the paper's site: laws, theta, facets, scaled Rn, forest, with and without the friction bound. */
 TEST(the_papers_site)
 {
     double cell_x[50];
     for (int i = 0; i < 50; i++)
         cell_x[i] = paper_x[PAPER_SEGMENTS] * (i + 1) / 50;
     const uint64_t rocks = FULL_OR(3000, 1000);
-    for (unsigned i = 0; i < CEDUO_LAW_COUNT * 2 * 2 * 2 * 4; i++) {
+    for (unsigned i = 0; i < CEDUO_LAW_COUNT * 2 * 2 * 2 * 4 * 2; i++) {
         struct paper_site site;
         char name[40];
         snprintf(name, sizeof name, "paper's site %u", i);
         paper_site_init(&site);
         struct ceduo_simulation *simulation = &site.scene.simulation;
         simulation->law = (enum ceduo_law)(i % CEDUO_LAW_COUNT);
-        unsigned reading = i / CEDUO_LAW_COUNT, forest = reading >> 3;
+        unsigned reading = i / CEDUO_LAW_COUNT, forest = reading >> 3 & 3;
         paper_site_read_theta(&site, reading & 1 ? PAPER_HEIGHT : PAPER_ANGLE);
         site.scene.slope.facets = reading & 2 ? CEDUO_BOTH : CEDUO_AGAINST;
         simulation->scale_rn = reading & 4;
+        simulation->friction_bound = reading >> 5;
         simulation->contact_model = forest == 1 ? CEDUO_POISSON : CEDUO_STEMS;
         if (forest == 3)
             site.scene.rock.density = (struct ceduo_number){2600, 100, CEDUO_NORMAL};
@@ -328,8 +329,22 @@ TEST(the_papers_site)
     }
 }
 
+/* Rocks and ground vary from rock to rock, and so does the largest facet. */
+static void vary(struct ceduo_scene *scene)
+{
+    scene->rock.diameter.spread = .25 * scene->rock.diameter.mean;
+    scene->rock.diameter.kind = CEDUO_UNIFORM;
+    for (size_t j = 0; j + 1 < scene->slope.vertices; j++) {
+        struct ceduo_segment *to = &scene->slope.segments[j];
+        to->rn = (struct ceduo_number){.4, .1, CEDUO_NORMAL};
+        to->rt = (struct ceduo_number){.9, .05, CEDUO_UNIFORM};
+        to->roughness_rad = NAN;
+        to->roughness_m = .02 + .01 * (double)(j % 5);
+    }
+}
+
 /* A profile with blocks of several levels, and steep places. */
-TEST(a_long_profile)
+static void compare_on_a_long_profile(bool friction_bound, bool varies)
 {
     static struct ceduo_segment segments[LONG_VERTICES - 1];
     static double x[LONG_VERTICES], z[LONG_VERTICES];
@@ -351,6 +366,9 @@ TEST(a_long_profile)
             (struct ceduo_slope){.facets = CEDUO_BOTH, .vertices = LONG_VERTICES, .x = x, .z = z, .segments = segments};
         line.control = (struct ceduo_control){.x = x[LONG_VERTICES / 2], .accepted = 1e3, .measured_speed = NAN};
         line.scene.controls_count = 1;
+        line.scene.simulation.friction_bound = friction_bound;
+        if (varies)
+            vary(&line.scene);
         struct ceduo_run_def def = ceduo_run_def_default(&line.scene);
         EXPECT(expect_same("long profile", &def, 100, 400), >, 5000);
 
@@ -359,7 +377,10 @@ TEST(a_long_profile)
         paper_site_init(&site);
         site.scene.slope = line.scene.slope;
         site.scene.simulation.law = (enum ceduo_law)law;
+        site.scene.simulation.friction_bound = friction_bound;
         site.scene.simulation.contact_model = CEDUO_STEMS;
+        if (varies)
+            site.scene.rock.density = (struct ceduo_number){2600, 100, CEDUO_NORMAL};
         site.scene.release = (struct ceduo_release){.x = ceduo_number(middle),
                                                     .height = ceduo_number(1),
                                                     .vx = ceduo_number(-25),
@@ -373,6 +394,47 @@ TEST(a_long_profile)
         def.option = &site.option;
         EXPECT(expect_same("uphill among stems", &def, 100, 400), >, 1000);
     }
+}
+
+TEST(a_long_profile)
+{
+    for (int kind = 0; kind < 4; kind++)
+        compare_on_a_long_profile(kind & 1, kind & 2);
+}
+
+/* Rolls of many radii that end in a stem, at a break or at rest: on planes that are steeper than friction, gentler and rising,
+ * with little roughness, where the friction bound has nearly all contacts keep the motion of the roll. */
+TEST(rocks_that_roll_among_stems)
+{
+    static const double x[] = {0, 40, 55, 90, 100, 140}, z[] = {0, -28, -30, -55, -53, -75};
+    uint64_t contacts = 0;
+    for (unsigned kind = 0; kind < CEDUO_LAW_COUNT * 16; kind++) {
+        static struct line_scene line;
+        static struct paper_site site;
+        char name[40];
+        snprintf(name, sizeof name, "rolling rocks %u", kind);
+        unsigned reading = kind / CEDUO_LAW_COUNT;
+        line_scene_init(&line, LENGTH(x), x, z, (struct line_ground){.315, .835, .45}, .4,
+                        (enum ceduo_law)(kind % CEDUO_LAW_COUNT));
+        line_scene_release(&line, 1, 0, 1, 0, 0);
+        line.scene.simulation.friction_bound = reading & 1;
+        line.control = (struct ceduo_control){.x = 120, .accepted = 1e3, .measured_speed = NAN};
+        line.scene.controls_count = 1;
+        for (size_t j = 0; j + 1 < LENGTH(x); j++)
+            line.segments[j].roughness_m = .02;
+        if (reading & 2)
+            vary(&line.scene);
+        if (reading & 4)
+            line.scene.release.vx = (struct ceduo_number){2, 1, CEDUO_UNIFORM};
+        paper_site_init(&site);
+        site.belts[1].to = site.belts[1].to_given = 140;
+        line.scene.simulation.contact_model = CEDUO_STEMS;
+        struct ceduo_run_def def = ceduo_run_def_default(&line.scene);
+        def.option = reading & 8 ? &site.option : NULL;
+        def.threads = 2;
+        contacts += expect_same(name, &def, 500, 1500);
+    }
+    EXPECT(contacts, >, 1000000);
 }
 
 /* ---- stopping ---- */

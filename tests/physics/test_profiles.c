@@ -38,9 +38,10 @@ static size_t segments_inside(const struct ceduo_slope *slope)
 
 static struct paper_site site;
 
-static void init_site(enum ceduo_law law)
+static void init_site(enum ceduo_law law, bool friction_bound)
 {
     paper_site_init(&site);
+    site.scene.simulation.friction_bound = friction_bound;
     paper_site_read_theta(&site, law == CEDUO_LAW_CRSP ? PAPER_HEIGHT : PAPER_ANGLE);
     site.scene.simulation.law = law;
 }
@@ -70,8 +71,8 @@ static struct ceduo_arrivals arrivals(const struct ceduo_scene *scene)
 
 TEST(a_cut_slope_gives_the_same_ways_and_statistics)
 {
-    for (int law = 0; law < CEDUO_LAW_COUNT; law++) {
-        init_site((enum ceduo_law)law);
+    for (int kind = 0; kind < 2 * CEDUO_LAW_COUNT; kind++) {
+        init_site((enum ceduo_law)(kind / 2), kind & 1);
         LOCAL_BY(slope_free) struct ceduo_slope fine = slope_cut(&site.scene.slope, VERTICES);
         assert_int_equal(segments_inside(&fine), PAPER_SEGMENTS);
         struct ceduo_scene scene = site.scene;
@@ -87,7 +88,7 @@ TEST(a_cut_slope_gives_the_same_ways_and_statistics)
 
 TEST(spreads_and_roughness_heights_are_those_of_the_cut_slope)
 {
-    init_site(CEDUO_LAW_CRSP);
+    init_site(CEDUO_LAW_CRSP, true);
     for (size_t j = 0; j < PAPER_SEGMENTS; j++) {
         site.segments[j].rn = (struct ceduo_number){.3, .01 * (double)(j % 4), CEDUO_NORMAL};
         site.segments[j].rt = (struct ceduo_number){.85, .01 * (double)(j % 3), CEDUO_UNIFORM};
@@ -103,7 +104,7 @@ TEST(spreads_and_roughness_heights_are_those_of_the_cut_slope)
 /* What a double can tell from a line stays: vertices moved by a nanometre, and a sliver that is as steep as it is small. */
 TEST(small_breaks_stay)
 {
-    init_site(CEDUO_LAW_LUMPED);
+    init_site(CEDUO_LAW_LUMPED, false);
     LOCAL_BY(slope_free) struct ceduo_slope fine = slope_cut(&site.scene.slope, 10000);
     move_vertices(&fine, 1e-9, 5);
     EXPECT(segments_inside(&fine), >, 9000);
@@ -119,7 +120,7 @@ TEST(small_breaks_stay)
 /* A face keeps its foot, however narrow it is: within rounding of the profile's length too. */
 TEST(a_narrow_face_keeps_its_foot)
 {
-    init_site(CEDUO_LAW_LUMPED);
+    init_site(CEDUO_LAW_LUMPED, false);
     for (double wide = 1; wide > 1e-18; wide /= 10)
         for (int up = 0; up < 2; up++) {
             LOCAL_BY(slope_free) struct ceduo_slope face = slope_new(3);
@@ -164,7 +165,7 @@ static struct ceduo_slope rough_slope(size_t vertices, double spacing, uint64_t 
 
 TEST(flights_land_as_without_blocks)
 {
-    init_site(CEDUO_LAW_LUMPED);
+    init_site(CEDUO_LAW_LUMPED, false);
     struct line_random r = {.state = 7};
     uint64_t far = 0;
     for (size_t n = 0; n < 40; n++) {
@@ -224,7 +225,7 @@ static struct ceduo_slope toothed_slope(size_t vertices, struct line_random *r, 
  * not decide it otherwise. That is what the margin of its height is for. */
 TEST(flights_along_teeth_touch_the_same_with_blocks)
 {
-    init_site(CEDUO_LAW_LUMPED);
+    init_site(CEDUO_LAW_LUMPED, false);
     struct line_random r = {.state = 11};
     uint64_t touched = 0;
     for (size_t n = 0; n < 2000; n++) {
@@ -307,7 +308,7 @@ TEST(blocks_are_rolled_over_as_their_segments)
 {
     size_t passed[2][GROUND_LEVELS] = {{0}};
     for (int by = -4; by < 0; by++) {
-        init_site(CEDUO_LAW_LUMPED);
+        init_site(CEDUO_LAW_LUMPED, false);
         LOCAL_BY(slope_free) struct ceduo_slope fine = slope_cut(&site.scene.slope, 20000);
         move_vertices(&fine, pow(10, by), 5);
         LOCAL_BY(ceduo_ground_release) struct ground g;
@@ -348,9 +349,9 @@ static void nobody_minds(void *context, const struct ceduo_piece *piece)
 TEST(rolls_are_the_same_whoever_looks_on)
 {
     uint64_t rolled = 0, same = 0, all = 0;
-    for (int law = 0; law < CEDUO_LAW_COUNT; law++) {
+    for (int kind = 0; kind < 2 * CEDUO_LAW_COUNT; kind++) {
         for (int by = -5; by <= 0; by++) {
-            init_site((enum ceduo_law)law);
+            init_site((enum ceduo_law)(kind / 2), kind & 1);
             LOCAL_BY(slope_free) struct ceduo_slope fine = slope_cut(&site.scene.slope, 20000);
             move_vertices(&fine, by < 0 ? pow(10, by) : 1e-3, 3);
             if (by == 0)
@@ -381,7 +382,7 @@ TEST(rolls_are_the_same_whoever_looks_on)
 /* Nothing is passed as a whole beyond a mark, nor by rocks that are smaller than what the blocks hold for. */
 TEST(rolls_past_marks_are_the_same)
 {
-    init_site(CEDUO_LAW_CRSP);
+    init_site(CEDUO_LAW_CRSP, true);
     LOCAL_BY(slope_free) struct ceduo_slope fine = slope_cut(&site.scene.slope, 20000);
     move_vertices(&fine, 1e-3, 3);
     struct ceduo_scene scene = site.scene;

@@ -126,6 +126,7 @@ static void trace_slow(const struct ceduo_scene *scene, uint64_t rock, struct li
                                  .law = scene->simulation.law == CEDUO_LAW_CRSP ? SLOW_CRSP : SLOW_LUMPED,
                                  .facets = slope->facets == CEDUO_BOTH ? SLOW_BOTH : SLOW_AGAINST,
                                  .scale_rn = scene->simulation.scale_rn,
+                                 .friction_bound = scene->simulation.friction_bound,
                                  .gravity = nudge(scene->simulation.gravity, change),
                                  .radius = nudge(body.radius, change),
                                  .k = body.k,
@@ -321,31 +322,43 @@ static void expect_agreement(const struct tally *t, const char *what)
          ((double)t->first_apart, <=, .001 * (double)t->rocks));
 }
 
-TEST(eight_combinations_on_the_slope_of_table_3)
+/* Laws, facets and readings of theta, each with and without the friction bound. */
+TEST(sixteen_combinations_on_the_slope_of_table_3)
 {
     static struct paper_site site;
-    for (int i = 0; i < 8; i++) {
+    for (int i = 0; i < 16; i++) {
         paper_site_init(&site);
         paper_site_read_theta(&site, i & 1 ? PAPER_HEIGHT : PAPER_ANGLE);
         site.scene.slope.facets = i & 2 ? CEDUO_BOTH : CEDUO_AGAINST;
         site.scene.simulation.law = i & 4 ? CEDUO_LAW_CRSP : CEDUO_LAW_LUMPED;
+        site.scene.simulation.friction_bound = i & 8;
         struct tally tally = {0};
         for (uint64_t rock = 0; rock < 300; rock++)
             compare(&site.scene, rock, &tally);
         static const char *const names[] = {"lumped against angle", "lumped against height", "lumped both angle",
                                             "lumped both height",   "crsp against angle",    "crsp against height",
                                             "crsp both angle",      "crsp both height"};
-        expect_agreement(&tally, names[i]);
+        char name[64];
+        snprintf(name, sizeof name, "%s%s", names[i & 7], i & 8 ? ", friction bound" : "");
+        expect_agreement(&tally, name);
     }
 }
 
-TEST(random_scenes)
+/* line_scene_random() draws the bound; here every scene has either. */
+static void compare_random_scenes(bool friction_bound, const char *what)
 {
     static struct line_scene scene;
     struct tally tally = {0};
     for (uint64_t number = 0; number < 3000; number++) {
         line_scene_random(&scene, number, 0);
+        scene.scene.simulation.friction_bound = friction_bound;
         compare(&scene.scene, number % 7, &tally);
     }
-    expect_agreement(&tally, "random scenes");
+    expect_agreement(&tally, what);
+}
+
+TEST(random_scenes)
+{
+    compare_random_scenes(false, "random scenes");
+    compare_random_scenes(true, "random scenes, friction bound");
 }

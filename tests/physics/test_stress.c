@@ -173,7 +173,7 @@ static void release(double x, double height, double vx, double vz)
     line_scene_release(&s, x, height, vx, vz, 0);
 }
 
-/* From a release: both laws, facets to either side, smooth and rough. */
+/* From a release: both laws, facets to either side, smooth and rough, with and without the friction bound. */
 static void look(double from, double height, double vx, double vz)
 {
     struct invariants_tally t = {0};
@@ -182,8 +182,9 @@ static void look(double from, double height, double vx, double vz)
     double end = s.x[s.scene.slope.vertices - 1], x = s.scene.release.x.mean;
     s.control = (struct ceduo_control){.x = x + .75 * (end - x), .accepted = NAN, .measured_speed = NAN};
     s.scene.controls_count = s.control.x > x;
-    for (int kind = 0; kind < 8; kind++) {
+    for (int kind = 0; kind < 16; kind++) {
         s.scene.simulation.law = kind & 1 ? CEDUO_LAW_CRSP : CEDUO_LAW_LUMPED;
+        s.scene.simulation.friction_bound = kind & 8;
         s.scene.slope.facets = kind & 2 ? CEDUO_BOTH : CEDUO_AGAINST;
         for (size_t j = 0; j + 1 < s.scene.slope.vertices; j++) {
             s.segments[j].roughness_m = NAN;
@@ -347,10 +348,11 @@ TEST(roughness_up_to_89_degrees)
     static const double degrees[] = {0, 1e-9, 1, 45, 80, 89};
     struct invariants_tally t = {0};
     for (size_t i = 0; i < LENGTH(degrees); i++)
-        for (int kind = 0; kind < 4; kind++) {
+        for (int kind = 0; kind < 8; kind++) {
             profile(5, x, z, earth, .3);
             release(1, .5, 1, 0);
             s.scene.simulation.law = kind & 1 ? CEDUO_LAW_CRSP : CEDUO_LAW_LUMPED;
+            s.scene.simulation.friction_bound = kind & 4;
             s.scene.slope.facets = kind & 2 ? CEDUO_BOTH : CEDUO_AGAINST;
             for (size_t j = 0; j < 4; j++) {
                 s.segments[j].roughness_m = NAN;
@@ -379,14 +381,18 @@ TEST(cracks)
 {
     static const uint64_t numbers[] = {123445, 2688044, 5280488, 8903797};
     static struct line_scene scene;
-    struct invariants_tally t = {0};
+    struct invariants_tally t = {0}, bound = {0};
     for (size_t i = 0; i < LENGTH(numbers); i++) {
         line_scene_random(&scene, numbers[i], LASTING_EVERY);
+        scene.scene.simulation.friction_bound = true;
+        invariants_expect(&scene, numbers[i], &bound);
+        scene.scene.simulation.friction_bound = false; /* the numbers were found with the published laws */
         invariants_expect(&scene, numbers[i], &t);
     }
     EXPECT(t.cracks, ==, LENGTH(numbers));
     EXPECT(t.ends[CEDUO_UNFINISHED], ==, LENGTH(numbers));
     line_scene_random(&scene, 3596987, LASTING_EVERY); /* one of 60 nm, in which it rests on the wall */
+    scene.scene.simulation.friction_bound = false;
     invariants_expect(&scene, 3596987, &t);
     EXPECT(t.last.end, ==, CEDUO_AT_REST);
 }

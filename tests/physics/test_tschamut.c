@@ -16,7 +16,7 @@ static int read_scene(void **state)
 {
     (void)state;
     struct problems problems = {0};
-    return ceduo_scene_load(&file, "profiles/scenes/tschamut.yaml", NULL, 0, &problems) ? 0 : -1;
+    return ceduo_scene_load(&file, "profiles/scenes/tschamut-arm.yaml", NULL, 0, &problems) ? 0 : -1;
 }
 
 static int free_scene(void **state)

@@ -24,7 +24,7 @@ static const char scene[] = "ceduo: scene/1\n"
                             "options:\n"
                             "  - {name: a, forest: [{from_m: 0, to_m: 135, stand: stands/simple-coppice.yaml}]}\n"
                             "  - {name: b, forest: [{from_m: 0, to_m: 135, stand: stands/coppice-with-standards.yaml}]}\n"
-                            "simulation: {seed: 3, rocks: 500}\n";
+                            "simulation: {law: lumped, friction_bound: false, seed: 3, rocks: 500}\n";
 
 static struct scene_file file;
 static struct scene_inputs inputs;

@@ -322,7 +322,7 @@ static void make_rough(void)
     g.scene.simulation.law = CEDUO_LAW_CRSP;
     g.segment.roughness_rad = 0.3;
     g.segment.rn = ceduo_number(0.4);
-    g.segment.friction = 0.6;
+    g.segment.friction = 0.8;
 }
 
 /* A rough slope, so that rocks differ, and a law by which they spin: what is recorded of each rock is what its run keeps. */

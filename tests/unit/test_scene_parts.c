@@ -183,7 +183,7 @@ TEST_WITH(entries_have_numbers, folder_set_up, folder_tear_down)
 /* Where the slope's file says no ground, talus and segments are those of all stretches; a column may set many. */
 TEST_WITH(draws_of_an_assumed_ground, folder_set_up, folder_tear_down)
 {
-    static const char lines[] = "slope: profile.csv\ndoubt: {draws: draws.csv}";
+    static const char lines[] = "slope: {csv: profile.csv, tolerance_m: 0}\ndoubt: {draws: draws.csv}";
     static const char *const places[] = {"rock.density_kg_m3", "slope.segments[0].rn", "slope.segments[0].rt", /* by name */
                                          "slope.segments[1].rn", "slope.segments[1].rt"};
     static const double values[] = {0.75, 0.25, 0.75, 0.25, 0.75};
@@ -220,7 +220,7 @@ TEST_WITH(draws_of_many_columns, folder_set_up, folder_tear_down)
     ceduo_text_put(&heads, draws.bytes);
     put("profile.csv", profile.bytes);
     put("draws.csv", heads.bytes);
-    read_scene(&file, "slope: profile.csv\ndoubt: {draws: draws.csv}", NULL, 0, NULL);
+    read_scene(&file, "slope: {csv: profile.csv, tolerance_m: 0}\ndoubt: {draws: draws.csv}", NULL, 0, NULL);
     assert_int_equal(file.inputs[0].places_count, 6000);
     for (size_t i = 0; i < 6000; i++) {
         int segment;

@@ -348,6 +348,7 @@ static int endless(void **state)
         s.segments[i] = (struct ceduo_segment){
             .rn = ceduo_number(1), .rt = ceduo_number(1), .roughness_m = NAN, .roughness_rad = 0, .friction = .5};
     s.scene.release = (struct ceduo_release){.x = ceduo_number(25), .height = ceduo_number(20)};
+    s.scene.simulation.law = CEDUO_LAW_LUMPED;
     return 0;
 }
 

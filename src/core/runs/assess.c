@@ -142,11 +142,24 @@ enum ceduo_light ceduo_energy_light(const struct ceduo_arrivals *a)
 
 /* ---- what can be said ---- */
 
+#define DEGREES (180 / M_PI)
+
+enum ceduo_terrain ceduo_terrain(const struct ceduo_arrivals *bare)
+{
+    const struct ceduo_topography *t = &bare->topography;
+    double all = (double)bare->released, may_arrive = (double)(bare->reached + bare->unfinished);
+    bool steep = t->reach * DEGREES > CEDUO_REACH_STEEP || t->shadow * DEGREES > CEDUO_SHADOW_STEEP;
+    if (bare->released > 0 && steep && may_arrive < CEDUO_ARRIVE_FEW * all)
+        return t->bench >= CEDUO_BENCH_LENGTH ? CEDUO_TERRAIN_BENCH : CEDUO_TERRAIN_CONTRADICTS;
+    bool many = (double)bare->reached > CEDUO_ARRIVE_MANY * all;
+    return many && t->shadow * DEGREES < CEDUO_SHADOW_FLAT ? CEDUO_TERRAIN_FAR : CEDUO_TERRAIN_AGREES;
+}
+
 bool ceduo_says_nothing(const struct ceduo_arrivals *bare)
 {
     uint64_t may_arrive = bare->reached + bare->unfinished;
     bool few = bare->released >= CEDUO_ARRIVE_LEAST && may_arrive * CEDUO_ARRIVE_LEAST < bare->released;
-    return bare->released > 0 && (may_arrive == 0 || few);
+    return bare->released > 0 && (may_arrive == 0 || few || ceduo_terrain(bare) == CEDUO_TERRAIN_CONTRADICTS);
 }
 
 enum ceduo_judgement ceduo_judge_share(double share, double lo, double hi)

@@ -59,12 +59,17 @@ static void hash_fields(uint64_t *key, const struct object *object, const char *
     }
 }
 
-uint64_t ceduo_scene_key(const struct ceduo_scene *scene)
+uint64_t ceduo_scene_key(const struct ceduo_scene *given)
 {
     uint64_t key = HASH_START;
-    hash_fields(&key, ceduo_schema_scene(), (const char *)scene, false);
-    for (size_t i = 0; i + 1 < scene->slope.vertices; i++)
-        hash_fields(&key, ceduo_schema_segment(), (const char *)&scene->slope.segments[i], false);
+    struct ceduo_scene scene = *given; /* with the profile that is simulated; without memory for it the key is another one */
+    struct ceduo_slope simplified;
+    if (ceduo_slope_simplify(&given->slope, given->release.x.mean, &simplified) == CEDUO_OK && simplified.x)
+        scene.slope = simplified;
+    hash_fields(&key, ceduo_schema_scene(), (const char *)&scene, false);
+    for (size_t i = 0; i + 1 < scene.slope.vertices; i++)
+        hash_fields(&key, ceduo_schema_segment(), (const char *)&scene.slope.segments[i], false);
+    ceduo_slope_simplified_free(&simplified);
     return key;
 }
 

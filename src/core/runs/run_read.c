@@ -204,6 +204,7 @@ enum ceduo_status ceduo_run_arrivals(const struct ceduo_run *run, size_t control
                                  .contacts = NAN,
                                  .contacts_se = NAN,
                                  .hazard = ceduo_hazard_none(),
+                                 .topography = ceduo_prepared_topography(&run->ready, control),
                                  .exact = run->exact};
     memcpy(a->ended, s.ended, sizeof a->ended);
     if (run->sized)

@@ -248,12 +248,19 @@ HOT void turn_section(struct walker *w, struct ground_point *to)
     to->section.gyration = w->section.gyration;
 }
 
+static inline double roughness_angle(const struct ground_roughness *r, double radius)
+{
+    return isnan(r->height) ? r->angle : ceduo_atan(r->height / radius);
+}
+
 HOT double largest_facet(const struct walker *w, size_t j)
 {
     if (!w->g->theta_varies)
         return w->g->segments[j].theta;
+    if (w->g->rough)
+        return w->theta[w->g->rough[j]];
     const struct ceduo_segment *s = w->g->given[j];
-    return s->roughness_m > 0 ? ceduo_atan(s->roughness_m / w->rock.radius) : w->g->segments[j].theta;
+    return roughness_angle(&(struct ground_roughness){s->roughness_m, s->roughness_rad}, w->rock.radius);
 }
 
 HOT struct ground_point ground_point(const struct walker *w, size_t j)
@@ -264,6 +271,7 @@ HOT struct ground_point ground_point(const struct walker *w, size_t j)
                              .radius = w->rock.radius,
                              .k = w->k,
                              .scale_rn = w->scale_rn,
+                             .bound = w->friction_bound,
                              .mu = s->mu,
                              .friction = s->friction};
     if (w->g->rn_varies)

@@ -24,17 +24,6 @@
 
 /* ---- vertices that matter ---- */
 
-static bool same_number(struct ceduo_number a, struct ceduo_number b)
-{
-    return a.mean == b.mean && a.spread == b.spread && (a.kind == b.kind || a.spread == 0);
-}
-
-static bool same_roughness(const struct ceduo_segment *a, const struct ceduo_segment *b)
-{
-    return isnan(a->roughness_m) ? isnan(b->roughness_m) && a->roughness_rad == b->roughness_rad
-                                 : a->roughness_m == b->roughness_m;
-}
-
 /* Lines from one vertex: steepest and gentlest that pass as near to all vertices so far as rounding allows, and likewise
  * the slopes that no segment so far is turned from. */
 struct lines {
@@ -58,9 +47,7 @@ static size_t end_of_line(const struct ceduo_slope *slope, size_t j, double near
         double turn = NO_BREAK * (1 + m * next); /* less than 0 beyond a right angle */
         if (!(fabs(next - m) <= 2 * turn))       /* by far the most of a rough profile */
             break;
-        const struct ceduo_segment *a = &slope->segments[j], *b = &slope->segments[end];
-        if (!same_roughness(a, b) || a->friction != b->friction || a->mu != b->mu || !same_number(a->rn, b->rn) ||
-            !same_number(a->rt, b->rt))
+        if (!ceduo_segment_same(&slope->segments[j], &slope->segments[end]))
             break;
         double dx = x[end] - x[j], far = x[end + 1] - x[j], chord = (z[end + 1] - z[j]) / far;
         narrow(&l, m, turn);
@@ -106,13 +93,40 @@ static void prepare_segment(struct ground *g, size_t j, double radius)
     to->mu = from->mu;
     to->rn = from->rn.mean;
     to->rt = from->rt.mean;
-    if (j > 0 && same_roughness(from, g->given[j - 1]))
+    if (j > 0 && ceduo_segment_same(from, g->given[j - 1]))
         to->theta = g->segments[j - 1].theta;
     else
         to->theta = isnan(from->roughness_m) ? from->roughness_rad : ceduo_atan(from->roughness_m / radius);
     g->along[j + 1] = g->along[j] + length / scale;
     g->rn_varies |= from->rn.spread > 0;
     g->rt_varies |= from->rt.spread > 0;
+}
+
+/* Number the roughnesses of a profile where rocks differ in radius, so that each rock has the angle of each from its release on.
+ * False without memory. */
+static bool number_roughnesses(struct ground *g)
+{
+    if (!g->theta_varies)
+        return true;
+    g->rough = malloc(g->n);
+    if (!g->rough)
+        return false;
+    for (size_t j = 0; j < g->n; j++) {
+        const struct ceduo_segment *s = g->given[j];
+        size_t k = 0;
+        while (k < g->roughness_count && g->roughness[k].height != s->roughness_m && g->roughness[k].angle != s->roughness_rad)
+            k++;
+        if (k == ROUGHNESS_MAX) {
+            free(g->rough);
+            g->rough = NULL;
+            g->roughness_count = 0;
+            return true;
+        }
+        if (k == g->roughness_count)
+            g->roughness[g->roughness_count++] = (struct ground_roughness){s->roughness_m, s->roughness_rad};
+        g->rough[j] = (unsigned char)k;
+    }
+    return true;
 }
 
 /* ---- blocks ---- */
@@ -176,7 +190,8 @@ bool ceduo_ground_init(struct ground *ground, const struct ceduo_slope *slope, d
         prepare_segment(ground, j, radius);
         ground->theta_varies |= radius_varies && ground->given[j]->roughness_m > 0;
     }
-    if (build_levels(ground, MARGIN * size) && ceduo_ground_prepare_rolls(ground, radius, radius_varies))
+    if (number_roughnesses(ground) && build_levels(ground, MARGIN * size) &&
+        ceduo_ground_prepare_rolls(ground, radius, radius_varies))
         return true;
 fail:
     ceduo_ground_release(ground);
@@ -197,6 +212,7 @@ void ceduo_ground_release(struct ground *ground)
     if (ground->segments)
         free(ground->segments - 1);
     free(ground->given);
+    free(ground->rough);
     free(ground->corners);
     for (int l = 0; l < GROUND_LEVELS; l++) {
         free(ground->levels[l]);

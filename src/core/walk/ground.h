@@ -54,6 +54,12 @@ struct ground_roll {
 #define ROLL_BITS 2 /* 2^2 segments are a block of these; speed and the last bits of a roll depend on it */
 #endif
 
+/* The roughness of a ground: a height, m, or an angle. */
+struct ground_roughness {
+    double height, angle; /* one of them is NaN */
+};
+#define ROUGHNESS_MAX 16
+
 /* Neighbours on one line with the same ground are one segment here, so its numbers are not those of the slope. */
 struct ground {
     size_t n;                 /* segments */
@@ -64,6 +70,9 @@ struct ground {
     const struct ceduo_segment **given; /* n: the slope's, for spreads and roughness heights */
     enum ceduo_facets facets;
     bool rn_varies, rt_varies, theta_varies; /* from rock to rock */
+    size_t roughness_count; /* of the profile; 0: theta does not vary, or there are more than the array holds */
+    struct ground_roughness roughness[ROUGHNESS_MAX];
+    unsigned char *rough; /* n: the roughness of each segment; NULL if there is no count */
     double gravity, half_g;
     int top; /* level; level l has blocks of 2^(GROUND_BITS l) segments, from 1 on, and only whole ones */
     struct ground_block *levels[GROUND_LEVELS];

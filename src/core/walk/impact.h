@@ -12,11 +12,13 @@ struct impact {
 
 /* What a law needs to know of rock and ground. */
 struct ground_point {
-    real rn, rt;       /* 0…1 */
-    real radius;       /* R, m */
-    real k;            /* I/(MR2) */
-    bool scale_rn;     /* lumped only: Rn divided by 1 + (Vn/K)2 */
-    real mu, friction; /* of laws of sections, which are turned: */
+    real rn, rt;   /* 0…1 */
+    real radius;   /* R, m */
+    real k;        /* I/(MR2) */
+    bool scale_rn; /* lumped only: Rn divided by 1 + (Vn/K)2 */
+    bool bound;    /* by friction: see bound_by_friction() */
+    real friction; /* tan of an angle; unused unless `bound`, or the law has sections */
+    real mu;       /* of laws of sections, which are turned: */
     real sine, cosine;
     struct {
         real wide, high, reach, gyration; /* of struct section */

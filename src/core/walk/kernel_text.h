@@ -50,8 +50,11 @@ HOT void step_lanes(struct form form, struct lanes *k, bool even)
     k->fresh = 0;
     if (k->varies)
         ground_alone(form, k);
+    else if (k->sized)
+        theta_alone(k);
     EACH_REGISTER(i)
         turn_lanes(form, k, i);
+    k->rolled = k->friction_bound ? k->rolls : 0;
     EACH_REGISTER(i)
         strike_lanes(form, k, i);
     unsigned far = k->far ? find_segments_far(form, k) : find_segments(form, k);
@@ -136,9 +139,11 @@ static void walk_job(const struct lanes_job *job)
     k.seed = w->seed;
     bool small = job->ground->small;
     k.far = k.g->top > 0;
-    k.varies = k.g->rn_varies || k.g->rt_varies || k.g->theta_varies;
+    k.varies = k.g->rn_varies || k.g->rt_varies || (k.g->theta_varies && !k.g->rough);
+    k.sized = k.g->theta_varies;
     k.against = k.g->facets == CEDUO_AGAINST;
     k.scale_rn = w->scale_rn;
+    k.friction_bound = w->friction_bound;
     k.tallest = w->stems ? w->stems->wood->tallest + 1e-6 : 0; /* more than rounding can make of a height */
     k.steep = job->ground->steep;
     static void (*const walks[])(struct lanes *, bool, bool) = {

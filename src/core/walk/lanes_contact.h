@@ -71,6 +71,15 @@ SELDOM void ground_alone(struct form form, struct lanes *k)
             ceduo_walk_ground(&k->job->walkers[i], k->to[i] - 1, &k->rn[i], &k->rt[i], &k->theta[i]);
 }
 
+/* The largest facet angle where only that varies, with the rock's radius. */
+HOT void theta_alone(struct lanes *k)
+{
+    const unsigned char *rough = k->g->rough;
+    for (size_t i = 0; i < LANES; i++)
+        if (k->to[i] - 1 < k->g->n)
+            k->theta[i] = k->job->walkers[i].theta[rough[k->to[i] - 1]];
+}
+
 /* How the facets and sections of the lanes from i on are turned. */
 HOT void turn_lanes(struct form form, struct lanes *k, size_t i)
 {
@@ -92,14 +101,16 @@ HOT void turn_lanes(struct form form, struct lanes *k, size_t i)
 HOT struct ground_point ground_points(struct form form, struct lanes *k, size_t i, ints segment)
 {
     struct ground_point at = {.radius = load(&k->radius[i]), .k = load(&k->k[i]), .scale_rn = k->scale_rn};
+    at.bound = k->friction_bound;
     if (k->varies) {
         at.rn = load(&k->rn[i]);
         at.rt = load(&k->rt[i]);
     } else {
         look_up(&k->ground->share, segment, form.small, &at.rn, &at.rt);
     }
-    if (form.law->sections) {
+    if (form.law->sections || k->friction_bound)
         look_up(&k->ground->grip, segment, form.small, &at.mu, &at.friction);
+    if (form.law->sections) {
         at.sine = load(&k->turned.sine[i]);
         at.cosine = load(&k->turned.cosine[i]);
         at.section.wide = load(&k->section.wide[i]);
@@ -127,6 +138,8 @@ HOT void strike_lanes(struct form form, struct lanes *k, size_t i)
     facet_struck(k->against, v, &sine, &cosine);
     const struct ground_point at = ground_points(form, k, i, segment);
     real spin = load(&k->spin[i]), x = load(&k->to_x[i]), z = load(&k->to_z[i]);
+    store(&k->before.along[i], v.along);
+    store(&k->before.spin[i], spin);
     v = strike(form.law, &at, sine, cosine, v, &spin);
     vx = v.along * c - v.off * s;
     vz = v.along * s + v.off * c;

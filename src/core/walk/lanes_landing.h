@@ -185,8 +185,14 @@ HOT unsigned roll_lanes(struct form form, struct lanes *k, size_t i, unsigned ne
     mask rolls = may & here & less_far;
     *others |= lanes_of(but(may, here & farther)) << i;
     look_up(&k->ground->grip, segment, form.small, &mu, &friction);
+    real spin = load(&k->spin[i]);
+    if (k->rolled) {
+        mask rolled = mask_of(k->rolled >> i);
+        u = pick(rolled, load(&k->before.along[i]), u);
+        spin = pick(rolled, load(&k->before.spin[i]), spin);
+    }
     if (spins)
-        u = rolling_speed(u, load(&k->k[i]), load(&k->spin[i]), radius);
+        u = rolling_speed(u, load(&k->k[i]), spin, radius);
     mask forth = less(zero, u);
     real dir = pick(forth, all(1), all(-1));
     is_within(absolute(pick(steep, pick(forth, on.z1, on.z0) - z, pick(forth, on.x1, on.x0) - x)), reach, &ends, &stays);

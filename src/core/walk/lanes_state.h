@@ -77,8 +77,9 @@ struct lanes {
     const struct ground *g;
     uint64_t seed;
     bool far;    /* the ground has blocks */
-    bool varies; /* the ground from rock to rock */
-    bool against, scale_rn;
+    bool varies; /* the ground from rock to rock, */
+    bool sized;  /* or only the largest facet angle, with the rock's radius */
+    bool against, scale_rn, friction_bound;
     bool steep; /* so is the ground */
 
     _Alignas(64) double x[LANES], z[LANES], vx[LANES], vz[LANES], spin[LANES];
@@ -89,9 +90,12 @@ struct lanes {
     struct chords on;
     double theta[LANES];
     double along[LANES], off[LANES]; /* velocity on the segment, behind a contact */
-    double inv[LANES];               /* 1/vx */
-    uint64_t vertex[LANES];          /* from 1; which the search for the landing has come to */
-    double draw[3][LANES];           /* for the facets of the next contacts, */
+    struct {
+        double along[LANES], spin[LANES];
+    } before;               /* of those that rolled to it */
+    double inv[LANES];      /* 1/vx */
+    uint64_t vertex[LANES]; /* from 1; which the search for the landing has come to */
+    double draw[3][LANES];  /* for the facets of the next contacts, */
     struct {
         double sine[LANES], cosine[LANES];
     } facet, turned;       /* of the facets, and of the sections */
@@ -120,6 +124,7 @@ struct lanes {
     unsigned live;   /* has a rock */
     unsigned there;  /* is at its next contact already, at to_x, to_z */
     unsigned rolls;  /* of these: with speed `along` on the ground, which vx, vz do not know yet */
+    unsigned rolled; /* rolled to its last contact, and goes on as before if it still rolls */
     unsigned left;   /* lands off the slope */
     unsigned fresh;  /* has no draws yet */
     unsigned aloft;  /* behind a stem: where it lands is looked for now */
@@ -272,6 +277,7 @@ static struct course course_of(struct lanes *k, size_t i)
                                   .on_ground = !((k->aloft | k->lost) & bit)},
                            .flies = !there,
                            .aloft = (k->aloft | k->lost) & bit,
+                           .rolled = rolls,
                            .along = k->along[i],
                            .l = {.t = k->t[i], .x = k->to_x[i], .z = k->to_z[i], .segment = to, .left = left}};
 }
@@ -435,7 +441,8 @@ SELDOM void go_off_alone(struct lanes *k, size_t i, bool knows_landing)
     bool rolls = ceduo_walk_rolls(w, &c, knows_landing);
     if (!rolls && knows_landing) /* as the lane has it */
         return;
-    if (rolls && !ceduo_walk_roll(w, &c, &end)) {
+    const struct rolling before = {k->before.along[i], k->before.spin[i]};
+    if (rolls && !ceduo_walk_roll(w, &c, k->rolled & bit ? &before : NULL, &end)) {
         finish(k, i, end);
         return;
     }

@@ -110,11 +110,22 @@ enum ceduo_status ceduo_prepared_init(struct prepared *to, const struct ceduo_sc
     enum ceduo_status status = ceduo_rock_of_means(&scene->rock, &to->mean);
     if (status != CEDUO_OK)
         return status;
+    status = ceduo_slope_simplify(&scene->slope, scene->release.x.mean, &to->simplified);
+    if (status != CEDUO_OK)
+        return status;
+    if (to->simplified.x)
+        to->scene.slope = to->simplified;
     bool good = ceduo_sizes_init(&to->sizes, scene) && ceduo_wood_init(&to->wood, &scene->simulation, option, &to->mean) &&
-                make_marks(&to->marks, scene, cells, cell_x) &&
-                ceduo_ground_init(&to->ground, &scene->slope, scene->simulation.gravity, to->mean.radius,
+                make_marks(&to->marks, &to->scene, cells, cell_x) &&
+                ceduo_ground_init(&to->ground, &to->scene.slope, scene->simulation.gravity, to->mean.radius,
                                   ceduo_scene_rock_varies(scene));
     return good ? CEDUO_OK : CEDUO_NO_MEMORY;
+}
+
+struct ceduo_topography ceduo_prepared_topography(const struct prepared *ready, size_t control)
+{
+    const struct ceduo_scene *scene = &ready->scene;
+    return ceduo_slope_topography(&scene->slope, scene->release.x.mean, scene->release.height.mean, scene->controls[control].x);
 }
 
 enum ceduo_status ceduo_prepared_rock(const struct prepared *ready, uint64_t number, struct ceduo_rock *rock)
@@ -140,4 +151,5 @@ void ceduo_prepared_release(struct prepared *p)
     free(p->marks.at);
     free(p->marks.cell_x);
     ceduo_ground_release(&p->ground);
+    ceduo_slope_simplified_free(&p->simplified);
 }

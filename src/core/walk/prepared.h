@@ -58,7 +58,8 @@ struct marks {
 
 /* A scene made ready to simulate rocks through one forest: what a walker reads. */
 struct prepared {
-    struct ceduo_scene scene;
+    struct ceduo_scene scene;      /* with the profile that is simulated */
+    struct ceduo_slope simplified; /* owns that profile; x NULL: it is the caller's */
     struct ceduo_rock mean;
     bool varies; /* so do rocks from one to the next, besides the sizes of blocks */
     struct sizes sizes;
@@ -72,6 +73,9 @@ struct prepared {
 enum ceduo_status ceduo_prepared_init(struct prepared *to, const struct ceduo_scene *scene, const struct ceduo_option *option,
                                       size_t cells, const double *cell_x);
 void ceduo_prepared_release(struct prepared *p);
+
+/* How a control (in the scene's order) lies below the mean release, on the profile that is simulated. */
+struct ceduo_topography ceduo_prepared_topography(const struct prepared *ready, size_t control);
 
 /* Rock `number` of a run, of its own size. What ceduo_rock_draw() says. */
 enum ceduo_status ceduo_prepared_rock(const struct prepared *ready, uint64_t number, struct ceduo_rock *rock);

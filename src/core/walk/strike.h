@@ -42,6 +42,22 @@ HOT void facet_struck(bool against, struct velocity v, real *sine, real *cosine)
     *cosine = pick(leaves, all(1), *cosine);
 }
 
+/* Bound the loss of speed along the facet by friction times the normal impulse. Laws that scale Vt take a share of it however
+ * small the normal impulse is. Spin follows the impulse of friction towards rolling, never past it. */
+HOT struct impact bound_by_friction(struct impact in, struct impact out, const struct ground_point *at, bool spins)
+{
+    real limit = at->friction * (in.vn + out.vn), before = absolute(in.vt), after = absolute(out.vt);
+    mask binds = less(limit, before - after);
+    after = before - limit;
+    if (spins) {
+        real one = with_sign(all(1), in.vt), rim = one * (in.spin * at->radius), impulse = limit / at->k;
+        rim = pick(less(rim, after), min(rim + impulse, after), max(rim - impulse, after));
+        out.spin = pick(binds, one * rim / at->radius, out.spin);
+    }
+    out.vt = pick(binds, with_sign(after, in.vt), out.vt);
+    return out;
+}
+
 /* The contact, in the segment's axes: what a rock that rolls brings has no part off the ground, exactly, and what goes into
  * the segment is lost. */
 HOT struct velocity strike(const struct contact_law *law, const struct ground_point *at, real sine, real cosine,
@@ -50,6 +66,8 @@ HOT struct velocity strike(const struct contact_law *law, const struct ground_po
     real zero = all(0), inward = v.along * sine - v.off * cosine;
     struct impact in = {.vn = pick(less(zero, inward), inward, zero), .vt = v.along * cosine + v.off * sine, .spin = *spin};
     struct impact out = law->struck(in, at);
+    if (at->bound && !law->sections) /* a law of sections has friction of its own */
+        out = bound_by_friction(in, out, at, law->spins);
     real off = out.vt * sine + out.vn * cosine;
     *spin = out.spin;
     return (struct velocity){.along = out.vt * cosine - out.vn * sine, .off = pick(less(zero, off), off, zero)};

@@ -33,11 +33,14 @@ enum ceduo_status ceduo_walk_release(struct walker *w, const struct prepared *re
     w->seed = scene->simulation.seed;
     w->number = number;
     w->scale_rn = scene->simulation.scale_rn;
+    w->friction_bound = scene->simulation.friction_bound;
     enum ceduo_status status = ceduo_prepared_rock(ready, number, &w->rock);
     if (status != CEDUO_OK)
         return status;
     w->rn_u = g->rn_varies ? random_open(w->seed, number, 0, RANDOM_GROUND) : 0;
     w->rt_u = g->rt_varies ? random_open(w->seed, number, 1, RANDOM_GROUND) : 0;
+    for (size_t i = 0; i < g->roughness_count; i++)
+        w->theta[i] = roughness_angle(&g->roughness[i], w->rock.radius);
     double x = draw_release(w, scene->release.x, 0), height = draw_release(w, scene->release.height, 1);
     const struct contact_law *law = contact_laws[scene->simulation.law];
     w->k = law->spins ? w->rock.k : 0;
@@ -126,10 +129,14 @@ HOT bool come_down(struct walker *w, struct flight *at, struct landing *l, bool 
 }
 
 /* The same for a rock that rolls after a contact, standing still where it does until it rests or rolls on. */
-bool ceduo_walk_roll(struct walker *w, struct course *c, enum ceduo_end *end)
+bool ceduo_walk_roll(struct walker *w, struct course *c, const struct rolling *before, enum ceduo_end *end)
 {
     bool enough = false;
     w->at = c->at;
+    if (before) {
+        c->along = before->along;
+        w->spin = before->spin;
+    }
     double u = rolling_speed(c->along, w->k, w->spin, w->rock.radius);
     enum after_roll then = u == 0 && rests(w) ? STANDS : roll_on(w, u, &c->l);
     while (then == STANDS && !rests(w) && !(enough = w->contacts >= w->pause && has_enough(w))) {
@@ -144,6 +151,7 @@ bool ceduo_walk_roll(struct walker *w, struct course *c, enum ceduo_end *end)
     c->along = w->along;
     c->off = 0;
     c->flies = then == TOOK_OFF;
+    c->rolled = then == ROLLED;
     return then == TOOK_OFF || then == ROLLED;
 }
 
@@ -169,18 +177,20 @@ HOT enum ceduo_end walk_over(struct walker *w, struct course c, const struct con
     struct velocity v = {c.along, c.off};
     struct facet facet = {.angle = 0, .sine = 0, .cosine = 1};
     struct landing l = c.l;
-    bool flies = c.flies;
+    bool flies = c.flies, rolled = c.rolled;
     enum ceduo_end end;
     for (;;) {
         if (flies) {
             if (!come_down(w, &at, &l, true, &end))
                 return end;
             v = velocity_at(w, &at);
+            rolled = false;
         }
         if (w->contacts >= w->pause && has_enough(w)) {
             w->at = at;
             return CEDUO_UNFINISHED;
         }
+        const struct rolling before = {.along = v.along, .spin = w->spin};
         strike_ground(w, &at, &v, &facet, law);
         w->contacts++;
         turn_facet(w, at.segment, &facet);
@@ -191,12 +201,13 @@ HOT enum ceduo_end walk_over(struct walker *w, struct course c, const struct con
             continue;
         c.at = at;
         c.along = v.along;
-        if (!ceduo_walk_roll(w, &c, &end))
+        if (!ceduo_walk_roll(w, &c, rolled && w->friction_bound ? &before : NULL, &end))
             return end;
         at = c.at;
         v = (struct velocity){c.along, c.off};
         l = c.l;
         flies = c.flies;
+        rolled = c.rolled;
     }
 }
 

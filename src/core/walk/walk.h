@@ -38,14 +38,15 @@ struct walker {
     const struct ground *g;
     const struct marks *marks;
     uint64_t seed, number;
-    bool scale_rn;
+    bool scale_rn, friction_bound;
     struct ceduo_rock rock;
     double k;         /* 0 where the law knows no spin */
     bool has_section; /* under the law arm */
     struct section section;
-    double rn_u, rt_u; /* quantiles of this rock's ground */
-    struct flight at;  /* where it is now */
-    double along;      /* after a roll: speed along the segment */
+    double rn_u, rt_u;           /* quantiles of this rock's ground */
+    double theta[ROUGHNESS_MAX]; /* largest facet angle of this rock on each roughness of the ground */
+    struct flight at;            /* where it is now */
+    double along;                /* after a roll: speed along the segment */
     double spin;
     uint64_t contacts;
     uint64_t pause;       /* contacts after which to look up: at the most, or whether to stop */
@@ -76,6 +77,7 @@ struct course {
     struct flight at;
     bool flies;
     bool aloft;        /* and `l` is not known yet, behind a stem */
+    bool rolled;       /* on the ground: it rolled to here, with speed `along` */
     double along, off; /* velocity, on the ground */
     struct landing l;  /* in flight */
 };
@@ -134,8 +136,12 @@ bool ceduo_walk_come_down(struct walker *w, struct course *c, enum ceduo_end *en
 /* Whether a rock rolls behind a contact, which leaves it with velocity v; else it flies to l, which may be known. */
 bool ceduo_walk_rolls(const struct walker *w, struct course *c, bool knows_landing);
 
-/* If so: into flight or to the next contact. */
-bool ceduo_walk_roll(struct walker *w, struct course *c, enum ceduo_end *end);
+/* Roll on from such a contact, into flight or to the next contact. `before`: the motion that a rock keeps which rolled to
+ * the contact; NULL: the contact was an impact. */
+struct rolling {
+    double along, spin; /* m/s, rad/s */
+};
+bool ceduo_walk_roll(struct walker *w, struct course *c, const struct rolling *before, enum ceduo_end *end);
 
 /* From between two contacts to the end. */
 enum ceduo_end ceduo_walk_on(struct walker *w, const struct course *c, enum ceduo_law law);

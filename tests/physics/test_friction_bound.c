@@ -1,0 +1,162 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Impacts of the laws lumped and crsp with the friction bound: what holds for a million random impacts of each. Golden values
+ * stand in test_golden.c. */
+#include "expect.h"
+
+#include <math.h>
+
+#include "core/walk/strike.h"
+#include "line_scene.h"
+
+#define IMPACTS  1000000
+#define ROUNDING 1e-14
+
+/* Ground, rock and an impact on it, in the axes of the facet. */
+struct blow {
+    struct ground_point at;
+    struct impact in;
+};
+
+static struct blow random_blow(struct line_random *r, const struct contact_law *law)
+{
+    double radius = line_log_uniform(r, .005, 5), speed = line_log_uniform(r, 1e-3, 100);
+    return (struct blow){.at = {.rn = line_chance(r, .1)   ? 0
+                                      : line_chance(r, .1) ? 1
+                                                           : line_uniform(r, 0, 1),
+                                .rt = line_chance(r, .1)   ? 0
+                                      : line_chance(r, .1) ? 1
+                                                           : line_uniform(r, 0, 1),
+                                .radius = radius,
+                                .k = line_uniform(r, .1, .8),
+                                .scale_rn = line_chance(r, .3),
+                                .friction = line_chance(r, .1) ? 0 : line_uniform(r, 0, 2)},
+                         .in = {.vn = line_chance(r, .2) ? 0 : speed * line_log_uniform(r, 1e-4, 10),
+                                .vt = line_chance(r, .1) ? 0 : speed * line_uniform(r, -1, 1),
+                                .spin = !law->spins || line_chance(r, .2) ? 0 : speed * line_uniform(r, -2, 2) / radius}};
+}
+
+/* Strikes the segment itself, where the facet is not turned. */
+static struct impact strike_flat(const struct contact_law *law, const struct blow *b, bool bound)
+{
+    struct ground_point at = b->at;
+    double spin = b->in.spin;
+    at.bound = bound;
+    struct velocity out = strike(law, &at, 0, 1, (struct velocity){.along = b->in.vt, .off = -b->in.vn}, &spin);
+    return (struct impact){.vn = out.off, .vt = out.along, .spin = spin};
+}
+
+static const struct contact_law *const laws[] = {&law_lumped, &law_crsp};
+
+/* Energy per half of the mass. The lumped law has no rotation. */
+static double energy(const struct contact_law *law, const struct ground_point *at, double along, double off, double spin)
+{
+    double rim = law->spins ? spin * at->radius : 0;
+    return along * along + off * off + at->k * rim * rim;
+}
+
+/* On facets that are turned to either side, up to a right angle. */
+TEST(no_impact_gains_energy)
+{
+    struct line_random r = {.state = 1};
+    for (size_t l = 0; l < LENGTH(laws); l++)
+        for (int i = 0; i < IMPACTS; i++) {
+            struct blow b = random_blow(&r, laws[l]);
+            double angle = line_chance(&r, .2) ? 0 : line_uniform(&r, -1.57, 1.57), sine = sin(angle), cosine = cos(angle);
+            struct velocity v = {.along = b.in.vt, .off = -b.in.vn};
+            facet_struck(false, v, &sine, &cosine);
+            double before = energy(laws[l], &b.at, v.along, v.off, b.in.spin);
+            for (int bound = 0; bound <= 1; bound++) {
+                double spin = b.in.spin;
+                b.at.bound = bound;
+                struct velocity out = strike(laws[l], &b.at, sine, cosine, v, &spin);
+                EXPECT(energy(laws[l], &b.at, out.along, out.off, spin), <=, before * (1 + ROUNDING));
+                EXPECT(out.off, >=, 0);
+            }
+        }
+}
+
+/* Loss of speed along the facet, in the direction in which the rock comes in. */
+static double loss(struct impact in, struct impact out)
+{
+    return fabs(in.vt) - copysign(1, in.vt) * out.vt;
+}
+
+/* If the law takes at most friction times the normal impulse, its bits stay. Otherwise the loss is this bound, the rock keeps
+ * its direction, and its spin follows the impulse towards rolling, never past it. The normal speed is always that of the law. */
+TEST(friction_bounds_the_loss_along_the_facet)
+{
+    struct line_random r = {.state = 2};
+    for (size_t l = 0; l < LENGTH(laws); l++) {
+        int binds = 0, rolls = 0;
+        for (int i = 0; i < IMPACTS; i++) {
+            struct blow b = random_blow(&r, laws[l]);
+            struct impact in = b.in, law = strike_flat(laws[l], &b, false), out = strike_flat(laws[l], &b, true);
+            double most = b.at.friction * (in.vn + law.vn), rounding = ROUNDING * (fabs(in.vt) + most);
+            EXPECT(out.vn, ==, law.vn);
+            if (in.vt != 0)
+                EXPECT(loss(in, out), <=, most + rounding);
+            if (in.vt == 0 || fabs(in.vt) - fabs(law.vt) <= most) {
+                EXPECT_SAME(out, law, vt, spin);
+                continue;
+            }
+            binds++;
+            EXPECT_NEAR(loss(in, out), most, rounding);
+            EXPECT(in.vt * out.vt, >=, 0);
+            EXPECT(fabs(out.vt), >=, fabs(law.vt));
+            if (!laws[l]->spins) {
+                EXPECT(out.spin, ==, 0);
+                continue;
+            }
+            double one = copysign(1, in.vt), rim = one * in.spin * b.at.radius, to = one * out.spin * b.at.radius;
+            double rolling = fabs(out.vt), room = ROUNDING * (fabs(in.vt) + fabs(rim) + most / b.at.k);
+            EXPECT(fabs(to - rim), <=, most / b.at.k + room);
+            EXPECT(to, >=, fmin(rim, rolling) - room);
+            EXPECT(to, <=, fmax(rim, rolling) + room);
+            bool follows = fabs(fabs(to - rim) - most / b.at.k) <= room, at_rolling = fabs(to - rolling) <= room;
+            assert_true(follows || at_rolling);
+            rolls += at_rolling;
+        }
+        print_message("%d of %d impacts are bounded, %d of these leave rolling\n", binds, IMPACTS, rolls);
+        EXPECT(binds, >, IMPACTS / 10);
+        EXPECT(binds, <, IMPACTS * 9 / 10);
+        EXPECT(rolls, >=, laws[l]->spins ? binds / 50 : 0);
+    }
+}
+
+/* Without friction a law cannot take speed along the facet, and with very much of it every law is as published, unless the
+ * rock has no normal speed. */
+TEST(limits_of_the_bound)
+{
+    struct line_random r = {.state = 3};
+    for (size_t l = 0; l < LENGTH(laws); l++)
+        for (int i = 0; i < IMPACTS / 10; i++) {
+            struct blow b = random_blow(&r, laws[l]);
+            b.at.friction = 0;
+            EXPECT(fabs(strike_flat(laws[l], &b, true).vt), >=, fabs(b.in.vt));
+            b.at.friction = 1e9;
+            struct impact law = strike_flat(laws[l], &b, false), out = strike_flat(laws[l], &b, true);
+            if (b.in.vn > 0)
+                EXPECT_SAME(out, law, vt, vn, spin);
+            b.in.vn = 0; /* grazing: there is no impulse that could take anything */
+            EXPECT(fabs(strike_flat(laws[l], &b, true).vt), >=, fabs(b.in.vt));
+        }
+}
+
+/* The law arm has friction of its own. */
+TEST(the_bound_leaves_the_law_arm_as_it_is)
+{
+    struct line_random r = {.state = 4};
+    for (int i = 0; i < IMPACTS / 10; i++) {
+        struct blow b = random_blow(&r, &law_arm);
+        double turn = line_uniform(&r, -1.5, 1.5);
+        b.at.mu = line_uniform(&r, 0, 3);
+        b.at.sine = sin(turn);
+        b.at.cosine = cos(turn);
+        b.at.section.wide = line_uniform(&r, 1, 3);
+        b.at.section.high = line_uniform(&r, 1, 3);
+        b.at.section.reach = 1.5;
+        b.at.section.gyration = b.at.radius / 1.5;
+        struct impact law = strike_flat(&law_arm, &b, false), out = strike_flat(&law_arm, &b, true);
+        EXPECT_SAME(out, law, vt, vn, spin);
+    }
+}
