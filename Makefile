@@ -404,7 +404,8 @@ $(BENCH): $(T)/%: $(BUILD)/tests/%.o $(call object,$(filter-out tests/bench/benc
 
 do-bench: all $(BENCH)
 	@+$(MAKE) --no-print-directory DEBIAN="$(DEBIAN_BENCH)" deps
-	@CC="$(CC)" ONLY="$(ONLY)" tests/bench/results.sh $(BENCH) tests/bench/numpy_loop.py tests/bench/bench_valley.py
+	@CC="$(CC)" ONLY="$(ONLY)" tests/bench/results.sh $(BENCH) tests/bench/numpy_loop.py tests/bench/bench_valley.py \
+	    tests/bench/bench_ground.py
 	@$(MAKE) --no-print-directory tables
 
 # ---- the manual ----

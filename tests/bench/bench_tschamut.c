@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The stops of 80 rocks of three shapes at Tschamut (profiles/scenes/tschamut.yaml) against those of every law of contacts.
+/* The stops of 80 rocks of three shapes at Tschamut (profiles/scenes/tschamut-arm.yaml) against those of every law of contacts.
  *
  *   bench_tschamut [POINTS [ROCKS]]        default 4096, 500
  *
@@ -197,7 +197,7 @@ static void measure_law(struct site *site, enum ceduo_law law, const char *name,
 
 static void read_site(struct site *site)
 {
-    read_scene(&site->file, "profiles/scenes/tschamut.yaml");
+    read_scene(&site->file, "profiles/scenes/tschamut-arm.yaml");
     if (site->file.observations_count != BLOCKS)
         fail("there are other blocks");
     site->seen = site->file.observations;

@@ -151,6 +151,61 @@ class Results:
         return table(["scene", "when", "seeds", "clear at 1024", "at 10240", "no longer", "reversed"],
                      [list(r.values()) for r in self.rows("bench_verdict")])
 
+    # ---- ground: before and after version 0.5 ----
+
+    def ground(self, table, place=None, **only):
+        return [r for r in self.rows("bench_ground", table=table, **only) if place is None or r["place_m"] == place]
+
+    def roughness(self):
+        """A picture: bars of rocks that reach the road, and of their speed above it."""
+        def bars(rows, share_rows):
+            speed, share = float(rows["speed_m_s"]), float(share_rows["arrive"])
+            return f"{share:4.0f} {'#' * round(share / 100):10}", f"{speed:4.1f} {'#' * round(speed / 4):8}"
+
+        lines = ["roughness   of 1000 at the road               mean speed at 190 m, m/s",
+                 "        m   0.4.0            0.5              0.4.0          0.5"]
+        for roughness in dict.fromkeys(r["roughness_m"] for r in self.ground("roughness")):
+            at = [bars(*(self.ground("roughness", place, way=way, roughness_m=roughness)[0] for place in ("190", "215")))
+                  for way in ("lumped-0.4", "crsp-0.5")]
+            lines.append(f"{float(roughness):9.2f}   {at[0][0]}  {at[1][0]}  {at[0][1]}  {at[1][1]}".rstrip())
+        return "\n".join([".Bd -literal", *lines, ".Ed"])
+
+    def noise(self, column, head):
+        ways, places, out = ("lumped-0.4", "crsp-0.5"), ("110", "190", "215", "240"), []
+        for way in ways:
+            for case in dict.fromkeys(r["case"] for r in self.ground("noise")):
+                at = [self.ground("noise", place, way=way, case=case)[0] for place in places]
+                row = ["-" if r[column] == "nan" else r[column] for r in at]
+                if column == "arrive":
+                    row.insert(3, f"{at[2]['arrive_min']}\\(en{at[2]['arrive_max']}")
+                out.append([way.split("-")[1], case.replace(" + ", ", "), *row])
+        return table(["version", "points", head, "190 m", "215 m", *(["range"] if column == "arrive" else []), "240 m"], out)
+
+    def noise_shares(self):
+        return self.noise("arrive", "of 1000 at 110 m")
+
+    def noise_speeds(self):
+        return self.noise("speed_m_s", "m/s at 110 m")
+
+    def blocks(self):
+        out = []
+        for case in dict.fromkeys(r["case"] for r in self.ground("blocks")):
+            degrees, _, diameter, _ = case.split()
+            for way in ("lumped-0.4", "crsp-0.5"):
+                out.append([f"{degrees}\\(de", diameter, way.split("-")[1],
+                            *(r["speed_m_s"] for r in self.ground("blocks", case=case, way=way))])
+        heights = list(dict.fromkeys(r["roughness_m"] for r in self.ground("blocks")))
+        return table(["slope", "block, m", "version", f"m/s, S {heights[0]} m", *(f"S {s}" for s in heights[1:])], out)
+
+    def lengths(self):
+        rows = self.ground("length")
+        places = list(dict.fromkeys(r["place_m"] for r in rows))
+        runs = dict.fromkeys((r["way"], r["case"]) for r in rows)
+        out = [[*way.split("-"), case.split()[2], *(r["speed_m_s"] for r in rows if (r["way"], r["case"]) == (way, case))]
+               for way, case in runs]
+        return table(["law", "friction", "block, m", f"m/s after {places[0]} m", *(f"{p} m" for p in places[1:])],
+                     [[law, {"bound": "bound", "published": "as published"}[bound], *rest] for law, bound, *rest in out])
+
     # ---- ceduo-validation(7) ----
 
     def fits(self, what):
