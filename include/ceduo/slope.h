@@ -46,10 +46,6 @@ struct ceduo_slope {
     double origin_x, origin_z;
 };
 
-/* The tolerance of a profile whose ground comes from the library, m: the roughness of such a ground stands for smaller relief.
- * Assumed. */
-#define CEDUO_SLOPE_TOLERANCE 0.5
-
 /* Simplify a profile to slope->tolerance (Douglas and Peucker 1973, perpendicular distance). Vertices between different grounds,
  * the place `release_x`, and both ends are kept.
  * `to`: a copy whose x, z and segments are its own; x is NULL if the profile is simplified already: use `slope` itself.

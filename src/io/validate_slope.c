@@ -288,16 +288,15 @@ void ceduo_validate_slope(struct validator *v)
     }
     if (s->segments && ceduo_slope_check(s) != CEDUO_OK)
         ceduo_complain(v, "slope", "", _("two vertices lie too close together for their distance from the first"));
-    bool each = segments && s->segments_given > 1;
-    if (each && s->tolerance > 0)
+    bool given = ceduo_is_given(v, "slope", "tolerance_m");
+    if (given && s->tolerance > 0 && s->segments_given > 1)
         ceduo_complain(
-            v, "slope.tolerance_m", "",
+            v, TOLERANCE, "",
             _("each stretch between two points has a ground of its own here; remove 'tolerance_m', or give one ground "
               "for all, or 'materials'"));
-    if (!isnan(s->tolerance))
-        return;
-    s->tolerance = segments ? 0 : CEDUO_SLOPE_TOLERANCE;
-    if (!segments)
+    if (!given && segments)
+        s->tolerance = 0;
+    else if (!given)
         ceduo_assume(v, TOLERANCE, ceduo_format(v, _("profile simplified to %g m"), s->tolerance));
 }
 

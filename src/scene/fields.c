@@ -99,9 +99,9 @@ static const struct field slope_fields[] = {
     OTHER(FIELD_FILE, "csv", NAMED(N_("file")), NOWHERE, FIELD_NOWHERE, NULL,
           N_("the profile from a CSV file with distance and elevation, instead of vertices_m"), NULL, NULL),
     NUMBER(
-        "tolerance_m", NAMED(N_("simplify to, m")), AT(ceduo_slope, tolerance), "m", 0, 100, 0, NULL,
+        "tolerance_m", USUAL(N_("simplify to, m"), 0, 2), AT(ceduo_slope, tolerance), "m", 0, 100, 0, "0.5",
         N_("distance within which points of the profile are left out: the roughness of the ground stands for smaller relief; "
-           "without it 0.5 for ground from the library, an assumption, and 0, all points, for segments")),
+           "the default is for ground from the library, an assumption; for segments it is 0: all points")),
     OTHER(FIELD_FLAG, "reversed", NAMED(N_("drawn upward")), AT(ceduo_slope, reversed), 0, "false",
           N_("whether the profile is drawn upward: it is mirrored with its segments or materials, so that x begins at its top; "
              "places in the scene are of the mirrored profile"),

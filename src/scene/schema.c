@@ -142,7 +142,8 @@ struct ceduo_scene ceduo_scene_default(void)
 {
     struct scene_draft draft;
     ceduo_schema_init(ceduo_schema_scene(), &draft);
-    draft.scene.release.x.mean = 0; /* at the first vertex */
+    draft.scene.release.x.mean = 0;  /* at the first vertex */
+    draft.scene.slope.tolerance = 0; /* the default is for ground from the library */
     return draft.scene;
 }
 

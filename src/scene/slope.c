@@ -214,7 +214,8 @@ void ceduo_slope_simplified_free(struct ceduo_slope *slope)
 
 enum ceduo_status ceduo_slope_check(const struct ceduo_slope *slope)
 {
-    if (slope->vertices < 2 || !slope->x || !slope->z || !slope->segments)
+    if (slope->vertices < 2 || !slope->x || !slope->z || !slope->segments || !(slope->tolerance >= 0) ||
+        !isfinite(slope->tolerance))
         return CEDUO_BAD_SLOPE;
     for (size_t i = 0; i < slope->vertices; i++)
         if (!isfinite(slope->x[i]) || !isfinite(slope->z[i]))

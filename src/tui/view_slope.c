@@ -40,6 +40,9 @@ static void build(struct app *app, struct form *form)
     } else {
         ceduo_form_table(form, "slope.materials", NULL, "from_m to_m material");
         ceduo_form_field(form, "slope.tolerance_m", NULL);
+        LOCAL_TEXT(points);
+        ceduo_words_points(&points, &d->file.scene.slope);
+        ceduo_form_note(form, ceduo_app_format(app, _("o: %s"), ceduo_text_string(&points)));
     }
     if (!vertices) {
         ceduo_form_heading(form, _("Profile: from a CSV file"));

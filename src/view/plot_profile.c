@@ -263,15 +263,19 @@ static double place_frame(struct ceduo_drawing *d, bool names, bool belts)
     return factor;
 }
 
+#define MARKS_APART 3 /* columns: nearer marks would hide the ground */
+
 /* Mark the points that simplifying keeps, if it leaves out others and there is room. */
 static void mark_points(struct ceduo_drawing *d, const struct ceduo_slope *slope)
 {
-    int column, row;
-    if (slope->points <= slope->vertices || (int)slope->vertices > d->area.width / 3)
+    int column, row, last = -MARKS_APART;
+    if (slope->points <= slope->vertices || (int)slope->vertices > d->area.width / MARKS_APART)
         return;
     for (size_t i = 0; i < slope->vertices; i++)
-        if (ceduo_frame_cell(&d->frame, d->canvas, slope->x[i], slope->z[i], &column, &row))
-            ceduo_canvas_put(d->canvas, column, row, 1, CEDUO_ROLE_GROUND, "\xe2\x80\xa2");
+        if (ceduo_frame_cell(&d->frame, d->canvas, slope->x[i], slope->z[i], &column, &row) && column - last >= MARKS_APART) {
+            ceduo_canvas_put(d->canvas, column, row, 1, CEDUO_ROLE_GROUND, "o");
+            last = column;
+        }
 }
 
 const char *ceduo_plot_profile(struct ceduo_drawing *d)

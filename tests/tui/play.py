@@ -13,7 +13,8 @@ from harness import CEDUO, DONE, PATIENCE, ROOT, Failure, Folder, Result, enviro
 
 VIEWS = ["slope", "stand", "rock", "results", "compare", "rotation"]
 
-# Its rocks all go the same way and meet no stem: the figures are as fine as they will be at once.
+# Its rocks all go the same way and meet no stem: the figures are as fine as they will be at once. They roll: at 80 m they have
+# m g (80 - 15 - 0.65 * 60 - 0.7 * 20 m) = 20 kJ of the 50 accepted, at the track m g (80 - 30 - 0.65 * 60 m) = 18 kJ of 20.
 FAST = """\
 # kept: the first line
 ceduo: scene/1
@@ -23,9 +24,9 @@ release: {vx_m_s: 1}
 slope:
   vertices_m: [[0, 80], [60, 30], [100, 0]]
   segments:
-    - {rn: 0.3, rt: 0.98, roughness_rad: 0, friction: 0.25}
+    - {rn: 0.3, rt: 0.98, roughness_rad: 0, friction: 0.65}
     # kept: below the path
-    - {rn: 0.25, rt: 0.97, roughness_rad: 0, friction: 0.3}
+    - {rn: 0.25, rt: 0.97, roughness_rad: 0, friction: 0.7}
 controls:
   - {x_m: 60, name: track, accepted_kJ: 20}
   - {x_m: 80, name: road, accepted_kJ: 50}
@@ -76,11 +77,15 @@ simulation: {rocks: 1000, contact_model: index}
 """
 
 
+# With this friction about half of the rocks of 1 m have more than 250 kJ at 80 m, and about 130 of 1000 through the forest.
+ROUGH = "roughness_rad: 0.3, friction: 0.47"
+
+
 def in_the_wood(text):
     """The same, with rocks of many ways that meet the stems of the wood; of those some stop."""
     for old, new in (("title: fast", "title: wood"), ("diameter_m: 0.5}", "diameter_m: 1}"), ("vx_m_s: 1", "vx_m_s: 3"),
-                     ("rn: 0.3, rt: 0.98, roughness_rad: 0", "rn: 0.35, rt: 0.8, roughness_rad: 0.3"),
-                     ("rn: 0.25, rt: 0.97, roughness_rad: 0", "rn: 0.35, rt: 0.8, roughness_rad: 0.3"),
+                     ("rn: 0.3, rt: 0.98, roughness_rad: 0, friction: 0.65", f"rn: 0.35, rt: 0.8, {ROUGH}"),
+                     ("rn: 0.25, rt: 0.97, roughness_rad: 0, friction: 0.7", f"rn: 0.35, rt: 0.8, {ROUGH}"),
                      ("accepted_kJ: 50", "accepted_kJ: 250"), (", contact_model: index", "")):
         if old not in text:
             raise ValueError(old)

@@ -37,7 +37,8 @@ def test_view():
         place.write("unsure.yaml", NO_LAW + DOUBT)
         small, large, slope = place.play("key 7\nwait idle\ndump\nresize 200 50\ndump\nkey 1\ndump", "unsure.yaml")
         run = json.loads(ceduo("--sensitivity=256", "-n", 400, "-f", "json", place.path / "unsure.yaml").out)
-        finer = json.loads(ceduo("--batch", "-n", 102400, "-f", "json", place.path / "unsure.yaml").out)
+        rocks = re.search(r"(\d+) rocks", small.now).group(1)
+        finer = json.loads(ceduo("--batch", "-n", rocks, "-f", "json", place.path / "unsure.yaml").out)
     figure, = (f for f in run["figures"] if f["figure"] == "exceed_probability" and f["against"] is None)
     band = [round(figure[k] * 1000) for k in ("doubt_p5", "doubt_p95")]
     wooded = finer["options"][0]["controls"][-1]["wooded"]

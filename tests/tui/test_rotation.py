@@ -517,7 +517,7 @@ def test_find_in_list():
         place.write("ruled.yaml", WOOD.replace("rocks_per_year", "rules: marche\nminimum: {reserves_per_ha: 70}\nrocks_per_year"))
         for scene, keys, path, which in (("ruled", "key 2\n", "forest[0].stand.cutting.stay_per_ha[1]", True),
                                          ("reserves", "", "options[more].forest[0].stand.cutting.stay_per_ha[0]", False)):
-            goal, lo, hi = ("exceed=0.85", 3, 3000) if which else ("adc=50", 10, 1000)
+            goal, lo, hi = ("exceed=0.95", 3, 3000) if which else ("adc=50", 10, 1000)
             wanted = good("--find", f"{path}={lo}:{hi}", "--goal", goal, "-n", 2000, "-f", "json",
                           *([] if which else ["--option", "more"]), place.path / f"{scene}.yaml").json()[0]
             steps = "".join(f"key Ctrl-U\ntype {x}\nkey Enter\n" for x in (goal, "", "", lo, hi))
