@@ -8,6 +8,7 @@
 #include "base/must.h"
 #include "csv.h"
 #include "resolve.h"
+#include "scene/ranges.h"
 #include "scene_file.h"
 #include "validator.h"
 
@@ -220,7 +221,7 @@ static bool reuse_slope(struct validator *v)
     v->profile = true;
     v->file->ground_assumed = previous->ground_assumed;
     for (const struct source_note *n = previous->notes; n; n = n->before)
-        if (strcmp(n->kind, "assumed") == 0 && strncmp(n->path, "slope", 5) == 0 && n->made)
+        if (strcmp(n->kind, "assumed") == 0 && strncmp(n->path, "slope", 5) == 0 && n->made && strcmp(n->path, TOLERANCE) != 0)
             ceduo_assume(v, n->path, n->text);
     return true;
 }
@@ -296,7 +297,27 @@ void ceduo_validate_slope(struct validator *v)
               "for all, or 'materials'"));
     if (!given && segments)
         s->tolerance = 0;
-    else if (!given)
+}
+
+/* Number of points that a tolerance leaves. */
+static size_t points_left(const struct ceduo_slope *slope, double tolerance, double release_x)
+{
+    struct ceduo_slope other = *slope, to;
+    other.tolerance = tolerance;
+    if (ceduo_slope_simplify(&other, release_x, &to) != CEDUO_OK)
+        ceduo_no_memory();
+    size_t n = to.x ? to.vertices : slope->vertices;
+    ceduo_slope_simplified_free(&to);
+    return n;
+}
+
+/* The tolerance is an assumption unless the file has it, or another one would leave the same points. */
+static void assume_tolerance(struct validator *v, double release_x)
+{
+    const struct ceduo_slope *s = &v->draft.scene.slope;
+    const struct range *range = ceduo_range_of(ceduo_schema_at(TOLERANCE));
+    if (s->tolerance > 0 && !ceduo_is_given(v, "slope", "tolerance_m") &&
+        points_left(s, range->lo, release_x) != points_left(s, range->hi, release_x))
         ceduo_assume(v, TOLERANCE, ceduo_format(v, _("profile simplified to %g m"), s->tolerance));
 }
 
@@ -305,6 +326,7 @@ void ceduo_simplify_slope(struct validator *v)
     struct ceduo_slope *s = &v->draft.scene.slope, to;
     if (!v->profile || !s->segments || !ceduo_is_sound(v, "slope") || !ceduo_is_sound(v, "release.x_m"))
         return;
+    assume_tolerance(v, v->draft.scene.release.x.mean);
     if (ceduo_slope_simplify(s, v->draft.scene.release.x.mean, &to) != CEDUO_OK)
         ceduo_no_memory();
     if (!to.x)
