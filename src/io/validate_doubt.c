@@ -125,6 +125,8 @@ static void find_places(struct places *p, const char *path)
 static const struct field *field_of(struct validator *v, const char *path)
 {
     const char *key, *ground = ground_of(v, path, &key);
+    if (strcmp(path, "slope.tolerance_m") == 0 && v->draft.scene.slope.segments_given > 1) /* such a profile keeps all points */
+        return NULL;
     bool known = !ground || ceduo_choice_find(&ceduo_material_words, ground) >= 0;
     const struct field *f = known ? ceduo_schema_fitted(path) : NULL;
     bool value = f && !ceduo_schema_is_settled(path) &&

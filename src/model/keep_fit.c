@@ -18,8 +18,30 @@ static void put_number(struct text *t, const char *before, double value)
     ceduo_text_format(t, "%s%s", before, NUMERAL(value));
 }
 
+/* True for a row of doubt about ground or points that the written scene no longer has. */
+static bool is_of_library(const struct node *row)
+{
+    const char *path = ceduo_node_text(row, "path");
+    return path && (strcmp(path, "slope.tolerance_m") == 0 || strncmp(path, "slope.materials[", 16) == 0);
+}
+
+/* The rows of doubt, and where they stand. */
+static const struct node *doubt_rows(const struct document *d, const char **list)
+{
+    const struct node *doubt = ceduo_node_get(d->file.root, "doubt");
+    bool map = doubt && doubt->kind == NODE_MAP;
+    const struct node *rows = map ? ceduo_node_get(doubt, "rows") : doubt;
+    *list = map ? "doubt.rows" : "doubt";
+    return rows && rows->kind == NODE_LIST ? rows : NULL;
+}
+
 static void add_ground(struct changes *c, const struct document *d)
 {
+    const char *list;
+    const struct node *rows = doubt_rows(d, &list);
+    for (size_t i = rows ? rows->n : 0; i-- > 0;)
+        if (is_of_library(rows->items[i]))
+            ceduo_changes_add(c, "%s[%zu]", list, i);
     static const char *const keys[] = {"materials", "csv", "reversed",
                                        "tolerance_m"}; /* vertices are written as they are simulated */
     const struct ceduo_slope *s = &d->file.scene.slope;
@@ -78,16 +100,16 @@ static bool is_fitted(const struct document *d, const struct fit_values *fit, co
 }
 
 /* The table of draws beside the rows of doubt that there are; what they say of fitted values no longer holds. */
-static void add_draws(struct changes *c, const struct document *d, const struct fit_values *fit)
+static void add_draws(struct changes *c, const struct document *d, const struct fit_values *fit, bool of_library)
 {
-    const struct node *doubt = ceduo_node_get(d->file.root, "doubt");
-    const struct node *rows = doubt && doubt->kind == NODE_MAP ? ceduo_node_get(doubt, "rows") : doubt;
+    const char *list;
+    const struct node *rows = doubt_rows(d, &list);
     LOCAL_TEXT(t);
     bool some = false;
     ceduo_text_put(&t, "doubt={draws: ");
     ceduo_emit_scalar(&t, fit->draws, true);
-    for (size_t i = 0; rows && rows->kind == NODE_LIST && i < rows->n; i++) {
-        if (is_fitted(d, fit, rows->items[i]))
+    for (size_t i = 0; rows && i < rows->n; i++) {
+        if (is_fitted(d, fit, rows->items[i]) || (of_library && is_of_library(rows->items[i])))
             continue;
         ceduo_text_put(&t, some ? ", " : ", rows: [");
         ceduo_emit_flow(&t, rows->items[i]);
@@ -104,7 +126,8 @@ bool ceduo_keep_fit(struct document *d, const struct fit_values *fit, struct pro
     for (size_t i = 0; i < fit->answer->parameters_count; i++)
         for (size_t k = 0; k < fit->inputs[i].places_count; k++)
             of_segments |= strncmp(fit->inputs[i].places[k], SEGMENTS, sizeof SEGMENTS - 1) == 0;
-    if (of_segments && d->file.scene.slope.segments_given == 0)
+    bool of_library = of_segments && d->file.scene.slope.segments_given == 0;
+    if (of_library)
         add_ground(&c, d);
     for (size_t i = 0; i < fit->answer->parameters_count; i++)
         for (size_t k = 0; k < fit->inputs[i].places_count; k++) {
@@ -118,6 +141,6 @@ bool ceduo_keep_fit(struct document *d, const struct fit_values *fit, struct pro
         for (size_t k = 0; k < fit->inputs[i].places_count; k++)
             add_source(&c, fit->inputs[i].places[k], fit->source);
     if (fit->draws)
-        add_draws(&c, d, fit);
+        add_draws(&c, d, fit, of_library);
     return ceduo_changes_make(&c, _("fitted values"), problems);
 }

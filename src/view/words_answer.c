@@ -39,8 +39,8 @@ void ceduo_words_nothing(struct text *text, const struct ceduo_result *r, size_t
     double farthest = r->bare.ends.stop_max, way = farthest - start; /* NaN: none comes to rest */
     double face = ceduo_slope_face(s);
     ceduo_text_then(text, " ",
-                    falls < 0 ? _("They start at %.4g m, where the ground rises by %.0f\xc2\xb0.")
-                              : _("They start at %.4g m, where the ground falls by %.0f\xc2\xb0."),
+                    falls < 0 ? _("They start at %.10g m, where the ground rises by %.0f\xc2\xb0.")
+                              : _("They start at %.10g m, where the ground falls by %.0f\xc2\xb0."),
                     start + s->origin_x, fabs(falls));
     if (r->scene->release.x_assumed)
         ceduo_text_then(text, " ", "%s", _("That is where the profile begins: release.x_m is not given."));
@@ -51,7 +51,8 @@ void ceduo_words_nothing(struct text *text, const struct ceduo_result *r, size_t
     /* what to do: a face that they do not reach is where they should start */
     if (face > start && !(farthest > face))
         ceduo_text_then(
-            text, " ", _("The ground is steeper than 45\xc2\xb0 from %.4g m on: if they start there, write release.x_m: %.4g."),
+            text, " ",
+            _("The ground is steeper than 45\xc2\xb0 from %.10g m on: if they start there, write release.x_m: %.10g."),
             face + s->origin_x, face + s->origin_x);
     else if (ceduo_terrain(bare) == CEDUO_TERRAIN_CONTRADICTS)
         ceduo_words_contradiction(text, bare);

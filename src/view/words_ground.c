@@ -48,7 +48,7 @@ static void say_terrain(struct text *text, const char *where, const struct ceduo
 {
     const struct ceduo_topography *t = &bare->topography;
     enum ceduo_terrain terrain = ceduo_terrain(bare);
-    if (terrain == CEDUO_TERRAIN_BENCH && !ceduo_says_nothing(bare)) /* which says why */
+    if (terrain == CEDUO_TERRAIN_BENCH)
         ceduo_text_format(
             text,
             _("%s: few rocks arrive without forest, though it lies under a reach angle of %.0f\xc2\xb0. A bench of "

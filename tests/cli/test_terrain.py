@@ -116,6 +116,10 @@ def test_points_are_counted():
         expect_equal(done.status, 3)
         expect_in("slope.tolerance_m: each stretch between two points has a ground of its own", done.err)
         expect_in("remove 'tolerance_m'", done.err)
+        del each["tolerance_m"]
+        done = ceduo("--check", f.write("s.yaml", site(ground=each, doubt=[{"path": "slope.tolerance_m", "lo": 0.2, "hi": 1}])))
+        expect_equal(done.status, 3)
+        expect_in("no answer is in doubt because of 'slope.tolerance_m'", done.err)
 
 
 def test_tolerance_is_uncertain():
@@ -172,6 +176,10 @@ def test_contradicted():
         expect(0 < control["bare"]["reach_probability"] < 0.01, "few arrive", control)
         expect_equal(control["verdict"]["answer"], "yes")
         expect_in("under a reach angle of 37°. A bench of 35 m may hold them", " ".join(run["warnings"]))
+        # a bench that holds all of them is named, too
+        run = run_of(f, site(ground=bench, controls=road), "-s", "slope.segments[0].friction=0.6")
+        expect_equal(run["options"][0]["controls"][0]["bare"]["rocks_reached"], 0)
+        expect_in("A bench of 35 m may hold them", " ".join(run["warnings"]))
 
 
 def test_far():

@@ -267,6 +267,7 @@ TEST(few_rocks_at_a_steep_place_contradict_the_terrain)
         {37, 35, 10, 1000, 4, 0, CEDUO_TERRAIN_BENCH},       {37, NAN, 0, 1000, 4, 6, CEDUO_TERRAIN_AGREES},
         {37, NAN, 0, 0, 0, 0, CEDUO_TERRAIN_AGREES},         {30, 23.9, 0, 1000, 101, 0, CEDUO_TERRAIN_FAR},
         {30, 23.9, 0, 1000, 100, 0, CEDUO_TERRAIN_AGREES},   {30, 24.1, 0, 1000, 900, 0, CEDUO_TERRAIN_AGREES},
+        {60, 3, 0, 1000, 900, 0, CEDUO_TERRAIN_AGREES}, /* right below the face */
         {30, NAN, 0, 1000, 900, 0, CEDUO_TERRAIN_AGREES},    {37, NAN, 0, 200, 1, 0, CEDUO_TERRAIN_CONTRADICTS},
     };
     for (size_t i = 0; i < LENGTH(rows); i++)

@@ -152,7 +152,8 @@ enum ceduo_terrain ceduo_terrain(const struct ceduo_arrivals *bare)
     if (bare->released > 0 && steep && may_arrive < CEDUO_ARRIVE_FEW * all)
         return t->bench >= CEDUO_BENCH_LENGTH ? CEDUO_TERRAIN_BENCH : CEDUO_TERRAIN_CONTRADICTS;
     bool many = (double)bare->reached > CEDUO_ARRIVE_MANY * all;
-    return many && t->shadow * DEGREES < CEDUO_SHADOW_FLAT ? CEDUO_TERRAIN_FAR : CEDUO_TERRAIN_AGREES;
+    bool beyond = t->reach < M_PI_4; /* not right below the face */
+    return many && beyond && t->shadow * DEGREES < CEDUO_SHADOW_FLAT ? CEDUO_TERRAIN_FAR : CEDUO_TERRAIN_AGREES;
 }
 
 bool ceduo_says_nothing(const struct ceduo_arrivals *bare)
