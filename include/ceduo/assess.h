@@ -70,13 +70,13 @@ enum ceduo_light ceduo_energy_light(const struct ceduo_arrivals *arrivals);
 #define CEDUO_HEIGHT_USUAL 10.0
 
 /* Whether nothing can be said of a forest: even without it no rock arrives, or fewer than one of CEDUO_ARRIVE_LEAST released
- * where that many were simulated, or the ground contradicts the terrain (CEDUO_TERRAIN_CONTRADICTS). Rocks that never came to
- * an end may arrive. False where none was simulated. */
+ * if at least that many were simulated, or the ground contradicts the terrain (CEDUO_TERRAIN_CONTRADICTS). Unfinished rocks count
+ * as arriving. False if no rock was simulated. */
 bool ceduo_says_nothing(const struct ceduo_arrivals *bare);
 
-/* What arrives without forest beside how the place lies. Rocks usually reach places that lie this steeply below the release or
- * below the foot of a face, and rarely places as flat as that; Evans and Hungr (1993) suggest 27.5 degrees as the smallest shadow
- * angle. The limits are assumed. */
+/* Compare the rocks that arrive without forest with the terrain. Rocks usually reach places under a steep reach or shadow angle, and
+ * rarely places under a flat one. Evans and Hungr (1993) suggest 27.5 degrees as the smallest shadow angle. The limits are
+ * assumed. */
 #define CEDUO_REACH_STEEP  35.0 /* degrees */
 #define CEDUO_SHADOW_STEEP 32.0
 #define CEDUO_SHADOW_FLAT  24.0

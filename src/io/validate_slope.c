@@ -311,13 +311,17 @@ static size_t points_left(const struct ceduo_slope *slope, double tolerance, dou
     return n;
 }
 
-/* The tolerance is an assumption unless the file has it, or another one would leave the same points. */
+/* The tolerance is an assumption unless the file has it, or another one would leave the same points. A slope that was taken over as
+ * it was simplified keeps the answer of the last time. */
 static void assume_tolerance(struct validator *v, double release_x)
 {
     const struct ceduo_slope *s = &v->draft.scene.slope;
     const struct range *range = ceduo_range_of(ceduo_schema_at(TOLERANCE));
-    if (s->tolerance > 0 && !ceduo_is_given(v, "slope", "tolerance_m") &&
-        points_left(s, range->lo, release_x) != points_left(s, range->hi, release_x))
+    if (!(s->tolerance > 0) || ceduo_is_given(v, "slope", "tolerance_m"))
+        return;
+    bool taken_over = s->simplified_to == s->tolerance && s->simplified_at == release_x;
+    if (taken_over ? ceduo_notes_say(v->previous->notes, "assumed", TOLERANCE)
+                   : points_left(s, range->lo, release_x) != points_left(s, range->hi, release_x))
         ceduo_assume(v, TOLERANCE, ceduo_format(v, _("profile simplified to %g m"), s->tolerance));
 }
 

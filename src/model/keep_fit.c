@@ -25,7 +25,7 @@ static bool is_of_library(const struct node *row)
     return path && (strcmp(path, "slope.tolerance_m") == 0 || strncmp(path, "slope.materials[", 16) == 0);
 }
 
-/* The rows of doubt, and where they stand. */
+/* Rows of doubt, NULL if there is no list; `list`: its path. */
 static const struct node *doubt_rows(const struct document *d, const char **list)
 {
     const struct node *doubt = ceduo_node_get(d->file.root, "doubt");

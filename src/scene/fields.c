@@ -424,9 +424,8 @@ static const struct field simulation_fields[] = {
     OTHER(FIELD_FLAG, "scale_rn", NAMED(N_("Rn by speed")), AT(ceduo_simulation, scale_rn), 0, "false",
           N_("lumped: Rn falls with the speed of the impact, as in CRSP"), NULL, NULL),
     OTHER(FIELD_FLAG, "friction_bound", NAMED(N_("friction bound")), AT(ceduo_simulation, friction_bound), 0, "true",
-          N_("limit the tangential loss of an impact to friction times its normal impulse, and let rolling rocks lose to "
-             "friction "
-             "alone; false: the published laws"),
+          N_("limit the tangential loss of an impact to friction times its normal impulse, and let rolling rocks "
+             "lose to friction alone; false: the published laws"),
           NULL, NULL),
 };
 static const struct object simulation_object = OBJECT(ceduo_simulation, simulation_fields, NULL);

@@ -9,7 +9,7 @@
 
 #define MU 0.6
 
-/* What roughness and friction follow from: best value and range of each kind of ground. Assumed. */
+/* Roughness and friction of each kind of ground: best value and range. Assumed. */
 #define ROCK  0.10, 0.03, 0.20, 0.45, 0.30, 0.65, MU
 #define TALUS 0.20, 0.10, 0.40, 0.45, 0.25, 0.65, MU
 #define THIN  0.10, 0.04, 0.25, 0.35, 0.20, 0.55, MU

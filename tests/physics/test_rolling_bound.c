@@ -43,7 +43,7 @@ static double ground_way(const struct ceduo_piece *from, double x, double z)
 
 /* ---- the closed form of a roll ---- */
 
-/* Of the way from a release with speed v0 along the ground, up or down. */
+/* A roll from a release with speed v0 along the ground, up or down. */
 static void expect_roll(double angle, double v0, double k, double friction)
 {
     assert_int_equal(line_scene_follow(&scene, &way), CEDUO_OK);

@@ -11,6 +11,7 @@
 
 #include "ceduo/observe.h"
 #include "io/file.h"
+#include "io/notes.h"
 #include "model/document.h"
 #include "scene/value.h"
 
@@ -522,4 +523,32 @@ TEST_WITH(the_copy_leads_to_the_same_files, set_up, tear_down)
     must(ceduo_document_recover(&d, text, &problems));
     expect_files();
     assert_true(d.file.scene.options[0].belts[0].stand.trees[0].per_ha == 50);
+}
+
+/* An edit elsewhere takes a simplified profile over, with its assumption; where the release moves, both are made anew. A release at
+ * 50 m keeps the one point that a tolerance of .25 m keeps and one of 1 m leaves out. */
+TEST(a_simplified_profile_is_taken_over)
+{
+    static const char text[] =
+        "ceduo: scene/1\nrock: {diameter_m: 1}\ncontrols_m: [90]\nrelease: {x_m: 0}\n"
+        "slope: {vertices_m: [[0, 100], [50, 50.9], [100, 0]], materials: [{from_m: 0, to_m: 100, material: "
+        "talus}]}\n";
+    static const struct {
+        const char *path, *value;
+        bool assumed;
+    } edits[] = {{"simulation.rocks", "50", true},
+                 {"release.x_m", "50", false},
+                 {"simulation.rocks", "60", false},
+                 {"release.x_m", "0", true},
+                 {"rock.diameter_m", "2", true}};
+    struct document own;
+    struct problems found = {0};
+    assert_true(ceduo_document_new(&own, text, &found));
+    assert_true(ceduo_notes_say(own.file.notes, "assumed", "slope.tolerance_m"));
+    for (size_t i = 0; i < LENGTH(edits); i++) {
+        assert_true(ceduo_document_set(&own, edits[i].path, edits[i].value, &found));
+        assert_int_equal(ceduo_notes_say(own.file.notes, "assumed", "slope.tolerance_m"), edits[i].assumed);
+    }
+    ceduo_problems_free(&found);
+    ceduo_document_close(&own);
 }

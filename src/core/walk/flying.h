@@ -248,11 +248,6 @@ HOT void turn_section(struct walker *w, struct ground_point *to)
     to->section.gyration = w->section.gyration;
 }
 
-static inline double roughness_angle(const struct ground_roughness *r, double radius)
-{
-    return isnan(r->height) ? r->angle : ceduo_atan(r->height / radius);
-}
-
 HOT double largest_facet(const struct walker *w, size_t j)
 {
     if (!w->g->theta_varies)
@@ -260,7 +255,7 @@ HOT double largest_facet(const struct walker *w, size_t j)
     if (w->g->rough)
         return w->theta[w->g->rough[j]];
     const struct ceduo_segment *s = w->g->given[j];
-    return roughness_angle(&(struct ground_roughness){s->roughness_m, s->roughness_rad}, w->rock.radius);
+    return roughness_angle((struct ground_roughness){s->roughness_m, s->roughness_rad}, w->rock.radius);
 }
 
 HOT struct ground_point ground_point(const struct walker *w, size_t j)

@@ -96,7 +96,7 @@ static void prepare_segment(struct ground *g, size_t j, double radius)
     if (j > 0 && ceduo_segment_same(from, g->given[j - 1]))
         to->theta = g->segments[j - 1].theta;
     else
-        to->theta = isnan(from->roughness_m) ? from->roughness_rad : ceduo_atan(from->roughness_m / radius);
+        to->theta = roughness_angle((struct ground_roughness){from->roughness_m, from->roughness_rad}, radius);
     g->along[j + 1] = g->along[j] + length / scale;
     g->rn_varies |= from->rn.spread > 0;
     g->rt_varies |= from->rt.spread > 0;

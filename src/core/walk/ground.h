@@ -60,6 +60,12 @@ struct ground_roughness {
 };
 #define ROUGHNESS_MAX 16
 
+/* The largest facet angle under a rock of this radius, m. */
+HOT double roughness_angle(struct ground_roughness r, double radius)
+{
+    return isnan(r.height) ? r.angle : ceduo_atan(r.height / radius);
+}
+
 /* Neighbours on one line with the same ground are one segment here, so its numbers are not those of the slope. */
 struct ground {
     size_t n;                 /* segments */

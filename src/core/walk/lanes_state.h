@@ -92,7 +92,7 @@ struct lanes {
     double along[LANES], off[LANES]; /* velocity on the segment, behind a contact */
     struct {
         double along[LANES], spin[LANES];
-    } before;               /* of those that rolled to it */
+    } before;               /* velocity and spin before the contact, of lanes that rolled to it */
     double inv[LANES];      /* 1/vx */
     uint64_t vertex[LANES]; /* from 1; which the search for the landing has come to */
     double draw[3][LANES];  /* for the facets of the next contacts, */

@@ -40,7 +40,7 @@ enum ceduo_status ceduo_walk_release(struct walker *w, const struct prepared *re
     w->rn_u = g->rn_varies ? random_open(w->seed, number, 0, RANDOM_GROUND) : 0;
     w->rt_u = g->rt_varies ? random_open(w->seed, number, 1, RANDOM_GROUND) : 0;
     for (size_t i = 0; i < g->roughness_count; i++)
-        w->theta[i] = roughness_angle(&g->roughness[i], w->rock.radius);
+        w->theta[i] = roughness_angle(g->roughness[i], w->rock.radius);
     double x = draw_release(w, scene->release.x, 0), height = draw_release(w, scene->release.height, 1);
     const struct contact_law *law = contact_laws[scene->simulation.law];
     w->k = law->spins ? w->rock.k : 0;
