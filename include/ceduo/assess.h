@@ -8,7 +8,6 @@
 enum ceduo_light { CEDUO_UNKNOWN, CEDUO_PASS, CEDUO_FAIL };
 
 #define CEDUO_FREE_RUN_MOST 0.1  /* chance of a free run that a belt may leave */
-#define CEDUO_EXCEED_MOST   0.05 /* share of the released that may pass with too much energy */
 #define CEDUO_ARRIVE_LEAST  1000 /* of so many released one must arrive without forest */
 
 /* One belt of an option, as the index sees it. */
@@ -61,8 +60,8 @@ struct ceduo_index {
 /* Whether the lights of contact and free run would say anything else of the thick stems alone. */
 bool ceduo_index_hangs_on_thin(const struct ceduo_index *index);
 
-/* Whether at most CEDUO_EXCEED_MOST of the released pass with too much energy; unknown for NULL, where it is not
- * said what is too much, and where it hangs on rocks that never came to an end. */
+/* Pass if the share of the released that exceeds the accepted energy is at most the limit of the control. Unknown for NULL,
+ * without an accepted energy, and if rocks that never came to an end decide it. */
 enum ceduo_light ceduo_energy_light(const struct ceduo_arrivals *arrivals);
 
 /* Beyond these a warning asks to check the ground: mean speed (m/s) and 95th percentile of the height (m) at a control. Assumed. */
@@ -88,14 +87,14 @@ enum ceduo_terrain { CEDUO_TERRAIN_AGREES, CEDUO_TERRAIN_CONTRADICTS, CEDUO_TERR
  * before it. FAR: many arrive at a flat place. */
 enum ceduo_terrain ceduo_terrain(const struct ceduo_arrivals *bare);
 
-/* Does the forest keep rocks with too much energy to at most CEDUO_EXCEED_MOST of the released? By one energy law and with the
- * error of the rocks alone; unanswered without an accepted energy, and where what arrives through the forest is not known
- * (`wooded` NULL), but that the bare slope keeps within it already. */
+/* Judge whether the share of the released that exceeds the accepted energy is at most the limit of the control. Uses one energy law
+ * and the sampling error alone. `wooded` may be NULL (not simulated). Return CEDUO_UNANSWERED without an accepted energy, or if
+ * `wooded` is NULL and the slope without forest does not meet the limit. */
 enum ceduo_judgement { CEDUO_UNANSWERED, CEDUO_YES, CEDUO_NO, CEDUO_NOT_DECIDED, CEDUO_DEPENDS, CEDUO_NOTHING };
 enum ceduo_judgement ceduo_judge(const struct ceduo_arrivals *bare, const struct ceduo_arrivals *wooded);
 
-/* Whether a share is at most CEDUO_EXCEED_MOST; not decided where its 95 % interval holds that limit. */
-enum ceduo_judgement ceduo_judge_share(double share, double lo, double hi);
+/* Judge whether a share is at most a limit; CEDUO_NOT_DECIDED if its interval holds the limit. */
+enum ceduo_judgement ceduo_judge_share(double share, double lo, double hi, double limit);
 
 /* A belt by itself. */
 struct ceduo_stand_result ceduo_assess_stand(const struct ceduo_scene *scene, const struct ceduo_belt *belt);

@@ -52,6 +52,7 @@ struct ceduo_hazard {
     struct ceduo_return returns[CEDUO_RETURNS];
     struct ceduo_rate reach;    /* rocks that arrive */
     struct ceduo_rate accepted; /* rocks that arrive with more than is accepted; NaN where that is not said */
+    double accepted_return;     /* years: ceduo_accepted_return() of the control */
     double left;                /* share of the rate without forest of what is feared; NaN: it is 0 there, or not known */
     struct ceduo_intensity intensity[CEDUO_INTENSITIES];
 };

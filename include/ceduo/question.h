@@ -20,12 +20,11 @@ struct ceduo_question {
     size_t only;                /* the run of this option alone: through its forest, by the index without forest. Of what
                                * was not simulated nothing is known. CEDUO_ALL_OPTIONS: without forest and through each */
     bool years;                 /* each option year by year, with as many rocks */
-    struct ceduo_window window; /* those years; step 0: of each option those of ceduo_window_in() */
-    uint64_t year_rocks;        /* > 0: in each year at the most so many; with years_most in all years of an option a few times
-                           * the rocks of a run */
-    uint64_t years_rocks;       /* > 0: in all years of an option together about so many, each year with rocks of its own, see
-                           * ceduo_years_simulate_apart(); no more in a year than in a run */
-    unsigned years_most;        /* > 0: at the most so many years, evenly spread over those */
+    struct ceduo_window window; /* those years; step 0: those of ceduo_window_in() */
+    bool rotations;             /* the whole rotation of each option as well: ceduo_window_of() */
+    uint64_t year_rocks;        /* rocks of each year, at most as many as in a run; 0: as many */
+    bool years_apart;           /* each year has rocks of its own, see ceduo_years_simulate_apart(); not with blocks */
+    unsigned years_most;        /* > 0: at most this many years, evenly spread over those */
     uint64_t block_rocks;       /* > 0: blocks of other sizes to the last control, at the most so many of each, and no dearer
                            * than the runs without forest and through it */
 };
@@ -37,10 +36,11 @@ struct ceduo_question ceduo_question_default(const struct ceduo_scene *scene);
 struct ceduo_answer {
     struct ceduo_result *result;
     bool tolerance_met;
-    size_t years_count;         /* options */
-    struct ceduo_years **years; /* one for each option, NULL of those that `only` leaves out; NULL: not asked for */
-    struct ceduo_block *blocks; /* CEDUO_BLOCKS for each option; NULL: not asked for, or the rock has no other sizes */
-    struct ceduo_work work;     /* of all runs of the pool; without the blocks */
+    size_t years_count;             /* options */
+    struct ceduo_years **years;     /* one for each option, NULL of those that `only` leaves out; NULL: not asked for */
+    struct ceduo_years **rotations; /* likewise */
+    struct ceduo_block *blocks;     /* CEDUO_BLOCKS for each option; NULL: not asked for, or the rock has no other sizes */
+    struct ceduo_work work;         /* of all runs of the pool; without the blocks */
 };
 
 /* `pool` (may be NULL) keeps the runs from one question to the next, see ceduo_pool_for(): *pool is NULL at first, and

@@ -69,6 +69,7 @@ struct ceduo_arrivals {
     double missed[CEDUO_ENDS];                                    /* shares of the same */
     double reach_probability, reach_lo, reach_hi;                 /* hi counts the unfinished as reached */
     double exceed_probability, exceed_lo, exceed_hi;              /* NaN without an accepted energy */
+    double limit;                                                 /* of exceed_probability: ceduo_exceed_limit() */
     struct ceduo_distribution speed, energy, translation, height; /* m/s, J, J, m */
     double energy_per_released, energy_per_released_se;           /* J */
     double top_p95; /* m: 95th percentile of the height of the rocks' tops above the ground, their underside's and their mean
@@ -78,6 +79,11 @@ struct ceduo_arrivals {
     struct ceduo_topography topography; /* of the control */
     bool exact;                         /* percentiles from every sample */
 };
+
+/* Return the share of the released rocks that may arrive with more than the accepted energy: CEDUO_EXCEED_MOST. With blocks it is
+ * the share that makes one such rock in the accepted return period; above 1 if fewer blocks come down. */
+#define CEDUO_EXCEED_MOST 0.05
+double ceduo_exceed_limit(const struct ceduo_scene *scene, const struct ceduo_control *control);
 
 /* CEDUO_NO_MEMORY or CEDUO_OK. `control` counts in the scene's order. */
 enum ceduo_status ceduo_run_arrivals(const struct ceduo_run *run, size_t control, struct ceduo_arrivals *arrivals);

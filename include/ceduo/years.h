@@ -18,12 +18,12 @@ struct ceduo_year {
     struct ceduo_simulated wooded;     /* rocks 0: not simulated; with the contact model index never */
 };
 
-/* Why these years of an option and no others. */
+/* Why these years and no others. */
 enum ceduo_window_kind {
-    CEDUO_WINDOW_GIVEN,    /* they were asked for */
+    CEDUO_WINDOW_GIVEN,    /* the caller or the scene asks for them */
+    CEDUO_WINDOW_AHEAD,    /* the next years from today, the same for all options */
     CEDUO_WINDOW_ROTATION, /* one whole rotation, from the year on in which every belt that is ever cut has been cut */
-    CEDUO_WINDOW_UNCUT,    /* the stands grow but are never cut: the next years */
-    CEDUO_WINDOW_ALIKE     /* nothing grows and nothing is cut: year 0 stands for all */
+    CEDUO_WINDOW_ALIKE     /* nothing grows and nothing is cut: year 0, today, represents all years */
 };
 
 /* The years first, first + step … last; step >= 1. */
@@ -33,19 +33,22 @@ struct ceduo_window {
 };
 
 #define CEDUO_YEARS_MOST  1000 /* computed at a time */
-#define CEDUO_YEARS_UNCUT 25   /* of a forest that grows and is never cut */
+#define CEDUO_YEARS_AHEAD 20   /* of a window of CEDUO_WINDOW_AHEAD, at least, */
+#define CEDUO_AHEAD_MOST  60   /* and at most */
 #define CEDUO_PERIOD_MOST 120  /* years: beyond it belts of several rotations count as repeating with the longest */
 
-/* The years of an option that stand for all to come: after its first cut a forest repeats itself, so one whole
- * rotation has each of its states once. Where its belts have several rotations, all of them must have ended
- * together. */
+/* One whole rotation of an option: after its first cut a forest repeats itself, so a rotation has each of its states once. If its
+ * belts have several rotations, all of them must have ended together. Without a cut the next CEDUO_YEARS_AHEAD years
+ * (CEDUO_WINDOW_AHEAD), or CEDUO_WINDOW_ALIKE. */
 struct ceduo_window ceduo_window_of(const struct ceduo_option *option);
 
 /* At the most so many (> 0) of its years, evenly spread. */
 struct ceduo_window ceduo_window_of_most(struct ceduo_window window, unsigned max);
 
-/* As ceduo_window_of(), with the first and the last year that the scene names instead, CEDUO_YEARS_MOST at the most. */
-struct ceduo_window ceduo_window_in(const struct ceduo_scene *scene, const struct ceduo_option *option);
+/* The years by which all options of a scene are judged and compared: from year 1 to the longest rotation of any belt, at least
+ * CEDUO_YEARS_AHEAD and at most CEDUO_AHEAD_MOST years. The scene may name the first year, the last, or both: CEDUO_WINDOW_GIVEN, at
+ * most CEDUO_YEARS_MOST years. CEDUO_WINDOW_ALIKE if no option has a stand that grows or is cut. */
+struct ceduo_window ceduo_window_in(const struct ceduo_scene *scene);
 
 struct ceduo_years {
     struct ceduo_scene scene; /* what it points to must outlive the years */
@@ -90,8 +93,11 @@ struct ceduo_years_summary {
     size_t years, simulated;
     bool nothing; /* nothing can be said of the forest (ceduo_says_nothing()): no light fails and none passes */
     size_t unprotected_contact, unprotected_free_run, unprotected_energy; /* years in which that light fails */
-    size_t thick_contact, thick_free_run;     /* and where only stems from CEDUO_THICK_DBH on count */
-    struct ceduo_paired reach, exceed;        /* of the released */
+    size_t thick_contact, thick_free_run; /* and where only stems from CEDUO_THICK_DBH on count */
+    size_t failing_lo, failing_hi;        /* years whose 95 % interval of the energy's share lies above the limit; whose upper
+                                        * end does */
+    struct ceduo_rate rate;               /* with blocks: ceduo_hazard_feared() a year; its interval is at most this wide */
+    struct ceduo_paired reach, exceed;    /* of the released */
     struct ceduo_paired energy_per_released;  /* J */
     unsigned worst_year;                      /* with the largest share that exceeds, or where that is not said arrives; by the
                                         * index the one with the largest ADC */

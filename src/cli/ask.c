@@ -163,14 +163,13 @@ void ceduo_ask_begin(struct asked *asked, const struct arguments *a, const struc
     q->window = a->window;
 }
 
-#define YEARS_ROCKS 10000 /* of all years of an option: they give the mean to about 10 of 1000 */
-#define YEARS_MOST  50    /* of each option; of a longer rotation some */
+#define YEAR_ROCKS 1000 /* of each year: they give a share near the limit to 14 of 1000 */
+#define YEARS_MOST 60   /* of a longer window some are simulated */
 
 void ceduo_ask_years(struct ceduo_question *q)
 {
-    q->years = true;
-    q->years_rocks = YEARS_ROCKS;
-    q->year_rocks = YEARS_ROCKS; /* of a scene with blocks, whose years have the same ones */
+    q->years = q->years_apart = true;
+    q->year_rocks = YEAR_ROCKS;
     q->years_most = YEARS_MOST;
 }
 
@@ -192,7 +191,8 @@ enum ceduo_status ceduo_ask_runs(struct asked *c)
     if (status == CEDUO_OK && c->pictures)
         status = ceduo_snapshot_create(&def, &c->snapshot);
     ceduo_pool_free(pool);
-    return status == CEDUO_OK ? ceduo_verdict_make(c->answer.result, c->answer.years, &c->verdict) : status;
+    return status == CEDUO_OK ? ceduo_verdict_make(c->answer.result, c->answer.years, c->answer.rotations, &c->verdict)
+                              : status;
 }
 
 enum exit_status ceduo_ask_end(struct asked *c, const struct scene_file *file, enum ceduo_status status)
@@ -260,8 +260,7 @@ enum ceduo_status ceduo_ask_doubt_beside(struct asked *c, const struct arguments
     double each =
         (double)(work->contacts + work->stems.drawn) / (double)(work->rocks > 0 ? work->rocks : 1) * (double)a->points;
     double effort = each * (double)def.rocks * (double)scene->options_count;
-    for (size_t i = 0; i < scene->options_count; i++)
-        years += ceduo_points_years(&def, i, CEDUO_DOUBT_YEARS_MAX);
+    years = scene->options_count * ceduo_points_years(&def, CEDUO_DOUBT_YEARS_MAX);
     def.rotation = rotation && !ceduo_uncertainty_no_rotation(scene) &&
                    effort + each * CEDUO_DOUBT_YEAR_ROCKS * (double)years <= EFFORT_MAX;
     if (effort > EFFORT_MAX || !result->wooded || ceduo_page_says_nothing(result))

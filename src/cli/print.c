@@ -29,6 +29,12 @@ static bool print_figures(const struct arguments *a, const struct ceduo_figure *
 
 /* ---- pages ---- */
 
+/* True unless --columns asks for nothing that the years decide. */
+static bool judges_years(const struct arguments *a)
+{
+    return !a->columns || strstr(a->columns, "window.") || strstr(a->columns, "verdict.");
+}
+
 enum exit_status ceduo_print_report(const struct arguments *a, struct scene_file *file, struct text *out)
 {
     struct asked c;
@@ -37,14 +43,16 @@ enum exit_status ceduo_print_report(const struct arguments *a, struct scene_file
     uint64_t rocks = c.question.rocks;
     if (stands) /* what is asked of the stands no rock answers */
         c.question.rocks = 0;
-    if (page && !a->years) { /* what a page does not print is not simulated */
+    if (!a->years && !stands && judges_years(a))
         ceduo_ask_years(&c.question);
+    if (page && !a->years) { /* what a page does not print is not simulated */
+        c.question.rotations = a->details;
         c.question.block_rocks = a->details ? BLOCK_ROCKS : 0;
     }
     c.question.run.other_energy = !page || a->details;
     enum ceduo_status status = ceduo_ask_runs(&c);
     if (status == CEDUO_OK && page)
-        status = ceduo_ask_doubt_beside(&c, a, file, false);
+        status = ceduo_ask_doubt_beside(&c, a, file, true);
     if (status == CEDUO_OK) {
         const struct ceduo_report report = {.file = file,
                                             .result = c.answer.result,

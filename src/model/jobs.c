@@ -230,10 +230,7 @@ const char *ceduo_uncertainty_no_rotation(const struct ceduo_scene *scene)
 {
     if (scene->simulation.contact_model == CEDUO_INDEX)
         return N_("not computed: by the index years have no doubt");
-    for (size_t i = 0; i < scene->options_count; i++)
-        if (ceduo_window_in(scene, &scene->options[i]).kind != CEDUO_WINDOW_ALIKE)
-            return NULL;
-    return N_("not computed: all years are alike");
+    return ceduo_window_in(scene).kind == CEDUO_WINDOW_ALIKE ? N_("not computed: all years are alike") : NULL;
 }
 
 static enum ceduo_status step_uncertainty(struct jobs *q, struct job *job, void **result)

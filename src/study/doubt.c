@@ -62,14 +62,22 @@ static void report(void *context)
     atomic_store(&r->talking, false);
 }
 
+/* Of the share that a scene's last control is judged by. */
+static double limit_of(const struct ceduo_scene *scene)
+{
+    return ceduo_exceed_limit(scene, &scene->controls[ceduo_scene_last_control(scene)]);
+}
+
 static void read_point(void *context, const struct point *point, const struct brought *at)
 {
     const struct rows *r = context;
     size_t last = ceduo_scene_last_control(point->scene);
     struct ceduo_groups *values = values_of(r, point->row, point->option);
+    /* With blocks a share means a rate: if more come down, as large a share is more. */
+    double weight = limit_of(r->def->scene) / limit_of(point->scene);
     for (size_t g = 0; g < GROUPS && point->slot > 0; g++) {
         const struct ceduo_brief *b = &at[last].of[g];
-        double share = r->judged == CEDUO_DOUBT_EXCEED ? b->exceed_probability : b->reach_probability;
+        double share = r->judged == CEDUO_DOUBT_EXCEED ? weight * b->exceed_probability : b->reach_probability;
         double *mean = &values[CEDUO_DOUBT_MEAN].of[g]; /* of the years, added up as they come */
         r->shares[(r->first_year[point->option] + point->slot - 1) * r->most + point->row - r->ends].of[g] = share;
         *mean = (point->slot == 1 ? 0 : *mean) + share / (double)r->years[point->option];
@@ -79,7 +87,7 @@ static void read_point(void *context, const struct point *point, const struct br
     struct ceduo_index index = ceduo_assess_index(point->scene, point->forest, &point->scene->controls[last], NAN);
     for (size_t g = 0; g < GROUPS; g++) {
         values[CEDUO_DOUBT_REACH].of[g] = at[last].of[g].reach_probability;
-        values[CEDUO_DOUBT_EXCEED].of[g] = at[last].of[g].exceed_probability;
+        values[CEDUO_DOUBT_EXCEED].of[g] = weight * at[last].of[g].exceed_probability;
         values[CEDUO_DOUBT_ENERGY].of[g] = at[last].of[g].energy_per_released;
         values[CEDUO_DOUBT_CONTACT].of[g] = 1 / index.worst_adc; /* no rock decides it: the same in all groups */
         values[CEDUO_DOUBT_FREE_RUN].of[g] = index.worst_free_run;
@@ -101,8 +109,8 @@ static enum ceduo_status open_rows(struct rows *r, const struct ceduo_doubt_def 
         r->year_counts = ceduo_arena_take(&r->memory, (r->options + 1) * sizeof *r->year_counts);
     }
     for (size_t i = 0; r->years && !r->memory.failed && i < r->options; i++) {
-        r->years[i] = ceduo_points_years(def, i, CEDUO_DOUBT_YEARS_MAX);
-        r->year_counts[i] = (double)ceduo_points_years(def, i, SIZE_MAX);
+        r->years[i] = ceduo_points_years(def, CEDUO_DOUBT_YEARS_MAX);
+        r->year_counts[i] = (double)ceduo_points_years(def, SIZE_MAX);
         r->first_year[i] = years;
         years += r->years[i];
     }
@@ -221,7 +229,7 @@ static enum ceduo_status read_figure(const struct rows *r, const struct subject 
         }
     ceduo_surface_release(&f->fit);
     const struct ceduo_surface_figure figure = {
-        .lo = f->difference ? -max : 0, .hi = max, .limit = judged ? CEDUO_EXCEED_MOST : NAN};
+        .lo = f->difference ? -max : 0, .hi = max, .limit = judged ? limit_of(def->scene) : NAN};
     enum ceduo_status status = fit_points(r, s, f->kind, figure, &f->fit);
     if (status != CEDUO_OK)
         return status;
@@ -278,6 +286,7 @@ static int count_years(void *context, size_t option, size_t worker)
     if (!is_asked(r, option))
         return CEDUO_OK;
     size_t years = r->years[option], points = r->points;
+    double limit = limit_of(r->def->scene);
     struct subject s;
     enum ceduo_status status = open_subject(r, option, option, &s);
     double *values = ceduo_arena_take(&s.memory, years * points * sizeof *values),
@@ -295,11 +304,10 @@ static int count_years(void *context, size_t option, size_t worker)
         struct ceduo_groups *failing = &values_of(r, r->ends + p, option)[CEDUO_DOUBT_FAILING];
         double all = 0, halves[GROUPS] = {0};
         for (size_t k = p; k < years * points; k += points) {
-            all += each * (values[k] > CEDUO_EXCEED_MOST);
+            all += each * (values[k] > limit);
             for (size_t half = 1; half < GROUPS; half++)
-                halves[half] += each / 2 *
-                                ((values[k] + changes[k].of[half] > CEDUO_EXCEED_MOST) -
-                                 (values[k] - changes[k].of[half] > CEDUO_EXCEED_MOST));
+                halves[half] +=
+                    each / 2 * ((values[k] + changes[k].of[half] > limit) - (values[k] - changes[k].of[half] > limit));
         }
         ceduo_groups_set(failing, all, halves);
     }
@@ -352,9 +360,9 @@ static void set_years(struct ceduo_doubt_answer *answer, size_t options, struct 
             continue;
         for (size_t k = 0; k < years[i]->count; k++) { /* by the ends of their intervals, and by their shares */
             const struct ceduo_arrivals *a = &years[i]->years[k].wooded.arrivals[control];
-            counts[0] += a->exceed_lo > CEDUO_EXCEED_MOST;
-            counts[1] += a->exceed_probability > CEDUO_EXCEED_MOST;
-            counts[2] += a->exceed_hi > CEDUO_EXCEED_MOST;
+            counts[0] += a->exceed_lo > a->limit;
+            counts[1] += a->exceed_probability > a->limit;
+            counts[2] += a->exceed_hi > a->limit;
         }
         set_sampling(&f[CEDUO_DOUBT_FAILING], counts[1], counts[0], counts[2]);
         if (i > 0)
@@ -530,7 +538,7 @@ size_t ceduo_doubt_depends(const struct ceduo_scene *scene, const struct ceduo_d
                            enum ceduo_doubt_kind light, size_t inputs[2])
 {
     const struct ceduo_doubt_figure *f = ceduo_doubt_figure_of(a, option, light, false);
-    double limit = light == CEDUO_DOUBT_EXCEED    ? CEDUO_EXCEED_MOST
+    double limit = light == CEDUO_DOUBT_EXCEED    ? limit_of(scene)
                    : light == CEDUO_DOUBT_CONTACT ? 1 / scene->simulation.threshold
                                                   : CEDUO_FREE_RUN_MOST;
     const struct ceduo_control *control = &scene->controls[ceduo_scene_last_control(scene)];

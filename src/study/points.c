@@ -32,9 +32,9 @@ struct item {
     struct ceduo_years *years; /* of the option at hand */
 };
 
-static struct ceduo_window window_of(const struct ceduo_doubt_def *def, const struct ceduo_scene *scene, size_t option)
+static struct ceduo_window window_of(const struct ceduo_doubt_def *def, const struct ceduo_scene *scene)
 {
-    return def->window.step > 0 ? def->window : ceduo_window_in(scene, &scene->options[option]);
+    return def->window.step > 0 ? def->window : ceduo_window_in(scene);
 }
 
 /* The forest of an option in a year. */
@@ -42,11 +42,11 @@ static enum ceduo_status grow(struct item *item, struct point *point)
 {
     const struct ceduo_doubt_def *def = item->work->points->def;
     const struct ceduo_scene *scene = &item->copy->scene;
-    size_t years = ceduo_points_years(def, point->option, CEDUO_DOUBT_YEARS_MAX), year = point->slot - 1;
+    size_t years = ceduo_points_years(def, CEDUO_DOUBT_YEARS_MAX), year = point->slot - 1;
     if (year == 0) {
         ceduo_years_free(item->years);
         enum ceduo_status status =
-            ceduo_years_create(scene, &scene->options[point->option], window_of(def, scene, point->option), &item->years);
+            ceduo_years_create(scene, &scene->options[point->option], window_of(def, scene), &item->years);
         if (status != CEDUO_OK)
             return status;
     }
@@ -141,7 +141,7 @@ static bool list_variants(struct work *w)
     w->variants = calloc(def->scene->options_count * (1 + CEDUO_DOUBT_YEARS_MAX), sizeof *w->variants);
     for (int later = !w->points->today; w->variants && later < (def->rotation ? 2 : 1); later++) {
         for (size_t i = 0; i < def->scene->options_count; i++) {
-            size_t slots = later ? ceduo_points_years(def, i, CEDUO_DOUBT_YEARS_MAX) : 1;
+            size_t slots = later ? ceduo_points_years(def, CEDUO_DOUBT_YEARS_MAX) : 1;
             for (size_t slot = 0; (!def->alone || i == def->option) && slot < slots; slot++)
                 w->variants[w->each++] = (struct point){.option = i, .slot = slot + (later > 0)};
         }
@@ -167,9 +167,9 @@ enum ceduo_status ceduo_points_run(const struct points *p, size_t from, size_t t
     return status;
 }
 
-size_t ceduo_points_years(const struct ceduo_doubt_def *def, size_t option, size_t most)
+size_t ceduo_points_years(const struct ceduo_doubt_def *def, size_t most)
 {
-    struct ceduo_window w = window_of(def, def->scene, option);
+    struct ceduo_window w = window_of(def, def->scene);
     size_t count = (w.last - w.first) / w.step + 1;
     return count < most ? count : most;
 }

@@ -36,13 +36,13 @@ struct points {
 };
 
 /* Rows from…to - 1; the first `together` of them by one thread and today alone, as they have most of their forests in
- * common. In each year other rocks come down, as they say more of a mean over the years, but in every row the same. Where an option has more years, or
+ * common. In each year other rocks come down, as they say more of a mean over the years, but in every row the same. If the window has more years, or
  * in another row another number of them, they are evenly spread.
  * CEDUO_OK, CEDUO_CANCELLED, CEDUO_NO_MEMORY or what ceduo_scene_check() says. */
 enum ceduo_status ceduo_points_run(const struct points *points, size_t from, size_t to, size_t together);
 
-/* How many years of the option stand for its rotation, at most so many. */
-size_t ceduo_points_years(const struct ceduo_doubt_def *def, size_t option, size_t most);
+/* Number of years of the window that are simulated, at most `most`. */
+size_t ceduo_points_years(const struct ceduo_doubt_def *def, size_t most);
 
 /* Of groups that may differ by a rock. */
 double ceduo_groups_mean(const struct ceduo_groups *groups, uint64_t rocks);

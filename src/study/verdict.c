@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "base/grow.h"
+#include "ceduo/doubt.h"
 #include "ceduo/key.h"
 
 double ceduo_share_of(const struct ceduo_arrivals *arrivals)
@@ -89,32 +90,60 @@ static struct ceduo_paired difference_over_years(const void *context, size_t opt
 
 /* ---- one option ---- */
 
-static void read_years(const struct ceduo_years *years, struct ceduo_choice *c)
+static struct ceduo_portion mean_of(const struct ceduo_years *years, const struct ceduo_years_summary *s)
 {
-    const struct ceduo_years_summary s = c->over = ceduo_years_sum(years, years->last_control);
+    struct ceduo_paired mean = isnan(s->exceed.mean) ? s->reach : s->exceed;
+    return (struct ceduo_portion){mean.mean, ceduo_half_width_of_share(mean.mean, mean.se, years->rocks)};
+}
+
+static bool read_years(const struct ceduo_years *years, struct ceduo_choice *c)
+{
+    size_t controls = years->scene.controls_count;
+    c->ahead = malloc(controls * sizeof *c->ahead);
+    for (size_t k = 0; c->ahead && k < controls; k++)
+        c->ahead[k] = ceduo_years_sum(years, k);
+    if (!c->ahead)
+        return false;
+    const struct ceduo_years_summary s = c->over = c->ahead[years->last_control];
     c->rocks = years->rocks;
     c->energy_known &= !s.nothing;
     c->worst.mean = s.worst; /* by the index an ADC: it has no error */
     for (size_t i = 0; i < years->count; i++)
         if (years->years[i].year == s.worst_year && years->years[i].wooded.rocks > 0)
             c->worst = ceduo_share_at(&years->years[i].wooded.arrivals[years->last_control]);
-    struct ceduo_paired mean = isnan(s.exceed.mean) ? s.reach : s.exceed;
-    c->mean = (struct ceduo_portion){mean.mean, ceduo_half_width_of_share(mean.mean, mean.se, years->rocks)};
+    c->mean = mean_of(years, &s);
+    return true;
 }
 
-static enum ceduo_status read_choice(const struct ceduo_result *r, const struct ceduo_years *years, size_t option,
-                                     struct ceduo_choice *c)
+/* Year of the next cut if it is due, otherwise 0. */
+static unsigned due_cut(const struct ceduo_option *option)
+{
+    unsigned due = 0;
+    for (size_t i = 0; i < option->belts_count; i++) {
+        unsigned first = ceduo_first_cut(&option->belts[i].stand, option->belts[i].cut_year);
+        if (first <= CEDUO_CUT_SOON && first > 0 && (due == 0 || first < due))
+            due = first;
+    }
+    return due;
+}
+
+static enum ceduo_status read_choice(const struct ceduo_result *r, const struct ceduo_years *years,
+                                     const struct ceduo_years *whole, size_t option, struct ceduo_choice *c)
 {
     const struct ceduo_portion unknown = {NAN, NAN};
     const struct ceduo_option *o = &r->scene->options[option];
     struct ceduo_window rotation = ceduo_window_of(o);
-    *c = (struct ceduo_choice){.today = unknown, .worst = unknown, .mean = unknown};
-    c->window = years ? years->window : ceduo_window_in(r->scene, o);
+    *c = (struct ceduo_choice){.today = unknown, .worst = unknown, .mean = unknown, .rotation = unknown, .cut = due_cut(o)};
+    c->window = years ? years->window : ceduo_window_in(r->scene);
     if (r->scene->controls_count > 0) {
         c->today = ceduo_share_at(ceduo_result_wooded(r, option, r->last_control));
         c->energy_known = r->wooded && !isnan(r->scene->controls[r->last_control].accepted);
-        if (years)
-            read_years(years, c);
+        if (years && !read_years(years, c))
+            return CEDUO_NO_MEMORY;
+        if (whole) {
+            const struct ceduo_years_summary s = ceduo_years_sum(whole, whole->last_control);
+            c->rotation = mean_of(whole, &s);
+        }
     }
     unsigned end = rotation.last + 1, most = end + CEDUO_PERIOD_MOST;
     unsigned last = c->window.last < end ? end : c->window.last < most ? c->window.last : most;
@@ -191,7 +220,96 @@ static void find_leader(const struct ceduo_result *r, struct ceduo_years *const 
     }
 }
 
-enum ceduo_status ceduo_verdict_make(const struct ceduo_result *r, struct ceduo_years *const *years, struct ceduo_verdict *v)
+/* ---- one option at one control ---- */
+
+/* Today, by the sampling error and the 90 % range of uncertain inputs. */
+static enum ceduo_judgement judge_today(const struct ceduo_result *r, const struct ceduo_doubt_answer *doubt, size_t option,
+                                        size_t control)
+{
+    const struct ceduo_arrivals *bare = &r->bare.arrivals[control], *wooded = ceduo_result_wooded(r, option, control);
+    enum ceduo_judgement judgement = ceduo_judge(bare, wooded);
+    if (judgement == CEDUO_NOTHING || judgement == CEDUO_UNANSWERED || !wooded || !doubt || control != r->last_control)
+        return judgement;
+    const struct ceduo_surface_fit *fit = &ceduo_doubt_figure_of(doubt, option, CEDUO_DOUBT_EXCEED, false)->fit;
+    return fit->p5 <= wooded->limit && fit->p95 > wooded->limit ? CEDUO_DEPENDS : judgement;
+}
+
+/* Over the years, by how many are above the limit. */
+static enum ceduo_judgement judge_years(const struct ceduo_years_summary *s, const struct ceduo_outcome *o)
+{
+    if (o->doubted && o->failing_lo < 1 && o->failing_hi >= 1)
+        return CEDUO_DEPENDS;
+    bool never = s->failing_hi == 0 && o->failing_hi<1, some = s->failing_lo> 0 && o->failing_lo >= 1;
+    return never ? CEDUO_YES : some ? CEDUO_NO : CEDUO_NOT_DECIDED;
+}
+
+/* By how often it happens: the mean over the years, or today's. */
+static enum ceduo_judgement judge_rate(const struct ceduo_result *r, const struct ceduo_surface_fit *fit, size_t control,
+                                       struct ceduo_outcome *o)
+{
+    double limit = 1 / ceduo_accepted_return(&r->scene->controls[control]);
+    double per_year = limit / ceduo_exceed_limit(r->scene, &r->scene->controls[control]);
+    if (fit && !isnan(fit->p5)) {
+        o->doubted = true;
+        o->rate.lo = fmin(o->rate.lo, per_year * fit->p5);
+        o->rate.hi = fmax(o->rate.hi, per_year * fit->p95);
+        if (per_year * fit->p5 <= limit && per_year * fit->p95 > limit)
+            return CEDUO_DEPENDS;
+    }
+    return o->rate.hi <= limit ? CEDUO_YES : o->rate.lo > limit ? CEDUO_NO : CEDUO_NOT_DECIDED;
+}
+
+static bool is_impossible(const struct ceduo_result *r, size_t option, size_t control)
+{
+    bool impossible = false;
+    for (size_t i = 0; i < r->scene->options[option].belts_count; i++)
+        if (r->scene->options[option].belts[i].from < r->scene->controls[control].x)
+            impossible |= (r->options[option].stands[i].warnings & (CEDUO_WARN_BASAL_AREA | CEDUO_WARN_MANY_SHOOTS)) != 0;
+    return impossible;
+}
+
+struct ceduo_outcome ceduo_outcome_of(const struct ceduo_result *r, const struct ceduo_verdict *v,
+                                      const struct ceduo_doubt_answer *doubt, size_t option, size_t control)
+{
+    const struct ceduo_choice *c = v && option < v->n && v->choices[option].ahead ? &v->choices[option] : NULL;
+    const struct ceduo_years_summary *s = c ? &c->ahead[control] : NULL;
+    const struct ceduo_arrivals *wooded = ceduo_result_wooded(r, option, control);
+    bool blocks = r->scene->blocks_count > 0, last = control == r->last_control;
+    enum ceduo_judgement today = judge_today(r, doubt, option, control);
+    struct ceduo_outcome o = {.answer = today,
+                              .today = today,
+                              .ahead = s && s->simulated > 0 && c->window.kind != CEDUO_WINDOW_ALIKE,
+                              .also_bare = ceduo_judge(&r->bare.arrivals[control], NULL) == CEDUO_YES,
+                              .rate = {NAN, NAN, NAN}};
+    bool years = last && doubt && doubt->rotation;
+    if (today == CEDUO_UNANSWERED || today == CEDUO_NOTHING)
+        return o;
+    if (o.ahead) {
+        const struct ceduo_surface_fit *fit =
+            years ? &ceduo_doubt_figure_of(doubt, option, CEDUO_DOUBT_FAILING, false)->fit : NULL;
+        o.doubted = fit && !isnan(fit->p5);
+        o.failing = (double)s->unprotected_energy;
+        o.failing_lo = fmin(o.failing, o.doubted ? round(fit->p5) : (double)s->failing_lo);
+        o.failing_hi = fmax(o.failing, o.doubted ? round(fit->p95) : (double)s->failing_hi);
+        o.answer = judge_years(s, &o);
+    }
+    if (blocks && wooded) {
+        enum ceduo_doubt_kind kind = o.ahead ? CEDUO_DOUBT_MEAN : CEDUO_DOUBT_EXCEED;
+        o.rate = o.ahead ? s->rate : ceduo_hazard_feared(&wooded->hazard);
+        o.answer =
+            judge_rate(r, last && doubt && (years || !o.ahead) ? &ceduo_doubt_figure_of(doubt, option, kind, false)->fit : NULL,
+                       control, &o);
+    }
+    o.impossible = o.answer == CEDUO_YES && is_impossible(r, option, control);
+    o.answer = o.impossible ? CEDUO_NOTHING : o.answer;
+    o.today = o.impossible && !o.ahead ? CEDUO_NOTHING : today;
+    return o;
+}
+
+/* ---- all of it ---- */
+
+enum ceduo_status ceduo_verdict_make(const struct ceduo_result *r, struct ceduo_years *const *years,
+                                     struct ceduo_years *const *rotations, struct ceduo_verdict *v)
 {
     size_t n = r->options_count;
     *v = (struct ceduo_verdict){
@@ -203,8 +321,8 @@ enum ceduo_status ceduo_verdict_make(const struct ceduo_result *r, struct ceduo_
     v->rotation.rival = calloc(n + 1, sizeof *v->rotation.rival);
     enum ceduo_status status = v->choices && v->today.rival && v->rotation.rival ? CEDUO_OK : CEDUO_NO_MEMORY;
     for (size_t i = 0; i < n && status == CEDUO_OK; i++) {
-        status = read_choice(r, years ? years[i] : NULL, i, &v->choices[i]);
-        v->n = i + (status == CEDUO_OK);
+        status = read_choice(r, years ? years[i] : NULL, rotations ? rotations[i] : NULL, i, &v->choices[i]);
+        v->n = i + 1;
     }
     if (status == CEDUO_OK && !v->nothing) {
         find_leader(r, NULL, v, &v->today);
@@ -221,8 +339,10 @@ enum ceduo_status ceduo_verdict_make(const struct ceduo_result *r, struct ceduo_
 
 void ceduo_verdict_release(struct ceduo_verdict *v)
 {
-    for (size_t i = 0; i < v->n; i++)
+    for (size_t i = 0; i < v->n; i++) {
         ceduo_yield_release(&v->choices[i].yield);
+        free(v->choices[i].ahead);
+    }
     free(v->choices);
     free(v->today.rival);
     free(v->rotation.rival);

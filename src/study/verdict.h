@@ -6,7 +6,7 @@
 #include "ceduo/years.h"
 #include "ceduo/yield.h"
 
-/* The options side by side at the last control: today, over one whole rotation of each, and what that yields. One
+/* The options side by side at the last control: today, over the same years ahead, and what they yield. One
  * figure is compared throughout: of the rocks released the share that arrives with too much energy, or where no
  * accepted energy is given the share that arrives. Every option has the same rocks, so each difference has an error
  * of its own.
@@ -31,13 +31,18 @@ struct ceduo_paired ceduo_share_to_first(const struct ceduo_result *result, size
 struct ceduo_choice {
     struct ceduo_portion today, worst, mean; /* worst and mean: of the years */
     struct ceduo_years_summary over;         /* of the years at the last control; years 0: they are not known */
+    struct ceduo_years_summary *ahead;       /* the same at each control; NULL: not known */
+    struct ceduo_portion rotation;           /* mean over a whole rotation, ceduo_window_of(); NaN: not known */
     uint64_t rocks;                          /* in each of them, which may be fewer than today */
     bool energy_known;                       /* in how many of them the light of energy fails */
     bool beaten; /* another option yields as much and lets clearly fewer rocks through, or yields more and lets no more
                   * through */
     struct ceduo_window window;
+    unsigned cut; /* year of the first cut if it is at most CEDUO_CUT_SOON; otherwise 0 */
     struct ceduo_yield yield;
 };
+
+#define CEDUO_CUT_SOON 5 /* years: a cut that is due */
 
 /* Which option is best; known: all have their figure. It is judged by the rocks that all have. */
 struct ceduo_leader {
@@ -65,10 +70,32 @@ struct ceduo_verdict {
     struct ceduo_turned *turned;
 };
 
-/* What a result says, and the years of each option as far as they are there: `years`, and each of them, may be NULL.
- * CEDUO_NO_MEMORY, with nothing to free, or CEDUO_OK. */
+/* What is said of an option at a control. */
+struct ceduo_outcome {
+    enum ceduo_judgement answer; /* over the window; of today if `ahead` is false */
+    enum ceduo_judgement today;
+    bool ahead;      /* the window has other years than today, and they are known */
+    bool also_bare;  /* the slope keeps within the limit without forest, today */
+    bool impossible; /* a stand has more stems than a forest can hold: it supports no yes */
+    double failing, failing_lo,
+        failing_hi;         /* years above the limit: 90 % range over uncertain inputs, otherwise of the rocks */
+    bool doubted;           /* the range is of uncertain inputs */
+    struct ceduo_rate rate; /* with blocks: a year, with both errors; otherwise NaN */
+};
+
+/* Judge an option at a control. `verdict` may be NULL (today alone), and `doubt` NULL (sampling error alone).
+ *
+ * Over the window: yes if no year is above the limit and the upper end of the range is 0, no if the lower end is at least 1,
+ * CEDUO_DEPENDS if uncertain inputs leave it open, CEDUO_NOT_DECIDED if only the number of rocks does. With blocks by the mean rate
+ * over the window against the accepted return period: yes if its upper end is within it, no if its lower end is above. */
+struct ceduo_doubt_answer;
+struct ceduo_outcome ceduo_outcome_of(const struct ceduo_result *result, const struct ceduo_verdict *verdict,
+                                      const struct ceduo_doubt_answer *doubt, size_t option, size_t control);
+
+/* What a result says, and the years of each option as far as they are there: `years`, and each of them, may be NULL; `rotations`
+ * likewise. CEDUO_NO_MEMORY, with nothing to free, or CEDUO_OK. */
 enum ceduo_status ceduo_verdict_make(const struct ceduo_result *result, struct ceduo_years *const *years,
-                                     struct ceduo_verdict *verdict);
+                                     struct ceduo_years *const *rotations, struct ceduo_verdict *verdict);
 void ceduo_verdict_release(struct ceduo_verdict *verdict);
 
 #endif

@@ -79,8 +79,9 @@ static void draw_verdict(struct app *app)
     if (!r || r->scene->controls_count == 0)
         return;
     struct ceduo_pane pane = ceduo_app_pane(app, 1);
-    enum ceduo_judgement judgement = ceduo_words_judge(r, app->option, r->last_control, pane.doubt);
-    ceduo_words_answer(&answer, r, app->option, r->last_control, pane.doubt, (size_t)app->width - 1 - MARKS_MORE);
+    const struct ceduo_subject subject = {r, pane.verdict, pane.doubt, app->option, r->last_control, false};
+    enum ceduo_judgement judgement = ceduo_words_outcome(&subject).answer;
+    ceduo_words_answer(&answer, &subject, (size_t)app->width - 1 - MARKS_MORE);
     ceduo_canvas_put(&app->cells->canvas, 1, 1, app->width - 1,
                      judgement == CEDUO_UNANSWERED ? CEDUO_ROLE_TITLE
                      : judgement == CEDUO_YES      ? CEDUO_ROLE_GOOD

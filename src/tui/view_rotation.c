@@ -59,7 +59,7 @@ static void say_year(struct app *app, const struct ceduo_years *years, struct te
 static void say_all(struct app *app, const struct ceduo_years *years, struct text *text)
 {
     const struct ceduo_verdict *v = &app->live.verdict;
-    ceduo_words_window(text, ceduo_app_option(app), &years->window);
+    ceduo_words_window(text, ceduo_app_option(app));
     ceduo_text_put(text, text->length > 0 ? " " : "");
     ceduo_words_years_sum(text, app->live.result, years);
     if (app->option < v->n && !isnan(v->choices[app->option].yield.cut_per_year))

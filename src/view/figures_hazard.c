@@ -75,6 +75,8 @@ const struct ceduo_figure ceduo_hazard_figures[] = {
      .offset = offsetof(struct ceduo_hazard, accepted.hi), .null = UNSAID ", or no rock could have so much energy"},
     {"accepted_years_hi", "y", "upper end of its 95 % interval", .value = years_of,
      .offset = offsetof(struct ceduo_hazard, accepted.lo), .null = UNSAID ", or " UNBOUND},
+    {"accepted_return_y", "y", "years between two such rocks that are accepted: as in the scene, or 100",
+     AT(hazard, accepted_return), .null = UNSAID},
     {"matrix", "", "classes of intensity, by classes of return period", .of = matrix, .item = intensity_item,
      .columns = CEDUO_INTENSITIES},
     {"rate_left", "",

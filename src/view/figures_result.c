@@ -56,6 +56,14 @@ static const struct ceduo_yield *yield_at(const struct ceduo_place *p)
     return yield && !isnan(yield->cut_per_year) ? yield : NULL;
 }
 
+/* NULL if the window is today alone, or its years were not simulated. */
+static const struct ceduo_choice *window_at(const struct ceduo_place *p)
+{
+    const struct ceduo_verdict *v = p->report->verdict;
+    const struct ceduo_choice *c = v && p->option < v->n ? &v->choices[p->option] : NULL;
+    return c && c->over.simulated > 0 && c->window.kind != CEDUO_WINDOW_ALIKE ? c : NULL;
+}
+
 static const struct ceduo_stand_result *belt_result(const struct ceduo_place *p)
 {
     return &(p->year ? p->year->stands : result_of(p)->options[p->option].stands)[p->belt];
@@ -86,6 +94,7 @@ OBJECT(place_of_yield, place, yield_at(o) ? o : NULL)
 OBJECT(felling_of, place, &yield_at(o)->fellings[o->felling])
 OBJECT(felled_belt_of, place, &result_of(o)->scene->options[o->option].belts[yield_at(o)->fellings[o->felling].belt])
 OBJECT(rotation_of, place, o->report->years ? o : NULL)
+OBJECT(window_of, place, window_at(o))
 OBJECT(standards_of, compliance, o->standards_item)
 OBJECT(turn_of, compliance, o->turn_item)
 OBJECT(search_of, find_report, o->search)
@@ -148,10 +157,25 @@ static void say_of_stand(const struct ceduo_place *p, ceduo_words_say *say, void
     ceduo_words_stand_warnings(result_of(p)->scene, belt_of(p), stand_of(p), say, context);
 }
 
+/* What is said of a control, by the sampling error alone; of a year by its own rocks. */
+static struct ceduo_outcome outcome_of(const struct ceduo_place *p)
+{
+    if (p->year) {
+        enum ceduo_judgement judgement = ceduo_judge(&result_of(p)->bare.arrivals[p->control], through_the_wood(p));
+        return (struct ceduo_outcome){.answer = judgement, .today = judgement};
+    }
+    return ceduo_outcome_of(p->report->result, p->report->verdict, NULL, p->option, p->control);
+}
+
 static void say_because(const struct ceduo_place *p, ceduo_words_say *say, void *context)
 {
+    const struct ceduo_outcome o = outcome_of(p);
     LOCAL_TEXT(why);
-    ceduo_words_because(&why, p->report->result, p->control, through_the_wood(p));
+    if ((o.ahead && o.answer != CEDUO_NOTHING) || o.impossible)
+        ceduo_words_reason(
+            &why, &(const struct ceduo_subject){p->report->result, p->report->verdict, NULL, p->option, p->control, false});
+    else
+        ceduo_words_because(&why, p->report->result, p->control, through_the_wood(p));
     say(context, ceduo_text_string(&why));
 }
 
@@ -188,8 +212,12 @@ VALUE(missed_at, arrivals, NUMBER, NUMBER(o->released > 0 ? *(const double *)mem
 VALUE(stop_at, place, NUMBER, NUMBER(*(const double *)member(f, &wood_of(o)->ends) + o->report->file->scene.slope.origin_x))
 VALUE(too_much_of, place, COUNT, o->sum.nothing || isnan(o->sum.exceed.mean) ? NOTHING : COUNT(o->sum.unprotected_energy))
 VALUE(fails_of, place, COUNT, o->sum.nothing ? NOTHING : COUNT(*(const size_t *)member(f, o)))
-VALUE(judgement_of, place, TEXT,
-      WORD(ceduo_words_judgement(ceduo_judge(&result_of(o)->bare.arrivals[o->control], through_the_wood(o)))))
+VALUE(judgement_of, place, TEXT, WORD(ceduo_words_judgement(outcome_of(o).answer)))
+VALUE(judgement_today, place, TEXT, WORD(o->year ? NULL : ceduo_words_judgement(outcome_of(o).today)))
+VALUE(window_lo, choice, NUMBER, NUMBER(fmax(0, o->mean.mean - o->mean.half)))
+VALUE(window_hi, choice, NUMBER, NUMBER(fmin(1, o->mean.mean + o->mean.half)))
+VALUE(window_worst, choice, NUMBER, NUMBER(o->worst.mean))
+VALUE(window_failing, choice, COUNT, o->energy_known ? COUNT(o->over.unprotected_energy) : NOTHING)
 VALUE(judgement_of_other, other_energy, TEXT, WORD(ceduo_words_judgement(o->judgement)))
 VALUE(felled_of, place, NUMBER, NUMBER(ceduo_years_felled(o->report->years[o->option])))
 VALUE(find_format, find_report, TEXT, WORD("ceduo-find-1"))
@@ -400,8 +428,12 @@ static const struct ceduo_figure other_energy[] = {
     END};
 
 static const struct ceduo_figure verdict[] = {
-    {"answer", "", "whether the forest keeps rocks with more than accepted_kJ to at most 5 of 100: " ANSWERS,
+    {"answer", "",
+     "whether the forest keeps rocks with more than accepted_kJ to at most 5 of 100 in every year of the window (with blocks: "
+     "to one "
+     "in accepted_return_y years, in the mean of the window); without a window, today: " ANSWERS,
      .value = judgement_of, .null = UNSAID ", or contact_model is index"},
+    {"today", "", "the same today", .value = judgement_today, .null = UNSAID ", contact_model is index, or of a year"},
     {"because", "", "why, in a sentence", .say = say_because, .one = true},
     END};
 
@@ -509,11 +541,25 @@ static const struct ceduo_figure rotation[] = {
      .null = "the scene has no rocks_per_year, or the control no accepted_kJ"},
     END};
 
+static const struct ceduo_figure window[] = {
+    {"from", "y", "first year, counted from today", AT(choice, window.first)},
+    {"to", "y", "last year", AT(choice, window.last)},
+    {"mean", "", "share of the released that exceeds (without accepted_kJ: that arrives), mean of the years",
+     AT(choice, mean.mean)},
+    {"mean_lo", "", "lower end of its 95 % interval", .value = window_lo},
+    {"mean_hi", "", "upper end of its 95 % interval", .value = window_hi},
+    {"worst", "", "the share of the worst year", .value = window_worst},
+    {"worst_year", "y", "that year", AT(choice, over.worst_year)},
+    {"failing_years", "", "years in which lights.energy fails", .value = window_failing, .null = UNSAID},
+    END};
+
 #define NO_YEARS "--years is not given"
 static const struct ceduo_figure option[] = {
     {"name", "", "name of the option", .from = option_of, AT(option, name_given)},
     {.of = forest_rows},
     {.of = end_rows},
+    {"window", "", "the years by which options are judged and compared, at the last control", .from = window_of, .of = window,
+     .null = "no option grows or is cut, or contact_model is index"},
     {"years", "", "an object for each year", .of = year, .enter = enter_year, .null = NO_YEARS},
     {"rotation", "", "the years together, at the last control", .from = rotation_of, .of = rotation, .null = NO_YEARS},
     {"yield", "", "stem wood that the option yields", .from = place_of_yield, .of = yield, .null = NO_GROWTH},

@@ -30,68 +30,117 @@ void ceduo_page_question(struct ceduo_page *page, const struct ceduo_result *r)
     const char *where = ceduo_text_string(&place), *withstands = SHORTEST(ceduo_words_accepted(place_of(r)));
     size_t n = r->scene->options_count;
     bool accepted = !isnan(place_of(r)->accepted);
-    if (n == 1 && accepted)
-        ceduo_text_format(text, _("Does the forest protect %s, which withstands %s kJ?"), where, withstands);
+    LOCAL_TEXT(limited);
+    if (place_of(r)->name)
+        ceduo_text_format(&limited, _("%s (%s m, limit %s kJ)"), NAME_OF(place_of(r)), SHORTEST(place_of(r)->x_given),
+                          withstands);
+    else
+        ceduo_text_format(&limited, _("%s m (limit %s kJ)"), SHORTEST(place_of(r)->x_given), withstands);
+    struct ceduo_window window = ceduo_window_in(r->scene);
+    unsigned years = window.kind == CEDUO_WINDOW_AHEAD ? window.last : 0;
+    if (n == 1 && accepted && years > 0)
+        ceduo_text_format(text,
+                          ngettext("Does the forest protect %s over the next %u year?",
+                                   "Does the forest protect %s over the next %u years?", years),
+                          limited.bytes, years);
+    else if (n == 1 && accepted)
+        ceduo_text_format(text, _("Does the forest protect %s?"), limited.bytes);
     else if (n == 1)
         ceduo_text_format(text, _("How many rocks does the forest keep from %s?"), where);
     else if (accepted)
-        ceduo_text_format(text, _("Which of %zu treatments is best for %s, which bears %s kJ?"), n, where, withstands);
+        ceduo_text_format(text, _("Which of %zu treatments is best for %s?"), n, limited.bytes);
     else
         ceduo_text_format(text, _("Which of %zu treatments keeps most rocks from %s?"), n, where);
 }
 
 /* ---- the answer ---- */
 
-/* Which options keep within what is accepted, "none" or their names: today, or in every year. */
-static void append_keepers(struct text *text, const struct ceduo_report *report, bool every_year)
+/* Which options get one judgement, "none" or their names: today, or over the years. */
+static void append_judged(struct text *text, const struct ceduo_report *report, bool today, enum ceduo_judgement judgement)
 {
     const struct ceduo_result *r = report->result;
-    bool depends = false;
     size_t n = 0;
     for (size_t i = 0; i < r->scene->options_count; i++) {
-        const struct ceduo_choice *c = &report->verdict->choices[i];
-        if (every_year ? !c->energy_known || c->over.years == 0 || c->over.unprotected_energy > 0
-                       : ceduo_result_last_index(r, i)->energy != CEDUO_PASS)
-            continue;
-        ceduo_text_format(text, n++ > 0 ? ", '%s'" : "'%s'", r->scene->options[i].name);
-        depends |= ceduo_words_judge(r, i, r->last_control, report->doubt) == CEDUO_DEPENDS;
+        const struct ceduo_outcome o =
+            ceduo_words_outcome(&(const struct ceduo_subject){r, report->verdict, report->doubt, i, r->last_control, false});
+        if ((today ? o.today : o.answer) == judgement)
+            ceduo_text_format(text, n++ > 0 ? ", '%s'" : "'%s'", r->scene->options[i].name);
     }
     if (n == 0)
         ceduo_text_put(text, _("none"));
-    if (depends)
-        ceduo_text_put(text, _(" (it depends on what is not known)"));
+}
+
+/* "In every year: none. Uncertain: 'simple coppice'." */
+static void append_keepers(struct text *text, const struct ceduo_report *report, bool today, const char *sentence)
+{
+    LOCAL_TEXT(keepers);
+    LOCAL_TEXT(open);
+    append_judged(&keepers, report, today, CEDUO_YES);
+    append_judged(&open, report, today, CEDUO_DEPENDS);
+    ceduo_text_char(text, ' ');
+    ceduo_append_with(text, sentence, ceduo_text_string(&keepers));
+    if (strcmp(ceduo_text_string(&open), _("none")) != 0)
+        ceduo_text_then(text, " ", _("It depends on uncertain inputs for %s."), ceduo_text_string(&open));
 }
 
 static void answer_many(struct ceduo_page *page, const struct ceduo_report *report)
 {
     const struct ceduo_verdict *v = report->verdict;
     struct text *text = ceduo_page_add(page, CEDUO_PAGE_ANSWER);
-    LOCAL_TEXT(always);
-    LOCAL_TEXT(today);
     ceduo_words_best(text, report->result->scene, v);
     for (char *second = text->bytes ? strchr(text->bytes, '\n') : NULL; second; second = NULL)
         *second = ' ';
     if (!v->accepted || !v->wooded)
         return;
-    append_keepers(&today, report, false);
-    append_keepers(&always, report, true);
-    if (v->choices[0].over.years > 0)
-        ceduo_text_then(text, " ", _("Options that keep within %.0f of 1000: today %s; in every year %s."),
-                        1000 * CEDUO_EXCEED_MOST, today.bytes, always.bytes);
+    bool blocks = report->result->scene->blocks_count > 0;
+    if (v->choices[0].window.kind != CEDUO_WINDOW_ALIKE && v->choices[0].over.years > 0)
+        append_keepers(text, report, false,
+                       blocks ? _("Within the limit over these years: %s.") : _("Within the limit in every year: %s."));
     else
-        ceduo_text_then(text, " ", _("Options that keep within %.0f of 1000 today: %s."), 1000 * CEDUO_EXCEED_MOST,
-                        today.bytes);
+        append_keepers(text, report, true, _("Within the limit today: %s."));
 }
 
 size_t ceduo_result_best(const struct ceduo_result *r, const struct ceduo_verdict *v)
 {
     size_t best = 0;
+    if (v && v->rotation.known && v->choices[0].window.kind != CEDUO_WINDOW_ALIKE)
+        return v->rotation.best;
     if (v && v->today.known)
         return v->today.best;
     for (size_t i = 1; r->scene->controls_count > 0 && i < r->scene->options_count; i++)
         if (ceduo_result_last_index(r, i)->dissipated > ceduo_result_last_index(r, best)->dissipated)
             best = i;
     return best;
+}
+
+/* Below the answer over years: "mean 190 ±9 of 1000, worst 489 in year 1; today 31 (YES)". */
+static void say_mean(struct ceduo_page *page, const struct ceduo_report *report)
+{
+    const struct ceduo_result *r = report->result;
+    const struct ceduo_choice *c = report->verdict ? &report->verdict->choices[0] : NULL;
+    if (!c || c->over.simulated == 0 || c->window.kind == CEDUO_WINDOW_ALIKE)
+        return;
+    struct text *text = ceduo_page_add(page, CEDUO_PAGE_ANSWER);
+    struct ceduo_measure mean = ceduo_share(c->mean);
+    const struct ceduo_measure today = ceduo_judged(place_of(r), ceduo_result_wooded(r, 0, r->last_control));
+    LOCAL_TEXT(share);
+    LOCAL_TEXT(range);
+    ceduo_measure_error(&share, &mean, " ");
+    ceduo_measure_doubt_over(&mean, report->doubt, 0);
+    if (!isnan(mean.may_lo)) {
+        LOCAL_TEXT(span);
+        ceduo_measure_may_be(&span, &mean);
+        ceduo_text_format(&range, _(" (range %s)"), ceduo_text_string(&span));
+    }
+    ceduo_text_format(text, _("mean %s%s of 1000, worst %.0f in year %u"), ceduo_text_string(&share), ceduo_text_string(&range),
+                      1000 * c->worst.mean, c->over.worst_year);
+    LOCAL_TEXT(value);
+    ceduo_measure_value(&value, &today);
+    const struct ceduo_outcome o =
+        ceduo_words_outcome(&(const struct ceduo_subject){r, report->verdict, report->doubt, 0, r->last_control, false});
+    ceduo_text_format(text, _("; today %s"), ceduo_text_string(&value));
+    if (o.today != CEDUO_UNANSWERED)
+        ceduo_text_format(text, " (%s)", ceduo_words_decided(o.today));
 }
 
 void ceduo_page_answer(struct ceduo_page *page, const struct ceduo_report *report)
@@ -111,12 +160,10 @@ void ceduo_page_answer(struct ceduo_page *page, const struct ceduo_report *repor
         if (k != r->last_control && isnan(r->scene->controls[k].accepted))
             continue;
         struct text *text = ceduo_page_add(page, CEDUO_PAGE_ANSWER);
-        if (k != r->last_control) {
-            ceduo_plot_control_name(text, &r->scene->controls[k]);
-            ceduo_text_put(text, ": ");
-        }
-        ceduo_words_answer(text, r, 0, k, report->doubt,
-                           page->width - CEDUO_ANSWER_INDENT - ceduo_utf8_width(ceduo_text_string(text)));
+        const struct ceduo_subject subject = {r, report->verdict, report->doubt, 0, k, k == r->last_control};
+        ceduo_words_answer(text, &subject, page->width - CEDUO_ANSWER_INDENT);
+        if (k == r->last_control)
+            say_mean(page, report);
     }
 }
 
@@ -203,31 +250,14 @@ void ceduo_page_over(struct ceduo_page *page, const struct ceduo_report *report)
     if (!c || c->over.years == 0 || ceduo_page_says_nothing(report->result))
         return;
     if (c->window.kind == CEDUO_WINDOW_ALIKE) {
-        ceduo_words_window(ceduo_page_label(page, CEDUO_PAGE_POINT, _("OVER TIME")), option, &c->window);
+        ceduo_words_window(ceduo_page_label(page, CEDUO_PAGE_POINT, _("OVER TIME")), option);
         return;
     }
+    if (c->over.simulated > 0) /* the answer says it */
+        return;
     struct text *text = ceduo_page_add(page, CEDUO_PAGE_POINT);
     ceduo_text_format(text, ngettext("OVER %zu YEAR", "OVER %zu YEARS", c->over.years), c->over.years);
     ceduo_text_char(text, '\t');
-    struct ceduo_measure mean = ceduo_share(c->mean);
-    LOCAL_TEXT(may);
-    LOCAL_TEXT(share);
-    ceduo_measure_error(&share, &mean, " ");
-    ceduo_measure_doubt_over(&mean, report->doubt, 0);
-    if (!isnan(mean.may_lo)) {
-        ceduo_text_format(&may, ", %s ", _("may be"));
-        ceduo_measure_may_be(&may, &mean);
-    }
-    if (c->over.simulated == 0)
-        ceduo_text_format(text, _("ADC %s m at the most, in year %u; contact fails in %zu of %zu."), WRITTEN(c->worst.mean, 3),
-                          c->over.worst_year, c->over.unprotected_contact, c->over.years);
-    else
-        ceduo_text_format(text, _("mean %s%s; worst %.0f \xc2\xb1%.0f in year %u (%llu rocks in each)"),
-                          ceduo_text_string(&share), ceduo_text_string(&may), 1000 * c->worst.mean, ceil(1000 * c->worst.half),
-                          c->over.worst_year, (unsigned long long)c->rocks);
-    if (c->over.simulated > 0 && c->energy_known)
-        ceduo_text_then(text, "; ", _("above the limit in %zu of %zu"), c->over.unprotected_energy, c->over.years);
-    ceduo_text_put(text, c->over.simulated > 0 ? "." : "");
-    if (c->window.kind == CEDUO_WINDOW_UNCUT)
-        ceduo_text_then(text, " ", "%s", _("It grows, but is never cut."));
+    ceduo_text_format(text, _("ADC %s m at the most, in year %u; contact fails in %zu of %zu."), WRITTEN(c->worst.mean, 3),
+                      c->over.worst_year, c->over.unprotected_contact, c->over.years);
 }

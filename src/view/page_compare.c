@@ -186,12 +186,21 @@ void ceduo_page_comparison(struct ceduo_page *page, const struct ceduo_report *r
                 _("'%s' keeps more standards than the ground bears (%.0f %% of the growing space): its yield is not computed."),
                 r->scene->options[i].name, 100 * v->choices[i].yield.space);
     }
+    for (size_t i = 0; i < v->n; i++)
+        if (!isnan(v->choices[i].rotation.mean)) {
+            const struct ceduo_measure mean = ceduo_share(v->choices[i].rotation);
+            struct ceduo_window w = ceduo_window_of(&r->scene->options[i]);
+            LOCAL_TEXT(share);
+            ceduo_measure_error(&share, &mean, " ");
+            ceduo_page_say(page, CEDUO_PAGE_NOTE, _("'%s', mean over a whole rotation, years %u to %u: %s of 1000."),
+                           r->scene->options[i].name, w.first, w.last, ceduo_text_string(&share));
+        }
     if (known)
         ceduo_page_note(page, _("Yield: standards take growing space from the shoots (assumed). Side light, roots and the "
                                 "quality of the wood are not modelled."));
     ceduo_words_turned(r, v, ceduo_page_note, page); /* which is best stands at the head of the page */
     if (v->choices[0].over.years > 0)
-        ceduo_words_windows(r->scene, v, ceduo_page_note, page);
+        ceduo_words_windows(r->scene, ceduo_page_note, page);
     if (v->wooded && !v->accepted)
         ceduo_page_note(page, _(ceduo_words_unjudged));
 }

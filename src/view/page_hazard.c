@@ -58,7 +58,7 @@ void ceduo_words_hazard(struct text *text, const struct ceduo_result *r, size_t 
     else
         ceduo_text_format(&rock, _("A rock with more than %s kJ"), SHORTEST(ceduo_words_accepted(c)));
     ceduo_words_years(&bare, ceduo_hazard_feared(hazard_of(r, 0, control)));
-    ceduo_text_format(text, _("%s reaches %s every %s years without forest"), rock.bytes, place.bytes, bare.bytes);
+    ceduo_text_format(text, _("%s reaches %s every %s years today without forest"), rock.bytes, place.bytes, bare.bytes);
     if (wooded) {
         ceduo_words_years(&wood, ceduo_hazard_feared(wooded));
         if (r->scene->options_count > 1)

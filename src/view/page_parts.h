@@ -14,7 +14,8 @@ void ceduo_page_question(struct ceduo_page *page, const struct ceduo_result *res
 void ceduo_page_answer(struct ceduo_page *page, const struct ceduo_report *report);
 void ceduo_page_sure(struct ceduo_page *page, const struct ceduo_report *report);
 void ceduo_page_over(struct ceduo_page *page, const struct ceduo_report *report);
-/* The option that is best today; by the index the one whose stems take most. `verdict` may be NULL. */
+/* The option that is best over the years, or today if they are not known; by the index the one whose stems take most. `verdict` may
+ * be NULL. */
 size_t ceduo_result_best(const struct ceduo_result *result, const struct ceduo_verdict *verdict);
 
 /* All of that on one screen, with what is assumed. */

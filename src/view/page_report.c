@@ -49,7 +49,7 @@ static bool is_crowded(const struct ceduo_chapter *c)
 
 /* ---- sections ---- */
 
-/* What is not known, as who decides reads it: what it makes of the answer. Of several options that of the best today. */
+/* What uncertain inputs make of the answer, for a reader who decides; of several options for the best. */
 static void add_unknown(struct ceduo_page *page, const struct ceduo_report *report)
 {
     const struct ceduo_result *r = report->result;
@@ -58,8 +58,9 @@ static void add_unknown(struct ceduo_page *page, const struct ceduo_report *repo
     const struct ceduo_doubt_report *doubt = report->doubt;
     const struct ceduo_control *place = &r->scene->controls[r->last_control];
     size_t option = ceduo_result_best(r, report->verdict);
+    const struct ceduo_outcome o =
+        ceduo_words_outcome(&(const struct ceduo_subject){r, report->verdict, doubt, option, r->last_control, false});
     struct ceduo_measure m = ceduo_judged(place, NULL);
-    double limit = 1000 * CEDUO_EXCEED_MOST;
     ceduo_measure_doubt(&m, doubt, option, r->last_control);
     if (isnan(m.may_lo)) {
         if (!doubt || ceduo_doubt_is_off(doubt) || !doubt->inputs || doubt->inputs->n > 0)
@@ -74,20 +75,20 @@ static void add_unknown(struct ceduo_page *page, const struct ceduo_report *repo
     ceduo_measure_name(&phrase, &m, CEDUO_PHRASE);
     ceduo_text_put(text, _("Not everything here is known for certain."));
     if (r->scene->options_count > 1)
-        ceduo_text_then(text, " ", _("With '%s', in nine of ten cases that may be true, %.0f to %.0f of 1000 rocks %s."),
+        ceduo_text_then(text, " ", _("With '%s', in nine of ten plausible cases, %.0f to %.0f of 1000 rocks %s today."),
                         r->scene->options[option].name, m.may_lo, m.may_hi, ceduo_text_string(&phrase));
     else
-        ceduo_text_then(text, " ", _("In nine of ten cases that may be true, %.0f to %.0f of 1000 rocks %s."), m.may_lo,
+        ceduo_text_then(text, " ", _("In nine of ten plausible cases, %.0f to %.0f of 1000 rocks %s today."), m.may_lo,
                         m.may_hi, ceduo_text_string(&phrase));
-    if (!isnan(place->accepted))
-        ceduo_text_then(text, " ",
-                        m.may_lo > limit    ? _("All of these are more than the %.0f accepted: knowing better would hardly "
-                                                   "change the answer.")
-                        : m.may_hi <= limit ? _("None of these is more than the %.0f accepted: knowing better would hardly "
-                                                "change the answer.")
-                                            : _("Some of these are more than the %.0f accepted and some are not: the answer "
-                                                "depends on what is not known."),
-                        limit);
+    if (o.ahead && o.doubted && r->scene->blocks_count == 0)
+        ceduo_text_then(text, " ", _("The limit is exceeded in %.0f to %.0f of the next %zu years."), o.failing_lo,
+                        o.failing_hi, report->verdict->choices[option].over.years);
+    if (o.answer == CEDUO_DEPENDS)
+        ceduo_text_then(text, " ", "%s",
+                        _("Some of these cases keep within the limit and some do not: the answer depends on "
+                          "uncertain inputs."));
+    else if (o.answer == CEDUO_YES || o.answer == CEDUO_NO)
+        ceduo_text_then(text, " ", "%s", _("All of these cases give the same answer."));
 }
 
 /* What the scene says for it; there is always room to date and to sign. */

@@ -77,14 +77,20 @@ static void add_wood(struct ceduo_page *page, const struct ceduo_result *r)
     const struct ceduo_index *s = ceduo_result_last_index(r, 0);
     const char *threshold = SHORTEST(r->scene->simulation.threshold);
     CEDUO_PAGE_TABLE_OF(page, columns);
+    if (s->length > 0 && s->longest_gap > r->scene->simulation.threshold) { /* the reason why neither is kept */
+        ceduo_page_write(page, "%s", _("gap without forest, m"));
+        ceduo_page_write(page, "%s", ROUNDED(s->longest_gap, 6));
+        ceduo_page_write(page, _("at most %s"), threshold);
+        ceduo_page_yes(page, false);
+    }
     ceduo_page_write(page, "%s", _("distance between contacts (ADC), m"));
     ceduo_page_write(page, "%s", BESIDE(s->length > 0 ? s->worst_adc : NAN, 3, r->scene->simulation.threshold));
     ceduo_page_write(page, _("below %s"), threshold);
-    ceduo_page_yes(page, s->contact == CEDUO_PASS);
+    ceduo_page_yes(page, s->worst_adc < r->scene->simulation.threshold);
     ceduo_page_write(page, _("chance of %s m without a contact"), threshold);
     ceduo_page_free_run(page, s->worst_free_run);
     ceduo_page_write(page, _("at most %.0f %%"), 100 * CEDUO_FREE_RUN_MOST);
-    ceduo_page_yes(page, s->free_run == CEDUO_PASS);
+    ceduo_page_yes(page, s->worst_free_run <= CEDUO_FREE_RUN_MOST);
     ceduo_page_write(page, "%s", _("energy taken by stems, left (index), kJ"));
     ceduo_page_write(page, "%s, %s", WRITTEN(s->dissipated * J_TO_KJ, 3), WRITTEN(s->residual * J_TO_KJ, 3));
     ceduo_page_write(page, "%s", "");
@@ -93,15 +99,16 @@ static void add_wood(struct ceduo_page *page, const struct ceduo_result *r)
 
 /* ---- several ---- */
 
-/* BY_MEAN: the doubt of the mean over the years is known; otherwise that of today stands beside today. */
-enum form { BY_TODAY, BY_MEAN, TODAY_ALONE };
+/* AHEAD: over the years and today. RATES: the same with blocks, in years from one rock to the next. TODAY: today alone, and its
+ * range. */
+enum form { AHEAD, RATES, TODAY };
 
 static enum form form_of(const struct ceduo_report *report)
 {
-    bool years = false, doubt = report->doubt && report->doubt->answer && report->doubt->answer->rotation;
-    for (size_t i = 0; i < report->verdict->n; i++) /* those of any option differ */
-        years |= report->verdict->choices[i].over.years > 0 && report->verdict->choices[i].window.kind != CEDUO_WINDOW_ALIKE;
-    return !years ? TODAY_ALONE : doubt ? BY_MEAN : BY_TODAY;
+    const struct ceduo_choice *c = &report->verdict->choices[0];
+    if (report->result->scene->blocks_count > 0 && report->verdict->accepted)
+        return RATES;
+    return c->over.years > 0 && c->window.kind != CEDUO_WINDOW_ALIKE ? AHEAD : TODAY;
 }
 
 static void add_span(struct ceduo_page *page, const struct ceduo_measure *m)
@@ -113,56 +120,86 @@ static void add_span(struct ceduo_page *page, const struct ceduo_measure *m)
         ceduo_measure_may_be(text, m);
 }
 
-/* Over the years, where there are any, and today. */
-static void add_choice(struct ceduo_page *page, const struct ceduo_report *report, size_t i)
+/* How often, with both errors; the same today; and whether that is accepted. */
+static void add_rates(struct ceduo_page *page, const struct ceduo_report *report, size_t i)
+{
+    const struct ceduo_result *r = report->result;
+    const struct ceduo_outcome o =
+        ceduo_words_outcome(&(const struct ceduo_subject){r, report->verdict, report->doubt, i, r->last_control, false});
+    const struct ceduo_arrivals *today = ceduo_result_wooded(r, i, r->last_control);
+    ceduo_words_years(ceduo_page_text(page), o.rate);
+    ceduo_words_decision(ceduo_page_text(page), o.answer);
+    ceduo_words_every(ceduo_page_text(page), today ? ceduo_hazard_feared(&today->hazard) : o.rate);
+}
+
+/* Over the years, and today. */
+static void add_shares(struct ceduo_page *page, const struct ceduo_report *report, size_t i)
 {
     const struct ceduo_result *r = report->result;
     const struct ceduo_choice *v = &report->verdict->choices[i];
     struct ceduo_measure today = ceduo_judged(&r->scene->controls[r->last_control], ceduo_result_wooded(r, i, r->last_control));
     struct ceduo_measure mean = ceduo_share(v->mean);
-    bool years = form_of(report) != TODAY_ALONE;
+    bool years = form_of(report) == AHEAD;
     ceduo_measure_doubt(&today, report->doubt, i, r->last_control);
     ceduo_measure_doubt_over(&mean, report->doubt, i);
-    ceduo_page_write(page, "%s", r->scene->options[i].name);
-    if (years)
-        ceduo_measure_value(ceduo_page_text(page), &mean);
-    if (form_of(report) == BY_MEAN)
-        add_span(page, &mean);
     if (years) {
+        ceduo_measure_value(ceduo_page_text(page), &mean);
+        add_span(page, &mean);
         ceduo_page_worst(page, v);
         ceduo_page_fails(page, v, v->over.unprotected_energy, v->energy_known);
     }
     ceduo_measure_value(ceduo_page_text(page), &today);
-    if (form_of(report) != BY_MEAN)
+    if (!years)
         add_span(page, &today);
+}
+
+static void add_choice(struct ceduo_page *page, const struct ceduo_report *report, size_t i)
+{
+    const struct ceduo_result *r = report->result;
+    ceduo_page_write(page, "%s", r->scene->options[i].name);
+    if (form_of(report) == RATES)
+        add_rates(page, report, i);
+    else
+        add_shares(page, report, i);
     ceduo_page_write(page, "%s", BESIDE(ceduo_result_last_index(r, i)->worst_adc, 3, r->scene->simulation.threshold));
-    if (years)
-        ceduo_page_number(page, v->yield.cut_per_year, 2);
+    if (form_of(report) != TODAY)
+        ceduo_page_number(page, report->verdict->choices[i].yield.cut_per_year, 2);
 }
 
 /* What differs between the options: over the years, and today. */
 static void add_options(struct ceduo_page *page, const struct ceduo_report *report)
 {
-#define MEAN   NP_("head", "over the years"), -5, 0, CEDUO_SPAN
-#define YEARS  N_("years"), -8, 0, 0
-#define TODAY  N_("today"), -6, 0, 0
+#define OPTION "", 26, 2, 0
+#define TODAY_ N_("today"), -6, 0, 0
 #define ADC    N_("ADC"), -6, 0, 0
 #define FELLED NP_("head", "felled"), -7, 0, 0
-    static const struct ceduo_page_column by_today[] = {{"", 26, 2, 0}, {MEAN},          {"", -10, 0, 0}, {YEARS},
-                                                        {TODAY},        {"", -10, 0, 0}, {ADC},           {FELLED}},
-                                          by_mean[] = {{"", 26, 2, 0}, {MEAN},  {"", -10, 0, 0}, {"", -10, 0, 0},
-                                                       {YEARS},        {TODAY}, {ADC},           {FELLED}},
-                                          alone[] = {{"", 26, 2, 0}, {TODAY}, {"", -10, 0, 0}, {ADC}};
-    const char *const below[][8] = {{_("mean"), _("worst"), _("failing"), "", _("may be"), "m", P_("head", "m3/y"), NULL},
-                                    {_("mean"), _("may be"), _("worst"), _("failing"), "", "m", P_("head", "m3/y"), NULL},
-                                    {"", _("may be"), "m", NULL}};
+    static const struct ceduo_page_column ahead[] = {{OPTION},        {"", -5, 0, CEDUO_SPAN},
+                                                     {"", -10, 0, 0}, {"", -10, 0, 0},
+                                                     {"", -8, 0, 0},  {TODAY_},
+                                                     {ADC},           {FELLED}},
+                                          rates[] = {{OPTION}, {"", -14, 0, CEDUO_SPAN}, {"", 14, 2, 0}, {TODAY_}, {ADC},
+                                                     {FELLED}},
+                                          alone[] = {{OPTION}, {TODAY_}, {"", -10, 0, 0}, {ADC}};
+    const char *const below[][8] = {{_("mean"), _("range"), _("worst"), _("failing"), "", "m", P_("head", "m3/y"), NULL},
+                                    {_("mean, years"), _("accepted"), "", "m", P_("head", "m3/y"), NULL},
+                                    {"", _("range"), "m", NULL}};
+    static const struct {
+        const struct ceduo_page_column *columns;
+        size_t n, today; /* columns behind the name; the one of today */
+    } forms[] = {[AHEAD] = {ahead, 8, 4}, [RATES] = {rates, 6, 2}, [TODAY] = {alone, 4, 0}};
     const struct ceduo_result *r = report->result;
-    const struct ceduo_measure bare = ceduo_judged(&r->scene->controls[r->last_control], &r->bare.arrivals[r->last_control]);
+    const struct ceduo_control *c = &r->scene->controls[r->last_control];
+    const struct ceduo_arrivals *bare = &r->bare.arrivals[r->last_control];
+    const struct ceduo_measure share = ceduo_judged(c, bare);
+    const struct ceduo_window *w = &report->verdict->choices[0].window;
     enum form form = form_of(report);
-    const struct ceduo_page_column *const columns[] = {by_today, by_mean, alone};
-    ceduo_page_table(page, columns[form],
-                     form == TODAY_ALONE ? sizeof alone / sizeof alone[0] : sizeof by_mean / sizeof by_mean[0]);
-    ceduo_measure_name(ceduo_page_text(page), &bare, CEDUO_HEAD);
+    ceduo_page_table(page, forms[form].columns, forms[form].n);
+    if (w->kind != CEDUO_WINDOW_ALIKE)
+        ceduo_text_format(&page->last->cells[1].text, form == TODAY ? "" : _("years %u to %u"), w->first, w->last);
+    if (form == RATES)
+        ceduo_text_format(ceduo_page_text(page), _("years between > %s kJ"), SHORTEST(ceduo_words_accepted(c)));
+    else
+        ceduo_measure_name(ceduo_page_text(page), &share, CEDUO_HEAD);
     for (size_t i = 0; below[form][i]; i++)
         ceduo_page_write(page, "%s", below[form][i]);
     for (size_t i = 0; i < r->scene->options_count; i++)
@@ -170,8 +207,10 @@ static void add_options(struct ceduo_page *page, const struct ceduo_report *repo
     ceduo_page_write(page, "%s", _("without forest"));
     for (size_t i = 0; below[form][i]; i++) {
         struct text *text = ceduo_page_text(page);
-        if (!below[form][i][0]) /* today */
-            ceduo_measure_value(text, &bare);
+        if (i == forms[form].today && form == RATES)
+            ceduo_words_every(text, ceduo_hazard_feared(&bare->hazard));
+        else if (i == forms[form].today)
+            ceduo_measure_value(text, &share);
     }
 }
 
@@ -190,7 +229,7 @@ static void gather_notes(struct ceduo_page *notes, const struct ceduo_report *re
     for (size_t i = 0; i < n; i++)
         ceduo_page_stand_rules(notes, r, i, false);
     if (n > 1 && report->verdict && report->verdict->choices[0].over.years > 0)
-        ceduo_words_windows(r->scene, report->verdict, ceduo_page_warn_once, notes);
+        ceduo_words_windows(r->scene, ceduo_page_warn_once, notes);
     for (size_t i = 0; i < n; i++)
         ceduo_page_stand_warnings(notes, r, i);
     ceduo_words_run_warnings(r, &report->remarks, ceduo_page_warn_once, notes);

@@ -128,11 +128,11 @@ static void add_tests(struct ceduo_page *page, const struct ceduo_pane *pane, co
                          than(index->contact, "<", "\xe2\x89\xa5"), threshold);
     ceduo_page_light(page, index->contact);
     ceduo_page_write(page, _("%g m free %s %% %s %g"), threshold, PERCENT(index->worst_free_run, CEDUO_FREE_RUN_MOST),
-                     than(index->free_run, "\xe2\x89\xa4", ">"), CEDUO_FREE_RUN_MOST * 100);
+                     index->worst_free_run <= CEDUO_FREE_RUN_MOST ? "\xe2\x89\xa4" : ">", CEDUO_FREE_RUN_MOST * 100);
     ceduo_page_light(page, index->free_run);
     if (index->energy != CEDUO_UNKNOWN && wood)
-        ceduo_page_write(page, _("energy %s %% %s %g"), PERCENT(wood->exceed_probability, CEDUO_EXCEED_MOST),
-                         than(index->energy, "\xe2\x89\xa4", ">"), CEDUO_EXCEED_MOST * 100);
+        ceduo_page_write(page, _("energy %s %% %s %s"), PERCENT(wood->exceed_probability, wood->limit),
+                         than(index->energy, "\xe2\x89\xa4", ">"), ROUNDED(wood->limit * 100, 3));
     else
         ceduo_page_write(page, "%s", wood || !pane->result->wooded ? _("energy: not judged") : _("energy \xe2\x80\xa6"));
     ceduo_page_light(page, index->energy);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The options side by side: today, over one whole rotation of each, and what that yields. */
+/* The options side by side: today, over the same years ahead, and what they yield. */
 #include <math.h>
 #include <string.h>
 
@@ -58,13 +58,13 @@ static void add_years(struct ceduo_page *page, const struct ceduo_years *years)
     }
 }
 
-/* Whether the doubt of the mean over the rotation is known. Then it stands beside that, otherwise today's beside today. */
+/* True if the uncertainty of the mean over the years is known. Then it stands beside that, otherwise today's beside today. */
 static bool knows_rotation(const struct ceduo_pane *pane)
 {
     return pane->doubt && pane->doubt->answer && pane->doubt->answer->rotation && pane->verdict->wooded;
 }
 
-/* "296±7 (219–327)": the mean over the rotation, with what may be true of it. */
+/* "296±7 (219–327)": the mean over the years, with its range. */
 static void add_mean(struct ceduo_page *page, const struct ceduo_pane *pane, size_t i)
 {
     struct ceduo_measure mean = ceduo_share(pane->verdict->choices[i].mean);
@@ -132,7 +132,7 @@ static void add_heads(struct ceduo_page *page, const struct ceduo_pane *pane)
     const struct ceduo_result *r = pane->result;
     struct ceduo_page_cell *heads = page->last->cells;
     ceduo_text_put(&heads[TODAY].text, r->wooded ? _("today") : _("ADC m"));
-    ceduo_text_put(&heads[MEAN].text, r->wooded ? _("rotation") : _("kJ/100 m"));
+    ceduo_text_put(&heads[MEAN].text, r->wooded ? _("mean") : _("kJ/100 m"));
     if (r->wooded && r->scene->blocks_count > 0)
         ceduo_text_put(&heads[EVERY].text, _("every, y"));
     if (knows_rotation(pane))
@@ -176,11 +176,11 @@ void ceduo_pane_said(struct ceduo_page *page, const struct ceduo_pane *pane)
         for (char *line = best.bytes ? strtok(best.bytes, "\n") : NULL; line; line = strtok(NULL, "\n"))
             ceduo_page_note(page, line);
         if ((!v->rotation.known || v->rotation.uneven) && v->wooded)
-            ceduo_page_note(page, _("The years of the rotation are being computed."));
+            ceduo_page_note(page, _("The years ahead are being computed."));
         if (!knows_rotation(pane)) /* of which the energy law is a part */
             ceduo_words_turned(r, v, ceduo_page_note, page);
     }
-    ceduo_words_windows(r->scene, v, ceduo_page_note, page);
+    ceduo_words_windows(r->scene, ceduo_page_note, page);
     ceduo_words_thin(r, ceduo_page_note, page);
     if (v->wooded && !v->accepted)
         ceduo_page_note(page, _(ceduo_words_unjudged));

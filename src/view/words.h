@@ -53,17 +53,29 @@ const char *ceduo_words_judgement(enum ceduo_judgement judgement);
 void ceduo_words_because(struct text *text, const struct ceduo_result *result, size_t control,
                          const struct ceduo_arrivals *wooded); /* NULL: not known */
 
-/* The same with what is not known: it depends where doubt holds the limit, or without it where the other energy law says the
- * opposite. `doubt` may be NULL. */
+/* An option at a control, and what is known of it. */
 struct ceduo_doubt_report;
-enum ceduo_judgement ceduo_words_judge(const struct ceduo_result *result, size_t option, size_t control,
-                                       const struct ceduo_doubt_report *doubt);
+struct ceduo_subject {
+    const struct ceduo_result *result;
+    const struct ceduo_verdict *verdict;    /* may be NULL: today alone */
+    const struct ceduo_doubt_report *doubt; /* may be NULL */
+    size_t option, control;
+    bool apart; /* the caller shows mean, worst year and today elsewhere */
+};
+
+/* What is said of it, see ceduo_outcome_of(). */
+struct ceduo_outcome ceduo_words_outcome(const struct ceduo_subject *subject);
+const char *ceduo_words_decided(enum ceduo_judgement judgement);              /* "NO", translated; not of CEDUO_UNANSWERED */
 void ceduo_words_decision(struct text *text, enum ceduo_judgement judgement); /* "✘ NO"; nothing where it is not answered */
 
-/* The answer in one line of at most `width` columns: "✘ NO: 479 of 1000 arrive with more than 50 kJ (50 accepted); may be
- * 234–748". Where there is less room whole clauses are left out; the verdict always stands. */
-void ceduo_words_answer(struct text *text, const struct ceduo_result *result, size_t option, size_t control,
-                        const struct ceduo_doubt_report *doubt, size_t width);
+/* Why, without the verdict: "in 17 of 25 years more than 50 of 1000 rocks exceed 50 kJ: mean 190, worst 489 in year 1; today 31
+ * (YES)." */
+void ceduo_words_reason(struct text *text, const struct ceduo_subject *subject);
+
+/* The answer in one line of at most `width` columns, over the years ahead where they are known: "✘ NO: in 17 of 25 years more than 50
+ * of 1000 rocks arrive with more than 50 kJ: mean 190, worst 489 in year 1; today 31 (YES)". A cut that is due has the answers before
+ * and after it; one of several controls is named. Where there is less room whole clauses are left out; the verdict always stands. */
+void ceduo_words_answer(struct text *text, const struct ceduo_subject *subject, size_t width);
 
 /* Which options have lights that thin shoots alone make green today. */
 void ceduo_words_thin(const struct ceduo_result *result, ceduo_words_say *say, void *context);
@@ -81,13 +93,12 @@ void ceduo_words_turned(const struct ceduo_result *result, const struct ceduo_ve
 /* Which option is best over the years and which today, at the last control, in one or two sentences, each in a line of its
  * own; nothing of what is not known. Then which options have no rotation, and why. */
 void ceduo_words_best(struct text *text, const struct ceduo_scene *scene, const struct ceduo_verdict *verdict);
-void ceduo_words_windows(const struct ceduo_scene *scene, const struct ceduo_verdict *verdict, ceduo_words_say *say,
-                         void *context);
+void ceduo_words_windows(const struct ceduo_scene *scene, ceduo_words_say *say, void *context);
 
-/* Why an option has no rotation; nothing where it has one. */
-void ceduo_words_window(struct text *text, const struct ceduo_option *option, const struct ceduo_window *window);
+/* Why an option has no rotation; nothing if it has one. */
+void ceduo_words_window(struct text *text, const struct ceduo_option *option);
 
-/* Years of a verdict in a few words: "one whole rotation", "years 0 to 30". */
+/* Years of a verdict in a few words: "years 1 to 25". */
 void ceduo_words_span(struct text *text, const struct ceduo_verdict *verdict);
 
 /* What is to be said of the years of an option together, up to the last control: how much gets through, in how many a test fails,

@@ -6,6 +6,7 @@
 #include "base/utf8.h"
 #include "measure.h"
 #include "plot_parts.h"
+#include "report_doubt.h"
 #include "words.h"
 
 /* What files and people call it. */
@@ -31,7 +32,7 @@ void ceduo_words_nothing(struct text *text, const struct ceduo_result *r, size_t
     const struct ceduo_arrivals *bare = &r->bare.arrivals[control];
     LOCAL_TEXT(where);
     ceduo_plot_control_name(&where, &r->scene->controls[control]);
-    ceduo_text_format(text, _("Nothing can be said of the wood above %s: of %llu rocks %llu arrive, even without forest."),
+    ceduo_text_format(text, _("Nothing can be said of the forest above %s: of %llu rocks %llu arrive, even without forest."),
                       ceduo_text_string(&where), (unsigned long long)bare->released, (unsigned long long)bare->reached);
     /* where rocks start without forest, and how far they come */
     const struct ceduo_slope *s = &r->scene->slope;
@@ -94,32 +95,40 @@ void ceduo_words_because(struct text *text, const struct ceduo_result *r, size_t
         return;
     }
     const struct ceduo_arrivals *shown = wooded ? wooded : bare;
-    ceduo_text_format(text, _("%s of 1000 arrive with more than %g kJ (%.0f are allowed)."),
-                      WRITTEN_OF_1000(shown->exceed_probability, shown->exceed_lo, shown->exceed_hi), ceduo_words_accepted(c),
-                      CEDUO_EXCEED_MOST * 1000);
+    if (r->scene->blocks_count > 0) {
+        LOCAL_TEXT(years);
+        ceduo_words_years(&years, ceduo_hazard_feared(&shown->hazard));
+        ceduo_text_format(text, _("A rock with more than %s kJ arrives every %s years (one in %s years is accepted)."),
+                          SHORTEST(ceduo_words_accepted(c)), ceduo_text_string(&years), SHORTEST(ceduo_accepted_return(c)));
+    } else {
+        ceduo_text_format(text, _("%s of 1000 arrive with more than %g kJ (%.0f are allowed)."),
+                          WRITTEN_OF_1000(shown->exceed_probability, shown->exceed_lo, shown->exceed_hi),
+                          ceduo_words_accepted(c), CEDUO_EXCEED_MOST * 1000);
+    }
     if (ceduo_energy_light(shown) == CEDUO_UNKNOWN)
         ceduo_text_then(text, " ", _("%llu rocks never came to an end, and may arrive."),
                         (unsigned long long)shown->unfinished);
     else if (judgement == CEDUO_NOT_DECIDED)
         ceduo_text_then(text, " ", _("So many rocks do not decide it (%llu): more do."), (unsigned long long)shown->released);
     else if (also_bare)
-        ceduo_text_then(text, " ", "%s", _("The slope keeps to that without the wood, too."));
+        ceduo_text_then(text, " ", "%s", _("The slope keeps to that without forest, too."));
 }
 
 /* ---- in one line ---- */
 
-enum ceduo_judgement ceduo_words_judge(const struct ceduo_result *r, size_t option, size_t control,
-                                       const struct ceduo_doubt_report *doubt)
+static const struct ceduo_doubt_answer *answer_of(const struct ceduo_doubt_report *doubt)
 {
-    const struct ceduo_arrivals *wooded = ceduo_result_wooded(r, option, control);
-    struct ceduo_measure m = ceduo_judged(&r->scene->controls[control], wooded);
-    enum ceduo_judgement judgement = ceduo_judge(&r->bare.arrivals[control], wooded);
-    if (judgement == CEDUO_NOTHING || judgement == CEDUO_UNANSWERED || !wooded)
-        return judgement;
-    ceduo_measure_doubt(&m, doubt, option, control);
-    bool open = isnan(m.may_lo) ? r->options[option].others[control].judgement == CEDUO_DEPENDS
-                                : m.may_lo <= 1000 * CEDUO_EXCEED_MOST && m.may_hi > 1000 * CEDUO_EXCEED_MOST;
-    return open ? CEDUO_DEPENDS : judgement;
+    return doubt ? doubt->answer : NULL;
+}
+
+struct ceduo_outcome ceduo_words_outcome(const struct ceduo_subject *s)
+{
+    return ceduo_outcome_of(s->result, s->verdict, answer_of(s->doubt), s->option, s->control);
+}
+
+const char *ceduo_words_decided(enum ceduo_judgement judgement)
+{
+    return _(judgements[judgement].verdict);
 }
 
 void ceduo_words_decision(struct text *text, enum ceduo_judgement judgement)
@@ -128,29 +137,95 @@ void ceduo_words_decision(struct text *text, enum ceduo_judgement judgement)
         ceduo_text_format(text, "%s %s", ceduo_plot_light_mark(judgements[judgement].light), _(judgements[judgement].verdict));
 }
 
-/* What is said, from the widest to the narrowest. */
-static const struct answer_form {
-    enum ceduo_measure_name name;
-    bool accepted, doubt;
-} forms[] = {
-    {CEDUO_PHRASE, true, true}, {CEDUO_PHRASE, false, true}, {CEDUO_SHORT_HEAD, false, true}, {CEDUO_SHORT_HEAD, false, false}};
+/* From the longest to the shortest; a line takes the first that fits. */
+enum length { FULL, LONG, MIDDLE, SHORT, BRIEF, LENGTHS };
 
-/* "479 of 1000 arrive with more than 50 kJ (50 accepted); may be 234–748" */
-static void say_form(struct text *text, const struct ceduo_measure *m, const struct ceduo_measure *bare,
-                     const struct answer_form *form)
+/* "; today 31 of 1000 (YES)" */
+static void say_today(struct text *text, const struct ceduo_outcome *o, double today, bool word)
+{
+    ceduo_text_format(text, _("; today %.0f"), today);
+    if (word && o->today != CEDUO_UNANSWERED)
+        ceduo_text_format(text, " (%s)", ceduo_words_decided(o->today));
+}
+
+/* Years above the limit: "17", or "0–12" if that leaves the answer open. */
+static void say_count(struct text *text, const struct ceduo_outcome *o)
+{
+    if (o->answer == CEDUO_NO || !(o->failing_lo < o->failing_hi))
+        ceduo_text_format(text, "%.0f", o->failing);
+    else
+        ceduo_text_format(text, "%.0f\xe2\x80\x93%.0f", o->failing_lo, o->failing_hi);
+}
+
+/* Over the years: in how many the limit is exceeded, and by how much. */
+static void say_years(struct text *text, const struct ceduo_subject *s, const struct ceduo_outcome *o, enum length length)
+{
+    const struct ceduo_choice *c = &s->verdict->choices[s->option];
+    const struct ceduo_years_summary *over = &c->ahead[s->control];
+    const struct ceduo_result *r = s->result;
+    const struct ceduo_arrivals *wooded = ceduo_result_wooded(r, s->option, s->control);
+    const struct ceduo_measure m = ceduo_judged(&r->scene->controls[s->control], wooded);
+    const char *limit = SHORTEST(m.limit);
+    double accepted = 1000 * CEDUO_EXCEED_MOST, worst = 1000 * over->worst;
+    LOCAL_TEXT(count);
+    say_count(&count, o);
+    if (o->answer == CEDUO_YES)
+        ceduo_text_format(text,
+                          length <= LONG     ? _("in every year of %zu at most %.0f of 1000 rocks exceed %s kJ")
+                          : length == MIDDLE ? _("in every year of %zu at most %.0f of 1000 exceed %s kJ")
+                                             : _("in every year of %zu at most %.0f of 1000"),
+                          over->years, worst, limit);
+    else
+        ceduo_text_format(text,
+                          length <= LONG     ? _("in %s of %zu years more than %.0f of 1000 rocks exceed %s kJ")
+                          : length == MIDDLE ? _("in %s of %zu years more than %.0f of 1000 exceed %s kJ")
+                          : length == SHORT  ? _("above the limit in %s of %zu years")
+                                             : _("in %s of %zu years"),
+                          ceduo_text_string(&count), over->years, accepted, limit);
+    if (length == FULL && o->answer != CEDUO_YES && !s->apart)
+        ceduo_text_format(text, _(": mean %.0f, worst %.0f in year %u"), 1000 * over->exceed.mean, worst, over->worst_year);
+    if (length <= SHORT && !s->apart)
+        say_today(text, o, m.value, length != MIDDLE);
+}
+
+/* With blocks: how often, beside what is accepted. */
+static void say_rate(struct text *text, const struct ceduo_subject *s, const struct ceduo_outcome *o, enum length length)
+{
+    const struct ceduo_control *c = &s->result->scene->controls[s->control];
+    const struct ceduo_arrivals *wooded = ceduo_result_wooded(s->result, s->option, s->control);
+    LOCAL_TEXT(years);
+    LOCAL_TEXT(today);
+    ceduo_words_years(&years, o->rate);
+    if (length <= LONG)
+        ceduo_text_format(text, _("more than %s kJ every %s years"), SHORTEST(ceduo_words_accepted(c)),
+                          ceduo_text_string(&years));
+    else
+        ceduo_text_format(text, _("every %s years"), ceduo_text_string(&years));
+    if (length <= MIDDLE)
+        ceduo_text_format(text, _(" (accepted: %s)"), SHORTEST(ceduo_accepted_return(c)));
+    if (length == FULL && o->ahead)
+        ceduo_text_format(text, _(", mean of %zu years"), s->verdict->choices[s->option].ahead[s->control].years);
+    if (length > SHORT || !o->ahead || !wooded)
+        return;
+    ceduo_words_every(&today, ceduo_hazard_feared(&wooded->hazard));
+    ceduo_text_format(text, _("; today every %s"), ceduo_text_string(&today));
+}
+
+/* "479 of 1000 arrive with more than 50 kJ (at most 50 rocks are accepted); may be 234–748" */
+static void say_shares(struct text *text, const struct ceduo_measure *m, const struct ceduo_measure *bare, enum length length)
 {
     LOCAL_TEXT(value);
     LOCAL_TEXT(name);
     LOCAL_TEXT(span);
     ceduo_measure_value(&value, m);
-    ceduo_measure_name(&name, m, form->name);
+    ceduo_measure_name(&name, m, length <= LONG ? CEDUO_PHRASE : CEDUO_SHORT_HEAD);
     ceduo_text_format(text, _("%s of 1000 %s"), ceduo_text_string(&value), ceduo_text_string(&name));
-    if (form->accepted && m->limit > 0)
-        ceduo_text_format(text, _(" (%.0f accepted)"), 1000 * CEDUO_EXCEED_MOST);
-    else if (form->accepted && bare)
-        ceduo_text_format(text, _(" (%.0f without the wood)"), bare->value);
+    if (length == FULL && m->limit > 0)
+        ceduo_text_format(text, _(" (at most %.0f rocks accepted)"), 1000 * CEDUO_EXCEED_MOST);
+    else if (length == FULL && bare)
+        ceduo_text_format(text, _(" (%.0f without forest)"), bare->value);
     bool doubted = !isnan(m->may_lo);
-    if (!form->doubt)
+    if (length > MIDDLE)
         return;
     if (doubted)
         ceduo_measure_may_be(&span, m);
@@ -160,45 +235,87 @@ static void say_form(struct text *text, const struct ceduo_measure *m, const str
 }
 
 /* What follows the verdict, in so many columns; nothing where it has no room. */
-static void say_reason(struct text *text, const struct ceduo_result *r, size_t option, size_t control,
-                       const struct ceduo_doubt_report *doubt, enum ceduo_judgement judgement, size_t width)
+static void say_reason(struct text *text, const struct ceduo_subject *s, const struct ceduo_outcome *o, size_t width)
 {
-    const struct ceduo_control *c = &r->scene->controls[control];
-    const struct ceduo_arrivals *bare = &r->bare.arrivals[control], *wooded = ceduo_result_wooded(r, option, control);
+    const struct ceduo_result *r = s->result;
+    const struct ceduo_control *c = &r->scene->controls[s->control];
+    const struct ceduo_arrivals *bare = &r->bare.arrivals[s->control], *wooded = ceduo_result_wooded(r, s->option, s->control);
     struct ceduo_measure m = ceduo_judged(c, wooded ? wooded : bare), without = ceduo_judged(c, bare);
     if (wooded)
-        ceduo_measure_doubt(&m, doubt, option, control);
-    const char *left = WRITTEN(r->options[option].controls[control].residual * J_TO_KJ, 3);
+        ceduo_measure_doubt(&m, s->doubt, s->option, s->control);
+    const char *left = WRITTEN(r->options[s->option].controls[s->control].residual * J_TO_KJ, 3);
     const char *mean = WRITTEN(bare->energy.mean * J_TO_KJ, 3);
-    for (size_t i = 0; i < sizeof forms / sizeof forms[0]; i++) {
+    for (enum length i = FULL; i < LENGTHS; i++) {
         ceduo_text_free(text);
-        if (judgement == CEDUO_NOTHING)
-            ceduo_text_format(text, _("of %llu rocks %llu arrive, even without the wood"), (unsigned long long)bare->released,
+        if (o->impossible)
+            ceduo_text_put(text, i == FULL
+                                     ? _("a stand has more stems than a forest can hold; check stems per hectare and diameters")
+                                     : _("impossible stand: check it"));
+        else if (o->answer == CEDUO_NOTHING)
+            ceduo_text_format(text, _("of %llu rocks %llu arrive, even without forest"), (unsigned long long)bare->released,
                               (unsigned long long)bare->reached);
         else if (!wooded && r->wooded)
             ceduo_text_put(text, _("not computed yet"));
-        else if (!wooded && judgement != CEDUO_YES)
+        else if (!wooded && o->answer != CEDUO_YES)
             ceduo_text_format(text,
-                              i == 0 ? _("the index leaves %s of %s kJ in the mean; it knows no single rocks")
-                                     : _("the index leaves %s of %s kJ"),
+                              i == FULL ? _("the index leaves %s of %s kJ in the mean; it knows no single rocks")
+                                        : _("the index leaves %s of %s kJ"),
                               left, mean);
+        else if (r->scene->blocks_count > 0 && !isnan(o->rate.rate))
+            say_rate(text, s, o, i);
+        else if (o->answer == CEDUO_YES && o->also_bare)
+            say_shares(text, &without, NULL, i);
+        else if (o->ahead && o->answer != CEDUO_UNANSWERED)
+            say_years(text, s, o, i);
         else
-            say_form(text, &m, ceduo_plot_has_stems(&r->scene->options[option]) ? &without : NULL, &forms[i]);
+            say_shares(text, &m, ceduo_plot_has_stems(&r->scene->options[s->option]) ? &without : NULL, i);
         if (ceduo_utf8_width(text->bytes) <= width)
             return;
     }
     ceduo_text_free(text);
 }
 
-void ceduo_words_answer(struct text *text, const struct ceduo_result *r, size_t option, size_t control,
-                        const struct ceduo_doubt_report *doubt, size_t width)
+/* "✔ YES today; ✘ NO after the cut in year 3" where a cut is due and changes the answer; false elsewhere. */
+static bool say_due(struct text *text, const struct ceduo_subject *s, const struct ceduo_outcome *o)
 {
-    enum ceduo_judgement judgement = ceduo_words_judge(r, option, control, doubt);
+    const struct ceduo_choice *c = s->verdict && s->option < s->verdict->n ? &s->verdict->choices[s->option] : NULL;
+    if (!o->ahead || !c || c->cut == 0 || o->today == o->answer || o->today == CEDUO_UNANSWERED || o->impossible)
+        return false;
+    LOCAL_TEXT(today);
+    LOCAL_TEXT(answer);
+    ceduo_words_decision(&today, o->today);
+    ceduo_words_decision(&answer, o->answer);
+    ceduo_text_format(text, _("%s today; %s after the cut in year %u"), ceduo_text_string(&today), ceduo_text_string(&answer),
+                      c->cut);
+    return true;
+}
+
+void ceduo_words_reason(struct text *text, const struct ceduo_subject *s)
+{
+    const struct ceduo_outcome o = ceduo_words_outcome(s);
+    LOCAL_TEXT(reason);
+    say_reason(&reason, s, &o, SIZE_MAX);
+    ceduo_text_format(text, "%s.", ceduo_text_string(&reason));
+}
+
+void ceduo_words_answer(struct text *text, const struct ceduo_subject *s, size_t width)
+{
+    const struct ceduo_outcome o = ceduo_words_outcome(s);
     LOCAL_TEXT(verdict);
     LOCAL_TEXT(reason);
-    ceduo_words_decision(&verdict, judgement);
+    LOCAL_TEXT(place);
+    if (s->result->scene->controls_count > 1) { /* which of them it is about */
+        ceduo_plot_control_name(&place, &s->result->scene->controls[s->control]);
+        ceduo_text_put(&place, ": ");
+        ceduo_text_put(text, place.bytes);
+        width -= ceduo_utf8_width(place.bytes) < width ? ceduo_utf8_width(place.bytes) : width;
+    }
+    if (!say_due(&verdict, s, &o))
+        ceduo_words_decision(&verdict, o.answer);
+    if (o.answer == CEDUO_YES && o.also_bare)
+        ceduo_text_put(&verdict, _(", also without forest"));
     size_t taken = verdict.length > 0 ? ceduo_utf8_width(verdict.bytes) + 2 : 0;
-    say_reason(&reason, r, option, control, doubt, judgement, width > taken ? width - taken : 0);
+    say_reason(&reason, s, &o, width > taken ? width - taken : 0);
     ceduo_text_put(text, ceduo_text_string(&verdict));
     if (reason.length > 0)
         ceduo_text_format(text, "%s%s", verdict.length > 0 ? ": " : "", reason.bytes);

@@ -9,49 +9,42 @@
 
 /* ---- the years that are compared ---- */
 
-static bool all_of_kind(const struct ceduo_verdict *v, enum ceduo_window_kind kind)
+/* The window, which all options have. */
+static const struct ceduo_window *window_of(const struct ceduo_verdict *v)
 {
-    for (size_t i = 0; i < v->n; i++)
-        if (v->choices[i].window.kind != kind)
-            return false;
-    return true;
+    return &v->choices[0].window;
 }
 
 void ceduo_words_span(struct text *text, const struct ceduo_verdict *v)
 {
-    const struct ceduo_window *w = &v->choices[0].window;
-    bool one = true;
-    for (size_t i = 1; i < v->n; i++)
-        one = one && v->choices[i].window.first == w->first && v->choices[i].window.last == w->last;
-    if (one && all_of_kind(v, CEDUO_WINDOW_GIVEN))
-        ceduo_text_format(text, _("years %u to %u"), w->first, w->last);
-    else if (all_of_kind(v, CEDUO_WINDOW_ALIKE))
+    const struct ceduo_window *w = window_of(v);
+    if (w->kind == CEDUO_WINDOW_ALIKE)
         ceduo_text_put(text, _("all years alike"));
     else
-        ceduo_text_put(text, _("one whole rotation of each option, after its first cut"));
+        ceduo_text_format(text, _("years %u to %u"), w->first, w->last);
 }
 
-void ceduo_words_window(struct text *text, const struct ceduo_option *option, const struct ceduo_window *window)
+void ceduo_words_window(struct text *text, const struct ceduo_option *option)
 {
     const struct ceduo_belt *still = NULL;
+    enum ceduo_window_kind kind = ceduo_window_of(option).kind;
     for (size_t i = 0; i < option->belts_count; i++)
         if (!still && !ceduo_stand_is_bare(&option->belts[i].stand))
             still = &option->belts[i];
-    if (window->kind == CEDUO_WINDOW_UNCUT)
-        ceduo_text_format(text, _("'%s' grows, but is never cut: its next %d years stand for it."), NAME_OF(option),
-                          CEDUO_YEARS_UNCUT);
-    else if (window->kind == CEDUO_WINDOW_ALIKE && !still)
+    if (kind == CEDUO_WINDOW_AHEAD)
+        ceduo_text_format(text, _("'%s' grows, but is never cut."), NAME_OF(option));
+    else if (kind == CEDUO_WINDOW_ALIKE && !still)
         ceduo_text_format(text, _("All years of '%s' are alike: no stem stands in it."), NAME_OF(option));
-    else if (window->kind == CEDUO_WINDOW_ALIKE)
-        ceduo_text_format(text, _("All years of '%s' are alike: the file of '%s' has no growth (growth, cutting)."),
+    else if (kind == CEDUO_WINDOW_ALIKE)
+        ceduo_text_format(text, _("The answer for '%s' is that of today: the file of '%s' has no growth (growth, cutting)."),
                           NAME_OF(option), NAME_OF(still));
 }
 
-void ceduo_words_windows(const struct ceduo_scene *scene, const struct ceduo_verdict *v, ceduo_words_say *say, void *context)
+void ceduo_words_windows(const struct ceduo_scene *scene, ceduo_words_say *say, void *context)
 {
-    for (size_t i = 0; i < v->n; i++) {
+    for (size_t i = 0; i < scene->options_count; i++) {
         LOCAL_TEXT(sentence);
-        ceduo_words_window(&sentence, &scene->options[i], &v->choices[i].window);
+        ceduo_words_window(&sentence, &scene->options[i]);
         if (sentence.length > 0)
             say(context, sentence.bytes);
     }
@@ -67,9 +60,7 @@ void ceduo_words_years_sum(struct text *text, const struct ceduo_result *r, cons
     if (w->kind == CEDUO_WINDOW_ALIKE)
         ceduo_text_put(text, _("Each:"));
     else
-        ceduo_text_format(text,
-                          w->kind == CEDUO_WINDOW_ROTATION ? _("One whole rotation, years %u to %u:") : _("Years %u to %u:"),
-                          w->first, w->last);
+        ceduo_text_format(text, _("Years %u to %u:"), w->first, w->last);
     LOCAL_TEXT(share);
     ceduo_measure_error(&share, &of_1000, " ");
     if (s.simulated > 0)
@@ -163,8 +154,10 @@ void ceduo_words_best(struct text *text, const struct ceduo_scene *scene, const 
 {
     if (v->nothing)
         ceduo_text_put(text, _("Nothing can be said: no rock arrives, even without forest."));
-    const char *when = all_of_kind(v, CEDUO_WINDOW_GIVEN) ? _("Over these years") : _("Over a whole rotation");
-    bool years = v->rotation.known && !v->rotation.uneven && !all_of_kind(v, CEDUO_WINDOW_ALIKE);
+    LOCAL_TEXT(over);
+    ceduo_text_format(&over, _("In years %u to %u"), window_of(v)->first, window_of(v)->last);
+    const char *when = over.bytes;
+    bool years = v->rotation.known && !v->rotation.uneven && window_of(v)->kind != CEDUO_WINDOW_ALIKE;
     bool today = v->today.known && !v->today.uneven;
     const struct ceduo_leader *a = &v->rotation, *b = &v->today;
     if (years && today && a->best == b->best && a->rivals == 0 && b->rivals == 0) {

@@ -46,7 +46,7 @@ static void look(const struct ceduo_scene *scene, struct ceduo_pool **pool, unsi
     q.run.arrivals_only = true;
     q.years = true;
     q.years_most = YEAR_STEP;
-    if (ceduo_ask(&q, pool, &answer) != CEDUO_OK || ceduo_verdict_make(answer.result, answer.years, &verdict) != CEDUO_OK)
+    if (ceduo_ask(&q, pool, &answer) != CEDUO_OK || ceduo_verdict_make(answer.result, answer.years, NULL, &verdict) != CEDUO_OK)
         fail("the question failed");
     today->best[step] = clear_best(&verdict.today);
     rotation->best[step] = clear_best(&verdict.rotation);

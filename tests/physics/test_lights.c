@@ -142,7 +142,7 @@ TEST(energy_that_is_just_used_up_is_not_exhausted)
 
 static enum ceduo_light light_of(double exceed, uint64_t unfinished)
 {
-    const struct ceduo_arrivals a = {.released = 20, .exceed_probability = exceed, .unfinished = unfinished};
+    const struct ceduo_arrivals a = {.released = 20, .exceed_probability = exceed, .limit = CEDUO_EXCEED_MOST, .unfinished = unfinished};
     return ceduo_energy_light(&a);
 }
 
@@ -281,18 +281,20 @@ TEST(hardly_a_rock_says_nothing)
 /* The limit is a share of .05; its interval must lie on one side of it. */
 TEST(a_share_is_judged_by_its_interval)
 {
-    ROWS(assert_int_equal, (ceduo_judge_share(.04, .03, .05), CEDUO_YES),
-         (ceduo_judge_share(.04, .03, next_above(.05)), CEDUO_NOT_DECIDED),
-         (ceduo_judge_share(.06, next_above(.05), .07), CEDUO_NO), (ceduo_judge_share(.06, .05, .07), CEDUO_NOT_DECIDED),
-         (ceduo_judge_share(NAN, NAN, NAN), CEDUO_UNANSWERED));
+    const double limit = .05;
+    ROWS(assert_int_equal, (ceduo_judge_share(.04, .03, .05, limit), CEDUO_YES),
+         (ceduo_judge_share(.04, .03, next_above(.05), limit), CEDUO_NOT_DECIDED),
+         (ceduo_judge_share(.06, next_above(.05), .07, limit), CEDUO_NO),
+         (ceduo_judge_share(.06, .05, .07, limit), CEDUO_NOT_DECIDED),
+         (ceduo_judge_share(NAN, NAN, NAN, limit), CEDUO_UNANSWERED));
 }
 
 TEST(what_a_bare_slope_keeps_needs_no_forest)
 {
-    const struct ceduo_arrivals few = {.released = 1000, .reached = 100, .exceed_probability = .01, .exceed_hi = .02};
+    const struct ceduo_arrivals few = {.released = 1000, .reached = 100, .exceed_probability = .01, .exceed_hi = .02, .limit = .05};
     const struct ceduo_arrivals many = {
-        .released = 1000, .reached = 900, .exceed_probability = .8, .exceed_lo = .77, .exceed_hi = .83};
-    const struct ceduo_arrivals none = {.released = 1000, .exceed_hi = .004};
+        .released = 1000, .reached = 900, .exceed_probability = .8, .exceed_lo = .77, .exceed_hi = .83, .limit = .05};
+    const struct ceduo_arrivals none = {.released = 1000, .exceed_hi = .004, .limit = .05};
     assert_int_equal(ceduo_judge(&few, NULL), CEDUO_YES); /* by the index: through no forest more come */
     ROWS(assert_int_equal, (ceduo_judge(&many, NULL), CEDUO_UNANSWERED), (ceduo_judge(&many, &few), CEDUO_YES),
          (ceduo_judge(&many, &many), CEDUO_NO));

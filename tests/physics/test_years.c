@@ -559,26 +559,58 @@ TEST_WITH(whole_rotations, fresh, NULL)
     expect_window(CEDUO_WINDOW_ROTATION, 40, 40 + 2 * ROTATION - 1);
     wood.site.scene.year_first = 3;
     wood.site.scene.year_last = NAN;
-    struct ceduo_window w = ceduo_window_in(&wood.site.scene, &wood.option);
-    EXPECT_IS(w, (kind, CEDUO_WINDOW_GIVEN), (first, 3), (last, 3 + 2 * ROTATION - 1));
+    struct ceduo_window w = ceduo_window_in(&wood.site.scene);
+    EXPECT_IS(w, (kind, CEDUO_WINDOW_GIVEN), (first, 3), (last, 3 + 20 - 1)); /* both rotations are shorter than 20 years */
     wood.site.scene.year_last = 5;
-    w = ceduo_window_in(&wood.site.scene, &wood.option);
+    w = ceduo_window_in(&wood.site.scene);
     EXPECT(w.last, ==, 5);
     wood.site.scene.year_last = 2; /* before the first: that year alone */
-    w = ceduo_window_in(&wood.site.scene, &wood.option);
+    w = ceduo_window_in(&wood.site.scene);
     EXPECT_IS(w, (first, 3), (last, 3));
     wood.site.scene.year_last = 3 + CEDUO_YEARS_MOST - 1;
-    EXPECT(ceduo_window_in(&wood.site.scene, &wood.option).step, ==, 1);
+    EXPECT(ceduo_window_in(&wood.site.scene).step, ==, 1);
     wood.site.scene.year_last = 48700;
-    w = ceduo_window_in(&wood.site.scene, &wood.option);
+    w = ceduo_window_in(&wood.site.scene);
     EXPECT(w.step, ==, 49); /* 48 698 years, 1000 at the most */
     EXPECT(w.last, ==, 48700);
     wood.belts[0].cut_year = wood.belts[1].cut_year = INFINITY; /* never */
-    expect_window(CEDUO_WINDOW_UNCUT, 0, CEDUO_YEARS_UNCUT - 1);
+    expect_window(CEDUO_WINDOW_AHEAD, 1, CEDUO_YEARS_AHEAD);
     wood.belts[0].stand.growth = wood.belts[1].stand.growth = (struct ceduo_growth){0};
     expect_window(CEDUO_WINDOW_ALIKE, 0, 0);
     wood.option.belts_count = 0;
     expect_window(CEDUO_WINDOW_ALIKE, 0, 0);
+}
+
+static void expect_ahead(enum ceduo_window_kind kind, unsigned first, unsigned last)
+{
+    struct ceduo_window w = ceduo_window_in(&wood.site.scene);
+    EXPECT_IS(w, (kind, kind), (first, first), (last, last), (step, 1));
+}
+
+/* One window for all options: the longest rotation, at least 20 and at most 60 years, from year 1 on. */
+TEST_WITH(one_window_for_all_options, fresh, NULL)
+{
+    struct ceduo_option two[2] = {wood.option, wood.option};
+    struct ceduo_belt other = wood.belts[0];
+    wood.site.scene.options = two;
+    wood.site.scene.options_count = 2;
+    wood.site.scene.year_first = wood.site.scene.year_last = NAN;
+    two[1].belts = &other;
+    two[1].belts_count = 1;
+    for (int i = 0; i < 2; i++)
+        wood.belts[i].stand.cutting.rotation = 13;
+    other.stand.cutting.rotation = 15;
+    expect_ahead(CEDUO_WINDOW_AHEAD, 1, 20);
+    other.stand.cutting.rotation = 40;
+    expect_ahead(CEDUO_WINDOW_AHEAD, 1, 40);
+    other.stand.cutting.rotation = 90;
+    expect_ahead(CEDUO_WINDOW_AHEAD, 1, 60);
+    other.cut_year = INFINITY; /* never cut: its rotation does not count */
+    expect_ahead(CEDUO_WINDOW_AHEAD, 1, 20);
+    other.stand.growth = (struct ceduo_growth){0}; /* as long as anything grows */
+    expect_ahead(CEDUO_WINDOW_AHEAD, 1, 20);
+    two[0] = two[1];
+    expect_ahead(CEDUO_WINDOW_ALIKE, 0, 0);
 }
 
 /* ---- ends before its end ---- */

@@ -195,7 +195,7 @@ static bool question(void)
     if (status == CEDUO_OK)
         turn(answer.result);
     if (status == CEDUO_OK)
-        status = ceduo_verdict_make(answer.result, answer.years, &verdict);
+        status = ceduo_verdict_make(answer.result, answer.years, NULL, &verdict);
     if (status == CEDUO_OK) {
         struct ceduo_years_summary s = ceduo_years_sum(answer.years[0], 0);
         assert_int_equal(verdict.turned_count, 1);
@@ -264,7 +264,8 @@ static bool ask_years_apart(void)
     struct ceduo_question q = ceduo_question_default(&site.scene);
     q.years = true;
     q.window = (struct ceduo_window){.last = 2, .step = 1};
-    q.years_rocks = 60;
+    q.years_apart = true;
+    q.year_rocks = 20;
     return ask(q);
 }
 

@@ -234,7 +234,7 @@ static int set_up(void **state)
     question.window = (struct ceduo_window){.last = 1, .step = 1};
     question.block_rocks = 20;
     if (!good || ceduo_ask(&question, NULL, &answer) != CEDUO_OK ||
-        ceduo_verdict_make(answer.result, answer.years, &verdict) != CEDUO_OK)
+        ceduo_verdict_make(answer.result, answer.years, NULL, &verdict) != CEDUO_OK)
         return 1;
     report = (struct ceduo_report){.file = &file,
                                    .result = answer.result,

@@ -25,7 +25,7 @@ TEST(no_rocks_are_not_precise)
     q.tolerance = .1;
     q.years = true;
     q.window = (struct ceduo_window){.last = 2, .step = 1};
-    q.years_rocks = 100;
+    q.years_apart = true;
     assert_int_equal(ceduo_ask(&q, NULL, &answer), CEDUO_OK);
     assert_int_equal(ceduo_result_rocks(answer.result), 0);
     assert_int_equal(answer.years[0]->rocks, 0);
@@ -39,7 +39,7 @@ TEST(no_rocks_are_not_precise)
 static void expect_yields_alone(const struct ceduo_answer *answer)
 {
     LOCAL_BY(ceduo_verdict_release) struct ceduo_verdict v;
-    assert_int_equal(ceduo_verdict_make(answer->result, answer->years, &v), CEDUO_OK);
+    assert_int_equal(ceduo_verdict_make(answer->result, answer->years, NULL, &v), CEDUO_OK);
     assert_false(v.wooded || v.accepted || v.today.known || v.rotation.known || v.choices[0].energy_known);
     assert_true(isnan(v.choices[0].today.mean) && isnan(v.choices[0].mean.mean));
     EXPECT(v.choices[0].yield.volume_today, >, 0);

@@ -42,10 +42,11 @@ static void check_scene(const char *path)
     LOCAL_BY(ceduo_verdict_release) struct ceduo_verdict verdict;
     question.rocks = question.run.rocks_most = ROCKS;
     question.years = true;
-    question.years_rocks = question.year_rocks = 1000;
-    question.years_most = 50;
+    question.years_apart = true;
+    question.year_rocks = 50;
+    question.years_most = 60;
     assert_int_equal(ceduo_ask(&question, NULL, &answer), CEDUO_OK);
-    assert_int_equal(ceduo_verdict_make(answer.result, answer.years, &verdict), CEDUO_OK);
+    assert_int_equal(ceduo_verdict_make(answer.result, answer.years, NULL, &verdict), CEDUO_OK);
     const struct ceduo_report report = {.file = &file, .result = answer.result, .verdict = &verdict};
     size_t options = file.scene.options_count;
     for (size_t width = WIDTH_MIN; width <= WIDTH_MAX; width++) {

@@ -182,7 +182,7 @@ static void make_alike(void)
 static struct ceduo_verdict verdict_of_made(struct ceduo_years *const *years)
 {
     struct ceduo_verdict v;
-    EXPECT(ceduo_verdict_make(&made.result, years, &v), ==, CEDUO_OK);
+    EXPECT(ceduo_verdict_make(&made.result, years, NULL, &v), ==, CEDUO_OK);
     return v;
 }
 

@@ -134,10 +134,10 @@ enum ceduo_light ceduo_energy_light(const struct ceduo_arrivals *a)
 {
     if (!a || isnan(a->exceed_probability))
         return CEDUO_UNKNOWN;
-    if (!(a->exceed_probability <= CEDUO_EXCEED_MOST))
+    if (!(a->exceed_probability <= a->limit))
         return CEDUO_FAIL;
     double unfinished = (double)a->unfinished / (double)a->released;
-    return a->exceed_probability + unfinished <= CEDUO_EXCEED_MOST ? CEDUO_PASS : CEDUO_UNKNOWN;
+    return a->exceed_probability + unfinished <= a->limit ? CEDUO_PASS : CEDUO_UNKNOWN;
 }
 
 /* ---- what can be said ---- */
@@ -163,13 +163,18 @@ bool ceduo_says_nothing(const struct ceduo_arrivals *bare)
     return bare->released > 0 && (may_arrive == 0 || few || ceduo_terrain(bare) == CEDUO_TERRAIN_CONTRADICTS);
 }
 
-enum ceduo_judgement ceduo_judge_share(double share, double lo, double hi)
+enum ceduo_judgement ceduo_judge_share(double share, double lo, double hi, double limit)
 {
     if (isnan(share))
         return CEDUO_UNANSWERED;
-    if (lo <= CEDUO_EXCEED_MOST && hi > CEDUO_EXCEED_MOST)
+    if (lo <= limit && hi > limit)
         return CEDUO_NOT_DECIDED;
-    return share <= CEDUO_EXCEED_MOST ? CEDUO_YES : CEDUO_NO;
+    return share <= limit ? CEDUO_YES : CEDUO_NO;
+}
+
+static enum ceduo_judgement judge_arrivals(const struct ceduo_arrivals *a)
+{
+    return ceduo_judge_share(a->exceed_probability, a->exceed_lo, a->exceed_hi, a->limit);
 }
 
 enum ceduo_judgement ceduo_judge(const struct ceduo_arrivals *bare, const struct ceduo_arrivals *wooded)
@@ -177,9 +182,8 @@ enum ceduo_judgement ceduo_judge(const struct ceduo_arrivals *bare, const struct
     if (ceduo_says_nothing(bare))
         return CEDUO_NOTHING;
     if (wooded)
-        return ceduo_judge_share(wooded->exceed_probability, wooded->exceed_lo, wooded->exceed_hi);
-    bool within = ceduo_judge_share(bare->exceed_probability, bare->exceed_lo, bare->exceed_hi) == CEDUO_YES;
-    return within ? CEDUO_YES : CEDUO_UNANSWERED;
+        return judge_arrivals(wooded);
+    return judge_arrivals(bare) == CEDUO_YES ? CEDUO_YES : CEDUO_UNANSWERED;
 }
 
 /* What is left of `energy` behind `length` m of a stand where contacts take shares of it: a product over the mean number

@@ -11,51 +11,31 @@ struct ceduo_question ceduo_question_default(const struct ceduo_scene *scene)
 
 /* ---- simulating ---- */
 
-/* What is added to a page costs a few times what was asked for: of each option all years together have so many times the
- * rocks of a run, where not the years were asked for but some of them. */
-#define YEARS_TIMES 6
-#define YEAR_FEWEST 10 /* fewer have no interval */
-
-/* Of a run of so many, where an option has so many years. */
-static uint64_t rocks_in_year(uint64_t wanted, uint64_t all, double years)
-{
-    uint64_t max = (uint64_t)((double)(all * YEARS_TIMES) / years);
-    max = max < YEAR_FEWEST ? YEAR_FEWEST : max;
-    wanted = wanted < max ? wanted : max;
-    return wanted < all ? wanted : all;
-}
-
-static enum ceduo_status simulate_years(const struct ceduo_question *q, struct ceduo_pool *pool, struct ceduo_answer *a)
+/* The years of each option asked for; of each its whole rotation if `rotation`. */
+static enum ceduo_status simulate_years(const struct ceduo_question *q, struct ceduo_pool *pool, bool rotation,
+                                        struct ceduo_answer *a)
 {
     const struct ceduo_scene *scene = q->run.scene;
     const struct ceduo_simulated *bare = &a->result->bare;
-    uint64_t all = q->only == CEDUO_ALL_OPTIONS ? bare->rocks : q->rocks, rocks = all;
-    size_t n = 0, count = 0; /* options, and years of all of them */
-    a->years = calloc(scene->options_count + 1, sizeof *a->years);
-    enum ceduo_status status = a->years ? CEDUO_OK : CEDUO_NO_MEMORY;
-    a->years_count = scene->options_count;
+    uint64_t rocks = q->only == CEDUO_ALL_OPTIONS ? bare->rocks : q->rocks;
+    rocks = q->year_rocks > 0 && q->year_rocks < rocks ? q->year_rocks : rocks;
+    bool apart = q->years_apart && rocks > 0 && scene->blocks_count == 0 && scene->simulation.contact_model != CEDUO_INDEX;
+    struct ceduo_years **years = calloc(scene->options_count + 1, sizeof *years);
+    *(rotation ? &a->rotations : &a->years) = years;
+    enum ceduo_status status = years ? CEDUO_OK : CEDUO_NO_MEMORY;
     for (size_t i = 0; i < scene->options_count && status == CEDUO_OK; i++) {
         const struct ceduo_option *option = &scene->options[i];
         if (q->only != CEDUO_ALL_OPTIONS && q->only != i)
             continue;
-        struct ceduo_window window = q->window.step > 0 ? q->window : ceduo_window_in(scene, option);
-        if (q->years_most > 0)
-            window = ceduo_window_of_most(window, q->years_most);
-        status = ceduo_years_create(scene, option, window, &a->years[i]);
-        n++;
-        count += status == CEDUO_OK ? a->years[i]->count : 0;
+        struct ceduo_window window = rotation             ? ceduo_window_of(option)
+                                     : q->window.step > 0 ? q->window
+                                                          : ceduo_window_in(scene);
+        window = q->years_most > 0 ? ceduo_window_of_most(window, q->years_most) : window;
+        status = ceduo_years_create(scene, option, window, &years[i]);
+        if (status == CEDUO_OK) /* year 0 alone is today: its run is there */
+            status = apart && window.kind != CEDUO_WINDOW_ALIKE ? ceduo_years_simulate_apart(years[i], &q->run, bare, rocks)
+                                                                : ceduo_years_simulate(years[i], pool, bare, rocks);
     }
-    bool apart = q->years_rocks > 0 && all > 0 && scene->blocks_count == 0 && scene->simulation.contact_model != CEDUO_INDEX &&
-                 count > n; /* one year of each is today */
-    double mean = (double)count / (double)(n > 0 ? n : 1);
-    if (apart)
-        rocks = rocks_in_year((uint64_t)((double)q->years_rocks / mean), all, mean);
-    else if (q->year_rocks > 0)
-        rocks = rocks_in_year(q->year_rocks, all, q->years_most > 0 ? q->years_most : YEARS_TIMES);
-    for (size_t i = 0; i < scene->options_count && status == CEDUO_OK; i++)
-        if (a->years[i])
-            status = apart ? ceduo_years_simulate_apart(a->years[i], &q->run, bare, rocks)
-                           : ceduo_years_simulate(a->years[i], pool, bare, rocks);
     return status;
 }
 
@@ -109,8 +89,11 @@ enum ceduo_status ceduo_ask(const struct ceduo_question *q, struct ceduo_pool **
     }
     if (status == CEDUO_OK)
         status = ceduo_result_create(scene, *pool, &a->result);
+    a->years_count = scene->options_count;
     if (status == CEDUO_OK && q->years)
-        status = simulate_years(q, *pool, a);
+        status = simulate_years(q, *pool, false, a);
+    if (status == CEDUO_OK && q->rotations)
+        status = simulate_years(q, *pool, true, a);
     if (*pool)
         a->work = ceduo_pool_work(*pool);
     if (status == CEDUO_OK && q->block_rocks > 0 && scene->controls_count > 0)
@@ -123,9 +106,12 @@ enum ceduo_status ceduo_ask(const struct ceduo_question *q, struct ceduo_pool **
 
 void ceduo_answer_release(struct ceduo_answer *a)
 {
-    for (size_t i = 0; a->years && i < a->years_count; i++)
-        ceduo_years_free(a->years[i]);
+    for (size_t i = 0; i < a->years_count; i++) {
+        ceduo_years_free(a->years ? a->years[i] : NULL);
+        ceduo_years_free(a->rotations ? a->rotations[i] : NULL);
+    }
     free(a->years);
+    free(a->rotations);
     free(a->blocks);
     ceduo_result_free(a->result);
     *a = (struct ceduo_answer){0};

@@ -106,6 +106,7 @@ static enum ceduo_status read_weighted(const struct ceduo_run *run, size_t contr
     a->top_p95 = ceduo_weighted_quantile(values, n, 0.95);
     n = gather_weighted(run, samples_of(run, control, ENERGY), values);
     bool good = ceduo_hazard_read(&all, values, n, accepted, &a->hazard); /* which sorts them */
+    a->hazard.accepted_return = isnan(accepted) ? NAN : ceduo_accepted_return(&run->ready.scene.controls[control]);
     for (size_t i = 0; i < n; i++) {
         weighted_sum_add(&reach, values[i].weight, 1);
         weighted_sum_add(&exceed, values[i].weight, values[i].value > accepted);
@@ -191,6 +192,14 @@ static double top_p95(const struct ceduo_run *run, size_t control, double height
     return n > 0 ? ceduo_distribution_exact(scratch, n, &m).p95 : NAN;
 }
 
+double ceduo_exceed_limit(const struct ceduo_scene *scene, const struct ceduo_control *control)
+{
+    double per_year = 0;
+    for (size_t i = 0; i < scene->blocks_count; i++)
+        per_year += scene->blocks[i].per_year;
+    return scene->blocks_count > 0 ? 1 / (ceduo_accepted_return(control) * per_year) : CEDUO_EXCEED_MOST;
+}
+
 enum ceduo_status ceduo_run_arrivals(const struct ceduo_run *run, size_t control, struct ceduo_arrivals *a)
 {
     struct sums s = ceduo_run_sums_at(run, control);
@@ -201,6 +210,7 @@ enum ceduo_status ceduo_run_arrivals(const struct ceduo_run *run, size_t control
                                  .exceed_probability = NAN,
                                  .exceed_lo = NAN,
                                  .exceed_hi = NAN,
+                                 .limit = ceduo_exceed_limit(&run->ready.scene, &run->ready.scene.controls[control]),
                                  .contacts = NAN,
                                  .contacts_se = NAN,
                                  .hazard = ceduo_hazard_none(),

@@ -20,7 +20,7 @@ struct ceduo_window ceduo_window_of(const struct ceduo_option *option)
         unsigned first = ceduo_first_cut(&belt->stand, belt->cut_year);
         if (first == CEDUO_NEVER) {
             if (w.kind == CEDUO_WINDOW_ALIKE && ceduo_stand_grows(&belt->stand))
-                w.kind = CEDUO_WINDOW_UNCUT;
+                w.kind = CEDUO_WINDOW_AHEAD;
             continue;
         }
         w.kind = CEDUO_WINDOW_ROTATION;
@@ -30,7 +30,8 @@ struct ceduo_window ceduo_window_of(const struct ceduo_option *option)
             together += period;
         period = together <= CEDUO_PERIOD_MOST ? together : period > rotation ? period : rotation;
     }
-    period = w.kind == CEDUO_WINDOW_UNCUT ? CEDUO_YEARS_UNCUT : period;
+    if (w.kind == CEDUO_WINDOW_AHEAD)
+        return (struct ceduo_window){w.kind, 1, CEDUO_YEARS_AHEAD, 1};
     w.last = w.first + period - 1;
     return w;
 }
@@ -42,15 +43,33 @@ struct ceduo_window ceduo_window_of_most(struct ceduo_window w, unsigned max)
     return w;
 }
 
-struct ceduo_window ceduo_window_in(const struct ceduo_scene *scene, const struct ceduo_option *option)
+static struct ceduo_window window_ahead(const struct ceduo_scene *scene)
 {
-    struct ceduo_window w = ceduo_window_of(option);
+    struct ceduo_window w = {CEDUO_WINDOW_AHEAD, 1, CEDUO_YEARS_AHEAD, 1};
+    bool alike = true;
+    for (size_t i = 0; i < scene->options_count; i++)
+        for (size_t k = 0; k < scene->options[i].belts_count; k++) {
+            const struct ceduo_belt *belt = &scene->options[i].belts[k];
+            unsigned rotation = belt->stand.cutting.rotation;
+            if (ceduo_first_cut(&belt->stand, belt->cut_year) != CEDUO_NEVER)
+                w.last = rotation > w.last ? rotation : w.last;
+            else if (!ceduo_stand_grows(&belt->stand))
+                continue;
+            alike = false;
+        }
+    w.last = w.last < CEDUO_AHEAD_MOST ? w.last : CEDUO_AHEAD_MOST;
+    return alike ? (struct ceduo_window){CEDUO_WINDOW_ALIKE, 0, 0, 1} : w;
+}
+
+struct ceduo_window ceduo_window_in(const struct ceduo_scene *scene)
+{
+    struct ceduo_window w = window_ahead(scene);
     double first = scene->year_first, last = scene->year_last;
     if (isnan(first) && isnan(last))
         return w;
     unsigned period = w.last - w.first;
     w.kind = CEDUO_WINDOW_GIVEN;
-    w.first = isnan(first) ? 0 : (unsigned)first;
+    w.first = isnan(first) ? w.first : (unsigned)first;
     w.last = isnan(last) ? w.first + period : (unsigned)last;
     w.last = w.last < w.first ? w.first : w.last;
     return ceduo_window_of_most(w, CEDUO_YEARS_MOST);
@@ -304,7 +323,13 @@ struct ceduo_years_summary ceduo_years_sum(const struct ceduo_years *years, size
             const struct ceduo_arrivals *a = &y->wooded.arrivals[control];
             double n = isnan(a->hazard.per_year) ? (double)a->released : a->hazard.effective;
             double share = isnan(a->exceed_probability) ? a->reach_probability : a->exceed_probability;
+            struct ceduo_rate rate = ceduo_hazard_feared(&a->hazard);
             s.simulated++;
+            s.failing_lo += a->exceed_lo > a->limit;
+            s.failing_hi += a->exceed_hi > a->limit;
+            s.rate.rate += rate.rate;
+            s.rate.lo += rate.lo;
+            s.rate.hi += rate.hi;
             s.reach.mean += a->reach_probability;
             s.reach.se += ceduo_share_se(a->reach_probability, n);
             s.exceed.mean += a->exceed_probability;
@@ -325,6 +350,9 @@ struct ceduo_years_summary ceduo_years_sum(const struct ceduo_years *years, size
         means[i]->mean /= (double)s.simulated;
         means[i]->se /= (double)s.simulated;
     }
+    s.rate.rate /= (double)s.simulated;
+    s.rate.lo /= (double)s.simulated;
+    s.rate.hi /= (double)s.simulated;
     if (years->rocks > 0 &&
         control == years->last_control) { /* every rock goes through all years: its own mean is one sample */
         struct ceduo_moments m = {0};
