@@ -232,7 +232,7 @@ SETS = {
     "bare": ["forest=[{from_m: 0, to_m: 60, stand: bare}]"],
     "title": ['title="Ünder \\e[31m the mill"', "simulation.seed=7"],
 }
-MODELS = [(law, model) for law in ("lumped", "crsp") for model in ("stems", "index", "poisson")]
+MODELS = [(law, model) for law in ("lumped", "crsp") for model in ("stems", "index")]
 
 
 def pages():

@@ -42,7 +42,7 @@ double ceduo_stool_radius(unsigned n, double s);
 double ceduo_stool_perimeter(double shoots_per_stool, double s);
 
 /* Energy (J) taken per horizontal metre in the mean, by the chosen form, stratum by stratum (Eq. 2 to 4): each stratum's
- * own share of the form's denominator times its own energy per contact. NaN where a contact takes a share. */
+ * own share of the form's denominator times its own energy per contact. */
 double ceduo_energy_per_metre(const struct ceduo_stand *stand, double b, enum ceduo_rule rule);
 
 /* What a reader should know of a stand and a rock. A set of bits. */
@@ -54,14 +54,13 @@ enum ceduo_stand_warning {
     CEDUO_WARN_RATIO_ASSUMED = 1 << 5,   /* fracture ratio 1 assumed for a species without one */
     CEDUO_WARN_U_ASSUMED = 1 << 4,       /* U of beech assumed for another species */
     CEDUO_WARN_WIDE_SPACING = 1 << 6,    /* s > B + d: the rock can pass between two shoots; crofton is not exact */
-    CEDUO_WARN_LOW = 1 << 8,             /* stumps or logs: contacts, but no stems that count */
-    CEDUO_WARN_INERTIA = 1 << 7,         /* inertia: an assumption, and Eq. 4 has no meaning */
-    CEDUO_WARN_BASAL_AREA = 1 << 9,      /* what hardly any stand has, so that it may be a mistake: more than these */
-    CEDUO_WARN_MANY_SHOOTS = 1 << 10,
-    CEDUO_WARN_SLENDER = 1 << 11,
-    CEDUO_WARN_STOUT = 1 << 12,   /* or less than this */
-    CEDUO_WARN_THICK = 1 << 13,   /* thicker than any stem that its species' volumes were measured on */
-    CEDUO_WARN_UNLIKELY = 31 << 9 /* any of the last five */
+    CEDUO_WARN_LOW = 1 << 7,             /* stumps or logs: contacts, but no stems that count */
+    CEDUO_WARN_BASAL_AREA = 1 << 8,      /* what hardly any stand has, so that it may be a mistake: more than these */
+    CEDUO_WARN_MANY_SHOOTS = 1 << 9,
+    CEDUO_WARN_SLENDER = 1 << 10,
+    CEDUO_WARN_STOUT = 1 << 11,   /* or less than this */
+    CEDUO_WARN_THICK = 1 << 12,   /* thicker than any stem that its species' volumes were measured on */
+    CEDUO_WARN_UNLIKELY = 31 << 8 /* any of the last five */
 };
 
 /* Beyond these a stand is unlikely (assumed). */

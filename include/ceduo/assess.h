@@ -23,7 +23,7 @@ struct ceduo_stand_result {
     double free_run_probability; /* no contact over the threshold: exp(-T/crofton); counting likewise */
     double contacts;             /* L/ADC (Eq. 2) */
     double energy_per_contact;   /* J; NaN where bare */
-    double dissipated;           /* J over the belt (Eq. 4); NaN where contacts take shares */
+    double dissipated;           /* J over the belt (Eq. 4) */
     double per_100m;             /* J: of that */
     unsigned warnings;           /* enum ceduo_stand_warning */
     struct ceduo_compliance rules;
@@ -46,12 +46,11 @@ struct ceduo_index {
     double length;      /* wooded metres */
     double longest_gap; /* m without forest, from the release to the control */
     double contacts, meet_nothing_probability;
-    double dissipated; /* J (Eq. 4); NaN where contacts of a belt take shares */
-    double per_100m;   /* J: of that, over what is wooded; 0 without forest */
-    double residual;   /* Eq. 5: max(0, bare mean - dissipated), or what shares and amounts leave of it; NaN where
-                             * no rock reaches */
-    bool exhausted;    /* it was cut at 0 */
-    double measured;   /* J: half M v2 of the measured speed; NaN without one */
+    double dissipated;                /* J (Eq. 4) */
+    double per_100m;                  /* J: of that, over what is wooded; 0 without forest */
+    double residual;                  /* Eq. 5: max(0, bare mean - dissipated); NaN if no rock arrives */
+    bool exhausted;                   /* it was cut at 0 */
+    double measured;                  /* J: half M v2 of the measured speed; NaN without one */
     double worst_adc, worst_free_run; /* as in struct ceduo_meeting, of stems from simulation.contact_dbh on */
     enum ceduo_light contact, free_run, energy;
     struct ceduo_meeting thick; /* of stems from CEDUO_THICK_DBH on, or from contact_dbh if that is more */

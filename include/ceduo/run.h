@@ -55,7 +55,7 @@ uint64_t ceduo_run_contacts(const struct ceduo_run *run);   /* ground contacts o
 /* Stems along all trajectories. */
 struct ceduo_stem_counts {
     uint64_t drawn; /* along the trajectories */
-    uint64_t hit;   /* stems, or contacts of the contact model poisson */
+    uint64_t hit;   /* stems */
     uint64_t met;   /* stools and single trees of which a stem was hit */
 };
 struct ceduo_stem_counts ceduo_run_stems(const struct ceduo_run *run);

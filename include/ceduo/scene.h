@@ -69,9 +69,8 @@ struct ceduo_option {
 
 /* What becomes of a rock among stems. */
 #define CEDUO_CONTACT_MODELS(X)                                                                                                \
-    X(INDEX, "index")     /* nothing: only Eq. 5 of Ciabocco et al. 2009 is computed */                                        \
-    X(POISSON, "poisson") /* contacts at random, as many as the rule of the ADC says; each takes its stratum's mean energy */  \
-    X(STEMS, "stems")     /* stools and trees stand at random in the plane; each stem in a rock's path is hit by itself */
+    X(INDEX, "index") /* nothing: only Eq. 5 of Ciabocco et al. 2009 is computed */                                            \
+    X(STEMS, "stems") /* stools and trees stand at random in the plane; each stem in a rock's path is hit by itself */
 
 enum ceduo_contact_model {
 #define X(NAME, word) CEDUO_##NAME,

@@ -24,8 +24,7 @@ enum ceduo_system {
  * here. */
 #define CEDUO_ENERGY_MODELS(X)                                                                                                 \
     X(BRAUNER, brauner)                                                                                                        \
-    X(DORREN, dorren)                                                                                                          \
-    X(INERTIA, inertia)
+    X(DORREN, dorren)
 
 enum ceduo_energy_model {
 #define X(NAME, name) CEDUO_##NAME,
@@ -108,7 +107,6 @@ struct ceduo_stand {
     enum ceduo_energy_model energy;
     double u;                        /* J/m3, brauner; NaN: the species' */
     double fracture_ratio;           /* dorren; NaN: the species' */
-    double green_density;            /* kg/m3, inertia */
     enum ceduo_energy_offset offset; /* brauner */
     double hit_below;    /* m: a hit takes nothing where the rock's centre is higher above the ground; 0: every hit takes */
     double counted_from; /* m: the forms of the ADC count stems from this dbh on (adc.h); rocks meet all */
@@ -162,14 +160,8 @@ double ceduo_stand_u(const struct ceduo_stand *stand);
 double ceduo_stand_fracture_ratio(const struct ceduo_stand *stand);
 
 /* Energy (J) that a contact with one of `stems` takes. brauner: V·U (Eq. 3 of Ciabocco et al. 2009). dorren: the mean
- * over all eccentricities (0.558) of E = FE·38.7·dbh_cm^2.31 (Dorren et al. 2006). inertia: NaN, it takes a share. */
+ * over all eccentricities (0.558) of E = FE·38.7·dbh_cm^2.31 (Dorren et al. 2006). */
 double ceduo_contact_energy(const struct ceduo_stand *stand, const struct ceduo_stems *stems);
-
-/* Whether a contact takes a share of the rock's energy, whatever that is, and no amount of its own: inertia. */
-bool ceduo_stand_takes_share(const struct ceduo_stand *stand);
-
-/* That share for a rock of `mass` kg: the mean stem, over all places where it can be hit; 0 for other laws. */
-double ceduo_contact_share(const struct ceduo_stand *stand, const struct ceduo_stems *stems, double mass);
 
 /* dorren: the largest energy (J) of a stem of `dbh` m, and the share of it at eccentricity u = |offset|/((B + d)/2),
  * 0…1 (Dorren et al. 2006), cut to 0…1. */

@@ -26,8 +26,8 @@ struct ceduo_piece {
 
 /* A stem that a rock reached. Coordinates relative to the slope's first vertex. */
 struct ceduo_stem_passed {
-    double x, y;          /* m: place along the trajectory, offset to the side; y NaN with the contact model poisson */
-    double dbh, height;   /* m; NaN and infinite with poisson */
+    double x, y;          /* m: place along the trajectory, offset to the side; y NaN of a lying log */
+    double dbh, height;   /* m; dbh NaN of a lying log */
     bool shoot;           /* of a stool; otherwise a single tree */
     uint64_t stool;       /* the same number for the shoots of one stool */
     bool hit;             /* otherwise the rock flew over it */
@@ -55,9 +55,9 @@ struct ceduo_trajectory {
     struct ceduo_rock rock;
     double x0, z0, vx0, vz0, spin0; /* as released */
     enum ceduo_end end;
-    double x, z;          /* where it ended */
-    uint64_t contacts;    /* with the ground */
-    uint64_t stems_hit;   /* or contacts of the contact model poisson */
+    double x, z;       /* where it ended */
+    uint64_t contacts; /* with the ground */
+    uint64_t stems_hit;
     uint64_t stools_met;  /* stools and single trees of which a stem was hit */
     uint64_t stems_drawn; /* drawn for this trajectory */
 };

@@ -234,6 +234,11 @@ static void bind_choice(struct binder *b, const struct choices *choices, const s
         memcpy(to, &found, sizeof found);
         return;
     }
+    const char *instead = ceduo_choice_gone(choices, node->text);
+    if (instead) {
+        report(b, node, "%s", _(instead));
+        return;
+    }
     struct text list = {0};
     ceduo_text_words(&list, choices->names, choices->n, ", ");
     const char *near = ceduo_text_nearest(node->text, choices->names, choices->n);

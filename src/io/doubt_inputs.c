@@ -26,6 +26,7 @@ struct finder {
     struct found *found;
     size_t n, room;
     struct text path;
+    bool brauner; /* the energy law of the stand whose fields are walked is brauner, or may be */
 };
 
 bool ceduo_inputs_have(const struct ceduo_input *inputs, size_t n, const char *place)
@@ -103,8 +104,8 @@ static bool law_knows(const struct finder *f, const char *key)
     return strcmp(key, "mu") == 0 ? arm : strcmp(key, "rt") != 0 || !arm;
 }
 
-/* The energy law is the same question for all stands, the strength of wood for all of one species; any other value is one
- * with those from the same place of the same file. */
+/* The energy law is the same question for all stands, as is its offset, which brauner alone knows. The strength of wood is the
+ * same question for all stands of one species. Any other value is one with those from the same place of the same file. */
 static void consider(struct finder *f, const struct field *field, const struct node *node)
 {
     const char *key = field->key;
@@ -117,10 +118,15 @@ static void consider(struct finder *f, const struct field *field, const struct n
         return;
     const struct ceduo_belt *belt = ceduo_input_belt(&f->file->scene, path);
     bool law = !node && range->kind == CEDUO_INPUT_WORDS; /* nobody chose it */
-    if (!ceduo_scene_assumes_value(f->file, path) && !(law && !ceduo_stand_is_bare(&belt->stand)))
+    bool is_model = strcmp(key, "model") == 0, is_offset = strcmp(key, "offset") == 0;
+    bool in_doubt = ceduo_scene_assumes_value(f->file, path) || (law && !ceduo_stand_is_bare(&belt->stand));
+    if (is_model)
+        f->brauner =
+            belt->stand.energy == CEDUO_BRAUNER || in_doubt || ceduo_inputs_have(f->file->inputs, f->file->inputs_count, path);
+    if (!in_doubt || (is_offset && !f->brauner))
         return;
-    if (strcmp(key, "model") == 0)
-        origin = "energy law";
+    if (is_model || is_offset)
+        origin = key;
     else if (belt && (strcmp(key, "u_J_m3") == 0 || strcmp(key, "fracture_ratio") == 0))
         origin = ceduo_arena_format(f->arena, "%s of %d", key, belt->stand.species);
     else if (node)

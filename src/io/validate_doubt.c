@@ -168,10 +168,13 @@ static bool read_words(struct validator *v, const struct row *row, const struct 
     if (n < 2)
         ceduo_complain(v, row->at, "one_of", _("name at least two words"));
     for (size_t i = 0; words && i < n; i++) {
-        words[i] = ceduo_choice_find(field->choices, row->doubt.one_of[i]);
+        const char *word = row->doubt.one_of[i], *instead = ceduo_choice_gone(field->choices, word);
+        const char *at = ceduo_format(v, "%s.one_of[%zu]", row->at, i);
+        words[i] = ceduo_choice_find(field->choices, word);
+        if (instead)
+            return ceduo_complain(v, at, "", "%s", _(instead));
         if (words[i] < 0)
-            return ceduo_complain(v, ceduo_format(v, "%s.one_of[%zu]", row->at, i), "", _("'%s' is unknown; one of: %s"),
-                                  row->doubt.one_of[i], ceduo_words(v, field->choices));
+            return ceduo_complain(v, at, "", _("'%s' is unknown; one of: %s"), word, ceduo_words(v, field->choices));
     }
     return words && n >= 2;
 }
@@ -184,7 +187,10 @@ static bool make_input(struct validator *v, const struct row *row, struct places
     const char *path = ceduo_format(v, "%s%s", row->within, d->path);
     bool of_stand = row->within[0] != '\0';
     const struct field *field = field_of(v, path);
+    const char *instead = ceduo_schema_gone_at(path);
     *places = (struct places){.v = v};
+    if (instead)
+        return ceduo_complain(v, row->at, "path", "%s", _(instead));
     if (!field)
         return ceduo_complain(v, row->at, "path",
                               _("no answer is in doubt because of '%s'; name a number or a word of the rock, its release, the "

@@ -3,6 +3,7 @@
 
 #include <string.h>
 
+#include "base/language.h"
 #include "base/utf8.h"
 #include "ceduo/observe.h"
 #include "ceduo/scene.h"
@@ -57,4 +58,20 @@ int ceduo_choice_find(const struct choices *choices, const char *word)
             one += n;
         }
     return -1;
+}
+
+const char *ceduo_choice_gone(const struct choices *choices, const char *word)
+{
+    static const struct {
+        const struct choices *choices;
+        const char *word, *instead;
+    } gone[] = {
+        {&ceduo_contact_model_words, "poisson", N_("poisson is gone; leave contact_model out: every stem is hit by itself")},
+        {&ceduo_energy_words, "inertia",
+         N_("inertia is gone: the experiment at Vaujany refutes it; write brauner or dorren, or leave it out")},
+    };
+    for (size_t i = 0; i < sizeof gone / sizeof gone[0]; i++)
+        if (gone[i].choices == choices && strcmp(gone[i].word, word) == 0)
+            return gone[i].instead;
+    return NULL;
 }

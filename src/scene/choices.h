@@ -19,4 +19,7 @@ extern const struct choices ceduo_shape_words, ceduo_facets_words, ceduo_system_
  * not matter. */
 int ceduo_choice_find(const struct choices *choices, const char *word);
 
+/* What to do instead of a word that earlier versions had, marked for translation; NULL: none had it. */
+const char *ceduo_choice_gone(const struct choices *choices, const char *word);
+
 #endif

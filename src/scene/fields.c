@@ -251,9 +251,7 @@ static const struct field energy_fields[] = {
            ABOVE, NULL, N_("brauner: work of breaking; without it that of the species, or of beech if unknown")),
     NUMBER("fracture_ratio", NAMED(N_("fracture ratio")), AT(ceduo_stand, fracture_ratio), "", 0, 10, ABOVE, NULL,
            N_("dorren: energy of this species over that of silver fir; without it that of the species, or 1 if unknown")),
-    NUMBER("green_density_kg_m3", USUAL(N_("green wood, kg/m3"), 500, 1300), AT(ceduo_stand, green_density), "kg/m3", 0, 3000,
-           ABOVE | ZERO, "1000", N_("inertia: density of the wood as it stands; the default is an assumption")),
-    WORD("offset", NAMED(N_("hit off centre")), AT(ceduo_stand, offset), 0, "whole",
+    WORD("offset", NAMED(N_("hit off centre")), AT(ceduo_stand, offset), 0, "dorren",
          N_("brauner, a stem hit beside its middle: the whole energy, or the share of Dorren et al. 2006"),
          &ceduo_offset_words),
     NUMBER("hit_below_m", USUAL(N_("hits below, m"), 0.5, 10), AT(ceduo_stand, hit_below), "m", 0, 150, ABOVE | ZERO, NULL,
@@ -269,6 +267,8 @@ static const struct {
 } gone[] = {
     {&energy_object, "glancing",
      N_("this key is gone: a hit takes what its law says, however slightly it touches; leave it out")},
+    {&energy_object, "green_density_kg_m3",
+     N_("this key is gone with the energy law inertia that it belonged to; leave it out")},
 };
 
 const char *ceduo_schema_gone(const struct object *object, const char *key)
@@ -412,10 +412,8 @@ static const struct field simulation_fields[] = {
     NUM(FIELD_COUNT, "seed", NAMED(N_("seed")), AT(ceduo_simulation, seed), "", 1, 0, 9007199254740992.0, FIELD_SETTLED, "1",
         N_("seed of the random numbers")),
     WORD("contact_model", NAMED(N_("rocks among stems")), AT(ceduo_simulation, contact_model), FIELD_WOOD, "stems",
-         N_("how rocks meet stems: stem by stem, as a Poisson process with the rate of the rule, "
-            "or not at all (index)"),
-         &ceduo_contact_model_words),
-    WORD("rule", NAMED(N_("form of the ADC")), AT(ceduo_simulation, rule), FIELD_WOOD, "auto",
+         N_("how rocks meet stems: stem by stem, or not at all (index)"), &ceduo_contact_model_words),
+    WORD("rule", NAMED(N_("form of the ADC")), AT(ceduo_simulation, rule), NO_RUN, "auto",
          N_("form of the ADC; auto is the paper's rule"), &ceduo_rule_words),
     NUMBER("threshold_m", NAMED(N_("threshold, m")), AT(ceduo_simulation, threshold), "m", 0, 1e6, ABOVE | NO_RUN,
            STRING(CEDUO_THRESHOLD_M), N_("ADC below which a stand protects: distance to full speed (Bozzolo 1987)")),

@@ -10,6 +10,7 @@
 
 #define PLOTS  N_("error of a few sample plots; assumed")
 #define PULLED N_("pulling tests on stems of this species and size")
+#define STRUCK N_("full-scale tests on such stems")
 
 #define SEGMENT "slope.segments[0]."
 #define STAND   "forest[0].stand."
@@ -45,7 +46,15 @@ static const struct range ranges[] = {
      .lo = NAN,
      .hi = NAN,
      .words = {"brauner", "dorren"},
-     .source = N_("two published laws (Brauner et al. 2005; Dorren et al. 2006)")},
+     .source = N_("two published laws (Brauner et al. 2005; Dorren et al. 2006)"),
+     .measured = STRUCK},
+    {.path = STAND "energy.offset",
+     .kind = CEDUO_INPUT_WORDS,
+     .lo = NAN,
+     .hi = NAN,
+     .words = {"whole", "dorren"},
+     .source = N_("two published choices (Ciabocco et al. 2009; Dorren et al. 2006)"),
+     .measured = STRUCK},
 };
 
 const struct range *ceduo_ranges(size_t *n)

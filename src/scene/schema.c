@@ -24,13 +24,13 @@ const struct field *ceduo_schema_step(const struct object *object, const struct 
     return NULL;
 }
 
-/* *flags: of the row and of those around it. */
-static const struct field *row_at(const char *path, unsigned *flags)
+/* The row of the first n bytes of a path. *flags: of the row and of those around it. */
+static const struct field *row_at(const char *path, size_t n, unsigned *flags)
 {
     const struct object *object = ceduo_schema_scene();
     const struct field *f = NULL;
     struct path_step step;
-    size_t at = 0, n = strlen(path);
+    size_t at = 0;
     while (ceduo_path_next(path, n, &at, &step)) {
         bool item = f && f->type == FIELD_LIST && object == NULL;
         if (item && !step.bracket && f->flags & FIELD_OR_ONE) {
@@ -51,7 +51,15 @@ static const struct field *row_at(const char *path, unsigned *flags)
 const struct field *ceduo_schema_row(const char *path)
 {
     unsigned flags = 0;
-    return row_at(path, &flags);
+    return row_at(path, strlen(path), &flags);
+}
+
+const char *ceduo_schema_gone_at(const char *path)
+{
+    unsigned flags = 0;
+    const char *dot = strrchr(path, '.');
+    const struct field *around = dot ? row_at(path, (size_t)(dot - path), &flags) : NULL;
+    return around && around->object ? ceduo_schema_gone(around->object, dot + 1) : NULL;
 }
 
 const struct field *ceduo_schema_at(const char *path)
@@ -70,7 +78,7 @@ const struct field *ceduo_schema_fitted(const char *path)
 bool ceduo_schema_is_settled(const char *path)
 {
     unsigned flags = 0;
-    return row_at(path, &flags) && flags & FIELD_SETTLED;
+    return row_at(path, strlen(path), &flags) && flags & FIELD_SETTLED;
 }
 
 /* ---- defaults ---- */

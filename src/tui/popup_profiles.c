@@ -180,7 +180,7 @@ static void preview_stand(struct app *app, struct popup *p)
         if (!r.bare)
             ceduo_text_format(&p->text, _("with this rock: ADC %.3g m, free run %.1f %% (%s)"), r.adc_m,
                               r.free_run_probability * 100, ceduo_words_law(ceduo_rule_words.names[r.rule]));
-        if (!r.bare && !isnan(r.dissipated))
+        if (!r.bare)
             ceduo_text_then(&p->text, ", ", _("%.3g kJ/100 m"), r.dissipated * J_TO_KJ);
         ceduo_text_char(&p->text, '\n');
         append_change(app, p);

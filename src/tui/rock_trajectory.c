@@ -112,7 +112,7 @@ void ceduo_rock_trajectory_step(struct rock_trajectory *s, int by, const struct 
         if (!stem->hit) /* at its end */
             continue;
         if (isnan(stem->dbh))
-            ceduo_text_then(text, "; ", _("a contact takes %.2g of %.3g kJ"), stem->taken / 1e3, stem->before / 1e3);
+            ceduo_text_then(text, "; ", _("hits a log: %.2g of %.3g kJ"), stem->taken / 1e3, stem->before / 1e3);
         else
             ceduo_text_then(text, "; ",
                             stem->shoot ? _("hits a shoot of %.2g cm: %.2g of %.3g kJ")

@@ -232,7 +232,6 @@ VALUE(sure_side, sure, TEXT, WORD(!o->found.found ? NULL : o->found.side == CEDU
 
 #define NO_END   "too few rocks arrive to bound it"
 #define NO_STEMS "no stem of the stand counts"
-#define SHARES   "a contact takes a share of the rock's energy (inertia)"
 
 static const struct ceduo_figure distribution[] = {
     {"mean", "", "mean", AT(distribution, mean), .null = NO_ROCK},
@@ -294,8 +293,7 @@ static const struct ceduo_figure arrivals[] = {
 
 static const struct ceduo_figure wooded[] = {
     {.of = arrivals},
-    {"contacts", "", "stems hit before this control by the rocks that reach it (with contact_model: poisson, contacts)",
-     IN(arrivals, contacts, paired)},
+    {"contacts", "", "stems hit before this control by the rocks that reach it", IN(arrivals, contacts, paired)},
     END};
 
 static const struct ceduo_figure adc[] = {
@@ -320,10 +318,9 @@ static const struct ceduo_figure stand_result[] = {
      AT(stand_result, free_run_probability)},
     {"contacts", "", "contacts over the whole belt: length over ADC", AT(stand_result, contacts)},
     {"energy_per_contact_J", "J", "energy that one contact by the index could take on average",
-     AT(stand_result, energy_per_contact), .null = NO_STEMS ", or " SHARES},
-    {"dissipated_kJ", "kJ", "energy that the stems of the belt could take", AT(stand_result, dissipated), .scale = J_TO_KJ,
-     .null = SHARES},
-    {"dissipated_kJ_per_100m", "kJ", "the same per 100 m", AT(stand_result, per_100m), .scale = J_TO_KJ, .null = SHARES},
+     AT(stand_result, energy_per_contact), .null = NO_STEMS},
+    {"dissipated_kJ", "kJ", "energy that the stems of the belt could take", AT(stand_result, dissipated), .scale = J_TO_KJ},
+    {"dissipated_kJ_per_100m", "kJ", "the same per 100 m", AT(stand_result, per_100m), .scale = J_TO_KJ},
     {"grouped_per_ha", "1/ha", "single trees that stand in groups", AT(stand_result, grouped_per_ha)},
     {"stumps_per_ha", "1/ha", "stumps", AT(stand_result, stumps_per_ha)},
     {"logs_per_ha", "1/ha", "lying logs", AT(stand_result, logs_per_ha)},
@@ -370,17 +367,17 @@ static const struct ceduo_figure summary[] = {
     {"adc_m", "m", "length_m over contacts", .value = mean_adc, .null = "there are no contacts"},
     {"contacts", "", "contacts in all belts", AT(index, contacts)},
     {"meet_nothing_probability", "", "chance of meeting no stem in any belt", AT(index, meet_nothing_probability)},
-    {"dissipated_kJ", "kJ", "energy that the stems could take", AT(index, dissipated), .scale = J_TO_KJ, .null = SHARES},
+    {"dissipated_kJ", "kJ", "energy that the stems could take", AT(index, dissipated), .scale = J_TO_KJ},
     {"dissipated_kJ_per_100m", "kJ", "the same per 100 m of wooded length", .value = index_per_100m, .scale = J_TO_KJ,
-     .null = "there is no forest, or " SHARES},
+     .null = "there is no forest"},
     {"passes_threshold", "", "whether lights.contact of the last control is pass", .value = passes_contact},
     END};
 
 static const struct ceduo_figure by_index[] = {
     {"dissipated_kJ", "kJ", "energy that the stems between the release and this control could take", AT(index, dissipated),
-     .scale = J_TO_KJ, .null = SHARES},
-    {"residual_kJ", "kJ", "the mean of bare.energy_kJ less that, and not below 0; of shares their product", AT(index, residual),
-     .scale = J_TO_KJ, .null = "no rock arrives without forest"},
+     .scale = J_TO_KJ},
+    {"residual_kJ", "kJ", "the mean of bare.energy_kJ less that, and not below 0", AT(index, residual), .scale = J_TO_KJ,
+     .null = "no rock arrives without forest"},
     {"exhausted", "", "true if stems could take more than the mean energy", .value = exhausted_of,
      .null = "no rock arrives without forest"},
     {"measured_kJ", "kJ", "energy of translation of the rock at measured_speed_m_s", AT(index, measured), .scale = J_TO_KJ,

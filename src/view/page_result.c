@@ -239,10 +239,7 @@ static void say_residual(struct ceduo_page *page, const struct ceduo_result *r, 
         ceduo_text_put(&rest, _("nothing is left on average, some rocks still pass"));
     else
         ceduo_text_format(&rest, _("%s kJ are left"), SAME(left));
-    if (isnan(taken) && mean > 0)
-        ceduo_page_say(page, CEDUO_PAGE_SENTENCE, _("By the index contacts take shares of the energy; of %s kJ %s."),
-                       SAME(mean), rest.bytes);
-    else if (index->length > 0 && mean > 0)
+    if (index->length > 0 && mean > 0)
         ceduo_page_say(page, CEDUO_PAGE_SENTENCE,
                        _("By the index stems could take %s kJ (Eq. 4), %s kJ per 100 m; of %s kJ %s (Eq. 5)."), SAME(taken),
                        WRITTEN(index->per_100m * J_TO_KJ, 3), SAME(mean), rest.bytes);

@@ -142,9 +142,7 @@ static void add_index(struct ceduo_page *page, const struct ceduo_pane *pane, co
 {
     const char *taken = WRITTEN(index->dissipated * J_TO_KJ, 3), *left = WRITTEN(index->residual * J_TO_KJ, 3);
     bool known = !isnan(index->residual); /* rocks arrive without forest */
-    if (known && isnan(index->dissipated))
-        ceduo_page_line(page, CEDUO_ROLE_DIM, _("shares taken, left %s kJ"), left);
-    else if (known && index->exhausted)
+    if (known && index->exhausted)
         ceduo_page_line(page, CEDUO_ROLE_DIM, _("taken %s kJ: all of it"), taken);
     else if (known)
         ceduo_page_line(page, CEDUO_ROLE_DIM, _("taken %s left %s kJ"), taken, left);

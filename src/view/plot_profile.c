@@ -136,14 +136,11 @@ static void draw_forest(const struct ceduo_drawing *d)
     const struct ceduo_option *option = d->option;
     for (size_t i = 0; i < d->picture->stems_count; i++) {
         const struct ceduo_stem_passed *stem = &d->picture->stems[i];
-        double height = stem->height, z = ceduo_slope_height(slope, stem->x);
+        double z = ceduo_slope_height(slope, stem->x);
         if (!(stem->x >= slope->x[0] && stem->x <= slope->x[slope->vertices - 1]))
             continue;
-        for (size_t k = 0; option && k < option->belts_count; k++) /* those of the model poisson have no height */
-            if (!isfinite(height) && stem->x >= option->belts[k].from && stem->x <= option->belts[k].to)
-                height = ceduo_plot_tallest(&option->belts[k].stand);
         ceduo_canvas_line(d->canvas, &d->frame, stem->hit ? CEDUO_ROLE_STEM : CEDUO_ROLE_DIM, stem->x, z, stem->x,
-                          z + (isfinite(height) ? height : 0));
+                          z + stem->height);
     }
     for (size_t i = 0; d->picture->stems_count == 0 && option && i < option->belts_count; i++) {
         const struct ceduo_belt *belt = &option->belts[i];

@@ -42,9 +42,9 @@ const char *ceduo_words_shown(double value, int digits, char room[CEDUO_NUMBER_R
 
 const char *ceduo_words_law(const char *word)
 {
-    static const char *const said[] = {N_("lumped"),         N_("crsp"),    N_("arm"),          N_("brauner"),
-                                       N_("dorren"),         N_("inertia"), N_("interception"), N_("gsteiger-stools"),
-                                       N_("gsteiger-stems"), N_("crofton")};
+    static const char *const said[] = {N_("lumped"),          N_("crsp"),           N_("arm"),
+                                       N_("brauner"),         N_("dorren"),         N_("interception"),
+                                       N_("gsteiger-stools"), N_("gsteiger-stems"), N_("crofton")};
     for (size_t k = 0; k < sizeof said / sizeof said[0]; k++)
         if (strcmp(word, said[k]) == 0)
             return _(said[k]);
@@ -181,11 +181,6 @@ void ceduo_words_stand_warnings(const struct ceduo_scene *scene, const struct ce
         say_format(say, context,
                    _("%s: stumps and logs are among the contacts of the index, but the lights of contact and free run do "
                      "not count them: a rock flies over them."),
-                   NAME_OF(belt));
-    if (r->warnings & CEDUO_WARN_INERTIA)
-        say_format(say, context,
-                   _("%s: the energy law inertia is an assumption. A contact takes a share of what the rock has, so that "
-                     "nothing can be said of what the stems could take (Eq. 4)."),
                    NAME_OF(belt));
     const struct ceduo_stems *first = NULL; /* kind of stem with a volume by form factor; of those too thick it is said above */
     size_t n = 0;

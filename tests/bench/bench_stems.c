@@ -33,9 +33,7 @@ static void measure(const char *path, size_t repeats, uint64_t rocks)
 {
     struct scene_file file;
     read_scene(&file, path);
-    struct kind kinds[] = {{.what = "bare", .model = CEDUO_INDEX},
-                           {.what = "stems", .model = CEDUO_STEMS},
-                           {.what = "poisson", .model = CEDUO_POISSON}};
+    struct kind kinds[] = {{.what = "bare", .model = CEDUO_INDEX}, {.what = "stems", .model = CEDUO_STEMS}};
     size_t n = sizeof kinds / sizeof kinds[0];
     for (size_t r = 0; r < repeats; r++)
         for (size_t k = 0; k < n; k++)

@@ -234,7 +234,7 @@ def stand(**changes):
                "stools": {"per_ha": 2000, "spacing_m": 0.25},
                "shoots": [{"per_ha": 5000, "dbh_m": 0.0625, "height_m": 6, "volume_m3": 0.01}],
                "trees": [{"per_ha": 100, "dbh_m": 0.25, "height_m": 12, "volume_m3": 0.3}],
-               "energy": {"model": "brauner", "u_J_m3": 100000}}
+               "energy": {"model": "brauner", "u_J_m3": 100000, "offset": "whole"}}
     mapping.update(changes)
     return {key: value for key, value in mapping.items() if value is not None}
 

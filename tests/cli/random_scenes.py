@@ -89,7 +89,7 @@ USUAL = {
     "forest[].stand.trees[].height_m": (4, 25), "forest[].stand.trees[].volume_m3": (1e-2, 3),
     "forest[].stand.trees[].age_y": (1, 150),
     "forest[].stand.energy.u_J_m3": (3e4, 2e5), "forest[].stand.energy.fracture_ratio": (0.5, 3),
-    "forest[].stand.energy.hit_below_m": (0.5, 5), "forest[].stand.energy.green_density_kg_m3": (600, 1200),
+    "forest[].stand.energy.hit_below_m": (0.5, 5),
     "forest[].stand.trees[].groups.stems": (2, 12), "forest[].stand.trees[].groups.radius_m": (0.5, 10),
     "forest[].stand.stumps.per_ha": (50, 4000), "forest[].stand.stumps.diameter_m": (0.05, 0.5),
     "forest[].stand.stumps.height_m": (0.05, 0.6), "forest[].stand.stumps.energy_kJ": (0.1, 20),

@@ -112,7 +112,7 @@ def by_index(shape):
 
 INDEX_RESULT = by_index(RESULT)
 MODEL = "simulation.contact_model"
-MODELS = ("index", "poisson", "stems")
+MODELS = ("index", "stems")
 
 
 def through(model):

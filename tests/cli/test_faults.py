@@ -427,7 +427,7 @@ def test_small_stack():
     with Folder() as f:
         f.write("play.txt", "key 1 2 3 4 5 6\nkey Enter Esc ? Esc w Enter Esc\nkey S Ctrl-U\ntype new.yaml\nkey Enter\n")
         for words in (*(("--batch", "-f", form, *few) for form in ("table", "csv", "json")),
-                      ("--batch", "-s", "simulation.law=crsp", *few), ("--batch", "-s", "simulation.contact_model=poisson", *few),
+                      ("--batch", "-s", "simulation.law=crsp", *few),
                       *(("--plot", plot, *few) for plot in ("profile", "histogram", "rotation", "stand", "compare")),
                       ("--years", "0:3", "-n", 200, "rotation"), (*find, "paper-site"), ("--check", "paper-site"),
                       ("--list-parameters",), ("--list-profiles",), ("--script", "play.txt", "paper-site")):

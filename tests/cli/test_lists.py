@@ -36,7 +36,7 @@ def test_list_parameters():
                         ("slope.vertices_m", "m"), ("controls[].accepted_kJ", "kJ"), ("forest[].stand.stools.per_ha", "1/ha"),
                         ("forest[].stand.trees[].dbh_m", "m"), ("forest[].stand.energy.u_J_m3", "J/m3"),
                         ("options[].name", "text"), ("simulation.threshold_m", "m 30"), ("simulation.rocks", "count"),
-                        ("simulation.contact_model", "index|poisson|stems stems"), ("simulation.scale_rn", "false"),
+                        ("simulation.contact_model", "index|stems stems"), ("simulation.scale_rn", "false"),
                         ("simulation.law", "lumped|crsp|arm"), ("simulation.gravity_m_s2", "9.81")):
         expect(path in table, f"{path} is missing")
         for word in words.split():

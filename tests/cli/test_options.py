@@ -20,7 +20,7 @@ def same_run(a, b):
 
 
 def test_contact_models():
-    """index, poisson and stems: bare and index are the same in all, what goes through the wood differs"""
+    """index and stems: bare and index are the same in both, rocks go through the wood by stems alone"""
     with Folder() as f:
         path = f.write("s.yaml", wooded_scene())
         runs = {model: result(path, *through(model)) for model in MODELS}
@@ -33,15 +33,13 @@ def test_contact_models():
                 expect_equal([a["lights"][k] for k in light], [b["lights"][k] for k in light], model)
         for c in controls["index"]:
             expect_equal(c["wooded"], None, "wooded by the index")
-        expect(controls["poisson"][0]["wooded"] != controls["stems"][0]["wooded"], "poisson and stems are the same")
-        for model in ("poisson", "stems"):
-            expect_equal(result(path, *through(model), "--seed", 1)["options"], runs[model]["options"], f"{model} again")
-            expect(result(path, *through(model), "--seed", 2)["options"] != runs[model]["options"], f"{model}: another seed")
-            for c in controls[model]:
-                expect(c["wooded"]["energy_kJ"]["mean"] < c["bare"]["energy_kJ"]["mean"] - 5, f"{model}: stems take nothing")
-                expect(c["wooded"]["rocks_reached"] < c["bare"]["rocks_reached"], f"{model}: stems stop none")
-            expect(runs[model]["options"][0]["ends"]["stopped_by_stems"] > 0.01, model)
-            expect(runs[model]["work"]["stems_drawn"] > 0, model)
+        expect_equal(result(path, "--seed", 1)["options"], runs["stems"]["options"], "again")
+        expect(result(path, "--seed", 2)["options"] != runs["stems"]["options"], "another seed")
+        for c in controls["stems"]:
+            expect(c["wooded"]["energy_kJ"]["mean"] < c["bare"]["energy_kJ"]["mean"] - 5, "stems take nothing")
+            expect(c["wooded"]["rocks_reached"] < c["bare"]["rocks_reached"], "stems stop none")
+        expect(runs["stems"]["options"][0]["ends"]["stopped_by_stems"] > 0.01, "stopped by stems")
+        expect(runs["stems"]["work"]["stems_drawn"] > 0, "stems drawn")
         expect_equal(runs["index"]["work"]["stems_drawn"], 0, "stems drawn by the index")
 
 
@@ -57,23 +55,22 @@ def test_no_stems_on_the_way():
                    "above": [belt(0, 15)], "beyond": [belt(110, 150)]}
         path = f.write("s.yaml", wooded_scene(forest=None, release={"x_m": 16, "vx_m_s": 2}, options=[
             {"name": name, "forest": forest} for name, forest in forests.items()]))
-        for model in ("poisson", "stems"):
-            run = result(path, *through(model))
-            expect_run(run, model)
-            found = {o["name"]: o for o in run["options"]}
-            for name in ("none", "bare", "above", "beyond"):
-                for control in found[name]["controls"]:
-                    expect_bare(control, f"{model}, {name} at {control['x_m']} m")
-            expect_bare(found["behind"]["controls"][0], f"{model}, a belt behind the control")
-            behind = found["behind"]["controls"][1]["wooded"]
-            expect(behind["contacts"]["mean"] > 1, "the belt behind the first control is met before the second", behind)
-            apart = [d for d in run["differences"] if d["option"] == "behind" and d["x_m"] == found["behind"]["controls"][0]["x_m"]]
-            expect_equal([d["reach_probability"] for d in apart], [no_difference("reach_probability")], f"{model}: the same flights")
-            for name in ("bare", "above"):
-                expect(same_run({**found[name], "stands": [], "summary": 0, "controls": 0},
-                                {**found["none"], "stands": [], "summary": 0, "controls": 0}), f"{model}, {name}: ends")
-            # none and bare are the run without forest; the others fly under each energy law
-            expect_equal((run["work"]["runs"], run["work"]["rocks_flown"]), (7, 14000), f"{model}: runs")
+        run = result(path)
+        expect_run(run)
+        found = {o["name"]: o for o in run["options"]}
+        for name in ("none", "bare", "above", "beyond"):
+            for control in found[name]["controls"]:
+                expect_bare(control, f"{name} at {control['x_m']} m")
+        expect_bare(found["behind"]["controls"][0], "a belt behind the control")
+        behind = found["behind"]["controls"][1]["wooded"]
+        expect(behind["contacts"]["mean"] > 1, "the belt behind the first control is met before the second", behind)
+        apart = [d for d in run["differences"] if d["option"] == "behind" and d["x_m"] == found["behind"]["controls"][0]["x_m"]]
+        expect_equal([d["reach_probability"] for d in apart], [no_difference("reach_probability")], "the same flights")
+        for name in ("bare", "above"):
+            expect(same_run({**found[name], "stands": [], "summary": 0, "controls": 0},
+                            {**found["none"], "stands": [], "summary": 0, "controls": 0}), f"{name}: ends")
+        # none and bare are the run without forest; the others fly under each energy law
+        expect_equal((run["work"]["runs"], run["work"]["rocks_flown"]), (7, 14000), "runs")
 
 
 def test_duplicate_option():
@@ -109,13 +106,12 @@ def test_option_subset():
     """--option: the figures of an option do not depend on which others run with it; differences are to the first that is left"""
     with Folder() as f:
         path = f.write("s.yaml", treated(none=None, many_thin=THIN, few_thick=THICK))
-        for model in ("poisson", "stems"):
-            whole = {o["name"]: o for o in result(path, *through(model))["options"]}
-            for names in (["many thin"], ["few thick", "many thin"], ["none", "few thick"]):
-                run = result(path, *through(model), *[a for n in names for a in ("--option", n)])
-                expect_run(run, model)
-                expect_equal(run["options"], [o for n, o in whole.items() if n in names], f"{model}, {names}")
-                expect_equal({d["against"] for d in run["differences"]}, {run["options"][0]["name"]} if len(names) > 1 else set())
+        whole = {o["name"]: o for o in result(path)["options"]}
+        for names in (["many thin"], ["few thick", "many thin"], ["none", "few thick"]):
+            run = result(path, *[a for n in names for a in ("--option", n)])
+            expect_run(run)
+            expect_equal(run["options"], [o for n, o in whole.items() if n in names], str(names))
+            expect_equal({d["against"] for d in run["differences"]}, {run["options"][0]["name"]} if len(names) > 1 else set())
 
 
 def test_no_pair_differs():

@@ -38,8 +38,6 @@ def test_both_ways():
     expect_other(dorren, brauner, "brauner")
     mixed = result(PAPER, "-n", 3000, "-s", "forest[0].stand.energy.model=dorren")
     expect_other(mixed, dorren, "dorren")
-    poisson = [result(PAPER, "-n", 500, *through("poisson"), *law(name)) for name in ("brauner", "dorren")]
-    expect_other(*poisson, "dorren")
 
 
 def test_few_are_enough():

@@ -272,9 +272,6 @@ def check_index(result, control, what):
     if mean is None:
         expect(index["residual_kJ"] is None and index["exhausted"] is None, f"{what}: index {index}")
         return
-    if index["dissipated_kJ"] is None:  # shares
-        expect(0 <= index["residual_kJ"] <= mean, f"{what}: left of {mean!r}: {index}")
-        return
     if max(mean, index["dissipated_kJ"]) > 0:  # in kJ the least energies are rounded to 0
         expect_equal(index["exhausted"], mean < index["dissipated_kJ"], f"{what}: exhausted, {mean!r} {index}")
     left = max(0, mean - index["dissipated_kJ"])
@@ -399,10 +396,8 @@ def check_stand(result, s, what):
     """How the figures of a stand hang together."""
     adc, threshold = s["adc"], result["threshold_m"]
     expect(s["length_m"] > 0, f"{what}: length {s['length_m']!r}")
-    shares = is_met(s) and s["dissipated_kJ"] is None  # inertia
     for key in ("stems_per_ha", "stools_per_ha", "trees_per_ha", "basal_area_m2_ha", "contacts", "dissipated_kJ"):
-        if key != "dissipated_kJ" or not shares:
-            expect(s[key] is not None and s[key] >= 0, f"{what}: {key} {s[key]!r}")
+        expect(s[key] is not None and s[key] >= 0, f"{what}: {key} {s[key]!r}")
     expect(all(v is None or isinstance(v, str) or v > 0 for v in adc.values()), f"{what}: {adc}")
     if not is_met(s):
         expect(all(v is None for v in adc.values()) and s["energy_per_contact_J"] is None and not s["passes_threshold"],
@@ -424,9 +419,6 @@ def check_stand(result, s, what):
     if adc["adc_m"] is None:
         return
     expect_close(s["contacts"], s["length_m"] / adc["adc_m"], f"{what}: contacts")
-    if shares:
-        expect_equal((s["energy_per_contact_J"], s["dissipated_kJ_per_100m"]), (None, None), f"{what}: shares")
-        return
     expect_close(s["dissipated_kJ"], s["contacts"] * s["energy_per_contact_J"] / 1000, f"{what}: dissipated_kJ")
     expect_close(s["dissipated_kJ_per_100m"] * s["length_m"], s["dissipated_kJ"] * 100, f"{what}: dissipated_kJ_per_100m")
 

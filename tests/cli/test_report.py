@@ -399,7 +399,7 @@ def test_file_forgotten():
 def test_odd_scenes():
     """Without forest, without accepted energy, of one rock: there is a page all the same"""
     for changes in (("-s", "forest=[]"), ("-s", "controls=[{x_m: 100}]"), ("-n", "1"),
-                    ("-s", "simulation.contact_model=poisson"), ("--years", "0:3"), ("-s", "release.vx_m_s=0.1", "--seed", "7")):
+                    ("-s", "simulation.contact_model=index"), ("--years", "0:3"), ("-s", "release.vx_m_s=0.1", "--seed", "7")):
         check_page(*report(*changes, "paper-site"))
 
 

@@ -14,7 +14,7 @@ from harness import DONE, INPUT, PROFILES, USAGE, Folder, ceduo, expect, good, e
 LAW = {"path": "forest[*].stand.energy.model", "one_of": ["brauner", "dorren"]}
 DENSITY = {"path": "rock.density_kg_m3", "lo": 2400, "hi": 2750}
 POINTS = 16
-ENERGY = {"model": "brauner", "u_J_m3": 102800}
+ENERGY = {"model": "brauner", "u_J_m3": 102800, "offset": "whole"}
 TREES = [{"per_ha": 500, "dbh_m": 0.12, "height_m": 9, "volume_m3": 0.05}]
 
 
@@ -220,12 +220,24 @@ def test_assumed():
     expect_equal((dbh["lo"], dbh["hi"]), (0.19, 0.25))
 
 
-def test_energy_law_of_nobody():
-    """An energy law that nobody chose is in doubt, once for all stands"""
-    belts = [{"from_m": a, "to_m": a + 40, "stand": {k: v for k, v in wood().items() if k != "energy"}} for a in (0, 40)]
-    result = answer(measured(forest=belts))
-    laws = [i for i in result["figures"][0]["inputs"] if i["path"].endswith("energy.model")]
-    expect_equal([(i["places"], i["lo"], i["hi"]) for i in laws], [(2, "brauner", "dorren")])
+def words_in_doubt(result):
+    """Number of places and both words of the energy law and of the offset, where they are in doubt."""
+    return {i["path"].rpartition(".")[2]: (i["places"], i["lo"], i["hi"]) for i in (result["figures"] or [{"inputs": []}])[0]["inputs"]
+            if ".energy." in i["path"] and isinstance(i["lo"], str)}
+
+
+def test_words_of_nobody():
+    """An energy law that nobody chose is in doubt, once for all stands; so is what a hit off centre takes, where the law may be brauner"""
+    law, offset = {"model": (2, "brauner", "dorren")}, {"offset": (2, "whole", "dorren")}
+    for energy, wanted in ((None, {**law, **offset}), ({"model": "brauner"}, offset), ({"model": "dorren"}, {}),
+                           ({"offset": "whole"}, law), (ENERGY, {})):
+        belts = [{"from_m": a, "to_m": a + 40, "stand": wood(energy=energy)} for a in (0, 40)]
+        expect_equal(words_in_doubt(answer(measured(forest=belts))), wanted, energy)
+    belts = [{"from_m": 0, "to_m": 80, "stand": wood(energy={"model": "dorren"})}]
+    expect_equal(words_in_doubt(answer(measured(forest=belts, doubt=[LAW]))),
+                 {"model": (1, "brauner", "dorren"), "offset": (1, "whole", "dorren")}, "dorren, or brauner")
+    four = {key: (8, *words) for key, (_, *words) in (law | offset).items()}
+    expect_equal(words_in_doubt(json.loads(good("--sensitivity=16", "-f", "json", "-n", 50, "four-systems").out)), four, "shipped stands")
 
 
 def test_ground_of_the_library():
@@ -495,12 +507,13 @@ def test_outside():
     def told(*args):
         return " ".join(ceduo("-n", "100", *args).out.split())
 
-    changes = ("--set", "forest[0].stand.shoots[0].per_ha=20000", "--set", "forest[*].stand.energy.model=inertia")
+    changes = ("--set", "forest[0].stand.shoots[0].per_ha=20000")
     for args in (("-b",), ("--sensitivity=16",)):
         page = told(*args, *changes, "paper-site")
-        expect(re.search(r"energy law is inertia, outside its doubt \(brauner.dorren\)", page), page)
         expect("outside its doubt" not in told(*args, "--set", "forest[0].stand.shoots[0].per_ha=9575", "paper-site"), args)
     expect(re.search(r"per hectare, [^.]* is 20000, outside its doubt \(7077.9575\): what may be true", page), page)
+    page = told("-b", "--set", "simulation.law=arm", "--set", "doubt=[{path: simulation.law, one_of: [lumped, crsp]}]", "paper-site")
+    expect(re.search(r"law of impact is arm, outside its doubt \(lumped.crsp\)", page), page)
     for scene in (PROFILES / "scenes").glob("*.yaml"):
         expect("outside its doubt" not in told("--sensitivity=4", scene), scene)
 

@@ -16,7 +16,7 @@ from runs import FOUR, PAPER, through
 PAGES = Path(__file__).resolve().parent / "pages"
 SCENES = sorted((PROFILES / "scenes").glob("*.yaml"))
 ROCKS = 200
-LAWS = re.compile(r"(?i)\b(brauner|dorren|inertia|lumped|crsp|arm|gsteiger|crofton|interception|poisson|eq\.)\b")
+LAWS = re.compile(r"(?i)\b(brauner|dorren|lumped|crsp|arm|gsteiger|crofton|interception|eq\.)\b")
 
 
 def page_of(scene, *arguments):

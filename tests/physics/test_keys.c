@@ -11,15 +11,13 @@
 
 /* What a key stands for, and which fields decide about it. */
 enum about {
-    FLIGHT = 1 << 0,  /* of a scene: the ways of rocks where no stem stands, and what is counted of them */
-    STEMS = 1 << 1,   /* of an option: stems with the energy of brauner, each kind with a volume that is given */
-    DORREN = 1 << 2,  /* the same with the energy of dorren */
-    DBHS = 1 << 3,    /* brauner, diameters that spread */
-    POISSON = 1 << 4, /* contacts by a rule of the ADC */
-    YEARS = 1 << 5,   /* of an option: what becomes of its forest */
-    INERTIA = 1 << 6  /* as STEMS, with inertia */
+    FLIGHT = 1 << 0, /* of a scene: the ways of rocks where no stem stands, and what is counted of them */
+    STEMS = 1 << 1,  /* of an option: stems with the energy of brauner, each kind with a volume that is given */
+    DORREN = 1 << 2, /* the same with the energy of dorren */
+    DBHS = 1 << 3,   /* brauner, diameters that spread */
+    YEARS = 1 << 4,  /* of an option: what becomes of its forest */
 };
-#define WOOD    (STEMS | DORREN | DBHS | INERTIA | YEARS)
+#define WOOD    (STEMS | DORREN | DBHS | YEARS)
 #define BRAUNER (STEMS | DBHS | YEARS)
 
 static struct paper_site site;
@@ -195,8 +193,8 @@ static const struct field simulation_fields[] = {
     FIELD(ceduo_simulation, law, WORD, FLIGHT),
     FIELD(ceduo_simulation, rocks, COUNT, 0),
     FIELD(ceduo_simulation, seed, COUNT, FLIGHT),
-    FIELD(ceduo_simulation, contact_model, WORD, STEMS | POISSON),
-    FIELD(ceduo_simulation, rule, WORD, POISSON),
+    FIELD(ceduo_simulation, contact_model, WORD, STEMS),
+    FIELD(ceduo_simulation, rule, WORD, 0),
     FIELD(ceduo_simulation, threshold, NUMBER, 0),
     FIELD(ceduo_simulation, gravity, NUMBER, FLIGHT),
     FIELD(ceduo_simulation, scale_rn, FLAG, FLIGHT),
@@ -217,7 +215,7 @@ static const struct field belt_fields[] = {
 /* The species says the volume of each stem where diameters spread, by its equation, and of what comes up after a cut. */
 static const struct field stand_fields[] = {
     FIELD(ceduo_stand, system, WORD, 0),
-    FIELD(ceduo_stand, species, WORD, DBHS | INERTIA | YEARS),
+    FIELD(ceduo_stand, species, WORD, DBHS | YEARS),
     FIELD(ceduo_stand, stools_per_ha, NUMBER, WOOD),
     FIELD(ceduo_stand, spacing, NUMBER, WOOD),
     FIELD(ceduo_stand, shoots_count, COUNT, WOOD),
@@ -226,12 +224,11 @@ static const struct field stand_fields[] = {
     FIELD(ceduo_stand, energy, WORD, WOOD),
     FIELD(ceduo_stand, u, NUMBER, BRAUNER),
     FIELD(ceduo_stand, fracture_ratio, NUMBER, DORREN),
-    FIELD(ceduo_stand, green_density, NUMBER, INERTIA),
 };
 
 static const struct field stems_fields[] = {
     FIELD(ceduo_stems, per_ha, NUMBER, WOOD), FIELD(ceduo_stems, dbh, NUMBER, WOOD),
-    FIELD(ceduo_stems, height, NUMBER, WOOD), FIELD(ceduo_stems, volume, NUMBER, BRAUNER | INERTIA),
+    FIELD(ceduo_stems, height, NUMBER, WOOD), FIELD(ceduo_stems, volume, NUMBER, BRAUNER),
     FIELD(ceduo_stems, dbh_sd, NUMBER, WOOD), FIELD(ceduo_stems, age, NUMBER, YEARS),
 };
 
@@ -242,17 +239,17 @@ static const struct field group_fields[] = {
 };
 
 static const struct field stump_fields[] = {
-    FIELD(ceduo_stumps, per_ha, NUMBER, WOOD | POISSON),
-    FIELD(ceduo_stumps, diameter, NUMBER, WOOD | POISSON),
+    FIELD(ceduo_stumps, per_ha, NUMBER, WOOD),
+    FIELD(ceduo_stumps, diameter, NUMBER, WOOD),
     FIELD(ceduo_stumps, height, NUMBER, WOOD),
-    FIELD(ceduo_stumps, energy, NUMBER, WOOD | POISSON),
+    FIELD(ceduo_stumps, energy, NUMBER, WOOD),
 };
 
 static const struct field log_fields[] = {
-    FIELD(ceduo_logs, per_ha, NUMBER, WOOD | POISSON),
-    FIELD(ceduo_logs, length, NUMBER, WOOD | POISSON),
+    FIELD(ceduo_logs, per_ha, NUMBER, WOOD),
+    FIELD(ceduo_logs, length, NUMBER, WOOD),
     FIELD(ceduo_logs, diameter, NUMBER, WOOD),
-    FIELD(ceduo_logs, energy, NUMBER, WOOD | POISSON),
+    FIELD(ceduo_logs, energy, NUMBER, WOOD),
 };
 
 static const struct field growth_fields[] = {
@@ -368,18 +365,10 @@ TEST(whatever_decides_about_stems_makes_another_forest)
     }
     walk_option(DORREN);
     for (size_t i = 0; i < 2; i++) {
-        site.belts[i].stand.energy = CEDUO_INERTIA;
-        site.belts[i].stand.green_density = 1000;
-    }
-    walk_option(INERTIA);
-    for (size_t i = 0; i < 2; i++) {
         site.belts[i].stand.energy = CEDUO_BRAUNER;
         site.plots[i].shoots.dbh_sd = site.plots[i].trees.dbh_sd = .02;
     }
     walk_option(DBHS);
-    open_site();
-    site.scene.simulation.contact_model = CEDUO_POISSON;
-    walk_simulation(POISSON);
 }
 
 /* What lies low, and groups; what there is none of decides about nothing. */
@@ -395,12 +384,6 @@ TEST(whatever_decides_about_low_wood_and_groups_makes_another_forest)
     site.plots[0].trees.group = 3;
     ROWS(WALK, (STEMS, &stand->stumps, stump_fields), (STEMS, &stand->logs, log_fields),
          (STEMS, &site.plots[0].trees, group_fields), (YEARS, &stand->stumps, stump_fields));
-    site.scene.simulation.contact_model = CEDUO_POISSON;
-    WALK(POISSON, &stand->stumps, stump_fields);
-    WALK(POISSON, &stand->logs, log_fields);
-    uint64_t key = key_of(POISSON); /* contacts do not know of groups */
-    site.plots[0].trees.group = 1;
-    EXPECT(key_of(POISSON), ==, key);
 }
 
 /* The same numbers in other places are another forest. */

@@ -200,8 +200,7 @@ static void add_stand(struct wild *w, struct line_random *r, int i)
 {
     struct ceduo_stand *stand = &w->plots[i].stand;
     paper_plot_init(&w->plots[i], i + 1);
-    stand->energy = (enum ceduo_energy_model)line_uniform(r, CEDUO_BRAUNER, CEDUO_INERTIA + 0.999);
-    stand->green_density = 900;
+    stand->energy = (enum ceduo_energy_model)line_uniform(r, CEDUO_BRAUNER, CEDUO_DORREN + 0.999);
     stand->offset = line_chance(r, 0.5) ? CEDUO_OFFSET_WHOLE : CEDUO_OFFSET_BY_ECCENTRICITY;
     stand->hit_below = line_chance(r, 0.3) ? line_uniform(r, 0.2, 3) : 0;
     if (line_chance(r, 0.3))
@@ -240,7 +239,6 @@ static void add_stems(struct wild *w, struct line_random *r)
     }
     w->line.option.belts = w->belts;
     w->line.option.belts_count = line_chance(r, 0.5) ? 1 : 2;
-    scene->simulation.contact_model = line_chance(r, 0.6) ? CEDUO_STEMS : CEDUO_POISSON;
     w->def.option = &w->line.option;
     if (line_chance(r, 0.5)) { /* released in the forest, and perhaps uphill */
         scene->release.x.mean = from[0] + (middle - from[0]) * line_uniform(r, 0, 1);
@@ -317,7 +315,6 @@ TEST(the_papers_site)
         site.scene.slope.facets = reading & 2 ? CEDUO_BOTH : CEDUO_AGAINST;
         simulation->scale_rn = reading & 4;
         simulation->friction_bound = reading >> 5;
-        simulation->contact_model = forest == 1 ? CEDUO_POISSON : CEDUO_STEMS;
         if (forest == 3)
             site.scene.rock.density = (struct ceduo_number){2600, 100, CEDUO_NORMAL};
         struct ceduo_run_def def = ceduo_run_def_default(&site.scene);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What else rocks meet in a stand: stems that take a share (inertia), stumps, lying logs, trees in groups. */
+/* What else rocks meet in a stand: stumps, lying logs, trees in groups. */
 #include "expect.h"
 
 #include <gsl/gsl_randist.h>
@@ -8,129 +8,6 @@
 #include <string.h>
 
 #include "stems_scene.h"
-
-/* ---- inertia ---- */
-
-#define GREEN 1000.0 /* kg/m3 */
-#define MASS  512.3058
-
-/* By hand: of ½ M v² the share m/(M + m), m = 33/140 ρ V, over V U, U = 102 800 J/m3 of the paper, is
- * ½ 33/140 1000 v²/102 800 M/(M + m): of the ADS 1 stems of 10.7 l (m = 2.52 kg) .114 at 10 m/s, .503 at 21, .959 at 29. */
-TEST(inertia_beside_brauner)
-{
-    static const struct {
-        double speed, ratio;
-    } rows[] = {{10, .114}, {21, .503}, {29, .959}};
-    struct paper_plot plot;
-    paper_plot_init(&plot, 1);
-    plot.stand.offset = CEDUO_OFFSET_BY_ECCENTRICITY; /* both by e(u) */
-    double amount = ceduo_contact_energy(&plot.stand, &plot.shoots);
-    EXPECT(ceduo_contact_share(&plot.stand, &plot.shoots, MASS), ==, 0);
-    assert_false(ceduo_stand_takes_share(&plot.stand));
-    plot.stand.energy = CEDUO_INERTIA;
-    plot.stand.green_density = GREEN;
-    assert_true(ceduo_stand_takes_share(&plot.stand));
-    assert_true(isnan(ceduo_contact_energy(&plot.stand, &plot.shoots)));
-    double share = ceduo_contact_share(&plot.stand, &plot.shoots, MASS), m = 33. / 140 * GREEN * .0107;
-    EXPECT_NEAR(share, mean_printed_share() * m / (MASS + m), 1e-9);
-    for (size_t i = 0; i < LENGTH(rows); i++) {
-        double energy = .5 * MASS * rows[i].speed * rows[i].speed;
-        EXPECT_NEAR(share * energy / amount, rows[i].ratio, 5e-4);
-    }
-    EXPECT(ceduo_stand_warnings(&plot.stand, B, CEDUO_RULE_AUTO) & CEDUO_WARN_INERTIA, !=, 0);
-}
-
-static struct ceduo_belt *plant_inert(double from, double to)
-{
-    struct ceduo_belt *belt = plant_belt(from, to, 800, .4);
-    plant_trees(belt, 1500, .3)->volume = .02;
-    plant_shoots(belt, 3200, .12)->volume = .005;
-    belt->stand.energy = CEDUO_INERTIA;
-    belt->stand.green_density = GREEN;
-    return belt;
-}
-
-/* e(u) E m/(M + m), however fast the rock is. */
-TEST(hits_take_their_share)
-{
-    struct ceduo_rock rock;
-    uint64_t hits = 0;
-    clear_plane(520);
-    ceduo_rock_of_means(&plane.line.scene.rock, &rock);
-    plant_inert(10, 510);
-    for (SWEEP(number, 500)) {
-        EXPECT(sweep.way.end, !=, CEDUO_STOPPED_BY_STEMS);
-        for (size_t i = 0; i < sweep.count; i++) {
-            const struct ceduo_stem_passed *s = &sweep.stems[i];
-            double m = 33. / 140 * GREEN * (s->shoot ? .005 : .02);
-            double u = fabs(s->y) / ((B + s->dbh) / 2), share = printed_share(u) * m / (rock.mass + m);
-            if (s->hit && !(fabs(s->taken / s->before - share) <= 1e-10))
-                fail_msg("u = %.17g takes %.17g of %.17g", u, s->taken, s->before);
-            hits += s->hit;
-        }
-    }
-    EXPECT(hits, >, 10000);
-}
-
-/* A contact of poisson takes the mean share of its stratum: of stools that of their shoots. */
-TEST(contacts_take_the_mean_share)
-{
-    struct ceduo_rock rock;
-    clear_plane(520);
-    ceduo_rock_of_means(&plane.line.scene.rock, &rock);
-    struct ceduo_belt *belt = plant_inert(10, 510);
-    plant_shoots(belt, 800, .2)->volume = .1;
-    plane.line.scene.simulation.contact_model = CEDUO_POISSON;
-    plane.line.scene.simulation.rule = CEDUO_CROFTON;
-    double tree = 33. / 140 * GREEN * .02, thin = 33. / 140 * GREEN * .005, thick = 33. / 140 * GREEN * .1;
-    double mean = mean_printed_share(), of_tree = mean * tree / (rock.mass + tree);
-    double of_stool = mean * (.8 * thin / (rock.mass + thin) + .2 * thick / (rock.mass + thick));
-    uint64_t found[2] = {0};
-    for (SWEEP(number, 300)) {
-        for (size_t i = 0; i < sweep.count; i++) {
-            double share = sweep.stems[i].taken / sweep.stems[i].before;
-            bool is_tree = fabs(share - of_tree) < 1e-9;
-            if (sweep.stems[i].hit && !is_tree && fabs(share - of_stool) >= 1e-9)
-                fail_msg("a contact takes %.17g, no %g or %g", share, of_tree, of_stool);
-            found[is_tree]++;
-        }
-    }
-    EXPECT(found[0], >, 1000);
-    EXPECT(found[1], >, 1000);
-}
-
-/* The index: a product over the mean number of contacts, (1 - share)^n for each stratum, and no Eq. 4; before or behind
- * a belt of brauner, which takes an amount. */
-TEST(the_index_multiplies_shares)
-{
-    struct paper_site site;
-    paper_site_init(&site);
-    const double before = 112.319e3, amount = 67.5 / 2.6053723298516003 * 606.52; /* of ADS 2 */
-    const double mean = mean_printed_share(), m = 33. / 140 * GREEN * .0107, share = mean * m / (MASS + m);
-    const double left = pow(1 - share, 67.5 / 1.9483462242414016); /* ADS 1: all stems are alike */
-    site.belts[0].stand.energy = CEDUO_INERTIA;
-    site.belts[0].stand.green_density = GREEN;
-    struct ceduo_index i = ceduo_assess_index(&site.scene, &site.option, &site.control, before);
-    assert_true(isnan(i.dissipated));
-    assert_false(i.exhausted);
-    EXPECT_NEAR(i.residual, before * left - amount, 1e-3);
-    struct ceduo_stand_result r = ceduo_assess_stand(&site.scene, &site.belts[0]);
-    EXPECT_NAN(r.dissipated, r.energy_per_contact);
-    EXPECT_NEAR(r.contacts, 67.5 / 1.9483462242414016, 1e-9);
-    struct ceduo_belt first = site.belts[0];
-    site.belts[0].stand = site.belts[1].stand;
-    site.belts[1].stand = first.stand;
-    i = ceduo_assess_index(&site.scene, &site.option, &site.control, before);
-    EXPECT_NEAR(i.residual, (before - amount) * left, 1e-3);
-    i = ceduo_assess_index(&site.scene, &site.option, &site.control, 1e3);
-    assert_true(i.exhausted);
-    EXPECT(i.residual, ==, 0);
-    i = ceduo_assess_index(&site.scene, &site.option, &site.control, NAN);
-    assert_true(isnan(i.residual));
-    site.belts[1].stand.trees_count = site.belts[1].stand.shoots_count = 0; /* nothing there takes anything */
-    i = ceduo_assess_index(&site.scene, &site.option, &site.control, before);
-    EXPECT_NEAR(i.residual, before - amount, 1e-3);
-}
 
 /* ---- stumps and logs ---- */
 
@@ -230,52 +107,7 @@ TEST(the_index_has_stumps_and_logs)
     i = ceduo_assess_index(&site.scene, &site.option, &site.control, 1e6);
     EXPECT_IS(i, (meet_nothing_probability, 1), (longest_gap, 135));
     EXPECT_NEAR(i.dissipated, 135 * (stumps * 3e3 + logs * 8e3), 1e-6);
-    belt.stand.energy = CEDUO_INERTIA; /* of which there is nothing here */
-    site.belts[0] = belt;
-    EXPECT_NEAR(ceduo_assess_index(&site.scene, &site.option, &site.control, 1e6).residual, 1e6 - i.dissipated, 1e-6);
-}
-
-TEST(poisson_takes_stumps_and_logs)
-{
-    struct spread stumps = {0}, logs = {0};
-    clear_plane(520);
-    struct ceduo_belt *belt = plant_belt(10, 510, 0, 0);
-    plant_trees(belt, 300, .3);
-    belt->stand.stumps = (struct ceduo_stumps){.per_ha = 500, .diameter = .2, .height = .1, .energy = 3e3};
-    belt->stand.logs = (struct ceduo_logs){.per_ha = 80, .length = 6, .diameter = .3, .energy = 8e3};
-    plane.line.scene.simulation.contact_model = CEDUO_POISSON;
-    for (SWEEP(number, 1000)) {
-        size_t n = 0, m = 0;
-        for (size_t i = 0; i < sweep.count; i++) {
-            n += fabs(sweep.stems[i].taken - 3e3) < 1e-6;
-            m += fabs(sweep.stems[i].taken - 8e3) < 1e-6;
-        }
-        spread_add(&stumps, (double)n / 500);
-        spread_add(&logs, (double)m / 500);
-    }
-    expect_mean("stumps by poisson", &stumps, per_metre(500, B + .2));
-    expect_mean("logs by poisson", &logs, per_metre(80, B + 12 / M_PI));
-}
-
-/* With amounts beside shares the index solves dE/dx = -k E - w: here by many small steps. */
-TEST(shares_and_amounts_together)
-{
-    struct paper_site site;
-    paper_site_init(&site);
-    struct ceduo_stand *stand = &site.belts[0].stand;
-    stand->energy = CEDUO_INERTIA;
-    stand->green_density = GREEN;
-    stand->stumps = (struct ceduo_stumps){.per_ha = 500, .diameter = .2, .height = .1, .energy = 1e3};
-    double m = 33. / 140 * GREEN * .0107, share = mean_printed_share() * m / (MASS + m), left = 1e5;
-    const int steps = 200000;
-    for (int i = 0; i < steps; i++) {
-        double dx = 67.5 / steps, middle = left;
-        for (int k = 0; k < 2; k++) /* the midpoint rule */
-            middle = left - dx / 2 * (-log1p(-share) / 1.9483462242414016 * middle + per_metre(500, B + .2) * 1e3);
-        left -= dx * (-log1p(-share) / 1.9483462242414016 * middle + per_metre(500, B + .2) * 1e3);
-    }
-    site.option.belts_count = 1;
-    EXPECT_NEAR(ceduo_assess_index(&site.scene, &site.option, &site.control, 1e5).residual, left, 1e-2);
+    EXPECT_NEAR(i.residual, 1e6 - i.dissipated, 1e-6);
 }
 
 /* ---- groups ---- */

@@ -228,11 +228,6 @@ TEST_WITH(years_are_runs_of_their_own, fresh, NULL)
         cuts += years->years[i].cut;
         expect_direct(&years->years[i], &bare);
     }
-    wood.site.scene.simulation.contact_model = CEDUO_POISSON;
-    LOCAL_BY(ceduo_simulated_free) struct ceduo_simulated poisson = bare_of(ROCKS);
-    LOCAL(ceduo_years, some) = flown(0, 13, 4, 1, ROCKS);
-    for (size_t i = 0; i < some->count; i++)
-        expect_direct(&some->years[i], &poisson);
     assert_int_equal(cuts, 5); /* 4, 13 and 22 of the coppice; 10 and 19 of the selection coppice, 27 years old then */
 }
 

@@ -26,7 +26,7 @@ SCENES = ["fast.yaml", "options.yaml", "wood.yaml", "cuts.yaml", "paper-site", "
 WORDS = ["0", "1", "-1", "0.5", "12.75", "3000", "1e9", "1e-9", "1e400", "nan", "inf", "0,5", "true", "sphere", "[1, 2]",
          "[60, 31]", "{}", "{mean: 0.5, spread: 0.1}", "{mean: 0.4, spread: 9, kind: uniform}", "abc", "a b  c", "'", '"', "#",
          ":", "- x", "&a *a", "!!x", "%", "\\", "Über", "日本語", "🪨", "e\u0301", "\u200b", "\u202e", "x" * 300, "~", "null",
-         "simple-coppice", "bare", "stems", "poisson", "index", "ads-1.yaml", "../stands/ads-2.yaml", "line.csv", "none.csv", "other.yaml",
+         "simple-coppice", "bare", "stems", "index", "ads-1.yaml", "../stands/ads-2.yaml", "line.csv", "none.csv", "other.yaml",
          "out.txt", "0 60, 20 35, 60 20", "stools", "dbh", "slope", "horizontal", "40"]
 MOVES = ["Up", "Down", "Left", "Right", "j", "k", "h", "l", "Home", "End", "g", "G", "PgUp", "PgDn", "Tab", "Shift-Tab"]
 

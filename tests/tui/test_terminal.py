@@ -823,7 +823,7 @@ def test_live_wood():
         t.keys("C-u")
         t.text("contact_model")
         t.keys("Enter", "Enter")
-        t.sees("poisson", "index")
+        t.sees("not at all", "index")
         t.keys("Home", "Enter")
         t.sees("rocks among stems    index", "energy: not judged")
         t.keys("u")

@@ -7,7 +7,7 @@
 
 static const char *const scenes[] = {"tests/unit/every_key/cylinder.yaml", "tests/unit/every_key/options.yaml",
                                      "tests/unit/every_key/grounds.yaml",  "tests/unit/every_key/profile.yaml",
-                                     "tests/unit/every_key/block.yaml",    "tests/unit/every_key/poisson.yaml",
+                                     "tests/unit/every_key/block.yaml",    "tests/unit/every_key/low.yaml",
                                      "tests/unit/every_key/blocks.yaml"};
 
 /* The first item of each list; `point`: what follows it in a list of points. */

@@ -153,7 +153,7 @@ static bool fly_fine(void)
 /* From samples to histograms on the way. */
 static bool fly_histograms(void)
 {
-    init(CEDUO_POISSON, CEDUO_LAW_LUMPED);
+    init(CEDUO_STEMS, CEDUO_LAW_LUMPED);
     return fly(def_of(true, 2000));
 }
 

@@ -288,18 +288,16 @@ TEST_WOODED(stems_that_the_rock_came_to_stand_where_they_are)
     expect(CEDUO_PLOT_PROFILE, 84, 20, ASCII, "stems-that-the-rock-came-to-stand-where-they-are");
 }
 
-/* By the contact model poisson a contact has a place along the way, but no size. */
-TEST_WOODED(contacts_without_size_are_drawn_as_high_as_the_stand)
+/* A lying log has a place along the way, but none in the plane. */
+TEST_WOODED(logs_stand_in_no_plan)
 {
-    s.scene.simulation.contact_model = CEDUO_POISSON;
-    struct ceduo_stem_passed contact[] = {
-        {.x = 30, .y = NAN, .dbh = NAN, .height = INFINITY, .hit = true},
-        {.x = 90, .y = NAN, .dbh = NAN, .height = INFINITY, .hit = true}, /* no belt: no height */
-        {.x = 200, .y = NAN, .dbh = NAN, .height = INFINITY, .hit = true}};
-    p.stems = contact;
+    struct ceduo_stem_passed logs[] = {{.x = 30, .y = NAN, .dbh = NAN, .height = 2, .hit = true},
+                                       {.x = 90, .y = NAN, .dbh = NAN, .height = 2, .hit = true},
+                                       {.x = 200, .y = NAN, .dbh = NAN, .height = 2, .hit = true}};
+    p.stems = logs;
     p.stems_count = 3;
     LOCAL(ceduo_cells, cells) = draw(CEDUO_PLOT_PROFILE, 84, 40, BRAILLE);
-    assert_in_range(cells_of(cells, CEDUO_ROLE_STEM), 6, 12);
+    assert_in_range(cells_of(cells, CEDUO_ROLE_STEM), 2, 4); /* two lie on the profile */
     assert_true(shows(CEDUO_PLOT_STAND, 84, 20, "One pattern of many"));
 }
 

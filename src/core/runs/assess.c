@@ -186,30 +186,11 @@ enum ceduo_judgement ceduo_judge(const struct ceduo_arrivals *bare, const struct
     return judge_arrivals(bare) == CEDUO_YES ? CEDUO_YES : CEDUO_UNANSWERED;
 }
 
-/* What is left of `energy` behind `length` m of a stand where contacts take shares of it: a product over the mean number
- * of contacts of each stratum; and amounts besides, evenly mixed among them: dE/dx = -rate·E - amount. Below 0: used up. */
-static double behind(const struct ceduo_scene *scene, const struct ceduo_stand *stand, double length, double energy)
-{
-    struct ceduo_rock rock = ceduo_rock_mean(&scene->rock);
-    const struct ceduo_stand counted = from_dbh(stand, scene->simulation.contact_dbh);
-    enum ceduo_rule rule = ceduo_adc_rule(&counted, rock.mean_diameter, scene->simulation.rule);
-    double rate = 0, amount = 0;
-    for (size_t i = 0, n = ceduo_strata_count(&counted, rule); i < n; i++) {
-        struct stratum s = ceduo_stratum(&counted, rule, i, rock.mass);
-        double contacts = s.per_ha * (rock.mean_diameter + s.width) / HECTARE;
-        rate -= contacts * log1p(-s.share);
-        amount += s.share > 0 ? 0 : contacts * s.energy;
-    }
-    double lost = -expm1(-rate * length);
-    return energy * (1 - lost) - amount * (rate > 0 ? lost / rate : length);
-}
-
 struct ceduo_index ceduo_assess_index(const struct ceduo_scene *scene, const struct ceduo_option *option,
                                       const struct ceduo_control *control, double bare_mean)
 {
     const struct ceduo_rock rock = ceduo_rock_mean(&scene->rock);
     double start = scene->release.x.mean, at = start, min = scene->simulation.contact_dbh;
-    double energy = bare_mean, taken = 0; /* what is left of it, and amounts of Eq. 4 that are not yet subtracted */
     struct ceduo_index index = {.meet_nothing_probability = 1, .thick = {.contact = CEDUO_PASS}};
     struct ceduo_meeting all = {.contact = CEDUO_PASS};
     bool forest = false;
@@ -224,12 +205,6 @@ struct ceduo_index ceduo_assess_index(const struct ceduo_scene *scene, const str
         index.length += r.bare ? 0 : b - a;
         index.contacts += r.contacts;
         index.dissipated += r.dissipated;
-        if (ceduo_stand_is_bare(stand) || !ceduo_stand_takes_share(stand)) {
-            taken += r.dissipated;
-        } else {
-            energy = behind(scene, stand, b - a, energy - taken);
-            taken = 0;
-        }
         /* the chance that the belt, of those whose centres lie there, has no stem that counts in the rock's way */
         const struct ceduo_stand counted = standing(stand, min);
         index.meet_nothing_probability *= chance_of_none((b - a) / ceduo_adc(&counted, rock.mean_diameter).crofton,
@@ -250,8 +225,8 @@ struct ceduo_index ceduo_assess_index(const struct ceduo_scene *scene, const str
     index.contact = all.contact;
     index.free_run = all.free_run;
     index.energy = CEDUO_UNKNOWN;
-    index.exhausted = energy < taken;
-    index.residual = isnan(bare_mean) ? NAN : fmax(0, energy - taken);
+    index.exhausted = bare_mean < index.dissipated;
+    index.residual = isnan(bare_mean) ? NAN : fmax(0, bare_mean - index.dissipated);
     index.measured = 0.5 * rock.mass * control->measured_speed * control->measured_speed;
     return index;
 }

@@ -76,17 +76,14 @@ uint64_t ceduo_scene_key(const struct ceduo_scene *given)
 uint64_t ceduo_option_key(const struct ceduo_scene *scene, const struct ceduo_option *option)
 {
     uint64_t key = HASH_START;
-    struct ceduo_rock mean = {0};
-    ceduo_rock_of_means(&scene->rock, &mean);
-    return ceduo_wood_hash(&key, &scene->simulation, option, &mean) ? key : 0;
+    return ceduo_wood_hash(&key, &scene->simulation, option) ? key : 0;
 }
 
 uint64_t ceduo_years_key(const struct ceduo_option *option)
 {
     uint64_t key = HASH_START;
     const struct ceduo_simulation stems = {.contact_model = CEDUO_STEMS};
-    const struct ceduo_rock none = {0};
-    ceduo_wood_hash(&key, &stems, option, &none);
+    ceduo_wood_hash(&key, &stems, option);
     for (size_t i = 0; i < option->belts_count; i++) {
         const struct ceduo_belt *belt = &option->belts[i];
         hash_double(&key, belt->from);

@@ -236,8 +236,7 @@ static bool worker_init(struct worker *w, struct ceduo_run *run, struct chunk *c
     if (!run->ready.wood.bare && !(w->stems = calloc(run->lanes, sizeof *w->stems)))
         return false;
     for (size_t i = 0; w->stems && i < run->lanes; i++) {
-        bool poisson = run->ready.scene.simulation.contact_model == CEDUO_POISSON;
-        if (!ceduo_stems_init(&w->stems[i], &run->ready.wood, poisson, run->def.kernel))
+        if (!ceduo_stems_init(&w->stems[i], &run->ready.wood, run->def.kernel))
             return false;
         w->walkers[i].stems = &w->stems[i];
     }

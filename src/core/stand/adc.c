@@ -67,22 +67,29 @@ double ceduo_stool_perimeter(double shoots_per_stool, double s)
 
 /* ---- strata ---- */
 
+/* One term of a form's denominator: what is met as one, how wide each stands beyond the rock's own diameter, and what a
+ * contact with it takes. A rock of diameter b meets it per_ha (b + width)/HECTARE times a metre. */
+struct stratum {
+    double per_ha;
+    double width;  /* m */
+    double energy; /* J */
+};
+
 /* The stools, in one of the forms that take each as one. */
-static struct stratum stools_as_one(const struct ceduo_stand *stand, enum ceduo_rule rule, double mass)
+static struct stratum stools_as_one(const struct ceduo_stand *stand, enum ceduo_rule rule)
 {
-    double count = 0, energy = 0, share = 0, width = count_stems(stand, rule == CEDUO_GSTEIGER_STOOLS).dbh;
+    double count = 0, energy = 0, width = count_stems(stand, rule == CEDUO_GSTEIGER_STOOLS).dbh;
     for (size_t i = 0; i < stand->shoots_count; i++) {
         if (!counts(stand, &stand->shoots[i]))
             continue;
         count += stand->shoots[i].per_ha;
         energy += stand->shoots[i].per_ha * ceduo_contact_energy(stand, &stand->shoots[i]);
-        share += stand->shoots[i].per_ha * ceduo_contact_share(stand, &stand->shoots[i], mass);
     }
     if (rule == CEDUO_INTERCEPTION)
         width += stand->spacing;
     else if (rule != CEDUO_GSTEIGER_STOOLS)
         width += ceduo_stool_perimeter(shoots(stand) / stools(stand), stand->spacing) / M_PI;
-    return (struct stratum){stools(stand), width, energy / count, share / count};
+    return (struct stratum){stools(stand), width, energy / count};
 }
 
 /* How many strata the shoots make. */
@@ -91,7 +98,9 @@ static size_t shoot_strata(const struct ceduo_stand *stand, enum ceduo_rule rule
     return rule == CEDUO_GSTEIGER_STEMS ? stand->shoots_count : shoots(stand) > 0;
 }
 
-size_t ceduo_strata_count(const struct ceduo_stand *stand, enum ceduo_rule rule)
+/* The strata of a stand by a form of the ADC (not AUTO): the stools, or with gsteiger-stems each cohort of shoots, then
+ * each class of trees, stumps and logs. */
+static size_t strata_count(const struct ceduo_stand *stand, enum ceduo_rule rule)
 {
     return shoot_strata(stand, rule) + stand->trees_count + (stand->stumps.per_ha > 0) + (stand->logs.per_ha > 0);
 }
@@ -101,28 +110,27 @@ double ceduo_log_width(double length)
     return 2 * length / M_PI;
 }
 
-struct stratum ceduo_stratum(const struct ceduo_stand *stand, enum ceduo_rule rule, size_t i, double mass)
+static struct stratum stratum_of(const struct ceduo_stand *stand, enum ceduo_rule rule, size_t i)
 {
     size_t n = shoot_strata(stand, rule);
     if (i < n && rule != CEDUO_GSTEIGER_STEMS)
-        return stools_as_one(stand, rule, mass);
+        return stools_as_one(stand, rule);
     const struct ceduo_stumps *low = &stand->stumps; /* stumps if there are any, then logs */
     if (i == n + stand->trees_count && low->per_ha > 0)
-        return (struct stratum){low->per_ha, low->diameter, low->energy, 0};
+        return (struct stratum){low->per_ha, low->diameter, low->energy};
     if (i >= n + stand->trees_count)
-        return (struct stratum){stand->logs.per_ha, ceduo_log_width(stand->logs.length), stand->logs.energy, 0};
+        return (struct stratum){stand->logs.per_ha, ceduo_log_width(stand->logs.length), stand->logs.energy};
     const struct ceduo_stems *s = i < n ? &stand->shoots[i] : &stand->trees[i - n];
     double width = rule == CEDUO_GSTEIGER_STOOLS ? count_stems(stand, true).dbh : s->dbh;
-    return (struct stratum){counts(stand, s) ? s->per_ha : 0, width, ceduo_contact_energy(stand, s),
-                            ceduo_contact_share(stand, s, mass)};
+    return (struct stratum){counts(stand, s) ? s->per_ha : 0, width, ceduo_contact_energy(stand, s)};
 }
 
 /* The form's denominator for a rock of diameter b, m per ha: A/ADC; or the same with each term times its energy. */
 static double width_per_ha(const struct ceduo_stand *stand, double b, enum ceduo_rule rule, bool energies)
 {
     double sum = 0;
-    for (size_t i = 0, n = ceduo_strata_count(stand, rule); i < n; i++) {
-        struct stratum s = ceduo_stratum(stand, rule, i, NAN);
+    for (size_t i = 0, n = strata_count(stand, rule); i < n; i++) {
+        struct stratum s = stratum_of(stand, rule, i);
         sum += s.per_ha * (b + s.width) * (energies ? s.energy : 1);
     }
     return sum;

@@ -151,7 +151,7 @@ static inline void count_hit(struct walker *w, const struct stem *stem)
 /* A stem is hit at x by a rock of kinetic energy `energy`: the share of its speed that is left, 0 where all is lost. */
 static double hit_stem(struct walker *w, struct stem *stem, double x, double clearance, double energy)
 {
-    struct hit hit = {.energy = energy, .cost = stem->energy, .share = ceduo_stem_share(w->stems, stem, &w->rock)};
+    struct hit hit = {.energy = energy, .cost = stem->energy};
     count_hit(w, stem);
     double share = speed_kept(hit);
     if (w->watch && w->watch->stem)

@@ -105,14 +105,14 @@ struct lanes {
     } section;
     double next_x[LANES], stem_ahead[LANES], stem_behind[LANES];
     struct {
-        double height[LANES];             /* of the next ahead; */
-        double cost[LANES], share[LANES]; /* what a hit of it takes: see struct hit */
-        const struct stem *next[LANES];   /* NULL where it does not wait, or is not known */
-        double after[LANES];              /* where the stem stands that waits behind it, which is next if that is */
-        double sure[LANES];               /* before here */
-        double around[LANES];             /* so far reach stools that stand around the release */
-        double free_to[LANES];            /* before here the flight is above `tallest` */
-        uint64_t *met[LANES];             /* of struct stems */
+        double height[LANES];           /* of the next ahead; */
+        double cost[LANES];             /* energy that a hit of it takes: see struct hit */
+        const struct stem *next[LANES]; /* NULL where it does not wait, or is not known */
+        double after[LANES];            /* where the stem stands that waits behind it, which is next if that is */
+        double sure[LANES];             /* before here */
+        double around[LANES];           /* so far reach stools that stand around the release */
+        double free_to[LANES];          /* before here the flight is above `tallest` */
+        uint64_t *met[LANES];           /* of struct stems */
         uint64_t hit[LANES], stools_met[LANES];
     } stem; /* counts and `next` go back to the walker and its stems by show_stems_met() */
     double radius[LANES], k[LANES], mass[LANES], moment[LANES];
@@ -186,15 +186,6 @@ static inline void show_stems_met(const struct lanes *k, size_t i)
     w->stem_ahead = side->next = k->stem_ahead[i];
 }
 
-/* What the next stem ahead does to a rock. */
-HOT void load_hit(struct lanes *k, size_t i, const struct stem *stem)
-{
-    const struct walker *w = &k->job->walkers[i];
-    k->stem.height[i] = stem->height;
-    k->stem.cost[i] = stem->energy;
-    k->stem.share[i] = ceduo_stem_share(w->stems, stem, &w->rock);
-}
-
 /* The next stem ahead, if there is one. */
 static void load_stem(struct lanes *k, size_t i)
 {
@@ -217,7 +208,8 @@ static void load_stem(struct lanes *k, size_t i)
         k->paused |= bit;
         return;
     }
-    load_hit(k, i, ceduo_stems_next(side));
+    k->stem.height[i] = ceduo_stems_next(side)->height;
+    k->stem.cost[i] = ceduo_stems_next(side)->energy;
     if (side->next_waits) {
         side->waiting[side->end].along = INFINITY;
         k->stem.next[i] = &side->waiting[side->first];

@@ -14,7 +14,7 @@
 /* Flights on their way past stems. */
 struct passing {
     /* of the stem that is before each */
-    double to[LANES], t[LANES], z[LANES], cost[LANES], share[LANES];
+    double to[LANES], t[LANES], z[LANES], cost[LANES];
     /* over which segments: the last that the flight may come to, and the one under the stem */
     uint64_t last[LANES], here[LANES];
     struct chords on;  /* that */
@@ -80,9 +80,7 @@ HOT unsigned fly_over(struct lanes *k, size_t i, unsigned under_way, real to, re
  * all, more of them. No branch depends on what is hit. */
 HOT void take_waiting(struct lanes *k, unsigned lanes, unsigned hit, unsigned above)
 {
-    const struct wood *wood = k->job->walkers[0].stems->wood;
-    uint64_t places = wood->places;
-    unsigned shares = wood->shares ? lanes : 0;
+    uint64_t places = k->job->walkers[0].stems->wood->places;
     for (above &= lanes; above; above &= above - 1) {
         size_t i = (size_t)__builtin_ctz(above);
         const struct stem *stem = k->stem.next[i];
@@ -103,10 +101,6 @@ HOT void take_waiting(struct lanes *k, unsigned lanes, unsigned hit, unsigned ab
         k->stem_ahead[i] = stem->along;
         k->stem.height[i] = stem->height;
         k->stem.cost[i] = stem->energy;
-    }
-    for (; shares; shares &= shares - 1) {
-        size_t i = (size_t)__builtin_ctz(shares);
-        load_hit(k, i, k->stem.next[i]);
     }
 }
 
@@ -145,7 +139,6 @@ HOT unsigned come_to_stem(struct form form, struct lanes *k, struct passing *p, 
     store(&p->t[i], t);
     store(&p->z[i], z);
     store(&p->cost[i], load(&k->stem.cost[i]));
-    store(&p->share[i], load(&k->stem.share[i]));
     *above |= fly_over(k, i, p->under_way, to, t, clearance, &on);
     return hit;
 }
@@ -156,8 +149,7 @@ HOT void hit_stem_lanes(struct lanes *k, struct passing *p, size_t i, unsigned h
     mask h = mask_of(hit >> i);
     real vx = load(&k->vx[i]), vz = load(&k->vz[i]) - k->g->gravity * load(&p->t[i]), spin = load(&k->spin[i]);
     struct hit blow = {.energy = flying_energy(load(&k->mass[i]), load(&k->moment[i]), vx, vz, spin),
-                       .cost = load(&p->cost[i]),
-                       .share = load(&p->share[i])};
+                       .cost = load(&p->cost[i])};
     real share = speed_kept(blow);
     store_ints(&k->segment[i], pick_ints(h, load_ints(&p->here[i]), load_ints(&k->segment[i])));
     store(&p->end[i], pick(h, load(&p->on.x1[i]), load(&p->end[i])));

@@ -75,16 +75,15 @@ HOT struct velocity strike(const struct contact_law *law, const struct ground_po
 
 /* ---- stems ---- */
 
-/* A hit as the rock comes: its kinetic energy, what the stem takes of a rock that has as much (J), and the share of the
- * rock's energy that this hit takes at the most. */
+/* A hit: the kinetic energy of the rock (J), and the energy that the stem takes of a rock that has as much (J). */
 struct hit {
-    real energy, cost, share;
+    real energy, cost;
 };
 
 /* J that the stem takes. */
 HOT real energy_taken(struct hit h)
 {
-    return min(h.cost, h.share * h.energy);
+    return min(h.cost, h.energy);
 }
 
 /* Kinetic energy (J) of a rock in flight. */

@@ -32,7 +32,7 @@ struct ceduo_follower *ceduo_follower_create(const struct ceduo_scene *scene, co
     if (!f)
         return NULL;
     if (ceduo_prepared_init(&f->ready, scene, option, 0, NULL) == CEDUO_OK &&
-        ceduo_stems_init(&f->stems, &f->ready.wood, scene->simulation.contact_model == CEDUO_POISSON, CEDUO_KERNEL_BEST))
+        ceduo_stems_init(&f->stems, &f->ready.wood, CEDUO_KERNEL_BEST))
         return f;
     ceduo_follower_free(f);
     return NULL;

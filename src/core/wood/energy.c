@@ -25,13 +25,6 @@ struct stem_energy ceduo_stem_energy(const struct ceduo_stand *stand, const stru
     return e;
 }
 
-struct stem_energy ceduo_stem_energy_of_contact(enum ceduo_energy_model model, double share, double mass)
-{
-    struct stem_energy e = {.model = model};
-    laws[model]->prepare_contact(&e, share, mass);
-    return e;
-}
-
 void ceduo_stem_energy_hash(uint64_t *hash, const struct stem_energy *e)
 {
     hash_count(hash, (uint64_t)e->model);
@@ -41,22 +34,17 @@ void ceduo_stem_energy_hash(uint64_t *hash, const struct stem_energy *e)
 
 double ceduo_stem_energy_mean(const struct stem_energy *e)
 {
-    return laws[e->model]->mean ? laws[e->model]->mean(e) : NAN;
+    return laws[e->model]->mean(e);
 }
 
 double ceduo_stem_energy_hit(const struct stem_energy *e, double dbh, double share)
 {
-    return laws[e->model]->hit ? laws[e->model]->hit(e, dbh, share) : INFINITY;
+    return laws[e->model]->hit(e, dbh, share);
 }
 
 bool ceduo_stem_energy_by_eccentricity(const struct stem_energy *e)
 {
-    return laws[e->model]->by_eccentricity && laws[e->model]->by_eccentricity(e);
-}
-
-double ceduo_stem_energy_share(const struct stem_energy *e, double mass, double dbh, double eccentricity)
-{
-    return laws[e->model]->share ? laws[e->model]->share(e, mass, dbh, eccentricity) : 1;
+    return laws[e->model]->by_eccentricity(e);
 }
 
 unsigned ceduo_stem_energy_warnings(const struct ceduo_stand *stand, const struct ceduo_stems *stems)
@@ -68,17 +56,6 @@ double ceduo_contact_energy(const struct ceduo_stand *stand, const struct ceduo_
 {
     const struct stem_energy energy = ceduo_stem_energy(stand, stems);
     return ceduo_stem_energy_mean(&energy);
-}
-
-bool ceduo_stand_takes_share(const struct ceduo_stand *stand)
-{
-    return laws[stand->energy]->share;
-}
-
-double ceduo_contact_share(const struct ceduo_stand *stand, const struct ceduo_stems *stems, double mass)
-{
-    const struct stem_energy energy = ceduo_stem_energy(stand, stems);
-    return laws[energy.model]->mean_share ? laws[energy.model]->mean_share(&energy, mass) : 0;
 }
 
 /* ---- what several laws say ---- */

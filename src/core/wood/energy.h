@@ -15,36 +15,28 @@ struct stem_energy {
     double of[3];              /* the law's own */
 };
 
-/* A law, of CEDUO_ENERGY_MODELS: an energy_NAME.c defines ceduo_energy_NAME. Where a function is NULL, what is said in
- * brackets holds. `dbh`: m; `mass`: of the rock, kg; shares are of the rock's energy. */
+/* A law, of CEDUO_ENERGY_MODELS: an energy_NAME.c defines ceduo_energy_NAME. No function is NULL. */
 struct energy_law {
     /* Sets `volume` and `of`. */
     void (*prepare)(struct stem_energy *to, const struct ceduo_stand *stand, const struct ceduo_stems *stems);
-    /* J that the mean stem takes, over all places where it can be hit [NaN: no amount, but a share]. */
+    /* J that the mean stem takes, over all places where it can be hit. */
     double (*mean)(const struct stem_energy *e);
-    /* J that a stem takes, of which `share` is ceduo_dorren_share() of where it is hit [INFINITY: no bound]. */
+    /* J that a stem of `dbh` m takes, of which `share` is ceduo_dorren_share() of where it is hit. */
     double (*hit)(const struct stem_energy *e, double dbh, double share);
-    /* Whether that depends on `share` [no]. */
+    /* Whether that depends on `share`. */
     bool (*by_eccentricity)(const struct stem_energy *e);
-    /* What is lost at the most, on average [0] and by one hit at an eccentricity 0…1, dbh NaN: a contact [1]. */
-    double (*mean_share)(const struct stem_energy *e, double mass);
-    double (*share)(const struct stem_energy *e, double mass, double dbh, double eccentricity);
-    /* Makes a law of shares ready for a contact of which a rock loses the mean share `share`. */
-    void (*prepare_contact)(struct stem_energy *to, double share, double mass);
-    /* Bits of enum ceduo_warning [0]. */
+    /* Bits of enum ceduo_stand_warning. */
     unsigned (*warnings)(const struct ceduo_stand *stand, const struct ceduo_stems *stems);
 };
 
 struct stem_energy ceduo_stem_energy(const struct ceduo_stand *stand, const struct ceduo_stems *stems);
-struct stem_energy ceduo_stem_energy_of_contact(enum ceduo_energy_model model, double share, double mass);
 /* Mixes in all that a hit depends on. */
 void ceduo_stem_energy_hash(uint64_t *hash, const struct stem_energy *e);
 
-/* What the law says, or what holds without its word. */
+/* What the law says. */
 double ceduo_stem_energy_mean(const struct stem_energy *e);
 double ceduo_stem_energy_hit(const struct stem_energy *e, double dbh, double share);
 bool ceduo_stem_energy_by_eccentricity(const struct stem_energy *e);
-double ceduo_stem_energy_share(const struct stem_energy *e, double mass, double dbh, double eccentricity);
 unsigned ceduo_stem_energy_warnings(const struct ceduo_stand *stand, const struct ceduo_stems *stems);
 
 /* The share of Dorren et al. 2006 at eccentricity u, not yet cut: LOW + SPAN/(1 + 10^(STEEPNESS (u - CENTRE))), by a power

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The stems that a rock can hit, drawn as it reaches them. In each direction stools are one Poisson process along x,
- * all single trees, stumps and logs (or contacts) another, groups of trees a third, each drawn some places ahead
+ * all single trees, stumps and logs another, groups of trees a third, each drawn some places ahead
  * (stems_fill.h). A stool or group is made whole when the rock comes near, and its stems wait, sorted, because they stand
  * around its centre. Work is counted as effort,
  * and drawing pauses now and then, so that a caller can cancel. */
@@ -220,7 +220,7 @@ static __attribute__((noinline)) void make_group(struct stems *s, int i_side)
     }
 }
 
-/* ---- single trees, and contacts ---- */
+/* ---- single trees ---- */
 
 /* Makes the next single tree of a side. */
 static void make_single(struct stems *s, int i_side)
@@ -238,8 +238,7 @@ static void make_single(struct stems *s, int i_side)
     double d = kind->dbh;
     if (kind->shape > 0) /* met with a chance that goes with b + d */
         d = draw_dbh(s, kind, event, RANDOM_DBH, u * (s->b + d) >= s->b);
-    side->single = (struct stem){
-        .along = p->at[k], .y = s->poisson ? NAN : p->offset[k] * (s->b + d), .dbh = d, .kind = kind, .stool = event};
+    side->single = (struct stem){.along = p->at[k], .y = p->offset[k] * (s->b + d), .dbh = d, .kind = kind, .stool = event};
     set_hit(s, &side->single);
     p->next++;
 }
@@ -276,8 +275,8 @@ static void find_next(struct stems *s, int i)
         side->next = side->next_waits ? waits : single;
         side->next_known = true;
         /* where stems may stand that are not drawn yet: of the next stool, or group */
-        double reach = s->poisson ? INFINITY : next_place(s, i, STREAM_STOOLS) - s->wood->reach;
-        if (!s->poisson && s->wood->grouped) {
+        double reach = next_place(s, i, STREAM_STOOLS) - s->wood->reach;
+        if (s->wood->grouped) {
             double groups = next_place(s, i, STREAM_GROUPS) - s->wood->group_reach;
             group = groups < reach;
             reach = group ? groups : reach;
@@ -344,7 +343,7 @@ void ceduo_stems_look_on(struct stems *s, int i)
     if (i == 1 && !s->behind_ready) {
         /* The strip behind the release is drawn only when a rock goes there. The stools and groups around the release are
          * those of the strip ahead. */
-        if (!s->poisson && !make_to(s, 0, STREAM_STOOLS, s->start + s->wood->reach))
+        if (!make_to(s, 0, STREAM_STOOLS, s->start + s->wood->reach))
             return;
         if (s->wood->grouped && !make_to(s, 0, STREAM_GROUPS, s->start + s->wood->group_reach))
             return;
@@ -373,16 +372,15 @@ void ceduo_stems_meet_behind(struct stems *s, uint64_t stool)
 
 /* ---- making and freeing ---- */
 
-bool ceduo_stems_init(struct stems *stems, const struct wood *wood, bool poisson, enum ceduo_kernel kernel)
+bool ceduo_stems_init(struct stems *stems, const struct wood *wood, enum ceduo_kernel kernel)
 {
     stems->wood = wood;
-    stems->poisson = poisson;
     stems->kernel = ceduo_kernel(kernel);
     bool good = true;
     for (int i = 0; i < 2; i++) {
         struct stems_side *side = &stems->side[i];
         side->streams[STREAM_STOOLS].size = POINTS;
-        side->streams[STREAM_SINGLE].size = poisson ? POINTS : POINTS_FEW;
+        side->streams[STREAM_SINGLE].size = POINTS_FEW;
         side->groups = wood->grouped ? calloc(1, sizeof *side->groups) : NULL;
         good &= !wood->grouped || side->groups;
         if (side->groups)

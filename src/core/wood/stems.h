@@ -6,7 +6,6 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "ceduo/rock.h"
 #include "ceduo/run.h"
 #include "ceduo/trajectory.h"
 #include "stems_state.h"
@@ -23,7 +22,7 @@ static inline bool ceduo_stems_too_many(const struct stems *stems)
 }
 
 /* `stems` is zeroed: it is large, and mostly never touched. False without memory. */
-bool ceduo_stems_init(struct stems *stems, const struct wood *wood, bool poisson, enum ceduo_kernel kernel);
+bool ceduo_stems_init(struct stems *stems, const struct wood *wood, enum ceduo_kernel kernel);
 void ceduo_stems_release(struct stems *stems);
 
 /* Begins the trajectory of rock `number`, of mean diameter b, released at x. */
@@ -66,19 +65,10 @@ static inline bool ceduo_stems_meet(struct stems *stems, const struct stem *stem
     return first;
 }
 
-/* How far off its middle a rock of diameter b hits this stem, 0…1; 0 for a contact without a stem. */
+/* How far off its middle a rock of diameter b hits this stem, 0…1; 0 for a log. */
 static inline double ceduo_stem_eccentricity(const struct stem *stem, double b)
 {
     return isnan(stem->dbh) ? 0 : 2 * fabs(stem->y) / (b + stem->dbh);
-}
-
-/* The share of a rock's energy that a hit of this stem takes at the most. */
-static inline double ceduo_stem_share(const struct stems *stems, const struct stem *stem, const struct ceduo_rock *rock)
-{
-    if (!stems->wood->shares)
-        return 1;
-    return ceduo_stem_energy_share(&stem->kind->by_hit, rock->mass, stem->dbh,
-                                   ceduo_stem_eccentricity(stem, rock->mean_diameter));
 }
 
 #endif

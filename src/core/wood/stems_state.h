@@ -80,7 +80,6 @@ struct belt_rates {
 
 struct stems {
     const struct wood *wood;
-    bool poisson;
     const struct kernel *kernel; /* core/walk/kernel.h */
     uint64_t seed, number;       /* of the rock */
     double b;                    /* its mean diameter, m */

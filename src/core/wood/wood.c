@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* An option's forest, prepared for drawing stems. Every belt becomes strata, each with a rate of encounters per metre; by
- * `stems` these are stools and classes of trees, by `poisson` the terms of the chosen ADC. The forest owns all kinds, strata
- * and rings; belts only point to them. The key of a forest is hashed from the same kinds and strata. */
+/* An option's forest, prepared for drawing stems. Every belt becomes strata, each with a rate of encounters per metre:
+ * stools, classes of trees, stumps and logs. The forest owns all kinds, strata and rings; belts only point to them. The key of a forest is hashed from the same kinds and strata. */
 #include "wood.h"
 
 #include <math.h>
@@ -60,38 +59,16 @@ static struct wood_stratum plain_stratum(double per_ha, double width, const stru
     return (struct wood_stratum){per_m2 * width, per_m2, kind, 0, 0};
 }
 
-/* How rocks meet a stand: its stems, or the contacts of a rule. */
-struct encounter {
-    const struct ceduo_stand *stand;
-    bool poisson;
-    enum ceduo_rule rule; /* of `poisson` */
-    double mass;          /* of the mean rock, kg */
-    size_t n;             /* kinds that are met */
-};
-
-static struct encounter encounter_of(const struct ceduo_simulation *simulation, const struct ceduo_stand *stand,
-                                     const struct ceduo_rock *mean)
+/* Kinds that are met. */
+static size_t count_kinds(const struct ceduo_stand *stand)
 {
-    struct encounter e = {.stand = stand, .poisson = simulation->contact_model == CEDUO_POISSON, .mass = mean->mass};
-    e.rule = ceduo_adc_rule(stand, mean->mean_diameter, simulation->rule);
-    e.n = stand->shoots_count + stand->trees_count + (stand->stumps.per_ha > 0) + (stand->logs.per_ha > 0);
-    if (e.poisson)
-        e.n = ceduo_strata_count(stand, e.rule);
-    return e;
+    return stand->shoots_count + stand->trees_count + (stand->stumps.per_ha > 0) + (stand->logs.per_ha > 0);
 }
 
-/* Kind i of what is met, with its stratum. Contacts are a Poisson process along x (Eq. 2 of Ciabocco et al. 2009). */
-static struct wood_stratum stratum_of(const struct encounter *e, size_t i, struct wood_kind *kind)
+/* Kind i of those, with its stratum. */
+static struct wood_stratum stratum_of(const struct ceduo_stand *stand, size_t i, struct wood_kind *kind)
 {
-    const struct ceduo_stand *stand = e->stand;
     size_t shoots = stand->shoots_count, low = shoots + stand->trees_count;
-    if (e->poisson) {
-        struct stratum s = ceduo_stratum(stand, e->rule, i, e->mass);
-        *kind = (struct wood_kind){.dbh = NAN, .height = INFINITY, .below = INFINITY, .energy = s.energy};
-        if (s.share > 0)
-            kind->by_hit = ceduo_stem_energy_of_contact(stand->energy, s.share, e->mass);
-        return (struct wood_stratum){s.per_ha * s.width / HECTARE, s.per_ha / HECTARE, kind, 0, 0};
-    }
     if (i < shoots) { /* a cohort has no stratum of its own: all stools are one */
         double upto = 0;
         *kind = kind_of(stand, &stand->shoots[i]);
@@ -155,24 +132,23 @@ static bool make_stools(struct wood *w, size_t belt, const struct ceduo_stand *s
 
 /* ---- belts ---- */
 
-/* The strata of a belt: of stems the first is that of the stools. */
-static bool make_belt(struct wood *w, size_t belt, const struct encounter *e, struct wood_kind *kinds,
+/* The strata of a belt: the first is that of the stools. */
+static bool make_belt(struct wood *w, size_t belt, const struct ceduo_stand *stand, struct wood_kind *kinds,
                       struct wood_stratum *strata)
 {
-    const struct ceduo_stand *stand = e->stand;
     struct wood_belt *to = &w->along[0][belt];
-    size_t n = !e->poisson;
-    for (size_t i = 0; i < e->n; i++) {
-        strata[n] = stratum_of(e, i, &kinds[i]);
+    size_t n = 1;
+    for (size_t i = 0; i < count_kinds(stand); i++) {
+        strata[n] = stratum_of(stand, i, &kinds[i]);
         w->group_reach = fmax(w->group_reach, strata[n].radius);
         if (strata[n].group > 0) {
             w->grouped = true;
             w->tallest = fmax(w->tallest, kinds[i].height);
         }
-        n += e->poisson || i >= stand->shoots_count;
+        n += i >= stand->shoots_count;
     }
     to->strata_count = n;
-    if (e->poisson || !ceduo_stand_has_shoots(stand))
+    if (!ceduo_stand_has_shoots(stand))
         return true;
     if (!make_stools(w, belt, stand, kinds))
         return false;
@@ -231,11 +207,9 @@ bool ceduo_wood_init(struct wood *wood, const struct ceduo_simulation *simulatio
         if (ceduo_stand_is_bare(&belt->stand))
             continue;
         wood->bare = false;
-        wood->shares |= ceduo_stand_takes_share(&belt->stand);
-        const struct encounter e = encounter_of(simulation, &belt->stand, mean);
-        if (!make_belt(wood, i, &e, &wood->kinds[used], &wood->strata_room[used]))
+        if (!make_belt(wood, i, &belt->stand, &wood->kinds[used], &wood->strata_room[used]))
             goto fail;
-        used += e.n + 1;
+        used += count_kinds(&belt->stand) + 1;
     }
     for (size_t i = 0; i < wood->belts; i++) {
         const struct wood_belt *ahead = &wood->along[0][wood->belts - 1 - i];
@@ -273,13 +247,11 @@ void ceduo_wood_release(struct wood *wood)
 
 /* Made of the same kinds and strata as the prepared forest, but without its memory: it cannot fail. */
 
-bool ceduo_wood_hash(uint64_t *hash, const struct ceduo_simulation *simulation, const struct ceduo_option *option,
-                     const struct ceduo_rock *mean)
+bool ceduo_wood_hash(uint64_t *hash, const struct ceduo_simulation *simulation, const struct ceduo_option *option)
 {
     bool bare = true;
     if (!option || simulation->contact_model == CEDUO_INDEX)
         return false;
-    hash_count(hash, (uint64_t)simulation->contact_model);
     for (size_t i = 0; i < option->belts_count; i++) {
         const struct ceduo_belt *belt = &option->belts[i];
         if (ceduo_stand_is_bare(&belt->stand))
@@ -287,17 +259,18 @@ bool ceduo_wood_hash(uint64_t *hash, const struct ceduo_simulation *simulation, 
         bare = false;
         hash_double(hash, belt->from);
         hash_double(hash, belt->to);
-        const struct encounter e = encounter_of(simulation, &belt->stand, mean);
-        hash_count(hash, e.n);
-        if (!e.poisson && ceduo_stand_has_shoots(e.stand)) {
-            hash_count(hash, e.stand->shoots_count);
-            hash_double(hash, e.stand->stools_per_ha);
-            hash_double(hash, ceduo_stand_shoots(e.stand));
-            hash_double(hash, e.stand->spacing);
+        const struct ceduo_stand *stand = &belt->stand;
+        size_t kinds = count_kinds(stand);
+        hash_count(hash, kinds);
+        if (ceduo_stand_has_shoots(stand)) {
+            hash_count(hash, stand->shoots_count);
+            hash_double(hash, stand->stools_per_ha);
+            hash_double(hash, ceduo_stand_shoots(stand));
+            hash_double(hash, stand->spacing);
         }
-        for (size_t k = 0; k < e.n; k++) {
+        for (size_t k = 0; k < kinds; k++) {
             struct wood_kind kind;
-            const struct wood_stratum stratum = stratum_of(&e, k, &kind);
+            const struct wood_stratum stratum = stratum_of(stand, k, &kind);
             hash_doubles(hash, &stratum, offsetof(struct wood_stratum, kind) / sizeof(double));
             hash_doubles(hash, &kind, offsetof(struct wood_kind, most) / sizeof(double));
             if (isnan(kind.energy))

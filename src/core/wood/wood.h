@@ -7,12 +7,11 @@
 
 /* An option's forest, prepared for many rocks: what drawing stems needs, belt by belt. */
 
-/* Stems of one kind as rocks meet them: a cohort of shoots, a class of trees, or all that one stratum of a form of the
- * ADC stands for. */
+/* Stems of one kind as rocks meet them: a cohort of shoots, a class of trees, stumps or logs. */
 struct wood_kind {
     /* Doubles that decide what a rock meets: they go into the key of the forest as they stand. */
-    double dbh;          /* m, mean; NaN: a contact of a Poisson process */
-    double height;       /* m; infinite where height does not matter */
+    double dbh;          /* m, mean; NaN: a log */
+    double height;       /* m */
     double below;        /* m: a hit takes nothing where the rock's centre is higher; infinite: any takes */
     double energy;       /* J that every hit takes; NaN: it depends on diameter or eccentricity, by_hit */
     double shape, scale; /* of the gamma law of diameters; shape 0: all alike */
@@ -60,7 +59,6 @@ struct wood_belt {
 struct wood {
     bool bare;            /* nothing to be met */
     bool by_eccentricity; /* what stems of some kinds take depends on where they are hit */
-    bool shares;          /* a hit takes a share of the energy, see ceduo_stem_energy_share() */
     size_t belts;
     struct wood_belt *along[2]; /* the same belts for rocks going +x and -x, in the order they are reached */
     double reach;               /* m: the largest radius of any ring */
@@ -75,13 +73,12 @@ struct wood {
 };
 
 /* For the contact model of `simulation`; with `index`, or without an option, there is nothing to be met. `mean`:
- * the mean rock, which decides the rule of `poisson`. False without memory. */
+ * the mean rock. False without memory. */
 bool ceduo_wood_init(struct wood *wood, const struct ceduo_simulation *simulation, const struct ceduo_option *option,
                      const struct ceduo_rock *mean);
 void ceduo_wood_release(struct wood *wood);
 
 /* Mixes in what such a forest would be made of; false where there is nothing to be met. */
-bool ceduo_wood_hash(uint64_t *hash, const struct ceduo_simulation *simulation, const struct ceduo_option *option,
-                     const struct ceduo_rock *mean);
+bool ceduo_wood_hash(uint64_t *hash, const struct ceduo_simulation *simulation, const struct ceduo_option *option);
 
 #endif
