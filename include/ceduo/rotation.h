@@ -30,7 +30,9 @@
  * shoots. Logs stay. Trees that a cut leaves stand in groups as the first class of the inventory that does.
  *
  * Trees and shoots share the growing space (assumed): in computed years (all but year 0 as filed) the shoots, and only
- * they, are thinned by one factor to growth.sdi_most·(1 - ceduo_space_of_trees()), never below one a stool. */
+ * they, are thinned by one factor to growth.sdi_most·(1 - ceduo_space_of_trees()). If less than one a stool is left, stools die:
+ * as many stand as there are shoots, with one shoot each. As every year is computed by itself, a cut finds all stools of the
+ * inventory again. */
 
 /* Year of a cut that never comes. */
 #define CEDUO_NEVER UINT_MAX
