@@ -7,8 +7,9 @@ import sys
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
-from harness import PROFILES, Folder, expect_equal, expect_near, result, run_all  # noqa: E402
-from test_years import belt, site  # noqa: E402
+from harness import PROFILES, Folder, expect, expect_equal, expect_in, expect_near, good, result, run_all  # noqa: E402
+from pages import WHOLE
+from test_years import belt, coppice, site  # noqa: E402
 from test_yield import density_index, size  # noqa: E402
 
 STANDS = PROFILES / "stands"
@@ -135,6 +136,44 @@ def test_program():
         later, now = options[0]["years"][0]["stands"][0], options[1]["stands"][0]
         for key, grain in (("stools_per_ha", 5e-4), ("stems_per_ha", 1e-3), ("trees_per_ha", 0), ("basal_area_m2_ha", 4e-3)):
             expect_near(later[key], now[key], grain * now[key] + 1e-9, f"{name}: {key}")
+
+
+def test_warning():
+    """Stems that are more than a fifth of their basal area off their own curve at their age have a sentence, on the page and in JSON"""
+    def warnings(cut_year=None, **stand):
+        with Folder() as f:
+            place = belt(0, 135, coppice(**stand), **({} if cut_year is None else {"cut_year": cut_year}))
+            scene = f.write("s.yaml", site(place))
+            found = [w for w in result("-n", 2, scene)["options"][0]["stands"][0]["warnings"] if "own growth" in w]
+            page = " ".join(good(*WHOLE, "-n", 2, scene).out.split())
+            for sentence in found:
+                expect_in(sentence.split(": ", 1)[1].replace("m2", "m²"), page)
+            expect_equal("own growth" in page, bool(found), "page and JSON")
+        return found
+
+    def shoots(dbh, age=None):
+        return [{"per_ha": 7500, "dbh_m": dbh, "height_m": 6, **({} if age is None else {"age_y": age})}]
+
+    curve = 0.16 * (1 - math.exp(-0.022 * 25))
+    for factor, warned in ((0.8, True), (0.89, True), (0.9, False), (1, False), (1.095, False), (1.1, True)):
+        found = warnings(shoots=shoots(factor * curve, 25))
+        expect_equal(len(found), warned, f"{factor} times the diameter of the curve")
+        if warned:
+            area = 7500 * math.pi / 4 * curve**2
+            expect_in(f": the shoots of 25 years have {factor**2 * area:.1f} m2/ha of basal area. "
+                      f"The stand's own growth gives {area:.1f} at that age", found[0])
+    thick = shoots(2 * curve)
+    expect_equal(warnings(shoots=thick), [], "no age is known")
+    expect_equal(warnings(shoots=shoots(2 * curve, 25), growth=None, cutting=None), [], "no curve is known")
+    expect_in("the shoots of 5 years have", warnings(-5, shoots=thick)[0])
+    expect_equal(warnings(5, shoots=thick), [], "a cut to come says nothing of the age")
+    trees = [{"per_ha": 60, "dbh_m": 0.2, "height_m": 12, "age_y": 25}]
+    expect_in("the trees of 25 years have 1.9 m2/ha of basal area. The stand's own growth gives "
+              f"{60 * math.pi / 4 * (0.45 * (1 - math.exp(-0.35)))**2:.1f} at that age", warnings(trees=trees)[0])
+    for path in sorted(STANDS.glob("*.yaml")):
+        with Folder() as f:
+            found = result("-n", 2, f.write("s.yaml", site(belt(0, 135, path.stem))))["options"][0]["stands"][0]["warnings"]
+        expect(not any("own growth" in w for w in found), f"{path.stem}: {found}")
 
 
 if __name__ == "__main__":

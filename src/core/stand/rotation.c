@@ -34,6 +34,20 @@ double ceduo_curve_height(const struct ceduo_curve *curve, double dbh)
     return reaches ? curve->height_most * reached(curve->height_rate, -ceduo_log1p(-share) / curve->dbh_rate) : NAN;
 }
 
+struct ceduo_beside_curve ceduo_stems_beside_curve(const struct ceduo_stand *stand, double first_cut, size_t i)
+{
+    bool shoots = i < stand->shoots_count;
+    const struct ceduo_stems *stems = shoots ? &stand->shoots[i] : &stand->trees[i - stand->shoots_count];
+    const struct ceduo_curve *curve = shoots ? &stand->growth.shoots : &stand->growth.trees;
+    double since = first_cut < 0 ? fmod(-first_cut, stand->cutting.rotation) : 0; /* NaN without a rotation */
+    double age = stems->age > 0 ? stems->age : shoots && stand->shoots_count == 1 ? since : 0;
+    double dbh = curve->dbh_most * reached(curve->dbh_rate, age);
+    return (struct ceduo_beside_curve){.age = age,
+                                       .basal_area = stems->per_ha * (M_PI / 4) *
+                                                     (stems->dbh * stems->dbh + stems->dbh_sd * stems->dbh_sd),
+                                       .by_curve = age > 0 && known(curve) ? stems->per_ha * (M_PI / 4) * dbh * dbh : NAN};
+}
+
 /* Infinite where the stem grows no more; NaN where nothing tells it. */
 static double age_of(const struct ceduo_stems *stems, const struct ceduo_curve *curve)
 {
