@@ -98,9 +98,9 @@ static void put_ranges(FILE *out)
         const char *end = strrchr(ranges[i].path, '.');
         fputs(".It Va ", out);
         put(out, end + 1);
-        fputs(strstr(ranges[i].path, "stools")  ? " of stools\n"
-              : strstr(ranges[i].path, "trees") ? " of shoots and trees\n"
-                                                : "\n",
+        fputs(strstr(ranges[i].path, "stools")   ? " of stools\n"
+              : strstr(ranges[i].path, "trees[") ? " of shoots and trees\n"
+                                                 : "\n",
               out);
         put_range(out, &ranges[i]);
     }

@@ -30,7 +30,9 @@
  * shoots. Logs stay. Trees that a cut leaves stand in groups as the first class of the inventory that does.
  *
  * Trees and shoots share the growing space (assumed): in computed years (all but year 0 as filed) the shoots, and only
- * they, are thinned by one factor to growth.sdi_most·(1 - ceduo_space_of_trees()), never below one a stool. */
+ * they, are thinned by one factor to growth.sdi_most·(1 - ceduo_space_of_trees()). If less than one a stool is left, stools die:
+ * as many stand as there are shoots, with one shoot each. As every year is computed by itself, a cut finds all stools of the
+ * inventory again. */
 
 /* Year of a cut that never comes. */
 #define CEDUO_NEVER UINT_MAX
@@ -56,6 +58,17 @@ enum ceduo_status ceduo_stand_before_cut(const struct ceduo_stand *stand, double
 
 /* Height (m) of a stem of `dbh` m on its curve; NaN where the curve is unknown or never gets so thick. */
 double ceduo_curve_height(const struct ceduo_curve *curve, double dbh);
+
+/* Kind i of the stems of the inventory, shoots first, beside its own curve: its age (years), its basal area and that of as many
+ * stems on the curve at that age (m2/ha). The age is its own; for the only kind of shoots it is otherwise the years since a cut
+ * before year 0. by_curve is NaN if the age or the curve is unknown. */
+struct ceduo_beside_curve {
+    double age, basal_area, by_curve;
+};
+struct ceduo_beside_curve ceduo_stems_beside_curve(const struct ceduo_stand *stand, double first_cut, size_t i);
+
+/* Share by which the basal area may differ from the curve's before a page warns (assumed). */
+#define CEDUO_OFF_CURVE 0.2
 
 /* Whether its stools were cut just before year 0, and whether anything in it changes but by cuts. */
 bool ceduo_stand_sprouts(const struct ceduo_stand *stand);

@@ -11,6 +11,7 @@
 #include "base/text.h"
 #include "scene/ranges.h"
 #include "scene/value.h"
+#include "study/inputs.h"
 
 /* An input that is found; places with one origin are its places. */
 struct found {
@@ -104,17 +105,27 @@ static bool law_knows(const struct finder *f, const char *key)
     return strcmp(key, "mu") == 0 ? arm : strcmp(key, "rt") != 0 || !arm;
 }
 
-/* The energy law is the same question for all stands, as is its offset, which brauner alone knows. The strength of wood is the
- * same question for all stands of one species. Any other value is one with those from the same place of the same file. */
+/* Key of a value that belongs to a species on this slope, not to one stand: strength of wood, and growth. NULL if it is neither. */
+static const char *key_of_species(const struct field *field, const char *path)
+{
+    const char *growth = strstr(path, ".growth.");
+    bool strength = strcmp(field->key, "u_J_m3") == 0 || strcmp(field->key, "fracture_ratio") == 0;
+    return growth ? growth + 1 : strength ? field->key : NULL;
+}
+
+/* The energy law is the same question for all stands, as is its offset, which brauner alone knows. Strength of wood and growth are
+ * the same question for all stands of one species. Any other value is one with those from the same place of the same file. A factor
+ * of 0 changes nothing. */
 static void consider(struct finder *f, const struct field *field, const struct node *node)
 {
     const char *key = field->key;
     bool instead = !node && field->flags & FIELD_ONE_OF && !field->value; /* another key says it */
-    /* today is in doubt, not the years */
-    const struct range *range = instead || field->flags & FIELD_YEARS ? NULL : ceduo_range_of(field);
+    const struct range *range = instead ? NULL : ceduo_range_of(field);
     const char *path = range ? ceduo_arena_string(f->arena, ceduo_text_string(&f->path)) : NULL, *origin = path;
     struct value v;
     if (!path || !law_knows(f, key) || !ceduo_value_find(&f->file->scene, path, &v) || isnan(ceduo_value_get(&v)))
+        return;
+    if (range->kind == CEDUO_INPUT_FACTOR && !(ceduo_value_get(&v) > 0))
         return;
     const struct ceduo_belt *belt = ceduo_input_belt(&f->file->scene, path);
     bool law = !node && range->kind == CEDUO_INPUT_WORDS; /* nobody chose it */
@@ -127,8 +138,8 @@ static void consider(struct finder *f, const struct field *field, const struct n
         return;
     if (is_model || is_offset)
         origin = key;
-    else if (belt && (strcmp(key, "u_J_m3") == 0 || strcmp(key, "fracture_ratio") == 0))
-        origin = ceduo_arena_format(f->arena, "%s of %d", key, belt->stand.species);
+    else if (belt && key_of_species(field, path))
+        origin = ceduo_arena_format(f->arena, "%s of %d", key_of_species(field, path), belt->stand.species);
     else if (node)
         origin = ceduo_arena_format(f->arena, "%s:%u:%u", node->source->name, node->line, node->column);
     add(f, path, origin, *range);
@@ -215,11 +226,11 @@ bool ceduo_inputs_of(struct scene_file *file, struct scene_inputs *inputs)
     for (size_t i = 0; inputs->items && i < file->inputs_count; i++)
         if (file->inputs[i].places_count > 0) /* otherwise it is of a stand, and the scene says otherwise */
             inputs->items[inputs->n++] = file->inputs[i];
-    for (size_t i = 0; inputs->items && i < f.n; i++) {
-        struct ceduo_input *input = &f.found[i].input;
-        if (input->places_count == 0)
+    for (size_t i = 0; inputs->items && i < 2 * f.n; i++) { /* first those of today, whose points growth must not change */
+        struct ceduo_input *input = &f.found[i % f.n].input;
+        if (input->places_count == 0 || ceduo_input_is_of_years(input) != (i >= f.n))
             continue;
-        input->path = strncmp(f.found[i].origin, "slope.materials", 15) == 0 ? f.found[i].origin : input->places[0];
+        input->path = strncmp(f.found[i % f.n].origin, "slope.materials", 15) == 0 ? f.found[i % f.n].origin : input->places[0];
         inputs->items[inputs->n++] = *input;
     }
     return !f.arena->failed;

@@ -6,7 +6,8 @@
 #include "scene_file.h"
 
 /* The inputs of a scene: what its `doubt` names, and every value that is marked as assumed and has a range (ranges.h).
- * Values that come from one line of one file are one input, as are all energy laws, and the strength of one species. */
+ * Values that come from one line of one file are one input, as are all energy laws, and for each species the strength of its wood and its growth, as all stands grow on one slope. Inputs that
+ * change today's figures come first. */
 struct scene_inputs {
     size_t n;
     struct ceduo_input *items; /* in the arena of the scene's file */

@@ -104,7 +104,8 @@ static bool leave_input(struct search *s, const struct value *searched, struct c
     input->places = places;
     input->draws = input->draws ? draws : NULL;
     input->places_count = n;
-    return n > 0 && ceduo_input_is_of(input, s->def.option);
+    bool asked = s->def.rotation || !ceduo_input_is_of_years(input);
+    return n > 0 && asked && ceduo_input_is_of(input, s->def.option);
 }
 
 /* What is known under doubt of the scene at a value; it is asked once. */

@@ -9,12 +9,17 @@
 #define ASSUMED N_("assumed")
 
 #define PLOTS  N_("error of a few sample plots; assumed")
+#define AGED   N_("dbh of stems of known age")
+#define TALL   N_("heights of stems of known age")
+#define COUNTS N_("shoots counted on stools of known age")
 #define PULLED N_("pulling tests on stems of this species and size")
 #define STRUCK N_("full-scale tests on such stems")
 
 #define SEGMENT "slope.segments[0]."
 #define STAND   "forest[0].stand."
 #define STEMS   "forest[0].stand.trees[0]."
+#define GROWTH  STAND "growth."
+#define CURVE   GROWTH "shoots." /* the rows of trees have the same keys */
 
 #define ROW(kind, path, lo, hi, source, measured)                                                                              \
     {                                                                                                                          \
@@ -40,7 +45,14 @@ static const struct range ranges[] = {
     ROW(FACTOR, STAND "energy.fracture_ratio", 0.8, 1.2, ASSUMED, PULLED),
     ROW(FACTOR, STAND "stumps.energy_kJ", 0.5, 2, ASSUMED, N_("pulling tests on stumps")),
     ROW(FACTOR, STAND "logs.energy_kJ", 0.5, 2, ASSUMED, N_("pulling tests on lying logs")),
-    ROW(FACTOR, STAND "growth.trees_sdi_most", 0.5, 2, ASSUMED, N_("plots of full woods of these standards")),
+    ROW(FACTOR, CURVE "dbh_most_m", 0.85, 1.15, ASSUMED, AGED),
+    ROW(FACTOR, CURVE "dbh_rate_1_y", 0.8, 1.2, ASSUMED, AGED),
+    ROW(FACTOR, CURVE "height_most_m", 0.85, 1.15, ASSUMED, TALL),
+    ROW(FACTOR, CURVE "height_rate_1_y", 0.8, 1.2, ASSUMED, TALL),
+    ROW(FACTOR, GROWTH "shoots_young", 0.75, 1.25, ASSUMED, COUNTS),
+    ROW(FACTOR, GROWTH "shoots_old", 0.75, 1.25, ASSUMED, COUNTS),
+    ROW(FACTOR, GROWTH "sdi_most", 0.8, 1.2, ASSUMED, N_("plots of full coppices of this species")),
+    ROW(FACTOR, GROWTH "trees_sdi_most", 0.5, 2, ASSUMED, N_("plots of full woods of these standards")),
     {.path = STAND "energy.model",
      .kind = CEDUO_INPUT_WORDS,
      .lo = NAN,

@@ -164,8 +164,8 @@ struct subject {
     size_t option, against; /* the same: no difference */
     struct arena memory;
     struct ceduo_surface *surface;
-    bool *uses;
-    double *left; /* of each input */
+    bool *has, *uses; /* inputs of the options; those that the figure at hand may depend on */
+    double *left;     /* of each input */
     struct ceduo_groups *column;
 };
 
@@ -173,6 +173,7 @@ static enum ceduo_status open_subject(const struct rows *r, size_t option, size_
 {
     size_t n = r->def->inputs_count;
     *s = (struct subject){.option = option, .against = against};
+    s->has = ceduo_arena_take(&s->memory, n * sizeof *s->has);
     s->uses = ceduo_arena_take(&s->memory, n * sizeof *s->uses);
     s->left = ceduo_arena_take(&s->memory, n * sizeof *s->left);
     s->column = ceduo_arena_take(&s->memory, r->points * sizeof *s->column);
@@ -180,7 +181,7 @@ static enum ceduo_status open_subject(const struct rows *r, size_t option, size_
     if (s->memory.failed)
         return CEDUO_NO_MEMORY;
     for (size_t i = 0; i < n; i++)
-        s->uses[i] = ceduo_input_is_of(&r->def->inputs[i], option) || ceduo_input_is_of(&r->def->inputs[i], against);
+        s->has[i] = ceduo_input_is_of(&r->def->inputs[i], option) || ceduo_input_is_of(&r->def->inputs[i], against);
     return status;
 }
 
@@ -199,20 +200,28 @@ static struct ceduo_groups value_at(const struct rows *r, const struct subject *
     return y;
 }
 
+static bool is_rotation(enum ceduo_doubt_kind kind)
+{
+    return kind == CEDUO_DOUBT_MEAN || kind == CEDUO_DOUBT_FAILING;
+}
+
+/* Figures of today do not depend on inputs of the years. */
+static void choose_inputs(const struct rows *r, const struct subject *s, enum ceduo_doubt_kind kind)
+{
+    for (size_t i = 0; i < r->def->inputs_count; i++)
+        s->uses[i] = s->has[i] && (is_rotation(kind) || !ceduo_input_is_of_years(&r->def->inputs[i]));
+}
+
 /* Fits what the points have of a subject; `figure`: within what bounds. */
 static enum ceduo_status fit_points(const struct rows *r, const struct subject *s, enum ceduo_doubt_kind kind,
                                     struct ceduo_surface_figure figure, struct ceduo_surface_fit *fit)
 {
     for (size_t p = 0; p < r->points; p++)
         s->column[p] = value_at(r, s, r->ends + p, kind);
+    choose_inputs(r, s, kind);
     figure.y = s->column;
     figure.uses = s->uses;
     return ceduo_surface_fit(s->surface, &figure, fit);
-}
-
-static bool is_rotation(enum ceduo_doubt_kind kind)
-{
-    return kind == CEDUO_DOUBT_MEAN || kind == CEDUO_DOUBT_FAILING;
 }
 
 static enum ceduo_status read_figure(const struct rows *r, const struct subject *s, struct ceduo_doubt_figure *f)
@@ -295,6 +304,7 @@ static int count_years(void *context, size_t option, size_t worker)
     struct ceduo_groups *changes = ceduo_arena_take(&s.memory, years * points * sizeof *changes);
     status = s.memory.failed ? CEDUO_NO_MEMORY : status;
     if (status == CEDUO_OK) {
+        choose_inputs(r, &s, CEDUO_DOUBT_FAILING);
         for (size_t k = 0; k < years; k++)
             memcpy(y + k * points, r->shares + (r->first_year[option] + k) * r->most, points * sizeof *y);
         const struct ceduo_surface_figure figure = {.y = y, .uses = s.uses, .hi = 1, .limit = NAN};

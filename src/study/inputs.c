@@ -106,6 +106,16 @@ bool ceduo_input_is_of(const struct ceduo_input *input, size_t option)
     return false;
 }
 
+bool ceduo_input_is_of_years(const struct ceduo_input *input)
+{
+    for (size_t i = 0; i < input->places_count; i++) {
+        const struct field *f = ceduo_schema_at(input->places[i]);
+        if (!f || !(f->flags & FIELD_YEARS) || f->choices)
+            return false;
+    }
+    return true;
+}
+
 /* ---- setting ---- */
 
 double ceduo_input_quantile(const struct ceduo_input *input, double u)

@@ -140,6 +140,17 @@ void ceduo_words_unlikely(const struct ceduo_belt *belt, const struct ceduo_stan
             say_format(say, context,
                        _("%s: stems of %.3g cm are %.3g m high, usual are %d to %d times their diameter: check both."),
                        NAME_OF(belt), odd[i]->dbh * 100, odd[i]->height, CEDUO_SLENDERNESS_LEAST, CEDUO_SLENDERNESS_MOST);
+    for (size_t i = 0; stems_at(s, i); i++) {
+        const struct ceduo_beside_curve at = ceduo_stems_beside_curve(s, belt->cut_year, i);
+        if (fabs(at.basal_area - at.by_curve) > CEDUO_OFF_CURVE * at.by_curve)
+            say_format(say, context,
+                       i < s->shoots_count
+                           ? _("%s: the shoots of %g years have %.1f m2/ha of basal area. The stand's own growth "
+                               "gives %.1f at that age: check diameter, age and growth.")
+                           : _("%s: the trees of %g years have %.1f m2/ha of basal area. The stand's own growth "
+                               "gives %.1f at that age: check diameter, age and growth."),
+                       NAME_OF(belt), at.age, at.basal_area, at.by_curve);
+    }
     if (thick)
         say_format(say, context,
                    _("%s: stems of %.3g cm are thicker than the thickest that the volumes of their species "

@@ -152,6 +152,7 @@ TEST_WITH(no_old_shoots, fresh, NULL)
 TEST_WITH(for_ages_a_shoot_a_stool, fresh, NULL)
 {
     s.stand.growth.shoots_old = 0;
+    s.stand.growth.sdi_most = 0;
     for (unsigned t = 3400; t < 4000; t += 5) {
         struct ceduo_grown_stand grown = at(INFINITY, t);
         expect_relative(ceduo_stand_shoots(&grown.stand), 2500, 1e-13);
@@ -227,11 +228,13 @@ TEST_WITH(never_less_than_one_shoot_a_stool, fresh, NULL)
     s.stand.shoots_count = 2; /* 1.2 a stool */
     s.shoots[0] = paper_stems(2000, .01, 1);
     s.shoots[1] = paper_stems(1000, .08, 7);
+    s.stand.growth.sdi_most = 0;
     bool reached = false;
     for (unsigned t = 1; t < 60; t++) {
         LOCAL_BY(ceduo_grown_stand_release) struct ceduo_grown_stand grown = at(INFINITY, t);
         double sum = ceduo_stand_shoots(&grown.stand);
         EXPECT(sum, >=, 2500);
+        EXPECT(grown.stand.stools_per_ha, ==, 2500);
         EXPECT(sum, <=, 3000);
         reached |= sum < 2500 * (1 + 1e-12);
     }
@@ -395,17 +398,21 @@ TEST(the_density_index)
 TEST_WITH(shoots_are_thinned_to_the_density, fresh, NULL)
 {
     s.stand.trees_count = s.stand.cutting.stay_count = 0;
-    s.stand.growth.sdi_most = 500;
-    unsigned thinned = 0;
+    s.stand.growth.sdi_most = 250;
+    unsigned thinned = 0, died = 0;
     for (unsigned tau = 1; tau < 25; tau++) { /* without trees the index goes with the number */
         LOCAL_BY(ceduo_grown_stand_release) struct ceduo_grown_stand grown = at(0, tau);
         double n = 2500 * (3 + 13 * exp(-.2 * tau)), dbh = 16 * (1 - exp(-.022 * tau));
-        double most = 500 * pow(25.4 / dbh, 1.605);
-        expect_relative(ceduo_stand_shoots(&grown.stand), fmax(fmin(n, most), 2500), 1e-12);
+        double most = 250 * pow(25.4 / dbh, 1.605);
+        expect_relative(ceduo_stand_shoots(&grown.stand), fmin(n, most), 1e-12);
+        expect_relative(grown.stand.stools_per_ha, fmin(2500, most), 1e-12); /* with one shoot each at least */
         thinned += most < n;
+        died += most < 2500;
     }
     EXPECT(thinned, >, 5);
     EXPECT(thinned, <, 20);
+    EXPECT(died, >, 0);
+    EXPECT(died, <, thinned);
     init();
     s.stand.growth.sdi_most = 600; /* the trees take their part of it */
     s.stand.growth.trees_sdi_most = 400;
@@ -416,11 +423,13 @@ TEST_WITH(shoots_are_thinned_to_the_density, fresh, NULL)
     EXPECT(trees, >, 50);
     expect_relative(index_by_hand(grown.stand.shoots, grown.stand.shoots_count), 600 * (1 - trees / 400), 1e-12);
     ceduo_grown_stand_release(&grown);
-    s.stand.growth.sdi_most = 10; /* the trees alone are more */
+    s.stand.growth.trees_sdi_most = trees / 2; /* the trees alone are more */
     grown = at(0, 24);
-    expect_relative(ceduo_stand_shoots(&grown.stand), 2500, 1e-12);
+    EXPECT(ceduo_stand_shoots(&grown.stand), ==, 0);
+    EXPECT(grown.stand.stools_per_ha, ==, 0);
+    EXPECT(grown.stand.shoots_count, ==, 0);
     EXPECT(grown.stand.trees[0].per_ha, ==, 30);
-    EXPECT(ceduo_space_of_trees(&s.stand.growth, &grown.stand), <, 1);
+    EXPECT(ceduo_space_of_trees(&s.stand.growth, &grown.stand), >, 1);
     ceduo_grown_stand_release(&grown);
 }
 
@@ -492,7 +501,7 @@ TEST(no_stand_gains_stems_by_growing)
 
 TEST(no_computed_stand_is_too_dense)
 {
-    unsigned thinned = 0, at_least = 0;
+    unsigned thinned = 0, died = 0;
     for (int i = 0; i < STANDS; i++) {
         random_stand();
         const struct ceduo_growth *g = &s.stand.growth;
@@ -501,15 +510,18 @@ TEST(no_computed_stand_is_too_dense)
             double all = g->trees_sdi_most > 0 ? g->trees_sdi_most : .35 * g->sdi_most;
             double most = g->sdi_most * fmax(0, 1 - index_by_hand(grown.stand.trees, grown.stand.trees_count) / all);
             double sdi = index_by_hand(grown.stand.shoots, grown.stand.shoots_count), shoots = ceduo_stand_shoots(&grown.stand);
+            EXPECT(sdi, <=, most * (1 + 1e-9));
             thinned += most > 0 && fabs(sdi - most) < 1e-9 * most;
-            if (sdi > most * (1 + 1e-9) && shoots > 0) {
-                EXPECT(shoots, <=, grown.stand.stools_per_ha * (1 + 1e-12));
-                at_least++;
+            if (shoots > 0 &&
+                grown.stand.stools_per_ha < s.stand.stools_per_ha * (1 - 1e-9)) { /* one shoot on each that lives */
+                expect_relative(grown.stand.stools_per_ha, shoots, 1e-12);
+                expect_relative(sdi, most, 1e-9);
+                died++;
             }
         }
     }
     EXPECT(thinned, >, 1000);
-    EXPECT(at_least, >, 1000);
+    EXPECT(died, >, 1000);
 }
 
 TEST(a_rotation_later_it_is_the_same_stand)

@@ -34,6 +34,20 @@ double ceduo_curve_height(const struct ceduo_curve *curve, double dbh)
     return reaches ? curve->height_most * reached(curve->height_rate, -ceduo_log1p(-share) / curve->dbh_rate) : NAN;
 }
 
+struct ceduo_beside_curve ceduo_stems_beside_curve(const struct ceduo_stand *stand, double first_cut, size_t i)
+{
+    bool shoots = i < stand->shoots_count;
+    const struct ceduo_stems *stems = shoots ? &stand->shoots[i] : &stand->trees[i - stand->shoots_count];
+    const struct ceduo_curve *curve = shoots ? &stand->growth.shoots : &stand->growth.trees;
+    double since = first_cut < 0 ? fmod(-first_cut, stand->cutting.rotation) : 0; /* NaN without a rotation */
+    double age = stems->age > 0 ? stems->age : shoots && stand->shoots_count == 1 ? since : 0;
+    double dbh = curve->dbh_most * reached(curve->dbh_rate, age);
+    return (struct ceduo_beside_curve){.age = age,
+                                       .basal_area = stems->per_ha * (M_PI / 4) *
+                                                     (stems->dbh * stems->dbh + stems->dbh_sd * stems->dbh_sd),
+                                       .by_curve = age > 0 && known(curve) ? stems->per_ha * (M_PI / 4) * dbh * dbh : NAN};
+}
+
 /* Infinite where the stem grows no more; NaN where nothing tells it. */
 static double age_of(const struct ceduo_stems *stems, const struct ceduo_curve *curve)
 {
@@ -85,14 +99,17 @@ static void keep_shoots(struct ceduo_stand *stand, double min)
         multiply_shoots(stand, fmin(min / sum * (1 + DBL_EPSILON), DBL_MAX));
 }
 
-/* The shoots are thinned to the growing space that the trees leave, but `min` of them stay. */
-static void share_space(struct ceduo_stand *stand, const struct ceduo_growth *growth, double min)
+/* The shoots are thinned to the growing space that the trees leave. Stools on which none is left die. */
+static void share_space(struct ceduo_stand *stand, const struct ceduo_growth *growth)
 {
     double max = growth->sdi_most * fmax(0, 1 - ceduo_space_of_trees(growth, stand));
     double sdi = ceduo_stems_sdi(stand->shoots, stand->shoots_count);
     if (growth->sdi_most > 0 && sdi > max) /* the index goes with their number */
-        multiply_shoots(stand, fmax(max / sdi, fmin(1, min / ceduo_stand_shoots(stand))));
-    keep_shoots(stand, min);
+        multiply_shoots(stand, max / sdi);
+    double shoots = ceduo_stand_shoots(stand);
+    stand->stools_per_ha = fmin(stand->stools_per_ha, shoots);
+    if (!(shoots > 0))
+        stand->shoots_count = 0;
 }
 
 /* ---- cuts ---- */
@@ -233,7 +250,7 @@ static void grow_shoots(struct ceduo_stand *stand, const struct ceduo_growth *gr
         grow_stems(s, &growth->shoots, age, years);
     }
     keep_shoots(stand, min);
-    share_space(stand, growth, min);
+    share_space(stand, growth);
 }
 
 static enum ceduo_status before_cut(const struct ceduo_stand *stand, unsigned year, struct ceduo_grown_stand *out)
@@ -292,7 +309,7 @@ static enum ceduo_status after_cut(const struct ceduo_stand *stand, unsigned sin
     if (count == 0)
         out->stand.stools_per_ha = 0;
     keep_shoots(&out->stand, out->stand.stools_per_ha);
-    share_space(&out->stand, g, out->stand.stools_per_ha);
+    share_space(&out->stand, g);
     return CEDUO_OK;
 }
 
