@@ -35,7 +35,18 @@ struct ceduo_control {
     char *name_given;      /* as the user wrote it, where a name in another language is shown */
     double accepted;       /* J that the thing at risk bears; NaN: not said */
     double measured_speed; /* m/s of a real rock seen here; NaN: none */
+    /* Years, > 0: with blocks, accepted from one rock with more than `accepted` to the next. NaN or 0: not given; use
+     * ceduo_accepted_return(). */
+    double accepted_return;
 };
+
+#define CEDUO_ACCEPTED_RETURN 100 /* years; assumed */
+
+/* Return the accepted return period of a control, years. */
+static inline double ceduo_accepted_return(const struct ceduo_control *control)
+{
+    return control->accepted_return > 0 ? control->accepted_return : CEDUO_ACCEPTED_RETURN;
+}
 
 /* A stretch of forest. */
 struct ceduo_belt {

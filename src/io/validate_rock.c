@@ -127,6 +127,21 @@ void ceduo_validate_blocks(struct validator *v)
 
 /* ---- where they are counted ---- */
 
+/* With blocks an accepted energy is judged by how often it is exceeded. */
+static void check_return(struct validator *v, size_t i, const struct ceduo_control *c)
+{
+    const char *path = ceduo_format(v, "controls[%zu].accepted_return_y", i);
+    bool given = ceduo_resolve_at(v->root, path), blocks = ceduo_node_get(v->root, "blocks");
+    if (given && !blocks && ceduo_is_known(v, "%s", path))
+        ceduo_complain(v, path, "", _("nothing says how often rocks come down; add 'blocks', or remove this"));
+    else if (!given && blocks && !isnan(c->accepted))
+        ceduo_assume(v, path,
+                     ceduo_format(v,
+                                  ngettext("a rock above the accepted energy may come once in %d year",
+                                           "a rock above the accepted energy may come once in %d years", CEDUO_ACCEPTED_RETURN),
+                                  CEDUO_ACCEPTED_RETURN));
+}
+
 void ceduo_validate_controls(struct validator *v)
 {
     struct ceduo_scene *scene = &v->draft.scene;
@@ -157,6 +172,7 @@ void ceduo_validate_controls(struct validator *v)
         const char *here = NUMERAL(c->x_given);
         while (k < i && scene->controls[k].x != c->x)
             k++;
+        check_return(v, i, c);
         if (!ceduo_check_on_slope(v, at, "", c->x_given))
             continue;
         if (c->x <= last)

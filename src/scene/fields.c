@@ -394,6 +394,11 @@ static const struct field control_fields[] = {
     NAME_IT(AT(ceduo_control, name), 0),
     NUM(FIELD_NUMBER, "accepted_kJ", SHOWN(N_("withstands, kJ"), N_("withst. kJ"), 0, 20000), AT(ceduo_control, accepted), "kJ",
         1000, 0, 1e9, 0, NULL, N_("energy that what stands there withstands")),
+    NUMBER(
+        "accepted_return_y", SHOWN(N_("accepted return, years"), N_("return y"), 1, 10000), AT(ceduo_control, accepted_return),
+        "y", 0, 1e6, ABOVE | NO_RUN | FIELD_SETTLED, NULL,
+        N_("with blocks: years from one rock with more than accepted_kJ to the next that are accepted there; without it 100, "
+           "an assumption")),
     NUMBER("measured_speed_m_s", SHOWN(N_("speed filmed, m/s"), N_("filmed m/s"), 0, 80), AT(ceduo_control, measured_speed),
            "m/s", 0, 1000, NO_RUN, NULL, N_("speed of a real rock seen there, for comparison")),
 };

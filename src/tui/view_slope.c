@@ -22,7 +22,9 @@ static void build(struct app *app, struct form *form)
     ceduo_form_table(form, ceduo_app_forest(app), NULL, "from_m to_m stand");
     ceduo_form_heading(form, _("Controls"));
     if (ceduo_document_node(d, "controls"))
-        ceduo_form_table(form, "controls", NULL, "x_m name accepted_kJ measured_speed_m_s");
+        ceduo_form_table(form, "controls", NULL,
+                         ceduo_document_node(d, "blocks") ? "x_m name accepted_kJ accepted_return_y measured_speed_m_s"
+                                                          : "x_m name accepted_kJ measured_speed_m_s");
     else
         ceduo_form_field(form, "controls_m", NULL);
     ceduo_form_heading(form, _("Ground"));

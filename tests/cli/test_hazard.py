@@ -45,6 +45,11 @@ def run(what, *arguments):
         return good("--batch", "-f", "json", "--details", *arguments, f.write("s.yaml", what)).json()[0]
 
 
+def page(what):
+    with Folder() as f:
+        return good("--batch", "--details", "-n", 100, f.write("s.yaml", what)).out
+
+
 def hazard_of(result, side="bare", control=-1, option=0):
     return result["options"][option]["controls"][control][side]["hazard"]
 
@@ -104,6 +109,18 @@ def test_power_law():
         result = run(falls(classes[0] if len(classes) == 1 else classes))
         check_power_law(classes, hazard_of(result))
         check_power_law(classes, hazard_of(result, "wooded"))
+
+
+def test_accepted_return():
+    """Without a return period 100 years are assumed, where an energy is accepted and blocks come down"""
+    assumed = "a rock above the accepted energy may come once in 100 years"
+    place = {"x_m": 20, "accepted_kJ": 500}
+    said = [assumed in " ".join(page(falls(POWER, controls=controls)).split())
+            for controls in ([place], [{**place, "accepted_return_y": 30}], [{"x_m": 20}])]
+    expect_equal(said, [True, False, False])
+    rocks = falls(POWER, controls=[place])
+    del rocks["blocks"]
+    expect(assumed not in " ".join(page(rocks).split()))
 
 
 def test_figures_agree():
