@@ -53,7 +53,7 @@ static enum exit_status choose(const struct arguments *a, struct scene_file *fil
     return root && ceduo_scene_bind(file, &problems) ? EXIT_DONE : EXIT_RUN;
 }
 
-/* Prints warnings unless they are those printed last: the values of a file are the same for each row of --each. */
+/* Print warnings unless they are those printed last: the values of a file are the same for each row of --each. */
 static void warn_once(struct text *text)
 {
     static uint64_t last;

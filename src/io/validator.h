@@ -19,8 +19,9 @@ struct validator {
     const struct scene_file *previous;   /* as it was: a slope is taken over where its part of the document is the same */
     struct scene_draft draft;            /* its scene is the result */
     struct bad_values bad;
-    bool profile;  /* the slope has its vertices */
-    double origin; /* the slope's first x, which is taken off every x */
+    bool sized_by_blocks; /* the scene's rock has no size of its own */
+    bool profile;         /* the slope has its vertices */
+    double origin;        /* the slope's first x, which is taken off every x */
     size_t inputs_room;
     const struct node *draws; /* of doubt: a table of values that a calibration left open; NULL: none */
 };
