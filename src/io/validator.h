@@ -22,7 +22,8 @@ struct validator {
     bool sized_by_blocks; /* the scene's rock has no size of its own */
     bool profile;         /* the slope has its vertices */
     double origin;        /* the slope's first x, which is taken off every x */
-    size_t inputs_room;
+    size_t inputs_room, rows_room;
+    const char **rows;        /* of each input where it is written; NULL: in a table of draws */
     const struct node *draws; /* of doubt: a table of values that a calibration left open; NULL: none */
 };
 
@@ -42,6 +43,7 @@ void ceduo_validate_release(struct validator *v, const char *path, struct ceduo_
 void ceduo_validate_controls(struct validator *v);
 void ceduo_validate_options(struct validator *v);
 void ceduo_validate_doubt(struct validator *v);
+void ceduo_validate_ends(struct validator *v); /* requires a scene and rows of doubt that are good */
 void ceduo_validate_observed(struct validator *v);
 
 /* What was observed may be written in several forms: brings them into the one that the table of keys has. */
