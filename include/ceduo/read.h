@@ -13,7 +13,8 @@ struct ceduo_reading {
     const struct ceduo_input *inputs;
     size_t observations_count; /* what was observed there: for ceduo_calibrate() */
     const struct ceduo_observation *observations;
-    const char *messages; /* what is wrong, as `ceduo --check` prints it, but always in English; "": nothing */
+    const char *
+        messages; /* what is wrong or, of a good scene, unusual, as `ceduo --check` prints it, but always in English; "": nothing */
     void *memory;
 };
 

@@ -128,7 +128,7 @@ struct ceduo_scene {
     struct ceduo_report_head page;
     struct ceduo_rock_def rock;
     size_t blocks_count;              /* classes that do not overlap; 0: every rock is `rock` */
-    struct ceduo_block_class *blocks; /* sizes that `rock` has, scaled */
+    struct ceduo_block_class *blocks; /* sizes that `rock` has, scaled; figures of one rock, such as the ADC, are of `rock` */
     struct ceduo_release release;
     struct ceduo_slope slope;
     size_t controls_count;

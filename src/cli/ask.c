@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include "base/clock.h"
+#include "base/hash.h"
 #include "base/language.h"
 #include "batch.h"
 #include "model/jobs.h"
@@ -52,15 +53,29 @@ static enum exit_status choose(const struct arguments *a, struct scene_file *fil
     return root && ceduo_scene_bind(file, &problems) ? EXIT_DONE : EXIT_RUN;
 }
 
+/* Print warnings unless they are those printed last: the values of a file are the same for each row of --each. */
+static void warn_once(struct text *text)
+{
+    static uint64_t last;
+    uint64_t hash = hash_bytes(ceduo_text_string(text), text->length);
+    if (text->length == 0 || hash == last)
+        return;
+    last = hash;
+    ceduo_say(text);
+}
+
 enum exit_status ceduo_batch_read(const struct arguments *a, const char *path, struct scene_file *file)
 {
     LOCAL_PROBLEMS(problems);
     struct scene_sets sets = {a->sets.items, a->sets.n, a->cells, a->called};
     bool good = ceduo_scene_load_row(file, path, &sets, &problems);
     ceduo_problems_close(&problems);
-    if (problems.text.length > 0 && a->called && strncmp(problems.text.bytes, a->called, strlen(a->called)) != 0)
+    if (!good && problems.text.length > 0 && a->called && strncmp(problems.text.bytes, a->called, strlen(a->called)) != 0)
         ceduo_say_why(a->called, _("this scene cannot be computed:")); /* what follows names another file, or a change */
-    ceduo_say(&problems.text);
+    if (good)
+        warn_once(&problems.text);
+    else
+        ceduo_say(&problems.text);
     enum exit_status status = good ? EXIT_DONE : problems.usage && !problems.cell ? EXIT_USAGE : EXIT_INPUT;
     for (const struct source *s = file->arena.sources; s && status != EXIT_OUTPUT; s = s->before)
         if (ceduo_output_is(a, s->path))

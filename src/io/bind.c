@@ -196,6 +196,15 @@ static bool check_range(struct binder *b, const struct field *f, const struct no
     return true;
 }
 
+static void warn_unusual(struct binder *b, const struct field *f, const struct node *node, double value)
+{
+    const char *gap = f->unit[0] ? " " : "", *unit = f->unit;
+    if (b->to->unusual && !ceduo_schema_is_usual(f, value))
+        ceduo_problem_at(b->to->unusual, ceduo_node_place(node, path_here(b)),
+                         _("%s%s%s is unusual (usual: %s to %s%s%s); check the number and its unit"), NUMERAL(value), gap, unit,
+                         NUMERAL(f->shown.least), NUMERAL(f->shown.most), gap, unit);
+}
+
 static bool bind_number(struct binder *b, const struct field *f, const struct node *node, double *to)
 {
     double value = 0;
@@ -204,6 +213,7 @@ static bool bind_number(struct binder *b, const struct field *f, const struct no
         return false;
     if (!check_range(b, f, node, value))
         return false;
+    warn_unusual(b, f, node, value);
     *to = value * f->scale;
     return true;
 }
@@ -220,8 +230,10 @@ static void bind_count(struct binder *b, const struct field *f, const struct nod
         return;
     else if (ceduo_count_read(node->text, f->lo, f->hi, &count) != CEDUO_NUMBER_GOOD)
         report(b, node, _("%s is above %.0f"), node->text, f->hi);
-    else
+    else {
+        warn_unusual(b, f, node, value);
         ceduo_schema_set_count(f, to, count);
+    }
 }
 
 /* `to`: an int or an enum */
@@ -274,8 +286,8 @@ static void bind_spread(struct binder *b, const struct field *f, const struct no
     rows[1].key = "spread";
     rows[1].offset = offsetof(struct ceduo_number, spread);
     rows[1].flags = 0;
-    rows[1].lo = 0;
-    rows[1].hi = INFINITY;
+    rows[1].lo = rows[1].shown.least = 0;
+    rows[1].hi = rows[1].shown.most = INFINITY;
     rows[0].type = rows[1].type = FIELD_NUMBER;
     bind_map(b, &parts, node, to);
     if (!ceduo_schema_spread_fits(f, *to))

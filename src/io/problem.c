@@ -241,6 +241,9 @@ void ceduo_problems_close(struct problems *problems)
         ceduo_text_format(&problems->text, ngettext("%zu more problem\n", "%zu more problems\n", rest), rest);
     problems->kinds_count = 0;
     problems->count = problems->count > 0;
+    if (problems->count == 0)
+        ceduo_text_put(&problems->text, ceduo_text_string(&problems->warnings));
+    ceduo_text_free(&problems->warnings);
     if (!ceduo_problems_settle(problems))
         ceduo_text_put(&problems->text, _("out of memory\n"));
 }
@@ -249,5 +252,6 @@ void ceduo_problems_free(struct problems *problems)
 {
     ceduo_text_free(&problems->text);
     ceduo_text_free(&problems->known);
+    ceduo_text_free(&problems->warnings);
     *problems = (struct problems){0};
 }

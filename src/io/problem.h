@@ -51,10 +51,11 @@ struct problems {
     size_t met; /* with those that were known already: whether a step went well */
     size_t kinds_count;
     struct problem_kind kinds[CEDUO_PROBLEMS_MOST];
-    struct text known; /* hashes of those reported */
-    bool usage;        /* at least one is about the command line */
-    bool cell;         /* that which is of an option is a cell of --each */
-    bool memory;       /* memory ran out: the list may lack some */
+    struct text known;    /* hashes of those reported */
+    struct text warnings; /* about values that are good; follow the text if nothing is wrong */
+    bool usage;           /* at least one is about the command line */
+    bool cell;            /* that which is of an option is a cell of --each */
+    bool memory;          /* memory ran out: the list may lack some */
 };
 
 /* Adds one; false, so that a check can end with it. line and column count from 1; 0: no place known (the source's name alone is shown). Of a foreign source the message
@@ -81,7 +82,7 @@ void ceduo_problems_follow(struct problems *problems, struct problems *head);
  * ceduo_problems_close(). */
 bool ceduo_problems_settle(struct problems *problems);
 
-/* Ends the list: how many others there are of a kind, and the number of those that were not printed. */
+/* Ends the list: how many others there are of a kind, and the number of those that were not printed; the warnings if there is none. */
 void ceduo_problems_close(struct problems *problems);
 void ceduo_problems_free(struct problems *problems);
 

@@ -18,11 +18,13 @@
 bool ceduo_scene_bind(struct scene_file *file, struct problems *problems)
 {
     const struct scene_file previous = *file;
+    LOCAL_PROBLEMS(unusual);
     struct validator v = {.file = file,
                           .arena = &file->arena,
                           .notes = &file->notes,
                           .root = file->root,
                           .problems = problems,
+                          .unusual = &unusual,
                           .previous = &previous};
     size_t before = problems->count;
     *file =
@@ -33,6 +35,9 @@ bool ceduo_scene_bind(struct scene_file *file, struct problems *problems)
     const char *slash = strrchr(file->path, '/'), *name = slash ? slash + 1 : file->path;
     file->scene.title = file->scene.title ? file->scene.title : (char *)(uintptr_t)name;
     bool good = ceduo_problems_settle(problems) && problems->count == before;
+    ceduo_problems_close(&unusual);
+    if (good)
+        ceduo_text_put(&problems->warnings, ceduo_text_string(&unusual.text));
     file->slope_node = good ? ceduo_node_get(file->root, "slope") : NULL;
     return good;
 }

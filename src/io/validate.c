@@ -21,9 +21,10 @@ static void check_rules(struct validator *v, const char *list, const struct cedu
 bool ceduo_validate(struct validator *v)
 {
     struct ceduo_scene *scene = &v->draft.scene;
+    size_t before = v->problems->met;
     ceduo_schema_init(ceduo_schema_scene(), &v->draft);
     ceduo_arrange_observed(v);
-    const struct binding to = {v->arena, v->problems, v->notes, &v->bad, ceduo_validate_end, v};
+    const struct binding to = {v->arena, v->problems, v->unusual, v->notes, &v->bad, ceduo_validate_end, v};
     ceduo_bind(&to, ceduo_schema_scene(), v->root, &v->draft);
     if (v->bad.n > CEDUO_BAD_MOST || v->arena->failed)
         return false;
@@ -44,6 +45,8 @@ bool ceduo_validate(struct validator *v)
     check_rules(v, "standards", scene->rules.standards, scene->rules.standards_count);
     check_rules(v, "turns", scene->rules.turns, scene->rules.turns_count);
     ceduo_validate_doubt(v);
+    if (v->problems->met == before && v->bad.n == 0)
+        ceduo_validate_ends(v);
     ceduo_validate_observed(v);
     return true;
 }

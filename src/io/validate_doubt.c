@@ -12,6 +12,7 @@
 #include "doubt_inputs.h"
 #include "resolve.h"
 #include "scene/value.h"
+#include "study/inputs.h"
 #include "validator.h"
 
 /* A row, where it stands, and what its path begins at: "" or a stand and a dot. */
@@ -214,13 +215,16 @@ static bool make_input(struct validator *v, const struct row *row, struct places
     return choice ? read_words(v, row, field, input) : read_range(v, row, field, input);
 }
 
-static void add_input(struct validator *v, struct ceduo_input input)
+static void add_input(struct validator *v, struct ceduo_input input, const char *at)
 {
-    struct ceduo_input *inputs =
-        ceduo_arena_more(v->arena, v->file->inputs, v->file->inputs_count, 1, &v->inputs_room, sizeof *inputs);
-    if (!inputs)
+    size_t n = v->file->inputs_count;
+    struct ceduo_input *inputs = ceduo_arena_more(v->arena, v->file->inputs, n, 1, &v->inputs_room, sizeof *inputs);
+    const char **rows = ceduo_arena_more(v->arena, v->rows, n, 1, &v->rows_room, sizeof *rows);
+    if (!inputs || !rows)
         return;
     v->file->inputs = inputs;
+    v->rows = rows;
+    v->rows[n] = at;
     v->file->inputs[v->file->inputs_count++] = input;
 }
 
@@ -290,7 +294,7 @@ static void take_stands(struct validator *v)
         for (size_t i = 0; i < places.n; i++)
             if (!ceduo_inputs_have(v->file->inputs, v->file->inputs_of_scene, places.items[i]))
                 places.items[input.places_count++] = places.items[i];
-        add_input(v, input);
+        add_input(v, input, r->at);
     }
 }
 
@@ -441,7 +445,7 @@ static void add_draws(struct validator *v)
                                       .draws = draws,
                                       .source = N_("doubt, in the scene")};
     if (places && draws)
-        add_input(v, input);
+        add_input(v, input, NULL);
 }
 
 /* ---- all ---- */
@@ -468,10 +472,120 @@ void ceduo_validate_doubt(struct validator *v)
         if (twice)
             ceduo_complain(v, row.at, "path", _("'%s' is given twice"), row.doubt.path);
         else if (good)
-            add_input(v, input);
+            add_input(v, input, row.at);
     }
     v->file->inputs_of_scene = v->file->inputs_count;
     take_stands(v);
+}
+
+/* ---- ends of ranges ---- */
+
+#define BORDERS_MOST 30 /* inputs that are places along the slope: of more no two are tried together */
+
+/* The scene with single inputs at an end of their ranges. */
+struct ends {
+    struct validator *v;
+    struct input_scene copy;
+    double *u; /* of each input; NaN: as the scene has it */
+};
+
+/* The place of value k of n in a range, 0…1: one of its two ends, or a word. */
+static double place_of(size_t k, size_t n)
+{
+    return n == 2 ? (double)k : ((double)k + 0.5) / (double)n; /* of two words u = 1 is the second */
+}
+
+/* Number of values of an input that are tried: its two ends, or all its words. */
+static size_t tries_of(const struct ceduo_input *input)
+{
+    return input->kind == CEDUO_INPUT_WORDS ? input->words_count : input->kind == CEDUO_INPUT_DRAWS ? 0 : 2;
+}
+
+static bool is_place(const struct ceduo_input *input)
+{
+    const struct field *f = input->places_count > 0 ? ceduo_schema_at(input->places[0]) : NULL;
+    return f && ceduo_schema_is_place(f);
+}
+
+/* Value k of input i in words. */
+static const char *value_text(struct validator *v, size_t i, size_t k)
+{
+    const struct ceduo_input *input = &v->file->inputs[i];
+    const struct field *f = ceduo_schema_at(input->places[0]);
+    if (input->kind == CEDUO_INPUT_WORDS)
+        return f->choices->names[input->words[k]];
+    const char *sign = input->kind == CEDUO_INPUT_NORMAL ? k == 0 ? " (mean - 3 sd)" : " (mean + 3 sd)" : "";
+    return ceduo_format(v, "%s%s%s%s", NUMERAL(k == 0 ? input->lo : input->hi), f->unit[0] ? " " : "", f->unit, sign);
+}
+
+static const char *reason(enum ceduo_status status)
+{
+    switch (status) {
+    case CEDUO_RELEASE_OFF_SLOPE:
+        return _("the release lies beyond the slope");
+    case CEDUO_RELEASE_BELOW:
+        return _("the release lies below the ground");
+    case CEDUO_CONTROL_OFF_SLOPE:
+        return _("a control lies beyond the slope");
+    case CEDUO_CONTROL_BEHIND:
+        return _("a control does not lie beyond the release");
+    case CEDUO_BAD_BELT:
+        return _("a belt overlaps another, ends before it begins, or lies beyond the slope");
+    case CEDUO_BAD_ROCK:
+        return _("the rock has no such size");
+    default:
+        return _("a number is outside its range");
+    }
+}
+
+/* Reports value k of input i if the scene cannot be computed with it and, unless j is i, with value m of input j. */
+static void check_end(struct ends *e, size_t i, size_t k, size_t j, size_t m)
+{
+    struct validator *v = e->v;
+    const struct ceduo_input *input = &v->file->inputs[i];
+    e->u[j] = place_of(m, tries_of(&v->file->inputs[j]));
+    e->u[i] = place_of(k, tries_of(input));
+    ceduo_inputs_set(&e->copy, e->u);
+    e->u[i] = e->u[j] = NAN;
+    enum ceduo_status status = ceduo_scene_check(&e->copy.scene, NULL);
+    if (status == CEDUO_OK)
+        return;
+    const char *key = input->kind == CEDUO_INPUT_WORDS   ? "one_of"
+                      : input->kind != CEDUO_INPUT_RANGE ? "sd"
+                      : k == 0                           ? "lo"
+                                                         : "hi";
+    if (i != j)
+        ceduo_complain(v, v->rows[i], key, _("%s and %s of %s cannot be computed together: %s; make one of the ranges smaller"),
+                       value_text(v, i, k), value_text(v, j, m), v->file->inputs[j].path, reason(status));
+    else if (input->kind == CEDUO_INPUT_WORDS)
+        ceduo_complain(v, v->rows[i], key, _("%s cannot be computed: %s; leave it out"), value_text(v, i, k), reason(status));
+    else
+        ceduo_complain(v, v->rows[i], key, _("%s cannot be computed: %s; make the range smaller"), value_text(v, i, k),
+                       reason(status));
+}
+
+/* Refuses ranges with an end where the scene cannot be computed: of each input by itself, then of any two places along the slope. */
+void ceduo_validate_ends(struct validator *v)
+{
+    size_t n = v->file->inputs_count, places_count = 0, before = v->problems->met;
+    struct ends e = {.v = v, .u = ceduo_room(v, n, sizeof *e.u)};
+    size_t *places = ceduo_room(v, n, sizeof *places);
+    bool good = n > 0 && e.u && places && ceduo_scene_check(&v->draft.scene, NULL) == CEDUO_OK &&
+                ceduo_inputs_open(&e.copy, &v->draft.scene, v->file->inputs, n) == CEDUO_OK;
+    for (size_t i = 0; good && i < n; i++) {
+        e.u[i] = NAN;
+        if (is_place(&v->file->inputs[i]))
+            places[places_count++] = i;
+    }
+    for (size_t i = 0; good && i < n; i++)
+        for (size_t k = 0; v->file->inputs[i].places_count > 0 && k < tries_of(&v->file->inputs[i]); k++)
+            check_end(&e, i, k, i, k);
+    good = good && v->problems->met == before && places_count <= BORDERS_MOST;
+    for (size_t a = 1; good && a < places_count; a++)
+        for (size_t b = 0; b < a; b++)
+            for (size_t k = 0; k < 4; k++)
+                check_end(&e, places[a], k / 2, places[b], k % 2);
+    ceduo_inputs_release(&e.copy);
 }
 
 const struct field *ceduo_input_find(struct scene_file *file, const char *path, struct ceduo_input *input)

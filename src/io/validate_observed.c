@@ -334,6 +334,8 @@ static void validate_row(struct validator *v, const char *path, struct observed 
     if (ceduo_node_get(node, "rock")) {
         ceduo_validate_rock(v, ceduo_format(v, "%s.rock", path), &row->rock);
         shared.rock = &row->rock;
+    } else if (v->sized_by_blocks) {
+        ceduo_complain(v, path, "", _("'rock' is missing: blocks have many sizes; give the rock that was observed"));
     }
     if (ceduo_node_get(node, "release")) {
         ceduo_validate_release(v, ceduo_format(v, "%s.release", path), &row->release);

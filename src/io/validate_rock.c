@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/elementary.h"
 #include "base/language.h"
 #include "resolve.h"
 #include "validator.h"
@@ -16,12 +17,21 @@ static const struct {
               [CEDUO_ELLIPSOID] = {{"axes_m"}, "axes_m: [1, 1, 1]"},
               [CEDUO_BLOCK] = {{"axes_m"}, "axes_m: [1, 1, 1]"}};
 
+static void check_rock(struct validator *v, const char *path, const struct ceduo_rock_def *def)
+{
+    struct ceduo_rock rock;
+    if (ceduo_rock_of_means(def, &rock) != CEDUO_OK)
+        ceduo_complain(v, path, "", _("the rock is too small or too large to compute"));
+}
+
 void ceduo_validate_rock(struct validator *v, const char *path, const struct ceduo_rock_def *def)
 {
     static const char *const sizes[] = {"diameter_m", "height_m", "axes_m", "volume_m3"};
     const enum ceduo_shape shape = def->shape;
     const char *const *keys = shapes[shape].keys, *name = ceduo_shape_words.names[shape];
     const struct node *node = ceduo_resolve_at(v->root, path), *said = ceduo_node_get(node, "shape");
+    bool of_scene = strcmp(path, "rock") == 0, blocks = of_scene && ceduo_node_get(v->root, "blocks");
+    bool by_mass = shape != CEDUO_SPHERE && ceduo_is_given(v, path, "mass_kg");
     size_t before = v->problems->met;
     int n = 0;
     if (!ceduo_is_known(v, "%s.shape", path))
@@ -39,24 +49,27 @@ void ceduo_validate_rock(struct validator *v, const char *path, const struct ced
         else
             ceduo_complain(v, path, sizes[i], _("does not belong to the shape '%s'; remove it"), name);
     }
-    for (size_t i = 0; keys[i]; i++) {
-        bool given = ceduo_is_given(v, path, keys[i]);
-        n += given;
-        if (!given && shape != CEDUO_SPHERE)
+    for (size_t i = 0; keys[i]; i++)
+        n += ceduo_is_given(v, path, keys[i]);
+    bool by_blocks = blocks && !by_mass && n < (shape == CEDUO_CYLINDER ? 2 : 1);
+    for (size_t i = 0; keys[i] && shape != CEDUO_SPHERE && !by_blocks; i++)
+        if (!ceduo_is_given(v, path, keys[i]))
             ceduo_complain(v, path, "", _("'%s' is missing: the shape '%s' needs it"), keys[i], name);
-    }
-    if (shape == CEDUO_SPHERE && n != 1)
-        ceduo_complain(v, path, "", _("a sphere is given by one of diameter_m, volume_m3 and mass_kg, here %d are given"), n);
+    if (shape == CEDUO_SPHERE && n != 1 && !by_blocks)
+        ceduo_complain(
+            v, path, "",
+            blocks ? _("blocks say how large the rocks are: a sphere needs none of diameter_m, volume_m3 and mass_kg, or "
+                       "one, here %d are given")
+                   : _("a sphere is given by one of diameter_m, volume_m3 and mass_kg, here %d are given"),
+            n);
     if (shape != CEDUO_SPHERE && ceduo_node_get(node, "mass_kg") && ceduo_node_get(node, "density_kg_m3"))
         ceduo_complain(v, path, "density_kg_m3", _("%s already says this; keep one of the two"), "mass_kg");
-    bool by_mass = shape != CEDUO_SPHERE && ceduo_is_given(v, path, "mass_kg");
-    bool of_scene = strcmp(path, "rock") == 0;
     if (of_scene && !ceduo_is_given(v, path, "density_kg_m3") && !by_mass)
         ceduo_assume(v, "rock.density_kg_m3",
                      ceduo_format(v, _("density of limestone, %g kg/m3"), ceduo_scene_default().rock.density.mean));
-    struct ceduo_rock rock;
-    if (before == v->problems->met && ceduo_is_sound(v, path) && ceduo_rock_of_means(def, &rock) != CEDUO_OK)
-        ceduo_complain(v, path, "", _("the rock is too small or too large to compute"));
+    v->sized_by_blocks |= by_blocks && before == v->problems->met && ceduo_is_sound(v, path);
+    if (before == v->problems->met && ceduo_is_sound(v, path) && !by_blocks)
+        check_rock(v, path, def);
 }
 
 void ceduo_validate_release(struct validator *v, const char *path, struct ceduo_release *release)
@@ -75,6 +88,45 @@ void ceduo_validate_release(struct validator *v, const char *path, struct ceduo_
 }
 
 /* ---- the blocks that come down ---- */
+
+/* Integral of e^(a u) over u from 0 to `length`. */
+static double integral(double a, double length)
+{
+    return a == 0 ? length : ceduo_expm1(a * length) / a;
+}
+
+/* Return the mean volume of the blocks that come down, m3. */
+static double mean_volume(const struct ceduo_scene *scene)
+{
+    double volume = 0, per_year = 0;
+    for (size_t i = 0; i < scene->blocks_count; i++) {
+        const struct ceduo_block_class *b = &scene->blocks[i];
+        double length = ceduo_log(b->volumes[1] / b->volumes[0]); /* number of ln(v) goes with e^(-exponent ln v) */
+        volume += b->per_year * b->volumes[0] * integral(1 - b->exponent, length) / integral(-b->exponent, length);
+        per_year += b->per_year;
+    }
+    return volume / per_year;
+}
+
+/* Gives a rock without a size that of the mean block, and dimensions that are not given those that are: figures that are of one
+ * rock, such as the ADC, are of that. */
+static void size_by_blocks(struct validator *v)
+{
+    struct ceduo_rock_def *rock = &v->draft.scene.rock;
+    double volume = mean_volume(&v->draft.scene);
+    if (rock->shape == CEDUO_SPHERE)
+        rock->volume = ceduo_number(volume);
+    else if (rock->shape != CEDUO_CYLINDER)
+        rock->axes[0] = rock->axes[1] = rock->axes[2] =
+            ceduo_number(ceduo_cbrt(rock->shape == CEDUO_ELLIPSOID ? volume * 6 / M_PI : volume));
+    else if (!isnan(rock->diameter.mean))
+        rock->height = rock->diameter;
+    else
+        rock->diameter = rock->height = isnan(rock->height.mean) ? ceduo_number(ceduo_cbrt(volume * 4 / M_PI)) : rock->height;
+    if (rock->shape != CEDUO_SPHERE)
+        ceduo_assume(v, "rock.shape", _("all dimensions of a block are equal"));
+    check_rock(v, "blocks", rock);
+}
 
 void ceduo_validate_blocks(struct validator *v)
 {
@@ -96,7 +148,7 @@ void ceduo_validate_blocks(struct validator *v)
         ceduo_complain(v, "simulation.rocks", "", _("with blocks each rock is kept: at most %s rocks"),
                        NUMERAL(CEDUO_SIZED_ROCKS_MOST));
     if (r->shape == CEDUO_SPHERE && spreads && ceduo_is_sound(v, "rock")) /* whose proportions are always the same */
-        ceduo_complain(v, "rock", "", _("blocks say how large the rocks are; give the size without a spread"));
+        ceduo_complain(v, "rock", "", _("blocks say how large the rocks are; remove the size, or give it without a spread"));
     if (ceduo_is_too_long(v, "blocks", n) || !ceduo_is_sound(v, "blocks"))
         return;
     bool good = true, single = blocks->kind == NODE_MAP;
@@ -123,6 +175,8 @@ void ceduo_validate_blocks(struct validator *v)
                            _("the class overlaps one before it, from %s to %s m3; let them touch at most"),
                            NUMERAL(b[k].volumes[0]), NUMERAL(b[k].volumes[1]));
     }
+    if (v->sized_by_blocks && good && n > 0)
+        size_by_blocks(v);
 }
 
 /* ---- where they are counted ---- */

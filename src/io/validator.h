@@ -14,14 +14,16 @@ struct validator {
     struct scene_file *file; /* notes, inputs and observations go there as they are found */
     struct arena *arena;     /* its own, and its notes: */
     const struct source_note **notes;
-    const struct node *root; /* the scene, with what it refers to in place */
-    struct problems *problems;
-    const struct scene_file *previous; /* as it was: a slope is taken over where its part of the document is the same */
-    struct scene_draft draft;          /* its scene is the result */
+    const struct node *root;             /* the scene, with what it refers to in place */
+    struct problems *problems, *unusual; /* unusual: warnings about numbers that are good */
+    const struct scene_file *previous;   /* as it was: a slope is taken over where its part of the document is the same */
+    struct scene_draft draft;            /* its scene is the result */
     struct bad_values bad;
-    bool profile;  /* the slope has its vertices */
-    double origin; /* the slope's first x, which is taken off every x */
-    size_t inputs_room;
+    bool sized_by_blocks; /* the scene's rock has no size of its own */
+    bool profile;         /* the slope has its vertices */
+    double origin;        /* the slope's first x, which is taken off every x */
+    size_t inputs_room, rows_room;
+    const char **rows;        /* of each input where it is written; NULL: in a table of draws */
     const struct node *draws; /* of doubt: a table of values that a calibration left open; NULL: none */
 };
 
@@ -41,6 +43,7 @@ void ceduo_validate_release(struct validator *v, const char *path, struct ceduo_
 void ceduo_validate_controls(struct validator *v);
 void ceduo_validate_options(struct validator *v);
 void ceduo_validate_doubt(struct validator *v);
+void ceduo_validate_ends(struct validator *v); /* requires a scene and rows of doubt that are good */
 void ceduo_validate_observed(struct validator *v);
 
 /* What was observed may be written in several forms: brings them into the one that the table of keys has. */

@@ -209,8 +209,12 @@ static void change_shape(struct changes *c, enum ceduo_shape shape)
     const struct ceduo_rock_def *def = &c->d->file.scene.rock;
     bool cylinder = def->shape == CEDUO_CYLINDER, round = cylinder || def->shape == CEDUO_SPHERE;
     bool axes_then = shape == CEDUO_ELLIPSOID || shape == CEDUO_BLOCK, mass = !isnan(def->mass.mean);
+    bool sized = false; /* blocks may say it instead */
+    static const char *const sizes[] = {"rock.diameter_m", "rock.height_m", "rock.volume_m3", "rock.mass_kg", "rock.axes_m"};
+    for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; i++)
+        sized |= ceduo_document_node(c->d, sizes[i]) != NULL;
     struct ceduo_rock rock;
-    if (shape == def->shape || (!round && axes_then) || ceduo_rock_of_means(def, &rock) != CEDUO_OK)
+    if (!sized || shape == def->shape || (!round && axes_then) || ceduo_rock_of_means(def, &rock) != CEDUO_OK)
         return;
     if (axes_then)
         take_out(c, "rock", "diameter_m");

@@ -17,11 +17,11 @@ static const struct field rock_fields[] = {
            N_("diameter of a sphere or cylinder")),
     SPREAD("height_m", USUAL(N_("height, m"), 0.05, 15), AT(ceduo_rock_def, height), "m", 0, 1000, ABOVE, NULL,
            N_("height of a cylinder")),
-    NUM(FIELD_SPREADS, "axes_m", NAMED(N_("axes, m")), AT(ceduo_rock_def, axes), "m", 1, 0, 1000, ABOVE, NULL,
+    NUM(FIELD_SPREADS, "axes_m", USUAL(N_("axes, m"), 0.05, 15), AT(ceduo_rock_def, axes), "m", 1, 0, 1000, ABOVE, NULL,
         N_("the three axes of an ellipsoid or block")),
-    SPREAD("volume_m3", NAMED(N_("volume, m3")), AT(ceduo_rock_def, volume), "m3", 0, 1e6, ABOVE, NULL,
+    SPREAD("volume_m3", USUAL(N_("volume, m3"), 0.0001, 2000), AT(ceduo_rock_def, volume), "m3", 0, 1e6, ABOVE, NULL,
            N_("volume of a sphere, instead of its diameter")),
-    SPREAD("mass_kg", NAMED(N_("mass, kg")), AT(ceduo_rock_def, mass), "kg", 0, 1e10, ABOVE, NULL,
+    SPREAD("mass_kg", USUAL(N_("mass, kg"), 0.1, 5e6), AT(ceduo_rock_def, mass), "kg", 0, 1e10, ABOVE, NULL,
            N_("mass: of a sphere instead of its diameter, of other shapes instead of the density")),
     SPREAD("density_kg_m3", USUAL(N_("density, kg/m3"), 1000, 5000), AT(ceduo_rock_def, density), "kg/m3", 0, 30000, ABOVE,
            "2600", N_("density of the rock; the default is limestone's, an assumption")),
@@ -31,10 +31,11 @@ const struct object ceduo_rock_object = OBJECT(ceduo_rock_def, rock_fields, NULL
 /* ---- blocks ---- */
 
 static const struct field block_fields[] = {
-    NUMBER("per_year", SHOWN(N_("blocks per year"), N_("per year"), 0.001, 1000), AT(ceduo_block_class, per_year), "1/y", 0,
+    NUMBER("per_year", SHOWN(N_("blocks per year"), N_("per year"), 0.0001, 1000), AT(ceduo_block_class, per_year), "1/y", 0,
            1e6, REQUIRED | ABOVE, NULL, N_("blocks of these sizes that come down in a year")),
-    NUM(FIELD_NUMBERS, "volume_m3", BRIEF(N_("volumes, m3"), N_("m3")), LIST(ceduo_block_class, volumes, volumes_count), "m3",
-        1, 0, 1e6, REQUIRED | ABOVE, NULL, N_("the smallest and the largest: [lo, hi]")),
+    NUM(FIELD_NUMBERS, "volume_m3", SHOWN(N_("volumes, m3"), N_("m3"), 0.0001, 2000),
+        LIST(ceduo_block_class, volumes, volumes_count), "m3", 1, 0, 1e6, REQUIRED | ABOVE, NULL,
+        N_("the smallest and the largest: [lo, hi]")),
     NUMBER("exponent", USUAL(N_("exponent"), 0.2, 2), AT(ceduo_block_class, exponent), "", 0, 10, FIELD_ZERO, NULL,
            N_("the number of blocks above a volume v goes with v^-exponent; 0, in a list of classes also the default: as "
               "many in every range of equal ratio")),

@@ -183,6 +183,11 @@ bool ceduo_schema_in_range(const struct field *f, double value)
     return low && high;
 }
 
+bool ceduo_schema_is_usual(const struct field *f, double value)
+{
+    return value == 0 || (value >= f->shown.least && value <= f->shown.most);
+}
+
 bool ceduo_schema_spread_fits(const struct field *f, struct ceduo_number n)
 {
     double lowest = ceduo_number_lowest(n) / f->scale, highest = ceduo_number_highest(n) / f->scale;

@@ -58,7 +58,7 @@ struct field_shown {
     const char *label, *brief; /* marked for translation; brief: for the head of a column, NULL: the label */
     const char *unit;          /* NULL: the file's */
     double per;                /* so many of it are one of the file's */
-    double least, most;        /* what is usual, in the file's unit: beyond it a person is asked back */
+    double least, most;        /* usual, in the file's unit: beyond it a person is asked back, and a reader warns */
 };
 
 struct field {
@@ -178,6 +178,9 @@ double ceduo_schema_default(const struct field *field);
 
 /* Whether a number, in the file's unit, lies in the field's range. */
 bool ceduo_schema_in_range(const struct field *field, double value);
+
+/* True if a number, in the file's unit, is usual, or 0. Who types or writes another one may have meant another unit. */
+bool ceduo_schema_is_usual(const struct field *field, double value);
 
 /* Whether all that can be drawn of a number, in SI, lies in the range; what is cut at 0 and 1 need not. */
 bool ceduo_schema_spread_fits(const struct field *field, struct ceduo_number number);

@@ -48,10 +48,9 @@ void ceduo_app_hint(struct app *app, const char *text)
         ceduo_app_say(app, "%s", text);
 }
 
-/* The first problem's message, without the place, which the cursor shows. */
-static void say_problem(struct app *app)
+/* The first message of a list of problems, without the place, which the cursor shows. */
+static void say_problem(struct app *app, const char *text)
 {
-    const char *text = ceduo_text_string(&app->problems.text);
     const char *first = ceduo_app_format(app, "%.*s", (int)strcspn(text, "\n"), text), *colon = strstr(first, ": ");
     ceduo_app_warn(app, "%s", colon ? colon + 2 : first);
 }
@@ -242,7 +241,7 @@ bool ceduo_app_edited(struct app *app, bool good)
 {
     ceduo_problems_close(&app->problems);
     if (!good)
-        say_problem(app);
+        say_problem(app, ceduo_text_string(&app->problems.text));
     else
         ceduo_app_refresh(app);
     ceduo_problems_free(&app->problems);
@@ -268,7 +267,8 @@ void ceduo_app_search(struct app *app)
 
 /* ---- opening and closing ---- */
 
-static void took_document(struct app *app)
+/* Shows a document that was opened, and the first value in it that is unusual. */
+static void took_document(struct app *app, const struct problems *problems)
 {
     if (app->no_recovery) {
         ceduo_document_forget(&app->document);
@@ -283,6 +283,8 @@ static void took_document(struct app *app)
     for (int v = 0; v < VIEW_COUNT; v++)
         app->views[v].form.row = app->views[v].form.column = app->views[v].form.top = 0;
     ceduo_app_show(app, app->view);
+    if (problems->warnings.length > 0)
+        say_problem(app, problems->warnings.bytes);
 }
 
 bool ceduo_app_create(struct app *app, const char *path, enum ceduo_charset charset, unsigned threads, bool no_recovery,
@@ -297,7 +299,7 @@ bool ceduo_app_create(struct app *app, const char *path, enum ceduo_charset char
         return false;
     }
     app->scratch = ceduo_must(calloc(1, sizeof *app->scratch));
-    took_document(app);
+    took_document(app, problems);
     return true;
 }
 
@@ -320,7 +322,7 @@ static bool take_opened(struct app *app, struct document *next, bool good)
 {
     struct live live;
     if (!good) {
-        say_problem(app);
+        say_problem(app, ceduo_text_string(&app->problems.text));
     } else if (!ceduo_live_create(&live, app->live.threads)) { /* no thread */
         ceduo_document_close(next);
         ceduo_app_warn(app, "%s", _("out of memory"));
@@ -331,7 +333,7 @@ static bool take_opened(struct app *app, struct document *next, bool good)
         ceduo_document_close(&app->document);
         app->live = live;
         app->document = *next;
-        took_document(app);
+        took_document(app, &app->problems);
     }
     ceduo_problems_free(&app->problems);
     return good;

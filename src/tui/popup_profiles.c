@@ -389,7 +389,8 @@ static void add_starts(struct app *app, struct popup *p, const char *path, const
         const struct ceduo_release *r = &file.scene.release;
         append_changes(&rock, &release, file.root);
         const char *title = ceduo_in_language(file.scene.title, file.scene.title_it), *of = title[0] ? title : name;
-        add_start(app, p, ceduo_app_format(app, _("rock: %.3g m, %.0f kg"), mean.mean_diameter, mean.mass), rock.bytes, of);
+        if (file.scene.blocks_count == 0) /* of many sizes there is none to take over */
+            add_start(app, p, ceduo_app_format(app, _("rock: %.3g m, %.0f kg"), mean.mean_diameter, mean.mass), rock.bytes, of);
         if (release.bytes)
             add_start(app, p,
                       ceduo_app_format(app, _("start: %.3g m high, %.3g m/s"), r->height.mean, hypot(r->vx.mean, r->vz.mean)),

@@ -44,8 +44,13 @@ static void draw(struct app *app, struct ceduo_area area)
         ceduo_app_draw_form(app, area);
         return;
     }
-    ceduo_text_format(&text, _("%.4g kg, %.3g m3, mean diameter B %.3g m, moment %.3g kg m2."), rock.mass, rock.volume,
-                      rock.mean_diameter, rock.moment);
+    if (app->document.file.scene.blocks_count > 0)
+        ceduo_text_format(&text,
+                          _("Blocks say how large rocks are; ADC and index are of one rock: %.4g kg, mean diameter B %.3g m."),
+                          rock.mass, rock.mean_diameter);
+    else
+        ceduo_text_format(&text, _("%.4g kg, %.3g m3, mean diameter B %.3g m, moment %.3g kg m2."), rock.mass, rock.volume,
+                          rock.mean_diameter, rock.moment);
     if (area.width >= WIDE && app->document.file.scene.simulation.law == CEDUO_LAW_LUMPED)
         ceduo_text_then(&text, " ", "%s",
                         _("The lumped law knows neither mass nor shape: on the ground they scale the "

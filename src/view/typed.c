@@ -199,8 +199,7 @@ bool ceduo_typed_unusual(const struct field *f, const char *typed, struct text *
     double shown;
     if (!is_number(f) || ceduo_typed_number(typed, &shown) != CEDUO_NUMBER_GOOD)
         return false;
-    double value = shown / f->shown.per;
-    if (value == 0 || (value >= f->shown.least && value <= f->shown.most))
+    if (ceduo_schema_is_usual(f, shown / f->shown.per))
         return false;
     const char *unit = ceduo_shown_unit(f);
     ceduo_text_format(question, _("%s: %g%s%s? Usual is %g to %g. Enter once more takes it."), _(f->shown.label), shown,

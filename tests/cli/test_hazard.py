@@ -123,6 +123,53 @@ def test_accepted_return():
     expect(assumed not in " ".join(page(rocks).split()))
 
 
+def mean_volume(classes):
+    """Of the blocks of all classes together: the volume above which a share u of them is, at the middles of many equal shares"""
+    shares = [(k + 0.5) / 200000 for k in range(200000)]
+
+    def above(c, u):
+        lo, hi = c["volume_m3"]
+        b = c.get("exponent", 0)
+        return lo * (hi / lo) ** (1 - u) if b == 0 else (hi ** -b + u * (lo ** -b - hi ** -b)) ** (-1 / b)
+    return sum(c["per_year"] * math.fsum(above(c, u) for u in shares) / len(shares) for c in classes) / sum(c["per_year"] for c in classes)
+
+
+def test_no_size():
+    """With blocks the rock needs no size: rates and energies are those of any size, and what is of one rock is of the mean block"""
+    for classes in ([POWER], [{**POWER, "exponent": 0}, {"per_year": 0.02, "volume_m3": [20, 30], "exponent": 1}]):
+        result = run(falls(classes, rock={"density_kg_m3": DENSITY}))
+        check_power_law(classes, hazard_of(result))
+        expect_near(result["rock"]["mass_kg"] / DENSITY / mean_volume(classes), 1, 1e-4)
+    sizes = "", ", diameter_m: 0.3, height_m: 0.3", ", diameter_m: 2"
+    found = [good("--batch", "-f", "json", "-n", 500, "-s", f"rock={{shape: cylinder, density_kg_m3: 2600{size}}}",
+                  "blocks-above-the-road").json()[0] for size in sizes]
+    for other in found[1:]:
+        for a, b in zip(found[0]["options"], other["options"]):
+            for side in ("bare", "wooded"):
+                p, q = a["controls"][0][side], b["controls"][0][side]
+                expect_equal(p["reach_probability"], q["reach_probability"])
+                expect_near(p["energy_kJ"]["mean"], q["energy_kJ"]["mean"], 1e-9 * q["energy_kJ"]["mean"])
+                expect_near(p["hazard"]["exceed_per_year"], q["hazard"]["exceed_per_year"], 1e-9)
+    one = run(falls([POWER], rock={"density_kg_m3": DENSITY}, forest=[WOOD | {"to_m": 19}]))
+    same = run(falls([POWER], rock={"density_kg_m3": DENSITY, "mass_kg": one["rock"]["mass_kg"]}, forest=[WOOD | {"to_m": 19}]))
+    for a, b in ((one, same),):
+        expect_near(a["options"][0]["summary"]["adc_m"], b["options"][0]["summary"]["adc_m"], 1e-9)
+
+
+def test_no_size_in_all_modes():
+    """Page, report, uncertainty and search take a scene whose rocks have no size of their own; all dimensions equal is an assumption"""
+    with Folder() as f:
+        f.write("s.yaml", slope_site(rock={"shape": "block"}, simulation={"rocks": 100}))
+        for words in (("--check",), ("--batch",), ("--report", "page.html"), ("--sensitivity=64", "-f", "json"),
+                      ("--find", "forest[0].stand.stools.per_ha=100:5000", "--goal", "arrive=0.5")):
+            done = good(*words, "s.yaml", cwd=f.path)
+            expect("nan" not in done.out.lower(), done)
+        expect("NaN" not in (f.path / "page.html").read_text())
+        page = " ".join(good(*WHOLE, "s.yaml", cwd=f.path).out.split())
+        expect_in("all dimensions of a block are equal", page)
+        expect_in("100 rocks of many sizes", " ".join(good("--batch", "s.yaml", cwd=f.path).out.split()))
+
+
 def test_figures_agree():
     """Matrix, accepted energy and shares say the same as the curve"""
     result = run(falls(POWER))
@@ -315,8 +362,8 @@ def test_wide_figures():
     blocks = [{"per_year": 1, "volume_m3": [400, 80000], "exponent": 1}]
     rare = [{"per_year": 1e-7, "volume_m3": [0.5, 1], "exponent": 1}]
     with Folder() as f:
-        text = good(*WHOLE, f.write("s.yaml", slope_site(blocks=blocks))).out
-        result = good("--batch", "-f", "json", f.path / "s.yaml").json()[0]
+        text = good(*WHOLE, f.write("s.yaml", slope_site(blocks=blocks)), unusual=True).out
+        result = good("--batch", "-f", "json", f.path / "s.yaml", unusual=True).json()[0]
         row = re.findall(r"\n    without forest  .*", text)[-1]
         expect(len(row) <= 81 and "\u2026" not in row, row)
         found = re.findall(r"(\d\.\d) \(([\d.]+)\u2013([\d.]+)\)e(\d)", row)
@@ -325,7 +372,8 @@ def test_wide_figures():
             for shown, key in ((value, "energy_kJ"), (lo, "lo"), (hi, "hi")):
                 wanted = back[key] / 10 ** int(power)
                 expect_near(float(shown), wanted, 0.05 * (1 + 1e-9) if wanted < 10 else 0.5, key)
-        text = good(*WHOLE, f.write("t.yaml", slope_site(forest=None, options=options, blocks=rare, controls=[{"x_m": 140}]))).out
+        text = good(*WHOLE, f.write("t.yaml", slope_site(forest=None, options=options, blocks=rare, controls=[{"x_m": 140}])),
+                    unusual=True).out
         rows = re.findall(r"\n    (?:without forest|half|third) +(\d\.\d) \([\d.]+\u2013[\d.]+\)e(\d) ", text)
         expect_equal(len(rows), 3, text)
 
@@ -530,7 +578,7 @@ def test_refused():
             expect_in(wanted, r.err)
         for changes, wanted in (({"rocks_per_year": 3}, "rocks_per_year: blocks already says this; keep one of the two"),
                                 ({"rock": {"diameter_m": {"mean": 1, "spread": 0.1}}},
-                                 "rock: blocks say how large the rocks are; give the size without a spread"),
+                                 "rock: blocks say how large the rocks are; remove the size, or give it without a spread"),
                                 ({"rock": {"volume_m3": {"mean": 1, "spread": 0.1}}}, "rock: blocks say how large"),
                                 ({"rock": {"mass_kg": {"mean": 900, "spread": 10}}}, "rock: blocks say how large"),
                                 ({"rock": {"diameter_m": {"mean": 1, "spread": 0.1}, "height_m": 2}}, "does not belong to the shape"),

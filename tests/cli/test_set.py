@@ -171,6 +171,52 @@ def test_set_place():
     expect_equal(done.err, "--set:1:17: rock.diameter_m: -1 is below 0 m\n  rock.diameter_m=-1\n" + " " * 18 + "^\n")
 
 
+LARGE = "rock.diameter_m: 80 m is unusual (usual: 0.05 to 15 m); check the number and its unit"
+
+
+def test_unusual():
+    """A number beyond what is usual is computed, with a warning on standard error: of a file, of -s, of a row of --each"""
+    tall = {"from_m": 10, "to_m": 70, "stand": "tall.yaml"}
+    with Folder() as f:
+        f.write("plain.yaml", scene())
+        f.write("large.yaml", "ceduo: scene/1\nrock:\n  diameter_m: 80\n" +
+                "slope: {vertices_m: [[0, 64], [100, 0]], segments: [{rn: 0.35, rt: 0.8}]}\ncontrols_m: [75]\n")
+        f.write("tall.yaml", "ceduo: stand/1\nname: tall\ntrees:\n  - {per_ha: 100, dbh_m: 0.3, height_m: 120, volume_m3: 2}\n")
+        f.write("wood.yaml", scene(forest=[tall]))
+        f.write("rows.csv", "id,rock.diameter_m\na,80\nb,0.5\nc,0\nd,15\n")
+        f.write("plain.csv", "id,release.vx_m_s\na,1\nb,2\n")
+        for words, said in ((("large.yaml",), f"large.yaml:3:15: {LARGE}\n    diameter_m: 80\n                ^\n"),
+                            (("plain.yaml", "-s", "rock.diameter_m=80"),
+                             f"--set:1:17: {LARGE}\n  rock.diameter_m=80\n" + " " * 18 + "^\n"),
+                            (("plain.yaml", "-s", "rock.diameter_m={mean: 80, spread: 20}"), "rock.diameter_m.mean: 80 m is unusual"),
+                            (("plain.yaml", "-s", "rock={shape: block, axes_m: [1, 1, 16]}"), "rock.axes_m[2]: 16 m is unusual"),
+                            (("plain.yaml", "-s", "rock={volume_m3: 3000}"), "rock.volume_m3: 3000 m3 is unusual"),
+                            (("plain.yaml", "-s", "controls[0].accepted_kJ=50000"),
+                             "controls[0].accepted_kJ: 50000 kJ is unusual (usual: 0 to 20000 kJ)"),
+                            (("wood.yaml",), "tall.yaml:4:41: trees[0].height_m: 120 m is unusual (usual: 0.5 to 50 m)")):
+            for mode in (("--check",), ("--batch", "-f", "json", "-n", 10)):
+                done = ceduo(*mode, *words, cwd=f.path)
+                expect_equal((done.status, done.err.count("unusual")), (0, 1), done)
+                expect(done.err.startswith(said) or (said in done.err and not said.endswith("\n")), done)
+            expect_equal(len(done.json()), 1)
+        for table, name, warned in (("rows.csv", "plain.yaml", f"rows.csv:2: {LARGE}"), ("plain.csv", "large.yaml", LARGE)):
+            done = ceduo("--check", "--each", table, name, cwd=f.path)
+            expect_in(warned, done.err)
+            expect_equal(done.err.count("unusual"), 1, done)
+        good("--check", "-s", "rock.diameter_m=15", "-s", "release.height_m=0", "-s", "controls[0].accepted_kJ=0", "plain.yaml",
+             cwd=f.path)
+        bad = ceduo("--check", "-s", "rock.diameter_m=80", "-s", "controls[0].x_m=-1", "plain.yaml", cwd=f.path)
+        expect(bad.status == USAGE and "unusual" not in bad.err, "what is wrong comes first", bad)
+
+
+def test_shipped_are_usual():
+    """No scene and no stand that comes with the program has an unusual value"""
+    with Folder() as f:
+        good("--check", *(PROFILES / "scenes").glob("*.yaml"))
+        for path in (PROFILES / "stands").glob("*.yaml"):
+            good("--check", f.write("s.yaml", scene(forest=[{"from_m": 10, "to_m": 70, "stand": str(path)}])))
+
+
 def main():
     suite = Suite()
     suite.run(tests_of(sys.modules[__name__]))

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Live edits of fields and lists in the terminal program: what each does to the scene, to the figures and to the file."""
+import math
 import re
 import sys
 from pathlib import Path
@@ -505,6 +506,33 @@ def test_blocks():
         check_good(place.path, "fast.yaml")
         for words in ("volume_m3: [0.05, 1]", "volume_m3: [1, 10]", "survey: good"):
             expect_in(words, place.text("fast.yaml"), saved.note)
+
+
+def test_blocks_without_size():
+    """With blocks a rock's size may be emptied, and its shape changed, which fills in none; without them it is needed"""
+    with Place() as place:
+        place.write("sizes.yaml", play.FAST + "blocks: [{per_year: 1, volume_m3: [0.1, 1], exponent: 1}]\n")
+        sized, none, block, refused, saved = place.play("""resize 120 60
+            key 3
+            dump
+            find rock.diameter_m
+            key Enter Ctrl-U Enter
+            dump
+            find rock.shape
+            key +
+            dump
+            find blocks
+            key d
+            dump
+            key s
+            dump""", "sizes.yaml")
+        mean = 0.1 * math.log(10) / (1 - 0.1)  # of v^-1 from 0.1 to 1
+        expect_in("ADC and index are of one rock: 170.2 kg, mean diameter B 0.5 m", " ".join(sized.body.split()))
+        expect_in(f"ADC and index are of one rock: {mean * 2600:.1f} kg", " ".join(none.body.split()))
+        expect_in("'diameter_m' is missing: the shape 'cylinder' needs it", refused.note)
+        expect("filled in" not in block.note, block)
+        check_good(place.path, "sizes.yaml")
+        expect_in("rock: {shape: cylinder}", place.text("sizes.yaml"), saved.note)
 
 
 def test_segments():

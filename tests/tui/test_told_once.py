@@ -6,7 +6,7 @@ import sys
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
-from play import CUTS, WOOD, Place  # noqa: E402
+from play import CUTS, FAST, WOOD, Place, run_script  # noqa: E402
 from harness import PROFILES, expect, expect_equal, expect_in, run_all  # noqa: E402
 
 PAPER = PROFILES / "scenes" / "paper-site.yaml"
@@ -46,6 +46,20 @@ def test_remarks():
     expect(len(whole) >= int(left.group(1)), whole, "where there is room; counted:", left.group(0))
     for sentence in whole:
         expect_in(sentence[:60].strip(), one_line)
+
+
+def test_unusual():
+    """A file with an unusual number is opened, and the number is named until a key is pressed; a start names it on standard error, too"""
+    said = "rock.diameter_m: 80 m is unusual (usual: 0.05 to 15 m)"
+    with Place() as place:
+        place.write("large.yaml", FAST.replace("diameter_m: 0.5", "diameter_m: 80"))
+        opened, later = place.play("key o\ntype large.yaml\nkey Enter\ndump\nkey 3\ndump")
+        started = run_script(place.path, "dump start.txt\n", "large.yaml")
+        start = place.text("start.txt")
+    expect_in(said, opened.note)
+    expect("unusual" not in later.note, later)
+    expect_in(said, " ".join(start.split()))
+    expect_in(f"large.yaml:4:35: {said}", started.err)
 
 
 def test_one_error():
