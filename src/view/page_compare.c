@@ -251,6 +251,58 @@ void ceduo_page_years(struct ceduo_page *page, const struct ceduo_report *report
     ceduo_page_years_words(page, r, years);
 }
 
+#define BESIDE_MAX 8 /* options in one table */
+
+static void write_share(struct ceduo_page *page, const struct ceduo_control *control, const struct ceduo_arrivals *arrivals)
+{
+    const struct ceduo_measure share = ceduo_judged(control, arrivals);
+    ceduo_measure_value(ceduo_page_text(page), &share);
+}
+
+void ceduo_page_years_beside(struct ceduo_page *page, const struct ceduo_report *report)
+{
+    static const struct ceduo_page_column columns[1 + BESIDE_MAX] = {{N_("year"), 15, 2, 0}, {"", -7, 0, 0}, {"", -7, 0, 0},
+                                                                     {"", -7, 0, 0},         {"", -7, 0, 0}, {"", -7, 0, 0},
+                                                                     {"", -7, 0, 0},         {"", -7, 0, 0}, {"", -7, 0, 0}};
+    const struct ceduo_result *r = report->result;
+    const struct ceduo_control *control = last_control(r);
+    size_t n = r->scene->options_count;
+    const struct ceduo_measure judged = ceduo_judged(control, NULL);
+    LOCAL_TEXT(head);
+    ceduo_measure_name(&head, &judged, CEDUO_HEAD);
+    ceduo_page_say(page, CEDUO_PAGE_SECTION, _("All options year by year, %s, up to %s m"), ceduo_text_string(&head),
+                   SHORTEST(control->x_given));
+    for (size_t from = 0; from < n; from += BESIDE_MAX) {
+        size_t to = from + BESIDE_MAX < n ? from + BESIDE_MAX : n;
+        ceduo_page_table(page, columns, 1 + to - from);
+        for (size_t i = from; i < to; i++)
+            ceduo_text_format(&page->last->cells[1 + i - from].text, "%zu", i + 1);
+        for (size_t k = 0; k < report->years[0]->count; k++) {
+            ceduo_page_write(page, "%4u", report->years[0]->years[k].year);
+            for (size_t i = from; i < to; i++) {
+                const struct ceduo_year *y = &report->years[i]->years[k];
+                if (y->wooded.rocks > 0)
+                    write_share(page, control, &y->wooded.arrivals[r->last_control]);
+                else
+                    ceduo_page_write(page, "%s",
+                                     BESIDE(y->controls[r->last_control].worst_adc, 3, r->scene->simulation.threshold));
+            }
+        }
+        ceduo_page_write(page, "%s", _("mean"));
+        for (size_t i = from; i < to; i++) {
+            const struct ceduo_measure mean = ceduo_share(report->verdict->choices[i].mean);
+            ceduo_measure_value(ceduo_page_text(page), &mean);
+        }
+        ceduo_page_write(page, "%s", _("without forest"));
+        for (size_t i = from; i < to; i++)
+            write_share(page, control, &r->bare.arrivals[r->last_control]);
+        struct text *names = ceduo_page_add(page, CEDUO_PAGE_SENTENCE);
+        for (size_t i = from; i < to; i++)
+            ceduo_text_format(names, i == from ? "%zu %s" : ", %zu %s", i + 1, r->scene->options[i].name);
+        ceduo_text_char(names, '.');
+    }
+}
+
 /* ---- one energy law of stems against the other ---- */
 
 /* NULL: not known, or of no stems. */

@@ -37,6 +37,8 @@ void ceduo_page_option(struct ceduo_page *page, const struct ceduo_report *repor
 
 /* An option year by year; all options side by side, as filed and over the years. */
 void ceduo_page_years(struct ceduo_page *page, const struct ceduo_report *report, size_t option);
+/* All options in one table, a row for each year: what arrives with too much energy, or by the index the ADC. */
+void ceduo_page_years_beside(struct ceduo_page *page, const struct ceduo_report *report);
 /* What is to be said of the years together. */
 void ceduo_page_years_words(struct ceduo_page *page, const struct ceduo_result *result, const struct ceduo_years *years);
 void ceduo_page_comparison(struct ceduo_page *page, const struct ceduo_report *report);

@@ -508,6 +508,8 @@ void ceduo_report_table(struct text *text, const struct ceduo_report *report, bo
         ceduo_page_comparison(&page, report);
     for (size_t c = 0; c < scene->controls_count; c++)
         ceduo_page_hazard(&page, report, c, c == 0);
+    if (report->years && scene->options_count > 1 && scene->controls_count > 0)
+        ceduo_page_years_beside(&page, report);
     ceduo_page_notes(&page, report);
     ceduo_page_print(text, &page, plain);
 }

@@ -321,6 +321,8 @@ void ceduo_page_short(struct ceduo_page *page, const struct ceduo_report *report
         ceduo_page_say(page, CEDUO_PAGE_SECTION, "%s", r->scene->options[i].name);
         ceduo_page_years(page, report, i);
     }
+    if (report->years && !nothing && n > 1)
+        ceduo_page_years_beside(page, report);
     ceduo_text_format(ceduo_page_label(page, CEDUO_PAGE_POINT, _("MORE")), "--details%s, --sensitivity, --report page.html; %s",
                       noted ? "" : _(" (notes)"), noted ? _("as screens: ceduo SCENE") : _("or ceduo SCENE"));
 }

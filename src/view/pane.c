@@ -112,10 +112,25 @@ static const char *than(enum ceduo_light light, const char *good, const char *ba
     return light == CEDUO_PASS ? good : bad;
 }
 
+/* Beside the sign of today that of the worst year ahead: fail if the test fails in any. */
+static void add_light(struct ceduo_page *page, const struct ceduo_pane *pane, enum ceduo_light today, size_t fails, bool known)
+{
+    const struct ceduo_verdict *v = pane->verdict;
+    const struct ceduo_choice *c = v && pane->option < v->n && !pane->year ? &v->choices[pane->option] : NULL;
+    ceduo_page_light(page, today);
+    if (c && c->over.years > 0 && c->window.kind != CEDUO_WINDOW_ALIKE)
+        ceduo_page_light(page, !known || c->over.nothing ? CEDUO_UNKNOWN : fails > 0 ? CEDUO_FAIL : CEDUO_PASS);
+    else
+        ceduo_page_write(page, "%s", "");
+}
+
 static void add_tests(struct ceduo_page *page, const struct ceduo_pane *pane, const struct ceduo_index *index)
 {
-    static const struct ceduo_page_column columns[] = {{"", 24, 0, 0}, {"", -1, 1, 0}};
+    static const struct ceduo_page_column columns[] = {{"", 23, 0, 0}, {"", -1, 1, 0}, {"", -1, 0, 0}};
     const struct ceduo_arrivals *wood = wood_of(pane);
+    const struct ceduo_choice none = {0}, *c = pane->verdict && pane->option < pane->verdict->n
+                                                   ? &pane->verdict->choices[pane->option]
+                                                   : &none;
     double threshold = pane->result->scene->simulation.threshold;
     bool gap = index->length > 0 && index->longest_gap > threshold; /* the reason in the page, too */
     CEDUO_PAGE_TABLE_OF(page, columns);
@@ -126,16 +141,16 @@ static void add_tests(struct ceduo_page *page, const struct ceduo_pane *pane, co
     else
         ceduo_page_write(page, _("ADC %s m %s %g"), BESIDE(index->worst_adc, 3, threshold),
                          than(index->contact, "<", "\xe2\x89\xa5"), threshold);
-    ceduo_page_light(page, index->contact);
+    add_light(page, pane, index->contact, c->over.unprotected_contact, true);
     ceduo_page_write(page, _("%g m free %s %% %s %g"), threshold, PERCENT(index->worst_free_run, CEDUO_FREE_RUN_MOST),
                      index->worst_free_run <= CEDUO_FREE_RUN_MOST ? "\xe2\x89\xa4" : ">", CEDUO_FREE_RUN_MOST * 100);
-    ceduo_page_light(page, index->free_run);
+    add_light(page, pane, index->free_run, c->over.unprotected_free_run, true);
     if (index->energy != CEDUO_UNKNOWN && wood)
         ceduo_page_write(page, _("energy %s %% %s %s"), PERCENT(wood->exceed_probability, wood->limit),
                          than(index->energy, "\xe2\x89\xa4", ">"), ROUNDED(wood->limit * 100, 3));
     else
         ceduo_page_write(page, "%s", wood || !pane->result->wooded ? _("energy: not judged") : _("energy \xe2\x80\xa6"));
-    ceduo_page_light(page, index->energy);
+    add_light(page, pane, index->energy, c->over.unprotected_energy, c->energy_known);
 }
 
 static void add_index(struct ceduo_page *page, const struct ceduo_pane *pane, const struct ceduo_index *index)

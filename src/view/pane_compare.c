@@ -10,17 +10,16 @@
 #include "plot_parts.h"
 
 /* Columns behind the name; without rocks among stems two of them are of the index. */
-enum column { NAME, TODAY, MAY_BE, EVERY, MEAN, MARK, WORST, FAILS, YIELD, CONTACT, FREE_RUN, ENERGY, YEARS, COLUMNS };
+enum column { NAME, TODAY, MAY_BE, MEAN, MARK, WORST, FAILS, YIELD, CONTACT, FREE_RUN, ENERGY, YEARS, COLUMNS };
 
 static const struct ceduo_page_column columns[COLUMNS] = {
     [NAME] = {"", 12, 0, CEDUO_FILLS},
     [TODAY] = {"", -5, 1, CEDUO_FITS},
     [MAY_BE] = {"", -1, 1, CEDUO_FITS | CEDUO_KEPT | CEDUO_DROPPED(4)},
-    [EVERY] = {"", -1, 1, CEDUO_FITS | CEDUO_DROPPED(5)},
     [MEAN] = {"", -5, 1, CEDUO_FITS | CEDUO_KEPT | CEDUO_DROPPED(1)},
     [MARK] = {"", 1, 1, CEDUO_FITS | CEDUO_DROPPED(8)},
     [WORST] = {N_("worst"), -5, 1, CEDUO_FITS | CEDUO_DROPPED(6)},
-    [FAILS] = {N_("fail"), -4, 1, CEDUO_FITS | CEDUO_KEPT | CEDUO_DROPPED(2)},
+    [FAILS] = {"", -4, 1, CEDUO_FITS | CEDUO_KEPT | CEDUO_DROPPED(2)},
     [YIELD] = {N_("m\xc2\xb3/ha y"), -4, 1, CEDUO_FITS | CEDUO_KEPT | CEDUO_DROPPED(3)},
     [CONTACT] = {"C", 1, 2, CEDUO_DROPPED(7)},
     [FREE_RUN] = {"F", 1, 0, CEDUO_DROPPED(7)},
@@ -77,6 +76,18 @@ static void add_mean(struct ceduo_page *page, const struct ceduo_pane *pane, siz
     ceduo_text_char(text, ')');
 }
 
+/* With blocks the options are judged by the years from one rock above the limit to the next. */
+static bool has_rates(const struct ceduo_pane *pane)
+{
+    return pane->result->wooded && pane->result->scene->blocks_count > 0 && pane->verdict->accepted;
+}
+
+static struct ceduo_outcome outcome_of(const struct ceduo_pane *pane, size_t i)
+{
+    return ceduo_words_outcome(
+        &(const struct ceduo_subject){pane->result, pane->verdict, pane->doubt, i, pane->result->last_control, false});
+}
+
 static void add_option(struct ceduo_page *page, const struct ceduo_pane *pane, size_t i)
 {
     const struct ceduo_result *r = pane->result;
@@ -87,19 +98,21 @@ static void add_option(struct ceduo_page *page, const struct ceduo_pane *pane, s
     ceduo_page_mark(page, i == pane->option ? CEDUO_ROLE_CURSOR : CEDUO_ROLE_TEXT, r->scene->options[i].name);
     struct ceduo_measure judged = ceduo_judged(&r->scene->controls[r->last_control], a);
     const struct ceduo_measure today = ceduo_share(c->today); /* its error is right where rocks have weights, too */
-    if (v->wooded)
+    if (has_rates(pane))
+        ceduo_words_every(ceduo_page_text(page), a ? ceduo_hazard_feared(&a->hazard) : (struct ceduo_rate){.rate = NAN});
+    else if (v->wooded)
         add_share(page, &today);
     else
         ceduo_page_write(page, "%s", BESIDE(index->worst_adc, 3, r->scene->simulation.threshold));
     struct text *may_be = ceduo_page_text(page);
     ceduo_measure_doubt(&judged, pane->doubt, i, r->last_control);
-    if (!isnan(judged.may_lo) && !knows_rotation(pane))
+    if (!isnan(judged.may_lo) && !knows_rotation(pane) && !has_rates(pane))
         ceduo_measure_may_be(may_be, &judged);
-    if (a && r->scene->blocks_count > 0)
-        ceduo_words_every(ceduo_page_text(page), ceduo_hazard_feared(&a->hazard));
-    else
-        ceduo_page_write(page, "%s", "");
-    if (v->wooded)
+    if (has_rates(pane) && c->over.years == 0)
+        ceduo_page_write(page, PENDING);
+    else if (has_rates(pane))
+        ceduo_words_years(ceduo_page_text(page), outcome_of(pane, i).rate);
+    else if (v->wooded)
         add_mean(page, pane, i);
     else
         ceduo_page_number(page, index->per_100m * J_TO_KJ, 3);
@@ -112,6 +125,12 @@ static void add_option(struct ceduo_page *page, const struct ceduo_pane *pane, s
     if (c->over.years == 0) {
         ceduo_page_write(page, PENDING);
         ceduo_page_write(page, PENDING);
+    } else if (has_rates(pane)) {
+        ceduo_page_write(page, "%s (%u)", WRITTEN(1 / (c->worst.mean * r->bare.arrivals[r->last_control].hazard.per_year), 2),
+                         c->over.worst_year);
+        LOCAL_TEXT(decision);
+        ceduo_words_decision(&decision, outcome_of(pane, i).answer);
+        ceduo_page_write(page, "%s", ceduo_text_string(&decision));
     } else {
         if (v->wooded)
             ceduo_page_worst(page, c);
@@ -133,8 +152,9 @@ static void add_heads(struct ceduo_page *page, const struct ceduo_pane *pane)
     struct ceduo_page_cell *heads = page->last->cells;
     ceduo_text_put(&heads[TODAY].text, r->wooded ? _("today") : _("ADC m"));
     ceduo_text_put(&heads[MEAN].text, r->wooded ? _("mean") : _("kJ/100 m"));
-    if (r->wooded && r->scene->blocks_count > 0)
-        ceduo_text_put(&heads[EVERY].text, _("every, y"));
+    ceduo_text_put(&heads[FAILS].text, has_rates(pane) ? _("accepted") : _("fail"));
+    if (has_rates(pane))
+        return;
     if (knows_rotation(pane))
         ceduo_text_format(&heads[MEAN].text, ", %s", _("may be"));
     else if (pane->doubt && pane->doubt->answer)
@@ -148,7 +168,10 @@ void ceduo_pane_options(struct ceduo_page *page, const struct ceduo_pane *pane, 
     struct ceduo_measure judged = ceduo_judged(control, NULL);
     LOCAL_TEXT(name);
     ceduo_measure_name(&name, &judged, CEDUO_SHORT_HEAD);
-    if (r->wooded)
+    if (has_rates(pane))
+        ceduo_page_say(page, CEDUO_PAGE_TITLE, _("Years between two rocks %s at %.6g m (accepted: %s)"),
+                       ceduo_text_string(&name), control->x_given, SHORTEST(ceduo_accepted_return(control)));
+    else if (r->wooded)
         ceduo_page_say(page, CEDUO_PAGE_TITLE, _("Of 1000 rocks: %s at %.6g m"), ceduo_text_string(&name), control->x_given);
     else
         ceduo_page_say(page, CEDUO_PAGE_TITLE, _("At %s m"), ROUNDED(control->x_given, 6));
@@ -188,7 +211,7 @@ void ceduo_pane_said(struct ceduo_page *page, const struct ceduo_pane *pane)
         ceduo_page_note(page, _(ceduo_words_by_index));
     if (pane->busy)
         ceduo_page_note(page, _("Computing: the figures become finer."));
-    if (v->n > 1 && r->wooded && v->accepted)
+    if (v->n > 1 && r->wooded && v->accepted && !has_rates(pane))
         ceduo_page_say(page, CEDUO_PAGE_NOTE, _("fail: years in which more than %.0f of 1000 bring too much."),
                        CEDUO_EXCEED_MOST * 1000);
     if (v->rotation.known && !v->rotation.uneven)
