@@ -157,6 +157,13 @@ static void say_count(struct text *text, const struct ceduo_outcome *o)
         ceduo_text_format(text, "%.0f\xe2\x80\x93%.0f", o->failing_lo, o->failing_hi);
 }
 
+/* True if a cut is due and changes the answer. */
+static bool is_due(const struct ceduo_subject *s, const struct ceduo_outcome *o)
+{
+    const struct ceduo_choice *c = s->verdict && s->option < s->verdict->n ? &s->verdict->choices[s->option] : NULL;
+    return o->ahead && c && c->cut > 0 && o->today != o->answer && !o->impossible;
+}
+
 /* Over the years: in how many the limit is exceeded, and by how much. */
 static void say_years(struct text *text, const struct ceduo_subject *s, const struct ceduo_outcome *o, enum length length)
 {
@@ -169,6 +176,14 @@ static void say_years(struct text *text, const struct ceduo_subject *s, const st
     double accepted = 1000 * CEDUO_EXCEED_MOST, worst = 1000 * over->worst;
     LOCAL_TEXT(count);
     say_count(&count, o);
+    if (is_due(s, o)) {
+        ceduo_text_format(text, length < BRIEF ? _("%.0f of 1000 in year %u") : _("%.0f of 1000"), worst, over->worst_year);
+        if (length < SHORT)
+            ceduo_text_format(
+                text, length < MIDDLE ? _(", more than %.0f of 1000 in %s of %zu years") : _(", above %.0f in %s of %zu years"),
+                accepted, ceduo_text_string(&count), over->years);
+        return;
+    }
     if (o->answer == CEDUO_YES)
         ceduo_text_format(text,
                           length <= LONG     ? _("in every year of %zu at most %.0f of 1000 rocks exceed %s kJ")
@@ -248,9 +263,7 @@ static void say_reason(struct text *text, const struct ceduo_subject *s, const s
     for (enum length i = FULL; i < LENGTHS; i++) {
         ceduo_text_free(text);
         if (o->impossible)
-            ceduo_text_put(text, i == FULL
-                                     ? _("a stand has more stems than a forest can hold; check stems per hectare and diameters")
-                                     : _("impossible stand: check it"));
+            ceduo_text_put(text, i < BRIEF ? _("more stems than a forest can hold: check the stand") : _("impossible stand"));
         else if (o->answer == CEDUO_NOTHING)
             ceduo_text_format(text, _("of %llu rocks %llu arrive, even without forest"), (unsigned long long)bare->released,
                               (unsigned long long)bare->reached);
@@ -275,21 +288,6 @@ static void say_reason(struct text *text, const struct ceduo_subject *s, const s
     ceduo_text_free(text);
 }
 
-/* "✔ YES today; ✘ NO after the cut in year 3" where a cut is due and changes the answer; false elsewhere. */
-static bool say_due(struct text *text, const struct ceduo_subject *s, const struct ceduo_outcome *o)
-{
-    const struct ceduo_choice *c = s->verdict && s->option < s->verdict->n ? &s->verdict->choices[s->option] : NULL;
-    if (!o->ahead || !c || c->cut == 0 || o->today == o->answer || o->today == CEDUO_UNANSWERED || o->impossible)
-        return false;
-    LOCAL_TEXT(today);
-    LOCAL_TEXT(answer);
-    ceduo_words_decision(&today, o->today);
-    ceduo_words_decision(&answer, o->answer);
-    ceduo_text_format(text, _("%s today; %s after the cut in year %u"), ceduo_text_string(&today), ceduo_text_string(&answer),
-                      c->cut);
-    return true;
-}
-
 void ceduo_words_reason(struct text *text, const struct ceduo_subject *s)
 {
     const struct ceduo_outcome o = ceduo_words_outcome(s);
@@ -310,8 +308,15 @@ void ceduo_words_answer(struct text *text, const struct ceduo_subject *s, size_t
         ceduo_text_put(text, place.bytes);
         width -= ceduo_utf8_width(place.bytes) < width ? ceduo_utf8_width(place.bytes) : width;
     }
-    if (!say_due(&verdict, s, &o))
+    if (is_due(s, &o)) { /* "✔ YES today; ✘ NO after the cut" */
+        LOCAL_TEXT(today);
+        LOCAL_TEXT(answer);
+        ceduo_words_decision(&today, o.today);
+        ceduo_words_decision(&answer, o.answer);
+        ceduo_text_format(&verdict, _("%s today; %s after the cut"), ceduo_text_string(&today), ceduo_text_string(&answer));
+    } else {
         ceduo_words_decision(&verdict, o.answer);
+    }
     if (o.answer == CEDUO_YES && o.also_bare)
         ceduo_text_put(&verdict, _(", also without forest"));
     size_t taken = verdict.length > 0 ? ceduo_utf8_width(verdict.bytes) + 2 : 0;
