@@ -140,7 +140,7 @@ def test_no_size():
         result = run(falls(classes, rock={"density_kg_m3": DENSITY}))
         check_power_law(classes, hazard_of(result))
         expect_near(result["rock"]["mass_kg"] / DENSITY / mean_volume(classes), 1, 1e-4)
-    sizes = "", ", diameter_m: 0.3, height_m: 0.3", ", diameter_m: 2"
+    sizes = "", ", diameter_m: 0.3, height_m: 0.3", ", diameter_m: 2, height_m: 2"
     found = [good("--batch", "-f", "json", "-n", 500, "-s", f"rock={{shape: cylinder, density_kg_m3: 2600{size}}}",
                   "blocks-above-the-road").json()[0] for size in sizes]
     for other in found[1:]:
