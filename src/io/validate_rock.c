@@ -51,7 +51,7 @@ void ceduo_validate_rock(struct validator *v, const char *path, const struct ced
     }
     for (size_t i = 0; keys[i]; i++)
         n += ceduo_is_given(v, path, keys[i]);
-    bool by_blocks = blocks && !by_mass && n < (shape == CEDUO_CYLINDER ? 2 : 1);
+    bool by_blocks = blocks && !by_mass && n == 0;
     for (size_t i = 0; keys[i] && shape != CEDUO_SPHERE && !by_blocks; i++)
         if (!ceduo_is_given(v, path, keys[i]))
             ceduo_complain(v, path, "", _("'%s' is missing: the shape '%s' needs it"), keys[i], name);
@@ -108,21 +108,20 @@ static double mean_volume(const struct ceduo_scene *scene)
     return volume / per_year;
 }
 
-/* Gives a rock without a size that of the mean block, and dimensions that are not given those that are: figures that are of one
- * rock, such as the ADC, are of that. */
+/* Gives a rock without a size that of the mean block, all dimensions equal: figures that are of one rock, such as the ADC, are of
+ * that. */
 static void size_by_blocks(struct validator *v)
 {
     struct ceduo_rock_def *rock = &v->draft.scene.rock;
-    double volume = mean_volume(&v->draft.scene);
+    const double volume = mean_volume(&v->draft.scene);
+    const double full = rock->shape == CEDUO_CYLINDER ? 4 / M_PI : rock->shape == CEDUO_ELLIPSOID ? 6 / M_PI : 1;
+    const struct ceduo_number edge = ceduo_number(ceduo_cbrt(volume * full));
     if (rock->shape == CEDUO_SPHERE)
         rock->volume = ceduo_number(volume);
-    else if (rock->shape != CEDUO_CYLINDER)
-        rock->axes[0] = rock->axes[1] = rock->axes[2] =
-            ceduo_number(ceduo_cbrt(rock->shape == CEDUO_ELLIPSOID ? volume * 6 / M_PI : volume));
-    else if (!isnan(rock->diameter.mean))
-        rock->height = rock->diameter;
+    else if (rock->shape == CEDUO_CYLINDER)
+        rock->diameter = rock->height = edge;
     else
-        rock->diameter = rock->height = isnan(rock->height.mean) ? ceduo_number(ceduo_cbrt(volume * 4 / M_PI)) : rock->height;
+        rock->axes[0] = rock->axes[1] = rock->axes[2] = edge;
     if (rock->shape != CEDUO_SPHERE)
         ceduo_assume(v, "rock.shape", _("all dimensions of a block are equal"));
     check_rock(v, "blocks", rock);

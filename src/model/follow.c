@@ -252,6 +252,17 @@ static void change_shape(struct changes *c, enum ceduo_shape shape)
         ceduo_text_then(&c->filled, " ", _("(means, without spread)"));
 }
 
+/* The first dimension of a cylinder, whose size blocks said before, brings the other along: both are given or none. */
+static void follow_cylinder(struct changes *c, const char *path, const char *value)
+{
+    static const char *const keys[] = {"rock.diameter_m", "rock.height_m"};
+    for (int i = 0; c->d->file.scene.rock.shape == CEDUO_CYLINDER && i < 2; i++)
+        if (strcmp(path, keys[i]) == 0 && !ceduo_document_node(c->d, keys[1 - i])) {
+            ceduo_changes_add(c, "%s=%s", keys[1 - i], value);
+            ceduo_text_put(&c->followed, _("diameter and height are equal now"));
+        }
+}
+
 /* ---- one of several ---- */
 
 /* Takes out what would say the same as a value: of the rock the other sizes, or what says its mass otherwise. */
@@ -284,6 +295,7 @@ bool ceduo_document_set_alone(struct document *d, const char *path, const char *
         keep_one_of_all(&c, path);
     follow_end(&c, path, value);
     follow_design(&c, path);
+    follow_cylinder(&c, path, value);
     follow_border(&c, path, value);
     follow_stand(&c, path, ceduo_number_read(value, &now) == CEDUO_NUMBER_GOOD ? now : NAN);
     ceduo_changes_add(&c, "%s=%s", path, value);

@@ -207,9 +207,23 @@ static void add_belts(struct ceduo_page *page, const struct ceduo_scene *scene, 
     }
 }
 
-/* The ADC by the other rules, of each belt. */
-static void say_other_forms(struct ceduo_page *page, const struct ceduo_option *o, const struct ceduo_option_result *found)
+/* Length of the ground between two places, m. */
+static double ground_length(const struct ceduo_slope *s, double from, double to)
 {
+    double length = 0;
+    for (size_t j = 0; j + 1 < s->vertices; j++) {
+        double a = fmax(from, s->x[j]), b = fmin(to, s->x[j + 1]);
+        if (b > a)
+            length += (b - a) * hypot(1, (s->z[j + 1] - s->z[j]) / (s->x[j + 1] - s->x[j]));
+    }
+    return length;
+}
+
+/* The ADC by the other rules, of each belt, and how long the threshold, which is of the map, is on its ground. */
+static void say_other_forms(struct ceduo_page *page, const struct ceduo_scene *scene, const struct ceduo_option *o,
+                            const struct ceduo_option_result *found)
+{
+    double threshold = scene->simulation.threshold;
     for (size_t i = 0; i < o->belts_count; i++) {
         const struct ceduo_stand_result *s = &found->stands[i];
         if (s->bare)
@@ -224,6 +238,9 @@ static void say_other_forms(struct ceduo_page *page, const struct ceduo_option *
                                   WRITTEN(ceduo_adc_value(&s->adc, rule), 3));
                 between = ",";
             }
+        const struct ceduo_belt *b = &o->belts[i];
+        ceduo_text_format(line, _("; %s m of the map are %s m along the ground"), SHORTEST(threshold),
+                          WRITTEN(threshold * ground_length(&scene->slope, b->from, b->to) / (b->to - b->from), 2));
     }
 }
 
@@ -396,7 +413,7 @@ void ceduo_page_option(struct ceduo_page *page, const struct ceduo_report *repor
         if (whole && k == 0 && option->belts_count > 0)
             add_belts(page, r->scene, option, &r->options[i]);
         if (k == 0)
-            say_other_forms(page, option, &r->options[i]);
+            say_other_forms(page, r->scene, option, &r->options[i]);
         say_residual(page, r, i, k);
     }
     if (whole && report->blocks && !report->years)

@@ -363,7 +363,7 @@ CASES = {
         ROCK, ROCK + "\nblocks: @@{per_year: 1, volume_m3: [1, 2]}"),
     "blocks already says this; keep one of the two": sc(
         ROCK, ROCK + "\nblocks: [{per_year: 1, volume_m3: [1, 2]}]\nrocks_per_year: @@2"),
-    "blocks say how large the rocks are; give the size without a spread": sc(
+    "blocks say how large the rocks are; remove the size, or give it without a spread": sc(
         ROCK, "rock: @@{diameter_m: {mean: 1, spread: 0.1}}\nblocks: [{per_year: 1, volume_m3: [1, 2]}]"),
     "with blocks each rock is kept: at most 1048576 rocks": Set(
         "blocks=[{per_year: 1, volume_m3: [1, 2]}]", "simulation.rocks=@@2000000"),

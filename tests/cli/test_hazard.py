@@ -140,7 +140,7 @@ def test_no_size():
         result = run(falls(classes, rock={"density_kg_m3": DENSITY}))
         check_power_law(classes, hazard_of(result))
         expect_near(result["rock"]["mass_kg"] / DENSITY / mean_volume(classes), 1, 1e-4)
-    sizes = "", ", diameter_m: 0.3, height_m: 0.3", ", diameter_m: 2"
+    sizes = "", ", diameter_m: 0.3, height_m: 0.3", ", diameter_m: 2, height_m: 2"
     found = [good("--batch", "-f", "json", "-n", 500, "-s", f"rock={{shape: cylinder, density_kg_m3: 2600{size}}}",
                   "blocks-above-the-road").json()[0] for size in sizes]
     for other in found[1:]:
@@ -362,8 +362,8 @@ def test_wide_figures():
     blocks = [{"per_year": 1, "volume_m3": [400, 80000], "exponent": 1}]
     rare = [{"per_year": 1e-7, "volume_m3": [0.5, 1], "exponent": 1}]
     with Folder() as f:
-        text = good(*WHOLE, f.write("s.yaml", slope_site(blocks=blocks)), unusual=True).out
-        result = good("--batch", "-f", "json", f.path / "s.yaml", unusual=True).json()[0]
+        text = good(*WHOLE, f.write("s.yaml", slope_site(blocks=blocks))).out
+        result = good("--batch", "-f", "json", f.path / "s.yaml").json()[0]
         row = re.findall(r"\n    without forest  .*", text)[-1]
         expect(len(row) <= 81 and "\u2026" not in row, row)
         found = re.findall(r"(\d\.\d) \(([\d.]+)\u2013([\d.]+)\)e(\d)", row)
@@ -372,8 +372,7 @@ def test_wide_figures():
             for shown, key in ((value, "energy_kJ"), (lo, "lo"), (hi, "hi")):
                 wanted = back[key] / 10 ** int(power)
                 expect_near(float(shown), wanted, 0.05 * (1 + 1e-9) if wanted < 10 else 0.5, key)
-        text = good(*WHOLE, f.write("t.yaml", slope_site(forest=None, options=options, blocks=rare, controls=[{"x_m": 140}])),
-                    unusual=True).out
+        text = good(*WHOLE, f.write("t.yaml", slope_site(forest=None, options=options, blocks=rare, controls=[{"x_m": 140}]))).out
         rows = re.findall(r"\n    (?:without forest|half|third) +(\d\.\d) \([\d.]+\u2013[\d.]+\)e(\d) ", text)
         expect_equal(len(rows), 3, text)
 

@@ -197,6 +197,19 @@ def test_table_close_call():
         expect_equal(seen, {True, False}, "close and clear calls")
 
 
+def test_threshold_along_the_ground():
+    """The threshold is metres of the map: a belt says how many of its ground that are, on 45 degrees, half of it, and a flat one"""
+    with Folder() as f:
+        path = f.write("s.yaml", scene(slope={"vertices_m": [[0, 60], [50, 10], [100, 10]], "segments": [{"rn": 0.35, "rt": 0.85}]},
+                                       forest=[belt(0, 40), belt(45, 55), belt(60, 70)], controls=[{"x_m": 80}]))
+        for threshold in (30, 20):
+            text = re.sub(r"\s+", " ", good(*WHOLE, "-s", f"simulation.threshold_m={threshold}", path).out)
+            found = re.findall(r"; (\d+) m of the map are (\d+) m along the ground", text)
+            wanted = [round(threshold * x) for x in (math.sqrt(2), (1 + math.sqrt(2)) / 2, 1)]
+            expect_equal(found, [(str(threshold), str(x)) for x in wanted], text)
+    expect_equal(round(30 * math.sqrt(2)), 42)
+
+
 def test_table_blocks():
     """Table of blocks of other sizes: rising, an octave apart, this scene's marked and like the run, larger ones meet and carry more"""
     for arguments, own in (((), 0.197), ((("-s", "rock.diameter_m=1.2", "-s", "rock.height_m=0.6")), 0.679), (("-s", "rock.diameter_m=0.2", "-s", "rock.height_m=0.2"), 0.00628),

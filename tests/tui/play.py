@@ -9,7 +9,7 @@ import unicodedata
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "cli"))
-from harness import CEDUO, DONE, PATIENCE, ROOT, Failure, Folder, Result, environment, expect, only_text  # noqa: E402
+from harness import CEDUO, DONE, PATIENCE, ROOT, Failure, Folder, Result, environment, expect, only_text, without_unusual  # noqa: E402
 
 VIEWS = ["slope", "stand", "rock", "results", "compare", "rotation"]
 
@@ -251,7 +251,7 @@ def play(folder, script, *arguments, charset="braille"):
                 width, height = map(int, rest.split())
             lines.append(line)
     done = run_script(folder, "\n".join(lines) + "\n", "--charset", charset, *arguments)
-    expect(done.status == DONE and done.err == "", done, "the script", "\n".join(lines))
+    expect(done.status == DONE and without_unusual(done.err) == "", done, "the script", "\n".join(lines))
     screens = []
     for i, (width, height) in enumerate(sizes):
         path = folder / f"screen-{i}.txt"

@@ -509,10 +509,10 @@ def test_blocks():
 
 
 def test_blocks_without_size():
-    """With blocks a rock's size may be emptied, and its shape changed, which fills in none; without them it is needed"""
+    """With blocks a rock's size may be emptied, and its shape changed, which fills in none; without them it is needed. One of two dimensions brings the other along"""
     with Place() as place:
         place.write("sizes.yaml", play.FAST + "blocks: [{per_year: 1, volume_m3: [0.1, 1], exponent: 1}]\n")
-        sized, none, block, refused, saved = place.play("""resize 120 60
+        sized, none, block, refused, typed = place.play("""resize 120 60
             key 3
             dump
             find rock.diameter_m
@@ -525,6 +525,10 @@ def test_blocks_without_size():
             key d
             dump
             key s
+            find rock.height_m
+            set 0.7
+            find rock.diameter_m
+            set 0.6
             dump""", "sizes.yaml")
         mean = 0.1 * math.log(10) / (1 - 0.1)  # of v^-1 from 0.1 to 1
         expect_in("ADC and index are of one rock: 170.2 kg, mean diameter B 0.5 m", " ".join(sized.body.split()))
@@ -532,7 +536,9 @@ def test_blocks_without_size():
         expect_in("'diameter_m' is missing: the shape 'cylinder' needs it", refused.note)
         expect("filled in" not in block.note, block)
         check_good(place.path, "sizes.yaml")
-        expect_in("rock: {shape: cylinder}", place.text("sizes.yaml"), saved.note)
+        expect_in("rock: {shape: cylinder}", place.text("sizes.yaml"))
+        wide, high = 0.6, 0.7
+        expect_in(f"of one rock: {2600 * math.pi / 4 * wide ** 2 * high:.1f} kg, mean diameter B 0.65 m", " ".join(typed.body.split()))
 
 
 def test_segments():
