@@ -62,12 +62,19 @@ enum ceduo_doubt_kind {
 #define CEDUO_DOUBT_POINTS_MAX 1024
 #define CEDUO_DOUBT_EXPLAINED  0.9
 #define CEDUO_DOUBT_ROCKS      400 /* of each, where they are not said */
+#define CEDUO_DOUBT_LEAST      20  /* points; of fewer there is no 90 % range */
+
+/* Two options are equal if their shares differ by at most this. Mean energies per released rock are equal if they differ by at
+ * most this share of that energy without forest. */
+#define CEDUO_DOUBT_EQUAL 0.005
 
 /* Over a rotation each point has so many rocks in each of its years, others in each year; of an option with more years these many
  * are taken. In the scene as it is each year has more. */
 #define CEDUO_DOUBT_YEAR_ROCKS     32
 #define CEDUO_DOUBT_YEARS_MAX      60
 #define CEDUO_DOUBT_OWN_YEAR_ROCKS 1000
+
+struct ceduo_answer; /* question.h */
 
 struct ceduo_doubt_def {
     const struct ceduo_scene *scene;
@@ -77,11 +84,18 @@ struct ceduo_doubt_def {
     size_t points_max;          /* no more are taken where these explain too little; 0: CEDUO_DOUBT_POINTS_MAX */
     uint64_t rocks;             /* of each evaluation; CEDUO_SURFACE_GROUPS at least are taken */
     uint64_t own_rocks;         /* of the scene as it is; 0: as many */
+    /* The scene as it is, computed before; with the years of each option if `rotation` is true. Requires `brief`. NULL: computed
+     * here, from own_rocks. */
+    const struct ceduo_answer *own;
+    size_t years_max; /* years of each option at a point; 0: CEDUO_DOUBT_YEARS_MAX */
+    /* Neither differences between options nor values at the ends of the inputs; of each option only the figures that pages
+     * show. The others have fit.p5 and fit.p95 NaN. */
+    bool brief;
     bool rotation;              /* each option over its rotation as well; not with the contact model index */
     bool alone;                 /* of one option alone: the surfaces of the others are not there (p5, p95 NaN), nor ranks */
     size_t option;              /* alone: this one */
     struct ceduo_window window; /* these years instead; step 0: those of ceduo_window_in() */
-    uint64_t effort_max; /* contacts and stems of all points today, or of their years: beyond, CEDUO_CANCELLED; 0: no end */
+    uint64_t effort_max;        /* contacts, stems and twice the stems hit, of all points: beyond, CEDUO_CANCELLED; 0: unlimited */
     unsigned threads;
     const ceduo_flag *cancel;                                     /* may be NULL */
     void (*progress)(void *context, uint64_t done, uint64_t all); /* may be NULL; by one thread at a time */
@@ -95,19 +109,20 @@ struct ceduo_doubt_figure {
     bool difference;
     double value, sampling_lo, sampling_hi; /* of the scene as it is, with the error of the rocks; NaN: not known */
     struct ceduo_surface_fit fit; /* over what may be true; `below`: of the share that the place is judged by, how much
-                                             * of that keeps within CEDUO_EXCEED_MOST */
+                                             * of that keeps within CEDUO_EXCEED_MOST. p5 and p95 are widened until they hold
+                                             * `value`; NaN if there are fewer than CEDUO_DOUBT_LEAST points */
     double (*at)[2];              /* of each input: with it at its lower, at its upper end, all others as they are;
                                              * over a rotation NaN */
     size_t uses;                  /* inputs that the figure's options have */
     size_t *order;                /* these by what is left of p95 - p5 if they are known, least first */
 };
 
-/* Of two options: in how much of what may be true the one is better, worse, and neither by more than the noise of the rocks. They
- * add to 1. */
+/* Of two options: the share of plausible cases in which the first is better, in which it is worse, and in which they are equal
+ * (CEDUO_DOUBT_EQUAL). The three add up to 1. */
 struct ceduo_doubt_order {
     size_t better, than; /* options */
     double probability, equal, worse;
-    double p5, p95; /* doubt of the figure that ranks them, the one less the other */
+    double p5, p95; /* doubt of the figure that ranks them, the one less the other; as those of a figure */
 };
 
 /* The options in rank by the scene as it is. */
@@ -119,6 +134,7 @@ struct ceduo_doubt_ranking {
 
 struct ceduo_doubt_answer {
     size_t points;
+    uint64_t rocks; /* of each point */
     uint64_t own_rocks;
     bool rotation; /* figures over a rotation are there */
     size_t figures_count;

@@ -10,7 +10,7 @@
 #include "model/jobs.h"
 #include "output.h"
 #include "say.h"
-#include "study/points.h"
+#include "study/effort.h"
 #include "view/words.h"
 
 /* ---- reading ---- */
@@ -224,26 +224,13 @@ enum exit_status ceduo_ask_end(struct asked *c, const struct scene_file *file, e
 
 /* ---- doubt ---- */
 
-/* Asks with the points and rocks of `def`, of which the rest is set here. `finer`: what is known of the scene as it is from more
- * rocks; may be NULL. */
-static enum ceduo_status ask_doubt(struct asked *c, const struct arguments *a, struct scene_file *file,
-                                   struct ceduo_doubt_def *def, const struct ceduo_result *finer)
+/* Asks with the points and rocks of `def`. `finer`: figures of the scene as it is from more rocks; may be NULL. */
+static enum ceduo_status ask_doubt(struct asked *c, struct scene_file *file, const struct ceduo_doubt_def *def,
+                                   const struct ceduo_result *finer)
 {
-    if (!ceduo_inputs_of(file, &c->inputs))
-        return CEDUO_NO_MEMORY;
-    def->scene = &file->scene;
-    def->inputs_count = c->inputs.n;
-    def->inputs = c->inputs.items;
-    def->points = (size_t)a->points;
-    def->threads = (unsigned)a->threads;
-    def->rotation |= a->years;
-    def->window = a->window;
-    def->cancel = ceduo_interrupt_flag();
-    def->progress = show_steps;
-    def->context = &c->progress;
     c->doubt = (struct ceduo_doubt_report){
         .file = file, .inputs = &c->inputs, .points = def->points, .rocks = def->rocks, .finer = finer};
-    if (c->inputs.n == 0 || (finer && (def->rocks < 2 || file->scene.controls_count == 0)))
+    if (def->inputs_count == 0 || def->points == 0)
         return CEDUO_OK;
     enum ceduo_status status = ceduo_doubt_ask(def, &c->doubt_answer);
     c->doubt.answer = status == CEDUO_OK ? &c->doubt_answer : NULL;
@@ -251,34 +238,49 @@ static enum ceduo_status ask_doubt(struct asked *c, const struct arguments *a, s
     return too_much ? CEDUO_OK : status;
 }
 
-enum ceduo_status ceduo_ask_doubt(struct asked *c, const struct arguments *a, struct scene_file *file)
+/* Sets what the command line says. */
+static bool begin_doubt(struct asked *c, const struct arguments *a, struct scene_file *file, struct ceduo_doubt_def *def)
 {
-    struct ceduo_doubt_def def = {.rocks = a->rocks > 0 ? a->rocks : CEDUO_DOUBT_ROCKS,
-                                  .own_rocks = a->rocks > 0 ? a->rocks : file->scene.simulation.rocks};
-    return ask_doubt(c, a, file, &def, NULL);
+    bool good = ceduo_inputs_of(file, &c->inputs);
+    *def = (struct ceduo_doubt_def){.scene = &file->scene,
+                                    .inputs_count = c->inputs.n,
+                                    .inputs = c->inputs.items,
+                                    .points = (size_t)a->points,
+                                    .rocks = a->rocks > 0 ? a->rocks : CEDUO_DOUBT_ROCKS,
+                                    .rotation = a->years,
+                                    .window = a->window,
+                                    .threads = (unsigned)a->threads,
+                                    .cancel = ceduo_interrupt_flag(),
+                                    .progress = show_steps,
+                                    .context = &c->progress};
+    return good;
 }
 
-#define EFFORT_MAX 3e8 /* contacts and stems of all points: some ten seconds of a processor */
+enum ceduo_status ceduo_ask_doubt(struct asked *c, const struct arguments *a, struct scene_file *file)
+{
+    struct ceduo_doubt_def def;
+    if (!begin_doubt(c, a, file, &def))
+        return CEDUO_NO_MEMORY;
+    def.own_rocks = a->rocks > 0 ? a->rocks : file->scene.simulation.rocks;
+    return ask_doubt(c, file, &def, NULL);
+}
 
 enum ceduo_status ceduo_ask_doubt_beside(struct asked *c, const struct arguments *a, struct scene_file *file, bool rotation)
 {
-    const struct ceduo_scene *scene = &file->scene;
     const struct ceduo_result *result = c->answer.result;
-    const struct ceduo_work *work = &c->answer.work;
     uint64_t rocks = ceduo_result_rocks(result);
-    size_t years = 0;
-    struct ceduo_doubt_def def = {.scene = scene,
-                                  .window = a->window,
-                                  .points_max = (size_t)a->points,
-                                  .effort_max = (uint64_t)EFFORT_MAX,
-                                  .rocks = rocks < CEDUO_DOUBT_ROCKS ? rocks : CEDUO_DOUBT_ROCKS};
-    double each =
-        (double)(work->contacts + work->stems.drawn) / (double)(work->rocks > 0 ? work->rocks : 1) * (double)a->points;
-    double effort = each * (double)def.rocks * (double)scene->options_count;
-    years = scene->options_count * ceduo_points_years(&def, CEDUO_DOUBT_YEARS_MAX);
-    def.rotation = rotation && !ceduo_uncertainty_no_rotation(scene) &&
-                   effort + each * CEDUO_DOUBT_YEAR_ROCKS * (double)years <= EFFORT_MAX;
-    if (effort > EFFORT_MAX || !result->wooded || ceduo_page_says_nothing(result))
-        def.rocks = 0;
-    return ask_doubt(c, a, file, &def, result);
+    struct ceduo_doubt_def def;
+    enum ceduo_status status = CEDUO_OK;
+    if (!begin_doubt(c, a, file, &def))
+        return CEDUO_NO_MEMORY;
+    def.brief = true;
+    def.own = &c->answer;
+    def.rocks = rocks < CEDUO_DOUBT_ROCKS ? rocks : CEDUO_DOUBT_ROCKS;
+    def.points_max = def.points;
+    def.rotation = (rotation || a->years) && c->answer.years && !ceduo_uncertainty_no_rotation(def.scene);
+    if (rocks < 2 || !result->wooded || ceduo_page_says_nothing(result))
+        def.points = 0;
+    else if (def.inputs_count > 0 && !ceduo_arguments_given(a, "sensitivity"))
+        status = ceduo_effort_bound(&def, &c->answer.work);
+    return status == CEDUO_OK ? ask_doubt(c, file, &def, result) : status;
 }

@@ -16,6 +16,7 @@
 #include "base/language.h"
 #include "base/must.h"
 #include "ceduo/key.h"
+#include "study/effort.h"
 
 #define LEVELS_MAX 9
 
@@ -247,17 +248,27 @@ static enum ceduo_status step_uncertainty(struct jobs *q, struct job *job, void 
     u->last =
         u->inputs.n == 0 || u->level + 1 == (ceduo_uncertainty_no_rotation(scene) ? UNCERTAINTY_LEVELS : UNCERTAINTY_ROTATION);
     job->level = u->last ? LEVELS_MAX : u->level;
-    const struct ceduo_doubt_def def = {.scene = scene,
-                                        .inputs_count = u->inputs.n,
-                                        .inputs = u->inputs.items,
-                                        .points = CEDUO_DOUBT_POINTS,
-                                        .rocks = CEDUO_DOUBT_ROCKS,
-                                        .rotation = u->level + 1 == UNCERTAINTY_ROTATION,
-                                        .alone = u->level == 0,
-                                        .option = job->option,
-                                        .threads = q->threads,
-                                        .cancel = &q->cancel};
-    return u->inputs.n > 0 ? ceduo_doubt_ask(&def, &u->answer) : CEDUO_OK;
+    struct ceduo_doubt_def def = {.scene = scene,
+                                  .inputs_count = u->inputs.n,
+                                  .inputs = u->inputs.items,
+                                  .points = CEDUO_DOUBT_POINTS,
+                                  .rocks = CEDUO_DOUBT_ROCKS,
+                                  .brief = true,
+                                  .option = job->option,
+                                  .threads = q->threads,
+                                  .cancel = &q->cancel};
+    if (u->inputs.n == 0)
+        return CEDUO_OK;
+    enum ceduo_status status = ceduo_effort_bound(&def, NULL); /* of all levels the same, so that nothing moves */
+    if (status != CEDUO_OK)
+        return status;
+    if (def.points == 0) /* a screen waits for nobody */
+        def.points = def.points_max = CEDUO_DOUBT_LEAST;
+    def.effort_max = 0;
+    def.years_max = 0;
+    def.rotation = u->level + 1 == UNCERTAINTY_ROTATION;
+    def.alone = u->level == 0;
+    return ceduo_doubt_ask(&def, &u->answer);
 }
 
 static enum ceduo_status step_comparison(struct jobs *q, struct job *job, void **result)

@@ -29,6 +29,7 @@ struct rows {
     double *u;
     struct ceduo_groups *values; /* of each row, option and kind */
     enum ceduo_doubt_kind judged;
+    double released;             /* J: mean energy per released rock without forest */
     size_t *years, *first_year;  /* of each option how many, and where they begin; NULL: not asked for */
     double *year_counts;         /* of each option how many years these stand for */
     struct ceduo_groups *shares; /* of each year and point */
@@ -98,7 +99,7 @@ static void read_point(void *context, const struct point *point, const struct br
 static enum ceduo_status open_rows(struct rows *r, const struct ceduo_doubt_def *def, struct ceduo_doubt_answer *answer)
 {
     size_t n = def->inputs_count, years = 0;
-    *r = (struct rows){.def = def, .answer = answer, .ends = 2 * n, .options = def->scene->options_count};
+    *r = (struct rows){.def = def, .answer = answer, .ends = def->brief ? 0 : 2 * n, .options = def->scene->options_count};
     r->most = def->points_max > 0 ? def->points_max : CEDUO_DOUBT_POINTS_MAX;
     r->most = def->points > r->most ? def->points : r->most;
     r->u = ceduo_arena_take(&r->memory, (r->ends + r->most) * n * sizeof *r->u);
@@ -109,8 +110,8 @@ static enum ceduo_status open_rows(struct rows *r, const struct ceduo_doubt_def 
         r->year_counts = ceduo_arena_take(&r->memory, (r->options + 1) * sizeof *r->year_counts);
     }
     for (size_t i = 0; r->years && !r->memory.failed && i < r->options; i++) {
-        r->years[i] = ceduo_points_years(def, CEDUO_DOUBT_YEARS_MAX);
-        r->year_counts[i] = (double)ceduo_points_years(def, SIZE_MAX);
+        r->years[i] = ceduo_points_years(def);
+        r->year_counts[i] = (double)ceduo_points_window(def);
         r->first_year[i] = years;
         years += r->years[i];
     }
@@ -224,6 +225,15 @@ static enum ceduo_status fit_points(const struct rows *r, const struct subject *
     return ceduo_surface_fit(s->surface, &figure, fit);
 }
 
+/* Widens the range until it holds the value of the scene as it is (NaN: unknown); of too few points there is none. */
+static void set_range(const struct rows *r, double value, struct ceduo_surface_fit *fit)
+{
+    if (r->points < CEDUO_DOUBT_LEAST)
+        fit->p5 = fit->p50 = fit->p95 = fit->p5_se = fit->p95_se = NAN;
+    else if (!isnan(value))
+        fit->p5 = fmin(fit->p5, value), fit->p95 = fmax(fit->p95, value);
+}
+
 static enum ceduo_status read_figure(const struct rows *r, const struct subject *s, struct ceduo_doubt_figure *f)
 {
     const struct ceduo_doubt_def *def = r->def;
@@ -231,17 +241,17 @@ static enum ceduo_status read_figure(const struct rows *r, const struct subject 
     double max = f->kind == CEDUO_DOUBT_ENERGY || f->kind == CEDUO_DOUBT_CONTACT ? INFINITY : 1;
     if (f->kind == CEDUO_DOUBT_FAILING)
         max = fmax(r->year_counts[s->option], r->year_counts[s->against]);
-    for (size_t i = 0; i < def->inputs_count; i++)
-        for (size_t end = 0; end < 2; end++) {
-            const struct ceduo_groups y = value_at(r, s, 2 * i + end, f->kind);
-            f->at[i][end] = is_rotation(f->kind) ? NAN : ceduo_groups_mean(&y, def->rocks);
-        }
+    for (size_t row = 0; row < r->ends; row++) {
+        const struct ceduo_groups y = value_at(r, s, row, f->kind);
+        f->at[row / 2][row % 2] = is_rotation(f->kind) ? NAN : ceduo_groups_mean(&y, def->rocks);
+    }
     ceduo_surface_release(&f->fit);
     const struct ceduo_surface_figure figure = {
         .lo = f->difference ? -max : 0, .hi = max, .limit = judged ? limit_of(def->scene) : NAN};
     enum ceduo_status status = fit_points(r, s, f->kind, figure, &f->fit);
     if (status != CEDUO_OK)
         return status;
+    set_range(r, f->value, &f->fit);
     f->uses = 0;
     for (size_t i = 0; i < def->inputs_count; i++) {
         f->uses += s->uses[i];
@@ -249,6 +259,15 @@ static enum ceduo_status read_figure(const struct rows *r, const struct subject 
         insert_index(s->left, i, f->order);
     }
     return CEDUO_OK;
+}
+
+/* True if a kind of figure is computed. Years fail by what the place withstands. */
+static bool is_there(const struct rows *r, enum ceduo_doubt_kind kind)
+{
+    if (is_rotation(kind))
+        return r->years && (kind == CEDUO_DOUBT_MEAN || r->judged == CEDUO_DOUBT_EXCEED);
+    bool share = kind == CEDUO_DOUBT_REACH || kind == CEDUO_DOUBT_EXCEED;
+    return !r->def->brief || (share ? kind == r->judged : kind != CEDUO_DOUBT_ENERGY || kind == r->answer->main);
 }
 
 /* An option, or behind them a difference to the first one: its figures one after the other, as their surfaces have the terms in
@@ -260,7 +279,7 @@ static int read_figures_of(void *context, size_t item, size_t worker)
     bool difference = item >= r->options;
     size_t option = difference ? item - r->options + 1 : item;
     struct subject s;
-    if (!is_asked(r, option) || (difference && r->def->alone))
+    if (!is_asked(r, option) || (difference && (r->def->alone || r->def->brief)))
         return CEDUO_OK;
     enum ceduo_status status = open_subject(r, option, difference ? 0 : option, &s);
     for (size_t kind = 0; kind < CEDUO_DOUBT_KINDS && status == CEDUO_OK; kind++) {
@@ -269,8 +288,7 @@ static int read_figures_of(void *context, size_t item, size_t worker)
         f->difference = difference;
         f->option = option;
         bool decides = !difference && (f->kind == r->answer->main || f->kind == CEDUO_DOUBT_MEAN);
-        bool there = !is_rotation(f->kind) || (r->years && (f->kind == CEDUO_DOUBT_MEAN || r->judged == CEDUO_DOUBT_EXCEED));
-        if (there && decides == r->deciding) /* years fail by what the place withstands */
+        if (is_there(r, f->kind) && decides == r->deciding)
             status = read_figure(r, &s, f);
     }
     close_subject(&s);
@@ -353,11 +371,13 @@ static void set_difference(struct ceduo_doubt_figure *f, struct ceduo_paired d)
     set_sampling(f, d.mean, d.mean - half, d.mean + half);
 }
 
-static void set_years(struct ceduo_doubt_answer *answer, size_t options, struct ceduo_years *const *years, bool judges)
+static void set_years(const struct rows *r, struct ceduo_years *const *years, bool judges)
 {
+    struct ceduo_doubt_answer *answer = r->answer;
     double first[3] = {0};
-    for (size_t i = 0; i < options; i++) {
+    for (size_t i = 0, options = r->options; i < options; i++) {
         size_t control = years[i]->last_control;
+        double each = r->year_counts[i] / (double)years[i]->count; /* years that one year stands for */
         struct ceduo_years_summary s = ceduo_years_sum(years[i], control);
         struct ceduo_doubt_figure *f = &answer->figures[i * CEDUO_DOUBT_KINDS],
                                   *d = &answer->figures[figure_at(options, i, CEDUO_DOUBT_REACH, i > 0)];
@@ -370,9 +390,9 @@ static void set_years(struct ceduo_doubt_answer *answer, size_t options, struct 
             continue;
         for (size_t k = 0; k < years[i]->count; k++) { /* by the ends of their intervals, and by their shares */
             const struct ceduo_arrivals *a = &years[i]->years[k].wooded.arrivals[control];
-            counts[0] += a->exceed_lo > a->limit;
-            counts[1] += a->exceed_probability > a->limit;
-            counts[2] += a->exceed_hi > a->limit;
+            counts[0] += each * (a->exceed_lo > a->limit);
+            counts[1] += each * (a->exceed_probability > a->limit);
+            counts[2] += each * (a->exceed_hi > a->limit);
         }
         set_sampling(&f[CEDUO_DOUBT_FAILING], counts[1], counts[0], counts[2]);
         if (i > 0)
@@ -387,18 +407,20 @@ static enum ceduo_status read_sampling(struct rows *rows)
     const struct ceduo_doubt_def *def = rows->def;
     struct ceduo_doubt_answer *answer = rows->answer;
     struct ceduo_question q = ceduo_question_default(def->scene);
-    struct ceduo_answer is;
+    struct ceduo_answer asked = {0};
+    const struct ceduo_answer *is = def->own ? def->own : &asked;
     size_t options = def->scene->options_count;
-    q.rocks = q.run.rocks_most = answer->own_rocks = def->own_rocks > 0 ? def->own_rocks : def->rocks;
+    q.rocks = q.run.rocks_most = def->own_rocks > 0 ? def->own_rocks : def->rocks;
     q.run.threads = def->threads;
     q.run.cancel = def->cancel;
     q.run.arrivals_only = true;
     q.years = rows->years;
     q.window = def->window;
     q.year_rocks = CEDUO_DOUBT_OWN_YEAR_ROCKS;
-    enum ceduo_status status = ceduo_ask(&q, NULL, &is);
+    enum ceduo_status status = def->own ? CEDUO_OK : ceduo_ask(&q, NULL, &asked);
+    answer->own_rocks = status == CEDUO_OK ? ceduo_result_rocks(is->result) : 0;
     for (size_t i = 0; status == CEDUO_OK && i < options; i++) {
-        const struct ceduo_result *r = is.result;
+        const struct ceduo_result *r = is->result;
         const struct ceduo_arrivals *wooded = ceduo_result_wooded(r, i, r->last_control);
         const struct ceduo_arrivals *a = wooded ? wooded : &r->bare.arrivals[r->last_control];
         struct ceduo_doubt_figure *f = &answer->figures[i * CEDUO_DOUBT_KINDS];
@@ -419,16 +441,22 @@ static enum ceduo_status read_sampling(struct rows *rows)
         bool judges = !isnan(answer->figures[CEDUO_DOUBT_EXCEED].value);
         answer->main = judges ? CEDUO_DOUBT_EXCEED : CEDUO_DOUBT_ENERGY;
         rows->judged = judges ? CEDUO_DOUBT_EXCEED : CEDUO_DOUBT_REACH;
+        rows->released = is->result->bare.arrivals[is->result->last_control].energy_per_released;
         if (rows->years)
-            set_years(answer, options, is.years, judges);
+            set_years(rows, is->years, judges);
     }
-    ceduo_answer_release(&is);
+    ceduo_answer_release(&asked);
     return status;
 }
 
 /* ---- ranks ---- */
 
-/* How two options compare where they differ by more than the rocks alone would make them: by the surface of their difference. */
+static double value_of(const struct rows *r, size_t option, enum ceduo_doubt_kind kind)
+{
+    return ceduo_doubt_figure_of(r->answer, option, kind, false)->value;
+}
+
+/* How two options compare, by the surface of their difference. */
 static int compare_pair(void *context, size_t item, size_t worker)
 {
     (void)worker;
@@ -440,11 +468,12 @@ static int compare_pair(void *context, size_t item, size_t worker)
     enum ceduo_status status = open_subject(r, o->better, o->than, &s);
     if (status == CEDUO_OK)
         status = fit_points(r, &s, kind, (struct ceduo_surface_figure){.lo = -INFINITY, .hi = INFINITY, .limit = NAN}, &found);
+    set_range(r, value_of(r, o->better, kind) - value_of(r, o->than, kind), &found);
     o->p5 = found.p5;
     o->p95 = found.p95;
     for (size_t p = 0; status == CEDUO_OK && p < r->points; p++) {
-        double noise = CEDUO_Z95 * sqrt(found.noise), value = found.values[p];
-        *(value < -noise ? &o->probability : value > noise ? &o->worse : &o->equal) += 1 / (double)r->points;
+        double within = CEDUO_DOUBT_EQUAL * (kind == CEDUO_DOUBT_ENERGY ? r->released : 1), value = found.values[p];
+        *(value < -within ? &o->probability : value > within ? &o->worse : &o->equal) += 1 / (double)r->points;
     }
     ceduo_surface_release(&found);
     close_subject(&s);
@@ -462,7 +491,7 @@ static enum ceduo_status rank_options(struct rows *r, bool rotation, struct cedu
         return CEDUO_NO_MEMORY;
     ranking->count = options - 1;
     for (size_t i = 0; i < options; i++) {
-        values[i] = ceduo_doubt_figure_of(r->answer, i, rotation ? CEDUO_DOUBT_MEAN : r->answer->main, false)->value;
+        values[i] = value_of(r, i, rotation ? CEDUO_DOUBT_MEAN : r->answer->main);
         insert_index(values, i, ranks);
     }
     for (size_t i = 0; i < ranking->count; i++)
@@ -493,6 +522,8 @@ static enum ceduo_status open_answer(struct rows *r)
         f->order = order + a->figures_count * n;
         set_sampling(f, NAN, NAN, NAN);
         f->fit.p5 = f->fit.p95 = NAN;
+        for (size_t i = 0; i < n; i++)
+            f->at[i][0] = f->at[i][1] = NAN;
     }
     return read_sampling(r);
 }
@@ -525,6 +556,7 @@ enum ceduo_status ceduo_doubt_ask(const struct ceduo_doubt_def *def, struct cedu
     if (status == CEDUO_OK && !def->alone && rows.years)
         status = rank_options(&rows, true, &answer->over_rotation);
     answer->points = rows.points;
+    answer->rocks = enough.rocks;
     answer->evaluations = rows.ends + rows.points;
     ceduo_arena_free(&rows.memory);
     if (status != CEDUO_OK)

@@ -18,7 +18,7 @@ struct work {
     size_t each, today;         /* variants of a row, first those of today */
     struct point *variants;     /* option and slot of each */
     struct input_scene *copies; /* of the scene, for each thread */
-    _Atomic uint64_t effort;    /* contacts and stems of all variants so far */
+    _Atomic uint64_t effort;    /* of all variants so far */
     atomic_bool failed;         /* nothing more once any thread has failed */
 };
 
@@ -42,7 +42,7 @@ static enum ceduo_status grow(struct item *item, struct point *point)
 {
     const struct ceduo_doubt_def *def = item->work->points->def;
     const struct ceduo_scene *scene = &item->copy->scene;
-    size_t years = ceduo_points_years(def, CEDUO_DOUBT_YEARS_MAX), year = point->slot - 1;
+    size_t years = ceduo_points_years(def), year = point->slot - 1;
     if (year == 0) {
         ceduo_years_free(item->years);
         enum ceduo_status status =
@@ -102,7 +102,8 @@ static enum ceduo_status read_variant(void *context, size_t i, struct ceduo_run 
     for (size_t c = 0; c < item->work->points->def->scene->controls_count; c++)
         ceduo_run_briefs(run, c, CEDUO_SURFACE_GROUPS, brought_by(item, i)[c].of);
     tell_variant(item, i, true);
-    uint64_t effort = ceduo_run_contacts(run) + ceduo_run_stems(run).drawn, most = item->work->points->def->effort_max;
+    uint64_t effort = ceduo_points_met(ceduo_run_contacts(run), ceduo_run_stems(run));
+    uint64_t most = item->work->points->def->effort_max;
     effort += atomic_fetch_add(&item->work->effort, effort);
     return most > 0 && effort > most ? CEDUO_CANCELLED : CEDUO_OK;
 }
@@ -141,7 +142,7 @@ static bool list_variants(struct work *w)
     w->variants = calloc(def->scene->options_count * (1 + CEDUO_DOUBT_YEARS_MAX), sizeof *w->variants);
     for (int later = !w->points->today; w->variants && later < (def->rotation ? 2 : 1); later++) {
         for (size_t i = 0; i < def->scene->options_count; i++) {
-            size_t slots = later ? ceduo_points_years(def, CEDUO_DOUBT_YEARS_MAX) : 1;
+            size_t slots = later ? ceduo_points_years(def) : 1;
             for (size_t slot = 0; (!def->alone || i == def->option) && slot < slots; slot++)
                 w->variants[w->each++] = (struct point){.option = i, .slot = slot + (later > 0)};
         }
@@ -164,14 +165,21 @@ enum ceduo_status ceduo_points_run(const struct points *p, size_t from, size_t t
         ceduo_inputs_release(&w.copies[i]);
     free(w.copies);
     free(w.variants);
+    if (p->effort)
+        *p->effort = atomic_load(&w.effort);
     return status;
 }
 
-size_t ceduo_points_years(const struct ceduo_doubt_def *def, size_t most)
+size_t ceduo_points_window(const struct ceduo_doubt_def *def)
 {
     struct ceduo_window w = window_of(def, def->scene);
-    size_t count = (w.last - w.first) / w.step + 1;
-    return count < most ? count : most;
+    return (w.last - w.first) / w.step + 1;
+}
+
+size_t ceduo_points_years(const struct ceduo_doubt_def *def)
+{
+    size_t count = ceduo_points_window(def), max = def->years_max > 0 ? def->years_max : CEDUO_DOUBT_YEARS_MAX;
+    return count < max ? count : max;
 }
 
 double ceduo_groups_mean(const struct ceduo_groups *y, uint64_t rocks)

@@ -5,6 +5,7 @@
 #include <stdatomic.h>
 
 #include "ceduo/doubt.h"
+#include "ceduo/run.h"
 #include "ceduo/years.h"
 
 /* A scene at many points of what may be true: each row of inputs is a scene; of each its options are simulated, today and year
@@ -24,7 +25,7 @@ struct brought {
 
 struct points {
     /* The scene, its inputs, which options and years are asked for, and how many rocks; 0: none is simulated, and nothing is
-     * brought. Slots 1… are there where a rotation is asked for, at most CEDUO_DOUBT_YEARS_MAX of each option. */
+     * brought. Slots 1… are there where a rotation is asked for, at most ceduo_points_years() of each option. */
     const struct ceduo_doubt_def *def;
     const double *u; /* rows of inputs */
     bool today;      /* slot 0 is asked for */
@@ -33,6 +34,7 @@ struct points {
     void (*read)(void *context, const struct point *point, const struct brought *at);
     void (*done)(void *context); /* a row is done; may be NULL; by several threads at once */
     void *context;
+    uint64_t *effort; /* set to ceduo_points_met() of all rows; may be NULL */
 };
 
 /* Rows from…to - 1; the first `together` of them by one thread and today alone, as they have most of their forests in
@@ -41,8 +43,15 @@ struct points {
  * CEDUO_OK, CEDUO_CANCELLED, CEDUO_NO_MEMORY or what ceduo_scene_check() says. */
 enum ceduo_status ceduo_points_run(const struct points *points, size_t from, size_t to, size_t together);
 
-/* Number of years of the window that are simulated, at most `most`. */
-size_t ceduo_points_years(const struct ceduo_doubt_def *def, size_t most);
+/* Effort of what rocks met: a stem that is hit takes the time of three contacts. */
+static inline uint64_t ceduo_points_met(uint64_t contacts, struct ceduo_stem_counts stems)
+{
+    return contacts + stems.drawn + 2 * stems.hit;
+}
+
+/* Number of years that are simulated at each point, at most def->years_max; and of the whole window. */
+size_t ceduo_points_years(const struct ceduo_doubt_def *def);
+size_t ceduo_points_window(const struct ceduo_doubt_def *def);
 
 /* Of groups that may differ by a rock. */
 double ceduo_groups_mean(const struct ceduo_groups *groups, uint64_t rocks);

@@ -130,7 +130,7 @@ enum ceduo_status ceduo_sure_ask(const struct sure_def *def, struct sure_answer 
     size_t points = of.inputs_count > 0 ? of.points : 1, n = of.inputs_count;
     struct sure s = {.def = def, .slots = 1};
     if (of.rotation)
-        s.slots = ceduo_points_years(&of, CEDUO_DOUBT_YEARS_MAX);
+        s.slots = ceduo_points_years(&of);
     of.alone = true;
     of.rocks = !ceduo_goals[def->goal].flies ? 0 : of.rocks > GROUPS ? of.rocks : GROUPS;
     double *u = malloc((points * n + 1) * sizeof *u);

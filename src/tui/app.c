@@ -125,8 +125,8 @@ bool ceduo_app_doubt(const struct app *app, struct ceduo_doubt_report *report)
     *report = (struct ceduo_doubt_report){.file = &own->file,
                                           .inputs = &own->inputs,
                                           .answer = own->inputs.n > 0 ? &own->answer : NULL,
-                                          .points = CEDUO_DOUBT_POINTS,
-                                          .rocks = CEDUO_DOUBT_ROCKS,
+                                          .points = own->answer.points,
+                                          .rocks = own->answer.rocks,
                                           .finer = app->live.result,
                                           .years = &app->live.verdict,
                                           .over = app->over && app->view == VIEW_DOUBT && own->answer.rotation};

@@ -190,7 +190,7 @@ struct ceduo_measure ceduo_doubt_measure(const struct ceduo_doubt_report *r, siz
     uint64_t own = r->answer->own_rocks;
     own = r->over && own > CEDUO_DOUBT_OWN_YEAR_ROCKS ? CEDUO_DOUBT_OWN_YEAR_ROCKS : own;
     struct ceduo_measure m = ceduo_share((struct ceduo_portion){NAN, NAN});
-    if (a && a->released > own) {
+    if (a && a->released >= own) {
         own = a->released;
         m = energy ? ceduo_energy_released(a) : ceduo_judged(&s->controls[ceduo_scene_last_control(s)], a);
     } else if (c && c->over.simulated > 0 && c->rocks > own) {

@@ -1,0 +1,117 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The rocks that a point meets are known only once some are simulated: a few points of a few rocks are the pilot. All other parts of
+ * the effort follow from the scene. Their weights were measured. */
+#include "effort.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "base/cancel.h"
+#include "points.h"
+
+#define PER_ROCK    24.      /* started and read */
+#define PER_RUN     3300.    /* a forest prepared */
+#define PER_VERTEX  15.      /* of the simplified profile, prepared for a run */
+#define PER_POINT   .7       /* of the profile as filed, simplified for a run */
+#define PER_PASS    .17      /* a rock that rolls past a vertex */
+#define PER_FIT     6e5      /* a figure at CEDUO_DOUBT_POINTS points */
+#define FITS        3        /* figures of an option today */
+#define FITS_YEARS  2        /* of its rotation, and half of one for each year */
+#define PLANNED     (2. / 3) /* of the bound: later points may meet more than the pilot */
+#define PILOT       8        /* points */
+#define ROCKS_LEAST 100      /* of a point, if there are more at first */
+#define YEARS_LEAST 12
+
+double ceduo_effort_of(const struct ceduo_scene *scene, const struct ceduo_work *work)
+{
+    double vertices = (double)scene->slope.vertices, rocks = (double)work->rocks, runs = (double)work->runs;
+    return (double)ceduo_points_met(work->contacts, work->stems) + rocks * (PER_ROCK + PER_PASS * vertices) +
+           runs * (PER_RUN + PER_VERTEX * vertices + PER_POINT * (double)scene->slope.points);
+}
+
+/* Runs of a point, and what one rock of each option meets in all of them. */
+struct plan {
+    const struct ceduo_doubt_def *def;
+    double met, most;
+};
+
+static double effort_of(const struct plan *plan, double met)
+{
+    const struct ceduo_doubt_def *def = plan->def;
+    double options = (double)def->scene->options_count, years = def->rotation ? options * (double)ceduo_points_years(def) : 0;
+    double rocks = options * (double)def->rocks + years * CEDUO_DOUBT_YEAR_ROCKS, points = (double)def->points;
+    struct ceduo_work work = {.rocks = (uint64_t)(points * rocks), .runs = (uint64_t)(points * (options + years))};
+    double fits =
+        options * FITS + (def->rotation ? options * FITS_YEARS + years / 2 : 0) + (def->rotation ? 2 : 1) * (options - 1);
+    return points * rocks * met / options + ceduo_effort_of(def->scene, &work) +
+           fits * PER_FIT * pow(points / CEDUO_DOUBT_POINTS, 2);
+}
+
+/* Sets the points to as many as can be afforded, at most `points`. */
+static size_t afford(const struct plan *plan, struct ceduo_doubt_def *def, size_t points)
+{
+    def->points = points;
+    while (def->points > 0 && effort_of(plan, plan->met) > PLANNED * plan->most)
+        def->points--;
+    return def->points;
+}
+
+/* Reduces rocks, then years, then points. False if too few points are left. */
+static bool reduce(const struct plan *plan, struct ceduo_doubt_def *def, size_t points, uint64_t rocks)
+{
+    uint64_t least = rocks < ROCKS_LEAST ? rocks : ROCKS_LEAST;
+    def->years_max = 0;
+    for (def->rocks = rocks; afford(plan, def, points) < points && def->rocks > least;)
+        def->rocks = def->rocks / 2 > least ? def->rocks / 2 : least;
+    if (def->points < points && def->rotation) {
+        def->years_max = YEARS_LEAST;
+        afford(plan, def, points);
+    }
+    return def->points >= CEDUO_DOUBT_LEAST;
+}
+
+static void read_nothing(void *context, const struct point *point, const struct brought *at)
+{
+    (void)context;
+    (void)point;
+    (void)at;
+}
+
+/* Sets what a rock of each option meets at the points, in the mean. */
+static enum ceduo_status run_pilot(const struct ceduo_doubt_def *def, struct plan *plan)
+{
+    struct ceduo_doubt_def pilot = *def;
+    uint64_t effort = 0;
+    double *u = malloc(PILOT * def->inputs_count * sizeof *u + 1);
+    pilot.rocks = CEDUO_SURFACE_GROUPS;
+    pilot.rotation = pilot.alone = false;
+    pilot.effort_max = (uint64_t)((1 - PLANNED) * plan->most);
+    enum ceduo_status status =
+        u ? ceduo_surface_points(def->scene->simulation.seed, PILOT, def->inputs_count, u) : CEDUO_NO_MEMORY;
+    if (status == CEDUO_OK)
+        status = ceduo_points_run(
+            &(const struct points){.def = &pilot, .u = u, .today = true, .read = read_nothing, .effort = &effort}, 0, PILOT, 0);
+    plan->met = (double)effort / (PILOT * CEDUO_SURFACE_GROUPS);
+    free(u);
+    return status;
+}
+
+enum ceduo_status ceduo_effort_bound(struct ceduo_doubt_def *def, const struct ceduo_work *own)
+{
+    size_t points = def->points;
+    uint64_t rocks = def->rocks > CEDUO_SURFACE_GROUPS ? def->rocks : CEDUO_SURFACE_GROUPS;
+    double own_effort = own ? ceduo_effort_of(def->scene, own) : INFINITY;
+    struct plan plan = {.def = def, .most = fmin(CEDUO_EFFORT_MAX, fmax(CEDUO_EFFORT_LEAST, CEDUO_EFFORT_TIMES * own_effort))};
+    enum ceduo_status status = run_pilot(def, &plan);
+    bool too_much = status == CEDUO_CANCELLED && !ceduo_cancelled(def->cancel);
+    if (status != CEDUO_OK && !too_much)
+        return status;
+    bool enough = !too_much && reduce(&plan, def, points, rocks);
+    if (!enough && !too_much && def->rotation) {
+        def->rotation = false;
+        enough = reduce(&plan, def, points, rocks);
+    }
+    def->points = def->points_max = enough ? def->points : 0;
+    def->effort_max = (uint64_t)(plan.most - effort_of(&plan, 0));
+    return CEDUO_OK;
+}
