@@ -216,12 +216,14 @@ static enum ceduo_status ask_doubt(struct asked *c, const struct arguments *a, s
 {
     if (!ceduo_inputs_of(file, &c->inputs))
         return CEDUO_NO_MEMORY;
+    def->rotation |= a->years;
+    if (!def->rotation)
+        ceduo_inputs_keep_today(&c->inputs);
     def->scene = &file->scene;
     def->inputs_count = c->inputs.n;
     def->inputs = c->inputs.items;
     def->points = (size_t)a->points;
     def->threads = (unsigned)a->threads;
-    def->rotation |= a->years;
     def->window = a->window;
     def->cancel = ceduo_interrupt_flag();
     def->progress = show_steps;
