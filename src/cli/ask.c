@@ -238,16 +238,19 @@ static enum ceduo_status ask_doubt(struct asked *c, struct scene_file *file, con
     return too_much ? CEDUO_OK : status;
 }
 
-/* Sets what the command line says. */
-static bool begin_doubt(struct asked *c, const struct arguments *a, struct scene_file *file, struct ceduo_doubt_def *def)
+/* Sets what the command line says. `years`: the years of the window are asked for as well. False without memory. */
+static bool begin_doubt(struct asked *c, const struct arguments *a, struct scene_file *file, bool years,
+                        struct ceduo_doubt_def *def)
 {
     bool good = ceduo_inputs_of(file, &c->inputs);
+    if (!years)
+        ceduo_inputs_keep_today(&c->inputs);
     *def = (struct ceduo_doubt_def){.scene = &file->scene,
                                     .inputs_count = c->inputs.n,
                                     .inputs = c->inputs.items,
                                     .points = (size_t)a->points,
                                     .rocks = a->rocks > 0 ? a->rocks : CEDUO_DOUBT_ROCKS,
-                                    .rotation = a->years,
+                                    .rotation = years,
                                     .window = a->window,
                                     .threads = (unsigned)a->threads,
                                     .cancel = ceduo_interrupt_flag(),
@@ -259,7 +262,7 @@ static bool begin_doubt(struct asked *c, const struct arguments *a, struct scene
 enum ceduo_status ceduo_ask_doubt(struct asked *c, const struct arguments *a, struct scene_file *file)
 {
     struct ceduo_doubt_def def;
-    if (!begin_doubt(c, a, file, &def))
+    if (!begin_doubt(c, a, file, a->years, &def))
         return CEDUO_NO_MEMORY;
     def.own_rocks = a->rocks > 0 ? a->rocks : file->scene.simulation.rocks;
     return ask_doubt(c, file, &def, NULL);
@@ -271,13 +274,13 @@ enum ceduo_status ceduo_ask_doubt_beside(struct asked *c, const struct arguments
     uint64_t rocks = ceduo_result_rocks(result);
     struct ceduo_doubt_def def;
     enum ceduo_status status = CEDUO_OK;
-    if (!begin_doubt(c, a, file, &def))
+    rotation = (rotation || a->years) && c->answer.years && !ceduo_uncertainty_no_rotation(&file->scene);
+    if (!begin_doubt(c, a, file, rotation, &def))
         return CEDUO_NO_MEMORY;
     def.brief = true;
     def.own = &c->answer;
     def.rocks = rocks < CEDUO_DOUBT_ROCKS ? rocks : CEDUO_DOUBT_ROCKS;
     def.points_max = def.points;
-    def.rotation = (rotation || a->years) && c->answer.years && !ceduo_uncertainty_no_rotation(def.scene);
     if (rocks < 2 || !result->wooded || ceduo_page_says_nothing(result))
         def.points = 0;
     else if (def.inputs_count > 0 && !ceduo_arguments_given(a, "sensitivity"))

@@ -235,3 +235,12 @@ bool ceduo_inputs_of(struct scene_file *file, struct scene_inputs *inputs)
     }
     return !f.arena->failed;
 }
+
+void ceduo_inputs_keep_today(struct scene_inputs *inputs)
+{
+    size_t n = 0;
+    for (size_t i = 0; i < inputs->n; i++)
+        if (!ceduo_input_is_of_years(&inputs->items[i]))
+            inputs->items[n++] = inputs->items[i];
+    inputs->n = n;
+}

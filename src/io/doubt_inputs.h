@@ -16,6 +16,9 @@ struct scene_inputs {
 /* False without memory. `doubt: none`: there are none. */
 bool ceduo_inputs_of(struct scene_file *file, struct scene_inputs *inputs);
 
+/* Removes the inputs that change years to come alone. */
+void ceduo_inputs_keep_today(struct scene_inputs *inputs);
+
 /* The places of a path that is to be fitted, to input->places: [*] stands for all items, slope.materials[NAME].KEY for a ground.
  * NULL where it is not a number of any scene; the scene may have no such place. */
 const struct field *ceduo_input_find(struct scene_file *file, const char *path, struct ceduo_input *input);

@@ -8,6 +8,7 @@
 
 #include "base/language.h"
 #include "emit.h"
+#include "resolve.h"
 #include "scene/schema.h"
 #include "survey_file.h"
 
@@ -196,6 +197,86 @@ static double stools_of(const struct writer *w)
     return stools <= shoots ? stools : rounded(stools * (1 - 1e-5)); /* untaken: rounding */
 }
 
+/* ---- the years to come ---- */
+
+/* From these on the standards of a hectare make a coppice with standards, or large reserves if they have this basal area, which is
+ * between those of the shipped stands; fewer are the reserves of a simple coppice (assumed). A selection coppice is not recognized:
+ * diameters do not tell the ages of shoots. */
+#define STANDARDS_LEAST 90  /* 1/ha */
+#define RESERVES_AREA   9.3 /* m2/ha */
+
+/* Species of the shipped stands, and how the names of their files begin. */
+static const struct {
+    const char *species, *prefix;
+} shipped[] = {{"ostrya-carpinifolia", ""},      {"fagus-sylvatica", "beech-"},       {"castanea-sativa", "chestnut-"},
+               {"fraxinus-ornus", "manna-ash-"}, {"quercus-pubescens", "oak-downy-"}, {"quercus-cerris", "oak-turkey-"}};
+
+static const char *system_of(const struct ceduo_survey_answer *a)
+{
+    double standards = 0, area = 0;
+    for (size_t i = 0; i < a->classes_count; i++)
+        if (is_tree(a->classes[i].kind)) {
+            const struct ceduo_survey_class *c = &a->classes[i];
+            standards += c->per_ha.mean;
+            area += c->per_ha.mean * (M_PI / 4) * (c->dbh * c->dbh + c->dbh_sd * c->dbh_sd);
+        }
+    return standards < STANDARDS_LEAST ? "simple-coppice" : area < RESERVES_AREA ? "coppice-with-standards" : "large-reserves";
+}
+
+/* The stand that comes with the program for this species and system, resolved in the arena; NULL if there is none. Its name goes to
+ * `name`. */
+static const struct node *find_shipped(struct arena *arena, const struct ceduo_survey_answer *a, struct text *name)
+{
+    LOCAL_PROBLEMS(problems);
+    LOCAL_TEXT(yaml);
+    const char *species = a->species >= 0 ? ceduo_species_words.names[a->species] : "";
+    for (size_t i = 0; i < sizeof shipped / sizeof shipped[0]; i++)
+        if (strcmp(shipped[i].species, species) == 0)
+            ceduo_text_format(name, "%s%s", shipped[i].prefix, system_of(a));
+    ceduo_text_format(&yaml, "{forest: [{stand: %s}]}", ceduo_text_string(name));
+    const struct source source = {.name = "", .bytes = ceduo_text_string(&yaml), .length = yaml.length};
+    const struct node *root = name->length > 0 ? ceduo_yaml_read(arena, &source, &problems) : NULL;
+    root = root ? ceduo_resolve_scene(arena, root, &problems) : NULL;
+    return ceduo_resolve_at(root, "forest[0].stand");
+}
+
+/* A mapping with a source of its own. */
+static void print_assumed(const struct writer *w, const char *key, const struct node *map, const char *what)
+{
+    ceduo_text_format(w->out, "%s:\n", key);
+    for (size_t i = 0; i < map->n; i++)
+        if (strcmp(map->items[i]->key, "source") != 0) {
+            ceduo_text_format(w->out, "  %s: ", map->items[i]->key);
+            ceduo_emit_flow(w->out, map->items[i]);
+            ceduo_text_char(w->out, '\n');
+        }
+    ceduo_text_put(w->out, "  ");
+    print_source(w->out, true, what);
+    ceduo_text_char(w->out, '\n');
+}
+
+/* Growth and cutting, which no survey of one day shows. */
+static void print_future(const struct writer *w)
+{
+    LOCAL_ARENA(arena);
+    LOCAL_TEXT(name);
+    LOCAL_TEXT(what);
+    const struct node *stand = find_shipped(&arena, w->answer, &name);
+    const struct node *growth = ceduo_node_get(stand, "growth"), *cutting = ceduo_node_get(stand, "cutting");
+    if (!growth || !cutting) {
+        ceduo_text_put(w->out,
+                       _("# No stand of this species comes with ceduo: write its growth and cutting for the years to come.\n"));
+        return;
+    }
+    ceduo_text_format(w->out,
+                      _("# Growth and cutting are assumed: they are those of the stand '%s' that comes with ceduo.\n"
+                        "# Check them, above all rotation_years and stay_per_ha; a selection coppice has cohorts: 3.\n"),
+                      ceduo_text_string(&name));
+    ceduo_text_format(&what, _("as in the stand '%s' that comes with ceduo; not of this survey"), ceduo_text_string(&name));
+    print_assumed(w, "growth", growth, ceduo_text_string(&what));
+    print_assumed(w, "cutting", cutting, ceduo_text_string(&what));
+}
+
 /* ---- doubt ---- */
 
 /* Two numbers of what may be true. */
@@ -284,6 +365,8 @@ static void print_stand(const struct writer *w)
         print_source(w->out, true, _("counted; what one takes from a rock is not measured"));
         ceduo_text_put(w->out, "}\n");
     }
+    if (a->stools.mean > 0)
+        print_future(w);
     ceduo_text_format(&what, _("survey of %zu plots, %.0f m2 of the map"), w->file->survey.plots_count, w->area);
     print_source(w->out, false, ceduo_text_string(&what));
     ceduo_text_char(w->out, '\n');

@@ -220,7 +220,11 @@ static void chose_survey(struct app *app, struct popup *p)
     if (!read_survey(p->value, &value, &app->problems))
         ceduo_app_edited(app, false);
     else if (ceduo_app_set(app, p->path, value.bytes))
-        ceduo_app_say(app, _("the stand of the survey '%.100s'; it says nothing of growth and cutting"), p->value);
+        ceduo_app_say(app,
+                      ceduo_stand_grows(&ceduo_app_option(app)->belts[app->belt].stand)
+                          ? _("the stand of the survey '%.100s'; its growth and cutting are assumed: check them")
+                          : _("the stand of the survey '%.100s'; it says nothing of growth and cutting"),
+                      p->value);
 }
 
 void ceduo_popup_survey(struct app *app)

@@ -7,7 +7,7 @@ import re
 import statistics
 from pathlib import Path
 
-from harness import DONE, INPUT, USAGE, Folder, ceduo, environment, expect, expect_equal, expect_in, expect_near, good, run_all, scene
+from harness import DONE, INPUT, PROFILES, USAGE, Folder, ceduo, environment, expect, expect_equal, expect_in, expect_near, good, run_all, scene
 
 HEAD = "plot,area_m2,slope_deg,species,kind,stool,dbh_cm,height_m,spacing_m"
 STEMS = {  # plot: (area, slope, [(species, kind, stool, dbh, height, spacing)])
@@ -498,11 +498,78 @@ def test_terminal():
                 expect_in("'x' is not a number", r.out)
                 expect_equal((f.path / "s.yaml").read_text(), before)
                 continue
-            expect_in("it says nothing of growth and cutting", r.out)
+            expect_in("its growth and cutting are assumed: check them", r.out)
             stands = [json.loads(ceduo("--batch", "-n", 20, "-f", "json", *sets, "s.yaml", cwd=f.path).out)["options"][0]["stands"]
                       for sets in ([], ["-s", "forest[0].stand=stand.yaml"])]
             expect_equal(stands[0], stands[1])
             expect_in("stools.per_ha", (f.path / "s.yaml").read_text())
+
+
+def future_of(stems, *arguments):
+    """What is written between the stems and the source of the whole."""
+    with Folder() as f:
+        out = good("--survey", f.write("plots.csv", table({"A": (100, 0, stems), "B": (100, 0, stems)})), *arguments).out
+    return re.search(r"(?ms)^ +source: [^\n]*\n(# Growth.*?|# No stand.*?|)^source:", out)[1]
+
+
+def test_future():
+    """Growth and cutting are those of the shipped stand of the species with most basal area, by the number and basal area of the
+    standards; marked as assumed, with a comment that names it"""
+    def stems(species, standards, dbh=20):
+        return [(species, "shoot", 1, 6.2, 6.4, 0.3)] * 3 + [(species, "standard", "", dbh, 12, "")] * standards
+
+    prefixes = {"ostrya-carpinifolia": "", "fagus-sylvatica": "beech-", "castanea-sativa": "chestnut-", "fraxinus-ornus": "manna-ash-",
+                "quercus-pubescens": "oak-downy-", "quercus-cerris": "oak-turkey-"}
+    cases = [(species, 0, 20, f"{prefix}simple-coppice") for species, prefix in prefixes.items()]
+    cases += [("ostrya-carpinifolia", 1, 20, "coppice-with-standards"),  # 100 a hectare, 3.1 m2
+              ("fagus-sylvatica", 3, 19.8, "beech-coppice-with-standards"), ("fagus-sylvatica", 3, 19.9, "beech-large-reserves")]
+    for species, standards, dbh, name in cases:
+        text = future_of(stems(species, standards, dbh))
+        expect_in(f"those of the stand '{name}' that comes with ceduo", text)
+        expect_equal(text.count("kind: assumed"), 2, text)
+        shipped = {}
+        for key in ("growth", "cutting"):  # a file goes before its base
+            for file in ([] if name == name.removeprefix(prefixes[species]) else [name.removeprefix(prefixes[species])]) + [name]:
+                block = re.search(rf"(?m)^{key}:\n((?:  .*\n)+)", (PROFILES / "stands" / f"{file}.yaml").read_text())
+                shipped |= dict(re.findall(r"(?m)^  (\w+): (.*)$", block[1] if block else ""))
+        shipped.pop("source")
+        found = dict(re.findall(r"(?m)^  (\w+): (.*)$", text))
+        found.pop("source")
+        expect_equal(found, shipped, name)
+    with Folder() as f:  # nine of ten plots are empty: fewer than 90 a hectare
+        one = {f"P{i}": (100, 0, stems("ostrya-carpinifolia", 8) if i == 0 else []) for i in range(10)}
+        expect_in("'simple-coppice'", survey(f, table(one)).out)
+    expect_in("# No stand of this species comes with ceduo", future_of(stems("robinia-pseudoacacia", 1)))
+    expect_in("# No stand of this species comes with ceduo", future_of(stems("", 1)))
+    expect_equal(future_of([("fagus-sylvatica", "tree", "", 30, 20, "")]), "", "no shoots")
+
+
+def test_years_of_a_survey():
+    """A scene with the stand of six-plots.csv has years: cut now leaving so many, as a selection coppice, not cut"""
+    with Folder() as f:
+        f.write("stand.yaml", good("--survey", "six-plots").out)
+        site = f.write("s.yaml", scene(
+            slope={"vertices_m": [[0, 70], [100, 0]], "segments": [{"rn": 0.3, "rt": 0.9}]}, controls=[{"x_m": 90, "accepted_kJ": 50}],
+            forest=[{"from_m": 0, "to_m": 60, "stand": "stand.yaml"}]))
+
+        def years(*sets):
+            r = good("--batch", "-n", 20, "-f", "json", "--years", "0:26", *(x for s in sets for x in ("-s", f"forest[0].{s}")), site)
+            return json.loads(r.out)["options"][0]["years"]
+
+        cut = years("cut_year=0", "stand.cutting.stay_per_ha=[30, 30]")
+        expect_equal([y["year"] for y in cut if y["cut"]], [0, 25], "cut now, and again")
+        expect_equal({(round(y["stands"][0]["trees_per_ha"]), round(y["stands"][0]["stools_per_ha"])) for y in cut if not y["cut"]},
+                     {(60, 597)}, "60 stay, and all stools sprout")
+        selection = years("cut_year=0", "stand.cutting={rotation_years: 13, cohorts: 3, stay_per_ha: [0, 0, 0, 40]}",
+                          "stand.growth.shoots_old=6")
+        expect_equal([y["year"] for y in selection if y["cut"]], [0, 13, 26], "selection")
+        expect(all(y["stands"][0]["stools_per_ha"] > 590 for y in selection), "shoots stay on each stool")
+        waiting = years("cut_year=1000")
+        expect_equal([y for y in waiting if y["cut"]], [], "not cut")
+        areas = [y["stands"][0]["basal_area_m2_ha"] for y in waiting]
+        expect(all(a < b for a, b in zip(areas, areas[1:])), f"it grows: {areas}")
+        page = " ".join(good("--batch", "--details", "--years", "-s", "doubt=none", "-n", 20, site).out.split())
+        expect_in("that comes with ceduo; not of this survey (growth", page)
 
 
 def test_usage():
