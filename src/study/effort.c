@@ -9,17 +9,17 @@
 #include "base/cancel.h"
 #include "points.h"
 
-#define PER_ROCK    24.   /* started and read */
-#define PER_RUN     3300. /* a forest prepared */
-#define PER_VERTEX  15.   /* of the simplified profile, prepared for a run */
-#define PER_POINT   .7    /* of the profile as filed, simplified for a run */
-#define PER_PASS    .17   /* a rock that rolls past a vertex */
-#define PER_FIT     6e5   /* a figure at CEDUO_DOUBT_POINTS points */
-#define FITS        3     /* figures of an option today */
-#define FITS_YEARS  2     /* of its rotation, and half of one for each year */
+#define PER_ROCK    24.      /* started and read */
+#define PER_RUN     3300.    /* a forest prepared */
+#define PER_VERTEX  15.      /* of the simplified profile, prepared for a run */
+#define PER_POINT   .7       /* of the profile as filed, simplified for a run */
+#define PER_PASS    .17      /* a rock that rolls past a vertex */
+#define PER_FIT     6e5      /* a figure at CEDUO_DOUBT_POINTS points */
+#define FITS        3        /* figures of an option today */
+#define FITS_YEARS  2        /* of its rotation, and half of one for each year */
 #define PLANNED     (2. / 3) /* of the bound: later points may meet more than the pilot */
-#define PILOT       8     /* points */
-#define ROCKS_LEAST 100   /* of a point, if there are more at first */
+#define PILOT       8        /* points */
+#define ROCKS_LEAST 100      /* of a point, if there are more at first */
 #define YEARS_LEAST 12
 
 double ceduo_effort_of(const struct ceduo_scene *scene, const struct ceduo_work *work)
@@ -43,7 +43,8 @@ static double effort_of(const struct plan *plan, double met)
         years += (double)ceduo_points_years(def, i);
     double rocks = options * (double)def->rocks + years * CEDUO_DOUBT_YEAR_ROCKS, points = (double)def->points;
     struct ceduo_work work = {.rocks = (uint64_t)(points * rocks), .runs = (uint64_t)(points * (options + years))};
-    double fits = options * FITS + (def->rotation ? options * FITS_YEARS + years / 2 : 0) + (def->rotation ? 2 : 1) * (options - 1);
+    double fits =
+        options * FITS + (def->rotation ? options * FITS_YEARS + years / 2 : 0) + (def->rotation ? 2 : 1) * (options - 1);
     return points * rocks * met / options + ceduo_effort_of(def->scene, &work) +
            fits * PER_FIT * pow(points / CEDUO_DOUBT_POINTS, 2);
 }
@@ -57,14 +58,16 @@ static size_t afford(const struct plan *plan, struct ceduo_doubt_def *def, size_
     return def->points;
 }
 
-/* Reduces rocks, then years, then points. False if too few points are left. */
+/* Reduces points to half of `points`, then rocks and points alike, then years, then points alone: at the same cost the error of a
+ * range by the rocks, which all points have in common, is then like that by the points. False if too few points are left. */
 static bool reduce(const struct plan *plan, struct ceduo_doubt_def *def, size_t points, uint64_t rocks)
 {
     uint64_t least = rocks < ROCKS_LEAST ? rocks : ROCKS_LEAST;
+    size_t enough = points / 2;
     def->years_max = 0;
-    for (def->rocks = rocks; afford(plan, def, points) < points && def->rocks > least;)
+    for (def->rocks = rocks; afford(plan, def, points) < enough && def->rocks > least; enough /= 2)
         def->rocks = def->rocks / 2 > least ? def->rocks / 2 : least;
-    if (def->points < points && def->rotation) {
+    if (def->points < enough && def->rotation) {
         def->years_max = YEARS_LEAST;
         afford(plan, def, points);
     }
