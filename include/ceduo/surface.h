@@ -60,7 +60,7 @@ struct ceduo_surface_fit {
     struct ceduo_share below; /* of the values the share that is at most the limit */
     double *values;           /* of each point: of the surface, and what of its remainder is not noise */
     struct ceduo_share *first, *total; /* of each input: of it alone, and of all terms that it is in */
-    double *left;                      /* of each input: p95 - p5 that remains on the mean if it is known */
+    double *left;                      /* of each input: p95 - p5 that remains on the mean if it is known; at most p95 - p5 */
 };
 
 /* Fits a figure by its inputs. The fit is to be released. CEDUO_NO_MEMORY or CEDUO_OK. */

@@ -234,8 +234,8 @@ static enum ceduo_status ask_doubt(struct asked *c, struct scene_file *file, con
         return CEDUO_OK;
     enum ceduo_status status = ceduo_doubt_ask(def, &c->doubt_answer);
     c->doubt.answer = status == CEDUO_OK ? &c->doubt_answer : NULL;
-    bool too_much = status == CEDUO_CANCELLED && !atomic_load(ceduo_interrupt_flag());
-    return too_much ? CEDUO_OK : status;
+    c->doubt.too_much = status == CEDUO_CANCELLED && !atomic_load(ceduo_interrupt_flag());
+    return c->doubt.too_much ? CEDUO_OK : status;
 }
 
 /* Sets what the command line says. `years`: the years of the window are asked for as well. False without memory. */
@@ -285,5 +285,9 @@ enum ceduo_status ceduo_ask_doubt_beside(struct asked *c, const struct arguments
         def.points = 0;
     else if (def.inputs_count > 0 && !ceduo_arguments_given(a, "sensitivity"))
         status = ceduo_effort_bound(&def, &c->answer.work);
-    return status == CEDUO_OK ? ask_doubt(c, file, &def, result) : status;
+    bool too_much = def.points == 0 && def.effort_max > 0;
+    if (status == CEDUO_OK)
+        status = ask_doubt(c, file, &def, result);
+    c->doubt.too_much |= too_much;
+    return status;
 }

@@ -13,7 +13,8 @@
 #define TALL   N_("heights of stems of known age")
 #define COUNTS N_("shoots counted on stools of known age")
 #define PULLED N_("pulling tests on stems of this species and size")
-#define STRUCK N_("full-scale tests on such stems")
+
+#define FULL_SCALE N_("full-scale tests on such stems")
 
 #define SEGMENT "slope.segments[0]."
 #define STAND   "forest[0].stand."
@@ -21,9 +22,9 @@
 #define GROWTH  STAND "growth."
 #define CURVE   GROWTH "shoots." /* the rows of trees have the same keys */
 
-#define ROW(kind, path, lo, hi, source, measured)                                                                              \
+#define ROW(of_kind, of_path, from, to, from_source, by)                                                                       \
     {                                                                                                                          \
-        path, CEDUO_INPUT_##kind, lo, hi, {0}, source, measured                                                                \
+        .path = of_path, .kind = CEDUO_INPUT_##of_kind, .lo = from, .hi = to, .source = from_source, .measured = by            \
     }
 
 static const struct range ranges[] = {
@@ -59,14 +60,16 @@ static const struct range ranges[] = {
      .hi = NAN,
      .words = {"brauner", "dorren"},
      .source = N_("two published laws (Brauner et al. 2005; Dorren et al. 2006)"),
-     .measured = STRUCK},
+     .measured = FULL_SCALE,
+     .research = true},
     {.path = STAND "energy.offset",
      .kind = CEDUO_INPUT_WORDS,
      .lo = NAN,
      .hi = NAN,
      .words = {"whole", "dorren"},
      .source = N_("two published choices (Ciabocco et al. 2009; Dorren et al. 2006)"),
-     .measured = STRUCK},
+     .measured = FULL_SCALE,
+     .research = true},
 };
 
 const struct range *ceduo_ranges(size_t *n)
@@ -97,7 +100,10 @@ struct range ceduo_range_of_material(const struct ceduo_material *m, const char 
     const struct range *r = ceduo_range_of(ceduo_schema_field(ceduo_schema_segment(), key));
     for (size_t i = 0; i < sizeof of_ground / sizeof of_ground[0]; i++)
         if (strcmp(key, of_ground[i].key) == 0)
-            return (struct range){NULL, CEDUO_INPUT_RANGE,   of_ground[i].lo, of_ground[i].hi,
-                                  {0},  of_ground[i].source, r->measured};
+            return (struct range){.kind = CEDUO_INPUT_RANGE,
+                                  .lo = of_ground[i].lo,
+                                  .hi = of_ground[i].hi,
+                                  .source = of_ground[i].source,
+                                  .measured = r->measured};
     return *r;
 }

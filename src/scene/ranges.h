@@ -14,6 +14,7 @@ struct range {
     const char *words[3]; /* CEDUO_INPUT_WORDS: each; NULL behind the last */
     const char *source;   /* where the range comes from; marked for translation */
     const char *measured; /* what would measure the value; marked for translation; NULL: nothing can */
+    bool research;        /* true: only research measures it, so that no page advises it */
 };
 
 /* All rows, for the manual. */

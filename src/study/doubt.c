@@ -228,9 +228,13 @@ static enum ceduo_status fit_points(const struct rows *r, const struct subject *
 /* Widens the range until it holds the value of the scene as it is (NaN: unknown); of too few points there is none. */
 static void set_range(const struct rows *r, double value, struct ceduo_surface_fit *fit)
 {
-    if (r->points < CEDUO_DOUBT_LEAST)
+    if (r->points < CEDUO_DOUBT_LEAST) {
         fit->p5 = fit->p50 = fit->p95 = fit->p5_se = fit->p95_se = NAN;
-    else if (!isnan(value))
+        for (size_t i = 0; i < r->def->inputs_count; i++)
+            fit->left[i] = NAN;
+        return;
+    }
+    if (!isnan(value))
         fit->p5 = fmin(fit->p5, value), fit->p95 = fmax(fit->p95, value);
 }
 

@@ -56,14 +56,16 @@ static size_t afford(const struct plan *plan, struct ceduo_doubt_def *def, size_
     return def->points;
 }
 
-/* Reduces rocks, then years, then points. False if too few points are left. */
+/* Reduces points to half of `points`, then rocks and points alike, then years, then points alone: at the same cost the error of a
+ * range by the rocks, which all points have in common, is then like that by the points. False if too few points are left. */
 static bool reduce(const struct plan *plan, struct ceduo_doubt_def *def, size_t points, uint64_t rocks)
 {
     uint64_t least = rocks < ROCKS_LEAST ? rocks : ROCKS_LEAST;
+    size_t enough = points / 2;
     def->years_max = 0;
-    for (def->rocks = rocks; afford(plan, def, points) < points && def->rocks > least;)
+    for (def->rocks = rocks; afford(plan, def, points) < enough && def->rocks > least; enough /= 2)
         def->rocks = def->rocks / 2 > least ? def->rocks / 2 : least;
-    if (def->points < points && def->rotation) {
+    if (def->points < enough && def->rotation) {
         def->years_max = YEARS_LEAST;
         afford(plan, def, points);
     }

@@ -8,13 +8,13 @@
 /* Bounds the uncertainty of a page by its effort. A unit is the time of one contact or stem, some 17 ns of a processor. The bound
  * counts what is simulated, never time, so that the same input gives the same page. */
 #define CEDUO_EFFORT_TIMES 30    /* the effort of the scene as it is */
-#define CEDUO_EFFORT_LEAST 3e7   /* half a second: a quick scene may always have so much */
+#define CEDUO_EFFORT_LEAST 4.5e7 /* three quarters of a second: a quick scene may always have so much */
 #define CEDUO_EFFORT_MAX   1.8e8 /* three seconds */
 
 /* Effort of runs of a scene. */
 double ceduo_effort_of(const struct ceduo_scene *scene, const struct ceduo_work *work);
 
-/* Reduces rocks, then years, then points of the definition until its effort keeps within the bound, and sets effort_max. A rotation
+/* Reduces points, rocks and years of the definition until its effort keeps within the bound, and sets effort_max. A rotation
  * that cannot have CEDUO_DOUBT_LEAST points is left out. Sets `points` to 0 if today cannot have them either. `own`: runs of the
  * scene as it is; NULL: CEDUO_EFFORT_MAX alone is the bound. Returns CEDUO_CANCELLED, CEDUO_NO_MEMORY or what ceduo_scene_check()
  * returns. */

@@ -790,8 +790,8 @@ static bool read_solution(struct ceduo_surface *s, struct solution *f, struct ce
     fit->whole = fit->first[found->n - 1];
     set_band(fit, &band);
     read_values(&s->c, fit->values);
-    for (size_t i = 0; i < s->inputs_count; i++)
-        fit->left[i] = left_of(f, fit->values, i);
+    for (size_t i = 0; i < s->inputs_count; i++) /* in the mean no more than now: what seems more is error */
+        fit->left[i] = fmin(left_of(f, fit->values, i), fit->p95 - fit->p5);
     free(of_rocks);
     return true;
 }

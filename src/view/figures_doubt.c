@@ -49,6 +49,19 @@ static bool enter_input(struct ceduo_place *p, size_t i)
     return i < figure_of(p)->uses;
 }
 
+/* What to measure first, for the figure that pages advise on. */
+static bool enter_first(struct ceduo_place *p, size_t i)
+{
+    const struct ceduo_doubt_answer *a = p->doubt->answer;
+    if (!a)
+        return false;
+    const struct ceduo_doubt_figure *f = ceduo_doubt_figure_of(a, ceduo_doubt_chosen(p->doubt), a->main, false);
+    size_t input = ceduo_doubt_advised(p->doubt, f, i);
+    p->figure = (size_t)(f - a->figures);
+    p->input = input == SIZE_MAX ? 0 : input;
+    return input != SIZE_MAX;
+}
+
 ENTER(enter_order, item, p->doubt->answer ? ceduo_doubt_verdict(p->doubt->answer)->count : 0)
 
 static struct ceduo_value end_of(const struct ceduo_place *p, int end)
@@ -101,6 +114,7 @@ VALUE(order_better, place, TEXT, WORD(scene_of(o)->options[order_of(o)->better].
 VALUE(order_than, place, TEXT, WORD(scene_of(o)->options[order_of(o)->than].name_given))
 VALUE(order_over, place, TEXT, WORD(ceduo_doubt_verdict(o->doubt->answer)->rotation ? "rotation" : "today"))
 
+#define NO_BAND    UNSAID ", or there are fewer than 20 points"
 #define FEW_POINTS "there are too few points, or nothing varies"
 
 static const struct ceduo_figure doubt_scene_rows[] = {
@@ -123,11 +137,11 @@ static const struct ceduo_figure doubt_figure_rows[] = {
     {"value", "", "in the scene as it is", FIGURE(value), .null = UNSAID},
     {"sampling_lo", "", "lower end of its 95 % interval, by the rocks", FIGURE(sampling_lo), .null = UNSAID},
     {"sampling_hi", "", "upper end of its 95 % interval", FIGURE(sampling_hi), .null = UNSAID},
-    {"doubt_p5", "", "5th percentile of what may be true", FIGURE(fit.p5), .null = UNSAID},
-    {"doubt_p50", "", "median of what may be true", FIGURE(fit.p50), .null = UNSAID},
-    {"doubt_p95", "", "95th percentile of what may be true", FIGURE(fit.p95), .null = UNSAID},
-    {"doubt_p5_se", "", "standard error of doubt_p5, by the points and by the rocks", FIGURE(fit.p5_se), .null = UNSAID},
-    {"doubt_p95_se", "", "standard error of doubt_p95", FIGURE(fit.p95_se), .null = UNSAID},
+    {"doubt_p5", "", "5th percentile of what may be true, or the value if that is lower", FIGURE(fit.p5), .null = NO_BAND},
+    {"doubt_p50", "", "median of what may be true", FIGURE(fit.p50), .null = NO_BAND},
+    {"doubt_p95", "", "95th percentile of what may be true, or the value if that is higher", FIGURE(fit.p95), .null = NO_BAND},
+    {"doubt_p5_se", "", "standard error of doubt_p5, by the points and by the rocks", FIGURE(fit.p5_se), .null = NO_BAND},
+    {"doubt_p95_se", "", "standard error of doubt_p95", FIGURE(fit.p95_se), .null = NO_BAND},
     {"within", "", "share of what may be true in which no more exceed than are allowed", FIGURE(fit.below.value),
      .null = "the figure is not the share that exceeds, today or in the mean of a rotation"},
     {"within_se", "", "its standard error", FIGURE(fit.below.se),
@@ -160,6 +174,15 @@ static const struct ceduo_figure input_rows[] = {
     {.of = input_range_rows},
     END};
 
+static const struct ceduo_figure first_rows[] = {
+    {"path", "", "path of the input", .from = input_of, AT(input, path)},
+    {"measured_by", "", "what would measure it", .value = input_measured},
+    {"option", "", "option that it is about: the one that lets least pass in the mean of plausible cases",
+     .value = doubt_option},
+    {"width_if_known", "", "expected width of the 90 % range of its figure if this input were known", .value = input_left,
+     .null = FEW_POINTS},
+    END};
+
 static const struct ceduo_figure doubt_figure_object[] = {
     {.of = doubt_figure_rows},
     {"inputs", "", "an object for each input, the heaviest first", .of = input_rows, .enter = enter_input},
@@ -171,7 +194,8 @@ static const struct ceduo_figure ranking_rows[] = {
     {"x_m", "m", "the last control", .value = doubt_x},
     {"over", "", "today, or rotation: by the mean over a rotation", .value = order_over},
     {"probability", "", "share of what may be true in which it is better", .from = ranked, AT(doubt_order, probability)},
-    {"equal", "", "in which neither is", .from = ranked, AT(doubt_order, equal)},
+    {"equal", "", "in which they differ by at most 5 of 1000, or of energies by 0.5 % of the mean without forest",
+     .from = ranked, AT(doubt_order, equal)},
     {"worse", "", "in which it is worse", .from = ranked, AT(doubt_order, worse)},
     END};
 
@@ -181,12 +205,15 @@ const struct ceduo_figure ceduo_doubt_figures[] = {
     {.of = doubt_scene_rows},
     {"figures", "", "an object for each figure and option", .of = doubt_figure_object, .enter = enter_figure},
     {"ranking", "", "an object for each two neighbours in rank", .of = ranking_rows, .enter = enter_order},
+    {"measure_first", "", "an object for each input to be measured, the first one first: only those that a reader can measure",
+     .of = first_rows, .enter = enter_first},
     {"evaluations", "", "scenes computed", .value = doubt_evaluations},
     END};
 
 static const struct ceduo_figure doubt_columns[] = {{.of = doubt_scene_rows},
                                                     {.of = doubt_figure_rows},
                                                     {"path", "", "", .from = input_of, AT(input, path)},
+                                                    {"measured_by", "", "", .value = input_measured},
                                                     {.of = input_range_rows},
                                                     END};
 

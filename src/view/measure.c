@@ -45,12 +45,18 @@ struct ceduo_measure ceduo_judged(const struct ceduo_control *c, const struct ce
     return m;
 }
 
+void ceduo_measure_range(struct ceduo_measure *m, const struct ceduo_surface_fit *fit, double scale)
+{
+    bool known = !isnan(fit->p5), whole = m->digits == 0; /* without its value the range stays as it is */
+    m->may_lo = known ? fmin(whole ? round(fit->p5 * scale) : fit->p5 * scale, m->value) : NAN;
+    m->may_hi = known ? fmax(whole ? round(fit->p95 * scale) : fit->p95 * scale, m->value) : NAN;
+}
+
 static void set_doubt(struct ceduo_measure *m, const struct ceduo_doubt_report *doubt, size_t option,
                       enum ceduo_doubt_kind kind)
 {
     const struct ceduo_doubt_figure *f = ceduo_doubt_figure_of(doubt->answer, option, kind, false);
-    m->may_lo = round(1000 * f->fit.p5);
-    m->may_hi = round(1000 * f->fit.p95);
+    ceduo_measure_range(m, &f->fit, 1000);
 }
 
 void ceduo_measure_doubt(struct ceduo_measure *m, const struct ceduo_doubt_report *doubt, size_t option, size_t control)
@@ -128,6 +134,10 @@ void ceduo_measure_value(struct text *text, const struct ceduo_measure *m)
 void ceduo_measure_span(struct text *text, const struct ceduo_measure *m, double lo, double hi)
 {
     struct ceduo_measure end = *m;
+    if (isnan(lo) && isnan(hi)) {
+        ceduo_text_put(text, "-");
+        return;
+    }
     end.value = lo;
     ceduo_measure_value(text, &end);
     ceduo_text_put(text, "\xe2\x80\x93");

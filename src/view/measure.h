@@ -3,6 +3,7 @@
 #define CEDUO_MEASURE_H
 
 #include "base/text.h"
+#include "ceduo/surface.h"
 #include "study/verdict.h"
 
 /* A figure of an answer and what people call it: made here once, for pages, pictures, panes and the column. */
@@ -31,6 +32,9 @@ struct ceduo_measure ceduo_judged(const struct ceduo_control *control, const str
 
 /* Such a share with half its interval, as that of years is known. */
 struct ceduo_measure ceduo_share(struct ceduo_portion share);
+
+/* Sets the 90 % range of a fit, `scale` being units shown; it holds the measure's value. */
+void ceduo_measure_range(struct ceduo_measure *measure, const struct ceduo_surface_fit *fit, double scale);
 
 /* Sets what doubt makes of such a share of an option at a control; of any but the last it is not known. `doubt` may be NULL. */
 struct ceduo_doubt_report;

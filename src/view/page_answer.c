@@ -211,12 +211,13 @@ static void say_doubt(struct text *text, const struct ceduo_report *report)
     ceduo_measure_doubt(&m, doubt, option, r->last_control);
     if (!doubt || !doubt->answer) {
         ceduo_text_then(text, "; ", "%s.",
-                        doubt && (ceduo_doubt_is_off(doubt) || doubt->inputs->n == 0)
-                            ? ceduo_doubt_none(doubt)
+                        doubt && (ceduo_doubt_is_off(doubt) || doubt->inputs->n == 0) ? ceduo_doubt_none(doubt)
+                        : doubt && doubt->too_much
+                            ? _("what is not known was not computed, as it takes long: --sensitivity does")
                             : _("what is not known was not computed"));
         return;
     }
-    if (r->scene->options_count == 1 && r->wooded) {
+    if (r->scene->options_count == 1 && r->wooded && !isnan(m.may_lo)) {
         ceduo_text_put(text, "; ");
         ceduo_measure_span(text, &m, fmin(m.value, m.may_lo), fmax(m.value, m.may_hi));
         ceduo_text_put(text, _(" by what is not known"));
@@ -226,9 +227,11 @@ static void say_doubt(struct text *text, const struct ceduo_report *report)
         ceduo_text_char(text, ' ');
         ceduo_doubt_order_words(text, doubt, 0); /* how sure the best option is */
     }
-    struct ceduo_doubt_report same = *doubt;
-    same.over = over;
-    ceduo_doubt_advice(text, &same, option, 1);
+    const struct ceduo_doubt_answer *a = doubt->answer;
+    ceduo_doubt_advice(text, doubt, ceduo_doubt_figure_of(a, ceduo_doubt_chosen(doubt), a->main, false), 1);
+    LOCAL_TEXT(points);
+    ceduo_doubt_points(&points, doubt);
+    ceduo_text_then(text, points.length > 0 ? " " : "", "%s", ceduo_text_string(&points));
 }
 
 void ceduo_page_sure(struct ceduo_page *page, const struct ceduo_report *report)

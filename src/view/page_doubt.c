@@ -12,7 +12,8 @@
 #include "scene/value.h"
 #include "typed.h"
 
-#define SHOWN 0.01 /* shares from this on are shown */
+#define SHOWN          0.01 /* shares from this on are shown */
+#define NOTHING_GAINED 0.995
 
 bool ceduo_doubt_is_off(const struct ceduo_doubt_report *r)
 {
@@ -145,16 +146,19 @@ void ceduo_doubt_outside(const struct ceduo_doubt_report *r, ceduo_words_say *sa
     }
 }
 
+static const struct range *range_of(const struct ceduo_doubt_report *r, const struct ceduo_input *input)
+{
+    struct value v;
+    return ceduo_value_find(&r->file->scene, input->places[0], &v) ? ceduo_range_of(v.field) : NULL;
+}
+
 const char *ceduo_doubt_measured(const struct ceduo_doubt_report *r, size_t i)
 {
     const struct ceduo_input *input = &r->inputs->items[i];
-    struct value v;
-    if (input->kind == CEDUO_INPUT_WORDS)
-        return NULL;
+    const struct range *range = range_of(r, input);
     if (input->kind == CEDUO_INPUT_DRAWS)
         return N_("more of what was seen");
-    const struct range *range = ceduo_value_find(&r->file->scene, input->places[0], &v) ? ceduo_range_of(v.field) : NULL;
-    return range ? range->measured : N_("on the ground");
+    return range ? range->measured : input->kind == CEDUO_INPUT_WORDS ? NULL : N_("on the ground");
 }
 
 /* ---- figures ---- */
@@ -202,11 +206,19 @@ struct ceduo_measure ceduo_doubt_measure(const struct ceduo_doubt_report *r, siz
         m.hi = energy ? f->sampling_hi * scale : round(f->sampling_hi * scale);
     }
     m.digits = energy ? 3 : 0;
-    m.may_lo = energy ? f->fit.p5 * scale : round(f->fit.p5 * scale);
-    m.may_hi = energy ? f->fit.p95 * scale : round(f->fit.p95 * scale);
+    ceduo_measure_range(&m, &f->fit, scale);
     if (rocks)
         *rocks = own;
     return m;
+}
+
+void ceduo_doubt_points(struct text *text, const struct ceduo_doubt_report *r)
+{
+    size_t n = r->answer->points;
+    if (n < CEDUO_DOUBT_LEAST)
+        ceduo_text_format(text, ngettext("%zu point is too few for a range.", "%zu points are too few for a range.", n), n);
+    else if (n < CEDUO_DOUBT_POINTS)
+        ceduo_text_format(text, ngettext("Uncertainty from %zu point.", "Uncertainty from %zu points.", n), n);
 }
 
 /* What a reader takes along: both errors. */
@@ -250,7 +262,7 @@ static void add_options(struct ceduo_page *page, const struct ceduo_doubt_report
             continue;
         const struct ceduo_doubt_figure *years = ceduo_doubt_figure_of(r.answer, i, CEDUO_DOUBT_FAILING, false);
         double lo = floor(years->fit.p5), hi = ceil(years->fit.p95); /* outwards */
-        ceduo_page_write(page, lo == hi ? "%.0f" : "%.0f, %.0f\xe2\x80\x93%.0f", years->value, lo, hi);
+        ceduo_page_write(page, lo == hi || isnan(lo) ? "%.0f" : "%.0f, %.0f\xe2\x80\x93%.0f", years->value, lo, hi);
     }
 }
 
@@ -267,6 +279,18 @@ static bool matters(const struct ceduo_doubt_figure *f, size_t g)
     return f->fit.total[g].value > 2 * f->fit.total[g].se && f->fit.total[g].value >= SHOWN;
 }
 
+/* The width of the range if an input is known. */
+void ceduo_doubt_left(struct text *text, const struct ceduo_doubt_figure *f, size_t input, const char *format)
+{
+    double left = f->fit.left[input];
+    LOCAL_TEXT(width);
+    ceduo_doubt_value(&width, f->kind, left);
+    if (left > NOTHING_GAINED * (f->fit.p95 - f->fit.p5))
+        ceduo_text_put(text, _("no gain"));
+    else
+        ceduo_append_with(text, format, width.bytes);
+}
+
 static void add_inputs(struct ceduo_page *page, const struct ceduo_doubt_report *r, const struct ceduo_doubt_figure *f)
 {
     static const struct ceduo_page_column columns[] = {{N_("it depends on"), 34, 2, 0},
@@ -277,7 +301,7 @@ static void add_inputs(struct ceduo_page *page, const struct ceduo_doubt_report 
     size_t rest = 0;
     ceduo_page_add(page, CEDUO_PAGE_GAP);
     if (r->file->scene.options_count > 1)
-        ceduo_page_say(page, CEDUO_PAGE_SENTENCE, _("What the first option depends on:"));
+        ceduo_page_say(page, CEDUO_PAGE_SENTENCE, _("What '%s' depends on:"), r->file->scene.options[f->option].name);
     if (!f->fit.enough) {
         ceduo_page_note(page, _("There are too few points to say what it depends on; take more (--sensitivity=N)."));
         return;
@@ -293,10 +317,10 @@ static void add_inputs(struct ceduo_page *page, const struct ceduo_doubt_report 
         for (int end = 0; end < 2; end++)
             append_input_end(ceduo_page_text(page), r, g, end);
         ceduo_page_write(page, "%.0f %%", ceduo_doubt_share(f, g) * 100);
-        ceduo_doubt_value(ceduo_page_text(page), f->kind, f->fit.left[g]);
+        ceduo_doubt_left(ceduo_page_text(page), f, g, "%s");
     }
     if (f->fit.whole.value >= SHOWN && f->fit.whole.value > 2 * f->fit.whole.se) {
-        ceduo_page_write(page, "%s", _("together, in ways not told apart"));
+        ceduo_page_write(page, "%s", _("not explained by a smooth surface"));
         ceduo_page_write(page, "%s", "");
         ceduo_page_write(page, "%s", "");
         ceduo_page_write(page, "%.0f %%", f->fit.whole.value * 100);
@@ -310,29 +334,54 @@ static void add_inputs(struct ceduo_page *page, const struct ceduo_doubt_report 
                        rest);
 }
 
-/* The name of an input and what would measure it: that of an energy law is known, though no value of it is. */
-static const char *name_measured(struct text *name, const struct ceduo_doubt_report *r, size_t g)
+size_t ceduo_doubt_chosen(const struct ceduo_doubt_report *r)
 {
-    if (r->inputs->items[g].kind == CEDUO_INPUT_WORDS) {
-        ceduo_text_put(name, _("what stems take from a rock"));
-        return N_("pulling tests on such stems");
+    size_t chosen = SIZE_MAX;
+    double least = INFINITY;
+    for (size_t i = 0; i < r->file->scene.options_count; i++) {
+        const struct ceduo_surface_fit *fit = &ceduo_doubt_figure_of(r->answer, i, r->answer->main, false)->fit;
+        if (fit->values && (chosen == SIZE_MAX || fit->mean < least))
+            chosen = i, least = fit->mean;
     }
-    ceduo_doubt_input_name(name, r, g);
-    return ceduo_doubt_measured(r, g);
+    return chosen;
 }
 
-void ceduo_doubt_advice(struct text *text, const struct ceduo_doubt_report *r, size_t option, size_t most)
+/* True if a reader can measure an input, and the result matters for the figure. */
+static bool is_advised(const struct ceduo_doubt_report *r, const struct ceduo_doubt_figure *f, size_t g)
 {
-    const struct ceduo_doubt_figure *f = ceduo_doubt_main(r, option);
-    size_t named = 0;
-    for (size_t i = 0; f->fit.enough && i < f->uses && named < most; i++) {
-        size_t g = f->order[i];
+    const struct range *range = range_of(r, &r->inputs->items[g]);
+    return matters(f, g) && ceduo_doubt_measured(r, g) && !(range && range->research);
+}
+
+/* True if one of the n inputs before it, which are advised, has the name of input i in the order of the figure. */
+static bool is_named_before(const struct ceduo_doubt_report *r, const struct ceduo_doubt_figure *f, size_t i)
+{
+    bool named = false;
+    LOCAL_TEXT(name);
+    ceduo_doubt_input_name(&name, r, f->order[i]);
+    for (size_t k = 0; k < i && !named; k++) {
+        LOCAL_TEXT(other);
+        ceduo_doubt_input_name(&other, r, f->order[k]);
+        named = is_advised(r, f, f->order[k]) && strcmp(ceduo_text_string(&name), ceduo_text_string(&other)) == 0;
+    }
+    return named;
+}
+
+size_t ceduo_doubt_advised(const struct ceduo_doubt_report *r, const struct ceduo_doubt_figure *f, size_t n)
+{
+    for (size_t i = 0; f->fit.enough && i < f->uses; i++)
+        if (is_advised(r, f, f->order[i]) && !is_named_before(r, f, i) && n-- == 0)
+            return f->order[i];
+    return SIZE_MAX;
+}
+
+void ceduo_doubt_advice(struct text *text, const struct ceduo_doubt_report *r, const struct ceduo_doubt_figure *f, size_t most)
+{
+    for (size_t i = 0, g; i < most && (g = ceduo_doubt_advised(r, f, i)) != SIZE_MAX; i++) {
         LOCAL_TEXT(name);
-        const char *how = name_measured(&name, r, g);
-        if (!matters(f, g) || !how)
-            continue;
-        ceduo_text_then(text, text->length > 0 ? " " : "", named++ == 0 ? _("Measure first: %s (%s).") : _("Then: %s (%s)."),
-                        ceduo_text_string(&name), _(how));
+        ceduo_doubt_input_name(&name, r, g);
+        ceduo_text_then(text, text->length > 0 ? " " : "", i == 0 ? _("Measure first: %s (%s).") : _("Then: %s (%s)."),
+                        ceduo_text_string(&name), _(ceduo_doubt_measured(r, g)));
     }
 }
 
@@ -404,6 +453,8 @@ static void add_orders(struct ceduo_page *page, const struct ceduo_doubt_report 
         ceduo_doubt_value(&lo, kind, ranking->orders[i].p5);
         ceduo_doubt_value(&hi, kind, ranking->orders[i].p95);
         ceduo_doubt_order_words(text, r, i);
+        if (isnan(ranking->orders[i].p5))
+            continue;
         ceduo_text_then(text, " ",
                         kind == CEDUO_DOUBT_ENERGY ? _("The difference may be %s to %s kJ per released rock.")
                                                    : _("The difference may be %s to %s of 1000."),
@@ -428,10 +479,12 @@ void ceduo_doubt_blocks(struct ceduo_page *page, const struct ceduo_doubt_report
                        ceduo_text_string(&place), c->x_given);
     add_options(page, r, false);
     ceduo_doubt_outside(r, ceduo_page_warn, page);
-    add_inputs(page, r, ceduo_doubt_main(r, 0));
+    size_t chosen = ceduo_doubt_chosen(r);
+    const struct ceduo_doubt_figure *figure = ceduo_doubt_figure_of(r->answer, chosen, r->answer->main, false);
+    add_inputs(page, r, figure);
     ceduo_page_add(page, CEDUO_PAGE_GAP);
     LOCAL_TEXT(advice);
-    ceduo_doubt_advice(&advice, r, 0, 3);
+    ceduo_doubt_advice(&advice, r, figure, 3);
     if (advice.length > 0)
         ceduo_page_say(page, CEDUO_PAGE_ITEM, "%s", advice.bytes);
     for (size_t i = 0; i < 3 * s->options_count; i++) { /* lights that change within what may be true */
@@ -446,7 +499,7 @@ void ceduo_doubt_blocks(struct ceduo_page *page, const struct ceduo_doubt_report
     if (r->answer->rotation && all) {
         ceduo_page_add(page, CEDUO_PAGE_GAP);
         add_options(page, r, true);
-        add_inputs(page, r, ceduo_doubt_figure_of(r->answer, 0, CEDUO_DOUBT_MEAN, false));
+        add_inputs(page, r, ceduo_doubt_figure_of(r->answer, chosen, CEDUO_DOUBT_MEAN, false));
         ceduo_page_add(page, CEDUO_PAGE_GAP);
     }
     if (all)
@@ -459,6 +512,10 @@ void ceduo_doubt_blocks(struct ceduo_page *page, const struct ceduo_doubt_report
                    _("'rocks' is the error of %llu rocks; more rocks reduce it. 'doubt' is what is not known; only measuring "
                      "reduces it. %llu scenes were computed."),
                    (unsigned long long)rocks, (unsigned long long)r->answer->evaluations);
+    LOCAL_TEXT(points);
+    ceduo_doubt_points(&points, r);
+    if (points.length > 0)
+        ceduo_page_say(page, CEDUO_PAGE_NOTE, "%s", points.bytes);
 }
 
 void ceduo_doubt_page(struct text *text, const struct ceduo_doubt_report *r, bool plain)

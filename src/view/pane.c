@@ -274,7 +274,7 @@ void ceduo_pane_doubt(struct ceduo_page *page, const struct ceduo_pane *pane)
     if (!r || !r->answer || isnan(ceduo_doubt_main(r, pane->option)->fit.p5))
         return;
     ceduo_doubt_both(ceduo_page_add(page, CEDUO_PAGE_NOTE), r, pane->option);
-    ceduo_doubt_advice(ceduo_page_add(page, CEDUO_PAGE_NOTE), r, pane->option, 1);
+    ceduo_doubt_advice(ceduo_page_add(page, CEDUO_PAGE_NOTE), r, ceduo_doubt_main(r, pane->option), 1);
     const struct ceduo_doubt_ranking *ranking = ceduo_doubt_verdict(r->answer);
     for (size_t i = 0; i < ranking->count; i++)
         if (ranking->orders[i].better == pane->option || ranking->orders[i].than == pane->option)

@@ -77,7 +77,7 @@ static void add_inputs(struct ceduo_page *page, const struct ceduo_doubt_report 
             ceduo_doubt_input_name(ceduo_page_text(page), r, f->order[i]);
             ceduo_page_bar(page, share, CEDUO_ROLE_MEAN);
             ceduo_page_write(page, "%.0f %%", share * 100);
-            ceduo_page_write(page, _("leaves %.3g"), f->fit.left[f->order[i]] * ceduo_doubt_scale(r));
+            ceduo_doubt_left(ceduo_page_text(page), f, f->order[i], _("leaves %s"));
             n++;
         }
 }

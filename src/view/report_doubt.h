@@ -20,6 +20,7 @@ struct ceduo_doubt_report {
     const struct ceduo_result *finer;  /* figures of the scene as it is from more rocks; NULL: those of the answer */
     const struct ceduo_verdict *years; /* likewise those of its years */
     bool over;                         /* the main figure is the mean over the rotation, which the answer has */
+    bool too_much;                     /* it was not computed because it would take too long */
 };
 
 /* The figure that all is about: too much energy where that is known, otherwise energy; or its mean over the rotation. */
@@ -61,8 +62,22 @@ void ceduo_doubt_blocks(struct ceduo_page *page, const struct ceduo_doubt_report
 /* "469 of 1000 (rocks 438–501; doubt 92–740)": the main figure of an option with both errors. */
 void ceduo_doubt_both(struct text *text, const struct ceduo_doubt_report *report, size_t option);
 
-/* What to measure first for an option, and then, at most so many, and how; nothing where none stands out. */
-void ceduo_doubt_advice(struct text *text, const struct ceduo_doubt_report *report, size_t option, size_t most);
+/* The option that advice is about: the one that lets least pass today in the mean of plausible cases. */
+size_t ceduo_doubt_chosen(const struct ceduo_doubt_report *report);
+
+/* Input n of those to be measured first for a figure, in the order of what is left if they are known. Only inputs that a reader can
+ * measure, each name once. SIZE_MAX: there are fewer. */
+size_t ceduo_doubt_advised(const struct ceduo_doubt_report *report, const struct ceduo_doubt_figure *figure, size_t n);
+
+/* Adds at most `most` of these inputs, each with what would measure it. */
+void ceduo_doubt_advice(struct text *text, const struct ceduo_doubt_report *report, const struct ceduo_doubt_figure *figure,
+                        size_t most);
+
+/* Adds the width that is left of a figure's range if an input is known, put into `format`; "no gain" if that is all of it. */
+void ceduo_doubt_left(struct text *text, const struct ceduo_doubt_figure *figure, size_t input, const char *format);
+
+/* Adds the number of points, if it is smaller than usual. */
+void ceduo_doubt_points(struct text *text, const struct ceduo_doubt_report *report);
 
 /* In how much of what may be true one of two options is better, equal or worse, and how sure that makes the order. */
 void ceduo_doubt_order_words(struct text *text, const struct ceduo_doubt_report *report, size_t order);
