@@ -13,7 +13,7 @@ def coppice(*rows):
     return stand(stools={"per_ha": 1800, "spacing_m": 0.3},
                  shoots=[{"per_ha": 4000, "dbh_m": 0.06, "height_m": 7, "volume_m3": 0.01}],
                  trees=[{"per_ha": 80, "dbh_m": 0.18, "height_m": 11, "volume_m3": 0.2}],
-                 energy={"model": "brauner", "u_J_m3": 102800}, doubt=list(rows))
+                 energy={"model": "brauner", "u_J_m3": 102800, "offset": "whole"}, doubt=list(rows))
 
 
 def site(*belts, **more):

@@ -43,7 +43,7 @@ forest:
       trees:
         - {per_ha: 80, dbh_m: 0.2, height_m: 12, volume_m3: 0.2}
         - {per_ha: 20, dbh_m: 0.35, height_m: 16, volume_m3: 0.7}
-      energy: {model: brauner, u_J_m3: 100000}
+      energy: {model: brauner, u_J_m3: 100000, offset: whole}
   - from_m: 50
     to_m: 80
     stand:
@@ -52,7 +52,7 @@ forest:
       stools: {per_ha: 1000, spacing_m: 0.3}
       shoots: [{per_ha: 2500, dbh_m: 0.05, height_m: 5, volume_m3: 0.005}]
       trees: [{per_ha: 60, dbh_m: 0.2, height_m: 12, volume_m3: 0.2}]
-      energy: {model: brauner, u_J_m3: 100000}
+      energy: {model: brauner, u_J_m3: 100000, offset: whole}
 simulation: {rocks: 1000, contact_model: index}
 """
 # The same with three ways to treat it.
@@ -64,13 +64,13 @@ options:
         to_m: 80
         stand: {name: many, species: ostrya-carpinifolia, stools: {per_ha: 3000, spacing_m: 0.4},
                 shoots: [{per_ha: 9000, dbh_m: 0.06, height_m: 7, volume_m3: 0.01}],
-                energy: {model: brauner, u_J_m3: 100000}}
+                energy: {model: brauner, u_J_m3: 100000, offset: whole}}
   - name: thin
     forest:
       - from_m: 5
         to_m: 80
         stand: {name: few, species: ostrya-carpinifolia, trees: [{per_ha: 100, dbh_m: 0.2, height_m: 12, volume_m3: 0.2}],
-                energy: {model: brauner, u_J_m3: 100000}}
+                energy: {model: brauner, u_J_m3: 100000, offset: whole}}
   - name: none left
     forest: []
 simulation: {rocks: 1000, contact_model: index}

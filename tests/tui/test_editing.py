@@ -120,27 +120,23 @@ def test_contact_model():
         key 5
         {both}
         key 3
-        key +
-        wait idle
-        {both}
         key Enter End Enter
         wait idle
         {both}
         key 5
         {both}""", "cuts.yaml")
     for at in (0, 1):
-        stems, index, compared_index, poisson, back, compared_back = screens[at::2]
-        expect_equal([s.row("^rocks among stems")[-1] for s in (stems, index, poisson, back)],
-                     ["stems", "index", "poisson", "stems"], "contact_model")
+        stems, index, compared_index, back, compared_back = screens[at::2]
+        expect_equal([s.row("^rocks among stems")[-1] for s in (stems, index, back)],
+                     ["stems", "index", "stems"], "contact_model")
         expect_equal([lights(s, "braille")["Energy"] for s in (stems, index, back)], ["FAILS", "unknown", "FAILS"], "energy light")
         for name in FIGURE_NAMES:
-            expect(None not in stems.pair(name) + poisson.pair(name), name, stems.now)
+            expect(None not in stems.pair(name), name, stems.now)
             expect_equal(index.pair(name)[0], None, f"'{name}' through the wood by the index")
-            bare = [s.pair(name)[1] for s in (stems, index, poisson, back)]
-            expect_equal(bare, bare[:1] * 4, f"'{name}' without forest")
-        expect(poisson.pair("mean kJ") != stems.pair("mean kJ"), "poisson is as stems", poisson)
+            bare = [s.pair(name)[1] for s in (stems, index, back)]
+            expect_equal(bare, bare[:1] * 3, f"'{name}' without forest")
         expect(not re.search(r"stems stop +\d+ |at rest +\d+ +\d", index.now), "ends through the wood by the index", index)
-        expect_equal([index_of(s) for s in (index, poisson)], [index_of(stems)] * 2, "the index")
+        expect_equal(index_of(index), index_of(stems), "the index")
         expect_in("kJ/100 m", compared_index.body)
         expect_in("rotation", compared_back.body)
         expect_equal(back.text.replace("*", " "), stems.text.replace("*", " "), "after index and back")

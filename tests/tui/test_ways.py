@@ -71,14 +71,16 @@ def test_step_stems():
     expect_equal(takes.rstrip("0").rstrip("."), f"{float(has):.2g}", "it takes all that the rock has")
 
 
-def test_step_poisson():
-    """By a Poisson process a contact has no stem: it tells what it takes; by the index no stem is told."""
-    for model, stems in (("poisson", True), ("index", False)):
-        whole, *pieces = stepped(WOOD.replace("simulation: {", f"simulation: {{contact_model: {model}, "), 40)
-        told = [p.note for p in pieces if re.search(r"; a contact takes [\d.]+ of [\d.]+ kJ", p.note)]
+def test_step_logs():
+    """A log in the way is told with what it takes; by the index no stem is told."""
+    energy = "      energy: {model: brauner"
+    logs = "      logs: {per_ha: 300, length_m: 8, diameter_m: 1.5, energy_kJ: 2}\n" + energy
+    for model, stems in (("stems", True), ("index", False)):
+        scene = WOOD.replace(energy, logs).replace("simulation: {", f"simulation: {{contact_model: {model}, ")
+        whole, *pieces = stepped(scene, 40)
+        told = [p.note for p in pieces if re.search(r"; hits a log: [\d.]+ of [\d.]+ kJ", p.note)]
         expect_equal(bool(told), stems, model)
         expect_equal("stems hit" in whole.note, stems, whole.note)
-        expect(not any(HIT.search(p.note) for p in pieces), f"a stem of {model}")
 
 
 def test_step_plan():
