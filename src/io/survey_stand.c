@@ -211,16 +211,28 @@ static const struct {
 } shipped[] = {{"ostrya-carpinifolia", ""},      {"fagus-sylvatica", "beech-"},       {"castanea-sativa", "chestnut-"},
                {"fraxinus-ornus", "manna-ash-"}, {"quercus-pubescens", "oak-downy-"}, {"quercus-cerris", "oak-turkey-"}};
 
-static const char *system_of(const struct ceduo_survey_answer *a)
+/* Standards and trees of the survey. */
+struct standards {
+    double per_ha, area; /* 1/ha, m2/ha */
+};
+
+static struct standards count_standards(const struct ceduo_survey_answer *a)
 {
-    double standards = 0, area = 0;
+    struct standards sum = {0};
     for (size_t i = 0; i < a->classes_count; i++)
         if (is_tree(a->classes[i].kind)) {
             const struct ceduo_survey_class *c = &a->classes[i];
-            standards += c->per_ha.mean;
-            area += c->per_ha.mean * (M_PI / 4) * (c->dbh * c->dbh + c->dbh_sd * c->dbh_sd);
+            sum.per_ha += c->per_ha.mean;
+            sum.area += c->per_ha.mean * (M_PI / 4) * (c->dbh * c->dbh + c->dbh_sd * c->dbh_sd);
         }
-    return standards < STANDARDS_LEAST ? "simple-coppice" : area < RESERVES_AREA ? "coppice-with-standards" : "large-reserves";
+    return sum;
+}
+
+static const char *system_of(struct standards standards)
+{
+    return standards.per_ha < STANDARDS_LEAST ? "simple-coppice"
+           : standards.area < RESERVES_AREA   ? "coppice-with-standards"
+                                              : "large-reserves";
 }
 
 /* The stand that comes with the program for this species and system, resolved in the arena; NULL if there is none. Its name goes to
@@ -232,7 +244,7 @@ static const struct node *find_shipped(struct arena *arena, const struct ceduo_s
     const char *species = a->species >= 0 ? ceduo_species_words.names[a->species] : "";
     for (size_t i = 0; i < sizeof shipped / sizeof shipped[0]; i++)
         if (strcmp(shipped[i].species, species) == 0)
-            ceduo_text_format(name, "%s%s", shipped[i].prefix, system_of(a));
+            ceduo_text_format(name, "%s%s", shipped[i].prefix, system_of(count_standards(a)));
     ceduo_text_format(&yaml, "{forest: [{stand: %s}]}", ceduo_text_string(name));
     const struct source source = {.name = "", .bytes = ceduo_text_string(&yaml), .length = yaml.length};
     const struct node *root = name->length > 0 ? ceduo_yaml_read(arena, &source, &problems) : NULL;
@@ -240,16 +252,34 @@ static const struct node *find_shipped(struct arena *arena, const struct ceduo_s
     return ceduo_resolve_at(root, "forest[0].stand");
 }
 
-/* A mapping with a source of its own. */
+/* The numbers of a list, scaled to this sum and rounded; the list as it is if the sum is 0. */
+static void print_scaled(struct text *out, const struct node *list, double sum)
+{
+    double all = 0;
+    for (size_t i = 0; i < list->n; i++)
+        all += ceduo_node_item_number(list, i);
+    for (size_t i = 0; i < list->n; i++)
+        print_number(out, i > 0 ? ", " : "[",
+                     sum > 0 ? round(ceduo_node_item_number(list, i) * sum / all) : ceduo_node_item_number(list, i));
+    ceduo_text_put(out, "]\n");
+}
+
+/* A mapping with a source of its own. A cut leaves as many standards as were counted. */
 static void print_assumed(const struct writer *w, const char *key, const struct node *map, const char *what)
 {
     ceduo_text_format(w->out, "%s:\n", key);
-    for (size_t i = 0; i < map->n; i++)
-        if (strcmp(map->items[i]->key, "source") != 0) {
-            ceduo_text_format(w->out, "  %s: ", map->items[i]->key);
-            ceduo_emit_flow(w->out, map->items[i]);
-            ceduo_text_char(w->out, '\n');
+    for (size_t i = 0; i < map->n; i++) {
+        const struct node *item = map->items[i];
+        if (strcmp(item->key, "source") == 0)
+            continue;
+        ceduo_text_format(w->out, "  %s: ", item->key);
+        if (strcmp(item->key, "stay_per_ha") == 0) {
+            print_scaled(w->out, item, count_standards(w->answer).per_ha);
+            continue;
         }
+        ceduo_emit_flow(w->out, item);
+        ceduo_text_char(w->out, '\n');
+    }
     ceduo_text_put(w->out, "  ");
     print_source(w->out, true, what);
     ceduo_text_char(w->out, '\n');
@@ -268,10 +298,12 @@ static void print_future(const struct writer *w)
                        _("# No stand of this species comes with ceduo: write its growth and cutting for the years to come.\n"));
         return;
     }
-    ceduo_text_format(w->out,
-                      _("# Growth and cutting are assumed: they are those of the stand '%s' that comes with ceduo.\n"
-                        "# Check them, above all rotation_years and stay_per_ha; a selection coppice has cohorts: 3.\n"),
-                      ceduo_text_string(&name));
+    ceduo_text_format(
+        w->out,
+        _("# Growth and cutting are assumed: they are those of the stand '%s' that comes with ceduo.\n"
+          "# A cut leaves as many standards as were counted. Check rotation_years and stay_per_ha; a selection coppice "
+          "has cohorts: 3.\n"),
+        ceduo_text_string(&name));
     ceduo_text_format(&what, _("as in the stand '%s' that comes with ceduo; not of this survey"), ceduo_text_string(&name));
     print_assumed(w, "growth", growth, ceduo_text_string(&what));
     print_assumed(w, "cutting", cutting, ceduo_text_string(&what));

@@ -535,7 +535,9 @@ def test_future():
         shipped.pop("source")
         found = dict(re.findall(r"(?m)^  (\w+): (.*)$", text))
         found.pop("source")
+        stay, kept = (json.loads(x.pop("stay_per_ha")) for x in (shipped, found))
         expect_equal(found, shipped, name)
+        expect_equal(kept, [round(n * 100 * standards / sum(stay)) for n in stay] if standards else stay, f"{name}: as many as counted")
     with Folder() as f:  # nine of ten plots are empty: fewer than 90 a hectare
         one = {f"P{i}": (100, 0, stems("ostrya-carpinifolia", 8) if i == 0 else []) for i in range(10)}
         expect_in("'simple-coppice'", survey(f, table(one)).out)

@@ -240,12 +240,14 @@ def test_four_systems():
     cut = {name: row for name, row in rows.items() if "cut" in name}
     expect_equal(max(rows, key=lambda n: rows[n]["taken"]), "large reserves", "by the index most is taken by")
     expect_equal(max(cut, key=lambda n: cut[n]["taken"]), "large reserves, just cut", "just cut, most is taken by")
-    expect_equal(min(rows, key=lambda n: rows[n]["share"]), "simple coppice, 25 years", "least comes through")
+    grown = {name: row for name, row in rows.items() if name not in cut}
+    expect_equal(min(rows, key=lambda n: rows[n]["share"]), "large reserves", "least comes through")
+    expect_equal(max(grown, key=lambda n: grown[n]["share"]), "simple coppice, 25 years", "grown, most comes through")
     expect_equal(min(cut, key=lambda n: cut[n]["share"]), "large reserves, just cut", "just cut, least comes through")
     for name in rows:
         if name in cut:
-            grown = next(n for n in rows if n not in cut and name.startswith(n.split(",")[0]))
-            expect(rows[grown]["share"] < rows[name]["share"], f"{name}: a cut lets less through than the grown wood", rows)
+            older = next(n for n in grown if name.startswith(n.split(",")[0]))
+            expect(rows[older]["share"] < rows[name]["share"], f"{name}: a cut lets less through than the grown wood", rows)
 
 
 def test_four_systems_picture():
@@ -377,7 +379,7 @@ def test_survey_in_italian():
     walk = Walk("survey", page=PAGINA, LANGUAGE="it")
     english = walked("survey")
     expect_equal(len(walk.outputs), len(english.outputs), "steps")
-    stands = [re.sub(r'text: "[^"]*"', "text", text[text.index("ceduo: stand/1"):])
+    stands = [re.sub(r'(?m)text: "[^"]*"|^#.*$', "text", text[text.index("ceduo: stand/1"):])
               for text in (walk.read("popolamento.yaml"), english.read("stand.yaml"))]
     expect_equal(stands[0].split(), stands[1].split())
     told = re.sub(r"plausibili\s+su\s+100", "", walk.outputs[3])  # the Italian of %
@@ -481,12 +483,12 @@ def test_hazard():
     """How often: years without and with the old coppice, just cut, the energy of 300 years, the picture"""
     walk = walked("hazard")
     page = " ".join(walk.outputs[0].split())
-    often = dict(re.findall(r"every 22 \(\S+\) years without forest, every (\d+ \(\d+–\d+\)) years with '([^']*)'", page))
-    expect_equal({name: years for years, name in often.items()}["simple coppice"], "99 (91–108)")
+    expect(re.search(r"every 22 \(\S+\) years without forest, every 142 \(126–159\) years with 'large reserves'", page), page)
+    expect_in("simple coppice 102 (94–111) ", page)
     expect_in("simple coppice, just cut 27 (25–29) ", page)
     bare, coppice = (re.search(rf"{name} .*?(\d+) \(\d+–\d+\)$", walk.outputs[0], re.M)[1]
                      for name in ("    without forest", "    simple coppice"))
-    expect(385 < int(bare) < 400 and 230 < int(coppice) < 240, "390 to some 240 kJ", bare, coppice)
+    expect(385 < int(bare) < 400 and 200 < int(coppice) < 220, "390 to some 210 kJ", bare, coppice)
     expect_in("How often, and with how much, at road (135 m)", walk.outputs[0])
     expect_in('"rate_left"', walk.read("hazard.json"))
 
